@@ -1,0 +1,69 @@
+#pragma once
+
+// All that GALE knows about differences between Kokkos versions (3.4.1, 4.4 to 5.x) and backends.
+
+#include <Kokkos_Core.hpp>
+
+#include <string>
+#include <vector>
+
+namespace gale {
+
+/// Where relations are produced: the device where Kokkos has one, else the host.
+using ProducerSpace = Kokkos::DefaultExecutionSpace;
+using ProducerMemory = ProducerSpace::memory_space;
+using HostMemory = Kokkos::HostSpace;
+
+/// Whether host code can't read what lies in `Memory`.
+template <class Memory>
+inline constexpr bool is_device_memory = !Kokkos::SpaceAccessibility<Kokkos::HostSpace, Memory>::accessible;
+
+/// Whether `Space` runs somewhere else than on the host's threads.
+template <class Space>
+inline constexpr bool is_device = is_device_memory<typename Space::memory_space>;
+
+inline constexpr bool have_device = is_device<ProducerSpace>;
+
+/// Host memory that the device copies to and from at full speed.
+#if defined(KOKKOS_ENABLE_CUDA)
+using PinnedMemory = Kokkos::CudaHostPinnedSpace;
+#else
+using PinnedMemory = Kokkos::HostSpace;
+#endif
+
+/// A launch queue of its own on the device: work on two instances may overlap. On the host, the space itself.
+inline ProducerSpace make_instance() {
+#if defined(KOKKOS_ENABLE_CUDA)
+  return Kokkos::Experimental::partition_space(ProducerSpace(), std::vector<int>{1, 1})[0];
+#else
+  return ProducerSpace();
+#endif
+}
+
+/// "3.4.1"
+inline std::string kokkos_version() {
+  return std::to_string(KOKKOS_VERSION / 10000) + '.' + std::to_string(KOKKOS_VERSION / 100 % 100) + '.' +
+         std::to_string(KOKKOS_VERSION % 100);
+}
+
+/// Tells Kokkos Tools about a loop that runs on our own threads, from construction to destruction.
+class ToolsRegion {
+ public:
+  explicit ToolsRegion(const char* label) {
+    if (Kokkos::Tools::profileLibraryLoaded()) {
+      Kokkos::Tools::beginParallelFor(label, 0, &id_);
+      told_ = true;
+    }
+  }
+  ~ToolsRegion() {
+    if (told_) Kokkos::Tools::endParallelFor(id_);
+  }
+  ToolsRegion(const ToolsRegion&) = delete;
+  ToolsRegion& operator=(const ToolsRegion&) = delete;
+
+ private:
+  std::uint64_t id_ = 0;
+  bool told_ = false;
+};
+
+}  // namespace gale

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#if defined(__linux__)
+#include <sys/mman.h>
+#endif
+
+#include <gale/base/kokkos.hpp>
+
+namespace gale {
+
+/// A one-dimensional View whose data lies in `Memory`.
+template <class T, class Memory>
+using Array = Kokkos::View<T*, Memory>;
+
+namespace detail {
+
+/// Asks for 2 MiB pages, so that the first touch of a large array faults 512 times less. A hint: nothing depends on it.
+inline void advise_huge_pages([[maybe_unused]] void* data, [[maybe_unused]] std::size_t bytes) {
+#if defined(__linux__) && defined(MADV_HUGEPAGE)
+  constexpr std::uintptr_t page = 4096;
+  if (bytes < (std::size_t(4) << 20)) return;
+  const auto begin = (reinterpret_cast<std::uintptr_t>(data) + page - 1) / page * page;
+  const auto end = (reinterpret_cast<std::uintptr_t>(data) + bytes) / page * page;
+  madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
+#endif
+}
+
+}  // namespace detail
+
+/// An uninitialized View of the given extents; large ones on the host are backed by huge pages where the system has them.
+template <class ViewType, class... Extents>
+ViewType allocate(const std::string& label, Extents... extents) {
+  ViewType view(Kokkos::view_alloc(label, Kokkos::WithoutInitializing), static_cast<std::size_t>(extents)...);
+  if constexpr (std::is_same_v<typename ViewType::memory_space, HostMemory>) {
+    detail::advise_huge_pages(view.data(), view.span() * sizeof(typename ViewType::value_type));
+  }
+  return view;
+}
+
+/// The same contents where the host can read them: the View itself if it can already, else a copy.
+template <class T, class... Properties>
+auto on_host(const Kokkos::View<T, Properties...>& view) {
+  using Given = Kokkos::View<T, Properties...>;
+  using Host = Kokkos::View<T, typename Given::array_layout, HostMemory>;
+  if constexpr (is_device_memory<typename Given::memory_space>) {
+    using Writable = typename Host::non_const_type;
+    const auto copy = allocate<Writable>(view.label(), view.extent(0));
+    Kokkos::deep_copy(copy, view);
+    return Host(copy);
+  } else {
+    return Host(view);
+  }
+}
+
+}  // namespace gale

@@ -1,0 +1,114 @@
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include <gale/base/kokkos.hpp>
+#include <gale/base/memory.hpp>
+#include <gale/base/threads.hpp>
+#include <gale/base/types.hpp>
+
+// Loops over 0..n-1 in the producers' space. On a device they are Kokkos' own. On the host they run on all our threads
+// whatever backend Kokkos has there: Kokkos::Serial is one core, our users have more.
+
+namespace gale {
+
+namespace detail {
+
+/// The i-th of `count` nearly equal parts of 0..n-1 begins here.
+inline Offset part_begin(Offset n, int count, int i) { return n * i / count; }
+
+inline int threads_for(Offset n) {
+  constexpr Offset worth_a_thread = 4096;
+  return static_cast<int>(std::clamp<Offset>(n / worth_a_thread, 1, host_threads()));
+}
+
+template <class Body>
+void for_parts(const char* label, Offset n, int parts, const Body& body) {
+  const ToolsRegion region(label);
+  on_threads(parts, [&](int part) { body(part, part_begin(n, parts, part), part_begin(n, parts, part + 1)); });
+}
+
+}  // namespace detail
+
+/// Calls `body(i)` for every i in 0..n-1, in parallel and in no order, and returns when all are done.
+template <class Space, class Body>
+void parallel_for(const char* label, const Space& space, Offset n, const Body& body) {
+  if constexpr (is_device<Space>) {
+    Kokkos::parallel_for(label, Kokkos::RangePolicy<Space, Kokkos::IndexType<Offset>>(space, 0, n), body);
+    space.fence();
+  } else {
+    detail::for_parts(label, n, detail::threads_for(n), [&](int, Offset begin, Offset end) {
+      for (Offset i = begin; i < end; ++i) body(i);
+    });
+  }
+}
+
+/// begin[i] = count(0) + ... + count(i-1) for i in 0..n; returns begin[n]. `count(i)` may read begin[i].
+template <class Space, class T, class Count>
+T exclusive_scan(const char* label, const Space& space, Offset n, const Array<T, typename Space::memory_space>& begin,
+                 const Count& count) {
+  if constexpr (is_device<Space>) {
+    T total = 0;
+    Kokkos::parallel_scan(
+        label, Kokkos::RangePolicy<Space, Kokkos::IndexType<Offset>>(space, 0, n + 1),
+        KOKKOS_LAMBDA(Offset i, T & sum, bool final) {
+          const T here = i < n ? static_cast<T>(count(i)) : T(0);
+          if (final) begin(i) = sum;
+          sum += here;
+        },
+        total);
+    space.fence();
+    return total;
+  } else {
+    const int parts = detail::threads_for(n);
+    std::vector<T> part_sum(parts + 1, 0);
+    detail::for_parts(label, n, parts, [&](int part, Offset first, Offset last) {
+      T sum = 0;
+      for (Offset i = first; i < last; ++i) sum += static_cast<T>(count(i));
+      part_sum[part + 1] = sum;
+    });
+    for (int part = 0; part < parts; ++part) part_sum[part + 1] += part_sum[part];
+    detail::for_parts(label, n, parts, [&](int part, Offset first, Offset last) {
+      T sum = part_sum[part];
+      for (Offset i = first; i < last; ++i) {
+        const T here = static_cast<T>(count(i));
+        begin(i) = sum;
+        sum += here;
+      }
+    });
+    begin(n) = part_sum[parts];
+    return part_sum[parts];
+  }
+}
+
+/// The least of `initial` and value(0), ..., value(n-1).
+template <class Space, class T, class Value>
+T reduce_min(const char* label, const Space& space, Offset n, T initial, const Value& value) {
+  if constexpr (is_device<Space>) {
+    T least = initial;
+    Kokkos::parallel_reduce(
+        label, Kokkos::RangePolicy<Space, Kokkos::IndexType<Offset>>(space, 0, n),
+        KOKKOS_LAMBDA(Offset i, T & best) {
+          const T here = value(i);
+          if (here < best) best = here;
+        },
+        Kokkos::Min<T>(least));
+    space.fence();
+    return least < initial ? least : initial;
+  } else {
+    const int parts = detail::threads_for(n);
+    std::vector<T> part_min(parts, initial);
+    detail::for_parts(label, n, parts, [&](int part, Offset first, Offset last) {
+      T best = initial;
+      for (Offset i = first; i < last; ++i) {
+        const T here = value(i);
+        if (here < best) best = here;
+      }
+      part_min[part] = best;
+    });
+    return *std::min_element(part_min.begin(), part_min.end());
+  }
+}
+
+}  // namespace gale

@@ -1,0 +1,99 @@
+#include <gale/base/radix_sort.hpp>
+
+#include <array>
+#include <utility>
+#include <vector>
+
+#include <gale/base/parallel.hpp>
+
+#if defined(KOKKOS_ENABLE_CUDA)
+#include <cub/device/device_radix_sort.cuh>
+
+#include <gale/base/cub.hpp>
+#endif
+
+namespace gale {
+
+namespace {
+
+using Keys = Array<std::uint64_t, ProducerMemory>;
+using Values = Array<Id, ProducerMemory>;
+
+#if defined(KOKKOS_ENABLE_CUDA)
+
+void sort_on_device(const Keys& keys, const Values& values) {
+  const auto n = static_cast<std::int64_t>(keys.extent(0));
+  const auto other_keys = allocate<Keys>("GALE::sort_keys", n);
+  const auto other_values = allocate<Values>("GALE::sort_values", n);
+  cub::DoubleBuffer<std::uint64_t> key_buffer(keys.data(), other_keys.data());
+  cub::DoubleBuffer<Id> value_buffer(values.data(), other_values.data());
+  detail::run_cub("GALE::sort_by_key", [&](void* workspace, std::size_t& bytes, cudaStream_t stream) {
+    return cub::DeviceRadixSort::SortPairs(workspace, bytes, key_buffer, value_buffer, n, 0, 64, stream);
+  });
+  if (key_buffer.Current() != keys.data()) Kokkos::deep_copy(keys, other_keys);
+  if (value_buffer.Current() != values.data()) Kokkos::deep_copy(values, other_values);
+}
+
+#else
+
+constexpr int digit_bits = 11;
+constexpr int digits = 1 << digit_bits;
+
+using Histogram = std::array<Offset, digits>;
+
+int digit_of(std::uint64_t key, int shift) { return static_cast<int>(key >> shift) & (digits - 1); }
+
+/// Where each part of the input writes its first key of each digit. False if all keys have the same digit.
+bool place_digits(const Keys& keys, int shift, std::vector<Histogram>& place) {
+  const Offset n = keys.extent(0);
+  detail::for_parts("GALE::sort_count", n, place.size(), [&](int part, Offset first, Offset last) {
+    Histogram& mine = place[part];
+    mine.fill(0);
+    for (Offset i = first; i < last; ++i) ++mine[digit_of(keys(i), shift)];
+  });
+  Offset sum = 0;
+  for (int digit = 0; digit < digits; ++digit) {
+    const Offset before = sum;
+    for (auto& mine : place) sum += std::exchange(mine[digit], sum);
+    if (sum - before == n) return false;
+  }
+  return true;
+}
+
+void sort_on_host(const Keys& keys, const Values& values) {
+  const Offset n = keys.extent(0);
+  Keys from_keys = keys, to_keys = allocate<Keys>("GALE::sort_keys", n);
+  Values from_values = values, to_values = allocate<Values>("GALE::sort_values", n);
+  std::vector<Histogram> place(detail::threads_for(n));
+  for (int shift = 0; shift < 64; shift += digit_bits) {
+    if (!place_digits(from_keys, shift, place)) continue;
+    detail::for_parts("GALE::sort_move", n, place.size(), [&](int part, Offset first, Offset last) {
+      for (Offset i = first; i < last; ++i) {
+        const Offset to = place[part][digit_of(from_keys(i), shift)]++;
+        to_keys(to) = from_keys(i);
+        to_values(to) = from_values(i);
+      }
+    });
+    std::swap(from_keys, to_keys);
+    std::swap(from_values, to_values);
+  }
+  if (from_keys.data() != keys.data()) {
+    Kokkos::deep_copy(keys, from_keys);
+    Kokkos::deep_copy(values, from_values);
+  }
+}
+
+#endif
+
+}  // namespace
+
+void stable_sort_by_key(const Keys& keys, const Values& values) {
+  if (keys.extent(0) < 2) return;
+#if defined(KOKKOS_ENABLE_CUDA)
+  sort_on_device(keys, values);
+#else
+  sort_on_host(keys, values);
+#endif
+}
+
+}  // namespace gale

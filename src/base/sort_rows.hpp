@@ -1,0 +1,11 @@
+#pragma once
+
+#include <gale/base/memory.hpp>
+#include <gale/base/types.hpp>
+
+namespace gale {
+
+/// Sorts each row [begin[r], begin[r+1]) of `values` ascending, rows in parallel. Rows that are in order already cost one reading.
+void sort_rows(const char* label, const Array<Offset, ProducerMemory>& begin, const Array<Id, ProducerMemory>& values);
+
+}  // namespace gale

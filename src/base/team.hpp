@@ -1,0 +1,178 @@
+#pragma once
+
+#include <cstddef>
+
+#include <gale/base/kokkos.hpp>
+
+// The steps that team kernels are made of, for two kinds of team: Kokkos' own, and a team of one host thread that needs no launch.
+// A kernel written with them is one source for all. A "warp" is what Kokkos calls a thread with its vector lanes.
+
+namespace gale {
+
+/// A team of one thread, the caller's. Consumers run segment kernels through it, each for itself, at the cost of a function call:
+/// Kokkos' Serial TeamPolicy is not safe from several threads before 4.4, and its launch is not free.
+class HostTeam {
+ public:
+  HostTeam(int league_rank, void* scratch, std::size_t scratch_bytes)
+      : scratch_(static_cast<char*>(scratch)), scratch_bytes_(scratch_bytes), league_rank_(league_rank) {}
+
+  int league_rank() const { return league_rank_; }
+  char* scratch() const { return scratch_; }
+  std::size_t scratch_bytes() const { return scratch_bytes_; }
+
+ private:
+  char* scratch_;
+  std::size_t scratch_bytes_;
+  int league_rank_;
+};
+
+/// Are the loops of a team of this kind plain loops, in order?
+template <class Team>
+inline constexpr bool is_sequential = std::is_same_v<Team, HostTeam>;
+
+namespace team {
+
+KOKKOS_FORCEINLINE_FUNCTION int warps(const HostTeam&) { return 1; }
+KOKKOS_FORCEINLINE_FUNCTION int warp(const HostTeam&) { return 0; }
+template <class Team>
+KOKKOS_FORCEINLINE_FUNCTION int warps(const Team& team) {
+  return team.team_size();
+}
+template <class Team>
+KOKKOS_FORCEINLINE_FUNCTION int warp(const Team& team) {
+  return team.team_rank();
+}
+
+/// The team's scratch memory of `bytes` bytes.
+KOKKOS_FORCEINLINE_FUNCTION char* scratch(const HostTeam& team, int /*level*/, std::size_t /*bytes*/) {
+  return team.scratch();
+}
+template <class Team>
+KOKKOS_FORCEINLINE_FUNCTION char* scratch(const Team& team, int level, std::size_t bytes) {
+  return static_cast<char*>(team.team_scratch(level).get_shmem_aligned(bytes, 16));
+}
+
+KOKKOS_FORCEINLINE_FUNCTION void barrier(const HostTeam&) {}
+template <class Team>
+KOKKOS_FORCEINLINE_FUNCTION void barrier(const Team& team) {
+  team.team_barrier();
+}
+
+/// body(i) for i in 0..n-1, by all lanes of all warps.
+template <class Body>
+KOKKOS_FORCEINLINE_FUNCTION void for_all(const HostTeam&, int n, const Body& body) {
+  for (int i = 0; i < n; ++i) body(i);
+}
+template <class Team, class Body>
+KOKKOS_FORCEINLINE_FUNCTION void for_all(const Team& team, int n, const Body& body) {
+  Kokkos::parallel_for(Kokkos::TeamVectorRange(team, n), body);
+}
+
+/// body(i) for i in 0..n-1, by a warp each, all of whose lanes call it.
+template <class Body>
+KOKKOS_FORCEINLINE_FUNCTION void for_warps(const HostTeam&, int n, const Body& body) {
+  for (int i = 0; i < n; ++i) body(i);
+}
+template <class Team, class Body>
+KOKKOS_FORCEINLINE_FUNCTION void for_warps(const Team& team, int n, const Body& body) {
+  Kokkos::parallel_for(Kokkos::TeamThreadRange(team, n), body);
+}
+
+/// Inside for_warps: body(i) for i in 0..n-1 by the lanes of this warp, which have met again and see each other's writes afterwards.
+template <class Body>
+KOKKOS_FORCEINLINE_FUNCTION void for_lanes(const HostTeam&, int n, const Body& body) {
+  for (int i = 0; i < n; ++i) body(i);
+}
+template <class Team, class Body>
+KOKKOS_FORCEINLINE_FUNCTION void for_lanes(const Team& team, int n, const Body& body) {
+  Kokkos::parallel_for(Kokkos::ThreadVectorRange(team, n), body);
+}
+
+/// Inside for_warps: the lanes of this warp meet and see each other's writes.
+KOKKOS_FORCEINLINE_FUNCTION void warp_barrier(const HostTeam&) {}
+template <class Team>
+KOKKOS_FORCEINLINE_FUNCTION void warp_barrier(const Team& team) {
+  for_lanes(team, 1, [](int) {});
+}
+
+/// Inside for_warps: body() by one lane. The others run on.
+template <class Body>
+KOKKOS_FORCEINLINE_FUNCTION void once_per_warp(const HostTeam&, const Body& body) {
+  body();
+}
+template <class Team, class Body>
+KOKKOS_FORCEINLINE_FUNCTION void once_per_warp(const Team& team, const Body& body) {
+  Kokkos::single(Kokkos::PerThread(team), body);
+}
+
+/// body() by one lane of the team. No barrier: others run on.
+template <class Body>
+KOKKOS_FORCEINLINE_FUNCTION void once(const HostTeam&, const Body& body) {
+  body();
+}
+template <class Team, class Body>
+KOKKOS_FORCEINLINE_FUNCTION void once(const Team& team, const Body& body) {
+  Kokkos::single(Kokkos::PerTeam(team), body);
+}
+
+/// Adds to what the team shares and returns what was there.
+template <class T>
+KOKKOS_FORCEINLINE_FUNCTION T add(const HostTeam&, T* to, T value) {
+  const T before = *to;
+  *to += value;
+  return before;
+}
+template <class Team, class T>
+KOKKOS_FORCEINLINE_FUNCTION T add(const Team&, T* to, T value) {
+  return Kokkos::atomic_fetch_add(to, value);
+}
+
+/// Raises what the team shares to at least `value`.
+template <class T>
+KOKKOS_FORCEINLINE_FUNCTION void raise(const HostTeam&, T* to, T value) {
+  if (*to < value) *to = value;
+}
+template <class Team, class T>
+KOKKOS_FORCEINLINE_FUNCTION void raise(const Team&, T* to, T value) {
+  Kokkos::atomic_fetch_max(to, value);
+}
+
+/// Puts `value` where `expected` is; returns what was there.
+template <class T>
+KOKKOS_FORCEINLINE_FUNCTION T exchange_if(const HostTeam&, T* at, T expected, T value) {
+  const T before = *at;
+  if (before == expected) *at = value;
+  return before;
+}
+template <class Team, class T>
+KOKKOS_FORCEINLINE_FUNCTION T exchange_if(const Team&, T* at, T expected, T value) {
+  return Kokkos::atomic_compare_exchange(at, expected, value);
+}
+
+/// Replaces values[0..n-1] by the sums of those before each, and values[n] by the sum of all. To be called by all; ends with a barrier.
+template <class T>
+KOKKOS_FORCEINLINE_FUNCTION void exclusive_scan(const HostTeam&, int n, T* values) {
+  T sum = 0;
+  for (int i = 0; i < n; ++i) {
+    const T here = values[i];
+    values[i] = sum;
+    sum += here;
+  }
+  values[n] = sum;
+}
+template <class Team, class T>
+KOKKOS_FORCEINLINE_FUNCTION void exclusive_scan(const Team& team, int n, T* values) {
+  team.team_barrier();
+  for_warps(team, 1, [&](int) {
+    Kokkos::parallel_scan(Kokkos::ThreadVectorRange(team, n + 1), [&](int i, T& sum, bool final) {
+      const T here = i < n ? values[i] : T(0);
+      if (final) values[i] = sum;
+      sum += here;
+    });
+  });
+  team.team_barrier();
+}
+
+}  // namespace team
+
+}  // namespace gale

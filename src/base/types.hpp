@@ -1,0 +1,15 @@
+#pragma once
+
+#include <cstdint>
+
+namespace gale {
+
+/// Number of a simplex among those of its dimension, or of a segment; counted from 0.
+using Id = std::int32_t;
+
+/// Position in an array that may have more than 2^31 entries.
+using Offset = std::int64_t;
+
+inline constexpr Id no_id = -1;
+
+}  // namespace gale

@@ -1,0 +1,125 @@
+#include <gale/mesh/mesh.hpp>
+
+#include <algorithm>
+#include <mutex>
+#include <string>
+
+#include <gale/base/error.hpp>
+#include <gale/base/parallel.hpp>
+#include <gale/mesh/detail/encode.hpp>
+
+namespace gale {
+
+namespace {
+
+using Ids = Array<Id, ProducerMemory>;
+using HostIds = Array<const Id, HostMemory>;
+
+/// An array that is copied to the host when someone asks for it first.
+class Mirror {
+ public:
+  const HostIds& of(const Array<const Id, ProducerMemory>& array) {
+    std::call_once(once_, [&] { host_ = on_host(array); });
+    return host_;
+  }
+
+ private:
+  std::once_flag once_;
+  HostIds host_;
+};
+
+Ids inverse_of(const Ids& permutation) {
+  const auto inverse = allocate<Ids>("GALE::vertex_internal", permutation.extent(0));
+  parallel_for(
+      "GALE::invert", ProducerSpace(), permutation.extent(0),
+      KOKKOS_LAMBDA(Offset i) { inverse(permutation(i)) = static_cast<Id>(i); });
+  return inverse;
+}
+
+/// I_T: where each segment's lowest vertex begins.
+Ids tetrahedron_begin_of(const Ids& vertex_begin, const Ids& tetrahedra_of_lowest) {
+  const auto begin = allocate<Ids>("GALE::tetrahedron_begin", vertex_begin.extent(0));
+  parallel_for(
+      "GALE::tetrahedron_begin", ProducerSpace(), vertex_begin.extent(0),
+      KOKKOS_LAMBDA(Offset s) { begin(s) = tetrahedra_of_lowest(vertex_begin(s)); });
+  return begin;
+}
+
+}  // namespace
+
+struct Mesh::Data {
+  MeshArrays<ProducerMemory> arrays;
+  EncodedMesh<ProducerMemory> producer;
+  Array<const Id, ProducerMemory> vertex_input, vertex_internal, tetrahedron_input;
+  HostIds vertex_begin;
+
+  mutable std::once_flag host_once;
+  mutable MeshArrays<HostMemory> host_arrays;
+  mutable EncodedMesh<HostMemory> host;
+  mutable Mirror vertex_input_mirror, vertex_internal_mirror, tetrahedron_input_mirror;
+};
+
+template <class Index, class Memory>
+Mesh::Mesh(const Tetrahedra<Index, Memory>& given, const Segmentation& segmentation) {
+  auto data = std::make_shared<Data>();
+  const auto vertex_internal = inverse_of(segmentation.vertex_input);
+  detail::SortedTetrahedra sorted;
+  {
+    const Tetrahedra<Index, ProducerMemory> input = Kokkos::create_mirror_view_and_copy(ProducerMemory(), given);
+    sorted = detail::sort_tetrahedra(input, vertex_internal);
+  }
+  auto& mesh = data->arrays;
+  mesh.tetrahedra = sorted.vertices;
+  mesh.vertex_begin = segmentation.vertex_begin;
+  mesh.tetrahedron_begin = tetrahedron_begin_of(segmentation.vertex_begin, sorted.begin);
+  detail::find_external_tetrahedra(mesh, segmentation.vertices());
+  data->producer = mesh.view();
+  data->vertex_input = segmentation.vertex_input;
+  data->vertex_internal = vertex_internal;
+  data->tetrahedron_input = sorted.input;
+  data->vertex_begin = on_host(mesh.vertex_begin);
+  data_ = std::move(data);
+}
+
+Id Mesh::vertices() const { return static_cast<Id>(data_->vertex_input.extent(0)); }
+Id Mesh::tetrahedra() const { return static_cast<Id>(data_->tetrahedron_input.extent(0)); }
+Id Mesh::segments() const { return static_cast<Id>(data_->vertex_begin.extent(0)) - 1; }
+
+const EncodedMesh<ProducerMemory>& Mesh::producer() const { return data_->producer; }
+
+const EncodedMesh<HostMemory>& Mesh::host() const {
+  std::call_once(data_->host_once, [this] {
+    const auto& from = data_->arrays;
+    auto& to = data_->host_arrays;
+    to.vertex_begin = on_host(from.vertex_begin);
+    to.tetrahedron_begin = on_host(from.tetrahedron_begin);
+    to.external_begin = on_host(from.external_begin);
+    to.external = on_host(from.external);
+    to.tetrahedra = on_host(from.tetrahedra);
+    data_->host = to.view();
+  });
+  return data_->host;
+}
+
+const HostIds& Mesh::vertex_begin() const { return data_->vertex_begin; }
+const HostIds& Mesh::vertex_input() const { return data_->vertex_input_mirror.of(data_->vertex_input); }
+const HostIds& Mesh::vertex_internal() const { return data_->vertex_internal_mirror.of(data_->vertex_internal); }
+const HostIds& Mesh::tetrahedron_input() const { return data_->tetrahedron_input_mirror.of(data_->tetrahedron_input); }
+const Array<const Id, ProducerMemory>& Mesh::vertex_input_on_producer() const { return data_->vertex_input; }
+
+Id Mesh::segment_of(Id vertex) const {
+  const Id* const begin = data_->vertex_begin.data();
+  return static_cast<Id>(std::upper_bound(begin, begin + segments() + 1, vertex) - begin) - 1;
+}
+
+#define GALE_INSTANTIATE(Index, Memory) \
+  template Mesh::Mesh(const Tetrahedra<Index, Memory>&, const Segmentation&)
+GALE_INSTANTIATE(std::int32_t, HostMemory);
+GALE_INSTANTIATE(std::int64_t, HostMemory);
+#if defined(KOKKOS_ENABLE_CUDA)
+GALE_INSTANTIATE(std::int32_t, ProducerMemory);
+GALE_INSTANTIATE(std::int64_t, ProducerMemory);
+#endif
+#undef GALE_INSTANTIATE
+
+}  // namespace gale

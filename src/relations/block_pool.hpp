@@ -1,0 +1,48 @@
+#pragma once
+
+#include <gale/base/team.hpp>
+#include <gale/base/types.hpp>
+
+namespace gale {
+
+/// What a star kernel needs in scratch memory for one segment, in entries.
+struct StarSizes {
+  Id rows = 0;        ///< vertices of the segment
+  Id star = 0;        ///< entries of all its VT rows
+  Id neighbours = 0;  ///< entries of all its VV rows
+  Id slots = 0;       ///< hash slots for the neighbours of one vertex; a power of two, enough if three times its tetrahedra
+
+  KOKKOS_FUNCTION bool contains(const StarSizes& other) const {
+    return rows >= other.rows && star >= other.star && neighbours >= other.neighbours && slots >= other.slots;
+  }
+};
+
+/// Where a kernel leaves the blocks of a batch: one stretch of memory, in which a team reserves its exact space with one atomic
+/// a block. A block begins at a multiple of four words. Trivially copyable; owns nothing.
+struct BlockPool {
+  static constexpr Offset missing = -1;
+
+  Id* words = nullptr;
+  Offset capacity = 0;          ///< words
+  Offset* used = nullptr;       ///< words reserved; above `capacity` it says what the batch would have needed
+  Offset* directory = nullptr;  ///< where the block of each segment of the batch and each relation wanted begins, or `missing`
+  StarSizes* needed = nullptr;  ///< raised to what a segment whose blocks are missing would have needed in scratch memory
+
+  /// Where a block of `count` words begins, or `missing` if it doesn't fit. By one lane of a team.
+  template <class Team>
+  KOKKOS_FUNCTION Offset reserve(const Team& team, Offset count) const {
+    const Offset begin = team::add(team, used, (count + 3) / 4 * 4);
+    return begin + count <= capacity ? begin : missing;
+  }
+
+  /// Records what a segment would have needed. By one lane of a team.
+  template <class Team>
+  KOKKOS_FUNCTION void need(const Team& team, const StarSizes& sizes) const {
+    team::raise(team, &needed->rows, sizes.rows);
+    team::raise(team, &needed->star, sizes.star);
+    team::raise(team, &needed->neighbours, sizes.neighbours);
+    team::raise(team, &needed->slots, sizes.slots);
+  }
+};
+
+}  // namespace gale

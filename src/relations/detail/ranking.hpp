@@ -1,0 +1,64 @@
+#pragma once
+
+#include <gale/base/team.hpp>
+#include <gale/base/types.hpp>
+
+namespace gale::detail {
+
+/// Up to so many entries a warp orders by counting, for each, those that are less; more, by a heap.
+inline constexpr Id counting_limit = 512;
+
+KOKKOS_INLINE_FUNCTION Id count_less(const Id* ids, Id count, Id than) {
+  Id less = 0;
+  for (Id i = 0; i < count; ++i) less += ids[i] < than ? 1 : 0;
+  return less;
+}
+
+/// Place of `id` in an ascending row that has it.
+KOKKOS_INLINE_FUNCTION Id place_in(const Id* row, Id count, Id id) {
+  Id low = 0, high = count;
+  while (low < high) {
+    const Id middle = low + (high - low) / 2;
+    if (row[middle] < id) {
+      low = middle + 1;
+    } else {
+      high = middle;
+    }
+  }
+  return low;
+}
+
+KOKKOS_INLINE_FUNCTION void heap_sort(Id* ids, Id count) {
+  const auto sift_down = [ids](Id root, Id end) {
+    const Id id = ids[root];
+    for (Id child = 2 * root + 1; child < end; child = 2 * root + 1) {
+      if (child + 1 < end && ids[child] < ids[child + 1]) ++child;
+      if (!(id < ids[child])) break;
+      ids[root] = ids[child];
+      root = child;
+    }
+    ids[root] = id;
+  };
+  for (Id root = count / 2 - 1; root >= 0; --root) sift_down(root, count);
+  for (Id end = count - 1; end > 0; --end) {
+    const Id last = ids[end];
+    ids[end] = ids[0];
+    ids[0] = last;
+    sift_down(0, end);
+  }
+}
+
+/// Inside for_warps: calls visit(i, id, place) with the place in ascending order that each of the distinct `ids` has; i counts them in the
+/// order in which they then stand. More than `counting_limit` are put in order first.
+template <class Team, class Visit>
+KOKKOS_INLINE_FUNCTION void rank(const Team& team, Id* ids, Id count, const Visit& visit) {
+  if (count > counting_limit) {
+    team::once_per_warp(team, [&] { heap_sort(ids, count); });
+    team::warp_barrier(team);
+    team::for_lanes(team, count, [&](Id i) { visit(i, ids[i], i); });
+  } else {
+    team::for_lanes(team, count, [&](Id i) { visit(i, ids[i], count_less(ids, count, ids[i])); });
+  }
+}
+
+}  // namespace gale::detail

@@ -1,0 +1,25 @@
+#include <gale/relations/relation.hpp>
+
+namespace gale {
+
+std::string name_of(Relation relation) {
+  static const char* const names[relation_count] = {"EV", "FV", "FE", "TV", "TE", "TF", "VE", "VF", "VT",
+                                                    "EF", "ET", "FT", "VV", "EE", "FF", "TT", "link"};
+  return names[static_cast<int>(relation)];
+}
+
+std::vector<Relation> members_of(RelationSet relations) {
+  std::vector<Relation> members;
+  for (int i = 0; i < relation_count; ++i) {
+    if (relations.has(static_cast<Relation>(i))) members.push_back(static_cast<Relation>(i));
+  }
+  return members;
+}
+
+std::string name_of(RelationSet relations) {
+  std::string names;
+  for (const Relation relation : members_of(relations)) names += (names.empty() ? "" : ", ") + name_of(relation);
+  return names;
+}
+
+}  // namespace gale

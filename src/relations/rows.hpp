@@ -1,0 +1,84 @@
+#pragma once
+
+#include <cstdint>
+
+#include <gale/base/kokkos.hpp>
+#include <gale/base/types.hpp>
+
+// Blocks as their readers see them. Nothing here owns memory: a row is valid as long as the block it lies in.
+
+namespace gale {
+
+/// One row of a relation: GALE's ids, ascending.
+struct Row {
+  const Id* ids = nullptr;
+  Id count = 0;
+
+  KOKKOS_FUNCTION Id size() const { return count; }
+  KOKKOS_FUNCTION Id operator[](Id i) const { return ids[i]; }
+  KOKKOS_FUNCTION const Id* begin() const { return ids; }
+  KOKKOS_FUNCTION const Id* end() const { return ids + count; }
+};
+
+/// The rows of consecutive simplices, from `first` on: a block. Row i is ids[offsets[i]] to ids[offsets[i + 1]].
+struct Rows {
+  Id first = 0;
+  const Id* offsets = nullptr;
+  const Id* ids = nullptr;
+
+  KOKKOS_FUNCTION Row operator[](Id simplex) const {
+    const Id i = simplex - first;
+    return {ids + offsets[i], offsets[i + 1] - offsets[i]};
+  }
+};
+
+/// The link of a vertex: for each tetrahedron of its star, the places of the other three vertices in its VV row, in 1, 2 or 4 bytes each.
+struct LinkRow {
+  const void* places = nullptr;
+  Id count = 0;  ///< tetrahedra
+  int width = 1;
+
+  KOKKOS_FUNCTION Id size() const { return count; }
+
+  /// Place of the corner 0..2 of the i-th tetrahedron. The three are in the order of the vertices' ids, hence ascend.
+  KOKKOS_FUNCTION Id operator()(Id i, int corner) const {
+    const Id at = 3 * i + corner;
+    if (width == 1) return static_cast<const std::uint8_t*>(places)[at];
+    if (width == 2) return static_cast<const std::uint16_t*>(places)[at];
+    return static_cast<const Id*>(places)[at];
+  }
+};
+
+/// The link rows of consecutive vertices. `offsets` count tetrahedra, as in the block of VT.
+struct LinkRows {
+  Id first = 0;
+  const Id* offsets = nullptr;
+  const void* places = nullptr;
+  int width = 1;
+
+  KOKKOS_FUNCTION LinkRow operator[](Id vertex) const {
+    const Id i = vertex - first;
+    const auto* const bytes = static_cast<const std::uint8_t*>(places);
+    return {bytes + static_cast<Offset>(3) * width * offsets[i], offsets[i + 1] - offsets[i], width};
+  }
+};
+
+/// Bytes that a place in rows of at most `longest` entries takes.
+KOKKOS_INLINE_FUNCTION int width_for(Id longest) { return longest <= 256 ? 1 : longest <= 65536 ? 2 : 4; }
+
+/// How blocks lie in memory, in words of an Id: the offsets of `rows` rows and one more, then the ids; in a block of links, the
+/// width of a place stands between, and the places follow it.
+struct BlockLayout {
+  Id first = 0;
+  Id rows = 0;
+
+  KOKKOS_FUNCTION static Offset words(Id rows, Offset entries) { return rows + 1 + entries; }
+  KOKKOS_FUNCTION static Offset link_words(Id rows, Offset tetrahedra, int width) {
+    return rows + 2 + (3 * tetrahedra * width + Offset(sizeof(Id)) - 1) / Offset(sizeof(Id));
+  }
+
+  KOKKOS_FUNCTION Rows rows_in(const Id* block) const { return {first, block, block + rows + 1}; }
+  KOKKOS_FUNCTION LinkRows links_in(const Id* block) const { return {first, block, block + rows + 2, block[rows + 1]}; }
+};
+
+}  // namespace gale
