@@ -13,16 +13,13 @@ namespace gale {
 /// Kokkos' Serial TeamPolicy is not safe from several threads before 4.4, and its launch is not free.
 class HostTeam {
  public:
-  HostTeam(int league_rank, void* scratch, std::size_t scratch_bytes)
-      : scratch_(static_cast<char*>(scratch)), scratch_bytes_(scratch_bytes), league_rank_(league_rank) {}
+  HostTeam(int league_rank, char* scratch) : scratch_(scratch), league_rank_(league_rank) {}
 
   int league_rank() const { return league_rank_; }
   char* scratch() const { return scratch_; }
-  std::size_t scratch_bytes() const { return scratch_bytes_; }
 
  private:
   char* scratch_;
-  std::size_t scratch_bytes_;
   int league_rank_;
 };
 

@@ -17,6 +17,12 @@ struct StarSizes {
   }
 };
 
+/// The greater of each.
+inline StarSizes larger(const StarSizes& a, const StarSizes& b) {
+  const auto greater = [](Id x, Id y) { return x < y ? y : x; };
+  return {greater(a.rows, b.rows), greater(a.star, b.star), greater(a.neighbours, b.neighbours), greater(a.slots, b.slots)};
+}
+
 /// Where a kernel leaves the blocks of a batch: one stretch of memory, in which a team reserves its exact space with one atomic
 /// a block. A block begins at a multiple of four words. Trivially copyable; owns nothing.
 struct BlockPool {

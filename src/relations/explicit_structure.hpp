@@ -24,6 +24,7 @@ class ExplicitStructure : public Structure {
 
  private:
   struct Data;
+  class ExplicitConsumer;
   std::unique_ptr<const Data> data_;
 };
 

@@ -20,7 +20,8 @@ struct Row {
   KOKKOS_FUNCTION const Id* end() const { return ids + count; }
 };
 
-/// The rows of consecutive simplices, from `first` on: a block. Row i is ids[offsets[i]] to ids[offsets[i + 1]].
+/// The rows of consecutive simplices, from `first` on. The row of simplex first + i is ids[offsets[i]] to ids[offsets[i + 1] - 1]; offsets
+/// needn't begin with 0.
 struct Rows {
   Id first = 0;
   const Id* offsets = nullptr;
@@ -49,7 +50,7 @@ struct LinkRow {
   }
 };
 
-/// The link rows of consecutive vertices. `offsets` count tetrahedra, as in the block of VT.
+/// The link rows of consecutive vertices. `offsets` count tetrahedra, as those of VT do.
 struct LinkRows {
   Id first = 0;
   const Id* offsets = nullptr;

@@ -8,14 +8,25 @@
 
 namespace gale {
 
-/// The blocks of one segment, one for each relation that was asked for. Owns nothing: whoever hands it out says how long it is valid.
+/// The rows of one segment, of each relation that was asked for. Owns nothing: whoever hands it out says how long it is valid.
 class SegmentRows {
  public:
   SegmentRows() = default;
   SegmentRows(Id segment, Id first, Id last) : segment_(segment), first_(first), last_(last) {}
 
-  void set(Relation relation, const Id* block) { blocks_[static_cast<int>(relation)] = block; }
-  const Id* block(Relation relation) const { return blocks_[static_cast<int>(relation)]; }
+  /// A relation's rows as they lie in a block of the segment's vertices.
+  void set(Relation relation, const Id* block) {
+    const BlockLayout layout{first_, last_ - first_};
+    if (relation == Relation::link) {
+      links_ = layout.links_in(block);
+    } else {
+      rows_[static_cast<int>(relation)] = layout.rows_in(block);
+    }
+  }
+
+  /// Rows that lie elsewhere, e.g. among those of all segments. For each relation but `link`; and for that.
+  void set(Relation relation, const Rows& rows) { rows_[static_cast<int>(relation)] = rows; }
+  void set(const LinkRows& links) { links_ = links; }
 
   Id segment() const { return segment_; }
 
@@ -25,16 +36,15 @@ class SegmentRows {
   bool has(Id vertex) const { return vertex >= first_ && vertex < last_; }
 
   /// Rows of a relation that was asked for: of the segment's vertices.
-  Rows operator[](Relation relation) const { return layout().rows_in(block(relation)); }
-  LinkRows links() const { return layout().links_in(block(Relation::link)); }
+  const Rows& operator[](Relation relation) const { return rows_[static_cast<int>(relation)]; }
+  const LinkRows& links() const { return links_; }
 
  private:
-  BlockLayout layout() const { return {first_, last_ - first_}; }
-
   Id segment_ = no_id;
   Id first_ = 0;
   Id last_ = 0;
-  std::array<const Id*, relation_count> blocks_{};
+  LinkRows links_;
+  std::array<Rows, relation_count - 1> rows_{};  // all but link, which is the last
 };
 
 }  // namespace gale

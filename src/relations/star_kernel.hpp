@@ -237,12 +237,17 @@ class StarKernel {
 
   template <class Team>
   KOKKOS_FUNCTION void finish(const Team& team, const detail::StarShared& shared) const {
-    const bool done = sizes.contains(shared.found);
-    if (!done) pool.need(team, shared.found);
+    const bool fitted = sizes.contains(shared.found);
+    if (!fitted) pool.need(team, shared.found);
+    const bool done = fitted && present(Relation::VT, shared.vt) && present(Relation::VV, shared.vv) && present(Relation::link, shared.link);
     Offset* entry = pool.directory + Offset(team.league_rank()) * wanted.count();
     if (wanted.has(Relation::VT)) *entry++ = done ? shared.vt : BlockPool::missing;
     if (wanted.has(Relation::VV)) *entry++ = done ? shared.vv : BlockPool::missing;
     if (wanted.has(Relation::link)) *entry++ = done ? shared.link : BlockPool::missing;
+  }
+
+  KOKKOS_FUNCTION bool present(Relation relation, Offset block) const {
+    return !wanted.has(relation) || block != BlockPool::missing;
   }
 };
 

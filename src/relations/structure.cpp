@@ -4,10 +4,9 @@
 
 namespace gale {
 
-void require_preconditioned(const Structure& structure, RelationSet wanted) {
-  const RelationSet have = structure.relations();
-  if (have.contains(wanted)) return;
-  throw Error("the structure was preconditioned for " + (have.empty() ? std::string("no relation") : name_of(have)) + ", not for " +
+void require_preconditioned(RelationSet preconditioned, RelationSet wanted) {
+  if (preconditioned.contains(wanted)) return;
+  throw Error("the structure was preconditioned for " + (preconditioned.empty() ? "no relation" : name_of(preconditioned)) + ", not for " +
               name_of(wanted) + ": name every relation that you read when you construct it");
 }
 

@@ -72,7 +72,7 @@ class Structure {
   virtual std::unique_ptr<Consumer> consumer() = 0;
 };
 
-/// Throws gale::Error, naming the relations and the call to make, unless `structure` was preconditioned for `wanted`.
-void require_preconditioned(const Structure& structure, RelationSet wanted);
+/// Throws gale::Error, naming the relations and what to do, unless those that a structure was preconditioned for contain `wanted`.
+void require_preconditioned(RelationSet preconditioned, RelationSet wanted);
 
 }  // namespace gale

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <atomic>
+#include <utility>
+#include <vector>
+
+#include <gale/base/memory.hpp>
+#include <gale/base/types.hpp>
+
+namespace gale::detail {
+
+/// The blocks of one batch on the host, in one stretch of memory. A leader fills and publishes it; then any number of consumers read
+/// it, each with a pin on it; then the leader takes it back, and fills it again.
+struct Arena {
+  Array<Id, PinnedMemory> words;
+  std::uint64_t number = 0;       ///< among the arenas of its store, from 1
+  std::vector<Id> segments;       ///< of the batch
+  std::vector<Offset> directory;  ///< see BlockPool; entries of a segment's relations are together
+
+  std::atomic<int> pins{0};
+  std::atomic<Id> unread{0};  ///< segments that the running sweep has still to read; not above 0: none
+  std::atomic<std::int64_t> last_use{0};
+
+  std::size_t bytes() const { return words.extent(0) * sizeof(Id); }
+};
+
+/// One segment's blocks in an arena that can't be taken back as long as this lives: a pin.
+class Lease {
+ public:
+  Lease() = default;
+  /// Takes over a pin that the caller has set.
+  Lease(Arena& arena, Id slot) : arena_(&arena), slot_(slot) {}
+  ~Lease() { release(); }
+  Lease(Lease&& other) noexcept : arena_(std::exchange(other.arena_, nullptr)), slot_(other.slot_) {}
+  Lease& operator=(Lease&& other) noexcept {
+    if (this != &other) {
+      release();
+      arena_ = std::exchange(other.arena_, nullptr);
+      slot_ = other.slot_;
+    }
+    return *this;
+  }
+
+  explicit operator bool() const { return arena_ != nullptr; }
+
+  /// The block of the `relation`-th of `relations` relations.
+  const Id* block(int relation, int relations) const {
+    return arena_->words.data() + arena_->directory[static_cast<std::size_t>(slot_) * relations + relation];
+  }
+
+  /// Gives the pin back, and tells that a sweep has read the segment. True if the arena has none left for it.
+  bool release_read() {
+    Arena* const arena = std::exchange(arena_, nullptr);
+    arena->pins.fetch_sub(1);
+    return arena->unread.fetch_sub(1) == 1;
+  }
+
+  void release() {
+    if (arena_ != nullptr) std::exchange(arena_, nullptr)->pins.fetch_sub(1);
+  }
+
+ private:
+  Arena* arena_ = nullptr;
+  Id slot_ = 0;
+};
+
+}  // namespace gale::detail

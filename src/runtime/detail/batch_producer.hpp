@@ -1,0 +1,57 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <gale/mesh/mesh.hpp>
+#include <gale/relations/block_pool.hpp>
+#include <gale/relations/relation.hpp>
+#include <gale/runtime/detail/arena.hpp>
+
+namespace gale::detail {
+
+/// What a batch lacked, so that blocks of it are missing.
+struct Shortfall {
+  bool any = false;
+  Offset words = 0;    ///< that all its blocks take; more than there were, or it isn't why
+  StarSizes scratch;   ///< that its segments need
+};
+
+/// Worker producers for one batch at a time. A leader has two or more, so that one computes while another's blocks are copied.
+class BatchProducer {
+ public:
+  virtual ~BatchProducer() = default;
+
+  /// Has it to be a batch of its own, since it needs more of the fast scratch memory than there is?
+  virtual bool is_large(Id segment) const = 0;
+
+  /// Begins to compute the blocks of `segments`, each with at least the scratch memory that `scratch` says. Returns at once on a device.
+  /// Throws std::bad_alloc where the batch is too big for the device's memory.
+  virtual void launch(const std::vector<Id>& segments, const StarSizes& scratch) = 0;
+
+  /// Waits for it, and leaves its blocks in `arena`: words, segments and directory. `arena` has `words` words or more.
+  virtual Shortfall finish(Arena& arena) = 0;
+
+  /// Makes batches of `words` words possible.
+  virtual void reserve(Offset words) = 0;
+
+  /// Waits for what was launched, and forgets it. Never throws.
+  virtual void abandon() noexcept = 0;
+
+  virtual std::size_t device_bytes() const = 0;
+};
+
+/// How a producer works: see RuntimeOptions.
+struct ProducerParameters {
+  RelationSet wanted;
+  Offset words = 0;               ///< that a batch may have
+  int threads_per_segment = 128;
+};
+
+/// On the calling thread, when it finishes.
+std::unique_ptr<BatchProducer> make_host_producer(const Mesh& mesh, const ProducerParameters& parameters);
+
+/// On the device. Only where there is one.
+std::unique_ptr<BatchProducer> make_device_producer(const Mesh& mesh, const ProducerParameters& parameters);
+
+}  // namespace gale::detail

@@ -1,0 +1,132 @@
+#include <algorithm>
+#include <chrono>
+#include <vector>
+
+#include <gale/relations/detail/sweep.hpp>
+#include <gale/relations/host_producer.hpp>
+#include <gale/runtime/detail/implementation.hpp>
+
+namespace gale::detail {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// A HostProducer that keeps count.
+class CountingProducer {
+ public:
+  CountingProducer(const Mesh& mesh, RelationSet relations, ConsumerStatistics& statistics)
+      : producer_(mesh, relations), statistics_(&statistics) {}
+
+  SegmentRows compute(Id segment) {
+    const auto begin = Clock::now();
+    const SegmentRows rows = producer_.compute(segment);
+    statistics_->seconds_computing += std::chrono::duration<double>(Clock::now() - begin).count();
+    ++statistics_->segments_computed;
+    return rows;
+  }
+
+ private:
+  HostProducer producer_;
+  ConsumerStatistics* statistics_;
+};
+
+/// A consumer that computes what it misses and keeps the blocks of the segments that it read last.
+class ProducingConsumer : public Consumer {
+ public:
+  ProducingConsumer(const Mesh& mesh, RelationSet relations, ConsumerLog& log)
+      : mesh_(mesh), relations_(relations), log_(log) {}
+  ~ProducingConsumer() override { log_.add(statistics_); }
+
+ protected:
+  SegmentRows load(Relation relation, Id vertex) override {
+    require_preconditioned(relations_, relation);
+    const Id segment = mesh_.segment_of(vertex);
+    Kept& kept = find(segment);
+    kept.last_use = ++now_;
+    if (kept.rows.segment() == segment) {
+      ++statistics_.hits;
+    } else {
+      kept.rows = SegmentRows();
+      kept.rows = kept.producer.compute(segment);
+    }
+    return kept.rows;
+  }
+
+ private:
+  /// More than there are relations, so that the block read last of each stays valid.
+  static constexpr std::size_t capacity = 32;
+  static_assert(capacity > relation_count);
+
+  struct Kept {
+    CountingProducer producer;
+    SegmentRows rows;
+    std::int64_t last_use = 0;
+  };
+
+  /// Where the segment's blocks are kept, or where they may be.
+  Kept& find(Id segment) {
+    Kept* oldest = nullptr;
+    for (Kept& one : kept_) {
+      if (one.rows.segment() == segment) return one;
+      if (oldest == nullptr || one.last_use < oldest->last_use) oldest = &one;
+    }
+    if (kept_.size() == capacity) return *oldest;
+    kept_.push_back({CountingProducer(mesh_, relations_, statistics_), SegmentRows(), 0});
+    return kept_.back();
+  }
+
+  const Mesh& mesh_;
+  RelationSet relations_;
+  ConsumerLog& log_;
+  ConsumerStatistics statistics_;
+  std::vector<Kept> kept_;
+  std::int64_t now_ = 0;
+};
+
+struct SweepConsumer {
+  ConsumerStatistics statistics;
+  CountingProducer producer;
+
+  SweepConsumer(const Mesh& mesh, RelationSet wanted) : producer(mesh, wanted, statistics) {}
+};
+
+class ConsumerProduction : public RuntimeImplementation {
+ public:
+  ConsumerProduction(const Mesh& mesh, RelationSet relations) : RuntimeImplementation(mesh, relations) {}
+
+  void for_each_segment(RelationSet wanted, const SweepOptions& options, const Structure::SegmentBody& body) override {
+    mesh().host();
+    std::vector<std::unique_ptr<SweepConsumer>> consumers(std::max(options.threads, 0));
+    sweep(mesh().segments(), options, [&](int number, Id segment) {
+      auto& consumer = consumers[number];
+      if (!consumer) consumer = std::make_unique<SweepConsumer>(mesh(), wanted);
+      body(number, consumer->producer.compute(segment));
+    });
+    for (const auto& consumer : consumers) log_.add(consumer ? consumer->statistics : ConsumerStatistics());
+  }
+
+  std::unique_ptr<Consumer> consumer() override {
+    mesh().host();
+    return std::make_unique<ProducingConsumer>(mesh(), relations(), log_);
+  }
+
+  Production production() const override { return Production::consumers; }
+
+  RuntimeStatistics statistics() const override {
+    RuntimeStatistics all;
+    all.consumers = log_.all();
+    return all;
+  }
+
+ private:
+  ConsumerLog log_;
+};
+
+}  // namespace
+
+std::unique_ptr<RuntimeImplementation> by_consumers(const Mesh& mesh, RelationSet relations) {
+  return std::make_unique<ConsumerProduction>(mesh, relations);
+}
+
+}  // namespace gale::detail

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstddef>
+
+#include <gale/mesh/mesh.hpp>
+#include <gale/runtime/options.hpp>
+
+namespace gale::detail {
+
+/// RuntimeOptions, with what they leave open filled in; for one of the queues.
+struct Sizes {
+  Offset batch_words = 0;        ///< of a batch and of the arena that takes its blocks
+  std::size_t host_bytes = 0;    ///< for arenas
+  Id segments_per_request = 1;
+  int threads_per_segment = 0;
+};
+
+/// For each of `queues` queues. Throws gale::Error for an option below 0.
+Sizes sizes_for(const Mesh& mesh, const RuntimeOptions& options, int queues);
+
+}  // namespace gale::detail

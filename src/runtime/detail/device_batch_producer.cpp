@@ -1,0 +1,160 @@
+#include <gale/base/error.hpp>
+#include <gale/runtime/detail/batch_producer.hpp>
+
+#if defined(KOKKOS_ENABLE_CUDA)
+
+#include <algorithm>
+
+#include <gale/relations/launch.hpp>
+
+namespace gale::detail {
+
+namespace {
+
+template <class T>
+using OnDevice = Array<T, ProducerMemory>;
+template <class T>
+using Pinned = Array<T, PinnedMemory>;
+
+/// A batch on its own execution-space instance. Its memory is taken once, and again only when a batch needs more.
+class DeviceBatchProducer : public BatchProducer {
+ public:
+  DeviceBatchProducer(const Mesh& mesh, const ProducerParameters& parameters)
+      : mesh_(mesh),
+        relations_(parameters.wanted.count()),
+        warps_(std::max(parameters.threads_per_segment / 32, 1)),
+        instance_(make_instance()),
+        tetrahedron_begin_(Kokkos::create_mirror_view_and_copy(HostMemory(), mesh.producer().tetrahedron_begin)),
+        external_begin_(Kokkos::create_mirror_view_and_copy(HostMemory(), mesh.producer().external_begin)),
+        header_(allocate<OnDevice<Header>>("GALE::batch_header", 1)),
+        header_copy_(allocate<Pinned<Header>>("GALE::batch_header", 1)) {
+    kernel_.mesh = mesh.producer();
+    kernel_.wanted = parameters.wanted;
+    kernel_.pool.used = &header_.data()->used;
+    kernel_.pool.needed = &header_.data()->needed;
+    fast_scratch_ = fast_scratch_bytes<ProducerSpace>(kernel_, warps_);
+    reserve(parameters.words);
+  }
+
+  bool is_large(Id segment) const override {
+    return StarScratch::bytes(sizes_of(segment), warps_) > fast_scratch_;
+  }
+
+  void launch(const std::vector<Id>& segments, const StarSizes& scratch) override {
+    const std::size_t count = segments.size();
+    reserve_segments(count);
+    count_ = count;
+    StarSizes sizes = scratch;
+    for (std::size_t i = 0; i < count; ++i) {
+      segments_copy_(i) = segments[i];
+      sizes = larger(sizes, sizes_of(segments[i]));
+    }
+    kernel_.sizes = sizes;
+    kernel_.scratch_level = StarScratch::bytes(sizes, warps_) > fast_scratch_ ? 1 : 0;
+    *header_copy_.data() = Header();
+    Kokkos::deep_copy(instance_, header_, header_copy_);
+    Kokkos::deep_copy(instance_, first(segments_, count), first(segments_copy_, count));
+    gale::launch(instance_, kernel_, static_cast<int>(count), warps_);
+    Kokkos::deep_copy(instance_, header_copy_, header_);
+    Kokkos::deep_copy(instance_, first(directory_copy_, count * relations_), first(directory_, count * relations_));
+  }
+
+  Shortfall finish(Arena& arena) override {
+    instance_.fence("GALE::batch_computed");
+    const Header header = *header_copy_.data();
+    const auto words = static_cast<std::size_t>(std::min(header.used, kernel_.pool.capacity));
+    if (arena.words.extent(0) < words) throw Error("an arena is smaller than its batch");
+    Kokkos::deep_copy(instance_, first(arena.words, words), first(words_, words));
+    arena.segments.assign(segments_copy_.data(), segments_copy_.data() + count_);
+    arena.directory.assign(directory_copy_.data(), directory_copy_.data() + count_ * relations_);
+    instance_.fence("GALE::batch_copied");
+    const bool missing = std::find(arena.directory.begin(), arena.directory.end(), BlockPool::missing) != arena.directory.end();
+    return {missing, header.used, header.needed};
+  }
+
+  void reserve(Offset words) override {
+    if (static_cast<Offset>(words_.extent(0)) >= words) return;
+    words_ = OnDevice<Id>();
+    words_ = allocate<OnDevice<Id>>("GALE::batch_words", words);
+    kernel_.pool.words = words_.data();
+    kernel_.pool.capacity = words;
+  }
+
+  void abandon() noexcept override {
+    try {
+      instance_.fence("GALE::batch_abandoned");
+    } catch (...) {
+      // What is wrong with the device, the next launch will say.
+    }
+  }
+
+  std::size_t device_bytes() const override {
+    return words_.extent(0) * sizeof(Id) + segments_.extent(0) * sizeof(Id) + directory_.extent(0) * sizeof(Offset);
+  }
+
+ private:
+  struct Header {
+    Offset used = 0;
+    StarSizes needed;
+  };
+
+  template <class View>
+  static auto first(const View& view, std::size_t count) {
+    return Kokkos::subview(view, std::make_pair(std::size_t(0), count));
+  }
+
+  /// Enough for any segment whose vertices have connected links of at most 42 tetrahedra: a link of n triangles has at most n + 2 vertices.
+  StarSizes sizes_of(Id segment) const {
+    const Id rows = mesh_.vertex_begin()(segment + 1) - mesh_.vertex_begin()(segment);
+    const Offset internal = tetrahedron_begin_(segment + 1) - tetrahedron_begin_(segment);
+    const Offset external = external_begin_(segment + 1) - external_begin_(segment);
+    const Offset star = 4 * internal + 3 * external;
+    return {rows, static_cast<Id>(star), static_cast<Id>(star + 2 * Offset(rows)), 128};
+  }
+
+  void reserve_segments(std::size_t count) {
+    if (segments_.extent(0) >= count) return;
+    segments_ = allocate<OnDevice<Id>>("GALE::batch_segments", count);
+    segments_copy_ = allocate<Pinned<Id>>("GALE::batch_segments", count);
+    directory_ = allocate<OnDevice<Offset>>("GALE::batch_directory", count * relations_);
+    directory_copy_ = allocate<Pinned<Offset>>("GALE::batch_directory", count * relations_);
+    kernel_.segments = segments_.data();
+    kernel_.pool.directory = directory_.data();
+  }
+
+  Mesh mesh_;
+  std::size_t relations_;
+  int warps_;
+  ProducerSpace instance_;
+  Kokkos::View<const Id*, HostMemory> tetrahedron_begin_;
+  Kokkos::View<const Offset*, HostMemory> external_begin_;
+  OnDevice<Header> header_;
+  Pinned<Header> header_copy_;
+  OnDevice<Id> segments_, words_;
+  Pinned<Id> segments_copy_;
+  OnDevice<Offset> directory_;
+  Pinned<Offset> directory_copy_;
+  StarKernel<ProducerMemory> kernel_;
+  std::size_t fast_scratch_ = 0;
+  std::size_t count_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<BatchProducer> make_device_producer(const Mesh& mesh, const ProducerParameters& parameters) {
+  return std::make_unique<DeviceBatchProducer>(mesh, parameters);
+}
+
+}  // namespace gale::detail
+
+#else
+
+namespace gale::detail {
+
+std::unique_ptr<BatchProducer> make_device_producer(const Mesh&, const ProducerParameters&) {
+  throw Error("this Kokkos has no device");
+}
+
+}  // namespace gale::detail
+
+#endif

@@ -1,0 +1,51 @@
+#include <algorithm>
+
+#include <gale/relations/detail/host_workspace.hpp>
+#include <gale/runtime/detail/batch_producer.hpp>
+
+namespace gale::detail {
+
+namespace {
+
+class HostBatchProducer : public BatchProducer {
+ public:
+  HostBatchProducer(const Mesh& mesh, const ProducerParameters& parameters)
+      : mesh_(mesh), workspace_(mesh, parameters.wanted), relations_(parameters.wanted.count()) {}
+
+  bool is_large(Id) const override { return false; }
+  void launch(const std::vector<Id>& segments, const StarSizes&) override { segments_ = segments; }
+
+  Shortfall finish(Arena& arena) override {
+    arena.segments = segments_;
+    arena.directory.assign(segments_.size() * relations_, BlockPool::missing);
+    Offset used = 0;
+    BlockPool pool;
+    pool.words = arena.words.data();
+    pool.capacity = static_cast<Offset>(arena.words.extent(0));
+    pool.used = &used;
+    bool missing = false;
+    for (std::size_t slot = 0; slot < segments_.size(); ++slot) {
+      pool.directory = arena.directory.data() + slot * relations_;
+      missing |= !workspace_.compute(segments_[slot], pool);
+    }
+    return {missing, used, {}};
+  }
+
+  void reserve(Offset) override {}
+  void abandon() noexcept override { segments_.clear(); }
+  std::size_t device_bytes() const override { return 0; }
+
+ private:
+  Mesh mesh_;
+  HostWorkspace workspace_;
+  std::size_t relations_;
+  std::vector<Id> segments_;
+};
+
+}  // namespace
+
+std::unique_ptr<BatchProducer> make_host_producer(const Mesh& mesh, const ProducerParameters& parameters) {
+  return std::make_unique<HostBatchProducer>(mesh, parameters);
+}
+
+}  // namespace gale::detail

@@ -1,0 +1,296 @@
+#include <gale/runtime/detail/leader.hpp>
+
+#include <algorithm>
+#include <new>
+
+#include <gale/base/error.hpp>
+
+namespace gale::detail {
+
+namespace {
+
+/// Batches of a sweep begin small, so that consumers can begin, and double.
+constexpr Id first_batch = 32;
+
+/// A guess for the first batch: what blocks of some sixteen neighbours and twenty-four tetrahedra a vertex take.
+constexpr double words_per_vertex = 64;
+
+/// Any exception, as the gale::Error that consumers are promised.
+std::exception_ptr as_error(const std::exception_ptr& cause, RelationSet relations) {
+  const std::string what = "computing " + name_of(relations) + " failed: ";
+  try {
+    std::rethrow_exception(cause);
+  } catch (const std::bad_alloc&) {
+    return std::make_exception_ptr(Error(what + "out of memory for one segment"));
+  } catch (const std::exception& error) {
+    return std::make_exception_ptr(Error(what + error.what()));
+  } catch (...) {
+    return std::make_exception_ptr(Error(what + "unknown exception"));
+  }
+}
+
+}  // namespace
+
+Leader::Leader(const Mesh& mesh, const LeaderParameters& parameters, std::vector<std::unique_ptr<BatchProducer>> producers)
+    : mesh_(mesh),
+      parameters_(parameters),
+      producers_(std::move(producers)),
+      store_(mesh.segments(), parameters.arena_words, parameters.host_budget),
+      under_way_(mesh.segments()),
+      computed_(mesh.segments()),
+      words_per_segment_(words_per_vertex * mesh.vertices() / std::max(mesh.segments(), Id(1))) {
+  for (const auto& producer : producers_) idle_.push_back(producer.get());
+  statistics_.relations = parameters.relations;
+  thread_ = std::thread([this] { run(); });
+}
+
+Leader::~Leader() {
+  queue_.stop();
+  thread_.join();
+  while (consumers_inside_.load() != 0) std::this_thread::yield();
+}
+
+Lease Leader::acquire(Id segment, bool in_sweep, ConsumerStatistics& statistics) {
+  if (Lease lease = store_.find(segment)) {
+    ++statistics.hits;
+    return lease;
+  }
+  struct Inside {
+    std::atomic<int>& count;
+    explicit Inside(std::atomic<int>& consumers) : count(consumers) { ++count; }
+    ~Inside() { --count; }
+  } inside(consumers_inside_);
+  const auto ticket = std::make_shared<Ticket>();
+  ticket->begun = ticket->pushed = Clock::now();
+  if (!queue_.push({segment, in_sweep, ticket})) throw Error("the runtime has ended");
+  const auto pushed = Clock::now();
+  Lease lease = ticket->wait();
+  ++statistics.requests;
+  auto& waiting = statistics.waiting;
+  waiting.push += seconds_between(ticket->begun, pushed);
+  waiting.queue += std::max(0.0, seconds_between(pushed, ticket->taken));
+  waiting.preparation += seconds_between(ticket->taken, ticket->launched);
+  waiting.production += seconds_between(ticket->launched, ticket->finished);
+  waiting.integration += seconds_between(ticket->finished, Clock::now());
+  return lease;
+}
+
+void Leader::run() {
+  while (!stopping_) {
+    try {
+      const bool idle = flights_.empty() && !launch_next();
+      listen(idle);
+      while (launch_next()) {
+      }
+      if (!flights_.empty() && !stopping_) finish_oldest();
+    } catch (...) {
+      fail_all(as_error(std::current_exception(), parameters_.relations));
+    }
+  }
+  for (const auto& request : queue_.take(false).requests) waiting_.emplace(request.segment, request.ticket);
+  fail_all(std::make_exception_ptr(Error("the runtime ended while a consumer waited for " + name_of(parameters_.relations))));
+}
+
+void Leader::listen(bool wait) {
+  const auto news = queue_.take(wait);
+  const auto now = Clock::now();
+  stopping_ = news.stop;
+  if (news.sweep_ended) {
+    sweeping_ = false;
+    store_.forget_unread();
+  }
+  if (news.sweep_began) {
+    sweeping_ = true;
+    ahead_ = must_reach_ = 0;
+    ahead_batch_ = first_batch;
+  }
+  for (const auto& request : news.requests) serve(request, now);
+}
+
+void Leader::serve(const Request& request, Clock::time_point taken) {
+  request.ticket->taken = request.ticket->launched = request.ticket->finished = taken;
+  if (Lease lease = store_.find(request.segment)) {
+    request.ticket->fulfil(std::move(lease));
+    return;
+  }
+  waiting_.emplace(request.segment, request.ticket);
+  if (under_way_[request.segment]) return;
+  if (request.in_sweep && sweeping_ && request.segment >= ahead_) {
+    must_reach_ = std::max(must_reach_, request.segment + 1);
+  } else {
+    plan_from(request.segment);
+  }
+}
+
+/// The segment, and those that follow it and are wanted, up to what one request computes.
+void Leader::plan_from(Id segment) {
+  Plan plan;
+  const Id count = std::min(parameters_.segments_per_request, segments_that_fit());
+  const Id end = static_cast<Id>(std::min<Offset>(mesh_.segments(), Offset(segment) + count));
+  const bool alone = producers_.front()->is_large(segment);
+  for (Id s = segment; s < end; ++s) {
+    if (s != segment && (alone || producers_.front()->is_large(s))) break;
+    if (!is_wanted(s)) continue;
+    under_way_[s] = true;
+    plan.segments.push_back(s);
+  }
+  plans_.push_back(std::move(plan));
+}
+
+Id Leader::segments_that_fit() const {
+  return std::max(Id(1), static_cast<Id>(0.9 * parameters_.arena_words / words_per_segment_));
+}
+
+/// Puts a batch on an idle producer; false if there is none, or nothing to do.
+bool Leader::launch_next() {
+  if (idle_.empty()) return false;
+  if (plans_.empty()) return sweeping_ && launch_ahead();
+  Arena& arena = *store_.take(BlockStore::Need::must_have);
+  Plan plan = std::move(plans_.front());
+  plans_.pop_front();
+  launch(std::move(plan), arena);
+  return true;
+}
+
+/// The next batch of the sweep, unless the budget doesn't allow it yet.
+bool Leader::launch_ahead() {
+  while (ahead_ < mesh_.segments() && !is_wanted(ahead_)) ++ahead_;
+  if (ahead_ == mesh_.segments()) return false;
+  Arena* const arena = store_.take(must_reach_ > ahead_ ? BlockStore::Need::must_have : BlockStore::Need::can_wait);
+  if (arena == nullptr) return false;
+  launch(plan_ahead(), *arena);
+  return true;
+}
+
+Leader::Plan Leader::plan_ahead() {
+  Plan plan;
+  plan.ahead = true;
+  const auto count = static_cast<std::size_t>(std::min(ahead_batch_, segments_that_fit()));
+  bool large = false;
+  for (; ahead_ < mesh_.segments() && plan.segments.size() < count && !large; ++ahead_) {
+    if (!is_wanted(ahead_)) continue;
+    large = producers_.front()->is_large(ahead_);
+    if (large && !plan.segments.empty()) break;
+    under_way_[ahead_] = true;
+    plan.segments.push_back(ahead_);
+  }
+  ahead_batch_ = static_cast<Id>(std::min<Offset>(Offset(ahead_batch_) * 2, mesh_.segments()));
+  return plan;
+}
+
+void Leader::launch(Plan plan, Arena& arena) {
+  BatchProducer* const producer = idle_.back();
+  try {
+    store_.enlarge(arena, plan.words);
+    producer->reserve(plan.words);
+    producer->launch(plan.segments, plan.scratch);
+  } catch (const std::bad_alloc&) {
+    store_.give_back(arena);
+    if (plan.segments.size() == 1) throw;
+    split(std::move(plan));
+    return;
+  } catch (...) {
+    store_.give_back(arena);
+    throw;
+  }
+  idle_.pop_back();
+  flights_.push_back({std::move(plan), producer, &arena, Clock::now()});
+}
+
+/// Tries the plan in two parts, if it has more than one segment; before all other plans.
+void Leader::split(Plan plan) {
+  const std::lock_guard<std::mutex> lock(statistics_mutex_);
+  ++statistics_.batches_split;
+  Plan second = plan;
+  const auto half = plan.segments.begin() + static_cast<std::ptrdiff_t>((plan.segments.size() + 1) / 2);
+  second.segments.assign(half, plan.segments.end());
+  plan.segments.erase(half, plan.segments.end());
+  if (!second.segments.empty()) plans_.push_front(std::move(second));
+  plans_.push_front(std::move(plan));
+}
+
+void Leader::finish_oldest() {
+  const Shortfall shortfall = flights_.front().producer->finish(*flights_.front().arena);
+  const auto finished = Clock::now();
+  const Flight flight = std::move(flights_.front());
+  flights_.pop_front();
+  idle_.push_back(flight.producer);
+  Plan made, missing = flight.plan;
+  missing.segments.clear();
+  const std::size_t relations = parameters_.relations.count();
+  for (std::size_t slot = 0; slot < flight.plan.segments.size(); ++slot) {
+    const bool there = flight.arena->directory[slot * relations] != BlockPool::missing;
+    (there ? made : missing).segments.push_back(flight.plan.segments[slot]);
+  }
+  account(made, shortfall, flight.plan.segments.size());
+  if (made.segments.empty()) {
+    store_.give_back(*flight.arena);
+  } else {
+    store_.publish(*flight.arena, sweeping_ && flight.plan.ahead ? static_cast<Id>(made.segments.size()) : 0);
+    deliver(made, flight.launched, finished);
+  }
+  if (!missing.segments.empty()) retry(std::move(missing), shortfall);
+}
+
+void Leader::account(const Plan& made, const Shortfall& shortfall, std::size_t launched) {
+  std::int64_t again = 0;
+  for (const Id segment : made.segments) {
+    again += computed_[segment] ? 1 : 0;
+    computed_[segment] = true;
+    under_way_[segment] = false;
+  }
+  const double words = static_cast<double>(shortfall.words) / static_cast<double>(launched);
+  words_per_segment_ = std::max(words, 0.75 * words_per_segment_ + 0.25 * words);
+  const std::lock_guard<std::mutex> lock(statistics_mutex_);
+  ++statistics_.batches;
+  statistics_.segments_computed += static_cast<std::int64_t>(made.segments.size());
+  statistics_.segments_recomputed += again;
+  statistics_.bytes += shortfall.words * static_cast<Offset>(sizeof(Id));
+  statistics_.blocks_evicted = store_.evicted();
+}
+
+/// Tries what didn't fit again: with the scratch memory that it needs, and fewer segments at a time or, for one, more room.
+void Leader::retry(Plan plan, const Shortfall& shortfall) {
+  plan.scratch = larger(plan.scratch, shortfall.scratch);
+  if (plan.segments.size() == 1) plan.words = std::max(plan.words, shortfall.words);
+  split(std::move(plan));
+}
+
+/// Gives the blocks to those who wait for them.
+void Leader::deliver(const Plan& plan, Clock::time_point launched, Clock::time_point finished) {
+  for (const Id segment : plan.segments) {
+    const auto range = waiting_.equal_range(segment);
+    for (auto it = range.first; it != range.second; ++it) {
+      it->second->launched = std::max(launched, it->second->taken);
+      it->second->finished = std::max(finished, it->second->launched);
+      it->second->fulfil(store_.find(segment));
+    }
+    waiting_.erase(range.first, range.second);
+  }
+}
+
+void Leader::fail_all(const std::exception_ptr& failure) {
+  for (const auto& flight : flights_) {
+    flight.producer->abandon();
+    store_.give_back(*flight.arena);
+    idle_.push_back(flight.producer);
+  }
+  flights_.clear();
+  plans_.clear();
+  std::fill(under_way_.begin(), under_way_.end(), false);
+  for (const auto& waiter : waiting_) waiter.second->fail(failure);
+  waiting_.clear();
+}
+
+LeaderStatistics Leader::statistics() const {
+  const std::lock_guard<std::mutex> lock(statistics_mutex_);
+  return statistics_;
+}
+
+std::size_t Leader::device_bytes() const {
+  std::size_t bytes = 0;
+  for (const auto& producer : producers_) bytes += producer->device_bytes();
+  return bytes;
+}
+
+}  // namespace gale::detail

@@ -1,0 +1,105 @@
+#pragma once
+
+#include <deque>
+#include <map>
+#include <thread>
+
+#include <gale/mesh/mesh.hpp>
+#include <gale/runtime/detail/batch_producer.hpp>
+#include <gale/runtime/detail/block_store.hpp>
+#include <gale/runtime/detail/request_queue.hpp>
+
+namespace gale::detail {
+
+/// What a leader works with.
+struct LeaderParameters {
+  RelationSet relations;
+  Offset arena_words = 0;
+  std::size_t host_budget = 0;
+  Id segments_per_request = 1;
+};
+
+/// The leader producer of one queue: a thread that takes requests, forms batches, has them computed, and publishes their blocks.
+class Leader {
+ public:
+  /// `producers`: at least one; with two, one computes while the other's blocks are copied.
+  Leader(const Mesh& mesh, const LeaderParameters& parameters, std::vector<std::unique_ptr<BatchProducer>> producers);
+
+  /// Fails all requests that wait, and returns when their consumers have gone.
+  ~Leader();
+
+  RelationSet relations() const { return parameters_.relations; }
+
+  /// The blocks of a segment, as soon as they are there. By any thread. Throws gale::Error.
+  Lease acquire(Id segment, bool in_sweep, ConsumerStatistics& statistics);
+
+  /// From now on, runs ahead through all segments; until end_sweep. One sweep at a time.
+  void begin_sweep() { queue_.begin_sweep(); }
+  void end_sweep() { queue_.end_sweep(); }
+
+  /// An arena may be free: the sweep has read all of it.
+  void tell_read() { queue_.wake(); }
+
+  LeaderStatistics statistics() const;
+  std::size_t host_bytes() const { return store_.peak_bytes(); }
+  std::size_t device_bytes() const;
+
+ private:
+  /// Segments to be computed together.
+  struct Plan {
+    std::vector<Id> segments;
+    StarSizes scratch;   ///< that they need at least, as an earlier try has shown
+    Offset words = 0;    ///< likewise
+    bool ahead = false;  ///< computed for the running sweep, which will read them
+  };
+  struct Flight {
+    Plan plan;
+    BatchProducer* producer;
+    Arena* arena;
+    Clock::time_point launched;
+  };
+
+  void run();
+  void listen(bool wait);
+  void serve(const Request& request, Clock::time_point taken);
+  void plan_from(Id segment);
+  bool launch_next();
+  bool launch_ahead();
+  Plan plan_ahead();
+  void launch(Plan plan, Arena& arena);
+  void split(Plan plan);
+  void finish_oldest();
+  void account(const Plan& made, const Shortfall& shortfall, std::size_t launched);
+  void retry(Plan plan, const Shortfall& shortfall);
+  void deliver(const Plan& plan, Clock::time_point launched, Clock::time_point finished);
+  void fail_all(const std::exception_ptr& failure);
+  Id segments_that_fit() const;
+  bool is_wanted(Id segment) const { return !under_way_[segment] && !store_.is_resident(segment); }
+
+  const Mesh mesh_;
+  const LeaderParameters parameters_;
+  const std::vector<std::unique_ptr<BatchProducer>> producers_;
+  RequestQueue queue_;
+  BlockStore store_;
+
+  // The leader thread's own.
+  std::multimap<Id, std::shared_ptr<Ticket>> waiting_;  ///< by segment
+  std::deque<Plan> plans_;
+  std::deque<Flight> flights_;
+  std::vector<BatchProducer*> idle_;
+  std::vector<bool> under_way_;  ///< by segment: planned or launched
+  std::vector<bool> computed_;   ///< by segment: at some time
+  bool sweeping_ = false;
+  bool stopping_ = false;
+  Id ahead_ = 0;       ///< the next segment that run-ahead computes
+  Id must_reach_ = 0;  ///< run-ahead has to get here whatever the budget: a consumer waits
+  Id ahead_batch_ = 0;
+  double words_per_segment_ = 0;
+
+  mutable std::mutex statistics_mutex_;
+  LeaderStatistics statistics_;
+  std::atomic<int> consumers_inside_{0};
+  std::thread thread_;
+};
+
+}  // namespace gale::detail

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+
+namespace gale {
+
+/// Who computes the relations of a segment.
+enum class Production {
+  automatic,  ///< leaders where Kokkos has a device, else consumers
+  leaders,    ///< one leader thread per queue, which has batches of segments computed in the producers' space, ahead of need
+  consumers   ///< each consumer for itself, on the host: nothing is handed over and nobody waits
+};
+
+/// One queue, and one leader with it, for what?
+enum class Queues {
+  per_kernel,   ///< relations that one kernel computes together share one
+  per_relation  ///< each relation has its own, as in the paper
+};
+
+/// How a `Runtime` works. 0 stands for a default that suits the backend; none of them changes a result.
+struct RuntimeOptions {
+  Production production = Production::automatic;
+  Queues queues = Queues::per_kernel;
+
+  /// The paper's n_b, t_b and t_s: for each request, n_b * t_b / t_s segments are computed, the one asked for and those that follow; a
+  /// segment by t_s threads, rounded up to whole warps.
+  int blocks_per_request = 0;
+  int threads_per_block = 0;
+  int threads_per_segment = 0;
+
+  /// Bytes for blocks that are kept on the host, for all queues together. Exceeded only by what consumers hold at one time.
+  std::size_t host_memory = 0;
+
+  /// Bytes for batches on the device, for all queues together.
+  std::size_t device_memory = 0;
+};
+
+}  // namespace gale

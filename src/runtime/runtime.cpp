@@ -1,0 +1,39 @@
+#include <gale/runtime/runtime.hpp>
+
+#include <gale/base/error.hpp>
+#include <gale/runtime/detail/implementation.hpp>
+
+namespace gale {
+
+namespace {
+
+bool wants_leaders(Production production) {
+  return production == Production::leaders || (production == Production::automatic && have_device);
+}
+
+}  // namespace
+
+Runtime::Runtime(const Mesh& mesh, RelationSet wanted, const RuntimeOptions& options) {
+  if (wanted.empty()) throw Error("a runtime needs at least one relation to be preconditioned for");
+  if (!star_relations.contains(wanted)) {
+    throw Error("no kernel computes all of " + name_of(wanted) + ": there are kernels for " + name_of(star_relations));
+  }
+  implementation_ = wants_leaders(options.production) ? detail::by_leaders(mesh, wanted, options)
+                                                      : detail::by_consumers(mesh, wanted);
+}
+
+Runtime::~Runtime() = default;
+
+const Mesh& Runtime::mesh() const { return implementation_->mesh(); }
+RelationSet Runtime::relations() const { return implementation_->relations(); }
+Production Runtime::production() const { return implementation_->production(); }
+RuntimeStatistics Runtime::statistics() const { return implementation_->statistics(); }
+
+void Runtime::for_each_segment(RelationSet wanted, const SweepOptions& options, const SegmentBody& body) {
+  require_preconditioned(relations(), wanted);
+  implementation_->for_each_segment(wanted, options, body);
+}
+
+std::unique_ptr<Consumer> Runtime::consumer() { return implementation_->consumer(); }
+
+}  // namespace gale

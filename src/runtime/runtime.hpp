@@ -1,0 +1,48 @@
+#pragma once
+
+#include <memory>
+
+#include <gale/relations/structure.hpp>
+#include <gale/runtime/options.hpp>
+#include <gale/runtime/statistics.hpp>
+
+namespace gale {
+
+namespace detail {
+class RuntimeImplementation;
+}
+
+/// The localized structure: relations are computed segment by segment when a consumer wants them or, on a device, before it does, and
+/// forgotten again (the paper's §4).
+///
+/// With leaders, a consumer that finds no block pushes a request on the queue of its relation and waits. The queue's leader takes all that
+/// wait, adds the segments that follow each, leaves out what is resident or under way, and launches them as one batch; while that is copied to
+/// the host, the next computes. Blocks stay until the host budget needs their place, the longest unread first. In a sweep the leaders run ahead
+/// of the consumers as far as the budget goes.
+///
+/// Any threads may be consumers, each through a `Consumer` of its own. An exception while a batch is computed reaches each consumer
+/// that waits for one of its segments, as gale::Error.
+class Runtime : public Structure {
+ public:
+  /// Preconditions `mesh` for the relations `wanted`, within star_relations, and starts the leaders. Throws gale::Error for relations
+  /// that have no kernel.
+  Runtime(const Mesh& mesh, RelationSet wanted, const RuntimeOptions& options = {});
+
+  /// Ends the leaders. A consumer that still waits gets a gale::Error.
+  ~Runtime() override;
+
+  const Mesh& mesh() const override;
+  RelationSet relations() const override;
+  void for_each_segment(RelationSet wanted, const SweepOptions& options, const SegmentBody& body) override;
+  std::unique_ptr<Consumer> consumer() override;
+
+  /// Production::leaders or Production::consumers.
+  Production production() const;
+
+  RuntimeStatistics statistics() const;
+
+ private:
+  std::unique_ptr<detail::RuntimeImplementation> implementation_;
+};
+
+}  // namespace gale

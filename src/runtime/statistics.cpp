@@ -1,0 +1,29 @@
+#include <gale/runtime/statistics.hpp>
+
+namespace gale {
+
+WaitingTimes& WaitingTimes::operator+=(const WaitingTimes& other) {
+  push += other.push;
+  queue += other.queue;
+  preparation += other.preparation;
+  production += other.production;
+  integration += other.integration;
+  return *this;
+}
+
+ConsumerStatistics& ConsumerStatistics::operator+=(const ConsumerStatistics& other) {
+  hits += other.hits;
+  requests += other.requests;
+  waiting += other.waiting;
+  segments_computed += other.segments_computed;
+  seconds_computing += other.seconds_computing;
+  return *this;
+}
+
+ConsumerStatistics RuntimeStatistics::all_consumers() const {
+  ConsumerStatistics sum;
+  for (const auto& one : consumers) sum += one;
+  return sum;
+}
+
+}  // namespace gale

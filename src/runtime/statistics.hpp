@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <gale/relations/relation.hpp>
+
+namespace gale {
+
+/// Seconds that a consumer waited, by the stages that its requests went through.
+struct WaitingTimes {
+  double push = 0;         ///< to put the request on the queue
+  double queue = 0;        ///< until the leader took it
+  double preparation = 0;  ///< until its batch was launched
+  double production = 0;   ///< kernel and transfer
+  double integration = 0;  ///< until the consumer had its block
+
+  double total() const { return push + queue + preparation + production + integration; }
+  WaitingTimes& operator+=(const WaitingTimes& other);
+};
+
+/// What one consumer did.
+struct ConsumerStatistics {
+  std::int64_t hits = 0;      ///< blocks that were there already
+  std::int64_t requests = 0;  ///< blocks that it waited for
+  WaitingTimes waiting;
+  std::int64_t segments_computed = 0;  ///< by itself, where consumers produce
+  double seconds_computing = 0;
+
+  ConsumerStatistics& operator+=(const ConsumerStatistics& other);
+};
+
+/// What one queue's leader did.
+struct LeaderStatistics {
+  RelationSet relations;
+  std::int64_t batches = 0;
+  std::int64_t segments_computed = 0;
+  std::int64_t segments_recomputed = 0;  ///< of them, those that it had computed before
+  std::int64_t bytes = 0;                ///< of blocks
+  std::int64_t blocks_evicted = 0;
+  std::int64_t batches_split = 0;        ///< that didn't fit, and were tried again in parts
+};
+
+/// Everything since the runtime was made.
+struct RuntimeStatistics {
+  std::vector<ConsumerStatistics> consumers;  ///< of those that have ended; a sweep's consumers by their number
+  std::vector<LeaderStatistics> leaders;
+  std::size_t host_bytes = 0;    ///< allocated for blocks on the host, at most at one time
+  std::size_t device_bytes = 0;  ///< allocated for batches on the device
+
+  ConsumerStatistics all_consumers() const;
+};
+
+}  // namespace gale
