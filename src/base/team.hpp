@@ -13,10 +13,10 @@ namespace gale {
 /// Kokkos' Serial TeamPolicy is not safe from several threads before 4.4, and its launch is not free.
 class HostTeam {
  public:
-  HostTeam(int league_rank, char* scratch) : scratch_(scratch), league_rank_(league_rank) {}
+  KOKKOS_FUNCTION HostTeam(int league_rank, char* scratch) : scratch_(scratch), league_rank_(league_rank) {}
 
-  int league_rank() const { return league_rank_; }
-  char* scratch() const { return scratch_; }
+  KOKKOS_FUNCTION int league_rank() const { return league_rank_; }
+  KOKKOS_FUNCTION char* scratch() const { return scratch_; }
 
  private:
   char* scratch_;
@@ -40,7 +40,7 @@ KOKKOS_FORCEINLINE_FUNCTION int warp(const Team& team) {
   return team.team_rank();
 }
 
-/// The team's scratch memory of `bytes` bytes.
+/// The team's scratch memory of `bytes` bytes, aligned to 16.
 KOKKOS_FORCEINLINE_FUNCTION char* scratch(const HostTeam& team, int /*level*/, std::size_t /*bytes*/) {
   return team.scratch();
 }

@@ -16,6 +16,18 @@ using OnDevice = Array<T, ProducerMemory>;
 template <class T>
 using Pinned = Array<T, PinnedMemory>;
 
+/// What a batch tells the host beside its blocks.
+struct Header {
+  Offset used = 0;
+  StarSizes needed;
+};
+
+/// The first entries of an array.
+template <class View>
+auto first(const View& view, std::size_t count) {
+  return Kokkos::subview(view, std::make_pair(std::size_t(0), count));
+}
+
 /// A batch on its own execution-space instance. Its memory is taken once, and again only when a batch needs more.
 class DeviceBatchProducer : public BatchProducer {
  public:
@@ -32,12 +44,12 @@ class DeviceBatchProducer : public BatchProducer {
     kernel_.wanted = parameters.wanted;
     kernel_.pool.used = &header_.data()->used;
     kernel_.pool.needed = &header_.data()->needed;
-    fast_scratch_ = fast_scratch_bytes<ProducerSpace>(kernel_, warps_);
+    fast_scratch_ = fast_scratch_bytes<ProducerSpace>();
     reserve(parameters.words);
   }
 
   bool is_large(Id segment) const override {
-    return StarScratch::bytes(sizes_of(segment), warps_) > fast_scratch_;
+    return scratch_bytes(sizes_of(segment), warps_) > fast_scratch_;
   }
 
   void launch(const std::vector<Id>& segments, const StarSizes& scratch) override {
@@ -50,7 +62,7 @@ class DeviceBatchProducer : public BatchProducer {
       sizes = larger(sizes, sizes_of(segments[i]));
     }
     kernel_.sizes = sizes;
-    kernel_.scratch_level = StarScratch::bytes(sizes, warps_) > fast_scratch_ ? 1 : 0;
+    kernel_.scratch_level = scratch_bytes(sizes, warps_) > fast_scratch_ ? 1 : 0;
     *header_copy_.data() = Header();
     Kokkos::deep_copy(instance_, header_, header_copy_);
     Kokkos::deep_copy(instance_, first(segments_, count), first(segments_copy_, count));
@@ -93,16 +105,6 @@ class DeviceBatchProducer : public BatchProducer {
   }
 
  private:
-  struct Header {
-    Offset used = 0;
-    StarSizes needed;
-  };
-
-  template <class View>
-  static auto first(const View& view, std::size_t count) {
-    return Kokkos::subview(view, std::make_pair(std::size_t(0), count));
-  }
-
   /// Enough for any segment whose vertices have connected links of at most 42 tetrahedra: a link of n triangles has at most n + 2 vertices.
   StarSizes sizes_of(Id segment) const {
     const Id rows = mesh_.vertex_begin()(segment + 1) - mesh_.vertex_begin()(segment);

@@ -1,0 +1,50 @@
+#include "console.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+
+namespace gale::app {
+
+void Console::say(const std::string& name, const std::string& value) const {
+  if (!quiet_) std::printf("%-16s %s\n", name.c_str(), value.c_str());
+  std::fflush(stdout);
+}
+
+std::function<void(Id, Id)> Console::progress(const std::string& title) const {
+  if (quiet_ || isatty(STDERR_FILENO) == 0) return {};
+  return [title](Id done, Id all) {
+    constexpr int width = 40;
+    const double part = all > 0 ? static_cast<double>(done) / all : 1.0;
+    const std::string bar(static_cast<std::size_t>(part * width), '=');
+    std::fprintf(stderr, "\r%-16s [%-*s] %3.0f %%", title.c_str(), width, bar.c_str(), 100 * part);
+    if (done >= all) std::fprintf(stderr, "\r%*s\r", width + 26, "");
+    std::fflush(stderr);
+  };
+}
+
+std::string grouped(std::int64_t number) {
+  std::string digits = std::to_string(number);
+  for (int at = static_cast<int>(digits.size()) - 3; at > (number < 0 ? 1 : 0); at -= 3) {
+    digits.insert(static_cast<std::size_t>(at), ",");
+  }
+  return digits;
+}
+
+std::string seconds(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3f s", value);
+  return text;
+}
+
+std::string bytes(double value) {
+  static const char* const units[] = {"B", "KiB", "MiB", "GiB", "TiB"};
+  int unit = 0;
+  for (; value >= 1024 && unit < 4; ++unit) value /= 1024;
+  char text[32];
+  std::snprintf(text, sizeof text, unit == 0 ? "%.0f %s" : "%.1f %s", value, units[unit]);
+  return text;
+}
+
+}  // namespace gale::app

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <gale/base/types.hpp>
+
+namespace gale::app {
+
+/// What the user sees while a command works: results on standard output, the progress of sweeps on a terminal.
+class Console {
+ public:
+  explicit Console(bool quiet) : quiet_(quiet) {}
+
+  /// One line: a name, padded, and a value.
+  void say(const std::string& name, const std::string& value) const;
+
+  /// A bar with this title, on a terminal; nothing elsewhere. For SweepOptions::progress.
+  std::function<void(Id done, Id all)> progress(const std::string& title) const;
+
+ private:
+  bool quiet_;
+};
+
+/// "1,732,840"
+std::string grouped(std::int64_t number);
+
+/// "0.593 s"
+std::string seconds(double value);
+
+/// "2.1 GiB"
+std::string bytes(double value);
+
+}  // namespace gale::app

@@ -1,0 +1,16 @@
+#include <gale/io/write.hpp>
+
+#include "commands.hpp"
+#include "session.hpp"
+
+namespace gale::app {
+
+void generate(const Options& options) {
+  require_extension(options, {".vtu", ".vtk"});
+  Session session(options);
+  const io::Dataset dataset = session.read();
+  session.write([&](const std::string& path) { io::write_mesh(path, dataset); });
+  session.finish(nullptr);
+}
+
+}  // namespace gale::app

@@ -1,0 +1,61 @@
+#include "machine.hpp"
+
+#include <sys/resource.h>
+
+#include <atomic>
+#include <cstring>
+
+#include <gale/base/kokkos.hpp>
+
+namespace gale::app {
+
+namespace {
+
+std::atomic<std::int64_t> device_bytes{0};
+std::atomic<std::int64_t> device_peak{0};
+
+bool is_on_device(const Kokkos::Tools::SpaceHandle& space) {
+  return have_device && std::strcmp(space.name, ProducerMemory::name()) == 0;
+}
+
+void on_allocation(Kokkos::Tools::SpaceHandle space, const char*, const void*, std::uint64_t bytes) {
+  if (!is_on_device(space)) return;
+  const std::int64_t now = device_bytes += static_cast<std::int64_t>(bytes);
+  std::int64_t peak = device_peak;
+  while (peak < now && !device_peak.compare_exchange_weak(peak, now)) {
+  }
+}
+
+void on_deallocation(Kokkos::Tools::SpaceHandle space, const char*, const void*, std::uint64_t bytes) {
+  if (is_on_device(space)) device_bytes -= static_cast<std::int64_t>(bytes);
+}
+
+}  // namespace
+
+std::int64_t host_peak_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::int64_t>(usage.ru_maxrss) * 1024;
+}
+
+std::optional<std::int64_t> device_peak_bytes() {
+  if (!have_device) return std::nullopt;
+  return device_peak.load();
+}
+
+void watch_device_memory() {
+  // A loaded Kokkos Tool has these callbacks already: it knows better than we.
+  if (!have_device || Kokkos::Tools::profileLibraryLoaded()) return;
+  Kokkos::Tools::Experimental::set_allocate_data_callback(on_allocation);
+  Kokkos::Tools::Experimental::set_deallocate_data_callback(on_deallocation);
+}
+
+std::optional<std::string> device_name() {
+#if defined(KOKKOS_ENABLE_CUDA)
+  return std::string(ProducerSpace().cuda_device_prop().name);
+#else
+  return std::nullopt;
+#endif
+}
+
+}  // namespace gale::app

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace gale::app {
+
+/// Most memory that this process has had resident so far, in bytes.
+std::int64_t host_peak_bytes();
+
+/// Most memory that Kokkos has had allocated on the device since watch_device_memory(); nothing without a device.
+std::optional<std::int64_t> device_peak_bytes();
+
+/// To be called right after Kokkos is initialized.
+void watch_device_memory();
+
+/// "NVIDIA H200"; nothing without a device.
+std::optional<std::string> device_name();
+
+}  // namespace gale::app

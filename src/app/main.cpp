@@ -1,0 +1,54 @@
+#include <omp.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <map>
+#include <string>
+
+#include <Kokkos_Core.hpp>
+
+#include "commands.hpp"
+#include "machine.hpp"
+
+namespace {
+
+enum ExitCode { done = 0, failed = 1, wrong_usage = 2 };
+
+/// One line, whatever the message.
+int complain(ExitCode code, std::string what) {
+  for (char& c : what) {
+    if (c == '\n' || c == '\r') c = ' ';
+  }
+  std::fprintf(stderr, "gale: %s\n", what.c_str());
+  return code;
+}
+
+void run(const gale::app::Options& options) {
+  static const std::map<std::string, void (*)(const gale::app::Options&)> commands = {
+      {"info", gale::app::info},
+      {"segment", gale::app::segment},
+      {"critical-points", gale::app::critical_points},
+      {"generate", gale::app::generate}};
+  if (options.threads) omp_set_num_threads(*options.threads);
+  setenv("KOKKOS_DISABLE_WARNINGS", "1", 0);  // such as on thread binding, which is not what standard error is for
+  const Kokkos::ScopeGuard kokkos;
+  gale::app::watch_device_memory();
+  commands.at(options.command)(options);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    const auto options = gale::app::parse_command_line(argc, argv);
+    if (options) run(*options);
+    return done;
+  } catch (const gale::app::UsageError& error) {
+    return complain(wrong_usage, error.what());
+  } catch (const std::bad_alloc&) {
+    return complain(failed, "out of memory");
+  } catch (const std::exception& error) {
+    return complain(failed, error.what());
+  }
+}

@@ -1,0 +1,91 @@
+#include "options.hpp"
+
+#include <CLI/CLI.hpp>
+
+namespace gale::app {
+
+namespace {
+
+void add_input(CLI::App& command, Options& options) {
+  command.add_option("INPUT", options.input,
+                     "A mesh (.vtu .vtk), a volume (.vti .nii .nii.gz .mha .mhd .nrrd) or grid:N")->required();
+  command.add_option("--above", options.read.above, "Volumes: keep the voxels with values above this");
+  command.add_flag("--tetrahedralize", options.read.tetrahedralize, "Meshes: split other 3D cells into tetrahedra");
+}
+
+void add_field(CLI::App& command, Options& options) {
+  command.add_option("-a,--array", options.array, "The point array to analyse (default: the first one of one component)");
+}
+
+void add_common(CLI::App& command, Options& options) {
+  command.add_option("-t,--threads", options.threads, "Threads (default: all cores)")->check(CLI::Range(1, 65536));
+  command.add_option("--report", options.report, "Write times, memory and results to this JSON file");
+  command.add_flag("--quiet", options.quiet, "Print nothing but errors");
+}
+
+void add_segmentation(CLI::App& command, Options& options) {
+  command.add_option("--capacity", options.capacity, "Most vertices of a segment (default: 100)")
+      ->check(CLI::Range(1, 2147483647));
+  command.add_option("--segments", options.segments, "A point array that says which segment a vertex is in, instead of an octree");
+}
+
+void add_runtime(CLI::App& command, Options& options) {
+  command.add_option("--structure", options.structure, "gale, explicit (everything at once) or inline (no leaders)")
+      ->check(CLI::IsMember({"gale", "explicit", "inline"}));
+  command.add_option("--blocks-per-request", options.runtime.blocks_per_request, "n_b")->check(CLI::PositiveNumber);
+  command.add_option("--threads-per-block", options.runtime.threads_per_block, "t_b")->check(CLI::PositiveNumber);
+  command.add_option("--threads-per-segment", options.runtime.threads_per_segment, "t_s")->check(CLI::PositiveNumber);
+  const auto size = CLI::AsSizeValue(false);
+  command.add_option("--host-memory", options.runtime.host_memory, "Budget for blocks on the host, e.g. 512MiB")->transform(size);
+  command.add_option("--device-memory", options.runtime.device_memory, "Budget for batches on the device")->transform(size);
+}
+
+CLI::App* add_command(CLI::App& app, Options& options, const std::string& name, const std::string& what) {
+  CLI::App* const command = app.add_subcommand(name, what);
+  command->callback([&options, name] { options.command = name; });
+  add_input(*command, options);
+  add_common(*command, options);
+  return command;
+}
+
+void add_output(CLI::App& command, Options& options, const std::string& what, bool required) {
+  CLI::Option* const output = command.add_option("-o,--output", options.output, what);
+  if (required) output->required();
+}
+
+}  // namespace
+
+std::optional<Options> parse_command_line(int argc, char** argv) {
+  Options options;
+  CLI::App app("Topological analysis of large tetrahedral meshes", "gale");
+  app.set_version_flag("--version", "gale " GALE_VERSION);
+  app.require_subcommand(1);
+
+  CLI::App* command = add_command(app, options, "info", "Says what a mesh is: sizes, extent, arrays");
+
+  command = add_command(app, options, "segment", "Divides a mesh into segments");
+  add_segmentation(*command, options);
+  add_output(*command, options, "The mesh with its segments as a point array: .vtu or .vtk", false);
+
+  command = add_command(app, options, "critical-points", "Finds the critical points of a scalar field");
+  add_field(*command, options);
+  add_segmentation(*command, options);
+  add_runtime(*command, options);
+  add_output(*command, options, "The critical points: .vtp", false);
+
+  command = add_command(app, options, "generate", "Writes the tetrahedral mesh that an input stands for");
+  add_output(*command, options, ".vtu or .vtk", true);
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& success) {
+    app.exit(success);
+    return std::nullopt;
+  } catch (const CLI::ParseError& error) {
+    throw UsageError(error.what());
+  }
+  options.read.array = options.array;
+  return options;
+}
+
+}  // namespace gale::app

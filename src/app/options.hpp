@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include <gale/io/read.hpp>
+#include <gale/runtime/options.hpp>
+
+namespace gale::app {
+
+/// Wrong usage: exit code 2. `what()` is the line to print.
+class UsageError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// What the command line says.
+struct Options {
+  std::string command;
+  std::string input;
+  io::ReadOptions read;
+  std::string output;
+  std::string array;
+  std::string segments;                  ///< a point array's name, or empty
+  std::optional<int> capacity;           ///< 100 unless given
+  std::optional<int> threads;            ///< all cores unless given
+  std::string structure = "gale";        ///< gale, explicit or inline
+  RuntimeOptions runtime;
+  std::string report;
+  bool quiet = false;
+};
+
+/// Parses the command line. Nothing if it only asked for help or the version, which are printed then. Throws UsageError.
+std::optional<Options> parse_command_line(int argc, char** argv);
+
+}  // namespace gale::app

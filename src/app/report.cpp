@@ -1,0 +1,97 @@
+#include "report.hpp"
+
+#include <fstream>
+
+#include <gale/base/error.hpp>
+#include <gale/base/kokkos.hpp>
+#include <gale/io/atomic_file.hpp>
+
+#include "machine.hpp"
+
+namespace gale::app {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <class T>
+Json or_null(const std::optional<T>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+Json to_json(const WaitingTimes& waiting) {
+  return {{"push", waiting.push},
+          {"queue", waiting.queue},
+          {"preparation", waiting.preparation},
+          {"kernel_and_transfer", waiting.production},
+          {"integration", waiting.integration},
+          {"total", waiting.total()}};
+}
+
+Json to_json(const LeaderStatistics& leader) {
+  return {{"relations", name_of(leader.relations)},
+          {"batches", leader.batches},
+          {"segments_computed", leader.segments_computed},
+          {"segments_recomputed", leader.segments_recomputed},
+          {"bytes", leader.bytes},
+          {"blocks_evicted", leader.blocks_evicted},
+          {"batches_split", leader.batches_split}};
+}
+
+Json to_json(const RuntimeStatistics& statistics) {
+  const ConsumerStatistics all = statistics.all_consumers();
+  double longest = 0;
+  for (const auto& one : statistics.consumers) longest = std::max(longest, one.waiting.total());
+  Json leaders = Json::array();
+  for (const auto& leader : statistics.leaders) leaders.push_back(to_json(leader));
+  return {{"consumers", statistics.consumers.size()},
+          {"hits", all.hits},
+          {"requests", all.requests},
+          {"seconds", to_json(all.waiting)},
+          {"longest_seconds", longest},
+          {"segments_computed_by_consumers", all.segments_computed},
+          {"seconds_computing_by_consumers", all.seconds_computing},
+          {"leaders", leaders},
+          {"host_block_bytes", statistics.host_bytes}};
+}
+
+}  // namespace
+
+Json to_json(const Report& report) {
+  const Seconds& seconds = report.seconds;
+  return {{"gale", GALE_VERSION},
+          {"kokkos", kokkos_version()},
+          {"backend", ProducerSpace::name()},
+          {"device", or_null(device_name())},
+          {"threads", report.threads},
+          {"structure", or_null(report.structure)},
+          {"production", or_null(report.production)},
+          {"input", report.input},
+          {"mesh",
+           {{"vertices", or_null(report.vertices)},
+            {"edges", nullptr},
+            {"triangles", nullptr},
+            {"tetrahedra", or_null(report.tetrahedra)},
+            {"segments", or_null(report.segments)}}},
+          {"seconds",
+           {{"read", seconds.read},
+            {"segment", seconds.segment},
+            {"initialize", seconds.initialize},
+            {"run", seconds.run},
+            {"write", seconds.write},
+            {"total", seconds.total()}}},
+          {"memory", {{"host_peak_bytes", host_peak_bytes()}, {"device_peak_bytes", or_null(device_peak_bytes())}}},
+          {"waiting", report.statistics ? to_json(*report.statistics) : Json(nullptr)},
+          {"result", report.result}};
+}
+
+void write_report(const std::string& path, const Report& report) {
+  io::AtomicFile file(path);
+  std::ofstream out(file.temporary());
+  out << to_json(report).dump(2) << '\n';
+  out.close();
+  if (!out) throw Error("can't write " + path);
+  file.commit();
+}
+
+}  // namespace gale::app

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include <gale/runtime/statistics.hpp>
+
+namespace gale::app {
+
+/// Seconds of the parts of a command. `total` counts from the mesh in memory to the result in memory.
+struct Seconds {
+  double read = 0, segment = 0, initialize = 0, run = 0, write = 0;
+  double total() const { return segment + initialize + run; }
+};
+
+/// Adds the time from its construction to its end to `seconds`.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& seconds) : seconds_(seconds), begin_(std::chrono::steady_clock::now()) {}
+  ~Stopwatch() { seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count(); }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  double& seconds_;
+  std::chrono::steady_clock::time_point begin_;
+};
+
+/// What `--report` writes: the schema is the README's.
+struct Report {
+  std::string input;
+  int threads = 0;
+  std::optional<std::string> structure, production;
+  std::optional<std::int64_t> vertices, tetrahedra, segments;
+  Seconds seconds;
+  std::optional<RuntimeStatistics> statistics;
+  nlohmann::ordered_json result = nlohmann::ordered_json::object();
+};
+
+nlohmann::ordered_json to_json(const Report& report);
+
+/// Writes the report to `path`, whole or not at all. Throws gale::Error, naming the path.
+void write_report(const std::string& path, const Report& report);
+
+}  // namespace gale::app

@@ -1,0 +1,112 @@
+#include "session.hpp"
+
+#include <gale/io/read.hpp>
+#include <gale/relations/explicit_structure.hpp>
+
+#include "field.hpp"
+#include "machine.hpp"
+
+namespace gale::app {
+
+namespace {
+
+constexpr int default_capacity = 100;
+
+std::size_t point_count(const io::Dataset& dataset) {
+  return std::visit([](const auto& points) { return points.extent(0); }, dataset.points);
+}
+
+Segmentation octree(const io::Dataset& dataset, int capacity) {
+  return std::visit(
+      [&](const auto& points) {
+        using Coordinate = typename std::decay_t<decltype(points)>::non_const_value_type;
+        return octree_segmentation<Coordinate, HostMemory>(Points<Coordinate, HostMemory>(points), capacity);
+      },
+      dataset.points);
+}
+
+}  // namespace
+
+Session::Session(const Options& options) : options_(options), console_(options.quiet) {
+  report_.input = options.input;
+  report_.threads = host_threads();
+}
+
+io::Dataset Session::read() {
+  io::Dataset dataset;
+  {
+    const Stopwatch watch(report_.seconds.read);
+    dataset = io::read(options_.input, options_.read);
+  }
+  report_.vertices = static_cast<std::int64_t>(point_count(dataset));
+  report_.tetrahedra = static_cast<std::int64_t>(dataset.tetrahedra.extent(0));
+  console_.say("input", options_.input);
+  for (const auto& notice : dataset.notices) console_.say("note", notice);
+  console_.say("vertices", grouped(*report_.vertices));
+  console_.say("tetrahedra", grouped(*report_.tetrahedra));
+  return dataset;
+}
+
+Segmentation Session::segment(const io::Dataset& dataset) {
+  const bool octree_wanted = options_.capacity && options_.segments.empty();
+  const io::PointArray* const given = octree_wanted ? nullptr : find_segments(dataset, options_.segments);
+  if (given == nullptr) return octree(dataset, options_.capacity.value_or(default_capacity));
+  const auto labels = labels_of(*given);
+  console_.say("segments from", "array " + given->name);
+  return given_segmentation(Array<const std::int64_t, HostMemory>(labels.data(), labels.size()));
+}
+
+Mesh Session::encode(io::Dataset& dataset, Keep keep) {
+  Segmentation segmentation;
+  {
+    const Stopwatch watch(report_.seconds.segment);
+    segmentation = segment(dataset);
+  }
+  const Stopwatch watch(report_.seconds.initialize);
+  Mesh mesh(Tetrahedra<Id, HostMemory>(dataset.tetrahedra), segmentation);
+  if (keep == Keep::nothing) dataset.tetrahedra = {};
+  report_.segments = mesh.segments();
+  console_.say("segments", grouped(mesh.segments()));
+  return mesh;
+}
+
+std::unique_ptr<Structure> Session::make_structure(const Mesh& mesh, RelationSet relations) {
+  const Stopwatch watch(report_.seconds.initialize);
+  report_.structure = options_.structure;
+  if (options_.structure == "explicit") return std::make_unique<ExplicitStructure>(mesh, relations);
+  RuntimeOptions runtime = options_.runtime;
+  if (options_.structure == "inline") runtime.production = Production::consumers;
+  return std::make_unique<Runtime>(mesh, relations, runtime);
+}
+
+SweepOptions Session::sweep(const std::string& title) const {
+  SweepOptions sweep;
+  sweep.threads = report_.threads;
+  sweep.progress = console_.progress(title);
+  return sweep;
+}
+
+void Session::finish(const Structure* structure) {
+  if (const auto* const runtime = dynamic_cast<const Runtime*>(structure)) {
+    report_.production = runtime->production() == Production::leaders ? "leaders" : "consumers";
+    report_.statistics = runtime->statistics();
+  }
+  const Seconds& times = report_.seconds;
+  console_.say("time", seconds(times.total()) + " (segment " + seconds(times.segment) + ", initialize " + seconds(times.initialize) +
+                           ", run " + seconds(times.run) + "); read " + seconds(times.read));
+  console_.say("memory", bytes(static_cast<double>(host_peak_bytes())) + " at most");
+  if (!options_.report.empty()) write_report(options_.report, report_);
+}
+
+void require_extension(const Options& options, std::initializer_list<const char*> extensions) {
+  if (options.output.empty()) return;
+  std::string list;
+  for (const std::string extension : extensions) {
+    const auto& path = options.output;
+    if (path.size() > extension.size() && path.compare(path.size() - extension.size(), extension.size(), extension) == 0) return;
+    list += (list.empty() ? "" : " or ") + extension;
+  }
+  throw UsageError("--output " + options.output + ": gale " + options.command + " writes " + list);
+}
+
+}  // namespace gale::app

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include <gale/io/dataset.hpp>
+#include <gale/mesh/mesh.hpp>
+#include <gale/relations/structure.hpp>
+#include <gale/runtime/runtime.hpp>
+
+#include "console.hpp"
+#include "options.hpp"
+#include "report.hpp"
+
+namespace gale::app {
+
+/// One run of the command: what every subcommand does, each step timed and said.
+class Session {
+ public:
+  explicit Session(const Options& options);
+
+  const Options& options() const { return options_; }
+  const Console& console() const { return console_; }
+  Report& report() { return report_; }
+
+  /// Reads the input.
+  io::Dataset read();
+
+  /// Segments and encodes. The tetrahedra are taken out of `dataset` on the way unless they are kept.
+  enum class Keep { tetrahedra, nothing };
+  Mesh encode(io::Dataset& dataset, Keep keep);
+
+  /// The structure that --structure names, preconditioned for `relations`.
+  std::unique_ptr<Structure> make_structure(const Mesh& mesh, RelationSet relations);
+
+  SweepOptions sweep(const std::string& title) const;
+
+  /// Runs `write` if there is an output, and says what it wrote.
+  template <class Write>
+  void write(const Write& write_to) {
+    if (options_.output.empty()) return;
+    {
+      const Stopwatch watch(report_.seconds.write);
+      write_to(options_.output);
+    }
+    console_.say("wrote", options_.output);
+  }
+
+  /// Says the times and writes the report. `structure` as far as there is one.
+  void finish(const Structure* structure);
+
+ private:
+  Segmentation segment(const io::Dataset& dataset);
+
+  const Options& options_;
+  Console console_;
+  Report report_;
+};
+
+/// Throws UsageError unless the output, if there is one, ends in one of `extensions`.
+void require_extension(const Options& options, std::initializer_list<const char*> extensions);
+
+}  // namespace gale::app

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <Kokkos_Core.hpp>
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace gale::io {
+
+/// One array of values per point, as a file carries it: `components` values for each point, point after point.
+struct PointArray {
+  using Values =
+      std::variant<std::vector<std::int8_t>, std::vector<std::uint8_t>, std::vector<std::int16_t>,
+                   std::vector<std::uint16_t>, std::vector<std::int32_t>, std::vector<std::uint32_t>,
+                   std::vector<std::int64_t>, std::vector<std::uint64_t>, std::vector<float>, std::vector<double>>;
+  std::string name;
+  int components = 1;
+  Values values;
+};
+
+/// A tetrahedral mesh in input ids, as read from a file or generated: what goes into a `gale::Mesh`, and what outputs
+/// are made from.
+struct Dataset {
+  template <class Coordinate>
+  using Points = Kokkos::View<Coordinate* [3], Kokkos::LayoutRight, Kokkos::HostSpace>;
+
+  std::variant<Points<float>, Points<double>> points;  ///< xyz per vertex
+  Kokkos::View<std::int32_t* [4], Kokkos::LayoutRight, Kokkos::HostSpace> tetrahedra;
+  std::vector<PointArray> arrays;
+  std::vector<std::string> notices;  ///< one line each about what of the file was left out
+};
+
+}  // namespace gale::io

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <gale/io/dataset.hpp>
+#include <gale/io/image.hpp>
+#include <gale/io/write.hpp>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+/// The seam between GALE and VTK. The vtk_*.cpp define these functions; where GALE is built without VTK,
+/// without_vtk.cpp does.
+namespace gale::io::detail {
+
+enum class Format { vtu, vtk, vti, nifti, meta, nrrd, vtp };
+
+/// By the extension, in either case.
+std::optional<Format> format_of(const std::string& path);
+
+bool has_vtk();
+
+/// A mesh, or an image whose `select_scalars` and `split_voxels` are still to come. Throws `Error` without naming the
+/// file.
+using Content = std::variant<Dataset, Image>;
+Content read_with_vtk(const std::string& path, Format format, bool tetrahedralize);
+
+/// Write to `path`, whatever its extension. Arrays must fit the number of points. Throw `Error` without naming the
+/// file.
+void write_points_with_vtk(const std::string& path, const PointSet& points);
+void write_mesh_with_vtk(const std::string& path, Format format, const Dataset& mesh,
+                         const std::vector<PointArray>& more);
+
+}  // namespace gale::io::detail

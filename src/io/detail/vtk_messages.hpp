@@ -1,0 +1,30 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+namespace gale::io::detail {
+
+/// Keeps VTK's messages from the terminal while it lives, and remembers the first error. VTK reports through one window
+/// for the whole process, so only one of these lives at a time; others wait for it.
+class VtkMessages {
+ public:
+  /// `verdict` is what an error means to the user.
+  explicit VtkMessages(const std::string& verdict);
+  ~VtkMessages();
+  VtkMessages(const VtkMessages&) = delete;
+  VtkMessages& operator=(const VtkMessages&) = delete;
+
+  /// Throws `Error` with the first error, as one line, if there was one. `code` is the `GetErrorCode` of the reader or
+  /// writer.
+  void check(unsigned long code) const;
+
+  /// Throws `Error`: the verdict and, in brackets, `reason` as one short line.
+  [[noreturn]] void fail(const std::string& reason) const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace gale::io::detail

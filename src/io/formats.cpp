@@ -1,0 +1,23 @@
+#include <algorithm>
+#include <cctype>
+#include <gale/io/detail/vtk_files.hpp>
+#include <utility>
+
+namespace gale::io::detail {
+
+std::optional<Format> format_of(const std::string& path) {
+  static const std::pair<const char*, Format> formats[] = {
+      {".vtu", Format::vtu},   {".vtk", Format::vtk},      {".vti", Format::vti},
+      {".nii", Format::nifti}, {".nii.gz", Format::nifti}, {".mha", Format::meta},
+      {".mhd", Format::meta},  {".nrrd", Format::nrrd},    {".vtp", Format::vtp}};
+  std::string lower = path;
+  std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return std::tolower(c); });
+  for (const auto& [extension, format] : formats) {
+    const std::string ending = extension;
+    if (lower.size() > ending.size() && lower.compare(lower.size() - ending.size(), ending.size(), ending) == 0)
+      return format;
+  }
+  return std::nullopt;
+}
+
+}  // namespace gale::io::detail

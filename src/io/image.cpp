@@ -1,0 +1,87 @@
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <gale/base/error.hpp>
+#include <gale/io/arrays.hpp>
+#include <gale/io/image.hpp>
+#include <type_traits>
+#include <utility>
+#include <variant>
+
+namespace gale::io {
+namespace {
+
+std::string component_name(const PointArray& array, int component) {
+  return array.name + "_" + std::to_string(component);
+}
+
+/// The array of that name, or the component of that name as a new array at the end. `arrays.end()` if there is neither.
+auto find_or_extract(std::vector<PointArray>& arrays, const std::string& name) {
+  const auto named = std::find_if(arrays.begin(), arrays.end(), [&](const PointArray& a) { return a.name == name; });
+  if (named != arrays.end()) return named;
+  for (const PointArray& array : arrays) {
+    for (int c = 0; array.components > 1 && c < array.components; ++c) {
+      if (component_name(array, c) != name) continue;
+      PointArray component = extract_component(array, c);
+      arrays.push_back(std::move(component));
+      return std::prev(arrays.end());
+    }
+  }
+  return arrays.end();
+}
+
+std::string names(const std::vector<PointArray>& arrays) {
+  std::string list;
+  for (const PointArray& array : arrays) list += (list.empty() ? "'" : ", '") + array.name + "'";
+  return list;
+}
+
+}  // namespace
+
+void select_scalars(Image& image, const std::string& name) {
+  if (image.arrays.empty()) throw Error("the image has no scalars");
+  const auto chosen = name.empty() ? image.arrays.begin() : find_or_extract(image.arrays, name);
+  if (chosen == image.arrays.end()) throw Error("the image has no array '" + name + "', only " + names(image.arrays));
+  if (chosen->components != 1) {
+    throw Error("the array '" + chosen->name + "' has " + std::to_string(chosen->components) +
+                " components: choose one of '" + component_name(*chosen, 0) + "' to '" +
+                component_name(*chosen, chosen->components - 1) + "'");
+  }
+  std::rotate(image.arrays.begin(), chosen, chosen + 1);
+}
+
+void rescale(Image& image, double slope, double intercept) {
+  const bool changes =
+      slope != 0 && std::isfinite(slope) && std::isfinite(intercept) && !(slope == 1 && intercept == 0);
+  if (!changes) return;
+  const auto scaled = [&](const auto& from) -> PointArray::Values {
+    using From = typename std::decay_t<decltype(from)>::value_type;
+    using To = std::conditional_t<(sizeof(From) < 4) || std::is_same_v<From, float>, float, double>;
+    std::vector<To> to(from.size());
+    std::transform(from.begin(), from.end(), to.begin(),
+                   [&](From v) { return static_cast<To>(slope * v + intercept); });
+    return to;
+  };
+  for (PointArray& array : image.arrays) array.values = std::visit(scaled, array.values);
+}
+
+void reverse_slices(Image& image) {
+  const auto [nx, ny, nz] = image.dimensions;
+  const std::size_t voxels = std::size_t(nx) * ny;
+  for (PointArray& array : image.arrays) {
+    const std::size_t slice = voxels * array.components;
+    const auto reverse = [slice, slices = nz](auto& values) {
+      for (int low = 0, high = slices - 1; low < high; ++low, --high) {
+        std::swap_ranges(values.begin() + low * slice, values.begin() + (low + 1) * slice,
+                         values.begin() + high * slice);
+      }
+    };
+    std::visit(reverse, array.values);
+  }
+  for (auto& row : image.index_to_physical) {
+    row[3] += row[2] * (nz - 1);
+    row[2] = -row[2];
+  }
+}
+
+}  // namespace gale::io

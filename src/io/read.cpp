@@ -1,0 +1,68 @@
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <gale/base/error.hpp>
+#include <gale/io/detail/vtk_files.hpp>
+#include <gale/io/image.hpp>
+#include <gale/io/read.hpp>
+#include <gale/io/synthetic.hpp>
+#include <gale/io/voxels.hpp>
+#include <new>
+#include <system_error>
+#include <utility>
+#include <variant>
+
+namespace gale::io {
+namespace {
+
+const std::string grid_prefix = "grid:";
+
+Dataset read_grid(const std::string& input, const ReadOptions& options) {
+  int n = 0;
+  const char* const end = input.data() + input.size();
+  const auto [stop, failure] = std::from_chars(input.data() + grid_prefix.size(), end, n);
+  if (failure != std::errc() || stop != end) throw Error("cannot make '" + input + "': N must be a whole number");
+  if (options.above) throw Error("cannot apply a threshold to '" + input + "': it is a mesh, not an image");
+  return make_grid(n);
+}
+
+void require_file(const std::string& path) {
+  std::error_code unknown;
+  if (std::filesystem::is_directory(path, unknown)) throw Error("it is a directory");
+  errno = 0;
+  if (!std::ifstream(path, std::ios::binary)) throw Error(errno ? std::strerror(errno) : "it cannot be opened");
+}
+
+Dataset read_file(const std::string& path, detail::Format format, const ReadOptions& options) {
+  require_file(path);
+  detail::Content content = detail::read_with_vtk(path, format, options.tetrahedralize);
+  if (auto* image = std::get_if<Image>(&content)) {
+    select_scalars(*image, options.array);
+    return split_voxels(std::move(*image), options.above);
+  }
+  if (options.above) throw Error("a threshold was given, but it is a mesh, not an image");
+  return std::get<Dataset>(std::move(content));
+}
+
+}  // namespace
+
+Dataset read(const std::string& input, const ReadOptions& options) {
+  if (input.compare(0, grid_prefix.size(), grid_prefix) == 0) return read_grid(input, options);
+  if (!detail::has_vtk()) throw Error("this gale was built without VTK: it reads grid:N alone, not '" + input + "'");
+  const std::optional<detail::Format> format = detail::format_of(input);
+  if (!format || *format == detail::Format::vtp) {
+    throw Error("cannot read '" + input +
+                "': its extension is none of .vtu .vtk .vti .nii .nii.gz .mha .mhd .nrrd, nor is it grid:N");
+  }
+  try {
+    return read_file(input, *format, options);
+  } catch (const std::bad_alloc&) {
+    throw Error("cannot read '" + input + "': not enough memory");
+  } catch (const std::exception& error) {
+    throw Error("cannot read '" + input + "': " + error.what());
+  }
+}
+
+}  // namespace gale::io

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <gale/io/dataset.hpp>
+#include <optional>
+#include <string>
+
+namespace gale::io {
+
+struct ReadOptions {
+  /// Images: only voxels with values above this become vertices; without it all with finite values do.
+  std::optional<double> above;
+  /// Meshes: split cells of other shapes into tetrahedra instead of refusing them.
+  bool tetrahedralize = false;
+  /// Images: the array that `above` is about, as `select_scalars` takes it; empty means the file's scalars.
+  std::string array;
+};
+
+/// Reads what `input` names:
+/// - `grid:N`: see `make_grid`;
+/// - `.vtu .vtk`: an unstructured grid. Its points and numeric point arrays travel as they are, the active scalars
+/// first, and its tetrahedra
+///   keep their order. Cells of lower dimension are left out with a notice. Other cells of dimension 3 are refused,
+///   unless `tetrahedralize`;
+/// - `.vti .nii .nii.gz .mha .mhd .nrrd` (and `.vtk` of structured points): an image, see `split_voxels`. Values are
+/// rescaled where the file says
+///   so. A NIfTI image keeps the voxel order of the file, in the coordinates of its sform, else its qform.
+/// Extensions count in either case.
+///
+/// Throws `Error` with one line that names `input` and what is wrong with it: no such file, damaged, another kind, no
+/// tetrahedra, too large for 32-bit ids. VTK's own messages are caught while it reads, for the whole process, one
+/// reading thread at a time; nothing is printed.
+Dataset read(const std::string& input, const ReadOptions& options = {});
+
+}  // namespace gale::io

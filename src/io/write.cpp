@@ -1,0 +1,63 @@
+#include <cstddef>
+#include <exception>
+#include <gale/base/error.hpp>
+#include <gale/io/arrays.hpp>
+#include <gale/io/atomic_file.hpp>
+#include <gale/io/detail/vtk_files.hpp>
+#include <gale/io/write.hpp>
+
+namespace gale::io {
+namespace {
+
+using detail::Format;
+
+void check_arrays(std::size_t points, const std::vector<PointArray>& arrays) {
+  for (const PointArray& array : arrays) {
+    const std::size_t values = std::visit([](const auto& v) { return v.size(); }, array.values);
+    if (array.components > 0 && values == points * array.components) continue;
+    throw Error("the array '" + array.name + "' has " + std::to_string(values) + " values for " +
+                std::to_string(points) + " points of " + std::to_string(array.components) + " components");
+  }
+}
+
+std::size_t size_of(const std::variant<Dataset::Points<float>, Dataset::Points<double>>& points) {
+  return std::visit([](const auto& p) { return p.extent(0); }, points);
+}
+
+/// Runs `write(temporary path)` and makes its file appear as `path`; names `path` in whatever goes wrong.
+template <class Write>
+void write_file(const std::string& path, const Write& write) {
+  if (!detail::has_vtk()) throw Error("this gale was built without VTK: it cannot write '" + path + "'");
+  try {
+    AtomicFile file(path);
+    write(file.temporary());
+    file.commit();
+  } catch (const std::exception& error) {
+    throw Error("cannot write '" + path + "': " + error.what());
+  }
+}
+
+}  // namespace
+
+void write_points(const std::string& path, const PointSet& points) {
+  if (detail::format_of(path) != Format::vtp)
+    throw Error("cannot write points to '" + path + "': its extension is not .vtp");
+  write_file(path, [&](const std::string& temporary) {
+    check_arrays(size_of(points.points), points.arrays);
+    detail::write_points_with_vtk(temporary, points);
+  });
+}
+
+void write_mesh(const std::string& path, const Dataset& mesh, const std::vector<PointArray>& more) {
+  const auto format = detail::format_of(path);
+  if (format != Format::vtu && format != Format::vtk) {
+    throw Error("cannot write a mesh to '" + path + "': its extension is neither .vtu nor .vtk");
+  }
+  write_file(path, [&](const std::string& temporary) {
+    check_arrays(size_of(mesh.points), mesh.arrays);
+    check_arrays(size_of(mesh.points), more);
+    detail::write_mesh_with_vtk(temporary, *format, mesh, more);
+  });
+}
+
+}  // namespace gale::io

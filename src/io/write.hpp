@@ -1,0 +1,27 @@
+#pragma once
+
+#include <gale/io/dataset.hpp>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace gale::io {
+
+/// Points by themselves, such as critical points, with their arrays.
+struct PointSet {
+  std::variant<Dataset::Points<float>, Dataset::Points<double>> points;
+  std::vector<PointArray> arrays;
+};
+
+/// Writes `points` to a `.vtp`, each as a vertex cell, in their order.
+///
+/// Here and below: of two arrays of one name the later is written. The file appears complete or not at all
+/// (`AtomicFile`). Throws `Error` with one line that names `path` and the reason: an array of the wrong length, a
+/// directory that is missing or not writable, a full disk.
+void write_points(const std::string& path, const PointSet& points);
+
+/// Writes points, tetrahedra and arrays of `mesh` in their order to a `.vtu` or (binary, legacy) `.vtk`, by the
+/// extension; then those of `more`, so that results need not be copied into the mesh first.
+void write_mesh(const std::string& path, const Dataset& mesh, const std::vector<PointArray>& more = {});
+
+}  // namespace gale::io
