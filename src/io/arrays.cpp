@@ -1,5 +1,6 @@
-#include <cstdint>
 #include <gale/io/arrays.hpp>
+
+#include <cstdint>
 
 namespace gale::io {
 

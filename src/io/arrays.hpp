@@ -1,12 +1,13 @@
 #pragma once
 
 #include <cstddef>
-#include <gale/base/error.hpp>
-#include <gale/io/dataset.hpp>
 #include <string>
 #include <type_traits>
 #include <utility>
 #include <variant>
+
+#include <gale/base/error.hpp>
+#include <gale/io/dataset.hpp>
 
 namespace gale::io {
 

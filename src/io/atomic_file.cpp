@@ -1,3 +1,5 @@
+#include <gale/io/atomic_file.hpp>
+
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -5,11 +7,11 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <gale/base/error.hpp>
-#include <gale/io/atomic_file.hpp>
 #include <random>
 #include <sstream>
 #include <system_error>
+
+#include <gale/base/error.hpp>
 
 namespace gale::io {
 namespace {

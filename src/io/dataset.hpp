@@ -1,10 +1,11 @@
 #pragma once
 
-#include <Kokkos_Core.hpp>
 #include <cstdint>
 #include <string>
 #include <variant>
 #include <vector>
+
+#include <Kokkos_Core.hpp>
 
 namespace gale::io {
 

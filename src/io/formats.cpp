@@ -1,7 +1,8 @@
 #include <algorithm>
 #include <cctype>
-#include <gale/io/detail/vtk_files.hpp>
 #include <utility>
+
+#include <gale/io/detail/vtk_files.hpp>
 
 namespace gale::io::detail {
 

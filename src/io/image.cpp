@@ -1,12 +1,14 @@
+#include <gale/io/image.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <gale/base/error.hpp>
-#include <gale/io/arrays.hpp>
-#include <gale/io/image.hpp>
 #include <type_traits>
 #include <utility>
 #include <variant>
+
+#include <gale/base/error.hpp>
+#include <gale/io/arrays.hpp>
 
 namespace gale::io {
 namespace {

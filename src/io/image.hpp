@@ -1,9 +1,10 @@
 #pragma once
 
 #include <array>
-#include <gale/io/dataset.hpp>
 #include <string>
 #include <vector>
+
+#include <gale/io/dataset.hpp>
 
 namespace gale::io {
 

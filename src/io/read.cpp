@@ -1,18 +1,20 @@
+#include <gale/io/read.hpp>
+
 #include <cerrno>
 #include <charconv>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <gale/base/error.hpp>
-#include <gale/io/detail/vtk_files.hpp>
-#include <gale/io/image.hpp>
-#include <gale/io/read.hpp>
-#include <gale/io/synthetic.hpp>
-#include <gale/io/voxels.hpp>
 #include <new>
 #include <system_error>
 #include <utility>
 #include <variant>
+
+#include <gale/base/error.hpp>
+#include <gale/io/detail/vtk_files.hpp>
+#include <gale/io/image.hpp>
+#include <gale/io/synthetic.hpp>
+#include <gale/io/voxels.hpp>
 
 namespace gale::io {
 namespace {

@@ -1,8 +1,9 @@
 #pragma once
 
-#include <gale/io/dataset.hpp>
 #include <optional>
 #include <string>
+
+#include <gale/io/dataset.hpp>
 
 namespace gale::io {
 
@@ -15,20 +16,19 @@ struct ReadOptions {
   std::string array;
 };
 
-/// Reads what `input` names:
-/// - `grid:N`: see `make_grid`;
+/// Reads what `input` names; extensions count in either case:
+/// - `grid:N`: see `make_grid`.
 /// - `.vtu .vtk`: an unstructured grid. Its points and numeric point arrays travel as they are, the active scalars
-/// first, and its tetrahedra
-///   keep their order. Cells of lower dimension are left out with a notice. Other cells of dimension 3 are refused,
-///   unless `tetrahedralize`;
-/// - `.vti .nii .nii.gz .mha .mhd .nrrd` (and `.vtk` of structured points): an image, see `split_voxels`. Values are
-/// rescaled where the file says
-///   so. A NIfTI image keeps the voxel order of the file, in the coordinates of its sform, else its qform.
-/// Extensions count in either case.
+/// first,
+///   and its tetrahedra keep their order. Cells of lower dimension are left out with a notice. Other cells of dimension
+///   3 are refused, unless `tetrahedralize`.
+/// - `.vti .nii .nii.gz .mha .mhd .nrrd`, and `.vtk` of structured points: an image, see `split_voxels`. Values are
+///   rescaled where the file says so. A NIfTI image keeps the file's voxel order, in the coordinates of its sform, else
+///   its qform.
 ///
 /// Throws `Error` with one line that names `input` and what is wrong with it: no such file, damaged, another kind, no
-/// tetrahedra, too large for 32-bit ids. VTK's own messages are caught while it reads, for the whole process, one
-/// reading thread at a time; nothing is printed.
+/// tetrahedra, too large for 32-bit ids. VTK's own messages (for .mha and .mhd also std::cerr) are caught meanwhile,
+/// for the whole process and one reading thread at a time; nothing is printed.
 Dataset read(const std::string& input, const ReadOptions& options = {});
 
 }  // namespace gale::io

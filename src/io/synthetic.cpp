@@ -1,18 +1,20 @@
+#include <gale/io/synthetic.hpp>
+
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <gale/base/error.hpp>
-#include <gale/base/memory.hpp>
-#include <gale/base/parallel.hpp>
-#include <gale/base/types.hpp>
-#include <gale/io/detail/freudenthal.hpp>
-#include <gale/io/synthetic.hpp>
 #include <iomanip>
 #include <limits>
 #include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include <gale/base/error.hpp>
+#include <gale/base/memory.hpp>
+#include <gale/base/parallel.hpp>
+#include <gale/base/types.hpp>
+#include <gale/io/detail/freudenthal.hpp>
 
 namespace gale::io {
 namespace {

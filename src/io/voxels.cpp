@@ -1,14 +1,10 @@
+#include <gale/io/voxels.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <gale/base/error.hpp>
-#include <gale/base/memory.hpp>
-#include <gale/base/parallel.hpp>
-#include <gale/base/types.hpp>
-#include <gale/io/detail/freudenthal.hpp>
-#include <gale/io/voxels.hpp>
 #include <limits>
 #include <memory>
 #include <numeric>
@@ -18,6 +14,12 @@
 #include <utility>
 #include <variant>
 #include <vector>
+
+#include <gale/base/error.hpp>
+#include <gale/base/memory.hpp>
+#include <gale/base/parallel.hpp>
+#include <gale/base/types.hpp>
+#include <gale/io/detail/freudenthal.hpp>
 
 namespace gale::io {
 namespace {
@@ -84,8 +86,9 @@ Flags mark_cubes(const Rows& rows, const Flags& inside) {
     const std::uint8_t* b = &inside[rows.begin(row + 1)];
     const std::uint8_t* c = &inside[rows.begin(row + rows.ny)];
     const std::uint8_t* d = &inside[rows.begin(row + rows.ny + 1)];
-    for (int x = 0; x + 1 < rows.nx; ++x)
+    for (int x = 0; x + 1 < rows.nx; ++x) {
       out[x] = a[x] & b[x] & c[x] & d[x] & a[x + 1] & b[x + 1] & c[x + 1] & d[x + 1];
+    }
     out[rows.nx - 1] = 0;
   });
   return cube;

@@ -1,3 +1,10 @@
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <type_traits>
+#include <vector>
+
 #include <vtkAOSDataArrayTemplate.h>
 #include <vtkCell.h>
 #include <vtkCellArray.h>
@@ -15,17 +22,11 @@
 #include <vtkSmartPointer.h>
 #include <vtkUnstructuredGrid.h>
 
-#include <array>
-#include <cstddef>
-#include <cstdint>
 #include <gale/base/error.hpp>
 #include <gale/base/memory.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/base/types.hpp>
 #include <gale/io/detail/vtk_convert.hpp>
-#include <limits>
-#include <type_traits>
-#include <vector>
 
 namespace gale::io::detail {
 namespace {
@@ -223,11 +224,11 @@ Dataset to_mesh(vtkDataSet* data, bool tetrahedralize, const VtkMessages& messag
   if (given.other > 0) grid = split_cells(data, messages);
   const vtkIdType tetrahedra = given.other > 0 ? take_census(grid).tetrahedra : given.tetrahedra;
   if (tetrahedra == 0) throw Error("it has no tetrahedra");
+  if (!grid->GetPoints()) throw Error("it has no points");
   require_ids(grid->GetNumberOfPoints(), "points");
   require_ids(tetrahedra, "tetrahedra");
 
   Dataset mesh;
-  if (!grid->GetPoints()) throw Error("it has no points");
   vtkDataArray* points = grid->GetPoints()->GetData();
   const int type = points->GetDataType();
   if (type == VTK_DOUBLE) {
@@ -236,8 +237,9 @@ Dataset to_mesh(vtkDataSet* data, bool tetrahedralize, const VtkMessages& messag
     mesh.points = copy_points<float>(points, type == VTK_FLOAT);
   }
   mesh.tetrahedra = copy_tetrahedra(grid, tetrahedra);
-  if (given.lower > 0)
+  if (given.lower > 0) {
     mesh.notices.push_back("left out " + std::to_string(given.lower) + " cells of a dimension below 3");
+  }
   take_arrays(grid, mesh.arrays, mesh.notices);
   return mesh;
 }

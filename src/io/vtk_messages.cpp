@@ -1,14 +1,15 @@
+#include <algorithm>
+#include <mutex>
+#include <sstream>
+
 #include <vtkErrorCode.h>
 #include <vtkLogger.h>
 #include <vtkObjectFactory.h>
 #include <vtkOutputWindow.h>
 #include <vtkSmartPointer.h>
 
-#include <algorithm>
 #include <gale/base/error.hpp>
 #include <gale/io/detail/vtk_messages.hpp>
-#include <mutex>
-#include <sstream>
 
 namespace gale::io::detail {
 namespace {

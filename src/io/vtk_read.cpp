@@ -1,3 +1,9 @@
+#include <algorithm>
+#include <fstream>
+#include <iostream>
+#include <sstream>
+#include <string>
+
 #include <vtkCellData.h>
 #include <vtkDataArraySelection.h>
 #include <vtkDataSetReader.h>
@@ -12,15 +18,10 @@
 #include <vtkXMLImageDataReader.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
-#include <algorithm>
-#include <fstream>
 #include <gale/base/error.hpp>
 #include <gale/io/detail/vtk_convert.hpp>
 #include <gale/io/detail/vtk_files.hpp>
 #include <gale/io/detail/vtk_messages.hpp>
-#include <iostream>
-#include <sstream>
-#include <string>
 
 namespace gale::io::detail {
 namespace {

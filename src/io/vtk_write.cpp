@@ -1,3 +1,13 @@
+#include <cstddef>
+#include <cstdint>
+#include <fstream>
+#include <limits>
+#include <locale>
+#include <numeric>
+#include <string>
+#include <variant>
+#include <vector>
+
 #include <vtkCellArray.h>
 #include <vtkCellType.h>
 #include <vtkDataArray.h>
@@ -14,19 +24,10 @@
 #include <vtkXMLPolyDataWriter.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
-#include <cstddef>
-#include <cstdint>
-#include <fstream>
 #include <gale/base/error.hpp>
 #include <gale/base/types.hpp>
 #include <gale/io/detail/vtk_files.hpp>
 #include <gale/io/detail/vtk_messages.hpp>
-#include <limits>
-#include <locale>
-#include <numeric>
-#include <string>
-#include <variant>
-#include <vector>
 
 namespace gale::io::detail {
 namespace {

@@ -1,10 +1,12 @@
+#include <gale/io/write.hpp>
+
 #include <cstddef>
 #include <exception>
+
 #include <gale/base/error.hpp>
 #include <gale/io/arrays.hpp>
 #include <gale/io/atomic_file.hpp>
 #include <gale/io/detail/vtk_files.hpp>
-#include <gale/io/write.hpp>
 
 namespace gale::io {
 namespace {

@@ -1,9 +1,10 @@
 #pragma once
 
-#include <gale/io/dataset.hpp>
 #include <string>
 #include <variant>
 #include <vector>
+
+#include <gale/io/dataset.hpp>
 
 namespace gale::io {
 

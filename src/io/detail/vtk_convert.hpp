@@ -1,10 +1,11 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include <gale/io/dataset.hpp>
 #include <gale/io/detail/vtk_messages.hpp>
 #include <gale/io/image.hpp>
-#include <string>
-#include <vector>
 
 #if __has_include(<vtkABINamespace.h>)  // VTK 9.2 and later
 #include <vtkABINamespace.h>

@@ -1,12 +1,13 @@
 #pragma once
 
-#include <gale/io/dataset.hpp>
-#include <gale/io/image.hpp>
-#include <gale/io/write.hpp>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
+
+#include <gale/io/dataset.hpp>
+#include <gale/io/image.hpp>
+#include <gale/io/write.hpp>
 
 /// The seam between GALE and VTK. The vtk_*.cpp define these functions; where GALE is built without VTK,
 /// without_vtk.cpp does.

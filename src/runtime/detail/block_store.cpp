@@ -27,19 +27,17 @@ Lease BlockStore::find(Id segment) {
 }
 
 Arena* BlockStore::take(Need need) {
-  if (free_.empty()) {
-    // What a sweep has read goes first, then the rest of the budget, then what was used longest ago.
-    Arena* arena = nullptr;
-    const bool room = bytes_ + static_cast<std::size_t>(arena_words_) * sizeof(Id) <= budget_;
-    if (!room) arena = find_evictable(false);
-    if (arena == nullptr && (room || arena_count_ == 0)) arena = allocate_arena();
-    if (arena == nullptr && need == Need::must_have) arena = find_evictable(true);
-    if (arena == nullptr && need == Need::must_have) arena = allocate_arena();
+  if (!free_.empty()) {
+    Arena* const arena = free_.back();
+    free_.pop_back();
     return arena;
   }
-  Arena* const arena = free_.back();
-  free_.pop_back();
-  return arena;
+  const bool has_room = arena_count_ == 0 || bytes_ + static_cast<std::size_t>(arena_words_) * sizeof(Id) <= budget_;
+  if (has_room) return allocate_arena();
+  Arena* const read = find_evictable(false);
+  if (read != nullptr || need == Need::can_wait) return read;
+  Arena* const unread = find_evictable(true);
+  return unread != nullptr ? unread : allocate_arena();
 }
 
 Arena* BlockStore::allocate_arena() {
@@ -60,12 +58,13 @@ void BlockStore::enlarge(Arena& arena, Offset words) {
   if (bytes_ > peak_bytes_.load()) peak_bytes_.store(bytes_);
 }
 
-Arena* BlockStore::find_evictable(bool unread_too) {
-  // By age: a retry for each that a consumer pins at the same moment.
+Arena* BlockStore::find_evictable(bool unread) {
+  // By age; of what a sweep has still to read, what it will read last. A retry for each that a consumer pins at the same moment.
   std::vector<std::pair<std::int64_t, Arena*>> candidates;
   for (Arena* const arena : published_) {
-    if (arena->pins.load() != 0 || (!unread_too && arena->unread.load() > 0)) continue;
-    candidates.emplace_back(arena->last_use.load(std::memory_order_relaxed), arena);
+    if (arena->pins.load() != 0 || (arena->unread.load() > 0) != unread) continue;
+    const std::int64_t age = unread ? -std::int64_t(arena->segments.front()) : arena->last_use.load(std::memory_order_relaxed);
+    candidates.emplace_back(age, arena);
   }
   std::sort(candidates.begin(), candidates.end());
   for (const auto& candidate : candidates) {

@@ -55,7 +55,7 @@ class BlockStore {
   static constexpr std::size_t most_arenas = std::size_t(1) << 16;
 
   Arena* allocate_arena();
-  Arena* find_evictable(bool unread_too);
+  Arena* find_evictable(bool unread);
   bool try_evict(Arena& arena);
   void set_entries(const Arena& arena, Entry number);
 

@@ -1,0 +1,94 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include <gale/algorithms/vertex_order.hpp>
+#include <gale/base/error.hpp>
+
+#include "support/segmentations.hpp"
+
+namespace gale::test {
+
+namespace {
+
+const InputMesh& input() { return mesh_named("random_tetrahedra"); }
+
+Mesh mesh_of_input() { return encode(input(), octree_of(input(), 7)); }
+
+/// Do keys compare as (value, input id) do, for each pair of vertices?
+template <class Value>
+void expect_order(const Mesh& mesh, const std::vector<Value>& values) {
+  const VertexOrder order(mesh, values.data(), values.size());
+  const auto& inputs = mesh.vertex_input();
+  for (Id a = 0; a < mesh.vertices(); ++a) {
+    for (Id b = 0; b < mesh.vertices(); ++b) {
+      const bool below = std::make_pair(values[inputs(a)], inputs(a)) < std::make_pair(values[inputs(b)], inputs(b));
+      ASSERT_EQ(order.keys()[a] < order.keys()[b], below) << +values[inputs(a)] << " and " << +values[inputs(b)];
+    }
+  }
+}
+
+template <class Value>
+std::vector<Value> values_of() {
+  std::mt19937_64 random(7);
+  std::vector<Value> values;
+  for (Id v = 0; v < input().vertices(); ++v) {
+    if (v % 3 == 0) {
+      values.push_back(static_cast<Value>(v / 9 % 5));
+    } else {
+      values.push_back(v % 3 == 1 ? static_cast<Value>(random()) : std::numeric_limits<Value>::lowest());
+    }
+  }
+  return values;
+}
+
+}  // namespace
+
+template <class Value>
+class VertexOrderOf : public testing::Test {};
+using Values = testing::Types<std::int8_t, std::uint8_t, std::int16_t, std::uint16_t, std::int32_t, std::uint32_t, std::int64_t,
+                              std::uint64_t, float, double>;
+TYPED_TEST_SUITE(VertexOrderOf, Values);
+
+TYPED_TEST(VertexOrderOf, each_type_is_by_value_then_by_input_id) { expect_order(mesh_of_input(), values_of<TypeParam>()); }
+
+template <class Value>
+class FloatingVertexOrder : public testing::Test {};
+using FloatingValues = testing::Types<float, double>;
+TYPED_TEST_SUITE(FloatingVertexOrder, FloatingValues);
+
+TYPED_TEST(FloatingVertexOrder, has_infinities_subnormals_and_equal_zeros) {
+  using Limits = std::numeric_limits<TypeParam>;
+  const TypeParam some[] = {Limits::infinity(), TypeParam(0), -Limits::infinity(), -TypeParam(0), Limits::denorm_min(),
+                            -Limits::denorm_min(), Limits::max(), Limits::lowest()};
+  std::vector<TypeParam> values;
+  for (Id v = 0; v < input().vertices(); ++v) values.push_back(some[v * 5 % 8]);
+  expect_order(mesh_of_input(), values);
+}
+
+TYPED_TEST(FloatingVertexOrder, refuses_nan_and_names_the_first_vertex) {
+  std::vector<TypeParam> values(input().points.size(), TypeParam(1));
+  values[5] = values[9] = std::numeric_limits<TypeParam>::quiet_NaN();
+  const Mesh mesh = mesh_of_input();
+  try {
+    const VertexOrder order(mesh, values.data(), values.size());
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(), "vertex 5 has no field value: it is NaN");
+  }
+}
+
+TEST(VertexOrder, refuses_another_number_of_values) {
+  const std::vector<float> values(3);
+  const Mesh mesh = mesh_of_input();
+  try {
+    const VertexOrder order(mesh, values.data(), values.size());
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.what(), "the field has 3 values, the mesh " + std::to_string(mesh.vertices()) + " vertices");
+  }
+}
+
+}  // namespace gale::test

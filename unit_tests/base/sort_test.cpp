@@ -1,0 +1,93 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+#include <random>
+
+#include <gale/base/radix_sort.hpp>
+#include <gale/base/sort_rows.hpp>
+
+#include "support/arrays.hpp"
+
+namespace gale::test {
+
+namespace {
+
+using Keys = std::vector<std::uint64_t>;
+
+/// Sorts as GALE does, and as the standard library does, with each key's first place as its value.
+void expect_stable_sort(const Keys& keys) {
+  std::vector<Id> order(keys.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto sorted_keys = to_producer(keys);
+  const auto values = to_producer(order);
+  stable_sort_by_key(sorted_keys, values);
+  std::stable_sort(order.begin(), order.end(), [&](Id a, Id b) { return keys[a] < keys[b]; });
+  EXPECT_EQ(to_vector(values), order);
+  Keys expected = keys;
+  std::sort(expected.begin(), expected.end());
+  EXPECT_EQ(to_vector(sorted_keys), expected);
+}
+
+Keys random_keys(std::size_t count, std::uint64_t mask) {
+  std::mt19937_64 random(1);
+  Keys keys(count);
+  for (auto& key : keys) key = random() & mask;
+  return keys;
+}
+
+void expect_sorted_rows(const std::vector<Offset>& begin, const std::vector<Id>& values) {
+  const auto sorted = to_producer(values);
+  sort_rows("test_sort", to_producer(begin), sorted);
+  std::vector<Id> expected = values;
+  for (std::size_t row = 0; row + 1 < begin.size(); ++row) {
+    std::sort(expected.begin() + begin[row], expected.begin() + begin[row + 1]);
+  }
+  EXPECT_EQ(to_vector(sorted), expected);
+}
+
+}  // namespace
+
+TEST(StableSortByKey, of_nothing_and_of_one) {
+  expect_stable_sort({});
+  expect_stable_sort({7});
+}
+
+TEST(StableSortByKey, of_all_bits) { expect_stable_sort(random_keys(30000, ~std::uint64_t(0))); }
+
+TEST(StableSortByKey, keeps_the_order_of_equal_keys) { expect_stable_sort(random_keys(30000, 15)); }
+
+TEST(StableSortByKey, of_equal_keys_moves_nothing) { expect_stable_sort(Keys(10000, 42)); }
+
+TEST(StableSortByKey, of_one_digit_anywhere) {
+  for (int shift = 0; shift < 64; ++shift) expect_stable_sort(random_keys(300, std::uint64_t(7) << shift));
+}
+
+TEST(StableSortByKey, treats_keys_as_unsigned) { expect_stable_sort({~std::uint64_t(0), 0, std::uint64_t(1) << 63, 1}); }
+
+TEST(SortRows, of_nothing) {
+  expect_sorted_rows({0}, {});
+  expect_sorted_rows({0, 0, 0}, {});
+}
+
+TEST(SortRows, each_by_itself) { expect_sorted_rows({0, 3, 3, 4, 8}, {5, 1, 3, 0, 9, 2, 4, 8}); }
+
+TEST(SortRows, of_any_length) {
+  std::mt19937 random(9);
+  std::vector<Offset> begin = {0};
+  std::vector<Id> values;
+  for (const Offset length : {0, 1, 2, 3, 31, 32, 33, 64, 500, 5000, 0, 40000, 1}) begin.push_back(begin.back() + length);
+  for (Offset i = 0; i < begin.back(); ++i) values.push_back(static_cast<Id>(random() % 1000));
+  expect_sorted_rows(begin, values);
+}
+
+TEST(SortRows, of_many) {
+  std::mt19937 random(9);
+  std::vector<Offset> begin = {0};
+  for (int row = 0; row < 20000; ++row) begin.push_back(begin.back() + random() % 9);
+  std::vector<Id> values;
+  for (Offset i = 0; i < begin.back(); ++i) values.push_back(static_cast<Id>(random()));
+  expect_sorted_rows(begin, values);
+}
+
+}  // namespace gale::test

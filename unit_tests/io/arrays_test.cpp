@@ -1,0 +1,52 @@
+#include <gtest/gtest.h>
+
+#include <gale/io/arrays.hpp>
+#include <io/io_fixtures.hpp>
+
+namespace gale::io {
+namespace {
+
+using test::error_of;
+
+const PointArray pairs{"pairs", 2, std::vector<std::int16_t>{0, 1, 10, 11, 20, 21}};
+
+TEST(Arrays, PointCountIsValuesByComponents) {
+  EXPECT_EQ(point_count(pairs), 3u);
+  EXPECT_EQ(point_count({"none", 1, std::vector<double>{}}), 0u);
+}
+
+TEST(Arrays, GatherTakesRowsInTheOrderOfTheIds) {
+  const PointArray some = gather(pairs, std::vector<int>{2, 0, 2});
+  EXPECT_EQ(some.name, "pairs");
+  EXPECT_EQ(some.components, 2);
+  EXPECT_EQ(test::values_of<std::int16_t>(some), (std::vector<std::int16_t>{20, 21, 0, 1, 20, 21}));
+  EXPECT_EQ(point_count(gather(pairs, std::vector<int>{})), 0u);
+}
+
+TEST(Arrays, GatherTakesIdsFromAView) {
+  const Kokkos::View<int*, Kokkos::HostSpace> ids("GALE::ids", 2);
+  ids(1) = 1;
+  EXPECT_EQ(test::values_of<std::int16_t>(gather(pairs, ids)), (std::vector<std::int16_t>{0, 1, 10, 11}));
+}
+
+TEST(Arrays, GatherKeepsEveryType) {
+  const std::vector<PointArray> arrays = test::arrays_of_every_type(4);
+  std::vector<PointArray> copies;
+  for (const PointArray& array : arrays) copies.push_back(gather(array, std::vector<int>{0, 1, 2, 3}));
+  test::expect_same(arrays, copies);
+}
+
+TEST(Arrays, GatherRefusesOtherIds) {
+  EXPECT_EQ(error_of([] { gather(pairs, std::vector<int>{3}); }), "the array 'pairs' has 3 rows, no row 3");
+  EXPECT_EQ(error_of([] { gather(pairs, std::vector<int>{-1}); }), "the array 'pairs' has 3 rows, no row -1");
+}
+
+TEST(Arrays, ExtractComponentIsNamedByItsNumber) {
+  const PointArray second = extract_component(pairs, 1);
+  EXPECT_EQ(second.name, "pairs_1");
+  EXPECT_EQ(second.components, 1);
+  EXPECT_EQ(test::values_of<std::int16_t>(second), (std::vector<std::int16_t>{1, 11, 21}));
+}
+
+}  // namespace
+}  // namespace gale::io

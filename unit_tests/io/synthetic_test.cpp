@@ -1,0 +1,98 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <map>
+
+#include <gtest/gtest.h>
+
+#include <gale/io/synthetic.hpp>
+#include <io/io_fixtures.hpp>
+
+namespace gale::io {
+namespace {
+
+using test::error_of;
+using test::points_of;
+using test::tetrahedra_of;
+
+TEST(MakeGrid, TwoCubedIsOneCube) {
+  const Dataset mesh = make_grid(2);
+  EXPECT_EQ(points_of(mesh),
+            (std::vector<double>{0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 0, 1, 1, 0, 1, 0, 1, 1, 1, 1, 1}));
+  EXPECT_EQ(tetrahedra_of(mesh),
+            (std::vector<int>{0, 1, 3, 7, 0, 1, 5, 7, 0, 2, 3, 7, 0, 2, 6, 7, 0, 4, 5, 7, 0, 4, 6, 7}));
+  for (int t = 0; t < 6; ++t) EXPECT_DOUBLE_EQ(std::abs(test::volume(mesh, t)), 1.0 / 6) << t;
+  EXPECT_GT(test::volume(mesh, 0), 0);
+  EXPECT_TRUE(mesh.notices.empty());
+}
+
+TEST(MakeGrid, TetrahedraFollowTheirCubes) {
+  const int n = 4, c = 3;
+  const int axes[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
+  const Dataset mesh = make_grid(n);
+  ASSERT_EQ(mesh.tetrahedra.extent(0), 6u * c * c * c);
+  for (int t = 0; t < 6 * c * c * c; ++t) {
+    int at[3] = {t / 6 % c, t / 6 / c % c, t / 6 / c / c};
+    for (int k = 0; k < 4; ++k) {
+      EXPECT_EQ(mesh.tetrahedra(t, k), (at[2] * n + at[1]) * n + at[0]) << t;
+      if (k < 3) ++at[axes[t % 6][k]];
+    }
+  }
+}
+
+TEST(MakeGrid, NeighboursShareTriangles) {
+  for (const int n : {2, 3, 5}) {
+    const Dataset mesh = make_grid(n);
+    std::map<std::array<int, 3>, int> uses;
+    for (std::size_t t = 0; t < mesh.tetrahedra.extent(0); ++t) {
+      for (int out = 0; out < 4; ++out) {
+        std::array<int, 3> triangle;
+        for (int k = 0, to = 0; k < 4; ++k) {
+          if (k != out) triangle[to++] = mesh.tetrahedra(t, k);
+        }
+        std::sort(triangle.begin(), triangle.end());
+        ++uses[triangle];
+      }
+    }
+    const int c = n - 1;
+    EXPECT_EQ(uses.size(), 12u * c * c * c + 6u * c * c);
+    EXPECT_EQ(std::count_if(uses.begin(), uses.end(), [](const auto& u) { return u.second == 1; }), 12 * c * c);
+    EXPECT_TRUE(std::all_of(uses.begin(), uses.end(), [](const auto& u) { return u.second <= 2; }));
+  }
+}
+
+std::uint32_t hash(std::uint32_t x) {
+  x ^= x >> 16;
+  x *= 0x7feb352d;
+  x ^= x >> 15;
+  x *= 0x846ca68b;
+  return x ^ x >> 16;
+}
+
+TEST(MakeGrid, FieldIsTheFormula) {
+  const int n = 9;
+  const Dataset mesh = make_grid(n);
+  ASSERT_EQ(test::names_of(mesh.arrays), std::vector<std::string>{"field"});
+  const auto& field = test::values_of<float>(mesh.arrays[0]);
+  ASSERT_EQ(field.size(), 729u);
+  EXPECT_EQ(field[0], 0.f);  // sin(0) cos(0) + sin(0), and the hash of 0 is 0
+  for (int i = 0; i < n * n * n; ++i) {
+    const int x = i % n, y = i / n % n, z = i / n / n;
+    const double expected = std::sin(0.11 * x) * std::cos(0.13 * y) + std::sin(0.17 * z + 0.05 * x) +
+                            0.05 * hash(static_cast<std::uint32_t>(i)) / 4294967296.0;
+    EXPECT_FLOAT_EQ(field[i], static_cast<float>(expected)) << i;
+  }
+}
+
+TEST(MakeGrid, RefusesWhatHasNoTetrahedraOrTooMany) {
+  EXPECT_EQ(error_of([] { make_grid(1); }), "grid:1 has no tetrahedra: N must be at least 2");
+  EXPECT_EQ(error_of([] { make_grid(-5); }), "grid:-5 has no tetrahedra: N must be at least 2");
+  EXPECT_EQ(error_of([] { make_grid(712); }),
+            "grid:712 has 2156552586 tetrahedra, more than the 2147483647 that 32-bit ids can number");
+  EXPECT_EQ(error_of([] { make_grid(2000); }),
+            "grid:2000 has 8000000000 vertices, more than the 2147483647 that 32-bit ids can number");
+}
+
+}  // namespace
+}  // namespace gale::io

@@ -1,0 +1,175 @@
+#include <sys/resource.h>
+
+#include <csignal>
+
+#include <gtest/gtest.h>
+
+#include <gale/io/read.hpp>
+#include <gale/io/synthetic.hpp>
+#include <gale/io/write.hpp>
+#include <io/io_fixtures.hpp>
+
+namespace gale::io {
+namespace {
+
+using test::error_of;
+using Names = std::set<std::string>;
+
+class WriteMesh : public test::VtkTest {};
+class WritePoints : public test::VtkTest {};
+
+Dataset grid_with_every_type(int n) {
+  Dataset mesh = make_grid(n);
+  mesh.arrays = test::arrays_of_every_type(test::point_count_of(mesh));
+  return mesh;
+}
+
+/// The same with coordinates that float cannot hold.
+Dataset with_double_points(Dataset mesh) {
+  const Dataset::Points<double> points("GALE::points", test::point_count_of(mesh));
+  for (std::size_t i = 0; i < points.extent(0); ++i) {
+    for (int d = 0; d < 3; ++d) points(i, d) = 0.1 * static_cast<double>(3 * i + d);
+  }
+  mesh.points = points;
+  return mesh;
+}
+
+TEST_F(WriteMesh, ComesBackAsItWas) {
+  for (const std::string name : {"mesh.vtu", "mesh.vtk", "MESH.VTU"}) {
+    for (const Dataset& mesh : {grid_with_every_type(3), with_double_points(grid_with_every_type(3))}) {
+      write_mesh(folder / name, mesh);
+      test::expect_same(read(folder / name), mesh);
+    }
+  }
+  EXPECT_EQ(folder.names(), (Names{"mesh.vtu", "mesh.vtk", "MESH.VTU"}));
+}
+
+TEST_F(WriteMesh, AppendsAndReplacesArrays) {
+  const Dataset mesh = make_grid(2);
+  const std::vector<float> other(8, 7);
+  write_mesh(folder / "mesh.vtu", mesh, {{"extra", 1, std::vector<std::int64_t>(8, -1)}, {"field", 1, other}});
+  const Dataset back = read(folder / "mesh.vtu");
+  ASSERT_EQ(test::names_of(back.arrays), (std::vector<std::string>{"field", "extra"}));
+  EXPECT_EQ(test::values_of<float>(back.arrays[0]), other);
+}
+
+PointSet three_points() {
+  const Dataset::Points<float> points("GALE::points", 3);
+  for (int i = 0; i < 3; ++i) points(i, 0) = static_cast<float>(i);
+  return {points, {{"CriticalType", 1, std::vector<std::int8_t>{0, 3, 1}}}};
+}
+
+std::string content_of(const std::string& path) {
+  std::ostringstream content;
+  content << std::ifstream(path, std::ios::binary).rdbuf();
+  return content.str();
+}
+
+TEST_F(WritePoints, WritesVertexCellsAndArrays) {
+  write_points(folder / "points.vtp", three_points());
+  const std::string content = content_of(folder / "points.vtp");
+  EXPECT_NE(content.find(R"(type="PolyData")"), std::string::npos);
+  EXPECT_NE(content.find(R"(NumberOfPoints="3")"), std::string::npos);
+  EXPECT_NE(content.find(R"(NumberOfVerts="3")"), std::string::npos);
+  EXPECT_NE(content.find(R"(type="Int8" Name="CriticalType")"), std::string::npos);
+  EXPECT_EQ(folder.names(), Names{"points.vtp"});
+}
+
+TEST_F(WritePoints, WritesNoPointsToo) {
+  write_points(folder / "points.vtp", {Dataset::Points<double>("GALE::points", 0), {{"id", 1, std::vector<int>{}}}});
+  EXPECT_NE(content_of(folder / "points.vtp").find(R"(NumberOfPoints="0")"), std::string::npos);
+}
+
+TEST_F(WriteMesh, RefusesArraysOfAnotherLength) {
+  Dataset mesh = make_grid(2);
+  mesh.arrays.push_back({"pairs", 2, std::vector<float>(15)});
+  const std::string path = folder / "mesh.vtu";
+  EXPECT_EQ(error_of([&] { write_mesh(path, mesh); }),
+            "cannot write '" + path + "': the array 'pairs' has 15 values for 8 points of 2 components");
+  EXPECT_EQ(error_of([&] {
+              write_mesh(path, make_grid(2), {{"ids", 1, std::vector<int>(9)}});
+            }),
+            "cannot write '" + path + "': the array 'ids' has 9 values for 8 points of 1 components");
+  EXPECT_EQ(folder.names(), Names{});
+}
+
+TEST_F(WriteMesh, RefusesOtherExtensions) {
+  EXPECT_EQ(error_of([] { write_mesh("mesh.vtp", make_grid(2)); }),
+            "cannot write a mesh to 'mesh.vtp': its extension is neither .vtu nor .vtk");
+  EXPECT_EQ(error_of([] { write_points("points.vtu", three_points()); }),
+            "cannot write points to 'points.vtu': its extension is not .vtp");
+}
+
+TEST_F(WriteMesh, RefusesPlacesWhereNoFileCanBe) {
+  const std::string path = folder / "none/mesh.vtu";
+  EXPECT_EQ(error_of([&] { write_mesh(path, make_grid(2)); }),
+            "cannot write '" + path + "': No such file or directory");
+  const std::string directory = folder / "directory.vtu";
+  std::filesystem::create_directory(directory);
+  EXPECT_EQ(error_of([&] { write_mesh(directory, make_grid(2)); }),
+            "cannot write '" + directory + "': it is a directory");
+  EXPECT_EQ(folder.names(), Names{"directory.vtu"});
+}
+
+/// While it lives no file may grow past `bytes`: what a full disk looks like to a writer.
+class FullDisk {
+ public:
+  explicit FullDisk(rlim_t bytes) : signal_(std::signal(SIGXFSZ, SIG_IGN)) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FullDisk() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, signal_);
+  }
+  FullDisk(const FullDisk&) = delete;
+  FullDisk& operator=(const FullDisk&) = delete;
+
+ private:
+  rlimit before_{};
+  void (*signal_)(int);
+};
+
+/// A file of `path` cut short anywhere is an error, leaves what was there, and no other file.
+void expect_all_or_nothing(const test::Folder& folder, const std::string& name, const std::function<void()>& write) {
+  write();
+  const auto size = std::filesystem::file_size(folder / name);
+  folder.put(name, "old");
+  const std::string start = "cannot write '" + folder / name + "': VTK gave up (";
+  for (const std::uintmax_t bytes : {std::uintmax_t(10), size / 2, size - 1}) {
+    std::string message;
+    {
+      const FullDisk full(bytes);
+      message = error_of(write);
+    }
+    EXPECT_EQ(message.substr(0, start.size()), start) << bytes << " of " << size;
+    EXPECT_EQ(content_of(folder / name), "old");
+    EXPECT_EQ(folder.names(), Names{name});
+  }
+}
+
+TEST_F(WriteMesh, LeavesNoHalfFileOnAFullDisk) {
+  const Dataset mesh = make_grid(12);
+  expect_all_or_nothing(folder, "mesh.vtu", [&] { write_mesh(folder / "mesh.vtu", mesh); });
+}
+
+TEST_F(WriteMesh, LeavesNoHalfLegacyFileOnAFullDisk) {
+  const Dataset mesh = make_grid(12);
+  expect_all_or_nothing(folder, "mesh.vtk", [&] { write_mesh(folder / "mesh.vtk", mesh); });
+}
+
+TEST_F(WritePoints, LeavesNoHalfFileOnAFullDisk) {
+  expect_all_or_nothing(folder, "points.vtp", [&] { write_points(folder / "points.vtp", three_points()); });
+}
+
+TEST(WriteFile, NeedsVtk) {
+  if (detail::has_vtk()) GTEST_SKIP() << "built with VTK";
+  EXPECT_EQ(error_of([] { write_mesh("x.vtu", make_grid(2)); }),
+            "this gale was built without VTK: it cannot write 'x.vtu'");
+  EXPECT_EQ(error_of([] { write_points("x.vtp", three_points()); }),
+            "this gale was built without VTK: it cannot write 'x.vtp'");
+}
+
+}  // namespace
+}  // namespace gale::io

@@ -1,0 +1,163 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "support/arrays.hpp"
+#include "support/every_mesh.hpp"
+
+namespace gale::test {
+
+namespace {
+
+using Quad = std::array<Id, 4>;
+
+std::vector<Quad> tetrahedra_in(const EncodedMesh<HostMemory>& mesh) {
+  std::vector<Quad> tetrahedra(mesh.tetrahedra.extent(0));
+  for (std::size_t t = 0; t < tetrahedra.size(); ++t) {
+    for (int corner = 0; corner < 4; ++corner) tetrahedra[t][corner] = mesh.tetrahedra(t, corner);
+  }
+  return tetrahedra;
+}
+
+/// Which segment holds each vertex (GALE's id).
+std::vector<Id> segments_of_vertices(const Mesh& mesh) {
+  std::vector<Id> segment_of;
+  for (Id s = 0; s < mesh.segments(); ++s) segment_of.resize(mesh.vertex_begin()(s + 1), s);
+  return segment_of;
+}
+
+/// T_ex by segment, from the tetrahedra.
+std::vector<std::set<Id>> external_tetrahedra(const std::vector<Quad>& tetrahedra, const std::vector<Id>& segment_of, Id segments) {
+  std::vector<std::set<Id>> external(segments);
+  for (std::size_t t = 0; t < tetrahedra.size(); ++t) {
+    const Id home = segment_of[*std::min_element(tetrahedra[t].begin(), tetrahedra[t].end())];
+    for (const Id v : tetrahedra[t]) {
+      if (segment_of[v] != home) external[segment_of[v]].insert(static_cast<Id>(t));
+    }
+  }
+  return external;
+}
+
+std::vector<std::vector<Id>> external_in(const EncodedMesh<HostMemory>& mesh) {
+  std::vector<std::vector<Id>> rows;
+  for (std::size_t s = 0; s + 1 < mesh.external_begin.extent(0); ++s) {
+    rows.emplace_back(mesh.external.data() + mesh.external_begin(s), mesh.external.data() + mesh.external_begin(s + 1));
+  }
+  return rows;
+}
+
+}  // namespace
+
+class MeshOf : public EveryMesh {
+ protected:
+  MeshOf() : mesh(encode(input(), segmentation())) {}
+
+  const Mesh mesh;
+};
+
+TEST_P(MeshOf, every_input_has_its_counts) {
+  EXPECT_EQ(mesh.vertices(), input().vertices());
+  EXPECT_EQ(mesh.tetrahedra(), static_cast<Id>(input().tetrahedra.size()));
+  EXPECT_EQ(mesh.segments(), segmentation().segments());
+}
+
+TEST_P(MeshOf, every_input_numbers_vertices_by_the_segmentation) {
+  const auto vertex_input = to_vector(mesh.vertex_input());
+  EXPECT_EQ(vertex_input, to_vector(segmentation().vertex_input));
+  EXPECT_EQ(vertex_input, to_vector(mesh.vertex_input_on_producer()));
+  EXPECT_EQ(to_vector(mesh.vertex_begin()), to_vector(segmentation().vertex_begin));
+  for (Id v = 0; v < mesh.vertices(); ++v) ASSERT_EQ(mesh.vertex_internal()(vertex_input[v]), v);
+}
+
+TEST_P(MeshOf, every_input_has_the_same_tetrahedra_renumbered) {
+  const auto tetrahedra = tetrahedra_in(mesh.host());
+  std::set<Id> seen;
+  for (Id t = 0; t < mesh.tetrahedra(); ++t) {
+    const Id input_t = mesh.tetrahedron_input()(t);
+    ASSERT_TRUE(seen.insert(input_t).second) << "input tetrahedron " << input_t << " twice";
+    Quad expected = input().tetrahedra.at(input_t);
+    for (Id& vertex : expected) vertex = mesh.vertex_internal()(vertex);
+    std::sort(expected.begin(), expected.end());
+    ASSERT_EQ(tetrahedra[t], expected) << "tetrahedron " << t;
+  }
+}
+
+TEST_P(MeshOf, every_input_has_its_tetrahedra_in_order_and_in_intervals) {
+  const auto& host = mesh.host();
+  const auto tetrahedra = tetrahedra_in(host);
+  EXPECT_TRUE(std::is_sorted(tetrahedra.begin(), tetrahedra.end()));
+  ASSERT_EQ(host.tetrahedron_begin.extent(0), std::size_t(mesh.segments()) + 1);
+  EXPECT_EQ(host.tetrahedron_begin(0), 0);
+  EXPECT_EQ(host.tetrahedron_begin(mesh.segments()), mesh.tetrahedra());
+  const auto segment_of = segments_of_vertices(mesh);
+  for (Id s = 0; s < mesh.segments(); ++s) {
+    ASSERT_LE(host.tetrahedron_begin(s), host.tetrahedron_begin(s + 1));
+    for (Id t = host.tetrahedron_begin(s); t < host.tetrahedron_begin(s + 1); ++t) {
+      ASSERT_EQ(segment_of[tetrahedra[t][0]], s) << "tetrahedron " << t;
+    }
+  }
+}
+
+TEST_P(MeshOf, every_input_has_its_external_tetrahedra_ascending) {
+  const auto expected = external_tetrahedra(tetrahedra_in(mesh.host()), segments_of_vertices(mesh), mesh.segments());
+  const auto external = external_in(mesh.host());
+  ASSERT_EQ(external.size(), expected.size());
+  for (std::size_t s = 0; s < expected.size(); ++s) {
+    EXPECT_EQ(external[s], std::vector<Id>(expected[s].begin(), expected[s].end())) << "segment " << s;
+  }
+}
+
+TEST_P(MeshOf, every_input_finds_the_segment_of_a_vertex) {
+  const auto segment_of = segments_of_vertices(mesh);
+  for (Id v = 0; v < mesh.vertices(); ++v) ASSERT_EQ(mesh.segment_of(v), segment_of[v]);
+}
+
+TEST_P(MeshOf, every_input_is_the_same_from_64_bit_ids) {
+  const Mesh other(tetrahedra_of<std::int64_t>(input()), segmentation());
+  EXPECT_EQ(tetrahedra_in(other.host()), tetrahedra_in(mesh.host()));
+  EXPECT_EQ(to_vector(other.tetrahedron_input()), to_vector(mesh.tetrahedron_input()));
+  EXPECT_EQ(external_in(other.host()), external_in(mesh.host()));
+}
+
+INSTANTIATE_TEST_SUITE_P(Tests, MeshOf, every_mesh_and_segmentation(), mesh_and_segmentation);
+
+/// The paper's figure of a mesh and its segmentation: S1 = {v0, v1, v2}, S2 = {v3, v4, v5}.
+TEST(Mesh, of_the_papers_example) {
+  const Mesh mesh = encode(mesh_named("the_papers"), segmentation_by({1, 1, 1, 2, 2, 2}));
+  const auto& host = mesh.host();
+  EXPECT_EQ(to_vector(mesh.vertex_begin()), (std::vector<Id>{0, 3, 6}));
+  EXPECT_EQ(tetrahedra_in(host), (std::vector<Quad>{{0, 1, 2, 3}, {0, 2, 3, 4}, {2, 3, 4, 5}}));
+  // All have their lowest vertex in S1, so they are internal to it, and external to S2.
+  EXPECT_EQ(host.tetrahedron_begin(1), 3);
+  EXPECT_EQ(host.tetrahedron_begin(2), 3);
+  EXPECT_EQ(external_in(host), (std::vector<std::vector<Id>>{{}, {0, 1, 2}}));
+}
+
+TEST(Mesh, of_the_papers_example_with_its_segments_exchanged) {
+  const Mesh mesh = encode(mesh_named("the_papers"), segmentation_by({2, 2, 2, 1, 1, 1}));
+  EXPECT_EQ(to_vector(mesh.vertex_input()), (std::vector<Id>{3, 4, 5, 0, 1, 2}));
+  EXPECT_EQ(tetrahedra_in(mesh.host()), (std::vector<Quad>{{0, 1, 2, 5}, {0, 1, 3, 5}, {0, 3, 4, 5}}));
+  EXPECT_EQ(to_vector(mesh.tetrahedron_input()), (std::vector<Id>{2, 1, 0}));
+}
+
+TEST(Mesh, leaves_its_input_as_it_was) {
+  const InputMesh input = mesh_named("holed_grid_9");
+  const auto points = points_of<double>(input);
+  const auto tetrahedra = tetrahedra_of<std::int32_t>(input);
+  const Mesh mesh(tetrahedra, octree_segmentation(points, 7));
+  for (std::size_t i = 0; i < input.points.size(); ++i) {
+    for (int axis = 0; axis < 3; ++axis) ASSERT_EQ(points(i, axis), input.points[i][axis]);
+  }
+  for (std::size_t t = 0; t < input.tetrahedra.size(); ++t) {
+    for (int corner = 0; corner < 4; ++corner) ASSERT_EQ(tetrahedra(t, corner), input.tetrahedra[t][corner]);
+  }
+}
+
+TEST(Mesh, copies_share_their_arrays) {
+  const Mesh mesh = encode(mesh_named("one_tetrahedron"), segmentation_by({0, 0, 0, 0}));
+  const Mesh copy = mesh;
+  EXPECT_EQ(copy.host().tetrahedra.data(), mesh.host().tetrahedra.data());
+}
+
+}  // namespace gale::test

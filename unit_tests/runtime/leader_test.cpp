@@ -1,0 +1,184 @@
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <future>
+#include <new>
+#include <thread>
+
+#include <gale/base/error.hpp>
+#include <gale/runtime/detail/leader.hpp>
+
+#include "support/segmentations.hpp"
+
+namespace gale::test {
+
+namespace {
+
+using detail::Arena;
+using detail::BatchProducer;
+using detail::Lease;
+
+/// A host producer with something done before it launches, and before it finishes.
+class Interrupted : public BatchProducer {
+ public:
+  using Interruption = std::function<void(const std::vector<Id>&)>;
+
+  Interrupted(const Mesh& mesh, Interruption at_launch, Interruption at_finish)
+      : producer_(detail::make_host_producer(mesh, {Relation::VV, 0, 32})),
+        at_launch_(std::move(at_launch)),
+        at_finish_(std::move(at_finish)) {}
+
+  bool is_large(Id) const override { return false; }
+  void launch(const std::vector<Id>& segments, const StarSizes& scratch) override {
+    if (at_launch_) at_launch_(segments);
+    segments_ = segments;
+    producer_->launch(segments, scratch);
+  }
+  detail::Shortfall finish(Arena& arena) override {
+    if (at_finish_) at_finish_(segments_);
+    return producer_->finish(arena);
+  }
+  void reserve(Offset) override {}
+  void abandon() noexcept override {}
+  std::size_t device_bytes() const override { return 0; }
+
+ private:
+  std::unique_ptr<BatchProducer> producer_;
+  Interruption at_launch_, at_finish_;
+  std::vector<Id> segments_;
+};
+
+struct Fixture {
+  const InputMesh& input = mesh_named("holed_grid_9");
+  Mesh mesh = encode(input, octree_of(input, 7));
+  ConsumerStatistics statistics;
+
+  std::unique_ptr<detail::Leader> leader(Interrupted::Interruption at_launch, Interrupted::Interruption at_finish, Id per_request = 8) {
+    std::vector<std::unique_ptr<BatchProducer>> producers;
+    for (int i = 0; i < 2; ++i) producers.push_back(std::make_unique<Interrupted>(mesh, at_launch, at_finish));
+    detail::LeaderParameters parameters;
+    parameters.relations = Relation::VV;
+    parameters.arena_words = 4096;
+    parameters.host_budget = 1 << 20;
+    parameters.segments_per_request = per_request;
+    return std::make_unique<detail::Leader>(mesh, parameters, std::move(producers));
+  }
+};
+
+std::string message_of(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+}  // namespace
+
+TEST(Leader, hands_the_cause_of_a_failure_to_the_consumer_and_then_works_again) {
+  Fixture fixture;
+  for (const bool at_launch : {true, false}) {
+    std::atomic<bool> broken{true};
+    const auto fail = [&](const std::vector<Id>&) {
+      if (broken) throw std::runtime_error("the device fell off the bus");
+    };
+    const auto leader = at_launch ? fixture.leader(fail, {}) : fixture.leader({}, fail);
+    for (int i = 0; i < 3; ++i) {
+      EXPECT_EQ(message_of([&] { leader->acquire(i, false, fixture.statistics); }),
+                "computing VV failed: the device fell off the bus");
+    }
+    broken = false;
+    EXPECT_TRUE(leader->acquire(0, false, fixture.statistics));
+  }
+}
+
+TEST(Leader, hands_a_failure_to_all_who_wait) {
+  Fixture fixture;
+  std::promise<void> all_wait;
+  const auto ready = all_wait.get_future().share();
+  const auto leader = fixture.leader({}, [&](const std::vector<Id>&) {
+    ready.wait();
+    throw std::runtime_error("no");
+  });
+  std::vector<std::thread> threads;
+  std::atomic<int> told{0};
+  for (int i = 0; i < 6; ++i) {
+    threads.emplace_back([&] {
+      ConsumerStatistics statistics;
+      if (message_of([&] { leader->acquire(3, false, statistics); }) == "computing VV failed: no") ++told;
+    });
+  }
+  all_wait.set_value();
+  for (auto& thread : threads) thread.join();
+  EXPECT_EQ(told, 6);
+}
+
+TEST(Leader, halves_a_batch_that_is_too_big_for_memory) {
+  Fixture fixture;
+  const auto leader = fixture.leader(
+      [](const std::vector<Id>& segments) {
+        if (segments.size() > 3) throw std::bad_alloc();
+      },
+      {}, 16);
+  EXPECT_TRUE(leader->acquire(0, false, fixture.statistics));
+  EXPECT_GE(leader->statistics().batches_split, 2);
+}
+
+TEST(Leader, says_when_one_segment_is_too_big_for_memory) {
+  Fixture fixture;
+  const auto leader = fixture.leader([](const std::vector<Id>&) { throw std::bad_alloc(); }, {});
+  EXPECT_EQ(message_of([&] { leader->acquire(5, false, fixture.statistics); }),
+            "computing VV failed: out of memory for one segment");
+}
+
+TEST(Leader, lets_consumers_that_want_one_segment_share_one_computation) {
+  Fixture fixture;
+  std::promise<void> all_wait;
+  const auto ready = all_wait.get_future().share();
+  const auto leader = fixture.leader({}, [&](const std::vector<Id>&) { ready.wait(); }, 1);
+  std::vector<std::thread> threads;
+  for (int i = 0; i < 6; ++i) {
+    threads.emplace_back([&] {
+      ConsumerStatistics statistics;
+      EXPECT_TRUE(leader->acquire(3, false, statistics));
+    });
+  }
+  all_wait.set_value();
+  for (auto& thread : threads) thread.join();
+  EXPECT_EQ(leader->statistics().segments_computed, 1);
+}
+
+TEST(Leader, that_ends_fails_those_who_still_wait) {
+  Fixture fixture;
+  std::promise<void> begun, go_on;
+  const auto may_go_on = go_on.get_future().share();
+  std::atomic<int> launched{0};
+  auto leader = fixture.leader({}, [&](const std::vector<Id>&) {
+    if (launched++ == 0) begun.set_value();
+    may_go_on.wait();
+  }, 1);
+  ConsumerStatistics first_statistics, second_statistics;
+  std::thread first([&] { EXPECT_TRUE(leader->acquire(0, false, first_statistics)); });
+  begun.get_future().wait();
+  std::string second_message;
+  detail::Leader* const late = leader.get();
+  std::atomic<bool> asking{false};
+  std::thread second([&] {
+    asking = true;
+    second_message = message_of([&] { late->acquire(9, false, second_statistics); });
+  });
+  while (!asking) std::this_thread::yield();
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  std::thread release([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    go_on.set_value();
+  });
+  leader.reset();
+  first.join();
+  second.join();
+  release.join();
+  EXPECT_EQ(second_message, "the runtime ended while a consumer waited for VV");
+}
+
+}  // namespace gale::test

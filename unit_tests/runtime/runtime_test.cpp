@@ -1,0 +1,214 @@
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <random>
+#include <thread>
+
+#include <gale/base/error.hpp>
+#include <gale/relations/host_producer.hpp>
+#include <gale/runtime/runtime.hpp>
+
+#include "support/brute_force.hpp"
+#include "support/every_mesh.hpp"
+
+namespace gale::test {
+
+namespace {
+
+/// Everything that can be told apart about how a runtime works.
+struct Way {
+  const char* name;
+  RuntimeOptions options;
+};
+
+std::vector<Way> ways() {
+  std::vector<Way> all(4);
+  all[0].name = "consumers";
+  all[0].options.production = Production::consumers;
+  all[1].name = "leaders";
+  all[1].options.production = Production::leaders;
+  all[2].name = "leaders, a queue for each relation, a tiny budget";
+  all[2].options.production = Production::leaders;
+  all[2].options.queues = Queues::per_relation;
+  all[2].options.host_memory = 16384;
+  all[3].name = "leaders, one segment a request";
+  all[3].options.production = Production::leaders;
+  all[3].options.blocks_per_request = all[3].options.threads_per_block = 1;
+  return all;
+}
+
+/// Expects the rows that a consumer gives for one vertex, in VV, VT and link.
+testing::AssertionResult rows_match(Consumer& consumer, const ExpectedRows& expected, Id v) {
+  const Row vv = consumer.row(Relation::VV, v);
+  const Row vt = consumer.row(Relation::VT, v);
+  const LinkRow link = consumer.link(v);
+  // All three are valid until the next of their relation.
+  if (std::vector<Id>(vv.begin(), vv.end()) != expected.vv[v]) return testing::AssertionFailure() << "VV of " << v;
+  if (std::vector<Id>(vt.begin(), vt.end()) != expected.vt[v]) return testing::AssertionFailure() << "VT of " << v;
+  for (Id t = 0; t < link.size(); ++t) {
+    if (std::array<Id, 3>{link(t, 0), link(t, 1), link(t, 2)} != expected.link[v][t]) return testing::AssertionFailure() << "link of " << v;
+  }
+  return testing::AssertionSuccess();
+}
+
+struct Holed {
+  const InputMesh& input = mesh_named("holed_grid_9");
+  Mesh mesh = encode(input, octree_of(input, 7));
+  ExpectedRows expected{input, brute_force_of("holed_grid_9"), mesh};
+};
+
+SweepOptions with_threads(int threads) {
+  SweepOptions options;
+  options.threads = threads;
+  return options;
+}
+
+}  // namespace
+
+class SweepOf : public EveryMesh {};
+
+TEST_P(SweepOf, every_mesh_visits_each_segment_once_with_its_rows) {
+  const Mesh mesh = encode(input(), segmentation());
+  const ExpectedRows expected(input(), brute_force_of(mesh_name()), mesh);
+  for (const Way& way : ways()) {
+    SCOPED_TRACE(way.name);
+    Runtime runtime(mesh, star_relations, way.options);
+    for (const int threads : {1, 3}) {
+      std::vector<std::atomic<int>> visits(mesh.segments());
+      std::atomic<int> wrong{0};
+      runtime.for_each_segment(star_relations, with_threads(threads), [&](int, const SegmentRows& rows) {
+        ++visits[rows.segment()];
+        if (!expected.match(rows, star_relations)) ++wrong;
+      });
+      EXPECT_EQ(wrong, 0);
+      for (const auto& count : visits) ASSERT_EQ(count, 1);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Tests, SweepOf, every_mesh_and_segmentation(), mesh_and_segmentation);
+
+TEST(Runtime, answers_consumers_that_jump_at_random) {
+  const Holed holed;
+  for (const Way& way : ways()) {
+    for (const int consumers : {1, 2, 16}) {
+      Runtime runtime(holed.mesh, star_relations, way.options);
+      std::atomic<int> wrong{0};
+      std::vector<std::thread> threads;
+      for (int i = 0; i < consumers; ++i) {
+        threads.emplace_back([&, i] {
+          std::mt19937 random(i);
+          const auto consumer = runtime.consumer();
+          for (int k = 0; k < 400; ++k) {
+            if (!rows_match(*consumer, holed.expected, static_cast<Id>(random() % holed.mesh.vertices()))) ++wrong;
+          }
+        });
+      }
+      for (auto& thread : threads) thread.join();
+      EXPECT_EQ(wrong, 0) << way.name << ", " << consumers << " consumers";
+    }
+  }
+}
+
+TEST(Runtime, serves_a_sweep_whose_bodies_read_other_segments) {
+  const Holed holed;
+  for (const Way& way : ways()) {
+    Runtime runtime(holed.mesh, star_relations, way.options);
+    std::atomic<int> wrong{0};
+    runtime.for_each_segment(Relation::VV, with_threads(4), [&](int, const SegmentRows& rows) {
+      const auto consumer = runtime.consumer();
+      for (Id v = rows.first(); v < rows.last(); ++v) {
+        for (const Id other : rows[Relation::VV][v]) wrong += rows_match(*consumer, holed.expected, other) ? 0 : 1;
+      }
+    });
+    EXPECT_EQ(wrong, 0) << way.name;
+  }
+}
+
+TEST(Runtime, hands_an_exception_of_a_body_to_the_caller_and_goes_on) {
+  const Holed holed;
+  for (const Way& way : ways()) {
+    Runtime runtime(holed.mesh, star_relations, way.options);
+    for (int again = 0; again < 3; ++again) {
+      const auto sweep = [&] {
+        runtime.for_each_segment(star_relations, with_threads(4), [&](int, const SegmentRows& rows) {
+          if (rows.segment() == holed.mesh.segments() / 2) throw std::runtime_error("enough");
+        });
+      };
+      EXPECT_THROW(sweep(), std::runtime_error) << way.name;
+    }
+    std::atomic<Id> visited{0};
+    runtime.for_each_segment(star_relations, with_threads(4), [&](int, const SegmentRows&) { ++visited; });
+    EXPECT_EQ(visited, holed.mesh.segments()) << way.name;
+  }
+}
+
+TEST(Runtime, lets_two_sweeps_run_at_once) {
+  const Holed holed;
+  for (const Way& way : ways()) {
+    Runtime runtime(holed.mesh, star_relations, way.options);
+    std::atomic<Id> visited{0};
+    const auto sweep = [&] {
+      runtime.for_each_segment(star_relations, with_threads(2), [&](int, const SegmentRows&) { ++visited; });
+    };
+    std::thread other(sweep);
+    sweep();
+    other.join();
+    EXPECT_EQ(visited, 2 * holed.mesh.segments()) << way.name;
+  }
+}
+
+TEST(Runtime, evicts_under_a_small_budget_and_not_under_a_large_one) {
+  const Holed holed;
+  for (const bool small : {true, false}) {
+    RuntimeOptions options;
+    options.production = Production::leaders;
+    if (small) options.host_memory = 32768;
+    Runtime runtime(holed.mesh, star_relations, options);
+    const auto consumer = runtime.consumer();
+    for (int pass = 0; pass < 2; ++pass) {
+      for (Id v = 0; v < holed.mesh.vertices(); ++v) ASSERT_TRUE(rows_match(*consumer, holed.expected, v));
+    }
+    const auto leader = runtime.statistics().leaders.at(0);
+    EXPECT_EQ(leader.blocks_evicted > 0, small);
+    EXPECT_EQ(leader.segments_recomputed > 0, small);
+    EXPECT_EQ(leader.segments_computed, holed.mesh.segments() + leader.segments_recomputed);
+    if (small) EXPECT_LE(runtime.statistics().host_bytes, 32768u + 3 * 4096u);
+  }
+}
+
+TEST(Runtime, counts_what_consumers_and_leaders_did) {
+  const Holed holed;
+  RuntimeOptions options;
+  options.production = Production::leaders;
+  options.queues = Queues::per_relation;
+  Runtime runtime(holed.mesh, Relation::VV | Relation::VT, options);
+  {
+    const auto consumer = runtime.consumer();
+    consumer->row(Relation::VV, 0);
+    consumer->row(Relation::VV, 0);
+  }
+  const auto statistics = runtime.statistics();
+  EXPECT_EQ(runtime.production(), Production::leaders);
+  ASSERT_EQ(statistics.leaders.size(), 2u);
+  EXPECT_EQ(name_of(statistics.leaders[0].relations), "VT");
+  EXPECT_EQ(statistics.leaders[0].batches, 0);
+  EXPECT_EQ(statistics.leaders[1].batches, 1);
+  EXPECT_EQ(statistics.all_consumers().requests, 1);
+  EXPECT_GT(statistics.all_consumers().waiting.total(), 0);
+}
+
+TEST(Runtime, says_what_it_was_not_preconditioned_for) {
+  const Holed holed;
+  for (const Way& way : ways()) {
+    Runtime runtime(holed.mesh, Relation::VV, way.options);
+    const auto consumer = runtime.consumer();
+    EXPECT_THROW(consumer->row(Relation::VT, 0), Error) << way.name;
+    EXPECT_EQ(consumer->row(Relation::VV, 0).size(), static_cast<Id>(holed.expected.vv[0].size()));
+    EXPECT_THROW(runtime.for_each_segment(star_relations, with_threads(1), [](int, const SegmentRows&) {}), Error) << way.name;
+    EXPECT_THROW(Runtime(holed.mesh, Relation::EF, way.options), Error);
+    EXPECT_THROW(Runtime(holed.mesh, RelationSet(), way.options), Error);
+  }
+}
+
+}  // namespace gale::test

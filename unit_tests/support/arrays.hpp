@@ -1,0 +1,22 @@
+#pragma once
+
+#include <vector>
+
+#include <gale/base/memory.hpp>
+
+namespace gale::test {
+
+template <class T>
+Array<T, ProducerMemory> to_producer(const std::vector<T>& values) {
+  const Array<T, ProducerMemory> array(Kokkos::view_alloc("test", Kokkos::WithoutInitializing), values.size());
+  Kokkos::deep_copy(array, Kokkos::View<const T*, HostMemory, Kokkos::MemoryUnmanaged>(values.data(), values.size()));
+  return array;
+}
+
+template <class T, class Memory>
+std::vector<std::remove_const_t<T>> to_vector(const Kokkos::View<T*, Memory>& array) {
+  const auto host = on_host(array);
+  return {host.data(), host.data() + host.extent(0)};
+}
+
+}  // namespace gale::test

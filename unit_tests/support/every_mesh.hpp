@@ -1,0 +1,28 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <tuple>
+
+#include "support/segmentations.hpp"
+
+namespace gale::test {
+
+/// A test that is run with each of `mesh_names()` and each of `segmentation_names()`.
+class EveryMesh : public testing::TestWithParam<std::tuple<std::string, std::string>> {
+ protected:
+  const std::string& mesh_name() const { return std::get<0>(GetParam()); }
+  const InputMesh& input() const { return mesh_named(mesh_name()); }
+  Segmentation segmentation() const { return segmentation_named(std::get<1>(GetParam()), input()); }
+};
+
+inline auto every_mesh_and_segmentation() {
+  return testing::Combine(testing::ValuesIn(mesh_names()), testing::ValuesIn(segmentation_names()));
+}
+
+inline std::string mesh_and_segmentation(const testing::TestParamInfo<EveryMesh::ParamType>& info) {
+  return std::get<0>(info.param) + "__" + std::get<1>(info.param);
+}
+
+}  // namespace gale::test

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "support/input_mesh.hpp"
+
+namespace gale::test {
+
+/// The names of the segmentations that tests try on each mesh.
+const std::vector<std::string>& segmentation_names();
+
+/// That of a mesh. Throws std::out_of_range for another name.
+Segmentation segmentation_named(const std::string& name, const InputMesh& mesh);
+
+Segmentation octree_of(const InputMesh& mesh, int capacity);
+Segmentation segmentation_by(const std::vector<std::int64_t>& labels);
+
+}  // namespace gale::test
