@@ -28,8 +28,8 @@ Cube bounding_cube(const Points<Coordinate, ProducerMemory>& points) {
   const Offset count = points.extent(0);
   const Offset bad = reduce_min(
       "GALE::finite_points", space, count, count, KOKKOS_LAMBDA(Offset i) {
-        const double sum = double(points(i, 0)) + double(points(i, 1)) + double(points(i, 2));
-        return sum - sum == 0 ? count : i;
+        const double x = points(i, 0), y = points(i, 1), z = points(i, 2);
+        return (x - x) + (y - y) + (z - z) == 0 ? count : i;
       });
   if (bad < count) throw Error("point " + std::to_string(bad) + " has a coordinate that is not finite");
   Cube cube{};

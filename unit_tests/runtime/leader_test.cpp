@@ -158,27 +158,25 @@ TEST(Leader, that_ends_fails_those_who_still_wait) {
     if (launched++ == 0) begun.set_value();
     may_go_on.wait();
   }, 1);
-  ConsumerStatistics first_statistics, second_statistics;
-  std::thread first([&] { EXPECT_TRUE(leader->acquire(0, false, first_statistics)); });
-  begun.get_future().wait();
-  std::string second_message;
-  detail::Leader* const late = leader.get();
-  std::atomic<bool> asking{false};
-  std::thread second([&] {
-    asking = true;
-    second_message = message_of([&] { late->acquire(9, false, second_statistics); });
-  });
-  while (!asking) std::this_thread::yield();
+  // One request is under way when the leader ends, another is on the queue.
+  detail::Leader& late = *leader;
+  std::string messages[2];
+  std::vector<std::thread> threads;
+  for (int i = 0; i < 2; ++i) {
+    threads.emplace_back([&, i] {
+      ConsumerStatistics statistics;
+      messages[i] = message_of([&] { late.acquire(9 * i, false, statistics); });
+    });
+    if (i == 0) begun.get_future().wait();
+  }
   std::this_thread::sleep_for(std::chrono::milliseconds(50));
-  std::thread release([&] {
+  threads.emplace_back([&] {
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
     go_on.set_value();
   });
   leader.reset();
-  first.join();
-  second.join();
-  release.join();
-  EXPECT_EQ(second_message, "the runtime ended while a consumer waited for VV");
+  for (auto& thread : threads) thread.join();
+  for (const auto& message : messages) EXPECT_EQ(message, "the runtime ended while a consumer waited for VV");
 }
 
 }  // namespace gale::test

@@ -34,7 +34,7 @@ struct CellWindow {
 
   /// Does the cell hold more than `capacity` codes? If `first` is where it begins, as `begin()` says.
   KOKKOS_FUNCTION bool overflows(Id first) const {
-    return first + capacity < static_cast<Id>(codes.extent(0)) && inside(first + capacity);
+    return static_cast<Offset>(first) + capacity < static_cast<Offset>(codes.extent(0)) && inside(first + capacity);
   }
 };
 

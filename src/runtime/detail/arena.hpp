@@ -20,6 +20,7 @@ struct Arena {
   std::atomic<int> pins{0};
   std::atomic<Id> unread{0};  ///< segments that the running sweep has still to read; not above 0: none
   std::atomic<std::int64_t> last_use{0};
+  bool ahead = false;  ///< published for a sweep, which reads each block once
 
   std::size_t bytes() const { return words.extent(0) * sizeof(Id); }
 };

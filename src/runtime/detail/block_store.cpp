@@ -32,11 +32,12 @@ Arena* BlockStore::take(Need need) {
     free_.pop_back();
     return arena;
   }
+  if (Arena* const spent = find_evictable(Use::spent)) return spent;
   const bool has_room = arena_count_ == 0 || bytes_ + static_cast<std::size_t>(arena_words_) * sizeof(Id) <= budget_;
   if (has_room) return allocate_arena();
-  Arena* const read = find_evictable(false);
+  Arena* const read = find_evictable(Use::read);
   if (read != nullptr || need == Need::can_wait) return read;
-  Arena* const unread = find_evictable(true);
+  Arena* const unread = find_evictable(Use::unread);
   return unread != nullptr ? unread : allocate_arena();
 }
 
@@ -58,12 +59,18 @@ void BlockStore::enlarge(Arena& arena, Offset words) {
   if (bytes_ > peak_bytes_.load()) peak_bytes_.store(bytes_);
 }
 
-Arena* BlockStore::find_evictable(bool unread) {
+BlockStore::Use BlockStore::use_of(const Arena& arena) {
+  if (arena.unread.load() > 0) return Use::unread;
+  return arena.ahead ? Use::spent : Use::read;
+}
+
+Arena* BlockStore::find_evictable(Use use) {
   // By age; of what a sweep has still to read, what it will read last. A retry for each that a consumer pins at the same moment.
   std::vector<std::pair<std::int64_t, Arena*>> candidates;
   for (Arena* const arena : published_) {
-    if (arena->pins.load() != 0 || (arena->unread.load() > 0) != unread) continue;
-    const std::int64_t age = unread ? -std::int64_t(arena->segments.front()) : arena->last_use.load(std::memory_order_relaxed);
+    if (arena->pins.load() != 0 || use_of(*arena) != use) continue;
+    const std::int64_t age =
+        use == Use::unread ? -std::int64_t(arena->segments.front()) : arena->last_use.load(std::memory_order_relaxed);
     candidates.emplace_back(age, arena);
   }
   std::sort(candidates.begin(), candidates.end());
@@ -93,6 +100,7 @@ void BlockStore::set_entries(const Arena& arena, Entry number) {
 }
 
 void BlockStore::publish(Arena& arena, Id unread) {
+  arena.ahead = unread > 0;
   arena.unread.store(unread);
   arena.last_use.store(clock_.fetch_add(1, std::memory_order_relaxed) + 1, std::memory_order_relaxed);
   published_.push_back(&arena);
@@ -102,7 +110,10 @@ void BlockStore::publish(Arena& arena, Id unread) {
 void BlockStore::give_back(Arena& arena) { free_.push_back(&arena); }
 
 void BlockStore::forget_unread() {
-  for (Arena* const arena : published_) arena->unread.store(0);
+  for (Arena* const arena : published_) {
+    arena->unread.store(0);
+    arena->ahead = false;
+  }
 }
 
 }  // namespace gale::detail

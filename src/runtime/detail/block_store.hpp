@@ -55,7 +55,14 @@ class BlockStore {
   static constexpr std::size_t most_arenas = std::size_t(1) << 16;
 
   Arena* allocate_arena();
-  Arena* find_evictable(bool unread);
+  enum class Use {
+    unread,  ///< the running sweep has still to read some of it
+    spent,   ///< a sweep has read all of it
+    read     ///< by consumers in no order
+  };
+
+  static Use use_of(const Arena& arena);
+  Arena* find_evictable(Use use);
   bool try_evict(Arena& arena);
   void set_entries(const Arena& arena, Entry number);
 

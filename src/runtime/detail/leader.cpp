@@ -15,17 +15,16 @@ constexpr Id first_batch = 32;
 /// A guess for the first batch: what blocks of some sixteen neighbours and twenty-four tetrahedra a vertex take.
 constexpr double words_per_vertex = 64;
 
-/// Any exception, as the gale::Error that consumers are promised.
-std::exception_ptr as_error(const std::exception_ptr& cause, RelationSet relations) {
-  const std::string what = "computing " + name_of(relations) + " failed: ";
+/// What the exception that is being handled says.
+std::string current_message() {
   try {
-    std::rethrow_exception(cause);
+    throw;
   } catch (const std::bad_alloc&) {
-    return std::make_exception_ptr(Error(what + "out of memory for one segment"));
+    return "out of memory for one segment";
   } catch (const std::exception& error) {
-    return std::make_exception_ptr(Error(what + error.what()));
+    return error.what();
   } catch (...) {
-    return std::make_exception_ptr(Error(what + "unknown exception"));
+    return "unknown exception";
   }
 }
 
@@ -45,6 +44,7 @@ Leader::Leader(const Mesh& mesh, const LeaderParameters& parameters, std::vector
 }
 
 Leader::~Leader() {
+  ending_ = true;
   queue_.stop();
   thread_.join();
   while (consumers_inside_.load() != 0) std::this_thread::yield();
@@ -62,9 +62,10 @@ Lease Leader::acquire(Id segment, bool in_sweep, ConsumerStatistics& statistics)
   } inside(consumers_inside_);
   const auto ticket = std::make_shared<Ticket>();
   ticket->begun = ticket->pushed = Clock::now();
-  if (!queue_.push({segment, in_sweep, ticket})) throw Error("the runtime has ended");
+  if (!queue_.push({segment, in_sweep, ticket})) throw Error(end_message());
   const auto pushed = Clock::now();
   Lease lease = ticket->wait();
+  if (ending_) throw Error(end_message());
   ++statistics.requests;
   auto& waiting = statistics.waiting;
   waiting.push += seconds_between(ticket->begun, pushed);
@@ -84,12 +85,14 @@ void Leader::run() {
       }
       if (!flights_.empty() && !stopping_) finish_oldest();
     } catch (...) {
-      fail_all(as_error(std::current_exception(), parameters_.relations));
+      fail_all("computing " + name_of(parameters_.relations) + " failed: " + current_message());
     }
   }
   for (const auto& request : queue_.take(false).requests) waiting_.emplace(request.segment, request.ticket);
-  fail_all(std::make_exception_ptr(Error("the runtime ended while a consumer waited for " + name_of(parameters_.relations))));
+  fail_all(end_message());
 }
+
+std::string Leader::end_message() const { return "the runtime ended while a consumer waited for " + name_of(parameters_.relations); }
 
 void Leader::listen(bool wait) {
   const auto news = queue_.take(wait);
@@ -269,7 +272,7 @@ void Leader::deliver(const Plan& plan, Clock::time_point launched, Clock::time_p
   }
 }
 
-void Leader::fail_all(const std::exception_ptr& failure) {
+void Leader::fail_all(const std::string& why) {
   for (const auto& flight : flights_) {
     flight.producer->abandon();
     store_.give_back(*flight.arena);
@@ -278,7 +281,7 @@ void Leader::fail_all(const std::exception_ptr& failure) {
   flights_.clear();
   plans_.clear();
   std::fill(under_way_.begin(), under_way_.end(), false);
-  for (const auto& waiter : waiting_) waiter.second->fail(failure);
+  for (const auto& waiter : waiting_) waiter.second->fail(why);
   waiting_.clear();
 }
 

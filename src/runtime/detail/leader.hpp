@@ -2,6 +2,7 @@
 
 #include <deque>
 #include <map>
+#include <string>
 #include <thread>
 
 #include <gale/mesh/mesh.hpp>
@@ -59,6 +60,7 @@ class Leader {
     Clock::time_point launched;
   };
 
+  std::string end_message() const;
   void run();
   void listen(bool wait);
   void serve(const Request& request, Clock::time_point taken);
@@ -72,7 +74,7 @@ class Leader {
   void account(const Plan& made, const Shortfall& shortfall, std::size_t launched);
   void retry(Plan plan, const Shortfall& shortfall);
   void deliver(const Plan& plan, Clock::time_point launched, Clock::time_point finished);
-  void fail_all(const std::exception_ptr& failure);
+  void fail_all(const std::string& why);
   Id segments_that_fit() const;
   bool is_wanted(Id segment) const { return !under_way_[segment] && !store_.is_resident(segment); }
 
@@ -99,6 +101,7 @@ class Leader {
   mutable std::mutex statistics_mutex_;
   LeaderStatistics statistics_;
   std::atomic<int> consumers_inside_{0};
+  std::atomic<bool> ending_{false};
   std::thread thread_;
 };
 

@@ -2,11 +2,12 @@
 
 #include <chrono>
 #include <condition_variable>
-#include <exception>
 #include <memory>
 #include <mutex>
+#include <string>
 #include <vector>
 
+#include <gale/base/error.hpp>
 #include <gale/runtime/detail/arena.hpp>
 #include <gale/runtime/statistics.hpp>
 
@@ -31,18 +32,18 @@ class Ticket {
     changed_.notify_one();
   }
 
-  void fail(std::exception_ptr failure) {
+  void fail(const std::string& why) {
     const std::lock_guard<std::mutex> lock(mutex_);
-    failure_ = std::move(failure);
+    failure_ = why;
     done_ = true;
     changed_.notify_one();
   }
 
-  /// The blocks, when they are there. Throws what the leader failed with.
+  /// The blocks, when they are there. Throws gale::Error that says why they never will be.
   Lease wait() {
     std::unique_lock<std::mutex> lock(mutex_);
     changed_.wait(lock, [this] { return done_; });
-    if (failure_) std::rethrow_exception(failure_);
+    if (!lease_) throw Error(failure_);
     return std::move(lease_);
   }
 
@@ -51,7 +52,7 @@ class Ticket {
   std::condition_variable changed_;
   bool done_ = false;
   Lease lease_;
-  std::exception_ptr failure_;
+  std::string failure_;
 };
 
 struct Request {
