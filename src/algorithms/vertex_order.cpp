@@ -7,6 +7,7 @@
 #include <gale/base/error.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/base/radix_sort.hpp>
+#include <gale/base/transfer.hpp>
 
 namespace gale {
 
@@ -62,8 +63,8 @@ void fill_ranks(const Mesh& mesh, const Value* values, const Keys& keys) {
     keys(i) = ordered_bits(values[i]);
     inputs(i) = static_cast<Id>(i);
   });
-  const Array<std::uint64_t, ProducerMemory> sorted_keys = Kokkos::create_mirror_view_and_copy(ProducerMemory(), keys);
-  const Array<Id, ProducerMemory> sorted_inputs = Kokkos::create_mirror_view_and_copy(ProducerMemory(), inputs);
+  const auto sorted_keys = on_producer(keys);
+  const auto sorted_inputs = on_producer(inputs);
   stable_sort_by_key(sorted_keys, sorted_inputs);
   const auto by_rank = on_host(sorted_inputs);
   const Id* const internal = mesh.vertex_internal().data();

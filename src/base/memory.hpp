@@ -40,19 +40,4 @@ ViewType allocate(const std::string& label, Extents... extents) {
   return view;
 }
 
-/// The same contents where the host can read them: the View itself if it can already, else a copy.
-template <class T, class... Properties>
-auto on_host(const Kokkos::View<T, Properties...>& view) {
-  using Given = Kokkos::View<T, Properties...>;
-  using Host = Kokkos::View<T, typename Given::array_layout, HostMemory>;
-  if constexpr (is_device_memory<typename Given::memory_space>) {
-    using Writable = typename Host::non_const_type;
-    const auto copy = allocate<Writable>(view.label(), view.extent(0));
-    Kokkos::deep_copy(copy, view);
-    return Host(copy);
-  } else {
-    return Host(view);
-  }
-}
-
 }  // namespace gale

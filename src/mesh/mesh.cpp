@@ -6,6 +6,7 @@
 
 #include <gale/base/error.hpp>
 #include <gale/base/parallel.hpp>
+#include <gale/base/transfer.hpp>
 #include <gale/mesh/detail/encode.hpp>
 
 namespace gale {
@@ -65,7 +66,7 @@ Mesh::Mesh(const Tetrahedra<Index, Memory>& given, const Segmentation& segmentat
   const auto vertex_internal = inverse_of(segmentation.vertex_input);
   detail::SortedTetrahedra sorted;
   {
-    const Tetrahedra<Index, ProducerMemory> input = Kokkos::create_mirror_view_and_copy(ProducerMemory(), given);
+    const Tetrahedra<Index, ProducerMemory> input = on_producer(given);
     sorted = detail::sort_tetrahedra(input, vertex_internal);
   }
   auto& mesh = data->arrays;

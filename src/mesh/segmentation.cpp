@@ -7,6 +7,7 @@
 #include <gale/base/error.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/base/radix_sort.hpp>
+#include <gale/base/transfer.hpp>
 #include <gale/mesh/detail/octree_leaves.hpp>
 
 namespace gale {
@@ -106,7 +107,7 @@ Segmentation octree_segmentation(const Points<Coordinate, Memory>& given, int ca
     result.vertex_begin = Ids("GALE::vertex_begin", 1);
     return result;
   }
-  const Points<Coordinate, ProducerMemory> points = Kokkos::create_mirror_view_and_copy(ProducerMemory(), given);
+  const Points<Coordinate, ProducerMemory> points = on_producer(given);
   const auto codes = morton_codes(points, bounding_cube(points));
   result.vertex_input = iota(count);
   stable_sort_by_key(codes, result.vertex_input);
@@ -120,7 +121,7 @@ Segmentation given_segmentation(const Array<const std::int64_t, HostMemory>& lab
   const auto count = static_cast<Id>(labels.extent(0));
   const auto keys_on_host = allocate<Array<std::uint64_t, HostMemory>>("GALE::labels", count);
   for (Id i = 0; i < count; ++i) keys_on_host(i) = static_cast<std::uint64_t>(labels(i)) ^ (std::uint64_t(1) << 63);
-  const Codes keys = Kokkos::create_mirror_view_and_copy(ProducerMemory(), keys_on_host);
+  const Codes keys = on_producer(keys_on_host);
   Segmentation result;
   result.vertex_input = iota(count);
   stable_sort_by_key(keys, result.vertex_input);

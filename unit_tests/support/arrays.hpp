@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include <gale/base/memory.hpp>
+#include <gale/base/transfer.hpp>
 
 namespace gale::test {
 

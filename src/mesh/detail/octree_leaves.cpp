@@ -1,6 +1,7 @@
 #include <gale/mesh/detail/octree_leaves.hpp>
 
 #include <gale/base/parallel.hpp>
+#include <gale/base/transfer.hpp>
 
 namespace gale::detail {
 

@@ -19,6 +19,7 @@
 #endif
 
 #include <gale/base/parallel.hpp>
+#include <gale/base/transfer.hpp>
 #include <gale/base/sort_rows.hpp>
 
 namespace gale::detail {

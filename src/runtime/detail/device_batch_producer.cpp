@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include <gale/base/transfer.hpp>
 #include <gale/relations/launch.hpp>
 
 namespace gale::detail {
@@ -36,8 +37,8 @@ class DeviceBatchProducer : public BatchProducer {
         relations_(parameters.wanted.count()),
         warps_(std::max(parameters.threads_per_segment / 32, 1)),
         instance_(make_instance()),
-        tetrahedron_begin_(Kokkos::create_mirror_view_and_copy(HostMemory(), mesh.producer().tetrahedron_begin)),
-        external_begin_(Kokkos::create_mirror_view_and_copy(HostMemory(), mesh.producer().external_begin)),
+        tetrahedron_begin_(on_host(mesh.producer().tetrahedron_begin)),
+        external_begin_(on_host(mesh.producer().external_begin)),
         header_(allocate<OnDevice<Header>>("GALE::batch_header", 1)),
         header_copy_(allocate<Pinned<Header>>("GALE::batch_header", 1)) {
     kernel_.mesh = mesh.producer();

@@ -1,0 +1,16 @@
+#!/bin/bash
+# Finds the critical points of a brain and draws them: build/demo/brain.vtp and brain.png. Enough alone on a bare Debian 12.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+scripts/dependencies.sh data rendering
+cmake --preset default
+cmake --build --preset default --target gale_app --parallel "$(nproc)"
+cmake -S examples/render_critical_points -B build/render_critical_points
+cmake --build build/render_critical_points
+
+volume=/usr/share/mricron/templates/ch2bet.nii.gz
+mkdir -p build/demo
+build/bin/gale critical-points "$volume" --above 0 -o build/demo/brain.vtp --report build/demo/brain.json
+xvfb-run --auto-servernum build/render_critical_points/render_critical_points "$volume" build/demo/brain.vtp build/demo/brain.png
+echo "wrote build/demo/brain.vtp, brain.json and brain.png"

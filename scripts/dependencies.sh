@@ -1,0 +1,27 @@
+#!/bin/bash
+# Installs what GALE is built from on Debian 12 with apt; does nothing when all is there.
+#   usage: scripts/dependencies.sh [data] [rendering] [releases]
+#     data: brain volumes    rendering: without a screen    releases: what scripts/test-releases.sh needs
+set -euo pipefail
+
+packages=(cmake g++ make python3 libtrilinos-kokkos-dev libtrilinos-kokkos-kernels-dev libvtk9-dev
+  libcli11-dev nlohmann-json3-dev libgtest-dev libbenchmark-dev)
+for more in "$@"; do
+  case "$more" in
+    data) packages+=(mricron-data) ;;
+    rendering) packages+=(libgl1-mesa-dri xvfb xauth) ;;
+    releases) packages+=(debootstrap) ;;
+    *) echo "usage: $0 [data] [rendering] [releases]" >&2; exit 2 ;;
+  esac
+done
+
+missing=()
+for package in "${packages[@]}"; do
+  [ "$(dpkg-query --show --showformat='${db:Status-Status}' "$package" 2>/dev/null)" = installed ] || missing+=("$package")
+done
+[ ${#missing[@]} -gt 0 ] || exit 0
+
+as_root=(env DEBIAN_FRONTEND=noninteractive)
+[ "$(id -u)" = 0 ] || as_root=(sudo "${as_root[@]}")
+"${as_root[@]}" apt-get update
+"${as_root[@]}" apt-get install --yes --no-install-recommends "${missing[@]}"

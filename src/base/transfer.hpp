@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+
+#include <gale/base/memory.hpp>
+
+namespace gale {
+
+/// Copies `bytes` bytes between ordinary host memory and the device, at the bandwidth of pinned memory: all host threads copy through pinned
+/// chunks of their own. Returns when it is done. Only where there is a device; one call at a time is fast, more wait for each other.
+void copy_to_device(void* device, const void* host, std::size_t bytes);
+void copy_from_device(void* host, const void* device, std::size_t bytes);
+
+/// The same contents where the producers can read them: the View itself if they can already, else a copy.
+template <class T, class... Properties>
+auto on_producer(const Kokkos::View<T, Properties...>& view) {
+  using Given = Kokkos::View<T, Properties...>;
+  using OnProducer = Kokkos::View<T, typename Given::array_layout, ProducerMemory>;
+  if constexpr (have_device && !is_device_memory<typename Given::memory_space>) {
+    const auto copy = allocate<typename OnProducer::non_const_type>(view.label(), view.extent(0));
+    copy_to_device(copy.data(), view.data(), view.size() * sizeof(typename Given::value_type));
+    return OnProducer(copy);
+  } else {
+    return OnProducer(view);
+  }
+}
+
+/// The same contents where the host can read them; likewise.
+template <class T, class... Properties>
+auto on_host(const Kokkos::View<T, Properties...>& view) {
+  using Given = Kokkos::View<T, Properties...>;
+  using OnHost = Kokkos::View<T, typename Given::array_layout, HostMemory>;
+  if constexpr (is_device_memory<typename Given::memory_space>) {
+    const auto copy = allocate<typename OnHost::non_const_type>(view.label(), view.extent(0));
+    copy_from_device(copy.data(), view.data(), view.size() * sizeof(typename Given::value_type));
+    return OnHost(copy);
+  } else {
+    return OnHost(view);
+  }
+}
+
+}  // namespace gale

@@ -1,0 +1,127 @@
+"""What the tests of the command share: running it, and small inputs written by hand."""
+import json
+import os
+import re
+import struct
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+GALE = os.environ["GALE"]
+VERSION = os.environ["GALE_VERSION"]
+HAVE_VTK = os.environ["GALE_ENABLE_VTK"] == "1"
+STRUCTURES = ["gale", "inline"] + ["explicit"] * (os.environ["GALE_ENABLE_KOKKOS_KERNELS"] == "1")
+KINDS = ["minima", "saddles1", "saddles2", "maxima", "degenerate"]
+
+needs_vtk = unittest.skipUnless(HAVE_VTK, "this gale was built without VTK")
+
+
+class CommandTest(unittest.TestCase):
+    """A test with an empty folder of its own, in which the command runs."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="gale_app_")
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+    def gale(self, *arguments):
+        return subprocess.run([GALE, *map(str, arguments)], cwd=self.folder, stdin=subprocess.DEVNULL,
+                              capture_output=True, text=True, timeout=300)
+
+    def succeed(self, *arguments):
+        """Runs the command, which must succeed without complaint; returns what it printed."""
+        run = self.gale(*arguments)
+        self.assertEqual((run.returncode, run.stderr), (0, ""), run.args)
+        self.assertNotRegex(run.stdout, "[\r\x1b]", "control characters, and this is no terminal")
+        return run.stdout
+
+    def report(self, *arguments):
+        """Runs the command with --report and returns that."""
+        self.succeed(*arguments, "--report", "report.json")
+        return json.loads((self.folder / "report.json").read_text())
+
+    def counts(self, *arguments):
+        """Numbers of critical points, in the order of their codes."""
+        result = self.report("critical-points", *arguments)["result"]
+        self.assertEqual(list(result), KINDS)
+        return list(result.values())
+
+    def refuse(self, code, *arguments, naming=""):
+        """Runs the command, which must exit with `code` and one line that has `naming`."""
+        run = self.gale(*arguments)
+        self.assertEqual(run.returncode, code, (run.args, run.stderr))
+        self.assertRegex(run.stderr, r"\Agale: [^\n]+\n\Z")
+        self.assertIn(str(naming), run.stderr)
+
+    def write(self, name, content):
+        path = self.folder / name
+        path.write_bytes(content if isinstance(content, bytes) else content.encode())
+        return name
+
+    def names(self):
+        return sorted(path.name for path in self.folder.iterdir())
+
+
+class Volume:
+    """Values of nx * ny * nz voxels, x fastest, that can be written in every volume format."""
+
+    def __init__(self, size, value):
+        self.size = size
+        self.values = [value(x, y, z) for z in range(size[2]) for y in range(size[1]) for x in range(size[0])]
+        self.data = struct.pack(f"<{len(self.values)}f", *self.values)
+
+    def nrrd(self):
+        sizes = " ".join(map(str, self.size))
+        return (f"NRRD0004\ntype: float\ndimension: 3\nsizes: {sizes}\nspacings: 1 1 1\nendian: little\n"
+                "encoding: raw\n\n").encode() + self.data
+
+    def mha(self, data_file="LOCAL"):
+        sizes = " ".join(map(str, self.size))
+        header = (f"ObjectType = Image\nNDims = 3\nDimSize = {sizes}\nElementSpacing = 1 1 1\nElementType = MET_FLOAT\n"
+                  f"ElementByteOrderMSB = False\nElementDataFile = {data_file}\n").encode()
+        return header + self.data if data_file == "LOCAL" else header
+
+    def nii(self):
+        header = bytearray(352)
+        struct.pack_into("<i", header, 0, 348)
+        struct.pack_into("<8h", header, 40, 3, *self.size, 1, 1, 1, 1)
+        struct.pack_into("<2h", header, 70, 16, 32)  # float, bits
+        struct.pack_into("<8f", header, 76, 1, 1, 1, 1, 0, 0, 0, 0)
+        struct.pack_into("<f", header, 108, 352)
+        struct.pack_into("4s", header, 344, b"n+1\0")
+        return bytes(header) + self.data
+
+    def vti(self):
+        extent = " ".join(f"0 {n - 1}" for n in self.size)
+        values = " ".join(map(str, self.values))
+        return (f'<VTKFile type="ImageData" version="0.1" byte_order="LittleEndian"><ImageData WholeExtent="{extent}" '
+                f'Origin="0 0 0" Spacing="1 1 1"><Piece Extent="{extent}"><PointData Scalars="values"><DataArray type="Float32" '
+                f'Name="values" format="ascii">{values}</DataArray></PointData></Piece></ImageData></VTKFile>').encode()
+
+
+def vtk_mesh(points, cells, arrays):
+    """A legacy VTK file. `cells`: lists of vertices, of the type that their length says; `arrays`: name -> (type, values)."""
+    types = {1: 1, 2: 3, 3: 5, 4: 10, 8: 12}
+    lines = []
+
+    def put(header, kind, values):
+        values = [float(value) if kind != "int" else value for value in values]
+        lines.append(f"{header}\n".encode() + struct.pack(f">{len(values)}{kind[0]}", *values))
+
+    put(f"POINTS {len(points)} double", "double", [x for point in points for x in point])
+    put(f"CELLS {len(cells)} {sum(len(cell) + 1 for cell in cells)}", "int",
+        [number for cell in cells for number in (len(cell), *cell)])
+    put(f"CELL_TYPES {len(cells)}", "int", [types[len(cell)] for cell in cells])
+    lines.append(f"POINT_DATA {len(points)}".encode())
+    for name, (kind, values) in arrays.items():
+        put(f"SCALARS {name} {kind} 1\nLOOKUP_TABLE default", kind, values)
+    header = b"# vtk DataFile Version 3.0\nby hand\nBINARY\nDATASET UNSTRUCTURED_GRID\n"
+    return header + b"\n".join(lines) + b"\n"
+
+
+def vtk_xml_header(path):
+    """(number of points, names of the point arrays) of a .vtp or .vtu."""
+    text = path.read_bytes().decode("latin-1")
+    arrays = text[text.index("<PointData"):text.index("</PointData>")]
+    return int(re.search(r'NumberOfPoints="(\d+)"', text).group(1)), re.findall(r'<DataArray[^>]* Name="([^"]+)"', arrays)

@@ -1,0 +1,39 @@
+#include <gtest/gtest.h>
+
+#include <gale/relations/relation.hpp>
+
+namespace gale::test {
+
+TEST(RelationSet, has_its_members_alone) {
+  constexpr RelationSet set = Relation::VV | Relation::EV | Relation::link;
+  for (int i = 0; i < relation_count; ++i) {
+    const auto relation = static_cast<Relation>(i);
+    EXPECT_EQ(set.has(relation), relation == Relation::VV || relation == Relation::EV || relation == Relation::link);
+  }
+  EXPECT_EQ(set.count(), 3);
+  EXPECT_FALSE(set.empty());
+  EXPECT_TRUE(RelationSet().empty());
+}
+
+TEST(RelationSet, orders_its_members_as_the_enumeration) {
+  constexpr RelationSet set = Relation::link | Relation::VV | Relation::VT;
+  EXPECT_EQ(members_of(set), (std::vector<Relation>{Relation::VT, Relation::VV, Relation::link}));
+  EXPECT_EQ(set.index_of(Relation::VT), 0);
+  EXPECT_EQ(set.index_of(Relation::VV), 1);
+  EXPECT_EQ(set.index_of(Relation::link), 2);
+}
+
+TEST(RelationSet, contains_subsets) {
+  EXPECT_TRUE(star_relations.contains(Relation::VV | Relation::VT));
+  EXPECT_TRUE(star_relations.contains(RelationSet()));
+  EXPECT_FALSE(star_relations.contains(Relation::VV | Relation::EV));
+}
+
+TEST(RelationNames, are_those_of_the_literature) {
+  EXPECT_EQ(name_of(Relation::EV), "EV");
+  EXPECT_EQ(name_of(Relation::TT), "TT");
+  EXPECT_EQ(name_of(Relation::VT | Relation::link | Relation::VV), "VT, VV, link");
+  EXPECT_EQ(name_of(RelationSet()), "");
+}
+
+}  // namespace gale::test

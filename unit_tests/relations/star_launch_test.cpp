@@ -1,0 +1,180 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include <gale/base/error.hpp>
+#include <gale/relations/launch.hpp>
+
+#include "relations/star_subsets.hpp"
+#include "support/arrays.hpp"
+#include "support/brute_force.hpp"
+#include "support/every_mesh.hpp"
+
+namespace gale::test {
+
+namespace {
+
+/// A batch of all segments of a mesh, launched in the producers' space, with memory of given sizes.
+class Batch {
+ public:
+  Batch(const Mesh& mesh, RelationSet wanted, const StarSizes& sizes, int level, Offset capacity)
+      : mesh_(mesh), wanted_(wanted), sizes_(sizes), level_(level), capacity_(capacity) {}
+
+  void run(int warps) {
+    const Id segments = mesh_.segments();
+    std::vector<Id> list(segments);
+    for (Id s = 0; s < segments; ++s) list[s] = segments - 1 - s;
+    const auto segment_list = to_producer(list);
+    const auto words = allocate<Array<Id, ProducerMemory>>("words", capacity_);
+    const Array<Offset, ProducerMemory> used("used", 1), directory("directory", Offset(segments) * wanted_.count());
+    const auto needed = to_producer(std::vector<StarSizes>(1));
+    StarKernel<ProducerMemory> kernel;
+    kernel.mesh = mesh_.producer();
+    kernel.segments = segment_list.data();
+    kernel.wanted = wanted_;
+    kernel.sizes = sizes_;
+    kernel.scratch_level = level_;
+    kernel.pool = {words.data(), capacity_, used.data(), directory.data(), needed.data()};
+    const ProducerSpace instance = make_instance();
+    launch(instance, kernel, segments, warps);
+    instance.fence();
+    words_ = to_vector(words);
+    directory_ = to_vector(directory);
+    used_ = to_vector(used)[0];
+    needed_ = to_vector(needed)[0];
+  }
+
+  bool has(Id segment) const { return missing_blocks(segment) == 0; }
+  bool lacks(Id segment) const { return missing_blocks(segment) == wanted_.count(); }
+
+  bool has_all() const { return std::count(directory_.begin(), directory_.end(), BlockPool::missing) == 0; }
+
+  SegmentRows rows(Id segment) const {
+    SegmentRows rows(segment, mesh_.vertex_begin()(segment), mesh_.vertex_begin()(segment + 1));
+    const Offset* entry = entry_of(segment);
+    for (const Relation relation : members_of(wanted_)) rows.set(relation, words_.data() + *entry++);
+    return rows;
+  }
+
+  Offset used() const { return used_; }
+  const StarSizes& needed() const { return needed_; }
+
+ private:
+  int missing_blocks(Id segment) const {
+    const Offset* const entry = entry_of(segment);
+    return static_cast<int>(std::count(entry, entry + wanted_.count(), BlockPool::missing));
+  }
+
+  const Offset* entry_of(Id segment) const { return directory_.data() + Offset(mesh_.segments() - 1 - segment) * wanted_.count(); }
+
+  const Mesh& mesh_;
+  RelationSet wanted_;
+  StarSizes sizes_;
+  int level_;
+  Offset capacity_;
+  std::vector<Id> words_;
+  std::vector<Offset> directory_;
+  Offset used_ = 0;
+  StarSizes needed_;
+};
+
+constexpr Offset plenty = Offset(1) << 18;
+constexpr int warps = 4;
+
+/// The rows of the segments that are there; how many are.
+Id expect_rows(const Batch& batch, const Mesh& mesh, RelationSet wanted, const ExpectedRows& expected) {
+  Id there = 0;
+  for (Id s = 0; s < mesh.segments(); ++s) {
+    if (!batch.has(s)) {
+      EXPECT_TRUE(batch.lacks(s)) << "segment " << s << " has some of its blocks";
+      continue;
+    }
+    EXPECT_TRUE(expected.match(batch.rows(s), wanted)) << "wanted " << name_of(wanted);
+    ++there;
+  }
+  return there;
+}
+
+/// Does a team of these sizes find room in the scratch memory that is fast?
+bool fits_level_0(const StarSizes& sizes) {
+  constexpr std::size_t portion = 32 * 1024;
+  return detail::StarScratch::bytes(sizes, warps) < portion;
+}
+
+/// What every segment of the mesh needs, found as a runtime does: by trying.
+StarSizes sizes_that_suffice(const Mesh& mesh, RelationSet wanted, const ExpectedRows& expected) {
+  StarSizes sizes{4, 16, 16, 8};
+  for (int attempt = 0; attempt < 5; ++attempt) {
+    Batch batch(mesh, wanted, sizes, fits_level_0(sizes) ? 0 : 1, plenty);
+    batch.run(warps);
+    expect_rows(batch, mesh, wanted, expected);
+    if (batch.has_all()) return sizes;
+    EXPECT_FALSE(sizes.contains(batch.needed())) << "some segments are missing, but nothing more was needed";
+    sizes = larger(sizes, batch.needed());
+  }
+  ADD_FAILURE() << "needs more and more for " << name_of(wanted);
+  return sizes;
+}
+
+}  // namespace
+
+class LaunchedStarsOf : public EveryMesh {};
+
+TEST_P(LaunchedStarsOf, every_mesh_are_those_of_brute_force_whatever_the_scratch_memory) {
+  const Mesh mesh = encode(input(), segmentation());
+  const ExpectedRows expected(input(), brute_force_of(mesh_name()), mesh);
+  for (const RelationSet wanted : star_subsets) {
+    const StarSizes sizes = sizes_that_suffice(mesh, wanted, expected);
+    Batch batch(mesh, wanted, sizes, 1, plenty);
+    batch.run(2 * warps);
+    EXPECT_EQ(expect_rows(batch, mesh, wanted, expected), mesh.segments());
+    EXPECT_EQ(batch.needed().rows, 0) << "needs nothing more";
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Tests, LaunchedStarsOf, every_mesh_and_segmentation(), mesh_and_segmentation);
+
+TEST(LaunchedStars, leave_out_what_the_pool_lacks_room_for_and_say_how_much_it_takes) {
+  const InputMesh& input = mesh_named("holed_grid_9");
+  const Mesh mesh = encode(input, octree_of(input, 7));
+  const ExpectedRows expected(input, brute_force_of("holed_grid_9"), mesh);
+  for (const RelationSet wanted : star_subsets) {
+    const StarSizes sizes = sizes_that_suffice(mesh, wanted, expected);
+    Batch small(mesh, wanted, sizes, 1, 5000);
+    small.run(warps);
+    EXPECT_GT(small.used(), 5000);
+    EXPECT_EQ(small.needed().rows, 0) << "it is the pool that lacks, not the scratch memory";
+    EXPECT_LT(expect_rows(small, mesh, wanted, expected), mesh.segments());
+    Batch enough(mesh, wanted, sizes, 1, small.used());
+    enough.run(warps);
+    EXPECT_EQ(enough.used(), small.used());
+    EXPECT_EQ(expect_rows(enough, mesh, wanted, expected), mesh.segments());
+  }
+}
+
+TEST(LaunchedStars, of_a_vertex_of_degree_70000) {
+  const InputMesh input = cone_over_disc(70000);
+  const Mesh mesh = encode(input, octree_of(input, 1000));
+  const ExpectedRows expected(input, BruteForce(input), mesh);
+  const StarSizes sizes = {1000, 300000, 300000, 262144};
+  Batch batch(mesh, star_relations, sizes, 1, 16 * plenty);
+  batch.run(warps);
+  EXPECT_EQ(expect_rows(batch, mesh, star_relations, expected), mesh.segments());
+}
+
+TEST(LaunchedStars, of_no_segments_are_nothing) {
+  launch(ProducerSpace(), StarKernel<ProducerMemory>(), 0, warps);
+}
+
+TEST(LaunchedStars, refuse_more_scratch_memory_than_a_team_can_have) {
+  StarKernel<ProducerMemory> kernel;
+  kernel.sizes = {1000, 600000000, 8, 8};
+  try {
+    launch(ProducerSpace(), kernel, 1, 1);
+    ADD_FAILURE() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("a segment of 1000 vertices takes 24000"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace gale::test
