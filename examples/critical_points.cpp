@@ -1,12 +1,12 @@
 // Finds the critical points of a field on a tetrahedral mesh that the program holds in its own Kokkos Views.
 
-#include <gale/algorithms/critical_points.hpp>
-#include <gale/io/synthetic.hpp>
-#include <gale/runtime/runtime.hpp>
-
 #include <cstdio>
 #include <variant>
 #include <vector>
+
+#include <gale/algorithms/critical_points.hpp>
+#include <gale/io/synthetic.hpp>
+#include <gale/runtime/runtime.hpp>
 
 int main(int argc, char** argv) {
   const Kokkos::ScopeGuard kokkos(argc, argv);
@@ -26,6 +26,7 @@ int main(int argc, char** argv) {
   const auto critical = gale::find_critical_points(runtime, gale::VertexOrder(mesh, field.data(), field.size()));
 
   const auto [minima, saddles1, saddles2, maxima, degenerate] = critical.counts;
-  std::printf("%d minima, %d 1-saddles, %d 2-saddles, %d maxima, %d degenerate\n", minima, saddles1, saddles2, maxima, degenerate);
+  std::printf("%d minima, %d 1-saddles, %d 2-saddles, %d maxima, %d degenerate\n", minima, saddles1, saddles2, maxima,
+              degenerate);
   return minima == 26 && saddles1 == 76 && saddles2 == 88 && maxima == 39 && degenerate == 6 ? 0 : 1;
 }

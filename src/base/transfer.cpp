@@ -11,6 +11,7 @@
 #include <mutex>
 #include <vector>
 
+#include <gale/base/pinned.hpp>
 #include <gale/base/threads.hpp>
 
 namespace gale {
@@ -18,7 +19,7 @@ namespace gale {
 namespace {
 
 using Bytes = Kokkos::View<char*, ProducerMemory, Kokkos::MemoryUnmanaged>;
-using Pinned = Array<char, PinnedMemory>;
+using Pinned = PinnedArray<char>;
 
 constexpr std::size_t chunk_bytes = std::size_t(2) << 20;
 
@@ -28,7 +29,7 @@ constexpr int most_lanes = 16;
 /// One thread's way to the device and back.
 struct Lane {
   ProducerSpace instance = make_instance();
-  Pinned chunk = allocate<Pinned>("GALE::staging", chunk_bytes);
+  Pinned chunk{chunk_bytes};
 };
 
 /// The lanes of the process, which live until Kokkos is finalized: pinning memory takes longer than most copies.
@@ -66,7 +67,7 @@ class Lanes {
   std::vector<std::unique_ptr<Lane>> lanes_;
 };
 
-auto first(const Pinned& chunk, std::size_t size) { return Kokkos::subview(chunk, std::make_pair(std::size_t(0), size)); }
+auto first(const Pinned& chunk, std::size_t size) { return Kokkos::subview(chunk.view(), std::make_pair(std::size_t(0), size)); }
 
 }  // namespace
 

@@ -23,7 +23,8 @@ void for_each_edge(const LinkRow& link, const Visit& visit) {
   }
 }
 
-/// For vertices of at most 64 neighbours: a word of bits for each, which edges to higher ones were seen, and which again.
+/// For vertices of at most 64 neighbours: a word of bits for each, which edges to higher ones were seen, and which
+/// again.
 class SmallLinkEdges {
  public:
   static constexpr Id capacity = 64;

@@ -12,8 +12,9 @@ namespace gale {
 /// Only where GALE was built with Kokkos-Kernels (GALE_ENABLE_KOKKOS_KERNELS); elsewhere the constructor throws gale::Error that says so.
 class ExplicitStructure : public Structure {
  public:
-  /// `wanted` within star_relations. Memory: 4 bytes an entry and a row, twice that during construction. Throws gale::Error if a relation has
-  /// more than 2^31 - 1 entries, naming it and their number.
+  /// `wanted` within star_relations. Memory: 4 bytes an entry and a row; for links 3 an entry of VT, 6 or 12 where a VV row is longer than 256
+  /// or 65536. During construction twice what VT and VV take beside them. Throws gale::Error for any other relation; and if one has more than
+  /// 2^31 - 1 entries, naming it and their number.
   ExplicitStructure(const Mesh& mesh, RelationSet wanted);
   ~ExplicitStructure() override;
 

@@ -23,10 +23,10 @@ std::size_t fast_scratch_bytes() {
   return static_cast<std::size_t>(Kokkos::TeamPolicy<Space>::scratch_size_max(0));
 }
 
-/// Starts a star kernel on `teams` teams, one a segment of the batch, of `warps` warps each on a device and of one thread on the host, in
-/// the scratch memory that its sizes ask for. Returns at once on a device: fence `instance` before you read what it leaves.
-/// Not from several threads at once on the host, where HostTeam is for that.
-/// Throws gale::Error if a team's scratch memory is more than Kokkos counts (2 GiB).
+/// Starts a star kernel on `teams` teams, one a segment of the batch, of `warps` warps each on a device and of one
+/// thread on the host, in the scratch memory that its sizes ask for. Returns at once on a device: fence `instance`
+/// before you read what it leaves. Not from several threads at once on the host, where HostTeam is for that. Throws
+/// gale::Error if a team's scratch memory is more than Kokkos counts (2 GiB).
 template <class Space, class Memory>
 void launch(const Space& instance, const StarKernel<Memory>& kernel, int teams, int warps) {
   if (teams < 1) return;

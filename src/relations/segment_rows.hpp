@@ -8,7 +8,8 @@
 
 namespace gale {
 
-/// The rows of one segment, of each relation that was asked for. Owns nothing: whoever hands it out says how long it is valid.
+/// The rows of one segment, of each relation that was asked for. Owns nothing: whoever hands it out says how long it is
+/// valid.
 class SegmentRows {
  public:
   SegmentRows() = default;

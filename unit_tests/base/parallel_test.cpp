@@ -45,7 +45,8 @@ T least(const std::vector<T>& values, T initial) {
 
 Array<Id, ProducerMemory> doubled(Offset n) {
   const Array<Id, ProducerMemory> values("values", n);
-  parallel_for("test_for", ProducerSpace(), n, KOKKOS_LAMBDA(Offset i) { values(i) += static_cast<Id>(2 * i); });
+  parallel_for(
+      "test_for", ProducerSpace(), n, KOKKOS_LAMBDA(Offset i) { values(i) += static_cast<Id>(2 * i); });
   return values;
 }
 

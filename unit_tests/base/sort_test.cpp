@@ -59,11 +59,21 @@ TEST(StableSortByKey, keeps_the_order_of_equal_keys) { expect_stable_sort(random
 
 TEST(StableSortByKey, of_equal_keys_moves_nothing) { expect_stable_sort(Keys(10000, 42)); }
 
+TEST(StableSortByKey, of_equal_keys_but_one) {
+  for (const std::uint64_t odd : {std::uint64_t(0), std::uint64_t(43), ~std::uint64_t(0)}) {
+    Keys keys(1000, 42);
+    keys[500] = odd;
+    expect_stable_sort(keys);
+  }
+}
+
 TEST(StableSortByKey, of_one_digit_anywhere) {
   for (int shift = 0; shift < 64; ++shift) expect_stable_sort(random_keys(300, std::uint64_t(7) << shift));
 }
 
-TEST(StableSortByKey, treats_keys_as_unsigned) { expect_stable_sort({~std::uint64_t(0), 0, std::uint64_t(1) << 63, 1}); }
+TEST(StableSortByKey, treats_keys_as_unsigned) {
+  expect_stable_sort({~std::uint64_t(0), 0, std::uint64_t(1) << 63, 1});
+}
 
 TEST(SortRows, of_nothing) {
   expect_sorted_rows({0}, {});
@@ -76,7 +86,8 @@ TEST(SortRows, of_any_length) {
   std::mt19937 random(9);
   std::vector<Offset> begin = {0};
   std::vector<Id> values;
-  for (const Offset length : {0, 1, 2, 3, 31, 32, 33, 64, 500, 5000, 0, 40000, 1}) begin.push_back(begin.back() + length);
+  for (const Offset length : {0, 1, 2, 3, 31, 32, 33, 64, 500, 5000, 0, 40000, 1})
+    begin.push_back(begin.back() + length);
   for (Offset i = 0; i < begin.back(); ++i) values.push_back(static_cast<Id>(random() % 1000));
   expect_sorted_rows(begin, values);
 }

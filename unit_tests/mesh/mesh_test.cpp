@@ -28,7 +28,8 @@ std::vector<Id> segments_of_vertices(const Mesh& mesh) {
 }
 
 /// T_ex by segment, from the tetrahedra.
-std::vector<std::set<Id>> external_tetrahedra(const std::vector<Quad>& tetrahedra, const std::vector<Id>& segment_of, Id segments) {
+std::vector<std::set<Id>> external_tetrahedra(const std::vector<Quad>& tetrahedra, const std::vector<Id>& segment_of,
+                                              Id segments) {
   std::vector<std::set<Id>> external(segments);
   for (std::size_t t = 0; t < tetrahedra.size(); ++t) {
     const Id home = segment_of[*std::min_element(tetrahedra[t].begin(), tetrahedra[t].end())];
@@ -45,6 +46,23 @@ std::vector<std::vector<Id>> external_in(const EncodedMesh<HostMemory>& mesh) {
     rows.emplace_back(mesh.external.data() + mesh.external_begin(s), mesh.external.data() + mesh.external_begin(s + 1));
   }
   return rows;
+}
+
+void expect_external_tetrahedra(const Mesh& mesh) {
+  const auto expected = external_tetrahedra(tetrahedra_in(mesh.host()), segments_of_vertices(mesh), mesh.segments());
+  const auto external = external_in(mesh.host());
+  ASSERT_EQ(external.size(), expected.size());
+  for (std::size_t s = 0; s < expected.size(); ++s) {
+    EXPECT_EQ(external[s], std::vector<Id>(expected[s].begin(), expected[s].end())) << "segment " << s;
+  }
+}
+
+/// What GALE's tetrahedron `t` must be.
+Quad renumbered(const InputMesh& input, const Mesh& mesh, Id t) {
+  Quad quad = input.tetrahedra.at(mesh.tetrahedron_input()(t));
+  for (Id& vertex : quad) vertex = mesh.vertex_internal()(vertex);
+  std::sort(quad.begin(), quad.end());
+  return quad;
 }
 
 }  // namespace
@@ -76,10 +94,7 @@ TEST_P(MeshOf, every_input_has_the_same_tetrahedra_renumbered) {
   for (Id t = 0; t < mesh.tetrahedra(); ++t) {
     const Id input_t = mesh.tetrahedron_input()(t);
     ASSERT_TRUE(seen.insert(input_t).second) << "input tetrahedron " << input_t << " twice";
-    Quad expected = input().tetrahedra.at(input_t);
-    for (Id& vertex : expected) vertex = mesh.vertex_internal()(vertex);
-    std::sort(expected.begin(), expected.end());
-    ASSERT_EQ(tetrahedra[t], expected) << "tetrahedron " << t;
+    ASSERT_EQ(tetrahedra[t], renumbered(input(), mesh, t)) << "tetrahedron " << t;
   }
 }
 
@@ -99,14 +114,7 @@ TEST_P(MeshOf, every_input_has_its_tetrahedra_in_order_and_in_intervals) {
   }
 }
 
-TEST_P(MeshOf, every_input_has_its_external_tetrahedra_ascending) {
-  const auto expected = external_tetrahedra(tetrahedra_in(mesh.host()), segments_of_vertices(mesh), mesh.segments());
-  const auto external = external_in(mesh.host());
-  ASSERT_EQ(external.size(), expected.size());
-  for (std::size_t s = 0; s < expected.size(); ++s) {
-    EXPECT_EQ(external[s], std::vector<Id>(expected[s].begin(), expected[s].end())) << "segment " << s;
-  }
-}
+TEST_P(MeshOf, every_input_has_its_external_tetrahedra_ascending) { expect_external_tetrahedra(mesh); }
 
 TEST_P(MeshOf, every_input_finds_the_segment_of_a_vertex) {
   const auto segment_of = segments_of_vertices(mesh);
@@ -139,6 +147,16 @@ TEST(Mesh, of_the_papers_example_with_its_segments_exchanged) {
   EXPECT_EQ(to_vector(mesh.vertex_input()), (std::vector<Id>{3, 4, 5, 0, 1, 2}));
   EXPECT_EQ(tetrahedra_in(mesh.host()), (std::vector<Quad>{{0, 1, 2, 5}, {0, 1, 3, 5}, {0, 3, 4, 5}}));
   EXPECT_EQ(to_vector(mesh.tetrahedron_input()), (std::vector<Id>{2, 1, 0}));
+}
+
+/// Enough tetrahedra for several threads, which find them in any order.
+TEST(Mesh, of_many_tetrahedra_is_in_the_same_order) {
+  const InputMesh input = holed_grid(22);
+  const Mesh mesh = encode(input, octree_of(input, 100));
+  const auto tetrahedra = tetrahedra_in(mesh.host());
+  EXPECT_TRUE(std::is_sorted(tetrahedra.begin(), tetrahedra.end()));
+  for (Id t = 0; t < mesh.tetrahedra(); ++t) ASSERT_EQ(tetrahedra[t], renumbered(input, mesh, t));
+  expect_external_tetrahedra(mesh);
 }
 
 TEST(Mesh, leaves_its_input_as_it_was) {

@@ -68,7 +68,8 @@ TEST(MeshValidation, refuses_a_repeated_vertex) {
 }
 
 TEST(MeshValidation, refuses_the_same_tetrahedron_twice_whatever_its_order) {
-  EXPECT_EQ(refusal_of(5, {{0, 1, 2, 3}, {1, 2, 3, 4}, {3, 0, 2, 1}}), "tetrahedra 0 and 2 have the same four vertices");
+  EXPECT_EQ(refusal_of(5, {{0, 1, 2, 3}, {1, 2, 3, 4}, {3, 0, 2, 1}}),
+            "tetrahedra 0 and 2 have the same four vertices");
   EXPECT_EQ(refusal_with(19000, {503, 501, 500, 502}), "tetrahedra 500 and 19000 have the same four vertices");
 }
 

@@ -34,7 +34,9 @@ Points3 grid_points(int side) {
   return points;
 }
 
-std::vector<std::vector<Id>> octree(const Points3& points, int capacity) { return segments_of(octree_of({points, {}}, capacity)); }
+std::vector<std::vector<Id>> octree(const Points3& points, int capacity) {
+  return segments_of(octree_of({points, {}}, capacity));
+}
 
 void expect_refused(const Points3& points, int capacity, const std::string& message) {
   try {

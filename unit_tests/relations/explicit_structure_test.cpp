@@ -40,9 +40,10 @@ TEST(ExplicitStructureErrors, name_a_relation_that_it_does_not_have) {
 #ifndef GALE_ENABLE_KOKKOS_KERNELS
 
 TEST(ExplicitStructureErrors, without_kokkos_kernels_name_the_option) {
-  EXPECT_EQ(refusal_of([] { ExplicitStructure(one_tetrahedron(), Relation::VV); }),
-            "the explicit structure is computed with Kokkos-Kernels, which this GALE was built without: configure it with "
-            "GALE_ENABLE_KOKKOS_KERNELS=ON");
+  EXPECT_EQ(
+      refusal_of([] { ExplicitStructure(one_tetrahedron(), Relation::VV); }),
+      "the explicit structure is computed with Kokkos-Kernels, which this GALE was built without: configure it with "
+      "GALE_ENABLE_KOKKOS_KERNELS=ON");
 }
 
 #else
@@ -62,7 +63,8 @@ Id expect_sweep(ExplicitStructure& structure, RelationSet wanted, int threads, c
   structure.for_each_segment(wanted, with_threads(threads), [&](int consumer, const SegmentRows& rows) {
     const auto& begin = structure.mesh().vertex_begin();
     const bool placed = rows.first() == begin(rows.segment()) && rows.last() == begin(rows.segment() + 1);
-    if (result[consumer] && !placed) result[consumer] = testing::AssertionFailure() << "segment " << rows.segment() << " is elsewhere";
+    if (result[consumer] && !placed)
+      result[consumer] = testing::AssertionFailure() << "segment " << rows.segment() << " is elsewhere";
     if (result[consumer]) result[consumer] = expected.match(rows, wanted);
     ++segments;
   });
@@ -92,7 +94,8 @@ TEST(ExplicitStructure, sweeps_with_any_number_of_threads) {
   const ExpectedRows expected(input, brute_force_of("holed_grid_9"), mesh);
   ExplicitStructure structure(mesh, star_relations);
   for (const int threads : {1, 2, 8}) {
-    for (const RelationSet wanted : star_subsets) EXPECT_EQ(expect_sweep(structure, wanted, threads, expected), mesh.segments());
+    for (const RelationSet wanted : star_subsets)
+      EXPECT_EQ(expect_sweep(structure, wanted, threads, expected), mesh.segments());
   }
 }
 

@@ -65,7 +65,9 @@ class Batch {
     return static_cast<int>(std::count(entry, entry + wanted_.count(), BlockPool::missing));
   }
 
-  const Offset* entry_of(Id segment) const { return directory_.data() + Offset(mesh_.segments() - 1 - segment) * wanted_.count(); }
+  const Offset* entry_of(Id segment) const {
+    return directory_.data() + Offset(mesh_.segments() - 1 - segment) * wanted_.count();
+  }
 
   const Mesh& mesh_;
   RelationSet wanted_;
@@ -162,9 +164,7 @@ TEST(LaunchedStars, of_a_vertex_of_degree_70000) {
   EXPECT_EQ(expect_rows(batch, mesh, star_relations, expected), mesh.segments());
 }
 
-TEST(LaunchedStars, of_no_segments_are_nothing) {
-  launch(ProducerSpace(), StarKernel<ProducerMemory>(), 0, warps);
-}
+TEST(LaunchedStars, of_no_segments_are_nothing) { launch(ProducerSpace(), StarKernel<ProducerMemory>(), 0, warps); }
 
 TEST(LaunchedStars, refuse_more_scratch_memory_than_a_team_can_have) {
   StarKernel<ProducerMemory> kernel;
@@ -173,7 +173,8 @@ TEST(LaunchedStars, refuse_more_scratch_memory_than_a_team_can_have) {
     launch(ProducerSpace(), kernel, 1, 1);
     ADD_FAILURE() << "accepted";
   } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find("a segment of 1000 vertices takes 24000"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("a segment of 1000 vertices takes 24000"), std::string::npos)
+        << error.what();
   }
 }
 

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
-#include <mutex>
+#include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <stdexcept>
 #include <thread>
 
@@ -49,21 +51,40 @@ TEST(Sweep, refuses_less_than_one_thread) {
   }
 }
 
-TEST(Sweep, begins_no_segment_after_one_has_thrown) {
-  for (const int threads : {1, 2, 4}) {
-    constexpr Id segments = 100000, bad = 1234;
-    std::atomic<int> visits{0};
+TEST(Sweep, of_one_thread_ends_at_the_segment_that_throws) {
+  Id visits = 0;
+  const auto body = [&](int, Id segment) {
+    ++visits;
+    if (segment == 1234) throw std::runtime_error("segment 1234");
+  };
+  EXPECT_THROW(detail::sweep(100000, with_threads(1), body), std::runtime_error);
+  EXPECT_EQ(visits, 1235);
+}
+
+TEST(Sweep, of_several_threads_ends_soon_after_one_has_thrown) {
+  for (const int threads : {2, 4}) {
+    std::atomic<bool> thrown{false};
+    std::atomic<Id> visits{0};
     const auto body = [&](int, Id segment) {
       ++visits;
-      if (segment == bad) throw std::runtime_error("segment 1234");
-      std::this_thread::yield();
+      if (segment == 0) {
+        thrown = true;
+        throw std::runtime_error("segment 0");
+      }
+      while (!thrown) std::this_thread::yield();
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
     };
-    EXPECT_THROW(detail::sweep(segments, with_threads(threads), body), std::runtime_error);
-    EXPECT_LT(visits, segments) << threads << " threads";
-    if (threads == 1) {
-      EXPECT_EQ(visits, bad + 1);
-    }
+    EXPECT_THROW(detail::sweep(2000, with_threads(threads), body), std::runtime_error);
+    EXPECT_LT(visits, 1500) << "the others went on";
   }
+}
+
+TEST(SegmentCursor, deals_nothing_out_after_it_was_stopped) {
+  detail::SegmentCursor cursor(100000, 2);
+  EXPECT_LT(cursor.take().begin, cursor.take().begin);
+  cursor.stop();
+  const auto range = cursor.take();
+  EXPECT_EQ(range.begin, range.end);
 }
 
 TEST(Sweep, tells_its_progress_on_the_calling_thread_up_to_the_end) {

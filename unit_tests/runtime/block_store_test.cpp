@@ -17,7 +17,7 @@ constexpr std::size_t arena_bytes = words * sizeof(Id);
 void publish(BlockStore& store, Arena& arena, Id segment, Id unread = 0) {
   arena.segments = {segment};
   arena.directory = {0};
-  arena.words(0) = segment;
+  arena.words.data()[0] = segment;
   store.publish(arena, unread);
 }
 
@@ -93,7 +93,7 @@ TEST(BlockStore, enlarges_an_arena_for_a_block_that_needs_it) {
   BlockStore store(10, words, 2 * arena_bytes);
   Arena& arena = *store.take(BlockStore::Need::must_have);
   store.enlarge(arena, 10 * words);
-  EXPECT_EQ(arena.words.extent(0), static_cast<std::size_t>(10 * words));
+  EXPECT_EQ(arena.words.size(), static_cast<std::size_t>(10 * words));
   EXPECT_EQ(store.peak_bytes(), 10 * arena_bytes);
 }
 

@@ -29,16 +29,15 @@ class Interrupted : public BatchProducer {
         at_finish_(std::move(at_finish)) {}
 
   bool is_large(Id) const override { return false; }
-  void launch(const std::vector<Id>& segments, const StarSizes& scratch) override {
+  void launch(const std::vector<Id>& segments, Offset words, const StarSizes& scratch) override {
     if (at_launch_) at_launch_(segments);
     segments_ = segments;
-    producer_->launch(segments, scratch);
+    producer_->launch(segments, words, scratch);
   }
   detail::Shortfall finish(Arena& arena) override {
     if (at_finish_) at_finish_(segments_);
     return producer_->finish(arena);
   }
-  void reserve(Offset) override {}
   void abandon() noexcept override {}
   std::size_t device_bytes() const override { return 0; }
 

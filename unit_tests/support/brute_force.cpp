@@ -21,10 +21,11 @@ std::string listed(const std::vector<T>& entries) {
 }
 
 template <class T>
-testing::AssertionResult same(const char* relation, Id vertex, const std::vector<T>& row, const std::vector<T>& expected) {
+testing::AssertionResult same(const char* relation, Id vertex, const std::vector<T>& row,
+                              const std::vector<T>& expected) {
   if (row == expected) return testing::AssertionSuccess();
-  return testing::AssertionFailure() << relation << " of vertex " << vertex << " has " << listed(row) << "\n  and should have "
-                                     << listed(expected);
+  return testing::AssertionFailure() << relation << " of vertex " << vertex << " has " << listed(row)
+                                     << "\n  and should have " << listed(expected);
 }
 
 std::vector<Id> copy_of(const Row& row) { return {row.begin(), row.end()}; }
@@ -51,7 +52,8 @@ std::vector<Id> inverse_of(const Array<const Id, HostMemory>& permutation) {
 
 }  // namespace
 
-BruteForce::BruteForce(const InputMesh& mesh) : vv(mesh.points.size()), vt(mesh.points.size()), on_boundary(mesh.points.size()) {
+BruteForce::BruteForce(const InputMesh& mesh)
+    : vv(mesh.points.size()), vt(mesh.points.size()), on_boundary(mesh.points.size()) {
   std::map<std::set<Id>, int> tetrahedra_of_triangle;
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
     const std::set<Id> corners(mesh.tetrahedra[t].begin(), mesh.tetrahedra[t].end());

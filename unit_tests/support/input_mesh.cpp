@@ -23,7 +23,9 @@ std::vector<std::array<double, 3>> scattered_points(Id count) {
   return points;
 }
 
-InputMesh scattered(Id vertices, std::vector<Quad> tetrahedra) { return {scattered_points(vertices), std::move(tetrahedra)}; }
+InputMesh scattered(Id vertices, std::vector<Quad> tetrahedra) {
+  return {scattered_points(vertices), std::move(tetrahedra)};
+}
 
 InputMesh isolated_vertices() { return scattered(9, {{2, 7, 3, 5}, {5, 3, 6, 7}}); }
 
@@ -60,10 +62,71 @@ InputMesh random_tetrahedra() {
   return mesh;
 }
 
-/// The six tetrahedra of a cube along its main diagonal: paths of unit steps from corner 0 to corner 7, whose bits are x, y, z.
+using Maker = std::function<InputMesh()>;
+
+const std::vector<std::pair<std::string, Maker>>& makers() {
+  static const std::vector<std::pair<std::string, Maker>> all = {
+      {"one_tetrahedron", [] { return scattered(4, {{2, 0, 3, 1}}); }},
+      {"two_sharing_a_triangle", [] { return scattered(5, {{4, 1, 3, 2}, {0, 3, 1, 2}}); }},
+      {"two_sharing_an_edge", [] { return scattered(6, {{4, 1, 5, 2}, {0, 3, 1, 2}}); }},
+      {"two_sharing_a_vertex", [] { return scattered(7, {{4, 1, 5, 6}, {0, 3, 1, 2}}); }},
+      {"three_on_one_triangle", [] { return scattered(6, {{0, 1, 2, 3}, {4, 2, 1, 0}, {1, 5, 0, 2}}); }},
+      {"the_papers", [] { return scattered(6, {{0, 1, 2, 3}, {0, 2, 3, 4}, {2, 3, 4, 5}}); }},
+      {"several_components", several_components},
+      {"isolated_vertices", isolated_vertices},
+      {"slivers", slivers},
+      {"coincident_points", coincident_points},
+      {"random_tetrahedra", random_tetrahedra},
+      {"cone_over_disc_200", [] { return cone_over_disc(200); }},
+      {"cone_over_sphere_200", [] { return cone_over_caps(200, 2); }},
+      {"cone_over_sphere_2000", [] { return cone_over_caps(2000, 2); }},
+      {"cone_over_three_caps_100", [] { return cone_over_caps(100, 3); }},
+      {"holed_grid_9", [] { return holed_grid(9); }},
+#ifdef GALE_ENABLE_VTK
+      {"delaunay_600", [] { return delaunay_mesh(600); }},
+#endif
+  };
+  return all;
+}
+
+/// The six tetrahedra of a cube along its main diagonal: paths of unit steps from corner 0 to 7, whose bits are x, y, z.
 constexpr int freudenthal[6][4] = {{0, 1, 3, 7}, {0, 1, 5, 7}, {0, 2, 3, 7}, {0, 2, 6, 7}, {0, 4, 5, 7}, {0, 4, 6, 7}};
 
-/// A grid of `side`^3 points, a third of whose tetrahedra are missing, all ids and corners shuffled.
+InputMesh cone(std::vector<std::array<double, 3>> link, const std::vector<std::array<Id, 3>>& triangles) {
+  InputMesh mesh;
+  mesh.points = std::move(link);
+  mesh.points.insert(mesh.points.begin(), {0, 0, 0});
+  for (const auto& [a, b, c] : triangles) mesh.tetrahedra.push_back({c + 1, a + 1, 0, b + 1});
+  return mesh;
+}
+
+std::array<double, 3> on_circle(Id i, Id count, double z) {
+  const double angle = 2 * 3.14159265358979 * i / count;
+  return {std::cos(angle), std::sin(angle), z};
+}
+
+}  // namespace
+
+InputMesh cone_over_disc(Id degree) {
+  std::vector<std::array<double, 3>> link;
+  std::vector<std::array<Id, 3>> triangles;
+  for (Id i = 0; i < degree; ++i) link.push_back(on_circle(i, degree, 1));
+  for (Id i = 1; i + 1 < degree; ++i) triangles.push_back({0, i, i + 1});
+  return cone(link, triangles);
+}
+
+InputMesh cone_over_caps(Id degree, int caps) {
+  const Id around = degree - caps;
+  std::vector<std::array<double, 3>> link;
+  std::vector<std::array<Id, 3>> triangles;
+  for (int cap = 0; cap < caps; ++cap) link.push_back({0, 0, 1.0 - 2.0 * cap / (caps - 1)});
+  for (Id i = 0; i < around; ++i) {
+    link.push_back(on_circle(i, around, 0));
+    for (int cap = 0; cap < caps; ++cap) triangles.push_back({cap, caps + i, caps + (i + 1) % around});
+  }
+  return cone(link, triangles);
+}
+
 InputMesh holed_grid(Id side) {
   std::mt19937 random(2025);
   std::vector<Id> id(side * side * side);
@@ -90,68 +153,6 @@ InputMesh holed_grid(Id side) {
   }
   std::shuffle(mesh.tetrahedra.begin(), mesh.tetrahedra.end(), random);
   return mesh;
-}
-
-using Maker = std::function<InputMesh()>;
-
-const std::vector<std::pair<std::string, Maker>>& makers() {
-  static const std::vector<std::pair<std::string, Maker>> all = {
-      {"one_tetrahedron", [] { return scattered(4, {{2, 0, 3, 1}}); }},
-      {"two_sharing_a_triangle", [] { return scattered(5, {{4, 1, 3, 2}, {0, 3, 1, 2}}); }},
-      {"two_sharing_an_edge", [] { return scattered(6, {{4, 1, 5, 2}, {0, 3, 1, 2}}); }},
-      {"two_sharing_a_vertex", [] { return scattered(7, {{4, 1, 5, 6}, {0, 3, 1, 2}}); }},
-      {"three_on_one_triangle", [] { return scattered(6, {{0, 1, 2, 3}, {4, 2, 1, 0}, {1, 5, 0, 2}}); }},
-      {"the_papers", [] { return scattered(6, {{0, 1, 2, 3}, {0, 2, 3, 4}, {2, 3, 4, 5}}); }},
-      {"several_components", several_components},
-      {"isolated_vertices", isolated_vertices},
-      {"slivers", slivers},
-      {"coincident_points", coincident_points},
-      {"random_tetrahedra", random_tetrahedra},
-      {"cone_over_disc_200", [] { return cone_over_disc(200); }},
-      {"cone_over_sphere_200", [] { return cone_over_sphere(200); }},
-      {"cone_over_sphere_2000", [] { return cone_over_sphere(2000); }},
-      {"holed_grid_9", [] { return holed_grid(9); }},
-#ifdef GALE_ENABLE_VTK
-      {"delaunay_600", [] { return delaunay_mesh(600); }},
-#endif
-  };
-  return all;
-}
-
-InputMesh cone(std::vector<std::array<double, 3>> link, const std::vector<std::array<Id, 3>>& triangles) {
-  InputMesh mesh;
-  mesh.points = std::move(link);
-  mesh.points.insert(mesh.points.begin(), {0, 0, 0});
-  for (const auto& [a, b, c] : triangles) mesh.tetrahedra.push_back({c + 1, a + 1, 0, b + 1});
-  return mesh;
-}
-
-std::array<double, 3> on_circle(Id i, Id count, double z) {
-  const double angle = 2 * 3.14159265358979 * i / count;
-  return {std::cos(angle), std::sin(angle), z};
-}
-
-}  // namespace
-
-InputMesh cone_over_disc(Id degree) {
-  std::vector<std::array<double, 3>> link;
-  std::vector<std::array<Id, 3>> triangles;
-  for (Id i = 0; i < degree; ++i) link.push_back(on_circle(i, degree, 1));
-  for (Id i = 1; i + 1 < degree; ++i) triangles.push_back({0, i, i + 1});
-  return cone(link, triangles);
-}
-
-InputMesh cone_over_sphere(Id degree) {
-  const Id equator = degree - 2;
-  std::vector<std::array<double, 3>> link = {{0, 0, 1}, {0, 0, -1}};
-  std::vector<std::array<Id, 3>> triangles;
-  for (Id i = 0; i < equator; ++i) {
-    link.push_back(on_circle(i, equator, 0));
-    const Id here = 2 + i, next = 2 + (i + 1) % equator;
-    triangles.push_back({0, here, next});
-    triangles.push_back({1, next, here});
-  }
-  return cone(link, triangles);
 }
 
 const std::vector<std::string>& mesh_names() {

@@ -22,11 +22,18 @@ const std::vector<std::string>& mesh_names();
 /// One of them; made at the first call. Throws std::out_of_range for another name.
 const InputMesh& mesh_named(const std::string& name);
 
-/// A vertex (0) whose link is a triangulated disc, or a sphere, of `degree` vertices.
+/// A vertex (0) whose link is a triangulated disc of `degree` vertices.
 InputMesh cone_over_disc(Id degree);
-InputMesh cone_over_sphere(Id degree);
 
-/// VTK's Delaunay tetrahedralization of `count` seeded random points in the unit cube; no tetrahedra where tests are built without VTK.
+/// A vertex (0) whose link of `degree` vertices is a circle with `caps` cones over it: with two a sphere, with more no
+/// manifold.
+InputMesh cone_over_caps(Id degree, int caps);
+
+/// A Freudenthal grid of `side`^3 points, a third of whose tetrahedra are missing, all ids and corners shuffled.
+InputMesh holed_grid(Id side);
+
+/// VTK's Delaunay tetrahedralization of `count` seeded random points in the unit cube; no tetrahedra where tests are
+/// built without VTK.
 InputMesh delaunay_mesh(Id count);
 
 /// Views of copies, for GALE's interfaces.

@@ -57,7 +57,9 @@ Segmentation segmentation_named(const std::string& name, const InputMesh& mesh) 
   throw std::out_of_range("no segmentation named " + name);
 }
 
-Segmentation octree_of(const InputMesh& mesh, int capacity) { return octree_segmentation(points_of<double>(mesh), capacity); }
+Segmentation octree_of(const InputMesh& mesh, int capacity) {
+  return octree_segmentation(points_of<double>(mesh), capacity);
+}
 
 Segmentation segmentation_by(const std::vector<std::int64_t>& labels) {
   const Array<std::int64_t, HostMemory> view("labels", labels.size());

@@ -11,7 +11,8 @@ namespace {
 using HostSpace = Kokkos::DefaultHostExecutionSpace;
 
 Id longest_row(const Rows& rows, Id count) {
-  return -reduce_min("GALE::longest_row", HostSpace(), count, Id(0), [&](Offset v) { return -rows[static_cast<Id>(v)].size(); });
+  return -reduce_min("GALE::longest_row", HostSpace(), count, Id(0),
+                     [&](Offset v) { return -rows[static_cast<Id>(v)].size(); });
 }
 
 template <class Place>

@@ -58,8 +58,7 @@ struct Graph {
   ConstIds ids;
 
   Graph(const Offsets& row_begin, const ConstIds& of_others) : begin(row_begin), ids(of_others) {}
-  Graph(const Offsets& row_begin, const Ids& own)
-      : begin(row_begin), owned(own), ids(own.data(), own.extent(0)) {}
+  Graph(const Offsets& row_begin, const Ids& own) : begin(row_begin), owned(own), ids(own.data(), own.extent(0)) {}
 
   Id rows() const { return static_cast<Id>(begin.extent(0)) - 1; }
 };
@@ -67,7 +66,8 @@ struct Graph {
 Graph tetrahedron_vertices(const Mesh& mesh) {
   const Offset rows = mesh.tetrahedra();
   const auto begin = allocate<Offsets>("GALE::TV_begin", rows + 1);
-  parallel_for("GALE::TV_begin", ProducerSpace(), rows + 1, KOKKOS_LAMBDA(Offset t) { begin(t) = 4 * t; });
+  parallel_for(
+      "GALE::TV_begin", ProducerSpace(), rows + 1, KOKKOS_LAMBDA(Offset t) { begin(t) = 4 * t; });
   return {begin, ConstIds(mesh.producer().tetrahedra.data(), 4 * rows)};
 }
 
@@ -75,7 +75,7 @@ Graph transpose(const Graph& graph, Id columns) {
   const Offsets begin("GALE::VT_begin", columns + Offset(1));
   const auto ids = allocate<Ids>("GALE::VT", graph.ids.extent(0));
   transpose_graph<ConstOffsets, ConstIds, Offsets, Ids, Offsets, ProducerSpace>(graph.rows(), columns, graph.begin,
-                                                                               graph.ids, begin, ids);
+                                                                                graph.ids, begin, ids);
   sort_rows("GALE::VT_sort", begin, ids);
   return {begin, ids};
 }

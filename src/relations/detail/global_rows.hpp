@@ -19,9 +19,9 @@ struct GlobalStars {
   GlobalRows vv;  ///< empty unless wanted
 };
 
-/// VT of the whole mesh: the transpose of the graph TV; and VV: the symbolic product VT TV without its diagonal. By Kokkos-Kernels, in
-/// the producers' space. Throws gale::Error if a relation has more entries than an Id counts, before it takes memory for them; and where
-/// GALE was built without Kokkos-Kernels.
+/// VT of the whole mesh: the transpose of the graph TV; and VV: the symbolic product VT TV without its diagonal. By
+/// Kokkos-Kernels, in the producers' space. Throws gale::Error if a relation has more entries than an Id counts, before
+/// it takes memory for them; and where GALE was built without Kokkos-Kernels.
 GlobalStars global_stars(const Mesh& mesh, bool with_vv);
 
 /// Throws gale::Error, naming both, if a relation's entries are more than an Id counts.

@@ -24,7 +24,8 @@ class SegmentCursor {
   /// The next segments for one consumer; none, ever, when all are dealt out or someone called stop().
   Range take() {
     const Offset begin = stopped_ ? segments_ : next_.fetch_add(at_once_);
-    return {static_cast<Id>(std::min<Offset>(begin, segments_)), static_cast<Id>(std::min<Offset>(begin + at_once_, segments_))};
+    return {static_cast<Id>(std::min<Offset>(begin, segments_)),
+            static_cast<Id>(std::min<Offset>(begin + at_once_, segments_))};
   }
 
   void stop() { stopped_ = true; }
@@ -58,10 +59,11 @@ class ProgressReport {
   Id told_ = 0;
 };
 
-/// The loop of every sweep: calls `body(consumer, segment)` once for each segment 0..segments-1 on `options.threads` threads, each with a
-/// consumer's number of its own. Each consumer's segments ascend. Progress is told on the calling thread, which is consumer 0, and at the end.
-/// The first exception that a body or the progress callback throws is thrown again here, when the segments under way are done; no other
-/// is begun. Throws gale::Error for less than one thread.
+/// The loop of every sweep: calls `body(consumer, segment)` once for each segment 0..segments-1 on `options.threads`
+/// threads, each with a consumer's number of its own. Each consumer's segments ascend. Progress is told on the calling
+/// thread, which is consumer 0, and at the end. The first exception that a body or the progress callback throws is
+/// thrown again here, when the segments under way are done; no other is begun. Throws gale::Error for less than one
+/// thread.
 template <class Body>
 void sweep(Id segments, const SweepOptions& options, const Body& body) {
   if (options.threads < 1) throw Error("a sweep takes at least 1 thread, not " + std::to_string(options.threads));

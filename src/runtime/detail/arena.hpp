@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include <gale/base/memory.hpp>
+#include <gale/base/pinned.hpp>
 #include <gale/base/types.hpp>
 
 namespace gale::detail {
@@ -12,7 +12,7 @@ namespace gale::detail {
 /// The blocks of one batch on the host, in one stretch of memory. A leader fills and publishes it; then any number of consumers read
 /// it, each with a pin on it; then the leader takes it back, and fills it again.
 struct Arena {
-  Array<Id, PinnedMemory> words;
+  PinnedArray<Id> words;
   std::uint64_t number = 0;       ///< among the arenas of its store, from 1
   std::vector<Id> segments;       ///< of the batch
   std::vector<Offset> directory;  ///< see BlockPool; entries of a segment's relations are together
@@ -22,7 +22,7 @@ struct Arena {
   std::atomic<std::int64_t> last_use{0};
   bool ahead = false;  ///< published for a sweep, which reads each block once
 
-  std::size_t bytes() const { return words.extent(0) * sizeof(Id); }
+  std::size_t bytes() const { return words.size() * sizeof(Id); }
 };
 
 /// One segment's blocks in an arena that can't be taken back as long as this lives: a pin.

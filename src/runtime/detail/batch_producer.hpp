@@ -25,15 +25,12 @@ class BatchProducer {
   /// Has it to be a batch of its own, since it needs more of the fast scratch memory than there is?
   virtual bool is_large(Id segment) const = 0;
 
-  /// Begins to compute the blocks of `segments`, each with at least the scratch memory that `scratch` says. Returns at once on a device.
-  /// Throws std::bad_alloc where the batch is too big for the device's memory.
-  virtual void launch(const std::vector<Id>& segments, const StarSizes& scratch) = 0;
+  /// Begins to compute the blocks of `segments`, in `words` words, each with at least the scratch memory that `scratch` says. Returns at
+  /// once on a device. Throws std::bad_alloc where the batch is too big for the device's memory.
+  virtual void launch(const std::vector<Id>& segments, Offset words, const StarSizes& scratch) = 0;
 
-  /// Waits for it, and leaves its blocks in `arena`: words, segments and directory. `arena` has `words` words or more.
+  /// Waits for it, and leaves its blocks in `arena`, which has so many words: words, segments and directory.
   virtual Shortfall finish(Arena& arena) = 0;
-
-  /// Makes batches of `words` words possible.
-  virtual void reserve(Offset words) = 0;
 
   /// Waits for what was launched, and forgets it. Never throws.
   virtual void abandon() noexcept = 0;
@@ -44,7 +41,7 @@ class BatchProducer {
 /// How a producer works: see RuntimeOptions.
 struct ProducerParameters {
   RelationSet wanted;
-  Offset words = 0;               ///< that a batch may have
+  Offset words = 0;               ///< that a batch has, unless one segment needs more
   int threads_per_segment = 128;
 };
 

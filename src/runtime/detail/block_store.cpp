@@ -51,10 +51,10 @@ Arena* BlockStore::allocate_arena() {
 }
 
 void BlockStore::enlarge(Arena& arena, Offset words) {
-  if (static_cast<Offset>(arena.words.extent(0)) >= words) return;
+  if (static_cast<Offset>(arena.words.size()) >= words) return;
   const std::size_t before = arena.bytes();
-  arena.words = Array<Id, PinnedMemory>();
-  arena.words = allocate<Array<Id, PinnedMemory>>("GALE::arena", words);
+  arena.words = PinnedArray<Id>();
+  arena.words = PinnedArray<Id>(words);
   bytes_ += arena.bytes() - before;
   if (bytes_ > peak_bytes_.load()) peak_bytes_.store(bytes_);
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include <gale/base/pinned.hpp>
 #include <gale/base/transfer.hpp>
 #include <gale/relations/launch.hpp>
 
@@ -15,7 +16,7 @@ namespace {
 template <class T>
 using OnDevice = Array<T, ProducerMemory>;
 template <class T>
-using Pinned = Array<T, PinnedMemory>;
+using Pinned = PinnedArray<T>;
 
 /// What a batch tells the host beside its blocks.
 struct Header {
@@ -40,7 +41,7 @@ class DeviceBatchProducer : public BatchProducer {
         tetrahedron_begin_(on_host(mesh.producer().tetrahedron_begin)),
         external_begin_(on_host(mesh.producer().external_begin)),
         header_(allocate<OnDevice<Header>>("GALE::batch_header", 1)),
-        header_copy_(allocate<Pinned<Header>>("GALE::batch_header", 1)) {
+        header_copy_(1) {
     kernel_.mesh = mesh.producer();
     kernel_.wanted = parameters.wanted;
     kernel_.pool.used = &header_.data()->used;
@@ -53,44 +54,36 @@ class DeviceBatchProducer : public BatchProducer {
     return scratch_bytes(sizes_of(segment), warps_) > fast_scratch_;
   }
 
-  void launch(const std::vector<Id>& segments, const StarSizes& scratch) override {
+  void launch(const std::vector<Id>& segments, Offset words, const StarSizes& scratch) override {
+    reserve(words);
     const std::size_t count = segments.size();
     reserve_segments(count);
     count_ = count;
     StarSizes sizes = scratch;
     for (std::size_t i = 0; i < count; ++i) {
-      segments_copy_(i) = segments[i];
+      segments_copy_.data()[i] = segments[i];
       sizes = larger(sizes, sizes_of(segments[i]));
     }
     kernel_.sizes = sizes;
     kernel_.scratch_level = scratch_bytes(sizes, warps_) > fast_scratch_ ? 1 : 0;
     *header_copy_.data() = Header();
-    Kokkos::deep_copy(instance_, header_, header_copy_);
-    Kokkos::deep_copy(instance_, first(segments_, count), first(segments_copy_, count));
+    Kokkos::deep_copy(instance_, header_, header_copy_.view());
+    Kokkos::deep_copy(instance_, first(segments_, count), first(segments_copy_.view(), count));
     gale::launch(instance_, kernel_, static_cast<int>(count), warps_);
-    Kokkos::deep_copy(instance_, header_copy_, header_);
-    Kokkos::deep_copy(instance_, first(directory_copy_, count * relations_), first(directory_, count * relations_));
+    Kokkos::deep_copy(instance_, header_copy_.view(), header_);
+    Kokkos::deep_copy(instance_, first(directory_copy_.view(), count * relations_), first(directory_, count * relations_));
   }
 
   Shortfall finish(Arena& arena) override {
     instance_.fence("GALE::batch_computed");
     const Header header = *header_copy_.data();
     const auto words = static_cast<std::size_t>(std::min(header.used, kernel_.pool.capacity));
-    if (arena.words.extent(0) < words) throw Error("an arena is smaller than its batch");
-    Kokkos::deep_copy(instance_, first(arena.words, words), first(words_, words));
+    Kokkos::deep_copy(instance_, first(arena.words.view(), words), first(words_, words));
     arena.segments.assign(segments_copy_.data(), segments_copy_.data() + count_);
     arena.directory.assign(directory_copy_.data(), directory_copy_.data() + count_ * relations_);
     instance_.fence("GALE::batch_copied");
     const bool missing = std::find(arena.directory.begin(), arena.directory.end(), BlockPool::missing) != arena.directory.end();
     return {missing, header.used, header.needed};
-  }
-
-  void reserve(Offset words) override {
-    if (static_cast<Offset>(words_.extent(0)) >= words) return;
-    words_ = OnDevice<Id>();
-    words_ = allocate<OnDevice<Id>>("GALE::batch_words", words);
-    kernel_.pool.words = words_.data();
-    kernel_.pool.capacity = words;
   }
 
   void abandon() noexcept override {
@@ -115,12 +108,20 @@ class DeviceBatchProducer : public BatchProducer {
     return {rows, static_cast<Id>(star), static_cast<Id>(star + 2 * Offset(rows)), 128};
   }
 
+  void reserve(Offset words) {
+    kernel_.pool.capacity = words;
+    if (static_cast<Offset>(words_.extent(0)) >= words) return;
+    words_ = OnDevice<Id>();
+    words_ = allocate<OnDevice<Id>>("GALE::batch_words", words);
+    kernel_.pool.words = words_.data();
+  }
+
   void reserve_segments(std::size_t count) {
     if (segments_.extent(0) >= count) return;
     segments_ = allocate<OnDevice<Id>>("GALE::batch_segments", count);
-    segments_copy_ = allocate<Pinned<Id>>("GALE::batch_segments", count);
+    segments_copy_ = Pinned<Id>(count);
     directory_ = allocate<OnDevice<Offset>>("GALE::batch_directory", count * relations_);
-    directory_copy_ = allocate<Pinned<Offset>>("GALE::batch_directory", count * relations_);
+    directory_copy_ = Pinned<Offset>(count * relations_);
     kernel_.segments = segments_.data();
     kernel_.pool.directory = directory_.data();
   }

@@ -13,7 +13,7 @@ class HostBatchProducer : public BatchProducer {
       : mesh_(mesh), workspace_(mesh, parameters.wanted), relations_(parameters.wanted.count()) {}
 
   bool is_large(Id) const override { return false; }
-  void launch(const std::vector<Id>& segments, const StarSizes&) override { segments_ = segments; }
+  void launch(const std::vector<Id>& segments, Offset, const StarSizes&) override { segments_ = segments; }
 
   Shortfall finish(Arena& arena) override {
     arena.segments = segments_;
@@ -21,7 +21,7 @@ class HostBatchProducer : public BatchProducer {
     Offset used = 0;
     BlockPool pool;
     pool.words = arena.words.data();
-    pool.capacity = static_cast<Offset>(arena.words.extent(0));
+    pool.capacity = static_cast<Offset>(arena.words.size());
     pool.used = &used;
     bool missing = false;
     for (std::size_t slot = 0; slot < segments_.size(); ++slot) {
@@ -31,7 +31,6 @@ class HostBatchProducer : public BatchProducer {
     return {missing, used, {}};
   }
 
-  void reserve(Offset) override {}
   void abandon() noexcept override { segments_.clear(); }
   std::size_t device_bytes() const override { return 0; }
 

@@ -185,8 +185,7 @@ void Leader::launch(Plan plan, Arena& arena) {
   BatchProducer* const producer = idle_.back();
   try {
     store_.enlarge(arena, plan.words);
-    producer->reserve(plan.words);
-    producer->launch(plan.segments, plan.scratch);
+    producer->launch(plan.segments, static_cast<Offset>(arena.words.size()), plan.scratch);
   } catch (const std::bad_alloc&) {
     store_.give_back(arena);
     if (plan.segments.size() == 1) throw;

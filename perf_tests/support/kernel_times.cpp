@@ -1,4 +1,4 @@
-#include "kernel_times.hpp"
+#include "support/kernel_times.hpp"
 
 #include <algorithm>
 #include <chrono>

@@ -9,7 +9,7 @@
 #include <gale/io/synthetic.hpp>
 #include <gale/runtime/runtime.hpp>
 
-#include "kernel_times.hpp"
+#include "support/kernel_times.hpp"
 
 namespace {
 
