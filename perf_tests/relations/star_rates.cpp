@@ -15,6 +15,12 @@ namespace {
 
 using namespace gale;
 
+Array<Id, ProducerMemory> all_segments(const Mesh& mesh) {
+  const Array<Id, ProducerMemory> segments("segments", mesh.segments());
+  parallel_for("GALE::all_segments", ProducerSpace(), mesh.segments(), KOKKOS_LAMBDA(Offset s) { segments(s) = static_cast<Id>(s); });
+  return segments;
+}
+
 /// Everything that one launch for all segments needs.
 struct WholeMesh {
   Array<Id, ProducerMemory> segments, words;
@@ -23,13 +29,11 @@ struct WholeMesh {
   StarKernel<ProducerMemory> kernel;
 
   WholeMesh(const Mesh& mesh, RelationSet wanted)
-      : segments("segments", mesh.segments()),
+      : segments(all_segments(mesh)),
         words(allocate<Array<Id, ProducerMemory>>("words", words_for(mesh, wanted))),
         directory("directory", Offset(mesh.segments()) * wanted.count()),
         used("used", 1),
         needed("needed", 1) {
-    const auto ids = segments;
-    parallel_for("GALE::iota", ProducerSpace(), mesh.segments(), KOKKOS_LAMBDA(Offset s) { ids(s) = static_cast<Id>(s); });
     kernel.mesh = mesh.producer();
     kernel.segments = segments.data();
     kernel.wanted = wanted;

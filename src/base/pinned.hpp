@@ -25,6 +25,13 @@ class PinnedArray {
   explicit PinnedArray(std::size_t size)
       : owner_(detail::allocate_pinned_bytes(size * sizeof(T))), view_(static_cast<T*>(owner_.get()), size) {}
 
+  /// `size` entries from `begin` on, which share its memory.
+  PinnedArray slice(std::size_t begin, std::size_t size) const {
+    PinnedArray part = *this;
+    part.view_ = View(view_.data() + begin, size);
+    return part;
+  }
+
   const View& view() const { return view_; }
   T* data() const { return view_.data(); }
   std::size_t size() const { return view_.extent(0); }

@@ -28,10 +28,11 @@ struct RuntimeOptions {
   int threads_per_block = 0;
   int threads_per_segment = 0;
 
-  /// Bytes for blocks that are kept on the host, for all queues together. Exceeded only by what consumers hold at one time.
+  /// Bytes for blocks that are kept on the host, for all queues together; by default an eighth of the machine's memory. Exceeded only by what
+  /// consumers hold at one time.
   std::size_t host_memory = 0;
 
-  /// Bytes for batches on the device, for all queues together.
+  /// Bytes for batches on the device, for all queues together; by default three of 16 MiB each a queue.
   std::size_t device_memory = 0;
 };
 

@@ -22,7 +22,7 @@ void publish(BlockStore& store, Arena& arena, Id segment, Id unread = 0) {
 }
 
 void publish(BlockStore& store, Id segment, Id unread = 0) {
-  Arena* const arena = store.take(BlockStore::Need::must_have);
+  Arena* const arena = store.take(BlockStore::Need::must_have, words);
   ASSERT_NE(arena, nullptr);
   publish(store, *arena, segment, unread);
 }
@@ -30,7 +30,7 @@ void publish(BlockStore& store, Id segment, Id unread = 0) {
 }  // namespace
 
 TEST(BlockStore, finds_what_was_published_and_nothing_else) {
-  BlockStore store(10, words, 4 * arena_bytes);
+  BlockStore store(10, 4 * arena_bytes);
   publish(store, 7);
   EXPECT_FALSE(store.find(6));
   const Lease lease = store.find(7);
@@ -39,7 +39,7 @@ TEST(BlockStore, finds_what_was_published_and_nothing_else) {
 }
 
 TEST(BlockStore, evicts_what_was_used_longest_ago) {
-  BlockStore store(10, words, 3 * arena_bytes);
+  BlockStore store(10, 3 * arena_bytes);
   for (const Id s : {1, 2, 3}) publish(store, s);
   store.find(1);
   publish(store, 4);
@@ -51,11 +51,11 @@ TEST(BlockStore, evicts_what_was_used_longest_ago) {
 }
 
 TEST(BlockStore, never_evicts_what_is_pinned_and_exceeds_its_budget_instead) {
-  BlockStore store(10, words, 2 * arena_bytes);
+  BlockStore store(10, 2 * arena_bytes);
   publish(store, 1);
   publish(store, 2);
   const Lease one = store.find(1), two = store.find(2);
-  EXPECT_EQ(store.take(BlockStore::Need::can_wait), nullptr);
+  EXPECT_EQ(store.take(BlockStore::Need::can_wait, words), nullptr);
   publish(store, 3);
   EXPECT_EQ(*one.block(0, 1), 1);
   EXPECT_EQ(*two.block(0, 1), 2);
@@ -63,10 +63,10 @@ TEST(BlockStore, never_evicts_what_is_pinned_and_exceeds_its_budget_instead) {
 }
 
 TEST(BlockStore, keeps_what_a_sweep_has_still_to_read_unless_it_must_not) {
-  BlockStore store(10, words, 2 * arena_bytes);
+  BlockStore store(10, 2 * arena_bytes);
   publish(store, 1, 1);
   publish(store, 2, 1);
-  EXPECT_EQ(store.take(BlockStore::Need::can_wait), nullptr);
+  EXPECT_EQ(store.take(BlockStore::Need::can_wait, words), nullptr);
   Lease lease = store.find(2);
   EXPECT_TRUE(lease.release_read());
   publish(store, 3, 1);
@@ -76,12 +76,12 @@ TEST(BlockStore, keeps_what_a_sweep_has_still_to_read_unless_it_must_not) {
   EXPECT_TRUE(store.find(1));
   EXPECT_FALSE(store.find(3)) << "it would be read last";
   store.forget_unread();
-  EXPECT_NE(store.take(BlockStore::Need::can_wait), nullptr);
+  EXPECT_NE(store.take(BlockStore::Need::can_wait, words), nullptr);
 }
 
 TEST(BlockStore, hides_blocks_that_are_missing) {
-  BlockStore store(10, words, 2 * arena_bytes);
-  Arena& arena = *store.take(BlockStore::Need::must_have);
+  BlockStore store(10, 2 * arena_bytes);
+  Arena& arena = *store.take(BlockStore::Need::must_have, words);
   arena.segments = {4, 5};
   arena.directory = {-1, 0};
   store.publish(arena, 0);
@@ -89,12 +89,15 @@ TEST(BlockStore, hides_blocks_that_are_missing) {
   EXPECT_TRUE(store.find(5));
 }
 
-TEST(BlockStore, enlarges_an_arena_for_a_block_that_needs_it) {
-  BlockStore store(10, words, 2 * arena_bytes);
-  Arena& arena = *store.take(BlockStore::Need::must_have);
-  store.enlarge(arena, 10 * words);
-  EXPECT_EQ(arena.words.size(), static_cast<std::size_t>(10 * words));
-  EXPECT_EQ(store.peak_bytes(), 10 * arena_bytes);
+TEST(BlockStore, gives_an_arena_that_is_large_enough) {
+  BlockStore store(10, 2 * arena_bytes);
+  publish(store, 1);
+  Arena& large = *store.take(BlockStore::Need::must_have, 10 * words);
+  EXPECT_EQ(large.words.size(), static_cast<std::size_t>(10 * words));
+  EXPECT_TRUE(store.find(1)) << "its arena is too small to be taken instead";
+  EXPECT_EQ(store.peak_bytes(), 11 * arena_bytes);
+  store.give_back(large);
+  EXPECT_EQ(store.take(BlockStore::Need::must_have, words), &large);
 }
 
 }  // namespace gale::test

@@ -34,6 +34,7 @@ class Interrupted : public BatchProducer {
     segments_ = segments;
     producer_->launch(segments, words, scratch);
   }
+  void begin_copy(Arena& arena) override { producer_->begin_copy(arena); }
   detail::Shortfall finish(Arena& arena) override {
     if (at_finish_) at_finish_(segments_);
     return producer_->finish(arena);

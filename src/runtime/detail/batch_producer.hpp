@@ -17,7 +17,7 @@ struct Shortfall {
   StarSizes scratch;   ///< that its segments need
 };
 
-/// Worker producers for one batch at a time. A leader has two or more, so that one computes while another's blocks are copied.
+/// Worker producers for one batch at a time. A leader has two or more, so that some compute while another's blocks are copied.
 class BatchProducer {
  public:
   virtual ~BatchProducer() = default;
@@ -29,7 +29,10 @@ class BatchProducer {
   /// once on a device. Throws std::bad_alloc where the batch is too big for the device's memory.
   virtual void launch(const std::vector<Id>& segments, Offset words, const StarSizes& scratch) = 0;
 
-  /// Waits for it, and leaves its blocks in `arena`, which has so many words: words, segments and directory.
+  /// Waits until it is computed, and begins to copy its blocks to `arena`, which has so many words.
+  virtual void begin_copy(Arena& arena) = 0;
+
+  /// Waits until they are there: words, segments and directory.
   virtual Shortfall finish(Arena& arena) = 0;
 
   /// Waits for what was launched, and forgets it. Never throws.

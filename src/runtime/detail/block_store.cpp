@@ -7,8 +7,8 @@
 
 namespace gale::detail {
 
-BlockStore::BlockStore(Id segments, Offset arena_words, std::size_t budget)
-    : entries_(new std::atomic<Entry>[segments]), arenas_(most_arenas), arena_words_(arena_words), budget_(budget) {
+BlockStore::BlockStore(Id segments, std::size_t budget)
+    : entries_(new std::atomic<Entry>[segments]), arenas_(most_arenas), slab_words_(std::min(largest_slab, budget / 8) / sizeof(Id)), budget_(budget) {
   for (Id s = 0; s < segments; ++s) entries_[s].store(absent, std::memory_order_relaxed);
 }
 
@@ -26,51 +26,58 @@ Lease BlockStore::find(Id segment) {
   }
 }
 
-Arena* BlockStore::take(Need need) {
-  if (!free_.empty()) {
-    Arena* const arena = free_.back();
-    free_.pop_back();
-    return arena;
-  }
-  if (Arena* const spent = find_evictable(Use::spent)) return spent;
-  const bool has_room = arena_count_ == 0 || bytes_ + static_cast<std::size_t>(arena_words_) * sizeof(Id) <= budget_;
-  if (has_room) return allocate_arena();
-  Arena* const read = find_evictable(Use::read);
+Arena* BlockStore::take(Need need, Offset words) {
+  const auto size = static_cast<std::size_t>(words);
+  if (Arena* const free = take_free(size)) return free;
+  if (Arena* const spent = find_evictable(Use::spent, size)) return spent;
+  const bool has_room = arena_count_ == 0 || bytes_ + size * sizeof(Id) <= budget_;
+  if (has_room) return allocate_arena(size);
+  Arena* const read = find_evictable(Use::read, size);
   if (read != nullptr || need == Need::can_wait) return read;
-  Arena* const unread = find_evictable(Use::unread);
-  return unread != nullptr ? unread : allocate_arena();
+  Arena* const unread = find_evictable(Use::unread, size);
+  return unread != nullptr ? unread : allocate_arena(size);
 }
 
-Arena* BlockStore::allocate_arena() {
-  if (arena_count_ == most_arenas) throw Error("consumers hold the blocks of " + std::to_string(most_arenas) + " batches at once: too many");
+/// The smallest that is large enough.
+Arena* BlockStore::take_free(std::size_t words) {
+  auto best = free_.end();
+  for (auto it = free_.begin(); it != free_.end(); ++it) {
+    if ((*it)->words.size() >= words && (best == free_.end() || (*it)->words.size() < (*best)->words.size())) best = it;
+  }
+  if (best == free_.end()) return nullptr;
+  Arena* const arena = *best;
+  free_.erase(best);
+  return arena;
+}
+
+PinnedArray<Id> BlockStore::allocate_words(std::size_t words) {
+  if (words > slab_words_ / 4) return PinnedArray<Id>(words);
+  if (slab_.size() < slab_used_ + words) {
+    slab_ = PinnedArray<Id>(slab_words_);
+    slab_used_ = 0;
+  }
+  slab_used_ += words;
+  return slab_.slice(slab_used_ - words, words);
+}
+
+Arena* BlockStore::allocate_arena(std::size_t words) {
+  if (arena_count_ == most_arenas) throw Error("more than " + std::to_string(most_arenas) + " batches on the host at once: too many");
   auto arena = std::make_unique<Arena>();
-  enlarge(*arena, arena_words_);
-  arenas_[arena_count_++] = std::move(arena);
-  arenas_[arena_count_ - 1]->number = arena_count_;
-  return arenas_[arena_count_ - 1].get();
+  arena->words = allocate_words(words);
+  arena->number = arena_count_ + 1;
+  bytes_ += arena->bytes();
+  peak_bytes_.store(std::max(peak_bytes_.load(), bytes_));
+  arenas_[arena_count_] = std::move(arena);
+  return arenas_[arena_count_++].get();
 }
 
-void BlockStore::enlarge(Arena& arena, Offset words) {
-  if (static_cast<Offset>(arena.words.size()) >= words) return;
-  const std::size_t before = arena.bytes();
-  arena.words = PinnedArray<Id>();
-  arena.words = PinnedArray<Id>(words);
-  bytes_ += arena.bytes() - before;
-  if (bytes_ > peak_bytes_.load()) peak_bytes_.store(bytes_);
-}
-
-BlockStore::Use BlockStore::use_of(const Arena& arena) {
-  if (arena.unread.load() > 0) return Use::unread;
-  return arena.ahead ? Use::spent : Use::read;
-}
-
-Arena* BlockStore::find_evictable(Use use) {
+Arena* BlockStore::find_evictable(Use use, std::size_t words) {
   // By age; of what a sweep has still to read, what it will read last. A retry for each that a consumer pins at the same moment.
   std::vector<std::pair<std::int64_t, Arena*>> candidates;
-  for (Arena* const arena : published_) {
-    if (arena->pins.load() != 0 || use_of(*arena) != use) continue;
-    const std::int64_t age =
-        use == Use::unread ? -std::int64_t(arena->segments.front()) : arena->last_use.load(std::memory_order_relaxed);
+  for (Arena* const arena : use == Use::read ? requested_ : ahead_) {
+    const bool unread = arena->unread.load() > 0;
+    if (arena->pins.load() != 0 || arena->words.size() < words || unread != (use == Use::unread)) continue;
+    const std::int64_t age = unread ? -std::int64_t(arena->segments.front()) : arena->last_use.load(std::memory_order_relaxed);
     candidates.emplace_back(age, arena);
   }
   std::sort(candidates.begin(), candidates.end());
@@ -87,7 +94,8 @@ bool BlockStore::try_evict(Arena& arena) {
     return false;
   }
   evicted_.fetch_add(static_cast<std::int64_t>(arena.segments.size()), std::memory_order_relaxed);
-  published_.erase(std::find(published_.begin(), published_.end(), &arena));
+  auto& list = list_of(arena);
+  list.erase(std::find(list.begin(), list.end(), &arena));
   return true;
 }
 
@@ -103,17 +111,19 @@ void BlockStore::publish(Arena& arena, Id unread) {
   arena.ahead = unread > 0;
   arena.unread.store(unread);
   arena.last_use.store(clock_.fetch_add(1, std::memory_order_relaxed) + 1, std::memory_order_relaxed);
-  published_.push_back(&arena);
+  list_of(arena).push_back(&arena);
   set_entries(arena, arena.number);
 }
 
 void BlockStore::give_back(Arena& arena) { free_.push_back(&arena); }
 
 void BlockStore::forget_unread() {
-  for (Arena* const arena : published_) {
+  for (Arena* const arena : ahead_) {
     arena->unread.store(0);
     arena->ahead = false;
   }
+  requested_.insert(requested_.end(), ahead_.begin(), ahead_.end());
+  ahead_.clear();
 }
 
 }  // namespace gale::detail

@@ -14,9 +14,9 @@ namespace gale::detail {
 /// either the reader sees that they are gone, or the leader sees the pin.
 class BlockStore {
  public:
-  /// For a mesh of so many segments. Arenas have `arena_words` words each, unless one segment needs more; together at most `budget` bytes,
-  /// unless all are in use and one more is needed.
-  BlockStore(Id segments, Offset arena_words, std::size_t budget);
+  /// For a mesh of so many segments. Arenas take at most `budget` bytes together, unless all that are large enough are in use and one more is
+  /// needed.
+  BlockStore(Id segments, std::size_t budget);
 
   /// The segment's blocks, pinned; nothing if they aren't resident. By any thread, wait-free but for an eviction at the same moment.
   Lease find(Id segment);
@@ -30,11 +30,8 @@ class BlockStore {
     must_have  ///< someone waits for it
   };
 
-  /// An arena to fill, or null. Evicts what it held.
-  Arena* take(Need need);
-
-  /// Makes room for `words` words in an arena that was taken.
-  void enlarge(Arena& arena, Offset words);
+  /// An arena of at least `words` words to fill, or null. Evicts what it held.
+  Arena* take(Need need, Offset words);
 
   /// Makes the blocks in an arena that was taken visible; those of segments whose directory says `missing` excepted.
   void publish(Arena& arena, Id unread);
@@ -45,7 +42,6 @@ class BlockStore {
   /// No sweep reads any more.
   void forget_unread();
 
-  Offset arena_words() const { return arena_words_; }
   std::size_t peak_bytes() const { return peak_bytes_.load(std::memory_order_relaxed); }
   std::int64_t evicted() const { return evicted_.load(std::memory_order_relaxed); }
 
@@ -53,6 +49,7 @@ class BlockStore {
   using Entry = std::uint64_t;  ///< arena's number + 1 above, slot below
   static constexpr Entry absent = 0;
   static constexpr std::size_t most_arenas = std::size_t(1) << 16;
+  static constexpr std::size_t largest_slab = std::size_t(4) << 20;  ///< bytes
 
   Arena* allocate_arena();
   enum class Use {
@@ -61,17 +58,23 @@ class BlockStore {
     read     ///< by consumers in no order
   };
 
-  static Use use_of(const Arena& arena);
-  Arena* find_evictable(Use use);
+  PinnedArray<Id> allocate_words(std::size_t words);
+  Arena* allocate_arena(std::size_t words);
+  Arena* take_free(std::size_t words);
+  Arena* find_evictable(Use use, std::size_t words);
   bool try_evict(Arena& arena);
+  std::vector<Arena*>& list_of(const Arena& arena) { return arena.ahead ? ahead_ : requested_; }
   void set_entries(const Arena& arena, Entry number);
 
   std::unique_ptr<std::atomic<Entry>[]> entries_;
   std::vector<std::unique_ptr<Arena>> arenas_;  ///< by number; never reallocated
   std::size_t arena_count_ = 0;
   std::vector<Arena*> free_;
-  std::vector<Arena*> published_;
-  Offset arena_words_;
+  std::vector<Arena*> ahead_;      ///< published for a sweep
+  std::vector<Arena*> requested_;  ///< published for requests
+  std::size_t slab_words_;
+  PinnedArray<Id> slab_;           ///< of which small arenas are cut; pinning costs by the call
+  std::size_t slab_used_ = 0;
   std::size_t budget_;
   std::size_t bytes_ = 0;
   std::atomic<std::size_t> peak_bytes_{0};

@@ -1,5 +1,7 @@
 #include <gale/runtime/detail/defaults.hpp>
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <string>
 
@@ -14,8 +16,14 @@ constexpr std::size_t mebibyte = std::size_t(1) << 20;
 /// A copy reaches the link's bandwidth from some megabytes on; more only delays the first row.
 constexpr std::size_t largest_batch = 16 * mebibyte;
 
-/// Enough for the leaders to stay ahead of a sweep, little beside the mesh that the machine has to hold anyway.
-constexpr std::size_t default_host_memory = 512 * mebibyte;
+/// The share of the machine's memory that blocks may take. A sweep uses little of it again and again; jumps are the faster the more
+/// blocks stay.
+constexpr std::size_t share_of_host = 8;
+
+std::size_t default_host_memory() {
+  const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
+  return pages > 0 && page > 0 ? static_cast<std::size_t>(pages) * page / share_of_host : 512 * mebibyte;
+}
 
 int given_or(int given, int otherwise, const char* name) {
   if (given < 0) throw Error(std::string(name) + " must be at least 1, not " + std::to_string(given));
@@ -29,9 +37,9 @@ Sizes sizes_for(const Mesh& mesh, const RuntimeOptions& options, int queues) {
   const int threads_per_segment = given_or(options.threads_per_segment, 128, "threads per segment");
   const int threads_per_block = given_or(options.threads_per_block, 256, "threads per block");
   const int blocks = given_or(options.blocks_per_request, 16, "blocks per request");
-  const std::size_t host = (options.host_memory == 0 ? default_host_memory : options.host_memory) / queues;
-  // Two batches are on the device at a time.
-  const std::size_t device = options.device_memory == 0 ? largest_batch : options.device_memory / queues / 2;
+  const std::size_t host = (options.host_memory == 0 ? default_host_memory() : options.host_memory) / queues;
+  // Three batches are on the device at a time.
+  const std::size_t device = options.device_memory == 0 ? largest_batch : options.device_memory / queues / 3;
   const std::size_t batch = std::clamp(std::min(host / 8, device), std::size_t(4096), largest_batch);
   Sizes sizes;
   sizes.batch_words = static_cast<Offset>(batch / sizeof(Id));

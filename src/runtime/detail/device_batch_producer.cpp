@@ -47,6 +47,7 @@ class DeviceBatchProducer : public BatchProducer {
     kernel_.pool.used = &header_.data()->used;
     kernel_.pool.needed = &header_.data()->needed;
     fast_scratch_ = fast_scratch_bytes<ProducerSpace>();
+    while (warps_ > 1 && share_of_large_segments() > 0.01) warps_ /= 2;
     reserve(parameters.words);
   }
 
@@ -74,11 +75,14 @@ class DeviceBatchProducer : public BatchProducer {
     Kokkos::deep_copy(instance_, first(directory_copy_.view(), count * relations_), first(directory_, count * relations_));
   }
 
-  Shortfall finish(Arena& arena) override {
+  void begin_copy(Arena& arena) override {
     instance_.fence("GALE::batch_computed");
-    const Header header = *header_copy_.data();
-    const auto words = static_cast<std::size_t>(std::min(header.used, kernel_.pool.capacity));
+    const auto words = static_cast<std::size_t>(std::min(header_copy_.data()->used, kernel_.pool.capacity));
     Kokkos::deep_copy(instance_, first(arena.words.view(), words), first(words_, words));
+  }
+
+  Shortfall finish(Arena& arena) override {
+    const Header header = *header_copy_.data();
     arena.segments.assign(segments_copy_.data(), segments_copy_.data() + count_);
     arena.directory.assign(directory_copy_.data(), directory_copy_.data() + count_ * relations_);
     instance_.fence("GALE::batch_copied");
@@ -106,6 +110,13 @@ class DeviceBatchProducer : public BatchProducer {
     const Offset external = external_begin_(segment + 1) - external_begin_(segment);
     const Offset star = 4 * internal + 3 * external;
     return {rows, static_cast<Id>(star), static_cast<Id>(star + 2 * Offset(rows)), 128};
+  }
+
+  /// Fewer warps need less scratch memory.
+  double share_of_large_segments() const {
+    Id large = 0;
+    for (Id s = 0; s < mesh_.segments(); ++s) large += is_large(s) ? 1 : 0;
+    return static_cast<double>(large) / mesh_.segments();
   }
 
   void reserve(Offset words) {

@@ -15,6 +15,8 @@ class HostBatchProducer : public BatchProducer {
   bool is_large(Id) const override { return false; }
   void launch(const std::vector<Id>& segments, Offset, const StarSizes&) override { segments_ = segments; }
 
+  void begin_copy(Arena&) override {}
+
   Shortfall finish(Arena& arena) override {
     arena.segments = segments_;
     arena.directory.assign(segments_.size() * relations_, BlockPool::missing);

@@ -34,7 +34,7 @@ Leader::Leader(const Mesh& mesh, const LeaderParameters& parameters, std::vector
     : mesh_(mesh),
       parameters_(parameters),
       producers_(std::move(producers)),
-      store_(mesh.segments(), parameters.arena_words, parameters.host_budget),
+      store_(mesh.segments(), parameters.host_budget),
       under_way_(mesh.segments()),
       computed_(mesh.segments()),
       words_per_segment_(words_per_vertex * mesh.vertices() / std::max(mesh.segments(), Id(1))) {
@@ -140,6 +140,14 @@ void Leader::plan_from(Id segment) {
   plans_.push_back(std::move(plan));
 }
 
+/// What the blocks of so many segments will take, by those so far.
+Offset Leader::words_for(std::size_t segments) const {
+  constexpr double margin = 1.1;
+  constexpr Offset step = 4096;
+  const auto words = static_cast<Offset>(margin * words_per_segment_ * static_cast<double>(segments));
+  return std::min((words + step) / step * step, parameters_.arena_words);
+}
+
 Id Leader::segments_that_fit() const {
   return std::max(Id(1), static_cast<Id>(0.9 * parameters_.arena_words / words_per_segment_));
 }
@@ -148,9 +156,9 @@ Id Leader::segments_that_fit() const {
 bool Leader::launch_next() {
   if (idle_.empty()) return false;
   if (plans_.empty()) return sweeping_ && launch_ahead();
-  Arena& arena = *store_.take(BlockStore::Need::must_have);
   Plan plan = std::move(plans_.front());
   plans_.pop_front();
+  Arena& arena = *store_.take(BlockStore::Need::must_have, std::max(plan.words, words_for(plan.segments.size())));
   launch(std::move(plan), arena);
   return true;
 }
@@ -159,7 +167,8 @@ bool Leader::launch_next() {
 bool Leader::launch_ahead() {
   while (ahead_ < mesh_.segments() && !is_wanted(ahead_)) ++ahead_;
   if (ahead_ == mesh_.segments()) return false;
-  Arena* const arena = store_.take(must_reach_ > ahead_ ? BlockStore::Need::must_have : BlockStore::Need::can_wait);
+  const auto need = must_reach_ > ahead_ ? BlockStore::Need::must_have : BlockStore::Need::can_wait;
+  Arena* const arena = store_.take(need, words_for(std::min(ahead_batch_, segments_that_fit())));
   if (arena == nullptr) return false;
   launch(plan_ahead(), *arena);
   return true;
@@ -184,7 +193,6 @@ Leader::Plan Leader::plan_ahead() {
 void Leader::launch(Plan plan, Arena& arena) {
   BatchProducer* const producer = idle_.back();
   try {
-    store_.enlarge(arena, plan.words);
     producer->launch(plan.segments, static_cast<Offset>(arena.words.size()), plan.scratch);
   } catch (const std::bad_alloc&) {
     store_.give_back(arena);
@@ -196,7 +204,7 @@ void Leader::launch(Plan plan, Arena& arena) {
     throw;
   }
   idle_.pop_back();
-  flights_.push_back({std::move(plan), producer, &arena, Clock::now()});
+  flights_.push_back({std::move(plan), producer, &arena, Clock::now(), false});
 }
 
 /// Tries the plan in two parts, if it has more than one segment; before all other plans.
@@ -211,7 +219,14 @@ void Leader::split(Plan plan) {
   plans_.push_front(std::move(plan));
 }
 
+void Leader::begin_copy(Flight& flight) {
+  if (!flight.copying) flight.producer->begin_copy(*flight.arena);
+  flight.copying = true;
+}
+
 void Leader::finish_oldest() {
+  // The next copy begins before this one's blocks are published, so that the link never rests.
+  for (std::size_t i = 0; i < std::min<std::size_t>(flights_.size(), 2); ++i) begin_copy(flights_[i]);
   const Shortfall shortfall = flights_.front().producer->finish(*flights_.front().arena);
   const auto finished = Clock::now();
   const Flight flight = std::move(flights_.front());

@@ -23,7 +23,7 @@ struct LeaderParameters {
 /// The leader producer of one queue: a thread that takes requests, forms batches, has them computed, and publishes their blocks.
 class Leader {
  public:
-  /// `producers`: at least one; with two, one computes while the other's blocks are copied.
+  /// `producers`: at least one; with three, one computes, another's blocks are copied, and those of the third are published.
   Leader(const Mesh& mesh, const LeaderParameters& parameters, std::vector<std::unique_ptr<BatchProducer>> producers);
 
   /// Fails all requests that wait, and returns when their consumers have gone.
@@ -58,6 +58,7 @@ class Leader {
     BatchProducer* producer;
     Arena* arena;
     Clock::time_point launched;
+    bool copying = false;
   };
 
   std::string end_message() const;
@@ -70,12 +71,14 @@ class Leader {
   Plan plan_ahead();
   void launch(Plan plan, Arena& arena);
   void split(Plan plan);
+  void begin_copy(Flight& flight);
   void finish_oldest();
   void account(const Plan& made, const Shortfall& shortfall, std::size_t launched);
   void retry(Plan plan, const Shortfall& shortfall);
   void deliver(const Plan& plan, Clock::time_point launched, Clock::time_point finished);
   void fail_all(const std::string& why);
   Id segments_that_fit() const;
+  Offset words_for(std::size_t segments) const;
   bool is_wanted(Id segment) const { return !under_way_[segment] && !store_.is_resident(segment); }
 
   const Mesh mesh_;

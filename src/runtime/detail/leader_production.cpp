@@ -103,7 +103,7 @@ class LeaderProduction : public RuntimeImplementation {
   }
 
  private:
-  static constexpr int producers_per_leader = 2;
+  static constexpr int producers_per_leader = 3;
 
   /// Has the leaders run ahead as long as it lives; a sweep inside or beside another asks for each segment instead.
   class SweepInProgress {
