@@ -4,8 +4,42 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <memory>
 
 namespace gale::app {
+
+namespace {
+
+/// A line on the terminal, gone when its owner is: at the end of a sweep, or where one throws.
+class Bar {
+ public:
+  explicit Bar(const std::string& title) : title_(title) {}
+  ~Bar() { erase(); }
+  Bar(const Bar&) = delete;
+  Bar& operator=(const Bar&) = delete;
+
+  void draw(Id done, Id all) {
+    const double part = all > 0 ? static_cast<double>(done) / all : 1.0;
+    const std::string bar(static_cast<std::size_t>(part * width), '=');
+    std::fprintf(stderr, "\r%-16s [%-*s] %3.0f %%", title_.c_str(), width, bar.c_str(), 100 * part);
+    drawn_ = true;
+    if (done >= all) erase();
+    std::fflush(stderr);
+  }
+
+ private:
+  static constexpr int width = 40;
+
+  void erase() {
+    if (drawn_) std::fprintf(stderr, "\r%*s\r", width + 26, "");
+    drawn_ = false;
+  }
+
+  std::string title_;
+  bool drawn_ = false;
+};
+
+}  // namespace
 
 void Console::say(const std::string& name, const std::string& value) const {
   if (!quiet_) std::printf("%-16s %s\n", name.c_str(), value.c_str());
@@ -14,14 +48,7 @@ void Console::say(const std::string& name, const std::string& value) const {
 
 std::function<void(Id, Id)> Console::progress(const std::string& title) const {
   if (quiet_ || isatty(STDERR_FILENO) == 0) return {};
-  return [title](Id done, Id all) {
-    constexpr int width = 40;
-    const double part = all > 0 ? static_cast<double>(done) / all : 1.0;
-    const std::string bar(static_cast<std::size_t>(part * width), '=');
-    std::fprintf(stderr, "\r%-16s [%-*s] %3.0f %%", title.c_str(), width, bar.c_str(), 100 * part);
-    if (done >= all) std::fprintf(stderr, "\r%*s\r", width + 26, "");
-    std::fflush(stderr);
-  };
+  return [bar = std::make_shared<Bar>(title)](Id done, Id all) { bar->draw(done, all); };
 }
 
 std::string grouped(std::int64_t number) {

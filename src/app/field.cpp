@@ -26,7 +26,9 @@ bool ends_with(const std::string& text, const std::string& end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
-bool is_segments(const std::string& name) { return name == segments_name || name == "_index"; }
+bool is_segments(const io::PointArray& array) {
+  return (array.name == segments_name || array.name == ttk_segments_name) && holds_segments(array);
+}
 
 /// NAME_K, taken apart; nullptr if it isn't that, or there is no such array.
 const io::PointArray* find_component(const io::Dataset& dataset, const std::string& name, int& component) {
@@ -39,7 +41,7 @@ const io::PointArray* find_component(const io::Dataset& dataset, const std::stri
 
 io::PointArray first_field(const io::Dataset& dataset) {
   for (const auto& array : dataset.arrays) {
-    if (array.components == 1 && !is_segments(array.name) && !ends_with(array.name, order_suffix)) return array;
+    if (array.components == 1 && !is_segments(array) && !ends_with(array.name, order_suffix)) return array;
   }
   throw Error("no point array to analyse: " + names_of(dataset));
 }
@@ -84,14 +86,25 @@ VertexOrder order_of(const Mesh& mesh, const io::Dataset& dataset, const io::Poi
                     order != nullptr ? order->values : field.values);
 }
 
-const io::PointArray* find_segments(const io::Dataset& dataset, const std::string& name) {
-  if (name.empty()) {
-    const auto* const array = find(dataset, segments_name);
-    return array != nullptr ? array : find(dataset, "_index");
-  }
+bool holds_segments(const io::PointArray& array) {
+  const auto whole = [](const auto& values) { return std::is_integral_v<typename std::decay_t<decltype(values)>::value_type>; };
+  return array.components == 1 && std::visit(whole, array.values);
+}
+
+const io::PointArray& select_segments(const io::Dataset& dataset, const std::string& name) {
   const auto* const array = find(dataset, name);
   if (array == nullptr) throw Error("no point array '" + name + "' with segments: " + names_of(dataset));
-  return array;
+  return *array;
+}
+
+const io::PointArray* find_segments(const io::Dataset& dataset, std::vector<std::string>& ignored) {
+  for (const auto* const name : {segments_name, ttk_segments_name}) {
+    const auto* const array = find(dataset, name);
+    if (array == nullptr) continue;
+    if (holds_segments(*array)) return array;
+    ignored.push_back(name);
+  }
+  return nullptr;
 }
 
 std::vector<std::int64_t> labels_of(const io::PointArray& segments) {

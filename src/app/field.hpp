@@ -17,12 +17,20 @@ io::PointArray select_field(const io::Dataset& dataset, const std::string& name)
 /// isn't a permutation of 0..vertices-1.
 VertexOrder order_of(const Mesh& mesh, const io::Dataset& dataset, const io::PointArray& field);
 
-/// The labels of the segments that the dataset brings: the array called `name`; without a name those that TTK's users know, or none.
-/// Throws gale::Error if there is no such array, or if it isn't of whole numbers, one a point.
-const io::PointArray* find_segments(const io::Dataset& dataset, const std::string& name);
-std::vector<std::int64_t> labels_of(const io::PointArray& segments);
-
-/// The name under which segments are written, and found.
+/// The names under which segments are found; the first one is ours to write, too.
 inline constexpr const char* segments_name = "ttkCompactTriangulationIndex";
+inline constexpr const char* ttk_segments_name = "_index";
+
+/// Whether the array can be labels of segments: whole numbers, one a point.
+bool holds_segments(const io::PointArray& array);
+
+/// The point array called `name`. Throws gale::Error if there is none.
+const io::PointArray& select_segments(const io::Dataset& dataset, const std::string& name);
+
+/// The segments that the dataset brings under a name that we know, or nullptr. `ignored`: arrays of such a name that don't hold segments.
+const io::PointArray* find_segments(const io::Dataset& dataset, std::vector<std::string>& ignored);
+
+/// The label of each point. Throws gale::Error unless `holds_segments`.
+std::vector<std::int64_t> labels_of(const io::PointArray& segments);
 
 }  // namespace gale::app

@@ -1,4 +1,6 @@
-#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
 #include <numeric>
 
 #include <gale/relations/boundary.hpp>
@@ -31,19 +33,35 @@ std::string brief(double value) {
   return text;
 }
 
+/// The least and the largest of the values added; NaN, which is neither, is counted.
+struct Range {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  std::int64_t nans = 0;
+
+  void add(double value) {
+    if (std::isnan(value)) ++nans;
+    low = value < low ? value : low;
+    high = value > high ? value : high;
+  }
+  bool empty() const { return low > high; }
+  Json json() const { return empty() ? Json(nullptr) : Json{low, high}; }
+};
+
+std::string to_string(const Range& range) {
+  const std::string values = range.empty() ? "no numbers" : brief(range.low) + " to " + brief(range.high);
+  return range.nans == 0 ? values : values + ", " + grouped(range.nans) + " NaN";
+}
+
 void tell_extent(const io::Dataset& dataset, Session& session) {
   static const char* const axes[] = {"x", "y", "z"};
   Json extent = Json::array();
   std::visit(
       [&](const auto& points) {
         for (int axis = 0; axis < 3; ++axis) {
-          double low = points(0, axis), high = low;
-          for (std::size_t i = 1; i < points.extent(0); ++i) {
-            low = std::min<double>(low, points(i, axis));
-            high = std::max<double>(high, points(i, axis));
-          }
-          session.console().say(axes[axis], brief(low) + " to " + brief(high));
-          extent.push_back({low, high});
+          Range range;
+          for (std::size_t i = 0; i < points.extent(0); ++i) range.add(points(i, axis));
+          session.console().say(axes[axis], to_string(range));
+          extent.push_back(range.json());
         }
       },
       dataset.points);
@@ -54,17 +72,16 @@ void tell_arrays(const io::Dataset& dataset, Session& session) {
   Json arrays = Json::array();
   for (const auto& array : dataset.arrays) {
     const std::string type = std::visit(TypeName(), array.values);
-    double low = 0, high = 0;
+    Range range;
     std::visit(
         [&](const auto& values) {
-          if (values.empty()) return;
-          const auto range = std::minmax_element(values.begin(), values.end());
-          low = static_cast<double>(*range.first), high = static_cast<double>(*range.second);
+          for (const auto value : values) range.add(static_cast<double>(value));
         },
         array.values);
     const std::string components = array.components == 1 ? "" : ", " + std::to_string(array.components) + " components";
-    session.console().say("array " + array.name, type + components + ", " + brief(low) + " to " + brief(high));
-    arrays.push_back({{"name", array.name}, {"type", type}, {"components", array.components}, {"range", {low, high}}});
+    session.console().say("array " + array.name, type + components + ", " + to_string(range));
+    arrays.push_back(
+        {{"name", array.name}, {"type", type}, {"components", array.components}, {"range", range.json()}, {"nan", range.nans}});
   }
   session.report().result["arrays"] = arrays;
 }

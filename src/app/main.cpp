@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <iostream>
 #include <map>
 #include <string>
 
@@ -37,13 +38,16 @@ void run(const gale::app::Options& options) {
   commands.at(options.command)(options);
 }
 
+/// Whether all that went to standard output has arrived: a disk may be full, a descriptor closed.
+bool output_arrived() { return std::cout.flush() && std::fflush(stdout) == 0 && std::ferror(stdout) == 0; }
+
 }  // namespace
 
 int main(int argc, char** argv) {
   try {
     const auto options = gale::app::parse_command_line(argc, argv);
     if (options) run(*options);
-    return done;
+    return output_arrived() ? done : complain(failed, "cannot write to standard output");
   } catch (const gale::app::UsageError& error) {
     return complain(wrong_usage, error.what());
   } catch (const std::bad_alloc&) {

@@ -2,6 +2,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "sizes.hpp"
+
 namespace gale::app {
 
 namespace {
@@ -10,34 +12,38 @@ void add_input(CLI::App& command, Options& options) {
   command.add_option("INPUT", options.input,
                      "A mesh (.vtu .vtk), a volume (.vti .nii .nii.gz .mha .mhd .nrrd) or grid:N")->required();
   command.add_option("--above", options.read.above, "Volumes: keep the voxels with values above this");
+  command.add_option("-a,--array", options.array,
+                     "The point array to analyse, NAME or NAME_K for its component K; of volumes, also what --above is about");
   command.add_flag("--tetrahedralize", options.read.tetrahedralize, "Meshes: split other 3D cells into tetrahedra");
 }
 
-void add_field(CLI::App& command, Options& options) {
-  command.add_option("-a,--array", options.array, "The point array to analyse (default: the first one of one component)");
-}
-
 void add_common(CLI::App& command, Options& options) {
-  command.add_option("-t,--threads", options.threads, "Threads (default: all cores)")->check(CLI::Range(1, 65536));
+  command.add_option("-t,--threads", options.threads, "Threads (default: all cores)")->check(CLI::Range(1, 1024));
   command.add_option("--report", options.report, "Write times, memory and results to this JSON file");
   command.add_flag("--quiet", options.quiet, "Print nothing but errors");
 }
 
 void add_segmentation(CLI::App& command, Options& options) {
-  command.add_option("--capacity", options.capacity, "Most vertices of a segment (default: 100)")
-      ->check(CLI::Range(1, 2147483647));
-  command.add_option("--segments", options.segments, "A point array that says which segment a vertex is in, instead of an octree");
+  CLI::Option* const capacity = command.add_option("--capacity", options.capacity, "Most vertices of a segment (default: 100)");
+  capacity->check(CLI::Range(1, 2147483647));
+  command.add_option("--segments", options.segments, "A point array that says which segment a vertex is in, instead of an octree")
+      ->excludes(capacity);
+}
+
+void add_size(CLI::App& command, std::size_t& size, const std::string& name, const std::string& what) {
+  const auto set = [&size, name](const std::string& text) { size = parse_size(name, text); };
+  command.add_option_function<std::string>(name, set, what)->type_name("SIZE");
 }
 
 void add_runtime(CLI::App& command, Options& options) {
   command.add_option("--structure", options.structure, "gale, explicit (everything at once) or inline (no leaders)")
       ->check(CLI::IsMember({"gale", "explicit", "inline"}));
-  command.add_option("--blocks-per-request", options.runtime.blocks_per_request, "n_b")->check(CLI::PositiveNumber);
-  command.add_option("--threads-per-block", options.runtime.threads_per_block, "t_b")->check(CLI::PositiveNumber);
-  command.add_option("--threads-per-segment", options.runtime.threads_per_segment, "t_s")->check(CLI::PositiveNumber);
-  const auto size = CLI::AsSizeValue(false);
-  command.add_option("--host-memory", options.runtime.host_memory, "Budget for blocks on the host, e.g. 512MiB")->transform(size);
-  command.add_option("--device-memory", options.runtime.device_memory, "Budget for batches on the device")->transform(size);
+  const CLI::Range launches(1, 1048576);
+  command.add_option("--blocks-per-request", options.runtime.blocks_per_request, "n_b")->check(launches);
+  command.add_option("--threads-per-block", options.runtime.threads_per_block, "t_b")->check(launches);
+  command.add_option("--threads-per-segment", options.runtime.threads_per_segment, "t_s")->check(CLI::Range(1, 1024));
+  add_size(command, options.runtime.host_memory, "--host-memory", "Budget for blocks on the host, e.g. 512MiB");
+  add_size(command, options.runtime.device_memory, "--device-memory", "Budget for batches on the device");
 }
 
 CLI::App* add_command(CLI::App& app, Options& options, const std::string& name, const std::string& what) {
@@ -51,6 +57,22 @@ CLI::App* add_command(CLI::App& app, Options& options, const std::string& name, 
 void add_output(CLI::App& command, Options& options, const std::string& what, bool required) {
   CLI::Option* const output = command.add_option("-o,--output", options.output, what);
   if (required) output->required();
+}
+
+std::string commands_of(const CLI::App& app) {
+  std::string names;
+  for (const CLI::App* const command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    names += (names.empty() ? "" : ", ") + command->get_name();
+  }
+  return "the commands are " + names;
+}
+
+/// What is wrong where no command was recognized.
+std::string without_command(const CLI::App& app, int argc, char** argv) {
+  const std::string first = argc > 1 ? argv[1] : "";
+  if (first.empty()) return "no command: " + commands_of(app);
+  if (first[0] == '-') return "no command before '" + first + "': " + commands_of(app);
+  return "unknown command '" + first + "': " + commands_of(app);
 }
 
 }  // namespace
@@ -68,7 +90,6 @@ std::optional<Options> parse_command_line(int argc, char** argv) {
   add_output(*command, options, "The mesh with its segments as a point array: .vtu or .vtk", false);
 
   command = add_command(app, options, "critical-points", "Finds the critical points of a scalar field");
-  add_field(*command, options);
   add_segmentation(*command, options);
   add_runtime(*command, options);
   add_output(*command, options, "The critical points: .vtp", false);
@@ -82,7 +103,7 @@ std::optional<Options> parse_command_line(int argc, char** argv) {
     app.exit(success);
     return std::nullopt;
   } catch (const CLI::ParseError& error) {
-    throw UsageError(error.what());
+    throw UsageError(app.get_subcommands().empty() ? without_command(app, argc, argv) : error.what());
   }
   options.read.array = options.array;
   return options;

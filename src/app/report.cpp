@@ -1,12 +1,11 @@
 #include "report.hpp"
 
-#include <fstream>
+#include <algorithm>
 
-#include <gale/base/error.hpp>
 #include <gale/base/kokkos.hpp>
-#include <gale/io/atomic_file.hpp>
 
 #include "machine.hpp"
+#include "output_file.hpp"
 
 namespace gale::app {
 
@@ -86,12 +85,8 @@ Json to_json(const Report& report) {
 }
 
 void write_report(const std::string& path, const Report& report) {
-  io::AtomicFile file(path);
-  std::ofstream out(file.temporary());
-  out << to_json(report).dump(2) << '\n';
-  out.close();
-  if (!out) throw Error("can't write " + path);
-  file.commit();
+  // Names of files and arrays need not be UTF-8, as JSON must be.
+  write_text(path, to_json(report).dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
 }
 
 }  // namespace gale::app

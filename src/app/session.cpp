@@ -1,10 +1,13 @@
 #include "session.hpp"
 
+#include <gale/base/error.hpp>
+#include <gale/io/detail/vtk_files.hpp>
 #include <gale/io/read.hpp>
 #include <gale/relations/explicit_structure.hpp>
 
 #include "field.hpp"
 #include "machine.hpp"
+#include "output_file.hpp"
 
 namespace gale::app {
 
@@ -30,6 +33,12 @@ Segmentation octree(const io::Dataset& dataset, int capacity) {
 Session::Session(const Options& options) : options_(options), console_(options.quiet) {
   report_.input = options.input;
   report_.threads = host_threads();
+  // Found out now rather than after the work.
+  if (!options.output.empty()) {
+    if (!io::detail::has_vtk()) throw Error("this gale was built without VTK: it cannot write '" + options.output + "'");
+    require_writable(options.output);
+  }
+  if (!options.report.empty()) require_writable(options.report);
 }
 
 io::Dataset Session::read() {
@@ -44,12 +53,21 @@ io::Dataset Session::read() {
   for (const auto& notice : dataset.notices) console_.say("note", notice);
   console_.say("vertices", grouped(*report_.vertices));
   console_.say("tetrahedra", grouped(*report_.tetrahedra));
+  if (!options_.array.empty()) select_field(dataset, options_.array);  // whoever uses it: it must be there
   return dataset;
 }
 
+const io::PointArray* Session::given_segments(const io::Dataset& dataset) const {
+  if (!options_.segments.empty()) return &select_segments(dataset, options_.segments);
+  if (options_.capacity) return nullptr;
+  std::vector<std::string> ignored;
+  const io::PointArray* const segments = find_segments(dataset, ignored);
+  for (const auto& name : ignored) console_.say("note", "array " + name + " isn't one whole number a point: not used as segments");
+  return segments;
+}
+
 Segmentation Session::segment(const io::Dataset& dataset) {
-  const bool octree_wanted = options_.capacity && options_.segments.empty();
-  const io::PointArray* const given = octree_wanted ? nullptr : find_segments(dataset, options_.segments);
+  const io::PointArray* const given = given_segments(dataset);
   if (given == nullptr) return octree(dataset, options_.capacity.value_or(default_capacity));
   const auto labels = labels_of(*given);
   console_.say("segments from", "array " + given->name);
@@ -102,8 +120,7 @@ void require_extension(const Options& options, std::initializer_list<const char*
   if (options.output.empty()) return;
   std::string list;
   for (const std::string extension : extensions) {
-    const auto& path = options.output;
-    if (path.size() > extension.size() && path.compare(path.size() - extension.size(), extension.size(), extension) == 0) return;
+    if (io::detail::format_of(options.output) == io::detail::format_of("any" + extension)) return;
     list += (list.empty() ? "" : " or ") + extension;
   }
   throw UsageError("--output " + options.output + ": gale " + options.command + " writes " + list);

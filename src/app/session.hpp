@@ -17,6 +17,7 @@ namespace gale::app {
 /// One run of the command: what every subcommand does, each step timed and said.
 class Session {
  public:
+  /// Throws gale::Error if the output or the report can't be written where they should be.
   explicit Session(const Options& options);
 
   const Options& options() const { return options_; }
@@ -50,6 +51,8 @@ class Session {
   void finish(const Structure* structure);
 
  private:
+  /// The array that the dataset is segmented by, or nullptr for an octree.
+  const io::PointArray* given_segments(const io::Dataset& dataset) const;
   Segmentation segment(const io::Dataset& dataset);
 
   const Options& options_;
@@ -57,7 +60,7 @@ class Session {
   Report report_;
 };
 
-/// Throws UsageError unless the output, if there is one, ends in one of `extensions`.
+/// Throws UsageError unless the output, if there is one, ends in one of `extensions`, in either case.
 void require_extension(const Options& options, std::initializer_list<const char*> extensions);
 
 }  // namespace gale::app

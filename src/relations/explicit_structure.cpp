@@ -68,11 +68,8 @@ class ExplicitStructure::ExplicitConsumer : public Consumer {
  private:
   SegmentRows load(Relation relation, Id vertex) override {
     require_preconditioned(structure_.relations(), relation);
-    const Id vertices = structure_.mesh().vertices();
-    if (vertex < 0 || vertex >= vertices) {
-      throw Error("there is no vertex " + std::to_string(vertex) + ": they are 0 to " + std::to_string(vertices - 1));
-    }
-    return structure_.data_->rows(relation, no_id, 0, vertices);
+    require_vertex(structure_.mesh(), vertex);
+    return structure_.data_->rows(relation, no_id, 0, structure_.mesh().vertices());
   }
 
   const ExplicitStructure& structure_;

@@ -22,14 +22,14 @@ class Consumer {
   /// the block computed. Throws gale::Error if the relation was not preconditioned, or if it can't be computed.
   Row row(Relation relation, Id vertex) {
     auto& rows = current_[static_cast<int>(relation)];
-    if (!rows.has(vertex)) rows = load(relation, vertex);
+    if (!rows.has(vertex)) reload(rows, relation, vertex);
     return rows[relation][vertex];
   }
 
   /// The link of a vertex; likewise.
   LinkRow link(Id vertex) {
     auto& rows = current_[static_cast<int>(Relation::link)];
-    if (!rows.has(vertex)) rows = load(Relation::link, vertex);
+    if (!rows.has(vertex)) reload(rows, Relation::link, vertex);
     return rows.links()[vertex];
   }
 
@@ -38,6 +38,12 @@ class Consumer {
   virtual SegmentRows load(Relation relation, Id vertex) = 0;
 
  private:
+  /// Forgets the old rows first: loading ends their validity, also if it throws.
+  void reload(SegmentRows& rows, Relation relation, Id vertex) {
+    rows = SegmentRows();
+    rows = load(relation, vertex);
+  }
+
   std::array<SegmentRows, relation_count> current_;
 };
 
@@ -74,5 +80,8 @@ class Structure {
 
 /// Throws gale::Error, naming the relations and what to do, unless those that a structure was preconditioned for contain `wanted`.
 void require_preconditioned(RelationSet preconditioned, RelationSet wanted);
+
+/// Throws gale::Error unless `vertex` is one of the mesh'.
+void require_vertex(const Mesh& mesh, Id vertex);
 
 }  // namespace gale

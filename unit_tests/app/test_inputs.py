@@ -52,6 +52,17 @@ class Volumes(gale.CommandTest):
         bump = gale.Volume((5, 5, 5), lambda x, y, z: -((x - 2) ** 2 + 1.1 * (y - 2) ** 2 + 1.3 * (z - 2) ** 2 + 0.01 * x * y))
         self.assertEqual(self.counts(self.write("bump.mha", bump.mha()))[3], 1)
 
+    def test_one_component_of_several(self):
+        vectors = self.SLOPE.vti().decode().replace('Name="values"', 'Name="values" NumberOfComponents="2"')
+        values = " ".join(map(str, self.SLOPE.values))
+        doubled = " ".join(f"0 {value}" for value in self.SLOPE.values)
+        name = self.write("vectors.vti", vectors.replace(values, doubled).replace(' Scalars="values"', ""))
+        for command, output in (("info", []), ("segment", []), ("generate", ["-o", "mesh.vtu"]), ("critical-points", [])):
+            with self.subTest(command=command):
+                report = self.report(command, name, "-a", "values_1", "--above", "0", *output)
+                self.assertEqual(report["mesh"]["vertices"], 10 * 3 * 4)
+                self.refuse(1, command, name, *output, naming="values_1")
+
     def test_damaged_files(self):
         volumes = {"cut.nrrd": self.SLOPE.nrrd()[:-8], "cut.mha": self.SLOPE.mha()[:-8], "cut.nii": self.SLOPE.nii()[:-8],
                    "cut.nii.gz": gzip.compress(self.SLOPE.nii())[:-20], "cut.vti": self.SLOPE.vti()[:-40],
@@ -117,6 +128,24 @@ class Meshes(gale.CommandTest):
         self.assertEqual(self.report("critical-points", mesh)["mesh"]["segments"], 1)
         self.assertEqual(self.report("critical-points", mesh, "--segments", "part")["mesh"]["segments"], 2)
         self.refuse(1, "critical-points", mesh, "--segments", "parts", naming="parts")
+
+    def test_arrays_that_cannot_be_segments_are_not_used_as_such(self):
+        mesh = self.mesh(arrays={**HEIGHT, "_index": ("float", [7, 7, 3, 7, 12])})
+        self.assertIn("_index", self.succeed("segment", mesh))
+        self.assertEqual(self.report("segment", mesh)["mesh"]["segments"], 1)
+        self.refuse(1, "segment", mesh, "--segments", "_index", naming="_index")
+
+    def test_array_is_an_option_of_every_command(self):
+        for command, name in (("info", ""), ("segment", ""), ("generate", "mesh.vtu")):
+            with self.subTest(command=command):
+                output = ["-o", name] if name else []
+                self.succeed(command, self.mesh(), "-a", "height", *output)
+                self.refuse(1, command, self.mesh(), "-a", "width", *output, naming="width")
+
+    def test_info_counts_what_is_not_a_number(self):
+        name = self.mesh(arrays={"height": ("float", ["nan", 3, 2, "nan", 4]), "none": ("float", ["nan"] * 5)})
+        arrays = self.report("info", name)["result"]["arrays"]
+        self.assertEqual([(array["range"], array["nan"]) for array in arrays], [([2, 4], 2), (None, 5)])
 
     def test_isolated_vertices_are_legal(self):
         """A vertex without neighbours has no component below or above: degenerate."""

@@ -1,4 +1,6 @@
 """How the command takes its arguments and how it ends."""
+import os
+import subprocess
 import unittest
 
 import gale
@@ -19,18 +21,41 @@ class Usage(gale.CommandTest):
             self.assertIn(option, text)
 
     def test_wrong_usage(self):
-        for arguments in ([], ["critical-points"], ["nonsense", "grid:4"], ["critical-points", "grid:4", "--nonsense"],
-                          ["critical-points", "grid:4", "grid:5"]):
+        for arguments in (["critical-points"], ["critical-points", "grid:4", "--nonsense"],
+                          ["critical-points", "grid:4", "grid:5"],
+                          ["segment", "grid:4", "--capacity", "5", "--segments", "part"]):
             with self.subTest(arguments=arguments):
                 self.refuse(2, *arguments)
 
+    def test_no_or_an_unknown_command_names_those_that_there_are(self):
+        for arguments, naming in (([], "no command"), (["bogus"], "unknown command 'bogus'"), (["bogus", "grid:4"], "'bogus'"),
+                                  (["--bogus"], "--bogus")):
+            with self.subTest(arguments=arguments):
+                self.refuse(2, *arguments, naming=naming)
+                self.refuse(2, *arguments, naming="the commands are info, segment, critical-points, generate")
+
     def test_values_that_options_do_not_take(self):
-        for option, value in (("--structure", "fast"), ("--capacity", "0"), ("--capacity", "many"), ("--threads", "0"),
+        for option, value in (("--structure", "fast"), ("--capacity", "0"), ("--capacity", "many"), ("--threads", "0"), ("--threads", "1025"),
                               ("--threads", "-1"), ("--above", "zero"), ("--host-memory", "8 apples"),
                               ("--host-memory", "-1"), ("--blocks-per-request", "0"), ("--threads-per-block", "-32"),
-                              ("--threads-per-segment", "0")):
+                              ("--threads-per-segment", "0"), ("--threads-per-segment", "1025"),
+                              ("--blocks-per-request", "1048577"), ("--host-memory", "0"), ("--host-memory", "0.1"),
+                              ("--host-memory", "1.5.5G"), ("--host-memory", "MiB"), ("--host-memory", ""),
+                              ("--host-memory", "9" * 400), ("--device-memory", "0x10"), ("--device-memory", "1Gi")):
             with self.subTest(option=option, value=value):
                 self.refuse(2, "critical-points", "grid:4", option, value, naming=option)
+
+    def test_sizes_of_memory(self):
+        for size in ("512MiB", "1.5GiB", "8G", "1000000", "64 mb", "2k"):
+            with self.subTest(size=size):
+                self.succeed("critical-points", "grid:4", "--host-memory", size)
+
+    @unittest.skipUnless(os.path.exists("/dev/full"), "there is no /dev/full")
+    def test_lost_output_is_an_error(self):
+        for arguments in (["info", "grid:4"], ["--help"], ["--version"]):
+            with self.subTest(arguments=arguments), open("/dev/full", "w") as full:
+                run = subprocess.run([gale.GALE, *arguments], stdout=full, stderr=subprocess.PIPE, text=True, timeout=300)
+                self.assertEqual((run.returncode, run.stderr), (1, "gale: cannot write to standard output\n"))
 
     def test_output_of_another_kind(self):
         for command, name in (("critical-points", "points.vtu"), ("segment", "mesh.vtp"), ("generate", "mesh.stl")):
@@ -53,7 +78,13 @@ class Usage(gale.CommandTest):
             self.assertEqual(self.succeed(command, "grid:4", "--quiet"), "")
 
     def test_report_where_there_is_no_place(self):
-        self.refuse(1, "info", "grid:4", "--quiet", "--report", "missing/report.json", naming="missing/report.json")
+        self.refuse(1, "info", "grid:4", "--quiet", "--report", "missing/report.json", naming="'missing/report.json'")
+        self.refuse(1, "info", "missing.vtu", "--report", ".", naming="'.'")  # before the input is looked at
+
+    def test_report_of_a_name_that_is_not_utf_8(self):
+        name = b"\xff.vtu"
+        self.succeed("generate", "grid:4", "-o", os.fsdecode(name)) if gale.HAVE_VTK else self.skipTest("no VTK")
+        self.assertEqual(self.report("info", os.fsdecode(name))["input"], "\ufffd.vtu")
 
     @gale.needs_vtk
     def test_output_where_there_is_no_place(self):
@@ -61,7 +92,14 @@ class Usage(gale.CommandTest):
                               ("generate", "missing/mesh.vtk")):
             with self.subTest(command=command):
                 self.refuse(1, command, "grid:4", "-o", name, naming=name)
+                self.refuse(1, command, "missing.vtu", "-o", name, naming=name)  # before the input is looked at
         self.assertEqual(self.names(), [])
+
+    @gale.needs_vtk
+    def test_extensions_count_in_either_case(self):
+        self.succeed("generate", "grid:4", "-o", "MESH.VTU")
+        self.succeed("critical-points", "MESH.VTU", "-o", "points.Vtp")
+        self.assertEqual(self.names(), ["MESH.VTU", "points.Vtp"])
 
     @unittest.skipIf(gale.HAVE_VTK, "this gale was built with VTK")
     def test_files_without_vtk(self):

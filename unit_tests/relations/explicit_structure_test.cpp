@@ -143,8 +143,8 @@ TEST(ExplicitStructureErrors, name_what_it_was_not_preconditioned_for) {
 TEST(ExplicitStructureErrors, name_a_vertex_that_is_not_there) {
   ExplicitStructure structure(one_tetrahedron(), Relation::VV);
   const auto consumer = structure.consumer();
-  EXPECT_EQ(refusal_of([&] { consumer->row(Relation::VV, 4); }), "there is no vertex 4: they are 0 to 3");
-  EXPECT_EQ(refusal_of([&] { consumer->row(Relation::VV, -1); }), "there is no vertex -1: they are 0 to 3");
+  EXPECT_EQ(refusal_of([&] { consumer->row(Relation::VV, 4); }), "there is no vertex 4: the mesh has 0 to 3");
+  EXPECT_EQ(refusal_of([&] { consumer->row(Relation::VV, -1); }), "there is no vertex -1: the mesh has 0 to 3");
   EXPECT_EQ(consumer->row(Relation::VV, 3).size(), 3);
 }
 

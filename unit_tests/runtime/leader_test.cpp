@@ -129,7 +129,7 @@ TEST(Leader, says_when_one_segment_is_too_big_for_memory) {
   Fixture fixture;
   const auto leader = fixture.leader([](const std::vector<Id>&) { throw std::bad_alloc(); }, {});
   EXPECT_EQ(message_of([&] { leader->acquire(5, false, fixture.statistics); }),
-            "computing VV failed: out of memory for one segment");
+            "computing VV failed: std::bad_alloc, for one segment");
 }
 
 TEST(Leader, lets_consumers_that_want_one_segment_share_one_computation) {
@@ -147,6 +147,29 @@ TEST(Leader, lets_consumers_that_want_one_segment_share_one_computation) {
   all_wait.set_value();
   for (auto& thread : threads) thread.join();
   EXPECT_EQ(leader->statistics().segments_computed, 1);
+}
+
+TEST(Leader, makes_one_batch_of_all_requests_that_wait) {
+  Fixture fixture;
+  std::promise<void> begun, go_on;
+  const auto may_go_on = go_on.get_future().share();
+  std::atomic<int> finished{0};
+  const auto leader = fixture.leader({}, [&](const std::vector<Id>&) {
+    if (finished++ == 0) begun.set_value();
+    may_go_on.wait();
+  }, 1);
+  std::vector<std::thread> threads;
+  for (int i = 0; i < 9; ++i) {
+    threads.emplace_back([&, i] {
+      ConsumerStatistics statistics;
+      EXPECT_TRUE(leader->acquire(3 * i, false, statistics));
+    });
+    if (i == 0) begun.get_future().wait();
+  }
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  go_on.set_value();
+  for (auto& thread : threads) thread.join();
+  EXPECT_EQ(leader->statistics().batches, 2);
 }
 
 TEST(Leader, that_ends_fails_those_who_still_wait) {

@@ -211,4 +211,45 @@ TEST(Runtime, says_what_it_was_not_preconditioned_for) {
   }
 }
 
+TEST(Runtime, refuses_a_vertex_that_is_not_there) {
+  const Holed holed;
+  for (const Way& way : ways()) {
+    Runtime runtime(holed.mesh, star_relations, way.options);
+    const auto consumer = runtime.consumer();
+    const Row row = consumer->row(Relation::VV, 0);
+    for (const Id vertex : {-1, holed.mesh.vertices()}) {
+      EXPECT_THROW(consumer->row(Relation::VV, vertex), Error) << way.name;
+      EXPECT_THROW(consumer->link(vertex), Error) << way.name;
+    }
+    EXPECT_EQ(row.size(), consumer->row(Relation::VV, 0).size());
+  }
+}
+
+TEST(Runtime, that_ends_tells_consumers_that_go_on_asking) {
+  const Holed holed;
+  RuntimeOptions options;
+  options.production = Production::leaders;
+  auto runtime = std::make_unique<Runtime>(holed.mesh, star_relations, options);
+  std::vector<std::thread> threads;
+  std::atomic<int> begun{0}, told{0};
+  for (int i = 0; i < 4; ++i) {
+    std::shared_ptr<Consumer> consumer = runtime->consumer();
+    threads.emplace_back([&, i, consumer] {
+      std::mt19937 random(i);
+      try {
+        for (;;) {
+          consumer->row(Relation::VV, static_cast<Id>(random() % holed.mesh.vertices()));
+          if (begun < 4) ++begun;
+        }
+      } catch (const Error&) {
+        ++told;
+      }
+    });
+  }
+  while (begun < 4) std::this_thread::yield();
+  runtime.reset();
+  for (auto& thread : threads) thread.join();
+  EXPECT_EQ(told, 4);
+}
+
 }  // namespace gale::test

@@ -41,6 +41,7 @@ class ProducingConsumer : public Consumer {
  protected:
   SegmentRows load(Relation relation, Id vertex) override {
     require_preconditioned(relations_, relation);
+    require_vertex(mesh_, vertex);
     const Id segment = mesh_.segment_of(vertex);
     Kept& kept = find(segment);
     kept.last_use = ++now_;

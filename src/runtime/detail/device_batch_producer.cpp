@@ -4,6 +4,7 @@
 #if defined(KOKKOS_ENABLE_CUDA)
 
 #include <algorithm>
+#include <atomic>
 
 #include <gale/base/pinned.hpp>
 #include <gale/base/transfer.hpp>
@@ -99,7 +100,7 @@ class DeviceBatchProducer : public BatchProducer {
   }
 
   std::size_t device_bytes() const override {
-    return words_.extent(0) * sizeof(Id) + segments_.extent(0) * sizeof(Id) + directory_.extent(0) * sizeof(Offset);
+    return device_bytes_;
   }
 
  private:
@@ -122,17 +123,22 @@ class DeviceBatchProducer : public BatchProducer {
   void reserve(Offset words) {
     kernel_.pool.capacity = words;
     if (static_cast<Offset>(words_.extent(0)) >= words) return;
+    kernel_.pool.words = nullptr;
     words_ = OnDevice<Id>();
     words_ = allocate<OnDevice<Id>>("GALE::batch_words", words);
     kernel_.pool.words = words_.data();
+    device_bytes_ = words * sizeof(Id);
   }
 
   void reserve_segments(std::size_t count) {
     if (segments_.extent(0) >= count) return;
-    segments_ = allocate<OnDevice<Id>>("GALE::batch_segments", count);
+    // All or none: a batch that doesn't fit is tried again in parts.
+    const auto segments = allocate<OnDevice<Id>>("GALE::batch_segments", count);
+    const auto directory = allocate<OnDevice<Offset>>("GALE::batch_directory", count * relations_);
     segments_copy_ = Pinned<Id>(count);
-    directory_ = allocate<OnDevice<Offset>>("GALE::batch_directory", count * relations_);
     directory_copy_ = Pinned<Offset>(count * relations_);
+    segments_ = segments;
+    directory_ = directory;
     kernel_.segments = segments_.data();
     kernel_.pool.directory = directory_.data();
   }
@@ -151,6 +157,7 @@ class DeviceBatchProducer : public BatchProducer {
   Pinned<Offset> directory_copy_;
   StarKernel<ProducerMemory> kernel_;
   std::size_t fast_scratch_ = 0;
+  std::atomic<std::size_t> device_bytes_{0};  ///< of words, which outweigh the rest
   std::size_t count_ = 0;
 };
 

@@ -19,8 +19,8 @@ constexpr double words_per_vertex = 64;
 std::string current_message() {
   try {
     throw;
-  } catch (const std::bad_alloc&) {
-    return "out of memory for one segment";
+  } catch (const std::bad_alloc& error) {
+    return std::string(error.what()) + ", for one segment";
   } catch (const std::exception& error) {
     return error.what();
   } catch (...) {
@@ -43,10 +43,12 @@ Leader::Leader(const Mesh& mesh, const LeaderParameters& parameters, std::vector
   thread_ = std::thread([this] { run(); });
 }
 
-Leader::~Leader() {
+Leader::~Leader() { end(); }
+
+void Leader::end() {
   ending_ = true;
   queue_.stop();
-  thread_.join();
+  if (thread_.joinable()) thread_.join();
   while (consumers_inside_.load() != 0) std::this_thread::yield();
 }
 
@@ -107,16 +109,19 @@ void Leader::listen(bool wait) {
     ahead_ = must_reach_ = 0;
     ahead_batch_ = first_batch;
   }
+  // First all of them where a failure finds them, then one after the other.
+  for (const auto& request : news.requests) waiting_.emplace(request.segment, request.ticket);
   for (const auto& request : news.requests) serve(request, now);
 }
 
 void Leader::serve(const Request& request, Clock::time_point taken) {
   request.ticket->taken = request.ticket->launched = request.ticket->finished = taken;
-  if (Lease lease = store_.find(request.segment)) {
-    request.ticket->fulfil(std::move(lease));
+  if (store_.is_resident(request.segment)) {
+    Plan there;
+    there.segments = {request.segment};
+    deliver(there, taken, taken);
     return;
   }
-  waiting_.emplace(request.segment, request.ticket);
   if (under_way_[request.segment]) return;
   if (request.in_sweep && sweeping_ && request.segment >= ahead_) {
     must_reach_ = std::max(must_reach_, request.segment + 1);
@@ -130,9 +135,9 @@ void Leader::plan_from(Id segment) {
   Plan plan;
   const Id count = std::min(parameters_.segments_per_request, segments_that_fit());
   const Id end = static_cast<Id>(std::min<Offset>(mesh_.segments(), Offset(segment) + count));
-  const bool alone = producers_.front()->is_large(segment);
+  plan.alone = producers_.front()->is_large(segment);
   for (Id s = segment; s < end; ++s) {
-    if (s != segment && (alone || producers_.front()->is_large(s))) break;
+    if (s != segment && (plan.alone || producers_.front()->is_large(s))) break;
     if (!is_wanted(s)) continue;
     under_way_[s] = true;
     plan.segments.push_back(s);
@@ -156,11 +161,22 @@ Id Leader::segments_that_fit() const {
 bool Leader::launch_next() {
   if (idle_.empty()) return false;
   if (plans_.empty()) return sweeping_ && launch_ahead();
-  Plan plan = std::move(plans_.front());
-  plans_.pop_front();
+  Plan plan = next_requests();
   Arena& arena = *store_.take(BlockStore::Need::must_have, std::max(plan.words, words_for(plan.segments.size())));
   launch(std::move(plan), arena);
   return true;
+}
+
+/// All requests that wait, as far as they fit one batch; what needs something special, by itself.
+Leader::Plan Leader::next_requests() {
+  Plan batch = std::move(plans_.front());
+  plans_.pop_front();
+  const auto most = static_cast<std::size_t>(segments_that_fit());
+  while (!batch.alone && !plans_.empty() && !plans_.front().alone && batch.segments.size() + plans_.front().segments.size() <= most) {
+    batch.segments.insert(batch.segments.end(), plans_.front().segments.begin(), plans_.front().segments.end());
+    plans_.pop_front();
+  }
+  return batch;
 }
 
 /// The next batch of the sweep, unless the budget doesn't allow it yet.
@@ -195,11 +211,13 @@ void Leader::launch(Plan plan, Arena& arena) {
   try {
     producer->launch(plan.segments, static_cast<Offset>(arena.words.size()), plan.scratch);
   } catch (const std::bad_alloc&) {
+    producer->abandon();
     store_.give_back(arena);
     if (plan.segments.size() == 1) throw;
     split(std::move(plan));
     return;
   } catch (...) {
+    producer->abandon();
     store_.give_back(arena);
     throw;
   }
@@ -211,6 +229,7 @@ void Leader::launch(Plan plan, Arena& arena) {
 void Leader::split(Plan plan) {
   const std::lock_guard<std::mutex> lock(statistics_mutex_);
   ++statistics_.batches_split;
+  plan.alone = true;
   Plan second = plan;
   const auto half = plan.segments.begin() + static_cast<std::ptrdiff_t>((plan.segments.size() + 1) / 2);
   second.segments.assign(half, plan.segments.end());

@@ -26,8 +26,10 @@ class Leader {
   /// `producers`: at least one; with three, one computes, another's blocks are copied, and those of the third are published.
   Leader(const Mesh& mesh, const LeaderParameters& parameters, std::vector<std::unique_ptr<BatchProducer>> producers);
 
-  /// Fails all requests that wait, and returns when their consumers have gone.
   ~Leader();
+
+  /// Fails all requests that wait, and those that come, and returns when their consumers have gone.
+  void end();
 
   RelationSet relations() const { return parameters_.relations; }
 
@@ -52,6 +54,7 @@ class Leader {
     StarSizes scratch;   ///< that they need at least, as an earlier try has shown
     Offset words = 0;    ///< likewise
     bool ahead = false;  ///< computed for the running sweep, which will read them
+    bool alone = false;  ///< not to be joined with others: it is part of one that didn't fit, or of one large segment
   };
   struct Flight {
     Plan plan;
@@ -67,6 +70,7 @@ class Leader {
   void serve(const Request& request, Clock::time_point taken);
   void plan_from(Id segment);
   bool launch_next();
+  Plan next_requests();
   bool launch_ahead();
   Plan plan_ahead();
   void launch(Plan plan, Arena& arena);

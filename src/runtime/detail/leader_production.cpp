@@ -2,7 +2,6 @@
 #include <atomic>
 #include <vector>
 
-#include <gale/base/error.hpp>
 #include <gale/relations/detail/sweep.hpp>
 #include <gale/runtime/detail/defaults.hpp>
 #include <gale/runtime/detail/implementation.hpp>
@@ -22,37 +21,11 @@ std::unique_ptr<BatchProducer> make_producer(const Mesh& mesh, const ProducerPar
   return have_device ? make_device_producer(mesh, parameters) : make_host_producer(mesh, parameters);
 }
 
-/// Fills in the blocks that a leader's lease has.
-void add_blocks(SegmentRows& rows, const Leader& leader, const Lease& lease) {
-  const auto members = leader.relations();
-  for (int i = 0; i < relation_count; ++i) {
-    const auto relation = static_cast<Relation>(i);
-    if (members.has(relation)) rows.set(relation, lease.block(members.index_of(relation), members.count()));
-  }
-}
-
-class LeaderProduction;
-
-/// A consumer that has leaders produce.
-class RequestingConsumer : public Consumer {
+/// The leaders of a runtime, and what their consumers leave behind. Consumers share it, so that one that the runtime's end surprises finds
+/// everything in place.
+class Leaders {
  public:
-  RequestingConsumer(LeaderProduction& production, ConsumerLog& log) : production_(production), log_(log) {}
-  ~RequestingConsumer() override { log_.add(statistics_); }
-
- protected:
-  SegmentRows load(Relation relation, Id vertex) override;
-
- private:
-  LeaderProduction& production_;
-  ConsumerLog& log_;
-  ConsumerStatistics statistics_;
-  Lease leases_[relation_count];  ///< of the block read last in each relation
-};
-
-class LeaderProduction : public RuntimeImplementation {
- public:
-  LeaderProduction(const Mesh& mesh, RelationSet relations, const RuntimeOptions& options)
-      : RuntimeImplementation(mesh, relations) {
+  Leaders(const Mesh& mesh, RelationSet relations, const RuntimeOptions& options) : mesh(mesh), relations(relations) {
     const auto queues = queues_for(relations, options.queues);
     const Sizes sizes = sizes_for(mesh, options, static_cast<int>(queues.size()));
     for (const RelationSet members : queues) {
@@ -60,9 +33,69 @@ class LeaderProduction : public RuntimeImplementation {
       for (int i = 0; i < producers_per_leader; ++i) {
         producers.push_back(make_producer(mesh, {members, sizes.batch_words, sizes.threads_per_segment}));
       }
-      leaders_.push_back(std::make_unique<Leader>(
+      leaders.push_back(std::make_unique<Leader>(
           mesh, LeaderParameters{members, sizes.batch_words, sizes.host_bytes, sizes.segments_per_request}, std::move(producers)));
     }
+  }
+
+  Leader& of(Relation relation) const {
+    require_preconditioned(relations, relation);
+    const auto has = [&](const auto& leader) { return leader->relations().has(relation); };
+    return **std::find_if(leaders.begin(), leaders.end(), has);
+  }
+
+  SegmentRows rows_of(Id segment) const {
+    const auto& begin = mesh.vertex_begin();
+    return SegmentRows(segment, begin(segment), begin(segment + 1));
+  }
+
+  const Mesh mesh;
+  const RelationSet relations;
+  std::vector<std::unique_ptr<Leader>> leaders;
+  ConsumerLog log;
+
+ private:
+  /// One computes, another's blocks are copied, and those of the third are published.
+  static constexpr int producers_per_leader = 3;
+};
+
+/// Fills in the blocks that a leader's lease has.
+void add_blocks(SegmentRows& rows, const Leader& leader, const Lease& lease) {
+  const RelationSet relations = leader.relations();
+  for (const Relation relation : members_of(relations)) rows.set(relation, lease.block(relations.index_of(relation), relations.count()));
+}
+
+/// A consumer that has leaders produce.
+class RequestingConsumer : public Consumer {
+ public:
+  explicit RequestingConsumer(std::shared_ptr<Leaders> leaders) : leaders_(std::move(leaders)) {}
+  ~RequestingConsumer() override { leaders_->log.add(statistics_); }
+
+ protected:
+  SegmentRows load(Relation relation, Id vertex) override {
+    Leader& leader = leaders_->of(relation);
+    require_vertex(leaders_->mesh, vertex);
+    const Id segment = leaders_->mesh.segment_of(vertex);
+    Lease& lease = leases_[static_cast<int>(relation)];
+    lease.release();
+    lease = leader.acquire(segment, false, statistics_);
+    SegmentRows rows = leaders_->rows_of(segment);
+    rows.set(relation, lease.block(leader.relations().index_of(relation), leader.relations().count()));
+    return rows;
+  }
+
+ private:
+  std::shared_ptr<Leaders> leaders_;
+  ConsumerStatistics statistics_;
+  Lease leases_[relation_count];  ///< of the block read last in each relation
+};
+
+class LeaderProduction : public RuntimeImplementation {
+ public:
+  LeaderProduction(const Mesh& mesh, RelationSet relations, const RuntimeOptions& options)
+      : RuntimeImplementation(mesh, relations), leaders_(std::make_shared<Leaders>(mesh, relations, options)) {}
+  ~LeaderProduction() override {
+    for (const auto& leader : leaders_->leaders) leader->end();
   }
 
   void for_each_segment(RelationSet wanted, const SweepOptions& options, const Structure::SegmentBody& body) override {
@@ -71,17 +104,17 @@ class LeaderProduction : public RuntimeImplementation {
     sweep(mesh().segments(), options, [&](int consumer, Id segment) {
       visit(in_progress, segment, statistics[consumer], [&](const SegmentRows& rows) { body(consumer, rows); });
     });
-    for (const auto& one : statistics) log_.add(one);
+    for (const auto& one : statistics) leaders_->log.add(one);
   }
 
-  std::unique_ptr<Consumer> consumer() override { return std::make_unique<RequestingConsumer>(*this, log_); }
+  std::unique_ptr<Consumer> consumer() override { return std::make_unique<RequestingConsumer>(leaders_); }
 
   Production production() const override { return Production::leaders; }
 
   RuntimeStatistics statistics() const override {
     RuntimeStatistics all;
-    all.consumers = log_.all();
-    for (const auto& leader : leaders_) {
+    all.consumers = leaders_->log.all();
+    for (const auto& leader : leaders_->leaders) {
       all.leaders.push_back(leader->statistics());
       all.host_bytes += leader->host_bytes();
       all.device_bytes += leader->device_bytes();
@@ -89,28 +122,13 @@ class LeaderProduction : public RuntimeImplementation {
     return all;
   }
 
-  Leader& leader_of(Relation relation) {
-    for (const auto& leader : leaders_) {
-      if (leader->relations().has(relation)) return *leader;
-    }
-    require_preconditioned(relations(), relation);
-    throw Error("no leader for " + name_of(relation));
-  }
-
-  SegmentRows rows_of(Id segment) const {
-    const auto& begin = mesh().vertex_begin();
-    return SegmentRows(segment, begin(segment), begin(segment + 1));
-  }
-
  private:
-  static constexpr int producers_per_leader = 3;
-
   /// Has the leaders run ahead as long as it lives; a sweep inside or beside another asks for each segment instead.
   class SweepInProgress {
    public:
     SweepInProgress(LeaderProduction& production, RelationSet wanted)
         : sweeping_(production.sweeping_), runs_ahead_(!production.sweeping_.exchange(true)) {
-      for (const auto& leader : production.leaders_) {
+      for (const auto& leader : production.leaders_->leaders) {
         for (const Relation relation : members_of(wanted)) {
           if (!leader->relations().has(relation)) continue;
           leaders_.push_back(leader.get());
@@ -141,32 +159,24 @@ class LeaderProduction : public RuntimeImplementation {
   void visit(const SweepInProgress& in_progress, Id segment, ConsumerStatistics& statistics, const Body& body) {
     const auto& leaders = in_progress.leaders();
     Lease leases[relation_count];
-    SegmentRows rows = rows_of(segment);
+    SegmentRows rows = leaders_->rows_of(segment);
     for (std::size_t i = 0; i < leaders.size(); ++i) {
       leases[i] = leaders[i]->acquire(segment, in_progress.runs_ahead(), statistics);
       add_blocks(rows, *leaders[i], leases[i]);
     }
     body(rows);
     for (std::size_t i = 0; i < leaders.size(); ++i) {
-      if (leases[i].release_read()) leaders[i]->tell_read();
+      if (!in_progress.runs_ahead()) {
+        leases[i].release();
+      } else if (leases[i].release_read()) {
+        leaders[i]->tell_read();
+      }
     }
   }
 
   std::atomic<bool> sweeping_{false};
-  ConsumerLog log_;
-  std::vector<std::unique_ptr<Leader>> leaders_;  ///< last, so that they end first
+  std::shared_ptr<Leaders> leaders_;
 };
-
-SegmentRows RequestingConsumer::load(Relation relation, Id vertex) {
-  Leader& leader = production_.leader_of(relation);
-  const Id segment = production_.mesh().segment_of(vertex);
-  Lease& lease = leases_[static_cast<int>(relation)];
-  lease.release();
-  lease = leader.acquire(segment, false, statistics_);
-  SegmentRows rows = production_.rows_of(segment);
-  rows.set(relation, lease.block(leader.relations().index_of(relation), leader.relations().count()));
-  return rows;
-}
 
 }  // namespace
 
