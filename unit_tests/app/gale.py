@@ -27,7 +27,7 @@ class CommandTest(unittest.TestCase):
 
     def gale(self, *arguments):
         return subprocess.run([GALE, *map(str, arguments)], cwd=self.folder, stdin=subprocess.DEVNULL,
-                              capture_output=True, text=True, timeout=300)
+                              capture_output=True, text=True, errors="surrogateescape", timeout=300)
 
     def succeed(self, *arguments):
         """Runs the command, which must succeed without complaint; returns what it printed."""

@@ -53,6 +53,7 @@ void Leader::end() {
 }
 
 Lease Leader::acquire(Id segment, bool in_sweep, ConsumerStatistics& statistics) {
+  if (ending_) throw Error(end_message());
   if (Lease lease = store_.find(segment)) {
     ++statistics.hits;
     return lease;
