@@ -1,5 +1,3 @@
-#include <omp.h>
-
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -8,6 +6,9 @@
 #include <string>
 
 #include <Kokkos_Core.hpp>
+
+#include <gale/base/memory.hpp>
+#include <gale/base/threads.hpp>
 
 #include "commands.hpp"
 #include "machine.hpp"
@@ -31,7 +32,7 @@ void run(const gale::app::Options& options) {
       {"segment", gale::app::segment},
       {"critical-points", gale::app::critical_points},
       {"generate", gale::app::generate}};
-  if (options.threads) omp_set_num_threads(*options.threads);
+  if (options.threads) gale::set_host_threads(*options.threads);
   setenv("KOKKOS_DISABLE_WARNINGS", "1", 0);  // such as on thread binding, which is not what standard error is for
   const Kokkos::ScopeGuard kokkos;
   gale::app::watch_device_memory();
@@ -50,6 +51,8 @@ int main(int argc, char** argv) {
     return output_arrived() ? done : complain(failed, "cannot write to standard output");
   } catch (const gale::app::UsageError& error) {
     return complain(wrong_usage, error.what());
+  } catch (const gale::OutOfMemory& error) {
+    return complain(failed, error.what());
   } catch (const std::bad_alloc&) {
     return complain(failed, "out of memory");
   } catch (const std::exception& error) {

@@ -9,7 +9,7 @@
 #if defined(KOKKOS_ENABLE_CUDA)
 #include <cub/device/device_radix_sort.cuh>
 
-#include <gale/base/cub.hpp>
+#include <gale/base/detail/cub.hpp>
 #endif
 
 namespace gale {

@@ -7,7 +7,7 @@
 #if defined(KOKKOS_ENABLE_CUDA)
 #include <cub/device/device_segmented_sort.cuh>
 
-#include <gale/base/cub.hpp>
+#include <gale/base/detail/cub.hpp>
 #endif
 
 namespace gale {

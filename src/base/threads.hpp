@@ -12,13 +12,28 @@
 
 namespace gale {
 
+#ifdef GALE_ENABLE_STD_THREADS
+namespace detail {
+inline int chosen_host_threads = 0;
+}
+#endif
+
 /// How many threads a host loop or a sweep uses unless told otherwise: what OpenMP would take.
 inline int host_threads() {
 #ifdef GALE_ENABLE_STD_THREADS
   const int count = static_cast<int>(std::thread::hardware_concurrency());
-  return count > 0 ? count : 1;
+  return detail::chosen_host_threads > 0 ? detail::chosen_host_threads : count > 0 ? count : 1;
 #else
   return omp_get_max_threads();
+#endif
+}
+
+/// From now on so many, at least 1. For the application, before it begins: the library never calls it.
+inline void set_host_threads(int count) {
+#ifdef GALE_ENABLE_STD_THREADS
+  detail::chosen_host_threads = count;
+#else
+  omp_set_num_threads(count);
 #endif
 }
 
