@@ -110,13 +110,15 @@ void Leader::listen(bool wait) {
     ahead_ = must_reach_ = 0;
     ahead_batch_ = first_batch;
   }
-  // First all of them where a failure finds them, then one after the other.
-  for (const auto& request : news.requests) waiting_.emplace(request.segment, request.ticket);
+  // First all of them where a failure finds them; after that, a ticket may be fulfilled with another's.
+  for (const auto& request : news.requests) {
+    request.ticket->taken = request.ticket->launched = request.ticket->finished = now;
+    waiting_.emplace(request.segment, request.ticket);
+  }
   for (const auto& request : news.requests) serve(request, now);
 }
 
 void Leader::serve(const Request& request, Clock::time_point taken) {
-  request.ticket->taken = request.ticket->launched = request.ticket->finished = taken;
   if (store_.is_resident(request.segment)) {
     Plan there;
     there.segments = {request.segment};
