@@ -8,7 +8,7 @@
 namespace gale {
 
 /// Sorts `keys` ascending and carries `values` along; equal keys keep their order. Both arrays are overwritten.
-/// O(n) a pass of one byte of the key; passes whose byte is the same in all keys are left out. Uses as much memory again.
+/// O(n) a pass of 11 bits of the key; on the host, passes whose bits are the same in all keys are left out. Uses as much memory again.
 void stable_sort_by_key(const Array<std::uint64_t, ProducerMemory>& keys, const Array<Id, ProducerMemory>& values);
 
 }  // namespace gale

@@ -64,7 +64,7 @@ Lease Leader::acquire(Id segment, bool in_sweep, ConsumerStatistics& statistics)
     ~Inside() { --count; }
   } inside(consumers_inside_);
   const auto ticket = std::make_shared<Ticket>();
-  ticket->begun = ticket->pushed = Clock::now();
+  ticket->begun = Clock::now();
   if (!queue_.push({segment, in_sweep, ticket})) throw Error(end_message());
   const auto pushed = Clock::now();
   Lease lease = ticket->wait();

@@ -22,8 +22,8 @@ inline double seconds_between(Clock::time_point from, Clock::time_point to) {
 /// What a consumer waits with for the blocks of one segment.
 class Ticket {
  public:
-  // When the request was begun, on the queue, taken, and its batch launched and finished: set by whoever did it.
-  Clock::time_point begun, pushed, taken, launched, finished;
+  // When the request was begun, taken, and its batch launched and finished: set by whoever did it.
+  Clock::time_point begun, taken, launched, finished;
 
   void fulfil(Lease lease) {
     const std::lock_guard<std::mutex> lock(mutex_);
