@@ -7,6 +7,7 @@
 #include <gale/base/parallel.hpp>
 #include <gale/base/transfer.hpp>
 #include <gale/relations/launch.hpp>
+#include <gale/relations/star_kernel.hpp>
 
 #include "support/bench_mesh.hpp"
 #include "support/clock.hpp"
@@ -73,9 +74,9 @@ void measure(const Mesh& mesh, RelationSet wanted, double link) {
   const WholeMesh whole(mesh, wanted);
   for (const int warps : {1, 2, 4, 8, 16}) {
     if (!have_device && warps > 1) break;
-    if (scratch_bytes(whole.kernel.sizes, warps) > fast_scratch_bytes<ProducerSpace>()) {
+    if (scratch_bytes<StarKernel<ProducerMemory>>(whole.kernel.sizes, warps) > fast_scratch_bytes<ProducerSpace>()) {
       std::printf("%-14s %4d threads a segment: its scratch memory of %zu bytes isn't there\n", name_of(wanted).c_str(), 32 * warps,
-                  scratch_bytes(whole.kernel.sizes, warps));
+                  scratch_bytes<StarKernel<ProducerMemory>>(whole.kernel.sizes, warps));
       continue;
     }
     const double seconds = perf::median_seconds_of(5, [&] { whole.run(warps); });

@@ -111,4 +111,28 @@ T reduce_min(const char* label, const Space& space, Offset n, T initial, const V
   }
 }
 
+/// value(0) + ... + value(n-1).
+template <class Space, class Value>
+Offset reduce_sum(const char* label, const Space& space, Offset n, const Value& value) {
+  if constexpr (is_device<Space>) {
+    Offset total = 0;
+    Kokkos::parallel_reduce(
+        label, Kokkos::RangePolicy<Space, Kokkos::IndexType<Offset>>(space, 0, n),
+        KOKKOS_LAMBDA(Offset i, Offset & sum) { sum += value(i); }, total);
+    space.fence();
+    return total;
+  } else {
+    const int parts = detail::threads_for(n);
+    std::vector<Offset> part_sum(parts, 0);
+    detail::for_parts(label, n, parts, [&](int part, Offset first, Offset last) {
+      Offset sum = 0;
+      for (Offset i = first; i < last; ++i) sum += value(i);
+      part_sum[part] = sum;
+    });
+    Offset total = 0;
+    for (const Offset sum : part_sum) total += sum;
+    return total;
+  }
+}
+
 }  // namespace gale

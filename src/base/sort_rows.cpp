@@ -12,7 +12,8 @@
 
 namespace gale {
 
-void sort_rows(const char* label, const Array<Offset, ProducerMemory>& begin, const Array<Id, ProducerMemory>& values) {
+template <class Index>
+void sort_rows(const char* label, const Array<Index, ProducerMemory>& begin, const Array<Id, ProducerMemory>& values) {
   const auto rows = static_cast<Offset>(begin.extent(0)) - 1;
   if (rows < 1 || values.extent(0) == 0) return;
 #if defined(KOKKOS_ENABLE_CUDA)
@@ -31,5 +32,8 @@ void sort_rows(const char* label, const Array<Offset, ProducerMemory>& begin, co
   });
 #endif
 }
+
+template void sort_rows(const char*, const Array<Id, ProducerMemory>&, const Array<Id, ProducerMemory>&);
+template void sort_rows(const char*, const Array<Offset, ProducerMemory>&, const Array<Id, ProducerMemory>&);
 
 }  // namespace gale

@@ -8,6 +8,7 @@
 #include <gale/base/parallel.hpp>
 #include <gale/base/transfer.hpp>
 #include <gale/mesh/detail/encode.hpp>
+#include <gale/mesh/detail/simplex_store.hpp>
 
 namespace gale {
 
@@ -52,7 +53,17 @@ struct Mesh::Data {
   MeshArrays<ProducerMemory> arrays;
   EncodedMesh<ProducerMemory> producer;
   Array<const Id, ProducerMemory> vertex_input, vertex_internal, tetrahedron_input;
-  HostIds vertex_begin;
+  HostIds vertex_begin, tetrahedron_begin;
+  Array<const Offset, HostMemory> external_begin;
+  mutable detail::SimplexStore simplices;
+
+  Data(const MeshArrays<ProducerMemory>& mesh, const Ids& tetrahedra_of_lowest)
+      : arrays(mesh),
+        producer(mesh.view()),
+        vertex_begin(on_host(mesh.vertex_begin)),
+        tetrahedron_begin(on_host(mesh.tetrahedron_begin)),
+        external_begin(on_host(mesh.external_begin)),
+        simplices(mesh, tetrahedra_of_lowest) {}
 
   mutable std::once_flag host_once;
   mutable MeshArrays<HostMemory> host_arrays;
@@ -62,23 +73,21 @@ struct Mesh::Data {
 
 template <class Index, class Memory>
 Mesh::Mesh(const Tetrahedra<Index, Memory>& given, const Segmentation& segmentation) {
-  auto data = std::make_shared<Data>();
   const auto vertex_internal = inverse_of(segmentation.vertex_input);
   detail::SortedTetrahedra sorted;
   {
     const Tetrahedra<Index, ProducerMemory> input = on_producer(given);
     sorted = detail::sort_tetrahedra(input, vertex_internal);
   }
-  auto& mesh = data->arrays;
+  MeshArrays<ProducerMemory> mesh;
   mesh.tetrahedra = sorted.vertices;
   mesh.vertex_begin = segmentation.vertex_begin;
   mesh.tetrahedron_begin = tetrahedron_begin_of(segmentation.vertex_begin, sorted.begin);
   detail::find_external_tetrahedra(mesh, segmentation.vertices());
-  data->producer = mesh.view();
+  auto data = std::make_shared<Data>(mesh, sorted.begin);
   data->vertex_input = segmentation.vertex_input;
   data->vertex_internal = vertex_internal;
   data->tetrahedron_input = sorted.input;
-  data->vertex_begin = on_host(mesh.vertex_begin);
   data_ = std::move(data);
 }
 
@@ -96,7 +105,7 @@ const EncodedMesh<HostMemory>& Mesh::host() const {
     to.tetrahedron_begin = on_host(from.tetrahedron_begin);
     to.external_begin = on_host(from.external_begin);
     to.external = on_host(from.external);
-    to.tetrahedra = on_host(from.tetrahedra);
+    to.tetrahedra = data_->simplices.tetrahedra_on_host();
     data_->host = to.view();
   });
   return data_->host;
@@ -108,9 +117,33 @@ const HostIds& Mesh::vertex_internal() const { return data_->vertex_internal_mir
 const HostIds& Mesh::tetrahedron_input() const { return data_->tetrahedron_input_mirror.of(data_->tetrahedron_input); }
 const Array<const Id, ProducerMemory>& Mesh::vertex_input_on_producer() const { return data_->vertex_input; }
 
-Id Mesh::segment_of(Id vertex) const {
-  const Id* const begin = data_->vertex_begin.data();
-  return static_cast<Id>(std::upper_bound(begin, begin + segments() + 1, vertex) - begin) - 1;
+Simplices<ProducerMemory> Mesh::simplices_on_producer(const SimplexNeeds& needs) const { return data_->simplices.on_producer(needs); }
+Simplices<HostMemory> Mesh::simplices_on_host(const SimplexNeeds& needs) const { return data_->simplices.on_host(needs); }
+Id Mesh::known_edges() const { return data_->simplices.known(1); }
+Id Mesh::known_triangles() const { return data_->simplices.known(2); }
+
+const HostIds& Mesh::interval_begin(int dimension) const {
+  if (dimension == 0) return data_->vertex_begin;
+  if (dimension == 3) return data_->tetrahedron_begin;
+  return data_->simplices.interval_begin(dimension);
+}
+
+Intervals Mesh::intervals_of(Id segment) const {
+  Intervals intervals;
+  for (int dimension = 0; dimension < 4; ++dimension) {
+    const bool enumerated = dimension == 0 || dimension == 3 || data_->simplices.known(dimension) != no_id;
+    if (!enumerated) continue;
+    const auto& begin = interval_begin(dimension);
+    intervals[dimension] = {begin(segment), begin(segment + 1)};
+  }
+  return intervals;
+}
+
+const Array<const Offset, HostMemory>& Mesh::external_begin() const { return data_->external_begin; }
+
+Id Mesh::segment_of(int dimension, Id simplex) const {
+  const Id* const begin = interval_begin(dimension).data();
+  return static_cast<Id>(std::upper_bound(begin, begin + segments() + 1, simplex) - begin) - 1;
 }
 
 #define GALE_INSTANTIATE(Index, Memory) \

@@ -3,7 +3,9 @@
 #include <memory>
 
 #include <gale/mesh/encoded_mesh.hpp>
+#include <gale/mesh/intervals.hpp>
 #include <gale/mesh/segmentation.hpp>
+#include <gale/mesh/simplices.hpp>
 
 namespace gale {
 
@@ -35,8 +37,28 @@ class Mesh {
   /// The same arrays for the host's threads. With a device the first call copies them; any thread may make it.
   const EncodedMesh<HostMemory>& host() const;
 
-  /// I_V on the host, at no cost.
+  /// All simplices, where the producers or where the host's threads can read them; at least what `needs` says. What is missing is enumerated, and
+  /// copied to the host, by the first call that needs it (see SimplexNeeds); any thread may make it. On the host, edges take 12 bytes each and 4 a
+  /// vertex, triangles 8, lower edges 4 an edge and a vertex. Throws gale::Error if there are more than 2^31 - 1 edges or triangles.
+  Simplices<ProducerMemory> simplices_on_producer(const SimplexNeeds& needs) const;
+  Simplices<HostMemory> simplices_on_host(const SimplexNeeds& needs) const;
+
+  /// How many edges or triangles there are; no_id as long as nobody needed them.
+  Id known_edges() const;
+  Id known_triangles() const;
+
+  /// The intervals: where the simplices of a dimension 0 to 3 that are internal to each segment begin, and one past the last (I_V, I_E, I_F and I_T).
+  /// On the host; edges and triangles are enumerated if they haven't been.
+  const Array<const Id, HostMemory>& interval_begin(int dimension) const;
+
+  /// The simplices that are internal to a segment.
+  Intervals intervals_of(Id segment) const;
+
+  /// interval_begin(0).
   const Array<const Id, HostMemory>& vertex_begin() const;
+
+  /// Where each segment's row of T_ex begins, on the host.
+  const Array<const Offset, HostMemory>& external_begin() const;
 
   /// GALE's vertex -> input vertex, and back; the tetrahedra likewise. On the host; copied there at the first call.
   const Array<const Id, HostMemory>& vertex_input() const;
@@ -46,8 +68,8 @@ class Mesh {
   /// vertex_input() in the producers' memory.
   const Array<const Id, ProducerMemory>& vertex_input_on_producer() const;
 
-  /// The segment that holds a vertex (GALE's id): a binary search among the segments.
-  Id segment_of(Id vertex) const;
+  /// The segment that a simplex of a dimension 0 to 3 (GALE's id) is internal to: a binary search among the segments.
+  Id segment_of(int dimension, Id simplex) const;
 
  private:
   struct Data;

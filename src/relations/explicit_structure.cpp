@@ -22,7 +22,7 @@ struct ExplicitStructure::Data {
 
   /// The rows of the vertices first to last - 1; those of all lie together, so there is nothing to compute.
   SegmentRows rows(RelationSet wanted, Id segment, Id first, Id last) const {
-    SegmentRows rows(segment, first, last);
+    SegmentRows rows(segment, {Interval{first, last}});
     if (wanted.has(Relation::VV)) rows.set(Relation::VV, stars.vv.rows());
     if (wanted.has(Relation::VT)) rows.set(Relation::VT, stars.vt.rows());
     if (wanted.has(Relation::link)) rows.set(links.rows(stars.vt.offsets.data()));
@@ -68,7 +68,7 @@ class ExplicitStructure::ExplicitConsumer : public Consumer {
  private:
   SegmentRows load(Relation relation, Id vertex) override {
     require_preconditioned(structure_.relations(), relation);
-    require_vertex(structure_.mesh(), vertex);
+    require_simplex(structure_.mesh(), 0, vertex);
     return structure_.data_->rows(relation, no_id, 0, structure_.mesh().vertices());
   }
 

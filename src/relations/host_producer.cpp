@@ -6,26 +6,48 @@
 
 namespace gale {
 
-struct HostProducer::Workspace {
-  Mesh mesh;
-  std::vector<Relation> wanted;
-  detail::HostWorkspace star;
-  std::unique_ptr<Id[]> words;
-  std::vector<Offset> directory;
-  Offset used = 0;
-  BlockPool pool;
+namespace {
 
-  Workspace(const Mesh& given, RelationSet relations)
-      : mesh(given), wanted(members_of(relations)), star(mesh, relations), directory(wanted.size()) {
-    pool.used = &used;
-    pool.directory = directory.data();
+/// One kernel, and the memory of the blocks that it made last.
+class Blocks {
+ public:
+  Blocks(const Mesh& mesh, RelationSet wanted) : kernel_(mesh, wanted), relations_(members_of(wanted)), directory_(relations_.size()) {
+    pool_.used = &used_;
+    pool_.directory = directory_.data();
     grow(Offset(1) << 14);
   }
+  Blocks(const Blocks&) = delete;
+  Blocks& operator=(const Blocks&) = delete;
 
+  void compute(SegmentRows& rows) {
+    for (used_ = 0; !kernel_.compute(rows.segment(), pool_); used_ = 0) grow(used_);
+    const Offset* entry = directory_.data();
+    for (const Relation relation : relations_) rows.set(relation, pool_.words + *entry++);
+  }
+
+ private:
   void grow(Offset count) {
-    pool.capacity = count + count / 2;
-    words.reset(new Id[pool.capacity]);
-    pool.words = words.get();
+    pool_.capacity = count + count / 2;
+    words_.reset(new Id[pool_.capacity]);
+    pool_.words = words_.get();
+  }
+
+  detail::HostWorkspace kernel_;
+  std::vector<Relation> relations_;
+  std::unique_ptr<Id[]> words_;
+  std::vector<Offset> directory_;
+  Offset used_ = 0;
+  BlockPool pool_;
+};
+
+}  // namespace
+
+struct HostProducer::Workspace {
+  Mesh mesh;
+  std::vector<std::unique_ptr<Blocks>> kernels;
+
+  Workspace(const Mesh& given, RelationSet wanted) : mesh(given) {
+    for (const RelationSet one : kernels_for(wanted)) kernels.push_back(std::make_unique<Blocks>(mesh, one));
   }
 };
 
@@ -35,12 +57,13 @@ HostProducer::HostProducer(HostProducer&&) noexcept = default;
 HostProducer& HostProducer::operator=(HostProducer&&) noexcept = default;
 
 SegmentRows HostProducer::compute(Id segment) {
-  auto& work = *workspace_;
-  for (work.used = 0; !work.star.compute(segment, work.pool); work.used = 0) work.grow(work.used);
-  SegmentRows rows(segment, work.mesh.vertex_begin()(segment), work.mesh.vertex_begin()(segment + 1));
-  const Offset* entry = work.directory.data();
-  for (const Relation relation : work.wanted) rows.set(relation, work.pool.words + *entry++);
+  SegmentRows rows(segment, workspace_->mesh.intervals_of(segment));
+  compute(rows);
   return rows;
+}
+
+void HostProducer::compute(SegmentRows& rows) {
+  for (const auto& kernel : workspace_->kernels) kernel->compute(rows);
 }
 
 }  // namespace gale

@@ -8,11 +8,11 @@
 
 namespace gale {
 
-/// Computes star relations segment by segment on the calling thread, with the kernel that the device runs. Its memory grows to what the
+/// Computes relations segment by segment on the calling thread, with the kernels that the device runs. Its memory grows to what the
 /// largest segment so far has needed, and is used again. One producer serves one thread; any number may work at once.
 class HostProducer {
  public:
-  /// `wanted` within star_relations.
+  /// Enumerates what `wanted` needs of the mesh' simplices, if it isn't there.
   HostProducer(const Mesh& mesh, RelationSet wanted);
   ~HostProducer();
   HostProducer(HostProducer&&) noexcept;
@@ -20,6 +20,9 @@ class HostProducer {
 
   /// The blocks of a segment. Valid until the next call.
   SegmentRows compute(Id segment);
+
+  /// Adds them to other rows of the same segment. Likewise.
+  void compute(SegmentRows& rows);
 
  private:
   struct Workspace;

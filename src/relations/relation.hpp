@@ -16,6 +16,15 @@ enum class Relation : std::uint8_t { EV, FV, FE, TV, TE, TF, VE, VF, VT, EF, ET,
 
 inline constexpr int relation_count = 17;
 
+namespace detail {
+inline constexpr signed char dimensions[relation_count][2] = {{1, 0}, {2, 0}, {2, 1}, {3, 0}, {3, 1}, {3, 2}, {0, 1}, {0, 2}, {0, 3},
+                                                              {1, 2}, {1, 3}, {2, 3}, {0, 0}, {1, 1}, {2, 2}, {3, 3}, {0, 3}};
+}
+
+/// Dimension of the X of a relation XY, of which it has a row each; of its Y, which are the rows' entries.
+KOKKOS_FUNCTION constexpr int row_dimension(Relation relation) { return detail::dimensions[static_cast<int>(relation)][0]; }
+KOKKOS_FUNCTION constexpr int entry_dimension(Relation relation) { return detail::dimensions[static_cast<int>(relation)][1]; }
+
 /// "VV"
 std::string name_of(Relation relation);
 
@@ -41,6 +50,8 @@ class RelationSet {
     return RelationSet(bits_ & ((std::uint32_t(1) << static_cast<int>(relation)) - 1), 0).count();
   }
 
+  friend KOKKOS_FUNCTION constexpr RelationSet operator&(RelationSet a, RelationSet b) { return RelationSet(a.bits_ & b.bits_, 0); }
+  friend KOKKOS_FUNCTION constexpr RelationSet operator-(RelationSet a, RelationSet b) { return RelationSet(a.bits_ & ~b.bits_, 0); }
   friend KOKKOS_FUNCTION constexpr RelationSet operator|(RelationSet a, RelationSet b) { return RelationSet(a.bits_ | b.bits_, 0); }
   friend KOKKOS_FUNCTION constexpr bool operator==(RelationSet a, RelationSet b) { return a.bits_ == b.bits_; }
 
@@ -57,6 +68,13 @@ std::vector<Relation> members_of(RelationSet relations);
 
 /// "VV, VT"
 std::string name_of(RelationSet relations);
+
+inline constexpr RelationSet boundary_relations =
+    Relation::EV | Relation::FV | Relation::FE | Relation::TV | Relation::TE | Relation::TF;
+inline constexpr RelationSet coboundary_relations =
+    Relation::VE | Relation::VF | Relation::VT | Relation::EF | Relation::ET | Relation::FT;
+inline constexpr RelationSet adjacency_relations = Relation::VV | Relation::EE | Relation::FF | Relation::TT;
+inline constexpr RelationSet all_relations = boundary_relations | coboundary_relations | adjacency_relations | Relation::link;
 
 /// What one kernel can compute from the star of each of a segment's vertices.
 inline constexpr RelationSet star_relations = Relation::VV | Relation::VT | Relation::link;

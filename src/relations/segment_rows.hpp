@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include <gale/base/types.hpp>
+#include <gale/mesh/intervals.hpp>
 #include <gale/relations/relation.hpp>
 #include <gale/relations/rows.hpp>
 
@@ -13,11 +13,14 @@ namespace gale {
 class SegmentRows {
  public:
   SegmentRows() = default;
-  SegmentRows(Id segment, Id first, Id last) : segment_(segment), first_(first), last_(last) {}
 
-  /// A relation's rows as they lie in a block of the segment's vertices.
+  /// Of a segment, or of any simplices; no rows yet.
+  SegmentRows(Id segment, const Intervals& simplices) : segment_(segment), simplices_(simplices) {}
+
+  /// A relation's rows as they lie in a block.
   void set(Relation relation, const Id* block) {
-    const BlockLayout layout{first_, last_ - first_};
+    const Interval& rows = simplices_[row_dimension(relation)];
+    const BlockLayout layout{rows.first, rows.size()};
     if (relation == Relation::link) {
       links_ = layout.links_in(block);
     } else {
@@ -31,19 +34,18 @@ class SegmentRows {
 
   Id segment() const { return segment_; }
 
-  /// Its vertices are first() to last() - 1 (GALE's ids).
-  Id first() const { return first_; }
-  Id last() const { return last_; }
-  bool has(Id vertex) const { return vertex >= first_ && vertex < last_; }
+  /// Its simplices of a dimension are first(dimension) to last(dimension) - 1 (GALE's ids): those whose lowest vertex it holds.
+  Id first(int dimension = 0) const { return simplices_[dimension].first; }
+  Id last(int dimension = 0) const { return simplices_[dimension].last; }
+  bool has(int dimension, Id simplex) const { return simplices_[dimension].has(simplex); }
 
-  /// Rows of a relation that was asked for: of the segment's vertices.
+  /// Rows of a relation that was asked for: of the segment's simplices of row_dimension(relation).
   const Rows& operator[](Relation relation) const { return rows_[static_cast<int>(relation)]; }
   const LinkRows& links() const { return links_; }
 
  private:
   Id segment_ = no_id;
-  Id first_ = 0;
-  Id last_ = 0;
+  Intervals simplices_;
   LinkRows links_;
   std::array<Rows, relation_count - 1> rows_{};  // all but link, which is the last
 };

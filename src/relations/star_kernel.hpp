@@ -32,12 +32,22 @@ class StarKernel {
   int scratch_level = 0;
   BlockPool pool;
 
-  static const char* label(RelationSet wanted) {
+  const char* label() const {
     if (wanted == Relation::VV) return "GALE::VV";
     if (wanted == Relation::VT) return "GALE::VT";
     if (wanted == Relation::link) return "GALE::link";
     return wanted.has(Relation::VV) && wanted.has(Relation::VT) ? "GALE::VV+VT" : "GALE::star";
   }
+
+  /// What suffices for a segment of so many vertices and tetrahedra, unless one vertex has more than 42 tetrahedra: a link of
+  /// n triangles that hang together has at most n + 2 vertices.
+  static StarSizes bound(Id rows, Offset internal_tetrahedra, Offset external_tetrahedra) {
+    const Offset star = 4 * internal_tetrahedra + 3 * external_tetrahedra;
+    return {rows, static_cast<Id>(star), static_cast<Id>(star + 2 * Offset(rows)), 128};
+  }
+
+  /// Of a team of so many warps.
+  static std::size_t scratch_bytes(const StarSizes& sizes, int warps) { return detail::StarScratch::bytes(sizes, warps); }
 
   template <class Team>
   KOKKOS_FUNCTION void operator()(const Team& team) const {

@@ -6,6 +6,7 @@
 
 #include <gale/base/threads.hpp>
 #include <gale/mesh/mesh.hpp>
+#include <gale/relations/preconditioning.hpp>
 #include <gale/relations/relation.hpp>
 #include <gale/relations/segment_rows.hpp>
 
@@ -18,30 +19,31 @@ class Consumer {
  public:
   virtual ~Consumer() = default;
 
-  /// The row of a simplex (GALE's id) in VV or VT. A few ns inside the segment that was asked for last; else what it takes to have
-  /// the block computed. Throws gale::Error if the relation was not preconditioned, or if it can't be computed.
-  Row row(Relation relation, Id vertex) {
+  /// The row of a simplex (GALE's id) in any relation but link. A few ns inside the segment that was asked for last; else what it takes to have
+  /// the block computed, or, in a boundary relation, to look it up (`boundary_row` does that without a call). Throws gale::Error if the relation was
+  /// not preconditioned, if there is no such simplex, or if it can't be computed.
+  Row row(Relation relation, Id simplex) {
     auto& rows = current_[static_cast<int>(relation)];
-    if (!rows.has(vertex)) reload(rows, relation, vertex);
-    return rows[relation][vertex];
+    if (!rows.has(row_dimension(relation), simplex)) reload(rows, relation, simplex);
+    return rows[relation][simplex];
   }
 
   /// The link of a vertex; likewise.
   LinkRow link(Id vertex) {
     auto& rows = current_[static_cast<int>(Relation::link)];
-    if (!rows.has(vertex)) reload(rows, Relation::link, vertex);
+    if (!rows.has(0, vertex)) reload(rows, Relation::link, vertex);
     return rows.links()[vertex];
   }
 
  protected:
-  /// The block of a relation that holds the row of `vertex`, valid until the next call for the same relation.
-  virtual SegmentRows load(Relation relation, Id vertex) = 0;
+  /// Rows of a relation, that of `simplex` among them, valid until the next call for the same relation.
+  virtual SegmentRows load(Relation relation, Id simplex) = 0;
 
  private:
   /// Forgets the old rows first: loading ends their validity, also if it throws.
-  void reload(SegmentRows& rows, Relation relation, Id vertex) {
+  void reload(SegmentRows& rows, Relation relation, Id simplex) {
     rows = SegmentRows();
-    rows = load(relation, vertex);
+    rows = load(relation, simplex);
   }
 
   std::array<SegmentRows, relation_count> current_;
@@ -77,11 +79,5 @@ class Structure {
 
   virtual std::unique_ptr<Consumer> consumer() = 0;
 };
-
-/// Throws gale::Error, naming the relations and what to do, unless those that a structure was preconditioned for contain `wanted`.
-void require_preconditioned(RelationSet preconditioned, RelationSet wanted);
-
-/// Throws gale::Error unless `vertex` is one of the mesh'.
-void require_vertex(const Mesh& mesh, Id vertex);
 
 }  // namespace gale

@@ -15,9 +15,6 @@ bool wants_leaders(Production production) {
 
 Runtime::Runtime(const Mesh& mesh, RelationSet wanted, const RuntimeOptions& options) {
   if (wanted.empty()) throw Error("a runtime needs at least one relation to be preconditioned for");
-  if (!star_relations.contains(wanted)) {
-    throw Error("no kernel computes all of " + name_of(wanted) + ": there are kernels for " + name_of(star_relations));
-  }
   implementation_ = wants_leaders(options.production) ? detail::by_leaders(mesh, wanted, options)
                                                       : detail::by_consumers(mesh, wanted);
 }

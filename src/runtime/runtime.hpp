@@ -24,8 +24,8 @@ class RuntimeImplementation;
 /// that waits for one of its segments, as gale::Error.
 class Runtime : public Structure {
  public:
-  /// Preconditions `mesh` for the relations `wanted`, within star_relations, and starts the leaders. Throws gale::Error for relations
-  /// that have no kernel.
+  /// Preconditions `mesh` for the relations `wanted`: enumerates edges and triangles as far as these need them; and starts the leaders. Boundary
+  /// relations have none: consumers look them up.
   Runtime(const Mesh& mesh, RelationSet wanted, const RuntimeOptions& options = {});
 
   /// Ends the leaders. A consumer that still waits gets a gale::Error.

@@ -118,7 +118,7 @@ TEST_P(MeshOf, every_input_has_its_external_tetrahedra_ascending) { expect_exter
 
 TEST_P(MeshOf, every_input_finds_the_segment_of_a_vertex) {
   const auto segment_of = segments_of_vertices(mesh);
-  for (Id v = 0; v < mesh.vertices(); ++v) ASSERT_EQ(mesh.segment_of(v), segment_of[v]);
+  for (Id v = 0; v < mesh.vertices(); ++v) ASSERT_EQ(mesh.segment_of(0, v), segment_of[v]);
 }
 
 TEST_P(MeshOf, every_input_is_the_same_from_64_bit_ids) {

@@ -51,7 +51,7 @@ TEST(SegmentRows, reads_blocks) {
   const std::vector<Id> vv = {0, 1, 3, /* ids */ 8, 4, 6};
   std::vector<Id> link = {0, 1, 1, /* width */ 1, /* places */ 0};
   *reinterpret_cast<std::uint8_t*>(&link[4]) = 200;
-  SegmentRows rows(3, 4, 6);
+  SegmentRows rows(3, {Interval{4, 6}});
   rows.set(Relation::VV, vv.data());
   rows.set(Relation::link, link.data());
   EXPECT_EQ(rows[Relation::VV][4].size(), 1);
@@ -62,14 +62,16 @@ TEST(SegmentRows, reads_blocks) {
   EXPECT_EQ(rows.links()[5].size(), 0);
 }
 
-TEST(SegmentRows, has_its_vertices_alone) {
-  const SegmentRows rows(3, 4, 6);
+TEST(SegmentRows, has_its_simplices_alone) {
+  const SegmentRows rows(3, {Interval{4, 6}, Interval{0, 9}});
   EXPECT_EQ(rows.segment(), 3);
-  EXPECT_FALSE(rows.has(3));
-  EXPECT_TRUE(rows.has(4));
-  EXPECT_TRUE(rows.has(5));
-  EXPECT_FALSE(rows.has(6));
-  EXPECT_FALSE(SegmentRows().has(0));
+  EXPECT_FALSE(rows.has(0, 3));
+  EXPECT_TRUE(rows.has(0, 4));
+  EXPECT_TRUE(rows.has(0, 5));
+  EXPECT_FALSE(rows.has(0, 6));
+  EXPECT_TRUE(rows.has(1, 3));
+  EXPECT_FALSE(rows.has(2, 3));
+  EXPECT_FALSE(SegmentRows().has(0, 0));
 }
 
 TEST(BlockLayout, counts_the_words_of_a_block) {

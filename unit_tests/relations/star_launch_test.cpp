@@ -4,6 +4,7 @@
 
 #include <gale/base/error.hpp>
 #include <gale/relations/launch.hpp>
+#include <gale/relations/star_kernel.hpp>
 
 #include "relations/star_subsets.hpp"
 #include "support/arrays.hpp"
@@ -50,7 +51,7 @@ class Batch {
   bool has_all() const { return std::count(directory_.begin(), directory_.end(), BlockPool::missing) == 0; }
 
   SegmentRows rows(Id segment) const {
-    SegmentRows rows(segment, mesh_.vertex_begin()(segment), mesh_.vertex_begin()(segment + 1));
+    SegmentRows rows(segment, mesh_.intervals_of(segment));
     const Offset* entry = entry_of(segment);
     for (const Relation relation : members_of(wanted_)) rows.set(relation, words_.data() + *entry++);
     return rows;
@@ -173,7 +174,7 @@ TEST(LaunchedStars, refuse_more_scratch_memory_than_a_team_can_have) {
     launch(ProducerSpace(), kernel, 1, 1);
     ADD_FAILURE() << "accepted";
   } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find("a segment of 1000 vertices takes 24000"), std::string::npos)
+    EXPECT_NE(std::string(error.what()).find("a segment of 1000 rows takes 24000"), std::string::npos)
         << error.what();
   }
 }

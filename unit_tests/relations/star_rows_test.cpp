@@ -62,7 +62,7 @@ TEST(StarRows, of_isolated_vertices_are_empty) {
   HostProducer producer(mesh, star_relations);
   for (const Id isolated : {0, 1, 4, 8}) {
     const Id v = mesh.vertex_internal()(isolated);
-    const SegmentRows rows = producer.compute(mesh.segment_of(v));
+    const SegmentRows rows = producer.compute(mesh.segment_of(0, v));
     EXPECT_EQ(rows[Relation::VV][v].size(), 0);
     EXPECT_EQ(rows[Relation::VT][v].size(), 0);
     EXPECT_EQ(rows.links()[v].size(), 0);
@@ -91,7 +91,7 @@ TEST(StarRows, of_a_vertex_of_degree_70000) {
   const Mesh mesh = encode(input, octree_of(input, 100));
   const ExpectedRows expected(input, BruteForce(input), mesh);
   HostProducer producer(mesh, star_relations);
-  const SegmentRows rows = producer.compute(mesh.segment_of(mesh.vertex_internal()(0)));
+  const SegmentRows rows = producer.compute(mesh.segment_of(0, mesh.vertex_internal()(0)));
   EXPECT_EQ(rows.links()[mesh.vertex_internal()(0)].width, 4);
   EXPECT_TRUE(expected.match(rows, star_relations));
 }

@@ -2,45 +2,45 @@
 
 #include <memory>
 
-#include <gale/mesh/mesh.hpp>
-#include <gale/relations/star_kernel.hpp>
+#include <gale/relations/segment_kernel.hpp>
 
 namespace gale::detail {
 
-/// The scratch memory of one host thread, and the star kernel that runs in it. It grows to what the largest segment so far has needed.
+/// The scratch memory of one host thread, and a kernel that runs in it. It grows to what the largest segment so far has needed.
 class HostWorkspace {
  public:
-  HostWorkspace(const Mesh& mesh, RelationSet wanted) {
-    kernel_.mesh = mesh.host();
-    kernel_.wanted = wanted;
-    kernel_.sizes = {128, 4096, 2048, 256};
-    grow();
-  }
+  HostWorkspace(const Mesh& mesh, RelationSet wanted) : kernel_(mesh, wanted), relations_(wanted.count()) {}
+
+  RelationSet wanted() const { return kernel_.wanted(); }
 
   /// Computes the blocks of one segment into `pool`, whose directory has room for them alone. False if the pool lacks room for some.
   bool compute(Id segment, BlockPool pool) {
-    kernel_.segments = &segment;
+    require(kernel_.bound(segment));
     const Offset used_before = *pool.used;
     for (;;) {
       StarSizes needed;
       pool.needed = &needed;
-      kernel_.pool = pool;
-      kernel_(HostTeam(0, scratch_.get()));
-      if (kernel_.sizes.contains(needed)) break;
-      kernel_.sizes = larger(kernel_.sizes, needed);
-      grow();
+      kernel_.run({&segment, sizes_, 0, pool}, scratch_.get());
+      if (sizes_.contains(needed)) break;
+      require(needed);
       *pool.used = used_before;
     }
-    for (int i = 0; i < kernel_.wanted.count(); ++i) {
+    for (int i = 0; i < relations_; ++i) {
       if (pool.directory[i] == BlockPool::missing) return false;
     }
     return true;
   }
 
  private:
-  void grow() { scratch_.reset(new char[StarScratch::bytes(kernel_.sizes, 1)]); }
+  void require(const StarSizes& sizes) {
+    if (scratch_ && sizes_.contains(sizes)) return;
+    sizes_ = larger(sizes_, sizes);
+    scratch_.reset(new char[kernel_.scratch_bytes(sizes_, 1)]);
+  }
 
-  StarKernel<HostMemory> kernel_;
+  SegmentKernel<HostMemory> kernel_;
+  int relations_;
+  StarSizes sizes_;
   std::unique_ptr<char[]> scratch_;
 };
 

@@ -2,8 +2,10 @@
 #include <chrono>
 #include <vector>
 
+#include <gale/relations/detail/boundary_reader.hpp>
 #include <gale/relations/detail/sweep.hpp>
 #include <gale/relations/host_producer.hpp>
+#include <gale/relations/segment_kernel.hpp>
 #include <gale/runtime/detail/implementation.hpp>
 
 namespace gale::detail {
@@ -31,22 +33,18 @@ class CountingProducer {
   ConsumerStatistics* statistics_;
 };
 
-/// A consumer that computes what it misses and keeps the blocks of the segments that it read last.
-class ProducingConsumer : public Consumer {
+/// What one kernel made last, for some segments.
+class RecentBlocks {
  public:
-  ProducingConsumer(const Mesh& mesh, RelationSet relations, ConsumerLog& log)
-      : mesh_(mesh), relations_(relations), log_(log) {}
-  ~ProducingConsumer() override { log_.add(statistics_); }
+  RecentBlocks(const Mesh& mesh, RelationSet relations) : mesh_(mesh), relations_(relations) {}
 
- protected:
-  SegmentRows load(Relation relation, Id vertex) override {
-    require_preconditioned(relations_, relation);
-    require_vertex(mesh_, vertex);
-    const Id segment = mesh_.segment_of(vertex);
-    Kept& kept = find(segment);
+  bool has(Relation relation) const { return relations_.has(relation); }
+
+  const SegmentRows& rows_of(Id segment, ConsumerStatistics& statistics) {
+    Kept& kept = find(segment, statistics);
     kept.last_use = ++now_;
     if (kept.rows.segment() == segment) {
-      ++statistics_.hits;
+      ++statistics.hits;
     } else {
       kept.rows = SegmentRows();
       kept.rows = kept.producer.compute(segment);
@@ -55,9 +53,8 @@ class ProducingConsumer : public Consumer {
   }
 
  private:
-  /// More than there are relations, so that the block read last of each stays valid.
+  /// More than relations that one kernel makes, so that the block read last of each stays valid.
   static constexpr std::size_t capacity = 32;
-  static_assert(capacity > relation_count);
 
   struct Kept {
     CountingProducer producer;
@@ -66,24 +63,58 @@ class ProducingConsumer : public Consumer {
   };
 
   /// Where the segment's blocks are kept, or where they may be.
-  Kept& find(Id segment) {
+  Kept& find(Id segment, ConsumerStatistics& statistics) {
     Kept* oldest = nullptr;
     for (Kept& one : kept_) {
       if (one.rows.segment() == segment) return one;
       if (oldest == nullptr || one.last_use < oldest->last_use) oldest = &one;
     }
     if (kept_.size() == capacity) return *oldest;
-    kept_.push_back({CountingProducer(mesh_, relations_, statistics_), SegmentRows(), 0});
+    kept_.push_back({CountingProducer(mesh_, relations_, statistics), SegmentRows(), 0});
     return kept_.back();
   }
 
   const Mesh& mesh_;
   RelationSet relations_;
-  ConsumerLog& log_;
-  ConsumerStatistics statistics_;
   std::vector<Kept> kept_;
   std::int64_t now_ = 0;
 };
+
+/// A consumer that computes what it misses and keeps the blocks of the segments that it read last.
+class ProducingConsumer : public Consumer {
+ public:
+  ProducingConsumer(const Mesh& mesh, RelationSet relations, ConsumerLog& log)
+      : mesh_(mesh), relations_(relations), boundary_(mesh, relations & boundary_relations), log_(log) {
+    for (const RelationSet one : kernels_for(relations - boundary_relations)) blocks_.emplace_back(mesh, one);
+  }
+  ~ProducingConsumer() override { log_.add(statistics_); }
+
+ protected:
+  SegmentRows load(Relation relation, Id simplex) override {
+    require_preconditioned(relations_, relation);
+    require_simplex(mesh_, row_dimension(relation), simplex);
+    if (boundary_relations.has(relation)) return boundary_.row(relation, simplex);
+    const Id segment = mesh_.segment_of(row_dimension(relation), simplex);
+    const auto has = [relation](const RecentBlocks& blocks) { return blocks.has(relation); };
+    return std::find_if(blocks_.begin(), blocks_.end(), has)->rows_of(segment, statistics_);
+  }
+
+ private:
+  const Mesh& mesh_;
+  RelationSet relations_;
+  BoundaryReader boundary_;
+  ConsumerLog& log_;
+  ConsumerStatistics statistics_;
+  std::vector<RecentBlocks> blocks_;  ///< by kernel
+};
+
+/// Has what producers on the host read there, before several ask for it.
+void precondition(const Mesh& mesh, RelationSet relations) {
+  if (!(relations & star_relations).empty()) mesh.host();
+  SimplexNeeds needs = needs_of(relations);
+  needs.tetrahedra |= needs.upto != Enumeration::tetrahedra;
+  mesh.simplices_on_host(needs);
+}
 
 struct SweepConsumer {
   ConsumerStatistics statistics;
@@ -94,10 +125,11 @@ struct SweepConsumer {
 
 class ConsumerProduction : public RuntimeImplementation {
  public:
-  ConsumerProduction(const Mesh& mesh, RelationSet relations) : RuntimeImplementation(mesh, relations) {}
+  ConsumerProduction(const Mesh& mesh, RelationSet relations) : RuntimeImplementation(mesh, relations) {
+    precondition(mesh, relations);
+  }
 
   void for_each_segment(RelationSet wanted, const SweepOptions& options, const Structure::SegmentBody& body) override {
-    mesh().host();
     std::vector<std::unique_ptr<SweepConsumer>> consumers(std::max(options.threads, 0));
     sweep(mesh().segments(), options, [&](int number, Id segment) {
       auto& consumer = consumers[number];
@@ -108,7 +140,6 @@ class ConsumerProduction : public RuntimeImplementation {
   }
 
   std::unique_ptr<Consumer> consumer() override {
-    mesh().host();
     return std::make_unique<ProducingConsumer>(mesh(), relations(), log_);
   }
 

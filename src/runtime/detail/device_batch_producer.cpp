@@ -7,8 +7,8 @@
 #include <atomic>
 
 #include <gale/base/pinned.hpp>
-#include <gale/base/transfer.hpp>
 #include <gale/relations/launch.hpp>
+#include <gale/relations/segment_kernel.hpp>
 
 namespace gale::detail {
 
@@ -39,21 +39,18 @@ class DeviceBatchProducer : public BatchProducer {
         relations_(parameters.wanted.count()),
         warps_(std::max(parameters.threads_per_segment / 32, 1)),
         instance_(make_instance()),
-        tetrahedron_begin_(on_host(mesh.producer().tetrahedron_begin)),
-        external_begin_(on_host(mesh.producer().external_begin)),
+        kernel_(mesh, parameters.wanted),
         header_(allocate<OnDevice<Header>>("GALE::batch_header", 1)),
         header_copy_(1) {
-    kernel_.mesh = mesh.producer();
-    kernel_.wanted = parameters.wanted;
-    kernel_.pool.used = &header_.data()->used;
-    kernel_.pool.needed = &header_.data()->needed;
+    task_.pool.used = &header_.data()->used;
+    task_.pool.needed = &header_.data()->needed;
     fast_scratch_ = fast_scratch_bytes<ProducerSpace>();
     while (warps_ > 1 && share_of_large_segments() > 0.01) warps_ /= 2;
     reserve(parameters.words);
   }
 
   bool is_large(Id segment) const override {
-    return scratch_bytes(sizes_of(segment), warps_) > fast_scratch_;
+    return kernel_.scratch_bytes(kernel_.bound(segment), warps_) > fast_scratch_;
   }
 
   void launch(const std::vector<Id>& segments, Offset words, const StarSizes& scratch) override {
@@ -64,21 +61,21 @@ class DeviceBatchProducer : public BatchProducer {
     StarSizes sizes = scratch;
     for (std::size_t i = 0; i < count; ++i) {
       segments_copy_.data()[i] = segments[i];
-      sizes = larger(sizes, sizes_of(segments[i]));
+      sizes = larger(sizes, kernel_.bound(segments[i]));
     }
-    kernel_.sizes = sizes;
-    kernel_.scratch_level = scratch_bytes(sizes, warps_) > fast_scratch_ ? 1 : 0;
+    task_.sizes = sizes;
+    task_.scratch_level = kernel_.scratch_bytes(sizes, warps_) > fast_scratch_ ? 1 : 0;
     *header_copy_.data() = Header();
     Kokkos::deep_copy(instance_, header_, header_copy_.view());
     Kokkos::deep_copy(instance_, first(segments_, count), first(segments_copy_.view(), count));
-    gale::launch(instance_, kernel_, static_cast<int>(count), warps_);
+    kernel_.launch(instance_, task_, static_cast<int>(count), warps_);
     Kokkos::deep_copy(instance_, header_copy_.view(), header_);
     Kokkos::deep_copy(instance_, first(directory_copy_.view(), count * relations_), first(directory_, count * relations_));
   }
 
   void begin_copy(Arena& arena) override {
     instance_.fence("GALE::batch_computed");
-    const auto words = static_cast<std::size_t>(std::min(header_copy_.data()->used, kernel_.pool.capacity));
+    const auto words = static_cast<std::size_t>(std::min(header_copy_.data()->used, task_.pool.capacity));
     Kokkos::deep_copy(instance_, first(arena.words.view(), words), first(words_, words));
   }
 
@@ -104,15 +101,6 @@ class DeviceBatchProducer : public BatchProducer {
   }
 
  private:
-  /// Enough for any segment whose vertices have connected links of at most 42 tetrahedra: a link of n triangles has at most n + 2 vertices.
-  StarSizes sizes_of(Id segment) const {
-    const Id rows = mesh_.vertex_begin()(segment + 1) - mesh_.vertex_begin()(segment);
-    const Offset internal = tetrahedron_begin_(segment + 1) - tetrahedron_begin_(segment);
-    const Offset external = external_begin_(segment + 1) - external_begin_(segment);
-    const Offset star = 4 * internal + 3 * external;
-    return {rows, static_cast<Id>(star), static_cast<Id>(star + 2 * Offset(rows)), 128};
-  }
-
   /// Fewer warps need less scratch memory.
   double share_of_large_segments() const {
     Id large = 0;
@@ -121,12 +109,12 @@ class DeviceBatchProducer : public BatchProducer {
   }
 
   void reserve(Offset words) {
-    kernel_.pool.capacity = words;
+    task_.pool.capacity = words;
     if (static_cast<Offset>(words_.extent(0)) >= words) return;
-    kernel_.pool.words = nullptr;
+    task_.pool.words = nullptr;
     words_ = OnDevice<Id>();
     words_ = allocate<OnDevice<Id>>("GALE::batch_words", words);
-    kernel_.pool.words = words_.data();
+    task_.pool.words = words_.data();
     device_bytes_ = words * sizeof(Id);
   }
 
@@ -139,23 +127,22 @@ class DeviceBatchProducer : public BatchProducer {
     directory_copy_ = Pinned<Offset>(count * relations_);
     segments_ = segments;
     directory_ = directory;
-    kernel_.segments = segments_.data();
-    kernel_.pool.directory = directory_.data();
+    task_.segments = segments_.data();
+    task_.pool.directory = directory_.data();
   }
 
   Mesh mesh_;
   std::size_t relations_;
   int warps_;
   ProducerSpace instance_;
-  Kokkos::View<const Id*, HostMemory> tetrahedron_begin_;
-  Kokkos::View<const Offset*, HostMemory> external_begin_;
+  SegmentKernel<ProducerMemory> kernel_;
   OnDevice<Header> header_;
   Pinned<Header> header_copy_;
   OnDevice<Id> segments_, words_;
   Pinned<Id> segments_copy_;
   OnDevice<Offset> directory_;
   Pinned<Offset> directory_copy_;
-  StarKernel<ProducerMemory> kernel_;
+  KernelTask task_;
   std::size_t fast_scratch_ = 0;
   std::atomic<std::size_t> device_bytes_{0};  ///< of words, which outweigh the rest
   std::size_t count_ = 0;

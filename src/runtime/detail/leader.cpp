@@ -12,8 +12,13 @@ namespace {
 /// Batches of a sweep begin small, so that consumers can begin, and double.
 constexpr Id first_batch = 32;
 
-/// A guess for the first batch: what blocks of some sixteen neighbours and twenty-four tetrahedra a vertex take.
-constexpr double words_per_vertex = 64;
+/// A guess for the first batch: what the blocks of a regular mesh take, where a vertex has 14 neighbours, 36 triangles and 24 tetrahedra.
+double words_per_vertex(RelationSet relations) {
+  static constexpr int words[relation_count] = {21, 48, 48, 30, 42, 30, 16, 38, 26, 44, 44, 37, 16, 190, 160, 31, 22};
+  double sum = 1;
+  for (const Relation relation : members_of(relations)) sum += words[static_cast<int>(relation)];
+  return sum;
+}
 
 /// What the exception that is being handled says.
 std::string current_message() {
@@ -37,7 +42,7 @@ Leader::Leader(const Mesh& mesh, const LeaderParameters& parameters, std::vector
       store_(mesh.segments(), parameters.host_budget),
       under_way_(mesh.segments()),
       computed_(mesh.segments()),
-      words_per_segment_(words_per_vertex * mesh.vertices() / std::max(mesh.segments(), Id(1))) {
+      words_per_segment_(words_per_vertex(parameters.relations) * mesh.vertices() / std::max(mesh.segments(), Id(1))) {
   for (const auto& producer : producers_) idle_.push_back(producer.get());
   statistics_.relations = parameters.relations;
   thread_ = std::thread([this] { run(); });

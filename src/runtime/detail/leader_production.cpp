@@ -2,7 +2,10 @@
 #include <atomic>
 #include <vector>
 
+#include <gale/relations/detail/boundary_reader.hpp>
 #include <gale/relations/detail/sweep.hpp>
+#include <gale/relations/host_producer.hpp>
+#include <gale/relations/segment_kernel.hpp>
 #include <gale/runtime/detail/defaults.hpp>
 #include <gale/runtime/detail/implementation.hpp>
 #include <gale/runtime/detail/leader.hpp>
@@ -12,7 +15,7 @@ namespace gale::detail {
 namespace {
 
 std::vector<RelationSet> queues_for(RelationSet relations, Queues queues) {
-  if (queues == Queues::per_kernel) return {relations};
+  if (queues == Queues::per_kernel) return kernels_for(relations);
   const auto members = members_of(relations);
   return {members.begin(), members.end()};
 }
@@ -26,8 +29,9 @@ std::unique_ptr<BatchProducer> make_producer(const Mesh& mesh, const ProducerPar
 class Leaders {
  public:
   Leaders(const Mesh& mesh, RelationSet relations, const RuntimeOptions& options) : mesh(mesh), relations(relations) {
-    const auto queues = queues_for(relations, options.queues);
-    const Sizes sizes = sizes_for(mesh, options, static_cast<int>(queues.size()));
+    mesh.simplices_on_host(needs_of(relations & boundary_relations));
+    const auto queues = queues_for(relations - boundary_relations, options.queues);
+    const Sizes sizes = sizes_for(mesh, options, std::max(static_cast<int>(queues.size()), 1));
     for (const RelationSet members : queues) {
       std::vector<std::unique_ptr<BatchProducer>> producers;
       for (int i = 0; i < producers_per_leader; ++i) {
@@ -39,14 +43,12 @@ class Leaders {
   }
 
   Leader& of(Relation relation) const {
-    require_preconditioned(relations, relation);
     const auto has = [&](const auto& leader) { return leader->relations().has(relation); };
     return **std::find_if(leaders.begin(), leaders.end(), has);
   }
 
   SegmentRows rows_of(Id segment) const {
-    const auto& begin = mesh.vertex_begin();
-    return SegmentRows(segment, begin(segment), begin(segment + 1));
+    return SegmentRows(segment, mesh.intervals_of(segment));
   }
 
   const Mesh mesh;
@@ -68,14 +70,17 @@ void add_blocks(SegmentRows& rows, const Leader& leader, const Lease& lease) {
 /// A consumer that has leaders produce.
 class RequestingConsumer : public Consumer {
  public:
-  explicit RequestingConsumer(std::shared_ptr<Leaders> leaders) : leaders_(std::move(leaders)) {}
+  explicit RequestingConsumer(std::shared_ptr<Leaders> leaders)
+      : leaders_(std::move(leaders)), boundary_(leaders_->mesh, leaders_->relations & boundary_relations) {}
   ~RequestingConsumer() override { leaders_->log.add(statistics_); }
 
  protected:
-  SegmentRows load(Relation relation, Id vertex) override {
+  SegmentRows load(Relation relation, Id simplex) override {
+    require_preconditioned(leaders_->relations, relation);
+    require_simplex(leaders_->mesh, row_dimension(relation), simplex);
+    if (boundary_relations.has(relation)) return boundary_.row(relation, simplex);
     Leader& leader = leaders_->of(relation);
-    require_vertex(leaders_->mesh, vertex);
-    const Id segment = leaders_->mesh.segment_of(vertex);
+    const Id segment = leaders_->mesh.segment_of(row_dimension(relation), simplex);
     Lease& lease = leases_[static_cast<int>(relation)];
     lease.release();
     lease = leader.acquire(segment, false, statistics_);
@@ -86,6 +91,7 @@ class RequestingConsumer : public Consumer {
 
  private:
   std::shared_ptr<Leaders> leaders_;
+  BoundaryReader boundary_;
   ConsumerStatistics statistics_;
   Lease leases_[relation_count];  ///< of the block read last in each relation
 };
@@ -100,9 +106,16 @@ class LeaderProduction : public RuntimeImplementation {
 
   void for_each_segment(RelationSet wanted, const SweepOptions& options, const Structure::SegmentBody& body) override {
     const SweepInProgress in_progress(*this, wanted);
+    const RelationSet boundary = wanted & boundary_relations;
     std::vector<ConsumerStatistics> statistics(std::max(options.threads, 0));
+    std::vector<std::unique_ptr<HostProducer>> look_ups(std::max(options.threads, 0));
     sweep(mesh().segments(), options, [&](int consumer, Id segment) {
-      visit(in_progress, segment, statistics[consumer], [&](const SegmentRows& rows) { body(consumer, rows); });
+      auto& look_up = look_ups[consumer];
+      if (!boundary.empty() && !look_up) look_up = std::make_unique<HostProducer>(mesh(), boundary);
+      visit(in_progress, segment, statistics[consumer], [&](SegmentRows& rows) {
+        if (look_up) look_up->compute(rows);
+        body(consumer, rows);
+      });
     });
     for (const auto& one : statistics) leaders_->log.add(one);
   }

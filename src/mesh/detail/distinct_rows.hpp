@@ -1,0 +1,139 @@
+#pragma once
+
+#include <limits>
+#include <string>
+
+#include <gale/base/error.hpp>
+#include <gale/base/parallel.hpp>
+#include <gale/base/sort_rows.hpp>
+#include <gale/mesh/detail/few_distinct.hpp>
+
+namespace gale::detail {
+
+/// Rows of distinct ids, all of them one after the other: row r is values[begin[r]] to values[begin[r + 1] - 1], ascending.
+struct DistinctRows {
+  Array<Id, ProducerMemory> begin;
+  Array<Id, ProducerMemory> values;
+  Array<Id, ProducerMemory> row_of;  ///< of each value
+};
+
+/// The rows with more distinct candidates than a thread keeps by itself: theirs are written down, and sorted.
+template <class Candidates>
+class LargeRows {
+ public:
+  using Ids = Array<Id, ProducerMemory>;
+  using Offsets = Array<Offset, ProducerMemory>;
+
+  /// Those whose count is FewDistinct::too_many. Replaces it by the number of distinct candidates.
+  LargeRows(const Ids& count, Id large, const Candidates& candidates) : rows_(allocate<Ids>("GALE::large_rows", large)) {
+    find(count);
+    begin_ = allocate<Offsets>("GALE::large_begin", large + Offset(1));
+    const auto rows = rows_;
+    const Offset total = exclusive_scan(
+        "GALE::scan_candidates", ProducerSpace(), large, begin_, KOKKOS_LAMBDA(Offset i) {
+          Offset entries = 0;
+          candidates(rows(i), [&](Id) { ++entries; });
+          return entries;
+        });
+    values_ = allocate<Ids>("GALE::candidates", total);
+    gather(candidates);
+    sort_rows("GALE::sort_candidates", begin_, values_);
+    write_counts(count);
+  }
+
+  /// Writes the distinct values of each where its row begins.
+  void write(const DistinctRows& to) const {
+    const auto rows = rows_;
+    const auto begin = begin_;
+    const auto values = values_;
+    parallel_for(
+        "GALE::write_large_rows", ProducerSpace(), rows_.extent(0), KOKKOS_LAMBDA(Offset i) {
+          Id at = to.begin(rows(i));
+          for (Offset j = begin(i); j < begin(i + 1); ++j) {
+            if (j > begin(i) && values(j) == values(j - 1)) continue;
+            to.values(at) = values(j);
+            to.row_of(at++) = rows(i);
+          }
+        });
+  }
+
+  void find(const Ids& count) {
+    const auto place = allocate<Ids>("GALE::large_place", count.extent(0) + 1);
+    const auto rows = rows_;
+    exclusive_scan(
+        "GALE::find_large_rows", ProducerSpace(), count.extent(0), place,
+        KOKKOS_LAMBDA(Offset row) { return count(row) == FewDistinct::too_many ? 1 : 0; });
+    parallel_for(
+        "GALE::list_large_rows", ProducerSpace(), count.extent(0), KOKKOS_LAMBDA(Offset row) {
+          if (place(row + 1) > place(row)) rows(place(row)) = static_cast<Id>(row);
+        });
+  }
+
+  void gather(const Candidates& candidates) {
+    const auto rows = rows_;
+    const auto begin = begin_;
+    const auto values = values_;
+    parallel_for(
+        "GALE::gather_candidates", ProducerSpace(), rows.extent(0), KOKKOS_LAMBDA(Offset i) {
+          Offset at = begin(i);
+          candidates(rows(i), [&](Id value) { values(at++) = value; });
+        });
+  }
+
+  void write_counts(const Ids& count) {
+    const auto rows = rows_;
+    const auto begin = begin_;
+    const auto values = values_;
+    parallel_for(
+        "GALE::count_large_rows", ProducerSpace(), rows.extent(0), KOKKOS_LAMBDA(Offset i) {
+          Id distinct = 0;
+          for (Offset j = begin(i); j < begin(i + 1); ++j) distinct += j == begin(i) || values(j) != values(j - 1) ? 1 : 0;
+          count(rows(i)) = distinct;
+        });
+  }
+
+ private:
+  Ids rows_;
+  Offsets begin_;
+  Ids values_;
+};
+
+/// For each of `rows` rows the distinct ones of its candidates, ascending. `candidates(row, visit)` calls visit(id) for each, in any order and any
+/// number of times. Throws gale::Error if there are more than 2^31 - 1 of them, which it calls `what`.
+template <class Candidates>
+DistinctRows distinct_rows(const std::string& what, Offset rows, const Candidates& candidates) {
+  using Ids = Array<Id, ProducerMemory>;
+  const ProducerSpace space;
+  const Ids count = allocate<Ids>("GALE::distinct_count", rows);
+  parallel_for(
+      "GALE::count_distinct", space, rows, KOKKOS_LAMBDA(Offset row) {
+        FewDistinct few;
+        candidates(static_cast<Id>(row), [&](Id id) { few.insert(id); });
+        count(row) = few.size();
+      });
+  const auto large = static_cast<Id>(reduce_sum(
+      "GALE::count_large", space, rows, KOKKOS_LAMBDA(Offset row) { return count(row) == FewDistinct::too_many ? 1 : 0; }));
+  const LargeRows<Candidates> large_rows(count, large, candidates);
+  const Offset total = reduce_sum("GALE::total_distinct", space, rows, KOKKOS_LAMBDA(Offset row) { return Offset(count(row)); });
+  if (total > std::numeric_limits<Id>::max()) {
+    throw Error("the mesh has " + std::to_string(total) + " " + what + ", too many: ids have 32 bits, at most 2147483647 fit");
+  }
+  const DistinctRows result{allocate<Ids>("GALE::distinct_begin", rows + 1), allocate<Ids>("GALE::distinct", total),
+                            allocate<Ids>("GALE::distinct_row", total)};
+  exclusive_scan("GALE::scan_distinct", space, rows, result.begin, KOKKOS_LAMBDA(Offset row) { return count(row); });
+  parallel_for(
+      "GALE::write_distinct", space, rows, KOKKOS_LAMBDA(Offset row) {
+        FewDistinct few;
+        candidates(static_cast<Id>(row), [&](Id id) { few.insert(id); });
+        if (few.size() == FewDistinct::too_many) return;
+        const Id begin = result.begin(row);
+        for (Id i = 0; i < few.size(); ++i) {
+          result.values(begin + i) = few[i];
+          result.row_of(begin + i) = static_cast<Id>(row);
+        }
+      });
+  large_rows.write(result);
+  return result;
+}
+
+}  // namespace gale::detail

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <gale/base/memory.hpp>
+#include <gale/base/types.hpp>
+
+namespace gale {
+
+namespace detail {
+
+/// Place of `value` among values[begin] to values[end - 1], which ascend; no_id if it isn't there. A few entries are looked through, more are
+/// bisected first.
+template <class Values>
+KOKKOS_INLINE_FUNCTION Id find_in(const Values& values, Id begin, Id end, Id value) {
+  constexpr Id few = 8;
+  while (end - begin > few) {
+    const Id middle = begin + (end - begin) / 2;
+    if (values(middle) <= value) {
+      begin = middle;
+    } else {
+      end = middle;
+    }
+  }
+  for (; begin < end; ++begin) {
+    if (values(begin) == value) return begin;
+  }
+  return no_id;
+}
+
+}  // namespace detail
+
+/// Which simplices are numbered. Triangles need the edges.
+enum class Enumeration { tetrahedra, edges, triangles };
+
+/// What someone needs of the tables of `Simplices`.
+struct SimplexNeeds {
+  Enumeration upto = Enumeration::tetrahedra;
+  bool lower_edges = false;  ///< the edges by their higher vertex too; needs edges
+  bool tetrahedra = false;   ///< on the host, the tetrahedra themselves; the producers always have them
+};
+
+/// All simplices of a mesh, each with its vertices ascending (a < b < c < d) and all of a dimension in lexicographic order: that is their
+/// numbering. So the edges (a, .), the triangles (a, b, .) and the tetrahedra (a, ., ., .) are contiguous, and a simplex is found by its vertices in
+/// a few steps. Tables that were not asked for are empty.
+///
+/// Owns nothing; may be copied into kernels. All ids are GALE's.
+template <class Memory>
+struct Simplices {
+  template <class T>
+  using Unmanaged = Kokkos::View<const T*, Memory, Kokkos::MemoryUnmanaged>;
+
+  Kokkos::View<const Id* [4], Kokkos::LayoutRight, Memory, Kokkos::MemoryUnmanaged> tetrahedra;
+  Unmanaged<Id> tetrahedron_begin;  ///< vertex a -> the first tetrahedron (a, ., ., .); one more at the end, as in all that follow
+
+  Unmanaged<Id> edge_begin;  ///< vertex a -> the first edge (a, .)
+  Unmanaged<Id> edge_low;    ///< edge (a, b) -> a
+  Unmanaged<Id> edge_high;   ///< edge (a, b) -> b
+
+  Unmanaged<Id> triangle_begin;  ///< edge (a, b) -> the first triangle (a, b, .)
+  Unmanaged<Id> triangle_edge;   ///< triangle (a, b, c) -> the edge (a, b)
+  Unmanaged<Id> triangle_apex;   ///< triangle (a, b, c) -> c
+
+  Unmanaged<Id> lower_begin;  ///< vertex b -> where its edges (., b) begin in lower_edges
+  Unmanaged<Id> lower_edges;  ///< the edges by their higher vertex, ascending
+
+  /// The edge (a, b), a < b; no_id if there is none.
+  KOKKOS_FUNCTION Id edge_of(Id a, Id b) const { return detail::find_in(edge_high, edge_begin(a), edge_begin(a + 1), b); }
+
+  /// The triangle (a, b, c) over the edge (a, b), b < c; no_id if there is none.
+  KOKKOS_FUNCTION Id triangle_of(Id edge, Id c) const {
+    return detail::find_in(triangle_apex, triangle_begin(edge), triangle_begin(edge + 1), c);
+  }
+
+  KOKKOS_FUNCTION Id triangle_of(Id a, Id b, Id c) const {
+    const Id edge = edge_of(a, b);
+    return edge == no_id ? no_id : triangle_of(edge, c);
+  }
+};
+
+/// The tables themselves.
+template <class Memory>
+struct SimplexTables {
+  using Ids = Array<Id, Memory>;
+  Ids edge_begin, edge_low, edge_high;
+  Ids triangle_begin, triangle_edge, triangle_apex;
+  Ids lower_begin, lower_edges;
+};
+
+}  // namespace gale

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <gale/relations/boundary_row.hpp>
+#include <gale/relations/detail/adjacent.hpp>
+#include <gale/relations/detail/cofaces.hpp>
+
+namespace gale::detail {
+
+/// Does `for_each_entry` visit the entries in ascending order?
+KOKKOS_FUNCTION constexpr bool visits_in_order(Relation relation) { return relation != Relation::FF && relation != Relation::TT; }
+
+/// Calls visit(id) for each entry of the row of a simplex in a relation other than VV, VT and link.
+template <Relation relation, class Memory, class Visit>
+KOKKOS_INLINE_FUNCTION void for_each_entry(const Simplices<Memory>& s, Id simplex, const Visit& visit) {
+  if constexpr (boundary_relations.has(relation)) {
+    for (const Id entry : boundary_row<relation>(s, simplex)) visit(entry);
+  } else if constexpr (relation == Relation::VE) {
+    for_each_edge_at(s, simplex, visit);
+  } else if constexpr (relation == Relation::VF) {
+    for_each_triangle_of_vertex(s, simplex, visit);
+  } else if constexpr (relation == Relation::EF) {
+    for_each_triangle_of_edge(s, simplex, visit);
+  } else if constexpr (relation == Relation::ET) {
+    for_each_tetrahedron_of(s, s.edge_low(simplex), s.edge_high(simplex), visit);
+  } else if constexpr (relation == Relation::FT) {
+    const Id edge = s.triangle_edge(simplex);
+    for_each_tetrahedron_of(s, s.edge_low(edge), s.edge_high(edge), s.triangle_apex(simplex), visit);
+  } else if constexpr (relation == Relation::EE) {
+    for_each_adjacent_edge(s, simplex, visit);
+  } else if constexpr (relation == Relation::FF) {
+    for_each_adjacent_triangle(s, simplex, visit);
+  } else {
+    static_assert(relation == Relation::TT);
+    for_each_adjacent_tetrahedron(s, simplex, visit);
+  }
+}
+
+/// How many entries that row has.
+template <Relation relation, class Memory>
+KOKKOS_INLINE_FUNCTION Id count_entries(const Simplices<Memory>& s, Id simplex) {
+  const auto edges_at = [&s](Id v) { return s.lower_begin(v + 1) - s.lower_begin(v) + s.edge_begin(v + 1) - s.edge_begin(v); };
+  if constexpr (boundary_relations.has(relation)) {
+    return boundary_size(relation);
+  } else if constexpr (relation == Relation::VE) {
+    return edges_at(simplex);
+  } else if constexpr (relation == Relation::EE) {
+    return edges_at(s.edge_low(simplex)) + edges_at(s.edge_high(simplex)) - 2;
+  } else {
+    Id count = 0;
+    for_each_entry<relation>(s, simplex, [&](Id) { ++count; });
+    return count;
+  }
+}
+
+}  // namespace gale::detail

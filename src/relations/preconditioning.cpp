@@ -1,0 +1,38 @@
+#include <gale/relations/preconditioning.hpp>
+
+#include <algorithm>
+#include <string>
+
+#include <gale/base/error.hpp>
+
+namespace gale {
+
+SimplexNeeds needs_of(RelationSet relations) {
+  SimplexNeeds needs;
+  for (const Relation relation : members_of(relations - star_relations)) {
+    const int rows = row_dimension(relation), entries = entry_dimension(relation);
+    if (rows == 1 || entries == 1) needs.upto = std::max(needs.upto, Enumeration::edges);
+    if (rows == 2 || entries == 2) needs.upto = Enumeration::triangles;
+    if (rows == 3 || entries == 3) needs.tetrahedra = true;
+    if (!boundary_relations.has(relation)) {
+      needs.upto = std::max(needs.upto, Enumeration::edges);
+      needs.lower_edges = true;
+    }
+  }
+  return needs;
+}
+
+void require_preconditioned(RelationSet preconditioned, RelationSet wanted) {
+  if (preconditioned.contains(wanted)) return;
+  throw Error("the structure was preconditioned for " + (preconditioned.empty() ? "no relation" : name_of(preconditioned)) + ", not for " +
+              name_of(wanted) + ": name every relation that you read when you construct it");
+}
+
+void require_simplex(const Mesh& mesh, int dimension, Id simplex) {
+  static const char* const names[] = {"vertex", "edge", "triangle", "tetrahedron"};
+  const Id count = mesh.interval_begin(dimension)(mesh.segments());
+  if (simplex >= 0 && simplex < count) return;
+  throw Error("there is no " + std::string(names[dimension]) + ' ' + std::to_string(simplex) + ": the mesh has 0 to " + std::to_string(count - 1));
+}
+
+}  // namespace gale
