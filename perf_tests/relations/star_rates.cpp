@@ -38,7 +38,7 @@ struct WholeMesh {
     kernel.mesh = mesh.producer();
     kernel.segments = segments.data();
     kernel.wanted = wanted;
-    kernel.sizes = sizes_for(mesh);
+    kernel.sizes = sizes_for(mesh, wanted);
     kernel.pool = {words.data(), static_cast<Offset>(words.extent(0)), used.data(), directory.data(), needed.data()};
   }
 
@@ -51,14 +51,13 @@ struct WholeMesh {
     return words;
   }
 
-  static StarSizes sizes_for(const Mesh& mesh) {
+  static StarSizes sizes_for(const Mesh& mesh, RelationSet wanted) {
     const auto tetrahedra = on_host(mesh.producer().tetrahedron_begin);
     const auto external = on_host(mesh.producer().external_begin);
     StarSizes sizes;
     for (Id s = 0; s < mesh.segments(); ++s) {
       const Id rows = mesh.vertex_begin()(s + 1) - mesh.vertex_begin()(s);
-      const Id star = static_cast<Id>(4 * (tetrahedra(s + 1) - tetrahedra(s)) + 3 * (external(s + 1) - external(s)));
-      sizes = larger(sizes, {rows, star, star + 2 * rows, 128});
+      sizes = larger(sizes, StarKernel<ProducerMemory>::bound(rows, tetrahedra(s + 1) - tetrahedra(s), external(s + 1) - external(s), wanted));
     }
     return sizes;
   }

@@ -1,5 +1,7 @@
 #include <gale/algorithms/critical_points.hpp>
 
+#include <algorithm>
+
 #include <gale/algorithms/detail/large_link.hpp>
 #include <gale/algorithms/detail/vertex_link.hpp>
 #include <gale/base/parallel.hpp>
@@ -28,7 +30,7 @@ class Classification {
       : keys_(order.keys()),
         own_(allocate<Bytes>("GALE::vertex_types", mesh.vertices())),
         told_("GALE::boundary_neighbours", mesh.vertices()),
-        large_(threads) {}
+        large_(std::max(threads, 0)) {}
 
   void classify(int consumer, const SegmentRows& rows) {
     const Rows neighbours = rows[Relation::VV];

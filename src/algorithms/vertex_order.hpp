@@ -16,9 +16,23 @@ class VertexOrder {
   template <class Value>
   VertexOrder(const Mesh& mesh, const Value* values, std::size_t count);
 
+  /// The same from a caller's View of rank 1, in host memory or the device's.
+  template <class View, class = std::enable_if_t<Kokkos::is_view<View>::value>>
+  VertexOrder(const Mesh& mesh, const View& values) : VertexOrder(of_view(mesh, values)) {}
+
   const std::uint64_t* keys() const { return keys_.data(); }
 
  private:
+  template <class View>
+  static VertexOrder of_view(const Mesh& mesh, const View& values) {
+    static_assert(View::rank == 1, "a value for each vertex");
+    const auto there = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), values);
+    if (there.span() == there.size()) return VertexOrder(mesh, there.data(), there.extent(0));
+    const Array<typename View::non_const_value_type, HostMemory> copy("GALE::field", there.extent(0));
+    Kokkos::deep_copy(copy, there);
+    return VertexOrder(mesh, copy.data(), copy.extent(0));
+  }
+
   Array<std::uint64_t, HostMemory> keys_;
 };
 

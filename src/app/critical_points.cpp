@@ -70,7 +70,7 @@ void critical_points(const Options& options) {
     points = find_critical_points(*structure, order, session.sweep("critical points"));
   }
   tell(points, session);
-  session.write([&](const std::string& path) { io::write_points(path, to_point_set(dataset, points)); });
+  session.write(options.output, [&](const std::string& path) { io::write_points(path, to_point_set(dataset, points)); });
   session.finish(structure.get());
 }
 

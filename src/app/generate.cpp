@@ -9,7 +9,7 @@ void generate(const Options& options) {
   require_extension(options, {".vtu", ".vtk"});
   Session session(options);
   const io::Dataset dataset = session.read();
-  session.write([&](const std::string& path) { io::write_mesh(path, dataset); });
+  session.write(options.output, [&](const std::string& path) { io::write_mesh(path, dataset); });
   session.finish(nullptr);
 }
 

@@ -2,6 +2,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include <gale/relations/relation.hpp>
+
 #include "sizes.hpp"
 
 namespace gale::app {
@@ -26,7 +28,7 @@ void add_common(CLI::App& command, Options& options) {
 void add_segmentation(CLI::App& command, Options& options) {
   CLI::Option* const capacity = command.add_option("--capacity", options.capacity, "Most vertices of a segment (default: 100)");
   capacity->check(CLI::Range(1, 2147483647));
-  command.add_option("--segments", options.segments, "A point array that says which segment a vertex is in, instead of an octree")
+  command.add_option("--segments", options.segments, "A point array that says which segment a vertex is in, instead of an octree; random:K for K segments by no rule")
       ->excludes(capacity);
 }
 
@@ -44,6 +46,16 @@ void add_runtime(CLI::App& command, Options& options) {
   command.add_option("--threads-per-segment", options.runtime.threads_per_segment, "t_s")->check(CLI::Range(1, 1024));
   add_size(command, options.runtime.host_memory, "--host-memory", "Budget for blocks on the host, e.g. 512MiB");
   add_size(command, options.runtime.device_memory, "--device-memory", "Budget for batches on the device");
+}
+
+void add_relation(CLI::App& command, Options& options) {
+  std::vector<std::string> names;
+  for (const Relation relation : members_of(all_relations - Relation::link)) names.push_back(name_of(relation));
+  command.add_option("--relation", options.relation, "XY: for each X the Ys that touch it; V vertex, E edge, F triangle, T tetrahedron")
+      ->required()
+      ->check(CLI::IsMember(names));
+  command.add_flag("--verify", options.verify, "Compare every row with the explicit structure (without Kokkos-Kernels: with brute force)");
+  command.add_option("--dump", options.dump, "Write all rows to this text file");
 }
 
 CLI::App* add_command(CLI::App& app, Options& options, const std::string& name, const std::string& what) {
@@ -93,6 +105,11 @@ std::optional<Options> parse_command_line(int argc, char** argv) {
   add_segmentation(*command, options);
   add_runtime(*command, options);
   add_output(*command, options, "The critical points: .vtp", false);
+
+  command = add_command(app, options, "relations", "Computes a relation of the whole mesh: its size, and how fast it comes");
+  add_segmentation(*command, options);
+  add_runtime(*command, options);
+  add_relation(*command, options);
 
   command = add_command(app, options, "generate", "Writes the tetrahedral mesh that an input stands for");
   add_output(*command, options, ".vtu or .vtk", true);

@@ -28,6 +28,9 @@ struct Options {
   std::optional<int> threads;            ///< all cores unless given
   std::string structure = "gale";        ///< gale, explicit or inline
   RuntimeOptions runtime;
+  std::string relation;                  ///< of `gale relations`: the name of one of the sixteen
+  bool verify = false;                   ///< likewise: compare with an oracle
+  std::string dump;                      ///< likewise: the file for all rows, or empty
   std::string report;
   bool quiet = false;
 };

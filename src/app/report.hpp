@@ -34,7 +34,7 @@ struct Report {
   std::string input;
   int threads = 0;
   std::optional<std::string> structure, production;
-  std::optional<std::int64_t> vertices, tetrahedra, segments;
+  std::optional<std::int64_t> vertices, edges, triangles, tetrahedra, segments;
   Seconds seconds;
   std::optional<RuntimeStatistics> statistics;
   nlohmann::ordered_json result = nlohmann::ordered_json::object();

@@ -43,7 +43,7 @@ void segment(const Options& options) {
   io::Dataset dataset = session.read();
   const Mesh mesh = session.encode(dataset, Session::Keep::tetrahedra);
   tell(mesh, session);
-  session.write([&](const std::string& path) { io::write_mesh(path, dataset, {{segments_name, 1, segments_of(mesh)}}); });
+  session.write(options.output, [&](const std::string& path) { io::write_mesh(path, dataset, {{segments_name, 1, segments_of(mesh)}}); });
   session.finish(nullptr);
 }
 

@@ -1,5 +1,8 @@
 #include "session.hpp"
 
+#include <charconv>
+#include <random>
+
 #include <gale/base/error.hpp>
 #include <gale/io/detail/vtk_files.hpp>
 #include <gale/io/read.hpp>
@@ -14,6 +17,25 @@ namespace gale::app {
 namespace {
 
 constexpr int default_capacity = 100;
+
+/// K of "random:K", or nothing. Throws UsageError if there is something else in its place.
+std::optional<std::int64_t> random_segments(const std::string& segments) {
+  const std::string prefix = "random:";
+  if (segments.rfind(prefix, 0) != 0) return std::nullopt;
+  std::int64_t count = 0;
+  const char* const end = segments.data() + segments.size();
+  const auto parsed = std::from_chars(segments.data() + prefix.size(), end, count);
+  if (parsed.ec != std::errc() || parsed.ptr != end || count < 1) throw UsageError("--segments " + segments + ": random:K takes a whole number K of at least 1");
+  return count;
+}
+
+/// Each vertex in one of `count` segments, by no rule: the worst that a segmentation can be.
+Segmentation scattered(std::size_t vertices, std::int64_t count) {
+  std::vector<std::int64_t> labels(vertices);
+  std::mt19937_64 random(1);
+  for (auto& label : labels) label = static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(count));
+  return given_segmentation(Array<const std::int64_t, HostMemory>(labels.data(), labels.size()));
+}
 
 std::size_t point_count(const io::Dataset& dataset) {
   return std::visit([](const auto& points) { return points.extent(0); }, dataset.points);
@@ -32,12 +54,14 @@ Segmentation octree(const io::Dataset& dataset, int capacity) {
 
 Session::Session(const Options& options) : options_(options), console_(options.quiet) {
   report_.input = options.input;
+  random_segments(options.segments);
   report_.threads = host_threads();
   // Found out now rather than after the work.
   if (!options.output.empty()) {
     if (!io::detail::has_vtk()) throw Error("this gale was built without VTK: it cannot write '" + options.output + "'");
     require_writable(options.output);
   }
+  if (!options.dump.empty()) require_writable(options.dump);
   if (!options.report.empty()) require_writable(options.report);
 }
 
@@ -67,6 +91,7 @@ const io::PointArray* Session::given_segments(const io::Dataset& dataset) const 
 }
 
 Segmentation Session::segment(const io::Dataset& dataset) {
+  if (const auto count = random_segments(options_.segments)) return scattered(point_count(dataset), *count);
   const io::PointArray* const given = given_segments(dataset);
   if (given == nullptr) return octree(dataset, options_.capacity.value_or(default_capacity));
   const auto labels = labels_of(*given);
@@ -104,11 +129,23 @@ SweepOptions Session::sweep(const std::string& title) const {
   return sweep;
 }
 
+void Session::count_simplices(const Structure& structure) {
+  const auto* const all = dynamic_cast<const ExplicitStructure*>(&structure);
+  const auto tell = [this](const char* name, Id count, std::optional<std::int64_t>& reported) {
+    if (count == no_id) return;
+    reported = count;
+    console_.say(name, grouped(count));
+  };
+  tell("edges", all != nullptr ? all->count(1) : structure.mesh().known_edges(), report_.edges);
+  tell("triangles", all != nullptr ? all->count(2) : structure.mesh().known_triangles(), report_.triangles);
+}
+
 void Session::finish(const Structure* structure) {
   if (const auto* const runtime = dynamic_cast<const Runtime*>(structure)) {
     report_.production = runtime->production() == Production::leaders ? "leaders" : "consumers";
     report_.statistics = runtime->statistics();
   }
+  if (structure != nullptr) count_simplices(*structure);
   const Seconds& times = report_.seconds;
   console_.say("time", seconds(times.total()) + " (segment " + seconds(times.segment) + ", initialize " + seconds(times.initialize) +
                            ", run " + seconds(times.run) + "); read " + seconds(times.read));

@@ -36,15 +36,15 @@ class Session {
 
   SweepOptions sweep(const std::string& title) const;
 
-  /// Runs `write` if there is an output, and says what it wrote.
+  /// Calls write_to(path) unless the path is empty, and says what it wrote.
   template <class Write>
-  void write(const Write& write_to) {
-    if (options_.output.empty()) return;
+  void write(const std::string& path, const Write& write_to) {
+    if (path.empty()) return;
     {
       const Stopwatch watch(report_.seconds.write);
-      write_to(options_.output);
+      write_to(path);
     }
-    console_.say("wrote", options_.output);
+    console_.say("wrote", path);
   }
 
   /// Says the times and writes the report. `structure` as far as there is one.
@@ -54,6 +54,7 @@ class Session {
   /// The array that the dataset is segmented by, or nullptr for an octree.
   const io::PointArray* given_segments(const io::Dataset& dataset) const;
   Segmentation segment(const io::Dataset& dataset);
+  void count_simplices(const Structure& structure);
 
   const Options& options_;
   Console console_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 #include <gale/base/kokkos.hpp>
 
@@ -49,6 +50,17 @@ KOKKOS_FORCEINLINE_FUNCTION char* scratch(const Team& team, int level, std::size
   return static_cast<char*>(team.team_scratch(level).get_shmem_aligned(bytes, 16));
 }
 
+/// The same at a level that is known at compile time. If it is not, nvcc keeps the whole kernel object of each thread in memory, and accesses scratch
+/// memory in the slower way that works for any.
+template <int level, class Team>
+KOKKOS_FORCEINLINE_FUNCTION char* scratch(const Team& team, std::size_t bytes) {
+  char* const memory = static_cast<char*>(team.team_scratch(level).get_shmem_aligned(bytes, 16, level));
+#if defined(__CUDA_ARCH__)
+  if constexpr (level == 0) return static_cast<char*>(__cvta_shared_to_generic(__cvta_generic_to_shared(memory)));
+#endif
+  return memory;
+}
+
 KOKKOS_FORCEINLINE_FUNCTION void barrier(const HostTeam&) {}
 template <class Team>
 KOKKOS_FORCEINLINE_FUNCTION void barrier(const Team& team) {
@@ -63,6 +75,24 @@ KOKKOS_FORCEINLINE_FUNCTION void for_all(const HostTeam&, int n, const Body& bod
 template <class Team, class Body>
 KOKKOS_FORCEINLINE_FUNCTION void for_all(const Team& team, int n, const Body& body) {
   Kokkos::parallel_for(Kokkos::TeamVectorRange(team, n), body);
+}
+
+/// The same for body(i, load(i)). Where a lane takes several, it loads the next before it works on one: body must not write what load reads.
+template <class Team, class Load, class Body>
+KOKKOS_FORCEINLINE_FUNCTION void for_all_loaded(const Team& team, int n, const Load& load, const Body& body) {
+#if defined(__CUDA_ARCH__)
+  const int lane = static_cast<int>(threadIdx.y * blockDim.x + threadIdx.x), step = static_cast<int>(blockDim.x * blockDim.y);
+  decltype(load(0)) next;
+  if (lane < n) next = load(lane);
+  for (int i = lane; i - lane % 32 < n; i += step) {
+    const auto loaded = next;
+    if (i + step < n) next = load(i + step);
+    if (i < n) body(i, loaded);
+    __syncwarp();
+  }
+#else
+  for_all(team, n, [&](int i) { body(i, load(i)); });
+#endif
 }
 
 /// body(i) for i in 0..n-1, by a warp each, all of whose lanes call it.
@@ -92,6 +122,18 @@ KOKKOS_FORCEINLINE_FUNCTION void warp_barrier(const Team& team) {
   for_lanes(team, 1, [](int) {});
 }
 
+/// body(), after which the lanes that began it together go on together. Lanes that a loop has parted may stay apart for long without it.
+template <class Body>
+KOKKOS_FORCEINLINE_FUNCTION void together(const Body& body) {
+#if defined(__CUDA_ARCH__)
+  const unsigned lanes = __activemask();
+  body();
+  __syncwarp(lanes);
+#else
+  body();
+#endif
+}
+
 /// Inside for_warps: body() by one lane. The others run on.
 template <class Body>
 KOKKOS_FORCEINLINE_FUNCTION void once_per_warp(const HostTeam&, const Body& body) {
@@ -112,6 +154,8 @@ KOKKOS_FORCEINLINE_FUNCTION void once(const Team& team, const Body& body) {
   Kokkos::single(Kokkos::PerTeam(team), body);
 }
 
+// Atomics. On CUDA its own, whose memory the compiler sees: those of Kokkos are assembly that takes any address.
+
 /// Adds to what the team shares and returns what was there.
 template <class T>
 KOKKOS_FORCEINLINE_FUNCTION T add(const HostTeam&, T* to, T value) {
@@ -121,7 +165,15 @@ KOKKOS_FORCEINLINE_FUNCTION T add(const HostTeam&, T* to, T value) {
 }
 template <class Team, class T>
 KOKKOS_FORCEINLINE_FUNCTION T add(const Team&, T* to, T value) {
+#if defined(__CUDA_ARCH__)
+  if constexpr (sizeof(T) == sizeof(unsigned)) {
+    return static_cast<T>(atomicAdd(reinterpret_cast<unsigned*>(to), static_cast<unsigned>(value)));
+  } else {
+    return static_cast<T>(atomicAdd(reinterpret_cast<unsigned long long*>(to), static_cast<unsigned long long>(value)));
+  }
+#else
   return Kokkos::atomic_fetch_add(to, value);
+#endif
 }
 
 /// Raises what the team shares to at least `value`.
@@ -131,7 +183,22 @@ KOKKOS_FORCEINLINE_FUNCTION void raise(const HostTeam&, T* to, T value) {
 }
 template <class Team, class T>
 KOKKOS_FORCEINLINE_FUNCTION void raise(const Team&, T* to, T value) {
+#if defined(__CUDA_ARCH__)
+  atomicMax(to, value);
+#else
   Kokkos::atomic_fetch_max(to, value);
+#endif
+}
+
+/// Sets bits of what the team shares.
+KOKKOS_FORCEINLINE_FUNCTION void set_bits(const HostTeam&, std::uint32_t* of, std::uint32_t bits) { *of |= bits; }
+template <class Team>
+KOKKOS_FORCEINLINE_FUNCTION void set_bits(const Team&, std::uint32_t* of, std::uint32_t bits) {
+#if defined(__CUDA_ARCH__)
+  atomicOr(of, bits);
+#else
+  Kokkos::atomic_fetch_or(of, bits);
+#endif
 }
 
 /// Puts `value` where `expected` is; returns what was there.
@@ -143,7 +210,11 @@ KOKKOS_FORCEINLINE_FUNCTION T exchange_if(const HostTeam&, T* at, T expected, T 
 }
 template <class Team, class T>
 KOKKOS_FORCEINLINE_FUNCTION T exchange_if(const Team&, T* at, T expected, T value) {
+#if defined(__CUDA_ARCH__)
+  return atomicCAS(at, expected, value);
+#else
   return Kokkos::atomic_compare_exchange(at, expected, value);
+#endif
 }
 
 /// Replaces values[0..n-1] by the sums of those before each, and values[n] by the sum of all. To be called by all; ends with a barrier.

@@ -6,6 +6,7 @@
 
 #include <gale/base/error.hpp>
 #include <gale/base/parallel.hpp>
+#include <gale/base/require_ids.hpp>
 #include <gale/base/radix_sort.hpp>
 #include <gale/base/transfer.hpp>
 #include <gale/mesh/detail/octree_leaves.hpp>
@@ -88,18 +89,12 @@ Ids to_producers(const std::vector<Id>& values, const char* label) {
   return ids;
 }
 
-void check_vertex_count(std::size_t count) {
-  if (count > static_cast<std::size_t>(std::numeric_limits<Id>::max())) {
-    throw Error(std::to_string(count) + " vertices are too many: ids have 32 bits, at most 2147483647 fit");
-  }
-}
-
 }  // namespace
 
 template <class Coordinate, class Memory>
 Segmentation octree_segmentation(const Points<Coordinate, Memory>& given, int capacity) {
   if (capacity < 1) throw Error("a segment's capacity must be at least 1 vertex, not " + std::to_string(capacity));
-  check_vertex_count(given.extent(0));
+  require_ids("vertices", static_cast<Offset>(given.extent(0)));
   const auto count = static_cast<Id>(given.extent(0));
   Segmentation result;
   if (count == 0) {
@@ -117,7 +112,7 @@ Segmentation octree_segmentation(const Points<Coordinate, Memory>& given, int ca
 }
 
 Segmentation given_segmentation(const Array<const std::int64_t, HostMemory>& labels) {
-  check_vertex_count(labels.extent(0));
+  require_ids("vertices", static_cast<Offset>(labels.extent(0)));
   const auto count = static_cast<Id>(labels.extent(0));
   const auto keys_on_host = allocate<Array<std::uint64_t, HostMemory>>("GALE::labels", count);
   for (Id i = 0; i < count; ++i) keys_on_host(i) = static_cast<std::uint64_t>(labels(i)) ^ (std::uint64_t(1) << 63);

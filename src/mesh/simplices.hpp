@@ -21,12 +21,18 @@ KOKKOS_INLINE_FUNCTION Id find_in(const Values& values, Id begin, Id end, Id val
     }
   }
   for (; begin < end; ++begin) {
-    if (values(begin) == value) return begin;
+    const Id here = values(begin);
+    if (here >= value) return here == value ? begin : no_id;
   }
   return no_id;
 }
 
 }  // namespace detail
+
+/// The vertices of a tetrahedron, ascending; read from memory at once.
+struct alignas(16) Quad {
+  Id a, b, c, d;
+};
 
 /// Which simplices are numbered. Triangles need the edges.
 enum class Enumeration { tetrahedra, edges, triangles };
@@ -61,6 +67,8 @@ struct Simplices {
 
   Unmanaged<Id> lower_begin;  ///< vertex b -> where its edges (., b) begin in lower_edges
   Unmanaged<Id> lower_edges;  ///< the edges by their higher vertex, ascending
+
+  KOKKOS_FUNCTION Quad tetrahedron(Id t) const { return reinterpret_cast<const Quad*>(tetrahedra.data())[t]; }
 
   /// The edge (a, b), a < b; no_id if there is none.
   KOKKOS_FUNCTION Id edge_of(Id a, Id b) const { return detail::find_in(edge_high, edge_begin(a), edge_begin(a + 1), b); }

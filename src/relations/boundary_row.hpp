@@ -35,7 +35,7 @@ KOKKOS_INLINE_FUNCTION BoundaryRow<boundary_size(relation)> boundary_row(const S
     const Id edge = s.triangle_edge(simplex), apex = s.triangle_apex(simplex);
     return {{edge, s.edge_of(s.edge_low(edge), apex), s.edge_of(s.edge_high(edge), apex)}};
   } else {
-    const Id a = s.tetrahedra(simplex, 0), b = s.tetrahedra(simplex, 1), c = s.tetrahedra(simplex, 2), d = s.tetrahedra(simplex, 3);
+    const auto [a, b, c, d] = s.tetrahedron(simplex);
     if constexpr (relation == Relation::TV) {
       return {{a, b, c, d}};
     } else if constexpr (relation == Relation::TE) {

@@ -1,7 +1,6 @@
 #include <gale/relations/explicit_structure.hpp>
 
-#include <gale/base/error.hpp>
-#include <gale/relations/detail/global_links.hpp>
+#include <gale/relations/detail/global_relations.hpp>
 #include <gale/relations/detail/sweep.hpp>
 
 namespace gale {
@@ -9,55 +8,51 @@ namespace gale {
 struct ExplicitStructure::Data {
   Mesh mesh;
   RelationSet relations;
-  detail::GlobalStars stars;
-  detail::GlobalLinks links;
+  detail::GlobalRelations global;
 
-  Data(const Mesh& given, RelationSet wanted) : mesh(given), relations(wanted) {
-    const bool with_links = wanted.has(Relation::link);
-    stars = detail::global_stars(mesh, with_links || wanted.has(Relation::VV));
-    if (with_links) links = detail::global_links(mesh, stars);
-    if (!wanted.has(Relation::VV)) stars.vv = {};
-    if (!wanted.has(Relation::VT)) stars.vt.ids = {};
+  Data(const Mesh& given, RelationSet wanted) : mesh(given), relations(wanted), global(detail::global_relations(mesh, wanted)) {}
+
+  /// Rows of the simplices given; those of all lie together, so there is nothing to compute.
+  SegmentRows rows(RelationSet wanted, Id segment, const Intervals& simplices) const {
+    SegmentRows rows(segment, simplices);
+    for (int i = 0; i < relation_count; ++i) {
+      const auto relation = static_cast<Relation>(i);
+      if (wanted.has(relation) && relation != Relation::link) rows.set(relation, global.rows[i].rows());
+    }
+    if (wanted.has(Relation::link)) rows.set(global.links.rows(global.rows[static_cast<int>(Relation::VT)].offsets.data()));
+    return rows;
   }
 
-  /// The rows of the vertices first to last - 1; those of all lie together, so there is nothing to compute.
-  SegmentRows rows(RelationSet wanted, Id segment, Id first, Id last) const {
-    SegmentRows rows(segment, {Interval{first, last}});
-    if (wanted.has(Relation::VV)) rows.set(Relation::VV, stars.vv.rows());
-    if (wanted.has(Relation::VT)) rows.set(Relation::VT, stars.vt.rows());
-    if (wanted.has(Relation::link)) rows.set(links.rows(stars.vt.offsets.data()));
-    return rows;
+  Intervals intervals_of(Id segment) const {
+    Intervals intervals;
+    for (int dimension = 0; dimension < 4; ++dimension) {
+      const auto& begin = global.segment_begin[dimension];
+      if (begin.extent(0) != 0) intervals[dimension] = {begin(segment), begin(segment + 1)};
+    }
+    return intervals;
+  }
+
+  /// All simplices.
+  Intervals intervals() const {
+    Intervals intervals;
+    for (int dimension = 0; dimension < 4; ++dimension) {
+      if (global.count[dimension] != no_id) intervals[dimension] = {0, global.count[dimension]};
+    }
+    return intervals;
   }
 };
 
-namespace {
-
-void require_stars(RelationSet wanted) {
-  if (star_relations.contains(wanted)) return;
-  for (const Relation relation : members_of(wanted)) {
-    if (star_relations.has(relation)) continue;
-    throw Error("the explicit structure has " + name_of(star_relations) + ", not " + name_of(relation));
-  }
-}
-
-}  // namespace
-
-ExplicitStructure::ExplicitStructure(const Mesh& mesh, RelationSet wanted) {
-  require_stars(wanted);
-  data_ = std::make_unique<const Data>(mesh, wanted);
-}
-
+ExplicitStructure::ExplicitStructure(const Mesh& mesh, RelationSet wanted) : data_(std::make_unique<const Data>(mesh, wanted)) {}
 ExplicitStructure::~ExplicitStructure() = default;
 
 const Mesh& ExplicitStructure::mesh() const { return data_->mesh; }
 RelationSet ExplicitStructure::relations() const { return data_->relations; }
+Id ExplicitStructure::count(int dimension) const { return data_->global.count[dimension]; }
 
 void ExplicitStructure::for_each_segment(RelationSet wanted, const SweepOptions& options, const SegmentBody& body) {
   require_preconditioned(data_->relations, wanted);
-  const Id* const begin = data_->mesh.vertex_begin().data();
-  detail::sweep(data_->mesh.segments(), options, [&](int consumer, Id segment) {
-    body(consumer, data_->rows(wanted, segment, begin[segment], begin[segment + 1]));
-  });
+  detail::sweep(data_->mesh.segments(), options,
+                [&](int consumer, Id segment) { body(consumer, data_->rows(wanted, segment, data_->intervals_of(segment))); });
 }
 
 /// Loads once: all rows.
@@ -66,10 +61,11 @@ class ExplicitStructure::ExplicitConsumer : public Consumer {
   explicit ExplicitConsumer(const ExplicitStructure& structure) : structure_(structure) {}
 
  private:
-  SegmentRows load(Relation relation, Id vertex) override {
+  SegmentRows load(Relation relation, Id simplex) override {
     require_preconditioned(structure_.relations(), relation);
-    require_simplex(structure_.mesh(), 0, vertex);
-    return structure_.data_->rows(relation, no_id, 0, structure_.mesh().vertices());
+    const int dimension = row_dimension(relation);
+    require_simplex(structure_.count(dimension), dimension, simplex);
+    return structure_.data_->rows(relation, no_id, structure_.data_->intervals());
   }
 
   const ExplicitStructure& structure_;

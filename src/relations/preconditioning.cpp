@@ -29,8 +29,11 @@ void require_preconditioned(RelationSet preconditioned, RelationSet wanted) {
 }
 
 void require_simplex(const Mesh& mesh, int dimension, Id simplex) {
+  require_simplex(mesh.interval_begin(dimension)(mesh.segments()), dimension, simplex);
+}
+
+void require_simplex(Id count, int dimension, Id simplex) {
   static const char* const names[] = {"vertex", "edge", "triangle", "tetrahedron"};
-  const Id count = mesh.interval_begin(dimension)(mesh.segments());
   if (simplex >= 0 && simplex < count) return;
   throw Error("there is no " + std::string(names[dimension]) + ' ' + std::to_string(simplex) + ": the mesh has 0 to " + std::to_string(count - 1));
 }

@@ -14,4 +14,7 @@ void require_preconditioned(RelationSet preconditioned, RelationSet wanted);
 /// Throws gale::Error unless `simplex` is one of the mesh' of that dimension.
 void require_simplex(const Mesh& mesh, int dimension, Id simplex);
 
+/// Likewise where the number of them is known.
+void require_simplex(Id count, int dimension, Id simplex);
+
 }  // namespace gale

@@ -8,6 +8,13 @@ std::string name_of(Relation relation) {
   return names[static_cast<int>(relation)];
 }
 
+std::optional<Relation> relation_named(const std::string& name) {
+  for (const Relation relation : members_of(all_relations)) {
+    if (name_of(relation) == name) return relation;
+  }
+  return std::nullopt;
+}
+
 std::vector<Relation> members_of(RelationSet relations) {
   std::vector<Relation> members;
   for (int i = 0; i < relation_count; ++i) {

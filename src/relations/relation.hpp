@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,17 +17,23 @@ enum class Relation : std::uint8_t { EV, FV, FE, TV, TE, TF, VE, VF, VT, EF, ET,
 
 inline constexpr int relation_count = 17;
 
-namespace detail {
-inline constexpr signed char dimensions[relation_count][2] = {{1, 0}, {2, 0}, {2, 1}, {3, 0}, {3, 1}, {3, 2}, {0, 1}, {0, 2}, {0, 3},
-                                                              {1, 2}, {1, 3}, {2, 3}, {0, 0}, {1, 1}, {2, 2}, {3, 3}, {0, 3}};
+/// Dimension of the X of a relation XY, of which it has a row each.
+KOKKOS_FUNCTION constexpr int row_dimension(Relation relation) {
+  constexpr signed char dimensions[relation_count] = {1, 2, 2, 3, 3, 3, 0, 0, 0, 1, 1, 2, 0, 1, 2, 3, 0};
+  return dimensions[static_cast<int>(relation)];
 }
 
-/// Dimension of the X of a relation XY, of which it has a row each; of its Y, which are the rows' entries.
-KOKKOS_FUNCTION constexpr int row_dimension(Relation relation) { return detail::dimensions[static_cast<int>(relation)][0]; }
-KOKKOS_FUNCTION constexpr int entry_dimension(Relation relation) { return detail::dimensions[static_cast<int>(relation)][1]; }
+/// Dimension of its Y, which are the rows' entries.
+KOKKOS_FUNCTION constexpr int entry_dimension(Relation relation) {
+  constexpr signed char dimensions[relation_count] = {0, 0, 1, 0, 1, 2, 1, 2, 3, 2, 3, 3, 0, 1, 2, 3, 3};
+  return dimensions[static_cast<int>(relation)];
+}
 
 /// "VV"
 std::string name_of(Relation relation);
+
+/// The relation of a name; nothing for any other.
+std::optional<Relation> relation_named(const std::string& name);
 
 /// A set of relations, a value.
 class RelationSet {

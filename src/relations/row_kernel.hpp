@@ -1,12 +1,13 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include <gale/base/team.hpp>
 #include <gale/mesh/simplices.hpp>
 #include <gale/relations/block_pool.hpp>
-#include <gale/relations/detail/ranking.hpp>
 #include <gale/relations/detail/row_entries.hpp>
+#include <gale/relations/detail/row_stash.hpp>
 #include <gale/relations/rows.hpp>
 
 namespace gale {
@@ -14,9 +15,9 @@ namespace gale {
 /// Computes one relation other than VV, VT and link for one segment a team: the rows of the simplices that are internal to it, compact and
 /// ascending.
 ///
-///     a lane a row: count its entries
+///     a lane a row: find its entries, count them, and keep the first few
 ///     scan; reserve the block
-///     a lane a row: write them
+///     a lane a row: write them, found again if there were more
 ///
 /// A segment of more rows than `sizes` says, or for whose block the pool has no room, is left out, as StarKernel does.
 template <Relation relation, class Memory>
@@ -31,13 +32,15 @@ class RowKernel {
 
   const char* label() const;
 
-  static std::size_t scratch_bytes(const StarSizes& sizes, int /*warps*/) { return sizeof(Shared) + (std::size_t(sizes.rows) + 1) * sizeof(Id); }
+  KOKKOS_FUNCTION static std::size_t scratch_bytes(const StarSizes& sizes, int /*warps*/) {
+    return sizeof(Shared) + (std::size_t(sizes.rows) * (1 + Stash::capacity_for(sizes.rows)) + 1) * sizeof(Id);
+  }
 
   template <class Team>
   KOKKOS_FUNCTION void operator()(const Team& team) const {
-    char* const memory = team::scratch(team, scratch_level, sizeof(Shared) + (std::size_t(sizes.rows) + 1) * sizeof(Id));
+    char* const memory = team::scratch(team, scratch_level, scratch_bytes(sizes, 1));
     Shared& shared = *reinterpret_cast<Shared*>(memory);
-    Id* const begin = reinterpret_cast<Id*>(memory + sizeof(Shared));
+    auto* const begin = reinterpret_cast<std::uint32_t*>(memory + sizeof(Shared));
     const Id segment = segments[team.league_rank()];
     const Id first = first_of(vertex_begin(segment)), rows = first_of(vertex_begin(segment + 1)) - first;
     Offset* const entry = pool.directory + team.league_rank();
@@ -48,21 +51,35 @@ class RowKernel {
       });
       return;
     }
-    team::for_all(team, rows, [&](Id row) { begin[row] = detail::count_entries<relation>(simplices, first + row); });
+    const Stash stash(reinterpret_cast<Id*>(begin) + sizes.rows + 1, sizes.rows);
+    team::for_all(team, rows, [&](Id row) { begin[row] = static_cast<std::uint32_t>(count(first + row, stash, row)); });
     team::exclusive_scan(team, rows, begin);
-    team::once(team, [&] { *entry = shared.block = pool.reserve(team, BlockLayout::words(rows, begin[rows])); });
+    team::once(team, [&] { shared.overflows = 0; });
+    team::barrier(team);
+    team::for_all(team, rows, [&](Id row) {
+      if (begin[row + 1] > most_entries) shared.overflows = 1;  // the first that is too many hasn't wrapped around yet
+    });
+    team::barrier(team);
+    team::once(team, [&] {
+      shared.block = shared.overflows ? BlockPool::missing : pool.reserve(team, BlockLayout::words(rows, begin[rows]));
+      *entry = shared.overflows ? BlockPool::uncountable : shared.block;
+    });
     team::barrier(team);
     if (shared.block == BlockPool::missing) return;
     Id* const offsets = pool.words + shared.block;
     Id* const ids = offsets + rows + 1;
-    team::for_all(team, rows + 1, [&](Id row) { offsets[row] = begin[row]; });
-    team::for_all(team, rows, [&](Id row) { write_row(first + row, ids + begin[row], begin[row + 1] - begin[row]); });
+    team::for_all(team, rows + 1, [&](Id row) { offsets[row] = static_cast<Id>(begin[row]); });
+    team::for_all(team, rows, [&](Id row) { write(first + row, stash, row, ids + begin[row], static_cast<Id>(begin[row + 1] - begin[row])); });
   }
 
  private:
+  static constexpr std::uint32_t most_entries = 2147483647;  ///< that an Id counts
+
+  using Stash = detail::RowStash<relation, is_device_memory<Memory>>;
+
   struct Shared {
     Offset block;
-    Offset padding;
+    Offset overflows;  ///< the sum of all counts is no Id
   };
 
   /// The first simplex of the rows' dimension that begins with a vertex or a later one.
@@ -74,27 +91,20 @@ class RowKernel {
     if constexpr (dimension == 3) return simplices.tetrahedron_begin(vertex);
   }
 
-  KOKKOS_FUNCTION void write_row(Id simplex, Id* row, Id count) const {
-    Id* next = row;
-    if constexpr (detail::visits_in_order(relation)) {
-      detail::for_each_entry<relation>(simplices, simplex, [&](Id id) { *next++ = id; });
-    } else if (count <= few) {
-      Id ids[few];
-      Id placed = 0;
-      detail::for_each_entry<relation>(simplices, simplex, [&](Id id) {
-        Id at = placed++;
-        for (; at > 0 && ids[at - 1] > id; --at) ids[at] = ids[at - 1];
-        ids[at] = id;
-      });
-      for (Id i = 0; i < count; ++i) row[i] = ids[i];
-    } else {
-      detail::for_each_entry<relation>(simplices, simplex, [&](Id id) { *next++ = id; });
-      detail::heap_sort(row, count);
-    }
+  KOKKOS_FUNCTION Id count(Id simplex, const Stash& stash, Id row) const {
+    if (stash.capacity() == 0) return detail::count_entries<relation>(simplices, simplex);
+    Id entries = 0;
+    detail::for_each_entry<relation>(simplices, simplex, [&](Id id) { stash.add(row, entries++, id); });
+    return entries;
   }
 
-  /// So many entries are put in order in a lane's own memory.
-  static constexpr Id few = 32;
+  KOKKOS_FUNCTION void write(Id simplex, const Stash& stash, Id row, Id* out, Id count) const {
+    if (count <= stash.capacity()) {
+      stash.read(row, count, out);
+    } else {
+      detail::write_entries<relation>(simplices, simplex, out, count);
+    }
+  }
 };
 
 template <Relation relation, class Memory>

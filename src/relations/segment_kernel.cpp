@@ -2,6 +2,7 @@
 
 #include <variant>
 
+#include <gale/base/require_ids.hpp>
 #include <gale/relations/launch.hpp>
 #include <gale/relations/preconditioning.hpp>
 #include <gale/relations/row_kernel.hpp>
@@ -54,6 +55,18 @@ std::vector<RelationSet> kernels_for(RelationSet relations) {
   for (const Relation relation : members_of(relations - star_relations)) kernels.push_back(relation);
   if (!(relations & star_relations).empty()) kernels.push_back(relations & star_relations);
   return kernels;
+}
+
+bool are_there(RelationSet wanted, const Id* segments, const Offset* directory, std::size_t count) {
+  bool all = true;
+  const std::size_t relations = wanted.count();
+  for (std::size_t i = 0; i < count * relations; ++i) {
+    if (directory[i] == BlockPool::uncountable) {
+      throw Error("segment " + std::to_string(segments[i / relations]) + " has more than 2147483647 entries of " + name_of(wanted) + ": use smaller segments");
+    }
+    all &= directory[i] != BlockPool::missing;
+  }
+  return all;
 }
 
 template <class Memory>
@@ -117,7 +130,9 @@ StarSizes SegmentKernel<Memory>::bound(Id segment) const {
   };
   if (star_relations.contains(any_->wanted)) {
     const auto& external = any_->mesh.external_begin();
-    return StarKernel<Memory>::bound(rows(0), rows(3), external(segment + 1) - external(segment));
+    const Offset touching = external(segment + 1) - external(segment);
+    require_ids("corners of tetrahedra in one segment", 4 * Offset(rows(3)) + 3 * touching);
+    return StarKernel<Memory>::bound(rows(0), rows(3), touching);
   }
   return {rows(row_dimension(members_of(any_->wanted).front())), 0, 0, 0};
 }
@@ -128,9 +143,9 @@ std::size_t SegmentKernel<Memory>::scratch_bytes(const StarSizes& sizes, int war
 }
 
 template <class Memory>
-void SegmentKernel<Memory>::launch(const ProducerSpace& instance, const KernelTask& task, int teams, int warps) {
+void SegmentKernel<Memory>::launch(const ProducerSpace& instance, const KernelTask& task, int teams, TeamShape shape) {
   any_->set(task);
-  if constexpr (std::is_same_v<Memory, ProducerMemory>) any_->visit([&](const auto& kernel) { gale::launch(instance, kernel, teams, warps); });
+  if constexpr (std::is_same_v<Memory, ProducerMemory>) any_->visit([&](const auto& kernel) { gale::launch(instance, kernel, teams, shape); });
 }
 
 template <class Memory>

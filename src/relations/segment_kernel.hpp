@@ -5,12 +5,17 @@
 
 #include <gale/mesh/mesh.hpp>
 #include <gale/relations/block_pool.hpp>
+#include <gale/relations/launch.hpp>
 #include <gale/relations/relation.hpp>
 
 namespace gale {
 
 /// The sets of relations that one kernel computes together: the members of star_relations, and each other one by itself. In the order of `Relation`.
 std::vector<RelationSet> kernels_for(RelationSet relations);
+
+/// Are all the blocks of a batch there, as its directory says (see BlockPool)? Throws gale::Error, naming the segment, if one has more entries than an
+/// Id counts.
+bool are_there(RelationSet wanted, const Id* segments, const Offset* directory, std::size_t count);
 
 /// What a kernel is run on.
 struct KernelTask {
@@ -39,7 +44,7 @@ class SegmentKernel {
   std::size_t scratch_bytes(const StarSizes& sizes, int warps) const;
 
   /// On `teams` teams of the producers' space (see `launch`).
-  void launch(const ProducerSpace& instance, const KernelTask& task, int teams, int warps);
+  void launch(const ProducerSpace& instance, const KernelTask& task, int teams, TeamShape shape);
 
   /// On the calling thread, for the one segment of `task`, in `scratch`. Only in host memory.
   void run(const KernelTask& task, char* scratch);

@@ -29,6 +29,20 @@ TEST(RelationSet, contains_subsets) {
   EXPECT_FALSE(star_relations.contains(Relation::VV | Relation::EV));
 }
 
+TEST(Relation, has_the_dimensions_that_its_name_says) {
+  const std::string letters = "VEFT";
+  for (const Relation relation : members_of(all_relations - Relation::link)) {
+    const std::string name = name_of(relation);
+    EXPECT_EQ(row_dimension(relation), static_cast<int>(letters.find(name[0]))) << name;
+    EXPECT_EQ(entry_dimension(relation), static_cast<int>(letters.find(name[1]))) << name;
+    EXPECT_EQ(boundary_relations.has(relation), row_dimension(relation) > entry_dimension(relation)) << name;
+    EXPECT_EQ(coboundary_relations.has(relation), row_dimension(relation) < entry_dimension(relation)) << name;
+    EXPECT_EQ(adjacency_relations.has(relation), row_dimension(relation) == entry_dimension(relation)) << name;
+  }
+  EXPECT_EQ(row_dimension(Relation::link), 0);
+  EXPECT_EQ(entry_dimension(Relation::link), 3);
+}
+
 TEST(RelationNames, are_those_of_the_literature) {
   EXPECT_EQ(name_of(Relation::EV), "EV");
   EXPECT_EQ(name_of(Relation::TT), "TT");

@@ -8,34 +8,13 @@
 #include <gale/relations/host_producer.hpp>
 #include <gale/runtime/runtime.hpp>
 
+#include "runtime/ways.hpp"
 #include "support/brute_force.hpp"
 #include "support/every_mesh.hpp"
 
 namespace gale::test {
 
 namespace {
-
-/// Everything that can be told apart about how a runtime works.
-struct Way {
-  const char* name;
-  RuntimeOptions options;
-};
-
-std::vector<Way> ways() {
-  std::vector<Way> all(4);
-  all[0].name = "consumers";
-  all[0].options.production = Production::consumers;
-  all[1].name = "leaders";
-  all[1].options.production = Production::leaders;
-  all[2].name = "leaders, a queue for each relation, a tiny budget";
-  all[2].options.production = Production::leaders;
-  all[2].options.queues = Queues::per_relation;
-  all[2].options.host_memory = 16384;
-  all[3].name = "leaders, one segment a request";
-  all[3].options.production = Production::leaders;
-  all[3].options.blocks_per_request = all[3].options.threads_per_block = 1;
-  return all;
-}
 
 /// Expects the rows that a consumer gives for one vertex, in VV, VT and link.
 testing::AssertionResult rows_match(Consumer& consumer, const ExpectedRows& expected, Id v) {

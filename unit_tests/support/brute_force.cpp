@@ -2,58 +2,36 @@
 
 #include <algorithm>
 #include <map>
-#include <sstream>
 
 namespace gale::test {
 
 namespace {
 
-std::ostream& operator<<(std::ostream& out, const std::array<Id, 3>& three) {
-  return out << '(' << three[0] << ' ' << three[1] << ' ' << three[2] << ')';
+/// The subsets of a size, as sorted lists.
+std::set<std::vector<Id>> subsets(const std::vector<Id>& set, std::size_t size) {
+  std::set<std::vector<Id>> found;
+  for (unsigned members = 0; members < 1u << set.size(); ++members) {
+    std::vector<Id> subset;
+    for (std::size_t i = 0; i < set.size(); ++i) {
+      if (members >> i & 1) subset.push_back(set[i]);
+    }
+    if (subset.size() == size) found.insert(subset);
+  }
+  return found;
 }
 
-template <class T>
-std::string listed(const std::vector<T>& entries) {
-  std::ostringstream text;
-  text << entries.size() << " entries:";
-  for (const T& entry : entries) text << ' ' << entry;
-  return text.str();
-}
-
-template <class T>
-testing::AssertionResult same(const char* relation, Id vertex, const std::vector<T>& row,
-                              const std::vector<T>& expected) {
-  if (row == expected) return testing::AssertionSuccess();
-  return testing::AssertionFailure() << relation << " of vertex " << vertex << " has " << listed(row)
-                                     << "\n  and should have " << listed(expected);
-}
-
-std::vector<Id> copy_of(const Row& row) { return {row.begin(), row.end()}; }
-
-std::vector<std::array<Id, 3>> copy_of(const LinkRow& row) {
-  std::vector<std::array<Id, 3>> copy;
-  for (Id i = 0; i < row.size(); ++i) copy.push_back({row(i, 0), row(i, 1), row(i, 2)});
-  return copy;
-}
-
-/// Ascending, after a permutation.
-std::vector<Id> renumbered(const std::set<Id>& ids, const std::vector<Id>& permutation) {
-  std::vector<Id> row;
-  for (const Id id : ids) row.push_back(permutation[id]);
-  std::sort(row.begin(), row.end());
-  return row;
-}
-
-std::vector<Id> inverse_of(const Array<const Id, HostMemory>& permutation) {
-  std::vector<Id> inverse(permutation.extent(0), no_id);
-  for (std::size_t i = 0; i < inverse.size(); ++i) inverse.at(permutation(i)) = static_cast<Id>(i);
-  return inverse;
+BruteForce::Table transposed(const BruteForce::Table& table, std::size_t columns) {
+  BruteForce::Table result(columns);
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    for (const Id j : table[i]) result.at(j).push_back(static_cast<Id>(i));
+  }
+  return result;
 }
 
 }  // namespace
 
 BruteForce::BruteForce(const InputMesh& mesh)
-    : vv(mesh.points.size()), vt(mesh.points.size()), on_boundary(mesh.points.size()) {
+    : vv(mesh.points.size()), vt(mesh.points.size()), on_boundary(mesh.points.size()), tetrahedra_(mesh.tetrahedra) {
   std::map<std::set<Id>, int> tetrahedra_of_triangle;
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
     const std::set<Id> corners(mesh.tetrahedra[t].begin(), mesh.tetrahedra[t].end());
@@ -71,43 +49,75 @@ BruteForce::BruteForce(const InputMesh& mesh)
   }
 }
 
+const BruteForce::Table& BruteForce::simplices(int dimension) const {
+  if (simplices_[dimension].empty()) find_simplices(dimension);
+  return simplices_[dimension];
+}
+
+void BruteForce::find_simplices(int dimension) const {
+  Table& found = simplices_[dimension];
+  if (dimension == 0) {
+    for (std::size_t v = 0; v < vv.size(); ++v) found.push_back({static_cast<Id>(v)});
+  } else if (dimension == 3) {
+    for (auto corners : tetrahedra_) {
+      std::sort(corners.begin(), corners.end());
+      found.emplace_back(corners.begin(), corners.end());
+    }
+  } else {
+    std::set<std::vector<Id>> distinct;
+    for (const auto& tetrahedron : simplices(3)) distinct.merge(subsets(tetrahedron, dimension + 1));
+    found.assign(distinct.begin(), distinct.end());
+  }
+}
+
+const BruteForce::Table& BruteForce::rows(Relation relation) const {
+  const int x = row_dimension(relation), y = entry_dimension(relation);
+  Table& table = rows_[static_cast<int>(relation)];
+  if (!table.empty()) return table;
+  if (relation == Relation::VV || relation == Relation::VT) {
+    for (const auto& row : relation == Relation::VV ? vv : vt) table.emplace_back(row.begin(), row.end());
+  } else {
+    table = x > y ? parts(x, y) : x < y ? transposed(parts(y, x), simplices(x).size()) : neighbours(x);
+  }
+  return table;
+}
+
+/// The simplices of a lower dimension whose vertices each simplex has.
+BruteForce::Table BruteForce::parts(int dimension, int part_dimension) const {
+  std::map<std::vector<Id>, Id> number;
+  for (const auto& part : simplices(part_dimension)) number.emplace(part, static_cast<Id>(number.size()));
+  Table table;
+  for (const auto& simplex : simplices(dimension)) {
+    table.emplace_back();
+    for (const auto& part : subsets(simplex, part_dimension + 1)) table.back().push_back(number.at(part));
+    std::sort(table.back().begin(), table.back().end());
+  }
+  return table;
+}
+
+/// The simplices that share one of the next lower dimension with each.
+BruteForce::Table BruteForce::neighbours(int dimension) const {
+  const Table meetings = transposed(parts(dimension, dimension - 1), simplices(dimension - 1).size());
+  Table table(simplices(dimension).size());
+  for (const auto& together : meetings) {
+    for (const Id a : together) {
+      for (const Id b : together) {
+        if (a != b) table[a].push_back(b);
+      }
+    }
+  }
+  for (auto& row : table) {
+    std::sort(row.begin(), row.end());
+    row.erase(std::unique(row.begin(), row.end()), row.end());
+  }
+  return table;
+}
+
 const BruteForce& brute_force_of(const std::string& mesh_name) {
   static std::map<std::string, BruteForce> known;
   const auto found = known.find(mesh_name);
   if (found != known.end()) return found->second;
   return known.emplace(mesh_name, BruteForce(mesh_named(mesh_name))).first->second;
-}
-
-ExpectedRows::ExpectedRows(const InputMesh& input, const BruteForce& brute_force, const Mesh& mesh)
-    : vv(input.points.size()), vt(input.points.size()), link(input.points.size()) {
-  const auto vertex_internal = inverse_of(mesh.vertex_input());
-  const auto tetrahedron_internal = inverse_of(mesh.tetrahedron_input());
-  for (Id input_vertex = 0; input_vertex < input.vertices(); ++input_vertex) {
-    const Id v = vertex_internal[input_vertex];
-    vv[v] = renumbered(brute_force.vv[input_vertex], vertex_internal);
-    vt[v] = renumbered(brute_force.vt[input_vertex], tetrahedron_internal);
-    std::map<Id, Id> place;
-    for (const Id neighbour : vv[v]) place.emplace(neighbour, static_cast<Id>(place.size()));
-    for (const Id t : vt[v]) {
-      std::set<Id> places;
-      for (const Id corner : input.tetrahedra[mesh.tetrahedron_input()(t)]) {
-        if (corner != input_vertex) places.insert(place.at(vertex_internal[corner]));
-      }
-      link[v].emplace_back();
-      std::copy(places.begin(), places.end(), link[v].back().begin());
-    }
-  }
-}
-
-testing::AssertionResult ExpectedRows::match(const SegmentRows& rows, RelationSet wanted) const {
-  for (Id v = rows.first(); v < rows.last(); ++v) {
-    testing::AssertionResult result = testing::AssertionSuccess();
-    if (wanted.has(Relation::VV)) result = same("VV", v, copy_of(rows[Relation::VV][v]), vv[v]);
-    if (result && wanted.has(Relation::VT)) result = same("VT", v, copy_of(rows[Relation::VT][v]), vt[v]);
-    if (result && wanted.has(Relation::link)) result = same("link", v, copy_of(rows.links()[v]), link[v]);
-    if (!result) return result << "\n  in segment " << rows.segment();
-  }
-  return testing::AssertionSuccess();
 }
 
 }  // namespace gale::test

@@ -2,34 +2,80 @@
 
 #include <gtest/gtest.h>
 
-#include <set>
-
+#include <array>
 #include <gale/relations/segment_rows.hpp>
+#include <set>
+#include <vector>
 
+#include "support/expected_simplices.hpp"
 #include "support/input_mesh.hpp"
 
 namespace gale::test {
 
-/// What touches what, from the input alone, by sets and maps; in input ids.
-struct BruteForce {
+/// What touches what, from the input alone, by sets and maps; in input ids. Edges and triangles, which have none, are
+/// numbered as they are found.
+class BruteForce {
+ public:
+  using Table = std::vector<std::vector<Id>>;  ///< ascending ids, by simplex
+
   std::vector<std::set<Id>> vv, vt;
   std::vector<std::uint8_t> on_boundary;  ///< per vertex: 1 if some triangle of it has exactly one tetrahedron
 
   explicit BruteForce(const InputMesh& mesh);
+
+  /// The vertices of all simplices of a dimension. Found at the first call; this and `rows` by one thread at a time.
+  const Table& simplices(int dimension) const;
+
+  /// The rows of any relation but link. Likewise.
+  const Table& rows(Relation relation) const;
+
+ private:
+  void find_simplices(int dimension) const;
+  Table parts(int dimension, int part_dimension) const;
+  Table neighbours(int dimension) const;
+
+  std::vector<std::array<Id, 4>> tetrahedra_;
+  mutable std::array<Table, 4> simplices_;
+  mutable std::array<Table, relation_count - 1> rows_;
 };
 
 /// The same of one of `mesh_names()`; computed at the first call.
 const BruteForce& brute_force_of(const std::string& mesh_name);
 
-/// What the rows of a mesh must be, in GALE's ids. It trusts the mesh' permutations and nothing else of it.
-struct ExpectedRows {
-  std::vector<std::vector<Id>> vv, vt;
-  std::vector<std::vector<std::array<Id, 3>>> link;
+/// What the rows of a mesh must be, in GALE's ids. It trusts the mesh' permutations and vertex_begin(), which
+/// mesh_test.cpp checks, and nothing else of it.
+class ExpectedRows {
+ public:
+  using Table = BruteForce::Table;
+  using Links = std::vector<std::vector<std::array<Id, 3>>>;
 
-  ExpectedRows(const InputMesh& input, const BruteForce& brute_force, const Mesh& mesh);
+  /// Those of `relations` alone.
+  ExpectedRows(const InputMesh& input, const BruteForce& brute_force, const Mesh& mesh,
+               RelationSet relations = star_relations);
+  ExpectedRows(const ExpectedRows&) = delete;
+  ExpectedRows& operator=(const ExpectedRows&) = delete;
 
-  /// Are these the rows of the segment's vertices, in the relations wanted? Says where they aren't.
+  const Table& operator[](Relation relation) const { return rows_[static_cast<int>(relation)]; }
+
+  /// Are these the rows of the segment's simplices, in the relations wanted, and are the simplices it says it has those
+  /// whose lowest vertex it holds? Says where they aren't. By any number of threads.
   testing::AssertionResult match(const SegmentRows& rows, RelationSet wanted) const;
+
+  /// Is this the row of a simplex?
+  testing::AssertionResult match(Relation relation, Id simplex, const Row& row) const;
+  testing::AssertionResult match(Id vertex, const LinkRow& row) const;
+
+ private:
+  void find_links(const InputMesh& input, const BruteForce& brute_force, const Mesh& mesh);
+  testing::AssertionResult match_intervals(const SegmentRows& rows, RelationSet wanted) const;
+
+  ExpectedSimplices simplices_;
+  std::array<Table, relation_count - 1> rows_;
+
+ public:
+  const Table& vv = rows_[static_cast<int>(Relation::VV)];
+  const Table& vt = rows_[static_cast<int>(Relation::VT)];
+  Links link;
 };
 
 }  // namespace gale::test

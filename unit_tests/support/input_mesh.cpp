@@ -7,6 +7,8 @@
 #include <random>
 #include <set>
 
+#include "support/voxel_shapes.hpp"
+
 namespace gale::test {
 
 namespace {
@@ -31,6 +33,10 @@ InputMesh isolated_vertices() { return scattered(9, {{2, 7, 3, 5}, {5, 3, 6, 7}}
 
 InputMesh several_components() {
   return scattered(17, {{0, 4, 8, 12}, {4, 8, 12, 16}, {1, 5, 9, 13}, {15, 11, 7, 3}, {3, 11, 7, 2}, {2, 3, 7, 6}});
+}
+
+InputMesh seven_on_one_triangle() {
+  return scattered(10, {{9, 3, 0, 5}, {1, 3, 9, 5}, {3, 2, 5, 9}, {4, 9, 5, 3}, {5, 6, 3, 9}, {3, 5, 9, 7}, {9, 5, 8, 3}});
 }
 
 /// A strip of tetrahedra i, i+1, i+2, i+3, as thin as doubles allow, far from the origin.
@@ -71,6 +77,7 @@ const std::vector<std::pair<std::string, Maker>>& makers() {
       {"two_sharing_an_edge", [] { return scattered(6, {{4, 1, 5, 2}, {0, 3, 1, 2}}); }},
       {"two_sharing_a_vertex", [] { return scattered(7, {{4, 1, 5, 6}, {0, 3, 1, 2}}); }},
       {"three_on_one_triangle", [] { return scattered(6, {{0, 1, 2, 3}, {4, 2, 1, 0}, {1, 5, 0, 2}}); }},
+      {"seven_on_one_triangle", seven_on_one_triangle},
       {"the_papers", [] { return scattered(6, {{0, 1, 2, 3}, {0, 2, 3, 4}, {2, 3, 4, 5}}); }},
       {"several_components", several_components},
       {"isolated_vertices", isolated_vertices},
@@ -82,6 +89,9 @@ const std::vector<std::pair<std::string, Maker>>& makers() {
       {"cone_over_sphere_2000", [] { return cone_over_caps(2000, 2); }},
       {"cone_over_three_caps_100", [] { return cone_over_caps(100, 3); }},
       {"holed_grid_9", [] { return holed_grid(9); }},
+      {"ball", [] { return ball(3); }},
+      {"solid_torus", [] { return solid_torus(3); }},
+      {"thick_shell", [] { return thick_shell(3); }},
 #ifdef GALE_ENABLE_VTK
       {"delaunay_600", [] { return delaunay_mesh(600); }},
 #endif

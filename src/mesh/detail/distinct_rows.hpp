@@ -1,10 +1,9 @@
 #pragma once
 
-#include <limits>
 #include <string>
 
-#include <gale/base/error.hpp>
 #include <gale/base/parallel.hpp>
+#include <gale/base/require_ids.hpp>
 #include <gale/base/sort_rows.hpp>
 #include <gale/mesh/detail/few_distinct.hpp>
 
@@ -25,17 +24,10 @@ class LargeRows {
   using Offsets = Array<Offset, ProducerMemory>;
 
   /// Those whose count is FewDistinct::too_many. Replaces it by the number of distinct candidates.
-  LargeRows(const Ids& count, Id large, const Candidates& candidates) : rows_(allocate<Ids>("GALE::large_rows", large)) {
+  LargeRows(const Ids& count, Id large, const Candidates& candidates)
+      : rows_(allocate<Ids>("GALE::large_rows", large)), begin_(allocate<Offsets>("GALE::large_begin", large + Offset(1))) {
     find(count);
-    begin_ = allocate<Offsets>("GALE::large_begin", large + Offset(1));
-    const auto rows = rows_;
-    const Offset total = exclusive_scan(
-        "GALE::scan_candidates", ProducerSpace(), large, begin_, KOKKOS_LAMBDA(Offset i) {
-          Offset entries = 0;
-          candidates(rows(i), [&](Id) { ++entries; });
-          return entries;
-        });
-    values_ = allocate<Ids>("GALE::candidates", total);
+    values_ = allocate<Ids>("GALE::candidates", count_candidates(candidates));
     gather(candidates);
     sort_rows("GALE::sort_candidates", begin_, values_);
     write_counts(count);
@@ -57,6 +49,8 @@ class LargeRows {
         });
   }
 
+  // The steps of construction; nvcc wants them public, as their lambdas are kernels.
+
   void find(const Ids& count) {
     const auto place = allocate<Ids>("GALE::large_place", count.extent(0) + 1);
     const auto rows = rows_;
@@ -66,6 +60,16 @@ class LargeRows {
     parallel_for(
         "GALE::list_large_rows", ProducerSpace(), count.extent(0), KOKKOS_LAMBDA(Offset row) {
           if (place(row + 1) > place(row)) rows(place(row)) = static_cast<Id>(row);
+        });
+  }
+
+  Offset count_candidates(const Candidates& candidates) {
+    const auto rows = rows_;
+    return exclusive_scan(
+        "GALE::count_candidates", ProducerSpace(), rows.extent(0), begin_, KOKKOS_LAMBDA(Offset i) {
+          Offset entries = 0;
+          candidates(rows(i), [&](Id) { ++entries; });
+          return entries;
         });
   }
 
@@ -115,9 +119,7 @@ DistinctRows distinct_rows(const std::string& what, Offset rows, const Candidate
       "GALE::count_large", space, rows, KOKKOS_LAMBDA(Offset row) { return count(row) == FewDistinct::too_many ? 1 : 0; }));
   const LargeRows<Candidates> large_rows(count, large, candidates);
   const Offset total = reduce_sum("GALE::total_distinct", space, rows, KOKKOS_LAMBDA(Offset row) { return Offset(count(row)); });
-  if (total > std::numeric_limits<Id>::max()) {
-    throw Error("the mesh has " + std::to_string(total) + " " + what + ", too many: ids have 32 bits, at most 2147483647 fit");
-  }
+  require_ids(what, total);
   const DistinctRows result{allocate<Ids>("GALE::distinct_begin", rows + 1), allocate<Ids>("GALE::distinct", total),
                             allocate<Ids>("GALE::distinct_row", total)};
   exclusive_scan("GALE::scan_distinct", space, rows, result.begin, KOKKOS_LAMBDA(Offset row) { return count(row); });

@@ -26,6 +26,16 @@ void add_tables(const SimplexTables<Memory>& tables, Simplices<Memory>& view) {
   view.lower_edges = tables.lower_edges;
 }
 
+Array<Id, ProducerMemory> interval_begin_of(const Simplices<ProducerMemory>& simplices, const Array<Id, ProducerMemory>& vertex_begin, int dimension) {
+  const auto begin = allocate<Array<Id, ProducerMemory>>("GALE::interval_begin", vertex_begin.extent(0));
+  parallel_for(
+      "GALE::interval_begin", ProducerSpace(), begin.extent(0), KOKKOS_LAMBDA(Offset s) {
+        const Id edge = simplices.edge_begin(vertex_begin(s));
+        begin(s) = dimension == 1 ? edge : simplices.triangle_begin(edge);
+      });
+  return begin;
+}
+
 bool has(const Array<Id, ProducerMemory>& table) { return table.data() != nullptr; }
 
 }  // namespace
@@ -115,15 +125,7 @@ Simplices<HostMemory> SimplexStore::host_view() const {
 }
 
 void SimplexStore::publish_intervals(int dimension) {
-  const auto vertex_begin = mesh_.vertex_begin;
-  const auto simplices = producer_view();
-  const auto begin = allocate<Array<Id, ProducerMemory>>("GALE::interval_begin", vertex_begin.extent(0));
-  parallel_for(
-      "GALE::interval_begin", ProducerSpace(), begin.extent(0), KOKKOS_LAMBDA(Offset s) {
-        const Id edge = simplices.edge_begin(vertex_begin(s));
-        begin(s) = dimension == 1 ? edge : simplices.triangle_begin(edge);
-      });
-  intervals_[dimension - 1] = gale::on_host(begin);
+  intervals_[dimension - 1] = gale::on_host(interval_begin_of(producer_view(), mesh_.vertex_begin, dimension));
   published_intervals_[dimension - 1].store(&intervals_[dimension - 1], std::memory_order_release);
 }
 

@@ -5,6 +5,7 @@
 #include <gale/base/error.hpp>
 #include <gale/base/atomic.hpp>
 #include <gale/base/parallel.hpp>
+#include <gale/base/require_ids.hpp>
 #include <gale/mesh/detail/encode.hpp>
 
 namespace gale::detail {
@@ -80,9 +81,7 @@ template <class Index>
 void validate(const Tetrahedra<Index, ProducerMemory>& input, Offset vertices) {
   const Offset count = input.extent(0);
   if (count == 0) throw Error("the mesh has no tetrahedra");
-  if (count > std::numeric_limits<Id>::max()) {
-    throw Error(std::to_string(count) + " tetrahedra are too many: ids have 32 bits, at most 2147483647 fit");
-  }
+  require_ids("tetrahedra", count);
   const Offset bad = reduce_min(
       "GALE::validate_tetrahedra", ProducerSpace(), count, count,
       KOKKOS_LAMBDA(Offset t) { return is_bad(input, t, vertices) ? t : count; });

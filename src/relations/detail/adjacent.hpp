@@ -55,18 +55,20 @@ KOKKOS_INLINE_FUNCTION void for_each_adjacent_triangle(const Simplices<Memory>& 
 /// share (b, c, d).
 template <class Memory, class Visit>
 KOKKOS_INLINE_FUNCTION void for_each_adjacent_tetrahedron(const Simplices<Memory>& s, Id tetrahedron, const Visit& visit) {
-  const Id a = s.tetrahedra(tetrahedron, 0), b = s.tetrahedra(tetrahedron, 1), c = s.tetrahedra(tetrahedron, 2), d = s.tetrahedra(tetrahedron, 3);
-  const auto shares_one_with_a = [=](Id p, Id q, Id r, Id last) {
-    const int common = (q == b || r == b || last == b) + (q == c || r == c || last == c) + (q == d || r == d || last == d);
-    return common == 2 && (p == a || q == a);
+  const Quad own = s.tetrahedron(tetrahedron);
+  const Id a = own.a;
+  const auto shares_one_with_a = [own](const Quad& q) {
+    const int common = (q.b == own.b || q.c == own.b || q.d == own.b) + (q.b == own.c || q.c == own.c || q.d == own.c) +
+                       (q.b == own.d || q.c == own.d || q.d == own.d);
+    return common == 2 && (q.a == own.a || q.b == own.a);
   };
   const auto visit_from = [&](Id first) { for_each_tetrahedron_from(s, first, shares_one_with_a, visit); };
   for (Id i = s.lower_begin(a); i < s.lower_begin(a + 1); ++i) {
     const Id first = s.edge_low(s.lower_edges(i));
-    if (s.edge_of(first, b) != no_id || s.edge_of(first, c) != no_id) visit_from(first);
+    if (s.edge_of(first, own.b) != no_id || s.edge_of(first, own.c) != no_id) visit_from(first);
   }
   visit_from(a);
-  for_each_tetrahedron_of(s, b, c, d, [&](Id other) {
+  for_each_tetrahedron_of(s, own.b, own.c, own.d, [&](Id other) {
     if (other != tetrahedron) visit(other);
   });
 }

@@ -48,7 +48,7 @@ KOKKOS_INLINE_FUNCTION void for_each_triangle_of_edge(const Simplices<Memory>& s
 template <class Memory, class Wanted, class Visit>
 KOKKOS_INLINE_FUNCTION void for_each_tetrahedron_from(const Simplices<Memory>& s, Id first, const Wanted& wanted, const Visit& visit) {
   for (Id t = s.tetrahedron_begin(first); t < s.tetrahedron_begin(first + 1); ++t) {
-    if (wanted(s.tetrahedra(t, 0), s.tetrahedra(t, 1), s.tetrahedra(t, 2), s.tetrahedra(t, 3))) visit(t);
+    if (wanted(s.tetrahedron(t))) visit(t);
   }
 }
 
@@ -65,18 +65,14 @@ KOKKOS_INLINE_FUNCTION void for_each_first_vertex(const Simplices<Memory>& s, Id
 /// Calls visit(tetrahedron) for each tetrahedron that has the vertices a < b, ascending.
 template <class Memory, class Visit>
 KOKKOS_INLINE_FUNCTION void for_each_tetrahedron_of(const Simplices<Memory>& s, Id a, Id b, const Visit& visit) {
-  const auto has_both = [a, b](Id p, Id q, Id r, Id last) {
-    return (p == a || q == a || r == a) && (q == b || r == b || last == b);
-  };
+  const auto has_both = [a, b](const Quad& q) { return (q.a == a || q.b == a || q.c == a) && (q.b == b || q.c == b || q.d == b); };
   for_each_first_vertex(s, a, b, [&](Id first) { for_each_tetrahedron_from(s, first, has_both, visit); });
 }
 
 /// Calls visit(tetrahedron) for each tetrahedron that has the vertices a < b < c, ascending.
 template <class Memory, class Visit>
 KOKKOS_INLINE_FUNCTION void for_each_tetrahedron_of(const Simplices<Memory>& s, Id a, Id b, Id c, const Visit& visit) {
-  const auto has_all = [a, b, c](Id p, Id q, Id r, Id last) {
-    return (p == a || q == a) && (q == b || r == b) && (r == c || last == c);
-  };
+  const auto has_all = [a, b, c](const Quad& q) { return (q.a == a || q.b == a) && (q.b == b || q.c == b) && (q.c == c || q.d == c); };
   for_each_first_vertex(s, a, b, [&](Id first) { for_each_tetrahedron_from(s, first, has_all, visit); });
 }
 

@@ -33,11 +33,11 @@ void look_up(const EncodedMesh<HostMemory>& mesh, const Rows& vt, const Rows& vv
 
 }  // namespace
 
-GlobalLinks global_links(const Mesh& mesh, const GlobalStars& stars) {
-  const Rows vt = stars.vt.rows(), vv = stars.vv.rows();
+GlobalLinks global_links(const Mesh& mesh, const GlobalRows& vt_rows, const GlobalRows& vv_rows) {
+  const Rows vt = vt_rows.rows(), vv = vv_rows.rows();
   GlobalLinks links;
   links.width = width_for(longest_row(vv, mesh.vertices()));
-  const Offset entries = stars.vt.ids.extent(0);
+  const Offset entries = vt_rows.ids.extent(0);
   links.places = allocate<Array<std::uint8_t, HostMemory>>("GALE::link", 3 * entries * links.width);
   void* const places = links.places.data();
   if (links.width == 1) look_up(mesh.host(), vt, vv, mesh.vertices(), static_cast<std::uint8_t*>(places));

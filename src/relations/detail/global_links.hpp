@@ -1,6 +1,7 @@
 #pragma once
 
-#include <gale/relations/detail/global_rows.hpp>
+#include <gale/mesh/mesh.hpp>
+#include <gale/relations/detail/global_graph.hpp>
 
 namespace gale::detail {
 
@@ -14,6 +15,6 @@ struct GlobalLinks {
 };
 
 /// Looks the vertices of each tetrahedron up in the VV rows of the others, on all our threads.
-GlobalLinks global_links(const Mesh& mesh, const GlobalStars& stars);
+GlobalLinks global_links(const Mesh& mesh, const GlobalRows& vt, const GlobalRows& vv);
 
 }  // namespace gale::detail

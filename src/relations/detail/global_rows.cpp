@@ -1,7 +1,5 @@
 #include <gale/relations/detail/global_rows.hpp>
 
-#include <limits>
-
 #include <gale/base/error.hpp>
 
 // The one translation unit that includes Kokkos-Kernels: it takes long to compile.
@@ -19,7 +17,6 @@
 #endif
 
 #include <gale/base/parallel.hpp>
-#include <gale/base/transfer.hpp>
 #include <gale/base/sort_rows.hpp>
 
 namespace gale::detail {
@@ -51,100 +48,93 @@ using Scalars = Array<Scalar, ProducerMemory>;
 using Handle =
     KokkosKernels::Experimental::KokkosKernelsHandle<Offset, Id, Scalar, ProducerSpace, ProducerMemory, ProducerMemory>;
 
-/// A graph whose row i is ids[begin(i)] to ids[begin(i + 1) - 1]. The ids may be someone else's.
-struct Graph {
-  Offsets begin;
-  Ids owned;
+/// A graph as Kokkos-Kernels takes it.
+struct Matrix {
+  Id rows;
+  ConstOffsets begin;
   ConstIds ids;
 
-  Graph(const Offsets& row_begin, const ConstIds& of_others) : begin(row_begin), ids(of_others) {}
-  Graph(const Offsets& row_begin, const Ids& own) : begin(row_begin), owned(own), ids(own.data(), own.extent(0)) {}
-
-  Id rows() const { return static_cast<Id>(begin.extent(0)) - 1; }
+  explicit Matrix(const Graph& graph) : rows(graph.rows), begin(row_begin(graph)), ids(graph.ids) {}
 };
 
-Graph tetrahedron_vertices(const Mesh& mesh) {
-  const Offset rows = mesh.tetrahedra();
-  const auto begin = allocate<Offsets>("GALE::TV_begin", rows + 1);
-  parallel_for(
-      "GALE::TV_begin", ProducerSpace(), rows + 1, KOKKOS_LAMBDA(Offset t) { begin(t) = 4 * t; });
-  return {begin, ConstIds(mesh.producer().tetrahedra.data(), 4 * rows)};
-}
+/// XY and YX, and what the two steps of their product share.
+class Product {
+ public:
+  Product(const Graph& xy, const Graph& yx) : xy_(xy), yx_(yx) {
+    handle_.create_spgemm_handle(KokkosSparse::SPGEMM_KK);
+    handle_.get_spgemm_handle()->set_compression_cut_off(0);  // half the time and no memory for VV, whose ids are far apart; no loss for others
+  }
 
-Graph transpose(const Graph& graph, Id columns) {
-  const Offsets begin("GALE::VT_begin", columns + Offset(1));
-  const auto ids = allocate<Ids>("GALE::VT", graph.ids.extent(0));
-  transpose_graph<ConstOffsets, ConstIds, Offsets, Ids, Offsets, ProducerSpace>(graph.rows(), columns, graph.begin,
-                                                                                graph.ids, begin, ids);
-  sort_rows("GALE::VT_sort", begin, ids);
-  return {begin, ids};
-}
+  /// Where the rows begin.
+  Offsets symbolic() {
+    const auto begin = allocate<Offsets>("GALE::product_begin", xy_.rows + Offset(1));
+    spgemm_symbolic(&handle_, xy_.rows, yx_.rows, xy_.rows, xy_.begin, xy_.ids, false, yx_.begin, yx_.ids, false, begin);
+    return begin;
+  }
+
+  /// The rows, in no order. Kokkos-Kernels gives them along with values only.
+  Ids numeric(const Offsets& begin) {
+    const std::size_t entries = handle_.get_spgemm_handle()->get_c_nnz();
+    auto ids = allocate<Ids>("GALE::product", entries);
+    const Scalars factors("GALE::product_factors", xy_.ids.extent(0));  // as many in either
+    auto values = allocate<Scalars>("GALE::product_values", entries);
+    spgemm_numeric(&handle_, xy_.rows, yx_.rows, xy_.rows, xy_.begin, xy_.ids, factors, false, yx_.begin, yx_.ids, factors, false, begin, ids,
+                   values);
+    return ids;
+  }
+
+ private:
+  Matrix xy_, yx_;
+  Handle handle_;
+};
 
 /// The rows of `begin` without one entry in each that has any. Returns how many entries are left.
-Offset shorten_rows(const Offsets& begin, const Offsets& shorter) {
+Offset shorten_rows(const char* label, const Offsets& begin, const Offsets& shorter) {
   return exclusive_scan(
-      "GALE::VV_begin", ProducerSpace(), begin.extent(0) - 1, shorter,
-      KOKKOS_LAMBDA(Offset v) { return begin(v + 1) > begin(v) ? begin(v + 1) - begin(v) - 1 : Offset(0); });
+      label, ProducerSpace(), begin.extent(0) - 1, shorter,
+      KOKKOS_LAMBDA(Offset i) { return begin(i + 1) > begin(i) ? begin(i + 1) - begin(i) - 1 : Offset(0); });
 }
 
-Graph without_diagonal(const Graph& graph, const Offsets& begin, Offset entries) {
-  const auto ids = allocate<Ids>("GALE::VV", entries);
-  const auto from_begin = graph.begin;
-  const auto from = graph.ids;
+/// Copies each row of `from` but the entry that is the row's own number.
+void drop_diagonal(const char* label, const Offsets& from_begin, const Ids& from, const Offsets& begin, const Ids& ids) {
   parallel_for(
-      "GALE::VV", ProducerSpace(), graph.rows(), KOKKOS_LAMBDA(Offset v) {
-        Offset to = begin(v);
-        for (Offset i = from_begin(v); i < from_begin(v + 1); ++i) {
-          if (from(i) != v) ids(to++) = from(i);
+      label, ProducerSpace(), begin.extent(0) - 1, KOKKOS_LAMBDA(Offset row) {
+        Offset to = begin(row);
+        for (Offset i = from_begin(row); i < from_begin(row + 1); ++i) {
+          if (from(i) != row) ids(to++) = from(i);
         }
       });
-  return {begin, ids};
-}
-
-/// Which vertices share a tetrahedron.
-Graph neighbours(const Graph& vt, const Graph& tv) {
-  const Id vertices = vt.rows(), tetrahedra = tv.rows();
-  const ConstOffsets vt_begin = vt.begin, tv_begin = tv.begin;
-  Handle handle;
-  handle.create_spgemm_handle(KokkosSparse::SPGEMM_KK);
-  handle.get_spgemm_handle()->set_compression_cut_off(0);  // four far vertices don't compress: half the time, no memory
-  const auto begin = allocate<Offsets>("GALE::product_begin", vertices + Offset(1));
-  spgemm_symbolic(&handle, vertices, tetrahedra, vertices, vt_begin, vt.ids, false, tv_begin, tv.ids, false, begin);
-
-  const auto vv_begin = allocate<Offsets>("GALE::VV_begin", vertices + Offset(1));
-  const Offset entries = shorten_rows(begin, vv_begin);
-  require_countable(Relation::VV, entries);
-
-  const std::size_t product_entries = handle.get_spgemm_handle()->get_c_nnz();
-  auto ids = allocate<Ids>("GALE::product", product_entries);
-  const Scalars factors("GALE::product_factors", tv.ids.extent(0));
-  auto values = allocate<Scalars>("GALE::product_values", product_entries);
-  spgemm_numeric(&handle, vertices, tetrahedra, vertices, vt_begin, vt.ids, factors, false, tv_begin, tv.ids, factors,
-                 false, begin, ids, values);
-  const auto vv = without_diagonal({begin, ids}, vv_begin, entries);
-  sort_rows("GALE::VV_sort", vv.begin, vv.owned);
-  return vv;
-}
-
-GlobalRows to_host(const Graph& graph) {
-  const auto begin = graph.begin;
-  const auto offsets = allocate<Ids>("GALE::offsets", begin.extent(0));
-  parallel_for(
-      "GALE::offsets", ProducerSpace(), begin.extent(0),
-      KOKKOS_LAMBDA(Offset i) { offsets(i) = static_cast<Id>(begin(i)); });
-  return {on_host(offsets), on_host(graph.owned)};
 }
 
 }  // namespace
 
-GlobalStars global_stars(const Mesh& mesh, bool with_vv) {
-  require_countable(Relation::VT, 4 * Offset(mesh.tetrahedra()));
-  const Graph tv = tetrahedron_vertices(mesh);
-  const Graph vt = transpose(tv, mesh.vertices());
-  GlobalStars stars;
-  if (with_vv) stars.vv = to_host(neighbours(vt, tv));
-  stars.vt = to_host(vt);
-  return stars;
+void require_kokkos_kernels() {}
+
+Graph transpose(Relation relation, const Graph& boundary, Id rows) {
+  const std::string label = label_of(relation);
+  const Matrix matrix(boundary);
+  const Offsets begin(label + "_begin", rows + Offset(1));
+  const auto ids = allocate<Ids>(label, matrix.ids.extent(0));
+  transpose_graph<ConstOffsets, ConstIds, Offsets, Ids, Offsets, ProducerSpace>(matrix.rows, rows, matrix.begin, matrix.ids, begin, ids);
+  sort_rows((label + "_sort").c_str(), begin, ids);
+  return {rows, 0, begin, ids};
+}
+
+Graph neighbours(Relation relation, const Graph& xy, const Graph& yx) {
+  const std::string label = label_of(relation);
+  const auto begin = allocate<Offsets>(label + "_begin", xy.rows + Offset(1));
+  Ids ids;
+  {
+    Product product(xy, yx);
+    const Offsets with_diagonal = product.symbolic();
+    const Offset entries = shorten_rows((label + "_begin").c_str(), with_diagonal, begin);
+    require_countable(relation, entries);
+    const Ids unsorted = product.numeric(with_diagonal);
+    ids = allocate<Ids>(label, entries);
+    drop_diagonal(label.c_str(), with_diagonal, unsorted, begin, ids);
+  }
+  sort_rows((label + "_sort").c_str(), begin, ids);
+  return {xy.rows, 0, begin, ids};
 }
 
 }  // namespace gale::detail
@@ -153,23 +143,22 @@ GlobalStars global_stars(const Mesh& mesh, bool with_vv) {
 
 namespace gale::detail {
 
-GlobalStars global_stars(const Mesh&, bool) {
+void require_kokkos_kernels() {
   throw Error(
       "the explicit structure is computed with Kokkos-Kernels, which this GALE was built without: configure it with "
       "GALE_ENABLE_KOKKOS_KERNELS=ON");
 }
 
-}  // namespace gale::detail
+Graph transpose(Relation, const Graph&, Id) {
+  require_kokkos_kernels();
+  return {};
+}
 
-#endif
-
-namespace gale::detail {
-
-void require_countable(Relation relation, Offset entries) {
-  constexpr Offset most = std::numeric_limits<Id>::max();
-  if (entries <= most) return;
-  throw Error("the explicit structure can't hold the " + std::to_string(entries) + " entries of " + name_of(relation) +
-              ": at most " + std::to_string(most) + " fit");
+Graph neighbours(Relation, const Graph&, const Graph&) {
+  require_kokkos_kernels();
+  return {};
 }
 
 }  // namespace gale::detail
+
+#endif

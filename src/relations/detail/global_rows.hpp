@@ -1,30 +1,18 @@
 #pragma once
 
-#include <gale/mesh/mesh.hpp>
-#include <gale/relations/relation.hpp>
-#include <gale/relations/rows.hpp>
+#include <gale/relations/detail/global_graph.hpp>
+
+// What Kokkos-Kernels computes, in the producers' space. Where GALE was built without it, each of these throws gale::Error that says so.
 
 namespace gale::detail {
 
-/// The rows of all vertices, on the host.
-struct GlobalRows {
-  Array<Id, HostMemory> offsets;  ///< vertices + 1
-  Array<Id, HostMemory> ids;
+void require_kokkos_kernels();
 
-  Rows rows() const { return {0, offsets.data(), ids.data()}; }
-};
+/// The coboundary XY from the boundary YX: its transpose. Rows ascend. `rows`: how many X there are.
+Graph transpose(Relation relation, const Graph& boundary, Id rows);
 
-struct GlobalStars {
-  GlobalRows vt;
-  GlobalRows vv;  ///< empty unless wanted
-};
-
-/// VT of the whole mesh: the transpose of the graph TV; and VV: the symbolic product VT TV without its diagonal. By
-/// Kokkos-Kernels, in the producers' space. Throws gale::Error if a relation has more entries than an Id counts, before
-/// it takes memory for them; and where GALE was built without Kokkos-Kernels.
-GlobalStars global_stars(const Mesh& mesh, bool with_vv);
-
-/// Throws gale::Error, naming both, if a relation's entries are more than an Id counts.
-void require_countable(Relation relation, Offset entries);
+/// The adjacency XX from XY and YX: which X share a Y, none of them with itself. Rows ascend. While it works it takes 4 bytes an entry, 16 a row and
+/// what Kokkos-Kernels hashes with beside the result. Throws gale::Error if it has more entries than an Id counts, before it takes memory for them.
+Graph neighbours(Relation relation, const Graph& xy, const Graph& yx);
 
 }  // namespace gale::detail

@@ -9,7 +9,7 @@ namespace gale::detail {
 /// The scratch memory of one host thread, and a kernel that runs in it. It grows to what the largest segment so far has needed.
 class HostWorkspace {
  public:
-  HostWorkspace(const Mesh& mesh, RelationSet wanted) : kernel_(mesh, wanted), relations_(wanted.count()) {}
+  HostWorkspace(const Mesh& mesh, RelationSet wanted) : kernel_(mesh, wanted) {}
 
   RelationSet wanted() const { return kernel_.wanted(); }
 
@@ -25,10 +25,7 @@ class HostWorkspace {
       require(needed);
       *pool.used = used_before;
     }
-    for (int i = 0; i < relations_; ++i) {
-      if (pool.directory[i] == BlockPool::missing) return false;
-    }
-    return true;
+    return are_there(kernel_.wanted(), &segment, pool.directory, 1);
   }
 
  private:
@@ -39,7 +36,6 @@ class HostWorkspace {
   }
 
   SegmentKernel<HostMemory> kernel_;
-  int relations_;
   StarSizes sizes_;
   std::unique_ptr<char[]> scratch_;
 };

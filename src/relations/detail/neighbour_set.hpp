@@ -3,7 +3,7 @@
 #include <gale/base/team.hpp>
 #include <gale/base/types.hpp>
 #include <gale/relations/detail/ranking.hpp>
-#include <gale/relations/detail/star_scratch.hpp>
+#include <gale/relations/detail/hashed_star_scratch.hpp>
 
 namespace gale::detail {
 
@@ -12,7 +12,7 @@ template <class Team>
 class NeighbourSet {
  public:
   /// For a vertex of `tetrahedra` tetrahedra, with at most `slots` slots. To be called by all lanes, inside for_warps.
-  KOKKOS_FUNCTION NeighbourSet(const Team& team, const StarScratch& scratch, Id slots, Id tetrahedra)
+  KOKKOS_FORCEINLINE_FUNCTION NeighbourSet(const Team& team, const HashedStarScratch& scratch, Id slots, Id tetrahedra)
       : team_(team), warp_(scratch.warp), keys_(scratch.keys), places_(scratch.places), list_(scratch.list), ranks_(scratch.ranks) {
     while ((Id(1) << bits_) < 3 * tetrahedra && (Id(1) << bits_) < slots) ++bits_;
     team::for_lanes(team_, Id(1) << bits_, [&](Id slot) { keys_[slot] = no_id; });
@@ -21,7 +21,7 @@ class NeighbourSet {
   }
 
   /// By any lane.
-  KOKKOS_FUNCTION void insert(Id id) const {
+  KOKKOS_FORCEINLINE_FUNCTION void insert(Id id) const {
     const Id size = Id(1) << bits_;
     Id slot = first_slot(id);
     for (Id probe = 0; probe < size; ++probe) {
@@ -44,11 +44,11 @@ class NeighbourSet {
 
   // All below: after the warp has met again.
 
-  KOKKOS_FUNCTION bool overflows() const { return warp_->overflow != 0; }
-  KOKKOS_FUNCTION Id size() const { return warp_->count; }
+  KOKKOS_FORCEINLINE_FUNCTION bool overflows() const { return warp_->overflow != 0; }
+  KOKKOS_FORCEINLINE_FUNCTION Id size() const { return warp_->count; }
 
   /// Writes them to `row`, ascending; by all lanes, which see it afterwards.
-  KOKKOS_FUNCTION void write_ordered(Id* row) const {
+  KOKKOS_FORCEINLINE_FUNCTION void write_ordered(Id* row) const {
     rank(team_, list_, size(), [&](Id i, Id id, Id place) {
       row[place] = id;
       ranks_[i] = place;
@@ -56,7 +56,7 @@ class NeighbourSet {
   }
 
   /// Where in the row that write_ordered wrote a member stands; by any lane.
-  KOKKOS_FUNCTION Id place_of(Id id, const Id* row) const {
+  KOKKOS_FORCEINLINE_FUNCTION Id place_of(Id id, const Id* row) const {
     if (size() > counting_limit) return place_in(row, size(), id);
     Id slot = first_slot(id);
     while (keys_[slot] != id) slot = (slot + 1) & ((Id(1) << bits_) - 1);
@@ -64,7 +64,7 @@ class NeighbourSet {
   }
 
  private:
-  KOKKOS_FUNCTION Id first_slot(Id id) const {
+  KOKKOS_FORCEINLINE_FUNCTION Id first_slot(Id id) const {
     return static_cast<Id>((static_cast<std::uint32_t>(id) * 0x9E3779B1u) >> (32 - bits_));
   }
 

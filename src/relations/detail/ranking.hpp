@@ -8,14 +8,14 @@ namespace gale::detail {
 /// Up to so many entries a warp orders by counting, for each, those that are less; more, by a heap.
 inline constexpr Id counting_limit = 512;
 
-KOKKOS_INLINE_FUNCTION Id count_less(const Id* ids, Id count, Id than) {
+KOKKOS_FORCEINLINE_FUNCTION Id count_less(const Id* ids, Id count, Id than) {
   Id less = 0;
   for (Id i = 0; i < count; ++i) less += ids[i] < than ? 1 : 0;
   return less;
 }
 
 /// Place of `id` in an ascending row that has it.
-KOKKOS_INLINE_FUNCTION Id place_in(const Id* row, Id count, Id id) {
+KOKKOS_FORCEINLINE_FUNCTION Id place_in(const Id* row, Id count, Id id) {
   Id low = 0, high = count;
   while (low < high) {
     const Id middle = low + (high - low) / 2;
@@ -28,7 +28,7 @@ KOKKOS_INLINE_FUNCTION Id place_in(const Id* row, Id count, Id id) {
   return low;
 }
 
-KOKKOS_INLINE_FUNCTION void heap_sort(Id* ids, Id count) {
+KOKKOS_FORCEINLINE_FUNCTION void heap_sort(Id* ids, Id count) {
   const auto sift_down = [ids](Id root, Id end) {
     const Id id = ids[root];
     for (Id child = 2 * root + 1; child < end; child = 2 * root + 1) {
@@ -51,7 +51,7 @@ KOKKOS_INLINE_FUNCTION void heap_sort(Id* ids, Id count) {
 /// Inside for_warps: calls visit(i, id, place) with the place in ascending order that each of the distinct `ids` has; i counts them in the
 /// order in which they then stand. More than `counting_limit` are put in order first.
 template <class Team, class Visit>
-KOKKOS_INLINE_FUNCTION void rank(const Team& team, Id* ids, Id count, const Visit& visit) {
+KOKKOS_FORCEINLINE_FUNCTION void rank(const Team& team, Id* ids, Id count, const Visit& visit) {
   if (count > counting_limit) {
     team::once_per_warp(team, [&] { heap_sort(ids, count); });
     team::warp_barrier(team);

@@ -3,6 +3,7 @@
 #include <gale/relations/boundary_row.hpp>
 #include <gale/relations/detail/adjacent.hpp>
 #include <gale/relations/detail/cofaces.hpp>
+#include <gale/relations/detail/ranking.hpp>
 
 namespace gale::detail {
 
@@ -49,6 +50,28 @@ KOKKOS_INLINE_FUNCTION Id count_entries(const Simplices<Memory>& s, Id simplex) 
     Id count = 0;
     for_each_entry<relation>(s, simplex, [&](Id) { ++count; });
     return count;
+  }
+}
+
+/// Writes them to `row`, ascending.
+template <Relation relation, class Memory>
+KOKKOS_INLINE_FUNCTION void write_entries(const Simplices<Memory>& s, Id simplex, Id* row, Id count) {
+  constexpr Id few = 32;  // are put in order in a lane's own memory
+  if constexpr (visits_in_order(relation)) {
+    for_each_entry<relation>(s, simplex, [&](Id id) { *row++ = id; });
+  } else if (count <= few) {
+    Id ids[few];
+    Id placed = 0;
+    for_each_entry<relation>(s, simplex, [&](Id id) {
+      Id at = placed++;
+      for (; at > 0 && ids[at - 1] > id; --at) ids[at] = ids[at - 1];
+      ids[at] = id;
+    });
+    for (Id i = 0; i < count; ++i) row[i] = ids[i];
+  } else {
+    Id placed = 0;
+    for_each_entry<relation>(s, simplex, [&](Id id) { row[placed++] = id; });
+    heap_sort(row, count);
   }
 }
 

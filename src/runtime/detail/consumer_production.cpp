@@ -40,8 +40,11 @@ class RecentBlocks {
 
   bool has(Relation relation) const { return relations_.has(relation); }
 
-  const SegmentRows& rows_of(Id segment, ConsumerStatistics& statistics) {
+  /// Valid until the next call for the same relation.
+  const SegmentRows& rows_of(Relation relation, Id segment, ConsumerStatistics& statistics) {
+    for (Kept& one : kept_) one.readers = one.readers - relation;
     Kept& kept = find(segment, statistics);
+    kept.readers = kept.readers | relation;
     kept.last_use = ++now_;
     if (kept.rows.segment() == segment) {
       ++statistics.hits;
@@ -53,12 +56,13 @@ class RecentBlocks {
   }
 
  private:
-  /// More than relations that one kernel makes, so that the block read last of each stays valid.
+  /// More than relations that one kernel makes, of each of which the block read last stays.
   static constexpr std::size_t capacity = 32;
 
   struct Kept {
     CountingProducer producer;
     SegmentRows rows;
+    RelationSet readers;  ///< whose row was read here last
     std::int64_t last_use = 0;
   };
 
@@ -67,10 +71,10 @@ class RecentBlocks {
     Kept* oldest = nullptr;
     for (Kept& one : kept_) {
       if (one.rows.segment() == segment) return one;
-      if (oldest == nullptr || one.last_use < oldest->last_use) oldest = &one;
+      if (one.readers.empty() && (oldest == nullptr || one.last_use < oldest->last_use)) oldest = &one;
     }
     if (kept_.size() == capacity) return *oldest;
-    kept_.push_back({CountingProducer(mesh_, relations_, statistics), SegmentRows(), 0});
+    kept_.push_back({CountingProducer(mesh_, relations_, statistics), SegmentRows(), RelationSet(), 0});
     return kept_.back();
   }
 
@@ -96,7 +100,7 @@ class ProducingConsumer : public Consumer {
     if (boundary_relations.has(relation)) return boundary_.row(relation, simplex);
     const Id segment = mesh_.segment_of(row_dimension(relation), simplex);
     const auto has = [relation](const RecentBlocks& blocks) { return blocks.has(relation); };
-    return std::find_if(blocks_.begin(), blocks_.end(), has)->rows_of(segment, statistics_);
+    return std::find_if(blocks_.begin(), blocks_.end(), has)->rows_of(relation, segment, statistics_);
   }
 
  private:

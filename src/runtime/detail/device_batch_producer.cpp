@@ -84,8 +84,8 @@ class DeviceBatchProducer : public BatchProducer {
     arena.segments.assign(segments_copy_.data(), segments_copy_.data() + count_);
     arena.directory.assign(directory_copy_.data(), directory_copy_.data() + count_ * relations_);
     instance_.fence("GALE::batch_copied");
-    const bool missing = std::find(arena.directory.begin(), arena.directory.end(), BlockPool::missing) != arena.directory.end();
-    return {missing, header.used, header.needed};
+    const bool there = are_there(kernel_.wanted(), arena.segments.data(), arena.directory.data(), count_);
+    return {!there, header.used, header.needed};
   }
 
   void abandon() noexcept override {

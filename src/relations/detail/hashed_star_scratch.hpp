@@ -1,16 +1,9 @@
 #pragma once
 
 #include <gale/base/team.hpp>
-#include <gale/relations/block_pool.hpp>
+#include <gale/relations/detail/star_request.hpp>
 
 namespace gale::detail {
-
-/// What the warps of a team share while they compute the stars of a segment.
-struct StarShared {
-  StarSizes found;       ///< what this segment needs, as far as it is known
-  Id longest_star;       ///< most tetrahedra at one vertex
-  Offset vv, vt, link;   ///< where their blocks begin in the pool
-};
 
 /// What one warp works with while it computes the neighbours of one vertex.
 struct WarpShared {
@@ -20,8 +13,8 @@ struct WarpShared {
   Id padding;
 };
 
-/// The scratch memory of a team, divided.
-struct StarScratch {
+/// The scratch memory of a team that goes the way of HashedStars, divided.
+struct HashedStarScratch {
   StarShared* shared;
   Id* star_begin;   ///< rows + 1
   Id* filled;       ///< rows: entries of each star placed so far
@@ -35,20 +28,20 @@ struct StarScratch {
   Id* list;         ///< slots, of this warp
   Id* ranks;        ///< slots, of this warp
 
-  KOKKOS_INLINE_FUNCTION static std::size_t bytes(const StarSizes& sizes, int warps) {
+  KOKKOS_FORCEINLINE_FUNCTION static std::size_t bytes(const StarSizes& sizes, int warps) {
     const std::size_t ids = std::size_t(4) * (sizes.rows + 4) + rounded(sizes.star) + rounded(sizes.neighbours) +
                             std::size_t(4) * warps * rounded(sizes.slots);
-    return ids * sizeof(Id) + rounded(sizeof(StarShared), 16) + warps * sizeof(WarpShared);
+    return ids * sizeof(Id) + sizeof(StarShared) + warps * sizeof(WarpShared);
   }
 
-  KOKKOS_INLINE_FUNCTION StarScratch(char* memory, const StarSizes& sizes, int warps, int this_warp) {
+  KOKKOS_FORCEINLINE_FUNCTION HashedStarScratch(char* memory, const StarSizes& sizes, int warps, int this_warp) {
     const auto take = [&memory](std::size_t count) {
       char* const taken = memory;
       memory += count;
       return taken;
     };
     const auto take_ids = [&](std::size_t count) { return reinterpret_cast<Id*>(take(count * sizeof(Id))); };
-    shared = reinterpret_cast<StarShared*>(take(rounded(sizeof(StarShared), 16)));
+    shared = reinterpret_cast<StarShared*>(take(sizeof(StarShared)));
     warp = reinterpret_cast<WarpShared*>(take(warps * sizeof(WarpShared))) + this_warp;
     star_begin = take_ids(sizes.rows + 4);
     filled = take_ids(sizes.rows + 4);
@@ -64,7 +57,7 @@ struct StarScratch {
   }
 
  private:
-  KOKKOS_INLINE_FUNCTION static std::size_t rounded(std::size_t count, std::size_t to = 4) {
+  KOKKOS_FORCEINLINE_FUNCTION static std::size_t rounded(std::size_t count, std::size_t to = 4) {
     return (count + to - 1) / to * to;
   }
 };

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+
+#include <gale/base/kokkos.hpp>
+
+// What C++20 has in <bit>.
+
+namespace gale {
+
+KOKKOS_FORCEINLINE_FUNCTION int count_bits(std::uint32_t bits) {
+#if defined(__CUDA_ARCH__)
+  return __popc(bits);
+#else
+  return __builtin_popcount(bits);
+#endif
+}
+
+/// Place of the lowest bit that is set; one is.
+KOKKOS_FORCEINLINE_FUNCTION int lowest_bit(std::uint32_t bits) {
+#if defined(__CUDA_ARCH__)
+  return __ffs(static_cast<int>(bits)) - 1;
+#else
+  return __builtin_ctz(bits);
+#endif
+}
+
+/// Calls visit(place) for the bits that are set in `words` words of 32, `stride` apart, ascending. One loop over words and bits, so that lanes
+/// which go through different sets wait for the longest set only, not for the longest word each time.
+template <class Visit>
+KOKKOS_FORCEINLINE_FUNCTION void for_each_bit(const std::uint32_t* column, int stride, int words, const Visit& visit) {
+  std::uint32_t bits = 0;
+  for (int word = -1; bits != 0 || word + 1 < words;) {
+    if (bits == 0) bits = column[++word * stride];
+    if (bits != 0) visit(32 * word + lowest_bit(bits));
+    bits &= bits - 1;
+  }
+}
+
+}  // namespace gale

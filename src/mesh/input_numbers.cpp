@@ -1,0 +1,76 @@
+#include <gale/mesh/input_numbers.hpp>
+
+#include <gale/base/parallel.hpp>
+#include <gale/base/radix_sort.hpp>
+#include <gale/base/transfer.hpp>
+
+namespace gale {
+
+namespace {
+
+using Ids = Array<Id, ProducerMemory>;
+using Keys = Array<std::uint64_t, ProducerMemory>;
+
+KOKKOS_INLINE_FUNCTION std::uint64_t key_of(Id first, Id second) {
+  return std::uint64_t(static_cast<std::uint32_t>(first)) << 32 | static_cast<std::uint32_t>(second);
+}
+
+KOKKOS_INLINE_FUNCTION void order(Id& a, Id& b) {
+  if (b < a) {
+    const Id low = b;
+    b = a;
+    a = low;
+  }
+}
+
+/// The places that distinct keys have in order. Overwrites the keys.
+Ids places_of(const Keys& keys) {
+  const auto sorted = allocate<Ids>("GALE::input_order", keys.extent(0)), place = allocate<Ids>("GALE::input_numbers", keys.extent(0));
+  const ProducerSpace space;
+  parallel_for("GALE::input_order", space, keys.extent(0), KOKKOS_LAMBDA(Offset i) { sorted(i) = static_cast<Id>(i); });
+  stable_sort_by_key(keys, sorted);
+  parallel_for("GALE::input_numbers", space, keys.extent(0), KOKKOS_LAMBDA(Offset i) { place(sorted(i)) = static_cast<Id>(i); });
+  return place;
+}
+
+Ids edge_numbers(const Simplices<ProducerMemory>& simplices, const Array<const Id, ProducerMemory>& input) {
+  const auto keys = allocate<Keys>("GALE::edge_keys", simplices.edge_low.extent(0));
+  parallel_for(
+      "GALE::edge_keys", ProducerSpace(), keys.extent(0), KOKKOS_LAMBDA(Offset e) {
+        Id a = input(simplices.edge_low(e)), b = input(simplices.edge_high(e));
+        order(a, b);
+        keys(e) = key_of(a, b);
+      });
+  return places_of(keys);
+}
+
+Ids triangle_numbers(const Simplices<ProducerMemory>& simplices, const Array<const Id, ProducerMemory>& input) {
+  const auto edges = edge_numbers(simplices, input);
+  const auto keys = allocate<Keys>("GALE::triangle_keys", simplices.triangle_apex.extent(0));
+  parallel_for(
+      "GALE::triangle_keys", ProducerSpace(), keys.extent(0), KOKKOS_LAMBDA(Offset f) {
+        const Id edge = simplices.triangle_edge(f);
+        const Id vertices[3] = {simplices.edge_low(edge), simplices.edge_high(edge), simplices.triangle_apex(f)};
+        int last = 0;  // the corner whose input id is highest; the edge of the others comes first
+        for (int corner = 1; corner < 3; ++corner) {
+          if (input(vertices[corner]) > input(vertices[last])) last = corner;
+        }
+        const Id first_edge = simplices.edge_of(vertices[last == 0 ? 1 : 0], vertices[last == 2 ? 1 : 2]);
+        keys(f) = key_of(edges(first_edge), input(vertices[last]));
+      });
+  return places_of(keys);
+}
+
+}  // namespace
+
+Array<const Id, HostMemory> input_numbers(const Mesh& mesh, int dimension) {
+  if (dimension == 0) return mesh.vertex_input();
+  if (dimension == 3) return mesh.tetrahedron_input();
+  SimplexNeeds needs;
+  needs.upto = dimension == 1 ? Enumeration::edges : Enumeration::triangles;
+  const auto simplices = mesh.simplices_on_producer(needs);
+  const auto& input = mesh.vertex_input_on_producer();
+  return on_host(dimension == 1 ? edge_numbers(simplices, input) : triangle_numbers(simplices, input));
+}
+
+}  // namespace gale

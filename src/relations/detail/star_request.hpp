@@ -1,0 +1,107 @@
+#pragma once
+
+#include <gale/base/team.hpp>
+#include <gale/mesh/encoded_mesh.hpp>
+#include <gale/relations/block_pool.hpp>
+#include <gale/relations/detail/segment_tetrahedra.hpp>
+#include <gale/relations/relation.hpp>
+#include <gale/relations/rows.hpp>
+
+namespace gale::detail {
+
+/// What the warps of a team share, at the beginning of its scratch memory, whichever way they go.
+struct alignas(16) StarShared {
+  StarSizes found;      ///< what this segment needs, as far as it is known
+  Id longest_star;      ///< most tetrahedra at one vertex
+  Id below;             ///< vertices of other segments with lower ids
+  Offset vv, vt, link;  ///< where their blocks begin in the pool
+};
+
+/// So many vertices of other segments do that many tetrahedra around a segment usually reach. It is some more for a grid, whose segments of 64 vertices
+/// have 640 tetrahedra and reach 130; thin parts of a mesh may need more.
+KOKKOS_FORCEINLINE_FUNCTION Id usual_outside(Id tetrahedra) { return tetrahedra / 5 + 64; }
+
+/// What a star kernel is asked for.
+template <class Memory>
+struct StarRequest {
+  EncodedMesh<Memory> mesh;
+  const Id* segments = nullptr;  ///< of the batch, one a team
+  RelationSet wanted;
+  StarSizes sizes;
+  BlockPool pool;
+
+  KOKKOS_FORCEINLINE_FUNCTION bool gathers_neighbours() const { return wanted.has(Relation::VV) || wanted.has(Relation::link); }
+
+  /// What each team does, in the way of `Stars`.
+  template <class Stars, class Team>
+  KOKKOS_FORCEINLINE_FUNCTION void compute(const Team& team, char* memory) const {
+    const StarSegment<Memory> segment(mesh, segments[team.league_rank()]);
+    auto& shared = *reinterpret_cast<StarShared*>(memory);
+    team::once(team, [&] {
+      shared.found = StarSizes{};
+      shared.found.rows = segment.rows;
+      shared.longest_star = 0;
+      shared.vv = shared.vt = shared.link = BlockPool::missing;
+    });
+    team::barrier(team);
+    Stars(team, *this, segment, memory).compute();
+    team::barrier(team);
+    team::once(team, [&] { finish(team, shared); });
+  }
+
+ private:
+  template <class Team>
+  KOKKOS_FORCEINLINE_FUNCTION void finish(const Team& team, const detail::StarShared& shared) const {
+    const bool fitted = sizes.contains(shared.found);
+    if (!fitted) pool.need(team, shared.found);
+    const bool done = fitted && present(Relation::VT, shared.vt) && present(Relation::VV, shared.vv) && present(Relation::link, shared.link);
+    Offset* entry = pool.directory + Offset(team.league_rank()) * wanted.count();
+    if (wanted.has(Relation::VT)) *entry++ = done ? shared.vt : BlockPool::missing;
+    if (wanted.has(Relation::VV)) *entry++ = done ? shared.vv : BlockPool::missing;
+    if (wanted.has(Relation::link)) *entry++ = done ? shared.link : BlockPool::missing;
+  }
+
+  KOKKOS_FORCEINLINE_FUNCTION bool present(Relation relation, Offset block) const {
+    return !wanted.has(relation) || block != BlockPool::missing;
+  }
+};
+
+/// Reserves the blocks of VT and link, whose rows have the ends `star_begin`, and writes those.
+template <class Team, class Memory>
+KOKKOS_FORCEINLINE_FUNCTION void reserve_star_blocks(const Team& team, const StarRequest<Memory>& request, StarShared& shared, Id rows,
+                                         const Id* star_begin) {
+  const Id tetrahedra = shared.found.star;
+  const auto& pool = request.pool;
+  team::once(team, [&] {
+    if (request.wanted.has(Relation::VT)) shared.vt = pool.reserve(team, BlockLayout::words(rows, tetrahedra));
+    if (!request.wanted.has(Relation::link)) return;
+    const int width = width_for(3 * shared.longest_star);
+    shared.link = pool.reserve(team, BlockLayout::link_words(rows, tetrahedra, width));
+    if (shared.link != BlockPool::missing) pool.words[shared.link + rows + 1] = width;
+  });
+  team::barrier(team);
+  for (const Offset block : {shared.vt, shared.link}) {
+    if (block == BlockPool::missing) continue;
+    team::for_all(team, rows + 1, [&](Id row) { pool.words[block + row] = star_begin[row]; });
+  }
+}
+
+/// Places of a link block, in its width.
+struct LinkPlaces {
+  void* places;
+  int width;
+
+  KOKKOS_FORCEINLINE_FUNCTION LinkPlaces(Id* block, Id rows) : places(block + rows + 2), width(block[rows + 1]) {}
+
+  KOKKOS_FORCEINLINE_FUNCTION void put(Offset at, Id place) const {
+    if (width == 1) {
+      static_cast<std::uint8_t*>(places)[at] = static_cast<std::uint8_t>(place);
+    } else if (width == 2) {
+      static_cast<std::uint16_t*>(places)[at] = static_cast<std::uint16_t>(place);
+    } else {
+      static_cast<Id*>(places)[at] = place;
+    }
+  }
+};
+
+}  // namespace gale::detail

@@ -1,0 +1,143 @@
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <thread>
+
+#include "support/brute_force.hpp"
+#include "support/segmentations.hpp"
+
+namespace gale::test {
+
+namespace {
+
+Mesh holed() {
+  const InputMesh& input = mesh_named("holed_grid_9");
+  return encode(input, octree_of(input, 7));
+}
+
+constexpr SimplexNeeds edges = {Enumeration::edges, false, false};
+constexpr SimplexNeeds lower_edges = {Enumeration::edges, true, false};
+constexpr SimplexNeeds triangles = {Enumeration::triangles, false, false};
+constexpr SimplexNeeds tetrahedra = {Enumeration::tetrahedra, false, true};
+constexpr SimplexNeeds everything = {Enumeration::triangles, true, true};
+
+Id count_of(int dimension) { return static_cast<Id>(brute_force_of("holed_grid_9").simplices(dimension).size()); }
+
+}  // namespace
+
+TEST(Enumeration, waits_until_someone_needs_it) {
+  const Mesh mesh = holed();
+  mesh.host();
+  mesh.simplices_on_host(tetrahedra);
+  mesh.simplices_on_producer(tetrahedra);
+  EXPECT_EQ(mesh.known_edges(), no_id);
+  EXPECT_EQ(mesh.known_triangles(), no_id);
+  EXPECT_EQ(mesh.intervals_of(0)[1].size(), 0);
+  EXPECT_EQ(mesh.intervals_of(0)[2].size(), 0);
+  EXPECT_GT(mesh.intervals_of(0)[3].size(), 0);
+  EXPECT_EQ(mesh.known_edges(), no_id) << "intervals_of enumerates nothing";
+}
+
+TEST(Enumeration, of_edges_needs_no_triangles) {
+  const Mesh mesh = holed();
+  mesh.simplices_on_producer(edges);
+  EXPECT_EQ(mesh.known_edges(), count_of(1));
+  EXPECT_EQ(mesh.known_triangles(), no_id);
+  mesh.simplices_on_host(lower_edges);
+  EXPECT_EQ(mesh.known_triangles(), no_id);
+  mesh.simplices_on_host(triangles);
+  EXPECT_EQ(mesh.known_edges(), count_of(1));
+  EXPECT_EQ(mesh.known_triangles(), count_of(2));
+}
+
+TEST(Enumeration, comes_with_the_intervals) {
+  const Mesh mesh = holed();
+  EXPECT_EQ(mesh.interval_begin(1)(mesh.segments()), count_of(1));
+  EXPECT_EQ(mesh.known_triangles(), no_id);
+  EXPECT_EQ(mesh.interval_begin(2)(mesh.segments()), count_of(2));
+  EXPECT_EQ(mesh.known_triangles(), count_of(2));
+}
+
+TEST(Enumeration, is_shared_by_copies_of_a_mesh) {
+  const Mesh mesh = holed();
+  const Mesh copy = mesh;
+  const auto simplices = mesh.simplices_on_host(edges);
+  EXPECT_EQ(copy.known_edges(), count_of(1));
+  EXPECT_EQ(copy.simplices_on_host(edges).edge_low.data(), simplices.edge_low.data());
+}
+
+/// On the host, as what is on the producer's side may be the same memory.
+TEST(Enumeration, gives_the_host_no_table_that_it_did_not_ask_for) {
+  const Mesh mesh = holed();
+  const auto nothing = mesh.simplices_on_host({});
+  EXPECT_EQ(nothing.tetrahedra.extent(0), 0u);
+  EXPECT_EQ(nothing.edge_begin.extent(0), 0u);
+  const auto only_edges = mesh.simplices_on_host(edges);
+  EXPECT_EQ(only_edges.edge_high.extent(0), static_cast<std::size_t>(count_of(1)));
+  EXPECT_EQ(only_edges.triangle_begin.extent(0), 0u);
+  EXPECT_EQ(only_edges.lower_begin.extent(0), 0u);
+  EXPECT_EQ(only_edges.tetrahedra.extent(0), 0u);
+  EXPECT_EQ(mesh.simplices_on_host(everything).tetrahedra.extent(0), static_cast<std::size_t>(mesh.tetrahedra()));
+}
+
+/// Tables that someone has stay as they are when more is enumerated.
+TEST(Enumeration, leaves_earlier_tables_in_place) {
+  const Mesh mesh = holed();
+  const auto before = mesh.simplices_on_host(edges);
+  const auto begin = before.edge_begin;
+  const std::vector<Id> high(before.edge_high.data(), before.edge_high.data() + before.edge_high.extent(0));
+  mesh.simplices_on_host(everything);
+  EXPECT_EQ(mesh.simplices_on_host(everything).edge_begin.data(), begin.data());
+  EXPECT_EQ(std::vector<Id>(before.edge_high.data(), before.edge_high.data() + before.edge_high.extent(0)), high);
+}
+
+TEST(Enumeration, by_several_threads_at_once_happens_once) {
+  for (int again = 0; again < 10; ++again) {
+    const Mesh mesh = holed();
+    constexpr int threads = 8;
+    std::vector<std::thread> all;
+    std::atomic<int> begun{0}, wrong{0};
+    std::vector<const Id*> apexes(threads), highs(threads);
+    for (int i = 0; i < threads; ++i) {
+      all.emplace_back([&, i] {
+        ++begun;
+        while (begun < threads) std::this_thread::yield();
+        if (i % 4 == 1) mesh.interval_begin(2);
+        if (i % 4 == 2) mesh.simplices_on_producer(lower_edges);
+        if (i % 4 == 3 && mesh.known_edges() != no_id && mesh.known_edges() != count_of(1)) ++wrong;
+        const auto simplices = mesh.simplices_on_host(i % 2 == 0 ? everything : triangles);
+        apexes[i] = simplices.triangle_apex.data();
+        highs[i] = simplices.edge_high.data();
+        const Id last_edge = simplices.triangle_edge(simplices.triangle_edge.extent(0) - 1);
+        if (simplices.triangle_of(last_edge, simplices.triangle_apex(simplices.triangle_apex.extent(0) - 1)) + 1 !=
+            count_of(2))
+          ++wrong;
+      });
+    }
+    for (auto& thread : all) thread.join();
+    EXPECT_EQ(wrong, 0);
+    EXPECT_EQ(apexes, std::vector<const Id*>(threads, apexes[0]));
+    EXPECT_EQ(highs, std::vector<const Id*>(threads, highs[0]));
+  }
+}
+
+/// Vertices and edges whose higher neighbours are more than one thread keeps by itself, beside others.
+TEST(Enumeration, of_long_rows_is_that_of_brute_force) {
+  for (const Id degree : {39, 40, 41, 42, 43, 44, 81, 200}) {
+    for (const int caps : {2, 3}) {
+      const InputMesh input = cone_over_caps(degree, caps);
+      const Mesh mesh = encode(input, segmentation_by(std::vector<std::int64_t>(input.points.size(), 0)));
+      const BruteForce brute_force(input);
+      const ExpectedSimplices expected(brute_force, mesh);
+      const auto simplices = mesh.simplices_on_host(everything);
+      ASSERT_EQ(mesh.known_edges(), static_cast<Id>(expected.vertices[1].size())) << degree;
+      ASSERT_EQ(mesh.known_triangles(), static_cast<Id>(expected.vertices[2].size())) << degree;
+      for (Id f = 0; f < mesh.known_triangles(); ++f) {
+        const auto& triangle = expected.vertices[2][f];
+        ASSERT_EQ(simplices.triangle_of(triangle[0], triangle[1], triangle[2]), f) << "degree " << degree;
+      }
+    }
+  }
+}
+
+}  // namespace gale::test

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <gale/runtime/options.hpp>
+#include <vector>
+
+namespace gale::test {
+
+/// A way for a runtime to work.
+struct Way {
+  const char* name;
+  RuntimeOptions options;
+};
+
+/// Everything that can be told apart about how a runtime works.
+inline std::vector<Way> ways() {
+  std::vector<Way> all(4);
+  all[0].name = "consumers";
+  all[0].options.production = Production::consumers;
+  all[1].name = "leaders";
+  all[1].options.production = Production::leaders;
+  all[2].name = "leaders, a queue for each relation, a tiny budget";
+  all[2].options.production = Production::leaders;
+  all[2].options.queues = Queues::per_relation;
+  all[2].options.host_memory = 16384;
+  all[3].name = "leaders, one segment a request";
+  all[3].options.production = Production::leaders;
+  all[3].options.blocks_per_request = all[3].options.threads_per_block = 1;
+  return all;
+}
+
+}  // namespace gale::test
