@@ -8,16 +8,35 @@
 #include <sys/mman.h>
 
 #include <gale/base/memory.hpp>
+#include <gale/base/parallel.hpp>
 
 namespace gale::detail {
 
+namespace {
+
+constexpr std::size_t page = 4096;
+
+/// Has the system give all pages, by one thread or, where there are many, by all.
+void touch(void* memory, std::size_t size) {
+  constexpr std::size_t many = std::size_t(64) << 20;
+  volatile char* const bytes = static_cast<volatile char*>(memory);
+  const auto touch_page = [bytes](Offset i) { bytes[static_cast<std::size_t>(i) * page] = 0; };
+  const auto pages = static_cast<Offset>(size / page);
+  if (size >= many) {
+    parallel_for("GALE::touch_pinned", Kokkos::DefaultHostExecutionSpace(), pages, touch_page);
+  } else {
+    for (Offset i = 0; i < pages; ++i) touch_page(i);
+  }
+}
+
+}  // namespace
+
 std::shared_ptr<void> allocate_pinned_bytes(std::size_t bytes) {
-  constexpr std::size_t page = 4096;
   const std::size_t size = (bytes + page) / page * page;
   void* const memory = mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   if (memory == MAP_FAILED) throw std::bad_alloc();
   advise_huge_pages(memory, size);
-  for (std::size_t at = 0; at < size; at += page) static_cast<volatile char*>(memory)[at] = 0;
+  touch(memory, size);
   if (cudaHostRegister(memory, size, cudaHostRegisterDefault) != cudaSuccess) {
     cudaGetLastError();
     munmap(memory, size);

@@ -27,8 +27,7 @@ inline StarSizes larger(const StarSizes& a, const StarSizes& b) {
           greater(a.slots, b.slots), greater(a.tetrahedra, b.tetrahedra), greater(a.outside, b.outside)};
 }
 
-/// Where a kernel leaves the blocks of a batch: one stretch of memory, in which a team reserves its exact space with one atomic
-/// a block. A block begins at a multiple of four words. Trivially copyable; owns nothing.
+/// Where a kernel leaves the blocks of a batch: one stretch of memory, in which a team reserves its exact space with an atomic. A block begins at a multiple of four words. Trivially copyable; owns nothing.
 struct BlockPool {
   static constexpr Offset missing = -1;
   static constexpr Offset uncountable = -2;  ///< in the directory: the segment's rows have more entries than an Id counts
@@ -39,10 +38,13 @@ struct BlockPool {
   Offset* directory = nullptr;  ///< where the block of each segment of the batch and each relation wanted begins, or `missing`
   StarSizes* needed = nullptr;  ///< raised to what a segment whose blocks are missing would have needed in scratch memory
 
+  /// What a block of `count` words takes.
+  KOKKOS_FUNCTION static Offset rounded(Offset count) { return (count + 3) / 4 * 4; }
+
   /// Where a block of `count` words begins, or `missing` if it doesn't fit. By one lane of a team.
   template <class Team>
   KOKKOS_FUNCTION Offset reserve(const Team& team, Offset count) const {
-    const Offset begin = team::add(team, used, (count + 3) / 4 * 4);
+    const Offset begin = team::add(team, used, rounded(count));
     return begin + count <= capacity ? begin : missing;
   }
 

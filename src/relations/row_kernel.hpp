@@ -36,9 +36,27 @@ class RowKernel {
     return sizeof(Shared) + (std::size_t(sizes.rows) * (1 + Stash::capacity_for(sizes.rows)) + 1) * sizeof(Id);
   }
 
+  /// On the calling thread.
+  void operator()(const HostTeam& team) const { compute(team, team.scratch()); }
+
+  /// Calls use(functor) with what Kokkos is to run on its teams: one for each level of scratch memory, see team::scratch.
+  template <class Use>
+  friend void with_functor(const RowKernel& kernel, const Use& use) {
+    kernel.scratch_level == 0 ? use(OnTeams<0>{kernel}) : use(OnTeams<1>{kernel});
+  }
+
+  template <int level>
+  struct OnTeams {
+    RowKernel kernel;
+
+    template <class Team>
+    KOKKOS_FUNCTION void operator()(const Team& team) const {
+      kernel.compute(team, team::scratch<level>(team, scratch_bytes(kernel.sizes, 1)));
+    }
+  };
+
   template <class Team>
-  KOKKOS_FUNCTION void operator()(const Team& team) const {
-    char* const memory = team::scratch(team, scratch_level, scratch_bytes(sizes, 1));
+  KOKKOS_FORCEINLINE_FUNCTION void compute(const Team& team, char* memory) const {
     Shared& shared = *reinterpret_cast<Shared*>(memory);
     auto* const begin = reinterpret_cast<std::uint32_t*>(memory + sizeof(Shared));
     const Id segment = segments[team.league_rank()];
@@ -52,10 +70,9 @@ class RowKernel {
       return;
     }
     const Stash stash(reinterpret_cast<Id*>(begin) + sizes.rows + 1, sizes.rows);
+    team::once(team, [&] { shared.overflows = 0; });
     team::for_all(team, rows, [&](Id row) { begin[row] = static_cast<std::uint32_t>(count(first + row, stash, row)); });
     team::exclusive_scan(team, rows, begin);
-    team::once(team, [&] { shared.overflows = 0; });
-    team::barrier(team);
     team::for_all(team, rows, [&](Id row) {
       if (begin[row + 1] > most_entries) shared.overflows = 1;  // the first that is too many hasn't wrapped around yet
     });

@@ -132,7 +132,7 @@ StarSizes SegmentKernel<Memory>::bound(Id segment) const {
     const auto& external = any_->mesh.external_begin();
     const Offset touching = external(segment + 1) - external(segment);
     require_ids("corners of tetrahedra in one segment", 4 * Offset(rows(3)) + 3 * touching);
-    return StarKernel<Memory>::bound(rows(0), rows(3), touching);
+    return StarKernel<Memory>::bound(rows(0), rows(3), touching, any_->wanted);
   }
   return {rows(row_dimension(members_of(any_->wanted).front())), 0, 0, 0};
 }

@@ -11,9 +11,9 @@ namespace gale::detail {
 /// is read bit after bit is in order, and bits counted give places. No warp works together; after the first step nothing is atomic.
 ///
 ///     visit the segment's tetrahedra: set their bits in the stars of its vertices; number the vertices outside
-///     count and scan the stars: star_begin; reserve the blocks of VT and link
+///     count and scan the stars: star_begin
 ///     a lane a vertex: list its star, and set the bits of its neighbours
-///     count and scan the neighbours; write VT and link
+///     count and scan the neighbours; reserve the blocks; write VT and link
 ///     a lane a vertex: list its neighbours; write VV
 ///
 /// Matrices grow with the square of a segment: see `is_for`.
@@ -60,13 +60,20 @@ class BitStars {
     team::barrier(team_);
     if (!fits()) return;
     if (gathers_) number_corners();
-    reserve_star_blocks(team_, request_, shared, segment_.rows, scratch_.star_begin);
+    team::barrier(team_);
     list_stars();
     team::barrier(team_);
+    if (gathers_) {
+      count_neighbours();
+      team::exclusive_scan(team_, segment_.rows, scratch_.degree);
+    }
+    const Id neighbours = gathers_ ? scratch_.degree[segment_.rows] : 0;
+    if (neighbours > request_.sizes.neighbours) {
+      team::once(team_, [&] { shared.found.neighbours = neighbours; });
+      return;
+    }
+    reserve_blocks(team_, request_, star_relations, shared, segment_.rows, scratch_.star_begin, neighbours);
     if (shared.vt != BlockPool::missing) write_stars();
-    if (!gathers_) return;
-    count_neighbours();
-    team::exclusive_scan(team_, segment_.rows, scratch_.degree);
     if (shared.link != BlockPool::missing) write_links();
     if (request_.wanted.has(Relation::VV)) write_neighbours();
   }
@@ -248,17 +255,12 @@ class BitStars {
     const Id rows = segment_.rows, words = neighbour_words();
     auto& shared = *scratch_.shared;
     const Id neighbours = scratch_.degree[rows];
-    team::once(team_, [&] {
-      shared.found.neighbours = neighbours;
-      shared.vv = neighbours <= request_.sizes.neighbours ? request_.pool.reserve(team_, BlockLayout::words(rows, neighbours)) : BlockPool::missing;
-    });
-    if (neighbours > request_.sizes.neighbours) return;
+    if (shared.vv == BlockPool::missing) return;
     team::for_all(team_, rows, [&](Id row) {
       std::uint16_t* out = scratch_.neighbours + scratch_.degree[row];
       for_each_bit(scratch_.neighbour_bits + row, rows, words, [&](Id number) { *out++ = static_cast<std::uint16_t>(number); });
     });
     team::barrier(team_);
-    if (shared.vv == BlockPool::missing) return;
     Id* const offsets = request_.pool.words + shared.vv;
     Id* const ids = offsets + rows + 1;
     team::for_all(team_, rows + 1, [&](Id row) { offsets[row] = scratch_.degree[row]; });

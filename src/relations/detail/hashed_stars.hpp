@@ -28,7 +28,7 @@ class HashedStars {
     if (fits()) count_stars();
     team::barrier(team_);
     if (!fits()) return;
-    reserve_star_blocks(team_, request_, *scratch_.shared, segment_.rows, scratch_.star_begin);
+    reserve_blocks(team_, request_, Relation::VT | Relation::link, *scratch_.shared, segment_.rows, scratch_.star_begin, 0);
     fill_stars();
     write_rows();
     if (request_.wanted.has(Relation::VV)) write_neighbours();

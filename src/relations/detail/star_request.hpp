@@ -66,20 +66,30 @@ struct StarRequest {
   }
 };
 
-/// Reserves the blocks of VT and link, whose rows have the ends `star_begin`, and writes those.
+/// Reserves blocks of those that are wanted of `relations`, together: a segment that got some only would have taken from the pool what others lack
+/// then. Writes the ends of the rows of VT and link, which are `star_begin`; VV has so many `neighbours`.
 template <class Team, class Memory>
-KOKKOS_FORCEINLINE_FUNCTION void reserve_star_blocks(const Team& team, const StarRequest<Memory>& request, StarShared& shared, Id rows,
-                                         const Id* star_begin) {
-  const Id tetrahedra = shared.found.star;
+KOKKOS_FORCEINLINE_FUNCTION void reserve_blocks(const Team& team, const StarRequest<Memory>& request, RelationSet relations, StarShared& shared, Id rows,
+                                                const Id* star_begin, Id neighbours) {
   const auto& pool = request.pool;
+  const RelationSet wanted = request.wanted & relations;
   team::once(team, [&] {
-    if (request.wanted.has(Relation::VT)) shared.vt = pool.reserve(team, BlockLayout::words(rows, tetrahedra));
-    if (!request.wanted.has(Relation::link)) return;
+    const Id tetrahedra = shared.found.star;
     const int width = width_for(3 * shared.longest_star);
-    shared.link = pool.reserve(team, BlockLayout::link_words(rows, tetrahedra, width));
-    if (shared.link != BlockPool::missing) pool.words[shared.link + rows + 1] = width;
+    const Offset vt = wanted.has(Relation::VT) ? BlockPool::rounded(BlockLayout::words(rows, tetrahedra)) : 0;
+    const Offset link = wanted.has(Relation::link) ? BlockPool::rounded(BlockLayout::link_words(rows, tetrahedra, width)) : 0;
+    const Offset vv = wanted.has(Relation::VV) ? BlockLayout::words(rows, neighbours) : 0;
+    const Offset begin = vt + link + vv > 0 ? pool.reserve(team, vt + link + vv) : BlockPool::missing;
+    if (begin == BlockPool::missing) return;
+    if (wanted.has(Relation::VT)) shared.vt = begin;
+    if (wanted.has(Relation::link)) {
+      shared.link = begin + vt;
+      pool.words[shared.link + rows + 1] = width;
+    }
+    if (wanted.has(Relation::VV)) shared.vv = begin + vt + link;
   });
   team::barrier(team);
+  if (!wanted.has(Relation::VT) && !wanted.has(Relation::link)) return;
   for (const Offset block : {shared.vt, shared.link}) {
     if (block == BlockPool::missing) continue;
     team::for_all(team, rows + 1, [&](Id row) { pool.words[block + row] = star_begin[row]; });

@@ -7,6 +7,7 @@
 #include <gale/relations/block_pool.hpp>
 #include <gale/relations/relation.hpp>
 #include <gale/runtime/detail/arena.hpp>
+#include <gale/runtime/detail/segment_bounds.hpp>
 
 namespace gale::detail {
 
@@ -46,6 +47,7 @@ struct ProducerParameters {
   RelationSet wanted;
   Offset words = 0;               ///< that a batch has, unless one segment needs more
   int threads_per_segment = 128;
+  std::shared_ptr<const SegmentBounds> bounds;  ///< of this kernel and mesh, if they are known; only for a device
 };
 
 /// On the calling thread, when it finishes.

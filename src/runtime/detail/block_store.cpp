@@ -30,12 +30,13 @@ Arena* BlockStore::take(Need need, Offset words) {
   const auto size = static_cast<std::size_t>(words);
   if (Arena* const free = take_free(size)) return free;
   if (Arena* const spent = find_evictable(Use::spent, size)) return spent;
+  if (need == Need::can_wait && bytes_ahead() > 0 && bytes_ahead() + size * sizeof(Id) > ahead_budget_) return nullptr;
   const bool has_room = arena_count_ == 0 || bytes_ + size * sizeof(Id) <= budget_;
-  if (has_room) return allocate_arena(size);
+  if (has_room) return add_arena(allocate_words(size));
   Arena* const read = find_evictable(Use::read, size);
   if (read != nullptr || need == Need::can_wait) return read;
   Arena* const unread = find_evictable(Use::unread, size);
-  return unread != nullptr ? unread : allocate_arena(size);
+  return unread != nullptr ? unread : add_arena(allocate_words(size));
 }
 
 /// The smallest that is large enough.
@@ -60,10 +61,22 @@ PinnedArray<Id> BlockStore::allocate_words(std::size_t words) {
   return slab_.slice(slab_used_ - words, words);
 }
 
-Arena* BlockStore::allocate_arena(std::size_t words) {
+void BlockStore::prepare(std::size_t count, Offset words) {
+  const auto each = static_cast<std::size_t>(words);
+  const PinnedArray<Id> all(count * each);
+  for (std::size_t i = 0; i < count; ++i) free_.push_back(add_arena(all.slice(i * each, each)));
+}
+
+std::size_t BlockStore::bytes_ahead() const {
+  std::size_t bytes = 0;
+  for (const Arena* const arena : ahead_) bytes += arena->bytes();
+  return bytes;
+}
+
+Arena* BlockStore::add_arena(PinnedArray<Id> words) {
   if (arena_count_ == most_arenas) throw Error("more than " + std::to_string(most_arenas) + " batches on the host at once: too many");
   auto arena = std::make_unique<Arena>();
-  arena->words = allocate_words(words);
+  arena->words = std::move(words);
   arena->number = arena_count_ + 1;
   bytes_ += arena->bytes();
   peak_bytes_.store(std::max(peak_bytes_.load(), bytes_));

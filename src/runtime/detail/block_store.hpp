@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -17,6 +18,12 @@ class BlockStore {
   /// For a mesh of so many segments. Arenas take at most `budget` bytes together, unless all that are large enough are in use and one more is
   /// needed.
   BlockStore(Id segments, std::size_t budget);
+
+  /// What a sweep has still to read takes at most so many bytes; without a call, as many as the budget.
+  void limit_ahead(std::size_t bytes) { ahead_budget_ = std::min(bytes, budget_); }
+
+  /// Allocates `count` arenas of `words` words now, in one piece.
+  void prepare(std::size_t count, Offset words);
 
   /// The segment's blocks, pinned; nothing if they aren't resident. By any thread, wait-free but for an eviction at the same moment.
   Lease find(Id segment);
@@ -51,7 +58,6 @@ class BlockStore {
   static constexpr std::size_t most_arenas = std::size_t(1) << 16;
   static constexpr std::size_t largest_slab = std::size_t(4) << 20;  ///< bytes
 
-  Arena* allocate_arena();
   enum class Use {
     unread,  ///< the running sweep has still to read some of it
     spent,   ///< a sweep has read all of it
@@ -59,7 +65,8 @@ class BlockStore {
   };
 
   PinnedArray<Id> allocate_words(std::size_t words);
-  Arena* allocate_arena(std::size_t words);
+  Arena* add_arena(PinnedArray<Id> words);
+  std::size_t bytes_ahead() const;
   Arena* take_free(std::size_t words);
   Arena* find_evictable(Use use, std::size_t words);
   bool try_evict(Arena& arena);
@@ -76,6 +83,7 @@ class BlockStore {
   PinnedArray<Id> slab_;           ///< of which small arenas are cut; pinning costs by the call
   std::size_t slab_used_ = 0;
   std::size_t budget_;
+  std::size_t ahead_budget_ = budget_;
   std::size_t bytes_ = 0;
   std::atomic<std::size_t> peak_bytes_{0};
   std::atomic<std::int64_t> evicted_{0};

@@ -37,20 +37,18 @@ class DeviceBatchProducer : public BatchProducer {
   DeviceBatchProducer(const Mesh& mesh, const ProducerParameters& parameters)
       : mesh_(mesh),
         relations_(parameters.wanted.count()),
-        warps_(std::max(parameters.threads_per_segment / 32, 1)),
         instance_(make_instance()),
         kernel_(mesh, parameters.wanted),
+        bounds_(parameters.bounds ? parameters.bounds : find_segment_bounds(mesh, kernel_, parameters.threads_per_segment)),
         header_(allocate<OnDevice<Header>>("GALE::batch_header", 1)),
         header_copy_(1) {
     task_.pool.used = &header_.data()->used;
     task_.pool.needed = &header_.data()->needed;
-    fast_scratch_ = fast_scratch_bytes<ProducerSpace>();
-    while (warps_ > 1 && share_of_large_segments() > 0.01) warps_ /= 2;
     reserve(parameters.words);
   }
 
   bool is_large(Id segment) const override {
-    return kernel_.scratch_bytes(kernel_.bound(segment), warps_) > fast_scratch_;
+    return bounds_->is_large[segment] != 0;
   }
 
   void launch(const std::vector<Id>& segments, Offset words, const StarSizes& scratch) override {
@@ -58,17 +56,17 @@ class DeviceBatchProducer : public BatchProducer {
     const std::size_t count = segments.size();
     reserve_segments(count);
     count_ = count;
-    StarSizes sizes = scratch;
-    for (std::size_t i = 0; i < count; ++i) {
-      segments_copy_.data()[i] = segments[i];
-      sizes = larger(sizes, kernel_.bound(segments[i]));
+    StarSizes sizes = larger(scratch, bounds_->usual);
+    for (const Id segment : segments) {
+      if (is_large(segment)) sizes = larger(sizes, kernel_.bound(segment));
     }
+    std::copy(segments.begin(), segments.end(), segments_copy_.data());
     task_.sizes = sizes;
-    task_.scratch_level = kernel_.scratch_bytes(sizes, warps_) > fast_scratch_ ? 1 : 0;
+    task_.scratch_level = kernel_.scratch_bytes(sizes, bounds_->warps) > fast_scratch_ ? 1 : 0;
     *header_copy_.data() = Header();
     Kokkos::deep_copy(instance_, header_, header_copy_.view());
     Kokkos::deep_copy(instance_, first(segments_, count), first(segments_copy_.view(), count));
-    kernel_.launch(instance_, task_, static_cast<int>(count), warps_);
+    kernel_.launch(instance_, task_, static_cast<int>(count), bounds_->warps);
     Kokkos::deep_copy(instance_, header_copy_.view(), header_);
     Kokkos::deep_copy(instance_, first(directory_copy_.view(), count * relations_), first(directory_, count * relations_));
   }
@@ -101,13 +99,6 @@ class DeviceBatchProducer : public BatchProducer {
   }
 
  private:
-  /// Fewer warps need less scratch memory.
-  double share_of_large_segments() const {
-    Id large = 0;
-    for (Id s = 0; s < mesh_.segments(); ++s) large += is_large(s) ? 1 : 0;
-    return static_cast<double>(large) / mesh_.segments();
-  }
-
   void reserve(Offset words) {
     task_.pool.capacity = words;
     if (static_cast<Offset>(words_.extent(0)) >= words) return;
@@ -133,9 +124,9 @@ class DeviceBatchProducer : public BatchProducer {
 
   Mesh mesh_;
   std::size_t relations_;
-  int warps_;
   ProducerSpace instance_;
   SegmentKernel<ProducerMemory> kernel_;
+  const std::shared_ptr<const SegmentBounds> bounds_;
   OnDevice<Header> header_;
   Pinned<Header> header_copy_;
   OnDevice<Id> segments_, words_;
@@ -143,7 +134,7 @@ class DeviceBatchProducer : public BatchProducer {
   OnDevice<Offset> directory_;
   Pinned<Offset> directory_copy_;
   KernelTask task_;
-  std::size_t fast_scratch_ = 0;
+  const std::size_t fast_scratch_ = fast_scratch_bytes<ProducerSpace>();
   std::atomic<std::size_t> device_bytes_{0};  ///< of words, which outweigh the rest
   std::size_t count_ = 0;
 };

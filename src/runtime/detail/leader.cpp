@@ -44,11 +44,24 @@ Leader::Leader(const Mesh& mesh, const LeaderParameters& parameters, std::vector
       computed_(mesh.segments()),
       words_per_segment_(words_per_vertex(parameters.relations) * mesh.vertices() / std::max(mesh.segments(), Id(1))) {
   for (const auto& producer : producers_) idle_.push_back(producer.get());
+  prepare_arenas();
   statistics_.relations = parameters.relations;
   thread_ = std::thread([this] { run(); });
 }
 
 Leader::~Leader() { end(); }
+
+/// What a sweep runs through again and again, so that its memory is there, locked, and soon in the caches; less where the blocks of all segments
+/// take less.
+void Leader::prepare_arenas() {
+  constexpr std::size_t most = 12;
+  const std::size_t bytes = static_cast<std::size_t>(parameters_.arena_words) * sizeof(Id);
+  if (bytes == 0) return;
+  store_.limit_ahead(most * bytes);
+  const double all = 1.2 * words_per_segment_ * mesh_.segments() / static_cast<double>(parameters_.arena_words);
+  const std::size_t count = std::min({most, parameters_.host_budget / bytes, static_cast<std::size_t>(all) + 1});
+  if (have_device && count > 0) store_.prepare(count, parameters_.arena_words);
+}
 
 void Leader::end() {
   ending_ = true;
@@ -303,6 +316,7 @@ void Leader::retry(Plan plan, const Shortfall& shortfall) {
 /// Gives the blocks to those who wait for them.
 void Leader::deliver(const Plan& plan, Clock::time_point launched, Clock::time_point finished) {
   for (const Id segment : plan.segments) {
+    if (waiting_.empty()) return;
     const auto range = waiting_.equal_range(segment);
     for (auto it = range.first; it != range.second; ++it) {
       it->second->launched = std::max(launched, it->second->taken);

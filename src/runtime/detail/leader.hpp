@@ -64,6 +64,7 @@ class Leader {
     bool copying = false;
   };
 
+  void prepare_arenas();
   std::string end_message() const;
   void run();
   void listen(bool wait);

@@ -34,9 +34,9 @@ class Leaders {
     const Sizes sizes = sizes_for(mesh, options, std::max(static_cast<int>(queues.size()), 1));
     for (const RelationSet members : queues) {
       std::vector<std::unique_ptr<BatchProducer>> producers;
-      for (int i = 0; i < producers_per_leader; ++i) {
-        producers.push_back(make_producer(mesh, {members, sizes.batch_words, sizes.threads_per_segment}));
-      }
+      ProducerParameters parameters{members, sizes.batch_words, sizes.threads_per_segment, nullptr};
+      if (have_device) parameters.bounds = find_segment_bounds(mesh, SegmentKernel<ProducerMemory>(mesh, members), parameters.threads_per_segment);
+      for (int i = 0; i < producers_per_leader; ++i) producers.push_back(make_producer(mesh, parameters));
       leaders.push_back(std::make_unique<Leader>(
           mesh, LeaderParameters{members, sizes.batch_words, sizes.host_bytes, sizes.segments_per_request}, std::move(producers)));
     }
