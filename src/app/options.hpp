@@ -26,7 +26,7 @@ struct Options {
   std::string segments;                  ///< a point array's name, or empty
   std::optional<int> capacity;           ///< 100 unless given
   std::optional<int> threads;            ///< all cores unless given
-  std::string structure = "gale";        ///< gale, explicit or inline
+  std::string structure = "gale";        ///< gale, explicit, inline or task-parallel
   RuntimeOptions runtime;
   std::string relation;                  ///< of `gale relations`: the name of one of the sixteen
   bool verify = false;                   ///< likewise: compare with an oracle

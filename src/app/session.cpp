@@ -37,6 +37,10 @@ Segmentation scattered(std::size_t vertices, std::int64_t count) {
   return given_segmentation(Array<const std::int64_t, HostMemory>(labels.data(), labels.size()));
 }
 
+const char* name_of(Production production) {
+  return production == Production::leaders ? "leaders" : production == Production::pairs ? "pairs" : "consumers";
+}
+
 std::size_t point_count(const io::Dataset& dataset) {
   return std::visit([](const auto& points) { return points.extent(0); }, dataset.points);
 }
@@ -119,6 +123,7 @@ std::unique_ptr<Structure> Session::make_structure(const Mesh& mesh, RelationSet
   if (options_.structure == "explicit") return std::make_unique<ExplicitStructure>(mesh, relations);
   RuntimeOptions runtime = options_.runtime;
   if (options_.structure == "inline") runtime.production = Production::consumers;
+  if (options_.structure == "task-parallel") runtime.production = Production::pairs;
   return std::make_unique<Runtime>(mesh, relations, runtime);
 }
 
@@ -142,7 +147,7 @@ void Session::count_simplices(const Structure& structure) {
 
 void Session::finish(const Structure* structure) {
   if (const auto* const runtime = dynamic_cast<const Runtime*>(structure)) {
-    report_.production = runtime->production() == Production::leaders ? "leaders" : "consumers";
+    report_.production = name_of(runtime->production());
     report_.statistics = runtime->statistics();
   }
   if (structure != nullptr) count_simplices(*structure);

@@ -8,7 +8,8 @@ namespace gale {
 enum class Production {
   automatic,  ///< leaders where Kokkos has a device, else consumers
   leaders,    ///< one leader thread per queue, which has batches of segments computed in the producers' space, ahead of need
-  consumers   ///< each consumer for itself, on the host: nothing is handed over and nobody waits
+  consumers,  ///< each consumer for itself, on the host: nothing is handed over and nobody waits
+  pairs       ///< on the host, a producer thread for each consumer of a sweep, which runs ahead of it: the task-parallel way of ACTOPO, for comparison
 };
 
 /// One queue, and one leader with it, for what?

@@ -7,16 +7,21 @@ namespace gale {
 
 namespace {
 
-bool wants_leaders(Production production) {
-  return production == Production::leaders || (production == Production::automatic && have_device);
+std::unique_ptr<detail::RuntimeImplementation> implement(const Mesh& mesh, RelationSet wanted, const RuntimeOptions& options) {
+  switch (options.production) {
+    case Production::automatic: return have_device ? detail::by_leaders(mesh, wanted, options) : detail::by_consumers(mesh, wanted);
+    case Production::leaders: return detail::by_leaders(mesh, wanted, options);
+    case Production::consumers: return detail::by_consumers(mesh, wanted);
+    case Production::pairs: return detail::by_pairs(mesh, wanted);
+  }
+  throw Error("there is no such way to produce");
 }
 
 }  // namespace
 
 Runtime::Runtime(const Mesh& mesh, RelationSet wanted, const RuntimeOptions& options) {
   if (wanted.empty()) throw Error("a runtime needs at least one relation to be preconditioned for");
-  implementation_ = wants_leaders(options.production) ? detail::by_leaders(mesh, wanted, options)
-                                                      : detail::by_consumers(mesh, wanted);
+  implementation_ = implement(mesh, wanted, options);
 }
 
 Runtime::~Runtime() = default;

@@ -36,7 +36,7 @@ class Runtime : public Structure {
   void for_each_segment(RelationSet wanted, const SweepOptions& options, const SegmentBody& body) override;
   std::unique_ptr<Consumer> consumer() override;
 
-  /// Production::leaders or Production::consumers.
+  /// Which way it is; never Production::automatic.
   Production production() const;
 
   RuntimeStatistics statistics() const;

@@ -68,7 +68,7 @@ TEST(BlockStore, keeps_what_a_sweep_has_still_to_read_unless_it_must_not) {
   publish(store, 2, 1);
   EXPECT_EQ(store.take(BlockStore::Need::can_wait, words), nullptr);
   Lease lease = store.find(2);
-  EXPECT_TRUE(lease.release_read());
+  EXPECT_TRUE(lease.release_read(1));
   publish(store, 3, 1);
   EXPECT_TRUE(store.find(1));
   EXPECT_FALSE(store.find(2));

@@ -1,7 +1,8 @@
 #pragma once
 
-#include <gale/runtime/options.hpp>
 #include <vector>
+
+#include <gale/runtime/options.hpp>
 
 namespace gale::test {
 
@@ -13,7 +14,7 @@ struct Way {
 
 /// Everything that can be told apart about how a runtime works.
 inline std::vector<Way> ways() {
-  std::vector<Way> all(4);
+  std::vector<Way> all(5);
   all[0].name = "consumers";
   all[0].options.production = Production::consumers;
   all[1].name = "leaders";
@@ -25,6 +26,8 @@ inline std::vector<Way> ways() {
   all[3].name = "leaders, one segment a request";
   all[3].options.production = Production::leaders;
   all[3].options.blocks_per_request = all[3].options.threads_per_block = 1;
+  all[4].name = "pairs";
+  all[4].options.production = Production::pairs;
   return all;
 }
 

@@ -49,11 +49,17 @@ class Lease {
     return arena_->words.data() + arena_->directory[static_cast<std::size_t>(slot_) * relations + relation];
   }
 
-  /// Gives the pin back, and tells that a sweep has read the segment. True if the arena has none left for it.
-  bool release_read() {
+  /// Another segment's blocks of the same arena from now on.
+  void move_to(Id slot) { slot_ = slot; }
+
+  /// The number of the arena.
+  std::uint64_t number() const { return arena_->number; }
+
+  /// Gives the pin back, and tells that a sweep has read so many segments. True if the arena has none left for it.
+  bool release_read(Id segments) {
     Arena* const arena = std::exchange(arena_, nullptr);
     arena->pins.fetch_sub(1);
-    return arena->unread.fetch_sub(1) == 1;
+    return arena->unread.fetch_sub(segments) == segments;
   }
 
   void release() {

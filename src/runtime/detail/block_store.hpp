@@ -28,6 +28,14 @@ class BlockStore {
   /// The segment's blocks, pinned; nothing if they aren't resident. By any thread, wait-free but for an eviction at the same moment.
   Lease find(Id segment);
 
+  /// Moves a lease to another segment, if its blocks are in the same arena: no pin, nothing that threads would contend for.
+  bool move(Lease& lease, Id segment) const {
+    const Entry entry = entries_[segment].load(std::memory_order_acquire);
+    if (!lease || entry >> 32 != lease.number()) return false;
+    lease.move_to(static_cast<Id>(entry & 0xffffffffu));
+    return true;
+  }
+
   bool is_resident(Id segment) const { return entries_[segment].load(std::memory_order_acquire) != absent; }
 
   // All below: by the leader alone.

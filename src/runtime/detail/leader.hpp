@@ -36,6 +36,9 @@ class Leader {
   /// The blocks of a segment, as soon as they are there. By any thread. Throws gale::Error.
   Lease acquire(Id segment, bool in_sweep, ConsumerStatistics& statistics);
 
+  /// Moves a lease to another segment of its arena; false if it has no blocks of that. By any thread.
+  bool move(Lease& lease, Id segment) const { return store_.move(lease, segment); }
+
   /// From now on, runs ahead through all segments; until end_sweep. One sweep at a time.
   void begin_sweep() { queue_.begin_sweep(); }
   void end_sweep() { queue_.end_sweep(); }

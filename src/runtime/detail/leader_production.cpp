@@ -8,7 +8,7 @@
 #include <gale/relations/segment_kernel.hpp>
 #include <gale/runtime/detail/defaults.hpp>
 #include <gale/runtime/detail/implementation.hpp>
-#include <gale/runtime/detail/leader.hpp>
+#include <gale/runtime/detail/sweep_reader.hpp>
 
 namespace gale::detail {
 
@@ -107,17 +107,21 @@ class LeaderProduction : public RuntimeImplementation {
   void for_each_segment(RelationSet wanted, const SweepOptions& options, const Structure::SegmentBody& body) override {
     const SweepInProgress in_progress(*this, wanted);
     const RelationSet boundary = wanted & boundary_relations;
-    std::vector<ConsumerStatistics> statistics(std::max(options.threads, 0));
-    std::vector<std::unique_ptr<HostProducer>> look_ups(std::max(options.threads, 0));
-    sweep(mesh().segments(), options, [&](int consumer, Id segment) {
-      auto& look_up = look_ups[consumer];
-      if (!boundary.empty() && !look_up) look_up = std::make_unique<HostProducer>(mesh(), boundary);
-      visit(in_progress, segment, statistics[consumer], [&](SegmentRows& rows) {
-        if (look_up) look_up->compute(rows);
-        body(consumer, rows);
-      });
+    std::vector<SweepConsumer> consumers(std::max(options.threads, 0));
+    sweep(mesh().segments(), options, [&](int number, Id segment) {
+      SweepConsumer& consumer = consumers[number];
+      if (!consumer.ready) {
+        for (Leader* const leader : in_progress.leaders()) consumer.readers.emplace_back(*leader, in_progress.runs_ahead());
+        if (!boundary.empty()) consumer.look_up = std::make_unique<HostProducer>(mesh(), boundary);
+        consumer.ready = true;
+      }
+      SegmentRows rows = leaders_->rows_of(segment);
+      for (auto& reader : consumer.readers) add_blocks(rows, reader.leader(), reader.read(segment, consumer.statistics));
+      if (consumer.look_up) consumer.look_up->compute(rows);
+      body(number, rows);
+      for (auto& reader : consumer.readers) reader.done();
     });
-    for (const auto& one : statistics) leaders_->log.add(one);
+    for (const auto& one : consumers) leaders_->log.add(one.statistics);
   }
 
   std::unique_ptr<Consumer> consumer() override { return std::make_unique<RequestingConsumer>(leaders_); }
@@ -168,24 +172,13 @@ class LeaderProduction : public RuntimeImplementation {
     std::vector<Leader*> leaders_;
   };
 
-  template <class Body>
-  void visit(const SweepInProgress& in_progress, Id segment, ConsumerStatistics& statistics, const Body& body) {
-    const auto& leaders = in_progress.leaders();
-    Lease leases[relation_count];
-    SegmentRows rows = leaders_->rows_of(segment);
-    for (std::size_t i = 0; i < leaders.size(); ++i) {
-      leases[i] = leaders[i]->acquire(segment, in_progress.runs_ahead(), statistics);
-      add_blocks(rows, *leaders[i], leases[i]);
-    }
-    body(rows);
-    for (std::size_t i = 0; i < leaders.size(); ++i) {
-      if (!in_progress.runs_ahead()) {
-        leases[i].release();
-      } else if (leases[i].release_read()) {
-        leaders[i]->tell_read();
-      }
-    }
-  }
+  /// What one consumer of a sweep works with.
+  struct alignas(64) SweepConsumer {
+    bool ready = false;
+    ConsumerStatistics statistics;
+    std::vector<SweepReader> readers;        ///< one for each leader
+    std::unique_ptr<HostProducer> look_up;  ///< if boundary relations are wanted
+  };
 
   std::atomic<bool> sweeping_{false};
   std::shared_ptr<Leaders> leaders_;
