@@ -31,6 +31,7 @@ Json to_json(const LeaderStatistics& leader) {
   return {{"relations", name_of(leader.relations)},
           {"batches", leader.batches},
           {"segments_computed", leader.segments_computed},
+          {"segments_per_batch", leader.batches > 0 ? static_cast<double>(leader.segments_computed) / static_cast<double>(leader.batches) : 0.0},
           {"segments_recomputed", leader.segments_recomputed},
           {"bytes", leader.bytes},
           {"blocks_evicted", leader.blocks_evicted},
@@ -39,8 +40,12 @@ Json to_json(const LeaderStatistics& leader) {
 
 Json to_json(const RuntimeStatistics& statistics) {
   const ConsumerStatistics all = statistics.all_consumers();
+  Json each = Json::array();
   double longest = 0;
-  for (const auto& one : statistics.consumers) longest = std::max(longest, one.waiting.total());
+  for (const auto& one : statistics.consumers) {
+    each.push_back(one.waiting.total());
+    longest = std::max(longest, one.waiting.total());
+  }
   Json leaders = Json::array();
   for (const auto& leader : statistics.leaders) leaders.push_back(to_json(leader));
   return {{"consumers", statistics.consumers.size()},
@@ -48,6 +53,7 @@ Json to_json(const RuntimeStatistics& statistics) {
           {"requests", all.requests},
           {"seconds", to_json(all.waiting)},
           {"longest_seconds", longest},
+          {"seconds_of_each", each},
           {"segments_computed_by_consumers", all.segments_computed},
           {"seconds_computing_by_consumers", all.seconds_computing},
           {"leaders", leaders},

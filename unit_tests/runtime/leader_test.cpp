@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <functional>
 #include <future>
 #include <new>
 #include <thread>
@@ -8,45 +7,12 @@
 #include <gale/base/error.hpp>
 #include <gale/runtime/detail/leader.hpp>
 
+#include "runtime/interrupted.hpp"
 #include "support/segmentations.hpp"
 
 namespace gale::test {
 
 namespace {
-
-using detail::Arena;
-using detail::BatchProducer;
-using detail::Lease;
-
-/// A host producer with something done before it launches, and before it finishes.
-class Interrupted : public BatchProducer {
- public:
-  using Interruption = std::function<void(const std::vector<Id>&)>;
-
-  Interrupted(const Mesh& mesh, Interruption at_launch, Interruption at_finish)
-      : producer_(detail::make_host_producer(mesh, {Relation::VV, 0, 32})),
-        at_launch_(std::move(at_launch)),
-        at_finish_(std::move(at_finish)) {}
-
-  bool is_large(Id) const override { return false; }
-  void launch(const std::vector<Id>& segments, Offset words, const StarSizes& scratch) override {
-    if (at_launch_) at_launch_(segments);
-    segments_ = segments;
-    producer_->launch(segments, words, scratch);
-  }
-  void begin_copy(Arena& arena) override { producer_->begin_copy(arena); }
-  detail::Shortfall finish(Arena& arena) override {
-    if (at_finish_) at_finish_(segments_);
-    return producer_->finish(arena);
-  }
-  void abandon() noexcept override {}
-  std::size_t device_bytes() const override { return 0; }
-
- private:
-  std::unique_ptr<BatchProducer> producer_;
-  Interruption at_launch_, at_finish_;
-  std::vector<Id> segments_;
-};
 
 struct Fixture {
   const InputMesh& input = mesh_named("holed_grid_9");
@@ -54,7 +20,7 @@ struct Fixture {
   ConsumerStatistics statistics;
 
   std::unique_ptr<detail::Leader> leader(Interrupted::Interruption at_launch, Interrupted::Interruption at_finish, Id per_request = 8) {
-    std::vector<std::unique_ptr<BatchProducer>> producers;
+    std::vector<std::unique_ptr<detail::BatchProducer>> producers;
     for (int i = 0; i < 2; ++i) producers.push_back(std::make_unique<Interrupted>(mesh, at_launch, at_finish));
     detail::LeaderParameters parameters;
     parameters.relations = Relation::VV;
