@@ -1,13 +1,9 @@
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <memory>
 #include <new>
 #include <string>
-
-#if defined(__linux__)
-#include <sys/mman.h>
-#endif
 
 #include <gale/base/kokkos.hpp>
 
@@ -19,16 +15,10 @@ using Array = Kokkos::View<T*, Memory>;
 
 namespace detail {
 
-/// Asks for 2 MiB pages, so that the first touch of a large array faults 512 times less. A hint: nothing depends on it.
-inline void advise_huge_pages([[maybe_unused]] void* data, [[maybe_unused]] std::size_t bytes) {
-#if defined(__linux__) && defined(MADV_HUGEPAGE)
-  constexpr std::uintptr_t page = 4096;
-  if (bytes < (std::size_t(4) << 20)) return;
-  const auto begin = (reinterpret_cast<std::uintptr_t>(data) + page - 1) / page * page;
-  const auto end = (reinterpret_cast<std::uintptr_t>(data) + bytes) / page * page;
-  madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
-#endif
-}
+/// Asks for 2 MiB pages, so that the first touch of a large array faults 512 times less: arrays that the device fills are touched at the speed of the link.
+/// Without a device the system's choice stands: some virtual machines get huge pages from their host one by one, four times slower than small ones.
+/// A hint: nothing depends on it.
+void advise_huge_pages(void* data, std::size_t bytes);
 
 }  // namespace detail
 
@@ -53,7 +43,7 @@ ViewType allocate(const std::string& label, Extents... extents) {
       throw OutOfMemory(std::string("out of memory: ") + ViewType::memory_space::name() + " has no " + std::to_string(bytes) + " bytes for " + label);
     }
   }();
-  if constexpr (std::is_same_v<typename ViewType::memory_space, HostMemory>) {
+  if constexpr (have_device && std::is_same_v<typename ViewType::memory_space, HostMemory>) {
     detail::advise_huge_pages(view.data(), view.span() * sizeof(typename ViewType::value_type));
   }
   return view;

@@ -6,6 +6,7 @@
 #include <gale/base/require_ids.hpp>
 #include <gale/base/sort_rows.hpp>
 #include <gale/mesh/detail/few_distinct.hpp>
+#include <gale/mesh/detail/found_rows.hpp>
 
 namespace gale::detail {
 
@@ -26,6 +27,7 @@ class LargeRows {
   /// Those whose count is FewDistinct::too_many. Replaces it by the number of distinct candidates.
   LargeRows(const Ids& count, Id large, const Candidates& candidates)
       : rows_(allocate<Ids>("GALE::large_rows", large)), begin_(allocate<Offsets>("GALE::large_begin", large + Offset(1))) {
+    if (large == 0) return;
     find(count);
     values_ = allocate<Ids>("GALE::candidates", count_candidates(candidates));
     gather(candidates);
@@ -102,6 +104,32 @@ class LargeRows {
   Ids values_;
 };
 
+/// Counts each row's distinct candidates; FewDistinct::too_many where they are more than a thread keeps by itself.
+template <class Candidates>
+void count_distinct(const Candidates& candidates, const Array<Id, ProducerMemory>& count) {
+  parallel_for(
+      "GALE::count_distinct", ProducerSpace(), count.extent(0), KOKKOS_LAMBDA(Offset row) {
+        FewDistinct few;
+        candidates(static_cast<Id>(row), [&](Id id) { few.insert(id); });
+        count(row) = few.size();
+      });
+}
+
+/// Writes those of the rows that count_distinct has counted.
+template <class Candidates>
+void write_distinct(const Candidates& candidates, const DistinctRows& to) {
+  parallel_for(
+      "GALE::write_distinct", ProducerSpace(), to.begin.extent(0) - 1, KOKKOS_LAMBDA(Offset row) {
+        FewDistinct few;
+        candidates(static_cast<Id>(row), [&](Id id) { few.insert(id); });
+        const Id begin = to.begin(row);
+        for (Id i = 0; i < few.size(); ++i) {
+          to.values(begin + i) = few[i];
+          to.row_of(begin + i) = static_cast<Id>(row);
+        }
+      });
+}
+
 /// For each of `rows` rows the distinct ones of its candidates, ascending. `candidates(row, visit)` calls visit(id) for each, in any order and any
 /// number of times. Throws gale::Error if there are more than 2^31 - 1 of them, which it calls `what`.
 template <class Candidates>
@@ -109,12 +137,12 @@ DistinctRows distinct_rows(const std::string& what, Offset rows, const Candidate
   using Ids = Array<Id, ProducerMemory>;
   const ProducerSpace space;
   const Ids count = allocate<Ids>("GALE::distinct_count", rows);
-  parallel_for(
-      "GALE::count_distinct", space, rows, KOKKOS_LAMBDA(Offset row) {
-        FewDistinct few;
-        candidates(static_cast<Id>(row), [&](Id id) { few.insert(id); });
-        count(row) = few.size();
-      });
+  [[maybe_unused]] FoundRows found;
+  if constexpr (is_device<ProducerSpace>) {
+    count_distinct(candidates, count);
+  } else {
+    found.count(candidates, count);
+  }
   const auto large = static_cast<Id>(reduce_sum(
       "GALE::count_large", space, rows, KOKKOS_LAMBDA(Offset row) { return count(row) == FewDistinct::too_many ? 1 : 0; }));
   const LargeRows<Candidates> large_rows(count, large, candidates);
@@ -123,17 +151,13 @@ DistinctRows distinct_rows(const std::string& what, Offset rows, const Candidate
   const DistinctRows result{allocate<Ids>("GALE::distinct_begin", rows + 1), allocate<Ids>("GALE::distinct", total),
                             allocate<Ids>("GALE::distinct_row", total)};
   exclusive_scan("GALE::scan_distinct", space, rows, result.begin, KOKKOS_LAMBDA(Offset row) { return count(row); });
-  parallel_for(
-      "GALE::write_distinct", space, rows, KOKKOS_LAMBDA(Offset row) {
-        FewDistinct few;
-        candidates(static_cast<Id>(row), [&](Id id) { few.insert(id); });
-        if (few.size() == FewDistinct::too_many) return;
-        const Id begin = result.begin(row);
-        for (Id i = 0; i < few.size(); ++i) {
-          result.values(begin + i) = few[i];
-          result.row_of(begin + i) = static_cast<Id>(row);
-        }
-      });
+  if constexpr (!is_device<ProducerSpace>) {
+    if (large == 0) {
+      found.write(result.begin, result.values, result.row_of);
+      return result;
+    }
+  }
+  write_distinct(candidates, result);
   large_rows.write(result);
   return result;
 }

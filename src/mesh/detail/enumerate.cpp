@@ -2,6 +2,7 @@
 
 #include <gale/base/atomic.hpp>
 #include <gale/mesh/detail/distinct_rows.hpp>
+#include <gale/mesh/detail/upper_link.hpp>
 
 namespace gale::detail {
 
@@ -51,6 +52,63 @@ struct HigherApexes {
   }
 };
 
+Id most_higher_neighbours(const Tables& simplices) {
+  const Offset vertices = simplices.edge_begin.extent(0) - 1;
+  return -reduce_min(
+      "GALE::most_higher_neighbours", ProducerSpace(), vertices, Id(0),
+      KOKKOS_LAMBDA(Offset v) { return simplices.edge_begin(v) - simplices.edge_begin(v + 1); });
+}
+
+/// Calls visit(link) with the upper link of a vertex.
+template <class Visit>
+KOKKOS_FUNCTION void with_upper_link(const Tables& simplices, const MiddleStars& stars, Offset vertex, const Visit& visit) {
+  visit(UpperLink(simplices, static_cast<Id>(vertex), [&](const auto& visit_middle) {
+    for (Offset i = stars.begin(vertex); i < stars.begin(vertex + 1); ++i) visit_middle(stars.tetrahedra(i));
+  }));
+}
+
+/// A thread a vertex, all of whose edges it knows by bits.
+void triangles_of_few_neighbours(const Tables& simplices, const MiddleStars& stars, SimplexTables<ProducerMemory>& tables) {
+  const ProducerSpace space;
+  const Offset vertices = simplices.edge_begin.extent(0) - 1, edges = simplices.edge_low.extent(0);
+  const Ids begin = allocate<Ids>("GALE::triangle_begin", edges + 1);
+  parallel_for(
+      "GALE::count_triangles", space, vertices, KOKKOS_LAMBDA(Offset v) {
+        with_upper_link(simplices, stars, v, [&](const UpperLink& link) {
+          for (Id i = 0; i < link.size(); ++i) begin(simplices.edge_begin(v) + i) = link.triangles(i);
+        });
+      });
+  const Offset total = reduce_sum("GALE::total_triangles", space, edges, KOKKOS_LAMBDA(Offset e) { return Offset(begin(e)); });
+  require_ids("triangles", total);
+  exclusive_scan("GALE::scan_triangles", space, edges, begin, KOKKOS_LAMBDA(Offset e) { return begin(e); });
+  const Ids edge_of = allocate<Ids>("GALE::triangle_edge", total), apex = allocate<Ids>("GALE::triangle_apex", total);
+  parallel_for(
+      "GALE::write_triangles", space, vertices, KOKKOS_LAMBDA(Offset v) {
+        with_upper_link(simplices, stars, v, [&](const UpperLink& link) {
+          const Id first = simplices.edge_begin(v);
+          Id at = begin(first);
+          for (Id i = 0; i < link.size(); ++i) {
+            link.for_each_apex(i, [&](Id c) {
+              edge_of(at) = first + i;
+              apex(at++) = c;
+            });
+          }
+        });
+      });
+  tables.triangle_begin = begin;
+  tables.triangle_edge = edge_of;
+  tables.triangle_apex = apex;
+}
+
+/// A thread an edge.
+void triangles_of_many_neighbours(const Tables& simplices, const MiddleStars& stars, SimplexTables<ProducerMemory>& tables) {
+  const Offset edges = simplices.edge_low.extent(0);
+  const auto triangles = distinct_rows("triangles", edges, HigherApexes{simplices, stars.begin, stars.tetrahedra});
+  tables.triangle_begin = triangles.begin;
+  tables.triangle_edge = triangles.row_of;
+  tables.triangle_apex = triangles.values;
+}
+
 }  // namespace
 
 MiddleStars find_middle_stars(const Tables& simplices) {
@@ -82,11 +140,11 @@ void enumerate_edges(const Tables& simplices, const MiddleStars& stars, SimplexT
 }
 
 void enumerate_triangles(const Tables& simplices, const MiddleStars& stars, SimplexTables<ProducerMemory>& tables) {
-  const Offset edges = simplices.edge_low.extent(0);
-  const auto triangles = distinct_rows("triangles", edges, HigherApexes{simplices, stars.begin, stars.tetrahedra});
-  tables.triangle_begin = triangles.begin;
-  tables.triangle_edge = triangles.row_of;
-  tables.triangle_apex = triangles.values;
+  if (most_higher_neighbours(simplices) <= UpperLink::capacity) {
+    triangles_of_few_neighbours(simplices, stars, tables);
+  } else {
+    triangles_of_many_neighbours(simplices, stars, tables);
+  }
 }
 
 void sort_edges_by_higher(const Tables& simplices, SimplexTables<ProducerMemory>& tables) {

@@ -131,12 +131,7 @@ void BlockStore::publish(Arena& arena, Id unread) {
 void BlockStore::give_back(Arena& arena) { free_.push_back(&arena); }
 
 void BlockStore::forget_unread() {
-  for (Arena* const arena : ahead_) {
-    arena->unread.store(0);
-    arena->ahead = false;
-  }
-  requested_.insert(requested_.end(), ahead_.begin(), ahead_.end());
-  ahead_.clear();
+  for (Arena* const arena : ahead_) arena->unread.store(0);
 }
 
 }  // namespace gale::detail

@@ -54,7 +54,7 @@ class BlockStore {
   /// Gives back an arena that was taken and not published.
   void give_back(Arena& arena);
 
-  /// No sweep reads any more.
+  /// No sweep reads any more. What it has read stays until its place is needed, which comes before any other.
   void forget_unread();
 
   std::size_t peak_bytes() const { return peak_bytes_.load(std::memory_order_relaxed); }
