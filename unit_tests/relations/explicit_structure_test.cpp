@@ -9,20 +9,11 @@
 #include "relations/star_subsets.hpp"
 #include "support/brute_force.hpp"
 #include "support/every_mesh.hpp"
+#include "support/message_of.hpp"
 
 namespace gale::test {
 
 namespace {
-
-template <class Body>
-std::string refusal_of(const Body& body) {
-  try {
-    body();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "accepted";
-}
 
 Mesh one_tetrahedron() { return encode(mesh_named("one_tetrahedron"), segmentation_by({0, 0, 1, 1})); }
 
@@ -30,7 +21,7 @@ Mesh one_tetrahedron() { return encode(mesh_named("one_tetrahedron"), segmentati
 
 TEST(ExplicitStructureErrors, name_the_relation_that_has_too_many_entries_and_their_number) {
   EXPECT_NO_THROW(detail::require_countable(Relation::VT, 2147483647));
-  EXPECT_EQ(refusal_of([] { detail::require_countable(Relation::VV, 2147483648); }),
+  EXPECT_EQ(message_of([] { detail::require_countable(Relation::VV, 2147483648); }),
             "the explicit structure can't hold the 2147483648 entries of VV: at most 2147483647 fit");
 }
 
@@ -38,7 +29,7 @@ TEST(ExplicitStructureErrors, name_the_relation_that_has_too_many_entries_and_th
 
 TEST(ExplicitStructureErrors, without_kokkos_kernels_name_the_option) {
   EXPECT_EQ(
-      refusal_of([] { ExplicitStructure(one_tetrahedron(), Relation::VV); }),
+      message_of([] { ExplicitStructure(one_tetrahedron(), Relation::VV); }),
       "the explicit structure is computed with Kokkos-Kernels, which this GALE was built without: configure it with "
       "GALE_ENABLE_KOKKOS_KERNELS=ON");
 }
@@ -207,24 +198,24 @@ TEST(ExplicitStructureErrors, name_what_it_was_not_preconditioned_for) {
   ExplicitStructure structure(one_tetrahedron(), Relation::VV);
   const std::string message =
       "the structure was preconditioned for VV, not for VT: name every relation that you read when you construct it";
-  EXPECT_EQ(refusal_of([&] { structure.for_each_segment(Relation::VT, {}, [](int, const SegmentRows&) {}); }), message);
-  EXPECT_EQ(refusal_of([&] { structure.consumer()->row(Relation::VT, 0); }), message);
+  EXPECT_EQ(message_of([&] { structure.for_each_segment(Relation::VT, {}, [](int, const SegmentRows&) {}); }), message);
+  EXPECT_EQ(message_of([&] { structure.consumer()->row(Relation::VT, 0); }), message);
 }
 
 TEST(ExplicitStructureErrors, name_a_vertex_that_is_not_there) {
   ExplicitStructure structure(one_tetrahedron(), Relation::VV);
   const auto consumer = structure.consumer();
-  EXPECT_EQ(refusal_of([&] { consumer->row(Relation::VV, 4); }), "there is no vertex 4: the mesh has 0 to 3");
-  EXPECT_EQ(refusal_of([&] { consumer->row(Relation::VV, -1); }), "there is no vertex -1: the mesh has 0 to 3");
+  EXPECT_EQ(message_of([&] { consumer->row(Relation::VV, 4); }), "there is no vertex 4: the mesh has 0 to 3");
+  EXPECT_EQ(message_of([&] { consumer->row(Relation::VV, -1); }), "there is no vertex -1: the mesh has 0 to 3");
   EXPECT_EQ(consumer->row(Relation::VV, 3).size(), 3);
 }
 
 TEST(ExplicitStructureErrors, name_an_edge_triangle_or_tetrahedron_that_is_not_there) {
   ExplicitStructure structure(one_tetrahedron(), Relation::EV | Relation::FT | Relation::TT);
   const auto consumer = structure.consumer();
-  EXPECT_EQ(refusal_of([&] { consumer->row(Relation::EV, 6); }), "there is no edge 6: the mesh has 0 to 5");
-  EXPECT_EQ(refusal_of([&] { consumer->row(Relation::FT, 4); }), "there is no triangle 4: the mesh has 0 to 3");
-  EXPECT_EQ(refusal_of([&] { consumer->row(Relation::TT, -1); }), "there is no tetrahedron -1: the mesh has 0 to 0");
+  EXPECT_EQ(message_of([&] { consumer->row(Relation::EV, 6); }), "there is no edge 6: the mesh has 0 to 5");
+  EXPECT_EQ(message_of([&] { consumer->row(Relation::FT, 4); }), "there is no triangle 4: the mesh has 0 to 3");
+  EXPECT_EQ(message_of([&] { consumer->row(Relation::TT, -1); }), "there is no tetrahedron -1: the mesh has 0 to 0");
   EXPECT_EQ(consumer->row(Relation::TT, 0).size(), 0);
 }
 
@@ -234,7 +225,7 @@ TEST(ExplicitStructureErrors, come_out_of_a_sweep_from_the_body_that_threw) {
   const auto body = [](int, const SegmentRows& rows) {
     if (rows.segment() == 100) throw Error("segment 100");
   };
-  EXPECT_EQ(refusal_of([&] { structure.for_each_segment(Relation::VV, with_threads(4), body); }), "segment 100");
+  EXPECT_EQ(message_of([&] { structure.for_each_segment(Relation::VV, with_threads(4), body); }), "segment 100");
 }
 
 #endif

@@ -4,21 +4,12 @@
 #include <gale/relations/preconditioning.hpp>
 #include <gale/relations/segment_kernel.hpp>
 
+#include "support/message_of.hpp"
 #include "support/segmentations.hpp"
 
 namespace gale::test {
 
 namespace {
-
-template <class Body>
-std::string refusal_of(const Body& body) {
-  try {
-    body();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "accepted";
-}
 
 void expect_needs(RelationSet relations, Enumeration upto, bool lower_edges, bool tetrahedra) {
   const SimplexNeeds needs = needs_of(relations);
@@ -64,9 +55,9 @@ TEST(Preconditioning, names_what_was_forgotten_and_what_to_do) {
   EXPECT_NO_THROW(require_preconditioned(Relation::VV | Relation::EF, Relation::EF));
   EXPECT_NO_THROW(require_preconditioned(Relation::VV, RelationSet()));
   const std::string what_to_do = ": name every relation that you read when you construct it";
-  EXPECT_EQ(refusal_of([] { require_preconditioned(Relation::VV | Relation::EF, Relation::EF | Relation::TT); }),
+  EXPECT_EQ(message_of([] { require_preconditioned(Relation::VV | Relation::EF, Relation::EF | Relation::TT); }),
             "the structure was preconditioned for EF, VV, not for EF, TT" + what_to_do);
-  EXPECT_EQ(refusal_of([] { require_preconditioned(RelationSet(), Relation::link); }),
+  EXPECT_EQ(message_of([] { require_preconditioned(RelationSet(), Relation::link); }),
             "the structure was preconditioned for no relation, not for link" + what_to_do);
 }
 
@@ -78,10 +69,10 @@ TEST(Preconditioning, names_a_simplex_that_is_not_there_by_dimension_number_and_
     EXPECT_NO_THROW(require_simplex(mesh, dimension, 0));
     EXPECT_NO_THROW(require_simplex(mesh, dimension, counts[dimension] - 1));
   }
-  EXPECT_EQ(refusal_of([&] { require_simplex(mesh, 0, 4); }), "there is no vertex 4: the mesh has 0 to 3");
-  EXPECT_EQ(refusal_of([&] { require_simplex(mesh, 1, 6); }), "there is no edge 6: the mesh has 0 to 5");
-  EXPECT_EQ(refusal_of([&] { require_simplex(mesh, 2, -1); }), "there is no triangle -1: the mesh has 0 to 3");
-  EXPECT_EQ(refusal_of([&] { require_simplex(mesh, 3, 1); }), "there is no tetrahedron 1: the mesh has 0 to 0");
+  EXPECT_EQ(message_of([&] { require_simplex(mesh, 0, 4); }), "there is no vertex 4: the mesh has 0 to 3");
+  EXPECT_EQ(message_of([&] { require_simplex(mesh, 1, 6); }), "there is no edge 6: the mesh has 0 to 5");
+  EXPECT_EQ(message_of([&] { require_simplex(mesh, 2, -1); }), "there is no triangle -1: the mesh has 0 to 3");
+  EXPECT_EQ(message_of([&] { require_simplex(mesh, 3, 1); }), "there is no tetrahedron 1: the mesh has 0 to 0");
 }
 
 TEST(Kernels, are_one_for_the_star_and_one_for_each_other_relation) {

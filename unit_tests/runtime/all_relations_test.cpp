@@ -9,6 +9,7 @@
 #include "runtime/ways.hpp"
 #include "support/brute_force.hpp"
 #include "support/every_mesh.hpp"
+#include "support/message_of.hpp"
 
 namespace gale::test {
 
@@ -62,15 +63,6 @@ struct Fixture {
     return expected.match(relation, simplex, consumer.row(relation, simplex));
   }
 };
-
-std::string message_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
-}
 
 }  // namespace
 

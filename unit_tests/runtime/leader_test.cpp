@@ -8,6 +8,7 @@
 #include <gale/runtime/detail/leader.hpp>
 
 #include "runtime/interrupted.hpp"
+#include "support/message_of.hpp"
 #include "support/segmentations.hpp"
 
 namespace gale::test {
@@ -30,15 +31,6 @@ struct Fixture {
     return std::make_unique<detail::Leader>(mesh, parameters, std::move(producers));
   }
 };
-
-std::string message_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
-}
 
 }  // namespace
 

@@ -14,7 +14,7 @@ struct Way {
 
 /// Everything that can be told apart about how a runtime works.
 inline std::vector<Way> ways() {
-  std::vector<Way> all(5);
+  std::vector<Way> all(6);
   all[0].name = "consumers";
   all[0].options.production = Production::consumers;
   all[1].name = "leaders";
@@ -28,6 +28,7 @@ inline std::vector<Way> ways() {
   all[3].options.blocks_per_request = all[3].options.threads_per_block = 1;
   all[4].name = "pairs";
   all[4].options.production = Production::pairs;
+  all[5].name = "automatic";
   return all;
 }
 

@@ -124,9 +124,14 @@ class PipeReaders {
 /// In a sweep each consumer has a producer, which runs ahead of it; consumers that ask in any order produce for themselves.
 class PairProduction : public RuntimeImplementation {
  public:
-  PairProduction(const Mesh& mesh, RelationSet relations) : RuntimeImplementation(mesh, relations), alone_(by_consumers(mesh, relations)) {}
+  PairProduction(const Mesh& mesh, RelationSet relations, Pairs pairs)
+      : RuntimeImplementation(mesh, relations), pairs_(pairs), alone_(by_consumers(mesh, relations)) {}
 
   void for_each_segment(RelationSet wanted, const SweepOptions& options, const Structure::SegmentBody& body) override {
+    if (pairs_ == Pairs::on_idle_cores && 2 * options.threads > host_threads()) {
+      alone_->for_each_segment(wanted, options, body);
+      return;
+    }
     PipeReaders readers(mesh(), wanted, std::max(options.threads, 0), body);
     sweep(mesh().segments(), options, [&](int producer, Id segment) { readers[producer].produce(segment); });
     readers.end();
@@ -135,7 +140,7 @@ class PairProduction : public RuntimeImplementation {
   }
 
   std::unique_ptr<Consumer> consumer() override { return alone_->consumer(); }
-  Production production() const override { return Production::pairs; }
+  Production production() const override { return pairs_ == Pairs::always ? Production::pairs : Production::consumers; }
 
   RuntimeStatistics statistics() const override {
     RuntimeStatistics all = alone_->statistics();
@@ -145,12 +150,15 @@ class PairProduction : public RuntimeImplementation {
   }
 
  private:
+  Pairs pairs_;
   std::unique_ptr<RuntimeImplementation> alone_;
   ConsumerLog log_;
 };
 
 }  // namespace
 
-std::unique_ptr<RuntimeImplementation> by_pairs(const Mesh& mesh, RelationSet relations) { return std::make_unique<PairProduction>(mesh, relations); }
+std::unique_ptr<RuntimeImplementation> by_pairs(const Mesh& mesh, RelationSet relations, Pairs pairs) {
+  return std::make_unique<PairProduction>(mesh, relations, pairs);
+}
 
 }  // namespace gale::detail
