@@ -6,7 +6,7 @@ namespace gale {
 
 /// Who computes the relations of a segment.
 enum class Production {
-  automatic,  ///< leaders where Kokkos has a device; else consumers, and pairs in sweeps that leave half of the cores idle
+  automatic,  ///< leaders where Kokkos has a device, else consumers
   leaders,    ///< one leader thread per queue, which has batches of segments computed in the producers' space, ahead of need
   consumers,  ///< each consumer for itself, on the host: nothing is handed over and nobody waits
   pairs       ///< on the host, a producer thread for each consumer of a sweep, which runs ahead of it: the task-parallel way of ACTOPO, for comparison

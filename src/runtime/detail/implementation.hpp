@@ -32,9 +32,8 @@ class RuntimeImplementation {
 /// Production::consumers.
 std::unique_ptr<RuntimeImplementation> by_consumers(const Mesh& mesh, RelationSet relations);
 
-/// Production::pairs; or that in sweeps that leave at least half of the threads without a consumer, and Production::consumers in others.
-enum class Pairs { always, on_idle_cores };
-std::unique_ptr<RuntimeImplementation> by_pairs(const Mesh& mesh, RelationSet relations, Pairs pairs);
+/// Production::pairs.
+std::unique_ptr<RuntimeImplementation> by_pairs(const Mesh& mesh, RelationSet relations);
 
 /// Production::leaders.
 std::unique_ptr<RuntimeImplementation> by_leaders(const Mesh& mesh, RelationSet relations, const RuntimeOptions& options);

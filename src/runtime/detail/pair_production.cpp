@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <thread>
 
@@ -13,7 +15,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Between a consumer and its producer: some segments' blocks, computed in turn and read in turn.
+/// Between a consumer and its producer: some segments' blocks, computed in turn and read in turn. Who has to wait looks for a while before it sleeps, since
+/// a segment takes no longer than falling asleep and being woken.
 class Pipe {
  public:
   Pipe(const Mesh& mesh, RelationSet relations) {
@@ -22,71 +25,84 @@ class Pipe {
 
   /// Computes a segment when there is room for its blocks. By the producer. Throws what the consumer failed with, once it has.
   void produce(Id segment) {
-    const std::size_t slot = filled_ % slots;
-    {
-      std::unique_lock<std::mutex> lock(mutex_);
-      changed_.wait(lock, [this] { return filled_ - read_ < slots || failure_; });
-      if (failure_) std::rethrow_exception(failure_);
-    }
-    rows_[slot] = producers_[slot]->compute(segment);
-    change([this] { ++filled_; });
+    const std::size_t filled = filled_.load();
+    wait_until([&] { return filled - read_.load() < slots || failed_.load(); });
+    if (failed_.load()) std::rethrow_exception(failure_);
+    rows_[filled % slots] = producers_[filled % slots]->compute(segment);
+    change([&] { filled_.store(filled + 1); });
   }
 
   /// There won't be more. By the producer.
   void end() {
-    change([this] { ended_ = true; });
+    change([this] { ended_.store(true); });
   }
 
   /// Calls body(rows) for all segments, until the end. By the consumer.
   template <class Body>
   void consume(const Body& body, ConsumerStatistics& statistics) {
     try {
-      while (wait_for_next(statistics)) {
-        body(rows_[read_ % slots]);
-        change([this] { ++read_; });
+      for (std::size_t read = 0; wait_for(read, statistics); ++read) {
+        body(rows_[read % slots]);
+        change([&] { read_.store(read + 1); });
       }
     } catch (...) {
-      change([this] { failure_ = std::current_exception(); });
+      failure_ = std::current_exception();
+      change([this] { failed_.store(true); });
     }
   }
 
   /// After the consumer has ended: throws what it failed with.
   void rethrow() const {
-    if (failure_) std::rethrow_exception(failure_);
+    if (failed_.load()) std::rethrow_exception(failure_);
   }
 
  private:
   static constexpr std::size_t slots = 8;
 
-  /// False if there is none.
-  bool wait_for_next(ConsumerStatistics& statistics) {
-    std::unique_lock<std::mutex> lock(mutex_);
-    if (filled_ > read_) {
+  /// Waits for the next segment; false if there is none.
+  bool wait_for(std::size_t next, ConsumerStatistics& statistics) {
+    if (filled_.load() > next) {
       ++statistics.hits;
       return true;
     }
     const auto begin = Clock::now();
-    changed_.wait(lock, [this] { return filled_ > read_ || ended_; });
-    if (filled_ == read_) return false;
+    wait_until([&] { return filled_.load() > next || ended_.load(); });
+    if (filled_.load() <= next) return false;
     ++statistics.requests;
     statistics.waiting.production += std::chrono::duration<double>(Clock::now() - begin).count();
     return true;
   }
 
+  template <class Condition>
+  void wait_until(const Condition& condition) {
+    constexpr int patience = 4000;
+    for (int look = 0; look < patience; ++look) {
+      if (condition()) return;
+    }
+    std::unique_lock<std::mutex> lock(mutex_);
+    ++sleepers_;
+    changed_.wait(lock, condition);
+    --sleepers_;
+  }
+
+  /// A sleeper counts itself before it looks for the last time, and here something changes before sleepers are counted: so nobody sleeps on.
   template <class Change>
   void change(const Change& apply) {
-    const std::lock_guard<std::mutex> lock(mutex_);
     apply();
+    if (sleepers_.load() == 0) return;
+    { const std::lock_guard<std::mutex> lock(mutex_); }
     changed_.notify_all();
   }
 
   std::array<std::unique_ptr<HostProducer>, slots> producers_;
   std::array<SegmentRows, slots> rows_;
+  alignas(64) std::atomic<std::size_t> filled_{0};
+  alignas(64) std::atomic<std::size_t> read_{0};
+  std::atomic<bool> ended_{false}, failed_{false};
+  std::exception_ptr failure_;
+  std::atomic<int> sleepers_{0};
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::size_t filled_ = 0, read_ = 0;
-  bool ended_ = false;
-  std::exception_ptr failure_;
 };
 
 /// The consumers of a sweep, each a thread that reads its pipe.
@@ -124,14 +140,9 @@ class PipeReaders {
 /// In a sweep each consumer has a producer, which runs ahead of it; consumers that ask in any order produce for themselves.
 class PairProduction : public RuntimeImplementation {
  public:
-  PairProduction(const Mesh& mesh, RelationSet relations, Pairs pairs)
-      : RuntimeImplementation(mesh, relations), pairs_(pairs), alone_(by_consumers(mesh, relations)) {}
+  PairProduction(const Mesh& mesh, RelationSet relations) : RuntimeImplementation(mesh, relations), alone_(by_consumers(mesh, relations)) {}
 
   void for_each_segment(RelationSet wanted, const SweepOptions& options, const Structure::SegmentBody& body) override {
-    if (pairs_ == Pairs::on_idle_cores && 2 * options.threads > host_threads()) {
-      alone_->for_each_segment(wanted, options, body);
-      return;
-    }
     PipeReaders readers(mesh(), wanted, std::max(options.threads, 0), body);
     sweep(mesh().segments(), options, [&](int producer, Id segment) { readers[producer].produce(segment); });
     readers.end();
@@ -140,7 +151,7 @@ class PairProduction : public RuntimeImplementation {
   }
 
   std::unique_ptr<Consumer> consumer() override { return alone_->consumer(); }
-  Production production() const override { return pairs_ == Pairs::always ? Production::pairs : Production::consumers; }
+  Production production() const override { return Production::pairs; }
 
   RuntimeStatistics statistics() const override {
     RuntimeStatistics all = alone_->statistics();
@@ -150,15 +161,12 @@ class PairProduction : public RuntimeImplementation {
   }
 
  private:
-  Pairs pairs_;
   std::unique_ptr<RuntimeImplementation> alone_;
   ConsumerLog log_;
 };
 
 }  // namespace
 
-std::unique_ptr<RuntimeImplementation> by_pairs(const Mesh& mesh, RelationSet relations, Pairs pairs) {
-  return std::make_unique<PairProduction>(mesh, relations, pairs);
-}
+std::unique_ptr<RuntimeImplementation> by_pairs(const Mesh& mesh, RelationSet relations) { return std::make_unique<PairProduction>(mesh, relations); }
 
 }  // namespace gale::detail
