@@ -3,7 +3,7 @@
 #include <limits>
 #include <numeric>
 
-#include <gale/relations/boundary.hpp>
+#include <gale/relations/boundary_vertices.hpp>
 
 #include "commands.hpp"
 #include "session.hpp"

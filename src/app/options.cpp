@@ -54,7 +54,7 @@ void add_relation(CLI::App& command, Options& options) {
   command.add_option("--relation", options.relation, "XY: for each X the Ys that touch it; V vertex, E edge, F triangle, T tetrahedron")
       ->required()
       ->check(CLI::IsMember(names));
-  command.add_flag("--verify", options.verify, "Compare every row with the explicit structure (without Kokkos-Kernels: with brute force)");
+  command.add_flag("--verify", options.verify, "Compare every row with the explicit structure (with brute force if it is that one, or without Kokkos-Kernels)");
   command.add_option("--dump", options.dump, "Write all rows to this text file");
 }
 

@@ -28,12 +28,11 @@ class ExplicitOracle : public Oracle {
 
 }  // namespace
 
-std::unique_ptr<Oracle> make_oracle(const Mesh& mesh, Relation relation, [[maybe_unused]] int threads) {
+std::unique_ptr<Oracle> make_oracle(const Mesh& mesh, Relation relation, [[maybe_unused]] int threads, [[maybe_unused]] bool is_explicit) {
 #ifdef GALE_ENABLE_KOKKOS_KERNELS
-  return std::make_unique<ExplicitOracle>(mesh, relation, threads);
-#else
-  return make_brute_force(mesh, relation);
+  if (!is_explicit) return std::make_unique<ExplicitOracle>(mesh, relation, threads);
 #endif
+  return make_brute_force(mesh, relation);
 }
 
 }  // namespace gale::app

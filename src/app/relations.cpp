@@ -115,7 +115,7 @@ void tell(const Sizes& sizes, Relation relation, Session& session) {
 
 void verify(Structure& structure, Relation relation, const Sizes& sizes, Session& session) {
   const SweepOptions sweep = session.sweep("verifying " + name_of(relation));
-  const auto oracle = make_oracle(structure.mesh(), relation, sweep.threads);
+  const auto oracle = make_oracle(structure.mesh(), relation, sweep.threads, session.options().structure == "explicit");
   const std::int64_t differences = count_differences(structure, relation, *oracle, sweep);
   session.console().say("differences", grouped(differences) + " from " + oracle->name());
   session.report().result["differences"] = differences;

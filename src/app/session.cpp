@@ -1,6 +1,7 @@
 #include "session.hpp"
 
 #include <charconv>
+#include <filesystem>
 #include <random>
 
 #include <gale/base/error.hpp>
@@ -17,6 +18,16 @@ namespace gale::app {
 namespace {
 
 constexpr int default_capacity = 100;
+
+/// Throws UsageError if two of the files, those that aren't empty, are one.
+void require_distinct(const std::vector<std::string>& files) {
+  const auto plain = [](const std::string& file) { return std::filesystem::absolute(file).lexically_normal(); };
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (!files[i].empty() && !files[j].empty() && plain(files[i]) == plain(files[j])) throw UsageError("'" + files[i] + "' is named for two files");
+    }
+  }
+}
 
 /// K of "random:K", or nothing. Throws UsageError if there is something else in its place.
 std::optional<std::int64_t> random_segments(const std::string& segments) {
@@ -59,6 +70,7 @@ Segmentation octree(const io::Dataset& dataset, int capacity) {
 Session::Session(const Options& options) : options_(options), console_(options.quiet) {
   report_.input = options.input;
   random_segments(options.segments);
+  require_distinct({options.input, options.output, options.dump, options.report});
   report_.threads = host_threads();
   // Found out now rather than after the work.
   if (!options.output.empty()) {

@@ -41,16 +41,7 @@ KOKKOS_FORCEINLINE_FUNCTION int warp(const Team& team) {
   return team.team_rank();
 }
 
-/// The team's scratch memory of `bytes` bytes, aligned to 16.
-KOKKOS_FORCEINLINE_FUNCTION char* scratch(const HostTeam& team, int /*level*/, std::size_t /*bytes*/) {
-  return team.scratch();
-}
-template <class Team>
-KOKKOS_FORCEINLINE_FUNCTION char* scratch(const Team& team, int level, std::size_t bytes) {
-  return static_cast<char*>(team.team_scratch(level).get_shmem_aligned(bytes, 16));
-}
-
-/// The same at a level that is known at compile time. If it is not, nvcc keeps the whole kernel object of each thread in memory, and accesses scratch
+/// The team's scratch memory of `bytes` bytes, aligned to 16, at a level that is known at compile time. If it is not, nvcc keeps the whole kernel object of each thread in memory, and accesses scratch
 /// memory in the slower way that works for any.
 template <int level, class Team>
 KOKKOS_FORCEINLINE_FUNCTION char* scratch(const Team& team, std::size_t bytes) {

@@ -11,6 +11,9 @@ namespace {
 using Ids = Array<Id, ProducerMemory>;
 using Keys = Array<std::uint64_t, ProducerMemory>;
 
+/// Of the mesh', which other threads may use too: a managed View's count isn't atomic where Kokkos has Serial alone.
+using VertexInput = Kokkos::View<const Id*, ProducerMemory, Kokkos::MemoryUnmanaged>;
+
 KOKKOS_INLINE_FUNCTION std::uint64_t key_of(Id first, Id second) {
   return std::uint64_t(static_cast<std::uint32_t>(first)) << 32 | static_cast<std::uint32_t>(second);
 }
@@ -33,7 +36,7 @@ Ids places_of(const Keys& keys) {
   return place;
 }
 
-Ids edge_numbers(const Simplices<ProducerMemory>& simplices, const Array<const Id, ProducerMemory>& input) {
+Ids edge_numbers(const Simplices<ProducerMemory>& simplices, const VertexInput& input) {
   const auto keys = allocate<Keys>("GALE::edge_keys", simplices.edge_low.extent(0));
   parallel_for(
       "GALE::edge_keys", ProducerSpace(), keys.extent(0), KOKKOS_LAMBDA(Offset e) {
@@ -44,7 +47,7 @@ Ids edge_numbers(const Simplices<ProducerMemory>& simplices, const Array<const I
   return places_of(keys);
 }
 
-Ids triangle_numbers(const Simplices<ProducerMemory>& simplices, const Array<const Id, ProducerMemory>& input) {
+Ids triangle_numbers(const Simplices<ProducerMemory>& simplices, const VertexInput& input) {
   const auto edges = edge_numbers(simplices, input);
   const auto keys = allocate<Keys>("GALE::triangle_keys", simplices.triangle_apex.extent(0));
   parallel_for(
@@ -69,7 +72,7 @@ Array<const Id, HostMemory> input_numbers(const Mesh& mesh, int dimension) {
   SimplexNeeds needs;
   needs.upto = dimension == 1 ? Enumeration::edges : Enumeration::triangles;
   const auto simplices = mesh.simplices_on_producer(needs);
-  const auto& input = mesh.vertex_input_on_producer();
+  const VertexInput input = mesh.vertex_input_on_producer();
   return on_host(dimension == 1 ? edge_numbers(simplices, input) : triangle_numbers(simplices, input));
 }
 

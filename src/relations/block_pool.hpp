@@ -5,9 +5,9 @@
 
 namespace gale {
 
-/// What a star kernel needs in scratch memory for one segment, in entries.
+/// What a kernel needs in scratch memory for one segment, in entries. Row kernels need `rows` alone.
 struct StarSizes {
-  Id rows = 0;        ///< vertices of the segment
+  Id rows = 0;        ///< of the segment: its vertices, for star kernels
   Id star = 0;        ///< entries of all its VT rows
   Id neighbours = 0;  ///< entries of all its VV rows
   Id slots = 0;       ///< hash slots for the neighbours of one vertex; a power of two, enough if three times its tetrahedra

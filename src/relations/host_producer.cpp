@@ -27,9 +27,10 @@ class Blocks {
 
  private:
   void grow(Offset count) {
-    pool_.capacity = count + count / 2;
-    words_.reset(new Id[pool_.capacity]);
+    const Offset capacity = count + count / 2;
+    words_.reset(new Id[capacity]);  // may throw: the old memory serves the old capacity then
     pool_.words = words_.get();
+    pool_.capacity = capacity;
   }
 
   detail::HostWorkspace kernel_;

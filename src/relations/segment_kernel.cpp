@@ -21,6 +21,16 @@ EncodedMesh<Memory> encoded(const Mesh& mesh) {
   }
 }
 
+/// I_V: the host has it without the rest.
+template <class Memory>
+Kokkos::View<const Id*, Memory, Kokkos::MemoryUnmanaged> vertex_begin(const Mesh& mesh) {
+  if constexpr (is_device_memory<Memory>) {
+    return mesh.producer().vertex_begin;
+  } else {
+    return mesh.vertex_begin();
+  }
+}
+
 template <class Memory>
 Simplices<Memory> simplices(const Mesh& mesh, RelationSet wanted) {
   SimplexNeeds needs = needs_of(wanted);
@@ -84,7 +94,7 @@ struct SegmentKernel<Memory>::Any {
     } else {
       AllRowKernels<Memory>::with(members_of(wanted).front(), [this](auto row) {
         row.simplices = simplices<Memory>(mesh, wanted);
-        row.vertex_begin = encoded<Memory>(mesh).vertex_begin;
+        row.vertex_begin = vertex_begin<Memory>(mesh);
         kernel = row;
       });
     }
@@ -131,7 +141,8 @@ StarSizes SegmentKernel<Memory>::bound(Id segment) const {
   if (star_relations.contains(any_->wanted)) {
     const auto& external = any_->mesh.external_begin();
     const Offset touching = external(segment + 1) - external(segment);
-    require_ids("corners of tetrahedra in one segment", 4 * Offset(rows(3)) + 3 * touching);
+    // Its vertices have at most three neighbours for each corner of a tetrahedron there.
+    require_ids("neighbours in one segment", 3 * (4 * Offset(rows(3)) + 3 * touching) + 2 * Offset(rows(0)));
     return StarKernel<Memory>::bound(rows(0), rows(3), touching, any_->wanted);
   }
   return {rows(row_dimension(members_of(any_->wanted).front())), 0, 0, 0};

@@ -10,7 +10,7 @@
 
 namespace gale {
 
-/// The sets of relations that one kernel computes together: the members of star_relations, and each other one by itself. In the order of `Relation`.
+/// The sets of relations that one kernel computes together: the members of star_relations, and each other one by itself. These first, in the order of `Relation`.
 std::vector<RelationSet> kernels_for(RelationSet relations);
 
 /// Are all the blocks of a batch there, as its directory says (see BlockPool)? Throws gale::Error, naming the segment, if one has more entries than an

@@ -11,7 +11,7 @@ from pathlib import Path
 GALE = os.environ["GALE"]
 VERSION = os.environ["GALE_VERSION"]
 HAVE_VTK = os.environ["GALE_ENABLE_VTK"] == "1"
-STRUCTURES = ["gale", "inline", "task-parallel"] + ["explicit"] * (os.environ["GALE_ENABLE_KOKKOS_KERNELS"] == "1")
+STRUCTURES = ["gale", "inline"] + ["explicit"] * (os.environ["GALE_ENABLE_KOKKOS_KERNELS"] == "1")
 KINDS = ["minima", "saddles1", "saddles2", "maxima", "degenerate"]
 
 needs_vtk = unittest.skipUnless(HAVE_VTK, "this gale was built without VTK")

@@ -19,6 +19,11 @@ class Counts(gale.CommandTest):
                         self.assertEqual(self.counts("grid:32", "--structure", structure, "--capacity", capacity,
                                                      "--threads", threads), GRID_32)
 
+    def test_with_a_producer_for_each_consumer(self):
+        for capacity, threads in ((7, 2), (100, 1), (100, 8), (1000000, 2)):
+            with self.subTest(capacity=capacity, threads=threads):
+                self.assertEqual(self.counts("grid:32", "--structure", "task-parallel", "--capacity", capacity, "--threads", threads), GRID_32)
+
     def test_of_a_larger_grid(self):
         for structure in gale.STRUCTURES:
             with self.subTest(structure=structure):

@@ -76,6 +76,12 @@ class Verification(gale.CommandTest):
             self.assertGreater(report["mesh"]["edges"], 0)
 
 
+    @unittest.skipUnless("explicit" in gale.STRUCTURES, "this gale has no Kokkos-Kernels")
+    def test_does_not_compare_a_structure_with_itself(self):
+        self.assertIn("0 from brute force", self.succeed("relations", "grid:6", "--relation", "EE", "--verify", "--structure", "explicit"))
+        self.assertIn("0 from the explicit structure", self.succeed("relations", "grid:6", "--relation", "EE", "--verify"))
+
+
 class Report(gale.CommandTest):
     def test_has_the_sizes(self):
         report = self.report("relations", "grid:4", "--relation", "FT")
@@ -96,6 +102,10 @@ class Usage(gale.CommandTest):
     def test_refuses_segments_that_are_no_number(self):
         for segments in ("random:", "random:0", "random:-1", "random:2x", "random:99999999999999999999"):
             self.refuse(2, "relations", "grid:4", "--relation", "VE", "--segments", segments, naming=segments)
+
+    def test_refuses_one_name_for_two_files(self):
+        self.refuse(2, "relations", "grid:4", "--relation", "VE", "--dump", "rows", "--report", "./rows", naming="rows")
+        self.assertEqual(self.names(), [])
 
     def test_refuses_a_file_that_it_cannot_write(self):
         self.refuse(1, "relations", "grid:4", "--relation", "VE", "--dump", "nowhere/rows.txt", naming="nowhere")

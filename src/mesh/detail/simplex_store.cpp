@@ -26,7 +26,9 @@ void add_tables(const SimplexTables<Memory>& tables, Simplices<Memory>& view) {
   view.lower_edges = tables.lower_edges;
 }
 
-Array<Id, ProducerMemory> interval_begin_of(const Simplices<ProducerMemory>& simplices, const Array<Id, ProducerMemory>& vertex_begin, int dimension) {
+/// `vertex_begin` is unmanaged, since other threads may copy the mesh' own at this moment.
+Array<Id, ProducerMemory> interval_begin_of(const Simplices<ProducerMemory>& simplices,
+                                            const Kokkos::View<const Id*, ProducerMemory, Kokkos::MemoryUnmanaged>& vertex_begin, int dimension) {
   const auto begin = allocate<Array<Id, ProducerMemory>>("GALE::interval_begin", vertex_begin.extent(0));
   parallel_for(
       "GALE::interval_begin", ProducerSpace(), begin.extent(0), KOKKOS_LAMBDA(Offset s) {

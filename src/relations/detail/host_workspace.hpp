@@ -11,8 +11,6 @@ class HostWorkspace {
  public:
   HostWorkspace(const Mesh& mesh, RelationSet wanted) : kernel_(mesh, wanted) {}
 
-  RelationSet wanted() const { return kernel_.wanted(); }
-
   /// Computes the blocks of one segment into `pool`, whose directory has room for them alone. False if the pool lacks room for some.
   bool compute(Id segment, BlockPool pool) {
     require(kernel_.bound(segment));
@@ -31,8 +29,9 @@ class HostWorkspace {
  private:
   void require(const StarSizes& sizes) {
     if (scratch_ && sizes_.contains(sizes)) return;
-    sizes_ = larger(sizes_, sizes);
-    scratch_.reset(new char[kernel_.scratch_bytes(sizes_, 1)]);
+    const StarSizes all = larger(sizes_, sizes);
+    scratch_.reset(new char[kernel_.scratch_bytes(all, 1)]);  // may throw: the old memory serves the old sizes then
+    sizes_ = all;
   }
 
   SegmentKernel<HostMemory> kernel_;

@@ -19,15 +19,17 @@ using Clock = std::chrono::steady_clock;
 /// a segment takes no longer than falling asleep and being woken.
 class Pipe {
  public:
-  Pipe(const Mesh& mesh, RelationSet relations) {
+  /// `stopped` is set when some consumer of the sweep fails, and tells the others to read no more.
+  Pipe(const Mesh& mesh, RelationSet relations, std::atomic<bool>& stopped) : stopped_(stopped) {
     for (auto& producer : producers_) producer = std::make_unique<HostProducer>(mesh, relations);
   }
 
   /// Computes a segment when there is room for its blocks. By the producer. Throws what the consumer failed with, once it has.
   void produce(Id segment) {
     const std::size_t filled = filled_.load();
-    wait_until([&] { return filled - read_.load() < slots || failed_.load(); });
+    wait_until([&] { return filled - read_.load() < slots || failed_.load() || stopped_.load(); });
     if (failed_.load()) std::rethrow_exception(failure_);
+    if (stopped_.load()) return;
     rows_[filled % slots] = producers_[filled % slots]->compute(segment);
     change([&] { filled_.store(filled + 1); });
   }
@@ -41,12 +43,14 @@ class Pipe {
   template <class Body>
   void consume(const Body& body, ConsumerStatistics& statistics) {
     try {
-      for (std::size_t read = 0; wait_for(read, statistics); ++read) {
+      for (std::size_t read = 0; wait_for(read, statistics) && !stopped_; ++read) {
         body(rows_[read % slots]);
         change([&] { read_.store(read + 1); });
       }
+      change([] {});  // the producer may sleep, and nobody reads any more
     } catch (...) {
       failure_ = std::current_exception();
+      stopped_ = true;
       change([this] { failed_.store(true); });
     }
   }
@@ -94,6 +98,7 @@ class Pipe {
     changed_.notify_all();
   }
 
+  std::atomic<bool>& stopped_;
   std::array<std::unique_ptr<HostProducer>, slots> producers_;
   std::array<SegmentRows, slots> rows_;
   alignas(64) std::atomic<std::size_t> filled_{0};
@@ -109,9 +114,14 @@ class Pipe {
 class PipeReaders {
  public:
   PipeReaders(const Mesh& mesh, RelationSet wanted, int count, const Structure::SegmentBody& body) : statistics_(count) {
-    for (int i = 0; i < count; ++i) pipes_.push_back(std::make_unique<Pipe>(mesh, wanted));
-    for (int i = 0; i < count; ++i) {
-      threads_.emplace_back([this, i, &body] { pipes_[i]->consume([&](const SegmentRows& rows) { body(i, rows); }, statistics_[i]); });
+    for (int i = 0; i < count; ++i) pipes_.push_back(std::make_unique<Pipe>(mesh, wanted, stopped_));
+    try {
+      for (int i = 0; i < count; ++i) {
+        threads_.emplace_back([this, i, &body] { pipes_[i]->consume([&](const SegmentRows& rows) { body(i, rows); }, statistics_[i]); });
+      }
+    } catch (...) {  // there are no more threads to be had
+      end();
+      throw;
     }
   }
   ~PipeReaders() { end(); }
@@ -132,6 +142,7 @@ class PipeReaders {
   const std::vector<ConsumerStatistics>& statistics() const { return statistics_; }
 
  private:
+  std::atomic<bool> stopped_{false};
   std::vector<std::unique_ptr<Pipe>> pipes_;
   std::vector<ConsumerStatistics> statistics_;
   std::vector<std::thread> threads_;

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include <gale/relations/boundary.hpp>
+#include <gale/relations/boundary_vertices.hpp>
 
 #include "support/brute_force.hpp"
 #include "support/every_mesh.hpp"

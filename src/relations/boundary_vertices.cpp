@@ -1,4 +1,4 @@
-#include <gale/relations/boundary.hpp>
+#include <gale/relations/boundary_vertices.hpp>
 
 #include <algorithm>
 #include <array>
