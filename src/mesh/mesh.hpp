@@ -39,7 +39,9 @@ class Mesh {
 
   /// All simplices, where the producers or where the host's threads can read them; at least what `needs` says. What is missing is enumerated, and
   /// copied to the host, by the first call that needs it (see SimplexNeeds); any thread may make it. On the host, edges take 12 bytes each and 4 a
-  /// vertex, triangles 8, lower edges 4 an edge and a vertex. Throws gale::Error if there are more than 2^31 - 1 edges or triangles.
+  /// vertex, triangles 8, lower edges 4 an edge and a vertex. Time O(n), but that of
+  /// triangles grows with the square of a vertex' degree where one has more than 64 higher neighbours. Throws gale::Error if there are more than 2^31 - 1 edges
+  /// or triangles.
   Simplices<ProducerMemory> simplices_on_producer(const SimplexNeeds& needs) const;
   Simplices<HostMemory> simplices_on_host(const SimplexNeeds& needs) const;
 

@@ -20,6 +20,9 @@ class RuntimeImplementation;
 /// the host, the next computes. Blocks stay until the host budget needs their place, the longest unread first. In a sweep the leaders run ahead
 /// of the consumers as far as the budget goes.
 ///
+/// Rows of EF, ET, FT and TT are found among what begins with a vertex or its neighbours: their time grows with the square of a vertex' degree, which a vertex in
+/// very many tetrahedra makes felt (20000 at one edge: some seconds). The explicit structure's doesn't.
+///
 /// Any threads may be consumers, each through a `Consumer` of its own. An exception while a batch is computed reaches each consumer
 /// that waits for one of its segments, as gale::Error.
 class Runtime : public Structure {
