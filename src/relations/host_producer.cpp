@@ -8,35 +8,48 @@ namespace gale {
 
 namespace {
 
-/// One kernel, and the memory of the blocks that it made last.
+/// One kernel, and the memory of the blocks that it made last, in turn.
 class Blocks {
  public:
-  Blocks(const Mesh& mesh, RelationSet wanted) : kernel_(mesh, wanted), relations_(members_of(wanted)), directory_(relations_.size()) {
+  Blocks(const Mesh& mesh, RelationSet wanted, int kept)
+      : kernel_(mesh, wanted), relations_(members_of(wanted)), directory_(relations_.size()), buffers_(kept) {
     pool_.used = &used_;
     pool_.directory = directory_.data();
-    grow(Offset(1) << 14);
+    for (Buffer& buffer : buffers_) grow(buffer, Offset(1) << 14);
   }
   Blocks(const Blocks&) = delete;
   Blocks& operator=(const Blocks&) = delete;
 
   void compute(SegmentRows& rows) {
-    for (used_ = 0; !kernel_.compute(rows.segment(), pool_); used_ = 0) grow(used_);
+    Buffer& buffer = buffers_[next_++ % buffers_.size()];
+    for (;;) {
+      used_ = 0;
+      pool_.words = buffer.words.get();
+      pool_.capacity = buffer.capacity;
+      if (kernel_.compute(rows.segment(), pool_)) break;
+      grow(buffer, used_);
+    }
     const Offset* entry = directory_.data();
     for (const Relation relation : relations_) rows.set(relation, pool_.words + *entry++);
   }
 
  private:
-  void grow(Offset count) {
+  struct Buffer {
+    std::unique_ptr<Id[]> words;
+    Offset capacity = 0;
+  };
+
+  static void grow(Buffer& buffer, Offset count) {
     const Offset capacity = count + count / 2;
-    words_.reset(new Id[capacity]);  // may throw: the old memory serves the old capacity then
-    pool_.words = words_.get();
-    pool_.capacity = capacity;
+    buffer.words.reset(new Id[capacity]);  // may throw: the old memory serves the old capacity then
+    buffer.capacity = capacity;
   }
 
   detail::HostWorkspace kernel_;
   std::vector<Relation> relations_;
-  std::unique_ptr<Id[]> words_;
   std::vector<Offset> directory_;
+  std::vector<Buffer> buffers_;
+  std::size_t next_ = 0;
   Offset used_ = 0;
   BlockPool pool_;
 };
@@ -47,12 +60,12 @@ struct HostProducer::Workspace {
   Mesh mesh;
   std::vector<std::unique_ptr<Blocks>> kernels;
 
-  Workspace(const Mesh& given, RelationSet wanted) : mesh(given) {
-    for (const RelationSet one : kernels_for(wanted)) kernels.push_back(std::make_unique<Blocks>(mesh, one));
+  Workspace(const Mesh& given, RelationSet wanted, int kept) : mesh(given) {
+    for (const RelationSet one : kernels_for(wanted)) kernels.push_back(std::make_unique<Blocks>(mesh, one, kept));
   }
 };
 
-HostProducer::HostProducer(const Mesh& mesh, RelationSet wanted) : workspace_(new Workspace(mesh, wanted)) {}
+HostProducer::HostProducer(const Mesh& mesh, RelationSet wanted, int kept) : workspace_(new Workspace(mesh, wanted, kept)) {}
 HostProducer::~HostProducer() = default;
 HostProducer::HostProducer(HostProducer&&) noexcept = default;
 HostProducer& HostProducer::operator=(HostProducer&&) noexcept = default;

@@ -12,13 +12,13 @@ namespace gale {
 /// largest segment so far has needed, and is used again. One producer serves one thread; any number may work at once.
 class HostProducer {
  public:
-  /// Enumerates what `wanted` needs of the mesh' simplices, if it isn't there.
-  HostProducer(const Mesh& mesh, RelationSet wanted);
+  /// Enumerates what `wanted` needs of the mesh' simplices, if it isn't there. The blocks of the last `kept` segments stay valid.
+  HostProducer(const Mesh& mesh, RelationSet wanted, int kept = 1);
   ~HostProducer();
   HostProducer(HostProducer&&) noexcept;
   HostProducer& operator=(HostProducer&&) noexcept;
 
-  /// The blocks of a segment. Valid until the next call.
+  /// The blocks of a segment. Valid until the `kept`-th next call.
   SegmentRows compute(Id segment);
 
   /// Adds them to other rows of the same segment. Likewise.

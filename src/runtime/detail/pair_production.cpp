@@ -20,9 +20,7 @@ using Clock = std::chrono::steady_clock;
 class Pipe {
  public:
   /// `stopped` is set when some consumer of the sweep fails, and tells the others to read no more.
-  Pipe(const Mesh& mesh, RelationSet relations, std::atomic<bool>& stopped) : stopped_(stopped) {
-    for (auto& producer : producers_) producer = std::make_unique<HostProducer>(mesh, relations);
-  }
+  Pipe(const Mesh& mesh, RelationSet relations, std::atomic<bool>& stopped) : stopped_(stopped), producer_(mesh, relations, slots) {}
 
   /// Computes a segment when there is room for its blocks. By the producer. Throws what the consumer failed with, once it has.
   void produce(Id segment) {
@@ -30,7 +28,7 @@ class Pipe {
     wait_until([&] { return filled - read_.load() < slots || failed_.load() || stopped_.load(); });
     if (failed_.load()) std::rethrow_exception(failure_);
     if (stopped_.load()) return;
-    rows_[filled % slots] = producers_[filled % slots]->compute(segment);
+    rows_[filled % slots] = producer_.compute(segment);
     change([&] { filled_.store(filled + 1); });
   }
 
@@ -99,7 +97,7 @@ class Pipe {
   }
 
   std::atomic<bool>& stopped_;
-  std::array<std::unique_ptr<HostProducer>, slots> producers_;
+  HostProducer producer_;
   std::array<SegmentRows, slots> rows_;
   alignas(64) std::atomic<std::size_t> filled_{0};
   alignas(64) std::atomic<std::size_t> read_{0};
