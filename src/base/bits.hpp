@@ -25,6 +25,14 @@ KOKKOS_FORCEINLINE_FUNCTION int lowest_bit(std::uint32_t bits) {
 #endif
 }
 
+KOKKOS_FORCEINLINE_FUNCTION int lowest_bit(std::uint64_t bits) {
+#if defined(__CUDA_ARCH__)
+  return __ffsll(static_cast<long long>(bits)) - 1;
+#else
+  return __builtin_ctzll(bits);
+#endif
+}
+
 /// Calls visit(place) for the bits that are set in `words` words of 32, `stride` apart, ascending. One loop over words and bits, so that lanes
 /// which go through different sets wait for the longest set only, not for the longest word each time.
 template <class Visit>

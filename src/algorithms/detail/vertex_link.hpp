@@ -2,18 +2,10 @@
 
 #include <cstdint>
 
-#include <gale/base/kokkos.hpp>
+#include <gale/base/bits.hpp>
 #include <gale/relations/rows.hpp>
 
 namespace gale::detail {
-
-KOKKOS_FORCEINLINE_FUNCTION int lowest_bit(std::uint64_t bits) {
-#if defined(__CUDA_ARCH__)
-  return __ffsll(static_cast<long long>(bits)) - 1;
-#else
-  return __builtin_ctzll(bits);
-#endif
-}
 
 /// What the link of a vertex says of it.
 struct LinkTopology {

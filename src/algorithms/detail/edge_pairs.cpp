@@ -1,0 +1,47 @@
+#include <gale/algorithms/detail/edge_pairs.hpp>
+
+#include <algorithm>
+#include <cstring>
+
+namespace gale::detail {
+
+void EdgePairRow::begin(Id count) {
+  words_[0] = count;
+  std::memset(words_ + 1 + count, 0xff, (words_for(count) - 1 - count) * sizeof(Id));
+}
+
+Id EdgePairRow::find(Id other) const {
+  constexpr Id few = 16;
+  const Id* const begin = ids();
+  const Id* const end = begin + size();
+  const Id* const at = size() <= few ? std::find(begin, end, other) : std::lower_bound(begin, end, other);
+  return at != end && *at == other ? static_cast<Id>(at - begin) : no_id;
+}
+
+EdgePairs::EdgePairs(Id vertices, int consumers)
+    : rows_(allocate<Array<EdgePairRow, HostMemory>>("GALE::edge_pair_rows", vertices)), pools_(consumers) {}
+
+EdgePairRow EdgePairs::begin(int consumer, Id vertex, Id count) {
+  constexpr Offset chunk_words = Offset(1) << 19;
+  Pool& pool = pools_[consumer];
+  const Offset words = EdgePairRow::words_for(count);
+  if (pool.end - pool.next < words) {
+    pool.chunks.push_back(allocate<Array<Id, HostMemory>>("GALE::edge_pairs", std::max(words, chunk_words)));
+    pool.next = pool.chunks.back().data();
+    pool.end = pool.next + pool.chunks.back().extent(0);
+  }
+  EdgePairRow row(pool.next);
+  pool.next += words;
+  row.begin(count);
+  return rows_(vertex) = row;
+}
+
+std::size_t EdgePairs::bytes() const {
+  std::size_t words = 0;
+  for (const Pool& pool : pools_) {
+    for (const auto& chunk : pool.chunks) words += chunk.extent(0);
+  }
+  return words * sizeof(Id) + rows_.extent(0) * sizeof(EdgePairRow);
+}
+
+}  // namespace gale::detail

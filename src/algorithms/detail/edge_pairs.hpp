@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <gale/base/memory.hpp>
+#include <gale/base/types.hpp>
+
+namespace gale::detail {
+
+/// The lower edges of a vertex, by the other end: its ids, ascending, and for each the place among them of the third vertex of the triangle that the edge is paired
+/// with. A view of words in EdgePairs: the count, the ids, then the places, in a byte each as long as that suffices.
+class EdgePairRow {
+ public:
+  EdgePairRow() = default;
+  explicit EdgePairRow(Id* words) : words_(words) {}
+
+  static Offset words_for(Id count) { return 1 + count + (is_narrow(count) ? (count + 3) / 4 : count); }
+
+  Id size() const { return words_[0]; }
+  const Id* ids() const { return words_ + 1; }
+
+  /// Place of a lower end; -1 if it isn't one.
+  Id find(Id other) const;
+
+  /// Third vertex of the triangle that the i-th edge is paired with; no_id if it is with none.
+  Id third(Id i) const {
+    const Id place = is_narrow(size()) ? narrow()[i] == narrow_none ? no_id : narrow()[i] : wide()[i];
+    return place == no_id ? no_id : ids()[place];
+  }
+
+  /// Makes it a row of so many edges, each in no pair.
+  void begin(Id count);
+
+  void set_id(Id i, Id id) { words_[1 + i] = id; }
+
+  /// Pairs the i-th edge with the triangle whose third vertex is at `place`.
+  void pair(Id i, Id place) {
+    if (is_narrow(size())) {
+      narrow()[i] = static_cast<std::uint8_t>(place);
+    } else {
+      wide()[i] = place;
+    }
+  }
+
+ private:
+  static constexpr std::uint8_t narrow_none = 255;
+  static bool is_narrow(Id count) { return count <= narrow_none; }
+
+  std::uint8_t* narrow() const { return reinterpret_cast<std::uint8_t*>(words_ + 1 + size()); }
+  Id* wide() const { return words_ + 1 + size(); }
+
+  Id* words_ = nullptr;
+};
+
+/// The rows of all vertices. Each consumer of a sweep takes the memory of its rows from chunks of its own, so that nobody waits.
+class EdgePairs {
+ public:
+  EdgePairs() = default;
+  EdgePairs(Id vertices, int consumers);
+
+  /// A row for a vertex, to be filled. A consumer may begin rows while others do; each vertex once.
+  EdgePairRow begin(int consumer, Id vertex, Id count);
+
+  EdgePairRow operator[](Id vertex) const { return rows_(vertex); }
+
+  std::size_t bytes() const;
+
+ private:
+  struct Pool {
+    std::vector<Array<Id, HostMemory>> chunks;
+    Id* next = nullptr;
+    Id* end = nullptr;
+  };
+
+  Array<EdgePairRow, HostMemory> rows_;
+  std::vector<Pool> pools_;
+};
+
+}  // namespace gale::detail

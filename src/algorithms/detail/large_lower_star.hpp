@@ -1,0 +1,70 @@
+#pragma once
+
+#include <array>
+#include <functional>
+#include <queue>
+#include <vector>
+
+#include <gale/relations/rows.hpp>
+
+namespace gale::detail {
+
+/// What LowerStar and its queues are, for stars of any size, and triangles with any number of tetrahedra. One serves one
+/// thread, and keeps its memory.
+class LargeLowerStar {
+ public:
+  static constexpr Id none = no_id;
+
+  /// `ranks`: as for LowerStar; `numbers(place)` for each tetrahedron of the star.
+  template <class Numbers>
+  void build(const std::vector<Id>& ranks, int edges, const LinkRow& link, const Numbers& numbers) {
+    numbers_.resize(link.size());
+    for (Id t = 0; t < link.size(); ++t) numbers_[t] = numbers(t);
+    build(ranks, edges, link);
+  }
+
+  int dimension(int cell) const { return corners_[cell][1] < 0 ? 1 : corners_[cell][2] < 0 ? 2 : 3; }
+
+  /// Ranks of a cell's vertices, descending; as many as it has dimensions.
+  const std::array<Id, 3>& corners(int cell) const { return corners_[cell]; }
+
+  /// Place of a tetrahedron in the VT row.
+  Id place(int tetrahedron) const { return place_[tetrahedron]; }
+
+  /// Place in the VT row of a triangle's tetrahedron that isn't the one at `place`, of several that of the lowest number; no_id if there is no other.
+  Id across(int triangle, Id place) const;
+
+  // The queues, as `pair_cells` wants them.
+  void add_edges() {
+    for (int cell = 1; cell < static_cast<int>(corners_.size()); ++cell) {
+      if (dimension(cell) == 1) deferred_.push(cell);
+    }
+  }
+  void settle(int cell) { settled_[cell] = true; }
+  void push(int cell);
+  bool next(int& cell) { return take(ready_, cell); }
+  bool next_deferred(int& cell) { return take(deferred_, cell); }
+  void defer(int cell) { deferred_.push(cell); }
+  int facet(int cell) const;
+
+ private:
+  using Queue = std::priority_queue<int, std::vector<int>, std::greater<int>>;
+  using Corners = std::array<Id, 3>;
+
+  void build(const std::vector<Id>& ranks, int edges, const LinkRow& link);
+  int cell_of(const Corners& corners) const;
+  void connect();
+  bool take(Queue& from, int& cell);
+
+  std::vector<Id> numbers_;       ///< of the star's tetrahedra
+  std::vector<Corners> sides_;    ///< each triangle's two ranks and each of its tetrahedra's place, ascending
+  std::vector<Corners> corners_;  ///< of each cell, ascending in lexicographic order; -1 where it has no more
+  std::vector<Id> place_;
+  std::vector<std::array<int, 3>> facets_;  ///< -1 where there are no more
+  std::vector<int> cofacet_begin_;
+  std::vector<int> cofacets_;
+  std::vector<char> settled_;
+  Queue ready_, deferred_;
+};
+
+}  // namespace gale::detail

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <memory>
+
+#include <gale/algorithms/critical_simplices.hpp>
+#include <gale/algorithms/vertex_order.hpp>
+#include <gale/relations/structure.hpp>
+
+namespace gale {
+
+namespace detail {
+class GradientStore;
+}
+
+/// What a simplex is paired with: another of one dimension less or more, which has one vertex less or more.
+struct Partner {
+  int dimension;  ///< of the other simplex; -1 if there is none: the simplex is critical
+  Id vertex;      ///< the vertex in which the two differ
+
+  bool is_critical() const { return dimension < 0; }
+};
+
+/// A discrete gradient: pairs of simplices whose dimensions differ by one (Forman 1998). Each simplex is in one pair at most; those in none are critical. On the
+/// host, immutable, for any number of threads; copies share the arrays.
+///
+/// Stored is what paths along the gradient ask for. A vertex and a tetrahedron know their successor, 4 bytes each. For edges, which only surfaces
+/// cross, there is a row for each vertex of the lower ends of its edges, with the third vertex of the triangle that each is paired with: 5 bytes an edge and
+/// 12 a vertex. Edges and triangles have no ids here: they are named by their vertices (GALE's ids).
+class DiscreteGradient {
+ public:
+  explicit DiscreteGradient(std::shared_ptr<const detail::GradientStore> store);
+
+  const Mesh& mesh() const;
+  const VertexOrder& order() const;
+  const CriticalSimplices& critical() const;
+
+  /// The next vertex on the falling path: the other end of the paired edge. no_id for a critical vertex.
+  Id vertex_successor(Id vertex) const { return vertex_successor_[vertex]; }
+
+  /// The next tetrahedron on the rising path: the one across the paired triangle; of several, that of the lowest input id. no_id for a critical
+  /// tetrahedron; below that if the path leaves through the mesh' boundary (`leaves`).
+  Id tetrahedron_successor(Id tetrahedron) const { return tetrahedron_successor_[tetrahedron]; }
+  static bool leaves(Id successor) { return successor < no_id; }
+
+  /// Third vertex of the triangle that an edge is paired with; no_id if it is with none. Of any two vertices that have an edge, in any order.
+  Id triangle_of_edge(Id a, Id b) const;
+
+  /// The pair of a vertex; of an edge; of a tetrahedron. Throw nothing: the simplices must be there.
+  Partner pair_of_vertex(Id vertex) const;
+  Partner pair_of_edge(Id a, Id b) const;
+  Partner pair_of_tetrahedron(Id tetrahedron) const;
+
+  /// The pair of the triangle of a tetrahedron that is opposite the `corner`-th of its vertices (EncodedMesh's order). With the tetrahedra that
+  /// share the triangle alone, of which `others` has those beside this one.
+  Partner pair_of_triangle(Id tetrahedron, int corner, const Row& others) const;
+
+  /// All successors.
+  Array<const Id, HostMemory> vertex_successors() const;
+  Array<const Id, HostMemory> tetrahedron_successors() const;
+
+  /// Allocated for it.
+  std::size_t bytes() const;
+
+ private:
+  std::shared_ptr<const detail::GradientStore> store_;
+  const Id* vertex_successor_;
+  const Id* tetrahedron_successor_;
+};
+
+/// The discrete gradient of a field, after Robins, Wood and Sheppard (2011): each vertex' lower star is paired by itself, so simplices are paired only with simplices
+/// that have the same highest vertex. Keys are unique: the result depends on nothing but mesh and order.
+///
+/// A sweep of VV, VT and link, for which `structure` must be preconditioned. No edge or triangle is enumerated.
+DiscreteGradient find_discrete_gradient(Structure& structure, const VertexOrder& order, const SweepOptions& options = {});
+
+/// What the sweep reads.
+inline constexpr RelationSet discrete_gradient_relations = star_relations;
+
+}  // namespace gale
