@@ -15,6 +15,10 @@ struct CriticalSimplices {
   std::vector<std::array<Id, 3>> triangles;  ///< 2-saddles
   std::vector<Id> tetrahedra;                ///< maxima
 
+  /// The tetrahedra of the i-th triangle, by input id: star[star_begin[i]] to star[star_begin[i + 1] - 1].
+  std::vector<Id> star_begin{0};
+  std::vector<Id> star;
+
   std::array<Id, 4> counts() const {
     return {static_cast<Id>(vertices.size()), static_cast<Id>(edges.size()), static_cast<Id>(triangles.size()), static_cast<Id>(tetrahedra.size())};
   }

@@ -35,9 +35,12 @@ std::size_t DiscreteGradient::bytes() const { return store_->bytes(); }
 
 Id DiscreteGradient::triangle_of_edge(Id a, Id b) const {
   const std::uint64_t* const keys = store_->order.keys();
-  if (keys[a] < keys[b]) std::swap(a, b);
-  const detail::EdgePairRow row = store_->pairs[a];
-  return row.third(row.find(b));
+  return keys[a] < keys[b] ? triangle_of_lower_edge(b, a) : triangle_of_lower_edge(a, b);
+}
+
+Id DiscreteGradient::triangle_of_lower_edge(Id high, Id low) const {
+  const detail::EdgePairRow row = store_->pairs[high];
+  return row.third(row.find(low));
 }
 
 Partner DiscreteGradient::pair_of_vertex(Id vertex) const {
@@ -49,7 +52,7 @@ Partner DiscreteGradient::pair_of_edge(Id a, Id b) const {
   const std::uint64_t* const keys = store_->order.keys();
   if (keys[a] < keys[b]) std::swap(a, b);
   if (vertex_successor(a) == b) return {0, b};
-  const Id third = triangle_of_edge(a, b);
+  const Id third = triangle_of_lower_edge(a, b);
   return {third == no_id ? -1 : 2, third};
 }
 

@@ -45,6 +45,12 @@ class DiscreteGradient {
   /// Third vertex of the triangle that an edge is paired with; no_id if it is with none. Of any two vertices that have an edge, in any order.
   Id triangle_of_edge(Id a, Id b) const;
 
+  /// The same, faster, of an edge whose higher end is known.
+  Id triangle_of_lower_edge(Id high, Id low) const;
+
+  /// Is the edge in no pair? Its third vertex as above.
+  bool is_critical_edge(Id high, Id low, Id third) const { return third == no_id && vertex_successor_[high] != low; }
+
   /// The pair of a vertex; of an edge; of a tetrahedron. Throw nothing: the simplices must be there.
   Partner pair_of_vertex(Id vertex) const;
   Partner pair_of_edge(Id a, Id b) const;

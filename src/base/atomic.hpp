@@ -15,4 +15,23 @@ KOKKOS_FORCEINLINE_FUNCTION T atomic_add(T* to, T value) {
 #endif
 }
 
+/// Reads and writes what other threads may be writing and reading, whole.
+template <class T>
+KOKKOS_FORCEINLINE_FUNCTION T atomic_read(const T* from) {
+#if defined(__CUDA_ARCH__)
+  return *static_cast<const volatile T*>(from);
+#else
+  return __atomic_load_n(from, __ATOMIC_RELAXED);
+#endif
+}
+
+template <class T>
+KOKKOS_FORCEINLINE_FUNCTION void atomic_write(T* to, T value) {
+#if defined(__CUDA_ARCH__)
+  *static_cast<volatile T*>(to) = value;
+#else
+  __atomic_store_n(to, value, __ATOMIC_RELAXED);
+#endif
+}
+
 }  // namespace gale

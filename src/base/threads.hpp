@@ -1,5 +1,7 @@
 #pragma once
 
+#include <atomic>
+#include <cstdint>
 #include <exception>
 #include <mutex>
 
@@ -65,6 +67,21 @@ void on_threads(int count, const Body& body) {
   for (int i = omp_get_thread_num(); i < count; i += omp_get_num_threads()) guarded(i);
 #endif
   if (failure) std::rethrow_exception(failure);
+}
+
+/// Calls `body(thread, i)` for i in 0..n-1, each on one of `count` threads, which take what is next when they are done: for work whose parts differ much. Exceptions
+/// as above; no further part is begun after one.
+template <class Body>
+void in_turns(int count, std::int64_t n, const Body& body) {
+  std::atomic<std::int64_t> next{0};
+  on_threads(count < n ? count : static_cast<int>(n), [&](int thread) {
+    try {
+      for (std::int64_t i = next++; i < n; i = next++) body(thread, i);
+    } catch (...) {
+      next = n;
+      throw;
+    }
+  });
 }
 
 }  // namespace gale

@@ -116,6 +116,7 @@ const HostIds& Mesh::vertex_input() const { return data_->vertex_input_mirror.of
 const HostIds& Mesh::vertex_internal() const { return data_->vertex_internal_mirror.of(data_->vertex_internal); }
 const HostIds& Mesh::tetrahedron_input() const { return data_->tetrahedron_input_mirror.of(data_->tetrahedron_input); }
 const Array<const Id, ProducerMemory>& Mesh::vertex_input_on_producer() const { return data_->vertex_input; }
+const Array<const Id, ProducerMemory>& Mesh::tetrahedron_input_on_producer() const { return data_->tetrahedron_input; }
 
 Simplices<ProducerMemory> Mesh::simplices_on_producer(const SimplexNeeds& needs) const { return data_->simplices.on_producer(needs); }
 Simplices<HostMemory> Mesh::simplices_on_host(const SimplexNeeds& needs) const { return data_->simplices.on_host(needs); }

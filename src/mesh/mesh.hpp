@@ -67,8 +67,9 @@ class Mesh {
   const Array<const Id, HostMemory>& vertex_internal() const;
   const Array<const Id, HostMemory>& tetrahedron_input() const;
 
-  /// vertex_input() in the producers' memory.
+  /// vertex_input() and tetrahedron_input() in the producers' memory.
   const Array<const Id, ProducerMemory>& vertex_input_on_producer() const;
+  const Array<const Id, ProducerMemory>& tetrahedron_input_on_producer() const;
 
   /// The segment that a simplex of a dimension 0 to 3 (GALE's id) is internal to: a binary search among the segments.
   Id segment_of(int dimension, Id simplex) const;

@@ -6,18 +6,26 @@ namespace gale::detail {
 
 namespace {
 
-/// All parts' members, sorted by `key`, which is unique.
-template <class T, class Key>
-std::vector<T> gathered(const std::vector<CriticalSimplices>& parts, std::vector<T> CriticalSimplices::*member, const Key& key) {
+/// What all consumers found, sorted by `key`, which is unique.
+template <class T, class Part, class Member, class Key>
+std::vector<T> gathered(const std::vector<Part>& parts, const Member& member, const Key& key) {
   std::vector<std::pair<decltype(key(T())), T>> keyed;
   for (const auto& part : parts) {
-    for (const T& simplex : part.*member) keyed.push_back({key(simplex), simplex});
+    for (const T& simplex : member(part)) keyed.push_back({key(simplex), simplex});
   }
   std::sort(keyed.begin(), keyed.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<T> all;
   all.reserve(keyed.size());
   for (const auto& [sorted_by, simplex] : keyed) all.push_back(simplex);
   return all;
+}
+
+/// A simplex' vertices as users write them.
+template <class Simplex>
+Simplex written(const Id* vertex_input, Simplex simplex) {
+  for (Id& vertex : simplex) vertex = vertex_input[vertex];
+  std::sort(simplex.begin(), simplex.end());
+  return simplex;
 }
 
 }  // namespace
@@ -28,21 +36,36 @@ GradientStore::GradientStore(const Mesh& mesh_, const VertexOrder& order_, int c
       vertex_successor(allocate<Array<Id, HostMemory>>("GALE::vertex_successor", mesh.vertices())),
       tetrahedron_successor(allocate<Array<Id, HostMemory>>("GALE::tetrahedron_successor", mesh.tetrahedra())),
       pairs(mesh.vertices(), consumers),
-      found_(consumers) {}
+      found_(consumers),
+      stars_(consumers) {}
 
 void GradientStore::finish() {
   const Id* const vertex_input = mesh.vertex_input().data();
   const Id* const tetrahedron_input = mesh.tetrahedron_input().data();
-  const auto sorted = [=](auto simplex) {
-    for (Id& vertex : simplex) vertex = vertex_input[vertex];
-    std::sort(simplex.begin(), simplex.end());
-    return simplex;
-  };
-  critical.vertices = gathered(found_, &CriticalSimplices::vertices, [=](Id vertex) { return vertex_input[vertex]; });
-  critical.edges = gathered(found_, &CriticalSimplices::edges, sorted);
-  critical.triangles = gathered(found_, &CriticalSimplices::triangles, sorted);
-  critical.tetrahedra = gathered(found_, &CriticalSimplices::tetrahedra, [=](Id tetrahedron) { return tetrahedron_input[tetrahedron]; });
+  using Found = CriticalSimplices;
+  critical.vertices = gathered<Id>(found_, [](const Found& found) { return found.vertices; }, [=](Id vertex) { return vertex_input[vertex]; });
+  critical.edges = gathered<std::array<Id, 2>>(found_, [](const Found& found) { return found.edges; },
+                                               [=](const auto& edge) { return written(vertex_input, edge); });
+  critical.triangles = gathered<std::array<Id, 3>>(found_, [](const Found& found) { return found.triangles; },
+                                                   [=](const auto& triangle) { return written(vertex_input, triangle); });
+  critical.tetrahedra = gathered<Id>(found_, [](const Found& found) { return found.tetrahedra; },
+                                     [=](Id tetrahedron) { return tetrahedron_input[tetrahedron]; });
   found_.clear();
+  gather_stars();
+}
+
+void GradientStore::gather_stars() {
+  const Id* const vertex_input = mesh.vertex_input().data();
+  const Id* const tetrahedron_input = mesh.tetrahedron_input().data();
+  const auto all = gathered<InStar>(stars_, [](const auto& stars) { return stars; }, [=](const InStar& in_star) {
+    return std::make_pair(written(vertex_input, in_star.triangle), tetrahedron_input[in_star.tetrahedron]);
+  });
+  stars_.clear();
+  auto next = all.begin();
+  for (const auto& triangle : critical.triangles) {
+    for (; next != all.end() && next->triangle == triangle; ++next) critical.star.push_back(next->tetrahedron);
+    critical.star_begin.push_back(static_cast<Id>(critical.star.size()));
+  }
 }
 
 std::size_t GradientStore::bytes() const {

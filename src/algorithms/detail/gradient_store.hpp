@@ -31,11 +31,14 @@ class GradientStore {
   static int corner_outside(Id successor) { return no_id - 1 - successor; }
 
   void add_critical_edge(int consumer, Id high, Id low) { found_[consumer].edges.push_back({high, low}); }
-  void add_critical_triangle(int consumer, Id high, Id middle, Id low) { found_[consumer].triangles.push_back({high, middle, low}); }
+  void add_critical_triangle(int consumer, const std::array<Id, 3>& from_high_to_low) { found_[consumer].triangles.push_back(from_high_to_low); }
   void add_critical_tetrahedron(int consumer, Id tetrahedron) {
     tetrahedron_successor(tetrahedron) = no_id;
     found_[consumer].tetrahedra.push_back(tetrahedron);
   }
+
+  /// Each tetrahedron of each critical triangle.
+  void add_to_star(int consumer, const std::array<Id, 3>& triangle, Id tetrahedron) { stars_[consumer].push_back({triangle, tetrahedron}); }
 
   /// After the sweep: gathers what the consumers found, in the order of input numbers.
   void finish();
@@ -50,7 +53,16 @@ class GradientStore {
   CriticalSimplices critical;
 
  private:
+  struct InStar {
+    std::array<Id, 3> triangle;
+    Id tetrahedron;
+  };
+
+  void gather_stars();
+
+  // What each consumer found.
   std::vector<CriticalSimplices> found_;
+  std::vector<std::vector<InStar>> stars_;
 };
 
 }  // namespace gale::detail

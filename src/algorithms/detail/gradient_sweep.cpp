@@ -57,9 +57,11 @@ void GradientSweep::pair(const Star& star, const Lower& lower, const Cells& cell
     const auto& corners = cells.corners(cell);
     switch (cells.dimension(cell)) {
       case 1: return store_.add_critical_edge(consumer_, star.vertex, id(corners[0]));
-      case 2: return store_.add_critical_triangle(consumer_, star.vertex, id(corners[0]), id(corners[1]));
-      default: return store_.add_critical_tetrahedron(consumer_, star.tetrahedra[cells.place(cell)]);
+      case 3: return store_.add_critical_tetrahedron(consumer_, star.tetrahedra[cells.place(cell)]);
     }
+    const std::array<Id, 3> triangle = {star.vertex, id(corners[0]), id(corners[1])};
+    store_.add_critical_triangle(consumer_, triangle);
+    cells.for_each_tetrahedron(cell, [&](Id place) { store_.add_to_star(consumer_, triangle, star.tetrahedra[place]); });
   };
   pair_cells(queues, pair, critical);
 }

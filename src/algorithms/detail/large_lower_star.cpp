@@ -60,13 +60,15 @@ void LargeLowerStar::connect() {
   }
 }
 
+std::vector<LargeLowerStar::Corners>::const_iterator LargeLowerStar::first_side(int triangle) const {
+  return std::lower_bound(sides_.begin(), sides_.end(), Corners{corners_[triangle][0], corners_[triangle][1], 0});
+}
+
 Id LargeLowerStar::across(int triangle, Id place) const {
-  const Id a = corners_[triangle][0], b = corners_[triangle][1];
   Id best = no_id;
-  for (auto side = std::lower_bound(sides_.begin(), sides_.end(), Corners{a, b, 0}); side != sides_.end() && (*side)[0] == a && (*side)[1] == b; ++side) {
-    const Id other = (*side)[2];
+  for_each_tetrahedron(triangle, [&](Id other) {
     if (other != place && (best == no_id || numbers_[other] < numbers_[best])) best = other;
-  }
+  });
   return best;
 }
 

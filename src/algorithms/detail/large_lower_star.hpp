@@ -34,6 +34,12 @@ class LargeLowerStar {
   /// Place in the VT row of a triangle's tetrahedron that isn't the one at `place`, of several that of the lowest number; no_id if there is no other.
   Id across(int triangle, Id place) const;
 
+  /// Calls visit(place) for the places in the VT row of a triangle's tetrahedra.
+  template <class Visit>
+  void for_each_tetrahedron(int triangle, const Visit& visit) const {
+    for (auto side = first_side(triangle); is_side(side, triangle); ++side) visit((*side)[2]);
+  }
+
   // The queues, as `pair_cells` wants them.
   void add_edges() {
     for (int cell = 1; cell < static_cast<int>(corners_.size()); ++cell) {
@@ -53,6 +59,10 @@ class LargeLowerStar {
 
   void build(const std::vector<Id>& ranks, int edges, const LinkRow& link);
   int cell_of(const Corners& corners) const;
+  std::vector<Corners>::const_iterator first_side(int triangle) const;
+  bool is_side(std::vector<Corners>::const_iterator side, int triangle) const {
+    return side != sides_.end() && (*side)[0] == corners_[triangle][0] && (*side)[1] == corners_[triangle][1];
+  }
   void connect();
   bool take(Queue& from, int& cell);
 

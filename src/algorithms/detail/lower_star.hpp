@@ -48,8 +48,16 @@ class LowerStar {
 
   /// Place in the VT row of a triangle's tetrahedron that isn't the one at `place`; `none` if there is no other.
   KOKKOS_FORCEINLINE_FUNCTION int across(int triangle, int place) const {
-    const Triangle& t = triangles_[triangle_at_[corner_[triangle][0]][corner_[triangle][1]]];
+    const Triangle& t = triangle_of(triangle);
     return t.place[0] == place ? t.place[1] : t.place[0];
+  }
+
+  /// Calls visit(place) for the places in the VT row of a triangle's tetrahedra.
+  template <class Visit>
+  KOKKOS_FORCEINLINE_FUNCTION void for_each_tetrahedron(int triangle, const Visit& visit) const {
+    for (const std::uint8_t place : triangle_of(triangle).place) {
+      if (place != none) visit(place);
+    }
   }
 
  private:
@@ -59,6 +67,8 @@ class LowerStar {
     std::uint8_t place[2] = {none, none};
     std::uint8_t cell = 0;
   };
+
+  KOKKOS_FORCEINLINE_FUNCTION const Triangle& triangle_of(int cell) const { return triangles_[triangle_at_[corner_[cell][0]][corner_[cell][1]]]; }
 
   /// Three ranks, descending, so that upper ones come first.
   struct Corners {

@@ -1,0 +1,57 @@
+#include <gale/algorithms/detail/descending_surfaces.hpp>
+
+#include <memory>
+
+#include <gale/algorithms/detail/descending_wall.hpp>
+#include <gale/algorithms/detail/gathered_separatrices.hpp>
+#include <gale/base/threads.hpp>
+
+namespace gale::detail {
+
+namespace {
+
+/// One thread's part.
+struct Tracer {
+  explicit Tracer(const DiscreteGradient& gradient) : wall(gradient) {}
+
+  void add_wall(Id triangle) {
+    walls.sources.push_back(triangle);
+    walls.cells.insert(walls.cells.end(), wall.triangles().begin(), wall.triangles().end());
+    walls.begin.push_back(static_cast<Offset>(walls.cells.size()));
+  }
+
+  void add_connectors(const CriticalPlaces& places, Id triangle) {
+    for (const auto& edge : wall.critical_edges()) {
+      connectors.sources.push_back(places.of_edge(edge.high, edge.low));
+      connectors.destinations.push_back(triangle);
+      wall.append_path(edge, connectors.cells);
+      connectors.begin.push_back(static_cast<Offset>(connectors.cells.size()));
+    }
+  }
+
+  DescendingWall wall;
+  Separatrices<TriangleVertices> walls, connectors;
+};
+
+}  // namespace
+
+DescendingSurfaces descending_surfaces(const DiscreteGradient& gradient, const CriticalPlaces& places, bool want_walls, bool want_connectors, int threads) {
+  const auto& triangles = gradient.critical().triangles;
+  std::vector<std::unique_ptr<Tracer>> tracers(threads);
+  in_turns(threads, static_cast<std::int64_t>(triangles.size()), [&](int thread, std::int64_t i) {
+    auto& tracer = tracers[thread];
+    if (!tracer) tracer = std::make_unique<Tracer>(gradient);
+    tracer->wall.follow(triangles[i]);
+    if (want_walls) tracer->add_wall(static_cast<Id>(i));
+    if (want_connectors) tracer->add_connectors(places, static_cast<Id>(i));
+  });
+  std::vector<Separatrices<TriangleVertices>> walls, connectors;
+  for (auto& tracer : tracers) {
+    if (!tracer) continue;
+    walls.push_back(std::move(tracer->walls));
+    connectors.push_back(std::move(tracer->connectors));
+  }
+  return {gathered(walls, false), gathered(connectors, true)};
+}
+
+}  // namespace gale::detail

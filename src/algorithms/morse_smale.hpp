@@ -1,0 +1,60 @@
+#pragma once
+
+#include <gale/algorithms/discrete_gradient.hpp>
+#include <gale/algorithms/separatrices.hpp>
+
+namespace gale {
+
+/// Which parts of a Morse-Smale complex are wanted. Saves their time and memory; changes none of the others.
+struct MorseSmaleParts {
+  bool descending_separatrices = true;
+  bool ascending_separatrices = true;
+  bool saddle_connectors = true;
+  bool separatrices2 = false;
+  bool descending_manifolds = true;
+  bool ascending_manifolds = true;
+};
+
+/// The surface that the rising paths of a critical edge sweep: a polygon for each edge that it crosses, through the edge's tetrahedra, in their order around it.
+struct AscendingWalls {
+  Separatrices<std::array<Id, 2>> walls;  ///< edges, the higher end first; from the critical edge
+  std::vector<Offset> star_begin{0};      ///< the tetrahedra of the i-th cell of `walls`: star[star_begin[i]] to star[star_begin[i + 1] - 1]
+  std::vector<Id> star;
+};
+
+/// The Morse-Smale complex of a discrete gradient. Sources and destinations are places among gradient.critical()'s simplices; cells are in GALE's ids. What wasn't wanted
+/// is empty.
+struct MorseSmaleComplex {
+  DiscreteGradient gradient;
+
+  /// From each critical edge, from both its vertices, that of lower input id first, down to a minimum: the vertices on the way, the minimum included.
+  Separatrices<Id> descending;
+
+  /// From each critical triangle, from each of its tetrahedra, by input id, up to a maximum: the tetrahedra on the way, the maximum included. Those that leave through
+  /// the mesh' boundary are left out.
+  Separatrices<Id> ascending;
+
+  /// From a critical edge up to a critical triangle whose descending wall reaches it: the triangles on the way, the last included. Ordered by triangle, then edge. Where
+  /// paths fork, this is the one over the least triangle, written with its input vertices ascending.
+  Separatrices<TriangleVertices> connectors;
+
+  /// Of each critical triangle: the triangles that its falling paths sweep, itself first.
+  Separatrices<TriangleVertices> descending_walls;
+
+  AscendingWalls ascending_walls;
+
+  /// By input vertex: the place among the critical vertices of the minimum that its path falls to; the place among the critical tetrahedra of the maximum that the path
+  /// from its tetrahedron of lowest input id rises to, no_id if that leaves through the boundary; and a number for each pair of both, dense from 0, no_id where one is missing.
+  Array<Id, HostMemory> descending_manifold, ascending_manifold, morse_smale_manifold;
+  Id morse_smale_manifolds = 0;  ///< how many pairs there are
+};
+
+/// Traces the complex of a gradient, on options.threads threads. `structure` is that of the gradient's mesh; only separatrices2 reads it, for VT. The same result whatever the
+/// structure, its segments, and the number of threads.
+MorseSmaleComplex find_morse_smale_complex(Structure& structure, const DiscreteGradient& gradient, const MorseSmaleParts& parts = {},
+                                           const SweepOptions& options = {});
+
+/// What the gradient and this read.
+inline constexpr RelationSet morse_smale_relations = discrete_gradient_relations;
+
+}  // namespace gale

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include <gale/base/types.hpp>
+
+namespace gale {
+
+/// Paths along a discrete gradient from one critical simplex to another, or surfaces from one: the i-th is cells[begin[i]] to cells[begin[i + 1] - 1].
+template <class Cell>
+struct Separatrices {
+  std::vector<Id> sources;       ///< places in CriticalSimplices of each one's first simplex
+  std::vector<Id> destinations;  ///< and of its last; empty for surfaces
+  std::vector<Offset> begin{0};
+  std::vector<Cell> cells;
+
+  Id count() const { return static_cast<Id>(sources.size()); }
+  const Cell* first(Id i) const { return cells.data() + begin[i]; }
+  const Cell* last(Id i) const { return cells.data() + begin[i + 1]; }
+};
+
+/// GALE's ids of a triangle's vertices.
+using TriangleVertices = std::array<Id, 3>;
+
+}  // namespace gale
