@@ -41,9 +41,9 @@ class BitQueues {
   }
 
   const Star& star_;
-  Cells settled_;
-  Cells ready_;
-  Cells deferred_;
+  Cells settled_ = Cells::none();
+  Cells ready_ = Cells::none();
+  Cells deferred_ = Cells::none();
 };
 
 }  // namespace gale::detail

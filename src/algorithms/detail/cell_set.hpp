@@ -6,14 +6,19 @@
 
 namespace gale::detail {
 
-/// A set of numbers below 64 * Words.
+/// A set of numbers below 64 * Words. Left uninitialized by default, so that an array of them costs nothing.
 template <int Words>
 class CellSet {
  public:
   static constexpr int capacity = 64 * Words;
 
   KOKKOS_DEFAULTED_FUNCTION CellSet() = default;
-  KOKKOS_FORCEINLINE_FUNCTION explicit CellSet(int cell) { add(cell); }
+
+  KOKKOS_FORCEINLINE_FUNCTION static CellSet none() {
+    CellSet set;
+    for (int w = 0; w < Words; ++w) set.words_[w] = 0;
+    return set;
+  }
 
   KOKKOS_FORCEINLINE_FUNCTION void add(int cell) { words_[cell >> 6 & (Words - 1)] |= std::uint64_t(1) << (cell & 63); }
   KOKKOS_FORCEINLINE_FUNCTION void remove_lowest() {
@@ -58,7 +63,7 @@ class CellSet {
   friend KOKKOS_FORCEINLINE_FUNCTION CellSet operator-(CellSet a, const CellSet& b) { return a -= b; }
 
  private:
-  std::uint64_t words_[Words] = {};
+  std::uint64_t words_[Words];
 };
 
 }  // namespace gale::detail

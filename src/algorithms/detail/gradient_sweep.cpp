@@ -24,7 +24,7 @@ void GradientSweep::pair(const Star& star) {
 template <int Words>
 bool GradientSweep::pair_small(const Star& star) {
   LowerStar<Words> cells;
-  if (!cells.build(lower_.ranks(), lower_.count(), star.link)) return false;
+  if (!cells.build(lower_, star.link)) return false;
   pair(star, lower_, cells, BitQueues<LowerStar<Words>>(cells));
   return true;
 }
@@ -50,7 +50,7 @@ void GradientSweep::pair(const Star& star, const Lower& lower, const Cells& cell
     } else {
       const Id place = cells.place(cell), across = cells.across(facet, place);
       store_.set_tetrahedron(star.tetrahedra[place],
-                             across == Cells::none ? boundary_successor(star, place, id(low[0]), id(low[1])) : star.tetrahedra[across]);
+                             across == Cells::no_place ? boundary_successor(star, place, id(low[0]), id(low[1])) : star.tetrahedra[across]);
     }
   };
   const auto critical = [&](int cell) {

@@ -13,7 +13,7 @@ namespace gale::detail {
 /// thread, and keeps its memory.
 class LargeLowerStar {
  public:
-  static constexpr Id none = no_id;
+  static constexpr Id no_place = no_id;
 
   /// `ranks`: as for LowerStar; `numbers(place)` for each tetrahedron of the star.
   template <class Numbers>
@@ -31,7 +31,7 @@ class LargeLowerStar {
   /// Place of a tetrahedron in the VT row.
   Id place(int tetrahedron) const { return place_[tetrahedron]; }
 
-  /// Place in the VT row of a triangle's tetrahedron that isn't the one at `place`, of several that of the lowest number; no_id if there is no other.
+  /// Place in the VT row of a triangle's tetrahedron that isn't the one at `place`, of several that of the lowest number; `no_place` if there is no other.
   Id across(int triangle, Id place) const;
 
   /// Calls visit(place) for the places in the VT row of a triangle's tetrahedra.

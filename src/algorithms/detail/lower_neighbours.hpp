@@ -13,7 +13,7 @@ class LowerNeighbours {
  public:
   static constexpr Id max_neighbours = 128;
   static constexpr int max_lower = 64;
-  static constexpr std::uint8_t none = 255;
+  static constexpr std::uint8_t none = max_lower;  ///< the rank of an upper neighbour
 
   /// False if there are too many, of either.
   KOKKOS_INLINE_FUNCTION bool find(const std::uint64_t* keys, Id vertex, const Row& neighbours) {
