@@ -12,7 +12,7 @@ namespace gale {
 MorseSmaleComplex find_morse_smale_complex(Structure& structure, const DiscreteGradient& gradient, const MorseSmaleParts& parts, const SweepOptions& options) {
   const int threads = std::max(options.threads, 1);
   const detail::CriticalPlaces places(gradient.critical());
-  MorseSmaleComplex complex{gradient};
+  MorseSmaleComplex complex{gradient, gradient.critical()};
   if (parts.descending_separatrices) complex.descending = detail::descending_separatrices(gradient, places);
   if (parts.ascending_separatrices) complex.ascending = detail::ascending_separatrices(gradient, places);
   if (parts.saddle_connectors || parts.separatrices2) {

@@ -22,10 +22,13 @@ struct AscendingWalls {
   std::vector<Id> star;
 };
 
-/// The Morse-Smale complex of a discrete gradient. Sources and destinations are places among gradient.critical()'s simplices; cells are in GALE's ids. What wasn't wanted
+/// The Morse-Smale complex of a discrete gradient. Sources, destinations and manifolds are places among the simplices of `critical`; cells are in GALE's ids. What wasn't wanted
 /// is empty.
 struct MorseSmaleComplex {
   DiscreteGradient gradient;
+
+  /// The gradient's, or those of them that are left (`simplify`).
+  CriticalSimplices critical;
 
   /// From each critical edge, from both its vertices, that of lower input id first, down to a minimum: the vertices on the way, the minimum included.
   Separatrices<Id> descending;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include <gale/base/types.hpp>
@@ -12,6 +13,7 @@ template <class Cell>
 struct Separatrices {
   std::vector<Id> sources;       ///< places in CriticalSimplices of each one's first simplex
   std::vector<Id> destinations;  ///< and of its last; empty for surfaces
+  std::vector<std::uint8_t> is_only;  ///< of saddle connectors: whether there is no other path between the two
   std::vector<Offset> begin{0};
   std::vector<Cell> cells;
 

@@ -24,7 +24,7 @@ struct Tracer {
     for (const auto& edge : wall.critical_edges()) {
       connectors.sources.push_back(places.of_edge(edge.high, edge.low));
       connectors.destinations.push_back(triangle);
-      wall.append_path(edge, connectors.cells);
+      connectors.is_only.push_back(wall.append_path(edge, connectors.cells));
       connectors.begin.push_back(static_cast<Offset>(connectors.cells.size()));
     }
   }

@@ -23,10 +23,11 @@ void DescendingWall::follow(const TriangleVertices& critical) {
 void DescendingWall::cross(Id high, Id low, const TriangleVertices& from) {
   const auto [above, is_new] = above_.insert(high, low);
   if (!is_new) {
-    if (is_less(from, above)) above = from;
+    above.are_several = true;
+    if (is_less(from, above.least)) above.least = from;
     return;
   }
-  above = from;
+  above = {from, false};
   const Id third = gradient_.triangle_of_lower_edge(high, low);
   if (third != no_id) {
     triangles_.push_back({high, low, third});
@@ -35,13 +36,15 @@ void DescendingWall::cross(Id high, Id low, const TriangleVertices& from) {
   }
 }
 
-void DescendingWall::append_path(const Edge& from, std::vector<TriangleVertices>& path) const {
+bool DescendingWall::append_path(const Edge& from, std::vector<TriangleVertices>& path) const {
+  bool is_only = true;
   Edge edge = from;
   while (true) {
-    const TriangleVertices& above = above_(edge.high, edge.low);
-    path.push_back(above);
-    if (above == triangles_.front()) return;
-    edge = {above[0], above[1]};
+    const Above& above = above_(edge.high, edge.low);
+    is_only = is_only && !above.are_several;
+    path.push_back(above.least);
+    if (above.least == triangles_.front()) return is_only;
+    edge = {above.least[0], above.least[1]};
   }
 }
 

@@ -28,10 +28,16 @@ class DescendingWall {
   const std::vector<Edge>& critical_edges() const { return critical_edges_; }
 
   /// Appends the path inside the wall that rises from one of its critical edges to the critical triangle: the triangles, the last one included. Where several
-  /// triangles of the wall meet at an edge, it takes the one that is least, written with its input vertices ascending.
-  void append_path(const Edge& from, std::vector<TriangleVertices>& path) const;
+  /// triangles of the wall meet at an edge, it takes the one that is least, written with its input vertices ascending. Says whether they never do: then it is the only path.
+  bool append_path(const Edge& from, std::vector<TriangleVertices>& path) const;
 
  private:
+  /// An edge of the wall: the least of the wall's triangles that it isn't paired with, and whether there are more.
+  struct Above {
+    TriangleVertices least{};
+    bool are_several = false;
+  };
+
   void cross(Id high, Id low, const TriangleVertices& from);
   bool is_less(const TriangleVertices& a, const TriangleVertices& b) const;
 
@@ -40,7 +46,7 @@ class DescendingWall {
   const Id* vertex_input_;
   std::vector<TriangleVertices> triangles_;
   std::vector<Edge> critical_edges_;
-  EdgeTable<TriangleVertices> above_;  ///< of each edge the least of the wall's triangles that it isn't paired with
+  EdgeTable<Above> above_;
 };
 
 }  // namespace gale::detail

@@ -32,6 +32,7 @@ Separatrices<Cell> gathered(std::vector<Separatrices<Cell>>& parts, bool by_dest
     const auto& found = parts[place.part];
     all.sources.push_back(found.sources[place.at]);
     if (!found.destinations.empty()) all.destinations.push_back(found.destinations[place.at]);
+    if (!found.is_only.empty()) all.is_only.push_back(found.is_only[place.at]);
     all.begin.push_back(all.begin.back() + (found.last(place.at) - found.first(place.at)));
   }
   all.cells.resize(all.begin.back());
