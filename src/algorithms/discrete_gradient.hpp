@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 
 #include <gale/algorithms/critical_simplices.hpp>
@@ -44,6 +45,10 @@ class DiscreteGradient {
 
   /// Third vertex of the triangle that an edge is paired with; no_id if it is with none. Of any two vertices that have an edge, in any order.
   Id triangle_of_edge(Id a, Id b) const;
+
+  /// Calls visit(low, third) for each edge (high, low) that is paired with a triangle (high, low, third) and has no vertex above `high`. In no order that
+  /// means anything to users.
+  void for_each_edge_pair(Id high, const std::function<void(Id low, Id third)>& visit) const;
 
   /// The pair of a vertex; of an edge; of a tetrahedron. Throw nothing: the simplices must be there.
   Partner pair_of_vertex(Id vertex) const;
