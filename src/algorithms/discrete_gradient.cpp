@@ -43,6 +43,14 @@ Id DiscreteGradient::triangle_of_lower_edge(Id high, Id low) const {
   return row.third(row.find(low));
 }
 
+void DiscreteGradient::for_each_edge_pair(Id high, const std::function<void(Id low, Id third)>& visit) const {
+  const detail::EdgePairRow row = store_->pairs[high];
+  for (Id i = 0; i < row.size(); ++i) {
+    const Id third = row.third(i);
+    if (third != no_id) visit(row.ids()[i], third);
+  }
+}
+
 Partner DiscreteGradient::pair_of_vertex(Id vertex) const {
   const Id other = vertex_successor(vertex);
   return {other == no_id ? -1 : 1, other};

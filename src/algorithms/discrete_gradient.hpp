@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 
 #include <gale/algorithms/critical_simplices.hpp>
@@ -50,6 +51,10 @@ class DiscreteGradient {
 
   /// Is the edge in no pair? Its third vertex as above.
   bool is_critical_edge(Id high, Id low, Id third) const { return third == no_id && vertex_successor_[high] != low; }
+
+  /// Calls visit(low, third) for each edge (high, low) that is paired with a triangle (high, low, third) and has no vertex above `high`. In no order that
+  /// means anything to users.
+  void for_each_edge_pair(Id high, const std::function<void(Id low, Id third)>& visit) const;
 
   /// The pair of a vertex; of an edge; of a tetrahedron. Throw nothing: the simplices must be there.
   Partner pair_of_vertex(Id vertex) const;

@@ -4,7 +4,6 @@
 #include <gale/io/write.hpp>
 
 #include "commands.hpp"
-#include "field.hpp"
 #include "session.hpp"
 
 namespace gale::app {
@@ -54,23 +53,15 @@ void tell(const CriticalPoints& points, Session& session) {
 void critical_points(const Options& options) {
   require_extension(options, {".vtp"});
   Session session(options);
-  io::Dataset dataset = session.read();
-  const io::PointArray field = select_field(dataset, options.array);
-  session.console().say("field", field.name);
-  const Mesh mesh = session.encode(dataset, Session::Keep::nothing);
-  double& initialize = session.report().seconds.initialize;
-  const VertexOrder order = [&] {
-    const Stopwatch watch(initialize);
-    return order_of(mesh, dataset, field);
-  }();
-  const auto structure = session.make_structure(mesh, critical_points_relations);
+  const FieldOnMesh input = session.read_field();
+  const auto structure = session.make_structure(input.mesh, critical_points_relations);
   CriticalPoints points;
   {
     const Stopwatch watch(session.report().seconds.run);
-    points = find_critical_points(*structure, order, session.sweep("critical points"));
+    points = find_critical_points(*structure, input.order, session.sweep("critical points"));
   }
   tell(points, session);
-  session.write(options.output, [&](const std::string& path) { io::write_points(path, to_point_set(dataset, points)); });
+  session.write(options.output, [&](const std::string& path) { io::write_points(path, to_point_set(input.dataset, points)); });
   session.finish(structure.get());
 }
 

@@ -31,6 +31,7 @@ void run(const gale::app::Options& options) {
       {"info", gale::app::info},
       {"segment", gale::app::segment},
       {"critical-points", gale::app::critical_points},
+      {"discrete-gradient", gale::app::discrete_gradient},
       {"relations", gale::app::relations},
       {"generate", gale::app::generate}};
   if (options.threads) gale::set_host_threads(*options.threads);

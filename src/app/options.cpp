@@ -106,6 +106,13 @@ std::optional<Options> parse_command_line(int argc, char** argv) {
   add_runtime(*command, options);
   add_output(*command, options, "The critical points: .vtp", false);
 
+  command = add_command(app, options, "discrete-gradient", "Pairs the simplices of a mesh along a scalar field; finds those that are left, the critical ones");
+  add_segmentation(*command, options);
+  add_runtime(*command, options);
+  add_output(*command, options, "The critical simplices: .vtp", false);
+  command->add_option("--arrows", options.arrows,
+                      "The gradient's arrows, from the barycentre of each simplex to that of the one it is paired with: .vtp. Large: a point a pair, some 13 a vertex");
+
   command = add_command(app, options, "relations", "Computes a relation of the whole mesh: its size, and how fast it comes");
   add_segmentation(*command, options);
   add_runtime(*command, options);

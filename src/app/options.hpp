@@ -22,6 +22,7 @@ struct Options {
   std::string input;
   io::ReadOptions read;
   std::string output;
+  std::string arrows;                    ///< of `gale discrete-gradient`: the file for the gradient's arrows, or empty
   std::string array;
   std::string segments;                  ///< a point array's name, or empty
   std::optional<int> capacity;           ///< 100 unless given

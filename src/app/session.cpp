@@ -70,12 +70,13 @@ Segmentation octree(const io::Dataset& dataset, int capacity) {
 Session::Session(const Options& options) : options_(options), console_(options.quiet) {
   report_.input = options.input;
   random_segments(options.segments);
-  require_distinct({options.input, options.output, options.dump, options.report});
+  require_distinct({options.input, options.output, options.arrows, options.dump, options.report});
   report_.threads = host_threads();
   // Found out now rather than after the work.
-  if (!options.output.empty()) {
-    if (!io::detail::has_vtk()) throw Error("this gale was built without VTK: it cannot write '" + options.output + "'");
-    require_writable(options.output);
+  for (const auto& file : {options.output, options.arrows}) {
+    if (file.empty()) continue;
+    if (!io::detail::has_vtk()) throw Error("this gale was built without VTK: it cannot write '" + file + "'");
+    require_writable(file);
   }
   if (!options.dump.empty()) require_writable(options.dump);
   if (!options.report.empty()) require_writable(options.report);
@@ -129,6 +130,16 @@ Mesh Session::encode(io::Dataset& dataset, Keep keep) {
   return mesh;
 }
 
+FieldOnMesh Session::read_field() {
+  io::Dataset dataset = read();
+  const io::PointArray field = select_field(dataset, options_.array);
+  console_.say("field", field.name);
+  const Mesh mesh = encode(dataset, Keep::nothing);
+  const Stopwatch watch(report_.seconds.initialize);
+  const VertexOrder order = order_of(mesh, dataset, field);
+  return {std::move(dataset), mesh, order};
+}
+
 std::unique_ptr<Structure> Session::make_structure(const Mesh& mesh, RelationSet relations) {
   const Stopwatch watch(report_.seconds.initialize);
   report_.structure = options_.structure;
@@ -170,14 +181,18 @@ void Session::finish(const Structure* structure) {
   if (!options_.report.empty()) write_report(options_.report, report_);
 }
 
-void require_extension(const Options& options, std::initializer_list<const char*> extensions) {
-  if (options.output.empty()) return;
+void require_extension(const Options& options, const std::string& option, const std::string& file, std::initializer_list<const char*> extensions) {
+  if (file.empty()) return;
   std::string list;
   for (const std::string extension : extensions) {
-    if (io::detail::format_of(options.output) == io::detail::format_of("any" + extension)) return;
+    if (io::detail::format_of(file) == io::detail::format_of("any" + extension)) return;
     list += (list.empty() ? "" : " or ") + extension;
   }
-  throw UsageError("--output " + options.output + ": gale " + options.command + " writes " + list);
+  throw UsageError(option + ' ' + file + ": gale " + options.command + " writes " + list);
+}
+
+void require_extension(const Options& options, std::initializer_list<const char*> extensions) {
+  require_extension(options, "--output", options.output, extensions);
 }
 
 }  // namespace gale::app

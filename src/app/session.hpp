@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 
+#include <gale/algorithms/vertex_order.hpp>
 #include <gale/io/dataset.hpp>
 #include <gale/mesh/mesh.hpp>
 #include <gale/relations/structure.hpp>
@@ -13,6 +14,13 @@
 #include "report.hpp"
 
 namespace gale::app {
+
+/// A scalar field on a mesh: where every analysis begins.
+struct FieldOnMesh {
+  io::Dataset dataset;  ///< without its tetrahedra
+  Mesh mesh;
+  VertexOrder order;
+};
 
 /// One run of the command: what every subcommand does, each step timed and said.
 class Session {
@@ -30,6 +38,9 @@ class Session {
   /// Segments and encodes. The tetrahedra are taken out of `dataset` on the way unless they are kept.
   enum class Keep { tetrahedra, nothing };
   Mesh encode(io::Dataset& dataset, Keep keep);
+
+  /// All that comes before a structure: reads, segments, encodes, and orders the vertices by the field that --array names.
+  FieldOnMesh read_field();
 
   /// The structure that --structure names, preconditioned for `relations`.
   std::unique_ptr<Structure> make_structure(const Mesh& mesh, RelationSet relations);
@@ -61,7 +72,10 @@ class Session {
   Report report_;
 };
 
-/// Throws UsageError unless the output, if there is one, ends in one of `extensions`, in either case.
+/// Throws UsageError unless the file that an option names, if it does, ends in one of `extensions`, in either case. `option` is what to call it.
+void require_extension(const Options& options, const std::string& option, const std::string& file, std::initializer_list<const char*> extensions);
+
+/// The same of --output.
 void require_extension(const Options& options, std::initializer_list<const char*> extensions);
 
 }  // namespace gale::app

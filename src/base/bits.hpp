@@ -16,6 +16,14 @@ KOKKOS_FORCEINLINE_FUNCTION int count_bits(std::uint32_t bits) {
 #endif
 }
 
+KOKKOS_FORCEINLINE_FUNCTION int count_bits(std::uint64_t bits) {
+#if defined(__CUDA_ARCH__)
+  return __popcll(bits);
+#else
+  return __builtin_popcountll(bits);
+#endif
+}
+
 /// Place of the lowest bit that is set; one is.
 KOKKOS_FORCEINLINE_FUNCTION int lowest_bit(std::uint32_t bits) {
 #if defined(__CUDA_ARCH__)

@@ -6,6 +6,8 @@ import struct
 import subprocess
 import tempfile
 import unittest
+import xml.etree.ElementTree
+import zlib
 from pathlib import Path
 
 GALE = os.environ["GALE"]
@@ -125,3 +127,30 @@ def vtk_xml_header(path):
     text = path.read_bytes().decode("latin-1")
     arrays = text[text.index("<PointData"):text.index("</PointData>")]
     return int(re.search(r'NumberOfPoints="(\d+)"', text).group(1)), re.findall(r'<DataArray[^>]* Name="([^"]+)"', arrays)
+
+
+def read_vtp(path):
+    """(points, {name: values}) of a .vtp as the command writes it. Arrays of several components are lists of tuples."""
+    header, data = path.read_bytes().split(b'<AppendedData encoding="raw">', 1)
+    data = data[data.index(b"_") + 1:]
+    file = xml.etree.ElementTree.fromstring(header + b"</VTKFile>")
+    assert (file.get("header_type"), file.get("compressor")) == ("UInt32", "vtkZLibDataCompressor")
+    codes = {"Int8": "b", "UInt8": "B", "Int32": "i", "Float32": "f", "Float64": "d"}
+
+    def values(array):
+        at = int(array.get("offset"))
+        blocks, = struct.unpack_from("<I", data, at)
+        sizes = struct.unpack_from(f"<{blocks}I", data, at + 12)
+        at += 12 + 4 * blocks
+        content = b""
+        for size in sizes:
+            content += zlib.decompress(data[at:at + size])
+            at += size
+        code = codes[array.get("type")]
+        flat = struct.unpack(f"<{len(content) // struct.calcsize(code)}{code}", content)
+        width = int(array.get("NumberOfComponents") or 1)
+        return list(flat) if width == 1 else [flat[i:i + width] for i in range(0, len(flat), width)]
+
+    piece = file.find("PolyData/Piece")
+    points = values(piece.find("Points/DataArray"))
+    return points, {array.get("Name"): values(array) for array in piece.find("PointData")}

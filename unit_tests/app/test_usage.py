@@ -12,13 +12,15 @@ class Usage(gale.CommandTest):
 
     def test_help_names_all_commands_and_options(self):
         text = self.succeed("--help")
-        for command in ("info", "segment", "critical-points", "generate"):
+        for command in ("info", "segment", "critical-points", "discrete-gradient", "generate"):
             self.assertIn(command, text)
-        text = self.succeed("critical-points", "--help")
-        for option in ("--above", "--array", "--output", "--threads", "--structure", "--capacity", "--segments",
-                       "--blocks-per-request", "--threads-per-block", "--threads-per-segment", "--host-memory",
-                       "--device-memory", "--report", "--quiet", "--tetrahedralize"):
-            self.assertIn(option, text)
+        for command in ("critical-points", "discrete-gradient"):
+            text = self.succeed(command, "--help")
+            for option in ("--above", "--array", "--output", "--threads", "--structure", "--capacity", "--segments",
+                           "--blocks-per-request", "--threads-per-block", "--threads-per-segment", "--host-memory",
+                           "--device-memory", "--report", "--quiet", "--tetrahedralize"):
+                self.assertIn(option, text)
+        self.assertIn("--arrows", text)
 
     def test_wrong_usage(self):
         for arguments in (["critical-points"], ["critical-points", "grid:4", "--nonsense"],
@@ -32,7 +34,7 @@ class Usage(gale.CommandTest):
                                   (["--bogus"], "--bogus")):
             with self.subTest(arguments=arguments):
                 self.refuse(2, *arguments, naming=naming)
-                self.refuse(2, *arguments, naming="the commands are info, segment, critical-points, relations, generate")
+                self.refuse(2, *arguments, naming="the commands are info, segment, critical-points, discrete-gradient, relations, generate")
 
     def test_values_that_options_do_not_take(self):
         for option, value in (("--structure", "fast"), ("--capacity", "0"), ("--capacity", "many"), ("--threads", "0"), ("--threads", "1025"),
@@ -58,7 +60,7 @@ class Usage(gale.CommandTest):
                 self.assertEqual((run.returncode, run.stderr), (1, "gale: cannot write to standard output\n"))
 
     def test_output_of_another_kind(self):
-        for command, name in (("critical-points", "points.vtu"), ("segment", "mesh.vtp"), ("generate", "mesh.stl")):
+        for command, name in (("critical-points", "points.vtu"), ("discrete-gradient", "points.vtu"), ("segment", "mesh.vtp"), ("generate", "mesh.stl")):
             with self.subTest(command=command):
                 self.refuse(2, command, "grid:4", "-o", name, naming=name)
         self.assertEqual(self.names(), [])
@@ -74,7 +76,7 @@ class Usage(gale.CommandTest):
                 self.refuse(1, "info", name, naming=name)
 
     def test_quiet_prints_nothing(self):
-        for command in ("info", "segment", "critical-points"):
+        for command in ("info", "segment", "critical-points", "discrete-gradient"):
             self.assertEqual(self.succeed(command, "grid:4", "--quiet"), "")
 
     def test_report_where_there_is_no_place(self):

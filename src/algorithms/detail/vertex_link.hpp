@@ -34,6 +34,9 @@ class SmallLink {
   /// Has the link an edge with one triangle only?
   KOKKOS_FUNCTION bool is_open() const { return open_ != 0; }
 
+  /// The neighbours that share a tetrahedron with the vertex and the i-th one.
+  KOKKOS_FORCEINLINE_FUNCTION std::uint64_t touching(Id i) const { return once_[i]; }
+
   /// Connected components of a set of neighbours, by flooding.
   KOKKOS_FUNCTION int components(std::uint64_t rest) const {
     int count = 0;
