@@ -49,9 +49,6 @@ class DiscreteGradient {
   /// The same, faster, of an edge whose higher end is known.
   Id triangle_of_lower_edge(Id high, Id low) const;
 
-  /// Is the edge in no pair? Its third vertex as above.
-  bool is_critical_edge(Id high, Id low, Id third) const { return third == no_id && vertex_successor_[high] != low; }
-
   /// Calls visit(low, third) for each edge (high, low) that is paired with a triangle (high, low, third) and has no vertex above `high`. In no order that
   /// means anything to users.
   void for_each_edge_pair(Id high, const std::function<void(Id low, Id third)>& visit) const;
@@ -71,6 +68,9 @@ class DiscreteGradient {
 
   /// Allocated for it.
   std::size_t bytes() const;
+
+  /// For GALE's own algorithms.
+  const detail::GradientStore& store() const { return *store_; }
 
  private:
   std::shared_ptr<const detail::GradientStore> store_;

@@ -1,5 +1,6 @@
 #include <gale/algorithms/detail/ascending_walls.hpp>
 
+#include <algorithm>
 #include <memory>
 
 #include <gale/algorithms/detail/edge_star.hpp>
@@ -13,28 +14,32 @@ namespace {
 
 using Edge = std::array<Id, 2>;
 
-/// An edge of a wall, and the tetrahedra around it.
+/// An edge of a wall, and where its tetrahedra are among those that a thread has found.
 struct Cell {
   Edge edge;
-  std::vector<Id> star;
+  int thread;
+  Id star_size;
+  Offset star_begin;
 };
 
 /// One thread's part.
 class Tracer {
  public:
-  Tracer(Structure& structure, const DiscreteGradient& gradient)
-      : gradient_(gradient), keys_(gradient.order().keys()), consumer_(structure.consumer()), star_(structure.mesh()) {}
+  Tracer(Structure& structure, const DiscreteGradient& gradient, int thread)
+      : thread_(thread), gradient_(gradient), keys_(gradient.order().keys()), consumer_(structure.consumer()), star_(structure.mesh()) {}
 
   void follow(Id source, const Edge& critical) {
     seen_.clear();
     seen_.insert(critical[0], critical[1]);
     std::vector<Cell>& cells = walls.cells;
     const std::size_t first = cells.size();
-    cells.push_back({critical, {}});
+    add(critical);
     for (std::size_t i = first; i < cells.size(); ++i) {
       const auto [high, low] = cells[i].edge;
       star_.find(high, low, consumer_->row(Relation::VT, high));
-      cells[i].star = star_.around();
+      cells[i].star_begin = static_cast<Offset>(stars.size());
+      cells[i].star_size = static_cast<Id>(star_.around().size());
+      stars.insert(stars.end(), star_.around().begin(), star_.around().end());
       for (const Id third : star_.thirds()) cross({high, low, third});
     }
     walls.sources.push_back(source);
@@ -42,19 +47,23 @@ class Tracer {
   }
 
   Separatrices<Cell> walls;
+  std::vector<Id> stars;
 
  private:
+  void add(const Edge& edge) { walls.cells.push_back({edge, thread_, 0, 0}); }
+
   /// To the edge that a triangle is paired with, if it is with one.
   void cross(TriangleVertices triangle) {
     std::sort(triangle.begin(), triangle.end(), [this](Id a, Id b) { return keys_[a] > keys_[b]; });
     for (int i = 1; i < 3; ++i) {
       if (gradient_.triangle_of_lower_edge(triangle[0], triangle[i]) != triangle[3 - i]) continue;
-      if (seen_.insert(triangle[0], triangle[i]).second) walls.cells.push_back({{triangle[0], triangle[i]}, {}});
+      if (seen_.insert(triangle[0], triangle[i]).second) add({triangle[0], triangle[i]});
     }
   }
 
   struct Nothing {};
 
+  int thread_;
   const DiscreteGradient& gradient_;
   const std::uint64_t* keys_;
   std::unique_ptr<Consumer> consumer_;
@@ -68,22 +77,28 @@ AscendingWalls ascending_walls(Structure& structure, const DiscreteGradient& gra
   const auto& edges = gradient.critical().edges;
   std::vector<std::unique_ptr<Tracer>> tracers(threads);
   in_turns(threads, static_cast<std::int64_t>(edges.size()), [&](int thread, std::int64_t i) {
-    if (!tracers[thread]) tracers[thread] = std::make_unique<Tracer>(structure, gradient);
+    if (!tracers[thread]) tracers[thread] = std::make_unique<Tracer>(structure, gradient, thread);
     tracers[thread]->follow(static_cast<Id>(i), edges[i]);
   });
   std::vector<Separatrices<Cell>> found;
   for (auto& tracer : tracers) {
     if (tracer) found.push_back(std::move(tracer->walls));
   }
-  const auto all = gathered(found, false);
+  auto all = gathered(found, false);
   AscendingWalls walls;
-  walls.walls.sources = all.sources;
-  walls.walls.begin = all.begin;
-  for (const Cell& cell : all.cells) {
-    walls.walls.cells.push_back(cell.edge);
-    walls.star.insert(walls.star.end(), cell.star.begin(), cell.star.end());
-    walls.star_begin.push_back(static_cast<Offset>(walls.star.size()));
-  }
+  walls.walls.sources = std::move(all.sources);
+  walls.walls.begin = std::move(all.begin);
+  const Offset count = static_cast<Offset>(all.cells.size());
+  walls.walls.cells.resize(count);
+  walls.star_begin.resize(count + 1);
+  for (Offset i = 0; i < count; ++i) walls.star_begin[i + 1] = walls.star_begin[i] + all.cells[i].star_size;
+  walls.star.resize(walls.star_begin[count]);
+  parallel_for("GALE::gather_stars", Kokkos::DefaultHostExecutionSpace(), count, [&](Offset i) {
+    const Cell& cell = all.cells[i];
+    walls.walls.cells[i] = cell.edge;
+    const Id* const star = tracers[cell.thread]->stars.data() + cell.star_begin;
+    std::copy(star, star + cell.star_size, walls.star.data() + walls.star_begin[i]);
+  });
   return walls;
 }
 

@@ -5,33 +5,37 @@
 namespace gale::detail {
 
 DescendingWall::DescendingWall(const DiscreteGradient& gradient)
-    : gradient_(gradient), keys_(gradient.order().keys()), vertex_input_(gradient.mesh().vertex_input().data()) {}
+    : pairs_(gradient.store().pairs),
+      vertex_successor_(gradient.vertex_successors().data()),
+      keys_(gradient.order().keys()),
+      vertex_input_(gradient.mesh().vertex_input().data()) {}
 
 void DescendingWall::follow(const TriangleVertices& critical) {
   triangles_.assign(1, critical);
   critical_edges_.clear();
   above_.clear();
-  cross(critical[0], critical[1], critical);
-  for (std::size_t i = 0; i < triangles_.size(); ++i) {
-    const TriangleVertices triangle = triangles_[i];
-    cross(triangle[0], triangle[2], triangle);
-    const bool in_order = keys_[triangle[1]] > keys_[triangle[2]];
-    cross(triangle[in_order ? 1 : 2], triangle[in_order ? 2 : 1], triangle);
+  cross(critical[0], critical[1], 0);
+  for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
+    const auto [a, b, c] = triangles_[i];
+    cross(a, c, i);
+    const bool in_order = keys_[b] > keys_[c];
+    cross(in_order ? b : c, in_order ? c : b, i);
   }
 }
 
-void DescendingWall::cross(Id high, Id low, const TriangleVertices& from) {
+void DescendingWall::cross(Id high, Id low, std::uint32_t from) {
   const auto [above, is_new] = above_.insert(high, low);
   if (!is_new) {
     above.are_several = true;
-    if (is_less(from, above.least)) above.least = from;
+    if (is_less(triangles_[from], triangles_[above.least])) above.least = from;
     return;
   }
   above = {from, false};
-  const Id third = gradient_.triangle_of_lower_edge(high, low);
+  const EdgePairRow row = pairs_[high];
+  const Id third = row.third(row.find(low));
   if (third != no_id) {
     triangles_.push_back({high, low, third});
-  } else if (gradient_.is_critical_edge(high, low, third)) {
+  } else if (vertex_successor_[high] != low) {
     critical_edges_.push_back({high, low});
   }
 }
@@ -41,10 +45,11 @@ bool DescendingWall::append_path(const Edge& from, std::vector<TriangleVertices>
   Edge edge = from;
   while (true) {
     const Above& above = above_(edge.high, edge.low);
+    const TriangleVertices& triangle = triangles_[above.least];
     is_only = is_only && !above.are_several;
-    path.push_back(above.least);
-    if (above.least == triangles_.front()) return is_only;
-    edge = {above.least[0], above.least[1]};
+    path.push_back(triangle);
+    if (above.least == 0) return is_only;
+    edge = {triangle[0], triangle[1]};
   }
 }
 

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include <gale/algorithms/detail/edge_table.hpp>
+#include <gale/algorithms/detail/gradient_store.hpp>
 #include <gale/algorithms/discrete_gradient.hpp>
 #include <gale/algorithms/separatrices.hpp>
 
@@ -32,16 +33,17 @@ class DescendingWall {
   bool append_path(const Edge& from, std::vector<TriangleVertices>& path) const;
 
  private:
-  /// An edge of the wall: the least of the wall's triangles that it isn't paired with, and whether there are more.
+  /// An edge of the wall: the least of the wall's triangles that it isn't paired with, by its place among them, and whether there are more.
   struct Above {
-    TriangleVertices least{};
+    std::uint32_t least = 0;
     bool are_several = false;
   };
 
-  void cross(Id high, Id low, const TriangleVertices& from);
+  void cross(Id high, Id low, std::uint32_t from);
   bool is_less(const TriangleVertices& a, const TriangleVertices& b) const;
 
-  const DiscreteGradient& gradient_;
+  const EdgePairs& pairs_;
+  const Id* vertex_successor_;
   const std::uint64_t* keys_;
   const Id* vertex_input_;
   std::vector<TriangleVertices> triangles_;

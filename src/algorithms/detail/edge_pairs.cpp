@@ -10,14 +10,6 @@ void EdgePairRow::begin(Id count) {
   std::memset(words_ + 1 + count, 0xff, (words_for(count) - 1 - count) * sizeof(Id));
 }
 
-Id EdgePairRow::find(Id other) const {
-  constexpr Id few = 16;
-  const Id* const begin = ids();
-  const Id* const end = begin + size();
-  const Id* const at = size() <= few ? std::find(begin, end, other) : std::lower_bound(begin, end, other);
-  return at != end && *at == other ? static_cast<Id>(at - begin) : no_id;
-}
-
 EdgePairs::EdgePairs(Id vertices, int consumers)
     : rows_(allocate<Array<EdgePairRow, HostMemory>>("GALE::edge_pair_rows", vertices)), pools_(consumers) {}
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -20,8 +21,14 @@ class EdgePairRow {
   Id size() const { return words_[0]; }
   const Id* ids() const { return words_ + 1; }
 
-  /// Place of a lower end; -1 if it isn't one.
-  Id find(Id other) const;
+  /// Place of a lower end; no_id if it isn't one.
+  Id find(Id other) const {
+    constexpr Id few = 16;
+    const Id* const begin = ids();
+    const Id* const end = begin + size();
+    const Id* const at = size() <= few ? std::find(begin, end, other) : std::lower_bound(begin, end, other);
+    return at != end && *at == other ? static_cast<Id>(at - begin) : no_id;
+  }
 
   /// Third vertex of the triangle that the i-th edge is paired with; no_id if it is with none.
   Id third(Id i) const {

@@ -23,7 +23,8 @@ Separatrices<Id> paths_of(const Id* successors, const std::vector<Id>& starts, c
   const Offset count = static_cast<Offset>(starts.size());
   const auto begin = allocate<Array<Offset, HostMemory>>("GALE::path_begin", count + 1);
   const auto rank = allocate<Array<Id, HostMemory>>("GALE::path_rank", count + 1);
-  exclusive_scan("GALE::path_lengths", HostSpace(), count, begin, [&](Offset i) { return length_of(successors, starts[i]); });
+  parallel_for("GALE::path_lengths", HostSpace(), count, [&](Offset i) { begin(i) = length_of(successors, starts[i]); });
+  exclusive_scan("GALE::path_begins", HostSpace(), count, begin, [&](Offset i) { return begin(i); });
   exclusive_scan("GALE::count_paths", HostSpace(), count, rank, [&](Offset i) { return begin(i + 1) > begin(i); });
   Separatrices<Id> paths;
   paths.sources.resize(rank(count));
