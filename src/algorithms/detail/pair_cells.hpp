@@ -12,6 +12,10 @@ namespace gale::detail {
 /// queues a cell that has none; `next_deferred(cell)` takes the least unsettled one of these and of the edges.
 ///
 /// Calls pair(facet, cell) for each pair and critical(cell) for each cell that is left.
+/// Where `queues` are the host's alone, so is this.
+#if defined(__CUDACC__)
+#pragma nv_exec_check_disable
+#endif
 template <class Queues, class Pair, class Critical>
 KOKKOS_FORCEINLINE_FUNCTION void pair_cells(Queues&& queues, const Pair& pair, const Critical& critical) {
   queues.add_edges();
