@@ -56,6 +56,8 @@ Json to_json(const RuntimeStatistics& statistics) {
           {"seconds_of_each", each},
           {"segments_computed_by_consumers", all.segments_computed},
           {"seconds_computing_by_consumers", all.seconds_computing},
+          {"segments_computed_by_helpers", statistics.helpers.segments_computed},
+          {"seconds_computing_by_helpers", statistics.helpers.seconds_computing},
           {"leaders", leaders},
           {"host_block_bytes", statistics.host_bytes}};
 }

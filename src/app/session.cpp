@@ -49,7 +49,12 @@ Segmentation scattered(std::size_t vertices, std::int64_t count) {
 }
 
 const char* name_of(Production production) {
-  return production == Production::leaders ? "leaders" : production == Production::pairs ? "pairs" : "consumers";
+  switch (production) {
+    case Production::leaders: return "leaders";
+    case Production::helpers: return "helpers";
+    case Production::pairs: return "pairs";
+    default: return "consumers";
+  }
 }
 
 std::size_t point_count(const io::Dataset& dataset) {

@@ -33,6 +33,12 @@ class Blocks {
     for (const Relation relation : relations_) rows.set(relation, pool_.words + *entry++);
   }
 
+  std::size_t bytes() const {
+    std::size_t sum = 0;
+    for (const Buffer& buffer : buffers_) sum += static_cast<std::size_t>(buffer.capacity) * sizeof(Id);
+    return sum;
+  }
+
  private:
   struct Buffer {
     std::unique_ptr<Id[]> words;
@@ -78,6 +84,12 @@ SegmentRows HostProducer::compute(Id segment) {
 
 void HostProducer::compute(SegmentRows& rows) {
   for (const auto& kernel : workspace_->kernels) kernel->compute(rows);
+}
+
+std::size_t HostProducer::block_bytes() const {
+  std::size_t sum = 0;
+  for (const auto& kernel : workspace_->kernels) sum += kernel->bytes();
+  return sum;
 }
 
 }  // namespace gale

@@ -24,6 +24,9 @@ class HostProducer {
   /// Adds them to other rows of the same segment. Likewise.
   void compute(SegmentRows& rows);
 
+  /// Allocated for blocks, now.
+  std::size_t block_bytes() const;
+
  private:
   struct Workspace;
   std::unique_ptr<Workspace> workspace_;

@@ -72,9 +72,9 @@ class Structure {
   /// The relations that it was preconditioned for.
   virtual RelationSet relations() const = 0;
 
-  /// A sweep: calls `body` once for every segment, with the blocks of the relations `wanted`, on `options.threads` consumer threads.
-  /// If a body throws, no further segment is begun and the exception is thrown again here. Throws gale::Error if `wanted` has a
-  /// relation that was not preconditioned.
+  /// A sweep: calls `body` once for every segment, in no order to rely on, with the blocks of the relations `wanted`, on `options.threads`
+  /// consumer threads. If a body throws, no further segment is begun and the exception is thrown again here. Throws gale::Error if `wanted`
+  /// has a relation that was not preconditioned.
   virtual void for_each_segment(RelationSet wanted, const SweepOptions& options, const SegmentBody& body) = 0;
 
   virtual std::unique_ptr<Consumer> consumer() = 0;

@@ -6,9 +6,10 @@ namespace gale {
 
 /// Who computes the relations of a segment.
 enum class Production {
-  automatic,  ///< leaders where Kokkos has a device, else consumers
+  automatic,  ///< leaders where Kokkos has a device, else helpers
   leaders,    ///< one leader thread per queue, which has batches of segments computed in the producers' space, ahead of need
   consumers,  ///< each consumer for itself, on the host: nothing is handed over and nobody waits
+  helpers,    ///< consumers, and in a sweep each core that has none of them computes segments ahead of them; nobody waits for another
   pairs       ///< on the host, a producer thread for each consumer of a sweep, which runs ahead of it: the task-parallel way of ACTOPO, for comparison
 };
 
@@ -29,9 +30,13 @@ struct RuntimeOptions {
   int threads_per_block = 0;
   int threads_per_segment = 0;
 
-  /// Bytes for blocks that are kept on the host, for all queues together; by default an eighth of the machine's memory. Exceeded only by what
-  /// consumers hold at one time.
+  /// Bytes for blocks that are kept on the host, for all queues or helpers together; by default an eighth of the machine's memory. Exceeded only by what
+  /// consumers hold at one time, and by a block of each helper; helpers that it is too small for don't help.
   std::size_t host_memory = 0;
+
+  /// Without leaders, how many cores a sweep's consumers and helpers share: with as many consumers there is no helper. By default all that the thread which
+  /// begins the sweep may run on.
+  int cores = 0;
 
   /// Bytes for batches on the device, for all queues together; by default three of 16 MiB each a queue.
   std::size_t device_memory = 0;

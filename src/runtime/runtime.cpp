@@ -9,9 +9,10 @@ namespace {
 
 std::unique_ptr<detail::RuntimeImplementation> implement(const Mesh& mesh, RelationSet wanted, const RuntimeOptions& options) {
   switch (options.production) {
-    case Production::automatic: return have_device ? detail::by_leaders(mesh, wanted, options) : detail::by_consumers(mesh, wanted);
+    case Production::automatic: return have_device ? detail::by_leaders(mesh, wanted, options) : detail::by_helpers(mesh, wanted, options);
     case Production::leaders: return detail::by_leaders(mesh, wanted, options);
     case Production::consumers: return detail::by_consumers(mesh, wanted);
+    case Production::helpers: return detail::by_helpers(mesh, wanted, options);
     case Production::pairs: return detail::by_pairs(mesh, wanted);
   }
   throw Error("there is no such way to produce");

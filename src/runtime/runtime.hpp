@@ -20,6 +20,9 @@ class RuntimeImplementation;
 /// the host, the next computes. Blocks stay until the host budget needs their place, the longest unread first. In a sweep the leaders run ahead
 /// of the consumers as far as the budget goes.
 ///
+/// Without a device, a consumer computes what it misses. In a sweep of fewer consumers than there are cores, helpers on the others compute segments ahead
+/// of them (Production::helpers); a consumer takes what is ready, computes when nothing is, and waits for nobody.
+///
 /// Rows of EF, ET, FT and TT are found among what begins with a vertex or its neighbours: their time grows with the square of a vertex' degree, which a vertex in
 /// very many tetrahedra makes felt (20000 at one edge: some seconds). The explicit structure's doesn't.
 ///

@@ -20,6 +20,12 @@ ConsumerStatistics& ConsumerStatistics::operator+=(const ConsumerStatistics& oth
   return *this;
 }
 
+HelperStatistics& HelperStatistics::operator+=(const HelperStatistics& other) {
+  segments_computed += other.segments_computed;
+  seconds_computing += other.seconds_computing;
+  return *this;
+}
+
 ConsumerStatistics RuntimeStatistics::all_consumers() const {
   ConsumerStatistics sum;
   for (const auto& one : consumers) sum += one;

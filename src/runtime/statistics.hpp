@@ -30,6 +30,14 @@ struct ConsumerStatistics {
   ConsumerStatistics& operator+=(const ConsumerStatistics& other);
 };
 
+/// What cores that sweeps left idle did ahead of the consumers.
+struct HelperStatistics {
+  std::int64_t segments_computed = 0;
+  double seconds_computing = 0;
+
+  HelperStatistics& operator+=(const HelperStatistics& other);
+};
+
 /// What one queue's leader did.
 struct LeaderStatistics {
   RelationSet relations;
@@ -44,6 +52,7 @@ struct LeaderStatistics {
 /// Everything since the runtime was made.
 struct RuntimeStatistics {
   std::vector<ConsumerStatistics> consumers;  ///< of those that have ended; a sweep's consumers by their number
+  HelperStatistics helpers;  ///< of all sweeps; a block of theirs that a consumer read is one of its hits
   std::vector<LeaderStatistics> leaders;
   std::size_t host_bytes = 0;    ///< allocated for blocks on the host, at most at one time
   std::size_t device_bytes = 0;  ///< allocated for batches on the device

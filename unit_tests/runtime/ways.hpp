@@ -14,7 +14,7 @@ struct Way {
 
 /// Everything that can be told apart about how a runtime works.
 inline std::vector<Way> ways() {
-  std::vector<Way> all(6);
+  std::vector<Way> all(7);
   all[0].name = "consumers";
   all[0].options.production = Production::consumers;
   all[1].name = "leaders";
@@ -28,7 +28,10 @@ inline std::vector<Way> ways() {
   all[3].options.blocks_per_request = all[3].options.threads_per_block = 1;
   all[4].name = "pairs";
   all[4].options.production = Production::pairs;
-  all[5].name = "automatic";
+  all[5].name = "helpers, on sixteen cores";
+  all[5].options.production = Production::helpers;
+  all[5].options.cores = 16;
+  all[6].name = "automatic";
   return all;
 }
 

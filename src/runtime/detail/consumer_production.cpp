@@ -1,37 +1,15 @@
 #include <algorithm>
-#include <chrono>
 #include <vector>
 
 #include <gale/relations/detail/boundary_reader.hpp>
 #include <gale/relations/detail/sweep.hpp>
-#include <gale/relations/host_producer.hpp>
 #include <gale/relations/segment_kernel.hpp>
+#include <gale/runtime/detail/counting_producer.hpp>
 #include <gale/runtime/detail/implementation.hpp>
 
 namespace gale::detail {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-/// A HostProducer that keeps count.
-class CountingProducer {
- public:
-  CountingProducer(const Mesh& mesh, RelationSet relations, ConsumerStatistics& statistics)
-      : producer_(mesh, relations), statistics_(&statistics) {}
-
-  SegmentRows compute(Id segment) {
-    const auto begin = Clock::now();
-    const SegmentRows rows = producer_.compute(segment);
-    statistics_->seconds_computing += std::chrono::duration<double>(Clock::now() - begin).count();
-    ++statistics_->segments_computed;
-    return rows;
-  }
-
- private:
-  HostProducer producer_;
-  ConsumerStatistics* statistics_;
-};
 
 /// What one kernel made last, for some segments.
 class RecentBlocks {

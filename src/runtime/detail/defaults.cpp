@@ -1,9 +1,13 @@
 #include <gale/runtime/detail/defaults.hpp>
 
+#ifdef __linux__
+#include <sched.h>
+#endif
 #include <unistd.h>
 
 #include <algorithm>
 #include <string>
+#include <thread>
 
 #include <gale/base/error.hpp>
 
@@ -25,6 +29,16 @@ std::size_t default_host_memory() {
   return pages > 0 && page > 0 ? static_cast<std::size_t>(pages) * page / share_of_host : 512 * mebibyte;
 }
 
+/// Those that the calling thread may run on: so may the threads that it starts, and no others.
+int usable_cores() {
+  const int all = std::max(static_cast<int>(std::thread::hardware_concurrency()), 1);
+#ifdef __linux__
+  cpu_set_t set;
+  if (sched_getaffinity(0, sizeof set, &set) == 0) return std::min(all, CPU_COUNT(&set));
+#endif
+  return all;
+}
+
 int given_or(int given, int otherwise, const char* name) {
   if (given < 0) throw Error(std::string(name) + " must be at least 1, not " + std::to_string(given));
   return given == 0 ? otherwise : given;
@@ -37,7 +51,7 @@ Sizes sizes_for(const Mesh& mesh, const RuntimeOptions& options, int queues) {
   const int threads_per_segment = given_or(options.threads_per_segment, 128, "threads per segment");
   const int threads_per_block = given_or(options.threads_per_block, 256, "threads per block");
   const int blocks = given_or(options.blocks_per_request, 16, "blocks per request");
-  const std::size_t host = (options.host_memory == 0 ? default_host_memory() : options.host_memory) / queues;
+  const std::size_t host = host_memory(options) / queues;
   // Three batches are on the device at a time.
   const std::size_t device = options.device_memory == 0 ? largest_batch : options.device_memory / queues / 3;
   const std::size_t batch = std::clamp(std::min(host / 8, device), std::size_t(4096), largest_batch);
@@ -49,5 +63,9 @@ Sizes sizes_for(const Mesh& mesh, const RuntimeOptions& options, int queues) {
   sizes.threads_per_segment = (threads_per_segment + warp - 1) / warp * warp;
   return sizes;
 }
+
+std::size_t host_memory(const RuntimeOptions& options) { return options.host_memory == 0 ? default_host_memory() : options.host_memory; }
+
+int cores(const RuntimeOptions& options) { return given_or(options.cores, usable_cores(), "cores"); }
 
 }  // namespace gale::detail

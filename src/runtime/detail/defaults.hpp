@@ -18,4 +18,10 @@ struct Sizes {
 /// For each of `queues` queues. Throws gale::Error for an option below 0.
 Sizes sizes_for(const Mesh& mesh, const RuntimeOptions& options, int queues);
 
+/// Bytes for blocks on the host, of all queues or helpers together.
+std::size_t host_memory(const RuntimeOptions& options);
+
+/// Of a sweep, for consumers and helpers. Throws gale::Error for an option below 0.
+int cores(const RuntimeOptions& options);
+
 }  // namespace gale::detail

@@ -32,6 +32,9 @@ class RuntimeImplementation {
 /// Production::consumers.
 std::unique_ptr<RuntimeImplementation> by_consumers(const Mesh& mesh, RelationSet relations);
 
+/// Production::helpers.
+std::unique_ptr<RuntimeImplementation> by_helpers(const Mesh& mesh, RelationSet relations, const RuntimeOptions& options);
+
 /// Production::pairs.
 std::unique_ptr<RuntimeImplementation> by_pairs(const Mesh& mesh, RelationSet relations);
 
