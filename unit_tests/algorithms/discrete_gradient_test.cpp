@@ -1,0 +1,68 @@
+#include <gtest/gtest.h>
+
+#include <gale/algorithms/discrete_gradient.hpp>
+#include <gale/base/error.hpp>
+#include <gale/runtime/runtime.hpp>
+
+#include "algorithms/fields.hpp"
+#include "algorithms/gradient_reader.hpp"
+#include "algorithms/structure_kinds.hpp"
+#include "support/every_mesh.hpp"
+
+namespace gale::test {
+
+namespace {
+
+/// Of each of fields_on a mesh, by brute force.
+const std::vector<PairTable>& brute_force_pairs(const std::string& mesh_name) {
+  static std::map<std::string, std::vector<PairTable>> known;
+  std::vector<PairTable>& tables = known[mesh_name];
+  if (tables.empty()) {
+    for (const BruteForceGradient& gradient : brute_force_gradients(mesh_name)) {
+      tables.push_back(pairs_of(gradient, brute_force_of(mesh_name)));
+    }
+  }
+  return tables;
+}
+
+}  // namespace
+
+class DiscreteGradientOf : public EveryMesh {};
+
+TEST_P(DiscreteGradientOf, every_mesh_is_that_of_brute_force_on_every_structure) {
+  const Mesh mesh = encode(input(), segmentation());
+  const GradientReader reader(brute_force_of(mesh_name()), mesh);
+  const auto& expected = brute_force_pairs(mesh_name());
+  const auto fields = fields_on(input());
+  std::vector<DiscreteGradient> first;
+  for (const auto& kind : structure_kinds()) {
+    const auto structure = kind.make(mesh, discrete_gradient_relations);
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+      SCOPED_TRACE(kind.name + ", " + fields[i].name);
+      const auto floats = fields[i].floats();
+      const VertexOrder of_doubles(mesh, fields[i].values.data(), fields[i].values.size());
+      const VertexOrder of_floats(mesh, floats.data(), floats.size());
+      const auto one_thread = find_discrete_gradient(*structure, of_doubles, with_threads(1));
+      const auto eight_threads = find_discrete_gradient(*structure, of_floats, with_threads(8));
+      if (first.size() == i) {
+        first.push_back(one_thread);
+        ASSERT_TRUE(reader.match(one_thread, expected[i]));
+      } else {
+        EXPECT_TRUE(reader.equal(one_thread, first[i]));
+      }
+      EXPECT_TRUE(reader.equal(eight_threads, first[i]));
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Tests, DiscreteGradientOf, every_mesh_and_segmentation(), mesh_and_segmentation);
+
+TEST(DiscreteGradient, needs_the_relations_that_it_reads) {
+  const InputMesh& input = mesh_named("one_tetrahedron");
+  const Mesh mesh = encode(input, octree_of(input, 100));
+  const std::vector<float> field(4, 1.0f);
+  Runtime runtime(mesh, Relation::VV);
+  EXPECT_THROW(find_discrete_gradient(runtime, VertexOrder(mesh, field.data(), field.size())), Error);
+}
+
+}  // namespace gale::test
