@@ -20,6 +20,12 @@ class CellSet {
     return set;
   }
 
+  KOKKOS_FORCEINLINE_FUNCTION static CellSet of(int cell) {
+    CellSet set = none();
+    set.add(cell);
+    return set;
+  }
+
   KOKKOS_FORCEINLINE_FUNCTION void add(int cell) { words_[cell >> 6 & (Words - 1)] |= std::uint64_t(1) << (cell & 63); }
   KOKKOS_FORCEINLINE_FUNCTION void remove_lowest() {
     for (int w = 0; w < Words; ++w) {

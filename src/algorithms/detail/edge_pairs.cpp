@@ -14,11 +14,12 @@ EdgePairs::EdgePairs(Id vertices, int consumers)
     : rows_(allocate<Array<EdgePairRow, HostMemory>>("GALE::edge_pair_rows", vertices)), pools_(consumers) {}
 
 EdgePairRow EdgePairs::begin(int consumer, Id vertex, Id count) {
-  constexpr Offset chunk_words = Offset(1) << 19;
+  constexpr Offset least = Offset(1) << 16, most = Offset(1) << 23;  // words: large enough for large pages, and little for little meshes
   Pool& pool = pools_[consumer];
   const Offset words = EdgePairRow::words_for(count);
   if (pool.end - pool.next < words) {
-    pool.chunks.push_back(allocate<Array<Id, HostMemory>>("GALE::edge_pairs", std::max(words, chunk_words)));
+    const Offset twice = pool.chunks.empty() ? least : 2 * static_cast<Offset>(pool.chunks.back().extent(0));
+    pool.chunks.push_back(allocate<Array<Id, HostMemory>>("GALE::edge_pairs", std::max(words, std::min(twice, most))));
     pool.next = pool.chunks.back().data();
     pool.end = pool.next + pool.chunks.back().extent(0);
   }
