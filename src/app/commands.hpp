@@ -10,6 +10,7 @@ void info(const Options& options);
 void segment(const Options& options);
 void critical_points(const Options& options);
 void discrete_gradient(const Options& options);
+void morse_smale(const Options& options);
 void relations(const Options& options);
 void generate(const Options& options);
 

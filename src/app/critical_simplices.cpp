@@ -8,90 +8,92 @@ namespace gale::app {
 
 namespace {
 
-/// The rows of the output, as far as they don't depend on the type of coordinates.
-struct Rows {
-  std::vector<Point> positions;
-  std::vector<std::int8_t> dimensions, on_boundary;
-  std::vector<Id> cells, highest;  ///< input ids
-};
-
-/// Takes the critical simplices of all dimensions.
-template <class Coordinate>
-class Collector {
+/// Names simplices of a mesh.
+class Namer {
  public:
-  Collector(const io::Dataset::Points<Coordinate>& points, const DiscreteGradient& gradient, const SimplexNumbers& numbers)
-      : points_(points), mesh_(gradient.mesh()), keys_(gradient.order().keys()), numbers_(numbers) {}
+  Namer(const DiscreteGradient& gradient, const SimplexNumbers& numbers)
+      : input_(gradient.mesh().vertex_input().data()), keys_(gradient.order().keys()), numbers_(numbers) {}
 
-  Rows collect(const CriticalSimplices& critical) {
-    for (const Id v : critical.vertices) add(0, input(v), v, point_of(points_, input(v)));
-    for (std::size_t i = 0; i < critical.edges.size(); ++i) {
-      const auto& edge = critical.edges[i];
-      add(1, numbers_.edges[i], edge[0], barycentre(points_, input(edge)));
-    }
-    for (std::size_t i = 0; i < critical.triangles.size(); ++i) {
-      const auto& triangle = critical.triangles[i];
-      add(2, numbers_.triangles[i], triangle[0], incentre(points_, input(triangle)));
-    }
-    for (const Id t : critical.tetrahedra) {
-      const auto& all = mesh_.host().tetrahedra;
-      const std::array<Id, 4> tetrahedron = {all(t, 0), all(t, 1), all(t, 2), all(t, 3)};
-      const Id highest = *std::max_element(tetrahedron.begin(), tetrahedron.end(), [&](Id a, Id b) { return keys_[a] < keys_[b]; });
-      add(3, mesh_.tetrahedron_input()(t), highest, barycentre(points_, input(tetrahedron)));
-    }
-    return std::move(rows_);
+  /// Of vertices from the highest to the lowest.
+  template <std::size_t N>
+  CriticalSimplex name(const std::array<Id, N>& simplex, Id cell) const {
+    CriticalSimplex named{cell, {}, N - 1, static_cast<std::int8_t>(numbers_.on_boundary(simplex[0]))};
+    for (std::size_t i = 0; i < N; ++i) named.vertices[i] = input_[simplex[i]];
+    return named;
+  }
+
+  /// Of vertices in any order.
+  CriticalSimplex name_tetrahedron(std::array<Id, 4> simplex, Id cell) const {
+    std::sort(simplex.begin(), simplex.end(), [this](Id a, Id b) { return keys_[a] > keys_[b]; });
+    return name(simplex, cell);
   }
 
  private:
-  Id input(Id vertex) const { return mesh_.vertex_input()(vertex); }
-
-  template <std::size_t N>
-  std::array<Id, N> input(std::array<Id, N> simplex) const {
-    for (Id& vertex : simplex) vertex = input(vertex);
-    return simplex;
-  }
-
-  void add(int dimension, Id cell, Id highest, const Point& position) {
-    rows_.positions.push_back(position);
-    rows_.dimensions.push_back(static_cast<std::int8_t>(dimension));
-    rows_.on_boundary.push_back(static_cast<std::int8_t>(numbers_.on_boundary(highest)));
-    rows_.cells.push_back(cell);
-    rows_.highest.push_back(input(highest));
-  }
-
-  const io::Dataset::Points<Coordinate>& points_;
-  const Mesh& mesh_;
+  const Id* input_;
   const std::uint64_t* keys_;
   const SimplexNumbers& numbers_;
-  Rows rows_;
 };
 
 template <class Coordinate>
-io::Dataset::Points<Coordinate> to_points(const std::vector<Point>& positions) {
-  io::Dataset::Points<Coordinate> points("positions", positions.size());
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    for (int axis = 0; axis < 3; ++axis) points(i, axis) = static_cast<Coordinate>(positions[i][axis]);
+Point middle_of(const io::Dataset::Points<Coordinate>& points, const CriticalSimplex& simplex) {
+  const auto& v = simplex.vertices;
+  switch (simplex.dimension) {
+    case 0: return position_of(points, std::array<Id, 1>{v[0]});
+    case 1: return position_of(points, std::array<Id, 2>{v[0], v[1]});
+    case 2: return position_of(points, std::array<Id, 3>{v[0], v[1], v[2]});
+    default: return position_of(points, v);
   }
-  return points;
 }
 
 }  // namespace
 
-io::PointSet to_point_set(const io::Dataset& dataset, const DiscreteGradient& gradient, const SimplexNumbers& numbers) {
+KnownSimplices known_simplices(const DiscreteGradient& gradient, const CriticalSimplices& critical, const SimplexNumbers& numbers) {
+  const Mesh& mesh = gradient.mesh();
+  const Namer namer(gradient, numbers);
+  KnownSimplices known;
+  for (const Id v : critical.vertices) known[0].push_back(namer.name(std::array<Id, 1>{v}, mesh.vertex_input()(v)));
+  for (std::size_t i = 0; i < critical.edges.size(); ++i) known[1].push_back(namer.name(critical.edges[i], numbers.edges[i]));
+  for (std::size_t i = 0; i < critical.triangles.size(); ++i) known[2].push_back(namer.name(critical.triangles[i], numbers.triangles[i]));
+  const auto& all = mesh.host().tetrahedra;
+  for (const Id t : critical.tetrahedra) {
+    known[3].push_back(namer.name_tetrahedron({all(t, 0), all(t, 1), all(t, 2), all(t, 3)}, mesh.tetrahedron_input()(t)));
+  }
+  return known;
+}
+
+io::PointSet to_point_set(const io::Dataset& dataset, const KnownSimplices& simplices) {
   io::PointSet set;
-  Rows rows;
+  std::vector<CriticalSimplex> all;
+  for (const auto& some : simplices) all.insert(all.end(), some.begin(), some.end());
   std::visit(
       [&](const auto& points) {
-        using Coordinate = typename std::decay_t<decltype(points)>::non_const_value_type;
-        rows = Collector<Coordinate>(points, gradient, numbers).collect(gradient.critical());
-        set.points = to_points<Coordinate>(rows.positions);
+        std::decay_t<decltype(points)> positions("positions", all.size());
+        for (std::size_t i = 0; i < all.size(); ++i) store(middle_of(points, all[i]), positions, i);
+        set.points = positions;
       },
       dataset.points);
-  for (const auto& array : dataset.arrays) set.arrays.push_back(io::gather(array, rows.highest));
-  set.arrays.push_back({"CellDimension", 1, std::move(rows.dimensions)});
-  set.arrays.push_back({"CellId", 1, std::move(rows.cells)});
-  set.arrays.push_back({"IsOnBoundary", 1, std::move(rows.on_boundary)});
-  set.arrays.push_back({"ttkVertexScalarField", 1, std::move(rows.highest)});
+  std::vector<std::int8_t> dimensions, on_boundary;
+  std::vector<Id> cells, highest;
+  for (const CriticalSimplex& simplex : all) {
+    dimensions.push_back(simplex.dimension);
+    on_boundary.push_back(simplex.on_boundary);
+    cells.push_back(simplex.cell);
+    highest.push_back(simplex.highest());
+  }
+  for (const auto& array : dataset.arrays) set.arrays.push_back(io::gather(array, highest));
+  set.arrays.push_back({"CellDimension", 1, std::move(dimensions)});
+  set.arrays.push_back({"CellId", 1, std::move(cells)});
+  set.arrays.push_back({"IsOnBoundary", 1, std::move(on_boundary)});
+  set.arrays.push_back({"ttkVertexScalarField", 1, std::move(highest)});
   return set;
+}
+
+void tell(const CriticalSimplices& critical, Session& session) {
+  static const char* const names[] = {"minima", "1-saddles", "2-saddles", "maxima"};
+  const auto counts = critical.counts();
+  for (int dimension = 0; dimension < 4; ++dimension) session.console().say(names[dimension], grouped(counts[dimension]));
+  session.console().say("Euler number", grouped(critical.euler()));
+  session.report().result = {{"critical", counts}, {"euler", critical.euler()}};
 }
 
 }  // namespace gale::app

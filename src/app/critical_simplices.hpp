@@ -4,11 +4,32 @@
 #include <gale/algorithms/simplex_numbers.hpp>
 #include <gale/io/write.hpp>
 
+#include "session.hpp"
+
 namespace gale::app {
 
-/// The critical simplices of a gradient as users know them: dimension by dimension, each by ascending CellId. Their positions are vertices, the middles of edges, the incentres
-/// of triangles and the barycentres of tetrahedra. Each has the input's point arrays at its highest vertex, then CellDimension, CellId, IsOnBoundary and
-/// ttkVertexScalarField. `numbers` are those of the critical edges and triangles.
-io::PointSet to_point_set(const io::Dataset& dataset, const DiscreteGradient& gradient, const SimplexNumbers& numbers);
+/// A critical simplex as users know it.
+struct CriticalSimplex {
+  Id cell;                     ///< its CellId
+  std::array<Id, 4> vertices;  ///< input ids, from the highest to the lowest
+  std::int8_t dimension;       ///< has one vertex more
+  std::int8_t on_boundary;     ///< its highest vertex
+
+  Id highest() const { return vertices[0]; }
+  Id lowest() const { return vertices[dimension]; }
+};
+
+/// The critical simplices of each dimension, by ascending CellId: as in `critical`.
+using KnownSimplices = std::array<std::vector<CriticalSimplex>, 4>;
+
+/// `critical` are some of the gradient's; `numbers` begin with those of its edges and triangles.
+KnownSimplices known_simplices(const DiscreteGradient& gradient, const CriticalSimplices& critical, const SimplexNumbers& numbers);
+
+/// All of them as points: dimension by dimension. Their positions are vertices, the middles of edges, the incentres of triangles and the barycentres of
+/// tetrahedra. Each has the input's point arrays at its highest vertex, then CellDimension, CellId, IsOnBoundary and ttkVertexScalarField.
+io::PointSet to_point_set(const io::Dataset& dataset, const KnownSimplices& simplices);
+
+/// Says and reports how many there are.
+void tell(const CriticalSimplices& critical, Session& session);
 
 }  // namespace gale::app

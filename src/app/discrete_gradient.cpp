@@ -7,18 +7,6 @@
 
 namespace gale::app {
 
-namespace {
-
-void tell(const CriticalSimplices& critical, Session& session) {
-  static const char* const names[] = {"minima", "1-saddles", "2-saddles", "maxima"};
-  const auto counts = critical.counts();
-  for (int dimension = 0; dimension < 4; ++dimension) session.console().say(names[dimension], grouped(counts[dimension]));
-  session.console().say("Euler number", grouped(critical.euler()));
-  session.report().result = {{"critical", counts}, {"euler", critical.euler()}};
-}
-
-}  // namespace
-
 void discrete_gradient(const Options& options) {
   require_extension(options, {".vtp"});
   require_extension(options, "--arrows", options.arrows, {".vtp"});
@@ -38,7 +26,7 @@ void discrete_gradient(const Options& options) {
       const Stopwatch watch(run);
       numbers = number_simplices(*structure, {critical.edges, critical.triangles}, session.sweep("numbers"));
     }
-    session.write(options.output, [&](const std::string& path) { io::write_points(path, to_point_set(input.dataset, gradient, numbers)); });
+    session.write(options.output, [&](const std::string& path) { io::write_points(path, to_point_set(input.dataset, known_simplices(gradient, critical, numbers))); });
   }
   session.write(options.arrows, [&](const std::string& path) { io::write_points(path, arrows_of(input.dataset, gradient)); });
   session.finish(structure.get());

@@ -32,6 +32,7 @@ void run(const gale::app::Options& options) {
       {"segment", gale::app::segment},
       {"critical-points", gale::app::critical_points},
       {"discrete-gradient", gale::app::discrete_gradient},
+      {"morse-smale", gale::app::morse_smale},
       {"relations", gale::app::relations},
       {"generate", gale::app::generate}};
   if (options.threads) gale::set_host_threads(*options.threads);

@@ -48,6 +48,21 @@ void add_runtime(CLI::App& command, Options& options) {
   add_size(command, options.runtime.device_memory, "--device-memory", "Budget for batches on the device");
 }
 
+void add_morse_smale(CLI::App& command, Options& options) {
+  command.add_option("-o,--output", options.output,
+                     "Write P_critical_points.vtp, P_separatrices1.vtp, P_segmentation.vtu and, if wanted, P_separatrices2.vtp")->type_name("P");
+  const auto add_switch = [&](const std::string& name, bool& is_on, const std::string& what) { command.add_flag(name + "{false}", is_on, what); };
+  add_switch("--no-descending-separatrices", options.parts.descending_separatrices, "Without the 1-separatrices from 1-saddles to minima");
+  add_switch("--no-ascending-separatrices", options.parts.ascending_separatrices, "Without the 1-separatrices from 2-saddles to maxima");
+  add_switch("--no-saddle-connectors", options.parts.saddle_connectors, "Without the 1-separatrices from 1-saddles to 2-saddles");
+  add_switch("--no-descending-segmentation", options.parts.descending_manifolds, "Without the minimum that each vertex falls to");
+  add_switch("--no-ascending-segmentation", options.parts.ascending_manifolds, "Without the maximum that each vertex rises to");
+  command.add_flag("--separatrices2", options.parts.separatrices2, "Also the 2-separatrices, the walls of saddles. Large");
+  const auto set = [&](const std::string& text) { options.persistence = parse_persistence("--persistence", text); };
+  command.add_option_function<std::string>("--persistence", set, "Cancel pairs of critical simplices whose values differ by less than this; with a % of the field's range")
+      ->type_name("X[%]");
+}
+
 void add_relation(CLI::App& command, Options& options) {
   std::vector<std::string> names;
   for (const Relation relation : members_of(all_relations - Relation::link)) names.push_back(name_of(relation));
@@ -112,6 +127,11 @@ std::optional<Options> parse_command_line(int argc, char** argv) {
   add_output(*command, options, "The critical simplices: .vtp", false);
   command->add_option("--arrows", options.arrows,
                       "The gradient's arrows, from the barycentre of each simplex to that of the one it is paired with: .vtp. Large: a point a pair, some 13 a vertex");
+
+  command = add_command(app, options, "morse-smale", "Finds the Morse-Smale complex of a scalar field: critical simplices, separatrices, segmentation");
+  add_segmentation(*command, options);
+  add_runtime(*command, options);
+  add_morse_smale(*command, options);
 
   command = add_command(app, options, "relations", "Computes a relation of the whole mesh: its size, and how fast it comes");
   add_segmentation(*command, options);

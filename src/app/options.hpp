@@ -5,8 +5,11 @@
 #include <stdexcept>
 #include <string>
 
+#include <gale/algorithms/morse_smale.hpp>
 #include <gale/io/read.hpp>
 #include <gale/runtime/options.hpp>
+
+#include "persistence.hpp"
 
 namespace gale::app {
 
@@ -23,6 +26,8 @@ struct Options {
   io::ReadOptions read;
   std::string output;
   std::string arrows;                    ///< of `gale discrete-gradient`: the file for the gradient's arrows, or empty
+  MorseSmaleParts parts;                 ///< of `gale morse-smale`
+  std::optional<Persistence> persistence;  ///< likewise: what to simplify to
   std::string array;
   std::string segments;                  ///< a point array's name, or empty
   std::optional<int> capacity;           ///< 100 unless given

@@ -47,4 +47,19 @@ Point incentre(const io::Dataset::Points<Coordinate>& points, std::array<Id, 3> 
   return sum;
 }
 
+/// Where a simplex is drawn: triangles at their incentre, others at their barycentre.
+template <class Coordinate, std::size_t N>
+Point position_of(const io::Dataset::Points<Coordinate>& points, const std::array<Id, N>& simplex) {
+  if constexpr (N == 3) {
+    return incentre(points, simplex);
+  } else {
+    return barycentre(points, simplex);
+  }
+}
+
+template <class Coordinate>
+void store(const Point& position, const io::Dataset::Points<Coordinate>& points, Offset row) {
+  for (int axis = 0; axis < 3; ++axis) points(row, axis) = static_cast<Coordinate>(position[axis]);
+}
+
 }  // namespace gale::app

@@ -72,13 +72,15 @@ Segmentation octree(const io::Dataset& dataset, int capacity) {
 
 }  // namespace
 
-Session::Session(const Options& options) : options_(options), console_(options.quiet) {
+Session::Session(const Options& options, const std::vector<std::string>& files) : options_(options), console_(options.quiet) {
   report_.input = options.input;
   random_segments(options.segments);
-  require_distinct({options.input, options.output, options.arrows, options.dump, options.report});
+  std::vector<std::string> all = files;
+  all.insert(all.end(), {options.input, options.dump, options.report});
+  require_distinct(all);
   report_.threads = host_threads();
   // Found out now rather than after the work.
-  for (const auto& file : {options.output, options.arrows}) {
+  for (const auto& file : files) {
     if (file.empty()) continue;
     if (!io::detail::has_vtk()) throw Error("this gale was built without VTK: it cannot write '" + file + "'");
     require_writable(file);
@@ -135,11 +137,11 @@ Mesh Session::encode(io::Dataset& dataset, Keep keep) {
   return mesh;
 }
 
-FieldOnMesh Session::read_field() {
+FieldOnMesh Session::read_field(Keep keep) {
   io::Dataset dataset = read();
   const io::PointArray field = select_field(dataset, options_.array);
   console_.say("field", field.name);
-  const Mesh mesh = encode(dataset, Keep::nothing);
+  const Mesh mesh = encode(dataset, keep);
   const Stopwatch watch(report_.seconds.initialize);
   const VertexOrder order = order_of(mesh, dataset, field);
   return {std::move(dataset), mesh, order};

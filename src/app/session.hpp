@@ -2,6 +2,8 @@
 
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include <gale/algorithms/vertex_order.hpp>
 #include <gale/io/dataset.hpp>
@@ -17,7 +19,7 @@ namespace gale::app {
 
 /// A scalar field on a mesh: where every analysis begins.
 struct FieldOnMesh {
-  io::Dataset dataset;  ///< without its tetrahedra
+  io::Dataset dataset;  ///< without its tetrahedra, unless they are kept
   Mesh mesh;
   VertexOrder order;
 };
@@ -25,8 +27,12 @@ struct FieldOnMesh {
 /// One run of the command: what every subcommand does, each step timed and said.
 class Session {
  public:
-  /// Throws gale::Error if the output or the report can't be written where they should be.
-  explicit Session(const Options& options);
+  /// Throws gale::Error if the report or one of `files`, which are written through VTK where they aren't empty, can't be written where they should be; UsageError if
+  /// two of all files are one.
+  Session(const Options& options, const std::vector<std::string>& files);
+
+  /// Of a command that writes the files that its options name.
+  explicit Session(const Options& options) : Session(options, {options.output, options.arrows}) {}
 
   const Options& options() const { return options_; }
   const Console& console() const { return console_; }
@@ -40,7 +46,7 @@ class Session {
   Mesh encode(io::Dataset& dataset, Keep keep);
 
   /// All that comes before a structure: reads, segments, encodes, and orders the vertices by the field that --array names.
-  FieldOnMesh read_field();
+  FieldOnMesh read_field(Keep keep = Keep::nothing);
 
   /// The structure that --structure names, preconditioned for `relations`.
   std::unique_ptr<Structure> make_structure(const Mesh& mesh, RelationSet relations);

@@ -9,8 +9,10 @@
 #include <vector>
 
 #include <vtkCellArray.h>
+#include <vtkCellData.h>
 #include <vtkCellType.h>
 #include <vtkDataArray.h>
+#include <vtkDataSetAttributes.h>
 #include <vtkErrorCode.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
@@ -47,7 +49,7 @@ vtkSmartPointer<vtkPoints> wrap_points(const std::variant<Dataset::Points<float>
   return result;
 }
 
-void add_arrays(vtkPointData* to, const std::vector<PointArray>& arrays) {
+void add_arrays(vtkDataSetAttributes* to, const std::vector<PointArray>& arrays) {
   for (const PointArray& array : arrays) {
     const auto add = [&](const auto& values) {
       const auto wrapped = wrap(values.data(), values.size(), array.components);
@@ -68,17 +70,28 @@ vtkSmartPointer<vtkDataArray> make_integers(std::size_t count, const Value& valu
   return array;
 }
 
-/// Cells of `size` points each, whose `ids` stay where they are unless their number takes 64 bits.
-vtkSmartPointer<vtkCellArray> make_cells(const Id* ids, std::size_t count, int size) {
-  const auto offset = [size](std::size_t cell) { return cell * size; };
+/// `count` cells whose points begin at `begin(cell)` of `ids`, which stay where they are unless their number takes 64
+/// bits.
+template <class Begin>
+vtkSmartPointer<vtkCellArray> make_cells(const Id* ids, std::size_t count, const Begin& begin) {
+  const auto size = static_cast<std::size_t>(begin(count));
   auto cells = vtkSmartPointer<vtkCellArray>::New();
-  if (count * size <= static_cast<std::size_t>(std::numeric_limits<Id>::max())) {
-    cells->SetData(make_integers<Id>(count + 1, offset), wrap(ids, count * size));
+  if (size <= static_cast<std::size_t>(std::numeric_limits<Id>::max())) {
+    cells->SetData(make_integers<Id>(count + 1, begin), wrap(ids, size));
   } else {
-    const auto wide = make_integers<std::int64_t>(count * size, [ids](std::size_t k) { return ids[k]; });
-    cells->SetData(make_integers<std::int64_t>(count + 1, offset), wide);
+    const auto wide = make_integers<std::int64_t>(size, [ids](std::size_t k) { return ids[k]; });
+    cells->SetData(make_integers<std::int64_t>(count + 1, begin), wide);
   }
   return cells;
+}
+
+/// Cells of `size` points each.
+vtkSmartPointer<vtkCellArray> make_cells(const Id* ids, std::size_t count, int size) {
+  return make_cells(ids, count, [size](std::size_t cell) { return cell * size; });
+}
+
+vtkSmartPointer<vtkCellArray> make_cells(const Surface::Cells& cells) {
+  return make_cells(cells.points.data(), cells.begin.size() - 1, [&](std::size_t cell) { return cells.begin[cell]; });
 }
 
 /// Runs `writer`, and throws `Error` if it did not write all of its file.
@@ -133,6 +146,17 @@ void write_points_with_vtk(const std::string& path, const PointSet& points) {
   data->SetPoints(wrap_points(points.points));
   data->SetVerts(make_cells(ids.data(), count, 1));
   add_arrays(data->GetPointData(), points.arrays);
+  write_xml<vtkXMLPolyDataWriter>(path, data, messages);
+}
+
+void write_surface_with_vtk(const std::string& path, const Surface& surface) {
+  const VtkMessages messages("VTK gave up");
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(wrap_points(surface.points));
+  data->SetLines(make_cells(surface.lines));
+  data->SetPolys(make_cells(surface.polygons));
+  add_arrays(data->GetPointData(), surface.point_arrays);
+  add_arrays(data->GetCellData(), surface.cell_arrays);
   write_xml<vtkXMLPolyDataWriter>(path, data, messages);
 }
 

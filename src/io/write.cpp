@@ -1,5 +1,6 @@
 #include <gale/io/write.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <exception>
 
@@ -13,17 +14,30 @@ namespace {
 
 using detail::Format;
 
-void check_arrays(std::size_t points, const std::vector<PointArray>& arrays) {
+void check_arrays(std::size_t count, const std::vector<PointArray>& arrays, const std::string& of = "points") {
   for (const PointArray& array : arrays) {
     const std::size_t values = std::visit([](const auto& v) { return v.size(); }, array.values);
-    if (array.components > 0 && values == points * array.components) continue;
+    if (array.components > 0 && values == count * array.components) continue;
     throw Error("the array '" + array.name + "' has " + std::to_string(values) + " values for " +
-                std::to_string(points) + " points of " + std::to_string(array.components) + " components");
+                std::to_string(count) + " " + of + " of " + std::to_string(array.components) + " components");
   }
 }
 
 std::size_t size_of(const std::variant<Dataset::Points<float>, Dataset::Points<double>>& points) {
   return std::visit([](const auto& p) { return p.extent(0); }, points);
+}
+
+void check_cells(std::size_t points, const Surface::Cells& cells) {
+  const auto end = static_cast<std::int64_t>(cells.points.size());
+  if (cells.begin.empty() || cells.begin.front() != 0 || cells.begin.back() != end ||
+      !std::is_sorted(cells.begin.begin(), cells.begin.end())) {
+    throw Error("its cells don't begin one after the other");
+  }
+  for (const std::int32_t point : cells.points) {
+    if (point < 0 || static_cast<std::size_t>(point) >= points) {
+      throw Error("there is no point " + std::to_string(point) + " among " + std::to_string(points));
+    }
+  }
 }
 
 /// Runs `write(temporary path)` and makes its file appear as `path`; names `path` in whatever goes wrong.
@@ -47,6 +61,19 @@ void write_points(const std::string& path, const PointSet& points) {
   write_file(path, [&](const std::string& temporary) {
     check_arrays(size_of(points.points), points.arrays);
     detail::write_points_with_vtk(temporary, points);
+  });
+}
+
+void write_surface(const std::string& path, const Surface& surface) {
+  if (detail::format_of(path) != Format::vtp)
+    throw Error("cannot write a surface to '" + path + "': its extension is not .vtp");
+  write_file(path, [&](const std::string& temporary) {
+    const std::size_t points = size_of(surface.points);
+    check_cells(points, surface.lines);
+    check_cells(points, surface.polygons);
+    check_arrays(points, surface.point_arrays);
+    check_arrays(surface.lines.begin.size() + surface.polygons.begin.size() - 2, surface.cell_arrays, "cells");
+    detail::write_surface_with_vtk(temporary, surface);
   });
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <variant>
 #include <vector>
@@ -14,12 +15,29 @@ struct PointSet {
   std::vector<PointArray> arrays;
 };
 
+/// Lines and polygons between points, with arrays of both.
+struct Surface {
+  /// The k-th has the points `points[begin[k]]` to `points[begin[k + 1] - 1]`, in their order along it.
+  struct Cells {
+    std::vector<std::int64_t> begin{0};
+    std::vector<std::int32_t> points;
+  };
+
+  std::variant<Dataset::Points<float>, Dataset::Points<double>> points;
+  std::vector<PointArray> point_arrays;
+  Cells lines, polygons;
+  std::vector<PointArray> cell_arrays;  ///< a value for each line, then for each polygon
+};
+
 /// Writes `points` to a `.vtp`, each as a vertex cell, in their order.
 ///
 /// Here and below: of two arrays of one name the later is written. The file appears complete or not at all
 /// (`AtomicFile`). Throws `Error` with one line that names `path` and the reason: an array of the wrong length, a
 /// directory that is missing or not writable, a full disk.
 void write_points(const std::string& path, const PointSet& points);
+
+/// Writes `surface` to a `.vtp`.
+void write_surface(const std::string& path, const Surface& surface);
 
 /// Writes points, tetrahedra and arrays of `mesh` in their order to a `.vtu` or (binary, legacy) `.vtk`, by the
 /// extension; then those of `more`, so that results need not be copied into the mesh first.

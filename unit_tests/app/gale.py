@@ -129,28 +129,49 @@ def vtk_xml_header(path):
     return int(re.search(r'NumberOfPoints="(\d+)"', text).group(1)), re.findall(r'<DataArray[^>]* Name="([^"]+)"', arrays)
 
 
-def read_vtp(path):
-    """(points, {name: values}) of a .vtp as the command writes it. Arrays of several components are lists of tuples."""
-    header, data = path.read_bytes().split(b'<AppendedData encoding="raw">', 1)
-    data = data[data.index(b"_") + 1:]
-    file = xml.etree.ElementTree.fromstring(header + b"</VTKFile>")
-    assert (file.get("header_type"), file.get("compressor")) == ("UInt32", "vtkZLibDataCompressor")
-    codes = {"Int8": "b", "UInt8": "B", "Int32": "i", "Float32": "f", "Float64": "d"}
+class XmlFile:
+    """What is in a .vtp or .vtu as the command writes it. Arrays of several components are lists of tuples."""
 
-    def values(array):
+    def __init__(self, path):
+        header, data = path.read_bytes().split(b'<AppendedData encoding="raw">', 1)
+        self.data = data[data.index(b"_") + 1:]
+        file = xml.etree.ElementTree.fromstring(header + b"</VTKFile>")
+        assert (file.get("header_type"), file.get("compressor")) == ("UInt32", "vtkZLibDataCompressor")
+        self.piece = file.find("*/Piece")
+        self.points = self.values(self.piece.find("Points/DataArray"))
+        self.point_arrays = self.arrays("PointData")
+        self.cell_arrays = self.arrays("CellData")
+
+    def arrays(self, kind):
+        return {array.get("Name"): self.values(array) for array in self.piece.find(kind)}
+
+    def types(self, kind):
+        """Of its arrays, as VTK names them."""
+        return {array.get("Name"): array.get("type") for array in self.piece.find(kind)}
+
+    def cells(self, kind):
+        """Each a list of points. `kind`: Verts, Lines, Polys or Cells."""
+        arrays = self.arrays(kind)
+        begins = [0, *arrays["offsets"]]
+        return [arrays["connectivity"][begin:end] for begin, end in zip(begins, begins[1:])]
+
+    def values(self, array):
+        codes = {"Int8": "b", "UInt8": "B", "Int32": "i", "Int64": "q", "Float32": "f", "Float64": "d"}
         at = int(array.get("offset"))
-        blocks, = struct.unpack_from("<I", data, at)
-        sizes = struct.unpack_from(f"<{blocks}I", data, at + 12)
+        blocks, = struct.unpack_from("<I", self.data, at)
+        sizes = struct.unpack_from(f"<{blocks}I", self.data, at + 12)
         at += 12 + 4 * blocks
         content = b""
         for size in sizes:
-            content += zlib.decompress(data[at:at + size])
+            content += zlib.decompress(self.data[at:at + size])
             at += size
         code = codes[array.get("type")]
-        flat = struct.unpack(f"<{len(content) // struct.calcsize(code)}{code}", content)
+        flat = list(struct.unpack(f"<{len(content) // struct.calcsize(code)}{code}", content))
         width = int(array.get("NumberOfComponents") or 1)
-        return list(flat) if width == 1 else [flat[i:i + width] for i in range(0, len(flat), width)]
+        return flat if width == 1 else [tuple(flat[i:i + width]) for i in range(0, len(flat), width)]
 
-    piece = file.find("PolyData/Piece")
-    points = values(piece.find("Points/DataArray"))
-    return points, {array.get("Name"): values(array) for array in piece.find("PointData")}
+
+def read_vtp(path):
+    """(points, {name: values}) of a .vtp."""
+    file = XmlFile(path)
+    return file.points, file.point_arrays

@@ -12,15 +12,18 @@ class Usage(gale.CommandTest):
 
     def test_help_names_all_commands_and_options(self):
         text = self.succeed("--help")
-        for command in ("info", "segment", "critical-points", "discrete-gradient", "generate"):
+        for command in ("info", "segment", "critical-points", "discrete-gradient", "morse-smale", "generate"):
             self.assertIn(command, text)
-        for command in ("critical-points", "discrete-gradient"):
+        for command in ("critical-points", "discrete-gradient", "morse-smale"):
             text = self.succeed(command, "--help")
             for option in ("--above", "--array", "--output", "--threads", "--structure", "--capacity", "--segments",
                            "--blocks-per-request", "--threads-per-block", "--threads-per-segment", "--host-memory",
                            "--device-memory", "--report", "--quiet", "--tetrahedralize"):
                 self.assertIn(option, text)
-        self.assertIn("--arrows", text)
+        for option in ("--no-descending-separatrices", "--no-ascending-separatrices", "--no-saddle-connectors", "--separatrices2",
+                       "--no-descending-segmentation", "--no-ascending-segmentation", "--persistence"):
+            self.assertIn(option, text)
+        self.assertIn("--arrows", self.succeed("discrete-gradient", "--help"))
 
     def test_wrong_usage(self):
         for arguments in (["critical-points"], ["critical-points", "grid:4", "--nonsense"],
@@ -34,7 +37,7 @@ class Usage(gale.CommandTest):
                                   (["--bogus"], "--bogus")):
             with self.subTest(arguments=arguments):
                 self.refuse(2, *arguments, naming=naming)
-                self.refuse(2, *arguments, naming="the commands are info, segment, critical-points, discrete-gradient, relations, generate")
+                self.refuse(2, *arguments, naming="the commands are info, segment, critical-points, discrete-gradient, morse-smale, relations, generate")
 
     def test_values_that_options_do_not_take(self):
         for option, value in (("--structure", "fast"), ("--capacity", "0"), ("--capacity", "many"), ("--threads", "0"), ("--threads", "1025"),
@@ -76,7 +79,7 @@ class Usage(gale.CommandTest):
                 self.refuse(1, "info", name, naming=name)
 
     def test_quiet_prints_nothing(self):
-        for command in ("info", "segment", "critical-points", "discrete-gradient"):
+        for command in ("info", "segment", "critical-points", "discrete-gradient", "morse-smale"):
             self.assertEqual(self.succeed(command, "grid:4", "--quiet"), "")
 
     def test_report_where_there_is_no_place(self):
