@@ -1,7 +1,7 @@
 // The discrete gradient: initialization and sweep, by formulation, structure and number of consumers; each time from a new mesh. Medians.
 //   usage: discrete_gradient_times [INPUT [RUNS [STRUCTURE [FORMULATION [CONSUMERS...]]]]]
-// INPUT: grid:N, or a raw mesh (see support/inputs.hpp). STRUCTURE: gale, inline, explicit or all. FORMULATION: stars (from VV, VT and link), cells (from VE, VF and
-// VT) or all.
+// INPUT: grid:N, or a raw mesh (see support/inputs.hpp). STRUCTURE: gale, inline, explicit (where there is Kokkos-Kernels) or all. FORMULATION: stars (from VV, VT
+// and link), cells (from VE, VF and VT) or all.
 
 #include <algorithm>
 #include <cstdio>
@@ -46,7 +46,10 @@ const std::vector<Formulation> formulations = {{"stars", discrete_gradient_relat
 const std::vector<StructureKind> structures = {
     {"gale", [](const Mesh& mesh, RelationSet relations) { return make_runtime(mesh, relations, Production::automatic); }},
     {"inline", [](const Mesh& mesh, RelationSet relations) { return make_runtime(mesh, relations, Production::consumers); }},
-    {"explicit", [](const Mesh& mesh, RelationSet relations) -> std::unique_ptr<Structure> { return std::make_unique<ExplicitStructure>(mesh, relations); }}};
+#if defined(GALE_ENABLE_KOKKOS_KERNELS)
+    {"explicit", [](const Mesh& mesh, RelationSet relations) -> std::unique_ptr<Structure> { return std::make_unique<ExplicitStructure>(mesh, relations); }}
+#endif
+};
 
 struct Times {
   double segment, encode, order, start, sweep;
