@@ -1,0 +1,102 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include <gale/base/bits.hpp>
+#include <gale/mesh/simplices.hpp>
+
+namespace gale::detail {
+
+/// The triangles of a lower star, each by the ranks a > b of its lower vertices, numbered in lexicographic order. For any number of them. One serves one thread,
+/// and keeps its memory.
+class LowerTriangles {
+ public:
+  /// Of a lower star with so many edges, in a star of so many triangles.
+  void begin(Id edges, Id triangles) {
+    edges_ = edges;
+    first_.resize(edges + 1);
+    added_count_ = 0;
+    if (added_.size() < std::size_t(triangles) + 1) {
+      added_.resize(std::size_t(triangles) + 1);
+      low_.resize(added_.size());
+    }
+  }
+
+  /// Each once, in any order, and a and b too. If one is below 0, it is no triangle of the lower star: nothing happens. Without a branch: nobody can predict which
+  /// is.
+  void add(Id a, Id b) {
+    added_[added_count_] = {a, b};
+    added_count_ += (a | b) >= 0;
+  }
+
+  /// After the last: numbers them.
+  void number() { has_bits() ? number_by_bits() : number_by_sorting(); }
+
+  Id size() const { return added_count_; }
+
+  /// Those of `a` are the triangles first(a) to first(a + 1) - 1; and the b of one.
+  Id first(Id a) const { return first_[a]; }
+  Id low(Id triangle) const { return low_[triangle]; }
+
+  /// The number of one that was added.
+  Id operator()(Id a, Id b) const {
+    if (has_bits()) return number_[a][b];
+    return find_in([this](Id i) { return low_[i]; }, first_[a], first_[a + 1], b);
+  }
+
+ private:
+  struct Triangle {
+    Id a, b;
+  };
+
+  static constexpr Id most_bits = 64;
+
+  bool has_bits() const { return edges_ <= most_bits; }
+
+  void number_by_bits() {
+    std::fill_n(below_, edges_, std::uint64_t(0));
+    for (Id i = 0; i < added_count_; ++i) {
+      const auto [a, b] = added_[i];
+      below_[a] |= std::uint64_t(1) << b;
+      below_[b] |= std::uint64_t(1) << a;  // one of the two isn't read
+    }
+    Id count = 0;
+    for (Id a = 0; a < edges_; ++a) {
+      first_[a] = count;
+      for (std::uint64_t rest = below_[a] & ((std::uint64_t(1) << a) - 1); rest != 0; rest &= rest - 1) {
+        const int b = lowest_bit(rest);
+        number_[a][b] = static_cast<std::int16_t>(count);
+        low_[count++] = b;
+      }
+    }
+    first_[edges_] = count;
+  }
+
+  void number_by_sorting() {
+    for (Id i = 0; i < added_count_; ++i) {
+      auto& [a, b] = added_[i];
+      if (a < b) std::swap(a, b);
+    }
+    std::sort(added_.begin(), added_.begin() + added_count_, [](const Triangle& one, const Triangle& other) {
+      return one.a != other.a ? one.a < other.a : one.b < other.b;
+    });
+    Id next = 0;
+    for (Id i = 0; i < added_count_; ++i) {
+      while (next <= added_[i].a) first_[next++] = i;
+      low_[i] = added_[i].b;
+    }
+    while (next <= edges_) first_[next++] = added_count_;
+  }
+
+  Id edges_ = 0;
+  std::vector<Id> first_, low_;
+  std::vector<Triangle> added_;  ///< with room for one more
+  Id added_count_ = 0;
+  std::uint64_t below_[most_bits];  ///< for each a, its bs, and the as of which it is b
+  std::int16_t number_[most_bits][most_bits];
+};
+
+}  // namespace gale::detail
