@@ -1,4 +1,4 @@
-#include <gale/algorithms/discrete_gradient.hpp>
+#include <gale/algorithms/discrete_gradient_from_cells.hpp>
 
 #include "arrows.hpp"
 #include "commands.hpp"
@@ -7,16 +7,27 @@
 
 namespace gale::app {
 
+namespace {
+
+/// What the command's structure is preconditioned for.
+RelationSet relations_for(const Options& options) {
+  const RelationSet gradient = options.formulation == "cells" ? discrete_gradient_from_cells_relations : discrete_gradient_relations;
+  return options.output.empty() ? gradient : gradient | simplex_numbers_relations;
+}
+
+}  // namespace
+
 void discrete_gradient(const Options& options) {
   require_extension(options, {".vtp"});
   require_extension(options, "--arrows", options.arrows, {".vtp"});
   Session session(options);
   const FieldOnMesh input = session.read_field();
-  const auto structure = session.make_structure(input.mesh, discrete_gradient_relations);
+  const auto structure = session.make_structure(input.mesh, relations_for(options));
   double& run = session.report().seconds.run;
   const DiscreteGradient gradient = [&] {
     const Stopwatch watch(run);
-    return find_discrete_gradient(*structure, input.order, session.sweep("gradient"));
+    const auto find = options.formulation == "cells" ? find_discrete_gradient_from_cells : find_discrete_gradient;
+    return find(*structure, input.order, session.sweep("gradient"));
   }();
   const CriticalSimplices& critical = gradient.critical();
   tell(critical, session);

@@ -125,6 +125,8 @@ std::optional<Options> parse_command_line(int argc, char** argv) {
   add_segmentation(*command, options);
   add_runtime(*command, options);
   add_output(*command, options, "The critical simplices: .vtp", false);
+  command->add_option("--formulation", options.formulation, "stars (from VV, VT and link) or cells (from VE, VF and VT, as other programs do; slower): the same result")
+      ->check(CLI::IsMember({"stars", "cells"}));
   command->add_option("--arrows", options.arrows,
                       "The gradient's arrows, from the barycentre of each simplex to that of the one it is paired with: .vtp. Large: a point a pair, some 13 a vertex");
 

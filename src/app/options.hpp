@@ -34,6 +34,7 @@ struct Options {
   std::optional<int> threads;            ///< all cores unless given
   std::string structure = "gale";        ///< gale, explicit, inline or task-parallel
   RuntimeOptions runtime;
+  std::string formulation = "stars";     ///< of `gale discrete-gradient`: stars or cells
   std::string relation;                  ///< of `gale relations`: the name of one of the sixteen
   bool verify = false;                   ///< likewise: compare with an oracle
   std::string dump;                      ///< likewise: the file for all rows, or empty

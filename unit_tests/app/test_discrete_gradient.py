@@ -170,6 +170,8 @@ class Files(GradientTest):
                     self.succeed("discrete-gradient", "grid:16", "-o", "points.vtp", "--arrows", "arrows.vtp", "--structure", structure,
                                  *segments, "--threads", threads)
                     files.add(tuple((self.folder / name).read_bytes() for name in ("points.vtp", "arrows.vtp")))
+            self.succeed("discrete-gradient", "grid:16", "-o", "points.vtp", "--arrows", "arrows.vtp", "--structure", structure, "--formulation", "cells")
+            files.add(tuple((self.folder / name).read_bytes() for name in ("points.vtp", "arrows.vtp")))
         self.assertEqual(len(files), 1)
         self.assertEqual(self.names(), ["arrows.vtp", "points.vtp"])
 
