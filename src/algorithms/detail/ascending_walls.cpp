@@ -6,6 +6,7 @@
 #include <gale/algorithms/detail/edge_star.hpp>
 #include <gale/algorithms/detail/edge_table.hpp>
 #include <gale/algorithms/detail/gathered_separatrices.hpp>
+#include <gale/algorithms/detail/space_order.hpp>
 #include <gale/base/threads.hpp>
 
 namespace gale::detail {
@@ -76,9 +77,10 @@ class Tracer {
 AscendingWalls ascending_walls(Structure& structure, const DiscreteGradient& gradient, int threads) {
   const auto& edges = gradient.critical().edges;
   std::vector<std::unique_ptr<Tracer>> tracers(threads);
+  const std::vector<Id> order = space_order(edges);
   in_turns(threads, static_cast<std::int64_t>(edges.size()), [&](int thread, std::int64_t i) {
     if (!tracers[thread]) tracers[thread] = std::make_unique<Tracer>(structure, gradient, thread);
-    tracers[thread]->follow(static_cast<Id>(i), edges[i]);
+    tracers[thread]->follow(order[i], edges[order[i]]);
   });
   std::vector<Separatrices<Cell>> found;
   for (auto& tracer : tracers) {

@@ -4,6 +4,7 @@
 
 #include <gale/algorithms/detail/descending_wall.hpp>
 #include <gale/algorithms/detail/gathered_separatrices.hpp>
+#include <gale/algorithms/detail/space_order.hpp>
 #include <gale/base/threads.hpp>
 
 namespace gale::detail {
@@ -38,12 +39,13 @@ struct Tracer {
 DescendingSurfaces descending_surfaces(const DiscreteGradient& gradient, const CriticalPlaces& places, bool want_walls, bool want_connectors, int threads) {
   const auto& triangles = gradient.critical().triangles;
   std::vector<std::unique_ptr<Tracer>> tracers(threads);
+  const std::vector<Id> order = space_order(triangles);
   in_turns(threads, static_cast<std::int64_t>(triangles.size()), [&](int thread, std::int64_t i) {
     auto& tracer = tracers[thread];
     if (!tracer) tracer = std::make_unique<Tracer>(gradient);
-    tracer->wall.follow(triangles[i]);
-    if (want_walls) tracer->add_wall(static_cast<Id>(i));
-    if (want_connectors) tracer->add_connectors(places, static_cast<Id>(i));
+    tracer->wall.follow(triangles[order[i]]);
+    if (want_walls) tracer->add_wall(order[i]);
+    if (want_connectors) tracer->add_connectors(places, order[i]);
   });
   std::vector<Separatrices<TriangleVertices>> walls, connectors;
   for (auto& tracer : tracers) {
