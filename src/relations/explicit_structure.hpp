@@ -30,6 +30,7 @@ class ExplicitStructure : public Structure {
 
   const Mesh& mesh() const override;
   RelationSet relations() const override;
+  bool keeps_all_rows() const override { return true; }
   void for_each_segment(RelationSet wanted, const SweepOptions& options, const SegmentBody& body) override;
   std::unique_ptr<Consumer> consumer() override;
 

@@ -72,6 +72,10 @@ class Structure {
   /// The relations that it was preconditioned for.
   virtual RelationSet relations() const = 0;
 
+  /// Has it every row of these at any time? Then a consumer reads each in a few ns. Else rows of boundary relations come from the mesh' tables, and `boundary_row`
+  /// is the fast way to them.
+  virtual bool keeps_all_rows() const { return false; }
+
   /// A sweep: calls `body` once for every segment, in no order to rely on, with the blocks of the relations `wanted`, on `options.threads`
   /// consumer threads. If a body throws, no further segment is begun and the exception is thrown again here. Throws gale::Error if `wanted`
   /// has a relation that was not preconditioned.
