@@ -1,0 +1,99 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include <gale/base/types.hpp>
+
+namespace gale::detail {
+
+/// The neighbours of a vertex that are lower than it, by their rank among each other, 0 the lowest; and the rank of any neighbour. For any number of them. One
+/// serves one thread, and keeps its memory.
+class NeighbourRanks {
+ public:
+  /// `neighbours`: all of the vertex', ascending; they must stay as long as they are asked for.
+  void find(const std::uint64_t* keys, Id vertex, const std::vector<Id>& neighbours) {
+    neighbours_ = &neighbours;
+    if (lower_.size() < neighbours.size() + 1) {
+      lower_.resize(neighbours.size() + 1);
+      by_key_.resize(neighbours.size() + 1);
+    }
+    const std::uint64_t key = keys[vertex];
+    count_ = 0;
+    for (const Id other : neighbours) {
+      const std::uint64_t other_key = keys[other];
+      lower_[count_] = other;
+      by_key_[count_] = {other_key, count_};
+      count_ += other_key < key;
+    }
+    std::sort(by_key_.begin(), by_key_.begin() + count_);
+    make_table();
+  }
+
+  /// How many are lower.
+  Id count() const { return count_; }
+
+  /// The i-th of them by id; place of that with a rank among them; and its id.
+  Id lower(Id i) const { return lower_[i]; }
+  Id place(Id rank) const { return by_key_[rank].second; }
+  Id id(Id rank) const { return lower_[place(rank)]; }
+
+  /// Calls use(rank), where rank(neighbour) is the rank of a neighbour, below 0 that of an upper one.
+  template <class Use>
+  void with_look_up(const Use& use) const {
+    if (is_hashed_) {
+      use([table = &table_[0], multiplier = multiplier_](Id neighbour) { return Id(table[slot(neighbour, multiplier)]); });
+    } else {
+      use([this](Id neighbour) { return ranks_[place_of(neighbour)]; });
+    }
+  }
+
+ private:
+  static constexpr int slot_bits = 12;
+  static constexpr std::size_t most_hashed = 64;
+
+  static std::uint32_t slot(Id neighbour, std::uint32_t multiplier) { return static_cast<std::uint32_t>(neighbour) * multiplier >> (32 - slot_bits); }
+  std::uint32_t slot(Id neighbour) const { return slot(neighbour, multiplier_); }
+
+  /// Among all neighbours.
+  std::ptrdiff_t place_of(Id neighbour) const { return std::lower_bound(neighbours_->begin(), neighbours_->end(), neighbour) - neighbours_->begin(); }
+
+  /// Few neighbours get a hash table in which none is in another's place, so that it needs no ids and is never cleared: only neighbours are looked up.
+  void make_table() {
+    is_hashed_ = find_multiplier();
+    if (is_hashed_) {
+      for (const Id other : *neighbours_) table_[slot(other)] = -1;
+      for (Id rank = 0; rank < count(); ++rank) table_[slot(id(rank))] = static_cast<std::int8_t>(rank);
+    } else {
+      ranks_.assign(neighbours_->size(), -1);
+      for (Id rank = 0; rank < count(); ++rank) ranks_[place_of(id(rank))] = rank;
+    }
+  }
+
+  bool find_multiplier() {
+    if (neighbours_->size() > most_hashed) return false;
+    multiplier_ = 2654435769u;
+    for (int attempt = 0; attempt < 8; ++attempt, multiplier_ = multiplier_ * 747796405u | 1u) {
+      std::int8_t number = 0;
+      for (const Id other : *neighbours_) table_[slot(other)] = number++;
+      bool is_free = true;
+      number = 0;
+      for (const Id other : *neighbours_) is_free &= table_[slot(other)] == number++;
+      if (is_free) return true;
+    }
+    return false;
+  }
+
+  const std::vector<Id>* neighbours_ = nullptr;
+  Id count_ = 0;
+  std::vector<Id> lower_;                             ///< with room for one more
+  std::vector<std::pair<std::uint64_t, Id>> by_key_;  ///< and place in lower_
+  bool is_hashed_ = false;
+  std::uint32_t multiplier_ = 0;
+  std::int8_t table_[1 << slot_bits] = {};
+  std::vector<Id> ranks_;
+};
+
+}  // namespace gale::detail
