@@ -40,7 +40,7 @@ class CellSweep {
     neighbours_.resize(edges.size());
     for (Id i = 0; i < edges.size(); ++i) {
       const auto ends = boundary_.template row<Relation::EV>(edges[i]);
-      neighbours_[i] = ends[0] == vertex ? ends[1] : ends[0];
+      neighbours_[i] = ends[0] ^ ends[1] ^ vertex;
     }
     ranks_.find(keys_, vertex, neighbours_);
   }
@@ -55,19 +55,17 @@ class CellSweep {
 
   template <class Rank>
   void make_star(Id vertex, const Row& triangles, const Row& tetrahedra, const Rank& rank) {
-    star_.begin(ranks_.count(), tetrahedra.size());
+    star_.begin(ranks_.count(), triangles.size(), tetrahedra.size());
     for (const Id f : triangles) {
       const auto v = boundary_.template row<Relation::FV>(f);
-      const Id a = rank(v[0] == vertex ? v[1] : v[0]), b = rank(v[2] == vertex ? v[1] : v[2]);
-      star_.add_triangle(std::max(a, b), std::min(a, b));
+      star_.add_triangle(rank(other_of(v[0], v[2], vertex)), rank(other_of(v[1], v[2], vertex)));
     }
     star_.end_triangles();
     for (const Id t : tetrahedra) {
       const auto v = boundary_.template row<Relation::TV>(t);
-      const bool is_first = v[0] == vertex, is_second = v[1] == vertex, is_last = v[3] == vertex;
-      const Id x = rank(is_first ? v[1] : v[0]), y = rank(is_first || is_second ? v[2] : v[1]), z = rank(is_last ? v[2] : v[3]);
-      const Id high = std::max(x, y), low = std::min(x, y);
-      star_.add_tetrahedron(std::max(high, z), std::max(low, std::min(high, z)), std::min(low, z), t);
+      const Id x = rank(other_of(v[0], v[3], vertex)), y = rank(other_of(v[1], v[3], vertex)), z = rank(other_of(v[2], v[3], vertex));
+      const Id high = most(x, y), low = least(x, y);
+      star_.add_tetrahedron(most(high, z), most(low, least(high, z)), least(low, z), t);
     }
     star_.end();
   }
@@ -95,6 +93,13 @@ class CellSweep {
     };
     pair_cells(star_, pair, critical);
   }
+
+  // Without branches, which compilers are fond of: nobody can predict them here.
+  static Id least(Id a, Id b) { return b ^ ((a ^ b) & -Id(a < b)); }
+  static Id most(Id a, Id b) { return a ^ ((a ^ b) & -Id(a < b)); }
+
+  /// `one`, or `last` where that is the vertex itself.
+  static Id other_of(Id one, Id last, Id vertex) { return one ^ ((one ^ last) & -Id(one == vertex)); }
 
   /// The rank that a tetrahedron has and its triangle hasn't.
   static Id odd_one(const QueuedLowerStar::Corners& tetrahedron, const QueuedLowerStar::Corners& triangle) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include <gale/base/bits.hpp>
@@ -13,28 +14,24 @@ namespace gale::detail {
 /// and keeps its memory.
 class LowerTriangles {
  public:
-  /// Of a star with so many edges; no triangles yet.
-  void begin(Id edges) {
+  /// Of a lower star with so many edges, in a star of so many triangles.
+  void begin(Id edges, Id triangles) {
     edges_ = edges;
     first_.resize(edges + 1);
-    pending_.clear();
-    if (has_bits()) std::fill_n(below_, edges, std::uint64_t(0));
+    low_.clear();
+    added_count_ = 0;
+    if (added_.size() < std::size_t(triangles) + 1) added_.resize(std::size_t(triangles) + 1);
   }
 
-  /// Each once, in any order. If b is below 0, it is no triangle of the lower star: nothing happens, without a branch that nobody can predict.
+  /// Each once, in any order, and a and b too. If one is below 0, it is no triangle of the lower star: nothing happens. Without a branch: nobody can predict which
+  /// is.
   void add(Id a, Id b) {
-    if (has_bits()) {
-      below_[a & (most_bits - 1)] |= std::uint64_t(b >= 0) << (b & (most_bits - 1));
-    } else if (b >= 0) {
-      pending_.push_back(std::uint64_t(a) << 32 | static_cast<std::uint32_t>(b));
-    }
+    added_[added_count_] = {a, b};
+    added_count_ += (a | b) >= 0;
   }
 
   /// After the last: numbers them.
-  void number() {
-    low_.clear();
-    has_bits() ? number_bits() : number_pending();
-  }
+  void number() { has_bits() ? number_by_bits() : number_by_sorting(); }
 
   Id size() const { return static_cast<Id>(low_.size()); }
 
@@ -49,14 +46,24 @@ class LowerTriangles {
   }
 
  private:
+  struct Triangle {
+    Id a, b;
+  };
+
   static constexpr Id most_bits = 64;
 
   bool has_bits() const { return edges_ <= most_bits; }
 
-  void number_bits() {
+  void number_by_bits() {
+    std::fill_n(below_, edges_, std::uint64_t(0));
+    for (Id i = 0; i < added_count_; ++i) {
+      const auto [a, b] = added_[i];
+      below_[a] |= std::uint64_t(1) << b;
+      below_[b] |= std::uint64_t(1) << a;  // one of the two isn't read
+    }
     for (Id a = 0; a < edges_; ++a) {
       first_[a] = size();
-      for (std::uint64_t rest = below_[a]; rest != 0; rest &= rest - 1) {
+      for (std::uint64_t rest = below_[a] & ((std::uint64_t(1) << a) - 1); rest != 0; rest &= rest - 1) {
         const int b = lowest_bit(rest);
         number_[a][b] = static_cast<std::int16_t>(low_.size());
         low_.push_back(b);
@@ -65,21 +72,28 @@ class LowerTriangles {
     first_[edges_] = size();
   }
 
-  void number_pending() {
-    std::sort(pending_.begin(), pending_.end());
-    Id next = 0;
-    for (const std::uint64_t both : pending_) {
-      for (const Id a = static_cast<Id>(both >> 32); next <= a; ++next) first_[next] = size();
-      low_.push_back(static_cast<Id>(both & 0xffffffff));
+  void number_by_sorting() {
+    for (Id i = 0; i < added_count_; ++i) {
+      auto& [a, b] = added_[i];
+      if (a < b) std::swap(a, b);
     }
-    for (; next <= edges_; ++next) first_[next] = size();
+    std::sort(added_.begin(), added_.begin() + added_count_, [](const Triangle& one, const Triangle& other) {
+      return one.a != other.a ? one.a < other.a : one.b < other.b;
+    });
+    Id next = 0;
+    for (Id i = 0; i < added_count_; ++i) {
+      while (next <= added_[i].a) first_[next++] = i;
+      low_.push_back(added_[i].b);
+    }
+    while (next <= edges_) first_[next++] = added_count_;
   }
 
   Id edges_ = 0;
   std::vector<Id> first_, low_;
-  std::uint64_t below_[most_bits] = {};  ///< for each a, its bs
+  std::vector<Triangle> added_;  ///< with room for one more
+  Id added_count_ = 0;
+  std::uint64_t below_[most_bits];  ///< for each a, its bs, and the as of which it is b
   std::int16_t number_[most_bits][most_bits];
-  std::vector<std::uint64_t> pending_;  ///< a in the upper half
 };
 
 }  // namespace gale::detail

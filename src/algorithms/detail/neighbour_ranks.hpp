@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include <gale/base/types.hpp>
@@ -18,17 +17,17 @@ class NeighbourRanks {
     neighbours_ = &neighbours;
     if (lower_.size() < neighbours.size() + 1) {
       lower_.resize(neighbours.size() + 1);
-      by_key_.resize(neighbours.size() + 1);
+      keys_.resize(neighbours.size() + 1);
+      place_.resize(neighbours.size() + 1);
     }
     const std::uint64_t key = keys[vertex];
     count_ = 0;
     for (const Id other : neighbours) {
-      const std::uint64_t other_key = keys[other];
       lower_[count_] = other;
-      by_key_[count_] = {other_key, count_};
-      count_ += other_key < key;
+      keys_[count_] = keys[other];
+      count_ += keys_[count_] < key;
     }
-    std::sort(by_key_.begin(), by_key_.begin() + count_);
+    sort();
     make_table();
   }
 
@@ -37,7 +36,7 @@ class NeighbourRanks {
 
   /// The i-th of them by id; place of that with a rank among them; and its id.
   Id lower(Id i) const { return lower_[i]; }
-  Id place(Id rank) const { return by_key_[rank].second; }
+  Id place(Id rank) const { return place_[rank]; }
   Id id(Id rank) const { return lower_[place(rank)]; }
 
   /// Calls use(rank), where rank(neighbour) is the rank of a neighbour, below 0 that of an upper one.
@@ -59,6 +58,21 @@ class NeighbourRanks {
 
   /// Among all neighbours.
   std::ptrdiff_t place_of(Id neighbour) const { return std::lower_bound(neighbours_->begin(), neighbours_->end(), neighbour) - neighbours_->begin(); }
+
+  /// A few by counting those below each, which needs no branch.
+  void sort() {
+    constexpr Id few = 16;
+    if (count_ <= few) {
+      for (Id i = 0; i < count_; ++i) {
+        Id rank = 0;
+        for (Id j = 0; j < count_; ++j) rank += keys_[j] < keys_[i];
+        place_[rank] = i;
+      }
+    } else {
+      for (Id i = 0; i < count_; ++i) place_[i] = i;
+      std::sort(place_.begin(), place_.begin() + count_, [this](Id i, Id j) { return keys_[i] < keys_[j]; });
+    }
+  }
 
   /// Few neighbours get a hash table in which none is in another's place, so that it needs no ids and is never cleared: only neighbours are looked up.
   void make_table() {
@@ -88,8 +102,9 @@ class NeighbourRanks {
 
   const std::vector<Id>* neighbours_ = nullptr;
   Id count_ = 0;
-  std::vector<Id> lower_;                             ///< with room for one more
-  std::vector<std::pair<std::uint64_t, Id>> by_key_;  ///< and place in lower_
+  std::vector<Id> lower_;            ///< by id, with room for one more; likewise
+  std::vector<std::uint64_t> keys_;  ///< of these
+  std::vector<Id> place_;            ///< rank -> place in lower_
   bool is_hashed_ = false;
   std::uint32_t multiplier_ = 0;
   std::int8_t table_[1 << slot_bits] = {};

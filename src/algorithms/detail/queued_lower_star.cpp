@@ -14,8 +14,8 @@ void make_room(std::vector<T>& values, std::size_t count) {
 
 }  // namespace
 
-void QueuedLowerStar::begin(Id edges, Id tetrahedra) {
-  triangles_.begin(edges);
+void QueuedLowerStar::begin(Id edges, Id triangles, Id tetrahedra) {
+  triangles_.begin(edges, triangles);
   edge_cell_.resize(edges);
   make_room(inner_, std::size_t(tetrahedra) + 1);
   make_room(outer_, std::size_t(tetrahedra) + 1);

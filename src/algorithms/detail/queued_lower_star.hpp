@@ -15,20 +15,20 @@ class QueuedLowerStar {
  public:
   using Corners = std::array<Id, 3>;
 
-  // To make one: `begin`, all triangles, `end_triangles`, all tetrahedra, `end`. They are given by the ranks of their other vertices, descending; those of upper
-  // vertices are below 0.
+  // To make one: `begin`, all triangles, `end_triangles`, all tetrahedra, `end`. They are given by the ranks of their other vertices; those of upper vertices are
+  // below 0.
 
-  /// Of so many edges, whose ranks are 0 to edges - 1, in a star of so many tetrahedra.
-  void begin(Id edges, Id tetrahedra);
+  /// Of so many edges, whose ranks are 0 to edges - 1, in a star of so many triangles and tetrahedra.
+  void begin(Id edges, Id triangles, Id tetrahedra);
   void add_triangle(Id a, Id b) { triangles_.add(a, b); }
   void end_triangles();
 
-  /// Without a branch: which of the three it is nobody can predict.
+  /// a > b > c, where they aren't below 0. Without a branch: nobody can predict which is.
   void add_tetrahedron(Id a, Id b, Id c, Id tetrahedron) {
     inner_[inner_count_] = {a, b, c, tetrahedron, {}};
     outer_[outer_count_] = {a, b, tetrahedron};
     inner_count_ += c >= 0;
-    outer_count_ += b >= 0 && c < 0;
+    outer_count_ += (b >= 0) & (c < 0);
   }
   void end();
 
