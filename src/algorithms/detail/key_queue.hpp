@@ -8,45 +8,51 @@
 namespace gale::detail {
 
 /// A priority queue of numbers from 0 on: the least comes first. Each is in it once or not at all. A bit a number, and above each 64 words a word that says which
-/// of them have any: a step for each of these levels to push and to pop. One serves one thread, and keeps its memory.
+/// of them have any, up to a single one: a step for each of these levels to push and to pop. One serves one thread, and keeps its memory.
 class KeyQueue {
  public:
   /// Of numbers below `bound`. It must be empty.
   void begin(std::size_t bound) {
-    levels_ = 0;
-    do {
+    for (levels_ = 0; bound > 64; ++levels_) {
       bound = (bound + 63) / 64;
       if (levels_ == static_cast<int>(words_.size())) words_.emplace_back();
       if (words_[levels_].size() < bound) words_[levels_].resize(bound, 0);
-      ++levels_;
-    } while (bound > 1);
+    }
   }
 
-  bool empty() const { return words_[levels_ - 1][0] == 0; }
+  bool empty() const { return top_ == 0; }
 
   void push(int number) {
     for (int level = 0; level < levels_; ++level) {
-      words_[level][number >> 6] |= std::uint64_t(1) << (number & 63);
+      words_[level][number >> 6] |= bit(number);
       number >>= 6;
     }
+    top_ |= bit(number);
   }
 
   /// Takes the least one; there is one.
   int pop() {
-    int least = 0;
+    int least = lowest_bit(top_);
     for (int level = levels_ - 1; level >= 0; --level) least = 64 * least + lowest_bit(words_[level][least]);
-    int number = least;
-    for (int level = 0; level < levels_; ++level) {
-      std::uint64_t& word = words_[level][number >> 6];
-      word &= ~(std::uint64_t(1) << (number & 63));
-      if (word != 0) break;
-      number >>= 6;
-    }
+    remove(least);
     return least;
   }
 
  private:
-  int levels_ = 0;
+  static std::uint64_t bit(int number) { return std::uint64_t(1) << (number & 63); }
+
+  void remove(int number) {
+    for (int level = 0; level < levels_; ++level) {
+      std::uint64_t& word = words_[level][number >> 6];
+      word &= ~bit(number);
+      if (word != 0) return;
+      number >>= 6;
+    }
+    top_ &= ~bit(number);
+  }
+
+  std::uint64_t top_ = 0;
+  int levels_ = 0;                                 ///< below it
   std::vector<std::vector<std::uint64_t>> words_;  ///< by level; all 0 when it is empty
 };
 

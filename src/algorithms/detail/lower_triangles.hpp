@@ -18,9 +18,11 @@ class LowerTriangles {
   void begin(Id edges, Id triangles) {
     edges_ = edges;
     first_.resize(edges + 1);
-    low_.clear();
     added_count_ = 0;
-    if (added_.size() < std::size_t(triangles) + 1) added_.resize(std::size_t(triangles) + 1);
+    if (added_.size() < std::size_t(triangles) + 1) {
+      added_.resize(std::size_t(triangles) + 1);
+      low_.resize(added_.size());
+    }
   }
 
   /// Each once, in any order, and a and b too. If one is below 0, it is no triangle of the lower star: nothing happens. Without a branch: nobody can predict which
@@ -33,7 +35,7 @@ class LowerTriangles {
   /// After the last: numbers them.
   void number() { has_bits() ? number_by_bits() : number_by_sorting(); }
 
-  Id size() const { return static_cast<Id>(low_.size()); }
+  Id size() const { return added_count_; }
 
   /// Those of `a` are the triangles first(a) to first(a + 1) - 1; and the b of one.
   Id first(Id a) const { return first_[a]; }
@@ -61,15 +63,16 @@ class LowerTriangles {
       below_[a] |= std::uint64_t(1) << b;
       below_[b] |= std::uint64_t(1) << a;  // one of the two isn't read
     }
+    Id count = 0;
     for (Id a = 0; a < edges_; ++a) {
-      first_[a] = size();
+      first_[a] = count;
       for (std::uint64_t rest = below_[a] & ((std::uint64_t(1) << a) - 1); rest != 0; rest &= rest - 1) {
         const int b = lowest_bit(rest);
-        number_[a][b] = static_cast<std::int16_t>(low_.size());
-        low_.push_back(b);
+        number_[a][b] = static_cast<std::int16_t>(count);
+        low_[count++] = b;
       }
     }
-    first_[edges_] = size();
+    first_[edges_] = count;
   }
 
   void number_by_sorting() {
@@ -83,7 +86,7 @@ class LowerTriangles {
     Id next = 0;
     for (Id i = 0; i < added_count_; ++i) {
       while (next <= added_[i].a) first_[next++] = i;
-      low_.push_back(added_[i].b);
+      low_[i] = added_[i].b;
     }
     while (next <= edges_) first_[next++] = added_count_;
   }

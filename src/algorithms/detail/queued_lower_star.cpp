@@ -39,7 +39,8 @@ inline void QueuedLowerStar::add_side(Id triangle, Id tetrahedron) {
 }
 
 void QueuedLowerStar::find_sides() {
-  sides_of_.assign(triangles_.size(), {0, 0, -1});
+  make_room(sides_of_, triangles_.size());
+  for (Id i = 0; i < triangles_.size(); ++i) sides_of_[i] = {0, 0, -1};
   make_room(sides_, 3 * std::size_t(inner_count_) + outer_count_);
   side_count_ = 0;
   for (int i = 0; i < outer_count_; ++i) add_side(triangles_(outer_[i].a, outer_[i].b), outer_[i].id);
