@@ -1,6 +1,10 @@
 #include <gale/algorithms/detail/gradient_store.hpp>
 
 #include <algorithm>
+#include <functional>
+#include <iterator>
+
+#include <gale/base/threads.hpp>
 
 namespace gale::detail {
 
@@ -43,27 +47,32 @@ void GradientStore::finish() {
   const Id* const vertex_input = mesh.vertex_input().data();
   const Id* const tetrahedron_input = mesh.tetrahedron_input().data();
   using Found = CriticalSimplices;
-  critical.vertices = gathered<Id>(found_, [](const Found& found) { return found.vertices; }, [=](Id vertex) { return vertex_input[vertex]; });
-  critical.edges = gathered<std::array<Id, 2>>(found_, [](const Found& found) { return found.edges; },
-                                               [=](const auto& edge) { return written(vertex_input, edge); });
-  critical.triangles = gathered<std::array<Id, 3>>(found_, [](const Found& found) { return found.triangles; },
-                                                   [=](const auto& triangle) { return written(vertex_input, triangle); });
-  critical.tetrahedra = gathered<Id>(found_, [](const Found& found) { return found.tetrahedra; },
-                                     [=](Id tetrahedron) { return tetrahedron_input[tetrahedron]; });
+  std::vector<InStar> stars;
+  const std::function<void()> parts[] = {
+      [&] {
+        stars = gathered<InStar>(stars_, [](const auto& found) -> const auto& { return found; }, [=](const InStar& in_star) {
+          return std::make_pair(written(vertex_input, in_star.triangle), tetrahedron_input[in_star.tetrahedron]);
+        });
+      },
+      [&] {
+        critical.triangles = gathered<std::array<Id, 3>>(found_, [](const Found& found) -> const auto& { return found.triangles; },
+                                                         [=](const auto& triangle) { return written(vertex_input, triangle); });
+      },
+      [&] {
+        critical.edges = gathered<std::array<Id, 2>>(found_, [](const Found& found) -> const auto& { return found.edges; },
+                                                     [=](const auto& edge) { return written(vertex_input, edge); });
+      },
+      [&] {
+        critical.vertices = gathered<Id>(found_, [](const Found& found) -> const auto& { return found.vertices; }, [=](Id vertex) { return vertex_input[vertex]; });
+        critical.tetrahedra = gathered<Id>(found_, [](const Found& found) -> const auto& { return found.tetrahedra; },
+                                           [=](Id tetrahedron) { return tetrahedron_input[tetrahedron]; });
+      }};
+  in_turns(host_threads(), std::size(parts), [&](int, std::int64_t i) { parts[i](); });
   found_.clear();
-  gather_stars();
-}
-
-void GradientStore::gather_stars() {
-  const Id* const vertex_input = mesh.vertex_input().data();
-  const Id* const tetrahedron_input = mesh.tetrahedron_input().data();
-  const auto all = gathered<InStar>(stars_, [](const auto& stars) { return stars; }, [=](const InStar& in_star) {
-    return std::make_pair(written(vertex_input, in_star.triangle), tetrahedron_input[in_star.tetrahedron]);
-  });
   stars_.clear();
-  auto next = all.begin();
+  auto next = stars.begin();
   for (const auto& triangle : critical.triangles) {
-    for (; next != all.end() && next->triangle == triangle; ++next) critical.star.push_back(next->tetrahedron);
+    for (; next != stars.end() && next->triangle == triangle; ++next) critical.star.push_back(next->tetrahedron);
     critical.star_begin.push_back(static_cast<Id>(critical.star.size()));
   }
 }

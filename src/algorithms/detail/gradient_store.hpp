@@ -58,8 +58,6 @@ class GradientStore {
     Id tetrahedron;
   };
 
-  void gather_stars();
-
   // What each consumer found.
   std::vector<CriticalSimplices> found_;
   std::vector<std::vector<InStar>> stars_;
