@@ -1,0 +1,28 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "support/input_mesh.hpp"
+
+namespace gale::test {
+
+/// The vertices of a simplex: input ids, ascending.
+using Simplex = std::vector<Id>;
+
+/// The discrete gradient by the definition of Robins, Wood and Sheppard (2011), from the input alone, with sets and
+/// maps.
+struct BruteForceGradient {
+  BruteForceGradient(const InputMesh& mesh, const std::vector<double>& field);
+
+  std::map<Simplex, Simplex> partner;         ///< of each simplex that has one
+  std::array<std::set<Simplex>, 4> critical;  ///< those that have none, by dimension
+};
+
+/// Of each of fields_on one of `mesh_names()`; found at the first call.
+const std::vector<BruteForceGradient>& brute_force_gradients(const std::string& mesh_name);
+
+}  // namespace gale::test

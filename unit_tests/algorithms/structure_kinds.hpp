@@ -1,0 +1,22 @@
+#pragma once
+
+#include <functional>
+#include <gale/relations/structure.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace gale::test {
+
+/// A structure that algorithms must give the same result on as on any other.
+struct StructureKind {
+  std::string name;
+  std::function<std::unique_ptr<Structure>(const Mesh&, RelationSet)> make;
+};
+
+/// Those that this build has.
+std::vector<StructureKind> structure_kinds();
+
+SweepOptions with_threads(int threads);
+
+}  // namespace gale::test
