@@ -56,6 +56,7 @@ class Simplification {
         refused_.insert(pair);
       } else {
         cancel(pair);
+        cancelled_.push_back({name(pair.first), name(pair.second)});
       }
     }
   }
@@ -84,6 +85,8 @@ class Simplification {
     result.ascending_manifold = maximum_;
     return with_sorted_paths(result);
   }
+
+  const std::vector<std::pair<Simplex, Simplex>>& cancelled() const { return cancelled_; }
 
  private:
   using Cells = std::map<Simplex, std::vector<Simplex>>;  // and their polygons
@@ -176,6 +179,7 @@ class Simplification {
   std::map<Simplex, Node> node_;
   std::set<Node> left_;
   std::set<Ends> refused_;
+  std::vector<std::pair<Simplex, Simplex>> cancelled_;
   std::vector<Arc> arcs_;
   std::map<Node, Cells> walls_;
   std::vector<Simplex> minimum_, maximum_;
@@ -206,6 +210,13 @@ NamedComplex brute_force_simplified(const NamedComplex& complex, const std::vect
   Simplification simplification(complex, field);
   simplification.cancel_below(threshold);
   return simplification.result();
+}
+
+std::vector<std::pair<Simplex, Simplex>> brute_force_cancellations(const NamedComplex& complex,
+                                                                   const std::vector<double>& field, double threshold) {
+  Simplification simplification(complex, field);
+  simplification.cancel_below(threshold);
+  return simplification.cancelled();
 }
 
 }  // namespace gale::test
