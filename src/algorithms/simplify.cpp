@@ -4,6 +4,7 @@
 #include <set>
 #include <tuple>
 
+#include <gale/algorithms/detail/joined_paths.hpp>
 #include <gale/algorithms/detail/manifolds.hpp>
 #include <gale/algorithms/detail/morse_graph.hpp>
 #include <gale/base/error.hpp>
@@ -65,37 +66,6 @@ CriticalSimplices critical_left(const MorseGraph& graph, const CriticalSimplices
   return left;
 }
 
-/// Appends the cells of an arc, of which consecutive ones differ.
-template <class Cell>
-void append_cells(const MorseGraph& graph, int arc, const Separatrices<Cell>& separatrices, std::vector<Cell>& cells) {
-  const std::size_t first = cells.size();
-  const auto append = [&](const Cell& cell) {
-    if (cells.size() == first || cells.back() != cell) cells.push_back(cell);
-  };
-  std::vector<std::pair<int, bool>> rest = {{arc, false}};  // and whether backwards
-  while (!rest.empty()) {
-    const auto [number, backwards] = rest.back();
-    rest.pop_back();
-    const MorseGraph::Arc& part = graph.arcs()[number];
-    if (part.separatrix == no_id) {
-      const std::pair<int, bool> start = {part.start, backwards}, middle = {part.middle, !backwards}, end = {part.end, backwards};
-      if (backwards) {
-        rest.insert(rest.end(), {start, middle, end});
-      } else {
-        rest.insert(rest.end(), {end, middle, start});
-      }
-      continue;
-    }
-    const Cell* const begin = separatrices.first(part.separatrix);
-    const Cell* const end = separatrices.last(part.separatrix);
-    if (backwards) {
-      std::for_each(std::make_reverse_iterator(end), std::make_reverse_iterator(begin), append);
-    } else {
-      std::for_each(begin, end, append);
-    }
-  }
-}
-
 /// The paths that are left from simplices of one dimension to those of another, in the order of `CompareEnds`.
 template <class Cell>
 Separatrices<Cell> separatrices_left(const MorseGraph& graph, const std::vector<Id>& places, int from_dimension, int to_dimension,
@@ -110,13 +80,14 @@ Separatrices<Cell> separatrices_left(const MorseGraph& graph, const std::vector<
     order.push_back({places[is_connector ? to : from], is_connector ? places[from] : 0, i});
   }
   std::sort(order.begin(), order.end());
+  detail::JoinedPaths<Cell> paths(graph, std::min(from_dimension, to_dimension), separatrices);
   Separatrices<Cell> left;
   for (const auto& [first, second, i] : order) {
     const MorseGraph::Arc& arc = graph.arcs()[i];
     left.sources.push_back(places[rises ? arc.low : arc.high]);
     left.destinations.push_back(places[rises ? arc.high : arc.low]);
     if (!separatrices.is_only.empty()) left.is_only.push_back(arc.is_only);
-    append_cells(graph, i, separatrices, left.cells);
+    paths.append(i, left.cells);
     left.begin.push_back(static_cast<Offset>(left.cells.size()));
   }
   return left;

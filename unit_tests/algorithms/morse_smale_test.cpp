@@ -1,0 +1,104 @@
+#include <gtest/gtest.h>
+
+#include <gale/algorithms/morse_smale.hpp>
+#include <gale/base/error.hpp>
+#include <map>
+
+#include "algorithms/brute_force_complex.hpp"
+#include "algorithms/fields.hpp"
+#include "algorithms/structure_kinds.hpp"
+#include "support/every_mesh.hpp"
+
+namespace gale::test {
+
+namespace {
+
+MorseSmaleParts all_parts() {
+  MorseSmaleParts parts;
+  parts.separatrices2 = true;
+  return parts;
+}
+
+MorseSmaleComplex complex_of(Structure& structure, const Field& field, int threads,
+                             const MorseSmaleParts& parts = all_parts()) {
+  const VertexOrder order(structure.mesh(), field.values.data(), field.values.size());
+  const auto gradient = find_discrete_gradient(structure, order, with_threads(threads));
+  return find_morse_smale_complex(structure, gradient, parts, with_threads(threads));
+}
+
+/// Is this what brute force finds, and in the same order as with other segments?
+void expect_the_one(const std::string& mesh_name, std::size_t field, const NamedComplex& found) {
+  static std::map<std::pair<std::string, std::size_t>, NamedComplex> known;
+  const auto [entry, is_new] = known.emplace(std::make_pair(mesh_name, field), found);
+  if (is_new) {
+    EXPECT_TRUE(equal(as_defined(found), brute_force_complexes(mesh_name)[field]));
+  } else {
+    EXPECT_TRUE(equal(found, entry->second)) << "than with other segments";
+  }
+}
+
+}  // namespace
+
+class MorseSmaleComplexOf : public EveryMesh {};
+
+TEST_P(MorseSmaleComplexOf, every_mesh_is_that_of_brute_force_whatever_the_structure_segments_and_threads) {
+  const Mesh mesh = encode(input(), segmentation());
+  const auto fields = fields_on(input());
+  const auto kinds = structure_kinds();
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    SCOPED_TRACE(fields[i].name);
+    const auto structure = kinds[0].make(mesh, morse_smale_relations);
+    const auto complex = complex_of(*structure, fields[i], 1);
+    expect_the_one(mesh_name(), i, named(complex));
+    const auto& kind = kinds[(i + 1) % kinds.size()];
+    const int threads = i % 2 == 0 ? 8 : 2;
+    EXPECT_TRUE(equal(complex_of(*kind.make(mesh, morse_smale_relations), fields[i], threads), complex)) << kind.name;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Tests, MorseSmaleComplexOf, every_mesh_and_segmentation(), mesh_and_segmentation);
+
+TEST(MorseSmaleComplex, of_some_parts_has_them_as_the_whole_has_them) {
+  const InputMesh& input = mesh_named("holed_grid_9");
+  const Mesh mesh = encode(input, octree_of(input, 100));
+  const auto structure = structure_kinds().front().make(mesh, morse_smale_relations);
+  const Field field = fields_on(input).front();
+  const MorseSmaleComplex whole = complex_of(*structure, field, 2);
+  for (unsigned wanted = 0; wanted < 64; ++wanted) {
+    SCOPED_TRACE(wanted);
+    MorseSmaleParts parts;
+    parts.descending_separatrices = wanted & 1;
+    parts.ascending_separatrices = wanted & 2;
+    parts.saddle_connectors = wanted & 4;
+    parts.separatrices2 = wanted & 8;
+    parts.descending_manifolds = wanted & 16;
+    parts.ascending_manifolds = wanted & 32;
+    MorseSmaleComplex expected = whole;
+    if (!parts.descending_separatrices) expected.descending = {};
+    if (!parts.ascending_separatrices) expected.ascending = {};
+    if (!parts.saddle_connectors) expected.connectors = {};
+    if (!parts.separatrices2) expected.descending_walls = {}, expected.ascending_walls = {};
+    if (!parts.descending_manifolds) expected.descending_manifold = {};
+    if (!parts.ascending_manifolds) expected.ascending_manifold = {};
+    if (!parts.descending_manifolds || !parts.ascending_manifolds) {
+      expected.morse_smale_manifold = {};
+      expected.morse_smale_manifolds = 0;
+    }
+    EXPECT_TRUE(equal(complex_of(*structure, field, 2, parts), expected));
+  }
+}
+
+TEST(MorseSmaleComplex, needs_VT_for_its_surfaces) {
+  const InputMesh& input = mesh_named("holed_grid_9");
+  const Mesh mesh = encode(input, octree_of(input, 100));
+  const auto structure = structure_kinds().front().make(mesh, morse_smale_relations);
+  const auto field = fields_on(input).front();
+  const VertexOrder order(mesh, field.values.data(), field.values.size());
+  const auto gradient = find_discrete_gradient(*structure, order);
+  const auto without = structure_kinds().front().make(mesh, Relation::VV);
+  EXPECT_THROW(find_morse_smale_complex(*without, gradient, all_parts()), Error);
+  EXPECT_TRUE(equal(find_morse_smale_complex(*without, gradient), find_morse_smale_complex(*structure, gradient)))
+      << "what reads no relation";
+}
+
+}  // namespace gale::test
