@@ -1,3 +1,4 @@
+#include <map>
 #include <set>
 
 #include "algorithms/brute_force_simplify.hpp"
@@ -108,6 +109,20 @@ TEST(Simplify, of_noise_leaves_few) {
       EXPECT_EQ(std::set<Simplex>(path.cells.begin(), path.cells.end()).size(), path.cells.size());
     }
   }
+}
+
+TEST(Simplify, leaves_pairs_that_would_make_too_many_paths) {
+  const InputMesh input = holed_grid(9);
+  const ComplexOf found(input, fields_on(input).back().values);
+  const NamedComplex left = found.simplified(infinity);
+  EXPECT_TRUE(equal(as_defined(with_sorted_paths(left)), brute_force_simplified(found.all(), found.field(), infinity)));
+  std::map<std::pair<Simplex, Simplex>, int> between;
+  for (const auto& path : left.connectors) {
+    between[{path.source, path.destination}] += path.is_only ? 1 : 2;
+  }
+  int single = 0;
+  for (const auto& [ends, count] : between) single += count == 1;
+  EXPECT_GT(single, 0);
 }
 
 }  // namespace gale::test
