@@ -18,7 +18,8 @@ namespace gale {
 /// - A 1-saddle p and a 2-saddle q: the descending wall of q continues those that reach p, and the ascending wall of p those that reach q. A pair whose cancelling would make more than 1024
 ///   paths when its turn comes is left for good.
 ///
-/// The Euler characteristic stays as it is. `complex` has all 1-separatrices and connectors (MorseSmaleParts); `value(v)` is the field at an input vertex. Sequential; time and memory
+/// Paths are in the order of their saddles (connectors in that of 2-saddle, then 1-saddle); those of one are in the order in which cancelling made them. The Euler characteristic stays
+/// as it is. `complex` has all 1-separatrices and connectors (MorseSmaleParts); `value(v)` is the field at an input vertex. Sequential; time and memory
 /// grow with the number and the length of paths, none of which passes a cell twice.
 MorseSmaleComplex simplify(const MorseSmaleComplex& complex, const std::function<double(Id)>& value, double threshold);
 
