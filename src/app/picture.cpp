@@ -2,15 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
-
-#include <gale/base/parallel.hpp>
+#include <unordered_set>
 
 namespace gale::app {
 
 namespace {
 
-using HostSpace = Kokkos::DefaultHostExecutionSpace;
 using Triangle = std::array<Id, 3>;
 
 const Color color_of_dimension[] = {{26, 89, 217}, {26, 168, 150}, {245, 166, 26}, {214, 31, 36}};
@@ -28,9 +25,10 @@ std::vector<Point> to_points(const std::variant<io::Dataset::Points<float>, io::
   return all;
 }
 
-const std::vector<std::int8_t>& bytes_of(const std::vector<io::PointArray>& arrays, const std::string& name) {
+template <class T>
+const std::vector<T>& values_of(const std::vector<io::PointArray>& arrays, const std::string& name) {
   const auto at = std::find_if(arrays.begin(), arrays.end(), [&](const io::PointArray& array) { return array.name == name; });
-  return std::get<std::vector<std::int8_t>>(at->values);
+  return std::get<std::vector<T>>(at->values);
 }
 
 /// Of hue and value in [0, 1).
@@ -92,30 +90,41 @@ class Painter {
   void paint_balls(const io::PointSet& critical) {
     static const char* const names[] = {"minima", "1-saddles", "2-saddles", "maxima"};
     const auto counts = complex_.critical.counts();
-    const auto& dimensions = bytes_of(critical.arrays, "CellDimension");
+    const auto& dimensions = values_of<std::int8_t>(critical.arrays, "CellDimension");
     const std::vector<Point> points = to_points(critical.points);
     std::size_t shown = 0;
     for (int dimension = 0; dimension < 4; ++dimension) {
-      Scene::Balls balls{std::to_string(counts[dimension]) + ' ' + names[dimension], color_of_dimension[dimension], {}};
+      Scene::Balls balls{grouped(counts[dimension]) + ' ' + names[dimension], color_of_dimension[dimension], {}};
       for (std::size_t i = 0; i < points.size(); ++i) {
         if (dimensions[i] == dimension && octant_.has(points[i])) balls.centres.push_back(points[i]);
       }
       shown += balls.centres.size();
       scene_.balls.push_back(std::move(balls));
     }
-    scene_.ball_radius = size_ * std::clamp(0.06 / std::cbrt(shown + 1.0), 0.003, 0.011);
+    scene_.ball_radius = size_ * std::clamp(0.045 / std::cbrt(shown + 1.0), 0.0025, 0.008);
   }
 
   void paint_tubes(const io::Surface& lines) {
-    for (int type : {1, 0, 2}) scene_.tubes.push_back({color_of_type[type], scene_.ball_radius * (type == 1 ? 0.15 : 0.3), {}});
+    for (int type : {1, 0, 2}) scene_.tubes.push_back({color_of_type[type], scene_.ball_radius * (type == 1 ? 0.14 : 0.27), {}});
     const std::vector<Point> points = to_points(lines.points);
-    const auto& types = bytes_of(lines.cell_arrays, "SeparatrixType");
-    const auto& mask = bytes_of(lines.point_arrays, "ttkMaskScalarField");
+    const auto& types = values_of<std::int8_t>(lines.cell_arrays, "SeparatrixType");
+    const auto& mask = values_of<std::int8_t>(lines.point_arrays, "ttkMaskScalarField");
+    const auto& ids = values_of<Id>(lines.point_arrays, "CellId");
+    std::unordered_set<std::uint64_t> seen[3];
     for (std::size_t first = 0, line = 0; first < points.size();) {
       std::size_t last = first + 1;
       while (mask[last] != 0) ++last;
       const int type = types[line];
-      add_path(smoothed({points.begin() + first, points.begin() + last + 1}), scene_.tubes[type == 1 ? 0 : type == 0 ? 1 : 2].paths);
+      std::vector<bool> is_new(last - first);
+      for (std::size_t k = first; k < last; ++k) {
+        if (!octant_.has(points[k]) || !octant_.has(points[k + 1])) continue;
+        const std::size_t even = k + (k - first) % 2;  // the points' dimensions differ in turn
+        const auto [a, b] = std::pair(ids[even], ids[even == k ? k + 1 : k]);
+        is_new[k - first] = seen[type].insert(std::uint64_t(a) << 32 | static_cast<std::uint32_t>(b)).second;
+      }
+      if (std::find(is_new.begin(), is_new.end(), true) != is_new.end()) {
+        add_path(smoothed({points.begin() + first, points.begin() + last + 1}), is_new, scene_.tubes[type == 1 ? 0 : type == 0 ? 1 : 2].paths);
+      }
       line += last - first;
       first = last + 1;
     }
@@ -132,21 +141,13 @@ class Painter {
     return path;
   }
 
-  /// The parts of a path that are in the octant, with every other point.
-  void add_path(const std::vector<Point>& path, std::vector<std::vector<Point>>& paths) const {
-    std::vector<Point> part;
-    const auto end = [&] {
-      if (part.size() > 1) paths.push_back(part);
-      part.clear();
-    };
-    for (std::size_t k = 0; k < path.size(); ++k) {
-      if (!octant_.has(path[k])) {
-        end();
-      } else if (part.empty() || k % 2 == 0 || k + 1 == path.size()) {
-        part.push_back(path[k]);
-      }
+  /// The lines of a path that are in the octant and that no other path had before: many share most of their way.
+  static void add_path(const std::vector<Point>& path, const std::vector<bool>& is_new, std::vector<std::vector<Point>>& paths) {
+    for (std::size_t k = 0; k < is_new.size(); ++k) {
+      if (!is_new[k]) continue;
+      if (k == 0 || !is_new[k - 1]) paths.push_back({path[k]});
+      paths.back().push_back(path[k + 1]);
     }
-    end();
   }
 
   /// The triangles of what is left of the mesh that one tetrahedron has alone. Their vertices are on the mesh' boundary or on the cut.
@@ -201,18 +202,24 @@ class Painter {
   }
 
   void paint(const std::vector<Id>& vertices) {
-    std::vector<double> values;
-    for (const Id v : vertices) values.push_back(heights_.value(mesh_.vertex_input()(v)));
-    std::vector<double> sorted = values;
-    std::sort(sorted.begin(), sorted.end());
-    const double dark = sorted[sorted.size() / 50], bright = sorted[sorted.size() - 1 - sorted.size() / 50];
-    const auto& manifold = complex_.descending_manifold.extent(0) != 0 ? complex_.descending_manifold : complex_.ascending_manifold;
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
-      const double part = bright > dark ? std::clamp((values[i] - dark) / (bright - dark), 0.0, 1.0) : 1;
-      const Id label = manifold.extent(0) != 0 ? manifold(mesh_.vertex_input()(vertices[i])) : no_id;
-      const double turn = label * 0.6180339887498949;  // the golden ratio: labels nearby get hues far apart
-      scene_.skin.colors.push_back(to_color(turn - std::floor(turn), label == no_id ? 0 : 0.42, 0.3 + 0.7 * part));
+    std::vector<double> all(mesh_.vertices());
+    for (std::size_t v = 0; v < all.size(); ++v) all[v] = heights_.value(static_cast<Id>(v));
+    std::sort(all.begin(), all.end());
+    const double dark = all[all.size() / 20], bright = all[all.size() - 1 - all.size() / 100];
+    for (const Id v : vertices) {
+      const Id vertex = mesh_.vertex_input()(v);
+      const double part = bright > dark ? std::clamp((heights_.value(vertex) - dark) / (bright - dark), 0.0, 1.0) : 1;
+      scene_.skin.colors.push_back(color_of(vertex, 0.62 + 0.38 * part));
     }
+  }
+
+  /// A hue for each pair of manifolds; paler where one is missing, grey where both are.
+  Color color_of(Id vertex, double brightness) const {
+    const auto label = [vertex](const Array<Id, HostMemory>& manifold) { return manifold.extent(0) != 0 ? manifold(vertex) : no_id; };
+    const Id down = label(complex_.descending_manifold), up = label(complex_.ascending_manifold);
+    const double turn = 0.6180339887498949 * (down + 1) + 0.7548776662466927 * (up + 1) + 0.33;  // irrational: labels nearby get hues far apart
+    const int manifolds = (down != no_id) + (up != no_id);
+    return to_color(turn - std::floor(turn), manifolds == 0 ? 0 : manifolds == 1 ? 0.3 : 0.5, brightness);
   }
 
   const Point& point(Id v) const { return points_[mesh_.vertex_input()(v)]; }

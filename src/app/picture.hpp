@@ -10,8 +10,8 @@
 
 namespace gale::app {
 
-/// A picture of a complex: the mesh without the octant of its high corner, its skin in a colour for each manifold (of minima if there are, else of maxima) that is as bright as the
-/// field is high; in the octant the critical simplices, as balls, and the lines of `separatrices1`, as smooth tubes.
+/// A picture of a complex: the mesh without the octant of its high corner, its skin in a colour for each Morse-Smale manifold that is as bright as
+/// the field is high; in the octant the critical simplices, as balls, and the lines of `separatrices1`, as smooth tubes.
 Scene picture_of(const io::Dataset& dataset, const MorseSmaleComplex& complex, const SimplexNumbers& numbers, const io::PointSet& critical,
                  const io::Surface& separatrices1, const Heights& heights);
 

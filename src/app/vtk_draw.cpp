@@ -79,8 +79,8 @@ void add_skin(vtkRenderer* renderer, const Scene::Skin& skin) {
   mapper->SetInputConnection(normals->GetOutputPort());
   vtkNew<vtkActor> actor;
   actor->SetMapper(mapper);
-  actor->GetProperty()->SetAmbient(0.18);
-  actor->GetProperty()->SetDiffuse(0.85);
+  actor->GetProperty()->SetAmbient(0.38);
+  actor->GetProperty()->SetDiffuse(0.8);
   actor->GetProperty()->SetSpecular(0.08);
   actor->GetProperty()->SetSpecularPower(20);
   renderer->AddActor(actor);
@@ -144,25 +144,39 @@ void add_legend(vtkRenderer* renderer, const std::vector<Scene::Balls>& balls) {
   }
   legend->GetEntryTextProperty()->SetColor(0.1, 0.1, 0.1);
   legend->BorderOff();
-  legend->SetPosition(0.79, 0.38);
-  legend->SetPosition2(0.19, 0.21);
+  legend->SetPosition(0.82, 0.4);
+  legend->SetPosition2(0.17, 0.18);
   renderer->AddActor(legend);
 }
 
-/// From the high corner, everything on the left of the legend.
+/// From the high corner, without perspective; as large as it may be on the left of the legend.
 void aim(vtkRenderer* renderer, const Scene& scene) {
-  double centre[3], size = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    centre[axis] = (scene.low[axis] + scene.high[axis]) / 2;
-    size += (scene.high[axis] - scene.low[axis]) * (scene.high[axis] - scene.low[axis]);
+  constexpr double aspect = double(width) / height, left_part = 0.78, margin = 0.96;
+  const Point towards = {0.664, 0.544, 0.513}, right = {-0.634, 0.773, 0}, up = {-0.397, -0.325, 0.858};
+  const auto along = [](const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
+  double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL};
+  for (const Point& point : scene.skin.points) {
+    for (int i = 0; i < 2; ++i) {
+      const double place = along(point, i == 0 ? right : up);
+      low[i] = std::min(low[i], place);
+      high[i] = std::max(high[i], place);
+    }
   }
-  size = std::sqrt(size);
+  const double scale = std::max((high[0] - low[0]) / (left_part * aspect), high[1] - low[1]) / 2 / margin;  // half of the picture's height
+  const double x = (low[0] + high[0]) / 2 + (1 - left_part) * scale * aspect, y = (low[1] + high[1]) / 2;
+  const double size = std::hypot(scene.high[0] - scene.low[0], scene.high[1] - scene.low[1], scene.high[2] - scene.low[2]);
+  const Point middle = {(scene.low[0] + scene.high[0]) / 2, (scene.low[1] + scene.high[1]) / 2, (scene.low[2] + scene.high[2]) / 2};
+  double focus[3], position[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    focus[axis] = x * right[axis] + y * up[axis] + along(middle, towards) * towards[axis];
+    position[axis] = focus[axis] + 2 * size * towards[axis];
+  }
   vtkCamera* const camera = renderer->GetActiveCamera();
-  camera->SetFocalPoint(centre);
-  camera->SetPosition(centre[0] + 1.1 * size, centre[1] + 0.9 * size, centre[2] + 0.85 * size);
+  camera->ParallelProjectionOn();
+  camera->SetFocalPoint(focus);
+  camera->SetPosition(position);
   camera->SetViewUp(0, 0, 1);
-  camera->SetViewAngle(29);
-  camera->SetWindowCenter(0.2, 0);
+  camera->SetParallelScale(scale);
   renderer->ResetCameraClippingRange();
 }
 
