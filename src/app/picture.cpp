@@ -162,6 +162,7 @@ class Painter {
       is_left[t] = !octant_.has(middle);
       for (int i = 0; i < 4; ++i) (is_left[t] ? near_left : near_cut)[tetrahedra(t, i)] = 1;
     }
+    if (std::find(is_left.begin(), is_left.end(), 1) == is_left.end()) is_left.assign(is_left.size(), 1);  // too small to be cut
     std::vector<Triangle> candidates;
     for (Id t = 0; t < mesh_.tetrahedra(); ++t) {
       if (!is_left[t]) continue;
@@ -208,7 +209,7 @@ class Painter {
     const double dark = all[all.size() / 20], bright = all[all.size() - 1 - all.size() / 100];
     for (const Id v : vertices) {
       const Id vertex = mesh_.vertex_input()(v);
-      const double part = bright > dark ? std::clamp((heights_.value(vertex) - dark) / (bright - dark), 0.0, 1.0) : 1;
+      const double part = bright > dark && std::isfinite(bright - dark) ? std::clamp((heights_.value(vertex) - dark) / (bright - dark), 0.0, 1.0) : 1;
       scene_.skin.colors.push_back(color_of(vertex, 0.62 + 0.38 * part));
     }
   }

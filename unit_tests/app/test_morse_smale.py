@@ -366,6 +366,15 @@ class Pictures(ComplexTest):
                 self.assertEqual((content[:8], struct.unpack(">II", content[16:24])), (b"\x89PNG\r\n\x1a\n", (1200, 800)))
                 self.assertGreater(len(content), 20000)  # a white one takes less
 
+    @gale.needs_vtk
+    @unittest.skipUnless(shutil.which("xvfb-run"), "there is no xvfb-run")
+    def test_of_a_mesh_too_small_to_be_cut(self):
+        self.write("mesh.vtk", gale.vtk_mesh([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], [[0, 1, 2, 3]], {"height": ("float", [0, 1, 2, math.inf])}))
+        run = self.draw(True, "mesh.vtk")
+        if "rendering modules" in run.stderr:
+            self.skipTest("this VTK does not draw")
+        self.assertEqual((run.returncode, run.stderr), (0, ""))
+
     def test_are_refused_where_they_cannot_be(self):
         run = self.draw(False, "missing.vtu")
         if "missing.vtu" not in run.stderr:  # this VTK draws without a display
