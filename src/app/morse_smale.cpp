@@ -4,6 +4,7 @@
 
 #include "commands.hpp"
 #include "field.hpp"
+#include "picture.hpp"
 #include "separatrices1.hpp"
 #include "separatrices2.hpp"
 #include "session.hpp"
@@ -27,7 +28,7 @@ struct Files {
     if (parts.descending_manifolds || parts.ascending_manifolds) segmentation = options.output + "_segmentation.vtu";
   }
 
-  std::vector<std::string> all() const { return {critical_points, separatrices1, separatrices2, segmentation}; }
+  std::vector<std::string> all(const std::string& picture) const { return {critical_points, separatrices1, separatrices2, segmentation, picture}; }
 };
 
 /// What has to be found for what is wanted: a simplification needs all paths, and the walls' arrays the connectors.
@@ -152,28 +153,35 @@ void write(const Files& files, const FieldOnMesh& input, const io::PointArray& f
   const NamedSimplices named = named_simplices(complex);
   const SimplexNumbers numbers = analysis.number(named);
   const KnownSimplices critical = known_simplices(complex.gradient, complex.critical, numbers);
-  session.write(files.critical_points, [&](const std::string& path) {
-    io::PointSet points = to_point_set(dataset, critical);
-    points.arrays.push_back({"ManifoldSize", 1, manifold_sizes(complex)});
-    io::write_points(path, points);
-  });
-  session.write(files.separatrices1, [&](const std::string& path) {
-    io::write_surface(path, separatrices1(dataset, complex, named, numbers, critical, heights));
-  });
+  io::PointSet points = to_point_set(dataset, critical);
+  points.arrays.push_back({"ManifoldSize", 1, manifold_sizes(complex)});
+  const io::Surface lines = separatrices1(dataset, complex, named, numbers, critical, heights);
+  session.write(files.critical_points, [&](const std::string& path) { io::write_points(path, points); });
+  session.write(files.separatrices1, [&](const std::string& path) { io::write_surface(path, lines); });
   session.write(files.separatrices2, [&](const std::string& path) { io::write_surface(path, separatrices2(dataset, complex, connectors, critical, heights)); });
   session.write(files.segmentation, [&](const std::string& path) { io::write_mesh(path, dataset, segmentation(complex)); });
+  session.write(session.options().render, [&](const std::string& path) { draw(path, picture_of(dataset, complex, numbers, points, lines, heights)); });
+}
+
+void require_png(const std::string& file) {
+  const std::string extension = file.size() > 4 ? file.substr(file.size() - 4) : "";
+  if (extension != ".png" && extension != ".PNG") throw UsageError("--render " + file + ": gale morse-smale draws .png");
 }
 
 }  // namespace
 
 void morse_smale(const Options& options) {
+  if (!options.render.empty()) {
+    require_png(options.render);
+    require_drawing();
+  }
   const Files files(options);
-  Session session(options, files.all());
+  Session session(options, files.all(options.render));
   const FieldOnMesh input = session.read_field(files.segmentation.empty() ? Session::Keep::nothing : Session::Keep::tetrahedra);
   const io::PointArray field = select_field(input.dataset, options.array);
   Analysis analysis(input, field, session);
   tell(analysis.complex(), session);
-  if (!options.output.empty()) write(files, input, field, analysis, session);
+  if (!options.output.empty() || !options.render.empty()) write(files, input, field, analysis, session);
   session.finish(&analysis.structure());
 }
 

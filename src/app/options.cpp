@@ -61,6 +61,7 @@ void add_morse_smale(CLI::App& command, Options& options) {
   const auto set = [&](const std::string& text) { options.persistence = parse_persistence("--persistence", text); };
   command.add_option_function<std::string>("--persistence", set, "Cancel pairs of critical simplices whose values differ by less than this; with a % of the field's range")
       ->type_name("X[%]");
+  command.add_option("--render", options.render, "Draw the complex to this .png: an octant cut out of the segmented mesh, and there the 1-separatrices")->type_name("FILE.png");
 }
 
 void add_relation(CLI::App& command, Options& options) {

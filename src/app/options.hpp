@@ -28,6 +28,7 @@ struct Options {
   std::string arrows;                    ///< of `gale discrete-gradient`: the file for the gradient's arrows, or empty
   MorseSmaleParts parts;                 ///< of `gale morse-smale`
   std::optional<Persistence> persistence;  ///< likewise: what to simplify to
+  std::string render;                    ///< likewise: the picture, or empty
   std::string array;
   std::string segments;                  ///< a point array's name, or empty
   std::optional<int> capacity;           ///< 100 unless given

@@ -21,7 +21,7 @@ class Usage(gale.CommandTest):
                            "--device-memory", "--report", "--quiet", "--tetrahedralize"):
                 self.assertIn(option, text)
         for option in ("--no-descending-separatrices", "--no-ascending-separatrices", "--no-saddle-connectors", "--separatrices2",
-                       "--no-descending-segmentation", "--no-ascending-segmentation", "--persistence"):
+                       "--no-descending-segmentation", "--no-ascending-segmentation", "--persistence", "--render"):
             self.assertIn(option, text)
         self.assertIn("--arrows", self.succeed("discrete-gradient", "--help"))
 
