@@ -17,7 +17,7 @@ struct MorseSmaleParts {
 
 /// The surface that the rising paths of a critical edge sweep: a polygon for each edge that it crosses, through the edge's tetrahedra, in their order around it.
 struct AscendingWalls {
-  Separatrices<std::array<Id, 2>> walls;  ///< edges, the higher end first; from the critical edge
+  Separatrices<std::array<Id, 2>> walls;  ///< edges, the higher end first; the critical one, then the others by their input vertices
   std::vector<Offset> star_begin{0};      ///< the tetrahedra of the i-th cell of `walls`: star[star_begin[i]] to star[star_begin[i + 1] - 1]
   std::vector<Id> star;
 };

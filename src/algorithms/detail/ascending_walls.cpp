@@ -1,7 +1,9 @@
 #include <gale/algorithms/detail/ascending_walls.hpp>
 
 #include <algorithm>
+#include <functional>
 #include <memory>
+#include <queue>
 
 #include <gale/algorithms/detail/edge_star.hpp>
 #include <gale/algorithms/detail/edge_table.hpp>
@@ -23,42 +25,65 @@ struct Cell {
   Offset star_begin;
 };
 
+/// Edges of a wall that wait. They are taken in passes over the mesh, each by ascending id of the higher end: those of one segment together, however a wall winds.
+class Pending {
+ public:
+  bool empty() const { return ahead_.empty() && behind_.empty(); }
+
+  void add(const Edge& edge) { (edge < last_ ? behind_ : ahead_).push(edge); }
+
+  Edge take() {
+    if (ahead_.empty()) ahead_.swap(behind_);
+    last_ = ahead_.top();
+    ahead_.pop();
+    return last_;
+  }
+
+ private:
+  using Queue = std::priority_queue<Edge, std::vector<Edge>, std::greater<Edge>>;
+
+  Edge last_{};
+  Queue ahead_, behind_;
+};
+
 /// One thread's part.
 class Tracer {
  public:
   Tracer(Structure& structure, const DiscreteGradient& gradient, int thread)
-      : thread_(thread), gradient_(gradient), keys_(gradient.order().keys()), consumer_(structure.consumer()), star_(structure.mesh()) {}
+      : thread_(thread), gradient_(gradient), keys_(gradient.order().keys()), vertex_input_(structure.mesh().vertex_input().data()), consumer_(structure.consumer()), star_(structure.mesh()) {}
 
   void follow(Id source, const Edge& critical) {
     seen_.clear();
     seen_.insert(critical[0], critical[1]);
-    std::vector<Cell>& cells = walls.cells;
-    const std::size_t first = cells.size();
-    add(critical);
-    for (std::size_t i = first; i < cells.size(); ++i) {
-      const auto [high, low] = cells[i].edge;
+    const auto first = static_cast<std::ptrdiff_t>(walls.cells.size());
+    for (Edge edge = critical;; edge = pending_.take()) {
+      const auto [high, low] = edge;
       star_.find(high, low, consumer_->row(Relation::VT, high));
-      cells[i].star_begin = static_cast<Offset>(stars.size());
-      cells[i].star_size = static_cast<Id>(star_.around().size());
+      walls.cells.push_back({edge, thread_, static_cast<Id>(star_.around().size()), static_cast<Offset>(stars.size())});
       stars.insert(stars.end(), star_.around().begin(), star_.around().end());
       for (const Id third : star_.thirds()) cross({high, low, third});
+      if (pending_.empty()) break;
     }
+    std::sort(walls.cells.begin() + first + 1, walls.cells.end(), [this](const Cell& a, const Cell& b) { return written(a.edge) < written(b.edge); });
     walls.sources.push_back(source);
-    walls.begin.push_back(static_cast<Offset>(cells.size()));
+    walls.begin.push_back(static_cast<Offset>(walls.cells.size()));
   }
 
   Separatrices<Cell> walls;
   std::vector<Id> stars;
 
  private:
-  void add(const Edge& edge) { walls.cells.push_back({edge, thread_, 0, 0}); }
+  Edge written(const Edge& edge) const {
+    const Id a = vertex_input_[edge[0]], b = vertex_input_[edge[1]];
+    return {std::min(a, b), std::max(a, b)};
+  }
 
   /// To the edge that a triangle is paired with, if it is with one.
   void cross(TriangleVertices triangle) {
     std::sort(triangle.begin(), triangle.end(), [this](Id a, Id b) { return keys_[a] > keys_[b]; });
     for (int i = 1; i < 3; ++i) {
       if (gradient_.triangle_of_lower_edge(triangle[0], triangle[i]) != triangle[3 - i]) continue;
-      if (seen_.insert(triangle[0], triangle[i]).second) add({triangle[0], triangle[i]});
+      if (seen_.insert(triangle[0], triangle[i]).second) pending_.add({triangle[0], triangle[i]});
     }
   }
 
@@ -67,9 +92,11 @@ class Tracer {
   int thread_;
   const DiscreteGradient& gradient_;
   const std::uint64_t* keys_;
+  const Id* vertex_input_;
   std::unique_ptr<Consumer> consumer_;
   EdgeStar star_;
   EdgeTable<Nothing> seen_;
+  Pending pending_;
 };
 
 }  // namespace

@@ -5,7 +5,7 @@
 namespace gale::detail {
 
 EdgeStar::EdgeStar(const Mesh& mesh)
-    : mesh_(mesh), encoded_(mesh.host()), vertex_input_(mesh.vertex_input().data()), tetrahedron_input_(mesh.tetrahedron_input().data()) {}
+    : mesh_(mesh), encoded_(mesh.host()), tetrahedron_input_(mesh.tetrahedron_input().data()) {}
 
 void EdgeStar::find(Id high, Id low, const Row& tetrahedra) {
   wedges_.clear();
@@ -29,7 +29,7 @@ void EdgeStar::find(Id high, Id low, const Row& tetrahedra) {
 void EdgeStar::find_thirds() {
   thirds_.clear();
   for (const Wedge& wedge : wedges_) thirds_.insert(thirds_.end(), wedge.sides, wedge.sides + 2);
-  std::sort(thirds_.begin(), thirds_.end(), [this](Id a, Id b) { return vertex_input_[a] < vertex_input_[b]; });
+  std::sort(thirds_.begin(), thirds_.end());
   thirds_.erase(std::unique(thirds_.begin(), thirds_.end()), thirds_.end());
 }
 

@@ -15,7 +15,7 @@ class EdgeStar {
   /// Of the edge between `low` and the vertex whose VT row this is.
   void find(Id high, Id low, const Row& tetrahedra);
 
-  /// The third vertices of its triangles, by input id.
+  /// The third vertices of its triangles.
   const std::vector<Id>& thirds() const { return thirds_; }
 
   /// Its tetrahedra in their order around it. From an end if there is one, else from that of the lowest input id; of the two ends and of the two ways that of the lower input
@@ -38,7 +38,6 @@ class EdgeStar {
 
   Mesh mesh_;
   EncodedMesh<HostMemory> encoded_;
-  const Id* vertex_input_;
   const Id* tetrahedron_input_;
   std::vector<Wedge> wedges_;
   std::vector<Id> thirds_, around_;

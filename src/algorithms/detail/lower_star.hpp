@@ -14,13 +14,14 @@ namespace gale::detail {
 /// The other vertices are named by their ranks among the lower neighbours, 0 the lowest. A triangle (a, b), a > b, is that of the vertex and its lower
 /// neighbours of ranks a and b; likewise a tetrahedron (a, b, c).
 ///
-/// Holds stars of at most 64 * Words cells in which no triangle has more than two tetrahedra. Branches that a processor couldn't foresee are the cost of all this, so there are
+/// Holds stars of at most max_edges edges and 64 * Words cells in which no triangle has more than two tetrahedra. Branches that a processor couldn't foresee are the cost of all this, so there are
 /// few: what is of no use, because a vertex is upper, is written where nobody reads it.
 template <int Words>
 class LowerStar {
  public:
   using Cells = CellSet<Words>;
 
+  static constexpr int max_edges = Words == 1 ? 16 : 64;
   static constexpr std::uint8_t none = LowerNeighbours::none;
   static constexpr int no_place = -1;
 
@@ -68,7 +69,6 @@ class LowerStar {
   }
 
  private:
-  static constexpr int max_edges = Words == 1 ? 16 : 64;
   static constexpr int max_triangles = Cells::capacity;
   static constexpr int max_star = 128;  ///< tetrahedra of the vertex
 
