@@ -113,7 +113,7 @@ AscendingWalls ascending_walls(Structure& structure, const DiscreteGradient& gra
   for (auto& tracer : tracers) {
     if (tracer) found.push_back(std::move(tracer->walls));
   }
-  auto all = gathered(found, false);
+  auto all = gathered(found, &Separatrices<Cell>::sources, static_cast<Id>(edges.size()));
   AscendingWalls walls;
   walls.walls.sources = std::move(all.sources);
   walls.walls.begin = std::move(all.begin);

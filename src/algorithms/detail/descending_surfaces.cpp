@@ -1,6 +1,8 @@
 #include <gale/algorithms/detail/descending_surfaces.hpp>
 
+#include <algorithm>
 #include <memory>
+#include <utility>
 
 #include <gale/algorithms/detail/descending_wall.hpp>
 #include <gale/algorithms/detail/gathered_separatrices.hpp>
@@ -12,7 +14,8 @@ namespace gale::detail {
 namespace {
 
 /// One thread's part.
-struct Tracer {
+class Tracer {
+ public:
   explicit Tracer(const DiscreteGradient& gradient) : wall(gradient) {}
 
   void add_wall(Id triangle) {
@@ -22,8 +25,11 @@ struct Tracer {
   }
 
   void add_connectors(const CriticalPlaces& places, Id triangle) {
-    for (const auto& edge : wall.critical_edges()) {
-      connectors.sources.push_back(places.of_edge(edge.high, edge.low));
+    rim_.clear();
+    for (const auto& edge : wall.critical_edges()) rim_.push_back({places.of_edge(edge.high, edge.low), edge});
+    std::sort(rim_.begin(), rim_.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    for (const auto& [place, edge] : rim_) {
+      connectors.sources.push_back(place);
       connectors.destinations.push_back(triangle);
       connectors.is_only.push_back(wall.append_path(edge, connectors.cells));
       connectors.begin.push_back(static_cast<Offset>(connectors.cells.size()));
@@ -32,6 +38,9 @@ struct Tracer {
 
   DescendingWall wall;
   Separatrices<TriangleVertices> walls, connectors;
+
+ private:
+  std::vector<std::pair<Id, DescendingWall::Edge>> rim_;  ///< the wall's critical edges by their places
 };
 
 }  // namespace
@@ -53,7 +62,9 @@ DescendingSurfaces descending_surfaces(const DiscreteGradient& gradient, const C
     walls.push_back(std::move(tracer->walls));
     connectors.push_back(std::move(tracer->connectors));
   }
-  return {gathered(walls, false), gathered(connectors, true)};
+  using Surfaces = Separatrices<TriangleVertices>;
+  const Id count = static_cast<Id>(triangles.size());
+  return {gathered(walls, &Surfaces::sources, count), gathered(connectors, &Surfaces::destinations, count)};
 }
 
 }  // namespace gale::detail

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <utility>
 #include <vector>
 
 #include <gale/algorithms/separatrices.hpp>
@@ -9,36 +8,48 @@
 
 namespace gale::detail {
 
-/// Brings the separatrices that several threads found into one order: that of their sources, or of `by_destination`'s destinations, then of the other end. Each thread
-/// has found those with one such end together, in any order; no two have both ends alike.
+/// Brings the separatrices that several threads found into the order of their `ends`, which are places below `count`: their sources, or their destinations. Those with one such
+/// end are one thread's, one after the other, and stay so.
 template <class Cell>
-Separatrices<Cell> gathered(std::vector<Separatrices<Cell>>& parts, bool by_destination) {
-  struct Place {
-    std::pair<Id, Id> ends;
-    int part;
-    Id at;
+Separatrices<Cell> gathered(std::vector<Separatrices<Cell>>& parts, std::vector<Id> Separatrices<Cell>::*ends, Id count) {
+  struct Group {
+    int part = 0;
+    Id first = 0, size = 0;
   };
-  std::vector<Place> order;
+  std::vector<Group> groups(count);
   for (int part = 0; part < static_cast<int>(parts.size()); ++part) {
-    const auto& found = parts[part];
-    for (Id i = 0; i < found.count(); ++i) {
-      const Id destination = found.destinations.empty() ? no_id : found.destinations[i];
-      order.push_back({by_destination ? std::make_pair(destination, found.sources[i]) : std::make_pair(found.sources[i], destination), part, i});
+    for (Id i = 0; i < parts[part].count(); ++i) {
+      Group& group = groups[(parts[part].*ends)[i]];
+      if (group.size++ == 0) group = {part, i, 1};
     }
   }
-  std::sort(order.begin(), order.end(), [](const Place& a, const Place& b) { return a.ends < b.ends; });
   Separatrices<Cell> all;
-  for (const Place& place : order) {
-    const auto& found = parts[place.part];
-    all.sources.push_back(found.sources[place.at]);
-    if (!found.destinations.empty()) all.destinations.push_back(found.destinations[place.at]);
-    if (!found.is_only.empty()) all.is_only.push_back(found.is_only[place.at]);
-    all.begin.push_back(all.begin.back() + (found.last(place.at) - found.first(place.at)));
+  std::vector<Id> place(count + 1, 0);
+  std::vector<Offset> cell(count + 1, 0);
+  for (Id g = 0; g < count; ++g) {
+    const Group& group = groups[g];
+    place[g + 1] = place[g] + group.size;
+    cell[g + 1] = cell[g] + (group.size == 0 ? 0 : parts[group.part].last(group.first + group.size - 1) - parts[group.part].first(group.first));
   }
-  all.cells.resize(all.begin.back());
-  parallel_for("GALE::gather_separatrices", Kokkos::DefaultHostExecutionSpace(), static_cast<Offset>(order.size()), [&](Offset i) {
-    const auto& found = parts[order[i].part];
-    std::copy(found.first(order[i].at), found.last(order[i].at), all.cells.data() + all.begin[i]);
+  const bool are_paths = std::any_of(parts.begin(), parts.end(), [](const auto& part) { return !part.destinations.empty(); });
+  const bool say_only = std::any_of(parts.begin(), parts.end(), [](const auto& part) { return !part.is_only.empty(); });
+  all.sources.resize(place[count]);
+  if (are_paths) all.destinations.resize(place[count]);
+  if (say_only) all.is_only.resize(place[count]);
+  all.begin.resize(place[count] + 1);
+  all.cells.resize(cell[count]);
+  parallel_for("GALE::gather_separatrices", Kokkos::DefaultHostExecutionSpace(), count, [&](Offset g) {
+    const Group& group = groups[g];
+    const auto& from = parts[group.part];
+    if (group.size == 0) return;
+    for (Id i = 0; i < group.size; ++i) {
+      const Id at = place[g] + i;
+      all.sources[at] = from.sources[group.first + i];
+      if (are_paths) all.destinations[at] = from.destinations[group.first + i];
+      if (say_only) all.is_only[at] = from.is_only[group.first + i];
+      all.begin[at + 1] = cell[g] + (from.last(group.first + i) - from.first(group.first));
+    }
+    std::copy(from.first(group.first), from.last(group.first + group.size - 1), all.cells.data() + cell[g]);
   });
   parts.clear();
   return all;
