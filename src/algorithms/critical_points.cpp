@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include <gale/algorithms/detail/large_link.hpp>
-#include <gale/algorithms/detail/vertex_link.hpp>
+#include <gale/algorithms/detail/critical_points/large_link.hpp>
+#include <gale/algorithms/detail/critical_points/vertex_link.hpp>
 #include <gale/base/parallel.hpp>
 
 namespace gale {

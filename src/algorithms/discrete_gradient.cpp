@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include <gale/algorithms/detail/gradient_store.hpp>
-#include <gale/algorithms/detail/gradient_sweep.hpp>
+#include <gale/algorithms/detail/gradient/gradient_store.hpp>
+#include <gale/algorithms/detail/gradient/gradient_sweep.hpp>
 
 namespace gale {
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include <gale/algorithms/detail/boundary_look_ups.hpp>
-#include <gale/algorithms/detail/cell_sweep.hpp>
+#include <gale/algorithms/detail/gradient_from_cells/boundary_look_ups.hpp>
+#include <gale/algorithms/detail/gradient_from_cells/cell_sweep.hpp>
 
 namespace gale {
 

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include <gale/algorithms/detail/ascending_walls.hpp>
-#include <gale/algorithms/detail/descending_surfaces.hpp>
-#include <gale/algorithms/detail/manifolds.hpp>
-#include <gale/algorithms/detail/separatrices1.hpp>
+#include <gale/algorithms/detail/morse_smale/ascending_walls.hpp>
+#include <gale/algorithms/detail/morse_smale/descending_surfaces.hpp>
+#include <gale/algorithms/detail/morse_smale/manifolds.hpp>
+#include <gale/algorithms/detail/morse_smale/separatrices1.hpp>
 
 namespace gale {
 

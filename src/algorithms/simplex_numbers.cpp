@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include <gale/algorithms/detail/later_star.hpp>
-#include <gale/algorithms/detail/number_queries.hpp>
+#include <gale/algorithms/detail/simplex_numbers/later_star.hpp>
+#include <gale/algorithms/detail/simplex_numbers/number_queries.hpp>
 
 namespace gale {
 

@@ -4,9 +4,9 @@
 #include <set>
 #include <tuple>
 
-#include <gale/algorithms/detail/joined_paths.hpp>
-#include <gale/algorithms/detail/manifolds.hpp>
-#include <gale/algorithms/detail/morse_graph.hpp>
+#include <gale/algorithms/detail/morse_smale/joined_paths.hpp>
+#include <gale/algorithms/detail/morse_smale/manifolds.hpp>
+#include <gale/algorithms/detail/morse_smale/morse_graph.hpp>
 #include <gale/base/error.hpp>
 #include <gale/base/parallel.hpp>
 

@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <gale/algorithms/detail/bit_queues.hpp>
-#include <gale/algorithms/detail/lower_neighbours.hpp>
-#include <gale/algorithms/detail/lower_star.hpp>
-#include <gale/algorithms/detail/pair_cells.hpp>
+#include <gale/algorithms/detail/gradient/bit_queues.hpp>
+#include <gale/algorithms/detail/gradient/lower_neighbours.hpp>
+#include <gale/algorithms/detail/gradient/lower_star.hpp>
+#include <gale/algorithms/detail/gradient/pair_cells.hpp>
 #include <gale/algorithms/vertex_order.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/runtime/runtime.hpp>

@@ -1,4 +1,4 @@
-#include <gale/algorithms/detail/edge_pairs.hpp>
+#include <gale/algorithms/detail/gradient/edge_pairs.hpp>
 
 #include <algorithm>
 #include <cstring>

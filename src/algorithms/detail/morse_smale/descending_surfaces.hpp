@@ -1,6 +1,6 @@
 #pragma once
 
-#include <gale/algorithms/detail/critical_places.hpp>
+#include <gale/algorithms/detail/morse_smale/critical_places.hpp>
 #include <gale/algorithms/discrete_gradient.hpp>
 #include <gale/algorithms/separatrices.hpp>
 

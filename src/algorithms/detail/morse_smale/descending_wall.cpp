@@ -1,4 +1,4 @@
-#include <gale/algorithms/detail/descending_wall.hpp>
+#include <gale/algorithms/detail/morse_smale/descending_wall.hpp>
 
 #include <algorithm>
 

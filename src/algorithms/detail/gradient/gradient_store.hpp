@@ -3,7 +3,7 @@
 #include <vector>
 
 #include <gale/algorithms/critical_simplices.hpp>
-#include <gale/algorithms/detail/edge_pairs.hpp>
+#include <gale/algorithms/detail/gradient/edge_pairs.hpp>
 #include <gale/algorithms/vertex_order.hpp>
 
 namespace gale::detail {

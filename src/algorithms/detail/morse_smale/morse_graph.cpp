@@ -1,4 +1,4 @@
-#include <gale/algorithms/detail/morse_graph.hpp>
+#include <gale/algorithms/detail/morse_smale/morse_graph.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,12 +1,12 @@
-#include <gale/algorithms/detail/descending_surfaces.hpp>
+#include <gale/algorithms/detail/morse_smale/descending_surfaces.hpp>
 
 #include <algorithm>
 #include <memory>
 #include <utility>
 
-#include <gale/algorithms/detail/descending_wall.hpp>
-#include <gale/algorithms/detail/gathered_separatrices.hpp>
-#include <gale/algorithms/detail/space_order.hpp>
+#include <gale/algorithms/detail/morse_smale/descending_wall.hpp>
+#include <gale/algorithms/detail/morse_smale/gathered_separatrices.hpp>
+#include <gale/algorithms/detail/morse_smale/space_order.hpp>
 #include <gale/base/threads.hpp>
 
 namespace gale::detail {

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include <gale/algorithms/detail/edge_table.hpp>
-#include <gale/algorithms/detail/gradient_store.hpp>
+#include <gale/algorithms/detail/morse_smale/edge_table.hpp>
+#include <gale/algorithms/detail/gradient/gradient_store.hpp>
 #include <gale/algorithms/discrete_gradient.hpp>
 #include <gale/algorithms/separatrices.hpp>
 

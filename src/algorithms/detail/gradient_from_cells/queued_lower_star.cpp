@@ -1,4 +1,4 @@
-#include <gale/algorithms/detail/queued_lower_star.hpp>
+#include <gale/algorithms/detail/gradient_from_cells/queued_lower_star.hpp>
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include <gale/algorithms/detail/manifolds.hpp>
+#include <gale/algorithms/detail/morse_smale/manifolds.hpp>
 
 #include <gale/base/atomic.hpp>
 #include <gale/base/parallel.hpp>

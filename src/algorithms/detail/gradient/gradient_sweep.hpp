@@ -1,8 +1,8 @@
 #pragma once
 
-#include <gale/algorithms/detail/gradient_store.hpp>
-#include <gale/algorithms/detail/large_lower_star.hpp>
-#include <gale/algorithms/detail/lower_neighbours.hpp>
+#include <gale/algorithms/detail/gradient/gradient_store.hpp>
+#include <gale/algorithms/detail/gradient/large_lower_star.hpp>
+#include <gale/algorithms/detail/gradient/lower_neighbours.hpp>
 #include <gale/relations/segment_rows.hpp>
 
 namespace gale::detail {

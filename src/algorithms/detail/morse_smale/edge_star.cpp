@@ -1,4 +1,4 @@
-#include <gale/algorithms/detail/edge_star.hpp>
+#include <gale/algorithms/detail/morse_smale/edge_star.hpp>
 
 #include <algorithm>
 

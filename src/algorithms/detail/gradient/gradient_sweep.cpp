@@ -1,8 +1,8 @@
-#include <gale/algorithms/detail/gradient_sweep.hpp>
+#include <gale/algorithms/detail/gradient/gradient_sweep.hpp>
 
-#include <gale/algorithms/detail/bit_queues.hpp>
-#include <gale/algorithms/detail/lower_star.hpp>
-#include <gale/algorithms/detail/pair_cells.hpp>
+#include <gale/algorithms/detail/gradient/bit_queues.hpp>
+#include <gale/algorithms/detail/gradient/lower_star.hpp>
+#include <gale/algorithms/detail/gradient/pair_cells.hpp>
 
 namespace gale::detail {
 

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <vector>
 
-#include <gale/algorithms/detail/vertex_link.hpp>
+#include <gale/algorithms/detail/critical_points/vertex_link.hpp>
 
 namespace gale::detail {
 

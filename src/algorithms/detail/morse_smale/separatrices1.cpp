@@ -1,4 +1,4 @@
-#include <gale/algorithms/detail/separatrices1.hpp>
+#include <gale/algorithms/detail/morse_smale/separatrices1.hpp>
 
 #include <gale/base/parallel.hpp>
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <gale/algorithms/detail/vertex_link.hpp>
+#include <gale/algorithms/detail/critical_points/vertex_link.hpp>
 
 namespace gale::detail {
 

@@ -1,4 +1,4 @@
-#include <gale/algorithms/detail/critical_places.hpp>
+#include <gale/algorithms/detail/morse_smale/critical_places.hpp>
 
 namespace gale::detail {
 

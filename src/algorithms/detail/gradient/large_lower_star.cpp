@@ -1,4 +1,4 @@
-#include <gale/algorithms/detail/large_lower_star.hpp>
+#include <gale/algorithms/detail/gradient/large_lower_star.hpp>
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include <gale/algorithms/detail/gradient_store.hpp>
+#include <gale/algorithms/detail/gradient/gradient_store.hpp>
 
 #include <algorithm>
 #include <functional>

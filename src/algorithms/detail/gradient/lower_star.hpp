@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <type_traits>
 
-#include <gale/algorithms/detail/cell_set.hpp>
-#include <gale/algorithms/detail/lower_neighbours.hpp>
+#include <gale/algorithms/detail/gradient/cell_set.hpp>
+#include <gale/algorithms/detail/gradient/lower_neighbours.hpp>
 
 namespace gale::detail {
 

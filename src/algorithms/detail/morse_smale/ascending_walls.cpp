@@ -1,14 +1,14 @@
-#include <gale/algorithms/detail/ascending_walls.hpp>
+#include <gale/algorithms/detail/morse_smale/ascending_walls.hpp>
 
 #include <algorithm>
 #include <functional>
 #include <memory>
 #include <queue>
 
-#include <gale/algorithms/detail/edge_star.hpp>
-#include <gale/algorithms/detail/edge_table.hpp>
-#include <gale/algorithms/detail/gathered_separatrices.hpp>
-#include <gale/algorithms/detail/space_order.hpp>
+#include <gale/algorithms/detail/morse_smale/edge_star.hpp>
+#include <gale/algorithms/detail/morse_smale/edge_table.hpp>
+#include <gale/algorithms/detail/morse_smale/gathered_separatrices.hpp>
+#include <gale/algorithms/detail/morse_smale/space_order.hpp>
 #include <gale/base/threads.hpp>
 
 namespace gale::detail {

@@ -3,8 +3,8 @@
 #include <array>
 #include <vector>
 
-#include <gale/algorithms/detail/key_queue.hpp>
-#include <gale/algorithms/detail/lower_triangles.hpp>
+#include <gale/algorithms/detail/gradient_from_cells/key_queue.hpp>
+#include <gale/algorithms/detail/gradient_from_cells/lower_triangles.hpp>
 
 namespace gale::detail {
 

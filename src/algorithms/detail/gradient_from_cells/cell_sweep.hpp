@@ -4,10 +4,10 @@
 #include <utility>
 #include <vector>
 
-#include <gale/algorithms/detail/gradient_store.hpp>
-#include <gale/algorithms/detail/neighbour_ranks.hpp>
-#include <gale/algorithms/detail/pair_cells.hpp>
-#include <gale/algorithms/detail/queued_lower_star.hpp>
+#include <gale/algorithms/detail/gradient/gradient_store.hpp>
+#include <gale/algorithms/detail/gradient_from_cells/neighbour_ranks.hpp>
+#include <gale/algorithms/detail/gradient/pair_cells.hpp>
+#include <gale/algorithms/detail/gradient_from_cells/queued_lower_star.hpp>
 #include <gale/relations/segment_rows.hpp>
 
 namespace gale::detail {

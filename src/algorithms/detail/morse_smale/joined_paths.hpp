@@ -2,7 +2,7 @@
 
 #include <array>
 #include <cstdint>
-#include <gale/algorithms/detail/morse_graph.hpp>
+#include <gale/algorithms/detail/morse_smale/morse_graph.hpp>
 #include <unordered_map>
 #include <vector>
 
