@@ -164,7 +164,9 @@ NamedSimplices named_simplices(const MorseSmaleComplex& complex) {
 io::Surface separatrices1(const io::Dataset& dataset, const MorseSmaleComplex& complex, const NamedSimplices& named, const SimplexNumbers& numbers,
                           const KnownSimplices& critical, const Heights& heights) {
   const Mesh& mesh = complex.gradient.mesh();
-  const auto& [descending_paths, ascending_paths, connectors] = std::tie(complex.descending, complex.ascending, complex.connectors);
+  const auto& descending_paths = complex.descending;
+  const auto& ascending_paths = complex.ascending;
+  const auto& connectors = complex.connectors;
   const std::size_t edges = critical[1].size(), triangles = critical[2].size();
   const std::size_t connector_edges = edges + descending_paths.cells.size(), connector_triangles = triangles + ascending_paths.cells.size();
   return std::visit(
