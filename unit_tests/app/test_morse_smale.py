@@ -115,6 +115,13 @@ class Persistence(ComplexTest):
         self.refuse(1, "morse-smale", "mesh.vtk", "--persistence", "5%", naming="--persistence")
         self.succeed("morse-smale", "mesh.vtk", "--persistence", "5")
 
+    @gale.needs_vtk
+    def test_needs_values_where_an_order_would_do(self):
+        self.write("mesh.vtk", gale.vtk_mesh([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 1)], [[0, 1, 2, 3]],
+                                             {"height": ("float", [0, 1, 2, 3, math.nan]), "height_Order": ("int", range(5))}))
+        self.succeed("morse-smale", "mesh.vtk")
+        self.refuse(1, "morse-smale", "mesh.vtk", "--persistence", "5", naming="vertex 4 ")
+
     def test_refuses_other_values(self):
         for value in ("", "%", "5x", "5 %", "-1", "-1%", "nan", "inf", "1e999", "0x10", "5%%", "five"):
             with self.subTest(value=value):
