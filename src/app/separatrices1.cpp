@@ -82,7 +82,8 @@ class Lines {
     arrays_.resize(2 * cells - separatrices);
   }
 
-  /// Two points for each cell of the paths: the simplex `between` that precedes it, number `between_ids[k]`, and itself. `cell_of(cell)` is its vertices, `id_of(k)` its number.
+  /// Two points for each cell of the paths: the simplex `between` that precedes it, number `between_ids[k]`, and itself. `cell_of(cell)` is its
+  /// vertices, `id_of(k)` its number.
   template <class Cell, class Simplex, class CellOf, class IdOf>
   void add(Type type, const Separatrices<Cell>& paths, const Simplex* between, const Id* between_ids, const CellOf& cell_of, const IdOf& id_of,
            const std::vector<CriticalSimplex>& sources, const std::vector<CriticalSimplex>& destinations, const Heights& heights) {
