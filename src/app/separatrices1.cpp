@@ -134,7 +134,7 @@ class Lines {
       arrays_.types[line] = type;
       arrays_.maxima[line] = maximum;
       arrays_.minima[line] = minimum;
-      arrays_.differences[line] = maximum - minimum;
+      arrays_.differences[line] = Heights::difference(maximum, minimum);
       arrays_.on_boundary[line] = static_cast<std::int8_t>(source.on_boundary + destination.on_boundary);
     }
   }

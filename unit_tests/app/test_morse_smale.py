@@ -335,6 +335,13 @@ class Files(ComplexTest):
                 for name in self.names():
                     (self.folder / name).unlink()
 
+    def test_of_a_field_that_is_infinite_everywhere(self):
+        self.write("mesh.vtk", gale.vtk_mesh([(0, 0, 0), (1, 1, 1), (1, 0, 0), (0, 1, 0), (0, 0, 1)], [[2, 0, 3, 4], [1, 3, 4, 2]],
+                                             {"height": ("float", [math.inf] * 5)}))  # by id: minima 0 and 1, and the edge 12 between them
+        arrays = self.files("mesh.vtk", "--separatrices2")["separatrices1.vtp"].cell_arrays
+        self.assertEqual(set(arrays["SeparatrixFunctionMaximum"]), {math.inf})
+        self.assertEqual(set(arrays["SeparatrixFunctionDifference"]), {0})
+
     def test_of_a_field_without_saddles(self):
         self.write("mesh.vtk", gale.vtk_mesh([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], [[0, 1, 2, 3]], {"height": ("double", range(4))}))
         files = self.files("mesh.vtk", "--separatrices2")
