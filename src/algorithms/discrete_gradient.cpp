@@ -10,13 +10,8 @@ namespace gale {
 namespace {
 
 /// The one of `vertices` that isn't among `others`.
-Id odd_one(const Id* vertices, const Id* others, int* corner = nullptr) {
-  for (int i = 0; i < 4; ++i) {
-    if (std::find(others, others + 4, vertices[i]) != others + 4) continue;
-    if (corner != nullptr) *corner = i;
-    return vertices[i];
-  }
-  return no_id;
+Id odd_one(const Id* vertices, const Id* others) {
+  return *std::find_if(vertices, vertices + 4, [others](Id vertex) { return std::find(others, others + 4, vertex) == others + 4; });
 }
 
 }  // namespace

@@ -21,12 +21,12 @@ struct Partner {
   bool is_critical() const { return dimension < 0; }
 };
 
-/// A discrete gradient: pairs of simplices whose dimensions differ by one (Forman 1998). Each simplex is in one pair at most; those in none are critical. On the
-/// host, immutable, for any number of threads; copies share the arrays.
+/// A discrete gradient: pairs of simplices whose dimensions differ by one (Forman 1998). Each simplex is in one pair at most; those in none are
+/// critical. On the host, immutable, for any number of threads; copies share the arrays.
 ///
 /// Stored is what paths along the gradient ask for. A vertex and a tetrahedron know their successor, 4 bytes each. For edges, which only surfaces
-/// cross, there is a row for each vertex of the lower ends of its edges, with the third vertex of the triangle that each is paired with: 5 bytes an edge and
-/// 12 a vertex. Edges and triangles have no ids here: they are named by their vertices (GALE's ids).
+/// cross, there is a row for each vertex of the lower ends of its edges, with the third vertex of the triangle that each is paired with: 5 bytes an
+/// edge and 12 a vertex. Edges and triangles have no ids here: they are named by their vertices (GALE's ids).
 class DiscreteGradient {
  public:
   explicit DiscreteGradient(std::shared_ptr<const detail::GradientStore> store);
@@ -78,10 +78,11 @@ class DiscreteGradient {
   const Id* tetrahedron_successor_;
 };
 
-/// The discrete gradient of a field, after Robins, Wood and Sheppard (2011): each vertex' lower star is paired by itself, so simplices are paired only with simplices
-/// that have the same highest vertex. Keys are unique: the result depends on nothing but mesh and order.
+/// The discrete gradient of a field, after Robins, Wood and Sheppard (2011): each vertex' lower star is paired by itself, so simplices are paired
+/// only with simplices that have the same highest vertex. Keys are unique: the result depends on nothing but mesh and order.
 ///
-/// A sweep of VV, VT and link, for which `structure` must be preconditioned. No edge or triangle is enumerated.
+/// A sweep of VV, VT and link; throws gale::Error if `structure` isn't preconditioned for them. No edge or triangle is enumerated: beside the blocks
+/// of the sweep there is only the gradient in memory.
 DiscreteGradient find_discrete_gradient(Structure& structure, const VertexOrder& order, const SweepOptions& options = {});
 
 /// What the sweep reads.

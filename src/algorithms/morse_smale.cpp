@@ -1,6 +1,8 @@
 #include <gale/algorithms/morse_smale.hpp>
 
 #include <algorithm>
+#include <tuple>
+#include <utility>
 
 #include <gale/algorithms/detail/morse_smale/ascending_walls.hpp>
 #include <gale/algorithms/detail/morse_smale/descending_surfaces.hpp>

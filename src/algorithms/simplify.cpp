@@ -1,7 +1,9 @@
 #include <gale/algorithms/simplify.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
+#include <string>
 #include <tuple>
 
 #include <gale/algorithms/detail/morse_smale/joined_paths.hpp>
@@ -25,11 +27,15 @@ std::vector<double> values_of(const MorseSmaleComplex& complex, const std::funct
   const auto higher = [&](Id a, Id b) { return keys[a] < keys[b]; };
   const CriticalSimplices& critical = complex.critical;
   std::vector<double> values;
-  for (const Id vertex : critical.vertices) values.push_back(value(input[vertex]));
-  for (const auto& edge : critical.edges) values.push_back(value(input[edge[0]]));
-  for (const auto& triangle : critical.triangles) values.push_back(value(input[triangle[0]]));
+  const auto add = [&](Id vertex) {
+    values.push_back(value(input[vertex]));
+    if (std::isnan(values.back())) throw Error("vertex " + std::to_string(input[vertex]) + " has no field value: it is NaN");
+  };
+  for (const Id vertex : critical.vertices) add(vertex);
+  for (const auto& edge : critical.edges) add(edge[0]);
+  for (const auto& triangle : critical.triangles) add(triangle[0]);
   const auto& tetrahedra = mesh.host().tetrahedra;
-  for (const Id t : critical.tetrahedra) values.push_back(value(input[*std::max_element(&tetrahedra(t, 0), &tetrahedra(t, 0) + 4, higher)]));
+  for (const Id t : critical.tetrahedra) add(*std::max_element(&tetrahedra(t, 0), &tetrahedra(t, 0) + 4, higher));
   return values;
 }
 

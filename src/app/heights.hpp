@@ -14,6 +14,9 @@ class Heights {
     return std::visit([vertex](const auto& values) { return static_cast<double>(values[vertex]); }, field_.values);
   }
 
+  /// Of two values, 0 where they are the same infinity.
+  static double difference(double high, double low) { return high == low ? 0 : high - low; }
+
   bool is_below(Id a, Id b) const { return order_.keys()[internal_[a]] < order_.keys()[internal_[b]]; }
   Id higher(Id a, Id b) const { return is_below(a, b) ? b : a; }
   Id lower(Id a, Id b) const { return is_below(a, b) ? a : b; }

@@ -39,6 +39,14 @@ MorseSmaleParts needed_parts(const Options& options) {
   return parts;
 }
 
+/// Which saddles connectors join, without the way.
+Separatrices<TriangleVertices> ends_of(const Separatrices<TriangleVertices>& connectors) {
+  Separatrices<TriangleVertices> ends;
+  ends.sources = connectors.sources;
+  ends.destinations = connectors.destinations;
+  return ends;
+}
+
 /// Without the separatrices that were found for others alone.
 void leave_out_unwanted(const MorseSmaleParts& wanted, MorseSmaleComplex& complex) {
   if (!wanted.descending_separatrices) complex.descending = {};
@@ -144,18 +152,31 @@ std::vector<Id> manifold_sizes(const MorseSmaleComplex& complex) {
   return sizes;
 }
 
+io::PointSet with_manifold_sizes(const io::Dataset& dataset, const MorseSmaleComplex& complex, const KnownSimplices& critical) {
+  io::PointSet points = to_point_set(dataset, critical);
+  points.arrays.push_back({"ManifoldSize", 1, manifold_sizes(complex)});
+  return points;
+}
+
+/// What `make` makes, whose time is added to `seconds`.
+template <class Make>
+auto timed(double& seconds, const Make& make) {
+  const Stopwatch watch(seconds);
+  return make();
+}
+
 void write(const Files& files, const FieldOnMesh& input, const io::PointArray& field, Analysis& analysis, Session& session) {
   MorseSmaleComplex& complex = analysis.complex();
   const Heights heights(input.mesh, input.order, field);
   const io::Dataset& dataset = input.dataset;
-  const auto connectors = complex.connectors;
+  const auto connectors = ends_of(complex.connectors);  // of all: they bound walls, wanted or not
   leave_out_unwanted(session.options().parts, complex);
-  const NamedSimplices named = named_simplices(complex);
+  double& seconds = session.report().seconds.write;
+  const NamedSimplices named = timed(seconds, [&] { return named_simplices(complex); });
   const SimplexNumbers numbers = analysis.number(named);
-  const KnownSimplices critical = known_simplices(complex.gradient, complex.critical, numbers);
-  io::PointSet points = to_point_set(dataset, critical);
-  points.arrays.push_back({"ManifoldSize", 1, manifold_sizes(complex)});
-  const io::Surface lines = separatrices1(dataset, complex, named, numbers, critical, heights);
+  const KnownSimplices critical = timed(seconds, [&] { return known_simplices(complex.gradient, complex.critical, numbers); });
+  const io::PointSet points = timed(seconds, [&] { return with_manifold_sizes(dataset, complex, critical); });
+  const io::Surface lines = timed(seconds, [&] { return separatrices1(dataset, complex, named, numbers, critical, heights); });
   session.write(files.critical_points, [&](const std::string& path) { io::write_points(path, points); });
   session.write(files.separatrices1, [&](const std::string& path) { io::write_surface(path, lines); });
   session.write(files.separatrices2, [&](const std::string& path) { io::write_surface(path, separatrices2(dataset, complex, connectors, critical, heights)); });

@@ -16,9 +16,12 @@ namespace {
 double range_of(const io::PointArray& field) {
   return std::visit(
       [](const auto& values) {
-        if (values.empty()) return 0.0;
-        const auto [least, most] = std::minmax_element(values.begin(), values.end());
-        return static_cast<double>(*most) - static_cast<double>(*least);
+        double least = HUGE_VAL, most = -HUGE_VAL;
+        for (const auto value : values) {
+          least = std::min(least, static_cast<double>(value));  // NaN, which an order may come with, never is
+          most = std::max(most, static_cast<double>(value));
+        }
+        return most - least;
       },
       field.values);
 }

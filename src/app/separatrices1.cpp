@@ -82,7 +82,8 @@ class Lines {
     arrays_.resize(2 * cells - separatrices);
   }
 
-  /// Two points for each cell of the paths: the simplex `between` that precedes it, number `between_ids[k]`, and itself. `cell_of(cell)` is its vertices, `id_of(k)` its number.
+  /// Two points for each cell of the paths: the simplex `between` that precedes it, number `between_ids[k]`, and itself. `cell_of(cell)` is its
+  /// vertices, `id_of(k)` its number.
   template <class Cell, class Simplex, class CellOf, class IdOf>
   void add(Type type, const Separatrices<Cell>& paths, const Simplex* between, const Id* between_ids, const CellOf& cell_of, const IdOf& id_of,
            const std::vector<CriticalSimplex>& sources, const std::vector<CriticalSimplex>& destinations, const Heights& heights) {
@@ -133,7 +134,7 @@ class Lines {
       arrays_.types[line] = type;
       arrays_.maxima[line] = maximum;
       arrays_.minima[line] = minimum;
-      arrays_.differences[line] = maximum - minimum;
+      arrays_.differences[line] = Heights::difference(maximum, minimum);
       arrays_.on_boundary[line] = static_cast<std::int8_t>(source.on_boundary + destination.on_boundary);
     }
   }
@@ -164,7 +165,9 @@ NamedSimplices named_simplices(const MorseSmaleComplex& complex) {
 io::Surface separatrices1(const io::Dataset& dataset, const MorseSmaleComplex& complex, const NamedSimplices& named, const SimplexNumbers& numbers,
                           const KnownSimplices& critical, const Heights& heights) {
   const Mesh& mesh = complex.gradient.mesh();
-  const auto& [descending_paths, ascending_paths, connectors] = std::tie(complex.descending, complex.ascending, complex.connectors);
+  const auto& descending_paths = complex.descending;
+  const auto& ascending_paths = complex.ascending;
+  const auto& connectors = complex.connectors;
   const std::size_t edges = critical[1].size(), triangles = critical[2].size();
   const std::size_t connector_edges = edges + descending_paths.cells.size(), connector_triangles = triangles + ascending_paths.cells.size();
   return std::visit(

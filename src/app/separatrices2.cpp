@@ -173,7 +173,7 @@ class Walls {
     types_.resize(polygons, type);
     maxima_.resize(polygons, maximum);
     minima_.resize(polygons, minimum);
-    differences_.resize(polygons, maximum - minimum);
+    differences_.resize(polygons, Heights::difference(maximum, minimum));
     on_boundary_.resize(polygons, on_boundary);
   }
 

@@ -27,8 +27,8 @@ struct FieldOnMesh {
 /// One run of the command: what every subcommand does, each step timed and said.
 class Session {
  public:
-  /// Throws gale::Error if the report or one of `files`, which are written through VTK where they aren't empty, can't be written where they should be; UsageError if
-  /// two of all files are one.
+  /// Throws gale::Error if the report or one of `files`, which are written through VTK where they aren't empty, can't be written where they should
+  /// be; UsageError if two of all files are one.
   Session(const Options& options, const std::vector<std::string>& files);
 
   /// Of a command that writes the files that its options name.

@@ -69,8 +69,8 @@ void on_threads(int count, const Body& body) {
   if (failure) std::rethrow_exception(failure);
 }
 
-/// Calls `body(thread, i)` for i in 0..n-1, each on one of `count` threads, which take what is next when they are done: for work whose parts differ much. Exceptions
-/// as above; no further part is begun after one.
+/// Calls `body(thread, i)` for i in 0..n-1, each on one of `count` threads, which take what is next when they are done: for work whose parts differ
+/// much. Exceptions as above; no further part is begun after one.
 template <class Body>
 void in_turns(int count, std::int64_t n, const Body& body) {
   std::atomic<std::int64_t> next{0};

@@ -72,8 +72,8 @@ class Structure {
   /// The relations that it was preconditioned for.
   virtual RelationSet relations() const = 0;
 
-  /// Has it every row of these at any time? Then a consumer reads each in a few ns. Else rows of boundary relations come from the mesh' tables, and `boundary_row`
-  /// is the fast way to them.
+  /// Has it every row of these at any time? Then a consumer reads each in a few ns. Else rows of boundary relations come from the mesh' tables, and
+  /// `boundary_row` is the fast way to them.
   virtual bool keeps_all_rows() const { return false; }
 
   /// A sweep: calls `body` once for every segment, in no order to rely on, with the blocks of the relations `wanted`, on `options.threads`
@@ -81,6 +81,7 @@ class Structure {
   /// has a relation that was not preconditioned.
   virtual void for_each_segment(RelationSet wanted, const SweepOptions& options, const SegmentBody& body) = 0;
 
+  /// For rows in any order. Any thread may make one, and any number of them.
   virtual std::unique_ptr<Consumer> consumer() = 0;
 };
 

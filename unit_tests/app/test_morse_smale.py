@@ -115,6 +115,13 @@ class Persistence(ComplexTest):
         self.refuse(1, "morse-smale", "mesh.vtk", "--persistence", "5%", naming="--persistence")
         self.succeed("morse-smale", "mesh.vtk", "--persistence", "5")
 
+    @gale.needs_vtk
+    def test_needs_values_where_an_order_would_do(self):
+        self.write("mesh.vtk", gale.vtk_mesh([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 1)], [[0, 1, 2, 3]],
+                                             {"height": ("float", [0, 1, 2, 3, math.nan]), "height_Order": ("int", range(5))}))
+        self.succeed("morse-smale", "mesh.vtk")
+        self.refuse(1, "morse-smale", "mesh.vtk", "--persistence", "5", naming="vertex 4 ")
+
     def test_refuses_other_values(self):
         for value in ("", "%", "5x", "5 %", "-1", "-1%", "nan", "inf", "1e999", "0x10", "5%%", "five"):
             with self.subTest(value=value):
@@ -327,6 +334,13 @@ class Files(ComplexTest):
                 self.assertEqual(self.names(), sorted(f"out_{KINDS[kind]}" for kind in kinds))
                 for name in self.names():
                     (self.folder / name).unlink()
+
+    def test_of_a_field_that_is_infinite_everywhere(self):
+        self.write("mesh.vtk", gale.vtk_mesh([(0, 0, 0), (1, 1, 1), (1, 0, 0), (0, 1, 0), (0, 0, 1)], [[2, 0, 3, 4], [1, 3, 4, 2]],
+                                             {"height": ("float", [math.inf] * 5)}))  # by id: minima 0 and 1, and the edge 12 between them
+        arrays = self.files("mesh.vtk", "--separatrices2")["separatrices1.vtp"].cell_arrays
+        self.assertEqual(set(arrays["SeparatrixFunctionMaximum"]), {math.inf})
+        self.assertEqual(set(arrays["SeparatrixFunctionDifference"]), {0})
 
     def test_of_a_field_without_saddles(self):
         self.write("mesh.vtk", gale.vtk_mesh([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], [[0, 1, 2, 3]], {"height": ("double", range(4))}))

@@ -8,8 +8,8 @@
 
 namespace gale::detail {
 
-/// What a DiscreteGradient is made of, and how the consumers of a sweep fill it: each vertex is one consumer's, and with it all simplices that have it as their highest
-/// vertex.
+/// What a DiscreteGradient is made of, and how the consumers of a sweep fill it: each vertex is one consumer's, and with it all simplices that have
+/// it as their highest vertex.
 class GradientStore {
  public:
   GradientStore(const Mesh& mesh, const VertexOrder& order, int consumers);

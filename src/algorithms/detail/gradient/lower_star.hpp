@@ -8,14 +8,15 @@
 
 namespace gale::detail {
 
-/// The lower star of a vertex: itself, and the edges, triangles and tetrahedra in which no other vertex is higher. Its cells but the vertex are numbered in
-/// the order of their keys: the ranks of their other vertices, descending, compared lexicographically. So the lowest bit of a set is the head of a queue.
+/// The lower star of a vertex: itself, and the edges, triangles and tetrahedra in which no other vertex is higher. Its cells but the vertex are
+/// numbered in the order of their keys: the ranks of their other vertices, descending, compared lexicographically. So the lowest bit of a set is the
+/// head of a queue.
 ///
-/// The other vertices are named by their ranks among the lower neighbours, 0 the lowest. A triangle (a, b), a > b, is that of the vertex and its lower
-/// neighbours of ranks a and b; likewise a tetrahedron (a, b, c).
+/// The other vertices are named by their ranks among the lower neighbours, 0 the lowest. A triangle (a, b), a > b, is that of the vertex and its
+/// lower neighbours of ranks a and b; likewise a tetrahedron (a, b, c).
 ///
-/// Holds stars of at most max_edges edges and 64 * Words cells in which no triangle has more than two tetrahedra. Branches that a processor couldn't foresee are the cost of all this, so there are
-/// few: what is of no use, because a vertex is upper, is written where nobody reads it.
+/// Holds stars of at most max_edges edges and 64 * Words cells in which no triangle has more than two tetrahedra. Branches that a processor couldn't
+/// foresee are the cost of all this, so there are few: what is of no use, because a vertex is upper, is written where nobody reads it.
 template <int Words>
 class LowerStar {
  public:
@@ -82,8 +83,8 @@ class LowerStar {
     std::uint8_t a, b, c, place;
   };
 
-  /// A triangle's tetrahedra in the whole star of the vertex, added up: how many there are; their places in VT; the ranks of their third vertices; and how many are in the
-  /// lower star with a third vertex below the triangle's.
+  /// A triangle's tetrahedra in the whole star of the vertex, added up: how many there are; their places in VT; the ranks of their third vertices;
+  /// and how many are in the lower star with a third vertex below the triangle's.
   class Cofaces {
    public:
     KOKKOS_FORCEINLINE_FUNCTION void clear() { sums_ = 0; }

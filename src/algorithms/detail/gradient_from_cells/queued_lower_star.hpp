@@ -8,15 +8,15 @@
 
 namespace gale::detail {
 
-/// The lower star of a vertex, made from its edges, triangles and tetrahedra, with priority queues for `pair_cells`. Its cells but the vertex are numbered in the
-/// order of their keys: the ranks of their lower vertices, descending, compared lexicographically. Stars of any size, and triangles with any number of
-/// tetrahedra. One serves one thread, and keeps its memory.
+/// The lower star of a vertex, made from its edges, triangles and tetrahedra, with priority queues for `pair_cells`. Its cells but the vertex are
+/// numbered in the order of their keys: the ranks of their lower vertices, descending, compared lexicographically. Stars of any size, and triangles
+/// with any number of tetrahedra. One serves one thread, and keeps its memory.
 class QueuedLowerStar {
  public:
   using Corners = std::array<Id, 3>;
 
-  // To make one: `begin`, all triangles, `end_triangles`, all tetrahedra, `end`. They are given by the ranks of their other vertices; those of upper vertices are
-  // below 0.
+  // To make one: `begin`, all triangles, `end_triangles`, all tetrahedra, `end`. They are given by the ranks of their other vertices; those of upper
+  // vertices are below 0.
 
   /// Of so many edges, whose ranks are 0 to edges - 1, in a star of so many triangles and tetrahedra.
   void begin(Id edges, Id triangles, Id tetrahedra);

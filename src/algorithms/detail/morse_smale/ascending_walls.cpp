@@ -25,7 +25,8 @@ struct Cell {
   Offset star_begin;
 };
 
-/// Edges of a wall that wait. They are taken in passes over the mesh, each by ascending id of the higher end: those of one segment together, however a wall winds.
+/// Edges of a wall that wait. They are taken in passes over the mesh, each by ascending id of the higher end: those of one segment together, however
+/// a wall winds.
 class Pending {
  public:
   bool empty() const { return ahead_.empty() && behind_.empty(); }

@@ -10,7 +10,8 @@ namespace gale::detail {
 struct DescendingSurfaces {
   Separatrices<TriangleVertices> walls;  ///< their triangles; from the critical triangle
 
-  /// Saddle connectors: from a critical edge (source) to a critical triangle (destination) in whose wall it is, the triangles on the way, the last one included.
+  /// Saddle connectors: from a critical edge (source) to a critical triangle (destination) in whose wall it is, the triangles on the way, the last
+  /// one included.
   Separatrices<TriangleVertices> connectors;
 };
 

@@ -9,8 +9,8 @@
 
 namespace gale::detail {
 
-/// The surface that a critical triangle's falling paths sweep: from a triangle across each of its edges to the triangle that the edge is paired with. One serves one
-/// thread, for one wall after the other, and keeps its memory.
+/// The surface that a critical triangle's falling paths sweep: from a triangle across each of its edges to the triangle that the edge is paired with.
+/// One serves one thread, for one wall after the other, and keeps its memory.
 class DescendingWall {
  public:
   struct Edge {
@@ -28,8 +28,9 @@ class DescendingWall {
   /// The critical edges of its rim.
   const std::vector<Edge>& critical_edges() const { return critical_edges_; }
 
-  /// Appends the path inside the wall that rises from one of its critical edges to the critical triangle: the triangles, the last one included. Where several
-  /// triangles of the wall meet at an edge, it takes the one that is least, written with its input vertices ascending. Says whether they never do: then it is the only path.
+  /// Appends the path inside the wall that rises from one of its critical edges to the critical triangle: the triangles, the last one included. Where
+  /// several triangles of the wall meet at an edge, it takes the one that is least, written with its input vertices ascending. Says whether they
+  /// never do: then it is the only path.
   bool append_path(const Edge& from, std::vector<TriangleVertices>& path) const;
 
  private:

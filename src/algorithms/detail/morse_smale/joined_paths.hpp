@@ -2,9 +2,10 @@
 
 #include <array>
 #include <cstdint>
-#include <gale/algorithms/detail/morse_smale/morse_graph.hpp>
 #include <unordered_map>
 #include <vector>
+
+#include <gale/algorithms/detail/morse_smale/morse_graph.hpp>
 
 namespace gale::detail {
 

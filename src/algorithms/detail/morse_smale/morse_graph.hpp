@@ -61,7 +61,7 @@ class MorseGraph {
   std::vector<signed char> dimension_;
   std::vector<char> is_alive_;
   std::vector<int> heir_;
-  std::vector<std::vector<int>> up_, down_;  ///< each node's arcs; dead ones are taken out now and then
+  std::vector<std::vector<int>> up_, down_;  ///< arcs of each node that is alive, dead ones among them
   std::vector<std::vector<int>> joined_;
   std::vector<Arc> arcs_;
   std::priority_queue<Pair, std::vector<Pair>, std::greater<Pair>> pairs_;

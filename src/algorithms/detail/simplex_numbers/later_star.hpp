@@ -27,8 +27,8 @@ class SmallLaterStar {
   /// Place of the edge to `other`; no_id if there is none.
   Id edge(Id other) const { return (later_ & bit_of(other)) == 0 ? no_id : count_bits(before(other)); }
 
-  /// Place of the triangle with two vertices, of which `middle` has the lower input id; no_id if there is none. Before it are those with an earlier neighbour than
-  /// `middle`, and those with `middle` and one between the two.
+  /// Place of the triangle with two vertices, of which `middle` has the lower input id; no_id if there is none. Before it are those with an earlier
+  /// neighbour than `middle`, and those with `middle` and one between the two.
   Id triangle(Id middle, Id last) const {
     if ((later_ & bit_of(middle)) == 0 || (touching(middle) & later_ & bit_of(last)) == 0) return no_id;
     const std::uint64_t earlier = before(middle);

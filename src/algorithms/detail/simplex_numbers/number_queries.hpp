@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include <gale/base/atomic.hpp>
 #include <gale/base/error.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/base/require_ids.hpp>
@@ -35,12 +36,12 @@ class NumberQueries {
     const Kokkos::DefaultHostExecutionSpace host;
     parallel_for("GALE::count_number_queries", host, count, [&](Offset i) {
       require_vertices(mesh, simplices[i]);
-      __atomic_fetch_add(&end_(mesh.segment_of(0, ascending(i)[0])), 1, __ATOMIC_RELAXED);
+      atomic_add(&end_(mesh.segment_of(0, ascending(i)[0])), Id(1));
     });
     exclusive_scan("GALE::place_number_queries", host, mesh.segments(), end_, [&](Offset s) { return end_(s); });
     parallel_for("GALE::fill_number_queries", host, count, [&](Offset i) {
       const Id vertex = ascending(i)[0];
-      queries_(__atomic_fetch_add(&end_(mesh.segment_of(0, vertex)), 1, __ATOMIC_RELAXED)) = {vertex, static_cast<Id>(i)};
+      queries_(atomic_add(&end_(mesh.segment_of(0, vertex)), Id(1))) = {vertex, static_cast<Id>(i)};
     });
   }
 
