@@ -51,7 +51,9 @@ void add_runtime(CLI::App& command, Options& options) {
 void add_morse_smale(CLI::App& command, Options& options) {
   command.add_option("-o,--output", options.output,
                      "Write P_critical_points.vtp, P_separatrices1.vtp, P_segmentation.vtu and, if wanted, P_separatrices2.vtp")->type_name("P");
-  const auto add_switch = [&](const std::string& name, bool& is_on, const std::string& what) { command.add_flag(name + "{false}", is_on, what); };
+  const auto add_switch = [&](const std::string& name, bool& is_on, const std::string& what) {
+    command.add_flag_callback(name, [&is_on] { is_on = false; }, what);
+  };
   add_switch("--no-descending-separatrices", options.parts.descending_separatrices, "Without the 1-separatrices from 1-saddles to minima");
   add_switch("--no-ascending-separatrices", options.parts.ascending_separatrices, "Without the 1-separatrices from 2-saddles to maxima");
   add_switch("--no-saddle-connectors", options.parts.saddle_connectors, "Without the 1-separatrices from 1-saddles to 2-saddles");
