@@ -6,9 +6,9 @@
 #include <string>
 #include <tuple>
 
-#include <gale/algorithms/detail/morse_smale/joined_paths.hpp>
+#include <gale/algorithms/detail/simplify/joined_paths.hpp>
 #include <gale/algorithms/detail/morse_smale/manifolds.hpp>
-#include <gale/algorithms/detail/morse_smale/morse_graph.hpp>
+#include <gale/algorithms/detail/simplify/morse_graph.hpp>
 #include <gale/base/error.hpp>
 #include <gale/base/parallel.hpp>
 
@@ -183,8 +183,8 @@ Array<Id, HostMemory> manifold_left(MorseGraph& graph, const std::vector<Id>& pl
 }  // namespace
 
 MorseSmaleComplex simplify(const MorseSmaleComplex& complex, const std::function<double(Id)>& value, double threshold) {
-  MorseGraph graph(complex, values_of(complex, value));
-  graph.cancel(threshold);
+  MorseGraph graph(complex, values_of(complex, value), threshold);
+  graph.cancel();
   const std::vector<Id> places = places_left(graph);
   const auto counts = complex.critical.counts();
   MorseSmaleComplex left{complex.gradient, critical_left(graph, complex.critical)};

@@ -21,7 +21,7 @@ constexpr int default_capacity = 100;
 
 /// Throws UsageError if two of the files, those that aren't empty, are one.
 void require_distinct(const std::vector<std::string>& files) {
-  const auto plain = [](const std::string& file) { return std::filesystem::absolute(file).lexically_normal(); };
+  const auto plain = [](const std::string& file) { return std::filesystem::weakly_canonical(std::filesystem::absolute(file)); };
   for (std::size_t i = 0; i < files.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       if (!files[i].empty() && !files[j].empty() && plain(files[i]) == plain(files[j])) throw UsageError("'" + files[i] + "' is named for two files");

@@ -1,5 +1,6 @@
 #include <gale/mesh/input_numbers.hpp>
 
+#include <gale/base/pair_key.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/base/radix_sort.hpp>
 #include <gale/base/transfer.hpp>
@@ -13,10 +14,6 @@ using Keys = Array<std::uint64_t, ProducerMemory>;
 
 /// Of the mesh', which other threads may use too: a managed View's count isn't atomic where Kokkos has Serial alone.
 using VertexInput = Kokkos::View<const Id*, ProducerMemory, Kokkos::MemoryUnmanaged>;
-
-KOKKOS_INLINE_FUNCTION std::uint64_t key_of(Id first, Id second) {
-  return std::uint64_t(static_cast<std::uint32_t>(first)) << 32 | static_cast<std::uint32_t>(second);
-}
 
 KOKKOS_INLINE_FUNCTION void order(Id& a, Id& b) {
   if (b < a) {
@@ -42,7 +39,7 @@ Ids edge_numbers(const Simplices<ProducerMemory>& simplices, const VertexInput& 
       "GALE::edge_keys", ProducerSpace(), keys.extent(0), KOKKOS_LAMBDA(Offset e) {
         Id a = input(simplices.edge_low(e)), b = input(simplices.edge_high(e));
         order(a, b);
-        keys(e) = key_of(a, b);
+        keys(e) = pair_key(a, b);
       });
   return places_of(keys);
 }
@@ -59,7 +56,7 @@ Ids triangle_numbers(const Simplices<ProducerMemory>& simplices, const VertexInp
           if (input(vertices[corner]) > input(vertices[last])) last = corner;
         }
         const Id first_edge = simplices.edge_of(vertices[last == 0 ? 1 : 0], vertices[last == 2 ? 1 : 2]);
-        keys(f) = key_of(edges(first_edge), input(vertices[last]));
+        keys(f) = pair_key(edges(first_edge), input(vertices[last]));
       });
   return places_of(keys);
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <gale/algorithms/detail/critical_points/vertex_link.hpp>
+#include <gale/base/pair_key.hpp>
 
 namespace gale::detail {
 
@@ -23,7 +24,7 @@ class LargeLink {
       const Id corner[3] = {link(t, 0), link(t, 1), link(t, 2)};
       for (int k = 0; k < 3; ++k) {
         const Id a = corner[k == 2 ? 0 : k], b = corner[k == 0 ? 1 : 2];
-        edges_.push_back(std::uint64_t(static_cast<std::uint32_t>(a)) << 32 | static_cast<std::uint32_t>(b));
+        edges_.push_back(pair_key(a, b));
         if (is_lower(a) == is_lower(b)) parent_[root(a)] = root(b);
       }
     }

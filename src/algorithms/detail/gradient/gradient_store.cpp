@@ -12,7 +12,7 @@ namespace {
 
 /// What all consumers found, sorted by `key`, which is unique.
 template <class T, class Part, class Member, class Key>
-std::vector<T> gathered(const std::vector<Part>& parts, const Member& member, const Key& key) {
+std::vector<T> merged(const std::vector<Part>& parts, const Member& member, const Key& key) {
   std::vector<std::pair<decltype(key(T())), T>> keyed;
   for (const auto& part : parts) {
     for (const T& simplex : member(part)) keyed.push_back({key(simplex), simplex});
@@ -50,21 +50,21 @@ void GradientStore::finish() {
   std::vector<InStar> stars;
   const std::function<void()> parts[] = {
       [&] {
-        stars = gathered<InStar>(stars_, [](const auto& found) -> const auto& { return found; }, [=](const InStar& in_star) {
+        stars = merged<InStar>(stars_, [](const auto& found) -> const auto& { return found; }, [=](const InStar& in_star) {
           return std::make_pair(written(vertex_input, in_star.triangle), tetrahedron_input[in_star.tetrahedron]);
         });
       },
       [&] {
-        critical.triangles = gathered<std::array<Id, 3>>(found_, [](const Found& found) -> const auto& { return found.triangles; },
+        critical.triangles = merged<std::array<Id, 3>>(found_, [](const Found& found) -> const auto& { return found.triangles; },
                                                          [=](const auto& triangle) { return written(vertex_input, triangle); });
       },
       [&] {
-        critical.edges = gathered<std::array<Id, 2>>(found_, [](const Found& found) -> const auto& { return found.edges; },
+        critical.edges = merged<std::array<Id, 2>>(found_, [](const Found& found) -> const auto& { return found.edges; },
                                                      [=](const auto& edge) { return written(vertex_input, edge); });
       },
       [&] {
-        critical.vertices = gathered<Id>(found_, [](const Found& found) -> const auto& { return found.vertices; }, [=](Id vertex) { return vertex_input[vertex]; });
-        critical.tetrahedra = gathered<Id>(found_, [](const Found& found) -> const auto& { return found.tetrahedra; },
+        critical.vertices = merged<Id>(found_, [](const Found& found) -> const auto& { return found.vertices; }, [=](Id vertex) { return vertex_input[vertex]; });
+        critical.tetrahedra = merged<Id>(found_, [](const Found& found) -> const auto& { return found.tetrahedra; },
                                            [=](Id tetrahedron) { return tetrahedron_input[tetrahedron]; });
       }};
   in_turns(host_threads(), std::size(parts), [&](int, std::int64_t i) { parts[i](); });

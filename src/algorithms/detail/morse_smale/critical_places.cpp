@@ -13,7 +13,7 @@ CriticalPlaces::CriticalPlaces(const CriticalSimplices& critical)
   Id place = 0;
   for (const Id vertex : critical.vertices) vertices_.add(vertex, place++);
   place = 0;
-  for (const auto& edge : critical.edges) edges_.add(key(edge[0], edge[1]), place++);
+  for (const auto& edge : critical.edges) edges_.add(pair_key(edge[0], edge[1]), place++);
   place = 0;
   for (const Id tetrahedron : critical.tetrahedra) tetrahedra_.add(tetrahedron, place++);
 }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <gale/algorithms/critical_simplices.hpp>
+#include <gale/base/pair_key.hpp>
 
 namespace gale::detail {
 
@@ -13,7 +14,7 @@ class CriticalPlaces {
   explicit CriticalPlaces(const CriticalSimplices& critical);
 
   Id of_vertex(Id vertex) const { return vertices_.find(vertex); }
-  Id of_edge(Id high, Id low) const { return edges_.find(key(high, low)); }
+  Id of_edge(Id high, Id low) const { return edges_.find(pair_key(high, low)); }
   Id of_tetrahedron(Id tetrahedron) const { return tetrahedra_.find(tetrahedron); }
 
  private:
@@ -40,8 +41,6 @@ class CriticalPlaces {
 
     std::vector<Slot> slots_;
   };
-
-  static std::uint64_t key(Id high, Id low) { return std::uint64_t(static_cast<std::uint32_t>(high)) << 32 | static_cast<std::uint32_t>(low); }
 
   Table vertices_, edges_, tetrahedra_;
 };

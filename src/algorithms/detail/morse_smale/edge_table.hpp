@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include <gale/base/pair_key.hpp>
 #include <gale/base/types.hpp>
 
 namespace gale::detail {
@@ -45,7 +46,7 @@ class EdgeTable {
   };
 
   std::size_t place_of(Id high, Id low) const {
-    const std::uint64_t key = std::uint64_t(static_cast<std::uint32_t>(high)) << 32 | static_cast<std::uint32_t>(low);
+    const std::uint64_t key = pair_key(high, low);
     const std::size_t mask = slots_.size() - 1;
     std::size_t place = static_cast<std::size_t>(key * 0x9e3779b97f4a7c15u >> 24) & mask;
     while (slots_[place].age == age_ && (slots_[place].high != high || slots_[place].low != low)) place = (place + 1) & mask;

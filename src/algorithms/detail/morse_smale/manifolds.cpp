@@ -1,6 +1,7 @@
 #include <gale/algorithms/detail/morse_smale/manifolds.hpp>
 
 #include <gale/base/atomic.hpp>
+#include <gale/base/pair_key.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/base/radix_sort.hpp>
 #include <gale/base/transfer.hpp>
@@ -63,7 +64,7 @@ Keys first_tetrahedra(const Mesh& mesh) {
         const Id begin = encoded.vertex_begin(s), end = encoded.vertex_begin(s + 1);
         for (Id v = begin; v < end; ++v) first(v) = none;
         const auto offer = [&](Id t) {
-          const std::uint64_t key = std::uint64_t(static_cast<std::uint32_t>(input(t))) << 32 | static_cast<std::uint32_t>(t);
+          const std::uint64_t key = pair_key(input(t), t);
           for (int corner = 0; corner < 4; ++corner) {
             const Id v = encoded.tetrahedra(t, corner);
             if (v >= begin && v < end && key < first(v)) first(v) = key;
@@ -110,7 +111,7 @@ std::pair<HostIds, Id> morse_smale_manifolds(const HostIds& ascending, const Hos
   const auto vertices = allocate<Ids>("GALE::manifold_vertices", count);
   parallel_for(
       "GALE::manifold_pairs", ProducerSpace(), count, KOKKOS_LAMBDA(Offset v) {
-        keys(v) = up(v) == no_id ? none : std::uint64_t(static_cast<std::uint32_t>(up(v))) << 32 | static_cast<std::uint32_t>(down(v));
+        keys(v) = up(v) == no_id ? none : pair_key(up(v), down(v));
         vertices(v) = static_cast<Id>(v);
       });
   stable_sort_by_key(keys, vertices);

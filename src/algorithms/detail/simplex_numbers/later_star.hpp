@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <gale/algorithms/detail/critical_points/vertex_link.hpp>
+#include <gale/base/pair_key.hpp>
 
 namespace gale::detail {
 
@@ -94,7 +95,7 @@ class LargeLaterStar {
   /// Input ids, the lower one in the upper half.
   std::uint64_t key(Id a, Id b) const {
     const auto [low, high] = std::minmax(input_[a], input_[b]);
-    return std::uint64_t(static_cast<std::uint32_t>(low)) << 32 | static_cast<std::uint32_t>(high);
+    return pair_key(low, high);
   }
 
   /// From the triangles of all tetrahedra to those without earlier neighbours, each once, sorted.

@@ -1,4 +1,4 @@
-#include <gale/algorithms/detail/morse_smale/morse_graph.hpp>
+#include <gale/algorithms/detail/simplify/morse_graph.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,7 @@ bool MorseGraph::Pair::operator>(const Pair& other) const {
   return std::tie(persistence, low, high, arc) > std::tie(other.persistence, other.low, other.high, other.arc);
 }
 
-MorseGraph::MorseGraph(const MorseSmaleComplex& complex, const std::vector<double>& values) : values_(values) {
+MorseGraph::MorseGraph(const MorseSmaleComplex& complex, const std::vector<double>& values, double threshold) : values_(values), threshold_(threshold) {
   const auto counts = complex.critical.counts();
   first_[0] = 0;
   for (int d = 0; d < 4; ++d) {
@@ -50,12 +50,13 @@ int MorseGraph::add(const Arc& arc) {
   arcs_.push_back(arc);
   up_[arc.low].push_back(number);
   down_[arc.high].push_back(number);
-  pairs_.push({persistence_of(values_[arc.low], values_[arc.high]), arc.low, arc.high, number});
+  const double persistence = persistence_of(values_[arc.low], values_[arc.high]);
+  if (persistence < threshold_) pairs_.push({persistence, arc.low, arc.high, number});
   return number;
 }
 
-void MorseGraph::cancel(double threshold) {
-  while (!pairs_.empty() && pairs_.top().persistence < threshold) {
+void MorseGraph::cancel() {
+  while (!pairs_.empty()) {
     const int arc = pairs_.top().arc;
     pairs_.pop();
     if (may_cancel(arc)) cancel(arc);

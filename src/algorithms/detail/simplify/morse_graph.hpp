@@ -22,10 +22,11 @@ class MorseGraph {
 
   static constexpr int nowhere = -1;
 
-  MorseGraph(const MorseSmaleComplex& complex, const std::vector<double>& values);
+  /// Pairs of a persistence below `threshold` may be cancelled.
+  MorseGraph(const MorseSmaleComplex& complex, const std::vector<double>& values, double threshold);
 
-  /// Cancels pairs of a persistence below `threshold`.
-  void cancel(double threshold);
+  /// Cancels them, the least persistent first.
+  void cancel();
 
   int nodes() const { return static_cast<int>(dimension_.size()); }
   int node(int dimension, Id place) const { return first_[dimension] + place; }
@@ -57,6 +58,7 @@ class MorseGraph {
   static constexpr std::size_t most_new_paths = 1024;
 
   std::vector<double> values_;
+  double threshold_;
   int first_[5];
   std::vector<signed char> dimension_;
   std::vector<char> is_alive_;

@@ -5,7 +5,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include <gale/algorithms/detail/morse_smale/morse_graph.hpp>
+#include <gale/algorithms/detail/simplify/morse_graph.hpp>
 
 namespace gale::detail {
 

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <cstdint>
+
+#include <gale/base/kokkos.hpp>
+#include <gale/base/types.hpp>
+
+namespace gale {
+
+/// Two ids in one number, which compares as the pair of them does. Ids are 0 or more.
+KOKKOS_FORCEINLINE_FUNCTION constexpr std::uint64_t pair_key(Id first, Id second) {
+  return std::uint64_t(static_cast<std::uint32_t>(first)) << 32 | static_cast<std::uint32_t>(second);
+}
+
+}  // namespace gale
