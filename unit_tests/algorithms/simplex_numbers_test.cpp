@@ -1,48 +1,20 @@
 #include <gtest/gtest.h>
 
-#include <functional>
 #include <memory>
 #include <random>
 
 #include <gale/algorithms/simplex_numbers.hpp>
 #include <gale/mesh/input_numbers.hpp>
 #include <gale/relations/boundary_vertices.hpp>
-#include <gale/relations/explicit_structure.hpp>
 #include <gale/runtime/runtime.hpp>
 
+#include "algorithms/structure_kinds.hpp"
 #include "support/every_mesh.hpp"
 #include "support/message_of.hpp"
 
 namespace gale::test {
 
 namespace {
-
-struct StructureKind {
-  const char* name;
-  std::function<std::unique_ptr<Structure>(const Mesh&)> make;
-};
-
-std::unique_ptr<Structure> make_runtime(const Mesh& mesh, Production production) {
-  RuntimeOptions options;
-  options.production = production;
-  return std::make_unique<Runtime>(mesh, simplex_numbers_relations, options);
-}
-
-std::vector<StructureKind> structure_kinds() {
-  std::vector<StructureKind> kinds = {
-      {"consumers", [](const Mesh& mesh) { return make_runtime(mesh, Production::consumers); }},
-      {"leaders", [](const Mesh& mesh) { return make_runtime(mesh, Production::leaders); }}};
-#if defined(GALE_ENABLE_KOKKOS_KERNELS)
-  kinds.push_back({"explicit", [](const Mesh& mesh) { return std::make_unique<ExplicitStructure>(mesh, simplex_numbers_relations); }});
-#endif
-  return kinds;
-}
-
-SweepOptions with_threads(int threads) {
-  SweepOptions options;
-  options.threads = threads;
-  return options;
-}
 
 std::vector<Id> to_vector(const Array<const Id, HostMemory>& numbers) { return {numbers.data(), numbers.data() + numbers.extent(0)}; }
 
@@ -77,7 +49,7 @@ TEST_P(SimplexNumbersOf, every_mesh_are_those_of_the_enumeration_on_every_struct
   for (const auto& kind : structure_kinds()) {
     SCOPED_TRACE(kind.name);
     const Mesh mesh = encode(input(), segmentation());
-    const auto structure = kind.make(mesh);
+    const auto structure = kind.make(mesh, simplex_numbers_relations);
     const SimplexNumbers numbers = number_simplices(*structure, named, with_threads(2));
     EXPECT_EQ(numbers.edges, edges);
     EXPECT_EQ(numbers.triangles, triangles);

@@ -1,5 +1,6 @@
 """What the tests of the command share: running it, and small inputs written by hand."""
 import json
+import math
 import os
 import re
 import struct
@@ -17,6 +18,17 @@ STRUCTURES = ["gale", "inline"] + ["explicit"] * (os.environ["GALE_ENABLE_KOKKOS
 KINDS = ["minima", "saddles1", "saddles2", "maxima", "degenerate"]
 
 needs_vtk = unittest.skipUnless(HAVE_VTK, "this gale was built without VTK")
+
+
+def barycentre(points):
+    """Of points with three coordinates."""
+    return tuple(sum(coordinates) / len(points) for coordinates in zip(*points))
+
+
+def incentre(a, b, c):
+    """Of a triangle."""
+    sides = [math.dist(b, c), math.dist(c, a), math.dist(a, b)]
+    return tuple(sum(side * x for side, x in zip(sides, corners)) / sum(sides) for corners in zip(a, b, c))
 
 
 class CommandTest(unittest.TestCase):

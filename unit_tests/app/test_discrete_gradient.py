@@ -21,15 +21,6 @@ BALL_POINTS = [(1, 0, 0), (-4, 0, 0), (0, 2, 0), (0, -3, 0), (0, 0, 1), (0, 0, -
 BALL_CELLS = [[6, x, y, z] for x in (0, 1) for y in (2, 3) for z in (4, 5)]
 
 
-def barycentre(points):
-    return tuple(sum(coordinates) / len(points) for coordinates in zip(*points))
-
-
-def incentre(a, b, c):
-    sides = [math.dist(b, c), math.dist(c, a), math.dist(a, b)]
-    return tuple(sum(side * x for side, x in zip(sides, corners)) / sum(sides) for corners in zip(a, b, c))
-
-
 class GradientTest(gale.CommandTest):
     def critical(self, *arguments):
         """Numbers of critical simplices by dimension."""
@@ -97,8 +88,8 @@ class CriticalSimplices(GradientTest):
         self.assertEqual(arrays, {"height": list(range(7)), "CellDimension": [0, 0, 1, 1, 2, 2, 3], "CellId": [0, 1, 5, 6, 11, 12, 7],
                                   "IsOnBoundary": [1] * 6 + [0], "ttkVertexScalarField": list(range(7))})
         p = BALL_POINTS
-        self.assertNear(points, [p[0], p[1], barycentre([p[1], p[2]]), barycentre([p[1], p[3]]), incentre(p[1], p[3], p[4]), incentre(p[1], p[3], p[5]),
-                                 barycentre([p[1], p[3], p[5], p[6]])])
+        self.assertNear(points, [p[0], p[1], gale.barycentre([p[1], p[2]]), gale.barycentre([p[1], p[3]]), gale.incentre(p[1], p[3], p[4]), gale.incentre(p[1], p[3], p[5]),
+                                 gale.barycentre([p[1], p[3], p[5], p[6]])])
 
     def test_of_a_grid_are_in_order(self):
         points, arrays = self.read("-o", "grid:32")
@@ -134,7 +125,7 @@ class Arrows(GradientTest):
         # 1, 2 and 3 are paired with their edges to 0; 12 and 24 with 012 and 124.
         pairs = [([1], [0, 1]), ([2], [0, 2]), ([3], [0, 3]), ([1, 2], [0, 1, 2]), ([2, 4], [1, 2, 4])]
         for (tail, head), point, vector in zip(pairs, points, arrays["Vector"]):
-            start, end = (barycentre([TWO_POINTS[vertex] for vertex in simplex]) for simplex in (tail, head))
+            start, end = (gale.barycentre([TWO_POINTS[vertex] for vertex in simplex]) for simplex in (tail, head))
             self.assertNear([point, [x + y for x, y in zip(point, vector)]], [start, end])
 
     def test_of_a_grid_pair_each_simplex_once(self):
@@ -147,7 +138,7 @@ class Arrows(GradientTest):
         at = [{}, {}, {}, {}]
         for dimension in range(4):
             for simplex in {face for t in tetrahedra for face in itertools.combinations(t, dimension + 1)}:
-                at[dimension][key(barycentre([(v % n, v // n % n, v // n ** 2) for v in simplex]))] = simplex
+                at[dimension][key(gale.barycentre([(v % n, v // n % n, v // n ** 2) for v in simplex]))] = simplex
         sizes = [len(simplices) for simplices in at]
         self.assertEqual((sizes[0], sizes[3]), (n ** 3, len(tetrahedra)))
         paired = []

@@ -14,15 +14,6 @@ KINDS = ["critical_points.vtp", "separatrices1.vtp", "separatrices2.vtp", "segme
 DESCENDING, CONNECTOR, ASCENDING = 0, 1, 2
 
 
-def barycentre(points):
-    return tuple(sum(coordinates) / len(points) for coordinates in zip(*points))
-
-
-def incentre(a, b, c):
-    sides = [math.dist(b, c), math.dist(c, a), math.dist(a, b)]
-    return tuple(sum(side * x for side, x in zip(sides, corners)) / sum(sides) for corners in zip(a, b, c))
-
-
 class ComplexTest(gale.CommandTest):
     def result(self, *arguments):
         result = self.report("morse-smale", *arguments)["result"]
@@ -172,7 +163,7 @@ class Separatrices1(ComplexTest):
             self.assertEqual([of[f"SeparatrixFunction{name}"] for name in ("Maximum", "Minimum", "Difference")], values + [values[0] - values[1]])
             for p, simplex in zip(points, path):
                 corners = [(v % self.N, v // self.N % self.N, v // self.N ** 2) for v in simplex]
-                self.assertLess(math.dist(lines.points[p], incentre(*corners) if len(corners) == 3 else barycentre(corners)), 1e-4)
+                self.assertLess(math.dist(lines.points[p], gale.incentre(*corners) if len(corners) == 3 else gale.barycentre(corners)), 1e-4)
             yield kind, [[rank[v] for v in simplex] for simplex in path]
 
     def test_follow_the_gradient(self):
