@@ -4,6 +4,7 @@
 #include <functional>
 #include <iterator>
 
+#include <gale/algorithms/detail/written.hpp>
 #include <gale/base/threads.hpp>
 
 namespace gale::detail {
@@ -22,14 +23,6 @@ std::vector<T> merged(const std::vector<Part>& parts, const Member& member, cons
   all.reserve(keyed.size());
   for (const auto& [sorted_by, simplex] : keyed) all.push_back(simplex);
   return all;
-}
-
-/// A simplex' vertices as users write them.
-template <class Simplex>
-Simplex written(const Id* vertex_input, Simplex simplex) {
-  for (Id& vertex : simplex) vertex = vertex_input[vertex];
-  std::sort(simplex.begin(), simplex.end());
-  return simplex;
 }
 
 }  // namespace

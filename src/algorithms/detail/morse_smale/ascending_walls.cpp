@@ -9,6 +9,7 @@
 #include <gale/algorithms/detail/morse_smale/edge_table.hpp>
 #include <gale/algorithms/detail/morse_smale/gathered_separatrices.hpp>
 #include <gale/algorithms/detail/morse_smale/space_order.hpp>
+#include <gale/algorithms/detail/written.hpp>
 #include <gale/base/threads.hpp>
 
 namespace gale::detail {
@@ -65,7 +66,7 @@ class Tracer {
       for (const Id third : star_.thirds()) cross({high, low, third});
       if (pending_.empty()) break;
     }
-    std::sort(walls.cells.begin() + first + 1, walls.cells.end(), [this](const Cell& a, const Cell& b) { return written(a.edge) < written(b.edge); });
+    std::sort(walls.cells.begin() + first + 1, walls.cells.end(), [this](const Cell& a, const Cell& b) { return written(vertex_input_, a.edge) < written(vertex_input_, b.edge); });
     walls.sources.push_back(source);
     walls.begin.push_back(static_cast<Offset>(walls.cells.size()));
   }
@@ -74,11 +75,6 @@ class Tracer {
   std::vector<Id> stars;
 
  private:
-  Edge written(const Edge& edge) const {
-    const Id a = vertex_input_[edge[0]], b = vertex_input_[edge[1]];
-    return {std::min(a, b), std::max(a, b)};
-  }
-
   /// To the edge that a triangle is paired with, if it is with one.
   void cross(TriangleVertices triangle) {
     std::sort(triangle.begin(), triangle.end(), [this](Id a, Id b) { return keys_[a] > keys_[b]; });

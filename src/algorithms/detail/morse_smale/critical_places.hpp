@@ -34,7 +34,7 @@ class CriticalPlaces {
 
     std::size_t slot_of(std::uint64_t key) const {
       const std::size_t mask = slots_.size() - 1;
-      std::size_t slot = static_cast<std::size_t>(key * 0x9e3779b97f4a7c15u >> 24) & mask;
+      std::size_t slot = static_cast<std::size_t>(spread(key)) & mask;
       while (slots_[slot].place != no_id && slots_[slot].key != key) slot = (slot + 1) & mask;
       return slot;
     }

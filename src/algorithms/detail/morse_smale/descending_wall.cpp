@@ -1,6 +1,6 @@
 #include <gale/algorithms/detail/morse_smale/descending_wall.hpp>
 
-#include <algorithm>
+#include <gale/algorithms/detail/written.hpp>
 
 namespace gale::detail {
 
@@ -54,12 +54,7 @@ bool DescendingWall::append_path(const Edge& from, std::vector<TriangleVertices>
 }
 
 bool DescendingWall::is_less(const TriangleVertices& a, const TriangleVertices& b) const {
-  const auto written = [&](const TriangleVertices& triangle) {
-    TriangleVertices vertices = {vertex_input_[triangle[0]], vertex_input_[triangle[1]], vertex_input_[triangle[2]]};
-    std::sort(vertices.begin(), vertices.end());
-    return vertices;
-  };
-  return written(a) < written(b);
+  return written(vertex_input_, a) < written(vertex_input_, b);
 }
 
 }  // namespace gale::detail

@@ -46,9 +46,8 @@ class EdgeTable {
   };
 
   std::size_t place_of(Id high, Id low) const {
-    const std::uint64_t key = pair_key(high, low);
     const std::size_t mask = slots_.size() - 1;
-    std::size_t place = static_cast<std::size_t>(key * 0x9e3779b97f4a7c15u >> 24) & mask;
+    std::size_t place = static_cast<std::size_t>(spread(pair_key(high, low))) & mask;
     while (slots_[place].age == age_ && (slots_[place].high != high || slots_[place].low != low)) place = (place + 1) & mask;
     return place;
   }
