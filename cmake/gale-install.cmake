@@ -1,6 +1,6 @@
 include(CMakePackageConfigHelpers)
 
-install(TARGETS gale gale_io EXPORT gale-targets)
+install(TARGETS gale gale_io gale_outputs EXPORT gale-targets)
 if(GALE_ENABLE_APP)
   install(TARGETS gale_app)
 endif()

@@ -3,7 +3,7 @@
 #include <cstdio>
 
 #include <gale/mesh/make_mesh.hpp>
-#include <gale/relations/boundary_row.hpp>
+#include <gale/relations/faces.hpp>
 #include <gale/relations/preconditioning.hpp>
 
 using Space = Kokkos::DefaultExecutionSpace;
@@ -30,11 +30,11 @@ void fill(int n, const Kokkos::View<double* [3], Space>& points, const Kokkos::V
 
 /// The largest number of tetrahedra at one edge.
 int largest_star(const gale::Mesh& mesh) {
-  const auto simplices = mesh.simplices_on_producer(gale::needs_of(gale::Relation::TE));
+  const auto simplices = mesh.simplices_on_worker(gale::needs_of(gale::Relation::TE));
   const Kokkos::View<int*, Space> count("tetrahedra of each edge", mesh.known_edges());
   Kokkos::parallel_for(
       "count", Kokkos::RangePolicy<Space>(0, mesh.tetrahedra()), KOKKOS_LAMBDA(int t) {
-        for (const gale::Id edge : gale::boundary_row<gale::Relation::TE>(simplices, t)) Kokkos::atomic_add(&count(edge), 1);
+        for (const gale::Id edge : gale::face_row<gale::Relation::TE>(simplices, t)) Kokkos::atomic_add(&count(edge), 1);
       });
   int largest = 0;
   Kokkos::parallel_reduce(

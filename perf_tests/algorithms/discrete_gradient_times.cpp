@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include <gale/algorithms/discrete_gradient_from_cells.hpp>
+#include <gale/baselines/discrete_gradient_from_cells.hpp>
 #include <gale/base/error.hpp>
-#include <gale/relations/explicit_structure.hpp>
+#include <gale/runtime/explicit/explicit_structure.hpp>
 #include <gale/runtime/runtime.hpp>
 
 #include "support/initialized.hpp"
@@ -36,7 +36,7 @@ struct StructureKind {
 
 std::unique_ptr<Structure> make_runtime(const Mesh& mesh, RelationSet relations, Production production) {
   RuntimeOptions options;
-  options.production = production;
+  options.way = production;
   return std::make_unique<Runtime>(mesh, relations, options);
 }
 
@@ -44,8 +44,8 @@ const std::vector<Formulation> formulations = {{"stars", discrete_gradient_relat
                                                {"cells", discrete_gradient_from_cells_relations, find_discrete_gradient_from_cells}};
 
 const std::vector<StructureKind> structures = {
-    {"gale", [](const Mesh& mesh, RelationSet relations) { return make_runtime(mesh, relations, Production::automatic); }},
-    {"inline", [](const Mesh& mesh, RelationSet relations) { return make_runtime(mesh, relations, Production::consumers); }},
+    {"gale", [](const Mesh& mesh, RelationSet relations) { return make_runtime(mesh, relations, Way::automatic); }},
+    {"inline", [](const Mesh& mesh, RelationSet relations) { return make_runtime(mesh, relations, Way::inline_); }},
 #if defined(GALE_ENABLE_KOKKOS_KERNELS)
     {"explicit", [](const Mesh& mesh, RelationSet relations) -> std::unique_ptr<Structure> { return std::make_unique<ExplicitStructure>(mesh, relations); }}
 #endif

@@ -14,7 +14,7 @@ namespace {
 
 using namespace gale;
 
-/// What the discrete gradient in the paper's formulation reads: its consumers look up the first, producers compute the second.
+/// What the discrete gradient in the paper's formulation reads: its consumers look up the first, workers compute the second.
 constexpr RelationSet looked_up = Relation::EV | Relation::FV | Relation::FE | Relation::TV | Relation::TE | Relation::TF;
 constexpr RelationSet computed = Relation::VE | Relation::VF | Relation::VT;
 
@@ -32,8 +32,8 @@ void initialize(const io::Dataset& data) {
   const double octree = step("octree", [&] { segmentation = octree_segmentation<float, HostMemory>(Points<float, HostMemory>(points), 100); });
   std::unique_ptr<Mesh> mesh;
   const double encoding = step("encoding (VV and VT need no more)", [&] { mesh = std::make_unique<Mesh>(Tetrahedra<Id, HostMemory>(data.tetrahedra), segmentation); });
-  double enumeration = step("edges and triangles", [&] { mesh->simplices_on_producer(needs_of(looked_up)); });
-  enumeration += step("edges by their higher vertex", [&] { mesh->simplices_on_producer(needs_of(computed)); });
+  double enumeration = step("edges and triangles", [&] { mesh->simplices_on_worker(needs_of(looked_up)); });
+  enumeration += step("edges by their higher vertex", [&] { mesh->simplices_on_worker(needs_of(computed)); });
   const double mirror = step("mirrors on the host", [&] { mesh->simplices_on_host(needs_of(looked_up)); });
   std::printf("  for VV and VT %.1f ms, octree included; for the gradient %.1f ms, segmentation given\n", 1e3 * (octree + encoding),
               1e3 * (encoding + enumeration + mirror));

@@ -7,7 +7,7 @@
 
 #include <gale/base/parallel.hpp>
 #include <gale/base/transfer.hpp>
-#include <gale/relations/segment_kernel.hpp>
+#include <gale/relations/kernels/segment_kernel.hpp>
 
 #include "support/bench_mesh.hpp"
 #include "support/clock.hpp"
@@ -18,9 +18,9 @@ using namespace gale;
 
 constexpr std::size_t copied_at_once = std::size_t(16) << 20;
 
-Array<Id, ProducerMemory> all_segments(const Mesh& mesh) {
-  const Array<Id, ProducerMemory> segments("segments", mesh.segments());
-  parallel_for("GALE::all_segments", ProducerSpace(), mesh.segments(), KOKKOS_LAMBDA(Offset s) { segments(s) = static_cast<Id>(s); });
+Array<Id, WorkerMemory> all_segments(const Mesh& mesh) {
+  const Array<Id, WorkerMemory> segments("segments", mesh.segments());
+  parallel_for("GALE::all_segments", WorkerSpace(), mesh.segments(), KOKKOS_LAMBDA(Offset s) { segments(s) = static_cast<Id>(s); });
   return segments;
 }
 
@@ -31,7 +31,7 @@ class WholeMesh {
       : count_(mesh.segments()),
         kernel_(mesh, wanted),
         segments_(all_segments(mesh)),
-        words_(allocate<Array<Id, ProducerMemory>>("words", pool_words())),
+        words_(allocate<Array<Id, WorkerMemory>>("words", pool_words())),
         directory_("directory", Offset(mesh.segments()) * wanted.count()),
         used_("used", 1),
         needed_("needed", 1) {
@@ -42,7 +42,7 @@ class WholeMesh {
   }
 
   /// Does a team of this shape find room in the fast scratch memory?
-  bool fits(TeamShape shape) const { return kernel_.scratch_bytes(task_.sizes, shape.warps) <= fast_scratch_bytes<ProducerSpace>(); }
+  bool fits(TeamShape shape) const { return kernel_.scratch_bytes(task_.sizes, shape.warps) <= fast_scratch_bytes<WorkerSpace>(); }
 
   /// False if the pool lacked room.
   bool run(TeamShape shape) {
@@ -50,8 +50,8 @@ class WholeMesh {
     for (Id begin = 0; begin < count_; begin += batch_) {
       Kokkos::deep_copy(used_, 0);
       task_.segments = segments_.data() + begin;
-      kernel_.launch(ProducerSpace(), task_, std::min(batch_, count_ - begin), shape);
-      ProducerSpace().fence();
+      kernel_.launch(WorkerSpace(), task_, std::min(batch_, count_ - begin), shape);
+      WorkerSpace().fence();
       const Offset used = on_host(used_)(0);
       if (used > task_.pool.capacity) return false;
       words_made_ += used;
@@ -67,11 +67,11 @@ class WholeMesh {
 
   Id count_;
   Id batch_ = 0;
-  SegmentKernel<ProducerMemory> kernel_;
+  SegmentKernel<WorkerMemory> kernel_;
   KernelTask task_;
-  Array<Id, ProducerMemory> segments_, words_;
-  Array<Offset, ProducerMemory> directory_, used_;
-  Array<StarSizes, ProducerMemory> needed_;
+  Array<Id, WorkerMemory> segments_, words_;
+  Array<Offset, WorkerMemory> directory_, used_;
+  Array<StarSizes, WorkerMemory> needed_;
   Offset words_made_ = 0;
 };
 

@@ -6,8 +6,8 @@
 
 #include <gale/base/parallel.hpp>
 #include <gale/base/transfer.hpp>
-#include <gale/relations/launch.hpp>
-#include <gale/relations/star_kernel.hpp>
+#include <gale/relations/kernels/launch.hpp>
+#include <gale/relations/kernels/star_kernel.hpp>
 
 #include "support/bench_mesh.hpp"
 #include "support/clock.hpp"
@@ -16,26 +16,26 @@ namespace {
 
 using namespace gale;
 
-Array<Id, ProducerMemory> all_segments(const Mesh& mesh) {
-  const Array<Id, ProducerMemory> segments("segments", mesh.segments());
-  parallel_for("GALE::all_segments", ProducerSpace(), mesh.segments(), KOKKOS_LAMBDA(Offset s) { segments(s) = static_cast<Id>(s); });
+Array<Id, WorkerMemory> all_segments(const Mesh& mesh) {
+  const Array<Id, WorkerMemory> segments("segments", mesh.segments());
+  parallel_for("GALE::all_segments", WorkerSpace(), mesh.segments(), KOKKOS_LAMBDA(Offset s) { segments(s) = static_cast<Id>(s); });
   return segments;
 }
 
 /// Everything that one launch for all segments needs.
 struct WholeMesh {
-  Array<Id, ProducerMemory> segments, words;
-  Array<Offset, ProducerMemory> directory, used;
-  Array<StarSizes, ProducerMemory> needed;
-  StarKernel<ProducerMemory> kernel;
+  Array<Id, WorkerMemory> segments, words;
+  Array<Offset, WorkerMemory> directory, used;
+  Array<StarSizes, WorkerMemory> needed;
+  StarKernel<WorkerMemory> kernel;
 
   WholeMesh(const Mesh& mesh, RelationSet wanted)
       : segments(all_segments(mesh)),
-        words(allocate<Array<Id, ProducerMemory>>("words", words_for(mesh, wanted))),
+        words(allocate<Array<Id, WorkerMemory>>("words", words_for(mesh, wanted))),
         directory("directory", Offset(mesh.segments()) * wanted.count()),
         used("used", 1),
         needed("needed", 1) {
-    kernel.mesh = mesh.producer();
+    kernel.mesh = mesh.worker();
     kernel.segments = segments.data();
     kernel.wanted = wanted;
     kernel.sizes = sizes_for(mesh, wanted);
@@ -52,20 +52,20 @@ struct WholeMesh {
   }
 
   static StarSizes sizes_for(const Mesh& mesh, RelationSet wanted) {
-    const auto tetrahedra = on_host(mesh.producer().tetrahedron_begin);
-    const auto external = on_host(mesh.producer().external_begin);
+    const auto tetrahedra = on_host(mesh.worker().tetrahedron_begin);
+    const auto external = on_host(mesh.worker().external_begin);
     StarSizes sizes;
     for (Id s = 0; s < mesh.segments(); ++s) {
       const Id rows = mesh.vertex_begin()(s + 1) - mesh.vertex_begin()(s);
-      sizes = larger(sizes, StarKernel<ProducerMemory>::bound(rows, tetrahedra(s + 1) - tetrahedra(s), external(s + 1) - external(s), wanted));
+      sizes = larger(sizes, StarKernel<WorkerMemory>::bound(rows, tetrahedra(s + 1) - tetrahedra(s), external(s + 1) - external(s), wanted));
     }
     return sizes;
   }
 
   void run(int warps) const {
     Kokkos::deep_copy(used, 0);
-    launch(ProducerSpace(), kernel, static_cast<int>(segments.extent(0)), warps);
-    ProducerSpace().fence();
+    launch(WorkerSpace(), kernel, static_cast<int>(segments.extent(0)), warps);
+    WorkerSpace().fence();
   }
 };
 
@@ -73,9 +73,9 @@ void measure(const Mesh& mesh, RelationSet wanted, double link) {
   const WholeMesh whole(mesh, wanted);
   for (const int warps : {1, 2, 4, 8, 16}) {
     if (!have_device && warps > 1) break;
-    if (scratch_bytes<StarKernel<ProducerMemory>>(whole.kernel.sizes, warps) > fast_scratch_bytes<ProducerSpace>()) {
+    if (scratch_bytes<StarKernel<WorkerMemory>>(whole.kernel.sizes, warps) > fast_scratch_bytes<WorkerSpace>()) {
       std::printf("%-14s %4d threads a segment: its scratch memory of %zu bytes isn't there\n", name_of(wanted).c_str(), 32 * warps,
-                  scratch_bytes<StarKernel<ProducerMemory>>(whole.kernel.sizes, warps));
+                  scratch_bytes<StarKernel<WorkerMemory>>(whole.kernel.sizes, warps));
       continue;
     }
     const double seconds = perf::median_seconds_of(5, [&] { whole.run(warps); });

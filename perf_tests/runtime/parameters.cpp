@@ -50,7 +50,7 @@ int main(int argc, char** argv) {
   const int all = host_threads();
   std::printf("%s, grid:%d, %d segments\n", perf::context().c_str(), n, mesh.segments());
   RuntimeOptions options;
-  options.production = Production::leaders;
+  options.way = Way::leaders;
   for (int threads = 1; threads <= all; threads *= 2) study.row("consumers", threads, options, threads);
   for (const int t_s : {32, 64, 96, 128, 256, 512}) {
     options.threads_per_segment = t_s;
@@ -70,6 +70,6 @@ int main(int argc, char** argv) {
   options.queues = Queues::per_relation;
   study.row("a queue a relation", 2, options, all);
   options.queues = Queues::per_kernel;
-  options.production = Production::consumers;
+  options.way = Way::inline_;
   study.row("no leader", 0, options, all);
 }

@@ -28,13 +28,13 @@ double median_seconds_of(int runs, const Action& action) {
 }
 
 /// What a record of a measurement begins with: Kokkos and backend.
-inline std::string context() { return "Kokkos " + kokkos_version() + ", " + ProducerSpace::name(); }
+inline std::string context() { return "Kokkos " + kokkos_version() + ", " + WorkerSpace::name(); }
 
-/// Bytes per second of copies of `bytes` bytes from the producers' memory to pinned host memory, one after the other.
+/// Bytes per second of copies of `bytes` bytes from the workers' memory to pinned host memory, one after the other.
 inline double link_bandwidth(std::size_t bytes) {
-  const Kokkos::View<char*, ProducerMemory> from("GALE::link_from", bytes);
+  const Kokkos::View<char*, WorkerMemory> from("GALE::link_from", bytes);
   const Kokkos::View<char*, PinnedMemory> to("GALE::link_to", bytes);
-  const ProducerSpace space;
+  const WorkerSpace space;
   constexpr int copies = 32;
   const double seconds = median_seconds_of(5, [&] {
     for (int i = 0; i < copies; ++i) Kokkos::deep_copy(space, to, from);

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <gale/algorithms/vertex_order.hpp>
-#include <gale/relations/structure.hpp>
+#include <gale/runtime/structure.hpp>
 
 namespace gale {
 
@@ -16,7 +16,7 @@ enum class CriticalType : std::uint8_t { minimum = 0, saddle1 = 1, saddle2 = 2, 
 struct CriticalPoints {
   std::vector<Id> vertices;                ///< input ids
   std::vector<CriticalType> types;         ///< of each
-  std::vector<std::uint8_t> on_boundary;   ///< 1 if it belongs to a triangle with exactly one tetrahedron
+  std::vector<std::uint8_t> on_surface;   ///< 1 if it belongs to a triangle with exactly one tetrahedron
 
   /// How many there are of each type but `regular`.
   std::array<Id, 5> counts{};
@@ -27,7 +27,7 @@ struct CriticalPoints {
 ///
 ///     L, U    0, 1 minimum    2, 1 1-saddle    1, 2 2-saddle    1, 0 maximum    1, 1 regular    else degenerate
 ///
-/// except that a vertex on the boundary with L, U = 1, 1 is a 1-saddle if some upper neighbour is on the boundary and no lower one, and a
+/// except that a vertex on the surface with L, U = 1, 1 is a 1-saddle if some upper neighbour is on the surface and no lower one, and a
 /// 2-saddle if some lower one is and no upper one, as TTK has it.
 ///
 /// A sweep of VV and link, for which `structure` must be preconditioned; the same result whatever the structure, its segments, and the number

@@ -5,7 +5,7 @@
 
 #include <gale/algorithms/critical_simplices.hpp>
 #include <gale/algorithms/vertex_order.hpp>
-#include <gale/relations/structure.hpp>
+#include <gale/runtime/structure.hpp>
 
 namespace gale {
 
@@ -39,7 +39,7 @@ class DiscreteGradient {
   Id vertex_successor(Id vertex) const { return vertex_successor_[vertex]; }
 
   /// The next tetrahedron on the rising path: the one across the paired triangle; of several, that of the lowest input id. no_id for a critical
-  /// tetrahedron; below that if the path leaves through the mesh' boundary (`leaves`).
+  /// tetrahedron; below that if the path leaves through the mesh's surface (`leaves`).
   Id tetrahedron_successor(Id tetrahedron) const { return tetrahedron_successor_[tetrahedron]; }
   static bool leaves(Id successor) { return successor < no_id; }
 

@@ -35,7 +35,7 @@ struct MorseSmaleComplex {
   Separatrices<Id> descending;
 
   /// From each critical triangle, from each of its tetrahedra, by input id, up to a maximum: the tetrahedra on the way, the maximum included. Those
-  /// that leave through the mesh' boundary are left out.
+  /// that leave through the mesh's surface are left out.
   Separatrices<Id> ascending;
 
   /// From a critical edge up to a critical triangle whose descending wall reaches it: the triangles on the way, the last included. Ordered by
@@ -48,13 +48,13 @@ struct MorseSmaleComplex {
   AscendingWalls ascending_walls;
 
   /// By input vertex: the place among the critical vertices of the minimum that its path falls to; the place among the critical tetrahedra of the
-  /// maximum that the path from its tetrahedron of lowest input id rises to, no_id if that leaves through the boundary; and a number for each pair of
+  /// maximum that the path from its tetrahedron of lowest input id rises to, no_id if that leaves through the surface; and a number for each pair of
   /// both, dense from 0, no_id where one is missing.
   Array<Id, HostMemory> descending_manifold, ascending_manifold, morse_smale_manifold;
   Id morse_smale_manifolds = 0;  ///< how many pairs there are
 };
 
-/// Traces the complex of a gradient: connectors and walls on options.threads threads, other separatrices on the host's, manifolds in the producers'
+/// Traces the complex of a gradient: connectors and walls on options.threads threads, other separatrices on the host's, manifolds in the workers'
 /// space. No progress is told. The same result whatever the structure, its segments, and the number of threads.
 ///
 /// `structure` is that of the gradient's mesh; only separatrices2 reads it, for VT: throws gale::Error if it isn't preconditioned for that. Time and

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <gale/base/memory.hpp>
-#include <gale/relations/structure.hpp>
+#include <gale/runtime/structure.hpp>
 
 namespace gale {
 
@@ -20,7 +20,7 @@ struct SimplexNumbers {
   std::vector<Id> edges, triangles;  ///< as those asked for
 
   /// Of each vertex of the mesh (GALE's id) 1 if it belongs to a triangle with exactly one tetrahedron, else 0.
-  Array<const std::uint8_t, HostMemory> on_boundary;
+  Array<const std::uint8_t, HostMemory> on_surface;
 };
 
 /// The place of each named edge (triangle) among all of the mesh, each written with its input vertices ascending, in lexicographic order: what

@@ -14,7 +14,7 @@ namespace gale {
 /// twice.
 ///
 /// - A minimum p: its descending manifold becomes that of the minimum at the other end of q.
-/// - A maximum q: its ascending manifold becomes that of the maximum at the other end of p; where that end leaves through the mesh' boundary so does
+/// - A maximum q: its ascending manifold becomes that of the maximum at the other end of p; where that end leaves through the mesh's surface so does
 ///   the manifold, and paths to q are no more.
 /// - A 1-saddle p and a 2-saddle q: the descending wall of q continues those that reach p, and the ascending wall of p those that reach q. A pair
 ///   whose cancelling would make more than 1024 paths when its turn comes is left for good.

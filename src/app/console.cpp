@@ -1,4 +1,4 @@
-#include "console.hpp"
+#include <gale/app/console.hpp>
 
 #include <unistd.h>
 

@@ -1,4 +1,4 @@
-#include "machine.hpp"
+#include <gale/app/machine.hpp>
 
 #include <sys/resource.h>
 
@@ -15,7 +15,7 @@ std::atomic<std::int64_t> device_bytes{0};
 std::atomic<std::int64_t> device_peak{0};
 
 bool is_on_device(const Kokkos::Tools::SpaceHandle& space) {
-  return have_device && std::strcmp(space.name, ProducerMemory::name()) == 0;
+  return have_device && std::strcmp(space.name, WorkerMemory::name()) == 0;
 }
 
 void on_allocation(Kokkos::Tools::SpaceHandle space, const char*, const void*, std::uint64_t bytes) {
@@ -52,7 +52,7 @@ void watch_device_memory() {
 
 std::optional<std::string> device_name() {
 #if defined(KOKKOS_ENABLE_CUDA)
-  return std::string(ProducerSpace().cuda_device_prop().name);
+  return std::string(WorkerSpace().cuda_device_prop().name);
 #else
   return std::nullopt;
 #endif

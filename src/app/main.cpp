@@ -10,8 +10,8 @@
 #include <gale/base/memory.hpp>
 #include <gale/base/threads.hpp>
 
-#include "commands.hpp"
-#include "machine.hpp"
+#include <gale/app/commands/commands.hpp>
+#include <gale/app/machine.hpp>
 
 namespace {
 

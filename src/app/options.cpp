@@ -1,10 +1,10 @@
-#include "options.hpp"
+#include <gale/app/options.hpp>
 
 #include <CLI/CLI.hpp>
 
 #include <gale/relations/relation.hpp>
 
-#include "sizes.hpp"
+#include <gale/app/sizes.hpp>
 
 namespace gale::app {
 
@@ -38,7 +38,7 @@ void add_size(CLI::App& command, std::size_t& size, const std::string& name, con
 }
 
 void add_runtime(CLI::App& command, Options& options) {
-  command.add_option("--structure", options.structure, "gale (cores beyond --threads compute ahead), explicit (everything at once), inline (no leaders, no helpers) or task-parallel (a producer thread for each consumer)")
+  command.add_option("--structure", options.structure, "gale (cores beyond --threads compute ahead), explicit (everything at once), inline (no leaders, no helpers) or task-parallel (a worker thread for each consumer)")
       ->check(CLI::IsMember({"gale", "explicit", "inline", "task-parallel"}));
   const CLI::Range launches(1, 1048576);
   command.add_option("--blocks-per-request", options.runtime.blocks_per_request, "n_b")->check(launches);

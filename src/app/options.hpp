@@ -6,12 +6,17 @@
 #include <string>
 
 #include <gale/algorithms/morse_smale.hpp>
+#include <gale/baselines/oracle.hpp>
 #include <gale/io/read.hpp>
+#include <gale/outputs/field.hpp>
 #include <gale/runtime/options.hpp>
 
-#include "persistence.hpp"
+#include <gale/app/persistence.hpp>
 
 namespace gale::app {
+
+using namespace outputs;
+using namespace baselines;
 
 /// Wrong usage: exit code 2. `what()` is the line to print.
 class UsageError : public std::runtime_error {

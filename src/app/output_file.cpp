@@ -1,4 +1,4 @@
-#include "output_file.hpp"
+#include <gale/app/output_file.hpp>
 
 #include <cerrno>
 #include <cstring>

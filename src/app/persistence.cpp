@@ -1,4 +1,4 @@
-#include "persistence.hpp"
+#include <gale/app/persistence.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include <gale/base/error.hpp>
 
-#include "options.hpp"
+#include <gale/app/options.hpp>
 
 namespace gale::app {
 

@@ -1,11 +1,11 @@
-#include "report.hpp"
+#include <gale/app/report.hpp>
 
 #include <algorithm>
 
 #include <gale/base/kokkos.hpp>
 
-#include "machine.hpp"
-#include "output_file.hpp"
+#include <gale/app/machine.hpp>
+#include <gale/app/output_file.hpp>
 
 namespace gale::app {
 
@@ -68,7 +68,7 @@ Json to_json(const Report& report) {
   const Seconds& seconds = report.seconds;
   return {{"gale", GALE_VERSION},
           {"kokkos", kokkos_version()},
-          {"backend", ProducerSpace::name()},
+          {"backend", WorkerSpace::name()},
           {"device", or_null(device_name())},
           {"threads", report.threads},
           {"structure", or_null(report.structure)},

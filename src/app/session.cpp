@@ -1,17 +1,17 @@
-#include "session.hpp"
+#include <gale/app/session.hpp>
 
 #include <charconv>
 #include <filesystem>
 #include <random>
 
 #include <gale/base/error.hpp>
-#include <gale/io/detail/vtk_files.hpp>
+#include <gale/io/vtk/vtk_files.hpp>
 #include <gale/io/read.hpp>
-#include <gale/relations/explicit_structure.hpp>
+#include <gale/runtime/explicit/explicit_structure.hpp>
 
-#include "field.hpp"
-#include "machine.hpp"
-#include "output_file.hpp"
+#include <gale/outputs/field.hpp>
+#include <gale/app/machine.hpp>
+#include <gale/app/output_file.hpp>
 
 namespace gale::app {
 
@@ -50,9 +50,9 @@ Segmentation scattered(std::size_t vertices, std::int64_t count) {
 
 const char* name_of(Production production) {
   switch (production) {
-    case Production::leaders: return "leaders";
-    case Production::helpers: return "helpers";
-    case Production::pairs: return "pairs";
+    case Way::leaders: return "leaders";
+    case Way::helpers: return "helpers";
+    case Way::task_parallel: return "pairs";
     default: return "consumers";
   }
 }
@@ -152,8 +152,8 @@ std::unique_ptr<Structure> Session::make_structure(const Mesh& mesh, RelationSet
   report_.structure = options_.structure;
   if (options_.structure == "explicit") return std::make_unique<ExplicitStructure>(mesh, relations);
   RuntimeOptions runtime = options_.runtime;
-  if (options_.structure == "inline") runtime.production = Production::consumers;
-  if (options_.structure == "task-parallel") runtime.production = Production::pairs;
+  if (options_.structure == "inline") runtime.way = Way::inline_;
+  if (options_.structure == "task-parallel") runtime.way = Way::task_parallel;
   return std::make_unique<Runtime>(mesh, relations, runtime);
 }
 
@@ -177,7 +177,7 @@ void Session::count_simplices(const Structure& structure) {
 
 void Session::finish(const Structure* structure) {
   if (const auto* const runtime = dynamic_cast<const Runtime*>(structure)) {
-    report_.production = name_of(runtime->production());
+    report_.production = name_of(runtime->way());
     report_.statistics = runtime->statistics();
   }
   if (structure != nullptr) count_simplices(*structure);

@@ -8,12 +8,12 @@
 #include <gale/algorithms/vertex_order.hpp>
 #include <gale/io/dataset.hpp>
 #include <gale/mesh/mesh.hpp>
-#include <gale/relations/structure.hpp>
+#include <gale/runtime/structure.hpp>
 #include <gale/runtime/runtime.hpp>
 
-#include "console.hpp"
-#include "options.hpp"
-#include "report.hpp"
+#include <gale/app/console.hpp>
+#include <gale/app/options.hpp>
+#include <gale/app/report.hpp>
 
 namespace gale::app {
 

@@ -1,4 +1,4 @@
-#include "sizes.hpp"
+#include <gale/app/sizes.hpp>
 
 #include <algorithm>
 #include <cctype>
@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <optional>
 
-#include "options.hpp"
+#include <gale/app/options.hpp>
 
 namespace gale::app {
 

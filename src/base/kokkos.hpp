@@ -9,9 +9,9 @@
 
 namespace gale {
 
-/// Where relations are produced: the device where Kokkos has one, else the host.
-using ProducerSpace = Kokkos::DefaultExecutionSpace;
-using ProducerMemory = ProducerSpace::memory_space;
+/// Where workers compute relations: the device where Kokkos has one, else the host.
+using WorkerSpace = Kokkos::DefaultExecutionSpace;
+using WorkerMemory = WorkerSpace::memory_space;
 using HostMemory = Kokkos::HostSpace;
 
 /// Whether host code can't read what lies in `Memory`.
@@ -22,7 +22,7 @@ inline constexpr bool is_device_memory = !Kokkos::SpaceAccessibility<Kokkos::Hos
 template <class Space>
 inline constexpr bool is_device = is_device_memory<typename Space::memory_space>;
 
-inline constexpr bool have_device = is_device<ProducerSpace>;
+inline constexpr bool have_device = is_device<WorkerSpace>;
 
 /// Host memory that the device copies to and from at full speed.
 #if defined(KOKKOS_ENABLE_CUDA)
@@ -32,11 +32,11 @@ using PinnedMemory = Kokkos::HostSpace;
 #endif
 
 /// A launch queue of its own on the device: work on two instances may overlap. On the host, the space itself.
-inline ProducerSpace make_instance() {
+inline WorkerSpace make_instance() {
 #if defined(KOKKOS_ENABLE_CUDA)
-  return Kokkos::Experimental::partition_space(ProducerSpace(), std::vector<int>{1, 1})[0];
+  return Kokkos::Experimental::partition_space(WorkerSpace(), std::vector<int>{1, 1})[0];
 #else
-  return ProducerSpace();
+  return WorkerSpace();
 #endif
 }
 

@@ -8,7 +8,7 @@
 #include <gale/base/threads.hpp>
 #include <gale/base/types.hpp>
 
-// Loops over 0..n-1 in the producers' space. On a device they are Kokkos' own. On the host they run on all our threads
+// Loops over 0..n-1 in the workers' space. On a device they are Kokkos' own. On the host they run on all our threads
 // whatever backend Kokkos has there: Kokkos::Serial is one core, our users have more.
 
 namespace gale {

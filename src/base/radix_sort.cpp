@@ -9,15 +9,15 @@
 #if defined(KOKKOS_ENABLE_CUDA)
 #include <cub/device/device_radix_sort.cuh>
 
-#include <gale/base/detail/cub.hpp>
+#include <gale/base/cub.hpp>
 #endif
 
 namespace gale {
 
 namespace {
 
-using Keys = Array<std::uint64_t, ProducerMemory>;
-using Values = Array<Id, ProducerMemory>;
+using Keys = Array<std::uint64_t, WorkerMemory>;
+using Values = Array<Id, WorkerMemory>;
 
 #if defined(KOKKOS_ENABLE_CUDA)
 

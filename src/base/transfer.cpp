@@ -18,7 +18,7 @@ namespace gale {
 
 namespace {
 
-using Bytes = Kokkos::View<char*, ProducerMemory, Kokkos::MemoryUnmanaged>;
+using Bytes = Kokkos::View<char*, WorkerMemory, Kokkos::MemoryUnmanaged>;
 using Pinned = PinnedArray<char>;
 
 constexpr std::size_t chunk_bytes = std::size_t(2) << 20;
@@ -28,7 +28,7 @@ constexpr int most_lanes = 16;
 
 /// One thread's way to the device and back.
 struct Lane {
-  ProducerSpace instance = make_instance();
+  WorkerSpace instance = make_instance();
   Pinned chunk{chunk_bytes};
 };
 

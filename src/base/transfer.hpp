@@ -11,17 +11,17 @@ namespace gale {
 void copy_to_device(void* device, const void* host, std::size_t bytes);
 void copy_from_device(void* host, const void* device, std::size_t bytes);
 
-/// The same contents where the producers can read them: the View itself if they can already, else a copy.
+/// The same contents where the workers can read them: the View itself if they can already, else a copy.
 template <class T, class... Properties>
-auto on_producer(const Kokkos::View<T, Properties...>& view) {
+auto on_worker(const Kokkos::View<T, Properties...>& view) {
   using Given = Kokkos::View<T, Properties...>;
-  using OnProducer = Kokkos::View<T, typename Given::array_layout, ProducerMemory>;
+  using OnWorker = Kokkos::View<T, typename Given::array_layout, WorkerMemory>;
   if constexpr (have_device && !is_device_memory<typename Given::memory_space>) {
-    const auto copy = allocate<typename OnProducer::non_const_type>(view.label(), view.extent(0));
+    const auto copy = allocate<typename OnWorker::non_const_type>(view.label(), view.extent(0));
     copy_to_device(copy.data(), view.data(), view.size() * sizeof(typename Given::value_type));
-    return OnProducer(copy);
+    return OnWorker(copy);
   } else {
-    return OnProducer(view);
+    return OnWorker(view);
   }
 }
 

@@ -11,7 +11,7 @@
 #include <variant>
 
 #include <gale/base/error.hpp>
-#include <gale/io/detail/vtk_files.hpp>
+#include <gale/io/vtk/vtk_files.hpp>
 #include <gale/io/image.hpp>
 #include <gale/io/synthetic.hpp>
 #include <gale/io/voxels.hpp>

@@ -14,7 +14,7 @@
 #include <gale/base/memory.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/base/types.hpp>
-#include <gale/io/detail/freudenthal.hpp>
+#include <gale/io/freudenthal.hpp>
 
 namespace gale::io {
 namespace {

@@ -7,7 +7,7 @@
 #include <gale/base/error.hpp>
 #include <gale/io/arrays.hpp>
 #include <gale/io/atomic_file.hpp>
-#include <gale/io/detail/vtk_files.hpp>
+#include <gale/io/vtk/vtk_files.hpp>
 
 namespace gale::io {
 namespace {

@@ -19,7 +19,7 @@ struct EncodedMesh {
   Kokkos::View<const Id* [4], Kokkos::LayoutRight, Memory, Kokkos::MemoryUnmanaged> tetrahedra;
 
   Unmanaged<Id> vertex_begin;        ///< I_V: segment s holds the vertices [vertex_begin[s], vertex_begin[s+1])
-  Unmanaged<Id> tetrahedron_begin;   ///< I_T: its internal tetrahedra, whose lowest vertex it holds, likewise
+  Unmanaged<Id> internal_begin;   ///< I_T: its internal tetrahedra, whose lowest vertex it holds, likewise
   Unmanaged<Offset> external_begin;  ///< its row of `external`
   Unmanaged<Id> external;  ///< T_ex: the tetrahedra that touch it and are internal to an earlier segment, ascending in a row
 };
@@ -28,11 +28,11 @@ struct EncodedMesh {
 template <class Memory>
 struct MeshArrays {
   Kokkos::View<Id* [4], Kokkos::LayoutRight, Memory> tetrahedra;
-  Array<Id, Memory> vertex_begin, tetrahedron_begin;
+  Array<Id, Memory> vertex_begin, internal_begin;
   Array<Offset, Memory> external_begin;
   Array<Id, Memory> external;
 
-  EncodedMesh<Memory> view() const { return {tetrahedra, vertex_begin, tetrahedron_begin, external_begin, external}; }
+  EncodedMesh<Memory> view() const { return {tetrahedra, vertex_begin, internal_begin, external_begin, external}; }
 };
 
 }  // namespace gale

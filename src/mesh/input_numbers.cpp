@@ -9,11 +9,11 @@ namespace gale {
 
 namespace {
 
-using Ids = Array<Id, ProducerMemory>;
-using Keys = Array<std::uint64_t, ProducerMemory>;
+using Ids = Array<Id, WorkerMemory>;
+using Keys = Array<std::uint64_t, WorkerMemory>;
 
 /// Of the mesh', which other threads may use too: a managed View's count isn't atomic where Kokkos has Serial alone.
-using VertexInput = Kokkos::View<const Id*, ProducerMemory, Kokkos::MemoryUnmanaged>;
+using VertexInput = Kokkos::View<const Id*, WorkerMemory, Kokkos::MemoryUnmanaged>;
 
 KOKKOS_INLINE_FUNCTION void order(Id& a, Id& b) {
   if (b < a) {
@@ -26,17 +26,17 @@ KOKKOS_INLINE_FUNCTION void order(Id& a, Id& b) {
 /// The places that distinct keys have in order. Overwrites the keys.
 Ids places_of(const Keys& keys) {
   const auto sorted = allocate<Ids>("GALE::input_order", keys.extent(0)), place = allocate<Ids>("GALE::input_numbers", keys.extent(0));
-  const ProducerSpace space;
+  const WorkerSpace space;
   parallel_for("GALE::input_order", space, keys.extent(0), KOKKOS_LAMBDA(Offset i) { sorted(i) = static_cast<Id>(i); });
   stable_sort_by_key(keys, sorted);
   parallel_for("GALE::input_numbers", space, keys.extent(0), KOKKOS_LAMBDA(Offset i) { place(sorted(i)) = static_cast<Id>(i); });
   return place;
 }
 
-Ids edge_numbers(const Simplices<ProducerMemory>& simplices, const VertexInput& input) {
+Ids edge_numbers(const Simplices<WorkerMemory>& simplices, const VertexInput& input) {
   const auto keys = allocate<Keys>("GALE::edge_keys", simplices.edge_low.extent(0));
   parallel_for(
-      "GALE::edge_keys", ProducerSpace(), keys.extent(0), KOKKOS_LAMBDA(Offset e) {
+      "GALE::edge_keys", WorkerSpace(), keys.extent(0), KOKKOS_LAMBDA(Offset e) {
         Id a = input(simplices.edge_low(e)), b = input(simplices.edge_high(e));
         order(a, b);
         keys(e) = pair_key(a, b);
@@ -44,11 +44,11 @@ Ids edge_numbers(const Simplices<ProducerMemory>& simplices, const VertexInput& 
   return places_of(keys);
 }
 
-Ids triangle_numbers(const Simplices<ProducerMemory>& simplices, const VertexInput& input) {
+Ids triangle_numbers(const Simplices<WorkerMemory>& simplices, const VertexInput& input) {
   const auto edges = edge_numbers(simplices, input);
   const auto keys = allocate<Keys>("GALE::triangle_keys", simplices.triangle_apex.extent(0));
   parallel_for(
-      "GALE::triangle_keys", ProducerSpace(), keys.extent(0), KOKKOS_LAMBDA(Offset f) {
+      "GALE::triangle_keys", WorkerSpace(), keys.extent(0), KOKKOS_LAMBDA(Offset f) {
         const Id edge = simplices.triangle_edge(f);
         const Id vertices[3] = {simplices.edge_low(edge), simplices.edge_high(edge), simplices.triangle_apex(f)};
         int last = 0;  // the corner whose input id is highest; the edge of the others comes first
@@ -68,8 +68,8 @@ Array<const Id, HostMemory> input_numbers(const Mesh& mesh, int dimension) {
   if (dimension == 3) return mesh.tetrahedron_input();
   SimplexNeeds needs;
   needs.upto = dimension == 1 ? Enumeration::edges : Enumeration::triangles;
-  const auto simplices = mesh.simplices_on_producer(needs);
-  const VertexInput input = mesh.vertex_input_on_producer();
+  const auto simplices = mesh.simplices_on_worker(needs);
+  const VertexInput input = mesh.vertex_input_on_worker();
   return on_host(dimension == 1 ? edge_numbers(simplices, input) : triangle_numbers(simplices, input));
 }
 

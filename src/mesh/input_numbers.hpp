@@ -8,7 +8,7 @@ namespace gale {
 /// triangle has its place among all of the mesh, each written with its input vertices ascending, in lexicographic order. So the numbers depend on nothing
 /// but the input.
 ///
-/// Edges and triangles are enumerated if they haven't been, and sorted: O(n), 24 bytes each in the producers' memory meanwhile.
+/// Edges and triangles are enumerated if they haven't been, and sorted: O(n), 24 bytes each in the workers' memory meanwhile.
 Array<const Id, HostMemory> input_numbers(const Mesh& mesh, int dimension);
 
 }  // namespace gale

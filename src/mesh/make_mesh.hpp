@@ -5,13 +5,13 @@
 #include <vector>
 
 #include <gale/base/error.hpp>
-#include <gale/mesh/detail/caller_views.hpp>
+#include <gale/mesh/caller_views.hpp>
 #include <gale/mesh/mesh.hpp>
 
 namespace gale {
 
 /// The mesh of what a caller has in Views of its own: `points` are n x 3 coordinates, `tetrahedra` m x 4 vertex ids. Any layout, in host memory or the
-/// producers', managed or not; float or double, any integer type. They are read where they are if their rows are contiguous and their types are those
+/// workers', managed or not; float or double, any integer type. They are read where they are if their rows are contiguous and their types are those
 /// of GALE (std::int32_t or std::int64_t), else copied first. Nothing keeps them.
 ///
 /// Segmented by an octree of `capacity` vertices a segment. Throws as octree_segmentation and Mesh do, and if the second extents aren't 3 and 4.

@@ -7,20 +7,20 @@
 #include <gale/base/error.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/base/transfer.hpp>
-#include <gale/mesh/detail/encode.hpp>
-#include <gale/mesh/detail/simplex_store.hpp>
+#include <gale/mesh/encode.hpp>
+#include <gale/mesh/simplex_store.hpp>
 
 namespace gale {
 
 namespace {
 
-using Ids = Array<Id, ProducerMemory>;
+using Ids = Array<Id, WorkerMemory>;
 using HostIds = Array<const Id, HostMemory>;
 
 /// An array that is copied to the host when someone asks for it first.
 class Mirror {
  public:
-  const HostIds& of(const Array<const Id, ProducerMemory>& array) {
+  const HostIds& of(const Array<const Id, WorkerMemory>& array) {
     std::call_once(once_, [&] { host_ = on_host(array); });
     return host_;
   }
@@ -33,16 +33,16 @@ class Mirror {
 Ids inverse_of(const Ids& permutation) {
   const auto inverse = allocate<Ids>("GALE::vertex_internal", permutation.extent(0));
   parallel_for(
-      "GALE::invert", ProducerSpace(), permutation.extent(0),
+      "GALE::invert", WorkerSpace(), permutation.extent(0),
       KOKKOS_LAMBDA(Offset i) { inverse(permutation(i)) = static_cast<Id>(i); });
   return inverse;
 }
 
 /// I_T: where each segment's lowest vertex begins.
-Ids tetrahedron_begin_of(const Ids& vertex_begin, const Ids& tetrahedra_of_lowest) {
-  const auto begin = allocate<Ids>("GALE::tetrahedron_begin", vertex_begin.extent(0));
+Ids internal_begin_of(const Ids& vertex_begin, const Ids& tetrahedra_of_lowest) {
+  const auto begin = allocate<Ids>("GALE::internal_begin", vertex_begin.extent(0));
   parallel_for(
-      "GALE::tetrahedron_begin", ProducerSpace(), vertex_begin.extent(0),
+      "GALE::internal_begin", WorkerSpace(), vertex_begin.extent(0),
       KOKKOS_LAMBDA(Offset s) { begin(s) = tetrahedra_of_lowest(vertex_begin(s)); });
   return begin;
 }
@@ -50,18 +50,18 @@ Ids tetrahedron_begin_of(const Ids& vertex_begin, const Ids& tetrahedra_of_lowes
 }  // namespace
 
 struct Mesh::Data {
-  MeshArrays<ProducerMemory> arrays;
-  EncodedMesh<ProducerMemory> producer;
-  Array<const Id, ProducerMemory> vertex_input, vertex_internal, tetrahedron_input;
-  HostIds vertex_begin, tetrahedron_begin;
+  MeshArrays<WorkerMemory> arrays;
+  EncodedMesh<WorkerMemory> worker;
+  Array<const Id, WorkerMemory> vertex_input, vertex_internal, tetrahedron_input;
+  HostIds vertex_begin, internal_begin;
   Array<const Offset, HostMemory> external_begin;
   mutable detail::SimplexStore simplices;
 
-  Data(const MeshArrays<ProducerMemory>& mesh, const Ids& tetrahedra_of_lowest)
+  Data(const MeshArrays<WorkerMemory>& mesh, const Ids& tetrahedra_of_lowest)
       : arrays(mesh),
-        producer(mesh.view()),
+        worker(mesh.view()),
         vertex_begin(on_host(mesh.vertex_begin)),
-        tetrahedron_begin(on_host(mesh.tetrahedron_begin)),
+        internal_begin(on_host(mesh.internal_begin)),
         external_begin(on_host(mesh.external_begin)),
         simplices(mesh, tetrahedra_of_lowest) {}
 
@@ -76,13 +76,13 @@ Mesh::Mesh(const Tetrahedra<Index, Memory>& given, const Segmentation& segmentat
   const auto vertex_internal = inverse_of(segmentation.vertex_input);
   detail::SortedTetrahedra sorted;
   {
-    const Tetrahedra<Index, ProducerMemory> input = on_producer(given);
+    const Tetrahedra<Index, WorkerMemory> input = on_worker(given);
     sorted = detail::sort_tetrahedra(input, vertex_internal);
   }
-  MeshArrays<ProducerMemory> mesh;
+  MeshArrays<WorkerMemory> mesh;
   mesh.tetrahedra = sorted.vertices;
   mesh.vertex_begin = segmentation.vertex_begin;
-  mesh.tetrahedron_begin = tetrahedron_begin_of(segmentation.vertex_begin, sorted.begin);
+  mesh.internal_begin = internal_begin_of(segmentation.vertex_begin, sorted.begin);
   detail::find_external_tetrahedra(mesh, segmentation.vertices());
   auto data = std::make_shared<Data>(mesh, sorted.begin);
   data->vertex_input = segmentation.vertex_input;
@@ -95,14 +95,14 @@ Id Mesh::vertices() const { return static_cast<Id>(data_->vertex_input.extent(0)
 Id Mesh::tetrahedra() const { return static_cast<Id>(data_->tetrahedron_input.extent(0)); }
 Id Mesh::segments() const { return static_cast<Id>(data_->vertex_begin.extent(0)) - 1; }
 
-const EncodedMesh<ProducerMemory>& Mesh::producer() const { return data_->producer; }
+const EncodedMesh<WorkerMemory>& Mesh::worker() const { return data_->worker; }
 
 const EncodedMesh<HostMemory>& Mesh::host() const {
   std::call_once(data_->host_once, [this] {
     const auto& from = data_->arrays;
     auto& to = data_->host_arrays;
     to.vertex_begin = on_host(from.vertex_begin);
-    to.tetrahedron_begin = on_host(from.tetrahedron_begin);
+    to.internal_begin = on_host(from.internal_begin);
     to.external_begin = on_host(from.external_begin);
     to.external = on_host(from.external);
     to.tetrahedra = data_->simplices.tetrahedra_on_host();
@@ -115,17 +115,17 @@ const HostIds& Mesh::vertex_begin() const { return data_->vertex_begin; }
 const HostIds& Mesh::vertex_input() const { return data_->vertex_input_mirror.of(data_->vertex_input); }
 const HostIds& Mesh::vertex_internal() const { return data_->vertex_internal_mirror.of(data_->vertex_internal); }
 const HostIds& Mesh::tetrahedron_input() const { return data_->tetrahedron_input_mirror.of(data_->tetrahedron_input); }
-const Array<const Id, ProducerMemory>& Mesh::vertex_input_on_producer() const { return data_->vertex_input; }
-const Array<const Id, ProducerMemory>& Mesh::tetrahedron_input_on_producer() const { return data_->tetrahedron_input; }
+const Array<const Id, WorkerMemory>& Mesh::vertex_input_on_worker() const { return data_->vertex_input; }
+const Array<const Id, WorkerMemory>& Mesh::tetrahedron_input_on_worker() const { return data_->tetrahedron_input; }
 
-Simplices<ProducerMemory> Mesh::simplices_on_producer(const SimplexNeeds& needs) const { return data_->simplices.on_producer(needs); }
+Simplices<WorkerMemory> Mesh::simplices_on_worker(const SimplexNeeds& needs) const { return data_->simplices.on_worker(needs); }
 Simplices<HostMemory> Mesh::simplices_on_host(const SimplexNeeds& needs) const { return data_->simplices.on_host(needs); }
 Id Mesh::known_edges() const { return data_->simplices.known(1); }
 Id Mesh::known_triangles() const { return data_->simplices.known(2); }
 
 const HostIds& Mesh::interval_begin(int dimension) const {
   if (dimension == 0) return data_->vertex_begin;
-  if (dimension == 3) return data_->tetrahedron_begin;
+  if (dimension == 3) return data_->internal_begin;
   return data_->simplices.interval_begin(dimension);
 }
 
@@ -152,8 +152,8 @@ Id Mesh::segment_of(int dimension, Id simplex) const {
 GALE_INSTANTIATE(std::int32_t, HostMemory);
 GALE_INSTANTIATE(std::int64_t, HostMemory);
 #if defined(KOKKOS_ENABLE_CUDA)
-GALE_INSTANTIATE(std::int32_t, ProducerMemory);
-GALE_INSTANTIATE(std::int64_t, ProducerMemory);
+GALE_INSTANTIATE(std::int32_t, WorkerMemory);
+GALE_INSTANTIATE(std::int64_t, WorkerMemory);
 #endif
 #undef GALE_INSTANTIATE
 

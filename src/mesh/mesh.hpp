@@ -9,7 +9,7 @@
 
 namespace gale {
 
-/// Four vertices per tetrahedron, in input ids, as a caller has them, in host memory or the producers'.
+/// Four vertices per tetrahedron, in input ids, as a caller has them, in host memory or the workers'.
 template <class Index, class Memory>
 using Tetrahedra = Kokkos::View<const Index* [4], Kokkos::LayoutRight, Memory>;
 
@@ -20,7 +20,7 @@ using Tetrahedra = Kokkos::View<const Index* [4], Kokkos::LayoutRight, Memory>;
 /// lead back to input ids. Immutable after construction, so any number of threads may use it; copies share the arrays.
 class Mesh {
  public:
-  /// Encodes in the producers' space, in parallel, in time O(n). Peak memory beside the input: 20 bytes a tetrahedron and 4 an
+  /// Encodes in the workers' space, in parallel, in time O(n). Peak memory beside the input: 20 bytes a tetrahedron and 4 an
   /// external one, and 16 a vertex.
   ///
   /// `Index` is std::int32_t or std::int64_t. Throws gale::Error, naming the tetrahedron at fault, where there is none, where one
@@ -32,17 +32,17 @@ class Mesh {
   Id tetrahedra() const;
   Id segments() const;
 
-  const EncodedMesh<ProducerMemory>& producer() const;
+  const EncodedMesh<WorkerMemory>& worker() const;
 
   /// The same arrays for the host's threads. With a device the first call copies them; any thread may make it.
   const EncodedMesh<HostMemory>& host() const;
 
-  /// All simplices, where the producers or where the host's threads can read them; at least what `needs` says. What is missing is enumerated, and
+  /// All simplices, where the workers or where the host's threads can read them; at least what `needs` says. What is missing is enumerated, and
   /// copied to the host, by the first call that needs it (see SimplexNeeds); any thread may make it. On the host, edges take 12 bytes each and 4 a
   /// vertex, triangles 8, lower edges 4 an edge and a vertex. Time O(n), but that of
   /// triangles grows with the square of a vertex' degree where one has more than 64 higher neighbours. Throws gale::Error if there are more than 2^31 - 1 edges
   /// or triangles.
-  Simplices<ProducerMemory> simplices_on_producer(const SimplexNeeds& needs) const;
+  Simplices<WorkerMemory> simplices_on_worker(const SimplexNeeds& needs) const;
   Simplices<HostMemory> simplices_on_host(const SimplexNeeds& needs) const;
 
   /// How many edges or triangles there are; no_id as long as nobody needed them.
@@ -67,9 +67,9 @@ class Mesh {
   const Array<const Id, HostMemory>& vertex_internal() const;
   const Array<const Id, HostMemory>& tetrahedron_input() const;
 
-  /// vertex_input() and tetrahedron_input() in the producers' memory.
-  const Array<const Id, ProducerMemory>& vertex_input_on_producer() const;
-  const Array<const Id, ProducerMemory>& tetrahedron_input_on_producer() const;
+  /// vertex_input() and tetrahedron_input() in the workers' memory.
+  const Array<const Id, WorkerMemory>& vertex_input_on_worker() const;
+  const Array<const Id, WorkerMemory>& tetrahedron_input_on_worker() const;
 
   /// The segment that a simplex of a dimension 0 to 3 (GALE's id) is internal to: a binary search among the segments.
   Id segment_of(int dimension, Id simplex) const;

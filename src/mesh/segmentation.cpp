@@ -9,14 +9,14 @@
 #include <gale/base/require_ids.hpp>
 #include <gale/base/radix_sort.hpp>
 #include <gale/base/transfer.hpp>
-#include <gale/mesh/detail/octree_leaves.hpp>
+#include <gale/mesh/octree_leaves.hpp>
 
 namespace gale {
 
 namespace {
 
-using Codes = Array<std::uint64_t, ProducerMemory>;
-using Ids = Array<Id, ProducerMemory>;
+using Codes = Array<std::uint64_t, WorkerMemory>;
+using Ids = Array<Id, WorkerMemory>;
 
 /// The cube that the octree halves: its side is a power of two, so that points on an integer grid meet cell borders exactly.
 struct Cube {
@@ -25,8 +25,8 @@ struct Cube {
 };
 
 template <class Coordinate>
-Cube bounding_cube(const Points<Coordinate, ProducerMemory>& points) {
-  const ProducerSpace space;
+Cube bounding_cube(const Points<Coordinate, WorkerMemory>& points) {
+  const WorkerSpace space;
   const Offset count = points.extent(0);
   const Offset bad = reduce_min(
       "GALE::finite_points", space, count, count, KOKKOS_LAMBDA(Offset i) {
@@ -62,10 +62,10 @@ KOKKOS_FUNCTION std::uint64_t spread(std::uint64_t x) {
 }
 
 template <class Coordinate>
-Codes morton_codes(const Points<Coordinate, ProducerMemory>& points, const Cube& cube) {
+Codes morton_codes(const Points<Coordinate, WorkerMemory>& points, const Cube& cube) {
   const auto codes = allocate<Codes>("GALE::morton_codes", points.extent(0));
   parallel_for(
-      "GALE::morton_codes", ProducerSpace(), points.extent(0), KOKKOS_LAMBDA(Offset i) {
+      "GALE::morton_codes", WorkerSpace(), points.extent(0), KOKKOS_LAMBDA(Offset i) {
         std::uint64_t code = 0;
         for (int axis = 0; axis < 3; ++axis) {
           constexpr double last = (1 << detail::morton_levels) - 1;
@@ -79,11 +79,11 @@ Codes morton_codes(const Points<Coordinate, ProducerMemory>& points, const Cube&
 
 Ids iota(Offset count) {
   const auto ids = allocate<Ids>("GALE::vertex_input", count);
-  parallel_for("GALE::iota", ProducerSpace(), count, KOKKOS_LAMBDA(Offset i) { ids(i) = static_cast<Id>(i); });
+  parallel_for("GALE::iota", WorkerSpace(), count, KOKKOS_LAMBDA(Offset i) { ids(i) = static_cast<Id>(i); });
   return ids;
 }
 
-Ids to_producers(const std::vector<Id>& values, const char* label) {
+Ids to_workers(const std::vector<Id>& values, const char* label) {
   const auto ids = allocate<Ids>(label, values.size());
   Kokkos::deep_copy(ids, Kokkos::View<const Id*, HostMemory, Kokkos::MemoryUnmanaged>(values.data(), values.size()));
   return ids;
@@ -102,12 +102,12 @@ Segmentation octree_segmentation(const Points<Coordinate, Memory>& given, int ca
     result.vertex_begin = Ids("GALE::vertex_begin", 1);
     return result;
   }
-  const Points<Coordinate, ProducerMemory> points = on_producer(given);
+  const Points<Coordinate, WorkerMemory> points = on_worker(given);
   const auto codes = morton_codes(points, bounding_cube(points));
   result.vertex_input = iota(count);
   stable_sort_by_key(codes, result.vertex_input);
   const auto leaves = detail::octree_leaves(codes, capacity);
-  result.vertex_begin = to_producers(detail::merge_leaves(leaves, count, capacity), "GALE::vertex_begin");
+  result.vertex_begin = to_workers(detail::merge_leaves(leaves, count, capacity), "GALE::vertex_begin");
   return result;
 }
 
@@ -116,7 +116,7 @@ Segmentation given_segmentation(const Array<const std::int64_t, HostMemory>& lab
   const auto count = static_cast<Id>(labels.extent(0));
   const auto keys_on_host = allocate<Array<std::uint64_t, HostMemory>>("GALE::labels", count);
   for (Id i = 0; i < count; ++i) keys_on_host(i) = static_cast<std::uint64_t>(labels(i)) ^ (std::uint64_t(1) << 63);
-  const Codes keys = on_producer(keys_on_host);
+  const Codes keys = on_worker(keys_on_host);
   Segmentation result;
   result.vertex_input = iota(count);
   stable_sort_by_key(keys, result.vertex_input);
@@ -126,7 +126,7 @@ Segmentation given_segmentation(const Array<const std::int64_t, HostMemory>& lab
     if (i == 0 || sorted(i) != sorted(i - 1)) begin.push_back(i);
   }
   begin.push_back(count);
-  result.vertex_begin = to_producers(begin, "GALE::vertex_begin");
+  result.vertex_begin = to_workers(begin, "GALE::vertex_begin");
   return result;
 }
 
@@ -135,8 +135,8 @@ Segmentation given_segmentation(const Array<const std::int64_t, HostMemory>& lab
 GALE_INSTANTIATE(float, HostMemory);
 GALE_INSTANTIATE(double, HostMemory);
 #if defined(KOKKOS_ENABLE_CUDA)
-GALE_INSTANTIATE(float, ProducerMemory);
-GALE_INSTANTIATE(double, ProducerMemory);
+GALE_INSTANTIATE(float, WorkerMemory);
+GALE_INSTANTIATE(double, WorkerMemory);
 #endif
 #undef GALE_INSTANTIATE
 

@@ -8,16 +8,16 @@
 namespace gale {
 
 /// A partition of a mesh' vertices into segments, and with it GALE's own numbering of the vertices: segment after segment, none of
-/// them empty. Both arrays lie in the producers' memory.
+/// them empty. Both arrays lie in the workers' memory.
 struct Segmentation {
-  Array<Id, ProducerMemory> vertex_input;  ///< GALE's vertex id -> input vertex id; a permutation
-  Array<Id, ProducerMemory> vertex_begin;  ///< segment -> its first vertex (GALE's id), and one past the last; ascending
+  Array<Id, WorkerMemory> vertex_input;  ///< GALE's vertex id -> input vertex id; a permutation
+  Array<Id, WorkerMemory> vertex_begin;  ///< segment -> its first vertex (GALE's id), and one past the last; ascending
 
   Id vertices() const { return static_cast<Id>(vertex_input.extent(0)); }
   Id segments() const { return static_cast<Id>(vertex_begin.extent(0)) - 1; }
 };
 
-/// Coordinates of points as a caller has them, in host memory or the producers'.
+/// Coordinates of points as a caller has them, in host memory or the workers'.
 template <class Coordinate, class Memory>
 using Points = Kokkos::View<const Coordinate* [3], Kokkos::LayoutRight, Memory>;
 

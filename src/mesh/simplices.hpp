@@ -41,7 +41,7 @@ enum class Enumeration { tetrahedra, edges, triangles };
 struct SimplexNeeds {
   Enumeration upto = Enumeration::tetrahedra;
   bool lower_edges = false;  ///< the edges by their higher vertex too; needs edges
-  bool tetrahedra = false;   ///< on the host, the tetrahedra themselves; the producers always have them
+  bool tetrahedra = false;   ///< on the host, the tetrahedra themselves; the workers always have them
 };
 
 /// All simplices of a mesh, each with its vertices ascending (a < b < c < d) and all of a dimension in lexicographic order: that is their

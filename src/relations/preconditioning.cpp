@@ -14,7 +14,7 @@ SimplexNeeds needs_of(RelationSet relations) {
     if (rows == 1 || entries == 1) needs.upto = std::max(needs.upto, Enumeration::edges);
     if (rows == 2 || entries == 2) needs.upto = Enumeration::triangles;
     if (rows == 3 || entries == 3) needs.tetrahedra = true;
-    if (!boundary_relations.has(relation)) {
+    if (!face_relations.has(relation)) {
       needs.upto = std::max(needs.upto, Enumeration::edges);
       needs.lower_edges = true;
     }

@@ -76,12 +76,12 @@ std::vector<Relation> members_of(RelationSet relations);
 /// "VV, VT"
 std::string name_of(RelationSet relations);
 
-inline constexpr RelationSet boundary_relations =
+inline constexpr RelationSet face_relations =
     Relation::EV | Relation::FV | Relation::FE | Relation::TV | Relation::TE | Relation::TF;
 inline constexpr RelationSet coboundary_relations =
     Relation::VE | Relation::VF | Relation::VT | Relation::EF | Relation::ET | Relation::FT;
 inline constexpr RelationSet adjacency_relations = Relation::VV | Relation::EE | Relation::FF | Relation::TT;
-inline constexpr RelationSet all_relations = boundary_relations | coboundary_relations | adjacency_relations | Relation::link;
+inline constexpr RelationSet all_relations = face_relations | coboundary_relations | adjacency_relations | Relation::link;
 
 /// What one kernel can compute from the star of each of a segment's vertices.
 inline constexpr RelationSet star_relations = Relation::VV | Relation::VT | Relation::link;

@@ -1,21 +1,21 @@
 #include <gale/runtime/runtime.hpp>
 
 #include <gale/base/error.hpp>
-#include <gale/runtime/detail/implementation.hpp>
+#include <gale/runtime/implementation.hpp>
 
 namespace gale {
 
 namespace {
 
 std::unique_ptr<detail::RuntimeImplementation> implement(const Mesh& mesh, RelationSet wanted, const RuntimeOptions& options) {
-  switch (options.production) {
-    case Production::automatic: return have_device ? detail::by_leaders(mesh, wanted, options) : detail::by_helpers(mesh, wanted, options);
-    case Production::leaders: return detail::by_leaders(mesh, wanted, options);
-    case Production::consumers: return detail::by_consumers(mesh, wanted);
-    case Production::helpers: return detail::by_helpers(mesh, wanted, options);
-    case Production::pairs: return detail::by_pairs(mesh, wanted);
+  switch (options.way) {
+    case Way::automatic: return have_device ? detail::by_leaders(mesh, wanted, options) : detail::by_helpers(mesh, wanted, options);
+    case Way::leaders: return detail::by_leaders(mesh, wanted, options);
+    case Way::inline_: return detail::by_consumers(mesh, wanted);
+    case Way::helpers: return detail::by_helpers(mesh, wanted, options);
+    case Way::task_parallel: return detail::by_pairs(mesh, wanted);
   }
-  throw Error("there is no such way to produce");
+  throw Error("there is no such way of computing");
 }
 
 }  // namespace
@@ -29,7 +29,7 @@ Runtime::~Runtime() = default;
 
 const Mesh& Runtime::mesh() const { return implementation_->mesh(); }
 RelationSet Runtime::relations() const { return implementation_->relations(); }
-Production Runtime::production() const { return implementation_->production(); }
+Production Runtime::way() const { return implementation_->way(); }
 RuntimeStatistics Runtime::statistics() const { return implementation_->statistics(); }
 
 void Runtime::for_each_segment(RelationSet wanted, const SweepOptions& options, const SegmentBody& body) {

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include <gale/relations/structure.hpp>
+#include <gale/runtime/structure.hpp>
 #include <gale/runtime/options.hpp>
 #include <gale/runtime/statistics.hpp>
 
@@ -21,7 +21,7 @@ class RuntimeImplementation;
 /// of the consumers as far as the budget goes.
 ///
 /// Without a device, a consumer computes what it misses. In a sweep of fewer consumers than there are cores, helpers on the others compute segments ahead
-/// of them (Production::helpers); a consumer takes what is ready, computes when nothing is, and waits for nobody.
+/// of them (Way::helpers); a consumer takes what is ready, computes when nothing is, and waits for nobody.
 ///
 /// Rows of EF, ET, FT and TT are found among what begins with a vertex or its neighbours: their time grows with the square of a vertex' degree, which a vertex in
 /// very many tetrahedra makes felt (20000 at one edge: some seconds). The explicit structure's doesn't.
@@ -42,8 +42,8 @@ class Runtime : public Structure {
   void for_each_segment(RelationSet wanted, const SweepOptions& options, const SegmentBody& body) override;
   std::unique_ptr<Consumer> consumer() override;
 
-  /// Which way it is; never Production::automatic.
-  Production production() const;
+  /// Which way it is; never Way::automatic.
+  Production way() const;
 
   RuntimeStatistics statistics() const;
 

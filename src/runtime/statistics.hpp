@@ -24,7 +24,7 @@ struct ConsumerStatistics {
   std::int64_t hits = 0;      ///< blocks that were there already
   std::int64_t requests = 0;  ///< blocks that it waited for
   WaitingTimes waiting;
-  std::int64_t segments_computed = 0;  ///< by itself, where consumers produce
+  std::int64_t segments_computed = 0;  ///< by itself, where consumers compute
   double seconds_computing = 0;
 
   ConsumerStatistics& operator+=(const ConsumerStatistics& other);

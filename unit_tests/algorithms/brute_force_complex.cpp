@@ -48,7 +48,7 @@ class Paths {
     return path;
   }
 
-  /// Empty if it leaves through the boundary.
+  /// Empty if it leaves through the surface.
   std::vector<Simplex> up_from(Simplex tetrahedron) const {
     std::vector<Simplex> path = {tetrahedron};
     for (Simplex triangle; !(triangle = partner(tetrahedron, 3)).empty(); path.push_back(tetrahedron)) {

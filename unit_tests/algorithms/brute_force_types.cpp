@@ -27,10 +27,10 @@ std::vector<int> brute_force_types(const InputMesh& mesh, const BruteForce& brut
   std::vector<int> types;
   for (Id v = 0; v < mesh.vertices(); ++v) {
     Side side[2];
-    bool boundary[2] = {false, false};
+    bool surface[2] = {false, false};
     for (const Id u : brute_force.vv[v]) {
       side[below(u, v)][u] = u;
-      boundary[below(u, v)] |= brute_force.on_boundary[u] != 0;
+      surface[below(u, v)] |= brute_force.on_surface[u] != 0;
     }
     for (const Id t : brute_force.vt[v]) {
       for (const Id a : mesh.tetrahedra[t]) {
@@ -49,8 +49,8 @@ std::vector<int> brute_force_types(const InputMesh& mesh, const BruteForce& brut
     if (count == std::make_pair(1, 0)) type = 3;
     if (count == std::make_pair(1, 1)) {
       type = 5;
-      if (brute_force.on_boundary[v] && boundary[0] && !boundary[1]) type = 1;
-      if (brute_force.on_boundary[v] && boundary[1] && !boundary[0]) type = 2;
+      if (brute_force.on_surface[v] && surface[0] && !surface[1]) type = 1;
+      if (brute_force.on_surface[v] && surface[1] && !surface[0]) type = 2;
     }
     types.push_back(type);
   }

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include <gale/algorithms/detail/gradient/cell_set.hpp>
+#include <gale/algorithms/gradient/cell_set.hpp>
 #include <random>
 #include <set>
 #include <vector>

@@ -22,7 +22,7 @@ void expect_types(const CriticalPoints& points, const std::vector<int>& types, c
     ASSERT_LT(at, points.vertices.size());
     EXPECT_EQ(points.vertices[at], static_cast<Id>(v));
     EXPECT_EQ(static_cast<int>(points.types[at]), types[v]) << "vertex " << v;
-    EXPECT_EQ(points.on_boundary[at], brute_force.on_boundary[v]) << "vertex " << v;
+    EXPECT_EQ(points.on_surface[at], brute_force.on_surface[v]) << "vertex " << v;
     ++at;
   }
   EXPECT_EQ(points.vertices.size(), at);
@@ -59,7 +59,7 @@ TEST(CriticalPoints, of_one_tetrahedron_are_its_lowest_and_its_highest_vertex) {
   const auto points = find_critical_points(runtime, VertexOrder(mesh, field.data(), field.size()));
   EXPECT_EQ(points.vertices, (std::vector<Id>{1, 3}));
   EXPECT_EQ(points.types, (std::vector<CriticalType>{CriticalType::minimum, CriticalType::maximum}));
-  EXPECT_EQ(points.on_boundary, (std::vector<std::uint8_t>{1, 1}));
+  EXPECT_EQ(points.on_surface, (std::vector<std::uint8_t>{1, 1}));
 }
 
 TEST(CriticalPoints, of_a_vertex_without_tetrahedra_is_degenerate) {

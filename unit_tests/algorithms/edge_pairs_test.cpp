@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include <gale/algorithms/detail/gradient/edge_pairs.hpp>
+#include <gale/algorithms/gradient/edge_pairs.hpp>
 #include <random>
 #include <vector>
 

@@ -5,10 +5,10 @@
 #include <memory>
 #include <random>
 
-#include <gale/algorithms/discrete_gradient_from_cells.hpp>
+#include <gale/baselines/discrete_gradient_from_cells.hpp>
 #include <gale/base/error.hpp>
 #include <gale/io/synthetic.hpp>
-#include <gale/relations/explicit_structure.hpp>
+#include <gale/runtime/explicit/explicit_structure.hpp>
 #include <gale/runtime/runtime.hpp>
 
 #include "support/every_mesh.hpp"
@@ -24,14 +24,14 @@ struct StructureKind {
 
 std::unique_ptr<Structure> make_runtime(const Mesh& mesh, RelationSet relations, Production production) {
   RuntimeOptions options;
-  options.production = production;
+  options.way = production;
   return std::make_unique<Runtime>(mesh, relations, options);
 }
 
 std::vector<StructureKind> structure_kinds() {
   std::vector<StructureKind> kinds = {
-      {"consumers", [](const Mesh& mesh, RelationSet relations) { return make_runtime(mesh, relations, Production::consumers); }},
-      {"leaders", [](const Mesh& mesh, RelationSet relations) { return make_runtime(mesh, relations, Production::leaders); }}};
+      {"consumers", [](const Mesh& mesh, RelationSet relations) { return make_runtime(mesh, relations, Way::inline_); }},
+      {"leaders", [](const Mesh& mesh, RelationSet relations) { return make_runtime(mesh, relations, Way::leaders); }}};
 #if defined(GALE_ENABLE_KOKKOS_KERNELS)
   kinds.push_back({"explicit", [](const Mesh& mesh, RelationSet relations) { return std::make_unique<ExplicitStructure>(mesh, relations); }});
 #endif

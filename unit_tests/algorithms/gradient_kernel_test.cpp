@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <gale/algorithms/detail/gradient/bit_queues.hpp>
-#include <gale/algorithms/detail/gradient/lower_neighbours.hpp>
-#include <gale/algorithms/detail/gradient/lower_star.hpp>
-#include <gale/algorithms/detail/gradient/pair_cells.hpp>
+#include <gale/algorithms/gradient/bit_queues.hpp>
+#include <gale/algorithms/gradient/lower_neighbours.hpp>
+#include <gale/algorithms/gradient/lower_star.hpp>
+#include <gale/algorithms/gradient/pair_cells.hpp>
 #include <gale/algorithms/vertex_order.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/runtime/runtime.hpp>
@@ -120,14 +120,14 @@ struct HostRows {
   }
 };
 
-/// In ProducerSpace.
+/// In WorkerSpace.
 std::vector<Id> paired_in_a_kernel(const HostRows& rows) {
-  const PairStarOfVertex<ProducerMemory> pair = {
+  const PairStarOfVertex<WorkerMemory> pair = {
       {to_producer(rows.neighbours_begin), to_producer(rows.neighbours), to_producer(rows.link_begin),
        to_producer(rows.link), to_producer(rows.keys)},
-      Array<Id, ProducerMemory>("pairs", rows.keys.size() * PairedStar::size)};
+      Array<Id, WorkerMemory>("pairs", rows.keys.size() * PairedStar::size)};
   Kokkos::parallel_for("test_pair_stars",
-                       Kokkos::RangePolicy<ProducerSpace, Kokkos::IndexType<Offset>>(0, rows.keys.size()), pair);
+                       Kokkos::RangePolicy<WorkerSpace, Kokkos::IndexType<Offset>>(0, rows.keys.size()), pair);
   Kokkos::fence();
   return to_vector(pair.result);
 }

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <gale/algorithms/detail/gradient/bit_queues.hpp>
-#include <gale/algorithms/detail/gradient/large_lower_star.hpp>
-#include <gale/algorithms/detail/gradient/lower_neighbours.hpp>
-#include <gale/algorithms/detail/gradient/lower_star.hpp>
-#include <gale/algorithms/detail/gradient/pair_cells.hpp>
+#include <gale/algorithms/gradient/bit_queues.hpp>
+#include <gale/algorithms/gradient/large_lower_star.hpp>
+#include <gale/algorithms/gradient/lower_neighbours.hpp>
+#include <gale/algorithms/gradient/lower_star.hpp>
+#include <gale/algorithms/gradient/pair_cells.hpp>
 #include <map>
 #include <memory>
 #include <random>

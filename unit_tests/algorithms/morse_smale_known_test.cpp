@@ -32,7 +32,7 @@ double noise(double x, double y, double z, double size) {
 }  // namespace
 
 TEST(MorseSmaleComplex, of_one_hill_in_a_ball_has_its_top_and_the_valley_around) {
-  // The lowest part is the whole boundary, a sphere: a minimum, and a 2-saddle that closes it. The top fills it.
+  // The lowest part is the whole surface, a sphere: a minimum, and a 2-saddle that closes it. The top fills it.
   const InputMesh input = ball(6);
   const ComplexOf found(input, field_by(input, [](double x, double y, double z) {
                           return -distance({x, y, z}, {3, 3, 3});
@@ -41,7 +41,7 @@ TEST(MorseSmaleComplex, of_one_hill_in_a_ball_has_its_top_and_the_valley_around)
   EXPECT_EQ(left.counts(), (Counts{1, 0, 1, 1}));
   EXPECT_TRUE(left.descending.empty());
   EXPECT_TRUE(left.connectors.empty());
-  ASSERT_EQ(left.ascending.size(), 1u) << "the other one leaves through the boundary";
+  ASSERT_EQ(left.ascending.size(), 1u) << "the other one leaves through the surface";
   EXPECT_EQ(left.ascending[0].destination, left.critical[3][0]);
   EXPECT_TRUE(std::any_of(left.critical[3][0].begin(), left.critical[3][0].end(), [&](Id v) {
     return distance(input.points[v], {3, 3, 3}) == 0;

@@ -5,7 +5,7 @@
 
 #include <gale/algorithms/simplex_numbers.hpp>
 #include <gale/mesh/input_numbers.hpp>
-#include <gale/relations/boundary_vertices.hpp>
+#include <gale/algorithms/surface_vertices.hpp>
 #include <gale/runtime/runtime.hpp>
 
 #include "algorithms/structure_kinds.hpp"
@@ -45,7 +45,7 @@ TEST_P(SimplexNumbersOf, every_mesh_are_those_of_the_enumeration_on_every_struct
   const Mesh enumerated = encode(input(), segmentation());
   const NamedSimplices named = all_simplices(enumerated);
   const auto edges = to_vector(input_numbers(enumerated, 1)), triangles = to_vector(input_numbers(enumerated, 2));
-  const auto on_boundary = boundary_vertices(enumerated);
+  const auto on_surface = surface_vertices(enumerated);
   for (const auto& kind : structure_kinds()) {
     SCOPED_TRACE(kind.name);
     const Mesh mesh = encode(input(), segmentation());
@@ -53,7 +53,7 @@ TEST_P(SimplexNumbersOf, every_mesh_are_those_of_the_enumeration_on_every_struct
     const SimplexNumbers numbers = number_simplices(*structure, named, with_threads(2));
     EXPECT_EQ(numbers.edges, edges);
     EXPECT_EQ(numbers.triangles, triangles);
-    for (Id v = 0; v < mesh.vertices(); ++v) EXPECT_EQ(numbers.on_boundary(v), on_boundary(v)) << v;
+    for (Id v = 0; v < mesh.vertices(); ++v) EXPECT_EQ(numbers.on_surface(v), on_surface(v)) << v;
     EXPECT_EQ(mesh.known_edges(), no_id) << "nothing is enumerated";
   }
 }
@@ -83,7 +83,7 @@ TEST_F(SimplexNumbersOfTwo, of_nothing_are_none) {
   const auto numbers = number_simplices(runtime, {});
   EXPECT_TRUE(numbers.edges.empty());
   EXPECT_TRUE(numbers.triangles.empty());
-  EXPECT_EQ(numbers.on_boundary.extent(0), 5u);
+  EXPECT_EQ(numbers.on_surface.extent(0), 5u);
 }
 
 TEST_F(SimplexNumbersOfTwo, of_what_is_not_there_are_refused) {

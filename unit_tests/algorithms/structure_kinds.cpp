@@ -1,6 +1,6 @@
 #include "algorithms/structure_kinds.hpp"
 
-#include <gale/relations/explicit_structure.hpp>
+#include <gale/runtime/explicit/explicit_structure.hpp>
 #include <gale/runtime/runtime.hpp>
 
 namespace gale::test {
@@ -10,7 +10,7 @@ namespace {
 StructureKind runtime_kind(const char* name, Production production) {
   return {name, [production](const Mesh& mesh, RelationSet relations) {
             RuntimeOptions options;
-            options.production = production;
+            options.way = production;
             return std::make_unique<Runtime>(mesh, relations, options);
           }};
 }
@@ -18,8 +18,8 @@ StructureKind runtime_kind(const char* name, Production production) {
 }  // namespace
 
 std::vector<StructureKind> structure_kinds() {
-  std::vector<StructureKind> kinds = {runtime_kind("consumers", Production::consumers),
-                                      runtime_kind("leaders", Production::leaders)};
+  std::vector<StructureKind> kinds = {runtime_kind("consumers", Way::inline_),
+                                      runtime_kind("leaders", Way::leaders)};
 #if defined(GALE_ENABLE_KOKKOS_KERNELS)
   kinds.push_back({"explicit", [](const Mesh& mesh, RelationSet relations) {
                      return std::make_unique<ExplicitStructure>(mesh, relations);

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <functional>
-#include <gale/relations/structure.hpp>
+#include <gale/runtime/structure.hpp>
 #include <memory>
 #include <string>
 #include <vector>

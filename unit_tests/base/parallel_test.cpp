@@ -19,20 +19,20 @@ using HostSpace = Kokkos::DefaultHostExecutionSpace;
 constexpr Offset sizes[] = {0, 1, 2, 4095, 4096, 4097, 8192, 100003};
 
 template <class T>
-Array<T, ProducerMemory> scan_squares(Offset n, T* total) {
-  const auto begin = allocate<Array<T, ProducerMemory>>("begin", n + 1);
+Array<T, WorkerMemory> scan_squares(Offset n, T* total) {
+  const auto begin = allocate<Array<T, WorkerMemory>>("begin", n + 1);
   *total = exclusive_scan(
-      "test_scan", ProducerSpace(), n, begin, KOKKOS_LAMBDA(Offset i) { return T(i % 7 * (i % 7)); });
+      "test_scan", WorkerSpace(), n, begin, KOKKOS_LAMBDA(Offset i) { return T(i % 7 * (i % 7)); });
   return begin;
 }
 
 template <class T>
-Array<T, ProducerMemory> scan_in_place(const std::vector<T>& counts, T* total) {
+Array<T, WorkerMemory> scan_in_place(const std::vector<T>& counts, T* total) {
   auto values = counts;
   values.push_back(T(77));
   const auto begin = to_producer(values);
   *total = exclusive_scan(
-      "test_scan", ProducerSpace(), counts.size(), begin, KOKKOS_LAMBDA(Offset i) { return begin(i); });
+      "test_scan", WorkerSpace(), counts.size(), begin, KOKKOS_LAMBDA(Offset i) { return begin(i); });
   return begin;
 }
 
@@ -40,13 +40,13 @@ template <class T>
 T least(const std::vector<T>& values, T initial) {
   const auto array = to_producer(values);
   return reduce_min(
-      "test_min", ProducerSpace(), values.size(), initial, KOKKOS_LAMBDA(Offset i) { return array(i); });
+      "test_min", WorkerSpace(), values.size(), initial, KOKKOS_LAMBDA(Offset i) { return array(i); });
 }
 
-Array<Id, ProducerMemory> doubled(Offset n) {
-  const Array<Id, ProducerMemory> values("values", n);
+Array<Id, WorkerMemory> doubled(Offset n) {
+  const Array<Id, WorkerMemory> values("values", n);
   parallel_for(
-      "test_for", ProducerSpace(), n, KOKKOS_LAMBDA(Offset i) { values(i) += static_cast<Id>(2 * i); });
+      "test_for", WorkerSpace(), n, KOKKOS_LAMBDA(Offset i) { values(i) += static_cast<Id>(2 * i); });
   return values;
 }
 

@@ -20,7 +20,7 @@ Array<Id, HostMemory> numbers(std::size_t count) {
 TEST(Transfer, there_and_back_keeps_every_entry) {
   constexpr std::size_t mebi = 1 << 20;  // 4 MiB: where copies may be divided
   for (const std::size_t count : {std::size_t(0), std::size_t(1), mebi - 1, mebi, mebi + 1, 9 * mebi + 5}) {
-    const auto there = on_producer(numbers(count));
+    const auto there = on_worker(numbers(count));
     ASSERT_EQ(there.extent(0), count);
     const auto back = on_host(there);
     ASSERT_EQ(back.extent(0), count);
@@ -33,14 +33,14 @@ TEST(Transfer, there_and_back_keeps_every_entry) {
 TEST(Transfer, of_rows_of_four) {
   const Kokkos::View<Id* [4], Kokkos::LayoutRight, HostMemory> rows("rows", 3);
   for (int i = 0; i < 12; ++i) rows(i / 4, i % 4) = i;
-  const auto back = on_host(on_producer(Kokkos::View<const Id* [4], Kokkos::LayoutRight, HostMemory>(rows)));
+  const auto back = on_host(on_worker(Kokkos::View<const Id* [4], Kokkos::LayoutRight, HostMemory>(rows)));
   for (int i = 0; i < 12; ++i) EXPECT_EQ(back(i / 4, i % 4), i);
 }
 
 TEST(Transfer, copies_nothing_that_is_there_already) {
   const auto array = numbers(5);
   EXPECT_EQ(on_host(array).data(), array.data());
-  EXPECT_EQ(on_producer(array).data() == array.data(), !have_device);
+  EXPECT_EQ(on_worker(array).data() == array.data(), !have_device);
 }
 
 }  // namespace gale::test

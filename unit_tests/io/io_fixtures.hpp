@@ -17,7 +17,7 @@
 
 #include <gale/base/error.hpp>
 #include <gale/io/dataset.hpp>
-#include <gale/io/detail/vtk_files.hpp>
+#include <gale/io/vtk/vtk_files.hpp>
 
 namespace gale::io::test {
 

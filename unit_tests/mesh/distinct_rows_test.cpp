@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include <gale/mesh/detail/distinct_rows.hpp>
+#include <gale/mesh/distinct_rows.hpp>
 
 #include "support/arrays.hpp"
 

@@ -29,7 +29,7 @@ TEST(Enumeration, waits_until_someone_needs_it) {
   const Mesh mesh = holed();
   mesh.host();
   mesh.simplices_on_host(tetrahedra);
-  mesh.simplices_on_producer(tetrahedra);
+  mesh.simplices_on_worker(tetrahedra);
   EXPECT_EQ(mesh.known_edges(), no_id);
   EXPECT_EQ(mesh.known_triangles(), no_id);
   EXPECT_EQ(mesh.intervals_of(0)[1].size(), 0);
@@ -40,7 +40,7 @@ TEST(Enumeration, waits_until_someone_needs_it) {
 
 TEST(Enumeration, of_edges_needs_no_triangles) {
   const Mesh mesh = holed();
-  mesh.simplices_on_producer(edges);
+  mesh.simplices_on_worker(edges);
   EXPECT_EQ(mesh.known_edges(), count_of(1));
   EXPECT_EQ(mesh.known_triangles(), no_id);
   mesh.simplices_on_host(lower_edges);
@@ -66,7 +66,7 @@ TEST(Enumeration, is_shared_by_copies_of_a_mesh) {
   EXPECT_EQ(copy.simplices_on_host(edges).edge_low.data(), simplices.edge_low.data());
 }
 
-/// On the host, as what is on the producer's side may be the same memory.
+/// On the host, as what is on the worker's side may be the same memory.
 TEST(Enumeration, gives_the_host_no_table_that_it_did_not_ask_for) {
   const Mesh mesh = holed();
   const auto nothing = mesh.simplices_on_host({});
@@ -103,7 +103,7 @@ TEST(Enumeration, by_several_threads_at_once_happens_once) {
         ++begun;
         while (begun < threads) std::this_thread::yield();
         if (i % 4 == 1) mesh.interval_begin(2);
-        if (i % 4 == 2) mesh.simplices_on_producer(lower_edges);
+        if (i % 4 == 2) mesh.simplices_on_worker(lower_edges);
         if (i % 4 == 3 && mesh.known_edges() != no_id && mesh.known_edges() != count_of(1)) ++wrong;
         const auto simplices = mesh.simplices_on_host(i % 2 == 0 ? everything : triangles);
         apexes[i] = simplices.triangle_apex.data();

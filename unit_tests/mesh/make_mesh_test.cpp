@@ -63,8 +63,8 @@ TEST(MakeMesh, takes_any_layout_memory_and_integer) {
   expect_the_same_from<std::uint32_t, Kokkos::LayoutRight, HostMemory>();
   expect_the_same_from<long long, Kokkos::LayoutRight, HostMemory>();
   expect_the_same_from<std::int16_t, Kokkos::LayoutLeft, HostMemory>();
-  expect_the_same_from<std::int32_t, Kokkos::LayoutLeft, ProducerMemory>();
-  expect_the_same_from<std::int64_t, Kokkos::LayoutRight, ProducerMemory>();
+  expect_the_same_from<std::int32_t, Kokkos::LayoutLeft, WorkerMemory>();
+  expect_the_same_from<std::int64_t, Kokkos::LayoutRight, WorkerMemory>();
 }
 
 TEST(MakeMesh, takes_every_second_column_of_a_larger_view) {

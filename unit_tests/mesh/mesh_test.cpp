@@ -83,7 +83,7 @@ TEST_P(MeshOf, every_input_has_its_counts) {
 TEST_P(MeshOf, every_input_numbers_vertices_by_the_segmentation) {
   const auto vertex_input = to_vector(mesh.vertex_input());
   EXPECT_EQ(vertex_input, to_vector(segmentation().vertex_input));
-  EXPECT_EQ(vertex_input, to_vector(mesh.vertex_input_on_producer()));
+  EXPECT_EQ(vertex_input, to_vector(mesh.vertex_input_on_worker()));
   EXPECT_EQ(to_vector(mesh.vertex_begin()), to_vector(segmentation().vertex_begin));
   for (Id v = 0; v < mesh.vertices(); ++v) ASSERT_EQ(mesh.vertex_internal()(vertex_input[v]), v);
 }

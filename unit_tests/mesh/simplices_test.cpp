@@ -117,8 +117,8 @@ class SimplicesOf : public EveryMesh {
 
 TEST_P(SimplicesOf, every_mesh_are_those_of_brute_force_on_producer_and_host) {
   {
-    SCOPED_TRACE("on the producer");
-    expect_tables(Copied(mesh.simplices_on_producer(everything)), expected);
+    SCOPED_TRACE("on the worker");
+    expect_tables(Copied(mesh.simplices_on_worker(everything)), expected);
   }
   {
     SCOPED_TRACE("on the host");

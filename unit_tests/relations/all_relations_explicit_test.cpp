@@ -4,7 +4,7 @@
 
 #include <atomic>
 #include <gale/base/error.hpp>
-#include <gale/relations/explicit_structure.hpp>
+#include <gale/runtime/explicit/explicit_structure.hpp>
 
 #include "relations/every_relation_mesh.hpp"
 

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <gale/base/threads.hpp>
-#include <gale/relations/host_producer.hpp>
+#include <gale/relations/host_worker.hpp>
 
 #include "relations/every_relation_mesh.hpp"
 
@@ -10,9 +10,9 @@ namespace gale::test {
 namespace {
 
 testing::AssertionResult produced_rows(const Mesh& mesh, RelationSet wanted, const ExpectedRows& expected) {
-  HostProducer producer(mesh, wanted);
+  HostWorker worker(mesh, wanted);
   for (Id s = 0; s < mesh.segments(); ++s) {
-    const auto result = expected.match(producer.compute(s), wanted);
+    const auto result = expected.match(worker.compute(s), wanted);
     if (!result) return result;
   }
   return testing::AssertionSuccess();
@@ -35,8 +35,8 @@ INSTANTIATE_TEST_SUITE_P(Tests, RowsOf, every_relation_mesh_and_segmentation(), 
 /// 024 034 123 234 235 245 345.
 TEST(Rows, of_the_papers_example) {
   const Mesh mesh = encode(mesh_named("the_papers"), segmentation_by({1, 1, 1, 2, 2, 2}));
-  HostProducer producer(mesh, all_relations);
-  const SegmentRows rows = producer.compute(0);
+  HostWorker worker(mesh, all_relations);
+  const SegmentRows rows = worker.compute(0);
   const auto row = [&](Relation relation, Id simplex) {
     const Row found = rows[relation][simplex];
     return std::vector<Id>(found.begin(), found.end());

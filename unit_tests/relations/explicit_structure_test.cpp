@@ -3,8 +3,8 @@
 #include <array>
 
 #include <gale/base/error.hpp>
-#include <gale/relations/detail/global_graph.hpp>
-#include <gale/relations/explicit_structure.hpp>
+#include <gale/runtime/explicit/global_graph.hpp>
+#include <gale/runtime/explicit/explicit_structure.hpp>
 
 #include "relations/star_subsets.hpp"
 #include "support/brute_force.hpp"

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <gale/relations/host_producer.hpp>
+#include <gale/relations/host_worker.hpp>
 
 #include "support/brute_force.hpp"
 #include "support/segmentations.hpp"
@@ -18,9 +18,9 @@ using Table = ExpectedRows::Table;
 /// The rows of all simplices, by segments.
 Table rows_of(const Mesh& mesh, Relation relation) {
   Table table;
-  HostProducer producer(mesh, relation);
+  HostWorker worker(mesh, relation);
   for (Id s = 0; s < mesh.segments(); ++s) {
-    const SegmentRows rows = producer.compute(s);
+    const SegmentRows rows = worker.compute(s);
     const int dimension = row_dimension(relation);
     EXPECT_EQ(static_cast<std::size_t>(rows.first(dimension)), table.size());
     for (Id i = rows.first(dimension); i < rows.last(dimension); ++i) {
@@ -44,9 +44,9 @@ void expect_identities(const Mesh& mesh) {
   constexpr Relation pairs[][2] = {{Relation::EV, Relation::VE}, {Relation::FV, Relation::VF},
                                    {Relation::FE, Relation::EF}, {Relation::TV, Relation::VT},
                                    {Relation::TE, Relation::ET}, {Relation::TF, Relation::FT}};
-  for (const auto& [boundary, coboundary] : pairs) {
-    const Table xy = rows_of(mesh, boundary), yx = rows_of(mesh, coboundary);
-    EXPECT_EQ(transposed(xy, yx.size()), yx) << name_of(coboundary) << " is not the transpose of " << name_of(boundary);
+  for (const auto& [faces, coboundary] : pairs) {
+    const Table xy = rows_of(mesh, faces), yx = rows_of(mesh, coboundary);
+    EXPECT_EQ(transposed(xy, yx.size()), yx) << name_of(coboundary) << " is not the transpose of " << name_of(faces);
   }
   for (const Relation adjacency : members_of(adjacency_relations)) {
     const Table table = rows_of(mesh, adjacency);

@@ -23,11 +23,11 @@ LaunchedBatch::LaunchedBatch(const Mesh& mesh, RelationSet wanted, const BatchMe
   for (Id s = 0; s < segments; ++s) backwards[s] = segments - 1 - s;
   const auto list = to_producer(backwards);
   const auto words = to_producer(std::vector<Id>(memory.pool_words + guard_words, untouched));
-  const Array<Offset, ProducerMemory> used("used", 1), directory("directory", Offset(segments) * wanted.count());
+  const Array<Offset, WorkerMemory> used("used", 1), directory("directory", Offset(segments) * wanted.count());
   const auto needed = to_producer(std::vector<StarSizes>(1));
-  SegmentKernel<ProducerMemory> kernel(mesh, wanted);
+  SegmentKernel<WorkerMemory> kernel(mesh, wanted);
   const BlockPool pool = {words.data(), memory.pool_words, used.data(), directory.data(), needed.data()};
-  const ProducerSpace instance = make_instance();
+  const WorkerSpace instance = make_instance();
   kernel.launch(instance, {list.data(), memory.sizes, memory.scratch_level, pool}, segments, memory.warps);
   instance.fence();
   words_ = to_vector(words);
@@ -57,7 +57,7 @@ const Offset* LaunchedBatch::entry_of(Id segment) const {
 
 bool fits_level_0(const Mesh& mesh, RelationSet wanted, const StarSizes& sizes, int warps) {
   constexpr std::size_t portion = 32 * 1024;
-  return SegmentKernel<ProducerMemory>(mesh, wanted).scratch_bytes(sizes, warps) <= portion;
+  return SegmentKernel<WorkerMemory>(mesh, wanted).scratch_bytes(sizes, warps) <= portion;
 }
 
 }  // namespace gale::test

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <gale/relations/segment_kernel.hpp>
+#include <gale/relations/kernels/segment_kernel.hpp>
 #include <gale/relations/segment_rows.hpp>
 #include <vector>
 
@@ -14,7 +14,7 @@ struct BatchMemory {
   int warps = 4;  ///< a team
 };
 
-/// The blocks of all segments of a mesh, from a kernel that was launched in the producers' space on a batch of them,
+/// The blocks of all segments of a mesh, from a kernel that was launched in the workers' space on a batch of them,
 /// the last segment first.
 class LaunchedBatch {
  public:

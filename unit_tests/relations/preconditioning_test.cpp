@@ -2,7 +2,7 @@
 
 #include <gale/base/error.hpp>
 #include <gale/relations/preconditioning.hpp>
-#include <gale/relations/segment_kernel.hpp>
+#include <gale/relations/kernels/segment_kernel.hpp>
 
 #include "support/message_of.hpp"
 #include "support/segmentations.hpp"
@@ -24,7 +24,7 @@ TEST(Preconditioning, of_stars_needs_nothing_enumerated) {
   expect_needs(star_relations, Enumeration::tetrahedra, false, false);
 }
 
-TEST(Preconditioning, of_boundary_relations_needs_the_simplices_that_they_are_about) {
+TEST(Preconditioning, of_face_relations_needs_the_simplices_that_they_are_about) {
   expect_needs(Relation::EV, Enumeration::edges, false, false);
   expect_needs(Relation::FV, Enumeration::triangles, false, false);
   expect_needs(Relation::FE, Enumeration::triangles, false, false);

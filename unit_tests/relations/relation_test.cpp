@@ -35,7 +35,7 @@ TEST(Relation, has_the_dimensions_that_its_name_says) {
     const std::string name = name_of(relation);
     EXPECT_EQ(row_dimension(relation), static_cast<int>(letters.find(name[0]))) << name;
     EXPECT_EQ(entry_dimension(relation), static_cast<int>(letters.find(name[1]))) << name;
-    EXPECT_EQ(boundary_relations.has(relation), row_dimension(relation) > entry_dimension(relation)) << name;
+    EXPECT_EQ(face_relations.has(relation), row_dimension(relation) > entry_dimension(relation)) << name;
     EXPECT_EQ(coboundary_relations.has(relation), row_dimension(relation) < entry_dimension(relation)) << name;
     EXPECT_EQ(adjacency_relations.has(relation), row_dimension(relation) == entry_dimension(relation)) << name;
   }

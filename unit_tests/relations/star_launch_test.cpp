@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include <gale/base/error.hpp>
-#include <gale/relations/launch.hpp>
-#include <gale/relations/star_kernel.hpp>
+#include <gale/relations/kernels/launch.hpp>
+#include <gale/relations/kernels/star_kernel.hpp>
 
 #include "relations/star_subsets.hpp"
 #include "support/arrays.hpp"
@@ -15,7 +15,7 @@ namespace gale::test {
 
 namespace {
 
-/// A batch of all segments of a mesh, launched in the producers' space, with memory of given sizes.
+/// A batch of all segments of a mesh, launched in the workers' space, with memory of given sizes.
 class Batch {
  public:
   Batch(const Mesh& mesh, RelationSet wanted, const StarSizes& sizes, int level, Offset capacity)
@@ -26,17 +26,17 @@ class Batch {
     std::vector<Id> list(segments);
     for (Id s = 0; s < segments; ++s) list[s] = segments - 1 - s;
     const auto segment_list = to_producer(list);
-    const auto words = allocate<Array<Id, ProducerMemory>>("words", capacity_);
-    const Array<Offset, ProducerMemory> used("used", 1), directory("directory", Offset(segments) * wanted_.count());
+    const auto words = allocate<Array<Id, WorkerMemory>>("words", capacity_);
+    const Array<Offset, WorkerMemory> used("used", 1), directory("directory", Offset(segments) * wanted_.count());
     const auto needed = to_producer(std::vector<StarSizes>(1));
-    StarKernel<ProducerMemory> kernel;
-    kernel.mesh = mesh_.producer();
+    StarKernel<WorkerMemory> kernel;
+    kernel.mesh = mesh_.worker();
     kernel.segments = segment_list.data();
     kernel.wanted = wanted_;
     kernel.sizes = sizes_;
     kernel.scratch_level = level_;
     kernel.pool = {words.data(), capacity_, used.data(), directory.data(), needed.data()};
-    const ProducerSpace instance = make_instance();
+    const WorkerSpace instance = make_instance();
     launch(instance, kernel, segments, warps);
     instance.fence();
     words_ = to_vector(words);
@@ -101,7 +101,7 @@ Id expect_rows(const Batch& batch, const Mesh& mesh, RelationSet wanted, const E
 /// Does a team of these sizes find room in the scratch memory that is fast?
 bool fits_level_0(const StarSizes& sizes) {
   constexpr std::size_t portion = 32 * 1024;
-  return StarKernel<ProducerMemory>::scratch_bytes(sizes, warps) < portion;
+  return StarKernel<WorkerMemory>::scratch_bytes(sizes, warps) < portion;
 }
 
 /// What every segment of the mesh needs, found as a runtime does: by trying.
@@ -165,13 +165,13 @@ TEST(LaunchedStars, of_a_vertex_of_degree_70000) {
   EXPECT_EQ(expect_rows(batch, mesh, star_relations, expected), mesh.segments());
 }
 
-TEST(LaunchedStars, of_no_segments_are_nothing) { launch(ProducerSpace(), StarKernel<ProducerMemory>(), 0, warps); }
+TEST(LaunchedStars, of_no_segments_are_nothing) { launch(WorkerSpace(), StarKernel<WorkerMemory>(), 0, warps); }
 
 TEST(LaunchedStars, refuse_more_scratch_memory_than_a_team_can_have) {
-  StarKernel<ProducerMemory> kernel;
+  StarKernel<WorkerMemory> kernel;
   kernel.sizes = {1000, 600000000, 8, 8};
   try {
-    launch(ProducerSpace(), kernel, 1, 1);
+    launch(WorkerSpace(), kernel, 1, 1);
     ADD_FAILURE() << "accepted";
   } catch (const Error& error) {
     EXPECT_NE(std::string(error.what()).find("a segment of 1000 rows takes 24000"), std::string::npos)

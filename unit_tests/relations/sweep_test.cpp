@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <thread>
 
-#include <gale/relations/detail/sweep.hpp>
+#include <gale/runtime/sweep.hpp>
 
 namespace gale::test {
 

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include <gale/relations/host_producer.hpp>
-#include <gale/relations/segment_kernel.hpp>
+#include <gale/relations/host_worker.hpp>
+#include <gale/relations/kernels/segment_kernel.hpp>
 
 #include "support/message_of.hpp"
 #include "support/segmentations.hpp"
@@ -12,8 +12,8 @@ namespace gale::test {
 TEST(Uncountable, entries_of_one_segment_are_refused_by_name) {
   const InputMesh input = cone_over_disc(70000);
   const Mesh mesh = encode(input, octree_of(input, 1000000));
-  HostProducer producer(mesh, Relation::EE);
-  EXPECT_EQ(message_of([&] { producer.compute(0); }), "segment 0 has more than 2147483647 entries of EE: use smaller segments");
+  HostWorker worker(mesh, Relation::EE);
+  EXPECT_EQ(message_of([&] { worker.compute(0); }), "segment 0 has more than 2147483647 entries of EE: use smaller segments");
 }
 
 TEST(Uncountable, blocks_of_a_batch_are_refused_by_their_segment) {

@@ -21,7 +21,7 @@ constexpr RelationSet mixed_sets[] = {
     Relation::TV | Relation::EF | Relation::FF,
     Relation::VE | Relation::VV | Relation::EV,
     Relation::TF | Relation::ET | Relation::link | Relation::EE,
-    boundary_relations,
+    face_relations,
     coboundary_relations,
     adjacency_relations,
 };
@@ -170,7 +170,7 @@ TEST(MixedConsumers, read_beside_a_sweep_and_inside_of_it) {
 TEST(MixedRuntime, evicts_blocks_under_a_small_budget) {
   const Fixture holed("holed_grid_9");
   RuntimeOptions options;
-  options.production = Production::leaders;
+  options.way = Way::leaders;
   options.host_memory = 1 << 16;
   Runtime runtime(holed.mesh, Relation::EF | Relation::FF, options);
   const auto consumer = runtime.consumer();
@@ -184,11 +184,11 @@ TEST(MixedRuntime, evicts_blocks_under_a_small_budget) {
   }
 }
 
-TEST(MixedRuntime, has_no_leaders_for_boundary_relations) {
+TEST(MixedRuntime, has_no_leaders_for_face_relations) {
   const Fixture papers("the_papers");
   RuntimeOptions options;
-  options.production = Production::leaders;
-  EXPECT_TRUE(Runtime(papers.mesh, boundary_relations, options).statistics().leaders.empty());
+  options.way = Way::leaders;
+  EXPECT_TRUE(Runtime(papers.mesh, face_relations, options).statistics().leaders.empty());
   const auto leaders = Runtime(papers.mesh, all_relations, options).statistics().leaders;
   ASSERT_EQ(leaders.size(), 9u);
   EXPECT_EQ(name_of(leaders.front().relations), "VE");

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include <gale/runtime/detail/block_store.hpp>
+#include <gale/runtime/leaders/block_store.hpp>
 
 namespace gale::test {
 

@@ -3,8 +3,8 @@
 #include <atomic>
 
 #include <gale/base/error.hpp>
-#include <gale/relations/detail/sweep.hpp>
-#include <gale/runtime/detail/helped_sweep.hpp>
+#include <gale/runtime/sweep.hpp>
+#include <gale/runtime/helpers/helped_sweep.hpp>
 #include <gale/runtime/runtime.hpp>
 
 #include "support/brute_force.hpp"
@@ -21,19 +21,19 @@ constexpr int ring = 8;  ///< blocks that a helper keeps
 using Hook = std::function<void(Id)>;
 
 /// Computes VV, and does something before it.
-class Hooked : public detail::SegmentProducer {
+class Hooked : public detail::SegmentWorker {
  public:
   Hooked(const Mesh& mesh, ConsumerStatistics& statistics, int kept, Hook hook)
-      : producer_(mesh, Relation::VV, statistics, kept), hook_(std::move(hook)) {}
+      : worker_(mesh, Relation::VV, statistics, kept), hook_(std::move(hook)) {}
 
   SegmentRows compute(Id segment) override {
     if (hook_) hook_(segment);
-    return producer_.compute(segment);
+    return worker_.compute(segment);
   }
-  std::size_t block_bytes() const override { return producer_.block_bytes(); }
+  std::size_t block_bytes() const override { return worker_.block_bytes(); }
 
  private:
-  detail::CountingProducer producer_;
+  detail::CountingWorker worker_;
   Hook hook_;
 };
 
@@ -42,7 +42,7 @@ struct Fixture {
   Mesh mesh = encode(input, octree_of(input, 7));
   ExpectedRows expected{input, brute_force_of("holed_grid_9"), mesh};
 
-  detail::MakeProducer hooked(Hook hook) const {
+  detail::MakeWorker hooked(Hook hook) const {
     return [this, hook](ConsumerStatistics& statistics, int kept) { return std::make_unique<Hooked>(mesh, statistics, kept, hook); };
   }
 
@@ -131,7 +131,7 @@ TEST(HelpedSweep, goes_on_without_helpers_that_fail) {
     ++failed;
     throw std::bad_alloc();
   };
-  const detail::MakeProducer cannot_make = [&](ConsumerStatistics&, int) -> std::unique_ptr<detail::SegmentProducer> {
+  const detail::MakeWorker cannot_make = [&](ConsumerStatistics&, int) -> std::unique_ptr<detail::SegmentWorker> {
     fail(0);
     return nullptr;
   };
@@ -165,7 +165,7 @@ TEST(HelpedSweep, has_no_help_from_those_that_the_budget_is_too_small_for) {
 TEST(Helpers, are_as_many_as_cores_without_a_consumer) {
   const Fixture fixture;
   RuntimeOptions options;
-  options.production = Production::helpers;
+  options.way = Way::helpers;
   options.cores = 4;
   for (const int threads : {1, 3, 4, 9}) {
     Runtime runtime(fixture.mesh, Relation::VV, options);
@@ -174,7 +174,7 @@ TEST(Helpers, are_as_many_as_cores_without_a_consumer) {
     runtime.for_each_segment(Relation::VV, sweep, [](int, const SegmentRows&) {});
     const auto statistics = runtime.statistics();
     const auto consumers = statistics.all_consumers();
-    EXPECT_EQ(runtime.production(), Production::helpers);
+    EXPECT_EQ(runtime.way(), Way::helpers);
     EXPECT_EQ(statistics.consumers.size(), static_cast<std::size_t>(threads));
     EXPECT_EQ(consumers.hits + consumers.segments_computed, fixture.mesh.segments());
     EXPECT_GE(statistics.helpers.segments_computed, consumers.hits);
@@ -185,7 +185,7 @@ TEST(Helpers, are_as_many_as_cores_without_a_consumer) {
 TEST(Helpers, need_a_number_of_cores) {
   const Fixture fixture;
   RuntimeOptions options;
-  options.production = Production::helpers;
+  options.way = Way::helpers;
   options.cores = -1;
   EXPECT_EQ(message_of([&] { Runtime(fixture.mesh, Relation::VV, options); }), "cores must be at least 1, not -1");
 }

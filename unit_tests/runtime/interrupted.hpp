@@ -4,17 +4,17 @@
 #include <memory>
 #include <vector>
 
-#include <gale/runtime/detail/batch_producer.hpp>
+#include <gale/runtime/leaders/batch_worker.hpp>
 
 namespace gale::test {
 
-/// A host producer with something done before it launches, and before it finishes.
-class Interrupted : public detail::BatchProducer {
+/// A host worker with something done before it launches, and before it finishes.
+class Interrupted : public detail::BatchWorker {
  public:
   using Interruption = std::function<void(const std::vector<Id>&)>;
 
   Interrupted(const Mesh& mesh, Interruption at_launch, Interruption at_finish)
-      : producer_(detail::make_host_producer(mesh, {Relation::VV, 0, 32})),
+      : worker_(detail::make_host_worker(mesh, {Relation::VV, 0, 32})),
         at_launch_(std::move(at_launch)),
         at_finish_(std::move(at_finish)) {}
 
@@ -22,18 +22,18 @@ class Interrupted : public detail::BatchProducer {
   void launch(const std::vector<Id>& segments, Offset words, const StarSizes& scratch) override {
     if (at_launch_) at_launch_(segments);
     segments_ = segments;
-    producer_->launch(segments, words, scratch);
+    worker_->launch(segments, words, scratch);
   }
-  void begin_copy(detail::Arena& arena) override { producer_->begin_copy(arena); }
+  void begin_copy(detail::Arena& arena) override { worker_->begin_copy(arena); }
   detail::Shortfall finish(detail::Arena& arena) override {
     if (at_finish_) at_finish_(segments_);
-    return producer_->finish(arena);
+    return worker_->finish(arena);
   }
   void abandon() noexcept override {}
   std::size_t device_bytes() const override { return 0; }
 
  private:
-  std::unique_ptr<detail::BatchProducer> producer_;
+  std::unique_ptr<detail::BatchWorker> worker_;
   Interruption at_launch_, at_finish_;
   std::vector<Id> segments_;
 };

@@ -5,7 +5,7 @@
 #include <thread>
 
 #include <gale/base/error.hpp>
-#include <gale/runtime/detail/leader.hpp>
+#include <gale/runtime/leaders/leader.hpp>
 
 #include "runtime/interrupted.hpp"
 #include "support/message_of.hpp"
@@ -21,14 +21,14 @@ struct Fixture {
   ConsumerStatistics statistics;
 
   std::unique_ptr<detail::Leader> leader(Interrupted::Interruption at_launch, Interrupted::Interruption at_finish, Id per_request = 8) {
-    std::vector<std::unique_ptr<detail::BatchProducer>> producers;
-    for (int i = 0; i < 2; ++i) producers.push_back(std::make_unique<Interrupted>(mesh, at_launch, at_finish));
+    std::vector<std::unique_ptr<detail::BatchWorker>> workers;
+    for (int i = 0; i < 2; ++i) workers.push_back(std::make_unique<Interrupted>(mesh, at_launch, at_finish));
     detail::LeaderParameters parameters;
     parameters.relations = Relation::VV;
     parameters.arena_words = 4096;
     parameters.host_budget = 1 << 20;
     parameters.segments_per_request = per_request;
-    return std::make_unique<detail::Leader>(mesh, parameters, std::move(producers));
+    return std::make_unique<detail::Leader>(mesh, parameters, std::move(workers));
   }
 };
 

@@ -5,7 +5,7 @@
 #include <thread>
 
 #include <gale/base/error.hpp>
-#include <gale/relations/host_producer.hpp>
+#include <gale/relations/host_worker.hpp>
 #include <gale/runtime/runtime.hpp>
 
 #include "runtime/ways.hpp"
@@ -141,7 +141,7 @@ TEST(Runtime, evicts_under_a_small_budget_and_not_under_a_large_one) {
   const Holed holed;
   for (const bool small : {true, false}) {
     RuntimeOptions options;
-    options.production = Production::leaders;
+    options.way = Way::leaders;
     if (small) options.host_memory = 32768;
     Runtime runtime(holed.mesh, star_relations, options);
     const auto consumer = runtime.consumer();
@@ -159,7 +159,7 @@ TEST(Runtime, evicts_under_a_small_budget_and_not_under_a_large_one) {
 TEST(Runtime, counts_what_consumers_and_leaders_did) {
   const Holed holed;
   RuntimeOptions options;
-  options.production = Production::leaders;
+  options.way = Way::leaders;
   options.queues = Queues::per_relation;
   Runtime runtime(holed.mesh, Relation::VV | Relation::VT, options);
   {
@@ -168,7 +168,7 @@ TEST(Runtime, counts_what_consumers_and_leaders_did) {
     consumer->row(Relation::VV, 0);
   }
   const auto statistics = runtime.statistics();
-  EXPECT_EQ(runtime.production(), Production::leaders);
+  EXPECT_EQ(runtime.way(), Way::leaders);
   ASSERT_EQ(statistics.leaders.size(), 2u);
   EXPECT_EQ(name_of(statistics.leaders[0].relations), "VT");
   EXPECT_EQ(statistics.leaders[0].batches, 0);
@@ -207,7 +207,7 @@ TEST(Runtime, refuses_a_vertex_that_is_not_there) {
 TEST(Runtime, that_ends_tells_consumers_that_go_on_asking) {
   const Holed holed;
   RuntimeOptions options;
-  options.production = Production::leaders;
+  options.way = Way::leaders;
   auto runtime = std::make_unique<Runtime>(holed.mesh, star_relations, options);
   std::vector<std::thread> threads;
   std::atomic<int> begun{0}, told{0};

@@ -7,7 +7,7 @@
 
 #include <gale/base/error.hpp>
 #include <gale/base/threads.hpp>
-#include <gale/runtime/detail/leader.hpp>
+#include <gale/runtime/leaders/leader.hpp>
 #include <gale/runtime/runtime.hpp>
 
 #include "runtime/interrupted.hpp"
@@ -59,9 +59,9 @@ class Trouble {
 TEST(Stress, of_a_leader_whose_producers_fail_loses_and_mistakes_nothing) {
   const Stressed stressed;
   Trouble at_launch, at_finish;
-  std::vector<std::unique_ptr<detail::BatchProducer>> producers;
+  std::vector<std::unique_ptr<detail::BatchWorker>> workers;
   for (int i = 0; i < 3; ++i) {
-    producers.push_back(std::make_unique<Interrupted>(stressed.mesh, std::ref(at_launch), [&](const std::vector<Id>& segments) {
+    workers.push_back(std::make_unique<Interrupted>(stressed.mesh, std::ref(at_launch), [&](const std::vector<Id>& segments) {
       if (segments.size() == 1) at_finish({});
     }));
   }
@@ -70,7 +70,7 @@ TEST(Stress, of_a_leader_whose_producers_fail_loses_and_mistakes_nothing) {
   parameters.arena_words = 512;
   parameters.host_budget = 1 << 13;
   parameters.segments_per_request = 5;
-  detail::Leader leader(stressed.mesh, parameters, std::move(producers));
+  detail::Leader leader(stressed.mesh, parameters, std::move(workers));
   std::atomic<long> right{0}, wrong{0}, failed{0};
   const int rounds = 300 * times();
   on_threads(consumers, [&](int consumer) {
@@ -98,7 +98,7 @@ TEST(Stress, of_consumers_and_sweeps_with_budgets_that_hold_next_to_nothing) {
   const RelationSet relations = star_relations;
   for (Way way : ways()) {
     // Helpers need a little to help at all.
-    way.options.host_memory = way.options.production == Production::helpers ? 1 << 24 : 1 << 13;
+    way.options.host_memory = way.options.way == Way::helpers ? 1 << 24 : 1 << 13;
     Runtime runtime(stressed.mesh, relations, way.options);
     std::atomic<long> wrong{0};
     std::atomic<int> swept{0};

@@ -16,20 +16,20 @@ struct Way {
 inline std::vector<Way> ways() {
   std::vector<Way> all(7);
   all[0].name = "consumers";
-  all[0].options.production = Production::consumers;
+  all[0].options.way = Way::inline_;
   all[1].name = "leaders";
-  all[1].options.production = Production::leaders;
+  all[1].options.way = Way::leaders;
   all[2].name = "leaders, a queue for each relation, a tiny budget";
-  all[2].options.production = Production::leaders;
+  all[2].options.way = Way::leaders;
   all[2].options.queues = Queues::per_relation;
   all[2].options.host_memory = 16384;
   all[3].name = "leaders, one segment a request";
-  all[3].options.production = Production::leaders;
+  all[3].options.way = Way::leaders;
   all[3].options.blocks_per_request = all[3].options.threads_per_block = 1;
   all[4].name = "pairs";
-  all[4].options.production = Production::pairs;
+  all[4].options.way = Way::task_parallel;
   all[5].name = "helpers, on sixteen cores";
-  all[5].options.production = Production::helpers;
+  all[5].options.way = Way::helpers;
   all[5].options.cores = 16;
   all[6].name = "automatic";
   return all;

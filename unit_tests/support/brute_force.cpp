@@ -31,7 +31,7 @@ BruteForce::Table transposed(const BruteForce::Table& table, std::size_t columns
 }  // namespace
 
 BruteForce::BruteForce(const InputMesh& mesh)
-    : vv(mesh.points.size()), vt(mesh.points.size()), on_boundary(mesh.points.size()), tetrahedra_(mesh.tetrahedra) {
+    : vv(mesh.points.size()), vt(mesh.points.size()), on_surface(mesh.points.size()), tetrahedra_(mesh.tetrahedra) {
   std::map<std::set<Id>, int> tetrahedra_of_triangle;
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
     const std::set<Id> corners(mesh.tetrahedra[t].begin(), mesh.tetrahedra[t].end());
@@ -45,7 +45,7 @@ BruteForce::BruteForce(const InputMesh& mesh)
   }
   for (const auto& [triangle, tetrahedra] : tetrahedra_of_triangle) {
     if (tetrahedra != 1) continue;
-    for (const Id v : triangle) on_boundary[v] = 1;
+    for (const Id v : triangle) on_surface[v] = 1;
   }
 }
 

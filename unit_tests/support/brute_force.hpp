@@ -19,7 +19,7 @@ class BruteForce {
   using Table = std::vector<std::vector<Id>>;  ///< ascending ids, by simplex
 
   std::vector<std::set<Id>> vv, vt;
-  std::vector<std::uint8_t> on_boundary;  ///< per vertex: 1 if some triangle of it has exactly one tetrahedron
+  std::vector<std::uint8_t> on_surface;  ///< per vertex: 1 if some triangle of it has exactly one tetrahedron
 
   explicit BruteForce(const InputMesh& mesh);
 

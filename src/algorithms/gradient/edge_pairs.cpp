@@ -1,0 +1,40 @@
+#include <gale/algorithms/gradient/edge_pairs.hpp>
+
+#include <algorithm>
+#include <cstring>
+
+namespace gale::detail {
+
+void EdgePairRow::begin(Id count) {
+  words_[0] = count;
+  std::memset(words_ + 1 + count, 0xff, (words_for(count) - 1 - count) * sizeof(Id));
+}
+
+EdgePairs::EdgePairs(Id vertices, int consumers)
+    : rows_(allocate<Array<EdgePairRow, HostMemory>>("GALE::edge_pair_rows", vertices)), pools_(consumers) {}
+
+EdgePairRow EdgePairs::begin(int consumer, Id vertex, Id count) {
+  constexpr Offset least = Offset(1) << 16, most = Offset(1) << 23;  // words: large enough for large pages, and little for little meshes
+  Pool& pool = pools_[consumer];
+  const Offset words = EdgePairRow::words_for(count);
+  if (pool.end - pool.next < words) {
+    const Offset twice = pool.chunks.empty() ? least : 2 * static_cast<Offset>(pool.chunks.back().extent(0));
+    pool.chunks.push_back(allocate<Array<Id, HostMemory>>("GALE::edge_pairs", std::max(words, std::min(twice, most))));
+    pool.next = pool.chunks.back().data();
+    pool.end = pool.next + pool.chunks.back().extent(0);
+  }
+  EdgePairRow row(pool.next);
+  pool.next += words;
+  row.begin(count);
+  return rows_(vertex) = row;
+}
+
+std::size_t EdgePairs::bytes() const {
+  std::size_t words = 0;
+  for (const Pool& pool : pools_) {
+    for (const auto& chunk : pool.chunks) words += chunk.extent(0);
+  }
+  return words * sizeof(Id) + rows_.extent(0) * sizeof(EdgePairRow);
+}
+
+}  // namespace gale::detail

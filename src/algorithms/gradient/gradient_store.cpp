@@ -1,0 +1,77 @@
+#include <gale/algorithms/gradient/gradient_store.hpp>
+
+#include <algorithm>
+#include <functional>
+#include <iterator>
+
+#include <gale/algorithms/order/written.hpp>
+#include <gale/base/threads.hpp>
+
+namespace gale::detail {
+
+namespace {
+
+/// What all consumers found, sorted by `key`, which is unique.
+template <class T, class Part, class Member, class Key>
+std::vector<T> merged(const std::vector<Part>& parts, const Member& member, const Key& key) {
+  std::vector<std::pair<decltype(key(T())), T>> keyed;
+  for (const auto& part : parts) {
+    for (const T& simplex : member(part)) keyed.push_back({key(simplex), simplex});
+  }
+  std::sort(keyed.begin(), keyed.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<T> all;
+  all.reserve(keyed.size());
+  for (const auto& [sorted_by, simplex] : keyed) all.push_back(simplex);
+  return all;
+}
+
+}  // namespace
+
+GradientStore::GradientStore(const Mesh& mesh_, const VertexOrder& order_, int consumers)
+    : mesh(mesh_),
+      order(order_),
+      vertex_successor(allocate<Array<Id, HostMemory>>("GALE::vertex_successor", mesh.vertices())),
+      tetrahedron_successor(allocate<Array<Id, HostMemory>>("GALE::tetrahedron_successor", mesh.tetrahedra())),
+      pairs(mesh.vertices(), consumers),
+      found_(consumers),
+      stars_(consumers) {}
+
+void GradientStore::finish() {
+  const Id* const vertex_input = mesh.vertex_input().data();
+  const Id* const tetrahedron_input = mesh.tetrahedron_input().data();
+  using Found = CriticalSimplices;
+  std::vector<InStar> stars;
+  const std::function<void()> parts[] = {
+      [&] {
+        stars = merged<InStar>(stars_, [](const auto& found) -> const auto& { return found; }, [=](const InStar& in_star) {
+          return std::make_pair(written(vertex_input, in_star.triangle), tetrahedron_input[in_star.tetrahedron]);
+        });
+      },
+      [&] {
+        critical.triangles = merged<std::array<Id, 3>>(found_, [](const Found& found) -> const auto& { return found.triangles; },
+                                                         [=](const auto& triangle) { return written(vertex_input, triangle); });
+      },
+      [&] {
+        critical.edges = merged<std::array<Id, 2>>(found_, [](const Found& found) -> const auto& { return found.edges; },
+                                                     [=](const auto& edge) { return written(vertex_input, edge); });
+      },
+      [&] {
+        critical.vertices = merged<Id>(found_, [](const Found& found) -> const auto& { return found.vertices; }, [=](Id vertex) { return vertex_input[vertex]; });
+        critical.tetrahedra = merged<Id>(found_, [](const Found& found) -> const auto& { return found.tetrahedra; },
+                                           [=](Id tetrahedron) { return tetrahedron_input[tetrahedron]; });
+      }};
+  in_turns(host_threads(), std::size(parts), [&](int, std::int64_t i) { parts[i](); });
+  found_.clear();
+  stars_.clear();
+  auto next = stars.begin();
+  for (const auto& triangle : critical.triangles) {
+    for (; next != stars.end() && next->triangle == triangle; ++next) critical.star.push_back(next->tetrahedron);
+    critical.star_begin.push_back(static_cast<Id>(critical.star.size()));
+  }
+}
+
+std::size_t GradientStore::bytes() const {
+  return (vertex_successor.extent(0) + tetrahedron_successor.extent(0)) * sizeof(Id) + pairs.bytes();
+}
+
+}  // namespace gale::detail

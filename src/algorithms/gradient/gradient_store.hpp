@@ -1,0 +1,66 @@
+#pragma once
+
+#include <vector>
+
+#include <gale/algorithms/critical_simplices.hpp>
+#include <gale/algorithms/gradient/edge_pairs.hpp>
+#include <gale/algorithms/vertex_order.hpp>
+
+namespace gale::detail {
+
+/// What a DiscreteGradient is made of, and how the consumers of a sweep fill it: each vertex is one consumer's, and with it all simplices that have
+/// it as their highest vertex.
+class GradientStore {
+ public:
+  GradientStore(const Mesh& mesh, const VertexOrder& order, int consumers);
+
+  /// A vertex' edge; no_id if it is critical.
+  void set_vertex(int consumer, Id vertex, Id other) {
+    vertex_successor(vertex) = other;
+    if (other == no_id) found_[consumer].vertices.push_back(vertex);
+  }
+
+  /// The lower ends of a vertex' edges, ascending; each edge's triangle is to be set.
+  EdgePairRow begin_edges(int consumer, Id vertex, Id count) { return pairs.begin(consumer, vertex, count); }
+
+  /// The tetrahedron across the paired triangle, or `outside`.
+  void set_tetrahedron(Id tetrahedron, Id successor) { tetrahedron_successor(tetrahedron) = successor; }
+
+  /// The successor of a tetrahedron that leaves through the surface, by the triangle opposite its corner.
+  static Id outside(int corner) { return no_id - 1 - corner; }
+  static int corner_outside(Id successor) { return no_id - 1 - successor; }
+
+  void add_critical_edge(int consumer, Id high, Id low) { found_[consumer].edges.push_back({high, low}); }
+  void add_critical_triangle(int consumer, const std::array<Id, 3>& from_high_to_low) { found_[consumer].triangles.push_back(from_high_to_low); }
+  void add_critical_tetrahedron(int consumer, Id tetrahedron) {
+    tetrahedron_successor(tetrahedron) = no_id;
+    found_[consumer].tetrahedra.push_back(tetrahedron);
+  }
+
+  /// Each tetrahedron of each critical triangle.
+  void add_to_star(int consumer, const std::array<Id, 3>& triangle, Id tetrahedron) { stars_[consumer].push_back({triangle, tetrahedron}); }
+
+  /// After the sweep: gathers what the consumers found, in the order of input numbers.
+  void finish();
+
+  std::size_t bytes() const;
+
+  const Mesh mesh;
+  const VertexOrder order;
+  Array<Id, HostMemory> vertex_successor;
+  Array<Id, HostMemory> tetrahedron_successor;
+  EdgePairs pairs;
+  CriticalSimplices critical;
+
+ private:
+  struct InStar {
+    std::array<Id, 3> triangle;
+    Id tetrahedron;
+  };
+
+  // What each consumer found.
+  std::vector<CriticalSimplices> found_;
+  std::vector<std::vector<InStar>> stars_;
+};
+
+}  // namespace gale::detail

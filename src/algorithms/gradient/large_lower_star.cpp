@@ -1,0 +1,100 @@
+#include <gale/algorithms/gradient/large_lower_star.hpp>
+
+#include <algorithm>
+
+namespace gale::detail {
+
+void LargeLowerStar::build(const std::vector<Id>& ranks, int edges, const LinkRow& link) {
+  sides_.clear();
+  corners_.clear();
+  std::vector<std::pair<Corners, Id>> tetrahedra;
+  for (Id a = 0; a < edges; ++a) corners_.push_back({a, -1, -1});
+  for (Id t = 0; t < link.size(); ++t) {
+    Corners c = {ranks[link(t, 0)], ranks[link(t, 1)], ranks[link(t, 2)]};
+    std::sort(c.begin(), c.end(), std::greater<Id>());
+    if (c[1] >= 0) sides_.push_back({c[0], c[1], t});
+    if (c[2] < 0) continue;
+    sides_.push_back({c[0], c[2], t});
+    sides_.push_back({c[1], c[2], t});
+    tetrahedra.push_back({c, t});
+    corners_.push_back(c);
+  }
+  std::sort(sides_.begin(), sides_.end());
+  for (const Corners& side : sides_) corners_.push_back({side[0], side[1], -1});
+  std::sort(corners_.begin(), corners_.end());
+  corners_.erase(std::unique(corners_.begin(), corners_.end()), corners_.end());
+  place_.assign(corners_.size(), no_id);
+  for (const auto& [corners, t] : tetrahedra) place_[cell_of(corners)] = t;
+  connect();
+  settled_.assign(corners_.size(), 0);
+  ready_ = deferred_ = Queue();
+}
+
+int LargeLowerStar::cell_of(const Corners& corners) const {
+  return static_cast<int>(std::lower_bound(corners_.begin(), corners_.end(), corners) - corners_.begin());
+}
+
+/// Facets that contain the vertex, and cofacets.
+void LargeLowerStar::connect() {
+  facets_.assign(corners_.size(), {-1, -1, -1});
+  cofacet_begin_.assign(corners_.size() + 1, 0);
+  for (std::size_t cell = 0; cell < corners_.size(); ++cell) {
+    const auto& [a, b, c] = corners_[cell];
+    if (b < 0) continue;
+    if (c < 0) {
+      facets_[cell] = {cell_of({a, -1, -1}), cell_of({b, -1, -1}), -1};
+    } else {
+      facets_[cell] = {cell_of({a, b, -1}), cell_of({a, c, -1}), cell_of({b, c, -1})};
+    }
+    for (const int facet : facets_[cell]) {
+      if (facet >= 0) ++cofacet_begin_[facet + 1];
+    }
+  }
+  for (std::size_t cell = 0; cell < corners_.size(); ++cell) cofacet_begin_[cell + 1] += cofacet_begin_[cell];
+  cofacets_.resize(cofacet_begin_.back());
+  std::vector<int> next(cofacet_begin_.begin(), cofacet_begin_.end() - 1);
+  for (std::size_t cell = 0; cell < corners_.size(); ++cell) {
+    for (const int facet : facets_[cell]) {
+      if (facet >= 0) cofacets_[next[facet]++] = static_cast<int>(cell);
+    }
+  }
+}
+
+std::vector<LargeLowerStar::Corners>::const_iterator LargeLowerStar::first_side(int triangle) const {
+  return std::lower_bound(sides_.begin(), sides_.end(), Corners{corners_[triangle][0], corners_[triangle][1], 0});
+}
+
+Id LargeLowerStar::across(int triangle, Id place) const {
+  Id best = no_id;
+  for_each_tetrahedron(triangle, [&](Id other) {
+    if (other != place && (best == no_id || numbers_[other] < numbers_[best])) best = other;
+  });
+  return best;
+}
+
+void LargeLowerStar::push(int cell) {
+  for (int i = cofacet_begin_[cell]; i < cofacet_begin_[cell + 1]; ++i) {
+    const int cofacet = cofacets_[i];
+    int open = 0;
+    for (const int facet : facets_[cofacet]) open += facet >= 0 && !settled_[facet];
+    if (open == 1 && !settled_[cofacet]) ready_.push(cofacet);
+  }
+}
+
+int LargeLowerStar::facet(int cell) const {
+  for (const int facet : facets_[cell]) {
+    if (facet >= 0 && !settled_[facet]) return facet;
+  }
+  return -1;
+}
+
+bool LargeLowerStar::take(Queue& from, int& cell) {
+  while (!from.empty()) {
+    cell = from.top();
+    from.pop();
+    if (!settled_[cell]) return true;
+  }
+  return false;
+}
+
+}  // namespace gale::detail

@@ -1,0 +1,131 @@
+#include <gale/algorithms/morse_smale/ascending_walls.hpp>
+
+#include <algorithm>
+#include <functional>
+#include <memory>
+#include <queue>
+
+#include <gale/algorithms/morse_smale/edge_star.hpp>
+#include <gale/algorithms/morse_smale/edge_table.hpp>
+#include <gale/algorithms/morse_smale/gathered_separatrices.hpp>
+#include <gale/algorithms/morse_smale/space_order.hpp>
+#include <gale/algorithms/order/written.hpp>
+#include <gale/base/threads.hpp>
+
+namespace gale::detail {
+
+namespace {
+
+using Edge = std::array<Id, 2>;
+
+/// An edge of a wall, and where its tetrahedra are among those that a thread has found.
+struct Cell {
+  Edge edge;
+  int thread;
+  Id star_size;
+  Offset star_begin;
+};
+
+/// Edges of a wall that wait. They are taken in passes over the mesh, each by ascending id of the higher end: those of one segment together, however
+/// a wall winds.
+class Pending {
+ public:
+  bool empty() const { return ahead_.empty() && behind_.empty(); }
+
+  void add(const Edge& edge) { (edge < last_ ? behind_ : ahead_).push(edge); }
+
+  Edge take() {
+    if (ahead_.empty()) ahead_.swap(behind_);
+    last_ = ahead_.top();
+    ahead_.pop();
+    return last_;
+  }
+
+ private:
+  using Queue = std::priority_queue<Edge, std::vector<Edge>, std::greater<Edge>>;
+
+  Edge last_{};
+  Queue ahead_, behind_;
+};
+
+/// One thread's part.
+class Tracer {
+ public:
+  Tracer(Structure& structure, const DiscreteGradient& gradient, int thread)
+      : thread_(thread), gradient_(gradient), keys_(gradient.order().keys()), vertex_input_(structure.mesh().vertex_input().data()), consumer_(structure.consumer()), star_(structure.mesh()) {}
+
+  void follow(Id source, const Edge& critical) {
+    seen_.clear();
+    seen_.insert(critical[0], critical[1]);
+    const auto first = static_cast<std::ptrdiff_t>(walls.cells.size());
+    for (Edge edge = critical;; edge = pending_.take()) {
+      const auto [high, low] = edge;
+      star_.find(high, low, consumer_->row(Relation::VT, high));
+      walls.cells.push_back({edge, thread_, static_cast<Id>(star_.around().size()), static_cast<Offset>(stars.size())});
+      stars.insert(stars.end(), star_.around().begin(), star_.around().end());
+      for (const Id third : star_.thirds()) cross({high, low, third});
+      if (pending_.empty()) break;
+    }
+    std::sort(walls.cells.begin() + first + 1, walls.cells.end(), [this](const Cell& a, const Cell& b) { return written(vertex_input_, a.edge) < written(vertex_input_, b.edge); });
+    walls.sources.push_back(source);
+    walls.begin.push_back(static_cast<Offset>(walls.cells.size()));
+  }
+
+  Separatrices<Cell> walls;
+  std::vector<Id> stars;
+
+ private:
+  /// To the edge that a triangle is paired with, if it is with one.
+  void cross(TriangleVertices triangle) {
+    std::sort(triangle.begin(), triangle.end(), [this](Id a, Id b) { return keys_[a] > keys_[b]; });
+    for (int i = 1; i < 3; ++i) {
+      if (gradient_.triangle_of_lower_edge(triangle[0], triangle[i]) != triangle[3 - i]) continue;
+      if (seen_.insert(triangle[0], triangle[i]).second) pending_.add({triangle[0], triangle[i]});
+    }
+  }
+
+  struct Nothing {};
+
+  int thread_;
+  const DiscreteGradient& gradient_;
+  const std::uint64_t* keys_;
+  const Id* vertex_input_;
+  std::unique_ptr<Consumer> consumer_;
+  EdgeStar star_;
+  EdgeTable<Nothing> seen_;
+  Pending pending_;
+};
+
+}  // namespace
+
+AscendingWalls ascending_walls(Structure& structure, const DiscreteGradient& gradient, int threads) {
+  const auto& edges = gradient.critical().edges;
+  std::vector<std::unique_ptr<Tracer>> tracers(threads);
+  const std::vector<Id> order = space_order(edges);
+  in_turns(threads, static_cast<std::int64_t>(edges.size()), [&](int thread, std::int64_t i) {
+    if (!tracers[thread]) tracers[thread] = std::make_unique<Tracer>(structure, gradient, thread);
+    tracers[thread]->follow(order[i], edges[order[i]]);
+  });
+  std::vector<Separatrices<Cell>> found;
+  for (auto& tracer : tracers) {
+    if (tracer) found.push_back(std::move(tracer->walls));
+  }
+  auto all = gathered(found, &Separatrices<Cell>::sources, static_cast<Id>(edges.size()));
+  AscendingWalls walls;
+  walls.walls.sources = std::move(all.sources);
+  walls.walls.begin = std::move(all.begin);
+  const Offset count = static_cast<Offset>(all.cells.size());
+  walls.walls.cells.resize(count);
+  walls.star_begin.resize(count + 1);
+  for (Offset i = 0; i < count; ++i) walls.star_begin[i + 1] = walls.star_begin[i] + all.cells[i].star_size;
+  walls.star.resize(walls.star_begin[count]);
+  parallel_for("GALE::gather_stars", Kokkos::DefaultHostExecutionSpace(), count, [&](Offset i) {
+    const Cell& cell = all.cells[i];
+    walls.walls.cells[i] = cell.edge;
+    const Id* const star = tracers[cell.thread]->stars.data() + cell.star_begin;
+    std::copy(star, star + cell.star_size, walls.star.data() + walls.star_begin[i]);
+  });
+  return walls;
+}
+
+}  // namespace gale::detail

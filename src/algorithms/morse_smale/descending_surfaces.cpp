@@ -1,0 +1,70 @@
+#include <gale/algorithms/morse_smale/descending_surfaces.hpp>
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include <gale/algorithms/morse_smale/descending_wall.hpp>
+#include <gale/algorithms/morse_smale/gathered_separatrices.hpp>
+#include <gale/algorithms/morse_smale/space_order.hpp>
+#include <gale/base/threads.hpp>
+
+namespace gale::detail {
+
+namespace {
+
+/// One thread's part.
+class Tracer {
+ public:
+  explicit Tracer(const DiscreteGradient& gradient) : wall(gradient) {}
+
+  void add_wall(Id triangle) {
+    walls.sources.push_back(triangle);
+    walls.cells.insert(walls.cells.end(), wall.triangles().begin(), wall.triangles().end());
+    walls.begin.push_back(static_cast<Offset>(walls.cells.size()));
+  }
+
+  void add_connectors(const CriticalPlaces& places, Id triangle) {
+    rim_.clear();
+    for (const auto& edge : wall.critical_edges()) rim_.push_back({places.of_edge(edge.high, edge.low), edge});
+    std::sort(rim_.begin(), rim_.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    for (const auto& [place, edge] : rim_) {
+      connectors.sources.push_back(place);
+      connectors.destinations.push_back(triangle);
+      connectors.is_only.push_back(wall.append_path(edge, connectors.cells));
+      connectors.begin.push_back(static_cast<Offset>(connectors.cells.size()));
+    }
+  }
+
+  DescendingWall wall;
+  Separatrices<TriangleVertices> walls, connectors;
+
+ private:
+  std::vector<std::pair<Id, DescendingWall::Edge>> rim_;  ///< the wall's critical edges by their places
+};
+
+}  // namespace
+
+DescendingSurfaces descending_surfaces(const DiscreteGradient& gradient, const CriticalPlaces& places, bool want_walls, bool want_connectors, int threads) {
+  const auto& triangles = gradient.critical().triangles;
+  std::vector<std::unique_ptr<Tracer>> tracers(threads);
+  const std::vector<Id> order = space_order(triangles);
+  in_turns(threads, static_cast<std::int64_t>(triangles.size()), [&](int thread, std::int64_t i) {
+    auto& tracer = tracers[thread];
+    if (!tracer) tracer = std::make_unique<Tracer>(gradient);
+    tracer->wall.follow(triangles[order[i]]);
+    if (want_walls) tracer->add_wall(order[i]);
+    if (want_connectors) tracer->add_connectors(places, order[i]);
+  });
+  std::vector<Separatrices<TriangleVertices>> walls, connectors;
+  for (auto& tracer : tracers) {
+    if (!tracer) continue;
+    walls.push_back(std::move(tracer->walls));
+    connectors.push_back(std::move(tracer->connectors));
+  }
+  using Surfaces = Separatrices<TriangleVertices>;
+  const Id count = static_cast<Id>(triangles.size());
+  return {gathered(walls, &Surfaces::sources, count), gathered(connectors, &Surfaces::destinations, count)};
+}
+
+}  // namespace gale::detail

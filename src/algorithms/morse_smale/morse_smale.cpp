@@ -1,0 +1,35 @@
+#include <gale/algorithms/morse_smale.hpp>
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+#include <gale/algorithms/morse_smale/ascending_walls.hpp>
+#include <gale/algorithms/morse_smale/descending_surfaces.hpp>
+#include <gale/algorithms/morse_smale/manifolds.hpp>
+#include <gale/algorithms/morse_smale/separatrices1.hpp>
+
+namespace gale {
+
+MorseSmaleComplex find_morse_smale_complex(Structure& structure, const DiscreteGradient& gradient, const MorseSmaleParts& parts, const SweepOptions& options) {
+  const int threads = std::max(options.threads, 1);
+  const detail::CriticalPlaces places(gradient.critical());
+  MorseSmaleComplex complex{gradient, gradient.critical()};
+  if (parts.descending_separatrices) complex.descending = detail::descending_separatrices(gradient, places);
+  if (parts.ascending_separatrices) complex.ascending = detail::ascending_separatrices(gradient, places);
+  if (parts.saddle_connectors || parts.separatrices2) {
+    auto surfaces = detail::descending_surfaces(gradient, places, parts.separatrices2, parts.saddle_connectors, threads);
+    complex.connectors = std::move(surfaces.connectors);
+    complex.descending_walls = std::move(surfaces.walls);
+  }
+  if (parts.separatrices2) complex.ascending_walls = detail::ascending_walls(structure, gradient, threads);
+  if (parts.descending_manifolds) complex.descending_manifold = detail::descending_manifolds(gradient);
+  if (parts.ascending_manifolds) complex.ascending_manifold = detail::ascending_manifolds(gradient);
+  if (parts.descending_manifolds && parts.ascending_manifolds) {
+    std::tie(complex.morse_smale_manifold, complex.morse_smale_manifolds) =
+        detail::morse_smale_manifolds(complex.ascending_manifold, complex.descending_manifold);
+  }
+  return complex;
+}
+
+}  // namespace gale

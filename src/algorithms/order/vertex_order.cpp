@@ -1,0 +1,102 @@
+#include <gale/algorithms/vertex_order.hpp>
+
+#include <cstring>
+#include <string>
+#include <type_traits>
+
+#include <gale/base/error.hpp>
+#include <gale/base/parallel.hpp>
+#include <gale/base/radix_sort.hpp>
+#include <gale/base/transfer.hpp>
+
+namespace gale {
+
+namespace {
+
+using HostSpace = Kokkos::DefaultHostExecutionSpace;
+using Keys = Array<std::uint64_t, HostMemory>;
+
+template <class Value>
+using BitsOf = std::conditional_t<sizeof(Value) == 8, std::uint64_t, std::uint32_t>;
+
+/// An unsigned number that compares as the value does.
+template <class Value>
+BitsOf<Value> ordered_bits(Value value) {
+  using Bits = BitsOf<Value>;
+  constexpr Bits sign = Bits(1) << (8 * sizeof(Bits) - 1);
+  if constexpr (std::is_floating_point_v<Value>) {
+    value += Value(0);  // -0 becomes 0
+    Bits bits;
+    std::memcpy(&bits, &value, sizeof(bits));
+    return bits & sign ? ~bits : bits | sign;
+  } else if constexpr (std::is_signed_v<Value>) {
+    return static_cast<Bits>(value) ^ sign;
+  } else {
+    return value;
+  }
+}
+
+template <class Value>
+void refuse_nan([[maybe_unused]] const Value* values, [[maybe_unused]] Offset count) {
+  if constexpr (std::is_floating_point_v<Value>) {
+    const Offset bad = reduce_min("GALE::find_nan", HostSpace(), count, count,
+                                  [values, count](Offset i) { return values[i] != values[i] ? i : count; });
+    if (bad < count) throw Error("vertex " + std::to_string(bad) + " has no field value: it is NaN");
+  }
+}
+
+/// Value and input id fit one key.
+template <class Value>
+void fill_keys(const Mesh& mesh, const Value* values, const Keys& keys) {
+  const Id* const input = mesh.vertex_input().data();
+  parallel_for("GALE::order_keys", HostSpace(), mesh.vertices(), [&](Offset v) {
+    keys(v) = std::uint64_t(ordered_bits(values[input[v]])) << 32 | static_cast<std::uint32_t>(input[v]);
+  });
+}
+
+/// The place of each value among all.
+template <class Value>
+void fill_ranks(const Mesh& mesh, const Value* values, const Keys& keys) {
+  const Offset count = mesh.vertices();
+  const auto inputs = allocate<Array<Id, HostMemory>>("GALE::order_inputs", count);
+  parallel_for("GALE::order_bits", HostSpace(), count, [&](Offset i) {
+    keys(i) = ordered_bits(values[i]);
+    inputs(i) = static_cast<Id>(i);
+  });
+  const auto sorted_keys = on_worker(keys);
+  const auto sorted_inputs = on_worker(inputs);
+  stable_sort_by_key(sorted_keys, sorted_inputs);
+  const auto by_rank = on_host(sorted_inputs);
+  const Id* const internal = mesh.vertex_internal().data();
+  parallel_for("GALE::order_ranks", HostSpace(), count,
+               [&](Offset rank) { keys(internal[by_rank(rank)]) = static_cast<std::uint64_t>(rank); });
+}
+
+}  // namespace
+
+template <class Value>
+VertexOrder::VertexOrder(const Mesh& mesh, const Value* values, std::size_t count)
+    : keys_(allocate<Keys>("GALE::order_keys", mesh.vertices())) {
+  if (count != static_cast<std::size_t>(mesh.vertices())) {
+    throw Error("the field has " + std::to_string(count) + " values, the mesh " + std::to_string(mesh.vertices()) + " vertices");
+  }
+  refuse_nan(values, mesh.vertices());
+  if constexpr (sizeof(Value) == 8) {
+    fill_ranks(mesh, values, keys_);
+  } else {
+    fill_keys(mesh, values, keys_);
+  }
+}
+
+template VertexOrder::VertexOrder(const Mesh&, const std::int8_t*, std::size_t);
+template VertexOrder::VertexOrder(const Mesh&, const std::uint8_t*, std::size_t);
+template VertexOrder::VertexOrder(const Mesh&, const std::int16_t*, std::size_t);
+template VertexOrder::VertexOrder(const Mesh&, const std::uint16_t*, std::size_t);
+template VertexOrder::VertexOrder(const Mesh&, const std::int32_t*, std::size_t);
+template VertexOrder::VertexOrder(const Mesh&, const std::uint32_t*, std::size_t);
+template VertexOrder::VertexOrder(const Mesh&, const std::int64_t*, std::size_t);
+template VertexOrder::VertexOrder(const Mesh&, const std::uint64_t*, std::size_t);
+template VertexOrder::VertexOrder(const Mesh&, const float*, std::size_t);
+template VertexOrder::VertexOrder(const Mesh&, const double*, std::size_t);
+
+}  // namespace gale

@@ -1,0 +1,108 @@
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <numeric>
+
+#include <gale/algorithms/surface_vertices.hpp>
+
+#include <gale/app/commands/commands.hpp>
+#include <gale/app/session.hpp>
+
+namespace gale::app {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct TypeName {
+  const char* operator()(const std::vector<std::int8_t>&) const { return "int8"; }
+  const char* operator()(const std::vector<std::uint8_t>&) const { return "uint8"; }
+  const char* operator()(const std::vector<std::int16_t>&) const { return "int16"; }
+  const char* operator()(const std::vector<std::uint16_t>&) const { return "uint16"; }
+  const char* operator()(const std::vector<std::int32_t>&) const { return "int32"; }
+  const char* operator()(const std::vector<std::uint32_t>&) const { return "uint32"; }
+  const char* operator()(const std::vector<std::int64_t>&) const { return "int64"; }
+  const char* operator()(const std::vector<std::uint64_t>&) const { return "uint64"; }
+  const char* operator()(const std::vector<float>&) const { return "float"; }
+  const char* operator()(const std::vector<double>&) const { return "double"; }
+};
+
+std::string brief(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return text;
+}
+
+/// The least and the largest of the values added; NaN, which is neither, is counted.
+struct Range {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  std::int64_t nans = 0;
+
+  void add(double value) {
+    if (std::isnan(value)) ++nans;
+    low = value < low ? value : low;
+    high = value > high ? value : high;
+  }
+  bool empty() const { return low > high; }
+  Json json() const { return empty() ? Json(nullptr) : Json{low, high}; }
+};
+
+std::string to_string(const Range& range) {
+  const std::string values = range.empty() ? "no numbers" : brief(range.low) + " to " + brief(range.high);
+  return range.nans == 0 ? values : values + ", " + grouped(range.nans) + " NaN";
+}
+
+void tell_extent(const io::Dataset& dataset, Session& session) {
+  static const char* const axes[] = {"x", "y", "z"};
+  Json extent = Json::array();
+  std::visit(
+      [&](const auto& points) {
+        for (int axis = 0; axis < 3; ++axis) {
+          Range range;
+          for (std::size_t i = 0; i < points.extent(0); ++i) range.add(points(i, axis));
+          session.console().say(axes[axis], to_string(range));
+          extent.push_back(range.json());
+        }
+      },
+      dataset.points);
+  session.report().result["extent"] = extent;
+}
+
+void tell_arrays(const io::Dataset& dataset, Session& session) {
+  Json arrays = Json::array();
+  for (const auto& array : dataset.arrays) {
+    const std::string type = std::visit(TypeName(), array.values);
+    Range range;
+    std::visit(
+        [&](const auto& values) {
+          for (const auto value : values) range.add(static_cast<double>(value));
+        },
+        array.values);
+    const std::string components = array.components == 1 ? "" : ", " + std::to_string(array.components) + " components";
+    session.console().say("array " + array.name, type + components + ", " + to_string(range));
+    arrays.push_back(
+        {{"name", array.name}, {"type", type}, {"components", array.components}, {"range", range.json()}, {"nan", range.nans}});
+  }
+  session.report().result["arrays"] = arrays;
+}
+
+}  // namespace
+
+void info(const Options& options) {
+  Session session(options);
+  io::Dataset dataset = session.read();
+  tell_extent(dataset, session);
+  tell_arrays(dataset, session);
+  const Mesh mesh = session.encode(dataset, Session::Keep::nothing);
+  Array<std::uint8_t, HostMemory> on_surface;
+  {
+    const Stopwatch watch(session.report().seconds.run);
+    on_surface = surface_vertices(mesh);
+  }
+  const auto count = std::accumulate(on_surface.data(), on_surface.data() + on_surface.extent(0), std::int64_t(0));
+  session.console().say("on the boundary", grouped(count) + " vertices");
+  session.report().result["boundary_vertices"] = count;
+  session.finish(nullptr);
+}
+
+}  // namespace gale::app

@@ -1,0 +1,146 @@
+#include <algorithm>
+#include <atomic>
+#include <fstream>
+#include <mutex>
+
+#include <gale/base/error.hpp>
+#include <gale/io/atomic_file.hpp>
+#include <gale/mesh/input_numbers.hpp>
+
+#include <gale/app/commands/commands.hpp>
+#include <gale/baselines/oracle.hpp>
+#include <gale/app/session.hpp>
+
+namespace gale::app {
+
+namespace {
+
+/// What a sweep has seen of a relation.
+struct Sizes {
+  std::int64_t rows = 0, entries = 0;
+  Id longest = 0;
+
+  void add(const Row& row) {
+    ++rows;
+    entries += row.size();
+    longest = std::max(longest, row.size());
+  }
+  void add(const Sizes& other) {
+    rows += other.rows;
+    entries += other.entries;
+    longest = std::max(longest, other.longest);
+  }
+};
+
+/// Calls visit(consumer, simplex, row) for every row.
+template <class Visit>
+void for_each_row(Structure& structure, Relation relation, const SweepOptions& sweep, const Visit& visit) {
+  const int dimension = row_dimension(relation);
+  structure.for_each_segment(relation, sweep, [&](int consumer, const SegmentRows& rows) {
+    for (Id simplex = rows.first(dimension); simplex < rows.last(dimension); ++simplex) visit(consumer, simplex, rows[relation][simplex]);
+  });
+}
+
+Sizes measure(Structure& structure, Relation relation, const SweepOptions& sweep) {
+  struct alignas(64) Slot {
+    Sizes sizes;
+  };
+  std::vector<Slot> slots(sweep.threads);
+  for_each_row(structure, relation, sweep, [&](int consumer, Id, const Row& row) { slots[consumer].sizes.add(row); });
+  Sizes all;
+  for (const Slot& slot : slots) all.add(slot.sizes);
+  return all;
+}
+
+/// How many rows aren't those of the oracle: different, or not there.
+std::int64_t count_differences(Structure& structure, Relation relation, Oracle& oracle, const SweepOptions& sweep) {
+  std::atomic<std::int64_t> same{0}, more{0};
+  std::vector<std::vector<Id>> expected(sweep.threads);
+  for_each_row(structure, relation, sweep, [&](int consumer, Id simplex, const Row& row) {
+    if (simplex >= oracle.rows()) {
+      ++more;
+      return;
+    }
+    auto& right = expected[consumer];
+    oracle.read(simplex, consumer, right);
+    if (std::equal(row.begin(), row.end(), right.begin(), right.end())) ++same;
+  });
+  return oracle.rows() - same + more;
+}
+
+void write_rows(std::ostream& out, Structure& structure, Relation relation, const Sizes& sizes) {
+  const Mesh& mesh = structure.mesh();
+  const auto row_numbers = input_numbers(mesh, row_dimension(relation)), entry_numbers = input_numbers(mesh, entry_dimension(relation));
+  std::vector<Id> simplex_of(row_numbers.extent(0)), entries;
+  for (std::size_t i = 0; i < simplex_of.size(); ++i) simplex_of[row_numbers(i)] = static_cast<Id>(i);
+  const auto consumer = structure.consumer();
+  out << "# " << name_of(relation) << ": " << sizes.rows << " rows, " << sizes.entries << " entries\n";
+  for (std::size_t number = 0; number < simplex_of.size(); ++number) {
+    entries.clear();
+    for (const Id entry : consumer->row(relation, simplex_of[number])) entries.push_back(entry_numbers(entry));
+    std::sort(entries.begin(), entries.end());
+    out << number << ':';
+    for (const Id entry : entries) out << ' ' << entry;
+    out << '\n';
+  }
+}
+
+/// Writes all rows to a file, in input ids.
+void dump(const std::string& path, Structure& structure, Relation relation, const Sizes& sizes) {
+  io::AtomicFile file(path);
+  {
+    std::ofstream out(file.temporary());
+    write_rows(out, structure, relation, sizes);
+    if (!out.flush()) throw Error("cannot write '" + path + "'");
+  }
+  file.commit();
+}
+
+std::string rate(double amount, double seconds, const std::string& unit) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.1f %s", seconds > 0 ? amount / seconds : 0.0, unit.c_str());
+  return text;
+}
+
+void tell(const Sizes& sizes, Relation relation, Session& session) {
+  const double run = session.report().seconds.run, entries = static_cast<double>(sizes.entries), rows = static_cast<double>(sizes.rows);
+  session.console().say("relation", name_of(relation));
+  session.console().say("rows", grouped(sizes.rows));
+  session.console().say("entries", grouped(sizes.entries));
+  session.console().say("longest row", grouped(sizes.longest));
+  session.console().say("rates", rate(rows / 1e6, run, "M rows/s, ") + rate(entries / 1e6, run, "M entries/s, ") +
+                                     rate((entries + rows) * sizeof(Id) / 1e9, run, "GB/s"));
+  session.report().result = {{"relation", name_of(relation)}, {"rows", sizes.rows}, {"entries", sizes.entries}, {"longest_row", sizes.longest}};
+}
+
+void verify(Structure& structure, Relation relation, const Sizes& sizes, Session& session) {
+  const SweepOptions sweep = session.sweep("verifying " + name_of(relation));
+  const auto oracle = make_oracle(structure.mesh(), relation, sweep.threads, session.options().structure == "explicit");
+  const std::int64_t differences = count_differences(structure, relation, *oracle, sweep);
+  session.console().say("differences", grouped(differences) + " from " + oracle->name());
+  session.report().result["differences"] = differences;
+  if (differences != 0) {
+    throw Error(std::to_string(differences) + " of " + std::to_string(sizes.rows) + " rows of " + name_of(relation) + " differ from " + oracle->name());
+  }
+}
+
+}  // namespace
+
+void relations(const Options& options) {
+  Session session(options);
+  const Relation relation = *relation_named(options.relation);
+  io::Dataset dataset = session.read();
+  const Mesh mesh = session.encode(dataset, Session::Keep::nothing);
+  const auto structure = session.make_structure(mesh, relation);
+  Sizes sizes;
+  {
+    const Stopwatch watch(session.report().seconds.run);
+    sizes = measure(*structure, relation, session.sweep("sweeping " + name_of(relation)));
+  }
+  tell(sizes, relation, session);
+  if (options.verify) verify(*structure, relation, sizes, session);
+  session.write(options.dump, [&](const std::string& path) { dump(path, *structure, relation, sizes); });
+  session.finish(structure.get());
+}
+
+}  // namespace gale::app

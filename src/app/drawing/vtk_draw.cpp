@@ -1,0 +1,237 @@
+#include <dlfcn.h>
+
+#include <cmath>
+
+#include <vtkActor.h>
+#include <vtkAutoInit.h>
+#include <vtkCamera.h>
+#include <vtkCellArray.h>
+#include <vtkFloatArray.h>
+#include <vtkGlyph3DMapper.h>
+#include <vtkImageResize.h>
+#include <vtkLegendBoxActor.h>
+#include <vtkNew.h>
+#include <vtkPNGWriter.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkPolyDataNormals.h>
+#include <vtkProperty.h>
+#include <vtkRegularPolygonSource.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkSphereSource.h>
+#include <vtkTextProperty.h>
+#include <vtkTubeFilter.h>
+#include <vtkUnsignedCharArray.h>
+#include <vtkWindowToImageFilter.h>
+#include <vtkWindowedSincPolyDataFilter.h>
+
+#include <gale/base/error.hpp>
+#include <gale/io/atomic_file.hpp>
+#include <gale/io/vtk/vtk_messages.hpp>
+
+#include <gale/app/drawing/scene.hpp>
+
+VTK_MODULE_INIT(vtkRenderingOpenGL2)
+VTK_MODULE_INIT(vtkRenderingFreeType)
+
+namespace gale::app {
+
+namespace {
+
+constexpr int width = 1200, height = 800;
+
+vtkSmartPointer<vtkPoints> to_vtk(const std::vector<Point>& points) {
+  auto all = vtkSmartPointer<vtkPoints>::New();
+  for (const Point& point : points) all->InsertNextPoint(point.data());
+  return all;
+}
+
+void set_color(vtkActor* actor, const Color& color) { actor->GetProperty()->SetColor(color[0] / 255.0, color[1] / 255.0, color[2] / 255.0); }
+
+void add_skin(vtkRenderer* renderer, const Scene::Skin& skin) {
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(to_vtk(skin.points));
+  vtkNew<vtkCellArray> triangles;
+  for (const auto& triangle : skin.triangles) {
+    const vtkIdType ids[3] = {triangle[0], triangle[1], triangle[2]};
+    triangles->InsertNextCell(3, ids);
+  }
+  data->SetPolys(triangles);
+  vtkNew<vtkUnsignedCharArray> colors;
+  colors->SetNumberOfComponents(3);
+  for (const Color& color : skin.colors) colors->InsertNextTypedTuple(color.data());
+  data->GetPointData()->SetScalars(colors);
+  vtkNew<vtkWindowedSincPolyDataFilter> smooth;  // voxels have steps
+  smooth->SetInputData(data);
+  smooth->SetNumberOfIterations(15);
+  smooth->SetPassBand(0.08);
+  smooth->FeatureEdgeSmoothingOff();
+  smooth->NonManifoldSmoothingOn();
+  smooth->NormalizeCoordinatesOn();
+  vtkNew<vtkPolyDataNormals> normals;
+  normals->SetInputConnection(smooth->GetOutputPort());
+  normals->SetFeatureAngle(50);
+  normals->SplittingOn();
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(normals->GetOutputPort());
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  actor->GetProperty()->SetAmbient(0.38);
+  actor->GetProperty()->SetDiffuse(0.8);
+  actor->GetProperty()->SetSpecular(0.08);
+  actor->GetProperty()->SetSpecularPower(20);
+  renderer->AddActor(actor);
+}
+
+void add_tubes(vtkRenderer* renderer, const Scene::Tubes& tubes) {
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> lines;
+  for (const auto& path : tubes.paths) {
+    lines->InsertNextCell(static_cast<int>(path.size()));
+    for (const Point& point : path) lines->InsertCellPoint(points->InsertNextPoint(point.data()));
+  }
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(points);
+  data->SetLines(lines);
+  vtkNew<vtkTubeFilter> tube;
+  tube->SetInputData(data);
+  tube->SetRadius(tubes.radius);
+  tube->SetNumberOfSides(8);
+  tube->CappingOn();
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(tube->GetOutputPort());
+  mapper->ScalarVisibilityOff();
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  set_color(actor, tubes.color);
+  actor->GetProperty()->SetAmbient(0.3);
+  actor->GetProperty()->SetSpecular(0.2);
+  renderer->AddActor(actor);
+}
+
+void add_balls(vtkRenderer* renderer, const Scene::Balls& balls, double radius) {
+  vtkNew<vtkSphereSource> ball;
+  ball->SetRadius(radius);
+  ball->SetThetaResolution(20);
+  ball->SetPhiResolution(14);
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(to_vtk(balls.centres));
+  vtkNew<vtkGlyph3DMapper> mapper;
+  mapper->SetInputData(data);
+  mapper->SetSourceConnection(ball->GetOutputPort());
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  set_color(actor, balls.color);
+  actor->GetProperty()->SetAmbient(0.25);
+  actor->GetProperty()->SetDiffuse(0.8);
+  actor->GetProperty()->SetSpecular(0.35);
+  actor->GetProperty()->SetSpecularPower(30);
+  renderer->AddActor(actor);
+}
+
+void add_legend(vtkRenderer* renderer, const std::vector<Scene::Balls>& balls) {
+  vtkNew<vtkRegularPolygonSource> disc;
+  disc->SetNumberOfSides(32);
+  disc->Update();
+  vtkNew<vtkLegendBoxActor> legend;
+  legend->SetNumberOfEntries(static_cast<int>(balls.size()));
+  for (std::size_t i = 0; i < balls.size(); ++i) {
+    double color[3] = {balls[i].color[0] / 255.0, balls[i].color[1] / 255.0, balls[i].color[2] / 255.0};
+    legend->SetEntry(static_cast<int>(i), disc->GetOutput(), balls[i].caption.c_str(), color);
+  }
+  legend->GetEntryTextProperty()->SetColor(0.1, 0.1, 0.1);
+  legend->BorderOff();
+  legend->SetPosition(0.82, 0.4);
+  legend->SetPosition2(0.17, 0.18);
+  renderer->AddActor(legend);
+}
+
+/// From the high corner, without perspective; as large as it may be on the left of the legend.
+void aim(vtkRenderer* renderer, const Scene& scene) {
+  constexpr double aspect = double(width) / height, left_part = 0.78, margin = 0.96;
+  const Point towards = {0.664, 0.544, 0.513}, right = {-0.634, 0.773, 0}, up = {-0.397, -0.325, 0.858};
+  const auto along = [](const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
+  double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL};
+  for (const Point& point : scene.skin.points) {
+    for (int i = 0; i < 2; ++i) {
+      const double place = along(point, i == 0 ? right : up);
+      low[i] = std::min(low[i], place);
+      high[i] = std::max(high[i], place);
+    }
+  }
+  const double scale = std::max((high[0] - low[0]) / (left_part * aspect), high[1] - low[1]) / 2 / margin;  // half of the picture's height
+  const double x = (low[0] + high[0]) / 2 + (1 - left_part) * scale * aspect, y = (low[1] + high[1]) / 2;
+  const double size = std::hypot(scene.high[0] - scene.low[0], scene.high[1] - scene.low[1], scene.high[2] - scene.low[2]);
+  const Point middle = {(scene.low[0] + scene.high[0]) / 2, (scene.low[1] + scene.high[1]) / 2, (scene.low[2] + scene.high[2]) / 2};
+  double focus[3], position[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    focus[axis] = x * right[axis] + y * up[axis] + along(middle, towards) * towards[axis];
+    position[axis] = focus[axis] + 2 * size * towards[axis];
+  }
+  vtkCamera* const camera = renderer->GetActiveCamera();
+  camera->ParallelProjectionOn();
+  camera->SetFocalPoint(focus);
+  camera->SetPosition(position);
+  camera->SetViewUp(0, 0, 1);
+  camera->SetParallelScale(scale);
+  renderer->ResetCameraClippingRange();
+}
+
+vtkSmartPointer<vtkRenderWindow> make_window() {
+  auto window = vtkSmartPointer<vtkRenderWindow>::New();
+  window->SetOffScreenRendering(1);
+  window->SetMultiSamples(0);
+  window->SetSize(2 * width, 2 * height);  // twice as large as the picture, for smooth outlines
+  return window;
+}
+
+}  // namespace
+
+void require_drawing() {
+  const auto window = make_window();
+  if (!window->IsA("vtkXOpenGLRenderWindow")) return;
+  // This kind of window ends the process if there is no display. It brought the library that can tell.
+  const auto open = reinterpret_cast<void* (*)(const char*)>(dlsym(RTLD_DEFAULT, "XOpenDisplay"));
+  const auto close = reinterpret_cast<int (*)(void*)>(dlsym(RTLD_DEFAULT, "XCloseDisplay"));
+  if (open == nullptr || close == nullptr) return;
+  void* const display = open(nullptr);
+  if (display == nullptr) throw Error("there is no X display, which VTK needs to draw (--render): start gale with xvfb-run");
+  close(display);
+}
+
+void draw(const std::string& path, const Scene& scene) {
+  try {
+    const io::detail::VtkMessages messages("VTK gave up");
+    vtkNew<vtkRenderer> renderer;
+    renderer->SetBackground(1, 1, 1);
+    add_skin(renderer, scene.skin);
+    for (const auto& tubes : scene.tubes) add_tubes(renderer, tubes);
+    for (const auto& balls : scene.balls) add_balls(renderer, balls, scene.ball_radius);
+    add_legend(renderer, scene.balls);
+    aim(renderer, scene);
+    const auto window = make_window();
+    window->AddRenderer(renderer);
+    window->Render();
+    vtkNew<vtkWindowToImageFilter> picture;
+    picture->SetInput(window);
+    picture->ReadFrontBufferOff();
+    vtkNew<vtkImageResize> half;
+    half->SetInputConnection(picture->GetOutputPort());
+    half->SetOutputDimensions(width, height, 1);
+    io::AtomicFile file(path);
+    vtkNew<vtkPNGWriter> writer;
+    writer->SetFileName(file.temporary().c_str());
+    writer->SetCompressionLevel(9);
+    writer->SetInputConnection(half->GetOutputPort());
+    writer->Write();
+    messages.check(writer->GetErrorCode());
+    file.commit();
+  } catch (const std::exception& error) {
+    throw Error("cannot draw '" + path + "': " + error.what());
+  }
+}
+
+}  // namespace gale::app

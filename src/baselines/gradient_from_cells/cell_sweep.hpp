@@ -1,0 +1,128 @@
+#pragma once
+
+#include <array>
+#include <utility>
+#include <vector>
+
+#include <gale/algorithms/gradient/gradient_store.hpp>
+#include <gale/baselines/gradient_from_cells/neighbour_ranks.hpp>
+#include <gale/algorithms/gradient/pair_cells.hpp>
+#include <gale/baselines/gradient_from_cells/queued_lower_star.hpp>
+#include <gale/relations/segment_rows.hpp>
+
+namespace gale::detail {
+
+/// One consumer's part in the sweep of `find_discrete_gradient_from_cells`. `Faces` has row<relation>(simplex) for EV, FV and TV.
+template <class Faces>
+class CellSweep {
+ public:
+  CellSweep(GradientStore& store, int consumer, Faces faces)
+      : store_(store),
+        consumer_(consumer),
+        keys_(store.order.keys()),
+        tetrahedron_input_(store.mesh.tetrahedron_input().data()),
+        faces_(std::move(faces)) {}
+
+  void pair(const SegmentRows& rows) {
+    const Rows edges = rows[Relation::VE], triangles = rows[Relation::VF], tetrahedra = rows[Relation::VT];
+    for (Id v = rows.first(); v < rows.last(); ++v) {
+      find_neighbours(v, edges[v]);
+      if (begin_row(v)) {
+        ranks_.with_look_up([&](const auto& rank) { make_star(v, triangles[v], tetrahedra[v], rank); });
+        pair_star(v);
+      }
+    }
+  }
+
+ private:
+  /// The other ends of a vertex' edges. These ascend, as edges do.
+  void find_neighbours(Id vertex, const Row& edges) {
+    neighbours_.resize(edges.size());
+    for (Id i = 0; i < edges.size(); ++i) {
+      const auto ends = faces_.template row<Relation::EV>(edges[i]);
+      neighbours_[i] = ends[0] ^ ends[1] ^ vertex;
+    }
+    ranks_.find(keys_, vertex, neighbours_);
+  }
+
+  /// Stores the vertex' pair; false if it has none.
+  bool begin_row(Id vertex) {
+    row_ = store_.begin_edges(consumer_, vertex, ranks_.count());
+    for (Id i = 0; i < ranks_.count(); ++i) row_.set_id(i, ranks_.lower(i));
+    store_.set_vertex(consumer_, vertex, ranks_.count() == 0 ? no_id : ranks_.id(0));
+    return ranks_.count() != 0;
+  }
+
+  template <class Rank>
+  void make_star(Id vertex, const Row& triangles, const Row& tetrahedra, const Rank& rank) {
+    star_.begin(ranks_.count(), triangles.size(), tetrahedra.size());
+    for (const Id f : triangles) {
+      const auto v = faces_.template row<Relation::FV>(f);
+      star_.add_triangle(rank(other_of(v[0], v[2], vertex)), rank(other_of(v[1], v[2], vertex)));
+    }
+    star_.end_triangles();
+    for (const Id t : tetrahedra) {
+      const auto v = faces_.template row<Relation::TV>(t);
+      const Id x = rank(other_of(v[0], v[3], vertex)), y = rank(other_of(v[1], v[3], vertex)), z = rank(other_of(v[2], v[3], vertex));
+      const Id high = most(x, y), low = least(x, y);
+      star_.add_tetrahedron(most(high, z), most(low, least(high, z)), least(low, z), t);
+    }
+    star_.end();
+  }
+
+  void pair_star(Id vertex) {
+    const auto pair = [&](int facet, int cell) {
+      const auto& low = star_.corners(facet);
+      const auto& both = star_.corners(cell);
+      if (star_.dimension(cell) == 2) {
+        row_.pair(ranks_.place(low[0]), ranks_.place(both[0] == low[0] ? both[1] : both[0]));
+      } else {
+        const Id tetrahedron = star_.tetrahedron(cell), across = star_.across(facet, tetrahedron, tetrahedron_input_);
+        store_.set_tetrahedron(tetrahedron, across == no_id ? leave(tetrahedron, odd_one(both, low)) : across);
+      }
+    };
+    const auto critical = [&](int cell) {
+      const auto& corners = star_.corners(cell);
+      switch (star_.dimension(cell)) {
+        case 1: return store_.add_critical_edge(consumer_, vertex, ranks_.id(corners[0]));
+        case 3: return store_.add_critical_tetrahedron(consumer_, star_.tetrahedron(cell));
+      }
+      const std::array<Id, 3> triangle = {vertex, ranks_.id(corners[0]), ranks_.id(corners[1])};
+      store_.add_critical_triangle(consumer_, triangle);
+      star_.for_each_tetrahedron(cell, [&](Id tetrahedron) { store_.add_to_star(consumer_, triangle, tetrahedron); });
+    };
+    pair_cells(star_, pair, critical);
+  }
+
+  // Without branches, which compilers are fond of: nobody can predict them here.
+  static Id least(Id a, Id b) { return b ^ ((a ^ b) & -Id(a < b)); }
+  static Id most(Id a, Id b) { return a ^ ((a ^ b) & -Id(a < b)); }
+
+  /// `one`, or `last` where that is the vertex itself.
+  static Id other_of(Id one, Id last, Id vertex) { return one ^ ((one ^ last) & -Id(one == vertex)); }
+
+  /// The rank that a tetrahedron has and its triangle hasn't.
+  static Id odd_one(const QueuedLowerStar::Corners& tetrahedron, const QueuedLowerStar::Corners& triangle) {
+    return tetrahedron[0] != triangle[0] ? tetrahedron[0] : tetrahedron[1] != triangle[1] ? tetrahedron[1] : tetrahedron[2];
+  }
+
+  /// The successor of a tetrahedron that is paired with its triangle on the surface, the one opposite the vertex of a rank.
+  Id leave(Id tetrahedron, Id rank) const {
+    const auto vertices = faces_.template row<Relation::TV>(tetrahedron);
+    int corner = 0;
+    while (vertices[corner] != ranks_.id(rank)) ++corner;
+    return GradientStore::outside(corner);
+  }
+
+  GradientStore& store_;
+  int consumer_;
+  const std::uint64_t* keys_;
+  const Id* tetrahedron_input_;
+  Faces faces_;
+  std::vector<Id> neighbours_;
+  NeighbourRanks ranks_;
+  QueuedLowerStar star_;
+  EdgePairRow row_;
+};
+
+}  // namespace gale::detail

@@ -1,0 +1,137 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include <gale/baselines/gradient_from_cells/key_queue.hpp>
+#include <gale/baselines/gradient_from_cells/lower_triangles.hpp>
+
+namespace gale::detail {
+
+/// The lower star of a vertex, made from its edges, triangles and tetrahedra, with priority queues for `pair_cells`. Its cells but the vertex are
+/// numbered in the order of their keys: the ranks of their lower vertices, descending, compared lexicographically. Stars of any size, and triangles
+/// with any number of tetrahedra. One serves one thread, and keeps its memory.
+class QueuedLowerStar {
+ public:
+  using Corners = std::array<Id, 3>;
+
+  // To make one: `begin`, all triangles, `end_triangles`, all tetrahedra, `end`. They are given by the ranks of their other vertices; those of upper
+  // vertices are below 0.
+
+  /// Of so many edges, whose ranks are 0 to edges - 1, in a star of so many triangles and tetrahedra.
+  void begin(Id edges, Id triangles, Id tetrahedra);
+  void add_triangle(Id a, Id b) { triangles_.add(a, b); }
+  void end_triangles();
+
+  /// a > b > c, where they aren't below 0. Without a branch: nobody can predict which is.
+  void add_tetrahedron(Id a, Id b, Id c, Id tetrahedron) {
+    inner_[inner_count_] = {a, b, c, tetrahedron, {}};
+    outer_[outer_count_] = {a, b, tetrahedron};
+    inner_count_ += c >= 0;
+    outer_count_ += (b >= 0) & (c < 0);
+  }
+  void end();
+
+  int dimension(int cell) const { return cells_[cell].corners[1] < 0 ? 1 : cells_[cell].corners[2] < 0 ? 2 : 3; }
+
+  /// Ranks of a cell's vertices, descending; as many as it has dimensions.
+  const Corners& corners(int cell) const { return cells_[cell].corners; }
+
+  /// Id of a cell that is a tetrahedron.
+  Id tetrahedron(int cell) const { return inner_[cells_[cell].place].id; }
+
+  /// The tetrahedron that shares a triangle with another one; of several that of the lowest number, no_id if there is none.
+  Id across(int triangle, Id tetrahedron, const Id* numbers) const;
+
+  /// Calls visit(tetrahedron) for each that a triangle has, in the lower star or not.
+  template <class Visit>
+  void for_each_tetrahedron(int triangle, const Visit& visit) const {
+    for (int i = sides_of_[cells_[triangle].place].sides; i >= 0; i = sides_[i].next) visit(sides_[i].to);
+  }
+
+  // The queues.
+  void add_edges() {
+    for (std::size_t a = 1; a < edge_cell_.size(); ++a) deferred_.push(edge_cell_[a]);
+  }
+
+  /// Queues at once what `push` is to queue: each cofacet loses an unsettled facet here, and no other cell that is settled before the push has the same.
+  void settle(int cell);
+  void push(int) {}
+  bool next(int& cell) { return take(ready_, cell); }
+  bool next_deferred(int& cell) { return take(deferred_, cell); }
+  void defer(int cell) { deferred_.push(cell); }
+  int facet(int cell) const { return cells_[cell].open == 0 ? -1 : cells_[cell].left; }
+
+ private:
+  /// In a list of those of one cell.
+  struct Link {
+    Id to;
+    int next;
+  };
+
+  struct Cell {
+    Corners corners;
+    int place;     ///< of a triangle or a tetrahedron, in `sides_of_` or `inner_`
+    int open;      ///< how many facets are unsettled; below 0 once the cell itself is settled
+    int left;      ///< these facets, by exclusive or: of one, itself
+    int cofacets;  ///< the first link to them, or -1
+  };
+
+  struct Triangle {
+    int cell;
+    int tetrahedra;  ///< of the lower star, with a lower third vertex
+    int sides;       ///< the first link to any of its tetrahedra, or -1
+  };
+
+  struct Tetrahedron {
+    Id a, b, c;
+    Id id;
+    Id triangles[3];  ///< (a, b), (a, c) and (b, c)
+  };
+
+  struct Side {
+    Id a, b;
+    Id id;
+  };
+
+  static constexpr int settled = -4;  ///< less than the facets of a cell
+
+  void find_sides();
+  void number_cells();
+  void place_tetrahedra();
+  void connect();
+  void add_side(Id triangle, Id tetrahedron);
+  void add_facet(int cell, int facet);
+  bool take(KeyQueue& from, int& cell);
+
+  LowerTriangles triangles_;
+  std::vector<Triangle> sides_of_;  ///< by triangle
+  std::vector<Tetrahedron> inner_;  ///< in the lower star, with room for one more
+  std::vector<Side> outer_;         ///< with one upper vertex; likewise
+  int inner_count_ = 0, outer_count_ = 0;
+  std::vector<Link> sides_;
+  std::vector<Cell> cells_;
+  std::vector<int> edge_cell_, tetrahedron_cell_;
+  std::vector<Link> cofacets_;
+  int side_count_ = 0, cell_count_ = 0, cofacet_count_ = 0;
+  KeyQueue ready_, deferred_;
+};
+
+inline void QueuedLowerStar::settle(int cell) {
+  cells_[cell].open = settled;
+  for (int i = cells_[cell].cofacets; i >= 0; i = cofacets_[i].next) {
+    Cell& cofacet = cells_[cofacets_[i].to];
+    cofacet.left ^= cell;
+    if (--cofacet.open == 1) ready_.push(cofacets_[i].to);
+  }
+}
+
+inline bool QueuedLowerStar::take(KeyQueue& from, int& cell) {
+  while (!from.empty()) {
+    cell = from.pop();
+    if (cells_[cell].open >= 0) return true;
+  }
+  return false;
+}
+
+}  // namespace gale::detail

@@ -1,0 +1,92 @@
+#include <algorithm>
+#include <mutex>
+#include <sstream>
+
+#include <vtkErrorCode.h>
+#include <vtkLogger.h>
+#include <vtkObjectFactory.h>
+#include <vtkOutputWindow.h>
+#include <vtkSmartPointer.h>
+
+#include <gale/base/error.hpp>
+#include <gale/io/vtk/vtk_messages.hpp>
+
+namespace gale::io::detail {
+namespace {
+
+std::mutex one_at_a_time;
+
+/// VTK's "ERROR: In FILE, line N\nvtkClass (0x...): the message\n\n" without all that comes before the message.
+std::string message_of(const std::string& text) {
+  std::string message = text.substr(std::min(text.find('\n') + 1, text.size()));
+  const std::size_t object = message.find("): ");
+  if (message.compare(0, 3, "vtk") == 0 && object != std::string::npos) message.erase(0, object + 3);
+  return message;
+}
+
+/// `text` as one short line that can be printed, whatever bytes of a file it quotes, and without a full stop.
+std::string one_line(const std::string& text) {
+  constexpr std::size_t longest = 200;
+  std::istringstream words(text);
+  std::string line;
+  for (std::string word; words >> word;) line += (line.empty() ? "" : " ") + word;
+  std::replace_if(
+      line.begin(), line.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+  if (line.size() > longest) line = line.substr(0, longest) + "...";
+  if (!line.empty() && line.back() == '.') line.pop_back();
+  return line;
+}
+
+class SilentWindow : public vtkOutputWindow {
+ public:
+  static SilentWindow* New();
+  vtkTypeMacro(SilentWindow, vtkOutputWindow);
+
+  void DisplayText(const char*) override {}
+  void DisplayErrorText(const char* text) override { remember(text); }
+  // How the legacy readers report data that ends too early.
+  void DisplayGenericWarningText(const char* text) override { remember(text); }
+  void DisplayWarningText(const char*) override {}
+  void DisplayDebugText(const char*) override {}
+
+  std::string first_error;
+
+ private:
+  void remember(const char* text) {
+    if (first_error.empty()) first_error = message_of(text);
+  }
+};
+
+vtkStandardNewMacro(SilentWindow);
+
+}  // namespace
+
+struct VtkMessages::State {
+  std::string verdict;
+  std::lock_guard<std::mutex> lock{one_at_a_time};
+  vtkSmartPointer<vtkOutputWindow> before = vtkOutputWindow::GetInstance();
+  vtkSmartPointer<SilentWindow> window = vtkSmartPointer<SilentWindow>::New();
+  vtkLogger::Verbosity verbosity = vtkLogger::GetCurrentVerbosityCutoff();
+};
+
+VtkMessages::VtkMessages(const std::string& verdict) : state_(std::make_unique<State>()) {
+  state_->verdict = verdict;
+  vtkOutputWindow::SetInstance(state_->window);
+  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
+}
+
+VtkMessages::~VtkMessages() {
+  vtkLogger::SetStderrVerbosity(state_->verbosity);
+  vtkOutputWindow::SetInstance(state_->before);
+}
+
+void VtkMessages::check(unsigned long code) const {
+  if (!state_->window->first_error.empty()) fail(state_->window->first_error);
+  if (code != vtkErrorCode::NoError) fail(vtkErrorCode::GetStringFromErrorCode(code));
+}
+
+void VtkMessages::fail(const std::string& reason) const {
+  throw Error(state_->verdict + " (" + one_line(reason) + ")");
+}
+
+}  // namespace gale::io::detail

@@ -1,0 +1,107 @@
+#include <gale/mesh/octree_leaves.hpp>
+
+#include <gale/base/parallel.hpp>
+#include <gale/base/transfer.hpp>
+
+namespace gale::detail {
+
+namespace {
+
+using Codes = Array<std::uint64_t, WorkerMemory>;
+
+/// The octree cell that holds the codes of equal `code >> shift`, looked at around the sorted position `at`, which it holds.
+/// It is searched no further than `capacity` positions away.
+struct CellWindow {
+  const Codes& codes;
+  int shift;
+  Id at;
+  Id capacity;
+
+  KOKKOS_FUNCTION bool inside(Id i) const { return (codes(i) >> shift) == (codes(at) >> shift); }
+
+  KOKKOS_FUNCTION Id begin() const {
+    Id low = at > capacity ? at - capacity : 0;
+    Id high = at;
+    while (low < high) {
+      const Id middle = low + (high - low) / 2;
+      if (inside(middle)) {
+        high = middle;
+      } else {
+        low = middle + 1;
+      }
+    }
+    return low;
+  }
+
+  /// Does the cell hold more than `capacity` codes? If `first` is where it begins, as `begin()` says.
+  KOKKOS_FUNCTION bool overflows(Id first) const {
+    return static_cast<Offset>(first) + capacity < static_cast<Offset>(codes.extent(0)) && inside(first + capacity);
+  }
+};
+
+/// Levels of the octree at which two different codes lie in the same cell.
+KOKKOS_FUNCTION int common_levels(std::uint64_t a, std::uint64_t b) {
+  int shift = 3 * (morton_levels - 1);
+  int levels = 0;
+  while (levels < morton_levels && (a >> shift) == (b >> shift)) {
+    ++levels;
+    shift -= 3;
+  }
+  return levels;
+}
+
+KOKKOS_FUNCTION Id run_begin(const Codes& codes, Id at) {
+  Id low = 0, high = at;
+  while (low < high) {
+    const Id middle = low + (high - low) / 2;
+    if (codes(middle) == codes(at)) {
+      high = middle;
+    } else {
+      low = middle + 1;
+    }
+  }
+  return low;
+}
+
+/// A leaf begins where the smallest cell that holds both a code and its predecessor has more than `capacity` codes.
+KOKKOS_FUNCTION bool begins_leaf(const Codes& codes, Id at, Id capacity) {
+  if (at == 0) return true;
+  if (codes(at - 1) == codes(at)) {
+    if (at < capacity || codes(at - capacity) != codes(at)) return false;
+    return (at - run_begin(codes, at)) % capacity == 0;
+  }
+  const int levels = common_levels(codes(at - 1), codes(at));
+  const CellWindow cell{codes, 3 * (morton_levels - levels), at, capacity};
+  return cell.overflows(cell.begin());
+}
+
+}  // namespace
+
+std::vector<Id> octree_leaves(const Codes& codes, int capacity) {
+  const WorkerSpace space;
+  const auto count = static_cast<Id>(codes.extent(0));
+  auto leaf_of = allocate<Array<Id, WorkerMemory>>("GALE::leaf_of", count + Offset(1));
+  const Id limit = capacity;
+  const Id leaves = exclusive_scan(
+      "GALE::octree_leaves", space, count, leaf_of,
+      KOKKOS_LAMBDA(Offset i) { return begins_leaf(codes, static_cast<Id>(i), limit) ? 1 : 0; });
+  auto begin = allocate<Array<Id, WorkerMemory>>("GALE::leaf_begin", leaves);
+  parallel_for(
+      "GALE::leaf_begin", space, count, KOKKOS_LAMBDA(Offset i) {
+        if (leaf_of(i + 1) > leaf_of(i)) begin(leaf_of(i)) = static_cast<Id>(i);
+      });
+  const auto begin_on_host = on_host(begin);
+  return {begin_on_host.data(), begin_on_host.data() + leaves};
+}
+
+std::vector<Id> merge_leaves(const std::vector<Id>& leaves, Id count, int capacity) {
+  std::vector<Id> begin;
+  for (std::size_t leaf = 0; leaf < leaves.size(); ++leaf) {
+    const Id end = leaf + 1 < leaves.size() ? leaves[leaf + 1] : count;
+    if (begin.empty() || end - begin.back() > capacity) begin.push_back(leaves[leaf]);
+  }
+  begin.push_back(count);
+  return begin;
+}
+
+}  // namespace gale::detail

@@ -1,0 +1,127 @@
+#include <gale/outputs/arrows.hpp>
+
+#include <gale/base/parallel.hpp>
+#include <gale/base/require_ids.hpp>
+
+#include <gale/outputs/positions.hpp>
+
+namespace gale::outputs {
+
+namespace {
+
+using HostSpace = Kokkos::DefaultHostExecutionSpace;
+
+/// How many of `sorted` have a lower input id.
+Id count_before(const std::vector<Id>& sorted, const Id* input, Id id) {
+  const auto at = std::lower_bound(sorted.begin(), sorted.end(), id, [input](Id simplex, Id other) { return input[simplex] < other; });
+  return static_cast<Id>(at - sorted.begin());
+}
+
+template <class Coordinate>
+class Arrows {
+ public:
+  Arrows(const io::Dataset::Points<Coordinate>& points, const DiscreteGradient& gradient)
+      : points_(points),
+        gradient_(gradient),
+        mesh_(gradient.mesh()),
+        input_(mesh_.vertex_input().data()),
+        edge_begin_(allocate<Array<Id, HostMemory>>("GALE::arrows_of_edges", mesh_.vertices() + 1)) {}
+
+  io::PointSet draw() {
+    const Id of_vertices = mesh_.vertices() - static_cast<Id>(gradient_.critical().vertices.size());
+    const Id of_triangles = mesh_.tetrahedra() - static_cast<Id>(gradient_.critical().tetrahedra.size());
+    const Id of_edges = place_edges();
+    const Offset count = Offset(of_vertices) + of_edges + of_triangles;
+    require_ids("arrows", count);
+    tails_ = allocate<io::Dataset::Points<Coordinate>>("GALE::tails", count);
+    vectors_.resize(3 * count);
+    dimensions_.resize(count);
+    draw_vertices();
+    draw_edges(of_vertices);
+    draw_triangles(of_vertices + of_edges);
+    return {tails_, {{"CellDimension", 1, std::move(dimensions_)}, {"Vector", 3, std::move(vectors_)}}};
+  }
+
+ private:
+  /// Where the arrows of the edges with each higher vertex begin among those of all edges, by input id; how many there are.
+  Id place_edges() {
+    const Id* const internal = mesh_.vertex_internal().data();
+    const auto count = [&](Offset i) {
+      Id pairs = 0;
+      gradient_.for_each_edge_pair(internal[i], [&](Id, Id) { ++pairs; });
+      return pairs;
+    };
+    require_ids("arrows", reduce_sum("GALE::count_arrows", HostSpace(), mesh_.vertices(), count));
+    return exclusive_scan("GALE::place_arrows", HostSpace(), mesh_.vertices(), edge_begin_, count);
+  }
+
+  void draw_vertices() {
+    parallel_for("GALE::arrows_of_vertices", HostSpace(), mesh_.vertices(), [&](Offset v) {
+      const Id other = gradient_.vertex_successor(v);
+      if (other == no_id) return;
+      const Id tail = input_[v];
+      draw(tail - count_before(gradient_.critical().vertices, input_, tail), std::array<Id, 1>{tail}, input_[other]);
+    });
+  }
+
+  void draw_edges(Id begin) {
+    parallel_for("GALE::arrows_of_edges", HostSpace(), mesh_.vertices(), [&](Offset high) {
+      std::vector<std::array<Id, 2>> pairs;
+      gradient_.for_each_edge_pair(high, [&](Id low, Id third) { pairs.push_back({input_[low], input_[third]}); });
+      std::sort(pairs.begin(), pairs.end());
+      Id place = begin + edge_begin_(input_[high]);
+      for (const auto& [low, third] : pairs) draw(place++, std::array<Id, 2>{input_[high], low}, third);
+    });
+  }
+
+  void draw_triangles(Id begin) {
+    const Id* const tetrahedron_input = mesh_.tetrahedron_input().data();
+    const auto& tetrahedra = mesh_.host().tetrahedra;
+    parallel_for("GALE::arrows_of_triangles", HostSpace(), mesh_.tetrahedra(), [&](Offset t) {
+      const Partner partner = gradient_.pair_of_tetrahedron(t);
+      if (partner.is_critical()) return;
+      std::array<Id, 3> triangle{};
+      for (int corner = 0, i = 0; corner < 4; ++corner) {
+        if (tetrahedra(t, corner) != partner.vertex) triangle[i++] = input_[tetrahedra(t, corner)];
+      }
+      const Id tetrahedron = tetrahedron_input[t];
+      draw(begin + tetrahedron - count_before(gradient_.critical().tetrahedra, tetrahedron_input, tetrahedron), triangle, input_[partner.vertex]);
+    });
+  }
+
+  /// From a simplex to the one that has one vertex more.
+  template <std::size_t N>
+  void draw(Id place, const std::array<Id, N>& simplex, Id more) {
+    std::array<Id, N + 1> partner;
+    std::copy(simplex.begin(), simplex.end(), partner.begin());
+    partner[N] = more;
+    const Point tail = barycentre(points_, simplex), head = barycentre(points_, partner);
+    for (int axis = 0; axis < 3; ++axis) {
+      tails_(place, axis) = static_cast<Coordinate>(tail[axis]);
+      vectors_[3 * std::size_t(place) + axis] = static_cast<Coordinate>(head[axis] - tail[axis]);
+    }
+    dimensions_[place] = static_cast<std::int8_t>(N - 1);
+  }
+
+  const io::Dataset::Points<Coordinate>& points_;
+  const DiscreteGradient& gradient_;
+  const Mesh& mesh_;
+  const Id* input_;
+  Array<Id, HostMemory> edge_begin_;
+  io::Dataset::Points<Coordinate> tails_;
+  std::vector<Coordinate> vectors_;
+  std::vector<std::int8_t> dimensions_;
+};
+
+}  // namespace
+
+io::PointSet arrows_of(const io::Dataset& dataset, const DiscreteGradient& gradient) {
+  return std::visit(
+      [&](const auto& points) {
+        using Coordinate = typename std::decay_t<decltype(points)>::non_const_value_type;
+        return Arrows<Coordinate>(points, gradient).draw();
+      },
+      dataset.points);
+}
+
+}  // namespace gale::outputs

@@ -1,0 +1,91 @@
+#include <gale/outputs/critical_simplices.hpp>
+
+#include <gale/io/arrays.hpp>
+
+#include <gale/outputs/positions.hpp>
+
+namespace gale::outputs {
+
+namespace {
+
+/// Names simplices of a mesh.
+class Namer {
+ public:
+  Namer(const DiscreteGradient& gradient, const SimplexNumbers& numbers)
+      : input_(gradient.mesh().vertex_input().data()), keys_(gradient.order().keys()), numbers_(numbers) {}
+
+  /// Of vertices from the highest to the lowest.
+  template <std::size_t N>
+  CriticalSimplex name(const std::array<Id, N>& simplex, Id cell) const {
+    CriticalSimplex named{cell, {}, N - 1, static_cast<std::int8_t>(numbers_.on_surface(simplex[0]))};
+    for (std::size_t i = 0; i < N; ++i) named.vertices[i] = input_[simplex[i]];
+    return named;
+  }
+
+  /// Of vertices in any order.
+  CriticalSimplex name_tetrahedron(std::array<Id, 4> simplex, Id cell) const {
+    std::sort(simplex.begin(), simplex.end(), [this](Id a, Id b) { return keys_[a] > keys_[b]; });
+    return name(simplex, cell);
+  }
+
+ private:
+  const Id* input_;
+  const std::uint64_t* keys_;
+  const SimplexNumbers& numbers_;
+};
+
+template <class Coordinate>
+Point middle_of(const io::Dataset::Points<Coordinate>& points, const CriticalSimplex& simplex) {
+  const auto& v = simplex.vertices;
+  switch (simplex.dimension) {
+    case 0: return position_of(points, std::array<Id, 1>{v[0]});
+    case 1: return position_of(points, std::array<Id, 2>{v[0], v[1]});
+    case 2: return position_of(points, std::array<Id, 3>{v[0], v[1], v[2]});
+    default: return position_of(points, v);
+  }
+}
+
+}  // namespace
+
+KnownSimplices known_simplices(const DiscreteGradient& gradient, const CriticalSimplices& critical, const SimplexNumbers& numbers) {
+  const Mesh& mesh = gradient.mesh();
+  const Namer namer(gradient, numbers);
+  KnownSimplices known;
+  for (const Id v : critical.vertices) known[0].push_back(namer.name(std::array<Id, 1>{v}, mesh.vertex_input()(v)));
+  for (std::size_t i = 0; i < critical.edges.size(); ++i) known[1].push_back(namer.name(critical.edges[i], numbers.edges[i]));
+  for (std::size_t i = 0; i < critical.triangles.size(); ++i) known[2].push_back(namer.name(critical.triangles[i], numbers.triangles[i]));
+  const auto& all = mesh.host().tetrahedra;
+  for (const Id t : critical.tetrahedra) {
+    known[3].push_back(namer.name_tetrahedron({all(t, 0), all(t, 1), all(t, 2), all(t, 3)}, mesh.tetrahedron_input()(t)));
+  }
+  return known;
+}
+
+io::PointSet to_point_set(const io::Dataset& dataset, const KnownSimplices& simplices) {
+  io::PointSet set;
+  std::vector<CriticalSimplex> all;
+  for (const auto& some : simplices) all.insert(all.end(), some.begin(), some.end());
+  std::visit(
+      [&](const auto& points) {
+        std::decay_t<decltype(points)> positions("positions", all.size());
+        for (std::size_t i = 0; i < all.size(); ++i) store(middle_of(points, all[i]), positions, i);
+        set.points = positions;
+      },
+      dataset.points);
+  std::vector<std::int8_t> dimensions, on_surface;
+  std::vector<Id> cells, highest;
+  for (const CriticalSimplex& simplex : all) {
+    dimensions.push_back(simplex.dimension);
+    on_surface.push_back(simplex.on_surface);
+    cells.push_back(simplex.cell);
+    highest.push_back(simplex.highest());
+  }
+  for (const auto& array : dataset.arrays) set.arrays.push_back(io::gather(array, highest));
+  set.arrays.push_back({"CellDimension", 1, std::move(dimensions)});
+  set.arrays.push_back({"CellId", 1, std::move(cells)});
+  set.arrays.push_back({"IsOnBoundary", 1, std::move(on_surface)});
+  set.arrays.push_back({"ttkVertexScalarField", 1, std::move(highest)});
+  return set;
+}
+
+}  // namespace gale::outputs

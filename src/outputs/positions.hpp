@@ -1,0 +1,65 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <gale/base/types.hpp>
+#include <gale/io/dataset.hpp>
+
+// Where simplices are drawn. They are named by their input vertices, in any order: what comes out depends on the order by no bit.
+
+namespace gale::outputs {
+
+using Point = std::array<double, 3>;
+
+template <class Coordinate>
+Point point_of(const io::Dataset::Points<Coordinate>& points, Id vertex) {
+  return {points(vertex, 0), points(vertex, 1), points(vertex, 2)};
+}
+
+template <class Coordinate, std::size_t N>
+Point barycentre(const io::Dataset::Points<Coordinate>& points, std::array<Id, N> simplex) {
+  std::sort(simplex.begin(), simplex.end());
+  Point sum{};
+  for (const Id vertex : simplex) {
+    for (int axis = 0; axis < 3; ++axis) sum[axis] += points(vertex, axis);
+  }
+  for (double& coordinate : sum) coordinate /= N;
+  return sum;
+}
+
+/// The centre of the circle that touches a triangle's sides.
+template <class Coordinate>
+Point incentre(const io::Dataset::Points<Coordinate>& points, std::array<Id, 3> triangle) {
+  std::sort(triangle.begin(), triangle.end());
+  Point corners[3], sum{};
+  double weights[3], all = 0;
+  for (int i = 0; i < 3; ++i) corners[i] = point_of(points, triangle[i]);
+  for (int i = 0; i < 3; ++i) {
+    const Point &a = corners[(i + 1) % 3], &b = corners[(i + 2) % 3];
+    all += weights[i] = std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+  }
+  if (!(all > 0)) return corners[0];
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int i = 0; i < 3; ++i) sum[axis] += weights[i] / all * corners[i][axis];
+  }
+  return sum;
+}
+
+/// Where a simplex is drawn: triangles at their incentre, others at their barycentre.
+template <class Coordinate, std::size_t N>
+Point position_of(const io::Dataset::Points<Coordinate>& points, const std::array<Id, N>& simplex) {
+  if constexpr (N == 3) {
+    return incentre(points, simplex);
+  } else {
+    return barycentre(points, simplex);
+  }
+}
+
+template <class Coordinate>
+void store(const Point& position, const io::Dataset::Points<Coordinate>& points, Offset row) {
+  for (int axis = 0; axis < 3; ++axis) points(row, axis) = static_cast<Coordinate>(position[axis]);
+}
+
+}  // namespace gale::outputs

@@ -1,0 +1,133 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include <gale/base/team.hpp>
+#include <gale/mesh/simplices.hpp>
+#include <gale/relations/kernels/block_pool.hpp>
+#include <gale/relations/kernels/row_entries.hpp>
+#include <gale/relations/kernels/row_stash.hpp>
+#include <gale/relations/rows.hpp>
+
+namespace gale {
+
+/// Computes one relation other than VV, VT and link for one segment a team: the rows of the simplices that are internal to it, compact and
+/// ascending.
+///
+///     a lane a row: find its entries, count them, and keep the first few
+///     scan; reserve the block
+///     a lane a row: write them, found again if there were more
+///
+/// A segment of more rows than `sizes` says, or for whose block the pool has no room, is left out, as StarKernel does.
+template <Relation relation, class Memory>
+class RowKernel {
+ public:
+  Simplices<Memory> simplices;
+  Kokkos::View<const Id*, Memory, Kokkos::MemoryUnmanaged> vertex_begin;  ///< I_V
+  const Id* segments = nullptr;                                          ///< of the batch, one a team
+  StarSizes sizes;                                                       ///< rows alone count
+  int scratch_level = 0;
+  BlockPool pool;
+
+  const char* label() const;
+
+  KOKKOS_FUNCTION static std::size_t scratch_bytes(const StarSizes& sizes, int /*warps*/) {
+    return sizeof(Shared) + (std::size_t(sizes.rows) * (1 + Stash::capacity_for(sizes.rows)) + 1) * sizeof(Id);
+  }
+
+  /// On the calling thread.
+  void operator()(const HostTeam& team) const { compute(team, team.scratch()); }
+
+  /// Calls use(functor) with what Kokkos is to run on its teams: one for each level of scratch memory, see team::scratch.
+  template <class Use>
+  friend void with_functor(const RowKernel& kernel, const Use& use) {
+    kernel.scratch_level == 0 ? use(OnTeams<0>{kernel}) : use(OnTeams<1>{kernel});
+  }
+
+  template <int level>
+  struct OnTeams {
+    RowKernel kernel;
+
+    template <class Team>
+    KOKKOS_FUNCTION void operator()(const Team& team) const {
+      kernel.compute(team, team::scratch<level>(team, scratch_bytes(kernel.sizes, 1)));
+    }
+  };
+
+  template <class Team>
+  KOKKOS_FORCEINLINE_FUNCTION void compute(const Team& team, char* memory) const {
+    Shared& shared = *reinterpret_cast<Shared*>(memory);
+    auto* const begin = reinterpret_cast<std::uint32_t*>(memory + sizeof(Shared));
+    const Id segment = segments[team.league_rank()];
+    const Id first = first_of(vertex_begin(segment)), rows = first_of(vertex_begin(segment + 1)) - first;
+    Offset* const entry = pool.directory + team.league_rank();
+    if (rows > sizes.rows) {
+      team::once(team, [&] {
+        *entry = BlockPool::missing;
+        pool.need(team, {rows, 0, 0, 0});
+      });
+      return;
+    }
+    const Stash stash(reinterpret_cast<Id*>(begin) + sizes.rows + 1, sizes.rows);
+    team::once(team, [&] { shared.overflows = 0; });
+    team::for_all(team, rows, [&](Id row) { begin[row] = static_cast<std::uint32_t>(count(first + row, stash, row)); });
+    team::exclusive_scan(team, rows, begin);
+    team::for_all(team, rows, [&](Id row) {
+      if (begin[row + 1] > most_entries) shared.overflows = 1;  // the first that is too many hasn't wrapped around yet
+    });
+    team::barrier(team);
+    team::once(team, [&] {
+      shared.block = shared.overflows ? BlockPool::missing : pool.reserve(team, BlockLayout::words(rows, begin[rows]));
+      *entry = shared.overflows ? BlockPool::uncountable : shared.block;
+    });
+    team::barrier(team);
+    if (shared.block == BlockPool::missing) return;
+    Id* const offsets = pool.words + shared.block;
+    Id* const ids = offsets + rows + 1;
+    team::for_all(team, rows + 1, [&](Id row) { offsets[row] = static_cast<Id>(begin[row]); });
+    team::for_all(team, rows, [&](Id row) { write(first + row, stash, row, ids + begin[row], static_cast<Id>(begin[row + 1] - begin[row])); });
+  }
+
+ private:
+  static constexpr std::uint32_t most_entries = 2147483647;  ///< that an Id counts
+
+  using Stash = detail::RowStash<relation, is_device_memory<Memory>>;
+
+  struct Shared {
+    Offset block;
+    Offset overflows;  ///< the sum of all counts is no Id
+  };
+
+  /// The first simplex of the rows' dimension that begins with a vertex or a later one.
+  KOKKOS_FUNCTION Id first_of(Id vertex) const {
+    constexpr int dimension = row_dimension(relation);
+    if constexpr (dimension == 0) return vertex;
+    if constexpr (dimension == 1) return simplices.edge_begin(vertex);
+    if constexpr (dimension == 2) return simplices.triangle_begin(simplices.edge_begin(vertex));
+    if constexpr (dimension == 3) return simplices.tetrahedron_begin(vertex);
+  }
+
+  KOKKOS_FUNCTION Id count(Id simplex, const Stash& stash, Id row) const {
+    if (stash.capacity() == 0) return detail::count_entries<relation>(simplices, simplex);
+    Id entries = 0;
+    detail::for_each_entry<relation>(simplices, simplex, [&](Id id) { stash.add(row, entries++, id); });
+    return entries;
+  }
+
+  KOKKOS_FUNCTION void write(Id simplex, const Stash& stash, Id row, Id* out, Id count) const {
+    if (count <= stash.capacity()) {
+      stash.read(row, count, out);
+    } else {
+      detail::write_entries<relation>(simplices, simplex, out, count);
+    }
+  }
+};
+
+template <Relation relation, class Memory>
+const char* RowKernel<relation, Memory>::label() const {
+  static const std::string label = "GALE::" + name_of(relation);
+  return label.c_str();
+}
+
+}  // namespace gale

@@ -1,0 +1,173 @@
+#include <gale/relations/kernels/segment_kernel.hpp>
+
+#include <variant>
+
+#include <gale/base/require_ids.hpp>
+#include <gale/relations/kernels/launch.hpp>
+#include <gale/relations/preconditioning.hpp>
+#include <gale/relations/kernels/row_kernel.hpp>
+#include <gale/relations/kernels/star_kernel.hpp>
+
+namespace gale {
+
+namespace {
+
+template <class Memory>
+EncodedMesh<Memory> encoded(const Mesh& mesh) {
+  if constexpr (is_device_memory<Memory>) {
+    return mesh.worker();
+  } else {
+    return mesh.host();
+  }
+}
+
+/// I_V: the host has it without the rest.
+template <class Memory>
+Kokkos::View<const Id*, Memory, Kokkos::MemoryUnmanaged> vertex_begin(const Mesh& mesh) {
+  if constexpr (is_device_memory<Memory>) {
+    return mesh.worker().vertex_begin;
+  } else {
+    return mesh.vertex_begin();
+  }
+}
+
+template <class Memory>
+Simplices<Memory> simplices(const Mesh& mesh, RelationSet wanted) {
+  SimplexNeeds needs = needs_of(wanted);
+  if constexpr (is_device_memory<Memory>) {
+    return mesh.simplices_on_worker(needs);
+  } else {
+    needs.tetrahedra = true;
+    return mesh.simplices_on_host(needs);
+  }
+}
+
+/// The row kernels of some relations.
+template <class Memory, Relation... relations>
+struct RowKernels {
+  using OrStar = std::variant<StarKernel<Memory>, RowKernel<relations, Memory>...>;
+
+  /// Calls use(kernel) with that of one of them.
+  template <class Use>
+  static void with(Relation relation, const Use& use) {
+    ((relation == relations ? use(RowKernel<relations, Memory>()) : void()), ...);
+  }
+};
+
+template <class Memory>
+using AllRowKernels = RowKernels<Memory, Relation::EV, Relation::FV, Relation::FE, Relation::TV, Relation::TE, Relation::TF, Relation::VE,
+                                 Relation::VF, Relation::EF, Relation::ET, Relation::FT, Relation::EE, Relation::FF, Relation::TT>;
+
+}  // namespace
+
+std::vector<RelationSet> kernels_for(RelationSet relations) {
+  std::vector<RelationSet> kernels;
+  for (const Relation relation : members_of(relations - star_relations)) kernels.push_back(relation);
+  if (!(relations & star_relations).empty()) kernels.push_back(relations & star_relations);
+  return kernels;
+}
+
+bool are_there(RelationSet wanted, const Id* segments, const Offset* directory, std::size_t count) {
+  bool all = true;
+  const std::size_t relations = wanted.count();
+  for (std::size_t i = 0; i < count * relations; ++i) {
+    if (directory[i] == BlockPool::uncountable) {
+      throw Error("segment " + std::to_string(segments[i / relations]) + " has more than 2147483647 entries of " + name_of(wanted) + ": use smaller segments");
+    }
+    all &= directory[i] != BlockPool::missing;
+  }
+  return all;
+}
+
+template <class Memory>
+struct SegmentKernel<Memory>::Any {
+  Mesh mesh;
+  RelationSet wanted;
+  typename AllRowKernels<Memory>::OrStar kernel;
+
+  Any(const Mesh& given, RelationSet relations) : mesh(given), wanted(relations) {
+    if (star_relations.contains(wanted)) {
+      StarKernel<Memory> star;
+      star.mesh = encoded<Memory>(mesh);
+      star.wanted = wanted;
+      kernel = star;
+    } else {
+      AllRowKernels<Memory>::with(members_of(wanted).front(), [this](auto row) {
+        row.simplices = simplices<Memory>(mesh, wanted);
+        row.vertex_begin = vertex_begin<Memory>(mesh);
+        kernel = row;
+      });
+    }
+  }
+
+  /// Calls use(kernel) with what it is.
+  template <class Use>
+  auto visit(const Use& use) {
+    return std::visit(use, kernel);
+  }
+
+  void set(const KernelTask& task) {
+    std::visit(
+        [&task](auto& one) {
+          one.segments = task.segments;
+          one.sizes = task.sizes;
+          one.scratch_level = task.scratch_level;
+          one.pool = task.pool;
+        },
+        kernel);
+  }
+};
+
+template <class Memory>
+SegmentKernel<Memory>::SegmentKernel(const Mesh& mesh, RelationSet wanted) : any_(new Any(mesh, wanted)) {}
+template <class Memory>
+SegmentKernel<Memory>::~SegmentKernel() = default;
+template <class Memory>
+SegmentKernel<Memory>::SegmentKernel(SegmentKernel&&) noexcept = default;
+template <class Memory>
+SegmentKernel<Memory>& SegmentKernel<Memory>::operator=(SegmentKernel&&) noexcept = default;
+
+template <class Memory>
+RelationSet SegmentKernel<Memory>::wanted() const {
+  return any_->wanted;
+}
+
+template <class Memory>
+StarSizes SegmentKernel<Memory>::bound(Id segment) const {
+  const auto rows = [&](int dimension) {
+    const auto& begin = any_->mesh.interval_begin(dimension);
+    return begin(segment + 1) - begin(segment);
+  };
+  if (star_relations.contains(any_->wanted)) {
+    const auto& external = any_->mesh.external_begin();
+    const Offset touching = external(segment + 1) - external(segment);
+    // Its vertices have at most three neighbours for each corner of a tetrahedron there.
+    require_ids("neighbours in one segment", 3 * (4 * Offset(rows(3)) + 3 * touching) + 2 * Offset(rows(0)));
+    return StarKernel<Memory>::bound(rows(0), rows(3), touching, any_->wanted);
+  }
+  return {rows(row_dimension(members_of(any_->wanted).front())), 0, 0, 0};
+}
+
+template <class Memory>
+std::size_t SegmentKernel<Memory>::scratch_bytes(const StarSizes& sizes, int warps) const {
+  return any_->visit([&](const auto& kernel) { return gale::scratch_bytes<std::decay_t<decltype(kernel)>>(sizes, warps); });
+}
+
+template <class Memory>
+void SegmentKernel<Memory>::launch(const WorkerSpace& instance, const KernelTask& task, int teams, TeamShape shape) {
+  any_->set(task);
+  if constexpr (std::is_same_v<Memory, WorkerMemory>) any_->visit([&](const auto& kernel) { gale::launch(instance, kernel, teams, shape); });
+}
+
+template <class Memory>
+void SegmentKernel<Memory>::run(const KernelTask& task, char* scratch) {
+  any_->set(task);
+  if constexpr (!is_device_memory<Memory>) any_->visit([&](const auto& kernel) { kernel(HostTeam(0, scratch)); });
+}
+
+template class SegmentKernel<WorkerMemory>;
+#if defined(KOKKOS_ENABLE_CUDA)
+template class SegmentKernel<HostMemory>;
+#endif
+
+}  // namespace gale

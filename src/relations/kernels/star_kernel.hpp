@@ -1,0 +1,70 @@
+#pragma once
+
+#include <gale/relations/kernels/bit_stars.hpp>
+#include <gale/relations/kernels/hashed_stars.hpp>
+
+namespace gale {
+
+/// Computes VV, VT and link, those of them that are wanted, for one segment a team: what the paper's Algorithms 1 and 2 do, in the team's
+/// scratch memory, so that rows come out compact and ascending. There are two ways, which the sizes decide on: BitStars for small segments on
+/// Kokkos' teams, HashedStars for all others and for a HostTeam.
+///
+/// A segment that needs more scratch memory than `sizes`, or more of the pool than is left, is left out: its entries of the directory
+/// say so, and `needed` or `used` what it takes.
+template <class Memory>
+class StarKernel : public detail::StarRequest<Memory> {
+ public:
+  using detail::StarRequest<Memory>::wanted;
+  int scratch_level = 0;
+
+  const char* label() const {
+    if (wanted == Relation::VV) return "GALE::VV";
+    if (wanted == Relation::VT) return "GALE::VT";
+    if (wanted == Relation::link) return "GALE::link";
+    return wanted.has(Relation::VV) && wanted.has(Relation::VT) ? "GALE::VV+VT" : "GALE::star";
+  }
+
+  /// What suffices for a segment of so many vertices and tetrahedra, unless one vertex has more than 42 tetrahedra (a link of n triangles
+  /// that hang together has at most n + 2 vertices), or the segment lies in a part of the mesh that has little but surface.
+  static StarSizes bound(Id rows, Offset internal_tetrahedra, Offset external_tetrahedra, RelationSet wanted = star_relations) {
+    const Offset star = 4 * internal_tetrahedra + 3 * external_tetrahedra;
+    const Offset tetrahedra = internal_tetrahedra + external_tetrahedra;
+    StarSizes sizes;
+    sizes.rows = rows;
+    sizes.star = static_cast<Id>(star);
+    sizes.neighbours = static_cast<Id>(star + 2 * Offset(rows));
+    sizes.slots = 128;
+    sizes.tetrahedra = static_cast<Id>(tetrahedra);
+    sizes.outside = wanted == Relation::VT ? 0 : detail::usual_outside(static_cast<Id>(tetrahedra));
+    return sizes;
+  }
+
+  /// Of a team of so many warps.
+  static std::size_t scratch_bytes(const StarSizes& sizes, int warps) {
+    const std::size_t hashed = detail::HashedStarScratch::bytes(sizes, warps);
+    if (!is_small(sizes)) return hashed;
+    const std::size_t bits = detail::BitStarScratch(nullptr, sizes).bytes;
+    return is_device_memory<Memory> || bits > hashed ? bits : hashed;  // a HostTeam takes the other way
+  }
+
+  /// On the calling thread.
+  void operator()(const HostTeam& team) const {
+    this->template compute<detail::HashedStars<HostTeam, Memory>>(team, team.scratch());
+  }
+
+  /// Calls use(functor) with what Kokkos is to run on its teams. Each has one way, one kind of scratch memory: one functor for all would take the
+  /// registers of the greediest, and a third fewer teams would run at a time.
+  template <class Use>
+  friend void with_functor(const StarKernel& kernel, const Use& use) {
+    if (is_small(kernel.sizes)) {
+      kernel.scratch_level == 0 ? use(detail::BitStarTeams<Memory, 0>{kernel}) : use(detail::BitStarTeams<Memory, 1>{kernel});
+    } else {
+      kernel.scratch_level == 0 ? use(detail::HashedStarTeams<Memory, 0>{kernel}) : use(detail::HashedStarTeams<Memory, 1>{kernel});
+    }
+  }
+
+ private:
+  static bool is_small(const StarSizes& sizes) { return detail::BitStars<HostTeam, Memory>::is_for(sizes); }
+};
+
+}  // namespace gale

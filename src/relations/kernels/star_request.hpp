@@ -1,0 +1,117 @@
+#pragma once
+
+#include <gale/base/team.hpp>
+#include <gale/mesh/encoded_mesh.hpp>
+#include <gale/relations/kernels/block_pool.hpp>
+#include <gale/relations/kernels/segment_tetrahedra.hpp>
+#include <gale/relations/relation.hpp>
+#include <gale/relations/rows.hpp>
+
+namespace gale::detail {
+
+/// What the warps of a team share, at the beginning of its scratch memory, whichever way they go.
+struct alignas(16) StarShared {
+  StarSizes found;      ///< what this segment needs, as far as it is known
+  Id longest_star;      ///< most tetrahedra at one vertex
+  Id below;             ///< vertices of other segments with lower ids
+  Offset vv, vt, link;  ///< where their blocks begin in the pool
+};
+
+/// So many vertices of other segments do that many tetrahedra around a segment usually reach. It is some more for a grid, whose segments of 64 vertices
+/// have 640 tetrahedra and reach 130; thin parts of a mesh may need more.
+KOKKOS_FORCEINLINE_FUNCTION Id usual_outside(Id tetrahedra) { return tetrahedra / 5 + 64; }
+
+/// What a star kernel is asked for.
+template <class Memory>
+struct StarRequest {
+  EncodedMesh<Memory> mesh;
+  const Id* segments = nullptr;  ///< of the batch, one a team
+  RelationSet wanted;
+  StarSizes sizes;
+  BlockPool pool;
+
+  KOKKOS_FORCEINLINE_FUNCTION bool gathers_neighbours() const { return wanted.has(Relation::VV) || wanted.has(Relation::link); }
+
+  /// What each team does, in the way of `Stars`.
+  template <class Stars, class Team>
+  KOKKOS_FORCEINLINE_FUNCTION void compute(const Team& team, char* memory) const {
+    const StarSegment<Memory> segment(mesh, segments[team.league_rank()]);
+    auto& shared = *reinterpret_cast<StarShared*>(memory);
+    team::once(team, [&] {
+      shared.found = StarSizes{};
+      shared.found.rows = segment.rows;
+      shared.longest_star = 0;
+      shared.vv = shared.vt = shared.link = BlockPool::missing;
+    });
+    team::barrier(team);
+    Stars(team, *this, segment, memory).compute();
+    team::barrier(team);
+    team::once(team, [&] { finish(team, shared); });
+  }
+
+ private:
+  template <class Team>
+  KOKKOS_FORCEINLINE_FUNCTION void finish(const Team& team, const detail::StarShared& shared) const {
+    const bool fitted = sizes.contains(shared.found);
+    if (!fitted) pool.need(team, shared.found);
+    const bool done = fitted && present(Relation::VT, shared.vt) && present(Relation::VV, shared.vv) && present(Relation::link, shared.link);
+    Offset* entry = pool.directory + Offset(team.league_rank()) * wanted.count();
+    if (wanted.has(Relation::VT)) *entry++ = done ? shared.vt : BlockPool::missing;
+    if (wanted.has(Relation::VV)) *entry++ = done ? shared.vv : BlockPool::missing;
+    if (wanted.has(Relation::link)) *entry++ = done ? shared.link : BlockPool::missing;
+  }
+
+  KOKKOS_FORCEINLINE_FUNCTION bool present(Relation relation, Offset block) const {
+    return !wanted.has(relation) || block != BlockPool::missing;
+  }
+};
+
+/// Reserves blocks of those that are wanted of `relations`, together: a segment that got some only would have taken from the pool what others lack
+/// then. Writes the ends of the rows of VT and link, which are `star_begin`; VV has so many `neighbours`.
+template <class Team, class Memory>
+KOKKOS_FORCEINLINE_FUNCTION void reserve_blocks(const Team& team, const StarRequest<Memory>& request, RelationSet relations, StarShared& shared, Id rows,
+                                                const Id* star_begin, Id neighbours) {
+  const auto& pool = request.pool;
+  const RelationSet wanted = request.wanted & relations;
+  team::once(team, [&] {
+    const Id tetrahedra = shared.found.star;
+    const int width = width_for(3 * shared.longest_star);
+    const Offset vt = wanted.has(Relation::VT) ? BlockPool::rounded(BlockLayout::words(rows, tetrahedra)) : 0;
+    const Offset link = wanted.has(Relation::link) ? BlockPool::rounded(BlockLayout::link_words(rows, tetrahedra, width)) : 0;
+    const Offset vv = wanted.has(Relation::VV) ? BlockLayout::words(rows, neighbours) : 0;
+    const Offset begin = vt + link + vv > 0 ? pool.reserve(team, vt + link + vv) : BlockPool::missing;
+    if (begin == BlockPool::missing) return;
+    if (wanted.has(Relation::VT)) shared.vt = begin;
+    if (wanted.has(Relation::link)) {
+      shared.link = begin + vt;
+      pool.words[shared.link + rows + 1] = width;
+    }
+    if (wanted.has(Relation::VV)) shared.vv = begin + vt + link;
+  });
+  team::barrier(team);
+  if (!wanted.has(Relation::VT) && !wanted.has(Relation::link)) return;
+  for (const Offset block : {shared.vt, shared.link}) {
+    if (block == BlockPool::missing) continue;
+    team::for_all(team, rows + 1, [&](Id row) { pool.words[block + row] = star_begin[row]; });
+  }
+}
+
+/// Places of a link block, in its width.
+struct LinkPlaces {
+  void* places;
+  int width;
+
+  KOKKOS_FORCEINLINE_FUNCTION LinkPlaces(Id* block, Id rows) : places(block + rows + 2), width(block[rows + 1]) {}
+
+  KOKKOS_FORCEINLINE_FUNCTION void put(Offset at, Id place) const {
+    if (width == 1) {
+      static_cast<std::uint8_t*>(places)[at] = static_cast<std::uint8_t>(place);
+    } else if (width == 2) {
+      static_cast<std::uint16_t*>(places)[at] = static_cast<std::uint16_t>(place);
+    } else {
+      static_cast<Id*>(places)[at] = place;
+    }
+  }
+};
+
+}  // namespace gale::detail

@@ -1,0 +1,139 @@
+#include <gale/runtime/explicit/global_faces.hpp>
+
+#include <gale/base/parallel.hpp>
+#include <gale/base/radix_sort.hpp>
+#include <gale/base/transfer.hpp>
+
+namespace gale::detail {
+
+namespace {
+
+using Ids = Array<Id, WorkerMemory>;
+using Keys = Array<std::uint64_t, WorkerMemory>;
+
+/// Which of a tetrahedron's vertices 0..3, or edges 0..5, bound its edges or triangles. A value, so that kernels take it along.
+struct Faces {
+  Id per_tetrahedron;
+  Id length;
+  Id at[6][3];
+};
+
+constexpr Faces edge_vertices{6, 2, {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
+constexpr Faces triangle_vertices{4, 3, {{0, 1, 2}, {0, 1, 3}, {0, 2, 3}, {1, 2, 3}}};
+constexpr Faces triangle_edges{4, 3, {{0, 1, 3}, {0, 2, 4}, {1, 2, 5}, {3, 4, 5}}};
+
+const Faces& faces_of(Relation relation) {
+  return relation == Relation::EV ? edge_vertices : relation == Relation::FV ? triangle_vertices : triangle_edges;
+}
+
+/// A key per place: the first of what bounds its simplex by `high`, and the last by `low`.
+Keys keys_of(const Graph& high_graph, const Faces& high, const Graph& low_graph, const Faces& low) {
+  const Offset places = Offset(high.per_tetrahedron) * high_graph.rows;
+  const auto keys = allocate<Keys>("GALE::simplex_keys", places);
+  const auto high_ids = high_graph.ids, low_ids = low_graph.ids;
+  const Id high_length = high_graph.length, low_length = low_graph.length;
+  parallel_for(
+      "GALE::simplex_keys", WorkerSpace(), places, KOKKOS_LAMBDA(Offset i) {
+        const Offset t = i / high.per_tetrahedron;
+        const int face = static_cast<int>(i % high.per_tetrahedron);
+        const auto first = static_cast<std::uint64_t>(high_ids(high_length * t + high.at[face][0]));
+        const auto last = static_cast<std::uint64_t>(low_ids(low_length * t + low.at[face][low.length - 1]));
+        keys(i) = first << 32 | last;
+      });
+  return keys;
+}
+
+Ids numbers_below(Offset n) {
+  const auto numbers = allocate<Ids>("GALE::simplex_places", n);
+  parallel_for(
+      "GALE::simplex_places", WorkerSpace(), n, KOKKOS_LAMBDA(Offset i) { numbers(i) = static_cast<Id>(i); });
+  return numbers;
+}
+
+/// before(i): how many different keys there are before the i-th, of keys that ascend. Returns how many there are.
+Id count_different(const Keys& keys, const Ids& before) {
+  return exclusive_scan(
+      "GALE::simplex_numbers", WorkerSpace(), keys.extent(0), before,
+      KOKKOS_LAMBDA(Offset i) { return i == 0 || keys(i) != keys(i - 1) ? Id(1) : Id(0); });
+}
+
+/// Numbers the simplices by their keys, one a place. Its own copy of `keys` goes as soon as it may.
+Numbering number(Keys keys, Id per_tetrahedron) {
+  const Offset places = keys.extent(0);
+  const Ids place = numbers_below(places);
+  stable_sort_by_key(keys, place);
+  const auto before = allocate<Ids>("GALE::simplex_numbers", places + 1);
+  const Id count = count_different(keys, before);
+  keys = Keys();
+  const auto simplex = allocate<Ids>("GALE::simplex_of_place", places);
+  const auto any_place = allocate<Ids>("GALE::place_of_simplex", count);
+  parallel_for(
+      "GALE::simplex_of_place", WorkerSpace(), places, KOKKOS_LAMBDA(Offset i) {
+        const Id here = before(i + 1) - 1;
+        simplex(place(i)) = here;
+        if (here == before(i)) any_place(here) = place(i);
+      });
+  return {{static_cast<Id>(places / per_tetrahedron), per_tetrahedron, {}, simplex}, any_place};
+}
+
+}  // namespace
+
+Graph tetrahedron_vertices(const Mesh& mesh) {
+  const Offset rows = mesh.tetrahedra();
+  return {mesh.tetrahedra(), 4, {}, Graph::Ids(mesh.worker().tetrahedra.data(), 4 * rows)};
+}
+
+Numbering number_edges(const Graph& tv) {
+  require_countable(Relation::TE, 6 * Offset(tv.rows));
+  return number(keys_of(tv, edge_vertices, tv, edge_vertices), 6);
+}
+
+Numbering number_triangles(const Graph& tv, const Graph& te) {
+  require_countable(Relation::TF, 4 * Offset(tv.rows));
+  return number(keys_of(te, triangle_edges, tv, triangle_vertices), 4);
+}
+
+Graph faces(Relation relation, const Numbering& numbering, const Graph& of_tetrahedra) {
+  const Faces faces = faces_of(relation);
+  const Offset entries = Offset(faces.length) * numbering.count();
+  require_countable(relation, entries);
+  const auto ids = allocate<Ids>(label_of(relation), entries);
+  const auto any_place = numbering.any_place;
+  const auto from = of_tetrahedra.ids;
+  const Id from_length = of_tetrahedra.length;
+  parallel_for(
+      label_of(relation).c_str(), WorkerSpace(), entries, KOKKOS_LAMBDA(Offset i) {
+        const Id place = any_place(i / faces.length);
+        const Id corner = faces.at[place % faces.per_tetrahedron][i % faces.length];
+        ids(i) = from(Offset(from_length) * (place / faces.per_tetrahedron) + corner);
+      });
+  return {numbering.count(), faces.length, {}, ids};
+}
+
+Array<const Id, HostMemory> segment_begin(const Mesh& mesh, int dimension, const Numbering& numbering) {
+  const Faces faces = dimension == 1 ? edge_vertices : triangle_vertices;
+  const auto begin = allocate<Ids>("GALE::segment_begin", Offset(mesh.segments()) + 1);
+  const auto any_place = numbering.any_place;
+  const Id count = numbering.count();
+  const auto tetrahedra = mesh.worker().tetrahedra;
+  const auto vertex_begin = mesh.worker().vertex_begin;
+  parallel_for(
+      "GALE::segment_begin", WorkerSpace(), Offset(mesh.segments()) + 1, KOKKOS_LAMBDA(Offset s) {
+        // The lowest vertices of the simplices ascend: skip those below the segment's.
+        Id first = 0, last = count;
+        while (first < last) {
+          const Id middle = first + (last - first) / 2;
+          const Id place = any_place(middle);
+          const Id lowest = tetrahedra(place / faces.per_tetrahedron, faces.at[place % faces.per_tetrahedron][0]);
+          if (lowest < vertex_begin(s)) {
+            first = middle + 1;
+          } else {
+            last = middle;
+          }
+        }
+        begin(s) = first;
+      });
+  return on_host(begin);
+}
+
+}  // namespace gale::detail

@@ -1,0 +1,71 @@
+#include <gale/runtime/leaders/defaults.hpp>
+
+#ifdef __linux__
+#include <sched.h>
+#endif
+#include <unistd.h>
+
+#include <algorithm>
+#include <string>
+#include <thread>
+
+#include <gale/base/error.hpp>
+
+namespace gale::detail {
+
+namespace {
+
+constexpr std::size_t mebibyte = std::size_t(1) << 20;
+
+/// A copy reaches the link's bandwidth from some megabytes on; more only delays the first row.
+constexpr std::size_t largest_batch = 16 * mebibyte;
+
+/// The share of the machine's memory that blocks may take. A sweep uses little of it again and again; jumps are the faster the more
+/// blocks stay.
+constexpr std::size_t share_of_host = 8;
+
+std::size_t default_host_memory() {
+  const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
+  return pages > 0 && page > 0 ? static_cast<std::size_t>(pages) * page / share_of_host : 512 * mebibyte;
+}
+
+/// Those that the calling thread may run on: so may the threads that it starts, and no others.
+int usable_cores() {
+  const int all = std::max(static_cast<int>(std::thread::hardware_concurrency()), 1);
+#ifdef __linux__
+  cpu_set_t set;
+  if (sched_getaffinity(0, sizeof set, &set) == 0) return std::min(all, CPU_COUNT(&set));
+#endif
+  return all;
+}
+
+int given_or(int given, int otherwise, const char* name) {
+  if (given < 0) throw Error(std::string(name) + " must be at least 1, not " + std::to_string(given));
+  return given == 0 ? otherwise : given;
+}
+
+}  // namespace
+
+Sizes sizes_for(const Mesh& mesh, const RuntimeOptions& options, int queues) {
+  constexpr int warp = 32;
+  const int threads_per_segment = given_or(options.threads_per_segment, 128, "threads per segment");
+  const int threads_per_block = given_or(options.threads_per_block, 256, "threads per block");
+  const int blocks = given_or(options.blocks_per_request, 16, "blocks per request");
+  const std::size_t host = host_memory(options) / queues;
+  // Three batches are on the device at a time.
+  const std::size_t device = options.device_memory == 0 ? largest_batch : options.device_memory / queues / 3;
+  const std::size_t batch = std::clamp(std::min(host / 8, device), std::size_t(4096), largest_batch);
+  Sizes sizes;
+  sizes.batch_words = static_cast<Offset>(batch / sizeof(Id));
+  sizes.host_bytes = host;
+  const Offset per_request = Offset(blocks) * threads_per_block / threads_per_segment;
+  sizes.segments_per_request = static_cast<Id>(std::clamp<Offset>(per_request, 1, std::max(mesh.segments(), Id(1))));
+  sizes.threads_per_segment = (threads_per_segment + warp - 1) / warp * warp;
+  return sizes;
+}
+
+std::size_t host_memory(const RuntimeOptions& options) { return options.host_memory == 0 ? default_host_memory() : options.host_memory; }
+
+int cores(const RuntimeOptions& options) { return given_or(options.cores, usable_cores(), "cores"); }
+
+}  // namespace gale::detail
