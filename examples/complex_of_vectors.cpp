@@ -27,10 +27,12 @@ int main(int argc, char** argv) {
 
   for (gale::Id i = 0; i < complex.descending.count(); ++i) {
     std::printf("from a 1-saddle down to a minimum:");
-    for (auto vertex = complex.descending.first(i); vertex != complex.descending.last(i); ++vertex) std::printf(" %d", mesh.vertex_input()(*vertex));
+    for (auto vertex = complex.descending.first(i); vertex != complex.descending.last(i); ++vertex)
+      std::printf(" %d", mesh.vertex_input()(*vertex));
     std::printf("\n");
   }
-  const auto simple = gale::simplify(complex, [&](gale::Id vertex) { return values[vertex]; }, 100);
+  const auto simple = gale::simplify(
+      complex, [&](gale::Id vertex) { return values[vertex]; }, 100);
   const auto left = simple.critical.counts();
   std::printf("%d minima, and %d when it is simplified\n", complex.critical.counts()[0], left[0]);
   return left[0] == 1 && simple.critical.euler() == 1 ? 0 : 1;

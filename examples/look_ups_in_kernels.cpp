@@ -19,11 +19,13 @@ void fill(int n, const Kokkos::View<double* [3], Space>& points, const Kokkos::V
   Kokkos::parallel_for(
       "tetrahedra", Kokkos::RangePolicy<Space>(0, (n - 1) * (n - 1) * (n - 1)), KOKKOS_LAMBDA(int cell) {
         const int m = n - 1, first = (cell / (m * m) * n + cell / m % m) * n + cell % m;
-        const int step[3] = {1, n, n * n}, order[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
+        const int step[3] = {1, n, n * n},
+                  order[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
         for (int i = 0; i < 6; ++i) {
           int vertex = first;
           tetrahedra(6 * cell + i, 0) = vertex;
-          for (int corner = 0; corner < 3; ++corner) tetrahedra(6 * cell + i, corner + 1) = vertex += step[order[i][corner]];
+          for (int corner = 0; corner < 3; ++corner)
+            tetrahedra(6 * cell + i, corner + 1) = vertex += step[order[i][corner]];
         }
       });
 }
@@ -34,12 +36,14 @@ int largest_star(const gale::Mesh& mesh) {
   const Kokkos::View<int*, Space> count("tetrahedra of each edge", mesh.known_edges());
   Kokkos::parallel_for(
       "count", Kokkos::RangePolicy<Space>(0, mesh.tetrahedra()), KOKKOS_LAMBDA(int t) {
-        for (const gale::Id edge : gale::face_row<gale::Relation::TE>(simplices, t)) Kokkos::atomic_add(&count(edge), 1);
+        for (const gale::Id edge : gale::face_row<gale::Relation::TE>(simplices, t))
+          Kokkos::atomic_add(&count(edge), 1);
       });
   int largest = 0;
   Kokkos::parallel_reduce(
       "largest", Kokkos::RangePolicy<Space>(0, mesh.known_edges()),
-      KOKKOS_LAMBDA(int edge, int& most) { most = count(edge) > most ? count(edge) : most; }, Kokkos::Max<int>(largest));
+      KOKKOS_LAMBDA(int edge, int& most) { most = count(edge) > most ? count(edge) : most; },
+      Kokkos::Max<int>(largest));
   return largest;
 }
 
@@ -51,7 +55,7 @@ int main(int argc, char** argv) {
   fill(n, points, tetrahedra);
   const gale::Mesh mesh = gale::make_mesh(points, tetrahedra);
   const int largest = largest_star(mesh);
-  std::printf("%d vertices, %d edges, %d tetrahedra; at most %d tetrahedra at one edge\n", mesh.vertices(), mesh.known_edges(), mesh.tetrahedra(),
-              largest);
+  std::printf("%d vertices, %d edges, %d tetrahedra; at most %d tetrahedra at one edge\n", mesh.vertices(),
+              mesh.known_edges(), mesh.tetrahedra(), largest);
   return largest == 6 ? 0 : 1;
 }

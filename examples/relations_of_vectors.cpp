@@ -24,7 +24,8 @@ int main(int argc, char** argv) {
   const auto consumer = runtime.consumer();
   const gale::Id center = mesh.vertex_internal()(0);  // GALE numbers the vertices anew; vertex_input() leads back
   std::printf("vertex 0 is beside the vertices");
-  for (const gale::Id neighbour : consumer->row(gale::Relation::VV, center)) std::printf(" %d", mesh.vertex_input()(neighbour));
+  for (const gale::Id neighbour : consumer->row(gale::Relation::VV, center))
+    std::printf(" %d", mesh.vertex_input()(neighbour));
   std::printf("\nand its edges have");
   int incidences = 0;
   for (const gale::Id edge : consumer->row(gale::Relation::VE, center)) {

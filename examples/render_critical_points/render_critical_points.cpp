@@ -2,6 +2,14 @@
 // cut out, the volume's values on the three cut faces, and on these a small ball for each critical point, coloured by
 // type.
 
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <iostream>
+#include <map>
+#include <string>
+#include <vector>
+
 #include <vtkActor.h>
 #include <vtkBox.h>
 #include <vtkCamera.h>
@@ -35,14 +43,6 @@
 #include <vtkTransformPolyDataFilter.h>
 #include <vtkWindowToImageFilter.h>
 #include <vtkXMLPolyDataReader.h>
-
-#include <algorithm>
-#include <array>
-#include <cstdlib>
-#include <iostream>
-#include <map>
-#include <string>
-#include <vector>
 
 namespace {
 

@@ -19,8 +19,8 @@ void run(const gale::io::Dataset& data) {
   const double start = perf::seconds_of([&] { runtime.emplace(input.mesh(), critical_points_relations); });
   std::size_t count = 0;
   const double sweep = perf::seconds_of([&] { count = find_critical_points(*runtime, input.order()).vertices.size(); });
-  std::printf("segment %.1f, encode %.1f, order %.1f, start %.1f, sweep %.1f ms: %zu critical points\n", 1e3 * input.segment, 1e3 * input.encode,
-              1e3 * input.rank, 1e3 * start, 1e3 * sweep, count);
+  std::printf("segment %.1f, encode %.1f, order %.1f, start %.1f, sweep %.1f ms: %zu critical points\n",
+              1e3 * input.segment, 1e3 * input.encode, 1e3 * input.rank, 1e3 * start, 1e3 * sweep, count);
 }
 
 }  // namespace

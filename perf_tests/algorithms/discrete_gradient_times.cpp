@@ -1,7 +1,8 @@
-// The discrete gradient: initialization and sweep, by formulation, structure and number of consumers; each time from a new mesh. Medians.
+// The discrete gradient: initialization and sweep, by formulation, structure and number of consumers; each time from a
+// new mesh. Medians.
 //   usage: discrete_gradient_times [INPUT [RUNS [STRUCTURE [FORMULATION [CONSUMERS...]]]]]
-// INPUT: grid:N, or a raw mesh (see support/inputs.hpp). STRUCTURE: gale, inline, explicit (where there is Kokkos-Kernels) or all. FORMULATION: stars (from VV, VT
-// and link), cells (from VE, VF and VT) or all.
+// INPUT: grid:N, or a raw mesh (see support/inputs.hpp). STRUCTURE: gale, inline, explicit (where there is
+// Kokkos-Kernels) or all. FORMULATION: stars (from VV, VT and link), cells (from VE, VF and VT) or all.
 
 #include <algorithm>
 #include <cstdio>
@@ -11,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include <gale/baselines/discrete_gradient_from_cells.hpp>
 #include <gale/base/error.hpp>
+#include <gale/baselines/discrete_gradient_from_cells.hpp>
 #include <gale/runtime/explicit/explicit_structure.hpp>
 #include <gale/runtime/runtime.hpp>
 
@@ -40,14 +41,18 @@ std::unique_ptr<Structure> make_runtime(const Mesh& mesh, RelationSet relations,
   return std::make_unique<Runtime>(mesh, relations, options);
 }
 
-const std::vector<Formulation> formulations = {{"stars", discrete_gradient_relations, find_discrete_gradient},
-                                               {"cells", discrete_gradient_from_cells_relations, find_discrete_gradient_from_cells}};
+const std::vector<Formulation> formulations = {
+    {"stars", discrete_gradient_relations, find_discrete_gradient},
+    {"cells", discrete_gradient_from_cells_relations, find_discrete_gradient_from_cells}};
 
 const std::vector<StructureKind> structures = {
     {"gale", [](const Mesh& mesh, RelationSet relations) { return make_runtime(mesh, relations, Way::automatic); }},
     {"inline", [](const Mesh& mesh, RelationSet relations) { return make_runtime(mesh, relations, Way::inline_); }},
 #if defined(GALE_ENABLE_KOKKOS_KERNELS)
-    {"explicit", [](const Mesh& mesh, RelationSet relations) -> std::unique_ptr<Structure> { return std::make_unique<ExplicitStructure>(mesh, relations); }}
+    {"explicit",
+     [](const Mesh& mesh, RelationSet relations) -> std::unique_ptr<Structure> {
+       return std::make_unique<ExplicitStructure>(mesh, relations);
+     }}
 #endif
 };
 
@@ -57,7 +62,8 @@ struct Times {
   double total() const { return segment + encode + order + start + sweep; }
 };
 
-Times run(const io::Dataset& data, const Formulation& formulation, const StructureKind& kind, int consumers, CriticalSimplices& critical) {
+Times run(const io::Dataset& data, const Formulation& formulation, const StructureKind& kind, int consumers,
+          CriticalSimplices& critical) {
   const perf::Initialized input(data);
   std::unique_ptr<Structure> structure;
   SweepOptions options;
@@ -73,7 +79,8 @@ Times run(const io::Dataset& data, const Formulation& formulation, const Structu
   return times;
 }
 
-void measure(const io::Dataset& data, const Formulation& formulation, const StructureKind& kind, int consumers, int runs) {
+void measure(const io::Dataset& data, const Formulation& formulation, const StructureKind& kind, int consumers,
+             int runs) {
   std::vector<Times> all;
   CriticalSimplices critical;
   for (int i = 0; i < runs; ++i) all.push_back(run(data, formulation, kind, consumers, critical));
@@ -82,10 +89,12 @@ void measure(const io::Dataset& data, const Formulation& formulation, const Stru
   const double vertices = static_cast<double>(std::get<io::Dataset::Points<float>>(data.points).extent(0));
   const double spent = t.sweep * consumers;
   const auto counts = critical.counts();
-  std::printf("%-5s %-8s %3d consumers: %7.3f s = segment %.3f + encode %.3f + order %.3f + structure %.3f + sweep %.3f; "
-              "%5.0f ns a vertex and consumer, %4.1f %% of it waiting, %4.1f %% computing relations; critical %d %d %d %d\n",
-              formulation.name.c_str(), kind.name.c_str(), consumers, t.total(), t.segment, t.encode, t.order, t.start, t.sweep, 1e9 * spent / vertices,
-              100 * t.waiting / spent, 100 * t.computing / spent, counts[0], counts[1], counts[2], counts[3]);
+  std::printf(
+      "%-5s %-8s %3d consumers: %7.3f s = segment %.3f + encode %.3f + order %.3f + structure %.3f + sweep %.3f; "
+      "%5.0f ns a vertex and consumer, %4.1f %% of it waiting, %4.1f %% computing relations; critical %d %d %d %d\n",
+      formulation.name.c_str(), kind.name.c_str(), consumers, t.total(), t.segment, t.encode, t.order, t.start, t.sweep,
+      1e9 * spent / vertices, 100 * t.waiting / spent, 100 * t.computing / spent, counts[0], counts[1], counts[2],
+      counts[3]);
   std::fflush(stdout);
 }
 

@@ -1,4 +1,5 @@
-// What is done once for a mesh, step by step: octree, encoding, enumeration, mirrors on the host; and every kernel and copy below that.
+// What is done once for a mesh, step by step: octree, encoding, enumeration, mirrors on the host; and every kernel and
+// copy below that.
 //   usage: initialization_times [N [RUNS]]
 
 #include <cstdio>
@@ -14,8 +15,10 @@ namespace {
 
 using namespace gale;
 
-/// What the discrete gradient in the paper's formulation reads: its consumers look up the first, workers compute the second.
-constexpr RelationSet looked_up = Relation::EV | Relation::FV | Relation::FE | Relation::TV | Relation::TE | Relation::TF;
+/// What the discrete gradient in the paper's formulation reads: its consumers look up the first, workers compute the
+/// second.
+constexpr RelationSet looked_up =
+    Relation::EV | Relation::FV | Relation::FE | Relation::TV | Relation::TE | Relation::TF;
 constexpr RelationSet computed = Relation::VE | Relation::VF | Relation::VT;
 
 /// Prints what a step took, and gives it back.
@@ -29,17 +32,20 @@ double step(const char* name, const Action& action) {
 void initialize(const io::Dataset& data) {
   const auto& points = std::get<io::Dataset::Points<float>>(data.points);
   Segmentation segmentation;
-  const double octree = step("octree", [&] { segmentation = octree_segmentation<float, HostMemory>(Points<float, HostMemory>(points), 100); });
+  const double octree = step(
+      "octree", [&] { segmentation = octree_segmentation<float, HostMemory>(Points<float, HostMemory>(points), 100); });
   std::unique_ptr<Mesh> mesh;
-  const double encoding = step("encoding (VV and VT need no more)", [&] { mesh = std::make_unique<Mesh>(Tetrahedra<Id, HostMemory>(data.tetrahedra), segmentation); });
+  const double encoding = step("encoding (VV and VT need no more)", [&] {
+    mesh = std::make_unique<Mesh>(Tetrahedra<Id, HostMemory>(data.tetrahedra), segmentation);
+  });
   double enumeration = step("edges and triangles", [&] { mesh->simplices_on_worker(needs_of(looked_up)); });
   enumeration += step("edges by their higher vertex", [&] { mesh->simplices_on_worker(needs_of(computed)); });
   const double mirror = step("mirrors on the host", [&] { mesh->simplices_on_host(needs_of(looked_up)); });
-  std::printf("  for VV and VT %.1f ms, octree included; for the gradient %.1f ms, segmentation given\n", 1e3 * (octree + encoding),
-              1e3 * (encoding + enumeration + mirror));
+  std::printf("  for VV and VT %.1f ms, octree included; for the gradient %.1f ms, segmentation given\n",
+              1e3 * (octree + encoding), 1e3 * (encoding + enumeration + mirror));
   const double edges = mesh->known_edges(), triangles = mesh->known_triangles();
-  std::printf("  %.1f M edges, %.1f M triangles; on the host %.2f GB for edges, %.2f GB for triangles\n", edges / 1e6, triangles / 1e6,
-              (12 * edges + 4.0 * mesh->vertices()) / 1e9, 8 * triangles / 1e9);
+  std::printf("  %.1f M edges, %.1f M triangles; on the host %.2f GB for edges, %.2f GB for triangles\n", edges / 1e6,
+              triangles / 1e6, (12 * edges + 4.0 * mesh->vertices()) / 1e9, 8 * triangles / 1e9);
 }
 
 }  // namespace

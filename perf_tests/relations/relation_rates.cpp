@@ -1,4 +1,5 @@
-// The kernels of single relations over a whole mesh, by threads per segment: their time beside that of copying what they make to the host.
+// The kernels of single relations over a whole mesh, by threads per segment: their time beside that of copying what
+// they make to the host.
 //   usage: relation_rates [N [CAPACITY [RELATION...]]]
 
 #include <cstdio>
@@ -20,7 +21,9 @@ constexpr std::size_t copied_at_once = std::size_t(16) << 20;
 
 Array<Id, WorkerMemory> all_segments(const Mesh& mesh) {
   const Array<Id, WorkerMemory> segments("segments", mesh.segments());
-  parallel_for("GALE::all_segments", WorkerSpace(), mesh.segments(), KOKKOS_LAMBDA(Offset s) { segments(s) = static_cast<Id>(s); });
+  parallel_for(
+      "GALE::all_segments", WorkerSpace(), mesh.segments(),
+      KOKKOS_LAMBDA(Offset s) { segments(s) = static_cast<Id>(s); });
   return segments;
 }
 
@@ -36,13 +39,16 @@ class WholeMesh {
         used_("used", 1),
         needed_("needed", 1) {
     for (Id s = 0; s < count_; ++s) task_.sizes = larger(task_.sizes, kernel_.bound(s));
-    task_.pool = {words_.data(), static_cast<Offset>(words_.extent(0)), used_.data(), directory_.data(), needed_.data()};
+    task_.pool = {words_.data(), static_cast<Offset>(words_.extent(0)), used_.data(), directory_.data(),
+                  needed_.data()};
     batch_ = count_;
     while (!run(1)) batch_ = (batch_ + 1) / 2;
   }
 
   /// Does a team of this shape find room in the fast scratch memory?
-  bool fits(TeamShape shape) const { return kernel_.scratch_bytes(task_.sizes, shape.warps) <= fast_scratch_bytes<WorkerSpace>(); }
+  bool fits(TeamShape shape) const {
+    return kernel_.scratch_bytes(task_.sizes, shape.warps) <= fast_scratch_bytes<WorkerSpace>();
+  }
 
   /// False if the pool lacked room.
   bool run(TeamShape shape) {
@@ -83,8 +89,11 @@ void measure(const Mesh& mesh, RelationSet wanted, double link) {
     if (!whole.fits(shape)) continue;
     const double seconds = perf::median_seconds_of(have_device ? 5 : 1, [&] { whole.run(shape); });
     const double bytes = 4.0 * static_cast<double>(whole.words_made());
-    std::printf("%-14s %4d threads a segment: %8.2f ms, %.2f GB, %.0f GB/s; its copy %.2f ms; %.2f M segments/s, %.0f M entries/s\n", name_of(wanted).c_str(),
-                threads, 1e3 * seconds, bytes / 1e9, bytes / 1e9 / seconds, 1e3 * bytes / link, mesh.segments() / seconds / 1e6, bytes / 4e6 / seconds);
+    std::printf(
+        "%-14s %4d threads a segment: %8.2f ms, %.2f GB, %.0f GB/s; its copy %.2f ms; %.2f M segments/s, %.0f M "
+        "entries/s\n",
+        name_of(wanted).c_str(), threads, 1e3 * seconds, bytes / 1e9, bytes / 1e9 / seconds, 1e3 * bytes / link,
+        mesh.segments() / seconds / 1e6, bytes / 4e6 / seconds);
   }
 }
 

@@ -1,4 +1,5 @@
-// The star kernels over a whole mesh, by threads per segment: their time beside that of copying what they make to the host.
+// The star kernels over a whole mesh, by threads per segment: their time beside that of copying what they make to the
+// host.
 //   usage: star_rates [N [CAPACITY]]
 
 #include <cstdio>
@@ -18,7 +19,9 @@ using namespace gale;
 
 Array<Id, WorkerMemory> all_segments(const Mesh& mesh) {
   const Array<Id, WorkerMemory> segments("segments", mesh.segments());
-  parallel_for("GALE::all_segments", WorkerSpace(), mesh.segments(), KOKKOS_LAMBDA(Offset s) { segments(s) = static_cast<Id>(s); });
+  parallel_for(
+      "GALE::all_segments", WorkerSpace(), mesh.segments(),
+      KOKKOS_LAMBDA(Offset s) { segments(s) = static_cast<Id>(s); });
   return segments;
 }
 
@@ -57,7 +60,8 @@ struct WholeMesh {
     StarSizes sizes;
     for (Id s = 0; s < mesh.segments(); ++s) {
       const Id rows = mesh.vertex_begin()(s + 1) - mesh.vertex_begin()(s);
-      sizes = larger(sizes, StarKernel<WorkerMemory>::bound(rows, tetrahedra(s + 1) - tetrahedra(s), external(s + 1) - external(s), wanted));
+      sizes = larger(sizes, StarKernel<WorkerMemory>::bound(rows, tetrahedra(s + 1) - tetrahedra(s),
+                                                            external(s + 1) - external(s), wanted));
     }
     return sizes;
   }
@@ -74,14 +78,15 @@ void measure(const Mesh& mesh, RelationSet wanted, double link) {
   for (const int warps : {1, 2, 4, 8, 16}) {
     if (!have_device && warps > 1) break;
     if (scratch_bytes<StarKernel<WorkerMemory>>(whole.kernel.sizes, warps) > fast_scratch_bytes<WorkerSpace>()) {
-      std::printf("%-14s %4d threads a segment: its scratch memory of %zu bytes isn't there\n", name_of(wanted).c_str(), 32 * warps,
-                  scratch_bytes<StarKernel<WorkerMemory>>(whole.kernel.sizes, warps));
+      std::printf("%-14s %4d threads a segment: its scratch memory of %zu bytes isn't there\n", name_of(wanted).c_str(),
+                  32 * warps, scratch_bytes<StarKernel<WorkerMemory>>(whole.kernel.sizes, warps));
       continue;
     }
     const double seconds = perf::median_seconds_of(5, [&] { whole.run(warps); });
     const double bytes = 4.0 * on_host(whole.used)(0);
-    std::printf("%-14s %4d threads a segment: %7.2f ms, %.2f GB, whose copy takes %.2f ms; %.1f M segments/s\n", name_of(wanted).c_str(), 32 * warps,
-                1e3 * seconds, bytes / 1e9, 1e3 * bytes / link, mesh.segments() / seconds / 1e6);
+    std::printf("%-14s %4d threads a segment: %7.2f ms, %.2f GB, whose copy takes %.2f ms; %.1f M segments/s\n",
+                name_of(wanted).c_str(), 32 * warps, 1e3 * seconds, bytes / 1e9, 1e3 * bytes / link,
+                mesh.segments() / seconds / 1e6);
   }
 }
 
@@ -93,7 +98,8 @@ int main(int argc, char** argv) {
   const Mesh mesh = perf::encode(io::make_grid(n), argc > 2 ? std::atoi(argv[2]) : 100);
   const double link = perf::link_bandwidth(std::size_t(16) << 20);
   std::printf("%s, grid:%d, %d segments\n", perf::context().c_str(), n, mesh.segments());
-  for (const RelationSet wanted : {RelationSet(Relation::VT), RelationSet(Relation::VV), Relation::VV | Relation::link, Relation::VV | Relation::VT, star_relations}) {
+  for (const RelationSet wanted : {RelationSet(Relation::VT), RelationSet(Relation::VV), Relation::VV | Relation::link,
+                                   Relation::VV | Relation::VT, star_relations}) {
     measure(mesh, wanted, link);
   }
 }

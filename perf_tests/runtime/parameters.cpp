@@ -1,5 +1,5 @@
-// The paper's studies, with critical points: threads per block, blocks per request, threads per segment, consumers, and one queue for both
-// relations against one each.
+// The paper's studies, with critical points: threads per block, blocks per request, threads per segment, consumers, and
+// one queue for both relations against one each.
 //   usage: parameters [N]
 
 #include <cstdio>
@@ -30,10 +30,13 @@ struct Study {
     std::int64_t batches = 0, segments = 0;
     for (const auto& leader : statistics.leaders) batches += leader.batches, segments += leader.segments_computed;
     const double mean = 1e3 / ((runs + 1) * threads);
-    std::printf("%-20s %5d: %7.1f ms; ms a consumer waited: %6.2f = %.2f push + %.2f queue + %.2f preparation + %.2f production + %.2f integration; "
-                "%lld segments a batch\n",
-                what, value, 1e3 * seconds, mean * waiting.total(), mean * waiting.push, mean * waiting.queue, mean * waiting.preparation,
-                mean * waiting.production, mean * waiting.integration, static_cast<long long>(segments / std::max<std::int64_t>(batches, 1)));
+    std::printf(
+        "%-20s %5d: %7.1f ms; ms a consumer waited: %6.2f = %.2f push + %.2f queue + %.2f preparation + %.2f "
+        "production + %.2f integration; "
+        "%lld segments a batch\n",
+        what, value, 1e3 * seconds, mean * waiting.total(), mean * waiting.push, mean * waiting.queue,
+        mean * waiting.preparation, mean * waiting.production, mean * waiting.integration,
+        static_cast<long long>(segments / std::max<std::int64_t>(batches, 1)));
   }
 };
 

@@ -1,5 +1,5 @@
-// Requests in no order: how long one cold row takes, and how many rows a second consumers get that jump at random, with and without a
-// budget that all blocks fit.
+// Requests in no order: how long one cold row takes, and how many rows a second consumers get that jump at random, with
+// and without a budget that all blocks fit.
 //   usage: requests [N [SECONDS]]
 
 #include <cstdio>
@@ -27,7 +27,8 @@ void measure_cold_row(const Mesh& mesh) {
     times.push_back(perf::seconds_of([&] { consumer->row(Relation::VV, vertex); }));
   }
   std::sort(times.begin() + 1, times.end());
-  std::printf("one cold row: %.1f us (median of %zu; the very first %.1f)\n", 1e6 * times[times.size() / 2], times.size() - 1, 1e6 * times[0]);
+  std::printf("one cold row: %.1f us (median of %zu; the very first %.1f)\n", 1e6 * times[times.size() / 2],
+              times.size() - 1, 1e6 * times[0]);
 }
 
 void measure_jumps(const Mesh& mesh, int consumers, std::size_t budget, double seconds) {
@@ -43,7 +44,8 @@ void measure_jumps(const Mesh& mesh, int consumers, std::size_t budget, double s
         const auto consumer = runtime.consumer();
         std::int64_t mine = 0;
         const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
-        for (; std::chrono::steady_clock::now() < end; ++mine) consumer->row(Relation::VV, static_cast<Id>(random() % mesh.vertices()));
+        for (; std::chrono::steady_clock::now() < end; ++mine)
+          consumer->row(Relation::VV, static_cast<Id>(random() % mesh.vertices()));
         rows += mine;
       });
     }
@@ -52,10 +54,13 @@ void measure_jumps(const Mesh& mesh, int consumers, std::size_t budget, double s
   const auto statistics = runtime.statistics();
   const auto all = statistics.all_consumers();
   std::int64_t recomputed = 0, computed = all.segments_computed;
-  for (const auto& leader : statistics.leaders) computed += leader.segments_computed, recomputed += leader.segments_recomputed;
-  std::printf("%3d consumers, %5zu MiB: %9.0f rows/s, %5.1f %% waited for, %lld segments computed, %lld of them again\n", consumers, budget >> 20,
-              rows / elapsed, 100.0 * all.requests / std::max<std::int64_t>(all.requests + all.hits, 1), static_cast<long long>(computed),
-              static_cast<long long>(recomputed));
+  for (const auto& leader : statistics.leaders)
+    computed += leader.segments_computed, recomputed += leader.segments_recomputed;
+  std::printf(
+      "%3d consumers, %5zu MiB: %9.0f rows/s, %5.1f %% waited for, %lld segments computed, %lld of them again\n",
+      consumers, budget >> 20, rows / elapsed,
+      100.0 * all.requests / std::max<std::int64_t>(all.requests + all.hits, 1), static_cast<long long>(computed),
+      static_cast<long long>(recomputed));
 }
 
 }  // namespace

@@ -32,15 +32,19 @@ void measure(const Mesh& mesh, int threads, double link) {
   options.threads = threads;
   const double seconds = perf::median_seconds_of(runs, [&] {
     runtime.for_each_segment(wanted, options, [&](int, const SegmentRows& rows) {
-      total += sum_of(rows[Relation::VV], rows.first(), rows.last()) + sum_of(rows[Relation::VT], rows.first(), rows.last());
+      total +=
+          sum_of(rows[Relation::VV], rows.first(), rows.last()) + sum_of(rows[Relation::VT], rows.first(), rows.last());
     });
   });
   const auto statistics = runtime.statistics();
   double bytes = 0;
   for (const auto& leader : statistics.leaders) bytes += static_cast<double>(leader.bytes) / (runs + 1);
   const double waiting = statistics.all_consumers().waiting.total() / (runs + 1);
-  std::printf("%3d consumers: %7.1f ms, %5.1f GB/s, %3.0f %% of the link's %.1f GB/s, waiting %4.1f %% of the consumers' time\n", threads,
-              1e3 * seconds, bytes / seconds / 1e9, 100 * bytes / seconds / link, link / 1e9, 100 * waiting / (threads * seconds));
+  std::printf(
+      "%3d consumers: %7.1f ms, %5.1f GB/s, %3.0f %% of the link's %.1f GB/s, waiting %4.1f %% of the consumers' "
+      "time\n",
+      threads, 1e3 * seconds, bytes / seconds / 1e9, 100 * bytes / seconds / link, link / 1e9,
+      100 * waiting / (threads * seconds));
 }
 
 }  // namespace

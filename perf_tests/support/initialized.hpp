@@ -16,7 +16,8 @@ class Initialized {
     const auto& points = std::get<io::Dataset::Points<float>>(data.points);
     const auto& field = std::get<std::vector<float>>(data.arrays[0].values);
     std::optional<Segmentation> segmentation;
-    segment = seconds_of([&] { segmentation.emplace(octree_segmentation(Points<float, HostMemory>(points), capacity)); });
+    segment =
+        seconds_of([&] { segmentation.emplace(octree_segmentation(Points<float, HostMemory>(points), capacity)); });
     encode = seconds_of([&] { mesh_.emplace(Tetrahedra<Id, HostMemory>(data.tetrahedra), *segmentation); });
     rank = seconds_of([&] { order_.emplace(*mesh_, field.data(), field.size()); });
   }

@@ -12,7 +12,9 @@ namespace {
 
 io::Dataset read_raw(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  const auto read = [&](auto* to, std::size_t count) { file.read(reinterpret_cast<char*>(to), static_cast<std::streamsize>(count * sizeof(*to))); };
+  const auto read = [&](auto* to, std::size_t count) {
+    file.read(reinterpret_cast<char*>(to), static_cast<std::streamsize>(count * sizeof(*to)));
+  };
   std::int64_t sizes[2] = {0, 0};
   read(sizes, 2);
   if (!file || sizes[0] < 0 || sizes[1] < 0) throw Error("cannot read '" + path + "'");
@@ -32,6 +34,8 @@ io::Dataset read_raw(const std::string& path) {
 
 }  // namespace
 
-io::Dataset make_input(const std::string& name) { return name.compare(0, 5, "grid:") == 0 ? io::read(name) : read_raw(name); }
+io::Dataset make_input(const std::string& name) {
+  return name.compare(0, 5, "grid:") == 0 ? io::read(name) : read_raw(name);
+}
 
 }  // namespace gale::perf

@@ -43,8 +43,8 @@ void end_kernel(std::uint64_t id) {
   open.erase(id);
 }
 
-void begin_copy(Kokkos::Tools::SpaceHandle to, const char* to_label, const void*, Kokkos::Tools::SpaceHandle from, const char* from_label,
-                const void*, std::uint64_t) {
+void begin_copy(Kokkos::Tools::SpaceHandle to, const char* to_label, const void*, Kokkos::Tools::SpaceHandle from,
+                const char* from_label, const void*, std::uint64_t) {
   copy = {std::string("copy ") + from.name + " " + from_label + " to " + to.name + " " + to_label, Clock::now()};
 }
 
@@ -88,8 +88,10 @@ std::map<std::string, KernelTimes::Entry> KernelTimes::entries() const {
 void KernelTimes::print() const {
   const auto all = entries();
   std::vector<std::pair<std::string, Entry>> sorted(all.begin(), all.end());
-  std::sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.second.seconds > b.second.seconds; });
-  for (const auto& one : sorted) std::printf("%10.3f ms %7ld  %s\n", 1000 * one.second.seconds, one.second.count, one.first.c_str());
+  std::sort(sorted.begin(), sorted.end(),
+            [](const auto& a, const auto& b) { return a.second.seconds > b.second.seconds; });
+  for (const auto& one : sorted)
+    std::printf("%10.3f ms %7ld  %s\n", 1000 * one.second.seconds, one.second.count, one.first.c_str());
 }
 
 }  // namespace gale::perf

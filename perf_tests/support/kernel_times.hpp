@@ -5,8 +5,8 @@
 
 namespace gale::perf {
 
-/// What Kokkos' kernels, copies and fences took, by label, while one of these lives: seconds by the host's clock, from begin to end. Loops of
-/// GALE's own host threads are among them.
+/// What Kokkos' kernels, copies and fences took, by label, while one of these lives: seconds by the host's clock, from
+/// begin to end. Loops of GALE's own host threads are among them.
 class KernelTimes {
  public:
   struct Entry {

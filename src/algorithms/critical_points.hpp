@@ -10,28 +10,35 @@
 namespace gale {
 
 /// What a vertex is to a piecewise linear field, with TTK's codes.
-enum class CriticalType : std::uint8_t { minimum = 0, saddle1 = 1, saddle2 = 2, maximum = 3, degenerate = 4, regular = 5 };
+enum class CriticalType : std::uint8_t {
+  minimum = 0,
+  saddle1 = 1,
+  saddle2 = 2,
+  maximum = 3,
+  degenerate = 4,
+  regular = 5
+};
 
 /// The vertices that aren't regular, by ascending input id.
 struct CriticalPoints {
-  std::vector<Id> vertices;                ///< input ids
-  std::vector<CriticalType> types;         ///< of each
-  std::vector<std::uint8_t> on_surface;   ///< 1 if it belongs to a triangle with exactly one tetrahedron
+  std::vector<Id> vertices;              ///< input ids
+  std::vector<CriticalType> types;       ///< of each
+  std::vector<std::uint8_t> on_surface;  ///< 1 if it belongs to a triangle with exactly one tetrahedron
 
   /// How many there are of each type but `regular`.
   std::array<Id, 5> counts{};
 };
 
-/// Finds the critical points of a piecewise linear field (Banchoff 1970) by the numbers L and U of connected components of the lower and
-/// of the upper neighbours of each vertex, joined along the tetrahedra of its star:
+/// Finds the critical points of a piecewise linear field (Banchoff 1970) by the numbers L and U of connected components
+/// of the lower and of the upper neighbours of each vertex, joined along the tetrahedra of its star:
 ///
 ///     L, U    0, 1 minimum    2, 1 1-saddle    1, 2 2-saddle    1, 0 maximum    1, 1 regular    else degenerate
 ///
-/// except that a vertex on the surface with L, U = 1, 1 is a 1-saddle if some upper neighbour is on the surface and no lower one, and a
-/// 2-saddle if some lower one is and no upper one, as TTK has it.
+/// except that a vertex on the surface with L, U = 1, 1 is a 1-saddle if some upper neighbour is on the surface and no
+/// lower one, and a 2-saddle if some lower one is and no upper one, as TTK has it.
 ///
-/// A sweep of VV and link, for which `structure` must be preconditioned; the same result whatever the structure, its segments, and the number
-/// of threads. 2 bytes a vertex beside the result.
+/// A sweep of VV and link, for which `structure` must be preconditioned; the same result whatever the structure, its
+/// segments, and the number of threads. 2 bytes a vertex beside the result.
 CriticalPoints find_critical_points(Structure& structure, const VertexOrder& order, const SweepOptions& options = {});
 
 /// What the sweep reads.

@@ -7,8 +7,8 @@
 
 namespace gale {
 
-/// The simplices that a discrete gradient pairs with no other, in GALE's ids: the vertices of each from the highest to the lowest, and of a
-/// tetrahedron its id. In the order of the numbers that users know them by (`SimplexNumbers`).
+/// The simplices that a discrete gradient pairs with no other, in GALE's ids: the vertices of each from the highest to
+/// the lowest, and of a tetrahedron its id. In the order of the numbers that users know them by (`SimplexNumbers`).
 struct CriticalSimplices {
   std::vector<Id> vertices;                  ///< minima
   std::vector<std::array<Id, 2>> edges;      ///< 1-saddles
@@ -20,7 +20,8 @@ struct CriticalSimplices {
   std::vector<Id> star;
 
   std::array<Id, 4> counts() const {
-    return {static_cast<Id>(vertices.size()), static_cast<Id>(edges.size()), static_cast<Id>(triangles.size()), static_cast<Id>(tetrahedra.size())};
+    return {static_cast<Id>(vertices.size()), static_cast<Id>(edges.size()), static_cast<Id>(triangles.size()),
+            static_cast<Id>(tetrahedra.size())};
   }
 
   /// Alternating sum of the counts: the mesh' Euler characteristic.

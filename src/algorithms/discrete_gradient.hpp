@@ -21,12 +21,13 @@ struct Partner {
   bool is_critical() const { return dimension < 0; }
 };
 
-/// A discrete gradient: pairs of simplices whose dimensions differ by one (Forman 1998). Each simplex is in one pair at most; those in none are
-/// critical. On the host, immutable, for any number of threads; copies share the arrays.
+/// A discrete gradient: pairs of simplices whose dimensions differ by one (Forman 1998). Each simplex is in one pair at
+/// most; those in none are critical. On the host, immutable, for any number of threads; copies share the arrays.
 ///
-/// Stored is what paths along the gradient ask for. A vertex and a tetrahedron know their successor, 4 bytes each. For edges, which only surfaces
-/// cross, there is a row for each vertex of the lower ends of its edges, with the third vertex of the triangle that each is paired with: 5 bytes an
-/// edge and 12 a vertex. Edges and triangles have no ids here: they are named by their vertices (GALE's ids).
+/// Stored is what paths along the gradient ask for. A vertex and a tetrahedron know their successor, 4 bytes each. For
+/// edges, which only surfaces cross, there is a row for each vertex of the lower ends of its edges, with the third
+/// vertex of the triangle that each is paired with: 5 bytes an edge and 12 a vertex. Edges and triangles have no ids
+/// here: they are named by their vertices (GALE's ids).
 class DiscreteGradient {
  public:
   explicit DiscreteGradient(std::shared_ptr<const detail::GradientStore> store);
@@ -38,19 +39,20 @@ class DiscreteGradient {
   /// The next vertex on the falling path: the other end of the paired edge. no_id for a critical vertex.
   Id vertex_successor(Id vertex) const { return vertex_successor_[vertex]; }
 
-  /// The next tetrahedron on the rising path: the one across the paired triangle; of several, that of the lowest input id. no_id for a critical
-  /// tetrahedron; below that if the path leaves through the mesh's surface (`leaves`).
+  /// The next tetrahedron on the rising path: the one across the paired triangle; of several, that of the lowest input
+  /// id. no_id for a critical tetrahedron; below that if the path leaves through the mesh's surface (`leaves`).
   Id tetrahedron_successor(Id tetrahedron) const { return tetrahedron_successor_[tetrahedron]; }
   static bool leaves(Id successor) { return successor < no_id; }
 
-  /// Third vertex of the triangle that an edge is paired with; no_id if it is with none. Of any two vertices that have an edge, in any order.
+  /// Third vertex of the triangle that an edge is paired with; no_id if it is with none. Of any two vertices that have
+  /// an edge, in any order.
   Id triangle_of_edge(Id a, Id b) const;
 
   /// The same, faster, of an edge whose higher end is known.
   Id triangle_of_lower_edge(Id high, Id low) const;
 
-  /// Calls visit(low, third) for each edge (high, low) that is paired with a triangle (high, low, third) and has no vertex above `high`. In no order that
-  /// means anything to users.
+  /// Calls visit(low, third) for each edge (high, low) that is paired with a triangle (high, low, third) and has no
+  /// vertex above `high`. In no order that means anything to users.
   void for_each_edge_pair(Id high, const std::function<void(Id low, Id third)>& visit) const;
 
   /// The pair of a vertex; of an edge; of a tetrahedron. Throw nothing: the simplices must be there.
@@ -58,8 +60,8 @@ class DiscreteGradient {
   Partner pair_of_edge(Id a, Id b) const;
   Partner pair_of_tetrahedron(Id tetrahedron) const;
 
-  /// The pair of the triangle of a tetrahedron that is opposite the `corner`-th of its vertices (EncodedMesh's order). With the tetrahedra that
-  /// share the triangle alone, of which `others` has those beside this one.
+  /// The pair of the triangle of a tetrahedron that is opposite the `corner`-th of its vertices (EncodedMesh's order).
+  /// With the tetrahedra that share the triangle alone, of which `others` has those beside this one.
   Partner pair_of_triangle(Id tetrahedron, int corner, const Row& others) const;
 
   /// All successors.
@@ -78,12 +80,14 @@ class DiscreteGradient {
   const Id* tetrahedron_successor_;
 };
 
-/// The discrete gradient of a field, after Robins, Wood and Sheppard (2011): each vertex' lower star is paired by itself, so simplices are paired
-/// only with simplices that have the same highest vertex. Keys are unique: the result depends on nothing but mesh and order.
+/// The discrete gradient of a field, after Robins, Wood and Sheppard (2011): each vertex' lower star is paired by
+/// itself, so simplices are paired only with simplices that have the same highest vertex. Keys are unique: the result
+/// depends on nothing but mesh and order.
 ///
-/// A sweep of VV, VT and link; throws gale::Error if `structure` isn't preconditioned for them. No edge or triangle is enumerated: beside the blocks
-/// of the sweep there is only the gradient in memory.
-DiscreteGradient find_discrete_gradient(Structure& structure, const VertexOrder& order, const SweepOptions& options = {});
+/// A sweep of VV, VT and link; throws gale::Error if `structure` isn't preconditioned for them. No edge or triangle is
+/// enumerated: beside the blocks of the sweep there is only the gradient in memory.
+DiscreteGradient find_discrete_gradient(Structure& structure, const VertexOrder& order,
+                                        const SweepOptions& options = {});
 
 /// What the sweep reads.
 inline constexpr RelationSet discrete_gradient_relations = star_relations;

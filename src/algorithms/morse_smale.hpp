@@ -15,31 +15,35 @@ struct MorseSmaleParts {
   bool ascending_manifolds = true;
 };
 
-/// The surface that the rising paths of a critical edge sweep: a polygon for each edge that it crosses, through the edge's tetrahedra, in their order
-/// around it.
+/// The surface that the rising paths of a critical edge sweep: a polygon for each edge that it crosses, through the
+/// edge's tetrahedra, in their order around it.
 struct AscendingWalls {
-  Separatrices<std::array<Id, 2>> walls;  ///< edges, the higher end first; the critical one, then the others by their input vertices
-  std::vector<Offset> star_begin{0};      ///< the tetrahedra of the i-th cell of `walls`: star[star_begin[i]] to star[star_begin[i + 1] - 1]
+  Separatrices<std::array<Id, 2>>
+      walls;  ///< edges, the higher end first; the critical one, then the others by their input vertices
+  std::vector<Offset> star_begin{
+      0};  ///< the tetrahedra of the i-th cell of `walls`: star[star_begin[i]] to star[star_begin[i + 1] - 1]
   std::vector<Id> star;
 };
 
-/// The Morse-Smale complex of a discrete gradient. Sources, destinations and manifolds are places among the simplices of `critical`; cells are in
-/// GALE's ids. What wasn't wanted is empty.
+/// The Morse-Smale complex of a discrete gradient. Sources, destinations and manifolds are places among the simplices
+/// of `critical`; cells are in GALE's ids. What wasn't wanted is empty.
 struct MorseSmaleComplex {
   DiscreteGradient gradient;
 
   /// The gradient's, or those of them that are left (`simplify`).
   CriticalSimplices critical;
 
-  /// From each critical edge, from both its vertices, that of lower input id first, down to a minimum: the vertices on the way, the minimum included.
+  /// From each critical edge, from both its vertices, that of lower input id first, down to a minimum: the vertices on
+  /// the way, the minimum included.
   Separatrices<Id> descending;
 
-  /// From each critical triangle, from each of its tetrahedra, by input id, up to a maximum: the tetrahedra on the way, the maximum included. Those
-  /// that leave through the mesh's surface are left out.
+  /// From each critical triangle, from each of its tetrahedra, by input id, up to a maximum: the tetrahedra on the way,
+  /// the maximum included. Those that leave through the mesh's surface are left out.
   Separatrices<Id> ascending;
 
-  /// From a critical edge up to a critical triangle whose descending wall reaches it: the triangles on the way, the last included. Ordered by
-  /// triangle, then edge. Where paths fork, this is the one over the least triangle, written with its input vertices ascending.
+  /// From a critical edge up to a critical triangle whose descending wall reaches it: the triangles on the way, the
+  /// last included. Ordered by triangle, then edge. Where paths fork, this is the one over the least triangle, written
+  /// with its input vertices ascending.
   Separatrices<TriangleVertices> connectors;
 
   /// Of each critical triangle: the triangles that its falling paths sweep, itself first.
@@ -47,20 +51,22 @@ struct MorseSmaleComplex {
 
   AscendingWalls ascending_walls;
 
-  /// By input vertex: the place among the critical vertices of the minimum that its path falls to; the place among the critical tetrahedra of the
-  /// maximum that the path from its tetrahedron of lowest input id rises to, no_id if that leaves through the surface; and a number for each pair of
-  /// both, dense from 0, no_id where one is missing.
+  /// By input vertex: the place among the critical vertices of the minimum that its path falls to; the place among the
+  /// critical tetrahedra of the maximum that the path from its tetrahedron of lowest input id rises to, no_id if that
+  /// leaves through the surface; and a number for each pair of both, dense from 0, no_id where one is missing.
   Array<Id, HostMemory> descending_manifold, ascending_manifold, morse_smale_manifold;
   Id morse_smale_manifolds = 0;  ///< how many pairs there are
 };
 
-/// Traces the complex of a gradient: connectors and walls on options.threads threads, other separatrices on the host's, manifolds in the workers'
-/// space. No progress is told. The same result whatever the structure, its segments, and the number of threads.
+/// Traces the complex of a gradient: connectors and walls on options.threads threads, other separatrices on the host's,
+/// manifolds in the workers' space. No progress is told. The same result whatever the structure, its segments, and the
+/// number of threads.
 ///
-/// `structure` is that of the gradient's mesh; only separatrices2 reads it, for VT: throws gale::Error if it isn't preconditioned for that. Time and
-/// memory grow with what is found, and for manifolds with the mesh. Walls share cells: all of them together may have many times those of the mesh.
-MorseSmaleComplex find_morse_smale_complex(Structure& structure, const DiscreteGradient& gradient, const MorseSmaleParts& parts = {},
-                                           const SweepOptions& options = {});
+/// `structure` is that of the gradient's mesh; only separatrices2 reads it, for VT: throws gale::Error if it isn't
+/// preconditioned for that. Time and memory grow with what is found, and for manifolds with the mesh. Walls share
+/// cells: all of them together may have many times those of the mesh.
+MorseSmaleComplex find_morse_smale_complex(Structure& structure, const DiscreteGradient& gradient,
+                                           const MorseSmaleParts& parts = {}, const SweepOptions& options = {});
 
 /// What the gradient and this read.
 inline constexpr RelationSet morse_smale_relations = discrete_gradient_relations;

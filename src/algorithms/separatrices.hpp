@@ -8,11 +8,12 @@
 
 namespace gale {
 
-/// Paths along a discrete gradient from one critical simplex to another, or surfaces from one: the i-th is cells[begin[i]] to cells[begin[i + 1] - 1].
+/// Paths along a discrete gradient from one critical simplex to another, or surfaces from one: the i-th is
+/// cells[begin[i]] to cells[begin[i + 1] - 1].
 template <class Cell>
 struct Separatrices {
-  std::vector<Id> sources;       ///< places in CriticalSimplices of each one's first simplex
-  std::vector<Id> destinations;  ///< and of its last; empty for surfaces
+  std::vector<Id> sources;            ///< places in CriticalSimplices of each one's first simplex
+  std::vector<Id> destinations;       ///< and of its last; empty for surfaces
   std::vector<std::uint8_t> is_only;  ///< of saddle connectors: whether there is no other path between the two
   std::vector<Offset> begin{0};
   std::vector<Cell> cells;

@@ -9,7 +9,8 @@
 
 namespace gale {
 
-/// Some edges and triangles of a mesh, named by their vertices: GALE's ids, in any order. One may be there more than once.
+/// Some edges and triangles of a mesh, named by their vertices: GALE's ids, in any order. One may be there more than
+/// once.
 struct NamedSimplices {
   std::vector<std::array<Id, 2>> edges;
   std::vector<std::array<Id, 3>> triangles;
@@ -23,12 +24,13 @@ struct SimplexNumbers {
   Array<const std::uint8_t, HostMemory> on_surface;
 };
 
-/// The place of each named edge (triangle) among all of the mesh, each written with its input vertices ascending, in lexicographic order: what
-/// `input_numbers` has for all of them, without enumerating any.
+/// The place of each named edge (triangle) among all of the mesh, each written with its input vertices ascending, in
+/// lexicographic order: what `input_numbers` has for all of them, without enumerating any.
 ///
-/// A sweep of VV and link, for which `structure` must be preconditioned; the same result whatever the structure, its segments, and the number of
-/// threads. The work of a sweep of critical points, and 0.1 us a named simplex, in parallel; 9 bytes a vertex and 12 a named simplex, the result
-/// among them. Throws gale::Error, with the input vertices, if the mesh has no such simplex, and if it has more than 2^31 - 1 edges or triangles.
+/// A sweep of VV and link, for which `structure` must be preconditioned; the same result whatever the structure, its
+/// segments, and the number of threads. The work of a sweep of critical points, and 0.1 us a named simplex, in
+/// parallel; 9 bytes a vertex and 12 a named simplex, the result among them. Throws gale::Error, with the input
+/// vertices, if the mesh has no such simplex, and if it has more than 2^31 - 1 edges or triangles.
 SimplexNumbers number_simplices(Structure& structure, const NamedSimplices& named, const SweepOptions& options = {});
 
 /// What the sweep reads.

@@ -1,10 +1,10 @@
-#include <gale/app/console.hpp>
-
 #include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+
+#include <gale/app/console.hpp>
 
 namespace gale::app {
 

@@ -16,7 +16,8 @@ class Console {
   /// One line: a name, padded, and a value.
   void say(const std::string& name, const std::string& value) const;
 
-  /// A bar with this title, on a terminal; nothing elsewhere. It is erased when all is done, or with the function. For SweepOptions::progress.
+  /// A bar with this title, on a terminal; nothing elsewhere. It is erased when all is done, or with the function. For
+  /// SweepOptions::progress.
   std::function<void(Id done, Id all)> progress(const std::string& title) const;
 
  private:

@@ -1,10 +1,9 @@
-#include <gale/app/machine.hpp>
-
 #include <sys/resource.h>
 
 #include <atomic>
 #include <cstring>
 
+#include <gale/app/machine.hpp>
 #include <gale/base/kokkos.hpp>
 
 namespace gale::app {

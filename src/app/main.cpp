@@ -7,11 +7,10 @@
 
 #include <Kokkos_Core.hpp>
 
-#include <gale/base/memory.hpp>
-#include <gale/base/threads.hpp>
-
 #include <gale/app/commands/commands.hpp>
 #include <gale/app/machine.hpp>
+#include <gale/base/memory.hpp>
+#include <gale/base/threads.hpp>
 
 namespace {
 

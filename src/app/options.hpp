@@ -6,12 +6,11 @@
 #include <string>
 
 #include <gale/algorithms/morse_smale.hpp>
+#include <gale/app/persistence.hpp>
 #include <gale/baselines/oracle.hpp>
 #include <gale/io/read.hpp>
 #include <gale/outputs/field.hpp>
 #include <gale/runtime/options.hpp>
-
-#include <gale/app/persistence.hpp>
 
 namespace gale::app {
 
@@ -30,25 +29,26 @@ struct Options {
   std::string input;
   io::ReadOptions read;
   std::string output;
-  std::string arrows;                    ///< of `gale discrete-gradient`: the file for the gradient's arrows, or empty
-  MorseSmaleParts parts;                 ///< of `gale morse-smale`
+  std::string arrows;     ///< of `gale discrete-gradient`: the file for the gradient's arrows, or empty
+  MorseSmaleParts parts;  ///< of `gale morse-smale`
   std::optional<Persistence> persistence;  ///< likewise: what to simplify to
-  std::string render;                    ///< likewise: the picture, or empty
+  std::string render;                      ///< likewise: the picture, or empty
   std::string array;
-  std::string segments;                  ///< a point array's name, or empty
-  std::optional<int> capacity;           ///< 100 unless given
-  std::optional<int> threads;            ///< all cores unless given
-  std::string structure = "gale";        ///< gale, explicit, inline or task-parallel
+  std::string segments;            ///< a point array's name, or empty
+  std::optional<int> capacity;     ///< 100 unless given
+  std::optional<int> threads;      ///< all cores unless given
+  std::string structure = "gale";  ///< gale, explicit, inline or task-parallel
   RuntimeOptions runtime;
-  std::string formulation = "stars";     ///< of `gale discrete-gradient`: stars or cells
-  std::string relation;                  ///< of `gale relations`: the name of one of the sixteen
-  bool verify = false;                   ///< likewise: compare with an oracle
-  std::string dump;                      ///< likewise: the file for all rows, or empty
+  std::string formulation = "stars";  ///< of `gale discrete-gradient`: stars or cells
+  std::string relation;               ///< of `gale relations`: the name of one of the sixteen
+  bool verify = false;                ///< likewise: compare with an oracle
+  std::string dump;                   ///< likewise: the file for all rows, or empty
   std::string report;
   bool quiet = false;
 };
 
-/// Parses the command line. Nothing if it only asked for help or the version, which are printed then. Throws UsageError.
+/// Parses the command line. Nothing if it only asked for help or the version, which are printed then. Throws
+/// UsageError.
 std::optional<Options> parse_command_line(int argc, char** argv);
 
 }  // namespace gale::app

@@ -1,9 +1,8 @@
-#include <gale/app/output_file.hpp>
-
 #include <cerrno>
 #include <cstring>
 #include <fstream>
 
+#include <gale/app/output_file.hpp>
 #include <gale/base/error.hpp>
 #include <gale/io/atomic_file.hpp>
 

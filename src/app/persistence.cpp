@@ -1,12 +1,10 @@
-#include <gale/app/persistence.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
-#include <gale/base/error.hpp>
-
 #include <gale/app/options.hpp>
+#include <gale/app/persistence.hpp>
+#include <gale/base/error.hpp>
 
 namespace gale::app {
 
@@ -34,15 +32,18 @@ Persistence parse_persistence(const std::string& option, const std::string& text
   const std::string number = persistence.is_percent ? text.substr(0, text.size() - 1) : text;
   char* end = nullptr;
   persistence.value = std::strtod(number.c_str(), &end);
-  const bool is_number = !number.empty() && number.find_first_not_of("0123456789.eE+-") == std::string::npos && *end == '\0';
+  const bool is_number =
+      !number.empty() && number.find_first_not_of("0123456789.eE+-") == std::string::npos && *end == '\0';
   if (is_number && std::isfinite(persistence.value) && persistence.value >= 0) return persistence;
-  throw UsageError(option + ": '" + text + "' is no difference of values of at least 0, such as 0.5, nor a part of their range, such as 20%");
+  throw UsageError(option + ": '" + text +
+                   "' is no difference of values of at least 0, such as 0.5, nor a part of their range, such as 20%");
 }
 
 double threshold_of(const Persistence& persistence, const io::PointArray& field) {
   if (!persistence.is_percent) return persistence.value;
   const double range = range_of(field);
-  if (!std::isfinite(range)) throw Error("--persistence: there are no percents of the range of '" + field.name + "', which isn't finite");
+  if (!std::isfinite(range))
+    throw Error("--persistence: there are no percents of the range of '" + field.name + "', which isn't finite");
   return persistence.value / 100 * range;
 }
 

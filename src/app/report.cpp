@@ -1,11 +1,9 @@
-#include <gale/app/report.hpp>
-
 #include <algorithm>
-
-#include <gale/base/kokkos.hpp>
 
 #include <gale/app/machine.hpp>
 #include <gale/app/output_file.hpp>
+#include <gale/app/report.hpp>
+#include <gale/base/kokkos.hpp>
 
 namespace gale::app {
 
@@ -28,14 +26,16 @@ Json to_json(const WaitingTimes& waiting) {
 }
 
 Json to_json(const LeaderStatistics& leader) {
-  return {{"relations", name_of(leader.relations)},
-          {"batches", leader.batches},
-          {"segments_computed", leader.segments_computed},
-          {"segments_per_batch", leader.batches > 0 ? static_cast<double>(leader.segments_computed) / static_cast<double>(leader.batches) : 0.0},
-          {"segments_recomputed", leader.segments_recomputed},
-          {"bytes", leader.bytes},
-          {"blocks_evicted", leader.blocks_evicted},
-          {"batches_split", leader.batches_split}};
+  return {
+      {"relations", name_of(leader.relations)},
+      {"batches", leader.batches},
+      {"segments_computed", leader.segments_computed},
+      {"segments_per_batch",
+       leader.batches > 0 ? static_cast<double>(leader.segments_computed) / static_cast<double>(leader.batches) : 0.0},
+      {"segments_recomputed", leader.segments_recomputed},
+      {"bytes", leader.bytes},
+      {"blocks_evicted", leader.blocks_evicted},
+      {"batches_split", leader.batches_split}};
 }
 
 Json to_json(const RuntimeStatistics& statistics) {

@@ -1,17 +1,15 @@
-#include <gale/app/session.hpp>
-
 #include <charconv>
 #include <filesystem>
 #include <random>
 
-#include <gale/base/error.hpp>
-#include <gale/io/vtk/vtk_files.hpp>
-#include <gale/io/read.hpp>
-#include <gale/runtime/explicit/explicit_structure.hpp>
-
-#include <gale/outputs/field.hpp>
 #include <gale/app/machine.hpp>
 #include <gale/app/output_file.hpp>
+#include <gale/app/session.hpp>
+#include <gale/base/error.hpp>
+#include <gale/io/read.hpp>
+#include <gale/io/vtk/vtk_files.hpp>
+#include <gale/outputs/field.hpp>
+#include <gale/runtime/explicit/explicit_structure.hpp>
 
 namespace gale::app {
 
@@ -21,10 +19,13 @@ constexpr int default_capacity = 100;
 
 /// Throws UsageError if two of the files, those that aren't empty, are one.
 void require_distinct(const std::vector<std::string>& files) {
-  const auto plain = [](const std::string& file) { return std::filesystem::weakly_canonical(std::filesystem::absolute(file)); };
+  const auto plain = [](const std::string& file) {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(file));
+  };
   for (std::size_t i = 0; i < files.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      if (!files[i].empty() && !files[j].empty() && plain(files[i]) == plain(files[j])) throw UsageError("'" + files[i] + "' is named for two files");
+      if (!files[i].empty() && !files[j].empty() && plain(files[i]) == plain(files[j]))
+        throw UsageError("'" + files[i] + "' is named for two files");
     }
   }
 }
@@ -36,7 +37,8 @@ std::optional<std::int64_t> random_segments(const std::string& segments) {
   std::int64_t count = 0;
   const char* const end = segments.data() + segments.size();
   const auto parsed = std::from_chars(segments.data() + prefix.size(), end, count);
-  if (parsed.ec != std::errc() || parsed.ptr != end || count < 1) throw UsageError("--segments " + segments + ": random:K takes a whole number K of at least 1");
+  if (parsed.ec != std::errc() || parsed.ptr != end || count < 1)
+    throw UsageError("--segments " + segments + ": random:K takes a whole number K of at least 1");
   return count;
 }
 
@@ -50,10 +52,14 @@ Segmentation scattered(std::size_t vertices, std::int64_t count) {
 
 const char* name_of(Production production) {
   switch (production) {
-    case Way::leaders: return "leaders";
-    case Way::helpers: return "helpers";
-    case Way::task_parallel: return "pairs";
-    default: return "consumers";
+    case Way::leaders:
+      return "leaders";
+    case Way::helpers:
+      return "helpers";
+    case Way::task_parallel:
+      return "pairs";
+    default:
+      return "consumers";
   }
 }
 
@@ -72,7 +78,8 @@ Segmentation octree(const io::Dataset& dataset, int capacity) {
 
 }  // namespace
 
-Session::Session(const Options& options, const std::vector<std::string>& files) : options_(options), console_(options.quiet) {
+Session::Session(const Options& options, const std::vector<std::string>& files)
+    : options_(options), console_(options.quiet) {
   report_.input = options.input;
   random_segments(options.segments);
   std::vector<std::string> all = files;
@@ -110,7 +117,8 @@ const io::PointArray* Session::given_segments(const io::Dataset& dataset) const 
   if (options_.capacity) return nullptr;
   std::vector<std::string> ignored;
   const io::PointArray* const segments = find_segments(dataset, ignored);
-  for (const auto& name : ignored) console_.say("note", "array " + name + " isn't one whole number a point: not used as segments");
+  for (const auto& name : ignored)
+    console_.say("note", "array " + name + " isn't one whole number a point: not used as segments");
   return segments;
 }
 
@@ -182,13 +190,15 @@ void Session::finish(const Structure* structure) {
   }
   if (structure != nullptr) count_simplices(*structure);
   const Seconds& times = report_.seconds;
-  console_.say("time", seconds(times.total()) + " (segment " + seconds(times.segment) + ", initialize " + seconds(times.initialize) +
-                           ", run " + seconds(times.run) + "); read " + seconds(times.read));
+  console_.say("time", seconds(times.total()) + " (segment " + seconds(times.segment) + ", initialize " +
+                           seconds(times.initialize) + ", run " + seconds(times.run) + "); read " +
+                           seconds(times.read));
   console_.say("memory", bytes(static_cast<double>(host_peak_bytes())) + " at most");
   if (!options_.report.empty()) write_report(options_.report, report_);
 }
 
-void require_extension(const Options& options, const std::string& option, const std::string& file, std::initializer_list<const char*> extensions) {
+void require_extension(const Options& options, const std::string& option, const std::string& file,
+                       std::initializer_list<const char*> extensions) {
   if (file.empty()) return;
   std::string list;
   for (const std::string extension : extensions) {

@@ -6,14 +6,13 @@
 #include <vector>
 
 #include <gale/algorithms/vertex_order.hpp>
-#include <gale/io/dataset.hpp>
-#include <gale/mesh/mesh.hpp>
-#include <gale/runtime/structure.hpp>
-#include <gale/runtime/runtime.hpp>
-
 #include <gale/app/console.hpp>
 #include <gale/app/options.hpp>
 #include <gale/app/report.hpp>
+#include <gale/io/dataset.hpp>
+#include <gale/mesh/mesh.hpp>
+#include <gale/runtime/runtime.hpp>
+#include <gale/runtime/structure.hpp>
 
 namespace gale::app {
 
@@ -27,8 +26,8 @@ struct FieldOnMesh {
 /// One run of the command: what every subcommand does, each step timed and said.
 class Session {
  public:
-  /// Throws gale::Error if the report or one of `files`, which are written through VTK where they aren't empty, can't be written where they should
-  /// be; UsageError if two of all files are one.
+  /// Throws gale::Error if the report or one of `files`, which are written through VTK where they aren't empty, can't
+  /// be written where they should be; UsageError if two of all files are one.
   Session(const Options& options, const std::vector<std::string>& files);
 
   /// Of a command that writes the files that its options name.
@@ -45,7 +44,8 @@ class Session {
   enum class Keep { tetrahedra, nothing };
   Mesh encode(io::Dataset& dataset, Keep keep);
 
-  /// All that comes before a structure: reads, segments, encodes, and orders the vertices by the field that --array names.
+  /// All that comes before a structure: reads, segments, encodes, and orders the vertices by the field that --array
+  /// names.
   FieldOnMesh read_field(Keep keep = Keep::nothing);
 
   /// The structure that --structure names, preconditioned for `relations`.
@@ -78,8 +78,10 @@ class Session {
   Report report_;
 };
 
-/// Throws UsageError unless the file that an option names, if it does, ends in one of `extensions`, in either case. `option` is what to call it.
-void require_extension(const Options& options, const std::string& option, const std::string& file, std::initializer_list<const char*> extensions);
+/// Throws UsageError unless the file that an option names, if it does, ends in one of `extensions`, in either case.
+/// `option` is what to call it.
+void require_extension(const Options& options, const std::string& option, const std::string& file,
+                       std::initializer_list<const char*> extensions);
 
 /// The same of --output.
 void require_extension(const Options& options, std::initializer_list<const char*> extensions);

@@ -1,5 +1,3 @@
-#include <gale/app/sizes.hpp>
-
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -7,6 +5,7 @@
 #include <optional>
 
 #include <gale/app/options.hpp>
+#include <gale/app/sizes.hpp>
 
 namespace gale::app {
 
@@ -26,7 +25,8 @@ std::optional<double> factor_of(std::string unit) {
 std::optional<double> bytes_of(const std::string& text) {
   const auto end = std::min(text.find_first_not_of("0123456789."), text.size());
   const std::string number = text.substr(0, end);
-  if (number.find_first_of("0123456789") == std::string::npos || number.find('.') != number.rfind('.')) return std::nullopt;
+  if (number.find_first_of("0123456789") == std::string::npos || number.find('.') != number.rfind('.'))
+    return std::nullopt;
   const auto unit = text.find_first_not_of(' ', end);
   const auto factor = factor_of(unit == std::string::npos ? "" : text.substr(unit));
   if (!factor) return std::nullopt;

@@ -41,8 +41,9 @@ KOKKOS_FORCEINLINE_FUNCTION int lowest_bit(std::uint64_t bits) {
 #endif
 }
 
-/// Calls visit(place) for the bits that are set in `words` words of 32, `stride` apart, ascending. One loop over words and bits, so that lanes
-/// which go through different sets wait for the longest set only, not for the longest word each time.
+/// Calls visit(place) for the bits that are set in `words` words of 32, `stride` apart, ascending. One loop over words
+/// and bits, so that lanes which go through different sets wait for the longest set only, not for the longest word each
+/// time.
 template <class Visit>
 KOKKOS_FORCEINLINE_FUNCTION void for_each_bit(const std::uint32_t* column, int stride, int words, const Visit& visit) {
   std::uint32_t bits = 0;

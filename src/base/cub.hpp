@@ -1,7 +1,7 @@
 #pragma once
 
-// CUB's device-wide algorithms, called the way they all want to be: once for the size of their workspace, once for the work.
-// Only for translation units of a CUDA build.
+// CUB's device-wide algorithms, called the way they all want to be: once for the size of their workspace, once for the
+// work. Only for translation units of a CUDA build.
 
 #include <string>
 

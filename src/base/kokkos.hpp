@@ -2,10 +2,10 @@
 
 // All that GALE knows about differences between Kokkos versions (3.4.1, 4.4 to 5.x) and backends.
 
-#include <Kokkos_Core.hpp>
-
 #include <string>
 #include <vector>
+
+#include <Kokkos_Core.hpp>
 
 namespace gale {
 

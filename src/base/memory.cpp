@@ -1,6 +1,6 @@
-#include <gale/base/memory.hpp>
-
 #include <cstdint>
+
+#include <gale/base/memory.hpp>
 
 #if defined(__linux__)
 #include <sys/mman.h>

@@ -15,9 +15,9 @@ using Array = Kokkos::View<T*, Memory>;
 
 namespace detail {
 
-/// Asks for 2 MiB pages, so that the first touch of a large array faults 512 times less: arrays that the device fills are touched at the speed of the link.
-/// Without a device the system's choice stands: some virtual machines get huge pages from their host one by one, four times slower than small ones.
-/// A hint: nothing depends on it.
+/// Asks for 2 MiB pages, so that the first touch of a large array faults 512 times less: arrays that the device fills
+/// are touched at the speed of the link. Without a device the system's choice stands: some virtual machines get huge
+/// pages from their host one by one, four times slower than small ones. A hint: nothing depends on it.
 void advise_huge_pages(void* data, std::size_t bytes);
 
 }  // namespace detail
@@ -32,7 +32,8 @@ class OutOfMemory : public std::bad_alloc {
   std::shared_ptr<const std::string> what_;
 };
 
-/// An uninitialized View of the given extents; large ones on the host are backed by huge pages where the system has them. Throws OutOfMemory.
+/// An uninitialized View of the given extents; large ones on the host are backed by huge pages where the system has
+/// them. Throws OutOfMemory.
 template <class ViewType, class... Extents>
 ViewType allocate(const std::string& label, Extents... extents) {
   const ViewType view = [&] {
@@ -40,7 +41,8 @@ ViewType allocate(const std::string& label, Extents... extents) {
       return ViewType(Kokkos::view_alloc(label, Kokkos::WithoutInitializing), static_cast<std::size_t>(extents)...);
     } catch (const std::exception&) {
       const std::size_t bytes = ViewType::required_allocation_size(static_cast<std::size_t>(extents)...);
-      throw OutOfMemory(std::string("out of memory: ") + ViewType::memory_space::name() + " has no " + std::to_string(bytes) + " bytes for " + label);
+      throw OutOfMemory(std::string("out of memory: ") + ViewType::memory_space::name() + " has no " +
+                        std::to_string(bytes) + " bytes for " + label);
     }
   }();
   if constexpr (have_device && std::is_same_v<typename ViewType::memory_space, HostMemory>) {

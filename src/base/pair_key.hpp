@@ -13,6 +13,8 @@ KOKKOS_FORCEINLINE_FUNCTION constexpr std::uint64_t pair_key(Id first, Id second
 }
 
 /// Spreads keys evenly over hash tables of up to 2^40 places: Fibonacci hashing.
-KOKKOS_FORCEINLINE_FUNCTION constexpr std::uint64_t spread(std::uint64_t key) { return (key * 0x9e3779b97f4a7c15u) >> 24; }
+KOKKOS_FORCEINLINE_FUNCTION constexpr std::uint64_t spread(std::uint64_t key) {
+  return (key * 0x9e3779b97f4a7c15u) >> 24;
+}
 
 }  // namespace gale

@@ -1,6 +1,6 @@
-#include <gale/base/pinned.hpp>
-
 #include <new>
+
+#include <gale/base/pinned.hpp>
 
 #if defined(KOKKOS_ENABLE_CUDA)
 

@@ -14,8 +14,8 @@ std::shared_ptr<void> allocate_pinned_bytes(std::size_t bytes);
 
 }  // namespace detail
 
-/// An array in host memory that the device copies to and from at full speed. Copies share it. Huge pages, locked after they are touched: a tenth of
-/// the time that the driver's own allocation takes.
+/// An array in host memory that the device copies to and from at full speed. Copies share it. Huge pages, locked after
+/// they are touched: a tenth of the time that the driver's own allocation takes.
 template <class T>
 class PinnedArray {
  public:

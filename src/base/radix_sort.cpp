@@ -1,10 +1,9 @@
-#include <gale/base/radix_sort.hpp>
-
 #include <array>
 #include <utility>
 #include <vector>
 
 #include <gale/base/parallel.hpp>
+#include <gale/base/radix_sort.hpp>
 
 #if defined(KOKKOS_ENABLE_CUDA)
 #include <cub/device/device_radix_sort.cuh>

@@ -8,7 +8,8 @@
 namespace gale {
 
 /// Sorts `keys` ascending and carries `values` along; equal keys keep their order. Both arrays are overwritten.
-/// O(n) a pass of 11 bits of the key; on the host, passes whose bits are the same in all keys are left out. Uses as much memory again.
+/// O(n) a pass of 11 bits of the key; on the host, passes whose bits are the same in all keys are left out. Uses as
+/// much memory again.
 void stable_sort_by_key(const Array<std::uint64_t, WorkerMemory>& keys, const Array<Id, WorkerMemory>& values);
 
 }  // namespace gale

@@ -1,8 +1,7 @@
-#include <gale/base/sort_rows.hpp>
-
 #include <algorithm>
 
 #include <gale/base/parallel.hpp>
+#include <gale/base/sort_rows.hpp>
 
 #if defined(KOKKOS_ENABLE_CUDA)
 #include <cub/device/device_segmented_sort.cuh>

@@ -5,13 +5,14 @@
 
 #include <gale/base/kokkos.hpp>
 
-// The steps that team kernels are made of, for two kinds of team: Kokkos' own, and a team of one host thread that needs no launch.
-// A kernel written with them is one source for all. A "warp" is what Kokkos calls a thread with its vector lanes.
+// The steps that team kernels are made of, for two kinds of team: Kokkos' own, and a team of one host thread that needs
+// no launch. A kernel written with them is one source for all. A "warp" is what Kokkos calls a thread with its vector
+// lanes.
 
 namespace gale {
 
-/// A team of one thread, the caller's. Consumers run segment kernels through it, each for itself, at the cost of a function call:
-/// Kokkos' Serial TeamPolicy is not safe from several threads before 4.4, and its launch is not free.
+/// A team of one thread, the caller's. Consumers run segment kernels through it, each for itself, at the cost of a
+/// function call: Kokkos' Serial TeamPolicy is not safe from several threads before 4.4, and its launch is not free.
 class HostTeam {
  public:
   KOKKOS_FUNCTION HostTeam(int league_rank, char* scratch) : scratch_(scratch), league_rank_(league_rank) {}
@@ -41,8 +42,9 @@ KOKKOS_FORCEINLINE_FUNCTION int warp(const Team& team) {
   return team.team_rank();
 }
 
-/// The team's scratch memory of `bytes` bytes, aligned to 16, at a level that is known at compile time. If it is not, nvcc keeps the whole kernel object of each thread in memory, and accesses scratch
-/// memory in the slower way that works for any.
+/// The team's scratch memory of `bytes` bytes, aligned to 16, at a level that is known at compile time. If it is not,
+/// nvcc keeps the whole kernel object of each thread in memory, and accesses scratch memory in the slower way that
+/// works for any.
 template <int level, class Team>
 KOKKOS_FORCEINLINE_FUNCTION char* scratch(const Team& team, std::size_t bytes) {
   char* const memory = static_cast<char*>(team.team_scratch(level).get_shmem_aligned(bytes, 16, level));
@@ -68,11 +70,13 @@ KOKKOS_FORCEINLINE_FUNCTION void for_all(const Team& team, int n, const Body& bo
   Kokkos::parallel_for(Kokkos::TeamVectorRange(team, n), body);
 }
 
-/// The same for body(i, load(i)). Where a lane takes several, it loads the next before it works on one: body must not write what load reads.
+/// The same for body(i, load(i)). Where a lane takes several, it loads the next before it works on one: body must not
+/// write what load reads.
 template <class Team, class Load, class Body>
 KOKKOS_FORCEINLINE_FUNCTION void for_all_loaded(const Team& team, int n, const Load& load, const Body& body) {
 #if defined(__CUDA_ARCH__)
-  const int lane = static_cast<int>(threadIdx.y * blockDim.x + threadIdx.x), step = static_cast<int>(blockDim.x * blockDim.y);
+  const int lane = static_cast<int>(threadIdx.y * blockDim.x + threadIdx.x),
+            step = static_cast<int>(blockDim.x * blockDim.y);
   decltype(load(0)) next;
   if (lane < n) next = load(lane);
   for (int i = lane; i - lane % 32 < n; i += step) {
@@ -96,7 +100,8 @@ KOKKOS_FORCEINLINE_FUNCTION void for_warps(const Team& team, int n, const Body& 
   Kokkos::parallel_for(Kokkos::TeamThreadRange(team, n), body);
 }
 
-/// Inside for_warps: body(i) for i in 0..n-1 by the lanes of this warp, which have met again and see each other's writes afterwards.
+/// Inside for_warps: body(i) for i in 0..n-1 by the lanes of this warp, which have met again and see each other's
+/// writes afterwards.
 template <class Body>
 KOKKOS_FORCEINLINE_FUNCTION void for_lanes(const HostTeam&, int n, const Body& body) {
   for (int i = 0; i < n; ++i) body(i);
@@ -113,7 +118,8 @@ KOKKOS_FORCEINLINE_FUNCTION void warp_barrier(const Team& team) {
   for_lanes(team, 1, [](int) {});
 }
 
-/// body(), after which the lanes that began it together go on together. Lanes that a loop has parted may stay apart for long without it.
+/// body(), after which the lanes that began it together go on together. Lanes that a loop has parted may stay apart for
+/// long without it.
 template <class Body>
 KOKKOS_FORCEINLINE_FUNCTION void together(const Body& body) {
 #if defined(__CUDA_ARCH__)
@@ -208,7 +214,8 @@ KOKKOS_FORCEINLINE_FUNCTION T exchange_if(const Team&, T* at, T expected, T valu
 #endif
 }
 
-/// Replaces values[0..n-1] by the sums of those before each, and values[n] by the sum of all. To be called by all; ends with a barrier.
+/// Replaces values[0..n-1] by the sums of those before each, and values[n] by the sum of all. To be called by all; ends
+/// with a barrier.
 template <class T>
 KOKKOS_FORCEINLINE_FUNCTION void exclusive_scan(const HostTeam&, int n, T* values) {
   T sum = 0;

@@ -39,8 +39,8 @@ inline void set_host_threads(int count) {
 #endif
 }
 
-/// Calls `body(i)` for i in 0..count-1, each on a thread of its own as far as OpenMP grants them, and returns when all have
-/// returned. The first exception that a body throws is thrown again here, after the others have ended.
+/// Calls `body(i)` for i in 0..count-1, each on a thread of its own as far as OpenMP grants them, and returns when all
+/// have returned. The first exception that a body throws is thrown again here, after the others have ended.
 template <class Body>
 void on_threads(int count, const Body& body) {
   if (count <= 1) {
@@ -69,8 +69,8 @@ void on_threads(int count, const Body& body) {
   if (failure) std::rethrow_exception(failure);
 }
 
-/// Calls `body(thread, i)` for i in 0..n-1, each on one of `count` threads, which take what is next when they are done: for work whose parts differ
-/// much. Exceptions as above; no further part is begun after one.
+/// Calls `body(thread, i)` for i in 0..n-1, each on one of `count` threads, which take what is next when they are done:
+/// for work whose parts differ much. Exceptions as above; no further part is begun after one.
 template <class Body>
 void in_turns(int count, std::int64_t n, const Body& body) {
   std::atomic<std::int64_t> next{0};

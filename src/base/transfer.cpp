@@ -1,6 +1,5 @@
-#include <gale/base/transfer.hpp>
-
 #include <gale/base/error.hpp>
+#include <gale/base/transfer.hpp>
 
 #if defined(KOKKOS_ENABLE_CUDA)
 
@@ -67,7 +66,9 @@ class Lanes {
   std::vector<std::unique_ptr<Lane>> lanes_;
 };
 
-auto first(const Pinned& chunk, std::size_t size) { return Kokkos::subview(chunk.view(), std::make_pair(std::size_t(0), size)); }
+auto first(const Pinned& chunk, std::size_t size) {
+  return Kokkos::subview(chunk.view(), std::make_pair(std::size_t(0), size));
+}
 
 }  // namespace
 

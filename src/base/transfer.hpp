@@ -6,8 +6,9 @@
 
 namespace gale {
 
-/// Copies `bytes` bytes between ordinary host memory and the device, at the bandwidth of pinned memory: all host threads copy through pinned
-/// chunks of their own. Returns when it is done. Only where there is a device; one call at a time is fast, more wait for each other.
+/// Copies `bytes` bytes between ordinary host memory and the device, at the bandwidth of pinned memory: all host
+/// threads copy through pinned chunks of their own. Returns when it is done. Only where there is a device; one call at
+/// a time is fast, more wait for each other.
 void copy_to_device(void* device, const void* host, std::size_t bytes);
 void copy_from_device(void* host, const void* device, std::size_t bytes);
 

@@ -24,8 +24,8 @@ class Oracle {
   virtual void read(Id simplex, int thread, std::vector<Id>& row) = 0;
 };
 
-/// Another way than the one that is to be verified: the explicit structure where GALE was built with Kokkos-Kernels, unless that `is_explicit` itself; else
-/// brute force.
+/// Another way than the one that is to be verified: the explicit structure where GALE was built with Kokkos-Kernels,
+/// unless that `is_explicit` itself; else brute force.
 std::unique_ptr<Oracle> make_oracle(const Mesh& mesh, Relation relation, int threads, bool is_explicit);
 
 /// Sorted lists of all simplices, and what follows from them: slow, and simple.

@@ -1,6 +1,6 @@
-#include <gale/io/arrays.hpp>
-
 #include <cstdint>
+
+#include <gale/io/arrays.hpp>
 
 namespace gale::io {
 

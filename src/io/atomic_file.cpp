@@ -1,5 +1,3 @@
-#include <gale/io/atomic_file.hpp>
-
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -12,6 +10,7 @@
 #include <system_error>
 
 #include <gale/base/error.hpp>
+#include <gale/io/atomic_file.hpp>
 
 namespace gale::io {
 namespace {

@@ -1,5 +1,3 @@
-#include <gale/io/image.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -9,6 +7,7 @@
 
 #include <gale/base/error.hpp>
 #include <gale/io/arrays.hpp>
+#include <gale/io/image.hpp>
 
 namespace gale::io {
 namespace {

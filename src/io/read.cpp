@@ -1,5 +1,3 @@
-#include <gale/io/read.hpp>
-
 #include <cerrno>
 #include <charconv>
 #include <cstring>
@@ -11,10 +9,11 @@
 #include <variant>
 
 #include <gale/base/error.hpp>
-#include <gale/io/vtk/vtk_files.hpp>
 #include <gale/io/image.hpp>
+#include <gale/io/read.hpp>
 #include <gale/io/synthetic.hpp>
 #include <gale/io/voxels.hpp>
+#include <gale/io/vtk/vtk_files.hpp>
 
 namespace gale::io {
 namespace {

@@ -1,5 +1,3 @@
-#include <gale/io/synthetic.hpp>
-
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -15,6 +13,7 @@
 #include <gale/base/parallel.hpp>
 #include <gale/base/types.hpp>
 #include <gale/io/freudenthal.hpp>
+#include <gale/io/synthetic.hpp>
 
 namespace gale::io {
 namespace {

@@ -1,5 +1,3 @@
-#include <gale/io/voxels.hpp>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,6 +18,7 @@
 #include <gale/base/parallel.hpp>
 #include <gale/base/types.hpp>
 #include <gale/io/freudenthal.hpp>
+#include <gale/io/voxels.hpp>
 
 namespace gale::io {
 namespace {

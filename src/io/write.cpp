@@ -1,5 +1,3 @@
-#include <gale/io/write.hpp>
-
 #include <algorithm>
 #include <cstddef>
 #include <exception>
@@ -8,6 +6,7 @@
 #include <gale/io/arrays.hpp>
 #include <gale/io/atomic_file.hpp>
 #include <gale/io/vtk/vtk_files.hpp>
+#include <gale/io/write.hpp>
 
 namespace gale::io {
 namespace {

@@ -14,26 +14,31 @@ namespace gale::detail {
 template <class T>
 using CoordinateFor = std::conditional_t<std::is_same_v<T, float>, float, double>;
 template <class T>
-using IndexFor = std::conditional_t<(sizeof(T) < 4 || (sizeof(T) == 4 && std::is_signed_v<T>)), std::int32_t, std::int64_t>;
+using IndexFor =
+    std::conditional_t<(sizeof(T) < 4 || (sizeof(T) == 4 && std::is_signed_v<T>)), std::int32_t, std::int64_t>;
 
 /// A caller's View as rows of `columns` entries where GALE reads them.
 template <int columns, template <class> class TypeFor, class View>
-using RowsOf = Kokkos::View<const TypeFor<typename View::non_const_value_type>* [columns], Kokkos::LayoutRight,
-                            std::conditional_t<is_device_memory<typename View::memory_space>, WorkerMemory, HostMemory>>;
+using RowsOf =
+    Kokkos::View<const TypeFor<typename View::non_const_value_type>* [columns], Kokkos::LayoutRight,
+                 std::conditional_t<is_device_memory<typename View::memory_space>, WorkerMemory, HostMemory>>;
 
-/// The same memory if it is laid out so, else a copy. Throws gale::Error, calling it `name`, if it has another number of columns.
+/// The same memory if it is laid out so, else a copy. Throws gale::Error, calling it `name`, if it has another number
+/// of columns.
 template <int columns, template <class> class TypeFor, class View>
 RowsOf<columns, TypeFor, View> rows_of(const char* name, const View& view) {
   static_assert(View::rank == 2, "a View of rank 2 is wanted");
   using Rows = RowsOf<columns, TypeFor, View>;
   using Type = typename Rows::non_const_value_type;
   if (view.extent(1) != columns) {
-    throw Error(std::string(name) + " have " + std::to_string(view.extent(1)) + " columns, not " + std::to_string(columns));
+    throw Error(std::string(name) + " have " + std::to_string(view.extent(1)) + " columns, not " +
+                std::to_string(columns));
   }
   if constexpr (std::is_same_v<Type, typename View::non_const_value_type>) {
     if (view.stride(0) == columns && view.stride(1) == 1) return Rows(view.data(), view.extent(0));
   }
-  using Space = std::conditional_t<is_device_memory<typename Rows::memory_space>, WorkerSpace, Kokkos::DefaultHostExecutionSpace>;
+  using Space =
+      std::conditional_t<is_device_memory<typename Rows::memory_space>, WorkerSpace, Kokkos::DefaultHostExecutionSpace>;
   const auto copy = allocate<typename Rows::non_const_type>("GALE::caller_rows", view.extent(0));
   parallel_for(
       "GALE::caller_rows", Space(), view.extent(0), KOKKOS_LAMBDA(Offset i) {
@@ -46,9 +51,11 @@ RowsOf<columns, TypeFor, View> rows_of(const char* name, const View& view) {
 template <int columns, class T>
 auto view_of(const char* name, const std::vector<T>& values) {
   if (values.size() % columns != 0) {
-    throw Error(std::string(name) + " have " + std::to_string(values.size()) + " entries, no multiple of " + std::to_string(columns));
+    throw Error(std::string(name) + " have " + std::to_string(values.size()) + " entries, no multiple of " +
+                std::to_string(columns));
   }
-  return Kokkos::View<const T* [columns], Kokkos::LayoutRight, HostMemory, Kokkos::MemoryUnmanaged>(values.data(), values.size() / columns);
+  return Kokkos::View<const T* [columns], Kokkos::LayoutRight, HostMemory, Kokkos::MemoryUnmanaged>(
+      values.data(), values.size() / columns);
 }
 
 }  // namespace gale::detail

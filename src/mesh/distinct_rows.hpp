@@ -10,7 +10,8 @@
 
 namespace gale::detail {
 
-/// Rows of distinct ids, all of them one after the other: row r is values[begin[r]] to values[begin[r + 1] - 1], ascending.
+/// Rows of distinct ids, all of them one after the other: row r is values[begin[r]] to values[begin[r + 1] - 1],
+/// ascending.
 struct DistinctRows {
   Array<Id, WorkerMemory> begin;
   Array<Id, WorkerMemory> values;
@@ -26,7 +27,8 @@ class LargeRows {
 
   /// Those whose count is FewDistinct::too_many. Replaces it by the number of distinct candidates.
   LargeRows(const Ids& count, Id large, const Candidates& candidates)
-      : rows_(allocate<Ids>("GALE::large_rows", large)), begin_(allocate<Offsets>("GALE::large_begin", large + Offset(1))) {
+      : rows_(allocate<Ids>("GALE::large_rows", large)),
+        begin_(allocate<Offsets>("GALE::large_begin", large + Offset(1))) {
     if (large == 0) return;
     find(count);
     values_ = allocate<Ids>("GALE::candidates", count_candidates(candidates));
@@ -93,7 +95,8 @@ class LargeRows {
     parallel_for(
         "GALE::count_large_rows", WorkerSpace(), rows.extent(0), KOKKOS_LAMBDA(Offset i) {
           Id distinct = 0;
-          for (Offset j = begin(i); j < begin(i + 1); ++j) distinct += j == begin(i) || values(j) != values(j - 1) ? 1 : 0;
+          for (Offset j = begin(i); j < begin(i + 1); ++j)
+            distinct += j == begin(i) || values(j) != values(j - 1) ? 1 : 0;
           count(rows(i)) = distinct;
         });
   }
@@ -130,8 +133,9 @@ void write_distinct(const Candidates& candidates, const DistinctRows& to) {
       });
 }
 
-/// For each of `rows` rows the distinct ones of its candidates, ascending. `candidates(row, visit)` calls visit(id) for each, in any order and any
-/// number of times. Throws gale::Error if there are more than 2^31 - 1 of them, which it calls `what`.
+/// For each of `rows` rows the distinct ones of its candidates, ascending. `candidates(row, visit)` calls visit(id) for
+/// each, in any order and any number of times. Throws gale::Error if there are more than 2^31 - 1 of them, which it
+/// calls `what`.
 template <class Candidates>
 DistinctRows distinct_rows(const std::string& what, Offset rows, const Candidates& candidates) {
   using Ids = Array<Id, WorkerMemory>;
@@ -144,13 +148,16 @@ DistinctRows distinct_rows(const std::string& what, Offset rows, const Candidate
     found.count(candidates, count);
   }
   const auto large = static_cast<Id>(reduce_sum(
-      "GALE::count_large", space, rows, KOKKOS_LAMBDA(Offset row) { return count(row) == FewDistinct::too_many ? 1 : 0; }));
+      "GALE::count_large", space, rows,
+      KOKKOS_LAMBDA(Offset row) { return count(row) == FewDistinct::too_many ? 1 : 0; }));
   const LargeRows<Candidates> large_rows(count, large, candidates);
-  const Offset total = reduce_sum("GALE::total_distinct", space, rows, KOKKOS_LAMBDA(Offset row) { return Offset(count(row)); });
+  const Offset total = reduce_sum(
+      "GALE::total_distinct", space, rows, KOKKOS_LAMBDA(Offset row) { return Offset(count(row)); });
   require_ids(what, total);
   const DistinctRows result{allocate<Ids>("GALE::distinct_begin", rows + 1), allocate<Ids>("GALE::distinct", total),
                             allocate<Ids>("GALE::distinct_row", total)};
-  exclusive_scan("GALE::scan_distinct", space, rows, result.begin, KOKKOS_LAMBDA(Offset row) { return count(row); });
+  exclusive_scan(
+      "GALE::scan_distinct", space, rows, result.begin, KOKKOS_LAMBDA(Offset row) { return count(row); });
   if constexpr (!is_device<WorkerSpace>) {
     if (large == 0) {
       found.write(result.begin, result.values, result.row_of);

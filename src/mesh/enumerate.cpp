@@ -1,7 +1,6 @@
-#include <gale/mesh/enumerate.hpp>
-
 #include <gale/base/atomic.hpp>
 #include <gale/mesh/distinct_rows.hpp>
+#include <gale/mesh/enumerate.hpp>
 #include <gale/mesh/upper_link.hpp>
 
 namespace gale::detail {
@@ -61,14 +60,16 @@ Id most_higher_neighbours(const Tables& simplices) {
 
 /// Calls visit(link) with the upper link of a vertex.
 template <class Visit>
-KOKKOS_FUNCTION void with_upper_link(const Tables& simplices, const MiddleStars& stars, Offset vertex, const Visit& visit) {
+KOKKOS_FUNCTION void with_upper_link(const Tables& simplices, const MiddleStars& stars, Offset vertex,
+                                     const Visit& visit) {
   visit(UpperLink(simplices, static_cast<Id>(vertex), [&](const auto& visit_middle) {
     for (Offset i = stars.begin(vertex); i < stars.begin(vertex + 1); ++i) visit_middle(stars.tetrahedra(i));
   }));
 }
 
 /// A thread a vertex, all of whose edges it knows by bits.
-void triangles_of_few_neighbours(const Tables& simplices, const MiddleStars& stars, SimplexTables<WorkerMemory>& tables) {
+void triangles_of_few_neighbours(const Tables& simplices, const MiddleStars& stars,
+                                 SimplexTables<WorkerMemory>& tables) {
   const WorkerSpace space;
   const Offset vertices = simplices.edge_begin.extent(0) - 1, edges = simplices.edge_low.extent(0);
   const Ids begin = allocate<Ids>("GALE::triangle_begin", edges + 1);
@@ -78,9 +79,11 @@ void triangles_of_few_neighbours(const Tables& simplices, const MiddleStars& sta
           for (Id i = 0; i < link.size(); ++i) begin(simplices.edge_begin(v) + i) = link.triangles(i);
         });
       });
-  const Offset total = reduce_sum("GALE::total_triangles", space, edges, KOKKOS_LAMBDA(Offset e) { return Offset(begin(e)); });
+  const Offset total = reduce_sum(
+      "GALE::total_triangles", space, edges, KOKKOS_LAMBDA(Offset e) { return Offset(begin(e)); });
   require_ids("triangles", total);
-  exclusive_scan("GALE::scan_triangles", space, edges, begin, KOKKOS_LAMBDA(Offset e) { return begin(e); });
+  exclusive_scan(
+      "GALE::scan_triangles", space, edges, begin, KOKKOS_LAMBDA(Offset e) { return begin(e); });
   const Ids edge_of = allocate<Ids>("GALE::triangle_edge", total), apex = allocate<Ids>("GALE::triangle_apex", total);
   parallel_for(
       "GALE::write_triangles", space, vertices, KOKKOS_LAMBDA(Offset v) {
@@ -101,7 +104,8 @@ void triangles_of_few_neighbours(const Tables& simplices, const MiddleStars& sta
 }
 
 /// A thread an edge.
-void triangles_of_many_neighbours(const Tables& simplices, const MiddleStars& stars, SimplexTables<WorkerMemory>& tables) {
+void triangles_of_many_neighbours(const Tables& simplices, const MiddleStars& stars,
+                                  SimplexTables<WorkerMemory>& tables) {
   const Offset edges = simplices.edge_low.extent(0);
   const auto triangles = distinct_rows("triangles", edges, HigherApexes{simplices, stars.begin, stars.tetrahedra});
   tables.triangle_begin = triangles.begin;
@@ -119,8 +123,10 @@ MiddleStars find_middle_stars(const Tables& simplices) {
       "GALE::count_middle", space, tetrahedra, KOKKOS_LAMBDA(Offset t) {
         for (int corner = 1; corner < 3; ++corner) atomic_add(&count(simplices.tetrahedra(t, corner)), Id(1));
       });
-  const MiddleStars stars{allocate<Offsets>("GALE::middle_begin", vertices + 1), allocate<Ids>("GALE::middle_stars", 2 * tetrahedra)};
-  exclusive_scan("GALE::scan_middle", space, vertices, stars.begin, KOKKOS_LAMBDA(Offset v) { return count(v); });
+  const MiddleStars stars{allocate<Offsets>("GALE::middle_begin", vertices + 1),
+                          allocate<Ids>("GALE::middle_stars", 2 * tetrahedra)};
+  exclusive_scan(
+      "GALE::scan_middle", space, vertices, stars.begin, KOKKOS_LAMBDA(Offset v) { return count(v); });
   parallel_for(
       "GALE::fill_middle", space, tetrahedra, KOKKOS_LAMBDA(Offset t) {
         for (int corner = 1; corner < 3; ++corner) {
@@ -152,9 +158,11 @@ void sort_edges_by_higher(const Tables& simplices, SimplexTables<WorkerMemory>& 
   const Offset vertices = simplices.edge_begin.extent(0) - 1, edges = simplices.edge_high.extent(0);
   const Ids count("GALE::lower_count", vertices);
   parallel_for(
-      "GALE::count_lower", space, edges, KOKKOS_LAMBDA(Offset e) { atomic_add(&count(simplices.edge_high(e)), Id(1)); });
+      "GALE::count_lower", space, edges,
+      KOKKOS_LAMBDA(Offset e) { atomic_add(&count(simplices.edge_high(e)), Id(1)); });
   const Ids begin = allocate<Ids>("GALE::lower_begin", vertices + 1), lower = allocate<Ids>("GALE::lower_edges", edges);
-  exclusive_scan("GALE::scan_lower", space, vertices, begin, KOKKOS_LAMBDA(Offset v) { return count(v); });
+  exclusive_scan(
+      "GALE::scan_lower", space, vertices, begin, KOKKOS_LAMBDA(Offset v) { return count(v); });
   parallel_for(
       "GALE::fill_lower", space, edges, KOKKOS_LAMBDA(Offset e) {
         const Id v = simplices.edge_high(e);

@@ -30,8 +30,8 @@ Ids segment_of_vertices(const EncodedMesh<WorkerMemory>& mesh, Offset vertices) 
   return segment_of;
 }
 
-/// Calls `visit(s)` for each segment s that tetrahedron t touches beside the one it is internal to. A tetrahedron's vertices ascend,
-/// and so do their segments.
+/// Calls `visit(s)` for each segment s that tetrahedron t touches beside the one it is internal to. A tetrahedron's
+/// vertices ascend, and so do their segments.
 template <class Visit>
 KOKKOS_FUNCTION void for_each_external_segment(const EncodedMesh<WorkerMemory>& mesh, const Ids& segment_of, Offset t,
                                                const Visit& visit) {
@@ -57,16 +57,16 @@ void find_external_tetrahedra(MeshArrays<WorkerMemory>& result, Id vertices) {
       "GALE::count_external", space, tetrahedra, KOKKOS_LAMBDA(Offset t) {
         for_each_external_segment(mesh, segment_of, t, [&](Id s) { atomic_add(&begin(s), Offset(1)); });
       });
-  const Offset total =
-      exclusive_scan("GALE::scan_external", space, segments, begin, KOKKOS_LAMBDA(Offset s) { return begin(s); });
+  const Offset total = exclusive_scan(
+      "GALE::scan_external", space, segments, begin, KOKKOS_LAMBDA(Offset s) { return begin(s); });
   const auto next = allocate<Offsets>("GALE::external_next", segments);
-  parallel_for("GALE::external_next", space, segments, KOKKOS_LAMBDA(Offset s) { next(s) = begin(s); });
+  parallel_for(
+      "GALE::external_next", space, segments, KOKKOS_LAMBDA(Offset s) { next(s) = begin(s); });
   const auto external = allocate<Ids>("GALE::external", total);
   parallel_for(
       "GALE::fill_external", space, tetrahedra, KOKKOS_LAMBDA(Offset t) {
-        for_each_external_segment(mesh, segment_of, t, [&](Id s) {
-          external(atomic_add(&next(s), Offset(1))) = static_cast<Id>(t);
-        });
+        for_each_external_segment(mesh, segment_of, t,
+                                  [&](Id s) { external(atomic_add(&next(s), Offset(1))) = static_cast<Id>(t); });
       });
   sort_rows("GALE::sort_external", begin, external);
   result.external_begin = begin;

@@ -7,8 +7,9 @@
 
 namespace gale::detail {
 
-/// The distinct candidates of rows, written down as the host's threads count them, so that they needn't be found again to be written where they belong. Only
-/// where the host is the worker; elsewhere it compiles, for those who decide that with `if constexpr`.
+/// The distinct candidates of rows, written down as the host's threads count them, so that they needn't be found again
+/// to be written where they belong. Only where the host is the worker; elsewhere it compiles, for those who decide that
+/// with `if constexpr`.
 class FoundRows {
  public:
   FoundRows() : parts_(threads_for(Offset(1) << 40)) {}
@@ -30,7 +31,8 @@ class FoundRows {
   }
 
   /// Writes all rows' values and, for each, its row. `begin` has where rows begin.
-  void write(const Array<Id, WorkerMemory>& begin, const Array<Id, WorkerMemory>& values, const Array<Id, WorkerMemory>& row_of) {
+  void write(const Array<Id, WorkerMemory>& begin, const Array<Id, WorkerMemory>& values,
+             const Array<Id, WorkerMemory>& row_of) {
     for_parts("GALE::write_distinct", begin.extent(0) - 1, size(), [&](int part, Offset first, Offset last) {
       const Id* from = parts_[part].data();
       for (Offset row = first; row < last; ++row) {

@@ -1,9 +1,8 @@
-#include <gale/mesh/input_numbers.hpp>
-
 #include <gale/base/pair_key.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/base/radix_sort.hpp>
 #include <gale/base/transfer.hpp>
+#include <gale/mesh/input_numbers.hpp>
 
 namespace gale {
 
@@ -25,11 +24,14 @@ KOKKOS_INLINE_FUNCTION void order(Id& a, Id& b) {
 
 /// The places that distinct keys have in order. Overwrites the keys.
 Ids places_of(const Keys& keys) {
-  const auto sorted = allocate<Ids>("GALE::input_order", keys.extent(0)), place = allocate<Ids>("GALE::input_numbers", keys.extent(0));
+  const auto sorted = allocate<Ids>("GALE::input_order", keys.extent(0)),
+             place = allocate<Ids>("GALE::input_numbers", keys.extent(0));
   const WorkerSpace space;
-  parallel_for("GALE::input_order", space, keys.extent(0), KOKKOS_LAMBDA(Offset i) { sorted(i) = static_cast<Id>(i); });
+  parallel_for(
+      "GALE::input_order", space, keys.extent(0), KOKKOS_LAMBDA(Offset i) { sorted(i) = static_cast<Id>(i); });
   stable_sort_by_key(keys, sorted);
-  parallel_for("GALE::input_numbers", space, keys.extent(0), KOKKOS_LAMBDA(Offset i) { place(sorted(i)) = static_cast<Id>(i); });
+  parallel_for(
+      "GALE::input_numbers", space, keys.extent(0), KOKKOS_LAMBDA(Offset i) { place(sorted(i)) = static_cast<Id>(i); });
   return place;
 }
 

@@ -4,11 +4,12 @@
 
 namespace gale {
 
-/// What users call the simplices of a dimension 0 to 3, by GALE's id, on the host. Vertices and tetrahedra have their places in the input; an edge or a
-/// triangle has its place among all of the mesh, each written with its input vertices ascending, in lexicographic order. So the numbers depend on nothing
-/// but the input.
+/// What users call the simplices of a dimension 0 to 3, by GALE's id, on the host. Vertices and tetrahedra have their
+/// places in the input; an edge or a triangle has its place among all of the mesh, each written with its input vertices
+/// ascending, in lexicographic order. So the numbers depend on nothing but the input.
 ///
-/// Edges and triangles are enumerated if they haven't been, and sorted: O(n), 24 bytes each in the workers' memory meanwhile.
+/// Edges and triangles are enumerated if they haven't been, and sorted: O(n), 24 bytes each in the workers' memory
+/// meanwhile.
 Array<const Id, HostMemory> input_numbers(const Mesh& mesh, int dimension);
 
 }  // namespace gale

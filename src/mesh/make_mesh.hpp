@@ -10,11 +10,13 @@
 
 namespace gale {
 
-/// The mesh of what a caller has in Views of its own: `points` are n x 3 coordinates, `tetrahedra` m x 4 vertex ids. Any layout, in host memory or the
-/// workers', managed or not; float or double, any integer type. They are read where they are if their rows are contiguous and their types are those
-/// of GALE (std::int32_t or std::int64_t), else copied first. Nothing keeps them.
+/// The mesh of what a caller has in Views of its own: `points` are n x 3 coordinates, `tetrahedra` m x 4 vertex ids.
+/// Any layout, in host memory or the workers', managed or not; float or double, any integer type. They are read where
+/// they are if their rows are contiguous and their types are those of GALE (std::int32_t or std::int64_t), else copied
+/// first. Nothing keeps them.
 ///
-/// Segmented by an octree of `capacity` vertices a segment. Throws as octree_segmentation and Mesh do, and if the second extents aren't 3 and 4.
+/// Segmented by an octree of `capacity` vertices a segment. Throws as octree_segmentation and Mesh do, and if the
+/// second extents aren't 3 and 4.
 template <class PointView, class TetrahedronView>
 Mesh make_mesh(const PointView& points, const TetrahedronView& tetrahedra, int capacity = 100) {
   return Mesh(detail::rows_of<4, detail::IndexFor>("tetrahedra", tetrahedra),

@@ -1,5 +1,3 @@
-#include <gale/mesh/mesh.hpp>
-
 #include <algorithm>
 #include <mutex>
 #include <string>
@@ -8,6 +6,7 @@
 #include <gale/base/parallel.hpp>
 #include <gale/base/transfer.hpp>
 #include <gale/mesh/encode.hpp>
+#include <gale/mesh/mesh.hpp>
 #include <gale/mesh/simplex_store.hpp>
 
 namespace gale {
@@ -118,8 +117,12 @@ const HostIds& Mesh::tetrahedron_input() const { return data_->tetrahedron_input
 const Array<const Id, WorkerMemory>& Mesh::vertex_input_on_worker() const { return data_->vertex_input; }
 const Array<const Id, WorkerMemory>& Mesh::tetrahedron_input_on_worker() const { return data_->tetrahedron_input; }
 
-Simplices<WorkerMemory> Mesh::simplices_on_worker(const SimplexNeeds& needs) const { return data_->simplices.on_worker(needs); }
-Simplices<HostMemory> Mesh::simplices_on_host(const SimplexNeeds& needs) const { return data_->simplices.on_host(needs); }
+Simplices<WorkerMemory> Mesh::simplices_on_worker(const SimplexNeeds& needs) const {
+  return data_->simplices.on_worker(needs);
+}
+Simplices<HostMemory> Mesh::simplices_on_host(const SimplexNeeds& needs) const {
+  return data_->simplices.on_host(needs);
+}
 Id Mesh::known_edges() const { return data_->simplices.known(1); }
 Id Mesh::known_triangles() const { return data_->simplices.known(2); }
 
@@ -147,8 +150,7 @@ Id Mesh::segment_of(int dimension, Id simplex) const {
   return static_cast<Id>(std::upper_bound(begin, begin + segments() + 1, simplex) - begin) - 1;
 }
 
-#define GALE_INSTANTIATE(Index, Memory) \
-  template Mesh::Mesh(const Tetrahedra<Index, Memory>&, const Segmentation&)
+#define GALE_INSTANTIATE(Index, Memory) template Mesh::Mesh(const Tetrahedra<Index, Memory>&, const Segmentation&)
 GALE_INSTANTIATE(std::int32_t, HostMemory);
 GALE_INSTANTIATE(std::int64_t, HostMemory);
 #if defined(KOKKOS_ENABLE_CUDA)

@@ -13,18 +13,20 @@ namespace gale {
 template <class Index, class Memory>
 using Tetrahedra = Kokkos::View<const Index* [4], Kokkos::LayoutRight, Memory>;
 
-/// A tetrahedral mesh, encoded once so that the relations of any segment can be computed from it alone (the paper's §4.3).
+/// A tetrahedral mesh, encoded once so that the relations of any segment can be computed from it alone (the paper's
+/// §4.3).
 ///
-/// Any set of tetrahedra is a mesh: it may have several components, isolated vertices, parts that touch in an edge or a vertex
-/// only, and triangles with three and more tetrahedra. GALE numbers vertices and tetrahedra anew (`EncodedMesh`); the permutations
-/// lead back to input ids. Immutable after construction, so any number of threads may use it; copies share the arrays.
+/// Any set of tetrahedra is a mesh: it may have several components, isolated vertices, parts that touch in an edge or a
+/// vertex only, and triangles with three and more tetrahedra. GALE numbers vertices and tetrahedra anew
+/// (`EncodedMesh`); the permutations lead back to input ids. Immutable after construction, so any number of threads may
+/// use it; copies share the arrays.
 class Mesh {
  public:
-  /// Encodes in the workers' space, in parallel, in time O(n). Peak memory beside the input: 20 bytes a tetrahedron and 4 an
-  /// external one, and 16 a vertex.
+  /// Encodes in the workers' space, in parallel, in time O(n). Peak memory beside the input: 20 bytes a tetrahedron and
+  /// 4 an external one, and 16 a vertex.
   ///
-  /// `Index` is std::int32_t or std::int64_t. Throws gale::Error, naming the tetrahedron at fault, where there is none, where one
-  /// has a vertex outside 0..vertices-1 or the same twice, and where two have the same four.
+  /// `Index` is std::int32_t or std::int64_t. Throws gale::Error, naming the tetrahedron at fault, where there is none,
+  /// where one has a vertex outside 0..vertices-1 or the same twice, and where two have the same four.
   template <class Index, class Memory>
   Mesh(const Tetrahedra<Index, Memory>& tetrahedra, const Segmentation& segmentation);
 
@@ -37,11 +39,11 @@ class Mesh {
   /// The same arrays for the host's threads. With a device the first call copies them; any thread may make it.
   const EncodedMesh<HostMemory>& host() const;
 
-  /// All simplices, where the workers or where the host's threads can read them; at least what `needs` says. What is missing is enumerated, and
-  /// copied to the host, by the first call that needs it (see SimplexNeeds); any thread may make it. On the host, edges take 12 bytes each and 4 a
-  /// vertex, triangles 8, lower edges 4 an edge and a vertex. Time O(n), but that of
-  /// triangles grows with the square of a vertex' degree where one has more than 64 higher neighbours. Throws gale::Error if there are more than 2^31 - 1 edges
-  /// or triangles.
+  /// All simplices, where the workers or where the host's threads can read them; at least what `needs` says. What is
+  /// missing is enumerated, and copied to the host, by the first call that needs it (see SimplexNeeds); any thread may
+  /// make it. On the host, edges take 12 bytes each and 4 a vertex, triangles 8, lower edges 4 an edge and a vertex.
+  /// Time O(n), but that of triangles grows with the square of a vertex' degree where one has more than 64 higher
+  /// neighbours. Throws gale::Error if there are more than 2^31 - 1 edges or triangles.
   Simplices<WorkerMemory> simplices_on_worker(const SimplexNeeds& needs) const;
   Simplices<HostMemory> simplices_on_host(const SimplexNeeds& needs) const;
 
@@ -49,8 +51,8 @@ class Mesh {
   Id known_edges() const;
   Id known_triangles() const;
 
-  /// The intervals: where the simplices of a dimension 0 to 3 that are internal to each segment begin, and one past the last (I_V, I_E, I_F and I_T).
-  /// On the host; edges and triangles are enumerated if they haven't been.
+  /// The intervals: where the simplices of a dimension 0 to 3 that are internal to each segment begin, and one past the
+  /// last (I_V, I_E, I_F and I_T). On the host; edges and triangles are enumerated if they haven't been.
   const Array<const Id, HostMemory>& interval_begin(int dimension) const;
 
   /// The simplices that are internal to a segment.

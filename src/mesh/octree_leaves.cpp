@@ -1,7 +1,6 @@
-#include <gale/mesh/octree_leaves.hpp>
-
 #include <gale/base/parallel.hpp>
 #include <gale/base/transfer.hpp>
+#include <gale/mesh/octree_leaves.hpp>
 
 namespace gale::detail {
 
@@ -9,8 +8,8 @@ namespace {
 
 using Codes = Array<std::uint64_t, WorkerMemory>;
 
-/// The octree cell that holds the codes of equal `code >> shift`, looked at around the sorted position `at`, which it holds.
-/// It is searched no further than `capacity` positions away.
+/// The octree cell that holds the codes of equal `code >> shift`, looked at around the sorted position `at`, which it
+/// holds. It is searched no further than `capacity` positions away.
 struct CellWindow {
   const Codes& codes;
   int shift;

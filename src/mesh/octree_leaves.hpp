@@ -11,12 +11,12 @@ namespace gale::detail {
 /// Bits of a Morton code that one axis takes: the octree has this many levels.
 inline constexpr int morton_levels = 21;
 
-/// First positions of the octree's leaves among sorted Morton codes, ascending, the first being 0: cells of at most `capacity`
-/// codes whose parent cell has more. A run of equal codes longer than that is cut every `capacity` codes.
+/// First positions of the octree's leaves among sorted Morton codes, ascending, the first being 0: cells of at most
+/// `capacity` codes whose parent cell has more. A run of equal codes longer than that is cut every `capacity` codes.
 std::vector<Id> octree_leaves(const Array<std::uint64_t, WorkerMemory>& sorted_codes, int capacity);
 
-/// Joins consecutive leaves while together they hold at most `capacity` codes, from the first on. Returns where each segment begins,
-/// and then `count`, the number of all codes.
+/// Joins consecutive leaves while together they hold at most `capacity` codes, from the first on. Returns where each
+/// segment begins, and then `count`, the number of all codes.
 std::vector<Id> merge_leaves(const std::vector<Id>& leaves, Id count, int capacity);
 
 }  // namespace gale::detail

@@ -1,15 +1,14 @@
-#include <gale/mesh/segmentation.hpp>
-
 #include <cmath>
 #include <limits>
 #include <string>
 
 #include <gale/base/error.hpp>
 #include <gale/base/parallel.hpp>
-#include <gale/base/require_ids.hpp>
 #include <gale/base/radix_sort.hpp>
+#include <gale/base/require_ids.hpp>
 #include <gale/base/transfer.hpp>
 #include <gale/mesh/octree_leaves.hpp>
+#include <gale/mesh/segmentation.hpp>
 
 namespace gale {
 
@@ -18,7 +17,8 @@ namespace {
 using Codes = Array<std::uint64_t, WorkerMemory>;
 using Ids = Array<Id, WorkerMemory>;
 
-/// The cube that the octree halves: its side is a power of two, so that points on an integer grid meet cell borders exactly.
+/// The cube that the octree halves: its side is a power of two, so that points on an integer grid meet cell borders
+/// exactly.
 struct Cube {
   double origin[3];
   double cells_per_unit;  ///< smallest cells along a unit of length
@@ -79,7 +79,8 @@ Codes morton_codes(const Points<Coordinate, WorkerMemory>& points, const Cube& c
 
 Ids iota(Offset count) {
   const auto ids = allocate<Ids>("GALE::vertex_input", count);
-  parallel_for("GALE::iota", WorkerSpace(), count, KOKKOS_LAMBDA(Offset i) { ids(i) = static_cast<Id>(i); });
+  parallel_for(
+      "GALE::iota", WorkerSpace(), count, KOKKOS_LAMBDA(Offset i) { ids(i) = static_cast<Id>(i); });
   return ids;
 }
 

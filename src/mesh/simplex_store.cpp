@@ -1,8 +1,7 @@
-#include <gale/mesh/simplex_store.hpp>
-
 #include <gale/base/parallel.hpp>
 #include <gale/base/transfer.hpp>
 #include <gale/mesh/enumerate.hpp>
+#include <gale/mesh/simplex_store.hpp>
 
 namespace gale::detail {
 
@@ -27,8 +26,9 @@ void add_tables(const SimplexTables<Memory>& tables, Simplices<Memory>& view) {
 }
 
 /// `vertex_begin` is unmanaged, since other threads may copy the mesh' own at this moment.
-Array<Id, WorkerMemory> interval_begin_of(const Simplices<WorkerMemory>& simplices,
-                                            const Kokkos::View<const Id*, WorkerMemory, Kokkos::MemoryUnmanaged>& vertex_begin, int dimension) {
+Array<Id, WorkerMemory> interval_begin_of(
+    const Simplices<WorkerMemory>& simplices,
+    const Kokkos::View<const Id*, WorkerMemory, Kokkos::MemoryUnmanaged>& vertex_begin, int dimension) {
   const auto begin = allocate<Array<Id, WorkerMemory>>("GALE::interval_begin", vertex_begin.extent(0));
   parallel_for(
       "GALE::interval_begin", WorkerSpace(), begin.extent(0), KOKKOS_LAMBDA(Offset s) {

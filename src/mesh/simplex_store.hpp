@@ -8,7 +8,8 @@
 
 namespace gale::detail {
 
-/// The tables of a mesh' simplices in the workers' memory and on the host, each made when someone needs it first. By any thread.
+/// The tables of a mesh' simplices in the workers' memory and on the host, each made when someone needs it first. By
+/// any thread.
 class SimplexStore {
  public:
   /// `mesh`, and vertex -> the first tetrahedron whose lowest vertex it is.
@@ -20,8 +21,8 @@ class SimplexStore {
 
   const Kokkos::View<Id* [4], Kokkos::LayoutRight, HostMemory>& tetrahedra_on_host();
 
-  /// Where the edges (1) or triangles (2) that are internal to each segment begin, and one past the last, on the host; what is missing for it is
-  /// enumerated. No lock once it is there.
+  /// Where the edges (1) or triangles (2) that are internal to each segment begin, and one past the last, on the host;
+  /// what is missing for it is enumerated. No lock once it is there.
   const Array<const Id, HostMemory>& interval_begin(int dimension);
 
   /// How many edges or triangles there are; no_id as long as nobody needed them. No lock.

@@ -7,8 +7,8 @@ namespace gale {
 
 namespace detail {
 
-/// Place of `value` among values[begin] to values[end - 1], which ascend; no_id if it isn't there. A few entries are looked through, more are
-/// bisected first.
+/// Place of `value` among values[begin] to values[end - 1], which ascend; no_id if it isn't there. A few entries are
+/// looked through, more are bisected first.
 template <class Values>
 KOKKOS_INLINE_FUNCTION Id find_in(const Values& values, Id begin, Id end, Id value) {
   constexpr Id few = 8;
@@ -44,9 +44,9 @@ struct SimplexNeeds {
   bool tetrahedra = false;   ///< on the host, the tetrahedra themselves; the workers always have them
 };
 
-/// All simplices of a mesh, each with its vertices ascending (a < b < c < d) and all of a dimension in lexicographic order: that is their
-/// numbering. So the edges (a, .), the triangles (a, b, .) and the tetrahedra (a, ., ., .) are contiguous, and a simplex is found by its vertices in
-/// a few steps. Tables that were not asked for are empty.
+/// All simplices of a mesh, each with its vertices ascending (a < b < c < d) and all of a dimension in lexicographic
+/// order: that is their numbering. So the edges (a, .), the triangles (a, b, .) and the tetrahedra (a, ., ., .) are
+/// contiguous, and a simplex is found by its vertices in a few steps. Tables that were not asked for are empty.
 ///
 /// Owns nothing; may be copied into kernels. All ids are GALE's.
 template <class Memory>
@@ -55,7 +55,8 @@ struct Simplices {
   using Unmanaged = Kokkos::View<const T*, Memory, Kokkos::MemoryUnmanaged>;
 
   Kokkos::View<const Id* [4], Kokkos::LayoutRight, Memory, Kokkos::MemoryUnmanaged> tetrahedra;
-  Unmanaged<Id> tetrahedron_begin;  ///< vertex a -> the first tetrahedron (a, ., ., .); one more at the end, as in all that follow
+  Unmanaged<Id> tetrahedron_begin;  ///< vertex a -> the first tetrahedron (a, ., ., .); one more at the end, as in all
+                                    ///< that follow
 
   Unmanaged<Id> edge_begin;  ///< vertex a -> the first edge (a, .)
   Unmanaged<Id> edge_low;    ///< edge (a, b) -> a
@@ -71,7 +72,9 @@ struct Simplices {
   KOKKOS_FUNCTION Quad tetrahedron(Id t) const { return reinterpret_cast<const Quad*>(tetrahedra.data())[t]; }
 
   /// The edge (a, b), a < b; no_id if there is none.
-  KOKKOS_FUNCTION Id edge_of(Id a, Id b) const { return detail::find_in(edge_high, edge_begin(a), edge_begin(a + 1), b); }
+  KOKKOS_FUNCTION Id edge_of(Id a, Id b) const {
+    return detail::find_in(edge_high, edge_begin(a), edge_begin(a + 1), b);
+  }
 
   /// The triangle (a, b, c) over the edge (a, b), b < c; no_id if there is none.
   KOKKOS_FUNCTION Id triangle_of(Id edge, Id c) const {

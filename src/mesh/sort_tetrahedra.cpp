@@ -2,8 +2,8 @@
 #include <limits>
 #include <string>
 
-#include <gale/base/error.hpp>
 #include <gale/base/atomic.hpp>
+#include <gale/base/error.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/base/require_ids.hpp>
 #include <gale/mesh/encode.hpp>
@@ -68,7 +68,8 @@ template <class Index>
   for (int corner = 0; corner < 4; ++corner) {
     const Index v = quad(0, corner);
     if (v < 0 || v >= vertices) {
-      throw Error(name + " has vertex " + std::to_string(v) + ", but vertices are 0 to " + std::to_string(vertices - 1));
+      throw Error(name + " has vertex " + std::to_string(v) + ", but vertices are 0 to " +
+                  std::to_string(vertices - 1));
     }
     for (int other = 0; other < corner; ++other) {
       if (quad(0, other) == v) throw Error(name + " has vertex " + std::to_string(v) + " twice");
@@ -89,7 +90,8 @@ void validate(const Tetrahedra<Index, WorkerMemory>& input, Offset vertices) {
 }
 
 KOKKOS_FUNCTION Quad load(const SortedTetrahedra& sorted, Id t) {
-  return {{sorted.vertices(t, 0), sorted.vertices(t, 1), sorted.vertices(t, 2), sorted.vertices(t, 3)}, sorted.input(t)};
+  return {{sorted.vertices(t, 0), sorted.vertices(t, 1), sorted.vertices(t, 2), sorted.vertices(t, 3)},
+          sorted.input(t)};
 }
 
 KOKKOS_FUNCTION void store(const SortedTetrahedra& sorted, Id t, const Quad& quad) {
@@ -145,9 +147,8 @@ void refuse_duplicates(const SortedTetrahedra& sorted) {
   const auto count = static_cast<Id>(sorted.vertices.extent(0));
   const Id none = std::numeric_limits<Id>::max();
   const Id twin = reduce_min(
-      "GALE::find_duplicates", WorkerSpace(), count - 1, none, KOKKOS_LAMBDA(Offset t) {
-        return same_as_next(sorted, static_cast<Id>(t)) ? sorted.input(t + 1) : none;
-      });
+      "GALE::find_duplicates", WorkerSpace(), count - 1, none,
+      KOKKOS_LAMBDA(Offset t) { return same_as_next(sorted, static_cast<Id>(t)) ? sorted.input(t + 1) : none; });
   if (twin == none) return;
   const Id first = reduce_min(
       "GALE::find_duplicate", WorkerSpace(), count - 1, none, KOKKOS_LAMBDA(Offset t) {
@@ -177,7 +178,8 @@ SortedTetrahedra sort_tetrahedra(const Tetrahedra<Index, WorkerMemory>& input, c
         }
         slot(t) = atomic_add(&begin(lowest), Id(1));
       });
-  exclusive_scan("GALE::scan_tetrahedra", space, vertices, begin, KOKKOS_LAMBDA(Offset v) { return begin(v); });
+  exclusive_scan(
+      "GALE::scan_tetrahedra", space, vertices, begin, KOKKOS_LAMBDA(Offset v) { return begin(v); });
   sorted.vertices = allocate<decltype(sorted.vertices)>("GALE::tetrahedra", count);
   sorted.input = allocate<Ids>("GALE::tetrahedron_input", count);
   parallel_for(
@@ -186,7 +188,8 @@ SortedTetrahedra sort_tetrahedra(const Tetrahedra<Index, WorkerMemory>& input, c
         store(sorted, begin(quad.vertex[0]) + slot(t), quad);
       });
   parallel_for(
-      "GALE::sort_tetrahedra", space, vertices, KOKKOS_LAMBDA(Offset v) { sort_bucket(sorted, begin(v), begin(v + 1)); });
+      "GALE::sort_tetrahedra", space, vertices,
+      KOKKOS_LAMBDA(Offset v) { sort_bucket(sorted, begin(v), begin(v + 1)); });
   refuse_duplicates(sorted);
   return sorted;
 }

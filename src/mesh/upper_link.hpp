@@ -5,8 +5,8 @@
 
 namespace gale::detail {
 
-/// The higher neighbours of a vertex (the ends of its own edges, by their places), and which of them make a triangle with it and each other: for each, a bit
-/// for each higher one. In one thread's own memory.
+/// The higher neighbours of a vertex (the ends of its own edges, by their places), and which of them make a triangle
+/// with it and each other: for each, a bit for each higher one. In one thread's own memory.
 class UpperLink {
  public:
   /// Higher neighbours that a vertex may have.
@@ -36,7 +36,8 @@ class UpperLink {
 
   /// How many triangles the i-th edge has with higher vertices.
   KOKKOS_INLINE_FUNCTION Id triangles(Id i) const {
-    return count_bits(static_cast<std::uint32_t>(joined_[i])) + count_bits(static_cast<std::uint32_t>(joined_[i] >> 32));
+    return count_bits(static_cast<std::uint32_t>(joined_[i])) +
+           count_bits(static_cast<std::uint32_t>(joined_[i] >> 32));
   }
 
   /// Calls visit(apex) for each of them, ascending.

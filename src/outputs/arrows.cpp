@@ -1,8 +1,6 @@
-#include <gale/outputs/arrows.hpp>
-
 #include <gale/base/parallel.hpp>
 #include <gale/base/require_ids.hpp>
-
+#include <gale/outputs/arrows.hpp>
 #include <gale/outputs/positions.hpp>
 
 namespace gale::outputs {
@@ -13,7 +11,8 @@ using HostSpace = Kokkos::DefaultHostExecutionSpace;
 
 /// How many of `sorted` have a lower input id.
 Id count_before(const std::vector<Id>& sorted, const Id* input, Id id) {
-  const auto at = std::lower_bound(sorted.begin(), sorted.end(), id, [input](Id simplex, Id other) { return input[simplex] < other; });
+  const auto at = std::lower_bound(sorted.begin(), sorted.end(), id,
+                                   [input](Id simplex, Id other) { return input[simplex] < other; });
   return static_cast<Id>(at - sorted.begin());
 }
 
@@ -43,7 +42,8 @@ class Arrows {
   }
 
  private:
-  /// Where the arrows of the edges with each higher vertex begin among those of all edges, by input id; how many there are.
+  /// Where the arrows of the edges with each higher vertex begin among those of all edges, by input id; how many there
+  /// are.
   Id place_edges() {
     const Id* const internal = mesh_.vertex_internal().data();
     const auto count = [&](Offset i) {
@@ -85,7 +85,8 @@ class Arrows {
         if (tetrahedra(t, corner) != partner.vertex) triangle[i++] = input_[tetrahedra(t, corner)];
       }
       const Id tetrahedron = tetrahedron_input[t];
-      draw(begin + tetrahedron - count_before(gradient_.critical().tetrahedra, tetrahedron_input, tetrahedron), triangle, input_[partner.vertex]);
+      draw(begin + tetrahedron - count_before(gradient_.critical().tetrahedra, tetrahedron_input, tetrahedron),
+           triangle, input_[partner.vertex]);
     });
   }
 

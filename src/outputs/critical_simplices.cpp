@@ -1,7 +1,5 @@
-#include <gale/outputs/critical_simplices.hpp>
-
 #include <gale/io/arrays.hpp>
-
+#include <gale/outputs/critical_simplices.hpp>
 #include <gale/outputs/positions.hpp>
 
 namespace gale::outputs {
@@ -38,25 +36,33 @@ template <class Coordinate>
 Point middle_of(const io::Dataset::Points<Coordinate>& points, const CriticalSimplex& simplex) {
   const auto& v = simplex.vertices;
   switch (simplex.dimension) {
-    case 0: return position_of(points, std::array<Id, 1>{v[0]});
-    case 1: return position_of(points, std::array<Id, 2>{v[0], v[1]});
-    case 2: return position_of(points, std::array<Id, 3>{v[0], v[1], v[2]});
-    default: return position_of(points, v);
+    case 0:
+      return position_of(points, std::array<Id, 1>{v[0]});
+    case 1:
+      return position_of(points, std::array<Id, 2>{v[0], v[1]});
+    case 2:
+      return position_of(points, std::array<Id, 3>{v[0], v[1], v[2]});
+    default:
+      return position_of(points, v);
   }
 }
 
 }  // namespace
 
-KnownSimplices known_simplices(const DiscreteGradient& gradient, const CriticalSimplices& critical, const SimplexNumbers& numbers) {
+KnownSimplices known_simplices(const DiscreteGradient& gradient, const CriticalSimplices& critical,
+                               const SimplexNumbers& numbers) {
   const Mesh& mesh = gradient.mesh();
   const Namer namer(gradient, numbers);
   KnownSimplices known;
   for (const Id v : critical.vertices) known[0].push_back(namer.name(std::array<Id, 1>{v}, mesh.vertex_input()(v)));
-  for (std::size_t i = 0; i < critical.edges.size(); ++i) known[1].push_back(namer.name(critical.edges[i], numbers.edges[i]));
-  for (std::size_t i = 0; i < critical.triangles.size(); ++i) known[2].push_back(namer.name(critical.triangles[i], numbers.triangles[i]));
+  for (std::size_t i = 0; i < critical.edges.size(); ++i)
+    known[1].push_back(namer.name(critical.edges[i], numbers.edges[i]));
+  for (std::size_t i = 0; i < critical.triangles.size(); ++i)
+    known[2].push_back(namer.name(critical.triangles[i], numbers.triangles[i]));
   const auto& all = mesh.host().tetrahedra;
   for (const Id t : critical.tetrahedra) {
-    known[3].push_back(namer.name_tetrahedron({all(t, 0), all(t, 1), all(t, 2), all(t, 3)}, mesh.tetrahedron_input()(t)));
+    known[3].push_back(
+        namer.name_tetrahedron({all(t, 0), all(t, 1), all(t, 2), all(t, 3)}, mesh.tetrahedron_input()(t)));
   }
   return known;
 }

@@ -1,7 +1,6 @@
-#include <gale/outputs/field.hpp>
-
 #include <gale/base/error.hpp>
 #include <gale/io/arrays.hpp>
+#include <gale/outputs/field.hpp>
 
 namespace gale::outputs {
 
@@ -55,8 +54,8 @@ void check_permutation(const io::PointArray& order, std::size_t count) {
           const bool inside = value >= 0 && static_cast<double>(value) < static_cast<double>(count);
           const auto place = inside ? static_cast<std::size_t>(value) : count;
           if (place == count || static_cast<decltype(value)>(place) != value || seen[place]) {
-            throw Error("array '" + order.name + "' is no permutation of 0 to " + std::to_string(count - 1) + ": vertex " +
-                        std::to_string(v) + " has " + std::to_string(value));
+            throw Error("array '" + order.name + "' is no permutation of 0 to " + std::to_string(count - 1) +
+                        ": vertex " + std::to_string(v) + " has " + std::to_string(value));
           }
           seen[place] = true;
         }
@@ -70,11 +69,13 @@ io::PointArray select_field(const io::Dataset& dataset, const std::string& name)
   if (name.empty()) return first_field(dataset);
   if (const auto* const array = find(dataset, name)) {
     if (array->components == 1) return *array;
-    throw Error("array '" + name + "' has " + std::to_string(array->components) + " components: name one, as " + name + "_0");
+    throw Error("array '" + name + "' has " + std::to_string(array->components) + " components: name one, as " + name +
+                "_0");
   }
   int component = 0;
   const auto* const array = find_component(dataset, name, component);
-  if (array == nullptr || component >= array->components) throw Error("no point array '" + name + "': " + names_of(dataset));
+  if (array == nullptr || component >= array->components)
+    throw Error("no point array '" + name + "': " + names_of(dataset));
   return io::extract_component(*array, component);
 }
 
@@ -87,7 +88,9 @@ VertexOrder order_of(const Mesh& mesh, const io::Dataset& dataset, const io::Poi
 }
 
 bool holds_segments(const io::PointArray& array) {
-  const auto whole = [](const auto& values) { return std::is_integral_v<typename std::decay_t<decltype(values)>::value_type>; };
+  const auto whole = [](const auto& values) {
+    return std::is_integral_v<typename std::decay_t<decltype(values)>::value_type>;
+  };
   return array.components == 1 && std::visit(whole, array.values);
 }
 
@@ -109,7 +112,8 @@ const io::PointArray* find_segments(const io::Dataset& dataset, std::vector<std:
 
 std::vector<std::int64_t> labels_of(const io::PointArray& segments) {
   if (segments.components != 1) {
-    throw Error("array '" + segments.name + "' has " + std::to_string(segments.components) + " components: segments are one label a point");
+    throw Error("array '" + segments.name + "' has " + std::to_string(segments.components) +
+                " components: segments are one label a point");
   }
   return std::visit(
       [&](const auto& values) -> std::vector<std::int64_t> {

@@ -8,7 +8,8 @@ namespace gale::outputs {
 /// A field at input vertices, and its order. Refers to what it is made from.
 class Heights {
  public:
-  Heights(const Mesh& mesh, const VertexOrder& order, const io::PointArray& field) : internal_(mesh.vertex_internal().data()), order_(order), field_(field) {}
+  Heights(const Mesh& mesh, const VertexOrder& order, const io::PointArray& field)
+      : internal_(mesh.vertex_internal().data()), order_(order), field_(field) {}
 
   double value(Id vertex) const {
     return std::visit([vertex](const auto& values) { return static_cast<double>(values[vertex]); }, field_.values);

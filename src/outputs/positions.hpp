@@ -7,7 +7,8 @@
 #include <gale/base/types.hpp>
 #include <gale/io/dataset.hpp>
 
-// Where simplices are drawn. They are named by their input vertices, in any order: what comes out depends on the order by no bit.
+// Where simplices are drawn. They are named by their input vertices, in any order: what comes out depends on the order
+// by no bit.
 
 namespace gale::outputs {
 

@@ -1,9 +1,7 @@
-#include <gale/outputs/separatrices1.hpp>
-
 #include <gale/base/parallel.hpp>
 #include <gale/base/require_ids.hpp>
-
 #include <gale/outputs/positions.hpp>
+#include <gale/outputs/separatrices1.hpp>
 
 namespace gale::outputs {
 
@@ -33,12 +31,14 @@ std::array<Id, 4> tetrahedron_of(const Mesh& mesh, Id t) {
 
 /// Appends what precedes each cell of the paths: a saddle, or what the cell shares with the one before.
 template <class Cell, class Simplex, class Between>
-void append_between(const Separatrices<Cell>& paths, const std::vector<Simplex>& saddles, const Between& between, std::vector<Simplex>& simplices) {
+void append_between(const Separatrices<Cell>& paths, const std::vector<Simplex>& saddles, const Between& between,
+                    std::vector<Simplex>& simplices) {
   const std::size_t first = simplices.size();
   simplices.resize(first + paths.cells.size());
   parallel_for("GALE::between_cells", HostSpace(), paths.count(), [&](Offset i) {
     for (Offset k = paths.begin[i]; k < paths.begin[i + 1]; ++k) {
-      simplices[first + k] = k == paths.begin[i] ? saddles[paths.sources[i]] : between(paths.cells[k - 1], paths.cells[k]);
+      simplices[first + k] =
+          k == paths.begin[i] ? saddles[paths.sources[i]] : between(paths.cells[k - 1], paths.cells[k]);
     }
   });
 }
@@ -82,17 +82,19 @@ class Lines {
     arrays_.resize(2 * cells - separatrices);
   }
 
-  /// Two points for each cell of the paths: the simplex `between` that precedes it, number `between_ids[k]`, and itself. `cell_of(cell)` is its
-  /// vertices, `id_of(k)` its number.
+  /// Two points for each cell of the paths: the simplex `between` that precedes it, number `between_ids[k]`, and
+  /// itself. `cell_of(cell)` is its vertices, `id_of(k)` its number.
   template <class Cell, class Simplex, class CellOf, class IdOf>
-  void add(Type type, const Separatrices<Cell>& paths, const Simplex* between, const Id* between_ids, const CellOf& cell_of, const IdOf& id_of,
-           const std::vector<CriticalSimplex>& sources, const std::vector<CriticalSimplex>& destinations, const Heights& heights) {
+  void add(Type type, const Separatrices<Cell>& paths, const Simplex* between, const Id* between_ids,
+           const CellOf& cell_of, const IdOf& id_of, const std::vector<CriticalSimplex>& sources,
+           const std::vector<CriticalSimplex>& destinations, const Heights& heights) {
     parallel_for("GALE::separatrices1", HostSpace(), paths.count(), [&](Offset i) {
       for (Offset k = paths.begin[i]; k < paths.begin[i + 1]; ++k) {
         set_point(2 * k, between[k], between_ids[k], k == paths.begin[i]);
         set_point(2 * k + 1, cell_of(paths.cells[k]), id_of(k), k + 1 == paths.begin[i + 1]);
       }
-      set_lines(type, i, 2 * paths.begin[i], 2 * paths.begin[i + 1], sources[paths.sources[i]], destinations[paths.destinations[i]], heights);
+      set_lines(type, i, 2 * paths.begin[i], 2 * paths.begin[i + 1], sources[paths.sources[i]],
+                destinations[paths.destinations[i]], heights);
     });
     first_point_ += 2 * paths.cells.size();
     first_separatrix_ += paths.count();
@@ -101,7 +103,9 @@ class Lines {
   io::Surface take() {
     io::Surface surface;
     surface.points = positions_;
-    surface.point_arrays = {{"ttkMaskScalarField", 1, std::move(mask_)}, {"CellDimension", 1, std::move(dimensions_)}, {"CellId", 1, std::move(ids_)}};
+    surface.point_arrays = {{"ttkMaskScalarField", 1, std::move(mask_)},
+                            {"CellDimension", 1, std::move(dimensions_)},
+                            {"CellId", 1, std::move(ids_)}};
     surface.lines = std::move(lines_);
     surface.cell_arrays = arrays_.take();
     return surface;
@@ -119,7 +123,8 @@ class Lines {
   }
 
   /// Lines between consecutive ones of the points [begin, end) of the i-th separatrix.
-  void set_lines(Type type, Offset i, Offset begin, Offset end, const CriticalSimplex& source, const CriticalSimplex& destination, const Heights& heights) {
+  void set_lines(Type type, Offset i, Offset begin, Offset end, const CriticalSimplex& source,
+                 const CriticalSimplex& destination, const Heights& heights) {
     const double maximum = heights.value(heights.higher(source.highest(), destination.highest()));
     const double minimum = heights.value(heights.lower(source.lowest(), destination.lowest()));
     const Id id = static_cast<Id>(first_separatrix_ + i);
@@ -154,7 +159,12 @@ class Lines {
 NamedSimplices named_simplices(const MorseSmaleComplex& complex) {
   const Mesh& mesh = complex.gradient.mesh();
   NamedSimplices named = {complex.critical.edges, complex.critical.triangles};
-  append_between(complex.descending, complex.critical.edges, [](Id a, Id b) { return Edge{a, b}; }, named.edges);
+  append_between(
+      complex.descending, complex.critical.edges,
+      [](Id a, Id b) {
+        return Edge{a, b};
+      },
+      named.edges);
   append_between(complex.connectors, complex.critical.edges, common<2, Triangle>, named.edges);
   const auto shared = [&](Id a, Id b) { return common<3>(tetrahedron_of(mesh, a), tetrahedron_of(mesh, b)); };
   append_between(complex.ascending, complex.critical.triangles, shared, named.triangles);
@@ -162,27 +172,34 @@ NamedSimplices named_simplices(const MorseSmaleComplex& complex) {
   return named;
 }
 
-io::Surface separatrices1(const io::Dataset& dataset, const MorseSmaleComplex& complex, const NamedSimplices& named, const SimplexNumbers& numbers,
-                          const KnownSimplices& critical, const Heights& heights) {
+io::Surface separatrices1(const io::Dataset& dataset, const MorseSmaleComplex& complex, const NamedSimplices& named,
+                          const SimplexNumbers& numbers, const KnownSimplices& critical, const Heights& heights) {
   const Mesh& mesh = complex.gradient.mesh();
   const auto& descending_paths = complex.descending;
   const auto& ascending_paths = complex.ascending;
   const auto& connectors = complex.connectors;
   const std::size_t edges = critical[1].size(), triangles = critical[2].size();
-  const std::size_t connector_edges = edges + descending_paths.cells.size(), connector_triangles = triangles + ascending_paths.cells.size();
+  const std::size_t connector_edges = edges + descending_paths.cells.size(),
+                    connector_triangles = triangles + ascending_paths.cells.size();
   return std::visit(
       [&](const auto& points) {
         using Coordinate = typename std::decay_t<decltype(points)>::non_const_value_type;
-        Lines<Coordinate> lines(points, mesh, descending_paths.cells.size() + ascending_paths.cells.size() + connectors.cells.size(),
+        Lines<Coordinate> lines(points, mesh,
+                                descending_paths.cells.size() + ascending_paths.cells.size() + connectors.cells.size(),
                                 Offset(descending_paths.count()) + ascending_paths.count() + connectors.count());
         lines.add(
-            descending, descending_paths, named.edges.data() + edges, numbers.edges.data() + edges, [](Id v) { return std::array<Id, 1>{v}; },
-            [&](Offset k) { return mesh.vertex_input()(descending_paths.cells[k]); }, critical[1], critical[0], heights);
+            descending, descending_paths, named.edges.data() + edges, numbers.edges.data() + edges,
+            [](Id v) { return std::array<Id, 1>{v}; },
+            [&](Offset k) { return mesh.vertex_input()(descending_paths.cells[k]); }, critical[1], critical[0],
+            heights);
         lines.add(
-            ascending, ascending_paths, named.triangles.data() + triangles, numbers.triangles.data() + triangles, [&](Id t) { return tetrahedron_of(mesh, t); },
-            [&](Offset k) { return mesh.tetrahedron_input()(ascending_paths.cells[k]); }, critical[2], critical[3], heights);
+            ascending, ascending_paths, named.triangles.data() + triangles, numbers.triangles.data() + triangles,
+            [&](Id t) { return tetrahedron_of(mesh, t); },
+            [&](Offset k) { return mesh.tetrahedron_input()(ascending_paths.cells[k]); }, critical[2], critical[3],
+            heights);
         lines.add(
-            connector, connectors, named.edges.data() + connector_edges, numbers.edges.data() + connector_edges, [](const Triangle& triangle) { return triangle; },
+            connector, connectors, named.edges.data() + connector_edges, numbers.edges.data() + connector_edges,
+            [](const Triangle& triangle) { return triangle; },
             [&](Offset k) { return numbers.triangles[connector_triangles + k]; }, critical[1], critical[2], heights);
         return lines.take();
       },

@@ -1,8 +1,6 @@
-#include <gale/outputs/separatrices2.hpp>
-
 #include <gale/base/require_ids.hpp>
-
 #include <gale/outputs/positions.hpp>
+#include <gale/outputs/separatrices2.hpp>
 
 namespace gale::outputs {
 
@@ -48,8 +46,8 @@ std::vector<std::vector<Id>> neighbours(const std::vector<Id>& of, const std::ve
 
 class Walls {
  public:
-  Walls(const io::Dataset& dataset, const MorseSmaleComplex& complex, const Separatrices<TriangleVertices>& connectors, const KnownSimplices& critical,
-        const Heights& heights)
+  Walls(const io::Dataset& dataset, const MorseSmaleComplex& complex, const Separatrices<TriangleVertices>& connectors,
+        const KnownSimplices& critical, const Heights& heights)
       : dataset_(dataset),
         complex_(complex),
         connectors_(connectors),
@@ -119,7 +117,8 @@ class Walls {
     return {vertex_input_[all(t, 0)], vertex_input_[all(t, 1)], vertex_input_[all(t, 2)], vertex_input_[all(t, 3)]};
   }
 
-  /// From the lowest vertex of the critical edges that a wall meets, or of itself where it meets none, to its source's highest.
+  /// From the lowest vertex of the critical edges that a wall meets, or of itself where it meets none, to its source's
+  /// highest.
   void add_descending() {
     const auto& walls = complex_.descending_walls;
     const auto met = neighbours(connectors_.destinations, connectors_.sources, critical_[2].size());
@@ -136,11 +135,13 @@ class Walls {
       const auto& saddles = met[walls.sources[i]];
       if (!saddles.empty()) low.clear();
       for (const Id saddle : saddles) low.push_back(critical_[1][saddle].lowest());
-      add_arrays(descending, source, source.highest(), *std::min_element(low.begin(), low.end(), is_below()), critical_[1], saddles);
+      add_arrays(descending, source, source.highest(), *std::min_element(low.begin(), low.end(), is_below()),
+                 critical_[1], saddles);
     }
   }
 
-  /// From its source's lowest vertex to the highest of the critical triangles that a wall meets, or of itself where it meets none.
+  /// From its source's lowest vertex to the highest of the critical triangles that a wall meets, or of itself where it
+  /// meets none.
   void add_ascending() {
     const auto& walls = complex_.ascending_walls.walls;
     const auto met = neighbours(connectors_.sources, connectors_.destinations, critical_[1].size());
@@ -156,14 +157,16 @@ class Walls {
       const auto& saddles = met[walls.sources[i]];
       if (!saddles.empty()) high.clear();
       for (const Id saddle : saddles) high.push_back(critical_[2][saddle].highest());
-      add_arrays(ascending, source, *std::max_element(high.begin(), high.end(), is_below()), source.lowest(), critical_[2], saddles);
+      add_arrays(ascending, source, *std::max_element(high.begin(), high.end(), is_below()), source.lowest(),
+                 critical_[2], saddles);
     }
   }
 
   void end_polygon() { surface_.polygons.begin.push_back(static_cast<Offset>(surface_.polygons.points.size())); }
 
   /// Of a wall's polygons, which have none yet. `met` are the places of the critical simplices that it meets.
-  void add_arrays(Type type, const CriticalSimplex& source, Id highest, Id lowest, const std::vector<CriticalSimplex>& critical, const std::vector<Id>& met) {
+  void add_arrays(Type type, const CriticalSimplex& source, Id highest, Id lowest,
+                  const std::vector<CriticalSimplex>& critical, const std::vector<Id>& met) {
     const std::size_t polygons = surface_.polygons.begin.size() - 1;
     const double maximum = heights_.value(highest), minimum = heights_.value(lowest);
     Id on_surface = source.on_surface;
@@ -195,8 +198,9 @@ class Walls {
 
 }  // namespace
 
-io::Surface separatrices2(const io::Dataset& dataset, const MorseSmaleComplex& complex, const Separatrices<TriangleVertices>& connectors,
-                          const KnownSimplices& critical, const Heights& heights) {
+io::Surface separatrices2(const io::Dataset& dataset, const MorseSmaleComplex& complex,
+                          const Separatrices<TriangleVertices>& connectors, const KnownSimplices& critical,
+                          const Heights& heights) {
   return Walls(dataset, complex, connectors, critical, heights).collect();
 }
 

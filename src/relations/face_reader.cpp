@@ -1,7 +1,6 @@
-#include <gale/relations/face_reader.hpp>
-
 #include <algorithm>
 
+#include <gale/relations/face_reader.hpp>
 #include <gale/relations/faces.hpp>
 #include <gale/relations/preconditioning.hpp>
 
@@ -20,14 +19,18 @@ Id write_if(Relation wanted, const Simplices<HostMemory>& simplices, Id simplex,
 
 }  // namespace
 
-FaceReader::FaceReader(const Mesh& mesh, RelationSet relations) : simplices_(mesh.simplices_on_host(needs_of(relations))) {}
+FaceReader::FaceReader(const Mesh& mesh, RelationSet relations)
+    : simplices_(mesh.simplices_on_host(needs_of(relations))) {}
 
 SegmentRows FaceReader::row(Relation relation, Id simplex) {
   Found& found = found_[static_cast<int>(relation)];
   Id* const ids = found.ids.data();
-  found.offsets[1] = write_if<Relation::EV>(relation, simplices_, simplex, ids) + write_if<Relation::FV>(relation, simplices_, simplex, ids) +
-                     write_if<Relation::FE>(relation, simplices_, simplex, ids) + write_if<Relation::TV>(relation, simplices_, simplex, ids) +
-                     write_if<Relation::TE>(relation, simplices_, simplex, ids) + write_if<Relation::TF>(relation, simplices_, simplex, ids);
+  found.offsets[1] = write_if<Relation::EV>(relation, simplices_, simplex, ids) +
+                     write_if<Relation::FV>(relation, simplices_, simplex, ids) +
+                     write_if<Relation::FE>(relation, simplices_, simplex, ids) +
+                     write_if<Relation::TV>(relation, simplices_, simplex, ids) +
+                     write_if<Relation::TE>(relation, simplices_, simplex, ids) +
+                     write_if<Relation::TF>(relation, simplices_, simplex, ids);
   Intervals one;
   one[row_dimension(relation)] = {simplex, simplex + 1};
   SegmentRows rows(no_id, one);

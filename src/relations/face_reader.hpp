@@ -2,8 +2,8 @@
 
 #include <array>
 
-#include <gale/relations/segment_rows.hpp>
 #include <gale/mesh/mesh.hpp>
+#include <gale/relations/segment_rows.hpp>
 
 namespace gale::detail {
 

@@ -17,11 +17,15 @@ struct FaceRow {
 
 /// Entries of each row of a face relation.
 KOKKOS_FUNCTION constexpr int face_count(Relation relation) {
-  return relation == Relation::EV ? 2 : relation == Relation::FV || relation == Relation::FE ? 3 : relation == Relation::TE ? 6 : 4;
+  return relation == Relation::EV                               ? 2
+         : relation == Relation::FV || relation == Relation::FE ? 3
+         : relation == Relation::TE                             ? 6
+                                                                : 4;
 }
 
-/// The row of a simplex (GALE's id, which is assumed to be one) in one of the face relations EV, FV, FE, TV, TE and TF: a look-up of a few steps, by
-/// host threads and in kernels. `simplices` has what `needs_of(relation)` says; TV and those from T also the tetrahedra.
+/// The row of a simplex (GALE's id, which is assumed to be one) in one of the face relations EV, FV, FE, TV, TE and TF:
+/// a look-up of a few steps, by host threads and in kernels. `simplices` has what `needs_of(relation)` says; TV and
+/// those from T also the tetrahedra.
 template <Relation relation, class Memory>
 KOKKOS_INLINE_FUNCTION FaceRow<face_count(relation)> face_row(const Simplices<Memory>& simplices, Id simplex) {
   static_assert(face_relations.has(relation));

@@ -1,7 +1,6 @@
-#include <gale/relations/host_worker.hpp>
-
 #include <vector>
 
+#include <gale/relations/host_worker.hpp>
 #include <gale/relations/host_workspace.hpp>
 
 namespace gale {
@@ -71,7 +70,8 @@ struct HostWorker::Workspace {
   }
 };
 
-HostWorker::HostWorker(const Mesh& mesh, RelationSet wanted, int kept) : workspace_(new Workspace(mesh, wanted, kept)) {}
+HostWorker::HostWorker(const Mesh& mesh, RelationSet wanted, int kept)
+    : workspace_(new Workspace(mesh, wanted, kept)) {}
 HostWorker::~HostWorker() = default;
 HostWorker::HostWorker(HostWorker&&) noexcept = default;
 HostWorker& HostWorker::operator=(HostWorker&&) noexcept = default;

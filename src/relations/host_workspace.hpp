@@ -6,12 +6,14 @@
 
 namespace gale::detail {
 
-/// The scratch memory of one host thread, and a kernel that runs in it. It grows to what the largest segment so far has needed.
+/// The scratch memory of one host thread, and a kernel that runs in it. It grows to what the largest segment so far has
+/// needed.
 class HostWorkspace {
  public:
   HostWorkspace(const Mesh& mesh, RelationSet wanted) : kernel_(mesh, wanted) {}
 
-  /// Computes the blocks of one segment into `pool`, whose directory has room for them alone. False if the pool lacks room for some.
+  /// Computes the blocks of one segment into `pool`, whose directory has room for them alone. False if the pool lacks
+  /// room for some.
   bool compute(Id segment, BlockPool pool) {
     require(kernel_.bound(segment));
     const Offset used_before = *pool.used;

@@ -1,9 +1,8 @@
-#include <gale/relations/preconditioning.hpp>
-
 #include <algorithm>
 #include <string>
 
 #include <gale/base/error.hpp>
+#include <gale/relations/preconditioning.hpp>
 
 namespace gale {
 
@@ -24,8 +23,9 @@ SimplexNeeds needs_of(RelationSet relations) {
 
 void require_preconditioned(RelationSet preconditioned, RelationSet wanted) {
   if (preconditioned.contains(wanted)) return;
-  throw Error("the structure was preconditioned for " + (preconditioned.empty() ? "no relation" : name_of(preconditioned)) + ", not for " +
-              name_of(wanted) + ": name every relation that you read when you construct it");
+  throw Error("the structure was preconditioned for " +
+              (preconditioned.empty() ? "no relation" : name_of(preconditioned)) + ", not for " + name_of(wanted) +
+              ": name every relation that you read when you construct it");
 }
 
 void require_simplex(const Mesh& mesh, int dimension, Id simplex) {
@@ -35,7 +35,8 @@ void require_simplex(const Mesh& mesh, int dimension, Id simplex) {
 void require_simplex(Id count, int dimension, Id simplex) {
   static const char* const names[] = {"vertex", "edge", "triangle", "tetrahedron"};
   if (simplex >= 0 && simplex < count) return;
-  throw Error("there is no " + std::string(names[dimension]) + ' ' + std::to_string(simplex) + ": the mesh has 0 to " + std::to_string(count - 1));
+  throw Error("there is no " + std::string(names[dimension]) + ' ' + std::to_string(simplex) + ": the mesh has 0 to " +
+              std::to_string(count - 1));
 }
 
 }  // namespace gale

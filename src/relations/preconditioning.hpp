@@ -8,7 +8,8 @@ namespace gale {
 /// What of a mesh' simplices whoever looks up or computes rows of these relations reads.
 SimplexNeeds needs_of(RelationSet relations);
 
-/// Throws gale::Error, naming the relations and what to do, unless those that a structure was preconditioned for contain `wanted`.
+/// Throws gale::Error, naming the relations and what to do, unless those that a structure was preconditioned for
+/// contain `wanted`.
 void require_preconditioned(RelationSet preconditioned, RelationSet wanted);
 
 /// Throws gale::Error unless `simplex` is one of the mesh' of that dimension.

@@ -3,7 +3,7 @@
 namespace gale {
 
 std::string name_of(Relation relation) {
-  static const char* const names[relation_count] = {"EV", "FV", "FE", "TV", "TE", "TF", "VE", "VF", "VT",
+  static const char* const names[relation_count] = {"EV", "FV", "FE", "TV", "TE", "TF", "VE", "VF",  "VT",
                                                     "EF", "ET", "FT", "VV", "EE", "FF", "TT", "link"};
   return names[static_cast<int>(relation)];
 }

@@ -9,10 +9,11 @@
 
 namespace gale {
 
-/// Which simplices touch which: `XY` gives for an X the Ys that touch it. Adjacent k-simplices share a (k-1)-simplex, vertices an edge.
+/// Which simplices touch which: `XY` gives for an X the Ys that touch it. Adjacent k-simplices share a (k-1)-simplex,
+/// vertices an edge.
 ///
-/// `link` is a form of the star of a vertex for its readers: per tetrahedron of its `VT` row, in that order, the places of the other
-/// three vertices in its `VV` row.
+/// `link` is a form of the star of a vertex for its readers: per tetrahedron of its `VT` row, in that order, the places
+/// of the other three vertices in its `VV` row.
 enum class Relation : std::uint8_t { EV, FV, FE, TV, TE, TF, VE, VF, VT, EF, ET, FT, VV, EE, FF, TT, link };
 
 inline constexpr int relation_count = 17;
@@ -57,9 +58,15 @@ class RelationSet {
     return RelationSet(bits_ & ((std::uint32_t(1) << static_cast<int>(relation)) - 1), 0).count();
   }
 
-  friend KOKKOS_FUNCTION constexpr RelationSet operator&(RelationSet a, RelationSet b) { return RelationSet(a.bits_ & b.bits_, 0); }
-  friend KOKKOS_FUNCTION constexpr RelationSet operator-(RelationSet a, RelationSet b) { return RelationSet(a.bits_ & ~b.bits_, 0); }
-  friend KOKKOS_FUNCTION constexpr RelationSet operator|(RelationSet a, RelationSet b) { return RelationSet(a.bits_ | b.bits_, 0); }
+  friend KOKKOS_FUNCTION constexpr RelationSet operator&(RelationSet a, RelationSet b) {
+    return RelationSet(a.bits_ & b.bits_, 0);
+  }
+  friend KOKKOS_FUNCTION constexpr RelationSet operator-(RelationSet a, RelationSet b) {
+    return RelationSet(a.bits_ & ~b.bits_, 0);
+  }
+  friend KOKKOS_FUNCTION constexpr RelationSet operator|(RelationSet a, RelationSet b) {
+    return RelationSet(a.bits_ | b.bits_, 0);
+  }
   friend KOKKOS_FUNCTION constexpr bool operator==(RelationSet a, RelationSet b) { return a.bits_ == b.bits_; }
 
  private:
@@ -81,7 +88,8 @@ inline constexpr RelationSet face_relations =
 inline constexpr RelationSet coboundary_relations =
     Relation::VE | Relation::VF | Relation::VT | Relation::EF | Relation::ET | Relation::FT;
 inline constexpr RelationSet adjacency_relations = Relation::VV | Relation::EE | Relation::FF | Relation::TT;
-inline constexpr RelationSet all_relations = face_relations | coboundary_relations | adjacency_relations | Relation::link;
+inline constexpr RelationSet all_relations =
+    face_relations | coboundary_relations | adjacency_relations | Relation::link;
 
 /// What one kernel can compute from the star of each of a segment's vertices.
 inline constexpr RelationSet star_relations = Relation::VV | Relation::VT | Relation::link;

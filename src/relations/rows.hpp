@@ -20,8 +20,8 @@ struct Row {
   KOKKOS_FUNCTION const Id* end() const { return ids + count; }
 };
 
-/// The rows of consecutive simplices, from `first` on. The row of simplex first + i is ids[offsets[i]] to ids[offsets[i + 1] - 1]; offsets
-/// needn't begin with 0.
+/// The rows of consecutive simplices, from `first` on. The row of simplex first + i is ids[offsets[i]] to ids[offsets[i
+/// + 1] - 1]; offsets needn't begin with 0.
 struct Rows {
   Id first = 0;
   const Id* offsets = nullptr;
@@ -33,7 +33,8 @@ struct Rows {
   }
 };
 
-/// The link of a vertex: for each tetrahedron of its star, the places of the other three vertices in its VV row, in 1, 2 or 4 bytes each.
+/// The link of a vertex: for each tetrahedron of its star, the places of the other three vertices in its VV row, in 1,
+/// 2 or 4 bytes each.
 struct LinkRow {
   const void* places = nullptr;
   Id count = 0;  ///< tetrahedra
@@ -67,8 +68,8 @@ struct LinkRows {
 /// Bytes that a place in rows of at most `longest` entries takes.
 KOKKOS_INLINE_FUNCTION int width_for(Id longest) { return longest <= 256 ? 1 : longest <= 65536 ? 2 : 4; }
 
-/// How blocks lie in memory, in words of an Id: the offsets of `rows` rows and one more, then the ids; in a block of links, the
-/// width of a place stands between, and the places follow it.
+/// How blocks lie in memory, in words of an Id: the offsets of `rows` rows and one more, then the ids; in a block of
+/// links, the width of a place stands between, and the places follow it.
 struct BlockLayout {
   Id first = 0;
   Id rows = 0;

@@ -34,7 +34,8 @@ class SegmentRows {
 
   Id segment() const { return segment_; }
 
-  /// Its simplices of a dimension are first(dimension) to last(dimension) - 1 (GALE's ids): those whose lowest vertex it holds.
+  /// Its simplices of a dimension are first(dimension) to last(dimension) - 1 (GALE's ids): those whose lowest vertex
+  /// it holds.
   Id first(int dimension = 0) const { return simplices_[dimension].first; }
   Id last(int dimension = 0) const { return simplices_[dimension].last; }
   bool has(int dimension, Id simplex) const { return simplices_[dimension].has(simplex); }

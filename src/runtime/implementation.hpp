@@ -3,9 +3,9 @@
 #include <memory>
 #include <mutex>
 
-#include <gale/runtime/structure.hpp>
 #include <gale/runtime/options.hpp>
 #include <gale/runtime/statistics.hpp>
+#include <gale/runtime/structure.hpp>
 
 namespace gale::detail {
 
@@ -13,7 +13,8 @@ namespace gale::detail {
 class RuntimeImplementation {
  public:
   virtual ~RuntimeImplementation() = default;
-  virtual void for_each_segment(RelationSet wanted, const SweepOptions& options, const Structure::SegmentBody& body) = 0;
+  virtual void for_each_segment(RelationSet wanted, const SweepOptions& options,
+                                const Structure::SegmentBody& body) = 0;
   virtual std::unique_ptr<Consumer> consumer() = 0;
   virtual Production way() const = 0;
   virtual RuntimeStatistics statistics() const = 0;
@@ -33,13 +34,15 @@ class RuntimeImplementation {
 std::unique_ptr<RuntimeImplementation> by_consumers(const Mesh& mesh, RelationSet relations);
 
 /// Way::helpers.
-std::unique_ptr<RuntimeImplementation> by_helpers(const Mesh& mesh, RelationSet relations, const RuntimeOptions& options);
+std::unique_ptr<RuntimeImplementation> by_helpers(const Mesh& mesh, RelationSet relations,
+                                                  const RuntimeOptions& options);
 
 /// Way::task_parallel.
 std::unique_ptr<RuntimeImplementation> by_pairs(const Mesh& mesh, RelationSet relations);
 
 /// Way::leaders.
-std::unique_ptr<RuntimeImplementation> by_leaders(const Mesh& mesh, RelationSet relations, const RuntimeOptions& options);
+std::unique_ptr<RuntimeImplementation> by_leaders(const Mesh& mesh, RelationSet relations,
+                                                  const RuntimeOptions& options);
 
 /// The statistics of consumers that have ended. Thread-safe.
 class ConsumerLog {

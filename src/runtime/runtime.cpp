@@ -1,19 +1,24 @@
-#include <gale/runtime/runtime.hpp>
-
 #include <gale/base/error.hpp>
 #include <gale/runtime/implementation.hpp>
+#include <gale/runtime/runtime.hpp>
 
 namespace gale {
 
 namespace {
 
-std::unique_ptr<detail::RuntimeImplementation> implement(const Mesh& mesh, RelationSet wanted, const RuntimeOptions& options) {
+std::unique_ptr<detail::RuntimeImplementation> implement(const Mesh& mesh, RelationSet wanted,
+                                                         const RuntimeOptions& options) {
   switch (options.way) {
-    case Way::automatic: return have_device ? detail::by_leaders(mesh, wanted, options) : detail::by_helpers(mesh, wanted, options);
-    case Way::leaders: return detail::by_leaders(mesh, wanted, options);
-    case Way::inline_: return detail::by_consumers(mesh, wanted);
-    case Way::helpers: return detail::by_helpers(mesh, wanted, options);
-    case Way::task_parallel: return detail::by_pairs(mesh, wanted);
+    case Way::automatic:
+      return have_device ? detail::by_leaders(mesh, wanted, options) : detail::by_helpers(mesh, wanted, options);
+    case Way::leaders:
+      return detail::by_leaders(mesh, wanted, options);
+    case Way::inline_:
+      return detail::by_consumers(mesh, wanted);
+    case Way::helpers:
+      return detail::by_helpers(mesh, wanted, options);
+    case Way::task_parallel:
+      return detail::by_pairs(mesh, wanted);
   }
   throw Error("there is no such way of computing");
 }

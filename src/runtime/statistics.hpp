@@ -46,7 +46,7 @@ struct LeaderStatistics {
   std::int64_t segments_recomputed = 0;  ///< of them, those that it had computed before
   std::int64_t bytes = 0;                ///< of blocks
   std::int64_t blocks_evicted = 0;
-  std::int64_t batches_split = 0;        ///< that didn't fit, and were tried again in parts
+  std::int64_t batches_split = 0;  ///< that didn't fit, and were tried again in parts
 };
 
 /// Everything since the runtime was made.

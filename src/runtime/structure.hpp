@@ -19,9 +19,10 @@ class Consumer {
  public:
   virtual ~Consumer() = default;
 
-  /// The row of a simplex (GALE's id) in any relation but link. A few ns inside the segment that was asked for last; else what it takes to have
-  /// the block computed, or, in a face relation, to look it up (`face_row` does that without a call). Throws gale::Error if the relation was
-  /// not preconditioned, if there is no such simplex, or if it can't be computed.
+  /// The row of a simplex (GALE's id) in any relation but link. A few ns inside the segment that was asked for last;
+  /// else what it takes to have the block computed, or, in a face relation, to look it up (`face_row` does that without
+  /// a call). Throws gale::Error if the relation was not preconditioned, if there is no such simplex, or if it can't be
+  /// computed.
   Row row(Relation relation, Id simplex) {
     auto& rows = current_[static_cast<int>(relation)];
     if (!rows.has(row_dimension(relation), simplex)) reload(rows, relation, simplex);
@@ -57,12 +58,13 @@ struct SweepOptions {
   std::function<void(Id done, Id segments)> progress;
 };
 
-/// Whatever answers which simplices touch which: all rows at once (`ExplicitStructure`), or segment by segment as they are wanted
+/// Whatever answers which simplices touch which: all rows at once (`ExplicitStructure`), or segment by segment as they
+/// are wanted
 /// (`Runtime`). Algorithms are written against this and give the same results on each.
 class Structure {
  public:
-  /// Called with a consumer's number, in 0..threads-1, and the blocks of a segment, which are valid during the call. Different consumers call it
-  /// at the same time.
+  /// Called with a consumer's number, in 0..threads-1, and the blocks of a segment, which are valid during the call.
+  /// Different consumers call it at the same time.
   using SegmentBody = std::function<void(int consumer, const SegmentRows& rows)>;
 
   virtual ~Structure() = default;
@@ -72,13 +74,13 @@ class Structure {
   /// The relations that it was preconditioned for.
   virtual RelationSet relations() const = 0;
 
-  /// Has it every row of these at any time? Then a consumer reads each in a few ns. Else rows of face relations come from the mesh' tables, and
-  /// `face_row` is the fast way to them.
+  /// Has it every row of these at any time? Then a consumer reads each in a few ns. Else rows of face relations come
+  /// from the mesh' tables, and `face_row` is the fast way to them.
   virtual bool keeps_all_rows() const { return false; }
 
-  /// A sweep: calls `body` once for every segment, in no order to rely on, with the blocks of the relations `wanted`, on `options.threads`
-  /// consumer threads. If a body throws, no further segment is begun and the exception is thrown again here. Throws gale::Error if `wanted`
-  /// has a relation that was not preconditioned.
+  /// A sweep: calls `body` once for every segment, in no order to rely on, with the blocks of the relations `wanted`,
+  /// on `options.threads` consumer threads. If a body throws, no further segment is begun and the exception is thrown
+  /// again here. Throws gale::Error if `wanted` has a relation that was not preconditioned.
   virtual void for_each_segment(RelationSet wanted, const SweepOptions& options, const SegmentBody& body) = 0;
 
   /// For rows in any order. Any thread may make one, and any number of them.

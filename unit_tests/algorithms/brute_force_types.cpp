@@ -22,7 +22,8 @@ int components(const Side& side) {
 
 }  // namespace
 
-std::vector<int> brute_force_types(const InputMesh& mesh, const BruteForce& brute_force, const std::vector<double>& field) {
+std::vector<int> brute_force_types(const InputMesh& mesh, const BruteForce& brute_force,
+                                   const std::vector<double>& field) {
   const auto below = [&](Id a, Id b) { return std::make_pair(field[a], a) < std::make_pair(field[b], b); };
   std::vector<int> types;
   for (Id v = 0; v < mesh.vertices(); ++v) {

@@ -1,9 +1,10 @@
-#include <gtest/gtest.h>
-
-#include <gale/algorithms/gradient/cell_set.hpp>
 #include <random>
 #include <set>
 #include <vector>
+
+#include <gtest/gtest.h>
+
+#include <gale/algorithms/gradient/cell_set.hpp>
 
 namespace gale::test {
 

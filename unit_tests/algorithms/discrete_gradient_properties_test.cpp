@@ -1,12 +1,13 @@
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <functional>
+#include <numeric>
+#include <random>
+
+#include <gtest/gtest.h>
+
 #include <gale/algorithms/critical_points.hpp>
 #include <gale/algorithms/discrete_gradient.hpp>
 #include <gale/runtime/runtime.hpp>
-#include <numeric>
-#include <random>
 
 #include "algorithms/fields.hpp"
 #include "algorithms/gradient_reader.hpp"

@@ -1,8 +1,9 @@
+#include <numeric>
+
 #include <gtest/gtest.h>
 
 #include <gale/algorithms/discrete_gradient.hpp>
 #include <gale/runtime/runtime.hpp>
-#include <numeric>
 
 #include "algorithms/fields.hpp"
 #include "algorithms/gradient_reader.hpp"

@@ -1,8 +1,9 @@
+#include <random>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include <gale/algorithms/gradient/edge_pairs.hpp>
-#include <random>
-#include <vector>
 
 namespace gale::test {
 

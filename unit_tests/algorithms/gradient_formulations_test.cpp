@@ -1,12 +1,12 @@
-#include <gtest/gtest.h>
-
 #include <functional>
 #include <limits>
 #include <memory>
 #include <random>
 
-#include <gale/baselines/discrete_gradient_from_cells.hpp>
+#include <gtest/gtest.h>
+
 #include <gale/base/error.hpp>
+#include <gale/baselines/discrete_gradient_from_cells.hpp>
 #include <gale/io/synthetic.hpp>
 #include <gale/runtime/explicit/explicit_structure.hpp>
 #include <gale/runtime/runtime.hpp>
@@ -30,15 +30,19 @@ std::unique_ptr<Structure> make_runtime(const Mesh& mesh, RelationSet relations,
 
 std::vector<StructureKind> structure_kinds() {
   std::vector<StructureKind> kinds = {
-      {"consumers", [](const Mesh& mesh, RelationSet relations) { return make_runtime(mesh, relations, Way::inline_); }},
+      {"consumers",
+       [](const Mesh& mesh, RelationSet relations) { return make_runtime(mesh, relations, Way::inline_); }},
       {"leaders", [](const Mesh& mesh, RelationSet relations) { return make_runtime(mesh, relations, Way::leaders); }}};
 #if defined(GALE_ENABLE_KOKKOS_KERNELS)
-  kinds.push_back({"explicit", [](const Mesh& mesh, RelationSet relations) { return std::make_unique<ExplicitStructure>(mesh, relations); }});
+  kinds.push_back({"explicit", [](const Mesh& mesh, RelationSet relations) {
+                     return std::make_unique<ExplicitStructure>(mesh, relations);
+                   }});
 #endif
   return kinds;
 }
 
-/// Few values, so that ties matter; one value; falling from the first vertex, which is the apex of the cones, and rising; any; and infinities.
+/// Few values, so that ties matter; one value; falling from the first vertex, which is the apex of the cones, and
+/// rising; any; and infinities.
 std::vector<std::vector<float>> fields_on(const InputMesh& mesh) {
   constexpr float infinity = std::numeric_limits<float>::infinity();
   std::mt19937 random(20261122);
@@ -91,7 +95,8 @@ TEST_P(GradientFormulationsOn, every_mesh_agree_pair_by_pair_on_every_structure)
   const Mesh mesh = encode(input(), segmentation());
   Runtime stars(mesh, discrete_gradient_relations);
   std::vector<std::unique_ptr<Structure>> structures;
-  for (const auto& kind : structure_kinds()) structures.push_back(kind.make(mesh, discrete_gradient_from_cells_relations));
+  for (const auto& kind : structure_kinds())
+    structures.push_back(kind.make(mesh, discrete_gradient_from_cells_relations));
   for (const auto& field : fields_on(input())) {
     const VertexOrder order(mesh, field.data(), field.size());
     const DiscreteGradient expected = find_discrete_gradient(stars, order, with_threads(2));
@@ -109,7 +114,8 @@ TEST(GradientFromCells, has_the_known_counts_on_a_grid) {
   const io::Dataset dataset = io::make_grid(32);
   const auto& points = std::get<io::Dataset::Points<float>>(dataset.points);
   const auto& field = std::get<std::vector<float>>(dataset.arrays.front().values);
-  const Mesh mesh(Tetrahedra<Id, HostMemory>(dataset.tetrahedra), octree_segmentation<float, HostMemory>(Points<float, HostMemory>(points), 100));
+  const Mesh mesh(Tetrahedra<Id, HostMemory>(dataset.tetrahedra),
+                  octree_segmentation<float, HostMemory>(Points<float, HostMemory>(points), 100));
   const VertexOrder order(mesh, field.data(), field.size());
   Runtime stars(mesh, discrete_gradient_relations);
   const DiscreteGradient expected = find_discrete_gradient(stars, order);

@@ -1,6 +1,7 @@
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <gale/algorithms/gradient/bit_queues.hpp>
 #include <gale/algorithms/gradient/lower_neighbours.hpp>
 #include <gale/algorithms/gradient/lower_star.hpp>

@@ -1,11 +1,12 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <array>
-#include <gale/algorithms/discrete_gradient.hpp>
 #include <map>
 #include <vector>
+
+#include <gtest/gtest.h>
+
+#include <gale/algorithms/discrete_gradient.hpp>
 
 #include "algorithms/brute_force_gradient.hpp"
 #include "support/brute_force.hpp"

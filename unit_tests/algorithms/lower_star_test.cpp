@@ -1,17 +1,18 @@
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <array>
-#include <gale/algorithms/gradient/bit_queues.hpp>
-#include <gale/algorithms/gradient/large_lower_star.hpp>
-#include <gale/algorithms/gradient/lower_neighbours.hpp>
-#include <gale/algorithms/gradient/lower_star.hpp>
-#include <gale/algorithms/gradient/pair_cells.hpp>
 #include <map>
 #include <memory>
 #include <random>
 #include <set>
 #include <vector>
+
+#include <gtest/gtest.h>
+
+#include <gale/algorithms/gradient/bit_queues.hpp>
+#include <gale/algorithms/gradient/large_lower_star.hpp>
+#include <gale/algorithms/gradient/lower_neighbours.hpp>
+#include <gale/algorithms/gradient/lower_star.hpp>
+#include <gale/algorithms/gradient/pair_cells.hpp>
 
 namespace gale::test {
 

@@ -1,8 +1,9 @@
+#include <map>
+
 #include <gtest/gtest.h>
 
 #include <gale/algorithms/morse_smale.hpp>
 #include <gale/base/error.hpp>
-#include <map>
 
 #include "algorithms/brute_force_complex.hpp"
 #include "algorithms/fields.hpp"

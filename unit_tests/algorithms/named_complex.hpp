@@ -1,11 +1,12 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <array>
-#include <gale/algorithms/morse_smale.hpp>
 #include <tuple>
 #include <vector>
+
+#include <gtest/gtest.h>
+
+#include <gale/algorithms/morse_smale.hpp>
 
 #include "algorithms/brute_force_gradient.hpp"
 

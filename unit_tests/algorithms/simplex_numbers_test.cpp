@@ -1,11 +1,11 @@
-#include <gtest/gtest.h>
-
 #include <memory>
 #include <random>
 
+#include <gtest/gtest.h>
+
 #include <gale/algorithms/simplex_numbers.hpp>
-#include <gale/mesh/input_numbers.hpp>
 #include <gale/algorithms/surface_vertices.hpp>
+#include <gale/mesh/input_numbers.hpp>
 #include <gale/runtime/runtime.hpp>
 
 #include "algorithms/structure_kinds.hpp"
@@ -16,7 +16,9 @@ namespace gale::test {
 
 namespace {
 
-std::vector<Id> to_vector(const Array<const Id, HostMemory>& numbers) { return {numbers.data(), numbers.data() + numbers.extent(0)}; }
+std::vector<Id> to_vector(const Array<const Id, HostMemory>& numbers) {
+  return {numbers.data(), numbers.data() + numbers.extent(0)};
+}
 
 /// All edges and triangles of a mesh, in the order of GALE's ids, the vertices of each in any.
 NamedSimplices all_simplices(const Mesh& mesh) {
@@ -73,8 +75,9 @@ class SimplexNumbersOfTwo : public testing::Test {
 
 TEST_F(SimplexNumbersOfTwo, are_places_in_lexicographic_order) {
   // 01 02 03 12 13 14 23 24 34, and 012 013 023 123 124 134 234
-  const auto numbers = number_simplices(runtime, {{edge(3, 2), edge(0, 1), edge(4, 1), edge(3, 4), edge(0, 1)},
-                                                  {triangle(3, 2, 1), triangle(0, 1, 2), triangle(4, 2, 3), triangle(3, 1, 2)}});
+  const auto numbers =
+      number_simplices(runtime, {{edge(3, 2), edge(0, 1), edge(4, 1), edge(3, 4), edge(0, 1)},
+                                 {triangle(3, 2, 1), triangle(0, 1, 2), triangle(4, 2, 3), triangle(3, 1, 2)}});
   EXPECT_EQ(numbers.edges, (std::vector<Id>{6, 0, 5, 8, 0}));
   EXPECT_EQ(numbers.triangles, (std::vector<Id>{3, 0, 6, 3}));
 }
@@ -87,12 +90,30 @@ TEST_F(SimplexNumbersOfTwo, of_nothing_are_none) {
 }
 
 TEST_F(SimplexNumbersOfTwo, of_what_is_not_there_are_refused) {
-  EXPECT_EQ(message_of([&] { number_simplices(runtime, {{edge(4, 0)}, {}}); }), "no simplex of the mesh has just the input vertices 0 4");
-  EXPECT_EQ(message_of([&] { number_simplices(runtime, {{edge(2, 2)}, {}}); }), "no simplex of the mesh has just the input vertices 2 2");
-  EXPECT_EQ(message_of([&] { number_simplices(runtime, {{}, {triangle(4, 0, 1)}}); }), "no simplex of the mesh has just the input vertices 0 1 4");
-  EXPECT_EQ(message_of([&] { number_simplices(runtime, {{}, {triangle(3, 1, 3)}}); }), "no simplex of the mesh has just the input vertices 1 3 3");
-  EXPECT_EQ(message_of([&] { number_simplices(runtime, {{{0, 5}}, {}}); }), "no vertex 5 to number a simplex of: there are 5");
-  EXPECT_EQ(message_of([&] { number_simplices(runtime, {{}, {{0, -1, 2}}}); }), "no vertex -1 to number a simplex of: there are 5");
+  EXPECT_EQ(message_of([&] {
+              number_simplices(runtime, {{edge(4, 0)}, {}});
+            }),
+            "no simplex of the mesh has just the input vertices 0 4");
+  EXPECT_EQ(message_of([&] {
+              number_simplices(runtime, {{edge(2, 2)}, {}});
+            }),
+            "no simplex of the mesh has just the input vertices 2 2");
+  EXPECT_EQ(message_of([&] {
+              number_simplices(runtime, {{}, {triangle(4, 0, 1)}});
+            }),
+            "no simplex of the mesh has just the input vertices 0 1 4");
+  EXPECT_EQ(message_of([&] {
+              number_simplices(runtime, {{}, {triangle(3, 1, 3)}});
+            }),
+            "no simplex of the mesh has just the input vertices 1 3 3");
+  EXPECT_EQ(message_of([&] {
+              number_simplices(runtime, {{{0, 5}}, {}});
+            }),
+            "no vertex 5 to number a simplex of: there are 5");
+  EXPECT_EQ(message_of([&] {
+              number_simplices(runtime, {{}, {{0, -1, 2}}});
+            }),
+            "no vertex -1 to number a simplex of: there are 5");
 }
 
 TEST(SimplexNumbers, of_a_vertex_with_more_neighbours_than_bits) {
@@ -101,7 +122,8 @@ TEST(SimplexNumbers, of_a_vertex_with_more_neighbours_than_bits) {
     const Mesh mesh = encode(input, octree_of(input, 100));
     Runtime runtime(mesh, simplex_numbers_relations);
     const auto internal = mesh.vertex_internal();
-    const auto numbers = number_simplices(runtime, {{{internal(degree), internal(0)}, {internal(2), internal(1)}}, {{internal(degree), internal(0), internal(1)}}});
+    const auto numbers = number_simplices(runtime, {{{internal(degree), internal(0)}, {internal(2), internal(1)}},
+                                                    {{internal(degree), internal(0), internal(1)}}});
     EXPECT_EQ(numbers.edges, (std::vector<Id>{degree - 1, degree}));  // the last of 0's, and the next
     EXPECT_EQ(numbers.triangles, (std::vector<Id>{degree - 2}));      // the last of 0 and 1, of degree - 1
   }

@@ -18,8 +18,7 @@ StructureKind runtime_kind(const char* name, Production production) {
 }  // namespace
 
 std::vector<StructureKind> structure_kinds() {
-  std::vector<StructureKind> kinds = {runtime_kind("consumers", Way::inline_),
-                                      runtime_kind("leaders", Way::leaders)};
+  std::vector<StructureKind> kinds = {runtime_kind("consumers", Way::inline_), runtime_kind("leaders", Way::leaders)};
 #if defined(GALE_ENABLE_KOKKOS_KERNELS)
   kinds.push_back({"explicit", [](const Mesh& mesh, RelationSet relations) {
                      return std::make_unique<ExplicitStructure>(mesh, relations);

@@ -1,10 +1,11 @@
 #pragma once
 
 #include <functional>
-#include <gale/runtime/structure.hpp>
 #include <memory>
 #include <string>
 #include <vector>
+
+#include <gale/runtime/structure.hpp>
 
 namespace gale::test {
 

@@ -1,8 +1,8 @@
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <limits>
 #include <random>
+
+#include <gtest/gtest.h>
 
 #include <gale/algorithms/vertex_order.hpp>
 #include <gale/base/error.hpp>
@@ -48,11 +48,13 @@ std::vector<Value> values_of() {
 
 template <class Value>
 class VertexOrderOf : public testing::Test {};
-using Values = testing::Types<std::int8_t, std::uint8_t, std::int16_t, std::uint16_t, std::int32_t, std::uint32_t, std::int64_t,
-                              std::uint64_t, float, double>;
+using Values = testing::Types<std::int8_t, std::uint8_t, std::int16_t, std::uint16_t, std::int32_t, std::uint32_t,
+                              std::int64_t, std::uint64_t, float, double>;
 TYPED_TEST_SUITE(VertexOrderOf, Values);
 
-TYPED_TEST(VertexOrderOf, each_type_is_by_value_then_by_input_id) { expect_order(mesh_of_input(), values_of<TypeParam>()); }
+TYPED_TEST(VertexOrderOf, each_type_is_by_value_then_by_input_id) {
+  expect_order(mesh_of_input(), values_of<TypeParam>());
+}
 
 template <class Value>
 class FloatingVertexOrder : public testing::Test {};
@@ -61,8 +63,8 @@ TYPED_TEST_SUITE(FloatingVertexOrder, FloatingValues);
 
 TYPED_TEST(FloatingVertexOrder, has_infinities_subnormals_and_equal_zeros) {
   using Limits = std::numeric_limits<TypeParam>;
-  const TypeParam some[] = {Limits::infinity(), TypeParam(0), -Limits::infinity(), -TypeParam(0), Limits::denorm_min(),
-                            -Limits::denorm_min(), Limits::max(), Limits::lowest()};
+  const TypeParam some[] = {Limits::infinity(),   TypeParam(0),          -Limits::infinity(), -TypeParam(0),
+                            Limits::denorm_min(), -Limits::denorm_min(), Limits::max(),       Limits::lowest()};
   std::vector<TypeParam> values;
   for (Id v = 0; v < input().vertices(); ++v) values.push_back(some[v * 5 % 8]);
   expect_order(mesh_of_input(), values);

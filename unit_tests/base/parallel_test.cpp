@@ -1,8 +1,8 @@
-#include <gtest/gtest.h>
-
 #include <atomic>
 #include <limits>
 #include <random>
+
+#include <gtest/gtest.h>
 
 #include <gale/base/parallel.hpp>
 #include <gale/base/types.hpp>

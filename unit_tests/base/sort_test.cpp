@@ -1,8 +1,8 @@
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <numeric>
 #include <random>
+
+#include <gtest/gtest.h>
 
 #include <gale/base/radix_sort.hpp>
 #include <gale/base/sort_rows.hpp>

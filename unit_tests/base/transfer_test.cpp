@@ -1,6 +1,6 @@
-#include <gtest/gtest.h>
-
 #include <numeric>
+
+#include <gtest/gtest.h>
 
 #include <gale/base/transfer.hpp>
 #include <gale/base/types.hpp>

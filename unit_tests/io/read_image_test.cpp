@@ -1,3 +1,5 @@
+#include <io/io_fixtures.hpp>
+
 #include <cstdint>
 #include <cstring>
 
@@ -5,7 +7,6 @@
 
 #include <gale/io/read.hpp>
 #include <gale/io/synthetic.hpp>
-#include <io/io_fixtures.hpp>
 
 namespace gale::io {
 namespace {

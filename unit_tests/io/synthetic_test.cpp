@@ -1,3 +1,5 @@
+#include <io/io_fixtures.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,7 +9,6 @@
 #include <gtest/gtest.h>
 
 #include <gale/io/synthetic.hpp>
-#include <io/io_fixtures.hpp>
 
 namespace gale::io {
 namespace {

@@ -1,3 +1,5 @@
+#include <io/io_fixtures.hpp>
+
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -6,7 +8,6 @@
 
 #include <gale/io/synthetic.hpp>
 #include <gale/io/voxels.hpp>
-#include <io/io_fixtures.hpp>
 
 namespace gale::io {
 namespace {

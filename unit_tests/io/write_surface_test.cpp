@@ -1,7 +1,8 @@
+#include <io/io_fixtures.hpp>
+
 #include <gtest/gtest.h>
 
 #include <gale/io/write.hpp>
-#include <io/io_fixtures.hpp>
 
 #ifdef GALE_ENABLE_VTK
 #include <vtkCell.h>
@@ -48,7 +49,8 @@ TEST_F(WriteSurface, ComesBackAsItWas) {
   ASSERT_EQ(back->GetNumberOfCells(), 3);
   for (int i = 0; i < 3; ++i) {
     std::vector<int> points;
-    for (int k = 0; k < back->GetCell(i)->GetNumberOfPoints(); ++k) points.push_back(static_cast<int>(back->GetCell(i)->GetPointId(k)));
+    for (int k = 0; k < back->GetCell(i)->GetNumberOfPoints(); ++k)
+      points.push_back(static_cast<int>(back->GetCell(i)->GetPointId(k)));
     EXPECT_EQ(points, cells[i]);
     EXPECT_EQ(back->GetCellData()->GetArray("SourceId")->GetTuple1(i), 7 + i);
   }
@@ -57,7 +59,8 @@ TEST_F(WriteSurface, ComesBackAsItWas) {
 #endif
 
 TEST_F(WriteSurface, WritesNothingToo) {
-  write_surface(folder / "surface.vtp", {Dataset::Points<float>("GALE::points", 0), {}, {}, {}, {{"SourceId", 1, std::vector<int>{}}}});
+  write_surface(folder / "surface.vtp",
+                {Dataset::Points<float>("GALE::points", 0), {}, {}, {}, {{"SourceId", 1, std::vector<int>{}}}});
   EXPECT_EQ(folder.names(), Names{"surface.vtp"});
 }
 
@@ -68,21 +71,28 @@ TEST_F(WriteSurface, RefusesWhatDoesNotFit) {
     change(surface);
     return error_of([&] { write_surface(path, surface); });
   };
-  EXPECT_EQ(error_with([](Surface& surface) { surface.polygons.points.back() = 5; }), start + "there is no point 5 among 5");
+  EXPECT_EQ(error_with([](Surface& surface) { surface.polygons.points.back() = 5; }),
+            start + "there is no point 5 among 5");
   EXPECT_EQ(error_with([](Surface& surface) { surface.lines.points[0] = -1; }), start + "there is no point -1 among 5");
-  EXPECT_EQ(error_with([](Surface& surface) { surface.lines.begin = {0, 6, 5}; }), start + "its cells don't begin one after the other");
-  EXPECT_EQ(error_with([](Surface& surface) { surface.lines.begin.pop_back(); }), start + "its cells don't begin one after the other");
+  EXPECT_EQ(error_with([](Surface& surface) {
+              surface.lines.begin = {0, 6, 5};
+            }),
+            start + "its cells don't begin one after the other");
+  EXPECT_EQ(error_with([](Surface& surface) { surface.lines.begin.pop_back(); }),
+            start + "its cells don't begin one after the other");
   EXPECT_EQ(error_with([](Surface& surface) { surface.cell_arrays[0].values = std::vector<std::int32_t>(2); }),
             start + "the array 'SourceId' has 2 values for 3 cells of 1 components");
   EXPECT_EQ(error_with([](Surface& surface) { surface.point_arrays[0].values = std::vector<std::int8_t>(4); }),
             start + "the array 'CellDimension' has 4 values for 5 points of 1 components");
-  EXPECT_EQ(error_of([] { write_surface("surface.vtk", two_lines_and_a_triangle()); }), "cannot write a surface to 'surface.vtk': its extension is not .vtp");
+  EXPECT_EQ(error_of([] { write_surface("surface.vtk", two_lines_and_a_triangle()); }),
+            "cannot write a surface to 'surface.vtk': its extension is not .vtp");
   EXPECT_EQ(folder.names(), Names{});
 }
 
 TEST(WriteSurfaceFile, NeedsVtk) {
   if (detail::has_vtk()) GTEST_SKIP() << "built with VTK";
-  EXPECT_EQ(error_of([] { write_surface("x.vtp", two_lines_and_a_triangle()); }), "this gale was built without VTK: it cannot write 'x.vtp'");
+  EXPECT_EQ(error_of([] { write_surface("x.vtp", two_lines_and_a_triangle()); }),
+            "this gale was built without VTK: it cannot write 'x.vtp'");
 }
 
 }  // namespace

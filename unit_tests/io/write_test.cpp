@@ -1,3 +1,4 @@
+#include <io/io_fixtures.hpp>
 #include <sys/resource.h>
 
 #include <csignal>
@@ -7,7 +8,6 @@
 #include <gale/io/read.hpp>
 #include <gale/io/synthetic.hpp>
 #include <gale/io/write.hpp>
-#include <io/io_fixtures.hpp>
 
 namespace gale::io {
 namespace {

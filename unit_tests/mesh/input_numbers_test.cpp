@@ -1,6 +1,6 @@
-#include <gtest/gtest.h>
-
 #include <set>
+
+#include <gtest/gtest.h>
 
 #include <gale/mesh/input_numbers.hpp>
 
@@ -37,7 +37,8 @@ TEST_P(InputNumbersOf, every_mesh_are_places_in_lexicographic_order) {
   needs.upto = Enumeration::triangles;
   const auto all = mesh.simplices_on_host(needs);
   std::vector<Vertices> edges, triangles;
-  for (Id e = 0; e < mesh.known_edges(); ++e) edges.push_back(input_vertices(mesh, {all.edge_low(e), all.edge_high(e)}));
+  for (Id e = 0; e < mesh.known_edges(); ++e)
+    edges.push_back(input_vertices(mesh, {all.edge_low(e), all.edge_high(e)}));
   for (Id f = 0; f < mesh.known_triangles(); ++f) {
     const Id edge = all.triangle_edge(f);
     triangles.push_back(input_vertices(mesh, {all.edge_low(edge), all.edge_high(edge), all.triangle_apex(f)}));

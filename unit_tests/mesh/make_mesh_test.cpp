@@ -17,7 +17,8 @@ View filled_points() {
   const View view("points", input().points.size(), 3);
   const auto host = Kokkos::create_mirror_view(view);
   for (std::size_t i = 0; i < view.extent(0); ++i) {
-    for (int axis = 0; axis < 3; ++axis) host(i, axis) = static_cast<typename View::value_type>(input().points[i][axis]);
+    for (int axis = 0; axis < 3; ++axis)
+      host(i, axis) = static_cast<typename View::value_type>(input().points[i][axis]);
   }
   Kokkos::deep_copy(view, host);
   return view;
@@ -28,7 +29,8 @@ View filled_tetrahedra() {
   const View view("tetrahedra", input().tetrahedra.size(), 4);
   const auto host = Kokkos::create_mirror_view(view);
   for (std::size_t i = 0; i < view.extent(0); ++i) {
-    for (int corner = 0; corner < 4; ++corner) host(i, corner) = static_cast<typename View::value_type>(input().tetrahedra[i][corner]);
+    for (int corner = 0; corner < 4; ++corner)
+      host(i, corner) = static_cast<typename View::value_type>(input().tetrahedra[i][corner]);
   }
   Kokkos::deep_copy(view, host);
   return view;
@@ -52,7 +54,8 @@ using Matrix = Kokkos::View<T**, Layout, Memory>;
 
 template <class Index, class Layout, class Memory>
 void expect_the_same_from() {
-  expect_the_same(make_mesh(filled_points<Matrix<double, Layout, Memory>>(), filled_tetrahedra<Matrix<Index, Layout, Memory>>(), 20));
+  expect_the_same(make_mesh(filled_points<Matrix<double, Layout, Memory>>(),
+                            filled_tetrahedra<Matrix<Index, Layout, Memory>>(), 20));
 }
 
 }  // namespace
@@ -79,7 +82,8 @@ TEST(MakeMesh, takes_vectors) {
   std::vector<double> points;
   for (const auto& point : input().points) points.insert(points.end(), point.begin(), point.end());
   std::vector<std::int64_t> tetrahedra;
-  for (const auto& tetrahedron : input().tetrahedra) tetrahedra.insert(tetrahedra.end(), tetrahedron.begin(), tetrahedron.end());
+  for (const auto& tetrahedron : input().tetrahedra)
+    tetrahedra.insert(tetrahedra.end(), tetrahedron.begin(), tetrahedron.end());
   expect_the_same(make_mesh(points, tetrahedra, 20));
 }
 

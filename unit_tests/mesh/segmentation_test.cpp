@@ -1,8 +1,8 @@
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <limits>
 #include <set>
+
+#include <gtest/gtest.h>
 
 #include <gale/base/error.hpp>
 

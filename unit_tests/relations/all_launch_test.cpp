@@ -1,6 +1,6 @@
-#include <gtest/gtest.h>
-
 #include <algorithm>
+
+#include <gtest/gtest.h>
 
 #include "relations/every_relation_mesh.hpp"
 #include "relations/launched_batch.hpp"

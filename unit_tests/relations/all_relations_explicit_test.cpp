@@ -1,8 +1,9 @@
 #ifdef GALE_ENABLE_KOKKOS_KERNELS
 
+#include <atomic>
+
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <gale/base/error.hpp>
 #include <gale/runtime/explicit/explicit_structure.hpp>
 

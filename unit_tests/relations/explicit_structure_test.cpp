@@ -1,10 +1,10 @@
-#include <gtest/gtest.h>
-
 #include <array>
 
+#include <gtest/gtest.h>
+
 #include <gale/base/error.hpp>
-#include <gale/runtime/explicit/global_graph.hpp>
 #include <gale/runtime/explicit/explicit_structure.hpp>
+#include <gale/runtime/explicit/global_graph.hpp>
 
 #include "relations/star_subsets.hpp"
 #include "support/brute_force.hpp"
@@ -125,8 +125,8 @@ TEST(ExplicitStructure, has_the_rows_of_each_relation_and_of_each_pair) {
   }
 }
 
-/// Segments {0, 1, 2} and {3, 4, 5}; tetrahedra (0 1 2 3), (0 2 3 4) and (2 3 4 5). Edges: 01 02 03 04 12 13 23 24 25, and 34 35 45. Triangles:
-/// 012 013 023 024 034 123 234 235 245, and 345.
+/// Segments {0, 1, 2} and {3, 4, 5}; tetrahedra (0 1 2 3), (0 2 3 4) and (2 3 4 5). Edges: 01 02 03 04 12 13 23 24 25,
+/// and 34 35 45. Triangles: 012 013 023 024 034 123 234 235 245, and 345.
 TEST(ExplicitStructure, knows_which_simplices_are_internal_to_a_segment) {
   ExplicitStructure structure(encode(mesh_named("the_papers"), segmentation_by({1, 1, 1, 2, 2, 2})), all_relations);
   constexpr Interval expected[2][4] = {{{0, 3}, {0, 9}, {0, 9}, {0, 3}}, {{3, 6}, {9, 12}, {9, 10}, {3, 3}}};
@@ -168,9 +168,12 @@ TEST(ExplicitStructure, numbers_no_simplices_that_it_does_not_need) {
     return std::array<Id, 4>{structure.count(0), structure.count(1), structure.count(2), structure.count(3)};
   };
   constexpr std::array<Id, 4> no_edges{4, no_id, no_id, 1}, no_triangles{4, 6, no_id, 1}, all{4, 6, 4, 1};
-  for (const RelationSet wanted : {RelationSet(), RelationSet(Relation::TV), star_relations}) EXPECT_EQ(counts(wanted), no_edges);
-  for (const Relation wanted : {Relation::EV, Relation::TE, Relation::VE, Relation::ET, Relation::EE}) EXPECT_EQ(counts(wanted), no_triangles);
-  for (const Relation wanted : {Relation::FV, Relation::FE, Relation::TF, Relation::VF, Relation::EF, Relation::FT, Relation::FF, Relation::TT}) {
+  for (const RelationSet wanted : {RelationSet(), RelationSet(Relation::TV), star_relations})
+    EXPECT_EQ(counts(wanted), no_edges);
+  for (const Relation wanted : {Relation::EV, Relation::TE, Relation::VE, Relation::ET, Relation::EE})
+    EXPECT_EQ(counts(wanted), no_triangles);
+  for (const Relation wanted : {Relation::FV, Relation::FE, Relation::TF, Relation::VF, Relation::EF, Relation::FT,
+                                Relation::FF, Relation::TT}) {
     EXPECT_EQ(counts(wanted), all);
   }
 }

@@ -32,8 +32,7 @@ Table in_a_kernel(const Mesh& mesh, std::size_t rows) {
   parallel_for(
       "test_face_rows", WorkerSpace(), rows, KOKKOS_LAMBDA(Offset i) {
         const auto row = face_row<relation>(simplices, static_cast<Id>(i));
-        for (int entry = 0; entry < face_count(relation); ++entry)
-          ids(face_count(relation) * i + entry) = row[entry];
+        for (int entry = 0; entry < face_count(relation); ++entry) ids(face_count(relation) * i + entry) = row[entry];
       });
   const auto all = to_vector(ids);
   Table table;

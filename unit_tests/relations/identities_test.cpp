@@ -1,6 +1,7 @@
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <gale/relations/host_worker.hpp>
 
 #include "support/brute_force.hpp"

@@ -1,8 +1,9 @@
 #pragma once
 
+#include <vector>
+
 #include <gale/relations/kernels/segment_kernel.hpp>
 #include <gale/relations/segment_rows.hpp>
-#include <vector>
 
 namespace gale::test {
 

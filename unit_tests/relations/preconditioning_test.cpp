@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <gale/base/error.hpp>
-#include <gale/relations/preconditioning.hpp>
 #include <gale/relations/kernels/segment_kernel.hpp>
+#include <gale/relations/preconditioning.hpp>
 
 #include "support/message_of.hpp"
 #include "support/segmentations.hpp"

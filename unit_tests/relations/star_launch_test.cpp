@@ -1,6 +1,6 @@
-#include <gtest/gtest.h>
-
 #include <algorithm>
+
+#include <gtest/gtest.h>
 
 #include <gale/base/error.hpp>
 #include <gale/relations/kernels/launch.hpp>
@@ -174,8 +174,7 @@ TEST(LaunchedStars, refuse_more_scratch_memory_than_a_team_can_have) {
     launch(WorkerSpace(), kernel, 1, 1);
     ADD_FAILURE() << "accepted";
   } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find("a segment of 1000 rows takes 24000"), std::string::npos)
-        << error.what();
+    EXPECT_NE(std::string(error.what()).find("a segment of 1000 rows takes 24000"), std::string::npos) << error.what();
   }
 }
 

@@ -1,10 +1,10 @@
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <stdexcept>
 #include <thread>
+
+#include <gtest/gtest.h>
 
 #include <gale/runtime/sweep.hpp>
 

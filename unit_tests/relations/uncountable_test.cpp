@@ -13,12 +13,14 @@ TEST(Uncountable, entries_of_one_segment_are_refused_by_name) {
   const InputMesh input = cone_over_disc(70000);
   const Mesh mesh = encode(input, octree_of(input, 1000000));
   HostWorker worker(mesh, Relation::EE);
-  EXPECT_EQ(message_of([&] { worker.compute(0); }), "segment 0 has more than 2147483647 entries of EE: use smaller segments");
+  EXPECT_EQ(message_of([&] { worker.compute(0); }),
+            "segment 0 has more than 2147483647 entries of EE: use smaller segments");
 }
 
 TEST(Uncountable, blocks_of_a_batch_are_refused_by_their_segment) {
   const Id segments[] = {3, 8};
-  const Offset all[] = {0, 16, 32, 64}, some[] = {0, 16, 32, BlockPool::missing}, more[] = {0, 16, BlockPool::uncountable, 64};
+  const Offset all[] = {0, 16, 32, 64}, some[] = {0, 16, 32, BlockPool::missing},
+               more[] = {0, 16, BlockPool::uncountable, 64};
   const RelationSet two = Relation::VV | Relation::VT;
   EXPECT_TRUE(are_there(two, segments, all, 2));
   EXPECT_FALSE(are_there(two, segments, some, 2));

@@ -1,10 +1,11 @@
-#include <gtest/gtest.h>
-
 #include <atomic>
-#include <gale/base/error.hpp>
-#include <gale/runtime/runtime.hpp>
 #include <random>
 #include <thread>
+
+#include <gtest/gtest.h>
+
+#include <gale/base/error.hpp>
+#include <gale/runtime/runtime.hpp>
 
 #include "runtime/ways.hpp"
 #include "support/brute_force.hpp"

@@ -1,11 +1,11 @@
-#include <gtest/gtest.h>
-
 #include <atomic>
 
+#include <gtest/gtest.h>
+
 #include <gale/base/error.hpp>
-#include <gale/runtime/sweep.hpp>
 #include <gale/runtime/helpers/helped_sweep.hpp>
 #include <gale/runtime/runtime.hpp>
+#include <gale/runtime/sweep.hpp>
 
 #include "support/brute_force.hpp"
 #include "support/message_of.hpp"
@@ -43,7 +43,9 @@ struct Fixture {
   ExpectedRows expected{input, brute_force_of("holed_grid_9"), mesh};
 
   detail::MakeWorker hooked(Hook hook) const {
-    return [this, hook](ConsumerStatistics& statistics, int kept) { return std::make_unique<Hooked>(mesh, statistics, kept, hook); };
+    return [this, hook](ConsumerStatistics& statistics, int kept) {
+      return std::make_unique<Hooked>(mesh, statistics, kept, hook);
+    };
   }
 
   /// Sweeps over all segments. Before each body, calls `before` with its segment.
@@ -80,7 +82,8 @@ std::int64_t hits(const detail::HelpedSweep& helped) {
 TEST(HelpedSweep, runs_ahead_of_a_consumer_until_the_ring_is_full) {
   const Fixture fixture;
   std::atomic<int> made{0};
-  detail::HelpedSweep helped(fixture.mesh.segments(), 1, fixture.hooked({}), 1, fixture.hooked([&](Id) { ++made; }), much);
+  detail::HelpedSweep helped(fixture.mesh.segments(), 1, fixture.hooked({}), 1, fixture.hooked([&](Id) { ++made; }),
+                             much);
   bool first = true;
   fixture.sweep(helped, 1, [&](Id) {
     if (std::exchange(first, false)) wait_until([&] { return made >= ring; });

@@ -1,8 +1,8 @@
-#include <gtest/gtest.h>
-
 #include <future>
 #include <new>
 #include <thread>
+
+#include <gtest/gtest.h>
 
 #include <gale/base/error.hpp>
 #include <gale/runtime/leaders/leader.hpp>
@@ -20,7 +20,8 @@ struct Fixture {
   Mesh mesh = encode(input, octree_of(input, 7));
   ConsumerStatistics statistics;
 
-  std::unique_ptr<detail::Leader> leader(Interrupted::Interruption at_launch, Interrupted::Interruption at_finish, Id per_request = 8) {
+  std::unique_ptr<detail::Leader> leader(Interrupted::Interruption at_launch, Interrupted::Interruption at_finish,
+                                         Id per_request = 8) {
     std::vector<std::unique_ptr<detail::BatchWorker>> workers;
     for (int i = 0; i < 2; ++i) workers.push_back(std::make_unique<Interrupted>(mesh, at_launch, at_finish));
     detail::LeaderParameters parameters;
@@ -94,7 +95,8 @@ TEST(Leader, lets_consumers_that_want_one_segment_share_one_computation) {
   Fixture fixture;
   std::promise<void> all_wait;
   const auto ready = all_wait.get_future().share();
-  const auto leader = fixture.leader({}, [&](const std::vector<Id>&) { ready.wait(); }, 1);
+  const auto leader = fixture.leader(
+      {}, [&](const std::vector<Id>&) { ready.wait(); }, 1);
   std::vector<std::thread> threads;
   for (int i = 0; i < 6; ++i) {
     threads.emplace_back([&] {
@@ -112,10 +114,13 @@ TEST(Leader, makes_one_batch_of_all_requests_that_wait) {
   std::promise<void> begun, go_on;
   const auto may_go_on = go_on.get_future().share();
   std::atomic<int> finished{0};
-  const auto leader = fixture.leader({}, [&](const std::vector<Id>&) {
-    if (finished++ == 0) begun.set_value();
-    may_go_on.wait();
-  }, 1);
+  const auto leader = fixture.leader(
+      {},
+      [&](const std::vector<Id>&) {
+        if (finished++ == 0) begun.set_value();
+        may_go_on.wait();
+      },
+      1);
   std::vector<std::thread> threads;
   for (int i = 0; i < 9; ++i) {
     threads.emplace_back([&, i] {
@@ -135,10 +140,13 @@ TEST(Leader, that_ends_fails_those_who_still_wait) {
   std::promise<void> begun, go_on;
   const auto may_go_on = go_on.get_future().share();
   std::atomic<int> launched{0};
-  auto leader = fixture.leader({}, [&](const std::vector<Id>&) {
-    if (launched++ == 0) begun.set_value();
-    may_go_on.wait();
-  }, 1);
+  auto leader = fixture.leader(
+      {},
+      [&](const std::vector<Id>&) {
+        if (launched++ == 0) begun.set_value();
+        may_go_on.wait();
+      },
+      1);
   // One request is under way when the leader ends, another is on the queue.
   detail::Leader& late = *leader;
   std::string messages[2];

@@ -1,8 +1,8 @@
-#include <gtest/gtest.h>
-
 #include <atomic>
 #include <random>
 #include <thread>
+
+#include <gtest/gtest.h>
 
 #include <gale/base/error.hpp>
 #include <gale/relations/host_worker.hpp>
@@ -25,7 +25,8 @@ testing::AssertionResult rows_match(Consumer& consumer, const ExpectedRows& expe
   if (std::vector<Id>(vv.begin(), vv.end()) != expected.vv[v]) return testing::AssertionFailure() << "VV of " << v;
   if (std::vector<Id>(vt.begin(), vt.end()) != expected.vt[v]) return testing::AssertionFailure() << "VT of " << v;
   for (Id t = 0; t < link.size(); ++t) {
-    if (std::array<Id, 3>{link(t, 0), link(t, 1), link(t, 2)} != expected.link[v][t]) return testing::AssertionFailure() << "link of " << v;
+    if (std::array<Id, 3>{link(t, 0), link(t, 1), link(t, 2)} != expected.link[v][t])
+      return testing::AssertionFailure() << "link of " << v;
   }
   return testing::AssertionSuccess();
 }
@@ -184,7 +185,8 @@ TEST(Runtime, says_what_it_was_not_preconditioned_for) {
     const auto consumer = runtime.consumer();
     EXPECT_THROW(consumer->row(Relation::VT, 0), Error) << way.name;
     EXPECT_EQ(consumer->row(Relation::VV, 0).size(), static_cast<Id>(holed.expected.vv[0].size()));
-    EXPECT_THROW(runtime.for_each_segment(star_relations, with_threads(1), [](int, const SegmentRows&) {}), Error) << way.name;
+    EXPECT_THROW(runtime.for_each_segment(star_relations, with_threads(1), [](int, const SegmentRows&) {}), Error)
+        << way.name;
     EXPECT_THROW(consumer->row(Relation::EF, 0), Error) << way.name;
     EXPECT_THROW(Runtime(holed.mesh, RelationSet(), way.options), Error);
   }

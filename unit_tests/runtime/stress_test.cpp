@@ -1,9 +1,9 @@
-#include <gtest/gtest.h>
-
 #include <cstdlib>
 #include <new>
 #include <random>
 #include <thread>
+
+#include <gtest/gtest.h>
 
 #include <gale/base/error.hpp>
 #include <gale/base/threads.hpp>
@@ -15,8 +15,8 @@
 #include "support/brute_force.hpp"
 #include "support/segmentations.hpp"
 
-// Everything at once: consumers that jump, sweeps, budgets that hold next to nothing, failures. Longer with GALE_STRESS=<times> in the environment; 300 is some
-// minutes.
+// Everything at once: consumers that jump, sweeps, budgets that hold next to nothing, failures. Longer with
+// GALE_STRESS=<times> in the environment; 300 is some minutes.
 
 namespace gale::test {
 
@@ -61,9 +61,10 @@ TEST(Stress, of_a_leader_whose_producers_fail_loses_and_mistakes_nothing) {
   Trouble at_launch, at_finish;
   std::vector<std::unique_ptr<detail::BatchWorker>> workers;
   for (int i = 0; i < 3; ++i) {
-    workers.push_back(std::make_unique<Interrupted>(stressed.mesh, std::ref(at_launch), [&](const std::vector<Id>& segments) {
-      if (segments.size() == 1) at_finish({});
-    }));
+    workers.push_back(
+        std::make_unique<Interrupted>(stressed.mesh, std::ref(at_launch), [&](const std::vector<Id>& segments) {
+          if (segments.size() == 1) at_finish({});
+        }));
   }
   detail::LeaderParameters parameters;
   parameters.relations = Relation::VV;

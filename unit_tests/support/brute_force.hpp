@@ -1,11 +1,12 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <array>
-#include <gale/relations/segment_rows.hpp>
 #include <set>
 #include <vector>
+
+#include <gtest/gtest.h>
+
+#include <gale/relations/segment_rows.hpp>
 
 #include "support/expected_simplices.hpp"
 #include "support/input_mesh.hpp"

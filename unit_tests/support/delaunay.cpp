@@ -2,12 +2,12 @@
 
 #ifdef GALE_ENABLE_VTK
 
+#include <random>
+
 #include <vtkDelaunay3D.h>
 #include <vtkNew.h>
 #include <vtkPoints.h>
 #include <vtkUnstructuredGrid.h>
-
-#include <random>
 
 namespace gale::test {
 

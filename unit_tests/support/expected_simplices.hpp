@@ -1,9 +1,10 @@
 #pragma once
 
 #include <array>
+#include <vector>
+
 #include <gale/mesh/intervals.hpp>
 #include <gale/mesh/mesh.hpp>
-#include <vector>
 
 namespace gale::test {
 

@@ -36,7 +36,8 @@ InputMesh several_components() {
 }
 
 InputMesh seven_on_one_triangle() {
-  return scattered(10, {{9, 3, 0, 5}, {1, 3, 9, 5}, {3, 2, 5, 9}, {4, 9, 5, 3}, {5, 6, 3, 9}, {3, 5, 9, 7}, {9, 5, 8, 3}});
+  return scattered(10,
+                   {{9, 3, 0, 5}, {1, 3, 9, 5}, {3, 2, 5, 9}, {4, 9, 5, 3}, {5, 6, 3, 9}, {3, 5, 9, 7}, {9, 5, 8, 3}});
 }
 
 /// A strip of tetrahedra i, i+1, i+2, i+3, as thin as doubles allow, far from the origin.
@@ -72,13 +73,31 @@ using Maker = std::function<InputMesh()>;
 
 const std::vector<std::pair<std::string, Maker>>& makers() {
   static const std::vector<std::pair<std::string, Maker>> all = {
-      {"one_tetrahedron", [] { return scattered(4, {{2, 0, 3, 1}}); }},
-      {"two_sharing_a_triangle", [] { return scattered(5, {{4, 1, 3, 2}, {0, 3, 1, 2}}); }},
-      {"two_sharing_an_edge", [] { return scattered(6, {{4, 1, 5, 2}, {0, 3, 1, 2}}); }},
-      {"two_sharing_a_vertex", [] { return scattered(7, {{4, 1, 5, 6}, {0, 3, 1, 2}}); }},
-      {"three_on_one_triangle", [] { return scattered(6, {{0, 1, 2, 3}, {4, 2, 1, 0}, {1, 5, 0, 2}}); }},
+      {"one_tetrahedron",
+       [] {
+         return scattered(4, {{2, 0, 3, 1}});
+       }},
+      {"two_sharing_a_triangle",
+       [] {
+         return scattered(5, {{4, 1, 3, 2}, {0, 3, 1, 2}});
+       }},
+      {"two_sharing_an_edge",
+       [] {
+         return scattered(6, {{4, 1, 5, 2}, {0, 3, 1, 2}});
+       }},
+      {"two_sharing_a_vertex",
+       [] {
+         return scattered(7, {{4, 1, 5, 6}, {0, 3, 1, 2}});
+       }},
+      {"three_on_one_triangle",
+       [] {
+         return scattered(6, {{0, 1, 2, 3}, {4, 2, 1, 0}, {1, 5, 0, 2}});
+       }},
       {"seven_on_one_triangle", seven_on_one_triangle},
-      {"the_papers", [] { return scattered(6, {{0, 1, 2, 3}, {0, 2, 3, 4}, {2, 3, 4, 5}}); }},
+      {"the_papers",
+       [] {
+         return scattered(6, {{0, 1, 2, 3}, {0, 2, 3, 4}, {2, 3, 4, 5}});
+       }},
       {"several_components", several_components},
       {"isolated_vertices", isolated_vertices},
       {"slivers", slivers},
@@ -99,7 +118,8 @@ const std::vector<std::pair<std::string, Maker>>& makers() {
   return all;
 }
 
-/// The six tetrahedra of a cube along its main diagonal: paths of unit steps from corner 0 to 7, whose bits are x, y, z.
+/// The six tetrahedra of a cube along its main diagonal: paths of unit steps from corner 0 to 7, whose bits are x, y,
+/// z.
 constexpr int freudenthal[6][4] = {{0, 1, 3, 7}, {0, 1, 5, 7}, {0, 2, 3, 7}, {0, 2, 6, 7}, {0, 4, 5, 7}, {0, 4, 6, 7}};
 
 InputMesh cone(std::vector<std::array<double, 3>> link, const std::vector<std::array<Id, 3>>& triangles) {

@@ -1,7 +1,6 @@
-#include <gale/algorithms/critical_points.hpp>
-
 #include <algorithm>
 
+#include <gale/algorithms/critical_points.hpp>
 #include <gale/algorithms/links/large_link.hpp>
 #include <gale/algorithms/links/small_link.hpp>
 #include <gale/base/parallel.hpp>
@@ -23,7 +22,8 @@ CriticalType type_of(const detail::LinkTopology& topology) {
   return CriticalType::degenerate;
 }
 
-/// The sweep: what each vertex is by its own link; and, since only its neighbours know which of them are on the surface, what they tell it.
+/// The sweep: what each vertex is by its own link; and, since only its neighbours know which of them are on the
+/// surface, what they tell it.
 class Classification {
  public:
   Classification(const Mesh& mesh, const VertexOrder& order, int threads)
@@ -106,9 +106,8 @@ CriticalPoints collect(const Mesh& mesh, const Classification& classification) {
 
 CriticalPoints find_critical_points(Structure& structure, const VertexOrder& order, const SweepOptions& options) {
   Classification classification(structure.mesh(), order, options.threads);
-  structure.for_each_segment(critical_points_relations, options, [&](int consumer, const SegmentRows& rows) {
-    classification.classify(consumer, rows);
-  });
+  structure.for_each_segment(critical_points_relations, options,
+                             [&](int consumer, const SegmentRows& rows) { classification.classify(consumer, rows); });
   return collect(structure.mesh(), classification);
 }
 

@@ -1,7 +1,6 @@
-#include <gale/algorithms/discrete_gradient.hpp>
-
 #include <algorithm>
 
+#include <gale/algorithms/discrete_gradient.hpp>
 #include <gale/algorithms/gradient/gradient_store.hpp>
 #include <gale/algorithms/gradient/gradient_sweep.hpp>
 
@@ -11,7 +10,8 @@ namespace {
 
 /// The one of `vertices` that isn't among `others`.
 Id odd_one(const Id* vertices, const Id* others) {
-  return *std::find_if(vertices, vertices + 4, [others](Id vertex) { return std::find(others, others + 4, vertex) == others + 4; });
+  return *std::find_if(vertices, vertices + 4,
+                       [others](Id vertex) { return std::find(others, others + 4, vertex) == others + 4; });
 }
 
 }  // namespace
@@ -91,7 +91,8 @@ DiscreteGradient find_discrete_gradient(Structure& structure, const VertexOrder&
   const auto store = std::make_shared<detail::GradientStore>(structure.mesh(), order, consumers);
   std::vector<std::unique_ptr<detail::GradientSweep>> sweeps;
   for (int i = 0; i < consumers; ++i) sweeps.push_back(std::make_unique<detail::GradientSweep>(*store, i));
-  structure.for_each_segment(discrete_gradient_relations, options, [&](int consumer, const SegmentRows& rows) { sweeps[consumer]->pair(rows); });
+  structure.for_each_segment(discrete_gradient_relations, options,
+                             [&](int consumer, const SegmentRows& rows) { sweeps[consumer]->pair(rows); });
   store->finish();
   return DiscreteGradient(store);
 }

@@ -1,7 +1,7 @@
-#include <gale/algorithms/gradient/edge_pairs.hpp>
-
 #include <algorithm>
 #include <cstring>
+
+#include <gale/algorithms/gradient/edge_pairs.hpp>
 
 namespace gale::detail {
 
@@ -14,7 +14,8 @@ EdgePairs::EdgePairs(Id vertices, int consumers)
     : rows_(allocate<Array<EdgePairRow, HostMemory>>("GALE::edge_pair_rows", vertices)), pools_(consumers) {}
 
 EdgePairRow EdgePairs::begin(int consumer, Id vertex, Id count) {
-  constexpr Offset least = Offset(1) << 16, most = Offset(1) << 23;  // words: large enough for large pages, and little for little meshes
+  constexpr Offset least = Offset(1) << 16,
+                   most = Offset(1) << 23;  // words: large enough for large pages, and little for little meshes
   Pool& pool = pools_[consumer];
   const Offset words = EdgePairRow::words_for(count);
   if (pool.end - pool.next < words) {

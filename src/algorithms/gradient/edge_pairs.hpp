@@ -9,8 +9,9 @@
 
 namespace gale::detail {
 
-/// The lower edges of a vertex, by the other end: its ids, ascending, and for each the place among them of the third vertex of the triangle that the
-/// edge is paired with. A view of words in EdgePairs: the count, the ids, then the places, in a byte each as long as that suffices.
+/// The lower edges of a vertex, by the other end: its ids, ascending, and for each the place among them of the third
+/// vertex of the triangle that the edge is paired with. A view of words in EdgePairs: the count, the ids, then the
+/// places, in a byte each as long as that suffices.
 class EdgePairRow {
  public:
   EdgePairRow() = default;
@@ -60,7 +61,8 @@ class EdgePairRow {
   Id* words_ = nullptr;
 };
 
-/// The rows of all vertices. Each consumer of a sweep takes the memory of its rows from chunks of its own, so that nobody waits.
+/// The rows of all vertices. Each consumer of a sweep takes the memory of its rows from chunks of its own, so that
+/// nobody waits.
 class EdgePairs {
  public:
   EdgePairs() = default;

@@ -1,9 +1,8 @@
-#include <gale/algorithms/gradient/gradient_store.hpp>
-
 #include <algorithm>
 #include <functional>
 #include <iterator>
 
+#include <gale/algorithms/gradient/gradient_store.hpp>
 #include <gale/algorithms/order/written.hpp>
 #include <gale/base/threads.hpp>
 
@@ -43,22 +42,29 @@ void GradientStore::finish() {
   std::vector<InStar> stars;
   const std::function<void()> parts[] = {
       [&] {
-        stars = merged<InStar>(stars_, [](const auto& found) -> const auto& { return found; }, [=](const InStar& in_star) {
-          return std::make_pair(written(vertex_input, in_star.triangle), tetrahedron_input[in_star.tetrahedron]);
-        });
+        stars = merged<InStar>(
+            stars_, [](const auto& found) -> const auto& { return found; },
+            [=](const InStar& in_star) {
+              return std::make_pair(written(vertex_input, in_star.triangle), tetrahedron_input[in_star.tetrahedron]);
+            });
       },
       [&] {
-        critical.triangles = merged<std::array<Id, 3>>(found_, [](const Found& found) -> const auto& { return found.triangles; },
-                                                         [=](const auto& triangle) { return written(vertex_input, triangle); });
+        critical.triangles = merged<std::array<Id, 3>>(
+            found_, [](const Found& found) -> const auto& { return found.triangles; },
+            [=](const auto& triangle) { return written(vertex_input, triangle); });
       },
       [&] {
-        critical.edges = merged<std::array<Id, 2>>(found_, [](const Found& found) -> const auto& { return found.edges; },
-                                                     [=](const auto& edge) { return written(vertex_input, edge); });
+        critical.edges = merged<std::array<Id, 2>>(
+            found_, [](const Found& found) -> const auto& { return found.edges; },
+            [=](const auto& edge) { return written(vertex_input, edge); });
       },
       [&] {
-        critical.vertices = merged<Id>(found_, [](const Found& found) -> const auto& { return found.vertices; }, [=](Id vertex) { return vertex_input[vertex]; });
-        critical.tetrahedra = merged<Id>(found_, [](const Found& found) -> const auto& { return found.tetrahedra; },
-                                           [=](Id tetrahedron) { return tetrahedron_input[tetrahedron]; });
+        critical.vertices = merged<Id>(
+            found_, [](const Found& found) -> const auto& { return found.vertices; },
+            [=](Id vertex) { return vertex_input[vertex]; });
+        critical.tetrahedra = merged<Id>(
+            found_, [](const Found& found) -> const auto& { return found.tetrahedra; },
+            [=](Id tetrahedron) { return tetrahedron_input[tetrahedron]; });
       }};
   in_turns(host_threads(), std::size(parts), [&](int, std::int64_t i) { parts[i](); });
   found_.clear();

@@ -8,8 +8,8 @@
 
 namespace gale::detail {
 
-/// What a DiscreteGradient is made of, and how the consumers of a sweep fill it: each vertex is one consumer's, and with it all simplices that have
-/// it as their highest vertex.
+/// What a DiscreteGradient is made of, and how the consumers of a sweep fill it: each vertex is one consumer's, and
+/// with it all simplices that have it as their highest vertex.
 class GradientStore {
  public:
   GradientStore(const Mesh& mesh, const VertexOrder& order, int consumers);
@@ -31,14 +31,18 @@ class GradientStore {
   static int corner_outside(Id successor) { return no_id - 1 - successor; }
 
   void add_critical_edge(int consumer, Id high, Id low) { found_[consumer].edges.push_back({high, low}); }
-  void add_critical_triangle(int consumer, const std::array<Id, 3>& from_high_to_low) { found_[consumer].triangles.push_back(from_high_to_low); }
+  void add_critical_triangle(int consumer, const std::array<Id, 3>& from_high_to_low) {
+    found_[consumer].triangles.push_back(from_high_to_low);
+  }
   void add_critical_tetrahedron(int consumer, Id tetrahedron) {
     tetrahedron_successor(tetrahedron) = no_id;
     found_[consumer].tetrahedra.push_back(tetrahedron);
   }
 
   /// Each tetrahedron of each critical triangle.
-  void add_to_star(int consumer, const std::array<Id, 3>& triangle, Id tetrahedron) { stars_[consumer].push_back({triangle, tetrahedron}); }
+  void add_to_star(int consumer, const std::array<Id, 3>& triangle, Id tetrahedron) {
+    stars_[consumer].push_back({triangle, tetrahedron});
+  }
 
   /// After the sweep: gathers what the consumers found, in the order of input numbers.
   void finish();

@@ -1,13 +1,15 @@
-#include <gale/algorithms/gradient/gradient_sweep.hpp>
-
 #include <gale/algorithms/gradient/bit_queues.hpp>
+#include <gale/algorithms/gradient/gradient_sweep.hpp>
 #include <gale/algorithms/gradient/lower_star.hpp>
 #include <gale/algorithms/gradient/pair_cells.hpp>
 
 namespace gale::detail {
 
 GradientSweep::GradientSweep(GradientStore& store, int consumer)
-    : store_(store), consumer_(consumer), keys_(store.order.keys()), tetrahedron_input_(store.mesh.tetrahedron_input().data()) {}
+    : store_(store),
+      consumer_(consumer),
+      keys_(store.order.keys()),
+      tetrahedron_input_(store.mesh.tetrahedron_input().data()) {}
 
 void GradientSweep::pair(const SegmentRows& rows) {
   const Rows neighbours = rows[Relation::VV], tetrahedra = rows[Relation::VT];
@@ -31,7 +33,8 @@ bool GradientSweep::pair_small(const Star& star) {
 
 void GradientSweep::pair_large(const Star& star) {
   many_lower_.find(keys_, star.vertex, star.neighbours);
-  large_.build(many_lower_.ranks(), many_lower_.count(), star.link, [&](Id place) { return tetrahedron_input_[star.tetrahedra[place]]; });
+  large_.build(many_lower_.ranks(), many_lower_.count(), star.link,
+               [&](Id place) { return tetrahedron_input_[star.tetrahedra[place]]; });
   pair(star, many_lower_, large_, large_);
 }
 
@@ -49,19 +52,23 @@ void GradientSweep::pair(const Star& star, const Lower& lower, const Cells& cell
       edges.pair(lower.with_rank(low[0]), lower.with_rank(both[0] == low[0] ? both[1] : both[0]));
     } else {
       const Id place = cells.place(cell), across = cells.across(facet, place);
-      store_.set_tetrahedron(star.tetrahedra[place],
-                             across == Cells::no_place ? surface_successor(star, place, id(low[0]), id(low[1])) : star.tetrahedra[across]);
+      store_.set_tetrahedron(star.tetrahedra[place], across == Cells::no_place
+                                                         ? surface_successor(star, place, id(low[0]), id(low[1]))
+                                                         : star.tetrahedra[across]);
     }
   };
   const auto critical = [&](int cell) {
     const auto& corners = cells.corners(cell);
     switch (cells.dimension(cell)) {
-      case 1: return store_.add_critical_edge(consumer_, star.vertex, id(corners[0]));
-      case 3: return store_.add_critical_tetrahedron(consumer_, star.tetrahedra[cells.place(cell)]);
+      case 1:
+        return store_.add_critical_edge(consumer_, star.vertex, id(corners[0]));
+      case 3:
+        return store_.add_critical_tetrahedron(consumer_, star.tetrahedra[cells.place(cell)]);
     }
     const std::array<Id, 3> triangle = {star.vertex, id(corners[0]), id(corners[1])};
     store_.add_critical_triangle(consumer_, triangle);
-    cells.for_each_tetrahedron(cell, [&](Id place) { store_.add_to_star(consumer_, triangle, star.tetrahedra[place]); });
+    cells.for_each_tetrahedron(cell,
+                               [&](Id place) { store_.add_to_star(consumer_, triangle, star.tetrahedra[place]); });
   };
   pair_cells(queues, pair, critical);
 }

@@ -1,6 +1,6 @@
-#include <gale/algorithms/gradient/large_lower_star.hpp>
-
 #include <algorithm>
+
+#include <gale/algorithms/gradient/large_lower_star.hpp>
 
 namespace gale::detail {
 

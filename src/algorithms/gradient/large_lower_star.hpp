@@ -9,8 +9,8 @@
 
 namespace gale::detail {
 
-/// What LowerStar and its queues are, for stars of any size, and triangles with any number of tetrahedra. One serves one
-/// thread, and keeps its memory.
+/// What LowerStar and its queues are, for stars of any size, and triangles with any number of tetrahedra. One serves
+/// one thread, and keeps its memory.
 class LargeLowerStar {
  public:
   static constexpr Id no_place = no_id;
@@ -31,7 +31,8 @@ class LargeLowerStar {
   /// Place of a tetrahedron in the VT row.
   Id place(int tetrahedron) const { return place_[tetrahedron]; }
 
-  /// Place in the VT row of a triangle's tetrahedron that isn't the one at `place`, of several that of the lowest number; `no_place` if there is no other.
+  /// Place in the VT row of a triangle's tetrahedron that isn't the one at `place`, of several that of the lowest
+  /// number; `no_place` if there is no other.
   Id across(int triangle, Id place) const;
 
   /// Calls visit(place) for the places in the VT row of a triangle's tetrahedra.

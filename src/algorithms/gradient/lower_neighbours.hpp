@@ -77,7 +77,8 @@ class ManyLowerNeighbours {
     }
     by_rank_.resize(place_.size());
     for (int i = 0; i < count(); ++i) by_rank_[i] = i;
-    std::sort(by_rank_.begin(), by_rank_.end(), [&](int i, int j) { return keys[neighbours[place_[i]]] < keys[neighbours[place_[j]]]; });
+    std::sort(by_rank_.begin(), by_rank_.end(),
+              [&](int i, int j) { return keys[neighbours[place_[i]]] < keys[neighbours[place_[j]]]; });
     for (int rank = 0; rank < count(); ++rank) ranks_[place_[by_rank_[rank]]] = rank;
   }
 

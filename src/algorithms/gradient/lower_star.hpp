@@ -8,15 +8,16 @@
 
 namespace gale::detail {
 
-/// The lower star of a vertex: itself, and the edges, triangles and tetrahedra in which no other vertex is higher. Its cells but the vertex are
-/// numbered in the order of their keys: the ranks of their other vertices, descending, compared lexicographically. So the lowest bit of a set is the
-/// head of a queue.
+/// The lower star of a vertex: itself, and the edges, triangles and tetrahedra in which no other vertex is higher. Its
+/// cells but the vertex are numbered in the order of their keys: the ranks of their other vertices, descending,
+/// compared lexicographically. So the lowest bit of a set is the head of a queue.
 ///
-/// The other vertices are named by their ranks among the lower neighbours, 0 the lowest. A triangle (a, b), a > b, is that of the vertex and its
-/// lower neighbours of ranks a and b; likewise a tetrahedron (a, b, c).
+/// The other vertices are named by their ranks among the lower neighbours, 0 the lowest. A triangle (a, b), a > b, is
+/// that of the vertex and its lower neighbours of ranks a and b; likewise a tetrahedron (a, b, c).
 ///
-/// Holds stars of at most max_edges edges and 64 * Words cells in which no triangle has more than two tetrahedra. Branches that a processor couldn't
-/// foresee are the cost of all this, so there are few: what is of no use, because a vertex is upper, is written where nobody reads it.
+/// Holds stars of at most max_edges edges and 64 * Words cells in which no triangle has more than two tetrahedra.
+/// Branches that a processor couldn't foresee are the cost of all this, so there are few: what is of no use, because a
+/// vertex is upper, is written where nobody reads it.
 template <int Words>
 class LowerStar {
  public:
@@ -45,7 +46,9 @@ class LowerStar {
   KOKKOS_FORCEINLINE_FUNCTION const Cells& cofacets(int cell) const { return cofacets_[cell]; }
 
   /// Dimension of a cell: 1 to 3.
-  KOKKOS_FORCEINLINE_FUNCTION int dimension(int cell) const { return corner_[cell][1] == none ? 1 : corner_[cell][2] == none ? 2 : 3; }
+  KOKKOS_FORCEINLINE_FUNCTION int dimension(int cell) const {
+    return corner_[cell][1] == none ? 1 : corner_[cell][2] == none ? 2 : 3;
+  }
 
   /// Ranks of a cell's vertices, descending; as many as it has dimensions.
   KOKKOS_FORCEINLINE_FUNCTION const std::uint8_t* corners(int cell) const { return corner_[cell]; }
@@ -73,23 +76,26 @@ class LowerStar {
   static constexpr int max_triangles = Cells::capacity;
   static constexpr int max_star = 128;  ///< tetrahedra of the vertex
 
-  /// Those lower neighbours b that have a triangle (a, b) with one a, as bits. Some of these lie in a word, so that one loop finds the triangles of all.
+  /// Those lower neighbours b that have a triangle (a, b) with one a, as bits. Some of these lie in a word, so that one
+  /// loop finds the triangles of all.
   using Below = std::conditional_t<Words == 1, std::uint16_t, std::uint64_t>;
   static constexpr int below_bits = 8 * sizeof(Below);
   static constexpr int below_in_word = 64 / below_bits;
 
-  /// A tetrahedron of the star with at least two lower vertices: their ranks, descending, the first `none` where it has two only.
+  /// A tetrahedron of the star with at least two lower vertices: their ranks, descending, the first `none` where it has
+  /// two only.
   struct Wedge {
     std::uint8_t a, b, c, place;
   };
 
-  /// A triangle's tetrahedra in the whole star of the vertex, added up: how many there are; their places in VT; the ranks of their third vertices;
-  /// and how many are in the lower star with a third vertex below the triangle's.
+  /// A triangle's tetrahedra in the whole star of the vertex, added up: how many there are; their places in VT; the
+  /// ranks of their third vertices; and how many are in the lower star with a third vertex below the triangle's.
   class Cofaces {
    public:
     KOKKOS_FORCEINLINE_FUNCTION void clear() { sums_ = 0; }
     KOKKOS_FORCEINLINE_FUNCTION void add(int third, int place, int is_below) {
-      sums_ += std::uint64_t(is_below) << 48 | std::uint64_t(1) << 32 | std::uint64_t(third) << 16 | std::uint64_t(place);
+      sums_ +=
+          std::uint64_t(is_below) << 48 | std::uint64_t(1) << 32 | std::uint64_t(third) << 16 | std::uint64_t(place);
     }
     KOKKOS_FORCEINLINE_FUNCTION int count() const { return static_cast<int>(sums_ >> 32 & 0xffff); }
     KOKKOS_FORCEINLINE_FUNCTION int below() const { return static_cast<int>(sums_ >> 48); }
@@ -133,7 +139,8 @@ class LowerStar {
     for (int a = 0; a < max_edges && a < edges_ + below_in_word; ++a) below_[a] = 0;
     for (int i = 0; i < wedges_; ++i) {
       const Wedge w = wedge_[i];
-      const Below bit_b = static_cast<Below>(Below(1) << (w.b % below_bits)), bit_c = static_cast<Below>(Below(1) << (w.c % below_bits));
+      const Below bit_b = static_cast<Below>(Below(1) << (w.b % below_bits)),
+                  bit_c = static_cast<Below>(Below(1) << (w.c % below_bits));
       below_[w.b] |= bit_c;
       below_[w.a] |= bit_b | bit_c;
     }
@@ -229,7 +236,9 @@ class LowerStar {
     cofacets_[cell] = Cells::none();
   }
 
-  KOKKOS_FORCEINLINE_FUNCTION int triangle_of(int cell) const { return triangle_at_[corner_[cell][0]][corner_[cell][1]]; }
+  KOKKOS_FORCEINLINE_FUNCTION int triangle_of(int cell) const {
+    return triangle_at_[corner_[cell][0]][corner_[cell][1]];
+  }
 
   int edges_, triangles_, tetrahedra_, wedges_, cells_;
   Cells all_edges_;

@@ -10,8 +10,8 @@
 
 namespace gale::detail {
 
-/// What SmallLink does, for a vertex with any number of neighbours: by union-find, and by sorting the link's edges. One serves one thread, and
-/// keeps its memory.
+/// What SmallLink does, for a vertex with any number of neighbours: by union-find, and by sorting the link's edges. One
+/// serves one thread, and keeps its memory.
 class LargeLink {
  public:
   /// `is_lower(i)`: is the i-th neighbour below the vertex?

@@ -9,12 +9,13 @@ namespace gale::detail {
 
 /// What the link of a vertex says of it.
 struct LinkTopology {
-  int lower = 0;             ///< connected components of the lower neighbours
-  int upper = 0;             ///< and of the upper ones
+  int lower = 0;            ///< connected components of the lower neighbours
+  int upper = 0;            ///< and of the upper ones
   bool on_surface = false;  ///< it belongs to a triangle with exactly one tetrahedron
 };
 
-/// The link of a vertex with at most 64 neighbours: for each of them, those that share a tetrahedron with it, as a bit mask.
+/// The link of a vertex with at most 64 neighbours: for each of them, those that share a tetrahedron with it, as a bit
+/// mask.
 class SmallLink {
  public:
   static constexpr Id capacity = 64;
@@ -64,7 +65,8 @@ class SmallLink {
   std::uint64_t open_ = 0;
 };
 
-/// Classifies a vertex with at most SmallLink::capacity neighbours. `lower` has a bit for each neighbour below it, in VV order.
+/// Classifies a vertex with at most SmallLink::capacity neighbours. `lower` has a bit for each neighbour below it, in
+/// VV order.
 KOKKOS_INLINE_FUNCTION LinkTopology small_topology(Id neighbours, const LinkRow& link, std::uint64_t lower) {
   const SmallLink small(neighbours, link);
   const std::uint64_t all = neighbours == 64 ? ~std::uint64_t(0) : (std::uint64_t(1) << neighbours) - 1;

@@ -1,11 +1,10 @@
-#include <gale/algorithms/surface_vertices.hpp>
-
 #include <algorithm>
 #include <array>
 #include <vector>
 
-#include <gale/runtime/sweep.hpp>
+#include <gale/algorithms/surface_vertices.hpp>
 #include <gale/relations/host_worker.hpp>
+#include <gale/runtime/sweep.hpp>
 
 namespace gale {
 

@@ -1,10 +1,9 @@
-#include <gale/algorithms/morse_smale/ascending_walls.hpp>
-
 #include <algorithm>
 #include <functional>
 #include <memory>
 #include <queue>
 
+#include <gale/algorithms/morse_smale/ascending_walls.hpp>
 #include <gale/algorithms/morse_smale/edge_star.hpp>
 #include <gale/algorithms/morse_smale/edge_table.hpp>
 #include <gale/algorithms/morse_smale/gathered_separatrices.hpp>
@@ -26,8 +25,8 @@ struct Cell {
   Offset star_begin;
 };
 
-/// Edges of a wall that wait. They are taken in passes over the mesh, each by ascending id of the higher end: those of one segment together, however
-/// a wall winds.
+/// Edges of a wall that wait. They are taken in passes over the mesh, each by ascending id of the higher end: those of
+/// one segment together, however a wall winds.
 class Pending {
  public:
   bool empty() const { return ahead_.empty() && behind_.empty(); }
@@ -52,7 +51,12 @@ class Pending {
 class Tracer {
  public:
   Tracer(Structure& structure, const DiscreteGradient& gradient, int thread)
-      : thread_(thread), gradient_(gradient), keys_(gradient.order().keys()), vertex_input_(structure.mesh().vertex_input().data()), consumer_(structure.consumer()), star_(structure.mesh()) {}
+      : thread_(thread),
+        gradient_(gradient),
+        keys_(gradient.order().keys()),
+        vertex_input_(structure.mesh().vertex_input().data()),
+        consumer_(structure.consumer()),
+        star_(structure.mesh()) {}
 
   void follow(Id source, const Edge& critical) {
     seen_.clear();
@@ -66,7 +70,9 @@ class Tracer {
       for (const Id third : star_.thirds()) cross({high, low, third});
       if (pending_.empty()) break;
     }
-    std::sort(walls.cells.begin() + first + 1, walls.cells.end(), [this](const Cell& a, const Cell& b) { return written(vertex_input_, a.edge) < written(vertex_input_, b.edge); });
+    std::sort(walls.cells.begin() + first + 1, walls.cells.end(), [this](const Cell& a, const Cell& b) {
+      return written(vertex_input_, a.edge) < written(vertex_input_, b.edge);
+    });
     walls.sources.push_back(source);
     walls.begin.push_back(static_cast<Offset>(walls.cells.size()));
   }

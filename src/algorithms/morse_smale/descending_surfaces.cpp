@@ -1,9 +1,8 @@
-#include <gale/algorithms/morse_smale/descending_surfaces.hpp>
-
 #include <algorithm>
 #include <memory>
 #include <utility>
 
+#include <gale/algorithms/morse_smale/descending_surfaces.hpp>
 #include <gale/algorithms/morse_smale/descending_wall.hpp>
 #include <gale/algorithms/morse_smale/gathered_separatrices.hpp>
 #include <gale/algorithms/morse_smale/space_order.hpp>
@@ -45,7 +44,8 @@ class Tracer {
 
 }  // namespace
 
-DescendingSurfaces descending_surfaces(const DiscreteGradient& gradient, const CriticalPlaces& places, bool want_walls, bool want_connectors, int threads) {
+DescendingSurfaces descending_surfaces(const DiscreteGradient& gradient, const CriticalPlaces& places, bool want_walls,
+                                       bool want_connectors, int threads) {
   const auto& triangles = gradient.critical().triangles;
   std::vector<std::unique_ptr<Tracer>> tracers(threads);
   const std::vector<Id> order = space_order(triangles);

@@ -1,5 +1,4 @@
 #include <gale/algorithms/morse_smale/descending_wall.hpp>
-
 #include <gale/algorithms/order/written.hpp>
 
 namespace gale::detail {

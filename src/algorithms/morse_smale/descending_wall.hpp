@@ -2,15 +2,15 @@
 
 #include <vector>
 
-#include <gale/algorithms/morse_smale/edge_table.hpp>
-#include <gale/algorithms/gradient/gradient_store.hpp>
 #include <gale/algorithms/discrete_gradient.hpp>
+#include <gale/algorithms/gradient/gradient_store.hpp>
+#include <gale/algorithms/morse_smale/edge_table.hpp>
 #include <gale/algorithms/separatrices.hpp>
 
 namespace gale::detail {
 
-/// The surface that a critical triangle's falling paths sweep: from a triangle across each of its edges to the triangle that the edge is paired with.
-/// One serves one thread, for one wall after the other, and keeps its memory.
+/// The surface that a critical triangle's falling paths sweep: from a triangle across each of its edges to the triangle
+/// that the edge is paired with. One serves one thread, for one wall after the other, and keeps its memory.
 class DescendingWall {
  public:
   struct Edge {
@@ -19,22 +19,25 @@ class DescendingWall {
 
   explicit DescendingWall(const DiscreteGradient& gradient);
 
-  /// Finds the wall of a critical triangle, by its vertices from the highest to the lowest. Time and memory by its size.
+  /// Finds the wall of a critical triangle, by its vertices from the highest to the lowest. Time and memory by its
+  /// size.
   void follow(const TriangleVertices& critical);
 
-  /// Its triangles, breadth first, the critical one first. The first two vertices of each other are the edge that it is paired with, the higher first.
+  /// Its triangles, breadth first, the critical one first. The first two vertices of each other are the edge that it is
+  /// paired with, the higher first.
   const std::vector<TriangleVertices>& triangles() const { return triangles_; }
 
   /// The critical edges of its rim.
   const std::vector<Edge>& critical_edges() const { return critical_edges_; }
 
-  /// Appends the path inside the wall that rises from one of its critical edges to the critical triangle: the triangles, the last one included. Where
-  /// several triangles of the wall meet at an edge, it takes the one that is least, written with its input vertices ascending. Says whether they
-  /// never do: then it is the only path.
+  /// Appends the path inside the wall that rises from one of its critical edges to the critical triangle: the
+  /// triangles, the last one included. Where several triangles of the wall meet at an edge, it takes the one that is
+  /// least, written with its input vertices ascending. Says whether they never do: then it is the only path.
   bool append_path(const Edge& from, std::vector<TriangleVertices>& path) const;
 
  private:
-  /// An edge of the wall: the least of the wall's triangles that it isn't paired with, by its place among them, and whether there are more.
+  /// An edge of the wall: the least of the wall's triangles that it isn't paired with, by its place among them, and
+  /// whether there are more.
   struct Above {
     std::uint32_t least = 0;
     bool are_several = false;

@@ -1,6 +1,6 @@
-#include <gale/algorithms/morse_smale/edge_star.hpp>
-
 #include <algorithm>
+
+#include <gale/algorithms/morse_smale/edge_star.hpp>
 
 namespace gale::detail {
 
@@ -18,7 +18,8 @@ void EdgeStar::find(Id high, Id low, const Row& tetrahedra) {
       if (sides == 2) break;  // `low` isn't among them
       wedge.sides[sides++] = vertex;
     }
-    const bool has_low = std::find(&encoded_.tetrahedra(t, 0), &encoded_.tetrahedra(t, 0) + 4, low) != &encoded_.tetrahedra(t, 0) + 4;
+    const bool has_low =
+        std::find(&encoded_.tetrahedra(t, 0), &encoded_.tetrahedra(t, 0) + 4, low) != &encoded_.tetrahedra(t, 0) + 4;
     if (has_low) wedges_.push_back(wedge);
   }
   std::sort(wedges_.begin(), wedges_.end(), [](const Wedge& a, const Wedge& b) { return a.input < b.input; });
@@ -55,7 +56,8 @@ void EdgeStar::go_around() {
 /// Has it a side of its own?
 bool EdgeStar::is_end(const Wedge& wedge) const {
   return std::any_of(wedge.sides, wedge.sides + 2, [&](Id side) {
-    return std::count_if(wedges_.begin(), wedges_.end(), [&](const Wedge& other) { return other.sides[0] == side || other.sides[1] == side; }) == 1;
+    return std::count_if(wedges_.begin(), wedges_.end(),
+                         [&](const Wedge& other) { return other.sides[0] == side || other.sides[1] == side; }) == 1;
   });
 }
 

@@ -18,8 +18,9 @@ class EdgeStar {
   /// The third vertices of its triangles.
   const std::vector<Id>& thirds() const { return thirds_; }
 
-  /// Its tetrahedra in their order around it. From an end if there is one, else from that of the lowest input id; of the two ends and of the two ways
-  /// that of the lower input id. Where a triangle has three and more tetrahedra, some order that depends on the input alone.
+  /// Its tetrahedra in their order around it. From an end if there is one, else from that of the lowest input id; of
+  /// the two ends and of the two ways that of the lower input id. Where a triangle has three and more tetrahedra, some
+  /// order that depends on the input alone.
   const std::vector<Id>& around() const { return around_; }
 
  private:

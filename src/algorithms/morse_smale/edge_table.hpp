@@ -10,7 +10,8 @@
 
 namespace gale::detail {
 
-/// A value for each of the edges of one surface after the other: open addressing, in which entries of earlier surfaces count as empty.
+/// A value for each of the edges of one surface after the other: open addressing, in which entries of earlier surfaces
+/// count as empty.
 template <class Value>
 class EdgeTable {
  public:
@@ -48,7 +49,8 @@ class EdgeTable {
   std::size_t place_of(Id high, Id low) const {
     const std::size_t mask = slots_.size() - 1;
     std::size_t place = static_cast<std::size_t>(spread(pair_key(high, low))) & mask;
-    while (slots_[place].age == age_ && (slots_[place].high != high || slots_[place].low != low)) place = (place + 1) & mask;
+    while (slots_[place].age == age_ && (slots_[place].high != high || slots_[place].low != low))
+      place = (place + 1) & mask;
     return place;
   }
 

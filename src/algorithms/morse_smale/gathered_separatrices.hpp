@@ -8,10 +8,11 @@
 
 namespace gale::detail {
 
-/// Brings the separatrices that several threads found into the order of their `ends`, which are places below `count`: their sources, or their
-/// destinations. Those with one such end are one thread's, one after the other, and stay so.
+/// Brings the separatrices that several threads found into the order of their `ends`, which are places below `count`:
+/// their sources, or their destinations. Those with one such end are one thread's, one after the other, and stay so.
 template <class Cell>
-Separatrices<Cell> gathered(std::vector<Separatrices<Cell>>& parts, std::vector<Id> Separatrices<Cell>::*ends, Id count) {
+Separatrices<Cell> gathered(std::vector<Separatrices<Cell>>& parts, std::vector<Id> Separatrices<Cell>::*ends,
+                            Id count) {
   struct Group {
     int part = 0;
     Id first = 0, size = 0;
@@ -29,9 +30,12 @@ Separatrices<Cell> gathered(std::vector<Separatrices<Cell>>& parts, std::vector<
   for (Id g = 0; g < count; ++g) {
     const Group& group = groups[g];
     place[g + 1] = place[g] + group.size;
-    cell[g + 1] = cell[g] + (group.size == 0 ? 0 : parts[group.part].last(group.first + group.size - 1) - parts[group.part].first(group.first));
+    cell[g + 1] = cell[g] + (group.size == 0 ? 0
+                                             : parts[group.part].last(group.first + group.size - 1) -
+                                                   parts[group.part].first(group.first));
   }
-  const bool are_paths = std::any_of(parts.begin(), parts.end(), [](const auto& part) { return !part.destinations.empty(); });
+  const bool are_paths =
+      std::any_of(parts.begin(), parts.end(), [](const auto& part) { return !part.destinations.empty(); });
   const bool say_only = std::any_of(parts.begin(), parts.end(), [](const auto& part) { return !part.is_only.empty(); });
   all.sources.resize(place[count]);
   if (are_paths) all.destinations.resize(place[count]);

@@ -1,5 +1,4 @@
 #include <gale/algorithms/morse_smale/manifolds.hpp>
-
 #include <gale/base/atomic.hpp>
 #include <gale/base/pair_key.hpp>
 #include <gale/base/parallel.hpp>
@@ -20,7 +19,8 @@ KOKKOS_FORCEINLINE_FUNCTION constexpr Id place_of_end(Id end) { return -2 - end;
 /// What stands for the end of a path that leaves through the surface: the place no_id.
 constexpr Id outside = -1;
 
-/// A copy of successors in the workers' memory in which the critical ones lead to their places, and those that leave to `outside`.
+/// A copy of successors in the workers' memory in which the critical ones lead to their places, and those that leave to
+/// `outside`.
 Ids with_ends(const Array<const Id, HostMemory>& successors, const std::vector<Id>& critical) {
   const auto next = allocate<Ids>("GALE::next_on_path", successors.extent(0));
   const auto from = on_worker(successors);
@@ -31,11 +31,13 @@ Ids with_ends(const Array<const Id, HostMemory>& successors, const std::vector<I
       });
   const auto places = on_worker(Array<const Id, HostMemory>(critical.data(), critical.size()));
   parallel_for(
-      "GALE::end_paths", WorkerSpace(), places.extent(0), KOKKOS_LAMBDA(Offset i) { next(places(i)) = end_at(static_cast<Id>(i)); });
+      "GALE::end_paths", WorkerSpace(), places.extent(0),
+      KOKKOS_LAMBDA(Offset i) { next(places(i)) = end_at(static_cast<Id>(i)); });
   return next;
 }
 
-/// Pointer jumping: afterwards each entry is the end of its path. Entries that others jump over meanwhile only get closer to their ends.
+/// Pointer jumping: afterwards each entry is the end of its path. Entries that others jump over meanwhile only get
+/// closer to their ends.
 void jump(const Ids& next) {
   constexpr int jumps_a_pass = 4;
   const Offset count = next.extent(0);
@@ -54,7 +56,8 @@ void jump(const Ids& next) {
 
 constexpr std::uint64_t none = ~std::uint64_t(0);
 
-/// For each vertex its tetrahedron of lowest input id, with that id in the upper half; `none` where it has no tetrahedron.
+/// For each vertex its tetrahedron of lowest input id, with that id in the upper half; `none` where it has no
+/// tetrahedron.
 Keys first_tetrahedra(const Mesh& mesh) {
   const auto first = allocate<Keys>("GALE::first_tetrahedra", mesh.vertices());
   const EncodedMesh<WorkerMemory> encoded = mesh.worker();
@@ -86,7 +89,8 @@ HostIds descending_manifolds(const DiscreteGradient& gradient) {
   const auto input = gradient.mesh().vertex_input_on_worker();
   const auto manifolds = allocate<Ids>("GALE::descending_manifolds", next.extent(0));
   parallel_for(
-      "GALE::descending_manifolds", WorkerSpace(), next.extent(0), KOKKOS_LAMBDA(Offset v) { manifolds(input(v)) = place_of_end(next(v)); });
+      "GALE::descending_manifolds", WorkerSpace(), next.extent(0),
+      KOKKOS_LAMBDA(Offset v) { manifolds(input(v)) = place_of_end(next(v)); });
   return to_host(manifolds);
 }
 
@@ -99,7 +103,8 @@ HostIds ascending_manifolds(const DiscreteGradient& gradient) {
   parallel_for(
       "GALE::ascending_manifolds", WorkerSpace(), first.extent(0), KOKKOS_LAMBDA(Offset v) {
         const Id tetrahedron = static_cast<Id>(first(v) & 0xffffffffu);
-        manifolds(input(v)) = first(v) == none || next(tetrahedron) == outside ? no_id : place_of_end(next(tetrahedron));
+        manifolds(input(v)) =
+            first(v) == none || next(tetrahedron) == outside ? no_id : place_of_end(next(tetrahedron));
       });
   return to_host(manifolds);
 }
@@ -117,7 +122,8 @@ std::pair<HostIds, Id> morse_smale_manifolds(const HostIds& ascending, const Hos
   stable_sort_by_key(keys, vertices);
   const auto before = allocate<Ids>("GALE::manifold_number", count + 1);  // how many pairs begin earlier
   const Id distinct = exclusive_scan(
-      "GALE::count_manifolds", WorkerSpace(), count, before, KOKKOS_LAMBDA(Offset i) { return keys(i) != none && (i == 0 || keys(i) != keys(i - 1)); });
+      "GALE::count_manifolds", WorkerSpace(), count, before,
+      KOKKOS_LAMBDA(Offset i) { return keys(i) != none && (i == 0 || keys(i) != keys(i - 1)); });
   const auto manifolds = allocate<Ids>("GALE::morse_smale_manifolds", count);
   parallel_for(
       "GALE::morse_smale_manifolds", WorkerSpace(), count,

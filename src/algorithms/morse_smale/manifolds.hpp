@@ -9,12 +9,12 @@ using HostIds = Array<Id, HostMemory>;
 /// For each vertex, by input id: the place among the critical vertices of the minimum that its path falls to.
 HostIds descending_manifolds(const DiscreteGradient& gradient);
 
-/// For each vertex, by input id: the place among the critical tetrahedra of the maximum that the path from its tetrahedron of lowest input id rises
-/// to; no_id if it leaves through the surface, or the vertex has no tetrahedron.
+/// For each vertex, by input id: the place among the critical tetrahedra of the maximum that the path from its
+/// tetrahedron of lowest input id rises to; no_id if it leaves through the surface, or the vertex has no tetrahedron.
 HostIds ascending_manifolds(const DiscreteGradient& gradient);
 
-/// A number for each pair of the two that there is, in the order of (ascending, descending), dense from 0; no_id where the ascending one is missing.
-/// And how many.
+/// A number for each pair of the two that there is, in the order of (ascending, descending), dense from 0; no_id where
+/// the ascending one is missing. And how many.
 std::pair<HostIds, Id> morse_smale_manifolds(const HostIds& ascending, const HostIds& descending);
 
 }  // namespace gale::detail

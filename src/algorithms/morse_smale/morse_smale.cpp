@@ -1,9 +1,8 @@
-#include <gale/algorithms/morse_smale.hpp>
-
 #include <algorithm>
 #include <tuple>
 #include <utility>
 
+#include <gale/algorithms/morse_smale.hpp>
 #include <gale/algorithms/morse_smale/ascending_walls.hpp>
 #include <gale/algorithms/morse_smale/descending_surfaces.hpp>
 #include <gale/algorithms/morse_smale/manifolds.hpp>
@@ -11,14 +10,16 @@
 
 namespace gale {
 
-MorseSmaleComplex find_morse_smale_complex(Structure& structure, const DiscreteGradient& gradient, const MorseSmaleParts& parts, const SweepOptions& options) {
+MorseSmaleComplex find_morse_smale_complex(Structure& structure, const DiscreteGradient& gradient,
+                                           const MorseSmaleParts& parts, const SweepOptions& options) {
   const int threads = std::max(options.threads, 1);
   const detail::CriticalPlaces places(gradient.critical());
   MorseSmaleComplex complex{gradient, gradient.critical()};
   if (parts.descending_separatrices) complex.descending = detail::descending_separatrices(gradient, places);
   if (parts.ascending_separatrices) complex.ascending = detail::ascending_separatrices(gradient, places);
   if (parts.saddle_connectors || parts.separatrices2) {
-    auto surfaces = detail::descending_surfaces(gradient, places, parts.separatrices2, parts.saddle_connectors, threads);
+    auto surfaces =
+        detail::descending_surfaces(gradient, places, parts.separatrices2, parts.saddle_connectors, threads);
     complex.connectors = std::move(surfaces.connectors);
     complex.descending_walls = std::move(surfaces.walls);
   }

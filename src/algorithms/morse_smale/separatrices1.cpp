@@ -1,5 +1,4 @@
 #include <gale/algorithms/morse_smale/separatrices1.hpp>
-
 #include <gale/base/parallel.hpp>
 
 namespace gale::detail {
@@ -19,11 +18,13 @@ Offset length_of(const Id* successors, Id from) {
 
 /// The paths from each of `starts`, which belong to `sources`; place(last) of each is its destination.
 template <class Place>
-Separatrices<Id> paths_of(const Id* successors, const std::vector<Id>& starts, const std::vector<Id>& sources, const Place& place) {
+Separatrices<Id> paths_of(const Id* successors, const std::vector<Id>& starts, const std::vector<Id>& sources,
+                          const Place& place) {
   const Offset count = static_cast<Offset>(starts.size());
   const auto begin = allocate<Array<Offset, HostMemory>>("GALE::path_begin", count + 1);
   const auto rank = allocate<Array<Id, HostMemory>>("GALE::path_rank", count + 1);
-  parallel_for("GALE::path_lengths", HostSpace(), count, [&](Offset i) { begin(i) = length_of(successors, starts[i]); });
+  parallel_for("GALE::path_lengths", HostSpace(), count,
+               [&](Offset i) { begin(i) = length_of(successors, starts[i]); });
   exclusive_scan("GALE::path_begins", HostSpace(), count, begin, [&](Offset i) { return begin(i); });
   exclusive_scan("GALE::count_paths", HostSpace(), count, rank, [&](Offset i) { return begin(i + 1) > begin(i); });
   Separatrices<Id> paths;
@@ -54,14 +55,17 @@ Separatrices<Id> descending_separatrices(const DiscreteGradient& gradient, const
     starts.insert(starts.end(), {in_order ? a : b, in_order ? b : a});
     sources.insert(sources.end(), 2, static_cast<Id>(i));
   }
-  return paths_of(gradient.vertex_successors().data(), starts, sources, [&](Id vertex) { return places.of_vertex(vertex); });
+  return paths_of(gradient.vertex_successors().data(), starts, sources,
+                  [&](Id vertex) { return places.of_vertex(vertex); });
 }
 
 Separatrices<Id> ascending_separatrices(const DiscreteGradient& gradient, const CriticalPlaces& places) {
   const CriticalSimplices& critical = gradient.critical();
   std::vector<Id> sources;
-  for (std::size_t i = 0; i < critical.triangles.size(); ++i) sources.insert(sources.end(), critical.star_begin[i + 1] - critical.star_begin[i], static_cast<Id>(i));
-  return paths_of(gradient.tetrahedron_successors().data(), critical.star, sources, [&](Id tetrahedron) { return places.of_tetrahedron(tetrahedron); });
+  for (std::size_t i = 0; i < critical.triangles.size(); ++i)
+    sources.insert(sources.end(), critical.star_begin[i + 1] - critical.star_begin[i], static_cast<Id>(i));
+  return paths_of(gradient.tetrahedron_successors().data(), critical.star, sources,
+                  [&](Id tetrahedron) { return places.of_tetrahedron(tetrahedron); });
 }
 
 }  // namespace gale::detail

@@ -9,8 +9,9 @@
 
 namespace gale::detail {
 
-// The later star of a vertex: the edges and triangles in which no other vertex has a lower input id. Their other vertices, its later neighbours, are
-// named by GALE's ids. Both classes count them, and know each one's place among those of its dimension in lexicographic order of input vertices.
+// The later star of a vertex: the edges and triangles in which no other vertex has a lower input id. Their other
+// vertices, its later neighbours, are named by GALE's ids. Both classes count them, and know each one's place among
+// those of its dimension in lexicographic order of input vertices.
 
 /// Of a vertex with at most SmallLink::capacity neighbours.
 class SmallLaterStar {
@@ -28,8 +29,8 @@ class SmallLaterStar {
   /// Place of the edge to `other`; no_id if there is none.
   Id edge(Id other) const { return (later_ & bit_of(other)) == 0 ? no_id : count_bits(before(other)); }
 
-  /// Place of the triangle with two vertices, of which `middle` has the lower input id; no_id if there is none. Before it are those with an earlier
-  /// neighbour than `middle`, and those with `middle` and one between the two.
+  /// Place of the triangle with two vertices, of which `middle` has the lower input id; no_id if there is none. Before
+  /// it are those with an earlier neighbour than `middle`, and those with `middle` and one between the two.
   Id triangle(Id middle, Id last) const {
     if ((later_ & bit_of(middle)) == 0 || (touching(middle) & later_ & bit_of(last)) == 0) return no_id;
     const std::uint64_t earlier = before(middle);

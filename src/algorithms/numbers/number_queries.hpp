@@ -14,7 +14,8 @@
 
 namespace gale::detail {
 
-/// Simplices of N vertices whose numbers are asked for, by the segment of the vertex that has the lowest input id in each.
+/// Simplices of N vertices whose numbers are asked for, by the segment of the vertex that has the lowest input id in
+/// each.
 template <std::size_t N>
 class NumberQueries {
  public:
@@ -28,7 +29,9 @@ class NumberQueries {
 
   /// `simplices` must outlive it. Throws gale::Error for a vertex that the mesh doesn't have.
   NumberQueries(const Mesh& mesh, const std::vector<Simplex>& simplices)
-      : simplices_(simplices), input_(mesh.vertex_input().data()), end_("GALE::number_queries_end", mesh.segments() + 1) {
+      : simplices_(simplices),
+        input_(mesh.vertex_input().data()),
+        end_("GALE::number_queries_end", mesh.segments() + 1) {
     require_ids("simplices to number", simplices.size());
     const auto count = static_cast<Offset>(simplices.size());
     queries_ = allocate<Array<Query, HostMemory>>("GALE::number_queries", count);
@@ -64,9 +67,8 @@ class NumberQueries {
 
   /// When all places are set: the numbers, from those of the first simplex of each input vertex.
   std::vector<Id> take_numbers(const Array<Id, HostMemory>& begin) {
-    parallel_for("GALE::add_numbers", Kokkos::DefaultHostExecutionSpace(), numbers_.size(), [&](Offset i) {
-      numbers_[queries_(i).index] += begin(input_[queries_(i).vertex]);
-    });
+    parallel_for("GALE::add_numbers", Kokkos::DefaultHostExecutionSpace(), numbers_.size(),
+                 [&](Offset i) { numbers_[queries_(i).index] += begin(input_[queries_(i).vertex]); });
     return std::move(numbers_);
   }
 
@@ -74,7 +76,8 @@ class NumberQueries {
   static void require_vertices(const Mesh& mesh, const Simplex& simplex) {
     for (const Id vertex : simplex) {
       if (vertex >= 0 && vertex < mesh.vertices()) continue;
-      throw Error("no vertex " + std::to_string(vertex) + " to number a simplex of: there are " + std::to_string(mesh.vertices()));
+      throw Error("no vertex " + std::to_string(vertex) + " to number a simplex of: there are " +
+                  std::to_string(mesh.vertices()));
     }
   }
 

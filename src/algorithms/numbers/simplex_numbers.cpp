@@ -1,9 +1,8 @@
-#include <gale/algorithms/simplex_numbers.hpp>
-
 #include <algorithm>
 
 #include <gale/algorithms/numbers/later_star.hpp>
 #include <gale/algorithms/numbers/number_queries.hpp>
+#include <gale/algorithms/simplex_numbers.hpp>
 
 namespace gale {
 
@@ -12,7 +11,8 @@ namespace {
 using HostSpace = Kokkos::DefaultHostExecutionSpace;
 using Ids = Array<Id, HostMemory>;
 
-/// The sweep: how many edges and triangles have each vertex as their first, and the places of those asked for among these.
+/// The sweep: how many edges and triangles have each vertex as their first, and the places of those asked for among
+/// these.
 class Numbering {
  public:
   Numbering(const Mesh& mesh, const NamedSimplices& named, int consumers)
@@ -49,7 +49,10 @@ class Numbering {
   /// The simplices of one segment that are still to be placed, in the order of its vertices.
   struct Pending {
     Pending(const detail::NumberQueries<2>& edges, const detail::NumberQueries<3>& triangles, Id segment)
-        : edge(edges.begin(segment)), last_edge(edges.end(segment)), triangle(triangles.begin(segment)), last_triangle(triangles.end(segment)) {
+        : edge(edges.begin(segment)),
+          last_edge(edges.end(segment)),
+          triangle(triangles.begin(segment)),
+          last_triangle(triangles.end(segment)) {
       std::sort(edge, last_edge);
       std::sort(triangle, last_triangle);
     }
@@ -94,7 +97,8 @@ class Numbering {
 
 SimplexNumbers number_simplices(Structure& structure, const NamedSimplices& named, const SweepOptions& options) {
   Numbering numbering(structure.mesh(), named, std::max(options.threads, 1));
-  structure.for_each_segment(simplex_numbers_relations, options, [&](int consumer, const SegmentRows& rows) { numbering.visit(consumer, rows); });
+  structure.for_each_segment(simplex_numbers_relations, options,
+                             [&](int consumer, const SegmentRows& rows) { numbering.visit(consumer, rows); });
   return numbering.finish();
 }
 

@@ -1,9 +1,8 @@
-#include <gale/algorithms/vertex_order.hpp>
-
 #include <cstring>
 #include <string>
 #include <type_traits>
 
+#include <gale/algorithms/vertex_order.hpp>
 #include <gale/base/error.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/base/radix_sort.hpp>
@@ -78,7 +77,8 @@ template <class Value>
 VertexOrder::VertexOrder(const Mesh& mesh, const Value* values, std::size_t count)
     : keys_(allocate<Keys>("GALE::order_keys", mesh.vertices())) {
   if (count != static_cast<std::size_t>(mesh.vertices())) {
-    throw Error("the field has " + std::to_string(count) + " values, the mesh " + std::to_string(mesh.vertices()) + " vertices");
+    throw Error("the field has " + std::to_string(count) + " values, the mesh " + std::to_string(mesh.vertices()) +
+                " vertices");
   }
   refuse_nan(values, mesh.vertices());
   if constexpr (sizeof(Value) == 8) {

@@ -1,8 +1,8 @@
-#include <gale/algorithms/persistence/morse_graph.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+
+#include <gale/algorithms/persistence/morse_graph.hpp>
 
 namespace gale::detail {
 
@@ -17,7 +17,8 @@ bool MorseGraph::Pair::operator>(const Pair& other) const {
   return std::tie(persistence, low, high, arc) > std::tie(other.persistence, other.low, other.high, other.arc);
 }
 
-MorseGraph::MorseGraph(const MorseSmaleComplex& complex, const std::vector<double>& values, double threshold) : values_(values), threshold_(threshold) {
+MorseGraph::MorseGraph(const MorseSmaleComplex& complex, const std::vector<double>& values, double threshold)
+    : values_(values), threshold_(threshold) {
   const auto counts = complex.critical.counts();
   first_[0] = 0;
   for (int d = 0; d < 4; ++d) {
@@ -67,7 +68,8 @@ void MorseGraph::cancel() {
 std::vector<int> MorseGraph::others(const std::vector<int>& arcs, int but) const {
   std::vector<int> others;
   for (const int arc : arcs) {
-    if (arcs_[arc].is_alive && (arcs_[arc].low != arcs_[but].low || arcs_[arc].high != arcs_[but].high)) others.push_back(arc);
+    if (arcs_[arc].is_alive && (arcs_[arc].low != arcs_[but].low || arcs_[arc].high != arcs_[but].high))
+      others.push_back(arc);
   }
   return others;
 }
@@ -77,9 +79,12 @@ bool MorseGraph::may_cancel(int arc) const {
   if (!pair.is_alive || !pair.is_only) return false;
   // Arcs between the two are in both lists: look through the shorter.
   const auto& shorter = up_[pair.low].size() < down_[pair.high].size() ? up_[pair.low] : down_[pair.high];
-  const auto joins_both = [&](int other) { return arcs_[other].is_alive && arcs_[other].low == pair.low && arcs_[other].high == pair.high; };
+  const auto joins_both = [&](int other) {
+    return arcs_[other].is_alive && arcs_[other].low == pair.low && arcs_[other].high == pair.high;
+  };
   if (std::count_if(shorter.begin(), shorter.end(), joins_both) != 1) return false;
-  return dimension(pair.low) != 1 || others(up_[pair.low], arc).size() * others(down_[pair.high], arc).size() <= most_new_paths;
+  return dimension(pair.low) != 1 ||
+         others(up_[pair.low], arc).size() * others(down_[pair.high], arc).size() <= most_new_paths;
 }
 
 void MorseGraph::cancel(int arc) {

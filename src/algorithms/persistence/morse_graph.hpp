@@ -11,10 +11,11 @@ namespace gale::detail {
 /// Critical simplices and the paths between them, of which pairs are cancelled.
 class MorseGraph {
  public:
-  /// A path between a node and one that is a dimension higher: of the complex, or of three: `start` and then `middle` backwards and then `end`.
+  /// A path between a node and one that is a dimension higher: of the complex, or of three: `start` and then `middle`
+  /// backwards and then `end`.
   struct Arc {
     int low, high;
-    bool is_only;           ///< false: stands for several paths
+    bool is_only;  ///< false: stands for several paths
     bool is_alive = true;
     Id separatrix = no_id;  ///< place in the complex' separatrices of its kind
     int start = -1, middle = -1, end = -1;

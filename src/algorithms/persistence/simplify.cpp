@@ -1,14 +1,13 @@
-#include <gale/algorithms/simplify.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <set>
 #include <string>
 #include <tuple>
 
-#include <gale/algorithms/persistence/joined_paths.hpp>
 #include <gale/algorithms/morse_smale/manifolds.hpp>
+#include <gale/algorithms/persistence/joined_paths.hpp>
 #include <gale/algorithms/persistence/morse_graph.hpp>
+#include <gale/algorithms/simplify.hpp>
 #include <gale/base/error.hpp>
 #include <gale/base/parallel.hpp>
 
@@ -29,7 +28,8 @@ std::vector<double> values_of(const MorseSmaleComplex& complex, const std::funct
   std::vector<double> values;
   const auto add = [&](Id vertex) {
     values.push_back(value(input[vertex]));
-    if (std::isnan(values.back())) throw Error("vertex " + std::to_string(input[vertex]) + " has no field value: it is NaN");
+    if (std::isnan(values.back()))
+      throw Error("vertex " + std::to_string(input[vertex]) + " has no field value: it is NaN");
   };
   for (const Id vertex : critical.vertices) add(vertex);
   for (const auto& edge : critical.edges) add(edge[0]);
@@ -74,10 +74,11 @@ CriticalSimplices critical_left(const MorseGraph& graph, const CriticalSimplices
 
 /// The paths that are left from simplices of one dimension to those of another, in the order of `CompareEnds`.
 template <class Cell>
-Separatrices<Cell> separatrices_left(const MorseGraph& graph, const std::vector<Id>& places, int from_dimension, int to_dimension,
-                                     const Separatrices<Cell>& separatrices) {
+Separatrices<Cell> separatrices_left(const MorseGraph& graph, const std::vector<Id>& places, int from_dimension,
+                                     int to_dimension, const Separatrices<Cell>& separatrices) {
   const bool rises = from_dimension < to_dimension;
-  std::vector<std::tuple<Id, Id, int>> order;  // in that of the complex: connectors by destination, the others by source
+  std::vector<std::tuple<Id, Id, int>>
+      order;  // in that of the complex: connectors by destination, the others by source
   for (int i = 0; i < static_cast<int>(graph.arcs().size()); ++i) {
     const MorseGraph::Arc& arc = graph.arcs()[i];
     const int from = rises ? arc.low : arc.high, to = rises ? arc.high : arc.low;
@@ -131,7 +132,8 @@ Cell sorted(Cell cell) {
   return cell;
 }
 
-Separatrices<TriangleVertices> descending_walls_left(const MorseGraph& graph, const std::vector<Id>& places, const MorseSmaleComplex& complex) {
+Separatrices<TriangleVertices> descending_walls_left(const MorseGraph& graph, const std::vector<Id>& places,
+                                                     const MorseSmaleComplex& complex) {
   Separatrices<TriangleVertices> left;
   const auto& walls = complex.descending_walls;
   if (walls.sources.empty()) return left;
@@ -148,7 +150,8 @@ Separatrices<TriangleVertices> descending_walls_left(const MorseGraph& graph, co
   return left;
 }
 
-AscendingWalls ascending_walls_left(const MorseGraph& graph, const std::vector<Id>& places, const MorseSmaleComplex& complex) {
+AscendingWalls ascending_walls_left(const MorseGraph& graph, const std::vector<Id>& places,
+                                    const MorseSmaleComplex& complex) {
   AscendingWalls left;
   const AscendingWalls& all = complex.ascending_walls;
   if (all.walls.sources.empty()) return left;
@@ -158,7 +161,8 @@ AscendingWalls ascending_walls_left(const MorseGraph& graph, const std::vector<I
       for (Offset cell = all.walls.begin[part]; cell < all.walls.begin[part + 1]; ++cell) {
         if (parts.size() > 1 && !seen.insert(all.walls.cells[cell]).second) continue;
         left.walls.cells.push_back(all.walls.cells[cell]);
-        left.star.insert(left.star.end(), all.star.begin() + all.star_begin[cell], all.star.begin() + all.star_begin[cell + 1]);
+        left.star.insert(left.star.end(), all.star.begin() + all.star_begin[cell],
+                         all.star.begin() + all.star_begin[cell + 1]);
         left.star_begin.push_back(static_cast<Offset>(left.star.size()));
       }
     }
@@ -168,7 +172,8 @@ AscendingWalls ascending_walls_left(const MorseGraph& graph, const std::vector<I
   return left;
 }
 
-Array<Id, HostMemory> manifold_left(MorseGraph& graph, const std::vector<Id>& places, int dimension, Id count, const Array<Id, HostMemory>& manifold) {
+Array<Id, HostMemory> manifold_left(MorseGraph& graph, const std::vector<Id>& places, int dimension, Id count,
+                                    const Array<Id, HostMemory>& manifold) {
   if (manifold.extent(0) == 0) return manifold;
   std::vector<Id> heirs(count);
   for (Id i = 0; i < count; ++i) {
@@ -176,7 +181,8 @@ Array<Id, HostMemory> manifold_left(MorseGraph& graph, const std::vector<Id>& pl
     heirs[i] = heir == MorseGraph::nowhere ? no_id : places[heir];
   }
   const auto left = allocate<Array<Id, HostMemory>>("GALE::manifold_left", manifold.extent(0));
-  parallel_for("GALE::manifold_left", HostSpace(), manifold.extent(0), [&](Offset v) { left(v) = manifold(v) == no_id ? no_id : heirs[manifold(v)]; });
+  parallel_for("GALE::manifold_left", HostSpace(), manifold.extent(0),
+               [&](Offset v) { left(v) = manifold(v) == no_id ? no_id : heirs[manifold(v)]; });
   return left;
 }
 

@@ -1,10 +1,8 @@
 #include <gale/algorithms/critical_points.hpp>
-
-#include <gale/io/arrays.hpp>
-#include <gale/io/write.hpp>
-
 #include <gale/app/commands/commands.hpp>
 #include <gale/app/session.hpp>
+#include <gale/io/arrays.hpp>
+#include <gale/io/write.hpp>
 
 namespace gale::app {
 
@@ -12,7 +10,8 @@ namespace {
 
 /// Every k-th row of `points` that `ids` names.
 template <class Coordinate>
-io::Dataset::Points<Coordinate> positions_of(const io::Dataset::Points<Coordinate>& points, const std::vector<Id>& ids) {
+io::Dataset::Points<Coordinate> positions_of(const io::Dataset::Points<Coordinate>& points,
+                                             const std::vector<Id>& ids) {
   io::Dataset::Points<Coordinate> positions("positions", ids.size());
   for (std::size_t i = 0; i < ids.size(); ++i) {
     for (int axis = 0; axis < 3; ++axis) positions(i, axis) = points(ids[i], axis);
@@ -61,7 +60,8 @@ void critical_points(const Options& options) {
     points = find_critical_points(*structure, input.order, session.sweep("critical points"));
   }
   tell(points, session);
-  session.write(options.output, [&](const std::string& path) { io::write_points(path, to_point_set(input.dataset, points)); });
+  session.write(options.output,
+                [&](const std::string& path) { io::write_points(path, to_point_set(input.dataset, points)); });
   session.finish(structure.get());
 }
 

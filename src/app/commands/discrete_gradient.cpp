@@ -1,10 +1,9 @@
-#include <gale/baselines/discrete_gradient_from_cells.hpp>
-
-#include <gale/outputs/arrows.hpp>
 #include <gale/app/commands/commands.hpp>
 #include <gale/app/critical_counts.hpp>
-#include <gale/outputs/critical_simplices.hpp>
 #include <gale/app/session.hpp>
+#include <gale/baselines/discrete_gradient_from_cells.hpp>
+#include <gale/outputs/arrows.hpp>
+#include <gale/outputs/critical_simplices.hpp>
 
 namespace gale::app {
 
@@ -12,7 +11,8 @@ namespace {
 
 /// What the command's structure is preconditioned for.
 RelationSet relations_for(const Options& options) {
-  const RelationSet gradient = options.formulation == "cells" ? discrete_gradient_from_cells_relations : discrete_gradient_relations;
+  const RelationSet gradient =
+      options.formulation == "cells" ? discrete_gradient_from_cells_relations : discrete_gradient_relations;
   return options.output.empty() ? gradient : gradient | simplex_numbers_relations;
 }
 
@@ -38,9 +38,12 @@ void discrete_gradient(const Options& options) {
       const Stopwatch watch(run);
       numbers = number_simplices(*structure, {critical.edges, critical.triangles}, session.sweep("numbers"));
     }
-    session.write(options.output, [&](const std::string& path) { io::write_points(path, to_point_set(input.dataset, known_simplices(gradient, critical, numbers))); });
+    session.write(options.output, [&](const std::string& path) {
+      io::write_points(path, to_point_set(input.dataset, known_simplices(gradient, critical, numbers)));
+    });
   }
-  session.write(options.arrows, [&](const std::string& path) { io::write_points(path, arrows_of(input.dataset, gradient)); });
+  session.write(options.arrows,
+                [&](const std::string& path) { io::write_points(path, arrows_of(input.dataset, gradient)); });
   session.finish(structure.get());
 }
 

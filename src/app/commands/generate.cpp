@@ -1,7 +1,6 @@
-#include <gale/io/write.hpp>
-
 #include <gale/app/commands/commands.hpp>
 #include <gale/app/session.hpp>
+#include <gale/io/write.hpp>
 
 namespace gale::app {
 

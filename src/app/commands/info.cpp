@@ -4,7 +4,6 @@
 #include <numeric>
 
 #include <gale/algorithms/surface_vertices.hpp>
-
 #include <gale/app/commands/commands.hpp>
 #include <gale/app/session.hpp>
 
@@ -80,8 +79,11 @@ void tell_arrays(const io::Dataset& dataset, Session& session) {
         array.values);
     const std::string components = array.components == 1 ? "" : ", " + std::to_string(array.components) + " components";
     session.console().say("array " + array.name, type + components + ", " + to_string(range));
-    arrays.push_back(
-        {{"name", array.name}, {"type", type}, {"components", array.components}, {"range", range.json()}, {"nan", range.nans}});
+    arrays.push_back({{"name", array.name},
+                      {"type", type},
+                      {"components", array.components},
+                      {"range", range.json()},
+                      {"nan", range.nans}});
   }
   session.report().result["arrays"] = arrays;
 }

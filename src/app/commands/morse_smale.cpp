@@ -1,14 +1,12 @@
 #include <gale/algorithms/morse_smale.hpp>
-
 #include <gale/algorithms/simplify.hpp>
-
 #include <gale/app/commands/commands.hpp>
 #include <gale/app/critical_counts.hpp>
-#include <gale/outputs/field.hpp>
 #include <gale/app/drawing/picture.hpp>
+#include <gale/app/session.hpp>
+#include <gale/outputs/field.hpp>
 #include <gale/outputs/separatrices1.hpp>
 #include <gale/outputs/separatrices2.hpp>
-#include <gale/app/session.hpp>
 
 namespace gale::app {
 
@@ -24,12 +22,15 @@ struct Files {
     if (options.output.empty()) return;
     const MorseSmaleParts& parts = options.parts;
     critical_points = options.output + "_critical_points.vtp";
-    if (parts.descending_separatrices || parts.ascending_separatrices || parts.saddle_connectors) separatrices1 = options.output + "_separatrices1.vtp";
+    if (parts.descending_separatrices || parts.ascending_separatrices || parts.saddle_connectors)
+      separatrices1 = options.output + "_separatrices1.vtp";
     if (parts.separatrices2) separatrices2 = options.output + "_separatrices2.vtp";
     if (parts.descending_manifolds || parts.ascending_manifolds) segmentation = options.output + "_segmentation.vtu";
   }
 
-  std::vector<std::string> all(const std::string& picture) const { return {critical_points, separatrices1, separatrices2, segmentation, picture}; }
+  std::vector<std::string> all(const std::string& picture) const {
+    return {critical_points, separatrices1, separatrices2, segmentation, picture};
+  }
 };
 
 /// What has to be found for what is wanted: a simplification needs all paths, and the walls' arrays the connectors.
@@ -59,13 +60,17 @@ void leave_out_unwanted(const MorseSmaleParts& wanted, MorseSmaleComplex& comple
 class Analysis {
  public:
   Analysis(const FieldOnMesh& input, const io::PointArray& field, Session& session)
-      : options_(session.options()), session_(session), structure_(session.make_structure(input.mesh, morse_smale_relations)) {
+      : options_(session.options()),
+        session_(session),
+        structure_(session.make_structure(input.mesh, morse_smale_relations)) {
     const Stopwatch watch(session.report().seconds.run);
     const DiscreteGradient gradient = find_discrete_gradient(*structure_, input.order, session.sweep("gradient"));
-    complex_ = std::make_unique<MorseSmaleComplex>(find_morse_smale_complex(*structure_, gradient, needed_parts(options_), session.sweep("complex")));
+    complex_ = std::make_unique<MorseSmaleComplex>(
+        find_morse_smale_complex(*structure_, gradient, needed_parts(options_), session.sweep("complex")));
     if (!options_.persistence) return;
     const Heights heights(input.mesh, input.order, field);
-    *complex_ = simplify(*complex_, [&](Id vertex) { return heights.value(vertex); }, threshold_of(*options_.persistence, field));
+    *complex_ = simplify(
+        *complex_, [&](Id vertex) { return heights.value(vertex); }, threshold_of(*options_.persistence, field));
   }
 
   const Structure& structure() const { return *structure_; }
@@ -116,7 +121,8 @@ void tell(const MorseSmaleComplex& complex, Session& session) {
   tell("manifolds", "manifolds",
        {{"ascending", "ascending", parts.ascending_manifolds, counts[3]},
         {"descending", "descending", parts.descending_manifolds, counts[0]},
-        {"Morse-Smale", "morse_smale", parts.ascending_manifolds && parts.descending_manifolds, complex.morse_smale_manifolds}},
+        {"Morse-Smale", "morse_smale", parts.ascending_manifolds && parts.descending_manifolds,
+         complex.morse_smale_manifolds}},
        session);
 }
 
@@ -136,7 +142,8 @@ std::vector<io::PointArray> segmentation(const MorseSmaleComplex& complex) {
   return arrays;
 }
 
-/// How many vertices are in the manifold of each critical simplex: 0 of saddles, -1 where the manifolds are switched off.
+/// How many vertices are in the manifold of each critical simplex: 0 of saddles, -1 where the manifolds are switched
+/// off.
 std::vector<Id> manifold_sizes(const MorseSmaleComplex& complex) {
   const auto counts = complex.critical.counts();
   std::vector<Id> sizes;
@@ -153,7 +160,8 @@ std::vector<Id> manifold_sizes(const MorseSmaleComplex& complex) {
   return sizes;
 }
 
-io::PointSet with_manifold_sizes(const io::Dataset& dataset, const MorseSmaleComplex& complex, const KnownSimplices& critical) {
+io::PointSet with_manifold_sizes(const io::Dataset& dataset, const MorseSmaleComplex& complex,
+                                 const KnownSimplices& critical) {
   io::PointSet points = to_point_set(dataset, critical);
   points.arrays.push_back({"ManifoldSize", 1, manifold_sizes(complex)});
   return points;
@@ -166,7 +174,8 @@ auto timed(double& seconds, const Make& make) {
   return make();
 }
 
-void write(const Files& files, const FieldOnMesh& input, const io::PointArray& field, Analysis& analysis, Session& session) {
+void write(const Files& files, const FieldOnMesh& input, const io::PointArray& field, Analysis& analysis,
+           Session& session) {
   MorseSmaleComplex& complex = analysis.complex();
   const Heights heights(input.mesh, input.order, field);
   const io::Dataset& dataset = input.dataset;
@@ -175,19 +184,27 @@ void write(const Files& files, const FieldOnMesh& input, const io::PointArray& f
   double& seconds = session.report().seconds.write;
   const NamedSimplices named = timed(seconds, [&] { return named_simplices(complex); });
   const SimplexNumbers numbers = analysis.number(named);
-  const KnownSimplices critical = timed(seconds, [&] { return known_simplices(complex.gradient, complex.critical, numbers); });
+  const KnownSimplices critical =
+      timed(seconds, [&] { return known_simplices(complex.gradient, complex.critical, numbers); });
   const io::PointSet points = timed(seconds, [&] { return with_manifold_sizes(dataset, complex, critical); });
-  const io::Surface lines = timed(seconds, [&] { return separatrices1(dataset, complex, named, numbers, critical, heights); });
+  const io::Surface lines =
+      timed(seconds, [&] { return separatrices1(dataset, complex, named, numbers, critical, heights); });
   session.write(files.critical_points, [&](const std::string& path) { io::write_points(path, points); });
   session.write(files.separatrices1, [&](const std::string& path) { io::write_surface(path, lines); });
-  session.write(files.separatrices2, [&](const std::string& path) { io::write_surface(path, separatrices2(dataset, complex, connectors, critical, heights)); });
-  session.write(files.segmentation, [&](const std::string& path) { io::write_mesh(path, dataset, segmentation(complex)); });
-  session.write(session.options().render, [&](const std::string& path) { draw(path, picture_of(dataset, complex, numbers, points, lines, heights)); });
+  session.write(files.separatrices2, [&](const std::string& path) {
+    io::write_surface(path, separatrices2(dataset, complex, connectors, critical, heights));
+  });
+  session.write(files.segmentation,
+                [&](const std::string& path) { io::write_mesh(path, dataset, segmentation(complex)); });
+  session.write(session.options().render, [&](const std::string& path) {
+    draw(path, picture_of(dataset, complex, numbers, points, lines, heights));
+  });
 }
 
 void require_png(const std::string& file) {
   const std::string extension = file.size() > 4 ? file.substr(file.size() - 4) : "";
-  if (extension != ".png" && extension != ".PNG") throw UsageError("--render " + file + ": gale morse-smale draws .png");
+  if (extension != ".png" && extension != ".PNG")
+    throw UsageError("--render " + file + ": gale morse-smale draws .png");
 }
 
 }  // namespace
@@ -199,7 +216,8 @@ void morse_smale(const Options& options) {
   }
   const Files files(options);
   Session session(options, files.all(options.render));
-  const FieldOnMesh input = session.read_field(files.segmentation.empty() ? Session::Keep::nothing : Session::Keep::tetrahedra);
+  const FieldOnMesh input =
+      session.read_field(files.segmentation.empty() ? Session::Keep::nothing : Session::Keep::tetrahedra);
   const io::PointArray field = select_field(input.dataset, options.array);
   Analysis analysis(input, field, session);
   tell(analysis.complex(), session);

@@ -3,13 +3,12 @@
 #include <fstream>
 #include <mutex>
 
+#include <gale/app/commands/commands.hpp>
+#include <gale/app/session.hpp>
 #include <gale/base/error.hpp>
+#include <gale/baselines/oracle.hpp>
 #include <gale/io/atomic_file.hpp>
 #include <gale/mesh/input_numbers.hpp>
-
-#include <gale/app/commands/commands.hpp>
-#include <gale/baselines/oracle.hpp>
-#include <gale/app/session.hpp>
 
 namespace gale::app {
 
@@ -37,7 +36,8 @@ template <class Visit>
 void for_each_row(Structure& structure, Relation relation, const SweepOptions& sweep, const Visit& visit) {
   const int dimension = row_dimension(relation);
   structure.for_each_segment(relation, sweep, [&](int consumer, const SegmentRows& rows) {
-    for (Id simplex = rows.first(dimension); simplex < rows.last(dimension); ++simplex) visit(consumer, simplex, rows[relation][simplex]);
+    for (Id simplex = rows.first(dimension); simplex < rows.last(dimension); ++simplex)
+      visit(consumer, simplex, rows[relation][simplex]);
   });
 }
 
@@ -70,7 +70,8 @@ std::int64_t count_differences(Structure& structure, Relation relation, Oracle& 
 
 void write_rows(std::ostream& out, Structure& structure, Relation relation, const Sizes& sizes) {
   const Mesh& mesh = structure.mesh();
-  const auto row_numbers = input_numbers(mesh, row_dimension(relation)), entry_numbers = input_numbers(mesh, entry_dimension(relation));
+  const auto row_numbers = input_numbers(mesh, row_dimension(relation)),
+             entry_numbers = input_numbers(mesh, entry_dimension(relation));
   std::vector<Id> simplex_of(row_numbers.extent(0)), entries;
   for (std::size_t i = 0; i < simplex_of.size(); ++i) simplex_of[row_numbers(i)] = static_cast<Id>(i);
   const auto consumer = structure.consumer();
@@ -103,14 +104,18 @@ std::string rate(double amount, double seconds, const std::string& unit) {
 }
 
 void tell(const Sizes& sizes, Relation relation, Session& session) {
-  const double run = session.report().seconds.run, entries = static_cast<double>(sizes.entries), rows = static_cast<double>(sizes.rows);
+  const double run = session.report().seconds.run, entries = static_cast<double>(sizes.entries),
+               rows = static_cast<double>(sizes.rows);
   session.console().say("relation", name_of(relation));
   session.console().say("rows", grouped(sizes.rows));
   session.console().say("entries", grouped(sizes.entries));
   session.console().say("longest row", grouped(sizes.longest));
   session.console().say("rates", rate(rows / 1e6, run, "M rows/s, ") + rate(entries / 1e6, run, "M entries/s, ") +
                                      rate((entries + rows) * sizeof(Id) / 1e9, run, "GB/s"));
-  session.report().result = {{"relation", name_of(relation)}, {"rows", sizes.rows}, {"entries", sizes.entries}, {"longest_row", sizes.longest}};
+  session.report().result = {{"relation", name_of(relation)},
+                             {"rows", sizes.rows},
+                             {"entries", sizes.entries},
+                             {"longest_row", sizes.longest}};
 }
 
 void verify(Structure& structure, Relation relation, const Sizes& sizes, Session& session) {
@@ -120,7 +125,8 @@ void verify(Structure& structure, Relation relation, const Sizes& sizes, Session
   session.console().say("differences", grouped(differences) + " from " + oracle->name());
   session.report().result["differences"] = differences;
   if (differences != 0) {
-    throw Error(std::to_string(differences) + " of " + std::to_string(sizes.rows) + " rows of " + name_of(relation) + " differ from " + oracle->name());
+    throw Error(std::to_string(differences) + " of " + std::to_string(sizes.rows) + " rows of " + name_of(relation) +
+                " differ from " + oracle->name());
   }
 }
 

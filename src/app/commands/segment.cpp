@@ -1,10 +1,9 @@
 #include <algorithm>
 
-#include <gale/io/write.hpp>
-
 #include <gale/app/commands/commands.hpp>
-#include <gale/outputs/field.hpp>
 #include <gale/app/session.hpp>
+#include <gale/io/write.hpp>
+#include <gale/outputs/field.hpp>
 
 namespace gale::app {
 
@@ -32,7 +31,8 @@ void tell(const Mesh& mesh, Session& session) {
   const double mean = static_cast<double>(mesh.vertices()) / mesh.segments();
   session.console().say("vertices each", grouped(smallest) + " to " + grouped(largest));
   session.console().say("external", grouped(external) + " tetrahedra");
-  session.report().result = {{"smallest", smallest}, {"largest", largest}, {"mean", mean}, {"external_tetrahedra", external}};
+  session.report().result = {
+      {"smallest", smallest}, {"largest", largest}, {"mean", mean}, {"external_tetrahedra", external}};
 }
 
 }  // namespace
@@ -43,7 +43,9 @@ void segment(const Options& options) {
   io::Dataset dataset = session.read();
   const Mesh mesh = session.encode(dataset, Session::Keep::tetrahedra);
   tell(mesh, session);
-  session.write(options.output, [&](const std::string& path) { io::write_mesh(path, dataset, {{segments_name, 1, segments_of(mesh)}}); });
+  session.write(options.output, [&](const std::string& path) {
+    io::write_mesh(path, dataset, {{segments_name, 1, segments_of(mesh)}});
+  });
   session.finish(nullptr);
 }
 

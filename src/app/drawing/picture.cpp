@@ -1,8 +1,8 @@
-#include <gale/app/drawing/picture.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <unordered_set>
+
+#include <gale/app/drawing/picture.hpp>
 
 namespace gale::app {
 
@@ -27,7 +27,8 @@ std::vector<Point> to_points(const std::variant<io::Dataset::Points<float>, io::
 
 template <class T>
 const std::vector<T>& values_of(const std::vector<io::PointArray>& arrays, const std::string& name) {
-  const auto at = std::find_if(arrays.begin(), arrays.end(), [&](const io::PointArray& array) { return array.name == name; });
+  const auto at =
+      std::find_if(arrays.begin(), arrays.end(), [&](const io::PointArray& array) { return array.name == name; });
   return std::get<std::vector<T>>(at->values);
 }
 
@@ -55,8 +56,13 @@ struct Octant {
 
 class Painter {
  public:
-  Painter(const io::Dataset& dataset, const MorseSmaleComplex& complex, const SimplexNumbers& numbers, const Heights& heights)
-      : points_(to_points(dataset.points)), complex_(complex), mesh_(complex.gradient.mesh()), numbers_(numbers), heights_(heights) {
+  Painter(const io::Dataset& dataset, const MorseSmaleComplex& complex, const SimplexNumbers& numbers,
+          const Heights& heights)
+      : points_(to_points(dataset.points)),
+        complex_(complex),
+        mesh_(complex.gradient.mesh()),
+        numbers_(numbers),
+        heights_(heights) {
     measure();
   }
 
@@ -80,7 +86,9 @@ class Painter {
     double size = 0;
     for (int axis = 0; axis < 3; ++axis) {
       const double middle = scene_.low[axis] + 0.48 * (scene_.high[axis] - scene_.low[axis]);
-      const auto nearer = [&](const Point& a, const Point& b) { return std::abs(a[axis] - middle) < std::abs(b[axis] - middle); };
+      const auto nearer = [&](const Point& a, const Point& b) {
+        return std::abs(a[axis] - middle) < std::abs(b[axis] - middle);
+      };
       octant_.corner[axis] = (*std::min_element(points_.begin(), points_.end(), nearer))[axis];
       size += (scene_.high[axis] - scene_.low[axis]) * (scene_.high[axis] - scene_.low[axis]);
     }
@@ -105,7 +113,8 @@ class Painter {
   }
 
   void paint_tubes(const io::Surface& lines) {
-    for (int type : {1, 0, 2}) scene_.tubes.push_back({color_of_type[type], scene_.ball_radius * (type == 1 ? 0.14 : 0.27), {}});
+    for (int type : {1, 0, 2})
+      scene_.tubes.push_back({color_of_type[type], scene_.ball_radius * (type == 1 ? 0.14 : 0.27), {}});
     const std::vector<Point> points = to_points(lines.points);
     const auto& types = values_of<std::int8_t>(lines.cell_arrays, "SeparatrixType");
     const auto& mask = values_of<std::int8_t>(lines.point_arrays, "ttkMaskScalarField");
@@ -123,7 +132,11 @@ class Painter {
         is_new[k - first] = seen[type].insert(std::uint64_t(a) << 32 | static_cast<std::uint32_t>(b)).second;
       }
       if (std::find(is_new.begin(), is_new.end(), true) != is_new.end()) {
-        add_path(smoothed({points.begin() + first, points.begin() + last + 1}), is_new, scene_.tubes[type == 1 ? 0 : type == 0 ? 1 : 2].paths);
+        add_path(smoothed({points.begin() + first, points.begin() + last + 1}), is_new,
+                 scene_.tubes[type == 1   ? 0
+                              : type == 0 ? 1
+                                          : 2]
+                     .paths);
       }
       line += last - first;
       first = last + 1;
@@ -135,14 +148,16 @@ class Painter {
     std::vector<Point> next = path;
     for (int i = 0; i < 20; ++i, path.swap(next)) {
       for (std::size_t k = 1; k + 1 < path.size(); ++k) {
-        for (int axis = 0; axis < 3; ++axis) next[k][axis] = path[k][axis] / 2 + (path[k - 1][axis] + path[k + 1][axis]) / 4;
+        for (int axis = 0; axis < 3; ++axis)
+          next[k][axis] = path[k][axis] / 2 + (path[k - 1][axis] + path[k + 1][axis]) / 4;
       }
     }
     return path;
   }
 
   /// The lines of a path that are in the octant and that no other path had before: many share most of their way.
-  static void add_path(const std::vector<Point>& path, const std::vector<bool>& is_new, std::vector<std::vector<Point>>& paths) {
+  static void add_path(const std::vector<Point>& path, const std::vector<bool>& is_new,
+                       std::vector<std::vector<Point>>& paths) {
     for (std::size_t k = 0; k < is_new.size(); ++k) {
       if (!is_new[k]) continue;
       if (k == 0 || !is_new[k - 1]) paths.push_back({path[k]});
@@ -150,7 +165,8 @@ class Painter {
     }
   }
 
-  /// The triangles of what is left of the mesh that one tetrahedron has alone. Their vertices are on the mesh's surface or on the cut.
+  /// The triangles of what is left of the mesh that one tetrahedron has alone. Their vertices are on the mesh's surface
+  /// or on the cut.
   void paint_skin() {
     const auto& tetrahedra = mesh_.host().tetrahedra;
     std::vector<char> is_left(mesh_.tetrahedra()), near_left(mesh_.vertices()), near_cut(mesh_.vertices());
@@ -162,7 +178,8 @@ class Painter {
       is_left[t] = !octant_.has(middle);
       for (int i = 0; i < 4; ++i) (is_left[t] ? near_left : near_cut)[tetrahedra(t, i)] = 1;
     }
-    if (std::find(is_left.begin(), is_left.end(), 1) == is_left.end()) is_left.assign(is_left.size(), 1);  // too small to be cut
+    if (std::find(is_left.begin(), is_left.end(), 1) == is_left.end())
+      is_left.assign(is_left.size(), 1);  // too small to be cut
     std::vector<Triangle> candidates;
     for (Id t = 0; t < mesh_.tetrahedra(); ++t) {
       if (!is_left[t]) continue;
@@ -209,16 +226,21 @@ class Painter {
     const double dark = all[all.size() / 20], bright = all[all.size() - 1 - all.size() / 100];
     for (const Id v : vertices) {
       const Id vertex = mesh_.vertex_input()(v);
-      const double part = bright > dark && std::isfinite(bright - dark) ? std::clamp((heights_.value(vertex) - dark) / (bright - dark), 0.0, 1.0) : 1;
+      const double part = bright > dark && std::isfinite(bright - dark)
+                              ? std::clamp((heights_.value(vertex) - dark) / (bright - dark), 0.0, 1.0)
+                              : 1;
       scene_.skin.colors.push_back(color_of(vertex, 0.62 + 0.38 * part));
     }
   }
 
   /// A hue for each pair of manifolds; paler where one is missing, grey where both are.
   Color color_of(Id vertex, double brightness) const {
-    const auto label = [vertex](const Array<Id, HostMemory>& manifold) { return manifold.extent(0) != 0 ? manifold(vertex) : no_id; };
+    const auto label = [vertex](const Array<Id, HostMemory>& manifold) {
+      return manifold.extent(0) != 0 ? manifold(vertex) : no_id;
+    };
     const Id down = label(complex_.descending_manifold), up = label(complex_.ascending_manifold);
-    const double turn = 0.6180339887498949 * (down + 1) + 0.7548776662466927 * (up + 1) + 0.33;  // irrational: labels nearby get hues far apart
+    const double turn = 0.6180339887498949 * (down + 1) + 0.7548776662466927 * (up + 1) +
+                        0.33;  // irrational: labels nearby get hues far apart
     const int manifolds = (down != no_id) + (up != no_id);
     return to_color(turn - std::floor(turn), manifolds == 0 ? 0 : manifolds == 1 ? 0.3 : 0.5, brightness);
   }
@@ -237,8 +259,8 @@ class Painter {
 
 }  // namespace
 
-Scene picture_of(const io::Dataset& dataset, const MorseSmaleComplex& complex, const SimplexNumbers& numbers, const io::PointSet& critical,
-                 const io::Surface& separatrices1, const Heights& heights) {
+Scene picture_of(const io::Dataset& dataset, const MorseSmaleComplex& complex, const SimplexNumbers& numbers,
+                 const io::PointSet& critical, const io::Surface& separatrices1, const Heights& heights) {
   return Painter(dataset, complex, numbers, heights).paint(critical, separatrices1);
 }
 

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include <gale/base/types.hpp>
-
 #include <gale/outputs/positions.hpp>
 
 namespace gale::app {
@@ -45,7 +44,8 @@ struct Scene {
   Point low{}, high{};  ///< corners of all that there is, drawn or not
 };
 
-/// Throws gale::Error if this gale can't draw here: it was built without VTK's rendering, or there is no display where VTK needs one.
+/// Throws gale::Error if this gale can't draw here: it was built without VTK's rendering, or there is no display where
+/// VTK needs one.
 void require_drawing();
 
 /// Draws a scene, seen from its high corner, to a PNG file; whole or not at all. Throws gale::Error, naming the path.

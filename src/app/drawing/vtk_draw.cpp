@@ -28,11 +28,10 @@
 #include <vtkWindowToImageFilter.h>
 #include <vtkWindowedSincPolyDataFilter.h>
 
+#include <gale/app/drawing/scene.hpp>
 #include <gale/base/error.hpp>
 #include <gale/io/atomic_file.hpp>
 #include <gale/io/vtk/vtk_messages.hpp>
-
-#include <gale/app/drawing/scene.hpp>
 
 VTK_MODULE_INIT(vtkRenderingOpenGL2)
 VTK_MODULE_INIT(vtkRenderingFreeType)
@@ -49,7 +48,9 @@ vtkSmartPointer<vtkPoints> to_vtk(const std::vector<Point>& points) {
   return all;
 }
 
-void set_color(vtkActor* actor, const Color& color) { actor->GetProperty()->SetColor(color[0] / 255.0, color[1] / 255.0, color[2] / 255.0); }
+void set_color(vtkActor* actor, const Color& color) {
+  actor->GetProperty()->SetColor(color[0] / 255.0, color[1] / 255.0, color[2] / 255.0);
+}
 
 void add_skin(vtkRenderer* renderer, const Scene::Skin& skin) {
   vtkNew<vtkPolyData> data;
@@ -162,10 +163,13 @@ void aim(vtkRenderer* renderer, const Scene& scene) {
       high[i] = std::max(high[i], place);
     }
   }
-  const double scale = std::max((high[0] - low[0]) / (left_part * aspect), high[1] - low[1]) / 2 / margin;  // half of the picture's height
+  const double scale = std::max((high[0] - low[0]) / (left_part * aspect), high[1] - low[1]) / 2 /
+                       margin;  // half of the picture's height
   const double x = (low[0] + high[0]) / 2 + (1 - left_part) * scale * aspect, y = (low[1] + high[1]) / 2;
-  const double size = std::hypot(scene.high[0] - scene.low[0], scene.high[1] - scene.low[1], scene.high[2] - scene.low[2]);
-  const Point middle = {(scene.low[0] + scene.high[0]) / 2, (scene.low[1] + scene.high[1]) / 2, (scene.low[2] + scene.high[2]) / 2};
+  const double size =
+      std::hypot(scene.high[0] - scene.low[0], scene.high[1] - scene.low[1], scene.high[2] - scene.low[2]);
+  const Point middle = {(scene.low[0] + scene.high[0]) / 2, (scene.low[1] + scene.high[1]) / 2,
+                        (scene.low[2] + scene.high[2]) / 2};
   double focus[3], position[3];
   for (int axis = 0; axis < 3; ++axis) {
     focus[axis] = x * right[axis] + y * up[axis] + along(middle, towards) * towards[axis];
@@ -198,7 +202,8 @@ void require_drawing() {
   const auto close = reinterpret_cast<int (*)(void*)>(dlsym(RTLD_DEFAULT, "XCloseDisplay"));
   if (open == nullptr || close == nullptr) return;
   void* const display = open(nullptr);
-  if (display == nullptr) throw Error("there is no X display, which VTK needs to draw (--render): start gale with xvfb-run");
+  if (display == nullptr)
+    throw Error("there is no X display, which VTK needs to draw (--render): start gale with xvfb-run");
   close(display);
 }
 

@@ -1,10 +1,11 @@
-#include <gale/base/error.hpp>
-
 #include <gale/app/drawing/scene.hpp>
+#include <gale/base/error.hpp>
 
 namespace gale::app {
 
-void require_drawing() { throw Error("this gale was built without VTK's rendering modules: it cannot draw (--render)"); }
+void require_drawing() {
+  throw Error("this gale was built without VTK's rendering modules: it cannot draw (--render)");
+}
 
 void draw(const std::string&, const Scene&) { require_drawing(); }
 

@@ -49,7 +49,8 @@ std::vector<Simplex> simplices_of(const std::vector<Simplex>& tetrahedra, Id ver
 }
 
 /// Which `low` are faces of each of `high`.
-Lists faces_of(const std::vector<Simplex>& high, int high_dimension, const std::vector<Simplex>& low, int low_dimension) {
+Lists faces_of(const std::vector<Simplex>& high, int high_dimension, const std::vector<Simplex>& low,
+               int low_dimension) {
   Lists lists;
   lists.begin = {0};
   for (const Simplex& simplex : high) {
@@ -71,7 +72,8 @@ Lists transposed(const Lists& lists, std::size_t columns) {
   result.ids.resize(lists.ids.size());
   std::vector<std::size_t> next(result.begin.begin(), result.begin.end() - 1);
   for (std::size_t row = 0; row + 1 < lists.begin.size(); ++row) {
-    for (std::size_t i = lists.begin[row]; i < lists.begin[row + 1]; ++i) result.ids[next[lists.ids[i]]++] = static_cast<Id>(row);
+    for (std::size_t i = lists.begin[row]; i < lists.begin[row + 1]; ++i)
+      result.ids[next[lists.ids[i]]++] = static_cast<Id>(row);
   }
   return result;
 }
@@ -81,12 +83,14 @@ class BruteForce : public Oracle {
   BruteForce(const Mesh& mesh, Relation relation) : adjacency_(adjacency_relations.has(relation)) {
     std::vector<Simplex> tetrahedra(mesh.tetrahedra());
     const auto& of_mesh = mesh.host().tetrahedra;
-    for (Id t = 0; t < mesh.tetrahedra(); ++t) tetrahedra[t] = {of_mesh(t, 0), of_mesh(t, 1), of_mesh(t, 2), of_mesh(t, 3)};
+    for (Id t = 0; t < mesh.tetrahedra(); ++t)
+      tetrahedra[t] = {of_mesh(t, 0), of_mesh(t, 1), of_mesh(t, 2), of_mesh(t, 3)};
     const int rows = row_dimension(relation), entries = entry_dimension(relation);
     // Two vertices share an edge, other neighbours a face.
     const int between = !adjacency_ ? entries : rows == 0 ? 1 : rows - 1;
     const int low = std::min(rows, between), high = std::max(rows, between);
-    const auto lows = simplices_of(tetrahedra, mesh.vertices(), low), highs = simplices_of(tetrahedra, mesh.vertices(), high);
+    const auto lows = simplices_of(tetrahedra, mesh.vertices(), low),
+               highs = simplices_of(tetrahedra, mesh.vertices(), high);
     const Lists down = faces_of(highs, high, lows, low);
     const Lists up = transposed(down, lows.size());
     there_ = rows > between ? down : up;
@@ -119,6 +123,8 @@ class BruteForce : public Oracle {
 
 }  // namespace
 
-std::unique_ptr<Oracle> make_brute_force(const Mesh& mesh, Relation relation) { return std::make_unique<BruteForce>(mesh, relation); }
+std::unique_ptr<Oracle> make_brute_force(const Mesh& mesh, Relation relation) {
+  return std::make_unique<BruteForce>(mesh, relation);
+}
 
 }  // namespace gale::baselines

@@ -1,5 +1,4 @@
 #include <gale/baselines/oracle.hpp>
-
 #include <gale/runtime/explicit/explicit_structure.hpp>
 
 namespace gale::baselines {
@@ -28,7 +27,8 @@ class ExplicitOracle : public Oracle {
 
 }  // namespace
 
-std::unique_ptr<Oracle> make_oracle(const Mesh& mesh, Relation relation, [[maybe_unused]] int threads, [[maybe_unused]] bool is_explicit) {
+std::unique_ptr<Oracle> make_oracle(const Mesh& mesh, Relation relation, [[maybe_unused]] int threads,
+                                    [[maybe_unused]] bool is_explicit) {
 #ifdef GALE_ENABLE_KOKKOS_KERNELS
   if (!is_explicit) return std::make_unique<ExplicitOracle>(mesh, relation, threads);
 #endif

@@ -5,14 +5,15 @@
 #include <vector>
 
 #include <gale/algorithms/gradient/gradient_store.hpp>
-#include <gale/baselines/gradient_from_cells/neighbour_ranks.hpp>
 #include <gale/algorithms/gradient/pair_cells.hpp>
+#include <gale/baselines/gradient_from_cells/neighbour_ranks.hpp>
 #include <gale/baselines/gradient_from_cells/queued_lower_star.hpp>
 #include <gale/relations/segment_rows.hpp>
 
 namespace gale::detail {
 
-/// One consumer's part in the sweep of `find_discrete_gradient_from_cells`. `Faces` has row<relation>(simplex) for EV, FV and TV.
+/// One consumer's part in the sweep of `find_discrete_gradient_from_cells`. `Faces` has row<relation>(simplex) for EV,
+/// FV and TV.
 template <class Faces>
 class CellSweep {
  public:
@@ -63,7 +64,8 @@ class CellSweep {
     star_.end_triangles();
     for (const Id t : tetrahedra) {
       const auto v = faces_.template row<Relation::TV>(t);
-      const Id x = rank(other_of(v[0], v[3], vertex)), y = rank(other_of(v[1], v[3], vertex)), z = rank(other_of(v[2], v[3], vertex));
+      const Id x = rank(other_of(v[0], v[3], vertex)), y = rank(other_of(v[1], v[3], vertex)),
+               z = rank(other_of(v[2], v[3], vertex));
       const Id high = most(x, y), low = least(x, y);
       star_.add_tetrahedron(most(high, z), most(low, least(high, z)), least(low, z), t);
     }
@@ -84,8 +86,10 @@ class CellSweep {
     const auto critical = [&](int cell) {
       const auto& corners = star_.corners(cell);
       switch (star_.dimension(cell)) {
-        case 1: return store_.add_critical_edge(consumer_, vertex, ranks_.id(corners[0]));
-        case 3: return store_.add_critical_tetrahedron(consumer_, star_.tetrahedron(cell));
+        case 1:
+          return store_.add_critical_edge(consumer_, vertex, ranks_.id(corners[0]));
+        case 3:
+          return store_.add_critical_tetrahedron(consumer_, star_.tetrahedron(cell));
       }
       const std::array<Id, 3> triangle = {vertex, ranks_.id(corners[0]), ranks_.id(corners[1])};
       store_.add_critical_triangle(consumer_, triangle);
@@ -103,10 +107,13 @@ class CellSweep {
 
   /// The rank that a tetrahedron has and its triangle hasn't.
   static Id odd_one(const QueuedLowerStar::Corners& tetrahedron, const QueuedLowerStar::Corners& triangle) {
-    return tetrahedron[0] != triangle[0] ? tetrahedron[0] : tetrahedron[1] != triangle[1] ? tetrahedron[1] : tetrahedron[2];
+    return tetrahedron[0] != triangle[0]   ? tetrahedron[0]
+           : tetrahedron[1] != triangle[1] ? tetrahedron[1]
+                                           : tetrahedron[2];
   }
 
-  /// The successor of a tetrahedron that is paired with its triangle on the surface, the one opposite the vertex of a rank.
+  /// The successor of a tetrahedron that is paired with its triangle on the surface, the one opposite the vertex of a
+  /// rank.
   Id leave(Id tetrahedron, Id rank) const {
     const auto vertices = faces_.template row<Relation::TV>(tetrahedron);
     int corner = 0;

@@ -21,7 +21,8 @@ class LookedUpFaces {
   Simplices<HostMemory> simplices_;
 };
 
-/// Rows of face relations from a structure that keeps all. One serves one thread; a row is valid until the next of its relation.
+/// Rows of face relations from a structure that keeps all. One serves one thread; a row is valid until the next of its
+/// relation.
 class KeptFaces {
  public:
   explicit KeptFaces(Structure& structure) : consumer_(structure.consumer()) {}

@@ -7,9 +7,9 @@
 
 namespace gale::detail {
 
-/// A priority queue of numbers from 0 on: the least comes first. Each is in it once or not at all. A bit a number, and above each 64 words a word
-/// that says which of them have any, up to a single one: a step for each of these levels to push and to pop. One serves one thread, and keeps its
-/// memory.
+/// A priority queue of numbers from 0 on: the least comes first. Each is in it once or not at all. A bit a number, and
+/// above each 64 words a word that says which of them have any, up to a single one: a step for each of these levels to
+/// push and to pop. One serves one thread, and keeps its memory.
 class KeyQueue {
  public:
   /// Of numbers below `bound`. It must be empty.

@@ -10,8 +10,8 @@
 
 namespace gale::detail {
 
-/// The triangles of a lower star, each by the ranks a > b of its lower vertices, numbered in lexicographic order. For any number of them. One serves
-/// one thread, and keeps its memory.
+/// The triangles of a lower star, each by the ranks a > b of its lower vertices, numbered in lexicographic order. For
+/// any number of them. One serves one thread, and keeps its memory.
 class LowerTriangles {
  public:
   /// Of a lower star with so many edges, in a star of so many triangles.
@@ -25,8 +25,8 @@ class LowerTriangles {
     }
   }
 
-  /// Each once, in any order, and a and b too. If one is below 0, it is no triangle of the lower star: nothing happens. Without a branch: nobody can
-  /// predict which is.
+  /// Each once, in any order, and a and b too. If one is below 0, it is no triangle of the lower star: nothing happens.
+  /// Without a branch: nobody can predict which is.
   void add(Id a, Id b) {
     added_[added_count_] = {a, b};
     added_count_ += (a | b) >= 0;

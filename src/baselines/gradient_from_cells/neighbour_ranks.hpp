@@ -8,8 +8,8 @@
 
 namespace gale::detail {
 
-/// The neighbours of a vertex that are lower than it, by their rank among each other, 0 the lowest; and the rank of any neighbour. For any number of them. One
-/// serves one thread, and keeps its memory.
+/// The neighbours of a vertex that are lower than it, by their rank among each other, 0 the lowest; and the rank of any
+/// neighbour. For any number of them. One serves one thread, and keeps its memory.
 class NeighbourRanks {
  public:
   /// `neighbours`: all of the vertex', ascending; they must stay as long as they are asked for.
@@ -43,7 +43,9 @@ class NeighbourRanks {
   template <class Use>
   void with_look_up(const Use& use) const {
     if (is_hashed_) {
-      use([table = &table_[0], multiplier = multiplier_](Id neighbour) { return Id(table[slot(neighbour, multiplier)]); });
+      use([table = &table_[0], multiplier = multiplier_](Id neighbour) {
+        return Id(table[slot(neighbour, multiplier)]);
+      });
     } else {
       use([this](Id neighbour) { return ranks_[place_of(neighbour)]; });
     }
@@ -53,11 +55,15 @@ class NeighbourRanks {
   static constexpr int slot_bits = 12;
   static constexpr std::size_t most_hashed = 64;
 
-  static std::uint32_t slot(Id neighbour, std::uint32_t multiplier) { return static_cast<std::uint32_t>(neighbour) * multiplier >> (32 - slot_bits); }
+  static std::uint32_t slot(Id neighbour, std::uint32_t multiplier) {
+    return static_cast<std::uint32_t>(neighbour) * multiplier >> (32 - slot_bits);
+  }
   std::uint32_t slot(Id neighbour) const { return slot(neighbour, multiplier_); }
 
   /// Among all neighbours.
-  std::ptrdiff_t place_of(Id neighbour) const { return std::lower_bound(neighbours_->begin(), neighbours_->end(), neighbour) - neighbours_->begin(); }
+  std::ptrdiff_t place_of(Id neighbour) const {
+    return std::lower_bound(neighbours_->begin(), neighbours_->end(), neighbour) - neighbours_->begin();
+  }
 
   /// A few by counting those below each, which needs no branch.
   void sort() {
@@ -74,7 +80,8 @@ class NeighbourRanks {
     }
   }
 
-  /// Few neighbours get a hash table in which none is in another's place, so that it needs no ids and is never cleared: only neighbours are looked up.
+  /// Few neighbours get a hash table in which none is in another's place, so that it needs no ids and is never cleared:
+  /// only neighbours are looked up.
   void make_table() {
     is_hashed_ = find_multiplier();
     if (is_hashed_) {

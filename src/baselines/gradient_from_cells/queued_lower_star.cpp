@@ -1,6 +1,6 @@
-#include <gale/baselines/gradient_from_cells/queued_lower_star.hpp>
-
 #include <algorithm>
+
+#include <gale/baselines/gradient_from_cells/queued_lower_star.hpp>
 
 namespace gale::detail {
 
@@ -83,7 +83,8 @@ void QueuedLowerStar::place_tetrahedra() {
     int end = first + 1;
     while (end < cell_count_ && cells_[end].corners[2] >= 0) ++end;
     if (end - first == 1) continue;
-    std::sort(&cells_[first], &cells_[first] + (end - first), [](const Cell& one, const Cell& other) { return one.corners[2] < other.corners[2]; });
+    std::sort(&cells_[first], &cells_[first] + (end - first),
+              [](const Cell& one, const Cell& other) { return one.corners[2] < other.corners[2]; });
   }
 }
 

@@ -8,15 +8,16 @@
 
 namespace gale::detail {
 
-/// The lower star of a vertex, made from its edges, triangles and tetrahedra, with priority queues for `pair_cells`. Its cells but the vertex are
-/// numbered in the order of their keys: the ranks of their lower vertices, descending, compared lexicographically. Stars of any size, and triangles
-/// with any number of tetrahedra. One serves one thread, and keeps its memory.
+/// The lower star of a vertex, made from its edges, triangles and tetrahedra, with priority queues for `pair_cells`.
+/// Its cells but the vertex are numbered in the order of their keys: the ranks of their lower vertices, descending,
+/// compared lexicographically. Stars of any size, and triangles with any number of tetrahedra. One serves one thread,
+/// and keeps its memory.
 class QueuedLowerStar {
  public:
   using Corners = std::array<Id, 3>;
 
-  // To make one: `begin`, all triangles, `end_triangles`, all tetrahedra, `end`. They are given by the ranks of their other vertices; those of upper
-  // vertices are below 0.
+  // To make one: `begin`, all triangles, `end_triangles`, all tetrahedra, `end`. They are given by the ranks of their
+  // other vertices; those of upper vertices are below 0.
 
   /// Of so many edges, whose ranks are 0 to edges - 1, in a star of so many triangles and tetrahedra.
   void begin(Id edges, Id triangles, Id tetrahedra);
@@ -40,7 +41,8 @@ class QueuedLowerStar {
   /// Id of a cell that is a tetrahedron.
   Id tetrahedron(int cell) const { return inner_[cells_[cell].place].id; }
 
-  /// The tetrahedron that shares a triangle with another one; of several that of the lowest number, no_id if there is none.
+  /// The tetrahedron that shares a triangle with another one; of several that of the lowest number, no_id if there is
+  /// none.
   Id across(int triangle, Id tetrahedron, const Id* numbers) const;
 
   /// Calls visit(tetrahedron) for each that a triangle has, in the lower star or not.
@@ -54,7 +56,8 @@ class QueuedLowerStar {
     for (std::size_t a = 1; a < edge_cell_.size(); ++a) deferred_.push(edge_cell_[a]);
   }
 
-  /// Queues at once what `push` is to queue: each cofacet loses an unsettled facet here, and no other cell that is settled before the push has the same.
+  /// Queues at once what `push` is to queue: each cofacet loses an unsettled facet here, and no other cell that is
+  /// settled before the push has the same.
   void settle(int cell);
   void push(int) {}
   bool next(int& cell) { return take(ready_, cell); }

@@ -5,9 +5,9 @@
 #include <condition_variable>
 #include <thread>
 
-#include <gale/runtime/sweep.hpp>
 #include <gale/relations/host_worker.hpp>
 #include <gale/runtime/implementation.hpp>
+#include <gale/runtime/sweep.hpp>
 
 namespace gale::detail {
 
@@ -15,14 +15,16 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Between a consumer and its worker: some segments' blocks, computed in turn and read in turn. Who has to wait looks for a while before it sleeps, since
-/// a segment takes no longer than falling asleep and being woken.
+/// Between a consumer and its worker: some segments' blocks, computed in turn and read in turn. Who has to wait looks
+/// for a while before it sleeps, since a segment takes no longer than falling asleep and being woken.
 class Pipe {
  public:
   /// `stopped` is set when some consumer of the sweep fails, and tells the others to read no more.
-  Pipe(const Mesh& mesh, RelationSet relations, std::atomic<bool>& stopped) : stopped_(stopped), worker_(mesh, relations, slots) {}
+  Pipe(const Mesh& mesh, RelationSet relations, std::atomic<bool>& stopped)
+      : stopped_(stopped), worker_(mesh, relations, slots) {}
 
-  /// Computes a segment when there is room for its blocks. By the worker. Throws what the consumer failed with, once it has.
+  /// Computes a segment when there is room for its blocks. By the worker. Throws what the consumer failed with, once it
+  /// has.
   void fill(Id segment) {
     const std::size_t filled = filled_.load();
     wait_until([&] { return filled - read_.load() < slots || failed_.load() || stopped_.load(); });
@@ -87,7 +89,8 @@ class Pipe {
     --sleepers_;
   }
 
-  /// A sleeper counts itself before it looks for the last time, and here something changes before sleepers are counted: so nobody sleeps on.
+  /// A sleeper counts itself before it looks for the last time, and here something changes before sleepers are counted:
+  /// so nobody sleeps on.
   template <class Change>
   void change(const Change& apply) {
     apply();
@@ -111,11 +114,13 @@ class Pipe {
 /// The consumers of a sweep, each a thread that reads its pipe.
 class PipeReaders {
  public:
-  PipeReaders(const Mesh& mesh, RelationSet wanted, int count, const Structure::SegmentBody& body) : statistics_(count) {
+  PipeReaders(const Mesh& mesh, RelationSet wanted, int count, const Structure::SegmentBody& body)
+      : statistics_(count) {
     for (int i = 0; i < count; ++i) pipes_.push_back(std::make_unique<Pipe>(mesh, wanted, stopped_));
     try {
       for (int i = 0; i < count; ++i) {
-        threads_.emplace_back([this, i, &body] { pipes_[i]->consume([&](const SegmentRows& rows) { body(i, rows); }, statistics_[i]); });
+        threads_.emplace_back(
+            [this, i, &body] { pipes_[i]->consume([&](const SegmentRows& rows) { body(i, rows); }, statistics_[i]); });
       }
     } catch (...) {  // there are no more threads to be had
       end();
@@ -146,10 +151,12 @@ class PipeReaders {
   std::vector<std::thread> threads_;
 };
 
-/// In a sweep each consumer has a worker, which runs ahead of it; consumers that ask in any order compute for themselves.
+/// In a sweep each consumer has a worker, which runs ahead of it; consumers that ask in any order compute for
+/// themselves.
 class PairProduction : public RuntimeImplementation {
  public:
-  PairProduction(const Mesh& mesh, RelationSet relations) : RuntimeImplementation(mesh, relations), alone_(by_consumers(mesh, relations)) {}
+  PairProduction(const Mesh& mesh, RelationSet relations)
+      : RuntimeImplementation(mesh, relations), alone_(by_consumers(mesh, relations)) {}
 
   void for_each_segment(RelationSet wanted, const SweepOptions& options, const Structure::SegmentBody& body) override {
     PipeReaders readers(mesh(), wanted, std::max(options.threads, 0), body);
@@ -176,6 +183,8 @@ class PairProduction : public RuntimeImplementation {
 
 }  // namespace
 
-std::unique_ptr<RuntimeImplementation> by_pairs(const Mesh& mesh, RelationSet relations) { return std::make_unique<PairProduction>(mesh, relations); }
+std::unique_ptr<RuntimeImplementation> by_pairs(const Mesh& mesh, RelationSet relations) {
+  return std::make_unique<PairProduction>(mesh, relations);
+}
 
 }  // namespace gale::detail

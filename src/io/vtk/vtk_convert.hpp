@@ -4,8 +4,8 @@
 #include <vector>
 
 #include <gale/io/dataset.hpp>
-#include <gale/io/vtk/vtk_messages.hpp>
 #include <gale/io/image.hpp>
+#include <gale/io/vtk/vtk_messages.hpp>
 
 #if __has_include(<vtkABINamespace.h>)  // VTK 9.2 and later
 #include <vtkABINamespace.h>

@@ -25,8 +25,8 @@ bool has_vtk();
 using Content = std::variant<Dataset, Image>;
 Content read_with_vtk(const std::string& path, Format format, bool tetrahedralize);
 
-/// Write to `path`, whatever its extension. Arrays must fit the number of points or cells. Throw `Error` without naming the
-/// file.
+/// Write to `path`, whatever its extension. Arrays must fit the number of points or cells. Throw `Error` without naming
+/// the file.
 void write_points_with_vtk(const std::string& path, const PointSet& points);
 void write_surface_with_vtk(const std::string& path, const Surface& surface);
 void write_mesh_with_vtk(const std::string& path, Format format, const Dataset& mesh,

@@ -17,10 +17,13 @@ struct EdgesAt {
         first_own(s.edge_begin(vertex)),
         count(lower + s.edge_begin(vertex + 1) - first_own) {}
 
-  KOKKOS_INLINE_FUNCTION Id operator[](Id i) const { return i < lower ? simplices.lower_edges(lower_begin + i) : first_own + (i - lower); }
+  KOKKOS_INLINE_FUNCTION Id operator[](Id i) const {
+    return i < lower ? simplices.lower_edges(lower_begin + i) : first_own + (i - lower);
+  }
 };
 
-/// Calls visit(edge) for each edge that shares one vertex with `edge`, ascending: those at its two ends, merged. Only `edge` is at both.
+/// Calls visit(edge) for each edge that shares one vertex with `edge`, ascending: those at its two ends, merged. Only
+/// `edge` is at both.
 template <class Memory, class Visit>
 KOKKOS_INLINE_FUNCTION void for_each_adjacent_edge(const Simplices<Memory>& s, Id edge, const Visit& visit) {
   const EdgesAt<Memory> low(s, s.edge_low(edge)), high(s, s.edge_high(edge));
@@ -38,8 +41,8 @@ KOKKOS_INLINE_FUNCTION void for_each_adjacent_edge(const Simplices<Memory>& s, I
   }
 }
 
-/// Calls visit(triangle) for each triangle that shares an edge with `triangle`: edge by edge, each time ascending. Two distinct triangles share
-/// no more than one.
+/// Calls visit(triangle) for each triangle that shares an edge with `triangle`: edge by edge, each time ascending. Two
+/// distinct triangles share no more than one.
 template <class Memory, class Visit>
 KOKKOS_INLINE_FUNCTION void for_each_adjacent_triangle(const Simplices<Memory>& s, Id triangle, const Visit& visit) {
   const Id ab = s.triangle_edge(triangle), c = s.triangle_apex(triangle);
@@ -51,10 +54,11 @@ KOKKOS_INLINE_FUNCTION void for_each_adjacent_triangle(const Simplices<Memory>& 
   }
 }
 
-/// Calls visit(t) for each tetrahedron that shares a triangle with `tetrahedron` (a, b, c, d): ascending those that share one with a, and then those that
-/// share (b, c, d).
+/// Calls visit(t) for each tetrahedron that shares a triangle with `tetrahedron` (a, b, c, d): ascending those that
+/// share one with a, and then those that share (b, c, d).
 template <class Memory, class Visit>
-KOKKOS_INLINE_FUNCTION void for_each_adjacent_tetrahedron(const Simplices<Memory>& s, Id tetrahedron, const Visit& visit) {
+KOKKOS_INLINE_FUNCTION void for_each_adjacent_tetrahedron(const Simplices<Memory>& s, Id tetrahedron,
+                                                          const Visit& visit) {
   const Quad own = s.tetrahedron(tetrahedron);
   const Id a = own.a;
   const auto shares_one_with_a = [own](const Quad& q) {

@@ -16,8 +16,9 @@ struct alignas(16) FourIds {
   Id of[4];
 };
 
-/// The scratch memory of a team that goes the way of BitStars, divided. Matrices of bits have a column for each vertex of the segment and
-/// lie word after word, so that lanes which go down a column each never meet in a bank. What is needed at different times shares a place.
+/// The scratch memory of a team that goes the way of BitStars, divided. Matrices of bits have a column for each vertex
+/// of the segment and lie word after word, so that lanes which go down a column each never meet in a bank. What is
+/// needed at different times shares a place.
 struct BitStarScratch {
   StarShared* shared;
   Id* star_begin;  ///< rows + 1
@@ -26,10 +27,10 @@ struct BitStarScratch {
   std::uint32_t* star_bits;   ///< column of a vertex: the tetrahedra of its star, as SegmentTetrahedra counts them
   std::uint16_t* neighbours;  ///< numbers, row after row; in the place of star_bits
 
-  std::uint16_t* star;        ///< tetrahedra as star_bits counts them, row after row; for links 4 * tetrahedron + corner
-  Id* keys;                   ///< in the place of `star`: hash slots for the vertices outside, later their numbers
-  FourIds* list;              ///< there too: those vertices as they came
-  std::uint16_t* slot_of;     ///< and their slots
+  std::uint16_t* star;     ///< tetrahedra as star_bits counts them, row after row; for links 4 * tetrahedron + corner
+  Id* keys;                ///< in the place of `star`: hash slots for the vertices outside, later their numbers
+  FourIds* list;           ///< there too: those vertices as they came
+  std::uint16_t* slot_of;  ///< and their slots
 
   Id* outside;                    ///< those vertices, ascending
   CornerNumbers* corners;         ///< of each tetrahedron

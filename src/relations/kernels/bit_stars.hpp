@@ -7,8 +7,9 @@
 
 namespace gale::detail {
 
-/// The stars of a small segment, as matrices of bits in its own numbering of tetrahedra and vertices, which ascends as their ids do: a set that
-/// is read bit after bit is in order, and bits counted give places. No warp works together; after the first step nothing is atomic.
+/// The stars of a small segment, as matrices of bits in its own numbering of tetrahedra and vertices, which ascends as
+/// their ids do: a set that is read bit after bit is in order, and bits counted give places. No warp works together;
+/// after the first step nothing is atomic.
 ///
 ///     visit the segment's tetrahedra: set their bits in the stars of its vertices; number the vertices outside
 ///     count and scan the stars: star_begin
@@ -84,10 +85,13 @@ class BitStars {
   /// For what is known before the first step.
   KOKKOS_FORCEINLINE_FUNCTION bool has_room() const {
     const StarSizes& sizes = request_.sizes;
-    return sizes.rows >= segment_.rows && sizes.tetrahedra >= segment_.tetrahedra.count && (sizes.outside > 0 || !gathers_);
+    return sizes.rows >= segment_.rows && sizes.tetrahedra >= segment_.tetrahedra.count &&
+           (sizes.outside > 0 || !gathers_);
   }
 
-  KOKKOS_FORCEINLINE_FUNCTION Id star_words() const { return static_cast<Id>(BitStarScratch::words(segment_.tetrahedra.count)); }
+  KOKKOS_FORCEINLINE_FUNCTION Id star_words() const {
+    return static_cast<Id>(BitStarScratch::words(segment_.tetrahedra.count));
+  }
   KOKKOS_FORCEINLINE_FUNCTION Id neighbour_words() const {
     return static_cast<Id>(BitStarScratch::words(segment_.rows + scratch_.shared->found.outside));
   }
@@ -120,7 +124,8 @@ class BitStars {
       }
       if (!gathers_) return;
       team::together([&] {
-        vertices_.insert(team_, four, outside, [&](int corner, Id slot) { numbers |= std::uint64_t(rows + slot) << (16 * corner); });
+        vertices_.insert(team_, four, outside,
+                         [&](int corner, Id slot) { numbers |= std::uint64_t(rows + slot) << (16 * corner); });
       });
       CornerNumbers of;
       for (int corner = 0; corner < 4; ++corner) of.of[corner] = static_cast<std::uint16_t>(numbers >> (16 * corner));
@@ -131,7 +136,8 @@ class BitStars {
   KOKKOS_FORCEINLINE_FUNCTION void count_stars() const {
     team::for_all(team_, segment_.rows, [&](Id row) {
       Id count = 0;
-      for (Id word = 0; word < star_words(); ++word) count += count_bits(scratch_.star_bits[word * segment_.rows + row]);
+      for (Id word = 0; word < star_words(); ++word)
+        count += count_bits(scratch_.star_bits[word * segment_.rows + row]);
       scratch_.star_begin[row] = count;
       team::raise(team_, &scratch_.shared->longest_star, count);
     });
@@ -143,7 +149,8 @@ class BitStars {
     team::for_all(team_, segment_.tetrahedra.count, [&](Id i) {
       CornerNumbers numbers = scratch_.corners[i];
       for (auto& number : numbers.of) {
-        number = static_cast<std::uint16_t>(number < rows ? vertices_.number_of_row(number) : vertices_.number_of_slot(number - rows));
+        number = static_cast<std::uint16_t>(number < rows ? vertices_.number_of_row(number)
+                                                          : vertices_.number_of_slot(number - rows));
       }
       scratch_.corners[i] = numbers;
     });
@@ -153,12 +160,14 @@ class BitStars {
   KOKKOS_FORCEINLINE_FUNCTION void list_stars() const {
     team::for_all(team_, segment_.rows, [&](Id row) {
       std::uint16_t* out = scratch_.star + scratch_.star_begin[row];
-      for_each_bit(scratch_.star_bits + row, segment_.rows, star_words(), [&](Id tetrahedron) { *out++ = static_cast<std::uint16_t>(tetrahedron); });
+      for_each_bit(scratch_.star_bits + row, segment_.rows, star_words(),
+                   [&](Id tetrahedron) { *out++ = static_cast<std::uint16_t>(tetrahedron); });
       if (gathers_) gather_neighbours(row);
     });
   }
 
-  /// Sets the bits of all vertices of the tetrahedra around one, and takes its own away again. Several tetrahedra at a time: it waits for each.
+  /// Sets the bits of all vertices of the tetrahedra around one, and takes its own away again. Several tetrahedra at a
+  /// time: it waits for each.
   KOKKOS_FORCEINLINE_FUNCTION void gather_neighbours(Id row) const {
     constexpr Id at_once = 4;
     const Id self = vertices_.number_of_row(row), end = scratch_.star_begin[row + 1];
@@ -176,7 +185,10 @@ class BitStars {
           team::set_bits(team_, column + (number / 32) * segment_.rows, std::uint32_t(1) << (number % 32));
         }
         if (links && begin + i < end) {
-          const Id corner = numbers[i].of[1] == self ? 1 : numbers[i].of[2] == self ? 2 : numbers[i].of[3] == self ? 3 : 0;
+          const Id corner = numbers[i].of[1] == self   ? 1
+                            : numbers[i].of[2] == self ? 2
+                            : numbers[i].of[3] == self ? 3
+                                                       : 0;
           scratch_.star[begin + i] = static_cast<std::uint16_t>(4 * tetrahedra[i] + corner);
         }
       }
@@ -187,7 +199,8 @@ class BitStars {
   KOKKOS_FORCEINLINE_FUNCTION void write_stars() const {
     Id* const out = request_.pool.words + scratch_.shared->vt + segment_.rows + 1;
     const int shift = request_.wanted.has(Relation::link) ? 2 : 0;
-    team::for_all(team_, scratch_.shared->found.star, [&](Id i) { out[i] = segment_.tetrahedra[scratch_.star[i] >> shift]; });
+    team::for_all(team_, scratch_.shared->found.star,
+                  [&](Id i) { out[i] = segment_.tetrahedra[scratch_.star[i] >> shift]; });
   }
 
   KOKKOS_FORCEINLINE_FUNCTION void count_neighbours() const {
@@ -241,7 +254,10 @@ class BitStars {
     const Id entry = scratch_.star[i];
     const CornerNumbers numbers = scratch_.corners[entry / 4];
     const Id own_corner = entry % 4;
-    const Id own = own_corner == 0 ? numbers.of[0] : own_corner == 1 ? numbers.of[1] : own_corner == 2 ? numbers.of[2] : numbers.of[3];
+    const Id own = own_corner == 0   ? numbers.of[0]
+                   : own_corner == 1 ? numbers.of[1]
+                   : own_corner == 2 ? numbers.of[2]
+                                     : numbers.of[3];
     const Id row = own - scratch_.shared->below;
     for (int other = 0; other < 3; ++other) {
       const Id number = other < own_corner ? numbers.of[other] : numbers.of[other + 1];
@@ -258,7 +274,8 @@ class BitStars {
     if (shared.vv == BlockPool::missing) return;
     team::for_all(team_, rows, [&](Id row) {
       std::uint16_t* out = scratch_.neighbours + scratch_.degree[row];
-      for_each_bit(scratch_.neighbour_bits + row, rows, words, [&](Id number) { *out++ = static_cast<std::uint16_t>(number); });
+      for_each_bit(scratch_.neighbour_bits + row, rows, words,
+                   [&](Id number) { *out++ = static_cast<std::uint16_t>(number); });
     });
     team::barrier(team_);
     Id* const offsets = request_.pool.words + shared.vv;
@@ -282,7 +299,8 @@ struct BitStarTeams {
 
   template <class Team>
   KOKKOS_FUNCTION void operator()(const Team& team) const {
-    request.template compute<BitStars<Team, Memory>>(team, team::scratch<level>(team, BitStarScratch(nullptr, request.sizes).bytes));
+    request.template compute<BitStars<Team, Memory>>(
+        team, team::scratch<level>(team, BitStarScratch(nullptr, request.sizes).bytes));
   }
 };
 

@@ -10,7 +10,7 @@ struct StarSizes {
   Id rows = 0;        ///< of the segment: its vertices, for star kernels
   Id star = 0;        ///< entries of all its VT rows
   Id neighbours = 0;  ///< entries of all its VV rows
-  Id slots = 0;       ///< hash slots for the neighbours of one vertex; a power of two, enough if three times its tetrahedra
+  Id slots = 0;  ///< hash slots for the neighbours of one vertex; a power of two, enough if three times its tetrahedra
   Id tetrahedra = 0;  ///< that touch it
   Id outside = 0;     ///< vertices of theirs that other segments hold
 
@@ -23,20 +23,28 @@ struct StarSizes {
 /// The greater of each.
 inline StarSizes larger(const StarSizes& a, const StarSizes& b) {
   const auto greater = [](Id x, Id y) { return x < y ? y : x; };
-  return {greater(a.rows, b.rows),   greater(a.star, b.star),             greater(a.neighbours, b.neighbours),
-          greater(a.slots, b.slots), greater(a.tetrahedra, b.tetrahedra), greater(a.outside, b.outside)};
+  return {greater(a.rows, b.rows),
+          greater(a.star, b.star),
+          greater(a.neighbours, b.neighbours),
+          greater(a.slots, b.slots),
+          greater(a.tetrahedra, b.tetrahedra),
+          greater(a.outside, b.outside)};
 }
 
-/// Where a kernel leaves the blocks of a batch: one stretch of memory, in which a team reserves its exact space with an atomic. A block begins at a multiple of four words. Trivially copyable; owns nothing.
+/// Where a kernel leaves the blocks of a batch: one stretch of memory, in which a team reserves its exact space with an
+/// atomic. A block begins at a multiple of four words. Trivially copyable; owns nothing.
 struct BlockPool {
   static constexpr Offset missing = -1;
-  static constexpr Offset uncountable = -2;  ///< in the directory: the segment's rows have more entries than an Id counts
+  static constexpr Offset uncountable =
+      -2;  ///< in the directory: the segment's rows have more entries than an Id counts
 
   Id* words = nullptr;
-  Offset capacity = 0;          ///< words
-  Offset* used = nullptr;       ///< words reserved; above `capacity` it says what the batch would have needed
-  Offset* directory = nullptr;  ///< where the block of each segment of the batch and each relation wanted begins, or `missing`
-  StarSizes* needed = nullptr;  ///< raised to what a segment whose blocks are missing would have needed in scratch memory
+  Offset capacity = 0;     ///< words
+  Offset* used = nullptr;  ///< words reserved; above `capacity` it says what the batch would have needed
+  Offset* directory =
+      nullptr;  ///< where the block of each segment of the batch and each relation wanted begins, or `missing`
+  StarSizes* needed =
+      nullptr;  ///< raised to what a segment whose blocks are missing would have needed in scratch memory
 
   /// What a block of `count` words takes.
   KOKKOS_FUNCTION static Offset rounded(Offset count) { return (count + 3) / 4 * 4; }

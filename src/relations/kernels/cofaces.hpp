@@ -3,9 +3,11 @@
 #include <gale/mesh/simplices.hpp>
 #include <gale/relations/relation.hpp>
 
-// Which simplices a simplex is in, and which are beside it, from the tables alone: whatever segment they are in, by the host's threads and in
-// kernels. The simplices that have a vertex v are among those that begin with v or with one of its lower neighbours, which are in the edges
-// (., v); and simplices that begin alike are together. So each row is found by looking at a few short lists, mostly in its own order.
+// Which simplices a simplex is in, and which are beside it, from the tables alone: whatever segment they are in, by the
+// host's threads and in kernels. The simplices that have a vertex v are among those that begin with v or with one of
+// its lower neighbours, which are in the edges
+// (., v); and simplices that begin alike are together. So each row is found by looking at a few short lists, mostly in
+// its own order.
 
 namespace gale::detail {
 
@@ -46,7 +48,8 @@ KOKKOS_INLINE_FUNCTION void for_each_triangle_of_edge(const Simplices<Memory>& s
 
 /// Calls visit(t) for each tetrahedron (first, ., ., .), in order, of which `wanted` says so.
 template <class Memory, class Wanted, class Visit>
-KOKKOS_INLINE_FUNCTION void for_each_tetrahedron_from(const Simplices<Memory>& s, Id first, const Wanted& wanted, const Visit& visit) {
+KOKKOS_INLINE_FUNCTION void for_each_tetrahedron_from(const Simplices<Memory>& s, Id first, const Wanted& wanted,
+                                                      const Visit& visit) {
   for (Id t = s.tetrahedron_begin(first); t < s.tetrahedron_begin(first + 1); ++t) {
     if (wanted(s.tetrahedron(t))) visit(t);
   }
@@ -65,14 +68,18 @@ KOKKOS_INLINE_FUNCTION void for_each_first_vertex(const Simplices<Memory>& s, Id
 /// Calls visit(tetrahedron) for each tetrahedron that has the vertices a < b, ascending.
 template <class Memory, class Visit>
 KOKKOS_INLINE_FUNCTION void for_each_tetrahedron_of(const Simplices<Memory>& s, Id a, Id b, const Visit& visit) {
-  const auto has_both = [a, b](const Quad& q) { return (q.a == a || q.b == a || q.c == a) && (q.b == b || q.c == b || q.d == b); };
+  const auto has_both = [a, b](const Quad& q) {
+    return (q.a == a || q.b == a || q.c == a) && (q.b == b || q.c == b || q.d == b);
+  };
   for_each_first_vertex(s, a, b, [&](Id first) { for_each_tetrahedron_from(s, first, has_both, visit); });
 }
 
 /// Calls visit(tetrahedron) for each tetrahedron that has the vertices a < b < c, ascending.
 template <class Memory, class Visit>
 KOKKOS_INLINE_FUNCTION void for_each_tetrahedron_of(const Simplices<Memory>& s, Id a, Id b, Id c, const Visit& visit) {
-  const auto has_all = [a, b, c](const Quad& q) { return (q.a == a || q.b == a) && (q.b == b || q.c == b) && (q.c == c || q.d == c); };
+  const auto has_all = [a, b, c](const Quad& q) {
+    return (q.a == a || q.b == a) && (q.b == b || q.c == b) && (q.c == c || q.d == c);
+  };
   for_each_first_vertex(s, a, b, [&](Id first) { for_each_tetrahedron_from(s, first, has_all, visit); });
 }
 

@@ -16,17 +16,17 @@ struct WarpShared {
 /// The scratch memory of a team that goes the way of HashedStars, divided.
 struct HashedStarScratch {
   StarShared* shared;
-  Id* star_begin;   ///< rows + 1
-  Id* filled;       ///< rows: entries of each star placed so far
-  Id* degree;       ///< rows + 1: neighbours of each vertex, later where its VV row begins
-  Id* row_place;    ///< rows: where they lie in `neighbours`
-  Id* star;         ///< tetrahedra, vertex after vertex
+  Id* star_begin;  ///< rows + 1
+  Id* filled;      ///< rows: entries of each star placed so far
+  Id* degree;      ///< rows + 1: neighbours of each vertex, later where its VV row begins
+  Id* row_place;   ///< rows: where they lie in `neighbours`
+  Id* star;        ///< tetrahedra, vertex after vertex
   Id* neighbours;
   WarpShared* warp;
-  Id* keys;         ///< slots, of this warp
-  Id* places;       ///< slots, of this warp
-  Id* list;         ///< slots, of this warp
-  Id* ranks;        ///< slots, of this warp
+  Id* keys;    ///< slots, of this warp
+  Id* places;  ///< slots, of this warp
+  Id* list;    ///< slots, of this warp
+  Id* ranks;   ///< slots, of this warp
 
   KOKKOS_FORCEINLINE_FUNCTION static std::size_t bytes(const StarSizes& sizes, int warps) {
     const std::size_t ids = std::size_t(4) * (sizes.rows + 4) + rounded(sizes.star) + rounded(sizes.neighbours) +

@@ -6,8 +6,9 @@
 
 namespace gale::detail {
 
-/// The stars of a segment of any size, by counting, scanning and, for each vertex, a hash set of a warp's own; scratch memory in proportion
-/// to the stars. What one host thread does, and what is left of a mesh for a device where segments are too large for BitStars.
+/// The stars of a segment of any size, by counting, scanning and, for each vertex, a hash set of a warp's own; scratch
+/// memory in proportion to the stars. What one host thread does, and what is left of a mesh for a device where segments
+/// are too large for BitStars.
 ///
 ///     visit the segment's tetrahedra, count and scan: star_begin
 ///     reserve the blocks of VT and link, whose sizes are known now
@@ -20,15 +21,20 @@ class HashedStars {
   using Request = StarRequest<Memory>;
   using Segment = StarSegment<Memory>;
 
-  KOKKOS_FORCEINLINE_FUNCTION HashedStars(const Team& team, const Request& request, const Segment& segment, char* memory)
-      : team_(team), request_(request), segment_(segment), scratch_(memory, request.sizes, team::warps(team), team::warp(team)) {}
+  KOKKOS_FORCEINLINE_FUNCTION HashedStars(const Team& team, const Request& request, const Segment& segment,
+                                          char* memory)
+      : team_(team),
+        request_(request),
+        segment_(segment),
+        scratch_(memory, request.sizes, team::warps(team), team::warp(team)) {}
 
   /// By all. Leaves blocks in the pool and in StarShared, where it fits.
   KOKKOS_FORCEINLINE_FUNCTION void compute() const {
     if (fits()) count_stars();
     team::barrier(team_);
     if (!fits()) return;
-    reserve_blocks(team_, request_, Relation::VT | Relation::link, *scratch_.shared, segment_.rows, scratch_.star_begin, 0);
+    reserve_blocks(team_, request_, Relation::VT | Relation::link, *scratch_.shared, segment_.rows, scratch_.star_begin,
+                   0);
     fill_stars();
     write_rows();
     if (request_.wanted.has(Relation::VV)) write_neighbours();
@@ -55,13 +61,16 @@ class HashedStars {
     for_each_corner([&](Id row, Id) { team::add(team_, &scratch_.star_begin[row], Id(1)); });
     team::barrier(team_);
     auto& shared = *scratch_.shared;
-    team::for_all(team_, segment_.rows, [&](Id row) { team::raise(team_, &shared.longest_star, scratch_.star_begin[row]); });
+    team::for_all(team_, segment_.rows,
+                  [&](Id row) { team::raise(team_, &shared.longest_star, scratch_.star_begin[row]); });
     team::exclusive_scan(team_, segment_.rows, scratch_.star_begin);
     team::once(team_, [&] { shared.found.star = scratch_.star_begin[segment_.rows]; });
   }
 
   KOKKOS_FORCEINLINE_FUNCTION void fill_stars() const {
-    for_each_corner([&](Id row, Id t) { scratch_.star[scratch_.star_begin[row] + team::add(team_, &scratch_.filled[row], Id(1))] = t; });
+    for_each_corner([&](Id row, Id t) {
+      scratch_.star[scratch_.star_begin[row] + team::add(team_, &scratch_.filled[row], Id(1))] = t;
+    });
     team::barrier(team_);
   }
 
@@ -74,7 +83,8 @@ class HashedStars {
     });
   }
 
-  /// Calls visit(t, place) for the tetrahedra of a star, with their places in ascending order. A team of one thread placed them so.
+  /// Calls visit(t, place) for the tetrahedra of a star, with their places in ascending order. A team of one thread
+  /// placed them so.
   template <class Visit>
   KOKKOS_FORCEINLINE_FUNCTION void for_each_ranked(Id* star, Id tetrahedra, const Visit& visit) const {
     if constexpr (is_sequential<Team>) {
@@ -104,9 +114,8 @@ class HashedStars {
     auto& shared = *scratch_.shared;
     const Id vertex = segment_.first + row;
     const NeighbourSet<Team> neighbours(team_, scratch_, request_.sizes.slots, tetrahedra);
-    team::for_lanes(team_, tetrahedra, [&](Id i) {
-      for_each_other(star[i], vertex, [&](Id other, int) { neighbours.insert(other); });
-    });
+    team::for_lanes(team_, tetrahedra,
+                    [&](Id i) { for_each_other(star[i], vertex, [&](Id other, int) { neighbours.insert(other); }); });
     team::once_per_warp(team_, [&] {
       const Id count = neighbours.size();
       scratch_.warp->place = team::add(team_, &shared.found.neighbours, count);
@@ -138,7 +147,8 @@ class HashedStars {
     team::exclusive_scan(team_, segment_.rows, scratch_.degree);
     auto& shared = *scratch_.shared;
     const auto& pool = request_.pool;
-    team::once(team_, [&] { shared.vv = pool.reserve(team_, BlockLayout::words(segment_.rows, shared.found.neighbours)); });
+    team::once(team_,
+               [&] { shared.vv = pool.reserve(team_, BlockLayout::words(segment_.rows, shared.found.neighbours)); });
     team::barrier(team_);
     if (shared.vv == BlockPool::missing) return;
     Id* const offsets = pool.words + shared.vv;
@@ -164,7 +174,8 @@ struct HashedStarTeams {
 
   template <class Team>
   KOKKOS_FUNCTION void operator()(const Team& team) const {
-    request.template compute<HashedStars<Team, Memory>>(team, team::scratch<level>(team, HashedStarScratch::bytes(request.sizes, team::warps(team))));
+    request.template compute<HashedStars<Team, Memory>>(
+        team, team::scratch<level>(team, HashedStarScratch::bytes(request.sizes, team::warps(team))));
   }
 };
 

@@ -2,8 +2,8 @@
 
 #include <gale/base/team.hpp>
 #include <gale/base/types.hpp>
-#include <gale/relations/kernels/ranking.hpp>
 #include <gale/relations/kernels/hashed_star_scratch.hpp>
+#include <gale/relations/kernels/ranking.hpp>
 
 namespace gale::detail {
 
@@ -13,7 +13,12 @@ class NeighbourSet {
  public:
   /// For a vertex of `tetrahedra` tetrahedra, with at most `slots` slots. To be called by all lanes, inside for_warps.
   KOKKOS_FORCEINLINE_FUNCTION NeighbourSet(const Team& team, const HashedStarScratch& scratch, Id slots, Id tetrahedra)
-      : team_(team), warp_(scratch.warp), keys_(scratch.keys), places_(scratch.places), list_(scratch.list), ranks_(scratch.ranks) {
+      : team_(team),
+        warp_(scratch.warp),
+        keys_(scratch.keys),
+        places_(scratch.places),
+        list_(scratch.list),
+        ranks_(scratch.ranks) {
     while ((Id(1) << bits_) < 3 * tetrahedra && (Id(1) << bits_) < slots) ++bits_;
     team::for_lanes(team_, Id(1) << bits_, [&](Id slot) { keys_[slot] = no_id; });
     team::once_per_warp(team_, [&] { warp_->count = warp_->overflow = 0; });
@@ -71,9 +76,9 @@ class NeighbourSet {
   const Team& team_;
   WarpShared* warp_;
   Id* keys_;
-  Id* places_; ///< slot -> place in the list
-  Id* list_;   ///< members as they came
-  Id* ranks_;  ///< their places in ascending order
+  Id* places_;  ///< slot -> place in the list
+  Id* list_;    ///< members as they came
+  Id* ranks_;   ///< their places in ascending order
   int bits_ = 3;
 };
 

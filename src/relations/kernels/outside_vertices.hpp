@@ -5,27 +5,37 @@
 
 namespace gale::detail {
 
-/// Numbers the vertices of a segment and those outside that its tetrahedra reach, in the order of their ids: a hash set of the team's.
+/// Numbers the vertices of a segment and those outside that its tetrahedra reach, in the order of their ids: a hash set
+/// of the team's.
 class OutsideVertices {
  public:
   KOKKOS_FORCEINLINE_FUNCTION OutsideVertices(const BitStarScratch& scratch, const StarSizes& sizes, Id first, Id rows)
-      : scratch_(scratch), capacity_(sizes.outside), slots_(static_cast<Id>(BitStarScratch::slots(sizes))), first_(first), rows_(rows) {}
+      : scratch_(scratch),
+        capacity_(sizes.outside),
+        slots_(static_cast<Id>(BitStarScratch::slots(sizes))),
+        first_(first),
+        rows_(rows) {}
 
   template <class Team>
   KOKKOS_FORCEINLINE_FUNCTION void clear(const Team& team) const {
     team::for_all(team, slots_, [&](Id slot) { scratch_.keys[slot] = no_id; });
-    team::for_all(team, (capacity_ + 3) / 4, [&](Id four) { scratch_.list[four] = {{after_all, after_all, after_all, after_all}}; });
+    team::for_all(team, (capacity_ + 3) / 4, [&](Id four) {
+      scratch_.list[four] = {{after_all, after_all, after_all, after_all}};
+    });
   }
 
   KOKKOS_FORCEINLINE_FUNCTION Id first_slot(Id vertex) const {
-    return static_cast<Id>((std::uint64_t(static_cast<std::uint32_t>(vertex) * 0x9E3779B1u) * static_cast<std::uint32_t>(slots_)) >> 32);
+    return static_cast<Id>(
+        (std::uint64_t(static_cast<std::uint32_t>(vertex) * 0x9E3779B1u) * static_cast<std::uint32_t>(slots_)) >> 32);
   }
   KOKKOS_FORCEINLINE_FUNCTION Id key(Id slot) const { return scratch_.keys[slot]; }
 
-  /// Calls found(corner, slot) for the vertices at some corners, given as bits; by any lane. One loop over corners and probes, so that a warp waits for
-  /// the lane that takes longest, not at each corner for the one that takes longest there. If slots are lacking, found.outside says that more are needed.
+  /// Calls found(corner, slot) for the vertices at some corners, given as bits; by any lane. One loop over corners and
+  /// probes, so that a warp waits for the lane that takes longest, not at each corner for the one that takes longest
+  /// there. If slots are lacking, found.outside says that more are needed.
   template <class Team, class Found>
-  KOKKOS_FORCEINLINE_FUNCTION void insert(const Team& team, const FourVertices& four, std::uint32_t corners, const Found& found) const {
+  KOKKOS_FORCEINLINE_FUNCTION void insert(const Team& team, const FourVertices& four, std::uint32_t corners,
+                                          const Found& found) const {
     Id vertex = no_id, slot = 0, probes = 0;
     int corner = 0;
     for (bool next = true; corners != 0 && probes < slots_; ++probes) {

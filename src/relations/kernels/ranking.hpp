@@ -48,8 +48,8 @@ KOKKOS_FORCEINLINE_FUNCTION void heap_sort(Id* ids, Id count) {
   }
 }
 
-/// Inside for_warps: calls visit(i, id, place) with the place in ascending order that each of the distinct `ids` has; i counts them in the
-/// order in which they then stand. More than `counting_limit` are put in order first.
+/// Inside for_warps: calls visit(i, id, place) with the place in ascending order that each of the distinct `ids` has; i
+/// counts them in the order in which they then stand. More than `counting_limit` are put in order first.
 template <class Team, class Visit>
 KOKKOS_FORCEINLINE_FUNCTION void rank(const Team& team, Id* ids, Id count, const Visit& visit) {
   if (count > counting_limit) {

@@ -8,7 +8,9 @@
 namespace gale::detail {
 
 /// Does `for_each_entry` visit the entries in ascending order?
-KOKKOS_FUNCTION constexpr bool visits_in_order(Relation relation) { return relation != Relation::FF && relation != Relation::TT; }
+KOKKOS_FUNCTION constexpr bool visits_in_order(Relation relation) {
+  return relation != Relation::FF && relation != Relation::TT;
+}
 
 /// Calls visit(id) for each entry of the row of a simplex in a relation other than VV, VT and link.
 template <Relation relation, class Memory, class Visit>
@@ -39,7 +41,9 @@ KOKKOS_INLINE_FUNCTION void for_each_entry(const Simplices<Memory>& s, Id simple
 /// How many entries that row has.
 template <Relation relation, class Memory>
 KOKKOS_INLINE_FUNCTION Id count_entries(const Simplices<Memory>& s, Id simplex) {
-  const auto edges_at = [&s](Id v) { return s.lower_begin(v + 1) - s.lower_begin(v) + s.edge_begin(v + 1) - s.edge_begin(v); };
+  const auto edges_at = [&s](Id v) {
+    return s.lower_begin(v + 1) - s.lower_begin(v) + s.edge_begin(v + 1) - s.edge_begin(v);
+  };
   if constexpr (face_relations.has(relation)) {
     return face_count(relation);
   } else if constexpr (relation == Relation::VE) {

@@ -12,8 +12,8 @@
 
 namespace gale {
 
-/// Computes one relation other than VV, VT and link for one segment a team: the rows of the simplices that are internal to it, compact and
-/// ascending.
+/// Computes one relation other than VV, VT and link for one segment a team: the rows of the simplices that are internal
+/// to it, compact and ascending.
 ///
 ///     a lane a row: find its entries, count them, and keep the first few
 ///     scan; reserve the block
@@ -25,8 +25,8 @@ class RowKernel {
  public:
   Simplices<Memory> simplices;
   Kokkos::View<const Id*, Memory, Kokkos::MemoryUnmanaged> vertex_begin;  ///< I_V
-  const Id* segments = nullptr;                                          ///< of the batch, one a team
-  StarSizes sizes;                                                       ///< rows alone count
+  const Id* segments = nullptr;                                           ///< of the batch, one a team
+  StarSizes sizes;                                                        ///< rows alone count
   int scratch_level = 0;
   BlockPool pool;
 
@@ -39,7 +39,8 @@ class RowKernel {
   /// On the calling thread.
   void operator()(const HostTeam& team) const { compute(team, team.scratch()); }
 
-  /// Calls use(functor) with what Kokkos is to run on its teams: one for each level of scratch memory, see team::scratch.
+  /// Calls use(functor) with what Kokkos is to run on its teams: one for each level of scratch memory, see
+  /// team::scratch.
   template <class Use>
   friend void with_functor(const RowKernel& kernel, const Use& use) {
     kernel.scratch_level == 0 ? use(OnTeams<0>{kernel}) : use(OnTeams<1>{kernel});
@@ -86,7 +87,9 @@ class RowKernel {
     Id* const offsets = pool.words + shared.block;
     Id* const ids = offsets + rows + 1;
     team::for_all(team, rows + 1, [&](Id row) { offsets[row] = static_cast<Id>(begin[row]); });
-    team::for_all(team, rows, [&](Id row) { write(first + row, stash, row, ids + begin[row], static_cast<Id>(begin[row + 1] - begin[row])); });
+    team::for_all(team, rows, [&](Id row) {
+      write(first + row, stash, row, ids + begin[row], static_cast<Id>(begin[row + 1] - begin[row]));
+    });
   }
 
  private:

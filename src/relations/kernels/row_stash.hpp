@@ -4,8 +4,8 @@
 
 namespace gale::detail {
 
-/// Up to how many entries of a row its lane keeps from counting to writing, so that it needn't find them twice: as many as most rows have, unless
-/// finding them is no work. On a device scratch memory is short.
+/// Up to how many entries of a row its lane keeps from counting to writing, so that it needn't find them twice: as many
+/// as most rows have, unless finding them is no work. On a device scratch memory is short.
 KOKKOS_FUNCTION constexpr Id stash_capacity(Relation relation, bool on_device) {
   if (relation == Relation::VF) return 40;
   if (relation == Relation::EF || relation == Relation::ET) return 8;
@@ -14,14 +14,17 @@ KOKKOS_FUNCTION constexpr Id stash_capacity(Relation relation, bool on_device) {
   return relation == Relation::TT ? 4 : 0;
 }
 
-/// The first entries of each row of a segment, in ascending order, in its scratch memory. Those of neighbouring rows lie side by side.
+/// The first entries of each row of a segment, in ascending order, in its scratch memory. Those of neighbouring rows
+/// lie side by side.
 template <Relation relation, bool on_device>
 class RowStash {
  public:
   /// Nothing is kept in segments of more rows.
   static constexpr Id most_rows = 4096;
 
-  KOKKOS_INLINE_FUNCTION static constexpr Id capacity_for(Id rows) { return rows > most_rows ? 0 : stash_capacity(relation, on_device); }
+  KOKKOS_INLINE_FUNCTION static constexpr Id capacity_for(Id rows) {
+    return rows > most_rows ? 0 : stash_capacity(relation, on_device);
+  }
 
   /// In memory for rows * capacity_for(rows) ids.
   KOKKOS_INLINE_FUNCTION RowStash(Id* ids, Id rows) : ids_(ids), rows_(rows), capacity_(capacity_for(rows)) {}

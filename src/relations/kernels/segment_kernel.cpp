@@ -1,12 +1,11 @@
-#include <gale/relations/kernels/segment_kernel.hpp>
-
 #include <variant>
 
 #include <gale/base/require_ids.hpp>
 #include <gale/relations/kernels/launch.hpp>
-#include <gale/relations/preconditioning.hpp>
 #include <gale/relations/kernels/row_kernel.hpp>
+#include <gale/relations/kernels/segment_kernel.hpp>
 #include <gale/relations/kernels/star_kernel.hpp>
+#include <gale/relations/preconditioning.hpp>
 
 namespace gale {
 
@@ -55,8 +54,9 @@ struct RowKernels {
 };
 
 template <class Memory>
-using AllRowKernels = RowKernels<Memory, Relation::EV, Relation::FV, Relation::FE, Relation::TV, Relation::TE, Relation::TF, Relation::VE,
-                                 Relation::VF, Relation::EF, Relation::ET, Relation::FT, Relation::EE, Relation::FF, Relation::TT>;
+using AllRowKernels =
+    RowKernels<Memory, Relation::EV, Relation::FV, Relation::FE, Relation::TV, Relation::TE, Relation::TF, Relation::VE,
+               Relation::VF, Relation::EF, Relation::ET, Relation::FT, Relation::EE, Relation::FF, Relation::TT>;
 
 }  // namespace
 
@@ -72,7 +72,8 @@ bool are_there(RelationSet wanted, const Id* segments, const Offset* directory, 
   const std::size_t relations = wanted.count();
   for (std::size_t i = 0; i < count * relations; ++i) {
     if (directory[i] == BlockPool::uncountable) {
-      throw Error("segment " + std::to_string(segments[i / relations]) + " has more than 2147483647 entries of " + name_of(wanted) + ": use smaller segments");
+      throw Error("segment " + std::to_string(segments[i / relations]) + " has more than 2147483647 entries of " +
+                  name_of(wanted) + ": use smaller segments");
     }
     all &= directory[i] != BlockPool::missing;
   }
@@ -150,13 +151,15 @@ StarSizes SegmentKernel<Memory>::bound(Id segment) const {
 
 template <class Memory>
 std::size_t SegmentKernel<Memory>::scratch_bytes(const StarSizes& sizes, int warps) const {
-  return any_->visit([&](const auto& kernel) { return gale::scratch_bytes<std::decay_t<decltype(kernel)>>(sizes, warps); });
+  return any_->visit(
+      [&](const auto& kernel) { return gale::scratch_bytes<std::decay_t<decltype(kernel)>>(sizes, warps); });
 }
 
 template <class Memory>
 void SegmentKernel<Memory>::launch(const WorkerSpace& instance, const KernelTask& task, int teams, TeamShape shape) {
   any_->set(task);
-  if constexpr (std::is_same_v<Memory, WorkerMemory>) any_->visit([&](const auto& kernel) { gale::launch(instance, kernel, teams, shape); });
+  if constexpr (std::is_same_v<Memory, WorkerMemory>)
+    any_->visit([&](const auto& kernel) { gale::launch(instance, kernel, teams, shape); });
 }
 
 template <class Memory>

@@ -10,11 +10,12 @@
 
 namespace gale {
 
-/// The sets of relations that one kernel computes together: the members of star_relations, and each other one by itself. These first, in the order of `Relation`.
+/// The sets of relations that one kernel computes together: the members of star_relations, and each other one by
+/// itself. These first, in the order of `Relation`.
 std::vector<RelationSet> kernels_for(RelationSet relations);
 
-/// Are all the blocks of a batch there, as its directory says (see BlockPool)? Throws gale::Error, naming the segment, if one has more entries than an
-/// Id counts.
+/// Are all the blocks of a batch there, as its directory says (see BlockPool)? Throws gale::Error, naming the segment,
+/// if one has more entries than an Id counts.
 bool are_there(RelationSet wanted, const Id* segments, const Offset* directory, std::size_t count);
 
 /// What a kernel is run on.
@@ -25,7 +26,8 @@ struct KernelTask {
   BlockPool pool;
 };
 
-/// The kernel of one of the sets that `kernels_for` gives, whichever that is: a StarKernel or a RowKernel. `Memory` is the workers' or the host's.
+/// The kernel of one of the sets that `kernels_for` gives, whichever that is: a StarKernel or a RowKernel. `Memory` is
+/// the workers' or the host's.
 template <class Memory>
 class SegmentKernel {
  public:

@@ -4,7 +4,8 @@
 
 namespace gale::detail {
 
-/// The tetrahedra that touch a segment, in ascending order: the external ones come first, since they are internal to earlier segments.
+/// The tetrahedra that touch a segment, in ascending order: the external ones come first, since they are internal to
+/// earlier segments.
 template <class Memory>
 struct SegmentTetrahedra {
   const Id* external;
@@ -18,7 +19,9 @@ struct SegmentTetrahedra {
         first_internal(mesh.internal_begin(segment)),
         count(externals + mesh.internal_begin(segment + 1) - first_internal) {}
 
-  KOKKOS_FORCEINLINE_FUNCTION Id operator[](Id i) const { return i < externals ? external[i] : first_internal + (i - externals); }
+  KOKKOS_FORCEINLINE_FUNCTION Id operator[](Id i) const {
+    return i < externals ? external[i] : first_internal + (i - externals);
+  }
 };
 
 struct FourVertices {
@@ -49,7 +52,9 @@ struct StarSegment {
 
   /// The row of a vertex, in 0..rows-1 if the segment holds it.
   KOKKOS_FORCEINLINE_FUNCTION Id row_of(Id vertex) const { return vertex - first; }
-  KOKKOS_FORCEINLINE_FUNCTION bool has(Id row) const { return static_cast<std::uint32_t>(row) < static_cast<std::uint32_t>(rows); }
+  KOKKOS_FORCEINLINE_FUNCTION bool has(Id row) const {
+    return static_cast<std::uint32_t>(row) < static_cast<std::uint32_t>(rows);
+  }
 };
 
 }  // namespace gale::detail

@@ -5,12 +5,12 @@
 
 namespace gale {
 
-/// Computes VV, VT and link, those of them that are wanted, for one segment a team: what the paper's Algorithms 1 and 2 do, in the team's
-/// scratch memory, so that rows come out compact and ascending. There are two ways, which the sizes decide on: BitStars for small segments on
-/// Kokkos' teams, HashedStars for all others and for a HostTeam.
+/// Computes VV, VT and link, those of them that are wanted, for one segment a team: what the paper's Algorithms 1 and 2
+/// do, in the team's scratch memory, so that rows come out compact and ascending. There are two ways, which the sizes
+/// decide on: BitStars for small segments on Kokkos' teams, HashedStars for all others and for a HostTeam.
 ///
-/// A segment that needs more scratch memory than `sizes`, or more of the pool than is left, is left out: its entries of the directory
-/// say so, and `needed` or `used` what it takes.
+/// A segment that needs more scratch memory than `sizes`, or more of the pool than is left, is left out: its entries of
+/// the directory say so, and `needed` or `used` what it takes.
 template <class Memory>
 class StarKernel : public detail::StarRequest<Memory> {
  public:
@@ -24,9 +24,11 @@ class StarKernel : public detail::StarRequest<Memory> {
     return wanted.has(Relation::VV) && wanted.has(Relation::VT) ? "GALE::VV+VT" : "GALE::star";
   }
 
-  /// What suffices for a segment of so many vertices and tetrahedra, unless one vertex has more than 42 tetrahedra (a link of n triangles
-  /// that hang together has at most n + 2 vertices), or the segment lies in a part of the mesh that has little but surface.
-  static StarSizes bound(Id rows, Offset internal_tetrahedra, Offset external_tetrahedra, RelationSet wanted = star_relations) {
+  /// What suffices for a segment of so many vertices and tetrahedra, unless one vertex has more than 42 tetrahedra (a
+  /// link of n triangles that hang together has at most n + 2 vertices), or the segment lies in a part of the mesh that
+  /// has little but surface.
+  static StarSizes bound(Id rows, Offset internal_tetrahedra, Offset external_tetrahedra,
+                         RelationSet wanted = star_relations) {
     const Offset star = 4 * internal_tetrahedra + 3 * external_tetrahedra;
     const Offset tetrahedra = internal_tetrahedra + external_tetrahedra;
     StarSizes sizes;
@@ -52,14 +54,16 @@ class StarKernel : public detail::StarRequest<Memory> {
     this->template compute<detail::HashedStars<HostTeam, Memory>>(team, team.scratch());
   }
 
-  /// Calls use(functor) with what Kokkos is to run on its teams. Each has one way, one kind of scratch memory: one functor for all would take the
-  /// registers of the greediest, and a third fewer teams would run at a time.
+  /// Calls use(functor) with what Kokkos is to run on its teams. Each has one way, one kind of scratch memory: one
+  /// functor for all would take the registers of the greediest, and a third fewer teams would run at a time.
   template <class Use>
   friend void with_functor(const StarKernel& kernel, const Use& use) {
     if (is_small(kernel.sizes)) {
-      kernel.scratch_level == 0 ? use(detail::BitStarTeams<Memory, 0>{kernel}) : use(detail::BitStarTeams<Memory, 1>{kernel});
+      kernel.scratch_level == 0 ? use(detail::BitStarTeams<Memory, 0>{kernel})
+                                : use(detail::BitStarTeams<Memory, 1>{kernel});
     } else {
-      kernel.scratch_level == 0 ? use(detail::HashedStarTeams<Memory, 0>{kernel}) : use(detail::HashedStarTeams<Memory, 1>{kernel});
+      kernel.scratch_level == 0 ? use(detail::HashedStarTeams<Memory, 0>{kernel})
+                                : use(detail::HashedStarTeams<Memory, 1>{kernel});
     }
   }
 

@@ -17,8 +17,8 @@ struct alignas(16) StarShared {
   Offset vv, vt, link;  ///< where their blocks begin in the pool
 };
 
-/// So many vertices of other segments do that many tetrahedra around a segment usually reach. It is some more for a grid, whose segments of 64 vertices
-/// have 640 tetrahedra and reach 130; thin parts of a mesh may need more.
+/// So many vertices of other segments do that many tetrahedra around a segment usually reach. It is some more for a
+/// grid, whose segments of 64 vertices have 640 tetrahedra and reach 130; thin parts of a mesh may need more.
 KOKKOS_FORCEINLINE_FUNCTION Id usual_outside(Id tetrahedra) { return tetrahedra / 5 + 64; }
 
 /// What a star kernel is asked for.
@@ -30,7 +30,9 @@ struct StarRequest {
   StarSizes sizes;
   BlockPool pool;
 
-  KOKKOS_FORCEINLINE_FUNCTION bool gathers_neighbours() const { return wanted.has(Relation::VV) || wanted.has(Relation::link); }
+  KOKKOS_FORCEINLINE_FUNCTION bool gathers_neighbours() const {
+    return wanted.has(Relation::VV) || wanted.has(Relation::link);
+  }
 
   /// What each team does, in the way of `Stars`.
   template <class Stars, class Team>
@@ -54,7 +56,8 @@ struct StarRequest {
   KOKKOS_FORCEINLINE_FUNCTION void finish(const Team& team, const detail::StarShared& shared) const {
     const bool fitted = sizes.contains(shared.found);
     if (!fitted) pool.need(team, shared.found);
-    const bool done = fitted && present(Relation::VT, shared.vt) && present(Relation::VV, shared.vv) && present(Relation::link, shared.link);
+    const bool done = fitted && present(Relation::VT, shared.vt) && present(Relation::VV, shared.vv) &&
+                      present(Relation::link, shared.link);
     Offset* entry = pool.directory + Offset(team.league_rank()) * wanted.count();
     if (wanted.has(Relation::VT)) *entry++ = done ? shared.vt : BlockPool::missing;
     if (wanted.has(Relation::VV)) *entry++ = done ? shared.vv : BlockPool::missing;
@@ -66,10 +69,12 @@ struct StarRequest {
   }
 };
 
-/// Reserves blocks of those that are wanted of `relations`, together: a segment that got some only would have taken from the pool what others lack
-/// then. Writes the ends of the rows of VT and link, which are `star_begin`; VV has so many `neighbours`.
+/// Reserves blocks of those that are wanted of `relations`, together: a segment that got some only would have taken
+/// from the pool what others lack then. Writes the ends of the rows of VT and link, which are `star_begin`; VV has so
+/// many `neighbours`.
 template <class Team, class Memory>
-KOKKOS_FORCEINLINE_FUNCTION void reserve_blocks(const Team& team, const StarRequest<Memory>& request, RelationSet relations, StarShared& shared, Id rows,
+KOKKOS_FORCEINLINE_FUNCTION void reserve_blocks(const Team& team, const StarRequest<Memory>& request,
+                                                RelationSet relations, StarShared& shared, Id rows,
                                                 const Id* star_begin, Id neighbours) {
   const auto& pool = request.pool;
   const RelationSet wanted = request.wanted & relations;
@@ -77,7 +82,8 @@ KOKKOS_FORCEINLINE_FUNCTION void reserve_blocks(const Team& team, const StarRequ
     const Id tetrahedra = shared.found.star;
     const int width = width_for(3 * shared.longest_star);
     const Offset vt = wanted.has(Relation::VT) ? BlockPool::rounded(BlockLayout::words(rows, tetrahedra)) : 0;
-    const Offset link = wanted.has(Relation::link) ? BlockPool::rounded(BlockLayout::link_words(rows, tetrahedra, width)) : 0;
+    const Offset link =
+        wanted.has(Relation::link) ? BlockPool::rounded(BlockLayout::link_words(rows, tetrahedra, width)) : 0;
     const Offset vv = wanted.has(Relation::VV) ? BlockLayout::words(rows, neighbours) : 0;
     const Offset begin = vt + link + vv > 0 ? pool.reserve(team, vt + link + vv) : BlockPool::missing;
     if (begin == BlockPool::missing) return;

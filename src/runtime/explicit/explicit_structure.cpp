@@ -1,5 +1,4 @@
 #include <gale/runtime/explicit/explicit_structure.hpp>
-
 #include <gale/runtime/explicit/global_relations.hpp>
 #include <gale/runtime/sweep.hpp>
 
@@ -10,7 +9,8 @@ struct ExplicitStructure::Data {
   RelationSet relations;
   detail::GlobalRelations global;
 
-  Data(const Mesh& given, RelationSet wanted) : mesh(given), relations(wanted), global(detail::global_relations(mesh, wanted)) {}
+  Data(const Mesh& given, RelationSet wanted)
+      : mesh(given), relations(wanted), global(detail::global_relations(mesh, wanted)) {}
 
   /// Rows of the simplices given; those of all lie together, so there is nothing to compute.
   SegmentRows rows(RelationSet wanted, Id segment, const Intervals& simplices) const {
@@ -19,7 +19,8 @@ struct ExplicitStructure::Data {
       const auto relation = static_cast<Relation>(i);
       if (wanted.has(relation) && relation != Relation::link) rows.set(relation, global.rows[i].rows());
     }
-    if (wanted.has(Relation::link)) rows.set(global.links.rows(global.rows[static_cast<int>(Relation::VT)].offsets.data()));
+    if (wanted.has(Relation::link))
+      rows.set(global.links.rows(global.rows[static_cast<int>(Relation::VT)].offsets.data()));
     return rows;
   }
 
@@ -42,7 +43,8 @@ struct ExplicitStructure::Data {
   }
 };
 
-ExplicitStructure::ExplicitStructure(const Mesh& mesh, RelationSet wanted) : data_(std::make_unique<const Data>(mesh, wanted)) {}
+ExplicitStructure::ExplicitStructure(const Mesh& mesh, RelationSet wanted)
+    : data_(std::make_unique<const Data>(mesh, wanted)) {}
 ExplicitStructure::~ExplicitStructure() = default;
 
 const Mesh& ExplicitStructure::mesh() const { return data_->mesh; }
@@ -51,8 +53,9 @@ Id ExplicitStructure::count(int dimension) const { return data_->global.count[di
 
 void ExplicitStructure::for_each_segment(RelationSet wanted, const SweepOptions& options, const SegmentBody& body) {
   require_preconditioned(data_->relations, wanted);
-  detail::sweep(data_->mesh.segments(), options,
-                [&](int consumer, Id segment) { body(consumer, data_->rows(wanted, segment, data_->intervals_of(segment))); });
+  detail::sweep(data_->mesh.segments(), options, [&](int consumer, Id segment) {
+    body(consumer, data_->rows(wanted, segment, data_->intervals_of(segment)));
+  });
 }
 
 /// Loads once: all rows.

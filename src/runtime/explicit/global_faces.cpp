@@ -1,8 +1,7 @@
-#include <gale/runtime/explicit/global_faces.hpp>
-
 #include <gale/base/parallel.hpp>
 #include <gale/base/radix_sort.hpp>
 #include <gale/base/transfer.hpp>
+#include <gale/runtime/explicit/global_faces.hpp>
 
 namespace gale::detail {
 
@@ -11,7 +10,8 @@ namespace {
 using Ids = Array<Id, WorkerMemory>;
 using Keys = Array<std::uint64_t, WorkerMemory>;
 
-/// Which of a tetrahedron's vertices 0..3, or edges 0..5, bound its edges or triangles. A value, so that kernels take it along.
+/// Which of a tetrahedron's vertices 0..3, or edges 0..5, bound its edges or triangles. A value, so that kernels take
+/// it along.
 struct Faces {
   Id per_tetrahedron;
   Id length;

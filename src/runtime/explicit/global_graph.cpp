@@ -1,10 +1,9 @@
-#include <gale/runtime/explicit/global_graph.hpp>
-
 #include <limits>
 
 #include <gale/base/error.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/base/transfer.hpp>
+#include <gale/runtime/explicit/global_graph.hpp>
 
 namespace gale::detail {
 
@@ -26,11 +25,13 @@ Graph::Offsets row_begin(const Graph& graph) {
 }
 
 GlobalRows to_host(const Graph& graph) {
-  if (graph.length != 0) return {even_begin<Id>(Kokkos::DefaultHostExecutionSpace(), graph.rows, graph.length), on_host(graph.ids)};
+  if (graph.length != 0)
+    return {even_begin<Id>(Kokkos::DefaultHostExecutionSpace(), graph.rows, graph.length), on_host(graph.ids)};
   const auto begin = graph.begin;
   const auto offsets = allocate<Array<Id, WorkerMemory>>("GALE::row_begin", begin.extent(0));
   parallel_for(
-      "GALE::row_begin", WorkerSpace(), begin.extent(0), KOKKOS_LAMBDA(Offset i) { offsets(i) = static_cast<Id>(begin(i)); });
+      "GALE::row_begin", WorkerSpace(), begin.extent(0),
+      KOKKOS_LAMBDA(Offset i) { offsets(i) = static_cast<Id>(begin(i)); });
   return {on_host(offsets), on_host(graph.ids)};
 }
 
@@ -39,8 +40,8 @@ std::string label_of(Relation relation) { return "GALE::" + name_of(relation); }
 void require_countable(Relation relation, Offset entries) {
   constexpr Offset most = std::numeric_limits<Id>::max();
   if (entries <= most) return;
-  throw Error("the explicit structure can't hold the " + std::to_string(entries) + " entries of " + name_of(relation) + ": at most " +
-              std::to_string(most) + " fit");
+  throw Error("the explicit structure can't hold the " + std::to_string(entries) + " entries of " + name_of(relation) +
+              ": at most " + std::to_string(most) + " fit");
 }
 
 }  // namespace gale::detail

@@ -9,8 +9,8 @@
 
 namespace gale::detail {
 
-/// A relation of the whole mesh in the workers' memory: row i is ids[begin(i)] to ids[begin(i + 1) - 1]. Where all rows are of one length there
-/// is no `begin`: 8 bytes a row that only Kokkos-Kernels wants, and then for a while.
+/// A relation of the whole mesh in the workers' memory: row i is ids[begin(i)] to ids[begin(i + 1) - 1]. Where all rows
+/// are of one length there is no `begin`: 8 bytes a row that only Kokkos-Kernels wants, and then for a while.
 struct Graph {
   using Offsets = Array<Offset, WorkerMemory>;
   using Ids = Array<const Id, WorkerMemory>;

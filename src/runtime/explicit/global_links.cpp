@@ -1,8 +1,7 @@
-#include <gale/runtime/explicit/global_links.hpp>
-
 #include <algorithm>
 
 #include <gale/base/parallel.hpp>
+#include <gale/runtime/explicit/global_links.hpp>
 
 namespace gale::detail {
 

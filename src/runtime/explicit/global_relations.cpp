@@ -1,10 +1,9 @@
-#include <gale/runtime/explicit/global_relations.hpp>
-
 #include <algorithm>
 #include <iterator>
 #include <utility>
 
 #include <gale/runtime/explicit/global_faces.hpp>
+#include <gale/runtime/explicit/global_relations.hpp>
 #include <gale/runtime/explicit/global_rows.hpp>
 
 namespace gale::detail {
@@ -17,7 +16,8 @@ struct Recipe {
   RelationSet from;
 };
 
-/// In an order in which each comes after what it is from, and little is held for later: vertices, then edges, then triangles.
+/// In an order in which each comes after what it is from, and little is held for later: vertices, then edges, then
+/// triangles.
 constexpr Recipe recipes[] = {
     {Relation::TV, {}},
     {Relation::VT, Relation::TV},
@@ -97,7 +97,8 @@ class Build {
     if (relation == Relation::TV) return tetrahedron_vertices(mesh_);
     if (relation == Relation::TE) return of_tetrahedra(1, number_edges(graph(Relation::TV)));
     if (relation == Relation::TF) return of_tetrahedra(2, number_triangles(graph(Relation::TV), graph(Relation::TE)));
-    return faces(relation, numberings_[row_dimension(relation)], graph(entry_dimension(relation) == 0 ? Relation::TV : Relation::TE));
+    return faces(relation, numberings_[row_dimension(relation)],
+                 graph(entry_dimension(relation) == 0 ? Relation::TV : Relation::TE));
   }
 
   /// Keeps a numbering as long as others are from it.

@@ -1,6 +1,5 @@
-#include <gale/runtime/explicit/global_rows.hpp>
-
 #include <gale/base/error.hpp>
+#include <gale/runtime/explicit/global_rows.hpp>
 
 // The one translation unit that includes Kokkos-Kernels: it takes long to compile.
 
@@ -62,13 +61,15 @@ class Product {
  public:
   Product(const Graph& xy, const Graph& yx) : xy_(xy), yx_(yx) {
     handle_.create_spgemm_handle(KokkosSparse::SPGEMM_KK);
-    handle_.get_spgemm_handle()->set_compression_cut_off(0);  // half the time and no memory for VV, whose ids are far apart; no loss for others
+    handle_.get_spgemm_handle()->set_compression_cut_off(
+        0);  // half the time and no memory for VV, whose ids are far apart; no loss for others
   }
 
   /// Where the rows begin.
   Offsets symbolic() {
     const auto begin = allocate<Offsets>("GALE::product_begin", xy_.rows + Offset(1));
-    spgemm_symbolic(&handle_, xy_.rows, yx_.rows, xy_.rows, xy_.begin, xy_.ids, false, yx_.begin, yx_.ids, false, begin);
+    spgemm_symbolic(&handle_, xy_.rows, yx_.rows, xy_.rows, xy_.begin, xy_.ids, false, yx_.begin, yx_.ids, false,
+                    begin);
     return begin;
   }
 
@@ -78,8 +79,8 @@ class Product {
     auto ids = allocate<Ids>("GALE::product", entries);
     const Scalars factors("GALE::product_factors", xy_.ids.extent(0));  // as many in either
     auto values = allocate<Scalars>("GALE::product_values", entries);
-    spgemm_numeric(&handle_, xy_.rows, yx_.rows, xy_.rows, xy_.begin, xy_.ids, factors, false, yx_.begin, yx_.ids, factors, false, begin, ids,
-                   values);
+    spgemm_numeric(&handle_, xy_.rows, yx_.rows, xy_.rows, xy_.begin, xy_.ids, factors, false, yx_.begin, yx_.ids,
+                   factors, false, begin, ids, values);
     return ids;
   }
 
@@ -96,7 +97,8 @@ Offset shorten_rows(const char* label, const Offsets& begin, const Offsets& shor
 }
 
 /// Copies each row of `from` but the entry that is the row's own number.
-void drop_diagonal(const char* label, const Offsets& from_begin, const Ids& from, const Offsets& begin, const Ids& ids) {
+void drop_diagonal(const char* label, const Offsets& from_begin, const Ids& from, const Offsets& begin,
+                   const Ids& ids) {
   parallel_for(
       label, WorkerSpace(), begin.extent(0) - 1, KOKKOS_LAMBDA(Offset row) {
         Offset to = begin(row);
@@ -115,7 +117,8 @@ Graph transpose(Relation relation, const Graph& faces, Id rows) {
   const Matrix matrix(faces);
   const Offsets begin(label + "_begin", rows + Offset(1));
   const auto ids = allocate<Ids>(label, matrix.ids.extent(0));
-  transpose_graph<ConstOffsets, ConstIds, Offsets, Ids, Offsets, WorkerSpace>(matrix.rows, rows, matrix.begin, matrix.ids, begin, ids);
+  transpose_graph<ConstOffsets, ConstIds, Offsets, Ids, Offsets, WorkerSpace>(matrix.rows, rows, matrix.begin,
+                                                                              matrix.ids, begin, ids);
   sort_rows((label + "_sort").c_str(), begin, ids);
   return {rows, 0, begin, ids};
 }

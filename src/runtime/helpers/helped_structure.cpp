@@ -1,16 +1,17 @@
 #include <algorithm>
 #include <mutex>
 
-#include <gale/runtime/sweep.hpp>
-#include <gale/runtime/leaders/defaults.hpp>
 #include <gale/runtime/helpers/helped_sweep.hpp>
 #include <gale/runtime/implementation.hpp>
+#include <gale/runtime/leaders/defaults.hpp>
+#include <gale/runtime/sweep.hpp>
 
 namespace gale::detail {
 
 namespace {
 
-/// The cores that a sweep takes for helpers since it leaves them idle, as long as it lives. Sweeps that run at once, also of other runtimes, share them.
+/// The cores that a sweep takes for helpers since it leaves them idle, as long as it lives. Sweeps that run at once,
+/// also of other runtimes, share them.
 class IdleCores {
  public:
   IdleCores(int cores, int consumers, int at_most) {
@@ -49,7 +50,8 @@ class HelperProduction : public RuntimeImplementation {
     const MakeWorker make = [&](ConsumerStatistics& statistics, int kept) {
       return std::make_unique<CountingWorker>(mesh(), wanted, statistics, kept);
     };
-    HelpedSweep helped(mesh().segments(), std::max(options.threads, 0), make, idle.count(), make, host_memory(options_) / all);
+    HelpedSweep helped(mesh().segments(), std::max(options.threads, 0), make, idle.count(), make,
+                       host_memory(options_) / all);
     // As many turns as segments; which one is read in a turn shows then.
     sweep(mesh().segments(), options, [&](int consumer, Id) {
       helped.read_next(consumer, [&](const SegmentRows& rows) { body(consumer, rows); });
@@ -88,7 +90,8 @@ class HelperProduction : public RuntimeImplementation {
 
 }  // namespace
 
-std::unique_ptr<RuntimeImplementation> by_helpers(const Mesh& mesh, RelationSet relations, const RuntimeOptions& options) {
+std::unique_ptr<RuntimeImplementation> by_helpers(const Mesh& mesh, RelationSet relations,
+                                                  const RuntimeOptions& options) {
   return std::make_unique<HelperProduction>(mesh, relations, options);
 }
 

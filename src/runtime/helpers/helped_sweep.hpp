@@ -7,11 +7,14 @@
 
 namespace gale::detail {
 
-/// The consumers of a sweep, and the helpers that run ahead of them. Consumers take what helpers have ready, and else compute.
+/// The consumers of a sweep, and the helpers that run ahead of them. Consumers take what helpers have ready, and else
+/// compute.
 class HelpedSweep {
  public:
-  /// With fewer helpers if there are no more threads to be had. Consumers compute with what `make` makes, helpers with what `make_for_helper` does.
-  HelpedSweep(Id segments, int consumers, const MakeWorker& make, int helpers, const MakeWorker& make_for_helper, std::size_t budget_of_each)
+  /// With fewer helpers if there are no more threads to be had. Consumers compute with what `make` makes, helpers with
+  /// what `make_for_helper` does.
+  HelpedSweep(Id segments, int consumers, const MakeWorker& make, int helpers, const MakeWorker& make_for_helper,
+              std::size_t budget_of_each)
       : make_(make), unbegun_(segments), consumers_(consumers) {
     try {
       while (helpers-- > 0) helpers_.push_back(std::make_unique<Helper>(make_for_helper, unbegun_, budget_of_each));

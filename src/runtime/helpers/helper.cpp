@@ -10,10 +10,12 @@ namespace gale::detail {
 
 namespace {
 
-/// Of a helper whose ring is full. Nobody wakes it, which would cost consumers more than a helper that looks now and then costs its core.
+/// Of a helper whose ring is full. Nobody wakes it, which would cost consumers more than a helper that looks now and
+/// then costs its core.
 constexpr std::chrono::microseconds nap(20);
 
-/// Has the calling thread give way to consumers where cores aren't as idle as they seem: other programs may use them, and then it must not share a consumer's.
+/// Has the calling thread give way to consumers where cores aren't as idle as they seem: other programs may use them,
+/// and then it must not share a consumer's.
 void give_way() {
 #ifdef __linux__  // where it is for the thread alone
   constexpr int much = 10;

@@ -25,10 +25,12 @@ class UnbegunSegments {
   std::atomic<Offset> next_{0};
 };
 
-/// A thread that computes segments of a sweep ahead of the consumers, into a ring of blocks. While the ring is full it sleeps.
+/// A thread that computes segments of a sweep ahead of the consumers, into a ring of blocks. While the ring is full it
+/// sleeps.
 ///
-/// Nobody depends on it: a consumer that finds no other segment takes the one away that the helper is at, and computes it. So no consumer waits for a helper
-/// that the system has put aside, and one that fails just leaves: whoever computes that segment then has the same failure to tell, if it is one.
+/// Nobody depends on it: a consumer that finds no other segment takes the one away that the helper is at, and computes
+/// it. So no consumer waits for a helper that the system has put aside, and one that fails just leaves: whoever
+/// computes that segment then has the same failure to tell, if it is one.
 class Helper {
  public:
   /// Helps as long as its blocks take at most `budget` bytes. `unbegun` must outlive it.
@@ -37,7 +39,8 @@ class Helper {
   /// Ends after the segment that it is at.
   ~Helper();
 
-  /// Calls body(rows) for the oldest segment that is ready; false if none is. By any consumer. A block whose body throws is never used again.
+  /// Calls body(rows) for the oldest segment that is ready; false if none is. By any consumer. A block whose body
+  /// throws is never used again.
   template <class Body>
   bool lend(const Body& body) {
     std::uint64_t next = lent_.load();
@@ -50,7 +53,8 @@ class Helper {
     return true;
   }
 
-  /// The segment that it is at, which is the caller's from now on; no_id if there is none. By a consumer, once none are unbegun.
+  /// The segment that it is at, which is the caller's from now on; no_id if there is none. By a consumer, once none are
+  /// unbegun.
   Id take_away() { return under_way_.exchange(no_id); }
 
   /// Returns when the thread has ended, which it does once none are unbegun.

@@ -2,10 +2,10 @@
 #include <vector>
 
 #include <gale/relations/face_reader.hpp>
-#include <gale/runtime/sweep.hpp>
 #include <gale/relations/kernels/segment_kernel.hpp>
-#include <gale/runtime/inline/counting_worker.hpp>
 #include <gale/runtime/implementation.hpp>
+#include <gale/runtime/inline/counting_worker.hpp>
+#include <gale/runtime/sweep.hpp>
 
 namespace gale::detail {
 
@@ -121,9 +121,7 @@ class ConsumerProduction : public RuntimeImplementation {
     for (const auto& consumer : consumers) log_.add(consumer ? consumer->statistics : ConsumerStatistics());
   }
 
-  std::unique_ptr<Consumer> consumer() override {
-    return std::make_unique<InlineConsumer>(mesh(), relations(), log_);
-  }
+  std::unique_ptr<Consumer> consumer() override { return std::make_unique<InlineConsumer>(mesh(), relations(), log_); }
 
   Production way() const override { return Way::inline_; }
 

@@ -9,8 +9,8 @@
 
 namespace gale::detail {
 
-/// The blocks of one batch on the host, in one stretch of memory. A leader fills and publishes it; then any number of consumers read
-/// it, each with a pin on it; then the leader takes it back, and fills it again.
+/// The blocks of one batch on the host, in one stretch of memory. A leader fills and publishes it; then any number of
+/// consumers read it, each with a pin on it; then the leader takes it back, and fills it again.
 struct Arena {
   PinnedArray<Id> words;
   std::uint64_t number = 0;       ///< among the arenas of its store, from 1

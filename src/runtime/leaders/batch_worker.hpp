@@ -14,11 +14,12 @@ namespace gale::detail {
 /// What a batch lacked, so that blocks of it are missing.
 struct Shortfall {
   bool any = false;
-  Offset words = 0;    ///< that all its blocks take; more than there were, or it isn't why
-  StarSizes scratch;   ///< that its segments need
+  Offset words = 0;   ///< that all its blocks take; more than there were, or it isn't why
+  StarSizes scratch;  ///< that its segments need
 };
 
-/// Worker workers for one batch at a time. A leader has two or more, so that some compute while another's blocks are copied.
+/// Worker workers for one batch at a time. A leader has two or more, so that some compute while another's blocks are
+/// copied.
 class BatchWorker {
  public:
   virtual ~BatchWorker() = default;
@@ -26,8 +27,8 @@ class BatchWorker {
   /// Has it to be a batch of its own, since it needs more of the fast scratch memory than there is?
   virtual bool is_large(Id segment) const = 0;
 
-  /// Begins to compute the blocks of `segments`, in `words` words, each with at least the scratch memory that `scratch` says. Returns at
-  /// once on a device. Throws std::bad_alloc where the batch is too big for the device's memory.
+  /// Begins to compute the blocks of `segments`, in `words` words, each with at least the scratch memory that `scratch`
+  /// says. Returns at once on a device. Throws std::bad_alloc where the batch is too big for the device's memory.
   virtual void launch(const std::vector<Id>& segments, Offset words, const StarSizes& scratch) = 0;
 
   /// Waits until it is computed, and begins to copy its blocks to `arena`, which has so many words.
@@ -45,7 +46,7 @@ class BatchWorker {
 /// How a worker works: see RuntimeOptions.
 struct WorkerParameters {
   RelationSet wanted;
-  Offset words = 0;               ///< that a batch has, unless one segment needs more
+  Offset words = 0;  ///< that a batch has, unless one segment needs more
   int threads_per_segment = 128;
   std::shared_ptr<const SegmentBounds> bounds;  ///< of this kernel and mesh, if they are known; only for a device
 };

@@ -1,14 +1,16 @@
-#include <gale/runtime/leaders/block_store.hpp>
-
 #include <algorithm>
 
 #include <gale/base/error.hpp>
 #include <gale/relations/kernels/block_pool.hpp>
+#include <gale/runtime/leaders/block_store.hpp>
 
 namespace gale::detail {
 
 BlockStore::BlockStore(Id segments, std::size_t budget)
-    : entries_(new std::atomic<Entry>[segments]), arenas_(most_arenas), slab_words_(std::min(largest_slab, budget / 8) / sizeof(Id)), budget_(budget) {
+    : entries_(new std::atomic<Entry>[segments]),
+      arenas_(most_arenas),
+      slab_words_(std::min(largest_slab, budget / 8) / sizeof(Id)),
+      budget_(budget) {
   for (Id s = 0; s < segments; ++s) entries_[s].store(absent, std::memory_order_relaxed);
 }
 
@@ -74,7 +76,8 @@ std::size_t BlockStore::bytes_ahead() const {
 }
 
 Arena* BlockStore::add_arena(PinnedArray<Id> words) {
-  if (arena_count_ == most_arenas) throw Error("more than " + std::to_string(most_arenas) + " batches on the host at once: too many");
+  if (arena_count_ == most_arenas)
+    throw Error("more than " + std::to_string(most_arenas) + " batches on the host at once: too many");
   auto arena = std::make_unique<Arena>();
   arena->words = std::move(words);
   arena->number = arena_count_ + 1;
@@ -85,12 +88,14 @@ Arena* BlockStore::add_arena(PinnedArray<Id> words) {
 }
 
 Arena* BlockStore::find_evictable(Use use, std::size_t words) {
-  // By age; of what a sweep has still to read, what it will read last. A retry for each that a consumer pins at the same moment.
+  // By age; of what a sweep has still to read, what it will read last. A retry for each that a consumer pins at the
+  // same moment.
   std::vector<std::pair<std::int64_t, Arena*>> candidates;
   for (Arena* const arena : use == Use::read ? requested_ : ahead_) {
     const bool unread = arena->unread.load() > 0;
     if (arena->pins.load() != 0 || arena->words.size() < words || unread != (use == Use::unread)) continue;
-    const std::int64_t age = unread ? -std::int64_t(arena->segments.front()) : arena->last_use.load(std::memory_order_relaxed);
+    const std::int64_t age =
+        unread ? -std::int64_t(arena->segments.front()) : arena->last_use.load(std::memory_order_relaxed);
     candidates.emplace_back(age, arena);
   }
   std::sort(candidates.begin(), candidates.end());

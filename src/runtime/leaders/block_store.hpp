@@ -8,15 +8,15 @@
 
 namespace gale::detail {
 
-/// The blocks that are resident on the host: which arena has those of which segment. Consumers look up and pin, without a lock; one leader
-/// publishes, and evicts by arena, the least recently used first, when the budget is reached.
+/// The blocks that are resident on the host: which arena has those of which segment. Consumers look up and pin, without
+/// a lock; one leader publishes, and evicts by arena, the least recently used first, when the budget is reached.
 ///
-/// A pin is set before the entry is read again, and an arena is taken back only if it has no pin after its entries are gone: so
-/// either the reader sees that they are gone, or the leader sees the pin.
+/// A pin is set before the entry is read again, and an arena is taken back only if it has no pin after its entries are
+/// gone: so either the reader sees that they are gone, or the leader sees the pin.
 class BlockStore {
  public:
-  /// For a mesh of so many segments. Arenas take at most `budget` bytes together, unless all that are large enough are in use and one more is
-  /// needed.
+  /// For a mesh of so many segments. Arenas take at most `budget` bytes together, unless all that are large enough are
+  /// in use and one more is needed.
   BlockStore(Id segments, std::size_t budget);
 
   /// What a sweep has still to read takes at most so many bytes; without a call, as many as the budget.
@@ -25,10 +25,12 @@ class BlockStore {
   /// Allocates `count` arenas of `words` words now, in one piece.
   void prepare(std::size_t count, Offset words);
 
-  /// The segment's blocks, pinned; nothing if they aren't resident. By any thread, wait-free but for an eviction at the same moment.
+  /// The segment's blocks, pinned; nothing if they aren't resident. By any thread, wait-free but for an eviction at the
+  /// same moment.
   Lease find(Id segment);
 
-  /// Moves a lease to another segment, if its blocks are in the same arena: no pin, nothing that threads would contend for.
+  /// Moves a lease to another segment, if its blocks are in the same arena: no pin, nothing that threads would contend
+  /// for.
   bool move(Lease& lease, Id segment) const {
     const Entry entry = entries_[segment].load(std::memory_order_acquire);
     if (!lease || entry >> 32 != lease.number()) return false;
@@ -88,7 +90,7 @@ class BlockStore {
   std::vector<Arena*> ahead_;      ///< published for a sweep
   std::vector<Arena*> requested_;  ///< published for requests
   std::size_t slab_words_;
-  PinnedArray<Id> slab_;           ///< of which small arenas are cut; pinning costs by the call
+  PinnedArray<Id> slab_;  ///< of which small arenas are cut; pinning costs by the call
   std::size_t slab_used_ = 0;
   std::size_t budget_;
   std::size_t ahead_budget_ = budget_;

@@ -20,8 +20,8 @@ constexpr std::size_t mebibyte = std::size_t(1) << 20;
 /// A copy reaches the link's bandwidth from some megabytes on; more only delays the first row.
 constexpr std::size_t largest_batch = 16 * mebibyte;
 
-/// The share of the machine's memory that blocks may take. A sweep uses little of it again and again; jumps are the faster the more
-/// blocks stay.
+/// The share of the machine's memory that blocks may take. A sweep uses little of it again and again; jumps are the
+/// faster the more blocks stay.
 constexpr std::size_t share_of_host = 8;
 
 std::size_t default_host_memory() {
@@ -64,7 +64,9 @@ Sizes sizes_for(const Mesh& mesh, const RuntimeOptions& options, int queues) {
   return sizes;
 }
 
-std::size_t host_memory(const RuntimeOptions& options) { return options.host_memory == 0 ? default_host_memory() : options.host_memory; }
+std::size_t host_memory(const RuntimeOptions& options) {
+  return options.host_memory == 0 ? default_host_memory() : options.host_memory;
+}
 
 int cores(const RuntimeOptions& options) { return given_or(options.cores, usable_cores(), "cores"); }
 

@@ -9,8 +9,8 @@ namespace gale::detail {
 
 /// RuntimeOptions, with what they leave open filled in; for one of the queues.
 struct Sizes {
-  Offset batch_words = 0;        ///< of a batch and of the arena that takes its blocks
-  std::size_t host_bytes = 0;    ///< for arenas
+  Offset batch_words = 0;      ///< of a batch and of the arena that takes its blocks
+  std::size_t host_bytes = 0;  ///< for arenas
   Id segments_per_request = 1;
   int threads_per_segment = 0;
 };

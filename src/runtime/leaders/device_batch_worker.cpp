@@ -39,7 +39,8 @@ class DeviceBatchWorker : public BatchWorker {
         relations_(parameters.wanted.count()),
         instance_(make_instance()),
         kernel_(mesh, parameters.wanted),
-        bounds_(parameters.bounds ? parameters.bounds : find_segment_bounds(mesh, kernel_, parameters.threads_per_segment)),
+        bounds_(parameters.bounds ? parameters.bounds
+                                  : find_segment_bounds(mesh, kernel_, parameters.threads_per_segment)),
         header_(allocate<OnDevice<Header>>("GALE::batch_header", 1)),
         header_copy_(1) {
     task_.pool.used = &header_.data()->used;
@@ -47,9 +48,7 @@ class DeviceBatchWorker : public BatchWorker {
     reserve(parameters.words);
   }
 
-  bool is_large(Id segment) const override {
-    return bounds_->is_large[segment] != 0;
-  }
+  bool is_large(Id segment) const override { return bounds_->is_large[segment] != 0; }
 
   void launch(const std::vector<Id>& segments, Offset words, const StarSizes& scratch) override {
     reserve(words);
@@ -68,7 +67,8 @@ class DeviceBatchWorker : public BatchWorker {
     Kokkos::deep_copy(instance_, first(segments_, count), first(segments_copy_.view(), count));
     kernel_.launch(instance_, task_, static_cast<int>(count), bounds_->warps);
     Kokkos::deep_copy(instance_, header_copy_.view(), header_);
-    Kokkos::deep_copy(instance_, first(directory_copy_.view(), count * relations_), first(directory_, count * relations_));
+    Kokkos::deep_copy(instance_, first(directory_copy_.view(), count * relations_),
+                      first(directory_, count * relations_));
   }
 
   void begin_copy(Arena& arena) override {
@@ -94,9 +94,7 @@ class DeviceBatchWorker : public BatchWorker {
     }
   }
 
-  std::size_t device_bytes() const override {
-    return device_bytes_;
-  }
+  std::size_t device_bytes() const override { return device_bytes_; }
 
  private:
   void reserve(Offset words) {

@@ -1,9 +1,8 @@
-#include <gale/runtime/leaders/leader.hpp>
-
 #include <algorithm>
 #include <new>
 
 #include <gale/base/error.hpp>
+#include <gale/runtime/leaders/leader.hpp>
 
 namespace gale::detail {
 
@@ -12,7 +11,8 @@ namespace {
 /// Batches of a sweep begin small, so that consumers can begin, and double.
 constexpr Id first_batch = 32;
 
-/// A guess for the first batch: what the blocks of a regular mesh take, where a vertex has 14 neighbours, 36 triangles and 24 tetrahedra.
+/// A guess for the first batch: what the blocks of a regular mesh take, where a vertex has 14 neighbours, 36 triangles
+/// and 24 tetrahedra.
 double words_per_vertex(RelationSet relations) {
   static constexpr int words[relation_count] = {21, 48, 48, 30, 42, 30, 16, 38, 26, 44, 44, 37, 16, 190, 160, 31, 22};
   double sum = 1;
@@ -51,8 +51,8 @@ Leader::Leader(const Mesh& mesh, const LeaderParameters& parameters, std::vector
 
 Leader::~Leader() { end(); }
 
-/// What a sweep runs through again and again, so that its memory is there, locked, and soon in the caches; less where the blocks of all segments
-/// take less.
+/// What a sweep runs through again and again, so that its memory is there, locked, and soon in the caches; less where
+/// the blocks of all segments take less.
 void Leader::prepare_arenas() {
   constexpr std::size_t most = 12;
   const std::size_t bytes = static_cast<std::size_t>(parameters_.arena_words) * sizeof(Id);
@@ -113,7 +113,9 @@ void Leader::run() {
   fail_all(end_message());
 }
 
-std::string Leader::end_message() const { return "the runtime ended while a consumer waited for " + name_of(parameters_.relations); }
+std::string Leader::end_message() const {
+  return "the runtime ended while a consumer waited for " + name_of(parameters_.relations);
+}
 
 void Leader::listen(bool wait) {
   const auto news = queue_.take(wait);
@@ -193,7 +195,8 @@ Leader::Plan Leader::next_requests() {
   Plan batch = std::move(plans_.front());
   plans_.pop_front();
   const auto most = static_cast<std::size_t>(segments_that_fit());
-  while (!batch.alone && !plans_.empty() && !plans_.front().alone && batch.segments.size() + plans_.front().segments.size() <= most) {
+  while (!batch.alone && !plans_.empty() && !plans_.front().alone &&
+         batch.segments.size() + plans_.front().segments.size() <= most) {
     batch.segments.insert(batch.segments.end(), plans_.front().segments.begin(), plans_.front().segments.end());
     plans_.pop_front();
   }
@@ -306,7 +309,8 @@ void Leader::account(const Plan& made, const Shortfall& shortfall, std::size_t l
   statistics_.blocks_evicted = store_.evicted();
 }
 
-/// Tries what didn't fit again: with the scratch memory that it needs, and fewer segments at a time or, for one, more room.
+/// Tries what didn't fit again: with the scratch memory that it needs, and fewer segments at a time or, for one, more
+/// room.
 void Leader::retry(Plan plan, const Shortfall& shortfall) {
   plan.scratch = larger(plan.scratch, shortfall.scratch);
   if (plan.segments.size() == 1) plan.words = std::max(plan.words, shortfall.words);

@@ -20,10 +20,12 @@ struct LeaderParameters {
   Id segments_per_request = 1;
 };
 
-/// The leader worker of one queue: a thread that takes requests, forms batches, has them computed, and publishes their blocks.
+/// The leader worker of one queue: a thread that takes requests, forms batches, has them computed, and publishes their
+/// blocks.
 class Leader {
  public:
-  /// `workers`: at least one; with three, one computes, another's blocks are copied, and those of the third are published.
+  /// `workers`: at least one; with three, one computes, another's blocks are copied, and those of the third are
+  /// published.
   Leader(const Mesh& mesh, const LeaderParameters& parameters, std::vector<std::unique_ptr<BatchWorker>> workers);
 
   ~Leader();

@@ -3,12 +3,12 @@
 #include <vector>
 
 #include <gale/relations/face_reader.hpp>
-#include <gale/runtime/sweep.hpp>
 #include <gale/relations/host_worker.hpp>
 #include <gale/relations/kernels/segment_kernel.hpp>
-#include <gale/runtime/leaders/defaults.hpp>
 #include <gale/runtime/implementation.hpp>
+#include <gale/runtime/leaders/defaults.hpp>
 #include <gale/runtime/leaders/sweep_reader.hpp>
+#include <gale/runtime/sweep.hpp>
 
 namespace gale::detail {
 
@@ -24,8 +24,8 @@ std::unique_ptr<BatchWorker> make_worker(const Mesh& mesh, const WorkerParameter
   return have_device ? make_device_worker(mesh, parameters) : make_host_worker(mesh, parameters);
 }
 
-/// The leaders of a runtime, and what their consumers leave behind. Consumers share it, so that one that the runtime's end surprises finds
-/// everything in place.
+/// The leaders of a runtime, and what their consumers leave behind. Consumers share it, so that one that the runtime's
+/// end surprises finds everything in place.
 class Leaders {
  public:
   Leaders(const Mesh& mesh, RelationSet relations, const RuntimeOptions& options) : mesh(mesh), relations(relations) {
@@ -35,10 +35,13 @@ class Leaders {
     for (const RelationSet members : queues) {
       std::vector<std::unique_ptr<BatchWorker>> workers;
       WorkerParameters parameters{members, sizes.batch_words, sizes.threads_per_segment, nullptr};
-      if (have_device) parameters.bounds = find_segment_bounds(mesh, SegmentKernel<WorkerMemory>(mesh, members), parameters.threads_per_segment);
+      if (have_device)
+        parameters.bounds =
+            find_segment_bounds(mesh, SegmentKernel<WorkerMemory>(mesh, members), parameters.threads_per_segment);
       for (int i = 0; i < workers_per_leader; ++i) workers.push_back(make_worker(mesh, parameters));
       leaders.push_back(std::make_unique<Leader>(
-          mesh, LeaderParameters{members, sizes.batch_words, sizes.host_bytes, sizes.segments_per_request}, std::move(workers)));
+          mesh, LeaderParameters{members, sizes.batch_words, sizes.host_bytes, sizes.segments_per_request},
+          std::move(workers)));
     }
   }
 
@@ -47,9 +50,7 @@ class Leaders {
     return **std::find_if(leaders.begin(), leaders.end(), has);
   }
 
-  SegmentRows rows_of(Id segment) const {
-    return SegmentRows(segment, mesh.intervals_of(segment));
-  }
+  SegmentRows rows_of(Id segment) const { return SegmentRows(segment, mesh.intervals_of(segment)); }
 
   const Mesh mesh;
   const RelationSet relations;
@@ -64,7 +65,8 @@ class Leaders {
 /// Fills in the blocks that a leader's lease has.
 void add_blocks(SegmentRows& rows, const Leader& leader, const Lease& lease) {
   const RelationSet relations = leader.relations();
-  for (const Relation relation : members_of(relations)) rows.set(relation, lease.block(relations.index_of(relation), relations.count()));
+  for (const Relation relation : members_of(relations))
+    rows.set(relation, lease.block(relations.index_of(relation), relations.count()));
 }
 
 /// A consumer that has leaders compute.
@@ -111,12 +113,14 @@ class LeaderProduction : public RuntimeImplementation {
     sweep(mesh().segments(), options, [&](int number, Id segment) {
       SweepConsumer& consumer = consumers[number];
       if (!consumer.ready) {
-        for (Leader* const leader : in_progress.leaders()) consumer.readers.emplace_back(*leader, in_progress.runs_ahead());
+        for (Leader* const leader : in_progress.leaders())
+          consumer.readers.emplace_back(*leader, in_progress.runs_ahead());
         if (!faces.empty()) consumer.look_up = std::make_unique<HostWorker>(mesh(), faces);
         consumer.ready = true;
       }
       SegmentRows rows = leaders_->rows_of(segment);
-      for (auto& reader : consumer.readers) add_blocks(rows, reader.leader(), reader.read(segment, consumer.statistics));
+      for (auto& reader : consumer.readers)
+        add_blocks(rows, reader.leader(), reader.read(segment, consumer.statistics));
       if (consumer.look_up) consumer.look_up->compute(rows);
       body(number, rows);
       for (auto& reader : consumer.readers) reader.done();
@@ -176,7 +180,7 @@ class LeaderProduction : public RuntimeImplementation {
   struct alignas(64) SweepConsumer {
     bool ready = false;
     ConsumerStatistics statistics;
-    std::vector<SweepReader> readers;        ///< one for each leader
+    std::vector<SweepReader> readers;     ///< one for each leader
     std::unique_ptr<HostWorker> look_up;  ///< if face relations are wanted
   };
 
@@ -186,7 +190,8 @@ class LeaderProduction : public RuntimeImplementation {
 
 }  // namespace
 
-std::unique_ptr<RuntimeImplementation> by_leaders(const Mesh& mesh, RelationSet relations, const RuntimeOptions& options) {
+std::unique_ptr<RuntimeImplementation> by_leaders(const Mesh& mesh, RelationSet relations,
+                                                  const RuntimeOptions& options) {
   return std::make_unique<LeaderProduction>(mesh, relations, options);
 }
 

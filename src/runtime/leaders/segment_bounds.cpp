@@ -1,8 +1,7 @@
-#include <gale/runtime/leaders/segment_bounds.hpp>
-
 #include <algorithm>
 
 #include <gale/base/parallel.hpp>
+#include <gale/runtime/leaders/segment_bounds.hpp>
 
 namespace gale::detail {
 
@@ -18,7 +17,8 @@ std::vector<StarSizes> bounds_of(const Mesh& mesh, const SegmentKernel<WorkerMem
   return bounds;
 }
 
-/// Gathers, segment after segment, what those need that fit the fast scratch memory together with the ones before. How many don't.
+/// Gathers, segment after segment, what those need that fit the fast scratch memory together with the ones before. How
+/// many don't.
 Id gather(const std::vector<StarSizes>& bounds, const SegmentKernel<WorkerMemory>& kernel, SegmentBounds& found) {
   const std::size_t fast = fast_scratch_bytes<WorkerSpace>();
   Id large = 0;
@@ -39,7 +39,8 @@ Id gather(const std::vector<StarSizes>& bounds, const SegmentKernel<WorkerMemory
 
 }  // namespace
 
-std::shared_ptr<const SegmentBounds> find_segment_bounds(const Mesh& mesh, const SegmentKernel<WorkerMemory>& kernel, int threads_per_segment) {
+std::shared_ptr<const SegmentBounds> find_segment_bounds(const Mesh& mesh, const SegmentKernel<WorkerMemory>& kernel,
+                                                         int threads_per_segment) {
   constexpr int lanes = 32;
   const auto bounds = bounds_of(mesh, kernel);
   auto found = std::make_shared<SegmentBounds>();

@@ -9,12 +9,14 @@ namespace gale::detail {
 
 /// What the segments of a mesh need of a team's scratch memory on the device, found out once for all batches.
 struct SegmentBounds {
-  int warps = 1;                       ///< of a team: those wanted, or fewer if with them too many segments wouldn't fit the fast scratch memory
+  int warps =
+      1;  ///< of a team: those wanted, or fewer if with them too many segments wouldn't fit the fast scratch memory
   StarSizes usual;                     ///< what suffices for every segment that isn't large
   std::vector<std::uint8_t> is_large;  ///< by segment: 1 if it doesn't fit with the others
 };
 
 /// For a kernel whose teams should have so many threads. In parallel.
-std::shared_ptr<const SegmentBounds> find_segment_bounds(const Mesh& mesh, const SegmentKernel<WorkerMemory>& kernel, int threads_per_segment);
+std::shared_ptr<const SegmentBounds> find_segment_bounds(const Mesh& mesh, const SegmentKernel<WorkerMemory>& kernel,
+                                                         int threads_per_segment);
 
 }  // namespace gale::detail

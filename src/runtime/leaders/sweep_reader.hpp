@@ -4,15 +4,18 @@
 
 namespace gale::detail {
 
-/// How one consumer of a sweep reads the blocks of one leader: an arena is pinned once for all of its segments that come one after the other, since
-/// what many consumers touch for each segment, they wait for.
+/// How one consumer of a sweep reads the blocks of one leader: an arena is pinned once for all of its segments that
+/// come one after the other, since what many consumers touch for each segment, they wait for.
 class SweepReader {
  public:
   /// `runs_ahead`: the leader runs ahead of this sweep, and wants to know what is read.
   SweepReader(Leader& leader, bool runs_ahead) : leader_(&leader), runs_ahead_(runs_ahead) {}
   ~SweepReader() { release(); }
   SweepReader(SweepReader&& other) noexcept
-      : leader_(other.leader_), runs_ahead_(other.runs_ahead_), lease_(std::move(other.lease_)), read_(std::exchange(other.read_, 0)) {}
+      : leader_(other.leader_),
+        runs_ahead_(other.runs_ahead_),
+        lease_(std::move(other.lease_)),
+        read_(std::exchange(other.read_, 0)) {}
 
   /// The blocks of a segment, valid until the next call. Waits for them without holding others.
   const Lease& read(Id segment, ConsumerStatistics& statistics) {
