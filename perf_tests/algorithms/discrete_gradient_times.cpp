@@ -35,7 +35,7 @@ struct StructureKind {
   std::function<std::unique_ptr<Structure>(const Mesh&, RelationSet)> make;
 };
 
-std::unique_ptr<Structure> make_runtime(const Mesh& mesh, RelationSet relations, Production production) {
+std::unique_ptr<Structure> make_runtime(const Mesh& mesh, RelationSet relations, Way production) {
   RuntimeOptions options;
   options.way = production;
   return std::make_unique<Runtime>(mesh, relations, options);

@@ -55,7 +55,7 @@ struct WholeMesh {
   }
 
   static StarSizes sizes_for(const Mesh& mesh, RelationSet wanted) {
-    const auto tetrahedra = on_host(mesh.worker().tetrahedron_begin);
+    const auto tetrahedra = on_host(mesh.worker().internal_begin);
     const auto external = on_host(mesh.worker().external_begin);
     StarSizes sizes;
     for (Id s = 0; s < mesh.segments(); ++s) {

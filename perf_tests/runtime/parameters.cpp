@@ -35,7 +35,7 @@ struct Study {
         "production + %.2f integration; "
         "%lld segments a batch\n",
         what, value, 1e3 * seconds, mean * waiting.total(), mean * waiting.push, mean * waiting.queue,
-        mean * waiting.preparation, mean * waiting.production, mean * waiting.integration,
+        mean * waiting.preparation, mean * waiting.kernel_and_transfer, mean * waiting.integration,
         static_cast<long long>(segments / std::max<std::int64_t>(batches, 1)));
   }
 };

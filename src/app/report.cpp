@@ -20,7 +20,7 @@ Json to_json(const WaitingTimes& waiting) {
   return {{"push", waiting.push},
           {"queue", waiting.queue},
           {"preparation", waiting.preparation},
-          {"kernel_and_transfer", waiting.production},
+          {"kernel_and_transfer", waiting.kernel_and_transfer},
           {"integration", waiting.integration},
           {"total", waiting.total()}};
 }

@@ -50,8 +50,8 @@ Segmentation scattered(std::size_t vertices, std::int64_t count) {
   return given_segmentation(Array<const std::int64_t, HostMemory>(labels.data(), labels.size()));
 }
 
-const char* name_of(Production production) {
-  switch (production) {
+const char* name_of(Way way) {
+  switch (way) {
     case Way::leaders:
       return "leaders";
     case Way::helpers:

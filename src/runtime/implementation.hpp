@@ -16,7 +16,7 @@ class RuntimeImplementation {
   virtual void for_each_segment(RelationSet wanted, const SweepOptions& options,
                                 const Structure::SegmentBody& body) = 0;
   virtual std::unique_ptr<Consumer> consumer() = 0;
-  virtual Production way() const = 0;
+  virtual Way way() const = 0;
   virtual RuntimeStatistics statistics() const = 0;
 
   const Mesh& mesh() const { return mesh_; }

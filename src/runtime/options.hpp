@@ -5,15 +5,12 @@
 namespace gale {
 
 /// Who computes the relations of a segment.
-enum class Production {
-  automatic,  ///< leaders where Kokkos has a device, else helpers
-  leaders,    ///< one leader thread per queue, which has batches of segments computed in the workers' space, ahead of
-              ///< need
-  consumers,  ///< each consumer for itself, on the host: nothing is handed over and nobody waits
-  helpers,  ///< consumers, and in a sweep each core that has none of them computes segments ahead of them; nobody waits
-            ///< for another
-  pairs  ///< on the host, a worker thread for each consumer of a sweep, which runs ahead of it: the task-parallel way
-         ///< of ACTOPO, for comparison
+enum class Way {
+  automatic,      ///< leaders where Kokkos has a device, else helpers
+  leaders,        ///< one leader thread a queue, which has batches computed in the workers' space, ahead of need
+  inline_,        ///< each consumer for itself, on the host: nothing is handed over and nobody waits
+  helpers,        ///< inline, and in a sweep cores without a consumer compute ahead of those; nobody waits for another
+  task_parallel,  ///< on the host, a worker thread for each consumer of a sweep, which runs ahead of it, as in ACTOPO
 };
 
 /// One queue, and one leader with it, for what?
@@ -24,7 +21,7 @@ enum class Queues {
 
 /// How a `Runtime` works. 0 stands for a default that suits the backend; none of them changes a result.
 struct RuntimeOptions {
-  Production production = Way::automatic;
+  Way way = Way::automatic;
   Queues queues = Queues::per_kernel;
 
   /// The paper's n_b, t_b and t_s: for each request, n_b * t_b / t_s segments are computed, the one asked for and those

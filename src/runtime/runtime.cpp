@@ -34,7 +34,7 @@ Runtime::~Runtime() = default;
 
 const Mesh& Runtime::mesh() const { return implementation_->mesh(); }
 RelationSet Runtime::relations() const { return implementation_->relations(); }
-Production Runtime::way() const { return implementation_->way(); }
+Way Runtime::way() const { return implementation_->way(); }
 RuntimeStatistics Runtime::statistics() const { return implementation_->statistics(); }
 
 void Runtime::for_each_segment(RelationSet wanted, const SweepOptions& options, const SegmentBody& body) {

@@ -46,7 +46,7 @@ class Runtime : public Structure {
   std::unique_ptr<Consumer> consumer() override;
 
   /// Which way it is; never Way::automatic.
-  Production way() const;
+  Way way() const;
 
   RuntimeStatistics statistics() const;
 

@@ -6,7 +6,7 @@ WaitingTimes& WaitingTimes::operator+=(const WaitingTimes& other) {
   push += other.push;
   queue += other.queue;
   preparation += other.preparation;
-  production += other.production;
+  kernel_and_transfer += other.kernel_and_transfer;
   integration += other.integration;
   return *this;
 }

@@ -9,13 +9,13 @@ namespace gale {
 
 /// Seconds that a consumer waited, by the stages that its requests went through.
 struct WaitingTimes {
-  double push = 0;         ///< to put the request on the queue
-  double queue = 0;        ///< until the leader took it
-  double preparation = 0;  ///< until its batch was launched
-  double production = 0;   ///< kernel and transfer
-  double integration = 0;  ///< until the consumer had its block
+  double push = 0;                 ///< to put the request on the queue
+  double queue = 0;                ///< until the leader took it
+  double preparation = 0;          ///< until its batch was launched
+  double kernel_and_transfer = 0;  ///< kernel and transfer
+  double integration = 0;          ///< until the consumer had its block
 
-  double total() const { return push + queue + preparation + production + integration; }
+  double total() const { return push + queue + preparation + kernel_and_transfer + integration; }
   WaitingTimes& operator+=(const WaitingTimes& other);
 };
 

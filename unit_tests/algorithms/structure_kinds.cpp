@@ -7,7 +7,7 @@ namespace gale::test {
 
 namespace {
 
-StructureKind runtime_kind(const char* name, Production production) {
+StructureKind runtime_kind(const char* name, Way production) {
   return {name, [production](const Mesh& mesh, RelationSet relations) {
             RuntimeOptions options;
             options.way = production;

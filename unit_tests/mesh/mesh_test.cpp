@@ -102,13 +102,13 @@ TEST_P(MeshOf, every_input_has_its_tetrahedra_in_order_and_in_intervals) {
   const auto& host = mesh.host();
   const auto tetrahedra = tetrahedra_in(host);
   EXPECT_TRUE(std::is_sorted(tetrahedra.begin(), tetrahedra.end()));
-  ASSERT_EQ(host.tetrahedron_begin.extent(0), std::size_t(mesh.segments()) + 1);
-  EXPECT_EQ(host.tetrahedron_begin(0), 0);
-  EXPECT_EQ(host.tetrahedron_begin(mesh.segments()), mesh.tetrahedra());
+  ASSERT_EQ(host.internal_begin.extent(0), std::size_t(mesh.segments()) + 1);
+  EXPECT_EQ(host.internal_begin(0), 0);
+  EXPECT_EQ(host.internal_begin(mesh.segments()), mesh.tetrahedra());
   const auto segment_of = segments_of_vertices(mesh);
   for (Id s = 0; s < mesh.segments(); ++s) {
-    ASSERT_LE(host.tetrahedron_begin(s), host.tetrahedron_begin(s + 1));
-    for (Id t = host.tetrahedron_begin(s); t < host.tetrahedron_begin(s + 1); ++t) {
+    ASSERT_LE(host.internal_begin(s), host.internal_begin(s + 1));
+    for (Id t = host.internal_begin(s); t < host.internal_begin(s + 1); ++t) {
       ASSERT_EQ(segment_of[tetrahedra[t][0]], s) << "tetrahedron " << t;
     }
   }
@@ -137,8 +137,8 @@ TEST(Mesh, of_the_papers_example) {
   EXPECT_EQ(to_vector(mesh.vertex_begin()), (std::vector<Id>{0, 3, 6}));
   EXPECT_EQ(tetrahedra_in(host), (std::vector<Quad>{{0, 1, 2, 3}, {0, 2, 3, 4}, {2, 3, 4, 5}}));
   // All have their lowest vertex in S1, so they are internal to it, and external to S2.
-  EXPECT_EQ(host.tetrahedron_begin(1), 3);
-  EXPECT_EQ(host.tetrahedron_begin(2), 3);
+  EXPECT_EQ(host.internal_begin(1), 3);
+  EXPECT_EQ(host.internal_begin(2), 3);
   EXPECT_EQ(external_in(host), (std::vector<std::vector<Id>>{{}, {0, 1, 2}}));
 }
 

@@ -72,7 +72,7 @@ class MixedSweepOf : public EveryMesh {};
 TEST_P(MixedSweepOf, small_meshes_have_the_rows_of_brute_force) {
   const Mesh mesh = encode(input(), segmentation());
   const ExpectedRows expected(input(), brute_force_of(mesh_name()), mesh, all_relations);
-  for (const Way& way : ways()) {
+  for (const NamedWay& way : ways()) {
     SCOPED_TRACE(way.name);
     Runtime runtime(mesh, all_relations, way.options);
     expect_sweep(runtime, all_relations, 2, expected);
@@ -88,7 +88,7 @@ INSTANTIATE_TEST_SUITE_P(Tests, MixedSweepOf,
 
 TEST(MixedSweep, has_the_rows_of_brute_force_for_any_relations_and_threads) {
   const Fixture holed("holed_grid_9");
-  for (const Way& way : ways()) {
+  for (const NamedWay& way : ways()) {
     SCOPED_TRACE(way.name);
     for (const RelationSet wanted : mixed_sets) {
       Runtime runtime(holed.mesh, wanted, way.options);
@@ -99,7 +99,7 @@ TEST(MixedSweep, has_the_rows_of_brute_force_for_any_relations_and_threads) {
 
 TEST(MixedSweep, of_some_of_the_relations_that_were_preconditioned) {
   const Fixture holed("holed_grid_9");
-  for (const Way& way : ways()) {
+  for (const NamedWay& way : ways()) {
     SCOPED_TRACE(way.name);
     Runtime runtime(holed.mesh, all_relations, way.options);
     for (const RelationSet wanted : mixed_sets) expect_sweep(runtime, wanted, 2, holed.expected);
@@ -109,7 +109,7 @@ TEST(MixedSweep, of_some_of_the_relations_that_were_preconditioned) {
 TEST(MixedConsumers, that_jump_at_random_get_the_rows_of_brute_force) {
   const Fixture holed("holed_grid_9");
   const auto members = members_of(all_relations);
-  for (const Way& way : ways()) {
+  for (const NamedWay& way : ways()) {
     for (const int consumers : {1, 2, 8}) {
       Runtime runtime(holed.mesh, all_relations, way.options);
       std::vector<testing::AssertionResult> result(consumers, testing::AssertionSuccess());
@@ -134,7 +134,7 @@ TEST(MixedConsumers, that_jump_at_random_get_the_rows_of_brute_force) {
 TEST(MixedConsumers, keep_a_row_while_they_read_any_number_of_others) {
   const Fixture holed("holed_grid_9");
   const auto members = members_of(all_relations - Relation::link);
-  for (const Way& way : ways()) {
+  for (const NamedWay& way : ways()) {
     Runtime runtime(holed.mesh, all_relations, way.options);
     for (const Relation kept : members) {
       const auto consumer = runtime.consumer();
@@ -152,7 +152,7 @@ TEST(MixedConsumers, keep_a_row_while_they_read_any_number_of_others) {
 
 TEST(MixedConsumers, read_beside_a_sweep_and_inside_of_it) {
   const Fixture holed("holed_grid_9");
-  for (const Way& way : ways()) {
+  for (const NamedWay& way : ways()) {
     Runtime runtime(holed.mesh, all_relations, way.options);
     std::vector<testing::AssertionResult> result(4, testing::AssertionSuccess());
     std::vector<std::unique_ptr<Consumer>> consumers;
@@ -198,7 +198,7 @@ TEST(MixedRuntime, has_no_leaders_for_face_relations) {
 
 TEST(MixedRuntime, enumerates_no_more_than_its_relations_need) {
   const InputMesh& input = mesh_named("ball");
-  for (const Way& way : ways()) {
+  for (const NamedWay& way : ways()) {
     const Mesh mesh = encode(input, octree_of(input, 7));
     Runtime stars(mesh, star_relations | Relation::TV, way.options);
     stars.consumer()->row(Relation::TV, 0);
@@ -215,7 +215,7 @@ TEST(MixedRuntime, enumerates_no_more_than_its_relations_need) {
 
 TEST(MixedRuntime, says_what_it_was_not_preconditioned_for) {
   const Fixture papers("the_papers");
-  for (const Way& way : ways()) {
+  for (const NamedWay& way : ways()) {
     SCOPED_TRACE(way.name);
     Runtime runtime(papers.mesh, Relation::EF | Relation::FV, way.options);
     const auto consumer = runtime.consumer();
@@ -236,7 +236,7 @@ TEST(MixedRuntime, says_what_it_was_not_preconditioned_for) {
 /// The paper's example has 6 vertices, 12 edges, 10 triangles and 3 tetrahedra.
 TEST(MixedRuntime, names_a_simplex_that_is_not_there) {
   const Fixture papers("the_papers");
-  for (const Way& way : ways()) {
+  for (const NamedWay& way : ways()) {
     SCOPED_TRACE(way.name);
     Runtime runtime(papers.mesh, all_relations, way.options);
     const auto consumer = runtime.consumer();

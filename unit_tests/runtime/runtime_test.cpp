@@ -50,7 +50,7 @@ class SweepOf : public EveryMesh {};
 TEST_P(SweepOf, every_mesh_visits_each_segment_once_with_its_rows) {
   const Mesh mesh = encode(input(), segmentation());
   const ExpectedRows expected(input(), brute_force_of(mesh_name()), mesh);
-  for (const Way& way : ways()) {
+  for (const NamedWay& way : ways()) {
     SCOPED_TRACE(way.name);
     Runtime runtime(mesh, star_relations, way.options);
     for (const int threads : {1, 3}) {
@@ -70,7 +70,7 @@ INSTANTIATE_TEST_SUITE_P(Tests, SweepOf, every_mesh_and_segmentation(), mesh_and
 
 TEST(Runtime, answers_consumers_that_jump_at_random) {
   const Holed holed;
-  for (const Way& way : ways()) {
+  for (const NamedWay& way : ways()) {
     for (const int consumers : {1, 2, 16}) {
       Runtime runtime(holed.mesh, star_relations, way.options);
       std::atomic<int> wrong{0};
@@ -92,7 +92,7 @@ TEST(Runtime, answers_consumers_that_jump_at_random) {
 
 TEST(Runtime, serves_a_sweep_whose_bodies_read_other_segments) {
   const Holed holed;
-  for (const Way& way : ways()) {
+  for (const NamedWay& way : ways()) {
     Runtime runtime(holed.mesh, star_relations, way.options);
     std::atomic<int> wrong{0};
     runtime.for_each_segment(Relation::VV, with_threads(4), [&](int, const SegmentRows& rows) {
@@ -107,7 +107,7 @@ TEST(Runtime, serves_a_sweep_whose_bodies_read_other_segments) {
 
 TEST(Runtime, hands_an_exception_of_a_body_to_the_caller_and_goes_on) {
   const Holed holed;
-  for (const Way& way : ways()) {
+  for (const NamedWay& way : ways()) {
     Runtime runtime(holed.mesh, star_relations, way.options);
     for (int again = 0; again < 3; ++again) {
       const auto sweep = [&] {
@@ -125,7 +125,7 @@ TEST(Runtime, hands_an_exception_of_a_body_to_the_caller_and_goes_on) {
 
 TEST(Runtime, lets_two_sweeps_run_at_once) {
   const Holed holed;
-  for (const Way& way : ways()) {
+  for (const NamedWay& way : ways()) {
     Runtime runtime(holed.mesh, star_relations, way.options);
     std::atomic<Id> visited{0};
     const auto sweep = [&] {
@@ -180,7 +180,7 @@ TEST(Runtime, counts_what_consumers_and_leaders_did) {
 
 TEST(Runtime, says_what_it_was_not_preconditioned_for) {
   const Holed holed;
-  for (const Way& way : ways()) {
+  for (const NamedWay& way : ways()) {
     Runtime runtime(holed.mesh, Relation::VV, way.options);
     const auto consumer = runtime.consumer();
     EXPECT_THROW(consumer->row(Relation::VT, 0), Error) << way.name;
@@ -194,7 +194,7 @@ TEST(Runtime, says_what_it_was_not_preconditioned_for) {
 
 TEST(Runtime, refuses_a_vertex_that_is_not_there) {
   const Holed holed;
-  for (const Way& way : ways()) {
+  for (const NamedWay& way : ways()) {
     Runtime runtime(holed.mesh, star_relations, way.options);
     const auto consumer = runtime.consumer();
     const Row row = consumer->row(Relation::VV, 0);

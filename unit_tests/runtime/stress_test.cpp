@@ -97,7 +97,7 @@ TEST(Stress, of_a_leader_whose_producers_fail_loses_and_mistakes_nothing) {
 TEST(Stress, of_consumers_and_sweeps_with_budgets_that_hold_next_to_nothing) {
   const Stressed stressed;
   const RelationSet relations = star_relations;
-  for (Way way : ways()) {
+  for (NamedWay way : ways()) {
     // Helpers need a little to help at all.
     way.options.host_memory = way.options.way == Way::helpers ? 1 << 24 : 1 << 13;
     Runtime runtime(stressed.mesh, relations, way.options);

@@ -7,14 +7,14 @@
 namespace gale::test {
 
 /// A way for a runtime to work.
-struct Way {
+struct NamedWay {
   const char* name;
   RuntimeOptions options;
 };
 
 /// Everything that can be told apart about how a runtime works.
-inline std::vector<Way> ways() {
-  std::vector<Way> all(7);
+inline std::vector<NamedWay> ways() {
+  std::vector<NamedWay> all(7);
   all[0].name = "consumers";
   all[0].options.way = Way::inline_;
   all[1].name = "leaders";

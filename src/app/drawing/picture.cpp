@@ -2,6 +2,7 @@
 #include <cmath>
 #include <unordered_set>
 
+#include <gale/app/console.hpp>
 #include <gale/app/drawing/picture.hpp>
 
 namespace gale::app {

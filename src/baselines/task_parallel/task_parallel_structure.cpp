@@ -73,7 +73,7 @@ class Pipe {
     wait_until([&] { return filled_.load() > next || ended_.load(); });
     if (filled_.load() <= next) return false;
     ++statistics.requests;
-    statistics.waiting.production += std::chrono::duration<double>(Clock::now() - begin).count();
+    statistics.waiting.kernel_and_transfer += std::chrono::duration<double>(Clock::now() - begin).count();
     return true;
   }
 
@@ -167,7 +167,7 @@ class PairProduction : public RuntimeImplementation {
   }
 
   std::unique_ptr<Consumer> consumer() override { return alone_->consumer(); }
-  Production way() const override { return Way::task_parallel; }
+  Way way() const override { return Way::task_parallel; }
 
   RuntimeStatistics statistics() const override {
     RuntimeStatistics all = alone_->statistics();

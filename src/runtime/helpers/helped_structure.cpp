@@ -64,7 +64,7 @@ class HelperProduction : public RuntimeImplementation {
   }
 
   std::unique_ptr<Consumer> consumer() override { return alone_->consumer(); }
-  Production way() const override { return Way::helpers; }
+  Way way() const override { return Way::helpers; }
 
   RuntimeStatistics statistics() const override {
     RuntimeStatistics all = alone_->statistics();

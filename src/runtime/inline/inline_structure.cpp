@@ -123,7 +123,7 @@ class ConsumerProduction : public RuntimeImplementation {
 
   std::unique_ptr<Consumer> consumer() override { return std::make_unique<InlineConsumer>(mesh(), relations(), log_); }
 
-  Production way() const override { return Way::inline_; }
+  Way way() const override { return Way::inline_; }
 
   RuntimeStatistics statistics() const override {
     RuntimeStatistics all;

@@ -92,7 +92,7 @@ Lease Leader::acquire(Id segment, bool in_sweep, ConsumerStatistics& statistics)
   waiting.push += seconds_between(ticket->begun, pushed);
   waiting.queue += std::max(0.0, seconds_between(pushed, ticket->taken));
   waiting.preparation += seconds_between(ticket->taken, ticket->launched);
-  waiting.production += seconds_between(ticket->launched, ticket->finished);
+  waiting.kernel_and_transfer += seconds_between(ticket->launched, ticket->finished);
   waiting.integration += seconds_between(ticket->finished, Clock::now());
   return lease;
 }

@@ -130,7 +130,7 @@ class LeaderProduction : public RuntimeImplementation {
 
   std::unique_ptr<Consumer> consumer() override { return std::make_unique<RequestingConsumer>(leaders_); }
 
-  Production way() const override { return Way::leaders; }
+  Way way() const override { return Way::leaders; }
 
   RuntimeStatistics statistics() const override {
     RuntimeStatistics all;
@@ -147,9 +147,9 @@ class LeaderProduction : public RuntimeImplementation {
   /// Has the leaders run ahead as long as it lives; a sweep inside or beside another asks for each segment instead.
   class SweepInProgress {
    public:
-    SweepInProgress(LeaderProduction& production, RelationSet wanted)
-        : sweeping_(production.sweeping_), runs_ahead_(!production.sweeping_.exchange(true)) {
-      for (const auto& leader : production.leaders_->leaders) {
+    SweepInProgress(LeaderProduction& structure, RelationSet wanted)
+        : sweeping_(structure.sweeping_), runs_ahead_(!structure.sweeping_.exchange(true)) {
+      for (const auto& leader : structure.leaders_->leaders) {
         for (const Relation relation : members_of(wanted)) {
           if (!leader->relations().has(relation)) continue;
           leaders_.push_back(leader.get());
