@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <gale/mesh/make_mesh.hpp>
-#include <gale/runtime/runtime.hpp>
+#include <gale/runtime/make_structure.hpp>
 
 int main(int argc, char** argv) {
   const Kokkos::ScopeGuard kokkos(argc, argv);
@@ -20,8 +20,8 @@ int main(int argc, char** argv) {
   }
 
   const gale::Mesh mesh = gale::make_mesh(points, tetrahedra);
-  gale::Runtime runtime(mesh, gale::Relation::VV | gale::Relation::VE | gale::Relation::EF);
-  const auto consumer = runtime.consumer();
+  const auto runtime = gale::make_structure(mesh, gale::Relation::VV | gale::Relation::VE | gale::Relation::EF);
+  const auto consumer = runtime->consumer();
   const gale::Id center = mesh.vertex_internal()(0);  // GALE numbers the vertices anew; vertex_input() leads back
   std::printf("vertex 0 is beside the vertices");
   for (const gale::Id neighbour : consumer->row(gale::Relation::VV, center))

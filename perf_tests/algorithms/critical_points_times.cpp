@@ -5,7 +5,7 @@
 #include <cstdlib>
 
 #include <gale/algorithms/critical_points.hpp>
-#include <gale/runtime/runtime.hpp>
+#include <gale/runtime/make_structure.hpp>
 
 #include "support/initialized.hpp"
 #include "support/kernel_times.hpp"
@@ -15,8 +15,8 @@ namespace {
 void run(const gale::io::Dataset& data) {
   using namespace gale;
   const perf::Initialized input(data);
-  std::optional<Runtime> runtime;
-  const double start = perf::seconds_of([&] { runtime.emplace(input.mesh(), critical_points_relations); });
+  std::unique_ptr<Structure> runtime;
+  const double start = perf::seconds_of([&] { runtime = make_structure(input.mesh(), critical_points_relations); });
   std::size_t count = 0;
   const double sweep = perf::seconds_of([&] { count = find_critical_points(*runtime, input.order()).vertices.size(); });
   std::printf("segment %.1f, encode %.1f, order %.1f, start %.1f, sweep %.1f ms: %zu critical points\n",

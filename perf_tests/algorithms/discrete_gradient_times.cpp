@@ -15,7 +15,7 @@
 #include <gale/base/error.hpp>
 #include <gale/baselines/discrete_gradient_from_cells.hpp>
 #include <gale/runtime/explicit/explicit_structure.hpp>
-#include <gale/runtime/runtime.hpp>
+#include <gale/runtime/make_structure.hpp>
 
 #include "support/initialized.hpp"
 #include "support/inputs.hpp"
@@ -36,9 +36,9 @@ struct StructureKind {
 };
 
 std::unique_ptr<Structure> make_runtime(const Mesh& mesh, RelationSet relations, Way production) {
-  RuntimeOptions options;
+  StructureOptions options;
   options.way = production;
-  return std::make_unique<Runtime>(mesh, relations, options);
+  return make_structure(mesh, relations, options);
 }
 
 const std::vector<Formulation> formulations = {
@@ -71,11 +71,9 @@ Times run(const io::Dataset& data, const Formulation& formulation, const Structu
   Times times{input.segment, input.encode, input.rank, 0, 0};
   times.start = perf::seconds_of([&] { structure = kind.make(input.mesh(), formulation.relations); });
   times.sweep = perf::seconds_of([&] { critical = formulation.find(*structure, input.order(), options).critical(); });
-  if (const auto* runtime = dynamic_cast<const Runtime*>(structure.get())) {
-    const ConsumerStatistics all = runtime->statistics().all_consumers();
-    times.waiting = all.waiting.total();
-    times.computing = all.seconds_computing;
-  }
+  const ConsumerStatistics all = structure->statistics().all_consumers();
+  times.waiting = all.waiting.total();
+  times.computing = all.seconds_computing;
   return times;
 }
 

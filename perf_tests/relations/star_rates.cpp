@@ -50,7 +50,7 @@ struct WholeMesh {
     Offset words = 4096;
     if (wanted.has(Relation::VV)) words += Offset(22) * mesh.vertices();
     if (wanted.has(Relation::VT)) words += Offset(32) * mesh.vertices();
-    if (wanted.has(Relation::link)) words += Offset(26) * mesh.vertices();
+    if (wanted.has_links()) words += Offset(26) * mesh.vertices();
     return words;
   }
 
@@ -98,7 +98,7 @@ int main(int argc, char** argv) {
   const Mesh mesh = perf::encode(io::make_grid(n), argc > 2 ? std::atoi(argv[2]) : 100);
   const double link = perf::link_bandwidth(std::size_t(16) << 20);
   std::printf("%s, grid:%d, %d segments\n", perf::context().c_str(), n, mesh.segments());
-  for (const RelationSet wanted : {RelationSet(Relation::VT), RelationSet(Relation::VV), Relation::VV | Relation::link,
+  for (const RelationSet wanted : {RelationSet(Relation::VT), RelationSet(Relation::VV), Relation::VV | link_form,
                                    Relation::VV | Relation::VT, star_relations}) {
     measure(mesh, wanted, link);
   }

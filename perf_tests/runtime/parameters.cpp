@@ -6,7 +6,7 @@
 #include <cstdlib>
 
 #include <gale/algorithms/critical_points.hpp>
-#include <gale/runtime/runtime.hpp>
+#include <gale/runtime/make_structure.hpp>
 
 #include "support/bench_mesh.hpp"
 #include "support/clock.hpp"
@@ -19,13 +19,13 @@ struct Study {
   const Mesh& mesh;
   const VertexOrder& order;
 
-  void row(const char* what, int value, const RuntimeOptions& options, int threads) const {
-    Runtime runtime(mesh, critical_points_relations, options);
+  void row(const char* what, int value, const StructureOptions& options, int threads) const {
+    const auto runtime = make_structure(mesh, critical_points_relations, options);
     SweepOptions sweep;
     sweep.threads = threads;
     constexpr int runs = 5;
-    const double seconds = perf::median_seconds_of(runs, [&] { find_critical_points(runtime, order, sweep); });
-    const auto statistics = runtime.statistics();
+    const double seconds = perf::median_seconds_of(runs, [&] { find_critical_points(*runtime, order, sweep); });
+    const auto statistics = runtime->statistics();
     const auto waiting = statistics.all_consumers().waiting;
     std::int64_t batches = 0, segments = 0;
     for (const auto& leader : statistics.leaders) batches += leader.batches, segments += leader.segments_computed;
@@ -52,7 +52,7 @@ int main(int argc, char** argv) {
   const Study study{mesh, order};
   const int all = host_threads();
   std::printf("%s, grid:%d, %d segments\n", perf::context().c_str(), n, mesh.segments());
-  RuntimeOptions options;
+  StructureOptions options;
   options.way = Way::leaders;
   for (int threads = 1; threads <= all; threads *= 2) study.row("consumers", threads, options, threads);
   for (const int t_s : {32, 64, 96, 128, 256, 512}) {

@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-#include <gale/runtime/runtime.hpp>
+#include <gale/runtime/make_structure.hpp>
 
 #include "support/bench_mesh.hpp"
 #include "support/clock.hpp"
@@ -20,8 +20,8 @@ using namespace gale;
 void measure_cold_row(const Mesh& mesh) {
   std::vector<double> times;
   std::mt19937 random(1);
-  Runtime runtime(mesh, Relation::VV | Relation::VT);
-  const auto consumer = runtime.consumer();
+  const auto runtime = make_structure(mesh, Relation::VV | Relation::VT);
+  const auto consumer = runtime->consumer();
   for (int i = 0; i < 101; ++i) {
     const Id vertex = static_cast<Id>(random() % mesh.vertices());
     times.push_back(perf::seconds_of([&] { consumer->row(Relation::VV, vertex); }));
@@ -32,16 +32,16 @@ void measure_cold_row(const Mesh& mesh) {
 }
 
 void measure_jumps(const Mesh& mesh, int consumers, std::size_t budget, double seconds) {
-  RuntimeOptions options;
+  StructureOptions options;
   options.host_memory = budget;
-  Runtime runtime(mesh, Relation::VV | Relation::VT, options);
+  const auto runtime = make_structure(mesh, Relation::VV | Relation::VT, options);
   std::vector<std::thread> threads;
   std::atomic<std::int64_t> rows{0};
   const double elapsed = perf::seconds_of([&] {
     for (int i = 0; i < consumers; ++i) {
       threads.emplace_back([&, i] {
         std::mt19937 random(i);
-        const auto consumer = runtime.consumer();
+        const auto consumer = runtime->consumer();
         std::int64_t mine = 0;
         const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
         for (; std::chrono::steady_clock::now() < end; ++mine)
@@ -51,7 +51,7 @@ void measure_jumps(const Mesh& mesh, int consumers, std::size_t budget, double s
     }
     for (auto& thread : threads) thread.join();
   });
-  const auto statistics = runtime.statistics();
+  const auto statistics = runtime->statistics();
   const auto all = statistics.all_consumers();
   std::int64_t recomputed = 0, computed = all.segments_computed;
   for (const auto& leader : statistics.leaders)

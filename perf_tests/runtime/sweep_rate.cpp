@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <vector>
 
-#include <gale/runtime/runtime.hpp>
+#include <gale/runtime/make_structure.hpp>
 
 #include "support/bench_mesh.hpp"
 #include "support/clock.hpp"
@@ -26,17 +26,17 @@ std::int64_t sum_of(const Rows& rows, Id first, Id last) {
 void measure(const Mesh& mesh, int threads, double link) {
   constexpr int runs = 5;
   constexpr RelationSet wanted = Relation::VV | Relation::VT;
-  Runtime runtime(mesh, wanted);
+  const auto runtime = make_structure(mesh, wanted);
   std::atomic<std::int64_t> total{0};
   SweepOptions options;
   options.threads = threads;
   const double seconds = perf::median_seconds_of(runs, [&] {
-    runtime.for_each_segment(wanted, options, [&](int, const SegmentRows& rows) {
-      total +=
-          sum_of(rows[Relation::VV], rows.first(), rows.last()) + sum_of(rows[Relation::VT], rows.first(), rows.last());
+    runtime->for_each_segment(wanted, options, [&](int, const SegmentRows& rows) {
+      total += sum_of(rows[Relation::VV], rows.interval(0).first, rows.interval(0).last) +
+               sum_of(rows[Relation::VT], rows.interval(0).first, rows.interval(0).last);
     });
   });
-  const auto statistics = runtime.statistics();
+  const auto statistics = runtime->statistics();
   double bytes = 0;
   for (const auto& leader : statistics.leaders) bytes += static_cast<double>(leader.bytes) / (runs + 1);
   const double waiting = statistics.all_consumers().waiting.total() / (runs + 1);

@@ -42,6 +42,6 @@ struct CriticalPoints {
 CriticalPoints find_critical_points(Structure& structure, const VertexOrder& order, const SweepOptions& options = {});
 
 /// What the sweep reads.
-inline constexpr RelationSet critical_points_relations = Relation::VV | Relation::link;
+inline constexpr RelationSet critical_points_relations = Relation::VV | link_form;
 
 }  // namespace gale

@@ -34,6 +34,6 @@ struct SimplexNumbers {
 SimplexNumbers number_simplices(Structure& structure, const NamedSimplices& named, const SweepOptions& options = {});
 
 /// What the sweep reads.
-inline constexpr RelationSet simplex_numbers_relations = Relation::VV | Relation::link;
+inline constexpr RelationSet simplex_numbers_relations = Relation::VV | link_form;
 
 }  // namespace gale

@@ -92,7 +92,7 @@ void add_morse_smale(CLI::App& command, Options& options) {
 
 void add_relation(CLI::App& command, Options& options) {
   std::vector<std::string> names;
-  for (const Relation relation : members_of(all_relations - Relation::link)) names.push_back(name_of(relation));
+  for (const Relation relation : members_of(all_relations)) names.push_back(name_of(relation));
   command
       .add_option("--relation", options.relation,
                   "XY: for each X the Ys that touch it; V vertex, E edge, F triangle, T tetrahedron")

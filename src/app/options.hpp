@@ -10,7 +10,7 @@
 #include <gale/baselines/oracle.hpp>
 #include <gale/io/read.hpp>
 #include <gale/outputs/field.hpp>
-#include <gale/runtime/options.hpp>
+#include <gale/runtime/structure_options.hpp>
 
 namespace gale::app {
 
@@ -38,7 +38,7 @@ struct Options {
   std::optional<int> capacity;     ///< 100 unless given
   std::optional<int> threads;      ///< all cores unless given
   std::string structure = "gale";  ///< gale, explicit, inline or task-parallel
-  RuntimeOptions runtime;
+  StructureOptions runtime;
   std::string formulation = "stars";  ///< of `gale discrete-gradient`: stars or cells
   std::string relation;               ///< of `gale relations`: the name of one of the sixteen
   bool verify = false;                ///< likewise: compare with an oracle

@@ -38,7 +38,7 @@ Json to_json(const LeaderStatistics& leader) {
       {"batches_split", leader.batches_split}};
 }
 
-Json to_json(const RuntimeStatistics& statistics) {
+Json to_json(const StructureStatistics& statistics) {
   const ConsumerStatistics all = statistics.all_consumers();
   Json each = Json::array();
   double longest = 0;
@@ -72,7 +72,7 @@ Json to_json(const Report& report) {
           {"device", or_null(device_name())},
           {"threads", report.threads},
           {"structure", or_null(report.structure)},
-          {"production", or_null(report.production)},
+          {"way", or_null(report.way)},
           {"input", report.input},
           {"mesh",
            {{"vertices", or_null(report.vertices)},

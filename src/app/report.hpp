@@ -33,10 +33,10 @@ class Stopwatch {
 struct Report {
   std::string input;
   int threads = 0;
-  std::optional<std::string> structure, production;
+  std::optional<std::string> structure, way;
   std::optional<std::int64_t> vertices, edges, triangles, tetrahedra, segments;
   Seconds seconds;
-  std::optional<RuntimeStatistics> statistics;
+  std::optional<StructureStatistics> statistics;
   nlohmann::ordered_json result = nlohmann::ordered_json::object();
 };
 

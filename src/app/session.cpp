@@ -9,7 +9,6 @@
 #include <gale/io/read.hpp>
 #include <gale/io/vtk/vtk_files.hpp>
 #include <gale/outputs/field.hpp>
-#include <gale/runtime/explicit/explicit_structure.hpp>
 
 namespace gale::app {
 
@@ -48,19 +47,6 @@ Segmentation scattered(std::size_t vertices, std::int64_t count) {
   std::mt19937_64 random(1);
   for (auto& label : labels) label = static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(count));
   return given_segmentation(Array<const std::int64_t, HostMemory>(labels.data(), labels.size()));
-}
-
-const char* name_of(Way way) {
-  switch (way) {
-    case Way::leaders:
-      return "leaders";
-    case Way::helpers:
-      return "helpers";
-    case Way::task_parallel:
-      return "pairs";
-    default:
-      return "consumers";
-  }
 }
 
 std::size_t point_count(const io::Dataset& dataset) {
@@ -158,11 +144,9 @@ FieldOnMesh Session::read_field(Keep keep) {
 std::unique_ptr<Structure> Session::make_structure(const Mesh& mesh, RelationSet relations) {
   const Stopwatch watch(report_.seconds.initialize);
   report_.structure = options_.structure;
-  if (options_.structure == "explicit") return std::make_unique<ExplicitStructure>(mesh, relations);
-  RuntimeOptions runtime = options_.runtime;
-  if (options_.structure == "inline") runtime.way = Way::inline_;
-  if (options_.structure == "task-parallel") runtime.way = Way::task_parallel;
-  return std::make_unique<Runtime>(mesh, relations, runtime);
+  StructureOptions structure = options_.runtime;
+  structure.way = *way_named(options_.structure);
+  return gale::make_structure(mesh, relations, structure);
 }
 
 SweepOptions Session::sweep(const std::string& title) const {
@@ -173,22 +157,21 @@ SweepOptions Session::sweep(const std::string& title) const {
 }
 
 void Session::count_simplices(const Structure& structure) {
-  const auto* const all = dynamic_cast<const ExplicitStructure*>(&structure);
   const auto tell = [this](const char* name, Id count, std::optional<std::int64_t>& reported) {
     if (count == no_id) return;
     reported = count;
     console_.say(name, grouped(count));
   };
-  tell("edges", all != nullptr ? all->count(1) : structure.mesh().known_edges(), report_.edges);
-  tell("triangles", all != nullptr ? all->count(2) : structure.mesh().known_triangles(), report_.triangles);
+  tell("edges", structure.count(1), report_.edges);
+  tell("triangles", structure.count(2), report_.triangles);
 }
 
 void Session::finish(const Structure* structure) {
-  if (const auto* const runtime = dynamic_cast<const Runtime*>(structure)) {
-    report_.production = name_of(runtime->way());
-    report_.statistics = runtime->statistics();
+  if (structure != nullptr) {
+    report_.way = name_of(structure->way());
+    if (structure->way() != Way::explicit_) report_.statistics = structure->statistics();
+    count_simplices(*structure);
   }
-  if (structure != nullptr) count_simplices(*structure);
   const Seconds& times = report_.seconds;
   console_.say("time", seconds(times.total()) + " (segment " + seconds(times.segment) + ", initialize " +
                            seconds(times.initialize) + ", run " + seconds(times.run) + "); read " +

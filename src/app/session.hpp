@@ -11,7 +11,7 @@
 #include <gale/app/report.hpp>
 #include <gale/io/dataset.hpp>
 #include <gale/mesh/mesh.hpp>
-#include <gale/runtime/runtime.hpp>
+#include <gale/runtime/make_structure.hpp>
 #include <gale/runtime/structure.hpp>
 
 namespace gale::app {

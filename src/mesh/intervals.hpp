@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include <gale/base/kokkos.hpp>
 #include <gale/base/types.hpp>
 
 namespace gale {
@@ -11,8 +12,25 @@ struct Interval {
   Id first = 0;
   Id last = 0;
 
-  Id size() const { return last - first; }
-  bool has(Id id) const { return id >= first && id < last; }
+  KOKKOS_FUNCTION Id size() const { return last - first; }
+  KOKKOS_FUNCTION bool has(Id id) const { return id >= first && id < last; }
+
+  /// To go through the ids with a range-based for.
+  class Iterator {
+   public:
+    explicit Iterator(Id id) : id_(id) {}
+    Id operator*() const { return id_; }
+    Iterator& operator++() {
+      ++id_;
+      return *this;
+    }
+    bool operator!=(const Iterator& other) const { return id_ != other.id_; }
+
+   private:
+    Id id_;
+  };
+  Iterator begin() const { return Iterator(first); }
+  Iterator end() const { return Iterator(last); }
 };
 
 /// Of vertices, edges, triangles and tetrahedra; empty for those that aren't enumerated.

@@ -34,7 +34,7 @@ SegmentRows FaceReader::row(Relation relation, Id simplex) {
   Intervals one;
   one[row_dimension(relation)] = {simplex, simplex + 1};
   SegmentRows rows(no_id, one);
-  rows.set(relation, Rows{simplex, found.offsets, ids});
+  rows.set(relation, Rows{simplex, 1, found.offsets, ids});
   return rows;
 }
 

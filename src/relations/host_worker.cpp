@@ -1,38 +1,48 @@
+#include <algorithm>
 #include <vector>
 
 #include <gale/relations/host_worker.hpp>
-#include <gale/relations/host_workspace.hpp>
+#include <gale/relations/kernels/segment_kernel.hpp>
 
 namespace gale {
 
-namespace {
-
-/// One kernel, and the memory of the blocks that it made last, in turn.
-class Blocks {
+/// One kernel on the calling thread: its scratch memory, and the blocks that it made last, in turn.
+class HostWorker::Kernel {
  public:
-  Blocks(const Mesh& mesh, RelationSet wanted, int kept)
-      : kernel_(mesh, wanted), relations_(members_of(wanted)), directory_(relations_.size()), buffers_(kept) {
-    pool_.used = &used_;
-    pool_.directory = directory_.data();
+  Kernel(const Mesh& mesh, RelationSet wanted, int kept)
+      : kernel_(mesh, wanted), directory_(wanted.count()), buffers_(std::max(kept, 1)) {
+    batch_.relations = wanted;
+    batch_.count = 1;
+    batch_.segments = &segment_;
+    batch_.directory = directory_.data();
+    batch_.intervals = interval_tables(mesh);
     for (Buffer& buffer : buffers_) grow(buffer, Offset(1) << 14);
   }
-  Blocks(const Blocks&) = delete;
-  Blocks& operator=(const Blocks&) = delete;
+  Kernel(const Kernel&) = delete;
+  Kernel& operator=(const Kernel&) = delete;
 
-  void compute(SegmentRows& rows) {
+  /// Runs the kernel, again with more memory if it lacked some.
+  Computed compute(Id segment) {
     Buffer& buffer = buffers_[next_++ % buffers_.size()];
+    segment_ = segment;
+    require_scratch(kernel_.bound(segment));
     for (;;) {
-      used_ = 0;
-      pool_.words = buffer.words.get();
-      pool_.capacity = buffer.capacity;
-      if (kernel_.compute(rows.segment(), pool_)) break;
-      grow(buffer, used_);
+      StarSizes needed;
+      Offset used = 0;
+      const BlockPool pool{buffer.words.get(), buffer.capacity, &used, directory_.data(), &needed};
+      kernel_.run({&segment_, sizes_, 0, pool}, scratch_.get());
+      batch_.words = buffer.words.get();
+      if (!sizes_.contains(needed)) {
+        require_scratch(needed);
+      } else if (are_there(batch_)) {
+        return {batch_, used};
+      } else {
+        grow(buffer, used);
+      }
     }
-    const Offset* entry = directory_.data();
-    for (const Relation relation : relations_) rows.set(relation, pool_.words + *entry++);
   }
 
-  std::size_t bytes() const {
+  std::size_t block_bytes() const {
     std::size_t sum = 0;
     for (const Buffer& buffer : buffers_) sum += static_cast<std::size_t>(buffer.capacity) * sizeof(Id);
     return sum;
@@ -44,51 +54,53 @@ class Blocks {
     Offset capacity = 0;
   };
 
+  // Both may throw: the old memory serves the old sizes then.
+
   static void grow(Buffer& buffer, Offset count) {
     const Offset capacity = count + count / 2;
-    buffer.words.reset(new Id[capacity]);  // may throw: the old memory serves the old capacity then
+    buffer.words.reset(new Id[capacity]);
     buffer.capacity = capacity;
   }
 
-  detail::HostWorkspace kernel_;
-  std::vector<Relation> relations_;
+  void require_scratch(const StarSizes& sizes) {
+    if (scratch_ && sizes_.contains(sizes)) return;
+    const StarSizes all = larger(sizes_, sizes);
+    scratch_.reset(new char[kernel_.scratch_bytes(all, 1)]);
+    sizes_ = all;
+  }
+
+  SegmentKernel<HostMemory> kernel_;
+  StarSizes sizes_;
+  std::unique_ptr<char[]> scratch_;
   std::vector<Offset> directory_;
   std::vector<Buffer> buffers_;
   std::size_t next_ = 0;
-  Offset used_ = 0;
-  BlockPool pool_;
+  Id segment_ = no_id;
+  Batch<HostMemory> batch_;
 };
 
-}  // namespace
-
-struct HostWorker::Workspace {
-  Mesh mesh;
-  std::vector<std::unique_ptr<Blocks>> kernels;
-
-  Workspace(const Mesh& given, RelationSet wanted, int kept) : mesh(given) {
-    for (const RelationSet one : kernels_for(wanted)) kernels.push_back(std::make_unique<Blocks>(mesh, one, kept));
-  }
-};
-
-HostWorker::HostWorker(const Mesh& mesh, RelationSet wanted, int kept)
-    : workspace_(new Workspace(mesh, wanted, kept)) {}
+HostWorker::HostWorker(const Mesh& mesh, RelationSet wanted, int kept) : mesh_(mesh) {
+  for (const RelationSet one : kernels_for(wanted)) kernels_.push_back(std::make_unique<Kernel>(mesh, one, kept));
+}
 HostWorker::~HostWorker() = default;
 HostWorker::HostWorker(HostWorker&&) noexcept = default;
 HostWorker& HostWorker::operator=(HostWorker&&) noexcept = default;
 
 SegmentRows HostWorker::compute(Id segment) {
-  SegmentRows rows(segment, workspace_->mesh.intervals_of(segment));
+  SegmentRows rows(segment, mesh_.intervals_of(segment));
   compute(rows);
   return rows;
 }
 
 void HostWorker::compute(SegmentRows& rows) {
-  for (const auto& kernel : workspace_->kernels) kernel->compute(rows);
+  for (const auto& kernel : kernels_) add_rows(kernel->compute(rows.segment()).batch, 0, rows);
 }
+
+HostWorker::Computed HostWorker::compute_batch(Id segment) { return kernels_.front()->compute(segment); }
 
 std::size_t HostWorker::block_bytes() const {
   std::size_t sum = 0;
-  for (const auto& kernel : workspace_->kernels) sum += kernel->bytes();
+  for (const auto& kernel : kernels_) sum += kernel->block_bytes();
   return sum;
 }
 

@@ -2,9 +2,7 @@
 
 #include <memory>
 
-#include <gale/mesh/mesh.hpp>
-#include <gale/relations/relation.hpp>
-#include <gale/relations/segment_rows.hpp>
+#include <gale/relations/batch.hpp>
 
 namespace gale {
 
@@ -13,25 +11,36 @@ namespace gale {
 /// at once.
 class HostWorker {
  public:
-  /// Enumerates what `wanted` needs of the mesh' simplices, if it isn't there. The blocks of the last `kept` segments
+  /// Enumerates what `wanted` needs of the mesh's simplices, if it isn't there. The blocks of the last `kept` segments
   /// stay valid.
   HostWorker(const Mesh& mesh, RelationSet wanted, int kept = 1);
   ~HostWorker();
   HostWorker(HostWorker&&) noexcept;
   HostWorker& operator=(HostWorker&&) noexcept;
 
-  /// The blocks of a segment. Valid until the `kept`-th next call.
+  /// The rows of a segment. Valid until the `kept`-th next call. Throws gale::Error if a relation has more entries
+  /// there than an Id counts.
   SegmentRows compute(Id segment);
 
   /// Adds them to other rows of the same segment. Likewise.
   void compute(SegmentRows& rows);
 
+  /// What one kernel left for a segment: a batch of one slot, and the words that its blocks take.
+  struct Computed {
+    Batch<HostMemory> batch;
+    Offset words = 0;
+  };
+
+  /// The same of a worker whose relations one kernel computes (kernels_for).
+  Computed compute_batch(Id segment);
+
   /// Allocated for blocks, now.
   std::size_t block_bytes() const;
 
  private:
-  struct Workspace;
-  std::unique_ptr<Workspace> workspace_;
+  class Kernel;
+  Mesh mesh_;
+  std::vector<std::unique_ptr<Kernel>> kernels_;
 };
 
 }  // namespace gale

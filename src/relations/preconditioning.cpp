@@ -8,15 +8,11 @@ namespace gale {
 
 SimplexNeeds needs_of(RelationSet relations) {
   SimplexNeeds needs;
-  for (const Relation relation : members_of(relations - star_relations)) {
-    const int rows = row_dimension(relation), entries = entry_dimension(relation);
-    if (rows == 1 || entries == 1) needs.upto = std::max(needs.upto, Enumeration::edges);
-    if (rows == 2 || entries == 2) needs.upto = Enumeration::triangles;
-    if (rows == 3 || entries == 3) needs.tetrahedra = true;
-    if (!face_relations.has(relation)) {
-      needs.upto = std::max(needs.upto, Enumeration::edges);
-      needs.lower_edges = true;
-    }
+  for (const Relation relation : members_of(relations)) {
+    const SimplexNeeds one = traits_of(relation).needs;
+    needs.upto = std::max(needs.upto, one.upto);
+    needs.lower_edges |= one.lower_edges;
+    needs.tetrahedra |= one.tetrahedra;
   }
   return needs;
 }
@@ -24,8 +20,8 @@ SimplexNeeds needs_of(RelationSet relations) {
 void require_preconditioned(RelationSet preconditioned, RelationSet wanted) {
   if (preconditioned.contains(wanted)) return;
   throw Error("the structure was preconditioned for " +
-              (preconditioned.empty() ? "no relation" : name_of(preconditioned)) + ", not for " + name_of(wanted) +
-              ": name every relation that you read when you construct it");
+              (preconditioned.empty() ? "no relation" : name_of(preconditioned)) + ", not for " +
+              name_of(wanted - preconditioned) + ": name every relation that you read when you construct it");
 }
 
 void require_simplex(const Mesh& mesh, int dimension, Id simplex) {

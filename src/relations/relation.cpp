@@ -2,11 +2,7 @@
 
 namespace gale {
 
-std::string name_of(Relation relation) {
-  static const char* const names[relation_count] = {"EV", "FV", "FE", "TV", "TE", "TF", "VE", "VF",  "VT",
-                                                    "EF", "ET", "FT", "VV", "EE", "FF", "TT", "link"};
-  return names[static_cast<int>(relation)];
-}
+std::string name_of(Relation relation) { return traits_of(relation).name; }
 
 std::optional<Relation> relation_named(const std::string& name) {
   for (const Relation relation : members_of(all_relations)) {
@@ -25,7 +21,9 @@ std::vector<Relation> members_of(RelationSet relations) {
 
 std::string name_of(RelationSet relations) {
   std::string names;
-  for (const Relation relation : members_of(relations)) names += (names.empty() ? "" : ", ") + name_of(relation);
+  const auto add = [&names](const std::string& name) { names += (names.empty() ? "" : ", ") + name; };
+  for (const Relation relation : members_of(relations)) add(name_of(relation));
+  if (relations.has_links()) add("link");
   return names;
 }
 

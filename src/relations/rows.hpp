@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 
 #include <gale/base/kokkos.hpp>
@@ -20,15 +21,17 @@ struct Row {
   KOKKOS_FUNCTION const Id* end() const { return ids + count; }
 };
 
-/// The rows of consecutive simplices, from `first` on. The row of simplex first + i is ids[offsets[i]] to ids[offsets[i
-/// + 1] - 1]; offsets needn't begin with 0.
+/// The rows of `count` consecutive simplices, from `first` on. The row of simplex first + i is ids[offsets[i]] to
+/// ids[offsets[i + 1] - 1]; offsets needn't begin with 0.
 struct Rows {
   Id first = 0;
+  Id count = 0;
   const Id* offsets = nullptr;
   const Id* ids = nullptr;
 
   KOKKOS_FUNCTION Row operator[](Id simplex) const {
     const Id i = simplex - first;
+    assert(i >= 0 && i < count && "these rows are of other simplices");
     return {ids + offsets[i], offsets[i + 1] - offsets[i]};
   }
 };
@@ -51,15 +54,17 @@ struct LinkRow {
   }
 };
 
-/// The link rows of consecutive vertices. `offsets` count tetrahedra, as those of VT do.
+/// The link rows of `count` consecutive vertices. `offsets` count tetrahedra, as those of VT do.
 struct LinkRows {
   Id first = 0;
+  Id count = 0;
   const Id* offsets = nullptr;
   const void* places = nullptr;
   int width = 1;
 
   KOKKOS_FUNCTION LinkRow operator[](Id vertex) const {
     const Id i = vertex - first;
+    assert(i >= 0 && i < count && "these links are of other vertices");
     const auto* const bytes = static_cast<const std::uint8_t*>(places);
     return {bytes + static_cast<Offset>(3) * width * offsets[i], offsets[i + 1] - offsets[i], width};
   }
@@ -79,8 +84,10 @@ struct BlockLayout {
     return rows + 2 + (3 * tetrahedra * width + Offset(sizeof(Id)) - 1) / Offset(sizeof(Id));
   }
 
-  KOKKOS_FUNCTION Rows rows_in(const Id* block) const { return {first, block, block + rows + 1}; }
-  KOKKOS_FUNCTION LinkRows links_in(const Id* block) const { return {first, block, block + rows + 2, block[rows + 1]}; }
+  KOKKOS_FUNCTION Rows rows_in(const Id* block) const { return {first, rows, block, block + rows + 1}; }
+  KOKKOS_FUNCTION LinkRows links_in(const Id* block) const {
+    return {first, rows, block, block + rows + 2, block[rows + 1]};
+  }
 };
 
 }  // namespace gale

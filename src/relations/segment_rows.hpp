@@ -1,6 +1,6 @@
 #pragma once
 
-#include <array>
+#include <cassert>
 
 #include <gale/mesh/intervals.hpp>
 #include <gale/relations/relation.hpp>
@@ -10,6 +10,9 @@ namespace gale {
 
 /// The rows of one segment, of each relation that was asked for. Owns nothing: whoever hands it out says how long it is
 /// valid.
+///
+/// To read rows of a relation that was not asked for, or of a simplex that another segment has, is an error of the
+/// caller: an assertion where NDEBUG is not defined, undefined otherwise.
 class SegmentRows {
  public:
   SegmentRows() = default;
@@ -17,38 +20,41 @@ class SegmentRows {
   /// Of a segment, or of any simplices; no rows yet.
   SegmentRows(Id segment, const Intervals& simplices) : segment_(segment), simplices_(simplices) {}
 
-  /// A relation's rows as they lie in a block.
-  void set(Relation relation, const Id* block) {
-    const Interval& rows = simplices_[row_dimension(relation)];
-    const BlockLayout layout{rows.first, rows.size()};
-    if (relation == Relation::link) {
-      links_ = layout.links_in(block);
-    } else {
-      rows_[static_cast<int>(relation)] = layout.rows_in(block);
-    }
-  }
-
-  /// Rows that lie elsewhere, e.g. among those of all segments. For each relation but `link`; and for that.
+  /// A relation's rows.
   void set(Relation relation, const Rows& rows) { rows_[static_cast<int>(relation)] = rows; }
+
+  /// The links.
   void set(const LinkRows& links) { links_ = links; }
 
   Id segment() const { return segment_; }
 
-  /// Its simplices of a dimension are first(dimension) to last(dimension) - 1 (GALE's ids): those whose lowest vertex
-  /// it holds.
-  Id first(int dimension = 0) const { return simplices_[dimension].first; }
-  Id last(int dimension = 0) const { return simplices_[dimension].last; }
+  /// The segment's simplices that a relation has rows for: those of the rows' dimension whose lowest vertex it holds
+  /// (GALE's ids). `for (const Id edge : rows.interval(Relation::EF)) use(rows[Relation::EF][edge]);`
+  const Interval& interval(Relation relation) const { return interval(row_dimension(relation)); }
+
+  /// Those of a dimension 0 to 3; empty where they were not enumerated.
+  const Interval& interval(int dimension) const { return simplices_[dimension]; }
+
+  /// Is a simplex of that dimension one of the segment's?
   bool has(int dimension, Id simplex) const { return simplices_[dimension].has(simplex); }
 
-  /// Rows of a relation that was asked for: of the segment's simplices of row_dimension(relation).
-  const Rows& operator[](Relation relation) const { return rows_[static_cast<int>(relation)]; }
-  const LinkRows& links() const { return links_; }
+  /// The rows of a relation, one for each simplex of interval(relation).
+  const Rows& operator[](Relation relation) const {
+    assert(rows_[static_cast<int>(relation)].offsets != nullptr && "the sweep was not asked for this relation");
+    return rows_[static_cast<int>(relation)];
+  }
+
+  /// The links, one for each vertex.
+  const LinkRows& links() const {
+    assert(links_.offsets != nullptr && "the sweep was not asked for links");
+    return links_;
+  }
 
  private:
   Id segment_ = no_id;
   Intervals simplices_;
   LinkRows links_;
-  std::array<Rows, relation_count - 1> rows_{};  // all but link, which is the last
+  Rows rows_[relation_count];
 };
 
 }  // namespace gale

@@ -26,7 +26,7 @@ HelperStatistics& HelperStatistics::operator+=(const HelperStatistics& other) {
   return *this;
 }
 
-ConsumerStatistics RuntimeStatistics::all_consumers() const {
+ConsumerStatistics StructureStatistics::all_consumers() const {
   ConsumerStatistics sum;
   for (const auto& one : consumers) sum += one;
   return sum;

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <mutex>
+#include <string>
 #include <vector>
 
 #include <gale/relations/relation.hpp>
@@ -12,7 +14,7 @@ struct WaitingTimes {
   double push = 0;                 ///< to put the request on the queue
   double queue = 0;                ///< until the leader took it
   double preparation = 0;          ///< until its batch was launched
-  double kernel_and_transfer = 0;  ///< kernel and transfer
+  double kernel_and_transfer = 0;  ///< until the blocks were on the host
   double integration = 0;          ///< until the consumer had its block
 
   double total() const { return push + queue + preparation + kernel_and_transfer + integration; }
@@ -24,7 +26,7 @@ struct ConsumerStatistics {
   std::int64_t hits = 0;      ///< blocks that were there already
   std::int64_t requests = 0;  ///< blocks that it waited for
   WaitingTimes waiting;
-  std::int64_t segments_computed = 0;  ///< by itself, where consumers compute
+  std::int64_t segments_computed = 0;  ///< by itself
   double seconds_computing = 0;
 
   ConsumerStatistics& operator+=(const ConsumerStatistics& other);
@@ -44,20 +46,43 @@ struct LeaderStatistics {
   std::int64_t batches = 0;
   std::int64_t segments_computed = 0;
   std::int64_t segments_recomputed = 0;  ///< of them, those that it had computed before
+  std::int64_t segments_on_host = 0;     ///< of them, those that the host computed since the device lacked memory
   std::int64_t bytes = 0;                ///< of blocks
   std::int64_t blocks_evicted = 0;
   std::int64_t batches_split = 0;  ///< that didn't fit, and were tried again in parts
 };
 
-/// Everything since the runtime was made.
-struct RuntimeStatistics {
+/// Everything since a structure was made.
+struct StructureStatistics {
   std::vector<ConsumerStatistics> consumers;  ///< of those that have ended; a sweep's consumers by their number
   HelperStatistics helpers;  ///< of all sweeps; a block of theirs that a consumer read is one of its hits
   std::vector<LeaderStatistics> leaders;
-  std::size_t host_bytes = 0;    ///< allocated for blocks on the host, at most at one time
-  std::size_t device_bytes = 0;  ///< allocated for batches on the device
+  std::size_t host_bytes = 0;        ///< allocated for blocks on the host, at most at one time
+  std::size_t device_bytes = 0;      ///< allocated for batches on the device
+  std::vector<std::string> notices;  ///< one line each about what it did differently than asked for, and why
 
   ConsumerStatistics all_consumers() const;
 };
+
+namespace detail {
+
+/// The statistics of consumers that have ended. Thread-safe.
+class ConsumerLog {
+ public:
+  void add(const ConsumerStatistics& one) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    ended_.push_back(one);
+  }
+  std::vector<ConsumerStatistics> all() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return ended_;
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::vector<ConsumerStatistics> ended_;
+};
+
+}  // namespace detail
 
 }  // namespace gale

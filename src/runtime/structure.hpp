@@ -1,90 +1,92 @@
 #pragma once
 
-#include <array>
-#include <functional>
 #include <memory>
+#include <string>
 
-#include <gale/base/threads.hpp>
 #include <gale/mesh/mesh.hpp>
 #include <gale/relations/preconditioning.hpp>
-#include <gale/relations/relation.hpp>
-#include <gale/relations/segment_rows.hpp>
+#include <gale/runtime/consumer.hpp>
+#include <gale/runtime/statistics.hpp>
+#include <gale/runtime/structure_options.hpp>
+#include <gale/runtime/sweep_options.hpp>
 
 namespace gale {
 
-/// How one thread reads rows in any order. Made by a `Structure`, which must outlive it; used by one thread at a time.
+/// Whatever answers which simplices touch which: segment by segment as they are wanted, or all rows at once. Each way
+/// of computing (`Way`) is one; `make_structure` makes them. Algorithms are written against this and give the same
+/// results on each.
 ///
-/// A row stays valid until this consumer asks for its next row of the same relation.
-class Consumer {
- public:
-  virtual ~Consumer() = default;
-
-  /// The row of a simplex (GALE's id) in any relation but link. A few ns inside the segment that was asked for last;
-  /// else what it takes to have the block computed, or, in a face relation, to look it up (`face_row` does that without
-  /// a call). Throws gale::Error if the relation was not preconditioned, if there is no such simplex, or if it can't be
-  /// computed.
-  Row row(Relation relation, Id simplex) {
-    auto& rows = current_[static_cast<int>(relation)];
-    if (!rows.has(row_dimension(relation), simplex)) reload(rows, relation, simplex);
-    return rows[relation][simplex];
-  }
-
-  /// The link of a vertex; likewise.
-  LinkRow link(Id vertex) {
-    auto& rows = current_[static_cast<int>(Relation::link)];
-    if (!rows.has(0, vertex)) reload(rows, Relation::link, vertex);
-    return rows.links()[vertex];
-  }
-
- protected:
-  /// Rows of a relation, that of `simplex` among them, valid until the next call for the same relation.
-  virtual SegmentRows load(Relation relation, Id simplex) = 0;
-
- private:
-  /// Forgets the old rows first: loading ends their validity, also if it throws.
-  void reload(SegmentRows& rows, Relation relation, Id simplex) {
-    rows = SegmentRows();
-    rows = load(relation, simplex);
-  }
-
-  std::array<SegmentRows, relation_count> current_;
-};
-
-/// How to go through a mesh segment by segment.
-struct SweepOptions {
-  int threads = host_threads();  ///< consumers; at least 1
-
-  /// Told now and then, by one of the consumers, how many segments are done.
-  std::function<void(Id done, Id segments)> progress;
-};
-
-/// Whatever answers which simplices touch which: all rows at once (`ExplicitStructure`), or segment by segment as they
-/// are wanted
-/// (`Runtime`). Algorithms are written against this and give the same results on each.
+/// Any threads may read, each through a `Consumer` of its own or in the body of a sweep. An exception while rows are
+/// computed reaches each consumer that waits for them, as gale::Error.
 class Structure {
  public:
-  /// Called with a consumer's number, in 0..threads-1, and the blocks of a segment, which are valid during the call.
-  /// Different consumers call it at the same time.
-  using SegmentBody = std::function<void(int consumer, const SegmentRows& rows)>;
+  virtual ~Structure();
+  Structure(const Structure&) = delete;
+  Structure& operator=(const Structure&) = delete;
 
-  virtual ~Structure() = default;
+  const Mesh& mesh() const { return mesh_; }
 
-  virtual const Mesh& mesh() const = 0;
+  /// What it was preconditioned for.
+  RelationSet relations() const { return relations_; }
 
-  /// The relations that it was preconditioned for.
-  virtual RelationSet relations() const = 0;
+  /// How it computes; never Way::gale.
+  Way way() const { return way_; }
 
-  /// Has it every row of these at any time? Then a consumer reads each in a few ns. Else rows of face relations come
-  /// from the mesh' tables, and `face_row` is the fast way to them.
+  /// Has it every row at any time? Then a consumer reads each in a few ns. Else rows of face relations come from the
+  /// mesh's tables, and `face_row` is the fast way to them.
   virtual bool keeps_all_rows() const { return false; }
 
-  /// A sweep: calls `body` once for every segment, in no order to rely on, with the blocks of the relations `wanted`,
-  /// on `options.threads` consumer threads. If a body throws, no further segment is begun and the exception is thrown
+  /// How many simplices of a dimension 0 to 3 there are; no_id for edges and triangles that nobody needed so far.
+  virtual Id count(int dimension) const;
+
+  /// A sweep: calls `body` once for every segment, in no order to rely on, with the rows of the relations `wanted`, on
+  /// `options.threads` consumer threads. If a body throws, no further segment is begun and the exception is thrown
   /// again here. Throws gale::Error if `wanted` has a relation that was not preconditioned.
-  virtual void for_each_segment(RelationSet wanted, const SweepOptions& options, const SegmentBody& body) = 0;
+  ///
+  /// What a body may do: read the rows that it is given, and others through a consumer of its own; begin no loop of
+  /// Kokkos or of this library where Kokkos has Serial alone. It may copy Views and take subviews: while it runs
+  /// Kokkos doesn't count references, so that threads needn't agree on them; what it copies must not outlive the View
+  /// that it copied. A View that it makes it may move elsewhere, not copy.
+  void for_each_segment(RelationSet wanted, const SweepOptions& options, const SegmentBody& body);
 
   /// For rows in any order. Any thread may make one, and any number of them.
   virtual std::unique_ptr<Consumer> consumer() = 0;
+
+  /// What it did since it was made.
+  StructureStatistics statistics() const;
+
+ protected:
+  Structure(const Mesh& mesh, RelationSet relations, Way way);
+
+  /// One sweep over all segments: what `for_each_segment` runs. Made when the sweep begins, gone when it ends.
+  class Sweep {
+   public:
+    /// `consumers`: how many.
+    explicit Sweep(int consumers) : statistics(consumers) {}
+    virtual ~Sweep() = default;
+
+    /// Calls `body` with the rows of `segment`, or of another one that no call was made for: as often as there are
+    /// segments. By a consumer's thread, each with a number of its own.
+    virtual void visit(int consumer, Id segment, const SegmentBody& body) = 0;
+
+    /// After all segments were visited, if none has failed.
+    virtual void end() {}
+
+    std::vector<ConsumerStatistics> statistics;  ///< of the consumers
+  };
+  virtual std::unique_ptr<Sweep> begin_sweep(RelationSet wanted, int consumers, const SegmentBody& body) = 0;
+
+  /// Adds what the consumers don't know.
+  virtual void add_statistics(StructureStatistics&) const {}
+
+  /// For consumers, which add what they did when they end.
+  const std::shared_ptr<detail::ConsumerLog>& log() const { return log_; }
+
+ private:
+  const Mesh mesh_;
+  const RelationSet relations_;
+  const Way way_;
+  const std::shared_ptr<detail::ConsumerLog> log_;
 };
 
 }  // namespace gale

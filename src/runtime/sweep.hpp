@@ -7,7 +7,7 @@
 #include <gale/base/error.hpp>
 #include <gale/base/threads.hpp>
 #include <gale/base/types.hpp>
-#include <gale/runtime/structure.hpp>
+#include <gale/runtime/sweep_options.hpp>
 
 namespace gale::detail {
 

@@ -1,7 +1,7 @@
 #include "algorithms/complexes.hpp"
 
 #include <gale/algorithms/simplify.hpp>
-#include <gale/runtime/runtime.hpp>
+#include <gale/runtime/make_structure.hpp>
 
 #include "support/segmentations.hpp"
 
@@ -9,12 +9,12 @@ namespace gale::test {
 
 ComplexOf::ComplexOf(const InputMesh& input, const std::vector<double>& field) : input_(input), field_(field) {
   const Mesh mesh = encode(input, octree_of(input, 50));
-  Runtime runtime(mesh, morse_smale_relations);
+  const auto runtime = make_structure(mesh, morse_smale_relations);
   const VertexOrder order(mesh, field.data(), field.size());
   MorseSmaleParts parts;
   parts.separatrices2 = true;
   complex_ = std::make_shared<MorseSmaleComplex>(
-      find_morse_smale_complex(runtime, find_discrete_gradient(runtime, order), parts));
+      find_morse_smale_complex(*runtime, find_discrete_gradient(*runtime, order), parts));
   named_ = named(*complex_);
 }
 

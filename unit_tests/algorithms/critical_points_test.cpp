@@ -2,7 +2,7 @@
 
 #include <gale/algorithms/critical_points.hpp>
 #include <gale/base/error.hpp>
-#include <gale/runtime/runtime.hpp>
+#include <gale/runtime/make_structure.hpp>
 
 #include "algorithms/brute_force_types.hpp"
 #include "algorithms/fields.hpp"
@@ -55,8 +55,8 @@ TEST(CriticalPoints, of_one_tetrahedron_are_its_lowest_and_its_highest_vertex) {
   const InputMesh& input = mesh_named("one_tetrahedron");
   const Mesh mesh = encode(input, octree_of(input, 100));
   const std::vector<float> field = {7, 5, 6, 9};
-  Runtime runtime(mesh, critical_points_relations);
-  const auto points = find_critical_points(runtime, VertexOrder(mesh, field.data(), field.size()));
+  const auto runtime = make_structure(mesh, critical_points_relations);
+  const auto points = find_critical_points(*runtime, VertexOrder(mesh, field.data(), field.size()));
   EXPECT_EQ(points.vertices, (std::vector<Id>{1, 3}));
   EXPECT_EQ(points.types, (std::vector<CriticalType>{CriticalType::minimum, CriticalType::maximum}));
   EXPECT_EQ(points.on_surface, (std::vector<std::uint8_t>{1, 1}));
@@ -70,8 +70,8 @@ TEST(CriticalPoints, of_a_vertex_without_tetrahedra_is_degenerate) {
   const auto vertex = static_cast<Id>(isolated - brute_force_of("isolated_vertices").vt.begin());
   const Mesh mesh = encode(input, octree_of(input, 100));
   const std::vector<float> field(input.points.size(), 1.0f);
-  Runtime runtime(mesh, critical_points_relations);
-  const auto points = find_critical_points(runtime, VertexOrder(mesh, field.data(), field.size()));
+  const auto runtime = make_structure(mesh, critical_points_relations);
+  const auto points = find_critical_points(*runtime, VertexOrder(mesh, field.data(), field.size()));
   const auto at = std::find(points.vertices.begin(), points.vertices.end(), vertex) - points.vertices.begin();
   ASSERT_LT(at, static_cast<std::ptrdiff_t>(points.vertices.size()));
   EXPECT_EQ(points.types[at], CriticalType::degenerate);
@@ -81,8 +81,8 @@ TEST(CriticalPoints, need_the_relations_that_they_read) {
   const InputMesh& input = mesh_named("one_tetrahedron");
   const Mesh mesh = encode(input, octree_of(input, 100));
   const std::vector<float> field(4, 1.0f);
-  Runtime runtime(mesh, Relation::VV);
-  EXPECT_THROW(find_critical_points(runtime, VertexOrder(mesh, field.data(), field.size())), Error);
+  const auto runtime = make_structure(mesh, Relation::VV);
+  EXPECT_THROW(find_critical_points(*runtime, VertexOrder(mesh, field.data(), field.size())), Error);
 }
 
 }  // namespace gale::test

@@ -7,7 +7,7 @@
 
 #include <gale/algorithms/critical_points.hpp>
 #include <gale/algorithms/discrete_gradient.hpp>
-#include <gale/runtime/runtime.hpp>
+#include <gale/runtime/make_structure.hpp>
 
 #include "algorithms/fields.hpp"
 #include "algorithms/gradient_reader.hpp"
@@ -76,7 +76,7 @@ class Subject {
       : input_(input),
         brute_force_(input),
         mesh_(encode(input, octree_of(input, 50))),
-        runtime_(mesh_, discrete_gradient_relations),
+        structure_(make_structure(mesh_, discrete_gradient_relations)),
         reader_(brute_force_, mesh_) {}
 
   const InputMesh& input() const { return input_; }
@@ -84,10 +84,10 @@ class Subject {
   const Mesh& mesh() const { return mesh_; }
 
   DiscreteGradient gradient(const std::vector<double>& field) {
-    return find_discrete_gradient(runtime_, order(field), with_threads(2));
+    return find_discrete_gradient(*structure_, order(field), with_threads(2));
   }
   CriticalPoints critical_points(const std::vector<double>& field) {
-    return find_critical_points(runtime_, order(field), with_threads(2));
+    return find_critical_points(*structure_, order(field), with_threads(2));
   }
   PairTable pairs(const std::vector<double>& field) { return reader_.pairs(gradient(field)); }
 
@@ -97,7 +97,7 @@ class Subject {
   const InputMesh input_;
   const BruteForce brute_force_;
   const Mesh mesh_;
-  Runtime runtime_;
+  std::unique_ptr<Structure> structure_;
   const GradientReader reader_;
 };
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <gale/algorithms/discrete_gradient.hpp>
-#include <gale/runtime/runtime.hpp>
+#include <gale/runtime/make_structure.hpp>
 
 #include "algorithms/fields.hpp"
 #include "algorithms/gradient_reader.hpp"
@@ -16,8 +16,8 @@ namespace gale::test {
 namespace {
 
 DiscreteGradient gradient_on(const Mesh& mesh, const std::vector<double>& field) {
-  Runtime runtime(mesh, discrete_gradient_relations);
-  return find_discrete_gradient(runtime, VertexOrder(mesh, field.data(), field.size()));
+  const auto runtime = make_structure(mesh, discrete_gradient_relations);
+  return find_discrete_gradient(*runtime, VertexOrder(mesh, field.data(), field.size()));
 }
 
 /// GALE's tetrahedron of an input id.

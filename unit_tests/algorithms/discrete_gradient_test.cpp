@@ -2,7 +2,7 @@
 
 #include <gale/algorithms/discrete_gradient.hpp>
 #include <gale/base/error.hpp>
-#include <gale/runtime/runtime.hpp>
+#include <gale/runtime/make_structure.hpp>
 
 #include "algorithms/fields.hpp"
 #include "algorithms/gradient_reader.hpp"
@@ -61,8 +61,8 @@ TEST(DiscreteGradient, needs_the_relations_that_it_reads) {
   const InputMesh& input = mesh_named("one_tetrahedron");
   const Mesh mesh = encode(input, octree_of(input, 100));
   const std::vector<float> field(4, 1.0f);
-  Runtime runtime(mesh, Relation::VV);
-  EXPECT_THROW(find_discrete_gradient(runtime, VertexOrder(mesh, field.data(), field.size())), Error);
+  const auto runtime = make_structure(mesh, Relation::VV);
+  EXPECT_THROW(find_discrete_gradient(*runtime, VertexOrder(mesh, field.data(), field.size())), Error);
 }
 
 }  // namespace gale::test

@@ -9,7 +9,7 @@
 #include <gale/baselines/discrete_gradient_from_cells.hpp>
 #include <gale/io/synthetic.hpp>
 #include <gale/runtime/explicit/explicit_structure.hpp>
-#include <gale/runtime/runtime.hpp>
+#include <gale/runtime/make_structure.hpp>
 
 #include "support/every_mesh.hpp"
 
@@ -23,9 +23,9 @@ struct StructureKind {
 };
 
 std::unique_ptr<Structure> make_runtime(const Mesh& mesh, RelationSet relations, Way production) {
-  RuntimeOptions options;
+  StructureOptions options;
   options.way = production;
-  return std::make_unique<Runtime>(mesh, relations, options);
+  return make_structure(mesh, relations, options);
 }
 
 std::vector<StructureKind> structure_kinds() {
@@ -93,13 +93,13 @@ class GradientFormulationsOn : public EveryMesh {};
 
 TEST_P(GradientFormulationsOn, every_mesh_agree_pair_by_pair_on_every_structure) {
   const Mesh mesh = encode(input(), segmentation());
-  Runtime stars(mesh, discrete_gradient_relations);
+  const auto stars = make_structure(mesh, discrete_gradient_relations);
   std::vector<std::unique_ptr<Structure>> structures;
   for (const auto& kind : structure_kinds())
     structures.push_back(kind.make(mesh, discrete_gradient_from_cells_relations));
   for (const auto& field : fields_on(input())) {
     const VertexOrder order(mesh, field.data(), field.size());
-    const DiscreteGradient expected = find_discrete_gradient(stars, order, with_threads(2));
+    const DiscreteGradient expected = find_discrete_gradient(*stars, order, with_threads(2));
     for (std::size_t i = 0; i < structures.size(); ++i) {
       SCOPED_TRACE(structure_kinds()[i].name);
       expect_same(find_discrete_gradient_from_cells(*structures[i], order, with_threads(2)), expected);
@@ -117,8 +117,8 @@ TEST(GradientFromCells, has_the_known_counts_on_a_grid) {
   const Mesh mesh(Tetrahedra<Id, HostMemory>(dataset.tetrahedra),
                   octree_segmentation<float, HostMemory>(Points<float, HostMemory>(points), 100));
   const VertexOrder order(mesh, field.data(), field.size());
-  Runtime stars(mesh, discrete_gradient_relations);
-  const DiscreteGradient expected = find_discrete_gradient(stars, order);
+  const auto stars = make_structure(mesh, discrete_gradient_relations);
+  const DiscreteGradient expected = find_discrete_gradient(*stars, order);
   for (const auto& kind : structure_kinds()) {
     const auto structure = kind.make(mesh, discrete_gradient_from_cells_relations);
     for (const int threads : {1, 8}) {
@@ -135,8 +135,8 @@ TEST(GradientFromCells, needs_the_relations_that_it_reads) {
   const Mesh mesh = encode(input, octree_of(input, 100));
   const std::vector<float> field(4, 1.0f);
   const VertexOrder order(mesh, field.data(), field.size());
-  Runtime coboundary(mesh, Relation::VE | Relation::VF | Relation::VT);
-  EXPECT_THROW(find_discrete_gradient_from_cells(coboundary, order), Error);
+  const auto coboundary = make_structure(mesh, Relation::VE | Relation::VF | Relation::VT);
+  EXPECT_THROW(find_discrete_gradient_from_cells(*coboundary, order), Error);
 }
 
 }  // namespace gale::test

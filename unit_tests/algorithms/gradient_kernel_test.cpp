@@ -8,7 +8,7 @@
 #include <gale/algorithms/gradient/pair_cells.hpp>
 #include <gale/algorithms/vertex_order.hpp>
 #include <gale/base/parallel.hpp>
-#include <gale/runtime/runtime.hpp>
+#include <gale/runtime/make_structure.hpp>
 
 #include "algorithms/brute_force_gradient.hpp"
 #include "algorithms/fields.hpp"
@@ -88,13 +88,13 @@ struct HostRows {
   std::vector<std::uint64_t> keys;
 
   HostRows(const Mesh& mesh, const std::vector<double>& field) {
-    Runtime runtime(mesh, Relation::VV | Relation::link);
+    const auto runtime = make_structure(mesh, Relation::VV | link_form);
     SweepOptions options;
     options.threads = 1;
     std::vector<std::vector<Id>> vv(mesh.vertices());
     std::vector<std::vector<std::uint8_t>> links(mesh.vertices());
-    runtime.for_each_segment(Relation::VV | Relation::link, options, [&](int, const SegmentRows& rows) {
-      for (Id v = rows.first(); v < rows.last(); ++v) {
+    runtime->for_each_segment(Relation::VV | link_form, options, [&](int, const SegmentRows& rows) {
+      for (const Id v : rows.interval(0)) {
         const Row row = rows[Relation::VV][v];
         vv[v].assign(row.begin(), row.end());
         const LinkRow star = rows.links()[v];

@@ -6,7 +6,7 @@
 #include <gale/algorithms/simplex_numbers.hpp>
 #include <gale/algorithms/surface_vertices.hpp>
 #include <gale/mesh/input_numbers.hpp>
-#include <gale/runtime/runtime.hpp>
+#include <gale/runtime/make_structure.hpp>
 
 #include "algorithms/structure_kinds.hpp"
 #include "support/every_mesh.hpp"
@@ -66,7 +66,7 @@ INSTANTIATE_TEST_SUITE_P(Tests, SimplexNumbersOf, every_mesh_and_segmentation(),
 class SimplexNumbersOfTwo : public testing::Test {
  protected:
   const Mesh mesh = encode(mesh_named("two_sharing_a_triangle"), octree_of(mesh_named("two_sharing_a_triangle"), 2));
-  Runtime runtime{mesh, simplex_numbers_relations};
+  std::unique_ptr<Structure> runtime = make_structure(mesh, simplex_numbers_relations);
 
   Id vertex(Id input) const { return mesh.vertex_internal()(input); }
   std::array<Id, 2> edge(Id a, Id b) const { return {vertex(a), vertex(b)}; }
@@ -76,14 +76,14 @@ class SimplexNumbersOfTwo : public testing::Test {
 TEST_F(SimplexNumbersOfTwo, are_places_in_lexicographic_order) {
   // 01 02 03 12 13 14 23 24 34, and 012 013 023 123 124 134 234
   const auto numbers =
-      number_simplices(runtime, {{edge(3, 2), edge(0, 1), edge(4, 1), edge(3, 4), edge(0, 1)},
-                                 {triangle(3, 2, 1), triangle(0, 1, 2), triangle(4, 2, 3), triangle(3, 1, 2)}});
+      number_simplices(*runtime, {{edge(3, 2), edge(0, 1), edge(4, 1), edge(3, 4), edge(0, 1)},
+                                  {triangle(3, 2, 1), triangle(0, 1, 2), triangle(4, 2, 3), triangle(3, 1, 2)}});
   EXPECT_EQ(numbers.edges, (std::vector<Id>{6, 0, 5, 8, 0}));
   EXPECT_EQ(numbers.triangles, (std::vector<Id>{3, 0, 6, 3}));
 }
 
 TEST_F(SimplexNumbersOfTwo, of_nothing_are_none) {
-  const auto numbers = number_simplices(runtime, {});
+  const auto numbers = number_simplices(*runtime, {});
   EXPECT_TRUE(numbers.edges.empty());
   EXPECT_TRUE(numbers.triangles.empty());
   EXPECT_EQ(numbers.on_surface.extent(0), 5u);
@@ -91,27 +91,27 @@ TEST_F(SimplexNumbersOfTwo, of_nothing_are_none) {
 
 TEST_F(SimplexNumbersOfTwo, of_what_is_not_there_are_refused) {
   EXPECT_EQ(message_of([&] {
-              number_simplices(runtime, {{edge(4, 0)}, {}});
+              number_simplices(*runtime, {{edge(4, 0)}, {}});
             }),
             "no simplex of the mesh has just the input vertices 0 4");
   EXPECT_EQ(message_of([&] {
-              number_simplices(runtime, {{edge(2, 2)}, {}});
+              number_simplices(*runtime, {{edge(2, 2)}, {}});
             }),
             "no simplex of the mesh has just the input vertices 2 2");
   EXPECT_EQ(message_of([&] {
-              number_simplices(runtime, {{}, {triangle(4, 0, 1)}});
+              number_simplices(*runtime, {{}, {triangle(4, 0, 1)}});
             }),
             "no simplex of the mesh has just the input vertices 0 1 4");
   EXPECT_EQ(message_of([&] {
-              number_simplices(runtime, {{}, {triangle(3, 1, 3)}});
+              number_simplices(*runtime, {{}, {triangle(3, 1, 3)}});
             }),
             "no simplex of the mesh has just the input vertices 1 3 3");
   EXPECT_EQ(message_of([&] {
-              number_simplices(runtime, {{{0, 5}}, {}});
+              number_simplices(*runtime, {{{0, 5}}, {}});
             }),
             "no vertex 5 to number a simplex of: there are 5");
   EXPECT_EQ(message_of([&] {
-              number_simplices(runtime, {{}, {{0, -1, 2}}});
+              number_simplices(*runtime, {{}, {{0, -1, 2}}});
             }),
             "no vertex -1 to number a simplex of: there are 5");
 }
@@ -120,10 +120,10 @@ TEST(SimplexNumbers, of_a_vertex_with_more_neighbours_than_bits) {
   for (const Id degree : {64, 65, 300}) {
     const InputMesh input = cone_over_disc(degree);  // vertex 0 is in all triangles but those of the disc
     const Mesh mesh = encode(input, octree_of(input, 100));
-    Runtime runtime(mesh, simplex_numbers_relations);
+    const auto runtime = make_structure(mesh, simplex_numbers_relations);
     const auto internal = mesh.vertex_internal();
-    const auto numbers = number_simplices(runtime, {{{internal(degree), internal(0)}, {internal(2), internal(1)}},
-                                                    {{internal(degree), internal(0), internal(1)}}});
+    const auto numbers = number_simplices(*runtime, {{{internal(degree), internal(0)}, {internal(2), internal(1)}},
+                                                     {{internal(degree), internal(0), internal(1)}}});
     EXPECT_EQ(numbers.edges, (std::vector<Id>{degree - 1, degree}));  // the last of 0's, and the next
     EXPECT_EQ(numbers.triangles, (std::vector<Id>{degree - 2}));      // the last of 0 and 1, of degree - 1
   }
@@ -132,8 +132,8 @@ TEST(SimplexNumbers, of_a_vertex_with_more_neighbours_than_bits) {
 TEST(SimplexNumbers, need_the_relations_that_they_read) {
   const InputMesh& input = mesh_named("one_tetrahedron");
   const Mesh mesh = encode(input, octree_of(input, 100));
-  Runtime runtime(mesh, Relation::VV);
-  EXPECT_THROW(number_simplices(runtime, {}), Error);
+  const auto runtime = make_structure(mesh, Relation::VV);
+  EXPECT_THROW(number_simplices(*runtime, {}), Error);
 }
 
 }  // namespace gale::test

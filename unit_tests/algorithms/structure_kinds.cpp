@@ -1,7 +1,7 @@
 #include "algorithms/structure_kinds.hpp"
 
 #include <gale/runtime/explicit/explicit_structure.hpp>
-#include <gale/runtime/runtime.hpp>
+#include <gale/runtime/make_structure.hpp>
 
 namespace gale::test {
 
@@ -9,9 +9,9 @@ namespace {
 
 StructureKind runtime_kind(const char* name, Way production) {
   return {name, [production](const Mesh& mesh, RelationSet relations) {
-            RuntimeOptions options;
+            StructureOptions options;
             options.way = production;
-            return std::make_unique<Runtime>(mesh, relations, options);
+            return make_structure(mesh, relations, options);
           }};
 }
 

@@ -53,7 +53,7 @@ BatchMemory memory_that_suffices(const Mesh& mesh, RelationSet wanted, const Exp
 class LaunchedRowsOf : public EveryRelationMesh {};
 
 TEST_P(LaunchedRowsOf, every_mesh_are_those_of_brute_force_whatever_the_scratch_memory) {
-  for (const RelationSet wanted : kernels_for(all_relations)) {
+  for (const RelationSet wanted : kernels_for((all_relations | link_form))) {
     BatchMemory memory = memory_that_suffices(mesh, wanted, expected);
     memory.scratch_level = 1;
     memory.warps = 8;
@@ -79,8 +79,8 @@ TEST(LaunchedRows, leave_out_segments_of_more_rows_than_teams_have_scratch_memor
 TEST(LaunchedRows, leave_out_what_the_pool_lacks_room_for_and_say_how_much_it_takes) {
   const InputMesh& input = mesh_named("holed_grid_9");
   const Mesh mesh = encode(input, octree_of(input, 7));
-  const ExpectedRows expected(input, brute_force_of("holed_grid_9"), mesh, all_relations);
-  for (const RelationSet wanted : kernels_for(all_relations)) {
+  const ExpectedRows expected(input, brute_force_of("holed_grid_9"), mesh, (all_relations | link_form));
+  for (const RelationSet wanted : kernels_for((all_relations | link_form))) {
     const BatchMemory enough = memory_that_suffices(mesh, wanted, expected);
     BatchMemory less = enough;
     less.pool_words = enough.pool_words / 2;

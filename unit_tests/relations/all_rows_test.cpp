@@ -23,10 +23,10 @@ testing::AssertionResult produced_rows(const Mesh& mesh, RelationSet wanted, con
 class RowsOf : public EveryRelationMesh {};
 
 TEST_P(RowsOf, every_mesh_are_those_of_brute_force_for_each_relation_and_for_all_together) {
-  for (const Relation relation : members_of(all_relations)) {
+  for (const Relation relation : members_of((all_relations | link_form))) {
     EXPECT_TRUE(produced_rows(fresh_mesh(), relation, expected));
   }
-  EXPECT_TRUE(produced_rows(mesh, all_relations, expected));
+  EXPECT_TRUE(produced_rows(mesh, (all_relations | link_form), expected));
 }
 
 INSTANTIATE_TEST_SUITE_P(Tests, RowsOf, every_relation_mesh_and_segmentation(), mesh_and_segmentation);
@@ -35,7 +35,7 @@ INSTANTIATE_TEST_SUITE_P(Tests, RowsOf, every_relation_mesh_and_segmentation(), 
 /// 024 034 123 234 235 245 345.
 TEST(Rows, of_the_papers_example) {
   const Mesh mesh = encode(mesh_named("the_papers"), segmentation_by({1, 1, 1, 2, 2, 2}));
-  HostWorker worker(mesh, all_relations);
+  HostWorker worker(mesh, (all_relations | link_form));
   const SegmentRows rows = worker.compute(0);
   const auto row = [&](Relation relation, Id simplex) {
     const Row found = rows[relation][simplex];
@@ -74,10 +74,10 @@ TEST(Rows, of_edges_and_triangles_around_a_vertex_of_degree_2000) {
 TEST(Rows, of_all_relations_by_producers_on_several_threads_at_once) {
   const InputMesh& input = mesh_named("holed_grid_9");
   const Mesh mesh = encode(input, octree_of(input, 100));
-  const ExpectedRows expected(input, brute_force_of("holed_grid_9"), mesh, all_relations);
+  const ExpectedRows expected(input, brute_force_of("holed_grid_9"), mesh, (all_relations | link_form));
   constexpr int threads = 8;
   std::vector<testing::AssertionResult> result(threads, testing::AssertionSuccess());
-  on_threads(threads, [&](int thread) { result[thread] = produced_rows(mesh, all_relations, expected); });
+  on_threads(threads, [&](int thread) { result[thread] = produced_rows(mesh, (all_relations | link_form), expected); });
   for (const auto& of_thread : result) EXPECT_TRUE(of_thread);
 }
 

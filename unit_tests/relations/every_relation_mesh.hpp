@@ -9,7 +9,7 @@ namespace gale::test {
 /// millions of entries.
 class EveryRelationMesh : public EveryMesh {
  protected:
-  explicit EveryRelationMesh(RelationSet relations = all_relations)
+  explicit EveryRelationMesh(RelationSet relations = (all_relations | link_form))
       : mesh(fresh_mesh()), expected(input(), brute_force_of(mesh_name()), mesh, relations) {}
 
   /// A mesh of which nothing was enumerated yet.

@@ -50,7 +50,8 @@ Id expect_sweep(ExplicitStructure& structure, RelationSet wanted, int threads, c
   std::atomic<Id> segments{0};
   structure.for_each_segment(wanted, with_threads(threads), [&](int consumer, const SegmentRows& rows) {
     const auto& begin = structure.mesh().vertex_begin();
-    const bool placed = rows.first() == begin(rows.segment()) && rows.last() == begin(rows.segment() + 1);
+    const bool placed =
+        rows.interval(0).first == begin(rows.segment()) && rows.interval(0).last == begin(rows.segment() + 1);
     if (result[consumer] && !placed)
       result[consumer] = testing::AssertionFailure() << "segment " << rows.segment() << " is elsewhere";
     if (result[consumer]) result[consumer] = expected.match(rows, wanted);
@@ -116,9 +117,9 @@ TEST(ExplicitStructure, holds_rows_of_70000) {
 TEST(ExplicitStructure, has_the_rows_of_each_relation_and_of_each_pair) {
   const InputMesh& input = mesh_named("three_on_one_triangle");
   const Mesh mesh = encode(input, octree_of(input, 1));
-  const ExpectedRows expected(input, brute_force_of("three_on_one_triangle"), mesh, all_relations);
-  for (const Relation one : members_of(all_relations)) {
-    for (const Relation other : members_of(all_relations)) {
+  const ExpectedRows expected(input, brute_force_of("three_on_one_triangle"), mesh, (all_relations | link_form));
+  for (const Relation one : members_of((all_relations | link_form))) {
+    for (const Relation other : members_of((all_relations | link_form))) {
       ExplicitStructure structure(mesh, one | other);
       EXPECT_EQ(expect_sweep(structure, one | other, 1, expected), mesh.segments());
     }
@@ -128,19 +129,21 @@ TEST(ExplicitStructure, has_the_rows_of_each_relation_and_of_each_pair) {
 /// Segments {0, 1, 2} and {3, 4, 5}; tetrahedra (0 1 2 3), (0 2 3 4) and (2 3 4 5). Edges: 01 02 03 04 12 13 23 24 25,
 /// and 34 35 45. Triangles: 012 013 023 024 034 123 234 235 245, and 345.
 TEST(ExplicitStructure, knows_which_simplices_are_internal_to_a_segment) {
-  ExplicitStructure structure(encode(mesh_named("the_papers"), segmentation_by({1, 1, 1, 2, 2, 2})), all_relations);
+  ExplicitStructure structure(encode(mesh_named("the_papers"), segmentation_by({1, 1, 1, 2, 2, 2})),
+                              (all_relations | link_form));
   constexpr Interval expected[2][4] = {{{0, 3}, {0, 9}, {0, 9}, {0, 3}}, {{3, 6}, {9, 12}, {9, 10}, {3, 3}}};
-  structure.for_each_segment(all_relations, with_threads(1), [&](int, const SegmentRows& rows) {
+  structure.for_each_segment((all_relations | link_form), with_threads(1), [&](int, const SegmentRows& rows) {
     for (int dimension = 0; dimension < 4; ++dimension) {
-      EXPECT_EQ(rows.first(dimension), expected[rows.segment()][dimension].first);
-      EXPECT_EQ(rows.last(dimension), expected[rows.segment()][dimension].last);
+      EXPECT_EQ(rows.interval(dimension).first, expected[rows.segment()][dimension].first);
+      EXPECT_EQ(rows.interval(dimension).last, expected[rows.segment()][dimension].last);
     }
   });
 }
 
 /// The same mesh.
 TEST(ExplicitStructure, reads_rows_of_any_simplices) {
-  ExplicitStructure structure(encode(mesh_named("the_papers"), segmentation_by({1, 1, 1, 2, 2, 2})), all_relations);
+  ExplicitStructure structure(encode(mesh_named("the_papers"), segmentation_by({1, 1, 1, 2, 2, 2})),
+                              (all_relations | link_form));
   const auto consumer = structure.consumer();
   const auto row = [&](Relation relation, Id simplex) {
     const Row found = consumer->row(relation, simplex);
@@ -180,8 +183,8 @@ TEST(ExplicitStructure, numbers_no_simplices_that_it_does_not_need) {
 
 TEST(ExplicitStructure, does_not_have_the_mesh_number_its_simplices) {
   const Mesh mesh = one_tetrahedron();
-  ExplicitStructure structure(mesh, all_relations);
-  structure.for_each_segment(all_relations, {}, [](int, const SegmentRows&) {});
+  ExplicitStructure structure(mesh, (all_relations | link_form));
+  structure.for_each_segment((all_relations | link_form), {}, [](int, const SegmentRows&) {});
   const auto consumer = structure.consumer();
   EXPECT_EQ(consumer->row(Relation::EF, 5).size(), 2);
   EXPECT_THROW(consumer->row(Relation::FE, 4), Error);

@@ -23,8 +23,8 @@ Table rows_of(const Mesh& mesh, Relation relation) {
   for (Id s = 0; s < mesh.segments(); ++s) {
     const SegmentRows rows = worker.compute(s);
     const int dimension = row_dimension(relation);
-    EXPECT_EQ(static_cast<std::size_t>(rows.first(dimension)), table.size());
-    for (Id i = rows.first(dimension); i < rows.last(dimension); ++i) {
+    EXPECT_EQ(static_cast<std::size_t>(rows.interval(dimension).first), table.size());
+    for (const Id i : rows.interval(dimension)) {
       const Row row = rows[relation][i];
       table.emplace_back(row.begin(), row.end());
     }

@@ -41,8 +41,8 @@ bool LaunchedBatch::has_all() const { return std::none_of(directory_.begin(), di
 
 SegmentRows LaunchedBatch::rows(Id segment) const {
   SegmentRows rows(segment, mesh_.intervals_of(segment));
-  const Offset* entry = entry_of(segment);
-  for (const Relation relation : members_of(wanted_)) rows.set(relation, words_.data() + *entry++);
+  const Batch<HostMemory> batch{wanted_, 1, &segment, entry_of(segment), words_.data(), interval_tables(mesh_)};
+  add_rows(batch, 0, rows);
   return rows;
 }
 

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include <gale/relations/batch.hpp>
 #include <gale/relations/kernels/segment_kernel.hpp>
 #include <gale/relations/segment_rows.hpp>
 

@@ -13,7 +13,7 @@ template <class Place>
 void expect_links(int width) {
   const std::vector<Id> offsets = {0, 2, 3};
   const std::vector<Place> places = {0, 1, 2, 3, 4, 250, 7, 8, 9};
-  const LinkRows links{5, offsets.data(), places.data(), width};
+  const LinkRows links{5, 2, offsets.data(), places.data(), width};
   ASSERT_EQ(links[5].size(), 2);
   ASSERT_EQ(links[6].size(), 1);
   EXPECT_EQ(links[5](0, 0), 0);
@@ -26,7 +26,7 @@ void expect_links(int width) {
 
 TEST(Rows, lie_between_their_offsets) {
   const std::vector<Id> offsets = {3, 3, 5}, ids = {9, 9, 9, 20, 30};
-  const Rows rows{7, offsets.data(), ids.data()};
+  const Rows rows{7, 2, offsets.data(), ids.data()};
   EXPECT_EQ(rows[7].size(), 0);
   ASSERT_EQ(rows[8].size(), 2);
   EXPECT_EQ(rows[8][0], 20);
@@ -52,8 +52,9 @@ TEST(SegmentRows, reads_blocks) {
   std::vector<Id> link = {0, 1, 1, /* width */ 1, /* places */ 0};
   *reinterpret_cast<std::uint8_t*>(&link[4]) = 200;
   SegmentRows rows(3, {Interval{4, 6}});
-  rows.set(Relation::VV, vv.data());
-  rows.set(Relation::link, link.data());
+  const BlockLayout layout{4, 2};
+  rows.set(Relation::VV, layout.rows_in(vv.data()));
+  rows.set(layout.links_in(link.data()));
   EXPECT_EQ(rows[Relation::VV][4].size(), 1);
   EXPECT_EQ(rows[Relation::VV][4][0], 8);
   EXPECT_EQ(rows[Relation::VV][5].size(), 2);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <gale/base/error.hpp>
+#include <gale/relations/batch.hpp>
 #include <gale/relations/kernels/launch.hpp>
 #include <gale/relations/kernels/star_kernel.hpp>
 
@@ -16,9 +17,9 @@ namespace gale::test {
 namespace {
 
 /// A batch of all segments of a mesh, launched in the workers' space, with memory of given sizes.
-class Batch {
+class LaunchedStars {
  public:
-  Batch(const Mesh& mesh, RelationSet wanted, const StarSizes& sizes, int level, Offset capacity)
+  LaunchedStars(const Mesh& mesh, RelationSet wanted, const StarSizes& sizes, int level, Offset capacity)
       : mesh_(mesh), wanted_(wanted), sizes_(sizes), level_(level), capacity_(capacity) {}
 
   void run(int warps) {
@@ -52,8 +53,7 @@ class Batch {
 
   SegmentRows rows(Id segment) const {
     SegmentRows rows(segment, mesh_.intervals_of(segment));
-    const Offset* entry = entry_of(segment);
-    for (const Relation relation : members_of(wanted_)) rows.set(relation, words_.data() + *entry++);
+    add_rows({wanted_, 1, &segment, entry_of(segment), words_.data(), interval_tables(mesh_)}, 0, rows);
     return rows;
   }
 
@@ -85,7 +85,7 @@ constexpr Offset plenty = Offset(1) << 18;
 constexpr int warps = 4;
 
 /// The rows of the segments that are there; how many are.
-Id expect_rows(const Batch& batch, const Mesh& mesh, RelationSet wanted, const ExpectedRows& expected) {
+Id expect_rows(const LaunchedStars& batch, const Mesh& mesh, RelationSet wanted, const ExpectedRows& expected) {
   Id there = 0;
   for (Id s = 0; s < mesh.segments(); ++s) {
     if (!batch.has(s)) {
@@ -108,7 +108,7 @@ bool fits_level_0(const StarSizes& sizes) {
 StarSizes sizes_that_suffice(const Mesh& mesh, RelationSet wanted, const ExpectedRows& expected) {
   StarSizes sizes{4, 16, 16, 8};
   for (int attempt = 0; attempt < 8; ++attempt) {
-    Batch batch(mesh, wanted, sizes, fits_level_0(sizes) ? 0 : 1, plenty);
+    LaunchedStars batch(mesh, wanted, sizes, fits_level_0(sizes) ? 0 : 1, plenty);
     batch.run(warps);
     expect_rows(batch, mesh, wanted, expected);
     if (batch.has_all()) return sizes;
@@ -128,7 +128,7 @@ TEST_P(LaunchedStarsOf, every_mesh_are_those_of_brute_force_whatever_the_scratch
   const ExpectedRows expected(input(), brute_force_of(mesh_name()), mesh);
   for (const RelationSet wanted : star_subsets) {
     const StarSizes sizes = sizes_that_suffice(mesh, wanted, expected);
-    Batch batch(mesh, wanted, sizes, 1, plenty);
+    LaunchedStars batch(mesh, wanted, sizes, 1, plenty);
     batch.run(2 * warps);
     EXPECT_EQ(expect_rows(batch, mesh, wanted, expected), mesh.segments());
     EXPECT_EQ(batch.needed().rows, 0) << "needs nothing more";
@@ -143,12 +143,12 @@ TEST(LaunchedStars, leave_out_what_the_pool_lacks_room_for_and_say_how_much_it_t
   const ExpectedRows expected(input, brute_force_of("holed_grid_9"), mesh);
   for (const RelationSet wanted : star_subsets) {
     const StarSizes sizes = sizes_that_suffice(mesh, wanted, expected);
-    Batch small(mesh, wanted, sizes, 1, 5000);
+    LaunchedStars small(mesh, wanted, sizes, 1, 5000);
     small.run(warps);
     EXPECT_GT(small.used(), 5000);
     EXPECT_EQ(small.needed().rows, 0) << "it is the pool that lacks, not the scratch memory";
     EXPECT_LT(expect_rows(small, mesh, wanted, expected), mesh.segments());
-    Batch enough(mesh, wanted, sizes, 1, small.used());
+    LaunchedStars enough(mesh, wanted, sizes, 1, small.used());
     enough.run(warps);
     EXPECT_EQ(enough.used(), small.used());
     EXPECT_EQ(expect_rows(enough, mesh, wanted, expected), mesh.segments());
@@ -160,7 +160,7 @@ TEST(LaunchedStars, of_a_vertex_of_degree_70000) {
   const Mesh mesh = encode(input, octree_of(input, 1000));
   const ExpectedRows expected(input, BruteForce(input), mesh);
   const StarSizes sizes = {1000, 300000, 300000, 262144, 80000, 0};
-  Batch batch(mesh, star_relations, sizes, 1, 16 * plenty);
+  LaunchedStars batch(mesh, star_relations, sizes, 1, 16 * plenty);
   batch.run(warps);
   EXPECT_EQ(expect_rows(batch, mesh, star_relations, expected), mesh.segments());
 }

@@ -18,8 +18,8 @@ void expect_rows(const Mesh& mesh, RelationSet wanted, const ExpectedRows& expec
   for (Id s = 0; s < mesh.segments(); ++s) {
     const SegmentRows rows = worker.compute(s);
     EXPECT_EQ(rows.segment(), s);
-    EXPECT_EQ(rows.first(), mesh.vertex_begin()(s));
-    EXPECT_EQ(rows.last(), mesh.vertex_begin()(s + 1));
+    EXPECT_EQ(rows.interval(0).first, mesh.vertex_begin()(s));
+    EXPECT_EQ(rows.interval(0).last, mesh.vertex_begin()(s + 1));
     ASSERT_TRUE(expected.match(rows, wanted)) << "wanted " << name_of(wanted);
   }
 }
@@ -43,7 +43,7 @@ TEST(StarRows, of_the_papers_example) {
   const std::vector<Id> vt[] = {{0, 1}, {0}, {0, 1, 2}, {0, 1, 2}, {1, 2}, {2}};
   for (Id s = 0; s < 2; ++s) {
     const SegmentRows rows = worker.compute(s);
-    for (Id v = rows.first(); v < rows.last(); ++v) {
+    for (const Id v : rows.interval(0)) {
       EXPECT_EQ(ids_in(rows[Relation::VV][v]), vv[v]);
       EXPECT_EQ(ids_in(rows[Relation::VT][v]), vt[v]);
     }

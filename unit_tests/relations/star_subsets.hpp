@@ -8,10 +8,10 @@ namespace gale::test {
 inline constexpr RelationSet star_subsets[] = {
     Relation::VV,
     Relation::VT,
-    Relation::link,
+    link_form,
     Relation::VV | Relation::VT,
-    Relation::VV | Relation::link,
-    Relation::VT | Relation::link,
+    Relation::VV | link_form,
+    Relation::VT | link_form,
     star_relations,
 };
 

@@ -21,10 +21,12 @@ TEST(Uncountable, blocks_of_a_batch_are_refused_by_their_segment) {
   const Id segments[] = {3, 8};
   const Offset all[] = {0, 16, 32, 64}, some[] = {0, 16, 32, BlockPool::missing},
                more[] = {0, 16, BlockPool::uncountable, 64};
-  const RelationSet two = Relation::VV | Relation::VT;
-  EXPECT_TRUE(are_there(two, segments, all, 2));
-  EXPECT_FALSE(are_there(two, segments, some, 2));
-  EXPECT_EQ(message_of([&] { are_there(two, segments, more, 2); }),
+  const auto batch_of = [&](const Offset* directory) {
+    return Batch<HostMemory>{Relation::VV | Relation::VT, 2, segments, directory, nullptr, {}};
+  };
+  EXPECT_TRUE(are_there(batch_of(all)));
+  EXPECT_FALSE(are_there(batch_of(some)));
+  EXPECT_EQ(message_of([&] { are_there(batch_of(more)); }),
             "segment 8 has more than 2147483647 entries of VT, VV: use smaller segments");
 }
 

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <gale/base/error.hpp>
-#include <gale/runtime/runtime.hpp>
+#include <gale/runtime/make_structure.hpp>
 
 #include "runtime/ways.hpp"
 #include "support/brute_force.hpp"
@@ -17,11 +17,11 @@ namespace gale::test {
 namespace {
 
 constexpr RelationSet mixed_sets[] = {
-    all_relations,
+    all_relations | link_form,
     Relation::FE | Relation::TT,
     Relation::TV | Relation::EF | Relation::FF,
     Relation::VE | Relation::VV | Relation::EV,
-    Relation::TF | Relation::ET | Relation::link | Relation::EE,
+    Relation::TF | Relation::ET | link_form | Relation::EE,
     face_relations,
     coboundary_relations,
     adjacency_relations,
@@ -50,17 +50,19 @@ struct Fixture {
   const char* name;
   const InputMesh& input = mesh_named(name);
   Mesh mesh = encode(input, octree_of(input, 7));
-  ExpectedRows expected{input, brute_force_of(name), mesh, all_relations};
+  ExpectedRows expected{input, brute_force_of(name), mesh, (all_relations | link_form)};
 
   explicit Fixture(const char* mesh_name) : name(mesh_name) {}
 
-  Id rows(Relation relation) const {
-    return relation == Relation::link ? mesh.vertices() : static_cast<Id>(expected[relation].size());
+  /// Of one relation, or of the links.
+  Id rows(RelationSet one) const {
+    return one == link_form ? mesh.vertices() : static_cast<Id>(expected[members_of(one).front()].size());
   }
 
   /// Asks a consumer for a row, and compares it.
-  testing::AssertionResult matches(Consumer& consumer, Relation relation, Id simplex) const {
-    if (relation == Relation::link) return expected.match(simplex, consumer.link(simplex));
+  testing::AssertionResult matches(Consumer& consumer, RelationSet one, Id simplex) const {
+    if (one == link_form) return expected.match(simplex, consumer.link(simplex));
+    const Relation relation = members_of(one).front();
     return expected.match(relation, simplex, consumer.row(relation, simplex));
   }
 };
@@ -71,11 +73,11 @@ class MixedSweepOf : public EveryMesh {};
 
 TEST_P(MixedSweepOf, small_meshes_have_the_rows_of_brute_force) {
   const Mesh mesh = encode(input(), segmentation());
-  const ExpectedRows expected(input(), brute_force_of(mesh_name()), mesh, all_relations);
+  const ExpectedRows expected(input(), brute_force_of(mesh_name()), mesh, (all_relations | link_form));
   for (const NamedWay& way : ways()) {
     SCOPED_TRACE(way.name);
-    Runtime runtime(mesh, all_relations, way.options);
-    expect_sweep(runtime, all_relations, 2, expected);
+    const auto runtime = make_structure(mesh, (all_relations | link_form), way.options);
+    expect_sweep(*runtime, (all_relations | link_form), 2, expected);
   }
 }
 
@@ -91,8 +93,8 @@ TEST(MixedSweep, has_the_rows_of_brute_force_for_any_relations_and_threads) {
   for (const NamedWay& way : ways()) {
     SCOPED_TRACE(way.name);
     for (const RelationSet wanted : mixed_sets) {
-      Runtime runtime(holed.mesh, wanted, way.options);
-      for (const int threads : {1, 2, 8}) expect_sweep(runtime, wanted, threads, holed.expected);
+      const auto runtime = make_structure(holed.mesh, wanted, way.options);
+      for (const int threads : {1, 2, 8}) expect_sweep(*runtime, wanted, threads, holed.expected);
     }
   }
 }
@@ -101,26 +103,28 @@ TEST(MixedSweep, of_some_of_the_relations_that_were_preconditioned) {
   const Fixture holed("holed_grid_9");
   for (const NamedWay& way : ways()) {
     SCOPED_TRACE(way.name);
-    Runtime runtime(holed.mesh, all_relations, way.options);
-    for (const RelationSet wanted : mixed_sets) expect_sweep(runtime, wanted, 2, holed.expected);
+    const auto runtime = make_structure(holed.mesh, (all_relations | link_form), way.options);
+    for (const RelationSet wanted : mixed_sets) expect_sweep(*runtime, wanted, 2, holed.expected);
   }
 }
 
 TEST(MixedConsumers, that_jump_at_random_get_the_rows_of_brute_force) {
   const Fixture holed("holed_grid_9");
-  const auto members = members_of(all_relations);
+  const auto relations = members_of(all_relations);
+  std::vector<RelationSet> members(relations.begin(), relations.end());
+  members.push_back(link_form);
   for (const NamedWay& way : ways()) {
     for (const int consumers : {1, 2, 8}) {
-      Runtime runtime(holed.mesh, all_relations, way.options);
+      const auto runtime = make_structure(holed.mesh, (all_relations | link_form), way.options);
       std::vector<testing::AssertionResult> result(consumers, testing::AssertionSuccess());
       std::vector<std::thread> threads;
       for (int i = 0; i < consumers; ++i) {
         threads.emplace_back([&, i] {
           std::mt19937 random(i);
-          const auto consumer = runtime.consumer();
+          const auto consumer = runtime->consumer();
           for (int k = 0; k < 1500 && result[i]; ++k) {
-            const Relation relation = members[random() % members.size()];
-            result[i] = holed.matches(*consumer, relation, static_cast<Id>(random() % holed.rows(relation)));
+            const RelationSet one = members[random() % members.size()];
+            result[i] = holed.matches(*consumer, one, static_cast<Id>(random() % holed.rows(one)));
           }
         });
       }
@@ -133,11 +137,11 @@ TEST(MixedConsumers, that_jump_at_random_get_the_rows_of_brute_force) {
 /// A row stays valid until the consumer asks for its next of the same relation, whatever it reads in between.
 TEST(MixedConsumers, keep_a_row_while_they_read_any_number_of_others) {
   const Fixture holed("holed_grid_9");
-  const auto members = members_of(all_relations - Relation::link);
+  const auto members = members_of(all_relations);
   for (const NamedWay& way : ways()) {
-    Runtime runtime(holed.mesh, all_relations, way.options);
+    const auto runtime = make_structure(holed.mesh, (all_relations | link_form), way.options);
     for (const Relation kept : members) {
-      const auto consumer = runtime.consumer();
+      const auto consumer = runtime->consumer();
       const Id simplex = holed.rows(kept) - 1;  // of a segment that the others don't touch
       const Row row = consumer->row(kept, simplex);
       for (const Relation other : members) {
@@ -153,12 +157,12 @@ TEST(MixedConsumers, keep_a_row_while_they_read_any_number_of_others) {
 TEST(MixedConsumers, read_beside_a_sweep_and_inside_of_it) {
   const Fixture holed("holed_grid_9");
   for (const NamedWay& way : ways()) {
-    Runtime runtime(holed.mesh, all_relations, way.options);
+    const auto runtime = make_structure(holed.mesh, (all_relations | link_form), way.options);
     std::vector<testing::AssertionResult> result(4, testing::AssertionSuccess());
     std::vector<std::unique_ptr<Consumer>> consumers;
-    for (int i = 0; i < 4; ++i) consumers.push_back(runtime.consumer());
-    runtime.for_each_segment(Relation::VE | Relation::EV, with_threads(4), [&](int number, const SegmentRows& rows) {
-      for (Id v = rows.first(); v < rows.last(); ++v) {
+    for (int i = 0; i < 4; ++i) consumers.push_back(runtime->consumer());
+    runtime->for_each_segment(Relation::VE | Relation::EV, with_threads(4), [&](int number, const SegmentRows& rows) {
+      for (const Id v : rows.interval(0)) {
         for (const Id edge : rows[Relation::VE][v]) {
           if (result[number]) result[number] = holed.matches(*consumers[number], Relation::ET, edge);
         }
@@ -170,16 +174,16 @@ TEST(MixedConsumers, read_beside_a_sweep_and_inside_of_it) {
 
 TEST(MixedRuntime, evicts_blocks_under_a_small_budget) {
   const Fixture holed("holed_grid_9");
-  RuntimeOptions options;
+  StructureOptions options;
   options.way = Way::leaders;
   options.host_memory = 1 << 16;
-  Runtime runtime(holed.mesh, Relation::EF | Relation::FF, options);
-  const auto consumer = runtime.consumer();
+  const auto runtime = make_structure(holed.mesh, Relation::EF | Relation::FF, options);
+  const auto consumer = runtime->consumer();
   for (int pass = 0; pass < 2; ++pass) {
     for (Id e = 0; e < holed.rows(Relation::EF); e += 7) ASSERT_TRUE(holed.matches(*consumer, Relation::EF, e));
     for (Id f = 0; f < holed.rows(Relation::FF); f += 7) ASSERT_TRUE(holed.matches(*consumer, Relation::FF, f));
   }
-  for (const auto& leader : runtime.statistics().leaders) {
+  for (const auto& leader : runtime->statistics().leaders) {
     EXPECT_GT(leader.blocks_evicted, 0) << name_of(leader.relations);
     EXPECT_GT(leader.segments_recomputed, 0) << name_of(leader.relations);
   }
@@ -187,10 +191,10 @@ TEST(MixedRuntime, evicts_blocks_under_a_small_budget) {
 
 TEST(MixedRuntime, has_no_leaders_for_face_relations) {
   const Fixture papers("the_papers");
-  RuntimeOptions options;
+  StructureOptions options;
   options.way = Way::leaders;
-  EXPECT_TRUE(Runtime(papers.mesh, face_relations, options).statistics().leaders.empty());
-  const auto leaders = Runtime(papers.mesh, all_relations, options).statistics().leaders;
+  EXPECT_TRUE(make_structure(papers.mesh, face_relations, options)->statistics().leaders.empty());
+  const auto leaders = make_structure(papers.mesh, (all_relations | link_form), options)->statistics().leaders;
   ASSERT_EQ(leaders.size(), 9u);
   EXPECT_EQ(name_of(leaders.front().relations), "VE");
   EXPECT_EQ(leaders.back().relations, star_relations);
@@ -200,15 +204,15 @@ TEST(MixedRuntime, enumerates_no_more_than_its_relations_need) {
   const InputMesh& input = mesh_named("ball");
   for (const NamedWay& way : ways()) {
     const Mesh mesh = encode(input, octree_of(input, 7));
-    Runtime stars(mesh, star_relations | Relation::TV, way.options);
-    stars.consumer()->row(Relation::TV, 0);
-    stars.for_each_segment(star_relations | Relation::TV, with_threads(1), [](int, const SegmentRows&) {});
+    const auto stars = make_structure(mesh, star_relations | Relation::TV, way.options);
+    stars->consumer()->row(Relation::TV, 0);
+    stars->for_each_segment(star_relations | Relation::TV, with_threads(1), [](int, const SegmentRows&) {});
     EXPECT_EQ(mesh.known_edges(), no_id) << way.name;
-    Runtime edges(mesh, Relation::VE | Relation::TT, way.options);
+    const auto edges = make_structure(mesh, Relation::VE | Relation::TT, way.options);
     EXPECT_NE(mesh.known_edges(), no_id) << way.name << ": before the first row";
-    edges.consumer()->row(Relation::TT, 0);
+    edges->consumer()->row(Relation::TT, 0);
     EXPECT_EQ(mesh.known_triangles(), no_id) << way.name;
-    Runtime triangles(mesh, Relation::FV, way.options);
+    const auto triangles = make_structure(mesh, Relation::FV, way.options);
     EXPECT_NE(mesh.known_triangles(), no_id) << way.name;
   }
 }
@@ -217,14 +221,14 @@ TEST(MixedRuntime, says_what_it_was_not_preconditioned_for) {
   const Fixture papers("the_papers");
   for (const NamedWay& way : ways()) {
     SCOPED_TRACE(way.name);
-    Runtime runtime(papers.mesh, Relation::EF | Relation::FV, way.options);
-    const auto consumer = runtime.consumer();
+    const auto runtime = make_structure(papers.mesh, Relation::EF | Relation::FV, way.options);
+    const auto consumer = runtime->consumer();
     const std::string expected = "the structure was preconditioned for FV, EF, not for ";
     const std::string what_to_do = ": name every relation that you read when you construct it";
-    for (const Relation relation : members_of(all_relations - (Relation::EF | Relation::FV) - Relation::link)) {
+    for (const Relation relation : members_of(all_relations - (Relation::EF | Relation::FV))) {
       EXPECT_EQ(message_of([&] { consumer->row(relation, 0); }), expected + name_of(relation) + what_to_do);
       const auto sweep = [&] {
-        runtime.for_each_segment(relation | Relation::EF, {}, [](int, const SegmentRows&) { FAIL(); });
+        runtime->for_each_segment(relation | Relation::EF, {}, [](int, const SegmentRows&) { FAIL(); });
       };
       EXPECT_EQ(message_of(sweep), expected + name_of(relation | Relation::EF) + what_to_do);
     }
@@ -238,15 +242,15 @@ TEST(MixedRuntime, names_a_simplex_that_is_not_there) {
   const Fixture papers("the_papers");
   for (const NamedWay& way : ways()) {
     SCOPED_TRACE(way.name);
-    Runtime runtime(papers.mesh, all_relations, way.options);
-    const auto consumer = runtime.consumer();
+    const auto runtime = make_structure(papers.mesh, (all_relations | link_form), way.options);
+    const auto consumer = runtime->consumer();
     for (const Id outside : {-1, 1000}) {
       const std::string there_is_no[] = {
           "there is no vertex " + std::to_string(outside) + ": the mesh has 0 to 5",
           "there is no edge " + std::to_string(outside) + ": the mesh has 0 to 11",
           "there is no triangle " + std::to_string(outside) + ": the mesh has 0 to 9",
           "there is no tetrahedron " + std::to_string(outside) + ": the mesh has 0 to 2"};
-      for (const Relation relation : members_of(all_relations - Relation::link)) {
+      for (const Relation relation : members_of(all_relations)) {
         EXPECT_EQ(message_of([&] { consumer->row(relation, outside); }), there_is_no[row_dimension(relation)])
             << name_of(relation);
       }

@@ -4,7 +4,7 @@
 
 #include <gale/base/error.hpp>
 #include <gale/runtime/helpers/helped_sweep.hpp>
-#include <gale/runtime/runtime.hpp>
+#include <gale/runtime/make_structure.hpp>
 #include <gale/runtime/sweep.hpp>
 
 #include "support/brute_force.hpp"
@@ -24,16 +24,14 @@ using Hook = std::function<void(Id)>;
 class Hooked : public detail::SegmentWorker {
  public:
   Hooked(const Mesh& mesh, ConsumerStatistics& statistics, int kept, Hook hook)
-      : worker_(mesh, Relation::VV, statistics, kept), hook_(std::move(hook)) {}
+      : SegmentWorker(mesh, Relation::VV, statistics, kept), hook_(std::move(hook)) {}
 
   SegmentRows compute(Id segment) override {
     if (hook_) hook_(segment);
-    return worker_.compute(segment);
+    return SegmentWorker::compute(segment);
   }
-  std::size_t block_bytes() const override { return worker_.block_bytes(); }
 
  private:
-  detail::CountingWorker worker_;
   Hook hook_;
 };
 
@@ -72,7 +70,7 @@ void wait_until(const std::function<bool()>& condition) {
 }
 
 std::int64_t hits(const detail::HelpedSweep& helped) {
-  RuntimeStatistics statistics;
+  StructureStatistics statistics;
   statistics.consumers = helped.of_consumers();
   return statistics.all_consumers().hits;
 }
@@ -167,17 +165,17 @@ TEST(HelpedSweep, has_no_help_from_those_that_the_budget_is_too_small_for) {
 
 TEST(Helpers, are_as_many_as_cores_without_a_consumer) {
   const Fixture fixture;
-  RuntimeOptions options;
+  StructureOptions options;
   options.way = Way::helpers;
   options.cores = 4;
   for (const int threads : {1, 3, 4, 9}) {
-    Runtime runtime(fixture.mesh, Relation::VV, options);
+    const auto runtime = make_structure(fixture.mesh, Relation::VV, options);
     SweepOptions sweep;
     sweep.threads = threads;
-    runtime.for_each_segment(Relation::VV, sweep, [](int, const SegmentRows&) {});
-    const auto statistics = runtime.statistics();
+    runtime->for_each_segment(Relation::VV, sweep, [](int, const SegmentRows&) {});
+    const auto statistics = runtime->statistics();
     const auto consumers = statistics.all_consumers();
-    EXPECT_EQ(runtime.way(), Way::helpers);
+    EXPECT_EQ(runtime->way(), Way::helpers);
     EXPECT_EQ(statistics.consumers.size(), static_cast<std::size_t>(threads));
     EXPECT_EQ(consumers.hits + consumers.segments_computed, fixture.mesh.segments());
     EXPECT_GE(statistics.helpers.segments_computed, consumers.hits);
@@ -187,10 +185,11 @@ TEST(Helpers, are_as_many_as_cores_without_a_consumer) {
 
 TEST(Helpers, need_a_number_of_cores) {
   const Fixture fixture;
-  RuntimeOptions options;
+  StructureOptions options;
   options.way = Way::helpers;
   options.cores = -1;
-  EXPECT_EQ(message_of([&] { Runtime(fixture.mesh, Relation::VV, options); }), "cores must be at least 1, not -1");
+  EXPECT_EQ(message_of([&] { make_structure(fixture.mesh, Relation::VV, options); }),
+            "cores must be at least 1, not -1");
 }
 
 }  // namespace gale::test

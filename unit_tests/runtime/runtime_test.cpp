@@ -6,7 +6,7 @@
 
 #include <gale/base/error.hpp>
 #include <gale/relations/host_worker.hpp>
-#include <gale/runtime/runtime.hpp>
+#include <gale/runtime/make_structure.hpp>
 
 #include "runtime/ways.hpp"
 #include "support/brute_force.hpp"
@@ -52,11 +52,11 @@ TEST_P(SweepOf, every_mesh_visits_each_segment_once_with_its_rows) {
   const ExpectedRows expected(input(), brute_force_of(mesh_name()), mesh);
   for (const NamedWay& way : ways()) {
     SCOPED_TRACE(way.name);
-    Runtime runtime(mesh, star_relations, way.options);
+    const auto runtime = make_structure(mesh, star_relations, way.options);
     for (const int threads : {1, 3}) {
       std::vector<std::atomic<int>> visits(mesh.segments());
       std::atomic<int> wrong{0};
-      runtime.for_each_segment(star_relations, with_threads(threads), [&](int, const SegmentRows& rows) {
+      runtime->for_each_segment(star_relations, with_threads(threads), [&](int, const SegmentRows& rows) {
         ++visits[rows.segment()];
         if (!expected.match(rows, star_relations)) ++wrong;
       });
@@ -72,13 +72,13 @@ TEST(Runtime, answers_consumers_that_jump_at_random) {
   const Holed holed;
   for (const NamedWay& way : ways()) {
     for (const int consumers : {1, 2, 16}) {
-      Runtime runtime(holed.mesh, star_relations, way.options);
+      const auto runtime = make_structure(holed.mesh, star_relations, way.options);
       std::atomic<int> wrong{0};
       std::vector<std::thread> threads;
       for (int i = 0; i < consumers; ++i) {
         threads.emplace_back([&, i] {
           std::mt19937 random(i);
-          const auto consumer = runtime.consumer();
+          const auto consumer = runtime->consumer();
           for (int k = 0; k < 400; ++k) {
             if (!rows_match(*consumer, holed.expected, static_cast<Id>(random() % holed.mesh.vertices()))) ++wrong;
           }
@@ -93,11 +93,11 @@ TEST(Runtime, answers_consumers_that_jump_at_random) {
 TEST(Runtime, serves_a_sweep_whose_bodies_read_other_segments) {
   const Holed holed;
   for (const NamedWay& way : ways()) {
-    Runtime runtime(holed.mesh, star_relations, way.options);
+    const auto runtime = make_structure(holed.mesh, star_relations, way.options);
     std::atomic<int> wrong{0};
-    runtime.for_each_segment(Relation::VV, with_threads(4), [&](int, const SegmentRows& rows) {
-      const auto consumer = runtime.consumer();
-      for (Id v = rows.first(); v < rows.last(); ++v) {
+    runtime->for_each_segment(Relation::VV, with_threads(4), [&](int, const SegmentRows& rows) {
+      const auto consumer = runtime->consumer();
+      for (const Id v : rows.interval(0)) {
         for (const Id other : rows[Relation::VV][v]) wrong += rows_match(*consumer, holed.expected, other) ? 0 : 1;
       }
     });
@@ -108,17 +108,17 @@ TEST(Runtime, serves_a_sweep_whose_bodies_read_other_segments) {
 TEST(Runtime, hands_an_exception_of_a_body_to_the_caller_and_goes_on) {
   const Holed holed;
   for (const NamedWay& way : ways()) {
-    Runtime runtime(holed.mesh, star_relations, way.options);
+    const auto runtime = make_structure(holed.mesh, star_relations, way.options);
     for (int again = 0; again < 3; ++again) {
       const auto sweep = [&] {
-        runtime.for_each_segment(star_relations, with_threads(4), [&](int, const SegmentRows& rows) {
+        runtime->for_each_segment(star_relations, with_threads(4), [&](int, const SegmentRows& rows) {
           if (rows.segment() == holed.mesh.segments() / 2) throw std::runtime_error("enough");
         });
       };
       EXPECT_THROW(sweep(), std::runtime_error) << way.name;
     }
     std::atomic<Id> visited{0};
-    runtime.for_each_segment(star_relations, with_threads(4), [&](int, const SegmentRows&) { ++visited; });
+    runtime->for_each_segment(star_relations, with_threads(4), [&](int, const SegmentRows&) { ++visited; });
     EXPECT_EQ(visited, holed.mesh.segments()) << way.name;
   }
 }
@@ -126,10 +126,10 @@ TEST(Runtime, hands_an_exception_of_a_body_to_the_caller_and_goes_on) {
 TEST(Runtime, lets_two_sweeps_run_at_once) {
   const Holed holed;
   for (const NamedWay& way : ways()) {
-    Runtime runtime(holed.mesh, star_relations, way.options);
+    const auto runtime = make_structure(holed.mesh, star_relations, way.options);
     std::atomic<Id> visited{0};
     const auto sweep = [&] {
-      runtime.for_each_segment(star_relations, with_threads(2), [&](int, const SegmentRows&) { ++visited; });
+      runtime->for_each_segment(star_relations, with_threads(2), [&](int, const SegmentRows&) { ++visited; });
     };
     std::thread other(sweep);
     sweep();
@@ -141,35 +141,35 @@ TEST(Runtime, lets_two_sweeps_run_at_once) {
 TEST(Runtime, evicts_under_a_small_budget_and_not_under_a_large_one) {
   const Holed holed;
   for (const bool small : {true, false}) {
-    RuntimeOptions options;
+    StructureOptions options;
     options.way = Way::leaders;
     if (small) options.host_memory = 32768;
-    Runtime runtime(holed.mesh, star_relations, options);
-    const auto consumer = runtime.consumer();
+    const auto runtime = make_structure(holed.mesh, star_relations, options);
+    const auto consumer = runtime->consumer();
     for (int pass = 0; pass < 2; ++pass) {
       for (Id v = 0; v < holed.mesh.vertices(); ++v) ASSERT_TRUE(rows_match(*consumer, holed.expected, v));
     }
-    const auto leader = runtime.statistics().leaders.at(0);
+    const auto leader = runtime->statistics().leaders.at(0);
     EXPECT_EQ(leader.blocks_evicted > 0, small);
     EXPECT_EQ(leader.segments_recomputed > 0, small);
     EXPECT_EQ(leader.segments_computed, holed.mesh.segments() + leader.segments_recomputed);
-    if (small) EXPECT_LE(runtime.statistics().host_bytes, 32768u + 3 * 4096u);
+    if (small) EXPECT_LE(runtime->statistics().host_bytes, 32768u + 3 * 4096u);
   }
 }
 
 TEST(Runtime, counts_what_consumers_and_leaders_did) {
   const Holed holed;
-  RuntimeOptions options;
+  StructureOptions options;
   options.way = Way::leaders;
   options.queues = Queues::per_relation;
-  Runtime runtime(holed.mesh, Relation::VV | Relation::VT, options);
+  const auto runtime = make_structure(holed.mesh, Relation::VV | Relation::VT, options);
   {
-    const auto consumer = runtime.consumer();
+    const auto consumer = runtime->consumer();
     consumer->row(Relation::VV, 0);
     consumer->row(Relation::VV, 0);
   }
-  const auto statistics = runtime.statistics();
-  EXPECT_EQ(runtime.way(), Way::leaders);
+  const auto statistics = runtime->statistics();
+  EXPECT_EQ(runtime->way(), Way::leaders);
   ASSERT_EQ(statistics.leaders.size(), 2u);
   EXPECT_EQ(name_of(statistics.leaders[0].relations), "VT");
   EXPECT_EQ(statistics.leaders[0].batches, 0);
@@ -181,22 +181,22 @@ TEST(Runtime, counts_what_consumers_and_leaders_did) {
 TEST(Runtime, says_what_it_was_not_preconditioned_for) {
   const Holed holed;
   for (const NamedWay& way : ways()) {
-    Runtime runtime(holed.mesh, Relation::VV, way.options);
-    const auto consumer = runtime.consumer();
+    const auto runtime = make_structure(holed.mesh, Relation::VV, way.options);
+    const auto consumer = runtime->consumer();
     EXPECT_THROW(consumer->row(Relation::VT, 0), Error) << way.name;
     EXPECT_EQ(consumer->row(Relation::VV, 0).size(), static_cast<Id>(holed.expected.vv[0].size()));
-    EXPECT_THROW(runtime.for_each_segment(star_relations, with_threads(1), [](int, const SegmentRows&) {}), Error)
+    EXPECT_THROW(runtime->for_each_segment(star_relations, with_threads(1), [](int, const SegmentRows&) {}), Error)
         << way.name;
     EXPECT_THROW(consumer->row(Relation::EF, 0), Error) << way.name;
-    EXPECT_THROW(Runtime(holed.mesh, RelationSet(), way.options), Error);
+    EXPECT_THROW(make_structure(holed.mesh, RelationSet(), way.options), Error);
   }
 }
 
 TEST(Runtime, refuses_a_vertex_that_is_not_there) {
   const Holed holed;
   for (const NamedWay& way : ways()) {
-    Runtime runtime(holed.mesh, star_relations, way.options);
-    const auto consumer = runtime.consumer();
+    const auto runtime = make_structure(holed.mesh, star_relations, way.options);
+    const auto consumer = runtime->consumer();
     const Row row = consumer->row(Relation::VV, 0);
     for (const Id vertex : {-1, holed.mesh.vertices()}) {
       EXPECT_THROW(consumer->row(Relation::VV, vertex), Error) << way.name;
@@ -208,9 +208,9 @@ TEST(Runtime, refuses_a_vertex_that_is_not_there) {
 
 TEST(Runtime, that_ends_tells_consumers_that_go_on_asking) {
   const Holed holed;
-  RuntimeOptions options;
+  StructureOptions options;
   options.way = Way::leaders;
-  auto runtime = std::make_unique<Runtime>(holed.mesh, star_relations, options);
+  auto runtime = make_structure(holed.mesh, star_relations, options);
   std::vector<std::thread> threads;
   std::atomic<int> begun{0}, told{0};
   for (int i = 0; i < 4; ++i) {

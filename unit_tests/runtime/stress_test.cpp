@@ -8,7 +8,7 @@
 #include <gale/base/error.hpp>
 #include <gale/base/threads.hpp>
 #include <gale/runtime/leaders/leader.hpp>
-#include <gale/runtime/runtime.hpp>
+#include <gale/runtime/make_structure.hpp>
 
 #include "runtime/interrupted.hpp"
 #include "runtime/ways.hpp"
@@ -36,7 +36,7 @@ struct Stressed {
 
   bool is_right(Id segment, const detail::Lease& lease) const {
     SegmentRows rows(segment, mesh.intervals_of(segment));
-    rows.set(Relation::VV, lease.block(0, 1));
+    add_rows(lease.arena().batch(Relation::VV, interval_tables(mesh)), lease.slot(), rows);
     return bool(expected.match(rows, Relation::VV));
   }
 };
@@ -100,12 +100,12 @@ TEST(Stress, of_consumers_and_sweeps_with_budgets_that_hold_next_to_nothing) {
   for (NamedWay way : ways()) {
     // Helpers need a little to help at all.
     way.options.host_memory = way.options.way == Way::helpers ? 1 << 24 : 1 << 13;
-    Runtime runtime(stressed.mesh, relations, way.options);
+    const auto runtime = make_structure(stressed.mesh, relations, way.options);
     std::atomic<long> wrong{0};
     std::atomic<int> swept{0};
     const int rounds = 20 * times();
     on_threads(consumers, [&](int number) {
-      const auto consumer = runtime.consumer();
+      const auto consumer = runtime->consumer();
       std::mt19937 random(number);
       for (int i = 0; i < rounds; ++i) {
         const Id v = static_cast<Id>(random() % stressed.mesh.vertices());
@@ -117,7 +117,7 @@ TEST(Stress, of_consumers_and_sweeps_with_budgets_that_hold_next_to_nothing) {
         sweep.threads = 1 + number % 3;
         try {
           std::atomic<int> visited{0};
-          runtime.for_each_segment(relations, sweep, [&](int, const SegmentRows& rows) {
+          runtime->for_each_segment(relations, sweep, [&](int, const SegmentRows& rows) {
             wrong += !stressed.expected.match(rows, relations);
             if (number % 4 == 0 && ++visited == 40) throw std::runtime_error("enough");
           });

@@ -2,14 +2,14 @@
 
 #include <vector>
 
-#include <gale/runtime/options.hpp>
+#include <gale/runtime/structure_options.hpp>
 
 namespace gale::test {
 
 /// A way for a runtime to work.
 struct NamedWay {
   const char* name;
-  RuntimeOptions options;
+  StructureOptions options;
 };
 
 /// Everything that can be told apart about how a runtime works.

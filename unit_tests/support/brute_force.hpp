@@ -37,7 +37,7 @@ class BruteForce {
 
   std::vector<std::array<Id, 4>> tetrahedra_;
   mutable std::array<Table, 4> simplices_;
-  mutable std::array<Table, relation_count - 1> rows_;
+  mutable std::array<Table, relation_count> rows_;
 };
 
 /// The same of one of `mesh_names()`; computed at the first call.
@@ -71,7 +71,7 @@ class ExpectedRows {
   testing::AssertionResult match_intervals(const SegmentRows& rows, RelationSet wanted) const;
 
   ExpectedSimplices simplices_;
-  std::array<Table, relation_count - 1> rows_;
+  std::array<Table, relation_count> rows_;
 
  public:
   const Table& vv = rows_[static_cast<int>(Relation::VV)];

@@ -21,7 +21,7 @@ std::string listed(const Entries& entries) {
 }
 
 template <class Entries, class Expected>
-testing::AssertionResult same(Relation relation, Id simplex, const Entries& row, const Expected& expected) {
+testing::AssertionResult same(RelationSet relation, Id simplex, const Entries& row, const Expected& expected) {
   if (std::equal(row.begin(), row.end(), expected.begin(), expected.end())) return testing::AssertionSuccess();
   return testing::AssertionFailure() << name_of(relation) << " of " << simplex << " has " << listed(row)
                                      << "\n  and should have " << listed(expected);
@@ -43,8 +43,8 @@ int highest_of(RelationSet relations) {
 ExpectedRows::ExpectedRows(const InputMesh& input, const BruteForce& brute_force, const Mesh& mesh,
                            RelationSet relations)
     : simplices_(brute_force, mesh, highest_of(relations)) {
-  const RelationSet tables = relations.has(Relation::link) ? relations | star_relations : relations;
-  for (const Relation relation : members_of(tables - Relation::link)) {
+  const RelationSet tables = relations.has_links() ? relations | star_relations : relations;
+  for (const Relation relation : members_of(tables)) {
     const auto& from = brute_force.rows(relation);
     const auto& row_number = simplices_.number[row_dimension(relation)];
     const auto& entry_number = simplices_.number[entry_dimension(relation)];
@@ -56,7 +56,7 @@ ExpectedRows::ExpectedRows(const InputMesh& input, const BruteForce& brute_force
       std::sort(row.begin(), row.end());
     }
   }
-  if (relations.has(Relation::link)) find_links(input, brute_force, mesh);
+  if (relations.has_links()) find_links(input, brute_force, mesh);
 }
 
 void ExpectedRows::find_links(const InputMesh& input, const BruteForce& brute_force, const Mesh& mesh) {
@@ -84,16 +84,19 @@ testing::AssertionResult ExpectedRows::match(Relation relation, Id simplex, cons
 testing::AssertionResult ExpectedRows::match(Id vertex, const LinkRow& row) const {
   std::vector<std::array<Id, 3>> copy;
   for (Id i = 0; i < row.size(); ++i) copy.push_back({row(i, 0), row(i, 1), row(i, 2)});
-  return same(Relation::link, vertex, copy, link.at(vertex));
+  return same(link_form, vertex, copy, link.at(vertex));
 }
 
 testing::AssertionResult ExpectedRows::match(const SegmentRows& rows, RelationSet wanted) const {
   auto result = match_intervals(rows, wanted);
   for (const Relation relation : members_of(wanted)) {
-    const int dimension = row_dimension(relation);
-    for (Id simplex = rows.first(dimension); simplex < rows.last(dimension) && result; ++simplex) {
-      result = relation == Relation::link ? match(simplex, rows.links()[simplex])
-                                          : match(relation, simplex, rows[relation][simplex]);
+    for (const Id simplex : rows.interval(relation)) {
+      if (result) result = match(relation, simplex, rows[relation][simplex]);
+    }
+  }
+  if (wanted.has_links()) {
+    for (const Id vertex : rows.interval(0)) {
+      if (result) result = match(vertex, rows.links()[vertex]);
     }
   }
   return result ? result : result << "\n  in segment " << rows.segment();
@@ -104,13 +107,17 @@ testing::AssertionResult ExpectedRows::match_intervals(const SegmentRows& rows, 
   for (int dimension = 0; dimension < 4; ++dimension) {
     const auto in_dimension = [dimension](Relation relation) { return row_dimension(relation) == dimension; };
     const auto members = members_of(wanted);
-    const bool needed = std::any_of(members.begin(), members.end(), in_dimension);
-    if (simplices_.vertices[dimension].empty() || (!needed && rows.first(dimension) == rows.last(dimension))) continue;
+    const bool needed =
+        std::any_of(members.begin(), members.end(), in_dimension) || (dimension == 0 && wanted.has_links());
+    if (simplices_.vertices[dimension].empty() ||
+        (!needed && rows.interval(dimension).first == rows.interval(dimension).last))
+      continue;
     const Interval expected = simplices_.internal_to(rows.segment(), dimension);
-    if (rows.first(dimension) == expected.first && rows.last(dimension) == expected.last) continue;
-    return testing::AssertionFailure() << "simplices of dimension " << dimension << " from " << rows.first(dimension)
-                                       << " to before " << rows.last(dimension) << "\n  should go from "
-                                       << expected.first << " to before " << expected.last;
+    if (rows.interval(dimension).first == expected.first && rows.interval(dimension).last == expected.last) continue;
+    return testing::AssertionFailure() << "simplices of dimension " << dimension << " from "
+                                       << rows.interval(dimension).first << " to before "
+                                       << rows.interval(dimension).last << "\n  should go from " << expected.first
+                                       << " to before " << expected.last;
   }
   return testing::AssertionSuccess();
 }

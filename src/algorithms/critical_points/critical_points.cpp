@@ -35,7 +35,7 @@ class Classification {
   void classify(int consumer, const SegmentRows& rows) {
     const Rows neighbours = rows[Relation::VV];
     const LinkRows links = rows.links();
-    for (Id v = rows.first(); v < rows.last(); ++v) classify(large_[consumer], v, neighbours[v], links[v]);
+    for (const Id v : rows.interval(Relation::VV)) classify(large_[consumer], v, neighbours[v], links[v]);
   }
 
   CriticalType type(Id v) const {

@@ -14,7 +14,7 @@ GradientSweep::GradientSweep(GradientStore& store, int consumer)
 void GradientSweep::pair(const SegmentRows& rows) {
   const Rows neighbours = rows[Relation::VV], tetrahedra = rows[Relation::VT];
   const LinkRows links = rows.links();
-  for (Id v = rows.first(); v < rows.last(); ++v) pair({v, neighbours[v], tetrahedra[v], links[v]});
+  for (const Id v : rows.interval(Relation::VV)) pair({v, neighbours[v], tetrahedra[v], links[v]});
 }
 
 void GradientSweep::pair(const Star& star) {

@@ -69,7 +69,7 @@ struct Worker {
   SmallLinkEdges small;
   LargeLinkEdges large;
 
-  explicit Worker(const Mesh& mesh) : worker(mesh, Relation::VV | Relation::link) {}
+  explicit Worker(const Mesh& mesh) : worker(mesh, Relation::VV | link_form) {}
 
   bool is_on_surface(Id degree, const LinkRow& link) {
     return degree <= SmallLinkEdges::capacity ? small.any_single(degree, link) : large.any_single(link);
@@ -86,7 +86,7 @@ Array<std::uint8_t, HostMemory> surface_vertices(const Mesh& mesh) {
     auto& worker = workers[consumer];
     if (!worker) worker = std::make_unique<Worker>(mesh);
     const SegmentRows rows = worker->worker.compute(segment);
-    for (Id v = rows.first(); v < rows.last(); ++v) {
+    for (const Id v : rows.interval(Relation::VV)) {
       on_surface(v) = worker->is_on_surface(rows[Relation::VV][v].size(), rows.links()[v]);
     }
   });

@@ -29,7 +29,7 @@ class Numbering {
     const Rows neighbours = rows[Relation::VV];
     const LinkRows links = rows.links();
     Pending pending(edges_, triangles_, rows.segment());
-    for (Id v = rows.first(); v < rows.last(); ++v) {
+    for (const Id v : rows.interval(Relation::VV)) {
       if (neighbours[v].size() <= detail::SmallLink::capacity) {
         visit(v, detail::SmallLaterStar(input_, v, neighbours[v], links[v]), pending);
       } else {

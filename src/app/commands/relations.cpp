@@ -36,8 +36,7 @@ template <class Visit>
 void for_each_row(Structure& structure, Relation relation, const SweepOptions& sweep, const Visit& visit) {
   const int dimension = row_dimension(relation);
   structure.for_each_segment(relation, sweep, [&](int consumer, const SegmentRows& rows) {
-    for (Id simplex = rows.first(dimension); simplex < rows.last(dimension); ++simplex)
-      visit(consumer, simplex, rows[relation][simplex]);
+    for (const Id simplex : rows.interval(dimension)) visit(consumer, simplex, rows[relation][simplex]);
   });
 }
 

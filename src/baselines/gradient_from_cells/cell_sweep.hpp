@@ -26,7 +26,7 @@ class CellSweep {
 
   void pair(const SegmentRows& rows) {
     const Rows edges = rows[Relation::VE], triangles = rows[Relation::VF], tetrahedra = rows[Relation::VT];
-    for (Id v = rows.first(); v < rows.last(); ++v) {
+    for (const Id v : rows.interval(Relation::VE)) {
       find_neighbours(v, edges[v]);
       if (begin_row(v)) {
         ranks_.with_look_up([&](const auto& rank) { make_star(v, triangles[v], tetrahedra[v], rank); });

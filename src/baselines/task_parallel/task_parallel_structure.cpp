@@ -1,190 +1,49 @@
-#include <algorithm>
-#include <array>
-#include <atomic>
-#include <chrono>
-#include <condition_variable>
 #include <thread>
 
-#include <gale/relations/host_worker.hpp>
-#include <gale/runtime/implementation.hpp>
-#include <gale/runtime/sweep.hpp>
+#include <gale/baselines/task_parallel/pipe.hpp>
+#include <gale/baselines/task_parallel/task_parallel_structure.hpp>
 
 namespace gale::detail {
 
-namespace {
-
-using Clock = std::chrono::steady_clock;
-
-/// Between a consumer and its worker: some segments' blocks, computed in turn and read in turn. Who has to wait looks
-/// for a while before it sleeps, since a segment takes no longer than falling asleep and being woken.
-class Pipe {
- public:
-  /// `stopped` is set when some consumer of the sweep fails, and tells the others to read no more.
-  Pipe(const Mesh& mesh, RelationSet relations, std::atomic<bool>& stopped)
-      : stopped_(stopped), worker_(mesh, relations, slots) {}
-
-  /// Computes a segment when there is room for its blocks. By the worker. Throws what the consumer failed with, once it
-  /// has.
-  void fill(Id segment) {
-    const std::size_t filled = filled_.load();
-    wait_until([&] { return filled - read_.load() < slots || failed_.load() || stopped_.load(); });
-    if (failed_.load()) std::rethrow_exception(failure_);
-    if (stopped_.load()) return;
-    rows_[filled % slots] = worker_.compute(segment);
-    change([&] { filled_.store(filled + 1); });
-  }
-
-  /// There won't be more. By the worker.
-  void end() {
-    change([this] { ended_.store(true); });
-  }
-
-  /// Calls body(rows) for all segments, until the end. By the consumer.
-  template <class Body>
-  void consume(const Body& body, ConsumerStatistics& statistics) {
-    try {
-      for (std::size_t read = 0; wait_for(read, statistics) && !stopped_; ++read) {
-        body(rows_[read % slots]);
-        change([&] { read_.store(read + 1); });
+std::unique_ptr<Structure::Sweep> TaskParallelStructure::begin_sweep(RelationSet wanted, int consumers,
+                                                                     const SegmentBody& body) {
+  /// The sweep's threads compute; the consumers are threads that each read a pipe.
+  class PipedSweep : public Sweep {
+   public:
+    PipedSweep(const Mesh& mesh, RelationSet wanted, int consumers, const SegmentBody& body) : Sweep(consumers) {
+      for (int i = 0; i < consumers; ++i) pipes_.push_back(std::make_unique<Pipe>(mesh, wanted, stopped_));
+      try {
+        for (int i = 0; i < consumers; ++i) {
+          threads_.emplace_back(
+              [this, i, &body] { pipes_[i]->consume([&](const SegmentRows& rows) { body(i, rows); }, statistics[i]); });
+        }
+      } catch (...) {  // there are no more threads to be had
+        join();
+        throw;
       }
-      change([] {});  // the worker may sleep, and nobody reads any more
-    } catch (...) {
-      failure_ = std::current_exception();
-      stopped_ = true;
-      change([this] { failed_.store(true); });
     }
-  }
+    ~PipedSweep() override { join(); }
 
-  /// After the consumer has ended: throws what it failed with.
-  void rethrow() const {
-    if (failed_.load()) std::rethrow_exception(failure_);
-  }
+    void visit(int worker, Id segment, const SegmentBody&) override { pipes_[worker]->fill(segment); }
 
- private:
-  static constexpr std::size_t slots = 8;
-
-  /// Waits for the next segment; false if there is none.
-  bool wait_for(std::size_t next, ConsumerStatistics& statistics) {
-    if (filled_.load() > next) {
-      ++statistics.hits;
-      return true;
+    void end() override {
+      join();
+      for (const auto& pipe : pipes_) pipe->rethrow();
     }
-    const auto begin = Clock::now();
-    wait_until([&] { return filled_.load() > next || ended_.load(); });
-    if (filled_.load() <= next) return false;
-    ++statistics.requests;
-    statistics.waiting.kernel_and_transfer += std::chrono::duration<double>(Clock::now() - begin).count();
-    return true;
-  }
 
-  template <class Condition>
-  void wait_until(const Condition& condition) {
-    constexpr int patience = 4000;
-    for (int look = 0; look < patience; ++look) {
-      if (condition()) return;
+   private:
+    /// Waits until everything is read.
+    void join() {
+      for (auto& pipe : pipes_) pipe->end();
+      for (auto& thread : threads_) thread.join();
+      threads_.clear();
     }
-    std::unique_lock<std::mutex> lock(mutex_);
-    ++sleepers_;
-    changed_.wait(lock, condition);
-    --sleepers_;
-  }
 
-  /// A sleeper counts itself before it looks for the last time, and here something changes before sleepers are counted:
-  /// so nobody sleeps on.
-  template <class Change>
-  void change(const Change& apply) {
-    apply();
-    if (sleepers_.load() == 0) return;
-    { const std::lock_guard<std::mutex> lock(mutex_); }
-    changed_.notify_all();
-  }
-
-  std::atomic<bool>& stopped_;
-  HostWorker worker_;
-  std::array<SegmentRows, slots> rows_;
-  alignas(64) std::atomic<std::size_t> filled_{0};
-  alignas(64) std::atomic<std::size_t> read_{0};
-  std::atomic<bool> ended_{false}, failed_{false};
-  std::exception_ptr failure_;
-  std::atomic<int> sleepers_{0};
-  std::mutex mutex_;
-  std::condition_variable changed_;
-};
-
-/// The consumers of a sweep, each a thread that reads its pipe.
-class PipeReaders {
- public:
-  PipeReaders(const Mesh& mesh, RelationSet wanted, int count, const Structure::SegmentBody& body)
-      : statistics_(count) {
-    for (int i = 0; i < count; ++i) pipes_.push_back(std::make_unique<Pipe>(mesh, wanted, stopped_));
-    try {
-      for (int i = 0; i < count; ++i) {
-        threads_.emplace_back(
-            [this, i, &body] { pipes_[i]->consume([&](const SegmentRows& rows) { body(i, rows); }, statistics_[i]); });
-      }
-    } catch (...) {  // there are no more threads to be had
-      end();
-      throw;
-    }
-  }
-  ~PipeReaders() { end(); }
-
-  Pipe& operator[](int consumer) { return *pipes_[consumer]; }
-
-  /// Waits until everything is read.
-  void end() {
-    for (auto& pipe : pipes_) pipe->end();
-    for (auto& thread : threads_) thread.join();
-    threads_.clear();
-  }
-
-  void rethrow() const {
-    for (const auto& pipe : pipes_) pipe->rethrow();
-  }
-
-  const std::vector<ConsumerStatistics>& statistics() const { return statistics_; }
-
- private:
-  std::atomic<bool> stopped_{false};
-  std::vector<std::unique_ptr<Pipe>> pipes_;
-  std::vector<ConsumerStatistics> statistics_;
-  std::vector<std::thread> threads_;
-};
-
-/// In a sweep each consumer has a worker, which runs ahead of it; consumers that ask in any order compute for
-/// themselves.
-class PairProduction : public RuntimeImplementation {
- public:
-  PairProduction(const Mesh& mesh, RelationSet relations)
-      : RuntimeImplementation(mesh, relations), alone_(by_consumers(mesh, relations)) {}
-
-  void for_each_segment(RelationSet wanted, const SweepOptions& options, const Structure::SegmentBody& body) override {
-    PipeReaders readers(mesh(), wanted, std::max(options.threads, 0), body);
-    sweep(mesh().segments(), options, [&](int worker, Id segment) { readers[worker].fill(segment); });
-    readers.end();
-    for (const auto& one : readers.statistics()) log_.add(one);
-    readers.rethrow();
-  }
-
-  std::unique_ptr<Consumer> consumer() override { return alone_->consumer(); }
-  Way way() const override { return Way::task_parallel; }
-
-  RuntimeStatistics statistics() const override {
-    RuntimeStatistics all = alone_->statistics();
-    const auto swept = log_.all();
-    all.consumers.insert(all.consumers.end(), swept.begin(), swept.end());
-    return all;
-  }
-
- private:
-  std::unique_ptr<RuntimeImplementation> alone_;
-  ConsumerLog log_;
-};
-
-}  // namespace
-
-std::unique_ptr<RuntimeImplementation> by_pairs(const Mesh& mesh, RelationSet relations) {
-  return std::make_unique<PairProduction>(mesh, relations);
+    std::atomic<bool> stopped_{false};
+    std::vector<std::unique_ptr<Pipe>> pipes_;
+    std::vector<std::thread> threads_;
+  };
+  return std::make_unique<PipedSweep>(mesh(), wanted, consumers, body);
 }
 
 }  // namespace gale::detail

@@ -171,7 +171,7 @@ class BitStars {
   KOKKOS_FORCEINLINE_FUNCTION void gather_neighbours(Id row) const {
     constexpr Id at_once = 4;
     const Id self = vertices_.number_of_row(row), end = scratch_.star_begin[row + 1];
-    const bool links = request_.wanted.has(Relation::link);
+    const bool links = request_.wanted.has_links();
     std::uint32_t* const column = scratch_.neighbour_bits + row;
     for (Id begin = scratch_.star_begin[row]; begin < end; begin += at_once) {
       CornerNumbers numbers[at_once];
@@ -198,7 +198,7 @@ class BitStars {
 
   KOKKOS_FORCEINLINE_FUNCTION void write_stars() const {
     Id* const out = request_.pool.words + scratch_.shared->vt + segment_.rows + 1;
-    const int shift = request_.wanted.has(Relation::link) ? 2 : 0;
+    const int shift = request_.wanted.has_links() ? 2 : 0;
     team::for_all(team_, scratch_.shared->found.star,
                   [&](Id i) { out[i] = segment_.tetrahedra[scratch_.star[i] >> shift]; });
   }

@@ -33,8 +33,7 @@ class HashedStars {
     if (fits()) count_stars();
     team::barrier(team_);
     if (!fits()) return;
-    reserve_blocks(team_, request_, Relation::VT | Relation::link, *scratch_.shared, segment_.rows, scratch_.star_begin,
-                   0);
+    reserve_blocks(team_, request_, Relation::VT | link_form, *scratch_.shared, segment_.rows, scratch_.star_begin, 0);
     fill_stars();
     write_rows();
     if (request_.wanted.has(Relation::VV)) write_neighbours();

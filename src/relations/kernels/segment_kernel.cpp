@@ -1,3 +1,4 @@
+#include <utility>
 #include <variant>
 
 #include <gale/base/require_ids.hpp>
@@ -41,22 +42,32 @@ Simplices<Memory> simplices(const Mesh& mesh, RelationSet wanted) {
   }
 }
 
-/// The row kernels of some relations.
-template <class Memory, Relation... relations>
-struct RowKernels {
-  using OrStar = std::variant<StarKernel<Memory>, RowKernel<relations, Memory>...>;
+/// The kernel of any relation: that of stars, or the row kernel of one that isn't a star's.
+template <class Memory, class Places>
+struct AnyKernel;
 
-  /// Calls use(kernel) with that of one of them.
-  template <class Use>
-  static void with(Relation relation, const Use& use) {
-    ((relation == relations ? use(RowKernel<relations, Memory>()) : void()), ...);
+template <class Memory, std::size_t... places>
+struct AnyKernel<Memory, std::index_sequence<places...>> {
+  static constexpr bool is_row(std::size_t place) {
+    return traits_of(static_cast<Relation>(place)).computed_by != ComputedBy::star_kernel;
+  }
+
+  /// Of the relation at a place of the table; where a star kernel makes it, the one of the first, which no one asks
+  /// for.
+  template <std::size_t place>
+  using RowKernelAt = RowKernel<static_cast<Relation>(is_row(place) ? place : 0), Memory>;
+
+  using OrStar = std::variant<StarKernel<Memory>, RowKernelAt<places>...>;
+
+  /// Makes `kernel` the row kernel of a relation; set(kernel) is called with it.
+  template <class Set>
+  static void make_row(Relation relation, OrStar& kernel, const Set& set) {
+    ((static_cast<std::size_t>(relation) == places ? set(kernel.template emplace<places + 1>()) : void()), ...);
   }
 };
 
 template <class Memory>
-using AllRowKernels =
-    RowKernels<Memory, Relation::EV, Relation::FV, Relation::FE, Relation::TV, Relation::TE, Relation::TF, Relation::VE,
-               Relation::VF, Relation::EF, Relation::ET, Relation::FT, Relation::EE, Relation::FF, Relation::TT>;
+using Kernels = AnyKernel<Memory, std::make_index_sequence<relation_count>>;
 
 }  // namespace
 
@@ -67,15 +78,15 @@ std::vector<RelationSet> kernels_for(RelationSet relations) {
   return kernels;
 }
 
-bool are_there(RelationSet wanted, const Id* segments, const Offset* directory, std::size_t count) {
+bool are_there(const Batch<HostMemory>& batch) {
   bool all = true;
-  const std::size_t relations = wanted.count();
-  for (std::size_t i = 0; i < count * relations; ++i) {
-    if (directory[i] == BlockPool::uncountable) {
-      throw Error("segment " + std::to_string(segments[i / relations]) + " has more than 2147483647 entries of " +
-                  name_of(wanted) + ": use smaller segments");
+  const Offset blocks = batch.relations.count();
+  for (Offset i = 0; i < batch.count * blocks; ++i) {
+    if (batch.directory[i] == BlockPool::uncountable) {
+      throw Error("segment " + std::to_string(batch.segments[i / blocks]) + " has more than 2147483647 entries of " +
+                  name_of(batch.relations) + ": use smaller segments");
     }
-    all &= directory[i] != BlockPool::missing;
+    all &= batch.directory[i] != BlockPool::missing;
   }
   return all;
 }
@@ -84,7 +95,7 @@ template <class Memory>
 struct SegmentKernel<Memory>::Any {
   Mesh mesh;
   RelationSet wanted;
-  typename AllRowKernels<Memory>::OrStar kernel;
+  typename Kernels<Memory>::OrStar kernel;
 
   Any(const Mesh& given, RelationSet relations) : mesh(given), wanted(relations) {
     if (star_relations.contains(wanted)) {
@@ -93,10 +104,9 @@ struct SegmentKernel<Memory>::Any {
       star.wanted = wanted;
       kernel = star;
     } else {
-      AllRowKernels<Memory>::with(members_of(wanted).front(), [this](auto row) {
+      Kernels<Memory>::make_row(members_of(wanted).front(), kernel, [this](auto& row) {
         row.simplices = simplices<Memory>(mesh, wanted);
         row.vertex_begin = vertex_begin<Memory>(mesh);
-        kernel = row;
       });
     }
   }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <gale/mesh/mesh.hpp>
+#include <gale/relations/batch.hpp>
 #include <gale/relations/kernels/block_pool.hpp>
 #include <gale/relations/kernels/launch.hpp>
 #include <gale/relations/relation.hpp>
@@ -14,9 +15,9 @@ namespace gale {
 /// itself. These first, in the order of `Relation`.
 std::vector<RelationSet> kernels_for(RelationSet relations);
 
-/// Are all the blocks of a batch there, as its directory says (see BlockPool)? Throws gale::Error, naming the segment,
-/// if one has more entries than an Id counts.
-bool are_there(RelationSet wanted, const Id* segments, const Offset* directory, std::size_t count);
+/// Are all the blocks of a batch there? Throws gale::Error, naming the segment, if one has more entries than an Id
+/// counts.
+bool are_there(const Batch<HostMemory>& batch);
 
 /// What a kernel is run on.
 struct KernelTask {

@@ -20,7 +20,7 @@ class StarKernel : public detail::StarRequest<Memory> {
   const char* label() const {
     if (wanted == Relation::VV) return "GALE::VV";
     if (wanted == Relation::VT) return "GALE::VT";
-    if (wanted == Relation::link) return "GALE::link";
+    if (wanted == link_form) return "GALE::link";
     return wanted.has(Relation::VV) && wanted.has(Relation::VT) ? "GALE::VV+VT" : "GALE::star";
   }
 

@@ -30,9 +30,7 @@ struct StarRequest {
   StarSizes sizes;
   BlockPool pool;
 
-  KOKKOS_FORCEINLINE_FUNCTION bool gathers_neighbours() const {
-    return wanted.has(Relation::VV) || wanted.has(Relation::link);
-  }
+  KOKKOS_FORCEINLINE_FUNCTION bool gathers_neighbours() const { return wanted.has(Relation::VV) || wanted.has_links(); }
 
   /// What each team does, in the way of `Stars`.
   template <class Stars, class Team>
@@ -57,15 +55,15 @@ struct StarRequest {
     const bool fitted = sizes.contains(shared.found);
     if (!fitted) pool.need(team, shared.found);
     const bool done = fitted && present(Relation::VT, shared.vt) && present(Relation::VV, shared.vv) &&
-                      present(Relation::link, shared.link);
+                      present(link_form, shared.link);
     Offset* entry = pool.directory + Offset(team.league_rank()) * wanted.count();
     if (wanted.has(Relation::VT)) *entry++ = done ? shared.vt : BlockPool::missing;
     if (wanted.has(Relation::VV)) *entry++ = done ? shared.vv : BlockPool::missing;
-    if (wanted.has(Relation::link)) *entry++ = done ? shared.link : BlockPool::missing;
+    if (wanted.has_links()) *entry++ = done ? shared.link : BlockPool::missing;
   }
 
-  KOKKOS_FORCEINLINE_FUNCTION bool present(Relation relation, Offset block) const {
-    return !wanted.has(relation) || block != BlockPool::missing;
+  KOKKOS_FORCEINLINE_FUNCTION bool present(RelationSet relation, Offset block) const {
+    return !wanted.contains(relation) || block != BlockPool::missing;
   }
 };
 
@@ -82,20 +80,19 @@ KOKKOS_FORCEINLINE_FUNCTION void reserve_blocks(const Team& team, const StarRequ
     const Id tetrahedra = shared.found.star;
     const int width = width_for(3 * shared.longest_star);
     const Offset vt = wanted.has(Relation::VT) ? BlockPool::rounded(BlockLayout::words(rows, tetrahedra)) : 0;
-    const Offset link =
-        wanted.has(Relation::link) ? BlockPool::rounded(BlockLayout::link_words(rows, tetrahedra, width)) : 0;
+    const Offset link = wanted.has_links() ? BlockPool::rounded(BlockLayout::link_words(rows, tetrahedra, width)) : 0;
     const Offset vv = wanted.has(Relation::VV) ? BlockLayout::words(rows, neighbours) : 0;
     const Offset begin = vt + link + vv > 0 ? pool.reserve(team, vt + link + vv) : BlockPool::missing;
     if (begin == BlockPool::missing) return;
     if (wanted.has(Relation::VT)) shared.vt = begin;
-    if (wanted.has(Relation::link)) {
+    if (wanted.has_links()) {
       shared.link = begin + vt;
       pool.words[shared.link + rows + 1] = width;
     }
     if (wanted.has(Relation::VV)) shared.vv = begin + vt + link;
   });
   team::barrier(team);
-  if (!wanted.has(Relation::VT) && !wanted.has(Relation::link)) return;
+  if (!wanted.has(Relation::VT) && !wanted.has_links()) return;
   for (const Offset block : {shared.vt, shared.link}) {
     if (block == BlockPool::missing) continue;
     team::for_all(team, rows + 1, [&](Id row) { pool.words[block + row] = star_begin[row]; });

@@ -1,28 +1,20 @@
 #include <gale/runtime/explicit/explicit_structure.hpp>
 #include <gale/runtime/explicit/global_relations.hpp>
-#include <gale/runtime/sweep.hpp>
 
 namespace gale {
 
 struct ExplicitStructure::Data {
-  Mesh mesh;
-  RelationSet relations;
   detail::GlobalRelations global;
-
-  Data(const Mesh& given, RelationSet wanted)
-      : mesh(given), relations(wanted), global(detail::global_relations(mesh, wanted)) {}
 
   /// Rows of the simplices given; those of all lie together, so there is nothing to compute.
   SegmentRows rows(RelationSet wanted, Id segment, const Intervals& simplices) const {
     SegmentRows rows(segment, simplices);
-    for (int i = 0; i < relation_count; ++i) {
-      const auto relation = static_cast<Relation>(i);
-      if (wanted.has(relation) && relation != Relation::link) rows.set(relation, global.rows[i].rows());
-    }
-    if (wanted.has(Relation::link))
-      rows.set(global.links.rows(global.rows[static_cast<int>(Relation::VT)].offsets.data()));
+    for (const Relation relation : members_of(wanted)) rows.set(relation, rows_of(relation));
+    if (wanted.has_links()) rows.set(global.links.rows(rows_of(Relation::VT)));
     return rows;
   }
+
+  Rows rows_of(Relation relation) const { return global.rows[static_cast<int>(relation)].rows(); }
 
   Intervals intervals_of(Id segment) const {
     Intervals intervals;
@@ -44,18 +36,27 @@ struct ExplicitStructure::Data {
 };
 
 ExplicitStructure::ExplicitStructure(const Mesh& mesh, RelationSet wanted)
-    : data_(std::make_unique<const Data>(mesh, wanted)) {}
+    : Structure(mesh, wanted, Way::explicit_), data_(new Data{detail::global_relations(mesh, wanted)}) {}
 ExplicitStructure::~ExplicitStructure() = default;
 
-const Mesh& ExplicitStructure::mesh() const { return data_->mesh; }
-RelationSet ExplicitStructure::relations() const { return data_->relations; }
 Id ExplicitStructure::count(int dimension) const { return data_->global.count[dimension]; }
 
-void ExplicitStructure::for_each_segment(RelationSet wanted, const SweepOptions& options, const SegmentBody& body) {
-  require_preconditioned(data_->relations, wanted);
-  detail::sweep(data_->mesh.segments(), options, [&](int consumer, Id segment) {
-    body(consumer, data_->rows(wanted, segment, data_->intervals_of(segment)));
-  });
+std::unique_ptr<Structure::Sweep> ExplicitStructure::begin_sweep(RelationSet wanted, int consumers,
+                                                                 const SegmentBody&) {
+  class ExplicitSweep : public Sweep {
+   public:
+    ExplicitSweep(const Data& data, RelationSet wanted, int consumers)
+        : Sweep(consumers), data_(data), wanted_(wanted) {}
+
+    void visit(int consumer, Id segment, const SegmentBody& body) override {
+      body(consumer, data_.rows(wanted_, segment, data_.intervals_of(segment)));
+    }
+
+   private:
+    const Data& data_;
+    const RelationSet wanted_;
+  };
+  return std::make_unique<ExplicitSweep>(*data_, wanted, consumers);
 }
 
 /// Loads once: all rows.
@@ -64,11 +65,11 @@ class ExplicitStructure::ExplicitConsumer : public Consumer {
   explicit ExplicitConsumer(const ExplicitStructure& structure) : structure_(structure) {}
 
  private:
-  SegmentRows load(Relation relation, Id simplex) override {
-    require_preconditioned(structure_.relations(), relation);
-    const int dimension = row_dimension(relation);
+  SegmentRows load(RelationSet one, Id simplex) override {
+    require_preconditioned(structure_.relations(), one);
+    const int dimension = row_dimension(one);
     require_simplex(structure_.count(dimension), dimension, simplex);
-    return structure_.data_->rows(relation, no_id, structure_.data_->intervals());
+    return structure_.data_->rows(one, no_id, structure_.data_->intervals());
   }
 
   const ExplicitStructure& structure_;

@@ -16,7 +16,7 @@ namespace gale {
 ///
 /// Memory: 4 bytes an entry and a row of each relation, but none for TV's entries without a device: those are the mesh'
 /// own. Links take 3 bytes an entry of VT, 6 or 12 where a VV row is longer than 256 or 65536, and VT's offsets. All
-/// seventeen take 560 bytes a tetrahedron of a grid.
+/// sixteen and the links take 560 bytes a tetrahedron of a grid.
 class ExplicitStructure : public Structure {
  public:
   /// Computes the relations one after another and, before each, those that it is computed from: a coboundary relation
@@ -32,15 +32,15 @@ class ExplicitStructure : public Structure {
   ExplicitStructure(const Mesh& mesh, RelationSet wanted);
   ~ExplicitStructure() override;
 
-  const Mesh& mesh() const override;
-  RelationSet relations() const override;
   bool keeps_all_rows() const override { return true; }
-  void for_each_segment(RelationSet wanted, const SweepOptions& options, const SegmentBody& body) override;
   std::unique_ptr<Consumer> consumer() override;
 
   /// How many simplices of a dimension 0 to 3 there are; no_id for edges and triangles that no relation wanted is
   /// computed from.
-  Id count(int dimension) const;
+  Id count(int dimension) const override;
+
+ protected:
+  std::unique_ptr<Sweep> begin_sweep(RelationSet wanted, int consumers, const SegmentBody& body) override;
 
  private:
   struct Data;

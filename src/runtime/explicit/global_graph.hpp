@@ -26,7 +26,7 @@ struct GlobalRows {
   Array<const Id, HostMemory> offsets;  ///< rows + 1
   Array<const Id, HostMemory> ids;
 
-  Rows rows() const { return {0, offsets.data(), ids.data()}; }
+  Rows rows() const { return {0, static_cast<Id>(offsets.extent(0)) - 1, offsets.data(), ids.data()}; }
 };
 
 /// A graph's `begin`, also where all rows are of one length.

@@ -10,8 +10,8 @@ struct GlobalLinks {
   Array<std::uint8_t, HostMemory> places;
   int width = 1;
 
-  /// `offsets` are those of VT.
-  LinkRows rows(const Id* offsets) const { return {0, offsets, places.data(), width}; }
+  /// `vt`: the rows of VT, of which the offsets are read.
+  LinkRows rows(const Rows& vt) const { return {0, vt.count, vt.offsets, places.data(), width}; }
 };
 
 /// Looks the vertices of each tetrahedron up in the VV rows of the others, on all our threads.

@@ -22,7 +22,6 @@ constexpr Recipe recipes[] = {
     {Relation::TV, {}},
     {Relation::VT, Relation::TV},
     {Relation::VV, Relation::VT | Relation::TV},
-    {Relation::link, Relation::VT | Relation::VV},
     {Relation::TE, Relation::TV},
     {Relation::EV, Relation::TE | Relation::TV},
     {Relation::VE, Relation::EV},
@@ -40,6 +39,7 @@ constexpr Recipe recipes[] = {
 
 /// The relations wanted and all that they are computed from.
 RelationSet needed_for(RelationSet wanted) {
+  if (wanted.has_links()) wanted = wanted | Relation::VT | Relation::VV;
   for (auto recipe = std::rbegin(recipes); recipe != std::rend(recipes); ++recipe) {
     if (wanted.has(recipe->relation)) wanted = wanted | recipe->from;
   }
@@ -49,7 +49,7 @@ RelationSet needed_for(RelationSet wanted) {
 /// Refuses those of whose entries a tetrahedron has so many.
 void refuse_too_many(RelationSet relations, Id tetrahedra) {
   constexpr Offset faces[] = {4, 6, 4};
-  for (const Relation relation : members_of(relations & (face_relations | coboundary_relations | Relation::link))) {
+  for (const Relation relation : members_of(relations & (face_relations | coboundary_relations))) {
     const int rows = row_dimension(relation), entries = entry_dimension(relation);
     if (rows == 3 || entries == 3) require_countable(relation, faces[std::min(rows, entries)] * tetrahedra);
   }
@@ -66,11 +66,8 @@ class Build {
   GlobalRelations run() {
     for (const Recipe& recipe : recipes) {
       if (!needed_.has(recipe.relation)) continue;
-      if (recipe.relation == Relation::link) {
-        make_links();
-      } else {
-        make(recipe);
-      }
+      make(recipe);
+      if (recipe.relation == Relation::VV && needed_.has_links()) make_links();
       release_after(recipe);
     }
     return std::move(result_);
@@ -83,7 +80,7 @@ class Build {
   void make(const Recipe& recipe) {
     const Relation relation = recipe.relation;
     graph(relation) = graph_of(recipe);
-    const bool for_links = needed_.has(Relation::link) && (Relation::VT | Relation::VV).has(relation);
+    const bool for_links = needed_.has_links() && (Relation::VT | Relation::VV).has(relation);
     if (wanted_.has(relation) || for_links) rows(relation) = to_host(graph(relation));
   }
 
@@ -152,7 +149,7 @@ class Build {
 
 GlobalRelations global_relations(const Mesh& mesh, RelationSet wanted) {
   require_kokkos_kernels();
-  refuse_too_many(wanted, mesh.tetrahedra());
+  refuse_too_many(wanted, mesh.tetrahedra());  // first, so that it names what the caller knows
   refuse_too_many(needed_for(wanted), mesh.tetrahedra());
   return Build(mesh, wanted).run();
 }

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <thread>
 
-#include <gale/runtime/inline/counting_worker.hpp>
+#include <gale/runtime/helpers/segment_worker.hpp>
 
 namespace gale::detail {
 

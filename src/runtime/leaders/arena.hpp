@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <gale/base/pinned.hpp>
-#include <gale/base/types.hpp>
+#include <gale/relations/batch.hpp>
 
 namespace gale::detail {
 
@@ -15,12 +15,17 @@ struct Arena {
   PinnedArray<Id> words;
   std::uint64_t number = 0;       ///< among the arenas of its store, from 1
   std::vector<Id> segments;       ///< of the batch
-  std::vector<Offset> directory;  ///< see BlockPool; entries of a segment's relations are together
+  std::vector<Offset> directory;  ///< of it; see Batch
 
   std::atomic<int> pins{0};
   std::atomic<Id> unread{0};  ///< segments that the running sweep has still to read; not above 0: none
   std::atomic<std::int64_t> last_use{0};
   bool ahead = false;  ///< published for a sweep, which reads each block once
+
+  /// Its blocks, of the relations given.
+  Batch<HostMemory> batch(RelationSet relations, const IntervalTables<HostMemory>& intervals) const {
+    return {relations, static_cast<Id>(segments.size()), segments.data(), directory.data(), words.data(), intervals};
+  }
 
   std::size_t bytes() const { return words.size() * sizeof(Id); }
 };
@@ -44,10 +49,8 @@ class Lease {
 
   explicit operator bool() const { return arena_ != nullptr; }
 
-  /// The block of the `relation`-th of `relations` relations.
-  const Id* block(int relation, int relations) const {
-    return arena_->words.data() + arena_->directory[static_cast<std::size_t>(slot_) * relations + relation];
-  }
+  const Arena& arena() const { return *arena_; }
+  Id slot() const { return slot_; }
 
   /// Another segment's blocks of the same arena from now on.
   void move_to(Id slot) { slot_ = slot; }

@@ -18,7 +18,7 @@ struct Shortfall {
   StarSizes scratch;  ///< that its segments need
 };
 
-/// Worker workers for one batch at a time. A leader has two or more, so that some compute while another's blocks are
+/// Computes one batch at a time. A leader has two or more, so that some compute while another's blocks are
 /// copied.
 class BatchWorker {
  public:
@@ -43,7 +43,7 @@ class BatchWorker {
   virtual std::size_t device_bytes() const = 0;
 };
 
-/// How a worker works: see RuntimeOptions.
+/// How a worker works: see StructureOptions.
 struct WorkerParameters {
   RelationSet wanted;
   Offset words = 0;  ///< that a batch has, unless one segment needs more

@@ -82,7 +82,7 @@ class DeviceBatchWorker : public BatchWorker {
     arena.segments.assign(segments_copy_.data(), segments_copy_.data() + count_);
     arena.directory.assign(directory_copy_.data(), directory_copy_.data() + count_ * relations_);
     instance_.fence("GALE::batch_copied");
-    const bool there = are_there(kernel_.wanted(), arena.segments.data(), arena.directory.data(), count_);
+    const bool there = are_there(arena.batch(kernel_.wanted(), {}));
     return {!there, header.used, header.needed};
   }
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 
-#include <gale/relations/host_workspace.hpp>
+#include <gale/relations/host_worker.hpp>
+#include <gale/relations/kernels/block_pool.hpp>
 #include <gale/runtime/leaders/batch_worker.hpp>
 
 namespace gale::detail {
@@ -10,7 +11,7 @@ namespace {
 class HostBatchWorker : public BatchWorker {
  public:
   HostBatchWorker(const Mesh& mesh, const WorkerParameters& parameters)
-      : mesh_(mesh), workspace_(mesh, parameters.wanted), relations_(parameters.wanted.count()) {}
+      : worker_(mesh, parameters.wanted), relations_(parameters.wanted.count()) {}
 
   bool is_large(Id) const override { return false; }
   void launch(const std::vector<Id>& segments, Offset, const StarSizes&) override { segments_ = segments; }
@@ -20,25 +21,26 @@ class HostBatchWorker : public BatchWorker {
   Shortfall finish(Arena& arena) override {
     arena.segments = segments_;
     arena.directory.assign(segments_.size() * relations_, BlockPool::missing);
+    const auto capacity = static_cast<Offset>(arena.words.size());
     Offset used = 0;
-    BlockPool pool;
-    pool.words = arena.words.data();
-    pool.capacity = static_cast<Offset>(arena.words.size());
-    pool.used = &used;
-    bool missing = false;
     for (std::size_t slot = 0; slot < segments_.size(); ++slot) {
-      pool.directory = arena.directory.data() + slot * relations_;
-      missing |= !workspace_.compute(segments_[slot], pool);
+      const HostWorker::Computed computed = worker_.compute_batch(segments_[slot]);
+      if (used + computed.words <= capacity) {
+        std::copy_n(computed.batch.words, computed.words, arena.words.data() + used);
+        for (std::size_t i = 0; i < relations_; ++i) {
+          arena.directory[slot * relations_ + i] = used + computed.batch.directory[i];
+        }
+      }
+      used += computed.words;
     }
-    return {missing, used, {}};
+    return {used > capacity, used, {}};
   }
 
   void abandon() noexcept override { segments_.clear(); }
   std::size_t device_bytes() const override { return 0; }
 
  private:
-  Mesh mesh_;
-  HostWorkspace workspace_;
+  HostWorker worker_;
   std::size_t relations_;
   std::vector<Id> segments_;
 };

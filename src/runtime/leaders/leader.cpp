@@ -11,12 +11,11 @@ namespace {
 /// Batches of a sweep begin small, so that consumers can begin, and double.
 constexpr Id first_batch = 32;
 
-/// A guess for the first batch: what the blocks of a regular mesh take, where a vertex has 14 neighbours, 36 triangles
-/// and 24 tetrahedra.
+/// A guess for the first batch: what the blocks of a regular mesh take.
 double words_per_vertex(RelationSet relations) {
-  static constexpr int words[relation_count] = {21, 48, 48, 30, 42, 30, 16, 38, 26, 44, 44, 37, 16, 190, 160, 31, 22};
-  double sum = 1;
-  for (const Relation relation : members_of(relations)) sum += words[static_cast<int>(relation)];
+  constexpr int words_of_links = 22;
+  double sum = relations.has_links() ? 1 + words_of_links : 1;
+  for (const Relation relation : members_of(relations)) sum += traits_of(relation).words_of_vertex;
   return sum;
 }
 
@@ -40,6 +39,7 @@ Leader::Leader(const Mesh& mesh, const LeaderParameters& parameters, std::vector
       parameters_(parameters),
       workers_(std::move(workers)),
       store_(mesh.segments(), parameters.host_budget),
+      intervals_(interval_tables(mesh)),
       under_way_(mesh.segments()),
       computed_(mesh.segments()),
       words_per_segment_(words_per_vertex(parameters.relations) * mesh.vertices() / std::max(mesh.segments(), Id(1))) {
@@ -236,6 +236,7 @@ void Leader::launch(Plan plan, Arena& arena) {
     worker->launch(plan.segments, static_cast<Offset>(arena.words.size()), plan.scratch);
   } catch (const std::bad_alloc&) {
     worker->abandon();
+    if (plan.segments.size() == 1 && launch_on_host(plan, arena)) return;
     store_.give_back(arena);
     if (plan.segments.size() == 1) throw;
     split(std::move(plan));
@@ -247,6 +248,22 @@ void Leader::launch(Plan plan, Arena& arena) {
   }
   idle_.pop_back();
   flights_.push_back({std::move(plan), worker, &arena, Clock::now(), false});
+}
+
+/// For a segment that the device has no memory for; false if the leader has nobody on the host.
+bool Leader::launch_on_host(const Plan& plan, Arena& arena) {
+  if (!parameters_.make_host_worker) return false;
+  if (!host_worker_) host_worker_ = parameters_.make_host_worker();
+  host_worker_->launch(plan.segments, static_cast<Offset>(arena.words.size()), plan.scratch);
+  flights_.push_back({plan, host_worker_.get(), &arena, Clock::now(), false});
+  const std::lock_guard<std::mutex> lock(statistics_mutex_);
+  ++statistics_.segments_on_host;
+  return true;
+}
+
+/// Gives a worker back that has nothing to do.
+void Leader::release(BatchWorker* worker) {
+  if (worker != host_worker_.get()) idle_.push_back(worker);
 }
 
 /// Tries the plan in two parts, if it has more than one segment; before all other plans.
@@ -274,7 +291,7 @@ void Leader::finish_oldest() {
   const auto finished = Clock::now();
   const Flight flight = std::move(flights_.front());
   flights_.pop_front();
-  idle_.push_back(flight.worker);
+  release(flight.worker);
   Plan made, missing = flight.plan;
   missing.segments.clear();
   const std::size_t relations = parameters_.relations.count();
@@ -335,7 +352,7 @@ void Leader::fail_all(const std::string& why) {
   for (const auto& flight : flights_) {
     flight.worker->abandon();
     store_.give_back(*flight.arena);
-    idle_.push_back(flight.worker);
+    release(flight.worker);
   }
   flights_.clear();
   plans_.clear();

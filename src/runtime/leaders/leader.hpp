@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deque>
+#include <functional>
 #include <map>
 #include <string>
 #include <thread>
@@ -18,6 +19,9 @@ struct LeaderParameters {
   Offset arena_words = 0;
   std::size_t host_budget = 0;
   Id segments_per_request = 1;
+
+  /// Makes who computes a segment that the device has no memory for; without it that is a failure.
+  std::function<std::unique_ptr<BatchWorker>()> make_host_worker;
 };
 
 /// The leader worker of one queue: a thread that takes requests, forms batches, has them computed, and publishes their
@@ -37,6 +41,11 @@ class Leader {
 
   /// The blocks of a segment, as soon as they are there. By any thread. Throws gale::Error.
   Lease acquire(Id segment, bool in_sweep, ConsumerStatistics& statistics);
+
+  /// Adds what a lease has.
+  void add_rows(const Lease& lease, SegmentRows& rows) const {
+    gale::add_rows(lease.arena().batch(parameters_.relations, intervals_), lease.slot(), rows);
+  }
 
   /// Moves a lease to another segment of its arena; false if it has no blocks of that. By any thread.
   bool move(Lease& lease, Id segment) const { return store_.move(lease, segment); }
@@ -80,6 +89,8 @@ class Leader {
   bool launch_ahead();
   Plan plan_ahead();
   void launch(Plan plan, Arena& arena);
+  bool launch_on_host(const Plan& plan, Arena& arena);
+  void release(BatchWorker* worker);
   void split(Plan plan);
   void begin_copy(Flight& flight);
   void finish_oldest();
@@ -96,12 +107,14 @@ class Leader {
   const std::vector<std::unique_ptr<BatchWorker>> workers_;
   RequestQueue queue_;
   BlockStore store_;
+  const IntervalTables<HostMemory> intervals_;
 
   // The leader thread's own.
   std::multimap<Id, std::shared_ptr<Ticket>> waiting_;  ///< by segment
   std::deque<Plan> plans_;
   std::deque<Flight> flights_;
   std::vector<BatchWorker*> idle_;
+  std::unique_ptr<BatchWorker> host_worker_;
   std::vector<bool> under_way_;  ///< by segment: planned or launched
   std::vector<bool> computed_;   ///< by segment: at some time
   bool sweeping_ = false;

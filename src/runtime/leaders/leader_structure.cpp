@@ -1,198 +1,87 @@
-#include <algorithm>
-#include <atomic>
-#include <vector>
-
-#include <gale/relations/face_reader.hpp>
 #include <gale/relations/host_worker.hpp>
-#include <gale/relations/kernels/segment_kernel.hpp>
-#include <gale/runtime/implementation.hpp>
-#include <gale/runtime/leaders/defaults.hpp>
+#include <gale/runtime/leaders/leader_structure.hpp>
+#include <gale/runtime/leaders/requesting_consumer.hpp>
 #include <gale/runtime/leaders/sweep_reader.hpp>
-#include <gale/runtime/sweep.hpp>
 
 namespace gale::detail {
 
-namespace {
-
-std::vector<RelationSet> queues_for(RelationSet relations, Queues queues) {
-  if (queues == Queues::per_kernel) return kernels_for(relations);
-  const auto members = members_of(relations);
-  return {members.begin(), members.end()};
-}
-
-std::unique_ptr<BatchWorker> make_worker(const Mesh& mesh, const WorkerParameters& parameters) {
-  return have_device ? make_device_worker(mesh, parameters) : make_host_worker(mesh, parameters);
-}
-
-/// The leaders of a runtime, and what their consumers leave behind. Consumers share it, so that one that the runtime's
-/// end surprises finds everything in place.
-class Leaders {
+/// Has the leaders run ahead as long as it lives; a sweep inside or beside another asks for each segment instead.
+class LeaderStructure::LeaderSweep : public Sweep {
  public:
-  Leaders(const Mesh& mesh, RelationSet relations, const RuntimeOptions& options) : mesh(mesh), relations(relations) {
-    mesh.simplices_on_host(needs_of(relations & face_relations));
-    const auto queues = queues_for(relations - face_relations, options.queues);
-    const Sizes sizes = sizes_for(mesh, options, std::max(static_cast<int>(queues.size()), 1));
-    for (const RelationSet members : queues) {
-      std::vector<std::unique_ptr<BatchWorker>> workers;
-      WorkerParameters parameters{members, sizes.batch_words, sizes.threads_per_segment, nullptr};
-      if (have_device)
-        parameters.bounds =
-            find_segment_bounds(mesh, SegmentKernel<WorkerMemory>(mesh, members), parameters.threads_per_segment);
-      for (int i = 0; i < workers_per_leader; ++i) workers.push_back(make_worker(mesh, parameters));
-      leaders.push_back(std::make_unique<Leader>(
-          mesh, LeaderParameters{members, sizes.batch_words, sizes.host_bytes, sizes.segments_per_request},
-          std::move(workers)));
+  LeaderSweep(LeaderStructure& structure, RelationSet wanted, int consumers)
+      : Sweep(consumers),
+        mesh_(structure.mesh()),
+        faces_(wanted & face_relations),
+        leaders_(structure.leaders_->some_of(wanted)),
+        sweeping_(structure.sweeping_),
+        runs_ahead_(!structure.sweeping_.exchange(true)),
+        readers_(consumers) {
+    if (!runs_ahead_) return;
+    for (Leader* const leader : leaders_) leader->begin_sweep();
+  }
+
+  ~LeaderSweep() override {
+    readers_.clear();  // they tell the leaders what they have read
+    if (!runs_ahead_) return;
+    for (Leader* const leader : leaders_) leader->end_sweep();
+    sweeping_ = false;
+  }
+
+  void visit(int consumer, Id segment, const SegmentBody& body) override {
+    Reader& reader = readers_[consumer];
+    if (!reader.ready) prepare(reader);
+    SegmentRows rows(segment, mesh_.intervals_of(segment));
+    for (auto& blocks : reader.blocks) {
+      blocks.leader().add_rows(blocks.read(segment, statistics[consumer]), rows);
     }
-  }
-
-  Leader& of(Relation relation) const {
-    const auto has = [&](const auto& leader) { return leader->relations().has(relation); };
-    return **std::find_if(leaders.begin(), leaders.end(), has);
-  }
-
-  SegmentRows rows_of(Id segment) const { return SegmentRows(segment, mesh.intervals_of(segment)); }
-
-  const Mesh mesh;
-  const RelationSet relations;
-  std::vector<std::unique_ptr<Leader>> leaders;
-  ConsumerLog log;
-
- private:
-  /// One computes, another's blocks are copied, and those of the third are published.
-  static constexpr int workers_per_leader = 3;
-};
-
-/// Fills in the blocks that a leader's lease has.
-void add_blocks(SegmentRows& rows, const Leader& leader, const Lease& lease) {
-  const RelationSet relations = leader.relations();
-  for (const Relation relation : members_of(relations))
-    rows.set(relation, lease.block(relations.index_of(relation), relations.count()));
-}
-
-/// A consumer that has leaders compute.
-class RequestingConsumer : public Consumer {
- public:
-  explicit RequestingConsumer(std::shared_ptr<Leaders> leaders)
-      : leaders_(std::move(leaders)), faces_(leaders_->mesh, leaders_->relations & face_relations) {}
-  ~RequestingConsumer() override { leaders_->log.add(statistics_); }
-
- protected:
-  SegmentRows load(Relation relation, Id simplex) override {
-    require_preconditioned(leaders_->relations, relation);
-    require_simplex(leaders_->mesh, row_dimension(relation), simplex);
-    if (face_relations.has(relation)) return faces_.row(relation, simplex);
-    Leader& leader = leaders_->of(relation);
-    const Id segment = leaders_->mesh.segment_of(row_dimension(relation), simplex);
-    Lease& lease = leases_[static_cast<int>(relation)];
-    lease.release();
-    lease = leader.acquire(segment, false, statistics_);
-    SegmentRows rows = leaders_->rows_of(segment);
-    rows.set(relation, lease.block(leader.relations().index_of(relation), leader.relations().count()));
-    return rows;
+    if (reader.faces) reader.faces->compute(rows);
+    body(consumer, rows);
+    for (auto& blocks : reader.blocks) blocks.done();
   }
 
  private:
-  std::shared_ptr<Leaders> leaders_;
-  FaceReader faces_;
-  ConsumerStatistics statistics_;
-  Lease leases_[relation_count];  ///< of the block read last in each relation
-};
-
-class LeaderProduction : public RuntimeImplementation {
- public:
-  LeaderProduction(const Mesh& mesh, RelationSet relations, const RuntimeOptions& options)
-      : RuntimeImplementation(mesh, relations), leaders_(std::make_shared<Leaders>(mesh, relations, options)) {}
-  ~LeaderProduction() override {
-    for (const auto& leader : leaders_->leaders) leader->end();
-  }
-
-  void for_each_segment(RelationSet wanted, const SweepOptions& options, const Structure::SegmentBody& body) override {
-    const SweepInProgress in_progress(*this, wanted);
-    const RelationSet faces = wanted & face_relations;
-    std::vector<SweepConsumer> consumers(std::max(options.threads, 0));
-    sweep(mesh().segments(), options, [&](int number, Id segment) {
-      SweepConsumer& consumer = consumers[number];
-      if (!consumer.ready) {
-        for (Leader* const leader : in_progress.leaders())
-          consumer.readers.emplace_back(*leader, in_progress.runs_ahead());
-        if (!faces.empty()) consumer.look_up = std::make_unique<HostWorker>(mesh(), faces);
-        consumer.ready = true;
-      }
-      SegmentRows rows = leaders_->rows_of(segment);
-      for (auto& reader : consumer.readers)
-        add_blocks(rows, reader.leader(), reader.read(segment, consumer.statistics));
-      if (consumer.look_up) consumer.look_up->compute(rows);
-      body(number, rows);
-      for (auto& reader : consumer.readers) reader.done();
-    });
-    for (const auto& one : consumers) leaders_->log.add(one.statistics);
-  }
-
-  std::unique_ptr<Consumer> consumer() override { return std::make_unique<RequestingConsumer>(leaders_); }
-
-  Way way() const override { return Way::leaders; }
-
-  RuntimeStatistics statistics() const override {
-    RuntimeStatistics all;
-    all.consumers = leaders_->log.all();
-    for (const auto& leader : leaders_->leaders) {
-      all.leaders.push_back(leader->statistics());
-      all.host_bytes += leader->host_bytes();
-      all.device_bytes += leader->device_bytes();
-    }
-    return all;
-  }
-
- private:
-  /// Has the leaders run ahead as long as it lives; a sweep inside or beside another asks for each segment instead.
-  class SweepInProgress {
-   public:
-    SweepInProgress(LeaderProduction& structure, RelationSet wanted)
-        : sweeping_(structure.sweeping_), runs_ahead_(!structure.sweeping_.exchange(true)) {
-      for (const auto& leader : structure.leaders_->leaders) {
-        for (const Relation relation : members_of(wanted)) {
-          if (!leader->relations().has(relation)) continue;
-          leaders_.push_back(leader.get());
-          break;
-        }
-      }
-      if (!runs_ahead_) return;
-      for (Leader* const leader : leaders_) leader->begin_sweep();
-    }
-    ~SweepInProgress() {
-      if (!runs_ahead_) return;
-      for (Leader* const leader : leaders_) leader->end_sweep();
-      sweeping_ = false;
-    }
-    SweepInProgress(const SweepInProgress&) = delete;
-    SweepInProgress& operator=(const SweepInProgress&) = delete;
-
-    const std::vector<Leader*>& leaders() const { return leaders_; }
-    bool runs_ahead() const { return runs_ahead_; }
-
-   private:
-    std::atomic<bool>& sweeping_;
-    const bool runs_ahead_;
-    std::vector<Leader*> leaders_;
-  };
-
-  /// What one consumer of a sweep works with.
-  struct alignas(64) SweepConsumer {
+  /// What one consumer works with; made by its thread.
+  struct alignas(64) Reader {
     bool ready = false;
-    ConsumerStatistics statistics;
-    std::vector<SweepReader> readers;     ///< one for each leader
-    std::unique_ptr<HostWorker> look_up;  ///< if face relations are wanted
+    std::vector<SweepReader> blocks;    ///< one for each leader
+    std::unique_ptr<HostWorker> faces;  ///< if face relations are wanted
   };
 
-  std::atomic<bool> sweeping_{false};
-  std::shared_ptr<Leaders> leaders_;
+  void prepare(Reader& reader) {
+    for (Leader* const leader : leaders_) reader.blocks.emplace_back(*leader, runs_ahead_);
+    if (!faces_.empty()) reader.faces = std::make_unique<HostWorker>(mesh_, faces_);
+    reader.ready = true;
+  }
+
+  const Mesh& mesh_;
+  const RelationSet faces_;
+  const std::vector<Leader*> leaders_;
+  std::atomic<bool>& sweeping_;
+  const bool runs_ahead_;
+  std::vector<Reader> readers_;
 };
 
-}  // namespace
+LeaderStructure::LeaderStructure(const Mesh& mesh, RelationSet relations, const StructureOptions& options)
+    : Structure(mesh, relations, Way::leaders), leaders_(std::make_shared<Leaders>(mesh, relations, options)) {}
 
-std::unique_ptr<RuntimeImplementation> by_leaders(const Mesh& mesh, RelationSet relations,
-                                                  const RuntimeOptions& options) {
-  return std::make_unique<LeaderProduction>(mesh, relations, options);
+LeaderStructure::~LeaderStructure() { leaders_->end(); }
+
+std::unique_ptr<Consumer> LeaderStructure::consumer() { return std::make_unique<RequestingConsumer>(leaders_, log()); }
+
+std::unique_ptr<Structure::Sweep> LeaderStructure::begin_sweep(RelationSet wanted, int consumers, const SegmentBody&) {
+  return std::make_unique<LeaderSweep>(*this, wanted, consumers);
+}
+
+void LeaderStructure::add_statistics(StructureStatistics& all) const {
+  for (const auto& leader : leaders_->all()) {
+    all.leaders.push_back(leader->statistics());
+    all.host_bytes += leader->host_bytes();
+    all.device_bytes += leader->device_bytes();
+    const std::int64_t on_host = all.leaders.back().segments_on_host;
+    if (on_host == 0) continue;
+    all.notices.push_back(std::to_string(on_host) + " segments of " + name_of(leader->relations()) +
+                          " didn't fit the device's memory: the host computed them");
+  }
 }
 
 }  // namespace gale::detail

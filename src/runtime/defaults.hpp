@@ -3,11 +3,11 @@
 #include <cstddef>
 
 #include <gale/mesh/mesh.hpp>
-#include <gale/runtime/options.hpp>
+#include <gale/runtime/structure_options.hpp>
 
 namespace gale::detail {
 
-/// RuntimeOptions, with what they leave open filled in; for one of the queues.
+/// StructureOptions, with what they leave open filled in; for one of the queues.
 struct Sizes {
   Offset batch_words = 0;      ///< of a batch and of the arena that takes its blocks
   std::size_t host_bytes = 0;  ///< for arenas
@@ -16,12 +16,12 @@ struct Sizes {
 };
 
 /// For each of `queues` queues. Throws gale::Error for an option below 0.
-Sizes sizes_for(const Mesh& mesh, const RuntimeOptions& options, int queues);
+Sizes sizes_for(const Mesh& mesh, const StructureOptions& options, int queues);
 
 /// Bytes for blocks on the host, of all queues or helpers together.
-std::size_t host_memory(const RuntimeOptions& options);
+std::size_t host_memory(const StructureOptions& options);
 
 /// Of a sweep, for consumers and helpers. Throws gale::Error for an option below 0.
-int cores(const RuntimeOptions& options);
+int cores(const StructureOptions& options);
 
 }  // namespace gale::detail

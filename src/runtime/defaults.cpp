@@ -1,4 +1,4 @@
-#include <gale/runtime/leaders/defaults.hpp>
+#include <gale/runtime/defaults.hpp>
 
 #ifdef __linux__
 #include <sched.h>
@@ -46,7 +46,7 @@ int given_or(int given, int otherwise, const char* name) {
 
 }  // namespace
 
-Sizes sizes_for(const Mesh& mesh, const RuntimeOptions& options, int queues) {
+Sizes sizes_for(const Mesh& mesh, const StructureOptions& options, int queues) {
   constexpr int warp = 32;
   const int threads_per_segment = given_or(options.threads_per_segment, 128, "threads per segment");
   const int threads_per_block = given_or(options.threads_per_block, 256, "threads per block");
@@ -64,10 +64,10 @@ Sizes sizes_for(const Mesh& mesh, const RuntimeOptions& options, int queues) {
   return sizes;
 }
 
-std::size_t host_memory(const RuntimeOptions& options) {
+std::size_t host_memory(const StructureOptions& options) {
   return options.host_memory == 0 ? default_host_memory() : options.host_memory;
 }
 
-int cores(const RuntimeOptions& options) { return given_or(options.cores, usable_cores(), "cores"); }
+int cores(const StructureOptions& options) { return given_or(options.cores, usable_cores(), "cores"); }
 
 }  // namespace gale::detail

@@ -1,17 +1,26 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
+#include <string>
 
 namespace gale {
 
-/// Who computes the relations of a segment.
+/// The ways to compute relations, each a `Structure`. None of them changes a result.
 enum class Way {
-  automatic,      ///< leaders where Kokkos has a device, else helpers
+  gale,           ///< leaders where the mesh is on a device, else helpers
   leaders,        ///< one leader thread a queue, which has batches computed in the workers' space, ahead of need
-  inline_,        ///< each consumer for itself, on the host: nothing is handed over and nobody waits
   helpers,        ///< inline, and in a sweep cores without a consumer compute ahead of those; nobody waits for another
+  inline_,        ///< each consumer computes what it misses, on the host: nothing is handed over and nobody waits
+  explicit_,      ///< everything at once, kept on the host (`GALE_ENABLE_KOKKOS_KERNELS`)
   task_parallel,  ///< on the host, a worker thread for each consumer of a sweep, which runs ahead of it, as in ACTOPO
 };
+
+/// "gale", "leaders", "helpers", "inline", "explicit" or "task-parallel": its name in the command and in reports.
+const char* name_of(Way way);
+
+/// The way of a name; nothing for any other.
+std::optional<Way> way_named(const std::string& name);
 
 /// One queue, and one leader with it, for what?
 enum class Queues {
@@ -19,9 +28,9 @@ enum class Queues {
   per_relation  ///< each relation has its own, as in the paper
 };
 
-/// How a `Runtime` works. 0 stands for a default that suits the backend; none of them changes a result.
-struct RuntimeOptions {
-  Way way = Way::automatic;
+/// How a structure works. 0 stands for a default that suits the backend; none of them changes a result.
+struct StructureOptions {
+  Way way = Way::gale;
   Queues queues = Queues::per_kernel;
 
   /// The paper's n_b, t_b and t_s: for each request, n_b * t_b / t_s segments are computed, the one asked for and those
@@ -35,8 +44,8 @@ struct RuntimeOptions {
   /// is too small for don't help.
   std::size_t host_memory = 0;
 
-  /// Without leaders, how many cores a sweep's consumers and helpers share: with as many consumers there is no helper.
-  /// By default all that the thread which begins the sweep may run on.
+  /// Of helpers: how many cores a sweep's consumers and helpers share. With as many consumers there is no helper. By
+  /// default all that the thread which begins the sweep may run on.
   int cores = 0;
 
   /// Bytes for batches on the device, for all queues together; by default three of 16 MiB each a queue.

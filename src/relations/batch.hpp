@@ -1,0 +1,60 @@
+#pragma once
+
+#include <gale/mesh/mesh.hpp>
+#include <gale/relations/segment_rows.hpp>
+
+namespace gale {
+
+/// Where the simplices of each dimension that are internal to a segment begin, by segment (I_V, I_E, I_F and I_T), for
+/// code that can read `Memory`. Null for what is not enumerated. Owns nothing.
+template <class Memory>
+struct IntervalTables {
+  const Id* begin[4] = {};
+
+  KOKKOS_FUNCTION Interval operator()(int dimension, Id segment) const {
+    return begin[dimension] == nullptr ? Interval()
+                                       : Interval{begin[dimension][segment], begin[dimension][segment + 1]};
+  }
+};
+
+/// Those of a mesh, on the host.
+IntervalTables<HostMemory> interval_tables(const Mesh& mesh);
+
+/// The blocks of some segments: what one run of a kernel leaves in `Memory`. A value that owns nothing; its rows are
+/// readable wherever `Memory` is, in kernels and on the host, as long as whoever made it keeps the arrays.
+///
+/// A segment of the batch is named by its slot, 0 to count - 1. It has all its blocks or, where the kernel lacked room,
+/// none.
+template <class Memory>
+struct Batch {
+  RelationSet relations;              ///< of which each segment has a block
+  Id count = 0;                       ///< segments
+  const Id* segments = nullptr;       ///< slot -> segment
+  const Offset* directory = nullptr;  ///< slot and relation -> where the block begins in `words`; below 0 if missing
+  const Id* words = nullptr;          ///< the blocks, see BlockLayout
+  IntervalTables<Memory> intervals;   ///< of the mesh
+
+  /// Are the blocks of a slot there?
+  KOKKOS_FUNCTION bool has(Id slot) const { return directory[Offset(slot) * relations.count()] >= 0; }
+
+  KOKKOS_FUNCTION Rows rows(Id slot, Relation relation) const {
+    return layout(slot, row_dimension(relation)).rows_in(block(slot, relations.index_of(relation)));
+  }
+  KOKKOS_FUNCTION LinkRows links(Id slot) const {
+    return layout(slot, 0).links_in(block(slot, relations.index_of_links()));
+  }
+
+ private:
+  KOKKOS_FUNCTION BlockLayout layout(Id slot, int dimension) const {
+    const Interval simplices = intervals(dimension, segments[slot]);
+    return {simplices.first, simplices.size()};
+  }
+  KOKKOS_FUNCTION const Id* block(Id slot, int index) const {
+    return words + directory[Offset(slot) * relations.count() + index];
+  }
+};
+
+/// Adds all rows that a batch has of a slot to those of its segment.
+void add_rows(const Batch<HostMemory>& batch, Id slot, SegmentRows& rows);
+
+}  // namespace gale

@@ -1,0 +1,65 @@
+#include <gale/base/error.hpp>
+#include <gale/baselines/task_parallel/task_parallel_structure.hpp>
+#include <gale/runtime/explicit/explicit_structure.hpp>
+#include <gale/runtime/helpers/helped_structure.hpp>
+#include <gale/runtime/inline/inline_structure.hpp>
+#include <gale/runtime/leaders/leader_structure.hpp>
+#include <gale/runtime/make_structure.hpp>
+
+namespace gale {
+
+namespace {
+
+struct NamedWay {
+  Way way;
+  const char* name;
+};
+
+constexpr NamedWay named_ways[] = {
+    {Way::gale, "gale"},      {Way::leaders, "leaders"},    {Way::helpers, "helpers"},
+    {Way::inline_, "inline"}, {Way::explicit_, "explicit"}, {Way::task_parallel, "task-parallel"},
+};
+
+std::unique_ptr<Structure> leaders_or_helpers(const Mesh& mesh, RelationSet wanted, const StructureOptions& options) {
+  if constexpr (have_device) {
+    return std::make_unique<detail::LeaderStructure>(mesh, wanted, options);
+  } else {
+    return std::make_unique<detail::HelpedStructure>(mesh, wanted, options);
+  }
+}
+
+}  // namespace
+
+const char* name_of(Way way) {
+  for (const NamedWay& named : named_ways) {
+    if (named.way == way) return named.name;
+  }
+  return "unknown";
+}
+
+std::optional<Way> way_named(const std::string& name) {
+  for (const NamedWay& named : named_ways) {
+    if (named.name == name) return named.way;
+  }
+  return std::nullopt;
+}
+
+std::unique_ptr<Structure> make_structure(const Mesh& mesh, RelationSet wanted, const StructureOptions& options) {
+  switch (options.way) {
+    case Way::gale:
+      return leaders_or_helpers(mesh, wanted, options);
+    case Way::leaders:
+      return std::make_unique<detail::LeaderStructure>(mesh, wanted, options);
+    case Way::helpers:
+      return std::make_unique<detail::HelpedStructure>(mesh, wanted, options);
+    case Way::inline_:
+      return std::make_unique<detail::InlineStructure>(mesh, wanted);
+    case Way::explicit_:
+      return std::make_unique<ExplicitStructure>(mesh, wanted);
+    case Way::task_parallel:
+      return std::make_unique<detail::TaskParallelStructure>(mesh, wanted);
+  }
+  throw Error("there is no such way of computing");
+}
+
+}  // namespace gale

@@ -1,0 +1,49 @@
+#include <algorithm>
+
+#include <gale/base/view_tracking.hpp>
+#include <gale/runtime/structure.hpp>
+#include <gale/runtime/sweep.hpp>
+
+namespace gale {
+
+Structure::Structure(const Mesh& mesh, RelationSet relations, Way way)
+    : mesh_(mesh), relations_(relations), way_(way), log_(std::make_shared<detail::ConsumerLog>()) {
+  if (relations.empty()) throw Error("a structure needs at least one relation to be preconditioned for");
+}
+
+Structure::~Structure() = default;
+
+Id Structure::count(int dimension) const {
+  switch (dimension) {
+    case 0:
+      return mesh_.vertices();
+    case 1:
+      return mesh_.known_edges();
+    case 2:
+      return mesh_.known_triangles();
+    default:
+      return mesh_.tetrahedra();
+  }
+}
+
+void Structure::for_each_segment(RelationSet wanted, const SweepOptions& options, const SegmentBody& body) {
+  require_preconditioned(relations_, wanted);
+  const SegmentBody untracked = [&body](int consumer, const SegmentRows& rows) {
+    const detail::UntrackedViews views;
+    body(consumer, rows);
+  };
+  const auto sweep = begin_sweep(wanted, std::max(options.threads, 0), untracked);
+  detail::sweep(mesh_.segments(), options,
+                [&](int consumer, Id segment) { sweep->visit(consumer, segment, untracked); });
+  sweep->end();
+  for (const ConsumerStatistics& one : sweep->statistics) log_->add(one);
+}
+
+StructureStatistics Structure::statistics() const {
+  StructureStatistics all;
+  all.consumers = log_->all();
+  add_statistics(all);
+  return all;
+}
+
+}  // namespace gale
