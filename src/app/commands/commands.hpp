@@ -1,17 +1,24 @@
 #pragma once
 
-#include <gale/app/options.hpp>
+#include <memory>
 
-// The subcommands. Each does what its name says with the input that the options name; throws gale::Error or UsageError.
+#include <gale/app/commands/command.hpp>
 
 namespace gale::app {
 
-void info(const Options& options);
-void segment(const Options& options);
-void critical_points(const Options& options);
-void discrete_gradient(const Options& options);
-void morse_smale(const Options& options);
-void relations(const Options& options);
-void generate(const Options& options);
+/// Adds a subcommand to the command line. `app` must outlive it.
+using AddCommand = std::unique_ptr<Command>(CLI::App& app);
+
+AddCommand add_info;
+AddCommand add_segment;
+AddCommand add_critical_points;
+AddCommand add_discrete_gradient;
+AddCommand add_morse_smale;
+AddCommand add_relations;
+AddCommand add_generate;
+
+/// All subcommands, in the order of the help.
+inline constexpr AddCommand* all_commands[] = {
+    add_info, add_segment, add_critical_points, add_discrete_gradient, add_morse_smale, add_relations, add_generate};
 
 }  // namespace gale::app

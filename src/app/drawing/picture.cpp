@@ -4,6 +4,7 @@
 
 #include <gale/app/console.hpp>
 #include <gale/app/drawing/picture.hpp>
+#include <gale/outputs/field.hpp>
 
 namespace gale::app {
 
@@ -20,7 +21,7 @@ std::vector<Point> to_points(const std::variant<io::Dataset::Points<float>, io::
   std::visit(
       [&](const auto& rows) {
         all.resize(rows.extent(0));
-        for (std::size_t i = 0; i < all.size(); ++i) all[i] = point_of(rows, static_cast<Id>(i));
+        for (std::size_t i = 0; i < all.size(); ++i) all[i] = {rows(i, 0), rows(i, 1), rows(i, 2)};
       },
       points);
   return all;
@@ -57,13 +58,13 @@ struct Octant {
 
 class Painter {
  public:
-  Painter(const io::Dataset& dataset, const MorseSmaleComplex& complex, const SimplexNumbers& numbers,
-          const Heights& heights)
+  Painter(const io::Dataset& dataset, const io::PointArray& field, const MorseSmaleComplex& complex,
+          const SimplexNumbers& numbers)
       : points_(to_points(dataset.points)),
         complex_(complex),
         mesh_(complex.gradient.mesh()),
         numbers_(numbers),
-        heights_(heights) {
+        field_(field) {
     measure();
   }
 
@@ -222,13 +223,13 @@ class Painter {
 
   void paint(const std::vector<Id>& vertices) {
     std::vector<double> all(mesh_.vertices());
-    for (std::size_t v = 0; v < all.size(); ++v) all[v] = heights_.value(static_cast<Id>(v));
+    for (std::size_t v = 0; v < all.size(); ++v) all[v] = outputs::value_at(field_, static_cast<Id>(v));
     std::sort(all.begin(), all.end());
     const double dark = all[all.size() / 20], bright = all[all.size() - 1 - all.size() / 100];
     for (const Id v : vertices) {
       const Id vertex = mesh_.vertex_input()(v);
       const double part = bright > dark && std::isfinite(bright - dark)
-                              ? std::clamp((heights_.value(vertex) - dark) / (bright - dark), 0.0, 1.0)
+                              ? std::clamp((outputs::value_at(field_, vertex) - dark) / (bright - dark), 0.0, 1.0)
                               : 1;
       scene_.skin.colors.push_back(color_of(vertex, 0.62 + 0.38 * part));
     }
@@ -252,7 +253,7 @@ class Painter {
   const MorseSmaleComplex& complex_;
   const Mesh mesh_;
   const SimplexNumbers& numbers_;
-  const Heights& heights_;
+  const io::PointArray& field_;
   Octant octant_{};
   double size_ = 0;
   Scene scene_;
@@ -260,9 +261,9 @@ class Painter {
 
 }  // namespace
 
-Scene picture_of(const io::Dataset& dataset, const MorseSmaleComplex& complex, const SimplexNumbers& numbers,
-                 const io::PointSet& critical, const io::Surface& separatrices1, const Heights& heights) {
-  return Painter(dataset, complex, numbers, heights).paint(critical, separatrices1);
+Scene picture_of(const io::Dataset& dataset, const io::PointArray& field, const MorseSmaleComplex& complex,
+                 const SimplexNumbers& numbers, const io::PointSet& critical, const io::Surface& separatrices1) {
+  return Painter(dataset, field, complex, numbers).paint(critical, separatrices1);
 }
 
 }  // namespace gale::app
