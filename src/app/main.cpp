@@ -17,7 +17,6 @@
 
 namespace {
 
-using gale::app::AddCommand;
 using gale::app::Command;
 using gale::app::UsageError;
 
@@ -74,7 +73,7 @@ void run(int argc, char** argv) {
   app.set_version_flag("--version", "gale " GALE_VERSION);
   app.require_subcommand(1);
   std::vector<std::unique_ptr<Command>> commands;
-  for (AddCommand* const add : gale::app::all_commands) commands.push_back(add(app));
+  for (const gale::app::AddCommand add : gale::app::all_commands) commands.push_back(add(app));
   if (!parse(app, argc, argv)) return;
   for (const auto& command : commands) {
     if (command->is_chosen()) run(*command);
