@@ -10,7 +10,7 @@ namespace gale::app {
 
 namespace {
 
-/// A line on the terminal, gone when its owner is: at the end of a sweep, or where one throws.
+/// A progress bar on the terminal. Its destructor erases it, so that it also goes when a sweep throws.
 class Bar {
  public:
   explicit Bar(const std::string& title) : title_(title) {}

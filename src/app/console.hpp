@@ -13,11 +13,11 @@ class Console {
  public:
   explicit Console(bool quiet) : quiet_(quiet) {}
 
-  /// One line: a name, padded, and a value.
+  /// Prints one line: a name, padded, and a value. Nothing when quiet.
   void say(const std::string& name, const std::string& value) const;
 
-  /// A bar with this title, on a terminal; nothing elsewhere. It is erased when all is done, or with the function. For
-  /// SweepOptions::progress.
+  /// For SweepOptions::progress: on a terminal a function that draws a bar with this title, elsewhere none. The bar is
+  /// erased when all is done, or when the last copy of the function goes.
   std::function<void(Id done, Id all)> progress(const std::string& title) const;
 
  private:

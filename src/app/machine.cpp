@@ -43,7 +43,7 @@ std::optional<std::int64_t> device_peak_bytes() {
 }
 
 void watch_device_memory() {
-  // A loaded Kokkos Tool has these callbacks already: it knows better than we.
+  // A Kokkos Tool that the user has loaded needs these callbacks for itself.
   if (!have_device || Kokkos::Tools::profileLibraryLoaded()) return;
   Kokkos::Tools::Experimental::set_allocate_data_callback(on_allocation);
   Kokkos::Tools::Experimental::set_deallocate_data_callback(on_deallocation);

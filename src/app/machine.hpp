@@ -6,16 +6,17 @@
 
 namespace gale::app {
 
-/// Most memory that this process has had resident so far, in bytes.
+/// The most memory that this process has had resident so far, in bytes.
 std::int64_t host_peak_bytes();
 
-/// Most memory that Kokkos has had allocated on the device since watch_device_memory(); nothing without a device.
+/// The most memory that Kokkos has had allocated on the device since watch_device_memory(), in bytes; nothing without a
+/// device.
 std::optional<std::int64_t> device_peak_bytes();
 
-/// To be called right after Kokkos is initialized.
+/// Begins to count what Kokkos allocates on the device. To be called right after Kokkos is initialized.
 void watch_device_memory();
 
-/// "NVIDIA H200"; nothing without a device.
+/// The device's name, such as "NVIDIA H200"; nothing without a device.
 std::optional<std::string> device_name();
 
 }  // namespace gale::app

@@ -2,21 +2,27 @@
 #include <cstdlib>
 #include <exception>
 #include <iostream>
-#include <map>
+#include <memory>
 #include <string>
+#include <vector>
 
+#include <CLI/CLI.hpp>
 #include <Kokkos_Core.hpp>
 
 #include <gale/app/commands/commands.hpp>
 #include <gale/app/machine.hpp>
+#include <gale/app/usage_error.hpp>
 #include <gale/base/memory.hpp>
 #include <gale/base/threads.hpp>
 
 namespace {
 
+using gale::app::Command;
+using gale::app::UsageError;
+
 enum ExitCode { done = 0, failed = 1, wrong_usage = 2 };
 
-/// One line, whatever the message.
+/// Prints one line, whatever the message.
 int complain(ExitCode code, std::string what) {
   for (char& c : what) {
     if (c == '\n' || c == '\r') c = ' ';
@@ -25,20 +31,53 @@ int complain(ExitCode code, std::string what) {
   return code;
 }
 
-void run(const gale::app::Options& options) {
-  static const std::map<std::string, void (*)(const gale::app::Options&)> commands = {
-      {"info", gale::app::info},
-      {"segment", gale::app::segment},
-      {"critical-points", gale::app::critical_points},
-      {"discrete-gradient", gale::app::discrete_gradient},
-      {"morse-smale", gale::app::morse_smale},
-      {"relations", gale::app::relations},
-      {"generate", gale::app::generate}};
-  if (options.threads) gale::set_host_threads(*options.threads);
+std::string commands_of(const CLI::App& app) {
+  std::string names;
+  for (const CLI::App* const command : app.get_subcommands([](const CLI::App*) { return true; }))
+    names += (names.empty() ? "" : ", ") + command->get_name();
+  return "the commands are " + names;
+}
+
+/// What is wrong where no command was recognized.
+std::string without_command(const CLI::App& app, int argc, char** argv) {
+  const std::string first = argc > 1 ? argv[1] : "";
+  if (first.empty()) return "no command: " + commands_of(app);
+  if (first[0] == '-') return "no command before '" + first + "': " + commands_of(app);
+  return "unknown command '" + first + "': " + commands_of(app);
+}
+
+/// Parses the command line into the options of the command that it names. False if it only asked for help or the
+/// version, which are printed then. Throws UsageError.
+bool parse(CLI::App& app, int argc, char** argv) {
+  try {
+    app.parse(argc, argv);
+    return true;
+  } catch (const CLI::Success& success) {
+    app.exit(success);
+    return false;
+  } catch (const CLI::ParseError& error) {
+    throw UsageError(app.get_subcommands().empty() ? without_command(app, argc, argv) : error.what());
+  }
+}
+
+void run(const Command& command) {
+  if (command.common().threads) gale::set_host_threads(*command.common().threads);
   setenv("KOKKOS_DISABLE_WARNINGS", "1", 0);  // such as on thread binding, which is not what standard error is for
   const Kokkos::ScopeGuard kokkos;
   gale::app::watch_device_memory();
-  commands.at(options.command)(options);
+  command.run();
+}
+
+void run(int argc, char** argv) {
+  CLI::App app("Topological analysis of large tetrahedral meshes", "gale");
+  app.set_version_flag("--version", "gale " GALE_VERSION);
+  app.require_subcommand(1);
+  std::vector<std::unique_ptr<Command>> commands;
+  for (const gale::app::AddCommand add : gale::app::all_commands) commands.push_back(add(app));
+  if (!parse(app, argc, argv)) return;
+  for (const auto& command : commands) {
+    if (command->is_chosen()) run(*command);
+  }
 }
 
 /// Whether all that went to standard output has arrived: a disk may be full, a descriptor closed.
@@ -48,10 +87,9 @@ bool output_arrived() { return std::cout.flush() && std::fflush(stdout) == 0 && 
 
 int main(int argc, char** argv) {
   try {
-    const auto options = gale::app::parse_command_line(argc, argv);
-    if (options) run(*options);
+    run(argc, argv);
     return output_arrived() ? done : complain(failed, "cannot write to standard output");
-  } catch (const gale::app::UsageError& error) {
+  } catch (const UsageError& error) {
     return complain(wrong_usage, error.what());
   } catch (const gale::OutOfMemory& error) {
     return complain(failed, error.what());

@@ -10,7 +10,7 @@ namespace gale::app {
 
 namespace {
 
-/// Runs `use`; names `path` in whatever goes wrong.
+/// Calls use(file) with a temporary file beside `path`. Throws gale::Error, naming the path, for whatever goes wrong.
 template <class Use>
 void with_file(const std::string& path, const Use& use) {
   try {

@@ -10,7 +10,7 @@
 
 namespace gale::app {
 
-/// Seconds of the parts of a command. `total` counts from the mesh in memory to the result in memory.
+/// How many seconds the parts of a command took. `total` counts from the mesh in memory to the result in memory.
 struct Seconds {
   double read = 0, segment = 0, initialize = 0, run = 0, write = 0;
   double total() const { return segment + initialize + run; }
@@ -29,7 +29,7 @@ class Stopwatch {
   std::chrono::steady_clock::time_point begin_;
 };
 
-/// What `--report` writes: the schema is the README's.
+/// What `--report` writes; the README has the schema.
 struct Report {
   std::string input;
   int threads = 0;

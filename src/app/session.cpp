@@ -1,10 +1,10 @@
-#include <charconv>
 #include <filesystem>
-#include <random>
 
 #include <gale/app/machine.hpp>
+#include <gale/app/make_segmentation.hpp>
 #include <gale/app/output_file.hpp>
 #include <gale/app/session.hpp>
+#include <gale/app/usage_error.hpp>
 #include <gale/base/error.hpp>
 #include <gale/io/read.hpp>
 #include <gale/io/vtk/vtk_files.hpp>
@@ -14,9 +14,7 @@ namespace gale::app {
 
 namespace {
 
-constexpr int default_capacity = 100;
-
-/// Throws UsageError if two of the files, those that aren't empty, are one.
+/// Throws UsageError if two of the files, of those that aren't empty, are the same.
 void require_distinct(const std::vector<std::string>& files) {
   const auto plain = [](const std::string& file) {
     return std::filesystem::weakly_canonical(std::filesystem::absolute(file));
@@ -29,124 +27,79 @@ void require_distinct(const std::vector<std::string>& files) {
   }
 }
 
-/// K of "random:K", or nothing. Throws UsageError if there is something else in its place.
-std::optional<std::int64_t> random_segments(const std::string& segments) {
-  const std::string prefix = "random:";
-  if (segments.rfind(prefix, 0) != 0) return std::nullopt;
-  std::int64_t count = 0;
-  const char* const end = segments.data() + segments.size();
-  const auto parsed = std::from_chars(segments.data() + prefix.size(), end, count);
-  if (parsed.ec != std::errc() || parsed.ptr != end || count < 1)
-    throw UsageError("--segments " + segments + ": random:K takes a whole number K of at least 1");
-  return count;
-}
-
-/// Each vertex in one of `count` segments, by no rule: the worst that a segmentation can be.
-Segmentation scattered(std::size_t vertices, std::int64_t count) {
-  std::vector<std::int64_t> labels(vertices);
-  std::mt19937_64 random(1);
-  for (auto& label : labels) label = static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(count));
-  return given_segmentation(Array<const std::int64_t, HostMemory>(labels.data(), labels.size()));
-}
-
-std::size_t point_count(const io::Dataset& dataset) {
-  return std::visit([](const auto& points) { return points.extent(0); }, dataset.points);
-}
-
-Segmentation octree(const io::Dataset& dataset, int capacity) {
-  return std::visit(
-      [&](const auto& points) {
-        using Coordinate = typename std::decay_t<decltype(points)>::non_const_value_type;
-        return octree_segmentation<Coordinate, HostMemory>(Points<Coordinate, HostMemory>(points), capacity);
-      },
-      dataset.points);
-}
-
 }  // namespace
 
-Session::Session(const Options& options, const std::vector<std::string>& files)
-    : options_(options), console_(options.quiet) {
-  report_.input = options.input;
-  random_segments(options.segments);
-  std::vector<std::string> all = files;
-  all.insert(all.end(), {options.input, options.dump, options.report});
-  require_distinct(all);
+Session::Session(const InputOptions& input, const CommonOptions& common, const std::vector<std::string>& vtk_files,
+                 const std::vector<std::string>& text_files)
+    : input_(input), common_(common), console_(common.quiet) {
+  report_.input = input.input;
   report_.threads = host_threads();
-  // Found out now rather than after the work.
-  for (const auto& file : files) {
+  std::vector<std::string> texts = text_files;
+  texts.push_back(common.report);
+  std::vector<std::string> all = vtk_files;
+  all.push_back(input.input);
+  all.insert(all.end(), texts.begin(), texts.end());
+  require_distinct(all);
+  for (const auto& file : vtk_files) {
     if (file.empty()) continue;
     if (!io::detail::has_vtk()) throw Error("this gale was built without VTK: it cannot write '" + file + "'");
     require_writable(file);
   }
-  if (!options.dump.empty()) require_writable(options.dump);
-  if (!options.report.empty()) require_writable(options.report);
+  for (const auto& file : texts) {
+    if (!file.empty()) require_writable(file);
+  }
 }
 
-io::Dataset Session::read() {
+io::Dataset Session::read_any() {
   io::Dataset dataset;
   {
     const Stopwatch watch(report_.seconds.read);
-    dataset = io::read(options_.input, options_.read);
+    dataset = io::read(input_.input, input_.read);
   }
-  report_.vertices = static_cast<std::int64_t>(point_count(dataset));
+  report_.vertices = std::visit([](const auto& points) { return std::int64_t(points.extent(0)); }, dataset.points);
   report_.tetrahedra = static_cast<std::int64_t>(dataset.tetrahedra.extent(0));
-  console_.say("input", options_.input);
+  console_.say("input", input_.input);
   for (const auto& notice : dataset.notices) console_.say("note", notice);
   console_.say("vertices", grouped(*report_.vertices));
   console_.say("tetrahedra", grouped(*report_.tetrahedra));
-  if (!options_.array.empty()) select_field(dataset, options_.array);  // whoever uses it: it must be there
   return dataset;
 }
 
-const io::PointArray* Session::given_segments(const io::Dataset& dataset) const {
-  if (!options_.segments.empty()) return &select_segments(dataset, options_.segments);
-  if (options_.capacity) return nullptr;
-  std::vector<std::string> ignored;
-  const io::PointArray* const segments = find_segments(dataset, ignored);
-  for (const auto& name : ignored)
-    console_.say("note", "array " + name + " isn't one whole number a point: not used as segments");
-  return segments;
+io::Dataset Session::read() {
+  io::Dataset dataset = read_any();
+  if (!input_.read.array.empty()) outputs::select_field(dataset, input_.read.array);
+  return dataset;
 }
 
-Segmentation Session::segment(const io::Dataset& dataset) {
-  if (const auto count = random_segments(options_.segments)) return scattered(point_count(dataset), *count);
-  const io::PointArray* const given = given_segments(dataset);
-  if (given == nullptr) return octree(dataset, options_.capacity.value_or(default_capacity));
-  const auto labels = labels_of(*given);
-  console_.say("segments from", "array " + given->name);
-  return given_segmentation(Array<const std::int64_t, HostMemory>(labels.data(), labels.size()));
-}
-
-Mesh Session::encode(io::Dataset& dataset, Keep keep) {
-  Segmentation segmentation;
+Mesh Session::encode(io::Dataset& dataset, const SegmentationOptions& segmentation, Keep keep) {
+  Segmentation segments;
   {
     const Stopwatch watch(report_.seconds.segment);
-    segmentation = segment(dataset);
+    segments = make_segmentation(dataset, segmentation, console_);
   }
   const Stopwatch watch(report_.seconds.initialize);
-  Mesh mesh(Tetrahedra<Id, HostMemory>(dataset.tetrahedra), segmentation);
+  Mesh mesh(Tetrahedra<Id, HostMemory>(dataset.tetrahedra), segments);
   if (keep == Keep::nothing) dataset.tetrahedra = {};
   report_.segments = mesh.segments();
   console_.say("segments", grouped(mesh.segments()));
   return mesh;
 }
 
-FieldOnMesh Session::read_field(Keep keep) {
-  io::Dataset dataset = read();
-  const io::PointArray field = select_field(dataset, options_.array);
+FieldOnMesh Session::read_field(const SegmentationOptions& segmentation, Keep keep) {
+  io::Dataset dataset = read_any();
+  io::PointArray field = outputs::select_field(dataset, input_.read.array);
   console_.say("field", field.name);
-  const Mesh mesh = encode(dataset, keep);
+  const Mesh mesh = encode(dataset, segmentation, keep);
   const Stopwatch watch(report_.seconds.initialize);
-  const VertexOrder order = order_of(mesh, dataset, field);
-  return {std::move(dataset), mesh, order};
+  const VertexOrder order = outputs::order_of(mesh, dataset, field);
+  return {std::move(dataset), mesh, std::move(field), order};
 }
 
-std::unique_ptr<Structure> Session::make_structure(const Mesh& mesh, RelationSet relations) {
+std::unique_ptr<Structure> Session::make_structure(const StructureOption& option, const Mesh& mesh,
+                                                   RelationSet relations) {
   const Stopwatch watch(report_.seconds.initialize);
-  report_.structure = options_.structure;
-  StructureOptions structure = options_.runtime;
-  structure.way = *way_named(options_.structure);
-  return gale::make_structure(mesh, relations, structure);
+  report_.structure = option.name;
+  return option.make(mesh, relations);
 }
 
 SweepOptions Session::sweep(const std::string& title) const {
@@ -156,43 +109,16 @@ SweepOptions Session::sweep(const std::string& title) const {
   return sweep;
 }
 
-void Session::count_simplices(const Structure& structure) {
-  const auto tell = [this](const char* name, Id count, std::optional<std::int64_t>& reported) {
-    if (count == no_id) return;
-    reported = count;
-    console_.say(name, grouped(count));
-  };
-  tell("edges", structure.count(1), report_.edges);
-  tell("triangles", structure.count(2), report_.triangles);
-}
-
 void Session::finish(const Structure* structure) {
-  if (structure != nullptr) {
-    report_.way = name_of(structure->way());
-    if (structure->way() != Way::explicit_) report_.statistics = structure->statistics();
-    count_simplices(*structure);
-  }
+  if (structure != nullptr) report_structure(*structure, report_);
+  if (report_.edges) console_.say("edges", grouped(*report_.edges));
+  if (report_.triangles) console_.say("triangles", grouped(*report_.triangles));
   const Seconds& times = report_.seconds;
   console_.say("time", seconds(times.total()) + " (segment " + seconds(times.segment) + ", initialize " +
                            seconds(times.initialize) + ", run " + seconds(times.run) + "); read " +
                            seconds(times.read));
   console_.say("memory", bytes(static_cast<double>(host_peak_bytes())) + " at most");
-  if (!options_.report.empty()) write_report(options_.report, report_);
-}
-
-void require_extension(const Options& options, const std::string& option, const std::string& file,
-                       std::initializer_list<const char*> extensions) {
-  if (file.empty()) return;
-  std::string list;
-  for (const std::string extension : extensions) {
-    if (io::detail::format_of(file) == io::detail::format_of("any" + extension)) return;
-    list += (list.empty() ? "" : " or ") + extension;
-  }
-  throw UsageError(option + ' ' + file + ": gale " + options.command + " writes " + list);
-}
-
-void require_extension(const Options& options, std::initializer_list<const char*> extensions) {
-  require_extension(options, "--output", options.output, extensions);
+  if (!common_.report.empty()) write_report(common_.report, report_);
 }
 
 }  // namespace gale::app

@@ -9,7 +9,7 @@ namespace {
 
 using HostSpace = Kokkos::DefaultHostExecutionSpace;
 
-/// How many of `sorted` have a lower input id.
+/// How many simplices of `sorted`, which are by ascending input id, have a lower one than `id`.
 Id count_before(const std::vector<Id>& sorted, const Id* input, Id id) {
   const auto at = std::lower_bound(sorted.begin(), sorted.end(), id,
                                    [input](Id simplex, Id other) { return input[simplex] < other; });
@@ -42,8 +42,8 @@ class Arrows {
   }
 
  private:
-  /// Where the arrows of the edges with each higher vertex begin among those of all edges, by input id; how many there
-  /// are.
+  /// Finds where the arrows of each vertex's lower edges begin among those of all edges, by input id. Returns how many
+  /// arrows edges have.
   Id place_edges() {
     const Id* const internal = mesh_.vertex_internal().data();
     const auto count = [&](Offset i) {
@@ -90,13 +90,13 @@ class Arrows {
     });
   }
 
-  /// From a simplex to the one that has one vertex more.
+  /// An arrow from a simplex to its partner, which has the vertex `more` besides.
   template <std::size_t N>
   void draw(Id place, const std::array<Id, N>& simplex, Id more) {
     std::array<Id, N + 1> partner;
     std::copy(simplex.begin(), simplex.end(), partner.begin());
     partner[N] = more;
-    const Point tail = barycentre(points_, simplex), head = barycentre(points_, partner);
+    const detail::Point tail = detail::barycentre(points_, simplex), head = detail::barycentre(points_, partner);
     for (int axis = 0; axis < 3; ++axis) {
       tails_(place, axis) = static_cast<Coordinate>(tail[axis]);
       vectors_[3 * std::size_t(place) + axis] = static_cast<Coordinate>(head[axis] - tail[axis]);

@@ -1,4 +1,5 @@
 #include <gale/io/arrays.hpp>
+#include <gale/outputs/corners.hpp>
 #include <gale/outputs/critical_simplices.hpp>
 #include <gale/outputs/positions.hpp>
 
@@ -6,21 +7,22 @@ namespace gale::outputs {
 
 namespace {
 
-/// Names simplices of a mesh.
+/// Names simplices of a mesh as users know them.
 class Namer {
  public:
   Namer(const DiscreteGradient& gradient, const SimplexNumbers& numbers)
       : input_(gradient.mesh().vertex_input().data()), keys_(gradient.order().keys()), numbers_(numbers) {}
 
-  /// Of vertices from the highest to the lowest.
+  /// `simplex` are its vertices (GALE's ids) from the highest to the lowest; `cell` is its CellId.
   template <std::size_t N>
   CriticalSimplex name(const std::array<Id, N>& simplex, Id cell) const {
     CriticalSimplex named{cell, {}, N - 1, static_cast<std::int8_t>(numbers_.on_surface(simplex[0]))};
-    for (std::size_t i = 0; i < N; ++i) named.vertices[i] = input_[simplex[i]];
+    const std::array<Id, N> vertices = detail::to_input(input_, simplex);
+    std::copy(vertices.begin(), vertices.end(), named.vertices.begin());
     return named;
   }
 
-  /// Of vertices in any order.
+  /// The vertices of a tetrahedron may come in any order.
   CriticalSimplex name_tetrahedron(std::array<Id, 4> simplex, Id cell) const {
     std::sort(simplex.begin(), simplex.end(), [this](Id a, Id b) { return keys_[a] > keys_[b]; });
     return name(simplex, cell);
@@ -33,17 +35,17 @@ class Namer {
 };
 
 template <class Coordinate>
-Point middle_of(const io::Dataset::Points<Coordinate>& points, const CriticalSimplex& simplex) {
+detail::Point middle_of(const io::Dataset::Points<Coordinate>& points, const CriticalSimplex& simplex) {
   const auto& v = simplex.vertices;
   switch (simplex.dimension) {
     case 0:
-      return position_of(points, std::array<Id, 1>{v[0]});
+      return detail::position_of(points, std::array<Id, 1>{v[0]});
     case 1:
-      return position_of(points, std::array<Id, 2>{v[0], v[1]});
+      return detail::position_of(points, std::array<Id, 2>{v[0], v[1]});
     case 2:
-      return position_of(points, std::array<Id, 3>{v[0], v[1], v[2]});
+      return detail::position_of(points, std::array<Id, 3>{v[0], v[1], v[2]});
     default:
-      return position_of(points, v);
+      return detail::position_of(points, v);
   }
 }
 
@@ -59,11 +61,8 @@ KnownSimplices known_simplices(const DiscreteGradient& gradient, const CriticalS
     known[1].push_back(namer.name(critical.edges[i], numbers.edges[i]));
   for (std::size_t i = 0; i < critical.triangles.size(); ++i)
     known[2].push_back(namer.name(critical.triangles[i], numbers.triangles[i]));
-  const auto& all = mesh.host().tetrahedra;
-  for (const Id t : critical.tetrahedra) {
-    known[3].push_back(
-        namer.name_tetrahedron({all(t, 0), all(t, 1), all(t, 2), all(t, 3)}, mesh.tetrahedron_input()(t)));
-  }
+  for (const Id t : critical.tetrahedra)
+    known[3].push_back(namer.name_tetrahedron(detail::corners_of(mesh, t), mesh.tetrahedron_input()(t)));
   return known;
 }
 
@@ -73,8 +72,8 @@ io::PointSet to_point_set(const io::Dataset& dataset, const KnownSimplices& simp
   for (const auto& some : simplices) all.insert(all.end(), some.begin(), some.end());
   std::visit(
       [&](const auto& points) {
-        std::decay_t<decltype(points)> positions("positions", all.size());
-        for (std::size_t i = 0; i < all.size(); ++i) store(middle_of(points, all[i]), positions, i);
+        std::decay_t<decltype(points)> positions("GALE::critical_simplices", all.size());
+        for (std::size_t i = 0; i < all.size(); ++i) detail::store(middle_of(points, all[i]), positions, i);
         set.points = positions;
       },
       dataset.points);

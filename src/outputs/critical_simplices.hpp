@@ -8,25 +8,29 @@ namespace gale::outputs {
 
 /// A critical simplex as users know it.
 struct CriticalSimplex {
-  Id cell;                     ///< its CellId
-  std::array<Id, 4> vertices;  ///< input ids, from the highest to the lowest
-  std::int8_t dimension;       ///< has one vertex more
-  std::int8_t on_surface;      ///< its highest vertex
+  Id cell;                     ///< its CellId: the input id of a vertex or tetrahedron, else as in `SimplexNumbers`
+  std::array<Id, 4> vertices;  ///< input ids, from the highest to the lowest; the first dimension + 1 count
+  std::int8_t dimension;       ///< 0 to 3
+  std::int8_t on_surface;      ///< 1 if its highest vertex is on the mesh's surface, else 0
 
   Id highest() const { return vertices[0]; }
   Id lowest() const { return vertices[dimension]; }
 };
 
-/// The critical simplices of each dimension, by ascending CellId: as in `critical`.
+/// The critical simplices of each dimension, each in the order of the `CriticalSimplices` that they are made from: by
+/// ascending CellId.
 using KnownSimplices = std::array<std::vector<CriticalSimplex>, 4>;
 
-/// `critical` are some of the gradient's; `numbers` begin with those of its edges and triangles.
+/// `critical` is what the gradient left unpaired, or what `simplify` left of that. `numbers` begin with those of
+/// `critical.edges` and `critical.triangles`, in their order; more may follow (`named_simplices`).
 KnownSimplices known_simplices(const DiscreteGradient& gradient, const CriticalSimplices& critical,
                                const SimplexNumbers& numbers);
 
-/// All of them as points: dimension by dimension. Their positions are vertices, the middles of edges, the incentres of
-/// triangles and the barycentres of tetrahedra. Each has the input's point arrays at its highest vertex, then
-/// CellDimension, CellId, IsOnBoundary and ttkVertexScalarField.
+/// All of them as points, dimension by dimension. They are at vertices, the middles of edges, the incentres of
+/// triangles and the barycentres of tetrahedra, rounded to the type of the input's coordinates. Each has the input's
+/// point arrays at its highest vertex, then CellDimension (int8), CellId (int32), IsOnBoundary (int8) and
+/// ttkVertexScalarField (int32, the input id of its highest vertex). Throws gale::Error for a vertex that an array of
+/// the dataset has no value for.
 io::PointSet to_point_set(const io::Dataset& dataset, const KnownSimplices& simplices);
 
 }  // namespace gale::outputs

@@ -1,25 +1,17 @@
 #include <gale/base/error.hpp>
 #include <gale/io/arrays.hpp>
 #include <gale/outputs/field.hpp>
+#include <gale/outputs/find_array.hpp>
+#include <gale/outputs/segmentation.hpp>
 
 namespace gale::outputs {
 
 namespace {
 
+using detail::find_array;
+using detail::names_of_arrays;
+
 const std::string order_suffix = "_Order";
-
-const io::PointArray* find(const io::Dataset& dataset, const std::string& name) {
-  for (const auto& array : dataset.arrays) {
-    if (array.name == name) return &array;
-  }
-  return nullptr;
-}
-
-std::string names_of(const io::Dataset& dataset) {
-  std::string names;
-  for (const auto& array : dataset.arrays) names += (names.empty() ? "" : ", ") + array.name;
-  return names.empty() ? "the input has no point arrays" : "the input has " + names;
-}
 
 bool ends_with(const std::string& text, const std::string& end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
@@ -29,20 +21,20 @@ bool is_segments(const io::PointArray& array) {
   return (array.name == segments_name || array.name == ttk_segments_name) && holds_segments(array);
 }
 
-/// NAME_K, taken apart; nullptr if it isn't that, or there is no such array.
+/// The array NAME where `name` is NAME_K, and K; nullptr if it isn't of that form, or there is no such array.
 const io::PointArray* find_component(const io::Dataset& dataset, const std::string& name, int& component) {
   const auto bar = name.rfind('_');
   if (bar == std::string::npos || bar + 1 == name.size() || name.size() - bar > 9) return nullptr;
   if (name.find_first_not_of("0123456789", bar + 1) != std::string::npos) return nullptr;
   component = std::stoi(name.substr(bar + 1));
-  return find(dataset, name.substr(0, bar));
+  return find_array(dataset, name.substr(0, bar));
 }
 
 io::PointArray first_field(const io::Dataset& dataset) {
   for (const auto& array : dataset.arrays) {
     if (array.components == 1 && !is_segments(array) && !ends_with(array.name, order_suffix)) return array;
   }
-  throw Error("no point array to analyse: " + names_of(dataset));
+  throw Error("no point array to analyse: " + names_of_arrays(dataset));
 }
 
 void check_permutation(const io::PointArray& order, std::size_t count) {
@@ -67,7 +59,7 @@ void check_permutation(const io::PointArray& order, std::size_t count) {
 
 io::PointArray select_field(const io::Dataset& dataset, const std::string& name) {
   if (name.empty()) return first_field(dataset);
-  if (const auto* const array = find(dataset, name)) {
+  if (const auto* const array = find_array(dataset, name)) {
     if (array->components == 1) return *array;
     throw Error("array '" + name + "' has " + std::to_string(array->components) + " components: name one, as " + name +
                 "_0");
@@ -75,56 +67,16 @@ io::PointArray select_field(const io::Dataset& dataset, const std::string& name)
   int component = 0;
   const auto* const array = find_component(dataset, name, component);
   if (array == nullptr || component >= array->components)
-    throw Error("no point array '" + name + "': " + names_of(dataset));
+    throw Error("no point array '" + name + "': " + names_of_arrays(dataset));
   return io::extract_component(*array, component);
 }
 
 VertexOrder order_of(const Mesh& mesh, const io::Dataset& dataset, const io::PointArray& field) {
-  const auto* order = find(dataset, field.name + order_suffix);
+  const auto* order = find_array(dataset, field.name + order_suffix);
   if (order != nullptr && order->components != 1) order = nullptr;
   if (order != nullptr) check_permutation(*order, mesh.vertices());
   return std::visit([&](const auto& values) { return VertexOrder(mesh, values.data(), values.size()); },
                     order != nullptr ? order->values : field.values);
-}
-
-bool holds_segments(const io::PointArray& array) {
-  const auto whole = [](const auto& values) {
-    return std::is_integral_v<typename std::decay_t<decltype(values)>::value_type>;
-  };
-  return array.components == 1 && std::visit(whole, array.values);
-}
-
-const io::PointArray& select_segments(const io::Dataset& dataset, const std::string& name) {
-  const auto* const array = find(dataset, name);
-  if (array == nullptr) throw Error("no point array '" + name + "' with segments: " + names_of(dataset));
-  return *array;
-}
-
-const io::PointArray* find_segments(const io::Dataset& dataset, std::vector<std::string>& ignored) {
-  for (const auto* const name : {segments_name, ttk_segments_name}) {
-    const auto* const array = find(dataset, name);
-    if (array == nullptr) continue;
-    if (holds_segments(*array)) return array;
-    ignored.push_back(name);
-  }
-  return nullptr;
-}
-
-std::vector<std::int64_t> labels_of(const io::PointArray& segments) {
-  if (segments.components != 1) {
-    throw Error("array '" + segments.name + "' has " + std::to_string(segments.components) +
-                " components: segments are one label a point");
-  }
-  return std::visit(
-      [&](const auto& values) -> std::vector<std::int64_t> {
-        using Value = typename std::decay_t<decltype(values)>::value_type;
-        if constexpr (std::is_floating_point_v<Value>) {
-          throw Error("array '" + segments.name + "' is of floating-point numbers: segments are whole numbers");
-        } else {
-          return {values.begin(), values.end()};
-        }
-      },
-      segments.values);
 }
 
 }  // namespace gale::outputs

@@ -1,31 +1,29 @@
 #pragma once
 
-#include <gale/algorithms/vertex_order.hpp>
-#include <gale/io/dataset.hpp>
+#include <gale/algorithms/discrete_gradient.hpp>
+#include <gale/outputs/field.hpp>
 
-namespace gale::outputs {
+namespace gale::outputs::detail {
 
-/// A field at input vertices, and its order. Refers to what it is made from.
+/// A field's values and order at input vertices. Refers to the field and to the gradient's arrays.
 class Heights {
  public:
-  Heights(const Mesh& mesh, const VertexOrder& order, const io::PointArray& field)
-      : internal_(mesh.vertex_internal().data()), order_(order), field_(field) {}
+  Heights(const DiscreteGradient& gradient, const io::PointArray& field)
+      : internal_(gradient.mesh().vertex_internal().data()), keys_(gradient.order().keys()), field_(field) {}
 
-  double value(Id vertex) const {
-    return std::visit([vertex](const auto& values) { return static_cast<double>(values[vertex]); }, field_.values);
-  }
+  double value(Id vertex) const { return value_at(field_, vertex); }
 
-  /// Of two values, 0 where they are the same infinity.
+  /// Of two values; 0 where both are the same infinity.
   static double difference(double high, double low) { return high == low ? 0 : high - low; }
 
-  bool is_below(Id a, Id b) const { return order_.keys()[internal_[a]] < order_.keys()[internal_[b]]; }
+  bool is_below(Id a, Id b) const { return keys_[internal_[a]] < keys_[internal_[b]]; }
   Id higher(Id a, Id b) const { return is_below(a, b) ? b : a; }
   Id lower(Id a, Id b) const { return is_below(a, b) ? a : b; }
 
  private:
   const Id* internal_;
-  const VertexOrder& order_;
+  const std::uint64_t* keys_;
   const io::PointArray& field_;
 };
 
-}  // namespace gale::outputs
+}  // namespace gale::outputs::detail

@@ -7,10 +7,10 @@
 #include <gale/base/types.hpp>
 #include <gale/io/dataset.hpp>
 
-// Where simplices are drawn. They are named by their input vertices, in any order: what comes out depends on the order
-// by no bit.
+// Where simplices are drawn. A simplex is given by its input vertices, in any order: the position is the same, to the
+// last bit, in whichever order they come.
 
-namespace gale::outputs {
+namespace gale::outputs::detail {
 
 using Point = std::array<double, 3>;
 
@@ -30,7 +30,7 @@ Point barycentre(const io::Dataset::Points<Coordinate>& points, std::array<Id, N
   return sum;
 }
 
-/// The centre of the circle that touches a triangle's sides.
+/// The centre of the circle that touches a triangle's sides; the first corner where all three are one point.
 template <class Coordinate>
 Point incentre(const io::Dataset::Points<Coordinate>& points, std::array<Id, 3> triangle) {
   std::sort(triangle.begin(), triangle.end());
@@ -58,9 +58,10 @@ Point position_of(const io::Dataset::Points<Coordinate>& points, const std::arra
   }
 }
 
+/// Writes a position to a row of `points`.
 template <class Coordinate>
 void store(const Point& position, const io::Dataset::Points<Coordinate>& points, Offset row) {
   for (int axis = 0; axis < 3; ++axis) points(row, axis) = static_cast<Coordinate>(position[axis]);
 }
 
-}  // namespace gale::outputs
+}  // namespace gale::outputs::detail

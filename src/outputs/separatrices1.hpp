@@ -1,22 +1,26 @@
 #pragma once
 
 #include <gale/algorithms/morse_smale.hpp>
-#include <gale/algorithms/simplex_numbers.hpp>
 #include <gale/outputs/critical_simplices.hpp>
-#include <gale/outputs/heights.hpp>
+#include <gale/outputs/named_simplices.hpp>
 
 namespace gale::outputs {
 
-/// The edges and triangles that the files of a complex have to number: the critical ones, then those on the
-/// 1-separatrices, as often as these pass.
-NamedSimplices named_simplices(const MorseSmaleComplex& complex);
-
-/// The 1-separatrices as lines of two points, each from a saddle through simplices of two dimensions in turn, in the
-/// arrays that TTK has: descending ones from a critical edge over vertices and edges to a minimum, ascending ones from
-/// a critical triangle over tetrahedra and triangles to a maximum, connectors from a critical edge over triangles and
-/// edges to a critical triangle; in that order, each kind in the complex'. `numbers` are those of `named`. In parallel.
-/// Throws gale::Error if there are more than 2^31 - 1 points.
-io::Surface separatrices1(const io::Dataset& dataset, const MorseSmaleComplex& complex, const NamedSimplices& named,
-                          const SimplexNumbers& numbers, const KnownSimplices& critical, const Heights& heights);
+/// The 1-separatrices as lines of two points: along each separatrix, simplices of two dimensions in turn.
+///
+/// - Descending ones: from a critical edge, over vertices and edges, to a minimum.
+/// - Ascending ones: from a critical triangle, over tetrahedra and triangles, to a maximum.
+/// - Connectors: from a critical edge, over triangles and edges, to a critical triangle.
+///
+/// They come in that order, each kind in the order of the complex, and are numbered through. Points are placed as by
+/// `to_point_set` and shared by the lines of one separatrix alone. Point arrays: ttkMaskScalarField (int8, 0 at both
+/// ends), CellDimension (int8), CellId (int32). Arrays of lines: SourceId, DestinationId, SeparatrixId (int32),
+/// SeparatrixType (int8: 0 descending, 1 connector, 2 ascending), SeparatrixFunctionMaximum, Minimum and Difference
+/// (double: the highest and the lowest value at the vertices of both ends), NumberOfCriticalPointsOnBoundary (int8).
+///
+/// `field` is that of the complex, `numbers` are those of `named`, the complex's `named_simplices`, and `critical` its
+/// critical simplices. In parallel. Throws gale::Error if there are more than 2^31 - 1 points.
+io::Surface separatrices1(const io::Dataset& dataset, const io::PointArray& field, const MorseSmaleComplex& complex,
+                          const NamedSimplices& named, const SimplexNumbers& numbers, const KnownSimplices& critical);
 
 }  // namespace gale::outputs

@@ -1,6 +1,8 @@
 #include <gale/base/require_ids.hpp>
+#include <gale/outputs/corners.hpp>
 #include <gale/outputs/positions.hpp>
 #include <gale/outputs/separatrices2.hpp>
+#include <gale/outputs/separatrix_arrays.hpp>
 
 namespace gale::outputs {
 
@@ -8,32 +10,34 @@ namespace {
 
 enum Type : std::int8_t { ascending = 1, descending = 2 };
 
-/// Numbers those of some simplices that are named, by ascending input id.
+/// Gives numbers to those of a mesh's vertices (tetrahedra) that are used, by ascending input id.
 class Numbering {
  public:
   explicit Numbering(Id simplices) : numbers_(simplices, no_id) {}
 
-  /// `id` is anything that the caller knows it by.
-  void name(Id simplex, Id id) { numbers_[simplex] = id; }
+  /// Says that the one of this input id is used. `id` is anything that the caller knows it by.
+  void use(Id input, Id id) { numbers_[input] = id; }
 
-  /// Once all are named: their ids.
+  /// Once all that are used have been named: numbers them from `first` on. Returns what the caller knows each by.
   std::vector<Id> number(Id first) {
-    std::vector<Id> named;
+    std::vector<Id> used;
     for (std::size_t i = 0; i < numbers_.size(); ++i) {
       if (numbers_[i] == no_id) continue;
-      named.push_back(numbers_[i]);
-      numbers_[i] = first + static_cast<Id>(named.size()) - 1;
+      used.push_back(numbers_[i]);
+      numbers_[i] = first + static_cast<Id>(used.size()) - 1;
     }
-    return named;
+    return used;
   }
 
-  Id operator[](Id simplex) const { return numbers_[simplex]; }
+  /// The number of one that is used, by its input id.
+  Id operator[](Id input) const { return numbers_[input]; }
 
  private:
   std::vector<Id> numbers_;
 };
 
-/// For each critical simplex those that its connectors lead to, once each.
+/// For each of `count` critical simplices those that connectors join it to, once each, ascending. The i-th connector
+/// joins `of[i]` to `to[i]`.
 std::vector<std::vector<Id>> neighbours(const std::vector<Id>& of, const std::vector<Id>& to, std::size_t count) {
   std::vector<std::vector<Id>> all(count);
   for (std::size_t i = 0; i < of.size(); ++i) all[of[i]].push_back(to[i]);
@@ -46,8 +50,8 @@ std::vector<std::vector<Id>> neighbours(const std::vector<Id>& of, const std::ve
 
 class Walls {
  public:
-  Walls(const io::Dataset& dataset, const MorseSmaleComplex& complex, const Separatrices<TriangleVertices>& connectors,
-        const KnownSimplices& critical, const Heights& heights)
+  Walls(const io::Dataset& dataset, const io::PointArray& field, const MorseSmaleComplex& complex,
+        const Separatrices<TriangleVertices>& connectors, const KnownSimplices& critical)
       : dataset_(dataset),
         complex_(complex),
         connectors_(connectors),
@@ -55,7 +59,7 @@ class Walls {
         vertex_input_(mesh_.vertex_input().data()),
         tetrahedron_input_(mesh_.tetrahedron_input().data()),
         critical_(critical),
-        heights_(heights),
+        heights_(complex.gradient, field),
         vertices_(mesh_.vertices()),
         tetrahedra_(mesh_.tetrahedra()) {}
 
@@ -64,13 +68,7 @@ class Walls {
     add_descending();
     add_ascending();
     require_ids("polygons of 2-separatrices", surface_.polygons.begin.size());
-    surface_.cell_arrays = {{"SourceId", 1, std::move(sources_)},
-                            {"SeparatrixId", 1, std::move(ids_)},
-                            {"SeparatrixType", 1, std::move(types_)},
-                            {"SeparatrixFunctionMaximum", 1, std::move(maxima_)},
-                            {"SeparatrixFunctionMinimum", 1, std::move(minima_)},
-                            {"SeparatrixFunctionDifference", 1, std::move(differences_)},
-                            {"NumberOfCriticalPointsOnBoundary", 1, std::move(on_surface_)}};
+    surface_.cell_arrays = arrays_.take();
     return std::move(surface_);
   }
 
@@ -79,11 +77,13 @@ class Walls {
     return [this](Id a, Id b) { return heights_.is_below(a, b); };
   }
 
+  /// Whether this cell of the ascending walls, an edge, has a polygon.
   bool is_polygon(Offset edge) const {
     const auto& begin = complex_.ascending_walls.star_begin;
     return begin[edge + 1] - begin[edge] > 2;
   }
 
+  /// Calls use(tetrahedron) for the tetrahedra around such an edge, in their order.
   template <class Use>
   void for_each_in_star(Offset edge, const Use& use) const {
     const auto& walls = complex_.ascending_walls;
@@ -92,33 +92,29 @@ class Walls {
 
   void number_points() {
     for (const auto& triangle : complex_.descending_walls.cells) {
-      for (const Id vertex : triangle) vertices_.name(vertex_input_[vertex], vertex_input_[vertex]);
+      for (const Id vertex : triangle) vertices_.use(vertex_input_[vertex], vertex_input_[vertex]);
     }
     for (std::size_t edge = 0; edge < complex_.ascending_walls.walls.cells.size(); ++edge) {
-      if (is_polygon(edge)) for_each_in_star(edge, [&](Id t) { tetrahedra_.name(tetrahedron_input_[t], t); });
+      if (is_polygon(edge)) for_each_in_star(edge, [&](Id t) { tetrahedra_.use(tetrahedron_input_[t], t); });
     }
     const std::vector<Id> vertices = vertices_.number(0);
     const std::vector<Id> tetrahedra = tetrahedra_.number(static_cast<Id>(vertices.size()));
     require_ids("points of 2-separatrices", vertices.size() + tetrahedra.size());
     std::visit(
         [&](const auto& points) {
-          std::decay_t<decltype(points)> positions("positions", vertices.size() + tetrahedra.size());
+          std::decay_t<decltype(points)> positions("GALE::walls", vertices.size() + tetrahedra.size());
           Offset row = 0;
-          for (const Id vertex : vertices) store(point_of(points, vertex), positions, row++);
-          for (const Id t : tetrahedra) store(barycentre(points, vertices_of(t)), positions, row++);
+          for (const Id vertex : vertices) detail::store(detail::point_of(points, vertex), positions, row++);
+          for (const Id t : tetrahedra)
+            detail::store(detail::barycentre(points, detail::to_input(vertex_input_, detail::corners_of(mesh_, t))),
+                          positions, row++);
           surface_.points = positions;
         },
         dataset_.points);
   }
 
-  /// Input vertices of a tetrahedron.
-  std::array<Id, 4> vertices_of(Id t) const {
-    const auto& all = mesh_.host().tetrahedra;
-    return {vertex_input_[all(t, 0)], vertex_input_[all(t, 1)], vertex_input_[all(t, 2)], vertex_input_[all(t, 3)]};
-  }
-
-  /// From the lowest vertex of the critical edges that a wall meets, or of itself where it meets none, to its source's
-  /// highest.
+  /// A descending wall reaches from its source's highest vertex down to the lowest one of the critical edges that bound
+  /// it, or of its own vertices where none does.
   void add_descending() {
     const auto& walls = complex_.descending_walls;
     const auto met = neighbours(connectors_.destinations, connectors_.sources, critical_[2].size());
@@ -140,8 +136,8 @@ class Walls {
     }
   }
 
-  /// From its source's lowest vertex to the highest of the critical triangles that a wall meets, or of itself where it
-  /// meets none.
+  /// An ascending wall reaches from its source's lowest vertex up to the highest one of the critical triangles that
+  /// bound it, or of its own edges where none does.
   void add_ascending() {
     const auto& walls = complex_.ascending_walls.walls;
     const auto met = neighbours(connectors_.sources, connectors_.destinations, critical_[1].size());
@@ -164,20 +160,16 @@ class Walls {
 
   void end_polygon() { surface_.polygons.begin.push_back(static_cast<Offset>(surface_.polygons.points.size())); }
 
-  /// Of a wall's polygons, which have none yet. `met` are the places of the critical simplices that it meets.
+  /// Gives the polygons that have no arrays yet, those of the wall added last, theirs. `met` are the places in
+  /// `critical` of the simplices that bound the wall.
   void add_arrays(Type type, const CriticalSimplex& source, Id highest, Id lowest,
                   const std::vector<CriticalSimplex>& critical, const std::vector<Id>& met) {
-    const std::size_t polygons = surface_.polygons.begin.size() - 1;
-    const double maximum = heights_.value(highest), minimum = heights_.value(lowest);
     Id on_surface = source.on_surface;
     for (const Id saddle : met) on_surface += critical[saddle].on_surface;
-    sources_.resize(polygons, source.cell);
-    ids_.resize(polygons, next_id_++);
-    types_.resize(polygons, type);
-    maxima_.resize(polygons, maximum);
-    minima_.resize(polygons, minimum);
-    differences_.resize(polygons, Heights::difference(maximum, minimum));
-    on_surface_.resize(polygons, on_surface);
+    const std::size_t begin = arrays_.cells(), end = surface_.polygons.begin.size() - 1;
+    arrays_.resize(end);
+    arrays_.set(begin, end,
+                {source.cell, next_id_++, type, heights_.value(highest), heights_.value(lowest), on_surface});
   }
 
   const io::Dataset& dataset_;
@@ -187,21 +179,18 @@ class Walls {
   const Id* vertex_input_;
   const Id* tetrahedron_input_;
   const KnownSimplices& critical_;
-  const Heights& heights_;
+  const detail::Heights heights_;
   Numbering vertices_, tetrahedra_;
   io::Surface surface_;
   Id next_id_ = 0;
-  std::vector<Id> sources_, ids_, on_surface_;
-  std::vector<std::int8_t> types_;
-  std::vector<double> maxima_, minima_, differences_;
+  detail::SeparatrixArrays<Id> arrays_;
 };
 
 }  // namespace
 
-io::Surface separatrices2(const io::Dataset& dataset, const MorseSmaleComplex& complex,
-                          const Separatrices<TriangleVertices>& connectors, const KnownSimplices& critical,
-                          const Heights& heights) {
-  return Walls(dataset, complex, connectors, critical, heights).collect();
+io::Surface separatrices2(const io::Dataset& dataset, const io::PointArray& field, const MorseSmaleComplex& complex,
+                          const Separatrices<TriangleVertices>& connectors, const KnownSimplices& critical) {
+  return Walls(dataset, field, complex, connectors, critical).collect();
 }
 
 }  // namespace gale::outputs

@@ -45,6 +45,7 @@ std::optional<Way> way_named(const std::string& name) {
 }
 
 std::unique_ptr<Structure> make_structure(const Mesh& mesh, RelationSet wanted, const StructureOptions& options) {
+  if (wanted.empty()) throw Error("a structure needs at least one relation to be preconditioned for");
   switch (options.way) {
     case Way::gale:
       return leaders_or_helpers(mesh, wanted, options);

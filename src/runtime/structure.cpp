@@ -7,9 +7,7 @@
 namespace gale {
 
 Structure::Structure(const Mesh& mesh, RelationSet relations, Way way)
-    : mesh_(mesh), relations_(relations), way_(way), log_(std::make_shared<detail::ConsumerLog>()) {
-  if (relations.empty()) throw Error("a structure needs at least one relation to be preconditioned for");
-}
+    : mesh_(mesh), relations_(relations), way_(way), log_(std::make_shared<detail::ConsumerLog>()) {}
 
 Structure::~Structure() = default;
 

@@ -230,7 +230,7 @@ TEST(MixedRuntime, says_what_it_was_not_preconditioned_for) {
       const auto sweep = [&] {
         runtime->for_each_segment(relation | Relation::EF, {}, [](int, const SegmentRows&) { FAIL(); });
       };
-      EXPECT_EQ(message_of(sweep), expected + name_of(relation | Relation::EF) + what_to_do);
+      EXPECT_EQ(message_of(sweep), expected + name_of(relation) + what_to_do);
     }
     EXPECT_EQ(message_of([&] { consumer->link(0); }), expected + "link" + what_to_do);
     EXPECT_TRUE(papers.matches(*consumer, Relation::EF, 6)) << "it goes on";

@@ -1,17 +1,23 @@
 #pragma once
 
-#include <gale/app/options.hpp>
+#include <memory>
 
-// The subcommands. Each does what its name says with the input that the options name; throws gale::Error or UsageError.
+#include <gale/app/commands/command.hpp>
 
 namespace gale::app {
 
-void info(const Options& options);
-void segment(const Options& options);
-void critical_points(const Options& options);
-void discrete_gradient(const Options& options);
-void morse_smale(const Options& options);
-void relations(const Options& options);
-void generate(const Options& options);
+// Each adds its subcommand to the command line, which must outlive it.
+std::unique_ptr<Command> add_info(CLI::App& app);
+std::unique_ptr<Command> add_segment(CLI::App& app);
+std::unique_ptr<Command> add_critical_points(CLI::App& app);
+std::unique_ptr<Command> add_discrete_gradient(CLI::App& app);
+std::unique_ptr<Command> add_morse_smale(CLI::App& app);
+std::unique_ptr<Command> add_relations(CLI::App& app);
+std::unique_ptr<Command> add_generate(CLI::App& app);
+
+/// The table of all subcommands, in the order of the help.
+using AddCommand = std::unique_ptr<Command> (*)(CLI::App& app);
+inline constexpr AddCommand all_commands[] = {
+    add_info, add_segment, add_critical_points, add_discrete_gradient, add_morse_smale, add_relations, add_generate};
 
 }  // namespace gale::app

@@ -1,3 +1,5 @@
+#include <CLI/CLI.hpp>
+
 #include <gale/app/commands/commands.hpp>
 #include <gale/app/critical_counts.hpp>
 #include <gale/app/session.hpp>
@@ -9,42 +11,74 @@ namespace gale::app {
 
 namespace {
 
-/// What the command's structure is preconditioned for.
-RelationSet relations_for(const Options& options) {
-  const RelationSet gradient =
-      options.formulation == "cells" ? discrete_gradient_from_cells_relations : discrete_gradient_relations;
-  return options.output.empty() ? gradient : gradient | simplex_numbers_relations;
-}
+class FindDiscreteGradient final : public Command {
+ public:
+  explicit FindDiscreteGradient(CLI::App& app)
+      : Command(app, "discrete-gradient",
+                "Pairs the simplices of a mesh along a scalar field; finds those that are left, the critical ones") {
+    segmentation_.add_to(subcommand());
+    structure_.add_to(subcommand());
+    subcommand().add_option("-o,--output", output_, "The critical simplices: .vtp");
+    subcommand()
+        .add_option("--formulation", formulation_,
+                    "stars (from VV, VT and link) or cells (from VE, VF and VT, as other programs do; slower): the "
+                    "same result")
+        ->check(CLI::IsMember({"stars", "cells"}));
+    subcommand().add_option("--arrows", arrows_,
+                            "The gradient's arrows, from the barycentre of each simplex to that of the one it is "
+                            "paired with: .vtp. Large: a point a pair, some 13 a vertex");
+  }
+
+  void run() const override {
+    require_extension("--output", output_, {".vtp"});
+    require_extension("--arrows", arrows_, {".vtp"});
+    Session session(input(), common(), {output_, arrows_});
+    const FieldOnMesh on = session.read_field(segmentation_);
+    const auto structure = session.make_structure(structure_, on.mesh, relations());
+    const DiscreteGradient gradient = find(*structure, on.order, session);
+    tell(gradient.critical(), session);
+    if (!output_.empty()) write_critical(on.dataset, gradient, *structure, session);
+    session.write(arrows_,
+                  [&](const std::string& path) { io::write_points(path, outputs::arrows_of(on.dataset, gradient)); });
+    session.finish(structure.get());
+  }
+
+ private:
+  bool is_from_cells() const { return formulation_ == "cells"; }
+
+  /// What the gradient reads, and what numbering the critical simplices does.
+  RelationSet relations() const {
+    const RelationSet gradient = is_from_cells() ? discrete_gradient_from_cells_relations : discrete_gradient_relations;
+    return output_.empty() ? gradient : gradient | simplex_numbers_relations;
+  }
+
+  DiscreteGradient find(Structure& structure, const VertexOrder& order, Session& session) const {
+    const Stopwatch watch(session.report().seconds.run);
+    const auto find = is_from_cells() ? find_discrete_gradient_from_cells : find_discrete_gradient;
+    return find(structure, order, session.sweep("gradient"));
+  }
+
+  void write_critical(const io::Dataset& dataset, const DiscreteGradient& gradient, Structure& structure,
+                      Session& session) const {
+    const CriticalSimplices& critical = gradient.critical();
+    SimplexNumbers numbers;
+    {
+      const Stopwatch watch(session.report().seconds.run);
+      numbers = number_simplices(structure, {critical.edges, critical.triangles}, session.sweep("numbers"));
+    }
+    session.write(output_, [&](const std::string& path) {
+      io::write_points(path, outputs::to_point_set(dataset, outputs::known_simplices(gradient, critical, numbers)));
+    });
+  }
+
+  SegmentationOptions segmentation_;
+  StructureOption structure_;
+  std::string output_, arrows_;
+  std::string formulation_ = "stars";
+};
 
 }  // namespace
 
-void discrete_gradient(const Options& options) {
-  require_extension(options, {".vtp"});
-  require_extension(options, "--arrows", options.arrows, {".vtp"});
-  Session session(options);
-  const FieldOnMesh input = session.read_field();
-  const auto structure = session.make_structure(input.mesh, relations_for(options));
-  double& run = session.report().seconds.run;
-  const DiscreteGradient gradient = [&] {
-    const Stopwatch watch(run);
-    const auto find = options.formulation == "cells" ? find_discrete_gradient_from_cells : find_discrete_gradient;
-    return find(*structure, input.order, session.sweep("gradient"));
-  }();
-  const CriticalSimplices& critical = gradient.critical();
-  tell(critical, session);
-  if (!options.output.empty()) {
-    SimplexNumbers numbers;
-    {
-      const Stopwatch watch(run);
-      numbers = number_simplices(*structure, {critical.edges, critical.triangles}, session.sweep("numbers"));
-    }
-    session.write(options.output, [&](const std::string& path) {
-      io::write_points(path, to_point_set(input.dataset, known_simplices(gradient, critical, numbers)));
-    });
-  }
-  session.write(options.arrows,
-                [&](const std::string& path) { io::write_points(path, arrows_of(input.dataset, gradient)); });
-  session.finish(structure.get());
-}
+std::unique_ptr<Command> add_discrete_gradient(CLI::App& app) { return std::make_unique<FindDiscreteGradient>(app); }
 
 }  // namespace gale::app

@@ -32,7 +32,7 @@ std::string brief(double value) {
   return text;
 }
 
-/// The least and the largest of the values added; NaN, which is neither, is counted.
+/// The least and the largest of the values added. NaN is neither: those are counted.
 struct Range {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   std::int64_t nans = 0;
@@ -88,14 +88,7 @@ void tell_arrays(const io::Dataset& dataset, Session& session) {
   session.report().result["arrays"] = arrays;
 }
 
-}  // namespace
-
-void info(const Options& options) {
-  Session session(options);
-  io::Dataset dataset = session.read();
-  tell_extent(dataset, session);
-  tell_arrays(dataset, session);
-  const Mesh mesh = session.encode(dataset, Session::Keep::nothing);
+void tell_surface(const Mesh& mesh, Session& session) {
   Array<std::uint8_t, HostMemory> on_surface;
   {
     const Stopwatch watch(session.report().seconds.run);
@@ -104,7 +97,24 @@ void info(const Options& options) {
   const auto count = std::accumulate(on_surface.data(), on_surface.data() + on_surface.extent(0), std::int64_t(0));
   session.console().say("on the boundary", grouped(count) + " vertices");
   session.report().result["boundary_vertices"] = count;
-  session.finish(nullptr);
 }
+
+class Info final : public Command {
+ public:
+  explicit Info(CLI::App& app) : Command(app, "info", "Says what a mesh is: sizes, extent, arrays") {}
+
+  void run() const override {
+    Session session(input(), common());
+    io::Dataset dataset = session.read();
+    tell_extent(dataset, session);
+    tell_arrays(dataset, session);
+    tell_surface(session.encode(dataset, SegmentationOptions(), Session::Keep::nothing), session);
+    session.finish();
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Command> add_info(CLI::App& app) { return std::make_unique<Info>(app); }
 
 }  // namespace gale::app

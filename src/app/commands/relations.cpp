@@ -1,7 +1,8 @@
 #include <algorithm>
 #include <atomic>
 #include <fstream>
-#include <mutex>
+
+#include <CLI/CLI.hpp>
 
 #include <gale/app/commands/commands.hpp>
 #include <gale/app/session.hpp>
@@ -14,7 +15,7 @@ namespace gale::app {
 
 namespace {
 
-/// What a sweep has seen of a relation.
+/// How large a relation is.
 struct Sizes {
   std::int64_t rows = 0, entries = 0;
   Id longest = 0;
@@ -51,8 +52,9 @@ Sizes measure(Structure& structure, Relation relation, const SweepOptions& sweep
   return all;
 }
 
-/// How many rows aren't those of the oracle: different, or not there.
-std::int64_t count_differences(Structure& structure, Relation relation, Oracle& oracle, const SweepOptions& sweep) {
+/// How many rows differ from the oracle's, are missing, or are too many.
+std::int64_t count_differences(Structure& structure, Relation relation, baselines::Oracle& oracle,
+                               const SweepOptions& sweep) {
   std::atomic<std::int64_t> same{0}, more{0};
   std::vector<std::vector<Id>> expected(sweep.threads);
   for_each_row(structure, relation, sweep, [&](int consumer, Id simplex, const Row& row) {
@@ -117,9 +119,10 @@ void tell(const Sizes& sizes, Relation relation, Session& session) {
                              {"longest_row", sizes.longest}};
 }
 
-void verify(Structure& structure, Relation relation, const Sizes& sizes, Session& session) {
+/// Compares all rows with an oracle that shares no code with the structure.
+void verify(Structure& structure, Relation relation, bool is_explicit, const Sizes& sizes, Session& session) {
   const SweepOptions sweep = session.sweep("verifying " + name_of(relation));
-  const auto oracle = make_oracle(structure.mesh(), relation, sweep.threads, session.options().structure == "explicit");
+  const auto oracle = baselines::make_oracle(structure.mesh(), relation, sweep.threads, is_explicit);
   const std::int64_t differences = count_differences(structure, relation, *oracle, sweep);
   session.console().say("differences", grouped(differences) + " from " + oracle->name());
   session.report().result["differences"] = differences;
@@ -129,23 +132,52 @@ void verify(Structure& structure, Relation relation, const Sizes& sizes, Session
   }
 }
 
+class ComputeRelation final : public Command {
+ public:
+  explicit ComputeRelation(CLI::App& app)
+      : Command(app, "relations", "Computes a relation of the whole mesh: its size, and how fast it comes") {
+    segmentation_.add_to(subcommand());
+    structure_.add_to(subcommand());
+    std::vector<std::string> names;
+    for (const Relation relation : members_of(all_relations)) names.push_back(name_of(relation));
+    subcommand()
+        .add_option("--relation", relation_,
+                    "XY: for each X the Ys that touch it; V vertex, E edge, F triangle, T tetrahedron")
+        ->required()
+        ->check(CLI::IsMember(names));
+    subcommand().add_flag("--verify", verify_,
+                          "Compare every row with the explicit structure (with brute force if it is that one, or "
+                          "without Kokkos-Kernels)");
+    subcommand().add_option("--dump", dump_, "Write all rows to this text file");
+  }
+
+  void run() const override {
+    Session session(input(), common(), {}, {dump_});
+    const Relation relation = *relation_named(relation_);
+    io::Dataset dataset = session.read();
+    const Mesh mesh = session.encode(dataset, segmentation_, Session::Keep::nothing);
+    const auto structure = session.make_structure(structure_, mesh, relation);
+    Sizes sizes;
+    {
+      const Stopwatch watch(session.report().seconds.run);
+      sizes = measure(*structure, relation, session.sweep("sweeping " + name_of(relation)));
+    }
+    tell(sizes, relation, session);
+    if (verify_) verify(*structure, relation, structure_.is_explicit(), sizes, session);
+    session.write(dump_, [&](const std::string& path) { dump(path, *structure, relation, sizes); });
+    session.finish(structure.get());
+  }
+
+ private:
+  SegmentationOptions segmentation_;
+  StructureOption structure_;
+  std::string relation_;  ///< the name of one of the sixteen
+  bool verify_ = false;
+  std::string dump_;
+};
+
 }  // namespace
 
-void relations(const Options& options) {
-  Session session(options);
-  const Relation relation = *relation_named(options.relation);
-  io::Dataset dataset = session.read();
-  const Mesh mesh = session.encode(dataset, Session::Keep::nothing);
-  const auto structure = session.make_structure(mesh, relation);
-  Sizes sizes;
-  {
-    const Stopwatch watch(session.report().seconds.run);
-    sizes = measure(*structure, relation, session.sweep("sweeping " + name_of(relation)));
-  }
-  tell(sizes, relation, session);
-  if (options.verify) verify(*structure, relation, sizes, session);
-  session.write(options.dump, [&](const std::string& path) { dump(path, *structure, relation, sizes); });
-  session.finish(structure.get());
-}
+std::unique_ptr<Command> add_relations(CLI::App& app) { return std::make_unique<ComputeRelation>(app); }
 
 }  // namespace gale::app

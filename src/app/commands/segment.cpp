@@ -1,24 +1,15 @@
 #include <algorithm>
 
+#include <CLI/CLI.hpp>
+
 #include <gale/app/commands/commands.hpp>
 #include <gale/app/session.hpp>
 #include <gale/io/write.hpp>
-#include <gale/outputs/field.hpp>
+#include <gale/outputs/segmentation.hpp>
 
 namespace gale::app {
 
 namespace {
-
-/// The segment of each input vertex.
-std::vector<std::int32_t> segments_of(const Mesh& mesh) {
-  std::vector<std::int32_t> segments(mesh.vertices());
-  const auto& begin = mesh.vertex_begin();
-  const auto& input = mesh.vertex_input();
-  for (Id s = 0; s < mesh.segments(); ++s) {
-    for (Id v = begin(s); v < begin(s + 1); ++v) segments[input(v)] = s;
-  }
-  return segments;
-}
 
 void tell(const Mesh& mesh, Session& session) {
   const auto& begin = mesh.vertex_begin();
@@ -35,18 +26,31 @@ void tell(const Mesh& mesh, Session& session) {
       {"smallest", smallest}, {"largest", largest}, {"mean", mean}, {"external_tetrahedra", external}};
 }
 
+class Segment final : public Command {
+ public:
+  explicit Segment(CLI::App& app) : Command(app, "segment", "Divides a mesh into segments") {
+    segmentation_.add_to(subcommand());
+    subcommand().add_option("-o,--output", output_, "The mesh with its segments as a point array: .vtu or .vtk");
+  }
+
+  void run() const override {
+    require_extension("--output", output_, {".vtu", ".vtk"});
+    Session session(input(), common(), {output_});
+    io::Dataset dataset = session.read();
+    const Mesh mesh = session.encode(dataset, segmentation_, Session::Keep::tetrahedra);
+    tell(mesh, session);
+    session.write(output_,
+                  [&](const std::string& path) { io::write_mesh(path, dataset, {outputs::segments_of(mesh)}); });
+    session.finish();
+  }
+
+ private:
+  SegmentationOptions segmentation_;
+  std::string output_;
+};
+
 }  // namespace
 
-void segment(const Options& options) {
-  require_extension(options, {".vtu", ".vtk"});
-  Session session(options);
-  io::Dataset dataset = session.read();
-  const Mesh mesh = session.encode(dataset, Session::Keep::tetrahedra);
-  tell(mesh, session);
-  session.write(options.output, [&](const std::string& path) {
-    io::write_mesh(path, dataset, {{segments_name, 1, segments_of(mesh)}});
-  });
-  session.finish(nullptr);
-}
+std::unique_ptr<Command> add_segment(CLI::App& app) { return std::make_unique<Segment>(app); }
 
 }  // namespace gale::app

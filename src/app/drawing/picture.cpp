@@ -4,6 +4,7 @@
 
 #include <gale/app/console.hpp>
 #include <gale/app/drawing/picture.hpp>
+#include <gale/outputs/field.hpp>
 
 namespace gale::app {
 
@@ -11,21 +12,24 @@ namespace {
 
 using Triangle = std::array<Id, 3>;
 
+/// Of critical simplices, by dimension.
 const Color color_of_dimension[] = {{26, 89, 217}, {26, 168, 150}, {245, 166, 26}, {214, 31, 36}};
+/// Of 1-separatrices, by type: descending, connectors, ascending.
 const Color color_of_type[] = {{92, 142, 232}, {150, 150, 158}, {236, 112, 86}};
 
-/// Copies of points of either type.
+/// Points of either type, as doubles.
 std::vector<Point> to_points(const std::variant<io::Dataset::Points<float>, io::Dataset::Points<double>>& points) {
   std::vector<Point> all;
   std::visit(
       [&](const auto& rows) {
         all.resize(rows.extent(0));
-        for (std::size_t i = 0; i < all.size(); ++i) all[i] = point_of(rows, static_cast<Id>(i));
+        for (std::size_t i = 0; i < all.size(); ++i) all[i] = {rows(i, 0), rows(i, 1), rows(i, 2)};
       },
       points);
   return all;
 }
 
+/// The values of the array of that name and type, which must be there.
 template <class T>
 const std::vector<T>& values_of(const std::vector<io::PointArray>& arrays, const std::string& name) {
   const auto at =
@@ -33,7 +37,7 @@ const std::vector<T>& values_of(const std::vector<io::PointArray>& arrays, const
   return std::get<std::vector<T>>(at->values);
 }
 
-/// Of hue and value in [0, 1).
+/// A colour from its hue, saturation and value, each from 0 to 1.
 Color to_color(double hue, double saturation, double value) {
   Color color;
   for (int i = 0; i < 3; ++i) {
@@ -43,7 +47,7 @@ Color to_color(double hue, double saturation, double value) {
   return color;
 }
 
-/// The part of the space that is cut out: from a corner up.
+/// The part of the space that is cut out: all that is above a corner along every axis.
 struct Octant {
   Point corner;
 
@@ -57,13 +61,13 @@ struct Octant {
 
 class Painter {
  public:
-  Painter(const io::Dataset& dataset, const MorseSmaleComplex& complex, const SimplexNumbers& numbers,
-          const Heights& heights)
+  Painter(const io::Dataset& dataset, const io::PointArray& field, const MorseSmaleComplex& complex,
+          const SimplexNumbers& numbers)
       : points_(to_points(dataset.points)),
         complex_(complex),
         mesh_(complex.gradient.mesh()),
         numbers_(numbers),
-        heights_(heights) {
+        field_(field) {
     measure();
   }
 
@@ -75,7 +79,8 @@ class Painter {
   }
 
  private:
-  /// Corners, and the octant: its faces go through vertices, so that they are flat where the mesh is a grid.
+  /// Finds the mesh's extent and the octant. The octant's faces go through vertices, so that they are flat where the
+  /// mesh is a grid.
   void measure() {
     scene_.low = scene_.high = points_[mesh_.vertex_input()(0)];
     for (const Point& point : points_) {
@@ -113,8 +118,10 @@ class Painter {
     scene_.ball_radius = size_ * std::clamp(0.045 / std::cbrt(shown + 1.0), 0.0025, 0.008);
   }
 
+  /// Draws connectors first and thinner than the others.
   void paint_tubes(const io::Surface& lines) {
-    for (int type : {1, 0, 2})
+    static constexpr int tubes_of_type[] = {1, 0, 2};
+    for (const int type : {1, 0, 2})
       scene_.tubes.push_back({color_of_type[type], scene_.ball_radius * (type == 1 ? 0.14 : 0.27), {}});
     const std::vector<Point> points = to_points(lines.points);
     const auto& types = values_of<std::int8_t>(lines.cell_arrays, "SeparatrixType");
@@ -122,29 +129,27 @@ class Painter {
     const auto& ids = values_of<Id>(lines.point_arrays, "CellId");
     std::unordered_set<std::uint64_t> seen[3];
     for (std::size_t first = 0, line = 0; first < points.size();) {
-      std::size_t last = first + 1;
+      std::size_t last = first + 1;  // of the path that begins at `first`
       while (mask[last] != 0) ++last;
       const int type = types[line];
       std::vector<bool> is_new(last - first);
       for (std::size_t k = first; k < last; ++k) {
         if (!octant_.has(points[k]) || !octant_.has(points[k + 1])) continue;
-        const std::size_t even = k + (k - first) % 2;  // the points' dimensions differ in turn
-        const auto [a, b] = std::pair(ids[even], ids[even == k ? k + 1 : k]);
-        is_new[k - first] = seen[type].insert(std::uint64_t(a) << 32 | static_cast<std::uint32_t>(b)).second;
+        // The ids of a line's ends, that of the path's first dimension first: the two dimensions take turns.
+        const std::size_t even = k + (k - first) % 2, odd = even == k ? k + 1 : k;
+        const auto key = std::uint64_t(ids[even]) << 32 | static_cast<std::uint32_t>(ids[odd]);
+        is_new[k - first] = seen[type].insert(key).second;
       }
       if (std::find(is_new.begin(), is_new.end(), true) != is_new.end()) {
         add_path(smoothed({points.begin() + first, points.begin() + last + 1}), is_new,
-                 scene_.tubes[type == 1   ? 0
-                              : type == 0 ? 1
-                                          : 2]
-                     .paths);
+                 scene_.tubes[tubes_of_type[type]].paths);
       }
       line += last - first;
       first = last + 1;
     }
   }
 
-  /// Each point but the ends moved towards the middle of its neighbours, again and again.
+  /// The path with each point but the ends moved towards the middle of its neighbours, twenty times.
   static std::vector<Point> smoothed(std::vector<Point> path) {
     std::vector<Point> next = path;
     for (int i = 0; i < 20; ++i, path.swap(next)) {
@@ -156,7 +161,8 @@ class Painter {
     return path;
   }
 
-  /// The lines of a path that are in the octant and that no other path had before: many share most of their way.
+  /// Adds the stretches of a path that are new: in the octant, and drawn for no other path before. Many paths share
+  /// most of their way.
   static void add_path(const std::vector<Point>& path, const std::vector<bool>& is_new,
                        std::vector<std::vector<Point>>& paths) {
     for (std::size_t k = 0; k < is_new.size(); ++k) {
@@ -166,21 +172,30 @@ class Painter {
     }
   }
 
-  /// The triangles of what is left of the mesh that one tetrahedron has alone. Their vertices are on the mesh's surface
-  /// or on the cut.
-  void paint_skin() {
+  /// Whether each tetrahedron is outside the octant; all of them where none is, because the mesh is too small to be
+  /// cut.
+  std::vector<char> left_tetrahedra() const {
     const auto& tetrahedra = mesh_.host().tetrahedra;
-    std::vector<char> is_left(mesh_.tetrahedra()), near_left(mesh_.vertices()), near_cut(mesh_.vertices());
+    std::vector<char> is_left(mesh_.tetrahedra());
     for (Id t = 0; t < mesh_.tetrahedra(); ++t) {
       Point middle{};
       for (int i = 0; i < 4; ++i) {
         for (int axis = 0; axis < 3; ++axis) middle[axis] += point(tetrahedra(t, i))[axis] / 4;
       }
       is_left[t] = !octant_.has(middle);
+    }
+    if (std::find(is_left.begin(), is_left.end(), 1) == is_left.end()) is_left.assign(is_left.size(), 1);
+    return is_left;
+  }
+
+  /// The triangles of tetrahedra that are left whose three vertices are each on the mesh's surface or on the cut,
+  /// between tetrahedra that are left and others. All triangles of the skin are among them.
+  std::vector<Triangle> skin_candidates(const std::vector<char>& is_left) const {
+    const auto& tetrahedra = mesh_.host().tetrahedra;
+    std::vector<char> near_left(mesh_.vertices()), near_cut(mesh_.vertices());
+    for (Id t = 0; t < mesh_.tetrahedra(); ++t) {
       for (int i = 0; i < 4; ++i) (is_left[t] ? near_left : near_cut)[tetrahedra(t, i)] = 1;
     }
-    if (std::find(is_left.begin(), is_left.end(), 1) == is_left.end())
-      is_left.assign(is_left.size(), 1);  // too small to be cut
     std::vector<Triangle> candidates;
     for (Id t = 0; t < mesh_.tetrahedra(); ++t) {
       if (!is_left[t]) continue;
@@ -195,6 +210,12 @@ class Painter {
         if (may_be) candidates.push_back(triangle);
       }
     }
+    return candidates;
+  }
+
+  /// The skin: the triangles that exactly one of the tetrahedra that are left has.
+  void paint_skin() {
+    std::vector<Triangle> candidates = skin_candidates(left_tetrahedra());
     std::sort(candidates.begin(), candidates.end());
     std::vector<Triangle> skin;
     for (std::size_t i = 0, end = 0; i < candidates.size(); i = end) {
@@ -222,13 +243,13 @@ class Painter {
 
   void paint(const std::vector<Id>& vertices) {
     std::vector<double> all(mesh_.vertices());
-    for (std::size_t v = 0; v < all.size(); ++v) all[v] = heights_.value(static_cast<Id>(v));
+    for (std::size_t v = 0; v < all.size(); ++v) all[v] = outputs::value_at(field_, static_cast<Id>(v));
     std::sort(all.begin(), all.end());
     const double dark = all[all.size() / 20], bright = all[all.size() - 1 - all.size() / 100];
     for (const Id v : vertices) {
       const Id vertex = mesh_.vertex_input()(v);
       const double part = bright > dark && std::isfinite(bright - dark)
-                              ? std::clamp((heights_.value(vertex) - dark) / (bright - dark), 0.0, 1.0)
+                              ? std::clamp((outputs::value_at(field_, vertex) - dark) / (bright - dark), 0.0, 1.0)
                               : 1;
       scene_.skin.colors.push_back(color_of(vertex, 0.62 + 0.38 * part));
     }
@@ -252,7 +273,7 @@ class Painter {
   const MorseSmaleComplex& complex_;
   const Mesh mesh_;
   const SimplexNumbers& numbers_;
-  const Heights& heights_;
+  const io::PointArray& field_;
   Octant octant_{};
   double size_ = 0;
   Scene scene_;
@@ -260,9 +281,9 @@ class Painter {
 
 }  // namespace
 
-Scene picture_of(const io::Dataset& dataset, const MorseSmaleComplex& complex, const SimplexNumbers& numbers,
-                 const io::PointSet& critical, const io::Surface& separatrices1, const Heights& heights) {
-  return Painter(dataset, complex, numbers, heights).paint(critical, separatrices1);
+Scene picture_of(const io::Dataset& dataset, const io::PointArray& field, const MorseSmaleComplex& complex,
+                 const SimplexNumbers& numbers, const io::PointSet& critical, const io::Surface& separatrices1) {
+  return Painter(dataset, field, complex, numbers).paint(critical, separatrices1);
 }
 
 }  // namespace gale::app

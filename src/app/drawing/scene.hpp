@@ -6,15 +6,15 @@
 #include <vector>
 
 #include <gale/base/types.hpp>
-#include <gale/outputs/positions.hpp>
 
 namespace gale::app {
 
-using namespace outputs;
+using Point = std::array<double, 3>;
 
+/// Red, green and blue, 0 to 255.
 using Color = std::array<std::uint8_t, 3>;
 
-/// What a picture shows, whatever draws it.
+/// What a picture shows; it knows nothing of what draws it.
 struct Scene {
   /// Points of one kind, drawn as balls. The caption is for the legend.
   struct Balls {
@@ -41,7 +41,7 @@ struct Scene {
   double ball_radius = 1;
   std::vector<Tubes> tubes;
   Skin skin;
-  Point low{}, high{};  ///< corners of all that there is, drawn or not
+  Point low{}, high{};  ///< corners of the whole mesh, whatever of it is drawn
 };
 
 /// Throws gale::Error if this gale can't draw here: it was built without VTK's rendering, or there is no display where

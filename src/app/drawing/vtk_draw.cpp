@@ -65,7 +65,7 @@ void add_skin(vtkRenderer* renderer, const Scene::Skin& skin) {
   colors->SetNumberOfComponents(3);
   for (const Color& color : skin.colors) colors->InsertNextTypedTuple(color.data());
   data->GetPointData()->SetScalars(colors);
-  vtkNew<vtkWindowedSincPolyDataFilter> smooth;  // voxels have steps
+  vtkNew<vtkWindowedSincPolyDataFilter> smooth;  // because the surface of voxels has steps
   smooth->SetInputData(data);
   smooth->SetNumberOfIterations(15);
   smooth->SetPassBand(0.08);
@@ -150,7 +150,7 @@ void add_legend(vtkRenderer* renderer, const std::vector<Scene::Balls>& balls) {
   renderer->AddActor(legend);
 }
 
-/// From the high corner, without perspective; as large as it may be on the left of the legend.
+/// Looks from the high corner, without perspective. The mesh is as large as there is room for left of the legend.
 void aim(vtkRenderer* renderer, const Scene& scene) {
   constexpr double aspect = double(width) / height, left_part = 0.78, margin = 0.96;
   const Point towards = {0.664, 0.544, 0.513}, right = {-0.634, 0.773, 0}, up = {-0.397, -0.325, 0.858};
@@ -197,7 +197,7 @@ vtkSmartPointer<vtkRenderWindow> make_window() {
 void require_drawing() {
   const auto window = make_window();
   if (!window->IsA("vtkXOpenGLRenderWindow")) return;
-  // This kind of window ends the process if there is no display. It brought the library that can tell.
+  // This kind of window ends the process if there is no display. So ask first, through the X library that it loaded.
   const auto open = reinterpret_cast<void* (*)(const char*)>(dlsym(RTLD_DEFAULT, "XOpenDisplay"));
   const auto close = reinterpret_cast<int (*)(void*)>(dlsym(RTLD_DEFAULT, "XCloseDisplay"));
   if (open == nullptr || close == nullptr) return;

@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <cmath>
 #include <cstdlib>
-#include <optional>
 
-#include <gale/app/options.hpp>
-#include <gale/app/sizes.hpp>
+#include <gale/app/options/parse.hpp>
+#include <gale/app/usage_error.hpp>
 
 namespace gale::app {
 
@@ -40,6 +40,30 @@ std::size_t parse_size(const std::string& option, const std::string& text) {
   const auto bytes = bytes_of(text);
   if (bytes && *bytes >= 1 && *bytes <= limit) return static_cast<std::size_t>(*bytes);
   throw UsageError(option + ": '" + text + "' is no size of memory, such as 512MiB, 1.5GiB, 8G or 1000000 (bytes)");
+}
+
+outputs::Persistence parse_persistence(const std::string& option, const std::string& text) {
+  outputs::Persistence persistence;
+  persistence.is_percent = !text.empty() && text.back() == '%';
+  const std::string number = persistence.is_percent ? text.substr(0, text.size() - 1) : text;
+  char* end = nullptr;
+  persistence.value = std::strtod(number.c_str(), &end);
+  const bool is_number =
+      !number.empty() && number.find_first_not_of("0123456789.eE+-") == std::string::npos && *end == '\0';
+  if (is_number && std::isfinite(persistence.value) && persistence.value >= 0) return persistence;
+  throw UsageError(option + ": '" + text +
+                   "' is no difference of values of at least 0, such as 0.5, nor a part of their range, such as 20%");
+}
+
+std::optional<std::int64_t> parse_random(const std::string& option, const std::string& text) {
+  const std::string prefix = "random:";
+  if (text.rfind(prefix, 0) != 0) return std::nullopt;
+  std::int64_t count = 0;
+  const char* const end = text.data() + text.size();
+  const auto parsed = std::from_chars(text.data() + prefix.size(), end, count);
+  if (parsed.ec != std::errc() || parsed.ptr != end || count < 1)
+    throw UsageError(option + ' ' + text + ": random:K takes a whole number K of at least 1");
+  return count;
 }
 
 }  // namespace gale::app

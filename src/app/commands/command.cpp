@@ -1,0 +1,28 @@
+#include <CLI/CLI.hpp>
+
+#include <gale/app/commands/command.hpp>
+#include <gale/app/usage_error.hpp>
+#include <gale/io/vtk/vtk_files.hpp>
+
+namespace gale::app {
+
+Command::Command(CLI::App& app, const std::string& name, const std::string& what)
+    : subcommand_(*app.add_subcommand(name, what)) {
+  input_.add_to(subcommand_);
+  common_.add_to(subcommand_);
+}
+
+bool Command::is_chosen() const { return subcommand_.parsed(); }
+
+void Command::require_extension(const std::string& option, const std::string& file,
+                                std::initializer_list<const char*> extensions) const {
+  if (file.empty()) return;
+  std::string list;
+  for (const std::string extension : extensions) {
+    if (io::detail::format_of(file) == io::detail::format_of("any" + extension)) return;
+    list += (list.empty() ? "" : " or ") + extension;
+  }
+  throw UsageError(option + ' ' + file + ": gale " + subcommand_.get_name() + " writes " + list);
+}
+
+}  // namespace gale::app

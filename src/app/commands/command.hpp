@@ -1,0 +1,42 @@
+#pragma once
+
+#include <string>
+
+#include <gale/app/options/options.hpp>
+
+namespace gale::app {
+
+/// A subcommand: its options, which its constructor adds to the command line, and what it does with them.
+class Command {
+ public:
+  virtual ~Command() = default;
+
+  /// Does what the command is for; to be called when the command line has been parsed and Kokkos is initialized. Throws
+  /// gale::Error or UsageError.
+  virtual void run() const = 0;
+
+  /// Whether the command line names it.
+  bool is_chosen() const;
+
+  const CommonOptions& common() const { return common_; }
+
+ protected:
+  /// `what` it does is for the help. `app` must outlive the command.
+  Command(CLI::App& app, const std::string& name, const std::string& what);
+
+  /// Where it adds options of its own.
+  CLI::App& subcommand() { return subcommand_; }
+
+  const InputOptions& input() const { return input_; }
+
+  /// Throws UsageError unless `file`, the value of `option`, is empty or ends in one of `extensions`, in either case.
+  void require_extension(const std::string& option, const std::string& file,
+                         std::initializer_list<const char*> extensions) const;
+
+ private:
+  CLI::App& subcommand_;
+  InputOptions input_;
+  CommonOptions common_;
+};
+
+}  // namespace gale::app

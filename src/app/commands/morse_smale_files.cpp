@@ -1,0 +1,89 @@
+#include <algorithm>
+
+#include <gale/app/commands/morse_smale_files.hpp>
+#include <gale/app/drawing/picture.hpp>
+#include <gale/io/write.hpp>
+#include <gale/outputs/critical_simplices.hpp>
+#include <gale/outputs/manifolds.hpp>
+#include <gale/outputs/named_simplices.hpp>
+#include <gale/outputs/separatrices1.hpp>
+#include <gale/outputs/separatrices2.hpp>
+
+namespace gale::app {
+
+namespace {
+
+/// Which saddles connectors join, without the ways between them.
+Separatrices<TriangleVertices> ends_of(const Separatrices<TriangleVertices>& connectors) {
+  Separatrices<TriangleVertices> ends;
+  ends.sources = connectors.sources;
+  ends.destinations = connectors.destinations;
+  return ends;
+}
+
+/// Empties the separatrices that were found because something else needed them.
+void leave_out_unwanted(const MorseSmaleParts& wanted, MorseSmaleComplex& complex) {
+  if (!wanted.descending_separatrices) complex.descending = {};
+  if (!wanted.ascending_separatrices) complex.ascending = {};
+  if (!wanted.saddle_connectors) complex.connectors = {};
+}
+
+/// What `make` makes, whose time is added to `seconds`.
+template <class Make>
+auto timed(double& seconds, const Make& make) {
+  const Stopwatch watch(seconds);
+  return make();
+}
+
+}  // namespace
+
+MorseSmaleFiles::MorseSmaleFiles(const std::string& prefix, const MorseSmaleParts& wanted, const std::string& picture)
+    : picture(picture) {
+  if (prefix.empty()) return;
+  critical_points = prefix + "_critical_points.vtp";
+  if (wanted.descending_separatrices || wanted.ascending_separatrices || wanted.saddle_connectors)
+    separatrices1 = prefix + "_separatrices1.vtp";
+  if (wanted.separatrices2) separatrices2 = prefix + "_separatrices2.vtp";
+  if (wanted.descending_manifolds || wanted.ascending_manifolds) segmentation = prefix + "_segmentation.vtu";
+}
+
+std::vector<std::string> MorseSmaleFiles::all() const {
+  return {critical_points, separatrices1, separatrices2, segmentation, picture};
+}
+
+bool MorseSmaleFiles::any() const {
+  const auto files = all();
+  return std::any_of(files.begin(), files.end(), [](const std::string& file) { return !file.empty(); });
+}
+
+void write(const MorseSmaleFiles& files, const MorseSmaleParts& wanted, const FieldOnMesh& on,
+           MorseSmaleComplex& complex, Structure& structure, Session& session) {
+  const io::Dataset& dataset = on.dataset;
+  const auto connectors = ends_of(complex.connectors);  // of all, wanted or not: they bound walls
+  leave_out_unwanted(wanted, complex);
+  Seconds& seconds = session.report().seconds;
+  const NamedSimplices named = timed(seconds.write, [&] { return outputs::named_simplices(complex); });
+  const SimplexNumbers numbers =
+      timed(seconds.run, [&] { return number_simplices(structure, named, session.sweep("numbers")); });
+  const outputs::KnownSimplices critical =
+      timed(seconds.write, [&] { return outputs::known_simplices(complex.gradient, complex.critical, numbers); });
+  const io::PointSet points = timed(seconds.write, [&] {
+    io::PointSet set = outputs::to_point_set(dataset, critical);
+    set.arrays.push_back(outputs::manifold_sizes(complex));
+    return set;
+  });
+  const io::Surface lines = timed(
+      seconds.write, [&] { return outputs::separatrices1(dataset, on.field, complex, named, numbers, critical); });
+  session.write(files.critical_points, [&](const std::string& path) { io::write_points(path, points); });
+  session.write(files.separatrices1, [&](const std::string& path) { io::write_surface(path, lines); });
+  session.write(files.separatrices2, [&](const std::string& path) {
+    io::write_surface(path, outputs::separatrices2(dataset, on.field, complex, connectors, critical));
+  });
+  session.write(files.segmentation,
+                [&](const std::string& path) { io::write_mesh(path, dataset, outputs::manifold_arrays(complex)); });
+  session.write(files.picture, [&](const std::string& path) {
+    draw(path, picture_of(dataset, on.field, complex, numbers, points, lines));
+  });
+}
+
+}  // namespace gale::app

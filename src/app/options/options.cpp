@@ -1,0 +1,39 @@
+#include <CLI/CLI.hpp>
+
+#include <gale/app/options/options.hpp>
+#include <gale/app/options/parse.hpp>
+
+namespace gale::app {
+
+void InputOptions::add_to(CLI::App& command) {
+  command.add_option("INPUT", input, "A mesh (.vtu .vtk), a volume (.vti .nii .nii.gz .mha .mhd .nrrd) or grid:N")
+      ->required();
+  command.add_option("--above", read.above, "Volumes: keep the voxels with values above this");
+  command.add_option(
+      "-a,--array", read.array,
+      "The point array to analyse, NAME or NAME_K for its component K; of volumes, also what --above is about");
+  command.add_flag("--tetrahedralize", read.tetrahedralize, "Meshes: split other 3D cells into tetrahedra");
+}
+
+void CommonOptions::add_to(CLI::App& command) {
+  command.add_option("-t,--threads", threads, "Threads (default: all cores)")->check(CLI::Range(1, 1024));
+  command.add_option("--report", report, "Write times, memory and results to this JSON file");
+  command.add_flag("--quiet", quiet, "Print nothing but errors");
+}
+
+void SegmentationOptions::add_to(CLI::App& command) {
+  CLI::Option* const largest = command.add_option("--capacity", capacity, "Most vertices of a segment (default: 100)");
+  largest->check(CLI::Range(1, 2147483647));
+  const auto set = [this](const std::string& text) {
+    random_count = parse_random("--segments", text);
+    if (!random_count) array = text;
+  };
+  command
+      .add_option_function<std::string>(
+          "--segments", set,
+          "A point array that says which segment a vertex is in, instead of an octree; random:K for K segments by no "
+          "rule")
+      ->excludes(largest);
+}
+
+}  // namespace gale::app

@@ -1,0 +1,54 @@
+#include <CLI/CLI.hpp>
+
+#include <gale/app/options/parse.hpp>
+#include <gale/app/options/structure_option.hpp>
+#include <gale/runtime/make_structure.hpp>
+
+namespace gale::app {
+
+namespace {
+
+void add_size(CLI::App& command, std::size_t& size, const std::string& name, const std::string& what) {
+  const auto set = [&size, name](const std::string& text) { size = parse_size(name, text); };
+  command.add_option_function<std::string>(name, set, what)->type_name("SIZE");
+}
+
+std::optional<std::int64_t> known(Id count) {
+  return count == no_id ? std::nullopt : std::optional<std::int64_t>(count);
+}
+
+}  // namespace
+
+void StructureOption::add_to(CLI::App& command) {
+  command
+      .add_option(
+          "--structure", name,
+          "gale (leaders on a device, else helpers), leaders (threads that have batches computed ahead), helpers "
+          "(cores beyond --threads compute ahead), inline (no leaders, no helpers), explicit (everything at "
+          "once) or task-parallel (a worker thread for each consumer)")
+      ->check(CLI::IsMember({"gale", "leaders", "helpers", "inline", "explicit", "task-parallel"}));
+  command.add_option("--cores", options.cores, "Cores that threads and helpers share (default: as many as threads)")
+      ->check(CLI::Range(1, 1024));
+  const CLI::Range launches(1, 1048576);
+  command.add_option("--blocks-per-request", options.blocks_per_request, "n_b")->check(launches);
+  command.add_option("--threads-per-block", options.threads_per_block, "t_b")->check(launches);
+  command.add_option("--threads-per-segment", options.threads_per_segment, "t_s")->check(CLI::Range(1, 1024));
+  add_size(command, options.host_memory, "--host-memory", "Budget for blocks on the host, e.g. 512MiB");
+  add_size(command, options.device_memory, "--device-memory", "Budget for batches on the device");
+}
+
+std::unique_ptr<Structure> StructureOption::make(const Mesh& mesh, RelationSet relations) const {
+  StructureOptions chosen = options;
+  chosen.way = *way_named(name);
+  if (chosen.cores == 0) chosen.cores = host_threads();
+  return make_structure(mesh, relations, chosen);
+}
+
+void report_structure(const Structure& structure, Report& report) {
+  report.edges = known(structure.count(1));
+  report.triangles = known(structure.count(2));
+  report.way = name_of(structure.way());
+  if (structure.way() != Way::explicit_) report.statistics = structure.statistics();
+}
+
+}  // namespace gale::app

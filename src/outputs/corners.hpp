@@ -1,0 +1,22 @@
+#pragma once
+
+#include <array>
+
+#include <gale/mesh/mesh.hpp>
+
+namespace gale::outputs::detail {
+
+/// The vertices of a tetrahedron, all in GALE's ids.
+inline std::array<Id, 4> corners_of(const Mesh& mesh, Id tetrahedron) {
+  const auto& all = mesh.host().tetrahedra;
+  return {all(tetrahedron, 0), all(tetrahedron, 1), all(tetrahedron, 2), all(tetrahedron, 3)};
+}
+
+/// Input ids of vertices from GALE's. `input` is `mesh.vertex_input().data()`.
+template <std::size_t N>
+std::array<Id, N> to_input(const Id* input, std::array<Id, N> simplex) {
+  for (Id& vertex : simplex) vertex = input[vertex];
+  return simplex;
+}
+
+}  // namespace gale::outputs::detail
