@@ -59,7 +59,7 @@ KnownSimplices known_simplices(const DiscreteGradient& gradient, const CriticalS
     known[1].push_back(namer.name(critical.edges[i], numbers.edges[i]));
   for (std::size_t i = 0; i < critical.triangles.size(); ++i)
     known[2].push_back(namer.name(critical.triangles[i], numbers.triangles[i]));
-  const auto& all = mesh.host().tetrahedra;
+  const auto& all = mesh.encoded().tetrahedra;
   for (const Id t : critical.tetrahedra) {
     known[3].push_back(
         namer.name_tetrahedron({all(t, 0), all(t, 1), all(t, 2), all(t, 3)}, mesh.tetrahedron_input()(t)));

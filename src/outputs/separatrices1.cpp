@@ -25,7 +25,7 @@ std::array<Id, N> common(const Simplex& a, const Simplex& b) {
 }
 
 std::array<Id, 4> tetrahedron_of(const Mesh& mesh, Id t) {
-  const auto& all = mesh.host().tetrahedra;
+  const auto& all = mesh.encoded().tetrahedra;
   return {all(t, 0), all(t, 1), all(t, 2), all(t, 3)};
 }
 

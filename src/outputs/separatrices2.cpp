@@ -113,7 +113,7 @@ class Walls {
 
   /// Input vertices of a tetrahedron.
   std::array<Id, 4> vertices_of(Id t) const {
-    const auto& all = mesh_.host().tetrahedra;
+    const auto& all = mesh_.encoded().tetrahedra;
     return {vertex_input_[all(t, 0)], vertex_input_[all(t, 1)], vertex_input_[all(t, 2)], vertex_input_[all(t, 3)]};
   }
 

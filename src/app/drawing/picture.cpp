@@ -169,7 +169,7 @@ class Painter {
   /// The triangles of what is left of the mesh that one tetrahedron has alone. Their vertices are on the mesh's surface
   /// or on the cut.
   void paint_skin() {
-    const auto& tetrahedra = mesh_.host().tetrahedra;
+    const auto& tetrahedra = mesh_.encoded().tetrahedra;
     std::vector<char> is_left(mesh_.tetrahedra()), near_left(mesh_.vertices()), near_cut(mesh_.vertices());
     for (Id t = 0; t < mesh_.tetrahedra(); ++t) {
       Point middle{};

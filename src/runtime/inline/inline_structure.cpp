@@ -92,10 +92,10 @@ class InlineConsumer : public Consumer {
 
 /// Has what workers on the host read there, before several ask for it.
 void precondition(const Mesh& mesh, RelationSet relations) {
-  if (!(relations & star_relations).empty()) mesh.host();
+  if (!(relations & star_relations).empty()) mesh.encoded();
   SimplexNeeds needs = needs_of(relations);
   needs.tetrahedra |= needs.upto != Enumeration::tetrahedra;
-  mesh.simplices_on_host(needs);
+  mesh.simplices(needs);
 }
 
 struct SweepConsumer {

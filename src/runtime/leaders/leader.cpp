@@ -20,14 +20,25 @@ double words_per_vertex(RelationSet relations) {
   return sum;
 }
 
+/// Whether the exception that is being handled says that memory ran out: ours, or the standard library's.
+bool is_out_of_memory() {
+  try {
+    throw;
+  } catch (const OutOfMemory&) {
+    return true;
+  } catch (const std::bad_alloc&) {
+    return true;
+  } catch (...) {
+    return false;
+  }
+}
+
 /// What the exception that is being handled says.
 std::string current_message() {
   try {
     throw;
-  } catch (const std::bad_alloc& error) {
-    return std::string(error.what()) + ", for one segment";
   } catch (const std::exception& error) {
-    return error.what();
+    return std::string(error.what()) + (is_out_of_memory() ? ", for one segment" : "");
   } catch (...) {
     return "unknown exception";
   }
@@ -234,16 +245,12 @@ void Leader::launch(Plan plan, Arena& arena) {
   BatchWorker* const worker = idle_.back();
   try {
     worker->launch(plan.segments, static_cast<Offset>(arena.words.size()), plan.scratch);
-  } catch (const std::bad_alloc&) {
-    worker->abandon();
-    store_.give_back(arena);
-    if (plan.segments.size() == 1) throw;
-    split(std::move(plan));
-    return;
   } catch (...) {
     worker->abandon();
     store_.give_back(arena);
-    throw;
+    if (plan.segments.size() == 1 || !is_out_of_memory()) throw;
+    split(std::move(plan));
+    return;
   }
   idle_.pop_back();
   flights_.push_back({std::move(plan), worker, &arena, Clock::now(), false});

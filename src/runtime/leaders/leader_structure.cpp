@@ -29,7 +29,7 @@ std::unique_ptr<BatchWorker> make_worker(const Mesh& mesh, const WorkerParameter
 class Leaders {
  public:
   Leaders(const Mesh& mesh, RelationSet relations, const RuntimeOptions& options) : mesh(mesh), relations(relations) {
-    mesh.simplices_on_host(needs_of(relations & face_relations));
+    mesh.simplices(needs_of(relations & face_relations));
     const auto queues = queues_for(relations - face_relations, options.queues);
     const Sizes sizes = sizes_for(mesh, options, std::max(static_cast<int>(queues.size()), 1));
     for (const RelationSet members : queues) {
