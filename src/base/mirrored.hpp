@@ -101,15 +101,17 @@ class TwoArrays {
 /// Copies share it. What it was made from must not be written any more.
 template <class T>
 class Mirrored {
+  template <class View>
+  using MemoryOfView = std::conditional_t<is_device_memory<typename View::memory_space>, WorkerMemory, HostMemory>;
   using Arrays = std::conditional_t<have_device, detail::TwoArrays<T>, detail::OneArray<T>>;
 
  public:
   /// Of no entries.
   Mirrored() = default;
 
-  /// `U` is T or const T; `Memory` the workers' or the host's.
-  template <class U, class Memory, class = std::enable_if_t<std::is_same_v<std::remove_const_t<U>, T>>>
-  Mirrored(const Kokkos::View<U*, Memory>& array) : arrays_(Array<const T, Memory>(array)) {}
+  /// Of a View of T or const T of rank 1, in the workers' memory or the host's.
+  template <class View, class = std::enable_if_t<std::is_same_v<typename View::non_const_value_type, T>>>
+  Mirrored(const View& array) : arrays_(Array<const T, MemoryOfView<View>>(array)) {}
 
   /// The entries, for code that runs on `Memory`. The first call for a memory that it was not made in copies it there:
   /// any thread may make it; the others wait. After that, and where it was made, a call takes no lock. Throws

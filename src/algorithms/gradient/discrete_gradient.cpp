@@ -87,6 +87,7 @@ Partner DiscreteGradient::pair_of_triangle(Id tetrahedron, int corner, const Row
 }
 
 DiscreteGradient find_discrete_gradient(Structure& structure, const VertexOrder& order, const SweepOptions& options) {
+  const ThreadLimit limit(options.threads);
   const int consumers = std::max(options.threads, 1);
   const auto store = std::make_shared<detail::GradientStore>(structure.mesh(), order, consumers);
   std::vector<std::unique_ptr<detail::GradientSweep>> sweeps;
