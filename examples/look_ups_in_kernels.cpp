@@ -32,7 +32,7 @@ void fill(int n, const Kokkos::View<double* [3], Space>& points, const Kokkos::V
 
 /// The largest number of tetrahedra at one edge.
 int largest_star(const gale::Mesh& mesh) {
-  const auto simplices = mesh.simplices_on_worker(gale::needs_of(gale::Relation::TE));
+  const auto simplices = mesh.simplices<gale::WorkerMemory>(gale::needs_of(gale::Relation::TE));
   const Kokkos::View<int*, Space> count("tetrahedra of each edge", mesh.known_edges());
   Kokkos::parallel_for(
       "count", Kokkos::RangePolicy<Space>(0, mesh.tetrahedra()), KOKKOS_LAMBDA(int t) {

@@ -38,9 +38,9 @@ void initialize(const io::Dataset& data) {
   const double encoding = step("encoding (VV and VT need no more)", [&] {
     mesh = std::make_unique<Mesh>(Tetrahedra<Id, HostMemory>(data.tetrahedra), segmentation);
   });
-  double enumeration = step("edges and triangles", [&] { mesh->simplices_on_worker(needs_of(looked_up)); });
-  enumeration += step("edges by their higher vertex", [&] { mesh->simplices_on_worker(needs_of(computed)); });
-  const double mirror = step("mirrors on the host", [&] { mesh->simplices_on_host(needs_of(looked_up)); });
+  double enumeration = step("edges and triangles", [&] { mesh->simplices<WorkerMemory>(needs_of(looked_up)); });
+  enumeration += step("edges by their higher vertex", [&] { mesh->simplices<WorkerMemory>(needs_of(computed)); });
+  const double mirror = step("mirrors on the host", [&] { mesh->simplices(needs_of(looked_up)); });
   std::printf("  for VV and VT %.1f ms, octree included; for the gradient %.1f ms, segmentation given\n",
               1e3 * (octree + encoding), 1e3 * (encoding + enumeration + mirror));
   const double edges = mesh->known_edges(), triangles = mesh->known_triangles();

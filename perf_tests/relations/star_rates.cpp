@@ -38,7 +38,7 @@ struct WholeMesh {
         directory("directory", Offset(mesh.segments()) * wanted.count()),
         used("used", 1),
         needed("needed", 1) {
-    kernel.mesh = mesh.worker();
+    kernel.mesh = mesh.encoded<WorkerMemory>();
     kernel.segments = segments.data();
     kernel.wanted = wanted;
     kernel.sizes = sizes_for(mesh, wanted);
@@ -55,8 +55,8 @@ struct WholeMesh {
   }
 
   static StarSizes sizes_for(const Mesh& mesh, RelationSet wanted) {
-    const auto tetrahedra = on_host(mesh.worker().internal_begin);
-    const auto external = on_host(mesh.worker().external_begin);
+    const auto tetrahedra = on_host(mesh.encoded<WorkerMemory>().internal_begin);
+    const auto external = on_host(mesh.encoded<WorkerMemory>().external_begin);
     StarSizes sizes;
     for (Id s = 0; s < mesh.segments(); ++s) {
       const Id rows = mesh.vertex_begin()(s + 1) - mesh.vertex_begin()(s);

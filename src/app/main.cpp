@@ -91,8 +91,6 @@ int main(int argc, char** argv) {
     return output_arrived() ? done : complain(failed, "cannot write to standard output");
   } catch (const UsageError& error) {
     return complain(wrong_usage, error.what());
-  } catch (const gale::OutOfMemory& error) {
-    return complain(failed, error.what());
   } catch (const std::bad_alloc&) {
     return complain(failed, "out of memory");
   } catch (const std::exception& error) {

@@ -10,10 +10,10 @@
 
 namespace gale::detail {
 
-/// `algorithm(workspace, bytes, stream)` calls one of CUB's. Returns when it is done; throws gale::Error if it fails.
+/// `algorithm(workspace, bytes, stream)` calls one of CUB's. It is enqueued on the instance; giving its workspace back
+/// waits for it, as the device's memory is freed. Throws gale::Error if it fails.
 template <class Algorithm>
-void run_cub(const char* label, const Algorithm& algorithm) {
-  const WorkerSpace space;
+void run_cub(const WorkerSpace& space, const char* label, const Algorithm& algorithm) {
   const auto check = [label](cudaError_t status) {
     if (status != cudaSuccess) throw Error(std::string(label) + " failed on the device: " + cudaGetErrorString(status));
   };
@@ -21,7 +21,6 @@ void run_cub(const char* label, const Algorithm& algorithm) {
   check(algorithm(nullptr, bytes, space.cuda_stream()));
   const auto workspace = allocate<Array<char, WorkerMemory>>(label, bytes);
   check(algorithm(workspace.data(), bytes, space.cuda_stream()));
-  space.fence();
 }
 
 }  // namespace gale::detail

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <stdexcept>
+#include <string>
 
 namespace gale {
 
@@ -8,6 +9,19 @@ namespace gale {
 class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
+};
+
+/// Memory ran out. `what()` says of which kind, how much and for what.
+class OutOfMemory : public Error {
+ public:
+  /// `missing` is what there was none of, e.g. "HostSpace has no 80 bytes for GALE::tetrahedra".
+  explicit OutOfMemory(const std::string& missing) : Error(prefix + missing) {}
+
+  /// what() without its beginning, "out of memory: ".
+  std::string missing() const { return what() + std::char_traits<char>::length(prefix); }
+
+ private:
+  static constexpr const char* prefix = "out of memory: ";
 };
 
 }  // namespace gale

@@ -7,12 +7,36 @@
 
 #include <Kokkos_Core.hpp>
 
+#include <gale/base/error.hpp>
+
 namespace gale {
+
+/// Throws gale::Error unless Kokkos is initialized. Every array and every loop of the library asks this first.
+inline void require_kokkos() {
+  if (Kokkos::is_initialized()) return;
+  throw Error("Kokkos is not initialized: call Kokkos::initialize or make a Kokkos::ScopeGuard before using GALE");
+}
 
 /// Where workers compute relations: the device where Kokkos has one, else the host.
 using WorkerSpace = Kokkos::DefaultExecutionSpace;
 using WorkerMemory = WorkerSpace::memory_space;
 using HostMemory = Kokkos::HostSpace;
+
+/// The host's threads. Where Kokkos has no device, the same type as WorkerSpace.
+using HostSpace = Kokkos::DefaultHostExecutionSpace;
+
+template <class Space>
+using MemoryOf = typename Space::memory_space;
+
+/// instantiate(Space) for each space that a mesh may be made in: what is a template over the space is instantiated with
+/// it in its source.
+#if defined(KOKKOS_ENABLE_CUDA)
+#define GALE_IN_EACH_SPACE(instantiate) \
+  instantiate(WorkerSpace);             \
+  instantiate(HostSpace)
+#else
+#define GALE_IN_EACH_SPACE(instantiate) instantiate(WorkerSpace)
+#endif
 
 /// Whether host code can't read what lies in `Memory`.
 template <class Memory>

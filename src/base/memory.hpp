@@ -1,8 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
-#include <new>
 #include <string>
 
 #include <gale/base/kokkos.hpp>
@@ -22,27 +20,19 @@ void advise_huge_pages(void* data, std::size_t bytes);
 
 }  // namespace detail
 
-/// Memory ran out; says for what. Kokkos throws this or that, by version and backend.
-class OutOfMemory : public std::bad_alloc {
- public:
-  explicit OutOfMemory(const std::string& what) : what_(std::make_shared<const std::string>(what)) {}
-  const char* what() const noexcept override { return what_->c_str(); }
-
- private:
-  std::shared_ptr<const std::string> what_;
-};
-
 /// An uninitialized View of the given extents; large ones on the host are backed by huge pages where the system has
-/// them. Throws OutOfMemory.
+/// them. Throws OutOfMemory, whatever Kokkos throws then, which differs by version and backend; gale::Error if Kokkos
+/// isn't initialized.
 template <class ViewType, class... Extents>
 ViewType allocate(const std::string& label, Extents... extents) {
+  require_kokkos();
   const ViewType view = [&] {
     try {
       return ViewType(Kokkos::view_alloc(label, Kokkos::WithoutInitializing), static_cast<std::size_t>(extents)...);
     } catch (const std::exception&) {
       const std::size_t bytes = ViewType::required_allocation_size(static_cast<std::size_t>(extents)...);
-      throw OutOfMemory(std::string("out of memory: ") + ViewType::memory_space::name() + " has no " +
-                        std::to_string(bytes) + " bytes for " + label);
+      throw OutOfMemory(std::string(ViewType::memory_space::name()) + " has no " + std::to_string(bytes) +
+                        " bytes for " + label);
     }
   }();
   if constexpr (have_device && std::is_same_v<typename ViewType::memory_space, HostMemory>) {

@@ -8,8 +8,12 @@
 #include <gale/base/threads.hpp>
 #include <gale/base/types.hpp>
 
-// Loops over 0..n-1 in the workers' space. On a device they are Kokkos' own. On the host they run on all our threads
+// Loops over 0..n-1 in an execution space. On a device they are Kokkos' own. On the host they run on our threads,
 // whatever backend Kokkos has there: Kokkos::Serial is one core, our users have more.
+//
+// On a device a loop is enqueued on the instance of the space that it is given and doesn't wait for it, as Kokkos' own;
+// what returns a value waits for that. So whoever hands data to the host or to another instance fences first. On the
+// host every loop is done when it returns. All throw gale::Error if Kokkos isn't initialized.
 
 namespace gale {
 
@@ -25,18 +29,19 @@ inline int threads_for(Offset n) {
 
 template <class Body>
 void for_parts(const char* label, Offset n, int parts, const Body& body) {
+  require_kokkos();
   const ToolsRegion region(label);
   on_threads(parts, [&](int part) { body(part, part_begin(n, parts, part), part_begin(n, parts, part + 1)); });
 }
 
 }  // namespace detail
 
-/// Calls `body(i)` for every i in 0..n-1, in parallel and in no order, and returns when all are done.
+/// Calls `body(i)` for every i in 0..n-1, in parallel and in no order. On a device it returns at once.
 template <class Space, class Body>
 void parallel_for(const char* label, const Space& space, Offset n, const Body& body) {
+  require_kokkos();
   if constexpr (is_device<Space>) {
     Kokkos::parallel_for(label, Kokkos::RangePolicy<Space, Kokkos::IndexType<Offset>>(space, 0, n), body);
-    space.fence();
   } else {
     detail::for_parts(label, n, detail::threads_for(n), [&](int, Offset begin, Offset end) {
       for (Offset i = begin; i < end; ++i) body(i);
@@ -44,7 +49,8 @@ void parallel_for(const char* label, const Space& space, Offset n, const Body& b
   }
 }
 
-/// begin[i] = count(0) + ... + count(i-1) for i in 0..n; returns begin[n]. `count(i)` may read begin[i].
+/// begin[i] = count(0) + ... + count(i-1) for i in 0..n; returns begin[n], for which it waits. `count(i)` may read
+/// begin[i].
 template <class Space, class T, class Count>
 T exclusive_scan(const char* label, const Space& space, Offset n, const Array<T, typename Space::memory_space>& begin,
                  const Count& count) {
@@ -58,7 +64,6 @@ T exclusive_scan(const char* label, const Space& space, Offset n, const Array<T,
           sum += here;
         },
         total);
-    space.fence();
     return total;
   } else {
     const int parts = detail::threads_for(n);
@@ -82,7 +87,7 @@ T exclusive_scan(const char* label, const Space& space, Offset n, const Array<T,
   }
 }
 
-/// The least of `initial` and value(0), ..., value(n-1).
+/// The least of `initial` and value(0), ..., value(n-1). Waits for it.
 template <class Space, class T, class Value>
 T reduce_min(const char* label, const Space& space, Offset n, T initial, const Value& value) {
   if constexpr (is_device<Space>) {
@@ -94,7 +99,6 @@ T reduce_min(const char* label, const Space& space, Offset n, T initial, const V
           if (here < best) best = here;
         },
         Kokkos::Min<T>(least));
-    space.fence();
     return least < initial ? least : initial;
   } else {
     const int parts = detail::threads_for(n);
@@ -111,7 +115,7 @@ T reduce_min(const char* label, const Space& space, Offset n, T initial, const V
   }
 }
 
-/// value(0) + ... + value(n-1).
+/// value(0) + ... + value(n-1). Waits for it.
 template <class Space, class Value>
 Offset reduce_sum(const char* label, const Space& space, Offset n, const Value& value) {
   if constexpr (is_device<Space>) {
@@ -119,7 +123,6 @@ Offset reduce_sum(const char* label, const Space& space, Offset n, const Value& 
     Kokkos::parallel_reduce(
         label, Kokkos::RangePolicy<Space, Kokkos::IndexType<Offset>>(space, 0, n),
         KOKKOS_LAMBDA(Offset i, Offset & sum) { sum += value(i); }, total);
-    space.fence();
     return total;
   } else {
     const int parts = detail::threads_for(n);

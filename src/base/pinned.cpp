@@ -1,5 +1,7 @@
 #include <new>
+#include <string>
 
+#include <gale/base/error.hpp>
 #include <gale/base/pinned.hpp>
 
 #if defined(KOKKOS_ENABLE_CUDA)
@@ -34,13 +36,16 @@ void touch(void* memory, std::size_t size) {
 std::shared_ptr<void> allocate_pinned_bytes(std::size_t bytes) {
   const std::size_t size = (bytes + page) / page * page;
   void* const memory = mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-  if (memory == MAP_FAILED) throw std::bad_alloc();
+  const auto refuse = [size] {
+    throw OutOfMemory("the host has no " + std::to_string(size) + " bytes of page-locked memory");
+  };
+  if (memory == MAP_FAILED) refuse();
   advise_huge_pages(memory, size);
   touch(memory, size);
   if (cudaHostRegister(memory, size, cudaHostRegisterDefault) != cudaSuccess) {
     cudaGetLastError();
     munmap(memory, size);
-    throw std::bad_alloc();
+    refuse();
   }
   return {memory, [size](void* at) {
             cudaHostUnregister(at);
@@ -55,7 +60,11 @@ std::shared_ptr<void> allocate_pinned_bytes(std::size_t bytes) {
 namespace gale::detail {
 
 std::shared_ptr<void> allocate_pinned_bytes(std::size_t bytes) {
-  return {::operator new(bytes), [](void* at) { ::operator delete(at); }};
+  try {
+    return {::operator new(bytes), [](void* at) { ::operator delete(at); }};
+  } catch (const std::bad_alloc&) {
+    throw OutOfMemory("the host has no " + std::to_string(bytes) + " bytes for a batch");
+  }
 }
 
 }  // namespace gale::detail

@@ -9,7 +9,7 @@ namespace gale {
 
 namespace detail {
 
-/// Page-locked host memory; ordinary memory where there is no device. Uninitialized. Throws std::bad_alloc.
+/// Page-locked host memory; ordinary memory where there is no device. Uninitialized. Throws OutOfMemory.
 std::shared_ptr<void> allocate_pinned_bytes(std::size_t bytes);
 
 }  // namespace detail

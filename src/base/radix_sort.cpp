@@ -15,25 +15,28 @@ namespace gale {
 
 namespace {
 
-using Keys = Array<std::uint64_t, WorkerMemory>;
-using Values = Array<Id, WorkerMemory>;
-
 #if defined(KOKKOS_ENABLE_CUDA)
 
-void sort_on_device(const Keys& keys, const Values& values) {
+void sort_on_device(const WorkerSpace& space, const Array<std::uint64_t, WorkerMemory>& keys,
+                    const Array<Id, WorkerMemory>& values) {
+  using Keys = Array<std::uint64_t, WorkerMemory>;
+  using Values = Array<Id, WorkerMemory>;
   const auto n = static_cast<std::int64_t>(keys.extent(0));
   const auto other_keys = allocate<Keys>("GALE::sort_keys", n);
   const auto other_values = allocate<Values>("GALE::sort_values", n);
   cub::DoubleBuffer<std::uint64_t> key_buffer(keys.data(), other_keys.data());
   cub::DoubleBuffer<Id> value_buffer(values.data(), other_values.data());
-  detail::run_cub("GALE::sort_by_key", [&](void* workspace, std::size_t& bytes, cudaStream_t stream) {
+  detail::run_cub(space, "GALE::sort_by_key", [&](void* workspace, std::size_t& bytes, cudaStream_t stream) {
     return cub::DeviceRadixSort::SortPairs(workspace, bytes, key_buffer, value_buffer, n, 0, 64, stream);
   });
-  if (key_buffer.Current() != keys.data()) Kokkos::deep_copy(keys, other_keys);
-  if (value_buffer.Current() != values.data()) Kokkos::deep_copy(values, other_values);
+  if (key_buffer.Current() != keys.data()) Kokkos::deep_copy(space, keys, other_keys);
+  if (value_buffer.Current() != values.data()) Kokkos::deep_copy(space, values, other_values);
 }
 
-#else
+#endif
+
+using Keys = Array<std::uint64_t, HostMemory>;
+using Values = Array<Id, HostMemory>;
 
 constexpr int digit_bits = 11;
 constexpr int digits = 1 << digit_bits;
@@ -82,17 +85,23 @@ void sort_on_host(const Keys& keys, const Values& values) {
   }
 }
 
-#endif
-
 }  // namespace
 
-void stable_sort_by_key(const Keys& keys, const Values& values) {
+template <class Space>
+void stable_sort_by_key(const Space& space, const Array<std::uint64_t, MemoryOf<Space>>& keys,
+                        const Array<Id, MemoryOf<Space>>& values) {
   if (keys.extent(0) < 2) return;
-#if defined(KOKKOS_ENABLE_CUDA)
-  sort_on_device(keys, values);
-#else
-  sort_on_host(keys, values);
-#endif
+  if constexpr (is_device<Space>) {
+    sort_on_device(space, keys, values);
+  } else {
+    sort_on_host(keys, values);
+  }
 }
+
+#define GALE_INSTANTIATE(Space)                                                                \
+  template void stable_sort_by_key(const Space&, const Array<std::uint64_t, MemoryOf<Space>>&, \
+                                   const Array<Id, MemoryOf<Space>>&)
+GALE_IN_EACH_SPACE(GALE_INSTANTIATE);
+#undef GALE_INSTANTIATE
 
 }  // namespace gale

@@ -14,33 +14,31 @@
 
 namespace gale {
 
-#ifdef GALE_ENABLE_STD_THREADS
-namespace detail {
-inline int chosen_host_threads = 0;
-}
-#endif
+/// How many threads a host loop, or a sweep unless told otherwise, uses when this thread begins it: what was set, else
+/// what OMP_NUM_THREADS says, else what OpenMP would take, but no more than the cores that the process may run on and
+/// than a container's CPU quota, rounded up. No more than this thread's ThreadLimits in any case.
+int host_threads();
 
-/// How many threads a host loop or a sweep uses unless told otherwise: what OpenMP would take.
-inline int host_threads() {
-#ifdef GALE_ENABLE_STD_THREADS
-  const int count = static_cast<int>(std::thread::hardware_concurrency());
-  return detail::chosen_host_threads > 0 ? detail::chosen_host_threads : count > 0 ? count : 1;
-#else
-  return omp_get_max_threads();
-#endif
-}
+/// From now on so many, at least 1, whichever thread begins a loop. For the application, before it begins: the library
+/// never calls it.
+void set_host_threads(int count);
 
-/// From now on so many, at least 1. For the application, before it begins: the library never calls it.
-inline void set_host_threads(int count) {
-#ifdef GALE_ENABLE_STD_THREADS
-  detail::chosen_host_threads = count;
-#else
-  omp_set_num_threads(count);
-#endif
-}
+/// While it lives, loops that this thread begins use at most so many threads, at least 1; of several that live, the
+/// least counts. To be destroyed on the thread that made it, last made first.
+class ThreadLimit {
+ public:
+  explicit ThreadLimit(int threads);
+  ~ThreadLimit();
+  ThreadLimit(const ThreadLimit&) = delete;
+  ThreadLimit& operator=(const ThreadLimit&) = delete;
+
+ private:
+  int before_;
+};
 
 /// Calls `body(i)` for i in 0..count-1, each on a thread of its own as far as OpenMP grants them, and returns when all
-/// have returned. The first exception that a body throws is thrown again here, after the others have ended.
+/// have returned. The first exception that a body throws is thrown again here, after the others have ended. Loops that
+/// a body begins run on its own thread.
 template <class Body>
 void on_threads(int count, const Body& body) {
   if (count <= 1) {
@@ -50,6 +48,7 @@ void on_threads(int count, const Body& body) {
   std::exception_ptr failure;
   std::mutex failure_mutex;
   const auto guarded = [&](int i) {
+    const ThreadLimit alone(1);
     try {
       body(i);
     } catch (...) {

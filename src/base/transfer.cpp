@@ -73,6 +73,7 @@ auto first(const Pinned& chunk, std::size_t size) {
 }  // namespace
 
 void copy_to_device(void* device, const void* host, std::size_t bytes) {
+  WorkerSpace().fence("GALE::copy");
   Lanes::instance().for_pieces(bytes, [&](const Lane& lane, std::size_t begin, std::size_t size) {
     std::memcpy(lane.chunk.data(), static_cast<const char*>(host) + begin, size);
     Kokkos::deep_copy(lane.instance, Bytes(static_cast<char*>(device) + begin, size), first(lane.chunk, size));
@@ -81,6 +82,7 @@ void copy_to_device(void* device, const void* host, std::size_t bytes) {
 }
 
 void copy_from_device(void* host, const void* device, std::size_t bytes) {
+  WorkerSpace().fence("GALE::copy");
   Lanes::instance().for_pieces(bytes, [&](const Lane& lane, std::size_t begin, std::size_t size) {
     char* const from = const_cast<char*>(static_cast<const char*>(device)) + begin;
     Kokkos::deep_copy(lane.instance, first(lane.chunk, size), Bytes(from, size));

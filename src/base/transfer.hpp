@@ -7,8 +7,9 @@
 namespace gale {
 
 /// Copies `bytes` bytes between ordinary host memory and the device, at the bandwidth of pinned memory: all host
-/// threads copy through pinned chunks of their own. Returns when it is done. Only where there is a device; one call at
-/// a time is fast, more wait for each other.
+/// threads copy through pinned chunks of their own. Waits first for what is enqueued on WorkerSpace(), which may have
+/// made the data, and returns when it is done. Only where there is a device; one call at a time is fast, more wait for
+/// each other.
 void copy_to_device(void* device, const void* host, std::size_t bytes);
 void copy_from_device(void* host, const void* device, std::size_t bytes);
 
@@ -37,6 +38,16 @@ auto on_host(const Kokkos::View<T, Properties...>& view) {
     return OnHost(copy);
   } else {
     return OnHost(view);
+  }
+}
+
+/// The same contents in `Memory`, which is the host's or the workers'; likewise.
+template <class Memory, class T, class... Properties>
+auto in_memory(const Kokkos::View<T, Properties...>& view) {
+  if constexpr (is_device_memory<Memory>) {
+    return on_worker(view);
+  } else {
+    return on_host(view);
   }
 }
 

@@ -12,38 +12,41 @@ namespace gale::detail {
 
 /// Rows of distinct ids, all of them one after the other: row r is values[begin[r]] to values[begin[r + 1] - 1],
 /// ascending.
+template <class Memory>
 struct DistinctRows {
-  Array<Id, WorkerMemory> begin;
-  Array<Id, WorkerMemory> values;
-  Array<Id, WorkerMemory> row_of;  ///< of each value
+  Array<Id, Memory> begin;
+  Array<Id, Memory> values;
+  Array<Id, Memory> row_of;  ///< of each value
 };
 
 /// The rows with more distinct candidates than a thread keeps by itself: theirs are written down, and sorted.
-template <class Candidates>
+template <class Space, class Candidates>
 class LargeRows {
  public:
-  using Ids = Array<Id, WorkerMemory>;
-  using Offsets = Array<Offset, WorkerMemory>;
+  using Memory = MemoryOf<Space>;
+  using Ids = Array<Id, Memory>;
+  using Offsets = Array<Offset, Memory>;
 
   /// Those whose count is FewDistinct::too_many. Replaces it by the number of distinct candidates.
-  LargeRows(const Ids& count, Id large, const Candidates& candidates)
-      : rows_(allocate<Ids>("GALE::large_rows", large)),
+  LargeRows(const Space& space, const Ids& count, Id large, const Candidates& candidates)
+      : space_(space),
+        rows_(allocate<Ids>("GALE::large_rows", large)),
         begin_(allocate<Offsets>("GALE::large_begin", large + Offset(1))) {
     if (large == 0) return;
     find(count);
     values_ = allocate<Ids>("GALE::candidates", count_candidates(candidates));
     gather(candidates);
-    sort_rows("GALE::sort_candidates", begin_, values_);
+    sort_rows(space_, "GALE::sort_candidates", begin_, values_);
     write_counts(count);
   }
 
   /// Writes the distinct values of each where its row begins.
-  void write(const DistinctRows& to) const {
+  void write(const DistinctRows<Memory>& to) const {
     const auto rows = rows_;
     const auto begin = begin_;
     const auto values = values_;
     parallel_for(
-        "GALE::write_large_rows", WorkerSpace(), rows_.extent(0), KOKKOS_LAMBDA(Offset i) {
+        "GALE::write_large_rows", space_, rows_.extent(0), KOKKOS_LAMBDA(Offset i) {
           Id at = to.begin(rows(i));
           for (Offset j = begin(i); j < begin(i + 1); ++j) {
             if (j > begin(i) && values(j) == values(j - 1)) continue;
@@ -59,10 +62,10 @@ class LargeRows {
     const auto place = allocate<Ids>("GALE::large_place", count.extent(0) + 1);
     const auto rows = rows_;
     exclusive_scan(
-        "GALE::find_large_rows", WorkerSpace(), count.extent(0), place,
+        "GALE::find_large_rows", space_, count.extent(0), place,
         KOKKOS_LAMBDA(Offset row) { return count(row) == FewDistinct::too_many ? 1 : 0; });
     parallel_for(
-        "GALE::list_large_rows", WorkerSpace(), count.extent(0), KOKKOS_LAMBDA(Offset row) {
+        "GALE::list_large_rows", space_, count.extent(0), KOKKOS_LAMBDA(Offset row) {
           if (place(row + 1) > place(row)) rows(place(row)) = static_cast<Id>(row);
         });
   }
@@ -70,7 +73,7 @@ class LargeRows {
   Offset count_candidates(const Candidates& candidates) {
     const auto rows = rows_;
     return exclusive_scan(
-        "GALE::count_candidates", WorkerSpace(), rows.extent(0), begin_, KOKKOS_LAMBDA(Offset i) {
+        "GALE::count_candidates", space_, rows.extent(0), begin_, KOKKOS_LAMBDA(Offset i) {
           Offset entries = 0;
           candidates(rows(i), [&](Id) { ++entries; });
           return entries;
@@ -82,7 +85,7 @@ class LargeRows {
     const auto begin = begin_;
     const auto values = values_;
     parallel_for(
-        "GALE::gather_candidates", WorkerSpace(), rows.extent(0), KOKKOS_LAMBDA(Offset i) {
+        "GALE::gather_candidates", space_, rows.extent(0), KOKKOS_LAMBDA(Offset i) {
           Offset at = begin(i);
           candidates(rows(i), [&](Id value) { values(at++) = value; });
         });
@@ -93,7 +96,7 @@ class LargeRows {
     const auto begin = begin_;
     const auto values = values_;
     parallel_for(
-        "GALE::count_large_rows", WorkerSpace(), rows.extent(0), KOKKOS_LAMBDA(Offset i) {
+        "GALE::count_large_rows", space_, rows.extent(0), KOKKOS_LAMBDA(Offset i) {
           Id distinct = 0;
           for (Offset j = begin(i); j < begin(i + 1); ++j)
             distinct += j == begin(i) || values(j) != values(j - 1) ? 1 : 0;
@@ -102,16 +105,17 @@ class LargeRows {
   }
 
  private:
+  Space space_;
   Ids rows_;
   Offsets begin_;
   Ids values_;
 };
 
 /// Counts each row's distinct candidates; FewDistinct::too_many where they are more than a thread keeps by itself.
-template <class Candidates>
-void count_distinct(const Candidates& candidates, const Array<Id, WorkerMemory>& count) {
+template <class Space, class Candidates>
+void count_distinct(const Space& space, const Candidates& candidates, const Array<Id, MemoryOf<Space>>& count) {
   parallel_for(
-      "GALE::count_distinct", WorkerSpace(), count.extent(0), KOKKOS_LAMBDA(Offset row) {
+      "GALE::count_distinct", space, count.extent(0), KOKKOS_LAMBDA(Offset row) {
         FewDistinct few;
         candidates(static_cast<Id>(row), [&](Id id) { few.insert(id); });
         count(row) = few.size();
@@ -119,10 +123,10 @@ void count_distinct(const Candidates& candidates, const Array<Id, WorkerMemory>&
 }
 
 /// Writes those of the rows that count_distinct has counted.
-template <class Candidates>
-void write_distinct(const Candidates& candidates, const DistinctRows& to) {
+template <class Space, class Candidates>
+void write_distinct(const Space& space, const Candidates& candidates, const DistinctRows<MemoryOf<Space>>& to) {
   parallel_for(
-      "GALE::write_distinct", WorkerSpace(), to.begin.extent(0) - 1, KOKKOS_LAMBDA(Offset row) {
+      "GALE::write_distinct", space, to.begin.extent(0) - 1, KOKKOS_LAMBDA(Offset row) {
         FewDistinct few;
         candidates(static_cast<Id>(row), [&](Id id) { few.insert(id); });
         const Id begin = to.begin(row);
@@ -135,36 +139,37 @@ void write_distinct(const Candidates& candidates, const DistinctRows& to) {
 
 /// For each of `rows` rows the distinct ones of its candidates, ascending. `candidates(row, visit)` calls visit(id) for
 /// each, in any order and any number of times. Throws gale::Error if there are more than 2^31 - 1 of them, which it
-/// calls `what`.
-template <class Candidates>
-DistinctRows distinct_rows(const std::string& what, Offset rows, const Candidates& candidates) {
-  using Ids = Array<Id, WorkerMemory>;
-  const WorkerSpace space;
+/// calls `what`. On a device the last steps are enqueued on the instance.
+template <class Space, class Candidates>
+DistinctRows<MemoryOf<Space>> distinct_rows(const Space& space, const std::string& what, Offset rows,
+                                            const Candidates& candidates) {
+  using Ids = Array<Id, MemoryOf<Space>>;
   const Ids count = allocate<Ids>("GALE::distinct_count", rows);
   [[maybe_unused]] FoundRows found;
-  if constexpr (is_device<WorkerSpace>) {
-    count_distinct(candidates, count);
+  if constexpr (is_device<Space>) {
+    count_distinct(space, candidates, count);
   } else {
     found.count(candidates, count);
   }
   const auto large = static_cast<Id>(reduce_sum(
       "GALE::count_large", space, rows,
       KOKKOS_LAMBDA(Offset row) { return count(row) == FewDistinct::too_many ? 1 : 0; }));
-  const LargeRows<Candidates> large_rows(count, large, candidates);
+  const LargeRows<Space, Candidates> large_rows(space, count, large, candidates);
   const Offset total = reduce_sum(
       "GALE::total_distinct", space, rows, KOKKOS_LAMBDA(Offset row) { return Offset(count(row)); });
   require_ids(what, total);
-  const DistinctRows result{allocate<Ids>("GALE::distinct_begin", rows + 1), allocate<Ids>("GALE::distinct", total),
-                            allocate<Ids>("GALE::distinct_row", total)};
+  const DistinctRows<MemoryOf<Space>> result{allocate<Ids>("GALE::distinct_begin", rows + 1),
+                                             allocate<Ids>("GALE::distinct", total),
+                                             allocate<Ids>("GALE::distinct_row", total)};
   exclusive_scan(
       "GALE::scan_distinct", space, rows, result.begin, KOKKOS_LAMBDA(Offset row) { return count(row); });
-  if constexpr (!is_device<WorkerSpace>) {
+  if constexpr (!is_device<Space>) {
     if (large == 0) {
       found.write(result.begin, result.values, result.row_of);
       return result;
     }
   }
-  write_distinct(candidates, result);
+  write_distinct(space, candidates, result);
   large_rows.write(result);
   return result;
 }

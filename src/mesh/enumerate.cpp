@@ -1,4 +1,4 @@
-#include <gale/base/atomic.hpp>
+#include <gale/base/group_by.hpp>
 #include <gale/mesh/distinct_rows.hpp>
 #include <gale/mesh/enumerate.hpp>
 #include <gale/mesh/upper_link.hpp>
@@ -7,15 +7,15 @@ namespace gale::detail {
 
 namespace {
 
-using Ids = Array<Id, WorkerMemory>;
-using Offsets = Array<Offset, WorkerMemory>;
-using Tables = Simplices<WorkerMemory>;
+template <class Space>
+using Ids = Array<Id, MemoryOf<Space>>;
 
 /// The higher neighbours of a vertex.
+template <class Memory>
 struct HigherNeighbours {
-  Tables simplices;
-  Kokkos::View<const Offset*, WorkerMemory, Kokkos::MemoryUnmanaged> middle_begin;
-  Kokkos::View<const Id*, WorkerMemory, Kokkos::MemoryUnmanaged> middle;
+  Simplices<Memory> simplices;
+  Kokkos::View<const Offset*, Memory, Kokkos::MemoryUnmanaged> middle_begin;
+  Kokkos::View<const Id*, Memory, Kokkos::MemoryUnmanaged> middle;
 
   template <class Visit>
   KOKKOS_FUNCTION void operator()(Id vertex, const Visit& visit) const {
@@ -31,10 +31,11 @@ struct HigherNeighbours {
 };
 
 /// The vertices above an edge (a, b) that it has a triangle with.
+template <class Memory>
 struct HigherApexes {
-  Tables simplices;
-  Kokkos::View<const Offset*, WorkerMemory, Kokkos::MemoryUnmanaged> middle_begin;
-  Kokkos::View<const Id*, WorkerMemory, Kokkos::MemoryUnmanaged> middle;
+  Simplices<Memory> simplices;
+  Kokkos::View<const Offset*, Memory, Kokkos::MemoryUnmanaged> middle_begin;
+  Kokkos::View<const Id*, Memory, Kokkos::MemoryUnmanaged> middle;
 
   template <class Visit>
   KOKKOS_FUNCTION void operator()(Id edge, const Visit& visit) const {
@@ -51,28 +52,29 @@ struct HigherApexes {
   }
 };
 
-Id most_higher_neighbours(const Tables& simplices) {
+template <class Space>
+Id most_higher_neighbours(const Space& space, const Simplices<MemoryOf<Space>>& simplices) {
   const Offset vertices = simplices.edge_begin.extent(0) - 1;
   return -reduce_min(
-      "GALE::most_higher_neighbours", WorkerSpace(), vertices, Id(0),
+      "GALE::most_higher_neighbours", space, vertices, Id(0),
       KOKKOS_LAMBDA(Offset v) { return simplices.edge_begin(v) - simplices.edge_begin(v + 1); });
 }
 
 /// Calls visit(link) with the upper link of a vertex.
-template <class Visit>
-KOKKOS_FUNCTION void with_upper_link(const Tables& simplices, const MiddleStars& stars, Offset vertex,
-                                     const Visit& visit) {
+template <class Memory, class Visit>
+KOKKOS_FUNCTION void with_upper_link(const Simplices<Memory>& simplices, const MiddleStars<Memory>& stars,
+                                     Offset vertex, const Visit& visit) {
   visit(UpperLink(simplices, static_cast<Id>(vertex), [&](const auto& visit_middle) {
     for (Offset i = stars.begin(vertex); i < stars.begin(vertex + 1); ++i) visit_middle(stars.tetrahedra(i));
   }));
 }
 
 /// A thread a vertex, all of whose edges it knows by bits.
-void triangles_of_few_neighbours(const Tables& simplices, const MiddleStars& stars,
-                                 SimplexTables<WorkerMemory>& tables) {
-  const WorkerSpace space;
+template <class Space>
+void triangles_of_few_neighbours(const Space& space, const Simplices<MemoryOf<Space>>& simplices,
+                                 const MiddleStars<MemoryOf<Space>>& stars, SimplexTables& tables) {
   const Offset vertices = simplices.edge_begin.extent(0) - 1, edges = simplices.edge_low.extent(0);
-  const Ids begin = allocate<Ids>("GALE::triangle_begin", edges + 1);
+  const auto begin = allocate<Ids<Space>>("GALE::triangle_begin", edges + 1);
   parallel_for(
       "GALE::count_triangles", space, vertices, KOKKOS_LAMBDA(Offset v) {
         with_upper_link(simplices, stars, v, [&](const UpperLink& link) {
@@ -84,7 +86,8 @@ void triangles_of_few_neighbours(const Tables& simplices, const MiddleStars& sta
   require_ids("triangles", total);
   exclusive_scan(
       "GALE::scan_triangles", space, edges, begin, KOKKOS_LAMBDA(Offset e) { return begin(e); });
-  const Ids edge_of = allocate<Ids>("GALE::triangle_edge", total), apex = allocate<Ids>("GALE::triangle_apex", total);
+  const auto edge_of = allocate<Ids<Space>>("GALE::triangle_edge", total),
+             apex = allocate<Ids<Space>>("GALE::triangle_apex", total);
   parallel_for(
       "GALE::write_triangles", space, vertices, KOKKOS_LAMBDA(Offset v) {
         with_upper_link(simplices, stars, v, [&](const UpperLink& link) {
@@ -104,73 +107,85 @@ void triangles_of_few_neighbours(const Tables& simplices, const MiddleStars& sta
 }
 
 /// A thread an edge.
-void triangles_of_many_neighbours(const Tables& simplices, const MiddleStars& stars,
-                                  SimplexTables<WorkerMemory>& tables) {
+template <class Space>
+void triangles_of_many_neighbours(const Space& space, const Simplices<MemoryOf<Space>>& simplices,
+                                  const MiddleStars<MemoryOf<Space>>& stars, SimplexTables& tables) {
   const Offset edges = simplices.edge_low.extent(0);
-  const auto triangles = distinct_rows("triangles", edges, HigherApexes{simplices, stars.begin, stars.tetrahedra});
+  const auto triangles =
+      distinct_rows(space, "triangles", edges, HigherApexes<MemoryOf<Space>>{simplices, stars.begin, stars.tetrahedra});
   tables.triangle_begin = triangles.begin;
   tables.triangle_edge = triangles.row_of;
   tables.triangle_apex = triangles.values;
 }
 
+/// The second and third vertex of a tetrahedron.
+template <class Memory>
+struct MiddleVertices {
+  Simplices<Memory> simplices;
+
+  template <class Visit>
+  KOKKOS_FUNCTION void operator()(Id t, const Visit& visit) const {
+    for (int corner = 1; corner < 3; ++corner) visit(simplices.tetrahedra(t, corner));
+  }
+};
+
+/// The higher vertex of an edge.
+template <class Memory>
+struct HigherVertex {
+  Simplices<Memory> simplices;
+
+  KOKKOS_FUNCTION Id operator()(Id edge) const { return simplices.edge_high(edge); }
+};
+
 }  // namespace
 
-MiddleStars find_middle_stars(const Tables& simplices) {
-  const WorkerSpace space;
+template <class Space>
+MiddleStars<MemoryOf<Space>> find_middle_stars(const Space& space, const Simplices<MemoryOf<Space>>& simplices) {
   const Offset vertices = simplices.tetrahedron_begin.extent(0) - 1, tetrahedra = simplices.tetrahedra.extent(0);
-  const Ids count("GALE::middle_count", vertices);
-  parallel_for(
-      "GALE::count_middle", space, tetrahedra, KOKKOS_LAMBDA(Offset t) {
-        for (int corner = 1; corner < 3; ++corner) atomic_add(&count(simplices.tetrahedra(t, corner)), Id(1));
-      });
-  const MiddleStars stars{allocate<Offsets>("GALE::middle_begin", vertices + 1),
-                          allocate<Ids>("GALE::middle_stars", 2 * tetrahedra)};
-  exclusive_scan(
-      "GALE::scan_middle", space, vertices, stars.begin, KOKKOS_LAMBDA(Offset v) { return count(v); });
-  parallel_for(
-      "GALE::fill_middle", space, tetrahedra, KOKKOS_LAMBDA(Offset t) {
-        for (int corner = 1; corner < 3; ++corner) {
-          const Id v = simplices.tetrahedra(t, corner);
-          stars.tetrahedra(stars.begin(v) + atomic_add(&count(v), Id(-1)) - 1) = static_cast<Id>(t);
-        }
-      });
-  return stars;
+  const auto stars =
+      group_by("GALE::middle_stars", space, tetrahedra, vertices, MiddleVertices<MemoryOf<Space>>{simplices});
+  return {stars.begin, stars.members};
 }
 
-void enumerate_edges(const Tables& simplices, const MiddleStars& stars, SimplexTables<WorkerMemory>& tables) {
+template <class Space>
+void enumerate_edges(const Space& space, const Simplices<MemoryOf<Space>>& simplices,
+                     const MiddleStars<MemoryOf<Space>>& stars, SimplexTables& tables) {
   const Offset vertices = simplices.tetrahedron_begin.extent(0) - 1;
-  const auto edges = distinct_rows("edges", vertices, HigherNeighbours{simplices, stars.begin, stars.tetrahedra});
+  const auto edges = distinct_rows(space, "edges", vertices,
+                                   HigherNeighbours<MemoryOf<Space>>{simplices, stars.begin, stars.tetrahedra});
   tables.edge_begin = edges.begin;
   tables.edge_low = edges.row_of;
   tables.edge_high = edges.values;
 }
 
-void enumerate_triangles(const Tables& simplices, const MiddleStars& stars, SimplexTables<WorkerMemory>& tables) {
-  if (most_higher_neighbours(simplices) <= UpperLink::capacity) {
-    triangles_of_few_neighbours(simplices, stars, tables);
+template <class Space>
+void enumerate_triangles(const Space& space, const Simplices<MemoryOf<Space>>& simplices,
+                         const MiddleStars<MemoryOf<Space>>& stars, SimplexTables& tables) {
+  if (most_higher_neighbours(space, simplices) <= UpperLink::capacity) {
+    triangles_of_few_neighbours(space, simplices, stars, tables);
   } else {
-    triangles_of_many_neighbours(simplices, stars, tables);
+    triangles_of_many_neighbours(space, simplices, stars, tables);
   }
 }
 
-void sort_edges_by_higher(const Tables& simplices, SimplexTables<WorkerMemory>& tables) {
-  const WorkerSpace space;
+template <class Space>
+void sort_edges_by_higher(const Space& space, const Simplices<MemoryOf<Space>>& simplices, SimplexTables& tables) {
   const Offset vertices = simplices.edge_begin.extent(0) - 1, edges = simplices.edge_high.extent(0);
-  const Ids count("GALE::lower_count", vertices);
-  parallel_for(
-      "GALE::count_lower", space, edges,
-      KOKKOS_LAMBDA(Offset e) { atomic_add(&count(simplices.edge_high(e)), Id(1)); });
-  const Ids begin = allocate<Ids>("GALE::lower_begin", vertices + 1), lower = allocate<Ids>("GALE::lower_edges", edges);
-  exclusive_scan(
-      "GALE::scan_lower", space, vertices, begin, KOKKOS_LAMBDA(Offset v) { return count(v); });
-  parallel_for(
-      "GALE::fill_lower", space, edges, KOKKOS_LAMBDA(Offset e) {
-        const Id v = simplices.edge_high(e);
-        lower(begin(v) + atomic_add(&count(v), Id(-1)) - 1) = static_cast<Id>(e);
-      });
-  sort_rows("GALE::sort_lower", begin, lower);
-  tables.lower_begin = begin;
-  tables.lower_edges = lower;
+  const auto lower =
+      group_by_key<Id>("GALE::lower_edges", space, edges, vertices, HigherVertex<MemoryOf<Space>>{simplices});
+  sort_rows(space, "GALE::sort_lower", lower.begin, lower.members);
+  tables.lower_begin = lower.begin;
+  tables.lower_edges = lower.members;
 }
+
+#define GALE_INSTANTIATE(Space)                                                                                       \
+  template MiddleStars<MemoryOf<Space>> find_middle_stars(const Space&, const Simplices<MemoryOf<Space>>&);           \
+  template void enumerate_edges(const Space&, const Simplices<MemoryOf<Space>>&, const MiddleStars<MemoryOf<Space>>&, \
+                                SimplexTables&);                                                                      \
+  template void enumerate_triangles(const Space&, const Simplices<MemoryOf<Space>>&,                                  \
+                                    const MiddleStars<MemoryOf<Space>>&, SimplexTables&);                             \
+  template void sort_edges_by_higher(const Space&, const Simplices<MemoryOf<Space>>&, SimplexTables&)
+GALE_IN_EACH_SPACE(GALE_INSTANTIATE);
+#undef GALE_INSTANTIATE
 
 }  // namespace gale::detail

@@ -6,25 +6,31 @@ namespace gale::detail {
 
 /// The tetrahedra of which a vertex is the second or third: with those of which it is the lowest, all that its edges
 /// and triangles to higher vertices are in.
+template <class Memory>
 struct MiddleStars {
-  Array<Offset, WorkerMemory> begin;   ///< vertices + 1
-  Array<Id, WorkerMemory> tetrahedra;  ///< in no order
+  Array<Offset, Memory> begin;   ///< vertices + 1
+  Array<Id, Memory> tetrahedra;  ///< in no order
 };
 
-MiddleStars find_middle_stars(const Simplices<WorkerMemory>& simplices);
+template <class Space>
+MiddleStars<MemoryOf<Space>> find_middle_stars(const Space& space, const Simplices<MemoryOf<Space>>& simplices);
 
-// Each fills the tables of its name in the workers' space, from those before it. Throws gale::Error if there are more
-// than 2^31 - 1 simplices, naming their number.
+// Each fills the tables of its name in a space, from those before it. Throws gale::Error if there are more than
+// 2^31 - 1 simplices, naming their number, and OutOfMemory; then the tables are as they were. The last steps are
+// enqueued on the instance of a device, as loops are.
 
 /// edge_begin, edge_low and edge_high. `simplices` has the tetrahedra.
-void enumerate_edges(const Simplices<WorkerMemory>& simplices, const MiddleStars& stars,
-                     SimplexTables<WorkerMemory>& tables);
+template <class Space>
+void enumerate_edges(const Space& space, const Simplices<MemoryOf<Space>>& simplices,
+                     const MiddleStars<MemoryOf<Space>>& stars, SimplexTables& tables);
 
 /// triangle_begin, triangle_edge and triangle_apex. `simplices` has the edges too.
-void enumerate_triangles(const Simplices<WorkerMemory>& simplices, const MiddleStars& stars,
-                         SimplexTables<WorkerMemory>& tables);
+template <class Space>
+void enumerate_triangles(const Space& space, const Simplices<MemoryOf<Space>>& simplices,
+                         const MiddleStars<MemoryOf<Space>>& stars, SimplexTables& tables);
 
 /// lower_begin and lower_edges. Likewise.
-void sort_edges_by_higher(const Simplices<WorkerMemory>& simplices, SimplexTables<WorkerMemory>& tables);
+template <class Space>
+void sort_edges_by_higher(const Space& space, const Simplices<MemoryOf<Space>>& simplices, SimplexTables& tables);
 
 }  // namespace gale::detail

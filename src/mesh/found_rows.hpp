@@ -8,15 +8,14 @@
 namespace gale::detail {
 
 /// The distinct candidates of rows, written down as the host's threads count them, so that they needn't be found again
-/// to be written where they belong. Only where the host is the worker; elsewhere it compiles, for those who decide that
-/// with `if constexpr`.
+/// to be written where they belong.
 class FoundRows {
  public:
   FoundRows() : parts_(threads_for(Offset(1) << 40)) {}
 
   /// count[r]: how many row r has, or FewDistinct::too_many; then there is nothing to write.
   template <class Candidates>
-  void count(const Candidates& candidates, const Array<Id, WorkerMemory>& count) {
+  void count(const Candidates& candidates, const Array<Id, HostMemory>& count) {
     for_parts("GALE::count_distinct", count.extent(0), size(), [&](int part, Offset begin, Offset end) {
       constexpr Offset usual = 8;
       std::vector<Id>& found = parts_[part];
@@ -31,8 +30,8 @@ class FoundRows {
   }
 
   /// Writes all rows' values and, for each, its row. `begin` has where rows begin.
-  void write(const Array<Id, WorkerMemory>& begin, const Array<Id, WorkerMemory>& values,
-             const Array<Id, WorkerMemory>& row_of) {
+  void write(const Array<Id, HostMemory>& begin, const Array<Id, HostMemory>& values,
+             const Array<Id, HostMemory>& row_of) {
     for_parts("GALE::write_distinct", begin.extent(0) - 1, size(), [&](int part, Offset first, Offset last) {
       const Id* from = parts_[part].data();
       for (Offset row = first; row < last; ++row) {

@@ -1,10 +1,8 @@
 #include <algorithm>
-#include <mutex>
 #include <string>
 
 #include <gale/base/error.hpp>
 #include <gale/base/parallel.hpp>
-#include <gale/base/transfer.hpp>
 #include <gale/mesh/encode.hpp>
 #include <gale/mesh/mesh.hpp>
 #include <gale/mesh/simplex_store.hpp>
@@ -13,123 +11,154 @@ namespace gale {
 
 namespace {
 
-using Ids = Array<Id, WorkerMemory>;
-using HostIds = Array<const Id, HostMemory>;
+template <class Space>
+using Ids = Array<Id, MemoryOf<Space>>;
 
-/// An array that is copied to the host when someone asks for it first.
-class Mirror {
- public:
-  const HostIds& of(const Array<const Id, WorkerMemory>& array) {
-    std::call_once(once_, [&] { host_ = on_host(array); });
-    return host_;
-  }
-
- private:
-  std::once_flag once_;
-  HostIds host_;
-};
-
-Ids inverse_of(const Ids& permutation) {
-  const auto inverse = allocate<Ids>("GALE::vertex_internal", permutation.extent(0));
+template <class Space>
+Ids<Space> inverse_of(const Space& space, const Array<const Id, MemoryOf<Space>>& permutation) {
+  const auto inverse = allocate<Ids<Space>>("GALE::vertex_internal", permutation.extent(0));
   parallel_for(
-      "GALE::invert", WorkerSpace(), permutation.extent(0),
+      "GALE::invert", space, permutation.extent(0),
       KOKKOS_LAMBDA(Offset i) { inverse(permutation(i)) = static_cast<Id>(i); });
   return inverse;
 }
 
 /// I_T: where each segment's lowest vertex begins.
-Ids internal_begin_of(const Ids& vertex_begin, const Ids& tetrahedra_of_lowest) {
-  const auto begin = allocate<Ids>("GALE::internal_begin", vertex_begin.extent(0));
+template <class Space>
+Ids<Space> internal_begin_of(const Space& space, const Array<const Id, MemoryOf<Space>>& vertex_begin,
+                             const Ids<Space>& tetrahedra_of_lowest) {
+  const auto begin = allocate<Ids<Space>>("GALE::internal_begin", vertex_begin.extent(0));
   parallel_for(
-      "GALE::internal_begin", WorkerSpace(), vertex_begin.extent(0),
+      "GALE::internal_begin", space, vertex_begin.extent(0),
       KOKKOS_LAMBDA(Offset s) { begin(s) = tetrahedra_of_lowest(vertex_begin(s)); });
   return begin;
 }
 
+/// A mesh and its permutations.
+struct Encoded {
+  detail::MeshArrays arrays;
+  Mirrored<Id> vertex_input, vertex_internal, tetrahedron_input;
+};
+
+/// Ends with a fence: others use the arrays on instances of their own.
+template <class Index, class Space, class Memory>
+Encoded encode(const Space& space, const Tetrahedra<Index, Memory>& given, const Segmentation& segmentation) {
+  using Here = MemoryOf<Space>;
+  const auto vertex_internal = inverse_of(space, segmentation.vertex_input.in<Here>());
+  detail::SortedTetrahedra<Here> sorted;
+  {
+    const Tetrahedra<Index, Here> input = in_memory<Here>(given);
+    sorted = detail::sort_tetrahedra<Space, Index>(space, input, vertex_internal);
+  }
+  detail::MeshArrays arrays;
+  arrays.tetrahedra = sorted.vertices;
+  arrays.tetrahedron_begin = sorted.begin;
+  arrays.vertex_begin = segmentation.vertex_begin;
+  arrays.internal_begin = internal_begin_of(space, segmentation.vertex_begin.in<Here>(), sorted.begin);
+  const auto external = detail::find_external_tetrahedra(space,
+                                                         EncodedMesh<Here>{detail::by_four<Here>(sorted.vertices),
+                                                                           arrays.vertex_begin.in<Here>(),
+                                                                           arrays.internal_begin.in<Here>(),
+                                                                           {},
+                                                                           {}},
+                                                         segmentation.vertices());
+  arrays.external_begin = external.begin;
+  arrays.external = external.ids;
+  space.fence();
+  return {arrays, segmentation.vertex_input, vertex_internal, sorted.input};
+}
+
+/// The arrays of a mesh for code that runs on `Memory`, once someone has asked for them.
+template <class Memory>
+class EncodedOnce {
+ public:
+  const EncodedMesh<Memory>& of(const detail::MeshArrays& arrays) {
+    once_([&] { mesh_ = arrays.in<Memory>(); });
+    return mesh_;
+  }
+
+ private:
+  detail::Once once_;
+  EncodedMesh<Memory> mesh_;
+};
+
 }  // namespace
 
 struct Mesh::Data {
-  MeshArrays<WorkerMemory> arrays;
-  EncodedMesh<WorkerMemory> worker;
-  Array<const Id, WorkerMemory> vertex_input, vertex_internal, tetrahedron_input;
-  HostIds vertex_begin, internal_begin;
-  Array<const Offset, HostMemory> external_begin;
+  const Encoded encoded;
+  const std::string notice;
+  mutable EncodedOnce<WorkerMemory> worker;
+  mutable EncodedOnce<HostMemory> host;
   mutable detail::SimplexStore simplices;
 
-  Data(const MeshArrays<WorkerMemory>& mesh, const Ids& tetrahedra_of_lowest)
-      : arrays(mesh),
-        worker(mesh.view()),
-        vertex_begin(on_host(mesh.vertex_begin)),
-        internal_begin(on_host(mesh.internal_begin)),
-        external_begin(on_host(mesh.external_begin)),
-        simplices(mesh, tetrahedra_of_lowest) {}
-
-  mutable std::once_flag host_once;
-  mutable MeshArrays<HostMemory> host_arrays;
-  mutable EncodedMesh<HostMemory> host;
-  mutable Mirror vertex_input_mirror, vertex_internal_mirror, tetrahedron_input_mirror;
+  /// What consumers read again and again is copied to the host now.
+  Data(const Encoded& mesh, const std::string& what_did_not_fit)
+      : encoded(mesh), notice(what_did_not_fit), simplices(mesh.arrays) {
+    encoded.arrays.vertex_begin.in<HostMemory>();
+    encoded.arrays.internal_begin.in<HostMemory>();
+    encoded.arrays.external_begin.in<HostMemory>();
+  }
 };
 
 template <class Index, class Memory>
 Mesh::Mesh(const Tetrahedra<Index, Memory>& given, const Segmentation& segmentation) {
-  const auto vertex_internal = inverse_of(segmentation.vertex_input);
-  detail::SortedTetrahedra sorted;
-  {
-    const Tetrahedra<Index, WorkerMemory> input = on_worker(given);
-    sorted = detail::sort_tetrahedra(input, vertex_internal);
+  std::string notice;
+  const auto encoded = in_worker_or_host_space(
+      true, [&](const auto& space) { return encode<Index>(space, given, segmentation); },
+      [&](const OutOfMemory& error) {
+        notice = "the mesh doesn't fit the device's memory (" + error.missing() + "): the host computes";
+      });
+  data_ = std::make_shared<Data>(encoded, notice);
+}
+
+Id Mesh::vertices() const { return static_cast<Id>(data_->encoded.vertex_input.size()); }
+Id Mesh::tetrahedra() const { return static_cast<Id>(data_->encoded.tetrahedron_input.size()); }
+Id Mesh::segments() const { return static_cast<Id>(data_->encoded.arrays.vertex_begin.size()) - 1; }
+
+bool Mesh::on_device() const { return data_->encoded.arrays.tetrahedra.on_device(); }
+
+std::string Mesh::notice() const { return data_->notice.empty() ? data_->simplices.notice() : data_->notice; }
+
+template <class Memory>
+const EncodedMesh<Memory>& Mesh::encoded() const {
+  if constexpr (is_device_memory<Memory>) {
+    return data_->worker.of(data_->encoded.arrays);
+  } else {
+    return data_->host.of(data_->encoded.arrays);
   }
-  MeshArrays<WorkerMemory> mesh;
-  mesh.tetrahedra = sorted.vertices;
-  mesh.vertex_begin = segmentation.vertex_begin;
-  mesh.internal_begin = internal_begin_of(segmentation.vertex_begin, sorted.begin);
-  detail::find_external_tetrahedra(mesh, segmentation.vertices());
-  auto data = std::make_shared<Data>(mesh, sorted.begin);
-  data->vertex_input = segmentation.vertex_input;
-  data->vertex_internal = vertex_internal;
-  data->tetrahedron_input = sorted.input;
-  data_ = std::move(data);
 }
 
-Id Mesh::vertices() const { return static_cast<Id>(data_->vertex_input.extent(0)); }
-Id Mesh::tetrahedra() const { return static_cast<Id>(data_->tetrahedron_input.extent(0)); }
-Id Mesh::segments() const { return static_cast<Id>(data_->vertex_begin.extent(0)) - 1; }
+const Array<const Id, HostMemory>& Mesh::vertex_begin() const { return interval_begin(0); }
 
-const EncodedMesh<WorkerMemory>& Mesh::worker() const { return data_->worker; }
-
-const EncodedMesh<HostMemory>& Mesh::host() const {
-  std::call_once(data_->host_once, [this] {
-    const auto& from = data_->arrays;
-    auto& to = data_->host_arrays;
-    to.vertex_begin = on_host(from.vertex_begin);
-    to.internal_begin = on_host(from.internal_begin);
-    to.external_begin = on_host(from.external_begin);
-    to.external = on_host(from.external);
-    to.tetrahedra = data_->simplices.tetrahedra_on_host();
-    data_->host = to.view();
-  });
-  return data_->host;
+const Array<const Offset, HostMemory>& Mesh::external_begin() const {
+  return data_->encoded.arrays.external_begin.in<HostMemory>();
 }
 
-const HostIds& Mesh::vertex_begin() const { return data_->vertex_begin; }
-const HostIds& Mesh::vertex_input() const { return data_->vertex_input_mirror.of(data_->vertex_input); }
-const HostIds& Mesh::vertex_internal() const { return data_->vertex_internal_mirror.of(data_->vertex_internal); }
-const HostIds& Mesh::tetrahedron_input() const { return data_->tetrahedron_input_mirror.of(data_->tetrahedron_input); }
-const Array<const Id, WorkerMemory>& Mesh::vertex_input_on_worker() const { return data_->vertex_input; }
-const Array<const Id, WorkerMemory>& Mesh::tetrahedron_input_on_worker() const { return data_->tetrahedron_input; }
-
-Simplices<WorkerMemory> Mesh::simplices_on_worker(const SimplexNeeds& needs) const {
-  return data_->simplices.on_worker(needs);
+template <class Memory>
+const Array<const Id, Memory>& Mesh::vertex_input() const {
+  return data_->encoded.vertex_input.in<Memory>();
 }
-Simplices<HostMemory> Mesh::simplices_on_host(const SimplexNeeds& needs) const {
-  return data_->simplices.on_host(needs);
+template <class Memory>
+const Array<const Id, Memory>& Mesh::vertex_internal() const {
+  return data_->encoded.vertex_internal.in<Memory>();
+}
+template <class Memory>
+const Array<const Id, Memory>& Mesh::tetrahedron_input() const {
+  return data_->encoded.tetrahedron_input.in<Memory>();
+}
+
+template <class Memory>
+Simplices<Memory> Mesh::simplices(const SimplexNeeds& needs) const {
+  return data_->simplices.in<Memory>(needs);
 }
 Id Mesh::known_edges() const { return data_->simplices.known(1); }
 Id Mesh::known_triangles() const { return data_->simplices.known(2); }
 
-const HostIds& Mesh::interval_begin(int dimension) const {
-  if (dimension == 0) return data_->vertex_begin;
-  if (dimension == 3) return data_->internal_begin;
-  return data_->simplices.interval_begin(dimension);
+template <class Memory>
+const Array<const Id, Memory>& Mesh::interval_begin(int dimension) const {
+  if (dimension == 0) return data_->encoded.arrays.vertex_begin.in<Memory>();
+  if (dimension == 3) return data_->encoded.arrays.internal_begin.in<Memory>();
+  return data_->simplices.interval_begin<Memory>(dimension);
 }
 
 Intervals Mesh::intervals_of(Id segment) const {
@@ -143,8 +172,6 @@ Intervals Mesh::intervals_of(Id segment) const {
   return intervals;
 }
 
-const Array<const Offset, HostMemory>& Mesh::external_begin() const { return data_->external_begin; }
-
 Id Mesh::segment_of(int dimension, Id simplex) const {
   const Id* const begin = interval_begin(dimension).data();
   return static_cast<Id>(std::upper_bound(begin, begin + segments() + 1, simplex) - begin) - 1;
@@ -157,6 +184,16 @@ GALE_INSTANTIATE(std::int64_t, HostMemory);
 GALE_INSTANTIATE(std::int32_t, WorkerMemory);
 GALE_INSTANTIATE(std::int64_t, WorkerMemory);
 #endif
+#undef GALE_INSTANTIATE
+
+#define GALE_INSTANTIATE(Space)                                                                      \
+  template const EncodedMesh<MemoryOf<Space>>& Mesh::encoded<MemoryOf<Space>>() const;               \
+  template const Array<const Id, MemoryOf<Space>>& Mesh::vertex_input<MemoryOf<Space>>() const;      \
+  template const Array<const Id, MemoryOf<Space>>& Mesh::vertex_internal<MemoryOf<Space>>() const;   \
+  template const Array<const Id, MemoryOf<Space>>& Mesh::tetrahedron_input<MemoryOf<Space>>() const; \
+  template Simplices<MemoryOf<Space>> Mesh::simplices<MemoryOf<Space>>(const SimplexNeeds&) const;   \
+  template const Array<const Id, MemoryOf<Space>>& Mesh::interval_begin<MemoryOf<Space>>(int) const
+GALE_IN_EACH_SPACE(GALE_INSTANTIATE);
 #undef GALE_INSTANTIATE
 
 }  // namespace gale

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
+#include <gale/base/worker_or_host.hpp>
 #include <gale/mesh/encoded_mesh.hpp>
 #include <gale/mesh/intervals.hpp>
 #include <gale/mesh/segmentation.hpp>
@@ -20,10 +22,15 @@ using Tetrahedra = Kokkos::View<const Index* [4], Kokkos::LayoutRight, Memory>;
 /// vertex only, and triangles with three and more tetrahedra. GALE numbers vertices and tetrahedra anew
 /// (`EncodedMesh`); the permutations lead back to input ids. Immutable after construction, so any number of threads may
 /// use it; copies share the arrays.
+///
+/// Its arrays lie in the workers' memory, or in the host's where they don't fit that. Accessors that are templates give
+/// them to code that runs on `Memory`, which is HostMemory unless it is said, or WorkerMemory. The first call for a
+/// memory that an array isn't in copies it there; any thread may make it, and throws OutOfMemory where there is no
+/// room.
 class Mesh {
  public:
-  /// Encodes in the workers' space, in parallel, in time O(n). Peak memory beside the input: 20 bytes a tetrahedron and
-  /// 4 an external one, and 16 a vertex.
+  /// Encodes in the workers' space, in parallel, in time O(n); on the host if it doesn't fit the device's memory, and
+  /// says so in notice(). Peak memory beside the input: 20 bytes a tetrahedron and 4 an external one, and 16 a vertex.
   ///
   /// `Index` is std::int32_t or std::int64_t. Throws gale::Error, naming the tetrahedron at fault, where there is none,
   /// where one has a vertex outside 0..vertices-1 or the same twice, and where two have the same four.
@@ -34,44 +41,49 @@ class Mesh {
   Id tetrahedra() const;
   Id segments() const;
 
-  const EncodedMesh<WorkerMemory>& worker() const;
+  /// Whether its arrays lie in a device's memory. Tables of simplices that are made later may lie in the host's.
+  bool on_device() const;
 
-  /// The same arrays for the host's threads. With a device the first call copies them; any thread may make it.
-  const EncodedMesh<HostMemory>& host() const;
+  /// One line on what didn't fit the device's memory, so that the host computes; empty if everything did, so far.
+  std::string notice() const;
 
-  /// All simplices, where the workers or where the host's threads can read them; at least what `needs` says. What is
-  /// missing is enumerated, and copied to the host, by the first call that needs it (see SimplexNeeds); any thread may
-  /// make it. On the host, edges take 12 bytes each and 4 a vertex, triangles 8, lower edges 4 an edge and a vertex.
-  /// Time O(n), but that of triangles grows with the square of a vertex' degree where one has more than 64 higher
-  /// neighbours. Throws gale::Error if there are more than 2^31 - 1 edges or triangles.
-  Simplices<WorkerMemory> simplices_on_worker(const SimplexNeeds& needs) const;
-  Simplices<HostMemory> simplices_on_host(const SimplexNeeds& needs) const;
+  template <class Memory = HostMemory>
+  const EncodedMesh<Memory>& encoded() const;
+
+  /// All simplices; at least what `needs` says. What is missing is enumerated by the first call that needs it (see
+  /// SimplexNeeds), where the mesh is, or on the host if it doesn't fit the device's memory. Edges take 12 bytes each
+  /// and 4 a vertex, triangles 8, lower edges 4 an edge and a vertex. Time O(n), but that of triangles grows with the
+  /// square of a vertex's degree where one has more than 64 higher neighbours. Throws gale::Error if there are more
+  /// than 2^31 - 1 edges or triangles.
+  template <class Memory = HostMemory>
+  Simplices<Memory> simplices(const SimplexNeeds& needs) const;
 
   /// How many edges or triangles there are; no_id as long as nobody needed them.
   Id known_edges() const;
   Id known_triangles() const;
 
   /// The intervals: where the simplices of a dimension 0 to 3 that are internal to each segment begin, and one past the
-  /// last (I_V, I_E, I_F and I_T). On the host; edges and triangles are enumerated if they haven't been.
-  const Array<const Id, HostMemory>& interval_begin(int dimension) const;
+  /// last (I_V, I_E, I_F and I_T). Edges and triangles are enumerated if they haven't been. The host always has those
+  /// that are there: no lock.
+  template <class Memory = HostMemory>
+  const Array<const Id, Memory>& interval_begin(int dimension) const;
 
   /// The simplices that are internal to a segment.
   Intervals intervals_of(Id segment) const;
 
-  /// interval_begin(0).
+  /// interval_begin(0), on the host.
   const Array<const Id, HostMemory>& vertex_begin() const;
 
   /// Where each segment's row of T_ex begins, on the host.
   const Array<const Offset, HostMemory>& external_begin() const;
 
-  /// GALE's vertex -> input vertex, and back; the tetrahedra likewise. On the host; copied there at the first call.
-  const Array<const Id, HostMemory>& vertex_input() const;
-  const Array<const Id, HostMemory>& vertex_internal() const;
-  const Array<const Id, HostMemory>& tetrahedron_input() const;
-
-  /// vertex_input() and tetrahedron_input() in the workers' memory.
-  const Array<const Id, WorkerMemory>& vertex_input_on_worker() const;
-  const Array<const Id, WorkerMemory>& tetrahedron_input_on_worker() const;
+  /// GALE's vertex -> input vertex, and back; the tetrahedra likewise.
+  template <class Memory = HostMemory>
+  const Array<const Id, Memory>& vertex_input() const;
+  template <class Memory = HostMemory>
+  const Array<const Id, Memory>& vertex_internal() const;
+  template <class Memory = HostMemory>
+  const Array<const Id, Memory>& tetrahedron_input() const;
 
   /// The segment that a simplex of a dimension 0 to 3 (GALE's id) is internal to: a binary search among the segments.
   Id segment_of(int dimension, Id simplex) const;
@@ -80,5 +92,12 @@ class Mesh {
   struct Data;
   std::shared_ptr<const Data> data_;
 };
+
+/// Computes something from a mesh in the workers' space if the mesh is there, and on the host's threads otherwise, or
+/// if it doesn't fit the device's memory: f(WorkerSpace()) or f(HostSpace()).
+template <class F>
+auto in_worker_or_host_space(const Mesh& mesh, const F& f) {
+  return in_worker_or_host_space(mesh.on_device(), f);
+}
 
 }  // namespace gale

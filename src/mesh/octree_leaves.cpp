@@ -6,12 +6,14 @@ namespace gale::detail {
 
 namespace {
 
-using Codes = Array<std::uint64_t, WorkerMemory>;
+template <class Memory>
+using Codes = Array<std::uint64_t, Memory>;
 
 /// The octree cell that holds the codes of equal `code >> shift`, looked at around the sorted position `at`, which it
 /// holds. It is searched no further than `capacity` positions away.
+template <class Memory>
 struct CellWindow {
-  const Codes& codes;
+  const Codes<Memory>& codes;
   int shift;
   Id at;
   Id capacity;
@@ -49,7 +51,8 @@ KOKKOS_FUNCTION int common_levels(std::uint64_t a, std::uint64_t b) {
   return levels;
 }
 
-KOKKOS_FUNCTION Id run_begin(const Codes& codes, Id at) {
+template <class Memory>
+KOKKOS_FUNCTION Id run_begin(const Codes<Memory>& codes, Id at) {
   Id low = 0, high = at;
   while (low < high) {
     const Id middle = low + (high - low) / 2;
@@ -63,28 +66,30 @@ KOKKOS_FUNCTION Id run_begin(const Codes& codes, Id at) {
 }
 
 /// A leaf begins where the smallest cell that holds both a code and its predecessor has more than `capacity` codes.
-KOKKOS_FUNCTION bool begins_leaf(const Codes& codes, Id at, Id capacity) {
+template <class Memory>
+KOKKOS_FUNCTION bool begins_leaf(const Codes<Memory>& codes, Id at, Id capacity) {
   if (at == 0) return true;
   if (codes(at - 1) == codes(at)) {
     if (at < capacity || codes(at - capacity) != codes(at)) return false;
     return (at - run_begin(codes, at)) % capacity == 0;
   }
   const int levels = common_levels(codes(at - 1), codes(at));
-  const CellWindow cell{codes, 3 * (morton_levels - levels), at, capacity};
+  const CellWindow<Memory> cell{codes, 3 * (morton_levels - levels), at, capacity};
   return cell.overflows(cell.begin());
 }
 
 }  // namespace
 
-std::vector<Id> octree_leaves(const Codes& codes, int capacity) {
-  const WorkerSpace space;
+template <class Space>
+std::vector<Id> octree_leaves(const Space& space, const Array<std::uint64_t, MemoryOf<Space>>& codes, int capacity) {
+  using Ids = Array<Id, MemoryOf<Space>>;
   const auto count = static_cast<Id>(codes.extent(0));
-  auto leaf_of = allocate<Array<Id, WorkerMemory>>("GALE::leaf_of", count + Offset(1));
+  const auto leaf_of = allocate<Ids>("GALE::leaf_of", count + Offset(1));
   const Id limit = capacity;
   const Id leaves = exclusive_scan(
       "GALE::octree_leaves", space, count, leaf_of,
       KOKKOS_LAMBDA(Offset i) { return begins_leaf(codes, static_cast<Id>(i), limit) ? 1 : 0; });
-  auto begin = allocate<Array<Id, WorkerMemory>>("GALE::leaf_begin", leaves);
+  const auto begin = allocate<Ids>("GALE::leaf_begin", leaves);
   parallel_for(
       "GALE::leaf_begin", space, count, KOKKOS_LAMBDA(Offset i) {
         if (leaf_of(i + 1) > leaf_of(i)) begin(leaf_of(i)) = static_cast<Id>(i);
@@ -92,6 +97,11 @@ std::vector<Id> octree_leaves(const Codes& codes, int capacity) {
   const auto begin_on_host = on_host(begin);
   return {begin_on_host.data(), begin_on_host.data() + leaves};
 }
+
+#define GALE_INSTANTIATE(Space) \
+  template std::vector<Id> octree_leaves(const Space&, const Array<std::uint64_t, MemoryOf<Space>>&, int)
+GALE_IN_EACH_SPACE(GALE_INSTANTIATE);
+#undef GALE_INSTANTIATE
 
 std::vector<Id> merge_leaves(const std::vector<Id>& leaves, Id count, int capacity) {
   std::vector<Id> begin;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -7,15 +8,13 @@
 #include <gale/base/radix_sort.hpp>
 #include <gale/base/require_ids.hpp>
 #include <gale/base/transfer.hpp>
+#include <gale/base/worker_or_host.hpp>
 #include <gale/mesh/octree_leaves.hpp>
 #include <gale/mesh/segmentation.hpp>
 
 namespace gale {
 
 namespace {
-
-using Codes = Array<std::uint64_t, WorkerMemory>;
-using Ids = Array<Id, WorkerMemory>;
 
 /// The cube that the octree halves: its side is a power of two, so that points on an integer grid meet cell borders
 /// exactly.
@@ -24,9 +23,8 @@ struct Cube {
   double cells_per_unit;  ///< smallest cells along a unit of length
 };
 
-template <class Coordinate>
-Cube bounding_cube(const Points<Coordinate, WorkerMemory>& points) {
-  const WorkerSpace space;
+template <class Coordinate, class Space>
+Cube bounding_cube(const Space& space, const Points<Coordinate, MemoryOf<Space>>& points) {
   const Offset count = points.extent(0);
   const Offset bad = reduce_min(
       "GALE::finite_points", space, count, count, KOKKOS_LAMBDA(Offset i) {
@@ -61,11 +59,13 @@ KOKKOS_FUNCTION std::uint64_t spread(std::uint64_t x) {
   return (x | x << 2) & 0x1249249249249249ULL;
 }
 
-template <class Coordinate>
-Codes morton_codes(const Points<Coordinate, WorkerMemory>& points, const Cube& cube) {
-  const auto codes = allocate<Codes>("GALE::morton_codes", points.extent(0));
+template <class Coordinate, class Space>
+Array<std::uint64_t, MemoryOf<Space>> morton_codes(const Space& space,
+                                                   const Points<Coordinate, MemoryOf<Space>>& points,
+                                                   const Cube& cube) {
+  const auto codes = allocate<Array<std::uint64_t, MemoryOf<Space>>>("GALE::morton_codes", points.extent(0));
   parallel_for(
-      "GALE::morton_codes", WorkerSpace(), points.extent(0), KOKKOS_LAMBDA(Offset i) {
+      "GALE::morton_codes", space, points.extent(0), KOKKOS_LAMBDA(Offset i) {
         std::uint64_t code = 0;
         for (int axis = 0; axis < 3; ++axis) {
           constexpr double last = (1 << detail::morton_levels) - 1;
@@ -77,17 +77,41 @@ Codes morton_codes(const Points<Coordinate, WorkerMemory>& points, const Cube& c
   return codes;
 }
 
-Ids iota(Offset count) {
-  const auto ids = allocate<Ids>("GALE::vertex_input", count);
+template <class Space>
+Array<Id, MemoryOf<Space>> iota(const Space& space, Offset count) {
+  const auto ids = allocate<Array<Id, MemoryOf<Space>>>("GALE::vertex_input", count);
   parallel_for(
-      "GALE::iota", WorkerSpace(), count, KOKKOS_LAMBDA(Offset i) { ids(i) = static_cast<Id>(i); });
+      "GALE::iota", space, count, KOKKOS_LAMBDA(Offset i) { ids(i) = static_cast<Id>(i); });
   return ids;
 }
 
-Ids to_workers(const std::vector<Id>& values, const char* label) {
-  const auto ids = allocate<Ids>(label, values.size());
-  Kokkos::deep_copy(ids, Kokkos::View<const Id*, HostMemory, Kokkos::MemoryUnmanaged>(values.data(), values.size()));
+Mirrored<Id> vertex_begin_of(const std::vector<Id>& begin) {
+  const auto ids = allocate<Array<Id, HostMemory>>("GALE::vertex_begin", begin.size());
+  std::copy(begin.begin(), begin.end(), ids.data());
   return ids;
+}
+
+template <class Coordinate, class Space>
+Segmentation octree_in(const Space& space, const Points<Coordinate, MemoryOf<Space>>& points, int capacity) {
+  const auto count = static_cast<Id>(points.extent(0));
+  const auto codes = morton_codes<Coordinate>(space, points, bounding_cube<Coordinate>(space, points));
+  const auto vertex_input = iota(space, count);
+  stable_sort_by_key(space, codes, vertex_input);
+  const auto leaves = detail::octree_leaves(space, codes, capacity);
+  space.fence();
+  return {vertex_input, vertex_begin_of(detail::merge_leaves(leaves, count, capacity))};
+}
+
+/// Sorts `keys`, and says where each stood. Overwrites them.
+template <class Space>
+Mirrored<Id> sort_labels(const Space& space, const Array<std::uint64_t, HostMemory>& keys) {
+  const auto sorted = in_memory<MemoryOf<Space>>(keys);
+  const auto vertex_input = iota(space, keys.extent(0));
+  stable_sort_by_key(space, sorted, vertex_input);
+  const auto back = on_host(sorted);
+  if (back.data() != keys.data()) Kokkos::deep_copy(keys, back);
+  space.fence();
+  return vertex_input;
 }
 
 }  // namespace
@@ -96,39 +120,25 @@ template <class Coordinate, class Memory>
 Segmentation octree_segmentation(const Points<Coordinate, Memory>& given, int capacity) {
   if (capacity < 1) throw Error("a segment's capacity must be at least 1 vertex, not " + std::to_string(capacity));
   require_ids("vertices", static_cast<Offset>(given.extent(0)));
-  const auto count = static_cast<Id>(given.extent(0));
-  Segmentation result;
-  if (count == 0) {
-    result.vertex_input = Ids("GALE::vertex_input", 0);
-    result.vertex_begin = Ids("GALE::vertex_begin", 1);
-    return result;
-  }
-  const Points<Coordinate, WorkerMemory> points = on_worker(given);
-  const auto codes = morton_codes(points, bounding_cube(points));
-  result.vertex_input = iota(count);
-  stable_sort_by_key(codes, result.vertex_input);
-  const auto leaves = detail::octree_leaves(codes, capacity);
-  result.vertex_begin = to_workers(detail::merge_leaves(leaves, count, capacity), "GALE::vertex_begin");
-  return result;
+  if (given.extent(0) == 0) return {iota(HostSpace(), 0), vertex_begin_of({0})};
+  return in_worker_or_host_space(true, [&](const auto& space) {
+    using Here = MemoryOf<std::decay_t<decltype(space)>>;
+    return octree_in<Coordinate>(space, in_memory<Here>(given), capacity);
+  });
 }
 
 Segmentation given_segmentation(const Array<const std::int64_t, HostMemory>& labels) {
   require_ids("vertices", static_cast<Offset>(labels.extent(0)));
   const auto count = static_cast<Id>(labels.extent(0));
-  const auto keys_on_host = allocate<Array<std::uint64_t, HostMemory>>("GALE::labels", count);
-  for (Id i = 0; i < count; ++i) keys_on_host(i) = static_cast<std::uint64_t>(labels(i)) ^ (std::uint64_t(1) << 63);
-  const Codes keys = on_worker(keys_on_host);
-  Segmentation result;
-  result.vertex_input = iota(count);
-  stable_sort_by_key(keys, result.vertex_input);
-  const auto sorted = on_host(keys);
+  const auto keys = allocate<Array<std::uint64_t, HostMemory>>("GALE::labels", count);
+  for (Id i = 0; i < count; ++i) keys(i) = static_cast<std::uint64_t>(labels(i)) ^ (std::uint64_t(1) << 63);
+  const auto vertex_input = in_worker_or_host_space(true, [&](const auto& space) { return sort_labels(space, keys); });
   std::vector<Id> begin;
   for (Id i = 0; i < count; ++i) {
-    if (i == 0 || sorted(i) != sorted(i - 1)) begin.push_back(i);
+    if (i == 0 || keys(i) != keys(i - 1)) begin.push_back(i);
   }
   begin.push_back(count);
-  result.vertex_begin = to_workers(begin, "GALE::vertex_begin");
-  return result;
+  return {vertex_input, vertex_begin_of(begin)};
 }
 
 #define GALE_INSTANTIATE(Coordinate, Memory) \

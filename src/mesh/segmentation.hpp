@@ -2,19 +2,19 @@
 
 #include <cstdint>
 
-#include <gale/base/memory.hpp>
+#include <gale/base/mirrored.hpp>
 #include <gale/base/types.hpp>
 
 namespace gale {
 
-/// A partition of a mesh' vertices into segments, and with it GALE's own numbering of the vertices: segment after
-/// segment, none of them empty. Both arrays lie in the workers' memory.
+/// A partition of a mesh's vertices into segments, and with it GALE's own numbering of the vertices: segment after
+/// segment, none of them empty.
 struct Segmentation {
-  Array<Id, WorkerMemory> vertex_input;  ///< GALE's vertex id -> input vertex id; a permutation
-  Array<Id, WorkerMemory> vertex_begin;  ///< segment -> its first vertex (GALE's id), and one past the last; ascending
+  Mirrored<Id> vertex_input;  ///< GALE's vertex id -> input vertex id; a permutation
+  Mirrored<Id> vertex_begin;  ///< segment -> its first vertex (GALE's id), and one past the last; ascending
 
-  Id vertices() const { return static_cast<Id>(vertex_input.extent(0)); }
-  Id segments() const { return static_cast<Id>(vertex_begin.extent(0)) - 1; }
+  Id vertices() const { return static_cast<Id>(vertex_input.size()); }
+  Id segments() const { return static_cast<Id>(vertex_begin.size()) - 1; }
 };
 
 /// Coordinates of points as a caller has them, in host memory or the workers'.
@@ -23,9 +23,10 @@ using Points = Kokkos::View<const Coordinate* [3], Kokkos::LayoutRight, Memory>;
 
 /// The leaves of a PR octree that hold at most `capacity` vertices each, consecutive ones merged while they fit.
 /// Vertices and thus segments are in Morton order (x the highest bit), those of one cell of the deepest level in input
-/// order. More than `capacity` vertices at one point (to 2^-21 of the mesh' extent) are split arbitrarily.
+/// order. More than `capacity` vertices at one point (to 2^-21 of the mesh's extent) are split arbitrarily.
 ///
-/// `Coordinate` is float or double. Takes time O(n), 12 bytes a vertex beside the result.
+/// `Coordinate` is float or double. Takes time O(n), 24 bytes a vertex beside the result in the workers' memory; the
+/// host computes where that doesn't fit.
 /// Throws gale::Error for a capacity below 1, more than 2^31 - 1 points, or a coordinate that isn't finite.
 template <class Coordinate, class Memory>
 Segmentation octree_segmentation(const Points<Coordinate, Memory>& points, int capacity);

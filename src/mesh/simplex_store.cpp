@@ -1,5 +1,5 @@
 #include <gale/base/parallel.hpp>
-#include <gale/base/transfer.hpp>
+#include <gale/base/worker_or_host.hpp>
 #include <gale/mesh/enumerate.hpp>
 #include <gale/mesh/simplex_store.hpp>
 
@@ -7,128 +7,140 @@ namespace gale::detail {
 
 namespace {
 
-/// Copies an array to the host unless it is there.
-template <class View, class HostView>
-void mirror(const View& from, HostView& to) {
-  if (to.data() == nullptr) to = gale::on_host(from);
-}
+bool has(const Mirrored<Id>& table) { return table.size() > 0; }
 
+/// What is there of the tables that someone needs. Unmanaged, since other threads may copy the mesh's own at this
+/// moment.
 template <class Memory>
-void add_tables(const SimplexTables<Memory>& tables, Simplices<Memory>& view) {
-  view.edge_begin = tables.edge_begin;
-  view.edge_low = tables.edge_low;
-  view.edge_high = tables.edge_high;
-  view.triangle_begin = tables.triangle_begin;
-  view.triangle_edge = tables.triangle_edge;
-  view.triangle_apex = tables.triangle_apex;
-  view.lower_begin = tables.lower_begin;
-  view.lower_edges = tables.lower_edges;
+Simplices<Memory> view_of(const MeshArrays& mesh, const SimplexTables& tables, const SimplexNeeds& needs) {
+  Simplices<Memory> view;
+  if (needs.tetrahedra || (is_device_memory<Memory> && mesh.tetrahedra.on_device())) {
+    view.tetrahedra = by_four(mesh.tetrahedra.in<Memory>());
+    view.tetrahedron_begin = mesh.tetrahedron_begin.in<Memory>();
+  }
+  if (needs.upto >= Enumeration::edges && has(tables.edge_begin)) {
+    view.edge_begin = tables.edge_begin.in<Memory>();
+    view.edge_low = tables.edge_low.in<Memory>();
+    view.edge_high = tables.edge_high.in<Memory>();
+  }
+  if (needs.upto >= Enumeration::triangles && has(tables.triangle_begin)) {
+    view.triangle_begin = tables.triangle_begin.in<Memory>();
+    view.triangle_edge = tables.triangle_edge.in<Memory>();
+    view.triangle_apex = tables.triangle_apex.in<Memory>();
+  }
+  if (needs.lower_edges && has(tables.lower_begin)) {
+    view.lower_begin = tables.lower_begin.in<Memory>();
+    view.lower_edges = tables.lower_edges.in<Memory>();
+  }
+  return view;
 }
 
-/// `vertex_begin` is unmanaged, since other threads may copy the mesh' own at this moment.
-Array<Id, WorkerMemory> interval_begin_of(
-    const Simplices<WorkerMemory>& simplices,
-    const Kokkos::View<const Id*, WorkerMemory, Kokkos::MemoryUnmanaged>& vertex_begin, int dimension) {
-  const auto begin = allocate<Array<Id, WorkerMemory>>("GALE::interval_begin", vertex_begin.extent(0));
+/// The tables from which others are made.
+constexpr SimplexNeeds tetrahedra = {Enumeration::tetrahedra, false, true};
+constexpr SimplexNeeds edges = {Enumeration::edges, false, true};
+
+template <class Space>
+Mirrored<Id> interval_begin_of(const Space& space, const MeshArrays& mesh, const SimplexTables& tables, int dimension) {
+  using Memory = MemoryOf<Space>;
+  const Kokkos::View<const Id*, Memory, Kokkos::MemoryUnmanaged> vertex_begin = mesh.vertex_begin.in<Memory>(),
+                                                                 edge_begin = tables.edge_begin.in<Memory>();
+  Kokkos::View<const Id*, Memory, Kokkos::MemoryUnmanaged> triangle_begin;
+  if (dimension == 2) triangle_begin = tables.triangle_begin.in<Memory>();
+  const auto begin = allocate<Array<Id, Memory>>("GALE::interval_begin", vertex_begin.extent(0));
   parallel_for(
-      "GALE::interval_begin", WorkerSpace(), begin.extent(0), KOKKOS_LAMBDA(Offset s) {
-        const Id edge = simplices.edge_begin(vertex_begin(s));
-        begin(s) = dimension == 1 ? edge : simplices.triangle_begin(edge);
+      "GALE::interval_begin", space, begin.extent(0), KOKKOS_LAMBDA(Offset s) {
+        const Id edge = edge_begin(vertex_begin(s));
+        begin(s) = dimension == 1 ? edge : triangle_begin(edge);
       });
+  space.fence();
   return begin;
 }
 
-bool has(const Array<Id, WorkerMemory>& table) { return table.data() != nullptr; }
-
 }  // namespace
 
-Simplices<WorkerMemory> SimplexStore::on_worker(const SimplexNeeds& needs) {
+template <class Memory>
+Simplices<Memory> SimplexStore::in(const SimplexNeeds& needs) {
   const std::lock_guard<std::mutex> lock(mutex_);
   enumerate(needs);
-  return worker_view();
+  return view_of<Memory>(mesh_, tables_, needs);
 }
 
-Simplices<HostMemory> SimplexStore::on_host(const SimplexNeeds& needs) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  enumerate(needs);
-  if (needs.upto >= Enumeration::edges) {
-    mirror(tables_.edge_begin, host_tables_.edge_begin);
-    mirror(tables_.edge_low, host_tables_.edge_low);
-    mirror(tables_.edge_high, host_tables_.edge_high);
-  }
-  if (needs.upto >= Enumeration::triangles) {
-    mirror(tables_.triangle_begin, host_tables_.triangle_begin);
-    mirror(tables_.triangle_edge, host_tables_.triangle_edge);
-    mirror(tables_.triangle_apex, host_tables_.triangle_apex);
-  }
-  if (needs.lower_edges) {
-    mirror(tables_.lower_begin, host_tables_.lower_begin);
-    mirror(tables_.lower_edges, host_tables_.lower_edges);
-  }
-  if (needs.tetrahedra) {
-    mirror(mesh_.tetrahedra, host_tetrahedra_);
-    mirror(tetrahedron_begin_, host_tetrahedron_begin_);
-  }
-  return host_view();
-}
-
-const Kokkos::View<Id* [4], Kokkos::LayoutRight, HostMemory>& SimplexStore::tetrahedra_on_host() {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  mirror(mesh_.tetrahedra, host_tetrahedra_);
-  return host_tetrahedra_;
-}
-
-const Array<const Id, HostMemory>& SimplexStore::interval_begin(int dimension) {
+template <class Memory>
+const Array<const Id, Memory>& SimplexStore::interval_begin(int dimension) {
   const auto* const published = published_intervals_[dimension - 1].load(std::memory_order_acquire);
-  if (published != nullptr) return *published;
+  if (published != nullptr) return published->in<Memory>();
   const std::lock_guard<std::mutex> lock(mutex_);
   SimplexNeeds needs;
   needs.upto = dimension == 1 ? Enumeration::edges : Enumeration::triangles;
   enumerate(needs);
-  return intervals_[dimension - 1];
+  return intervals_[dimension - 1].in<Memory>();
 }
 
 Id SimplexStore::known(int dimension) const {
   const auto* const published = published_intervals_[dimension - 1].load(std::memory_order_acquire);
-  return published == nullptr ? no_id : (*published)(published->extent(0) - 1);
+  if (published == nullptr) return no_id;
+  const auto& begin = published->in<HostMemory>();
+  return begin(begin.extent(0) - 1);
 }
 
+std::string SimplexStore::notice() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return notice_;
+}
+
+/// Other threads may use the tables on instances of their own as soon as they have them, so each step ends with a
+/// fence.
 void SimplexStore::enumerate(const SimplexNeeds& needs) {
-  const bool edges = needs.upto >= Enumeration::edges && !has(tables_.edge_begin);
-  const bool triangles = needs.upto >= Enumeration::triangles && !has(tables_.triangle_begin);
-  if (edges || triangles) {
-    const MiddleStars stars = find_middle_stars(worker_view());
-    if (edges) {
-      enumerate_edges(worker_view(), stars, tables_);
-      publish_intervals(1);
-    }
-    if (triangles) {
-      enumerate_triangles(worker_view(), stars, tables_);
-      publish_intervals(2);
-    }
+  const bool edges_too = needs.upto >= Enumeration::edges && !has(tables_.edge_begin);
+  const bool triangles_too = needs.upto >= Enumeration::triangles && !has(tables_.triangle_begin);
+  if (edges_too || triangles_too) {
+    make(triangles_too ? "triangles" : "edges", [&](const auto& space) {
+      using Memory = MemoryOf<std::decay_t<decltype(space)>>;
+      const auto stars = find_middle_stars(space, view_of<Memory>(mesh_, tables_, tetrahedra));
+      if (!has(tables_.edge_begin)) {
+        enumerate_edges(space, view_of<Memory>(mesh_, tables_, tetrahedra), stars, tables_);
+      }
+      publish_intervals(space, 1);
+      if (triangles_too) {
+        enumerate_triangles(space, view_of<Memory>(mesh_, tables_, edges), stars, tables_);
+        publish_intervals(space, 2);
+      }
+    });
   }
-  if (needs.lower_edges && !has(tables_.lower_begin)) sort_edges_by_higher(worker_view(), tables_);
+  if (needs.lower_edges && !has(tables_.lower_begin)) {
+    make("edges by their higher vertices", [&](const auto& space) {
+      using Memory = MemoryOf<std::decay_t<decltype(space)>>;
+      sort_edges_by_higher(space, view_of<Memory>(mesh_, tables_, edges), tables_);
+      space.fence();
+    });
+  }
 }
 
-Simplices<WorkerMemory> SimplexStore::worker_view() const {
-  Simplices<WorkerMemory> view;
-  view.tetrahedra = mesh_.tetrahedra;
-  view.tetrahedron_begin = tetrahedron_begin_;
-  add_tables(tables_, view);
-  return view;
+/// Calls make(space) where the mesh is, and on the host if there is no memory for that.
+template <class Make>
+void SimplexStore::make(const char* what, const Make& make) {
+  in_worker_or_host_space(mesh_.tetrahedra.on_device(), make, [&](const OutOfMemory& error) {
+    if (!notice_.empty()) return;
+    notice_ = std::string("the mesh's ") + (has(tables_.edge_begin) ? what : "edges") +
+              " don't fit the device's memory (" + error.missing() + "): the host computes them";
+  });
 }
 
-Simplices<HostMemory> SimplexStore::host_view() const {
-  Simplices<HostMemory> view;
-  view.tetrahedra = host_tetrahedra_;
-  view.tetrahedron_begin = host_tetrahedron_begin_;
-  add_tables(host_tables_, view);
-  return view;
+/// Unless they are. On the host too, where consumers read them again and again.
+template <class Space>
+void SimplexStore::publish_intervals(const Space& space, int dimension) {
+  auto& published = published_intervals_[dimension - 1];
+  if (published != nullptr) return;
+  auto& intervals = intervals_[dimension - 1];
+  intervals = interval_begin_of(space, mesh_, tables_, dimension);
+  intervals.in<HostMemory>();
+  published.store(&intervals, std::memory_order_release);
 }
 
-void SimplexStore::publish_intervals(int dimension) {
-  intervals_[dimension - 1] = gale::on_host(interval_begin_of(worker_view(), mesh_.vertex_begin, dimension));
-  published_intervals_[dimension - 1].store(&intervals_[dimension - 1], std::memory_order_release);
-}
+#define GALE_INSTANTIATE(Space)                                                               \
+  template Simplices<MemoryOf<Space>> SimplexStore::in<MemoryOf<Space>>(const SimplexNeeds&); \
+  template const Array<const Id, MemoryOf<Space>>& SimplexStore::interval_begin<MemoryOf<Space>>(int)
+GALE_IN_EACH_SPACE(GALE_INSTANTIATE);
+#undef GALE_INSTANTIATE
 
 }  // namespace gale::detail

@@ -2,47 +2,46 @@
 
 #include <atomic>
 #include <mutex>
+#include <string>
 
 #include <gale/mesh/encoded_mesh.hpp>
 #include <gale/mesh/simplices.hpp>
 
 namespace gale::detail {
 
-/// The tables of a mesh' simplices in the workers' memory and on the host, each made when someone needs it first. By
-/// any thread.
+/// The tables of a mesh's simplices, each made when someone needs it first, in the space that the mesh was made in, or
+/// on the host if it doesn't fit the device's memory. By any thread.
 class SimplexStore {
  public:
-  /// `mesh`, and vertex -> the first tetrahedron whose lowest vertex it is.
-  SimplexStore(const MeshArrays<WorkerMemory>& mesh, const Array<Id, WorkerMemory>& tetrahedron_begin)
-      : mesh_(mesh), tetrahedron_begin_(tetrahedron_begin) {}
+  explicit SimplexStore(const MeshArrays& mesh) : mesh_(mesh) {}
 
-  Simplices<WorkerMemory> on_worker(const SimplexNeeds& needs);
-  Simplices<HostMemory> on_host(const SimplexNeeds& needs);
+  template <class Memory>
+  Simplices<Memory> in(const SimplexNeeds& needs);
 
-  const Kokkos::View<Id* [4], Kokkos::LayoutRight, HostMemory>& tetrahedra_on_host();
-
-  /// Where the edges (1) or triangles (2) that are internal to each segment begin, and one past the last, on the host;
-  /// what is missing for it is enumerated. No lock once it is there.
-  const Array<const Id, HostMemory>& interval_begin(int dimension);
+  /// Where the edges (1) or triangles (2) that are internal to each segment begin, and one past the last; what is
+  /// missing for it is enumerated. No lock once it is there.
+  template <class Memory>
+  const Array<const Id, Memory>& interval_begin(int dimension);
 
   /// How many edges or triangles there are; no_id as long as nobody needed them. No lock.
   Id known(int dimension) const;
 
+  /// What didn't fit the device's memory; empty if everything did.
+  std::string notice() const;
+
  private:
   void enumerate(const SimplexNeeds& needs);
-  Simplices<WorkerMemory> worker_view() const;
-  Simplices<HostMemory> host_view() const;
-  void publish_intervals(int dimension);
+  template <class Make>
+  void make(const char* what, const Make& make);
+  template <class Space>
+  void publish_intervals(const Space& space, int dimension);
 
   mutable std::mutex mutex_;
-  MeshArrays<WorkerMemory> mesh_;
-  Array<Id, WorkerMemory> tetrahedron_begin_;
-  SimplexTables<WorkerMemory> tables_;
-  Array<const Id, HostMemory> intervals_[2];
-  std::atomic<const Array<const Id, HostMemory>*> published_intervals_[2] = {};
-  SimplexTables<HostMemory> host_tables_;
-  Kokkos::View<Id* [4], Kokkos::LayoutRight, HostMemory> host_tetrahedra_;
-  Array<Id, HostMemory> host_tetrahedron_begin_;
+  const MeshArrays mesh_;
+  SimplexTables tables_;
+  Mirrored<Id> intervals_[2];
+  std::atomic<const Mirrored<Id>*> published_intervals_[2] = {};
+  std::string notice_;
 };
 
 }  // namespace gale::detail

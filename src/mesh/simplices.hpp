@@ -1,7 +1,8 @@
 #pragma once
 
-#include <gale/base/memory.hpp>
+#include <gale/base/mirrored.hpp>
 #include <gale/base/types.hpp>
+#include <gale/mesh/encoded_mesh.hpp>
 
 namespace gale {
 
@@ -29,11 +30,6 @@ KOKKOS_INLINE_FUNCTION Id find_in(const Values& values, Id begin, Id end, Id val
 
 }  // namespace detail
 
-/// The vertices of a tetrahedron, ascending; read from memory at once.
-struct alignas(16) Quad {
-  Id a, b, c, d;
-};
-
 /// Which simplices are numbered. Triangles need the edges.
 enum class Enumeration { tetrahedra, edges, triangles };
 
@@ -41,7 +37,7 @@ enum class Enumeration { tetrahedra, edges, triangles };
 struct SimplexNeeds {
   Enumeration upto = Enumeration::tetrahedra;
   bool lower_edges = false;  ///< the edges by their higher vertex too; needs edges
-  bool tetrahedra = false;   ///< on the host, the tetrahedra themselves; the workers always have them
+  bool tetrahedra = false;   ///< the tetrahedra themselves; on a device that has them they always come along
 };
 
 /// All simplices of a mesh, each with its vertices ascending (a < b < c < d) and all of a dimension in lexicographic
@@ -54,7 +50,7 @@ struct Simplices {
   template <class T>
   using Unmanaged = Kokkos::View<const T*, Memory, Kokkos::MemoryUnmanaged>;
 
-  Kokkos::View<const Id* [4], Kokkos::LayoutRight, Memory, Kokkos::MemoryUnmanaged> tetrahedra;
+  IdsByFour<Memory> tetrahedra;
   Unmanaged<Id> tetrahedron_begin;  ///< vertex a -> the first tetrahedron (a, ., ., .); one more at the end, as in all
                                     ///< that follow
 
@@ -69,7 +65,7 @@ struct Simplices {
   Unmanaged<Id> lower_begin;  ///< vertex b -> where its edges (., b) begin in lower_edges
   Unmanaged<Id> lower_edges;  ///< the edges by their higher vertex, ascending
 
-  KOKKOS_FUNCTION Quad tetrahedron(Id t) const { return reinterpret_cast<const Quad*>(tetrahedra.data())[t]; }
+  KOKKOS_FUNCTION Quad tetrahedron(Id t) const { return quad_at(tetrahedra.data(), t); }
 
   /// The edge (a, b), a < b; no_id if there is none.
   KOKKOS_FUNCTION Id edge_of(Id a, Id b) const {
@@ -87,13 +83,15 @@ struct Simplices {
   }
 };
 
-/// The tables themselves.
-template <class Memory>
+namespace detail {
+
+/// The tables themselves; empty until they are made.
 struct SimplexTables {
-  using Ids = Array<Id, Memory>;
-  Ids edge_begin, edge_low, edge_high;
-  Ids triangle_begin, triangle_edge, triangle_apex;
-  Ids lower_begin, lower_edges;
+  Mirrored<Id> edge_begin, edge_low, edge_high;
+  Mirrored<Id> triangle_begin, triangle_edge, triangle_apex;
+  Mirrored<Id> lower_begin, lower_edges;
 };
+
+}  // namespace detail
 
 }  // namespace gale

@@ -1,4 +1,3 @@
-#include <array>
 #include <limits>
 #include <string>
 
@@ -12,18 +11,13 @@ namespace gale::detail {
 
 namespace {
 
-using Ids = Array<Id, WorkerMemory>;
-
-/// A tetrahedron's vertices in GALE's ids, ascending, and where it stood in the input.
-struct Quad {
-  Id vertex[4];
+/// A tetrahedron in GALE's ids, and where it stood in the input.
+struct Entry {
+  Quad vertices;
   Id input;
 
-  KOKKOS_FUNCTION bool operator<(const Quad& other) const {
-    for (int corner = 0; corner < 4; ++corner) {
-      if (vertex[corner] != other.vertex[corner]) return vertex[corner] < other.vertex[corner];
-    }
-    return input < other.input;
+  KOKKOS_FUNCTION bool operator<(const Entry& other) const {
+    return vertices == other.vertices ? input < other.input : vertices < other.vertices;
   }
 };
 
@@ -33,22 +27,22 @@ KOKKOS_INLINE_FUNCTION void order(Id& a, Id& b) {
   a = low;
 }
 
-template <class Index>
-KOKKOS_FUNCTION Quad renumbered(const Tetrahedra<Index, WorkerMemory>& input, const Ids& vertex_internal, Offset t) {
-  Quad quad;
-  quad.input = static_cast<Id>(t);
-  for (int corner = 0; corner < 4; ++corner) quad.vertex[corner] = vertex_internal(input(t, corner));
-  order(quad.vertex[0], quad.vertex[1]);
-  order(quad.vertex[2], quad.vertex[3]);
-  order(quad.vertex[0], quad.vertex[2]);
-  order(quad.vertex[1], quad.vertex[3]);
-  order(quad.vertex[1], quad.vertex[2]);
+template <class Index, class Memory>
+KOKKOS_FUNCTION Quad renumbered(const Tetrahedra<Index, Memory>& input, const Array<Id, Memory>& vertex_internal,
+                                Offset t) {
+  Quad quad{vertex_internal(input(t, 0)), vertex_internal(input(t, 1)), vertex_internal(input(t, 2)),
+            vertex_internal(input(t, 3))};
+  order(quad.a, quad.b);
+  order(quad.c, quad.d);
+  order(quad.a, quad.c);
+  order(quad.b, quad.d);
+  order(quad.b, quad.c);
   return quad;
 }
 
 /// Is there something wrong with the tetrahedron by itself?
-template <class Index>
-KOKKOS_FUNCTION bool is_bad(const Tetrahedra<Index, WorkerMemory>& input, Offset t, Offset vertices) {
+template <class Index, class Memory>
+KOKKOS_FUNCTION bool is_bad(const Tetrahedra<Index, Memory>& input, Offset t, Offset vertices) {
   for (int corner = 0; corner < 4; ++corner) {
     const Index v = input(t, corner);
     if (v < 0 || v >= vertices) return true;
@@ -60,8 +54,8 @@ KOKKOS_FUNCTION bool is_bad(const Tetrahedra<Index, WorkerMemory>& input, Offset
 }
 
 /// Says what `is_bad` found.
-template <class Index>
-[[noreturn]] void refuse(const Tetrahedra<Index, WorkerMemory>& input, Offset t, Offset vertices) {
+template <class Index, class Memory>
+[[noreturn]] void refuse(const Tetrahedra<Index, Memory>& input, Offset t, Offset vertices) {
   const auto row = Kokkos::subview(input, std::make_pair(t, t + 1), Kokkos::ALL());
   const auto quad = Kokkos::create_mirror_view_and_copy(HostMemory(), row);
   const std::string name = "tetrahedron " + std::to_string(t);
@@ -78,94 +72,97 @@ template <class Index>
   throw Error(name + " is not valid");
 }
 
-template <class Index>
-void validate(const Tetrahedra<Index, WorkerMemory>& input, Offset vertices) {
+template <class Index, class Space>
+void validate(const Space& space, const Tetrahedra<Index, MemoryOf<Space>>& input, Offset vertices) {
   const Offset count = input.extent(0);
   if (count == 0) throw Error("the mesh has no tetrahedra");
   require_ids("tetrahedra", count);
   const Offset bad = reduce_min(
-      "GALE::validate_tetrahedra", WorkerSpace(), count, count,
+      "GALE::validate_tetrahedra", space, count, count,
       KOKKOS_LAMBDA(Offset t) { return is_bad(input, t, vertices) ? t : count; });
   if (bad < count) refuse(input, bad, vertices);
 }
 
-KOKKOS_FUNCTION Quad load(const SortedTetrahedra& sorted, Id t) {
-  return {{sorted.vertices(t, 0), sorted.vertices(t, 1), sorted.vertices(t, 2), sorted.vertices(t, 3)},
-          sorted.input(t)};
+template <class Memory>
+KOKKOS_FUNCTION Entry load(const SortedTetrahedra<Memory>& sorted, Id t) {
+  return {sorted.vertices(t), sorted.input(t)};
 }
 
-KOKKOS_FUNCTION void store(const SortedTetrahedra& sorted, Id t, const Quad& quad) {
-  for (int corner = 0; corner < 4; ++corner) sorted.vertices(t, corner) = quad.vertex[corner];
-  sorted.input(t) = quad.input;
+template <class Memory>
+KOKKOS_FUNCTION void store(const SortedTetrahedra<Memory>& sorted, Id t, const Entry& entry) {
+  sorted.vertices(t) = entry.vertices;
+  sorted.input(t) = entry.input;
 }
 
-KOKKOS_FUNCTION void sift_down(const SortedTetrahedra& sorted, Id begin, Id count, Id root) {
-  const Quad quad = load(sorted, begin + root);
+template <class Memory>
+KOKKOS_FUNCTION void sift_down(const SortedTetrahedra<Memory>& sorted, Id begin, Id count, Id root) {
+  const Entry entry = load(sorted, begin + root);
   for (Id child = 2 * root + 1; child < count; child = 2 * root + 1) {
     if (child + 1 < count && load(sorted, begin + child) < load(sorted, begin + child + 1)) ++child;
-    const Quad larger = load(sorted, begin + child);
-    if (!(quad < larger)) break;
+    const Entry larger = load(sorted, begin + child);
+    if (!(entry < larger)) break;
     store(sorted, begin + root, larger);
     root = child;
   }
-  store(sorted, begin + root, quad);
+  store(sorted, begin + root, entry);
 }
 
 /// Sorts the tetrahedra of one lowest vertex: some six of them, so by insertion; a heap where they are many.
-KOKKOS_FUNCTION void sort_bucket(const SortedTetrahedra& sorted, Id begin, Id end) {
+template <class Memory>
+KOKKOS_FUNCTION void sort_bucket(const SortedTetrahedra<Memory>& sorted, Id begin, Id end) {
   constexpr Id many = 64;
   if (end - begin <= many) {
     for (Id t = begin + 1; t < end; ++t) {
-      const Quad quad = load(sorted, t);
+      const Entry entry = load(sorted, t);
       Id to = t;
       for (; to > begin; --to) {
-        const Quad before = load(sorted, to - 1);
-        if (!(quad < before)) break;
+        const Entry before = load(sorted, to - 1);
+        if (!(entry < before)) break;
         store(sorted, to, before);
       }
-      if (to != t) store(sorted, to, quad);
+      if (to != t) store(sorted, to, entry);
     }
     return;
   }
   for (Id root = (end - begin) / 2 - 1; root >= 0; --root) sift_down(sorted, begin, end - begin, root);
   for (Id count = end - begin - 1; count > 0; --count) {
-    const Quad last = load(sorted, begin + count);
+    const Entry last = load(sorted, begin + count);
     store(sorted, begin + count, load(sorted, begin));
     store(sorted, begin, last);
     sift_down(sorted, begin, count, 0);
   }
 }
 
-KOKKOS_FUNCTION bool same_as_next(const SortedTetrahedra& sorted, Id t) {
-  for (int corner = 0; corner < 4; ++corner) {
-    if (sorted.vertices(t, corner) != sorted.vertices(t + 1, corner)) return false;
-  }
-  return true;
+template <class Memory>
+KOKKOS_FUNCTION bool same_as_next(const SortedTetrahedra<Memory>& sorted, Offset t) {
+  return sorted.vertices(t) == sorted.vertices(t + 1);
 }
 
-void refuse_duplicates(const SortedTetrahedra& sorted) {
+template <class Space>
+void refuse_duplicates(const Space& space, const SortedTetrahedra<MemoryOf<Space>>& sorted) {
   const auto count = static_cast<Id>(sorted.vertices.extent(0));
   const Id none = std::numeric_limits<Id>::max();
   const Id twin = reduce_min(
-      "GALE::find_duplicates", WorkerSpace(), count - 1, none,
-      KOKKOS_LAMBDA(Offset t) { return same_as_next(sorted, static_cast<Id>(t)) ? sorted.input(t + 1) : none; });
+      "GALE::find_duplicates", space, count - 1, none,
+      KOKKOS_LAMBDA(Offset t) { return same_as_next(sorted, t) ? sorted.input(t + 1) : none; });
   if (twin == none) return;
   const Id first = reduce_min(
-      "GALE::find_duplicate", WorkerSpace(), count - 1, none, KOKKOS_LAMBDA(Offset t) {
-        return same_as_next(sorted, static_cast<Id>(t)) && sorted.input(t + 1) == twin ? sorted.input(t) : none;
+      "GALE::find_duplicate", space, count - 1, none, KOKKOS_LAMBDA(Offset t) {
+        return same_as_next(sorted, t) && sorted.input(t + 1) == twin ? sorted.input(t) : none;
       });
   throw Error("tetrahedra " + std::to_string(first) + " and " + std::to_string(twin) + " have the same four vertices");
 }
 
 }  // namespace
 
-template <class Index>
-SortedTetrahedra sort_tetrahedra(const Tetrahedra<Index, WorkerMemory>& input, const Ids& vertex_internal) {
-  const WorkerSpace space;
+template <class Space, class Index>
+SortedTetrahedra<MemoryOf<Space>> sort_tetrahedra(const Space& space, const Tetrahedra<Index, MemoryOf<Space>>& input,
+                                                  const Array<Id, MemoryOf<Space>>& vertex_internal) {
+  using Ids = Array<Id, MemoryOf<Space>>;
   const Offset vertices = vertex_internal.extent(0);
-  validate(input, vertices);
+  validate<Index>(space, input, vertices);
   const Offset count = input.extent(0);
-  SortedTetrahedra sorted;
+  SortedTetrahedra<MemoryOf<Space>> sorted;
   sorted.begin = Ids("GALE::tetrahedra_of_lowest", vertices + 1);
   const Ids begin = sorted.begin;
   const Ids slot = allocate<Ids>("GALE::tetrahedron_slot", count);
@@ -185,16 +182,23 @@ SortedTetrahedra sort_tetrahedra(const Tetrahedra<Index, WorkerMemory>& input, c
   parallel_for(
       "GALE::move_tetrahedra", space, count, KOKKOS_LAMBDA(Offset t) {
         const Quad quad = renumbered(input, vertex_internal, t);
-        store(sorted, begin(quad.vertex[0]) + slot(t), quad);
+        store(sorted, begin(quad.a) + slot(t), {quad, static_cast<Id>(t)});
       });
   parallel_for(
       "GALE::sort_tetrahedra", space, vertices,
       KOKKOS_LAMBDA(Offset v) { sort_bucket(sorted, begin(v), begin(v + 1)); });
-  refuse_duplicates(sorted);
+  refuse_duplicates(space, sorted);
   return sorted;
 }
 
-template SortedTetrahedra sort_tetrahedra(const Tetrahedra<std::int32_t, WorkerMemory>&, const Ids&);
-template SortedTetrahedra sort_tetrahedra(const Tetrahedra<std::int64_t, WorkerMemory>&, const Ids&);
+#define GALE_INSTANTIATE_INDEX(Space, Index)                                                                          \
+  template SortedTetrahedra<MemoryOf<Space>> sort_tetrahedra(const Space&, const Tetrahedra<Index, MemoryOf<Space>>&, \
+                                                             const Array<Id, MemoryOf<Space>>&)
+#define GALE_INSTANTIATE(Space)                \
+  GALE_INSTANTIATE_INDEX(Space, std::int32_t); \
+  GALE_INSTANTIATE_INDEX(Space, std::int64_t)
+GALE_IN_EACH_SPACE(GALE_INSTANTIATE);
+#undef GALE_INSTANTIATE
+#undef GALE_INSTANTIATE_INDEX
 
 }  // namespace gale::detail

@@ -76,7 +76,7 @@ class Arrows {
 
   void draw_triangles(Id begin) {
     const Id* const tetrahedron_input = mesh_.tetrahedron_input().data();
-    const auto& tetrahedra = mesh_.host().tetrahedra;
+    const auto& tetrahedra = mesh_.encoded().tetrahedra;
     parallel_for("GALE::arrows_of_triangles", HostSpace(), mesh_.tetrahedra(), [&](Offset t) {
       const Partner partner = gradient_.pair_of_tetrahedron(t);
       if (partner.is_critical()) return;

@@ -8,7 +8,7 @@ namespace gale::outputs::detail {
 
 /// The vertices of a tetrahedron, all in GALE's ids.
 inline std::array<Id, 4> corners_of(const Mesh& mesh, Id tetrahedron) {
-  const auto& all = mesh.host().tetrahedra;
+  const auto& all = mesh.encoded().tetrahedra;
   return {all(tetrahedron, 0), all(tetrahedron, 1), all(tetrahedron, 2), all(tetrahedron, 3)};
 }
 

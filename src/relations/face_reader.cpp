@@ -19,8 +19,7 @@ Id write_if(Relation wanted, const Simplices<HostMemory>& simplices, Id simplex,
 
 }  // namespace
 
-FaceReader::FaceReader(const Mesh& mesh, RelationSet relations)
-    : simplices_(mesh.simplices_on_host(needs_of(relations))) {}
+FaceReader::FaceReader(const Mesh& mesh, RelationSet relations) : simplices_(mesh.simplices(needs_of(relations))) {}
 
 SegmentRows FaceReader::row(Relation relation, Id simplex) {
   Found& found = found_[static_cast<int>(relation)];

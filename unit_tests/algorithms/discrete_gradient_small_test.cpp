@@ -71,7 +71,7 @@ TEST(DiscreteGradient, of_one_tetrahedron_leaves_through_its_highest_triangle) {
     EXPECT_TRUE(DiscreteGradient::leaves(gradient.tetrahedron_successor(0)));
     for (int corner = 0; corner < 4; ++corner) {
       const Partner pair = gradient.pair_of_triangle(0, corner, {});
-      const bool is_321 = mesh.host().tetrahedra(0, corner) == id(0);
+      const bool is_321 = mesh.encoded().tetrahedra(0, corner) == id(0);
       EXPECT_EQ(pair.dimension, is_321 ? 3 : 1);
       if (is_321) EXPECT_EQ(pair.vertex, id(0));
     }

@@ -74,7 +74,7 @@ void expect_same(const DiscreteGradient& gradient, const DiscreteGradient& expec
   EXPECT_EQ(gradient.critical().star, expected.critical().star);
   expect_equal(gradient.vertex_successors(), expected.vertex_successors(), "vertex");
   expect_equal(gradient.tetrahedron_successors(), expected.tetrahedron_successors(), "tetrahedron");
-  const auto simplices = expected.mesh().simplices_on_host({Enumeration::edges});
+  const auto simplices = expected.mesh().simplices({Enumeration::edges});
   for (std::size_t e = 0; e < simplices.edge_low.extent(0); ++e) {
     const Id a = simplices.edge_low(e), b = simplices.edge_high(e);
     ASSERT_EQ(gradient.triangle_of_edge(a, b), expected.triangle_of_edge(a, b)) << "edge " << a << ' ' << b;

@@ -29,7 +29,7 @@ Id difference(const Simplex& a, const Simplex& b) {
 /// GALE's corner of a tetrahedron that is in none of the other simplex' vertices.
 int corner_beside(const Mesh& mesh, Id tetrahedron, const std::vector<Id>& triangle) {
   for (int corner = 0; corner < 4; ++corner) {
-    const Id vertex = mesh.host().tetrahedra(tetrahedron, corner);
+    const Id vertex = mesh.encoded().tetrahedra(tetrahedron, corner);
     if (std::find(triangle.begin(), triangle.end(), vertex) == triangle.end()) return corner;
   }
   return -1;

@@ -35,7 +35,7 @@ class Namer {
   }
   Simplex vertex(Id v) const { return (*this)(std::array<Id, 1>{v}); }
   Simplex tetrahedron(Id t) const {
-    const auto& corners = mesh_.host().tetrahedra;
+    const auto& corners = mesh_.encoded().tetrahedra;
     return (*this)(std::array<Id, 4>{corners(t, 0), corners(t, 1), corners(t, 2), corners(t, 3)});
   }
 

@@ -24,7 +24,7 @@ std::vector<Id> to_vector(const Array<const Id, HostMemory>& numbers) {
 NamedSimplices all_simplices(const Mesh& mesh) {
   SimplexNeeds needs;
   needs.upto = Enumeration::triangles;
-  const auto all = mesh.simplices_on_host(needs);
+  const auto all = mesh.simplices(needs);
   std::mt19937 random(7);
   NamedSimplices named;
   for (Id e = 0; e < mesh.known_edges(); ++e) {

@@ -21,7 +21,7 @@ void expect_stable_sort(const Keys& keys) {
   std::iota(order.begin(), order.end(), 0);
   const auto sorted_keys = to_producer(keys);
   const auto values = to_producer(order);
-  stable_sort_by_key(sorted_keys, values);
+  stable_sort_by_key(WorkerSpace(), sorted_keys, values);
   std::stable_sort(order.begin(), order.end(), [&](Id a, Id b) { return keys[a] < keys[b]; });
   EXPECT_EQ(to_vector(values), order);
   Keys expected = keys;
@@ -38,7 +38,7 @@ Keys random_keys(std::size_t count, std::uint64_t mask) {
 
 void expect_sorted_rows(const std::vector<Offset>& begin, const std::vector<Id>& values) {
   const auto sorted = to_producer(values);
-  sort_rows("test_sort", to_producer(begin), sorted);
+  sort_rows(WorkerSpace(), "test_sort", to_producer(begin), sorted);
   std::vector<Id> expected = values;
   for (std::size_t row = 0; row + 1 < begin.size(); ++row) {
     std::sort(expected.begin() + begin[row], expected.begin() + begin[row + 1]);

@@ -1,14 +1,49 @@
 #include <atomic>
+#include <mutex>
+#include <set>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include <gale/base/atomic.hpp>
+#include <gale/base/cpu_quota.hpp>
+#include <gale/base/parallel.hpp>
 #include <gale/base/threads.hpp>
 #include <gale/base/types.hpp>
 
 namespace gale::test {
+
+namespace {
+
+/// How many threads a loop over a million numbers runs on.
+std::size_t threads_of_a_loop() {
+  std::mutex mutex;
+  std::set<std::thread::id> threads;
+  detail::for_parts("test", 1 << 20, detail::threads_for(1 << 20), [&](int, Offset, Offset) {
+    const std::lock_guard<std::mutex> lock(mutex);
+    threads.insert(std::this_thread::get_id());
+  });
+  return threads.size();
+}
+
+template <class Body>
+void on_another_thread(const Body& body) {
+  std::thread(body).join();
+}
+
+/// What the process may use for the length of a test.
+class Threads {
+ public:
+  explicit Threads(int count) : before_(host_threads()) { set_host_threads(count); }
+  ~Threads() { set_host_threads(before_); }
+
+ private:
+  int before_;
+};
+
+}  // namespace
 
 TEST(OnThreads, calls_each_number_once) {
   for (const int count : {1, 2, 3, 16}) {
@@ -35,6 +70,73 @@ TEST(OnThreads, throws_what_a_body_threw_after_all_have_ended) {
     }
     EXPECT_EQ(ended, 3);
   }
+}
+
+TEST(OnThreads, lets_bodies_loop_on_their_own_thread) {
+  std::atomic<int> wrong{0};
+  on_threads(3, [&](int) { wrong += host_threads() != 1 || threads_of_a_loop() != 1; });
+  EXPECT_EQ(wrong, 0);
+}
+
+TEST(HostThreads, are_as_many_as_were_set_on_any_thread) {
+  const Threads five(5);
+  EXPECT_EQ(host_threads(), 5);
+  EXPECT_EQ(threads_of_a_loop(), 5u);
+  on_another_thread([] {
+    EXPECT_EQ(host_threads(), 5);
+    EXPECT_EQ(threads_of_a_loop(), 5u);
+  });
+  set_host_threads(0);
+  EXPECT_EQ(host_threads(), 1) << "at least";
+}
+
+TEST(ThreadLimit, bounds_the_loops_of_its_thread_alone) {
+  const Threads four(4);
+  {
+    const ThreadLimit limit(2);
+    EXPECT_EQ(host_threads(), 2);
+    EXPECT_EQ(threads_of_a_loop(), 2u);
+    on_another_thread([] { EXPECT_EQ(threads_of_a_loop(), 4u); });
+  }
+  EXPECT_EQ(threads_of_a_loop(), 4u);
+}
+
+TEST(ThreadLimit, of_several_is_the_least) {
+  const Threads four(4);
+  const ThreadLimit three(3);
+  {
+    const ThreadLimit many(7);
+    EXPECT_EQ(host_threads(), 3);
+    const ThreadLimit none(0);
+    EXPECT_EQ(host_threads(), 1) << "at least";
+  }
+  EXPECT_EQ(host_threads(), 3);
+}
+
+TEST(CpuQuota, of_version_2_is_a_quota_and_a_period) {
+  EXPECT_EQ(detail::cpus_of_quota("200000 100000\n"), 2);
+  EXPECT_EQ(detail::cpus_of_quota("150000 100000\n"), 2) << "rounded up";
+  EXPECT_EQ(detail::cpus_of_quota("1000 100000\n"), 1);
+  EXPECT_EQ(detail::cpus_of_quota("100001 100000"), 2);
+  EXPECT_EQ(detail::cpus_of_quota("9000000000000000000 1"), 2147483647);
+}
+
+TEST(CpuQuota, of_version_1_is_in_two_files) {
+  EXPECT_EQ(detail::cpus_of_quota("350000\n", "100000\n"), 4);
+  EXPECT_EQ(detail::cpus_of_quota("50000\n", "100000\n"), 1);
+  EXPECT_EQ(detail::cpus_of_quota("-1\n", "100000\n"), 0) << "none";
+}
+
+TEST(CpuQuota, is_none_where_the_text_says_so_or_nothing_that_is_understood) {
+  for (const char* text : {"max 100000\n", "", "max", "200000", "200000 0", "0 100000", "-1 100000", "many few"}) {
+    EXPECT_EQ(detail::cpus_of_quota(text), 0) << text;
+  }
+  EXPECT_EQ(detail::cpus_of_quota("", ""), 0);
+}
+
+TEST(AvailableCores, are_one_or_more_and_no_more_than_the_machine_has) {
+  EXPECT_GE(detail::available_cores(), 1);
+  EXPECT_LE(detail::available_cores(), static_cast<int>(std::thread::hardware_concurrency()));
 }
 
 TEST(AtomicAdd, loses_nothing_between_threads) {

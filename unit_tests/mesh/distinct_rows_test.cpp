@@ -37,7 +37,7 @@ struct Growing {
 
 template <class Candidates>
 void expect_rows(const std::vector<std::vector<Id>>& expected, const Candidates& candidates) {
-  const auto rows = detail::distinct_rows("tests", static_cast<Offset>(expected.size()), candidates);
+  const auto rows = detail::distinct_rows(WorkerSpace(), "tests", static_cast<Offset>(expected.size()), candidates);
   const auto begin = to_vector(rows.begin), values = to_vector(rows.values), row_of = to_vector(rows.row_of);
   ASSERT_EQ(begin.size(), expected.size() + 1);
   EXPECT_EQ(begin[0], 0);

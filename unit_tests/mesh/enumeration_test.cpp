@@ -27,9 +27,9 @@ Id count_of(int dimension) { return static_cast<Id>(brute_force_of("holed_grid_9
 
 TEST(Enumeration, waits_until_someone_needs_it) {
   const Mesh mesh = holed();
-  mesh.host();
-  mesh.simplices_on_host(tetrahedra);
-  mesh.simplices_on_worker(tetrahedra);
+  mesh.encoded();
+  mesh.simplices(tetrahedra);
+  mesh.simplices<WorkerMemory>(tetrahedra);
   EXPECT_EQ(mesh.known_edges(), no_id);
   EXPECT_EQ(mesh.known_triangles(), no_id);
   EXPECT_EQ(mesh.intervals_of(0)[1].size(), 0);
@@ -40,12 +40,12 @@ TEST(Enumeration, waits_until_someone_needs_it) {
 
 TEST(Enumeration, of_edges_needs_no_triangles) {
   const Mesh mesh = holed();
-  mesh.simplices_on_worker(edges);
+  mesh.simplices<WorkerMemory>(edges);
   EXPECT_EQ(mesh.known_edges(), count_of(1));
   EXPECT_EQ(mesh.known_triangles(), no_id);
-  mesh.simplices_on_host(lower_edges);
+  mesh.simplices(lower_edges);
   EXPECT_EQ(mesh.known_triangles(), no_id);
-  mesh.simplices_on_host(triangles);
+  mesh.simplices(triangles);
   EXPECT_EQ(mesh.known_edges(), count_of(1));
   EXPECT_EQ(mesh.known_triangles(), count_of(2));
 }
@@ -61,33 +61,33 @@ TEST(Enumeration, comes_with_the_intervals) {
 TEST(Enumeration, is_shared_by_copies_of_a_mesh) {
   const Mesh mesh = holed();
   const Mesh copy = mesh;
-  const auto simplices = mesh.simplices_on_host(edges);
+  const auto simplices = mesh.simplices(edges);
   EXPECT_EQ(copy.known_edges(), count_of(1));
-  EXPECT_EQ(copy.simplices_on_host(edges).edge_low.data(), simplices.edge_low.data());
+  EXPECT_EQ(copy.simplices(edges).edge_low.data(), simplices.edge_low.data());
 }
 
 /// On the host, as what is on the worker's side may be the same memory.
 TEST(Enumeration, gives_the_host_no_table_that_it_did_not_ask_for) {
   const Mesh mesh = holed();
-  const auto nothing = mesh.simplices_on_host({});
+  const auto nothing = mesh.simplices({});
   EXPECT_EQ(nothing.tetrahedra.extent(0), 0u);
   EXPECT_EQ(nothing.edge_begin.extent(0), 0u);
-  const auto only_edges = mesh.simplices_on_host(edges);
+  const auto only_edges = mesh.simplices(edges);
   EXPECT_EQ(only_edges.edge_high.extent(0), static_cast<std::size_t>(count_of(1)));
   EXPECT_EQ(only_edges.triangle_begin.extent(0), 0u);
   EXPECT_EQ(only_edges.lower_begin.extent(0), 0u);
   EXPECT_EQ(only_edges.tetrahedra.extent(0), 0u);
-  EXPECT_EQ(mesh.simplices_on_host(everything).tetrahedra.extent(0), static_cast<std::size_t>(mesh.tetrahedra()));
+  EXPECT_EQ(mesh.simplices(everything).tetrahedra.extent(0), static_cast<std::size_t>(mesh.tetrahedra()));
 }
 
 /// Tables that someone has stay as they are when more is enumerated.
 TEST(Enumeration, leaves_earlier_tables_in_place) {
   const Mesh mesh = holed();
-  const auto before = mesh.simplices_on_host(edges);
+  const auto before = mesh.simplices(edges);
   const auto begin = before.edge_begin;
   const std::vector<Id> high(before.edge_high.data(), before.edge_high.data() + before.edge_high.extent(0));
-  mesh.simplices_on_host(everything);
-  EXPECT_EQ(mesh.simplices_on_host(everything).edge_begin.data(), begin.data());
+  mesh.simplices(everything);
+  EXPECT_EQ(mesh.simplices(everything).edge_begin.data(), begin.data());
   EXPECT_EQ(std::vector<Id>(before.edge_high.data(), before.edge_high.data() + before.edge_high.extent(0)), high);
 }
 
@@ -103,9 +103,9 @@ TEST(Enumeration, by_several_threads_at_once_happens_once) {
         ++begun;
         while (begun < threads) std::this_thread::yield();
         if (i % 4 == 1) mesh.interval_begin(2);
-        if (i % 4 == 2) mesh.simplices_on_worker(lower_edges);
+        if (i % 4 == 2) mesh.simplices<WorkerMemory>(lower_edges);
         if (i % 4 == 3 && mesh.known_edges() != no_id && mesh.known_edges() != count_of(1)) ++wrong;
-        const auto simplices = mesh.simplices_on_host(i % 2 == 0 ? everything : triangles);
+        const auto simplices = mesh.simplices(i % 2 == 0 ? everything : triangles);
         apexes[i] = simplices.triangle_apex.data();
         highs[i] = simplices.edge_high.data();
         const Id last_edge = simplices.triangle_edge(simplices.triangle_edge.extent(0) - 1);
@@ -129,7 +129,7 @@ TEST(Enumeration, of_long_rows_is_that_of_brute_force) {
       const Mesh mesh = encode(input, segmentation_by(std::vector<std::int64_t>(input.points.size(), 0)));
       const BruteForce brute_force(input);
       const ExpectedSimplices expected(brute_force, mesh);
-      const auto simplices = mesh.simplices_on_host(everything);
+      const auto simplices = mesh.simplices(everything);
       ASSERT_EQ(mesh.known_edges(), static_cast<Id>(expected.vertices[1].size())) << degree;
       ASSERT_EQ(mesh.known_triangles(), static_cast<Id>(expected.vertices[2].size())) << degree;
       for (Id f = 0; f < mesh.known_triangles(); ++f) {

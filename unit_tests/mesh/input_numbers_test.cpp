@@ -35,7 +35,7 @@ TEST_P(InputNumbersOf, every_mesh_are_places_in_lexicographic_order) {
   const Mesh mesh = encode(input(), segmentation());
   SimplexNeeds needs;
   needs.upto = Enumeration::triangles;
-  const auto all = mesh.simplices_on_host(needs);
+  const auto all = mesh.simplices(needs);
   std::vector<Vertices> edges, triangles;
   for (Id e = 0; e < mesh.known_edges(); ++e)
     edges.push_back(input_vertices(mesh, {all.edge_low(e), all.edge_high(e)}));

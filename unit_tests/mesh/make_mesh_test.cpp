@@ -37,7 +37,7 @@ View filled_tetrahedra() {
 }
 
 std::vector<Id> vertices_of_tetrahedra(const Mesh& mesh) {
-  const Id* const first = mesh.host().tetrahedra.data();
+  const Id* const first = mesh.encoded().tetrahedra.data();
   return {first, first + std::size_t(4) * mesh.tetrahedra()};
 }
 

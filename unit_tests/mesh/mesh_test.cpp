@@ -49,8 +49,8 @@ std::vector<std::vector<Id>> external_in(const EncodedMesh<HostMemory>& mesh) {
 }
 
 void expect_external_tetrahedra(const Mesh& mesh) {
-  const auto expected = external_tetrahedra(tetrahedra_in(mesh.host()), segments_of_vertices(mesh), mesh.segments());
-  const auto external = external_in(mesh.host());
+  const auto expected = external_tetrahedra(tetrahedra_in(mesh.encoded()), segments_of_vertices(mesh), mesh.segments());
+  const auto external = external_in(mesh.encoded());
   ASSERT_EQ(external.size(), expected.size());
   for (std::size_t s = 0; s < expected.size(); ++s) {
     EXPECT_EQ(external[s], std::vector<Id>(expected[s].begin(), expected[s].end())) << "segment " << s;
@@ -83,13 +83,13 @@ TEST_P(MeshOf, every_input_has_its_counts) {
 TEST_P(MeshOf, every_input_numbers_vertices_by_the_segmentation) {
   const auto vertex_input = to_vector(mesh.vertex_input());
   EXPECT_EQ(vertex_input, to_vector(segmentation().vertex_input));
-  EXPECT_EQ(vertex_input, to_vector(mesh.vertex_input_on_worker()));
+  EXPECT_EQ(vertex_input, to_vector(mesh.vertex_input<WorkerMemory>()));
   EXPECT_EQ(to_vector(mesh.vertex_begin()), to_vector(segmentation().vertex_begin));
   for (Id v = 0; v < mesh.vertices(); ++v) ASSERT_EQ(mesh.vertex_internal()(vertex_input[v]), v);
 }
 
 TEST_P(MeshOf, every_input_has_the_same_tetrahedra_renumbered) {
-  const auto tetrahedra = tetrahedra_in(mesh.host());
+  const auto tetrahedra = tetrahedra_in(mesh.encoded());
   std::set<Id> seen;
   for (Id t = 0; t < mesh.tetrahedra(); ++t) {
     const Id input_t = mesh.tetrahedron_input()(t);
@@ -99,7 +99,7 @@ TEST_P(MeshOf, every_input_has_the_same_tetrahedra_renumbered) {
 }
 
 TEST_P(MeshOf, every_input_has_its_tetrahedra_in_order_and_in_intervals) {
-  const auto& host = mesh.host();
+  const auto& host = mesh.encoded();
   const auto tetrahedra = tetrahedra_in(host);
   EXPECT_TRUE(std::is_sorted(tetrahedra.begin(), tetrahedra.end()));
   ASSERT_EQ(host.internal_begin.extent(0), std::size_t(mesh.segments()) + 1);
@@ -123,9 +123,9 @@ TEST_P(MeshOf, every_input_finds_the_segment_of_a_vertex) {
 
 TEST_P(MeshOf, every_input_is_the_same_from_64_bit_ids) {
   const Mesh other(tetrahedra_of<std::int64_t>(input()), segmentation());
-  EXPECT_EQ(tetrahedra_in(other.host()), tetrahedra_in(mesh.host()));
+  EXPECT_EQ(tetrahedra_in(other.encoded()), tetrahedra_in(mesh.encoded()));
   EXPECT_EQ(to_vector(other.tetrahedron_input()), to_vector(mesh.tetrahedron_input()));
-  EXPECT_EQ(external_in(other.host()), external_in(mesh.host()));
+  EXPECT_EQ(external_in(other.encoded()), external_in(mesh.encoded()));
 }
 
 INSTANTIATE_TEST_SUITE_P(Tests, MeshOf, every_mesh_and_segmentation(), mesh_and_segmentation);
@@ -133,7 +133,7 @@ INSTANTIATE_TEST_SUITE_P(Tests, MeshOf, every_mesh_and_segmentation(), mesh_and_
 /// The paper's figure of a mesh and its segmentation: S1 = {v0, v1, v2}, S2 = {v3, v4, v5}.
 TEST(Mesh, of_the_papers_example) {
   const Mesh mesh = encode(mesh_named("the_papers"), segmentation_by({1, 1, 1, 2, 2, 2}));
-  const auto& host = mesh.host();
+  const auto& host = mesh.encoded();
   EXPECT_EQ(to_vector(mesh.vertex_begin()), (std::vector<Id>{0, 3, 6}));
   EXPECT_EQ(tetrahedra_in(host), (std::vector<Quad>{{0, 1, 2, 3}, {0, 2, 3, 4}, {2, 3, 4, 5}}));
   // All have their lowest vertex in S1, so they are internal to it, and external to S2.
@@ -145,7 +145,7 @@ TEST(Mesh, of_the_papers_example) {
 TEST(Mesh, of_the_papers_example_with_its_segments_exchanged) {
   const Mesh mesh = encode(mesh_named("the_papers"), segmentation_by({2, 2, 2, 1, 1, 1}));
   EXPECT_EQ(to_vector(mesh.vertex_input()), (std::vector<Id>{3, 4, 5, 0, 1, 2}));
-  EXPECT_EQ(tetrahedra_in(mesh.host()), (std::vector<Quad>{{0, 1, 2, 5}, {0, 1, 3, 5}, {0, 3, 4, 5}}));
+  EXPECT_EQ(tetrahedra_in(mesh.encoded()), (std::vector<Quad>{{0, 1, 2, 5}, {0, 1, 3, 5}, {0, 3, 4, 5}}));
   EXPECT_EQ(to_vector(mesh.tetrahedron_input()), (std::vector<Id>{2, 1, 0}));
 }
 
@@ -153,7 +153,7 @@ TEST(Mesh, of_the_papers_example_with_its_segments_exchanged) {
 TEST(Mesh, of_many_tetrahedra_is_in_the_same_order) {
   const InputMesh input = holed_grid(22);
   const Mesh mesh = encode(input, octree_of(input, 100));
-  const auto tetrahedra = tetrahedra_in(mesh.host());
+  const auto tetrahedra = tetrahedra_in(mesh.encoded());
   EXPECT_TRUE(std::is_sorted(tetrahedra.begin(), tetrahedra.end()));
   for (Id t = 0; t < mesh.tetrahedra(); ++t) ASSERT_EQ(tetrahedra[t], renumbered(input, mesh, t));
   expect_external_tetrahedra(mesh);
@@ -175,7 +175,7 @@ TEST(Mesh, leaves_its_input_as_it_was) {
 TEST(Mesh, copies_share_their_arrays) {
   const Mesh mesh = encode(mesh_named("one_tetrahedron"), segmentation_by({0, 0, 0, 0}));
   const Mesh copy = mesh;
-  EXPECT_EQ(copy.host().tetrahedra.data(), mesh.host().tetrahedra.data());
+  EXPECT_EQ(copy.encoded().tetrahedra.data(), mesh.encoded().tetrahedra.data());
 }
 
 }  // namespace gale::test

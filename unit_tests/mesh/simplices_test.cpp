@@ -118,11 +118,11 @@ class SimplicesOf : public EveryMesh {
 TEST_P(SimplicesOf, every_mesh_are_those_of_brute_force_on_producer_and_host) {
   {
     SCOPED_TRACE("on the worker");
-    expect_tables(Copied(mesh.simplices_on_worker(everything)), expected);
+    expect_tables(Copied(mesh.simplices<WorkerMemory>(everything)), expected);
   }
   {
     SCOPED_TRACE("on the host");
-    expect_tables(Copied(mesh.simplices_on_host(everything)), expected);
+    expect_tables(Copied(mesh.simplices(everything)), expected);
   }
   EXPECT_EQ(mesh.known_edges(), static_cast<Id>(expected.vertices[1].size()));
   EXPECT_EQ(mesh.known_triangles(), static_cast<Id>(expected.vertices[2].size()));
@@ -137,7 +137,7 @@ INSTANTIATE_TEST_SUITE_P(Tests, SimplicesOf, every_mesh_and_segmentation(), mesh
 /// Edges 01 02 03 04 12 13 23 24 25 34 35 45.
 TEST(Simplices, of_the_papers_example) {
   const Mesh mesh = encode(mesh_named("the_papers"), segmentation_by({1, 1, 1, 2, 2, 2}));
-  const Copied tables(mesh.simplices_on_host(everything));
+  const Copied tables(mesh.simplices(everything));
   EXPECT_EQ(tables.edges(),
             (Table{{0, 1}, {0, 2}, {0, 3}, {0, 4}, {1, 2}, {1, 3}, {2, 3}, {2, 4}, {2, 5}, {3, 4}, {3, 5}, {4, 5}}));
   EXPECT_EQ(tables.triangles(), (Table{{0, 1, 2},
@@ -164,7 +164,7 @@ TEST(Simplices, are_found_by_their_vertices_if_they_are_there) {
     const InputMesh& input = mesh_named(name);
     const Mesh mesh = encode(input, octree_of(input, 7));
     const ExpectedSimplices expected(brute_force_of(name), mesh);
-    const auto simplices = mesh.simplices_on_host({Enumeration::triangles, false, false});
+    const auto simplices = mesh.simplices({Enumeration::triangles, false, false});
     for (Id a = 0; a < mesh.vertices(); ++a) {
       for (Id b = a + 1; b < mesh.vertices(); ++b) {
         const Id edge = place_of(expected.vertices[1], {a, b});
@@ -184,7 +184,7 @@ TEST(Simplices, are_found_by_their_vertices_if_they_are_there) {
 TEST(Simplices, are_found_among_thousands_at_one_vertex) {
   const InputMesh& input = mesh_named("cone_over_sphere_2000");
   const Mesh mesh = encode(input, segmentation_by(std::vector<std::int64_t>(input.points.size(), 0)));
-  const auto simplices = mesh.simplices_on_host({Enumeration::triangles, false, false});
+  const auto simplices = mesh.simplices({Enumeration::triangles, false, false});
   for (Id b = 1; b <= 2000; ++b) ASSERT_EQ(simplices.edge_of(0, b), b - 1);
   const ExpectedSimplices expected(brute_force_of("cone_over_sphere_2000"), mesh);
   for (Id f = 0; f < mesh.known_triangles(); ++f) {

@@ -15,7 +15,7 @@ using Table = ExpectedRows::Table;
 
 template <Relation relation>
 Table on_the_host(const Mesh& mesh, std::size_t rows) {
-  const auto simplices = mesh.simplices_on_host(needs_of(relation));
+  const auto simplices = mesh.simplices(needs_of(relation));
   Table table;
   for (std::size_t i = 0; i < rows; ++i) {
     const auto row = face_row<relation>(simplices, static_cast<Id>(i));
@@ -27,7 +27,7 @@ Table on_the_host(const Mesh& mesh, std::size_t rows) {
 template <Relation relation>
 Table in_a_kernel(const Mesh& mesh, std::size_t rows) {
   constexpr int size = face_count(relation);
-  const auto simplices = mesh.simplices_on_worker(needs_of(relation));
+  const auto simplices = mesh.simplices<WorkerMemory>(needs_of(relation));
   const auto ids = allocate<Array<Id, WorkerMemory>>("ids", rows * size);
   parallel_for(
       "test_face_rows", WorkerSpace(), rows, KOKKOS_LAMBDA(Offset i) {

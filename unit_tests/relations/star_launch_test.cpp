@@ -31,7 +31,7 @@ class LaunchedStars {
     const Array<Offset, WorkerMemory> used("used", 1), directory("directory", Offset(segments) * wanted_.count());
     const auto needed = to_producer(std::vector<StarSizes>(1));
     StarKernel<WorkerMemory> kernel;
-    kernel.mesh = mesh_.worker();
+    kernel.mesh = mesh_.encoded<WorkerMemory>();
     kernel.segments = segment_list.data();
     kernel.wanted = wanted_;
     kernel.sizes = sizes_;

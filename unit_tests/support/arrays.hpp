@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include <gale/base/mirrored.hpp>
 #include <gale/base/transfer.hpp>
 
 namespace gale::test {
@@ -17,6 +18,11 @@ template <class T, class Memory>
 std::vector<std::remove_const_t<T>> to_vector(const Kokkos::View<T*, Memory>& array) {
   const auto host = on_host(array);
   return {host.data(), host.data() + host.extent(0)};
+}
+
+template <class T>
+std::vector<T> to_vector(const Mirrored<T>& array) {
+  return to_vector(array.template in<HostMemory>());
 }
 
 }  // namespace gale::test

@@ -105,6 +105,7 @@ CriticalPoints collect(const Mesh& mesh, const Classification& classification) {
 }  // namespace
 
 CriticalPoints find_critical_points(Structure& structure, const VertexOrder& order, const SweepOptions& options) {
+  const ThreadLimit limit(options.threads);
   Classification classification(structure.mesh(), order, options.threads);
   structure.for_each_segment(critical_points_relations, options,
                              [&](int consumer, const SegmentRows& rows) { classification.classify(consumer, rows); });

@@ -62,13 +62,13 @@ Partner DiscreteGradient::pair_of_edge(Id a, Id b) const {
 Partner DiscreteGradient::pair_of_tetrahedron(Id tetrahedron) const {
   const Id successor = tetrahedron_successor(tetrahedron);
   if (successor == no_id) return {-1, no_id};
-  const auto& vertices = store_->mesh.host().tetrahedra;
+  const auto& vertices = store_->mesh.encoded().tetrahedra;
   if (leaves(successor)) return {2, vertices(tetrahedron, detail::GradientStore::corner_outside(successor))};
   return {2, odd_one(&vertices(tetrahedron, 0), &vertices(successor, 0))};
 }
 
 Partner DiscreteGradient::pair_of_triangle(Id tetrahedron, int corner, const Row& others) const {
-  const auto& vertices = store_->mesh.host().tetrahedra;
+  const auto& vertices = store_->mesh.encoded().tetrahedra;
   Id triangle[3];
   for (int i = 0, k = 0; i < 4; ++i) {
     if (i != corner) triangle[k++] = vertices(tetrahedron, i);
@@ -87,6 +87,7 @@ Partner DiscreteGradient::pair_of_triangle(Id tetrahedron, int corner, const Row
 }
 
 DiscreteGradient find_discrete_gradient(Structure& structure, const VertexOrder& order, const SweepOptions& options) {
+  const ThreadLimit limit(options.threads);
   const int consumers = std::max(options.threads, 1);
   const auto store = std::make_shared<detail::GradientStore>(structure.mesh(), order, consumers);
   std::vector<std::unique_ptr<detail::GradientSweep>> sweeps;

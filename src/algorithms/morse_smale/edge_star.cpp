@@ -5,7 +5,7 @@
 namespace gale::detail {
 
 EdgeStar::EdgeStar(const Mesh& mesh)
-    : mesh_(mesh), encoded_(mesh.host()), tetrahedron_input_(mesh.tetrahedron_input().data()) {}
+    : mesh_(mesh), encoded_(mesh.encoded()), tetrahedron_input_(mesh.tetrahedron_input().data()) {}
 
 void EdgeStar::find(Id high, Id low, const Row& tetrahedra) {
   wedges_.clear();

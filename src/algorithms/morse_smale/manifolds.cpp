@@ -9,8 +9,10 @@ namespace gale::detail {
 
 namespace {
 
-using Ids = Array<Id, WorkerMemory>;
-using Keys = Array<std::uint64_t, WorkerMemory>;
+template <class Space>
+using Ids = Array<Id, MemoryOf<Space>>;
+template <class Space>
+using Keys = Array<std::uint64_t, MemoryOf<Space>>;
 
 /// What stands for the end of a path at the critical simplex with a place.
 KOKKOS_FORCEINLINE_FUNCTION constexpr Id end_at(Id place) { return -2 - place; }
@@ -19,31 +21,34 @@ KOKKOS_FORCEINLINE_FUNCTION constexpr Id place_of_end(Id end) { return -2 - end;
 /// What stands for the end of a path that leaves through the surface: the place no_id.
 constexpr Id outside = -1;
 
-/// A copy of successors in the workers' memory in which the critical ones lead to their places, and those that leave to
+/// A copy of successors in a space's memory in which the critical ones lead to their places, and those that leave to
 /// `outside`.
-Ids with_ends(const Array<const Id, HostMemory>& successors, const std::vector<Id>& critical) {
-  const auto next = allocate<Ids>("GALE::next_on_path", successors.extent(0));
-  const auto from = on_worker(successors);
+template <class Space>
+Ids<Space> with_ends(const Space& space, const Array<const Id, HostMemory>& successors,
+                     const std::vector<Id>& critical) {
+  const auto next = allocate<Ids<Space>>("GALE::next_on_path", successors.extent(0));
+  const auto from = in_memory<MemoryOf<Space>>(successors);
   parallel_for(
-      "GALE::begin_paths", WorkerSpace(), from.extent(0), KOKKOS_LAMBDA(Offset i) {
+      "GALE::begin_paths", space, from.extent(0), KOKKOS_LAMBDA(Offset i) {
         const Id successor = from(i);
         next(i) = successor < no_id ? outside : successor;
       });
-  const auto places = on_worker(Array<const Id, HostMemory>(critical.data(), critical.size()));
+  const auto places = in_memory<MemoryOf<Space>>(Array<const Id, HostMemory>(critical.data(), critical.size()));
   parallel_for(
-      "GALE::end_paths", WorkerSpace(), places.extent(0),
+      "GALE::end_paths", space, places.extent(0),
       KOKKOS_LAMBDA(Offset i) { next(places(i)) = end_at(static_cast<Id>(i)); });
   return next;
 }
 
 /// Pointer jumping: afterwards each entry is the end of its path. Entries that others jump over meanwhile only get
 /// closer to their ends.
-void jump(const Ids& next) {
+template <class Space>
+void jump(const Space& space, const Ids<Space>& next) {
   constexpr int jumps_a_pass = 4;
   const Offset count = next.extent(0);
   while (true) {
     const Offset open = reduce_sum(
-        "GALE::jump", WorkerSpace(), count, KOKKOS_LAMBDA(Offset i) {
+        "GALE::jump", space, count, KOKKOS_LAMBDA(Offset i) {
           Id at = atomic_read(&next(i));
           if (at < 0) return 0;
           for (int k = 0; k < jumps_a_pass && at >= 0; ++k) at = atomic_read(&next(at));
@@ -58,12 +63,13 @@ constexpr std::uint64_t none = ~std::uint64_t(0);
 
 /// For each vertex its tetrahedron of lowest input id, with that id in the upper half; `none` where it has no
 /// tetrahedron.
-Keys first_tetrahedra(const Mesh& mesh) {
-  const auto first = allocate<Keys>("GALE::first_tetrahedra", mesh.vertices());
-  const EncodedMesh<WorkerMemory> encoded = mesh.worker();
-  const auto input = mesh.tetrahedron_input_on_worker();
+template <class Space>
+Keys<Space> first_tetrahedra(const Space& space, const Mesh& mesh) {
+  const auto first = allocate<Keys<Space>>("GALE::first_tetrahedra", mesh.vertices());
+  const auto encoded = mesh.encoded<MemoryOf<Space>>();
+  const auto input = mesh.tetrahedron_input<MemoryOf<Space>>();
   parallel_for(
-      "GALE::first_tetrahedra", WorkerSpace(), mesh.segments(), KOKKOS_LAMBDA(Offset s) {
+      "GALE::first_tetrahedra", space, mesh.segments(), KOKKOS_LAMBDA(Offset s) {
         const Id begin = encoded.vertex_begin(s), end = encoded.vertex_begin(s + 1);
         for (Id v = begin; v < end; ++v) first(v) = none;
         const auto offer = [&](Id t) {
@@ -79,56 +85,69 @@ Keys first_tetrahedra(const Mesh& mesh) {
   return first;
 }
 
-HostIds to_host(const Ids& ids) { return on_host(ids); }
-
-}  // namespace
-
-HostIds descending_manifolds(const DiscreteGradient& gradient) {
-  const Ids next = with_ends(gradient.vertex_successors(), gradient.critical().vertices);
-  jump(next);
-  const auto input = gradient.mesh().vertex_input_on_worker();
-  const auto manifolds = allocate<Ids>("GALE::descending_manifolds", next.extent(0));
+template <class Space>
+HostIds descending_in(const Space& space, const DiscreteGradient& gradient) {
+  const auto next = with_ends(space, gradient.vertex_successors(), gradient.critical().vertices);
+  jump(space, next);
+  const auto input = gradient.mesh().vertex_input<MemoryOf<Space>>();
+  const auto manifolds = allocate<Ids<Space>>("GALE::descending_manifolds", next.extent(0));
   parallel_for(
-      "GALE::descending_manifolds", WorkerSpace(), next.extent(0),
+      "GALE::descending_manifolds", space, next.extent(0),
       KOKKOS_LAMBDA(Offset v) { manifolds(input(v)) = place_of_end(next(v)); });
-  return to_host(manifolds);
+  return on_host(manifolds);
 }
 
-HostIds ascending_manifolds(const DiscreteGradient& gradient) {
-  const Ids next = with_ends(gradient.tetrahedron_successors(), gradient.critical().tetrahedra);
-  jump(next);
-  const Keys first = first_tetrahedra(gradient.mesh());
-  const auto input = gradient.mesh().vertex_input_on_worker();
-  const auto manifolds = allocate<Ids>("GALE::ascending_manifolds", first.extent(0));
+template <class Space>
+HostIds ascending_in(const Space& space, const DiscreteGradient& gradient) {
+  const auto next = with_ends(space, gradient.tetrahedron_successors(), gradient.critical().tetrahedra);
+  jump(space, next);
+  const auto first = first_tetrahedra(space, gradient.mesh());
+  const auto input = gradient.mesh().vertex_input<MemoryOf<Space>>();
+  const auto manifolds = allocate<Ids<Space>>("GALE::ascending_manifolds", first.extent(0));
   parallel_for(
-      "GALE::ascending_manifolds", WorkerSpace(), first.extent(0), KOKKOS_LAMBDA(Offset v) {
+      "GALE::ascending_manifolds", space, first.extent(0), KOKKOS_LAMBDA(Offset v) {
         const Id tetrahedron = static_cast<Id>(first(v) & 0xffffffffu);
         manifolds(input(v)) =
             first(v) == none || next(tetrahedron) == outside ? no_id : place_of_end(next(tetrahedron));
       });
-  return to_host(manifolds);
+  return on_host(manifolds);
 }
 
-std::pair<HostIds, Id> morse_smale_manifolds(const HostIds& ascending, const HostIds& descending) {
+template <class Space>
+std::pair<HostIds, Id> pairs_in(const Space& space, const HostIds& ascending, const HostIds& descending) {
   const Offset count = ascending.extent(0);
-  const auto up = on_worker(ascending), down = on_worker(descending);
-  const auto keys = allocate<Keys>("GALE::manifold_pairs", count);
-  const auto vertices = allocate<Ids>("GALE::manifold_vertices", count);
+  const auto up = in_memory<MemoryOf<Space>>(ascending), down = in_memory<MemoryOf<Space>>(descending);
+  const auto keys = allocate<Keys<Space>>("GALE::manifold_pairs", count);
+  const auto vertices = allocate<Ids<Space>>("GALE::manifold_vertices", count);
   parallel_for(
-      "GALE::manifold_pairs", WorkerSpace(), count, KOKKOS_LAMBDA(Offset v) {
+      "GALE::manifold_pairs", space, count, KOKKOS_LAMBDA(Offset v) {
         keys(v) = up(v) == no_id ? none : pair_key(up(v), down(v));
         vertices(v) = static_cast<Id>(v);
       });
-  stable_sort_by_key(keys, vertices);
-  const auto before = allocate<Ids>("GALE::manifold_number", count + 1);  // how many pairs begin earlier
+  stable_sort_by_key(space, keys, vertices);
+  const auto before = allocate<Ids<Space>>("GALE::manifold_number", count + 1);  // how many pairs begin earlier
   const Id distinct = exclusive_scan(
-      "GALE::count_manifolds", WorkerSpace(), count, before,
+      "GALE::count_manifolds", space, count, before,
       KOKKOS_LAMBDA(Offset i) { return keys(i) != none && (i == 0 || keys(i) != keys(i - 1)); });
-  const auto manifolds = allocate<Ids>("GALE::morse_smale_manifolds", count);
+  const auto manifolds = allocate<Ids<Space>>("GALE::morse_smale_manifolds", count);
   parallel_for(
-      "GALE::morse_smale_manifolds", WorkerSpace(), count,
+      "GALE::morse_smale_manifolds", space, count,
       KOKKOS_LAMBDA(Offset i) { manifolds(vertices(i)) = keys(i) == none ? no_id : before(i + 1) - 1; });
-  return {to_host(manifolds), distinct};
+  return {on_host(manifolds), distinct};
+}
+
+}  // namespace
+
+HostIds descending_manifolds(const DiscreteGradient& gradient) {
+  return in_worker_or_host_space(gradient.mesh(), [&](const auto& space) { return descending_in(space, gradient); });
+}
+
+HostIds ascending_manifolds(const DiscreteGradient& gradient) {
+  return in_worker_or_host_space(gradient.mesh(), [&](const auto& space) { return ascending_in(space, gradient); });
+}
+
+std::pair<HostIds, Id> morse_smale_manifolds(const HostIds& ascending, const HostIds& descending) {
+  return in_worker_or_host_space(true, [&](const auto& space) { return pairs_in(space, ascending, descending); });
 }
 
 }  // namespace gale::detail

@@ -12,6 +12,7 @@ namespace gale {
 
 MorseSmaleComplex find_morse_smale_complex(Structure& structure, const DiscreteGradient& gradient,
                                            const MorseSmaleParts& parts, const SweepOptions& options) {
+  const ThreadLimit limit(options.threads);
   const int threads = std::max(options.threads, 1);
   const detail::CriticalPlaces places(gradient.critical());
   MorseSmaleComplex complex{gradient, gradient.critical()};

@@ -96,6 +96,7 @@ class Numbering {
 }  // namespace
 
 SimplexNumbers number_simplices(Structure& structure, const NamedSimplices& named, const SweepOptions& options) {
+  const ThreadLimit limit(options.threads);
   Numbering numbering(structure.mesh(), named, std::max(options.threads, 1));
   structure.for_each_segment(simplex_numbers_relations, options,
                              [&](int consumer, const SegmentRows& rows) { numbering.visit(consumer, rows); });

@@ -12,7 +12,6 @@ namespace gale {
 
 namespace {
 
-using HostSpace = Kokkos::DefaultHostExecutionSpace;
 using Keys = Array<std::uint64_t, HostMemory>;
 
 template <class Value>
@@ -53,6 +52,15 @@ void fill_keys(const Mesh& mesh, const Value* values, const Keys& keys) {
   });
 }
 
+/// Sorts the values by their keys in a space. May overwrite both.
+template <class Space>
+Array<const Id, HostMemory> sorted(const Space& space, const Keys& keys, const Array<Id, HostMemory>& values) {
+  const auto sorted_keys = in_memory<MemoryOf<Space>>(keys);
+  const auto sorted_values = in_memory<MemoryOf<Space>>(values);
+  stable_sort_by_key(space, sorted_keys, sorted_values);
+  return on_host(sorted_values);
+}
+
 /// The place of each value among all.
 template <class Value>
 void fill_ranks(const Mesh& mesh, const Value* values, const Keys& keys) {
@@ -62,10 +70,7 @@ void fill_ranks(const Mesh& mesh, const Value* values, const Keys& keys) {
     keys(i) = ordered_bits(values[i]);
     inputs(i) = static_cast<Id>(i);
   });
-  const auto sorted_keys = on_worker(keys);
-  const auto sorted_inputs = on_worker(inputs);
-  stable_sort_by_key(sorted_keys, sorted_inputs);
-  const auto by_rank = on_host(sorted_inputs);
+  const auto by_rank = in_worker_or_host_space(mesh, [&](const auto& space) { return sorted(space, keys, inputs); });
   const Id* const internal = mesh.vertex_internal().data();
   parallel_for("GALE::order_ranks", HostSpace(), count,
                [&](Offset rank) { keys(internal[by_rank(rank)]) = static_cast<std::uint64_t>(rank); });

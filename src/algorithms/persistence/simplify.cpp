@@ -34,7 +34,7 @@ std::vector<double> values_of(const MorseSmaleComplex& complex, const std::funct
   for (const Id vertex : critical.vertices) add(vertex);
   for (const auto& edge : critical.edges) add(edge[0]);
   for (const auto& triangle : critical.triangles) add(triangle[0]);
-  const auto& tetrahedra = mesh.host().tetrahedra;
+  const auto& tetrahedra = mesh.encoded().tetrahedra;
   for (const Id t : critical.tetrahedra) add(*std::max_element(&tetrahedra(t, 0), &tetrahedra(t, 0) + 4, higher));
   return values;
 }

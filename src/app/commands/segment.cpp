@@ -18,7 +18,7 @@ void tell(const Mesh& mesh, Session& session) {
     smallest = std::min(smallest, begin(s + 1) - begin(s));
     largest = std::max(largest, begin(s + 1) - begin(s));
   }
-  const auto external = static_cast<std::int64_t>(mesh.worker().external.extent(0));
+  const auto external = mesh.external_begin()(mesh.segments());
   const double mean = static_cast<double>(mesh.vertices()) / mesh.segments();
   session.console().say("vertices each", grouped(smallest) + " to " + grouped(largest));
   session.console().say("external", grouped(external) + " tetrahedra");

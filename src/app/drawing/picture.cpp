@@ -175,7 +175,7 @@ class Painter {
   /// Whether each tetrahedron is outside the octant; all of them where none is, because the mesh is too small to be
   /// cut.
   std::vector<char> left_tetrahedra() const {
-    const auto& tetrahedra = mesh_.host().tetrahedra;
+    const auto& tetrahedra = mesh_.encoded().tetrahedra;
     std::vector<char> is_left(mesh_.tetrahedra());
     for (Id t = 0; t < mesh_.tetrahedra(); ++t) {
       Point middle{};
@@ -191,7 +191,7 @@ class Painter {
   /// The triangles of tetrahedra that are left whose three vertices are each on the mesh's surface or on the cut,
   /// between tetrahedra that are left and others. All triangles of the skin are among them.
   std::vector<Triangle> skin_candidates(const std::vector<char>& is_left) const {
-    const auto& tetrahedra = mesh_.host().tetrahedra;
+    const auto& tetrahedra = mesh_.encoded().tetrahedra;
     std::vector<char> near_left(mesh_.vertices()), near_cut(mesh_.vertices());
     for (Id t = 0; t < mesh_.tetrahedra(); ++t) {
       for (int i = 0; i < 4; ++i) (is_left[t] ? near_left : near_cut)[tetrahedra(t, i)] = 1;

@@ -82,7 +82,7 @@ class BruteForce : public Oracle {
  public:
   BruteForce(const Mesh& mesh, Relation relation) : adjacency_(adjacency_relations.has(relation)) {
     std::vector<Simplex> tetrahedra(mesh.tetrahedra());
-    const auto& of_mesh = mesh.host().tetrahedra;
+    const auto& of_mesh = mesh.encoded().tetrahedra;
     for (Id t = 0; t < mesh.tetrahedra(); ++t)
       tetrahedra[t] = {of_mesh(t, 0), of_mesh(t, 1), of_mesh(t, 2), of_mesh(t, 3)};
     const int rows = row_dimension(relation), entries = entry_dimension(relation);

@@ -32,7 +32,7 @@ DiscreteGradient find_discrete_gradient_from_cells(Structure& structure, const V
   if (structure.keeps_all_rows()) {
     sweep(structure, *store, consumers, options, [&] { return detail::KeptFaces(structure); });
   } else {
-    const auto simplices = structure.mesh().simplices_on_host(needs_of(looked_up));
+    const auto simplices = structure.mesh().simplices(needs_of(looked_up));
     sweep(structure, *store, consumers, options, [&] { return detail::LookedUpFaces(simplices); });
   }
   store->finish();

@@ -103,19 +103,19 @@ class BitStars {
 
   KOKKOS_FORCEINLINE_FUNCTION void mark_tetrahedra() const {
     const Id rows = segment_.rows;
-    const auto load = [&](Id i) { return vertices_of(request_.mesh, segment_.tetrahedra[i]); };
-    team::for_all_loaded(team_, segment_.tetrahedra.count, load, [&](Id i, const FourVertices& four) {
+    const auto load = [&](Id i) { return request_.mesh.tetrahedron(segment_.tetrahedra[i]); };
+    team::for_all_loaded(team_, segment_.tetrahedra.count, load, [&](Id i, const Quad& four) {
       std::uint32_t* const bits = scratch_.star_bits + (i / 32) * rows;
       std::uint64_t numbers = 0;
       std::uint32_t outside = 0;
       for (int corner = 0; corner < 4; ++corner) {
-        const Id row = segment_.row_of(four.of[corner]);
+        const Id row = segment_.row_of(four[corner]);
         if (segment_.has(row)) {
           team::set_bits(team_, bits + row, std::uint32_t(1) << (i % 32));
           numbers |= std::uint64_t(row) << (16 * corner);
         } else if (gathers_) {
-          const Id slot = vertices_.first_slot(four.of[corner]);
-          if (vertices_.key(slot) == four.of[corner]) {
+          const Id slot = vertices_.first_slot(four[corner]);
+          if (vertices_.key(slot) == four[corner]) {
             numbers |= std::uint64_t(rows + slot) << (16 * corner);
           } else {
             outside |= 1u << corner;

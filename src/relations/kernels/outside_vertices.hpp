@@ -1,6 +1,7 @@
 #pragma once
 
 #include <gale/base/bits.hpp>
+#include <gale/mesh/quad.hpp>
 #include <gale/relations/kernels/bit_star_scratch.hpp>
 
 namespace gale::detail {
@@ -34,14 +35,14 @@ class OutsideVertices {
   /// probes, so that a warp waits for the lane that takes longest, not at each corner for the one that takes longest
   /// there. If slots are lacking, found.outside says that more are needed.
   template <class Team, class Found>
-  KOKKOS_FORCEINLINE_FUNCTION void insert(const Team& team, const FourVertices& four, std::uint32_t corners,
+  KOKKOS_FORCEINLINE_FUNCTION void insert(const Team& team, const Quad& four, std::uint32_t corners,
                                           const Found& found) const {
     Id vertex = no_id, slot = 0, probes = 0;
     int corner = 0;
     for (bool next = true; corners != 0 && probes < slots_; ++probes) {
       if (next) {
         corner = lowest_bit(corners);
-        vertex = corner == 0 ? four.of[0] : corner == 1 ? four.of[1] : corner == 2 ? four.of[2] : four.of[3];
+        vertex = four[corner];
         slot = first_slot(vertex);
         probes = 0;
       }

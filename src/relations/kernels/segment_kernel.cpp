@@ -12,36 +12,6 @@ namespace gale {
 
 namespace {
 
-template <class Memory>
-EncodedMesh<Memory> encoded(const Mesh& mesh) {
-  if constexpr (is_device_memory<Memory>) {
-    return mesh.worker();
-  } else {
-    return mesh.host();
-  }
-}
-
-/// I_V: the host has it without the rest.
-template <class Memory>
-Kokkos::View<const Id*, Memory, Kokkos::MemoryUnmanaged> vertex_begin(const Mesh& mesh) {
-  if constexpr (is_device_memory<Memory>) {
-    return mesh.worker().vertex_begin;
-  } else {
-    return mesh.vertex_begin();
-  }
-}
-
-template <class Memory>
-Simplices<Memory> simplices(const Mesh& mesh, RelationSet wanted) {
-  SimplexNeeds needs = needs_of(wanted);
-  if constexpr (is_device_memory<Memory>) {
-    return mesh.simplices_on_worker(needs);
-  } else {
-    needs.tetrahedra = true;
-    return mesh.simplices_on_host(needs);
-  }
-}
-
 /// The kernel of any relation: that of stars, or the row kernel of one that isn't a star's.
 template <class Memory, class Places>
 struct AnyKernel;
@@ -100,13 +70,15 @@ struct SegmentKernel<Memory>::Any {
   Any(const Mesh& given, RelationSet relations) : mesh(given), wanted(relations) {
     if (star_relations.contains(wanted)) {
       StarKernel<Memory> star;
-      star.mesh = encoded<Memory>(mesh);
+      star.mesh = mesh.encoded<Memory>();
       star.wanted = wanted;
       kernel = star;
     } else {
-      Kernels<Memory>::make_row(members_of(wanted).front(), kernel, [this](auto& row) {
-        row.simplices = simplices<Memory>(mesh, wanted);
-        row.vertex_begin = vertex_begin<Memory>(mesh);
+      SimplexNeeds needs = needs_of(wanted);
+      needs.tetrahedra = true;
+      Kernels<Memory>::make_row(members_of(wanted).front(), kernel, [this, needs](auto& row) {
+        row.simplices = mesh.simplices<Memory>(needs);
+        row.vertex_begin = mesh.interval_begin<Memory>(0);
       });
     }
   }

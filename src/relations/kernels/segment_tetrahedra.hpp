@@ -24,22 +24,6 @@ struct SegmentTetrahedra {
   }
 };
 
-struct FourVertices {
-  Id of[4];
-};
-
-/// The vertices of a tetrahedron, on CUDA in one load: memory there is aligned to more than that.
-template <class Memory>
-KOKKOS_FORCEINLINE_FUNCTION FourVertices vertices_of(const EncodedMesh<Memory>& mesh, Id tetrahedron) {
-  const Id* const at = mesh.tetrahedra.data() + 4 * Offset(tetrahedron);
-#if defined(__CUDA_ARCH__)
-  const int4 four = __ldg(reinterpret_cast<const int4*>(at));
-  return {{four.x, four.y, four.z, four.w}};
-#else
-  return {{at[0], at[1], at[2], at[3]}};
-#endif
-}
-
 /// A segment as the kernels of its stars see it.
 template <class Memory>
 struct StarSegment {

@@ -61,7 +61,7 @@ Id count_different(const Keys& keys, const Ids& before) {
 Numbering number(Keys keys, Id per_tetrahedron) {
   const Offset places = keys.extent(0);
   const Ids place = numbers_below(places);
-  stable_sort_by_key(keys, place);
+  stable_sort_by_key(WorkerSpace(), keys, place);
   const auto before = allocate<Ids>("GALE::simplex_numbers", places + 1);
   const Id count = count_different(keys, before);
   keys = Keys();
@@ -80,7 +80,7 @@ Numbering number(Keys keys, Id per_tetrahedron) {
 
 Graph tetrahedron_vertices(const Mesh& mesh) {
   const Offset rows = mesh.tetrahedra();
-  return {mesh.tetrahedra(), 4, {}, Graph::Ids(mesh.worker().tetrahedra.data(), 4 * rows)};
+  return {mesh.tetrahedra(), 4, {}, Graph::Ids(mesh.encoded<WorkerMemory>().tetrahedra.data(), 4 * rows)};
 }
 
 Numbering number_edges(const Graph& tv) {
@@ -115,8 +115,8 @@ Array<const Id, HostMemory> segment_begin(const Mesh& mesh, int dimension, const
   const auto begin = allocate<Ids>("GALE::segment_begin", Offset(mesh.segments()) + 1);
   const auto any_place = numbering.any_place;
   const Id count = numbering.count();
-  const auto tetrahedra = mesh.worker().tetrahedra;
-  const auto vertex_begin = mesh.worker().vertex_begin;
+  const auto tetrahedra = mesh.encoded<WorkerMemory>().tetrahedra;
+  const auto vertex_begin = mesh.encoded<WorkerMemory>().vertex_begin;
   parallel_for(
       "GALE::segment_begin", WorkerSpace(), Offset(mesh.segments()) + 1, KOKKOS_LAMBDA(Offset s) {
         // The lowest vertices of the simplices ascend: skip those below the segment's.

@@ -39,9 +39,9 @@ GlobalLinks global_links(const Mesh& mesh, const GlobalRows& vt_rows, const Glob
   const Offset entries = vt_rows.ids.extent(0);
   links.places = allocate<Array<std::uint8_t, HostMemory>>("GALE::link", 3 * entries * links.width);
   void* const places = links.places.data();
-  if (links.width == 1) look_up(mesh.host(), vt, vv, mesh.vertices(), static_cast<std::uint8_t*>(places));
-  if (links.width == 2) look_up(mesh.host(), vt, vv, mesh.vertices(), static_cast<std::uint16_t*>(places));
-  if (links.width == 4) look_up(mesh.host(), vt, vv, mesh.vertices(), static_cast<Id*>(places));
+  if (links.width == 1) look_up(mesh.encoded(), vt, vv, mesh.vertices(), static_cast<std::uint8_t*>(places));
+  if (links.width == 2) look_up(mesh.encoded(), vt, vv, mesh.vertices(), static_cast<std::uint16_t*>(places));
+  if (links.width == 4) look_up(mesh.encoded(), vt, vv, mesh.vertices(), static_cast<Id*>(places));
   return links;
 }
 

@@ -119,7 +119,7 @@ Graph transpose(Relation relation, const Graph& faces, Id rows) {
   const auto ids = allocate<Ids>(label, matrix.ids.extent(0));
   transpose_graph<ConstOffsets, ConstIds, Offsets, Ids, Offsets, WorkerSpace>(matrix.rows, rows, matrix.begin,
                                                                               matrix.ids, begin, ids);
-  sort_rows((label + "_sort").c_str(), begin, ids);
+  sort_rows(WorkerSpace(), (label + "_sort").c_str(), begin, ids);
   return {rows, 0, begin, ids};
 }
 
@@ -136,7 +136,7 @@ Graph neighbours(Relation relation, const Graph& xy, const Graph& yx) {
     ids = allocate<Ids>(label, entries);
     drop_diagonal(label.c_str(), with_diagonal, unsorted, begin, ids);
   }
-  sort_rows((label + "_sort").c_str(), begin, ids);
+  sort_rows(WorkerSpace(), (label + "_sort").c_str(), begin, ids);
   return {xy.rows, 0, begin, ids};
 }
 

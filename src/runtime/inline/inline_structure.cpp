@@ -9,10 +9,10 @@ namespace {
 
 /// Has what workers read on the host, before several ask for it.
 void precondition(const Mesh& mesh, RelationSet relations) {
-  if (!(relations & star_relations).empty()) mesh.host();
+  if (!(relations & star_relations).empty()) mesh.encoded();
   SimplexNeeds needs = needs_of(relations);
   needs.tetrahedra |= needs.upto != Enumeration::tetrahedra;
-  mesh.simplices_on_host(needs);
+  mesh.simplices(needs);
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ class BatchWorker {
   virtual bool is_large(Id segment) const = 0;
 
   /// Begins to compute the blocks of `segments`, in `words` words, each with at least the scratch memory that `scratch`
-  /// says. Returns at once on a device. Throws std::bad_alloc where the batch is too big for the device's memory.
+  /// says. Returns at once on a device. Throws OutOfMemory where the batch is too big for the device's memory.
   virtual void launch(const std::vector<Id>& segments, Offset words, const StarSizes& scratch) = 0;
 
   /// Waits until it is computed, and begins to copy its blocks to `arena`, which has so many words.

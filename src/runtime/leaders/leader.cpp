@@ -19,14 +19,25 @@ double words_per_vertex(RelationSet relations) {
   return sum;
 }
 
+/// Whether the exception that is being handled says that memory ran out: ours, or the standard library's.
+bool is_out_of_memory() {
+  try {
+    throw;
+  } catch (const OutOfMemory&) {
+    return true;
+  } catch (const std::bad_alloc&) {
+    return true;
+  } catch (...) {
+    return false;
+  }
+}
+
 /// What the exception that is being handled says.
 std::string current_message() {
   try {
     throw;
-  } catch (const std::bad_alloc& error) {
-    return std::string(error.what()) + ", for one segment";
   } catch (const std::exception& error) {
-    return error.what();
+    return std::string(error.what()) + (is_out_of_memory() ? ", for one segment" : "");
   } catch (...) {
     return "unknown exception";
   }
@@ -234,36 +245,33 @@ void Leader::launch(Plan plan, Arena& arena) {
   BatchWorker* const worker = idle_.back();
   try {
     worker->launch(plan.segments, static_cast<Offset>(arena.words.size()), plan.scratch);
-  } catch (const std::bad_alloc&) {
-    worker->abandon();
-    if (plan.segments.size() == 1 && launch_on_host(plan, arena)) return;
-    store_.give_back(arena);
-    if (plan.segments.size() == 1) throw;
-    split(std::move(plan));
-    return;
   } catch (...) {
     worker->abandon();
+    const bool is_too_big = is_out_of_memory();
+    if (is_too_big && plan.segments.size() == 1 && launch_on_host(plan, arena)) return;
     store_.give_back(arena);
-    throw;
+    if (!is_too_big || plan.segments.size() == 1) throw;
+    split(std::move(plan));
+    return;
   }
   idle_.pop_back();
-  flights_.push_back({std::move(plan), worker, &arena, Clock::now(), false});
+  flights_.push_back({std::move(plan), worker, nullptr, &arena, Clock::now(), false});
 }
 
 /// For a segment that the device has no memory for; false if the leader has nobody on the host.
 bool Leader::launch_on_host(const Plan& plan, Arena& arena) {
   if (!parameters_.make_host_worker) return false;
-  if (!host_worker_) host_worker_ = parameters_.make_host_worker();
-  host_worker_->launch(plan.segments, static_cast<Offset>(arena.words.size()), plan.scratch);
-  flights_.push_back({plan, host_worker_.get(), &arena, Clock::now(), false});
+  const std::shared_ptr<BatchWorker> worker = parameters_.make_host_worker();
+  worker->launch(plan.segments, static_cast<Offset>(arena.words.size()), plan.scratch);
+  flights_.push_back({plan, worker.get(), worker, &arena, Clock::now(), false});
   const std::lock_guard<std::mutex> lock(statistics_mutex_);
   ++statistics_.segments_on_host;
   return true;
 }
 
-/// Gives a worker back that has nothing to do.
-void Leader::release(BatchWorker* worker) {
-  if (worker != host_worker_.get()) idle_.push_back(worker);
+/// A flight's worker has nothing to do.
+void Leader::release(const Flight& flight) {
+  if (!flight.on_host) idle_.push_back(flight.worker);
 }
 
 /// Tries the plan in two parts, if it has more than one segment; before all other plans.
@@ -291,7 +299,7 @@ void Leader::finish_oldest() {
   const auto finished = Clock::now();
   const Flight flight = std::move(flights_.front());
   flights_.pop_front();
-  release(flight.worker);
+  release(flight);
   Plan made, missing = flight.plan;
   missing.segments.clear();
   const std::size_t relations = parameters_.relations.count();
@@ -352,7 +360,7 @@ void Leader::fail_all(const std::string& why) {
   for (const auto& flight : flights_) {
     flight.worker->abandon();
     store_.give_back(*flight.arena);
-    release(flight.worker);
+    release(flight);
   }
   flights_.clear();
   plans_.clear();

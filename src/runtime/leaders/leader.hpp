@@ -73,6 +73,7 @@ class Leader {
   struct Flight {
     Plan plan;
     BatchWorker* worker;
+    std::shared_ptr<BatchWorker> on_host;  ///< the worker, if it isn't one of the leader's own
     Arena* arena;
     Clock::time_point launched;
     bool copying = false;
@@ -90,7 +91,7 @@ class Leader {
   Plan plan_ahead();
   void launch(Plan plan, Arena& arena);
   bool launch_on_host(const Plan& plan, Arena& arena);
-  void release(BatchWorker* worker);
+  void release(const Flight& flight);
   void split(Plan plan);
   void begin_copy(Flight& flight);
   void finish_oldest();
@@ -114,7 +115,6 @@ class Leader {
   std::deque<Plan> plans_;
   std::deque<Flight> flights_;
   std::vector<BatchWorker*> idle_;
-  std::unique_ptr<BatchWorker> host_worker_;
   std::vector<bool> under_way_;  ///< by segment: planned or launched
   std::vector<bool> computed_;   ///< by segment: at some time
   bool sweeping_ = false;

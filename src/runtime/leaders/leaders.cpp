@@ -39,7 +39,7 @@ std::unique_ptr<Leader> make_leader(const Mesh& mesh, RelationSet relations, con
 
 Leaders::Leaders(const Mesh& mesh, RelationSet relations, const StructureOptions& options)
     : mesh_(mesh), relations_(relations) {
-  mesh.simplices_on_host(needs_of(relations & face_relations));
+  mesh.simplices(needs_of(relations & face_relations));
   const auto queues = queues_for(relations - face_relations, options.queues);
   const Sizes sizes = sizes_for(mesh, options, std::max(static_cast<int>(queues.size()), 1));
   for (const RelationSet members : queues) leaders_.push_back(make_leader(mesh, members, sizes));

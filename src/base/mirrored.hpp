@@ -1,0 +1,133 @@
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+
+#include <gale/base/memory.hpp>
+#include <gale/base/transfer.hpp>
+
+namespace gale {
+
+namespace detail {
+
+/// Something that happens once, by whichever thread comes first; the others wait for it. If it throws, the next one
+/// tries again (std::call_once should do that, but doesn't on every platform).
+class Once {
+ public:
+  template <class Action>
+  void operator()(const Action& action) {
+    if (done_.load(std::memory_order_acquire)) return;
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (done_.load(std::memory_order_relaxed)) return;
+    action();
+    done_.store(true, std::memory_order_release);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::atomic<bool> done_{false};
+};
+
+/// A Mirrored where the workers' memory is the host's: the array.
+template <class T>
+class OneArray {
+ public:
+  OneArray() = default;
+  explicit OneArray(const Array<const T, HostMemory>& array) : array_(array) {}
+
+  template <class Memory>
+  const Array<const T, Memory>& in() const {
+    return array_;
+  }
+  bool on_device() const { return false; }
+  std::size_t size() const { return array_.extent(0); }
+
+ private:
+  Array<const T, HostMemory> array_;
+};
+
+/// A Mirrored where there are two memories.
+template <class T>
+class TwoArrays {
+ public:
+  TwoArrays() : TwoArrays(Array<const T, HostMemory>()) {}
+  template <class Memory>
+  explicit TwoArrays(const Kokkos::View<const T*, Memory>& array) : arrays_(std::make_shared<Arrays>()) {
+    if constexpr (is_device_memory<Memory>) {
+      arrays_->worker = array;
+      arrays_->on_device = true;
+    } else {
+      arrays_->host = array;
+    }
+  }
+
+  template <class Memory>
+  const Array<const T, Memory>& in() const {
+    if (arrays_->on_device != is_device_memory<Memory>) arrays_->copy();
+    if constexpr (is_device_memory<Memory>) {
+      return arrays_->worker;
+    } else {
+      return arrays_->host;
+    }
+  }
+  bool on_device() const { return arrays_->on_device; }
+  std::size_t size() const { return on_device() ? arrays_->worker.extent(0) : arrays_->host.extent(0); }
+
+ private:
+  struct Arrays {
+    Array<const T, WorkerMemory> worker;
+    Array<const T, HostMemory> host;
+    bool on_device = false;  ///< where it was made, and is complete from the beginning
+    Once copied;
+
+    void copy() {
+      copied([this] {
+        if (on_device) {
+          host = on_host(worker);
+        } else {
+          worker = on_worker(host);
+        }
+      });
+    }
+  };
+
+  std::shared_ptr<Arrays> arrays_;
+};
+
+}  // namespace detail
+
+/// An array that was made in the workers' memory, or in the host's where it did not fit, and that either side reads.
+/// Copies share it. What it was made from must not be written any more.
+template <class T>
+class Mirrored {
+  template <class View>
+  using MemoryOfView = std::conditional_t<is_device_memory<typename View::memory_space>, WorkerMemory, HostMemory>;
+  using Arrays = std::conditional_t<have_device, detail::TwoArrays<T>, detail::OneArray<T>>;
+
+ public:
+  /// Of no entries.
+  Mirrored() = default;
+
+  /// Of a View of T or const T of rank 1, in the workers' memory or the host's.
+  template <class View, class = std::enable_if_t<std::is_same_v<typename View::non_const_value_type, T>>>
+  Mirrored(const View& array) : arrays_(Array<const T, MemoryOfView<View>>(array)) {}
+
+  /// The entries, for code that runs on `Memory`. The first call for a memory that it was not made in copies it there:
+  /// any thread may make it; the others wait. After that, and where it was made, a call takes no lock. Throws
+  /// OutOfMemory if the copy doesn't fit; a later call tries again.
+  template <class Memory>
+  const Array<const T, Memory>& in() const {
+    return arrays_.template in<Memory>();
+  }
+
+  /// Whether it was made in a device's memory.
+  bool on_device() const { return arrays_.on_device(); }
+
+  std::size_t size() const { return arrays_.size(); }
+
+ private:
+  Arrays arrays_;
+};
+
+}  // namespace gale

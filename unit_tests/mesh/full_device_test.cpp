@@ -1,0 +1,107 @@
+#include <gtest/gtest.h>
+
+#include <gale/base/worker_or_host.hpp>
+#include <gale/mesh/input_numbers.hpp>
+
+#include "support/arrays.hpp"
+#include "support/input_mesh.hpp"
+#include "support/segmentations.hpp"
+
+namespace gale::test {
+
+namespace {
+
+constexpr std::size_t mebi = std::size_t(1) << 20;
+constexpr SimplexNeeds everything = {Enumeration::triangles, true, true};
+
+/// Takes a device's memory while it lives, but for some of it.
+class FullDevice {
+ public:
+  explicit FullDevice(std::size_t free) {
+    for (std::size_t size = std::size_t(1) << 40; size >= mebi; size /= 2) {
+      while (take(size)) {
+      }
+    }
+    std::size_t freed = 0;
+    while (freed < free && !taken_.empty()) {
+      freed += taken_.back().extent(0);
+      taken_.pop_back();
+    }
+  }
+
+ private:
+  bool take(std::size_t size) {
+    try {
+      taken_.push_back(allocate<Array<char, WorkerMemory>>("test_ballast", size));
+      return true;
+    } catch (const OutOfMemory&) {
+      return false;
+    }
+  }
+
+  std::vector<Array<char, WorkerMemory>> taken_;  ///< the smallest last
+};
+
+/// All that a mesh has, on the host.
+void expect_equal(const Mesh& mesh, const Mesh& expected) {
+  const auto& one = mesh.encoded();
+  const auto& other = expected.encoded();
+  ASSERT_EQ(mesh.tetrahedra(), expected.tetrahedra());
+  for (Id t = 0; t < mesh.tetrahedra(); ++t) ASSERT_TRUE(one.tetrahedron(t) == other.tetrahedron(t)) << t;
+  const auto values = [](const auto& view) {
+    return std::vector<std::int64_t>(view.data(), view.data() + view.extent(0));
+  };
+  EXPECT_EQ(values(one.vertex_begin), values(other.vertex_begin));
+  EXPECT_EQ(values(one.internal_begin), values(other.internal_begin));
+  EXPECT_EQ(values(one.external_begin), values(other.external_begin));
+  EXPECT_EQ(values(one.external), values(other.external));
+  EXPECT_EQ(values(mesh.vertex_input()), values(expected.vertex_input()));
+  EXPECT_EQ(values(mesh.tetrahedron_input()), values(expected.tetrahedron_input()));
+  const auto tables = mesh.simplices(everything), wanted = expected.simplices(everything);
+  EXPECT_EQ(values(tables.edge_begin), values(wanted.edge_begin));
+  EXPECT_EQ(values(tables.edge_high), values(wanted.edge_high));
+  EXPECT_EQ(values(tables.triangle_begin), values(wanted.triangle_begin));
+  EXPECT_EQ(values(tables.triangle_apex), values(wanted.triangle_apex));
+  EXPECT_EQ(values(tables.lower_edges), values(wanted.lower_edges));
+  for (const int dimension : {0, 1, 2, 3}) {
+    EXPECT_EQ(values(mesh.interval_begin(dimension)), values(expected.interval_begin(dimension))) << dimension;
+    EXPECT_EQ(values(input_numbers(mesh, dimension)), values(input_numbers(expected, dimension))) << dimension;
+  }
+}
+
+}  // namespace
+
+TEST(Mesh, has_nothing_to_say_where_it_fits) {
+  const InputMesh input = holed_grid(5);
+  const Mesh mesh = encode(input, octree_of(input, 20));
+  mesh.simplices(everything);
+  EXPECT_EQ(mesh.on_device(), have_device);
+  EXPECT_EQ(mesh.notice(), "");
+}
+
+TEST(FullDevice, lets_the_host_make_the_mesh) {
+  if (!have_device) GTEST_SKIP() << "there is no device";
+  const InputMesh input = holed_grid(70);  // over a million tetrahedra, of 16 bytes each
+  const Mesh expected = encode(input, octree_of(input, 100));
+  const FullDevice full(16 * mebi);
+  const Mesh mesh = encode(input, octree_of(input, 100));
+  EXPECT_FALSE(mesh.on_device());
+  EXPECT_EQ(mesh.notice().rfind("the mesh doesn't fit the device's memory (", 0), 0u) << mesh.notice();
+  EXPECT_NE(mesh.notice().find("): the host computes"), std::string::npos) << mesh.notice();
+  expect_equal(mesh, expected);
+}
+
+TEST(FullDevice, lets_the_host_enumerate) {
+  if (!have_device) GTEST_SKIP() << "there is no device";
+  const InputMesh input = holed_grid(70);
+  const Mesh expected = encode(input, octree_of(input, 100));
+  const Mesh mesh = encode(input, octree_of(input, 100));
+  EXPECT_TRUE(mesh.on_device());
+  expected.simplices(everything);
+  const FullDevice full(16 * mebi);
+  expect_equal(mesh, expected);
+  EXPECT_TRUE(mesh.on_device());
+  EXPECT_EQ(mesh.notice().rfind("the mesh's edges don't fit the device's memory (", 0), 0u) << mesh.notice();
+}
+
+}  // namespace gale::test
