@@ -4,8 +4,8 @@
 #     data: brain volumes    rendering: without a screen    releases: what scripts/test-releases.sh needs
 set -euo pipefail
 
-packages=(cmake g++ make python3 libtrilinos-kokkos-dev libtrilinos-kokkos-kernels-dev libvtk9-dev
-  libcli11-dev nlohmann-json3-dev libgtest-dev libbenchmark-dev)
+packages=(cmake g++ ninja-build python3 libtrilinos-kokkos-dev libtrilinos-kokkos-kernels-dev libvtk9-dev
+  libcli11-dev nlohmann-json3-dev libgtest-dev)
 for more in "$@"; do
   case "$more" in
     data) packages+=(mricron-data) ;;

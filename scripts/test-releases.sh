@@ -6,7 +6,7 @@ set -euo pipefail
 source_dir=$(cd "$(dirname "$0")/.." && pwd)
 export DEBIAN_FRONTEND=noninteractive LC_ALL=C
 
-packages=(cmake g++ make python3 libcli11-dev nlohmann-json3-dev libgtest-dev)
+packages=(cmake g++ ninja-build python3 libcli11-dev nlohmann-json3-dev libgtest-dev)
 vtk=OFF
 case "${1:-}" in
   "") ;;

@@ -3,6 +3,7 @@
 #include <gale/app/options.hpp>
 #include <gale/app/sizes.hpp>
 #include <gale/relations/relation.hpp>
+#include <gale/version.hpp>
 
 namespace gale::app {
 
@@ -138,7 +139,7 @@ std::string without_command(const CLI::App& app, int argc, char** argv) {
 std::optional<Options> parse_command_line(int argc, char** argv) {
   Options options;
   CLI::App app("Topological analysis of large tetrahedral meshes", "gale");
-  app.set_version_flag("--version", "gale " GALE_VERSION);
+  app.set_version_flag("--version", std::string("gale ") + gale::version);
   app.require_subcommand(1);
 
   CLI::App* command = add_command(app, options, "info", "Says what a mesh is: sizes, extent, arrays");
