@@ -3,7 +3,7 @@
 include(${CMAKE_ARGV3}/common.cmake)
 
 set(consumer ${source}/unit_tests/install/consumer)
-configure(${consumer} ${here}/components -DCMAKE_PREFIX_PATH=${prefix} ${vtk_dir} ${kokkos_kernels} "-DCOMPONENTS=io;outputs")
+configure(${consumer} ${here}/components -DCMAKE_PREFIX_PATH=${prefix} ${vtk_dir} ${kokkos_kernels} "-DCOMPONENTS=io outputs")
 build_and_test(${here}/components)
 
 if(vtk)
