@@ -25,7 +25,7 @@ build() {
 run_tests() {
   local tests="build-$1/bin/gale_$2_tests" filter=${3:-*}
   echo "=== $1: $2"
-  "${fixed_addresses[@]}" "$tests" --gtest_list_tests --gtest_filter="$filter" | grep --quiet . ||
+  [ -n "$("${fixed_addresses[@]}" "$tests" --gtest_list_tests --gtest_filter="$filter")" ] ||
     { echo "$0: no test of $2 is called $filter" >&2; exit 1; }
   "${fixed_addresses[@]}" "$tests" --gtest_brief=1 --gtest_filter="$filter"
 }
