@@ -1,8 +1,7 @@
 # Finds what GALE is built on. Read by our own build and, through the package config, by everyone who links GALE;
 # GALE_ENABLE_* say which optional packages this GALE has.
 #
-# Afterwards gale_missing holds a line for each package that isn't there. If it is empty there are the targets gale::kokkos,
-# with GALE_ENABLE_KOKKOS_KERNELS gale::kokkoskernels, and with GALE_ENABLE_VTK those of VTK_LIBRARIES.
+# Each macro gale_find_* looks for some packages. Afterwards gale_missing holds a line for each that isn't there.
 
 set(gale_missing "")
 
@@ -34,17 +33,24 @@ function(gale_adopt name package)
   endforeach()
 endfunction()
 
-gale_find(Kokkos "install it, or name its prefix in CMAKE_PREFIX_PATH" CONFIG)
-gale_adopt(kokkos Kokkos Kokkos::kokkos)
-gale_find(Threads "install the compiler's thread library")
-if(NOT GALE_ENABLE_STD_THREADS)
-  gale_find(OpenMP "take a compiler that has it, or set GALE_ENABLE_STD_THREADS=ON" COMPONENTS CXX)
-endif()
-if(GALE_ENABLE_KOKKOS_KERNELS)
+# What everyone who includes a header of GALE's needs. Gives gale::kokkos.
+macro(gale_find_base)
+  gale_find(Kokkos "install it, or name its prefix in CMAKE_PREFIX_PATH" CONFIG)
+  gale_adopt(kokkos Kokkos Kokkos::kokkos)
+  gale_find(Threads "install the compiler's thread library")
+  if(NOT GALE_ENABLE_STD_THREADS)
+    gale_find(OpenMP "take a compiler that has it, or set GALE_ENABLE_STD_THREADS=ON" COMPONENTS CXX)
+  endif()
+endmacro()
+
+# What the library's sources include. Gives gale::kokkoskernels.
+macro(gale_find_kokkos_kernels)
   gale_find(KokkosKernels "install it, or set GALE_ENABLE_KOKKOS_KERNELS=OFF (no explicit structure then)" CONFIG)
   gale_adopt(kokkoskernels KokkosKernels Kokkos::kokkoskernels KokkosKernels::all_libs)
-endif()
-if(GALE_ENABLE_VTK)
+endmacro()
+
+# What gale::io reads and writes files with. Gives the targets of VTK_LIBRARIES.
+macro(gale_find_vtk)
   gale_find(VTK "install it, or set GALE_ENABLE_VTK=OFF (grid:N inputs and reports alone then)"
     COMPONENTS CommonCore CommonDataModel CommonExecutionModel FiltersGeneral IOImage IOLegacy IOXML)
-endif()
+endmacro()

@@ -1,12 +1,13 @@
 #!/bin/bash
-# Finds the critical points of a brain and the Morse-Smale complex of another, and draws them: build/demo/brain.vtp, brain.png and complex.png. Enough alone on
-# a bare Debian 12.
+# Finds the critical points of a brain and the Morse-Smale complex of another, and draws them: build/demo/brain.vtp,
+# brain.png and complex.png. Enough alone on a bare Debian 12.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
 scripts/dependencies.sh data rendering
-cmake --preset default
-cmake --build --preset default --target gale_app --parallel "$(nproc)"
+export CMAKE_GENERATOR=${CMAKE_GENERATOR:-Ninja} # of a new build folder; one that is there keeps its own
+cmake --preset ci
+cmake --build --preset ci --target gale_app --parallel "$(nproc)"
 cmake -S examples/render_critical_points -B build/render_critical_points
 cmake --build build/render_critical_points
 

@@ -1,17 +1,18 @@
 #!/bin/bash
 # Installs what GALE is built from on Debian 12 with apt; does nothing when all is there.
-#   usage: scripts/dependencies.sh [data] [rendering] [releases]
-#     data: brain volumes    rendering: without a screen    releases: what scripts/test-releases.sh needs
+#   usage: scripts/dependencies.sh [data] [format] [rendering] [releases]
+#     data: brain volumes    format: clang-format    rendering: without a screen    releases: what scripts/test-releases.sh needs
 set -euo pipefail
 
-packages=(cmake g++ make python3 libtrilinos-kokkos-dev libtrilinos-kokkos-kernels-dev libvtk9-dev
-  libcli11-dev nlohmann-json3-dev libgtest-dev libbenchmark-dev)
+packages=(cmake g++ ninja-build python3 libtrilinos-kokkos-dev libtrilinos-kokkos-kernels-dev libvtk9-dev
+  libcli11-dev nlohmann-json3-dev libgtest-dev)
 for more in "$@"; do
   case "$more" in
     data) packages+=(mricron-data) ;;
+    format) packages+=(clang-format) ;;
     rendering) packages+=(libgl1-mesa-dri xvfb xauth) ;;
     releases) packages+=(debootstrap) ;;
-    *) echo "usage: $0 [data] [rendering] [releases]" >&2; exit 2 ;;
+    *) echo "usage: $0 [data] [format] [rendering] [releases]" >&2; exit 2 ;;
   esac
 done
 

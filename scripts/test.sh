@@ -4,6 +4,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 
 scripts/dependencies.sh data
-cmake --preset default
-cmake --build --preset default --parallel "$(nproc)"
-ctest --preset default --parallel 2
+export CMAKE_GENERATOR=${CMAKE_GENERATOR:-Ninja} # of a new build folder; one that is there keeps its own
+cmake --preset ci
+cmake --build --preset ci --parallel "$(nproc)"
+ctest --preset ci --parallel 2

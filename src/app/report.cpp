@@ -4,6 +4,7 @@
 #include <gale/app/output_file.hpp>
 #include <gale/app/report.hpp>
 #include <gale/base/kokkos.hpp>
+#include <gale/version.hpp>
 
 namespace gale::app {
 
@@ -66,7 +67,7 @@ Json to_json(const StructureStatistics& statistics) {
 
 Json to_json(const Report& report) {
   const Seconds& seconds = report.seconds;
-  return {{"gale", GALE_VERSION},
+  return {{"gale", gale::version},
           {"kokkos", kokkos_version()},
           {"backend", WorkerSpace::name()},
           {"device", or_null(device_name())},

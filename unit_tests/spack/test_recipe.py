@@ -147,7 +147,7 @@ class Recipe(unittest.TestCase):
 
     def test_depends_on_all_that_cmake_looks_for(self):
         text = self.cmake + (SOURCE / "cmake" / "gale-dependencies.cmake").read_text()
-        wanted = set(re.findall(r"gale_find\((\w+) ", text)) - {"Threads", "OpenMP", "benchmark"}
+        wanted = set(re.findall(r"gale_find\((\w+) ", text)) - {"Threads", "OpenMP"}
         packages = {re.match(r"[\w-]+", spec).group(0) for spec, _ in self.directives.dependencies()}
         self.assertEqual({PACKAGES[name] for name in wanted} - packages, set())
         for name in ("googletest", "python"):

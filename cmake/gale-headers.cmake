@@ -1,0 +1,38 @@
+# The public headers, by folder: what a user of the library includes. They are installed, and each compiles alone
+# (unit_tests/headers). To publish a header, name it here.
+#
+# Public headers include others of ours, which are installed too, but which nobody should include by themselves: these
+# are in gale_included_headers. unit_tests/headers tells when that list is too long or too short.
+
+set(gale_public_headers "")
+
+# gale_public(<folder> <header without .hpp>...)
+function(gale_public folder)
+  list(TRANSFORM ARGN PREPEND ${folder}/)
+  list(TRANSFORM ARGN APPEND .hpp)
+  set(gale_public_headers ${gale_public_headers} ${ARGN} PARENT_SCOPE)
+endfunction()
+
+gale_public(base error kokkos memory threads types)
+gale_public(mesh encoded_mesh input_numbers intervals make_mesh mesh segmentation simplices)
+gale_public(relations faces preconditioning relation rows segment_rows)
+gale_public(runtime options runtime statistics structure)
+gale_public(runtime/explicit explicit_structure)
+gale_public(algorithms critical_points critical_simplices discrete_gradient morse_smale separatrices simplex_numbers
+  simplify surface_vertices vertex_order)
+gale_public(baselines discrete_gradient_from_cells oracle)
+gale_public(outputs arrows critical_simplices field heights positions separatrices1 separatrices2)
+gale_public(io arrays atomic_file dataset image read synthetic voxels write)
+
+set(gale_included_headers
+  base/parallel.hpp
+  mesh/caller_views.hpp)
+
+# Made by the build, beside those of src/.
+set(gale_generated_headers export.hpp version.hpp)
+
+foreach(header IN LISTS gale_public_headers gale_included_headers)
+  if(NOT EXISTS ${PROJECT_SOURCE_DIR}/src/${header})
+    message(FATAL_ERROR "cmake/gale-headers.cmake names ${header}, which isn't in src/")
+  endif()
+endforeach()

@@ -1,0 +1,56 @@
+#!/bin/bash
+# Runs what manages memory and threads by itself under the sanitizers: address and undefined behaviour, then threads.
+# Without VTK, the command and the examples, whose libraries aren't built for that.
+#   usage: scripts/test-sanitizers.sh [address] [thread]
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+scripts/dependencies.sh
+export CMAKE_GENERATOR=${CMAKE_GENERATOR:-Ninja} OMP_PROC_BIND=false OMP_WAIT_POLICY=passive
+lean=(-DGALE_ENABLE_VTK=OFF -DGALE_ENABLE_APP=OFF -DGALE_ENABLE_EXAMPLES=OFF)
+
+# The thread sanitizer wants addresses where older kernels put them; some containers don't let us ask for that.
+fixed_addresses=()
+! setarch --addr-no-randomize true 2>/dev/null || fixed_addresses=(setarch --addr-no-randomize)
+
+# build PRESET FOLDER...
+build() {
+  local preset=$1
+  shift
+  cmake --preset "$preset" "${lean[@]}"
+  cmake --build --preset "$preset" --parallel "$(nproc)" --target "${@/%/_tests}"
+}
+
+# run_tests PRESET FOLDER [FILTER]
+run_tests() {
+  local tests="build-$1/bin/gale_$2_tests" filter=${3:-*}
+  echo "=== $1: $2"
+  [ -n "$("${fixed_addresses[@]}" "$tests" --gtest_list_tests --gtest_filter="$filter")" ] ||
+    { echo "$0: no test of $2 is called $filter" >&2; exit 1; }
+  "${fixed_addresses[@]}" "$tests" --gtest_brief=1 --gtest_filter="$filter"
+}
+
+address() {
+  export LSAN_OPTIONS=suppressions=$PWD/unit_tests/leaks.supp:print_suppressions=0
+  build sanitize gale_base gale_mesh gale_relations gale_runtime gale_algorithms
+  for folder in base mesh relations runtime algorithms; do
+    run_tests sanitize "$folder"
+  done
+}
+
+# Of the runtime, all but what takes minutes here to compare every mesh with brute force; of the algorithms, those whose
+# sweeps write what several threads read.
+thread() {
+  build sanitize-thread gale_base gale_runtime gale_algorithms
+  run_tests sanitize-thread base
+  run_tests sanitize-thread runtime '-MixedSweep.*:Tests/MixedSweepOf.*'
+  run_tests sanitize-thread algorithms 'CriticalPoints.*:DiscreteGradient.*:MorseSmaleComplex.*:Simplify.*'
+}
+
+[ $# -gt 0 ] || set -- address thread
+for which in "$@"; do
+  case "$which" in
+    address | thread) "$which" ;;
+    *) echo "usage: $0 [address] [thread]" >&2; exit 2 ;;
+  esac
+done
