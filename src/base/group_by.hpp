@@ -1,0 +1,65 @@
+#pragma once
+
+#include <string>
+#include <utility>
+
+#include <gale/base/atomic.hpp>
+#include <gale/base/memory.hpp>
+#include <gale/base/parallel.hpp>
+#include <gale/base/types.hpp>
+
+namespace gale {
+
+/// Items by key: those of key k are members[begin[k]] to members[begin[k + 1] - 1], in no order.
+template <class Memory, class Index = Offset>
+struct Groups {
+  Array<Index, Memory> begin;  ///< keys + 1
+  Array<Id, Memory> members;
+};
+
+/// Groups the items 0..items-1 by keys 0..keys-1. `visit_keys(item, visit)` calls visit(key) for each key of an item,
+/// of which there may be any number; it is called twice for each item, with the same keys both times. On a device it is
+/// a functor whose call operator is a template, as nvcc has no generic lambdas in kernels.
+///
+/// `Index` counts the members: Id where there are at most 2^31 - 1. Time and memory O(items + keys + members).
+template <class Index = Offset, class Space, class VisitKeys>
+Groups<typename Space::memory_space, Index> group_by(const char* label, const Space& space, Offset items, Offset keys,
+                                                     const VisitKeys& visit_keys) {
+  using Memory = typename Space::memory_space;
+  using Indices = Array<Index, Memory>;
+  // One entry ahead of `begin`: filling moves the start of each group to its end, which is the next group's start.
+  const auto all = allocate<Indices>(label, keys + 2);
+  Kokkos::deep_copy(all, Index(0));
+  const Indices next = Kokkos::subview(all, std::make_pair(Offset(1), keys + 2));
+  parallel_for((std::string(label) + "_count").c_str(), space, items, KOKKOS_LAMBDA(Offset item) {
+    visit_keys(static_cast<Id>(item), [&](Id key) { atomic_add(&next(key), Index(1)); });
+  });
+  const Index total = exclusive_scan((std::string(label) + "_scan").c_str(), space, keys, next,
+                                     KOKKOS_LAMBDA(Offset key) { return next(key); });
+  const auto members = allocate<Array<Id, Memory>>(label, total);
+  parallel_for((std::string(label) + "_fill").c_str(), space, items, KOKKOS_LAMBDA(Offset item) {
+    visit_keys(static_cast<Id>(item),
+               [&](Id key) { members(atomic_add(&next(key), Index(1))) = static_cast<Id>(item); });
+  });
+  return {Kokkos::subview(all, std::make_pair(Offset(0), keys + 1)), members};
+}
+
+/// The key of each item by `key_of(item)`, for group_by.
+template <class KeyOf>
+struct SingleKey {
+  KeyOf key_of;
+
+  template <class Visit>
+  KOKKOS_FUNCTION void operator()(Id item, const Visit& visit) const {
+    visit(key_of(item));
+  }
+};
+
+/// Groups items that have one key each: `key_of(item)`.
+template <class Index = Offset, class Space, class KeyOf>
+Groups<typename Space::memory_space, Index> group_by_key(const char* label, const Space& space, Offset items,
+                                                         Offset keys, const KeyOf& key_of) {
+  return group_by<Index>(label, space, items, keys, SingleKey<KeyOf>{key_of});
+}
+
+}  // namespace gale
