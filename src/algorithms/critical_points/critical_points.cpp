@@ -22,8 +22,8 @@ CriticalType type_of(const detail::LinkTopology& topology) {
   return CriticalType::degenerate;
 }
 
-/// The sweep: what each vertex is by its own link; and, since only its neighbours know which of them are on the
-/// surface, what they tell it.
+/// The sweep. It finds the type of each vertex by the vertex's own link. Vertices on the surface tell their neighbours
+/// that they are, as the type of a neighbour on the surface depends on that.
 class Classification {
  public:
   Classification(const Mesh& mesh, const VertexOrder& order, int threads)
@@ -61,7 +61,8 @@ class Classification {
   detail::LinkTopology topology_of(detail::LargeLink& large, Id v, const Row& neighbours, const LinkRow& link) const {
     const std::uint64_t key = keys_[v];
     if (neighbours.size() > detail::SmallLink::capacity) {
-      return large.topology(neighbours.size(), link, [&](Id i) { return keys_[neighbours[i]] < key; });
+      large.build(link);
+      return large.topology(neighbours.size(), [&](Id i) { return keys_[neighbours[i]] < key; });
     }
     std::uint64_t lower = 0;
     for (Id i = 0; i < neighbours.size(); ++i) lower |= std::uint64_t(keys_[neighbours[i]] < key) << i;
