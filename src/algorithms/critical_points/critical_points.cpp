@@ -3,6 +3,7 @@
 #include <gale/algorithms/critical_points.hpp>
 #include <gale/algorithms/links/large_link.hpp>
 #include <gale/algorithms/links/small_link.hpp>
+#include <gale/algorithms/order/same_mesh.hpp>
 #include <gale/base/parallel.hpp>
 
 namespace gale {
@@ -106,6 +107,7 @@ CriticalPoints collect(const Mesh& mesh, const Classification& classification) {
 }  // namespace
 
 CriticalPoints find_critical_points(Structure& structure, const VertexOrder& order, const SweepOptions& options) {
+  detail::require_same_mesh("the vertex order", order.mesh(), structure.mesh());
   Classification classification(structure.mesh(), order, options.threads);
   structure.for_each_segment(critical_points_relations, options,
                              [&](int consumer, const SegmentRows& rows) { classification.classify(consumer, rows); });
