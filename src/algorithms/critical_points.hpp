@@ -38,7 +38,8 @@ struct CriticalPoints {
 /// lower one, and a 2-saddle if some lower one is and no upper one, as TTK has it.
 ///
 /// A sweep of VV and link, for which `structure` must be preconditioned; the same result whatever the structure, its
-/// segments, and the number of threads. 2 bytes a vertex beside the result.
+/// segments, and the number of threads. 2 bytes a vertex beside the result. Throws gale::Error if it isn't
+/// preconditioned for them, and if `order` is of another mesh than the structure's.
 CriticalPoints find_critical_points(Structure& structure, const VertexOrder& order, const SweepOptions& options = {});
 
 /// What the sweep reads.

@@ -84,7 +84,8 @@ class DiscreteGradient {
 /// itself, so simplices are paired only with simplices that have the same highest vertex. Keys are unique: the result
 /// depends on nothing but mesh and order.
 ///
-/// A sweep of VV, VT and link; throws gale::Error if `structure` isn't preconditioned for them. No edge or triangle is
+/// A sweep of VV, VT and link; throws gale::Error if `structure` isn't preconditioned for them, and if `order` is
+/// of another mesh than the structure's. No edge or triangle is
 /// enumerated: beside the blocks of the sweep there is only the gradient in memory.
 DiscreteGradient find_discrete_gradient(Structure& structure, const VertexOrder& order,
                                         const SweepOptions& options = {});

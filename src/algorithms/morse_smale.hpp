@@ -29,6 +29,7 @@ struct AscendingWalls {
 /// of `critical`; cells are in GALE's ids. What wasn't wanted is empty.
 struct MorseSmaleComplex {
   DiscreteGradient gradient;
+  MorseSmaleParts parts;  ///< which were computed
 
   /// The gradient's, or those of them that are left (`simplify`).
   CriticalSimplices critical;
@@ -62,9 +63,9 @@ struct MorseSmaleComplex {
 /// manifolds in the workers' space. No progress is told. The same result whatever the structure, its segments, and the
 /// number of threads.
 ///
-/// `structure` is that of the gradient's mesh; only separatrices2 reads it, for VT: throws gale::Error if it isn't
-/// preconditioned for that. Time and memory grow with what is found, and for manifolds with the mesh. Walls share
-/// cells: all of them together may have many times those of the mesh.
+/// `structure` is one of the gradient's mesh: throws gale::Error if it isn't. Only separatrices2 reads it, for VT:
+/// throws gale::Error if it isn't preconditioned for that. Time and memory grow with what is found, and for manifolds
+/// with the mesh. Walls share cells: all of them together may have many times those of the mesh.
 MorseSmaleComplex find_morse_smale_complex(Structure& structure, const DiscreteGradient& gradient,
                                            const MorseSmaleParts& parts = {}, const SweepOptions& options = {});
 

@@ -24,9 +24,9 @@ namespace gale {
 ///
 /// Paths are in the order of their saddles (connectors in that of 2-saddle, then 1-saddle); those of one are in the
 /// order in which cancelling made them. The Euler characteristic stays as it is. `complex` has all 1-separatrices and
-/// connectors (MorseSmaleParts); `value(v)` is the field at an input vertex: throws gale::Error, naming the vertex, if
-/// that is NaN where it is asked for. Sequential; time and memory grow with the number and the length of paths, none of
-/// which passes a cell twice.
+/// connectors: throws gale::Error, naming the missing parts, if it was computed without (MorseSmaleParts). `value(v)`
+/// is the field at an input vertex: throws gale::Error, naming the vertex, if that is NaN where it is asked for.
+/// Sequential; time and memory grow with the number and the length of paths, none of which passes a cell twice.
 MorseSmaleComplex simplify(const MorseSmaleComplex& complex, const std::function<double(Id)>& value, double threshold);
 
 }  // namespace gale

@@ -6,14 +6,14 @@
 
 namespace gale {
 
-/// A total order of a mesh' vertices: by field value, then by input vertex id. Keys compare as the vertices do; they
-/// lie on the host, under GALE's vertex ids, and no two are equal.
+/// A total order of a mesh's vertices: by field value, then by input vertex id. Keys compare as the vertices do; they
+/// lie on the host, under GALE's vertex ids, and no two are equal. It serves that mesh and its copies alone.
 class VertexOrder {
  public:
-  /// From a value for each vertex, in input order; `Value` is any of the ten fixed-size integers and floating-point
-  /// types. Infinities are values, and the two zeros are equal. Parallel; O(n) for types of up to 32 bits, else a sort.
-  /// 8 bytes a vertex. Throws gale::Error if a value is NaN, naming the first such vertex, and if there aren't as many
-  /// values as vertices.
+  /// From a value for each vertex, in input order; `Value` is `char`, any signed or unsigned integer type from
+  /// `signed char` to `unsigned long long`, `float` or `double`. Infinities are values, and the two zeros are equal.
+  /// Parallel; O(n) for types of up to 32 bits, else a sort. 8 bytes a vertex. Throws gale::Error if a value is NaN,
+  /// naming the first such vertex, and if there aren't as many values as vertices.
   template <class Value>
   VertexOrder(const Mesh& mesh, const Value* values, std::size_t count);
 
@@ -21,6 +21,7 @@ class VertexOrder {
   template <class View, class = std::enable_if_t<Kokkos::is_view<View>::value>>
   VertexOrder(const Mesh& mesh, const View& values) : VertexOrder(of_view(mesh, values)) {}
 
+  const Mesh& mesh() const { return mesh_; }
   const std::uint64_t* keys() const { return keys_.data(); }
 
  private:
@@ -34,6 +35,7 @@ class VertexOrder {
     return VertexOrder(mesh, copy.data(), copy.extent(0));
   }
 
+  Mesh mesh_;
   Array<std::uint64_t, HostMemory> keys_;
 };
 

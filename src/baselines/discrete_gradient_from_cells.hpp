@@ -10,7 +10,8 @@ namespace gale {
 /// give to such programs.
 ///
 /// A sweep of VE, VF and VT, with rows of EV, FV and TV: from the mesh' tables, or from a structure that keeps them.
-/// `structure` must be preconditioned for all six. Nothing is allocated for a vertex once the longest rows were seen.
+/// `structure` must be preconditioned for all six, and `order` be of its mesh: throws gale::Error otherwise. Nothing is
+/// allocated for a vertex once the longest rows were seen.
 DiscreteGradient find_discrete_gradient_from_cells(Structure& structure, const VertexOrder& order,
                                                    const SweepOptions& options = {});
 

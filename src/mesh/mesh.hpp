@@ -37,6 +37,9 @@ class Mesh {
   template <class Index, class Memory>
   Mesh(const Tetrahedra<Index, Memory>& tetrahedra, const Segmentation& segmentation);
 
+  /// Is it the same mesh, or a copy of it? Another one of equal tetrahedra isn't.
+  bool operator==(const Mesh& other) const { return data_ == other.data_; }
+
   Id vertices() const;
   Id tetrahedra() const;
   Id segments() const;

@@ -8,6 +8,7 @@
 #include "algorithms/fields.hpp"
 #include "algorithms/structure_kinds.hpp"
 #include "support/every_mesh.hpp"
+#include "support/message_of.hpp"
 
 namespace gale::test {
 
@@ -83,6 +84,29 @@ TEST(CriticalPoints, need_the_relations_that_they_read) {
   const std::vector<float> field(4, 1.0f);
   const auto runtime = make_structure(mesh, Relation::VV);
   EXPECT_THROW(find_critical_points(*runtime, VertexOrder(mesh, field.data(), field.size())), Error);
+}
+
+TEST(CriticalPoints, refuse_the_order_of_another_mesh) {
+  const InputMesh& input = mesh_named("one_tetrahedron");
+  const InputMesh& larger = mesh_named("holed_grid_9");
+  const Mesh mesh = encode(input, octree_of(input, 100)), other = encode(larger, octree_of(larger, 100));
+  const std::vector<float> field(input.points.size(), 1.0f);
+  const VertexOrder order(mesh, field.data(), field.size());
+  Runtime runtime(other, critical_points_relations);
+  EXPECT_EQ(
+      message_of([&] { find_critical_points(runtime, order); }),
+      "the vertex order is of another mesh than the structure: of one of 4 vertices and 1 tetrahedra, not of that of " +
+          std::to_string(other.vertices()) + " vertices and " + std::to_string(other.tetrahedra()) + " tetrahedra");
+}
+
+TEST(CriticalPoints, take_the_order_of_a_copy_of_the_mesh) {
+  const InputMesh& input = mesh_named("one_tetrahedron");
+  const Mesh mesh = encode(input, octree_of(input, 100));
+  const Mesh copy = mesh;
+  const std::vector<float> field(4, 1.0f);
+  Runtime runtime(copy, critical_points_relations);
+  EXPECT_EQ(find_critical_points(runtime, VertexOrder(mesh, field.data(), 4)).vertices.size(), 2u);
+  EXPECT_FALSE(mesh == encode(input, octree_of(input, 100))) << "of equal tetrahedra, but not the same";
 }
 
 }  // namespace gale::test

@@ -4,11 +4,13 @@
 
 #include <gale/algorithms/morse_smale.hpp>
 #include <gale/base/error.hpp>
+#include <gale/baselines/discrete_gradient_from_cells.hpp>
 
 #include "algorithms/brute_force_complex.hpp"
 #include "algorithms/fields.hpp"
 #include "algorithms/structure_kinds.hpp"
 #include "support/every_mesh.hpp"
+#include "support/message_of.hpp"
 
 namespace gale::test {
 
@@ -100,6 +102,23 @@ TEST(MorseSmaleComplex, needs_VT_for_its_surfaces) {
   EXPECT_THROW(find_morse_smale_complex(*without, gradient, all_parts()), Error);
   EXPECT_TRUE(equal(find_morse_smale_complex(*without, gradient), find_morse_smale_complex(*structure, gradient)))
       << "what reads no relation";
+}
+
+TEST(MorseSmaleComplex, refuses_an_order_or_a_gradient_of_another_mesh) {
+  const InputMesh& input = mesh_named("holed_grid_9");
+  const Mesh mesh = encode(input, octree_of(input, 100)), other = encode(input, octree_of(input, 50));
+  const auto field = fields_on(input).front();
+  const VertexOrder order(mesh, field.values.data(), field.values.size());
+  constexpr RelationSet relations = morse_smale_relations | discrete_gradient_from_cells_relations;
+  const auto structure = structure_kinds().front().make(mesh, relations);
+  const auto structure_of_other = structure_kinds().front().make(other, relations);
+  const auto gradient = find_discrete_gradient(*structure, order);
+  const auto is_refused = [](const std::string& message) {
+    return message.find("the structure of another one") != std::string::npos;
+  };
+  EXPECT_PRED1(is_refused, message_of([&] { find_discrete_gradient(*structure_of_other, order); }));
+  EXPECT_PRED1(is_refused, message_of([&] { find_discrete_gradient_from_cells(*structure_of_other, order); }));
+  EXPECT_PRED1(is_refused, message_of([&] { find_morse_smale_complex(*structure_of_other, gradient); }));
 }
 
 }  // namespace gale::test

@@ -1,8 +1,13 @@
 #include <map>
 #include <set>
 
+#include <gale/algorithms/simplify.hpp>
+#include <gale/runtime/runtime.hpp>
+
 #include "algorithms/brute_force_simplify.hpp"
 #include "algorithms/complexes.hpp"
+#include "support/message_of.hpp"
+#include "support/segmentations.hpp"
 
 namespace gale::test {
 
@@ -123,6 +128,28 @@ TEST(Simplify, leaves_pairs_that_would_make_too_many_paths) {
   int single = 0;
   for (const auto& [ends, count] : between) single += count == 1;
   EXPECT_GT(single, 0);
+}
+
+TEST(Simplify, refuses_a_complex_without_the_parts_that_it_needs) {
+  const InputMesh input = strip(6);
+  const Mesh mesh = encode(input, octree_of(input, 50));
+  Runtime runtime(mesh, morse_smale_relations);
+  const std::vector<double> field = {0, 2, 4, 5, 3, 1};
+  const auto gradient = find_discrete_gradient(runtime, VertexOrder(mesh, field.data(), field.size()));
+  const auto message = [&](const MorseSmaleParts& parts) {
+    return message_of([&] {
+      simplify(
+          find_morse_smale_complex(runtime, gradient, parts), [&](Id v) { return field.at(v); }, 5);
+    });
+  };
+  const std::string refusal = "simplify needs parts that the complex was computed without: ";
+  MorseSmaleParts parts;
+  parts.descending_manifolds = parts.ascending_manifolds = false;
+  EXPECT_EQ(message(parts), "no error");
+  parts.saddle_connectors = false;
+  EXPECT_EQ(message(parts), refusal + "saddle connectors");
+  parts.descending_separatrices = parts.ascending_separatrices = false;
+  EXPECT_EQ(message(parts), refusal + "descending separatrices, ascending separatrices, saddle connectors");
 }
 
 }  // namespace gale::test

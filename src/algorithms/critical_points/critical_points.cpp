@@ -3,6 +3,7 @@
 #include <gale/algorithms/critical_points.hpp>
 #include <gale/algorithms/links/large_link.hpp>
 #include <gale/algorithms/links/small_link.hpp>
+#include <gale/algorithms/order/same_mesh.hpp>
 #include <gale/base/parallel.hpp>
 
 namespace gale {
@@ -22,8 +23,8 @@ CriticalType type_of(const detail::LinkTopology& topology) {
   return CriticalType::degenerate;
 }
 
-/// The sweep: what each vertex is by its own link; and, since only its neighbours know which of them are on the
-/// surface, what they tell it.
+/// The sweep. It finds the type of each vertex by the vertex's own link. Vertices on the surface tell their neighbours
+/// that they are, as the type of a neighbour on the surface depends on that.
 class Classification {
  public:
   Classification(const Mesh& mesh, const VertexOrder& order, int threads)
@@ -61,7 +62,8 @@ class Classification {
   detail::LinkTopology topology_of(detail::LargeLink& large, Id v, const Row& neighbours, const LinkRow& link) const {
     const std::uint64_t key = keys_[v];
     if (neighbours.size() > detail::SmallLink::capacity) {
-      return large.topology(neighbours.size(), link, [&](Id i) { return keys_[neighbours[i]] < key; });
+      large.build(link);
+      return large.topology(neighbours.size(), [&](Id i) { return keys_[neighbours[i]] < key; });
     }
     std::uint64_t lower = 0;
     for (Id i = 0; i < neighbours.size(); ++i) lower |= std::uint64_t(keys_[neighbours[i]] < key) << i;
@@ -105,6 +107,7 @@ CriticalPoints collect(const Mesh& mesh, const Classification& classification) {
 }  // namespace
 
 CriticalPoints find_critical_points(Structure& structure, const VertexOrder& order, const SweepOptions& options) {
+  detail::require_same_mesh("the vertex order", order.mesh(), structure.mesh());
   const ThreadLimit limit(options.threads);
   Classification classification(structure.mesh(), order, options.threads);
   structure.for_each_segment(critical_points_relations, options,

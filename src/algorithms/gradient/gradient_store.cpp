@@ -3,6 +3,7 @@
 #include <iterator>
 
 #include <gale/algorithms/gradient/gradient_store.hpp>
+#include <gale/algorithms/order/same_mesh.hpp>
 #include <gale/algorithms/order/written.hpp>
 #include <gale/base/threads.hpp>
 
@@ -33,7 +34,9 @@ GradientStore::GradientStore(const Mesh& mesh_, const VertexOrder& order_, int c
       tetrahedron_successor(allocate<Array<Id, HostMemory>>("GALE::tetrahedron_successor", mesh.tetrahedra())),
       pairs(mesh.vertices(), consumers),
       found_(consumers),
-      stars_(consumers) {}
+      stars_(consumers) {
+  require_same_mesh("the vertex order", order.mesh(), mesh);
+}
 
 void GradientStore::finish() {
   const Id* const vertex_input = mesh.vertex_input().data();

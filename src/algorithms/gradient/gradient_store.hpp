@@ -12,6 +12,7 @@ namespace gale::detail {
 /// with it all simplices that have it as their highest vertex.
 class GradientStore {
  public:
+  /// Throws gale::Error if the order is of another mesh.
   GradientStore(const Mesh& mesh, const VertexOrder& order, int consumers);
 
   /// A vertex' edge; no_id if it is critical.

@@ -10,29 +10,47 @@
 
 namespace gale::detail {
 
-/// What SmallLink does, for a vertex with any number of neighbours: by union-find, and by sorting the link's edges. One
-/// serves one thread, and keeps its memory.
+/// The link of a vertex with any number of neighbours: its edges, sorted. One serves one thread, for one vertex after
+/// the other, and keeps its memory. Time O(n log n) in the length of the link.
 class LargeLink {
  public:
-  /// `is_lower(i)`: is the i-th neighbour below the vertex?
-  template <class IsLower>
-  LinkTopology topology(Id neighbours, const LinkRow& link, const IsLower& is_lower) {
-    parent_.resize(neighbours);
-    std::iota(parent_.begin(), parent_.end(), Id(0));
+  void build(const LinkRow& link) {
     edges_.clear();
     for (Id t = 0; t < link.size(); ++t) {
-      const Id corner[3] = {link(t, 0), link(t, 1), link(t, 2)};
-      for (int k = 0; k < 3; ++k) {
-        const Id a = corner[k == 2 ? 0 : k], b = corner[k == 0 ? 1 : 2];
-        edges_.push_back(pair_key(a, b));
-        if (is_lower(a) == is_lower(b)) parent_[root(a)] = root(b);
-      }
+      const Id a = link(t, 0), b = link(t, 1), c = link(t, 2);
+      edges_.insert(edges_.end(), {pair_key(a, b), pair_key(a, c), pair_key(b, c)});
+    }
+    std::sort(edges_.begin(), edges_.end());
+    is_open_ = false;
+    std::size_t kept = 0;
+    for (std::size_t i = 0, next = 0; i < edges_.size(); i = next) {
+      for (next = i + 1; next < edges_.size() && edges_[next] == edges_[i];) ++next;
+      is_open_ |= next == i + 1;
+      edges_[kept++] = edges_[i];
+    }
+    edges_.resize(kept);
+  }
+
+  /// Has the link an edge with one triangle only?
+  bool is_open() const { return is_open_; }
+
+  /// The link's edges, each once, as pairs of places in the VV row, the lower place first; ascending.
+  const std::vector<std::uint64_t>& edges() const { return edges_; }
+
+  /// Classifies the vertex. `is_lower(i)`: is the i-th neighbour below it?
+  template <class IsLower>
+  LinkTopology topology(Id neighbours, const IsLower& is_lower) {
+    parent_.resize(neighbours);
+    std::iota(parent_.begin(), parent_.end(), Id(0));
+    for (const std::uint64_t edge : edges_) {
+      const Id a = pair_first(edge), b = pair_second(edge);
+      if (is_lower(a) == is_lower(b)) parent_[root(a)] = root(b);
     }
     LinkTopology topology;
     for (Id i = 0; i < neighbours; ++i) {
       if (parent_[i] == i) ++(is_lower(i) ? topology.lower : topology.upper);
     }
-    topology.on_surface = has_single_edge();
+    topology.on_surface = is_open_;
     return topology;
   }
 
@@ -42,19 +60,9 @@ class LargeLink {
     return i;
   }
 
-  bool has_single_edge() {
-    std::sort(edges_.begin(), edges_.end());
-    for (std::size_t i = 0; i < edges_.size();) {
-      std::size_t end = i + 1;
-      while (end < edges_.size() && edges_[end] == edges_[i]) ++end;
-      if (end - i == 1) return true;
-      i = end;
-    }
-    return false;
-  }
-
+  std::vector<std::uint64_t> edges_;
   std::vector<Id> parent_;
-  std::vector<std::uint64_t> edges_;  ///< of the link: the lower place in the upper half
+  bool is_open_ = false;
 };
 
 }  // namespace gale::detail

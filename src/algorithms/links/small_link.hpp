@@ -7,15 +7,19 @@
 
 namespace gale::detail {
 
+// The link of a vertex has its neighbours as vertices. Two of them have an edge in it if they share a triangle with the
+// vertex, and each tetrahedron of the vertex is a triangle of it. So a triangle of the vertex that has one tetrahedron
+// only, one on the mesh's surface, is an edge of the link with one triangle only.
+
 /// What the link of a vertex says of it.
 struct LinkTopology {
   int lower = 0;            ///< connected components of the lower neighbours
-  int upper = 0;            ///< and of the upper ones
+  int upper = 0;            ///< connected components of the upper neighbours
   bool on_surface = false;  ///< it belongs to a triangle with exactly one tetrahedron
 };
 
-/// The link of a vertex with at most 64 neighbours: for each of them, those that share a tetrahedron with it, as a bit
-/// mask.
+/// The link of a vertex with at most 64 neighbours: for each of them a word, with a bit for each neighbour that shares
+/// an edge of the link with it.
 class SmallLink {
  public:
   static constexpr Id capacity = 64;
@@ -35,7 +39,7 @@ class SmallLink {
   /// Has the link an edge with one triangle only?
   KOKKOS_FUNCTION bool is_open() const { return open_ != 0; }
 
-  /// The neighbours that share a tetrahedron with the vertex and the i-th one.
+  /// The neighbours that share an edge of the link with the i-th one.
   KOKKOS_FORCEINLINE_FUNCTION std::uint64_t touching(Id i) const { return once_[i]; }
 
   /// Connected components of a set of neighbours, by flooding.

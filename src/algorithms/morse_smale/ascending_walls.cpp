@@ -5,10 +5,10 @@
 
 #include <gale/algorithms/morse_smale/ascending_walls.hpp>
 #include <gale/algorithms/morse_smale/edge_star.hpp>
-#include <gale/algorithms/morse_smale/edge_table.hpp>
 #include <gale/algorithms/morse_smale/gathered_separatrices.hpp>
 #include <gale/algorithms/morse_smale/space_order.hpp>
 #include <gale/algorithms/order/written.hpp>
+#include <gale/base/hash_table.hpp>
 #include <gale/base/threads.hpp>
 
 namespace gale::detail {
@@ -60,7 +60,7 @@ class Tracer {
 
   void follow(Id source, const Edge& critical) {
     seen_.clear();
-    seen_.insert(critical[0], critical[1]);
+    seen_.insert(pair_key(critical[0], critical[1]));
     const auto first = static_cast<std::ptrdiff_t>(walls.cells.size());
     for (Edge edge = critical;; edge = pending_.take()) {
       const auto [high, low] = edge;
@@ -86,7 +86,7 @@ class Tracer {
     std::sort(triangle.begin(), triangle.end(), [this](Id a, Id b) { return keys_[a] > keys_[b]; });
     for (int i = 1; i < 3; ++i) {
       if (gradient_.triangle_of_lower_edge(triangle[0], triangle[i]) != triangle[3 - i]) continue;
-      if (seen_.insert(triangle[0], triangle[i]).second) pending_.add({triangle[0], triangle[i]});
+      if (seen_.insert(pair_key(triangle[0], triangle[i])).second) pending_.add({triangle[0], triangle[i]});
     }
   }
 
@@ -98,7 +98,7 @@ class Tracer {
   const Id* vertex_input_;
   std::unique_ptr<Consumer> consumer_;
   EdgeStar star_;
-  EdgeTable<Nothing> seen_;
+  HashTable<Nothing> seen_;
   Pending pending_;
 };
 

@@ -1,48 +1,38 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include <gale/algorithms/critical_simplices.hpp>
-#include <gale/base/pair_key.hpp>
+#include <gale/base/hash_table.hpp>
 
 namespace gale::detail {
 
-/// Where a critical simplex is among those of its dimension: hash tables with open addressing.
+/// The place of each critical simplex among those of its dimension; no_id for a simplex that isn't critical.
 class CriticalPlaces {
  public:
-  explicit CriticalPlaces(const CriticalSimplices& critical);
+  explicit CriticalPlaces(const CriticalSimplices& critical)
+      : vertices_(critical.vertices.size()), edges_(critical.edges.size()), tetrahedra_(critical.tetrahedra.size()) {
+    for (const Id vertex : critical.vertices) add(vertices_, vertex);
+    for (const auto& [high, low] : critical.edges) add(edges_, pair_key(high, low));
+    for (const Id tetrahedron : critical.tetrahedra) add(tetrahedra_, tetrahedron);
+  }
 
-  Id of_vertex(Id vertex) const { return vertices_.find(vertex); }
-  Id of_edge(Id high, Id low) const { return edges_.find(pair_key(high, low)); }
-  Id of_tetrahedron(Id tetrahedron) const { return tetrahedra_.find(tetrahedron); }
+  Id of_vertex(Id vertex) const { return find(vertices_, vertex); }
+  Id of_edge(Id high, Id low) const { return find(edges_, pair_key(high, low)); }
+  Id of_tetrahedron(Id tetrahedron) const { return find(tetrahedra_, tetrahedron); }
 
  private:
-  class Table {
-   public:
-    explicit Table(std::size_t count);
-    void add(std::uint64_t key, Id place) { slots_[slot_of(key)] = {key, place}; }
+  static void add(HashTable<Id>& places, std::uint64_t key) {
+    const Id place = static_cast<Id>(places.size());
+    places.insert(key).first = place;
+  }
 
-    /// no_id if there is no such key.
-    Id find(std::uint64_t key) const { return slots_[slot_of(key)].place; }
+  static Id find(const HashTable<Id>& places, std::uint64_t key) {
+    const Id* const place = places.find(key);
+    return place == nullptr ? no_id : *place;
+  }
 
-   private:
-    struct Slot {
-      std::uint64_t key = 0;
-      Id place = no_id;
-    };
-
-    std::size_t slot_of(std::uint64_t key) const {
-      const std::size_t mask = slots_.size() - 1;
-      std::size_t slot = static_cast<std::size_t>(spread(key)) & mask;
-      while (slots_[slot].place != no_id && slots_[slot].key != key) slot = (slot + 1) & mask;
-      return slot;
-    }
-
-    std::vector<Slot> slots_;
-  };
-
-  Table vertices_, edges_, tetrahedra_;
+  HashTable<Id> vertices_, edges_, tetrahedra_;
 };
 
 }  // namespace gale::detail

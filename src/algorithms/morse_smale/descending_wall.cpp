@@ -23,7 +23,7 @@ void DescendingWall::follow(const TriangleVertices& critical) {
 }
 
 void DescendingWall::cross(Id high, Id low, std::uint32_t from) {
-  const auto [above, is_new] = above_.insert(high, low);
+  const auto [above, is_new] = above_.insert(pair_key(high, low));
   if (!is_new) {
     above.are_several = true;
     if (is_less(triangles_[from], triangles_[above.least])) above.least = from;
@@ -43,7 +43,7 @@ bool DescendingWall::append_path(const Edge& from, std::vector<TriangleVertices>
   bool is_only = true;
   Edge edge = from;
   while (true) {
-    const Above& above = above_(edge.high, edge.low);
+    const Above& above = *above_.find(pair_key(edge.high, edge.low));
     const TriangleVertices& triangle = triangles_[above.least];
     is_only = is_only && !above.are_several;
     path.push_back(triangle);

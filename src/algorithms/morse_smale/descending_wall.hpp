@@ -4,8 +4,8 @@
 
 #include <gale/algorithms/discrete_gradient.hpp>
 #include <gale/algorithms/gradient/gradient_store.hpp>
-#include <gale/algorithms/morse_smale/edge_table.hpp>
 #include <gale/algorithms/separatrices.hpp>
+#include <gale/base/hash_table.hpp>
 
 namespace gale::detail {
 
@@ -52,7 +52,7 @@ class DescendingWall {
   const Id* vertex_input_;
   std::vector<TriangleVertices> triangles_;
   std::vector<Edge> critical_edges_;
-  EdgeTable<Above> above_;
+  HashTable<Above> above_;
 };
 
 }  // namespace gale::detail

@@ -1,83 +1,124 @@
 #include <algorithm>
 
 #include <gale/algorithms/morse_smale/edge_star.hpp>
+#include <gale/base/pair_key.hpp>
 
 namespace gale::detail {
+
+namespace {
+
+/// Up to here looking through a whole VT row for an edge is faster than to sort it.
+constexpr Id short_row = 256;
+
+}  // namespace
 
 EdgeStar::EdgeStar(const Mesh& mesh)
     : mesh_(mesh), encoded_(mesh.encoded()), tetrahedron_input_(mesh.tetrahedron_input().data()) {}
 
 void EdgeStar::find(Id high, Id low, const Row& tetrahedra) {
   wedges_.clear();
-  for (const Id t : tetrahedra) {
-    Wedge wedge{tetrahedron_input_[t], t, {no_id, no_id}, false};
-    int sides = 0;
-    for (int corner = 0; corner < 4; ++corner) {
-      const Id vertex = encoded_.tetrahedra(t, corner);
-      if (vertex == high || vertex == low) continue;
-      if (sides == 2) break;  // `low` isn't among them
-      wedge.sides[sides++] = vertex;
+  if (tetrahedra.size() <= short_row) {
+    for (const Id t : tetrahedra) {
+      const Id* const corners = &encoded_.tetrahedra(t, 0);
+      if (std::find(corners, corners + 4, low) != corners + 4) add_wedge(t);
     }
-    const bool has_low =
-        std::find(&encoded_.tetrahedra(t, 0), &encoded_.tetrahedra(t, 0) + 4, low) != &encoded_.tetrahedra(t, 0) + 4;
-    if (has_low) wedges_.push_back(wedge);
+  } else {
+    const VertexStar& star = star_of(high, tetrahedra);
+    auto at = std::lower_bound(star.begin(), star.end(), pair_key(low, 0));
+    for (; at != star.end() && pair_first(*at) == low; ++at) add_wedge(pair_second(*at));
   }
   std::sort(wedges_.begin(), wedges_.end(), [](const Wedge& a, const Wedge& b) { return a.input < b.input; });
-  find_thirds();
+  find_thirds(high, low);
   go_around();
 }
 
-void EdgeStar::find_thirds() {
+/// That of a vertex with a long row. Kept, because walls come back to a vertex for one edge after the other.
+const EdgeStar::VertexStar& EdgeStar::star_of(Id vertex, const Row& tetrahedra) {
+  const auto [entry, is_new] = long_stars_.try_emplace(vertex);
+  VertexStar& star = entry->second;
+  if (!is_new) return star;
+  star.reserve(3 * static_cast<std::size_t>(tetrahedra.size()));
+  for (const Id t : tetrahedra) {
+    for (int corner = 0; corner < 4; ++corner) {
+      const Id other = encoded_.tetrahedra(t, corner);
+      if (other != vertex) star.push_back(pair_key(other, t));
+    }
+  }
+  std::sort(star.begin(), star.end());
+  return star;
+}
+
+void EdgeStar::add_wedge(Id tetrahedron) {
+  wedges_.push_back({tetrahedron_input_[tetrahedron], tetrahedron, {-1, -1}, false});
+}
+
+/// The edge's triangles, and the wedges at each of them.
+void EdgeStar::find_thirds(Id high, Id low) {
+  at_sides_.clear();
+  for (int i = 0; i < static_cast<int>(wedges_.size()); ++i) {
+    for (int corner = 0; corner < 4; ++corner) {
+      const Id vertex = encoded_.tetrahedra(wedges_[i].tetrahedron, corner);
+      if (vertex != high && vertex != low) at_sides_.push_back(pair_key(vertex, i));
+    }
+  }
+  std::sort(at_sides_.begin(), at_sides_.end());
   thirds_.clear();
-  for (const Wedge& wedge : wedges_) thirds_.insert(thirds_.end(), wedge.sides, wedge.sides + 2);
-  std::sort(thirds_.begin(), thirds_.end());
-  thirds_.erase(std::unique(thirds_.begin(), thirds_.end()), thirds_.end());
+  side_begin_.clear();
+  for (int i = 0; i < static_cast<int>(at_sides_.size()); ++i) {
+    const Id third = pair_first(at_sides_[i]);
+    if (thirds_.empty() || thirds_.back() != third) {
+      thirds_.push_back(third);
+      side_begin_.push_back(i);
+    }
+    auto& sides = wedges_[pair_second(at_sides_[i])].sides;
+    sides[sides[0] < 0 ? 0 : 1] = static_cast<int>(thirds_.size()) - 1;
+  }
+  side_next_ = side_begin_;
+  side_begin_.push_back(static_cast<int>(at_sides_.size()));
 }
 
 /// From wedge to wedge over the sides that they share; from a new first one when there is no further.
 void EdgeStar::go_around() {
   around_.clear();
+  next_end_ = next_any_ = 0;
   while (around_.size() < wedges_.size()) {
     int at = first();
-    Wedge& begin = wedges_[at];
-    begin.taken = true;
-    around_.push_back(begin.tetrahedron);
-    const int one = next(begin.sides[0]), other = next(begin.sides[1]);
+    take(at);
+    const auto& sides = wedges_[at].sides;
+    const int one = next(sides[0]), other = next(sides[1]);
     const bool over_first = other < 0 || (one >= 0 && one <= other);
-    for (Id side = begin.sides[over_first ? 0 : 1]; (at = next(side)) >= 0;) {
-      Wedge& wedge = wedges_[at];
-      wedge.taken = true;
-      around_.push_back(wedge.tetrahedron);
-      side = wedge.sides[0] == side ? wedge.sides[1] : wedge.sides[0];
+    for (int side = sides[over_first ? 0 : 1]; (at = next(side)) >= 0;) {
+      take(at);
+      side = wedges_[at].sides[0] == side ? wedges_[at].sides[1] : wedges_[at].sides[0];
     }
   }
 }
 
-/// Has it a side of its own?
-bool EdgeStar::is_end(const Wedge& wedge) const {
-  return std::any_of(wedge.sides, wedge.sides + 2, [&](Id side) {
-    return std::count_if(wedges_.begin(), wedges_.end(),
-                         [&](const Wedge& other) { return other.sides[0] == side || other.sides[1] == side; }) == 1;
-  });
+void EdgeStar::take(int wedge) {
+  wedges_[wedge].taken = true;
+  around_.push_back(wedges_[wedge].tetrahedron);
 }
 
-/// The first end that isn't taken; else the first wedge.
-int EdgeStar::first() const {
-  int best = -1;
-  for (int i = 0; i < static_cast<int>(wedges_.size()); ++i) {
-    if (wedges_[i].taken) continue;
-    if (is_end(wedges_[i])) return i;
-    if (best < 0) best = i;
-  }
-  return best;
+/// Has it a side of its own?
+bool EdgeStar::is_end(const Wedge& wedge) const {
+  return std::any_of(wedge.sides, wedge.sides + 2,
+                     [this](int side) { return side_begin_[side + 1] - side_begin_[side] == 1; });
+}
+
+/// The first end that isn't taken; else the first wedge that isn't. There is one.
+int EdgeStar::first() {
+  const int count = static_cast<int>(wedges_.size());
+  while (next_end_ < count && (wedges_[next_end_].taken || !is_end(wedges_[next_end_]))) ++next_end_;
+  if (next_end_ < count) return next_end_;
+  while (wedges_[next_any_].taken) ++next_any_;
+  return next_any_;
 }
 
 /// The first wedge beyond a side that isn't taken; -1 if there is none.
-int EdgeStar::next(Id side) const {
-  for (int i = 0; i < static_cast<int>(wedges_.size()); ++i) {
-    if (!wedges_[i].taken && (wedges_[i].sides[0] == side || wedges_[i].sides[1] == side)) return i;
-  }
-  return -1;
+int EdgeStar::next(int side) {
+  int& at = side_next_[side];
+  while (at < side_begin_[side + 1] && wedges_[pair_second(at_sides_[at])].taken) ++at;
+  return at < side_begin_[side + 1] ? pair_second(at_sides_[at]) : -1;
 }
 
 }  // namespace gale::detail

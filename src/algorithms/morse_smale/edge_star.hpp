@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <unordered_map>
 #include <vector>
 
 #include <gale/mesh/mesh.hpp>
@@ -7,15 +9,17 @@
 
 namespace gale::detail {
 
-/// The tetrahedra and triangles of an edge. One serves one thread, and keeps its memory.
+/// The tetrahedra and triangles of an edge. One serves one thread, for one edge after the other, and keeps its memory.
 class EdgeStar {
  public:
   explicit EdgeStar(const Mesh& mesh);
 
-  /// Of the edge between `low` and the vertex whose VT row this is.
+  /// Finds those of the edge between `low` and `high`, whose VT row this is. Time O(k log k) in the number k of the
+  /// edge's tetrahedra, and beside that: O(1) while the row is short, else O(log n) in its length n. The first edge at
+  /// a vertex with a long row takes O(n log n), and 24 bytes an entry of the row, which are kept.
   void find(Id high, Id low, const Row& tetrahedra);
 
-  /// The third vertices of its triangles.
+  /// The third vertices of its triangles, ascending.
   const std::vector<Id>& thirds() const { return thirds_; }
 
   /// Its tetrahedra in their order around it. From an end if there is one, else from that of the lowest input id; of
@@ -24,23 +28,34 @@ class EdgeStar {
   const std::vector<Id>& around() const { return around_; }
 
  private:
-  /// A tetrahedron and its two vertices beside the edge's.
+  /// A tetrahedron and its two triangles at the edge, by their places in `thirds_`.
   struct Wedge {
     Id input, tetrahedron;
-    Id sides[2];
+    int sides[2];
     bool taken;
   };
 
-  void find_thirds();
+  /// Pairs (other vertex, tetrahedron) of the star of a vertex, ascending.
+  using VertexStar = std::vector<std::uint64_t>;
+
+  const VertexStar& star_of(Id vertex, const Row& tetrahedra);
+  void add_wedge(Id tetrahedron);
+  void find_thirds(Id high, Id low);
   void go_around();
+  void take(int wedge);
   bool is_end(const Wedge& wedge) const;
-  int first() const;
-  int next(Id side) const;
+  int first();
+  int next(int side);
 
   Mesh mesh_;
   EncodedMesh<HostMemory> encoded_;
   const Id* tetrahedron_input_;
-  std::vector<Wedge> wedges_;
+  std::unordered_map<Id, VertexStar> long_stars_;
+  std::vector<Wedge> wedges_;            ///< by input id
+  std::vector<std::uint64_t> at_sides_;  ///< pairs (third vertex, wedge), ascending
+  std::vector<int> side_begin_;          ///< where each side's pairs begin
+  std::vector<int> side_next_;           ///< the first pair of each side whose wedge may not be taken yet
+  int next_end_ = 0, next_any_ = 0;      ///< before these no end, and no wedge, is left
   std::vector<Id> thirds_, around_;
 };
 

@@ -106,7 +106,7 @@ HostIds ascending_in(const Space& space, const DiscreteGradient& gradient) {
   const auto manifolds = allocate<Ids<Space>>("GALE::ascending_manifolds", first.extent(0));
   parallel_for(
       "GALE::ascending_manifolds", space, first.extent(0), KOKKOS_LAMBDA(Offset v) {
-        const Id tetrahedron = static_cast<Id>(first(v) & 0xffffffffu);
+        const Id tetrahedron = pair_second(first(v));
         manifolds(input(v)) =
             first(v) == none || next(tetrahedron) == outside ? no_id : place_of_end(next(tetrahedron));
       });

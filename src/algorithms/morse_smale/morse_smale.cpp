@@ -7,15 +7,17 @@
 #include <gale/algorithms/morse_smale/descending_surfaces.hpp>
 #include <gale/algorithms/morse_smale/manifolds.hpp>
 #include <gale/algorithms/morse_smale/separatrices1.hpp>
+#include <gale/algorithms/order/same_mesh.hpp>
 
 namespace gale {
 
 MorseSmaleComplex find_morse_smale_complex(Structure& structure, const DiscreteGradient& gradient,
                                            const MorseSmaleParts& parts, const SweepOptions& options) {
+  detail::require_same_mesh("the gradient", gradient.mesh(), structure.mesh());
   const ThreadLimit limit(options.threads);
   const int threads = std::max(options.threads, 1);
   const detail::CriticalPlaces places(gradient.critical());
-  MorseSmaleComplex complex{gradient, gradient.critical()};
+  MorseSmaleComplex complex{gradient, parts, gradient.critical()};
   if (parts.descending_separatrices) complex.descending = detail::descending_separatrices(gradient, places);
   if (parts.ascending_separatrices) complex.ascending = detail::ascending_separatrices(gradient, places);
   if (parts.saddle_connectors || parts.separatrices2) {

@@ -4,16 +4,17 @@
 #include <cstdint>
 #include <vector>
 
+#include <gale/algorithms/links/large_link.hpp>
 #include <gale/algorithms/links/small_link.hpp>
 #include <gale/base/pair_key.hpp>
 
 namespace gale::detail {
 
 // The later star of a vertex: the edges and triangles in which no other vertex has a lower input id. Their other
-// vertices, its later neighbours, are named by GALE's ids. Both classes count them, and know each one's place among
-// those of its dimension in lexicographic order of input vertices.
+// vertices are its later neighbours, which are named by GALE's ids. Both classes count these edges and triangles, and
+// know each one's place among those of its dimension, in lexicographic order of input vertices.
 
-/// Of a vertex with at most SmallLink::capacity neighbours.
+/// The later star of a vertex with at most SmallLink::capacity neighbours.
 class SmallLaterStar {
  public:
   /// `input`: GALE's vertex -> input vertex.
@@ -68,7 +69,7 @@ class SmallLaterStar {
   std::uint64_t later_ = 0;
 };
 
-/// Of a vertex with any number of neighbours, by sorting. One serves one thread, and keeps its memory.
+/// The later star of a vertex with any number of neighbours, by sorting. One serves one thread, and keeps its memory.
 class LargeLaterStar {
  public:
   void build(const Id* input, Id vertex, const Row& neighbours, const LinkRow& link) {
@@ -78,15 +79,16 @@ class LargeLaterStar {
       if (input[neighbour] > input[vertex]) edges_.push_back(input[neighbour]);
     }
     std::sort(edges_.begin(), edges_.end());
+    link_.build(link);
     triangles_.clear();
-    for (Id t = 0; t < link.size(); ++t) {
-      const Id corner[3] = {neighbours[link(t, 0)], neighbours[link(t, 1)], neighbours[link(t, 2)]};
-      for (int k = 0; k < 3; ++k) triangles_.push_back(key(corner[k], corner[(k + 1) % 3]));
+    for (const std::uint64_t edge : link_.edges()) {
+      const std::uint64_t triangle = key(neighbours[pair_first(edge)], neighbours[pair_second(edge)]);
+      if (pair_first(triangle) > input[vertex]) triangles_.push_back(triangle);
     }
-    keep_later(input[vertex]);
+    std::sort(triangles_.begin(), triangles_.end());
   }
 
-  bool on_surface() const { return on_surface_; }
+  bool on_surface() const { return link_.is_open(); }
   Id edges() const { return static_cast<Id>(edges_.size()); }
   Id triangles() const { return static_cast<Id>(triangles_.size()); }
   Id edge(Id other) const { return place(edges_, input_[other]); }
@@ -99,19 +101,6 @@ class LargeLaterStar {
     return pair_key(low, high);
   }
 
-  /// From the triangles of all tetrahedra to those without earlier neighbours, each once, sorted.
-  void keep_later(Id vertex_input) {
-    std::sort(triangles_.begin(), triangles_.end());
-    on_surface_ = false;
-    std::size_t kept = 0;
-    for (std::size_t i = 0, next = 0; i < triangles_.size(); i = next) {
-      for (next = i + 1; next < triangles_.size() && triangles_[next] == triangles_[i];) ++next;
-      on_surface_ |= next == i + 1;
-      if (static_cast<Id>(triangles_[i] >> 32) > vertex_input) triangles_[kept++] = triangles_[i];
-    }
-    triangles_.resize(kept);
-  }
-
   template <class Key>
   static Id place(const std::vector<Key>& keys, Key key) {
     const auto at = std::lower_bound(keys.begin(), keys.end(), key);
@@ -119,9 +108,9 @@ class LargeLaterStar {
   }
 
   const Id* input_ = nullptr;
+  LargeLink link_;
   std::vector<Id> edges_;
   std::vector<std::uint64_t> triangles_;
-  bool on_surface_ = false;
 };
 
 }  // namespace gale::detail

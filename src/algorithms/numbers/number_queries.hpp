@@ -6,22 +6,22 @@
 #include <utility>
 #include <vector>
 
-#include <gale/base/atomic.hpp>
 #include <gale/base/error.hpp>
+#include <gale/base/group_by.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/base/require_ids.hpp>
 #include <gale/mesh/mesh.hpp>
 
 namespace gale::detail {
 
-/// Simplices of N vertices whose numbers are asked for, by the segment of the vertex that has the lowest input id in
-/// each.
+/// Simplices of N vertices whose numbers are asked for. Each belongs to its first vertex, the one with the lowest input
+/// id, and is found by that vertex's segment.
 template <std::size_t N>
 class NumberQueries {
  public:
   using Simplex = std::array<Id, N>;
 
-  /// The `index`-th of the simplices, and its vertex with the lowest input id.
+  /// A simplex by its place in `simplices`, and its first vertex.
   struct Query {
     Id vertex, index;
     bool operator<(const Query& other) const { return vertex < other.vertex; }
@@ -29,28 +29,25 @@ class NumberQueries {
 
   /// `simplices` must outlive it. Throws gale::Error for a vertex that the mesh doesn't have.
   NumberQueries(const Mesh& mesh, const std::vector<Simplex>& simplices)
-      : simplices_(simplices),
-        input_(mesh.vertex_input().data()),
-        end_("GALE::number_queries_end", mesh.segments() + 1) {
+      : simplices_(simplices), input_(mesh.vertex_input().data()), numbers_(simplices.size()) {
     require_ids("simplices to number", simplices.size());
     const auto count = static_cast<Offset>(simplices.size());
-    queries_ = allocate<Array<Query, HostMemory>>("GALE::number_queries", count);
-    numbers_.resize(simplices.size());
     const Kokkos::DefaultHostExecutionSpace host;
-    parallel_for("GALE::count_number_queries", host, count, [&](Offset i) {
+    const auto by_segment = group_by_key<Id>("GALE::number_queries", host, count, mesh.segments(), [&](Id i) {
       require_vertices(mesh, simplices[i]);
-      atomic_add(&end_(mesh.segment_of(0, ascending(i)[0])), Id(1));
+      return mesh.segment_of(0, ascending(i)[0]);
     });
-    exclusive_scan("GALE::place_number_queries", host, mesh.segments(), end_, [&](Offset s) { return end_(s); });
+    begin_ = by_segment.begin;
+    queries_ = allocate<Array<Query, HostMemory>>("GALE::number_queries", count);
     parallel_for("GALE::fill_number_queries", host, count, [&](Offset i) {
-      const Id vertex = ascending(i)[0];
-      queries_(atomic_add(&end_(mesh.segment_of(0, vertex)), Id(1))) = {vertex, static_cast<Id>(i)};
+      const Id index = by_segment.members(i);
+      queries_(i) = {ascending(index)[0], index};
     });
   }
 
-  /// Those of a segment, not sorted until someone does it.
-  Query* begin(Id segment) const { return queries_.data() + (segment == 0 ? 0 : end_(segment - 1)); }
-  Query* end(Id segment) const { return queries_.data() + end_(segment); }
+  /// Those of a segment, in no order.
+  Query* begin(Id segment) const { return queries_.data() + begin_(segment); }
+  Query* end(Id segment) const { return queries_.data() + begin_(segment + 1); }
 
   /// The vertices of a simplex (GALE's), by ascending input id.
   Simplex ascending(Offset index) const {
@@ -89,7 +86,7 @@ class NumberQueries {
 
   const std::vector<Simplex>& simplices_;
   const Id* input_;
-  Array<Id, HostMemory> end_;  ///< one past the last query of each segment
+  Array<Id, HostMemory> begin_;  ///< of each segment's queries
   Array<Query, HostMemory> queries_;
   std::vector<Id> numbers_;
 };

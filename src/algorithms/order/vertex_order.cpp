@@ -80,7 +80,7 @@ void fill_ranks(const Mesh& mesh, const Value* values, const Keys& keys) {
 
 template <class Value>
 VertexOrder::VertexOrder(const Mesh& mesh, const Value* values, std::size_t count)
-    : keys_(allocate<Keys>("GALE::order_keys", mesh.vertices())) {
+    : mesh_(mesh), keys_(allocate<Keys>("GALE::order_keys", mesh.vertices())) {
   if (count != static_cast<std::size_t>(mesh.vertices())) {
     throw Error("the field has " + std::to_string(count) + " values, the mesh " + std::to_string(mesh.vertices()) +
                 " vertices");
@@ -93,14 +93,17 @@ VertexOrder::VertexOrder(const Mesh& mesh, const Value* values, std::size_t coun
   }
 }
 
-template VertexOrder::VertexOrder(const Mesh&, const std::int8_t*, std::size_t);
-template VertexOrder::VertexOrder(const Mesh&, const std::uint8_t*, std::size_t);
-template VertexOrder::VertexOrder(const Mesh&, const std::int16_t*, std::size_t);
-template VertexOrder::VertexOrder(const Mesh&, const std::uint16_t*, std::size_t);
-template VertexOrder::VertexOrder(const Mesh&, const std::int32_t*, std::size_t);
-template VertexOrder::VertexOrder(const Mesh&, const std::uint32_t*, std::size_t);
-template VertexOrder::VertexOrder(const Mesh&, const std::int64_t*, std::size_t);
-template VertexOrder::VertexOrder(const Mesh&, const std::uint64_t*, std::size_t);
+template VertexOrder::VertexOrder(const Mesh&, const char*, std::size_t);
+template VertexOrder::VertexOrder(const Mesh&, const signed char*, std::size_t);
+template VertexOrder::VertexOrder(const Mesh&, const unsigned char*, std::size_t);
+template VertexOrder::VertexOrder(const Mesh&, const short*, std::size_t);
+template VertexOrder::VertexOrder(const Mesh&, const unsigned short*, std::size_t);
+template VertexOrder::VertexOrder(const Mesh&, const int*, std::size_t);
+template VertexOrder::VertexOrder(const Mesh&, const unsigned int*, std::size_t);
+template VertexOrder::VertexOrder(const Mesh&, const long*, std::size_t);
+template VertexOrder::VertexOrder(const Mesh&, const unsigned long*, std::size_t);
+template VertexOrder::VertexOrder(const Mesh&, const long long*, std::size_t);
+template VertexOrder::VertexOrder(const Mesh&, const unsigned long long*, std::size_t);
 template VertexOrder::VertexOrder(const Mesh&, const float*, std::size_t);
 template VertexOrder::VertexOrder(const Mesh&, const double*, std::size_t);
 

@@ -18,6 +18,17 @@ namespace {
 using detail::MorseGraph;
 using HostSpace = Kokkos::DefaultHostExecutionSpace;
 
+void require_parts(const MorseSmaleParts& parts) {
+  std::string missing;
+  const auto require = [&missing](bool is_there, const char* part) {
+    if (!is_there) missing += (missing.empty() ? "" : ", ") + std::string(part);
+  };
+  require(parts.descending_separatrices, "descending separatrices");
+  require(parts.ascending_separatrices, "ascending separatrices");
+  require(parts.saddle_connectors, "saddle connectors");
+  if (!missing.empty()) throw Error("simplify needs parts that the complex was computed without: " + missing);
+}
+
 /// The value of each node's highest vertex.
 std::vector<double> values_of(const MorseSmaleComplex& complex, const std::function<double(Id)>& value) {
   const Mesh& mesh = complex.gradient.mesh();
@@ -189,11 +200,12 @@ Array<Id, HostMemory> manifold_left(MorseGraph& graph, const std::vector<Id>& pl
 }  // namespace
 
 MorseSmaleComplex simplify(const MorseSmaleComplex& complex, const std::function<double(Id)>& value, double threshold) {
+  require_parts(complex.parts);
   MorseGraph graph(complex, values_of(complex, value), threshold);
   graph.cancel();
   const std::vector<Id> places = places_left(graph);
   const auto counts = complex.critical.counts();
-  MorseSmaleComplex left{complex.gradient, critical_left(graph, complex.critical)};
+  MorseSmaleComplex left{complex.gradient, complex.parts, critical_left(graph, complex.critical)};
   left.descending = separatrices_left(graph, places, 1, 0, complex.descending);
   left.ascending = separatrices_left(graph, places, 2, 3, complex.ascending);
   left.connectors = separatrices_left(graph, places, 1, 2, complex.connectors);
