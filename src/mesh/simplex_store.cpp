@@ -23,6 +23,7 @@ void add_tables(const SimplexTables<Memory>& tables, Simplices<Memory>& view) {
   view.triangle_apex = tables.triangle_apex;
   view.lower_begin = tables.lower_begin;
   view.lower_edges = tables.lower_edges;
+  view.longest_list = tables.longest_list;
 }
 
 /// `vertex_begin` is unmanaged, since other threads may copy the mesh' own at this moment.
@@ -64,6 +65,7 @@ Simplices<HostMemory> SimplexStore::on_host(const SimplexNeeds& needs) {
   if (needs.lower_edges) {
     mirror(tables_.lower_begin, host_tables_.lower_begin);
     mirror(tables_.lower_edges, host_tables_.lower_edges);
+    host_tables_.longest_list = tables_.longest_list;
   }
   if (needs.tetrahedra) {
     mirror(mesh_.tetrahedra, host_tetrahedra_);

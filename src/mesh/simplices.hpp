@@ -68,6 +68,8 @@ struct Simplices {
 
   Unmanaged<Id> lower_begin;  ///< vertex b -> where its edges (., b) begin in lower_edges
   Unmanaged<Id> lower_edges;  ///< the edges by their higher vertex, ascending
+  Id longest_list = 0;  ///< known with lower_edges: the most edges (a, .), edges (., a) or tetrahedra (a, ., ., .)
+                        ///< that a vertex a has
 
   KOKKOS_FUNCTION Quad tetrahedron(Id t) const { return reinterpret_cast<const Quad*>(tetrahedra.data())[t]; }
 
@@ -94,6 +96,7 @@ struct SimplexTables {
   Ids edge_begin, edge_low, edge_high;
   Ids triangle_begin, triangle_edge, triangle_apex;
   Ids lower_begin, lower_edges;
+  Id longest_list = 0;
 };
 
 }  // namespace gale
