@@ -10,9 +10,6 @@
 
 namespace gale::detail {
 
-/// As many entries are looked through rather than bisected.
-inline constexpr Id few_entries = 32;
-
 /// Calls visit(triangle) for the triangle (a, b, c), if there is one.
 template <class Memory, class Visit>
 KOKKOS_INLINE_FUNCTION void visit_triangle(const Simplices<Memory>& s, Id a, Id b, Id c, const Visit& visit) {
