@@ -143,7 +143,9 @@ KOKKOS_INLINE_FUNCTION void for_each_triangle_of_edge(const Simplices<Memory>& s
 template <class Memory, class Visit>
 KOKKOS_INLINE_FUNCTION void for_each_tetrahedron_of(const Simplices<Memory>& s, Id a, Id b, const Visit& visit) {
   const Id known[] = {a, b};
-  for_each_candidate(s, known, no_id, a, [&](Id v) { for_each_tetrahedron_from(s, v, a, b, visit); });
+  for_each_candidate(s, known, no_id, a, [&](Id v) {
+    if (s.edge_of(v, a) != no_id && s.edge_of(v, b) != no_id) for_each_tetrahedron_from(s, v, a, b, visit);
+  });
   for_each_tetrahedron_from(s, a, b, visit);
 }
 

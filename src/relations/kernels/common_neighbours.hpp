@@ -11,8 +11,8 @@ inline constexpr Id few_entries = 32;
 /// entries of edge_high or of lower_edges.
 template <class Memory>
 struct NeighbourList {
-  bool higher = false;
-  Id begin = 0, end = 0;
+  bool higher;
+  Id begin, end;
 
   KOKKOS_FUNCTION NeighbourList(const Simplices<Memory>& s, Id vertex, bool are_higher)
       : higher(are_higher),
