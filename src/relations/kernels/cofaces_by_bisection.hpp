@@ -54,24 +54,6 @@ KOKKOS_INLINE_FUNCTION void for_each_tetrahedron_over(const Simplices<Memory>& s
   }
 }
 
-/// Calls visit(t) for each tetrahedron (a, ., ., .) that has the vertices a < b < c, ascending.
-template <class Memory, class Visit>
-KOKKOS_INLINE_FUNCTION void for_each_tetrahedron_from(const Simplices<Memory>& s, Id a, Id b, Id c,
-                                                      const Visit& visit) {
-  const Id begin = s.tetrahedron_begin(a), end = s.tetrahedron_begin(a + 1);
-  if (end - begin <= few_entries) {
-    for (Id t = begin; t < end; ++t) {
-      const Quad q = s.tetrahedron(t);
-      if ((q.b == b || q.c == b) && (q.c == c || q.d == c)) visit(t);
-    }
-    return;
-  }
-  const Id known[] = {a, b, c};
-  for_each_candidate(s, known, a, b, [&](Id v) { visit_tetrahedron(s, a, v, b, c, visit); });
-  for_each_candidate(s, known, b, c, [&](Id v) { visit_tetrahedron(s, a, b, v, c, visit); });
-  for_each_tetrahedron_over(s, a, b, c, visit);
-}
-
 /// Calls visit(t) for each tetrahedron (a, v, ., .) that has the vertices a < v < b, ascending.
 template <class Memory, class Visit>
 KOKKOS_INLINE_FUNCTION void for_each_tetrahedron_over_edge(const Simplices<Memory>& s, Id a, Id v, Id b,
@@ -89,6 +71,23 @@ KOKKOS_INLINE_FUNCTION void for_each_tetrahedron_over_edge(const Simplices<Memor
   const Id known[] = {a, v, b};
   for_each_candidate(s, known, v, b, [&](Id w) { visit_tetrahedron(s, a, v, w, b, visit); });
   for_each_tetrahedron_over(s, a, v, b, visit);
+}
+
+/// Calls visit(t) for each tetrahedron (a, ., ., .) that has the vertices a < b < c, ascending.
+template <class Memory, class Visit>
+KOKKOS_INLINE_FUNCTION void for_each_tetrahedron_from(const Simplices<Memory>& s, Id a, Id b, Id c,
+                                                      const Visit& visit) {
+  const Id begin = s.tetrahedron_begin(a), end = s.tetrahedron_begin(a + 1);
+  if (end - begin <= few_entries) {
+    for (Id t = begin; t < end; ++t) {
+      const Quad q = s.tetrahedron(t);
+      if ((q.b == b || q.c == b) && (q.c == c || q.d == c)) visit(t);
+    }
+    return;
+  }
+  const Id known[] = {a, b, c};
+  for_each_candidate(s, known, a, b, [&](Id v) { visit_tetrahedron(s, a, v, b, c, visit); });
+  for_each_tetrahedron_over_edge(s, a, b, c, visit);
 }
 
 /// Calls visit(t) for each tetrahedron (a, ., ., .) that has the vertices a < b, ascending.
