@@ -6,6 +6,7 @@
 
 #include <gale/base/memory.hpp>
 #include <gale/base/transfer.hpp>
+#include <gale/base/view_tracking.hpp>
 
 namespace gale {
 
@@ -20,6 +21,7 @@ class Once {
     if (done_.load(std::memory_order_acquire)) return;
     const std::lock_guard<std::mutex> lock(mutex_);
     if (done_.load(std::memory_order_relaxed)) return;
+    const TrackedViews tracked;  // what is made here lasts, also where it is asked for in a sweep's body
     action();
     done_.store(true, std::memory_order_release);
   }

@@ -1,6 +1,9 @@
+#include <algorithm>
+
 #include <gale/base/group_by.hpp>
 #include <gale/mesh/distinct_rows.hpp>
 #include <gale/mesh/enumerate.hpp>
+#include <gale/mesh/many_triangles.hpp>
 #include <gale/mesh/upper_link.hpp>
 
 namespace gale::detail {
@@ -30,34 +33,18 @@ struct HigherNeighbours {
   }
 };
 
-/// The vertices above an edge (a, b) that it has a triangle with.
-template <class Memory>
-struct HigherApexes {
-  Simplices<Memory> simplices;
-  Kokkos::View<const Offset*, Memory, Kokkos::MemoryUnmanaged> middle_begin;
-  Kokkos::View<const Id*, Memory, Kokkos::MemoryUnmanaged> middle;
-
-  template <class Visit>
-  KOKKOS_FUNCTION void operator()(Id edge, const Visit& visit) const {
-    const Id a = simplices.edge_low(edge), b = simplices.edge_high(edge);
-    for (Id t = simplices.tetrahedron_begin(a); t < simplices.tetrahedron_begin(a + 1); ++t) {
-      const Id second = simplices.tetrahedra(t, 1), third = simplices.tetrahedra(t, 2);
-      if (second == b) visit(third);
-      if (second == b || third == b) visit(simplices.tetrahedra(t, 3));
-    }
-    for (Offset i = middle_begin(a); i < middle_begin(a + 1); ++i) {
-      const Id t = middle(i);
-      if (simplices.tetrahedra(t, 1) == a && simplices.tetrahedra(t, 2) == b) visit(simplices.tetrahedra(t, 3));
-    }
-  }
-};
-
-template <class Space>
-Id most_higher_neighbours(const Space& space, const Simplices<MemoryOf<Space>>& simplices) {
-  const Offset vertices = simplices.edge_begin.extent(0) - 1;
+/// Entries of the longest of the rows that begin[r] to begin[r + 1] - 1 are.
+template <class Space, class Begin>
+Id longest_row(const Space& space, const Begin& begin) {
   return -reduce_min(
-      "GALE::most_higher_neighbours", space, vertices, Id(0),
-      KOKKOS_LAMBDA(Offset v) { return simplices.edge_begin(v) - simplices.edge_begin(v + 1); });
+      "GALE::longest_row", space, Offset(begin.extent(0)) - 1, Id(0),
+      KOKKOS_LAMBDA(Offset row) { return begin(row) - begin(row + 1); });
+}
+
+/// Does a thread know the triangles of a vertex by bits?
+template <class Memory>
+KOKKOS_FUNCTION bool has_upper_link(const Simplices<Memory>& simplices, Offset vertex) {
+  return simplices.edge_begin(vertex + 1) - simplices.edge_begin(vertex) <= UpperLink::capacity;
 }
 
 /// Calls visit(link) with the upper link of a vertex.
@@ -69,53 +56,41 @@ KOKKOS_FUNCTION void with_upper_link(const Simplices<Memory>& simplices, const M
   }));
 }
 
-/// A thread a vertex, all of whose edges it knows by bits.
+/// count[e] = triangles of each edge (a, .) with higher vertices, if `a` has few edges; 0 otherwise. A thread a vertex.
 template <class Space>
-void triangles_of_few_neighbours(const Space& space, const Simplices<MemoryOf<Space>>& simplices,
-                                 const MiddleStars<MemoryOf<Space>>& stars, SimplexTables& tables) {
-  const Offset vertices = simplices.edge_begin.extent(0) - 1, edges = simplices.edge_low.extent(0);
-  const auto begin = allocate<Ids<Space>>("GALE::triangle_begin", edges + 1);
+void count_triangles(const Space& space, const Simplices<MemoryOf<Space>>& simplices,
+                     const MiddleStars<MemoryOf<Space>>& stars, const Ids<Space>& count) {
   parallel_for(
-      "GALE::count_triangles", space, vertices, KOKKOS_LAMBDA(Offset v) {
+      "GALE::count_triangles", space, simplices.edge_begin.extent(0) - 1, KOKKOS_LAMBDA(Offset v) {
+        if (!has_upper_link(simplices, v)) {
+          for (Id edge = simplices.edge_begin(v); edge < simplices.edge_begin(v + 1); ++edge) count(edge) = 0;
+          return;
+        }
         with_upper_link(simplices, stars, v, [&](const UpperLink& link) {
-          for (Id i = 0; i < link.size(); ++i) begin(simplices.edge_begin(v) + i) = link.triangles(i);
+          for (Id i = 0; i < link.size(); ++i) count(simplices.edge_begin(v) + i) = link.triangles(i);
         });
       });
-  const Offset total = reduce_sum(
-      "GALE::total_triangles", space, edges, KOKKOS_LAMBDA(Offset e) { return Offset(begin(e)); });
-  require_ids("triangles", total);
-  exclusive_scan(
-      "GALE::scan_triangles", space, edges, begin, KOKKOS_LAMBDA(Offset e) { return begin(e); });
-  const auto edge_of = allocate<Ids<Space>>("GALE::triangle_edge", total),
-             apex = allocate<Ids<Space>>("GALE::triangle_apex", total);
+}
+
+/// Writes edges and apexes of those triangles. begin[e] is where those of edge e are.
+template <class Space>
+void write_triangles(const Space& space, const Simplices<MemoryOf<Space>>& simplices,
+                     const MiddleStars<MemoryOf<Space>>& stars, const Ids<Space>& begin, const Ids<Space>& edges,
+                     const Ids<Space>& apexes) {
   parallel_for(
-      "GALE::write_triangles", space, vertices, KOKKOS_LAMBDA(Offset v) {
+      "GALE::write_triangles", space, simplices.edge_begin.extent(0) - 1, KOKKOS_LAMBDA(Offset v) {
+        if (!has_upper_link(simplices, v)) return;
         with_upper_link(simplices, stars, v, [&](const UpperLink& link) {
           const Id first = simplices.edge_begin(v);
           Id at = begin(first);
           for (Id i = 0; i < link.size(); ++i) {
             link.for_each_apex(i, [&](Id c) {
-              edge_of(at) = first + i;
-              apex(at++) = c;
+              edges(at) = first + i;
+              apexes(at++) = c;
             });
           }
         });
       });
-  tables.triangle_begin = begin;
-  tables.triangle_edge = edge_of;
-  tables.triangle_apex = apex;
-}
-
-/// A thread an edge.
-template <class Space>
-void triangles_of_many_neighbours(const Space& space, const Simplices<MemoryOf<Space>>& simplices,
-                                  const MiddleStars<MemoryOf<Space>>& stars, SimplexTables& tables) {
-  const Offset edges = simplices.edge_low.extent(0);
-  const auto triangles =
-      distinct_rows(space, "triangles", edges, HigherApexes<MemoryOf<Space>>{simplices, stars.begin, stars.tetrahedra});
-  tables.triangle_begin = triangles.begin;
-  tables.triangle_edge = triangles.row_of;
-  tables.triangle_apex = triangles.values;
 }
 
 /// The second and third vertex of a tetrahedron.
@@ -161,11 +136,24 @@ void enumerate_edges(const Space& space, const Simplices<MemoryOf<Space>>& simpl
 template <class Space>
 void enumerate_triangles(const Space& space, const Simplices<MemoryOf<Space>>& simplices,
                          const MiddleStars<MemoryOf<Space>>& stars, SimplexTables& tables) {
-  if (most_higher_neighbours(space, simplices) <= UpperLink::capacity) {
-    triangles_of_few_neighbours(space, simplices, stars, tables);
-  } else {
-    triangles_of_many_neighbours(space, simplices, stars, tables);
-  }
+  const Offset edges = simplices.edge_low.extent(0);
+  const auto begin = allocate<Ids<Space>>("GALE::triangle_begin", edges + 1);
+  count_triangles(space, simplices, stars, begin);
+  const bool some_have_many = longest_row(space, simplices.edge_begin) > UpperLink::capacity;
+  const auto many = some_have_many ? ManyTriangles<Space>(space, simplices) : ManyTriangles<Space>();
+  many.write_counts(begin);
+  const Offset total = reduce_sum(
+      "GALE::total_triangles", space, edges, KOKKOS_LAMBDA(Offset e) { return Offset(begin(e)); });
+  require_ids("triangles", total);
+  exclusive_scan(
+      "GALE::scan_triangles", space, edges, begin, KOKKOS_LAMBDA(Offset e) { return begin(e); });
+  const auto edge_of = allocate<Ids<Space>>("GALE::triangle_edge", total),
+             apex = allocate<Ids<Space>>("GALE::triangle_apex", total);
+  write_triangles(space, simplices, stars, begin, edge_of, apex);
+  many.write(begin, edge_of, apex);
+  tables.triangle_begin = begin;
+  tables.triangle_edge = edge_of;
+  tables.triangle_apex = apex;
 }
 
 template <class Space>
@@ -176,6 +164,8 @@ void sort_edges_by_higher(const Space& space, const Simplices<MemoryOf<Space>>& 
   sort_rows(space, "GALE::sort_lower", lower.begin, lower.members);
   tables.lower_begin = lower.begin;
   tables.lower_edges = lower.members;
+  tables.longest_list = std::max({longest_row(space, lower.begin), longest_row(space, simplices.edge_begin),
+                                  longest_row(space, simplices.tetrahedron_begin)});
 }
 
 #define GALE_INSTANTIATE(Space)                                                                                       \

@@ -1,4 +1,5 @@
 #include <gale/base/parallel.hpp>
+#include <gale/base/view_tracking.hpp>
 #include <gale/base/worker_or_host.hpp>
 #include <gale/mesh/enumerate.hpp>
 #include <gale/mesh/simplex_store.hpp>
@@ -31,6 +32,7 @@ Simplices<Memory> view_of(const MeshArrays& mesh, const SimplexTables& tables, c
   if (needs.lower_edges && has(tables.lower_begin)) {
     view.lower_begin = tables.lower_begin.in<Memory>();
     view.lower_edges = tables.lower_edges.in<Memory>();
+    view.longest_list = tables.longest_list;
   }
   return view;
 }
@@ -91,6 +93,7 @@ std::string SimplexStore::notice() const {
 /// Other threads may use the tables on instances of their own as soon as they have them, so each step ends with a
 /// fence.
 void SimplexStore::enumerate(const SimplexNeeds& needs) {
+  const TrackedViews tracked;  // the tables last, also where a sweep's body asks for them
   const bool edges_too = needs.upto >= Enumeration::edges && !has(tables_.edge_begin);
   const bool triangles_too = needs.upto >= Enumeration::triangles && !has(tables_.triangle_begin);
   if (edges_too || triangles_too) {

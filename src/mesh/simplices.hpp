@@ -64,6 +64,8 @@ struct Simplices {
 
   Unmanaged<Id> lower_begin;  ///< vertex b -> where its edges (., b) begin in lower_edges
   Unmanaged<Id> lower_edges;  ///< the edges by their higher vertex, ascending
+  Id longest_list = 0;  ///< known with lower_edges: the most edges (a, .), edges (., a) or tetrahedra (a, ., ., .)
+                        ///< that a vertex a has
 
   KOKKOS_FUNCTION Quad tetrahedron(Id t) const { return quad_at(tetrahedra.data(), t); }
 
@@ -90,6 +92,7 @@ struct SimplexTables {
   Mirrored<Id> edge_begin, edge_low, edge_high;
   Mirrored<Id> triangle_begin, triangle_edge, triangle_apex;
   Mirrored<Id> lower_begin, lower_edges;
+  Id longest_list = 0;
 };
 
 }  // namespace detail

@@ -69,6 +69,20 @@ InputMesh random_tetrahedra() {
   return mesh;
 }
 
+/// Any distinct tetrahedra of 160 vertices, most of them with two or three of the same five.
+InputMesh random_hubs() {
+  std::mt19937 random(13);
+  std::set<Quad> distinct;
+  while (distinct.size() < 1500) {
+    Quad quad{};
+    for (int i = 0; i < 4; ++i)
+      quad[i] = static_cast<Id>(i < 3 && random() % 3 > 0 ? 40 * (random() % 5) : random() % 161);
+    std::sort(quad.begin(), quad.end());
+    if (std::adjacent_find(quad.begin(), quad.end()) == quad.end()) distinct.insert(quad);
+  }
+  return scattered(161, {distinct.begin(), distinct.end()});
+}
+
 using Maker = std::function<InputMesh()>;
 
 const std::vector<std::pair<std::string, Maker>>& makers() {
@@ -107,6 +121,27 @@ const std::vector<std::pair<std::string, Maker>>& makers() {
       {"cone_over_sphere_200", [] { return cone_over_caps(200, 2); }},
       {"cone_over_sphere_2000", [] { return cone_over_caps(2000, 2); }},
       {"cone_over_three_caps_100", [] { return cone_over_caps(100, 3); }},
+      {"ring_of_70_around_the_first",
+       [] {
+         return ring_around_edges(70, {0, 1});
+       }},
+      {"ring_of_150_around_the_last",
+       [] {
+         return ring_around_edges(150, {150, 151});
+       }},
+      {"ring_of_150_around_the_middle",
+       [] {
+         return ring_around_edges(150, {70, 80});
+       }},
+      {"ring_of_300_around_first_and_last",
+       [] {
+         return ring_around_edges(300, {0, 301});
+       }},
+      {"ring_of_150_around_three",
+       [] {
+         return ring_around_edges(150, {0, 70, 152});
+       }},
+      {"random_hubs", random_hubs},
       {"holed_grid_9", [] { return holed_grid(9); }},
       {"ball", [] { return ball(3); }},
       {"solid_torus", [] { return solid_torus(3); }},
@@ -155,6 +190,35 @@ InputMesh cone_over_caps(Id degree, int caps) {
     for (int cap = 0; cap < caps; ++cap) triangles.push_back({cap, caps + i, caps + (i + 1) % around});
   }
   return cone(link, triangles);
+}
+
+InputMesh cone_over_strip(Id degree) {
+  std::vector<std::array<double, 3>> link;
+  std::vector<std::array<Id, 3>> triangles;
+  for (Id i = 0; i < degree; ++i) link.push_back(on_circle(i / 2, degree, 1 + i % 2));
+  for (Id i = 0; i + 2 < degree; ++i) triangles.push_back({i, i + 1, i + 2});
+  return cone(link, triangles);
+}
+
+InputMesh ring_around_edges(Id ring, const std::vector<Id>& hubs) {
+  InputMesh mesh;
+  std::vector<Id> around;
+  const auto count = static_cast<Id>(hubs.size());
+  for (Id v = 0; v < ring + count; ++v) {
+    const auto hub = std::find(hubs.begin(), hubs.end(), v) - hubs.begin();
+    if (hub < count) {
+      mesh.points.push_back({0, 0, hub - 0.5 * (count - 1)});
+    } else {
+      mesh.points.push_back(on_circle(static_cast<Id>(around.size()), ring, 0));
+      around.push_back(v);
+    }
+  }
+  for (Id i = 0; i < ring; ++i) {
+    for (Id hub = 0; hub + 1 < count; ++hub) {
+      mesh.tetrahedra.push_back({around[(i + 1) % ring], hubs[hub], around[i], hubs[hub + 1]});
+    }
+  }
+  return mesh;
 }
 
 InputMesh holed_grid(Id side) {

@@ -29,6 +29,14 @@ InputMesh cone_over_disc(Id degree);
 /// manifold.
 InputMesh cone_over_caps(Id degree, int caps);
 
+/// A vertex (0) whose link is a strip of triangles i, i + 1, i + 2 of `degree` vertices: none of them has many
+/// neighbours.
+InputMesh cone_over_strip(Id degree);
+
+/// A ring of `ring` vertices around the edges from each of the vertices `hubs` to the next, with a tetrahedron for each
+/// edge of the ring and each of these. The ring has the other vertices, ascending.
+InputMesh ring_around_edges(Id ring, const std::vector<Id>& hubs);
+
 /// A Freudenthal grid of `side`^3 points, a third of whose tetrahedra are missing, all ids and corners shuffled.
 InputMesh holed_grid(Id side);
 

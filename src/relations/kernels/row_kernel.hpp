@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <type_traits>
 
 #include <gale/base/team.hpp>
 #include <gale/mesh/simplices.hpp>
@@ -30,6 +31,8 @@ class RowKernel {
   int scratch_level = 0;
   BlockPool pool;
 
+  using Search = detail::Search;
+
   const char* label() const;
 
   KOKKOS_FUNCTION static std::size_t scratch_bytes(const StarSizes& sizes, int /*warps*/) {
@@ -37,26 +40,30 @@ class RowKernel {
   }
 
   /// On the calling thread.
-  void operator()(const HostTeam& team) const { compute(team, team.scratch()); }
-
-  /// Calls use(functor) with what Kokkos is to run on its teams: one for each level of scratch memory, see
-  /// team::scratch.
-  template <class Use>
-  friend void with_functor(const RowKernel& kernel, const Use& use) {
-    kernel.scratch_level == 0 ? use(OnTeams<0>{kernel}) : use(OnTeams<1>{kernel});
+  void operator()(const HostTeam& team) const {
+    with_search([&](auto search) { compute<decltype(search)::value>(team, team.scratch()); });
   }
 
-  template <int level>
+  /// Calls use(functor) with what Kokkos is to run on its teams: one for each level of scratch memory, see
+  /// team::scratch, and for each way of finding entries.
+  template <class Use>
+  friend void with_functor(const RowKernel& kernel, const Use& use) {
+    kernel.with_search([&](auto search) {
+      kernel.scratch_level == 0 ? use(OnTeams<0, decltype(search)::value>{kernel}) : use(OnTeams<1, decltype(search)::value>{kernel});
+    });
+  }
+
+  template <int level, Search search>
   struct OnTeams {
     RowKernel kernel;
 
     template <class Team>
     KOKKOS_FUNCTION void operator()(const Team& team) const {
-      kernel.compute(team, team::scratch<level>(team, scratch_bytes(kernel.sizes, 1)));
+      kernel.template compute<search>(team, team::scratch<level>(team, scratch_bytes(kernel.sizes, 1)));
     }
   };
 
-  template <class Team>
+  template <Search search, class Team>
   KOKKOS_FORCEINLINE_FUNCTION void compute(const Team& team, char* memory) const {
     Shared& shared = *reinterpret_cast<Shared*>(memory);
     auto* const begin = reinterpret_cast<std::uint32_t*>(memory + sizeof(Shared));
@@ -72,7 +79,8 @@ class RowKernel {
     }
     const Stash stash(reinterpret_cast<Id*>(begin) + sizes.rows + 1, sizes.rows);
     team::once(team, [&] { shared.overflows = 0; });
-    team::for_all(team, rows, [&](Id row) { begin[row] = static_cast<std::uint32_t>(count(first + row, stash, row)); });
+    team::for_all(team, rows,
+                  [&](Id row) { begin[row] = static_cast<std::uint32_t>(count<search>(first + row, stash, row)); });
     team::exclusive_scan(team, rows, begin);
     team::for_all(team, rows, [&](Id row) {
       if (begin[row + 1] > most_entries) shared.overflows = 1;  // the first that is too many hasn't wrapped around yet
@@ -88,11 +96,23 @@ class RowKernel {
     Id* const ids = offsets + rows + 1;
     team::for_all(team, rows + 1, [&](Id row) { offsets[row] = static_cast<Id>(begin[row]); });
     team::for_all(team, rows, [&](Id row) {
-      write(first + row, stash, row, ids + begin[row], static_cast<Id>(begin[row + 1] - begin[row]));
+      write<search>(first + row, stash, row, ids + begin[row], static_cast<Id>(begin[row + 1] - begin[row]));
     });
   }
 
  private:
+  /// Calls use(search) with how this mesh's rows are found, a constant of the type.
+  template <class Use>
+  void with_search(const Use& use) const {
+    if constexpr (detail::can_bisect(relation)) {
+      if (simplices.longest_list > detail::longest_looked_through) {
+        use(std::integral_constant<Search, Search::bisect>());
+        return;
+      }
+    }
+    use(std::integral_constant<Search, Search::look_through>());
+  }
+
   static constexpr std::uint32_t most_entries = 2147483647;  ///< that an Id counts
 
   using Stash = detail::RowStash<relation, is_device_memory<Memory>>;
@@ -111,18 +131,20 @@ class RowKernel {
     if constexpr (dimension == 3) return simplices.tetrahedron_begin(vertex);
   }
 
+  template <Search search>
   KOKKOS_FUNCTION Id count(Id simplex, const Stash& stash, Id row) const {
-    if (stash.capacity() == 0) return detail::count_entries<relation>(simplices, simplex);
+    if (stash.capacity() == 0) return detail::count_entries<relation, search>(simplices, simplex);
     Id entries = 0;
-    detail::for_each_entry<relation>(simplices, simplex, [&](Id id) { stash.add(row, entries++, id); });
+    detail::for_each_entry<relation, search>(simplices, simplex, [&](Id id) { stash.add(row, entries++, id); });
     return entries;
   }
 
+  template <Search search>
   KOKKOS_FUNCTION void write(Id simplex, const Stash& stash, Id row, Id* out, Id count) const {
     if (count <= stash.capacity()) {
       stash.read(row, count, out);
     } else {
-      detail::write_entries<relation>(simplices, simplex, out, count);
+      detail::write_entries<relation, search>(simplices, simplex, out, count);
     }
   }
 };

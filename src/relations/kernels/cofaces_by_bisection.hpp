@@ -1,0 +1,186 @@
+#pragma once
+
+#include <gale/relations/faces.hpp>
+#include <gale/relations/kernels/common_neighbours.hpp>
+
+// What cofaces.hpp and adjacent.hpp find, where some lists are long: nothing is looked through that may be. Simplices
+// around a simplex differ from it by vertices that are neighbours of all of its own. So those of that vertex are tried
+// that has the fewest neighbours, and each simplex is looked for where it would stand. Around an edge (a, b) this takes
+// the lesser degree of its ends, times a logarithm.
+
+namespace gale::detail {
+
+/// Calls visit(triangle) for the triangle (a, b, c), if there is one.
+template <class Memory, class Visit>
+KOKKOS_INLINE_FUNCTION void visit_triangle(const Simplices<Memory>& s, Id a, Id b, Id c, const Visit& visit) {
+  const Id f = s.triangle_of(a, b, c);
+  if (f != no_id) visit(f);
+}
+
+/// The first tetrahedron (a, ., ., .), from `begin` on and before `end`, that is not before (a, b, c, d).
+template <class Memory>
+KOKKOS_INLINE_FUNCTION Id first_tetrahedron(const Simplices<Memory>& s, Id begin, Id end, Id b, Id c, Id d) {
+  while (begin < end) {
+    const Id middle = begin + (end - begin) / 2;
+    const Quad q = s.tetrahedron(middle);
+    if (q.b < b || (q.b == b && (q.c < c || (q.c == c && q.d < d)))) {
+      begin = middle + 1;
+    } else {
+      end = middle;
+    }
+  }
+  return begin;
+}
+
+/// Calls visit(t) for the tetrahedron (a, b, c, d), if there is one.
+template <class Memory, class Visit>
+KOKKOS_INLINE_FUNCTION void visit_tetrahedron(const Simplices<Memory>& s, Id a, Id b, Id c, Id d, const Visit& visit) {
+  const Id end = s.tetrahedron_begin(a + 1);
+  const Id t = first_tetrahedron(s, s.tetrahedron_begin(a), end, b, c, d);
+  if (t == end) return;
+  const Quad q = s.tetrahedron(t);
+  if (q.b == b && q.c == c && q.d == d) visit(t);
+}
+
+/// Calls visit(t) for each tetrahedron (a, b, c, .), ascending.
+template <class Memory, class Visit>
+KOKKOS_INLINE_FUNCTION void for_each_tetrahedron_over(const Simplices<Memory>& s, Id a, Id b, Id c,
+                                                      const Visit& visit) {
+  const Id end = s.tetrahedron_begin(a + 1);
+  for (Id t = first_tetrahedron(s, s.tetrahedron_begin(a), end, b, c, 0); t < end; ++t) {
+    const Quad q = s.tetrahedron(t);
+    if (q.b != b || q.c != c) return;
+    visit(t);
+  }
+}
+
+/// Calls visit(t) for each tetrahedron (a, v, ., .) that has the vertices a < v < b, ascending.
+template <class Memory, class Visit>
+KOKKOS_INLINE_FUNCTION void for_each_tetrahedron_over_edge(const Simplices<Memory>& s, Id a, Id v, Id b,
+                                                           const Visit& visit) {
+  const Id end = s.tetrahedron_begin(a + 1);
+  const Id begin = first_tetrahedron(s, s.tetrahedron_begin(a), end, v, 0, 0);
+  if (end - begin <= few_entries || s.tetrahedron(begin + few_entries).b != v) {
+    for (Id t = begin; t < end; ++t) {
+      const Quad q = s.tetrahedron(t);
+      if (q.b != v) return;
+      if (q.c == b || q.d == b) visit(t);
+    }
+    return;
+  }
+  const Id known[] = {a, v, b};
+  for_each_candidate(s, known, v, b, [&](Id w) { visit_tetrahedron(s, a, v, w, b, visit); });
+  for_each_tetrahedron_over(s, a, v, b, visit);
+}
+
+/// Calls visit(t) for each tetrahedron (a, ., ., .) that has the vertices a < b < c, ascending.
+template <class Memory, class Visit>
+KOKKOS_INLINE_FUNCTION void for_each_tetrahedron_from(const Simplices<Memory>& s, Id a, Id b, Id c,
+                                                      const Visit& visit) {
+  const Id begin = s.tetrahedron_begin(a), end = s.tetrahedron_begin(a + 1);
+  if (end - begin <= few_entries) {
+    for (Id t = begin; t < end; ++t) {
+      const Quad q = s.tetrahedron(t);
+      if ((q.b == b || q.c == b) && (q.c == c || q.d == c)) visit(t);
+    }
+    return;
+  }
+  const Id known[] = {a, b, c};
+  for_each_candidate(s, known, a, b, [&](Id v) { visit_tetrahedron(s, a, v, b, c, visit); });
+  for_each_tetrahedron_over_edge(s, a, b, c, visit);
+}
+
+/// Calls visit(t) for each tetrahedron (a, ., ., .) that has the vertices a < b, ascending.
+template <class Memory, class Visit>
+KOKKOS_INLINE_FUNCTION void for_each_tetrahedron_from(const Simplices<Memory>& s, Id a, Id b, const Visit& visit) {
+  const Id begin = s.tetrahedron_begin(a), end = s.tetrahedron_begin(a + 1);
+  if (end - begin <= few_entries) {
+    for (Id t = begin; t < end; ++t) {
+      const Quad q = s.tetrahedron(t);
+      if (q.b == b || q.c == b || q.d == b) visit(t);
+    }
+    return;
+  }
+  const Id known[] = {a, b};
+  for_each_candidate(s, known, a, b, [&](Id v) { for_each_tetrahedron_over_edge(s, a, v, b, visit); });
+  for (Id t = first_tetrahedron(s, begin, end, b, 0, 0); t < end && s.tetrahedron(t).b == b; ++t) visit(t);
+}
+
+namespace bisected {
+
+/// Calls visit(triangle) for each triangle of a vertex, ascending.
+template <class Memory, class Visit>
+KOKKOS_INLINE_FUNCTION void for_each_triangle_of_vertex(const Simplices<Memory>& s, Id vertex, const Visit& visit) {
+  for (Id i = s.lower_begin(vertex); i < s.lower_begin(vertex + 1); ++i) {
+    const Id edge = s.lower_edges(i), low = s.edge_low(edge);
+    const Id first = s.triangle_begin(s.edge_begin(low)), begin = s.triangle_begin(edge);
+    if (begin - first <= few_entries) {
+      for (Id f = first; f < begin; ++f) {
+        if (s.triangle_apex(f) == vertex) visit(f);
+      }
+    } else {
+      const Id known[] = {low, vertex};
+      for_each_candidate(s, known, low, vertex, [&](Id v) { visit_triangle(s, low, v, vertex, visit); });
+    }
+    for (Id f = begin; f < s.triangle_begin(edge + 1); ++f) visit(f);
+  }
+  const Id end = s.triangle_begin(s.edge_begin(vertex + 1));
+  for (Id f = s.triangle_begin(s.edge_begin(vertex)); f < end; ++f) visit(f);
+}
+
+/// Calls visit(triangle) for each triangle of an edge, ascending.
+template <class Memory, class Visit>
+KOKKOS_INLINE_FUNCTION void for_each_triangle_of_edge(const Simplices<Memory>& s, Id edge, const Visit& visit) {
+  const Id a = s.edge_low(edge), b = s.edge_high(edge);
+  const Id known[] = {a, b};
+  for_each_candidate(s, known, no_id, a, [&](Id v) { visit_triangle(s, v, a, b, visit); });
+  for_each_candidate(s, known, a, b, [&](Id v) { visit_triangle(s, a, v, b, visit); });
+  for (Id f = s.triangle_begin(edge); f < s.triangle_begin(edge + 1); ++f) visit(f);
+}
+
+/// Calls visit(tetrahedron) for each tetrahedron that has the vertices a < b, ascending.
+template <class Memory, class Visit>
+KOKKOS_INLINE_FUNCTION void for_each_tetrahedron_of(const Simplices<Memory>& s, Id a, Id b, const Visit& visit) {
+  const Id known[] = {a, b};
+  for_each_candidate(s, known, no_id, a, [&](Id v) {
+    if (s.edge_of(v, a) != no_id && s.edge_of(v, b) != no_id) for_each_tetrahedron_from(s, v, a, b, visit);
+  });
+  for_each_tetrahedron_from(s, a, b, visit);
+}
+
+/// Calls visit(tetrahedron) for each tetrahedron that has the vertices a < b < c, ascending.
+template <class Memory, class Visit>
+KOKKOS_INLINE_FUNCTION void for_each_tetrahedron_of(const Simplices<Memory>& s, Id a, Id b, Id c, const Visit& visit) {
+  const Id known[] = {a, b, c};
+  for_each_candidate(s, known, no_id, a, [&](Id v) { visit_tetrahedron(s, v, a, b, c, visit); });
+  for_each_tetrahedron_from(s, a, b, c, visit);
+}
+
+/// Calls visit(triangle) for each triangle that shares an edge with `triangle`: edge by edge, each time ascending.
+template <class Memory, class Visit>
+KOKKOS_INLINE_FUNCTION void for_each_adjacent_triangle(const Simplices<Memory>& s, Id triangle, const Visit& visit) {
+  const FaceRow<3> edges = face_row<Relation::FE>(s, triangle);
+  for (const Id edge : edges) {
+    for_each_triangle_of_edge(s, edge, [&](Id other) {
+      if (other != triangle) visit(other);
+    });
+  }
+}
+
+/// Calls visit(t) for each tetrahedron that shares a triangle with `tetrahedron`: triangle by triangle, each time
+/// ascending.
+template <class Memory, class Visit>
+KOKKOS_INLINE_FUNCTION void for_each_adjacent_tetrahedron(const Simplices<Memory>& s, Id tetrahedron,
+                                                          const Visit& visit) {
+  const FaceRow<4> own = face_row<Relation::TV>(s, tetrahedron);
+  for (int across = 0; across < 4; ++across) {
+    for_each_tetrahedron_of(s, own[across < 1 ? 1 : 0], own[across < 2 ? 2 : 1], own[across < 3 ? 3 : 2],
+                            [&](Id other) {
+                              if (other != tetrahedron) visit(other);
+                            });
+  }
+}
+
+}  // namespace bisected
+
+}  // namespace gale::detail
