@@ -15,18 +15,23 @@ endfunction()
 
 gale_public(base error kokkos memory threads types)
 gale_public(mesh encoded_mesh input_numbers intervals make_mesh mesh segmentation simplices)
-gale_public(relations faces preconditioning relation rows segment_rows)
-gale_public(runtime options runtime statistics structure)
-gale_public(runtime/explicit explicit_structure)
+gale_public(relations batch faces preconditioning relation rows segment_rows)
+gale_public(runtime consumer make_structure statistics structure structure_options sweep_options)
 gale_public(algorithms critical_points critical_simplices discrete_gradient morse_smale separatrices simplex_numbers
   simplify surface_vertices vertex_order)
 gale_public(baselines discrete_gradient_from_cells oracle)
-gale_public(outputs arrows critical_simplices field heights positions separatrices1 separatrices2)
+gale_public(outputs arrows critical_points critical_simplices field manifolds named_simplices persistence segmentation
+  separatrices1 separatrices2)
 gale_public(io arrays atomic_file dataset image read synthetic voxels write)
 
 set(gale_included_headers
+  base/mirrored.hpp
   base/parallel.hpp
-  mesh/caller_views.hpp)
+  base/transfer.hpp
+  base/view_tracking.hpp
+  base/worker_or_host.hpp
+  mesh/caller_views.hpp
+  mesh/quad.hpp)
 
 # Made by the build, beside those of src/.
 set(gale_generated_headers export.hpp version.hpp)

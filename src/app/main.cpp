@@ -14,6 +14,7 @@
 #include <gale/app/usage_error.hpp>
 #include <gale/base/memory.hpp>
 #include <gale/base/threads.hpp>
+#include <gale/version.hpp>
 
 namespace {
 
@@ -63,14 +64,14 @@ bool parse(CLI::App& app, int argc, char** argv) {
 void run(const Command& command) {
   if (command.common().threads) gale::set_host_threads(*command.common().threads);
   setenv("KOKKOS_DISABLE_WARNINGS", "1", 0);  // such as on thread binding, which is not what standard error is for
-  const Kokkos::ScopeGuard kokkos;
+  const Kokkos::ScopeGuard kokkos(gale::initialization_arguments(gale::host_threads()));
   gale::app::watch_device_memory();
   command.run();
 }
 
 void run(int argc, char** argv) {
   CLI::App app("Topological analysis of large tetrahedral meshes", "gale");
-  app.set_version_flag("--version", "gale " GALE_VERSION);
+  app.set_version_flag("--version", std::string("gale ") + version);
   app.require_subcommand(1);
   std::vector<std::unique_ptr<Command>> commands;
   for (const gale::app::AddCommand add : gale::app::all_commands) commands.push_back(add(app));

@@ -64,6 +64,18 @@ inline WorkerSpace make_instance() {
 #endif
 }
 
+/// What an application gives Kokkos::initialize or a Kokkos::ScopeGuard, so that Kokkos' own loops on the host use so
+/// many threads.
+inline auto initialization_arguments(int threads) {
+#if KOKKOS_VERSION >= 30700
+  return Kokkos::InitializationSettings().set_num_threads(threads);
+#else
+  Kokkos::InitArguments arguments;
+  arguments.num_threads = threads;
+  return arguments;
+#endif
+}
+
 /// "3.4.1"
 inline std::string kokkos_version() {
   return std::to_string(KOKKOS_VERSION / 10000) + '.' + std::to_string(KOKKOS_VERSION / 100 % 100) + '.' +

@@ -6,7 +6,7 @@
 
 #include <gale/export.hpp>
 #include <gale/mesh/make_mesh.hpp>
-#include <gale/runtime/explicit/explicit_structure.hpp>
+#include <gale/runtime/make_structure.hpp>
 #include <gale/version.hpp>
 
 int main(int argc, char** argv) {
@@ -17,8 +17,9 @@ int main(int argc, char** argv) {
 
   int neighbours = 3;
 #ifdef GALE_ENABLE_KOKKOS_KERNELS
-  gale::ExplicitStructure structure(mesh, gale::Relation::VV);
-  neighbours = structure.consumer()->row(gale::Relation::VV, 0).size();
+  gale::StructureOptions options;
+  options.way = gale::Way::explicit_;
+  neighbours = gale::make_structure(mesh, gale::Relation::VV, options)->consumer()->row(gale::Relation::VV, 0).size();
 #endif
   const std::string version = std::to_string(GALE_VERSION_MAJOR) + '.' + std::to_string(GALE_VERSION_MINOR) + '.' +
                               std::to_string(GALE_VERSION_PATCH);
