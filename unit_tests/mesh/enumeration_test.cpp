@@ -123,7 +123,7 @@ TEST(Enumeration, by_several_threads_at_once_happens_once) {
 
 /// Vertices and edges whose higher neighbours are more than one thread keeps by itself, beside others.
 TEST(Enumeration, of_long_rows_is_that_of_brute_force) {
-  for (const Id degree : {39, 40, 41, 42, 43, 44, 81, 200}) {
+  for (const Id degree : {39, 40, 41, 42, 43, 44, 63, 64, 65, 66, 67, 68, 81, 200}) {
     for (const int caps : {2, 3}) {
       const InputMesh input = cone_over_caps(degree, caps);
       const Mesh mesh = encode(input, segmentation_by(std::vector<std::int64_t>(input.points.size(), 0)));

@@ -134,6 +134,19 @@ TEST_P(SimplicesOf, every_mesh_are_in_the_interval_of_the_segment_of_their_lowes
 
 INSTANTIATE_TEST_SUITE_P(Tests, SimplicesOf, every_mesh_and_segmentation(), mesh_and_segmentation);
 
+/// Among those of vertex 0 are the most edges in the first mesh, the most tetrahedra in the second; in the last mesh
+/// the last vertex has the most edges from lower ones.
+TEST(Simplices, say_how_long_their_longest_list_is) {
+  const auto longest_of = [](const InputMesh& input) {
+    const Mesh mesh = encode(input, segmentation_by(std::vector<std::int64_t>(input.points.size(), 0)));
+    EXPECT_EQ(mesh.simplices_on_host(everything).longest_list, mesh.simplices_on_worker(everything).longest_list);
+    return mesh.simplices_on_host(everything).longest_list;
+  };
+  EXPECT_EQ(longest_of(mesh_named("the_papers")), 4);
+  EXPECT_EQ(longest_of(cone_over_caps(100, 2)), 2 * 98);
+  EXPECT_EQ(longest_of(ring_around_edges(50, {50, 51})), 51);
+}
+
 /// Edges 01 02 03 04 12 13 23 24 25 34 35 45.
 TEST(Simplices, of_the_papers_example) {
   const Mesh mesh = encode(mesh_named("the_papers"), segmentation_by({1, 1, 1, 2, 2, 2}));
