@@ -93,10 +93,10 @@ TEST(CriticalPoints, refuse_the_order_of_another_mesh) {
   const std::vector<float> field(input.points.size(), 1.0f);
   const VertexOrder order(mesh, field.data(), field.size());
   Runtime runtime(other, critical_points_relations);
-  EXPECT_EQ(
-      message_of([&] { find_critical_points(runtime, order); }),
-      "the vertex order is of another mesh than the structure: of one of 4 vertices and 1 tetrahedra, not of that of " +
-          std::to_string(other.vertices()) + " vertices and " + std::to_string(other.tetrahedra()) + " tetrahedra");
+  EXPECT_EQ(message_of([&] { find_critical_points(runtime, order); }),
+            "the vertex order is of a mesh of 4 vertices and 1 tetrahedra, the structure of another one of " +
+                std::to_string(other.vertices()) + " vertices and " + std::to_string(other.tetrahedra()) +
+                " tetrahedra");
 }
 
 TEST(CriticalPoints, take_the_order_of_a_copy_of_the_mesh) {
