@@ -71,7 +71,7 @@ void run(const Command& command) {
 
 void run(int argc, char** argv) {
   CLI::App app("Topological analysis of large tetrahedral meshes", "gale");
-  app.set_version_flag("--version", std::string("gale ") + version);
+  app.set_version_flag("--version", std::string("gale ") + gale::version);
   app.require_subcommand(1);
   std::vector<std::unique_ptr<Command>> commands;
   for (const gale::app::AddCommand add : gale::app::all_commands) commands.push_back(add(app));
