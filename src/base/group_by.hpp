@@ -17,6 +17,55 @@ struct Groups {
   Array<Id, Memory> members;
 };
 
+namespace detail {
+
+// Functors instead of lambdas: nvcc then allows a `visit_keys` that only the host can call, for loops on the host.
+
+template <class Indices, class VisitKeys>
+struct CountMembers {
+  VisitKeys visit_keys;
+  Indices counts;
+
+#if defined(__CUDACC__)
+#pragma nv_exec_check_disable
+#endif
+  KOKKOS_FUNCTION void operator()(Offset item) const {
+    using Index = typename Indices::value_type;
+    visit_keys(static_cast<Id>(item), [&](Id key) { atomic_add(&counts(key), Index(1)); });
+  }
+};
+
+template <class Indices, class Members, class VisitKeys>
+struct FillGroups {
+  VisitKeys visit_keys;
+  Indices next;
+  Members members;
+
+#if defined(__CUDACC__)
+#pragma nv_exec_check_disable
+#endif
+  KOKKOS_FUNCTION void operator()(Offset item) const {
+    using Index = typename Indices::value_type;
+    visit_keys(static_cast<Id>(item),
+               [&](Id key) { members(atomic_add(&next(key), Index(1))) = static_cast<Id>(item); });
+  }
+};
+
+template <class KeyOf>
+struct SingleKey {
+  KeyOf key_of;
+
+#if defined(__CUDACC__)
+#pragma nv_exec_check_disable
+#endif
+  template <class Visit>
+  KOKKOS_FUNCTION void operator()(Id item, const Visit& visit) const {
+    visit(key_of(item));
+  }
+};
+
+}  // namespace detail
+
 /// Groups the items 0..items-1 by keys 0..keys-1. `visit_keys(item, visit)` calls visit(key) for each key of an item,
 /// of which there may be any number; it is called twice for each item, with the same keys both times. On a device it is
 /// a functor whose call operator is a template, as nvcc has no generic lambdas in kernels.
@@ -27,39 +76,26 @@ Groups<typename Space::memory_space, Index> group_by(const char* label, const Sp
                                                      const VisitKeys& visit_keys) {
   using Memory = typename Space::memory_space;
   using Indices = Array<Index, Memory>;
+  using Members = Array<Id, Memory>;
   // One entry ahead of `begin`: filling moves the start of each group to its end, which is the next group's start.
   const auto all = allocate<Indices>(label, keys + 2);
   Kokkos::deep_copy(all, Index(0));
   const Indices next = Kokkos::subview(all, std::make_pair(Offset(1), keys + 2));
-  parallel_for((std::string(label) + "_count").c_str(), space, items, KOKKOS_LAMBDA(Offset item) {
-    visit_keys(static_cast<Id>(item), [&](Id key) { atomic_add(&next(key), Index(1)); });
-  });
+  parallel_for((std::string(label) + "_count").c_str(), space, items,
+               detail::CountMembers<Indices, VisitKeys>{visit_keys, next});
   const Index total = exclusive_scan((std::string(label) + "_scan").c_str(), space, keys, next,
                                      KOKKOS_LAMBDA(Offset key) { return next(key); });
-  const auto members = allocate<Array<Id, Memory>>(label, total);
-  parallel_for((std::string(label) + "_fill").c_str(), space, items, KOKKOS_LAMBDA(Offset item) {
-    visit_keys(static_cast<Id>(item),
-               [&](Id key) { members(atomic_add(&next(key), Index(1))) = static_cast<Id>(item); });
-  });
+  const auto members = allocate<Members>(label, total);
+  parallel_for((std::string(label) + "_fill").c_str(), space, items,
+               detail::FillGroups<Indices, Members, VisitKeys>{visit_keys, next, members});
   return {Kokkos::subview(all, std::make_pair(Offset(0), keys + 1)), members};
 }
-
-/// The key of each item by `key_of(item)`, for group_by.
-template <class KeyOf>
-struct SingleKey {
-  KeyOf key_of;
-
-  template <class Visit>
-  KOKKOS_FUNCTION void operator()(Id item, const Visit& visit) const {
-    visit(key_of(item));
-  }
-};
 
 /// Groups items that have one key each: `key_of(item)`.
 template <class Index = Offset, class Space, class KeyOf>
 Groups<typename Space::memory_space, Index> group_by_key(const char* label, const Space& space, Offset items,
                                                          Offset keys, const KeyOf& key_of) {
-  return group_by<Index>(label, space, items, keys, SingleKey<KeyOf>{key_of});
+  return group_by<Index>(label, space, items, keys, detail::SingleKey<KeyOf>{key_of});
 }
 
 }  // namespace gale
