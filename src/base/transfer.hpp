@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 
 #include <gale/base/memory.hpp>
 
@@ -13,13 +14,20 @@ namespace gale {
 void copy_to_device(void* device, const void* host, std::size_t bytes);
 void copy_from_device(void* host, const void* device, std::size_t bytes);
 
+namespace detail {
+
+/// What a copy is called: as its original, which has no name if it is a caller's.
+inline std::string copy_label(const std::string& label) { return label.empty() ? "GALE::copy" : label; }
+
+}  // namespace detail
+
 /// The same contents where the workers can read them: the View itself if they can already, else a copy.
 template <class T, class... Properties>
 auto on_worker(const Kokkos::View<T, Properties...>& view) {
   using Given = Kokkos::View<T, Properties...>;
   using OnWorker = Kokkos::View<T, typename Given::array_layout, WorkerMemory>;
   if constexpr (have_device && !is_device_memory<typename Given::memory_space>) {
-    const auto copy = allocate<typename OnWorker::non_const_type>(view.label(), view.extent(0));
+    const auto copy = allocate<typename OnWorker::non_const_type>(detail::copy_label(view.label()), view.extent(0));
     copy_to_device(copy.data(), view.data(), view.size() * sizeof(typename Given::value_type));
     return OnWorker(copy);
   } else {
@@ -33,7 +41,7 @@ auto on_host(const Kokkos::View<T, Properties...>& view) {
   using Given = Kokkos::View<T, Properties...>;
   using OnHost = Kokkos::View<T, typename Given::array_layout, HostMemory>;
   if constexpr (is_device_memory<typename Given::memory_space>) {
-    const auto copy = allocate<typename OnHost::non_const_type>(view.label(), view.extent(0));
+    const auto copy = allocate<typename OnHost::non_const_type>(detail::copy_label(view.label()), view.extent(0));
     copy_from_device(copy.data(), view.data(), view.size() * sizeof(typename Given::value_type));
     return OnHost(copy);
   } else {
