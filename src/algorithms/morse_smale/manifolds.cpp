@@ -19,8 +19,8 @@ KOKKOS_FORCEINLINE_FUNCTION constexpr Id place_of_end(Id end) { return -2 - end;
 /// What stands for the end of a path that leaves through the surface: the place no_id.
 constexpr Id outside = -1;
 
-/// A copy of successors in the workers' memory in which the critical ones lead to their places, and those that leave to
-/// `outside`.
+/// A copy of successors in the workers' memory, in which critical simplices lead to their places, and those whose path
+/// leaves to `outside`.
 Ids with_ends(const Array<const Id, HostMemory>& successors, const std::vector<Id>& critical) {
   const auto next = allocate<Ids>("GALE::next_on_path", successors.extent(0));
   const auto from = on_worker(successors);
@@ -36,8 +36,8 @@ Ids with_ends(const Array<const Id, HostMemory>& successors, const std::vector<I
   return next;
 }
 
-/// Pointer jumping: afterwards each entry is the end of its path. Entries that others jump over meanwhile only get
-/// closer to their ends.
+/// Pointer jumping: afterwards each entry is the end of its path. Threads may read an entry before or after another one
+/// changes it: both lead to the same end.
 void jump(const Ids& next) {
   constexpr int jumps_a_pass = 4;
   const Offset count = next.extent(0);
