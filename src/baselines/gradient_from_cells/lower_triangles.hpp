@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <gale/base/bits.hpp>
-#include <gale/mesh/simplices.hpp>
+#include <gale/base/types.hpp>
 
 namespace gale::detail {
 
@@ -44,7 +44,7 @@ class LowerTriangles {
   /// The number of one that was added.
   Id operator()(Id a, Id b) const {
     if (has_bits()) return number_[a][b];
-    return find_in([this](Id i) { return low_[i]; }, first_[a], first_[a + 1], b);
+    return static_cast<Id>(std::lower_bound(low_.begin() + first_[a], low_.begin() + first_[a + 1], b) - low_.begin());
   }
 
  private:
