@@ -24,7 +24,7 @@ struct CriticalSimplices {
             static_cast<Id>(tetrahedra.size())};
   }
 
-  /// Alternating sum of the counts: the mesh' Euler characteristic.
+  /// Alternating sum of the counts: the mesh's Euler characteristic.
   std::int64_t euler() const {
     const auto c = counts();
     return std::int64_t(c[0]) - c[1] + c[2] - c[3];

@@ -24,10 +24,10 @@ struct Partner {
 /// A discrete gradient: pairs of simplices whose dimensions differ by one (Forman 1998). Each simplex is in one pair at
 /// most; those in none are critical. On the host, immutable, for any number of threads; copies share the arrays.
 ///
-/// Stored is what paths along the gradient ask for. A vertex and a tetrahedron know their successor, 4 bytes each. For
-/// edges, which only surfaces cross, there is a row for each vertex of the lower ends of its edges, with the third
-/// vertex of the triangle that each is paired with: 5 bytes an edge and 12 a vertex. Edges and triangles have no ids
-/// here: they are named by their vertices (GALE's ids).
+/// It stores what paths along the gradient ask for. Each vertex and each tetrahedron has its successor, 4 bytes. Each
+/// vertex has a row of its edges to lower vertices, with the third vertex of the triangle that each edge is paired
+/// with: 5 bytes an edge and 12 a vertex. Edges and triangles have no ids here: they are named by their vertices
+/// (GALE's ids).
 class DiscreteGradient {
  public:
   explicit DiscreteGradient(std::shared_ptr<const detail::GradientStore> store);
@@ -55,20 +55,20 @@ class DiscreteGradient {
   /// vertex above `high`. In no order that means anything to users.
   void for_each_edge_pair(Id high, const std::function<void(Id low, Id third)>& visit) const;
 
-  /// The pair of a vertex; of an edge; of a tetrahedron. Throw nothing: the simplices must be there.
+  /// The pair of a vertex, of an edge, of a tetrahedron. The simplices must be there: nothing is checked.
   Partner pair_of_vertex(Id vertex) const;
   Partner pair_of_edge(Id a, Id b) const;
   Partner pair_of_tetrahedron(Id tetrahedron) const;
 
   /// The pair of the triangle of a tetrahedron that is opposite the `corner`-th of its vertices (EncodedMesh's order).
-  /// With the tetrahedra that share the triangle alone, of which `others` has those beside this one.
+  /// `others` has the other tetrahedra of that triangle.
   Partner pair_of_triangle(Id tetrahedron, int corner, const Row& others) const;
 
   /// All successors.
   Array<const Id, HostMemory> vertex_successors() const;
   Array<const Id, HostMemory> tetrahedron_successors() const;
 
-  /// Allocated for it.
+  /// The memory that it takes.
   std::size_t bytes() const;
 
   /// For GALE's own algorithms.
@@ -80,7 +80,7 @@ class DiscreteGradient {
   const Id* tetrahedron_successor_;
 };
 
-/// The discrete gradient of a field, after Robins, Wood and Sheppard (2011): each vertex' lower star is paired by
+/// The discrete gradient of a field, after Robins, Wood and Sheppard (2011): the lower star of each vertex is paired by
 /// itself, so simplices are paired only with simplices that have the same highest vertex. Keys are unique: the result
 /// depends on nothing but mesh and order.
 ///

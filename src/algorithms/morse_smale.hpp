@@ -5,7 +5,8 @@
 
 namespace gale {
 
-/// Which parts of a Morse-Smale complex are wanted. Saves their time and memory; changes none of the others.
+/// Which parts of a Morse-Smale complex are wanted. Parts that aren't take no time and no memory; the others don't
+/// depend on them.
 struct MorseSmaleParts {
   bool descending_separatrices = true;
   bool ascending_separatrices = true;
@@ -15,13 +16,14 @@ struct MorseSmaleParts {
   bool ascending_manifolds = true;
 };
 
-/// The surface that the rising paths of a critical edge sweep: a polygon for each edge that it crosses, through the
-/// edge's tetrahedra, in their order around it.
+/// The surfaces that the rising paths of critical edges sweep. Each consists of polygons: one for each edge that it
+/// crosses, through that edge's tetrahedra, in their order around it.
 struct AscendingWalls {
-  Separatrices<std::array<Id, 2>>
-      walls;  ///< edges, the higher end first; the critical one, then the others by their input vertices
-  std::vector<Offset> star_begin{
-      0};  ///< the tetrahedra of the i-th cell of `walls`: star[star_begin[i]] to star[star_begin[i + 1] - 1]
+  /// Edges, the higher end first; the critical one, then the others by their input vertices.
+  Separatrices<std::array<Id, 2>> walls;
+
+  /// The tetrahedra of the i-th cell of `walls` are star[star_begin[i]] to star[star_begin[i + 1] - 1].
+  std::vector<Offset> star_begin{0};
   std::vector<Id> star;
 };
 
@@ -31,7 +33,7 @@ struct MorseSmaleComplex {
   DiscreteGradient gradient;
   MorseSmaleParts parts;  ///< which were computed
 
-  /// The gradient's, or those of them that are left (`simplify`).
+  /// The critical simplices of the gradient, or those of them that `simplify` left.
   CriticalSimplices critical;
 
   /// From each critical edge, from both its vertices, that of lower input id first, down to a minimum: the vertices on
@@ -43,29 +45,36 @@ struct MorseSmaleComplex {
   Separatrices<Id> ascending;
 
   /// From a critical edge up to a critical triangle whose descending wall reaches it: the triangles on the way, the
-  /// last included. Ordered by triangle, then edge. Where paths fork, this is the one over the least triangle, written
-  /// with its input vertices ascending.
+  /// last included. Ordered by triangle, then edge. Where paths fork, it takes the least triangle, each written with
+  /// its input vertices ascending.
   Separatrices<TriangleVertices> connectors;
 
-  /// Of each critical triangle: the triangles that its falling paths sweep, itself first.
+  /// For each critical triangle, the triangles that its falling paths sweep, itself first.
   Separatrices<TriangleVertices> descending_walls;
 
   AscendingWalls ascending_walls;
 
-  /// By input vertex: the place among the critical vertices of the minimum that its path falls to; the place among the
-  /// critical tetrahedra of the maximum that the path from its tetrahedron of lowest input id rises to, no_id if that
-  /// leaves through the surface; and a number for each pair of both, dense from 0, no_id where one is missing.
-  Array<Id, HostMemory> descending_manifold, ascending_manifold, morse_smale_manifold;
+  // Manifolds, by input vertex.
+
+  /// The place among the critical vertices of the minimum that the vertex's path falls to.
+  Array<Id, HostMemory> descending_manifold;
+
+  /// The place among the critical tetrahedra of the maximum that the path from the vertex's tetrahedron of lowest input
+  /// id rises to; no_id if that path leaves through the surface.
+  Array<Id, HostMemory> ascending_manifold;
+
+  /// A number for each pair of both, dense from 0; no_id where one is missing.
+  Array<Id, HostMemory> morse_smale_manifold;
   Id morse_smale_manifolds = 0;  ///< how many pairs there are
 };
 
 /// Traces the complex of a gradient: connectors and walls on options.threads threads, other separatrices on the host's,
-/// manifolds in the workers' space. No progress is told. The same result whatever the structure, its segments, and the
-/// number of threads.
+/// manifolds in the workers' space. options.progress isn't called. The same result whatever the structure, its
+/// segments, and the number of threads.
 ///
 /// `structure` is one of the gradient's mesh: throws gale::Error if it isn't. Only separatrices2 reads it, for VT:
 /// throws gale::Error if it isn't preconditioned for that. Time and memory grow with what is found, and for manifolds
-/// with the mesh. Walls share cells: all of them together may have many times those of the mesh.
+/// with the mesh. Walls share cells: all together may have many times as many as the mesh.
 MorseSmaleComplex find_morse_smale_complex(Structure& structure, const DiscreteGradient& gradient,
                                            const MorseSmaleParts& parts = {}, const SweepOptions& options = {});
 

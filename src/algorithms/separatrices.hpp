@@ -12,9 +12,9 @@ namespace gale {
 /// cells[begin[i]] to cells[begin[i + 1] - 1].
 template <class Cell>
 struct Separatrices {
-  std::vector<Id> sources;            ///< places in CriticalSimplices of each one's first simplex
-  std::vector<Id> destinations;       ///< and of its last; empty for surfaces
-  std::vector<std::uint8_t> is_only;  ///< of saddle connectors: whether there is no other path between the two
+  std::vector<Id> sources;            ///< the place of each one's first simplex in CriticalSimplices
+  std::vector<Id> destinations;       ///< the place of its last simplex; empty for surfaces
+  std::vector<std::uint8_t> is_only;  ///< for saddle connectors: 1 if there is no other path between the two
   std::vector<Offset> begin{0};
   std::vector<Cell> cells;
 

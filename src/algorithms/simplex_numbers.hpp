@@ -9,18 +9,18 @@
 
 namespace gale {
 
-/// Some edges and triangles of a mesh, named by their vertices: GALE's ids, in any order. One may be there more than
-/// once.
+/// Some edges and triangles of a mesh, named by their vertices: GALE's ids, in any order. The same simplex may occur
+/// more than once.
 struct NamedSimplices {
   std::vector<std::array<Id, 2>> edges;
   std::vector<std::array<Id, 3>> triangles;
 };
 
-/// The numbers by which users know them.
+/// The numbers by which users know these simplices.
 struct SimplexNumbers {
-  std::vector<Id> edges, triangles;  ///< as those asked for
+  std::vector<Id> edges, triangles;  ///< in the order in which they were asked for
 
-  /// Of each vertex of the mesh (GALE's id) 1 if it belongs to a triangle with exactly one tetrahedron, else 0.
+  /// For each vertex of the mesh (GALE's id) 1 if it belongs to a triangle with exactly one tetrahedron, else 0.
   Array<const std::uint8_t, HostMemory> on_surface;
 };
 

@@ -19,7 +19,7 @@ struct Groups {
 
 namespace detail {
 
-// Functors instead of lambdas: nvcc then allows a `visit_keys` that only the host can call, for loops on the host.
+// Functors instead of lambdas: nvcc then takes a `visit_keys` that is a lambda of the host's, for loops on the host.
 
 template <class Indices, class VisitKeys>
 struct CountMembers {
@@ -33,6 +33,13 @@ struct CountMembers {
     using Index = typename Indices::value_type;
     visit_keys(static_cast<Id>(item), [&](Id key) { atomic_add(&counts(key), Index(1)); });
   }
+};
+
+template <class Indices>
+struct MemberCount {
+  Indices counts;
+
+  KOKKOS_FUNCTION typename Indices::value_type operator()(Offset key) const { return counts(key); }
 };
 
 template <class Indices, class Members, class VisitKeys>
@@ -83,8 +90,8 @@ Groups<typename Space::memory_space, Index> group_by(const char* label, const Sp
   const Indices next = Kokkos::subview(all, std::make_pair(Offset(1), keys + 2));
   parallel_for((std::string(label) + "_count").c_str(), space, items,
                detail::CountMembers<Indices, VisitKeys>{visit_keys, next});
-  const Index total = exclusive_scan((std::string(label) + "_scan").c_str(), space, keys, next,
-                                     KOKKOS_LAMBDA(Offset key) { return next(key); });
+  const Index total =
+      exclusive_scan((std::string(label) + "_scan").c_str(), space, keys, next, detail::MemberCount<Indices>{next});
   const auto members = allocate<Members>(label, total);
   parallel_for((std::string(label) + "_fill").c_str(), space, items,
                detail::FillGroups<Indices, Members, VisitKeys>{visit_keys, next, members});

@@ -4,18 +4,18 @@
 
 namespace gale {
 
-/// The same discrete gradient as `find_discrete_gradient`, pair by pair, in the formulation of other programs: of each
-/// vertex' edges, triangles and tetrahedra, by their vertices, those of its lower star are collected and paired with
-/// two priority queues. It asks for more relations and takes longer; it is there to compare structures by what they
-/// give to such programs.
+/// The same discrete gradient as that of `find_discrete_gradient`, pair by pair, as other programs compute it: they
+/// collect the edges, triangles and tetrahedra of each vertex, keep those of its lower star, and pair these with two
+/// priority queues. That asks for more relations and takes longer. It is there to compare how structures serve such
+/// programs.
 ///
-/// A sweep of VE, VF and VT, with rows of EV, FV and TV: from the mesh' tables, or from a structure that keeps them.
+/// A sweep of VE, VF and VT, with rows of EV, FV and TV: from the mesh's tables, or from a structure that keeps them.
 /// `structure` must be preconditioned for all six, and `order` be of its mesh: throws gale::Error otherwise. Nothing is
 /// allocated for a vertex once the longest rows were seen.
 DiscreteGradient find_discrete_gradient_from_cells(Structure& structure, const VertexOrder& order,
                                                    const SweepOptions& options = {});
 
-/// What it reads. The facets of a cell are found in the star by their vertices, so that FE and TF aren't needed.
+/// What it reads. FE and TF aren't needed, as the facets of a cell are found in the star by their vertices.
 inline constexpr RelationSet discrete_gradient_from_cells_relations =
     Relation::VE | Relation::VF | Relation::VT | Relation::EV | Relation::FV | Relation::TV;
 

@@ -9,7 +9,7 @@
 
 namespace gale::baselines {
 
-/// The right rows of a relation of a mesh, in GALE's ids, by means that share no code with the segment kernels.
+/// The rows of a relation of a mesh, in GALE's ids, found without any code of the segment kernels.
 class Oracle {
  public:
   virtual ~Oracle() = default;
@@ -24,11 +24,11 @@ class Oracle {
   virtual void read(Id simplex, int thread, std::vector<Id>& row) = 0;
 };
 
-/// Another way than the one that is to be verified: the explicit structure where GALE was built with Kokkos-Kernels,
-/// unless that `is_explicit` itself; else brute force.
+/// The explicit structure where GALE was built with Kokkos-Kernels, else brute force. Brute force too where it is the
+/// explicit structure that is to be verified (`is_explicit`).
 std::unique_ptr<Oracle> make_oracle(const Mesh& mesh, Relation relation, int threads, bool is_explicit);
 
-/// Sorted lists of all simplices, and what follows from them: slow, and simple.
+/// Slow and simple: it lists all simplices, and searches the lists.
 std::unique_ptr<Oracle> make_brute_force(const Mesh& mesh, Relation relation);
 
 }  // namespace gale::baselines

@@ -6,7 +6,7 @@
 
 namespace gale::detail {
 
-/// A set of numbers below 64 * Words. Left uninitialized by default, so that an array of them costs nothing.
+/// A set of numbers below 64 * Words. Its default constructor leaves it uninitialized, so that arrays cost nothing.
 template <int Words>
 class CellSet {
  public:

@@ -14,8 +14,8 @@ EdgePairs::EdgePairs(Id vertices, int consumers)
     : rows_(allocate<Array<EdgePairRow, HostMemory>>("GALE::edge_pair_rows", vertices)), pools_(consumers) {}
 
 EdgePairRow EdgePairs::begin(int consumer, Id vertex, Id count) {
-  constexpr Offset least = Offset(1) << 16,
-                   most = Offset(1) << 23;  // words: large enough for large pages, and little for little meshes
+  // In words. Small meshes need little memory, large chunks get large pages.
+  constexpr Offset least = Offset(1) << 16, most = Offset(1) << 23;
   Pool& pool = pools_[consumer];
   const Offset words = EdgePairRow::words_for(count);
   if (pool.end - pool.next < words) {

@@ -9,9 +9,9 @@
 
 namespace gale::detail {
 
-/// The lower edges of a vertex, by the other end: its ids, ascending, and for each the place among them of the third
+/// The edges of a vertex to lower vertices: the ids of these, ascending, and for each the place among them of the third
 /// vertex of the triangle that the edge is paired with. A view of words in EdgePairs: the count, the ids, then the
-/// places, in a byte each as long as that suffices.
+/// places, in a byte each where that suffices.
 class EdgePairRow {
  public:
   EdgePairRow() = default;

@@ -15,16 +15,16 @@ class GradientStore {
   /// Throws gale::Error if the order is of another mesh.
   GradientStore(const Mesh& mesh, const VertexOrder& order, int consumers);
 
-  /// A vertex' edge; no_id if it is critical.
+  /// Pairs a vertex with the edge to `other`; no_id if the vertex is critical.
   void set_vertex(int consumer, Id vertex, Id other) {
     vertex_successor(vertex) = other;
     if (other == no_id) found_[consumer].vertices.push_back(vertex);
   }
 
-  /// The lower ends of a vertex' edges, ascending; each edge's triangle is to be set.
+  /// A row for the lower ends of a vertex's edges, to be filled in ascending order; no edge is paired yet.
   EdgePairRow begin_edges(int consumer, Id vertex, Id count) { return pairs.begin(consumer, vertex, count); }
 
-  /// The tetrahedron across the paired triangle, or `outside`.
+  /// Sets the tetrahedron across the triangle that a tetrahedron is paired with, or `outside`.
   void set_tetrahedron(Id tetrahedron, Id successor) { tetrahedron_successor(tetrahedron) = successor; }
 
   /// The successor of a tetrahedron that leaves through the surface, by the triangle opposite its corner.
@@ -40,7 +40,7 @@ class GradientStore {
     found_[consumer].tetrahedra.push_back(tetrahedron);
   }
 
-  /// Each tetrahedron of each critical triangle.
+  /// Adds a tetrahedron of a critical triangle.
   void add_to_star(int consumer, const std::array<Id, 3>& triangle, Id tetrahedron) {
     stars_[consumer].push_back({triangle, tetrahedron});
   }

@@ -22,7 +22,7 @@ void GradientSweep::pair(const Star& star) {
   if (!pair_small<1>(star) && !pair_small<2>(star)) pair_large(star);
 }
 
-/// With bits, if the star is small enough.
+/// Pairs the star by sets of bits; false if it is too large.
 template <int Words>
 bool GradientSweep::pair_small(const Star& star) {
   LowerStar<Words> cells;
@@ -73,7 +73,7 @@ void GradientSweep::pair(const Star& star, const Lower& lower, const Cells& cell
   pair_cells(queues, pair, critical);
 }
 
-/// Of the tetrahedron at `place`, which is paired with its triangle (vertex, a, b) on the surface.
+/// The successor of the tetrahedron at `place`, which is paired with its triangle (vertex, a, b) on the surface.
 Id GradientSweep::surface_successor(const Star& star, Id place, Id a, Id b) const {
   for (int corner = 0; corner < 3; ++corner) {
     const Id other = star.neighbours[star.link(place, corner)];

@@ -9,13 +9,13 @@
 
 namespace gale::detail {
 
-/// What LowerStar and its queues are, for stars of any size, and triangles with any number of tetrahedra. One serves
-/// one thread, and keeps its memory.
+/// A LowerStar with its queues, for stars of any size, and triangles with any number of tetrahedra. Time O(n log n).
+/// One serves one thread, and keeps its memory.
 class LargeLowerStar {
  public:
   static constexpr Id no_place = no_id;
 
-  /// `ranks`: as for LowerStar; `numbers(place)` for each tetrahedron of the star.
+  /// `ranks`: of all neighbours, no_id for an upper one; `numbers(place)`: the number of each tetrahedron of the star.
   template <class Numbers>
   void build(const std::vector<Id>& ranks, int edges, const LinkRow& link, const Numbers& numbers) {
     numbers_.resize(link.size());

@@ -15,7 +15,7 @@ class LowerNeighbours {
   static constexpr int max_lower = 64;
   static constexpr std::uint8_t none = max_lower;  ///< the rank of an upper neighbour
 
-  /// False if there are too many, of either.
+  /// False if there are too many neighbours, or too many lower ones.
   KOKKOS_INLINE_FUNCTION bool find(const std::uint64_t* keys, Id vertex, const Row& neighbours) {
     count_ = 0;
     if (neighbours.size() > max_neighbours) return false;
@@ -66,7 +66,7 @@ class LowerNeighbours {
   std::uint8_t by_rank_[max_lower];
 };
 
-/// The same for any number of neighbours, on the host. One serves one thread, and keeps its memory.
+/// What LowerNeighbours does, for any number of neighbours, on the host. One serves one thread, and keeps its memory.
 class ManyLowerNeighbours {
  public:
   void find(const std::uint64_t* keys, Id vertex, const Row& neighbours) {

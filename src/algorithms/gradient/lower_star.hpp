@@ -16,8 +16,8 @@ namespace gale::detail {
 /// that of the vertex and its lower neighbours of ranks a and b; likewise a tetrahedron (a, b, c).
 ///
 /// Holds stars of at most max_edges edges and 64 * Words cells in which no triangle has more than two tetrahedra.
-/// Branches that a processor couldn't foresee are the cost of all this, so there are few: what is of no use, because a
-/// vertex is upper, is written where nobody reads it.
+/// Mispredicted branches are what this costs most, so there are few of them: what belongs to an upper vertex is written
+/// too, to a place that nobody reads.
 template <int Words>
 class LowerStar {
  public:
@@ -76,8 +76,8 @@ class LowerStar {
   static constexpr int max_triangles = Cells::capacity;
   static constexpr int max_star = 128;  ///< tetrahedra of the vertex
 
-  /// Those lower neighbours b that have a triangle (a, b) with one a, as bits. Some of these lie in a word, so that one
-  /// loop finds the triangles of all.
+  /// For one lower neighbour a, a bit for each b that has a triangle (a, b). A word holds those of several a, so that
+  /// one loop finds all their triangles.
   using Below = std::conditional_t<Words == 1, std::uint16_t, std::uint64_t>;
   static constexpr int below_bits = 8 * sizeof(Below);
   static constexpr int below_in_word = 64 / below_bits;
@@ -133,7 +133,7 @@ class LowerStar {
     wedges_ = count;
   }
 
-  /// Those of the wedges, in the order of their keys. False if there are too many.
+  /// Numbers the triangles of the wedges in the order of their keys. False if there are too many.
   KOKKOS_FORCEINLINE_FUNCTION bool number_triangles() {
     for (int a = 0; a < edges_; ++a) triangles_end_[a] = 0;
     for (int a = 0; a < max_edges && a < edges_ + below_in_word; ++a) below_[a] = 0;
@@ -163,7 +163,7 @@ class LowerStar {
     return true;
   }
 
-  /// The tetrahedra of all triangles, and which of them are in the lower star. False if a triangle has more than two.
+  /// Finds the tetrahedra of all triangles, and those in the lower star. False if a triangle has more than two.
   KOKKOS_FORCEINLINE_FUNCTION bool find_cofaces() {
     int count = 0;
     for (int i = 0; i < wedges_; ++i) {
@@ -181,7 +181,7 @@ class LowerStar {
     return most <= 2;
   }
 
-  /// Each edge, then its triangles, each before the tetrahedra that begin with it.
+  /// Numbers each edge, then its triangles, each before the tetrahedra that begin with it.
   KOKKOS_FORCEINLINE_FUNCTION void number_cells() {
     cells_ = edges_ + triangles_ + tetrahedra_;
     all_edges_ = Cells::none();

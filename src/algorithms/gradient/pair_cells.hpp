@@ -4,17 +4,17 @@
 
 namespace gale::detail {
 
-/// Pairs the cells of a vertex' lower star beside the vertex and its edge of the smallest key, cell 0, which have each
-/// other: homotopy expansion after Robins, Wood and Sheppard, "Theory and algorithms for constructing discrete Morse
-/// complexes from grayscale digital images" (2011).
+/// Pairs the cells of a vertex's lower star, but for the vertex and its edge of the smallest key, cell 0, which are a
+/// pair already. It is homotopy expansion after Robins, Wood and Sheppard, "Theory and algorithms for constructing
+/// discrete Morse complexes from grayscale digital images" (2011).
 ///
 /// `queues` knows the star. `add_edges()` queues all but cell 0; `settle(cell)` says that it is paired or critical;
 /// `push(cell)` queues its cofacets with exactly one unsettled facet; `next(cell)` takes the least unsettled one of
 /// these; `facet(cell)` is the unsettled facet of such a cell, or -1 if it has none by now; `defer(cell)` queues a cell
 /// that has none; `next_deferred(cell)` takes the least unsettled one of these and of the edges.
 ///
-/// Calls pair(facet, cell) for each pair and critical(cell) for each cell that is left. Where `queues` are the host's
-/// alone, so is this.
+/// Calls pair(facet, cell) for each pair and critical(cell) for each cell that is left. For the
+/// host alone where `queues` are.
 #if defined(__CUDACC__)
 #pragma nv_exec_check_disable
 #endif

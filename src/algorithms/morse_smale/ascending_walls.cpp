@@ -25,8 +25,8 @@ struct Cell {
   Offset star_begin;
 };
 
-/// Edges of a wall that wait. They are taken in passes over the mesh, each by ascending id of the higher end: those of
-/// one segment together, however a wall winds.
+/// Edges of a wall that are still to be crossed. They are taken in passes over the mesh, each by ascending id of the
+/// higher end, so that those of one segment come together, however a wall winds.
 class Pending {
  public:
   bool empty() const { return ahead_.empty() && behind_.empty(); }
@@ -81,7 +81,7 @@ class Tracer {
   std::vector<Id> stars;
 
  private:
-  /// To the edge that a triangle is paired with, if it is with one.
+  /// Goes on to the edge that a triangle is paired with, if there is one.
   void cross(TriangleVertices triangle) {
     std::sort(triangle.begin(), triangle.end(), [this](Id a, Id b) { return keys_[a] > keys_[b]; });
     for (int i = 1; i < 3; ++i) {

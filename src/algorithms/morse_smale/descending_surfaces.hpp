@@ -6,16 +6,17 @@
 
 namespace gale::detail {
 
-/// What the descending walls of the critical triangles tell.
+/// The descending walls of critical triangles, and what follows from them.
 struct DescendingSurfaces {
-  Separatrices<TriangleVertices> walls;  ///< their triangles; from the critical triangle
+  Separatrices<TriangleVertices> walls;  ///< their triangles, the critical one first
 
   /// Saddle connectors: from a critical edge (source) to a critical triangle (destination) in whose wall it is, the
   /// triangles on the way, the last one included.
   Separatrices<TriangleVertices> connectors;
 };
 
-/// By critical triangle, and connectors then by critical edge. On `threads` threads.
+/// Finds them on `threads` threads. Walls are in the order of critical triangles, and so are connectors; those of one
+/// triangle in the order of critical edges.
 DescendingSurfaces descending_surfaces(const DiscreteGradient& gradient, const CriticalPlaces& places, bool want_walls,
                                        bool want_connectors, int threads);
 

@@ -19,12 +19,12 @@ class DescendingWall {
 
   explicit DescendingWall(const DiscreteGradient& gradient);
 
-  /// Finds the wall of a critical triangle, by its vertices from the highest to the lowest. Time and memory by its
-  /// size.
+  /// Finds the wall of a critical triangle, which is given by its vertices from the highest to the lowest. Time and
+  /// memory grow with the wall.
   void follow(const TriangleVertices& critical);
 
-  /// Its triangles, breadth first, the critical one first. The first two vertices of each other are the edge that it is
-  /// paired with, the higher first.
+  /// Its triangles, breadth first, the critical one first. The first two vertices of each other triangle are the edge
+  /// that it is paired with, the higher vertex first.
   const std::vector<TriangleVertices>& triangles() const { return triangles_; }
 
   /// The critical edges of its rim.
@@ -32,7 +32,7 @@ class DescendingWall {
 
   /// Appends the path inside the wall that rises from one of its critical edges to the critical triangle: the
   /// triangles, the last one included. Where several triangles of the wall meet at an edge, it takes the one that is
-  /// least, written with its input vertices ascending. Says whether they never do: then it is the only path.
+  /// least, written with its input vertices ascending. True if they never do: then it is the only path.
   bool append_path(const Edge& from, std::vector<TriangleVertices>& path) const;
 
  private:

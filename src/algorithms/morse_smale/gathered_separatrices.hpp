@@ -8,8 +8,9 @@
 
 namespace gale::detail {
 
-/// Brings the separatrices that several threads found into the order of their `ends`, which are places below `count`:
-/// their sources, or their destinations. Those with one such end are one thread's, one after the other, and stay so.
+/// Brings the separatrices that several threads found into the order of their `ends`, which are their sources or their
+/// destinations: places below `count`. One thread found all those with the same end, one after the other: they stay in
+/// their order.
 template <class Cell>
 Separatrices<Cell> gathered(std::vector<Separatrices<Cell>>& parts, std::vector<Id> Separatrices<Cell>::*ends,
                             Id count) {

@@ -13,8 +13,8 @@ HostIds descending_manifolds(const DiscreteGradient& gradient);
 /// tetrahedron of lowest input id rises to; no_id if it leaves through the surface, or the vertex has no tetrahedron.
 HostIds ascending_manifolds(const DiscreteGradient& gradient);
 
-/// A number for each pair of the two that there is, in the order of (ascending, descending), dense from 0; no_id where
-/// the ascending one is missing. And how many.
+/// A number for each pair (ascending, descending) that occurs, in lexicographic order, dense from 0; no_id where the
+/// ascending one is missing. And how many pairs there are.
 std::pair<HostIds, Id> morse_smale_manifolds(const HostIds& ascending, const HostIds& descending);
 
 }  // namespace gale::detail

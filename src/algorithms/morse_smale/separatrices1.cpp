@@ -16,7 +16,8 @@ Offset length_of(const Id* successors, Id from) {
   return length;
 }
 
-/// The paths from each of `starts`, which belong to `sources`; place(last) of each is its destination.
+/// The path from each of `starts`, whose source is the one of `sources` at the same place. Its destination is
+/// place(last) of its last simplex.
 template <class Place>
 Separatrices<Id> paths_of(const Id* successors, const std::vector<Id>& starts, const std::vector<Id>& sources,
                           const Place& place) {

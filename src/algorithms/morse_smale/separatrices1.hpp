@@ -6,12 +6,12 @@
 
 namespace gale::detail {
 
-/// From each critical edge, from both its vertices, that of lower input id first, down to a minimum: the vertices on
-/// the way.
+/// The paths from each critical edge down to minima, one from each of its vertices, that of lower input id first: the
+/// vertices on the way.
 Separatrices<Id> descending_separatrices(const DiscreteGradient& gradient, const CriticalPlaces& places);
 
-/// From each critical triangle, from each of its tetrahedra by input id, up to a maximum: the tetrahedra on the way.
-/// Those that leave through the mesh's surface are left out.
+/// The paths from each critical triangle up to maxima, one from each of its tetrahedra, by input id: the tetrahedra on
+/// the way. Those that leave through the mesh's surface are left out.
 Separatrices<Id> ascending_separatrices(const DiscreteGradient& gradient, const CriticalPlaces& places);
 
 }  // namespace gale::detail

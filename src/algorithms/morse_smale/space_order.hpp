@@ -8,8 +8,8 @@
 
 namespace gale::detail {
 
-/// The places of `simplices` in the order of their highest vertices: GALE numbers vertices along a curve, so those that
-/// come one after the other are close to each other, and what threads read for one they still have for the next.
+/// The places of `simplices` in the order of their highest vertices. GALE numbers vertices along a curve, so neighbours
+/// in this order are close to each other, and what a thread reads for one is still in its caches for the next.
 template <class Simplex>
 std::vector<Id> space_order(const std::vector<Simplex>& simplices) {
   std::vector<Id> order(simplices.size());

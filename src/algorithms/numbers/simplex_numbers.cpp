@@ -11,8 +11,8 @@ namespace {
 using HostSpace = Kokkos::DefaultHostExecutionSpace;
 using Ids = Array<Id, HostMemory>;
 
-/// The sweep: how many edges and triangles have each vertex as their first, and the places of those asked for among
-/// these.
+/// The sweep. It counts the edges and triangles that have each vertex as their first, and finds the places of those
+/// asked for among them.
 class Numbering {
  public:
   Numbering(const Mesh& mesh, const NamedSimplices& named, int consumers)
@@ -46,7 +46,7 @@ class Numbering {
   }
 
  private:
-  /// The simplices of one segment that are still to be placed, in the order of its vertices.
+  /// The simplices of one segment whose places are still to be found, in the order of its vertices.
   struct Pending {
     Pending(const detail::NumberQueries<2>& edges, const detail::NumberQueries<3>& triangles, Id segment)
         : edge(edges.begin(segment)),
@@ -77,7 +77,7 @@ class Numbering {
     }
   }
 
-  /// From counts to the numbers of the first ones.
+  /// Turns the counts into the number of each vertex's first simplex.
   void scan(const char* name, const Ids& begin) const {
     const auto count = [&](Offset i) { return begin(i); };
     require_ids(name, reduce_sum("GALE::sum_simplices", HostSpace(), vertices_, count));

@@ -9,10 +9,10 @@
 
 namespace gale::detail {
 
-/// The cells of the paths between simplices of two dimensions that are left in a graph. Arcs are made of arcs that are
-/// made of arcs, and share them: written out one after the other their cells would be exponentially many, almost all of
-/// them passed to and fro. So each arc that others need is written out once, without its loops, when the last of its
-/// parts has been, and forgotten when the last that needs it has been.
+/// The cells of the paths that are left in a graph between simplices of two dimensions. Arcs are made of other arcs,
+/// and share them. Written out as they are, they could have exponentially many cells, and pass almost all of these to
+/// and fro. So each arc is written out once, after its parts and without loops, and forgotten after the last arc that
+/// needs it.
 template <class Cell>
 class JoinedPaths {
  public:
@@ -77,7 +77,7 @@ class JoinedPaths {
     for (const int part : {arc.start, arc.middle, arc.end}) release(part);
   }
 
-  /// Back at a cell that the path has passed, it forgets what it passed since.
+  /// Appends a cell to the path. If the path has passed it before, the loop since then is dropped.
   void add(const Cell& cell) {
     const auto [place, is_new] = place_.emplace(cell, path_.size());
     if (is_new) {

@@ -8,7 +8,7 @@ namespace gale::detail {
 
 namespace {
 
-/// Of two values, which may be infinite.
+/// The difference of two values, which may be infinite.
 double persistence_of(double low, double high) { return low == high ? 0 : std::abs(high - low); }
 
 }  // namespace
@@ -64,7 +64,7 @@ void MorseGraph::cancel() {
   }
 }
 
-/// Those that are alive and don't join what `but` joins.
+/// The arcs that are alive and don't join the two nodes that `but` joins.
 std::vector<int> MorseGraph::others(const std::vector<int>& arcs, int but) const {
   std::vector<int> others;
   for (const int arc : arcs) {

@@ -8,16 +8,16 @@
 
 namespace gale::detail {
 
-/// Critical simplices and the paths between them, of which pairs are cancelled.
+/// The graph of critical simplices (nodes) and the paths between them (arcs), in which pairs of nodes are cancelled.
 class MorseGraph {
  public:
-  /// A path between a node and one that is a dimension higher: of the complex, or of three: `start` and then `middle`
-  /// backwards and then `end`.
+  /// A path between a node and one that is a dimension higher. It is a path of the complex, or joins three other arcs:
+  /// `start`, then `middle` backwards, then `end`.
   struct Arc {
     int low, high;
-    bool is_only;  ///< false: stands for several paths
+    bool is_only;  ///< false if it stands for several paths
     bool is_alive = true;
-    Id separatrix = no_id;  ///< place in the complex' separatrices of its kind
+    Id separatrix = no_id;  ///< place in the complex's separatrices of its kind
     int start = -1, middle = -1, end = -1;
   };
 
@@ -26,7 +26,7 @@ class MorseGraph {
   /// Pairs of a persistence below `threshold` may be cancelled.
   MorseGraph(const MorseSmaleComplex& complex, const std::vector<double>& values, double threshold);
 
-  /// Cancels them, the least persistent first.
+  /// Cancels these pairs, the least persistent first.
   void cancel();
 
   int nodes() const { return static_cast<int>(dimension_.size()); }
@@ -36,10 +36,11 @@ class MorseGraph {
   bool is_alive(int node) const { return is_alive_[node]; }
   const std::vector<Arc>& arcs() const { return arcs_; }
 
-  /// The node whose manifold a minimum's or a maximum's became part of; `nowhere` if that leaves.
+  /// The node whose manifold the manifold of a minimum or a maximum became part of; `nowhere` if it became part of
+  /// none, because its paths now leave through the surface.
   int heir(int node);
 
-  /// The nodes whose walls became part of a saddle's wall, directly.
+  /// The nodes whose walls became part of a saddle's wall, without those that had become part of theirs.
   const std::vector<int>& joined(int node) const { return joined_[node]; }
 
  private:

@@ -50,7 +50,7 @@ std::vector<double> values_of(const MorseSmaleComplex& complex, const std::funct
   return values;
 }
 
-/// Where the simplices that are left are among each other, by node.
+/// By node: the place of each simplex that is left among those of its dimension; no_id for the others.
 std::vector<Id> places_left(const MorseGraph& graph) {
   std::vector<Id> places(graph.nodes(), no_id);
   Id next[4] = {};
@@ -83,13 +83,13 @@ CriticalSimplices critical_left(const MorseGraph& graph, const CriticalSimplices
   return left;
 }
 
-/// The paths that are left from simplices of one dimension to those of another, in the order of `CompareEnds`.
+/// The paths that are left from simplices of one dimension to those of another, in the order of a complex: connectors
+/// by destination, then source; the others by source.
 template <class Cell>
 Separatrices<Cell> separatrices_left(const MorseGraph& graph, const std::vector<Id>& places, int from_dimension,
                                      int to_dimension, const Separatrices<Cell>& separatrices) {
   const bool rises = from_dimension < to_dimension;
-  std::vector<std::tuple<Id, Id, int>>
-      order;  // in that of the complex: connectors by destination, the others by source
+  std::vector<std::tuple<Id, Id, int>> order;  // first place, second place, arc
   for (int i = 0; i < static_cast<int>(graph.arcs().size()); ++i) {
     const MorseGraph::Arc& arc = graph.arcs()[i];
     const int from = rises ? arc.low : arc.high, to = rises ? arc.high : arc.low;
@@ -111,7 +111,7 @@ Separatrices<Cell> separatrices_left(const MorseGraph& graph, const std::vector<
   return left;
 }
 
-/// The walls of a saddle that is left: its own and those that joined it, directly or not, in the order of their places.
+/// The walls that make up the wall of a saddle that is left: its own, then the others, in the order of their places.
 std::vector<Id> walls_of(const MorseGraph& graph, int saddle) {
   std::set<int> found = {saddle};
   std::vector<int> rest = {saddle};

@@ -48,7 +48,7 @@ std::vector<Simplex> simplices_of(const std::vector<Simplex>& tetrahedra, Id ver
   return simplices;
 }
 
-/// Which `low` are faces of each of `high`.
+/// For each of `high`, which of `low` are its faces.
 Lists faces_of(const std::vector<Simplex>& high, int high_dimension, const std::vector<Simplex>& low,
                int low_dimension) {
   Lists lists;
@@ -63,7 +63,7 @@ Lists faces_of(const std::vector<Simplex>& high, int high_dimension, const std::
   return lists;
 }
 
-/// The same the other way round.
+/// For each of `columns` ids, the lists that have it.
 Lists transposed(const Lists& lists, std::size_t columns) {
   Lists result;
   result.begin.assign(columns + 1, 0);
@@ -118,7 +118,7 @@ class BruteForce : public Oracle {
  private:
   bool adjacency_;
   Lists there_;  ///< from the rows' simplices to the entries, or to what neighbours share
-  Lists back_;
+  Lists back_;   ///< of adjacency relations: from what neighbours share back to the rows' simplices
 };
 
 }  // namespace

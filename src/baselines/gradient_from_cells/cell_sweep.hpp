@@ -36,7 +36,7 @@ class CellSweep {
   }
 
  private:
-  /// The other ends of a vertex' edges. These ascend, as edges do.
+  /// Finds the other ends of a vertex's edges. They ascend, as the edges' ids do.
   void find_neighbours(Id vertex, const Row& edges) {
     neighbours_.resize(edges.size());
     for (Id i = 0; i < edges.size(); ++i) {
@@ -46,7 +46,7 @@ class CellSweep {
     ranks_.find(keys_, vertex, neighbours_);
   }
 
-  /// Stores the vertex' pair; false if it has none.
+  /// Stores the vertex's pair; false if it has none.
   bool begin_row(Id vertex) {
     row_ = store_.begin_edges(consumer_, vertex, ranks_.count());
     for (Id i = 0; i < ranks_.count(); ++i) row_.set_id(i, ranks_.lower(i));
@@ -98,14 +98,14 @@ class CellSweep {
     pair_cells(star_, pair, critical);
   }
 
-  // Without branches, which compilers are fond of: nobody can predict them here.
+  // Without branches, which no processor could predict here.
   static Id least(Id a, Id b) { return b ^ ((a ^ b) & -Id(a < b)); }
   static Id most(Id a, Id b) { return a ^ ((a ^ b) & -Id(a < b)); }
 
   /// `one`, or `last` where that is the vertex itself.
   static Id other_of(Id one, Id last, Id vertex) { return one ^ ((one ^ last) & -Id(one == vertex)); }
 
-  /// The rank that a tetrahedron has and its triangle hasn't.
+  /// The rank of the vertex that a tetrahedron has and its triangle hasn't.
   static Id odd_one(const QueuedLowerStar::Corners& tetrahedron, const QueuedLowerStar::Corners& triangle) {
     return tetrahedron[0] != triangle[0]   ? tetrahedron[0]
            : tetrahedron[1] != triangle[1] ? tetrahedron[1]

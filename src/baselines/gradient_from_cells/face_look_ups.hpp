@@ -7,7 +7,7 @@
 
 namespace gale::detail {
 
-/// Rows of face relations from the mesh' tables, as localized structures have them.
+/// Rows of face relations from the mesh's tables, as localized structures have them.
 class LookedUpFaces {
  public:
   explicit LookedUpFaces(const Simplices<HostMemory>& simplices) : simplices_(simplices) {}
@@ -21,8 +21,8 @@ class LookedUpFaces {
   Simplices<HostMemory> simplices_;
 };
 
-/// Rows of face relations from a structure that keeps all. One serves one thread; a row is valid until the next of its
-/// relation.
+/// Rows of face relations from a structure that keeps all rows. One serves one thread; a row is valid until the next of
+/// its relation.
 class KeptFaces {
  public:
   explicit KeptFaces(Structure& structure) : consumer_(structure.consumer()) {}

@@ -7,12 +7,12 @@
 
 namespace gale::detail {
 
-/// A priority queue of numbers from 0 on: the least comes first. Each is in it once or not at all. A bit a number, and
-/// above each 64 words a word that says which of them have any, up to a single one: a step for each of these levels to
-/// push and to pop. One serves one thread, and keeps its memory.
+/// A priority queue of numbers from 0 on, the least first. Each is in it once or not at all. It has a bit for each
+/// number. Above them is a level with a bit for each word of 64 bits, set if that word isn't 0, and so on up to a
+/// single word. To push and to pop takes a step for each level. One serves one thread, and keeps its memory.
 class KeyQueue {
  public:
-  /// Of numbers below `bound`. It must be empty.
+  /// Makes room for numbers below `bound`. The queue must be empty.
   void begin(std::size_t bound) {
     for (levels_ = 0; bound > 64; ++levels_) {
       bound = (bound + 63) / 64;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <gale/base/bits.hpp>
-#include <gale/mesh/simplices.hpp>
+#include <gale/base/types.hpp>
 
 namespace gale::detail {
 
@@ -14,7 +14,7 @@ namespace gale::detail {
 /// any number of them. One serves one thread, and keeps its memory.
 class LowerTriangles {
  public:
-  /// Of a lower star with so many edges, in a star of so many triangles.
+  /// Begins a lower star with `edges` edges, in a star of `triangles` triangles.
   void begin(Id edges, Id triangles) {
     edges_ = edges;
     first_.resize(edges + 1);
@@ -25,26 +25,26 @@ class LowerTriangles {
     }
   }
 
-  /// Each once, in any order, and a and b too. If one is below 0, it is no triangle of the lower star: nothing happens.
-  /// Without a branch: nobody can predict which is.
+  /// Adds each triangle once, in any order, with a and b in any order. If one of them is below 0, the triangle isn't in
+  /// the lower star, and nothing is added. Without a branch, which no processor could predict.
   void add(Id a, Id b) {
     added_[added_count_] = {a, b};
     added_count_ += (a | b) >= 0;
   }
 
-  /// After the last: numbers them.
+  /// Numbers them, after the last was added.
   void number() { has_bits() ? number_by_bits() : number_by_sorting(); }
 
   Id size() const { return added_count_; }
 
-  /// Those of `a` are the triangles first(a) to first(a + 1) - 1; and the b of one.
+  /// The triangles of `a` are first(a) to first(a + 1) - 1; low(triangle) is the b of one.
   Id first(Id a) const { return first_[a]; }
   Id low(Id triangle) const { return low_[triangle]; }
 
   /// The number of one that was added.
   Id operator()(Id a, Id b) const {
     if (has_bits()) return number_[a][b];
-    return find_in([this](Id i) { return low_[i]; }, first_[a], first_[a + 1], b);
+    return static_cast<Id>(std::lower_bound(low_.begin() + first_[a], low_.begin() + first_[a + 1], b) - low_.begin());
   }
 
  private:
@@ -95,7 +95,7 @@ class LowerTriangles {
   std::vector<Id> first_, low_;
   std::vector<Triangle> added_;  ///< with room for one more
   Id added_count_ = 0;
-  std::uint64_t below_[most_bits];  ///< for each a, its bs, and the as of which it is b
+  std::uint64_t below_[most_bits];  ///< for each rank a bit for each other that it has a triangle with
   std::int16_t number_[most_bits][most_bits];
 };
 

@@ -8,11 +8,11 @@
 
 namespace gale::detail {
 
-/// The neighbours of a vertex that are lower than it, by their rank among each other, 0 the lowest; and the rank of any
-/// neighbour. For any number of them. One serves one thread, and keeps its memory.
+/// The lower neighbours of a vertex, by their ranks among each other, 0 the lowest; and the rank of any neighbour. For
+/// any number of neighbours. One serves one thread, and keeps its memory.
 class NeighbourRanks {
  public:
-  /// `neighbours`: all of the vertex', ascending; they must stay as long as they are asked for.
+  /// `neighbours`: all neighbours of the vertex, ascending. They are kept by reference until the next call.
   void find(const std::uint64_t* keys, Id vertex, const std::vector<Id>& neighbours) {
     neighbours_ = &neighbours;
     if (lower_.size() < neighbours.size() + 1) {
@@ -34,7 +34,7 @@ class NeighbourRanks {
   /// How many are lower.
   Id count() const { return count_; }
 
-  /// The i-th of them by id; place of that with a rank among them; and its id.
+  /// The i-th lower neighbour by id; the place among these of the one with a rank; and its id.
   Id lower(Id i) const { return lower_[i]; }
   Id place(Id rank) const { return place_[rank]; }
   Id id(Id rank) const { return lower_[place(rank)]; }
@@ -60,12 +60,12 @@ class NeighbourRanks {
   }
   std::uint32_t slot(Id neighbour) const { return slot(neighbour, multiplier_); }
 
-  /// Among all neighbours.
+  /// The place of one among all neighbours.
   std::ptrdiff_t place_of(Id neighbour) const {
     return std::lower_bound(neighbours_->begin(), neighbours_->end(), neighbour) - neighbours_->begin();
   }
 
-  /// A few by counting those below each, which needs no branch.
+  /// Few are sorted by counting those below each, which needs no branch.
   void sort() {
     constexpr Id few = 16;
     if (count_ <= few) {
@@ -80,8 +80,8 @@ class NeighbourRanks {
     }
   }
 
-  /// Few neighbours get a hash table in which none is in another's place, so that it needs no ids and is never cleared:
-  /// only neighbours are looked up.
+  /// Few neighbours get a hash table without collisions. As only neighbours are looked up in it, it needs no ids, and
+  /// is never cleared.
   void make_table() {
     is_hashed_ = find_multiplier();
     if (is_hashed_) {

@@ -6,7 +6,7 @@ namespace gale::detail {
 
 namespace {
 
-/// Room for so many, whatever they are.
+/// Makes room for `count` values. What they are doesn't matter.
 template <class T>
 void make_room(std::vector<T>& values, std::size_t count) {
   if (values.size() < count) values.resize(count);
@@ -54,7 +54,7 @@ void QueuedLowerStar::find_sides() {
   }
 }
 
-/// An edge a, then each triangle (a, b) and its tetrahedra (a, b, c), for which there is room here.
+/// Numbers each edge a, then each triangle (a, b), and leaves room behind it for its tetrahedra (a, b, c).
 void QueuedLowerStar::number_cells() {
   make_room(cells_, edge_cell_.size() + triangles_.size() + inner_count_);
   cell_count_ = 0;

@@ -19,12 +19,13 @@ class QueuedLowerStar {
   // To make one: `begin`, all triangles, `end_triangles`, all tetrahedra, `end`. They are given by the ranks of their
   // other vertices; those of upper vertices are below 0.
 
-  /// Of so many edges, whose ranks are 0 to edges - 1, in a star of so many triangles and tetrahedra.
+  /// Begins a lower star with `edges` edges, whose ranks are 0 to edges - 1, in a star of so many triangles and
+  /// tetrahedra.
   void begin(Id edges, Id triangles, Id tetrahedra);
   void add_triangle(Id a, Id b) { triangles_.add(a, b); }
   void end_triangles();
 
-  /// a > b > c, where they aren't below 0. Without a branch: nobody can predict which is.
+  /// a > b > c, where they aren't below 0. Without a branch, which no processor could predict.
   void add_tetrahedron(Id a, Id b, Id c, Id tetrahedron) {
     inner_[inner_count_] = {a, b, c, tetrahedron, {}};
     outer_[outer_count_] = {a, b, tetrahedron};
@@ -41,8 +42,7 @@ class QueuedLowerStar {
   /// Id of a cell that is a tetrahedron.
   Id tetrahedron(int cell) const { return inner_[cells_[cell].place].id; }
 
-  /// The tetrahedron that shares a triangle with another one; of several that of the lowest number, no_id if there is
-  /// none.
+  /// The other tetrahedron of a triangle; of several that of the lowest number, no_id if there is none.
   Id across(int triangle, Id tetrahedron, const Id* numbers) const;
 
   /// Calls visit(tetrahedron) for each that a triangle has, in the lower star or not.
@@ -56,8 +56,8 @@ class QueuedLowerStar {
     for (std::size_t a = 1; a < edge_cell_.size(); ++a) deferred_.push(edge_cell_[a]);
   }
 
-  /// Queues at once what `push` is to queue: each cofacet loses an unsettled facet here, and no other cell that is
-  /// settled before the push has the same.
+  /// Queues what `push` is to queue already: each cofacet loses an unsettled facet here, and no cell that is settled
+  /// between this and the push has the same cofacet.
   void settle(int cell);
   void push(int) {}
   bool next(int& cell) { return take(ready_, cell); }
@@ -76,7 +76,7 @@ class QueuedLowerStar {
     Corners corners;
     int place;     ///< of a triangle or a tetrahedron, in `sides_of_` or `inner_`
     int open;      ///< how many facets are unsettled; below 0 once the cell itself is settled
-    int left;      ///< these facets, by exclusive or: of one, itself
+    int left;      ///< exclusive or of these facets: if there is one, that facet
     int cofacets;  ///< the first link to them, or -1
   };
 
