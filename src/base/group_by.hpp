@@ -58,6 +58,13 @@ struct FillGroups {
   }
 };
 
+template <class Indices>
+struct EntryOf {
+  Indices entries;
+
+  KOKKOS_FUNCTION auto operator()(Offset i) const { return entries(i); }
+};
+
 template <class KeyOf>
 struct SingleKey {
   KeyOf key_of;

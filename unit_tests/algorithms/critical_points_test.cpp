@@ -92,8 +92,8 @@ TEST(CriticalPoints, refuse_the_order_of_another_mesh) {
   const Mesh mesh = encode(input, octree_of(input, 100)), other = encode(larger, octree_of(larger, 100));
   const std::vector<float> field(input.points.size(), 1.0f);
   const VertexOrder order(mesh, field.data(), field.size());
-  Runtime runtime(other, critical_points_relations);
-  EXPECT_EQ(message_of([&] { find_critical_points(runtime, order); }),
+  const auto runtime = make_structure(other, critical_points_relations);
+  EXPECT_EQ(message_of([&] { find_critical_points(*runtime, order); }),
             "the vertex order is of a mesh of 4 vertices and 1 tetrahedra, the structure of another one of " +
                 std::to_string(other.vertices()) + " vertices and " + std::to_string(other.tetrahedra()) +
                 " tetrahedra");
@@ -104,8 +104,8 @@ TEST(CriticalPoints, take_the_order_of_a_copy_of_the_mesh) {
   const Mesh mesh = encode(input, octree_of(input, 100));
   const Mesh copy = mesh;
   const std::vector<float> field(4, 1.0f);
-  Runtime runtime(copy, critical_points_relations);
-  EXPECT_EQ(find_critical_points(runtime, VertexOrder(mesh, field.data(), 4)).vertices.size(), 2u);
+  const auto runtime = make_structure(copy, critical_points_relations);
+  EXPECT_EQ(find_critical_points(*runtime, VertexOrder(mesh, field.data(), 4)).vertices.size(), 2u);
   EXPECT_FALSE(mesh == encode(input, octree_of(input, 100))) << "of equal tetrahedra, but not the same";
 }
 

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <gale/algorithms/morse_smale/edge_star.hpp>
-#include <gale/runtime/runtime.hpp>
+#include <gale/runtime/make_structure.hpp>
 
 #include "support/input_mesh.hpp"
 #include "support/segmentations.hpp"
@@ -76,7 +76,7 @@ class Around {
 std::map<std::array<Id, 2>, std::vector<Around::Wedge>> wedges_by_edge(const Mesh& mesh) {
   std::map<std::array<Id, 2>, std::vector<Around::Wedge>> wedges;
   for (Id t = 0; t < mesh.tetrahedra(); ++t) {
-    const Id* const v = &mesh.host().tetrahedra(t, 0);
+    const Id* const v = &mesh.encoded().tetrahedra(t, 0);
     for (int i = 0; i < 4; ++i) {
       for (int j = 0; j < i; ++j) {
         Around::Wedge wedge{mesh.tetrahedron_input()(t), t, {}};
@@ -95,8 +95,8 @@ class EdgeStarIn : public testing::TestWithParam<std::string> {};
 TEST_P(EdgeStarIn, every_mesh_goes_around_each_edge_in_the_order_that_it_promises) {
   const InputMesh& input = mesh_named(GetParam());
   const Mesh mesh = encode(input, octree_of(input, 100));
-  Runtime runtime(mesh, Relation::VT);
-  const auto consumer = runtime.consumer();
+  const auto runtime = make_structure(mesh, Relation::VT);
+  const auto consumer = runtime->consumer();
   detail::EdgeStar star(mesh);
   for (const auto& [edge, wedges] : wedges_by_edge(mesh)) {
     std::vector<Id> thirds;

@@ -13,7 +13,7 @@
 #include <gale/algorithms/simplex_numbers.hpp>
 #include <gale/algorithms/surface_vertices.hpp>
 #include <gale/baselines/gradient_from_cells/queued_lower_star.hpp>
-#include <gale/runtime/runtime.hpp>
+#include <gale/runtime/make_structure.hpp>
 
 #include "algorithms/brute_force_complex.hpp"
 #include "algorithms/complexes.hpp"
@@ -69,15 +69,15 @@ void expect_fast(const InputMesh& input, const std::vector<double>& field) {
   const auto begin = std::chrono::steady_clock::now();
   const Mesh mesh = encode(input, octree_of(input, 100));
   const VertexOrder order(mesh, field.data(), field.size());
-  Runtime runtime(mesh, morse_smale_relations);
-  EXPECT_FALSE(find_critical_points(runtime, order).vertices.empty());
+  const auto runtime = make_structure(mesh, morse_smale_relations);
+  EXPECT_FALSE(find_critical_points(*runtime, order).vertices.empty());
   MorseSmaleParts parts;
   parts.separatrices2 = true;
-  const auto complex = find_morse_smale_complex(runtime, find_discrete_gradient(runtime, order), parts);
+  const auto complex = find_morse_smale_complex(*runtime, find_discrete_gradient(*runtime, order), parts);
   EXPECT_EQ(complex.critical.euler(), 1) << "a mesh that contracts to a point";
   EXPECT_EQ(complex.ascending_walls.walls.sources.size(), complex.critical.edges.size());
   EXPECT_EQ(complex.descending_walls.sources.size(), complex.critical.triangles.size());
-  const auto numbers = number_simplices(runtime, {complex.critical.edges, complex.critical.triangles});
+  const auto numbers = number_simplices(*runtime, {complex.critical.edges, complex.critical.triangles});
   EXPECT_EQ(std::set<Id>(numbers.edges.begin(), numbers.edges.end()).size(), complex.critical.edges.size());
   const auto on_surface = surface_vertices(mesh);
   for (Id v = 0; v < mesh.vertices(); ++v) ASSERT_EQ(on_surface(v), numbers.on_surface(v));

@@ -2,7 +2,7 @@
 #include <set>
 
 #include <gale/algorithms/simplify.hpp>
-#include <gale/runtime/runtime.hpp>
+#include <gale/runtime/make_structure.hpp>
 
 #include "algorithms/brute_force_simplify.hpp"
 #include "algorithms/complexes.hpp"
@@ -133,13 +133,13 @@ TEST(Simplify, leaves_pairs_that_would_make_too_many_paths) {
 TEST(Simplify, refuses_a_complex_without_the_parts_that_it_needs) {
   const InputMesh input = strip(6);
   const Mesh mesh = encode(input, octree_of(input, 50));
-  Runtime runtime(mesh, morse_smale_relations);
+  const auto runtime = make_structure(mesh, morse_smale_relations);
   const std::vector<double> field = {0, 2, 4, 5, 3, 1};
-  const auto gradient = find_discrete_gradient(runtime, VertexOrder(mesh, field.data(), field.size()));
+  const auto gradient = find_discrete_gradient(*runtime, VertexOrder(mesh, field.data(), field.size()));
   const auto message = [&](const MorseSmaleParts& parts) {
     return message_of([&] {
       simplify(
-          find_morse_smale_complex(runtime, gradient, parts), [&](Id v) { return field.at(v); }, 5);
+          find_morse_smale_complex(*runtime, gradient, parts), [&](Id v) { return field.at(v); }, 5);
     });
   };
   const std::string refusal = "simplify needs parts that the complex was computed without: ";

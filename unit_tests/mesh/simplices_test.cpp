@@ -139,8 +139,8 @@ INSTANTIATE_TEST_SUITE_P(Tests, SimplicesOf, every_mesh_and_segmentation(), mesh
 TEST(Simplices, say_how_long_their_longest_list_is) {
   const auto longest_of = [](const InputMesh& input) {
     const Mesh mesh = encode(input, segmentation_by(std::vector<std::int64_t>(input.points.size(), 0)));
-    EXPECT_EQ(mesh.simplices_on_host(everything).longest_list, mesh.simplices_on_worker(everything).longest_list);
-    return mesh.simplices_on_host(everything).longest_list;
+    EXPECT_EQ(mesh.simplices(everything).longest_list, mesh.simplices<WorkerMemory>(everything).longest_list);
+    return mesh.simplices(everything).longest_list;
   };
   EXPECT_EQ(longest_of(mesh_named("the_papers")), 4);
   EXPECT_EQ(longest_of(cone_over_caps(100, 2)), 2 * 98);

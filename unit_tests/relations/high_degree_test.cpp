@@ -63,13 +63,9 @@ void expect_facts(const Mesh& mesh, RelationSet relations, const Facts& facts) {
   for (Id s = 0; s < mesh.segments(); ++s) {
     const SegmentRows found = worker.compute(s);
     for (const Relation relation : members_of(relations)) {
-      const int dimension = row_dimension(relation);
-      const Id first = found.first(dimension), last = found.last(dimension);
-      rows[static_cast<int>(relation)] += last - first;
+      rows[static_cast<int>(relation)] += found.interval(relation).size();
       Offset& sum = entries[static_cast<int>(relation)];
-      for (Id i = first; i < last; ++i) {
-        sum += relation == Relation::link ? found.links()[i].size() : found[relation][i].size();
-      }
+      for (const Id i : found.interval(relation)) sum += found[relation][i].size();
     }
   }
   for (const Relation relation : members_of(relations)) {

@@ -41,16 +41,17 @@ class RowKernel {
 
   /// On the calling thread.
   void operator()(const HostTeam& team) const {
-    with_search([&](auto search) { compute<decltype(search)::value>(team, team.scratch()); });
+    if constexpr (detail::can_bisect(relation)) {
+      if (bisects()) return compute<Search::bisect>(team, team.scratch());
+    }
+    compute<Search::look_through>(team, team.scratch());
   }
 
   /// Calls use(functor) with what Kokkos is to run on its teams: one for each level of scratch memory, see
   /// team::scratch, and for each way of finding entries.
   template <class Use>
   friend void with_functor(const RowKernel& kernel, const Use& use) {
-    kernel.with_search([&](auto search) {
-      kernel.scratch_level == 0 ? use(OnTeams<0, decltype(search)::value>{kernel}) : use(OnTeams<1, decltype(search)::value>{kernel});
-    });
+    kernel.use_on_teams(use);
   }
 
   template <int level, Search search>
@@ -101,16 +102,20 @@ class RowKernel {
   }
 
  private:
-  /// Calls use(search) with how this mesh's rows are found, a constant of the type.
+  /// Has the mesh vertices of so many simplices that bisection finds a row's entries faster?
+  bool bisects() const { return simplices.longest_list > detail::longest_looked_through; }
+
   template <class Use>
-  void with_search(const Use& use) const {
+  void use_on_teams(const Use& use) const {
     if constexpr (detail::can_bisect(relation)) {
-      if (simplices.longest_list > detail::longest_looked_through) {
-        use(std::integral_constant<Search, Search::bisect>());
-        return;
-      }
+      if (bisects()) return use_at_level<Search::bisect>(use);
     }
-    use(std::integral_constant<Search, Search::look_through>());
+    use_at_level<Search::look_through>(use);
+  }
+
+  template <Search search, class Use>
+  void use_at_level(const Use& use) const {
+    scratch_level == 0 ? use(OnTeams<0, search>{*this}) : use(OnTeams<1, search>{*this});
   }
 
   static constexpr std::uint32_t most_entries = 2147483647;  ///< that an Id counts
