@@ -26,7 +26,7 @@ void advise_huge_pages(void* data, std::size_t bytes);
 template <class ViewType, class... Extents>
 ViewType allocate(const std::string& label, Extents... extents) {
   require_kokkos();
-  const ViewType view = [&] {
+  ViewType view = [&] {
     try {
       return ViewType(Kokkos::view_alloc(label, Kokkos::WithoutInitializing), static_cast<std::size_t>(extents)...);
     } catch (const std::exception&) {

@@ -43,10 +43,10 @@ class Structure {
   /// `options.threads` consumer threads. If a body throws, no further segment is begun and the exception is thrown
   /// again here. Throws gale::Error if `wanted` has a relation that was not preconditioned.
   ///
-  /// What a body may do: read the rows that it is given, and others through a consumer of its own; begin no loop of
-  /// Kokkos or of this library where Kokkos has Serial alone. It may copy Views and take subviews: while it runs
-  /// Kokkos doesn't count references, so that threads needn't agree on them; what it copies must not outlive the View
-  /// that it copied. A View that it makes it may move elsewhere, not copy.
+  /// What a body may do: read the rows that it is given, and others through a consumer of its own. It may copy Views
+  /// and take subviews: Kokkos counts no references on its thread meanwhile, since it doesn't count atomically where
+  /// Serial is its only backend. So what a body copies must not outlive the View that it copied, and a View that it
+  /// makes must not outlive the body. It must begin no parallel loop of Kokkos where Serial is the only backend.
   void for_each_segment(RelationSet wanted, const SweepOptions& options, const SegmentBody& body);
 
   /// For rows in any order. Any thread may make one, and any number of them.

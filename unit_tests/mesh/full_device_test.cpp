@@ -27,6 +27,7 @@ class FullDevice {
       freed += taken_.back().extent(0);
       taken_.pop_back();
     }
+    while (freed >= free + mebi && take(mebi)) freed -= mebi;  // what was given back too much
   }
 
  private:

@@ -2,6 +2,7 @@
 #include <cstring>
 
 #include <gale/algorithms/gradient/edge_pairs.hpp>
+#include <gale/base/view_tracking.hpp>
 
 namespace gale::detail {
 
@@ -19,6 +20,7 @@ EdgePairRow EdgePairs::begin(int consumer, Id vertex, Id count) {
   Pool& pool = pools_[consumer];
   const Offset words = EdgePairRow::words_for(count);
   if (pool.end - pool.next < words) {
+    const TrackedViews tracked;  // chunks outlive the sweep's body that asks for them
     const Offset twice = pool.chunks.empty() ? least : 2 * static_cast<Offset>(pool.chunks.back().extent(0));
     pool.chunks.push_back(allocate<Array<Id, HostMemory>>("GALE::edge_pairs", std::max(words, std::min(twice, most))));
     pool.next = pool.chunks.back().data();

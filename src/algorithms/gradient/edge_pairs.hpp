@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <deque>
 #include <vector>
 
 #include <gale/base/memory.hpp>
@@ -77,7 +78,7 @@ class EdgePairs {
 
  private:
   struct Pool {
-    std::vector<Array<Id, HostMemory>> chunks;
+    std::deque<Array<Id, HostMemory>> chunks;  ///< a deque, since growing must not copy Views in a sweep's body
     Id* next = nullptr;
     Id* end = nullptr;
   };
