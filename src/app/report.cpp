@@ -75,6 +75,7 @@ Json to_json(const Report& report) {
           {"structure", or_null(report.structure)},
           {"way", or_null(report.way)},
           {"input", report.input},
+          {"notices", report.notices},
           {"mesh",
            {{"vertices", or_null(report.vertices)},
             {"edges", or_null(report.edges)},

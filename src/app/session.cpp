@@ -81,6 +81,7 @@ Mesh Session::encode(io::Dataset& dataset, const SegmentationOptions& segmentati
   Mesh mesh(Tetrahedra<Id, HostMemory>(dataset.tetrahedra), segments);
   if (keep == Keep::nothing) dataset.tetrahedra = {};
   report_.segments = mesh.segments();
+  if (!mesh.notice().empty()) report_.notices = {mesh.notice()};
   console_.say("segments", grouped(mesh.segments()));
   return mesh;
 }
@@ -111,6 +112,7 @@ SweepOptions Session::sweep(const std::string& title) const {
 
 void Session::finish(const Structure* structure) {
   if (structure != nullptr) report_structure(*structure, report_);
+  for (const std::string& notice : report_.notices) console_.say("note", notice);
   if (report_.edges) console_.say("edges", grouped(*report_.edges));
   if (report_.triangles) console_.say("triangles", grouped(*report_.triangles));
   const Seconds& times = report_.seconds;

@@ -1,15 +1,11 @@
-#include <gale/runtime/defaults.hpp>
-
-#ifdef __linux__
-#include <sched.h>
-#endif
 #include <unistd.h>
 
 #include <algorithm>
 #include <string>
-#include <thread>
 
 #include <gale/base/error.hpp>
+#include <gale/base/threads.hpp>
+#include <gale/runtime/defaults.hpp>
 
 namespace gale::detail {
 
@@ -27,16 +23,6 @@ constexpr std::size_t share_of_host = 8;
 std::size_t default_host_memory() {
   const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
   return pages > 0 && page > 0 ? static_cast<std::size_t>(pages) * page / share_of_host : 512 * mebibyte;
-}
-
-/// Those that the calling thread may run on: so may the threads that it starts, and no others.
-int usable_cores() {
-  const int all = std::max(static_cast<int>(std::thread::hardware_concurrency()), 1);
-#ifdef __linux__
-  cpu_set_t set;
-  if (sched_getaffinity(0, sizeof set, &set) == 0) return std::min(all, CPU_COUNT(&set));
-#endif
-  return all;
 }
 
 int given_or(int given, int otherwise, const char* name) {
@@ -68,6 +54,6 @@ std::size_t host_memory(const StructureOptions& options) {
   return options.host_memory == 0 ? default_host_memory() : options.host_memory;
 }
 
-int cores(const StructureOptions& options) { return given_or(options.cores, usable_cores(), "cores"); }
+int cores(const StructureOptions& options) { return given_or(options.cores, host_threads(), "cores"); }
 
 }  // namespace gale::detail

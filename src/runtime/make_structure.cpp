@@ -20,12 +20,22 @@ constexpr NamedWay named_ways[] = {
     {Way::inline_, "inline"}, {Way::explicit_, "explicit"}, {Way::task_parallel, "task-parallel"},
 };
 
-std::unique_ptr<Structure> leaders_or_helpers(const Mesh& mesh, RelationSet wanted, const StructureOptions& options) {
-  if constexpr (have_device) {
-    return std::make_unique<detail::LeaderStructure>(mesh, wanted, options);
-  } else {
-    return std::make_unique<detail::HelpedStructure>(mesh, wanted, options);
+std::unique_ptr<Structure> make(const Mesh& mesh, RelationSet wanted, const StructureOptions& options, Way way) {
+  switch (way) {
+    case Way::gale:
+      return make(mesh, wanted, options, mesh.on_device() ? Way::leaders : Way::helpers);
+    case Way::leaders:
+      return std::make_unique<detail::LeaderStructure>(mesh, wanted, options);
+    case Way::helpers:
+      return std::make_unique<detail::HelpedStructure>(mesh, wanted, options);
+    case Way::inline_:
+      return std::make_unique<detail::InlineStructure>(mesh, wanted);
+    case Way::explicit_:
+      return std::make_unique<ExplicitStructure>(mesh, wanted);
+    case Way::task_parallel:
+      return std::make_unique<detail::TaskParallelStructure>(mesh, wanted);
   }
+  throw Error("there is no such way of computing");
 }
 
 }  // namespace
@@ -46,21 +56,15 @@ std::optional<Way> way_named(const std::string& name) {
 
 std::unique_ptr<Structure> make_structure(const Mesh& mesh, RelationSet wanted, const StructureOptions& options) {
   if (wanted.empty()) throw Error("a structure needs at least one relation to be preconditioned for");
-  switch (options.way) {
-    case Way::gale:
-      return leaders_or_helpers(mesh, wanted, options);
-    case Way::leaders:
-      return std::make_unique<detail::LeaderStructure>(mesh, wanted, options);
-    case Way::helpers:
-      return std::make_unique<detail::HelpedStructure>(mesh, wanted, options);
-    case Way::inline_:
-      return std::make_unique<detail::InlineStructure>(mesh, wanted);
-    case Way::explicit_:
-      return std::make_unique<ExplicitStructure>(mesh, wanted);
-    case Way::task_parallel:
-      return std::make_unique<detail::TaskParallelStructure>(mesh, wanted);
+  try {
+    return make(mesh, wanted, options, options.way);
+  } catch (const OutOfMemory& error) {
+    if (!have_device || options.way == Way::helpers) throw;
+    auto structure = make(mesh, wanted, options, Way::helpers);
+    structure->add_notice(std::string("what computes relations doesn't fit the device's memory (") + error.missing() +
+                          "): the host computes them");
+    return structure;
   }
-  throw Error("there is no such way of computing");
 }
 
 }  // namespace gale

@@ -7,8 +7,7 @@ namespace gale {
 /// A structure that computes in the way `options.way` says. Preconditions `mesh` for the relations `wanted`: enumerates
 /// edges and triangles as far as these need them, and starts the threads that it needs.
 ///
-/// - `gale`: leaders where the mesh is on a device; helpers elsewhere, and where the device lacks memory for leaders
-///   (statistics().notices says so).
+/// - `gale`: leaders where the mesh is on a device, helpers elsewhere.
 /// - `leaders`: a consumer that finds no block pushes a request on the queue of its relation and waits. The queue's
 ///   leader takes all that wait, adds the segments that follow each, leaves out what is resident or under way, and
 ///   launches them as one batch; while that is copied to the host, the next computes. Blocks stay until the host budget
@@ -19,6 +18,8 @@ namespace gale {
 ///   and waits for nobody.
 /// - `explicit`: every row at once. Throws gale::Error where GALE was built without Kokkos-Kernels.
 /// - `task-parallel`: a worker thread for each consumer of a sweep.
+///
+/// Where the device lacks memory for any of them, the host computes in the way of helpers, and notices say so.
 ///
 /// Throws gale::Error for no relation at all, for an option below 0, and if there are more than 2^31 - 1 edges or
 /// triangles where these are needed.

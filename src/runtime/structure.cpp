@@ -40,6 +40,8 @@ void Structure::for_each_segment(RelationSet wanted, const SweepOptions& options
 StructureStatistics Structure::statistics() const {
   StructureStatistics all;
   all.consumers = log_->all();
+  if (!mesh_.notice().empty()) all.notices.push_back(mesh_.notice());
+  all.notices.insert(all.notices.end(), notices_.begin(), notices_.end());
   add_statistics(all);
   return all;
 }

@@ -55,6 +55,9 @@ class Structure {
   /// What it did since it was made.
   StructureStatistics statistics() const;
 
+  /// For whoever made it: says in statistics().notices what is different from what was asked for. Before it is used.
+  void add_notice(const std::string& notice) { notices_.push_back(notice); }
+
  protected:
   Structure(const Mesh& mesh, RelationSet relations, Way way);
 
@@ -87,6 +90,7 @@ class Structure {
   const RelationSet relations_;
   const Way way_;
   const std::shared_ptr<detail::ConsumerLog> log_;
+  std::vector<std::string> notices_;
 };
 
 }  // namespace gale

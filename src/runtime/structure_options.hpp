@@ -45,7 +45,7 @@ struct StructureOptions {
   std::size_t host_memory = 0;
 
   /// Of helpers: how many cores a sweep's consumers and helpers share. With as many consumers there is no helper. By
-  /// default all that the thread which begins the sweep may run on.
+  /// default as many as host_threads() says, which a ThreadLimit bounds.
   int cores = 0;
 
   /// Bytes for batches on the device, for all queues together; by default three of 16 MiB each a queue.

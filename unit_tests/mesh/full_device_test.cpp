@@ -1,3 +1,5 @@
+#include "support/full_device.hpp"
+
 #include <gtest/gtest.h>
 
 #include <gale/base/worker_or_host.hpp>
@@ -11,37 +13,7 @@ namespace gale::test {
 
 namespace {
 
-constexpr std::size_t mebi = std::size_t(1) << 20;
 constexpr SimplexNeeds everything = {Enumeration::triangles, true, true};
-
-/// Takes a device's memory while it lives, but for some of it.
-class FullDevice {
- public:
-  explicit FullDevice(std::size_t free) {
-    for (std::size_t size = std::size_t(1) << 40; size >= mebi; size /= 2) {
-      while (take(size)) {
-      }
-    }
-    std::size_t freed = 0;
-    while (freed < free && !taken_.empty()) {
-      freed += taken_.back().extent(0);
-      taken_.pop_back();
-    }
-    while (freed >= free + mebi && take(mebi)) freed -= mebi;  // what was given back too much
-  }
-
- private:
-  bool take(std::size_t size) {
-    try {
-      taken_.push_back(allocate<Array<char, WorkerMemory>>("test_ballast", size));
-      return true;
-    } catch (const OutOfMemory&) {
-      return false;
-    }
-  }
-
-  std::vector<Array<char, WorkerMemory>> taken_;  ///< the smallest last
-};
 
 /// All that a mesh has, on the host.
 void expect_equal(const Mesh& mesh, const Mesh& expected) {

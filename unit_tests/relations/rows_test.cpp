@@ -75,6 +75,28 @@ TEST(SegmentRows, has_its_simplices_alone) {
   EXPECT_FALSE(SegmentRows().has(0, 0));
 }
 
+#ifndef NDEBUG
+TEST(SegmentRowsDeathTest, asserts_what_its_reader_has_to_keep_to) {
+  const std::vector<Id> vv = {0, 1, 3, /* ids */ 8, 4, 6};
+  SegmentRows rows(3, {Interval{4, 6}});
+  rows.set(Relation::VV, BlockLayout{4, 2}.rows_in(vv.data()));
+  EXPECT_DEATH(rows[Relation::VT], "not asked for this relation");
+  EXPECT_DEATH(rows.links(), "not asked for links");
+  EXPECT_DEATH(rows[Relation::VV][6], "of other simplices");
+  EXPECT_DEATH(rows[Relation::VV][3], "of other simplices");
+}
+#endif
+
+TEST(SegmentRows, has_an_interval_for_the_rows_of_each_relation) {
+  const SegmentRows rows(3, {Interval{4, 6}, Interval{10, 13}, Interval{}, Interval{7, 8}});
+  EXPECT_EQ(rows.interval(Relation::VT).first, 4);
+  EXPECT_EQ(rows.interval(Relation::EF).first, 10);
+  EXPECT_EQ(rows.interval(Relation::TT).last, 8);
+  std::vector<Id> edges;
+  for (const Id edge : rows.interval(Relation::EV)) edges.push_back(edge);
+  EXPECT_EQ(edges, (std::vector<Id>{10, 11, 12}));
+}
+
 TEST(BlockLayout, counts_the_words_of_a_block) {
   EXPECT_EQ(BlockLayout::words(2, 3), 6);
   EXPECT_EQ(BlockLayout::link_words(2, 1, 1), 5) << "three bytes are a word";

@@ -21,7 +21,7 @@ struct Fixture {
   ConsumerStatistics statistics;
 
   std::unique_ptr<detail::Leader> leader(Interrupted::Interruption at_launch, Interrupted::Interruption at_finish,
-                                         Id per_request = 8) {
+                                         Id per_request = 8, bool has_host = false) {
     std::vector<std::unique_ptr<detail::BatchWorker>> workers;
     for (int i = 0; i < 2; ++i) workers.push_back(std::make_unique<Interrupted>(mesh, at_launch, at_finish));
     detail::LeaderParameters parameters;
@@ -29,6 +29,9 @@ struct Fixture {
     parameters.arena_words = 4096;
     parameters.host_budget = 1 << 20;
     parameters.segments_per_request = per_request;
+    if (has_host) {
+      parameters.make_host_worker = [this] { return detail::make_host_worker(mesh, {Relation::VV, 0, 32, nullptr}); };
+    }
     return std::make_unique<detail::Leader>(mesh, parameters, std::move(workers));
   }
 };
@@ -89,6 +92,17 @@ TEST(Leader, says_when_one_segment_is_too_big_for_memory) {
   const auto leader = fixture.leader([](const std::vector<Id>&) { throw std::bad_alloc(); }, {});
   EXPECT_EQ(message_of([&] { leader->acquire(5, false, fixture.statistics); }),
             "computing VV failed: std::bad_alloc, for one segment");
+}
+
+TEST(Leader, has_the_host_compute_a_segment_that_is_too_big_for_memory) {
+  Fixture fixture;
+  const auto leader = fixture.leader(
+      [](const std::vector<Id>& segments) {
+        if (segments.front() % 2 == 1 || segments.size() > 1) throw std::bad_alloc();
+      },
+      {}, 4, true);
+  for (Id s = 0; s < 12; ++s) EXPECT_TRUE(leader->acquire(s, false, fixture.statistics)) << s;
+  EXPECT_GE(leader->statistics().segments_on_host, 6);
 }
 
 TEST(Leader, lets_consumers_that_want_one_segment_share_one_computation) {

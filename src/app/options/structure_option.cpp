@@ -48,7 +48,9 @@ void report_structure(const Structure& structure, Report& report) {
   report.edges = known(structure.count(1));
   report.triangles = known(structure.count(2));
   report.way = name_of(structure.way());
-  if (structure.way() != Way::explicit_) report.statistics = structure.statistics();
+  const StructureStatistics statistics = structure.statistics();
+  report.notices = statistics.notices;
+  if (structure.way() != Way::explicit_) report.statistics = statistics;
 }
 
 }  // namespace gale::app

@@ -26,6 +26,7 @@ void sweep(Structure& structure, detail::GradientStore& store, int consumers, co
 
 DiscreteGradient find_discrete_gradient_from_cells(Structure& structure, const VertexOrder& order,
                                                    const SweepOptions& options) {
+  const ThreadLimit limit(options.threads);
   require_preconditioned(structure.relations(), discrete_gradient_from_cells_relations);
   const int consumers = std::max(options.threads, 1);
   const auto store = std::make_shared<detail::GradientStore>(structure.mesh(), order, consumers);

@@ -61,6 +61,9 @@ class Leader {
   std::size_t host_bytes() const { return store_.peak_bytes(); }
   std::size_t device_bytes() const;
 
+  /// Does the exception that is being handled say that memory ran out? Ours does, or the standard library's.
+  static bool is_out_of_memory();
+
  private:
   /// Segments to be computed together.
   struct Plan {

@@ -24,13 +24,13 @@ std::unique_ptr<Leader> make_leader(const Mesh& mesh, RelationSet relations, con
   WorkerParameters worker{relations, sizes.batch_words, sizes.threads_per_segment, nullptr};
   LeaderParameters leader{relations, sizes.batch_words, sizes.host_bytes, sizes.segments_per_request, {}};
   std::vector<std::unique_ptr<BatchWorker>> workers;
-  if (have_device) {
+  if (mesh.on_device()) {
     const SegmentKernel<WorkerMemory> kernel(mesh, relations);
     worker.bounds = find_segment_bounds(mesh, kernel, worker.threads_per_segment);
     leader.make_host_worker = [mesh, worker] { return make_host_worker(mesh, worker); };
   }
   for (int i = 0; i < workers_per_leader; ++i) {
-    workers.push_back(have_device ? make_device_worker(mesh, worker) : make_host_worker(mesh, worker));
+    workers.push_back(mesh.on_device() ? make_device_worker(mesh, worker) : make_host_worker(mesh, worker));
   }
   return std::make_unique<Leader>(mesh, leader, std::move(workers));
 }

@@ -1,0 +1,67 @@
+#include <gtest/gtest.h>
+
+#include <gale/base/error.hpp>
+#include <gale/runtime/make_structure.hpp>
+
+#include "support/brute_force.hpp"
+#include "support/full_device.hpp"
+#include "support/message_of.hpp"
+#include "support/segmentations.hpp"
+
+namespace gale::test {
+
+TEST(Way, has_one_name) {
+  for (const Way way : {Way::gale, Way::leaders, Way::helpers, Way::inline_, Way::explicit_, Way::task_parallel}) {
+    EXPECT_EQ(way_named(name_of(way)), way);
+  }
+  EXPECT_STREQ(name_of(Way::inline_), "inline");
+  EXPECT_STREQ(name_of(Way::task_parallel), "task-parallel");
+  EXPECT_EQ(way_named("pairs"), std::nullopt);
+}
+
+TEST(MakeStructure, says_which_way_it_took) {
+  const InputMesh& input = mesh_named("the_papers");
+  const Mesh mesh = encode(input, octree_of(input, 2));
+  for (const Way way : {Way::leaders, Way::helpers, Way::inline_, Way::task_parallel}) {
+    StructureOptions options;
+    options.way = way;
+    EXPECT_EQ(make_structure(mesh, Relation::VV, options)->way(), way);
+  }
+  const auto structure = make_structure(mesh, Relation::VV);
+  EXPECT_EQ(structure->way(), have_device ? Way::leaders : Way::helpers);
+  EXPECT_TRUE(structure->statistics().notices.empty());
+}
+
+TEST(MakeStructure, wants_a_relation) {
+  const InputMesh& input = mesh_named("the_papers");
+  const Mesh mesh = encode(input, octree_of(input, 2));
+  EXPECT_EQ(message_of([&] { make_structure(mesh, {}); }),
+            "a structure needs at least one relation to be preconditioned for");
+}
+
+TEST(MakeStructure, has_the_host_compute_where_the_device_is_full) {
+  if (!have_device) GTEST_SKIP() << "there is no device";
+  const InputMesh& input = mesh_named("holed_grid_9");
+  const ExpectedRows* expected = nullptr;
+  for (const bool mesh_fits : {true, false}) {
+    std::unique_ptr<const Mesh> mesh;
+    if (mesh_fits) mesh = std::make_unique<const Mesh>(encode(input, octree_of(input, 7)));
+    const FullDevice full(0);
+    if (!mesh_fits) mesh = std::make_unique<const Mesh>(encode(input, octree_of(input, 7)));
+    const ExpectedRows rows(input, brute_force_of("holed_grid_9"), *mesh);
+    expected = &rows;
+    const auto structure = make_structure(*mesh, star_relations);
+    int wrong = 0;
+    SweepOptions options;
+    options.threads = 1;
+    structure->for_each_segment(star_relations, options, [&](int, const SegmentRows& found) {
+      wrong += !expected->match(found, star_relations);
+    });
+    EXPECT_EQ(wrong, 0);
+    const auto notices = structure->statistics().notices;
+    ASSERT_FALSE(notices.empty());
+    EXPECT_NE(notices.front().find("fit the device's memory"), std::string::npos) << notices.front();
+  }
+}
+
+}  // namespace gale::test
