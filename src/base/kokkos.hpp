@@ -55,10 +55,17 @@ using PinnedMemory = Kokkos::CudaHostPinnedSpace;
 using PinnedMemory = Kokkos::HostSpace;
 #endif
 
-/// A launch queue of its own on the device: work on two instances may overlap. On the host, the space itself.
+/// A launch queue of its own on the device: work on two instances may overlap. On the host, the space itself. Throws
+/// OutOfMemory if the device has no memory for one.
 inline WorkerSpace make_instance() {
 #if defined(KOKKOS_ENABLE_CUDA)
-  return Kokkos::Experimental::partition_space(WorkerSpace(), std::vector<int>{1, 1})[0];
+  try {
+    return Kokkos::Experimental::partition_space(WorkerSpace(), std::vector<int>{1, 1})[0];
+  } catch (const std::exception& error) {
+    cudaGetLastError();  // what this leaves behind is not the next call's
+    if (std::string(error.what()).find("cudaErrorMemoryAllocation") == std::string::npos) throw;
+    throw OutOfMemory("Cuda has no memory for another instance");
+  }
 #else
   return WorkerSpace();
 #endif
