@@ -46,7 +46,7 @@ const std::vector<Formulation> formulations = {
     {"cells", discrete_gradient_from_cells_relations, find_discrete_gradient_from_cells}};
 
 const std::vector<StructureKind> structures = {
-    {"gale", [](const Mesh& mesh, RelationSet relations) { return make_runtime(mesh, relations, Way::automatic); }},
+    {"gale", [](const Mesh& mesh, RelationSet relations) { return make_runtime(mesh, relations, Way::gale); }},
     {"inline", [](const Mesh& mesh, RelationSet relations) { return make_runtime(mesh, relations, Way::inline_); }},
 #if defined(GALE_ENABLE_KOKKOS_KERNELS)
     {"explicit",
