@@ -123,10 +123,9 @@ struct HostRows {
 
 /// In WorkerSpace.
 std::vector<Id> paired_in_a_kernel(const HostRows& rows) {
-  const PairStarOfVertex<WorkerMemory> pair = {
-      {to_producer(rows.neighbours_begin), to_producer(rows.neighbours), to_producer(rows.link_begin),
-       to_producer(rows.link), to_producer(rows.keys)},
-      Array<Id, WorkerMemory>("pairs", rows.keys.size() * PairedStar::size)};
+  const PairStarOfVertex<WorkerMemory> pair = {{to_worker(rows.neighbours_begin), to_worker(rows.neighbours),
+                                                to_worker(rows.link_begin), to_worker(rows.link), to_worker(rows.keys)},
+                                               Array<Id, WorkerMemory>("pairs", rows.keys.size() * PairedStar::size)};
   Kokkos::parallel_for("test_pair_stars",
                        Kokkos::RangePolicy<WorkerSpace, Kokkos::IndexType<Offset>>(0, rows.keys.size()), pair);
   Kokkos::fence();

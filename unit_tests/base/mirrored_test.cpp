@@ -29,7 +29,7 @@ TEST(Mirrored, has_no_entries_until_it_is_given_some) {
 }
 
 TEST(Mirrored, is_the_array_where_it_was_made_and_equal_where_it_was_not) {
-  const auto made = to_producer(numbers());
+  const auto made = to_worker(numbers());
   const Mirrored<Id> worker(made), host(on_host(made));
   EXPECT_EQ(worker.size(), 1000u);
   EXPECT_EQ(worker.on_device(), have_device);
@@ -41,7 +41,7 @@ TEST(Mirrored, is_the_array_where_it_was_made_and_equal_where_it_was_not) {
 }
 
 TEST(Mirrored, copies_share_what_was_copied) {
-  const Mirrored<Id> one(to_producer(numbers()));
+  const Mirrored<Id> one(to_worker(numbers()));
   const Mirrored<Id> other = one;
   const Id* const first = other.in<HostMemory>().data();
   EXPECT_EQ(one.in<HostMemory>().data(), first);
@@ -49,7 +49,7 @@ TEST(Mirrored, copies_share_what_was_copied) {
 }
 
 TEST(Mirrored, is_copied_once_by_whichever_thread_comes_first) {
-  const Mirrored<Id> array(to_producer(numbers()));
+  const Mirrored<Id> array(to_worker(numbers()));
   constexpr int count = 8;
   std::vector<const Id*> seen(count);
   std::vector<std::thread> threads;

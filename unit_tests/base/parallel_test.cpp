@@ -30,7 +30,7 @@ template <class T>
 Array<T, WorkerMemory> scan_in_place(const std::vector<T>& counts, T* total) {
   auto values = counts;
   values.push_back(T(77));
-  const auto begin = to_producer(values);
+  const auto begin = to_worker(values);
   *total = exclusive_scan(
       "test_scan", WorkerSpace(), counts.size(), begin, KOKKOS_LAMBDA(Offset i) { return begin(i); });
   return begin;
@@ -38,7 +38,7 @@ Array<T, WorkerMemory> scan_in_place(const std::vector<T>& counts, T* total) {
 
 template <class T>
 T least(const std::vector<T>& values, T initial) {
-  const auto array = to_producer(values);
+  const auto array = to_worker(values);
   return reduce_min(
       "test_min", WorkerSpace(), values.size(), initial, KOKKOS_LAMBDA(Offset i) { return array(i); });
 }

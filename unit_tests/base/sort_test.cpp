@@ -19,8 +19,8 @@ using Keys = std::vector<std::uint64_t>;
 void expect_stable_sort(const Keys& keys) {
   std::vector<Id> order(keys.size());
   std::iota(order.begin(), order.end(), 0);
-  const auto sorted_keys = to_producer(keys);
-  const auto values = to_producer(order);
+  const auto sorted_keys = to_worker(keys);
+  const auto values = to_worker(order);
   stable_sort_by_key(WorkerSpace(), sorted_keys, values);
   std::stable_sort(order.begin(), order.end(), [&](Id a, Id b) { return keys[a] < keys[b]; });
   EXPECT_EQ(to_vector(values), order);
@@ -37,8 +37,8 @@ Keys random_keys(std::size_t count, std::uint64_t mask) {
 }
 
 void expect_sorted_rows(const std::vector<Offset>& begin, const std::vector<Id>& values) {
-  const auto sorted = to_producer(values);
-  sort_rows(WorkerSpace(), "test_sort", to_producer(begin), sorted);
+  const auto sorted = to_worker(values);
+  sort_rows(WorkerSpace(), "test_sort", to_worker(begin), sorted);
   std::vector<Id> expected = values;
   for (std::size_t row = 0; row + 1 < begin.size(); ++row) {
     std::sort(expected.begin() + begin[row], expected.begin() + begin[row + 1]);

@@ -115,7 +115,7 @@ class SimplicesOf : public EveryMesh {
   const ExpectedSimplices expected{brute_force_of(mesh_name()), mesh};
 };
 
-TEST_P(SimplicesOf, every_mesh_are_those_of_brute_force_on_producer_and_host) {
+TEST_P(SimplicesOf, every_mesh_are_those_of_brute_force_on_worker_and_host) {
   {
     SCOPED_TRACE("on the worker");
     expect_tables(Copied(mesh.simplices<WorkerMemory>(everything)), expected);

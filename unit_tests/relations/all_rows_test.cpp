@@ -71,7 +71,7 @@ TEST(Rows, of_edges_and_triangles_around_a_vertex_of_degree_2000) {
   }
 }
 
-TEST(Rows, of_all_relations_by_producers_on_several_threads_at_once) {
+TEST(Rows, of_all_relations_by_workers_on_several_threads_at_once) {
   const InputMesh& input = mesh_named("holed_grid_9");
   const Mesh mesh = encode(input, octree_of(input, 100));
   const ExpectedRows expected(input, brute_force_of("holed_grid_9"), mesh, (all_relations | link_form));

@@ -21,10 +21,10 @@ LaunchedBatch::LaunchedBatch(const Mesh& mesh, RelationSet wanted, const BatchMe
   const Id segments = mesh.segments();
   std::vector<Id> backwards(segments);
   for (Id s = 0; s < segments; ++s) backwards[s] = segments - 1 - s;
-  const auto list = to_producer(backwards);
-  const auto words = to_producer(std::vector<Id>(memory.pool_words + guard_words, untouched));
+  const auto list = to_worker(backwards);
+  const auto words = to_worker(std::vector<Id>(memory.pool_words + guard_words, untouched));
   const Array<Offset, WorkerMemory> used("used", 1), directory("directory", Offset(segments) * wanted.count());
-  const auto needed = to_producer(std::vector<StarSizes>(1));
+  const auto needed = to_worker(std::vector<StarSizes>(1));
   SegmentKernel<WorkerMemory> kernel(mesh, wanted);
   const BlockPool pool = {words.data(), memory.pool_words, used.data(), directory.data(), needed.data()};
   const WorkerSpace instance = make_instance();

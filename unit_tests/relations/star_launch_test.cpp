@@ -26,10 +26,10 @@ class LaunchedStars {
     const Id segments = mesh_.segments();
     std::vector<Id> list(segments);
     for (Id s = 0; s < segments; ++s) list[s] = segments - 1 - s;
-    const auto segment_list = to_producer(list);
+    const auto segment_list = to_worker(list);
     const auto words = allocate<Array<Id, WorkerMemory>>("words", capacity_);
     const Array<Offset, WorkerMemory> used("used", 1), directory("directory", Offset(segments) * wanted_.count());
-    const auto needed = to_producer(std::vector<StarSizes>(1));
+    const auto needed = to_worker(std::vector<StarSizes>(1));
     StarKernel<WorkerMemory> kernel;
     kernel.mesh = mesh_.encoded<WorkerMemory>();
     kernel.segments = segment_list.data();

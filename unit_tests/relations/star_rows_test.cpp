@@ -96,7 +96,7 @@ TEST(StarRows, of_a_vertex_of_degree_70000) {
   EXPECT_TRUE(expected.match(rows, star_relations));
 }
 
-TEST(StarRows, by_producers_on_several_threads_at_once) {
+TEST(StarRows, by_workers_on_several_threads_at_once) {
   const InputMesh& input = mesh_named("holed_grid_9");
   const Mesh mesh = encode(input, octree_of(input, 7));
   const ExpectedRows expected(input, brute_force_of("holed_grid_9"), mesh);
@@ -112,7 +112,7 @@ TEST(StarRows, by_producers_on_several_threads_at_once) {
   for (const auto& of_thread : result) EXPECT_TRUE(of_thread);
 }
 
-TEST(StarRows, of_a_producer_that_was_moved) {
+TEST(StarRows, of_a_worker_that_was_moved) {
   const InputMesh& input = mesh_named("holed_grid_9");
   const Mesh mesh = encode(input, octree_of(input, 100));
   const ExpectedRows expected(input, brute_force_of("holed_grid_9"), mesh);

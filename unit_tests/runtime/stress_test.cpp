@@ -56,7 +56,7 @@ class Trouble {
 
 }  // namespace
 
-TEST(Stress, of_a_leader_whose_producers_fail_loses_and_mistakes_nothing) {
+TEST(Stress, of_a_leader_whose_workers_fail_loses_and_mistakes_nothing) {
   const Stressed stressed;
   Trouble at_launch, at_finish;
   std::vector<std::unique_ptr<detail::BatchWorker>> workers;

@@ -8,7 +8,7 @@
 namespace gale::test {
 
 template <class T>
-Array<T, WorkerMemory> to_producer(const std::vector<T>& values) {
+Array<T, WorkerMemory> to_worker(const std::vector<T>& values) {
   const Array<T, WorkerMemory> array(Kokkos::view_alloc("test", Kokkos::WithoutInitializing), values.size());
   Kokkos::deep_copy(array, Kokkos::View<const T*, HostMemory, Kokkos::MemoryUnmanaged>(values.data(), values.size()));
   return array;
