@@ -54,6 +54,7 @@ io::Dataset Session::read_any() {
   io::Dataset dataset;
   {
     const Stopwatch watch(report_.seconds.read);
+    begin_step("reading", input_.input);
     dataset = io::read(input_.input, input_.read);
   }
   report_.vertices = std::visit([](const auto& points) { return std::int64_t(points.extent(0)); }, dataset.points);
@@ -75,9 +76,11 @@ Mesh Session::encode(io::Dataset& dataset, const SegmentationOptions& segmentati
   Segmentation segments;
   {
     const Stopwatch watch(report_.seconds.segment);
+    begin_step("dividing the mesh into segments");
     segments = make_segmentation(dataset, segmentation, console_);
   }
   const Stopwatch watch(report_.seconds.initialize);
+  begin_step("encoding the mesh");
   Mesh mesh(Tetrahedra<Id, HostMemory>(dataset.tetrahedra), segments);
   if (keep == Keep::nothing) dataset.tetrahedra = {};
   report_.segments = mesh.segments();
@@ -92,6 +95,7 @@ FieldOnMesh Session::read_field(const SegmentationOptions& segmentation, Keep ke
   console_.say("field", field.name);
   const Mesh mesh = encode(dataset, segmentation, keep);
   const Stopwatch watch(report_.seconds.initialize);
+  begin_step("ordering the vertices");
   const VertexOrder order = outputs::order_of(mesh, dataset, field);
   return {std::move(dataset), mesh, std::move(field), order};
 }
@@ -99,11 +103,13 @@ FieldOnMesh Session::read_field(const SegmentationOptions& segmentation, Keep ke
 std::unique_ptr<Structure> Session::make_structure(const StructureOption& option, const Mesh& mesh,
                                                    RelationSet relations) {
   const Stopwatch watch(report_.seconds.initialize);
+  begin_step("preparing the structure");
   report_.structure = option.name;
   return option.make(mesh, relations);
 }
 
 SweepOptions Session::sweep(const std::string& title) const {
+  begin_step("computing", title);
   SweepOptions sweep;
   sweep.threads = report_.threads;
   sweep.progress = console_.progress(title);
@@ -116,11 +122,19 @@ void Session::finish(const Structure* structure) {
   if (report_.edges) console_.say("edges", grouped(*report_.edges));
   if (report_.triangles) console_.say("triangles", grouped(*report_.triangles));
   const Seconds& times = report_.seconds;
+  appear();
   console_.say("time", seconds(times.total()) + " (segment " + seconds(times.segment) + ", initialize " +
                            seconds(times.initialize) + ", run " + seconds(times.run) + "); read " +
                            seconds(times.read));
   console_.say("memory", bytes(static_cast<double>(host_peak_bytes())) + " at most");
-  if (!common_.report.empty()) write_report(common_.report, report_);
+}
+
+void Session::appear() {
+  const std::size_t results = files_.all().size();
+  if (!common_.report.empty()) write_report(files_.add(common_.report), report_);
+  begin_step("writing", "the files");
+  files_.commit();
+  for (std::size_t i = 0; i < results; ++i) console_.say("wrote", files_.all()[i]->path());
 }
 
 }  // namespace gale::app
