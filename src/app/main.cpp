@@ -51,10 +51,37 @@ int complain_of_memory() {
   return complain_of_step("out of memory", "try a machine with more, fewer --threads, or a smaller input");
 }
 
+/// Says what the exception that is being handled says.
+int complain_of_exception() {
+  if (gale::app::steps_ended()) return done;
+  try {
+    throw;
+  } catch (const UsageError& error) {
+    return complain(wrong_usage, error.what());
+  } catch (const std::bad_alloc&) {
+    return complain_of_memory();
+  } catch (const std::length_error&) {  // more than a container can ever hold
+    return complain_of_memory();
+  } catch (const std::system_error& error) {
+    return complain_of_step(error.what(), "the system lets this process have no more of that");
+  } catch (const std::exception& error) {
+    return complain(failed, error.what());
+  } catch (...) {
+    return complain_of_step("it failed", "for no reason that is known");
+  }
+}
+
+/// For exceptions that leave what nothing may leave, as in libraries that don't expect memory to run out.
+[[noreturn]] void end_by_exception() {
+  gale::io::remove_temporary_files();
+  std::_Exit(std::current_exception() ? complain_of_exception() : complain_of_step("it failed", "it stopped itself"));
+}
+
 /// Temporary files go with the process, however it ends; a limit of the size of files is an error like a full disk.
 void prepare_for_the_end() {
   gale::io::remove_temporary_files_at_end();
   std::signal(SIGXFSZ, SIG_IGN);
+  std::set_terminate(end_by_exception);
 }
 
 std::string commands_of(const CLI::App& app) {
@@ -117,15 +144,7 @@ int main(int argc, char** argv) {
     prepare_for_the_end();
     run(argc, argv);
     return output_arrived() ? done : complain(failed, "cannot write to standard output");
-  } catch (const UsageError& error) {
-    return complain(wrong_usage, error.what());
-  } catch (const std::bad_alloc&) {
-    return complain_of_memory();
-  } catch (const std::length_error&) {  // more than a container can ever hold
-    return complain_of_memory();
-  } catch (const std::system_error& error) {
-    return complain_of_step(error.what(), "the system lets this process have no more of that");
-  } catch (const std::exception& error) {
-    return complain(failed, error.what());
+  } catch (...) {
+    return complain_of_exception();
   }
 }

@@ -122,11 +122,11 @@ void Session::finish(const Structure* structure) {
   if (report_.edges) console_.say("edges", grouped(*report_.edges));
   if (report_.triangles) console_.say("triangles", grouped(*report_.triangles));
   const Seconds& times = report_.seconds;
-  appear();
   console_.say("time", seconds(times.total()) + " (segment " + seconds(times.segment) + ", initialize " +
                            seconds(times.initialize) + ", run " + seconds(times.run) + "); read " +
                            seconds(times.read));
   console_.say("memory", bytes(static_cast<double>(host_peak_bytes())) + " at most");
+  appear();
 }
 
 void Session::appear() {
@@ -134,6 +134,7 @@ void Session::appear() {
   if (!common_.report.empty()) write_report(files_.add(common_.report), report_);
   begin_step("writing", "the files");
   files_.commit();
+  end_steps();
   for (std::size_t i = 0; i < results; ++i) console_.say("wrote", files_.all()[i]->path());
 }
 

@@ -67,7 +67,7 @@ class Session {
   }
 
   /// Writes the report, with what is to say of the structure, if there was one; makes all files appear, or none, and
-  /// says so, and how long all took.
+  /// says so.
   void finish(const Structure* structure = nullptr);
 
  private:

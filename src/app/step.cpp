@@ -7,8 +7,12 @@ namespace gale::app {
 namespace {
 
 char step[512] = "starting";  // allocates nothing, as it is for when memory has run out
+bool ended = false;
 
 }  // namespace
+
+void end_steps() { ended = true; }
+bool steps_ended() { return ended; }
 
 void begin_step(const char* doing, const std::string& what) {
   if (what.empty()) {

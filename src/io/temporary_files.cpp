@@ -42,7 +42,7 @@ Place* remember(char* name) {
 }
 
 /// Whoever takes a name out of its place owns it; a handler never frees one.
-void remove_all() {
+void remove_all() noexcept {
   for (Place* place = first; place != nullptr; place = place->next) {
     if (const char* const name = place->name.exchange(nullptr)) unlink(name);
   }
@@ -70,6 +70,8 @@ void end_by(int signal) {
 }
 
 }  // namespace
+
+void remove_temporary_files() { remove_all(); }
 
 void remove_temporary_files_at_end() {
   std::atexit(remove_all);

@@ -10,6 +10,9 @@ namespace gale::io {
 /// has none of its own: the library never calls it.
 void remove_temporary_files_at_end();
 
+/// Removes them now, in a signal handler too: for who ends the process otherwise.
+void remove_temporary_files();
+
 namespace detail {
 
 /// While it lives, the handler of the above waits, two seconds at most, before it ends the process: what is begun on

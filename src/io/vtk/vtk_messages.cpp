@@ -54,8 +54,9 @@ std::string without_addresses(std::string text) {
 }
 
 /// Whether a value of errno that was left after writing can be what went wrong then.
-bool says_why_not_written(int error) {
-  static constexpr int reasons[] = {ENOSPC, EDQUOT, EFBIG, EIO, EROFS, ENXIO, ENODEV, ESTALE, EPIPE, ENOMEM, EMFILE};
+bool says_why_not_written(unsigned long error) {
+  static constexpr unsigned long reasons[] = {ENOSPC, EDQUOT, EFBIG, EIO,    EROFS, ENXIO,
+                                              ENODEV, ESTALE, EPIPE, ENOMEM, EMFILE};
   return std::find(std::begin(reasons), std::end(reasons), error) != std::end(reasons);
 }
 
@@ -110,12 +111,11 @@ void VtkMessages::check(unsigned long code) const {
 void VtkMessages::check_written(bool written, unsigned long code) const {
   const int last = errno;
   if (written && code == vtkErrorCode::NoError && state_->window->first_error.empty()) return;
-  if (code != vtkErrorCode::NoError && code < vtkErrorCode::FirstVTKErrorCode) {
-    throw Error(std::strerror(static_cast<int>(code)));
+  for (const unsigned long reason : {code, static_cast<unsigned long>(last)}) {  // VTK's code may be the system's
+    if (says_why_not_written(reason)) throw Error(std::strerror(static_cast<int>(reason)));
   }
-  if (says_why_not_written(last)) throw Error(std::strerror(last));
-  if (code == vtkErrorCode::OutOfDiskSpaceError) throw Error("not all of it could be written");
-  throw Error("not all of it could be written (VTK: " + one_line(without_addresses(state_->window->first_error)) + ")");
+  const std::string said = one_line(without_addresses(state_->window->first_error));
+  throw Error("not all of it could be written" + (said.empty() ? "" : " (VTK: " + said + ")"));
 }
 
 void VtkMessages::fail(const std::string& reason) const {

@@ -1,3 +1,5 @@
+#include <unistd.h>
+
 #include <cerrno>
 #include <cstddef>
 #include <cstdint>
@@ -102,7 +104,10 @@ void run(Writer* writer, const std::string& path, vtkDataObject* data, const Vtk
   writer->SetInputData(data);
   errno = 0;
   const int written = writer->Write();
-  messages.check_written(written != 0, writer->GetErrorCode());
+  const int failure = errno;
+  const bool is_there = access(path.c_str(), F_OK) == 0;  // VTK removes what it couldn't write, not always saying so
+  errno = failure;
+  messages.check_written(written != 0 && is_there, writer->GetErrorCode());
 }
 
 template <class XmlWriter>
