@@ -4,6 +4,7 @@
 #include <string>
 
 #include <gale/base/worker_or_host.hpp>
+#include <gale/export.hpp>
 #include <gale/mesh/encoded_mesh.hpp>
 #include <gale/mesh/intervals.hpp>
 #include <gale/mesh/segmentation.hpp>
@@ -27,7 +28,7 @@ using Tetrahedra = Kokkos::View<const Index* [4], Kokkos::LayoutRight, Memory>;
 /// them to code that runs on `Memory`, which is HostMemory unless it is said, or WorkerMemory. The first call for a
 /// memory that an array isn't in copies it there; any thread may make it, and throws OutOfMemory where there is no
 /// room.
-class Mesh {
+class GALE_EXPORT Mesh {
  public:
   /// Encodes in the workers' space, in parallel, in time O(n); on the host if it doesn't fit the device's memory, and
   /// says so in notice(). Peak memory beside the input: 20 bytes a tetrahedron and 4 an external one, and 16 a vertex.
