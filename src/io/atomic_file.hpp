@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include <gale/export.hpp>
+
 namespace gale::io {
 
 /// A file that appears under its name complete or not at all.
@@ -9,7 +11,7 @@ namespace gale::io {
 /// Write to `temporary()`, a new, empty file in the same directory, and close it; `commit` then gives it its name,
 /// replacing what had it before. Without `commit` the destructor removes it, and what had the name before stays as it
 /// was. A link is followed.
-class AtomicFile {
+class GALE_EXPORT AtomicFile {
  public:
   /// Throws `Error` if the directory takes no new file, or if `path` exists and is no regular file.
   explicit AtomicFile(const std::string& path);

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include <gale/export.hpp>
 #include <gale/io/dataset.hpp>
 
 namespace gale::io {
@@ -29,6 +30,6 @@ struct ReadOptions {
 /// Throws `Error` with one line that names `input` and what is wrong with it: no such file, damaged, another kind, no
 /// tetrahedra, too large for 32-bit ids. VTK's own messages (for .mha and .mhd also std::cerr) are caught meanwhile,
 /// for the whole process and one reading thread at a time; nothing is printed.
-Dataset read(const std::string& input, const ReadOptions& options = {});
+GALE_EXPORT Dataset read(const std::string& input, const ReadOptions& options = {});
 
 }  // namespace gale::io

@@ -5,6 +5,7 @@
 #include <variant>
 #include <vector>
 
+#include <gale/export.hpp>
 #include <gale/io/dataset.hpp>
 #include <gale/io/image.hpp>
 #include <gale/io/write.hpp>
@@ -16,9 +17,9 @@ namespace gale::io::detail {
 enum class Format { vtu, vtk, vti, nifti, meta, nrrd, vtp };
 
 /// By the extension, in either case.
-std::optional<Format> format_of(const std::string& path);
+GALE_EXPORT std::optional<Format> format_of(const std::string& path);
 
-bool has_vtk();
+GALE_EXPORT bool has_vtk();
 
 /// A mesh, or an image whose `select_scalars` and `split_voxels` are still to come. Throws `Error` without naming the
 /// file.
