@@ -3,6 +3,7 @@
 #include <functional>
 
 #include <gale/algorithms/morse_smale.hpp>
+#include <gale/export.hpp>
 
 namespace gale {
 
@@ -26,6 +27,7 @@ namespace gale {
 /// and connectors: throws gale::Error, naming the missing parts, if it was computed without (MorseSmaleParts).
 /// `value(v)` is the field at an input vertex: throws gale::Error, naming the vertex, if that is NaN where it is asked
 /// for. Sequential; time and memory grow with the number and the length of paths, none of which passes a cell twice.
-MorseSmaleComplex simplify(const MorseSmaleComplex& complex, const std::function<double(Id)>& value, double threshold);
+GALE_EXPORT MorseSmaleComplex simplify(const MorseSmaleComplex& complex, const std::function<double(Id)>& value,
+                                       double threshold);
 
 }  // namespace gale

@@ -37,7 +37,7 @@ struct Report {
   int threads = 0;
   std::optional<std::string> structure, way;
   std::optional<std::int64_t> vertices, edges, triangles, tetrahedra, segments;
-  std::vector<std::string> notices;  ///< one line each about what was done differently than asked for, and why
+  std::vector<std::string> notices;  ///< one line each about what was left out or done differently, and why
   Seconds seconds;
   std::optional<StructureStatistics> statistics;
   nlohmann::ordered_json result = nlohmann::ordered_json::object();

@@ -74,6 +74,12 @@ class Session {
   io::Dataset read_any();
   void appear();
 
+  /// The field that --array names, or the first; says which. A copy: once a run.
+  io::PointArray select_field(const io::Dataset& dataset);
+
+  /// Says and reports those that haven't been.
+  void note(const std::vector<std::string>& notices);
+
   const InputOptions& input_;
   const CommonOptions& common_;
   Console console_;

@@ -12,20 +12,22 @@
 #include <omp.h>
 #endif
 
+#include <gale/export.hpp>
+
 namespace gale {
 
 /// How many threads a host loop, or a sweep unless told otherwise, uses when this thread begins it: what was set, else
 /// what OMP_NUM_THREADS says, else what OpenMP would take, but no more than the cores that the process may run on and
 /// than a container's CPU quota, rounded up. No more than this thread's ThreadLimits in any case.
-int host_threads();
+GALE_EXPORT int host_threads();
 
 /// From now on so many, at least 1, whichever thread begins a loop. For the application, before it begins: the library
 /// never calls it.
-void set_host_threads(int count);
+GALE_EXPORT void set_host_threads(int count);
 
 /// While it lives, loops that this thread begins use at most so many threads, at least 1; of several that live, the
 /// least counts. To be destroyed on the thread that made it, last made first.
-class ThreadLimit {
+class GALE_EXPORT ThreadLimit {
  public:
   explicit ThreadLimit(int threads);
   ~ThreadLimit();

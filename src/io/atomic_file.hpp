@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include <gale/export.hpp>
 #include <gale/io/temporary_files.hpp>
 
 namespace gale::io {
@@ -13,7 +14,7 @@ namespace gale::io {
 /// Write to `temporary()`, a new, empty file in the same directory, and close it; `commit` then gives it its name,
 /// replacing what had it before. Without `commit` the destructor removes it, and what had the name before stays as it
 /// was. A link is followed.
-class AtomicFile {
+class GALE_EXPORT AtomicFile {
  public:
   /// Throws `Error` if the directory takes no new file, or if `path` exists and is no regular file.
   explicit AtomicFile(const std::string& path);
@@ -41,7 +42,7 @@ class AtomicFile {
 /// gets its name, and if one doesn't get its name, or the names don't reach the disk, then those that did lose it
 /// again to what had it before. A signal comes before or after all that, if `remove_temporary_files_at_end` was called.
 /// All errors name the file.
-class AtomicFiles {
+class GALE_EXPORT AtomicFiles {
  public:
   /// Another one; it stays where it is as long as this object.
   AtomicFile& add(const std::string& path);
@@ -59,6 +60,6 @@ class AtomicFiles {
 };
 
 /// The error that `path` can't be written, and why.
-[[noreturn]] void refuse_to_write(const std::string& path, const std::string& reason);
+[[noreturn]] GALE_EXPORT void refuse_to_write(const std::string& path, const std::string& reason);
 
 }  // namespace gale::io

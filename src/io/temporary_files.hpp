@@ -3,21 +3,23 @@
 #include <csignal>
 #include <string>
 
+#include <gale/export.hpp>
+
 namespace gale::io {
 
 /// From now on the signals that end a process, and an `exit`, remove the temporary files of all `AtomicFile`s first;
 /// the process still ends by the signal. A signal that is ignored or has a handler keeps that. For an application that
 /// has none of its own: the library never calls it.
-void remove_temporary_files_at_end();
+GALE_EXPORT void remove_temporary_files_at_end();
 
 /// Removes them now, in a signal handler too: for who ends the process otherwise.
-void remove_temporary_files();
+GALE_EXPORT void remove_temporary_files();
 
 namespace detail {
 
 /// While it lives, the handler of the above waits, two seconds at most, before it ends the process: what is begun on
 /// this thread is done. To be destroyed on the thread that made it.
-class Uninterrupted {
+class GALE_EXPORT Uninterrupted {
  public:
   Uninterrupted();
   ~Uninterrupted();
@@ -29,7 +31,7 @@ class Uninterrupted {
 };
 
 /// The name of a file that goes with this object, whether there is one or not, or with the process.
-class TemporaryName {
+class GALE_EXPORT TemporaryName {
  public:
   TemporaryName() = default;
   explicit TemporaryName(const std::string& path);

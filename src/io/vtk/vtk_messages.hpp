@@ -3,11 +3,13 @@
 #include <memory>
 #include <string>
 
+#include <gale/export.hpp>
+
 namespace gale::io::detail {
 
 /// Keeps VTK's messages from the terminal while it lives, and remembers the first error. VTK reports through one window
 /// for the whole process, so only one of these lives at a time; others wait for it.
-class VtkMessages {
+class GALE_EXPORT VtkMessages {
  public:
   /// `verdict` is what an error means to the user.
   explicit VtkMessages(const std::string& verdict);
