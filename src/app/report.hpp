@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <gale/io/atomic_file.hpp>
 #include <gale/runtime/statistics.hpp>
 
 namespace gale::app {
@@ -44,7 +45,7 @@ struct Report {
 
 nlohmann::ordered_json to_json(const Report& report);
 
-/// Writes the report to `path`, whole or not at all. Throws gale::Error, naming the path.
-void write_report(const std::string& path, const Report& report);
+/// Writes the report to the temporary of `file`. Throws gale::Error, naming the file.
+void write_report(const io::AtomicFile& file, const Report& report);
 
 }  // namespace gale::app

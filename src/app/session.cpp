@@ -55,6 +55,7 @@ io::Dataset Session::read_any() {
   io::Dataset dataset;
   {
     const Stopwatch watch(report_.seconds.read);
+    begin_step("reading", input_.input);
     dataset = io::read(input_.input, input_.read);
   }
   report_.vertices = std::visit([](const auto& points) { return std::int64_t(points.extent(0)); }, dataset.points);
@@ -83,10 +84,12 @@ Mesh Session::encode(io::Dataset& dataset, const SegmentationOptions& segmentati
   std::vector<std::string> notices;
   {
     const Stopwatch watch(report_.seconds.segment);
+    begin_step("dividing the mesh into segments");
     segments = make_segmentation(dataset, segmentation, console_, notices);
   }
   note(notices);
   const Stopwatch watch(report_.seconds.initialize);
+  begin_step("encoding the mesh");
   Mesh mesh(Tetrahedra<Id, HostMemory>(dataset.tetrahedra), segments);
   if (keep == Keep::nothing) dataset.tetrahedra = {};
   report_.segments = mesh.segments();
@@ -100,6 +103,7 @@ FieldOnMesh Session::read_field(const SegmentationOptions& segmentation, Keep ke
   io::PointArray field = select_field(dataset);
   const Mesh mesh = encode(dataset, segmentation, keep);
   const Stopwatch watch(report_.seconds.initialize);
+  begin_step("ordering the vertices");
   const VertexOrder order = outputs::order_of(mesh, dataset, field);
   return {std::move(dataset), mesh, std::move(field), order};
 }
@@ -107,11 +111,13 @@ FieldOnMesh Session::read_field(const SegmentationOptions& segmentation, Keep ke
 std::unique_ptr<Structure> Session::make_structure(const StructureOption& option, const Mesh& mesh,
                                                    RelationSet relations) {
   const Stopwatch watch(report_.seconds.initialize);
+  begin_step("preparing the structure");
   report_.structure = option.name;
   return option.make(mesh, relations);
 }
 
 SweepOptions Session::sweep(const std::string& title) const {
+  begin_step("computing", title);
   SweepOptions sweep;
   sweep.threads = report_.threads;
   sweep.progress = console_.progress(title);
@@ -138,7 +144,16 @@ void Session::finish(const Structure* structure) {
                            seconds(times.initialize) + ", run " + seconds(times.run) + "); read " +
                            seconds(times.read));
   console_.say("memory", bytes(static_cast<double>(host_peak_bytes())) + " at most");
-  if (!common_.report.empty()) write_report(common_.report, report_);
+  appear();
+}
+
+void Session::appear() {
+  const std::size_t results = files_.all().size();
+  if (!common_.report.empty()) write_report(files_.add(common_.report), report_);
+  begin_step("writing", "the files");
+  files_.commit();
+  end_steps();
+  for (std::size_t i = 0; i < results; ++i) console_.say("wrote", files_.all()[i]->path());
 }
 
 }  // namespace gale::app

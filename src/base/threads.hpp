@@ -60,8 +60,13 @@ void on_threads(int count, const Body& body) {
   };
 #ifdef GALE_ENABLE_STD_THREADS
   std::vector<std::thread> others;
-  for (int i = 1; i < count; ++i) others.emplace_back(guarded, i);
+  int begun = 1;
+  try {
+    for (; begun < count; ++begun) others.emplace_back(guarded, begun);
+  } catch (const std::exception&) {  // there are no more threads, or no memory for them: this one does the rest
+  }
   guarded(0);
+  for (int i = begun; i < count; ++i) guarded(i);
   for (auto& thread : others) thread.join();
 #else
 #pragma omp parallel num_threads(count)

@@ -10,6 +10,8 @@
 
 namespace gale::io {
 
+class AtomicFile;
+
 /// Points by themselves, such as critical points, with their arrays.
 struct PointSet {
   std::variant<Dataset::Points<float>, Dataset::Points<double>> points;
@@ -37,11 +39,17 @@ struct Surface {
 /// directory that is missing or not writable, a full disk.
 GALE_EXPORT void write_points(const std::string& path, const PointSet& points);
 
+/// Here and below: writes to the temporary file of `file`, whose path decides, and leaves it to the caller to commit
+/// it: so several files appear together (`AtomicFiles`).
+GALE_EXPORT void write_points(const AtomicFile& file, const PointSet& points);
+
 /// Writes `surface` to a `.vtp`.
 GALE_EXPORT void write_surface(const std::string& path, const Surface& surface);
+GALE_EXPORT void write_surface(const AtomicFile& file, const Surface& surface);
 
 /// Writes points, tetrahedra and arrays of `mesh` in their order to a `.vtu` or (binary, legacy) `.vtk`, by the
 /// extension; then those of `more`, so that results need not be copied into the mesh first.
 GALE_EXPORT void write_mesh(const std::string& path, const Dataset& mesh, const std::vector<PointArray>& more = {});
+GALE_EXPORT void write_mesh(const AtomicFile& file, const Dataset& mesh, const std::vector<PointArray>& more = {});
 
 }  // namespace gale::io

@@ -21,6 +21,10 @@ class GALE_EXPORT VtkMessages {
   /// writer.
   void check(unsigned long code) const;
 
+  /// Throws `Error` unless all of a file was written: with what the system says, as far as that is known. `errno` must
+  /// have been 0 before VTK's writer ran; `code` is its `GetErrorCode`.
+  void check_written(bool written, unsigned long code) const;
+
   /// Throws `Error`: the verdict and, in brackets, `reason` as one short line.
   [[noreturn]] void fail(const std::string& reason) const;
 
