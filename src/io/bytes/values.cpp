@@ -16,6 +16,11 @@ constexpr std::size_t bytes_at_once = 1 << 20;  // they stay in the cache betwee
   damaged("it ends after " + std::to_string(has) + " of " + std::to_string(count) + " values of type " + name_of(type));
 }
 
+[[noreturn]] void has_too_little(std::uint64_t can_come, std::uint64_t count, ValueType type) {
+  damaged("no more than " + std::to_string(can_come) + " of " + std::to_string(count) + " values of type " +
+          name_of(type) + " can follow");
+}
+
 /// The next number of the text; false at its end.
 template <class T>
 bool next(TextReader& text, ValueType type, T& value) {
@@ -33,7 +38,7 @@ PointArray::Values read_values(ByteSource& source, ValueType type, std::uint64_t
   return with_type(type, [&](auto example) -> PointArray::Values {
     using T = decltype(example);
     const std::uint64_t can_come = source.at_most() / sizeof(T);
-    if (count > can_come) ends_early(can_come, count, type);
+    if (count > can_come) has_too_little(can_come, count, type);
     std::vector<T> values;
     values.reserve(count);
     while (values.size() < count) {
@@ -52,7 +57,7 @@ PointArray::Values read_text_values(TextReader& text, ValueType type, std::uint6
   return with_type(type, [&](auto example) -> PointArray::Values {
     using T = decltype(example);
     const std::uint64_t can_come = text.at_most() / 2 + 1;  // a digit and a space each
-    if (count > can_come) ends_early(can_come, count, type);
+    if (count > can_come) has_too_little(can_come, count, type);
     std::vector<T> values;
     values.reserve(count);
     for (T value; values.size() < count; values.push_back(value)) {
