@@ -117,9 +117,14 @@ void run(const Command& command) {
   if (command.common().threads) gale::set_host_threads(*command.common().threads);
   gale::app::require_threads(gale::host_threads());
   setenv("KOKKOS_DISABLE_WARNINGS", "1", 0);  // such as on thread binding, which is not what standard error is for
-  const Kokkos::ScopeGuard kokkos(gale::initialization_arguments(gale::host_threads()));
+  auto kokkos = std::make_unique<Kokkos::ScopeGuard>(gale::initialization_arguments(gale::host_threads()));
   gale::app::watch_device_memory();
-  command.run();
+  try {
+    command.run();
+  } catch (...) {
+    kokkos.release();  // Kokkos 3.4 frees its scratch memory twice at its end if there was no more of it
+    throw;
+  }
 }
 
 void run(int argc, char** argv) {
