@@ -148,7 +148,7 @@ std::string change_number(std::string& content, Random& random) {
   const Span span = random.one_of(all);
   std::string now = random.one_of(numbers);
   if (random.one_in(3)) {  // near what it was
-    const long value = std::atol(content.substr(span.begin, std::min<std::size_t>(span.size, 18)).c_str());
+    const long value = std::atol(content.substr(span.begin, std::min<std::size_t>(span.size, 16)).c_str());
     const long near[] = {value + 1, value - 1, value * 2, value / 2, -value, value + 4, value * 10, value + 64};
     now = std::to_string(near[random.below(std::size(near))]);
   }
