@@ -20,9 +20,9 @@ gale_public(runtime consumer make_structure statistics structure structure_optio
 gale_public(algorithms critical_points critical_simplices discrete_gradient morse_smale persistence separatrices
   simplex_numbers simplify surface_vertices vertex_order)
 gale_public(baselines discrete_gradient_from_cells oracle)
-gale_public(outputs arrows critical_points critical_simplices field manifolds named_simplices persistence segmentation
-  separatrices1 separatrices2)
-gale_public(io arrays atomic_file dataset image read synthetic voxels write)
+gale_public(outputs arrows critical_points critical_simplices field manifolds named_simplices persistence
+  persistence_diagram segmentation separatrices1 separatrices2)
+gale_public(io arrays atomic_file dataset image lines read synthetic voxels write)
 
 set(gale_included_headers
   base/mirrored.hpp

@@ -27,9 +27,9 @@ struct PersistencePairs {
   std::array<std::vector<Id>, 4> essential;
 };
 
-/// The pairs of a gradient's critical simplices: those of the lower-star filtration of its order, in which the simplices
-/// of one dimension with the same highest vertex come in the order of their other vertices, from the highest to the
-/// lowest. So they depend on nothing but mesh and order.
+/// The pairs of a gradient's critical simplices: those of the lower-star filtration of its order, in which the
+/// simplices of one dimension with the same highest vertex come in the order of their other vertices, from the highest
+/// to the lowest. So they depend on nothing but mesh and order.
 ///
 /// From the gradient alone: no edge or triangle is enumerated. The ends of 1-separatrices are joined from the lowest
 /// 1-saddle up, and from the highest 2-saddle down, where the outside of the mesh is older than any maximum. The rims

@@ -80,9 +80,8 @@ PersistencePairs find_persistence_pairs(const DiscreteGradient& gradient, const 
   const CriticalPlaces places(gradient.critical());
   const Filtration filtration = detail::filtration_of(gradient, threads);
   std::vector<Id> saddle_of_minimum, saddle_of_maximum;
-  const std::function<void()> extrema[] = {
-      [&] { saddle_of_minimum = pair_minima(gradient, places, filtration); },
-      [&] { saddle_of_maximum = pair_maxima(gradient, places, filtration); }};
+  const std::function<void()> extrema[] = {[&] { saddle_of_minimum = pair_minima(gradient, places, filtration); },
+                                           [&] { saddle_of_maximum = pair_maxima(gradient, places, filtration); }};
   in_turns(threads, 2, [&](int, std::int64_t i) { extrema[i](); });
   PersistencePairs found;
   Partners partners(gradient.critical().counts());

@@ -6,7 +6,7 @@
 #include <gale/app/commands/morse_smale_files.hpp>
 #include <gale/app/critical_counts.hpp>
 #include <gale/app/drawing/scene.hpp>
-#include <gale/app/options/parse.hpp>
+#include <gale/app/options/persistence_option.hpp>
 #include <gale/app/session.hpp>
 #include <gale/app/usage_error.hpp>
 #include <gale/base/error.hpp>
@@ -60,15 +60,6 @@ void require_png(const std::string& file) {
     throw UsageError("--render " + file + ": gale morse-smale draws .png");
 }
 
-/// The threshold of --persistence; names the option in what goes wrong.
-double threshold_of_option(const outputs::Persistence& persistence, const io::PointArray& field) {
-  try {
-    return outputs::threshold_of(persistence, field);
-  } catch (const Error& error) {
-    throw Error(std::string("--persistence: ") + error.what());
-  }
-}
-
 class FindMorseSmale final : public Command {
  public:
   explicit FindMorseSmale(CLI::App& app)
@@ -82,12 +73,9 @@ class FindMorseSmale final : public Command {
                     "P_separatrices2.vtp")
         ->type_name("P");
     add_parts();
-    const auto set = [this](const std::string& text) { persistence_ = parse_persistence("--persistence", text); };
-    subcommand()
-        .add_option_function<std::string>(
-            "--persistence", set,
-            "Cancel pairs of critical simplices whose values differ by less than this; with a % of the field's range")
-        ->type_name("X[%]");
+    add_persistence(
+        subcommand(), persistence_,
+        "Cancel pairs of critical simplices whose values differ by less than this; with a % of the field's range");
     subcommand()
         .add_option(
             "--render", render_,

@@ -29,6 +29,7 @@ Content read_with_vtk(const std::string& path, Format format, bool tetrahedraliz
 /// the file.
 void write_points_with_vtk(const std::string& path, const PointSet& points);
 void write_surface_with_vtk(const std::string& path, const Surface& surface);
+void write_lines_with_vtk(const std::string& path, const Surface& lines);
 void write_mesh_with_vtk(const std::string& path, Format format, const Dataset& mesh,
                          const std::vector<PointArray>& more);
 
