@@ -15,8 +15,8 @@ namespace gale::app {
 namespace {
 
 void tell(const outputs::DiagramCounts& counts, Session& session) {
-  static const char* const types[] = {"minimum, 1-saddle", "1-saddle, 2-saddle", "2-saddle, maximum"};
-  for (int type = 0; type < 3; ++type) session.console().say(types[type], grouped(counts.pairs[type]));
+  static const char* const names[] = {"minimum-saddle", "saddle-saddle", "saddle-maximum"};
+  for (int type = 0; type < 3; ++type) session.console().say(names[type], grouped(counts.pairs[type]));
   std::string essential;
   for (const Id count : counts.essential) essential += (essential.empty() ? "" : ", ") + grouped(count);
   session.console().say("essential", essential);
