@@ -94,14 +94,16 @@ bool DescendingWall::append_path(const Edge& from, std::vector<TriangleVertices>
   }
 }
 
+void DescendingWall::count_paths() {
+  has_one_path_.assign(triangles_.size(), 1);
+  for (std::size_t i = 1; i < triangles_.size(); ++i)  // what is above an edge alone comes before what is below
+    has_one_path_[i] = paths_from({triangles_[i][0], triangles_[i][1]}) == 1;
+}
+
 int DescendingWall::paths_from(const Edge& edge) const {
-  const Above* above = above_.find(pair_key(edge.high, edge.low));
+  const Above* const above = above_.find(pair_key(edge.high, edge.low));
   if (above == nullptr) return 0;
-  while (!above->are_several && above->least != 0) {
-    const TriangleVertices& triangle = triangles_[above->least];
-    above = above_.find(pair_key(triangle[0], triangle[1]));
-  }
-  return above->are_several ? 2 : 1;
+  return !above->are_several && has_one_path_[above->least] ? 1 : 2;
 }
 
 bool DescendingWall::is_less(const TriangleVertices& a, const TriangleVertices& b) const {

@@ -36,7 +36,11 @@ class DescendingWall {
   /// The critical edges of its rim.
   const std::vector<Edge>& critical_edges() const { return critical_edges_; }
 
+  /// Finds out which triangles one path alone leads to, for `paths_from`.
+  void count_paths();
+
   /// How many paths rise from an edge to the critical triangle: 0, 1, or 2 for more. The edge need not be critical.
+  /// After `follow` and `count_paths`.
   int paths_from(const Edge& edge) const;
 
   /// Appends the path inside the wall that rises from one of its critical edges to the critical triangle: the
@@ -66,6 +70,7 @@ class DescendingWall {
   const TurnedEdges* turned_;
   std::uint64_t floor_ = 0;  ///< edges with a lower higher end are left out
   std::vector<TriangleVertices> triangles_;
+  std::vector<char> has_one_path_;  ///< of each triangle
   std::vector<Edge> critical_edges_;
   HashTable<Above> above_;
 };

@@ -21,18 +21,22 @@ std::vector<char> marks(std::size_t count, const std::vector<PersistencePair>& p
 class Canceller {
  public:
   Canceller(const MorseSmaleComplex& complex, const CriticalPlaces& places, const DoomedSaddles& doomed,
-            TurnedForest& minima, TurnedEdges& turned)
+            bool want_joined, TurnedForest& minima, TurnedEdges& turned)
       : complex_(complex),
         critical_(complex.gradient.critical()),
         places_(places),
         doomed_(doomed),
+        want_joined_(want_joined),
         minima_(minima),
         turned_(turned),
         lower_(marks(critical_.edges.size(), doomed.pairs, &PersistencePair::lower)),
         upper_(marks(critical_.triangles.size(), doomed.pairs, &PersistencePair::upper)),
+        minimum_below_(doomed.minimum_below),
         graph_(complex.connectors, lower_, upper_),
         is_known_(critical_.triangles.size(), 0),
-        walls_(std::max(host_threads(), 1)) {}
+        may_exchange_(critical_.triangles.size(), 0),
+        walls_(std::max(host_threads(), 1)),
+        joined_(want_joined ? critical_.edges.size() : 0) {}
 
   CancelledSaddles run() {
     for (const auto& [lower, upper] : doomed_.pairs) {
@@ -47,7 +51,7 @@ class Canceller {
     is_second_pass_ = true;
     while (cancel_offered()) look_again();
     exchange_saddles();
-    return {std::move(cancelled_), std::move(exchanged_)};
+    return {std::move(cancelled_), std::move(exchanged_), std::move(joined_), kept()};
   }
 
  private:
@@ -64,7 +68,8 @@ class Canceller {
   }
 
   void offer(Id lower, Id upper) {
-    if (is_small(lower, upper)) offered_.insert({doomed_.upper[upper] - doomed_.lower[lower], lower, upper});
+    const double low = doomed_.lower[lower], high = doomed_.upper[upper];
+    if (is_small(lower, upper)) offered_.insert({low == high ? 0 : high - low, lower, upper});
   }
 
   /// Whether it cancelled any.
@@ -95,7 +100,15 @@ class Canceller {
     const TriangleVertices& to = critical_.triangles[upper];
     // Most paths stay above their lower end.
     DescendingWall& wall = wall_of(0);
-    if (!wall.follow_to(to, from, true)) wall.follow_to(to, from, false);
+    if (want_joined_) {
+      wall.follow(to);
+      for (const auto& rim : wall.critical_edges()) {
+        const Id joined = places_.of_edge(rim.high, rim.low);
+        if (joined != lower) joined_[joined].push_back(lower);
+      }
+    } else if (!wall.follow_to(to, from, true)) {
+      wall.follow_to(to, from, false);
+    }
     path_.clear();
     wall.append_path(from, path_);
     DescendingWall::Edge at = from;
@@ -124,19 +137,23 @@ class Canceller {
   /// Counts the paths from the 2-saddles that are left, and that weren't counted since they changed, by their walls.
   void look_again() {
     looked_ = true;
-    const std::vector<Id> uppers = left(upper_);
+    const auto exchanges = possible_exchanges();
+    std::vector<Id> uppers = left(upper_);
+    uppers.erase(std::remove_if(uppers.begin(), uppers.end(), [this](Id upper) { return is_known_[upper] != 0; }),
+                 uppers.end());
     std::vector<std::vector<std::pair<Id, int>>> paths(uppers.size());
-    in_turns(static_cast<int>(walls_.size()), static_cast<std::int64_t>(uppers.size()), [&](int thread, std::int64_t i) {
-      if (is_known_[uppers[i]]) return;
-      DescendingWall& wall = wall_of(thread);
-      wall.follow(critical_.triangles[uppers[i]]);
-      for (const auto& edge : wall.critical_edges()) {
-        const Id lower = places_.of_edge(edge.high, edge.low);
-        if (lower_[lower]) paths[i].push_back({lower, wall.paths_from(edge)});
-      }
-    });
+    in_turns(static_cast<int>(walls_.size()), static_cast<std::int64_t>(uppers.size()),
+             [&](int thread, std::int64_t i) {
+               DescendingWall& wall = wall_of(thread);
+               wall.follow(critical_.triangles[uppers[i]]);
+               wall.count_paths();
+               for (const auto& edge : wall.critical_edges()) {
+                 const Id lower = places_.of_edge(edge.high, edge.low);
+                 if (lower_[lower]) paths[i].push_back({lower, wall.paths_from(edge)});
+               }
+               may_exchange_[uppers[i]] = best_exchange(exchanges, uppers[i], wall) != nullptr;
+             });
     for (std::size_t i = 0; i < uppers.size(); ++i) {
-      if (is_known_[uppers[i]]) continue;
       is_known_[uppers[i]] = 1;
       graph_.replace(uppers[i], paths[i]);
       for (const auto& [lower, count] : paths[i]) {
@@ -148,8 +165,8 @@ class Canceller {
   /// Where a 1-saddle is left, another one may take its place: one that was cancelled with a minimum, and lies on a
   /// cycle of paths to minima with it.
   struct Exchange {
-    Id lower, instead;
-    TurnedForest::Crossing crossing;
+    Id lower;
+    TurnedForest::Crossing instead;
   };
 
   std::vector<Exchange> possible_exchanges() const {
@@ -157,62 +174,91 @@ class Canceller {
     for (const Id lower : left(lower_)) {
       const auto& edge = critical_.edges[lower];
       for (const auto& crossing : minima_.cycle(edge[0], edge[1])) {
-        if (doomed_.lower[lower] - doomed_.minimum_below[crossing.saddle] < doomed_.threshold)
-          possible.push_back({lower, crossing.saddle, crossing});
+        if (doomed_.lower[lower] - minimum_below_[crossing.saddle] < doomed_.threshold)
+          possible.push_back({lower, crossing});
       }
     }
     return possible;
   }
 
+  /// Of those whose other 1-saddle has one path to a 2-saddle, which has this wall, that with the highest one.
+  const Exchange* best_exchange(const std::vector<Exchange>& possible, Id upper, const DescendingWall& wall) const {
+    const Exchange* best = nullptr;
+    for (const Exchange& exchange : possible) {
+      const Id saddle = exchange.instead.saddle;
+      if (!is_small(saddle, upper) || (best && doomed_.lower[saddle] <= doomed_.lower[best->instead.saddle])) continue;
+      const auto& edge = critical_.edges[saddle];
+      if (wall.paths_from({edge[0], edge[1]}) == 1) best = &exchange;
+    }
+    return best;
+  }
+
+  /// A pair is kept if one of the two is: as many of one kind as of the other are.
+  KeptBelow kept() const {
+    KeptBelow kept;
+    for (const PersistencePair& pair : doomed_.pairs) {
+      if (!upper_[pair.upper]) continue;
+      const bool may_have_several = lower_[pair.lower] && graph_.paths(pair.lower, pair.upper) == SaddleGraph::several;
+      ++(may_have_several ? kept.several_paths : kept.no_path);
+    }
+    return kept;
+  }
+
   /// Exchanges 1-saddles that are left for such as can be cancelled with a 2-saddle that is left.
   void exchange_saddles() {
-    std::vector<Exchange> possible = possible_exchanges();
+    auto possible = possible_exchanges();
     for (const Id upper : left(upper_)) {
-      if (possible.empty()) return;
+      if (!may_exchange_[upper]) continue;
       DescendingWall& wall = wall_of(0);
       wall.follow(critical_.triangles[upper]);
-      const Exchange* best = nullptr;
-      for (const Exchange& exchange : possible) {
-        const auto& edge = critical_.edges[exchange.instead];
-        if (!is_small(exchange.instead, upper) || wall.paths_from({edge[0], edge[1]}) != 1) continue;
-        if (best == nullptr || doomed_.lower[exchange.instead] > doomed_.lower[best->instead]) best = &exchange;
-      }
+      wall.count_paths();
+      const Exchange* const best = best_exchange(possible, upper, wall);
       if (best == nullptr) continue;
-      const Id instead = best->instead;
-      const auto &edge = critical_.edges[best->lower], &other = critical_.edges[instead];
-      minima_.exchange(edge[0], edge[1], best->lower, best->crossing);
-      turned_.set(edge[0], edge[1], TurnedEdges::with_vertex);
-      turned_.set(other[0], other[1], no_id);
-      turn_path(instead, upper);
-      lower_[best->lower] = upper_[upper] = 0;
-      cancelled_.push_back({instead, upper});
-      exchanged_.push_back({best->lower, instead});
+      exchange(*best, upper);
       possible = possible_exchanges();
     }
+  }
+
+  void exchange(const Exchange& exchange, Id upper) {
+    const Id lower = exchange.lower, instead = exchange.instead.saddle;
+    const auto &edge = critical_.edges[lower], &other = critical_.edges[instead];
+    minima_.exchange(edge[0], edge[1], lower, exchange.instead);
+    minimum_below_[lower] = minimum_below_[instead];
+    turned_.set(edge[0], edge[1], TurnedEdges::with_vertex);
+    turned_.set(other[0], other[1], no_id);
+    turn_path(instead, upper);
+    lower_[lower] = upper_[upper] = 0;
+    cancelled_.push_back({instead, upper});
+    exchanged_.push_back({lower, instead});
   }
 
   const MorseSmaleComplex& complex_;
   const CriticalSimplices& critical_;
   const CriticalPlaces& places_;
   const DoomedSaddles& doomed_;
+  bool want_joined_;
   TurnedForest& minima_;
   TurnedEdges& turned_;
-  std::vector<char> lower_, upper_;  ///< those that are left to cancel
+  std::vector<char> lower_, upper_;    ///< those that are left to cancel
+  std::vector<double> minimum_below_;  ///< of the minimum that a 1-saddle is cancelled with
   SaddleGraph graph_;
-  std::vector<char> is_known_;  ///< of a 2-saddle: whether its paths were counted since they changed
+  std::vector<char> is_known_;      ///< of a 2-saddle: whether its paths were counted since they changed
+  std::vector<char> may_exchange_;  ///< of a 2-saddle: whether an exchange would have set one free for it
   std::vector<std::unique_ptr<DescendingWall>> walls_;  ///< one for each thread
-  std::set<std::tuple<double, Id, Id>> offered_;  ///< difference, lower, upper
+  std::set<std::tuple<double, Id, Id>> offered_;        ///< difference, lower, upper
   std::vector<TriangleVertices> path_;
   std::vector<PersistencePair> cancelled_;
   std::vector<std::pair<Id, Id>> exchanged_;
+  std::vector<std::vector<Id>> joined_;
   bool is_second_pass_ = false, looked_ = false;
 };
 
 }  // namespace
 
 CancelledSaddles cancel_saddles(const MorseSmaleComplex& complex, const CriticalPlaces& places,
-                                const DoomedSaddles& doomed, TurnedForest& minima, TurnedEdges& turned) {
-  return Canceller(complex, places, doomed, minima, turned).run();
+                                const DoomedSaddles& doomed, bool want_joined, TurnedForest& minima,
+                                TurnedEdges& turned) {
+  return Canceller(complex, places, doomed, want_joined, minima, turned).run();
 }
 
 }  // namespace gale::detail

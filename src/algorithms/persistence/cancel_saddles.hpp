@@ -24,6 +24,12 @@ struct CancelledSaddles {
 
   /// 1-saddles that were cancelled with a minimum instead of others, in turn: those are among `pairs`.
   std::vector<std::pair<Id, Id>> exchanged;
+
+  /// If wanted, for each 1-saddle those that it had a path to the 2-saddle of when they were cancelled: its ascending
+  /// wall goes on in theirs.
+  std::vector<std::vector<Id>> joined;
+
+  KeptBelow kept;
 };
 
 /// Cancels them, and turns the paths between them around in `turned`.
@@ -35,6 +41,7 @@ struct CancelledSaddles {
 ///
 /// `minima` and `turned` are those of a gradient whose minima were cancelled before.
 CancelledSaddles cancel_saddles(const MorseSmaleComplex& complex, const CriticalPlaces& places,
-                                const DoomedSaddles& doomed, TurnedForest& minima, TurnedEdges& turned);
+                                const DoomedSaddles& doomed, bool want_joined, TurnedForest& minima,
+                                TurnedEdges& turned);
 
 }  // namespace gale::detail

@@ -32,8 +32,8 @@ PathEnds ends_of_triangles(const DiscreteGradient& gradient, const CriticalPlace
   const Id* const successors = gradient.tetrahedron_successors().data();
   PathEnds ends(critical.triangles.size(), {no_id, no_id});
   parallel_for("GALE::ends_of_triangles", HostSpace(), ends.size(), [&](Offset i) {
-    const Id first = critical.star_begin[i];
-    for (Id k = 0; k < critical.star_begin[i + 1] - first; ++k) {
+    const Id first = critical.star_begin[i], count = critical.star_begin[i + 1] - first;
+    for (Id k = 0; k < count && count <= 2; ++k) {
       const Id end = end_of(successors, critical.star[first + k]);
       ends[i][k] = end < no_id ? no_id : places.of_tetrahedron(end);
     }

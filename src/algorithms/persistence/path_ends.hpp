@@ -15,7 +15,7 @@ using PathEnds = std::vector<std::array<Id, 2>>;
 PathEnds ends_of_edges(const DiscreteGradient& gradient, const CriticalPlaces& places);
 
 /// The maxima that the paths from the tetrahedra of each critical triangle rise to. A triangle of one tetrahedron has
-/// the outside on its other side. For a gradient whose rising paths don't fork (`forks`).
+/// the outside on its other side; one of three or more has it on both. Paths don't fork here.
 PathEnds ends_of_triangles(const DiscreteGradient& gradient, const CriticalPlaces& places);
 
 /// Whether a rising path forks: at a triangle of three tetrahedra or more.

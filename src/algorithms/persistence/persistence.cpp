@@ -5,6 +5,7 @@
 #include <gale/algorithms/persistence/filtration.hpp>
 #include <gale/algorithms/persistence/forked_maxima.hpp>
 #include <gale/algorithms/persistence/joined_ends.hpp>
+#include <gale/algorithms/persistence/pairs.hpp>
 #include <gale/algorithms/persistence/saddle_pairs.hpp>
 #include <gale/base/threads.hpp>
 
@@ -23,8 +24,8 @@ std::vector<Id> pair_minima(const DiscreteGradient& gradient, const CriticalPlac
 
 /// For each maximum the 2-saddle that it is paired with.
 std::vector<Id> pair_maxima(const DiscreteGradient& gradient, const CriticalPlaces& places,
-                            const Filtration& filtration) {
-  if (detail::forks(gradient)) return detail::pair_forked_maxima(gradient, places, filtration);
+                            const Filtration& filtration, bool may_fork) {
+  if (may_fork && detail::forks(gradient)) return detail::pair_forked_maxima(gradient, places, filtration);
   const std::vector<Id> falling(filtration.by_rank[2].rbegin(), filtration.by_rank[2].rend());
   std::vector<Id> age = filtration.rank[3];
   for (Id& rank : age) rank = static_cast<Id>(age.size()) - 1 - rank;
@@ -72,16 +73,15 @@ class Partners {
   std::array<std::vector<char>, 4> is_paired_;
 };
 
-}  // namespace
-
-PersistencePairs find_persistence_pairs(const DiscreteGradient& gradient, const SweepOptions& options) {
+PersistencePairs pairs_of(const DiscreteGradient& gradient, const SweepOptions& options, bool may_fork) {
   const ThreadLimit limit(options.threads);
   const int threads = std::max(options.threads, 1);
   const CriticalPlaces places(gradient.critical());
   const Filtration filtration = detail::filtration_of(gradient, threads);
   std::vector<Id> saddle_of_minimum, saddle_of_maximum;
-  const std::function<void()> extrema[] = {[&] { saddle_of_minimum = pair_minima(gradient, places, filtration); },
-                                           [&] { saddle_of_maximum = pair_maxima(gradient, places, filtration); }};
+  const std::function<void()> extrema[] = {
+      [&] { saddle_of_minimum = pair_minima(gradient, places, filtration); },
+      [&] { saddle_of_maximum = pair_maxima(gradient, places, filtration, may_fork); }};
   in_turns(threads, 2, [&](int, std::int64_t i) { extrema[i](); });
   PersistencePairs found;
   Partners partners(gradient.critical().counts());
@@ -94,6 +94,16 @@ PersistencePairs find_persistence_pairs(const DiscreteGradient& gradient, const 
   found.pairs[1] = partners.from_lower(1, pair_saddles(gradient, places, filtration, columns, threads));
   for (int d = 0; d < 4; ++d) found.essential[d] = partners.unpaired(d);
   return found;
+}
+
+}  // namespace
+
+PersistencePairs find_persistence_pairs(const DiscreteGradient& gradient, const SweepOptions& options) {
+  return pairs_of(gradient, options, true);
+}
+
+PersistencePairs detail::pairs_along_successors(const DiscreteGradient& gradient, const SweepOptions& options) {
+  return pairs_of(gradient, options, false);
 }
 
 }  // namespace gale

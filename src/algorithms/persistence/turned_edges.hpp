@@ -22,9 +22,7 @@ class TurnedEdges {
   }
 
   /// The third vertex of an edge that is paired otherwise; nullptr for all others.
-  const Id* find(Id high, Id low) const {
-    return is_high_[high] != 0 ? thirds_.find(pair_key(high, low)) : nullptr;
-  }
+  const Id* find(Id high, Id low) const { return is_high_[high] != 0 ? thirds_.find(pair_key(high, low)) : nullptr; }
 
  private:
   std::vector<char> is_high_;  ///< whether a vertex is the higher end of one: few are

@@ -1,0 +1,116 @@
+#include <algorithm>
+#include <string>
+#include <tuple>
+
+#include <gale/algorithms/morse_smale/descending_surfaces.hpp>
+#include <gale/algorithms/morse_smale/manifolds.hpp>
+#include <gale/algorithms/morse_smale/separatrices1.hpp>
+#include <gale/algorithms/persistence/cancellations.hpp>
+#include <gale/algorithms/persistence/walls_left.hpp>
+#include <gale/algorithms/simplify.hpp>
+#include <gale/base/error.hpp>
+#include <gale/base/parallel.hpp>
+
+namespace gale {
+
+namespace {
+
+void require_whole(const MorseSmaleComplex& complex, bool extrema_only) {
+  if (!extrema_only && !complex.parts.saddle_connectors)
+    throw Error("simplify needs parts that the complex was computed without: saddle connectors");
+  const auto all = complex.gradient.critical().counts(), there = complex.critical.counts();
+  if (all == there) return;
+  const auto sum = [](const auto& counts) {
+    std::int64_t sum = 0;
+    for (const Id count : counts) sum += count;
+    return std::to_string(sum);
+  };
+  throw Error("simplify takes a complex that isn't simplified: this one has " + sum(there) + " of the gradient's " +
+              sum(all) + " critical simplices");
+}
+
+template <class Simplex>
+std::vector<Simplex> left_of(const std::vector<Simplex>& simplices, const std::vector<char>& is_left) {
+  std::vector<Simplex> left;
+  for (std::size_t i = 0; i < simplices.size(); ++i) {
+    if (is_left[i]) left.push_back(simplices[i]);
+  }
+  return left;
+}
+
+CriticalSimplices critical_left(const CriticalSimplices& all, const std::array<std::vector<char>, 4>& is_left) {
+  CriticalSimplices left;
+  left.vertices = left_of(all.vertices, is_left[0]);
+  left.edges = left_of(all.edges, is_left[1]);
+  left.triangles = left_of(all.triangles, is_left[2]);
+  left.tetrahedra = left_of(all.tetrahedra, is_left[3]);
+  for (std::size_t i = 0; i < all.triangles.size(); ++i) {
+    if (!is_left[2][i]) continue;
+    left.star.insert(left.star.end(), all.star.begin() + all.star_begin[i], all.star.begin() + all.star_begin[i + 1]);
+    left.star_begin.push_back(static_cast<Id>(left.star.size()));
+  }
+  return left;
+}
+
+/// The manifolds of extrema as parts of those of their heirs.
+Array<Id, HostMemory> manifold_left(const Array<Id, HostMemory>& manifold, const std::vector<Id>& heirs,
+                                    const std::vector<char>& is_left) {
+  if (manifold.extent(0) == 0) return manifold;
+  std::vector<Id> place(heirs.size(), no_id), heir_place(heirs.size(), no_id);
+  Id next = 0;
+  for (std::size_t i = 0; i < heirs.size(); ++i) {
+    if (is_left[i]) place[i] = next++;
+  }
+  for (std::size_t i = 0; i < heirs.size(); ++i) heir_place[i] = heirs[i] == no_id ? no_id : place[heirs[i]];
+  const auto left = allocate<Array<Id, HostMemory>>("GALE::manifold_left", manifold.extent(0));
+  parallel_for("GALE::manifold_left", HostSpace(), manifold.extent(0),
+               [&](Offset v) { left(v) = manifold(v) == no_id ? no_id : heir_place[manifold(v)]; });
+  return left;
+}
+
+}  // namespace
+
+MorseSmaleComplex simplify(const MorseSmaleComplex& complex, const std::function<double(Id)>& value, double threshold,
+                           const SimplifyOptions& options) {
+  require_whole(complex, options.extrema_only);
+  const ThreadLimit limit(options.threads);
+  const int threads = std::max(options.threads, 1);
+  const DiscreteGradient& gradient = complex.gradient;
+  const MorseSmaleParts& parts = complex.parts;
+  const bool want_ascending_walls = !complex.ascending_walls.walls.sources.empty();
+  const auto cancelled = detail::cancel_below(threshold, complex, detail::critical_values(gradient, value),
+                                              options.extrema_only, want_ascending_walls, threads);
+  MorseSmaleComplex left{gradient, parts, critical_left(complex.critical, cancelled.is_left)};
+  const detail::CriticalPlaces places(left.critical);
+  if (parts.descending_separatrices) {
+    left.descending =
+        detail::descending_separatrices(gradient.mesh(), cancelled.minima.successors(), left.critical, places);
+  }
+  if (parts.ascending_separatrices)
+    left.ascending = detail::ascending_separatrices(cancelled.maxima.successors(), left.critical, places);
+  if (parts.saddle_connectors || parts.separatrices2) {
+    auto surfaces = detail::descending_surfaces(gradient, left.critical, places, parts.separatrices2,
+                                                parts.saddle_connectors, threads, &cancelled.edges);
+    left.connectors = std::move(surfaces.connectors);
+    left.descending_walls = std::move(surfaces.walls);
+  }
+  if (want_ascending_walls) {
+    left.ascending_walls =
+        options.extrema_only
+            ? detail::ascending_walls_left(complex.ascending_walls,
+                                           std::vector<std::vector<Id>>(complex.critical.edges.size()),
+                                           cancelled.is_left[1])
+            : detail::ascending_walls_left(complex.ascending_walls, cancelled.saddles.joined, cancelled.is_left[1]);
+  }
+  left.descending_manifold =
+      manifold_left(complex.descending_manifold, cancelled.heir_of_minimum, cancelled.is_left[0]);
+  left.ascending_manifold = manifold_left(complex.ascending_manifold, cancelled.heir_of_maximum, cancelled.is_left[3]);
+  if (complex.morse_smale_manifold.extent(0) != 0) {
+    std::tie(left.morse_smale_manifold, left.morse_smale_manifolds) =
+        detail::morse_smale_manifolds(left.ascending_manifold, left.descending_manifold);
+  }
+  left.kept_below = cancelled.kept_below;
+  return left;
+}
+
+}  // namespace gale
