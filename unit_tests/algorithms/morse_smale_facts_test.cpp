@@ -4,7 +4,6 @@
 #include <set>
 #include <string>
 
-#include "algorithms/brute_force_simplify.hpp"
 #include "algorithms/complexes.hpp"
 #include "support/voxel_shapes.hpp"
 

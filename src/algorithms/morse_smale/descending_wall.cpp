@@ -33,6 +33,7 @@ bool DescendingWall::follow_to(const TriangleVertices& critical, const Edge& edg
 void DescendingWall::begin(const TriangleVertices& critical) {
   triangles_.assign(1, critical);
   critical_edges_.clear();
+  cancelled_edges_.clear();
   above_.clear();
   cross(critical[0], critical[1], 0);
 }
@@ -67,6 +68,8 @@ void DescendingWall::cross(Id high, Id low, std::uint32_t from) {
     triangles_.push_back({high, low, third});
   } else if (third == no_id) {
     critical_edges_.push_back({high, low});
+  } else if (turned_ != nullptr && turned_->find(high, low) != nullptr) {
+    cancelled_edges_.push_back({high, low});
   }
 }
 

@@ -36,6 +36,9 @@ class DescendingWall {
   /// The critical edges of its rim.
   const std::vector<Edge>& critical_edges() const { return critical_edges_; }
 
+  /// Those edges of its rim that `turned` pairs with vertices.
+  const std::vector<Edge>& cancelled_edges() const { return cancelled_edges_; }
+
   /// Finds out which triangles one path alone leads to, for `paths_from`.
   void count_paths();
 
@@ -71,7 +74,7 @@ class DescendingWall {
   std::uint64_t floor_ = 0;  ///< edges with a lower higher end are left out
   std::vector<TriangleVertices> triangles_;
   std::vector<char> has_one_path_;  ///< of each triangle
-  std::vector<Edge> critical_edges_;
+  std::vector<Edge> critical_edges_, cancelled_edges_;
   HashTable<Above> above_;
 };
 

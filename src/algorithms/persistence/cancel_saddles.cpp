@@ -102,9 +102,12 @@ class Canceller {
     DescendingWall& wall = wall_of(0);
     if (want_joined_) {
       wall.follow(to);
-      for (const auto& rim : wall.critical_edges()) {
-        const Id joined = places_.of_edge(rim.high, rim.low);
-        if (joined != lower) joined_[joined].push_back(lower);
+      // One that was cancelled with a minimum may come back for another.
+      for (const auto* const rim : {&wall.critical_edges(), &wall.cancelled_edges()}) {
+        for (const auto& met : *rim) {
+          const Id joined = places_.of_edge(met.high, met.low);
+          if (joined != lower) joined_[joined].push_back(lower);
+        }
       }
     } else if (!wall.follow_to(to, from, true)) {
       wall.follow_to(to, from, false);
