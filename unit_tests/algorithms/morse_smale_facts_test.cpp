@@ -226,18 +226,6 @@ TEST_P(MorseSmaleFacts, hold_after_simplification) {
   }
 }
 
-TEST_P(MorseSmaleFacts, nothing_is_left_to_cancel_below_the_threshold) {
-  const double threshold = 0.5 * of().found.input().vertices();
-  const NamedComplex left = of().found.simplified(threshold);
-  std::map<std::pair<Simplex, Simplex>, int> paths;
-  for (const auto* kind : {&left.descending, &left.ascending, &left.connectors}) {
-    for (const auto& path : *kind) paths[{path.source, path.destination}] += path.is_only ? 1 : 2;
-  }
-  for (const auto& [ends, count] : paths) {
-    EXPECT_TRUE(count > 1 || std::abs(of().highest(ends.first) - of().highest(ends.second)) >= threshold);
-  }
-}
-
 INSTANTIATE_TEST_SUITE_P(Tests, MorseSmaleFacts, testing::Values("ball", "solid_torus", "thick_shell", "holed_grid"),
                          [](const auto& info) { return info.param; });
 
