@@ -40,6 +40,10 @@ class Canceller {
 
   CancelledSaddles run() {
     for (const auto& [lower, upper] : doomed_.pairs) {
+      if (lower_[lower] && upper_[upper] && graph_.paths(lower, upper) == SaddleGraph::several) {
+        // Walls grow with each cancellation: now this one is smaller than it will ever be again.
+        graph_.replace(upper, count_paths(upper, wall_of(0)));
+      }
       if (may_cancel(lower, upper)) cancel(lower, upper);
     }
     for (const PersistencePair& pair : doomed_.pairs) {
@@ -137,6 +141,18 @@ class Canceller {
     return *wall;
   }
 
+  /// The paths to a 2-saddle from the 1-saddles that are left to cancel, by its wall.
+  std::vector<std::pair<Id, int>> count_paths(Id upper, DescendingWall& wall) const {
+    std::vector<std::pair<Id, int>> paths;
+    wall.follow(critical_.triangles[upper]);
+    wall.count_paths();
+    for (const auto& edge : wall.critical_edges()) {
+      const Id lower = places_.of_edge(edge.high, edge.low);
+      if (lower_[lower]) paths.push_back({lower, wall.paths_from(edge)});
+    }
+    return paths;
+  }
+
   /// Counts the paths from the 2-saddles that are left, and that weren't counted since they changed, by their walls.
   void look_again() {
     looked_ = true;
@@ -148,12 +164,7 @@ class Canceller {
     in_turns(static_cast<int>(walls_.size()), static_cast<std::int64_t>(uppers.size()),
              [&](int thread, std::int64_t i) {
                DescendingWall& wall = wall_of(thread);
-               wall.follow(critical_.triangles[uppers[i]]);
-               wall.count_paths();
-               for (const auto& edge : wall.critical_edges()) {
-                 const Id lower = places_.of_edge(edge.high, edge.low);
-                 if (lower_[lower]) paths[i].push_back({lower, wall.paths_from(edge)});
-               }
+               paths[i] = count_paths(uppers[i], wall);
                may_exchange_[uppers[i]] = best_exchange(exchanges, uppers[i], wall) != nullptr;
              });
     for (std::size_t i = 0; i < uppers.size(); ++i) {
