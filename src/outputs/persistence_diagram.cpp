@@ -54,21 +54,15 @@ class Highest {
 
 bool is_float(const io::PointArray& array) { return std::holds_alternative<std::vector<float>>(array.values); }
 
-/// An array of numbers, in float if that is wanted.
-io::PointArray array_of(const char* name, int components, std::vector<double> values, bool in_float) {
-  if (in_float) return {name, components, std::vector<float>(values.begin(), values.end())};
-  return {name, components, std::move(values)};
-}
-
-std::vector<double> positions_of(const io::Dataset& dataset, const std::vector<Id>& vertices) {
-  std::vector<double> positions;
-  positions.reserve(3 * vertices.size());
-  std::visit(
-      [&](const auto& points) {
+io::PointArray::Values positions_of(const io::Dataset& dataset, const std::vector<Id>& vertices) {
+  return std::visit(
+      [&](const auto& points) -> io::PointArray::Values {
+        std::vector<typename std::decay_t<decltype(points)>::non_const_value_type> positions;
+        positions.reserve(3 * vertices.size());
         for (const Id v : vertices) positions.insert(positions.end(), {points(v, 0), points(v, 1), points(v, 2)});
+        return positions;
       },
       dataset.points);
-  return positions;
 }
 
 /// Two points for each of the diagram's: where the class begins, and where it ends.
@@ -151,20 +145,18 @@ io::Surface to_lines(const io::Dataset& dataset, const io::PointArray& field,
   identifiers.resize(persistence.size(), -1);
   types.resize(persistence.size(), -1);
   finite.resize(persistence.size(), 0);
-  const bool in_float = is_float(field);
-  const bool float_points = std::holds_alternative<io::Dataset::Points<float>>(dataset.points);
-  if (in_float) {
+  if (is_float(field)) {
     lines.points = points_of<float>(diagram);
   } else {
     lines.points = points_of<double>(diagram);
   }
-  lines.point_arrays.push_back(array_of("Coordinates", 3, positions_of(dataset, vertices), float_points));
+  lines.point_arrays.push_back({"Coordinates", 3, positions_of(dataset, vertices)});
   lines.point_arrays.push_back({"ttkVertexScalarField", 1, std::move(vertices)});
   lines.point_arrays.push_back({"CriticalType", 1, std::move(critical_types)});
   lines.cell_arrays.push_back({"PairIdentifier", 1, std::move(identifiers)});
   lines.cell_arrays.push_back({"PairType", 1, std::move(types)});
-  lines.cell_arrays.push_back(array_of("Persistence", 1, std::move(persistence), in_float));
-  lines.cell_arrays.push_back(array_of("Birth", 1, std::move(births), in_float));
+  lines.cell_arrays.push_back({"Persistence", 1, detail::values_as(field, std::move(persistence))});
+  lines.cell_arrays.push_back({"Birth", 1, detail::values_as(field, std::move(births))});
   lines.cell_arrays.push_back({"IsFinite", 1, std::move(finite)});
   return lines;
 }

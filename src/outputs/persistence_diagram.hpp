@@ -32,12 +32,12 @@ struct DiagramCounts {
 DiagramCounts counts_of(const std::vector<DiagramPoint>& diagram);
 
 /// The diagram as lines, one for each of its points, from (birth, birth, 0) to (birth, death, 0), then the diagonal,
-/// from the first birth to the last. In float where field and coordinates are, else in double.
+/// from the first birth to the last. In float if the field is, else in double.
 ///
 /// Point arrays: ttkVertexScalarField (int32, the input vertex), CriticalType (int8: the dimension of the simplex),
 /// Coordinates (of that vertex). Cell arrays: PairIdentifier (int32, from 0; the diagonal -1), PairType (int8; the
-/// diagonal -1), Persistence and Birth (float where the field is, else double; of the diagonal twice the greatest
-/// persistence that is finite, and the first birth), IsFinite (uint8; the diagonal 0).
+/// diagonal -1), Persistence and Birth (float if the field is, else double; of the diagonal twice the greatest finite
+/// persistence, and the first birth), IsFinite (uint8; the diagonal 0).
 io::Surface to_lines(const io::Dataset& dataset, const io::PointArray& field, const std::vector<DiagramPoint>& diagram);
 
 /// How many pairs persist: for each persistence that a pair has, ascending, the number of pairs of each type of that

@@ -30,7 +30,7 @@ std::vector<double> Axis::marks() const {
 
 std::string mark_text(double value) {
   char text[32];
-  std::snprintf(text, sizeof(text), "%.4g", value);
+  std::snprintf(text, sizeof(text), "%.6g", value);
   return text;
 }
 

@@ -20,7 +20,7 @@ struct Axis {
   std::vector<double> marks() const;
 };
 
-/// A number as a mark has it: at most four digits.
+/// A number as a mark has it: at most six digits.
 std::string mark_text(double value);
 
 /// A frame with two axes, in pixels.

@@ -84,10 +84,10 @@ void add_curve(const std::vector<DiagramPoint>& diagram, Flat& flat) {
     }
     if (!steps.empty()) flat.lines.push_back({type_colors[type], 2, 1, {steps}});
   }
-  double y = 490;
+  double y = 135;
   for (int type = 0; type < 3; ++type, y -= 22) {
-    flat.dots.push_back({type_colors[type], 8, {{950, y}}});
-    flat.texts.push_back({type_names[type], {962, y}, Flat::Text::Anchor::left, 13});
+    flat.dots.push_back({type_colors[type], 8, {{706, y}}});
+    flat.texts.push_back({type_names[type], {718, y}, Flat::Text::Anchor::left, 13});
   }
 }
 
