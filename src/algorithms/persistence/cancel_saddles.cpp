@@ -185,14 +185,25 @@ class Canceller {
 
   std::vector<Exchange> possible_exchanges() const {
     std::vector<Exchange> possible;
-    for (const Id lower : left(lower_)) {
-      const auto& edge = critical_.edges[lower];
-      for (const auto& crossing : minima_.cycle(edge[0], edge[1])) {
-        if (doomed_.lower[lower] - minimum_below_[crossing.saddle] < doomed_.threshold)
-          possible.push_back({lower, crossing});
-      }
-    }
+    for (const Id lower : left(lower_)) add_exchanges(lower, possible);
     return possible;
+  }
+
+  void add_exchanges(Id lower, std::vector<Exchange>& possible) const {
+    const auto& edge = critical_.edges[lower];
+    for (const auto& crossing : minima_.cycle(edge[0], edge[1])) {
+      if (doomed_.lower[lower] - minimum_below_[crossing.saddle] < doomed_.threshold)
+        possible.push_back({lower, crossing});
+    }
+  }
+
+  /// Whether a cycle still is as it was when an exchange was found: others change cycles.
+  bool is_possible(const Exchange& exchange) const {
+    std::vector<Exchange> possible;
+    if (lower_[exchange.lower]) add_exchanges(exchange.lower, possible);
+    return std::any_of(possible.begin(), possible.end(), [&](const Exchange& other) {
+      return other.instead.saddle == exchange.instead.saddle && other.instead.from == exchange.instead.from;
+    });
   }
 
   /// Of those whose other 1-saddle has one path to a 2-saddle, which has this wall, that with the highest one.
@@ -200,7 +211,8 @@ class Canceller {
     const Exchange* best = nullptr;
     for (const Exchange& exchange : possible) {
       const Id saddle = exchange.instead.saddle;
-      if (!is_small(saddle, upper) || (best && doomed_.lower[saddle] <= doomed_.lower[best->instead.saddle])) continue;
+      if (!lower_[exchange.lower] || !is_small(saddle, upper)) continue;
+      if (best != nullptr && doomed_.lower[saddle] <= doomed_.lower[best->instead.saddle]) continue;
       const auto& edge = critical_.edges[saddle];
       if (wall.paths_from({edge[0], edge[1]}) == 1) best = &exchange;
     }
@@ -220,16 +232,14 @@ class Canceller {
 
   /// Exchanges 1-saddles that are left for such as can be cancelled with a 2-saddle that is left.
   void exchange_saddles() {
-    auto possible = possible_exchanges();
+    const auto possible = possible_exchanges();
     for (const Id upper : left(upper_)) {
       if (!may_exchange_[upper]) continue;
       DescendingWall& wall = wall_of(0);
       wall.follow(critical_.triangles[upper]);
       wall.count_paths();
       const Exchange* const best = best_exchange(possible, upper, wall);
-      if (best == nullptr) continue;
-      exchange(*best, upper);
-      possible = possible_exchanges();
+      if (best != nullptr && is_possible(*best)) exchange(*best, upper);
     }
   }
 

@@ -6,7 +6,8 @@
 namespace gale::detail {
 
 TurnedForest::TurnedForest(const Array<const Id, HostMemory>& successors)
-    : successors_(allocate<Array<Id, HostMemory>>("GALE::turned_successors", successors.extent(0))) {
+    : successors_(allocate<Array<Id, HostMemory>>("GALE::turned_successors", successors.extent(0))),
+      crosses_(successors.extent(0), 0) {
   parallel_for("GALE::turned_successors", HostSpace(), successors.extent(0),
                [&](Offset i) { successors_(i) = successors(i); });
 }
@@ -20,6 +21,7 @@ void TurnedForest::turn(Id side, Id other, Id saddle) {
     at = next;
   }
   saddle_from_[side] = saddle;
+  crosses_[side] = 1;
 }
 
 /// The saddles on a path, and its cells.
@@ -27,6 +29,7 @@ std::vector<TurnedForest::Crossing> TurnedForest::crossings(Id from, std::vector
   std::vector<Crossing> found;
   for (Id at = from; at >= 0; at = successors_(at)) {
     path.push_back(at);
+    if (!crosses_[at]) continue;
     const auto saddle = saddle_from_.find(at);
     if (saddle != saddle_from_.end()) found.push_back({saddle->second, at});
   }
@@ -69,10 +72,12 @@ void TurnedForest::exchange(Id side, Id other, Id saddle, const Crossing& instea
     const auto crossed = saddle_from_.find(path[k - 1]);
     if (crossed == saddle_from_.end()) continue;
     saddle_from_[path[k]] = crossed->second;
+    crosses_[path[k]] = 1;
     saddle_from_.erase(path[k - 1]);
   }
   successors_(side) = other;
   saddle_from_[side] = saddle;
+  crosses_[side] = 1;
 }
 
 }  // namespace gale::detail

@@ -36,6 +36,7 @@ class TurnedForest {
 
   Array<Id, HostMemory> successors_;
   std::unordered_map<Id, Id> saddle_from_;  ///< the saddle that a cell's path crosses next, if it does
+  std::vector<char> crosses_;               ///< whether it may: saves most look-ups
 };
 
 }  // namespace gale::detail
