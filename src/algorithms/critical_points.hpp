@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <gale/algorithms/vertex_order.hpp>
+#include <gale/export.hpp>
 #include <gale/runtime/structure.hpp>
 
 namespace gale {
@@ -40,7 +41,8 @@ struct CriticalPoints {
 /// A sweep of VV and link, for which `structure` must be preconditioned; the same result whatever the structure, its
 /// segments, and the number of threads. 2 bytes a vertex beside the result. Throws gale::Error if it isn't
 /// preconditioned for them, and if `order` is of another mesh than the structure's.
-CriticalPoints find_critical_points(Structure& structure, const VertexOrder& order, const SweepOptions& options = {});
+GALE_EXPORT CriticalPoints find_critical_points(Structure& structure, const VertexOrder& order,
+                                                const SweepOptions& options = {});
 
 /// What the sweep reads.
 inline constexpr RelationSet critical_points_relations = Relation::VV | link_form;

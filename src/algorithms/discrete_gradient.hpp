@@ -5,6 +5,7 @@
 
 #include <gale/algorithms/critical_simplices.hpp>
 #include <gale/algorithms/vertex_order.hpp>
+#include <gale/export.hpp>
 #include <gale/runtime/structure.hpp>
 
 namespace gale {
@@ -28,7 +29,7 @@ struct Partner {
 /// vertex has a row of its edges to lower vertices, with the third vertex of the triangle that each edge is paired
 /// with: 5 bytes an edge and 12 a vertex. Edges and triangles have no ids here: they are named by their vertices
 /// (GALE's ids).
-class DiscreteGradient {
+class GALE_EXPORT DiscreteGradient {
  public:
   explicit DiscreteGradient(std::shared_ptr<const detail::GradientStore> store);
 
@@ -87,8 +88,8 @@ class DiscreteGradient {
 /// A sweep of VV, VT and link; throws gale::Error if `structure` isn't preconditioned for them, and if `order` is
 /// of another mesh than the structure's. No edge or triangle is
 /// enumerated: beside the blocks of the sweep there is only the gradient in memory.
-DiscreteGradient find_discrete_gradient(Structure& structure, const VertexOrder& order,
-                                        const SweepOptions& options = {});
+GALE_EXPORT DiscreteGradient find_discrete_gradient(Structure& structure, const VertexOrder& order,
+                                                    const SweepOptions& options = {});
 
 /// What the sweep reads.
 inline constexpr RelationSet discrete_gradient_relations = star_relations;

@@ -2,6 +2,7 @@
 
 #include <gale/algorithms/discrete_gradient.hpp>
 #include <gale/algorithms/separatrices.hpp>
+#include <gale/export.hpp>
 
 namespace gale {
 
@@ -85,8 +86,9 @@ struct MorseSmaleComplex {
 /// `structure` is one of the gradient's mesh: throws gale::Error if it isn't. Only separatrices2 reads it, for VT:
 /// throws gale::Error if it isn't preconditioned for that. Time and memory grow with what is found, and for manifolds
 /// with the mesh. Walls share cells: all together may have many times as many as the mesh.
-MorseSmaleComplex find_morse_smale_complex(Structure& structure, const DiscreteGradient& gradient,
-                                           const MorseSmaleParts& parts = {}, const SweepOptions& options = {});
+GALE_EXPORT MorseSmaleComplex find_morse_smale_complex(Structure& structure, const DiscreteGradient& gradient,
+                                                       const MorseSmaleParts& parts = {},
+                                                       const SweepOptions& options = {});
 
 /// What the gradient and this read.
 inline constexpr RelationSet morse_smale_relations = discrete_gradient_relations;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <gale/algorithms/discrete_gradient.hpp>
+#include <gale/export.hpp>
 
 namespace gale {
 
@@ -36,6 +37,6 @@ struct PersistencePairs {
 /// of the other 2-saddles fall along the gradient until they meet a 1-saddle (Guillou, Vidal, Tierny, "Discrete Morse
 /// Sandwich", 2023). On options.threads threads; options.progress isn't called. Memory beside the result: 100 bytes a
 /// critical simplex, and 8 for each edge of a rim that met a 1-saddle.
-PersistencePairs find_persistence_pairs(const DiscreteGradient& gradient, const SweepOptions& options = {});
+GALE_EXPORT PersistencePairs find_persistence_pairs(const DiscreteGradient& gradient, const SweepOptions& options = {});
 
 }  // namespace gale

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <gale/base/memory.hpp>
+#include <gale/export.hpp>
 #include <gale/runtime/structure.hpp>
 
 namespace gale {
@@ -31,7 +32,8 @@ struct SimplexNumbers {
 /// segments, and the number of threads. The work of a sweep of critical points, and 0.1 us a named simplex, in
 /// parallel; 9 bytes a vertex and 12 a named simplex, the result among them. Throws gale::Error, with the input
 /// vertices, if the mesh has no such simplex, and if it has more than 2^31 - 1 edges or triangles.
-SimplexNumbers number_simplices(Structure& structure, const NamedSimplices& named, const SweepOptions& options = {});
+GALE_EXPORT SimplexNumbers number_simplices(Structure& structure, const NamedSimplices& named,
+                                            const SweepOptions& options = {});
 
 /// What the sweep reads.
 inline constexpr RelationSet simplex_numbers_relations = Relation::VV | link_form;

@@ -3,6 +3,7 @@
 #include <functional>
 
 #include <gale/algorithms/morse_smale.hpp>
+#include <gale/export.hpp>
 
 namespace gale {
 
@@ -33,7 +34,7 @@ struct SimplifyOptions {
 /// the field at an input vertex: throws gale::Error, naming the vertex, if that is NaN where it is asked for. On
 /// options.threads threads, but for the cancelling itself. Memory grows with what is left, and with the gradient (4
 /// bytes a vertex and a tetrahedron).
-MorseSmaleComplex simplify(const MorseSmaleComplex& complex, const std::function<double(Id)>& value, double threshold,
-                           const SimplifyOptions& options = {});
+GALE_EXPORT MorseSmaleComplex simplify(const MorseSmaleComplex& complex, const std::function<double(Id)>& value,
+                                       double threshold, const SimplifyOptions& options = {});
 
 }  // namespace gale

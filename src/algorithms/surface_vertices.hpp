@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include <gale/export.hpp>
 #include <gale/mesh/mesh.hpp>
 
 namespace gale {
@@ -10,6 +11,6 @@ namespace gale {
 /// 0. Vertices without tetrahedra are not on the surface. Triangles with three or more tetrahedra aren't part of it.
 ///
 /// A sweep of link rows on all our threads.
-Array<std::uint8_t, HostMemory> surface_vertices(const Mesh& mesh);
+GALE_EXPORT Array<std::uint8_t, HostMemory> surface_vertices(const Mesh& mesh);
 
 }  // namespace gale

@@ -2,13 +2,14 @@
 
 #include <cstdint>
 
+#include <gale/export.hpp>
 #include <gale/mesh/mesh.hpp>
 
 namespace gale {
 
 /// A total order of a mesh's vertices: by field value, then by input vertex id. Keys compare as the vertices do; they
 /// lie on the host, under GALE's vertex ids, and no two are equal. It serves that mesh and its copies alone.
-class VertexOrder {
+class GALE_EXPORT VertexOrder {
  public:
   /// From a value for each vertex, in input order; `Value` is `char`, any signed or unsigned integer type from
   /// `signed char` to `unsigned long long`, `float` or `double`. Infinities are values, and the two zeros are equal.

@@ -1,10 +1,16 @@
 #include <sys/resource.h>
 
 #include <atomic>
+#include <condition_variable>
 #include <cstring>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
 
 #include <gale/app/machine.hpp>
 #include <gale/base/kokkos.hpp>
+#include <gale/base/start_thread.hpp>
 
 namespace gale::app {
 
@@ -55,6 +61,32 @@ std::optional<std::string> device_name() {
 #else
   return std::nullopt;
 #endif
+}
+
+void require_threads(int count) {
+  std::mutex mutex;
+  std::condition_variable all_begun;
+  bool is_over = false;
+  std::vector<std::thread> threads;
+  std::exception_ptr failure;
+  try {
+    threads.reserve(count);
+    for (int i = 1; i < count; ++i) {
+      threads.push_back(detail::start_thread([&] {
+        std::unique_lock<std::mutex> lock(mutex);
+        all_begun.wait(lock, [&] { return is_over; });
+      }));
+    }
+  } catch (...) {
+    failure = std::current_exception();
+  }
+  {
+    const std::lock_guard<std::mutex> lock(mutex);
+    is_over = true;
+  }
+  all_begun.notify_all();
+  for (std::thread& thread : threads) thread.join();
+  if (failure) std::rethrow_exception(failure);
 }
 
 }  // namespace gale::app

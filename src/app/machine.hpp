@@ -19,4 +19,7 @@ void watch_device_memory();
 /// The device's name, such as "NVIDIA H200"; nothing without a device.
 std::optional<std::string> device_name();
 
+/// Throws gale::Error unless the system starts so many threads: OpenMP would end the process.
+void require_threads(int count);
+
 }  // namespace gale::app

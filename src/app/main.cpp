@@ -1,9 +1,13 @@
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <iostream>
 #include <memory>
+#include <new>
+#include <stdexcept>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -11,9 +15,11 @@
 
 #include <gale/app/commands/commands.hpp>
 #include <gale/app/machine.hpp>
+#include <gale/app/step.hpp>
 #include <gale/app/usage_error.hpp>
 #include <gale/base/memory.hpp>
 #include <gale/base/threads.hpp>
+#include <gale/io/temporary_files.hpp>
 #include <gale/version.hpp>
 
 namespace {
@@ -23,13 +29,59 @@ using gale::app::UsageError;
 
 enum ExitCode { done = 0, failed = 1, wrong_usage = 2 };
 
-/// Prints one line, whatever the message.
-int complain(ExitCode code, std::string what) {
-  for (char& c : what) {
+/// Prints one line, whatever the message; without memory.
+int complain(ExitCode code, const char* what) {
+  char line[4096];
+  std::snprintf(line, sizeof line, "%s", what);
+  for (char& c : line) {
     if (c == '\n' || c == '\r') c = ' ';
   }
-  std::fprintf(stderr, "gale: %s\n", what.c_str());
+  std::fprintf(stderr, "gale: %s\n", line);
   return code;
+}
+
+/// For errors that don't say where they happened.
+int complain_of_step(const char* what, const char* advice) {
+  char text[1024];
+  std::snprintf(text, sizeof text, "%s while %s: %s", what, gale::app::current_step(), advice);
+  return complain(failed, text);
+}
+
+int complain_of_memory() {
+  return complain_of_step("out of memory", "try a machine with more, fewer --threads, or a smaller input");
+}
+
+/// Says what the exception that is being handled says.
+int complain_of_exception() {
+  if (gale::app::steps_ended()) return done;
+  try {
+    throw;
+  } catch (const UsageError& error) {
+    return complain(wrong_usage, error.what());
+  } catch (const std::bad_alloc&) {
+    return complain_of_memory();
+  } catch (const std::length_error&) {  // more than a container can ever hold
+    return complain_of_memory();
+  } catch (const std::system_error& error) {
+    return complain_of_step(error.what(), "the system lets this process have no more of that");
+  } catch (const std::exception& error) {
+    return complain(failed, error.what());
+  } catch (...) {
+    return complain_of_step("it failed", "for no reason that is known");
+  }
+}
+
+/// For exceptions that leave what nothing may leave, as in libraries that don't expect memory to run out.
+[[noreturn]] void end_by_exception() {
+  gale::io::remove_temporary_files();
+  std::_Exit(std::current_exception() ? complain_of_exception() : complain_of_step("it failed", "it stopped itself"));
+}
+
+/// Temporary files go with the process, however it ends; a limit of the size of files is an error like a full disk.
+void prepare_for_the_end() {
+  gale::io::remove_temporary_files_at_end();
+  std::signal(SIGXFSZ, SIG_IGN);
+  std::set_terminate(end_by_exception);
 }
 
 std::string commands_of(const CLI::App& app) {
@@ -63,6 +115,7 @@ bool parse(CLI::App& app, int argc, char** argv) {
 
 void run(const Command& command) {
   if (command.common().threads) gale::set_host_threads(*command.common().threads);
+  gale::app::require_threads(gale::host_threads());
   setenv("KOKKOS_DISABLE_WARNINGS", "1", 0);  // such as on thread binding, which is not what standard error is for
   const Kokkos::ScopeGuard kokkos(gale::initialization_arguments(gale::host_threads()));
   gale::app::watch_device_memory();
@@ -88,13 +141,10 @@ bool output_arrived() { return std::cout.flush() && std::fflush(stdout) == 0 && 
 
 int main(int argc, char** argv) {
   try {
+    prepare_for_the_end();
     run(argc, argv);
     return output_arrived() ? done : complain(failed, "cannot write to standard output");
-  } catch (const UsageError& error) {
-    return complain(wrong_usage, error.what());
-  } catch (const std::bad_alloc&) {
-    return complain(failed, "out of memory");
-  } catch (const std::exception& error) {
-    return complain(failed, error.what());
+  } catch (...) {
+    return complain_of_exception();
   }
 }

@@ -32,24 +32,25 @@ Segmentation octree(const io::Dataset& dataset, int capacity) {
 
 /// The array to segment by, or nullptr for an octree.
 const io::PointArray* given_segments(const io::Dataset& dataset, const SegmentationOptions& options,
-                                     const Console& console) {
+                                     std::vector<std::string>& notices) {
   if (!options.array.empty()) return &outputs::select_segments(dataset, options.array);
   if (options.capacity) return nullptr;
   std::vector<std::string> ignored;
   const io::PointArray* const segments = outputs::find_segments(dataset, ignored);
   for (const auto& name : ignored)
-    console.say("note", "array " + name + " isn't one whole number a point: not used as segments");
+    notices.push_back("array " + name + " isn't one whole number a point: not used as segments");
   return segments;
 }
 
 }  // namespace
 
-Segmentation make_segmentation(const io::Dataset& dataset, const SegmentationOptions& options, const Console& console) {
+Segmentation make_segmentation(const io::Dataset& dataset, const SegmentationOptions& options, const Console& console,
+                               std::vector<std::string>& notices) {
   if (options.random_count) {
     const std::size_t vertices = std::visit([](const auto& points) { return points.extent(0); }, dataset.points);
     return scattered(vertices, *options.random_count);
   }
-  const io::PointArray* const given = given_segments(dataset, options, console);
+  const io::PointArray* const given = given_segments(dataset, options, notices);
   if (given == nullptr) return octree(dataset, options.capacity.value_or(default_capacity));
   const auto labels = outputs::labels_of(*given);
   console.say("segments from", "array " + given->name);

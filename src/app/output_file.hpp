@@ -1,13 +1,18 @@
 #pragma once
 
+#include <functional>
+#include <ostream>
 #include <string>
+
+#include <gale/io/atomic_file.hpp>
 
 namespace gale::app {
 
 /// Throws gale::Error, naming the path, unless a file can be made there now. A file that is there stays as it is.
 void require_writable(const std::string& path);
 
-/// Writes `text` to `path`, whole or not at all. Throws gale::Error, naming the path.
-void write_text(const std::string& path, const std::string& text);
+/// Writes what `write` puts out to the temporary of `file`. Throws gale::Error, naming the file, with the system's
+/// reason, as soon as something can't be written; whatever `write` throws, too.
+void write_text(const io::AtomicFile& file, const std::function<void(std::ostream&)>& write);
 
 }  // namespace gale::app

@@ -94,9 +94,10 @@ Json to_json(const Report& report) {
           {"result", report.result}};
 }
 
-void write_report(const std::string& path, const Report& report) {
+void write_report(const io::AtomicFile& file, const Report& report) {
   // Names of files and arrays need not be UTF-8, as JSON must be.
-  write_text(path, to_json(report).dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
+  const std::string text = to_json(report).dump(2, ' ', false, Json::error_handler_t::replace);
+  write_text(file, [&](std::ostream& out) { out << text << '\n'; });
 }
 
 }  // namespace gale::app

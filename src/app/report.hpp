@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <gale/io/atomic_file.hpp>
 #include <gale/runtime/statistics.hpp>
 
 namespace gale::app {
@@ -36,7 +37,7 @@ struct Report {
   int threads = 0;
   std::optional<std::string> structure, way;
   std::optional<std::int64_t> vertices, edges, triangles, tetrahedra, segments;
-  std::vector<std::string> notices;  ///< one line each about what was done differently than asked for, and why
+  std::vector<std::string> notices;  ///< one line each about what was left out or done differently, and why
   Seconds seconds;
   std::optional<StructureStatistics> statistics;
   nlohmann::ordered_json result = nlohmann::ordered_json::object();
@@ -44,7 +45,7 @@ struct Report {
 
 nlohmann::ordered_json to_json(const Report& report);
 
-/// Writes the report to `path`, whole or not at all. Throws gale::Error, naming the path.
-void write_report(const std::string& path, const Report& report);
+/// Writes the report to the temporary of `file`. Throws gale::Error, naming the file.
+void write_report(const io::AtomicFile& file, const Report& report);
 
 }  // namespace gale::app

@@ -9,6 +9,8 @@
 #include <gale/app/options/options.hpp>
 #include <gale/app/options/structure_option.hpp>
 #include <gale/app/report.hpp>
+#include <gale/app/step.hpp>
+#include <gale/io/atomic_file.hpp>
 #include <gale/io/dataset.hpp>
 #include <gale/mesh/mesh.hpp>
 #include <gale/runtime/structure.hpp>
@@ -52,27 +54,37 @@ class Session {
   /// How to sweep: on the threads that --threads says, with a progress bar of this title.
   SweepOptions sweep(const std::string& title) const;
 
-  /// Calls write_to(path) unless the path is empty, and says what it wrote.
+  /// Calls write_to(file) unless the path is empty, with a file that appears when the session finishes, together with
+  /// all others.
   template <class Write>
   void write(const std::string& path, const Write& write_to) {
     if (path.empty()) return;
-    {
-      const Stopwatch watch(report_.seconds.write);
-      write_to(path);
-    }
-    console_.say("wrote", path);
+    const Stopwatch watch(report_.seconds.write);
+    begin_step("writing", path);
+    const io::AtomicFile& file = files_.add(path);
+    write_to(file);
+    io::AtomicFiles::sync(file);
   }
 
-  /// Says the times and writes the report, with what is to say of the structure, if there was one.
+  /// Writes the report, with what is to say of the structure, if there was one; makes all files appear, or none, and
+  /// says so.
   void finish(const Structure* structure = nullptr);
 
  private:
   io::Dataset read_any();
+  void appear();
+
+  /// The field that --array names, or the first; says which. A copy: once a run.
+  io::PointArray select_field(const io::Dataset& dataset);
+
+  /// Says and reports those that haven't been.
+  void note(const std::vector<std::string>& notices);
 
   const InputOptions& input_;
   const CommonOptions& common_;
   Console console_;
   Report report_;
+  io::AtomicFiles files_;
 };
 
 }  // namespace gale::app

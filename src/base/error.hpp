@@ -3,16 +3,18 @@
 #include <stdexcept>
 #include <string>
 
+#include <gale/export.hpp>
+
 namespace gale {
 
 /// What every failure on the host throws. `what()` is one line that names the value at fault.
-class Error : public std::runtime_error {
+class GALE_EXPORT Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
 /// Memory ran out. `what()` says of which kind, how much and for what.
-class OutOfMemory : public Error {
+class GALE_EXPORT OutOfMemory : public Error {
  public:
   /// `missing` is what there was none of, e.g. "HostSpace has no 80 bytes for GALE::tetrahedra".
   explicit OutOfMemory(const std::string& missing) : Error(prefix + missing) {}

@@ -4,6 +4,7 @@
 #include <string>
 
 #include <gale/base/kokkos.hpp>
+#include <gale/export.hpp>
 
 namespace gale {
 
@@ -16,7 +17,7 @@ namespace detail {
 /// Asks for 2 MiB pages, so that the first touch of a large array faults 512 times less: arrays that the device fills
 /// are touched at the speed of the link. Without a device the system's choice stands: some virtual machines get huge
 /// pages from their host one by one, four times slower than small ones. A hint: nothing depends on it.
-void advise_huge_pages(void* data, std::size_t bytes);
+GALE_EXPORT void advise_huge_pages(void* data, std::size_t bytes);
 
 }  // namespace detail
 

@@ -12,20 +12,22 @@
 #include <omp.h>
 #endif
 
+#include <gale/export.hpp>
+
 namespace gale {
 
 /// How many threads a host loop, or a sweep unless told otherwise, uses when this thread begins it: what was set, else
 /// what OMP_NUM_THREADS says, else what OpenMP would take, but no more than the cores that the process may run on and
 /// than a container's CPU quota, rounded up. No more than this thread's ThreadLimits in any case.
-int host_threads();
+GALE_EXPORT int host_threads();
 
 /// From now on so many, at least 1, whichever thread begins a loop. For the application, before it begins: the library
 /// never calls it.
-void set_host_threads(int count);
+GALE_EXPORT void set_host_threads(int count);
 
 /// While it lives, loops that this thread begins use at most so many threads, at least 1; of several that live, the
 /// least counts. To be destroyed on the thread that made it, last made first.
-class ThreadLimit {
+class GALE_EXPORT ThreadLimit {
  public:
   explicit ThreadLimit(int threads);
   ~ThreadLimit();
@@ -58,8 +60,13 @@ void on_threads(int count, const Body& body) {
   };
 #ifdef GALE_ENABLE_STD_THREADS
   std::vector<std::thread> others;
-  for (int i = 1; i < count; ++i) others.emplace_back(guarded, i);
+  int begun = 1;
+  try {
+    for (; begun < count; ++begun) others.emplace_back(guarded, begun);
+  } catch (const std::exception&) {  // there are no more threads, or no memory for them: this one does the rest
+  }
   guarded(0);
+  for (int i = begun; i < count; ++i) guarded(i);
   for (auto& thread : others) thread.join();
 #else
 #pragma omp parallel num_threads(count)

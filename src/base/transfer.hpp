@@ -4,6 +4,7 @@
 #include <string>
 
 #include <gale/base/memory.hpp>
+#include <gale/export.hpp>
 
 namespace gale {
 
@@ -11,8 +12,8 @@ namespace gale {
 /// threads copy through pinned chunks of their own. Waits first for what is enqueued on WorkerSpace(), which may have
 /// made the data, and returns when it is done. Only where there is a device; one call at a time is fast, more wait for
 /// each other.
-void copy_to_device(void* device, const void* host, std::size_t bytes);
-void copy_from_device(void* host, const void* device, std::size_t bytes);
+GALE_EXPORT void copy_to_device(void* device, const void* host, std::size_t bytes);
+GALE_EXPORT void copy_from_device(void* host, const void* device, std::size_t bytes);
 
 namespace detail {
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <gale/algorithms/discrete_gradient.hpp>
+#include <gale/export.hpp>
 
 namespace gale {
 
@@ -12,8 +13,8 @@ namespace gale {
 /// A sweep of VE, VF and VT, with rows of EV, FV and TV: from the mesh's tables, or from a structure that keeps them.
 /// `structure` must be preconditioned for all six, and `order` be of its mesh: throws gale::Error otherwise. Nothing is
 /// allocated for a vertex once the longest rows were seen.
-DiscreteGradient find_discrete_gradient_from_cells(Structure& structure, const VertexOrder& order,
-                                                   const SweepOptions& options = {});
+GALE_EXPORT DiscreteGradient find_discrete_gradient_from_cells(Structure& structure, const VertexOrder& order,
+                                                               const SweepOptions& options = {});
 
 /// What it reads. FE and TF aren't needed, as the facets of a cell are found in the star by their vertices.
 inline constexpr RelationSet discrete_gradient_from_cells_relations =

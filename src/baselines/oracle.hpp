@@ -4,13 +4,14 @@
 #include <string>
 #include <vector>
 
+#include <gale/export.hpp>
 #include <gale/mesh/mesh.hpp>
 #include <gale/relations/relation.hpp>
 
 namespace gale::baselines {
 
 /// The rows of a relation of a mesh, in GALE's ids, found without any code of the segment kernels.
-class Oracle {
+class GALE_EXPORT Oracle {
  public:
   virtual ~Oracle() = default;
 
@@ -26,9 +27,9 @@ class Oracle {
 
 /// The explicit structure where GALE was built with Kokkos-Kernels, else brute force. Brute force too where it is the
 /// explicit structure that is to be verified (`is_explicit`).
-std::unique_ptr<Oracle> make_oracle(const Mesh& mesh, Relation relation, int threads, bool is_explicit);
+GALE_EXPORT std::unique_ptr<Oracle> make_oracle(const Mesh& mesh, Relation relation, int threads, bool is_explicit);
 
 /// Slow and simple: it lists all simplices, and searches the lists.
-std::unique_ptr<Oracle> make_brute_force(const Mesh& mesh, Relation relation);
+GALE_EXPORT std::unique_ptr<Oracle> make_brute_force(const Mesh& mesh, Relation relation);
 
 }  // namespace gale::baselines

@@ -7,12 +7,13 @@
 #include <variant>
 
 #include <gale/base/error.hpp>
+#include <gale/export.hpp>
 #include <gale/io/dataset.hpp>
 
 namespace gale::io {
 
 /// How many points `array` has values for.
-std::size_t point_count(const PointArray& array);
+GALE_EXPORT std::size_t point_count(const PointArray& array);
 
 /// The points that `ids` names, in that order: row k of the result is row `ids[k]` of `array`. `ids` is anything with
 /// `size()` and `operator[]` (a vector, a rank-one View on the host). Throws `Error` for an id that `array` has no row
@@ -21,11 +22,11 @@ template <class Ids>
 PointArray gather(const PointArray& array, const Ids& ids);
 
 /// Component `component` (counted from 0) of every point as an array of its own, called `array.name`_`component`.
-PointArray extract_component(const PointArray& array, int component);
+GALE_EXPORT PointArray extract_component(const PointArray& array, int component);
 
 namespace detail {
 
-[[noreturn]] void refuse_row(const PointArray& array, std::size_t row);
+[[noreturn]] GALE_EXPORT void refuse_row(const PointArray& array, std::size_t row);
 
 }  // namespace detail
 

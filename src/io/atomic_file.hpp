@@ -1,6 +1,11 @@
 #pragma once
 
+#include <memory>
 #include <string>
+#include <vector>
+
+#include <gale/export.hpp>
+#include <gale/io/temporary_files.hpp>
 
 namespace gale::io {
 
@@ -9,22 +14,52 @@ namespace gale::io {
 /// Write to `temporary()`, a new, empty file in the same directory, and close it; `commit` then gives it its name,
 /// replacing what had it before. Without `commit` the destructor removes it, and what had the name before stays as it
 /// was. A link is followed.
-class AtomicFile {
+class GALE_EXPORT AtomicFile {
  public:
   /// Throws `Error` if the directory takes no new file, or if `path` exists and is no regular file.
   explicit AtomicFile(const std::string& path);
-  ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
-  const std::string& temporary() const { return temporary_; }
+  /// As it was given.
+  const std::string& path() const { return path_; }
+  const std::string& temporary() const { return temporary_.path(); }
 
-  /// Waits until the data is on disk. Throws `Error` if it does not get there.
+  /// Waits until what was written is on disk. Throws `Error` if it does not get there.
+  void sync() const;
+
+  /// Waits until the data is on disk, and its name too. Throws `Error` if they do not get there.
   void commit();
 
  private:
-  std::string path_, temporary_;
-  bool committed_ = false;
+  friend class AtomicFiles;
+
+  std::string path_, target_;  ///< `target_`: where links lead
+  detail::TemporaryName temporary_;
 };
+
+/// Files that appear together or not at all, as far as the file system can: all are written and synced before the first
+/// gets its name, and if one doesn't get its name, or the names don't reach the disk, then those that did lose it
+/// again to what had it before. A signal comes before or after all that, if `remove_temporary_files_at_end` was called.
+/// All errors name the file.
+class GALE_EXPORT AtomicFiles {
+ public:
+  /// Another one; it stays where it is as long as this object.
+  AtomicFile& add(const std::string& path);
+
+  /// Syncs one of them, so that less is left to do at the end.
+  static void sync(const AtomicFile& file);
+
+  /// Gives all of them their names. To be called once, when all are written and closed.
+  void commit();
+
+  const std::vector<std::unique_ptr<AtomicFile>>& all() const { return files_; }
+
+ private:
+  std::vector<std::unique_ptr<AtomicFile>> files_;
+};
+
+/// The error that `path` can't be written, and why.
+[[noreturn]] GALE_EXPORT void refuse_to_write(const std::string& path, const std::string& reason);
 
 }  // namespace gale::io

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include <gale/export.hpp>
 #include <gale/io/dataset.hpp>
 
 namespace gale::io {
@@ -20,13 +21,13 @@ struct Image {
 /// Makes the array called `name` the image's first; an empty name means the one that is first already. `NAME_K` picks
 /// component K of an array NAME with several and adds it as an array of one. Throws `Error` if there is no such array,
 /// or if it has several components.
-void select_scalars(Image& image, const std::string& name);
+GALE_EXPORT void select_scalars(Image& image, const std::string& name);
 
 /// Replaces every value v by slope*v + intercept, in double for 32- and 64-bit integers and doubles, else in float.
 /// Does nothing where that would change nothing, or for a slope of 0, which stands for "none" in NIfTI.
-void rescale(Image& image, double slope, double intercept);
+GALE_EXPORT void rescale(Image& image, double slope, double intercept);
 
 /// Reverses the order of the slices (k) and the transformation with it: every voxel stays where it is in space.
-void reverse_slices(Image& image);
+GALE_EXPORT void reverse_slices(Image& image);
 
 }  // namespace gale::io

@@ -1,4 +1,5 @@
 #include <exception>
+#include <new>
 
 #include <gale/base/error.hpp>
 #include <gale/io/atomic_file.hpp>
@@ -20,19 +21,20 @@ void check_arrays(std::size_t count, const std::vector<PointArray>& arrays, cons
 
 }  // namespace
 
-void write_lines(const std::string& path, const Surface& lines) {
+void write_lines(const AtomicFile& file, const Surface& lines) {
+  const std::string& path = file.path();
   if (detail::format_of(path) != detail::Format::vtu)
     throw Error("cannot write lines to '" + path + "': its extension is not .vtu");
   if (!detail::has_vtk()) throw Error("this gale was built without VTK: it cannot write '" + path + "'");
   try {
-    AtomicFile file(path);
     check_arrays(std::visit([](const auto& points) { return points.extent(0); }, lines.points), lines.point_arrays,
                  "points");
     check_arrays(lines.lines.begin.size() - 1, lines.cell_arrays, "lines");
     detail::write_lines_with_vtk(file.temporary(), lines);
-    file.commit();
+  } catch (const std::bad_alloc&) {
+    throw OutOfMemory("there is none left to write '" + path + "'");
   } catch (const std::exception& error) {
-    throw Error("cannot write '" + path + "': " + error.what());
+    refuse_to_write(path, error.what());
   }
 }
 

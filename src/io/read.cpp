@@ -1,19 +1,15 @@
-#include <cerrno>
 #include <charconv>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <new>
 #include <system_error>
 #include <utility>
 #include <variant>
 
 #include <gale/base/error.hpp>
+#include <gale/io/formats/readers.hpp>
 #include <gale/io/image.hpp>
 #include <gale/io/read.hpp>
 #include <gale/io/synthetic.hpp>
 #include <gale/io/voxels.hpp>
-#include <gale/io/vtk/vtk_files.hpp>
 
 namespace gale::io {
 namespace {
@@ -29,16 +25,8 @@ Dataset read_grid(const std::string& input, const ReadOptions& options) {
   return make_grid(n);
 }
 
-void require_file(const std::string& path) {
-  std::error_code unknown;
-  if (std::filesystem::is_directory(path, unknown)) throw Error("it is a directory");
-  errno = 0;
-  if (!std::ifstream(path, std::ios::binary)) throw Error(errno ? std::strerror(errno) : "it cannot be opened");
-}
-
 Dataset read_file(const std::string& path, detail::Format format, const ReadOptions& options) {
-  require_file(path);
-  detail::Content content = detail::read_with_vtk(path, format, options.tetrahedralize);
+  detail::Content content = detail::read_content(detail::InputFile(path), format, options);
   if (auto* image = std::get_if<Image>(&content)) {
     select_scalars(*image, options.array);
     return split_voxels(std::move(*image), options.above);

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include <gale/export.hpp>
 #include <gale/io/dataset.hpp>
 
 namespace gale::io {
@@ -14,21 +15,24 @@ struct ReadOptions {
   bool tetrahedralize = false;
   /// Images: the array that `above` is about, as `select_scalars` takes it; empty means the file's scalars.
   std::string array;
+  /// Headers such as `.mhd` may name data files that aren't in their own folder, nor below it.
+  bool outside_files = false;
 };
 
 /// Reads what `input` names; extensions count in either case:
 /// - `grid:N`: see `make_grid`.
 /// - `.vtu .vtk`: an unstructured grid. Its points and numeric point arrays travel as they are, the active scalars
-/// first,
-///   and its tetrahedra keep their order. Cells of lower dimension are left out with a notice. Other cells of dimension
-///   3 are refused, unless `tetrahedralize`.
+///   first, and its tetrahedra keep their order. Cells of lower dimension are left out with a notice. Other cells of
+///   dimension 3 are refused, unless `tetrahedralize`.
 /// - `.vti .nii .nii.gz .mha .mhd .nrrd`, and `.vtk` of structured points: an image, see `split_voxels`. Values are
 ///   rescaled where the file says so. A NIfTI image keeps the file's voxel order, in the coordinates of its sform, else
 ///   its qform.
 ///
 /// Throws `Error` with one line that names `input` and what is wrong with it: no such file, damaged, another kind, no
-/// tetrahedra, too large for 32-bit ids. VTK's own messages (for .mha and .mhd also std::cerr) are caught meanwhile,
-/// for the whole process and one reading thread at a time; nothing is printed.
-Dataset read(const std::string& input, const ReadOptions& options = {});
+/// tetrahedra, too large for 32-bit ids. Whatever is in the file, nothing else happens: what it says of sizes is
+/// checked against what it has before memory is taken, so that reading takes memory in proportion to what a file holds;
+/// values that it lacks are an error. Nothing is printed. Any number of threads may read at the same time, but those
+/// that `tetrahedralize` wait for each other.
+GALE_EXPORT Dataset read(const std::string& input, const ReadOptions& options = {});
 
 }  // namespace gale::io

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <gale/export.hpp>
 #include <gale/io/dataset.hpp>
 
 namespace gale::io {
@@ -13,6 +14,6 @@ namespace gale::io {
 /// 0.05*h(i)/2^32), computed in double, with h a hash of 32 bits.
 ///
 /// Runs on all host threads. Throws `Error` if n < 2, or if the vertices or tetrahedra do not fit 32-bit ids (n > 711).
-Dataset make_grid(int n);
+GALE_EXPORT Dataset make_grid(int n);
 
 }  // namespace gale::io

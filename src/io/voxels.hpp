@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include <gale/export.hpp>
 #include <gale/io/dataset.hpp>
 #include <gale/io/image.hpp>
 
@@ -18,6 +19,6 @@ namespace gale::io {
 ///
 /// Runs on all host threads; besides image and result it takes two bytes a voxel. Throws `Error` if a dimension is
 /// below 2, if no cube is left, or if the vertices or tetrahedra do not fit 32-bit ids. Precondition: `select_scalars`.
-Dataset split_voxels(Image image, std::optional<double> above);
+GALE_EXPORT Dataset split_voxels(Image image, std::optional<double> above);
 
 }  // namespace gale::io

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <exception>
+#include <initializer_list>
+#include <new>
 
 #include <gale/base/error.hpp>
 #include <gale/io/arrays.hpp>
@@ -39,53 +41,92 @@ void check_cells(std::size_t points, const Surface::Cells& cells) {
   }
 }
 
-/// Runs `write(temporary path)` and makes its file appear as `path`; names `path` in whatever goes wrong.
+void require_format(const std::string& path, const std::string& what, std::initializer_list<Format> formats,
+                    const std::string& rule) {
+  const auto format = detail::format_of(path);
+  if (format && std::find(formats.begin(), formats.end(), *format) != formats.end()) return;
+  throw Error("cannot write " + what + " to '" + path + "': its extension is " + rule);
+}
+
+void require_points(const std::string& path) { require_format(path, "points", {Format::vtp}, "not .vtp"); }
+void require_surface(const std::string& path) { require_format(path, "a surface", {Format::vtp}, "not .vtp"); }
+void require_mesh(const std::string& path) {
+  require_format(path, "a mesh", {Format::vtu, Format::vtk}, "neither .vtu nor .vtk");
+}
+
+/// Runs `write`; names `path` in whatever goes wrong.
 template <class Write>
-void write_file(const std::string& path, const Write& write) {
+void name_in_errors(const std::string& path, const Write& write) {
   if (!detail::has_vtk()) throw Error("this gale was built without VTK: it cannot write '" + path + "'");
   try {
-    AtomicFile file(path);
-    write(file.temporary());
-    file.commit();
+    write();
+  } catch (const std::bad_alloc&) {
+    throw OutOfMemory("there is none left to write '" + path + "'");
   } catch (const std::exception& error) {
-    throw Error("cannot write '" + path + "': " + error.what());
+    refuse_to_write(path, error.what());
   }
+}
+
+/// Runs `write(file)` and makes its file appear as `path`.
+template <class Write>
+void write_file(const std::string& path, const Write& write) {
+  name_in_errors(path, [&] {
+    AtomicFile file(path);
+    write(file);
+    file.commit();
+  });
+}
+
+void write_temporary(const AtomicFile& file, const PointSet& points) {
+  check_arrays(size_of(points.points), points.arrays);
+  detail::write_points_with_vtk(file.temporary(), points);
+}
+
+void write_temporary(const AtomicFile& file, const Surface& surface) {
+  const std::size_t points = size_of(surface.points);
+  check_cells(points, surface.lines);
+  check_cells(points, surface.polygons);
+  check_arrays(points, surface.point_arrays);
+  check_arrays(surface.lines.begin.size() + surface.polygons.begin.size() - 2, surface.cell_arrays, "cells");
+  detail::write_surface_with_vtk(file.temporary(), surface);
+}
+
+void write_temporary(const AtomicFile& file, const Dataset& mesh, const std::vector<PointArray>& more) {
+  check_arrays(size_of(mesh.points), mesh.arrays);
+  check_arrays(size_of(mesh.points), more);
+  detail::write_mesh_with_vtk(file.temporary(), *detail::format_of(file.path()), mesh, more);
 }
 
 }  // namespace
 
 void write_points(const std::string& path, const PointSet& points) {
-  if (detail::format_of(path) != Format::vtp)
-    throw Error("cannot write points to '" + path + "': its extension is not .vtp");
-  write_file(path, [&](const std::string& temporary) {
-    check_arrays(size_of(points.points), points.arrays);
-    detail::write_points_with_vtk(temporary, points);
-  });
+  require_points(path);
+  write_file(path, [&](const AtomicFile& file) { write_temporary(file, points); });
+}
+
+void write_points(const AtomicFile& file, const PointSet& points) {
+  require_points(file.path());
+  name_in_errors(file.path(), [&] { write_temporary(file, points); });
 }
 
 void write_surface(const std::string& path, const Surface& surface) {
-  if (detail::format_of(path) != Format::vtp)
-    throw Error("cannot write a surface to '" + path + "': its extension is not .vtp");
-  write_file(path, [&](const std::string& temporary) {
-    const std::size_t points = size_of(surface.points);
-    check_cells(points, surface.lines);
-    check_cells(points, surface.polygons);
-    check_arrays(points, surface.point_arrays);
-    check_arrays(surface.lines.begin.size() + surface.polygons.begin.size() - 2, surface.cell_arrays, "cells");
-    detail::write_surface_with_vtk(temporary, surface);
-  });
+  require_surface(path);
+  write_file(path, [&](const AtomicFile& file) { write_temporary(file, surface); });
+}
+
+void write_surface(const AtomicFile& file, const Surface& surface) {
+  require_surface(file.path());
+  name_in_errors(file.path(), [&] { write_temporary(file, surface); });
 }
 
 void write_mesh(const std::string& path, const Dataset& mesh, const std::vector<PointArray>& more) {
-  const auto format = detail::format_of(path);
-  if (format != Format::vtu && format != Format::vtk) {
-    throw Error("cannot write a mesh to '" + path + "': its extension is neither .vtu nor .vtk");
-  }
-  write_file(path, [&](const std::string& temporary) {
-    check_arrays(size_of(mesh.points), mesh.arrays);
-    check_arrays(size_of(mesh.points), more);
-    detail::write_mesh_with_vtk(temporary, *format, mesh, more);
-  });
+  require_mesh(path);
+  write_file(path, [&](const AtomicFile& file) { write_temporary(file, mesh, more); });
+}
+
+void write_mesh(const AtomicFile& file, const Dataset& mesh, const std::vector<PointArray>& more) {
+  require_mesh(file.path());
+  name_in_errors(file.path(), [&] { write_temporary(file, mesh, more); });
 }
 
 }  // namespace gale::io

@@ -5,9 +5,12 @@
 #include <variant>
 #include <vector>
 
+#include <gale/export.hpp>
 #include <gale/io/dataset.hpp>
 
 namespace gale::io {
+
+class AtomicFile;
 
 /// Points by themselves, such as critical points, with their arrays.
 struct PointSet {
@@ -34,13 +37,19 @@ struct Surface {
 /// Here and below: of two arrays of one name the later is written. The file appears complete or not at all
 /// (`AtomicFile`). Throws `Error` with one line that names `path` and the reason: an array of the wrong length, a
 /// directory that is missing or not writable, a full disk.
-void write_points(const std::string& path, const PointSet& points);
+GALE_EXPORT void write_points(const std::string& path, const PointSet& points);
+
+/// Here and below: writes to the temporary file of `file`, whose path decides, and leaves it to the caller to commit
+/// it: so several files appear together (`AtomicFiles`).
+GALE_EXPORT void write_points(const AtomicFile& file, const PointSet& points);
 
 /// Writes `surface` to a `.vtp`.
-void write_surface(const std::string& path, const Surface& surface);
+GALE_EXPORT void write_surface(const std::string& path, const Surface& surface);
+GALE_EXPORT void write_surface(const AtomicFile& file, const Surface& surface);
 
 /// Writes points, tetrahedra and arrays of `mesh` in their order to a `.vtu` or (binary, legacy) `.vtk`, by the
 /// extension; then those of `more`, so that results need not be copied into the mesh first.
-void write_mesh(const std::string& path, const Dataset& mesh, const std::vector<PointArray>& more = {});
+GALE_EXPORT void write_mesh(const std::string& path, const Dataset& mesh, const std::vector<PointArray>& more = {});
+GALE_EXPORT void write_mesh(const AtomicFile& file, const Dataset& mesh, const std::vector<PointArray>& more = {});
 
 }  // namespace gale::io

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <gale/export.hpp>
 #include <gale/mesh/mesh.hpp>
 
 namespace gale {
@@ -10,6 +11,6 @@ namespace gale {
 ///
 /// Edges and triangles are enumerated if they haven't been, and sorted: O(n), 24 bytes each in the workers' memory
 /// meanwhile.
-Array<const Id, HostMemory> input_numbers(const Mesh& mesh, int dimension);
+GALE_EXPORT Array<const Id, HostMemory> input_numbers(const Mesh& mesh, int dimension);
 
 }  // namespace gale

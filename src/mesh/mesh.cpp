@@ -177,7 +177,8 @@ Id Mesh::segment_of(int dimension, Id simplex) const {
   return static_cast<Id>(std::upper_bound(begin, begin + segments() + 1, simplex) - begin) - 1;
 }
 
-#define GALE_INSTANTIATE(Index, Memory) template Mesh::Mesh(const Tetrahedra<Index, Memory>&, const Segmentation&)
+#define GALE_INSTANTIATE(Index, Memory) \
+  template GALE_EXPORT Mesh::Mesh(const Tetrahedra<Index, Memory>&, const Segmentation&)
 GALE_INSTANTIATE(std::int32_t, HostMemory);
 GALE_INSTANTIATE(std::int64_t, HostMemory);
 #if defined(KOKKOS_ENABLE_CUDA)
@@ -186,13 +187,13 @@ GALE_INSTANTIATE(std::int64_t, WorkerMemory);
 #endif
 #undef GALE_INSTANTIATE
 
-#define GALE_INSTANTIATE(Space)                                                                      \
-  template const EncodedMesh<MemoryOf<Space>>& Mesh::encoded<MemoryOf<Space>>() const;               \
-  template const Array<const Id, MemoryOf<Space>>& Mesh::vertex_input<MemoryOf<Space>>() const;      \
-  template const Array<const Id, MemoryOf<Space>>& Mesh::vertex_internal<MemoryOf<Space>>() const;   \
-  template const Array<const Id, MemoryOf<Space>>& Mesh::tetrahedron_input<MemoryOf<Space>>() const; \
-  template Simplices<MemoryOf<Space>> Mesh::simplices<MemoryOf<Space>>(const SimplexNeeds&) const;   \
-  template const Array<const Id, MemoryOf<Space>>& Mesh::interval_begin<MemoryOf<Space>>(int) const
+#define GALE_INSTANTIATE(Space)                                                                                  \
+  template GALE_EXPORT const EncodedMesh<MemoryOf<Space>>& Mesh::encoded<MemoryOf<Space>>() const;               \
+  template GALE_EXPORT const Array<const Id, MemoryOf<Space>>& Mesh::vertex_input<MemoryOf<Space>>() const;      \
+  template GALE_EXPORT const Array<const Id, MemoryOf<Space>>& Mesh::vertex_internal<MemoryOf<Space>>() const;   \
+  template GALE_EXPORT const Array<const Id, MemoryOf<Space>>& Mesh::tetrahedron_input<MemoryOf<Space>>() const; \
+  template GALE_EXPORT Simplices<MemoryOf<Space>> Mesh::simplices<MemoryOf<Space>>(const SimplexNeeds&) const;   \
+  template GALE_EXPORT const Array<const Id, MemoryOf<Space>>& Mesh::interval_begin<MemoryOf<Space>>(int) const
 GALE_IN_EACH_SPACE(GALE_INSTANTIATE);
 #undef GALE_INSTANTIATE
 

@@ -4,6 +4,7 @@
 #include <string>
 
 #include <gale/base/worker_or_host.hpp>
+#include <gale/export.hpp>
 #include <gale/mesh/encoded_mesh.hpp>
 #include <gale/mesh/intervals.hpp>
 #include <gale/mesh/segmentation.hpp>
@@ -27,7 +28,7 @@ using Tetrahedra = Kokkos::View<const Index* [4], Kokkos::LayoutRight, Memory>;
 /// them to code that runs on `Memory`, which is HostMemory unless it is said, or WorkerMemory. The first call for a
 /// memory that an array isn't in copies it there; any thread may make it, and throws OutOfMemory where there is no
 /// room.
-class Mesh {
+class GALE_EXPORT Mesh {
  public:
   /// Encodes in the workers' space, in parallel, in time O(n); on the host if it doesn't fit the device's memory, and
   /// says so in notice(). Peak memory beside the input: 20 bytes a tetrahedron and 4 an external one, and 16 a vertex.
@@ -55,9 +56,9 @@ class Mesh {
 
   /// All simplices; at least what `needs` says. What is missing is enumerated by the first call that needs it (see
   /// SimplexNeeds), where the mesh is, or on the host if it doesn't fit the device's memory. Edges take 12 bytes each
-  /// and 4 a vertex, triangles 8, lower edges 4 an edge and a vertex. Time O(n), but that of triangles grows with the
-  /// square of a vertex's degree where one has more than 64 higher neighbours. Throws gale::Error if there are more
-  /// than 2^31 - 1 edges or triangles.
+  /// and 4 a vertex, triangles 8, lower edges 4 an edge and a vertex. Time O(n); O(n log n) for the triangles of
+  /// vertices that have more than 64 higher neighbours. Throws gale::Error if there are more than 2^31 - 1 edges or
+  /// triangles.
   template <class Memory = HostMemory>
   Simplices<Memory> simplices(const SimplexNeeds& needs) const;
 

@@ -142,7 +142,7 @@ Segmentation given_segmentation(const Array<const std::int64_t, HostMemory>& lab
 }
 
 #define GALE_INSTANTIATE(Coordinate, Memory) \
-  template Segmentation octree_segmentation(const Points<Coordinate, Memory>&, int)
+  template GALE_EXPORT Segmentation octree_segmentation(const Points<Coordinate, Memory>&, int)
 GALE_INSTANTIATE(float, HostMemory);
 GALE_INSTANTIATE(double, HostMemory);
 #if defined(KOKKOS_ENABLE_CUDA)

@@ -4,6 +4,7 @@
 
 #include <gale/base/mirrored.hpp>
 #include <gale/base/types.hpp>
+#include <gale/export.hpp>
 
 namespace gale {
 
@@ -29,10 +30,10 @@ using Points = Kokkos::View<const Coordinate* [3], Kokkos::LayoutRight, Memory>;
 /// host computes where that doesn't fit.
 /// Throws gale::Error for a capacity below 1, more than 2^31 - 1 points, or a coordinate that isn't finite.
 template <class Coordinate, class Memory>
-Segmentation octree_segmentation(const Points<Coordinate, Memory>& points, int capacity);
+GALE_EXPORT Segmentation octree_segmentation(const Points<Coordinate, Memory>& points, int capacity);
 
 /// The segments that the caller gives: vertices with equal labels, in input order; segments in ascending order of
 /// label. Labels may have gaps and any sign.
-Segmentation given_segmentation(const Array<const std::int64_t, HostMemory>& labels);
+GALE_EXPORT Segmentation given_segmentation(const Array<const std::int64_t, HostMemory>& labels);
 
 }  // namespace gale

@@ -163,8 +163,10 @@ SortedTetrahedra<MemoryOf<Space>> sort_tetrahedra(const Space& space, const Tetr
   validate<Index>(space, input, vertices);
   const Offset count = input.extent(0);
   SortedTetrahedra<MemoryOf<Space>> sorted;
-  sorted.begin = Ids("GALE::tetrahedra_of_lowest", vertices + 1);
+  sorted.begin = allocate<Ids>("GALE::tetrahedra_of_lowest", vertices + 1);
   const Ids begin = sorted.begin;
+  parallel_for(
+      "GALE::clear_counts", space, vertices + 1, KOKKOS_LAMBDA(Offset v) { begin(v) = 0; });
   const Ids slot = allocate<Ids>("GALE::tetrahedron_slot", count);
   parallel_for(
       "GALE::count_tetrahedra", space, count, KOKKOS_LAMBDA(Offset t) {

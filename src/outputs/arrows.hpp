@@ -1,6 +1,7 @@
 #pragma once
 
 #include <gale/algorithms/discrete_gradient.hpp>
+#include <gale/export.hpp>
 #include <gale/io/write.hpp>
 
 namespace gale::outputs {
@@ -10,6 +11,6 @@ namespace gale::outputs {
 /// coordinates' type, from the tail to the barycentre of the other simplex). First the pairs of vertices, by input id;
 /// then those of edges, by the input ids of their higher and then of their lower vertex; then those of triangles, by
 /// the input id of the tetrahedron. In parallel. Throws gale::Error if there are more than 2^31 - 1.
-io::PointSet arrows_of(const io::Dataset& dataset, const DiscreteGradient& gradient);
+GALE_EXPORT io::PointSet arrows_of(const io::Dataset& dataset, const DiscreteGradient& gradient);
 
 }  // namespace gale::outputs

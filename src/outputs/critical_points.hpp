@@ -1,6 +1,7 @@
 #pragma once
 
 #include <gale/algorithms/critical_points.hpp>
+#include <gale/export.hpp>
 #include <gale/io/write.hpp>
 
 namespace gale::outputs {
@@ -11,6 +12,6 @@ namespace gale::outputs {
 ///
 /// `dataset` is what `points` were found on; its tetrahedra are not read. Throws gale::Error for a vertex that an array
 /// of the dataset has no value for.
-io::PointSet to_point_set(const io::Dataset& dataset, const CriticalPoints& points);
+GALE_EXPORT io::PointSet to_point_set(const io::Dataset& dataset, const CriticalPoints& points);
 
 }  // namespace gale::outputs

@@ -2,6 +2,7 @@
 
 #include <gale/algorithms/discrete_gradient.hpp>
 #include <gale/algorithms/simplex_numbers.hpp>
+#include <gale/export.hpp>
 #include <gale/io/write.hpp>
 
 namespace gale::outputs {
@@ -23,14 +24,14 @@ using KnownSimplices = std::array<std::vector<CriticalSimplex>, 4>;
 
 /// `critical` is what the gradient left unpaired, or what `simplify` left of that. `numbers` begin with those of
 /// `critical.edges` and `critical.triangles`, in their order; more may follow (`named_simplices`).
-KnownSimplices known_simplices(const DiscreteGradient& gradient, const CriticalSimplices& critical,
-                               const SimplexNumbers& numbers);
+GALE_EXPORT KnownSimplices known_simplices(const DiscreteGradient& gradient, const CriticalSimplices& critical,
+                                           const SimplexNumbers& numbers);
 
 /// All of them as points, dimension by dimension. They are at vertices, the middles of edges, the incentres of
 /// triangles and the barycentres of tetrahedra, rounded to the type of the input's coordinates. Each has the input's
 /// point arrays at its highest vertex, then CellDimension (int8), CellId (int32), IsOnBoundary (int8) and
 /// ttkVertexScalarField (int32, the input id of its highest vertex). Throws gale::Error for a vertex that an array of
 /// the dataset has no value for.
-io::PointSet to_point_set(const io::Dataset& dataset, const KnownSimplices& simplices);
+GALE_EXPORT io::PointSet to_point_set(const io::Dataset& dataset, const KnownSimplices& simplices);
 
 }  // namespace gale::outputs

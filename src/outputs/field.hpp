@@ -3,6 +3,7 @@
 #include <string>
 
 #include <gale/algorithms/vertex_order.hpp>
+#include <gale/export.hpp>
 #include <gale/io/dataset.hpp>
 
 namespace gale::outputs {
@@ -11,7 +12,7 @@ namespace gale::outputs {
 /// NAME where `name` is NAME_K. With an empty `name` the first array of one component that is neither a segmentation
 /// (`find_segments`) nor an order (its name ends in _Order). Throws gale::Error, with the names that there are, if
 /// there is none, or if the array called `name` has several components.
-io::PointArray select_field(const io::Dataset& dataset, const std::string& name);
+GALE_EXPORT io::PointArray select_field(const io::Dataset& dataset, const std::string& name);
 
 /// The value of a field at an input vertex, which must be there.
 inline double value_at(const io::PointArray& field, Id vertex) {
@@ -21,6 +22,6 @@ inline double value_at(const io::PointArray& field, Id vertex) {
 /// The order of the field's values; or, where the dataset has an array NAME_Order of one component beside the field
 /// NAME, that order. Throws gale::Error, with array and vertex, if NAME_Order isn't a permutation of 0 to vertices-1,
 /// and as `VertexOrder` does.
-VertexOrder order_of(const Mesh& mesh, const io::Dataset& dataset, const io::PointArray& field);
+GALE_EXPORT VertexOrder order_of(const Mesh& mesh, const io::Dataset& dataset, const io::PointArray& field);
 
 }  // namespace gale::outputs

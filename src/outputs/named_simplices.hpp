@@ -2,6 +2,7 @@
 
 #include <gale/algorithms/morse_smale.hpp>
 #include <gale/algorithms/simplex_numbers.hpp>
+#include <gale/export.hpp>
 
 namespace gale::outputs {
 
@@ -12,7 +13,7 @@ namespace gale::outputs {
 ///   then one for each cell of `connectors`, the edge that precedes that triangle.
 /// - Triangles: the critical ones; then one for each cell of `ascending`, the triangle that precedes that tetrahedron;
 ///   then the cells of `connectors` themselves.
-NamedSimplices named_simplices(const MorseSmaleComplex& complex);
+GALE_EXPORT NamedSimplices named_simplices(const MorseSmaleComplex& complex);
 
 namespace detail {
 

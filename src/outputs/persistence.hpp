@@ -1,5 +1,6 @@
 #pragma once
 
+#include <gale/export.hpp>
 #include <gale/io/dataset.hpp>
 
 namespace gale::outputs {
@@ -12,6 +13,6 @@ struct Persistence {
 
 /// The threshold as a difference of values: what `simplify` takes. NaN is no part of the range. Throws gale::Error,
 /// with the field's name, for percents of a range that isn't finite.
-double threshold_of(const Persistence& persistence, const io::PointArray& field);
+GALE_EXPORT double threshold_of(const Persistence& persistence, const io::PointArray& field);
 
 }  // namespace gale::outputs

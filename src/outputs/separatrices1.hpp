@@ -1,6 +1,7 @@
 #pragma once
 
 #include <gale/algorithms/morse_smale.hpp>
+#include <gale/export.hpp>
 #include <gale/outputs/critical_simplices.hpp>
 #include <gale/outputs/named_simplices.hpp>
 
@@ -21,7 +22,8 @@ namespace gale::outputs {
 ///
 /// `field` is that of the complex, `numbers` are those of `named`, the complex's `named_simplices`, and `critical` its
 /// critical simplices. In parallel. Throws gale::Error if there are more than 2^31 - 1 points.
-io::Surface separatrices1(const io::Dataset& dataset, const io::PointArray& field, const MorseSmaleComplex& complex,
-                          const NamedSimplices& named, const SimplexNumbers& numbers, const KnownSimplices& critical);
+GALE_EXPORT io::Surface separatrices1(const io::Dataset& dataset, const io::PointArray& field,
+                                      const MorseSmaleComplex& complex, const NamedSimplices& named,
+                                      const SimplexNumbers& numbers, const KnownSimplices& critical);
 
 }  // namespace gale::outputs

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <gale/algorithms/morse_smale.hpp>
+#include <gale/export.hpp>
 #include <gale/outputs/critical_simplices.hpp>
 
 namespace gale::outputs {
@@ -20,7 +21,8 @@ namespace gale::outputs {
 /// `field` is that of the complex and `critical` its critical simplices. `connectors` say which critical simplices
 /// bound a wall: all that the complex has, of which only the ends are read. Throws gale::Error if there are more than
 /// 2^31 - 1 points or polygons.
-io::Surface separatrices2(const io::Dataset& dataset, const io::PointArray& field, const MorseSmaleComplex& complex,
-                          const Separatrices<TriangleVertices>& connectors, const KnownSimplices& critical);
+GALE_EXPORT io::Surface separatrices2(const io::Dataset& dataset, const io::PointArray& field,
+                                      const MorseSmaleComplex& complex,
+                                      const Separatrices<TriangleVertices>& connectors, const KnownSimplices& critical);
 
 }  // namespace gale::outputs

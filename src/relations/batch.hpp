@@ -1,5 +1,6 @@
 #pragma once
 
+#include <gale/export.hpp>
 #include <gale/mesh/mesh.hpp>
 #include <gale/relations/segment_rows.hpp>
 
@@ -18,7 +19,7 @@ struct IntervalTables {
 };
 
 /// Those of a mesh, on the host.
-IntervalTables<HostMemory> interval_tables(const Mesh& mesh);
+GALE_EXPORT IntervalTables<HostMemory> interval_tables(const Mesh& mesh);
 
 /// The blocks of some segments: what one run of a kernel leaves in `Memory`. A value that owns nothing; its rows are
 /// readable wherever `Memory` is, in kernels and on the host, as long as whoever made it keeps the arrays.
@@ -55,6 +56,6 @@ struct Batch {
 };
 
 /// Adds all rows that a batch has of a slot to those of its segment.
-void add_rows(const Batch<HostMemory>& batch, Id slot, SegmentRows& rows);
+GALE_EXPORT void add_rows(const Batch<HostMemory>& batch, Id slot, SegmentRows& rows);
 
 }  // namespace gale

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <gale/base/kokkos.hpp>
+#include <gale/export.hpp>
 #include <gale/mesh/simplices.hpp>
 
 namespace gale {
@@ -60,10 +61,10 @@ KOKKOS_FUNCTION constexpr int row_dimension(Relation relation) { return traits_o
 KOKKOS_FUNCTION constexpr int entry_dimension(Relation relation) { return traits_of(relation).entry_dimension; }
 
 /// "VV"
-std::string name_of(Relation relation);
+GALE_EXPORT std::string name_of(Relation relation);
 
 /// The relation of a name; nothing for any other.
-std::optional<Relation> relation_named(const std::string& name);
+GALE_EXPORT std::optional<Relation> relation_named(const std::string& name);
 
 /// A set of relations, a value. Beside them it may have `link_form`: VT in the form that readers of links want, for
 /// each tetrahedron of a vertex the places of its other three vertices in the vertex's VV row.
@@ -116,13 +117,13 @@ KOKKOS_FUNCTION constexpr RelationSet operator|(Relation a, Relation b) { return
 inline constexpr RelationSet link_form = RelationSet::links();
 
 /// Its relations, in the order of `Relation`.
-std::vector<Relation> members_of(RelationSet relations);
+GALE_EXPORT std::vector<Relation> members_of(RelationSet relations);
 
 /// Dimension of the rows of one relation, or of the links.
 inline int row_dimension(RelationSet one) { return one == link_form ? 0 : row_dimension(members_of(one).front()); }
 
 /// "VT, VV, link"
-std::string name_of(RelationSet relations);
+GALE_EXPORT std::string name_of(RelationSet relations);
 
 /// The faces of a simplex: its parts of a lower dimension, always as many.
 inline constexpr RelationSet face_relations =

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include <gale/export.hpp>
 #include <gale/relations/segment_rows.hpp>
 
 namespace gale {
@@ -9,7 +10,7 @@ namespace gale {
 /// How one thread reads rows in any order. Made by a `Structure`, which must outlive it; used by one thread at a time.
 ///
 /// A row stays valid until this consumer asks for its next row of the same relation.
-class Consumer {
+class GALE_EXPORT Consumer {
  public:
   virtual ~Consumer() = default;
 

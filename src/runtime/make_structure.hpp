@@ -1,5 +1,6 @@
 #pragma once
 
+#include <gale/export.hpp>
 #include <gale/runtime/structure.hpp>
 
 namespace gale {
@@ -23,6 +24,7 @@ namespace gale {
 ///
 /// Throws gale::Error for no relation at all, for an option below 0, and if there are more than 2^31 - 1 edges or
 /// triangles where these are needed.
-std::unique_ptr<Structure> make_structure(const Mesh& mesh, RelationSet wanted, const StructureOptions& options = {});
+GALE_EXPORT std::unique_ptr<Structure> make_structure(const Mesh& mesh, RelationSet wanted,
+                                                      const StructureOptions& options = {});
 
 }  // namespace gale

@@ -5,12 +5,13 @@
 #include <string>
 #include <vector>
 
+#include <gale/export.hpp>
 #include <gale/relations/relation.hpp>
 
 namespace gale {
 
 /// Seconds that a consumer waited, by the stages that its requests went through.
-struct WaitingTimes {
+struct GALE_EXPORT WaitingTimes {
   double push = 0;                 ///< to put the request on the queue
   double queue = 0;                ///< until the leader took it
   double preparation = 0;          ///< until its batch was launched
@@ -22,7 +23,7 @@ struct WaitingTimes {
 };
 
 /// What one consumer did.
-struct ConsumerStatistics {
+struct GALE_EXPORT ConsumerStatistics {
   std::int64_t hits = 0;      ///< blocks that were there already
   std::int64_t requests = 0;  ///< blocks that it waited for
   WaitingTimes waiting;
@@ -33,7 +34,7 @@ struct ConsumerStatistics {
 };
 
 /// What cores that sweeps left idle did ahead of the consumers.
-struct HelperStatistics {
+struct GALE_EXPORT HelperStatistics {
   std::int64_t segments_computed = 0;
   double seconds_computing = 0;
 
@@ -53,7 +54,7 @@ struct LeaderStatistics {
 };
 
 /// Everything since a structure was made.
-struct StructureStatistics {
+struct GALE_EXPORT StructureStatistics {
   std::vector<ConsumerStatistics> consumers;  ///< of those that have ended; a sweep's consumers by their number
   HelperStatistics helpers;  ///< of all sweeps; a block of theirs that a consumer read is one of its hits
   std::vector<LeaderStatistics> leaders;

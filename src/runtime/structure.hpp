@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 
+#include <gale/export.hpp>
 #include <gale/mesh/mesh.hpp>
 #include <gale/relations/preconditioning.hpp>
 #include <gale/runtime/consumer.hpp>
@@ -18,7 +19,7 @@ namespace gale {
 ///
 /// Any threads may read, each through a `Consumer` of its own or in the body of a sweep. An exception while rows are
 /// computed reaches each consumer that waits for them, as gale::Error.
-class Structure {
+class GALE_EXPORT Structure {
  public:
   virtual ~Structure();
   Structure(const Structure&) = delete;

@@ -4,6 +4,8 @@
 #include <optional>
 #include <string>
 
+#include <gale/export.hpp>
+
 namespace gale {
 
 /// The ways to compute relations, each a `Structure`. None of them changes a result.
@@ -17,10 +19,10 @@ enum class Way {
 };
 
 /// "gale", "leaders", "helpers", "inline", "explicit" or "task-parallel": its name in the command and in reports.
-const char* name_of(Way way);
+GALE_EXPORT const char* name_of(Way way);
 
 /// The way of a name; nothing for any other.
-std::optional<Way> way_named(const std::string& name);
+GALE_EXPORT std::optional<Way> way_named(const std::string& name);
 
 /// One queue, and one leader with it, for what?
 enum class Queues {

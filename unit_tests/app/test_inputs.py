@@ -1,6 +1,8 @@
 """What the command reads: volumes and meshes, good and bad."""
 import gzip
+import json
 import math
+import re
 import unittest
 
 import gale
@@ -82,9 +84,26 @@ class Meshes(gale.CommandTest):
         self.assertEqual(self.counts(self.mesh()), [1, 0, 0, 1, 0])
 
     def test_cells_of_lower_dimension_are_left_out_with_a_notice(self):
-        printed = self.succeed("critical-points", self.mesh(cells=TETRAHEDRA + [[0, 1], [1, 2, 3], [4]]))
-        self.assertEqual(printed.count("left out"), 1)
-        self.assertEqual(self.report("info", "mesh.vtk")["mesh"]["tetrahedra"], 2)
+        name = self.mesh(cells=TETRAHEDRA + [[0, 1], [1, 2, 3], [4]])
+        self.assertEqual(self.succeed("critical-points", name).count("left out"), 1)
+        for command in ("info", "critical-points"):  # without a structure and with one
+            report = self.report(command, name)
+            self.assertEqual(report["mesh"]["tetrahedra"], 2)
+            self.assertEqual(report["notices"], ["left out 3 cells of a dimension below 3"])
+
+    def test_notices_are_those_that_are_printed(self):
+        name = self.mesh(cells=TETRAHEDRA + [[4]], arrays={"_index": ("float", [7, 7, 3, 7, 12])})
+        for command in ("info", "critical-points"):
+            printed = self.succeed(command, name, "--report", "report.json")
+            notices = json.loads((self.folder / "report.json").read_text())["notices"]
+            self.assertEqual(len(notices), 2)
+            self.assertEqual(re.findall("(?m)^note +(.*)$", printed), notices)
+
+    def test_nothing_is_noted_where_there_is_nothing_to_note(self):
+        for command, *output in (["info"], ["segment"], ["critical-points"], ["discrete-gradient"], ["morse-smale"],
+                                 ["relations", "--relation", "VV"], ["generate", "-o", "same.vtu"]):
+            with self.subTest(command=command):
+                self.assertEqual(self.report(command, self.mesh(), *output)["notices"], [])
 
     def test_other_solids_are_refused_unless_split(self):
         cube = [(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1)]
@@ -141,6 +160,15 @@ class Meshes(gale.CommandTest):
                 output = ["-o", name] if name else []
                 self.succeed(command, self.mesh(), "-a", "height", *output)
                 self.refuse(1, command, self.mesh(), "-a", "width", *output, naming="width")
+
+    def test_a_field_is_selected_once(self):
+        """Whoever selects one says so."""
+        name = self.mesh(arrays={**HEIGHT, "depth": ("int", [4, 3, 2, 1, 0])})
+        for command in ("critical-points", "discrete-gradient", "morse-smale"):
+            for array, selected in (([], "height"), (["-a", "depth"], "depth")):
+                with self.subTest(command=command, array=array):
+                    printed = self.succeed(command, name, *array)
+                    self.assertEqual(re.findall("(?m)^field +(.*)$", printed), [selected])
 
     def test_info_counts_what_is_not_a_number(self):
         name = self.mesh(arrays={"height": ("float", ["nan", 3, 2, "nan", 4]), "none": ("float", ["nan"] * 5)})

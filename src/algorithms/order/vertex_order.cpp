@@ -93,18 +93,18 @@ VertexOrder::VertexOrder(const Mesh& mesh, const Value* values, std::size_t coun
   }
 }
 
-template VertexOrder::VertexOrder(const Mesh&, const char*, std::size_t);
-template VertexOrder::VertexOrder(const Mesh&, const signed char*, std::size_t);
-template VertexOrder::VertexOrder(const Mesh&, const unsigned char*, std::size_t);
-template VertexOrder::VertexOrder(const Mesh&, const short*, std::size_t);
-template VertexOrder::VertexOrder(const Mesh&, const unsigned short*, std::size_t);
-template VertexOrder::VertexOrder(const Mesh&, const int*, std::size_t);
-template VertexOrder::VertexOrder(const Mesh&, const unsigned int*, std::size_t);
-template VertexOrder::VertexOrder(const Mesh&, const long*, std::size_t);
-template VertexOrder::VertexOrder(const Mesh&, const unsigned long*, std::size_t);
-template VertexOrder::VertexOrder(const Mesh&, const long long*, std::size_t);
-template VertexOrder::VertexOrder(const Mesh&, const unsigned long long*, std::size_t);
-template VertexOrder::VertexOrder(const Mesh&, const float*, std::size_t);
-template VertexOrder::VertexOrder(const Mesh&, const double*, std::size_t);
+template GALE_EXPORT VertexOrder::VertexOrder(const Mesh&, const char*, std::size_t);
+template GALE_EXPORT VertexOrder::VertexOrder(const Mesh&, const signed char*, std::size_t);
+template GALE_EXPORT VertexOrder::VertexOrder(const Mesh&, const unsigned char*, std::size_t);
+template GALE_EXPORT VertexOrder::VertexOrder(const Mesh&, const short*, std::size_t);
+template GALE_EXPORT VertexOrder::VertexOrder(const Mesh&, const unsigned short*, std::size_t);
+template GALE_EXPORT VertexOrder::VertexOrder(const Mesh&, const int*, std::size_t);
+template GALE_EXPORT VertexOrder::VertexOrder(const Mesh&, const unsigned int*, std::size_t);
+template GALE_EXPORT VertexOrder::VertexOrder(const Mesh&, const long*, std::size_t);
+template GALE_EXPORT VertexOrder::VertexOrder(const Mesh&, const unsigned long*, std::size_t);
+template GALE_EXPORT VertexOrder::VertexOrder(const Mesh&, const long long*, std::size_t);
+template GALE_EXPORT VertexOrder::VertexOrder(const Mesh&, const unsigned long long*, std::size_t);
+template GALE_EXPORT VertexOrder::VertexOrder(const Mesh&, const float*, std::size_t);
+template GALE_EXPORT VertexOrder::VertexOrder(const Mesh&, const double*, std::size_t);
 
 }  // namespace gale

@@ -45,8 +45,9 @@ class FindCriticalPoints final : public Command {
       points = find_critical_points(*structure, on.order, session.sweep("critical points"));
     }
     tell(points, session);
-    session.write(output_,
-                  [&](const std::string& path) { io::write_points(path, outputs::to_point_set(on.dataset, points)); });
+    session.write(output_, [&](const io::AtomicFile& file) {
+      io::write_points(file, outputs::to_point_set(on.dataset, points));
+    });
     session.finish(structure.get());
   }
 

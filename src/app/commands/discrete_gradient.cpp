@@ -38,8 +38,8 @@ class FindDiscreteGradient final : public Command {
     const DiscreteGradient gradient = find(*structure, on.order, session);
     tell(gradient.critical(), session);
     if (!output_.empty()) write_critical(on.dataset, gradient, *structure, session);
-    session.write(arrows_,
-                  [&](const std::string& path) { io::write_points(path, outputs::arrows_of(on.dataset, gradient)); });
+    session.write(
+        arrows_, [&](const io::AtomicFile& file) { io::write_points(file, outputs::arrows_of(on.dataset, gradient)); });
     session.finish(structure.get());
   }
 
@@ -66,8 +66,8 @@ class FindDiscreteGradient final : public Command {
       const Stopwatch watch(session.report().seconds.run);
       numbers = number_simplices(structure, {critical.edges, critical.triangles}, session.sweep("numbers"));
     }
-    session.write(output_, [&](const std::string& path) {
-      io::write_points(path, outputs::to_point_set(dataset, outputs::known_simplices(gradient, critical, numbers)));
+    session.write(output_, [&](const io::AtomicFile& file) {
+      io::write_points(file, outputs::to_point_set(dataset, outputs::known_simplices(gradient, critical, numbers)));
     });
   }
 

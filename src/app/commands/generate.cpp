@@ -18,7 +18,7 @@ class Generate final : public Command {
     require_extension("--output", output_, {".vtu", ".vtk"});
     Session session(input(), common(), {output_});
     const io::Dataset dataset = session.read();
-    session.write(output_, [&](const std::string& path) { io::write_mesh(path, dataset); });
+    session.write(output_, [&](const io::AtomicFile& file) { io::write_mesh(file, dataset); });
     session.finish();
   }
 

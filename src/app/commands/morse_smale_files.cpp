@@ -74,15 +74,15 @@ void write(const MorseSmaleFiles& files, const MorseSmaleParts& wanted, const Fi
   });
   const io::Surface lines = timed(
       seconds.write, [&] { return outputs::separatrices1(dataset, on.field, complex, named, numbers, critical); });
-  session.write(files.critical_points, [&](const std::string& path) { io::write_points(path, points); });
-  session.write(files.separatrices1, [&](const std::string& path) { io::write_surface(path, lines); });
-  session.write(files.separatrices2, [&](const std::string& path) {
-    io::write_surface(path, outputs::separatrices2(dataset, on.field, complex, connectors, critical));
+  session.write(files.critical_points, [&](const io::AtomicFile& file) { io::write_points(file, points); });
+  session.write(files.separatrices1, [&](const io::AtomicFile& file) { io::write_surface(file, lines); });
+  session.write(files.separatrices2, [&](const io::AtomicFile& file) {
+    io::write_surface(file, outputs::separatrices2(dataset, on.field, complex, connectors, critical));
   });
   session.write(files.segmentation,
-                [&](const std::string& path) { io::write_mesh(path, dataset, outputs::manifold_arrays(complex)); });
-  session.write(files.picture, [&](const std::string& path) {
-    draw(path, picture_of(dataset, on.field, complex, numbers, points, lines));
+                [&](const io::AtomicFile& file) { io::write_mesh(file, dataset, outputs::manifold_arrays(complex)); });
+  session.write(files.picture, [&](const io::AtomicFile& file) {
+    draw(file, picture_of(dataset, on.field, complex, numbers, points, lines));
   });
 }
 

@@ -49,13 +49,13 @@ class FindPersistenceDiagram final : public Command {
     const auto structure = session.make_structure(structure_, on.mesh, discrete_gradient_relations);
     const auto diagram = find(*structure, on, session);
     tell(outputs::counts_of(diagram), session);
-    session.write(output_, [&](const std::string& path) {
-      io::write_lines(path, outputs::to_lines(on.dataset, on.field, diagram));
+    session.write(output_, [&](const io::AtomicFile& file) {
+      io::write_lines(file, outputs::to_lines(on.dataset, on.field, diagram));
     });
-    session.write(curve_, [&](const std::string& path) {
-      write_text(path, outputs::to_csv(outputs::persistence_curve(diagram)));
+    session.write(curve_, [&](const io::AtomicFile& file) {
+      write_text(file, [&](std::ostream& out) { out << outputs::to_csv(outputs::persistence_curve(diagram)); });
     });
-    session.write(render_, [&](const std::string& path) { draw(path, plot_of(diagram, on.field.name)); });
+    session.write(render_, [&](const io::AtomicFile& file) { draw(file, plot_of(diagram, on.field.name)); });
     session.finish(structure.get());
   }
 

@@ -1,14 +1,14 @@
 #include <algorithm>
 #include <atomic>
-#include <fstream>
+#include <ostream>
 
 #include <CLI/CLI.hpp>
 
 #include <gale/app/commands/commands.hpp>
+#include <gale/app/output_file.hpp>
 #include <gale/app/session.hpp>
 #include <gale/base/error.hpp>
 #include <gale/baselines/oracle.hpp>
-#include <gale/io/atomic_file.hpp>
 #include <gale/mesh/input_numbers.hpp>
 
 namespace gale::app {
@@ -69,6 +69,7 @@ std::int64_t count_differences(Structure& structure, Relation relation, baseline
   return oracle.rows() - same + more;
 }
 
+/// All rows, in input ids.
 void write_rows(std::ostream& out, Structure& structure, Relation relation, const Sizes& sizes) {
   const Mesh& mesh = structure.mesh();
   const auto row_numbers = input_numbers(mesh, row_dimension(relation)),
@@ -85,17 +86,6 @@ void write_rows(std::ostream& out, Structure& structure, Relation relation, cons
     for (const Id entry : entries) out << ' ' << entry;
     out << '\n';
   }
-}
-
-/// Writes all rows to a file, in input ids.
-void dump(const std::string& path, Structure& structure, Relation relation, const Sizes& sizes) {
-  io::AtomicFile file(path);
-  {
-    std::ofstream out(file.temporary());
-    write_rows(out, structure, relation, sizes);
-    if (!out.flush()) throw Error("cannot write '" + path + "'");
-  }
-  file.commit();
 }
 
 std::string rate(double amount, double seconds, const std::string& unit) {
@@ -164,7 +154,9 @@ class ComputeRelation final : public Command {
     }
     tell(sizes, relation, session);
     if (verify_) verify(*structure, relation, structure_.is_explicit(), sizes, session);
-    session.write(dump_, [&](const std::string& path) { dump(path, *structure, relation, sizes); });
+    session.write(dump_, [&](const io::AtomicFile& file) {
+      write_text(file, [&](std::ostream& out) { write_rows(out, *structure, relation, sizes); });
+    });
     session.finish(structure.get());
   }
 

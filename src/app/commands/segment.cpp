@@ -40,7 +40,7 @@ class Segment final : public Command {
     const Mesh mesh = session.encode(dataset, segmentation_, Session::Keep::tetrahedra);
     tell(mesh, session);
     session.write(output_,
-                  [&](const std::string& path) { io::write_mesh(path, dataset, {outputs::segments_of(mesh)}); });
+                  [&](const io::AtomicFile& file) { io::write_mesh(file, dataset, {outputs::segments_of(mesh)}); });
     session.finish();
   }
 

@@ -41,7 +41,7 @@ struct Flat {
   std::vector<Text> texts;
 };
 
-/// Draws to a PNG file; whole or not at all. Throws gale::Error, naming the path.
-void draw(const std::string& path, const Flat& flat);
+/// Draws to a PNG file, the temporary of `file`. Throws gale::Error, naming the file.
+void draw(const io::AtomicFile& file, const Flat& flat);
 
 }  // namespace gale::app

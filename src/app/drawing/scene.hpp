@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <gale/base/types.hpp>
+#include <gale/io/atomic_file.hpp>
 
 namespace gale::app {
 
@@ -48,7 +49,7 @@ struct Scene {
 /// VTK needs one.
 void require_drawing();
 
-/// Draws a scene, seen from its high corner, to a PNG file; whole or not at all. Throws gale::Error, naming the path.
-void draw(const std::string& path, const Scene& scene);
+/// Draws a scene, seen from its high corner, to the temporary of `file`, a PNG. Throws gale::Error, naming the file.
+void draw(const io::AtomicFile& file, const Scene& scene);
 
 }  // namespace gale::app

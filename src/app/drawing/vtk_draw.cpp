@@ -1,11 +1,13 @@
 #include <dlfcn.h>
 
+#include <cerrno>
 #include <cmath>
 
 #include <vtkActor.h>
 #include <vtkAutoInit.h>
 #include <vtkCamera.h>
 #include <vtkCellArray.h>
+#include <vtkErrorCode.h>
 #include <vtkFloatArray.h>
 #include <vtkGlyph3DMapper.h>
 #include <vtkImageResize.h>
@@ -30,7 +32,6 @@
 
 #include <gale/app/drawing/scene.hpp>
 #include <gale/base/error.hpp>
-#include <gale/io/atomic_file.hpp>
 #include <gale/io/vtk/vtk_messages.hpp>
 
 VTK_MODULE_INIT(vtkRenderingOpenGL2)
@@ -207,7 +208,7 @@ void require_drawing() {
   close(display);
 }
 
-void draw(const std::string& path, const Scene& scene) {
+void draw(const io::AtomicFile& file, const Scene& scene) {
   try {
     const io::detail::VtkMessages messages("VTK gave up");
     vtkNew<vtkRenderer> renderer;
@@ -226,16 +227,16 @@ void draw(const std::string& path, const Scene& scene) {
     vtkNew<vtkImageResize> half;
     half->SetInputConnection(picture->GetOutputPort());
     half->SetOutputDimensions(width, height, 1);
-    io::AtomicFile file(path);
     vtkNew<vtkPNGWriter> writer;
     writer->SetFileName(file.temporary().c_str());
     writer->SetCompressionLevel(9);
     writer->SetInputConnection(half->GetOutputPort());
+    messages.check(vtkErrorCode::NoError);
+    errno = 0;
     writer->Write();
-    messages.check(writer->GetErrorCode());
-    file.commit();
+    messages.check_written(true, writer->GetErrorCode());
   } catch (const std::exception& error) {
-    throw Error("cannot draw '" + path + "': " + error.what());
+    throw Error("cannot draw '" + file.path() + "': " + error.what());
   }
 }
 

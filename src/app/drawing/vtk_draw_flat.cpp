@@ -1,6 +1,9 @@
+#include <cerrno>
+
 #include <vtkActor.h>
 #include <vtkCamera.h>
 #include <vtkCellArray.h>
+#include <vtkErrorCode.h>
 #include <vtkImageResize.h>
 #include <vtkNew.h>
 #include <vtkPNGWriter.h>
@@ -111,7 +114,7 @@ void aim(vtkRenderer* renderer, const Flat& flat) {
 
 }  // namespace
 
-void draw(const std::string& path, const Flat& flat) {
+void draw(const io::AtomicFile& file, const Flat& flat) {
   try {
     const io::detail::VtkMessages messages("VTK gave up");
     vtkNew<vtkRenderer> renderer;
@@ -133,16 +136,16 @@ void draw(const std::string& path, const Flat& flat) {
     vtkNew<vtkImageResize> smaller;
     smaller->SetInputConnection(picture->GetOutputPort());
     smaller->SetOutputDimensions(flat.width, flat.height, 1);
-    io::AtomicFile file(path);
     vtkNew<vtkPNGWriter> writer;
     writer->SetFileName(file.temporary().c_str());
     writer->SetCompressionLevel(9);
     writer->SetInputConnection(smaller->GetOutputPort());
+    messages.check(vtkErrorCode::NoError);
+    errno = 0;
     writer->Write();
-    messages.check(writer->GetErrorCode());
-    file.commit();
+    messages.check_written(true, writer->GetErrorCode());
   } catch (const std::exception& error) {
-    throw Error("cannot draw '" + path + "': " + error.what());
+    throw Error("cannot draw '" + file.path() + "': " + error.what());
   }
 }
 

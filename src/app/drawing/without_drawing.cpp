@@ -8,8 +8,8 @@ void require_drawing() {
   throw Error("this gale was built without VTK's rendering modules: it cannot draw (--render)");
 }
 
-void draw(const std::string&, const Scene&) { require_drawing(); }
+void draw(const io::AtomicFile&, const Scene&) { require_drawing(); }
 
-void draw(const std::string&, const Flat&) { require_drawing(); }
+void draw(const io::AtomicFile&, const Flat&) { require_drawing(); }
 
 }  // namespace gale::app

@@ -13,6 +13,8 @@ void InputOptions::add_to(CLI::App& command) {
       "-a,--array", read.array,
       "The point array to analyse, NAME or NAME_K for its component K; of volumes, also what --above is about");
   command.add_flag("--tetrahedralize", read.tetrahedralize, "Meshes: split other 3D cells into tetrahedra");
+  command.add_flag("--outside-files", read.outside_files,
+                   "Volumes: let .mhd and .nrrd headers name data files outside of their own folder");
 }
 
 void CommonOptions::add_to(CLI::App& command) {

@@ -49,7 +49,6 @@ void report_structure(const Structure& structure, Report& report) {
   report.triangles = known(structure.count(2));
   report.way = name_of(structure.way());
   const StructureStatistics statistics = structure.statistics();
-  report.notices = statistics.notices;
   if (structure.way() != Way::explicit_) report.statistics = statistics;
 }
 

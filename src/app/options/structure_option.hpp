@@ -25,7 +25,8 @@ struct StructureOption {
   std::unique_ptr<Structure> make(const Mesh& mesh, RelationSet relations) const;
 };
 
-/// Puts into the report how the structure worked, and how many edges and triangles it had to enumerate.
+/// Puts into the report how the structure worked, and how many edges and triangles it had to enumerate; not its
+/// notices.
 void report_structure(const Structure& structure, Report& report);
 
 }  // namespace gale::app

@@ -1,5 +1,6 @@
 #include <thread>
 
+#include <gale/base/start_thread.hpp>
 #include <gale/baselines/task_parallel/pipe.hpp>
 #include <gale/baselines/task_parallel/task_parallel_structure.hpp>
 
@@ -14,8 +15,9 @@ std::unique_ptr<Structure::Sweep> TaskParallelStructure::begin_sweep(RelationSet
       for (int i = 0; i < consumers; ++i) pipes_.push_back(std::make_unique<Pipe>(mesh, wanted, stopped_));
       try {
         for (int i = 0; i < consumers; ++i) {
-          threads_.emplace_back(
-              [this, i, &body] { pipes_[i]->consume([&](const SegmentRows& rows) { body(i, rows); }, statistics[i]); });
+          threads_.push_back(start_thread([this, i, &body] {
+            pipes_[i]->consume([&](const SegmentRows& rows) { body(i, rows); }, statistics[i]);
+          }));
         }
       } catch (...) {  // there are no more threads to be had
         join();

@@ -2,11 +2,10 @@
 
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
+#include <gale/export.hpp>
 #include <gale/io/dataset.hpp>
-#include <gale/io/image.hpp>
 #include <gale/io/write.hpp>
 
 /// The seam between GALE and VTK. The vtk_*.cpp define these functions; where GALE is built without VTK,
@@ -16,14 +15,9 @@ namespace gale::io::detail {
 enum class Format { vtu, vtk, vti, nifti, meta, nrrd, vtp };
 
 /// By the extension, in either case.
-std::optional<Format> format_of(const std::string& path);
+GALE_EXPORT std::optional<Format> format_of(const std::string& path);
 
-bool has_vtk();
-
-/// A mesh, or an image whose `select_scalars` and `split_voxels` are still to come. Throws `Error` without naming the
-/// file.
-using Content = std::variant<Dataset, Image>;
-Content read_with_vtk(const std::string& path, Format format, bool tetrahedralize);
+GALE_EXPORT bool has_vtk();
 
 /// Write to `path`, whatever its extension. Arrays must fit the number of points or cells. Throw `Error` without naming
 /// the file.

@@ -1,4 +1,7 @@
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <iterator>
 #include <mutex>
 #include <sstream>
 
@@ -35,6 +38,26 @@ std::string one_line(const std::string& text) {
   if (line.size() > longest) line = line.substr(0, longest) + "...";
   if (!line.empty() && line.back() == '.') line.pop_back();
   return line;
+}
+
+/// VTK names its objects by their addresses too, as in "vtkXMLWriter(0x55e6)": these say nothing to a user.
+std::string without_addresses(std::string text) {
+  for (std::size_t at = 0; (at = text.find("(0x", at)) != std::string::npos;) {
+    const std::size_t end = text.find_first_not_of("0123456789abcdef", at + 3);
+    if (end == std::string::npos || text[end] != ')') {
+      at += 3;
+    } else {
+      text.erase(at, end + 1 - at);
+    }
+  }
+  return text;
+}
+
+/// Whether a value of errno that was left after writing can be what went wrong then.
+bool says_why_not_written(unsigned long error) {
+  static constexpr unsigned long reasons[] = {ENOSPC, EDQUOT, EFBIG, EIO,    EROFS, ENXIO,
+                                              ENODEV, ESTALE, EPIPE, ENOMEM, EMFILE};
+  return std::find(std::begin(reasons), std::end(reasons), error) != std::end(reasons);
 }
 
 class SilentWindow : public vtkOutputWindow {
@@ -83,6 +106,16 @@ VtkMessages::~VtkMessages() {
 void VtkMessages::check(unsigned long code) const {
   if (!state_->window->first_error.empty()) fail(state_->window->first_error);
   if (code != vtkErrorCode::NoError) fail(vtkErrorCode::GetStringFromErrorCode(code));
+}
+
+void VtkMessages::check_written(bool written, unsigned long code) const {
+  const int last = errno;
+  if (written && code == vtkErrorCode::NoError && state_->window->first_error.empty()) return;
+  for (const unsigned long reason : {code, static_cast<unsigned long>(last)}) {  // VTK's code may be the system's
+    if (says_why_not_written(reason)) throw Error(std::strerror(static_cast<int>(reason)));
+  }
+  const std::string said = one_line(without_addresses(state_->window->first_error));
+  throw Error("not all of it could be written" + (said.empty() ? "" : " (VTK: " + said + ")"));
 }
 
 void VtkMessages::fail(const std::string& reason) const {

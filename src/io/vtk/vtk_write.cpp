@@ -1,3 +1,6 @@
+#include <unistd.h>
+
+#include <cerrno>
 #include <cstddef>
 #include <cstdint>
 #include <fstream>
@@ -99,9 +102,12 @@ template <class Writer>
 void run(Writer* writer, const std::string& path, vtkDataObject* data, const VtkMessages& messages) {
   writer->SetFileName(path.c_str());
   writer->SetInputData(data);
+  errno = 0;
   const int written = writer->Write();
-  messages.check(writer->GetErrorCode());
-  if (!written) messages.fail("for no reason that it names");
+  const int failure = errno;
+  const bool is_there = access(path.c_str(), F_OK) == 0;  // VTK removes what it couldn't write, not always saying so
+  errno = failure;
+  messages.check_written(written != 0 && is_there, writer->GetErrorCode());
 }
 
 template <class XmlWriter>
@@ -138,7 +144,7 @@ vtkStandardNewMacro(LegacyWriter);
 }  // namespace
 
 void write_points_with_vtk(const std::string& path, const PointSet& points) {
-  const VtkMessages messages("VTK gave up");
+  const VtkMessages messages("VTK cannot write it");
   const std::size_t count = std::visit([](const auto& p) { return p.extent(0); }, points.points);
   std::vector<Id> ids(count);
   std::iota(ids.begin(), ids.end(), 0);
@@ -150,7 +156,7 @@ void write_points_with_vtk(const std::string& path, const PointSet& points) {
 }
 
 void write_surface_with_vtk(const std::string& path, const Surface& surface) {
-  const VtkMessages messages("VTK gave up");
+  const VtkMessages messages("VTK cannot write it");
   vtkNew<vtkPolyData> data;
   data->SetPoints(wrap_points(surface.points));
   data->SetLines(make_cells(surface.lines));
@@ -162,7 +168,7 @@ void write_surface_with_vtk(const std::string& path, const Surface& surface) {
 
 void write_mesh_with_vtk(const std::string& path, Format format, const Dataset& mesh,
                          const std::vector<PointArray>& more) {
-  const VtkMessages messages("VTK gave up");
+  const VtkMessages messages("VTK cannot write it");
   vtkNew<vtkUnstructuredGrid> grid;
   grid->SetPoints(wrap_points(mesh.points));
   grid->SetCells(VTK_TETRA, make_cells(mesh.tetrahedra.data(), mesh.tetrahedra.extent(0), 4));

@@ -1,7 +1,10 @@
+#include <cerrno>
+
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkCellType.h>
 #include <vtkDataArray.h>
+#include <vtkErrorCode.h>
 #include <vtkIdTypeArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -58,9 +61,10 @@ void write_lines_with_vtk(const std::string& path, const Surface& lines) {
   writer->SetCompressionLevel(1);
   writer->SetFileName(path.c_str());
   writer->SetInputData(grid);
+  messages.check(vtkErrorCode::NoError);
+  errno = 0;
   const int written = writer->Write();
-  messages.check(writer->GetErrorCode());
-  if (!written) messages.fail("for no reason that it names");
+  messages.check_written(written != 0, writer->GetErrorCode());
 }
 
 }  // namespace gale::io::detail

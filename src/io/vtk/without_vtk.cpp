@@ -1,5 +1,5 @@
 #include <gale/base/error.hpp>
-#include <gale/io/vtk/vtk_files.hpp>
+#include <gale/io/formats/readers.hpp>
 
 namespace gale::io::detail {
 namespace {
@@ -10,7 +10,7 @@ namespace {
 
 bool has_vtk() { return false; }
 
-Content read_with_vtk(const std::string&, Format, bool) { refuse(); }
+Content read_content(const InputFile&, Format, const ReadOptions&) { refuse(); }
 
 void write_points_with_vtk(const std::string&, const PointSet&) { refuse(); }
 

@@ -292,16 +292,4 @@ class BitStars {
   bool gathers_;
 };
 
-/// That way on Kokkos' teams, in scratch memory of a level.
-template <class Memory, int level>
-struct BitStarTeams {
-  StarRequest<Memory> request;
-
-  template <class Team>
-  KOKKOS_FUNCTION void operator()(const Team& team) const {
-    request.template compute<BitStars<Team, Memory>>(
-        team, team::scratch<level>(team, BitStarScratch(nullptr, request.sizes).bytes));
-  }
-};
-
 }  // namespace gale::detail

@@ -166,16 +166,4 @@ class HashedStars {
   HashedStarScratch scratch_;
 };
 
-/// That way on Kokkos' teams, in scratch memory of a level.
-template <class Memory, int level>
-struct HashedStarTeams {
-  StarRequest<Memory> request;
-
-  template <class Team>
-  KOKKOS_FUNCTION void operator()(const Team& team) const {
-    request.template compute<HashedStars<Team, Memory>>(
-        team, team::scratch<level>(team, HashedStarScratch::bytes(request.sizes, team::warps(team))));
-  }
-};
-
 }  // namespace gale::detail

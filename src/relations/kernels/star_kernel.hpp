@@ -1,7 +1,6 @@
 #pragma once
 
-#include <gale/relations/kernels/bit_stars.hpp>
-#include <gale/relations/kernels/hashed_stars.hpp>
+#include <gale/relations/kernels/star_teams.hpp>
 
 namespace gale {
 

@@ -1,3 +1,4 @@
+#include <gale/base/start_thread.hpp>
 #include <gale/runtime/helpers/helper.hpp>
 
 #ifdef __linux__
@@ -26,12 +27,12 @@ void give_way() {
 }  // namespace
 
 Helper::Helper(const MakeWorker& make, UnbegunSegments& unbegun, std::size_t budget)
-    : thread_([this, make, &unbegun, budget] {
+    : thread_(start_thread([this, make, &unbegun, budget] {
         try {
           run(make, unbegun, budget);
         } catch (...) {  // its segment is still under way, for a consumer to take away
         }
-      }) {}
+      })) {}
 
 Helper::~Helper() {
   stopping_ = true;

@@ -2,6 +2,7 @@
 #include <new>
 
 #include <gale/base/error.hpp>
+#include <gale/base/start_thread.hpp>
 #include <gale/runtime/leaders/leader.hpp>
 
 namespace gale::detail {
@@ -44,7 +45,7 @@ Leader::Leader(const Mesh& mesh, const LeaderParameters& parameters, std::vector
   for (const auto& worker : workers_) idle_.push_back(worker.get());
   prepare_arenas();
   statistics_.relations = parameters.relations;
-  thread_ = std::thread([this] { run(); });
+  thread_ = start_thread([this] { run(); });
 }
 
 Leader::~Leader() { end(); }

@@ -1,0 +1,78 @@
+#include <algorithm>
+#include <cstring>
+
+#include <gale/io/bytes/damaged.hpp>
+#include <gale/io/bytes/text_reader.hpp>
+
+namespace gale::io::detail {
+
+namespace {
+
+constexpr std::size_t longest_word = 1 << 16, longest_line = 1 << 20;
+
+bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+
+}  // namespace
+
+TextReader::TextReader(ByteSource& source) : source_(source), buffer_(1 << 17) {}
+
+bool TextReader::refill() {
+  if (at_ > 0) {
+    std::memmove(buffer_.data(), buffer_.data() + at_, end_ - at_);
+    end_ -= at_;
+    at_ = 0;
+  }
+  if (end_ == buffer_.size()) buffer_.resize(2 * buffer_.size());
+  const std::size_t got = source_.read(buffer_.data() + end_, buffer_.size() - end_);
+  end_ += got;
+  return got > 0;
+}
+
+std::string_view TextReader::word() {
+  while (true) {
+    while (at_ < end_ && is_space(buffer_[at_])) ++at_;
+    if (at_ < end_ || !refill()) break;
+  }
+  std::size_t length = 0;
+  while (true) {
+    while (at_ + length < end_ && !is_space(buffer_[at_ + length])) ++length;
+    if (at_ + length < end_) break;
+    if (length > longest_word) damaged("a word of more than " + std::to_string(longest_word) + " bytes");
+    if (!refill()) break;
+  }
+  const std::string_view found(buffer_.data() + at_, length);
+  at_ += length;
+  return found;
+}
+
+bool TextReader::line(std::string& text) {
+  text.clear();
+  std::size_t length = 0;
+  while (true) {
+    const char* const begin = buffer_.data() + at_;
+    const auto* const stop = static_cast<const char*>(std::memchr(begin + length, '\n', end_ - at_ - length));
+    if (stop != nullptr) {
+      text.assign(begin, stop);
+      at_ += text.size() + 1;
+      break;
+    }
+    length = end_ - at_;
+    if (length > longest_line) damaged("a line of more than " + std::to_string(longest_line) + " bytes");
+    if (refill()) continue;
+    if (length == 0) return false;
+    text.assign(buffer_.data() + at_, length);
+    at_ = end_;
+    break;
+  }
+  if (!text.empty() && text.back() == '\r') text.pop_back();
+  return true;
+}
+
+std::size_t TextReader::read(char* to, std::size_t bytes) {
+  const std::size_t held = std::min(bytes, end_ - at_);
+  std::memcpy(to, buffer_.data() + at_, held);
+  at_ += held;
+  return held == bytes ? held : held + source_.read(to + held, bytes - held);
+}
+
+}  // namespace gale::io::detail

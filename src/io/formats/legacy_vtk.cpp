@@ -1,0 +1,224 @@
+#include <cmath>
+#include <limits>
+
+#include <gale/io/bytes/damaged.hpp>
+#include <gale/io/cells/cell_types.hpp>
+#include <gale/io/cells/cells.hpp>
+#include <gale/io/formats/legacy_file.hpp>
+#include <gale/io/formats/readers.hpp>
+#include <gale/io/formats/volume.hpp>
+
+namespace gale::io::detail {
+
+namespace {
+
+/// What a file of any kind may say, as far as it does.
+struct Sections {
+  MeshParts mesh;
+  std::vector<std::int64_t> dimensions;
+  std::vector<double> origin{0, 0, 0}, spacing{1, 1, 1};
+  std::array<PointArray::Values, 3> coordinates;
+  std::int64_t points = 0, cells = 0;
+  std::vector<std::string> cell_arrays;
+};
+
+/// Before version 5: for each cell how many points it has, and those.
+void read_old_cells(LegacyFile& file, Sections& to) {
+  to.cells = file.count("the number of cells");
+  const std::int64_t size = file.count("the size of the cells");
+  std::vector<std::int32_t> all = file.integers(static_cast<std::uint64_t>(size));
+  std::vector<std::int64_t> ends;
+  std::size_t from = 0, end = 0;
+  while (from < all.size()) {
+    const auto points = static_cast<std::size_t>(all[from++]);  // below 0 becomes a huge one
+    if (points > all.size() - from)
+      damaged("cell " + std::to_string(ends.size()) + " has " + std::to_string(all[from - 1]) +
+              " points, more than follow");
+    for (std::size_t k = 0; k < points; ++k) all[end++] = all[from++];
+    ends.push_back(static_cast<std::int64_t>(end));
+  }
+  if (ends.size() != static_cast<std::size_t>(to.cells))
+    damaged("it has " + std::to_string(ends.size()) + " cells, not " + std::to_string(to.cells));
+  all.resize(end);
+  to.mesh.cells.connectivity = std::move(all);
+  to.mesh.cells.ends = std::move(ends);
+}
+
+/// From version 5 on: where each begins, and the end.
+void read_new_cells(LegacyFile& file, Sections& to) {
+  const std::int64_t offsets = file.count("the number of offsets");
+  const std::int64_t size = file.count("the size of the connectivity");
+  if (offsets < 1) return;
+  if (file.keyword() != "offsets") damaged("no OFFSETS follow CELLS");
+  auto begins = file.array_of_numbers(static_cast<std::uint64_t>(offsets), "the offsets of its cells");
+  if (file.keyword() != "connectivity") damaged("no CONNECTIVITY follows OFFSETS");
+  to.mesh.cells.connectivity = file.array_of_numbers(static_cast<std::uint64_t>(size), "the points of its cells");
+  std::visit(
+      [](auto& v) {
+        if (v.front() != 0) damaged("the first offset of its cells is " + std::to_string(v.front()));
+        v.erase(v.begin());
+      },
+      begins);
+  to.mesh.cells.ends = std::move(begins);
+  to.cells = offsets - 1;
+}
+
+std::uint64_t grid_points(const Sections& from) {
+  return product({from.dimensions[0], from.dimensions[1], from.dimensions[2]}, "dimensions");
+}
+
+/// One of a rectilinear grid's axes, by its letter.
+void read_axis(LegacyFile& file, int axis, Sections& to) {
+  const std::int64_t count = file.count("the number of coordinates");
+  to.coordinates[axis] = file.array_of_numbers(static_cast<std::uint64_t>(count), "the coordinates");
+}
+
+/// Reads sections up to the end of the file. False for a keyword that begins none.
+bool read_section(LegacyFile& file, const std::string& kind, std::string& keyword, Sections& to) {
+  if (keyword == "point_data" || keyword == "cell_data") {
+    const bool of_points = keyword == "point_data";
+    const std::int64_t count = file.count(of_points ? "POINT_DATA" : "CELL_DATA");
+    if (of_points && count != to.points)
+      damaged("POINT_DATA of " + std::to_string(count) + " for " + std::to_string(to.points) + " points");
+    keyword = file.keyword();
+    LegacyAttributes found = read_attributes(file, static_cast<std::uint64_t>(count), keyword);
+    if (of_points) {
+      to.mesh.arrays = std::move(found.arrays);
+      to.mesh.notices = std::move(found.left_out);
+    } else {
+      to.cell_arrays.insert(to.cell_arrays.end(), found.names.begin(), found.names.end());
+    }
+    return true;
+  }
+  if (keyword == "field") {
+    read_field(file, nullptr);
+  } else if (keyword == "dimensions") {
+    to.dimensions.clear();
+    for (int d = 0; d < 3; ++d) to.dimensions.push_back(file.count("DIMENSIONS"));
+    to.points = static_cast<std::int64_t>(grid_points(to));
+  } else if (keyword == "points") {
+    to.points = file.count("the number of points");
+    to.mesh.points = file.array_of_numbers(product({to.points, 3}, "points"), "the points");
+  } else if (keyword == "cells" && kind == "unstructured_grid") {
+    file.major_version() >= 5 ? read_new_cells(file, to) : read_old_cells(file, to);
+  } else if (keyword == "cell_types" && kind == "unstructured_grid") {
+    to.mesh.cells.types = file.integers(static_cast<std::uint64_t>(file.count("the number of cell types")));
+  } else if ((keyword == "spacing" || keyword == "aspect_ratio") && kind == "structured_points") {
+    to.spacing = file.numbers(3, "SPACING");
+  } else if (keyword == "origin" && kind == "structured_points") {
+    to.origin = file.numbers(3, "ORIGIN");
+  } else if (keyword == "x_coordinates") {
+    read_axis(file, 0, to);
+  } else if (keyword == "y_coordinates") {
+    read_axis(file, 1, to);
+  } else if (keyword == "z_coordinates") {
+    read_axis(file, 2, to);
+  } else {
+    return false;
+  }
+  keyword = file.keyword();
+  return true;
+}
+
+Image to_image(Sections& from) {
+  if (from.dimensions.empty()) damaged("it has no DIMENSIONS");
+  Image image;
+  for (int d = 0; d < 3; ++d) {
+    if (from.dimensions[d] < 1 || from.dimensions[d] > std::numeric_limits<int>::max())
+      damaged("one of its DIMENSIONS is " + std::to_string(from.dimensions[d]));
+    image.dimensions[d] = static_cast<int>(from.dimensions[d]);
+    image.index_to_physical[d][d] = from.spacing[d];
+    image.index_to_physical[d][3] = from.origin[d];
+  }
+  require_finite(image);
+  if (from.mesh.arrays.empty() && !from.cell_arrays.empty())
+    throw Error("the image has values in its cells, none at its points");
+  image.arrays = std::move(from.mesh.arrays);
+  image.notices = std::move(from.mesh.notices);
+  return image;
+}
+
+/// Hexahedra of the grid, as cells of `type`, a voxel or a hexahedron.
+void add_grid_cells(Sections& to, int type, bool tetrahedralize) {
+  if (to.dimensions.empty()) damaged("it has no DIMENSIONS");
+  const std::int64_t nx = to.dimensions[0], ny = to.dimensions[1], nz = to.dimensions[2];
+  if (nx < 2 || ny < 2 || nz < 2) return;
+  constexpr std::int64_t most_without_values = 100000;
+  if (to.mesh.arrays.empty() && to.points > most_without_values)
+    throw Error("it has " + std::to_string(to.points) + " points, and no values at them");
+  if (to.points > std::numeric_limits<std::int32_t>::max())
+    throw Error("it has " + std::to_string(to.points) + " points, more than 32-bit ids can number");
+  if (!tetrahedralize) refuse_solid(0, type);
+  const std::size_t cells = static_cast<std::size_t>((nx - 1) * (ny - 1) * (nz - 1));
+  std::vector<std::int32_t> connectivity;
+  connectivity.reserve(8 * cells);
+  std::vector<std::int64_t> ends(cells);
+  for (std::int64_t z = 0; z + 1 < nz; ++z) {
+    for (std::int64_t y = 0; y + 1 < ny; ++y) {
+      for (std::int64_t x = 0; x + 1 < nx; ++x) {
+        static constexpr int corners[2][8] = {{0, 1, 2, 3, 4, 5, 6, 7}, {0, 1, 3, 2, 4, 5, 7, 6}};
+        for (const int corner : corners[type == hexahedron_type]) {
+          const std::int64_t cx = x + (corner & 1), cy = y + (corner >> 1 & 1), cz = z + (corner >> 2);
+          connectivity.push_back(static_cast<std::int32_t>((cz * ny + cy) * nx + cx));
+        }
+      }
+    }
+  }
+  for (std::size_t c = 0; c < cells; ++c) ends[c] = static_cast<std::int64_t>(8 * (c + 1));
+  to.mesh.cells = {std::vector<std::uint8_t>(cells, static_cast<std::uint8_t>(type)), std::move(ends),
+                   std::move(connectivity)};
+}
+
+/// The points of a rectilinear grid; called when its cells have been added, which checks how many they are.
+void add_grid_points(Sections& to) {
+  for (int d = 0; d < 3; ++d) {
+    if (static_cast<std::int64_t>(count_of(to.coordinates[d])) != to.dimensions[d])
+      damaged("it has " + std::to_string(count_of(to.coordinates[d])) + " coordinates along an axis of " +
+              std::to_string(to.dimensions[d]));
+  }
+  const auto at = [](const PointArray::Values& values, std::size_t k) {
+    return std::visit([k](const auto& v) { return static_cast<double>(v[k]); }, values);
+  };
+  std::vector<double> points;
+  points.reserve(3 * static_cast<std::size_t>(to.points));
+  for (std::int64_t z = 0; z < to.dimensions[2]; ++z) {
+    for (std::int64_t y = 0; y < to.dimensions[1]; ++y) {
+      for (std::int64_t x = 0; x < to.dimensions[0]; ++x) {
+        points.push_back(at(to.coordinates[0], static_cast<std::size_t>(x)));
+        points.push_back(at(to.coordinates[1], static_cast<std::size_t>(y)));
+        points.push_back(at(to.coordinates[2], static_cast<std::size_t>(z)));
+      }
+    }
+  }
+  to.mesh.points = std::move(points);
+}
+
+}  // namespace
+
+Content read_legacy_vtk(const InputFile& input, const ReadOptions& options) {
+  LegacyFile file(input);
+  std::string keyword = file.keyword();
+  if (keyword != "dataset") damaged("it names no known kind of data set");
+  const std::string kind = file.keyword();
+  if (kind == "polydata") throw Error("it has no tetrahedra");
+  if (kind != "unstructured_grid" && kind != "structured_points" && kind != "structured_grid" &&
+      kind != "rectilinear_grid")
+    damaged("its kind of data set is '" + kind + "'");
+  Sections sections;
+  keyword = file.keyword();
+  while (!keyword.empty()) {
+    const std::string before = keyword;
+    if (!read_section(file, kind, keyword, sections)) damaged("it has the unknown keyword '" + before + "'");
+  }
+  if (kind == "structured_points") return to_image(sections);
+  if (kind != "unstructured_grid") {
+    add_grid_cells(sections, kind == "structured_grid" ? hexahedron_type : voxel_type, options.tetrahedralize);
+    if (kind == "rectilinear_grid" && count_of(sections.mesh.cells.types) > 0) add_grid_points(sections);
+    if (sections.points != static_cast<std::int64_t>(grid_points(sections)))
+      damaged("it has " + std::to_string(sections.points) + " points, not those of its DIMENSIONS");
+  }
+  if (!sections.cell_arrays.empty()) sections.mesh.notices.push_back(note_cell_arrays(sections.cell_arrays));
+  return to_mesh(sections.mesh, options.tetrahedralize);
+}
+
+}  // namespace gale::io::detail

@@ -1,0 +1,112 @@
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <sstream>
+
+#include <gale/io/bytes/damaged.hpp>
+#include <gale/io/bytes/numbers.hpp>
+#include <gale/io/formats/volume.hpp>
+
+namespace gale::io::detail {
+
+std::uint64_t Volume::count() const {
+  for (const std::int64_t n : {dimensions[0], dimensions[1], dimensions[2], components}) {
+    if (n < 1 || n > std::numeric_limits<int>::max()) {
+      damaged("it has " + std::to_string(dimensions[0]) + " x " + std::to_string(dimensions[1]) + " x " +
+              std::to_string(dimensions[2]) + " voxels of " + std::to_string(components) + " components");
+    }
+  }
+  return product({dimensions[0], dimensions[1], dimensions[2], components}, "dimensions");
+}
+
+std::uint64_t Volume::bytes() const { return count() * size_of(type); }
+
+PointArray::Values Volume::read(ByteSource& source) const { return read_values(source, type, count(), order); }
+
+PointArray::Values Volume::read_text(ByteSource& source) const {
+  TextReader text(source);
+  return read_text_values(text, type, count());
+}
+
+Image Volume::image(const std::string& name, PointArray::Values values) const {
+  Image image;
+  for (int d = 0; d < 3; ++d) image.dimensions[d] = static_cast<int>(dimensions[d]);
+  image.arrays.push_back({name, static_cast<int>(components), std::move(values)});
+  return image;
+}
+
+void check_sum(ByteSource& source) {
+  char next;
+  source.read(&next, 1);  // asked for more at its end, a compressed source looks at its sum
+}
+
+void require_finite(const Image& image) {
+  for (const auto& row : image.index_to_physical) {
+    for (const double value : row) {
+      if (!std::isfinite(value)) damaged("the position of its voxels has a value of " + std::to_string(value));
+    }
+  }
+}
+
+std::string path_of_data(const std::string& header, const std::string& name, const ReadOptions& options) {
+  namespace fs = std::filesystem;
+  std::error_code unknown;
+  const fs::path folder = fs::absolute(header, unknown).parent_path();
+  const fs::path path = folder / name;
+  if (options.outside_files) return path.string();
+  const fs::path real_folder = fs::weakly_canonical(folder, unknown), real = fs::weakly_canonical(path, unknown);
+  const auto [stop, ignored] = std::mismatch(real_folder.begin(), real_folder.end(), real.begin(), real.end());
+  if (name.empty() || name.find('\0') != std::string::npos || stop != real_folder.end()) {
+    throw Error("its data file '" + printable(name) +
+                "' is outside of its folder: reading that has to be allowed (--outside-files)");
+  }
+  return path.string();
+}
+
+std::vector<std::string> names_of_pattern(const std::string& pattern, std::int64_t first, std::int64_t last,
+                                          std::int64_t step, std::size_t most) {
+  const std::size_t percent = pattern.find('%');
+  std::size_t end = percent + 1;
+  const bool zeros = end < pattern.size() && pattern[end] == '0';
+  std::size_t width = 0;
+  while (end < pattern.size() && std::isdigit(static_cast<unsigned char>(pattern[end])) && width < 100) {
+    width = 10 * width + static_cast<std::size_t>(pattern[end++] - '0');
+  }
+  const bool ends_in_d = end < pattern.size() && (pattern[end] == 'd' || pattern[end] == 'i' || pattern[end] == 'u');
+  if (percent == std::string::npos || !ends_in_d || width >= 100 || pattern.find('%', end) != std::string::npos) {
+    damaged("'" + pattern + "' is no pattern of file names such as slice%03d.raw");
+  }
+  if (step < 1 || first < 0 || last < first || static_cast<std::uint64_t>(last - first) / step >= most) {
+    damaged("its data files go from " + std::to_string(first) + " to " + std::to_string(last) + " by " +
+            std::to_string(step) + ", where at most " + std::to_string(most) + " are needed");
+  }
+  std::vector<std::string> names;
+  for (std::int64_t k = first; k <= last; k += step) {
+    std::string number = std::to_string(k);
+    if (number.size() < width) number.insert(0, width - number.size(), zeros ? '0' : ' ');
+    names.push_back(pattern.substr(0, percent) + number + pattern.substr(end + 1));
+  }
+  return names;
+}
+
+std::vector<std::string> words_of(const std::string& line) {
+  std::istringstream stream(line);
+  std::vector<std::string> words;
+  for (std::string word; stream >> word;) words.push_back(word);
+  return words;
+}
+
+std::string trimmed(const std::string& text) {
+  const char* const space = " \t\r\n\v\f";
+  const std::size_t first = text.find_first_not_of(space);
+  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(space) - first + 1);
+}
+
+std::string lower_case(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+  return text;
+}
+
+}  // namespace gale::io::detail

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <gale/io/bytes/values.hpp>
+#include <gale/io/formats/readers.hpp>
+
+/// What the volume formats have in common: a small header that says how the values of one array lie in a file.
+namespace gale::io::detail {
+
+struct Volume {
+  std::array<std::int64_t, 3> dimensions{1, 1, 1};
+  std::int64_t components = 1;
+  ValueType type = ValueType::uint8;
+  ByteOrder order = byte_order_of_machine();
+
+  /// Throws gale::Error unless dimensions and components are positive and fit int, and their product a file.
+  std::uint64_t count() const;
+  std::uint64_t bytes() const;
+
+  /// Throws gale::Error unless the source has them all.
+  PointArray::Values read(ByteSource& source) const;
+  PointArray::Values read_text(ByteSource& source) const;
+
+  /// With one array and nothing else.
+  Image image(const std::string& name, PointArray::Values values) const;
+};
+
+/// To be called when all that is wanted was read. Throws gale::Error if the source is at its end, compressed, and its
+/// sum isn't that of what was read.
+void check_sum(ByteSource& source);
+
+/// Throws gale::Error if the image's voxels have no position.
+void require_finite(const Image& image);
+
+/// The path of a data file that a header names. Relative names begin at the header's folder. Throws gale::Error if it
+/// leaves that folder, unless options.outside_files.
+std::string path_of_data(const std::string& header, const std::string& name, const ReadOptions& options);
+
+/// The names that a pattern such as `slice%03d.raw` makes for first, first + step, ... up to last. Throws gale::Error
+/// for a pattern of another form, or for more than `most` names.
+std::vector<std::string> names_of_pattern(const std::string& pattern, std::int64_t first, std::int64_t last,
+                                          std::int64_t step, std::size_t most);
+
+/// The words of a line.
+std::vector<std::string> words_of(const std::string& line);
+
+std::string trimmed(const std::string& text);
+std::string lower_case(std::string text);
+
+}  // namespace gale::io::detail

@@ -1,0 +1,156 @@
+#include <algorithm>
+#include <limits>
+
+#include <gale/io/bytes/damaged.hpp>
+#include <gale/io/bytes/numbers.hpp>
+#include <gale/io/bytes/value_type.hpp>
+#include <gale/io/formats/readers.hpp>
+#include <gale/io/formats/volume.hpp>
+#include <gale/io/formats/xml_file.hpp>
+
+namespace gale::io::detail {
+
+namespace {
+
+template <class T>
+std::vector<T> numbers(const XmlElement& element, const char* key, const std::vector<T>& otherwise, std::size_t count) {
+  std::vector<T> result;
+  for (const std::string& word : words_of(element.attribute(key))) result.push_back(number<T>(word, key));
+  if (result.empty() && !otherwise.empty()) return otherwise;
+  if (result.size() != count)
+    damaged(std::string("its ") + key + " has " + std::to_string(result.size()) + " numbers, not " +
+            std::to_string(count));
+  return result;
+}
+
+/// The first and the last place of each axis.
+struct Extent {
+  std::array<std::int64_t, 3> low{}, high{};
+
+  std::int64_t size(int d) const { return high[d] - low[d] + 1; }
+  std::uint64_t points() const { return product({size(0), size(1), size(2)}, "an extent"); }
+};
+
+Extent extent_of(const XmlElement& element, const char* key) {
+  const auto values = numbers<std::int32_t>(element, key, {}, 6);
+  Extent extent;
+  for (int d = 0; d < 3; ++d) {
+    extent.low[d] = values[2 * d];
+    extent.high[d] = values[2 * d + 1];
+    if (extent.size(d) < 1 || extent.size(d) > std::numeric_limits<std::int32_t>::max())
+      damaged(std::string("its ") + key + " is '" + element.attribute(key) + "'");
+  }
+  return extent;
+}
+
+struct Piece {
+  Extent extent;
+  const XmlElement* element;
+};
+
+/// Calls visit(from, to, count) for each row of the piece: its places there and in the whole.
+template <class Visit>
+void for_each_row(const Extent& piece, const Extent& whole, const Visit& visit) {
+  std::size_t from = 0;
+  const auto row = static_cast<std::size_t>(piece.size(0));
+  for (std::int64_t z = piece.low[2]; z <= piece.high[2]; ++z) {
+    for (std::int64_t y = piece.low[1]; y <= piece.high[1]; ++y, from += row) {
+      const std::int64_t to =
+          ((z - whole.low[2]) * whole.size(1) + (y - whole.low[1])) * whole.size(0) + piece.low[0] - whole.low[0];
+      visit(from, static_cast<std::size_t>(to), row);
+    }
+  }
+}
+
+std::vector<Piece> pieces_of(const XmlElement& image, const Extent& whole) {
+  std::vector<Piece> pieces;
+  for (const XmlElement& element : image.children) {
+    if (element.name != "Piece") continue;
+    const Extent extent = extent_of(element, "Extent");
+    for (int d = 0; d < 3; ++d) {
+      if (extent.low[d] < whole.low[d] || extent.high[d] > whole.high[d])
+        damaged("a piece's Extent '" + element.attribute("Extent") + "' leaves the WholeExtent");
+    }
+    pieces.push_back({extent, &element});
+  }
+  return pieces;
+}
+
+[[noreturn]] void not_covered() { damaged("its pieces don't cover its WholeExtent"); }
+
+/// Puts the pieces' arrays where they belong. Each point must be in a piece; where pieces overlap, the later one
+/// counts.
+XmlArrays join(const XmlFile& file, const std::vector<Piece>& pieces, const Extent& whole) {
+  const std::uint64_t points = whole.points();
+  std::uint64_t in_pieces = 0;
+  for (const Piece& piece : pieces) in_pieces += piece.extent.points();
+  if (in_pieces < points) not_covered();
+  if (pieces.size() == 1) return read_point_data(file, *pieces[0].element, points);
+  std::vector<XmlArrays> parts;
+  for (const Piece& piece : pieces) parts.push_back(read_point_data(file, *piece.element, piece.extent.points()));
+  XmlArrays all;
+  if (parts[0].arrays.empty()) return parts[0];
+  std::vector<bool> covered(points);
+  for (const Piece& piece : pieces) {
+    for_each_row(piece.extent, whole, [&](std::size_t, std::size_t to, std::size_t count) {
+      std::fill_n(covered.begin() + static_cast<std::ptrdiff_t>(to), count, true);
+    });
+  }
+  if (std::find(covered.begin(), covered.end(), false) != covered.end()) not_covered();
+  all.notices = parts[0].notices;
+  for (const PointArray& first : parts[0].arrays) {
+    const auto width = static_cast<std::size_t>(first.components);
+    const auto place = [&](const auto& values) -> PointArray::Values {
+      using Vector = std::decay_t<decltype(values)>;
+      Vector joined(points * width);
+      for (std::size_t k = 0; k < pieces.size(); ++k) {
+        const auto& arrays = parts[k].arrays;
+        const auto found = std::find_if(arrays.begin(), arrays.end(), [&](const PointArray& array) {
+          return array.name == first.name && array.components == first.components &&
+                 array.values.index() == first.values.index();
+        });
+        if (found == arrays.end()) damaged("not all pieces have the array '" + first.name + "', in one type");
+        const auto& from_values = std::get<Vector>(found->values);
+        for_each_row(pieces[k].extent, whole, [&](std::size_t from, std::size_t to, std::size_t count) {
+          std::copy_n(from_values.begin() + static_cast<std::ptrdiff_t>(from * width), count * width,
+                      joined.begin() + static_cast<std::ptrdiff_t>(to * width));
+        });
+      }
+      return joined;
+    };
+    all.arrays.push_back({first.name, first.components, std::visit(place, first.values)});
+  }
+  return all;
+}
+
+}  // namespace
+
+Content read_vti(const InputFile& input, const ReadOptions&) {
+  const XmlFile file = read_xml(input, "ImageData");
+  const XmlElement& element = file.root.require("ImageData");
+  const Extent whole = extent_of(element, "WholeExtent");
+  const auto origin = numbers<double>(element, "Origin", {0, 0, 0}, 3);
+  const auto spacing = numbers<double>(element, "Spacing", {1, 1, 1}, 3);
+  const auto direction = numbers<double>(element, "Direction", {1, 0, 0, 0, 1, 0, 0, 0, 1}, 9);
+  Image image;
+  for (int d = 0; d < 3; ++d) {
+    image.dimensions[d] = static_cast<int>(whole.size(d));
+    auto& row = image.index_to_physical[d];
+    row[3] = origin[d];
+    for (int k = 0; k < 3; ++k) {
+      row[k] = direction[3 * d + k] * spacing[k];
+      row[3] += row[k] * static_cast<double>(whole.low[k]);
+    }
+  }
+  require_finite(image);
+  const std::vector<Piece> pieces = pieces_of(element, whole);
+  if (pieces.empty()) not_covered();
+  XmlArrays arrays = join(file, pieces, whole);
+  if (arrays.arrays.empty() && arrays.notices.empty() && !names_of_cell_data(*pieces[0].element).empty())
+    throw Error("the image has values in its cells, none at its points");
+  image.arrays = std::move(arrays.arrays);
+  image.notices = std::move(arrays.notices);
+  return image;
+}
+
+}  // namespace gale::io::detail

@@ -1,0 +1,260 @@
+#include <algorithm>
+#include <atomic>
+#include <cstring>
+#include <memory>
+
+#include <gale/base/error.hpp>
+#include <gale/base/parallel.hpp>
+#include <gale/io/bytes/base64.hpp>
+#include <gale/io/bytes/damaged.hpp>
+#include <gale/io/bytes/numbers.hpp>
+#include <gale/io/bytes/values.hpp>
+#include <gale/io/formats/xml_file.hpp>
+
+namespace gale::io::detail {
+
+namespace {
+
+using Host = Kokkos::DefaultHostExecutionSpace;
+
+std::optional<ValueType> type_of(const XmlElement& array) {
+  static const std::pair<const char*, ValueType> types[] = {
+      {"Int8", ValueType::int8},       {"UInt8", ValueType::uint8},    {"Int16", ValueType::int16},
+      {"UInt16", ValueType::uint16},   {"Int32", ValueType::int32},    {"UInt32", ValueType::uint32},
+      {"Int64", ValueType::int64},     {"UInt64", ValueType::uint64},  {"Float32", ValueType::float32},
+      {"Float64", ValueType::float64}, {"vtkIdType", ValueType::int64}};
+  const std::string name = array.attribute("type");
+  for (const auto& [known, type] : types) {
+    if (name == known) return type;
+  }
+  return std::nullopt;
+}
+
+/// "its array 'name'", for messages.
+std::string its(const XmlElement& array) { return "its array '" + printable(array.attribute("Name")) + "'"; }
+
+/// The bytes of one array that isn't text: raw, or base64 whose pieces, a header and values, may be padded each.
+class Binary {
+ public:
+  Binary(const XmlFile& file, const XmlElement& array) : file_(file) {
+    const std::string format = array.attribute("format", "ascii");
+    if (format == "appended") {
+      if (file.appended_begin == 0) damaged(its(array) + " is appended, but nothing is");
+      const std::uint64_t offset = array.number("offset"), behind = file.file.size() - file.appended_begin;
+      if (offset > behind)
+        damaged(its(array) + " begins at " + std::to_string(offset) + " of " + std::to_string(behind) +
+                " appended bytes");
+      inner_ = std::make_unique<FileBytes>(file.file, file.appended_begin + offset);
+    } else if (format == "binary") {
+      inner_ = std::make_unique<MemoryBytes>(array.text);
+    } else {
+      damaged(its(array) + " has the format '" + format + "'");
+    }
+    if (format == "appended" && file.appended_is_raw) return;
+    auto base64 = std::make_unique<Base64Bytes>(*inner_);
+    base64_ = base64.get();
+    outer_ = std::move(base64);
+  }
+
+  ByteSource& bytes() { return outer_ ? *outer_ : *inner_; }
+
+  void begin_next_piece() {
+    if (base64_ != nullptr) base64_->begin_next();
+  }
+
+  std::uint64_t header_number() {
+    char raw[8] = {};
+    read_all(bytes(), raw, file_.header_bytes, "an array's header");
+    if (file_.header_bytes == 8) return from<std::uint64_t>(raw);
+    return from<std::uint32_t>(raw);
+  }
+
+ private:
+  template <class T>
+  T from(const char* raw) const {
+    T number;
+    std::memcpy(&number, raw, sizeof(T));
+    to_machine_order(&number, 1, file_.order);
+    return number;
+  }
+
+  const XmlFile& file_;
+  std::unique_ptr<ByteSource> inner_, outer_;
+  Base64Bytes* base64_ = nullptr;
+};
+
+/// The blocks that a compressed array consists of: all of `block_bytes`, but for the last.
+struct Blocks {
+  std::uint64_t block_bytes = 0, last_bytes = 0;
+  std::vector<std::uint64_t> compressed;
+
+  std::size_t bytes_of(std::size_t block) const {
+    return static_cast<std::size_t>(block + 1 == compressed.size() && last_bytes > 0 ? last_bytes : block_bytes);
+  }
+  std::uint64_t bytes() const {
+    if (compressed.empty()) return 0;
+    return (compressed.size() - 1) * block_bytes + bytes_of(compressed.size() - 1);
+  }
+};
+
+Blocks read_blocks(Binary& binary, const XmlFile& file) {
+  Blocks blocks;
+  const std::uint64_t count = binary.header_number();
+  blocks.block_bytes = binary.header_number();
+  blocks.last_bytes = binary.header_number();
+  if (count > binary.bytes().at_most() / file.header_bytes)
+    damaged("an array claims " + std::to_string(count) + " blocks");
+  if (blocks.last_bytes > blocks.block_bytes || blocks.block_bytes > (std::uint64_t(1) << 40) ||
+      (count > 0 && blocks.block_bytes == 0))
+    damaged("an array claims blocks of " + std::to_string(blocks.block_bytes) + " bytes and a last one of " +
+            std::to_string(blocks.last_bytes));
+  std::uint64_t sum = 0;
+  for (std::uint64_t k = 0; k < count; ++k) {
+    blocks.compressed.push_back(binary.header_number());
+    if (blocks.compressed.back() > binary.bytes().at_most()) damaged("an array's block is longer than the file");
+    sum += blocks.compressed.back();
+  }
+  binary.begin_next_piece();
+  if (sum > binary.bytes().at_most()) damaged("an array's blocks are longer than the file");
+  constexpr std::uint64_t best_ratio = 8192;  // LZMA's; no block can be of more
+  if (blocks.bytes() / best_ratio > sum + 1024)
+    damaged("an array claims " + std::to_string(blocks.bytes()) + " bytes in " + std::to_string(sum));
+  return blocks;
+}
+
+/// Uncompresses blocks into values as they are read, some at a time, each by a thread: memory is taken as they arrive.
+template <class T>
+std::vector<T> uncompress(Binary& binary, const Blocks& blocks, const XmlFile& file, std::uint64_t count) {
+  constexpr std::size_t bytes_at_once = 1 << 24;
+  const Uncompress to_bytes = find_uncompress(file.compressor);
+  std::vector<T> values;
+  values.reserve(count);
+  const std::size_t wanted = count * sizeof(T);
+  std::vector<char> compressed, straddling;  // `straddling`: blocks that aren't of whole values, or very large
+  const bool in_place = blocks.block_bytes % sizeof(T) == 0 && blocks.block_bytes <= bytes_at_once;
+  std::size_t done = 0;
+  for (std::size_t first = 0; first < blocks.compressed.size() && done < wanted;) {
+    std::size_t last = first, bytes = 0, compressed_bytes = 0;
+    std::vector<std::size_t> from;
+    do {
+      from.push_back(compressed_bytes);
+      compressed_bytes += static_cast<std::size_t>(blocks.compressed[last]);
+      bytes += blocks.bytes_of(last++);
+    } while (last < blocks.compressed.size() && bytes + blocks.block_bytes <= bytes_at_once && in_place);
+    compressed.resize(compressed_bytes);
+    read_all(binary.bytes(), compressed.data(), compressed_bytes, "an array");
+    if (in_place) {
+      const std::size_t begin = values.size();
+      values.resize(begin + (bytes + sizeof(T) - 1) / sizeof(T));
+      char* const to = reinterpret_cast<char*>(&values[begin]);
+      std::atomic<bool> whole{true};
+      parallel_for("GALE::uncompress", Host(), static_cast<Offset>(last - first), [&](Offset k) {
+        const std::size_t block = first + static_cast<std::size_t>(k);
+        if (!to_bytes(&compressed[from[k]], blocks.compressed[block], to + k * blocks.block_bytes,
+                      blocks.bytes_of(block)))
+          whole = false;
+      });
+      if (!whole) damaged("an array's compressed block is wrong");
+      to_machine_order(&values[begin], values.size() - begin, file.order);
+    } else {
+      const std::unique_ptr<char[]> block(new char[bytes]);  // not touched where nothing is
+      if (!to_bytes(compressed.data(), compressed_bytes, block.get(), bytes))
+        damaged("an array's compressed block is wrong");
+      straddling.insert(straddling.end(), block.get(), block.get() + bytes);
+    }
+    done += bytes;
+    first = last;
+  }
+  if (!in_place) {
+    values.resize(std::min(count, straddling.size() / sizeof(T)));
+    std::memcpy(values.data(), straddling.data(), values.size() * sizeof(T));
+    to_machine_order(values.data(), values.size(), file.order);
+  }
+  values.resize(count);
+  return values;
+}
+
+PointArray::Values read_binary(const XmlFile& file, const XmlElement& array, ValueType type,
+                               std::optional<std::uint64_t> count) {
+  Binary binary(file, array);
+  const std::size_t size = size_of(type);
+  const auto check = [&](std::uint64_t bytes) {
+    if (!count) count = bytes / size;
+    if (bytes / size < *count) {
+      damaged(its(array) + " has " + std::to_string(bytes) + " bytes, not " + std::to_string(*count) +
+              " values of type " + name_of(type));
+    }
+  };
+  if (file.compressor.empty()) {
+    const std::uint64_t bytes = binary.header_number();
+    if (bytes > binary.bytes().at_most())
+      damaged(its(array) + " claims " + std::to_string(bytes) + " bytes, more than follow");
+    check(bytes);
+    return read_values(binary.bytes(), type, *count, file.order);
+  }
+  const Blocks blocks = read_blocks(binary, file);
+  check(blocks.bytes());
+  return with_type(type, [&](auto example) -> PointArray::Values {
+    return uncompress<decltype(example)>(binary, blocks, file, *count);
+  });
+}
+
+}  // namespace
+
+std::uint64_t XmlElement::number(const std::string& key) const {
+  const auto found = attributes.find(key);
+  if (found == attributes.end()) damaged("its " + name + " has no " + key);
+  std::uint64_t value;
+  if (!parse(found->second, value)) damaged("the " + key + " of its " + name + " is '" + found->second + "'");
+  return value;
+}
+
+PointArray::Values read_array(const XmlFile& file, const XmlElement& array, std::optional<std::uint64_t> count) {
+  const std::optional<ValueType> type = type_of(array);
+  if (!type) damaged(its(array) + " has values of type '" + array.attribute("type") + "'");
+  if (array.attribute("format", "ascii") != "ascii") return read_binary(file, array, *type, count);
+  MemoryBytes bytes(array.text);
+  TextReader text(bytes);
+  return count ? read_text_values(text, *type, *count) : read_all_text_values(text, *type);
+}
+
+XmlArrays read_point_data(const XmlFile& file, const XmlElement& piece, std::uint64_t points) {
+  XmlArrays result;
+  const XmlElement* const data = piece.child("PointData");
+  if (data == nullptr) return result;
+  const std::string scalars = data->attribute("Scalars");
+  bool has_scalars = scalars.empty();
+  for (const XmlElement& array : data->children) {
+    if (array.name != "DataArray" && array.name != "Array") continue;
+    const std::string name = array.attribute("Name", "scalars");
+    if (!type_of(array)) {
+      std::string type = array.attribute("type");
+      std::transform(type.begin(), type.end(), type.begin(), [](unsigned char c) { return std::tolower(c); });
+      result.notices.push_back("left out the point array '" + name + "': its values are of type " + type);
+      continue;
+    }
+    const bool has_components = array.attributes.count("NumberOfComponents") > 0;
+    const std::uint64_t components = has_components ? array.number("NumberOfComponents") : 1;
+    if (components < 1 || components > (1u << 20))
+      damaged(its(array) + " has " + std::to_string(components) + " components");
+    const std::uint64_t count =
+        product({static_cast<std::int64_t>(points), static_cast<std::int64_t>(components)}, "an array");
+    const bool first = !has_scalars && name == scalars;
+    has_scalars |= first;
+    result.arrays.insert(first ? result.arrays.begin() : result.arrays.end(),
+                         PointArray{name, static_cast<int>(components), read_array(file, array, count)});
+  }
+  return result;
+}
+
+std::vector<std::string> names_of_cell_data(const XmlElement& piece) {
+  std::vector<std::string> names;
+  const XmlElement* const data = piece.child("CellData");
+  if (data == nullptr) return names;
+  for (const XmlElement& array : data->children) {
+    if (array.name == "DataArray" || array.name == "Array") names.push_back(array.attribute("Name"));
+  }
+  return names;
+}
+
+}  // namespace gale::io::detail

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <gale/io/bytes/byte_order.hpp>
+#include <gale/io/bytes/input_file.hpp>
+#include <gale/io/dataset.hpp>
+
+/// VTK's XML files: a tree of elements, whose arrays hold their values in themselves, as text or base64, or behind the
+/// tree, as base64 or raw.
+namespace gale::io::detail {
+
+struct XmlElement {
+  std::string name;
+  std::map<std::string, std::string> attributes;
+  std::vector<XmlElement> children;
+  std::string text;  ///< of arrays of points and cells alone
+
+  /// The attribute's value, or `otherwise`.
+  std::string attribute(const std::string& key, const std::string& otherwise = "") const;
+
+  /// A whole number, 0 or more. Throws gale::Error if it isn't there or isn't one.
+  std::uint64_t number(const std::string& key) const;
+
+  /// The first child of that name, or nullptr.
+  const XmlElement* child(const std::string& name) const;
+
+  /// The first child of that name. Throws gale::Error if there is none.
+  const XmlElement& require(const std::string& name) const;
+};
+
+struct XmlFile {
+  const InputFile& file;
+  XmlElement root;
+  std::uint64_t appended_begin = 0;  ///< in the file, of what is behind the tree; 0 if nothing is
+  bool appended_is_raw = false;
+
+  // As the root says.
+  ByteOrder order = byte_order_of_machine();
+  std::size_t header_bytes = 4;  ///< of the numbers that say how long an array is
+  std::string compressor;        ///< VTK's class, or empty
+};
+
+/// Reads the tree, of which `type` must be the root's. Throws gale::Error for a file that isn't well-formed, nested too
+/// deeply, of too many elements, or of another type. The file must outlive what is returned.
+XmlFile read_xml(const InputFile& file, const std::string& type);
+
+/// The values of an array: `count` of them, or all that it has. Throws gale::Error if it has less, or they are damaged.
+PointArray::Values read_array(const XmlFile& file, const XmlElement& array, std::optional<std::uint64_t> count);
+
+/// The arrays of a PointData element, of `points` points each, the active scalars first; a notice about each whose
+/// values are no numbers.
+struct XmlArrays {
+  std::vector<PointArray> arrays;
+  std::vector<std::string> notices;
+};
+XmlArrays read_point_data(const XmlFile& file, const XmlElement& piece, std::uint64_t points);
+
+/// The names of a piece's cell arrays.
+std::vector<std::string> names_of_cell_data(const XmlElement& piece);
+
+/// Writes the `bytes` that `compressed` stands for to `to`. False if it doesn't stand for so many. `compressor` is one
+/// of VTK's classes; throws gale::Error for another one.
+using Uncompress = bool (*)(const char* compressed, std::size_t compressed_bytes, char* to, std::size_t bytes);
+Uncompress find_uncompress(const std::string& compressor);
+
+}  // namespace gale::io::detail

@@ -1,0 +1,250 @@
+"""Writes small files of all formats and encodings that gale reads: what the fuzzer mutates.
+
+usage: make_corpus.py FOLDER
+
+Detached data is FILE.raw, which the header calls input.raw: under that name the fuzzer puts it beside the file.
+"""
+import base64
+import gzip
+import lzma
+import struct
+import sys
+import zlib
+from pathlib import Path
+
+POINTS = [0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1, 2, 0, 1]
+TETRAHEDRA = [0, 1, 2, 3, 1, 2, 3, 4, 1, 4, 3, 5]
+FIELD = [0.5, 3, 1, 4, -1, 5]
+CODES = {"Int8": "b", "UInt8": "B", "Int16": "h", "UInt16": "H", "Int32": "i", "UInt32": "I", "Int64": "q", "UInt64": "Q",
+         "Float32": "f", "Float64": "d"}
+VOXELS = [(7 * i) % 61 for i in range(4 * 5 * 3)]
+SIZE = (4, 5, 3)
+
+
+def pack(kind, values, order="<"):
+    return struct.pack(f"{order}{len(values)}{CODES[kind]}", *values)
+
+
+def lz4_literals(data):
+    """An LZ4 block that only has literals."""
+    rest = len(data) - 15
+    if rest < 0:
+        return bytes([len(data) << 4]) + data
+    return b"\xf0" + b"\xff" * (rest // 255) + bytes([rest % 255]) + data
+
+
+COMPRESS = {"vtkZLibDataCompressor": zlib.compress, "vtkLZ4DataCompressor": lz4_literals,
+            "vtkLZMADataCompressor": lambda data: lzma.compress(data, format=lzma.FORMAT_XZ)}
+
+
+class Xml:
+    """A VTK XML file in one of its encodings."""
+
+    def __init__(self, kind, mode, compressor="", header="UInt32", order="<", block=64):
+        self.kind, self.mode, self.compressor, self.header, self.order, self.block = kind, mode, compressor, header, order, block
+        self.appended = b""
+
+    def words(self, *values):
+        return pack(self.header, values, self.order)
+
+    def encoded(self, data):
+        """(what can be base64 on its own, the rest)"""
+        if not self.compressor:
+            return b"", self.words(len(data)) + data
+        blocks = [data[i:i + self.block] for i in range(0, len(data), self.block)]
+        packed = [COMPRESS[self.compressor](block) for block in blocks]
+        last = len(data) % self.block
+        return self.words(len(blocks), self.block, last, *map(len, packed)), b"".join(packed)
+
+    def array(self, name, kind, values, components=1):
+        attributes = f'type="{kind}" Name="{name}"' + (f' NumberOfComponents="{components}"' if components > 1 else "")
+        if self.mode == "ascii":
+            return f'<DataArray {attributes} format="ascii">{" ".join(map(str, values))}</DataArray>\n'
+        parts = self.encoded(pack(kind, values, self.order))
+        if self.mode == "binary" or self.mode == "appended base64":
+            text = b"".join(base64.b64encode(part) for part in parts if part)
+        else:
+            text = b"".join(parts)
+        if self.mode == "binary":
+            return f'<DataArray {attributes} format="binary">\n{text.decode()}\n</DataArray>\n'
+        offset = len(self.appended)
+        self.appended += text
+        return f'<DataArray {attributes} format="appended" offset="{offset}"/>\n'
+
+    def file(self, body):
+        compressor = f' compressor="{self.compressor}"' if self.compressor else ""
+        order = "LittleEndian" if self.order == "<" else "BigEndian"
+        start = (f'<?xml version="1.0"?>\n<VTKFile type="{self.kind}" version="1.0" byte_order="{order}" '
+                 f'header_type="{self.header}"{compressor}>\n{body}')
+        if self.appended:
+            encoding = "base64" if "base64" in self.mode else "raw"
+            return f'{start}<AppendedData encoding="{encoding}">\n_'.encode() + self.appended + b"\n</AppendedData>\n</VTKFile>\n"
+        return (start + "</VTKFile>\n").encode()
+
+
+def vtu(*encoding, kind="Float32", pieces=1, more_cells=False, **options):
+    xml = Xml("UnstructuredGrid", *encoding, **options)
+    body = "<UnstructuredGrid>\n"
+    for _ in range(pieces):
+        cells, types = [TETRAHEDRA[i:i + 4] for i in range(0, 12, 4)], [10] * 3
+        if more_cells:
+            cells, types = cells + [[0, 1, 2], [0, 1, 2, 3, 4], [2]], types + [5, 14, 1]
+        offsets = [sum(map(len, cells[:i + 1])) for i in range(len(cells))]
+        body += (f'<Piece NumberOfPoints="6" NumberOfCells="{len(cells)}">\n<PointData Scalars="field">\n' +
+                 xml.array("field", kind, FIELD) + xml.array("pairs", "Int16", list(range(12)), 2) + "</PointData>\n<CellData>\n" +
+                 xml.array("part", "UInt8", [1] * len(cells)) + "</CellData>\n<Points>\n" + xml.array("Points", kind, POINTS, 3) +
+                 "</Points>\n<Cells>\n" + xml.array("connectivity", "Int64", sum(cells, [])) + xml.array("offsets", "Int64", offsets) +
+                 xml.array("types", "UInt8", types) + "</Cells>\n</Piece>\n")
+    return xml.file(body + "</UnstructuredGrid>\n")
+
+
+def vti(*encoding, kind="Float32", pieces=1, **options):
+    xml = Xml("ImageData", *encoding, **options)
+    x, y, z = SIZE
+    body = f'<ImageData WholeExtent="0 {x - 1} 0 {y - 1} 0 {z - 1}" Origin="0 0 0" Spacing="1 1.5 2">\n'
+    for piece in range(pieces):
+        low, high = (0, z - 1) if pieces == 1 else ((0, 1), (1, 2))[piece]
+        values = VOXELS[low * x * y:(high + 1) * x * y]
+        body += (f'<Piece Extent="0 {x - 1} 0 {y - 1} {low} {high}">\n<PointData Scalars="values">\n' +
+                 xml.array("values", kind, values) + "</PointData>\n</Piece>\n")
+    return xml.file(body + "</ImageData>\n")
+
+
+class Legacy:
+    """A legacy VTK file, ASCII or BINARY."""
+
+    def __init__(self, version, binary, dataset):
+        self.binary = binary
+        self.data = f"# vtk DataFile Version {version}\nseed\n{'BINARY' if binary else 'ASCII'}\nDATASET {dataset}\n".encode()
+
+    def line(self, text):
+        self.data += text.encode() + b"\n"
+        return self
+
+    def put(self, header, kind, values):
+        self.line(header)
+        self.data += pack(kind, values, ">") if self.binary else " ".join(map(str, values)).encode()
+        self.data += b"\n"
+        return self
+
+    def point_data(self, count):
+        return (self.line(f"POINT_DATA {count}").put("SCALARS field float 1\nLOOKUP_TABLE default", "Float32", VOXELS[:count])
+                .line("FIELD FieldData 1").put(f"ids 1 {count} int", "Int32", list(range(count))))
+
+
+def vtk_mesh(version, binary):
+    file = Legacy(version, binary, "UNSTRUCTURED_GRID").put("POINTS 6 float", "Float32", POINTS)
+    if version == "5.1":
+        file.line("CELLS 4 12").put("OFFSETS vtktypeint64", "Int64", [0, 4, 8, 12])
+        file.put("CONNECTIVITY vtktypeint64", "Int64", TETRAHEDRA)
+    else:
+        file.put("CELLS 3 15", "Int32", [number for i in range(0, 12, 4) for number in (4, *TETRAHEDRA[i:i + 4])])
+    return file.put("CELL_TYPES 3", "Int32", [10] * 3).point_data(6).data
+
+
+def vtk_points(version, binary):
+    x, y, z = SIZE
+    return (Legacy(version, binary, "STRUCTURED_POINTS").line(f"DIMENSIONS {x} {y} {z}").line("ORIGIN 0 0 0").line("SPACING 1 1 2")
+            .point_data(x * y * z).data)
+
+
+def vtk_others(binary):
+    grid = Legacy("3.0", binary, "STRUCTURED_GRID").line("DIMENSIONS 2 3 1").put("POINTS 6 float", "Float32", POINTS).point_data(6)
+    rectilinear = Legacy("3.0", binary, "RECTILINEAR_GRID").line("DIMENSIONS 2 3 1")
+    for name, count in (("X", 2), ("Y", 3), ("Z", 1)):
+        rectilinear.put(f"{name}_COORDINATES {count} float", "Float32", POINTS[:count])
+    return grid.data, rectilinear.point_data(6).data
+
+
+def nii(kind, code, order="<", slope=0.0):
+    header = bytearray(352)
+    struct.pack_into(order + "i", header, 0, 348)
+    struct.pack_into(order + "8h", header, 40, 3, *SIZE, 1, 1, 1, 1)
+    struct.pack_into(order + "2h", header, 70, code, 8 * struct.calcsize(CODES[kind]))
+    struct.pack_into(order + "8f", header, 76, 1, 1, 1, 2, 0, 0, 0, 0)
+    struct.pack_into(order + "3f", header, 108, 352, slope, 1)
+    struct.pack_into(order + "2h", header, 252, 1, 1)
+    struct.pack_into(order + "12f", header, 280, -1, 0, 0, 5, 0, 1, 0, 0, 0, 0, 2, 0)
+    struct.pack_into("4s", header, 344, b"n+1\0")
+    return bytes(header) + pack(kind, VOXELS, order)
+
+
+def meta(kind, element, data_file="LOCAL", mode="raw", order="<"):
+    data = pack(kind, VOXELS, order)
+    more = ""
+    if mode == "compressed":
+        data = zlib.compress(data)
+        more = f"CompressedData = True\nCompressedDataSize = {len(data)}\n"
+    elif mode == "ascii":
+        data = " ".join(map(str, VOXELS)).encode() + b"\n"
+    header = (f"ObjectType = Image\nNDims = 3\nBinaryData = {mode != 'ascii'}\nBinaryDataByteOrderMSB = {order == '>'}\n{more}"
+              "TransformMatrix = 1 0 0 0 1 0 0 0 1\nOffset = 0 0 0\nElementSpacing = 1 1 2\n"
+              f"DimSize = {' '.join(map(str, SIZE))}\nElementType = {element}\nElementDataFile = {data_file}\n").encode()
+    return header, data
+
+
+def nrrd(kind, name, encoding, detached=False, order="little"):
+    data = pack(kind, VOXELS, "<" if order == "little" else ">")
+    if encoding == "gzip":
+        data = gzip.compress(data, mtime=0)
+    elif encoding == "ascii":
+        data = " ".join(map(str, VOXELS)).encode() + b"\n"
+    header = (f"NRRD0004\n# seed\ntype: {name}\ndimension: 3\nspace: left-posterior-superior\nsizes: {' '.join(map(str, SIZE))}\n"
+              "space directions: (1,0,0) (0,1,0) (0,0,2)\nkinds: domain domain domain\n"
+              f"endian: {order}\nencoding: {encoding}\nspace origin: (0,0,0)\n" +
+              ("data file: input.raw\n" if detached else "") + "\n").encode()
+    return header, data
+
+
+def seeds():
+    """(name, content, content of the detached data)"""
+    zlib_, lz4, xz = COMPRESS
+    for name, content in {
+            "ascii": vtu("ascii"), "doubles": vtu("ascii", kind="Float64", more_cells=True), "binary": vtu("binary"),
+            "binary_zlib": vtu("binary", zlib_), "binary_64": vtu("binary", zlib_, "UInt64"), "raw": vtu("appended raw"),
+            "raw_zlib": vtu("appended raw", zlib_), "raw_zlib_64": vtu("appended raw", zlib_, "UInt64", kind="Float64"),
+            "raw_lz4": vtu("appended raw", lz4), "raw_lzma": vtu("appended raw", xz), "big_endian": vtu("appended raw", order=">"),
+            "base64": vtu("appended base64"), "base64_zlib": vtu("appended base64", zlib_), "pieces": vtu("ascii", pieces=2),
+            "more_cells": vtu("appended raw", zlib_, more_cells=True)}.items():
+        yield f"{name}.vtu", content, None
+    for name, content in {
+            "ascii": vti("ascii"), "binary": vti("binary"), "raw": vti("appended raw", "", "UInt64"), "raw_zlib": vti("appended raw", zlib_),
+            "bytes": vti("appended raw", kind="UInt8"), "base64_lz4": vti("appended base64", lz4), "raw_lzma": vti("appended raw", xz),
+            "pieces": vti("ascii", pieces=2), "doubles": vti("appended raw", "", "UInt32", ">", kind="Float64")}.items():
+        yield f"{name}.vti", content, None
+    for binary in (False, True):
+        letter = "b" if binary else "a"
+        for version in ("2.0", "3.0", "4.2", "5.1"):
+            yield f"mesh_{version}_{letter}.vtk", vtk_mesh(version, binary), None
+        for version in ("2.0", "3.0", "5.1"):
+            yield f"points_{version}_{letter}.vtk", vtk_points(version, binary), None
+        grid, rectilinear = vtk_others(binary)
+        yield f"grid_{letter}.vtk", grid, None
+        yield f"rectilinear_{letter}.vtk", rectilinear, None
+    for name, content in {"bytes": nii("UInt8", 2), "shorts": nii("Int16", 4, slope=2.0), "floats": nii("Float32", 16),
+                          "doubles": nii("Float64", 64, ">"), "words": nii("UInt16", 512, ">")}.items():
+        yield f"{name}.nii", content, None
+        yield f"{name}.nii.gz", gzip.compress(content, mtime=0), None
+    for mode in ("raw", "compressed", "ascii"):
+        yield f"{mode}.mha", b"".join(meta("Float32", "MET_FLOAT", mode=mode)), None
+    yield "shorts.mha", b"".join(meta("Int16", "MET_SHORT", order=">")), None
+    yield "detached.mhd", *meta("UInt8", "MET_UCHAR", "input.raw")
+    yield "compressed.mhd", *meta("Float64", "MET_DOUBLE", "input.raw", "compressed")
+    for encoding in ("raw", "gzip", "ascii"):
+        yield f"{encoding}.nrrd", b"".join(nrrd("Float32", "float", encoding)), None
+    yield "shorts.nrrd", b"".join(nrrd("Int16", "short", "raw", order="big")), None
+    yield "detached.nrrd", *nrrd("UInt8", "unsigned char", "raw", detached=True)
+    yield "detached_gzip.nrrd", *nrrd("Float64", "double", "gzip", detached=True)
+
+
+def main():
+    folder = Path(sys.argv[1])
+    folder.mkdir(parents=True, exist_ok=True)
+    for name, content, data in seeds():
+        (folder / name).write_bytes(content)
+        if data is not None:
+            (folder / f"{name}.raw").write_bytes(data)
+
+
+if __name__ == "__main__":
+    main()

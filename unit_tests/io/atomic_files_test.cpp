@@ -1,0 +1,131 @@
+#include <io/io_fixtures.hpp>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+
+#include <gtest/gtest.h>
+
+#include <gale/io/atomic_file.hpp>
+
+namespace gale::io {
+namespace {
+
+using test::error_of;
+using test::Folder;
+using Names = std::set<std::string>;
+
+std::string content_of(const std::string& path) {
+  std::ostringstream content;
+  content << std::ifstream(path, std::ios::binary).rdbuf();
+  return content.str();
+}
+
+void add(AtomicFiles& files, const std::string& path, const std::string& content) {
+  std::ofstream(files.add(path).temporary()) << content;
+}
+
+TEST(AtomicFiles, AppearTogether) {
+  const Folder folder;
+  folder.put("b", "old");
+  AtomicFiles files;
+  add(files, folder / "a", "1");
+  add(files, folder / "b", "2");
+  EXPECT_EQ(folder.names().count("a"), 0u);
+  EXPECT_EQ(content_of(folder / "b"), "old");
+  files.commit();
+  EXPECT_EQ(folder.names(), (Names{"a", "b"}));
+  EXPECT_EQ(content_of(folder / "a") + content_of(folder / "b"), "12");
+}
+
+TEST(AtomicFiles, LeaveNothingWithoutCommit) {
+  const Folder folder;
+  {
+    AtomicFiles files;
+    add(files, folder / "a", "1");
+    add(files, folder / "b", "2");
+  }
+  EXPECT_EQ(folder.names(), Names{});
+}
+
+/// The last can't have its name: a folder took it meanwhile.
+TEST(AtomicFiles, AppearTogetherOrNotAtAll) {
+  const Folder folder;
+  folder.put("b", "old");
+  {
+    AtomicFiles files;
+    add(files, folder / "a", "1");
+    add(files, folder / "b", "2");
+    add(files, folder / "c", "3");
+    std::filesystem::create_directory(folder / "c");
+    EXPECT_EQ(error_of([&] { files.commit(); }), "cannot write '" + folder / "c" + "': Is a directory");
+  }
+  EXPECT_EQ(folder.names(), (Names{"b", "c"}));
+  EXPECT_EQ(content_of(folder / "b"), "old");
+}
+
+TEST(AtomicFiles, NameTheOneThatCannotBe) {
+  AtomicFiles files;
+  EXPECT_EQ(error_of([&] { files.add("/nowhere/a"); }), "cannot write '/nowhere/a': No such file or directory");
+}
+
+TEST(AtomicFile, OfALongNameHasATemporary) {
+  const Folder folder;
+  const std::string name(255, 'a');
+  AtomicFile(folder / name).commit();
+  EXPECT_EQ(folder.names(), Names{name});
+}
+
+/// What a child process that calls `run` ends with.
+int status_of_child(const std::function<void()>& run) {
+  const pid_t child = fork();
+  if (child == 0) {
+    run();
+    _exit(0);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  return status;
+}
+
+TEST(TemporaryFiles, GoWithAProcessThatASignalEnds) {
+  for (const int signal : {SIGHUP, SIGINT, SIGTERM, SIGPIPE, SIGABRT}) {
+    const Folder folder;
+    const int status = status_of_child([&] {
+      remove_temporary_files_at_end();
+      AtomicFiles files;
+      for (int i = 0; i < 100; ++i) add(files, folder / std::to_string(i), "half");
+      raise(signal);
+    });
+    EXPECT_TRUE(WIFSIGNALED(status));
+    EXPECT_EQ(WTERMSIG(status), signal);
+    EXPECT_EQ(folder.names(), Names{});
+  }
+}
+
+TEST(TemporaryFiles, GoWithAProcessThatExits) {
+  const Folder folder;
+  const int status = status_of_child([&] {
+    remove_temporary_files_at_end();
+    const AtomicFile file(folder / "a");
+    std::exit(7);
+  });
+  EXPECT_EQ(WEXITSTATUS(status), 7);
+  EXPECT_EQ(folder.names(), Names{});
+}
+
+TEST(TemporaryFiles, StayAsTheyAreForASignalThatIsIgnored) {
+  const Folder folder;
+  const int status = status_of_child([&] {
+    std::signal(SIGHUP, SIG_IGN);
+    remove_temporary_files_at_end();
+    AtomicFile file(folder / "a");
+    raise(SIGHUP);
+    file.commit();
+  });
+  EXPECT_EQ(status, 0);
+  EXPECT_EQ(folder.names(), Names{"a"});
+}
+
+}  // namespace
+}  // namespace gale::io
