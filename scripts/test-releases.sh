@@ -52,7 +52,7 @@ build_and_test() { # CMAKE_OPTION...
   mkdir "$root/gale" &&
     tar -C "$source_dir" --exclude=./.git --exclude='./build*' -cf - . | tar -C "$root/gale" -xf - &&
     chroot "$root" cmake -S /gale -B /build -G Ninja -DCMAKE_BUILD_TYPE=Release -DGALE_ENABLE_VTK=$vtk \
-      -DGALE_ENABLE_PRECOMPILED_HEADERS=ON -DGALE_TEST_OPTIONS=-O1 "$@" &&
+      -DCMAKE_CXX_FLAGS_RELEASE="-O1 -DNDEBUG" -DGALE_ENABLE_PRECOMPILED_HEADERS=ON "$@" &&
     chroot "$root" cmake --build /build --parallel "$(nproc)" &&
     chroot "$root" ctest --test-dir /build --output-on-failure --parallel 2
 }

@@ -15,6 +15,9 @@ lean=(-DGALE_ENABLE_KOKKOS_KERNELS=OFF -DGALE_ENABLE_VTK=OFF -DGALE_ENABLE_APP=O
 fixed_addresses=()
 ! setarch --addr-no-randomize true 2>/dev/null || fixed_addresses=(setarch --addr-no-randomize)
 
+logs=$(mktemp -d)
+trap 'rm -rf "$logs"' EXIT
+
 # build PRESET FOLDER...
 build() {
   local preset=$1
@@ -32,25 +35,37 @@ run_tests() {
   "${fixed_addresses[@]}" "$tests" --gtest_brief=1 --gtest_filter="$filter"
 }
 
+# together COMMAND... : at the same time, as one test seldom uses both cores. What they print comes one after the other.
+together() {
+  local jobs=() failed=0 command k
+  for ((k = 1; k <= $#; ++k)); do
+    read -ra command <<<"${!k}"
+    "${command[@]}" >"$logs/$k" 2>&1 &
+    jobs+=($!)
+  done
+  for job in "${jobs[@]}"; do wait "$job" || failed=1; done
+  cat "$logs"/*
+  rm "$logs"/*
+  [ $failed = 0 ]
+}
+
+# Every third: they run each mesh by each structure, which is minutes here.
+third() { GTEST_TOTAL_SHARDS=3 GTEST_SHARD_INDEX=1 run_tests "$@"; }
+
 address() {
   export LSAN_OPTIONS=suppressions=$PWD/unit_tests/leaks.supp:print_suppressions=0
   build sanitize gale_base gale_mesh gale_relations gale_runtime gale_algorithms
-  for folder in base mesh runtime; do
-    run_tests sanitize "$folder"
-  done
-  # Every third: they run each mesh by each structure, which is minutes here.
-  for folder in relations algorithms; do
-    GTEST_TOTAL_SHARDS=3 GTEST_SHARD_INDEX=1 run_tests sanitize "$folder"
-  done
+  together "run_tests sanitize base" "run_tests sanitize mesh" "third sanitize algorithms"
+  together "run_tests sanitize runtime" "third sanitize relations"
 }
 
 # Of the runtime, all but what takes minutes here to compare every mesh with brute force; of the algorithms, those whose
 # sweeps write what several threads read.
 thread() {
   build sanitize-thread gale_base gale_runtime gale_algorithms
-  run_tests sanitize-thread base
-  run_tests sanitize-thread runtime '-MixedSweep.*:Tests/MixedSweepOf.*'
-  run_tests sanitize-thread algorithms 'CriticalPoints.*:DiscreteGradient.*:MorseSmaleComplex.*:Simplify.*'
+  together "run_tests sanitize-thread base" \
+    "run_tests sanitize-thread runtime -MixedSweep.*:Tests/MixedSweepOf.*" \
+    "run_tests sanitize-thread algorithms CriticalPoints.*:DiscreteGradient.*:MorseSmaleComplex.*:Simplify.*"
 }
 
 [ $# -gt 0 ] || set -- address thread

@@ -8,13 +8,40 @@
 #include <Kokkos_Core.hpp>
 
 namespace gale::io {
+namespace detail {
+
+using AnyVector =
+    std::variant<std::vector<std::int8_t>, std::vector<std::uint8_t>, std::vector<std::int16_t>,
+                 std::vector<std::uint16_t>, std::vector<std::int32_t>, std::vector<std::uint32_t>,
+                 std::vector<std::int64_t>, std::vector<std::uint64_t>, std::vector<float>, std::vector<double>>;
+
+}  // namespace detail
 
 /// One array of values per point, as a file carries it: `components` values for each point, point after point.
 struct PointArray {
-  using Values =
-      std::variant<std::vector<std::int8_t>, std::vector<std::uint8_t>, std::vector<std::int16_t>,
-                   std::vector<std::uint16_t>, std::vector<std::int32_t>, std::vector<std::uint32_t>,
-                   std::vector<std::int64_t>, std::vector<std::uint64_t>, std::vector<float>, std::vector<double>>;
+  /// One of these vectors; to be used as the std::variant that it is. When memory for a copy runs out, libstdc++ 12's
+  /// variant of vectors destroys one that was never made: here the copy is made first, and moved.
+  struct Values : detail::AnyVector {
+    using detail::AnyVector::AnyVector;
+
+    Values() = default;
+    Values(const Values& other) : Values(copy_of(other)) {}
+    Values(Values&&) = default;
+    Values& operator=(const Values& other) { return *this = copy_of(other); }
+    Values& operator=(Values&&) = default;
+    ~Values() = default;
+
+   private:
+    static Values copy_of(const detail::AnyVector& other) {
+      return std::visit(
+          [](const auto& values) -> Values {
+            auto copy = values;
+            return copy;
+          },
+          other);
+    }
+  };
+
   std::string name;
   int components = 1;
   Values values;

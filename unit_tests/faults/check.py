@@ -7,8 +7,8 @@ import unittest
 import commands
 import faults
 
-# Lines of others that are as good: they end the process before we can say anything.
-OTHERS = r"\nlibgomp: [^\n]+\n"
+# Lines of others that are as good: they end the process before we can say anything, or we say it once more.
+OTHERS = r"\nlibgomp: [^\n]+(\ngale: [^\n]+)?\n"
 
 # What Kokkos says by itself before it throws, where it has no memory for a message either.
 KOKKOS = r'Kokkos failed to allocate memory for label [^\n]+\n\n?'

@@ -64,6 +64,19 @@ TEST_F(HostileFiles, LegacyCountsThatNoFileHas) {
   refuse("g.vtk", legacy(four_points + "CELLS -7 -9\n", "3.0"), "-7");
 }
 
+TEST_F(HostileFiles, LegacyGridsThatClaimMorePointsThanTheyHave) {
+  const auto grid = [](const std::string& rest) {
+    return "# vtk DataFile Version 3.0\nby hand\nASCII\nDATASET " + rest;
+  };
+  ReadOptions split;
+  split.tetrahedralize = true;
+  for (const std::string rest : {"STRUCTURED_GRID\nDIMENSIONS 2 2 4294967296\nPOINTS 1 float\n0 0 0\n",
+                                 "RECTILINEAR_GRID\nDIMENSIONS 1000 1000 1000\nX_COORDINATES 2 float\n0 1\n"}) {
+    const std::string path = folder.put("a.vtk", grid(rest));
+    EXPECT_NE(error_of([&] { read(path, split); }).find("it has "), std::string::npos);
+  }
+}
+
 TEST_F(HostileFiles, LegacyNumbersThatAreNone) {
   const std::string mesh = four_points + "CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\nPOINT_DATA 4\nSCALARS h float 1\n";
   const Dataset valid = read(folder.put("a.vtk", legacy(mesh + "LOOKUP_TABLE default\n1 -inf nan inf\n", "3.0")));

@@ -95,7 +95,7 @@ bool read_section(LegacyFile& file, const std::string& kind, std::string& keywor
   } else if (keyword == "dimensions") {
     to.dimensions.clear();
     for (int d = 0; d < 3; ++d) to.dimensions.push_back(file.count("DIMENSIONS"));
-    to.points = static_cast<std::int64_t>(grid_points(to));
+    to.points = static_cast<std::int64_t>(grid_points(to));  // those of a structured grid follow, and are counted then
   } else if (keyword == "points") {
     to.points = file.count("the number of points");
     to.mesh.points = file.array_of_numbers(product({to.points, 3}, "points"), "the points");
@@ -140,7 +140,6 @@ Image to_image(Sections& from) {
 
 /// Hexahedra of the grid, as cells of `type`, a voxel or a hexahedron.
 void add_grid_cells(Sections& to, int type, bool tetrahedralize) {
-  if (to.dimensions.empty()) damaged("it has no DIMENSIONS");
   const std::int64_t nx = to.dimensions[0], ny = to.dimensions[1], nz = to.dimensions[2];
   if (nx < 2 || ny < 2 || nz < 2) return;
   constexpr std::int64_t most_without_values = 100000;
@@ -169,13 +168,20 @@ void add_grid_cells(Sections& to, int type, bool tetrahedralize) {
                    std::move(connectivity)};
 }
 
-/// The points of a rectilinear grid; called when its cells have been added, which checks how many they are.
-void add_grid_points(Sections& to) {
-  for (int d = 0; d < 3; ++d) {
-    if (static_cast<std::int64_t>(count_of(to.coordinates[d])) != to.dimensions[d])
-      damaged("it has " + std::to_string(count_of(to.coordinates[d])) + " coordinates along an axis of " +
-              std::to_string(to.dimensions[d]));
+/// Throws gale::Error unless the file had the points that its DIMENSIONS say, of a rectilinear grid along the axes.
+void require_grid_points(const Sections& of, bool rectilinear) {
+  if (of.dimensions.empty()) damaged("it has no DIMENSIONS");
+  for (int d = 0; rectilinear && d < 3; ++d) {
+    if (static_cast<std::int64_t>(count_of(of.coordinates[d])) == of.dimensions[d]) continue;
+    damaged("it has " + std::to_string(count_of(of.coordinates[d])) + " coordinates along an axis of " +
+            std::to_string(of.dimensions[d]));
   }
+  if (!rectilinear && count_of(of.mesh.points) != 3 * grid_points(of)) {
+    damaged("it has " + std::to_string(count_of(of.mesh.points) / 3) + " points, not those of its DIMENSIONS");
+  }
+}
+
+void add_grid_points(Sections& to) {
   const auto at = [](const PointArray::Values& values, std::size_t k) {
     return std::visit([k](const auto& v) { return static_cast<double>(v[k]); }, values);
   };
@@ -212,10 +218,10 @@ Content read_legacy_vtk(const InputFile& input, const ReadOptions& options) {
   }
   if (kind == "structured_points") return to_image(sections);
   if (kind != "unstructured_grid") {
-    add_grid_cells(sections, kind == "structured_grid" ? hexahedron_type : voxel_type, options.tetrahedralize);
-    if (kind == "rectilinear_grid" && count_of(sections.mesh.cells.types) > 0) add_grid_points(sections);
-    if (sections.points != static_cast<std::int64_t>(grid_points(sections)))
-      damaged("it has " + std::to_string(sections.points) + " points, not those of its DIMENSIONS");
+    const bool rectilinear = kind == "rectilinear_grid";
+    require_grid_points(sections, rectilinear);
+    add_grid_cells(sections, rectilinear ? voxel_type : hexahedron_type, options.tetrahedralize);
+    if (rectilinear && count_of(sections.mesh.cells.types) > 0) add_grid_points(sections);
   }
   if (!sections.cell_arrays.empty()) sections.mesh.notices.push_back(note_cell_arrays(sections.cell_arrays));
   return to_mesh(sections.mesh, options.tetrahedralize);
