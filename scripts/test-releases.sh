@@ -15,6 +15,7 @@ case "${1:-}" in
 esac
 
 work=$(mktemp -d "${TMPDIR:-/tmp}/gale-releases.XXXXXX")
+unset TMPDIR # of this machine, not of the roots
 base=$work/base
 root=$work/root
 

@@ -28,6 +28,14 @@ struct AscendingWalls {
   std::vector<Id> star;
 };
 
+/// Pairs of saddles that `simplify` could not cancel, although their persistence is below the threshold.
+struct KeptBelow {
+  Id several_paths = 0;  ///< several paths lead from the 1-saddle to the 2-saddle
+  Id no_path = 0;        ///< none does: one of the two was cancelled with another saddle
+
+  Id count() const { return several_paths + no_path; }
+};
+
 /// The Morse-Smale complex of a discrete gradient. Sources, destinations and manifolds are places among the simplices
 /// of `critical`; cells are in GALE's ids. What wasn't wanted is empty.
 struct MorseSmaleComplex {
@@ -67,6 +75,8 @@ struct MorseSmaleComplex {
   /// A number for each pair of both, dense from 0; no_id where one is missing.
   Array<Id, HostMemory> morse_smale_manifold;
   Id morse_smale_manifolds = 0;  ///< how many pairs there are
+
+  KeptBelow kept_below;  ///< of what `simplify` left
 };
 
 /// Traces the complex of a gradient: connectors and walls on options.threads threads, other separatrices on the host's,

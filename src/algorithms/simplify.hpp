@@ -7,27 +7,34 @@
 
 namespace gale {
 
-/// Simplifies a Morse-Smale complex by cancelling pairs of critical simplices (Gyulassy, Natarajan, Pascucci, Hamann,
-/// "Efficient computation of Morse-Smale complexes for three-dimensional scalar functions", 2007). Two critical
-/// simplices p below q may be cancelled if exactly one path leads from one to the other. Their persistence is the
-/// difference of the values of their highest vertices. Again and again the pair of least persistence is cancelled, as
-/// long as that is below `threshold`; of equal ones that of the lowest dimension, then of the lowest places. Cancelling
-/// joins each other path to p with each other path from q: through the path between p and q, which is taken backwards,
-/// and without loops.
+struct SimplifyOptions {
+  bool extrema_only = false;     ///< cancel no 1-saddle with a 2-saddle: nearly as fast as to find the pairs
+  int threads = host_threads();  ///< at least 1
+};
+
+/// Simplifies a Morse-Smale complex: cancels the pairs of critical simplices whose persistence, the difference of the
+/// values of their highest vertices, is below `threshold` (`find_persistence_pairs`), as far as paths allow. What is
+/// left is the complex of another gradient, in which the paths between cancelled simplices are turned around (Forman
+/// 1998; Gyulassy, Natarajan, Pascucci, Hamann 2007).
 ///
-/// - A minimum p: its descending manifold becomes part of that of the minimum at the other end of q.
-/// - A maximum q: its ascending manifold becomes part of that of the maximum at the other end of p. If there is none,
-///   because that path leaves through the mesh's surface, so does the manifold, and the paths to q are dropped.
-/// - A 1-saddle p and a 2-saddle q: the descending wall of q becomes part of those that reach p, and the ascending wall
-///   of p part of those that reach q. A pair whose cancelling would make more than 1024 paths when its turn comes is
-///   left for good.
+/// - Minima and maxima with their saddles: always possible. The manifold of the extremum becomes part of that of the
+///   one at the saddle's other end. If that is the outside of the mesh, the vertices have no maximum then.
+/// - A 1-saddle and a 2-saddle: possible if one path leads from one to the other. Where several do, two others that are
+///   to go and differ by less than `threshold` are cancelled instead, the least different first; and a 1-saddle may
+///   change places with one that was cancelled with a minimum. So nearly all are cancelled. `kept_below` of the result
+///   says how many weren't.
 ///
-/// Paths are in the order of their saddles (connectors in that of 2-saddle, then 1-saddle); those of one saddle are in
-/// the order in which cancelling made them. The Euler characteristic stays as it is. `complex` has all 1-separatrices
-/// and connectors: throws gale::Error, naming the missing parts, if it was computed without (MorseSmaleParts).
-/// `value(v)` is the field at an input vertex: throws gale::Error, naming the vertex, if that is NaN where it is asked
-/// for. Sequential; time and memory grow with the number and the length of paths, none of which passes a cell twice.
+/// Paths, walls and their order are those that `find_morse_smale_complex` gives for that gradient, with three
+/// exceptions. A connector whose 1-saddle is higher than its 2-saddle is left out. An ascending wall consists of those
+/// of the 1-saddles that it leads past, each cell once. Where a triangle has three tetrahedra or more, rising paths
+/// take one way.
+///
+/// The Euler characteristic stays as it is. `complex` isn't simplified, and has saddle connectors unless
+/// `extrema_only`: throws gale::Error otherwise. Parts that it was computed without aren't in the result. `value(v)` is
+/// the field at an input vertex: throws gale::Error, naming the vertex, if that is NaN where it is asked for. On
+/// options.threads threads, but for the cancelling itself. Memory grows with what is left, and with the gradient (4
+/// bytes a vertex and a tetrahedron).
 GALE_EXPORT MorseSmaleComplex simplify(const MorseSmaleComplex& complex, const std::function<double(Id)>& value,
-                                       double threshold);
+                                       double threshold, const SimplifyOptions& options = {});
 
 }  // namespace gale

@@ -1,9 +1,18 @@
 #pragma once
 
+#include <utility>
+#include <vector>
+
 #include <gale/algorithms/discrete_gradient.hpp>
 #include <gale/outputs/field.hpp>
 
 namespace gale::outputs::detail {
+
+/// Values of a field as an output has them: in float if that is the field's type, else in double.
+inline io::PointArray::Values values_as(const io::PointArray& field, std::vector<double> values) {
+  if (std::holds_alternative<std::vector<float>>(field.values)) return std::vector<float>(values.begin(), values.end());
+  return values;
+}
 
 /// A field's values and order at input vertices. Refers to the field and to the gradient's arrays.
 class Heights {

@@ -66,14 +66,14 @@ class Lines {
     first_path_ += paths.count();
   }
 
-  io::Surface take() {
+  io::Surface take(const io::PointArray& field) {
     io::Surface surface;
     surface.points = positions_;
     surface.point_arrays = {{"ttkMaskScalarField", 1, std::move(mask_)},
                             {"CellDimension", 1, std::move(dimensions_)},
                             {"CellId", 1, std::move(ids_)}};
     surface.lines = std::move(lines_);
-    surface.cell_arrays = arrays_.take();
+    surface.cell_arrays = arrays_.take(field);
     surface.cell_arrays.insert(surface.cell_arrays.begin() + 1, {"DestinationId", 1, std::move(destinations_)});
     return surface;
   }
@@ -112,7 +112,7 @@ class Lines {
   std::vector<std::int8_t> mask_, dimensions_;
   std::vector<Id> ids_, destinations_;
   io::Surface::Cells lines_;
-  detail::SeparatrixArrays<std::int8_t> arrays_;
+  detail::SeparatrixArrays arrays_;
   Offset first_point_ = 0, first_path_ = 0;
 };
 
@@ -145,7 +145,7 @@ io::Surface separatrices1(const io::Dataset& dataset, const io::PointArray& fiel
         lines.add(descending, falling, descending_along, {critical[1], critical[0]});
         lines.add(ascending, rising, ascending_along, {critical[2], critical[3]});
         lines.add(connector, connectors, connecting, {critical[1], critical[2]});
-        return lines.take();
+        return lines.take(field);
       },
       dataset.points);
 }

@@ -17,7 +17,8 @@ namespace gale::outputs {
 /// `to_point_set` and shared by the lines of one separatrix alone. Point arrays: ttkMaskScalarField (int8, 0 at both
 /// ends), CellDimension (int8), CellId (int32). Arrays of lines: SourceId, DestinationId, SeparatrixId (int32),
 /// SeparatrixType (int8: 0 descending, 1 connector, 2 ascending), SeparatrixFunctionMaximum, Minimum and Difference
-/// (double: the highest and the lowest value at the vertices of both ends), NumberOfCriticalPointsOnBoundary (int8).
+/// (the highest and the lowest value at the vertices of both ends; float if the field is, else double),
+/// NumberOfCriticalPointsOnBoundary (int32).
 ///
 /// `field` is that of the complex, `numbers` are those of `named`, the complex's `named_simplices`, and `critical` its
 /// critical simplices. In parallel. Throws gale::Error if there are more than 2^31 - 1 points.

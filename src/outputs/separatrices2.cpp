@@ -61,14 +61,15 @@ class Walls {
         critical_(critical),
         heights_(complex.gradient, field),
         vertices_(mesh_.vertices()),
-        tetrahedra_(mesh_.tetrahedra()) {}
+        tetrahedra_(mesh_.tetrahedra()),
+        field_(field) {}
 
   io::Surface collect() {
     number_points();
     add_descending();
     add_ascending();
     require_ids("polygons of 2-separatrices", surface_.polygons.begin.size());
-    surface_.cell_arrays = arrays_.take();
+    surface_.cell_arrays = arrays_.take(field_);
     return std::move(surface_);
   }
 
@@ -183,7 +184,8 @@ class Walls {
   Numbering vertices_, tetrahedra_;
   io::Surface surface_;
   Id next_id_ = 0;
-  detail::SeparatrixArrays<Id> arrays_;
+  const io::PointArray& field_;
+  detail::SeparatrixArrays arrays_;
 };
 
 }  // namespace

@@ -13,9 +13,10 @@ namespace gale::outputs {
 ///
 /// Points are shared by all polygons: first vertices, then barycentres, each by ascending input id of the vertex or the
 /// tetrahedron. Arrays of polygons: SourceId, SeparatrixId (int32), SeparatrixType (int8: 1 ascending, 2 descending),
-/// SeparatrixFunctionMaximum, Minimum and Difference (double), NumberOfCriticalPointsOnBoundary (int32). A descending
-/// wall reaches from its source's highest vertex down to the lowest vertex of the critical edges that bound it, or of
-/// itself where none does; an ascending one from its source's lowest vertex up, likewise.
+/// SeparatrixFunctionMaximum, Minimum and Difference (float if the field is, else double),
+/// NumberOfCriticalPointsOnBoundary (int32). A descending wall reaches from its source's highest vertex down to the
+/// lowest vertex of the critical edges that bound it, or of itself where none does; an ascending one from its source's
+/// lowest vertex up, likewise.
 ///
 /// `field` is that of the complex and `critical` its critical simplices. `connectors` say which critical simplices
 /// bound a wall: all that the complex has, of which only the ends are read. Throws gale::Error if there are more than

@@ -21,8 +21,7 @@ struct SeparatrixValues {
   Id critical_on_surface;  ///< how many of the critical simplices that bound it are on the mesh's surface
 };
 
-/// The cell arrays that TTK gives both lines and walls. `Count` is the type of NumberOfCriticalPointsOnBoundary.
-template <class Count>
+/// The cell arrays that TTK gives both lines and walls.
 class SeparatrixArrays {
  public:
   std::size_t cells() const { return sources_.size(); }
@@ -43,17 +42,17 @@ class SeparatrixArrays {
     fill(maxima_, values.maximum);
     fill(minima_, values.minimum);
     fill(differences_, Heights::difference(values.maximum, values.minimum));
-    fill(on_surface_, static_cast<Count>(values.critical_on_surface));
+    fill(on_surface_, values.critical_on_surface);
   }
 
-  /// All of them, by name, in TTK's order.
-  std::vector<io::PointArray> take() {
+  /// All of them, by name, in TTK's order; values of a float field in float, of all others in double.
+  std::vector<io::PointArray> take(const io::PointArray& field) {
     return {{"SourceId", 1, std::move(sources_)},
             {"SeparatrixId", 1, std::move(ids_)},
             {"SeparatrixType", 1, std::move(types_)},
-            {"SeparatrixFunctionMaximum", 1, std::move(maxima_)},
-            {"SeparatrixFunctionMinimum", 1, std::move(minima_)},
-            {"SeparatrixFunctionDifference", 1, std::move(differences_)},
+            {"SeparatrixFunctionMaximum", 1, values_as(field, std::move(maxima_))},
+            {"SeparatrixFunctionMinimum", 1, values_as(field, std::move(minima_))},
+            {"SeparatrixFunctionDifference", 1, values_as(field, std::move(differences_))},
             {"NumberOfCriticalPointsOnBoundary", 1, std::move(on_surface_)}};
   }
 
@@ -61,7 +60,7 @@ class SeparatrixArrays {
   std::vector<Id> sources_, ids_;
   std::vector<std::int8_t> types_;
   std::vector<double> maxima_, minima_, differences_;
-  std::vector<Count> on_surface_;
+  std::vector<Id> on_surface_;
 };
 
 }  // namespace gale::outputs::detail

@@ -4,7 +4,6 @@
 #include <set>
 #include <string>
 
-#include "algorithms/brute_force_simplify.hpp"
 #include "algorithms/complexes.hpp"
 #include "support/voxel_shapes.hpp"
 
@@ -224,18 +223,6 @@ TEST_P(MorseSmaleFacts, hold_after_simplification) {
   for (const double threshold : {0.1 * size, 0.5 * size, size}) {
     SCOPED_TRACE(threshold);
     expect_facts(of(), of().found.simplified(threshold));
-  }
-}
-
-TEST_P(MorseSmaleFacts, nothing_is_left_to_cancel_below_the_threshold) {
-  const double threshold = 0.5 * of().found.input().vertices();
-  const NamedComplex left = of().found.simplified(threshold);
-  std::map<std::pair<Simplex, Simplex>, int> paths;
-  for (const auto* kind : {&left.descending, &left.ascending, &left.connectors}) {
-    for (const auto& path : *kind) paths[{path.source, path.destination}] += path.is_only ? 1 : 2;
-  }
-  for (const auto& [ends, count] : paths) {
-    EXPECT_TRUE(count > 1 || std::abs(of().highest(ends.first) - of().highest(ends.second)) >= threshold);
   }
 }
 

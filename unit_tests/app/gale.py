@@ -20,6 +20,11 @@ KINDS = ["minima", "saddles1", "saddles2", "maxima", "degenerate"]
 needs_vtk = unittest.skipUnless(HAVE_VTK, "this gale was built without VTK")
 
 
+def to_float(value):
+    """The float nearest to a number."""
+    return struct.unpack("f", struct.pack("f", value))[0]
+
+
 def barycentre(points):
     """Of points with three coordinates."""
     return tuple(sum(coordinates) / len(points) for coordinates in zip(*points))

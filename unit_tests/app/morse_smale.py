@@ -7,6 +7,8 @@ KINDS = ["critical_points.vtp", "separatrices1.vtp", "separatrices2.vtp", "segme
 class ComplexTest(gale.CommandTest):
     def result(self, *arguments):
         result = self.report("morse-smale", *arguments)["result"]
+        kept = result.pop("kept_below", None)  # of a simplification
+        self.assertEqual(kept is not None, "--persistence" in arguments)
         self.assertEqual(list(result), ["critical", "euler", "separatrices", "manifolds"])
         self.assertEqual(list(result["separatrices"]), ["descending", "ascending", "saddle_connectors"])
         self.assertEqual(list(result["manifolds"]), ["ascending", "descending", "morse_smale"])

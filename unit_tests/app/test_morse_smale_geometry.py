@@ -61,7 +61,7 @@ class Separatrices1(GeometryTest):
                 self.assertTrue(set(a) < set(b) or set(b) < set(a))
             ranks = [rank[v] for v in path[0] + path[-1]]
             values = [field[next(v for v in path[0] + path[-1] if rank[v] == r)] for r in (max(ranks), min(ranks))]
-            self.assertEqual([of[f"SeparatrixFunction{name}"] for name in ("Maximum", "Minimum", "Difference")], values + [values[0] - values[1]])
+            self.assertEqual([of[f"SeparatrixFunction{name}"] for name in ("Maximum", "Minimum", "Difference")], values + [gale.to_float(values[0] - values[1])])
             for p, simplex in zip(points, path):
                 corners = [(v % self.N, v // self.N % self.N, v // self.N ** 2) for v in simplex]
                 self.assertLess(math.dist(lines.points[p], gale.incentre(*corners) if len(corners) == 3 else gale.barycentre(corners)), 1e-4)
@@ -95,8 +95,8 @@ class Separatrices1(GeometryTest):
         lines = self.files("grid:32")["separatrices1.vtp"]
         self.assertEqual(lines.types("PointData"), {"ttkMaskScalarField": "Int8", "CellDimension": "Int8", "CellId": "Int32"})
         self.assertEqual(lines.types("CellData"), {"SourceId": "Int32", "DestinationId": "Int32", "SeparatrixId": "Int32", "SeparatrixType": "Int8",
-                                                   "SeparatrixFunctionMaximum": "Float64", "SeparatrixFunctionMinimum": "Float64",
-                                                   "SeparatrixFunctionDifference": "Float64", "NumberOfCriticalPointsOnBoundary": "Int8"})
+                                                   "SeparatrixFunctionMaximum": "Float32", "SeparatrixFunctionMinimum": "Float32",
+                                                   "SeparatrixFunctionDifference": "Float32", "NumberOfCriticalPointsOnBoundary": "Int32"})
 
     def test_without_some_kinds(self):
         def kinds(*arguments):
@@ -153,7 +153,7 @@ class Separatrices2(GeometryTest):
                  "NumberOfCriticalPointsOnBoundary")
         some = 0
         for kind, source, maximum, minimum, difference, count in set(zip(*(walls[name] for name in names))):
-            self.assertEqual(difference, maximum - minimum)
+            self.assertEqual(difference, gale.to_float(maximum - minimum))
             met = connected[kind, source]
             self.assertEqual(count, sum(on_boundary[saddle] for saddle in {(kind, source), *met}))
             if kind == 2:

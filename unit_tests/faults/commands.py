@@ -2,7 +2,7 @@
 import os
 import struct
 
-HAVE_VTK = os.environ.get("GALE_ENABLE_VTK", "1") == "1"
+HAVE = {what: os.environ.get(f"GALE_ENABLE_{what}", "1") == "1" for what in ("VTK", "KOKKOS_KERNELS")}
 
 
 def volume():
@@ -27,24 +27,24 @@ INPUTS = {"volume.mha": volume(), "mesh.vtk": mesh()}
 ONE = ["--quiet", "--threads", "1"]
 REPORT = ["--report", "report.json"]
 
-# Command lines, and which of them need VTK.
-COMMANDS = [(line.split() + ONE, needs_vtk) for line, needs_vtk in [
-    ("info grid:4 --report report.json", False),
-    ("info volume.mha", True),
-    ("info mesh.vtk", True),
-    ("critical-points grid:4 --structure gale --report report.json", False),
-    ("critical-points grid:4 --structure inline -o points.vtp", True),
-    ("critical-points grid:4 --structure explicit", False),
-    ("critical-points grid:4 --structure task-parallel", False),
-    ("discrete-gradient grid:4 -o critical.vtp --arrows arrows.vtp --report report.json", True),
-    ("discrete-gradient grid:4 --formulation cells", False),
-    ("morse-smale grid:4 -o p --separatrices2 --persistence 2% --report report.json", True),
-    ("relations grid:4 --relation VV --verify --dump rows.txt --report report.json", False),
-    ("relations grid:4 --relation FF --structure gale", False),
-    ("segment grid:4 --capacity 8 -o segments.vtu", True),
-    ("generate grid:4 -o mesh.vtk", True),
+# Command lines, and what they need.
+COMMANDS = [(line.split() + ONE, needs) for line, needs in [
+    ("info grid:4 --report report.json", None),
+    ("info volume.mha", "VTK"),
+    ("info mesh.vtk", "VTK"),
+    ("critical-points grid:4 --structure gale --report report.json", None),
+    ("critical-points grid:4 --structure inline -o points.vtp", "VTK"),
+    ("critical-points grid:4 --structure explicit", "KOKKOS_KERNELS"),
+    ("critical-points grid:4 --structure task-parallel", None),
+    ("discrete-gradient grid:4 -o critical.vtp --arrows arrows.vtp --report report.json", "VTK"),
+    ("discrete-gradient grid:4 --formulation cells", None),
+    ("morse-smale grid:4 -o p --separatrices2 --persistence 2% --report report.json", "VTK"),
+    ("relations grid:4 --relation VV --verify --dump rows.txt --report report.json", None),
+    ("relations grid:4 --relation FF --structure gale", None),
+    ("segment grid:4 --capacity 8 -o segments.vtu", "VTK"),
+    ("generate grid:4 -o mesh.vtk", "VTK"),
 ]]
 
 
 def commands():
-    return [line for line, needs_vtk in COMMANDS if HAVE_VTK or not needs_vtk]
+    return [line for line, needs in COMMANDS if needs is None or HAVE[needs]]

@@ -41,7 +41,7 @@ TEST(Separatrices1, fall_from_a_1_saddle_to_minima) {
   EXPECT_EQ(values_of<double>(lines.cell_arrays, "SeparatrixFunctionMaximum"), (Values{2, 2, 2, 2}));
   EXPECT_EQ(values_of<double>(lines.cell_arrays, "SeparatrixFunctionMinimum"), (Values{0, 0, 0, 1}));
   EXPECT_EQ(values_of<double>(lines.cell_arrays, "SeparatrixFunctionDifference"), (Values{2, 2, 2, 1}));
-  EXPECT_EQ(values_of<std::int8_t>(lines.cell_arrays, "NumberOfCriticalPointsOnBoundary"), (Bytes{2, 2, 2, 2}));
+  EXPECT_EQ(values_of<Id>(lines.cell_arrays, "NumberOfCriticalPointsOnBoundary"), (std::vector<Id>{2, 2, 2, 2}));
 }
 
 // The 2-saddle, triangle 156, number 15, is a face of the maximum, tetrahedron 4: that is the way. It has no other.
@@ -58,7 +58,7 @@ TEST(Separatrices1, rise_from_a_2_saddle_to_a_maximum) {
   EXPECT_EQ(values_of<double>(lines.cell_arrays, "SeparatrixFunctionMaximum"), (Values{10})) << "at vertex 0";
   EXPECT_EQ(values_of<double>(lines.cell_arrays, "SeparatrixFunctionMinimum"), (Values{3})) << "at vertex 5";
   EXPECT_EQ(values_of<double>(lines.cell_arrays, "SeparatrixFunctionDifference"), (Values{7}));
-  EXPECT_EQ(values_of<std::int8_t>(lines.cell_arrays, "NumberOfCriticalPointsOnBoundary"), (Bytes{1}));
+  EXPECT_EQ(values_of<Id>(lines.cell_arrays, "NumberOfCriticalPointsOnBoundary"), (std::vector<Id>{1}));
 }
 
 TEST(Separatrices1, between_equal_infinities_differ_by_nothing) {

@@ -34,7 +34,8 @@ GradientStore::GradientStore(const Mesh& mesh_, const VertexOrder& order_, int c
       tetrahedron_successor(allocate<Array<Id, HostMemory>>("GALE::tetrahedron_successor", mesh.tetrahedra())),
       pairs(mesh.vertices(), consumers),
       found_(consumers),
-      stars_(consumers) {
+      stars_(consumers),
+      further_(consumers) {
   require_same_mesh("the vertex order", order.mesh(), mesh);
 }
 
@@ -70,8 +71,11 @@ void GradientStore::finish() {
             [=](Id tetrahedron) { return tetrahedron_input[tetrahedron]; });
       }};
   in_turns(host_threads(), std::size(parts), [&](int, std::int64_t i) { parts[i](); });
+  for (const auto& some : further_) further_successors.insert(further_successors.end(), some.begin(), some.end());
+  std::sort(further_successors.begin(), further_successors.end());
   found_.clear();
   stars_.clear();
+  further_.clear();
   auto next = stars.begin();
   for (const auto& triangle : critical.triangles) {
     for (; next != stars.end() && next->triangle == triangle; ++next) critical.star.push_back(next->tetrahedron);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include <gale/algorithms/critical_simplices.hpp>
@@ -26,6 +27,12 @@ class GradientStore {
 
   /// Sets the tetrahedron across the triangle that a tetrahedron is paired with, or `outside`.
   void set_tetrahedron(Id tetrahedron, Id successor) { tetrahedron_successor(tetrahedron) = successor; }
+
+  /// Says that the triangle that a tetrahedron is paired with has a third tetrahedron, or one more, beside its
+  /// successor.
+  void add_successor(int consumer, Id tetrahedron, Id successor) {
+    further_[consumer].push_back({tetrahedron, successor});
+  }
 
   /// The successor of a tetrahedron that leaves through the surface, by the triangle opposite its corner.
   static Id outside(int corner) { return no_id - 1 - corner; }
@@ -57,6 +64,10 @@ class GradientStore {
   EdgePairs pairs;
   CriticalSimplices critical;
 
+  /// (tetrahedron, successor), ascending: where rising paths fork, at triangles of three tetrahedra or more, the
+  /// successors that `tetrahedron_successor` hasn't.
+  std::vector<std::pair<Id, Id>> further_successors;
+
  private:
   struct InStar {
     std::array<Id, 3> triangle;
@@ -66,6 +77,7 @@ class GradientStore {
   // What each consumer found.
   std::vector<CriticalSimplices> found_;
   std::vector<std::vector<InStar>> stars_;
+  std::vector<std::vector<std::pair<Id, Id>>> further_;
 };
 
 }  // namespace gale::detail

@@ -55,6 +55,12 @@ void GradientSweep::pair(const Star& star, const Lower& lower, const Cells& cell
       store_.set_tetrahedron(star.tetrahedra[place], across == Cells::no_place
                                                          ? surface_successor(star, place, id(low[0]), id(low[1]))
                                                          : star.tetrahedra[across]);
+      if constexpr (Cells::may_fork) {
+        cells.for_each_tetrahedron(facet, [&](Id other) {
+          if (other != place && other != across)
+            store_.add_successor(consumer_, star.tetrahedra[place], star.tetrahedra[other]);
+        });
+      }
     }
   };
   const auto critical = [&](int cell) {

@@ -14,6 +14,7 @@ namespace gale::detail {
 class LargeLowerStar {
  public:
   static constexpr Id no_place = no_id;
+  static constexpr bool may_fork = true;  ///< whether a triangle may have more than two tetrahedra
 
   /// `ranks`: of all neighbours, no_id for an upper one; `numbers(place)`: the number of each tetrahedron of the star.
   template <class Numbers>

@@ -26,6 +26,7 @@ class LowerStar {
   static constexpr int max_edges = Words == 1 ? 16 : 64;
   static constexpr std::uint8_t none = LowerNeighbours::none;
   static constexpr int no_place = -1;
+  static constexpr bool may_fork = false;  ///< whether a triangle may have more than two tetrahedra
 
   /// False if the star is too large or too irregular.
   KOKKOS_INLINE_FUNCTION bool build(const LowerNeighbours& lower, const LinkRow& link) {

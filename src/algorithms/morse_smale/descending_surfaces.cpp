@@ -15,7 +15,8 @@ namespace {
 /// One thread's part.
 class Tracer {
  public:
-  explicit Tracer(const DiscreteGradient& gradient) : wall(gradient) {}
+  Tracer(const DiscreteGradient& gradient, const TurnedEdges* turned)
+      : wall(gradient, turned), keys_(gradient.order().keys()) {}
 
   void add_wall(Id triangle) {
     walls.sources.push_back(triangle);
@@ -25,7 +26,10 @@ class Tracer {
 
   void add_connectors(const CriticalPlaces& places, Id triangle) {
     rim_.clear();
-    for (const auto& edge : wall.critical_edges()) rim_.push_back({places.of_edge(edge.high, edge.low), edge});
+    const std::uint64_t highest = keys_[wall.triangles().front()[0]];
+    for (const auto& edge : wall.critical_edges()) {
+      if (keys_[edge.high] <= highest) rim_.push_back({places.of_edge(edge.high, edge.low), edge});
+    }
     std::sort(rim_.begin(), rim_.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
     for (const auto& [place, edge] : rim_) {
       connectors.sources.push_back(place);
@@ -39,19 +43,21 @@ class Tracer {
   Separatrices<TriangleVertices> walls, connectors;
 
  private:
+  const std::uint64_t* keys_;
   std::vector<std::pair<Id, DescendingWall::Edge>> rim_;  ///< the wall's critical edges by their places
 };
 
 }  // namespace
 
-DescendingSurfaces descending_surfaces(const DiscreteGradient& gradient, const CriticalPlaces& places, bool want_walls,
-                                       bool want_connectors, int threads) {
-  const auto& triangles = gradient.critical().triangles;
+DescendingSurfaces descending_surfaces(const DiscreteGradient& gradient, const CriticalSimplices& critical,
+                                       const CriticalPlaces& places, bool want_walls, bool want_connectors, int threads,
+                                       const TurnedEdges* turned) {
+  const auto& triangles = critical.triangles;
   std::vector<std::unique_ptr<Tracer>> tracers(threads);
   const std::vector<Id> order = space_order(triangles);
   in_turns(threads, static_cast<std::int64_t>(triangles.size()), [&](int thread, std::int64_t i) {
     auto& tracer = tracers[thread];
-    if (!tracer) tracer = std::make_unique<Tracer>(gradient);
+    if (!tracer) tracer = std::make_unique<Tracer>(gradient, turned);
     tracer->wall.follow(triangles[order[i]]);
     if (want_walls) tracer->add_wall(order[i]);
     if (want_connectors) tracer->add_connectors(places, order[i]);

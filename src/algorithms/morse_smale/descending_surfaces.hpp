@@ -2,6 +2,7 @@
 
 #include <gale/algorithms/discrete_gradient.hpp>
 #include <gale/algorithms/morse_smale/critical_places.hpp>
+#include <gale/algorithms/persistence/turned_edges.hpp>
 #include <gale/algorithms/separatrices.hpp>
 
 namespace gale::detail {
@@ -15,9 +16,11 @@ struct DescendingSurfaces {
   Separatrices<TriangleVertices> connectors;
 };
 
-/// Finds them on `threads` threads. Walls are in the order of critical triangles, and so are connectors; those of one
-/// triangle in the order of critical edges.
-DescendingSurfaces descending_surfaces(const DiscreteGradient& gradient, const CriticalPlaces& places, bool want_walls,
-                                       bool want_connectors, int threads);
+/// Finds those of `critical` on `threads` threads. With `turned` in the gradient that these edges make of it, and no
+/// connector of which the critical edge is higher than the triangle. Walls are in the order of critical triangles, and
+/// so are connectors; those of one triangle in the order of critical edges.
+DescendingSurfaces descending_surfaces(const DiscreteGradient& gradient, const CriticalSimplices& critical,
+                                       const CriticalPlaces& places, bool want_walls, bool want_connectors, int threads,
+                                       const TurnedEdges* turned = nullptr);
 
 }  // namespace gale::detail

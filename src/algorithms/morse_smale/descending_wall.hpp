@@ -4,6 +4,7 @@
 
 #include <gale/algorithms/discrete_gradient.hpp>
 #include <gale/algorithms/gradient/gradient_store.hpp>
+#include <gale/algorithms/persistence/turned_edges.hpp>
 #include <gale/algorithms/separatrices.hpp>
 #include <gale/base/hash_table.hpp>
 
@@ -17,11 +18,16 @@ class DescendingWall {
     Id high, low;
   };
 
-  explicit DescendingWall(const DiscreteGradient& gradient);
+  /// With `turned` in the gradient that these edges make of it; it may change between walls.
+  explicit DescendingWall(const DiscreteGradient& gradient, const TurnedEdges* turned = nullptr);
 
   /// Finds the wall of a critical triangle, which is given by its vertices from the highest to the lowest. Time and
   /// memory grow with the wall.
   void follow(const TriangleVertices& critical);
+
+  /// Finds as much of the wall as it takes to meet a critical edge, if it is in the wall: whether it is. Looks at no
+  /// edge below that one if `above_it`.
+  bool follow_to(const TriangleVertices& critical, const Edge& edge, bool above_it);
 
   /// Its triangles, breadth first, the critical one first. The first two vertices of each other triangle are the edge
   /// that it is paired with, the higher vertex first.
@@ -29,6 +35,16 @@ class DescendingWall {
 
   /// The critical edges of its rim.
   const std::vector<Edge>& critical_edges() const { return critical_edges_; }
+
+  /// Those edges of its rim that `turned` pairs with vertices.
+  const std::vector<Edge>& cancelled_edges() const { return cancelled_edges_; }
+
+  /// Finds out which triangles one path alone leads to, for `paths_from`.
+  void count_paths();
+
+  /// How many paths rise from an edge to the critical triangle: 0, 1, or 2 for more. The edge need not be critical.
+  /// After `follow` and `count_paths`.
+  int paths_from(const Edge& edge) const;
 
   /// Appends the path inside the wall that rises from one of its critical edges to the critical triangle: the
   /// triangles, the last one included. Where several triangles of the wall meet at an edge, it takes the one that is
@@ -43,15 +59,22 @@ class DescendingWall {
     bool are_several = false;
   };
 
+  void begin(const TriangleVertices& critical);
+  void cross_sides(std::uint32_t triangle);
+  void cross_in_order(Id a, Id b, std::uint32_t from);
   void cross(Id high, Id low, std::uint32_t from);
+  Id third_of(Id high, Id low) const;
   bool is_less(const TriangleVertices& a, const TriangleVertices& b) const;
 
   const EdgePairs& pairs_;
   const Id* vertex_successor_;
   const std::uint64_t* keys_;
   const Id* vertex_input_;
+  const TurnedEdges* turned_;
+  std::uint64_t floor_ = 0;  ///< edges with a lower higher end are left out
   std::vector<TriangleVertices> triangles_;
-  std::vector<Edge> critical_edges_;
+  std::vector<char> has_one_path_;  ///< of each triangle
+  std::vector<Edge> critical_edges_, cancelled_edges_;
   HashTable<Above> above_;
 };
 

@@ -18,11 +18,14 @@ MorseSmaleComplex find_morse_smale_complex(Structure& structure, const DiscreteG
   const int threads = std::max(options.threads, 1);
   const detail::CriticalPlaces places(gradient.critical());
   MorseSmaleComplex complex{gradient, parts, gradient.critical()};
-  if (parts.descending_separatrices) complex.descending = detail::descending_separatrices(gradient, places);
-  if (parts.ascending_separatrices) complex.ascending = detail::ascending_separatrices(gradient, places);
+  if (parts.descending_separatrices)
+    complex.descending =
+        detail::descending_separatrices(gradient.mesh(), gradient.vertex_successors(), complex.critical, places);
+  if (parts.ascending_separatrices)
+    complex.ascending = detail::ascending_separatrices(gradient.tetrahedron_successors(), complex.critical, places);
   if (parts.saddle_connectors || parts.separatrices2) {
-    auto surfaces =
-        detail::descending_surfaces(gradient, places, parts.separatrices2, parts.saddle_connectors, threads);
+    auto surfaces = detail::descending_surfaces(gradient, complex.critical, places, parts.separatrices2,
+                                                parts.saddle_connectors, threads);
     complex.connectors = std::move(surfaces.connectors);
     complex.descending_walls = std::move(surfaces.walls);
   }

@@ -46,9 +46,10 @@ Separatrices<Id> paths_of(const Id* successors, const std::vector<Id>& starts, c
 
 }  // namespace
 
-Separatrices<Id> descending_separatrices(const DiscreteGradient& gradient, const CriticalPlaces& places) {
-  const auto& edges = gradient.critical().edges;
-  const Id* const input = gradient.mesh().vertex_input().data();
+Separatrices<Id> descending_separatrices(const Mesh& mesh, const Array<const Id, HostMemory>& successors,
+                                         const CriticalSimplices& critical, const CriticalPlaces& places) {
+  const auto& edges = critical.edges;
+  const Id* const input = mesh.vertex_input().data();
   std::vector<Id> starts, sources;
   for (std::size_t i = 0; i < edges.size(); ++i) {
     const auto [a, b] = edges[i];
@@ -56,16 +57,15 @@ Separatrices<Id> descending_separatrices(const DiscreteGradient& gradient, const
     starts.insert(starts.end(), {in_order ? a : b, in_order ? b : a});
     sources.insert(sources.end(), 2, static_cast<Id>(i));
   }
-  return paths_of(gradient.vertex_successors().data(), starts, sources,
-                  [&](Id vertex) { return places.of_vertex(vertex); });
+  return paths_of(successors.data(), starts, sources, [&](Id vertex) { return places.of_vertex(vertex); });
 }
 
-Separatrices<Id> ascending_separatrices(const DiscreteGradient& gradient, const CriticalPlaces& places) {
-  const CriticalSimplices& critical = gradient.critical();
+Separatrices<Id> ascending_separatrices(const Array<const Id, HostMemory>& successors,
+                                        const CriticalSimplices& critical, const CriticalPlaces& places) {
   std::vector<Id> sources;
   for (std::size_t i = 0; i < critical.triangles.size(); ++i)
     sources.insert(sources.end(), critical.star_begin[i + 1] - critical.star_begin[i], static_cast<Id>(i));
-  return paths_of(gradient.tetrahedron_successors().data(), critical.star, sources,
+  return paths_of(successors.data(), critical.star, sources,
                   [&](Id tetrahedron) { return places.of_tetrahedron(tetrahedron); });
 }
 

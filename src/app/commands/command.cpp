@@ -1,8 +1,10 @@
+#include <algorithm>
+#include <cctype>
+
 #include <CLI/CLI.hpp>
 
 #include <gale/app/commands/command.hpp>
 #include <gale/app/usage_error.hpp>
-#include <gale/io/vtk/vtk_files.hpp>
 
 namespace gale::app {
 
@@ -14,12 +16,22 @@ Command::Command(CLI::App& app, const std::string& name, const std::string& what
 
 bool Command::is_chosen() const { return subcommand_.parsed(); }
 
+namespace {
+
+/// In either case; more than the extension alone.
+bool ends_in(const std::string& file, const std::string& extension) {
+  return file.size() > extension.size() && std::equal(extension.rbegin(), extension.rend(), file.rbegin(),
+                                                      [](char a, unsigned char b) { return a == std::tolower(b); });
+}
+
+}  // namespace
+
 void Command::require_extension(const std::string& option, const std::string& file,
                                 std::initializer_list<const char*> extensions) const {
   if (file.empty()) return;
   std::string list;
   for (const std::string extension : extensions) {
-    if (io::detail::format_of(file) == io::detail::format_of("any" + extension)) return;
+    if (ends_in(file, extension)) return;
     list += (list.empty() ? "" : " or ") + extension;
   }
   throw UsageError(option + ' ' + file + ": gale " + subcommand_.get_name() + " writes " + list);

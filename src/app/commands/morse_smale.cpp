@@ -6,7 +6,7 @@
 #include <gale/app/commands/morse_smale_files.hpp>
 #include <gale/app/critical_counts.hpp>
 #include <gale/app/drawing/scene.hpp>
-#include <gale/app/options/parse.hpp>
+#include <gale/app/options/persistence_option.hpp>
 #include <gale/app/session.hpp>
 #include <gale/app/usage_error.hpp>
 #include <gale/base/error.hpp>
@@ -54,19 +54,20 @@ void tell(const MorseSmaleComplex& complex, const MorseSmaleParts& parts, Sessio
        session);
 }
 
+/// How many pairs are left although their persistence is below the threshold.
+void tell(const KeptBelow& kept, Session& session) {
+  if (kept.count() != 0) {
+    session.console().say(
+        "kept below", grouped(kept.count()) + " pairs of saddles below the threshold: " + grouped(kept.several_paths) +
+                          " with several paths between them, " + grouped(kept.no_path) + " with none");
+  }
+  session.report().result["kept_below"] = {{"several_paths", kept.several_paths}, {"no_path", kept.no_path}};
+}
+
 void require_png(const std::string& file) {
   const std::string extension = file.size() > 4 ? file.substr(file.size() - 4) : "";
   if (extension != ".png" && extension != ".PNG")
     throw UsageError("--render " + file + ": gale morse-smale draws .png");
-}
-
-/// The threshold of --persistence; names the option in what goes wrong.
-double threshold_of_option(const outputs::Persistence& persistence, const io::PointArray& field) {
-  try {
-    return outputs::threshold_of(persistence, field);
-  } catch (const Error& error) {
-    throw Error(std::string("--persistence: ") + error.what());
-  }
 }
 
 class FindMorseSmale final : public Command {
@@ -82,12 +83,11 @@ class FindMorseSmale final : public Command {
                     "P_separatrices2.vtp")
         ->type_name("P");
     add_parts();
-    const auto set = [this](const std::string& text) { persistence_ = parse_persistence("--persistence", text); };
-    subcommand()
-        .add_option_function<std::string>(
-            "--persistence", set,
-            "Cancel pairs of critical simplices whose values differ by less than this; with a % of the field's range")
-        ->type_name("X[%]");
+    add_persistence(
+        subcommand(), persistence_,
+        "Cancel pairs of critical simplices whose values differ by less than this; with a % of the field's range");
+    subcommand().add_flag("--extrema-only", extrema_only_,
+                          "With --persistence: cancel minima and maxima, but no saddles with one another");
     subcommand()
         .add_option(
             "--render", render_,
@@ -96,6 +96,7 @@ class FindMorseSmale final : public Command {
   }
 
   void run() const override {
+    if (extrema_only_ && !persistence_) throw UsageError("--extrema-only: it goes with --persistence");
     if (!render_.empty()) {
       require_png(render_);
       require_drawing();
@@ -107,6 +108,7 @@ class FindMorseSmale final : public Command {
     const auto structure = session.make_structure(structure_, on.mesh, morse_smale_relations);
     MorseSmaleComplex complex = find(*structure, on, session);
     tell(complex, parts_, session);
+    if (persistence_) tell(complex.kept_below, session);
     if (files.any()) write(files, parts_, on, complex, *structure, session);
     session.finish(structure.get());
   }
@@ -131,12 +133,11 @@ class FindMorseSmale final : public Command {
                           "Also the 2-separatrices, the walls of saddles. Large");
   }
 
-  /// What is wanted, and what has to be found for that: a simplification needs all paths, and the arrays of walls the
-  /// connectors.
+  /// What is wanted, and what has to be found for that: a simplification needs the connectors, and so do the arrays of
+  /// walls.
   MorseSmaleParts needed_parts() const {
     MorseSmaleParts parts = parts_;
-    if (persistence_) parts.descending_separatrices = parts.ascending_separatrices = true;
-    if (persistence_ || parts.separatrices2) parts.saddle_connectors = true;
+    if ((persistence_ && !extrema_only_) || parts.separatrices2) parts.saddle_connectors = true;
     return parts;
   }
 
@@ -147,13 +148,18 @@ class FindMorseSmale final : public Command {
     MorseSmaleComplex complex = find_morse_smale_complex(structure, gradient, needed_parts(), session.sweep("complex"));
     if (!persistence_) return complex;
     const auto value = [&](Id vertex) { return outputs::value_at(on.field, vertex); };
-    return simplify(complex, value, threshold_of_option(*persistence_, on.field));
+    SimplifyOptions options;
+    options.extrema_only = extrema_only_;
+    const double threshold = threshold_of_option(*persistence_, on.field);
+    complex = simplify(complex, value, threshold, options);
+    return complex;
   }
 
   SegmentationOptions segmentation_;
   StructureOption structure_;
   MorseSmaleParts parts_;  ///< that are wanted
   std::optional<outputs::Persistence> persistence_;
+  bool extrema_only_ = false;
   std::string output_, render_;
 };
 

@@ -1,3 +1,4 @@
+#include <gale/app/drawing/flat.hpp>
 #include <gale/app/drawing/scene.hpp>
 #include <gale/base/error.hpp>
 
@@ -8,5 +9,7 @@ void require_drawing() {
 }
 
 void draw(const io::AtomicFile&, const Scene&) { require_drawing(); }
+
+void draw(const io::AtomicFile&, const Flat&) { require_drawing(); }
 
 }  // namespace gale::app

@@ -81,6 +81,9 @@ class CellSweep {
       } else {
         const Id tetrahedron = star_.tetrahedron(cell), across = star_.across(facet, tetrahedron, tetrahedron_input_);
         store_.set_tetrahedron(tetrahedron, across == no_id ? leave(tetrahedron, odd_one(both, low)) : across);
+        star_.for_each_tetrahedron(facet, [&](Id other) {
+          if (other != tetrahedron && other != across) store_.add_successor(consumer_, tetrahedron, other);
+        });
       }
     };
     const auto critical = [&](int cell) {

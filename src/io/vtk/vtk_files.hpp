@@ -23,6 +23,7 @@ GALE_EXPORT bool has_vtk();
 /// the file.
 void write_points_with_vtk(const std::string& path, const PointSet& points);
 void write_surface_with_vtk(const std::string& path, const Surface& surface);
+void write_lines_with_vtk(const std::string& path, const Surface& lines);
 void write_mesh_with_vtk(const std::string& path, Format format, const Dataset& mesh,
                          const std::vector<PointArray>& more);
 

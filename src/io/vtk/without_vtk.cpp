@@ -16,6 +16,8 @@ void write_points_with_vtk(const std::string&, const PointSet&) { refuse(); }
 
 void write_surface_with_vtk(const std::string&, const Surface&) { refuse(); }
 
+void write_lines_with_vtk(const std::string&, const Surface&) { refuse(); }
+
 void write_mesh_with_vtk(const std::string&, Format, const Dataset&, const std::vector<PointArray>&) { refuse(); }
 
 }  // namespace gale::io::detail

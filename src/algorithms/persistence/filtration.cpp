@@ -1,0 +1,66 @@
+#include <algorithm>
+#include <functional>
+
+#include <gale/algorithms/persistence/filtration.hpp>
+#include <gale/base/threads.hpp>
+
+namespace gale::detail {
+
+namespace {
+
+/// Sorts `count` simplices by vertices_of(place), which has them from the highest to the lowest.
+template <class VerticesOf>
+void sort_places(const std::uint64_t* keys, std::size_t count, const VerticesOf& vertices_of, std::vector<Id>& by_rank,
+                 std::vector<Id>& rank) {
+  struct Keyed {
+    std::uint64_t highest;
+    Id place;
+  };
+  std::vector<Keyed> keyed(count);
+  for (std::size_t i = 0; i < count; ++i) keyed[i] = {keys[vertices_of(i)[0]], static_cast<Id>(i)};
+  const auto is_before = [&](const Keyed& a, const Keyed& b) {
+    if (a.highest != b.highest) return a.highest < b.highest;
+    const auto of_a = vertices_of(a.place), of_b = vertices_of(b.place);
+    for (std::size_t i = 1; i < of_a.size(); ++i) {
+      if (of_a[i] != of_b[i]) return keys[of_a[i]] < keys[of_b[i]];
+    }
+    return false;
+  };
+  std::sort(keyed.begin(), keyed.end(), is_before);
+  by_rank.resize(count);
+  rank.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    by_rank[i] = keyed[i].place;
+    rank[keyed[i].place] = static_cast<Id>(i);
+  }
+}
+
+}  // namespace
+
+std::array<Id, 4> from_highest(const DiscreteGradient& gradient, Id tetrahedron) {
+  const auto& corners = gradient.mesh().encoded().tetrahedra;
+  const std::uint64_t* const keys = gradient.order().keys();
+  std::array<Id, 4> vertices;
+  for (int i = 0; i < 4; ++i) vertices[i] = corners(tetrahedron, i);
+  std::sort(vertices.begin(), vertices.end(), [&](Id a, Id b) { return keys[a] > keys[b]; });
+  return vertices;
+}
+
+Filtration filtration_of(const DiscreteGradient& gradient, int threads) {
+  const CriticalSimplices& critical = gradient.critical();
+  const std::uint64_t* const keys = gradient.order().keys();
+  Filtration filtration;
+  const auto sort = [&](int dimension, const auto& vertices_of) {
+    sort_places(keys, critical.counts()[dimension], vertices_of, filtration.by_rank[dimension],
+                filtration.rank[dimension]);
+  };
+  const std::function<void()> parts[] = {
+      [&] { sort(2, [&](std::size_t i) { return critical.triangles[i]; }); },
+      [&] { sort(1, [&](std::size_t i) { return critical.edges[i]; }); },
+      [&] { sort(0, [&](std::size_t i) { return std::array<Id, 1>{critical.vertices[i]}; }); },
+      [&] { sort(3, [&](std::size_t i) { return from_highest(gradient, critical.tetrahedra[i]); }); }};
+  in_turns(threads, std::size(parts), [&](int, std::int64_t i) { parts[i](); });
+  return filtration;
+}
+
+}  // namespace gale::detail

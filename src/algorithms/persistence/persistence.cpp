@@ -1,0 +1,109 @@
+#include <algorithm>
+#include <functional>
+
+#include <gale/algorithms/persistence.hpp>
+#include <gale/algorithms/persistence/filtration.hpp>
+#include <gale/algorithms/persistence/forked_maxima.hpp>
+#include <gale/algorithms/persistence/joined_ends.hpp>
+#include <gale/algorithms/persistence/pairs.hpp>
+#include <gale/algorithms/persistence/saddle_pairs.hpp>
+#include <gale/base/threads.hpp>
+
+namespace gale {
+
+namespace {
+
+using detail::CriticalPlaces;
+using detail::Filtration;
+
+/// For each minimum the 1-saddle that it is paired with.
+std::vector<Id> pair_minima(const DiscreteGradient& gradient, const CriticalPlaces& places,
+                            const Filtration& filtration) {
+  return detail::join_ends(filtration.by_rank[1], ends_of_edges(gradient, places), filtration.rank[0]);
+}
+
+/// For each maximum the 2-saddle that it is paired with.
+std::vector<Id> pair_maxima(const DiscreteGradient& gradient, const CriticalPlaces& places,
+                            const Filtration& filtration, bool may_fork) {
+  if (may_fork && detail::forks(gradient)) return detail::pair_forked_maxima(gradient, places, filtration);
+  const std::vector<Id> falling(filtration.by_rank[2].rbegin(), filtration.by_rank[2].rend());
+  std::vector<Id> age = filtration.rank[3];
+  for (Id& rank : age) rank = static_cast<Id>(age.size()) - 1 - rank;
+  return detail::join_ends(falling, ends_of_triangles(gradient, places), age);
+}
+
+/// What each simplex is paired with, by dimension and place.
+class Partners {
+ public:
+  explicit Partners(const std::array<Id, 4>& counts) {
+    for (int d = 0; d < 4; ++d) is_paired_[d].assign(counts[d], 0);
+  }
+
+  /// `upper[i]`: what the i-th simplex of `dimension` is paired with, no_id if with nothing.
+  std::vector<PersistencePair> from_lower(int dimension, const std::vector<Id>& upper) {
+    std::vector<PersistencePair> pairs;
+    for (std::size_t i = 0; i < upper.size(); ++i) {
+      if (upper[i] == no_id) continue;
+      pairs.push_back({static_cast<Id>(i), upper[i]});
+      is_paired_[dimension][i] = is_paired_[dimension + 1][upper[i]] = 1;
+    }
+    return pairs;
+  }
+
+  /// The same from what the simplices of `dimension` + 1 are paired with.
+  std::vector<PersistencePair> from_upper(int dimension, const std::vector<Id>& lower) {
+    std::vector<Id> upper(is_paired_[dimension].size(), no_id);
+    for (std::size_t i = 0; i < lower.size(); ++i) {
+      if (lower[i] != no_id) upper[lower[i]] = static_cast<Id>(i);
+    }
+    return from_lower(dimension, upper);
+  }
+
+  bool is_paired(int dimension, Id place) const { return is_paired_[dimension][place] != 0; }
+
+  std::vector<Id> unpaired(int dimension) const {
+    std::vector<Id> unpaired;
+    for (std::size_t i = 0; i < is_paired_[dimension].size(); ++i) {
+      if (!is_paired(dimension, static_cast<Id>(i))) unpaired.push_back(static_cast<Id>(i));
+    }
+    return unpaired;
+  }
+
+ private:
+  std::array<std::vector<char>, 4> is_paired_;
+};
+
+PersistencePairs pairs_of(const DiscreteGradient& gradient, const SweepOptions& options, bool may_fork) {
+  const ThreadLimit limit(options.threads);
+  const int threads = std::max(options.threads, 1);
+  const CriticalPlaces places(gradient.critical());
+  const Filtration filtration = detail::filtration_of(gradient, threads);
+  std::vector<Id> saddle_of_minimum, saddle_of_maximum;
+  const std::function<void()> extrema[] = {
+      [&] { saddle_of_minimum = pair_minima(gradient, places, filtration); },
+      [&] { saddle_of_maximum = pair_maxima(gradient, places, filtration, may_fork); }};
+  in_turns(threads, 2, [&](int, std::int64_t i) { extrema[i](); });
+  PersistencePairs found;
+  Partners partners(gradient.critical().counts());
+  found.pairs[0] = partners.from_lower(0, saddle_of_minimum);
+  found.pairs[2] = partners.from_upper(2, saddle_of_maximum);
+  std::vector<Id> columns;
+  for (const Id triangle : filtration.by_rank[2]) {
+    if (!partners.is_paired(2, triangle)) columns.push_back(triangle);
+  }
+  found.pairs[1] = partners.from_lower(1, pair_saddles(gradient, places, filtration, columns, threads));
+  for (int d = 0; d < 4; ++d) found.essential[d] = partners.unpaired(d);
+  return found;
+}
+
+}  // namespace
+
+PersistencePairs find_persistence_pairs(const DiscreteGradient& gradient, const SweepOptions& options) {
+  return pairs_of(gradient, options, true);
+}
+
+PersistencePairs detail::pairs_along_successors(const DiscreteGradient& gradient, const SweepOptions& options) {
+  return pairs_of(gradient, options, false);
+}
+
+}  // namespace gale

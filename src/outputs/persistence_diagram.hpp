@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <gale/algorithms/persistence.hpp>
+#include <gale/export.hpp>
+#include <gale/io/write.hpp>
+
+namespace gale::outputs {
+
+/// A class of homology: where it begins and where it ends.
+struct DiagramPoint {
+  std::int8_t type;      ///< the dimension of the class
+  bool is_finite;        ///< whether it ends; if not, its end is the field's highest vertex
+  Id begin, end;         ///< input ids: the highest vertices of the pair's simplices
+  double birth, death;   ///< the field's values there
+  std::int8_t end_type;  ///< the dimension of the simplex that ends it, 3 if none does
+
+  double persistence() const { return birth == death ? 0 : death - birth; }
+};
+
+/// All pairs and essential classes, by type; of one type the pairs in their order, then the essential classes. Without
+/// the pairs whose persistence is below `least`; what never ends is always there. `field` is that of the gradient.
+GALE_EXPORT std::vector<DiagramPoint> persistence_diagram(const DiscreteGradient& gradient,
+                                                          const PersistencePairs& pairs, const io::PointArray& field,
+                                                          double least = 0);
+
+/// How many pairs and essential classes of each dimension a diagram has.
+struct DiagramCounts {
+  Id pairs[3] = {}, essential[4] = {};
+};
+GALE_EXPORT DiagramCounts counts_of(const std::vector<DiagramPoint>& diagram);
+
+/// The diagram as lines, one for each of its points, from (birth, birth, 0) to (birth, death, 0), then the diagonal,
+/// from the first birth to the last. In float if the field is, else in double.
+///
+/// Point arrays: ttkVertexScalarField (int32, the input vertex), CriticalType (int8: the dimension of the simplex),
+/// Coordinates (of that vertex). Cell arrays: PairIdentifier (int32, from 0; the diagonal -1), PairType (int8; the
+/// diagonal -1), Persistence and Birth (float if the field is, else double; of the diagonal twice the greatest finite
+/// persistence, and the first birth), IsFinite (uint8; the diagonal 0).
+GALE_EXPORT io::Surface to_lines(const io::Dataset& dataset, const io::PointArray& field,
+                                 const std::vector<DiagramPoint>& diagram);
+
+/// How many pairs persist: for each persistence that a pair has, ascending, the number of pairs of each type of that
+/// persistence or more. What never ends doesn't count.
+struct PersistenceCurve {
+  std::vector<double> persistence;
+  std::vector<Id> pairs[3];
+};
+GALE_EXPORT PersistenceCurve persistence_curve(const std::vector<DiagramPoint>& diagram);
+
+/// The curve as comma-separated values, with a line of titles: Persistence, MinimumSaddle, SaddleSaddle, SaddleMaximum,
+/// All. Numbers are written such that they are read back as they are.
+GALE_EXPORT std::string to_csv(const PersistenceCurve& curve);
+
+}  // namespace gale::outputs

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <array>
+#include <set>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "algorithms/brute_force_gradient.hpp"
+
+namespace gale::test {
+
+/// Pairs of critical simplices, by the dimension of the lower one, and those in none, by dimension.
+struct NamedPairs {
+  std::array<std::set<std::pair<Simplex, Simplex>>, 3> pairs;
+  std::array<std::set<Simplex>, 4> essential;
+};
+
+/// From a gradient, by its definition: boundaries in numbers of paths modulo 2, and the reduction of that matrix.
+NamedPairs brute_force_pairs(const std::vector<double>& field, const BruteForceGradient& gradient);
+
+/// The persistent homology of the mesh's simplices, without any gradient: for each pair that doesn't begin and end at
+/// the same vertex its dimension and the two vertices at which it does; for what never ends -1 as the second.
+using VertexPairs = std::multiset<std::tuple<int, Id, Id>>;
+VertexPairs brute_force_vertex_pairs(const InputMesh& mesh, const std::vector<double>& field);
+
+/// The same of pairs that are known.
+VertexPairs vertex_pairs(const std::vector<double>& field, const NamedPairs& pairs);
+
+}  // namespace gale::test
