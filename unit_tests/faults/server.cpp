@@ -82,6 +82,7 @@ int serve(int argc, char** argv, char** environment) {
       std::exit(counted_main(argc, argv, environment));
     }
     const int status = wait_for(child, seconds);
+    fault->counts = false;  // the child may have ended in the middle
     const char* const how = status == -1 ? "hang" : WIFEXITED(status) ? "exit" : "signal";
     dprintf(4, "%s %d %ld %ld\n", how, WIFEXITED(status) ? WEXITSTATUS(status) : WTERMSIG(status), fault->calls.load(),
             fault->failed.load());

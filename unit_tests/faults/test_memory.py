@@ -27,7 +27,7 @@ class Memory(unittest.TestCase):
 
     def test_limits(self):
         for line in (["critical-points", "grid:30", "--structure", "inline"], ["relations", "grid:20", "--relation", "FF"],
-                     ["morse-smale", "grid:20"] + ["-o", "p"] * commands.HAVE_VTK):
+                     ["morse-smale", "grid:20", "--separatrices2"]):  # without files: VTK 9.1 uses what it didn't get
             with self.subTest(line=line), tempfile.TemporaryDirectory() as folder:
                 limit = self.least(line, folder)
                 code = 1

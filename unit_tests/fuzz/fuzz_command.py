@@ -14,7 +14,7 @@ import tempfile
 from pathlib import Path
 
 GALE = os.environ["GALE"]
-COMMANDS = ["info", "segment", "critical-points", "discrete-gradient", "morse-smale", "relations", "generate"]
+COMMANDS = ["info", "segment", "critical-points", "discrete-gradient", "morse-smale", "persistence-diagram", "relations", "generate"]
 VALUES = ["0", "1", "-1", "2", "3", "1000", "2147483648", "99999999999999999999", "nan", "inf", "", "x", "1e3", "5%", "0.5", "1k"]
 OUTPUTS = ["out.vtp", "out.vtu", "out.vtk", "out", "missing/out.vtp", ".", "out.json", "/dev/null", "/dev/full", "input.vtu"]
 OPTIONS = {
