@@ -45,21 +45,38 @@ void require_ids(std::size_t count, const char* of_what) {
               std::to_string(points));
 }
 
+/// The values as T, without a copy if they are. Throws gale::Error for one that T doesn't hold. `what` they are.
+template <class T>
+std::vector<T> taken_as(PointArray::Values& values, const char* what) {
+  if (auto* const same = std::get_if<std::vector<T>>(&values)) return std::move(*same);
+  return with_integers(values, what, [&](const auto& from) {
+    std::vector<T> to(from.size());
+    for (std::size_t k = 0; k < from.size(); ++k) {
+      to[k] = static_cast<T>(from[k]);
+      const bool fits = static_cast<std::decay_t<decltype(from[k])>>(to[k]) == from[k] && (to[k] < 0) == (from[k] < 0);
+      if (!fits) damaged(std::string("one of its ") + what + " is " + std::to_string(from[k]));
+    }
+    return to;
+  });
+}
+
+using Types = std::vector<std::uint8_t>;
+using Ends = std::vector<std::int64_t>;
+
 /// What kinds of cells there are.
 struct Census {
   std::size_t tetrahedra = 0, lower = 0, other = 0, first_other = 0;
 };
 
 /// Checks the types and where each cell lies.
-template <class Types, class Ends>
 Census take_census(const Types& types, const Ends& ends, std::size_t connectivity) {
   Census census;
   const CellType* known[256];
   for (int number = 0; number < 256; ++number) known[number] = find_cell_type(number);
   std::uint64_t begin = 0;
   for (std::size_t c = 0; c < types.size(); ++c) {
-    const auto number = static_cast<std::int64_t>(types[c]);
-    const CellType* const type = number >= 0 && number < 256 ? known[number] : nullptr;
+    const int number = types[c];
+    const CellType* const type = known[number];
     if (type == nullptr) damaged("cell " + std::to_string(c) + " has the unknown type " + std::to_string(number));
     const auto end = static_cast<std::uint64_t>(ends[c]);  // below 0 becomes a huge one
     if (end < begin || end > connectivity) {
@@ -105,7 +122,7 @@ void copy_all(const Connectivity& from, std::size_t points, const Tetrahedra& to
   }
 }
 
-template <class Types, class Ends, class Connectivity>
+template <class Connectivity>
 void copy_some(const Types& types, const Ends& ends, const Connectivity& from, std::size_t points,
                const Tetrahedra& to) {
   std::size_t t = 0;
@@ -121,7 +138,7 @@ void copy_some(const Types& types, const Ends& ends, const Connectivity& from, s
 }
 
 /// The cells of dimension 3, checked, as tetrahedra.
-template <class Types, class Ends, class Connectivity>
+template <class Connectivity>
 Tetrahedra split(const MeshParts& parts, const Types& types, const Ends& ends, const Connectivity& connectivity,
                  std::size_t points) {
   std::vector<std::uint8_t> solid_types;
@@ -129,7 +146,7 @@ Tetrahedra split(const MeshParts& parts, const Types& types, const Ends& ends, c
   std::size_t begin = 0;
   for (std::size_t c = 0; c < types.size(); ++c) {
     const auto end = static_cast<std::size_t>(ends[c]);
-    const CellType& type = *find_cell_type(static_cast<int>(types[c]));
+    const CellType& type = *find_cell_type(types[c]);
     if (type.dimension == 3) {
       if (type.points == 0) throw Error("cell " + std::to_string(c) + " is a " + type.name + ", which isn't split");
       for (std::size_t k = begin; k < end; ++k) {
@@ -137,7 +154,7 @@ Tetrahedra split(const MeshParts& parts, const Types& types, const Ends& ends, c
         if (static_cast<std::uint64_t>(id) >= points) refuse_point(c, static_cast<std::int64_t>(id), points);
         solid_points.push_back(static_cast<std::int64_t>(id));
       }
-      solid_types.push_back(static_cast<std::uint8_t>(types[c]));
+      solid_types.push_back(types[c]);
       solid_ends.push_back(static_cast<std::int64_t>(solid_points.size()));
     }
     begin = end;
@@ -150,29 +167,25 @@ Tetrahedra split(const MeshParts& parts, const Types& types, const Ends& ends, c
   return tetrahedra;
 }
 
-Tetrahedra to_tetrahedra(const MeshParts& parts, bool tetrahedralize, std::size_t points, Census& census) {
-  const Cells& cells = parts.cells;
-  if (count_of(cells.types) != count_of(cells.ends)) {
-    damaged("it has types of " + std::to_string(count_of(cells.types)) + " cells and offsets of " +
-            std::to_string(count_of(cells.ends)));
+Tetrahedra to_tetrahedra(MeshParts& parts, bool tetrahedralize, std::size_t points, Census& census) {
+  const Types types = taken_as<std::uint8_t>(parts.cells.types, "types");
+  const Ends ends = taken_as<std::int64_t>(parts.cells.ends, "offsets");
+  if (types.size() != ends.size()) {
+    damaged("it has types of " + std::to_string(types.size()) + " cells and offsets of " + std::to_string(ends.size()));
   }
-  return with_integers(cells.types, "types", [&](const auto& types) {
-    return with_integers(cells.ends, "offsets", [&](const auto& ends) {
-      return with_integers(cells.connectivity, "connectivities", [&](const auto& connectivity) {
-        census = take_census(types, ends, connectivity.size());
-        if (census.other > 0 && tetrahedralize) return split(parts, types, ends, connectivity, points);
-        if (census.other > 0) refuse_solid(census.first_other, static_cast<int>(types[census.first_other]));
-        if (census.tetrahedra == 0) throw Error("it has no tetrahedra");
-        require_ids(census.tetrahedra, "tetrahedra");
-        const auto tetrahedra = allocate<Tetrahedra>("GALE::tetrahedra", census.tetrahedra);
-        if (census.tetrahedra == types.size()) {
-          copy_all(connectivity, points, tetrahedra);
-        } else {
-          copy_some(types, ends, connectivity, points, tetrahedra);
-        }
-        return tetrahedra;
-      });
-    });
+  return with_integers(parts.cells.connectivity, "connectivities", [&](const auto& connectivity) {
+    census = take_census(types, ends, connectivity.size());
+    if (census.other > 0 && tetrahedralize) return split(parts, types, ends, connectivity, points);
+    if (census.other > 0) refuse_solid(census.first_other, types[census.first_other]);
+    if (census.tetrahedra == 0) throw Error("it has no tetrahedra");
+    require_ids(census.tetrahedra, "tetrahedra");
+    const auto tetrahedra = allocate<Tetrahedra>("GALE::tetrahedra", census.tetrahedra);
+    if (census.tetrahedra == types.size()) {
+      copy_all(connectivity, points, tetrahedra);
+    } else {
+      copy_some(types, ends, connectivity, points, tetrahedra);
+    }
+    return tetrahedra;
   });
 }
 
