@@ -39,7 +39,7 @@ COMMANDS = [(line.split() + ONE, needs) for line, needs in [
     ("discrete-gradient grid:4 -o critical.vtp --arrows arrows.vtp --report report.json", "VTK"),
     ("discrete-gradient grid:4 --formulation cells", None),
     ("morse-smale grid:4 -o p --separatrices2 --persistence 2% --report report.json", "VTK"),
-    ("persistence-diagram grid:4 -o diagram.vtu --curve curve.csv --report report.json", True),
+    ("persistence-diagram grid:4 -o diagram.vtu --curve curve.csv --report report.json", "VTK"),
     ("relations grid:4 --relation VV --verify --dump rows.txt --report report.json", None),
     ("relations grid:4 --relation FF --structure gale", None),
     ("segment grid:4 --capacity 8 -o segments.vtu", "VTK"),
