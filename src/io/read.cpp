@@ -5,6 +5,7 @@
 #include <variant>
 
 #include <gale/base/error.hpp>
+#include <gale/io/bytes/value_type.hpp>
 #include <gale/io/formats/readers.hpp>
 #include <gale/io/image.hpp>
 #include <gale/io/read.hpp>
@@ -28,6 +29,8 @@ Dataset read_grid(const std::string& input, const ReadOptions& options) {
 Dataset read_file(const std::string& path, detail::Format format, const ReadOptions& options) {
   detail::Content content = detail::read_content(detail::InputFile(path), format, options);
   if (auto* image = std::get_if<Image>(&content)) {
+    const auto& [nx, ny, nz] = image->dimensions;
+    for (const PointArray& array : image->arrays) detail::require_size(array, std::uint64_t(nx) * ny * nz);
     select_scalars(*image, options.array);
     return split_voxels(std::move(*image), options.above);
   }

@@ -77,6 +77,17 @@ TEST_F(HostileFiles, LegacyGridsThatClaimMorePointsThanTheyHave) {
   }
 }
 
+TEST_F(HostileFiles, LegacyImagesWhoseDimensionsChange) {
+  const std::string start = "# vtk DataFile Version 3.0\nby hand\nASCII\nDATASET STRUCTURED_POINTS\nDIMENSIONS 2 2 2\n";
+  const std::string values = "POINT_DATA 8\nSCALARS h float 1\nLOOKUP_TABLE default\n1 2 3 4 5 6 7 8\n";
+  EXPECT_EQ(read(folder.put("good.vtk", start + values)).tetrahedra.extent(0), 6u);
+  refuse("a.vtk", start + "POINTS 8 float\n" + values, "points");
+  refuse("b.vtk", start + values + "DIMENSIONS 20 20 20\n", "8 tuples for 8000 points");
+  const std::string mesh = four_points + "CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\n";
+  const std::string heights = "POINT_DATA 4\nSCALARS h float 1\nLOOKUP_TABLE default\n1 2 3 4\n";
+  refuse("c.vtk", legacy(mesh + heights + "POINTS 5 float\n0 0 0 1 0 0 0 1 0 0 0 1 1 1 1\n", "3.0"), "4 tuples for 5");
+}
+
 TEST_F(HostileFiles, LegacyNumbersThatAreNone) {
   const std::string mesh = four_points + "CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\nPOINT_DATA 4\nSCALARS h float 1\n";
   const Dataset valid = read(folder.put("a.vtk", legacy(mesh + "LOOKUP_TABLE default\n1 -inf nan inf\n", "3.0")));
@@ -119,6 +130,13 @@ TEST_F(HostileFiles, ArraysThatStopEarly) {
             1u);
   refuse("b.vti", vti("", piece("0 1 0 1 0 1", R"(format="binary")", "BwAAAAECAwQFBgcI")), "7 bytes");
   refuse("c.vti", vti("", piece("0 1 0 1 0 1", R"(format="appended" offset="0")", "")), "appended");
+}
+
+TEST_F(HostileFiles, CompressedArraysOfNoBytes) {
+  // Of no blocks, where 8 values are to be: the header's three numbers are 0.
+  const std::string path = folder.put("a.vti", vti("compressor=\"vtkZLibDataCompressor\"",
+                                                   piece("0 1 0 1 0 1", R"(format="binary")", "AAAAAAAAAAAAAAAA")));
+  EXPECT_NE(error_of([&] { read(path); }).find("0 bytes"), std::string::npos);
 }
 
 TEST_F(HostileFiles, GridsWhoseCountsAreNone) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <variant>
@@ -50,5 +51,8 @@ decltype(auto) with_type(ValueType type, const Use& use) {
 inline std::size_t count_of(const PointArray::Values& values) {
   return std::visit([](const auto& v) { return v.size(); }, values);
 }
+
+/// Throws gale::Error unless the array has values for so many points.
+void require_size(const PointArray& array, std::uint64_t points);
 
 }  // namespace gale::io::detail

@@ -218,6 +218,7 @@ std::string note_cell_arrays(const std::vector<std::string>& names) {
 Dataset to_mesh(MeshParts& parts, bool tetrahedralize) {
   const std::size_t points = count_of(parts.points) / 3;
   require_ids(points, "points");
+  for (const PointArray& array : parts.arrays) require_size(array, points);
   Dataset mesh;
   Census census;
   mesh.tetrahedra = to_tetrahedra(parts, tetrahedralize, points, census);

@@ -96,7 +96,7 @@ bool read_section(LegacyFile& file, const std::string& kind, std::string& keywor
     to.dimensions.clear();
     for (int d = 0; d < 3; ++d) to.dimensions.push_back(file.count("DIMENSIONS"));
     to.points = static_cast<std::int64_t>(grid_points(to));  // those of a structured grid follow, and are counted then
-  } else if (keyword == "points") {
+  } else if (keyword == "points" && (kind == "unstructured_grid" || kind == "structured_grid")) {
     to.points = file.count("the number of points");
     to.mesh.points = file.array_of_numbers(product({to.points, 3}, "points"), "the points");
   } else if (keyword == "cells" && kind == "unstructured_grid") {

@@ -146,16 +146,16 @@ std::vector<T> uncompress(Binary& binary, const Blocks& blocks, const XmlFile& f
     if (in_place) {
       const std::size_t begin = values.size();
       values.resize(begin + (bytes + sizeof(T) - 1) / sizeof(T));
-      char* const to = reinterpret_cast<char*>(&values[begin]);
+      char* const to = reinterpret_cast<char*>(values.data() + begin);
       std::atomic<bool> whole{true};
       parallel_for("GALE::uncompress", Host(), static_cast<Offset>(last - first), [&](Offset k) {
         const std::size_t block = first + static_cast<std::size_t>(k);
-        if (!to_bytes(&compressed[from[k]], blocks.compressed[block], to + k * blocks.block_bytes,
+        if (!to_bytes(compressed.data() + from[k], blocks.compressed[block], to + k * blocks.block_bytes,
                       blocks.bytes_of(block)))
           whole = false;
       });
       if (!whole) damaged("an array's compressed block is wrong");
-      to_machine_order(&values[begin], values.size() - begin, file.order);
+      to_machine_order(values.data() + begin, values.size() - begin, file.order);
     } else {
       const std::unique_ptr<char[]> block(new char[bytes]);  // not touched where nothing is
       if (!to_bytes(compressed.data(), compressed_bytes, block.get(), bytes))
