@@ -65,9 +65,10 @@ class GALE_EXPORT DiscreteGradient {
   /// `others` has the other tetrahedra of that triangle.
   Partner pair_of_triangle(Id tetrahedron, int corner, const Row& others) const;
 
-  /// All successors.
-  Array<const Id, HostMemory> vertex_successors() const;
-  Array<const Id, HostMemory> tetrahedron_successors() const;
+  /// All successors. Several threads may refer to them; copies of the Views are for one thread, as Kokkos counts them
+  /// without atomics where it has Serial alone.
+  const Array<const Id, HostMemory>& vertex_successors() const;
+  const Array<const Id, HostMemory>& tetrahedron_successors() const;
 
   /// The memory that it takes.
   std::size_t bytes() const;

@@ -2,6 +2,7 @@
 
 #include <gale/algorithms/discrete_gradient.hpp>
 #include <gale/base/error.hpp>
+#include <gale/base/threads.hpp>
 #include <gale/runtime/make_structure.hpp>
 
 #include "algorithms/fields.hpp"
@@ -63,6 +64,25 @@ TEST(DiscreteGradient, needs_the_relations_that_it_reads) {
   const std::vector<float> field(4, 1.0f);
   const auto runtime = make_structure(mesh, Relation::VV);
   EXPECT_THROW(find_discrete_gradient(*runtime, VertexOrder(mesh, field.data(), field.size())), Error);
+}
+
+/// Where Kokkos has Serial alone it doesn't count references atomically.
+TEST(DiscreteGradient, is_read_on_many_threads_without_counting_references) {
+  const InputMesh& input = mesh_named("one_tetrahedron");
+  const Mesh mesh = encode(input, octree_of(input, 100));
+  const std::vector<float> field = {0, 1, 2, 3};
+  const auto runtime = make_structure(mesh, discrete_gradient_relations);
+  const auto gradient = find_discrete_gradient(*runtime, VertexOrder(mesh, field.data(), field.size()));
+  const auto mine = gradient.vertex_successors(), mine_too = gradient.tetrahedron_successors();
+  const int before = mine.use_count(), before_too = mine_too.use_count();
+  on_threads(8, [&](int) {
+    for (int i = 0; i < 100000; ++i) {
+      EXPECT_EQ(gradient.vertex_successors().data(), mine.data());
+      EXPECT_EQ(gradient.tetrahedron_successors().data(), mine_too.data());
+    }
+  });
+  EXPECT_EQ(mine.use_count(), before);
+  EXPECT_EQ(mine_too.use_count(), before_too);
 }
 
 }  // namespace gale::test

@@ -24,8 +24,10 @@ DiscreteGradient::DiscreteGradient(std::shared_ptr<const detail::GradientStore> 
 const Mesh& DiscreteGradient::mesh() const { return store_->mesh; }
 const VertexOrder& DiscreteGradient::order() const { return store_->order; }
 const CriticalSimplices& DiscreteGradient::critical() const { return store_->critical; }
-Array<const Id, HostMemory> DiscreteGradient::vertex_successors() const { return store_->vertex_successor; }
-Array<const Id, HostMemory> DiscreteGradient::tetrahedron_successors() const { return store_->tetrahedron_successor; }
+const Array<const Id, HostMemory>& DiscreteGradient::vertex_successors() const { return store_->vertex_successors; }
+const Array<const Id, HostMemory>& DiscreteGradient::tetrahedron_successors() const {
+  return store_->tetrahedron_successors;
+}
 std::size_t DiscreteGradient::bytes() const { return store_->bytes(); }
 
 Id DiscreteGradient::triangle_of_edge(Id a, Id b) const {

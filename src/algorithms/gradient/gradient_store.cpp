@@ -32,6 +32,8 @@ GradientStore::GradientStore(const Mesh& mesh_, const VertexOrder& order_, int c
       order(order_),
       vertex_successor(allocate<Array<Id, HostMemory>>("GALE::vertex_successor", mesh.vertices())),
       tetrahedron_successor(allocate<Array<Id, HostMemory>>("GALE::tetrahedron_successor", mesh.tetrahedra())),
+      vertex_successors(vertex_successor),
+      tetrahedron_successors(tetrahedron_successor),
       pairs(mesh.vertices(), consumers),
       found_(consumers),
       stars_(consumers),

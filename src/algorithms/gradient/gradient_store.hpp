@@ -61,6 +61,11 @@ class GradientStore {
   const VertexOrder order;
   Array<Id, HostMemory> vertex_successor;
   Array<Id, HostMemory> tetrahedron_successor;
+
+  /// The same for readers, who may be on several threads: for them to refer to, not to copy.
+  const Array<const Id, HostMemory> vertex_successors;
+  const Array<const Id, HostMemory> tetrahedron_successors;
+
   EdgePairs pairs;
   CriticalSimplices critical;
 
