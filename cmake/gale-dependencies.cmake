@@ -49,9 +49,9 @@ macro(gale_find_kokkos_kernels)
   gale_adopt(kokkoskernels KokkosKernels Kokkos::kokkoskernels KokkosKernels::all_libs)
 endmacro()
 
-# What gale::io reads and writes files with, the libraries for XML and compression that VTK has with it included. Gives the
-# targets of VTK_LIBRARIES.
+# What gale::io splits cells with, and the libraries for XML and compression that VTK has with it. Gives the targets of
+# VTK_LIBRARIES.
 macro(gale_find_vtk)
-  gale_find(VTK "install it, or set GALE_ENABLE_VTK=OFF (grid:N inputs and reports alone then)"
-    COMPONENTS CommonCore CommonDataModel CommonExecutionModel FiltersGeneral IOLegacy IOXML expat lz4 lzma zlib)
+  gale_find(VTK "install it, or set GALE_ENABLE_VTK=OFF (grid:N inputs alone then)"
+    COMPONENTS CommonCore CommonDataModel CommonExecutionModel FiltersGeneral expat lz4 lzma zlib)
 endmacro()

@@ -22,7 +22,7 @@ gale_public(algorithms critical_points critical_simplices discrete_gradient mors
 gale_public(baselines discrete_gradient_from_cells oracle)
 gale_public(outputs arrows critical_points critical_simplices field manifolds named_simplices persistence
   persistence_diagram segmentation separatrices1 separatrices2)
-gale_public(io arrays atomic_file dataset image lines read synthetic temporary_files voxels write)
+gale_public(io arrays atomic_file dataset image read synthetic temporary_files voxels write)
 
 set(gale_included_headers
   base/mirrored.hpp

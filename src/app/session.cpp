@@ -8,7 +8,6 @@
 #include <gale/app/usage_error.hpp>
 #include <gale/base/error.hpp>
 #include <gale/io/read.hpp>
-#include <gale/io/vtk/vtk_files.hpp>
 #include <gale/outputs/field.hpp>
 
 namespace gale::app {
@@ -30,23 +29,15 @@ void require_distinct(const std::vector<std::string>& files) {
 
 }  // namespace
 
-Session::Session(const InputOptions& input, const CommonOptions& common, const std::vector<std::string>& vtk_files,
-                 const std::vector<std::string>& text_files)
+Session::Session(const InputOptions& input, const CommonOptions& common, std::vector<std::string> files)
     : input_(input), common_(common), console_(common.quiet) {
   report_.input = input.input;
   report_.threads = host_threads();
-  std::vector<std::string> texts = text_files;
-  texts.push_back(common.report);
-  std::vector<std::string> all = vtk_files;
+  files.push_back(common.report);
+  std::vector<std::string> all = files;
   all.push_back(input.input);
-  all.insert(all.end(), texts.begin(), texts.end());
   require_distinct(all);
-  for (const auto& file : vtk_files) {
-    if (file.empty()) continue;
-    if (!io::detail::has_vtk()) throw Error("this gale was built without VTK: it cannot write '" + file + "'");
-    require_writable(file);
-  }
-  for (const auto& file : texts) {
+  for (const auto& file : files) {
     if (!file.empty()) require_writable(file);
   }
 }

@@ -28,11 +28,10 @@ struct FieldOnMesh {
 /// One run of a command: the steps that several commands take, each timed and said.
 class Session {
  public:
-  /// Finds out before the work whether its files can be written: `vtk_files`, which VTK writes, `text_files` and the
-  /// report, each if it isn't empty. Throws gale::Error for one that can't be written; UsageError if two of them, or
-  /// one and the input, are the same file. The options must outlive the session.
-  Session(const InputOptions& input, const CommonOptions& common, const std::vector<std::string>& vtk_files = {},
-          const std::vector<std::string>& text_files = {});
+  /// Finds out before the work whether its `files` and the report, each if it isn't empty, can be written. Throws
+  /// gale::Error for one that can't; UsageError if two of them, or one and the input, are the same file. The options
+  /// must outlive the session.
+  Session(const InputOptions& input, const CommonOptions& common, std::vector<std::string> files = {});
 
   const Console& console() const { return console_; }
   Report& report() { return report_; }

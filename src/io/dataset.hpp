@@ -53,7 +53,10 @@ struct Dataset {
   template <class Coordinate>
   using Points = Kokkos::View<Coordinate* [3], Kokkos::LayoutRight, Kokkos::HostSpace>;
 
-  std::variant<Points<float>, Points<double>> points;  ///< xyz per vertex
+  /// xyz each.
+  using Positions = std::variant<Points<float>, Points<double>>;
+
+  Positions points;  ///< of the vertices
   Kokkos::View<std::int32_t* [4], Kokkos::LayoutRight, Kokkos::HostSpace> tetrahedra;
   std::vector<PointArray> arrays;
   std::vector<std::string> notices;  ///< one line each about what of the file was left out

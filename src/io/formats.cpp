@@ -2,7 +2,7 @@
 #include <cctype>
 #include <utility>
 
-#include <gale/io/vtk/vtk_files.hpp>
+#include <gale/io/formats.hpp>
 
 namespace gale::io::detail {
 

@@ -7,8 +7,9 @@
 #include <gale/base/error.hpp>
 #include <gale/io/arrays.hpp>
 #include <gale/io/atomic_file.hpp>
-#include <gale/io/vtk/vtk_files.hpp>
+#include <gale/io/formats.hpp>
 #include <gale/io/write.hpp>
+#include <gale/io/writers/writers.hpp>
 
 namespace gale::io {
 namespace {
@@ -24,7 +25,7 @@ void check_arrays(std::size_t count, const std::vector<PointArray>& arrays, cons
   }
 }
 
-std::size_t size_of(const std::variant<Dataset::Points<float>, Dataset::Points<double>>& points) {
+std::size_t size_of(const Dataset::Positions& points) {
   return std::visit([](const auto& p) { return p.extent(0); }, points);
 }
 
@@ -57,7 +58,6 @@ void require_mesh(const std::string& path) {
 /// Runs `write`; names `path` in whatever goes wrong.
 template <class Write>
 void name_in_errors(const std::string& path, const Write& write) {
-  if (!detail::has_vtk()) throw Error("this gale was built without VTK: it cannot write '" + path + "'");
   try {
     write();
   } catch (const std::bad_alloc&) {
@@ -79,7 +79,7 @@ void write_file(const std::string& path, const Write& write) {
 
 void write_temporary(const AtomicFile& file, const PointSet& points) {
   check_arrays(size_of(points.points), points.arrays);
-  detail::write_points_with_vtk(file.temporary(), points);
+  detail::write_vtp(file.temporary(), points);
 }
 
 void write_temporary(const AtomicFile& file, const Surface& surface) {
@@ -88,13 +88,17 @@ void write_temporary(const AtomicFile& file, const Surface& surface) {
   check_cells(points, surface.polygons);
   check_arrays(points, surface.point_arrays);
   check_arrays(surface.lines.begin.size() + surface.polygons.begin.size() - 2, surface.cell_arrays, "cells");
-  detail::write_surface_with_vtk(file.temporary(), surface);
+  detail::write_vtp(file.temporary(), surface);
 }
 
 void write_temporary(const AtomicFile& file, const Dataset& mesh, const std::vector<PointArray>& more) {
   check_arrays(size_of(mesh.points), mesh.arrays);
   check_arrays(size_of(mesh.points), more);
-  detail::write_mesh_with_vtk(file.temporary(), *detail::format_of(file.path()), mesh, more);
+  if (detail::format_of(file.path()) == Format::vtu) {
+    detail::write_vtu(file.temporary(), mesh, more);
+  } else {
+    detail::write_legacy_vtk(file.temporary(), mesh, more);
+  }
 }
 
 }  // namespace
@@ -127,6 +131,17 @@ void write_mesh(const std::string& path, const Dataset& mesh, const std::vector<
 void write_mesh(const AtomicFile& file, const Dataset& mesh, const std::vector<PointArray>& more) {
   require_mesh(file.path());
   name_in_errors(file.path(), [&] { write_temporary(file, mesh, more); });
+}
+
+void write_lines(const AtomicFile& file, const Surface& lines) {
+  require_format(file.path(), "lines", {Format::vtu}, "not .vtu");
+  name_in_errors(file.path(), [&] {
+    const std::size_t points = size_of(lines.points);
+    check_cells(points, lines.lines);
+    check_arrays(points, lines.point_arrays);
+    check_arrays(lines.lines.begin.size() - 1, lines.cell_arrays, "lines");
+    detail::write_vtu(file.temporary(), lines);
+  });
 }
 
 }  // namespace gale::io

@@ -14,7 +14,7 @@ class AtomicFile;
 
 /// Points by themselves, such as critical points, with their arrays.
 struct PointSet {
-  std::variant<Dataset::Points<float>, Dataset::Points<double>> points;
+  Dataset::Positions points;
   std::vector<PointArray> arrays;
 };
 
@@ -26,7 +26,7 @@ struct Surface {
     std::vector<std::int32_t> points;
   };
 
-  std::variant<Dataset::Points<float>, Dataset::Points<double>> points;
+  Dataset::Positions points;
   std::vector<PointArray> point_arrays;
   Cells lines, polygons;
   std::vector<PointArray> cell_arrays;  ///< a value for each line, then for each polygon
@@ -46,6 +46,10 @@ GALE_EXPORT void write_points(const AtomicFile& file, const PointSet& points);
 /// Writes `surface` to a `.vtp`.
 GALE_EXPORT void write_surface(const std::string& path, const Surface& surface);
 GALE_EXPORT void write_surface(const AtomicFile& file, const Surface& surface);
+
+/// Writes the lines of `lines`, without its polygons, to the temporary file of a `.vtu`: for what others give as an
+/// unstructured grid of lines, such as persistence diagrams.
+GALE_EXPORT void write_lines(const AtomicFile& file, const Surface& lines);
 
 /// Writes points, tetrahedra and arrays of `mesh` in their order to a `.vtu` or (binary, legacy) `.vtk`, by the
 /// extension; then those of `more`, so that results need not be copied into the mesh first.

@@ -6,15 +6,6 @@ namespace gale::test {
 
 namespace {
 
-std::vector<Simplex> facets_of(const Simplex& simplex) {
-  std::vector<Simplex> facets;
-  for (std::size_t i = 0; i < simplex.size(); ++i) {
-    facets.push_back(simplex);
-    facets.back().erase(facets.back().begin() + i);
-  }
-  return facets;
-}
-
 /// Follows V-paths up and down.
 class Paths {
  public:

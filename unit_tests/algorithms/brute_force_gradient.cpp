@@ -114,6 +114,15 @@ std::set<Cell> faces_of(const Cell& tetrahedron) {
 
 }  // namespace
 
+std::vector<Simplex> facets_of(const Simplex& simplex) {
+  std::vector<Simplex> facets;
+  for (std::size_t i = 0; i < simplex.size() && simplex.size() > 1; ++i) {
+    facets.push_back(simplex);
+    facets.back().erase(facets.back().begin() + static_cast<std::ptrdiff_t>(i));
+  }
+  return facets;
+}
+
 BruteForceGradient::BruteForceGradient(const InputMesh& mesh, const std::vector<double>& field) {
   std::vector<Id> by_rank(mesh.vertices()), rank(mesh.vertices());
   std::iota(by_rank.begin(), by_rank.end(), 0);

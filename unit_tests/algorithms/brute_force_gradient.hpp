@@ -13,6 +13,9 @@ namespace gale::test {
 /// The vertices of a simplex: input ids, ascending.
 using Simplex = std::vector<Id>;
 
+/// Each without one of its vertices, the first first; none of a vertex.
+std::vector<Simplex> facets_of(const Simplex& simplex);
+
 /// The discrete gradient by the definition of Robins, Wood and Sheppard (2011), from the input alone, with sets and
 /// maps.
 struct BruteForceGradient {

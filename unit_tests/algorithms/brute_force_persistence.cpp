@@ -48,15 +48,6 @@ void add(Sum& to, const Sum& more) {
   for (const Cell& cell : more) add(to, cell);
 }
 
-std::vector<Cell> facets_of(const Cell& cell) {
-  std::vector<Cell> facets;
-  for (std::size_t i = 0; i < cell.size() && cell.size() > 1; ++i) {
-    facets.push_back(cell);
-    facets.back().erase(facets.back().begin() + static_cast<std::ptrdiff_t>(i));
-  }
-  return facets;
-}
-
 /// The standard algorithm: goes through columns in order, and calls pair(lower, upper) for each pair.
 template <class Pair>
 void reduce(const std::vector<std::pair<Cell, Sum>>& columns, const Pair& pair) {

@@ -6,19 +6,6 @@
 
 namespace gale::test {
 
-namespace {
-
-std::vector<Simplex> facets_of(const Simplex& simplex) {
-  std::vector<Simplex> facets;
-  for (std::size_t i = 0; i < simplex.size(); ++i) {
-    facets.push_back(simplex);
-    facets.back().erase(facets.back().begin() + static_cast<std::ptrdiff_t>(i));
-  }
-  return facets;
-}
-
-}  // namespace
-
 TurnedGradient::TurnedGradient(const InputMesh& mesh, const std::vector<double>& field,
                                const BruteForceGradient& gradient)
     : gradient_(gradient), rank_(field.size()) {

@@ -153,7 +153,7 @@ class XmlFile:
         header, data = path.read_bytes().split(b'<AppendedData encoding="raw">', 1)
         self.data = data[data.index(b"_") + 1:]
         file = xml.etree.ElementTree.fromstring(header + b"</VTKFile>")
-        assert (file.get("header_type"), file.get("compressor")) == ("UInt32", "vtkZLibDataCompressor")
+        assert (file.get("header_type"), file.get("compressor")) == ("UInt64", "vtkZLibDataCompressor")
         self.piece = file.find("*/Piece")
         self.points = self.values(self.piece.find("Points/DataArray"))
         self.point_arrays = self.arrays("PointData")
@@ -175,9 +175,9 @@ class XmlFile:
     def values(self, array):
         codes = {"Int8": "b", "UInt8": "B", "Int32": "i", "Int64": "q", "Float32": "f", "Float64": "d"}
         at = int(array.get("offset"))
-        blocks, = struct.unpack_from("<I", self.data, at)
-        sizes = struct.unpack_from(f"<{blocks}I", self.data, at + 12)
-        at += 12 + 4 * blocks
+        blocks, = struct.unpack_from("<Q", self.data, at)
+        sizes = struct.unpack_from(f"<{blocks}Q", self.data, at + 24)
+        at += 8 * (3 + blocks)
         content = b""
         for size in sizes:
             content += zlib.decompress(self.data[at:at + size])

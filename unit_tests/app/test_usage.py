@@ -110,7 +110,8 @@ class Usage(gale.CommandTest):
     def test_files_without_vtk(self):
         self.write("mesh.vtu", "")
         self.refuse(1, "info", "mesh.vtu", naming="without VTK")
-        self.refuse(1, "generate", "grid:4", "-o", "mesh.vtu", naming="without VTK")
+        self.succeed("generate", "grid:4", "-o", "mesh.vtu")
+        self.assertIn(b'NumberOfPoints="64"', (self.folder / "mesh.vtu").read_bytes())
 
 
 if __name__ == "__main__":

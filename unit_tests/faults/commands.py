@@ -25,7 +25,6 @@ def mesh():
 
 INPUTS = {"volume.mha": volume(), "mesh.vtk": mesh()}
 ONE = ["--quiet", "--threads", "1"]
-REPORT = ["--report", "report.json"]
 
 # Command lines, and what they need.
 COMMANDS = [(line.split() + ONE, needs) for line, needs in [

@@ -7,15 +7,10 @@
 namespace gale::io {
 namespace {
 
+using test::content_of;
 using test::error_of;
 using test::Folder;
 using Names = std::set<std::string>;
-
-std::string content_of(const std::string& path) {
-  std::ostringstream content;
-  content << std::ifstream(path, std::ios::binary).rdbuf();
-  return content.str();
-}
 
 TEST(AtomicFile, AppearsWhenItIsCommitted) {
   const Folder folder;

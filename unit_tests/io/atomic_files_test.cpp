@@ -11,15 +11,10 @@
 namespace gale::io {
 namespace {
 
+using test::content_of;
 using test::error_of;
 using test::Folder;
 using Names = std::set<std::string>;
-
-std::string content_of(const std::string& path) {
-  std::ostringstream content;
-  content << std::ifstream(path, std::ios::binary).rdbuf();
-  return content.str();
-}
 
 void add(AtomicFiles& files, const std::string& path, const std::string& content) {
   std::ofstream(files.add(path).temporary()) << content;

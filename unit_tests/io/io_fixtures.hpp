@@ -17,7 +17,7 @@
 
 #include <gale/base/error.hpp>
 #include <gale/io/dataset.hpp>
-#include <gale/io/vtk/vtk_files.hpp>
+#include <gale/io/formats.hpp>
 
 namespace gale::io::test {
 
@@ -53,6 +53,12 @@ class Folder {
   std::filesystem::path path_;
 };
 
+inline std::string content_of(const std::string& path) {
+  std::ostringstream content;
+  content << std::ifstream(path, std::ios::binary).rdbuf();
+  return content.str();
+}
+
 /// The message of the `Error` that `run` throws. Nothing may be printed meanwhile, and it is one line.
 inline std::string error_of(const std::function<void()>& run) {
   std::string message = "no error";
@@ -69,13 +75,17 @@ inline std::string error_of(const std::function<void()>& run) {
   return message;
 }
 
-/// Tests that files are read or written in: skipped where this GALE has no VTK.
-class VtkTest : public testing::Test {
+class FileTest : public testing::Test {
+ protected:
+  Folder folder;
+};
+
+/// Tests that files are read in: skipped where this GALE has no VTK.
+class VtkTest : public FileTest {
  protected:
   void SetUp() override {
     if (!detail::has_vtk()) GTEST_SKIP() << "built without VTK";
   }
-  Folder folder;
 };
 
 inline std::size_t point_count_of(const Dataset& mesh) {

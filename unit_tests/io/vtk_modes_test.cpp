@@ -144,9 +144,7 @@ TEST_P(XmlWays, of_images_are_read) {
 TEST_P(XmlWays, are_refused_where_they_are_cut) {
   const Dataset mesh = expected_mesh();
   write<vtkXMLUnstructuredGridWriter>(folder / "a.vtu", to_vtk(mesh));
-  std::stringstream content;
-  content << std::ifstream(folder / "a.vtu", std::ios::binary).rdbuf();
-  const std::string whole = content.str();
+  const std::string whole = test::content_of(folder / "a.vtu");
   for (std::size_t part = 1; part < 40; ++part) {
     const std::string path = folder.put("cut.vtu", whole.substr(0, whole.size() * part / 40));
     EXPECT_NE(test::error_of([&] { read(path); }), "no error") << part;

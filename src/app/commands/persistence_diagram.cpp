@@ -7,7 +7,7 @@
 #include <gale/app/options/persistence_option.hpp>
 #include <gale/app/output_file.hpp>
 #include <gale/app/session.hpp>
-#include <gale/io/lines.hpp>
+#include <gale/io/write.hpp>
 #include <gale/outputs/persistence_diagram.hpp>
 
 namespace gale::app {
@@ -44,7 +44,7 @@ class FindPersistenceDiagram final : public Command {
     require_extension("--curve", curve_, {".csv"});
     require_extension("--render", render_, {".png"});
     if (!render_.empty()) require_drawing();
-    Session session(input(), common(), {output_, render_}, {curve_});
+    Session session(input(), common(), {output_, render_, curve_});
     const FieldOnMesh on = session.read_field(segmentation_);
     const auto structure = session.make_structure(structure_, on.mesh, discrete_gradient_relations);
     const auto diagram = find(*structure, on, session);

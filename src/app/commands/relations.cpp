@@ -142,7 +142,7 @@ class ComputeRelation final : public Command {
   }
 
   void run() const override {
-    Session session(input(), common(), {}, {dump_});
+    Session session(input(), common(), {dump_});
     const Relation relation = *relation_named(relation_);
     io::Dataset dataset = session.read();
     const Mesh mesh = session.encode(dataset, segmentation_, Session::Keep::nothing);

@@ -1,19 +1,15 @@
 #include <dlfcn.h>
 
-#include <cerrno>
 #include <cmath>
 
 #include <vtkActor.h>
 #include <vtkAutoInit.h>
 #include <vtkCamera.h>
 #include <vtkCellArray.h>
-#include <vtkErrorCode.h>
 #include <vtkFloatArray.h>
 #include <vtkGlyph3DMapper.h>
-#include <vtkImageResize.h>
 #include <vtkLegendBoxActor.h>
 #include <vtkNew.h>
-#include <vtkPNGWriter.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
@@ -21,18 +17,16 @@
 #include <vtkPolyDataNormals.h>
 #include <vtkProperty.h>
 #include <vtkRegularPolygonSource.h>
-#include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 #include <vtkSphereSource.h>
 #include <vtkTextProperty.h>
 #include <vtkTubeFilter.h>
 #include <vtkUnsignedCharArray.h>
-#include <vtkWindowToImageFilter.h>
 #include <vtkWindowedSincPolyDataFilter.h>
 
 #include <gale/app/drawing/scene.hpp>
+#include <gale/app/drawing/vtk_png.hpp>
 #include <gale/base/error.hpp>
-#include <gale/io/vtk/vtk_messages.hpp>
 
 VTK_MODULE_INIT(vtkRenderingOpenGL2)
 VTK_MODULE_INIT(vtkRenderingFreeType)
@@ -185,18 +179,10 @@ void aim(vtkRenderer* renderer, const Scene& scene) {
   renderer->ResetCameraClippingRange();
 }
 
-vtkSmartPointer<vtkRenderWindow> make_window() {
-  auto window = vtkSmartPointer<vtkRenderWindow>::New();
-  window->SetOffScreenRendering(1);
-  window->SetMultiSamples(0);
-  window->SetSize(2 * width, 2 * height);  // twice as large as the picture, for smooth outlines
-  return window;
-}
-
 }  // namespace
 
 void require_drawing() {
-  const auto window = make_window();
+  const auto window = make_window(width, height);
   if (!window->IsA("vtkXOpenGLRenderWindow")) return;
   // This kind of window ends the process if there is no display. So ask first, through the X library that it loaded.
   const auto open = reinterpret_cast<void* (*)(const char*)>(dlsym(RTLD_DEFAULT, "XOpenDisplay"));
@@ -209,35 +195,13 @@ void require_drawing() {
 }
 
 void draw(const io::AtomicFile& file, const Scene& scene) {
-  try {
-    const io::detail::VtkMessages messages("VTK gave up");
-    vtkNew<vtkRenderer> renderer;
-    renderer->SetBackground(1, 1, 1);
+  write_png(file, width, height, [&](vtkRenderer* renderer) {
     add_skin(renderer, scene.skin);
     for (const auto& tubes : scene.tubes) add_tubes(renderer, tubes);
     for (const auto& balls : scene.balls) add_balls(renderer, balls, scene.ball_radius);
     add_legend(renderer, scene.balls);
     aim(renderer, scene);
-    const auto window = make_window();
-    window->AddRenderer(renderer);
-    window->Render();
-    vtkNew<vtkWindowToImageFilter> picture;
-    picture->SetInput(window);
-    picture->ReadFrontBufferOff();
-    vtkNew<vtkImageResize> half;
-    half->SetInputConnection(picture->GetOutputPort());
-    half->SetOutputDimensions(width, height, 1);
-    vtkNew<vtkPNGWriter> writer;
-    writer->SetFileName(file.temporary().c_str());
-    writer->SetCompressionLevel(9);
-    writer->SetInputConnection(half->GetOutputPort());
-    messages.check(vtkErrorCode::NoError);
-    errno = 0;
-    writer->Write();
-    messages.check_written(true, writer->GetErrorCode());
-  } catch (const std::exception& error) {
-    throw Error("cannot draw '" + file.path() + "': " + error.what());
-  }
+  });
 }
 
 }  // namespace gale::app

@@ -1,34 +1,21 @@
-#include <cerrno>
-
 #include <vtkActor.h>
 #include <vtkCamera.h>
 #include <vtkCellArray.h>
-#include <vtkErrorCode.h>
-#include <vtkImageResize.h>
 #include <vtkNew.h>
-#include <vtkPNGWriter.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
-#include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
-#include <vtkSmartPointer.h>
 #include <vtkTextActor.h>
 #include <vtkTextProperty.h>
-#include <vtkWindowToImageFilter.h>
 
 #include <gale/app/drawing/flat.hpp>
-#include <gale/base/error.hpp>
-#include <gale/io/atomic_file.hpp>
-#include <gale/io/vtk/vtk_messages.hpp>
+#include <gale/app/drawing/vtk_png.hpp>
 
 namespace gale::app {
 
 namespace {
-
-/// Drawn so many times as large and made smaller, for smooth outlines.
-constexpr int finer = 2;
 
 void set_color(vtkProperty* property, const Color& color) {
   property->SetColor(color[0] / 255.0, color[1] / 255.0, color[2] / 255.0);
@@ -115,38 +102,13 @@ void aim(vtkRenderer* renderer, const Flat& flat) {
 }  // namespace
 
 void draw(const io::AtomicFile& file, const Flat& flat) {
-  try {
-    const io::detail::VtkMessages messages("VTK gave up");
-    vtkNew<vtkRenderer> renderer;
-    renderer->SetBackground(1, 1, 1);
+  write_png(file, flat.width, flat.height, [&](vtkRenderer* renderer) {
     double depth = 0;
     for (const auto& lines : flat.lines) add_lines(renderer, lines, depth += 1);
     for (const auto& dots : flat.dots) add_dots(renderer, dots, depth += 1);
     for (const auto& text : flat.texts) add_text(renderer, text);
     aim(renderer, flat);
-    vtkNew<vtkRenderWindow> window;
-    window->SetOffScreenRendering(1);
-    window->SetMultiSamples(0);
-    window->SetSize(finer * flat.width, finer * flat.height);
-    window->AddRenderer(renderer);
-    window->Render();
-    vtkNew<vtkWindowToImageFilter> picture;
-    picture->SetInput(window);
-    picture->ReadFrontBufferOff();
-    vtkNew<vtkImageResize> smaller;
-    smaller->SetInputConnection(picture->GetOutputPort());
-    smaller->SetOutputDimensions(flat.width, flat.height, 1);
-    vtkNew<vtkPNGWriter> writer;
-    writer->SetFileName(file.temporary().c_str());
-    writer->SetCompressionLevel(9);
-    writer->SetInputConnection(smaller->GetOutputPort());
-    messages.check(vtkErrorCode::NoError);
-    errno = 0;
-    writer->Write();
-    messages.check_written(true, writer->GetErrorCode());
-  } catch (const std::exception& error) {
-    throw Error("cannot draw '" + file.path() + "': " + error.what());
-  }
+  });
 }
 
 }  // namespace gale::app

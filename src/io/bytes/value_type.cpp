@@ -13,6 +13,12 @@ const char* name_of(ValueType type) {
   return names[static_cast<int>(type)];
 }
 
+const char* xml_name_of(ValueType type) {
+  static const char* const names[] = {"Int8",   "UInt8", "Int16",  "UInt16",  "Int32",
+                                      "UInt32", "Int64", "UInt64", "Float32", "Float64"};
+  return names[static_cast<int>(type)];
+}
+
 void require_size(const PointArray& array, std::uint64_t points) {
   const auto components = static_cast<std::uint64_t>(array.components);
   if (count_of(array.values) / components == points && count_of(array.values) % components == 0) return;

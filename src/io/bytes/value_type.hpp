@@ -19,6 +19,15 @@ std::size_t size_of(ValueType type);
 /// "int8" to "float64", for messages.
 const char* name_of(ValueType type);
 
+/// "Int8" to "Float64", as VTK's XML files have them.
+const char* xml_name_of(ValueType type);
+
+/// The type of values of the C++ type T.
+template <class T>
+ValueType value_type_of() {
+  return static_cast<ValueType>(PointArray::Values(std::vector<T>()).index());
+}
+
 /// Calls use(T()) with the C++ type of `type`, and returns what that returns.
 template <class Use>
 decltype(auto) with_type(ValueType type, const Use& use) {

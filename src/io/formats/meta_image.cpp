@@ -2,7 +2,6 @@
 #include <map>
 
 #include <gale/io/bytes/damaged.hpp>
-#include <gale/io/bytes/inflated_bytes.hpp>
 #include <gale/io/bytes/numbers.hpp>
 #include <gale/io/formats/volume.hpp>
 
@@ -205,13 +204,7 @@ PointArray::Values read_data(const InputFile& file, const Header& header, std::s
   if (skipped > 0) begin = static_cast<std::uint64_t>(skipped);
   if (skipped == -1 && binary && !compressed && volume.bytes() <= data.size()) begin = data.size() - volume.bytes();
   if (skipped < -1) damaged("HeaderSize is " + std::to_string(skipped));
-  auto raw = std::make_unique<FileBytes>(data, begin);
-  if (!binary) return volume.read_text(*raw);
-  if (!compressed) return volume.read(*raw);
-  InflatedBytes inflated(std::move(raw));
-  PointArray::Values values = volume.read(inflated);
-  check_sum(inflated);
-  return values;
+  return volume.read(data, begin, !binary ? Encoding::text : compressed ? Encoding::compressed : Encoding::raw);
 }
 
 }  // namespace

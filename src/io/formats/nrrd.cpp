@@ -2,7 +2,6 @@
 #include <map>
 
 #include <gale/io/bytes/damaged.hpp>
-#include <gale/io/bytes/inflated_bytes.hpp>
 #include <gale/io/bytes/numbers.hpp>
 #include <gale/io/formats/volume.hpp>
 
@@ -235,13 +234,7 @@ PointArray::Values read_data(const InputFile& file, const Header& header, const 
   if (!paths.empty()) other = open_input(paths[0]);
   const InputFile& data = other ? *other : file;
   const std::uint64_t begin = skip(data, other ? 0 : header.end, header, volume.bytes());
-  auto source = std::make_unique<FileBytes>(data, begin);
-  if (text) return volume.read_text(*source);
-  if (raw) return volume.read(*source);
-  InflatedBytes inflated(std::move(source));
-  PointArray::Values values = volume.read(inflated);
-  check_sum(inflated);
-  return values;
+  return volume.read(data, begin, text ? Encoding::text : zipped ? Encoding::compressed : Encoding::raw);
 }
 
 }  // namespace

@@ -4,9 +4,9 @@
 
 #include <gale/io/bytes/input_file.hpp>
 #include <gale/io/dataset.hpp>
+#include <gale/io/formats.hpp>
 #include <gale/io/image.hpp>
 #include <gale/io/read.hpp>
-#include <gale/io/vtk/vtk_files.hpp>
 
 /// The readers, a file a format. Each trusts nothing that a file says: sizes are checked against what the file has
 /// before memory is taken, and values against their ranges before they index anything. They throw gale::Error without

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include <gale/io/bytes/damaged.hpp>
+#include <gale/io/bytes/inflated_bytes.hpp>
 #include <gale/io/bytes/numbers.hpp>
 #include <gale/io/formats/volume.hpp>
 
@@ -25,9 +26,17 @@ std::uint64_t Volume::bytes() const { return count() * size_of(type); }
 
 PointArray::Values Volume::read(ByteSource& source) const { return read_values(source, type, count(), order); }
 
-PointArray::Values Volume::read_text(ByteSource& source) const {
-  TextReader text(source);
-  return read_text_values(text, type, count());
+PointArray::Values Volume::read(const InputFile& file, std::uint64_t begin, Encoding encoding) const {
+  auto bytes = std::make_unique<FileBytes>(file, begin);
+  if (encoding == Encoding::raw) return read(*bytes);
+  if (encoding == Encoding::text) {
+    TextReader text(*bytes);
+    return read_text_values(text, type, count());
+  }
+  InflatedBytes inflated(std::move(bytes));
+  PointArray::Values values = read(inflated);
+  check_sum(inflated);
+  return values;
 }
 
 Image Volume::image(const std::string& name, PointArray::Values values) const {

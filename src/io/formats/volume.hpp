@@ -6,11 +6,14 @@
 #include <string>
 #include <vector>
 
+#include <gale/io/bytes/input_file.hpp>
 #include <gale/io/bytes/values.hpp>
 #include <gale/io/formats/readers.hpp>
 
 /// What the volume formats have in common: a small header that says how the values of one array lie in a file.
 namespace gale::io::detail {
+
+enum class Encoding { raw, text, compressed };
 
 struct Volume {
   std::array<std::int64_t, 3> dimensions{1, 1, 1};
@@ -24,7 +27,9 @@ struct Volume {
 
   /// Throws gale::Error unless the source has them all.
   PointArray::Values read(ByteSource& source) const;
-  PointArray::Values read_text(ByteSource& source) const;
+
+  /// Throws gale::Error unless the file has them all from that byte on.
+  PointArray::Values read(const InputFile& file, std::uint64_t begin, Encoding encoding) const;
 
   /// With one array and nothing else.
   Image image(const std::string& name, PointArray::Values values) const;

@@ -18,14 +18,10 @@ namespace {
 using Host = Kokkos::DefaultHostExecutionSpace;
 
 std::optional<ValueType> type_of(const XmlElement& array) {
-  static const std::pair<const char*, ValueType> types[] = {
-      {"Int8", ValueType::int8},       {"UInt8", ValueType::uint8},    {"Int16", ValueType::int16},
-      {"UInt16", ValueType::uint16},   {"Int32", ValueType::int32},    {"UInt32", ValueType::uint32},
-      {"Int64", ValueType::int64},     {"UInt64", ValueType::uint64},  {"Float32", ValueType::float32},
-      {"Float64", ValueType::float64}, {"vtkIdType", ValueType::int64}};
   const std::string name = array.attribute("type");
-  for (const auto& [known, type] : types) {
-    if (name == known) return type;
+  if (name == "vtkIdType") return ValueType::int64;
+  for (int k = 0; k <= static_cast<int>(ValueType::float64); ++k) {
+    if (name == xml_name_of(static_cast<ValueType>(k))) return static_cast<ValueType>(k);
   }
   return std::nullopt;
 }

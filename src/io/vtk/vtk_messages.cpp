@@ -3,7 +3,6 @@
 #include <cstring>
 #include <iterator>
 #include <mutex>
-#include <sstream>
 
 #include <vtkErrorCode.h>
 #include <vtkLogger.h>
@@ -12,6 +11,7 @@
 #include <vtkSmartPointer.h>
 
 #include <gale/base/error.hpp>
+#include <gale/io/bytes/damaged.hpp>
 #include <gale/io/vtk/vtk_messages.hpp>
 
 namespace gale::io::detail {
@@ -27,15 +27,9 @@ std::string message_of(const std::string& text) {
   return message;
 }
 
-/// `text` as one short line that can be printed, whatever bytes of a file it quotes, and without a full stop.
+/// As one short line that can be printed, without a full stop.
 std::string one_line(const std::string& text) {
-  constexpr std::size_t longest = 200;
-  std::istringstream words(text);
-  std::string line;
-  for (std::string word; words >> word;) line += (line.empty() ? "" : " ") + word;
-  std::replace_if(
-      line.begin(), line.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
-  if (line.size() > longest) line = line.substr(0, longest) + "...";
+  std::string line = printable(text);
   if (!line.empty() && line.back() == '.') line.pop_back();
   return line;
 }
@@ -67,7 +61,6 @@ class SilentWindow : public vtkOutputWindow {
 
   void DisplayText(const char*) override {}
   void DisplayErrorText(const char* text) override { remember(text); }
-  // How the legacy readers report data that ends too early.
   void DisplayGenericWarningText(const char* text) override { remember(text); }
   void DisplayWarningText(const char*) override {}
   void DisplayDebugText(const char*) override {}

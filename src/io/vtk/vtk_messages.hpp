@@ -17,7 +17,7 @@ class GALE_EXPORT VtkMessages {
   VtkMessages(const VtkMessages&) = delete;
   VtkMessages& operator=(const VtkMessages&) = delete;
 
-  /// Throws `Error` with the first error, as one line, if there was one. `code` is the `GetErrorCode` of the reader or
+  /// Throws `Error` with the first error, as one line, if there was one. `code` is the `GetErrorCode` of the filter or
   /// writer.
   void check(unsigned long code) const;
 

@@ -1,4 +1,5 @@
 #include <gale/base/error.hpp>
+#include <gale/io/bytes/deflate.hpp>
 #include <gale/io/formats/readers.hpp>
 
 namespace gale::io::detail {
@@ -12,12 +13,8 @@ bool has_vtk() { return false; }
 
 Content read_content(const InputFile&, Format, const ReadOptions&) { refuse(); }
 
-void write_points_with_vtk(const std::string&, const PointSet&) { refuse(); }
+bool can_deflate() { return false; }
 
-void write_surface_with_vtk(const std::string&, const Surface&) { refuse(); }
-
-void write_lines_with_vtk(const std::string&, const Surface&) { refuse(); }
-
-void write_mesh_with_vtk(const std::string&, Format, const Dataset&, const std::vector<PointArray>&) { refuse(); }
+void deflate(const char*, std::size_t, std::vector<char>&) { refuse(); }
 
 }  // namespace gale::io::detail

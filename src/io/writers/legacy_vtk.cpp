@@ -1,0 +1,79 @@
+#include <algorithm>
+#include <cstring>
+
+#include <gale/io/bytes/byte_order.hpp>
+#include <gale/io/bytes/output_file.hpp>
+#include <gale/io/writers/writers.hpp>
+#include <gale/io/writers/written_array.hpp>
+
+namespace gale::io::detail {
+
+namespace {
+
+const char* legacy_name_of(ValueType type) {
+  static const char* const names[] = {"signed_char",  "unsigned_char", "short",         "unsigned_short", "int",
+                                      "unsigned_int", "vtktypeint64",  "vtktypeuint64", "float",          "double"};
+  return names[static_cast<int>(type)];
+}
+
+/// As one word.
+std::string encoded(const std::string& name) {
+  static const char digits[] = "0123456789ABCDEF";
+  std::string word;
+  for (const char c : name) {
+    const auto code = static_cast<unsigned char>(c);
+    if (code < '!' || code > '~' || c == '"' || c == '%') {
+      word += {'%', digits[code / 16], digits[code % 16]};
+    } else {
+      word += c;
+    }
+  }
+  return word;
+}
+
+/// The values, the most significant byte first.
+void write_values(OutputFile& file, const WrittenArray& array) {
+  constexpr std::uint64_t block = 1 << 15;
+  with_type(array.type, [&](auto value) {
+    std::vector<decltype(value)> values(std::min(block, array.count));
+    for (std::uint64_t begin = 0; begin < array.count; begin += block) {
+      const std::uint64_t count = std::min(block, array.count - begin);
+      array.copy(begin, begin + count, reinterpret_cast<char*>(values.data()));
+      to_machine_order(values.data(), count, ByteOrder::big);
+      file.write(values.data(), count * sizeof(value));
+    }
+  });
+  file.write("\n");
+}
+
+}  // namespace
+
+void write_legacy_vtk(const std::string& path, const Dataset& mesh, const std::vector<PointArray>& more) {
+  const WrittenArray points = written(mesh.points);
+  const std::uint64_t count = mesh.tetrahedra.extent(0);
+  const std::string vertices = std::to_string(points.count / 3), cells = std::to_string(count);
+  OutputFile file(path);
+  file.write("# vtk DataFile Version 5.1\nwritten by gale\nBINARY\nDATASET UNSTRUCTURED_GRID\n");
+  file.write("POINTS " + vertices + " " + legacy_name_of(points.type) + "\n");
+  write_values(file, points);
+  file.write("CELLS " + std::to_string(count + 1) + " " + std::to_string(4 * count) + "\nOFFSETS vtktypeint64\n");
+  write_values(file, made<std::int64_t>("", count + 1, [](std::uint64_t k) { return 4 * k; }));
+  file.write("CONNECTIVITY vtktypeint64\n");
+  write_values(file, made<std::int64_t>("", 4 * count,
+                                        [corners = mesh.tetrahedra.data()](std::uint64_t k) { return corners[k]; }));
+  file.write("CELL_TYPES " + cells + "\n");
+  constexpr int tetrahedron = 10;
+  write_values(file, made<std::int32_t>("", count, [](std::uint64_t) { return tetrahedron; }));
+  const auto arrays = written({&mesh.arrays, &more});
+  if (!arrays.empty()) {
+    file.write("POINT_DATA " + vertices + "\nFIELD FieldData " + std::to_string(arrays.size()) + "\n");
+    for (const WrittenArray& array : arrays) {
+      file.write(encoded(array.name) + " " + std::to_string(array.components) + " " + vertices + " " +
+                 legacy_name_of(array.type) + "\n");
+      write_values(file, array);
+    }
+  }
+  file.flush();
+}
+
+}  // namespace gale::io::detail

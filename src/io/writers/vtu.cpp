@@ -1,0 +1,44 @@
+#include <gale/io/writers/write_xml.hpp>
+#include <gale/io/writers/writers.hpp>
+
+namespace gale::io::detail {
+
+namespace {
+
+using Arrays = std::vector<WrittenArray>;
+
+enum CellType : std::uint8_t { line = 3, polyline = 4, tetrahedron = 10 };
+
+void write(const std::string& path, const Dataset::Positions& points, Arrays point_arrays, Arrays cell_arrays,
+           Arrays cells) {
+  write_xml(path, {"UnstructuredGrid",
+                   {{"NumberOfPoints", written(points).count / 3}, {"NumberOfCells", cells[1].count}},
+                   {{"PointData", std::move(point_arrays)},
+                    {"CellData", std::move(cell_arrays)},
+                    {"Points", {written(points)}},
+                    {"Cells", std::move(cells)}}});
+}
+
+}  // namespace
+
+void write_vtu(const std::string& path, const Dataset& mesh, const std::vector<PointArray>& more) {
+  const std::uint64_t count = mesh.tetrahedra.extent(0);
+  write(path, mesh.points, written({&mesh.arrays, &more}), {},
+        {made_integers("connectivity", 4 * count, 4 * count,
+                       [corners = mesh.tetrahedra.data()](std::uint64_t k) { return corners[k]; }),
+         made_integers("offsets", count, 4 * count, [](std::uint64_t k) { return 4 * (k + 1); }),
+         made<std::uint8_t>("types", count, [](std::uint64_t) { return tetrahedron; })});
+}
+
+void write_vtu(const std::string& path, const Surface& lines) {
+  const auto* const begin = lines.lines.begin.data();
+  const std::uint64_t count = lines.lines.begin.size() - 1, size = lines.lines.points.size();
+  write(path, lines.points, written({&lines.point_arrays}), written({&lines.cell_arrays}),
+        {made_integers("connectivity", size, size,
+                       [points = lines.lines.points.data()](std::uint64_t k) { return points[k]; }),
+         made_integers("offsets", count, size, [begin](std::uint64_t k) { return begin[k + 1]; }),
+         made<std::uint8_t>("types", count,
+                            [begin](std::uint64_t k) { return begin[k + 1] - begin[k] == 2 ? line : polyline; })});
+}
+
+}  // namespace gale::io::detail

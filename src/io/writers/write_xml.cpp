@@ -1,0 +1,113 @@
+#include <algorithm>
+
+#include <gale/base/threads.hpp>
+#include <gale/io/bytes/byte_order.hpp>
+#include <gale/io/bytes/deflate.hpp>
+#include <gale/io/bytes/output_file.hpp>
+#include <gale/io/writers/write_xml.hpp>
+#include <gale/io/writers/xml_text.hpp>
+
+namespace gale::io::detail {
+
+namespace {
+
+constexpr std::uint64_t block_bytes = 1 << 18;
+
+/// As VTK has them: how many blocks, the bytes of a block, and of the last where that is another number, and the bytes
+/// of each when it is compressed; then the blocks.
+class CompressedBlocks {
+ public:
+  explicit CompressedBlocks(const WrittenArray& array)
+      : array_(array), block_(block_bytes / size_of(array.type)), blocks_((array.count + block_ - 1) / block_) {}
+
+  void write(OutputFile& file) const {
+    std::vector<std::uint64_t> header = {blocks_, block_bytes, array_.count % block_ * size_of(array_.type)};
+    const std::size_t sizes = header.size();
+    header.resize(sizes + blocks_);
+    const std::uint64_t at = file.size();
+    file.write(header.data(), header.size() * sizeof(header[0]));
+    const auto threads = static_cast<int>(std::min<std::uint64_t>(host_threads(), blocks_));
+    const auto at_once = static_cast<std::size_t>(4 * threads);
+    std::vector<std::vector<char>> plain(threads), compressed(at_once);
+    for (std::uint64_t first = 0; first < blocks_; first += at_once) {
+      const std::uint64_t count = std::min<std::uint64_t>(at_once, blocks_ - first);
+      in_turns(threads, static_cast<std::int64_t>(count),
+               [&](int thread, std::int64_t i) { compress(first + i, plain[thread], compressed[i]); });
+      for (std::uint64_t i = 0; i < count; ++i) {
+        header[sizes + first + i] = compressed[i].size();
+        file.write(compressed[i].data(), compressed[i].size());
+      }
+    }
+    file.rewrite(at, header.data(), header.size() * sizeof(header[0]));
+  }
+
+ private:
+  void compress(std::uint64_t block, std::vector<char>& plain, std::vector<char>& compressed) const {
+    const std::uint64_t begin = block * block_, end = std::min(begin + block_, array_.count);
+    plain.resize((end - begin) * size_of(array_.type));
+    array_.copy(begin, end, plain.data());
+    deflate(plain.data(), plain.size(), compressed);
+  }
+
+  const WrittenArray& array_;
+  const std::uint64_t block_, blocks_;  ///< values of a block, blocks of the array
+};
+
+void write_plain(OutputFile& file, const WrittenArray& array) {
+  const std::uint64_t bytes = array.count * size_of(array.type), block = block_bytes / size_of(array.type);
+  file.write(&bytes, sizeof bytes);
+  std::vector<char> plain(std::min(bytes, block_bytes));
+  for (std::uint64_t begin = 0; begin < array.count; begin += block) {
+    const std::uint64_t end = std::min(begin + block, array.count);
+    array.copy(begin, end, plain.data());
+    file.write(plain.data(), (end - begin) * size_of(array.type));
+  }
+}
+
+std::string attribute(const std::string& name, const std::string& value) {
+  return " " + name + "=\"" + xml_text(value) + "\"";
+}
+
+}  // namespace
+
+void write_xml(const std::string& path, const XmlContent& content) {
+  OutputFile file(path);
+  const std::string order = byte_order_of_machine() == ByteOrder::little ? "LittleEndian" : "BigEndian";
+  file.write("<VTKFile" + attribute("type", content.type) + attribute("version", "1.0") +
+             attribute("byte_order", order) + attribute("header_type", "UInt64") +
+             (can_deflate() ? attribute("compressor", "vtkZLibDataCompressor") : "") + ">\n");
+  file.write("  <" + content.type + ">\n    <Piece");
+  for (const auto& [name, size] : content.sizes) file.write(attribute(name, std::to_string(size)));
+  file.write(">\n");
+  const std::string blank(21, ' ');  // for any offset and a quote: it is known when what comes before it is compressed
+  std::vector<std::uint64_t> offsets_at;
+  for (const auto& section : content.sections) {
+    file.write("      <" + section.name + ">\n");
+    for (const WrittenArray& array : section.arrays) {
+      file.write("        <DataArray" + attribute("type", xml_name_of(array.type)) + attribute("Name", array.name) +
+                 attribute("NumberOfComponents", std::to_string(array.components)) + attribute("format", "appended") +
+                 " offset=\"");
+      offsets_at.push_back(file.size());
+      file.write(blank + "/>\n");
+    }
+    file.write("      </" + section.name + ">\n");
+  }
+  file.write("    </Piece>\n  </" + content.type + ">\n  <AppendedData encoding=\"raw\">\n   _");
+  const std::uint64_t begin = file.size();
+  auto offset_at = offsets_at.begin();
+  for (const auto& section : content.sections) {
+    for (const WrittenArray& array : section.arrays) {
+      const std::string offset = std::to_string(file.size() - begin) + "\"";
+      if (can_deflate()) {
+        CompressedBlocks(array).write(file);
+      } else {
+        write_plain(file, array);
+      }
+      file.rewrite(*offset_at++, offset.data(), offset.size());
+    }
+  }
+  file.write("\n  </AppendedData>\n</VTKFile>\n");
+  file.flush();
+}
+
+}  // namespace gale::io::detail

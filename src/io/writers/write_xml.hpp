@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gale/io/writers/written_array.hpp>
+
+namespace gale::io::detail {
+
+/// What stands in one of VTK's XML files.
+struct XmlContent {
+  struct Section {
+    std::string name;  ///< e.g. "PointData"
+    std::vector<WrittenArray> arrays;
+  };
+
+  std::string type;                                          ///< e.g. "UnstructuredGrid"
+  std::vector<std::pair<std::string, std::uint64_t>> sizes;  ///< e.g. "NumberOfPoints"
+  std::vector<Section> sections;
+};
+
+/// Writes it with its arrays appended as they are in memory, compressed where there is a zlib: block by block, so that
+/// it takes little memory, and on as many threads as loops take. Throws gale::Error without the path.
+void write_xml(const std::string& path, const XmlContent& content);
+
+}  // namespace gale::io::detail

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <gale/io/write.hpp>
+
+/// Each writes to a file that is there, whatever its name. What is written is consistent: io::write_mesh and the others
+/// see to that. They throw gale::Error without the path.
+namespace gale::io::detail {
+
+void write_vtp(const std::string& path, const PointSet& points);
+void write_vtp(const std::string& path, const Surface& surface);
+
+void write_vtu(const std::string& path, const Dataset& mesh, const std::vector<PointArray>& more);
+
+/// The lines, without polygons.
+void write_vtu(const std::string& path, const Surface& lines);
+
+/// Binary, of the version 5.1.
+void write_legacy_vtk(const std::string& path, const Dataset& mesh, const std::vector<PointArray>& more);
+
+}  // namespace gale::io::detail

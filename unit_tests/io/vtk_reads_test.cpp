@@ -1,0 +1,196 @@
+#include <io/io_fixtures.hpp>
+
+#ifdef GALE_ENABLE_VTK
+
+#include <gtest/gtest.h>
+#include <vtkCell.h>
+#include <vtkCellData.h>
+#include <vtkCellType.h>
+#include <vtkDataArray.h>
+#include <vtkDataSet.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPointSet.h>
+#include <vtkPolyData.h>
+#include <vtkTypeTraits.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkUnstructuredGridReader.h>
+#include <vtkXMLPolyDataReader.h>
+#include <vtkXMLUnstructuredGridReader.h>
+
+#include <gale/base/threads.hpp>
+#include <gale/io/atomic_file.hpp>
+#include <gale/io/read.hpp>
+#include <gale/io/synthetic.hpp>
+#include <gale/io/write.hpp>
+
+/// What GALE writes is what VTK's own readers read.
+namespace gale::io {
+namespace {
+
+class VtkReads : public testing::Test {
+ protected:
+  template <class Reader>
+  vtkSmartPointer<typename std::remove_pointer<decltype(Reader::New()->GetOutput())>::type> read_by(
+      const std::string& name) const {
+    vtkNew<Reader> reader;
+    reader->SetFileName((folder / name).c_str());
+    reader->Update();
+    EXPECT_EQ(reader->GetErrorCode(), 0u);
+    return reader->GetOutput();
+  }
+  test::Folder folder;
+};
+
+void expect_array(vtkDataArray* found, const PointArray& array) {
+  ASSERT_NE(found, nullptr) << array.name;
+  EXPECT_EQ(found->GetNumberOfComponents(), array.components) << array.name;
+  std::visit(
+      [&](const auto& values) {
+        using T = typename std::decay_t<decltype(values)>::value_type;
+        EXPECT_EQ(found->GetElementComponentSize(), static_cast<int>(sizeof(T))) << array.name;
+        EXPECT_EQ(found->GetDataTypeMin(), static_cast<double>(vtkTypeTraits<T>::Min())) << array.name;
+        ASSERT_EQ(found->GetNumberOfValues(), static_cast<vtkIdType>(values.size())) << array.name;
+        const T* const read = static_cast<const T*>(found->GetVoidPointer(0));
+        EXPECT_TRUE(std::equal(values.begin(), values.end(), read)) << array.name;
+      },
+      array.values);
+}
+
+void expect_points(vtkPointSet* found, const Dataset::Positions& points) {
+  std::visit(
+      [&](const auto& xyz) {
+        ASSERT_EQ(found->GetNumberOfPoints(), static_cast<vtkIdType>(xyz.extent(0)));
+        for (std::size_t i = 0; i < xyz.extent(0); ++i) {
+          for (int d = 0; d < 3; ++d) ASSERT_EQ(found->GetPoint(static_cast<vtkIdType>(i))[d], xyz(i, d)) << i;
+        }
+      },
+      points);
+}
+
+void expect_cell(vtkDataSet* found, vtkIdType cell, int type, const std::vector<int>& points) {
+  ASSERT_EQ(found->GetCellType(cell), type) << cell;
+  std::vector<int> read;
+  for (int k = 0; k < found->GetCell(cell)->GetNumberOfPoints(); ++k)
+    read.push_back(static_cast<int>(found->GetCell(cell)->GetPointId(k)));
+  ASSERT_EQ(read, points) << cell;
+}
+
+/// Large enough for several blocks of each array.
+Dataset large_mesh() {
+  Dataset mesh = make_grid(34);
+  mesh.arrays = test::arrays_of_every_type(test::point_count_of(mesh));
+  const std::vector<std::uint8_t> ones(test::point_count_of(mesh), 1);
+  for (const char* name : {"two words", "<a> & \"b\" 'c' 100%", "\xc3\xa9\xe2\x82\xac"}) {
+    mesh.arrays.push_back({name, 1, ones});
+  }
+  return mesh;
+}
+
+void expect_mesh(vtkUnstructuredGrid* found, const Dataset& mesh) {
+  expect_points(found, mesh.points);
+  ASSERT_EQ(found->GetNumberOfCells(), static_cast<vtkIdType>(mesh.tetrahedra.extent(0)));
+  for (std::size_t t = 0; t < mesh.tetrahedra.extent(0); t += 97) {
+    const auto corner = [&](int k) { return mesh.tetrahedra(t, k); };
+    expect_cell(found, static_cast<vtkIdType>(t), VTK_TETRA, {corner(0), corner(1), corner(2), corner(3)});
+  }
+  ASSERT_EQ(found->GetPointData()->GetNumberOfArrays(), static_cast<int>(mesh.arrays.size()));
+  for (const PointArray& array : mesh.arrays) expect_array(found->GetPointData()->GetArray(array.name.c_str()), array);
+}
+
+TEST_F(VtkReads, meshes_whatever_the_threads) {
+  const Dataset mesh = large_mesh();
+  for (const int threads : {1, 3}) {
+    const ThreadLimit limit(threads);
+    write_mesh(folder / "mesh.vtu", mesh);
+    expect_mesh(read_by<vtkXMLUnstructuredGridReader>("mesh.vtu"), mesh);
+  }
+}
+
+TEST_F(VtkReads, legacy_meshes) {
+  const Dataset mesh = large_mesh();
+  write_mesh(folder / "mesh.vtk", mesh);
+  expect_mesh(read_by<vtkUnstructuredGridReader>("mesh.vtk"), mesh);
+}
+
+TEST_F(VtkReads, empty_meshes) {
+  Dataset mesh = make_grid(2);
+  mesh.tetrahedra = {};
+  write_mesh(folder / "mesh.vtu", mesh);
+  EXPECT_EQ(read_by<vtkXMLUnstructuredGridReader>("mesh.vtu")->GetNumberOfCells(), 0);
+  EXPECT_EQ(read_by<vtkXMLUnstructuredGridReader>("mesh.vtu")->GetNumberOfPoints(), 8);
+}
+
+Dataset::Positions five_points() {
+  const Dataset::Points<double> points("GALE::points", 5);
+  for (int i = 0; i < 5; ++i) points(i, 1) = 0.1 * i;
+  return points;
+}
+
+TEST_F(VtkReads, points) {
+  const PointArray types{"CriticalType", 1, std::vector<std::int8_t>{0, 1, 0, 3, 2}};
+  write_points(folder / "points.vtp", {five_points(), {types}});
+  const auto found = read_by<vtkXMLPolyDataReader>("points.vtp");
+  expect_points(found, five_points());
+  expect_array(found->GetPointData()->GetArray("CriticalType"), types);
+  ASSERT_EQ(found->GetNumberOfVerts(), 5);
+  for (int i = 0; i < 5; ++i) expect_cell(found, i, VTK_VERTEX, {i});
+}
+
+/// The lines 0-1-2 and 2-3, and the triangle 0, 1, 4.
+Surface two_lines_and_a_triangle() {
+  Surface surface;
+  surface.points = five_points();
+  surface.point_arrays = {{"CellDimension", 1, std::vector<std::int8_t>{0, 1, 0, 3, 2}}};
+  surface.lines = {{0, 3, 5}, {0, 1, 2, 2, 3}};
+  surface.polygons = {{0, 3}, {0, 1, 4}};
+  surface.cell_arrays = {{"SourceId", 1, std::vector<std::int32_t>{7, 8, 9}}};
+  return surface;
+}
+
+TEST_F(VtkReads, surfaces) {
+  const Surface surface = two_lines_and_a_triangle();
+  write_surface(folder / "surface.vtp", surface);
+  const auto found = read_by<vtkXMLPolyDataReader>("surface.vtp");
+  expect_points(found, surface.points);
+  expect_array(found->GetPointData()->GetArray("CellDimension"), surface.point_arrays[0]);
+  expect_array(found->GetCellData()->GetArray("SourceId"), surface.cell_arrays[0]);
+  ASSERT_EQ(found->GetNumberOfCells(), 3);
+  expect_cell(found, 0, VTK_POLY_LINE, {0, 1, 2});
+  expect_cell(found, 1, VTK_LINE, {2, 3});
+  expect_cell(found, 2, VTK_TRIANGLE, {0, 1, 4});
+}
+
+TEST_F(VtkReads, lines_of_a_grid) {
+  Surface lines = two_lines_and_a_triangle();
+  lines.cell_arrays = {{"PairId", 1, std::vector<std::int64_t>{-1, 5}}};
+  AtomicFile file(folder / "lines.vtu");
+  write_lines(file, lines);
+  file.commit();
+  const auto found = read_by<vtkXMLUnstructuredGridReader>("lines.vtu");
+  expect_points(found, lines.points);
+  expect_array(found->GetCellData()->GetArray("PairId"), lines.cell_arrays[0]);
+  ASSERT_EQ(found->GetNumberOfCells(), 2);
+  expect_cell(found, 0, VTK_POLY_LINE, {0, 1, 2});
+  expect_cell(found, 1, VTK_LINE, {2, 3});
+}
+
+/// What XML can't have is replaced: the file is read all the same.
+TEST_F(VtkReads, names_of_any_bytes) {
+  Dataset mesh = make_grid(2);
+  mesh.arrays.clear();
+  const std::vector<float> values(8, 7);
+  for (const char* name : {"latin \xe9", "\x01", "tab\tand\nline", "\xed\xa0\x80", ""})
+    mesh.arrays.push_back({name, 1, values});
+  write_mesh(folder / "mesh.vtu", mesh);
+  EXPECT_EQ(read_by<vtkXMLUnstructuredGridReader>("mesh.vtu")->GetNumberOfCells(), 6);
+  EXPECT_EQ(test::names_of(read(folder / "mesh.vtu").arrays)[0], "latin \xc3\xa9");
+  write_mesh(folder / "mesh.vtk", mesh);
+  EXPECT_EQ(read_by<vtkUnstructuredGridReader>("mesh.vtk")->GetNumberOfCells(), 6);
+  EXPECT_EQ(test::names_of(read(folder / "mesh.vtk").arrays)[2], "tab\tand\nline");
+}
+
+}  // namespace
+}  // namespace gale::io
+
+#endif
