@@ -101,6 +101,35 @@ class Canceller {
   void turn_path(Id lower, Id upper) {
     const auto& edge = critical_.edges[lower];
     const DescendingWall::Edge from{edge[0], edge[1]};
+    if (want_joined_ || !take_first_path(lower, upper)) find_path(lower, upper, from);
+    DescendingWall::Edge at = from;
+    for (const TriangleVertices& triangle : path_) {
+      const auto third = std::find_if(triangle.begin(), triangle.end(),
+                                      [&](Id vertex) { return vertex != at.high && vertex != at.low; });
+      turned_.set(at.high, at.low, *third);
+      at = {triangle[0], triangle[1]};
+    }
+  }
+
+  /// Most are still as they were in the complex: then path_ is that one.
+  bool take_first_path(Id lower, Id upper) {
+    const auto& all = complex_.connectors;
+    const auto range = std::equal_range(all.destinations.begin(), all.destinations.end(), upper);
+    const auto first = static_cast<Id>(range.first - all.destinations.begin());
+    const auto end = static_cast<Id>(range.second - all.destinations.begin());
+    const auto source = std::find(all.sources.begin() + first, all.sources.begin() + end, lower);
+    const auto place = static_cast<Id>(source - all.sources.begin());
+    if (place == end) return false;
+    const auto& edge = critical_.edges[lower];
+    if (turned_.find(edge[0], edge[1]) != nullptr) return false;
+    for (const TriangleVertices* at = all.first(place); at != all.last(place) - 1; ++at) {
+      if (turned_.find((*at)[0], (*at)[1]) != nullptr) return false;
+    }
+    path_.assign(all.first(place), all.last(place));
+    return true;
+  }
+
+  void find_path(Id lower, Id upper, const DescendingWall::Edge& from) {
     const TriangleVertices& to = critical_.triangles[upper];
     // Most paths stay above their lower end.
     DescendingWall& wall = wall_of(0);
@@ -118,13 +147,6 @@ class Canceller {
     }
     path_.clear();
     wall.append_path(from, path_);
-    DescendingWall::Edge at = from;
-    for (const TriangleVertices& triangle : path_) {
-      const auto third = std::find_if(triangle.begin(), triangle.end(),
-                                      [&](Id vertex) { return vertex != at.high && vertex != at.low; });
-      turned_.set(at.high, at.low, *third);
-      at = {triangle[0], triangle[1]};
-    }
   }
 
   std::vector<Id> left(const std::vector<char>& is_left) const {

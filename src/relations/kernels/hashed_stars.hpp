@@ -102,19 +102,23 @@ class HashedStars {
   /// Calls visit(vertex, place) for the three vertices of a tetrahedron that are not `vertex`, ascending.
   template <class Visit>
   KOKKOS_FORCEINLINE_FUNCTION void for_each_other(Id t, Id vertex, const Visit& visit) const {
-    int place = 0;
-    for (int corner = 0; corner < 4; ++corner) {
-      const Id other = request_.mesh.tetrahedra(t, corner);
-      if (other != vertex) visit(other, place++);
-    }
+    const Id* const corners = &request_.mesh.tetrahedra(t, 0);
+    for (int i = 0; i < 3; ++i) visit(corners[i + (corners[i] >= vertex ? 1 : 0)], i);  // they ascend: no branch
   }
 
   KOKKOS_FORCEINLINE_FUNCTION void gather_neighbours(Id row, Id* star, Id tetrahedra) const {
     auto& shared = *scratch_.shared;
     const Id vertex = segment_.first + row;
     const NeighbourSet<Team> neighbours(team_, scratch_, request_.sizes.slots, tetrahedra);
-    team::for_lanes(team_, tetrahedra,
-                    [&](Id i) { for_each_other(star[i], vertex, [&](Id other, int) { neighbours.insert(other); }); });
+    const bool wants_link = shared.link != BlockPool::missing;
+    const LinkPlaces link(request_.pool.words + (wants_link ? shared.link : 0), segment_.rows);
+    const Offset link_begin = 3 * Offset(scratch_.star_begin[row]);
+    team::for_lanes(team_, tetrahedra, [&](Id i) {
+      for_each_other(star[i], vertex, [&](Id other, int corner) {
+        const Id came = neighbours.insert(other);
+        if (is_sequential<Team> && wants_link) link.put(link_begin + 3 * i + corner, came);
+      });
+    });
     team::once_per_warp(team_, [&] {
       const Id count = neighbours.size();
       scratch_.warp->place = team::add(team_, &shared.found.neighbours, count);
@@ -126,11 +130,16 @@ class HashedStars {
     if (neighbours.overflows() || scratch_.warp->place + neighbours.size() > request_.sizes.neighbours) return;
     Id* const out = scratch_.neighbours + scratch_.warp->place;
     neighbours.write_ordered(out);
-    if (shared.link == BlockPool::missing) return;
-    const LinkPlaces link(request_.pool.words + shared.link, segment_.rows);
+    if (!wants_link) return;
+    if (is_sequential<Team> && neighbours.remembers_ranks()) {
+      for (Offset at = link_begin; at < link_begin + 3 * Offset(tetrahedra); ++at)
+        link.put(at, neighbours.rank_of(link.get(at)));
+      return;
+    }
     for_each_ranked(star, tetrahedra, [&](Id t, Id place) {
-      const Offset at = 3 * (Offset(scratch_.star_begin[row]) + place);
-      for_each_other(t, vertex, [&](Id other, int corner) { link.put(at + corner, neighbours.place_of(other, out)); });
+      for_each_other(t, vertex, [&](Id other, int corner) {
+        link.put(link_begin + 3 * Offset(place) + corner, neighbours.place_of(other, out));
+      });
     });
   }
 

@@ -25,26 +25,27 @@ class NeighbourSet {
     team::warp_barrier(team_);
   }
 
-  /// By any lane.
-  KOKKOS_FORCEINLINE_FUNCTION void insert(Id id) const {
+  /// By any lane. On a team of one thread it returns how many came before this one.
+  KOKKOS_FORCEINLINE_FUNCTION Id insert(Id id) const {
     const Id size = Id(1) << bits_;
     Id slot = first_slot(id);
     for (Id probe = 0; probe < size; ++probe) {
       const Id here = keys_[slot];
-      if (here == id) return;
+      if (here == id) return places_[slot];
       if (here == no_id) {
         const Id before = team::exchange_if(team_, &keys_[slot], no_id, id);
-        if (before == id) return;
+        if (before == id) return no_id;
         if (before == no_id) {
           const Id place = team::add(team_, &warp_->count, Id(1));
           list_[place] = id;
           places_[slot] = place;
-          return;
+          return place;
         }
       }
       slot = (slot + 1) & (size - 1);
     }
     warp_->overflow = 1;
+    return no_id;
   }
 
   // All below: after the warp has met again.
@@ -60,9 +61,15 @@ class NeighbourSet {
     });
   }
 
-  /// Where in the row that write_ordered wrote a member stands; by any lane.
+  /// Does rank_of hold? Too many are put in order where they came.
+  KOKKOS_FORCEINLINE_FUNCTION bool remembers_ranks() const { return size() <= counting_limit; }
+
+  /// Where in the row that write_ordered wrote the member stands before which so many came.
+  KOKKOS_FORCEINLINE_FUNCTION Id rank_of(Id came) const { return ranks_[came]; }
+
+  /// The same of a member by its id; by any lane.
   KOKKOS_FORCEINLINE_FUNCTION Id place_of(Id id, const Id* row) const {
-    if (size() > counting_limit) return place_in(row, size(), id);
+    if (!remembers_ranks()) return place_in(row, size(), id);
     Id slot = first_slot(id);
     while (keys_[slot] != id) slot = (slot + 1) & ((Id(1) << bits_) - 1);
     return ranks_[places_[slot]];

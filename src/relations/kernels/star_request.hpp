@@ -106,6 +106,12 @@ struct LinkPlaces {
 
   KOKKOS_FORCEINLINE_FUNCTION LinkPlaces(Id* block, Id rows) : places(block + rows + 2), width(block[rows + 1]) {}
 
+  KOKKOS_FORCEINLINE_FUNCTION Id get(Offset at) const {
+    if (width == 1) return static_cast<const std::uint8_t*>(places)[at];
+    if (width == 2) return static_cast<const std::uint16_t*>(places)[at];
+    return static_cast<const Id*>(places)[at];
+  }
+
   KOKKOS_FORCEINLINE_FUNCTION void put(Offset at, Id place) const {
     if (width == 1) {
       static_cast<std::uint8_t*>(places)[at] = static_cast<std::uint8_t>(place);
