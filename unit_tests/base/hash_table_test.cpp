@@ -53,4 +53,26 @@ TEST(HashTable, forgets_everything_when_it_is_cleared) {
   }
 }
 
+TEST(HashTable, serves_sets_of_any_sizes_one_after_the_other) {
+  HashTable<Id> table(4);
+  std::mt19937_64 random(5);
+  for (Id i = 0; i < 5000; ++i) table.insert(i).first = i;  // grows before it is cleared for the first time
+  for (int round = 0; round < 200; ++round) {
+    table.clear();
+    const Id count = static_cast<Id>(random() % (random() % 3 == 0 ? 20000 : 50));
+    for (Id i = 0; i < count; ++i) {
+      const auto [value, is_new] = table.insert(pair_key(i, round));
+      ASSERT_TRUE(is_new);
+      value = i;
+    }
+    ASSERT_EQ(table.size(), static_cast<std::size_t>(count));
+    for (Id i = 0; i < 20000; ++i) {
+      const Id* const found = table.find(pair_key(i, round));
+      ASSERT_EQ(found != nullptr, i < count);
+      if (found != nullptr) ASSERT_EQ(*found, i);
+      ASSERT_EQ(table.find(pair_key(i, round + 1)), nullptr);
+    }
+  }
+}
+
 }  // namespace gale::test
