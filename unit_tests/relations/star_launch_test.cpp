@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cstddef>
 
 #include <gtest/gtest.h>
 
@@ -152,6 +153,29 @@ TEST(LaunchedStars, leave_out_what_the_pool_lacks_room_for_and_say_how_much_it_t
     enough.run(warps);
     EXPECT_EQ(enough.used(), small.used());
     EXPECT_EQ(expect_rows(enough, mesh, wanted, expected), mesh.segments());
+  }
+}
+
+TEST(LaunchedStars, touch_no_pool_that_has_no_room) {
+  const InputMesh& input = mesh_named("holed_grid_9");
+  const Mesh mesh = encode(input, octree_of(input, 100000));
+  const ExpectedRows expected(input, brute_force_of("holed_grid_9"), mesh);
+  ASSERT_EQ(mesh.segments(), 1);
+  for (const RelationSet wanted : star_subsets) {
+    const Id segment = 0;
+    Offset used = 0;
+    std::vector<Offset> directory(wanted.count(), 0);
+    StarSizes needed;
+    StarKernel<HostMemory> kernel;
+    kernel.mesh = mesh.encoded();
+    kernel.segments = &segment;
+    kernel.wanted = wanted;
+    kernel.sizes = sizes_that_suffice(mesh, wanted, expected);
+    kernel.pool = {nullptr, 0, &used, directory.data(), &needed};
+    std::vector<std::max_align_t> scratch(kernel.scratch_bytes(kernel.sizes, 1) / sizeof(std::max_align_t) + 1);
+    kernel(HostTeam(0, reinterpret_cast<char*>(scratch.data())));
+    EXPECT_GT(used, 0);
+    EXPECT_EQ(directory, std::vector<Offset>(wanted.count(), BlockPool::missing));
   }
 }
 

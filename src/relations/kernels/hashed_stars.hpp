@@ -111,7 +111,7 @@ class HashedStars {
     const Id vertex = segment_.first + row;
     const NeighbourSet<Team> neighbours(team_, scratch_, request_.sizes.slots, tetrahedra);
     const bool wants_link = shared.link != BlockPool::missing;
-    const LinkPlaces link(request_.pool.words + (wants_link ? shared.link : 0), segment_.rows);
+    const LinkPlaces link = wants_link ? LinkPlaces(request_.pool.words + shared.link, segment_.rows) : LinkPlaces();
     const Offset link_begin = 3 * Offset(scratch_.star_begin[row]);
     team::for_lanes(team_, tetrahedra, [&](Id i) {
       for_each_other(star[i], vertex, [&](Id other, int corner) {

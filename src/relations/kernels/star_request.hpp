@@ -101,9 +101,10 @@ KOKKOS_FORCEINLINE_FUNCTION void reserve_blocks(const Team& team, const StarRequ
 
 /// Places of a link block, in its width.
 struct LinkPlaces {
-  void* places;
-  int width;
+  void* places = nullptr;
+  int width = 1;
 
+  LinkPlaces() = default;
   KOKKOS_FORCEINLINE_FUNCTION LinkPlaces(Id* block, Id rows) : places(block + rows + 2), width(block[rows + 1]) {}
 
   KOKKOS_FORCEINLINE_FUNCTION Id get(Offset at) const {
