@@ -54,9 +54,9 @@ third() { GTEST_TOTAL_SHARDS=3 GTEST_SHARD_INDEX=1 run_tests "$@"; }
 
 address() {
   export LSAN_OPTIONS=suppressions=$PWD/unit_tests/leaks.supp:print_suppressions=0
-  build sanitize gale_base gale_mesh gale_relations gale_runtime gale_algorithms
+  build sanitize gale_base gale_mesh gale_relations gale_runtime gale_algorithms gale_io
   together "run_tests sanitize base" "run_tests sanitize mesh" "third sanitize algorithms"
-  together "run_tests sanitize runtime" "third sanitize relations"
+  together "run_tests sanitize runtime" "third sanitize relations" "run_tests sanitize io"
 }
 
 # Of the runtime, all but what takes minutes here to compare every mesh with brute force; of the algorithms, those whose

@@ -13,7 +13,7 @@ enum class Format { vtu, vtk, vti, nifti, meta, nrrd, vtp };
 GALE_EXPORT std::optional<Format> format_of(const std::string& path);
 
 /// Whether files can be read: VTK has with it what that takes. Where GALE is built without VTK, vtk/without_vtk.cpp
-/// stands for all of vtk/vtk_*.cpp.
+/// stands for all of cells/, formats/ and vtk/vtk_*.cpp.
 GALE_EXPORT bool has_vtk();
 
 }  // namespace gale::io::detail

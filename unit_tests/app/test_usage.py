@@ -88,10 +88,10 @@ class Usage(gale.CommandTest):
 
     def test_report_of_a_name_that_is_not_utf_8(self):
         name = b"\xff.vtu"
-        self.succeed("generate", "grid:4", "-o", os.fsdecode(name)) if gale.HAVE_VTK else self.skipTest("no VTK")
-        self.assertEqual(self.report("info", os.fsdecode(name))["input"], "\ufffd.vtu")
+        self.succeed("generate", "grid:4", "-o", os.fsdecode(name))
+        if gale.HAVE_VTK:
+            self.assertEqual(self.report("info", os.fsdecode(name))["input"], "\ufffd.vtu")
 
-    @gale.needs_vtk
     def test_output_where_there_is_no_place(self):
         for command, name in (("critical-points", "missing/points.vtp"), ("segment", "missing/mesh.vtu"),
                               ("generate", "missing/mesh.vtk")):

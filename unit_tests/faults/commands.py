@@ -32,17 +32,17 @@ COMMANDS = [(line.split() + ONE, needs) for line, needs in [
     ("info volume.mha", "VTK"),
     ("info mesh.vtk", "VTK"),
     ("critical-points grid:4 --structure gale --report report.json", None),
-    ("critical-points grid:4 --structure inline -o points.vtp", "VTK"),
+    ("critical-points grid:4 --structure inline -o points.vtp", None),
     ("critical-points grid:4 --structure explicit", "KOKKOS_KERNELS"),
     ("critical-points grid:4 --structure task-parallel", None),
-    ("discrete-gradient grid:4 -o critical.vtp --arrows arrows.vtp --report report.json", "VTK"),
+    ("discrete-gradient grid:4 -o critical.vtp --arrows arrows.vtp --report report.json", None),
     ("discrete-gradient grid:4 --formulation cells", None),
-    ("morse-smale grid:4 -o p --separatrices2 --persistence 2% --report report.json", "VTK"),
-    ("persistence-diagram grid:4 -o diagram.vtu --curve curve.csv --report report.json", "VTK"),
+    ("morse-smale grid:4 -o p --separatrices2 --persistence 2% --report report.json", None),
+    ("persistence-diagram grid:4 -o diagram.vtu --curve curve.csv --report report.json", None),
     ("relations grid:4 --relation VV --verify --dump rows.txt --report report.json", None),
     ("relations grid:4 --relation FF --structure gale", None),
-    ("segment grid:4 --capacity 8 -o segments.vtu", "VTK"),
-    ("generate grid:4 -o mesh.vtk", "VTK"),
+    ("segment grid:4 --capacity 8 -o segments.vtu", None),
+    ("generate grid:4 -o mesh.vtk", None),
 ]]
 
 

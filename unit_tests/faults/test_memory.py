@@ -27,7 +27,8 @@ class Memory(unittest.TestCase):
 
     def test_limits(self):
         for line in (["critical-points", "grid:30", "--structure", "inline"], ["relations", "grid:20", "--relation", "FF"],
-                     ["morse-smale", "grid:20", "--separatrices2"]):  # without files: VTK 9.1 uses what it didn't get
+                     ["morse-smale", "grid:20", "--separatrices2", "-o", "out"],
+                     ["generate", "grid:20", "-o", "out.vtk"]):
             with self.subTest(line=line), tempfile.TemporaryDirectory() as folder:
                 limit = self.least(line, folder)
                 code = 1
@@ -38,6 +39,8 @@ class Memory(unittest.TestCase):
                         self.assertEqual((code, run.stdout), (1, ""), (limit, run.stderr))
                         self.assertRegex(run.stderr, r"\A(gale: [^\n]+|\nlibgomp: [^\n]+)\n\Z", limit)
                         self.assertEqual(list(Path(folder).iterdir()), [])
+                    else:
+                        self.assertEqual(any(Path(folder).iterdir()), "-o" in line)
                     limit += STEP
 
 

@@ -191,50 +191,6 @@ INSTANTIATE_TEST_SUITE_P(Tests, LegacyWays,
                                           testing::Values(vtkDataWriter::VTK_LEGACY_READER_VERSION_4_2,
                                                           vtkDataWriter::VTK_LEGACY_READER_VERSION_5_1)));
 
-/// Two cubes and a prism beside each other, whose faces tell VTK what they are.
-vtkSmartPointer<vtkUnstructuredGrid> polyhedra() {
-  auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
-  vtkNew<vtkPoints> points;
-  for (int k = 0; k < 12; ++k) points->InsertNextPoint(k / 4, k & 1, k >> 1 & 1);
-  points->InsertNextPoint(3, 0, 0);
-  points->InsertNextPoint(3, 1, 0);
-  grid->SetPoints(points);
-  for (const vtkIdType first : {0, 4}) {
-    vtkNew<vtkIdList> faces;
-    faces->InsertNextId(6);
-    for (const auto& face :
-         {std::array<int, 4>{0, 1, 3, 2}, {4, 6, 7, 5}, {0, 4, 5, 1}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 5, 7, 3}}) {
-      faces->InsertNextId(4);
-      for (const int corner : face) faces->InsertNextId(first + corner);
-    }
-    grid->InsertNextCell(VTK_POLYHEDRON, faces);
-  }
-  const vtkIdType prism[] = {8, 9, 10, 11, 12, 13};
-  grid->InsertNextCell(VTK_CONVEX_POINT_SET, 6, prism);
-  return grid;
-}
-
-template <class Writer>
-void expect_polyhedra(const std::string& path) {
-  vtkNew<Writer> writer;
-  writer->SetFileName(path.c_str());
-  writer->SetInputData(polyhedra());
-  ASSERT_EQ(writer->Write(), 1);
-  EXPECT_NE(test::error_of([&] { read(path); }).find("cell 0 is a vtkPolyhedron"), std::string::npos);
-  ReadOptions options;
-  options.tetrahedralize = true;
-  const Dataset mesh = read(path, options);
-  double total = 0;
-  for (std::size_t t = 0; t < mesh.tetrahedra.extent(0); ++t) total += std::abs(test::volume(mesh, t));
-  EXPECT_NEAR(total, 2.5, 1e-6);
-}
-
-TEST(CellTypes, of_free_size_are_split_into_the_volume_that_they_have) {
-  test::Folder folder;
-  expect_polyhedra<vtkXMLUnstructuredGridWriter>(folder / "a.vtu");
-  expect_polyhedra<vtkUnstructuredGridWriter>(folder / "a.vtk");
-}
-
 /// Every type of cell that VTK splits, as VTK's own cells have them: as many points as GALE's table says.
 TEST(CellTypes, of_fixed_size_are_split_into_the_volume_that_they_have) {
   test::Folder folder;

@@ -43,7 +43,7 @@ void write_png(const io::AtomicFile& file, int width, int height, const std::fun
     messages.check(vtkErrorCode::NoError);
     errno = 0;
     writer->Write();
-    messages.check_written(true, writer->GetErrorCode());
+    messages.check_written(writer->GetErrorCode());
   } catch (const std::exception& error) {
     throw Error("cannot draw '" + file.path() + "': " + error.what());
   }

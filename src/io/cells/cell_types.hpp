@@ -14,6 +14,5 @@ struct CellType {
 const CellType* find_cell_type(int number);
 
 inline constexpr int tetrahedron_type = 10, voxel_type = 11, hexahedron_type = 12;
-inline constexpr int convex_point_set_type = 41, polyhedron_type = 42;
 
 }  // namespace gale::io::detail

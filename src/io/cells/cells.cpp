@@ -10,7 +10,6 @@
 #include <gale/io/bytes/value_type.hpp>
 #include <gale/io/cells/cell_types.hpp>
 #include <gale/io/cells/cells.hpp>
-#include <gale/io/cells/free_cells.hpp>
 
 namespace gale::io::detail {
 
@@ -149,17 +148,11 @@ Tetrahedra split(const MeshParts& parts, const Types& types, const Ends& ends, c
     const auto end = static_cast<std::size_t>(ends[c]);
     const CellType& type = *find_cell_type(types[c]);
     if (type.dimension == 3) {
-      std::vector<std::int64_t> ids(connectivity.begin() + static_cast<std::ptrdiff_t>(begin),
-                                    connectivity.begin() + static_cast<std::ptrdiff_t>(end));
-      if (is_free_cell(types[c])) {
-        if (types[c] == polyhedron_type && parts.has_face_streams) ids = points_of_faces(c, ids);
-        require_splittable(c, types[c], ids.size());
-      } else if (type.points == 0) {
-        throw Error("cell " + std::to_string(c) + " is a " + type.name + ", which isn't split");
-      }
-      for (const std::int64_t id : ids) {
-        if (static_cast<std::uint64_t>(id) >= points) refuse_point(c, id, points);
-        solid_points.push_back(id);
+      if (type.points == 0) throw Error("cell " + std::to_string(c) + " is a " + type.name + ", which isn't split");
+      for (std::size_t k = begin; k < end; ++k) {
+        const auto id = connectivity[k];
+        if (static_cast<std::uint64_t>(id) >= points) refuse_point(c, static_cast<std::int64_t>(id), points);
+        solid_points.push_back(static_cast<std::int64_t>(id));
       }
       solid_types.push_back(types[c]);
       solid_ends.push_back(static_cast<std::int64_t>(solid_points.size()));

@@ -19,7 +19,6 @@ struct Cells {
 struct MeshParts {
   PointArray::Values points = std::vector<float>();  ///< xyz of each
   Cells cells{std::vector<std::uint8_t>(), std::vector<std::int64_t>(), std::vector<std::int64_t>()};
-  bool has_face_streams = false;  ///< polyhedra are given by their faces (points_of_faces), not by their points
   std::vector<PointArray> arrays;
   std::vector<std::string> notices;
 };
@@ -37,8 +36,7 @@ Dataset to_mesh(MeshParts& parts, bool tetrahedralize);
 std::string note_cell_arrays(const std::vector<std::string>& names);
 
 /// The four points of each tetrahedron that the cells of dimension 3 are split into, so that cells which share a face
-/// split it alike. The cells are those of a checked mesh. Those whose number of points is free are
-/// taken for convex. Through VTK.
+/// split it alike. The cells are those of a checked mesh, and have types whose number of points is known. Through VTK.
 std::vector<std::int32_t> split_cells(const PointArray::Values& points, const std::vector<std::uint8_t>& types,
                                       const std::vector<std::int64_t>& ends,
                                       const std::vector<std::int64_t>& connectivity);

@@ -98,7 +98,6 @@ bool read_section(LegacyFile& file, const std::string& kind, std::string& keywor
     to.points = static_cast<std::int64_t>(grid_points(to));  // those of a structured grid follow, and are counted then
   } else if (keyword == "points" && (kind == "unstructured_grid" || kind == "structured_grid")) {
     to.points = file.count("the number of points");
-    to.mesh.has_face_streams = true;
     to.mesh.points = file.array_of_numbers(product({to.points, 3}, "points"), "the points");
   } else if (keyword == "cells" && kind == "unstructured_grid") {
     file.major_version() >= 5 ? read_new_cells(file, to) : read_old_cells(file, to);

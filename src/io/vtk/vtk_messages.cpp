@@ -34,7 +34,7 @@ std::string one_line(const std::string& text) {
   return line;
 }
 
-/// VTK names its objects by their addresses too, as in "vtkXMLWriter(0x55e6)": these say nothing to a user.
+/// VTK names its objects by their addresses too, as in "vtkPNGWriter(0x55e6)": these say nothing to a user.
 std::string without_addresses(std::string text) {
   for (std::size_t at = 0; (at = text.find("(0x", at)) != std::string::npos;) {
     const std::size_t end = text.find_first_not_of("0123456789abcdef", at + 3);
@@ -101,9 +101,9 @@ void VtkMessages::check(unsigned long code) const {
   if (code != vtkErrorCode::NoError) fail(vtkErrorCode::GetStringFromErrorCode(code));
 }
 
-void VtkMessages::check_written(bool written, unsigned long code) const {
+void VtkMessages::check_written(unsigned long code) const {
   const int last = errno;
-  if (written && code == vtkErrorCode::NoError && state_->window->first_error.empty()) return;
+  if (code == vtkErrorCode::NoError && state_->window->first_error.empty()) return;
   for (const unsigned long reason : {code, static_cast<unsigned long>(last)}) {  // VTK's code may be the system's
     if (says_why_not_written(reason)) throw Error(std::strerror(static_cast<int>(reason)));
   }

@@ -23,7 +23,7 @@ class GALE_EXPORT VtkMessages {
 
   /// Throws `Error` unless all of a file was written: with what the system says, as far as that is known. `errno` must
   /// have been 0 before VTK's writer ran; `code` is its `GetErrorCode`.
-  void check_written(bool written, unsigned long code) const;
+  void check_written(unsigned long code) const;
 
   /// Throws `Error`: the verdict and, in brackets, `reason` as one short line.
   [[noreturn]] void fail(const std::string& reason) const;

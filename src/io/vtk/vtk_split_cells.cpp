@@ -1,7 +1,6 @@
 #include <type_traits>
 
 #include <vtkCellArray.h>
-#include <vtkCellType.h>
 #include <vtkDataSetTriangleFilter.h>
 #include <vtkIdTypeArray.h>
 #include <vtkNew.h>
@@ -10,7 +9,6 @@
 #include <vtkUnstructuredGrid.h>
 
 #include <gale/io/cells/cells.hpp>
-#include <gale/io/cells/free_cells.hpp>
 #include <gale/io/vtk/vtk_messages.hpp>
 
 namespace gale::io::detail {
@@ -36,8 +34,7 @@ std::vector<std::int32_t> split_cells(const PointArray::Values& points, const st
   std::int64_t begin = 0;
   for (std::size_t c = 0; c < types.size(); ++c) {
     ids.assign(connectivity.begin() + begin, connectivity.begin() + ends[c]);
-    grid->InsertNextCell(is_free_cell(types[c]) ? VTK_CONVEX_POINT_SET : types[c], static_cast<vtkIdType>(ids.size()),
-                         ids.data());
+    grid->InsertNextCell(types[c], static_cast<vtkIdType>(ids.size()), ids.data());
     begin = ends[c];
   }
   vtkNew<vtkDataSetTriangleFilter> filter;

@@ -1,5 +1,5 @@
 #include <gale/base/error.hpp>
-#include <gale/io/bytes/deflate.hpp>
+#include <gale/io/bytes/zlib.hpp>
 #include <gale/io/formats/readers.hpp>
 
 namespace gale::io::detail {
@@ -13,8 +13,8 @@ bool has_vtk() { return false; }
 
 Content read_content(const InputFile&, Format, const ReadOptions&) { refuse(); }
 
-bool can_deflate() { return false; }
+bool has_zlib() { return false; }
 
-void deflate(const char*, std::size_t, std::vector<char>&) { refuse(); }
+void compress_by_zlib(const char*, std::size_t, std::vector<char>&) { refuse(); }
 
 }  // namespace gale::io::detail

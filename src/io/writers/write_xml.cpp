@@ -2,8 +2,8 @@
 
 #include <gale/base/threads.hpp>
 #include <gale/io/bytes/byte_order.hpp>
-#include <gale/io/bytes/deflate.hpp>
 #include <gale/io/bytes/output_file.hpp>
+#include <gale/io/bytes/zlib.hpp>
 #include <gale/io/writers/write_xml.hpp>
 #include <gale/io/writers/xml_text.hpp>
 
@@ -46,7 +46,7 @@ class CompressedBlocks {
     const std::uint64_t begin = block * block_, end = std::min(begin + block_, array_.count);
     plain.resize((end - begin) * size_of(array_.type));
     array_.copy(begin, end, plain.data());
-    deflate(plain.data(), plain.size(), compressed);
+    compress_by_zlib(plain.data(), plain.size(), compressed);
   }
 
   const WrittenArray& array_;
@@ -75,7 +75,7 @@ void write_xml(const std::string& path, const XmlContent& content) {
   const std::string order = byte_order_of_machine() == ByteOrder::little ? "LittleEndian" : "BigEndian";
   file.write("<VTKFile" + attribute("type", content.type) + attribute("version", "1.0") +
              attribute("byte_order", order) + attribute("header_type", "UInt64") +
-             (can_deflate() ? attribute("compressor", "vtkZLibDataCompressor") : "") + ">\n");
+             (has_zlib() ? attribute("compressor", "vtkZLibDataCompressor") : "") + ">\n");
   file.write("  <" + content.type + ">\n    <Piece");
   for (const auto& [name, size] : content.sizes) file.write(attribute(name, std::to_string(size)));
   file.write(">\n");
@@ -98,7 +98,7 @@ void write_xml(const std::string& path, const XmlContent& content) {
   for (const auto& section : content.sections) {
     for (const WrittenArray& array : section.arrays) {
       const std::string offset = std::to_string(file.size() - begin) + "\"";
-      if (can_deflate()) {
+      if (has_zlib()) {
         CompressedBlocks(array).write(file);
       } else {
         write_plain(file, array);

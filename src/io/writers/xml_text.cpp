@@ -13,6 +13,7 @@ unsigned byte(const std::string& text, std::size_t at) {
 /// The bytes of the character of UTF-8 that begins there; 0 if none does, or none that XML may have.
 std::size_t utf8_size(const std::string& text, std::size_t at) {
   const unsigned first = byte(text, at);
+  if (first >> 6 == 2) return 0;
   const std::size_t size = first < 0x80 ? 1 : first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2;
   unsigned code = size == 1 ? first : first & (0xff >> (size + 1));
   for (std::size_t k = 1; k < size; ++k) {

@@ -22,7 +22,7 @@ class Gale(CMakePackage, CudaPackage):
 
     variant("serial", default=True, description="Kokkos' Serial backend")
     variant("openmp", default=False, description="Kokkos' OpenMP backend")
-    variant("vtk", default=True, description="Read and write files through VTK")
+    variant("vtk", default=True, description="Read files, and compress those written, with what VTK brings")
     variant("shared", default=True, description="Build shared libraries")
 
     depends_on("cxx", type="build")

@@ -2,13 +2,13 @@
 
 #include <vtk_zlib.h>
 
-#include <gale/io/bytes/deflate.hpp>
+#include <gale/io/bytes/zlib.hpp>
 
 namespace gale::io::detail {
 
-bool can_deflate() { return true; }
+bool has_zlib() { return true; }
 
-void deflate(const char* bytes, std::size_t size, std::vector<char>& compressed) {
+void compress_by_zlib(const char* bytes, std::size_t size, std::vector<char>& compressed) {
   constexpr int fastest = 1;  // the usual 6 takes several times as long for a few percent less
   uLongf needed = compressBound(static_cast<uLong>(size));
   compressed.resize(needed);
