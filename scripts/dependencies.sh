@@ -1,7 +1,7 @@
 #!/bin/bash
 # Installs what GALE is built from on Debian 12 with apt; does nothing when all is there.
-#   usage: scripts/dependencies.sh [data] [format] [rendering] [releases]
-#     data: brain volumes    format: clang-format    rendering: without a screen    releases: what scripts/test-releases.sh needs
+#   usage: scripts/dependencies.sh [data] [format] [rendering] [releases] [python]
+#     data: brain volumes    format: clang-format    rendering: without a screen    releases: what scripts/test-releases.sh needs    python: to build the module
 set -euo pipefail
 
 packages=(cmake g++ ninja-build python3 libtrilinos-kokkos-dev libtrilinos-kokkos-kernels-dev libvtk9-dev
@@ -12,7 +12,8 @@ for more in "$@"; do
     format) packages+=(clang-format) ;;
     rendering) packages+=(libgl1-mesa-dri xvfb xauth) ;;
     releases) packages+=(debootstrap) ;;
-    *) echo "usage: $0 [data] [format] [rendering] [releases]" >&2; exit 2 ;;
+    python) packages+=(python3-dev python3-venv) ;;
+    *) echo "usage: $0 [data] [format] [rendering] [releases] [python]" >&2; exit 2 ;;
   esac
 done
 

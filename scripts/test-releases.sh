@@ -1,18 +1,25 @@
 #!/bin/bash
 # Builds and tests GALE in throw-away roots of Debian sid, with the Kokkos that it packages: twice, since there are two.
-# Needs root and debootstrap; says which release it skips and why. What it can set up must pass.
-#   usage: scripts/test-releases.sh [--with-vtk]
+# Needs root and debootstrap; says which release it skips and why. What it can set up must pass. Without --all, what
+# depends little on Kokkos is left out: headers by themselves, examples, fuzzers, faults, installations.
+#   usage: scripts/test-releases.sh [--with-vtk] [--all]
 set -euo pipefail
 source_dir=$(cd "$(dirname "$0")/.." && pwd)
 export DEBIAN_FRONTEND=noninteractive LC_ALL=C
 
 packages=(cmake g++ ninja-build python3 libcli11-dev nlohmann-json3-dev libgtest-dev)
 vtk=OFF
-case "${1:-}" in
-  "") ;;
-  --with-vtk) vtk=ON; packages+=(libvtk9-dev) ;;
-  *) echo "usage: $0 [--with-vtk]" >&2; exit 2 ;;
-esac
+folders=(base mesh relations runtime algorithms io outputs uninitialized)
+programs=("${folders[@]/#/gale_}")
+targets=(--target gale_app "${programs[@]/%/_tests}")
+tests=(--tests-regex "^($(IFS='|'; echo "${folders[*]}")|app\..*)\$")
+for option in "$@"; do
+  case "$option" in
+    --with-vtk) vtk=ON; packages+=(libvtk9-dev) ;;
+    --all) targets=() tests=() ;;
+    *) echo "usage: $0 [--with-vtk] [--all]" >&2; exit 2 ;;
+  esac
+done
 
 work=$(mktemp -d "${TMPDIR:-/tmp}/gale-releases.XXXXXX")
 unset TMPDIR # of this machine, not of the roots
@@ -54,8 +61,8 @@ build_and_test() { # CMAKE_OPTION...
     tar -C "$source_dir" --exclude=./.git --exclude='./build*' -cf - . | tar -C "$root/gale" -xf - &&
     chroot "$root" cmake -S /gale -B /build -G Ninja -DCMAKE_BUILD_TYPE=Release -DGALE_ENABLE_VTK=$vtk \
       -DCMAKE_CXX_FLAGS_RELEASE="-O1 -DNDEBUG" -DGALE_ENABLE_PRECOMPILED_HEADERS=ON "$@" &&
-    chroot "$root" cmake --build /build --parallel "$(nproc)" &&
-    chroot "$root" ctest --test-dir /build --output-on-failure --parallel 2
+    chroot "$root" cmake --build /build --parallel "$(nproc)" "${targets[@]}" &&
+    chroot "$root" ctest --test-dir /build --output-on-failure --no-tests=error --parallel 2 "${tests[@]}"
 }
 
 skip() { echo "SKIPPED $1: $2"; }

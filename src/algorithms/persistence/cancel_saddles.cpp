@@ -5,6 +5,7 @@
 
 #include <gale/algorithms/morse_smale/descending_wall.hpp>
 #include <gale/algorithms/persistence/cancel_saddles.hpp>
+#include <gale/algorithms/persistence/first_paths.hpp>
 #include <gale/algorithms/persistence/saddle_graph.hpp>
 #include <gale/base/threads.hpp>
 
@@ -29,6 +30,7 @@ class Canceller {
         want_joined_(want_joined),
         minima_(minima),
         turned_(turned),
+        first_paths_(complex, turned),
         lower_(marks(critical_.edges.size(), doomed.pairs, &PersistencePair::lower)),
         upper_(marks(critical_.triangles.size(), doomed.pairs, &PersistencePair::upper)),
         minimum_below_(doomed.minimum_below),
@@ -101,7 +103,7 @@ class Canceller {
   void turn_path(Id lower, Id upper) {
     const auto& edge = critical_.edges[lower];
     const DescendingWall::Edge from{edge[0], edge[1]};
-    if (want_joined_ || !take_first_path(lower, upper)) find_path(lower, upper, from);
+    if (want_joined_ || !first_paths_.take(lower, upper, path_)) find_path(lower, upper, from);
     DescendingWall::Edge at = from;
     for (const TriangleVertices& triangle : path_) {
       const auto third = std::find_if(triangle.begin(), triangle.end(),
@@ -109,24 +111,6 @@ class Canceller {
       turned_.set(at.high, at.low, *third);
       at = {triangle[0], triangle[1]};
     }
-  }
-
-  /// Most are still as they were in the complex: then path_ is that one.
-  bool take_first_path(Id lower, Id upper) {
-    const auto& all = complex_.connectors;
-    const auto range = std::equal_range(all.destinations.begin(), all.destinations.end(), upper);
-    const auto first = static_cast<Id>(range.first - all.destinations.begin());
-    const auto end = static_cast<Id>(range.second - all.destinations.begin());
-    const auto source = std::find(all.sources.begin() + first, all.sources.begin() + end, lower);
-    const auto place = static_cast<Id>(source - all.sources.begin());
-    if (place == end) return false;
-    const auto& edge = critical_.edges[lower];
-    if (turned_.find(edge[0], edge[1]) != nullptr) return false;
-    for (const TriangleVertices* at = all.first(place); at != all.last(place) - 1; ++at) {
-      if (turned_.find((*at)[0], (*at)[1]) != nullptr) return false;
-    }
-    path_.assign(all.first(place), all.last(place));
-    return true;
   }
 
   void find_path(Id lower, Id upper, const DescendingWall::Edge& from) {
@@ -285,6 +269,7 @@ class Canceller {
   bool want_joined_;
   TurnedForest& minima_;
   TurnedEdges& turned_;
+  FirstPaths first_paths_;
   std::vector<char> lower_, upper_;    ///< those that are left to cancel
   std::vector<double> minimum_below_;  ///< of the minimum that a 1-saddle is cancelled with
   SaddleGraph graph_;

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <gale/io/read.hpp>
+#include <gale/mesh/mesh.hpp>
+
+#include "numpy.hpp"
+#include "process.hpp"
+
+namespace gale::python {
+
+using Array1 = nb::ndarray<nb::ro, nb::c_contig, nb::device::cpu>;
+
+/// A mesh and where its points are.
+class PyMesh : public Kept {
+ public:
+  /// Reads numpy's arrays where they are; keeps that of the points.
+  PyMesh(Array1 points, Array1 tetrahedra, int capacity);
+
+  /// Of what a file has; takes its points.
+  PyMesh(io::Dataset& dataset, int capacity);
+
+  void end() override {
+    mesh_.reset();
+    dataset_ = {};
+  }
+
+  Id vertices() const { return mesh().vertices(); }
+  Id tetrahedra() const { return mesh().tetrahedra(); }
+  Id segments() const { return mesh().segments(); }
+  nb::object points() const;
+
+  nb::tuple relation(const std::string& name, int threads, const nb::object& progress) const;
+  nb::tuple critical_points(Array1 field, const std::string& name, int threads, const nb::object& progress) const;
+  nb::tuple critical_simplices(Array1 field, const std::string& name, int threads, const nb::object& progress) const;
+  nb::dict persistence_diagram(Array1 field, const std::string& name, double persistence, bool is_percent, int threads,
+                               const nb::object& progress) const;
+  nb::dict morse_smale(Array1 field, const std::string& name, std::optional<double> persistence, bool is_percent,
+                       bool extrema_only, int threads, const nb::object& progress) const;
+
+ private:
+  const Mesh& mesh() const;
+
+  /// The points with the field as their array.
+  io::Dataset with(const io::PointArray& field) const;
+
+  nb::object points_owner_;
+  io::Dataset dataset_;  ///< the points alone
+  std::optional<Mesh> mesh_;
+};
+
+/// The mesh that a file has, and its point arrays.
+nb::tuple read(const std::string& path, std::optional<double> above, const std::string& array, bool tetrahedralize,
+               bool outside_files, int capacity);
+
+}  // namespace gale::python

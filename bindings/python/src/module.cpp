@@ -1,0 +1,44 @@
+#include <nanobind/nanobind.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+
+#include <gale/base/error.hpp>
+#include <gale/version.hpp>
+
+#include "mesh.hpp"
+#include "process.hpp"
+
+NB_MODULE(_gale, module) {
+  namespace nb = nanobind;
+  using namespace nb::literals;
+  using gale::python::PyMesh;
+
+  static nb::exception<gale::Error> error(module, "Error", PyExc_ValueError);
+  nb::register_exception_translator([](const std::exception_ptr& thrown, void*) {
+    try {
+      std::rethrow_exception(thrown);
+    } catch (const gale::OutOfMemory& full) {
+      PyErr_SetString(PyExc_MemoryError, full.what());
+    }
+  });
+  module.attr("__version__") = gale::version;
+  gale::python::initialize();
+  module.def("finalize", &gale::python::finalize);
+  module.def("after_fork", &gale::python::after_fork);
+  module.def("read", &gale::python::read, "path"_a, "above"_a.none(), "array"_a, "tetrahedralize"_a, "outside_files"_a,
+             "capacity"_a);
+
+  nb::class_<PyMesh>(module, "Mesh")
+      .def(nb::init<gale::python::Array1, gale::python::Array1, int>(), "points"_a, "tetrahedra"_a, "capacity"_a)
+      .def_prop_ro("vertices", &PyMesh::vertices)
+      .def_prop_ro("tetrahedra", &PyMesh::tetrahedra)
+      .def_prop_ro("segments", &PyMesh::segments)
+      .def("points", &PyMesh::points)
+      .def("relation", &PyMesh::relation, "name"_a, "threads"_a, "progress"_a.none())
+      .def("critical_points", &PyMesh::critical_points, "field"_a, "name"_a, "threads"_a, "progress"_a.none())
+      .def("critical_simplices", &PyMesh::critical_simplices, "field"_a, "name"_a, "threads"_a, "progress"_a.none())
+      .def("persistence_diagram", &PyMesh::persistence_diagram, "field"_a, "name"_a, "persistence"_a, "is_percent"_a,
+           "threads"_a, "progress"_a.none())
+      .def("morse_smale", &PyMesh::morse_smale, "field"_a, "name"_a, "persistence"_a.none(), "is_percent"_a,
+           "extrema_only"_a, "threads"_a, "progress"_a.none());
+}

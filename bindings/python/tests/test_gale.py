@@ -1,0 +1,256 @@
+"""The module as its users have it. Oracles: numpy on the input, and what topology says."""
+import itertools
+import multiprocessing
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+import unittest
+
+import gale
+import numpy as np
+
+
+def random_mesh(seed, n=4):
+    """The tetrahedra of a small grid of cubes, each split in six, at shaken points."""
+    rng = np.random.default_rng(seed)
+    grid = np.array(list(itertools.product(range(n), repeat=3)), dtype=float)
+    tetrahedra = []
+    for x, y, z in itertools.product(range(n - 1), repeat=3):
+        for order in itertools.permutations(range(3)):
+            corner = [x, y, z]
+            cell = [(corner[0] * n + corner[1]) * n + corner[2]]
+            for axis in order:
+                corner[axis] += 1
+                cell.append((corner[0] * n + corner[1]) * n + corner[2])
+            tetrahedra.append(cell)
+    return grid + rng.uniform(-0.2, 0.2, grid.shape), np.array(tetrahedra), rng.standard_normal(len(grid))
+
+
+def rows_of(indptr, indices):
+    return [indices[a:b].tolist() for a, b in zip(indptr, indptr[1:])]
+
+
+class Meshes(unittest.TestCase):
+    def setUp(self):
+        self.points, self.tetrahedra, self.field = random_mesh(1)
+        self.mesh = gale.Mesh(self.points, self.tetrahedra)
+
+    def test_sizes(self):
+        self.assertEqual((self.mesh.vertices, self.mesh.tetrahedra), (len(self.points), len(self.tetrahedra)))
+        np.testing.assert_array_equal(self.mesh.points, self.points)
+        self.assertIn(f"{len(self.points)} vertices", repr(self.mesh))
+
+    def test_any_types_and_layouts(self):
+        expected = self.mesh.critical_points(self.field)
+        for points, tetrahedra in ((self.points.astype(np.float32), self.tetrahedra.astype(np.int32)),
+                                   (np.asfortranarray(self.points), self.tetrahedra.astype(np.uint16)),
+                                   (self.points.tolist(), self.tetrahedra[::-1][::-1].astype(">i8"))):
+            found = gale.Mesh(points, tetrahedra).critical_points(self.field)
+            np.testing.assert_array_equal(found["ttkVertexScalarField"], expected["ttkVertexScalarField"])
+
+    def test_input_is_read_where_it_is_and_kept(self):
+        points = self.points.copy()
+        mesh = gale.Mesh(points, self.tetrahedra)
+        self.assertGreater(sys.getrefcount(points), 2)
+        del points
+        np.testing.assert_array_equal(mesh.points, self.points)
+
+    def test_bad_input(self):
+        for points, tetrahedra, words in ((self.points[:, :2], self.tetrahedra, r"points has the shape \(64, 2\)"),
+                                          (self.points, self.tetrahedra[:, :3], r"tetrahedra has the shape"),
+                                          (self.points, self.tetrahedra + 64, "vertex"),
+                                          (self.points, np.zeros((0, 4), int), "no tetrahedra|none"),
+                                          (self.points * np.nan, self.tetrahedra, "nan|finite"),
+                                          (self.points, self.tetrahedra.astype(str), "numbers"),
+                                          (self.points, self.tetrahedra * 1j, "numbers")):
+            with self.assertRaisesRegex(gale.Error, words):
+                gale.Mesh(points, tetrahedra)
+        for field, words in ((self.field[1:], "63"), (self.field.reshape(8, 8), "dimensions"),
+                             (self.field * np.nan, "(?i)nan"), (self.field.astype(complex), "complex128"),
+                             (self.field.astype(str), "<U")):
+            with self.assertRaisesRegex(gale.Error, words):
+                self.mesh.critical_points(field)
+        with self.assertRaisesRegex(ValueError, "threads is -1"):
+            self.mesh.critical_points(self.field, threads=-1)
+        with self.assertRaisesRegex(gale.Error, "'XY'"):
+            self.mesh.relation("XY")
+        for persistence in ("3", -1, "-3%"):
+            with self.assertRaises(ValueError):
+                self.mesh.morse_smale(self.field, persistence=persistence)
+
+
+class Relations(unittest.TestCase):
+    def test_are_those_of_sets(self):
+        points, tetrahedra, _ = random_mesh(2)
+        mesh = gale.Mesh(points, tetrahedra, capacity=7)
+        simplices = [
+            sorted({tuple(sorted(c)) for cell in tetrahedra.tolist() for c in itertools.combinations(cell, d + 1)})
+            for d in range(4)]
+        simplices[0] = [(v,) for v in range(len(points))]
+        simplices[3] = [tuple(sorted(cell)) for cell in tetrahedra.tolist()]
+        for (a, x), (b, y) in itertools.product(enumerate("VEFT"), repeat=2):
+            found = rows_of(*mesh.relation(x + y, threads=3))
+            self.assertEqual(len(found), len(simplices[a]))
+            for i in range(0, len(found), 5):
+                one = set(simplices[a][i])
+                if a != b:
+                    right = [j for j, other in enumerate(simplices[b]) if one <= set(other) or one >= set(other)]
+                elif a == 0:
+                    right = sorted({v for cell in tetrahedra.tolist() if i in cell for v in cell} - {i})
+                else:
+                    right = [j for j, other in enumerate(simplices[b]) if len(one & set(other)) == a]
+                self.assertEqual(found[i], right, (x + y, i))
+
+
+class Analyses(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.mesh, arrays = gale.read("grid:20")
+        cls.field = arrays["field"]
+
+    def test_critical_points_by_numpy(self):
+        found = self.mesh.critical_points(self.field)
+        indptr, indices = self.mesh.relation("VV")
+        order = np.lexsort((np.arange(len(self.field)), self.field)).argsort()
+        neighbours = [order[indices[a:b]] for a, b in zip(indptr, indptr[1:])]
+        types, vertices = found["CriticalType"], found["ttkVertexScalarField"]
+        minima = [v for v, others in enumerate(neighbours) if np.all(others > order[v])]
+        maxima = [v for v, others in enumerate(neighbours) if np.all(others < order[v])]
+        self.assertEqual(vertices[types == 0].tolist(), minima)
+        self.assertEqual(vertices[types == 3].tolist(), maxima)
+        np.testing.assert_array_equal(found.points, self.mesh.points[vertices])
+        np.testing.assert_array_equal(found["field"], self.field[vertices])
+
+    def test_simplices_and_pairs_agree(self):
+        critical = self.mesh.critical_simplices(self.field)
+        counts = np.bincount(critical["CellDimension"], minlength=4)
+        self.assertEqual(counts @ [1, -1, 1, -1], 1)  # a cube's Euler characteristic
+        diagram = self.mesh.persistence_diagram(self.field)
+        finite = diagram.is_finite == 1
+        self.assertEqual(2 * finite.sum() + (~finite).sum(), counts.sum())
+        pairs = np.bincount(diagram.type[finite], minlength=3)
+        self.assertEqual(counts.tolist(), [pairs[0] + 1, pairs[0] + pairs[1], pairs[1] + pairs[2], pairs[2]])
+        self.assertTrue(np.all(diagram.persistence >= 0))
+        np.testing.assert_array_equal(diagram.birth, self.field[diagram.birth_vertex])
+        few = self.mesh.persistence_diagram(self.field, persistence="10%")
+        self.assertEqual(len(few), np.count_nonzero(~finite | (diagram.persistence >= 0.1 * np.ptp(self.field))))
+
+    def test_complex(self):
+        whole = self.mesh.morse_smale(self.field)
+        simple = self.mesh.morse_smale(self.field, persistence="10%")
+        self.assertLess(len(simple.critical_points), len(whole.critical_points))
+        for found in (whole, simple):
+            dimension = found.critical_points["CellDimension"]
+            self.assertEqual(np.bincount(dimension, minlength=4) @ [1, -1, 1, -1], 1)
+            lines = found.separatrices1
+            self.assertTrue(np.all(np.diff(lines.offsets) == 2))
+            self.assertLess(lines.connectivity.max(), len(lines.points))
+            minima = found.critical_points["CellId"][dimension == 0]
+            self.assertEqual(found.manifolds["DescendingManifold"].max() + 1, len(minima))
+            self.assertEqual(len(found.manifolds["DescendingManifold"]), self.mesh.vertices)
+
+    def test_same_whatever_the_threads_and_types(self):
+        expected = self.mesh.critical_points(self.field)
+        for threads, field in ((1, self.field), (7, self.field.astype(np.float64)), (2, np.asarray(self.field.tolist()))):
+            found = self.mesh.critical_points(field, threads=threads)
+            np.testing.assert_array_equal(found["CriticalType"], expected["CriticalType"])
+        for dtype in (np.int8, np.uint16, np.int64, np.bool_, np.float16, ">f4"):
+            self.mesh.critical_points((10 * self.field).astype(dtype))
+
+    def test_arrays_outlive_their_owners(self):
+        mesh, arrays = gale.read("grid:9")
+        values = mesh.morse_smale(arrays["field"]).separatrices1.connectivity
+        expected = values.copy()
+        del mesh, arrays
+        np.testing.assert_array_equal(values, expected)
+
+    def test_progress_and_threads_of_python(self):
+        told = []
+        self.mesh.critical_points(self.field, progress=lambda done, of: told.append((done, of)))
+        self.assertEqual(told[-1], (self.mesh.segments, self.mesh.segments))
+        results = {}
+
+        def work(k):
+            results[k] = self.mesh.critical_points(self.field)["CriticalType"]
+
+        threads = [threading.Thread(target=work, args=(k,)) for k in range(4)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        for k in range(4):
+            np.testing.assert_array_equal(results[k], results[0])
+
+    def test_errors_in_progress_come_through(self):
+        def fail(done, of):
+            raise KeyError("mine")
+
+        with self.assertRaises(KeyError):
+            self.mesh.critical_points(self.field, progress=fail)
+
+    def test_to_pyvista(self):
+        try:
+            import pyvista
+        except ImportError:
+            self.skipTest("there is no pyvista")
+        found = self.mesh.morse_smale(self.field, persistence="5%")
+        points, lines = found.critical_points.to_pyvista(), found.separatrices1.to_pyvista()
+        self.assertEqual((points.n_points, lines.n_lines), (len(found.critical_points), len(found.separatrices1)))
+        tetrahedra = np.column_stack([np.full(self.mesh.tetrahedra, 4), rows_as_array(self.mesh)])
+        grid = pyvista.UnstructuredGrid(tetrahedra.ravel(), np.full(self.mesh.tetrahedra, 10), self.mesh.points)
+        again = gale.Mesh.from_pyvista(grid).critical_points(self.field)
+        np.testing.assert_array_equal(again["CriticalType"], self.mesh.critical_points(self.field)["CriticalType"])
+
+
+def rows_as_array(mesh):
+    return mesh.relation("TV")[1].reshape(-1, 4)
+
+
+def in_child(queue):
+    try:
+        gale.read("grid:4")
+        queue.put("no error")
+    except gale.Error as error:
+        queue.put(str(error))
+
+
+class Process(unittest.TestCase):
+    def run_python(self, code, **options):
+        return subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=120, **options)
+
+    def test_ends_in_silence_whatever_is_alive(self):
+        done = self.run_python("import gale; mesh, arrays = gale.read('grid:9'); keep = mesh.morse_smale(arrays['field'])\n"
+                               "class Late:\n def __del__(self): mesh.vertices\nlate = Late()")
+        self.assertEqual((done.returncode, done.stdout), (0, ""))
+        self.assertNotIn("Kokkos", done.stderr)
+
+    def test_refuses_a_forked_process(self):
+        gale.read("grid:4")
+        context = multiprocessing.get_context("fork")
+        queue = context.Queue()
+        child = context.Process(target=in_child, args=(queue,))
+        child.start()
+        self.assertIn("spawn", queue.get(timeout=60))
+        child.join()
+
+    def test_an_interrupt_ends_a_run(self):
+        code = ("import gale, sys, time\nmesh, arrays = gale.read('grid:90')\nprint('ready', flush=True)\n"
+                "try:\n while True: mesh.critical_points(arrays['field'])\nexcept KeyboardInterrupt: print('interrupted')")
+        with subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True) as child:
+            self.assertEqual(child.stdout.readline(), "ready\n")
+            time.sleep(0.5)
+            child.send_signal(signal.SIGINT)
+            self.assertEqual(child.communicate(timeout=60)[0], "interrupted\n")
+            self.assertEqual(child.returncode, 0)
+
+    def test_files_that_are_none(self):
+        for path in ("missing.vtu", os.devnull, "grid:1"):
+            with self.assertRaisesRegex(gale.Error, path):
+                gale.read(path)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,17 @@
+#!/bin/bash
+# Builds a wheel of the Python module, installs it in an environment of its own, and runs the module's tests there.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+scripts/dependencies.sh python
+environment=$(mktemp -d)
+trap 'rm -rf "$environment"' EXIT
+export CMAKE_GENERATOR=${CMAKE_GENERATOR:-Ninja} CMAKE_BUILD_PARALLEL_LEVEL=${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}
+export OMP_WAIT_POLICY=passive # the tests' threads would keep each other from the cores
+python3 -m venv "$environment"
+"$environment/bin/pip" wheel --quiet --no-deps --wheel-dir "$environment" -C build-dir=build-python \
+  -C cmake.define.GALE_ENABLE_PRECOMPILED_HEADERS=ON .
+"$environment/bin/pip" install --quiet numpy "$environment"/*.whl
+tests=$PWD/bindings/python/tests
+cd "$environment"
+bin/python -B "$tests/test_gale.py"
