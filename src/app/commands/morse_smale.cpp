@@ -28,7 +28,7 @@ struct Count {
 
 /// Says the counts of one kind in one line, and reports them under `key`.
 void tell(const std::string& title, const char* key, const std::vector<Count>& counts, Session& session) {
-  Json json;
+  Json json = Json::object();  // at once: the library crashes where memory for a later one lacks
   std::string said;
   for (const Count& one : counts) {
     json[one.key] = one.is_on ? Json(one.count) : Json(nullptr);

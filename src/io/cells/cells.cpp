@@ -61,7 +61,6 @@ std::vector<T> taken_as(PointArray::Values& values, const char* what) {
 }
 
 using Types = std::vector<std::uint8_t>;
-using Ends = std::vector<std::int64_t>;
 
 /// What kinds of cells there are.
 struct Census {
@@ -69,6 +68,7 @@ struct Census {
 };
 
 /// Checks the types and where each cell lies.
+template <class Ends>
 Census take_census(const Types& types, const Ends& ends, std::size_t connectivity) {
   Census census;
   const CellType* known[256];
@@ -122,7 +122,7 @@ void copy_all(const Connectivity& from, std::size_t points, const Tetrahedra& to
   }
 }
 
-template <class Connectivity>
+template <class Ends, class Connectivity>
 void copy_some(const Types& types, const Ends& ends, const Connectivity& from, std::size_t points,
                const Tetrahedra& to) {
   std::size_t t = 0;
@@ -138,7 +138,7 @@ void copy_some(const Types& types, const Ends& ends, const Connectivity& from, s
 }
 
 /// The cells of dimension 3, checked, as tetrahedra.
-template <class Connectivity>
+template <class Ends, class Connectivity>
 Tetrahedra split(const MeshParts& parts, const Types& types, const Ends& ends, const Connectivity& connectivity,
                  std::size_t points) {
   std::vector<std::uint8_t> solid_types;
@@ -167,9 +167,9 @@ Tetrahedra split(const MeshParts& parts, const Types& types, const Ends& ends, c
   return tetrahedra;
 }
 
-Tetrahedra to_tetrahedra(MeshParts& parts, bool tetrahedralize, std::size_t points, Census& census) {
-  const Types types = taken_as<std::uint8_t>(parts.cells.types, "types");
-  const Ends ends = taken_as<std::int64_t>(parts.cells.ends, "offsets");
+template <class Ends>
+Tetrahedra to_tetrahedra(const MeshParts& parts, const Types& types, const Ends& ends, bool tetrahedralize,
+                         std::size_t points, Census& census) {
   if (types.size() != ends.size()) {
     damaged("it has types of " + std::to_string(types.size()) + " cells and offsets of " + std::to_string(ends.size()));
   }
@@ -187,6 +187,16 @@ Tetrahedra to_tetrahedra(MeshParts& parts, bool tetrahedralize, std::size_t poin
     }
     return tetrahedra;
   });
+}
+
+Tetrahedra to_tetrahedra(MeshParts& parts, bool tetrahedralize, std::size_t points, Census& census) {
+  const Types types = taken_as<std::uint8_t>(parts.cells.types, "types");
+  if (std::holds_alternative<std::vector<std::int32_t>>(parts.cells.ends)) {
+    const auto ends = taken_as<std::int32_t>(parts.cells.ends, "offsets");
+    return to_tetrahedra(parts, types, ends, tetrahedralize, points, census);
+  }
+  const auto ends = taken_as<std::int64_t>(parts.cells.ends, "offsets");
+  return to_tetrahedra(parts, types, ends, tetrahedralize, points, census);
 }
 
 template <class Coordinate>

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include <gale/base/error.hpp>
-#include <gale/base/parallel.hpp>
+#include <gale/base/threads.hpp>
 #include <gale/io/bytes/base64.hpp>
 #include <gale/io/bytes/damaged.hpp>
 #include <gale/io/bytes/numbers.hpp>
@@ -14,8 +14,6 @@
 namespace gale::io::detail {
 
 namespace {
-
-using Host = Kokkos::DefaultHostExecutionSpace;
 
 std::optional<ValueType> type_of(const XmlElement& array) {
   const std::string name = array.attribute("type");
@@ -144,7 +142,8 @@ std::vector<T> uncompress(Binary& binary, const Blocks& blocks, const XmlFile& f
       values.resize(begin + (bytes + sizeof(T) - 1) / sizeof(T));
       char* const to = reinterpret_cast<char*>(values.data() + begin);
       std::atomic<bool> whole{true};
-      parallel_for("GALE::uncompress", Host(), static_cast<Offset>(last - first), [&](Offset k) {
+      const int threads = static_cast<int>(std::min<std::size_t>(host_threads(), last - first));
+      in_turns(threads, static_cast<std::int64_t>(last - first), [&](int, std::int64_t k) {
         const std::size_t block = first + static_cast<std::size_t>(k);
         if (!to_bytes(compressed.data() + from[k], blocks.compressed[block], to + k * blocks.block_bytes,
                       blocks.bytes_of(block)))
