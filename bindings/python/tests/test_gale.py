@@ -202,7 +202,23 @@ class Analyses(unittest.TestCase):
         tetrahedra = np.column_stack([np.full(self.mesh.tetrahedra, 4), rows_as_array(self.mesh)])
         grid = pyvista.UnstructuredGrid(tetrahedra.ravel(), np.full(self.mesh.tetrahedra, 10), self.mesh.points)
         again = gale.Mesh.from_pyvista(grid).critical_points(self.field)
-        np.testing.assert_array_equal(again["CriticalType"], self.mesh.critical_points(self.field)["CriticalType"])
+        expected = self.mesh.critical_points(self.field)
+        np.testing.assert_array_equal(again["CriticalType"], expected["CriticalType"])
+        if not hasattr(pyvista, "register_dataset_accessor"):
+            return
+        grid["height"] = self.field
+        found = grid.gale.critical_points("height")
+        np.testing.assert_array_equal(found["CriticalType"], expected["CriticalType"])
+        self.assertIs(grid.gale.mesh, grid.gale.mesh)
+        points, lines, manifolds = grid.gale.morse_smale("height", persistence="5%")
+        self.assertEqual(points.n_points, len(self.mesh.morse_smale(self.field, persistence="5%").critical_points))
+        self.assertIn("DescendingManifold", manifolds.point_data)
+        self.assertNotIn("DescendingManifold", grid.point_data)
+        with self.assertRaisesRegex(KeyError, "'width'.*height"):
+            grid.gale.critical_points("width")
+        before = grid.gale.mesh
+        grid.points = grid.points * 2
+        self.assertIsNot(grid.gale.mesh, before)
 
 
 def rows_as_array(mesh):

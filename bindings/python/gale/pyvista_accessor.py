@@ -1,0 +1,56 @@
+"""`grid.gale` on PyVista's grids of tetrahedra: `grid.gale.critical_points("pressure")`. PyVista 0.48 and later find it by
+its entry point; with earlier ones, gale.Mesh.from_pyvista does the same."""
+import pyvista
+
+from . import Mesh
+
+
+@pyvista.register_dataset_accessor("gale", pyvista.UnstructuredGrid)
+class GaleAccessor:
+    """Analyses of a grid's point arrays, which are called by name. Their other arguments and results are gale.Mesh's,
+    but that points and lines are PyVista's. The mesh is made at the first call, and again where the grid's points or cells
+    were replaced."""
+
+    def __init__(self, grid):
+        self._grid = grid
+        self._mesh = self._made_from = None
+
+    @property
+    def mesh(self):
+        made_from = (self._grid.GetMTime(), self._grid.n_points, self._grid.n_cells)
+        if self._made_from is None or self._points_changed(made_from):
+            self._mesh, self._made_from = Mesh.from_pyvista(self._grid), made_from
+        return self._mesh
+
+    def _points_changed(self, made_from):
+        times = self._grid.GetPoints().GetMTime(), self._grid.GetCells().GetMTime()
+        return made_from[1:] != self._made_from[1:] or max(times) > self._made_from[0]
+
+    def _field(self, name):
+        if name not in self._grid.point_data:
+            raise KeyError(f"the grid has no point array '{name}': it has {', '.join(self._grid.point_data) or 'none'}")
+        return self._grid.point_data[name]
+
+    def critical_points(self, name, **options):
+        """A pyvista.PolyData of the critical points of the point array `name`."""
+        return self.mesh.critical_points(self._field(name), name=name, **options).to_pyvista()
+
+    def critical_simplices(self, name, **options):
+        """A pyvista.PolyData of the critical simplices of the point array `name`."""
+        return self.mesh.critical_simplices(self._field(name), name=name, **options).to_pyvista()
+
+    def persistence_diagram(self, name, **options):
+        """The gale.Diagram of the point array `name`."""
+        return self.mesh.persistence_diagram(self._field(name), name=name, **options)
+
+    def morse_smale(self, name, **options):
+        """(critical points, separatrices, grid): two pyvista.PolyData, and a copy of the grid with the manifolds as point
+        arrays."""
+        found = self.mesh.morse_smale(self._field(name), name=name, **options)
+        grid = self._grid.copy(deep=False)
+        grid.point_data.update(found.manifolds)
+        return found.critical_points.to_pyvista(), found.separatrices1.to_pyvista(), grid
+
+    def relation(self, name, **options):
+        """(indptr, indices) of a relation such as "VT"."""
+        return self.mesh.relation(name, **options)
