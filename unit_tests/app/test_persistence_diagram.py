@@ -29,6 +29,7 @@ class Counts(DiagramTest):
         ends = [pairs[0], pairs[0] + pairs[1], pairs[1] + pairs[2], pairs[2]]
         self.assertEqual([a + b for a, b in zip(ends, essential)], critical)
 
+    @gale.needs_vtk
     @unittest.skipUnless(os.path.exists(INIA), "needs Debian's mricron-data")
     def test_of_a_volume(self):
         known = {"0": [20443, 44535, 13979], "0.5%": [9364, 15392, 2338], "1%": [5310, 9265, 540], "3%": [551, 1806, 76], "10%": [4, 48, 13], "30%": [0, 4, 0]}
