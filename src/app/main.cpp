@@ -71,10 +71,15 @@ int complain_of_exception() {
   }
 }
 
-/// For exceptions that leave what nothing may leave, as in libraries that don't expect memory to run out.
+/// For exceptions after which nothing more may run: while Kokkos is initialized (it may not survive its own end where
+/// there is no more memory, and objects of its backends speak up where it isn't ended), or where they leave what
+/// nothing may leave, as in libraries that don't expect memory to run out.
 [[noreturn]] void end_by_exception() {
   gale::io::remove_temporary_files();
-  std::_Exit(std::current_exception() ? complain_of_exception() : complain_of_step("it failed", "it stopped itself"));
+  const int code =
+      std::current_exception() ? complain_of_exception() : complain_of_step("it failed", "it stopped itself");
+  std::fflush(stdout);
+  std::_Exit(code);
 }
 
 /// Temporary files go with the process, however it ends; a limit of the size of files is an error like a full disk.
@@ -117,13 +122,12 @@ void run(const Command& command) {
   if (command.common().threads) gale::set_host_threads(*command.common().threads);
   gale::app::require_threads(gale::host_threads());
   setenv("KOKKOS_DISABLE_WARNINGS", "1", 0);  // such as on thread binding, which is not what standard error is for
-  auto kokkos = std::make_unique<Kokkos::ScopeGuard>(gale::initialization_arguments(gale::host_threads()));
+  const Kokkos::ScopeGuard kokkos(gale::initialization_arguments(gale::host_threads()));
   gale::app::watch_device_memory();
   try {
     command.run();
   } catch (...) {
-    kokkos.release();  // Kokkos 3.4 frees its scratch memory twice at its end if there was no more of it
-    throw;
+    end_by_exception();
   }
 }
 

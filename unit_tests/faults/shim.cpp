@@ -71,23 +71,25 @@ void* __libc_calloc(std::size_t, std::size_t);
 void* __libc_realloc(void*, std::size_t);
 void* __libc_memalign(std::size_t, std::size_t);
 
-void* malloc(std::size_t bytes) { return fails(Kind::allocation) ? gale::faults::no_memory() : __libc_malloc(bytes); }
+void* malloc(std::size_t bytes) noexcept {
+  return fails(Kind::allocation) ? gale::faults::no_memory() : __libc_malloc(bytes);
+}
 
-void* calloc(std::size_t count, std::size_t size) {
+void* calloc(std::size_t count, std::size_t size) noexcept {
   return fails(Kind::allocation) ? gale::faults::no_memory() : __libc_calloc(count, size);
 }
 
-void* realloc(void* data, std::size_t bytes) {
+void* realloc(void* data, std::size_t bytes) noexcept {
   return fails(Kind::allocation) ? gale::faults::no_memory() : __libc_realloc(data, bytes);
 }
 
-void* memalign(std::size_t alignment, std::size_t bytes) {
+void* memalign(std::size_t alignment, std::size_t bytes) noexcept {
   return fails(Kind::allocation) ? gale::faults::no_memory() : __libc_memalign(alignment, bytes);
 }
 
-void* aligned_alloc(std::size_t alignment, std::size_t bytes) { return memalign(alignment, bytes); }
+void* aligned_alloc(std::size_t alignment, std::size_t bytes) noexcept { return memalign(alignment, bytes); }
 
-int posix_memalign(void** data, std::size_t alignment, std::size_t bytes) {
+int posix_memalign(void** data, std::size_t alignment, std::size_t bytes) noexcept {
   void* const made = memalign(alignment, bytes);
   if (made == nullptr) return ENOMEM;
   *data = made;
