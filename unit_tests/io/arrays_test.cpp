@@ -1,8 +1,8 @@
-#include <io/io_fixtures.hpp>
-
 #include <gtest/gtest.h>
 
 #include <gale/io/arrays.hpp>
+
+#include "io/io_fixtures.hpp"
 
 namespace gale::io {
 namespace {

@@ -1,4 +1,3 @@
-#include <io/io_fixtures.hpp>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -7,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <gale/io/atomic_file.hpp>
+
+#include "io/io_fixtures.hpp"
 
 namespace gale::io {
 namespace {

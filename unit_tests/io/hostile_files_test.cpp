@@ -1,11 +1,11 @@
-#include <io/io_fixtures.hpp>
-
 #include <cmath>
 #include <cstring>
 
 #include <gtest/gtest.h>
 
 #include <gale/io/read.hpp>
+
+#include "io/io_fixtures.hpp"
 
 /// Files that were seen to crash, to hang, to fill the memory or to give wrong results where VTK read them; and valid
 /// ones that it refused.
@@ -98,7 +98,7 @@ TEST_F(HostileFiles, LegacyNumbersThatAreNone) {
   refuse("c.vtk", legacy(mesh + "LOOKUP_TABLE default\n1 2 3\n", "3.0"), "3 of 4 values");
 }
 
-std::string vti(const std::string& attributes, const std::string& pieces) {
+std::string hostile_vti(const std::string& attributes, const std::string& pieces) {
   return R"(<VTKFile type="ImageData" version="1.0" byte_order="LittleEndian" )" + attributes +
          R"(><ImageData WholeExtent="0 1 0 1 0 1" Origin="0 0 0" Spacing="1 1 1">)" + pieces + "</ImageData></VTKFile>";
 }
@@ -112,30 +112,32 @@ const std::string ascii = R"(format="ascii")";
 
 TEST_F(HostileFiles, ImagesWhosePiecesLeaveGaps) {
   const std::string low = piece("0 1 0 1 0 0", ascii, "1 2 3 4"), high = piece("0 1 0 1 1 1", ascii, "5 6 7 8");
-  const Dataset whole = read(folder.put("whole.vti", vti("", low + high)));
+  const Dataset whole = read(folder.put("whole.vti", hostile_vti("", low + high)));
   EXPECT_EQ(values_of<std::uint8_t>(whole.arrays[0]), (std::vector<std::uint8_t>{1, 2, 3, 4, 5, 6, 7, 8}));
-  refuse("a.vti", vti("", low), "cover");
-  refuse("b.vti", vti("", low + low), "cover");
-  refuse("c.vti", vti("", piece("0 1 0 1 0 2", ascii, "1 2 3 4 5 6 7 8 9 10 11 12")), "WholeExtent");
-  refuse("d.vti", vti("", piece("0 1 0 1 0 1", ascii, "1 2 3 4 5 6 7")), "7 of 8 values");
-  refuse("e.vti", vti("", piece("0 1 0 1 0 1", R"(format="ascii" NumberOfComponents="2147483647")", "1 2 3")),
+  refuse("a.vti", hostile_vti("", low), "cover");
+  refuse("b.vti", hostile_vti("", low + low), "cover");
+  refuse("c.vti", hostile_vti("", piece("0 1 0 1 0 2", ascii, "1 2 3 4 5 6 7 8 9 10 11 12")), "WholeExtent");
+  refuse("d.vti", hostile_vti("", piece("0 1 0 1 0 1", ascii, "1 2 3 4 5 6 7")), "7 of 8 values");
+  refuse("e.vti", hostile_vti("", piece("0 1 0 1 0 1", R"(format="ascii" NumberOfComponents="2147483647")", "1 2 3")),
          "2147483647");
 }
 
 TEST_F(HostileFiles, ArraysThatStopEarly) {
   // Base64 of the length 8 in four bytes, and of 1 to 8.
-  refuse("a.vti", vti("", piece("0 1 0 1 0 1", R"(format="binary")", "CAAAAAECAwQFBg==")), "6 of 8 values");
-  EXPECT_EQ(read(folder.put("good.vti", vti("", piece("0 1 0 1 0 1", R"(format="binary")", "CAAAAAECAwQFBgcI"))))
-                .arrays.size(),
-            1u);
-  refuse("b.vti", vti("", piece("0 1 0 1 0 1", R"(format="binary")", "BwAAAAECAwQFBgcI")), "7 bytes");
-  refuse("c.vti", vti("", piece("0 1 0 1 0 1", R"(format="appended" offset="0")", "")), "appended");
+  refuse("a.vti", hostile_vti("", piece("0 1 0 1 0 1", R"(format="binary")", "CAAAAAECAwQFBg==")), "6 of 8 values");
+  EXPECT_EQ(
+      read(folder.put("good.vti", hostile_vti("", piece("0 1 0 1 0 1", R"(format="binary")", "CAAAAAECAwQFBgcI"))))
+          .arrays.size(),
+      1u);
+  refuse("b.vti", hostile_vti("", piece("0 1 0 1 0 1", R"(format="binary")", "BwAAAAECAwQFBgcI")), "7 bytes");
+  refuse("c.vti", hostile_vti("", piece("0 1 0 1 0 1", R"(format="appended" offset="0")", "")), "appended");
 }
 
 TEST_F(HostileFiles, CompressedArraysOfNoBytes) {
   // Of no blocks, where 8 values are to be: the header's three numbers are 0.
-  const std::string path = folder.put("a.vti", vti("compressor=\"vtkZLibDataCompressor\"",
-                                                   piece("0 1 0 1 0 1", R"(format="binary")", "AAAAAAAAAAAAAAAA")));
+  const std::string path =
+      folder.put("a.vti", hostile_vti("compressor=\"vtkZLibDataCompressor\"",
+                                      piece("0 1 0 1 0 1", R"(format="binary")", "AAAAAAAAAAAAAAAA")));
   EXPECT_NE(error_of([&] { read(path); }).find("0 bytes"), std::string::npos);
 }
 
@@ -157,34 +159,34 @@ NumberOfComponents="3" format="ascii">0 0 0 1 0 0 0 1 0 0 0 1</DataArray></Point
   refuse("e.vtu", "<!DOCTYPE x [<!ENTITY a \"b\">]>" + vtu("4", "1"), "document type");
 }
 
-const std::string mha = "NDims = 3\nDimSize = 2 2 2\nElementType = MET_UCHAR\n";
+const std::string mha_header = "NDims = 3\nDimSize = 2 2 2\nElementType = MET_UCHAR\n";
 
 TEST_F(HostileFiles, MetaImageHeaders) {
-  EXPECT_EQ(read(folder.put("good.mha", mha + "ElementDataFile = LOCAL\nabcdefgh")).tetrahedra.extent(0), 6u);
+  EXPECT_EQ(read(folder.put("good.mha", mha_header + "ElementDataFile = LOCAL\nabcdefgh")).tetrahedra.extent(0), 6u);
   refuse("a.mha", "NDims = -1\nDimSize = 2 2 2\nElementType = MET_UCHAR\nElementDataFile = LOCAL\nabcdefgh", "-1");
   refuse("b.mha",
          "NDims = 3\nDimSize = 1000 1000 1000\nElementType = MET_UCHAR\nCompressedData = True\n"
          "ElementDataFile = LOCAL\nx\x9c\x03",
          "of 1000000000 values");
-  refuse("c.mha", mha + "BinaryData = False\nElementDataFile = LOCAL\n1 2 3 4 5 6 7 eight\n", "eight");
-  refuse("d.mha", mha + "BinaryData = False\nElementDataFile = LOCAL\n1 2 3 4 5 6 7\n", "7 of 8 values");
+  refuse("c.mha", mha_header + "BinaryData = False\nElementDataFile = LOCAL\n1 2 3 4 5 6 7 eight\n", "eight");
+  refuse("d.mha", mha_header + "BinaryData = False\nElementDataFile = LOCAL\n1 2 3 4 5 6 7\n", "7 of 8 values");
   for (const std::string name : {"%s%s%n", "%1000000000d", "%", "%d %d"}) {
-    refuse("format.mhd", mha + "ElementDataFile = " + name + "\n", "cannot read");
+    refuse("format.mhd", mha_header + "ElementDataFile = " + name + "\n", "cannot read");
   }
 }
 
 TEST_F(HostileFiles, MetaImageDataOutsideOfItsFolder) {
   std::filesystem::create_directory(folder / "inner");
   folder.put("outside.raw", "abcdefgh");
-  const std::string path = folder.put("inner/a.mhd", mha + "ElementDataFile = ../outside.raw\n");
+  const std::string path = folder.put("inner/a.mhd", mha_header + "ElementDataFile = ../outside.raw\n");
   EXPECT_NE(error_of([&] { read(path); }).find("outside of its folder"), std::string::npos);
   ReadOptions trusting;
   trusting.outside_files = true;
   EXPECT_EQ(read(path, trusting).tetrahedra.extent(0), 6u);
   std::filesystem::create_symlink(folder / "outside.raw", folder / "inner/link.raw");
-  const std::string by_link = folder.put("inner/b.mhd", mha + "ElementDataFile = link.raw\n");
+  const std::string by_link = folder.put("inner/b.mhd", mha_header + "ElementDataFile = link.raw\n");
   EXPECT_NE(error_of([&] { read(by_link); }).find("outside of its folder"), std::string::npos);
-  refuse("inner/c.mhd", mha + "ElementDataFile = /etc/passwd\n", "outside of its folder");
+  refuse("inner/c.mhd", mha_header + "ElementDataFile = /etc/passwd\n", "outside of its folder");
 }
 
 TEST_F(HostileFiles, MetaImageSlicesInFilesOfTheirOwn) {
@@ -192,32 +194,33 @@ TEST_F(HostileFiles, MetaImageSlicesInFilesOfTheirOwn) {
   folder.put("slice2.raw", "efgh");
   const std::vector<std::uint8_t> expected = {'a', 'b', 'c', 'd', 'e', 'f', 'g', 'h'};
   for (const std::string files : {"slice%d.raw 1 2 1", "LIST\nslice1.raw\nslice2.raw"}) {
-    const Dataset mesh = read(folder.put("a.mhd", mha + "ElementDataFile = " + files + "\n"));
+    const Dataset mesh = read(folder.put("a.mhd", mha_header + "ElementDataFile = " + files + "\n"));
     EXPECT_EQ(values_of<std::uint8_t>(mesh.arrays[0]), expected);
   }
-  refuse("b.mhd", mha + "ElementDataFile = slice%d.raw 1 3 1\n", "at most 2");
+  refuse("b.mhd", mha_header + "ElementDataFile = slice%d.raw 1 3 1\n", "at most 2");
 }
 
-const std::string nrrd = "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 2 2 2\n";
+const std::string nrrd_header = "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 2 2 2\n";
 
 TEST_F(HostileFiles, Nrrd) {
   const std::vector<std::uint8_t> expected = {1, 2, 3, 4, 5, 6, 7, 8};
-  const Dataset text = read(folder.put("text.nrrd", nrrd + "encoding: ascii\n\n1 2 3 4 5 6 7 8\n"));
+  const Dataset text = read(folder.put("text.nrrd", nrrd_header + "encoding: ascii\n\n1 2 3 4 5 6 7 8\n"));
   EXPECT_EQ(values_of<std::uint8_t>(text.arrays[0]), expected);
-  const Dataset axes = read(folder.put("axes.nrrd", nrrd + "kinds: domain domain domain\nencoding: raw\n\nabcdefgh"));
+  const Dataset axes =
+      read(folder.put("axes.nrrd", nrrd_header + "kinds: domain domain domain\nencoding: raw\n\nabcdefgh"));
   EXPECT_EQ(axes.arrays[0].components, 1);
   EXPECT_EQ(axes.tetrahedra.extent(0), 6u);
   refuse("a.nrrd", "NRRD0004", "dimension");
-  refuse("b.nrrd", nrrd + "encoding: raw\n", "of 8 values");
-  refuse("c.nrrd", nrrd + "encoding: ascii\n\n1 2 3\n", "of 8 values");
+  refuse("b.nrrd", nrrd_header + "encoding: raw\n", "of 8 values");
+  refuse("c.nrrd", nrrd_header + "encoding: ascii\n\n1 2 3\n", "of 8 values");
   refuse("d.nrrd", "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 1000 1000 1000\nencoding: ascii\n\n1 2 3\n", "values");
-  refuse("e.nrrd", nrrd + "encoding: raw\ndata file: /etc/passwd\n", "outside of its folder");
+  refuse("e.nrrd", nrrd_header + "encoding: raw\ndata file: /etc/passwd\n", "outside of its folder");
 }
 
 TEST_F(HostileFiles, NrrdVoxelsStandWhereTheHeaderSays) {
   const Dataset mesh =
-      read(folder.put("a.nrrd", nrrd + "space: left-posterior-superior\nspace origin: (1,2,3)\n"
-                                       "space directions: (0,2,0) (1,0,0) (0,0,1)\nencoding: raw\n\nabcdefgh"));
+      read(folder.put("a.nrrd", nrrd_header + "space: left-posterior-superior\nspace origin: (1,2,3)\n"
+                                              "space directions: (0,2,0) (1,0,0) (0,0,1)\nencoding: raw\n\nabcdefgh"));
   const std::vector<double> points = test::points_of(mesh);
   EXPECT_EQ(std::vector<double>(points.begin(), points.begin() + 6), (std::vector<double>{1, 2, 3, 1, 4, 3}));
 }

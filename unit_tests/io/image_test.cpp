@@ -1,10 +1,10 @@
-#include <io/io_fixtures.hpp>
-
 #include <limits>
 
 #include <gtest/gtest.h>
 
 #include <gale/io/image.hpp>
+
+#include "io/io_fixtures.hpp"
 
 namespace gale::io {
 namespace {

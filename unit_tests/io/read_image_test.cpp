@@ -1,5 +1,3 @@
-#include <io/io_fixtures.hpp>
-
 #include <cstdint>
 #include <cstring>
 
@@ -7,6 +5,8 @@
 
 #include <gale/io/read.hpp>
 #include <gale/io/synthetic.hpp>
+
+#include "io/io_fixtures.hpp"
 
 namespace gale::io {
 namespace {

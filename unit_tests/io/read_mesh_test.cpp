@@ -1,11 +1,11 @@
-#include <io/io_fixtures.hpp>
-
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include <gale/io/read.hpp>
 #include <gale/io/synthetic.hpp>
+
+#include "io/io_fixtures.hpp"
 
 namespace gale::io {
 namespace {

@@ -1,5 +1,3 @@
-#include <io/io_fixtures.hpp>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include <gale/io/synthetic.hpp>
+
+#include "io/io_fixtures.hpp"
 
 namespace gale::io {
 namespace {

@@ -1,5 +1,3 @@
-#include <io/io_fixtures.hpp>
-
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -8,6 +6,8 @@
 
 #include <gale/io/synthetic.hpp>
 #include <gale/io/voxels.hpp>
+
+#include "io/io_fixtures.hpp"
 
 namespace gale::io {
 namespace {

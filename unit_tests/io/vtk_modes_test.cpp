@@ -1,4 +1,4 @@
-#include <io/io_fixtures.hpp>
+#include "io/io_fixtures.hpp"
 
 #ifdef GALE_ENABLE_VTK
 

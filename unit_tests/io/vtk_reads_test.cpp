@@ -1,4 +1,4 @@
-#include <io/io_fixtures.hpp>
+#include "io/io_fixtures.hpp"
 
 #ifdef GALE_ENABLE_VTK
 
@@ -24,9 +24,14 @@
 #include <gale/io/synthetic.hpp>
 #include <gale/io/write.hpp>
 
+#include "io/small_surface.hpp"
+
 /// What GALE writes is what VTK's own readers read.
 namespace gale::io {
 namespace {
+
+using test::five_points;
+using test::two_lines_and_a_triangle;
 
 class VtkReads : public testing::Test {
  protected:
@@ -121,12 +126,6 @@ TEST_F(VtkReads, empty_meshes) {
   EXPECT_EQ(read_by<vtkXMLUnstructuredGridReader>("mesh.vtu")->GetNumberOfPoints(), 8);
 }
 
-Dataset::Positions five_points() {
-  const Dataset::Points<double> points("GALE::points", 5);
-  for (int i = 0; i < 5; ++i) points(i, 1) = 0.1 * i;
-  return points;
-}
-
 TEST_F(VtkReads, points) {
   const PointArray types{"CriticalType", 1, std::vector<std::int8_t>{0, 1, 0, 3, 2}};
   write_points(folder / "points.vtp", {five_points(), {types}});
@@ -135,17 +134,6 @@ TEST_F(VtkReads, points) {
   expect_array(found->GetPointData()->GetArray("CriticalType"), types);
   ASSERT_EQ(found->GetNumberOfVerts(), 5);
   for (int i = 0; i < 5; ++i) expect_cell(found, i, VTK_VERTEX, {i});
-}
-
-/// The lines 0-1-2 and 2-3, and the triangle 0, 1, 4.
-Surface two_lines_and_a_triangle() {
-  Surface surface;
-  surface.points = five_points();
-  surface.point_arrays = {{"CellDimension", 1, std::vector<std::int8_t>{0, 1, 0, 3, 2}}};
-  surface.lines = {{0, 3, 5}, {0, 1, 2, 2, 3}};
-  surface.polygons = {{0, 3}, {0, 1, 4}};
-  surface.cell_arrays = {{"SourceId", 1, std::vector<std::int32_t>{7, 8, 9}}};
-  return surface;
 }
 
 TEST_F(VtkReads, surfaces) {

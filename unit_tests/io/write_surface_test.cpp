@@ -1,29 +1,18 @@
-#include <io/io_fixtures.hpp>
-
 #include <gtest/gtest.h>
 
 #include <gale/io/write.hpp>
+
+#include "io/io_fixtures.hpp"
+#include "io/small_surface.hpp"
 
 namespace gale::io {
 namespace {
 
 using test::error_of;
+using test::two_lines_and_a_triangle;
 using Names = std::set<std::string>;
 
 class WriteSurface : public test::FileTest {};
-
-/// Five points; the lines 0-1-2 and 2-3, and the triangle 0, 1, 4.
-Surface two_lines_and_a_triangle() {
-  const Dataset::Points<double> points("GALE::points", 5);
-  for (int i = 0; i < 5; ++i) points(i, 1) = 0.1 * i;
-  Surface surface;
-  surface.points = points;
-  surface.point_arrays = {{"CellDimension", 1, std::vector<std::int8_t>{0, 1, 0, 3, 2}}};
-  surface.lines = {{0, 3, 5}, {0, 1, 2, 2, 3}};
-  surface.polygons = {{0, 3}, {0, 1, 4}};
-  surface.cell_arrays = {{"SourceId", 1, std::vector<std::int32_t>{7, 8, 9}}};
-  return surface;
-}
 
 TEST_F(WriteSurface, WritesNothingToo) {
   write_surface(folder / "surface.vtp",

@@ -1,4 +1,3 @@
-#include <io/io_fixtures.hpp>
 #include <sys/resource.h>
 
 #include <csignal>
@@ -8,6 +7,8 @@
 #include <gale/io/read.hpp>
 #include <gale/io/synthetic.hpp>
 #include <gale/io/write.hpp>
+
+#include "io/io_fixtures.hpp"
 
 namespace gale::io {
 namespace {

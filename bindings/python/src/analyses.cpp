@@ -28,52 +28,51 @@ nb::object column(const std::vector<outputs::DiagramPoint>& diagram, const Membe
   return numpy_of(std::move(values));
 }
 
+/// What `use(structure, order)` finds on the threads of the options, while Python goes on.
+template <class Use>
+auto analyse(const Mesh& mesh, const io::PointArray& field, RelationSet relations, const SweepOptions& options,
+             const Use& use) {
+  const Call call;
+  const ThreadLimit limit(options.threads);
+  const auto structure = make_structure(mesh, relations);
+  return use(*structure, order_of(mesh, field));
+}
+
 }  // namespace
 
 nb::tuple PyMesh::critical_points(Array1 values, const std::string& name, int threads,
                                   const nb::object& progress) const {
   const SweepOptions options = sweep_options(threads, progress);
   const io::PointArray field = field_of(values, name);
-  io::PointSet found;
-  {
-    const Call call;
-    const ThreadLimit limit(options.threads);
-    const auto structure = make_structure(mesh(), critical_points_relations);
-    found = outputs::to_point_set(with(field), find_critical_points(*structure, order_of(mesh(), field), options));
-  }
-  return numpy_of(std::move(found));
+  return numpy_of(
+      analyse(mesh(), field, critical_points_relations, options, [&](Structure& structure, const VertexOrder& order) {
+        return outputs::to_point_set(with(field), find_critical_points(structure, order, options));
+      }));
 }
 
 nb::tuple PyMesh::critical_simplices(Array1 values, const std::string& name, int threads,
                                      const nb::object& progress) const {
   const SweepOptions options = sweep_options(threads, progress);
   const io::PointArray field = field_of(values, name);
-  io::PointSet found;
-  {
-    const Call call;
-    const ThreadLimit limit(options.threads);
-    const auto structure = make_structure(mesh(), discrete_gradient_relations);
-    const DiscreteGradient gradient = find_discrete_gradient(*structure, order_of(mesh(), field), options);
+  const auto find = [&](Structure& structure, const VertexOrder& order) {
+    const DiscreteGradient gradient = find_discrete_gradient(structure, order, options);
     const CriticalSimplices& critical = gradient.critical();
-    const SimplexNumbers numbers = number_simplices(*structure, {critical.edges, critical.triangles}, options);
-    found = outputs::to_point_set(with(field), outputs::known_simplices(gradient, critical, numbers));
-  }
-  return numpy_of(std::move(found));
+    const SimplexNumbers numbers = number_simplices(structure, {critical.edges, critical.triangles}, options);
+    return outputs::to_point_set(with(field), outputs::known_simplices(gradient, critical, numbers));
+  };
+  return numpy_of(analyse(mesh(), field, discrete_gradient_relations, options, find));
 }
 
 nb::dict PyMesh::persistence_diagram(Array1 values, const std::string& name, double persistence, bool is_percent,
                                      int threads, const nb::object& progress) const {
   const SweepOptions options = sweep_options(threads, progress);
   const io::PointArray field = field_of(values, name);
-  std::vector<outputs::DiagramPoint> diagram;
-  {
-    const Call call;
-    const ThreadLimit limit(options.threads);
-    const auto structure = make_structure(mesh(), discrete_gradient_relations);
-    const DiscreteGradient gradient = find_discrete_gradient(*structure, order_of(mesh(), field), options);
-    diagram = outputs::persistence_diagram(gradient, find_persistence_pairs(gradient, options), field,
-                                           outputs::threshold_of({persistence, is_percent}, field));
-  }
+  const auto find = [&](Structure& structure, const VertexOrder& order) {
+    const DiscreteGradient gradient = find_discrete_gradient(structure, order, options);
+    return outputs::persistence_diagram(gradient, find_persistence_pairs(gradient, options), field,
+                                        outputs::threshold_of({persistence, is_percent}, field));
+  };
+  const auto diagram = analyse(mesh(), field, discrete_gradient_relations, options, find);
   using Point = outputs::DiagramPoint;
   nb::dict columns;
   columns["type"] = column<std::int8_t>(diagram, [](const Point& point) { return point.type; });
@@ -93,12 +92,9 @@ nb::dict PyMesh::morse_smale(Array1 values, const std::string& name, std::option
   io::Surface lines;
   std::vector<io::PointArray> manifolds;
   KeptBelow kept;
-  {
-    const Call call;
-    const ThreadLimit limit(options.threads);
-    const auto structure = make_structure(mesh(), morse_smale_relations);
-    const DiscreteGradient gradient = find_discrete_gradient(*structure, order_of(mesh(), field), options);
-    MorseSmaleComplex complex = find_morse_smale_complex(*structure, gradient, {}, options);
+  analyse(mesh(), field, morse_smale_relations, options, [&](Structure& structure, const VertexOrder& order) {
+    const DiscreteGradient gradient = find_discrete_gradient(structure, order, options);
+    MorseSmaleComplex complex = find_morse_smale_complex(structure, gradient, {}, options);
     if (persistence) {
       SimplifyOptions how;
       how.extrema_only = extrema_only;
@@ -108,7 +104,7 @@ nb::dict PyMesh::morse_smale(Array1 values, const std::string& name, std::option
           outputs::threshold_of({*persistence, is_percent}, field), how);
     }
     const NamedSimplices named = outputs::named_simplices(complex);
-    const SimplexNumbers numbers = number_simplices(*structure, named, options);
+    const SimplexNumbers numbers = number_simplices(structure, named, options);
     const auto critical = outputs::known_simplices(complex.gradient, complex.critical, numbers);
     const io::Dataset dataset = with(field);
     critical_points = outputs::to_point_set(dataset, critical);
@@ -116,7 +112,7 @@ nb::dict PyMesh::morse_smale(Array1 values, const std::string& name, std::option
     lines = outputs::separatrices1(dataset, field, complex, named, numbers, critical);
     manifolds = outputs::manifold_arrays(complex);
     kept = complex.kept_below;
-  }
+  });
   nb::dict parts;
   parts["critical_points"] = numpy_of(std::move(critical_points));
   parts["separatrices1"] = numpy_of(std::move(lines));
