@@ -8,7 +8,7 @@ namespace gale::outputs {
 
 namespace {
 
-enum Type : std::int8_t { ascending = 1, descending = 2 };
+enum WallType : std::int8_t { ascending_wall = 1, descending_wall = 2 };
 
 /// Gives numbers to those of a mesh's vertices (tetrahedra) that are used, by ascending input id.
 class Numbering {
@@ -132,7 +132,7 @@ class Walls {
       const auto& saddles = met[walls.sources[i]];
       if (!saddles.empty()) low.clear();
       for (const Id saddle : saddles) low.push_back(critical_[1][saddle].lowest());
-      add_arrays(descending, source, source.highest(), *std::min_element(low.begin(), low.end(), is_below()),
+      add_arrays(descending_wall, source, source.highest(), *std::min_element(low.begin(), low.end(), is_below()),
                  critical_[1], saddles);
     }
   }
@@ -154,7 +154,7 @@ class Walls {
       const auto& saddles = met[walls.sources[i]];
       if (!saddles.empty()) high.clear();
       for (const Id saddle : saddles) high.push_back(critical_[2][saddle].highest());
-      add_arrays(ascending, source, *std::max_element(high.begin(), high.end(), is_below()), source.lowest(),
+      add_arrays(ascending_wall, source, *std::max_element(high.begin(), high.end(), is_below()), source.lowest(),
                  critical_[2], saddles);
     }
   }
@@ -163,7 +163,7 @@ class Walls {
 
   /// Gives the polygons that have no arrays yet, those of the wall added last, theirs. `met` are the places in
   /// `critical` of the simplices that bound the wall.
-  void add_arrays(Type type, const CriticalSimplex& source, Id highest, Id lowest,
+  void add_arrays(WallType type, const CriticalSimplex& source, Id highest, Id lowest,
                   const std::vector<CriticalSimplex>& critical, const std::vector<Id>& met) {
     Id on_surface = source.on_surface;
     for (const Id saddle : met) on_surface += critical[saddle].on_surface;

@@ -11,8 +11,6 @@ namespace gale::detail {
 
 namespace {
 
-constexpr std::size_t mebibyte = std::size_t(1) << 20;
-
 /// A copy reaches the link's bandwidth from some megabytes on; more only delays the first row.
 constexpr std::size_t largest_batch = 16 * mebibyte;
 
@@ -25,12 +23,12 @@ std::size_t default_host_memory() {
   return pages > 0 && page > 0 ? static_cast<std::size_t>(pages) * page / share_of_host : 512 * mebibyte;
 }
 
+}  // namespace
+
 int given_or(int given, int otherwise, const char* name) {
   if (given < 0) throw Error(std::string(name) + " must be at least 1, not " + std::to_string(given));
   return given == 0 ? otherwise : given;
 }
-
-}  // namespace
 
 Sizes sizes_for(const Mesh& mesh, const StructureOptions& options, int queues) {
   constexpr int warp = 32;

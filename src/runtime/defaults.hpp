@@ -7,6 +7,11 @@
 
 namespace gale::detail {
 
+inline constexpr std::size_t mebibyte = std::size_t(1) << 20;
+
+/// An option, or what it is where it was left open (0). Throws gale::Error, naming it, if it is below 0.
+int given_or(int given, int otherwise, const char* name);
+
 /// StructureOptions, with what they leave open filled in; for one of the queues.
 struct Sizes {
   Offset batch_words = 0;      ///< of a batch and of the arena that takes its blocks

@@ -67,9 +67,9 @@ void reduce(const std::vector<std::pair<Cell, Sum>>& columns, const Pair& pair) 
 }
 
 /// Boundaries in a Morse complex.
-class Paths {
+class RisingPaths {
  public:
-  Paths(const Ranks& ranks, const BruteForceGradient& gradient) {
+  RisingPaths(const Ranks& ranks, const BruteForceGradient& gradient) {
     for (const auto& [one, other] : gradient.partner) partner_[ranks.cell(one)] = ranks.cell(other);
   }
 
@@ -104,7 +104,7 @@ class Paths {
 
 NamedPairs brute_force_pairs(const std::vector<double>& field, const BruteForceGradient& gradient) {
   const Ranks ranks(field);
-  Paths paths(ranks, gradient);
+  RisingPaths paths(ranks, gradient);
   NamedPairs found;
   found.essential = gradient.critical;
   for (int d = 0; d < 3; ++d) {

@@ -8,7 +8,7 @@
 namespace gale::test {
 
 ComplexOf::ComplexOf(const InputMesh& input, const std::vector<double>& field) : input_(input), field_(field) {
-  const Mesh mesh = encode(input, octree_of(input, 50));
+  const Mesh mesh = encode(input, 50);
   const auto runtime = make_structure(mesh, morse_smale_relations);
   const VertexOrder order(mesh, field.data(), field.size());
   MorseSmaleParts parts;

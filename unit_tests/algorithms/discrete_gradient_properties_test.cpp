@@ -75,7 +75,7 @@ class Subject {
   explicit Subject(const InputMesh& input)
       : input_(input),
         brute_force_(input),
-        mesh_(encode(input, octree_of(input, 50))),
+        mesh_(encode(input, 50)),
         structure_(make_structure(mesh_, discrete_gradient_relations)),
         reader_(brute_force_, mesh_) {}
 

@@ -41,7 +41,7 @@ std::vector<double> ids_of(const InputMesh& mesh) {
 }
 
 std::array<Id, 4> counts_on(const InputMesh& input, const std::vector<double>& field) {
-  return gradient_on(encode(input, octree_of(input, 100)), field).critical().counts();
+  return gradient_on(encode(input, 100), field).critical().counts();
 }
 
 }  // namespace
@@ -111,7 +111,7 @@ TEST_P(GradientOfStar, of_each_degree_is_that_of_brute_force) {
   const Id degree = GetParam();
   for (const InputMesh& input : {cone_over_disc(degree), cone_over_caps(degree, 2), cone_over_caps(degree, 3)}) {
     const BruteForce brute_force(input);
-    const Mesh mesh = encode(input, octree_of(input, 100));
+    const Mesh mesh = encode(input, 100);
     const GradientReader reader(brute_force, mesh);
     for (const double apex : {-1.0, 1e6}) {
       const auto field = with_apex(random_field(input, degree), apex);

@@ -59,8 +59,7 @@ TEST_P(DiscreteGradientOf, every_mesh_is_that_of_brute_force_on_every_structure)
 INSTANTIATE_TEST_SUITE_P(Tests, DiscreteGradientOf, every_mesh_and_segmentation(), mesh_and_segmentation);
 
 TEST(DiscreteGradient, needs_the_relations_that_it_reads) {
-  const InputMesh& input = mesh_named("one_tetrahedron");
-  const Mesh mesh = encode(input, octree_of(input, 100));
+  const Mesh mesh = encode(mesh_named("one_tetrahedron"), 100);
   const std::vector<float> field(4, 1.0f);
   const auto runtime = make_structure(mesh, Relation::VV);
   EXPECT_THROW(find_discrete_gradient(*runtime, VertexOrder(mesh, field.data(), field.size())), Error);
@@ -68,8 +67,7 @@ TEST(DiscreteGradient, needs_the_relations_that_it_reads) {
 
 /// Where Kokkos has Serial alone it doesn't count references atomically.
 TEST(DiscreteGradient, is_read_on_many_threads_without_counting_references) {
-  const InputMesh& input = mesh_named("one_tetrahedron");
-  const Mesh mesh = encode(input, octree_of(input, 100));
+  const Mesh mesh = encode(mesh_named("one_tetrahedron"), 100);
   const std::vector<float> field = {0, 1, 2, 3};
   const auto runtime = make_structure(mesh, discrete_gradient_relations);
   const auto gradient = find_discrete_gradient(*runtime, VertexOrder(mesh, field.data(), field.size()));

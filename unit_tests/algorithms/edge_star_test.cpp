@@ -93,8 +93,7 @@ std::map<std::array<Id, 2>, std::vector<Around::Wedge>> wedges_by_edge(const Mes
 class EdgeStarIn : public testing::TestWithParam<std::string> {};
 
 TEST_P(EdgeStarIn, every_mesh_goes_around_each_edge_in_the_order_that_it_promises) {
-  const InputMesh& input = mesh_named(GetParam());
-  const Mesh mesh = encode(input, octree_of(input, 100));
+  const Mesh mesh = encode(mesh_named(GetParam()), 100);
   const auto runtime = make_structure(mesh, Relation::VT);
   const auto consumer = runtime->consumer();
   detail::EdgeStar star(mesh);

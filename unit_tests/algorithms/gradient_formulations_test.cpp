@@ -12,6 +12,7 @@
 #include <gale/runtime/make_structure.hpp>
 
 #include "support/every_mesh.hpp"
+#include "support/with_threads.hpp"
 
 namespace gale::test {
 
@@ -28,7 +29,7 @@ std::unique_ptr<Structure> make_runtime(const Mesh& mesh, RelationSet relations,
   return make_structure(mesh, relations, options);
 }
 
-std::vector<StructureKind> structure_kinds() {
+std::vector<StructureKind> kinds_of_structures() {
   std::vector<StructureKind> kinds = {
       {"consumers",
        [](const Mesh& mesh, RelationSet relations) { return make_runtime(mesh, relations, Way::inline_); }},
@@ -43,7 +44,7 @@ std::vector<StructureKind> structure_kinds() {
 
 /// Few values, so that ties matter; one value; falling from the first vertex, which is the apex of the cones, and
 /// rising; any; and infinities.
-std::vector<std::vector<float>> fields_on(const InputMesh& mesh) {
+std::vector<std::vector<float>> float_fields_on(const InputMesh& mesh) {
   constexpr float infinity = std::numeric_limits<float>::infinity();
   std::mt19937 random(20261122);
   std::vector<std::vector<float>> fields(6);
@@ -81,12 +82,6 @@ void expect_same(const DiscreteGradient& gradient, const DiscreteGradient& expec
   }
 }
 
-SweepOptions with_threads(int threads) {
-  SweepOptions options;
-  options.threads = threads;
-  return options;
-}
-
 }  // namespace
 
 class GradientFormulationsOn : public EveryMesh {};
@@ -95,13 +90,13 @@ TEST_P(GradientFormulationsOn, every_mesh_agree_pair_by_pair_on_every_structure)
   const Mesh mesh = encode(input(), segmentation());
   const auto stars = make_structure(mesh, discrete_gradient_relations);
   std::vector<std::unique_ptr<Structure>> structures;
-  for (const auto& kind : structure_kinds())
+  for (const auto& kind : kinds_of_structures())
     structures.push_back(kind.make(mesh, discrete_gradient_from_cells_relations));
-  for (const auto& field : fields_on(input())) {
+  for (const auto& field : float_fields_on(input())) {
     const VertexOrder order(mesh, field.data(), field.size());
     const DiscreteGradient expected = find_discrete_gradient(*stars, order, with_threads(2));
     for (std::size_t i = 0; i < structures.size(); ++i) {
-      SCOPED_TRACE(structure_kinds()[i].name);
+      SCOPED_TRACE(kinds_of_structures()[i].name);
       expect_same(find_discrete_gradient_from_cells(*structures[i], order, with_threads(2)), expected);
     }
   }
@@ -119,7 +114,7 @@ TEST(GradientFromCells, has_the_known_counts_on_a_grid) {
   const VertexOrder order(mesh, field.data(), field.size());
   const auto stars = make_structure(mesh, discrete_gradient_relations);
   const DiscreteGradient expected = find_discrete_gradient(*stars, order);
-  for (const auto& kind : structure_kinds()) {
+  for (const auto& kind : kinds_of_structures()) {
     const auto structure = kind.make(mesh, discrete_gradient_from_cells_relations);
     for (const int threads : {1, 8}) {
       SCOPED_TRACE(kind.name);
@@ -131,8 +126,7 @@ TEST(GradientFromCells, has_the_known_counts_on_a_grid) {
 }
 
 TEST(GradientFromCells, needs_the_relations_that_it_reads) {
-  const InputMesh& input = mesh_named("one_tetrahedron");
-  const Mesh mesh = encode(input, octree_of(input, 100));
+  const Mesh mesh = encode(mesh_named("one_tetrahedron"), 100);
   const std::vector<float> field(4, 1.0f);
   const VertexOrder order(mesh, field.data(), field.size());
   const auto coboundary = make_structure(mesh, Relation::VE | Relation::VF | Relation::VT);

@@ -158,7 +158,7 @@ class GradientKernelOf : public testing::TestWithParam<std::string> {};
 
 TEST_P(GradientKernelOf, every_mesh_pairs_what_the_host_and_brute_force_pair) {
   const InputMesh& input = mesh_named(GetParam());
-  const Mesh mesh = encode(input, octree_of(input, 7));
+  const Mesh mesh = encode(input, 7);
   const auto fields = fields_on(input);
   for (std::size_t i = 0; i < fields.size(); ++i) {
     SCOPED_TRACE(fields[i].name);
@@ -190,7 +190,7 @@ INSTANTIATE_TEST_SUITE_P(Tests, GradientKernelOf, testing::ValuesIn(mesh_names()
 /// No vertex of it has more than 14 neighbours and 24 tetrahedra; a star with all of them takes more than one word.
 TEST(GradientKernel, pairs_every_simplex_of_a_grid_in_stars_of_one_and_of_two_words) {
   const InputMesh input = ball(6);
-  const Mesh mesh = encode(input, octree_of(input, 50));
+  const Mesh mesh = encode(input, 50);
   const auto paired = paired_in_a_kernel(HostRows(mesh, random_field(input, 3)));
   std::array<int, 3> words{};
   std::size_t cells = 0;

@@ -67,7 +67,7 @@ std::vector<double> wave_with_hubs(const InputMesh& mesh, Id hubs, bool are_abov
 /// All that is found of a field, within a time that anything quadratic takes many times of.
 void expect_fast(const InputMesh& input, const std::vector<double>& field) {
   const auto begin = std::chrono::steady_clock::now();
-  const Mesh mesh = encode(input, octree_of(input, 100));
+  const Mesh mesh = encode(input, 100);
   const VertexOrder order(mesh, field.data(), field.size());
   const auto runtime = make_structure(mesh, morse_smale_relations);
   EXPECT_FALSE(find_critical_points(*runtime, order).vertices.empty());

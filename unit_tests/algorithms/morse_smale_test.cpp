@@ -63,7 +63,7 @@ INSTANTIATE_TEST_SUITE_P(Tests, MorseSmaleComplexOf, every_mesh_and_segmentation
 
 TEST(MorseSmaleComplex, of_some_parts_has_them_as_the_whole_has_them) {
   const InputMesh& input = mesh_named("holed_grid_9");
-  const Mesh mesh = encode(input, octree_of(input, 100));
+  const Mesh mesh = encode(input, 100);
   const auto structure = structure_kinds().front().make(mesh, morse_smale_relations);
   const Field field = fields_on(input).front();
   const MorseSmaleComplex whole = complex_of(*structure, field, 2);
@@ -93,7 +93,7 @@ TEST(MorseSmaleComplex, of_some_parts_has_them_as_the_whole_has_them) {
 
 TEST(MorseSmaleComplex, needs_VT_for_its_surfaces) {
   const InputMesh& input = mesh_named("holed_grid_9");
-  const Mesh mesh = encode(input, octree_of(input, 100));
+  const Mesh mesh = encode(input, 100);
   const auto structure = structure_kinds().front().make(mesh, morse_smale_relations);
   const auto field = fields_on(input).front();
   const VertexOrder order(mesh, field.values.data(), field.values.size());
@@ -106,7 +106,7 @@ TEST(MorseSmaleComplex, needs_VT_for_its_surfaces) {
 
 TEST(MorseSmaleComplex, refuses_an_order_or_a_gradient_of_another_mesh) {
   const InputMesh& input = mesh_named("holed_grid_9");
-  const Mesh mesh = encode(input, octree_of(input, 100)), other = encode(input, octree_of(input, 50));
+  const Mesh mesh = encode(input, 100), other = encode(input, 50);
   const auto field = fields_on(input).front();
   const VertexOrder order(mesh, field.values.data(), field.values.size());
   constexpr RelationSet relations = morse_smale_relations | discrete_gradient_from_cells_relations;

@@ -86,7 +86,7 @@ class PersistencePairsWithoutGradient : public testing::TestWithParam<std::strin
 /// The same homology from all simplices.
 TEST_P(PersistencePairsWithoutGradient, begin_and_end_at_the_same_vertices) {
   const InputMesh& input = mesh_named(GetParam());
-  const Mesh mesh = encode(input, octree_of(input, 50));
+  const Mesh mesh = encode(input, 50);
   for (const unsigned seed : {0, 1, 2}) {
     const auto field = seed == 0 ? fields_on(input)[0].values : random_field(input, seed);
     const DiscreteGradient gradient = gradient_of(mesh, field);
@@ -100,7 +100,7 @@ INSTANTIATE_TEST_SUITE_P(Tests, PersistencePairsWithoutGradient, testing::Values
 
 TEST(PersistencePairs, of_noise_are_the_same_with_any_number_of_threads_and_from_cells) {
   const InputMesh input = holed_grid(20);
-  const Mesh mesh = encode(input, octree_of(input, 100));
+  const Mesh mesh = encode(input, 100);
   const auto field = random_field(input, 7);
   const DiscreteGradient gradient = gradient_of(mesh, field);
   const PersistencePairs one = find_persistence_pairs(gradient, with_threads(1));
@@ -123,7 +123,7 @@ TEST(PersistencePairs, of_forked_paths_are_the_same_from_cells) {
   for (const char* name : {"three_on_one_triangle", "seven_on_one_triangle", "cone_over_three_caps_100"}) {
     SCOPED_TRACE(name);
     const InputMesh& input = mesh_named(name);
-    const Mesh mesh = encode(input, octree_of(input, 50));
+    const Mesh mesh = encode(input, 50);
     for (const Field& field : fields_on(input)) {
       const auto structure = structure_kinds().front().make(mesh, discrete_gradient_from_cells_relations);
       const auto gradient =

@@ -119,7 +119,7 @@ TEST_F(SimplexNumbersOfTwo, of_what_is_not_there_are_refused) {
 TEST(SimplexNumbers, of_a_vertex_with_more_neighbours_than_bits) {
   for (const Id degree : {64, 65, 300}) {
     const InputMesh input = cone_over_disc(degree);  // vertex 0 is in all triangles but those of the disc
-    const Mesh mesh = encode(input, octree_of(input, 100));
+    const Mesh mesh = encode(input, 100);
     const auto runtime = make_structure(mesh, simplex_numbers_relations);
     const auto internal = mesh.vertex_internal();
     const auto numbers = number_simplices(*runtime, {{{internal(degree), internal(0)}, {internal(2), internal(1)}},
@@ -130,8 +130,7 @@ TEST(SimplexNumbers, of_a_vertex_with_more_neighbours_than_bits) {
 }
 
 TEST(SimplexNumbers, need_the_relations_that_they_read) {
-  const InputMesh& input = mesh_named("one_tetrahedron");
-  const Mesh mesh = encode(input, octree_of(input, 100));
+  const Mesh mesh = encode(mesh_named("one_tetrahedron"), 100);
   const auto runtime = make_structure(mesh, Relation::VV);
   EXPECT_THROW(number_simplices(*runtime, {}), Error);
 }

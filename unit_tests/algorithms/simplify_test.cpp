@@ -265,7 +265,7 @@ TEST(Simplify, refuses_a_simplified_complex) {
 
 TEST(Simplify, refuses_a_complex_without_the_parts_that_it_needs) {
   const InputMesh input = strip(6);
-  const Mesh mesh = encode(input, octree_of(input, 50));
+  const Mesh mesh = encode(input, 50);
   const auto runtime = make_structure(mesh, morse_smale_relations);
   const std::vector<double> field = {0, 2, 4, 5, 3, 1};
   const auto gradient = find_discrete_gradient(*runtime, VertexOrder(mesh, field.data(), field.size()));

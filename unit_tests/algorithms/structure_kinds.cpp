@@ -27,10 +27,4 @@ std::vector<StructureKind> structure_kinds() {
   return kinds;
 }
 
-SweepOptions with_threads(int threads) {
-  SweepOptions options;
-  options.threads = threads;
-  return options;
-}
-
 }  // namespace gale::test

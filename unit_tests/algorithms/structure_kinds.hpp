@@ -7,6 +7,8 @@
 
 #include <gale/runtime/structure.hpp>
 
+#include "support/with_threads.hpp"
+
 namespace gale::test {
 
 /// A structure that algorithms must give the same result on as on any other.
@@ -17,7 +19,5 @@ struct StructureKind {
 
 /// Those that this build has.
 std::vector<StructureKind> structure_kinds();
-
-SweepOptions with_threads(int threads);
 
 }  // namespace gale::test

@@ -4,6 +4,8 @@
 #include <functional>
 #include <numeric>
 
+#include <gtest/gtest.h>
+
 namespace gale::test {
 
 TurnedGradient::TurnedGradient(const InputMesh& mesh, const std::vector<double>& field,

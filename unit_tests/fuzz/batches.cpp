@@ -23,7 +23,9 @@ namespace {
 constexpr std::uint64_t batch = 500;
 constexpr double too_long = 10;
 
-double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+double seconds_now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
 
 /// What parent and child both see.
 struct Shared {
@@ -51,7 +53,7 @@ Batches::Tried Batches::run(std::uint64_t from, std::uint64_t count, double seco
   Shared* const shared = make_shared();
   const std::filesystem::path output = folder_ / "output.txt";
   const std::uint64_t end = from + count;
-  const double start = now();
+  const double start = seconds_now();
   shared->next = from;
   const auto work = [&] {
     const int file = open(output.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND, 0666);
@@ -59,7 +61,7 @@ Batches::Tried Batches::run(std::uint64_t from, std::uint64_t count, double seco
     dup2(file, 2);
     begin();
     for (std::uint64_t last = std::min(end, shared->next + batch); shared->next < last; ++shared->next) {
-      shared->begun = now();
+      shared->begun = seconds_now();
       std::string complaint = check(shared->next);
       std::fflush(nullptr);
       struct stat status {};
@@ -72,15 +74,15 @@ Batches::Tried Batches::run(std::uint64_t from, std::uint64_t count, double seco
     }
     _exit(0);
   };
-  while (shared->next < end && now() - start < seconds) {
-    shared->begun = now();
+  while (shared->next < end && seconds_now() - start < seconds) {
+    shared->begun = seconds_now();
     const pid_t child = fork();
     if (child == 0) work();
     int status = 0;
     bool hung = false;
     while (waitpid(child, &status, WNOHANG) == 0) {
       usleep(1000);
-      hung = now() - shared->begun > too_long;
+      hung = seconds_now() - shared->begun > too_long;
       if (!hung) continue;
       kill(child, SIGKILL);
       waitpid(child, &status, 0);
@@ -92,7 +94,7 @@ Batches::Tried Batches::run(std::uint64_t from, std::uint64_t count, double seco
     found(shared->next, what, content_of(output));
     ++shared->next;
   }
-  const Tried tried{shared->next - from, shared->succeeded, now() - start};
+  const Tried tried{shared->next - from, shared->succeeded, seconds_now() - start};
   munmap(shared, sizeof(Shared));
   return tried;
 }

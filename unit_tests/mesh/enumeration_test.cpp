@@ -12,7 +12,7 @@ namespace {
 
 Mesh holed() {
   const InputMesh& input = mesh_named("holed_grid_9");
-  return encode(input, octree_of(input, 7));
+  return encode(input, 7);
 }
 
 constexpr SimplexNeeds edges = {Enumeration::edges, false, false};

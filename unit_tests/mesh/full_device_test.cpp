@@ -13,7 +13,7 @@ namespace gale::test {
 
 namespace {
 
-constexpr SimplexNeeds everything = {Enumeration::triangles, true, true};
+constexpr SimplexNeeds all_tables = {Enumeration::triangles, true, true};
 
 /// All that a mesh has, on the host.
 void expect_equal(const Mesh& mesh, const Mesh& expected) {
@@ -30,7 +30,7 @@ void expect_equal(const Mesh& mesh, const Mesh& expected) {
   EXPECT_EQ(values(one.external), values(other.external));
   EXPECT_EQ(values(mesh.vertex_input()), values(expected.vertex_input()));
   EXPECT_EQ(values(mesh.tetrahedron_input()), values(expected.tetrahedron_input()));
-  const auto tables = mesh.simplices(everything), wanted = expected.simplices(everything);
+  const auto tables = mesh.simplices(all_tables), wanted = expected.simplices(all_tables);
   EXPECT_EQ(values(tables.edge_begin), values(wanted.edge_begin));
   EXPECT_EQ(values(tables.edge_high), values(wanted.edge_high));
   EXPECT_EQ(values(tables.triangle_begin), values(wanted.triangle_begin));
@@ -46,8 +46,8 @@ void expect_equal(const Mesh& mesh, const Mesh& expected) {
 
 TEST(Mesh, has_nothing_to_say_where_it_fits) {
   const InputMesh input = holed_grid(5);
-  const Mesh mesh = encode(input, octree_of(input, 20));
-  mesh.simplices(everything);
+  const Mesh mesh = encode(input, 20);
+  mesh.simplices(all_tables);
   EXPECT_EQ(mesh.on_device(), have_device);
   EXPECT_EQ(mesh.notice(), "");
 }
@@ -55,9 +55,9 @@ TEST(Mesh, has_nothing_to_say_where_it_fits) {
 TEST(FullDevice, lets_the_host_make_the_mesh) {
   if (!have_device) GTEST_SKIP() << "there is no device";
   const InputMesh input = holed_grid(70);  // over a million tetrahedra, of 16 bytes each
-  const Mesh expected = encode(input, octree_of(input, 100));
+  const Mesh expected = encode(input, 100);
   const FullDevice full(16 * mebi);
-  const Mesh mesh = encode(input, octree_of(input, 100));
+  const Mesh mesh = encode(input, 100);
   EXPECT_FALSE(mesh.on_device());
   EXPECT_EQ(mesh.notice().rfind("the mesh doesn't fit the device's memory (", 0), 0u) << mesh.notice();
   EXPECT_NE(mesh.notice().find("): the host computes"), std::string::npos) << mesh.notice();
@@ -67,10 +67,10 @@ TEST(FullDevice, lets_the_host_make_the_mesh) {
 TEST(FullDevice, lets_the_host_enumerate) {
   if (!have_device) GTEST_SKIP() << "there is no device";
   const InputMesh input = holed_grid(70);
-  const Mesh expected = encode(input, octree_of(input, 100));
-  const Mesh mesh = encode(input, octree_of(input, 100));
+  const Mesh expected = encode(input, 100);
+  const Mesh mesh = encode(input, 100);
   EXPECT_TRUE(mesh.on_device());
-  expected.simplices(everything);
+  expected.simplices(all_tables);
   const FullDevice full(16 * mebi);
   expect_equal(mesh, expected);
   EXPECT_TRUE(mesh.on_device());

@@ -50,8 +50,7 @@ TEST_P(InputNumbersOf, every_mesh_are_places_in_lexicographic_order) {
 INSTANTIATE_TEST_SUITE_P(Tests, InputNumbersOf, every_mesh_and_segmentation(), mesh_and_segmentation);
 
 TEST(InputNumbers, of_vertices_and_tetrahedra_are_the_inputs) {
-  const InputMesh& input = mesh_named("the_papers");
-  const Mesh mesh = encode(input, octree_of(input, 2));
+  const Mesh mesh = encode(mesh_named("the_papers"), 2);
   EXPECT_EQ(input_numbers(mesh, 0).data(), mesh.vertex_input().data());
   EXPECT_EQ(input_numbers(mesh, 3).data(), mesh.tetrahedron_input().data());
 }

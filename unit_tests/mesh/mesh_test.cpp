@@ -152,7 +152,7 @@ TEST(Mesh, of_the_papers_example_with_its_segments_exchanged) {
 /// Enough tetrahedra for several threads, which find them in any order.
 TEST(Mesh, of_many_tetrahedra_is_in_the_same_order) {
   const InputMesh input = holed_grid(22);
-  const Mesh mesh = encode(input, octree_of(input, 100));
+  const Mesh mesh = encode(input, 100);
   const auto tetrahedra = tetrahedra_in(mesh.encoded());
   EXPECT_TRUE(std::is_sorted(tetrahedra.begin(), tetrahedra.end()));
   for (Id t = 0; t < mesh.tetrahedra(); ++t) ASSERT_EQ(tetrahedra[t], renumbered(input, mesh, t));

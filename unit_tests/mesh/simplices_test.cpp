@@ -175,7 +175,7 @@ TEST(Simplices, are_found_by_their_vertices_if_they_are_there) {
   for (const char* const name : {"one_tetrahedron", "two_sharing_a_vertex", "the_papers", "several_components",
                                  "slivers", "random_tetrahedra", "ball"}) {
     const InputMesh& input = mesh_named(name);
-    const Mesh mesh = encode(input, octree_of(input, 7));
+    const Mesh mesh = encode(input, 7);
     const ExpectedSimplices expected(brute_force_of(name), mesh);
     const auto simplices = mesh.simplices({Enumeration::triangles, false, false});
     for (Id a = 0; a < mesh.vertices(); ++a) {

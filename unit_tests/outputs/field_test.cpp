@@ -28,7 +28,7 @@ const io::PointArray other{"other", 1, std::vector<double>{1, 2}};
 /// The vertices of the unit tetrahedron in the order that the arrays say, lowest first.
 std::vector<Id> ascending(const std::vector<io::PointArray>& arrays) {
   const InputMesh input = unit_tetrahedron();
-  const Mesh mesh = encode(input, octree_of(input, 2));
+  const Mesh mesh = encode(input, 2);
   const VertexOrder order = order_of(mesh, with(arrays), arrays.front());
   std::vector<Id> vertices{0, 1, 2, 3};
   const auto key = [&](Id v) { return order.keys()[mesh.vertex_internal()(v)]; };

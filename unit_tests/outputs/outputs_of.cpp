@@ -32,7 +32,7 @@ OutputsOf outputs_of(const InputMesh& input, const std::vector<double>& field, c
   std::vector<std::int32_t> places(field.size());
   std::iota(places.begin(), places.end(), 0);
   dataset.arrays = {{"field", 1, field}, {"place", 1, places}};
-  const Mesh mesh = encode(input, octree_of(input, 3));
+  const Mesh mesh = encode(input, 3);
   const VertexOrder order(mesh, field.data(), field.size());
   const auto structure = make_structure(mesh, morse_smale_relations);
   const DiscreteGradient gradient = find_discrete_gradient(*structure, order);

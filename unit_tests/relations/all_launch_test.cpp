@@ -78,7 +78,7 @@ TEST(LaunchedRows, leave_out_segments_of_more_rows_than_teams_have_scratch_memor
 
 TEST(LaunchedRows, leave_out_what_the_pool_lacks_room_for_and_say_how_much_it_takes) {
   const InputMesh& input = mesh_named("holed_grid_9");
-  const Mesh mesh = encode(input, octree_of(input, 7));
+  const Mesh mesh = encode(input, 7);
   const ExpectedRows expected(input, brute_force_of("holed_grid_9"), mesh, (all_relations | link_form));
   for (const RelationSet wanted : kernels_for((all_relations | link_form))) {
     const BatchMemory enough = memory_that_suffices(mesh, wanted, expected);

@@ -50,7 +50,7 @@ INSTANTIATE_TEST_SUITE_P(Tests, ExplicitRowsOf, every_relation_mesh_and_segmenta
 
 TEST(ExplicitRows, are_read_in_any_order) {
   const InputMesh& input = mesh_named("holed_grid_9");
-  const Mesh mesh = encode(input, octree_of(input, 7));
+  const Mesh mesh = encode(input, 7);
   const ExpectedRows expected(input, brute_force_of("holed_grid_9"), mesh, (all_relations | link_form));
   ExplicitStructure structure(mesh, (all_relations | link_form));
   const auto consumer = structure.consumer();
@@ -65,7 +65,7 @@ TEST(ExplicitRows, are_read_in_any_order) {
 
 TEST(ExplicitRows, of_edges_and_triangles_around_a_vertex_of_degree_2000) {
   const InputMesh& input = mesh_named("cone_over_sphere_2000");
-  const Mesh mesh = encode(input, octree_of(input, 300));
+  const Mesh mesh = encode(input, 300);
   for (const Relation relation : {Relation::EE, Relation::FF}) {
     const ExpectedRows expected(input, brute_force_of("cone_over_sphere_2000"), mesh, relation);
     ExplicitStructure structure(mesh, relation);

@@ -64,7 +64,7 @@ TEST(Rows, of_the_papers_example) {
 /// Edges at the apex have some 2000 neighbours each, and so have triangles at the edges from the apex to a cap.
 TEST(Rows, of_edges_and_triangles_around_a_vertex_of_degree_2000) {
   const InputMesh& input = mesh_named("cone_over_sphere_2000");
-  const Mesh mesh = encode(input, octree_of(input, 300));
+  const Mesh mesh = encode(input, 300);
   for (const Relation relation : {Relation::EE, Relation::FF}) {
     const ExpectedRows expected(input, brute_force_of("cone_over_sphere_2000"), mesh, relation);
     EXPECT_TRUE(produced_rows(mesh, relation, expected));
@@ -73,7 +73,7 @@ TEST(Rows, of_edges_and_triangles_around_a_vertex_of_degree_2000) {
 
 TEST(Rows, of_all_relations_by_workers_on_several_threads_at_once) {
   const InputMesh& input = mesh_named("holed_grid_9");
-  const Mesh mesh = encode(input, octree_of(input, 100));
+  const Mesh mesh = encode(input, 100);
   const ExpectedRows expected(input, brute_force_of("holed_grid_9"), mesh, (all_relations | link_form));
   constexpr int threads = 8;
   std::vector<testing::AssertionResult> result(threads, testing::AssertionSuccess());

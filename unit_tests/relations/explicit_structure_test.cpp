@@ -10,6 +10,7 @@
 #include "support/brute_force.hpp"
 #include "support/every_mesh.hpp"
 #include "support/message_of.hpp"
+#include "support/with_threads.hpp"
 
 namespace gale::test {
 
@@ -37,12 +38,6 @@ TEST(ExplicitStructureErrors, without_kokkos_kernels_name_the_option) {
 #else
 
 namespace {
-
-SweepOptions with_threads(int threads) {
-  SweepOptions options;
-  options.threads = threads;
-  return options;
-}
 
 /// Sweeps, and compares the rows of each segment; returns how many it saw.
 Id expect_sweep(ExplicitStructure& structure, RelationSet wanted, int threads, const ExpectedRows& expected) {
@@ -79,7 +74,7 @@ INSTANTIATE_TEST_SUITE_P(Tests, ExplicitStructureOf, every_mesh_and_segmentation
 
 TEST(ExplicitStructure, sweeps_with_any_number_of_threads) {
   const InputMesh& input = mesh_named("holed_grid_9");
-  const Mesh mesh = encode(input, octree_of(input, 7));
+  const Mesh mesh = encode(input, 7);
   const ExpectedRows expected(input, brute_force_of("holed_grid_9"), mesh);
   ExplicitStructure structure(mesh, star_relations);
   for (const int threads : {1, 2, 8}) {
@@ -90,7 +85,7 @@ TEST(ExplicitStructure, sweeps_with_any_number_of_threads) {
 
 TEST(ExplicitStructure, reads_rows_in_any_order) {
   const InputMesh& input = mesh_named("random_tetrahedra");
-  const Mesh mesh = encode(input, octree_of(input, 7));
+  const Mesh mesh = encode(input, 7);
   const ExpectedRows expected(input, brute_force_of("random_tetrahedra"), mesh);
   ExplicitStructure structure(mesh, star_relations);
   const auto consumer = structure.consumer();
@@ -106,7 +101,7 @@ TEST(ExplicitStructure, reads_rows_in_any_order) {
 
 TEST(ExplicitStructure, holds_rows_of_70000) {
   const InputMesh input = cone_over_disc(70000);
-  const Mesh mesh = encode(input, octree_of(input, 100));
+  const Mesh mesh = encode(input, 100);
   const ExpectedRows expected(input, BruteForce(input), mesh);
   ExplicitStructure structure(mesh, star_relations);
   EXPECT_EQ(structure.consumer()->link(0).width, 4);
@@ -116,7 +111,7 @@ TEST(ExplicitStructure, holds_rows_of_70000) {
 /// Every combination of two lets go of other things on the way.
 TEST(ExplicitStructure, has_the_rows_of_each_relation_and_of_each_pair) {
   const InputMesh& input = mesh_named("three_on_one_triangle");
-  const Mesh mesh = encode(input, octree_of(input, 1));
+  const Mesh mesh = encode(input, 1);
   const ExpectedRows expected(input, brute_force_of("three_on_one_triangle"), mesh, (all_relations | link_form));
   for (const Relation one : members_of((all_relations | link_form))) {
     for (const Relation other : members_of((all_relations | link_form))) {
@@ -227,7 +222,7 @@ TEST(ExplicitStructureErrors, name_an_edge_triangle_or_tetrahedron_that_is_not_t
 
 TEST(ExplicitStructureErrors, come_out_of_a_sweep_from_the_body_that_threw) {
   const InputMesh& input = mesh_named("holed_grid_9");
-  ExplicitStructure structure(encode(input, octree_of(input, 1)), Relation::VV);
+  ExplicitStructure structure(encode(input, 1), Relation::VV);
   const auto body = [](int, const SegmentRows& rows) {
     if (rows.segment() == 100) throw Error("segment 100");
   };

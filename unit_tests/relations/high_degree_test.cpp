@@ -81,7 +81,7 @@ Mesh in_order(const InputMesh& input) {
   return encode(input, segmentation_by(labels));
 }
 
-Mesh in_octree(const InputMesh& input) { return encode(input, octree_of(input, 100)); }
+Mesh in_octree(const InputMesh& input) { return encode(input, 100); }
 
 }  // namespace
 

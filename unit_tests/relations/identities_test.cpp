@@ -65,7 +65,7 @@ Id euler_characteristic(const Mesh& mesh) {
   return mesh.vertices() - mesh.known_edges() + mesh.known_triangles() - mesh.tetrahedra();
 }
 
-Mesh segmented(const InputMesh& input) { return encode(input, octree_of(input, 100)); }
+Mesh segmented(const InputMesh& input) { return encode(input, 100); }
 
 }  // namespace
 

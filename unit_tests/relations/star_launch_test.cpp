@@ -140,7 +140,7 @@ INSTANTIATE_TEST_SUITE_P(Tests, LaunchedStarsOf, every_mesh_and_segmentation(), 
 
 TEST(LaunchedStars, leave_out_what_the_pool_lacks_room_for_and_say_how_much_it_takes) {
   const InputMesh& input = mesh_named("holed_grid_9");
-  const Mesh mesh = encode(input, octree_of(input, 7));
+  const Mesh mesh = encode(input, 7);
   const ExpectedRows expected(input, brute_force_of("holed_grid_9"), mesh);
   for (const RelationSet wanted : star_subsets) {
     const StarSizes sizes = sizes_that_suffice(mesh, wanted, expected);
@@ -158,7 +158,7 @@ TEST(LaunchedStars, leave_out_what_the_pool_lacks_room_for_and_say_how_much_it_t
 
 TEST(LaunchedStars, touch_no_pool_that_has_no_room) {
   const InputMesh& input = mesh_named("holed_grid_9");
-  const Mesh mesh = encode(input, octree_of(input, 100000));
+  const Mesh mesh = encode(input, 100000);
   const ExpectedRows expected(input, brute_force_of("holed_grid_9"), mesh);
   ASSERT_EQ(mesh.segments(), 1);
   for (const RelationSet wanted : star_subsets) {
@@ -181,7 +181,7 @@ TEST(LaunchedStars, touch_no_pool_that_has_no_room) {
 
 TEST(LaunchedStars, of_a_vertex_of_degree_70000) {
   const InputMesh input = cone_over_disc(70000);
-  const Mesh mesh = encode(input, octree_of(input, 1000));
+  const Mesh mesh = encode(input, 1000);
   const ExpectedRows expected(input, BruteForce(input), mesh);
   const StarSizes sizes = {1000, 300000, 300000, 262144, 80000, 0};
   LaunchedStars batch(mesh, star_relations, sizes, 1, 16 * plenty);

@@ -57,8 +57,7 @@ TEST(StarRows, of_the_papers_example) {
 }
 
 TEST(StarRows, of_isolated_vertices_are_empty) {
-  const InputMesh& input = mesh_named("isolated_vertices");
-  const Mesh mesh = encode(input, octree_of(input, 1));
+  const Mesh mesh = encode(mesh_named("isolated_vertices"), 1);
   HostWorker worker(mesh, star_relations);
   for (const Id isolated : {0, 1, 4, 8}) {
     const Id v = mesh.vertex_internal()(isolated);
@@ -88,7 +87,7 @@ TEST(StarRows, of_small_segments_between_large_ones) {
 /// So long a row that a place in it takes 4 bytes.
 TEST(StarRows, of_a_vertex_of_degree_70000) {
   const InputMesh input = cone_over_disc(70000);
-  const Mesh mesh = encode(input, octree_of(input, 100));
+  const Mesh mesh = encode(input, 100);
   const ExpectedRows expected(input, BruteForce(input), mesh);
   HostWorker worker(mesh, star_relations);
   const SegmentRows rows = worker.compute(mesh.segment_of(0, mesh.vertex_internal()(0)));
@@ -98,7 +97,7 @@ TEST(StarRows, of_a_vertex_of_degree_70000) {
 
 TEST(StarRows, by_workers_on_several_threads_at_once) {
   const InputMesh& input = mesh_named("holed_grid_9");
-  const Mesh mesh = encode(input, octree_of(input, 7));
+  const Mesh mesh = encode(input, 7);
   const ExpectedRows expected(input, brute_force_of("holed_grid_9"), mesh);
   constexpr int threads = 8;
   std::vector<testing::AssertionResult> result(threads, testing::AssertionSuccess());
@@ -114,7 +113,7 @@ TEST(StarRows, by_workers_on_several_threads_at_once) {
 
 TEST(StarRows, of_a_worker_that_was_moved) {
   const InputMesh& input = mesh_named("holed_grid_9");
-  const Mesh mesh = encode(input, octree_of(input, 100));
+  const Mesh mesh = encode(input, 100);
   const ExpectedRows expected(input, brute_force_of("holed_grid_9"), mesh);
   HostWorker first(mesh, star_relations);
   first.compute(0);

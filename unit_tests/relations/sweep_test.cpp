@@ -8,15 +8,11 @@
 
 #include <gale/runtime/sweep.hpp>
 
+#include "support/with_threads.hpp"
+
 namespace gale::test {
 
 namespace {
-
-SweepOptions with_threads(int threads) {
-  SweepOptions options;
-  options.threads = threads;
-  return options;
-}
 
 /// What a sweep called: the segments of each consumer, in order.
 std::vector<std::vector<Id>> swept(Id segments, const SweepOptions& options) {

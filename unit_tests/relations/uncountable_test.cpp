@@ -11,7 +11,7 @@ namespace gale::test {
 /// Each of 70000 edges at one vertex has the others for neighbours: nearly 5 billion entries.
 TEST(Uncountable, entries_of_one_segment_are_refused_by_name) {
   const InputMesh input = cone_over_disc(70000);
-  const Mesh mesh = encode(input, octree_of(input, 1000000));
+  const Mesh mesh = encode(input, 1000000);
   HostWorker worker(mesh, Relation::EE);
   EXPECT_EQ(message_of([&] { worker.compute(0); }),
             "segment 0 has more than 2147483647 entries of EE: use smaller segments");

@@ -11,6 +11,7 @@
 #include "support/brute_force.hpp"
 #include "support/every_mesh.hpp"
 #include "support/message_of.hpp"
+#include "support/with_threads.hpp"
 
 namespace gale::test {
 
@@ -26,12 +27,6 @@ constexpr RelationSet mixed_sets[] = {
     coboundary_relations,
     adjacency_relations,
 };
-
-SweepOptions with_threads(int threads) {
-  SweepOptions options;
-  options.threads = threads;
-  return options;
-}
 
 /// Sweeps, and compares the rows of each segment, which must come once.
 void expect_sweep(Structure& structure, RelationSet wanted, int threads, const ExpectedRows& expected) {
@@ -49,7 +44,7 @@ void expect_sweep(Structure& structure, RelationSet wanted, int threads, const E
 struct Fixture {
   const char* name;
   const InputMesh& input = mesh_named(name);
-  Mesh mesh = encode(input, octree_of(input, 7));
+  Mesh mesh = encode(input, 7);
   ExpectedRows expected{input, brute_force_of(name), mesh, (all_relations | link_form)};
 
   explicit Fixture(const char* mesh_name) : name(mesh_name) {}
@@ -203,7 +198,7 @@ TEST(MixedRuntime, has_no_leaders_for_face_relations) {
 TEST(MixedRuntime, enumerates_no_more_than_its_relations_need) {
   const InputMesh& input = mesh_named("ball");
   for (const NamedWay& way : ways()) {
-    const Mesh mesh = encode(input, octree_of(input, 7));
+    const Mesh mesh = encode(input, 7);
     const auto stars = make_structure(mesh, star_relations | Relation::TV, way.options);
     stars->consumer()->row(Relation::TV, 0);
     stars->for_each_segment(star_relations | Relation::TV, with_threads(1), [](int, const SegmentRows&) {});

@@ -35,9 +35,9 @@ class Hooked : public detail::SegmentWorker {
   Hook hook_;
 };
 
-struct Fixture {
+struct HelpedMesh {
   const InputMesh& input = mesh_named("holed_grid_9");
-  Mesh mesh = encode(input, octree_of(input, 7));
+  Mesh mesh = encode(input, 7);
   ExpectedRows expected{input, brute_force_of("holed_grid_9"), mesh};
 
   detail::MakeWorker hooked(Hook hook) const {
@@ -78,7 +78,7 @@ std::int64_t hits(const detail::HelpedSweep& helped) {
 }  // namespace
 
 TEST(HelpedSweep, runs_ahead_of_a_consumer_until_the_ring_is_full) {
-  const Fixture fixture;
+  const HelpedMesh fixture;
   std::atomic<int> made{0};
   detail::HelpedSweep helped(fixture.mesh.segments(), 1, fixture.hooked({}), 1, fixture.hooked([&](Id) { ++made; }),
                              much);
@@ -92,7 +92,7 @@ TEST(HelpedSweep, runs_ahead_of_a_consumer_until_the_ring_is_full) {
 }
 
 TEST(HelpedSweep, keeps_no_more_blocks_than_the_ring_has) {
-  const Fixture fixture;
+  const HelpedMesh fixture;
   constexpr int consumers = 2;
   std::vector<std::atomic<bool>> by_helper(fixture.mesh.segments());
   std::atomic<int> unread{0}, most{0};
@@ -106,7 +106,7 @@ TEST(HelpedSweep, keeps_no_more_blocks_than_the_ring_has) {
 }
 
 TEST(HelpedSweep, waits_for_no_helper_that_is_put_aside) {
-  const Fixture fixture;
+  const HelpedMesh fixture;
   for (const int consumers : {1, 3}) {
     constexpr int helpers = 4;
     std::vector<std::atomic<bool>> read(fixture.mesh.segments());
@@ -126,7 +126,7 @@ TEST(HelpedSweep, waits_for_no_helper_that_is_put_aside) {
 }
 
 TEST(HelpedSweep, goes_on_without_helpers_that_fail) {
-  const Fixture fixture;
+  const HelpedMesh fixture;
   std::atomic<int> failed{0};
   const auto fail = [&](Id) {
     ++failed;
@@ -145,7 +145,7 @@ TEST(HelpedSweep, goes_on_without_helpers_that_fail) {
 }
 
 TEST(HelpedSweep, hands_a_failure_that_consumers_have_as_well_to_the_caller) {
-  const Fixture fixture;
+  const HelpedMesh fixture;
   const Id bad = fixture.mesh.segments() / 2;
   const auto make = fixture.hooked([&](Id segment) {
     if (segment == bad) throw Error("segment " + std::to_string(segment) + " is bad");
@@ -157,14 +157,14 @@ TEST(HelpedSweep, hands_a_failure_that_consumers_have_as_well_to_the_caller) {
 }
 
 TEST(HelpedSweep, has_no_help_from_those_that_the_budget_is_too_small_for) {
-  const Fixture fixture;
+  const HelpedMesh fixture;
   detail::HelpedSweep helped(fixture.mesh.segments(), 1, fixture.hooked({}), 3, fixture.hooked({}), 1000);
   fixture.sweep(helped, 1);
   EXPECT_EQ(helped.of_helpers().segments_computed, 0);
 }
 
 TEST(Helpers, are_as_many_as_cores_without_a_consumer) {
-  const Fixture fixture;
+  const HelpedMesh fixture;
   StructureOptions options;
   options.way = Way::helpers;
   options.cores = 4;
@@ -184,7 +184,7 @@ TEST(Helpers, are_as_many_as_cores_without_a_consumer) {
 }
 
 TEST(Helpers, need_a_number_of_cores) {
-  const Fixture fixture;
+  const HelpedMesh fixture;
   StructureOptions options;
   options.way = Way::helpers;
   options.cores = -1;

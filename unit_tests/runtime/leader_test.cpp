@@ -15,9 +15,9 @@ namespace gale::test {
 
 namespace {
 
-struct Fixture {
+struct LedMesh {
   const InputMesh& input = mesh_named("holed_grid_9");
-  Mesh mesh = encode(input, octree_of(input, 7));
+  Mesh mesh = encode(input, 7);
   ConsumerStatistics statistics;
 
   std::unique_ptr<detail::Leader> leader(Interrupted::Interruption at_launch, Interrupted::Interruption at_finish,
@@ -39,7 +39,7 @@ struct Fixture {
 }  // namespace
 
 TEST(Leader, hands_the_cause_of_a_failure_to_the_consumer_and_then_works_again) {
-  Fixture fixture;
+  LedMesh fixture;
   for (const bool at_launch : {true, false}) {
     std::atomic<bool> broken{true};
     const auto fail = [&](const std::vector<Id>&) {
@@ -56,7 +56,7 @@ TEST(Leader, hands_the_cause_of_a_failure_to_the_consumer_and_then_works_again) 
 }
 
 TEST(Leader, hands_a_failure_to_all_who_wait) {
-  Fixture fixture;
+  LedMesh fixture;
   std::promise<void> all_wait;
   const auto ready = all_wait.get_future().share();
   const auto leader = fixture.leader({}, [&](const std::vector<Id>&) {
@@ -77,7 +77,7 @@ TEST(Leader, hands_a_failure_to_all_who_wait) {
 }
 
 TEST(Leader, halves_a_batch_that_is_too_big_for_memory) {
-  Fixture fixture;
+  LedMesh fixture;
   const auto leader = fixture.leader(
       [](const std::vector<Id>& segments) {
         if (segments.size() > 3) throw std::bad_alloc();
@@ -88,14 +88,14 @@ TEST(Leader, halves_a_batch_that_is_too_big_for_memory) {
 }
 
 TEST(Leader, says_when_one_segment_is_too_big_for_memory) {
-  Fixture fixture;
+  LedMesh fixture;
   const auto leader = fixture.leader([](const std::vector<Id>&) { throw std::bad_alloc(); }, {});
   EXPECT_EQ(message_of([&] { leader->acquire(5, false, fixture.statistics); }),
             "computing VV failed: std::bad_alloc, for one segment");
 }
 
 TEST(Leader, has_the_host_compute_a_segment_that_is_too_big_for_memory) {
-  Fixture fixture;
+  LedMesh fixture;
   const auto leader = fixture.leader(
       [](const std::vector<Id>& segments) {
         if (segments.front() % 2 == 1 || segments.size() > 1) throw std::bad_alloc();
@@ -106,7 +106,7 @@ TEST(Leader, has_the_host_compute_a_segment_that_is_too_big_for_memory) {
 }
 
 TEST(Leader, lets_consumers_that_want_one_segment_share_one_computation) {
-  Fixture fixture;
+  LedMesh fixture;
   std::promise<void> all_wait;
   const auto ready = all_wait.get_future().share();
   const auto leader = fixture.leader(
@@ -124,7 +124,7 @@ TEST(Leader, lets_consumers_that_want_one_segment_share_one_computation) {
 }
 
 TEST(Leader, makes_one_batch_of_all_requests_that_wait) {
-  Fixture fixture;
+  LedMesh fixture;
   std::promise<void> begun, go_on;
   const auto may_go_on = go_on.get_future().share();
   std::atomic<int> finished{0};
@@ -150,7 +150,7 @@ TEST(Leader, makes_one_batch_of_all_requests_that_wait) {
 }
 
 TEST(Leader, that_ends_fails_those_who_still_wait) {
-  Fixture fixture;
+  LedMesh fixture;
   std::promise<void> begun, go_on;
   const auto may_go_on = go_on.get_future().share();
   std::atomic<int> launched{0};

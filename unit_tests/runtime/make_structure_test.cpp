@@ -20,8 +20,7 @@ TEST(Way, has_one_name) {
 }
 
 TEST(MakeStructure, says_which_way_it_took) {
-  const InputMesh& input = mesh_named("the_papers");
-  const Mesh mesh = encode(input, octree_of(input, 2));
+  const Mesh mesh = encode(mesh_named("the_papers"), 2);
   for (const Way way : {Way::leaders, Way::helpers, Way::inline_, Way::task_parallel}) {
     StructureOptions options;
     options.way = way;
@@ -33,8 +32,7 @@ TEST(MakeStructure, says_which_way_it_took) {
 }
 
 TEST(MakeStructure, wants_a_relation) {
-  const InputMesh& input = mesh_named("the_papers");
-  const Mesh mesh = encode(input, octree_of(input, 2));
+  const Mesh mesh = encode(mesh_named("the_papers"), 2);
   EXPECT_EQ(message_of([&] { make_structure(mesh, {}); }),
             "a structure needs at least one relation to be preconditioned for");
 }
@@ -45,9 +43,9 @@ TEST(MakeStructure, has_the_host_compute_where_the_device_is_full) {
   const ExpectedRows* expected = nullptr;
   for (const bool mesh_fits : {true, false}) {
     std::unique_ptr<const Mesh> mesh;
-    if (mesh_fits) mesh = std::make_unique<const Mesh>(encode(input, octree_of(input, 7)));
+    if (mesh_fits) mesh = std::make_unique<const Mesh>(encode(input, 7));
     const FullDevice full(0);
-    if (!mesh_fits) mesh = std::make_unique<const Mesh>(encode(input, octree_of(input, 7)));
+    if (!mesh_fits) mesh = std::make_unique<const Mesh>(encode(input, 7));
     const ExpectedRows rows(input, brute_force_of("holed_grid_9"), *mesh);
     expected = &rows;
     const auto structure = make_structure(*mesh, star_relations);

@@ -11,6 +11,7 @@
 #include "runtime/ways.hpp"
 #include "support/brute_force.hpp"
 #include "support/every_mesh.hpp"
+#include "support/with_threads.hpp"
 
 namespace gale::test {
 
@@ -33,15 +34,9 @@ testing::AssertionResult rows_match(Consumer& consumer, const ExpectedRows& expe
 
 struct Holed {
   const InputMesh& input = mesh_named("holed_grid_9");
-  Mesh mesh = encode(input, octree_of(input, 7));
+  Mesh mesh = encode(input, 7);
   ExpectedRows expected{input, brute_force_of("holed_grid_9"), mesh};
 };
-
-SweepOptions with_threads(int threads) {
-  SweepOptions options;
-  options.threads = threads;
-  return options;
-}
 
 }  // namespace
 

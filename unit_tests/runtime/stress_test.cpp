@@ -31,7 +31,7 @@ int times() {
 
 struct Stressed {
   const InputMesh& input = mesh_named("holed_grid_9");
-  Mesh mesh = encode(input, octree_of(input, 7));
+  Mesh mesh = encode(input, 7);
   ExpectedRows expected{input, brute_force_of("holed_grid_9"), mesh};
 
   bool is_right(Id segment, const detail::Lease& lease) const {

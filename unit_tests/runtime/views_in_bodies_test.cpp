@@ -12,8 +12,7 @@ namespace gale::test {
 /// Where Kokkos has Serial alone it doesn't count references atomically: without help, the count would be wrong here,
 /// and the View gone or leaked.
 TEST(Bodies, may_copy_views_and_take_subviews_on_many_threads) {
-  const InputMesh& input = mesh_named("holed_grid_9");
-  const Mesh mesh = encode(input, octree_of(input, 7));
+  const Mesh mesh = encode(mesh_named("holed_grid_9"), 7);
   for (const NamedWay& way : ways()) {
     SCOPED_TRACE(way.name);
     const auto structure = make_structure(mesh, Relation::VV, way.options);
@@ -39,7 +38,7 @@ TEST(Bodies, may_copy_views_and_take_subviews_on_many_threads) {
 /// What a mesh makes when it is first asked for lasts, also where that is in a body.
 TEST(Bodies, may_ask_a_mesh_for_what_it_makes_at_the_first_request) {
   const InputMesh& input = mesh_named("holed_grid_9");
-  const Mesh mesh = encode(input, octree_of(input, 7)), other = encode(input, octree_of(input, 7));
+  const Mesh mesh = encode(input, 7), other = encode(input, 7);
   const SimplexNeeds everything{Enumeration::triangles, true, true};
   const auto structure = make_structure(mesh, Relation::VV);
   SweepOptions options;

@@ -8,7 +8,7 @@ namespace gale::test {
 
 namespace {
 
-using Maker = std::function<Segmentation(const InputMesh&)>;
+using MakeSegmentation = std::function<Segmentation(const InputMesh&)>;
 
 template <class Label>
 Segmentation labelled(const InputMesh& mesh, const Label& label) {
@@ -17,8 +17,8 @@ Segmentation labelled(const InputMesh& mesh, const Label& label) {
   return segmentation_by(labels);
 }
 
-const std::vector<std::pair<std::string, Maker>>& makers() {
-  static const std::vector<std::pair<std::string, Maker>> all = {
+const std::vector<std::pair<std::string, MakeSegmentation>>& ways_to_segment() {
+  static const std::vector<std::pair<std::string, MakeSegmentation>> all = {
       {"octree_1", [](const InputMesh& mesh) { return octree_of(mesh, 1); }},
       {"octree_7", [](const InputMesh& mesh) { return octree_of(mesh, 7); }},
       {"octree_100", [](const InputMesh& mesh) { return octree_of(mesh, 100); }},
@@ -44,14 +44,14 @@ const std::vector<std::pair<std::string, Maker>>& makers() {
 const std::vector<std::string>& segmentation_names() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> all;
-    for (const auto& [name, make] : makers()) all.push_back(name);
+    for (const auto& [name, make] : ways_to_segment()) all.push_back(name);
     return all;
   }();
   return names;
 }
 
 Segmentation segmentation_named(const std::string& name, const InputMesh& mesh) {
-  for (const auto& [known, make] : makers()) {
+  for (const auto& [known, make] : ways_to_segment()) {
     if (known == name) return make(mesh);
   }
   throw std::out_of_range("no segmentation named " + name);
@@ -60,6 +60,8 @@ Segmentation segmentation_named(const std::string& name, const InputMesh& mesh) 
 Segmentation octree_of(const InputMesh& mesh, int capacity) {
   return octree_segmentation(points_of<double>(mesh), capacity);
 }
+
+Mesh encode(const InputMesh& mesh, int capacity) { return encode(mesh, octree_of(mesh, capacity)); }
 
 Segmentation segmentation_by(const std::vector<std::int64_t>& labels) {
   const Array<std::int64_t, HostMemory> view("labels", labels.size());

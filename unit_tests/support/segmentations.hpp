@@ -14,6 +14,10 @@ const std::vector<std::string>& segmentation_names();
 Segmentation segmentation_named(const std::string& name, const InputMesh& mesh);
 
 Segmentation octree_of(const InputMesh& mesh, int capacity);
+
+/// By its octree.
+Mesh encode(const InputMesh& mesh, int capacity);
+
 Segmentation segmentation_by(const std::vector<std::int64_t>& labels);
 
 }  // namespace gale::test

@@ -48,9 +48,9 @@ class Pending {
 };
 
 /// One thread's part.
-class Tracer {
+class WallTracer {
  public:
-  Tracer(Structure& structure, const DiscreteGradient& gradient, int thread)
+  WallTracer(Structure& structure, const DiscreteGradient& gradient, int thread)
       : thread_(thread),
         gradient_(gradient),
         keys_(gradient.order().keys()),
@@ -106,10 +106,10 @@ class Tracer {
 
 AscendingWalls ascending_walls(Structure& structure, const DiscreteGradient& gradient, int threads) {
   const auto& edges = gradient.critical().edges;
-  std::vector<std::unique_ptr<Tracer>> tracers(threads);
+  std::vector<std::unique_ptr<WallTracer>> tracers(threads);
   const std::vector<Id> order = space_order(edges);
   in_turns(threads, static_cast<std::int64_t>(edges.size()), [&](int thread, std::int64_t i) {
-    if (!tracers[thread]) tracers[thread] = std::make_unique<Tracer>(structure, gradient, thread);
+    if (!tracers[thread]) tracers[thread] = std::make_unique<WallTracer>(structure, gradient, thread);
     tracers[thread]->follow(order[i], edges[order[i]]);
   });
   std::vector<Separatrices<Cell>> found;

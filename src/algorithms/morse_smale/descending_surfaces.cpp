@@ -13,9 +13,9 @@ namespace gale::detail {
 namespace {
 
 /// One thread's part.
-class Tracer {
+class SurfaceTracer {
  public:
-  Tracer(const DiscreteGradient& gradient, const TurnedEdges* turned)
+  SurfaceTracer(const DiscreteGradient& gradient, const TurnedEdges* turned)
       : wall(gradient, turned), keys_(gradient.order().keys()) {}
 
   void add_wall(Id triangle) {
@@ -53,11 +53,11 @@ DescendingSurfaces descending_surfaces(const DiscreteGradient& gradient, const C
                                        const CriticalPlaces& places, bool want_walls, bool want_connectors, int threads,
                                        const TurnedEdges* turned) {
   const auto& triangles = critical.triangles;
-  std::vector<std::unique_ptr<Tracer>> tracers(threads);
+  std::vector<std::unique_ptr<SurfaceTracer>> tracers(threads);
   const std::vector<Id> order = space_order(triangles);
   in_turns(threads, static_cast<std::int64_t>(triangles.size()), [&](int thread, std::int64_t i) {
     auto& tracer = tracers[thread];
-    if (!tracer) tracer = std::make_unique<Tracer>(gradient, turned);
+    if (!tracer) tracer = std::make_unique<SurfaceTracer>(gradient, turned);
     tracer->wall.follow(triangles[order[i]]);
     if (want_walls) tracer->add_wall(order[i]);
     if (want_connectors) tracer->add_connectors(places, order[i]);

@@ -10,7 +10,7 @@ namespace gale::io::detail {
 namespace {
 
 /// The fields of a NIfTI header, of version 1 or 2, that matter here; names as in nifti1.h.
-struct Header {
+struct NiftiHeader {
   ByteOrder order = byte_order_of_machine();
   std::size_t bytes = 0;
   std::array<std::int64_t, 8> dim{};
@@ -45,7 +45,7 @@ struct Fields {
 /// `Integer` and `Real` are the header's types; the numbers are the offsets of its fields.
 template <class Integer, class Real, class Code>
 void take_fields(const Fields& from, std::size_t datatype, std::size_t dim, std::size_t pixdim, std::size_t vox_offset,
-                 std::size_t slope, std::size_t codes, std::size_t quatern, Header& to) {
+                 std::size_t slope, std::size_t codes, std::size_t quatern, NiftiHeader& to) {
   to.datatype = from.at<std::int16_t>(datatype);
   from.copy<Integer>(dim, to.dim);
   from.copy<Real>(pixdim, to.pixdim);
@@ -63,10 +63,10 @@ void take_fields(const Fields& from, std::size_t datatype, std::size_t dim, std:
   for (std::size_t row = 0; row < 3; ++row) from.copy<Real>(quatern + (6 + 4 * row) * sizeof(Real), to.srow[row]);
 }
 
-Header read_header(ByteSource& source) {
+NiftiHeader read_header(ByteSource& source) {
   std::vector<char> bytes(size_of_2);
   read_all(source, bytes.data(), size_of_1, "its header");
-  Header header;
+  NiftiHeader header;
   const auto size = [&](ByteOrder order) { return Fields{bytes, order}.at<std::int32_t>(0); };
   for (const ByteOrder order : {ByteOrder::little, ByteOrder::big}) {
     if (size(order) == size_of_1 || size(order) == size_of_2) {
@@ -87,7 +87,7 @@ Header read_header(ByteSource& source) {
   return header;
 }
 
-void take_type(const Header& header, Volume& volume) {
+void take_type(const NiftiHeader& header, Volume& volume) {
   struct Type {
     int code;
     ValueType type;
@@ -119,7 +119,7 @@ std::array<std::array<double, 3>, 3> rotation(const std::array<double, 3>& bcd) 
 }
 
 /// In the order of the file's voxels, by its sform, else its qform, else its spacing alone.
-void place(const Header& header, Image& image) {
+void place(const NiftiHeader& header, Image& image) {
   auto& to = image.index_to_physical;
   if (header.sform_code > 0) {
     to = header.srow;
@@ -180,7 +180,7 @@ PointArray::Values read_planes(ByteSource& source, const Volume& whole, std::int
 
 Content read_nifti(const InputFile& file, const ReadOptions&) {
   const auto source = open_inflated(file);
-  const Header header = read_header(*source);
+  const NiftiHeader header = read_header(*source);
   const std::int64_t axes = header.dim[0];
   if (axes < 1 || axes > 7) damaged("it has " + std::to_string(axes) + " dimensions");
   const auto extent = [&](int axis) { return axis <= axes ? header.dim[axis] : 1; };

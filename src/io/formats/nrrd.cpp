@@ -9,7 +9,7 @@ namespace gale::io::detail {
 
 namespace {
 
-struct Header {
+struct NrrdHeader {
   std::map<std::string, std::string> fields;  ///< by their names in lower case, without spaces
   std::vector<std::string> list;              ///< of data files, if there is one
   std::uint64_t end = 0;                      ///< where what follows it begins
@@ -36,9 +36,9 @@ std::string without_spaces(std::string text) {
   return result;
 }
 
-Header read_header(const InputFile& file) {
+NrrdHeader read_header(const InputFile& file) {
   constexpr std::size_t most_fields = 1000, most_files = 100000;
-  Header header;
+  NrrdHeader header;
   FileBytes bytes(file, 0);
   TextReader text(bytes);
   std::string line;
@@ -130,7 +130,7 @@ struct Axes {
   std::uint64_t others = 1;
 };
 
-Axes axes_of(const Header& header) {
+Axes axes_of(const NrrdHeader& header) {
   Axes axes;
   for (const std::string& word : words_of(header["sizes"])) axes.sizes.push_back(number<std::int64_t>(word, "sizes"));
   const auto dimension = header.integer("dimension", 0);
@@ -160,7 +160,7 @@ Axes axes_of(const Header& header) {
   return axes;
 }
 
-void place(const Header& header, const Axes& axes, Image& image) {
+void place(const NrrdHeader& header, const Axes& axes, Image& image) {
   const auto spacings = words_of(header["spacings"]);
   const auto directions = words_of(header["spacedirections"]);
   const auto origin =
@@ -179,7 +179,7 @@ void place(const Header& header, const Axes& axes, Image& image) {
 }
 
 /// The data files' names; empty if the values follow the header.
-std::vector<std::string> data_files(const Header& header) {
+std::vector<std::string> data_files(const NrrdHeader& header) {
   if (!header.has("datafile")) return {};
   const std::string& value = header["datafile"];
   const auto words = words_of(value);
@@ -193,7 +193,7 @@ std::vector<std::string> data_files(const Header& header) {
 }
 
 /// Past so many lines and bytes.
-std::uint64_t skip(const InputFile& data, std::uint64_t begin, const Header& header, std::uint64_t bytes_at_end) {
+std::uint64_t skip(const InputFile& data, std::uint64_t begin, const NrrdHeader& header, std::uint64_t bytes_at_end) {
   const auto lines = header.integer("lineskip", 0), bytes = header.integer("byteskip", 0);
   if (lines < 0 || bytes < -1)
     damaged("it skips " + std::to_string(lines) + " lines and " + std::to_string(bytes) + " bytes");
@@ -212,7 +212,7 @@ std::uint64_t skip(const InputFile& data, std::uint64_t begin, const Header& hea
   return data.size() - bytes_at_end;
 }
 
-PointArray::Values read_data(const InputFile& file, const Header& header, const Volume& volume,
+PointArray::Values read_data(const InputFile& file, const NrrdHeader& header, const Volume& volume,
                              const ReadOptions& options) {
   const std::string encoding = lower_case(header["encoding"]);
   const bool raw = encoding.empty() || encoding == "raw", zipped = encoding == "gzip" || encoding == "gz";
@@ -240,7 +240,7 @@ PointArray::Values read_data(const InputFile& file, const Header& header, const 
 }  // namespace
 
 Content read_nrrd(const InputFile& file, const ReadOptions& options) {
-  const Header header = read_header(file);
+  const NrrdHeader header = read_header(file);
   const Axes axes = axes_of(header);
   Volume volume;
   volume.type = type_of(lower_case(header["type"]));
