@@ -6,6 +6,7 @@
 
 #include <gale/algorithms/vertex_order.hpp>
 #include <gale/export.hpp>
+#include <gale/runtime/device_sweep_options.hpp>
 #include <gale/runtime/structure.hpp>
 
 namespace gale {
@@ -43,6 +44,13 @@ struct CriticalPoints {
 /// preconditioned for them, and if `order` is of another mesh than the structure's.
 GALE_EXPORT CriticalPoints find_critical_points(Structure& structure, const VertexOrder& order,
                                                 const SweepOptions& options = {});
+
+/// The same by kernels where the relations are made, which reads a mesh and an order that lie there and brings nothing
+/// but the result to the host. Vertices of more than 64 neighbours are classified on the host: for them alone, if there
+/// are any, the mesh and the keys come to it. 10 bytes a vertex beside the blocks. What is said of sweeps
+/// (device_sweep.hpp) holds.
+GALE_EXPORT CriticalPoints find_critical_points(const WorkerSpace& space, const VertexOrder& order,
+                                                const DeviceSweepOptions& options = {});
 
 /// What the sweep reads.
 inline constexpr RelationSet critical_points_relations = Relation::VV | link_form;

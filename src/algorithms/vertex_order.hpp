@@ -1,14 +1,28 @@
 #pragma once
 
 #include <cstdint>
+#include <type_traits>
 
 #include <gale/export.hpp>
 #include <gale/mesh/mesh.hpp>
 
 namespace gale {
 
-/// A total order of a mesh's vertices: by field value, then by input vertex id. Keys compare as the vertices do; they
-/// lie on the host, under GALE's vertex ids, and no two are equal. It serves that mesh and its copies alone.
+namespace detail {
+
+/// A value for each vertex, in input order, one after the other.
+template <class Value, class Memory>
+using FieldValues = Kokkos::View<const Value*, Kokkos::LayoutRight, Memory, Kokkos::MemoryUnmanaged>;
+
+/// The keys of a VertexOrder.
+template <class Value, class Memory>
+GALE_EXPORT Mirrored<std::uint64_t> order_keys(const Mesh& mesh, const FieldValues<Value, Memory>& values);
+
+}  // namespace detail
+
+/// A total order of a mesh's vertices: by field value, then by input vertex id. Keys compare as the vertices do, under
+/// GALE's vertex ids, and no two are equal. It serves that mesh and its copies alone. They are made where the mesh's
+/// arrays are, a device or the host; the first call that wants them elsewhere copies them there.
 class GALE_EXPORT VertexOrder {
  public:
   /// From a value for each vertex, in input order; `Value` is `char`, any signed or unsigned integer type from
@@ -16,28 +30,39 @@ class GALE_EXPORT VertexOrder {
   /// Parallel; O(n) for types of up to 32 bits, else a sort. 8 bytes a vertex. Throws gale::Error if a value is NaN,
   /// naming the first such vertex, and if there aren't as many values as vertices.
   template <class Value>
-  VertexOrder(const Mesh& mesh, const Value* values, std::size_t count);
+  VertexOrder(const Mesh& mesh, const Value* values, std::size_t count)
+      : mesh_(mesh), keys_(detail::order_keys(mesh, detail::FieldValues<Value, HostMemory>(values, count))) {}
 
-  /// The same from a caller's View of rank 1, in host memory or the device's.
+  /// The same from a caller's View of rank 1, in host memory or the device's. What wrote it must be done.
   template <class View, class = std::enable_if_t<Kokkos::is_view<View>::value>>
-  VertexOrder(const Mesh& mesh, const View& values) : VertexOrder(of_view(mesh, values)) {}
+  VertexOrder(const Mesh& mesh, const View& values) : mesh_(mesh), keys_(keys_of_view(mesh, values)) {}
 
   const Mesh& mesh() const { return mesh_; }
-  const std::uint64_t* keys() const { return keys_.data(); }
+
+  /// On the host.
+  const std::uint64_t* keys() const { return keys_.in<HostMemory>().data(); }
+
+  /// Where code that runs on `Memory` reads them. Throws OutOfMemory.
+  template <class Memory>
+  const Array<const std::uint64_t, Memory>& keys_in() const {
+    return keys_.in<Memory>();
+  }
 
  private:
   template <class View>
-  static VertexOrder of_view(const Mesh& mesh, const View& values) {
+  static Mirrored<std::uint64_t> keys_of_view(const Mesh& mesh, const View& view) {
     static_assert(View::rank == 1, "a value for each vertex");
-    const auto there = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), values);
-    if (there.span() == there.size()) return VertexOrder(mesh, there.data(), there.extent(0));
-    const Array<typename View::non_const_value_type, HostMemory> copy("GALE::field", there.extent(0));
-    Kokkos::deep_copy(copy, there);
-    return VertexOrder(mesh, copy.data(), copy.extent(0));
+    using Value = typename View::non_const_value_type;
+    using Memory = std::conditional_t<is_device_memory<typename View::memory_space>, WorkerMemory, HostMemory>;
+    if (view.span() == view.size())
+      return detail::order_keys(mesh, detail::FieldValues<Value, Memory>(view.data(), view.extent(0)));
+    const Kokkos::View<Value*, Kokkos::LayoutRight, Memory> copy("GALE::field", view.extent(0));
+    Kokkos::deep_copy(copy, view);
+    return detail::order_keys(mesh, detail::FieldValues<Value, Memory>(copy));
   }
 
   Mesh mesh_;
-  Array<std::uint64_t, HostMemory> keys_;
+  Mirrored<std::uint64_t> keys_;
 };
 
 }  // namespace gale

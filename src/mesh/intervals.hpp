@@ -18,19 +18,19 @@ struct Interval {
   /// To go through the ids with a range-based for.
   class Iterator {
    public:
-    explicit Iterator(Id id) : id_(id) {}
-    Id operator*() const { return id_; }
-    Iterator& operator++() {
+    KOKKOS_FUNCTION explicit Iterator(Id id) : id_(id) {}
+    KOKKOS_FUNCTION Id operator*() const { return id_; }
+    KOKKOS_FUNCTION Iterator& operator++() {
       ++id_;
       return *this;
     }
-    bool operator!=(const Iterator& other) const { return id_ != other.id_; }
+    KOKKOS_FUNCTION bool operator!=(const Iterator& other) const { return id_ != other.id_; }
 
    private:
     Id id_;
   };
-  Iterator begin() const { return Iterator(first); }
-  Iterator end() const { return Iterator(last); }
+  KOKKOS_FUNCTION Iterator begin() const { return Iterator(first); }
+  KOKKOS_FUNCTION Iterator end() const { return Iterator(last); }
 };
 
 /// Of vertices, edges, triangles and tetrahedra; empty for those that aren't enumerated.

@@ -50,11 +50,29 @@ TEST_P(CriticalPointsOf, every_mesh_are_those_of_brute_force_on_every_structure)
   }
 }
 
+TEST_P(CriticalPointsOf, the_workers_space_are_those_of_consumers) {
+  const Mesh mesh = encode(input(), segmentation());
+  const auto structure = make_structure(mesh, critical_points_relations);
+  DeviceSweepOptions small;
+  small.memory = 1 << 16;
+  for (const Field& field : fields_on(input())) {
+    SCOPED_TRACE(field.name);
+    const VertexOrder order(mesh, field.values.data(), field.values.size());
+    const CriticalPoints expected = find_critical_points(*structure, order);
+    for (const DeviceSweepOptions& options : {DeviceSweepOptions(), small}) {
+      const CriticalPoints found = find_critical_points(WorkerSpace(), order, options);
+      EXPECT_EQ(found.vertices, expected.vertices);
+      EXPECT_EQ(found.types, expected.types);
+      EXPECT_EQ(found.on_surface, expected.on_surface);
+      EXPECT_EQ(found.counts, expected.counts);
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Tests, CriticalPointsOf, every_mesh_and_segmentation(), mesh_and_segmentation);
 
 TEST(CriticalPoints, of_one_tetrahedron_are_its_lowest_and_its_highest_vertex) {
-  const InputMesh& input = mesh_named("one_tetrahedron");
-  const Mesh mesh = encode(input, octree_of(input, 100));
+  const Mesh mesh = encode(mesh_named("one_tetrahedron"), 100);
   const std::vector<float> field = {7, 5, 6, 9};
   const auto runtime = make_structure(mesh, critical_points_relations);
   const auto points = find_critical_points(*runtime, VertexOrder(mesh, field.data(), field.size()));
@@ -69,7 +87,7 @@ TEST(CriticalPoints, of_a_vertex_without_tetrahedra_is_degenerate) {
       std::find_if(brute_force_of("isolated_vertices").vt.begin(), brute_force_of("isolated_vertices").vt.end(),
                    [](const auto& star) { return star.empty(); });
   const auto vertex = static_cast<Id>(isolated - brute_force_of("isolated_vertices").vt.begin());
-  const Mesh mesh = encode(input, octree_of(input, 100));
+  const Mesh mesh = encode(input, 100);
   const std::vector<float> field(input.points.size(), 1.0f);
   const auto runtime = make_structure(mesh, critical_points_relations);
   const auto points = find_critical_points(*runtime, VertexOrder(mesh, field.data(), field.size()));
@@ -79,8 +97,7 @@ TEST(CriticalPoints, of_a_vertex_without_tetrahedra_is_degenerate) {
 }
 
 TEST(CriticalPoints, need_the_relations_that_they_read) {
-  const InputMesh& input = mesh_named("one_tetrahedron");
-  const Mesh mesh = encode(input, octree_of(input, 100));
+  const Mesh mesh = encode(mesh_named("one_tetrahedron"), 100);
   const std::vector<float> field(4, 1.0f);
   const auto runtime = make_structure(mesh, Relation::VV);
   EXPECT_THROW(find_critical_points(*runtime, VertexOrder(mesh, field.data(), field.size())), Error);
@@ -89,7 +106,7 @@ TEST(CriticalPoints, need_the_relations_that_they_read) {
 TEST(CriticalPoints, refuse_the_order_of_another_mesh) {
   const InputMesh& input = mesh_named("one_tetrahedron");
   const InputMesh& larger = mesh_named("holed_grid_9");
-  const Mesh mesh = encode(input, octree_of(input, 100)), other = encode(larger, octree_of(larger, 100));
+  const Mesh mesh = encode(input, 100), other = encode(larger, 100);
   const std::vector<float> field(input.points.size(), 1.0f);
   const VertexOrder order(mesh, field.data(), field.size());
   const auto runtime = make_structure(other, critical_points_relations);
@@ -100,13 +117,12 @@ TEST(CriticalPoints, refuse_the_order_of_another_mesh) {
 }
 
 TEST(CriticalPoints, take_the_order_of_a_copy_of_the_mesh) {
-  const InputMesh& input = mesh_named("one_tetrahedron");
-  const Mesh mesh = encode(input, octree_of(input, 100));
+  const Mesh mesh = encode(mesh_named("one_tetrahedron"), 100);
   const Mesh copy = mesh;
   const std::vector<float> field(4, 1.0f);
   const auto runtime = make_structure(copy, critical_points_relations);
   EXPECT_EQ(find_critical_points(*runtime, VertexOrder(mesh, field.data(), 4)).vertices.size(), 2u);
-  EXPECT_FALSE(mesh == encode(input, octree_of(input, 100))) << "of equal tetrahedra, but not the same";
+  EXPECT_FALSE(mesh == encode(mesh_named("one_tetrahedron"), 100)) << "of equal tetrahedra, but not the same";
 }
 
 }  // namespace gale::test

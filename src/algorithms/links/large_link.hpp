@@ -65,4 +65,15 @@ class LargeLink {
   bool is_open_ = false;
 };
 
+/// Classifies a vertex with any number of neighbours.
+inline LinkTopology topology_of(LargeLink& large, const std::uint64_t* keys, Id vertex, const Row& neighbours,
+                                const LinkRow& link) {
+  if (neighbours.size() <= SmallLink::capacity) {
+    const auto lower = lower_neighbours<std::uint64_t>(keys, vertex, neighbours);
+    return SmallLink(neighbours.size(), link).topology(neighbours.size(), lower);
+  }
+  large.build(link);
+  return large.topology(neighbours.size(), [&](Id i) { return keys[neighbours[i]] < keys[vertex]; });
+}
+
 }  // namespace gale::detail

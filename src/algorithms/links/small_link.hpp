@@ -18,17 +18,21 @@ struct LinkTopology {
   bool on_surface = false;  ///< it belongs to a triangle with exactly one tetrahedron
 };
 
-/// The link of a vertex with at most 64 neighbours: for each of them a word, with a bit for each neighbour that shares
-/// an edge of the link with it.
-class SmallLink {
+/// The link of a vertex that has no more neighbours than a Word has bits: for each of them a word, with a bit for each
+/// neighbour that shares an edge of the link with it. Refers to memory of the caller's.
+template <class Bits>
+class LinkBits {
  public:
-  static constexpr Id capacity = 64;
+  using Word = Bits;
+  static constexpr Id capacity = 8 * sizeof(Word);
 
-  KOKKOS_FUNCTION SmallLink(Id neighbours, const LinkRow& link) {
+  /// In two words a neighbour.
+  KOKKOS_FORCEINLINE_FUNCTION LinkBits(Word* words, Id neighbours, const LinkRow& link)
+      : once_(words), twice_(words + neighbours) {
     for (Id i = 0; i < neighbours; ++i) once_[i] = twice_[i] = 0;
     for (Id t = 0; t < link.size(); ++t) {
       const Id a = link(t, 0), b = link(t, 1), c = link(t, 2);
-      const std::uint64_t bit_a = std::uint64_t(1) << a, bit_b = std::uint64_t(1) << b, bit_c = std::uint64_t(1) << c;
+      const Word bit_a = Word(1) << a, bit_b = Word(1) << b, bit_c = Word(1) << c;
       join(a, bit_b | bit_c);
       join(b, bit_a | bit_c);
       join(c, bit_a | bit_b);
@@ -37,19 +41,19 @@ class SmallLink {
   }
 
   /// Has the link an edge with one triangle only?
-  KOKKOS_FUNCTION bool is_open() const { return open_ != 0; }
+  KOKKOS_FORCEINLINE_FUNCTION bool is_open() const { return open_ != 0; }
 
   /// The neighbours that share an edge of the link with the i-th one.
-  KOKKOS_FORCEINLINE_FUNCTION std::uint64_t touching(Id i) const { return once_[i]; }
+  KOKKOS_FORCEINLINE_FUNCTION Word touching(Id i) const { return once_[i]; }
 
   /// Connected components of a set of neighbours, by flooding.
-  KOKKOS_FUNCTION int components(std::uint64_t rest) const {
+  KOKKOS_FORCEINLINE_FUNCTION int components(Word rest) const {
     int count = 0;
     while (rest != 0) {
-      std::uint64_t front = rest & (~rest + 1);
+      Word front = rest & (~rest + 1);
       rest &= ~front;
       while (front != 0) {
-        const std::uint64_t met = once_[lowest_bit(front)] & rest;
+        const Word met = once_[lowest_bit(front)] & rest;
         front = (front & (front - 1)) | met;
         rest &= ~met;
       }
@@ -58,23 +62,51 @@ class SmallLink {
     return count;
   }
 
+  /// Classifies the vertex. `lower` has a bit for each neighbour below it, in VV order.
+  KOKKOS_FORCEINLINE_FUNCTION LinkTopology topology(Id neighbours, Word lower) const {
+    const Word all = neighbours == capacity ? ~Word(0) : (Word(1) << neighbours) - 1;
+    return {components(lower), components(all & ~lower), is_open()};
+  }
+
  private:
-  KOKKOS_FORCEINLINE_FUNCTION void join(Id to, std::uint64_t others) {
+  KOKKOS_FORCEINLINE_FUNCTION void join(Id to, Word others) {
     twice_[to] |= once_[to] & others;
     once_[to] |= others;
   }
 
-  std::uint64_t once_[capacity];
-  std::uint64_t twice_[capacity];
-  std::uint64_t open_ = 0;
+  Word* once_;
+  Word* twice_;
+  Word open_ = 0;
 };
 
-/// Classifies a vertex with at most SmallLink::capacity neighbours. `lower` has a bit for each neighbour below it, in
-/// VV order.
-KOKKOS_INLINE_FUNCTION LinkTopology small_topology(Id neighbours, const LinkRow& link, std::uint64_t lower) {
-  const SmallLink small(neighbours, link);
-  const std::uint64_t all = neighbours == 64 ? ~std::uint64_t(0) : (std::uint64_t(1) << neighbours) - 1;
-  return {small.components(lower), small.components(all & ~lower), small.is_open()};
+/// The same of a vertex with at most 64 neighbours, with the memory that it takes.
+class SmallLink {
+ public:
+  using Word = std::uint64_t;
+  static constexpr Id capacity = LinkBits<std::uint64_t>::capacity;
+
+  KOKKOS_FUNCTION SmallLink(Id neighbours, const LinkRow& link) : bits_(words_, neighbours, link) {}
+  SmallLink(const SmallLink&) = delete;
+  SmallLink& operator=(const SmallLink&) = delete;
+
+  KOKKOS_FUNCTION bool is_open() const { return bits_.is_open(); }
+  KOKKOS_FORCEINLINE_FUNCTION std::uint64_t touching(Id i) const { return bits_.touching(i); }
+  KOKKOS_FORCEINLINE_FUNCTION LinkTopology topology(Id neighbours, std::uint64_t lower) const {
+    return bits_.topology(neighbours, lower);
+  }
+
+ private:
+  std::uint64_t words_[2 * capacity];
+  LinkBits<std::uint64_t> bits_;
+};
+
+/// The neighbours below a vertex, by their places in its VV row; they are no more than a Word has bits.
+template <class Word>
+KOKKOS_FORCEINLINE_FUNCTION Word lower_neighbours(const std::uint64_t* keys, Id vertex, const Row& neighbours) {
+  const std::uint64_t key = keys[vertex];
+  Word lower = 0;
+  for (Id i = 0; i < neighbours.size(); ++i) lower |= Word(keys[neighbours[i]] < key) << i;
+  return lower;
 }
 
 }  // namespace gale::detail

@@ -8,18 +8,19 @@
 #include <gale/base/radix_sort.hpp>
 #include <gale/base/transfer.hpp>
 
-namespace gale {
+namespace gale::detail {
 
 namespace {
 
-using Keys = Array<std::uint64_t, HostMemory>;
+template <class Space>
+using Keys = Array<std::uint64_t, MemoryOf<Space>>;
 
 template <class Value>
 using BitsOf = std::conditional_t<sizeof(Value) == 8, std::uint64_t, std::uint32_t>;
 
 /// An unsigned number that compares as the value does.
 template <class Value>
-BitsOf<Value> ordered_bits(Value value) {
+KOKKOS_FUNCTION BitsOf<Value> ordered_bits(Value value) {
   using Bits = BitsOf<Value>;
   constexpr Bits sign = Bits(1) << (8 * sizeof(Bits) - 1);
   if constexpr (std::is_floating_point_v<Value>) {
@@ -34,77 +35,97 @@ BitsOf<Value> ordered_bits(Value value) {
   }
 }
 
-template <class Value>
-void refuse_nan([[maybe_unused]] const Value* values, [[maybe_unused]] Offset count) {
+template <class Space, class Value>
+void refuse_nan(const Space& space, const FieldValues<Value, MemoryOf<Space>>& values) {
   if constexpr (std::is_floating_point_v<Value>) {
-    const Offset bad = reduce_min("GALE::find_nan", HostSpace(), count, count,
-                                  [values, count](Offset i) { return values[i] != values[i] ? i : count; });
+    const auto count = static_cast<Offset>(values.extent(0));
+    const Offset bad = reduce_min(
+        "GALE::find_nan", space, count, count, KOKKOS_LAMBDA(Offset i) { return values(i) != values(i) ? i : count; });
     if (bad < count) throw Error("vertex " + std::to_string(bad) + " has no field value: it is NaN");
   }
 }
 
 /// Value and input id fit one key.
-template <class Value>
-void fill_keys(const Mesh& mesh, const Value* values, const Keys& keys) {
-  const Id* const input = mesh.vertex_input().data();
-  parallel_for("GALE::order_keys", HostSpace(), mesh.vertices(), [&](Offset v) {
-    keys(v) = std::uint64_t(ordered_bits(values[input[v]])) << 32 | static_cast<std::uint32_t>(input[v]);
-  });
-}
-
-/// Sorts the values by their keys in a space. May overwrite both.
-template <class Space>
-Array<const Id, HostMemory> sorted(const Space& space, const Keys& keys, const Array<Id, HostMemory>& values) {
-  const auto sorted_keys = in_memory<MemoryOf<Space>>(keys);
-  const auto sorted_values = in_memory<MemoryOf<Space>>(values);
-  stable_sort_by_key(space, sorted_keys, sorted_values);
-  return on_host(sorted_values);
+template <class Space, class Value>
+void fill_keys(const Space& space, const Mesh& mesh, const FieldValues<Value, MemoryOf<Space>>& values,
+               const Keys<Space>& keys) {
+  const Id* const input = mesh.vertex_input<MemoryOf<Space>>().data();
+  parallel_for(
+      "GALE::order_keys", space, mesh.vertices(), KOKKOS_LAMBDA(Offset v) {
+        keys(v) = std::uint64_t(ordered_bits(values(input[v]))) << 32 | static_cast<std::uint32_t>(input[v]);
+      });
 }
 
 /// The place of each value among all.
-template <class Value>
-void fill_ranks(const Mesh& mesh, const Value* values, const Keys& keys) {
+template <class Space, class Value>
+void fill_ranks(const Space& space, const Mesh& mesh, const FieldValues<Value, MemoryOf<Space>>& values,
+                const Keys<Space>& keys) {
   const Offset count = mesh.vertices();
-  const auto inputs = allocate<Array<Id, HostMemory>>("GALE::order_inputs", count);
-  parallel_for("GALE::order_bits", HostSpace(), count, [&](Offset i) {
-    keys(i) = ordered_bits(values[i]);
-    inputs(i) = static_cast<Id>(i);
-  });
-  const auto by_rank = in_worker_or_host_space(mesh, [&](const auto& space) { return sorted(space, keys, inputs); });
-  const Id* const internal = mesh.vertex_internal().data();
-  parallel_for("GALE::order_ranks", HostSpace(), count,
-               [&](Offset rank) { keys(internal[by_rank(rank)]) = static_cast<std::uint64_t>(rank); });
+  const auto by_rank = allocate<Array<Id, MemoryOf<Space>>>("GALE::order_inputs", count);
+  parallel_for(
+      "GALE::order_bits", space, count, KOKKOS_LAMBDA(Offset i) {
+        keys(i) = ordered_bits(values(i));
+        by_rank(i) = static_cast<Id>(i);
+      });
+  stable_sort_by_key(space, keys, by_rank);
+  const Id* const internal = mesh.vertex_internal<MemoryOf<Space>>().data();
+  parallel_for(
+      "GALE::order_ranks", space, count,
+      KOKKOS_LAMBDA(Offset rank) { keys(internal[by_rank(rank)]) = static_cast<std::uint64_t>(rank); });
+}
+
+/// Ends with a fence: others use the keys on instances of their own.
+template <class Space, class Value>
+Mirrored<std::uint64_t> make_keys(const Space& space, const Mesh& mesh,
+                                  const FieldValues<Value, MemoryOf<Space>>& values) {
+  refuse_nan<Space, Value>(space, values);
+  const auto keys = allocate<Keys<Space>>("GALE::order_keys", mesh.vertices());
+  if constexpr (sizeof(Value) == 8) {
+    fill_ranks<Space, Value>(space, mesh, values, keys);
+  } else {
+    fill_keys<Space, Value>(space, mesh, values, keys);
+  }
+  space.fence();
+  return keys;
 }
 
 }  // namespace
 
-template <class Value>
-VertexOrder::VertexOrder(const Mesh& mesh, const Value* values, std::size_t count)
-    : mesh_(mesh), keys_(allocate<Keys>("GALE::order_keys", mesh.vertices())) {
-  if (count != static_cast<std::size_t>(mesh.vertices())) {
-    throw Error("the field has " + std::to_string(count) + " values, the mesh " + std::to_string(mesh.vertices()) +
-                " vertices");
+template <class Value, class Memory>
+Mirrored<std::uint64_t> order_keys(const Mesh& mesh, const FieldValues<Value, Memory>& values) {
+  if (values.extent(0) != static_cast<std::size_t>(mesh.vertices())) {
+    throw Error("the field has " + std::to_string(values.extent(0)) + " values, the mesh " +
+                std::to_string(mesh.vertices()) + " vertices");
   }
-  refuse_nan(values, mesh.vertices());
-  if constexpr (sizeof(Value) == 8) {
-    fill_ranks(mesh, values, keys_);
-  } else {
-    fill_keys(mesh, values, keys_);
-  }
+  return in_worker_or_host_space(mesh, [&](const auto& space) {
+    const auto here = in_memory<MemoryOf<std::decay_t<decltype(space)>>>(values);
+    return make_keys<std::decay_t<decltype(space)>, Value>(space, mesh, here);
+  });
 }
 
-template GALE_EXPORT VertexOrder::VertexOrder(const Mesh&, const char*, std::size_t);
-template GALE_EXPORT VertexOrder::VertexOrder(const Mesh&, const signed char*, std::size_t);
-template GALE_EXPORT VertexOrder::VertexOrder(const Mesh&, const unsigned char*, std::size_t);
-template GALE_EXPORT VertexOrder::VertexOrder(const Mesh&, const short*, std::size_t);
-template GALE_EXPORT VertexOrder::VertexOrder(const Mesh&, const unsigned short*, std::size_t);
-template GALE_EXPORT VertexOrder::VertexOrder(const Mesh&, const int*, std::size_t);
-template GALE_EXPORT VertexOrder::VertexOrder(const Mesh&, const unsigned int*, std::size_t);
-template GALE_EXPORT VertexOrder::VertexOrder(const Mesh&, const long*, std::size_t);
-template GALE_EXPORT VertexOrder::VertexOrder(const Mesh&, const unsigned long*, std::size_t);
-template GALE_EXPORT VertexOrder::VertexOrder(const Mesh&, const long long*, std::size_t);
-template GALE_EXPORT VertexOrder::VertexOrder(const Mesh&, const unsigned long long*, std::size_t);
-template GALE_EXPORT VertexOrder::VertexOrder(const Mesh&, const float*, std::size_t);
-template GALE_EXPORT VertexOrder::VertexOrder(const Mesh&, const double*, std::size_t);
+#define GALE_INSTANTIATE_FOR(Value, Memory) \
+  template GALE_EXPORT Mirrored<std::uint64_t> order_keys(const Mesh&, const FieldValues<Value, Memory>&)
+#if defined(KOKKOS_ENABLE_CUDA)
+#define GALE_INSTANTIATE(Value)            \
+  GALE_INSTANTIATE_FOR(Value, HostMemory); \
+  GALE_INSTANTIATE_FOR(Value, WorkerMemory)
+#else
+#define GALE_INSTANTIATE(Value) GALE_INSTANTIATE_FOR(Value, HostMemory)
+#endif
+GALE_INSTANTIATE(char);
+GALE_INSTANTIATE(signed char);
+GALE_INSTANTIATE(unsigned char);
+GALE_INSTANTIATE(short);
+GALE_INSTANTIATE(unsigned short);
+GALE_INSTANTIATE(int);
+GALE_INSTANTIATE(unsigned int);
+GALE_INSTANTIATE(long);
+GALE_INSTANTIATE(unsigned long);
+GALE_INSTANTIATE(long long);
+GALE_INSTANTIATE(unsigned long long);
+GALE_INSTANTIATE(float);
+GALE_INSTANTIATE(double);
+#undef GALE_INSTANTIATE
+#undef GALE_INSTANTIATE_FOR
 
-}  // namespace gale
+}  // namespace gale::detail

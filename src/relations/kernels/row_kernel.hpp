@@ -90,6 +90,7 @@ class RowKernel {
     team::once(team, [&] {
       shared.block = shared.overflows ? BlockPool::missing : pool.reserve(team, BlockLayout::words(rows, begin[rows]));
       *entry = shared.overflows ? BlockPool::uncountable : shared.block;
+      if (shared.overflows) pool.reserve(team, pool.capacity + 1);  // so that `used` says that something is missing
     });
     team::barrier(team);
     if (shared.block == BlockPool::missing) return;

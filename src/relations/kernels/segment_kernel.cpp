@@ -138,10 +138,9 @@ std::size_t SegmentKernel<Memory>::scratch_bytes(const StarSizes& sizes, int war
 }
 
 template <class Memory>
-void SegmentKernel<Memory>::launch(const WorkerSpace& instance, const KernelTask& task, int teams, TeamShape shape) {
+void SegmentKernel<Memory>::launch(const Space& instance, const KernelTask& task, int teams, TeamShape shape) {
   any_->set(task);
-  if constexpr (std::is_same_v<Memory, WorkerMemory>)
-    any_->visit([&](const auto& kernel) { gale::launch(instance, kernel, teams, shape); });
+  any_->visit([&](const auto& kernel) { gale::launch(instance, kernel, teams, shape); });
 }
 
 template <class Memory>

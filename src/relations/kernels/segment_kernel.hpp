@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <type_traits>
 #include <vector>
 
 #include <gale/mesh/mesh.hpp>
@@ -46,8 +47,11 @@ class SegmentKernel {
   /// What a team of `warps` warps asks for.
   std::size_t scratch_bytes(const StarSizes& sizes, int warps) const;
 
-  /// On `teams` teams of the workers' space (see `launch`).
-  void launch(const WorkerSpace& instance, const KernelTask& task, int teams, TeamShape shape);
+  /// The space that works in `Memory`.
+  using Space = std::conditional_t<is_device_memory<Memory>, WorkerSpace, HostSpace>;
+
+  /// On `teams` teams (see `gale::launch`).
+  void launch(const Space& instance, const KernelTask& task, int teams, TeamShape shape);
 
   /// On the calling thread, for the one segment of `task`, in `scratch`. Only in host memory.
   void run(const KernelTask& task, char* scratch);

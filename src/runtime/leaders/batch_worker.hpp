@@ -7,7 +7,7 @@
 #include <gale/relations/kernels/block_pool.hpp>
 #include <gale/relations/relation.hpp>
 #include <gale/runtime/leaders/arena.hpp>
-#include <gale/runtime/leaders/segment_bounds.hpp>
+#include <gale/runtime/segment_bounds.hpp>
 
 namespace gale::detail {
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -7,7 +8,7 @@
 
 namespace gale::detail {
 
-/// What the segments of a mesh need of a team's scratch memory on the device, found out once for all batches.
+/// What the segments of a mesh need of a team's scratch memory, found out once for all batches.
 struct SegmentBounds {
   int warps =
       1;  ///< of a team: those wanted, or fewer if with them too many segments wouldn't fit the fast scratch memory
@@ -15,8 +16,10 @@ struct SegmentBounds {
   std::vector<std::uint8_t> is_large;  ///< by segment: 1 if it doesn't fit with the others
 };
 
-/// For a kernel whose teams should have so many threads. In parallel.
-std::shared_ptr<const SegmentBounds> find_segment_bounds(const Mesh& mesh, const SegmentKernel<WorkerMemory>& kernel,
+/// For a kernel whose teams should have so many threads. In parallel. No segment is large where teams are threads of
+/// the host.
+template <class Memory>
+std::shared_ptr<const SegmentBounds> find_segment_bounds(const Mesh& mesh, const SegmentKernel<Memory>& kernel,
                                                          int threads_per_segment);
 
 }  // namespace gale::detail

@@ -1,0 +1,162 @@
+#include <algorithm>
+
+#include <gale/base/memory.hpp>
+#include <gale/relations/kernels/launch.hpp>
+#include <gale/runtime/device/batch_lane.hpp>
+
+namespace gale::detail {
+
+namespace {
+
+/// An instance of its own on a device; on the host there is nothing to overlap.
+template <class Space>
+Space lane_instance() {
+  if constexpr (is_device<Space>) {
+    return make_instance();
+  } else {
+    return {};
+  }
+}
+
+template <class Memory>
+IntervalTables<Memory> interval_tables_in(const Mesh& mesh) {
+  IntervalTables<Memory> tables;
+  for (int dimension = 0; dimension < 4; ++dimension) {
+    const bool enumerated =
+        (dimension != 1 || mesh.known_edges() != no_id) && (dimension != 2 || mesh.known_triangles() != no_id);
+    if (enumerated) tables.begin[dimension] = mesh.interval_begin<Memory>(dimension).data();
+  }
+  return tables;
+}
+
+template <class View>
+auto first(const View& view, std::size_t count) {
+  return Kokkos::subview(view, std::make_pair(std::size_t(0), count));
+}
+
+}  // namespace
+
+template <class Memory>
+BatchLane<Memory>::BatchLane(const Mesh& mesh, std::vector<SweepKernel<Memory>>& kernels, const Id* all_segments,
+                             Offset words)
+    : kernels_(kernels),
+      all_segments_(all_segments),
+      instance_(lane_instance<Space>()),
+      fast_scratch_(fast_scratch_bytes<Space>()),
+      header_(allocate<Here<Header>>("GALE::sweep_header", 1)),
+      header_copy_(1) {
+  const auto intervals = interval_tables_in<Memory>(mesh);
+  for (const auto& one : kernels_) {
+    batches_.of[batches_.kernels].relations = one.kernel.wanted();
+    batches_.of[batches_.kernels++].intervals = intervals;
+    relations_ += one.kernel.wanted().count();
+  }
+  reserve(words);
+}
+
+template <class Memory>
+void BatchLane<Memory>::launch(BatchPlan plan) {
+  reserve(plan.words);
+  reserve_slots(plan.count());
+  plan_ = std::move(plan);
+  in_flight_ = true;
+  const Id* const segments = place_segments();
+  *header_copy_.data() = Header();
+  Kokkos::deep_copy(instance_, header_, header_copy_.view());
+  Offset* directory = directory_.data();
+  for (int k = 0; k < batches_.kernels; ++k) {
+    launch_kernel(k, segments, directory);
+    directory += Offset(plan_.count()) * batches_.of[k].relations.count();
+  }
+  Kokkos::deep_copy(instance_, header_copy_.view(), header_);
+}
+
+template <class Memory>
+void BatchLane<Memory>::launch_kernel(int k, const Id* segments, Offset* directory) {
+  const Id count = plan_.count();
+  SegmentKernel<Memory>& kernel = kernels_[k].kernel;
+  const SegmentBounds& bounds = *kernels_[k].bounds;
+  KernelTask task;
+  task.segments = segments;
+  task.sizes = plan_.scratch.empty() ? bounds.usual : larger(bounds.usual, plan_.scratch[k]);
+  for (Id slot = 0; plan_.large && slot < count; ++slot) {
+    const Id segment = plan_.segment(slot);
+    if (bounds.is_large[segment]) task.sizes = larger(task.sizes, kernel.bound(segment));
+  }
+  task.scratch_level = kernel.scratch_bytes(task.sizes, bounds.warps) > fast_scratch_ ? 1 : 0;
+  task.pool = {words_.data(), static_cast<Offset>(words_.extent(0)), &header_.data()->used, directory,
+               &header_.data()->needed[k]};
+  kernel.launch(instance_, task, count, bounds.warps);
+  Batch<Memory>& batch = batches_.of[k];
+  batch.count = count;
+  batch.segments = segments;
+  batch.directory = directory;
+  batch.words = words_.data();
+}
+
+template <class Memory>
+BatchShortfall BatchLane<Memory>::finish() {
+  instance_.fence();
+  in_flight_ = false;
+  const Header& header = *header_copy_.data();
+  BatchShortfall lacked;
+  lacked.words = header.used;
+  bool all = header.used <= static_cast<Offset>(words_.extent(0));
+  for (int k = 0; k < batches_.kernels; ++k) {
+    lacked.scratch.push_back(header.needed[k]);
+    all &= header.needed[k].rows == 0;
+  }
+  if (!all) lacked.segments = segments_missing();
+  return lacked;
+}
+
+template <class Memory>
+std::vector<Id> BatchLane<Memory>::segments_missing() const {
+  const auto entries = static_cast<std::size_t>(plan_.count() * relations_);
+  const auto directory = Kokkos::create_mirror_view_and_copy(HostMemory(), first(directory_, entries));
+  std::vector<std::uint8_t> there(plan_.count(), 1);
+  const Offset* entry = directory.data();
+  for (int k = 0; k < batches_.kernels; ++k) {
+    const RelationSet relations = batches_.of[k].relations;
+    for (Id slot = 0; slot < plan_.count(); ++slot, entry += relations.count()) {
+      const Id segment = plan_.segment(slot);
+      there[slot] &= are_there(Batch<HostMemory>{relations, 1, &segment, entry, nullptr, {}});
+    }
+  }
+  std::vector<Id> missing;
+  for (Id slot = 0; slot < plan_.count(); ++slot) {
+    if (!there[slot]) missing.push_back(plan_.segment(slot));
+  }
+  return missing;
+}
+
+/// Where the kernels read their segments.
+template <class Memory>
+const Id* BatchLane<Memory>::place_segments() {
+  if (plan_.segments.empty()) return all_segments_ + plan_.begin;
+  const Kokkos::View<const Id*, HostMemory, Kokkos::MemoryUnmanaged> list(plan_.segments.data(), plan_.segments.size());
+  Kokkos::deep_copy(first(segments_, plan_.segments.size()), list);
+  return segments_.data();
+}
+
+template <class Memory>
+void BatchLane<Memory>::reserve(Offset words) {
+  if (static_cast<Offset>(words_.extent(0)) >= words) return;
+  words_ = Here<Id>();
+  words_ = allocate<Here<Id>>("GALE::sweep_words", words);
+}
+
+template <class Memory>
+void BatchLane<Memory>::reserve_slots(Id count) {
+  if (segments_.extent(0) >= static_cast<std::size_t>(count)) return;
+  const Offset room = count + count / 4;
+  segments_ = allocate<Here<Id>>("GALE::sweep_segments", room);
+  directory_ = allocate<Here<Offset>>("GALE::sweep_directory", room * relations_);
+}
+
+template class BatchLane<WorkerMemory>;
+#if defined(KOKKOS_ENABLE_CUDA)
+template class BatchLane<HostMemory>;
+#endif
+
+}  // namespace gale::detail

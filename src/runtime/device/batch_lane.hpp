@@ -1,0 +1,94 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <gale/base/pinned.hpp>
+#include <gale/relations/kernels/segment_kernel.hpp>
+#include <gale/runtime/device/segment_batches.hpp>
+#include <gale/runtime/segment_bounds.hpp>
+
+namespace gale::detail {
+
+/// A kernel of a sweep, and what its teams need.
+template <class Memory>
+struct SweepKernel {
+  SegmentKernel<Memory> kernel;
+  std::shared_ptr<const SegmentBounds> bounds;
+};
+
+/// Segments for one batch, and what they are known to need beyond the usual.
+struct BatchPlan {
+  Id begin = 0, end = 0;           ///< those of an interval, or
+  std::vector<Id> segments;        ///< these
+  Offset words = 0;                ///< room for so many at least
+  std::vector<StarSizes> scratch;  ///< by kernel; none: the usual
+  bool large = false;              ///< one of them needs more than the fast scratch memory
+
+  Id count() const { return segments.empty() ? end - begin : static_cast<Id>(segments.size()); }
+  Id segment(Id slot) const { return segments.empty() ? begin + slot : segments[slot]; }
+};
+
+/// What a batch took and lacked.
+struct BatchShortfall {
+  std::vector<Id> segments;        ///< that haven't all their blocks
+  Offset words = 0;                ///< that the blocks of all its segments take
+  std::vector<StarSizes> scratch;  ///< by kernel: what the missing ones need
+};
+
+/// One batch at a time, on an instance of its own, in memory of its own that it keeps from batch to batch.
+template <class Memory>
+class BatchLane {
+ public:
+  using Space = typename SegmentKernel<Memory>::Space;
+
+  /// `all_segments` are 0, 1, ... in `Memory`. Refers to them and to the kernels. Throws OutOfMemory.
+  BatchLane(const Mesh& mesh, std::vector<SweepKernel<Memory>>& kernels, const Id* all_segments, Offset words);
+
+  const Space& instance() const { return instance_; }
+
+  /// Begins to make the blocks of a batch, on a device without waiting. Throws OutOfMemory.
+  void launch(BatchPlan plan);
+
+  /// They, for what is enqueued on the same instance.
+  const SegmentBatches<Memory>& launched() const { return batches_; }
+
+  /// Was a batch launched that isn't finished?
+  bool in_flight() const { return in_flight_; }
+  const BatchPlan& plan() const { return plan_; }
+
+  /// Waits for all that was enqueued on the instance since. Throws gale::Error if a relation has more entries in one
+  /// segment than an Id counts.
+  BatchShortfall finish();
+
+ private:
+  template <class T>
+  using Here = Array<T, Memory>;
+
+  /// What the kernels say beside the blocks.
+  struct Header {
+    Offset used = 0;
+    StarSizes needed[SegmentBatches<Memory>::most_kernels];
+  };
+
+  void reserve(Offset words);
+  void reserve_slots(Id count);
+  const Id* place_segments();
+  void launch_kernel(int kernel, const Id* segments, Offset* directory);
+  std::vector<Id> segments_missing() const;
+
+  std::vector<SweepKernel<Memory>>& kernels_;
+  const Id* all_segments_;
+  const Space instance_;
+  const std::size_t fast_scratch_;
+  Offset relations_ = 0;
+  Here<Header> header_;
+  PinnedArray<Header> header_copy_;
+  Here<Id> segments_, words_;
+  Here<Offset> directory_;
+  SegmentBatches<Memory> batches_;
+  BatchPlan plan_;
+  bool in_flight_ = false;
+};
+
+}  // namespace gale::detail

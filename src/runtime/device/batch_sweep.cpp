@@ -1,0 +1,179 @@
+#include <algorithm>
+#include <string>
+
+#include <gale/base/error.hpp>
+#include <gale/base/parallel.hpp>
+#include <gale/runtime/defaults.hpp>
+#include <gale/runtime/device/batch_sweep.hpp>
+
+namespace gale::detail {
+
+namespace {
+
+/// Rows beyond those of a regular mesh, at first.
+constexpr double margin = 1.2;
+
+/// Options, with what they leave open filled in.
+template <class Memory>
+struct Filled {
+  std::size_t memory;
+  int batches, threads_per_segment;
+
+  explicit Filled(const DeviceSweepOptions& options)
+      : memory(options.memory != 0 ? options.memory : (is_device_memory<Memory> ? 128 : 4) * mebibyte),
+        batches(given_or(options.batches, is_device_memory<Memory> ? 3 : 1, "batches")),
+        threads_per_segment(given_or(options.threads_per_segment, 128, "threads per segment")) {
+    given_or(options.threads_per_team, 1, "threads per team");
+  }
+};
+
+/// What the blocks take for a vertex of a regular mesh.
+double usual_words_per_vertex(RelationSet relations) {
+  double words = relations.has_links() ? 20 : 0;
+  for (const Relation relation : members_of(relations)) words += traits_of(relation).words_of_vertex;
+  return words;
+}
+
+template <class Space>
+auto iota(const Space& space, Id count) {
+  const auto ids = allocate<Array<Id, MemoryOf<Space>>>("GALE::sweep_all_segments", count);
+  parallel_for(
+      "GALE::sweep_all_segments", space, count, KOKKOS_LAMBDA(Offset i) { ids(i) = static_cast<Id>(i); });
+  space.fence();
+  return ids;
+}
+
+}  // namespace
+
+template <class Memory>
+BatchSweep<Memory>::BatchSweep(const Space& space, const Mesh& mesh, RelationSet relations,
+                               const DeviceSweepOptions& options)
+    : mesh_(mesh),
+      all_segments_(iota(space, mesh.segments())),
+      words_per_vertex_(margin * usual_words_per_vertex(relations)) {
+  const Filled<Memory> filled(options);
+  if (relations.empty()) throw Error("a sweep needs a relation to read");
+  for (const RelationSet one : kernels_for(relations)) {
+    SegmentKernel<Memory> kernel(mesh, one);
+    auto bounds = find_segment_bounds(mesh, kernel, filled.threads_per_segment);
+    kernels_.push_back({std::move(kernel), std::move(bounds)});
+  }
+  words_ = std::max<Offset>(static_cast<Offset>(filled.memory / filled.batches / sizeof(Id)), 1024);
+  const auto all = static_cast<Offset>(words_per_vertex_ * mesh.vertices()) + 1024;
+  for (int i = 0; i < filled.batches; ++i)
+    lanes_.push_back(std::make_unique<Lane>(mesh_, kernels_, all_segments_.data(), std::min(words_, all)));
+}
+
+template <class Memory>
+BatchSweep<Memory>::~BatchSweep() {
+  for (const auto& lane : lanes_) {
+    if (!lane->in_flight()) continue;
+    try {
+      lane->instance().fence();
+    } catch (...) {
+      // What is wrong with the device, the next launch will say.
+    }
+  }
+}
+
+template <class Memory>
+double BatchSweep<Memory>::mean_vertices() const {
+  return static_cast<double>(mesh_.vertices()) / std::max(mesh_.segments(), Id(1));
+}
+
+/// The next batch, launched; nullptr when all are done.
+template <class Memory>
+BatchLane<Memory>* BatchSweep<Memory>::next() {
+  for (std::size_t waited = 0; waited < lanes_.size();) {
+    Lane& lane = *lanes_[turn_];
+    turn_ = (turn_ + 1) % lanes_.size();
+    if (lane.in_flight()) finish(lane);
+    if (!has_plans()) {
+      ++waited;
+      continue;
+    }
+    launch(lane, next_plan());
+    if (lane.in_flight()) return &lane;
+    waited = 0;
+  }
+  return nullptr;
+}
+
+template <class Memory>
+bool BatchSweep<Memory>::is_large(Id segment) const {
+  return std::any_of(kernels_.begin(), kernels_.end(),
+                     [segment](const auto& one) { return one.bounds->is_large[segment] != 0; });
+}
+
+/// Segments as far as they fit; those that need more than the fast scratch memory by themselves.
+template <class Memory>
+BatchPlan BatchSweep<Memory>::next_plan() {
+  BatchPlan plan;
+  if (!again_.empty()) {
+    plan = std::move(again_.front());
+    again_.pop_front();
+    return plan;
+  }
+  const auto& vertex_begin = mesh_.vertex_begin();
+  const double most = static_cast<double>(words_) / words_per_vertex_;
+  plan.begin = ahead_;
+  plan.large = is_large(ahead_);
+  for (plan.end = ahead_ + 1; plan.end < mesh_.segments(); ++plan.end) {
+    if (vertex_begin(plan.end + 1) - vertex_begin(plan.begin) > most || is_large(plan.end) != plan.large) break;
+  }
+  ahead_ = plan.end;
+  return plan;
+}
+
+/// In halves if the memory for more than the lane has isn't there.
+template <class Memory>
+void BatchSweep<Memory>::launch(Lane& lane, BatchPlan plan) {
+  try {
+    lane.launch(plan);
+  } catch (const OutOfMemory&) {
+    if (plan.count() == 1) throw;
+    BatchShortfall all;
+    for (Id slot = 0; slot < plan.count(); ++slot) all.segments.push_back(plan.segment(slot));
+    plan_again(plan, std::move(all));
+  }
+}
+
+template <class Memory>
+void BatchSweep<Memory>::finish(Lane& lane) {
+  BatchShortfall lacked = lane.finish();
+  const BatchPlan& plan = lane.plan();
+  if (plan.segments.empty()) {
+    const auto& begin = mesh_.vertex_begin();
+    const double words =
+        1.05 * static_cast<double>(lacked.words) / std::max(begin(plan.end) - begin(plan.begin), Id(1));
+    words_per_vertex_ = std::max(words, 0.5 * (words_per_vertex_ + words));
+  }
+  if (!lacked.segments.empty()) plan_again(plan, std::move(lacked));
+}
+
+/// Plans the segments that a batch lacked once more, in two batches: with the scratch memory that they need and, where
+/// it is one alone, the room.
+template <class Memory>
+void BatchSweep<Memory>::plan_again(const BatchPlan& plan, BatchShortfall lacked) {
+  BatchPlan half;
+  half.large = plan.large;
+  half.scratch = plan.scratch;
+  for (std::size_t k = 0; k < lacked.scratch.size(); ++k) {
+    if (half.scratch.size() == k) half.scratch.push_back({});
+    half.scratch[k] = larger(half.scratch[k], lacked.scratch[k]);
+  }
+  const auto middle = lacked.segments.begin() + static_cast<std::ptrdiff_t>((lacked.segments.size() + 1) / 2);
+  for (const auto& [begin, end] :
+       {std::make_pair(lacked.segments.begin(), middle), std::make_pair(middle, lacked.segments.end())}) {
+    half.segments.assign(begin, end);
+    half.words = half.count() == 1 ? lacked.words : plan.words;
+    if (!half.segments.empty()) again_.push_back(half);
+  }
+}
+
+template class BatchSweep<WorkerMemory>;
+#if defined(KOKKOS_ENABLE_CUDA)
+template class BatchSweep<HostMemory>;
+#endif
+
+}  // namespace gale::detail

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <algorithm>
+
+#include <gale/base/team.hpp>
+#include <gale/runtime/device/batch_sweep.hpp>
+#include <gale/runtime/device_sweep_options.hpp>
+#include <gale/runtime/make_structure.hpp>
+
+// Sweeps whose consumers are kernels: they read rows where these are made, and nothing is copied.
+//
+// `space` is an execution space that can read the mesh's arrays: the workers' (a device, where Kokkos has one) or the
+// host's. A sweep begins when what was enqueued on `space` before is done, and all it does is done when the call
+// returns: what a functor wrote can be read anywhere. It works on instances of its own; functors run side by side. To
+// be called from one thread at a time. Ids are GALE's; `mesh.vertex_input<Memory>()` leads back to those of the input.
+//
+// Throws gale::Error for an option below 0, for a relation with more than 2^31 - 1 entries in one segment, and as
+// Mesh::simplices does; OutOfMemory if the device has no room for the mesh, or for the blocks of one segment.
+
+namespace gale {
+
+namespace detail {
+
+template <class Space>
+using MemoryOfSweep = std::conditional_t<is_device<Space>, WorkerMemory, HostMemory>;
+
+/// A team a segment: calls functor(team, rows) for those that are there.
+template <class Memory, class Functor>
+struct OnEachSegment {
+  SegmentBatches<Memory> blocks;
+  Functor functor;
+
+  template <class Team>
+  KOKKOS_FUNCTION void operator()(const Team& team) const {
+    if (blocks.has(team.league_rank())) functor(team, SegmentRowsIn<Memory>(blocks, team.league_rank()));
+  }
+};
+
+/// A lane a row.
+template <class Memory, class Functor>
+struct OnEachRow {
+  Relation relation;
+  Functor functor;
+
+  template <class Team>
+  KOKKOS_FUNCTION void operator()(const Team& team, const SegmentRowsIn<Memory>& segment) const {
+    const Rows rows = segment[relation];
+    team::for_all(team, rows.count, [&](int i) { functor(rows.first + i, rows[rows.first + i]); });
+  }
+};
+
+/// Warps for a team that reads about so many rows.
+inline int warps_of_team(const DeviceSweepOptions& options, double rows) {
+  constexpr int lanes = 32, most = 8;
+  if (options.threads_per_team > 0) return (options.threads_per_team + lanes - 1) / lanes;
+  return std::clamp(static_cast<int>((rows + lanes - 1) / lanes), 1, most);
+}
+
+}  // namespace detail
+
+/// Calls functor(team, rows) for each segment of the mesh, with a team of Kokkos' and a SegmentRowsIn of its memory:
+/// all rows of all `relations`, and links if `link_form` is among them. All threads of the team call it.
+template <class Space, class Functor>
+void for_each_segment(const Space& space, const Mesh& mesh, RelationSet relations, const Functor& functor,
+                      const DeviceSweepOptions& options = {}) {
+  using Memory = detail::MemoryOfSweep<Space>;
+  detail::BatchSweep<Memory> sweep(space, mesh, relations, options);
+  const int warps = is_device<Space> ? detail::warps_of_team(options, sweep.mean_vertices()) : 1;
+  sweep.run([&](const auto& launched) {
+    Kokkos::TeamPolicy<Space> policy(launched.instance, launched.blocks.count(), warps, is_device<Space> ? 32 : 1);
+    policy.set_scratch_size(0, Kokkos::PerTeam(static_cast<int>(options.team_scratch)));
+    Kokkos::parallel_for("GALE::for_each_segment", policy,
+                         detail::OnEachSegment<Memory, Functor>{launched.blocks, functor});
+  });
+}
+
+/// Calls functor(simplex, row) for each simplex that a relation has a row of, with the Row. A lane a row on a device;
+/// on the host on all threads that GALE may use there, whatever backend Kokkos has.
+template <class Space, class Functor>
+void for_each_row(const Space& space, const Mesh& mesh, Relation relation, const Functor& functor,
+                  const DeviceSweepOptions& options = {}) {
+  if constexpr (is_device<Space>) {
+    for_each_segment(space, mesh, relation, detail::OnEachRow<WorkerMemory, Functor>{relation, functor}, options);
+  } else {
+    space.fence();
+    StructureOptions inline_way;
+    inline_way.way = Way::inline_;
+    make_structure(mesh, relation, inline_way)->for_each_segment(relation, {}, [&](int, const SegmentRows& segment) {
+      const Rows rows = segment[relation];
+      for (const Id simplex : segment.interval(relation)) functor(simplex, rows[simplex]);
+    });
+  }
+}
+
+}  // namespace gale
