@@ -16,7 +16,7 @@ endfunction()
 gale_public(base error kokkos memory threads types)
 gale_public(mesh encoded_mesh input_numbers intervals make_mesh mesh segmentation simplices)
 gale_public(relations batch faces preconditioning relation rows segment_rows)
-gale_public(runtime consumer make_structure statistics structure structure_options sweep_options)
+gale_public(runtime consumer device_sweep device_sweep_options graph_of make_structure statistics structure structure_options sweep_options)
 gale_public(algorithms critical_points critical_simplices discrete_gradient morse_smale persistence separatrices
   simplex_numbers simplify surface_vertices vertex_order)
 gale_public(baselines discrete_gradient_from_cells oracle)
@@ -27,11 +27,14 @@ gale_public(io arrays atomic_file dataset image read synthetic temporary_files v
 set(gale_included_headers
   base/mirrored.hpp
   base/parallel.hpp
+  base/team.hpp
   base/transfer.hpp
   base/view_tracking.hpp
   base/worker_or_host.hpp
   mesh/caller_views.hpp
-  mesh/quad.hpp)
+  mesh/quad.hpp
+  runtime/device/batch_sweep.hpp
+  runtime/device/segment_batches.hpp)
 
 # Made by the build, beside those of src/.
 set(gale_generated_headers export.hpp version.hpp)

@@ -74,6 +74,7 @@ Json to_json(const Report& report) {
           {"threads", report.threads},
           {"structure", or_null(report.structure)},
           {"way", or_null(report.way)},
+          {"consumers", or_null(report.consumers)},
           {"input", report.input},
           {"notices", report.notices},
           {"mesh",

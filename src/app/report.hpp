@@ -35,7 +35,7 @@ class Stopwatch {
 struct Report {
   std::string input;
   int threads = 0;
-  std::optional<std::string> structure, way;
+  std::optional<std::string> structure, way, consumers;
   std::optional<std::int64_t> vertices, edges, triangles, tetrahedra, segments;
   std::vector<std::string> notices;  ///< one line each about what was left out or done differently, and why
   Seconds seconds;

@@ -107,6 +107,23 @@ std::unique_ptr<Structure> Session::make_structure(const StructureOption& option
   return option.make(mesh, relations);
 }
 
+bool Session::on_device(const StructureOption& option, const Mesh& mesh, const std::function<void()>& run) {
+  report_.structure = option.name;
+  report_.consumers = "host";
+  if (!option.on_device(mesh)) return false;
+  const Stopwatch watch(report_.seconds.run);
+  begin_step("computing on the device");
+  try {
+    run();
+  } catch (const OutOfMemory& error) {
+    if (!option.consumers.empty()) throw;
+    note({"the sweep doesn't fit the device's memory (" + error.missing() + "): consumers are on the host"});
+    return false;
+  }
+  report_.consumers = "device";
+  return true;
+}
+
 SweepOptions Session::sweep(const std::string& title) const {
   begin_step("computing", title);
   SweepOptions sweep;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -49,6 +50,10 @@ class Session {
 
   /// The structure that --structure names, preconditioned for `relations`.
   std::unique_ptr<Structure> make_structure(const StructureOption& option, const Mesh& mesh, RelationSet relations);
+
+  /// Calls run() if consumers are to be kernels on the device; false if they aren't, or if there was no memory for them
+  /// and nobody asked for them by name.
+  bool on_device(const StructureOption& option, const Mesh& mesh, const std::function<void()>& run);
 
   /// How to sweep: on the threads that --threads says, with a progress bar of this title.
   SweepOptions sweep(const std::string& title) const;

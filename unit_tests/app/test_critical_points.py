@@ -53,6 +53,32 @@ class Counts(gale.CommandTest):
         self.refuse(1, "critical-points", "grid:4", "--structure", "explicit", naming="Kokkos-Kernels")
 
 
+class Consumers(gale.CommandTest):
+    def setUp(self):
+        super().setUp()
+        self.has_device = self.report("critical-points", "grid:4")["device"] is not None
+
+    def test_are_where_they_are_told_to_be(self):
+        report = self.report("critical-points", "grid:32", "--consumers", "host")
+        self.assertEqual((list(report["result"].values()), report["consumers"]), (GRID_32, "host"))
+        if not self.has_device:
+            return self.refuse(2, "critical-points", "grid:4", "--consumers", "device", naming="has no device")
+        for options in ([], ["--consumers", "device"], ["--device-memory", "1MiB"], ["--capacity", 1000000], ["--capacity", 1],
+                        ["--threads-per-segment", 32]):
+            with self.subTest(options=options):
+                report = self.report("critical-points", "grid:32", *options)
+                self.assertEqual((list(report["result"].values()), report["consumers"]), (GRID_32, "device"))
+        self.refuse(2, "critical-points", "grid:4", "--consumers", "device", "--structure", "inline", naming="inline")
+
+    def test_write_the_same_file_on_either_side(self):
+        for consumers in ("host", "device") if self.has_device else ("host",):
+            self.report("critical-points", "grid:32", "--consumers", consumers, "-o", f"{consumers}.vtp")
+            self.assertEqual((self.folder / f"{consumers}.vtp").read_bytes(), (self.folder / "host.vtp").read_bytes())
+
+    def test_of_another_kind_are_refused(self):
+        self.refuse(2, "critical-points", "grid:4", "--consumers", "gpu", naming="gpu")
+
+
 class Report(gale.CommandTest):
     def test_has_what_the_design_says(self):
         report = self.report("critical-points", "grid:16", "--capacity", "50", "--threads", "2")
@@ -78,7 +104,7 @@ class Report(gale.CommandTest):
 
     def test_waiting_tells_who_computed(self):
         for structure in ("gale", "inline"):
-            report = self.report("critical-points", "grid:16", "--structure", structure)
+            report = self.report("critical-points", "grid:16", "--structure", structure, "--consumers", "host")
             batches = sum(leader["batches"] for leader in report["waiting"]["leaders"])
             with self.subTest(structure=structure):
                 self.assertEqual(batches > 0, structure == "gale" and report["device"] is not None)

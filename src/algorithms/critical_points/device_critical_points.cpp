@@ -17,7 +17,7 @@ namespace gale {
 namespace {
 
 using Memory = detail::MemoryOfSweep<WorkerSpace>;
-using Bytes = Array<std::uint8_t, Memory>;
+using DeviceBytes = Array<std::uint8_t, Memory>;
 
 /// Vertices of too many neighbours for a lane.
 struct Outgrown {
@@ -161,8 +161,8 @@ int usual_scratch_entries(const Mesh& mesh) {
 CriticalPoints find_critical_points(const WorkerSpace& space, const VertexOrder& order,
                                     const DeviceSweepOptions& options) {
   const Mesh& mesh = order.mesh();
-  const auto own = allocate<Bytes>("GALE::vertex_types", mesh.vertices());
-  const Bytes told("GALE::surface_neighbours", mesh.vertices());
+  const auto own = allocate<DeviceBytes>("GALE::vertex_types", mesh.vertices());
+  const DeviceBytes told("GALE::surface_neighbours", mesh.vertices());
   const Outgrown outgrown{allocate<Array<Id, Memory>>("GALE::outgrown", mesh.vertices()),
                           Array<Id, Memory>("GALE::outgrown_count", 1)};
   Classify classify{order.keys_in<Memory>().data(), {own.data(), told.data()}, outgrown, usual_scratch_entries(mesh)};

@@ -31,6 +31,7 @@ class FindCriticalPoints final : public Command {
       : Command(app, "critical-points", "Finds the critical points of a scalar field") {
     segmentation_.add_to(subcommand());
     structure_.add_to(subcommand());
+    structure_.add_consumers_to(subcommand());
     subcommand().add_option("-o,--output", output_, "The critical points: .vtp");
   }
 
@@ -38,9 +39,13 @@ class FindCriticalPoints final : public Command {
     require_extension("--output", output_, {".vtp"});
     Session session(input(), common(), {output_});
     const FieldOnMesh on = session.read_field(segmentation_);
-    const auto structure = session.make_structure(structure_, on.mesh, critical_points_relations);
+    std::unique_ptr<Structure> structure;
     CriticalPoints points;
-    {
+    const bool done = session.on_device(structure_, on.mesh, [&] {
+      points = find_critical_points(WorkerSpace(), on.order, structure_.device_sweep());
+    });
+    if (!done) {
+      structure = session.make_structure(structure_, on.mesh, critical_points_relations);
       const Stopwatch watch(session.report().seconds.run);
       points = find_critical_points(*structure, on.order, session.sweep("critical points"));
     }

@@ -2,6 +2,8 @@
 
 #include <gale/app/options/parse.hpp>
 #include <gale/app/options/structure_option.hpp>
+#include <gale/app/usage_error.hpp>
+#include <gale/base/error.hpp>
 #include <gale/runtime/make_structure.hpp>
 
 namespace gale::app {
@@ -35,6 +37,30 @@ void StructureOption::add_to(CLI::App& command) {
   command.add_option("--threads-per-segment", options.threads_per_segment, "t_s")->check(CLI::Range(1, 1024));
   add_size(command, options.host_memory, "--host-memory", "Budget for blocks on the host, e.g. 512MiB");
   add_size(command, options.device_memory, "--device-memory", "Budget for batches on the device");
+}
+
+void StructureOption::add_consumers_to(CLI::App& command) {
+  command
+      .add_option("--consumers", consumers,
+                  "Where rows are read: by threads of the host, or by kernels on the device, where they are made "
+                  "(default: the device if there is one, with --structure gale)")
+      ->check(CLI::IsMember({"host", "device"}));
+}
+
+bool StructureOption::on_device(const Mesh& mesh) const {
+  const bool is_gale = way_named(name) == Way::gale;
+  if (consumers != "device") return consumers.empty() && is_gale && mesh.on_device();
+  if (!have_device) throw UsageError("--consumers device: this gale has no device");
+  if (!is_gale) throw UsageError("--consumers device: --structure " + name + " computes rows for the host");
+  if (!mesh.on_device()) throw Error("--consumers device: " + mesh.notice());
+  return true;
+}
+
+DeviceSweepOptions StructureOption::device_sweep() const {
+  DeviceSweepOptions sweep;
+  sweep.memory = options.device_memory;
+  sweep.threads_per_segment = options.threads_per_segment;
+  return sweep;
 }
 
 std::unique_ptr<Structure> StructureOption::make(const Mesh& mesh, RelationSet relations) const {

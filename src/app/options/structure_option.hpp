@@ -4,6 +4,7 @@
 #include <string>
 
 #include <gale/app/report.hpp>
+#include <gale/runtime/device_sweep_options.hpp>
 #include <gale/runtime/structure.hpp>
 
 namespace CLI {
@@ -17,7 +18,20 @@ struct StructureOption {
   std::string name = "gale";  ///< the name of a Way
   StructureOptions options;
 
+  /// --consumers, "host" or "device"; empty: on the device where the mesh is there and `name` doesn't say otherwise.
+  std::string consumers;
+
   void add_to(CLI::App& command);
+
+  /// For commands whose consumers may be kernels.
+  void add_consumers_to(CLI::App& command);
+
+  /// Should consumers be kernels on the device that the mesh is on? Throws UsageError where --consumers says so and
+  /// there is no device, or --structure says something else; gale::Error where the mesh doesn't fit it.
+  bool on_device(const Mesh& mesh) const;
+
+  /// How these go through the mesh.
+  DeviceSweepOptions device_sweep() const;
 
   bool is_explicit() const { return name == "explicit"; }
 

@@ -1,9 +1,11 @@
 #include <algorithm>
-#include <string>
+#include <deque>
+#include <vector>
 
 #include <gale/base/error.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/runtime/defaults.hpp>
+#include <gale/runtime/device/batch_lane.hpp>
 #include <gale/runtime/device/batch_sweep.hpp>
 
 namespace gale::detail {
@@ -35,7 +37,7 @@ double usual_words_per_vertex(RelationSet relations) {
 }
 
 template <class Space>
-auto iota(const Space& space, Id count) {
+Array<Id, MemoryOf<Space>> iota(const Space& space, Id count) {
   const auto ids = allocate<Array<Id, MemoryOf<Space>>>("GALE::sweep_all_segments", count);
   parallel_for(
       "GALE::sweep_all_segments", space, count, KOKKOS_LAMBDA(Offset i) { ids(i) = static_cast<Id>(i); });
@@ -45,9 +47,42 @@ auto iota(const Space& space, Id count) {
 
 }  // namespace
 
+/// The batches of a sweep: what is planned, and what is under way.
 template <class Memory>
-BatchSweep<Memory>::BatchSweep(const Space& space, const Mesh& mesh, RelationSet relations,
-                               const DeviceSweepOptions& options)
+class BatchSweep<Memory>::Batches {
+ public:
+  using Lane = BatchLane<Memory>;
+
+  Batches(const Space& space, const Mesh& mesh, RelationSet relations, const DeviceSweepOptions& options);
+  ~Batches();
+
+  /// The lane of the next batch, launched; nullptr when all are done.
+  Lane* next();
+
+  const Mesh& mesh() const { return mesh_; }
+
+ private:
+  bool has_plans() const { return !again_.empty() || ahead_ < mesh_.segments(); }
+  BatchPlan next_plan();
+  bool is_large(Id segment) const;
+  void launch(Lane& lane, BatchPlan plan);
+  void finish(Lane& lane);
+  void plan_again(const BatchPlan& plan, BatchShortfall lacked);
+
+  const Mesh mesh_;
+  const Array<Id, Memory> all_segments_;
+  double words_per_vertex_;  ///< that blocks take, by those so far
+  std::vector<SweepKernel<Memory>> kernels_;
+  Offset words_ = 0;  ///< that a batch has room for, unless one segment needs more
+  std::vector<std::unique_ptr<Lane>> lanes_;
+  std::size_t turn_ = 0;         ///< the lane that is next
+  Id ahead_ = 0;                 ///< the first segment that no batch had yet
+  std::deque<BatchPlan> again_;  ///< of segments that lacked room
+};
+
+template <class Memory>
+BatchSweep<Memory>::Batches::Batches(const Space& space, const Mesh& mesh, RelationSet relations,
+                                     const DeviceSweepOptions& options)
     : mesh_(mesh),
       all_segments_(iota(space, mesh.segments())),
       words_per_vertex_(margin * usual_words_per_vertex(relations)) {
@@ -65,7 +100,7 @@ BatchSweep<Memory>::BatchSweep(const Space& space, const Mesh& mesh, RelationSet
 }
 
 template <class Memory>
-BatchSweep<Memory>::~BatchSweep() {
+BatchSweep<Memory>::Batches::~Batches() {
   for (const auto& lane : lanes_) {
     if (!lane->in_flight()) continue;
     try {
@@ -77,13 +112,7 @@ BatchSweep<Memory>::~BatchSweep() {
 }
 
 template <class Memory>
-double BatchSweep<Memory>::mean_vertices() const {
-  return static_cast<double>(mesh_.vertices()) / std::max(mesh_.segments(), Id(1));
-}
-
-/// The next batch, launched; nullptr when all are done.
-template <class Memory>
-BatchLane<Memory>* BatchSweep<Memory>::next() {
+BatchLane<Memory>* BatchSweep<Memory>::Batches::next() {
   for (std::size_t waited = 0; waited < lanes_.size();) {
     Lane& lane = *lanes_[turn_];
     turn_ = (turn_ + 1) % lanes_.size();
@@ -100,14 +129,14 @@ BatchLane<Memory>* BatchSweep<Memory>::next() {
 }
 
 template <class Memory>
-bool BatchSweep<Memory>::is_large(Id segment) const {
+bool BatchSweep<Memory>::Batches::is_large(Id segment) const {
   return std::any_of(kernels_.begin(), kernels_.end(),
                      [segment](const auto& one) { return one.bounds->is_large[segment] != 0; });
 }
 
 /// Segments as far as they fit; those that need more than the fast scratch memory by themselves.
 template <class Memory>
-BatchPlan BatchSweep<Memory>::next_plan() {
+BatchPlan BatchSweep<Memory>::Batches::next_plan() {
   BatchPlan plan;
   if (!again_.empty()) {
     plan = std::move(again_.front());
@@ -127,7 +156,7 @@ BatchPlan BatchSweep<Memory>::next_plan() {
 
 /// In halves if the memory for more than the lane has isn't there.
 template <class Memory>
-void BatchSweep<Memory>::launch(Lane& lane, BatchPlan plan) {
+void BatchSweep<Memory>::Batches::launch(Lane& lane, BatchPlan plan) {
   try {
     lane.launch(plan);
   } catch (const OutOfMemory&) {
@@ -139,7 +168,7 @@ void BatchSweep<Memory>::launch(Lane& lane, BatchPlan plan) {
 }
 
 template <class Memory>
-void BatchSweep<Memory>::finish(Lane& lane) {
+void BatchSweep<Memory>::Batches::finish(Lane& lane) {
   BatchShortfall lacked = lane.finish();
   const BatchPlan& plan = lane.plan();
   if (plan.segments.empty()) {
@@ -154,7 +183,7 @@ void BatchSweep<Memory>::finish(Lane& lane) {
 /// Plans the segments that a batch lacked once more, in two batches: with the scratch memory that they need and, where
 /// it is one alone, the room.
 template <class Memory>
-void BatchSweep<Memory>::plan_again(const BatchPlan& plan, BatchShortfall lacked) {
+void BatchSweep<Memory>::Batches::plan_again(const BatchPlan& plan, BatchShortfall lacked) {
   BatchPlan half;
   half.large = plan.large;
   half.scratch = plan.scratch;
@@ -169,6 +198,27 @@ void BatchSweep<Memory>::plan_again(const BatchPlan& plan, BatchShortfall lacked
     half.words = half.count() == 1 ? lacked.words : plan.words;
     if (!half.segments.empty()) again_.push_back(half);
   }
+}
+
+template <class Memory>
+BatchSweep<Memory>::BatchSweep(const Space& space, const Mesh& mesh, RelationSet relations,
+                               const DeviceSweepOptions& options)
+    : batches_(new Batches(space, mesh, relations, options)) {}
+
+template <class Memory>
+BatchSweep<Memory>::~BatchSweep() = default;
+
+template <class Memory>
+auto BatchSweep<Memory>::next() -> std::optional<Launched> {
+  const BatchLane<Memory>* const lane = batches_->next();
+  if (lane == nullptr) return std::nullopt;
+  return Launched{lane->instance(), lane->launched()};
+}
+
+template <class Memory>
+double BatchSweep<Memory>::mean_vertices() const {
+  const Mesh& mesh = batches_->mesh();
+  return static_cast<double>(mesh.vertices()) / std::max(mesh.segments(), Id(1));
 }
 
 template class BatchSweep<WorkerMemory>;

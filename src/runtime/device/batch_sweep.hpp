@@ -1,11 +1,11 @@
 #pragma once
 
-#include <deque>
 #include <memory>
-#include <vector>
+#include <optional>
 
 #include <gale/export.hpp>
-#include <gale/runtime/device/batch_lane.hpp>
+#include <gale/mesh/mesh.hpp>
+#include <gale/runtime/device/segment_batches.hpp>
 #include <gale/runtime/device_sweep_options.hpp>
 
 namespace gale::detail {
@@ -15,13 +15,13 @@ namespace gale::detail {
 template <class Memory>
 class GALE_EXPORT BatchSweep {
  public:
-  using Space = typename SegmentKernel<Memory>::Space;
+  using Space = std::conditional_t<is_device_memory<Memory>, WorkerSpace, HostSpace>;
 
   /// A batch that was launched: what reads its blocks is to be enqueued on `instance`, and leaves out segments that
   /// aren't there; they come again in a later batch.
   struct Launched {
-    const Space& instance;
-    const SegmentBatches<Memory>& blocks;
+    Space instance;
+    SegmentBatches<Memory> blocks;
   };
 
   /// Waits for what was enqueued on `space`. Throws gale::Error for a negative option, OutOfMemory if not even one
@@ -36,32 +36,18 @@ class GALE_EXPORT BatchSweep {
   /// Calls use(launched) for each batch. When it returns, all is done.
   template <class Use>
   void run(const Use& use) {
-    while (BatchLane<Memory>* const lane = next()) use(Launched{lane->instance(), lane->launched()});
+    while (const std::optional<Launched> launched = next()) use(*launched);
   }
 
   /// Vertices of a segment, on average.
   double mean_vertices() const;
 
  private:
-  using Lane = BatchLane<Memory>;
+  /// The next batch; nothing when all are done.
+  std::optional<Launched> next();
 
-  Lane* next();
-  bool has_plans() const { return !again_.empty() || ahead_ < mesh_.segments(); }
-  BatchPlan next_plan();
-  bool is_large(Id segment) const;
-  void launch(Lane& lane, BatchPlan plan);
-  void finish(Lane& lane);
-  void plan_again(const BatchPlan& plan, BatchShortfall lacked);
-
-  const Mesh mesh_;
-  std::vector<SweepKernel<Memory>> kernels_;
-  Array<Id, Memory> all_segments_;
-  Offset words_;             ///< that a batch has room for, unless one segment needs more
-  double words_per_vertex_;  ///< that blocks take, by those so far
-  std::vector<std::unique_ptr<Lane>> lanes_;
-  std::size_t turn_ = 0;  ///< the lane that is next
-  Id ahead_ = 0;          ///< the first segment that no batch had yet
-  std::deque<BatchPlan> again_;
+  class Batches;
+  const std::unique_ptr<Batches> batches_;
 };
 
 }  // namespace gale::detail

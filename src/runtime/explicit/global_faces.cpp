@@ -27,7 +27,7 @@ const Faces& faces_of(Relation relation) {
 }
 
 /// A key per place: the first of what bounds its simplex by `high`, and the last by `low`.
-Keys keys_of(const Graph& high_graph, const Faces& high, const Graph& low_graph, const Faces& low) {
+Keys keys_of(const GlobalGraph& high_graph, const Faces& high, const GlobalGraph& low_graph, const Faces& low) {
   const Offset places = Offset(high.per_tetrahedron) * high_graph.rows;
   const auto keys = allocate<Keys>("GALE::simplex_keys", places);
   const auto high_ids = high_graph.ids, low_ids = low_graph.ids;
@@ -78,22 +78,22 @@ Numbering number(Keys keys, Id per_tetrahedron) {
 
 }  // namespace
 
-Graph tetrahedron_vertices(const Mesh& mesh) {
+GlobalGraph tetrahedron_vertices(const Mesh& mesh) {
   const Offset rows = mesh.tetrahedra();
-  return {mesh.tetrahedra(), 4, {}, Graph::Ids(mesh.encoded<WorkerMemory>().tetrahedra.data(), 4 * rows)};
+  return {mesh.tetrahedra(), 4, {}, GlobalGraph::Ids(mesh.encoded<WorkerMemory>().tetrahedra.data(), 4 * rows)};
 }
 
-Numbering number_edges(const Graph& tv) {
+Numbering number_edges(const GlobalGraph& tv) {
   require_countable(Relation::TE, 6 * Offset(tv.rows));
   return number(keys_of(tv, edge_vertices, tv, edge_vertices), 6);
 }
 
-Numbering number_triangles(const Graph& tv, const Graph& te) {
+Numbering number_triangles(const GlobalGraph& tv, const GlobalGraph& te) {
   require_countable(Relation::TF, 4 * Offset(tv.rows));
   return number(keys_of(te, triangle_edges, tv, triangle_vertices), 4);
 }
 
-Graph faces(Relation relation, const Numbering& numbering, const Graph& of_tetrahedra) {
+GlobalGraph faces(Relation relation, const Numbering& numbering, const GlobalGraph& of_tetrahedra) {
   const Faces faces = faces_of(relation);
   const Offset entries = Offset(faces.length) * numbering.count();
   require_countable(relation, entries);

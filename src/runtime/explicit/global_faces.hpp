@@ -11,24 +11,24 @@ namespace gale::detail {
 /// The edges or the triangles of a mesh. A tetrahedron's places are its six edges or its four triangles, in
 /// lexicographic order; those of tetrahedron t follow those of t - 1.
 struct Numbering {
-  Graph of_tetrahedra;                      ///< TE or TF: the number of the simplex at each place
+  GlobalGraph of_tetrahedra;                ///< TE or TF: the number of the simplex at each place
   Array<const Id, WorkerMemory> any_place;  ///< simplex -> one of the places where it is
 
   Id count() const { return static_cast<Id>(any_place.extent(0)); }
 };
 
 /// TV; the mesh' own array.
-Graph tetrahedron_vertices(const Mesh& mesh);
+GlobalGraph tetrahedron_vertices(const Mesh& mesh);
 
 /// Numbers the simplices in the lexicographic order of their vertices, in the workers' space. O(n). For the edges it
 /// takes 144 bytes a tetrahedron while it works and leaves 24, and 4 an edge; for the triangles 96, 16 and 4. Throws
 /// gale::Error if TE, or TF, has more entries than an Id counts.
-Numbering number_edges(const Graph& tv);
-Numbering number_triangles(const Graph& tv, const Graph& te);
+Numbering number_edges(const GlobalGraph& tv);
+Numbering number_triangles(const GlobalGraph& tv, const GlobalGraph& te);
 
 /// EV, FV or FE: what bounds each simplex, from a tetrahedron that has it. Throws gale::Error if that has more entries
 /// than an Id counts.
-Graph faces(Relation relation, const Numbering& numbering, const Graph& of_tetrahedra);
+GlobalGraph faces(Relation relation, const Numbering& numbering, const GlobalGraph& of_tetrahedra);
 
 /// Where the edges, or triangles, that are internal to each segment begin, and one past the last; on the host.
 /// `dimension` is theirs.

@@ -20,11 +20,11 @@ Array<T, typename Space::memory_space> even_begin(const Space& space, Id rows, I
 
 }  // namespace
 
-Graph::Offsets row_begin(const Graph& graph) {
+GlobalGraph::Offsets row_begin(const GlobalGraph& graph) {
   return graph.length == 0 ? graph.begin : even_begin<Offset>(WorkerSpace(), graph.rows, graph.length);
 }
 
-GlobalRows to_host(const Graph& graph) {
+GlobalRows to_host(const GlobalGraph& graph) {
   if (graph.length != 0)
     return {even_begin<Id>(Kokkos::DefaultHostExecutionSpace(), graph.rows, graph.length), on_host(graph.ids)};
   const auto begin = graph.begin;

@@ -11,7 +11,7 @@ namespace gale::detail {
 
 /// A relation of the whole mesh in the workers' memory: row i is ids[begin(i)] to ids[begin(i + 1) - 1]. Where all rows
 /// are of one length there is no `begin`: 8 bytes a row that only Kokkos-Kernels wants, and then for a while.
-struct Graph {
+struct GlobalGraph {
   using Offsets = Array<Offset, WorkerMemory>;
   using Ids = Array<const Id, WorkerMemory>;
 
@@ -30,10 +30,10 @@ struct GlobalRows {
 };
 
 /// A graph's `begin`, also where all rows are of one length.
-Graph::Offsets row_begin(const Graph& graph);
+GlobalGraph::Offsets row_begin(const GlobalGraph& graph);
 
 /// The graph's rows, copied where the host can't read them.
-GlobalRows to_host(const Graph& graph);
+GlobalRows to_host(const GlobalGraph& graph);
 
 /// "GALE::VV": what kernels and arrays of a relation are called.
 std::string label_of(Relation relation);

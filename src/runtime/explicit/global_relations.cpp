@@ -74,7 +74,7 @@ class Build {
   }
 
  private:
-  Graph& graph(Relation relation) { return graphs_[static_cast<int>(relation)]; }
+  GlobalGraph& graph(Relation relation) { return graphs_[static_cast<int>(relation)]; }
   GlobalRows& rows(Relation relation) { return result_.rows[static_cast<int>(relation)]; }
 
   void make(const Recipe& recipe) {
@@ -84,13 +84,13 @@ class Build {
     if (wanted_.has(relation) || for_links) rows(relation) = to_host(graph(relation));
   }
 
-  Graph graph_of(const Recipe& recipe) {
+  GlobalGraph graph_of(const Recipe& recipe) {
     if (face_relations.has(recipe.relation)) return faces_of(recipe.relation);
     if (coboundary_relations.has(recipe.relation)) return coboundary_of(recipe);
     return adjacency_of(recipe);
   }
 
-  Graph faces_of(Relation relation) {
+  GlobalGraph faces_of(Relation relation) {
     if (relation == Relation::TV) return tetrahedron_vertices(mesh_);
     if (relation == Relation::TE) return of_tetrahedra(1, number_edges(graph(Relation::TV)));
     if (relation == Relation::TF) return of_tetrahedra(2, number_triangles(graph(Relation::TV), graph(Relation::TE)));
@@ -99,19 +99,19 @@ class Build {
   }
 
   /// Keeps a numbering as long as others are from it.
-  Graph of_tetrahedra(int dimension, const Numbering& numbering) {
+  GlobalGraph of_tetrahedra(int dimension, const Numbering& numbering) {
     result_.count[dimension] = numbering.count();
     result_.segment_begin[dimension] = segment_begin(mesh_, dimension, numbering);
     numberings_[dimension] = numbering;
     return numbering.of_tetrahedra;
   }
 
-  Graph coboundary_of(const Recipe& recipe) {
+  GlobalGraph coboundary_of(const Recipe& recipe) {
     const Relation of = members_of(recipe.from).front();
     return transpose(recipe.relation, graph(of), result_.count[row_dimension(recipe.relation)]);
   }
 
-  Graph adjacency_of(const Recipe& recipe) {
+  GlobalGraph adjacency_of(const Recipe& recipe) {
     const auto factors = members_of(recipe.from);
     const bool in_order = row_dimension(factors[0]) == row_dimension(recipe.relation);
     return neighbours(recipe.relation, graph(factors[in_order ? 0 : 1]), graph(factors[in_order ? 1 : 0]));
@@ -140,7 +140,7 @@ class Build {
 
   const Mesh& mesh_;
   const RelationSet wanted_, needed_;
-  std::array<Graph, relation_count> graphs_;
+  std::array<GlobalGraph, relation_count> graphs_;
   std::array<Numbering, 4> numberings_;  // of edges and triangles
   GlobalRelations result_;
 };

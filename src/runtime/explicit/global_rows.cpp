@@ -53,13 +53,13 @@ struct Matrix {
   ConstOffsets begin;
   ConstIds ids;
 
-  explicit Matrix(const Graph& graph) : rows(graph.rows), begin(row_begin(graph)), ids(graph.ids) {}
+  explicit Matrix(const GlobalGraph& graph) : rows(graph.rows), begin(row_begin(graph)), ids(graph.ids) {}
 };
 
 /// XY and YX, and what the two steps of their product share.
 class Product {
  public:
-  Product(const Graph& xy, const Graph& yx) : xy_(xy), yx_(yx) {
+  Product(const GlobalGraph& xy, const GlobalGraph& yx) : xy_(xy), yx_(yx) {
     handle_.create_spgemm_handle(KokkosSparse::SPGEMM_KK);
     handle_.get_spgemm_handle()->set_compression_cut_off(
         0);  // half the time and no memory for VV, whose ids are far apart; no loss for others
@@ -112,7 +112,7 @@ void drop_diagonal(const char* label, const Offsets& from_begin, const Ids& from
 
 void require_kokkos_kernels() {}
 
-Graph transpose(Relation relation, const Graph& faces, Id rows) {
+GlobalGraph transpose(Relation relation, const GlobalGraph& faces, Id rows) {
   const std::string label = label_of(relation);
   const Matrix matrix(faces);
   const Offsets begin(label + "_begin", rows + Offset(1));
@@ -123,7 +123,7 @@ Graph transpose(Relation relation, const Graph& faces, Id rows) {
   return {rows, 0, begin, ids};
 }
 
-Graph neighbours(Relation relation, const Graph& xy, const Graph& yx) {
+GlobalGraph neighbours(Relation relation, const GlobalGraph& xy, const GlobalGraph& yx) {
   const std::string label = label_of(relation);
   const auto begin = allocate<Offsets>(label + "_begin", xy.rows + Offset(1));
   Ids ids;
@@ -152,12 +152,12 @@ void require_kokkos_kernels() {
       "GALE_ENABLE_KOKKOS_KERNELS=ON");
 }
 
-Graph transpose(Relation, const Graph&, Id) {
+GlobalGraph transpose(Relation, const GlobalGraph&, Id) {
   require_kokkos_kernels();
   return {};
 }
 
-Graph neighbours(Relation, const Graph&, const Graph&) {
+GlobalGraph neighbours(Relation, const GlobalGraph&, const GlobalGraph&) {
   require_kokkos_kernels();
   return {};
 }

@@ -10,11 +10,11 @@ namespace gale::detail {
 void require_kokkos_kernels();
 
 /// The coboundary XY from its faces YX: its transpose. Rows ascend. `rows`: how many X there are.
-Graph transpose(Relation relation, const Graph& faces, Id rows);
+GlobalGraph transpose(Relation relation, const GlobalGraph& faces, Id rows);
 
 /// The adjacency XX from XY and YX: which X share a Y, none of them with itself. Rows ascend. While it works it takes 4
 /// bytes an entry, 16 a row and what Kokkos-Kernels hashes with beside the result. Throws gale::Error if it has more
 /// entries than an Id counts, before it takes memory for them.
-Graph neighbours(Relation relation, const Graph& xy, const Graph& yx);
+GlobalGraph neighbours(Relation relation, const GlobalGraph& xy, const GlobalGraph& yx);
 
 }  // namespace gale::detail
