@@ -1,6 +1,6 @@
 // Sweeps whose consumers are kernels, over all of grid:N: each relation's rows made and left unread, and read by a
 // functor that adds up a value for each entry, by the memory for batches; beside what the rows' bytes take of the
-// memory's bandwidth. Critical points in the same way.
+// memory's bandwidth. Critical points and gradient in the same way.
 //   usage: device_sweep_rates [N [RELATION...]]
 
 #include <cstdio>
@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <gale/algorithms/critical_points.hpp>
+#include <gale/algorithms/discrete_gradient.hpp>
 #include <gale/relations/preconditioning.hpp>
 #include <gale/runtime/device_sweep.hpp>
 #include <gale/runtime/graph_of.hpp>
@@ -76,9 +77,41 @@ void measure(const Mesh& mesh, Relation relation, double bandwidth) {
   }
 }
 
+/// What a sweep takes however small the mesh.
+void measure_overhead() {
+  const Mesh mesh = perf::encode(io::make_grid(8));
+  const double seconds = perf::median_seconds_of(
+      runs, [&] { for_each_segment(WorkerSpace(), mesh, critical_points_relations, ReadNothing()); });
+  std::printf("a sweep over grid:8: %.2f ms\n", 1e3 * seconds);
+}
+
+/// What it takes before its first batch.
+void measure_set_up(const Mesh& mesh) {
+  const double seconds = perf::median_seconds_of(
+      runs, [&] { const detail::BatchSweep<Memory> sweep(WorkerSpace(), mesh, critical_points_relations, {}); });
+  std::printf("set up for VV and link: %.2f ms\n", 1e3 * seconds);
+}
+
+void measure_gradient(const Mesh& mesh, const VertexOrder& order) {
+  for (const std::size_t memory : {std::size_t(0), 48 * mebi, 384 * mebi}) {
+    for (const int threads : {32, 64, 96}) {
+      auto options = with_memory(memory);
+      const double made = perf::median_seconds_of(
+          runs, [&] { for_each_segment(WorkerSpace(), mesh, discrete_gradient_relations, ReadNothing(), options); });
+      options.threads_per_team = threads;
+      std::array<Id, 4> counts{};
+      const double found = perf::median_seconds_of(
+          runs, [&] { counts = find_discrete_gradient(WorkerSpace(), order, options).critical().counts(); });
+      std::printf("gradient, %5zu MiB, teams of %3d: rows made %7.2f ms, all %7.2f ms: %d %d %d %d\n", memory / mebi,
+                  threads, 1e3 * made, 1e3 * found, counts[0], counts[1], counts[2], counts[3]);
+      std::fflush(stdout);
+    }
+  }
+}
+
 void measure_critical_points(const Mesh& mesh, const VertexOrder& order) {
   for (const std::size_t memory : {std::size_t(0), 24 * mebi, 48 * mebi, 96 * mebi, 384 * mebi, 1536 * mebi}) {
-    for (const int threads : {32, 64, 96, 128}) {
+    for (const int threads : {64, 96}) {
       auto options = with_memory(memory);
       const double made = perf::median_seconds_of(
           runs, [&] { for_each_segment(WorkerSpace(), mesh, critical_points_relations, ReadNothing(), options); });
@@ -103,11 +136,15 @@ int main(int argc, char** argv) {
   const double bandwidth = memory_bandwidth();
   std::printf("%s, grid:%d, %d segments; memory %.0f GB/s\n", perf::context().c_str(), n, mesh.segments(),
               bandwidth / 1e9);
+  measure_overhead();
   for (int i = 2; i < argc; ++i) {
     if (const auto relation = relation_named(argv[i])) measure(mesh, *relation, bandwidth);
   }
   if (argc > 2) return 0;
+  measure_set_up(mesh);
   measure(mesh, Relation::VV, bandwidth);
   const auto field = std::get<std::vector<float>>(data.arrays.front().values);
-  measure_critical_points(mesh, VertexOrder(mesh, field.data(), field.size()));
+  const VertexOrder order(mesh, field.data(), field.size());
+  measure_critical_points(mesh, order);
+  measure_gradient(mesh, order);
 }

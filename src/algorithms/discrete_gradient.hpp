@@ -1,18 +1,25 @@
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <memory>
 
 #include <gale/algorithms/critical_simplices.hpp>
 #include <gale/algorithms/vertex_order.hpp>
 #include <gale/export.hpp>
+#include <gale/runtime/device_sweep_options.hpp>
 #include <gale/runtime/structure.hpp>
 
 namespace gale {
 
 namespace detail {
 class GradientStore;
-}
+
+/// Where successors are on the host; null as long as nobody asked for them there.
+struct HostSuccessors {
+  std::atomic<const Id*> vertex{nullptr}, tetrahedron{nullptr};
+};
+}  // namespace detail
 
 /// What a simplex is paired with: another of one dimension less or more, which has one vertex less or more.
 struct Partner {
@@ -23,7 +30,8 @@ struct Partner {
 };
 
 /// A discrete gradient: pairs of simplices whose dimensions differ by one (Forman 1998). Each simplex is in one pair at
-/// most; those in none are critical. On the host, immutable, for any number of threads; copies share the arrays.
+/// most; those in none are critical. Immutable, for any number of threads; copies share the arrays. Where kernels found
+/// it, it stays with them: each array comes to the host when somebody there first asks for it.
 ///
 /// It stores what paths along the gradient ask for. Each vertex and each tetrahedron has its successor, 4 bytes. Each
 /// vertex has a row of its edges to lower vertices, with the third vertex of the triangle that each edge is paired
@@ -38,11 +46,17 @@ class GALE_EXPORT DiscreteGradient {
   const CriticalSimplices& critical() const;
 
   /// The next vertex on the falling path: the other end of the paired edge. no_id for a critical vertex.
-  Id vertex_successor(Id vertex) const { return vertex_successor_[vertex]; }
+  Id vertex_successor(Id vertex) const {
+    const Id* const there = successors_->vertex.load(std::memory_order_acquire);
+    return (there != nullptr ? there : fetch_vertex_successors())[vertex];
+  }
 
   /// The next tetrahedron on the rising path: the one across the paired triangle; of several, that of the lowest input
   /// id. no_id for a critical tetrahedron; below that if the path leaves through the mesh's surface (`leaves`).
-  Id tetrahedron_successor(Id tetrahedron) const { return tetrahedron_successor_[tetrahedron]; }
+  Id tetrahedron_successor(Id tetrahedron) const {
+    const Id* const there = successors_->tetrahedron.load(std::memory_order_acquire);
+    return (there != nullptr ? there : fetch_tetrahedron_successors())[tetrahedron];
+  }
   static bool leaves(Id successor) { return successor < no_id; }
 
   /// Third vertex of the triangle that an edge is paired with; no_id if it is with none. Of any two vertices that have
@@ -77,9 +91,11 @@ class GALE_EXPORT DiscreteGradient {
   const detail::GradientStore& store() const { return *store_; }
 
  private:
+  const Id* fetch_vertex_successors() const;
+  const Id* fetch_tetrahedron_successors() const;
+
   std::shared_ptr<const detail::GradientStore> store_;
-  const Id* vertex_successor_;
-  const Id* tetrahedron_successor_;
+  detail::HostSuccessors* successors_;
 };
 
 /// The discrete gradient of a field, after Robins, Wood and Sheppard (2011): the lower star of each vertex is paired by
@@ -91,6 +107,13 @@ class GALE_EXPORT DiscreteGradient {
 /// enumerated: beside the blocks of the sweep there is only the gradient in memory.
 GALE_EXPORT DiscreteGradient find_discrete_gradient(Structure& structure, const VertexOrder& order,
                                                     const SweepOptions& options = {});
+
+/// The same by kernels where the relations are made, where it stays; only the critical simplices come to the host.
+/// Stars of more than 64 lower edges, 128 cells, or with a triangle of three tetrahedra are paired on the host: if
+/// there are any, all comes there. What is said of sweeps (device_sweep.hpp) holds. 4 bytes a vertex beside the
+/// gradient and the blocks.
+GALE_EXPORT DiscreteGradient find_discrete_gradient(const WorkerSpace& space, const VertexOrder& order,
+                                                    const DeviceSweepOptions& options = {});
 
 /// What the sweep reads.
 inline constexpr RelationSet discrete_gradient_relations = star_relations;

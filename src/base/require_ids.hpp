@@ -9,7 +9,7 @@
 namespace gale {
 
 /// Throws gale::Error if so many of what `name` says, e.g. "edges", are more than an Id counts.
-inline void require_ids(const std::string& name, Offset count) {
+inline void require_ids(const char* name, Offset count) {
   if (count <= std::numeric_limits<Id>::max()) return;
   throw Error(std::to_string(count) + ' ' + name + " are too many: ids have 32 bits, at most 2147483647 fit");
 }

@@ -157,7 +157,7 @@ DistinctRows<MemoryOf<Space>> distinct_rows(const Space& space, const std::strin
   const LargeRows<Space, Candidates> large_rows(space, count, large, candidates);
   const Offset total = reduce_sum(
       "GALE::total_distinct", space, rows, KOKKOS_LAMBDA(Offset row) { return Offset(count(row)); });
-  require_ids(what, total);
+  require_ids(what.c_str(), total);
   const DistinctRows<MemoryOf<Space>> result{allocate<Ids>("GALE::distinct_begin", rows + 1),
                                              allocate<Ids>("GALE::distinct", total),
                                              allocate<Ids>("GALE::distinct_row", total)};

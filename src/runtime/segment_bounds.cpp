@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 #include <gale/base/parallel.hpp>
 #include <gale/runtime/segment_bounds.hpp>
@@ -11,7 +12,11 @@ namespace {
 /// More than this share of the segments should fit the fast scratch memory.
 constexpr double share_that_fits = 0.99;
 
-constexpr std::size_t no_limit = std::numeric_limits<std::size_t>::max();
+/// Bytes of scratch memory within which a segment isn't large.
+template <class Memory>
+std::size_t fast_bytes() {
+  return is_device_memory<Memory> ? fast_scratch_bytes<WorkerSpace>() : std::numeric_limits<std::size_t>::max();
+}
 
 template <class Memory>
 std::vector<StarSizes> bounds_of(const Mesh& mesh, const SegmentKernel<Memory>& kernel) {
@@ -21,11 +26,24 @@ std::vector<StarSizes> bounds_of(const Mesh& mesh, const SegmentKernel<Memory>& 
   return bounds;
 }
 
+/// What suffices for every segment.
+template <class Memory>
+StarSizes greatest_bound(const Mesh& mesh, const SegmentKernel<Memory>& kernel) {
+  const int threads = detail::threads_for(mesh.segments());
+  std::vector<StarSizes> greatest(threads);
+  for_parts("GALE::greatest_bound", mesh.segments(), threads, [&](int thread, Offset begin, Offset end) {
+    StarSizes sizes;
+    for (Offset s = begin; s < end; ++s) sizes = larger(sizes, kernel.bound(static_cast<Id>(s)));
+    greatest[thread] = sizes;
+  });
+  return std::accumulate(greatest.begin(), greatest.end(), StarSizes(), larger);
+}
+
 /// Gathers, segment after segment, what those need that fit the fast scratch memory together with the ones before. How
 /// many don't.
 template <class Memory>
 Id gather(const std::vector<StarSizes>& bounds, const SegmentKernel<Memory>& kernel, SegmentBounds& found) {
-  const std::size_t fast = is_device_memory<Memory> ? fast_scratch_bytes<WorkerSpace>() : no_limit;
+  const std::size_t fast = fast_bytes<Memory>();
   Id large = 0;
   found.usual = StarSizes();
   found.is_large.assign(bounds.size(), 0);
@@ -48,9 +66,13 @@ template <class Memory>
 std::shared_ptr<const SegmentBounds> find_segment_bounds(const Mesh& mesh, const SegmentKernel<Memory>& kernel,
                                                          int threads_per_segment) {
   const int lanes = is_device_memory<Memory> ? 32 : threads_per_segment;
-  const auto bounds = bounds_of(mesh, kernel);
   auto found = std::make_shared<SegmentBounds>();
-  for (found->warps = std::max(threads_per_segment / lanes, 1);; found->warps /= 2) {
+  found->warps = std::max(threads_per_segment / lanes, 1);
+  found->usual = greatest_bound(mesh, kernel);
+  found->is_large.assign(mesh.segments(), 0);
+  if (kernel.scratch_bytes(found->usual, found->warps) <= fast_bytes<Memory>()) return found;
+  const auto bounds = bounds_of(mesh, kernel);
+  for (;; found->warps /= 2) {
     const Id large = gather(bounds, kernel, *found);
     if (found->warps == 1 || large <= (1 - share_that_fits) * mesh.segments()) return found;
   }

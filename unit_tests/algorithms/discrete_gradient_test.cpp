@@ -56,6 +56,25 @@ TEST_P(DiscreteGradientOf, every_mesh_is_that_of_brute_force_on_every_structure)
   }
 }
 
+TEST_P(DiscreteGradientOf, the_workers_space_is_that_of_consumers) {
+  const Mesh mesh = encode(input(), segmentation());
+  const GradientReader reader(brute_force_of(mesh_name()), mesh);
+  const auto structure = make_structure(mesh, discrete_gradient_relations);
+  DeviceSweepOptions small;
+  small.memory = 1 << 16;
+  for (const Field& field : fields_on(input())) {
+    SCOPED_TRACE(field.name);
+    const VertexOrder order(mesh, field.values.data(), field.values.size());
+    const DiscreteGradient expected = find_discrete_gradient(*structure, order);
+    for (const DeviceSweepOptions& options : {DeviceSweepOptions(), small}) {
+      const DiscreteGradient found = find_discrete_gradient(WorkerSpace(), order, options);
+      EXPECT_TRUE(reader.equal(found, expected));
+      EXPECT_EQ(found.critical().star, expected.critical().star);
+      EXPECT_EQ(found.critical().star_begin, expected.critical().star_begin);
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Tests, DiscreteGradientOf, every_mesh_and_segmentation(), mesh_and_segmentation);
 
 TEST(DiscreteGradient, needs_the_relations_that_it_reads) {

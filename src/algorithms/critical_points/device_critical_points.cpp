@@ -6,10 +6,9 @@
 #include <gale/algorithms/critical_points/collect.hpp>
 #include <gale/algorithms/critical_points/vertex_types.hpp>
 #include <gale/algorithms/links/large_link.hpp>
-#include <gale/base/atomic.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/base/transfer.hpp>
-#include <gale/relations/host_worker.hpp>
+#include <gale/runtime/device/handed_stars.hpp>
 #include <gale/runtime/device_sweep.hpp>
 
 namespace gale {
@@ -19,14 +18,6 @@ namespace {
 using Memory = detail::MemoryOfSweep<WorkerSpace>;
 using DeviceBytes = Array<std::uint8_t, Memory>;
 
-/// Vertices of too many neighbours for a lane.
-struct Outgrown {
-  Array<Id, Memory> vertices;
-  Array<Id, Memory> count;
-
-  KOKKOS_FUNCTION void add(Id v) const { vertices(atomic_add(count.data(), Id(1))) = v; }
-};
-
 /// A lane a vertex. Links of vertices with up to 32 neighbours, which most have, lie in the team's scratch memory as
 /// far as that reaches; others in the lane's own.
 struct Classify {
@@ -34,8 +25,8 @@ struct Classify {
 
   const std::uint64_t* keys;
   detail::VertexTypes types;
-  Outgrown outgrown;
-  int scratch_entries;  ///< of VV that a team has room for
+  detail::HandedStars outgrown;  ///< of too many neighbours for a lane
+  int scratch_entries;           ///< of VV that a team has room for
 
   template <class Team>
   KOKKOS_FUNCTION void operator()(const Team& team, const SegmentRowsIn<Memory>& segment) const {
@@ -52,7 +43,7 @@ struct Classify {
       } else if (row.size() <= detail::SmallLink::capacity) {
         classify(v, row, detail::SmallLink(row.size(), links[v]));
       } else {
-        outgrown.add(v);
+        outgrown.add({v, row, {}, links[v]});
       }
     });
   }
@@ -83,49 +74,26 @@ struct FoundOnHost {
 };
 
 /// One thread's part in that.
-class HostClassification {
- public:
-  explicit HostClassification(const VertexOrder& order)
-      : keys_(order.keys()), rows_(order.mesh(), critical_points_relations) {}
+struct HostClassification {
+  detail::LargeLink link;
+  FoundOnHost found;
 
-  /// Some vertices of a segment.
-  void classify(Id segment, const Id* begin, const Id* end) {
-    const SegmentRows rows = rows_.compute(segment);
-    for (const Id* v = begin; v != end; ++v) {
-      const Row neighbours = rows[Relation::VV][*v];
-      const auto topology = detail::topology_of(link_, keys_, *v, neighbours, rows.links()[*v]);
-      found_.own.push_back({*v, topology});
-      if (!topology.on_surface) continue;
-      for (const Id neighbour : neighbours)
-        found_.told.push_back({neighbour, detail::VertexTypes::seen_from(keys_, neighbour, *v)});
-    }
+  void classify(const std::uint64_t* keys, const VertexStar& star) {
+    const auto topology = detail::topology_of(link, keys, star.vertex, star.neighbours, star.link);
+    found.own.push_back({star.vertex, topology});
+    if (!topology.on_surface) return;
+    for (const Id neighbour : star.neighbours)
+      found.told.push_back({neighbour, detail::VertexTypes::seen_from(keys, neighbour, star.vertex)});
   }
-
-  const FoundOnHost& found() const { return found_; }
-
- private:
-  const std::uint64_t* keys_;
-  HostWorker rows_;
-  detail::LargeLink link_;
-  FoundOnHost found_;
 };
 
-FoundOnHost classify_on_host(const VertexOrder& order, std::vector<Id> vertices) {
-  const Mesh& mesh = order.mesh();
-  std::sort(vertices.begin(), vertices.end());
-  std::vector<std::unique_ptr<HostClassification>> threads(host_threads());
-  in_turns(static_cast<int>(threads.size()), mesh.segments(), [&](int thread, std::int64_t segment) {
-    const Id* const all = vertices.data();
-    const Id* const begin = std::lower_bound(all, all + vertices.size(), mesh.vertex_begin()(segment));
-    const Id* const end = std::lower_bound(begin, all + vertices.size(), mesh.vertex_begin()(segment + 1));
-    if (begin == end) return;
-    if (!threads[thread]) threads[thread] = std::make_unique<HostClassification>(order);
-    threads[thread]->classify(static_cast<Id>(segment), begin, end);
-  });
+FoundOnHost classify_on_host(const VertexOrder& order, const detail::HandedStars::OnHost& stars) {
+  const std::uint64_t* const keys = order.keys();
+  std::vector<HostClassification> threads(host_threads());
+  in_turns(static_cast<int>(threads.size()), stars.size(),
+           [&](int thread, std::int64_t i) { threads[thread].classify(keys, stars[i]); });
   FoundOnHost all;
-  for (const auto& thread : threads) {
-    if (!thread) continue;
-    const FoundOnHost& found = thread->found();
+  for (const auto& [link, found] : threads) {
     all.own.insert(all.own.end(), found.own.begin(), found.own.end());
     all.told.insert(all.told.end(), found.told.begin(), found.told.end());
   }
@@ -156,26 +124,37 @@ int usual_scratch_entries(const Mesh& mesh) {
   return std::min(static_cast<int>(neighbours * vertices), most);
 }
 
+/// What a sweep leaves: types, and the stars that it handed on.
+struct Classified {
+  DeviceBytes own, told;
+  detail::HandedStars outgrown;
+};
+
+Classified classify_all(const WorkerSpace& space, const VertexOrder& order, const DeviceSweepOptions& options,
+                        Offset stars, Offset words) {
+  const Mesh& mesh = order.mesh();
+  const Classified found{allocate<DeviceBytes>("GALE::vertex_types", mesh.vertices()),
+                         DeviceBytes("GALE::surface_neighbours", mesh.vertices()), detail::HandedStars(stars, words)};
+  const Classify classify{order.keys_in<Memory>().data(),
+                          {found.own.data(), found.told.data()},
+                          found.outgrown,
+                          usual_scratch_entries(mesh)};
+  DeviceSweepOptions with_scratch = options;
+  with_scratch.team_scratch = 2 * sizeof(std::uint32_t) * static_cast<std::size_t>(classify.scratch_entries) + 16;
+  for_each_segment(space, mesh, critical_points_relations, classify, with_scratch);
+  return found;
+}
+
 }  // namespace
 
 CriticalPoints find_critical_points(const WorkerSpace& space, const VertexOrder& order,
                                     const DeviceSweepOptions& options) {
-  const Mesh& mesh = order.mesh();
-  const auto own = allocate<DeviceBytes>("GALE::vertex_types", mesh.vertices());
-  const DeviceBytes told("GALE::surface_neighbours", mesh.vertices());
-  const Outgrown outgrown{allocate<Array<Id, Memory>>("GALE::outgrown", mesh.vertices()),
-                          Array<Id, Memory>("GALE::outgrown_count", 1)};
-  Classify classify{order.keys_in<Memory>().data(), {own.data(), told.data()}, outgrown, usual_scratch_entries(mesh)};
-  DeviceSweepOptions with_scratch = options;
-  with_scratch.team_scratch = 2 * sizeof(std::uint32_t) * static_cast<std::size_t>(classify.scratch_entries) + 16;
-  for_each_segment(space, mesh, critical_points_relations, classify, with_scratch);
-  Id count = 0;
-  Kokkos::deep_copy(count, Kokkos::subview(outgrown.count, 0));
-  if (count > 0) {
-    const auto list = on_host(Kokkos::subview(outgrown.vertices, std::make_pair(Id(0), count)));
-    add(space, classify_on_host(order, {list.data(), list.data() + count}), classify.types);
-  }
-  return detail::collect(space, mesh, classify.types);
+  Offset stars = order.mesh().vertices() / 64 + 256, words = 96 * stars;
+  Classified found = classify_all(space, order, options, stars, words);
+  while (found.outgrown.overflowed(stars, words)) found = classify_all(space, order, options, stars, words);
+  const detail::VertexTypes types(found.own.data(), found.told.data());
+  if (found.outgrown.count() > 0) add(space, classify_on_host(order, found.outgrown.to_host()), types);
+  return detail::collect(space, order.mesh(), types);
 }
 
 }  // namespace gale

@@ -17,16 +17,24 @@ Id odd_one(const Id* vertices, const Id* others) {
 }  // namespace
 
 DiscreteGradient::DiscreteGradient(std::shared_ptr<const detail::GradientStore> store)
-    : store_(std::move(store)),
-      vertex_successor_(store_->vertex_successor.data()),
-      tetrahedron_successor_(store_->tetrahedron_successor.data()) {}
+    : store_(std::move(store)), successors_(&store_->host_successors) {}
 
 const Mesh& DiscreteGradient::mesh() const { return store_->mesh; }
 const VertexOrder& DiscreteGradient::order() const { return store_->order; }
 const CriticalSimplices& DiscreteGradient::critical() const { return store_->critical; }
-const Array<const Id, HostMemory>& DiscreteGradient::vertex_successors() const { return store_->vertex_successors; }
+const Array<const Id, HostMemory>& DiscreteGradient::vertex_successors() const { return store_->vertex_successors(); }
 const Array<const Id, HostMemory>& DiscreteGradient::tetrahedron_successors() const {
-  return store_->tetrahedron_successors;
+  return store_->tetrahedron_successors();
+}
+const Id* DiscreteGradient::fetch_vertex_successors() const {
+  const Id* const data = vertex_successors().data();
+  successors_->vertex.store(data, std::memory_order_release);
+  return data;
+}
+const Id* DiscreteGradient::fetch_tetrahedron_successors() const {
+  const Id* const data = tetrahedron_successors().data();
+  successors_->tetrahedron.store(data, std::memory_order_release);
+  return data;
 }
 std::size_t DiscreteGradient::bytes() const { return store_->bytes(); }
 
@@ -36,12 +44,12 @@ Id DiscreteGradient::triangle_of_edge(Id a, Id b) const {
 }
 
 Id DiscreteGradient::triangle_of_lower_edge(Id high, Id low) const {
-  const detail::EdgePairRow row = store_->pairs[high];
+  const detail::EdgePairRow row = store_->pairs()[high];
   return row.third(row.find(low));
 }
 
 void DiscreteGradient::for_each_edge_pair(Id high, const std::function<void(Id low, Id third)>& visit) const {
-  const detail::EdgePairRow row = store_->pairs[high];
+  const detail::EdgePairRow row = store_->pairs()[high];
   for (Id i = 0; i < row.size(); ++i) {
     const Id third = row.third(i);
     if (third != no_id) visit(row.ids()[i], third);

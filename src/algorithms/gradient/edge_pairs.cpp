@@ -1,18 +1,22 @@
 #include <algorithm>
-#include <cstring>
 
 #include <gale/algorithms/gradient/edge_pairs.hpp>
+#include <gale/base/parallel.hpp>
 #include <gale/base/view_tracking.hpp>
 
 namespace gale::detail {
 
-void EdgePairRow::begin(Id count) {
-  words_[0] = count;
-  std::memset(words_ + 1 + count, 0xff, (words_for(count) - 1 - count) * sizeof(Id));
-}
-
 EdgePairs::EdgePairs(Id vertices, int consumers)
     : rows_(allocate<Array<EdgePairRow, HostMemory>>("GALE::edge_pair_rows", vertices)), pools_(consumers) {}
+
+EdgePairs::EdgePairs(const Array<const Id, HostMemory>& words, const Array<const Offset, HostMemory>& begin,
+                     int consumers)
+    : EdgePairs(static_cast<Id>(begin.extent(0)), consumers) {
+  made_elsewhere_ = words;
+  Id* const first = const_cast<Id*>(words.data());  // rows are written once, and these are
+  parallel_for("GALE::edge_pair_rows", HostSpace(), begin.extent(0),
+               [&](Offset v) { rows_(v) = EdgePairRow(first + begin(v)); });
+}
 
 EdgePairRow EdgePairs::begin(int consumer, Id vertex, Id count) {
   // In words. Small meshes need little memory, large chunks get large pages.
@@ -33,7 +37,7 @@ EdgePairRow EdgePairs::begin(int consumer, Id vertex, Id count) {
 }
 
 std::size_t EdgePairs::bytes() const {
-  std::size_t words = 0;
+  std::size_t words = made_elsewhere_.extent(0);
   for (const Pool& pool : pools_) {
     for (const auto& chunk : pool.chunks) words += chunk.extent(0);
   }

@@ -15,13 +15,13 @@ namespace gale::detail {
 /// places, in a byte each where that suffices.
 class EdgePairRow {
  public:
-  EdgePairRow() = default;
-  explicit EdgePairRow(Id* words) : words_(words) {}
+  KOKKOS_DEFAULTED_FUNCTION EdgePairRow() = default;
+  KOKKOS_FUNCTION explicit EdgePairRow(Id* words) : words_(words) {}
 
-  static Offset words_for(Id count) { return 1 + count + (is_narrow(count) ? (count + 3) / 4 : count); }
+  KOKKOS_FUNCTION static Offset words_for(Id count) { return 1 + count + (is_narrow(count) ? (count + 3) / 4 : count); }
 
-  Id size() const { return words_[0]; }
-  const Id* ids() const { return words_ + 1; }
+  KOKKOS_FUNCTION Id size() const { return words_[0]; }
+  KOKKOS_FUNCTION const Id* ids() const { return words_ + 1; }
 
   /// Place of a lower end; no_id if it isn't one.
   Id find(Id other) const {
@@ -33,18 +33,21 @@ class EdgePairRow {
   }
 
   /// Third vertex of the triangle that the i-th edge is paired with; no_id if it is with none.
-  Id third(Id i) const {
+  KOKKOS_FUNCTION Id third(Id i) const {
     const Id place = is_narrow(size()) ? narrow()[i] == narrow_none ? no_id : narrow()[i] : wide()[i];
     return place == no_id ? no_id : ids()[place];
   }
 
   /// Makes it a row of so many edges, each in no pair.
-  void begin(Id count);
+  KOKKOS_FUNCTION void begin(Id count) {
+    words_[0] = count;
+    for (Offset i = 1 + count; i < words_for(count); ++i) words_[i] = no_id;
+  }
 
-  void set_id(Id i, Id id) { words_[1 + i] = id; }
+  KOKKOS_FUNCTION void set_id(Id i, Id id) { words_[1 + i] = id; }
 
   /// Pairs the i-th edge with the triangle whose third vertex is at `place`.
-  void pair(Id i, Id place) {
+  KOKKOS_FUNCTION void pair(Id i, Id place) {
     if (is_narrow(size())) {
       narrow()[i] = static_cast<std::uint8_t>(place);
     } else {
@@ -54,10 +57,10 @@ class EdgePairRow {
 
  private:
   static constexpr std::uint8_t narrow_none = 255;
-  static bool is_narrow(Id count) { return count <= narrow_none; }
+  KOKKOS_FUNCTION static bool is_narrow(Id count) { return count <= narrow_none; }
 
-  std::uint8_t* narrow() const { return reinterpret_cast<std::uint8_t*>(words_ + 1 + size()); }
-  Id* wide() const { return words_ + 1 + size(); }
+  KOKKOS_FUNCTION std::uint8_t* narrow() const { return reinterpret_cast<std::uint8_t*>(words_ + 1 + size()); }
+  KOKKOS_FUNCTION Id* wide() const { return words_ + 1 + size(); }
 
   Id* words_ = nullptr;
 };
@@ -68,6 +71,9 @@ class EdgePairs {
  public:
   EdgePairs() = default;
   EdgePairs(Id vertices, int consumers);
+
+  /// Of rows that were made elsewhere: their words, and where among them each vertex' row begins.
+  EdgePairs(const Array<const Id, HostMemory>& words, const Array<const Offset, HostMemory>& begin, int consumers);
 
   /// A row for a vertex, to be filled. A consumer may begin rows while others do; each vertex once.
   EdgePairRow begin(int consumer, Id vertex, Id count);
@@ -84,6 +90,7 @@ class EdgePairs {
   };
 
   Array<EdgePairRow, HostMemory> rows_;
+  Array<const Id, HostMemory> made_elsewhere_;
   std::vector<Pool> pools_;
 };
 

@@ -32,13 +32,44 @@ GradientStore::GradientStore(const Mesh& mesh_, const VertexOrder& order_, int c
       order(order_),
       vertex_successor(allocate<Array<Id, HostMemory>>("GALE::vertex_successor", mesh.vertices())),
       tetrahedron_successor(allocate<Array<Id, HostMemory>>("GALE::tetrahedron_successor", mesh.tetrahedra())),
-      vertex_successors(vertex_successor),
-      tetrahedron_successors(tetrahedron_successor),
-      pairs(mesh.vertices(), consumers),
+      vertex_successors_(vertex_successor),
+      tetrahedron_successors_(tetrahedron_successor),
+      pairs_(mesh.vertices(), consumers),
       found_(consumers),
       stars_(consumers),
       further_(consumers) {
   require_same_mesh("the vertex order", order.mesh(), mesh);
+  pairs_are_here_([] {});
+}
+
+GradientStore::GradientStore(const VertexOrder& order_, const DeviceGradient& found)
+    : mesh(order_.mesh()),
+      order(order_),
+      vertex_successors_(found.vertex_successor),
+      tetrahedron_successors_(found.tetrahedron_successor),
+      pair_words_(found.pair_words),
+      pairs_begin_(found.pairs_begin),
+      found_{found.critical},
+      stars_{found.stars} {
+  finish();
+}
+
+std::shared_ptr<GradientStore> GradientStore::on_host(const VertexOrder& order, const DeviceGradient& found,
+                                                      int consumers) {
+  const auto store = std::make_shared<GradientStore>(order.mesh(), order, consumers);
+  store->vertex_successor = gale::on_host(found.vertex_successor);
+  store->tetrahedron_successor = gale::on_host(found.tetrahedron_successor);
+  store->vertex_successors_ = store->vertex_successor;
+  store->tetrahedron_successors_ = store->tetrahedron_successor;
+  store->pairs_ = EdgePairs(gale::on_host(found.pair_words), gale::on_host(found.pairs_begin), consumers);
+  store->found_[0] = found.critical;
+  store->stars_[0] = found.stars;
+  return store;
+}
+
+const EdgePairs& GradientStore::pairs() const {
+  pairs_are_here_([this] { pairs_ = EdgePairs(pair_words_.in<HostMemory>(), pairs_begin_.in<HostMemory>(), 0); });
+  return pairs_;
 }
 
 void GradientStore::finish() {
@@ -86,7 +117,9 @@ void GradientStore::finish() {
 }
 
 std::size_t GradientStore::bytes() const {
-  return (vertex_successor.extent(0) + tetrahedron_successor.extent(0)) * sizeof(Id) + pairs.bytes();
+  const std::size_t words =
+      vertex_successors_.size() + tetrahedron_successors_.size() + pair_words_.size() + 2 * pairs_begin_.size();
+  return words * sizeof(Id) + (pair_words_.size() == 0 ? pairs_.bytes() : 0);
 }
 
 }  // namespace gale::detail

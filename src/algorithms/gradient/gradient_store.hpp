@@ -1,20 +1,43 @@
 #pragma once
 
+#include <memory>
 #include <utility>
 #include <vector>
 
-#include <gale/algorithms/critical_simplices.hpp>
+#include <gale/algorithms/discrete_gradient.hpp>
 #include <gale/algorithms/gradient/edge_pairs.hpp>
 #include <gale/algorithms/vertex_order.hpp>
 
 namespace gale::detail {
 
+/// A tetrahedron of a critical triangle.
+struct InStar {
+  std::array<Id, 3> triangle;
+  Id tetrahedron;
+};
+
+/// What kernels found.
+struct DeviceGradient {
+  Array<Id, WorkerMemory> vertex_successor, tetrahedron_successor;
+  Array<Id, WorkerMemory> pair_words;       ///< the words of EdgePairRows
+  Array<Offset, WorkerMemory> pairs_begin;  ///< where each vertex' row begins among them
+  CriticalSimplices critical;               ///< in no order, without stars
+  std::vector<InStar> stars;
+};
+
 /// What a DiscreteGradient is made of, and how the consumers of a sweep fill it: each vertex is one consumer's, and
-/// with it all simplices that have it as their highest vertex.
+/// with it all simplices that have it as their highest vertex. One that kernels found stays on the device; each part
+/// comes to the host when somebody there first asks for it.
 class GradientStore {
  public:
-  /// Throws gale::Error if the order is of another mesh.
+  /// For consumers on the host. Throws gale::Error if the order is of another mesh.
   GradientStore(const Mesh& mesh, const VertexOrder& order, int consumers);
+
+  /// What kernels found, complete.
+  GradientStore(const VertexOrder& order, const DeviceGradient& found);
+
+  /// The same on the host, for consumers to add vertices that they left out.
+  static std::shared_ptr<GradientStore> on_host(const VertexOrder& order, const DeviceGradient& found, int consumers);
 
   /// Pairs a vertex with the edge to `other`; no_id if the vertex is critical.
   void set_vertex(int consumer, Id vertex, Id other) {
@@ -23,7 +46,7 @@ class GradientStore {
   }
 
   /// A row for the lower ends of a vertex's edges, to be filled in ascending order; no edge is paired yet.
-  EdgePairRow begin_edges(int consumer, Id vertex, Id count) { return pairs.begin(consumer, vertex, count); }
+  EdgePairRow begin_edges(int consumer, Id vertex, Id count) { return pairs_.begin(consumer, vertex, count); }
 
   /// Sets the tetrahedron across the triangle that a tetrahedron is paired with, or `outside`.
   void set_tetrahedron(Id tetrahedron, Id successor) { tetrahedron_successor(tetrahedron) = successor; }
@@ -34,8 +57,7 @@ class GradientStore {
     further_[consumer].push_back({tetrahedron, successor});
   }
 
-  /// The successor of a tetrahedron that leaves through the surface, by the triangle opposite its corner.
-  static Id outside(int corner) { return no_id - 1 - corner; }
+  /// The corner opposite the triangle through which a tetrahedron leaves by a successor that `leaves` is true of.
   static int corner_outside(Id successor) { return no_id - 1 - successor; }
 
   void add_critical_edge(int consumer, Id high, Id low) { found_[consumer].edges.push_back({high, low}); }
@@ -59,14 +81,21 @@ class GradientStore {
 
   const Mesh mesh;
   const VertexOrder order;
-  Array<Id, HostMemory> vertex_successor;
-  Array<Id, HostMemory> tetrahedron_successor;
 
-  /// The same for readers, who may be on several threads: for them to refer to, not to copy.
-  const Array<const Id, HostMemory> vertex_successors;
-  const Array<const Id, HostMemory> tetrahedron_successors;
+  /// After `finish`, for readers, who may be on several threads: to refer to, not to copy.
+  template <class Memory = HostMemory>
+  const Array<const Id, Memory>& vertex_successors() const {
+    return vertex_successors_.in<Memory>();
+  }
+  template <class Memory = HostMemory>
+  const Array<const Id, Memory>& tetrahedron_successors() const {
+    return tetrahedron_successors_.in<Memory>();
+  }
+  const EdgePairs& pairs() const;
 
-  EdgePairs pairs;
+  /// For DiscreteGradient, which looks them up often.
+  mutable HostSuccessors host_successors;
+
   CriticalSimplices critical;
 
   /// (tetrahedron, successor), ascending: where rising paths fork, at triangles of three tetrahedra or more, the
@@ -74,15 +103,36 @@ class GradientStore {
   std::vector<std::pair<Id, Id>> further_successors;
 
  private:
-  struct InStar {
-    std::array<Id, 3> triangle;
-    Id tetrahedron;
-  };
+  Array<Id, HostMemory> vertex_successor, tetrahedron_successor;  // which consumers fill
+  Mirrored<Id> vertex_successors_, tetrahedron_successors_;
+  Mirrored<Id> pair_words_;       // of kernels
+  Mirrored<Offset> pairs_begin_;  // likewise
+  mutable EdgePairs pairs_;
+  mutable Once pairs_are_here_;
 
   // What each consumer found.
   std::vector<CriticalSimplices> found_;
   std::vector<std::vector<InStar>> stars_;
   std::vector<std::vector<std::pair<Id, Id>>> further_;
+};
+
+/// Where a consumer puts what it finds at a vertex: see pair_star.
+struct ConsumerSink {
+  GradientStore& store;
+  int consumer;
+
+  EdgePairRow begin_edges(Id vertex, Id count) const { return store.begin_edges(consumer, vertex, count); }
+  void set_vertex(Id vertex, Id other) const { store.set_vertex(consumer, vertex, other); }
+  void set_tetrahedron(Id tetrahedron, Id successor) const { store.set_tetrahedron(tetrahedron, successor); }
+  void add_successor(Id tetrahedron, Id successor) const { store.add_successor(consumer, tetrahedron, successor); }
+  void add_critical_edge(Id high, Id low) const { store.add_critical_edge(consumer, high, low); }
+  void add_critical_triangle(Id high, Id middle, Id low) const {
+    store.add_critical_triangle(consumer, {high, middle, low});
+  }
+  void add_critical_tetrahedron(Id tetrahedron) const { store.add_critical_tetrahedron(consumer, tetrahedron); }
+  void add_to_star(Id high, Id middle, Id low, Id tetrahedron) const {
+    store.add_to_star(consumer, {high, middle, low}, tetrahedron);
+  }
 };
 
 }  // namespace gale::detail

@@ -3,6 +3,7 @@
 #include <gale/algorithms/gradient/gradient_store.hpp>
 #include <gale/algorithms/gradient/large_lower_star.hpp>
 #include <gale/algorithms/gradient/lower_neighbours.hpp>
+#include <gale/algorithms/gradient/pair_star.hpp>
 #include <gale/relations/segment_rows.hpp>
 
 namespace gale::detail {
@@ -12,23 +13,16 @@ class GradientSweep {
  public:
   GradientSweep(GradientStore& store, int consumer);
 
+  /// Pairs the stars of a segment's vertices.
   void pair(const SegmentRows& rows);
 
- private:
-  /// A vertex and what touches it.
-  struct Star {
-    Id vertex;
-    Row neighbours, tetrahedra;
-    LinkRow link;
-  };
+  /// Pairs one.
+  void pair(const VertexStar& star);
 
-  void pair(const Star& star);
+ private:
   template <int Words>
-  bool pair_small(const Star& star);
-  void pair_large(const Star& star);
-  template <class Lower, class Cells, class Queues>
-  void pair(const Star& star, const Lower& lower, const Cells& cells, Queues&& queues);
-  Id surface_successor(const Star& star, Id place, Id a, Id b) const;
+  bool pair_small(const VertexStar& star);
+  void pair_large(const VertexStar& star);
 
   GradientStore& store_;
   int consumer_;

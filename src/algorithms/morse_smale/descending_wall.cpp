@@ -4,7 +4,7 @@
 namespace gale::detail {
 
 DescendingWall::DescendingWall(const DiscreteGradient& gradient, const TurnedEdges* turned)
-    : pairs_(gradient.store().pairs),
+    : pairs_(gradient.store().pairs()),
       vertex_successor_(gradient.vertex_successors().data()),
       keys_(gradient.order().keys()),
       vertex_input_(gradient.mesh().vertex_input().data()),

@@ -23,7 +23,7 @@ struct LowerEdge {
 class EdgeChain {
  public:
   explicit EdgeChain(const DiscreteGradient& gradient)
-      : pairs_(gradient.store().pairs),
+      : pairs_(gradient.store().pairs()),
         vertex_successor_(gradient.vertex_successors().data()),
         keys_(gradient.order().keys()) {}
 

@@ -1,8 +1,11 @@
+#include <optional>
+
 #include <CLI/CLI.hpp>
 
 #include <gale/app/commands/commands.hpp>
 #include <gale/app/critical_counts.hpp>
 #include <gale/app/session.hpp>
+#include <gale/app/usage_error.hpp>
 #include <gale/baselines/discrete_gradient_from_cells.hpp>
 #include <gale/outputs/arrows.hpp>
 #include <gale/outputs/critical_simplices.hpp>
@@ -18,6 +21,7 @@ class FindDiscreteGradient final : public Command {
                 "Pairs the simplices of a mesh along a scalar field; finds those that are left, the critical ones") {
     segmentation_.add_to(subcommand());
     structure_.add_to(subcommand());
+    structure_.add_consumers_to(subcommand());
     subcommand().add_option("-o,--output", output_, "The critical simplices: .vtp");
     subcommand()
         .add_option("--formulation", formulation_,
@@ -34,28 +38,45 @@ class FindDiscreteGradient final : public Command {
     require_extension("--arrows", arrows_, {".vtp"});
     Session session(input(), common(), {output_, arrows_});
     const FieldOnMesh on = session.read_field(segmentation_);
-    const auto structure = session.make_structure(structure_, on.mesh, relations());
-    const DiscreteGradient gradient = find(*structure, on.order, session);
-    tell(gradient.critical(), session);
-    if (!output_.empty()) write_critical(on.dataset, gradient, *structure, session);
-    session.write(
-        arrows_, [&](const io::AtomicFile& file) { io::write_points(file, outputs::arrows_of(on.dataset, gradient)); });
+    std::optional<DiscreteGradient> gradient;
+    const bool done = session.on_device(device_structure(), on.mesh, [&] {
+      gradient = find_discrete_gradient(WorkerSpace(), on.order, structure_.device_sweep());
+    });
+    std::unique_ptr<Structure> structure;
+    if (!done || !output_.empty()) structure = session.make_structure(structure_, on.mesh, relations(done));
+    if (!done) gradient = find(*structure, on.order, session);
+    tell(gradient->critical(), session);
+    if (!output_.empty()) write_critical(on.dataset, *gradient, *structure, session);
+    session.write(arrows_, [&](const io::AtomicFile& file) {
+      io::write_points(file, outputs::arrows_of(on.dataset, *gradient));
+    });
     session.finish(structure.get());
   }
 
  private:
   bool is_from_cells() const { return formulation_ == "cells"; }
 
-  /// What the gradient reads, and what numbering the critical simplices does.
-  RelationSet relations() const {
+  /// Kernels don't find it from cells.
+  StructureOption device_structure() const {
+    StructureOption option = structure_;
+    if (!is_from_cells()) return option;
+    if (option.consumers == "device") throw UsageError("--consumers device: not with --formulation cells");
+    option.consumers = "host";
+    return option;
+  }
+
+  /// What the gradient reads, unless it is there, and what numbering the critical simplices does.
+  RelationSet relations(bool is_there) const {
+    if (is_there) return simplex_numbers_relations;
     const RelationSet gradient = is_from_cells() ? discrete_gradient_from_cells_relations : discrete_gradient_relations;
     return output_.empty() ? gradient : gradient | simplex_numbers_relations;
   }
 
   DiscreteGradient find(Structure& structure, const VertexOrder& order, Session& session) const {
     const Stopwatch watch(session.report().seconds.run);
-    const auto find = is_from_cells() ? find_discrete_gradient_from_cells : find_discrete_gradient;
-    return find(structure, order, session.sweep("gradient"));
+    const SweepOptions sweep = session.sweep("gradient");
+    return is_from_cells() ? find_discrete_gradient_from_cells(structure, order, sweep)
+                           : find_discrete_gradient(structure, order, sweep);
   }
 
   void write_critical(const io::Dataset& dataset, const DiscreteGradient& gradient, Structure& structure,

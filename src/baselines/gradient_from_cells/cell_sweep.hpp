@@ -6,6 +6,7 @@
 
 #include <gale/algorithms/gradient/gradient_store.hpp>
 #include <gale/algorithms/gradient/pair_cells.hpp>
+#include <gale/algorithms/gradient/pair_star.hpp>
 #include <gale/baselines/gradient_from_cells/neighbour_ranks.hpp>
 #include <gale/baselines/gradient_from_cells/queued_lower_star.hpp>
 #include <gale/relations/segment_rows.hpp>
@@ -121,7 +122,7 @@ class CellSweep {
     const auto vertices = faces_.template row<Relation::TV>(tetrahedron);
     int corner = 0;
     while (vertices[corner] != ranks_.id(rank)) ++corner;
-    return GradientStore::outside(corner);
+    return outside(corner);
   }
 
   GradientStore& store_;

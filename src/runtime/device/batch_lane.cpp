@@ -43,7 +43,7 @@ BatchLane<Memory>::BatchLane(const Mesh& mesh, std::vector<SweepKernel<Memory>>&
       all_segments_(all_segments),
       instance_(lane_instance<Space>()),
       fast_scratch_(fast_scratch_bytes<Space>()),
-      header_(allocate<Here<Header>>("GALE::sweep_header", 1)),
+      header_(allocate<Here<BatchHeader>>("GALE::sweep_header", 1)),
       header_copy_(1) {
   const auto intervals = interval_tables_in<Memory>(mesh);
   for (const auto& one : kernels_) {
@@ -61,7 +61,7 @@ void BatchLane<Memory>::launch(BatchPlan plan) {
   plan_ = std::move(plan);
   in_flight_ = true;
   const Id* const segments = place_segments();
-  *header_copy_.data() = Header();
+  *header_copy_.data() = BatchHeader();
   Kokkos::deep_copy(instance_, header_, header_copy_.view());
   Offset* directory = directory_.data();
   for (int k = 0; k < batches_.kernels; ++k) {
@@ -98,7 +98,7 @@ template <class Memory>
 BatchShortfall BatchLane<Memory>::finish() {
   instance_.fence();
   in_flight_ = false;
-  const Header& header = *header_copy_.data();
+  const BatchHeader& header = *header_copy_.data();
   BatchShortfall lacked;
   lacked.words = header.used;
   bool all = header.used <= static_cast<Offset>(words_.extent(0));

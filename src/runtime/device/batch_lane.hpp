@@ -37,6 +37,12 @@ struct BatchShortfall {
   std::vector<StarSizes> scratch;  ///< by kernel: what the missing ones need
 };
 
+/// What the kernels of a batch say beside the blocks.
+struct BatchHeader {
+  Offset used = 0;
+  StarSizes needed[SegmentBatches<HostMemory>::most_kernels];
+};
+
 /// One batch at a time, on an instance of its own, in memory of its own that it keeps from batch to batch.
 template <class Memory>
 class BatchLane {
@@ -66,12 +72,6 @@ class BatchLane {
   template <class T>
   using Here = Array<T, Memory>;
 
-  /// What the kernels say beside the blocks.
-  struct Header {
-    Offset used = 0;
-    StarSizes needed[SegmentBatches<Memory>::most_kernels];
-  };
-
   void reserve(Offset words);
   void reserve_slots(Id count);
   const Id* place_segments();
@@ -83,8 +83,8 @@ class BatchLane {
   const Space instance_;
   const std::size_t fast_scratch_;
   Offset relations_ = 0;
-  Here<Header> header_;
-  PinnedArray<Header> header_copy_;
+  Here<BatchHeader> header_;
+  PinnedArray<BatchHeader> header_copy_;
   Here<Id> segments_, words_;
   Here<Offset> directory_;
   SegmentBatches<Memory> batches_;

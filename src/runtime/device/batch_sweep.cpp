@@ -22,7 +22,7 @@ struct Filled {
   int batches, threads_per_segment;
 
   explicit Filled(const DeviceSweepOptions& options)
-      : memory(options.memory != 0 ? options.memory : (is_device_memory<Memory> ? 128 : 4) * mebibyte),
+      : memory(options.memory != 0 ? options.memory : (is_device_memory<Memory> ? 384 : 4) * mebibyte),
         batches(given_or(options.batches, is_device_memory<Memory> ? 3 : 1, "batches")),
         threads_per_segment(given_or(options.threads_per_segment, 128, "threads per segment")) {
     given_or(options.threads_per_team, 1, "threads per team");
@@ -95,7 +95,8 @@ BatchSweep<Memory>::Batches::Batches(const Space& space, const Mesh& mesh, Relat
   }
   words_ = std::max<Offset>(static_cast<Offset>(filled.memory / filled.batches / sizeof(Id)), 1024);
   const auto all = static_cast<Offset>(words_per_vertex_ * mesh.vertices()) + 1024;
-  for (int i = 0; i < filled.batches; ++i)
+  const auto batches = static_cast<int>(std::min<Offset>(filled.batches, (all + words_ - 1) / words_));
+  for (int i = 0; i < batches; ++i)
     lanes_.push_back(std::make_unique<Lane>(mesh_, kernels_, all_segments_.data(), std::min(words_, all)));
 }
 

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <gale/algorithms/gradient/edge_pairs.hpp>
+#include <gale/algorithms/gradient/pair_cells.hpp>
+#include <gale/relations/vertex_star.hpp>
+
+namespace gale::detail {
+
+/// The successor of a tetrahedron that leaves through the surface, by the triangle opposite its corner.
+KOKKOS_INLINE_FUNCTION Id outside(int corner) { return no_id - 1 - corner; }
+
+/// The successor of the tetrahedron at `place`, which is paired with its triangle (vertex, a, b) on the surface.
+KOKKOS_INLINE_FUNCTION Id surface_successor(const VertexStar& star, Id place, Id a, Id b) {
+  for (int corner = 0; corner < 3; ++corner) {
+    const Id other = star.neighbours[star.link(place, corner)];
+    if (other != a && other != b) return outside(corner + (other > star.vertex ? 1 : 0));
+  }
+  return no_id;
+}
+
+/// Pairs the lower star of a vertex and puts what it finds into `sink`. `lower` are its lower neighbours, `cells` the
+/// star, `queues` are for pair_cells. For the host alone where these are.
+#if defined(__CUDACC__)
+#pragma nv_exec_check_disable
+#endif
+template <class Sink, class Lower, class Cells, class Queues>
+KOKKOS_FORCEINLINE_FUNCTION void pair_star(const Sink& sink, const VertexStar& star, const Lower& lower,
+                                           const Cells& cells, Queues&& queues) {
+  const auto id = [&](int rank) { return star.neighbours[lower.place(lower.with_rank(rank))]; };
+  EdgePairRow edges = sink.begin_edges(star.vertex, lower.count());
+  for (int i = 0; i < lower.count(); ++i) edges.set_id(i, star.neighbours[lower.place(i)]);
+  sink.set_vertex(star.vertex, lower.count() == 0 ? no_id : id(0));
+  if (lower.count() == 0) return;
+  const auto pair = [&](int facet, int cell) {
+    const auto& low = cells.corners(facet);
+    if (cells.dimension(cell) == 2) {
+      const auto& both = cells.corners(cell);
+      edges.pair(lower.with_rank(low[0]), lower.with_rank(both[0] == low[0] ? both[1] : both[0]));
+    } else {
+      const Id place = cells.place(cell), across = cells.across(facet, place);
+      sink.set_tetrahedron(star.tetrahedra[place], across == Cells::no_place
+                                                       ? surface_successor(star, place, id(low[0]), id(low[1]))
+                                                       : star.tetrahedra[across]);
+      if constexpr (Cells::may_fork) {
+        cells.for_each_tetrahedron(facet, [&](Id other) {
+          if (other != place && other != across) sink.add_successor(star.tetrahedra[place], star.tetrahedra[other]);
+        });
+      }
+    }
+  };
+  const auto critical = [&](int cell) {
+    const auto& corners = cells.corners(cell);
+    const int dimension = cells.dimension(cell);
+    if (dimension == 1) {
+      sink.add_critical_edge(star.vertex, id(corners[0]));
+    } else if (dimension == 3) {
+      sink.add_critical_tetrahedron(star.tetrahedra[cells.place(cell)]);
+    } else {
+      const Id middle = id(corners[0]), low = id(corners[1]);
+      sink.add_critical_triangle(star.vertex, middle, low);
+      cells.for_each_tetrahedron(cell,
+                                 [&](Id place) { sink.add_to_star(star.vertex, middle, low, star.tetrahedra[place]); });
+    }
+  };
+  pair_cells(queues, pair, critical);
+}
+
+}  // namespace gale::detail

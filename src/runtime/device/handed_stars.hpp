@@ -1,0 +1,91 @@
+#pragma once
+
+#include <gale/relations/vertex_star.hpp>
+#include <gale/runtime/device/device_list.hpp>
+
+namespace gale::detail {
+
+/// Stars that a lane can't hold, or shouldn't while others wait for it: handed on with their rows, which outlive the
+/// batch that way. Kernels append them, in no order, as long as there is room.
+class HandedStars {
+ public:
+  /// Where the rows of one begin among the words, and how long they are.
+  struct Place {
+    Id vertex, neighbours, tetrahedra, link;
+    int width;
+    Offset begin;
+  };
+
+  /// Room for so many stars, and words of their rows. Throws OutOfMemory.
+  HandedStars(Offset stars, Offset words)
+      : places_("GALE::handed_stars", stars),
+        words_(allocate<Array<Id, WorkerMemory>>("GALE::handed_rows", words)),
+        used_("GALE::handed_rows_used", 1) {}
+
+  KOKKOS_FUNCTION void add(const VertexStar& star) const {
+    const Offset bytes = Offset(3) * star.link.size() * star.link.width;
+    const Offset size = Offset(star.neighbours.size()) + star.tetrahedra.size() + (bytes + 3) / 4;
+    const Offset begin = atomic_add(used_.data(), size);
+    if (begin + size > static_cast<Offset>(words_.extent(0))) return;
+    Id* to = words_.data() + begin;
+    for (const Id id : star.neighbours) *to++ = id;
+    for (const Id id : star.tetrahedra) *to++ = id;
+    const auto* const from = static_cast<const std::uint8_t*>(star.link.places);
+    auto* const places = reinterpret_cast<std::uint8_t*>(to);
+    for (Offset i = 0; i < bytes; ++i) places[i] = from[i];
+    places_.add(
+        {star.vertex, star.neighbours.size(), star.tetrahedra.size(), star.link.size(), star.link.width, begin});
+  }
+
+  /// How many there are. Waits for all kernels.
+  Offset count() const { return places_.count(); }
+
+  /// Was there too little room? If so, `stars` and `words` become at least what there was to be.
+  bool overflowed(Offset& stars, Offset& words) const {
+    Offset used = 0;
+    Kokkos::deep_copy(used, Kokkos::subview(used_, 0));
+    const Offset least = std::max(count(), used / 4);  // those without room for their rows aren't counted
+    const bool lacked = used > static_cast<Offset>(words_.extent(0)) || places_.overflowed();
+    if (used > words) words = used;
+    if (lacked && least > stars) stars = least;
+    return lacked;
+  }
+
+  /// The i-th, for kernels.
+  KOKKOS_FUNCTION VertexStar operator[](Offset i) const { return star_at(places_[i], words_.data()); }
+
+  /// All of them there.
+  class OnHost {
+   public:
+    Offset size() const { return static_cast<Offset>(places_.size()); }
+    VertexStar operator[](Offset i) const { return star_at(places_[i], words_.data()); }
+
+   private:
+    friend class HandedStars;
+    std::vector<Place> places_;
+    Array<const Id, HostMemory> words_;
+  };
+
+  OnHost to_host() const {
+    OnHost copy;
+    copy.places_ = places_.to_host();
+    copy.words_ = on_host(words_);
+    return copy;
+  }
+
+ private:
+  KOKKOS_FUNCTION static VertexStar star_at(const Place& place, const Id* words) {
+    const Id* const neighbours = words + place.begin;
+    const Id* const tetrahedra = neighbours + place.neighbours;
+    return {place.vertex,
+            {neighbours, place.neighbours},
+            {tetrahedra, place.tetrahedra},
+            {tetrahedra + place.tetrahedra, place.link, place.width}};
+  }
+
+  DeviceList<Place> places_;
+  Array<Id, WorkerMemory> words_;
+  Array<Offset, WorkerMemory> used_;
+};
+
+}  // namespace gale::detail
