@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 
 #include <gale/app/machine.hpp>
 #include <gale/app/make_segmentation.hpp>
@@ -122,6 +123,21 @@ bool Session::on_device(const StructureOption& option, const Mesh& mesh, const s
   }
   report_.consumers = "device";
   return true;
+}
+
+Session::Gradient Session::find_gradient(const StructureOption& option, const VertexOrder& order, RelationSet then) {
+  std::optional<DiscreteGradient> gradient;
+  const bool done = on_device(option, order.mesh(),
+                              [&] { gradient = find_discrete_gradient(WorkerSpace(), order, option.device_sweep()); });
+  std::unique_ptr<Structure> structure;
+  if (!done) {
+    structure = make_structure(option, order.mesh(), discrete_gradient_relations | then);
+    const Stopwatch watch(report_.seconds.run);
+    gradient = find_discrete_gradient(*structure, order, sweep("gradient"));
+  } else if (!then.empty()) {
+    structure = make_structure(option, order.mesh(), then);
+  }
+  return {*gradient, std::move(structure)};
 }
 
 SweepOptions Session::sweep(const std::string& title) const {

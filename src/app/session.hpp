@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <gale/algorithms/discrete_gradient.hpp>
 #include <gale/algorithms/vertex_order.hpp>
 #include <gale/app/console.hpp>
 #include <gale/app/options/options.hpp>
@@ -54,6 +55,14 @@ class Session {
   /// Calls run() if consumers are to be kernels on the device; false if they aren't, or if there was no memory for them
   /// and nobody asked for them by name.
   bool on_device(const StructureOption& option, const Mesh& mesh, const std::function<void()>& run);
+
+  /// The gradient, by consumers where `option` says, and the structure for what comes `then`: null if that is nothing,
+  /// and no consumer on the host needed one.
+  struct Gradient {
+    DiscreteGradient gradient;
+    std::unique_ptr<Structure> structure;
+  };
+  Gradient find_gradient(const StructureOption& option, const VertexOrder& order, RelationSet then);
 
   /// How to sweep: on the threads that --threads says, with a progress bar of this title.
   SweepOptions sweep(const std::string& title) const;

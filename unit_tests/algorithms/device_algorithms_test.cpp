@@ -82,8 +82,7 @@ TEST(DeviceAlgorithms, of_a_field_in_the_devices_memory) {
   const Mesh mesh = encode(input, 100);
   const auto field = random_field(input, 4);
   const auto there = Kokkos::create_mirror_view_and_copy(
-      WorkerMemory(),
-      Kokkos::View<const double*, HostMemory, Kokkos::MemoryUnmanaged>(field.data(), field.size()));
+      WorkerMemory(), Kokkos::View<const double*, HostMemory, Kokkos::MemoryUnmanaged>(field.data(), field.size()));
   const VertexOrder order(mesh, there), expected(mesh, field.data(), field.size());
   EXPECT_TRUE(std::equal(order.keys(), order.keys() + mesh.vertices(), expected.keys()));
   EXPECT_EQ(find_critical_points(WorkerSpace(), order).vertices,

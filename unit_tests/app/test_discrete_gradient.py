@@ -49,6 +49,14 @@ class Counts(GradientTest):
                 with self.subTest(structure=structure, capacity=capacity, threads=threads):
                     self.assertEqual(self.critical("grid:32", "--structure", structure, "--capacity", capacity, "--threads", threads), GRID_32)
 
+    def test_of_consumers_on_either_side(self):
+        self.assertEqual(self.critical("grid:32", "--consumers", "host"), GRID_32)
+        self.succeed("discrete-gradient", "grid:16", "--consumers", "host", "-o", "host.vtp", "--arrows", "host_arrows.vtp")
+        self.succeed("discrete-gradient", "grid:16", "-o", "any.vtp", "--arrows", "any_arrows.vtp")
+        for name in ("%s.vtp", "%s_arrows.vtp"):
+            self.assertEqual((self.folder / (name % "any")).read_bytes(), (self.folder / (name % "host")).read_bytes())
+        self.refuse(2, "discrete-gradient", "grid:8", "--consumers", "device", "--formulation", "cells", naming="device")
+
     def test_of_a_larger_grid(self):
         for structure in [*gale.STRUCTURES, "task-parallel"]:
             with self.subTest(structure=structure):

@@ -36,6 +36,7 @@ class FindCriticalPoints final : public Command {
   }
 
   void run() const override {
+    structure_.require_consumers();
     require_extension("--output", output_, {".vtp"});
     Session session(input(), common(), {output_});
     const FieldOnMesh on = session.read_field(segmentation_);

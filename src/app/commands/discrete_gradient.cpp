@@ -1,5 +1,3 @@
-#include <optional>
-
 #include <CLI/CLI.hpp>
 
 #include <gale/app/commands/commands.hpp>
@@ -34,49 +32,33 @@ class FindDiscreteGradient final : public Command {
   }
 
   void run() const override {
+    structure_.require_consumers();
+    if (is_from_cells() && structure_.consumers == "device")
+      throw UsageError("--consumers device: not with --formulation cells");
     require_extension("--output", output_, {".vtp"});
     require_extension("--arrows", arrows_, {".vtp"});
     Session session(input(), common(), {output_, arrows_});
     const FieldOnMesh on = session.read_field(segmentation_);
-    std::optional<DiscreteGradient> gradient;
-    const bool done = session.on_device(device_structure(), on.mesh, [&] {
-      gradient = find_discrete_gradient(WorkerSpace(), on.order, structure_.device_sweep());
-    });
-    std::unique_ptr<Structure> structure;
-    if (!done || !output_.empty()) structure = session.make_structure(structure_, on.mesh, relations(done));
-    if (!done) gradient = find(*structure, on.order, session);
-    tell(gradient->critical(), session);
-    if (!output_.empty()) write_critical(on.dataset, *gradient, *structure, session);
-    session.write(arrows_, [&](const io::AtomicFile& file) {
-      io::write_points(file, outputs::arrows_of(on.dataset, *gradient));
-    });
-    session.finish(structure.get());
+    const Session::Gradient found = find(on, session);
+    const DiscreteGradient& gradient = found.gradient;
+    tell(gradient.critical(), session);
+    if (!output_.empty()) write_critical(on.dataset, gradient, *found.structure, session);
+    session.write(
+        arrows_, [&](const io::AtomicFile& file) { io::write_points(file, outputs::arrows_of(on.dataset, gradient)); });
+    session.finish(found.structure.get());
   }
 
  private:
   bool is_from_cells() const { return formulation_ == "cells"; }
 
-  /// Kernels don't find it from cells.
-  StructureOption device_structure() const {
-    StructureOption option = structure_;
-    if (!is_from_cells()) return option;
-    if (option.consumers == "device") throw UsageError("--consumers device: not with --formulation cells");
-    option.consumers = "host";
-    return option;
-  }
-
-  /// What the gradient reads, unless it is there, and what numbering the critical simplices does.
-  RelationSet relations(bool is_there) const {
-    if (is_there) return simplex_numbers_relations;
-    const RelationSet gradient = is_from_cells() ? discrete_gradient_from_cells_relations : discrete_gradient_relations;
-    return output_.empty() ? gradient : gradient | simplex_numbers_relations;
-  }
-
-  DiscreteGradient find(Structure& structure, const VertexOrder& order, Session& session) const {
+  Session::Gradient find(const FieldOnMesh& on, Session& session) const {
+    const RelationSet numbers = output_.empty() ? RelationSet() : simplex_numbers_relations;
+    if (!is_from_cells()) return session.find_gradient(structure_, on.order, numbers);
+    auto structure = session.make_structure(structure_, on.mesh, discrete_gradient_from_cells_relations | numbers);
     const Stopwatch watch(session.report().seconds.run);
-    const SweepOptions sweep = session.sweep("gradient");
-    return is_from_cells() ? find_discrete_gradient_from_cells(structure, order, sweep)
-                           : find_discrete_gradient(structure, order, sweep);
+    const DiscreteGradient gradient =
+        find_discrete_gradient_from_cells(*structure, on.order, session.sweep("gradient"));
+    return {gradient, std::move(structure)};
   }
 
   void write_critical(const io::Dataset& dataset, const DiscreteGradient& gradient, Structure& structure,

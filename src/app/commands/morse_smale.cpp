@@ -77,6 +77,7 @@ class FindMorseSmale final : public Command {
                 "Finds the Morse-Smale complex of a scalar field: critical simplices, separatrices, segmentation") {
     segmentation_.add_to(subcommand());
     structure_.add_to(subcommand());
+    structure_.add_consumers_to(subcommand());
     subcommand()
         .add_option("-o,--output", output_,
                     "Write P_critical_points.vtp, P_separatrices1.vtp, P_segmentation.vtu and, if wanted, "
@@ -96,6 +97,7 @@ class FindMorseSmale final : public Command {
   }
 
   void run() const override {
+    structure_.require_consumers();
     if (extrema_only_ && !persistence_) throw UsageError("--extrema-only: it goes with --persistence");
     if (!render_.empty()) {
       require_png(render_);
@@ -105,12 +107,13 @@ class FindMorseSmale final : public Command {
     Session session(input(), common(), files.all());
     const FieldOnMesh on = session.read_field(
         segmentation_, files.segmentation.empty() ? Session::Keep::nothing : Session::Keep::tetrahedra);
-    const auto structure = session.make_structure(structure_, on.mesh, morse_smale_relations);
-    MorseSmaleComplex complex = find(*structure, on, session);
+    const Session::Gradient found = session.find_gradient(structure_, on.order, morse_smale_relations);
+    Structure& structure = *found.structure;
+    MorseSmaleComplex complex = find(structure, found.gradient, on, session);
     tell(complex, parts_, session);
     if (persistence_) tell(complex.kept_below, session);
-    if (files.any()) write(files, parts_, on, complex, *structure, session);
-    session.finish(structure.get());
+    if (files.any()) write(files, parts_, on, complex, structure, session);
+    session.finish(&structure);
   }
 
  private:
@@ -142,9 +145,9 @@ class FindMorseSmale final : public Command {
   }
 
   /// The complex, simplified if that is wanted, with the needed parts.
-  MorseSmaleComplex find(Structure& structure, const FieldOnMesh& on, Session& session) const {
+  MorseSmaleComplex find(Structure& structure, const DiscreteGradient& gradient, const FieldOnMesh& on,
+                         Session& session) const {
     const Stopwatch watch(session.report().seconds.run);
-    const DiscreteGradient gradient = find_discrete_gradient(structure, on.order, session.sweep("gradient"));
     MorseSmaleComplex complex = find_morse_smale_complex(structure, gradient, needed_parts(), session.sweep("complex"));
     if (!persistence_) return complex;
     const auto value = [&](Id vertex) { return outputs::value_at(on.field, vertex); };

@@ -31,6 +31,7 @@ class FindPersistenceDiagram final : public Command {
                 "they are") {
     segmentation_.add_to(subcommand());
     structure_.add_to(subcommand());
+    structure_.add_consumers_to(subcommand());
     subcommand().add_option("-o,--output", output_, "The diagram, a line a pair: .vtu");
     subcommand().add_option("--curve", curve_,
                             "How many pairs have at least a persistence, for each that occurs: .csv");
@@ -40,14 +41,15 @@ class FindPersistenceDiagram final : public Command {
   }
 
   void run() const override {
+    structure_.require_consumers();
     require_extension("--output", output_, {".vtu"});
     require_extension("--curve", curve_, {".csv"});
     require_extension("--render", render_, {".png"});
     if (!render_.empty()) require_drawing();
     Session session(input(), common(), {output_, render_, curve_});
     const FieldOnMesh on = session.read_field(segmentation_);
-    const auto structure = session.make_structure(structure_, on.mesh, discrete_gradient_relations);
-    const auto diagram = find(*structure, on, session);
+    const Session::Gradient found = session.find_gradient(structure_, on.order, {});
+    const auto diagram = find(found.gradient, on, session);
     tell(outputs::counts_of(diagram), session);
     session.write(output_, [&](const io::AtomicFile& file) {
       io::write_lines(file, outputs::to_lines(on.dataset, on.field, diagram));
@@ -56,14 +58,14 @@ class FindPersistenceDiagram final : public Command {
       write_text(file, [&](std::ostream& out) { out << outputs::to_csv(outputs::persistence_curve(diagram)); });
     });
     session.write(render_, [&](const io::AtomicFile& file) { draw(file, plot_of(diagram, on.field.name)); });
-    session.finish(structure.get());
+    session.finish(found.structure.get());
   }
 
  private:
-  std::vector<outputs::DiagramPoint> find(Structure& structure, const FieldOnMesh& on, Session& session) const {
+  std::vector<outputs::DiagramPoint> find(const DiscreteGradient& gradient, const FieldOnMesh& on,
+                                          Session& session) const {
     const Stopwatch watch(session.report().seconds.run);
     const double least = persistence_ ? threshold_of_option(*persistence_, on.field) : 0;
-    const DiscreteGradient gradient = find_discrete_gradient(structure, on.order, session.sweep("gradient"));
     const PersistencePairs pairs = find_persistence_pairs(gradient, session.sweep("pairs"));
     return outputs::persistence_diagram(gradient, pairs, on.field, least);
   }

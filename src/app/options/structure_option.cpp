@@ -47,11 +47,15 @@ void StructureOption::add_consumers_to(CLI::App& command) {
       ->check(CLI::IsMember({"host", "device"}));
 }
 
-bool StructureOption::on_device(const Mesh& mesh) const {
-  const bool is_gale = way_named(name) == Way::gale;
-  if (consumers != "device") return consumers.empty() && is_gale && mesh.on_device();
+void StructureOption::require_consumers() const {
+  if (consumers != "device") return;
   if (!have_device) throw UsageError("--consumers device: this gale has no device");
-  if (!is_gale) throw UsageError("--consumers device: --structure " + name + " computes rows for the host");
+  if (way_named(name) != Way::gale)
+    throw UsageError("--consumers device: --structure " + name + " computes rows for the host");
+}
+
+bool StructureOption::on_device(const Mesh& mesh) const {
+  if (consumers != "device") return consumers.empty() && way_named(name) == Way::gale && mesh.on_device();
   if (!mesh.on_device()) throw Error("--consumers device: " + mesh.notice());
   return true;
 }

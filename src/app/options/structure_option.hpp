@@ -26,8 +26,12 @@ struct StructureOption {
   /// For commands whose consumers may be kernels.
   void add_consumers_to(CLI::App& command);
 
-  /// Should consumers be kernels on the device that the mesh is on? Throws UsageError where --consumers says so and
-  /// there is no device, or --structure says something else; gale::Error where the mesh doesn't fit it.
+  /// Throws UsageError where --consumers asks for a device that isn't there, or that --structure has no use for. To be
+  /// called before the work.
+  void require_consumers() const;
+
+  /// Should consumers be kernels on the device that the mesh is on? Throws gale::Error where --consumers says so and
+  /// the mesh doesn't fit it.
   bool on_device(const Mesh& mesh) const;
 
   /// How these go through the mesh.
