@@ -7,7 +7,7 @@ namespace gale {
 /// How a sweep whose consumers are kernels goes through a mesh. 0 stands for a default; no result depends on them.
 struct DeviceSweepOptions {
   /// Bytes for blocks, of all batches that are under way together. Exceeded only where one segment takes more. By
-  /// default 384 MiB on a device, 4 MiB on the host.
+  /// default 96 MiB on a device, 4 MiB on the host.
   std::size_t memory = 0;
 
   int batches = 0;              ///< under way at a time; by default 3 on a device, 1 on the host

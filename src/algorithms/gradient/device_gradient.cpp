@@ -88,7 +88,7 @@ struct PairStars {
   };
 
   KOKKOS_FUNCTION static std::size_t scratch_bytes(int rows) {
-    return sizeof(Shared) + (std::size_t(rows) + 1) * sizeof(Id);
+    return sizeof(Shared) + (2 * std::size_t(rows) + 1) * sizeof(Id);
   }
 
   template <class Team>
@@ -110,7 +110,10 @@ struct PairStars {
       });
       team::barrier(team);
       if (shared.begin >= 0) {
-        team::for_all(team, rows, [&](int i) {
+        Id* const by_size = begin + scratch_rows + 1;
+        sort_by_size(team, rows, begin, by_size);
+        team::for_all(team, rows, [&](int k) {
+          const Id i = by_size[k];
           const Offset at = shared.begin + begin[i];
           const VertexStar star = star_of(first + i);
           pairs_begin[first + i] = at;
@@ -122,6 +125,21 @@ struct PairStars {
   }
 
  private:
+  /// The rows by their lengths, the longest first, so that lanes of a warp have stars of about one size.
+  template <class Team>
+  KOKKOS_FORCEINLINE_FUNCTION static void sort_by_size(const Team& team, Id rows, const Id* begin, Id* by_size) {
+    team::for_all(team, rows, [&](int i) {
+      const Id size = begin[i + 1] - begin[i];
+      Id before = 0;
+      for (Id k = 0; k < rows; ++k) {
+        const Id other = begin[k + 1] - begin[k];
+        before += other > size || (other == size && k < i);
+      }
+      by_size[before] = i;
+    });
+    team::barrier(team);
+  }
+
   /// What the row of a vertex takes.
   KOKKOS_FORCEINLINE_FUNCTION Id words_for(const Row& neighbours, Id v) const {
     const std::uint64_t key = keys[v];
@@ -162,6 +180,9 @@ struct Room {
   }
 };
 
+/// Bytes for batches: the last stars of each take their time.
+constexpr std::size_t usual_memory = std::size_t(384) << 20;
+
 /// One sweep.
 class Attempt {
  public:
@@ -190,6 +211,7 @@ class Attempt {
                          large_,
                          rows};
     DeviceSweepOptions with_scratch = options;
+    if (have_device && options.memory == 0) with_scratch.memory = usual_memory;
     with_scratch.team_scratch = PairStars::scratch_bytes(rows) + 16;
     for_each_segment(space, mesh_, discrete_gradient_relations, pair, with_scratch);
     Kokkos::deep_copy(words_used_, Kokkos::subview(used_, 0));

@@ -8,16 +8,6 @@ namespace gale::detail {
 
 namespace {
 
-/// An instance of its own on a device; on the host there is nothing to overlap.
-template <class Space>
-Space lane_instance() {
-  if constexpr (is_device<Space>) {
-    return make_instance();
-  } else {
-    return {};
-  }
-}
-
 template <class Memory>
 IntervalTables<Memory> interval_tables_in(const Mesh& mesh) {
   IntervalTables<Memory> tables;
@@ -41,34 +31,43 @@ BatchLane<Memory>::BatchLane(const Mesh& mesh, std::vector<SweepKernel<Memory>>&
                              Offset words)
     : kernels_(kernels),
       all_segments_(all_segments),
-      instance_(lane_instance<Space>()),
+      words_(words),
       fast_scratch_(fast_scratch_bytes<Space>()),
-      header_(allocate<Here<BatchHeader>>("GALE::sweep_header", 1)),
-      header_copy_(1) {
+      memory_(KeptLanes<Memory>::instance().take()) {
   const auto intervals = interval_tables_in<Memory>(mesh);
   for (const auto& one : kernels_) {
     batches_.of[batches_.kernels].relations = one.kernel.wanted();
     batches_.of[batches_.kernels++].intervals = intervals;
     relations_ += one.kernel.wanted().count();
   }
-  reserve(words);
+  reserve(words_, 0);
+}
+
+template <class Memory>
+BatchLane<Memory>::~BatchLane() {
+  try {
+    if (in_flight_) memory_.instance.fence();
+    KeptLanes<Memory>::instance().give_back(std::move(memory_));
+  } catch (...) {
+    // What is wrong with the device, the next launch will say.
+  }
 }
 
 template <class Memory>
 void BatchLane<Memory>::launch(BatchPlan plan) {
-  reserve(plan.words);
-  reserve_slots(plan.count());
+  plan.words = std::max(plan.words, words_);
+  reserve(plan.words, plan.count());
   plan_ = std::move(plan);
   in_flight_ = true;
   const Id* const segments = place_segments();
-  *header_copy_.data() = BatchHeader();
-  Kokkos::deep_copy(instance_, header_, header_copy_.view());
-  Offset* directory = directory_.data();
+  *memory_.header_copy.data() = BatchHeader();
+  Kokkos::deep_copy(memory_.instance, memory_.header, memory_.header_copy.view());
+  Offset* directory = memory_.directory.data();
   for (int k = 0; k < batches_.kernels; ++k) {
     launch_kernel(k, segments, directory);
     directory += Offset(plan_.count()) * batches_.of[k].relations.count();
   }
-  Kokkos::deep_copy(instance_, header_copy_.view(), header_);
+  Kokkos::deep_copy(memory_.instance, memory_.header_copy.view(), memory_.header);
 }
 
 template <class Memory>
@@ -84,24 +83,24 @@ void BatchLane<Memory>::launch_kernel(int k, const Id* segments, Offset* directo
     if (bounds.is_large[segment]) task.sizes = larger(task.sizes, kernel.bound(segment));
   }
   task.scratch_level = kernel.scratch_bytes(task.sizes, bounds.warps) > fast_scratch_ ? 1 : 0;
-  task.pool = {words_.data(), static_cast<Offset>(words_.extent(0)), &header_.data()->used, directory,
-               &header_.data()->needed[k]};
-  kernel.launch(instance_, task, count, bounds.warps);
+  task.pool = {memory_.words.data(), plan_.words, &memory_.header.data()->used, directory,
+               &memory_.header.data()->needed[k]};
+  kernel.launch(memory_.instance, task, count, bounds.warps);
   Batch<Memory>& batch = batches_.of[k];
   batch.count = count;
   batch.segments = segments;
   batch.directory = directory;
-  batch.words = words_.data();
+  batch.words = memory_.words.data();
 }
 
 template <class Memory>
 BatchShortfall BatchLane<Memory>::finish() {
-  instance_.fence();
+  memory_.instance.fence();
   in_flight_ = false;
-  const BatchHeader& header = *header_copy_.data();
+  const BatchHeader& header = *memory_.header_copy.data();
   BatchShortfall lacked;
   lacked.words = header.used;
-  bool all = header.used <= static_cast<Offset>(words_.extent(0));
+  bool all = header.used <= plan_.words;
   for (int k = 0; k < batches_.kernels; ++k) {
     lacked.scratch.push_back(header.needed[k]);
     all &= header.needed[k].rows == 0;
@@ -113,7 +112,7 @@ BatchShortfall BatchLane<Memory>::finish() {
 template <class Memory>
 std::vector<Id> BatchLane<Memory>::segments_missing() const {
   const auto entries = static_cast<std::size_t>(plan_.count() * relations_);
-  const auto directory = Kokkos::create_mirror_view_and_copy(HostMemory(), first(directory_, entries));
+  const auto directory = Kokkos::create_mirror_view_and_copy(HostMemory(), first(memory_.directory, entries));
   std::vector<std::uint8_t> there(plan_.count(), 1);
   const Offset* entry = directory.data();
   for (int k = 0; k < batches_.kernels; ++k) {
@@ -135,23 +134,20 @@ template <class Memory>
 const Id* BatchLane<Memory>::place_segments() {
   if (plan_.segments.empty()) return all_segments_ + plan_.begin;
   const Kokkos::View<const Id*, HostMemory, Kokkos::MemoryUnmanaged> list(plan_.segments.data(), plan_.segments.size());
-  Kokkos::deep_copy(first(segments_, plan_.segments.size()), list);
-  return segments_.data();
+  Kokkos::deep_copy(first(memory_.segments, plan_.segments.size()), list);
+  return memory_.segments.data();
 }
 
 template <class Memory>
-void BatchLane<Memory>::reserve(Offset words) {
-  if (static_cast<Offset>(words_.extent(0)) >= words) return;
-  words_ = Here<Id>();
-  words_ = allocate<Here<Id>>("GALE::sweep_words", words);
-}
-
-template <class Memory>
-void BatchLane<Memory>::reserve_slots(Id count) {
-  if (segments_.extent(0) >= static_cast<std::size_t>(count)) return;
-  const Offset room = count + count / 4;
-  segments_ = allocate<Here<Id>>("GALE::sweep_segments", room);
-  directory_ = allocate<Here<Offset>>("GALE::sweep_directory", room * relations_);
+void BatchLane<Memory>::reserve(Offset words, Id slots) {
+  const auto grow = [](auto& array, const char* label, Offset size) {
+    if (static_cast<Offset>(array.extent(0)) >= size) return;
+    array = {};
+    array = allocate<std::decay_t<decltype(array)>>(label, size);
+  };
+  grow(memory_.words, "GALE::sweep_words", words);
+  grow(memory_.segments, "GALE::sweep_segments", slots);
+  grow(memory_.directory, "GALE::sweep_directory", slots * relations_);
 }
 
 template class BatchLane<WorkerMemory>;

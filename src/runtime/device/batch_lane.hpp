@@ -4,9 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include <gale/base/pinned.hpp>
-#include <gale/relations/kernels/segment_kernel.hpp>
-#include <gale/runtime/device/segment_batches.hpp>
+#include <gale/runtime/device/lane_memory.hpp>
 #include <gale/runtime/segment_bounds.hpp>
 
 namespace gale::detail {
@@ -37,13 +35,7 @@ struct BatchShortfall {
   std::vector<StarSizes> scratch;  ///< by kernel: what the missing ones need
 };
 
-/// What the kernels of a batch say beside the blocks.
-struct BatchHeader {
-  Offset used = 0;
-  StarSizes needed[SegmentBatches<HostMemory>::most_kernels];
-};
-
-/// One batch at a time, on an instance of its own, in memory of its own that it keeps from batch to batch.
+/// One batch at a time, on an instance of its own, in memory of its own.
 template <class Memory>
 class BatchLane {
  public:
@@ -52,7 +44,12 @@ class BatchLane {
   /// `all_segments` are 0, 1, ... in `Memory`. Refers to them and to the kernels. Throws OutOfMemory.
   BatchLane(const Mesh& mesh, std::vector<SweepKernel<Memory>>& kernels, const Id* all_segments, Offset words);
 
-  const Space& instance() const { return instance_; }
+  /// Waits for what is in flight.
+  ~BatchLane();
+  BatchLane(const BatchLane&) = delete;
+  BatchLane& operator=(const BatchLane&) = delete;
+
+  const Space& instance() const { return memory_.instance; }
 
   /// Begins to make the blocks of a batch, on a device without waiting. Throws OutOfMemory.
   void launch(BatchPlan plan);
@@ -69,24 +66,17 @@ class BatchLane {
   BatchShortfall finish();
 
  private:
-  template <class T>
-  using Here = Array<T, Memory>;
-
-  void reserve(Offset words);
-  void reserve_slots(Id count);
+  void reserve(Offset words, Id slots);
   const Id* place_segments();
   void launch_kernel(int kernel, const Id* segments, Offset* directory);
   std::vector<Id> segments_missing() const;
 
   std::vector<SweepKernel<Memory>>& kernels_;
   const Id* all_segments_;
-  const Space instance_;
+  const Offset words_;  ///< that a batch has at least
   const std::size_t fast_scratch_;
   Offset relations_ = 0;
-  Here<BatchHeader> header_;
-  PinnedArray<BatchHeader> header_copy_;
-  Here<Id> segments_, words_;
-  Here<Offset> directory_;
+  LaneMemory<Memory> memory_;
   SegmentBatches<Memory> batches_;
   BatchPlan plan_;
   bool in_flight_ = false;

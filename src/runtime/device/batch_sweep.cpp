@@ -22,7 +22,7 @@ struct Filled {
   int batches, threads_per_segment;
 
   explicit Filled(const DeviceSweepOptions& options)
-      : memory(options.memory != 0 ? options.memory : (is_device_memory<Memory> ? 384 : 4) * mebibyte),
+      : memory(options.memory != 0 ? options.memory : (is_device_memory<Memory> ? 96 : 4) * mebibyte),
         batches(given_or(options.batches, is_device_memory<Memory> ? 3 : 1, "batches")),
         threads_per_segment(given_or(options.threads_per_segment, 128, "threads per segment")) {
     given_or(options.threads_per_team, 1, "threads per team");
@@ -54,7 +54,6 @@ class BatchSweep<Memory>::Batches {
   using Lane = BatchLane<Memory>;
 
   Batches(const Space& space, const Mesh& mesh, RelationSet relations, const DeviceSweepOptions& options);
-  ~Batches();
 
   /// The lane of the next batch, launched; nullptr when all are done.
   Lane* next();
@@ -98,18 +97,6 @@ BatchSweep<Memory>::Batches::Batches(const Space& space, const Mesh& mesh, Relat
   const auto batches = static_cast<int>(std::min<Offset>(filled.batches, (all + words_ - 1) / words_));
   for (int i = 0; i < batches; ++i)
     lanes_.push_back(std::make_unique<Lane>(mesh_, kernels_, all_segments_.data(), std::min(words_, all)));
-}
-
-template <class Memory>
-BatchSweep<Memory>::Batches::~Batches() {
-  for (const auto& lane : lanes_) {
-    if (!lane->in_flight()) continue;
-    try {
-      lane->instance().fence();
-    } catch (...) {
-      // What is wrong with the device, the next launch will say.
-    }
-  }
 }
 
 template <class Memory>
