@@ -14,6 +14,8 @@
 #include <KokkosKernels_Handle.hpp>
 #endif
 
+#include "unit_grid.hpp"
+
 using Space = Kokkos::DefaultExecutionSpace;
 using Memory = Space::memory_space;
 using gale::Id;
@@ -21,28 +23,6 @@ using gale::Id;
 using Points = Kokkos::View<double* [3], Kokkos::LayoutLeft, Space>;
 using Tetrahedra = Kokkos::View<std::int64_t* [4], Space>;
 using Values = Kokkos::View<double*, Space>;
-
-/// n x n x n points of a unit grid, and six tetrahedra about the diagonal of each of its cells.
-void fill(int n, const Points& points, const Tetrahedra& tetrahedra) {
-  Kokkos::parallel_for(
-      "points", Kokkos::RangePolicy<Space>(0, n * n * n), KOKKOS_LAMBDA(int i) {
-        points(i, 0) = i % n;
-        points(i, 1) = i / n % n;
-        points(i, 2) = i / (n * n);
-      });
-  Kokkos::parallel_for(
-      "tetrahedra", Kokkos::RangePolicy<Space>(0, (n - 1) * (n - 1) * (n - 1)), KOKKOS_LAMBDA(int cell) {
-        const int m = n - 1, first = (cell / (m * m) * n + cell / m % m) * n + cell % m;
-        const int step[3] = {1, n, n * n},
-                  order[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
-        for (int i = 0; i < 6; ++i) {
-          int vertex = first;
-          tetrahedra(6 * cell + i, 0) = vertex;
-          for (int corner = 0; corner < 3; ++corner)
-            tetrahedra(6 * cell + i, corner + 1) = vertex += step[order[i][corner]];
-        }
-      });
-}
 
 /// A quarter of the volume of each tetrahedron of a vertex (VT). Rows have GALE's ids; the arrays are the caller's.
 struct DualVolume {
@@ -113,7 +93,7 @@ int main(int argc, char** argv) {
   constexpr int n = 17, steps = 4;
   const Points points("points", n * n * n);
   const Tetrahedra tetrahedra("tetrahedra", 6 * (n - 1) * (n - 1) * (n - 1));
-  fill(n, points, tetrahedra);
+  fill_unit_grid(n, points, tetrahedra);
   Values field("field", n * n * n), next("next", n * n * n);
   const Values volume("volume", n * n * n);
   Kokkos::parallel_for(

@@ -55,16 +55,21 @@ third() { GTEST_TOTAL_SHARDS=3 GTEST_SHARD_INDEX=1 run_tests "$@"; }
 address() {
   export LSAN_OPTIONS=suppressions=$PWD/unit_tests/leaks.supp:print_suppressions=0
   build sanitize gale_base gale_mesh gale_relations gale_runtime gale_algorithms gale_io
-  together "run_tests sanitize base" "run_tests sanitize mesh" "third sanitize algorithms"
-  together "run_tests sanitize runtime" "third sanitize relations" "run_tests sanitize io"
+  together "third sanitize algorithms" "all_but_algorithms"
 }
 
-# Of the runtime, all but what takes minutes here to compare every mesh with brute force; of the algorithms, those whose
+all_but_algorithms() {
+  local folder
+  for folder in base mesh runtime io; do run_tests sanitize $folder; done
+  third sanitize relations
+}
+
+# Of the runtime, all but what takes minutes here to compare every mesh with brute force, or has one thread; of the algorithms, those whose
 # sweeps write what several threads read.
 thread() {
   build sanitize-thread gale_base gale_runtime gale_algorithms
   together "run_tests sanitize-thread base" \
-    "run_tests sanitize-thread runtime -MixedSweep.*:Tests/MixedSweepOf.*" \
+    "run_tests sanitize-thread runtime -MixedSweep.*:Tests/MixedSweepOf.*:Tests/DeviceSweepOf.*" \
     "run_tests sanitize-thread algorithms CriticalPoints.*:DiscreteGradient.*:MorseSmaleComplex.*:Simplify.*"
 }
 

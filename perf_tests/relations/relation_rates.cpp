@@ -19,21 +19,13 @@ using namespace gale;
 
 constexpr std::size_t copied_at_once = std::size_t(16) << 20;
 
-Array<Id, WorkerMemory> all_segments(const Mesh& mesh) {
-  const Array<Id, WorkerMemory> segments("segments", mesh.segments());
-  parallel_for(
-      "GALE::all_segments", WorkerSpace(), mesh.segments(),
-      KOKKOS_LAMBDA(Offset s) { segments(s) = static_cast<Id>(s); });
-  return segments;
-}
-
 /// A kernel over all segments, in as few launches as its output has room for.
 class WholeMesh {
  public:
   WholeMesh(const Mesh& mesh, RelationSet wanted)
       : count_(mesh.segments()),
         kernel_(mesh, wanted),
-        segments_(all_segments(mesh)),
+        segments_(iota("segments", WorkerSpace(), mesh.segments())),
         words_(allocate<Array<Id, WorkerMemory>>("words", pool_words())),
         directory_("directory", Offset(mesh.segments()) * wanted.count()),
         used_("used", 1),

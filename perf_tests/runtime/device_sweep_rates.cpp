@@ -93,17 +93,17 @@ void measure_set_up(const Mesh& mesh) {
 }
 
 void measure_gradient(const Mesh& mesh, const VertexOrder& order) {
-  for (const std::size_t memory : {std::size_t(0), 48 * mebi, 384 * mebi}) {
-    for (const int threads : {32, 64, 96}) {
+  for (const std::size_t memory : {std::size_t(0), 48 * mebi, 384 * mebi, 1536 * mebi}) {
+    for (const int batches : {2, 3, 6}) {
       auto options = with_memory(memory);
+      options.batches = batches;
       const double made = perf::median_seconds_of(
           runs, [&] { for_each_segment(WorkerSpace(), mesh, discrete_gradient_relations, ReadNothing(), options); });
-      options.threads_per_team = threads;
       std::array<Id, 4> counts{};
       const double found = perf::median_seconds_of(
           runs, [&] { counts = find_discrete_gradient(WorkerSpace(), order, options).critical().counts(); });
-      std::printf("gradient, %5zu MiB, teams of %3d: rows made %7.2f ms, all %7.2f ms: %d %d %d %d\n", memory / mebi,
-                  threads, 1e3 * made, 1e3 * found, counts[0], counts[1], counts[2], counts[3]);
+      std::printf("gradient, %5zu MiB, %d batches: rows made %7.2f ms, all %7.2f ms: %d %d %d %d\n", memory / mebi,
+                  batches, 1e3 * made, 1e3 * found, counts[0], counts[1], counts[2], counts[3]);
       std::fflush(stdout);
     }
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <string>
 #include <vector>
 
 #include <gale/base/kokkos.hpp>
@@ -47,6 +48,15 @@ void parallel_for(const char* label, const Space& space, Offset n, const Body& b
       for (Offset i = begin; i < end; ++i) body(i);
     });
   }
+}
+
+/// 0, 1, ..., count - 1.
+template <class Space>
+Array<Id, MemoryOf<Space>> iota(const std::string& label, const Space& space, Offset count) {
+  const auto ids = allocate<Array<Id, MemoryOf<Space>>>(label, count);
+  parallel_for(
+      "GALE::iota", space, count, KOKKOS_LAMBDA(Offset i) { ids(i) = static_cast<Id>(i); });
+  return ids;
 }
 
 /// begin[i] = count(0) + ... + count(i-1) for i in 0..n; returns begin[n], for which it waits. `count(i)` may read

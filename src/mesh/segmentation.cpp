@@ -77,14 +77,6 @@ Array<std::uint64_t, MemoryOf<Space>> morton_codes(const Space& space,
   return codes;
 }
 
-template <class Space>
-Array<Id, MemoryOf<Space>> iota(const Space& space, Offset count) {
-  const auto ids = allocate<Array<Id, MemoryOf<Space>>>("GALE::vertex_input", count);
-  parallel_for(
-      "GALE::iota", space, count, KOKKOS_LAMBDA(Offset i) { ids(i) = static_cast<Id>(i); });
-  return ids;
-}
-
 Mirrored<Id> vertex_begin_of(const std::vector<Id>& begin) {
   const auto ids = allocate<Array<Id, HostMemory>>("GALE::vertex_begin", begin.size());
   std::copy(begin.begin(), begin.end(), ids.data());
@@ -95,7 +87,7 @@ template <class Coordinate, class Space>
 Segmentation octree_in(const Space& space, const Points<Coordinate, MemoryOf<Space>>& points, int capacity) {
   const auto count = static_cast<Id>(points.extent(0));
   const auto codes = morton_codes<Coordinate>(space, points, bounding_cube<Coordinate>(space, points));
-  const auto vertex_input = iota(space, count);
+  const auto vertex_input = iota("GALE::vertex_input", space, count);
   stable_sort_by_key(space, codes, vertex_input);
   const auto leaves = detail::octree_leaves(space, codes, capacity);
   space.fence();
@@ -106,7 +98,7 @@ Segmentation octree_in(const Space& space, const Points<Coordinate, MemoryOf<Spa
 template <class Space>
 Mirrored<Id> sort_labels(const Space& space, const Array<std::uint64_t, HostMemory>& keys) {
   const auto sorted = in_memory<MemoryOf<Space>>(keys);
-  const auto vertex_input = iota(space, keys.extent(0));
+  const auto vertex_input = iota("GALE::vertex_input", space, keys.extent(0));
   stable_sort_by_key(space, sorted, vertex_input);
   const auto back = on_host(sorted);
   if (back.data() != keys.data()) Kokkos::deep_copy(keys, back);
@@ -120,7 +112,7 @@ template <class Coordinate, class Memory>
 Segmentation octree_segmentation(const Points<Coordinate, Memory>& given, int capacity) {
   if (capacity < 1) throw Error("a segment's capacity must be at least 1 vertex, not " + std::to_string(capacity));
   require_ids("vertices", static_cast<Offset>(given.extent(0)));
-  if (given.extent(0) == 0) return {iota(HostSpace(), 0), vertex_begin_of({0})};
+  if (given.extent(0) == 0) return {iota("GALE::vertex_input", HostSpace(), 0), vertex_begin_of({0})};
   return in_worker_or_host_space(true, [&](const auto& space) {
     using Here = MemoryOf<std::decay_t<decltype(space)>>;
     return octree_in<Coordinate>(space, in_memory<Here>(given), capacity);

@@ -1,7 +1,10 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
+#include <string>
 
+#include <gale/base/error.hpp>
 #include <gale/base/team.hpp>
 #include <gale/runtime/device/batch_sweep.hpp>
 #include <gale/runtime/device_sweep_options.hpp>
@@ -64,6 +67,8 @@ template <class Space, class Functor>
 void for_each_segment(const Space& space, const Mesh& mesh, RelationSet relations, const Functor& functor,
                       const DeviceSweepOptions& options = {}) {
   using Memory = detail::MemoryOfSweep<Space>;
+  if (options.team_scratch > std::size_t(std::numeric_limits<int>::max()))
+    throw Error("a team can't have " + std::to_string(options.team_scratch) + " bytes of scratch memory");
   detail::BatchSweep<Memory> sweep(space, mesh, relations, options);
   const int warps = is_device<Space> ? detail::warps_of_team(options, sweep.mean_vertices()) : 1;
   sweep.run([&](const auto& launched) {

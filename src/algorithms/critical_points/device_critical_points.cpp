@@ -119,9 +119,9 @@ void add(const WorkerSpace& space, const FoundOnHost& found, const detail::Verte
 /// Room in scratch memory for the links of a segment of a regular mesh.
 int usual_scratch_entries(const Mesh& mesh) {
   constexpr double neighbours = 17;
-  constexpr int most = 4096;
-  const double vertices = static_cast<double>(mesh.vertices()) / mesh.segments();
-  return std::min(static_cast<int>(neighbours * vertices), most);
+  constexpr double most = 2048;  // 16 KiB: hosts have 32
+  const double vertices = static_cast<double>(mesh.vertices()) / std::max(mesh.segments(), Id(1));
+  return static_cast<int>(std::min(neighbours * vertices, most));
 }
 
 /// What a sweep leaves: types, and the stars that it handed on.
@@ -133,8 +133,11 @@ struct Classified {
 Classified classify_all(const WorkerSpace& space, const VertexOrder& order, const DeviceSweepOptions& options,
                         Offset stars, Offset words) {
   const Mesh& mesh = order.mesh();
+  // Neighbours are told in words of four bytes on a device.
   const Classified found{allocate<DeviceBytes>("GALE::vertex_types", mesh.vertices()),
-                         DeviceBytes("GALE::surface_neighbours", mesh.vertices()), detail::HandedStars(stars, words)};
+                         allocate<DeviceBytes>("GALE::surface_neighbours", (mesh.vertices() + 3) / 4 * 4),
+                         detail::HandedStars(stars, words)};
+  Kokkos::deep_copy(space, found.told, std::uint8_t(0));
   const Classify classify{order.keys_in<Memory>().data(),
                           {found.own.data(), found.told.data()},
                           found.outgrown,
@@ -150,8 +153,12 @@ Classified classify_all(const WorkerSpace& space, const VertexOrder& order, cons
 CriticalPoints find_critical_points(const WorkerSpace& space, const VertexOrder& order,
                                     const DeviceSweepOptions& options) {
   Offset stars = order.mesh().vertices() / 64 + 256, words = 96 * stars;
-  Classified found = classify_all(space, order, options, stars, words);
-  while (found.outgrown.overflowed(stars, words)) found = classify_all(space, order, options, stars, words);
+  auto classified = std::make_unique<Classified>(classify_all(space, order, options, stars, words));
+  while (classified->outgrown.overflowed(stars, words)) {
+    classified.reset();
+    classified = std::make_unique<Classified>(classify_all(space, order, options, stars, words));
+  }
+  const Classified& found = *classified;
   const detail::VertexTypes types(found.own.data(), found.told.data());
   if (found.outgrown.count() > 0) add(space, classify_on_host(order, found.outgrown.to_host()), types);
   return detail::collect(space, order.mesh(), types);

@@ -3,10 +3,9 @@
 #include <vector>
 
 #include <gale/algorithms/discrete_gradient.hpp>
-#include <gale/algorithms/gradient/bit_queues.hpp>
 #include <gale/algorithms/gradient/gradient_store.hpp>
 #include <gale/algorithms/gradient/gradient_sweep.hpp>
-#include <gale/algorithms/gradient/lower_star.hpp>
+#include <gale/algorithms/gradient/pairing_kernels.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/runtime/device/handed_stars.hpp>
 #include <gale/runtime/device_sweep.hpp>
@@ -20,149 +19,6 @@ namespace {
 
 using Memory = detail::MemoryOfSweep<WorkerSpace>;
 using detail::DeviceList;
-
-/// Where lanes put what they find at a vertex: see pair_star.
-struct LaneSink {
-  Id* vertex_successor;
-  Id* tetrahedron_successor;
-  DeviceList<Id> critical_vertices;
-  DeviceList<std::array<Id, 2>> critical_edges;
-  DeviceList<std::array<Id, 3>> critical_triangles;
-  DeviceList<Id> critical_tetrahedra;
-  DeviceList<detail::InStar> stars;
-};
-
-/// The same for one lane, whose row of edges has its place.
-struct RowSink {
-  const LaneSink& all;
-  Id* row;
-
-  KOKKOS_FORCEINLINE_FUNCTION detail::EdgePairRow begin_edges(Id, Id count) const {
-    detail::EdgePairRow edges(row);
-    edges.begin(count);
-    return edges;
-  }
-  KOKKOS_FORCEINLINE_FUNCTION void set_vertex(Id vertex, Id other) const {
-    all.vertex_successor[vertex] = other;
-    if (other == no_id) all.critical_vertices.add(vertex);
-  }
-  KOKKOS_FORCEINLINE_FUNCTION void set_tetrahedron(Id tetrahedron, Id successor) const {
-    all.tetrahedron_successor[tetrahedron] = successor;
-  }
-  KOKKOS_FORCEINLINE_FUNCTION void add_critical_edge(Id high, Id low) const { all.critical_edges.add({high, low}); }
-  KOKKOS_FORCEINLINE_FUNCTION void add_critical_triangle(Id high, Id middle, Id low) const {
-    all.critical_triangles.add({high, middle, low});
-  }
-  KOKKOS_FORCEINLINE_FUNCTION void add_critical_tetrahedron(Id tetrahedron) const {
-    all.tetrahedron_successor[tetrahedron] = no_id;
-    all.critical_tetrahedra.add(tetrahedron);
-  }
-  KOKKOS_FORCEINLINE_FUNCTION void add_to_star(Id high, Id middle, Id low, Id tetrahedron) const {
-    all.stars.add({{high, middle, low}, tetrahedron});
-  }
-};
-
-/// Pairs a star of so many words of cells; false if it has more.
-template <int Words>
-KOKKOS_FUNCTION bool pair_of_words(const std::uint64_t* keys, const LaneSink& sink, const VertexStar& star, Id* row) {
-  detail::LowerNeighbours lower;
-  detail::LowerStar<Words> cells;
-  if (!lower.find(keys, star.vertex, star.neighbours) || !cells.build(lower, star.link)) return false;
-  detail::pair_star(RowSink{sink, row}, star, lower, cells, detail::BitQueues<detail::LowerStar<Words>>(cells));
-  return true;
-}
-
-/// Pairs the lower stars of a segment's vertices.
-struct PairStars {
-  const std::uint64_t* keys;
-  LaneSink sink;
-  Id* words;
-  Offset capacity;            ///< of words
-  Offset* used;               ///< words reserved; above `capacity` it says what there should have been
-  Offset* pairs_begin;        ///< of each vertex
-  detail::HandedStars large;  ///< of more than one word of cells
-  int scratch_rows;           ///< that a team has scratch memory for
-
-  struct Shared {
-    Offset begin;
-  };
-
-  KOKKOS_FUNCTION static std::size_t scratch_bytes(int rows) {
-    return sizeof(Shared) + (2 * std::size_t(rows) + 1) * sizeof(Id);
-  }
-
-  template <class Team>
-  KOKKOS_FUNCTION void operator()(const Team& team, const SegmentRowsIn<Memory>& segment) const {
-    char* const scratch = team::scratch<0>(team, scratch_bytes(scratch_rows));
-    Shared& shared = *reinterpret_cast<Shared*>(scratch);
-    Id* const begin = reinterpret_cast<Id*>(scratch + sizeof(Shared));
-    const Rows neighbours = segment[Relation::VV], tetrahedra = segment[Relation::VT];
-    const LinkRows links = segment.links();
-    for (Id from = 0; from < neighbours.count; from += scratch_rows) {
-      const Id rows = neighbours.count - from < scratch_rows ? neighbours.count - from : scratch_rows;
-      const Id first = neighbours.first + from;
-      const auto star_of = [&](Id v) { return VertexStar{v, neighbours[v], tetrahedra[v], links[v]}; };
-      team::for_all(team, rows, [&](int i) { begin[i] = words_for(neighbours[first + i], first + i); });
-      team::exclusive_scan(team, rows, begin);
-      team::once(team, [&] {
-        const Offset at = team::add(team, used, Offset(begin[rows]));
-        shared.begin = at + begin[rows] <= capacity ? at : -1;
-      });
-      team::barrier(team);
-      if (shared.begin >= 0) {
-        Id* const by_size = begin + scratch_rows + 1;
-        sort_by_size(team, rows, begin, by_size);
-        team::for_all(team, rows, [&](int k) {
-          const Id i = by_size[k];
-          const Offset at = shared.begin + begin[i];
-          const VertexStar star = star_of(first + i);
-          pairs_begin[first + i] = at;
-          if (!pair_of_words<1>(keys, sink, star, words + at)) large.add(star);
-        });
-      }
-      team::barrier(team);
-    }
-  }
-
- private:
-  /// The rows by their lengths, the longest first, so that lanes of a warp have stars of about one size.
-  template <class Team>
-  KOKKOS_FORCEINLINE_FUNCTION static void sort_by_size(const Team& team, Id rows, const Id* begin, Id* by_size) {
-    team::for_all(team, rows, [&](int i) {
-      const Id size = begin[i + 1] - begin[i];
-      Id before = 0;
-      for (Id k = 0; k < rows; ++k) {
-        const Id other = begin[k + 1] - begin[k];
-        before += other > size || (other == size && k < i);
-      }
-      by_size[before] = i;
-    });
-    team::barrier(team);
-  }
-
-  /// What the row of a vertex takes.
-  KOKKOS_FORCEINLINE_FUNCTION Id words_for(const Row& neighbours, Id v) const {
-    const std::uint64_t key = keys[v];
-    Id lower = 0;
-    for (const Id neighbour : neighbours) lower += keys[neighbour] < key;
-    return static_cast<Id>(detail::EdgePairRow::words_for(lower));
-  }
-};
-
-/// The same for the stars that they hand on; those of more than two words are handed on again.
-struct PairLargeStars {
-  const std::uint64_t* keys;
-  LaneSink sink;
-  Id* words;
-  const Offset* pairs_begin;
-  detail::HandedStars large;
-  DeviceList<Offset> outgrown;  ///< places in `large`
-
-  KOKKOS_FUNCTION void operator()(Offset i) const {
-    const VertexStar star = large[i];
-    if (!pair_of_words<2>(keys, sink, star, words + pairs_begin[star.vertex])) outgrown.add(i);
-  }
-};
 
 /// How much room a sweep has for what it finds.
 struct Room {
@@ -202,25 +58,25 @@ class Attempt {
               {"GALE::critical_tetrahedra", room.tetrahedra},
               {"GALE::critical_stars", room.stars}} {
     const auto rows = static_cast<int>(std::min(1024.0, 1.3 * mesh_.vertices() / mesh_.segments() + 32));
-    const PairStars pair{order.keys_in<Memory>().data(),
-                         sink_,
-                         words_.data(),
-                         room.words,
-                         used_.data(),
-                         pairs_begin_.data(),
-                         large_,
-                         rows};
+    const detail::PairStars pair{order.keys_in<Memory>().data(),
+                                 sink_,
+                                 words_.data(),
+                                 room.words,
+                                 used_.data(),
+                                 pairs_begin_.data(),
+                                 large_,
+                                 rows};
     DeviceSweepOptions with_scratch = options;
     if (have_device && options.memory == 0) with_scratch.memory = usual_memory;
-    with_scratch.team_scratch = PairStars::scratch_bytes(rows) + 16;
+    with_scratch.team_scratch = detail::PairStars::scratch_bytes(rows) + 16;
     for_each_segment(space, mesh_, discrete_gradient_relations, pair, with_scratch);
     Kokkos::deep_copy(words_used_, Kokkos::subview(used_, 0));
     const Offset count = std::min(large_.count(), room.large);
     outgrown_ = {"GALE::outgrown", count};
     if (words_used_ > room.words) return;
-    Kokkos::parallel_for("GALE::pair_large_stars",
-                         Kokkos::RangePolicy<WorkerSpace, Kokkos::IndexType<Offset>>(space, 0, count),
-                         PairLargeStars{pair.keys, sink_, words_.data(), pairs_begin_.data(), large_, outgrown_});
+    Kokkos::parallel_for(
+        "GALE::pair_large_stars", Kokkos::RangePolicy<WorkerSpace, Kokkos::IndexType<Offset>>(space, 0, count),
+        detail::PairLargeStars{pair.keys, sink_, words_.data(), pairs_begin_.data(), large_, outgrown_});
     space.fence();
   }
 
@@ -236,7 +92,9 @@ class Attempt {
     raise(room.stars, sink_.stars.count());
     const bool handed = !large_.overflowed(room.large, room.large_words);
     // Segments without room for their rows have found nothing: there may be more of everything.
-    if (room.words > had.words) room.edges = room.triangles = room.tetrahedra = mesh_.vertices();
+    if (room.words > had.words) {
+      for (Offset* const list : {&room.edges, &room.triangles, &room.tetrahedra}) raise(*list, mesh_.vertices());
+    }
     return room.words == had.words && room.vertices == had.vertices && room.edges == had.edges &&
            room.triangles == had.triangles && room.tetrahedra == had.tetrahedra && room.stars == had.stars && handed;
   }
@@ -265,7 +123,7 @@ class Attempt {
   Array<Offset, Memory> pairs_begin_, used_;
   detail::HandedStars large_;
   DeviceList<Offset> outgrown_;
-  LaneSink sink_;
+  detail::LaneSink sink_;
   Offset words_used_ = 0;
 };
 

@@ -22,9 +22,11 @@ DiscreteGradient::DiscreteGradient(std::shared_ptr<const detail::GradientStore> 
 const Mesh& DiscreteGradient::mesh() const { return store_->mesh; }
 const VertexOrder& DiscreteGradient::order() const { return store_->order; }
 const CriticalSimplices& DiscreteGradient::critical() const { return store_->critical; }
-const Array<const Id, HostMemory>& DiscreteGradient::vertex_successors() const { return store_->vertex_successors(); }
+const Array<const Id, HostMemory>& DiscreteGradient::vertex_successors() const {
+  return store_->vertex_successors().in<HostMemory>();
+}
 const Array<const Id, HostMemory>& DiscreteGradient::tetrahedron_successors() const {
-  return store_->tetrahedron_successors();
+  return store_->tetrahedron_successors().in<HostMemory>();
 }
 const Id* DiscreteGradient::fetch_vertex_successors() const {
   const Id* const data = vertex_successors().data();

@@ -82,15 +82,10 @@ class GradientStore {
   const Mesh mesh;
   const VertexOrder order;
 
-  /// After `finish`, for readers, who may be on several threads: to refer to, not to copy.
-  template <class Memory = HostMemory>
-  const Array<const Id, Memory>& vertex_successors() const {
-    return vertex_successors_.in<Memory>();
-  }
-  template <class Memory = HostMemory>
-  const Array<const Id, Memory>& tetrahedron_successors() const {
-    return tetrahedron_successors_.in<Memory>();
-  }
+  /// After `finish`, for readers, who may be on several threads: to refer to, not to copy. On the device, if kernels
+  /// found them.
+  const Mirrored<Id>& vertex_successors() const { return vertex_successors_; }
+  const Mirrored<Id>& tetrahedron_successors() const { return tetrahedron_successors_; }
   const EdgePairs& pairs() const;
 
   /// For DiscreteGradient, which looks them up often.

@@ -1,3 +1,4 @@
+#include <gale/algorithms/gradient/gradient_store.hpp>
 #include <gale/algorithms/morse_smale/manifolds.hpp>
 #include <gale/base/atomic.hpp>
 #include <gale/base/pair_key.hpp>
@@ -24,10 +25,15 @@ constexpr Id outside = -1;
 /// A copy of successors in a space's memory in which the critical ones lead to their places, and those that leave to
 /// `outside`.
 template <class Space>
-Ids<Space> with_ends(const Space& space, const Array<const Id, HostMemory>& successors,
-                     const std::vector<Id>& critical) {
-  const auto next = allocate<Ids<Space>>("GALE::next_on_path", successors.extent(0));
-  const auto from = in_memory<MemoryOf<Space>>(successors);
+Ids<Space> with_ends(const Space& space, const Mirrored<Id>& successors, const std::vector<Id>& critical) {
+  const auto next = allocate<Ids<Space>>("GALE::next_on_path", successors.size());
+  // A copy for the device alone goes when this is done.
+  Array<const Id, MemoryOf<Space>> from;
+  if (successors.on_device()) {
+    from = successors.in<MemoryOf<Space>>();
+  } else {
+    from = in_memory<MemoryOf<Space>>(successors.in<HostMemory>());
+  }
   parallel_for(
       "GALE::begin_paths", space, from.extent(0), KOKKOS_LAMBDA(Offset i) {
         const Id successor = from(i);
@@ -87,7 +93,7 @@ Keys<Space> first_tetrahedra(const Space& space, const Mesh& mesh) {
 
 template <class Space>
 HostIds descending_in(const Space& space, const DiscreteGradient& gradient) {
-  const auto next = with_ends(space, gradient.vertex_successors(), gradient.critical().vertices);
+  const auto next = with_ends(space, gradient.store().vertex_successors(), gradient.critical().vertices);
   jump(space, next);
   const auto input = gradient.mesh().vertex_input<MemoryOf<Space>>();
   const auto manifolds = allocate<Ids<Space>>("GALE::descending_manifolds", next.extent(0));
@@ -99,7 +105,7 @@ HostIds descending_in(const Space& space, const DiscreteGradient& gradient) {
 
 template <class Space>
 HostIds ascending_in(const Space& space, const DiscreteGradient& gradient) {
-  const auto next = with_ends(space, gradient.tetrahedron_successors(), gradient.critical().tetrahedra);
+  const auto next = with_ends(space, gradient.store().tetrahedron_successors(), gradient.critical().tetrahedra);
   jump(space, next);
   const auto first = first_tetrahedra(space, gradient.mesh());
   const auto input = gradient.mesh().vertex_input<MemoryOf<Space>>();

@@ -2,6 +2,7 @@
 #include <tuple>
 #include <utility>
 
+#include <gale/algorithms/gradient/gradient_store.hpp>
 #include <gale/algorithms/morse_smale.hpp>
 #include <gale/algorithms/morse_smale/ascending_walls.hpp>
 #include <gale/algorithms/morse_smale/descending_surfaces.hpp>
@@ -11,6 +12,21 @@
 
 namespace gale {
 
+namespace {
+
+/// Those of the parts that the complex is to have.
+void find_manifolds(MorseSmaleComplex& complex) {
+  const MorseSmaleParts& parts = complex.parts;
+  if (parts.descending_manifolds) complex.descending_manifold = detail::descending_manifolds(complex.gradient);
+  if (parts.ascending_manifolds) complex.ascending_manifold = detail::ascending_manifolds(complex.gradient);
+  if (parts.descending_manifolds && parts.ascending_manifolds) {
+    std::tie(complex.morse_smale_manifold, complex.morse_smale_manifolds) =
+        detail::morse_smale_manifolds(complex.ascending_manifold, complex.descending_manifold);
+  }
+}
+
+}  // namespace
+
 MorseSmaleComplex find_morse_smale_complex(Structure& structure, const DiscreteGradient& gradient,
                                            const MorseSmaleParts& parts, const SweepOptions& options) {
   detail::require_same_mesh("the gradient", gradient.mesh(), structure.mesh());
@@ -19,10 +35,11 @@ MorseSmaleComplex find_morse_smale_complex(Structure& structure, const DiscreteG
   const detail::CriticalPlaces places(gradient.critical());
   MorseSmaleComplex complex{gradient, parts, gradient.critical()};
   if (parts.descending_separatrices)
-    complex.descending =
-        detail::descending_separatrices(gradient.mesh(), gradient.vertex_successors(), complex.critical, places);
+    complex.descending = detail::descending_separatrices(gradient.mesh(), gradient.store().vertex_successors(),
+                                                         complex.critical, places);
   if (parts.ascending_separatrices)
-    complex.ascending = detail::ascending_separatrices(gradient.tetrahedron_successors(), complex.critical, places);
+    complex.ascending =
+        detail::ascending_separatrices(gradient.store().tetrahedron_successors(), complex.critical, places);
   if (parts.saddle_connectors || parts.separatrices2) {
     auto surfaces = detail::descending_surfaces(gradient, complex.critical, places, parts.separatrices2,
                                                 parts.saddle_connectors, threads);
@@ -30,12 +47,7 @@ MorseSmaleComplex find_morse_smale_complex(Structure& structure, const DiscreteG
     complex.descending_walls = std::move(surfaces.walls);
   }
   if (parts.separatrices2) complex.ascending_walls = detail::ascending_walls(structure, gradient, threads);
-  if (parts.descending_manifolds) complex.descending_manifold = detail::descending_manifolds(gradient);
-  if (parts.ascending_manifolds) complex.ascending_manifold = detail::ascending_manifolds(gradient);
-  if (parts.descending_manifolds && parts.ascending_manifolds) {
-    std::tie(complex.morse_smale_manifold, complex.morse_smale_manifolds) =
-        detail::morse_smale_manifolds(complex.ascending_manifold, complex.descending_manifold);
-  }
+  find_manifolds(complex);
   return complex;
 }
 

@@ -1,52 +1,83 @@
 #include <gale/algorithms/morse_smale/separatrices1.hpp>
 #include <gale/base/parallel.hpp>
+#include <gale/base/transfer.hpp>
+#include <gale/base/worker_or_host.hpp>
 
 namespace gale::detail {
 
 namespace {
 
-using HostSpace = Kokkos::DefaultHostExecutionSpace;
+/// Paths one after the other, on the host: that from the i-th start is cells[begin[i]] to cells[begin[i + 1] - 1];
+/// empty if it leaves through the surface.
+struct Followed {
+  Array<const Offset, HostMemory> begin;
+  Array<const Id, HostMemory> cells;
+};
 
 /// How many simplices a path of successors has; 0 if it leaves through the surface.
-Offset length_of(const Id* successors, Id from) {
+KOKKOS_INLINE_FUNCTION Offset length_of(const Id* successors, Id from) {
   Offset length = 1;
   for (Id next = successors[from]; next != no_id; next = successors[next], ++length) {
-    if (DiscreteGradient::leaves(next)) return 0;
+    if (next < no_id) return 0;
   }
   return length;
+}
+
+template <class Space>
+Followed follow_in(const Space& space, const Id* successors, const std::vector<Id>& starts) {
+  using Memory = MemoryOf<Space>;
+  const Offset count = static_cast<Offset>(starts.size());
+  const auto from =
+      in_memory<Memory>(Kokkos::View<const Id*, HostMemory, Kokkos::MemoryUnmanaged>(starts.data(), starts.size()));
+  const auto begin = allocate<Array<Offset, Memory>>("GALE::path_begin", count + 1);
+  parallel_for(
+      "GALE::path_lengths", space, count, KOKKOS_LAMBDA(Offset i) { begin(i) = length_of(successors, from(i)); });
+  const Offset total = exclusive_scan(
+      "GALE::path_begins", space, count, begin, KOKKOS_LAMBDA(Offset i) { return begin(i); });
+  const auto cells = allocate<Array<Id, Memory>>("GALE::path_cells", total);
+  parallel_for(
+      "GALE::follow_paths", space, count, KOKKOS_LAMBDA(Offset i) {
+        if (begin(i + 1) == begin(i)) return;
+        Id cell = from(i);
+        for (Offset at = begin(i); at < begin(i + 1); ++at, cell = successors[cell]) cells(at) = cell;
+      });
+  space.fence();
+  return {on_host(begin), on_host(cells)};
+}
+
+/// Where the successors are, if there is room.
+Followed follow(const Mirrored<Id>& successors, const std::vector<Id>& starts) {
+  return in_worker_or_host_space(successors.on_device(), [&](const auto& space) {
+    return follow_in(space, successors.in<MemoryOf<std::decay_t<decltype(space)>>>().data(), starts);
+  });
 }
 
 /// The path from each of `starts`, whose source is the one of `sources` at the same place. Its destination is
 /// place(last) of its last simplex.
 template <class Place>
-Separatrices<Id> paths_of(const Id* successors, const std::vector<Id>& starts, const std::vector<Id>& sources,
-                          const Place& place) {
-  const Offset count = static_cast<Offset>(starts.size());
-  const auto begin = allocate<Array<Offset, HostMemory>>("GALE::path_begin", count + 1);
+Separatrices<Id> paths_of(const Followed& followed, const std::vector<Id>& sources, const Place& place) {
+  const Offset count = static_cast<Offset>(sources.size());
   const auto rank = allocate<Array<Id, HostMemory>>("GALE::path_rank", count + 1);
-  parallel_for("GALE::path_lengths", HostSpace(), count,
-               [&](Offset i) { begin(i) = length_of(successors, starts[i]); });
-  exclusive_scan("GALE::path_begins", HostSpace(), count, begin, [&](Offset i) { return begin(i); });
-  exclusive_scan("GALE::count_paths", HostSpace(), count, rank, [&](Offset i) { return begin(i + 1) > begin(i); });
+  const auto is_there = [&](Offset i) { return followed.begin(i + 1) > followed.begin(i); };
+  const Id paths_there = exclusive_scan("GALE::count_paths", HostSpace(), count, rank, is_there);
   Separatrices<Id> paths;
-  paths.sources.resize(rank(count));
-  paths.destinations.resize(rank(count));
-  paths.begin.resize(rank(count) + 1);
-  paths.cells.resize(begin(count));
-  parallel_for("GALE::follow_paths", HostSpace(), count, [&](Offset i) {
-    if (begin(i + 1) == begin(i)) return;
-    Id* cell = paths.cells.data() + begin(i);
-    for (*cell = starts[i]; successors[*cell] != no_id; ++cell) cell[1] = successors[*cell];
+  paths.sources.resize(paths_there);
+  paths.destinations.resize(paths_there);
+  paths.begin.resize(paths_there + 1);
+  paths.cells.assign(followed.cells.data(), followed.cells.data() + followed.cells.extent(0));
+  parallel_for("GALE::name_paths", HostSpace(), count, [&](Offset i) {
+    if (!is_there(i)) return;
+    const Offset end = followed.begin(i + 1);
     paths.sources[rank(i)] = sources[i];
-    paths.destinations[rank(i)] = place(*cell);
-    paths.begin[rank(i) + 1] = begin(i + 1);
+    paths.destinations[rank(i)] = place(followed.cells(end - 1));
+    paths.begin[rank(i) + 1] = end;
   });
   return paths;
 }
 
 }  // namespace
 
-Separatrices<Id> descending_separatrices(const Mesh& mesh, const Array<const Id, HostMemory>& successors,
+Separatrices<Id> descending_separatrices(const Mesh& mesh, const Mirrored<Id>& successors,
                                          const CriticalSimplices& critical, const CriticalPlaces& places) {
   const auto& edges = critical.edges;
   const Id* const input = mesh.vertex_input().data();
@@ -57,15 +88,15 @@ Separatrices<Id> descending_separatrices(const Mesh& mesh, const Array<const Id,
     starts.insert(starts.end(), {in_order ? a : b, in_order ? b : a});
     sources.insert(sources.end(), 2, static_cast<Id>(i));
   }
-  return paths_of(successors.data(), starts, sources, [&](Id vertex) { return places.of_vertex(vertex); });
+  return paths_of(follow(successors, starts), sources, [&](Id vertex) { return places.of_vertex(vertex); });
 }
 
-Separatrices<Id> ascending_separatrices(const Array<const Id, HostMemory>& successors,
-                                        const CriticalSimplices& critical, const CriticalPlaces& places) {
+Separatrices<Id> ascending_separatrices(const Mirrored<Id>& successors, const CriticalSimplices& critical,
+                                        const CriticalPlaces& places) {
   std::vector<Id> sources;
   for (std::size_t i = 0; i < critical.triangles.size(); ++i)
     sources.insert(sources.end(), critical.star_begin[i + 1] - critical.star_begin[i], static_cast<Id>(i));
-  return paths_of(successors.data(), critical.star, sources,
+  return paths_of(follow(successors, critical.star), sources,
                   [&](Id tetrahedron) { return places.of_tetrahedron(tetrahedron); });
 }
 

@@ -1,5 +1,8 @@
 #include <algorithm>
+#include <exception>
+#include <string>
 
+#include <gale/base/error.hpp>
 #include <gale/base/memory.hpp>
 #include <gale/relations/kernels/launch.hpp>
 #include <gale/runtime/device/batch_lane.hpp>
@@ -17,6 +20,12 @@ IntervalTables<Memory> interval_tables_in(const Mesh& mesh) {
     if (enumerated) tables.begin[dimension] = mesh.interval_begin<Memory>(dimension).data();
   }
   return tables;
+}
+
+/// What Kokkos throws where the device lacks memory for a launch.
+bool says_out_of_memory(const std::exception& error) {
+  const std::string what = error.what();
+  return what.find("memory") != std::string::npos || what.find("Memory") != std::string::npos;
 }
 
 template <class View>
@@ -47,7 +56,7 @@ template <class Memory>
 BatchLane<Memory>::~BatchLane() {
   try {
     if (in_flight_) memory_.instance.fence();
-    KeptLanes<Memory>::instance().give_back(std::move(memory_));
+    if (is_worth_keeping_) KeptLanes<Memory>::instance().give_back(std::move(memory_));
   } catch (...) {
     // What is wrong with the device, the next launch will say.
   }
@@ -58,7 +67,19 @@ void BatchLane<Memory>::launch(BatchPlan plan) {
   plan.words = std::max(plan.words, words_);
   reserve(plan.words, plan.count());
   plan_ = std::move(plan);
-  in_flight_ = true;
+  try {
+    launch_kernels();
+    in_flight_ = true;
+  } catch (const std::exception& error) {
+    is_worth_keeping_ = false;  // Kokkos may have lost some of the instance's memory
+    memory_.instance.fence();
+    if (dynamic_cast<const Error*>(&error) != nullptr || !says_out_of_memory(error)) throw;
+    throw OutOfMemory("there is no scratch memory for a batch of " + std::to_string(plan_.count()) + " segments");
+  }
+}
+
+template <class Memory>
+void BatchLane<Memory>::launch_kernels() {
   const Id* const segments = place_segments();
   *memory_.header_copy.data() = BatchHeader();
   Kokkos::deep_copy(memory_.instance, memory_.header, memory_.header_copy.view());
@@ -83,6 +104,7 @@ void BatchLane<Memory>::launch_kernel(int k, const Id* segments, Offset* directo
     if (bounds.is_large[segment]) task.sizes = larger(task.sizes, kernel.bound(segment));
   }
   task.scratch_level = kernel.scratch_bytes(task.sizes, bounds.warps) > fast_scratch_ ? 1 : 0;
+  if (task.scratch_level > 0) is_worth_keeping_ = false;  // nor what its instance takes for that
   task.pool = {memory_.words.data(), plan_.words, &memory_.header.data()->used, directory,
                &memory_.header.data()->needed[k]};
   kernel.launch(memory_.instance, task, count, bounds.warps);

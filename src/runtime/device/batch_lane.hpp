@@ -68,6 +68,7 @@ class BatchLane {
  private:
   void reserve(Offset words, Id slots);
   const Id* place_segments();
+  void launch_kernels();
   void launch_kernel(int kernel, const Id* segments, Offset* directory);
   std::vector<Id> segments_missing() const;
 
@@ -80,6 +81,7 @@ class BatchLane {
   SegmentBatches<Memory> batches_;
   BatchPlan plan_;
   bool in_flight_ = false;
+  bool is_worth_keeping_ = true;  ///< the memory, for another sweep
 };
 
 }  // namespace gale::detail

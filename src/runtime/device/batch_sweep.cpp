@@ -15,6 +15,9 @@ namespace {
 /// Rows beyond those of a regular mesh, at first.
 constexpr double margin = 1.2;
 
+/// Bytes of scratch memory for the teams of one batch whose segments need more than the fast one.
+constexpr std::size_t most_scratch = 256 * mebibyte;
+
 /// Options, with what they leave open filled in.
 template <class Memory>
 struct Filled {
@@ -36,15 +39,6 @@ double usual_words_per_vertex(RelationSet relations) {
   return words;
 }
 
-template <class Space>
-Array<Id, MemoryOf<Space>> iota(const Space& space, Id count) {
-  const auto ids = allocate<Array<Id, MemoryOf<Space>>>("GALE::sweep_all_segments", count);
-  parallel_for(
-      "GALE::sweep_all_segments", space, count, KOKKOS_LAMBDA(Offset i) { ids(i) = static_cast<Id>(i); });
-  space.fence();
-  return ids;
-}
-
 }  // namespace
 
 /// The batches of a sweep: what is planned, and what is under way.
@@ -64,6 +58,7 @@ class BatchSweep<Memory>::Batches {
   bool has_plans() const { return !again_.empty() || ahead_ < mesh_.segments(); }
   BatchPlan next_plan();
   bool is_large(Id segment) const;
+  std::size_t scratch_of(Id segment) const;
   void launch(Lane& lane, BatchPlan plan);
   void finish(Lane& lane);
   void plan_again(const BatchPlan& plan, BatchShortfall lacked);
@@ -83,8 +78,9 @@ template <class Memory>
 BatchSweep<Memory>::Batches::Batches(const Space& space, const Mesh& mesh, RelationSet relations,
                                      const DeviceSweepOptions& options)
     : mesh_(mesh),
-      all_segments_(iota(space, mesh.segments())),
+      all_segments_(iota("GALE::sweep_all_segments", space, mesh.segments())),
       words_per_vertex_(margin * usual_words_per_vertex(relations)) {
+  space.fence();
   const Filled<Memory> filled(options);
   if (relations.empty()) throw Error("a sweep needs a relation to read");
   for (const RelationSet one : kernels_for(relations)) {
@@ -95,8 +91,14 @@ BatchSweep<Memory>::Batches::Batches(const Space& space, const Mesh& mesh, Relat
   words_ = std::max<Offset>(static_cast<Offset>(filled.memory / filled.batches / sizeof(Id)), 1024);
   const auto all = static_cast<Offset>(words_per_vertex_ * mesh.vertices()) + 1024;
   const auto batches = static_cast<int>(std::min<Offset>(filled.batches, (all + words_ - 1) / words_));
-  for (int i = 0; i < batches; ++i)
-    lanes_.push_back(std::make_unique<Lane>(mesh_, kernels_, all_segments_.data(), std::min(words_, all)));
+  for (int i = 0; i < batches; ++i) {
+    try {
+      lanes_.push_back(std::make_unique<Lane>(mesh_, kernels_, all_segments_.data(), std::min(words_, all)));
+    } catch (const OutOfMemory&) {
+      if (lanes_.empty()) throw;
+      break;  // fewer do as well
+    }
+  }
 }
 
 template <class Memory>
@@ -122,6 +124,15 @@ bool BatchSweep<Memory>::Batches::is_large(Id segment) const {
                      [segment](const auto& one) { return one.bounds->is_large[segment] != 0; });
 }
 
+/// What a team of the greediest kernel asks for, to compute a segment.
+template <class Memory>
+std::size_t BatchSweep<Memory>::Batches::scratch_of(Id segment) const {
+  std::size_t most = 0;
+  for (const auto& one : kernels_)
+    most = std::max(most, one.kernel.scratch_bytes(one.kernel.bound(segment), one.bounds->warps));
+  return most;
+}
+
 /// Segments as far as they fit; those that need more than the fast scratch memory by themselves.
 template <class Memory>
 BatchPlan BatchSweep<Memory>::Batches::next_plan() {
@@ -135,8 +146,12 @@ BatchPlan BatchSweep<Memory>::Batches::next_plan() {
   const double most = static_cast<double>(words_) / words_per_vertex_;
   plan.begin = ahead_;
   plan.large = is_large(ahead_);
+  std::size_t scratch = plan.large ? scratch_of(ahead_) : 0;
   for (plan.end = ahead_ + 1; plan.end < mesh_.segments(); ++plan.end) {
     if (vertex_begin(plan.end + 1) - vertex_begin(plan.begin) > most || is_large(plan.end) != plan.large) break;
+    if (!plan.large) continue;
+    scratch = std::max(scratch, scratch_of(plan.end));
+    if (scratch * static_cast<std::size_t>(plan.end + 1 - plan.begin) > most_scratch) break;
   }
   ahead_ = plan.end;
   return plan;

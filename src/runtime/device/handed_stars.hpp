@@ -20,13 +20,16 @@ class HandedStars {
   HandedStars(Offset stars, Offset words)
       : places_("GALE::handed_stars", stars),
         words_(allocate<Array<Id, WorkerMemory>>("GALE::handed_rows", words)),
-        used_("GALE::handed_rows_used", 1) {}
+        used_("GALE::handed_rows_used", 2) {}
 
   KOKKOS_FUNCTION void add(const VertexStar& star) const {
     const Offset bytes = Offset(3) * star.link.size() * star.link.width;
     const Offset size = Offset(star.neighbours.size()) + star.tetrahedra.size() + (bytes + 3) / 4;
     const Offset begin = atomic_add(used_.data(), size);
-    if (begin + size > static_cast<Offset>(words_.extent(0))) return;
+    if (begin + size > static_cast<Offset>(words_.extent(0))) {
+      atomic_add(used_.data() + 1, Offset(1));
+      return;
+    }
     Id* to = words_.data() + begin;
     for (const Id id : star.neighbours) *to++ = id;
     for (const Id id : star.tetrahedra) *to++ = id;
@@ -42,12 +45,10 @@ class HandedStars {
 
   /// Was there too little room? If so, `stars` and `words` become at least what there was to be.
   bool overflowed(Offset& stars, Offset& words) const {
-    Offset used = 0;
-    Kokkos::deep_copy(used, Kokkos::subview(used_, 0));
-    const Offset least = std::max(count(), used / 4);  // those without room for their rows aren't counted
-    const bool lacked = used > static_cast<Offset>(words_.extent(0)) || places_.overflowed();
-    if (used > words) words = used;
-    if (lacked && least > stars) stars = least;
+    const auto used = Kokkos::create_mirror_view_and_copy(HostMemory(), used_);
+    const bool lacked = used(1) > 0 || places_.overflowed();
+    words = std::max(words, used(0));
+    if (lacked) stars = std::max(stars, count() + used(1));
     return lacked;
   }
 
@@ -69,7 +70,9 @@ class HandedStars {
   OnHost to_host() const {
     OnHost copy;
     copy.places_ = places_.to_host();
-    copy.words_ = on_host(words_);
+    const auto used = Kokkos::create_mirror_view_and_copy(HostMemory(), used_);
+    const std::size_t words = std::min(static_cast<std::size_t>(used(0)), words_.extent(0));
+    copy.words_ = on_host(Kokkos::subview(words_, std::make_pair(std::size_t(0), words)));
     return copy;
   }
 
@@ -85,7 +88,7 @@ class HandedStars {
 
   DeviceList<Place> places_;
   Array<Id, WorkerMemory> words_;
-  Array<Offset, WorkerMemory> used_;
+  Array<Offset, WorkerMemory> used_;  // words, and the stars whose rows found no room
 };
 
 }  // namespace gale::detail

@@ -42,8 +42,13 @@ template <class Memory>
 void KeptLanes<Memory>::give_back(LaneMemory<Memory> memory) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (lanes_.size() >= most_lanes || memory.bytes() > most_bytes) return;
-  if (!hooked_) Kokkos::push_finalize_hook([] { instance().lanes_.clear(); });
-  hooked_ = true;
+  if (lanes_.empty() && !hooked_) {
+    Kokkos::push_finalize_hook([] {
+      instance().lanes_.clear();
+      instance().hooked_ = false;
+    });
+    hooked_ = true;
+  }
   lanes_.push_back(std::move(memory));
 }
 
