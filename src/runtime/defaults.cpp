@@ -30,6 +30,13 @@ int given_or(int given, int otherwise, const char* name) {
   return given == 0 ? otherwise : given;
 }
 
+double words_per_vertex(RelationSet relations) {
+  constexpr int words_of_links = 22;
+  double sum = relations.has_links() ? 1 + words_of_links : 1;
+  for (const Relation relation : members_of(relations)) sum += traits_of(relation).words_of_vertex;
+  return sum;
+}
+
 Sizes sizes_for(const Mesh& mesh, const StructureOptions& options, int queues) {
   constexpr int warp = 32;
   const int threads_per_segment = given_or(options.threads_per_segment, 128, "threads per segment");

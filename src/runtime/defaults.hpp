@@ -3,6 +3,7 @@
 #include <cstddef>
 
 #include <gale/mesh/mesh.hpp>
+#include <gale/relations/relation.hpp>
 #include <gale/runtime/structure_options.hpp>
 
 namespace gale::detail {
@@ -11,6 +12,9 @@ inline constexpr std::size_t mebibyte = std::size_t(1) << 20;
 
 /// An option, or what it is where it was left open (0). Throws gale::Error, naming it, if it is below 0.
 int given_or(int given, int otherwise, const char* name);
+
+/// A guess for the first batch: words that the blocks of a regular mesh take for each vertex.
+double words_per_vertex(RelationSet relations);
 
 /// StructureOptions, with what they leave open filled in; for one of the queues.
 struct Sizes {

@@ -32,13 +32,6 @@ struct Filled {
   }
 };
 
-/// What the blocks take for a vertex of a regular mesh.
-double usual_words_per_vertex(RelationSet relations) {
-  double words = relations.has_links() ? 20 : 0;
-  for (const Relation relation : members_of(relations)) words += traits_of(relation).words_of_vertex;
-  return words;
-}
-
 }  // namespace
 
 /// The batches of a sweep: what is planned, and what is under way.
@@ -79,7 +72,7 @@ BatchSweep<Memory>::Batches::Batches(const Space& space, const Mesh& mesh, Relat
                                      const DeviceSweepOptions& options)
     : mesh_(mesh),
       all_segments_(iota("GALE::sweep_all_segments", space, mesh.segments())),
-      words_per_vertex_(margin * usual_words_per_vertex(relations)) {
+      words_per_vertex_(margin * words_per_vertex(relations)) {
   space.fence();
   const Filled<Memory> filled(options);
   if (relations.empty()) throw Error("a sweep needs a relation to read");

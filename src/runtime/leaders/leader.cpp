@@ -3,6 +3,7 @@
 
 #include <gale/base/error.hpp>
 #include <gale/base/start_thread.hpp>
+#include <gale/runtime/defaults.hpp>
 #include <gale/runtime/leaders/leader.hpp>
 
 namespace gale::detail {
@@ -11,14 +12,6 @@ namespace {
 
 /// Batches of a sweep begin small, so that consumers can begin, and double.
 constexpr Id first_batch = 32;
-
-/// A guess for the first batch: what the blocks of a regular mesh take.
-double words_per_vertex(RelationSet relations) {
-  constexpr int words_of_links = 22;
-  double sum = relations.has_links() ? 1 + words_of_links : 1;
-  for (const Relation relation : members_of(relations)) sum += traits_of(relation).words_of_vertex;
-  return sum;
-}
 
 /// What the exception that is being handled says.
 std::string current_message() {
