@@ -71,6 +71,14 @@ inline WorkerSpace make_instance() {
 #endif
 }
 
+/// The policy of a launch that overlaps with launches on other instances: its functor, of less than 4 KiB, travels with
+/// the launch. In constant memory, where Kokkos::Cuda puts those of more than 512 bytes otherwise, there is one at a
+/// time.
+template <class Policy>
+auto overlapping(const Policy& policy) {
+  return Kokkos::Experimental::require(policy, Kokkos::Experimental::WorkItemProperty::HintLightWeight);
+}
+
 /// What an application gives Kokkos::initialize or a Kokkos::ScopeGuard, so that Kokkos' own loops on the host use so
 /// many threads.
 inline auto initialization_arguments(int threads) {

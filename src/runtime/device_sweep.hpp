@@ -74,7 +74,7 @@ void for_each_segment(const Space& space, const Mesh& mesh, RelationSet relation
   sweep.run([&](const auto& launched) {
     Kokkos::TeamPolicy<Space> policy(launched.instance, launched.blocks.count(), warps, is_device<Space> ? 32 : 1);
     policy.set_scratch_size(0, Kokkos::PerTeam(static_cast<int>(options.team_scratch)));
-    Kokkos::parallel_for("GALE::for_each_segment", policy,
+    Kokkos::parallel_for("GALE::for_each_segment", overlapping(policy),
                          detail::OnEachSegment<Memory, Functor>{launched.blocks, functor});
   });
 }

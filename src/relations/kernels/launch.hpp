@@ -59,7 +59,8 @@ void launch(const Space& instance, const Kernel& kernel, int teams, TeamShape sh
   }
   Kokkos::TeamPolicy<Space> policy(instance, teams, team_size, is_device<Space> ? shape.lanes : 1);
   policy.set_scratch_size(kernel.scratch_level, Kokkos::PerTeam(static_cast<int>(bytes)));
-  with_functor(kernel, [&](const auto& functor) { Kokkos::parallel_for(kernel.label(), policy, functor); });
+  with_functor(kernel,
+               [&](const auto& functor) { Kokkos::parallel_for(kernel.label(), overlapping(policy), functor); });
 }
 
 }  // namespace gale
