@@ -63,17 +63,17 @@ struct MorseSmaleComplex {
 
   AscendingWalls ascending_walls;
 
-  // Manifolds, by input vertex.
+  // Manifolds, by input vertex: where they were found, a device or the host; in<HostMemory>() has them there.
 
   /// The place among the critical vertices of the minimum that the vertex's path falls to.
-  Array<Id, HostMemory> descending_manifold;
+  Mirrored<Id> descending_manifold;
 
   /// The place among the critical tetrahedra of the maximum that the path from the vertex's tetrahedron of lowest input
   /// id rises to; no_id if that path leaves through the surface.
-  Array<Id, HostMemory> ascending_manifold;
+  Mirrored<Id> ascending_manifold;
 
   /// A number for each pair of both, dense from 0; no_id where one is missing.
-  Array<Id, HostMemory> morse_smale_manifold;
+  Mirrored<Id> morse_smale_manifold;
   Id morse_smale_manifolds = 0;  ///< how many pairs there are
 
   KeptBelow kept_below;  ///< of what `simplify` left

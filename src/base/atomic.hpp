@@ -15,6 +15,17 @@ KOKKOS_FORCEINLINE_FUNCTION T atomic_add(T* to, T value) {
 #endif
 }
 
+/// Makes it `desired` if it is `expected`, relaxed, and returns what was there.
+template <class T>
+KOKKOS_FORCEINLINE_FUNCTION T atomic_compare_exchange(T* at, T expected, T desired) {
+#if defined(__CUDA_ARCH__)
+  return Kokkos::atomic_compare_exchange(at, expected, desired);
+#else
+  __atomic_compare_exchange_n(at, &expected, desired, false, __ATOMIC_RELAXED, __ATOMIC_RELAXED);
+  return expected;
+#endif
+}
+
 /// Reads and writes what other threads may be writing and reading, whole.
 template <class T>
 KOKKOS_FORCEINLINE_FUNCTION T atomic_read(const T* from) {

@@ -4,10 +4,9 @@ namespace gale::outputs {
 
 namespace {
 
-using Manifold = Array<Id, HostMemory>;
-
 /// Appends the sizes of the manifolds 0 to count-1.
-void append_sizes(const Manifold& manifold, Id count, std::vector<Id>& sizes) {
+void append_sizes(const Mirrored<Id>& found, Id count, std::vector<Id>& sizes) {
+  const auto& manifold = found.in<HostMemory>();
   const bool is_there = manifold.extent(0) != 0;
   const std::size_t first = sizes.size();
   sizes.resize(first + count, is_there ? 0 : -1);
@@ -20,8 +19,9 @@ void append_sizes(const Manifold& manifold, Id count, std::vector<Id>& sizes) {
 
 std::vector<io::PointArray> manifold_arrays(const MorseSmaleComplex& complex) {
   std::vector<io::PointArray> arrays;
-  const auto add = [&](const char* name, const Manifold& manifold) {
-    if (manifold.extent(0) == 0) return;
+  const auto add = [&](const char* name, const Mirrored<Id>& found) {
+    if (found.size() == 0) return;
+    const auto& manifold = found.in<HostMemory>();
     arrays.push_back({name, 1, std::vector<Id>(manifold.data(), manifold.data() + manifold.extent(0))});
   };
   add("AscendingManifold", complex.ascending_manifold);

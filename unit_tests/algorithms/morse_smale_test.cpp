@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <gale/algorithms/morse_smale.hpp>
+#include <gale/algorithms/morse_smale/descending_surfaces.hpp>
+#include <gale/algorithms/morse_smale/device_connectors.hpp>
 #include <gale/base/error.hpp>
 #include <gale/baselines/discrete_gradient_from_cells.hpp>
 
@@ -27,6 +29,18 @@ MorseSmaleComplex complex_of(Structure& structure, const Field& field, int threa
   const VertexOrder order(structure.mesh(), field.values.data(), field.values.size());
   const auto gradient = find_discrete_gradient(structure, order, with_threads(threads));
   return find_morse_smale_complex(structure, gradient, parts, with_threads(threads));
+}
+
+/// Of the gradient that kernels find.
+MorseSmaleComplex complex_of_kernels(Structure& structure, const Field& field) {
+  const VertexOrder order(structure.mesh(), field.values.data(), field.values.size());
+  return find_morse_smale_complex(structure, find_discrete_gradient(WorkerSpace(), order));
+}
+
+MorseSmaleComplex without_separatrices2(MorseSmaleComplex complex) {
+  complex.descending_walls = {};
+  complex.ascending_walls = {};
+  return complex;
 }
 
 /// Is this what brute force finds, and in the same order as with other segments?
@@ -56,6 +70,7 @@ TEST_P(MorseSmaleComplexOf, every_mesh_is_that_of_brute_force_whatever_the_struc
     const auto& kind = kinds[(i + 1) % kinds.size()];
     const int threads = i % 2 == 0 ? 8 : 2;
     EXPECT_TRUE(equal(complex_of(*kind.make(mesh, morse_smale_relations), fields[i], threads), complex)) << kind.name;
+    EXPECT_TRUE(equal(complex_of_kernels(*structure, fields[i]), without_separatrices2(complex))) << "by kernels";
   }
 }
 
@@ -88,6 +103,24 @@ TEST(MorseSmaleComplex, of_some_parts_has_them_as_the_whole_has_them) {
       expected.morse_smale_manifolds = 0;
     }
     EXPECT_TRUE(equal(complex_of(*structure, field, 2, parts), expected));
+  }
+}
+
+TEST(MorseSmaleComplex, has_the_same_connectors_however_many_walls_grow_side_by_side) {
+  const InputMesh input = holed_grid(30);
+  const Mesh mesh = encode(input, 100);
+  const auto structure = structure_kinds().front().make(mesh, morse_smale_relations);
+  const auto field = random_field(input, 1);
+  const VertexOrder order(mesh, field.data(), field.size());
+  const auto gradient = find_discrete_gradient(WorkerSpace(), order);
+  const auto& critical = gradient.critical();
+  const detail::CriticalPlaces places(critical);
+  MorseSmaleComplex found{gradient, {}, critical}, expected = found;
+  expected.connectors = detail::descending_surfaces(gradient, critical, places, false, true, 2).connectors;
+  ASSERT_GT(expected.connectors.count(), 10'000);
+  for (const Offset together : {1, 100, 10'000, 100'000'000}) {
+    found.connectors = detail::device_connectors(gradient, critical, places, together);
+    EXPECT_TRUE(equal(found, expected)) << together;
   }
 }
 

@@ -81,7 +81,7 @@ std::vector<NamedComplex::Wall> named_walls(const AscendingWalls& all, const std
   return named;
 }
 
-std::vector<Simplex> named_manifolds(const Array<Id, HostMemory>& manifold, const std::vector<Simplex>& extrema) {
+std::vector<Simplex> named_manifolds(const Array<const Id, HostMemory>& manifold, const std::vector<Simplex>& extrema) {
   std::vector<Simplex> named;
   for (const Id place : to_vector(manifold)) named.push_back(place == no_id ? Simplex{} : extrema.at(place));
   return named;
@@ -120,9 +120,9 @@ NamedComplex named(const MorseSmaleComplex& complex) {
   all.connectors = named_paths(complex.connectors, critical[1], critical[2], name);
   all.descending_walls = named_walls(complex.descending_walls, critical[2], name);
   all.ascending_walls = named_walls(complex.ascending_walls, critical[1], name);
-  all.descending_manifold = named_manifolds(complex.descending_manifold, critical[0]);
-  all.ascending_manifold = named_manifolds(complex.ascending_manifold, critical[3]);
-  all.morse_smale_manifold = to_vector(complex.morse_smale_manifold);
+  all.descending_manifold = named_manifolds(complex.descending_manifold.in<HostMemory>(), critical[0]);
+  all.ascending_manifold = named_manifolds(complex.ascending_manifold.in<HostMemory>(), critical[3]);
+  all.morse_smale_manifold = to_vector(complex.morse_smale_manifold.in<HostMemory>());
   return all;
 }
 
@@ -166,7 +166,8 @@ AssertionResult equal(const MorseSmaleComplex& a, const MorseSmaleComplex& b) {
   }
   for (const auto manifold : {&MorseSmaleComplex::descending_manifold, &MorseSmaleComplex::ascending_manifold,
                               &MorseSmaleComplex::morse_smale_manifold}) {
-    if (to_vector(a.*manifold) != to_vector(b.*manifold)) return AssertionFailure() << "manifolds differ";
+    if (to_vector((a.*manifold).in<HostMemory>()) != to_vector((b.*manifold).in<HostMemory>()))
+      return AssertionFailure() << "manifolds differ";
   }
   if (a.morse_smale_manifolds != b.morse_smale_manifolds) return AssertionFailure() << "numbers of manifolds differ";
   return AssertionSuccess();

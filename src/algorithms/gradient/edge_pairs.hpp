@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <deque>
 #include <vector>
@@ -24,12 +23,19 @@ class EdgePairRow {
   KOKKOS_FUNCTION const Id* ids() const { return words_ + 1; }
 
   /// Place of a lower end; no_id if it isn't one.
-  Id find(Id other) const {
+  KOKKOS_FUNCTION Id find(Id other) const {
     constexpr Id few = 16;
-    const Id* const begin = ids();
-    const Id* const end = begin + size();
-    const Id* const at = size() <= few ? std::find(begin, end, other) : std::lower_bound(begin, end, other);
-    return at != end && *at == other ? static_cast<Id>(at - begin) : no_id;
+    const Id* const all = ids();
+    Id first = 0, rest = size();
+    while (rest > few) {
+      const Id half = rest / 2;
+      if (all[first + half] <= other) first += half;
+      rest -= half;
+    }
+    for (Id i = first; i < first + rest; ++i) {
+      if (all[i] == other) return i;
+    }
+    return no_id;
   }
 
   /// Third vertex of the triangle that the i-th edge is paired with; no_id if it is with none.

@@ -30,10 +30,10 @@ std::vector<T> merged(const std::vector<Part>& parts, const Member& member, cons
 GradientStore::GradientStore(const Mesh& mesh_, const VertexOrder& order_, int consumers)
     : mesh(mesh_),
       order(order_),
-      vertex_successor(allocate<Array<Id, HostMemory>>("GALE::vertex_successor", mesh.vertices())),
-      tetrahedron_successor(allocate<Array<Id, HostMemory>>("GALE::tetrahedron_successor", mesh.tetrahedra())),
-      vertex_successors_(vertex_successor),
-      tetrahedron_successors_(tetrahedron_successor),
+      consumed_vertices_(allocate<Array<Id, HostMemory>>("GALE::vertex_successor", mesh.vertices())),
+      consumed_tetrahedra_(allocate<Array<Id, HostMemory>>("GALE::tetrahedron_successor", mesh.tetrahedra())),
+      vertex_successors_(consumed_vertices_),
+      tetrahedron_successors_(consumed_tetrahedra_),
       pairs_(mesh.vertices(), consumers),
       found_(consumers),
       stars_(consumers),
@@ -57,10 +57,10 @@ GradientStore::GradientStore(const VertexOrder& order_, const DeviceGradient& fo
 std::shared_ptr<GradientStore> GradientStore::on_host(const VertexOrder& order, const DeviceGradient& found,
                                                       int consumers) {
   const auto store = std::make_shared<GradientStore>(order.mesh(), order, consumers);
-  store->vertex_successor = gale::on_host(found.vertex_successor);
-  store->tetrahedron_successor = gale::on_host(found.tetrahedron_successor);
-  store->vertex_successors_ = store->vertex_successor;
-  store->tetrahedron_successors_ = store->tetrahedron_successor;
+  store->consumed_vertices_ = gale::on_host(found.vertex_successor);
+  store->consumed_tetrahedra_ = gale::on_host(found.tetrahedron_successor);
+  store->vertex_successors_ = store->consumed_vertices_;
+  store->tetrahedron_successors_ = store->consumed_tetrahedra_;
   store->pairs_ = EdgePairs(gale::on_host(found.pair_words), gale::on_host(found.pairs_begin), consumers);
   store->found_[0] = found.critical;
   store->stars_[0] = found.stars;

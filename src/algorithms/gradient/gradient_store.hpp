@@ -41,7 +41,7 @@ class GradientStore {
 
   /// Pairs a vertex with the edge to `other`; no_id if the vertex is critical.
   void set_vertex(int consumer, Id vertex, Id other) {
-    vertex_successor(vertex) = other;
+    consumed_vertices_(vertex) = other;
     if (other == no_id) found_[consumer].vertices.push_back(vertex);
   }
 
@@ -49,7 +49,7 @@ class GradientStore {
   EdgePairRow begin_edges(int consumer, Id vertex, Id count) { return pairs_.begin(consumer, vertex, count); }
 
   /// Sets the tetrahedron across the triangle that a tetrahedron is paired with, or `outside`.
-  void set_tetrahedron(Id tetrahedron, Id successor) { tetrahedron_successor(tetrahedron) = successor; }
+  void set_tetrahedron(Id tetrahedron, Id successor) { consumed_tetrahedra_(tetrahedron) = successor; }
 
   /// Says that the triangle that a tetrahedron is paired with has a third tetrahedron, or one more, beside its
   /// successor.
@@ -65,7 +65,7 @@ class GradientStore {
     found_[consumer].triangles.push_back(from_high_to_low);
   }
   void add_critical_tetrahedron(int consumer, Id tetrahedron) {
-    tetrahedron_successor(tetrahedron) = no_id;
+    consumed_tetrahedra_(tetrahedron) = no_id;
     found_[consumer].tetrahedra.push_back(tetrahedron);
   }
 
@@ -88,6 +88,11 @@ class GradientStore {
   const Mirrored<Id>& tetrahedron_successors() const { return tetrahedron_successors_; }
   const EdgePairs& pairs() const;
 
+  /// Whether kernels found it. Then these are the words of EdgePairRows, and where each vertex' row begins among them.
+  bool is_from_kernels() const { return pairs_begin_.size() != 0; }
+  const Mirrored<Id>& pair_words() const { return pair_words_; }
+  const Mirrored<Offset>& pairs_begin() const { return pairs_begin_; }
+
   /// For DiscreteGradient, which looks them up often.
   mutable HostSuccessors host_successors;
 
@@ -98,10 +103,10 @@ class GradientStore {
   std::vector<std::pair<Id, Id>> further_successors;
 
  private:
-  Array<Id, HostMemory> vertex_successor, tetrahedron_successor;  // which consumers fill
+  Array<Id, HostMemory> consumed_vertices_, consumed_tetrahedra_;  // successors, which consumers fill
   Mirrored<Id> vertex_successors_, tetrahedron_successors_;
-  Mirrored<Id> pair_words_;       // of kernels
-  Mirrored<Offset> pairs_begin_;  // likewise
+  Mirrored<Id> pair_words_;
+  Mirrored<Offset> pairs_begin_;
   mutable EdgePairs pairs_;
   mutable Once pairs_are_here_;
 

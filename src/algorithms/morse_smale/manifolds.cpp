@@ -92,7 +92,7 @@ Keys<Space> first_tetrahedra(const Space& space, const Mesh& mesh) {
 }
 
 template <class Space>
-HostIds descending_in(const Space& space, const DiscreteGradient& gradient) {
+Mirrored<Id> descending_in(const Space& space, const DiscreteGradient& gradient) {
   const auto next = with_ends(space, gradient.store().vertex_successors(), gradient.critical().vertices);
   jump(space, next);
   const auto input = gradient.mesh().vertex_input<MemoryOf<Space>>();
@@ -100,11 +100,12 @@ HostIds descending_in(const Space& space, const DiscreteGradient& gradient) {
   parallel_for(
       "GALE::descending_manifolds", space, next.extent(0),
       KOKKOS_LAMBDA(Offset v) { manifolds(input(v)) = place_of_end(next(v)); });
-  return on_host(manifolds);
+  space.fence();
+  return manifolds;
 }
 
 template <class Space>
-HostIds ascending_in(const Space& space, const DiscreteGradient& gradient) {
+Mirrored<Id> ascending_in(const Space& space, const DiscreteGradient& gradient) {
   const auto next = with_ends(space, gradient.store().tetrahedron_successors(), gradient.critical().tetrahedra);
   jump(space, next);
   const auto first = first_tetrahedra(space, gradient.mesh());
@@ -116,13 +117,15 @@ HostIds ascending_in(const Space& space, const DiscreteGradient& gradient) {
         manifolds(input(v)) =
             first(v) == none || next(tetrahedron) == outside ? no_id : place_of_end(next(tetrahedron));
       });
-  return on_host(manifolds);
+  space.fence();
+  return manifolds;
 }
 
 template <class Space>
-std::pair<HostIds, Id> pairs_in(const Space& space, const HostIds& ascending, const HostIds& descending) {
-  const Offset count = ascending.extent(0);
-  const auto up = in_memory<MemoryOf<Space>>(ascending), down = in_memory<MemoryOf<Space>>(descending);
+std::pair<Mirrored<Id>, Id> pairs_in(const Space& space, const Mirrored<Id>& ascending,
+                                     const Mirrored<Id>& descending) {
+  const Offset count = ascending.size();
+  const auto up = ascending.in<MemoryOf<Space>>(), down = descending.in<MemoryOf<Space>>();
   const auto keys = allocate<Keys<Space>>("GALE::manifold_pairs", count);
   const auto vertices = allocate<Ids<Space>>("GALE::manifold_vertices", count);
   parallel_for(
@@ -139,21 +142,40 @@ std::pair<HostIds, Id> pairs_in(const Space& space, const HostIds& ascending, co
   parallel_for(
       "GALE::morse_smale_manifolds", space, count,
       KOKKOS_LAMBDA(Offset i) { manifolds(vertices(i)) = keys(i) == none ? no_id : before(i + 1) - 1; });
-  return {on_host(manifolds), distinct};
+  space.fence();
+  return {manifolds, distinct};
+}
+
+template <class Space>
+Mirrored<Id> renamed_in(const Space& space, const Mirrored<Id>& manifolds, const std::vector<Id>& names) {
+  const auto from = manifolds.in<MemoryOf<Space>>();
+  const auto name = in_memory<MemoryOf<Space>>(Array<const Id, HostMemory>(names.data(), names.size()));
+  const auto to = allocate<Ids<Space>>("GALE::renamed_manifolds", from.extent(0));
+  parallel_for(
+      "GALE::rename_manifolds", space, from.extent(0),
+      KOKKOS_LAMBDA(Offset v) { to(v) = from(v) == no_id ? no_id : name(from(v)); });
+  space.fence();
+  return to;
 }
 
 }  // namespace
 
-HostIds descending_manifolds(const DiscreteGradient& gradient) {
+Mirrored<Id> descending_manifolds(const DiscreteGradient& gradient) {
   return in_worker_or_host_space(gradient.mesh(), [&](const auto& space) { return descending_in(space, gradient); });
 }
 
-HostIds ascending_manifolds(const DiscreteGradient& gradient) {
+Mirrored<Id> ascending_manifolds(const DiscreteGradient& gradient) {
   return in_worker_or_host_space(gradient.mesh(), [&](const auto& space) { return ascending_in(space, gradient); });
 }
 
-std::pair<HostIds, Id> morse_smale_manifolds(const HostIds& ascending, const HostIds& descending) {
-  return in_worker_or_host_space(true, [&](const auto& space) { return pairs_in(space, ascending, descending); });
+std::pair<Mirrored<Id>, Id> morse_smale_manifolds(const Mirrored<Id>& ascending, const Mirrored<Id>& descending) {
+  return in_worker_or_host_space(ascending.on_device(),
+                                 [&](const auto& space) { return pairs_in(space, ascending, descending); });
+}
+
+Mirrored<Id> renamed(const Mirrored<Id>& manifolds, const std::vector<Id>& names) {
+  return in_worker_or_host_space(manifolds.on_device(),
+                                 [&](const auto& space) { return renamed_in(space, manifolds, names); });
 }
 
 }  // namespace gale::detail

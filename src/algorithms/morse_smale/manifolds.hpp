@@ -1,20 +1,26 @@
 #pragma once
 
+#include <utility>
+#include <vector>
+
 #include <gale/algorithms/discrete_gradient.hpp>
+
+// Manifolds are where they were found: in the workers' memory, if there is room.
 
 namespace gale::detail {
 
-using HostIds = Array<Id, HostMemory>;
-
 /// For each vertex, by input id: the place among the critical vertices of the minimum that its path falls to.
-HostIds descending_manifolds(const DiscreteGradient& gradient);
+Mirrored<Id> descending_manifolds(const DiscreteGradient& gradient);
 
 /// For each vertex, by input id: the place among the critical tetrahedra of the maximum that the path from its
 /// tetrahedron of lowest input id rises to; no_id if it leaves through the surface, or the vertex has no tetrahedron.
-HostIds ascending_manifolds(const DiscreteGradient& gradient);
+Mirrored<Id> ascending_manifolds(const DiscreteGradient& gradient);
 
 /// A number for each pair (ascending, descending) that occurs, in lexicographic order, dense from 0; no_id where the
 /// ascending one is missing. And how many pairs there are.
-std::pair<HostIds, Id> morse_smale_manifolds(const HostIds& ascending, const HostIds& descending);
+std::pair<Mirrored<Id>, Id> morse_smale_manifolds(const Mirrored<Id>& ascending, const Mirrored<Id>& descending);
+
+/// The same with names[p] for each place p; no_id stays.
+Mirrored<Id> renamed(const Mirrored<Id>& manifolds, const std::vector<Id>& names);
 
 }  // namespace gale::detail

@@ -6,13 +6,32 @@
 #include <gale/algorithms/morse_smale.hpp>
 #include <gale/algorithms/morse_smale/ascending_walls.hpp>
 #include <gale/algorithms/morse_smale/descending_surfaces.hpp>
+#include <gale/algorithms/morse_smale/device_connectors.hpp>
 #include <gale/algorithms/morse_smale/manifolds.hpp>
 #include <gale/algorithms/morse_smale/separatrices1.hpp>
 #include <gale/algorithms/order/same_mesh.hpp>
+#include <gale/base/error.hpp>
 
 namespace gale {
 
 namespace {
+
+/// Connectors and descending walls, of those parts that the complex is to have.
+void find_surfaces(const detail::CriticalPlaces& places, int threads, MorseSmaleComplex& complex) {
+  const MorseSmaleParts& parts = complex.parts;
+  if (!parts.separatrices2 && complex.gradient.store().is_from_kernels()) {
+    try {
+      complex.connectors = detail::device_connectors(complex.gradient, complex.critical, places);
+      return;
+    } catch (const OutOfMemory&) {
+      // The host takes one wall after the other.
+    }
+  }
+  auto surfaces = detail::descending_surfaces(complex.gradient, complex.critical, places, parts.separatrices2,
+                                              parts.saddle_connectors, threads);
+  complex.connectors = std::move(surfaces.connectors);
+  complex.descending_walls = std::move(surfaces.walls);
+}
 
 /// Those of the parts that the complex is to have.
 void find_manifolds(MorseSmaleComplex& complex) {
@@ -40,12 +59,7 @@ MorseSmaleComplex find_morse_smale_complex(Structure& structure, const DiscreteG
   if (parts.ascending_separatrices)
     complex.ascending =
         detail::ascending_separatrices(gradient.store().tetrahedron_successors(), complex.critical, places);
-  if (parts.saddle_connectors || parts.separatrices2) {
-    auto surfaces = detail::descending_surfaces(gradient, complex.critical, places, parts.separatrices2,
-                                                parts.saddle_connectors, threads);
-    complex.connectors = std::move(surfaces.connectors);
-    complex.descending_walls = std::move(surfaces.walls);
-  }
+  if (parts.saddle_connectors || parts.separatrices2) find_surfaces(places, threads, complex);
   if (parts.separatrices2) complex.ascending_walls = detail::ascending_walls(structure, gradient, threads);
   find_manifolds(complex);
   return complex;

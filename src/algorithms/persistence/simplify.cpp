@@ -9,7 +9,6 @@
 #include <gale/algorithms/persistence/walls_left.hpp>
 #include <gale/algorithms/simplify.hpp>
 #include <gale/base/error.hpp>
-#include <gale/base/parallel.hpp>
 
 namespace gale {
 
@@ -53,19 +52,16 @@ CriticalSimplices critical_left(const CriticalSimplices& all, const std::array<s
 }
 
 /// The manifolds of extrema as parts of those of their heirs.
-Array<Id, HostMemory> manifold_left(const Array<Id, HostMemory>& manifold, const std::vector<Id>& heirs,
-                                    const std::vector<char>& is_left) {
-  if (manifold.extent(0) == 0) return manifold;
+Mirrored<Id> manifold_left(const Mirrored<Id>& manifold, const std::vector<Id>& heirs,
+                           const std::vector<char>& is_left) {
+  if (manifold.size() == 0) return manifold;
   std::vector<Id> place(heirs.size(), no_id), heir_place(heirs.size(), no_id);
   Id next = 0;
   for (std::size_t i = 0; i < heirs.size(); ++i) {
     if (is_left[i]) place[i] = next++;
   }
   for (std::size_t i = 0; i < heirs.size(); ++i) heir_place[i] = heirs[i] == no_id ? no_id : place[heirs[i]];
-  const auto left = allocate<Array<Id, HostMemory>>("GALE::manifold_left", manifold.extent(0));
-  parallel_for("GALE::manifold_left", HostSpace(), manifold.extent(0),
-               [&](Offset v) { left(v) = manifold(v) == no_id ? no_id : heir_place[manifold(v)]; });
-  return left;
+  return detail::renamed(manifold, heir_place);
 }
 
 }  // namespace
@@ -105,7 +101,7 @@ MorseSmaleComplex simplify(const MorseSmaleComplex& complex, const std::function
   left.descending_manifold =
       manifold_left(complex.descending_manifold, cancelled.heir_of_minimum, cancelled.is_left[0]);
   left.ascending_manifold = manifold_left(complex.ascending_manifold, cancelled.heir_of_maximum, cancelled.is_left[3]);
-  if (complex.morse_smale_manifold.extent(0) != 0) {
+  if (complex.morse_smale_manifold.size() != 0) {
     std::tie(left.morse_smale_manifold, left.morse_smale_manifolds) =
         detail::morse_smale_manifolds(left.ascending_manifold, left.descending_manifold);
   }

@@ -257,8 +257,8 @@ class Painter {
 
   /// A hue for each pair of manifolds; paler where one is missing, grey where both are.
   Color color_of(Id vertex, double brightness) const {
-    const auto label = [vertex](const Array<Id, HostMemory>& manifold) {
-      return manifold.extent(0) != 0 ? manifold(vertex) : no_id;
+    const auto label = [vertex](const Mirrored<Id>& manifold) {
+      return manifold.size() != 0 ? manifold.in<HostMemory>()(vertex) : no_id;
     };
     const Id down = label(complex_.descending_manifold), up = label(complex_.ascending_manifold);
     const double turn = 0.6180339887498949 * (down + 1) + 0.7548776662466927 * (up + 1) +

@@ -1,0 +1,131 @@
+#pragma once
+
+#include <cstdint>
+
+#include <gale/algorithms/gradient/edge_pairs.hpp>
+#include <gale/base/atomic.hpp>
+#include <gale/base/memory.hpp>
+#include <gale/base/pair_key.hpp>
+
+namespace gale::detail {
+
+/// A triangle of a wall; (high, low) is the edge that it is paired with, unless it is the critical one.
+struct WallTriangle {
+  Id high, low, third;
+  Id wall;
+};
+
+/// A critical edge that a wall ends at.
+struct WallRim {
+  Id wall;
+  Id high, low;
+};
+
+/// What kernels read of a discrete gradient that kernels found, to follow walls through it.
+struct EdgesInMemory {
+  const Id* pair_words;
+  const Offset* pairs_begin;
+  const Id* vertex_successor;
+  const std::uint64_t* keys;
+  const Id* vertex_input;
+
+  KOKKOS_FUNCTION EdgePairRow row(Id high) const {
+    return EdgePairRow(const_cast<Id*>(pair_words) + pairs_begin[high]);  // which it only reads
+  }
+
+  /// Is one triangle before another, both written with their input vertices ascending?
+  KOKKOS_FUNCTION bool is_less(const WallTriangle& a, const WallTriangle& b) const {
+    const Written first(vertex_input, a), second(vertex_input, b);
+    if (first.least != second.least) return first.least < second.least;
+    if (first.middle != second.middle) return first.middle < second.middle;
+    return first.most < second.most;
+  }
+
+ private:
+  struct Written {
+    Id least, middle, most;
+
+    KOKKOS_FUNCTION Written(const Id* input, const WallTriangle& triangle)
+        : least(input[triangle.high]), middle(input[triangle.low]), most(input[triangle.third]) {
+      in_order(least, middle);
+      in_order(middle, most);
+      in_order(least, middle);
+    }
+    KOKKOS_FUNCTION static void in_order(Id& a, Id& b) {
+      if (a <= b) return;
+      const Id greater = a;
+      a = b;
+      b = greater;
+    }
+  };
+};
+
+/// The edges of walls that grow side by side: a hash table that kernels insert into. An edge of a wall has the least of
+/// the wall's triangles that it isn't paired with, by its number, and whether there are more of these. Copies share it.
+class WallTable {
+ public:
+  WallTable() = default;
+
+  /// With so many places, a power of two; `word_bits` suffice for the places of words of EdgePairRows. Throws
+  /// OutOfMemory.
+  WallTable(const WorkerSpace& space, Offset places, int word_bits);
+
+  Offset places() const { return static_cast<Offset>(edges_.extent(0)); }
+
+  /// Moves to a table of twice the places.
+  void grow(const WorkerSpace& space);
+
+  /// The edge whose lower end is the word of EdgePairs with that number, in a wall.
+  KOKKOS_FUNCTION std::uint64_t key(Id wall, Offset word) const {
+    return std::uint64_t(wall) << word_bits_ | std::uint64_t(word);
+  }
+
+  /// The place of an edge; `is_new` says whether it was inserted now.
+  KOKKOS_FUNCTION std::uint64_t insert(std::uint64_t key, bool& is_new) const {
+    for (std::uint64_t at = first_place(key);; at = next_place(at)) {
+      std::uint64_t there = atomic_read(&edges_(at));
+      if (there == none) there = atomic_compare_exchange(&edges_(at), none, key);
+      is_new = there == none;
+      if (is_new || there == key) return at;
+    }
+  }
+
+  /// The place of an edge that is there.
+  KOKKOS_FUNCTION std::uint64_t find(std::uint64_t key) const {
+    std::uint64_t at = first_place(key);
+    while (edges_(at) != key) at = next_place(at);
+    return at;
+  }
+
+  /// Says that a triangle is above the edge at a place. is_less(a, b) compares triangles by their numbers.
+  template <class IsLess>
+  KOKKOS_FUNCTION void put_above(std::uint64_t place, std::uint32_t triangle, const IsLess& is_less) const {
+    std::uint32_t* const above = &above_(place);
+    std::uint32_t there = atomic_compare_exchange(above, no_triangle, triangle);
+    while (there != no_triangle) {
+      const std::uint32_t least = there & ~several;
+      const std::uint32_t both = several | (is_less(triangle, least) ? triangle : least);
+      const std::uint32_t now = atomic_compare_exchange(above, there, both);
+      if (now == there) return;
+      there = now;
+    }
+  }
+
+  KOKKOS_FUNCTION std::uint32_t least_above(std::uint64_t place) const { return above_(place) & ~several; }
+  KOKKOS_FUNCTION bool are_several_above(std::uint64_t place) const { return (above_(place) & several) != 0; }
+
+  static constexpr Offset most_triangles = (Offset(1) << 31) - 1;  ///< that it can number
+
+ private:
+  static constexpr std::uint64_t none = ~std::uint64_t(0);
+  static constexpr std::uint32_t several = std::uint32_t(1) << 31, no_triangle = ~std::uint32_t(0);
+
+  KOKKOS_FUNCTION std::uint64_t first_place(std::uint64_t key) const { return spread(key) & (edges_.extent(0) - 1); }
+  KOKKOS_FUNCTION std::uint64_t next_place(std::uint64_t at) const { return (at + 1) & (edges_.extent(0) - 1); }
+
+  Array<std::uint64_t, WorkerMemory> edges_;
+  Array<std::uint32_t, WorkerMemory> above_;
+  int word_bits_ = 0;
+};
+
+}  // namespace gale::detail
