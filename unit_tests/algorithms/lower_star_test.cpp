@@ -104,8 +104,9 @@ struct Step {
 
 template <class Cells>
 std::vector<int> corners_of(const Cells& cells, int cell) {
-  const auto& corners = cells.corners(cell);
-  return {&corners[0], &corners[0] + cells.dimension(cell)};
+  std::vector<int> corners;
+  for (int i = 0; i < cells.dimension(cell); ++i) corners.push_back(cells.corners(cell)[i]);
+  return corners;
 }
 
 template <class Cells, class Queues>

@@ -36,8 +36,9 @@ struct Room {
   }
 };
 
-/// Bytes for batches: the last stars of each take their time.
+/// The last stars of each batch take their time: few large ones.
 constexpr std::size_t usual_memory = std::size_t(384) << 20;
+constexpr int usual_batches = 2;
 
 /// One sweep.
 class Attempt {
@@ -68,6 +69,7 @@ class Attempt {
                                  rows};
     DeviceSweepOptions with_scratch = options;
     if (have_device && options.memory == 0) with_scratch.memory = usual_memory;
+    if (have_device && options.batches == 0) with_scratch.batches = usual_batches;
     with_scratch.team_scratch = detail::PairStars::scratch_bytes(rows) + 16;
     for_each_segment(space, mesh_, discrete_gradient_relations, pair, with_scratch);
     Kokkos::deep_copy(words_used_, Kokkos::subview(used_, 0));

@@ -29,15 +29,10 @@ class LowerNeighbours {
       count_ += other < key;
       if (count_ > max_lower) return false;
     }
-    for (int i = 0; i < count_; ++i) rank_[i] = 0;
-    for (int i = 1; i < count_; ++i) {
-      int below = 0;
-      for (int j = 0; j < i; ++j) {
-        const int is_below = lower[j] < lower[i];
-        below += is_below;
-        rank_[j] = static_cast<std::uint8_t>(rank_[j] + 1 - is_below);
-      }
-      rank_[i] = static_cast<std::uint8_t>(below);
+    if (count_ <= 16) {
+      rank_few(lower);
+    } else {
+      rank_many(lower);
     }
     for (int i = 0; i < count_; ++i) {
       by_rank_[rank_[i]] = static_cast<std::uint8_t>(i);
@@ -59,6 +54,34 @@ class LowerNeighbours {
   KOKKOS_FORCEINLINE_FUNCTION int with_rank(int rank) const { return by_rank_[rank]; }
 
  private:
+  /// By ranks of four bits each, which stay in a register.
+  KOKKOS_FORCEINLINE_FUNCTION void rank_few(const std::uint64_t* lower) {
+    std::uint64_t ranks = 0;
+    for (int i = 1; i < count_; ++i) {
+      std::uint64_t below = 0;
+      for (int j = 0; j < i; ++j) {
+        const bool is_below = lower[j] < lower[i];
+        below += is_below;
+        ranks += std::uint64_t(!is_below) << 4 * j;
+      }
+      ranks += below << 4 * i;
+    }
+    for (int i = 0; i < count_; ++i) rank_[i] = static_cast<std::uint8_t>(ranks >> 4 * i & 15);
+  }
+
+  KOKKOS_FORCEINLINE_FUNCTION void rank_many(const std::uint64_t* lower) {
+    for (int i = 0; i < count_; ++i) rank_[i] = 0;
+    for (int i = 1; i < count_; ++i) {
+      int below = 0;
+      for (int j = 0; j < i; ++j) {
+        const int is_below = lower[j] < lower[i];
+        below += is_below;
+        rank_[j] = static_cast<std::uint8_t>(rank_[j] + 1 - is_below);
+      }
+      rank_[i] = static_cast<std::uint8_t>(below);
+    }
+  }
+
   int count_;
   std::uint8_t ranks_[max_neighbours];
   std::uint8_t place_[max_lower + 1];

@@ -32,9 +32,9 @@ KOKKOS_FORCEINLINE_FUNCTION void pair_star(const Sink& sink, const VertexStar& s
   sink.set_vertex(star.vertex, lower.count() == 0 ? no_id : id(0));
   if (lower.count() == 0) return;
   const auto pair = [&](int facet, int cell) {
-    const auto& low = cells.corners(facet);
+    const auto low = cells.corners(facet);
     if (cells.dimension(cell) == 2) {
-      const auto& both = cells.corners(cell);
+      const auto both = cells.corners(cell);
       edges.pair(lower.with_rank(low[0]), lower.with_rank(both[0] == low[0] ? both[1] : both[0]));
     } else {
       const Id place = cells.place(cell), across = cells.across(facet, place);
@@ -49,7 +49,7 @@ KOKKOS_FORCEINLINE_FUNCTION void pair_star(const Sink& sink, const VertexStar& s
     }
   };
   const auto critical = [&](int cell) {
-    const auto& corners = cells.corners(cell);
+    const auto corners = cells.corners(cell);
     const int dimension = cells.dimension(cell);
     if (dimension == 1) {
       sink.add_critical_edge(star.vertex, id(corners[0]));

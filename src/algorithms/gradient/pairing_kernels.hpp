@@ -57,9 +57,10 @@ struct RowSink {
 template <int Words>
 KOKKOS_FUNCTION bool pair_of_words(const std::uint64_t* keys, const LaneSink& sink, const VertexStar& star, Id* row) {
   LowerNeighbours lower;
-  LowerStar<Words> cells;
+  using Star = LowerStar<Words, have_device>;
+  Star cells;
   if (!lower.find(keys, star.vertex, star.neighbours) || !cells.build(lower, star.link)) return false;
-  pair_star(RowSink{sink, row}, star, lower, cells, BitQueues<LowerStar<Words>>(cells));
+  pair_star(RowSink{sink, row}, star, lower, cells, BitQueues<Star>(cells));
   return true;
 }
 
