@@ -6,7 +6,6 @@
 #include <cstdlib>
 #include <vector>
 
-#include <gale/base/parallel.hpp>
 #include <gale/base/transfer.hpp>
 #include <gale/relations/kernels/segment_kernel.hpp>
 
@@ -25,7 +24,6 @@ class WholeMesh {
   WholeMesh(const Mesh& mesh, RelationSet wanted)
       : count_(mesh.segments()),
         kernel_(mesh, wanted),
-        segments_(iota("segments", WorkerSpace(), mesh.segments())),
         words_(allocate<Array<Id, WorkerMemory>>("words", pool_words())),
         directory_("directory", Offset(mesh.segments()) * wanted.count()),
         used_("used", 1),
@@ -47,7 +45,7 @@ class WholeMesh {
     words_made_ = 0;
     for (Id begin = 0; begin < count_; begin += batch_) {
       Kokkos::deep_copy(used_, 0);
-      task_.segments = segments_.data() + begin;
+      task_.segments = SegmentList::from(begin);
       kernel_.launch(WorkerSpace(), task_, std::min(batch_, count_ - begin), shape);
       WorkerSpace().fence();
       const Offset used = on_host(used_)(0);
@@ -67,7 +65,7 @@ class WholeMesh {
   Id batch_ = 0;
   SegmentKernel<WorkerMemory> kernel_;
   KernelTask task_;
-  Array<Id, WorkerMemory> segments_, words_;
+  Array<Id, WorkerMemory> words_;
   Array<Offset, WorkerMemory> directory_, used_;
   Array<StarSizes, WorkerMemory> needed_;
   Offset words_made_ = 0;

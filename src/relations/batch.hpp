@@ -2,6 +2,7 @@
 
 #include <gale/export.hpp>
 #include <gale/mesh/mesh.hpp>
+#include <gale/relations/segment_list.hpp>
 #include <gale/relations/segment_rows.hpp>
 
 namespace gale {
@@ -30,7 +31,7 @@ template <class Memory>
 struct Batch {
   RelationSet relations;              ///< of which each segment has a block
   Id count = 0;                       ///< segments
-  const Id* segments = nullptr;       ///< slot -> segment
+  SegmentList segments;               ///< slot -> segment
   const Offset* directory = nullptr;  ///< slot and relation -> where the block begins in `words`; below 0 if missing
   const Id* words = nullptr;          ///< the blocks, see BlockLayout
   IntervalTables<Memory> intervals;   ///< of the mesh

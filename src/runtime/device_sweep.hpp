@@ -39,16 +39,20 @@ struct OnEachSegment {
   }
 };
 
-/// A lane a row.
+/// A warp a segment, a lane a row: teams of many segments, so that a device starts few.
 template <class Memory, class Functor>
 struct OnEachRow {
+  Batch<Memory> blocks;
   Relation relation;
   Functor functor;
 
   template <class Team>
-  KOKKOS_FUNCTION void operator()(const Team& team, const SegmentRowsIn<Memory>& segment) const {
-    const Rows rows = segment[relation];
-    team::for_all(team, rows.count, [&](int i) { functor(rows.first + i, rows[rows.first + i]); });
+  KOKKOS_FUNCTION void operator()(const Team& team) const {
+    const Id slot = team.league_rank() * team.team_size() + team.team_rank();
+    if (slot >= blocks.count || !blocks.has(slot)) return;
+    const Rows rows = blocks.rows(slot, relation);
+    Kokkos::parallel_for(Kokkos::ThreadVectorRange(team, rows.count),
+                         [&](int i) { functor(rows.first + i, rows[rows.first + i]); });
   }
 };
 
@@ -79,13 +83,22 @@ void for_each_segment(const Space& space, const Mesh& mesh, RelationSet relation
   });
 }
 
-/// Calls functor(simplex, row) for each simplex that a relation has a row of, with the Row. A lane a row on a device;
-/// on the host on all threads that GALE may use there, whatever backend Kokkos has.
+/// Calls functor(simplex, row) for each simplex that a relation has a row of, with the Row. A lane a row and a warp a
+/// segment on a device; on the host on all threads that GALE may use there, whatever backend Kokkos has.
 template <class Space, class Functor>
 void for_each_row(const Space& space, const Mesh& mesh, Relation relation, const Functor& functor,
                   const DeviceSweepOptions& options = {}) {
   if constexpr (is_device<Space>) {
-    for_each_segment(space, mesh, relation, detail::OnEachRow<WorkerMemory, Functor>{relation, functor}, options);
+    constexpr int lanes = 32, usual_threads = 256;
+    const int threads = options.threads_per_team > 0 ? options.threads_per_team : usual_threads;
+    const int warps = (threads + lanes - 1) / lanes;
+    detail::BatchSweep<WorkerMemory> sweep(space, mesh, relation, options);
+    sweep.run([&](const auto& launched) {
+      const Batch<WorkerMemory>& blocks = launched.blocks.of[0];
+      const Kokkos::TeamPolicy<Space> policy(launched.instance, (blocks.count + warps - 1) / warps, warps, lanes);
+      Kokkos::parallel_for("GALE::for_each_row", overlapping(policy),
+                           detail::OnEachRow<WorkerMemory, Functor>{blocks, relation, functor});
+    });
   } else {
     space.fence();
     StructureOptions inline_way;

@@ -10,6 +10,7 @@
 #include <gale/relations/kernels/row_entries.hpp>
 #include <gale/relations/kernels/row_stash.hpp>
 #include <gale/relations/rows.hpp>
+#include <gale/relations/segment_list.hpp>
 
 namespace gale {
 
@@ -26,7 +27,7 @@ class RowKernel {
  public:
   Simplices<Memory> simplices;
   Kokkos::View<const Id*, Memory, Kokkos::MemoryUnmanaged> vertex_begin;  ///< I_V
-  const Id* segments = nullptr;                                           ///< of the batch, one a team
+  SegmentList segments;                                                   ///< of the batch, one a team
   StarSizes sizes;                                                        ///< rows alone count
   int scratch_level = 0;
   BlockPool pool;

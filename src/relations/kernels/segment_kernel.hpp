@@ -22,8 +22,8 @@ bool are_there(const Batch<HostMemory>& batch);
 
 /// What a kernel is run on.
 struct KernelTask {
-  const Id* segments = nullptr;  ///< one a team, where the kernel can read them
-  StarSizes sizes;               ///< what teams have scratch memory for
+  SegmentList segments;  ///< one a team, where the kernel can read them
+  StarSizes sizes;       ///< what teams have scratch memory for
   int scratch_level = 0;
   BlockPool pool;
 };

@@ -6,6 +6,7 @@
 #include <gale/relations/kernels/segment_tetrahedra.hpp>
 #include <gale/relations/relation.hpp>
 #include <gale/relations/rows.hpp>
+#include <gale/relations/segment_list.hpp>
 
 namespace gale::detail {
 
@@ -25,7 +26,7 @@ KOKKOS_FORCEINLINE_FUNCTION Id usual_outside(Id tetrahedra) { return tetrahedra 
 template <class Memory>
 struct StarRequest {
   EncodedMesh<Memory> mesh;
-  const Id* segments = nullptr;  ///< of the batch, one a team
+  SegmentList segments;  ///< of the batch, one a team
   RelationSet wanted;
   StarSizes sizes;
   BlockPool pool;

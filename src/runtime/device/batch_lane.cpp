@@ -36,10 +36,8 @@ auto first(const View& view, std::size_t count) {
 }  // namespace
 
 template <class Memory>
-BatchLane<Memory>::BatchLane(const Mesh& mesh, std::vector<SweepKernel<Memory>>& kernels, const Id* all_segments,
-                             Offset words)
+BatchLane<Memory>::BatchLane(const Mesh& mesh, std::vector<SweepKernel<Memory>>& kernels, Offset words)
     : kernels_(kernels),
-      all_segments_(all_segments),
       words_(words),
       fast_scratch_(fast_scratch_bytes<Space>()),
       memory_(KeptLanes<Memory>::instance().take()) {
@@ -80,7 +78,7 @@ void BatchLane<Memory>::launch(BatchPlan plan) {
 
 template <class Memory>
 void BatchLane<Memory>::launch_kernels() {
-  const Id* const segments = place_segments();
+  const SegmentList segments = place_segments();
   *memory_.header_copy.data() = BatchHeader();
   Kokkos::deep_copy(memory_.instance, memory_.header, memory_.header_copy.view());
   Offset* directory = memory_.directory.data();
@@ -92,7 +90,7 @@ void BatchLane<Memory>::launch_kernels() {
 }
 
 template <class Memory>
-void BatchLane<Memory>::launch_kernel(int k, const Id* segments, Offset* directory) {
+void BatchLane<Memory>::launch_kernel(int k, SegmentList segments, Offset* directory) {
   const Id count = plan_.count();
   SegmentKernel<Memory>& kernel = kernels_[k].kernel;
   const SegmentBounds& bounds = *kernels_[k].bounds;
@@ -153,8 +151,8 @@ std::vector<Id> BatchLane<Memory>::segments_missing() const {
 
 /// Where the kernels read their segments.
 template <class Memory>
-const Id* BatchLane<Memory>::place_segments() {
-  if (plan_.segments.empty()) return all_segments_ + plan_.begin;
+SegmentList BatchLane<Memory>::place_segments() {
+  if (plan_.segments.empty()) return SegmentList::from(plan_.begin);
   const Kokkos::View<const Id*, HostMemory, Kokkos::MemoryUnmanaged> list(plan_.segments.data(), plan_.segments.size());
   Kokkos::deep_copy(first(memory_.segments, plan_.segments.size()), list);
   return memory_.segments.data();

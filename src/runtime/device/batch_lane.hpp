@@ -41,8 +41,8 @@ class BatchLane {
  public:
   using Space = typename SegmentKernel<Memory>::Space;
 
-  /// `all_segments` are 0, 1, ... in `Memory`. Refers to them and to the kernels. Throws OutOfMemory.
-  BatchLane(const Mesh& mesh, std::vector<SweepKernel<Memory>>& kernels, const Id* all_segments, Offset words);
+  /// Refers to the kernels. Throws OutOfMemory.
+  BatchLane(const Mesh& mesh, std::vector<SweepKernel<Memory>>& kernels, Offset words);
 
   /// Waits for what is in flight.
   ~BatchLane();
@@ -67,13 +67,12 @@ class BatchLane {
 
  private:
   void reserve(Offset words, Id slots);
-  const Id* place_segments();
+  SegmentList place_segments();
   void launch_kernels();
-  void launch_kernel(int kernel, const Id* segments, Offset* directory);
+  void launch_kernel(int kernel, SegmentList segments, Offset* directory);
   std::vector<Id> segments_missing() const;
 
   std::vector<SweepKernel<Memory>>& kernels_;
-  const Id* all_segments_;
   const Offset words_;  ///< that a batch has at least
   const std::size_t fast_scratch_;
   Offset relations_ = 0;

@@ -3,7 +3,6 @@
 #include <vector>
 
 #include <gale/base/error.hpp>
-#include <gale/base/parallel.hpp>
 #include <gale/runtime/defaults.hpp>
 #include <gale/runtime/device/batch_lane.hpp>
 #include <gale/runtime/device/batch_sweep.hpp>
@@ -57,7 +56,6 @@ class BatchSweep<Memory>::Batches {
   void plan_again(const BatchPlan& plan, BatchShortfall lacked);
 
   const Mesh mesh_;
-  const Array<Id, Memory> all_segments_;
   double words_per_vertex_;  ///< that blocks take, by those so far
   std::vector<SweepKernel<Memory>> kernels_;
   Offset words_ = 0;  ///< that a batch has room for, unless one segment needs more
@@ -70,9 +68,7 @@ class BatchSweep<Memory>::Batches {
 template <class Memory>
 BatchSweep<Memory>::Batches::Batches(const Space& space, const Mesh& mesh, RelationSet relations,
                                      const DeviceSweepOptions& options)
-    : mesh_(mesh),
-      all_segments_(iota("GALE::sweep_all_segments", space, mesh.segments())),
-      words_per_vertex_(margin * words_per_vertex(relations)) {
+    : mesh_(mesh), words_per_vertex_(margin * words_per_vertex(relations)) {
   space.fence();
   const Filled<Memory> filled(options);
   if (relations.empty()) throw Error("a sweep needs a relation to read");
@@ -86,7 +82,7 @@ BatchSweep<Memory>::Batches::Batches(const Space& space, const Mesh& mesh, Relat
   const auto batches = static_cast<int>(std::min<Offset>(filled.batches, (all + words_ - 1) / words_));
   for (int i = 0; i < batches; ++i) {
     try {
-      lanes_.push_back(std::make_unique<Lane>(mesh_, kernels_, all_segments_.data(), std::min(words_, all)));
+      lanes_.push_back(std::make_unique<Lane>(mesh_, kernels_, std::min(words_, all)));
     } catch (const OutOfMemory&) {
       if (lanes_.empty()) throw;
       break;  // fewer do as well
