@@ -1,6 +1,9 @@
+#include <functional>
+
 #include <gale/algorithms/persistence/cancel_extrema.hpp>
 #include <gale/algorithms/persistence/cancellations.hpp>
 #include <gale/algorithms/persistence/pairs.hpp>
+#include <gale/base/threads.hpp>
 
 namespace gale::detail {
 
@@ -17,12 +20,10 @@ void leave_out(const std::vector<PersistencePair>& pairs, int type, Cancellation
   for (const PersistencePair& pair : pairs) all.is_left[type][pair.lower] = all.is_left[type + 1][pair.upper] = 0;
 }
 
-void cancel_minima(const std::vector<PersistencePair>& pairs, const DiscreteGradient& gradient,
-                   const CriticalPlaces& places, Cancellations& all) {
-  const CriticalSimplices& critical = gradient.critical();
-  all.heir_of_minimum =
-      cancel_extrema(pairs, &PersistencePair::lower, &PersistencePair::upper, ends_of_edges(gradient, places),
-                     sides_of_edges(critical), critical.vertices.size(), all.minima);
+void cancel_minima(const std::vector<PersistencePair>& pairs, const CriticalSimplices& critical, const PathEnds& ends,
+                   Cancellations& all) {
+  all.heir_of_minimum = cancel_extrema(pairs, &PersistencePair::lower, &PersistencePair::upper, ends,
+                                       sides_of_edges(critical), critical.vertices.size(), all.minima);
   for (const PersistencePair& pair : pairs) {
     const auto& edge = critical.edges[pair.upper];
     all.edges.set(edge[0], edge[1], TurnedEdges::with_vertex);
@@ -30,12 +31,10 @@ void cancel_minima(const std::vector<PersistencePair>& pairs, const DiscreteGrad
   leave_out(pairs, 0, all);
 }
 
-void cancel_maxima(const std::vector<PersistencePair>& pairs, const DiscreteGradient& gradient,
-                   const CriticalPlaces& places, Cancellations& all) {
-  const CriticalSimplices& critical = gradient.critical();
-  all.heir_of_maximum =
-      cancel_extrema(pairs, &PersistencePair::upper, &PersistencePair::lower, ends_of_triangles(gradient, places),
-                     sides_of_triangles(critical), critical.tetrahedra.size(), all.maxima);
+void cancel_maxima(const std::vector<PersistencePair>& pairs, const CriticalSimplices& critical, const PathEnds& ends,
+                   Cancellations& all) {
+  all.heir_of_maximum = cancel_extrema(pairs, &PersistencePair::upper, &PersistencePair::lower, ends,
+                                       sides_of_triangles(critical), critical.tetrahedra.size(), all.maxima);
   leave_out(pairs, 2, all);
 }
 
@@ -44,13 +43,15 @@ void cancel_maxima(const std::vector<PersistencePair>& pairs, const DiscreteGrad
 Cancellations cancel_below(double threshold, const MorseSmaleComplex& complex, const CriticalValues& values,
                            bool extrema_only, bool want_joined, int threads) {
   const DiscreteGradient& gradient = complex.gradient;
-  SweepOptions options;
-  options.threads = threads;
-  const PersistencePairs pairs = pairs_along_successors(gradient, options);
-  const CriticalPlaces places(gradient.critical());
+  const CriticalSimplices& critical = gradient.critical();
+  const CriticalPlaces places(critical);
+  const ExtremumEnds ends{ends_of_edges(gradient, places), ends_of_triangles(gradient, places)};
+  const PersistencePairs pairs = pairs_along_successors(gradient, places, ends, threads);
   Cancellations all(gradient);
-  cancel_minima(pairs_below(threshold, 0, pairs.pairs[0], values), gradient, places, all);
-  cancel_maxima(pairs_below(threshold, 2, pairs.pairs[2], values), gradient, places, all);
+  const std::function<void()> extrema[] = {
+      [&] { cancel_minima(pairs_below(threshold, 0, pairs.pairs[0], values), critical, ends.of_edges, all); },
+      [&] { cancel_maxima(pairs_below(threshold, 2, pairs.pairs[2], values), critical, ends.of_triangles, all); }};
+  in_turns(threads, 2, [&](int, std::int64_t i) { extrema[i](); });
   DoomedSaddles doomed{pairs_below(threshold, 1, pairs.pairs[1], values), values[1], values[2], {}, threshold};
   if (extrema_only) return all;
   doomed.minimum_below.resize(values[1].size());

@@ -4,11 +4,16 @@
 
 namespace gale::detail {
 
+FirstPaths::FirstPaths(const MorseSmaleComplex& complex, const TurnedEdges& turned)
+    : complex_(complex), turned_(turned), begin_(complex.critical.triangles.size() + 1, 0) {
+  for (const Id upper : complex.connectors.destinations) ++begin_[upper + 1];
+  for (std::size_t i = 1; i < begin_.size(); ++i) begin_[i] += begin_[i - 1];
+}
+
 bool FirstPaths::take(Id lower, Id upper, std::vector<TriangleVertices>& path) const {
   const auto& all = complex_.connectors;
-  const auto range = std::equal_range(all.destinations.begin(), all.destinations.end(), upper);
-  const auto first = range.first - all.destinations.begin(), end = range.second - all.destinations.begin();
-  const auto source = std::find(all.sources.begin() + first, all.sources.begin() + end, lower);
+  const Id end = begin_[upper + 1];
+  const auto source = std::find(all.sources.begin() + begin_[upper], all.sources.begin() + end, lower);
   const auto place = static_cast<Id>(source - all.sources.begin());
   if (place == end) return false;
   const auto& edge = complex_.critical.edges[lower];

@@ -14,22 +14,16 @@ namespace gale {
 namespace {
 
 using detail::CriticalPlaces;
+using detail::ExtremumEnds;
 using detail::Filtration;
-
-/// For each minimum the 1-saddle that it is paired with.
-std::vector<Id> pair_minima(const DiscreteGradient& gradient, const CriticalPlaces& places,
-                            const Filtration& filtration) {
-  return detail::join_ends(filtration.by_rank[1], ends_of_edges(gradient, places), filtration.rank[0]);
-}
+using detail::PathEnds;
 
 /// For each maximum the 2-saddle that it is paired with.
-std::vector<Id> pair_maxima(const DiscreteGradient& gradient, const CriticalPlaces& places,
-                            const Filtration& filtration, bool may_fork) {
-  if (may_fork && detail::forks(gradient)) return detail::pair_forked_maxima(gradient, places, filtration);
+std::vector<Id> pair_maxima(const PathEnds& ends, const Filtration& filtration) {
   const std::vector<Id> falling(filtration.by_rank[2].rbegin(), filtration.by_rank[2].rend());
   std::vector<Id> age = filtration.rank[3];
   for (Id& rank : age) rank = static_cast<Id>(age.size()) - 1 - rank;
-  return detail::join_ends(falling, ends_of_triangles(gradient, places), age);
+  return detail::join_ends(falling, ends, age);
 }
 
 /// What each simplex is paired with, by dimension and place.
@@ -73,15 +67,16 @@ class Partners {
   std::array<std::vector<char>, 4> is_paired_;
 };
 
-PersistencePairs pairs_of(const DiscreteGradient& gradient, const SweepOptions& options, bool may_fork) {
-  const ThreadLimit limit(options.threads);
-  const int threads = std::max(options.threads, 1);
-  const CriticalPlaces places(gradient.critical());
+PersistencePairs pairs_of(const DiscreteGradient& gradient, const CriticalPlaces& places, const ExtremumEnds& ends,
+                          bool forks, int threads) {
   const Filtration filtration = detail::filtration_of(gradient, threads);
   std::vector<Id> saddle_of_minimum, saddle_of_maximum;
   const std::function<void()> extrema[] = {
-      [&] { saddle_of_minimum = pair_minima(gradient, places, filtration); },
-      [&] { saddle_of_maximum = pair_maxima(gradient, places, filtration, may_fork); }};
+      [&] { saddle_of_minimum = detail::join_ends(filtration.by_rank[1], ends.of_edges, filtration.rank[0]); },
+      [&] {
+        saddle_of_maximum = forks ? detail::pair_forked_maxima(gradient, places, filtration)
+                                  : pair_maxima(ends.of_triangles, filtration);
+      }};
   in_turns(threads, 2, [&](int, std::int64_t i) { extrema[i](); });
   PersistencePairs found;
   Partners partners(gradient.critical().counts());
@@ -99,11 +94,17 @@ PersistencePairs pairs_of(const DiscreteGradient& gradient, const SweepOptions& 
 }  // namespace
 
 PersistencePairs find_persistence_pairs(const DiscreteGradient& gradient, const SweepOptions& options) {
-  return pairs_of(gradient, options, true);
+  const ThreadLimit limit(options.threads);
+  const CriticalPlaces places(gradient.critical());
+  const bool forks = detail::forks(gradient);
+  ExtremumEnds ends{ends_of_edges(gradient, places), {}};
+  if (!forks) ends.of_triangles = ends_of_triangles(gradient, places);
+  return pairs_of(gradient, places, ends, forks, std::max(options.threads, 1));
 }
 
-PersistencePairs detail::pairs_along_successors(const DiscreteGradient& gradient, const SweepOptions& options) {
-  return pairs_of(gradient, options, false);
+PersistencePairs detail::pairs_along_successors(const DiscreteGradient& gradient, const CriticalPlaces& places,
+                                                const ExtremumEnds& ends, int threads) {
+  return pairs_of(gradient, places, ends, false, threads);
 }
 
 }  // namespace gale

@@ -1,8 +1,7 @@
 #pragma once
 
 #include <functional>
-#include <map>
-#include <set>
+#include <utility>
 #include <vector>
 
 #include <gale/algorithms/separatrices.hpp>
@@ -21,13 +20,11 @@ class SaddleGraph {
   SaddleGraph(const Separatrices<TriangleVertices>& connectors, const std::vector<char>& lower,
               const std::vector<char>& upper);
 
-  int paths(Id lower, Id upper) const {
-    const auto at = up_[lower].find(upper);
-    return at == up_[lower].end() ? 0 : at->second;
-  }
+  /// 2-saddles by their ids, ascending, and how many paths lead to each.
+  using Above = std::vector<std::pair<Id, int>>;
 
-  const std::map<Id, int>& above(Id lower) const { return up_[lower]; }
-  const std::set<Id>& below(Id upper) const { return down_[upper]; }
+  int paths(Id lower, Id upper) const;
+  const Above& above(Id lower) const { return up_[lower]; }
 
   /// Cancels two saddles with one path between them; calls changed(lower, upper) for other two whose
   /// paths may be others now.
@@ -37,8 +34,8 @@ class SaddleGraph {
   void replace(Id upper, const std::vector<std::pair<Id, int>>& paths);
 
  private:
-  std::vector<std::map<Id, int>> up_;
-  std::vector<std::set<Id>> down_;
+  std::vector<Above> up_;
+  std::vector<std::vector<Id>> down_;  ///< those below each 2-saddle, ascending
 };
 
 }  // namespace gale::detail
