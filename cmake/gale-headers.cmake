@@ -33,6 +33,7 @@ set(gale_included_headers
   base/worker_or_host.hpp
   mesh/caller_views.hpp
   mesh/quad.hpp
+  relations/segment_list.hpp
   runtime/device/batch_sweep.hpp
   runtime/device/segment_batches.hpp)
 

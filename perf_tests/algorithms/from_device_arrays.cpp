@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <memory>
+#include <variant>
 #include <vector>
 
 #include <gale/algorithms/critical_points.hpp>

@@ -2,6 +2,7 @@
 
 #include <gale/algorithms/discrete_gradient.hpp>
 #include <gale/algorithms/separatrices.hpp>
+#include <gale/base/mirrored.hpp>
 #include <gale/export.hpp>
 
 namespace gale {
@@ -63,7 +64,8 @@ struct MorseSmaleComplex {
 
   AscendingWalls ascending_walls;
 
-  // Manifolds, by input vertex: where they were found, a device or the host; in<HostMemory>() has them there.
+  // Manifolds, by input vertex: where they were found, a device or the host, where they take 12 bytes a
+  // vertex; in<HostMemory>() has them on the host, too.
 
   /// The place among the critical vertices of the minimum that the vertex's path falls to.
   Mirrored<Id> descending_manifold;
@@ -80,8 +82,9 @@ struct MorseSmaleComplex {
 };
 
 /// Traces the complex of a gradient: connectors and walls on options.threads threads, other separatrices on the host's,
-/// manifolds in the workers' space. options.progress isn't called. The same result whatever the structure, its
-/// segments, and the number of threads.
+/// manifolds in the workers' space. Of a gradient that kernels found, separatrices and, unless separatrices2 are
+/// wanted, connectors are found where it is, if there is room. options.progress isn't called. The same result whatever
+/// the structure, its segments, and the number of threads.
 ///
 /// `structure` is one of the gradient's mesh: throws gale::Error if it isn't. Only separatrices2 reads it, for VT:
 /// throws gale::Error if it isn't preconditioned for that. Time and memory grow with what is found, and for manifolds

@@ -4,7 +4,7 @@
 
 #include <gale/base/kokkos.hpp>
 
-namespace gale {
+namespace gale::detail {
 
 /// Four small numbers in one word, so that memory is asked once for all of them.
 class Bytes {
@@ -20,4 +20,4 @@ class Bytes {
   std::uint32_t word_;
 };
 
-}  // namespace gale
+}  // namespace gale::detail

@@ -73,7 +73,7 @@ inline WorkerSpace make_instance() {
 
 /// The policy of a launch that overlaps with launches on other instances: its functor, of less than 4 KiB, travels with
 /// the launch. In constant memory, where Kokkos::Cuda puts those of more than 512 bytes otherwise, there is one at a
-/// time.
+/// time; larger ones are launched as always.
 template <class Policy>
 auto overlapping(const Policy& policy) {
   return Kokkos::Experimental::require(policy, Kokkos::Experimental::WorkItemProperty::HintLightWeight);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cassert>
+
 #include <gale/base/kokkos.hpp>
 #include <gale/base/types.hpp>
 
@@ -18,11 +20,14 @@ class SegmentList {
     return list;
   }
 
-  KOKKOS_FUNCTION Id operator[](Id place) const { return segments_ == nullptr ? first_ + place : segments_[place]; }
+  KOKKOS_FUNCTION Id operator[](Id place) const {
+    assert((segments_ != nullptr || first_ >= 0) && "there are no segments");
+    return segments_ == nullptr ? first_ + place : segments_[place];
+  }
 
  private:
   const Id* segments_ = nullptr;
-  Id first_ = 0;
+  Id first_ = no_id;
 };
 
 }  // namespace gale

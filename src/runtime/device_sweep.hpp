@@ -39,7 +39,7 @@ struct OnEachSegment {
   }
 };
 
-/// A warp a segment, a lane a row: teams of many segments, so that a device starts few.
+/// A warp a segment, a lane a row: teams of several segments, so that a device starts few.
 template <class Memory, class Functor>
 struct OnEachRow {
   Batch<Memory> blocks;
@@ -51,10 +51,26 @@ struct OnEachRow {
     const Id slot = team.league_rank() * team.team_size() + team.team_rank();
     if (slot >= blocks.count || !blocks.has(slot)) return;
     const Rows rows = blocks.rows(slot, relation);
-    Kokkos::parallel_for(Kokkos::ThreadVectorRange(team, rows.count),
-                         [&](int i) { functor(rows.first + i, rows[rows.first + i]); });
+    team::for_lanes(team, rows.count, [&](int i) { functor(rows.first + i, rows[rows.first + i]); });
   }
 };
+
+/// The same for large segments: a team each, a thread a row.
+template <class Memory, class Functor>
+struct OnRowsOfSegment {
+  Relation relation;
+  Functor functor;
+
+  template <class Team>
+  KOKKOS_FUNCTION void operator()(const Team& team, const SegmentRowsIn<Memory>& segment) const {
+    const Rows rows = segment[relation];
+    team::for_all(team, rows.count, [&](int i) { functor(rows.first + i, rows[rows.first + i]); });
+  }
+};
+
+inline double mean_vertices(const Mesh& mesh) {
+  return static_cast<double>(mesh.vertices()) / std::max(mesh.segments(), Id(1));
+}
 
 /// Warps for a team that reads about so many rows.
 inline int warps_of_team(const DeviceSweepOptions& options, double rows) {
@@ -74,7 +90,7 @@ void for_each_segment(const Space& space, const Mesh& mesh, RelationSet relation
   if (options.team_scratch > std::size_t(std::numeric_limits<int>::max()))
     throw Error("a team can't have " + std::to_string(options.team_scratch) + " bytes of scratch memory");
   detail::BatchSweep<Memory> sweep(space, mesh, relations, options);
-  const int warps = is_device<Space> ? detail::warps_of_team(options, sweep.mean_vertices()) : 1;
+  const int warps = is_device<Space> ? detail::warps_of_team(options, detail::mean_vertices(mesh)) : 1;
   sweep.run([&](const auto& launched) {
     Kokkos::TeamPolicy<Space> policy(launched.instance, launched.blocks.count(), warps, is_device<Space> ? 32 : 1);
     policy.set_scratch_size(0, Kokkos::PerTeam(static_cast<int>(options.team_scratch)));
@@ -89,9 +105,12 @@ template <class Space, class Functor>
 void for_each_row(const Space& space, const Mesh& mesh, Relation relation, const Functor& functor,
                   const DeviceSweepOptions& options = {}) {
   if constexpr (is_device<Space>) {
-    constexpr int lanes = 32, usual_threads = 256;
-    const int threads = options.threads_per_team > 0 ? options.threads_per_team : usual_threads;
-    const int warps = (threads + lanes - 1) / lanes;
+    constexpr int lanes = 32, usual_threads = 256, most_for_a_warp = 512;
+    if (detail::mean_vertices(mesh) > most_for_a_warp) {
+      const detail::OnRowsOfSegment<WorkerMemory, Functor> on_rows{relation, functor};
+      return for_each_segment(space, mesh, relation, on_rows, options);
+    }
+    const int warps = detail::warps_of_team(options, usual_threads);
     detail::BatchSweep<WorkerMemory> sweep(space, mesh, relation, options);
     sweep.run([&](const auto& launched) {
       const Batch<WorkerMemory>& blocks = launched.blocks.of[0];

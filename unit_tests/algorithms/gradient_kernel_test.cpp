@@ -54,7 +54,8 @@ struct PairStarOfVertex {
   template <int Words>
   KOKKOS_FUNCTION bool pair(Id vertex, const detail::LowerNeighbours& lower, Id* out) const {
     const Id begin = rows.link_begin(vertex), end = rows.link_begin(vertex + 1);
-    detail::LowerStar<Words> star;
+    using Star = detail::LowerStar<Words, have_device>;
+    Star star;
     if (!star.build(lower, LinkRow{rows.link.data() + 3 * begin, end - begin, 1})) return false;
     out[0] = Words;
     out[1] = 0;
@@ -74,7 +75,7 @@ struct PairStarOfVertex {
     };
     add(0xffffff, code(0));
     detail::pair_cells(
-        detail::BitQueues<detail::LowerStar<Words>>(star), [&](int facet, int cell) { add(code(facet), code(cell)); },
+        detail::BitQueues<Star>(star), [&](int facet, int cell) { add(code(facet), code(cell)); },
         [&](int cell) { add(-1, code(cell)); });
     return true;
   }

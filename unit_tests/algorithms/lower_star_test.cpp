@@ -136,23 +136,23 @@ std::vector<Step> steps_of_large(const Link& link) {
   return steps(star, star);
 }
 
-/// False if LowerStar<Words> refuses the star.
-template <int Words>
+/// False if the kind of LowerStar refuses the star.
+template <class Star>
 bool find_steps(const Link& link, std::vector<Step>& found) {
   LowerNeighbours lower;
   if (!lower.find(link.keys.data(), 0, link.vv())) return false;
-  const auto star = std::make_unique<LowerStar<Words>>();
+  const auto star = std::make_unique<Star>();
   if (!star->build(lower, link.link())) return false;
   EXPECT_EQ(star->edges(), lower.count());
   EXPECT_EQ(star->cells(), static_cast<int>(size_of(link).cells()));
-  found = steps(*star, BitQueues<LowerStar<Words>>(*star));
+  found = steps(*star, BitQueues<Star>(*star));
   return true;
 }
 
-template <int Words>
+template <class Star>
 bool is_refused(const Link& link) {
   std::vector<Step> found;
-  return !find_steps<Words>(link, found);
+  return !find_steps<Star>(link, found);
 }
 
 /// A strip of triangles, of which two at most share a side.
@@ -164,13 +164,12 @@ std::vector<std::array<Id, 3>> strip(Id count) {
 
 template <class Star>
 class LowerStarOf : public testing::Test {};
-using Stars = testing::Types<LowerStar<1>, LowerStar<2>>;
+using Stars = testing::Types<LowerStar<1>, LowerStar<2>, LowerStar<1, true>, LowerStar<2, true>>;
 TYPED_TEST_SUITE(LowerStarOf, Stars);
 
 }  // namespace
 
 TYPED_TEST(LowerStarOf, each_size_pairs_random_links_as_the_large_one_does) {
-  constexpr int words = TypeParam::Cells::capacity / 64;
   constexpr std::size_t capacity = TypeParam::Cells::capacity;
   std::mt19937 random(17);
   int held = 0, refused = 0;
@@ -180,7 +179,7 @@ TYPED_TEST(LowerStarOf, each_size_pairs_random_links_as_the_large_one_does) {
     if (size.edges == 0) continue;
     std::vector<Step> found;
     const bool fits = size.edges <= TypeParam::max_edges && size.cells() <= capacity && link.triangles.size() <= 128;
-    ASSERT_EQ(find_steps<words>(link, found), fits) << "link " << i;
+    ASSERT_EQ(find_steps<TypeParam>(link, found), fits) << "link " << i;
     if (fits) ASSERT_EQ(found, steps_of_large(link)) << "link " << i;
     held += fits ? 1 : 0;
     refused += fits ? 0 : 1;
@@ -190,9 +189,8 @@ TYPED_TEST(LowerStarOf, each_size_pairs_random_links_as_the_large_one_does) {
 }
 
 TYPED_TEST(LowerStarOf, each_size_refuses_more_edges_than_it_holds) {
-  constexpr int words = TypeParam::Cells::capacity / 64;
   for (int edges = 1; edges <= 80; ++edges) {
-    EXPECT_EQ(is_refused<words>(Link(edges, {})), edges > TypeParam::max_edges) << edges << " edges";
+    EXPECT_EQ(is_refused<TypeParam>(Link(edges, {})), edges > TypeParam::max_edges) << edges << " edges";
   }
 }
 
@@ -200,23 +198,31 @@ TYPED_TEST(LowerStarOf, each_size_refuses_more_cells_than_it_holds) {
   constexpr int words = TypeParam::Cells::capacity / 64;
   for (int edges = 3; edges <= TypeParam::max_edges; ++edges) {
     const Link link(edges, strip(edges));
-    EXPECT_EQ(is_refused<words>(link), size_of(link).cells() > TypeParam::Cells::capacity) << edges << " edges";
+    EXPECT_EQ(is_refused<TypeParam>(link), size_of(link).cells() > TypeParam::Cells::capacity) << edges << " edges";
   }
   constexpr int most = TypeParam::max_edges;
   if (words > 1) EXPECT_GT(size_of(Link(most, strip(most))).cells(), std::size_t(TypeParam::Cells::capacity));
 }
 
 TYPED_TEST(LowerStarOf, each_size_refuses_a_triangle_with_three_tetrahedra) {
-  constexpr int words = TypeParam::Cells::capacity / 64;
-  EXPECT_FALSE(is_refused<words>(Link(5, {{0, 1, 2}, {0, 1, 3}})));
-  EXPECT_TRUE(is_refused<words>(Link(5, {{0, 1, 2}, {0, 1, 3}, {0, 1, 4}})));
+  EXPECT_FALSE(is_refused<TypeParam>(Link(5, {{0, 1, 2}, {0, 1, 3}})));
+  EXPECT_TRUE(is_refused<TypeParam>(Link(5, {{0, 1, 2}, {0, 1, 3}, {0, 1, 4}})));
+}
+
+TYPED_TEST(LowerStarOf, each_size_refuses_a_triangle_with_any_number_of_tetrahedra_above_two) {
+  for (Id upper = 3; upper <= 126; ++upper) {
+    std::vector<std::array<Id, 3>> triangles;
+    for (Id i = 0; i < upper; ++i) triangles.push_back({0, 1, 2 + i});
+    Link link(2 + upper, triangles);
+    for (Id i = 0; i < upper; ++i) link.keys[3 + i] = 2000;
+    EXPECT_TRUE(is_refused<TypeParam>(link)) << upper;
+  }
 }
 
 TYPED_TEST(LowerStarOf, each_size_counts_upper_tetrahedra_of_a_lower_triangle_too) {
-  constexpr int words = TypeParam::Cells::capacity / 64;
   Link link(5, {{0, 1, 2}, {0, 1, 3}, {0, 1, 4}});
   link.keys[4] = link.keys[5] = 2000;  // places 3 and 4
-  EXPECT_TRUE(is_refused<words>(link));
+  EXPECT_TRUE(is_refused<TypeParam>(link));
 }
 
 TEST(LargeLowerStar, of_three_lower_neighbours_in_one_tetrahedron_has_the_pairs_that_a_reader_finds) {
@@ -225,7 +231,7 @@ TEST(LargeLowerStar, of_three_lower_neighbours_in_one_tetrahedron_has_the_pairs_
   const Link link(3, {{0, 1, 2}});
   std::vector<Step> found;
   EXPECT_EQ(steps_of_large(link), expected);
-  ASSERT_TRUE(find_steps<1>(link, found));
+  ASSERT_TRUE(find_steps<LowerStar<1>>(link, found));
   EXPECT_EQ(found, expected);
 }
 

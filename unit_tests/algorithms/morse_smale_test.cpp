@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <gale/algorithms/gradient/gradient_store.hpp>
 #include <gale/algorithms/morse_smale.hpp>
 #include <gale/algorithms/morse_smale/descending_surfaces.hpp>
 #include <gale/algorithms/morse_smale/device_connectors.hpp>
@@ -113,6 +114,7 @@ TEST(MorseSmaleComplex, has_the_same_connectors_however_many_walls_grow_side_by_
   const auto field = random_field(input, 1);
   const VertexOrder order(mesh, field.data(), field.size());
   const auto gradient = find_discrete_gradient(WorkerSpace(), order);
+  ASSERT_TRUE(gradient.store().is_from_kernels());
   const auto& critical = gradient.critical();
   const detail::CriticalPlaces places(critical);
   MorseSmaleComplex found{gradient, {}, critical}, expected = found;

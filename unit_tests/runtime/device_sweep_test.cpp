@@ -110,8 +110,13 @@ TEST_P(DeviceSweepOf, small_meshes_have_the_rows_of_brute_force) {
   expect_sweep(mesh, expected, star_relations, with_memory(1 << 16, 3));
   for (const Relation relation : members_of(all_relations)) {
     const Kokkos::View<std::uint64_t*, Memory> sums("sums", expected[relation].size());
-    for_each_row(WorkerSpace(), mesh, relation, AddRow{sums});
-    expect_sums(expected[relation], Kokkos::create_mirror_view_and_copy(HostMemory(), sums), name_of(relation));
+    for (const int threads : {0, 1, 33, 256}) {
+      DeviceSweepOptions options = with_memory(threads % 2, threads % 3);  // where it is 1 byte, batches lack room
+      options.threads_per_team = threads;
+      Kokkos::deep_copy(sums, 0);
+      for_each_row(WorkerSpace(), mesh, relation, AddRow{sums}, options);
+      expect_sums(expected[relation], Kokkos::create_mirror_view_and_copy(HostMemory(), sums), name_of(relation));
+    }
   }
 }
 

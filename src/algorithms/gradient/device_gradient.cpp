@@ -36,7 +36,7 @@ struct Room {
   }
 };
 
-/// The last stars of each batch take their time: few large ones.
+/// The last stars of each batch take their time: so there are few batches, large ones.
 constexpr std::size_t usual_memory = std::size_t(384) << 20;
 constexpr int usual_batches = 2;
 

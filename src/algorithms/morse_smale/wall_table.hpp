@@ -2,63 +2,11 @@
 
 #include <cstdint>
 
-#include <gale/algorithms/gradient/edge_pairs.hpp>
 #include <gale/base/atomic.hpp>
 #include <gale/base/memory.hpp>
 #include <gale/base/pair_key.hpp>
 
 namespace gale::detail {
-
-/// A triangle of a wall; (high, low) is the edge that it is paired with, unless it is the critical one.
-struct WallTriangle {
-  Id high, low, third;
-  Id wall;
-};
-
-/// A critical edge that a wall ends at.
-struct WallRim {
-  Id wall;
-  Id high, low;
-};
-
-/// What kernels read of a discrete gradient that kernels found, to follow walls through it.
-struct EdgesInMemory {
-  const Id* pair_words;
-  const Offset* pairs_begin;
-  const Id* vertex_successor;
-  const std::uint64_t* keys;
-  const Id* vertex_input;
-
-  KOKKOS_FUNCTION EdgePairRow row(Id high) const {
-    return EdgePairRow(const_cast<Id*>(pair_words) + pairs_begin[high]);  // which it only reads
-  }
-
-  /// Is one triangle before another, both written with their input vertices ascending?
-  KOKKOS_FUNCTION bool is_less(const WallTriangle& a, const WallTriangle& b) const {
-    const Written first(vertex_input, a), second(vertex_input, b);
-    if (first.least != second.least) return first.least < second.least;
-    if (first.middle != second.middle) return first.middle < second.middle;
-    return first.most < second.most;
-  }
-
- private:
-  struct Written {
-    Id least, middle, most;
-
-    KOKKOS_FUNCTION Written(const Id* input, const WallTriangle& triangle)
-        : least(input[triangle.high]), middle(input[triangle.low]), most(input[triangle.third]) {
-      in_order(least, middle);
-      in_order(middle, most);
-      in_order(least, middle);
-    }
-    KOKKOS_FUNCTION static void in_order(Id& a, Id& b) {
-      if (a <= b) return;
-      const Id greater = a;
-      a = b;
-      b = greater;
-    }
-  };
-};
 
 /// The edges of walls that grow side by side: a hash table that kernels insert into. An edge of a wall has the least of
 /// the wall's triangles that it isn't paired with, by its number, and whether there are more of these. Copies share it.
@@ -66,18 +14,18 @@ class WallTable {
  public:
   WallTable() = default;
 
-  /// With so many places, a power of two; `word_bits` suffice for the places of words of EdgePairRows. Throws
+  /// With so many places, a power of two; `edge_bits` suffice for the numbers of edges. Throws
   /// OutOfMemory.
-  WallTable(const WorkerSpace& space, Offset places, int word_bits);
+  WallTable(const WorkerSpace& space, Offset places, int edge_bits);
 
   Offset places() const { return static_cast<Offset>(edges_.extent(0)); }
 
   /// Moves to a table of twice the places.
   void grow(const WorkerSpace& space);
 
-  /// The edge whose lower end is the word of EdgePairs with that number, in a wall.
-  KOKKOS_FUNCTION std::uint64_t key(Id wall, Offset word) const {
-    return std::uint64_t(wall) << word_bits_ | std::uint64_t(word);
+  /// An edge of a wall, by the number that it has among all edges.
+  KOKKOS_FUNCTION std::uint64_t key(Id wall, Offset edge) const {
+    return std::uint64_t(wall) << edge_bits_ | std::uint64_t(edge);
   }
 
   /// The place of an edge; `is_new` says whether it was inserted now.
@@ -125,7 +73,7 @@ class WallTable {
 
   Array<std::uint64_t, WorkerMemory> edges_;
   Array<std::uint32_t, WorkerMemory> above_;
-  int word_bits_ = 0;
+  int edge_bits_ = 0;
 };
 
 }  // namespace gale::detail

@@ -44,8 +44,6 @@ class BatchSweep<Memory>::Batches {
   /// The lane of the next batch, launched; nullptr when all are done.
   Lane* next();
 
-  const Mesh& mesh() const { return mesh_; }
-
  private:
   bool has_plans() const { return !again_.empty() || ahead_ < mesh_.segments(); }
   BatchPlan next_plan();
@@ -205,12 +203,6 @@ auto BatchSweep<Memory>::next() -> std::optional<Launched> {
   const BatchLane<Memory>* const lane = batches_->next();
   if (lane == nullptr) return std::nullopt;
   return Launched{lane->instance(), lane->launched()};
-}
-
-template <class Memory>
-double BatchSweep<Memory>::mean_vertices() const {
-  const Mesh& mesh = batches_->mesh();
-  return static_cast<double>(mesh.vertices()) / std::max(mesh.segments(), Id(1));
 }
 
 template class BatchSweep<WorkerMemory>;

@@ -39,9 +39,6 @@ class GALE_EXPORT BatchSweep {
     while (const std::optional<Launched> launched = next()) use(*launched);
   }
 
-  /// Vertices of a segment, on average.
-  double mean_vertices() const;
-
  private:
   /// The next batch; nothing when all are done.
   std::optional<Launched> next();
