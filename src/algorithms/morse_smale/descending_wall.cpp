@@ -13,7 +13,16 @@ DescendingWall::DescendingWall(const DiscreteGradient& gradient, const TurnedEdg
 void DescendingWall::follow(const TriangleVertices& critical) {
   floor_ = 0;
   begin(critical);
-  for (std::uint32_t i = 0; i < triangles_.size(); ++i) cross_sides(i);
+  for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
+    prefetch(i + 8);
+    cross_sides(i);
+  }
+}
+
+/// Has what the crossing of a triangle's sides will read brought near.
+void DescendingWall::prefetch(std::size_t triangle) const {
+  if (triangle >= triangles_.size()) return;
+  for (const Id vertex : triangles_[triangle]) pairs_.prefetch(vertex);
 }
 
 bool DescendingWall::follow_to(const TriangleVertices& critical, const Edge& edge, bool above_it) {
@@ -66,6 +75,7 @@ void DescendingWall::cross(Id high, Id low, std::uint32_t from) {
   const Id third = third_of(high, low);
   if (third >= 0) {
     triangles_.push_back({high, low, third});
+    pairs_.prefetch_place(third);
   } else if (third == no_id) {
     critical_edges_.push_back({high, low});
   } else if (turned_ != nullptr && turned_->find(high, low) != nullptr) {
