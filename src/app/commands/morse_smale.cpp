@@ -1,7 +1,6 @@
 #include <CLI/CLI.hpp>
 
 #include <gale/algorithms/morse_smale.hpp>
-#include <gale/algorithms/simplify.hpp>
 #include <gale/app/commands/commands.hpp>
 #include <gale/app/commands/morse_smale_files.hpp>
 #include <gale/app/critical_counts.hpp>
@@ -10,8 +9,7 @@
 #include <gale/app/session.hpp>
 #include <gale/app/usage_error.hpp>
 #include <gale/base/error.hpp>
-#include <gale/outputs/field.hpp>
-#include <gale/outputs/persistence.hpp>
+#include <gale/outputs/morse_smale.hpp>
 
 namespace gale::app {
 
@@ -136,26 +134,13 @@ class FindMorseSmale final : public Command {
                           "Also the 2-separatrices, the walls of saddles. Large");
   }
 
-  /// What is wanted, and what has to be found for that: a simplification needs the connectors, and so do the arrays of
-  /// walls.
-  MorseSmaleParts needed_parts() const {
-    MorseSmaleParts parts = parts_;
-    if ((persistence_ && !extrema_only_) || parts.separatrices2) parts.saddle_connectors = true;
-    return parts;
-  }
-
   /// The complex, simplified if that is wanted, with the needed parts.
   MorseSmaleComplex find(Structure& structure, const DiscreteGradient& gradient, const FieldOnMesh& on,
                          Session& session) const {
     const Stopwatch watch(session.report().seconds.run);
-    MorseSmaleComplex complex = find_morse_smale_complex(structure, gradient, needed_parts(), session.sweep("complex"));
-    if (!persistence_) return complex;
-    const auto value = [&](Id vertex) { return outputs::value_at(on.field, vertex); };
-    SimplifyOptions options;
-    options.extrema_only = extrema_only_;
-    const double threshold = threshold_of_option(*persistence_, on.field);
-    complex = simplify(complex, value, threshold, options);
-    return complex;
+    outputs::MorseSmaleRequest request{parts_, persistence_, extrema_only_};
+    if (persistence_) request.persistence = outputs::Persistence{threshold_of_option(*persistence_, on.field), false};
+    return outputs::find_complex(structure, gradient, on.field, request, session.sweep("complex"));
   }
 
   SegmentationOptions segmentation_;

@@ -5,6 +5,7 @@
 #include <gale/io/write.hpp>
 #include <gale/outputs/critical_simplices.hpp>
 #include <gale/outputs/manifolds.hpp>
+#include <gale/outputs/morse_smale.hpp>
 #include <gale/outputs/named_simplices.hpp>
 #include <gale/outputs/separatrices1.hpp>
 #include <gale/outputs/separatrices2.hpp>
@@ -12,21 +13,6 @@
 namespace gale::app {
 
 namespace {
-
-/// Which saddles connectors join, without the ways between them.
-Separatrices<TriangleVertices> ends_of(const Separatrices<TriangleVertices>& connectors) {
-  Separatrices<TriangleVertices> ends;
-  ends.sources = connectors.sources;
-  ends.destinations = connectors.destinations;
-  return ends;
-}
-
-/// Empties the separatrices that were found because something else needed them.
-void leave_out_unwanted(const MorseSmaleParts& wanted, MorseSmaleComplex& complex) {
-  if (!wanted.descending_separatrices) complex.descending = {};
-  if (!wanted.ascending_separatrices) complex.ascending = {};
-  if (!wanted.saddle_connectors) complex.connectors = {};
-}
 
 /// What `make` makes, whose time is added to `seconds`.
 template <class Make>
@@ -59,8 +45,8 @@ bool MorseSmaleFiles::any() const {
 void write(const MorseSmaleFiles& files, const MorseSmaleParts& wanted, const FieldOnMesh& on,
            MorseSmaleComplex& complex, Structure& structure, Session& session) {
   const io::Dataset& dataset = on.dataset;
-  const auto connectors = ends_of(complex.connectors);  // of all, wanted or not: they bound walls
-  leave_out_unwanted(wanted, complex);
+  const auto connectors = outputs::ends_of(complex.connectors);  // of all, wanted or not: they bound walls
+  outputs::leave_out_unwanted(wanted, complex);
   Seconds& seconds = session.report().seconds;
   const NamedSimplices named = timed(seconds.write, [&] { return outputs::named_simplices(complex); });
   const SimplexNumbers numbers =

@@ -1,0 +1,62 @@
+#include <gale/algorithms/simplify.hpp>
+#include <gale/outputs/critical_simplices.hpp>
+#include <gale/outputs/field.hpp>
+#include <gale/outputs/manifolds.hpp>
+#include <gale/outputs/morse_smale.hpp>
+#include <gale/outputs/named_simplices.hpp>
+#include <gale/outputs/separatrices1.hpp>
+#include <gale/outputs/separatrices2.hpp>
+
+namespace gale::outputs {
+
+MorseSmaleParts MorseSmaleRequest::needed_parts() const {
+  MorseSmaleParts needed = parts;
+  if ((persistence && !extrema_only) || parts.separatrices2) needed.saddle_connectors = true;
+  return needed;
+}
+
+Separatrices<TriangleVertices> ends_of(const Separatrices<TriangleVertices>& connectors) {
+  Separatrices<TriangleVertices> ends;
+  ends.sources = connectors.sources;
+  ends.destinations = connectors.destinations;
+  return ends;
+}
+
+void leave_out_unwanted(const MorseSmaleParts& wanted, MorseSmaleComplex& complex) {
+  if (!wanted.descending_separatrices) complex.descending = {};
+  if (!wanted.ascending_separatrices) complex.ascending = {};
+  if (!wanted.saddle_connectors) complex.connectors = {};
+}
+
+MorseSmaleComplex find_complex(Structure& structure, const DiscreteGradient& gradient, const io::PointArray& field,
+                               const MorseSmaleRequest& request, const SweepOptions& options) {
+  MorseSmaleComplex complex = find_morse_smale_complex(structure, gradient, request.needed_parts(), options);
+  if (!request.persistence) return complex;
+  SimplifyOptions how;
+  how.extrema_only = request.extrema_only;
+  how.threads = options.threads;
+  const auto value = [&](Id vertex) { return value_at(field, vertex); };
+  complex = simplify(complex, value, threshold_of(*request.persistence, field), how);
+  return complex;
+}
+
+MorseSmaleOutputs morse_smale(Structure& structure, const DiscreteGradient& gradient, const io::Dataset& dataset,
+                              const io::PointArray& field, const MorseSmaleRequest& request,
+                              const SweepOptions& options) {
+  MorseSmaleComplex complex = find_complex(structure, gradient, field, request, options);
+  const auto connectors = ends_of(complex.connectors);  // of all, wanted or not: they bound walls
+  leave_out_unwanted(request.parts, complex);
+  const NamedSimplices named = named_simplices(complex);
+  const SimplexNumbers numbers = number_simplices(structure, named, options);
+  const KnownSimplices critical = known_simplices(complex.gradient, complex.critical, numbers);
+  MorseSmaleOutputs all;
+  all.critical_points = to_point_set(dataset, critical);
+  all.critical_points.arrays.push_back(manifold_sizes(complex));
+  all.separatrices1 = separatrices1(dataset, field, complex, named, numbers, critical);
+  if (request.parts.separatrices2) all.separatrices2 = separatrices2(dataset, field, complex, connectors, critical);
+  all.manifolds = manifold_arrays(complex);
+  all.kept_below = complex.kept_below;
+  return all;
+}
+
+}  // namespace gale::outputs

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <gale/algorithms/morse_smale.hpp>
+#include <gale/algorithms/simplex_numbers.hpp>
+#include <gale/export.hpp>
+#include <gale/io/write.hpp>
+#include <gale/outputs/persistence.hpp>
+
+// A Morse-Smale complex from the gradient to its outputs, for those who want all of them.
+
+namespace gale::outputs {
+
+/// What a user asks of a Morse-Smale complex.
+struct MorseSmaleRequest {
+  MorseSmaleParts parts;                   ///< what is wanted
+  std::optional<Persistence> persistence;  ///< simplify below this threshold
+  bool extrema_only = false;               ///< cancel no saddles with one another
+
+  /// What has to be found for that: a simplification needs the connectors, and so do the arrays of walls.
+  GALE_EXPORT MorseSmaleParts needed_parts() const;
+};
+
+/// Which saddles connectors join, without the ways between them: what `separatrices2` takes.
+GALE_EXPORT Separatrices<TriangleVertices> ends_of(const Separatrices<TriangleVertices>& connectors);
+
+/// Empties the separatrices that aren't wanted, and were found because something else needed them.
+GALE_EXPORT void leave_out_unwanted(const MorseSmaleParts& wanted, MorseSmaleComplex& complex);
+
+/// The complex of a gradient with the needed parts, simplified if that is wanted. `field` is that of the gradient.
+/// Throws as find_morse_smale_complex, simplify and threshold_of do.
+GALE_EXPORT MorseSmaleComplex find_complex(Structure& structure, const DiscreteGradient& gradient,
+                                           const io::PointArray& field, const MorseSmaleRequest& request,
+                                           const SweepOptions& options);
+
+/// Everything that a complex is written as. What isn't wanted is empty.
+struct MorseSmaleOutputs {
+  io::PointSet critical_points;           ///< to_point_set, and manifold_sizes
+  io::Surface separatrices1;              ///< lines
+  io::Surface separatrices2;              ///< polygons
+  std::vector<io::PointArray> manifolds;  ///< of the mesh's vertices, in input order
+  KeptBelow kept_below;
+};
+
+/// Finds the complex and makes its outputs. `dataset` has the points and arrays that travel with the critical points;
+/// `structure` is preconditioned for `morse_smale_relations`. Throws as what it calls.
+GALE_EXPORT MorseSmaleOutputs morse_smale(Structure& structure, const DiscreteGradient& gradient,
+                                          const io::Dataset& dataset, const io::PointArray& field,
+                                          const MorseSmaleRequest& request, const SweepOptions& options);
+
+}  // namespace gale::outputs
