@@ -1,5 +1,6 @@
 #!/bin/bash
-# Builds a wheel of the Python module, installs it in an environment of its own, and runs the module's tests there.
+# Builds a wheel of the Python module, installs it in an environment of its own, and runs the module's tests there, first
+# with numpy alone, then with all that it works with.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -14,4 +15,6 @@ python3 -m venv "$environment"
 "$environment/bin/pip" install --quiet numpy "$environment"/*.whl
 tests=$PWD/bindings/python/tests
 cd "$environment"
-bin/python -B "$tests/test_gale.py"
+bin/python -B -m unittest discover -s "$tests"
+bin/pip install --quiet mypy pyvista scipy tqdm
+bin/python -B -m unittest discover -s "$tests"

@@ -1,8 +1,13 @@
 """`grid.gale` on PyVista's grids of tetrahedra: `grid.gale.critical_points("pressure")`. PyVista 0.48 and later find it by
 its entry point; with earlier ones, gale.Mesh.from_pyvista does the same."""
+from __future__ import annotations
+
+from typing import Any, Optional, Tuple
+
+import numpy as np
 import pyvista
 
-from . import Mesh
+from . import Diagram, Mesh
 
 
 @pyvista.register_dataset_accessor("gale", pyvista.UnstructuredGrid)
@@ -11,39 +16,41 @@ class GaleAccessor:
     but that points and lines are PyVista's. The mesh is made at the first call, and again where the grid's points or cells
     were replaced."""
 
-    def __init__(self, grid):
+    def __init__(self, grid: Any) -> None:
         self._grid = grid
-        self._mesh = self._made_from = None
+        self._mesh: Optional[Mesh] = None
+        self._made_from = (0, 0, 0)
 
     @property
-    def mesh(self):
-        made_from = (self._grid.GetMTime(), self._grid.n_points, self._grid.n_cells)
-        if self._made_from is None or self._points_changed(made_from):
-            self._mesh, self._made_from = Mesh.from_pyvista(self._grid), made_from
+    def mesh(self) -> Mesh:
+        """The grid as a gale.Mesh."""
+        if self._mesh is None or self._points_changed():
+            self._mesh = Mesh.from_pyvista(self._grid)
+            self._made_from = (self._grid.GetMTime(), self._grid.n_points, self._grid.n_cells)
         return self._mesh
 
-    def _points_changed(self, made_from):
+    def _points_changed(self) -> bool:
         times = self._grid.GetPoints().GetMTime(), self._grid.GetCells().GetMTime()
-        return made_from[1:] != self._made_from[1:] or max(times) > self._made_from[0]
+        return (self._grid.n_points, self._grid.n_cells) != self._made_from[1:] or max(times) > self._made_from[0]
 
-    def _field(self, name):
+    def _field(self, name: str) -> Any:
         if name not in self._grid.point_data:
             raise KeyError(f"the grid has no point array '{name}': it has {', '.join(self._grid.point_data) or 'none'}")
         return self._grid.point_data[name]
 
-    def critical_points(self, name, **options):
+    def critical_points(self, name: str, **options: Any) -> Any:
         """A pyvista.PolyData of the critical points of the point array `name`."""
         return self.mesh.critical_points(self._field(name), name=name, **options).to_pyvista()
 
-    def critical_simplices(self, name, **options):
+    def critical_simplices(self, name: str, **options: Any) -> Any:
         """A pyvista.PolyData of the critical simplices of the point array `name`."""
         return self.mesh.critical_simplices(self._field(name), name=name, **options).to_pyvista()
 
-    def persistence_diagram(self, name, **options):
+    def persistence_diagram(self, name: str, **options: Any) -> Diagram:
         """The gale.Diagram of the point array `name`."""
         return self.mesh.persistence_diagram(self._field(name), name=name, **options)
 
-    def morse_smale(self, name, **options):
+    def morse_smale(self, name: str, **options: Any) -> Tuple[Any, Any, Any]:
         """(critical points, separatrices, grid): two pyvista.PolyData, and a copy of the grid with the manifolds as point
         arrays."""
         found = self.mesh.morse_smale(self._field(name), name=name, **options)
@@ -51,6 +58,6 @@ class GaleAccessor:
         grid.point_data.update(found.manifolds)
         return found.critical_points.to_pyvista(), found.separatrices1.to_pyvista(), grid
 
-    def relation(self, name, **options):
+    def relation(self, name: str, **options: Any) -> Tuple[np.ndarray, np.ndarray]:
         """(indptr, indices) of a relation such as "VT"."""
         return self.mesh.relation(name, **options)

@@ -1,16 +1,11 @@
-#include <algorithm>
+#include <utility>
 
 #include <gale/algorithms/critical_points.hpp>
-#include <gale/algorithms/simplify.hpp>
-#include <gale/base/error.hpp>
+#include <gale/outputs/arrows.hpp>
 #include <gale/outputs/critical_points.hpp>
 #include <gale/outputs/critical_simplices.hpp>
-#include <gale/outputs/field.hpp>
-#include <gale/outputs/manifolds.hpp>
-#include <gale/outputs/named_simplices.hpp>
-#include <gale/outputs/persistence.hpp>
+#include <gale/outputs/morse_smale.hpp>
 #include <gale/outputs/persistence_diagram.hpp>
-#include <gale/outputs/separatrices1.hpp>
 #include <gale/runtime/make_structure.hpp>
 
 #include "fields.hpp"
@@ -28,14 +23,22 @@ nb::object column(const std::vector<outputs::DiagramPoint>& diagram, const Membe
   return numpy_of(std::move(values));
 }
 
-/// What `use(structure, order)` finds on the threads of the options, while Python goes on.
+/// What `use(structure, order, field)` finds on the threads of the options, while Python goes on.
 template <class Use>
-auto analyse(const Mesh& mesh, const io::PointArray& field, RelationSet relations, const SweepOptions& options,
-             const Use& use) {
+auto analyse(const Mesh& mesh, const Array1& values, const std::string& name, RelationSet relations,
+             const SweepOptions& options, const Use& use) {
   const Call call;
   const ThreadLimit limit(options.threads);
+  const io::PointArray field = field_of(values, name);
   const auto structure = make_structure(mesh, relations);
-  return use(*structure, order_of(mesh, field));
+  return use(*structure, order_of(mesh, field), field);
+}
+
+io::PointSet critical_set(Structure& structure, const DiscreteGradient& gradient, const io::Dataset& dataset,
+                          const SweepOptions& options) {
+  const CriticalSimplices& critical = gradient.critical();
+  const SimplexNumbers numbers = number_simplices(structure, {critical.edges, critical.triangles}, options);
+  return outputs::to_point_set(dataset, outputs::known_simplices(gradient, critical, numbers));
 }
 
 }  // namespace
@@ -43,36 +46,42 @@ auto analyse(const Mesh& mesh, const io::PointArray& field, RelationSet relation
 nb::tuple PyMesh::critical_points(Array1 values, const std::string& name, int threads,
                                   const nb::object& progress) const {
   const SweepOptions options = sweep_options(threads, progress);
-  const io::PointArray field = field_of(values, name);
-  return numpy_of(
-      analyse(mesh(), field, critical_points_relations, options, [&](Structure& structure, const VertexOrder& order) {
-        return outputs::to_point_set(with(field), find_critical_points(structure, order, options));
-      }));
+  return numpy_of(analyse(mesh(), values, name, critical_points_relations, options,
+                          [&](Structure& structure, const VertexOrder& order, const io::PointArray& field) {
+                            return outputs::to_point_set(with(field), find_critical_points(structure, order, options));
+                          }));
 }
 
 nb::tuple PyMesh::critical_simplices(Array1 values, const std::string& name, int threads,
                                      const nb::object& progress) const {
   const SweepOptions options = sweep_options(threads, progress);
-  const io::PointArray field = field_of(values, name);
-  const auto find = [&](Structure& structure, const VertexOrder& order) {
-    const DiscreteGradient gradient = find_discrete_gradient(structure, order, options);
-    const CriticalSimplices& critical = gradient.critical();
-    const SimplexNumbers numbers = number_simplices(structure, {critical.edges, critical.triangles}, options);
-    return outputs::to_point_set(with(field), outputs::known_simplices(gradient, critical, numbers));
+  const auto find = [&](Structure& structure, const VertexOrder& order, const io::PointArray& field) {
+    return critical_set(structure, find_discrete_gradient(structure, order, options), with(field), options);
   };
-  return numpy_of(analyse(mesh(), field, discrete_gradient_relations, options, find));
+  return numpy_of(analyse(mesh(), values, name, discrete_gradient_relations, options, find));
+}
+
+nb::tuple PyMesh::discrete_gradient(Array1 values, const std::string& name, int threads,
+                                    const nb::object& progress) const {
+  const SweepOptions options = sweep_options(threads, progress);
+  const auto find = [&](Structure& structure, const VertexOrder& order, const io::PointArray& field) {
+    const DiscreteGradient gradient = find_discrete_gradient(structure, order, options);
+    const io::Dataset dataset = with(field);
+    return std::make_pair(critical_set(structure, gradient, dataset, options), outputs::arrows_of(dataset, gradient));
+  };
+  auto [critical, arrows] = analyse(mesh(), values, name, discrete_gradient_relations, options, find);
+  return nb::make_tuple(numpy_of(std::move(critical)), numpy_of(std::move(arrows)));
 }
 
 nb::dict PyMesh::persistence_diagram(Array1 values, const std::string& name, double persistence, bool is_percent,
                                      int threads, const nb::object& progress) const {
   const SweepOptions options = sweep_options(threads, progress);
-  const io::PointArray field = field_of(values, name);
-  const auto find = [&](Structure& structure, const VertexOrder& order) {
+  const auto find = [&](Structure& structure, const VertexOrder& order, const io::PointArray& field) {
     const DiscreteGradient gradient = find_discrete_gradient(structure, order, options);
     return outputs::persistence_diagram(gradient, find_persistence_pairs(gradient, options), field,
                                         outputs::threshold_of({persistence, is_percent}, field));
   };
-  const auto diagram = analyse(mesh(), field, discrete_gradient_relations, options, find);
+  const auto diagram = analyse(mesh(), values, name, discrete_gradient_relations, options, find);
   using Point = outputs::DiagramPoint;
   nb::dict columns;
   columns["type"] = column<std::int8_t>(diagram, [](const Point& point) { return point.type; });
@@ -85,39 +94,23 @@ nb::dict PyMesh::persistence_diagram(Array1 values, const std::string& name, dou
 }
 
 nb::dict PyMesh::morse_smale(Array1 values, const std::string& name, std::optional<double> persistence, bool is_percent,
-                             bool extrema_only, int threads, const nb::object& progress) const {
+                             bool extrema_only, bool separatrices2, int threads, const nb::object& progress) const {
   const SweepOptions options = sweep_options(threads, progress);
-  const io::PointArray field = field_of(values, name);
-  io::PointSet critical_points;
-  io::Surface lines;
-  std::vector<io::PointArray> manifolds;
-  KeptBelow kept;
-  analyse(mesh(), field, morse_smale_relations, options, [&](Structure& structure, const VertexOrder& order) {
+  outputs::MorseSmaleRequest request;
+  request.parts.separatrices2 = separatrices2;
+  if (persistence) request.persistence = outputs::Persistence{*persistence, is_percent};
+  request.extrema_only = extrema_only;
+  const auto find = [&](Structure& structure, const VertexOrder& order, const io::PointArray& field) {
     const DiscreteGradient gradient = find_discrete_gradient(structure, order, options);
-    MorseSmaleComplex complex = find_morse_smale_complex(structure, gradient, {}, options);
-    if (persistence) {
-      SimplifyOptions how;
-      how.extrema_only = extrema_only;
-      how.threads = options.threads;
-      complex = simplify(
-          complex, [&](Id vertex) { return outputs::value_at(field, vertex); },
-          outputs::threshold_of({*persistence, is_percent}, field), how);
-    }
-    const NamedSimplices named = outputs::named_simplices(complex);
-    const SimplexNumbers numbers = number_simplices(structure, named, options);
-    const auto critical = outputs::known_simplices(complex.gradient, complex.critical, numbers);
-    const io::Dataset dataset = with(field);
-    critical_points = outputs::to_point_set(dataset, critical);
-    critical_points.arrays.push_back(outputs::manifold_sizes(complex));
-    lines = outputs::separatrices1(dataset, field, complex, named, numbers, critical);
-    manifolds = outputs::manifold_arrays(complex);
-    kept = complex.kept_below;
-  });
+    return outputs::morse_smale(structure, gradient, with(field), field, request, options);
+  };
+  auto found = analyse(mesh(), values, name, morse_smale_relations, options, find);
   nb::dict parts;
-  parts["critical_points"] = numpy_of(std::move(critical_points));
-  parts["separatrices1"] = numpy_of(std::move(lines));
-  parts["manifolds"] = numpy_of(std::move(manifolds));
-  parts["kept_below"] = kept.count();
+  parts["critical_points"] = numpy_of(std::move(found.critical_points));
+  parts["separatrices1"] = numpy_of(std::move(found.separatrices1));
+  if (separatrices2) parts["separatrices2"] = numpy_of(std::move(found.separatrices2));
+  parts["manifolds"] = numpy_of(std::move(found.manifolds));
+  parts["kept_below"] = found.kept_below.count();
   return parts;
 }
 

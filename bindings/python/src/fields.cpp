@@ -8,16 +8,22 @@ namespace gale::python {
 
 namespace {
 
+template <class T>
+std::vector<T> copy_of(const Array1& values) {
+  return with_view<const T*>(values, "the field", [](const auto& view) {
+    if constexpr (is_device_memory<typename std::decay_t<decltype(view)>::memory_space>) {
+      std::vector<T> copy(view.extent(0));
+      Kokkos::deep_copy(Kokkos::View<T*, Kokkos::LayoutRight, HostMemory>(copy.data(), copy.size()), view);
+      return copy;
+    } else {
+      return std::vector<T>(view.data(), view.data() + view.extent(0));
+    }
+  });
+}
+
 template <class... T>
 bool take(const Array1& values, io::PointArray::Values& to) {
-  const auto try_one = [&](auto one) {
-    using U = decltype(one);
-    if (values.dtype() != nb::dtype<U>()) return false;
-    const U* const from = static_cast<const U*>(values.data());
-    to = std::vector<U>(from, from + values.shape(0));
-    return true;
-  };
-  return (try_one(T()) || ...);
+  return ((is<T>(values) && (to = copy_of<T>(values), true)) || ...);
 }
 
 }  // namespace

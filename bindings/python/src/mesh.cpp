@@ -1,7 +1,5 @@
 #include "mesh.hpp"
 
-#include <limits>
-
 #include <gale/base/error.hpp>
 #include <gale/mesh/make_mesh.hpp>
 
@@ -9,57 +7,66 @@ namespace gale::python {
 
 namespace {
 
-template <class T>
-bool is(const Array1& array) {
-  return array.dtype() == nb::dtype<T>();
+/// What `use(one)` returns, where `one` is of the array's type: one of T.
+template <class... T, class Use>
+auto with_type(const Array1& array, const char* refusal, const Use& use) {
+  using Result = std::common_type_t<decltype(use(T()))...>;
+  std::optional<Result> result;
+  const auto try_one = [&](auto one) {
+    if (!is<decltype(one)>(array)) return false;
+    result = use(one);
+    return true;
+  };
+  if (!(try_one(T()) || ...)) throw Error(refusal);
+  return *std::move(result);
 }
 
-void require_rows(const Array1& array, std::size_t width, const char* name) {
-  if (array.ndim() == 2 && array.shape(1) == width) return;
-  std::string shape;
-  for (std::size_t d = 0; d < array.ndim(); ++d) shape += (d > 0 ? ", " : "") + std::to_string(array.shape(d));
-  throw Error(std::string(name) + " has the shape (" + shape + "), not (n, " + std::to_string(width) + ")");
-}
-
-/// Numpy's memory as the dataset's points.
-template <class Coordinate>
-io::Dataset::Points<Coordinate> view_of(const Array1& points) {
-  return io::Dataset::Points<Coordinate>(static_cast<Coordinate*>(const_cast<void*>(points.data())), points.shape(0));
-}
-
+/// The points on the host: where they are, or a copy if a device has them.
 io::Dataset::Positions positions_of(const Array1& points) {
-  require_rows(points, 3, "points");
-  if (is<float>(points)) return view_of<float>(points);
-  if (is<double>(points)) return view_of<double>(points);
-  throw Error("points are neither float32 nor float64");
+  return with_type<float, double>(
+      points, "points are neither float32 nor float64", [&](auto one) -> io::Dataset::Positions {
+        using Coordinate = decltype(one);
+        using Kept = io::Dataset::Points<Coordinate>;
+        return with_view<const Coordinate* [3]>(points, "points", [](const auto& view) {
+          if constexpr (is_device_memory<typename std::decay_t<decltype(view)>::memory_space>) {
+            const Kept copy("GALE::points", view.extent(0));
+            Kokkos::deep_copy(copy, view);
+            return copy;
+          } else {
+            return Kept(const_cast<Coordinate*>(view.data()), view.extent(0));
+          }
+        });
+      });
 }
 
-template <class Index>
-Mesh mesh_of(const io::Dataset::Positions& points, const Index* corners, std::size_t count, int capacity) {
-  const Tetrahedra<Index, HostMemory> tetrahedra(corners, count);
-  return std::visit([&](const auto& xyz) { return make_mesh(xyz, tetrahedra, capacity); }, points);
+Segmentation segmentation_of(const Array1& points, int capacity) {
+  return with_type<float, double>(points, "points are neither float32 nor float64", [&](auto one) {
+    return with_view<const decltype(one)* [3]>(points, "points",
+                                               [&](const auto& view) { return octree_segmentation(view, capacity); });
+  });
+}
+
+Mesh mesh_of(const Array1& tetrahedra, const Segmentation& segmentation) {
+  return with_type<std::int32_t, std::int64_t>(tetrahedra, "tetrahedra are neither int32 nor int64", [&](auto one) {
+    return with_view<const decltype(one)* [4]>(tetrahedra, "tetrahedra",
+                                               [&](const auto& view) { return Mesh(view, segmentation); });
+  });
 }
 
 }  // namespace
 
-PyMesh::PyMesh(Array1 points, Array1 tetrahedra, int capacity) : points_owner_(nb::cast(points)) {
+PyMesh::PyMesh(Array1 points, Array1 tetrahedra, int capacity) : points_(points) {
+  require_rows(points, 3, "points");
   require_rows(tetrahedra, 4, "tetrahedra");
-  dataset_.points = positions_of(points);
   const Call call;
-  if (is<std::int32_t>(tetrahedra)) {
-    mesh_ =
-        mesh_of(dataset_.points, static_cast<const std::int32_t*>(tetrahedra.data()), tetrahedra.shape(0), capacity);
-  } else if (is<std::int64_t>(tetrahedra)) {
-    mesh_ =
-        mesh_of(dataset_.points, static_cast<const std::int64_t*>(tetrahedra.data()), tetrahedra.shape(0), capacity);
-  } else {
-    throw Error("tetrahedra are neither int32 nor int64");
-  }
+  dataset_.points = positions_of(points);
+  mesh_ = mesh_of(tetrahedra, segmentation_of(points, capacity));
 }
 
 PyMesh::PyMesh(io::Dataset& dataset, int capacity) {
   dataset_.points = dataset.points;
-  mesh_ = mesh_of(dataset_.points, dataset.tetrahedra.data(), dataset.tetrahedra.extent(0), capacity);
+  mesh_ =
+      std::visit([&](const auto& points) { return make_mesh(points, dataset.tetrahedra, capacity); }, dataset.points);
 }
 
 const Mesh& PyMesh::mesh() const {

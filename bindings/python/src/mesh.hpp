@@ -7,17 +7,16 @@
 #include <gale/io/read.hpp>
 #include <gale/mesh/mesh.hpp>
 
+#include "arrays.hpp"
 #include "numpy.hpp"
 #include "process.hpp"
 
 namespace gale::python {
 
-using Array1 = nb::ndarray<nb::ro, nb::c_contig, nb::device::cpu>;
-
 /// A mesh and where its points are.
 class PyMesh : public Kept {
  public:
-  /// Reads numpy's arrays where they are; keeps that of the points.
+  /// Reads the arrays where they are; keeps that of the points.
   PyMesh(Array1 points, Array1 tetrahedra, int capacity);
 
   /// Of what a file has; takes its points.
@@ -33,13 +32,17 @@ class PyMesh : public Kept {
   Id segments() const { return mesh().segments(); }
   nb::object points() const;
 
+  /// (where rows begin, their entries, how many simplices the entries are among)
   nb::tuple relation(const std::string& name, int threads, const nb::object& progress) const;
   nb::tuple critical_points(Array1 field, const std::string& name, int threads, const nb::object& progress) const;
   nb::tuple critical_simplices(Array1 field, const std::string& name, int threads, const nb::object& progress) const;
+
+  /// (critical simplices, arrows)
+  nb::tuple discrete_gradient(Array1 field, const std::string& name, int threads, const nb::object& progress) const;
   nb::dict persistence_diagram(Array1 field, const std::string& name, double persistence, bool is_percent, int threads,
                                const nb::object& progress) const;
   nb::dict morse_smale(Array1 field, const std::string& name, std::optional<double> persistence, bool is_percent,
-                       bool extrema_only, int threads, const nb::object& progress) const;
+                       bool extrema_only, bool separatrices2, int threads, const nb::object& progress) const;
 
  private:
   const Mesh& mesh() const;
@@ -47,7 +50,7 @@ class PyMesh : public Kept {
   /// The points with the field as their array.
   io::Dataset with(const io::PointArray& field) const;
 
-  nb::object points_owner_;
+  Array1 points_;        ///< keeps where the points are
   io::Dataset dataset_;  ///< the points alone
   std::optional<Mesh> mesh_;
 };

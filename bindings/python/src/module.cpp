@@ -1,6 +1,7 @@
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
 
 #include <gale/base/error.hpp>
 #include <gale/version.hpp>
@@ -21,10 +22,10 @@ NB_MODULE(_gale, module) {
       PyErr_SetString(PyExc_MemoryError, full.what());
     }
   });
-  module.attr("__version__") = gale::version;
-  gale::python::initialize();
+  module.attr("version") = gale::version;
   module.def("finalize", &gale::python::finalize);
   module.def("after_fork", &gale::python::after_fork);
+  module.def("device_array", &gale::python::device_array, "data"_a, "shape"_a, "type"_a, "bytes"_a, "owner"_a);
   module.def("read", &gale::python::read, "path"_a, "above"_a.none(), "array"_a, "tetrahedralize"_a, "outside_files"_a,
              "capacity"_a);
 
@@ -37,8 +38,9 @@ NB_MODULE(_gale, module) {
       .def("relation", &PyMesh::relation, "name"_a, "threads"_a, "progress"_a.none())
       .def("critical_points", &PyMesh::critical_points, "field"_a, "name"_a, "threads"_a, "progress"_a.none())
       .def("critical_simplices", &PyMesh::critical_simplices, "field"_a, "name"_a, "threads"_a, "progress"_a.none())
+      .def("discrete_gradient", &PyMesh::discrete_gradient, "field"_a, "name"_a, "threads"_a, "progress"_a.none())
       .def("persistence_diagram", &PyMesh::persistence_diagram, "field"_a, "name"_a, "persistence"_a, "is_percent"_a,
            "threads"_a, "progress"_a.none())
       .def("morse_smale", &PyMesh::morse_smale, "field"_a, "name"_a, "persistence"_a.none(), "is_percent"_a,
-           "extrema_only"_a, "threads"_a, "progress"_a.none());
+           "extrema_only"_a, "separatrices2"_a, "threads"_a, "progress"_a.none());
 }

@@ -23,10 +23,11 @@ nb::dict numpy_of(std::vector<io::PointArray> arrays) {
 
 nb::tuple numpy_of(io::PointSet set) { return nb::make_tuple(numpy_of(set.points), numpy_of(std::move(set.arrays))); }
 
-nb::tuple numpy_of(io::Surface lines) {
-  return nb::make_tuple(numpy_of(lines.points), numpy_of(std::move(lines.point_arrays)),
-                        numpy_of(std::move(lines.lines.begin)), numpy_of(std::move(lines.lines.points)),
-                        numpy_of(std::move(lines.cell_arrays)));
+nb::tuple numpy_of(io::Surface surface) {
+  io::Surface::Cells& cells = surface.lines.points.empty() ? surface.polygons : surface.lines;
+  return nb::make_tuple(numpy_of(surface.points), numpy_of(std::move(surface.point_arrays)),
+                        numpy_of(std::move(cells.begin)), numpy_of(std::move(cells.points)),
+                        numpy_of(std::move(surface.cell_arrays)));
 }
 
 }  // namespace gale::python

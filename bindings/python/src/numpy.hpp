@@ -39,7 +39,7 @@ nb::dict numpy_of(std::vector<io::PointArray> arrays);
 /// (points, point arrays)
 nb::tuple numpy_of(io::PointSet set);
 
-/// (points, point arrays, where lines begin, their points, arrays of lines)
-nb::tuple numpy_of(io::Surface lines);
+/// (points, point arrays, where cells begin, their points, arrays of cells), for what has either lines or polygons
+nb::tuple numpy_of(io::Surface surface);
 
 }  // namespace gale::python

@@ -1,8 +1,8 @@
 #include "process.hpp"
 
-#include <Kokkos_Core.hpp>
-
 #include <gale/base/error.hpp>
+
+#include "initialize_kokkos.hpp"
 
 namespace gale::python {
 
@@ -12,6 +12,7 @@ enum class Phase { running, ended, forked };
 
 std::atomic<Phase> phase{Phase::running};
 std::atomic<int> calls{0};
+bool initialized_here = false;  // guarded by Python's lock
 
 std::mutex kept_mutex;
 
@@ -32,24 +33,23 @@ Kept::~Kept() {
   all_kept().erase(this);
 }
 
-void initialize() {
-  if (!Kokkos::is_initialized()) Kokkos::initialize();
-}
-
 void finalize() {
   if (phase.load() != Phase::running || calls.load() > 0) return;
   phase.store(Phase::ended);
   const std::lock_guard<std::mutex> lock(kept_mutex);
   for (Kept* const one : all_kept()) one->end();
-  Kokkos::finalize();
+  if (initialized_here) Kokkos::finalize();
 }
 
-void after_fork() { phase.store(Phase::forked); }
+void after_fork() {
+  if (Kokkos::is_initialized()) phase.store(Phase::forked);
+}
 
 Call::Entered::Entered() {
   if (phase.load() == Phase::forked)
     throw Error("gale can't be used in a process that was forked from one that uses it: start processes by 'spawn'");
   if (phase.load() == Phase::ended) throw Error("gale has ended with the interpreter");
+  if (bindings::initialize_kokkos()) initialized_here = true;
   ++calls;
 }
 

@@ -10,7 +10,7 @@
 
 #include <gale/runtime/sweep_options.hpp>
 
-// Kokkos and this process: it is initialized when the module is imported, and finalized at exit.
+// Kokkos and this process: it is initialized by the first call, unless somebody else did that, and finalized at exit.
 
 namespace gale::python {
 
@@ -26,15 +26,15 @@ class Kept {
   virtual void end() = 0;
 };
 
-void initialize();
-
-/// At exit. Ends what is kept, then Kokkos; does neither while another thread is in a `Call`.
+/// At exit. Ends what is kept, then Kokkos if it was initialized here; does neither while another thread is in a
+/// `Call`.
 void finalize();
 
-/// In a process that was forked from one that uses GALE: its threads aren't there.
+/// In a process that was forked from this one: if GALE was used before, its threads aren't there.
 void after_fork();
 
-/// One call into GALE, without Python's lock. Throws gale::Error after finalize and after_fork.
+/// One call into GALE, without Python's lock; the first one initializes Kokkos. Throws gale::Error after finalize, and
+/// after_fork where Kokkos was initialized before.
 class Call {
  public:
   Call();

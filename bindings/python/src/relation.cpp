@@ -11,53 +11,74 @@ namespace gale::python {
 
 namespace {
 
-/// The rows that one consumer met, in the numbers of the input.
-struct Part {
-  std::vector<Id> numbers, sizes, entries;
+/// A segment's rows in the numbers of the input: first their sizes, then their entries.
+struct Block {
+  Id first, rows;  ///< GALE's ids
+  std::unique_ptr<Id[]> words;
 };
 
-struct Rows {
+struct AllRows {
   std::vector<std::int64_t> begin;
-  std::vector<Id> entries;
+  std::shared_ptr<Id[]> entries;  ///< not touched before they are written, by all threads
+  Id columns = 0;                 ///< how many simplices the entries are among
 };
 
-std::vector<Part> sweep(Structure& structure, Relation relation, const SweepOptions& options) {
-  const auto rows_of = input_numbers(structure.mesh(), row_dimension(relation));
+/// How many simplices of a dimension the mesh has. They have been needed.
+Id known_simplices(const Mesh& mesh, int dimension) {
+  const Id counts[] = {mesh.vertices(), mesh.known_edges(), mesh.known_triangles(), mesh.tetrahedra()};
+  return counts[dimension];
+}
+
+/// The block of what a sweep gives of a segment.
+Block block_of(const Rows& rows, const Id* entry_number) {
+  const Id count = rows.count, begin = rows.offsets[0];
+  Block block{rows.first, count, std::unique_ptr<Id[]>(new Id[count + std::size_t(rows.offsets[count] - begin)])};
+  Id* to = block.words.get() + count;
+  for (Id i = 0; i < count; ++i) {
+    const Row row = rows[rows.first + i];
+    block.words[i] = row.size();
+    Id* const first = to;
+    for (const Id entry : row) *to++ = entry_number[entry];
+    std::sort(first, to);
+  }
+  return block;
+}
+
+/// All blocks, by the consumer that met them.
+std::vector<std::vector<Block>> sweep(Structure& structure, Relation relation, const SweepOptions& options) {
   const auto entries_of = input_numbers(structure.mesh(), entry_dimension(relation));
-  const Id* const row_number = rows_of.data();
   const Id* const entry_number = entries_of.data();
-  std::vector<Part> parts(options.threads);
+  std::vector<std::vector<Block>> parts(options.threads);
   structure.for_each_segment(relation, options, [&](int consumer, const SegmentRows& rows) {
-    Part& part = parts[consumer];
-    for (const Id simplex : rows.interval(relation)) {
-      const Row row = rows[relation][simplex];
-      part.numbers.push_back(row_number[simplex]);
-      part.sizes.push_back(row.size());
-      const auto first = static_cast<std::ptrdiff_t>(part.entries.size());
-      for (const Id entry : row) part.entries.push_back(entry_number[entry]);
-      std::sort(part.entries.begin() + first, part.entries.end());
-    }
+    if (rows.interval(relation).size() > 0) parts[consumer].push_back(block_of(rows[relation], entry_number));
   });
   return parts;
 }
 
-/// The rows by their numbers.
-Rows gathered(std::vector<Part> parts) {
-  std::size_t rows = 0;
-  for (const Part& part : parts) rows += part.numbers.size();
-  Rows all;
-  all.begin.resize(rows + 1);
-  for (const Part& part : parts) {
-    for (std::size_t i = 0; i < part.numbers.size(); ++i) all.begin[part.numbers[i] + 1] = part.sizes[i];
-  }
-  for (std::size_t i = 0; i < rows; ++i) all.begin[i + 1] += all.begin[i];
-  all.entries.resize(static_cast<std::size_t>(all.begin[rows]));
+/// Calls visit(block) for each, on as many threads as there are parts.
+template <class Visit>
+void for_each_block(const std::vector<std::vector<Block>>& parts, const Visit& visit) {
   in_turns(host_threads(), static_cast<std::int64_t>(parts.size()), [&](int, std::int64_t p) {
-    const Part part = std::move(parts[p]);
-    const Id* from = part.entries.data();
-    for (std::size_t i = 0; i < part.numbers.size(); from += part.sizes[i++])
-      std::copy_n(from, part.sizes[i], all.entries.data() + all.begin[part.numbers[i]]);
+    for (const Block& block : parts[p]) visit(block);
   });
+}
+
+/// The rows by their numbers.
+AllRows gathered(const Mesh& mesh, Relation relation, const std::vector<std::vector<Block>>& parts) {
+  const auto row_number = input_numbers(mesh, row_dimension(relation));
+  AllRows all;
+  all.begin.resize(row_number.size() + 1);
+  for_each_block(parts, [&](const Block& block) {
+    for (Id i = 0; i < block.rows; ++i) all.begin[row_number(block.first + i) + 1] = block.words[i];
+  });
+  for (std::size_t i = 0; i < row_number.size(); ++i) all.begin[i + 1] += all.begin[i];
+  all.entries.reset(new Id[all.begin.back()]);
+  for_each_block(parts, [&](const Block& block) {
+    const Id* from = block.words.get() + block.rows;
+    for (Id i = 0; i < block.rows; from += block.words[i++])
+      std::copy_n(from, block.words[i], all.entries.get() + all.begin[row_number(block.first + i)]);
+  });
+  all.columns = known_simplices(mesh, entry_dimension(relation));
   return all;
 }
 
@@ -67,14 +88,17 @@ nb::tuple PyMesh::relation(const std::string& name, int threads, const nb::objec
   const SweepOptions options = sweep_options(threads, progress);
   const auto relation = relation_named(name);
   if (!relation) throw Error("there is no relation '" + name + "': it is two of the letters V, E, F, T");
-  Rows rows;
+  AllRows rows;
   {
     const Call call;
     const ThreadLimit limit(options.threads);
     const auto structure = make_structure(mesh(), *relation);
-    rows = gathered(sweep(*structure, *relation, options));
+    rows = gathered(mesh(), *relation, sweep(*structure, *relation, options));
   }
-  return nb::make_tuple(numpy_of(std::move(rows.begin)), numpy_of(std::move(rows.entries)));
+  const Id* const entries = rows.entries.get();
+  const auto count = static_cast<std::size_t>(rows.begin.back());
+  return nb::make_tuple(numpy_of(std::move(rows.begin)), numpy_of(entries, count, 1, std::move(rows.entries)),
+                        rows.columns);
 }
 
 }  // namespace gale::python

@@ -11,22 +11,7 @@ import unittest
 
 import gale
 import numpy as np
-
-
-def random_mesh(seed, n=4):
-    """The tetrahedra of a small grid of cubes, each split in six, at shaken points."""
-    rng = np.random.default_rng(seed)
-    grid = np.array(list(itertools.product(range(n), repeat=3)), dtype=float)
-    tetrahedra = []
-    for x, y, z in itertools.product(range(n - 1), repeat=3):
-        for order in itertools.permutations(range(3)):
-            corner = [x, y, z]
-            cell = [(corner[0] * n + corner[1]) * n + corner[2]]
-            for axis in order:
-                corner[axis] += 1
-                cell.append((corner[0] * n + corner[1]) * n + corner[2])
-            tetrahedra.append(cell)
-    return grid + rng.uniform(-0.2, 0.2, grid.shape), np.array(tetrahedra), rng.standard_normal(len(grid))
+from meshes import random_mesh
 
 
 def rows_of(indptr, indices):
@@ -251,6 +236,12 @@ class Process(unittest.TestCase):
         child.start()
         self.assertIn("spawn", queue.get(timeout=60))
         child.join()
+
+    def test_takes_a_forked_process_before_the_first_use(self):
+        done = self.run_python("import gale, os\nchild = os.fork()\nif child == 0:\n"
+                               " print(gale.read('grid:4')[0].vertices, flush=True)\n"
+                               "else: os.waitpid(child, 0)")
+        self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "64\n", ""))
 
     def test_an_interrupt_ends_a_run(self):
         code = ("import gale, signal\nsignal.signal(signal.SIGINT, signal.default_int_handler)\n"  # some shells ignore it

@@ -1,0 +1,172 @@
+"""gale.Mesh and gale.read."""
+from __future__ import annotations
+
+import os
+from typing import Any, Dict, Optional, Tuple, Union
+
+import numpy as np
+
+from . import _arrays, _gale
+from ._gale import Error
+from ._progress import Progress, told
+from .results import CriticalPoints, Diagram, DiscreteGradient, Lines, MorseSmaleComplex, Polygons
+
+Persistence = Union[float, str]
+
+
+def _persistence(threshold: Optional[Persistence]) -> Tuple[Optional[float], bool]:
+    """(threshold, whether it is in percent of the field's range)"""
+    if threshold is None:
+        return None, False
+    if isinstance(threshold, str):
+        if not threshold.endswith("%"):
+            raise Error(f"the persistence '{threshold}' is neither a number nor a percentage such as '3%'")
+        value, is_percent = float(threshold[:-1]), True
+    else:
+        value, is_percent = float(threshold), False
+    if not value >= 0:
+        raise Error(f"the persistence {threshold} is not 0 or more")
+    return value, is_percent
+
+
+class Mesh:
+    """A tetrahedral mesh.
+
+    points: (n, 3) float32 or float64, tetrahedra: (m, 4) int32 or int64 vertex ids: numpy's, or by the array interface or
+    DLPack; on a GALE with CUDA also in a device's memory, by DLPack or `__cuda_array_interface__`. Read where they are;
+    of other types, or where rows don't follow each other, a copy. `points` must not change while the mesh lives.
+
+    capacity: how many vertices a segment has at most; no result depends on it.
+
+    Fields are arrays, (n,), of a number for each point, from where points may be. Everywhere, `threads` is how many
+    threads to use (0: as many as there are cores). `progress(done, all)` is called now and then, and may raise to end the
+    run; True shows a bar where tqdm is installed. Raises gale.Error, a ValueError, for what isn't a mesh.
+    """
+
+    _mesh: _gale.Mesh
+
+    def __init__(self, points: Any, tetrahedra: Any, capacity: int = 100) -> None:
+        self._mesh = _gale.Mesh(_arrays.rows(points, (np.float32, np.float64), np.float64),
+                                _arrays.rows(tetrahedra, (np.int32, np.int64), np.int64), capacity)
+
+    @classmethod
+    def from_pyvista(cls, grid: Any, capacity: int = 100) -> Mesh:
+        """Of a pyvista.UnstructuredGrid, or a vtkUnstructuredGrid, all of whose cells are tetrahedra. Its points and
+        cells are read where they are."""
+        from vtkmodules.util.numpy_support import vtk_to_numpy
+
+        if grid.GetNumberOfCells() == 0:
+            raise Error("the grid has no cells")
+        has_distinct = hasattr(grid, "GetDistinctCellTypesArray")  # newer VTKs have no type for each cell where all agree
+        types = grid.GetDistinctCellTypesArray() if has_distinct else grid.GetCellTypesArray()
+        if not np.all(vtk_to_numpy(types) == 10):  # VTK_TETRA
+            raise Error("not all cells are tetrahedra: triangulate() makes such a grid")
+        connectivity = vtk_to_numpy(grid.GetCells().GetConnectivityArray())
+        return cls(vtk_to_numpy(grid.GetPoints().GetData()), connectivity.reshape(-1, 4), capacity)
+
+    @classmethod
+    def _of(cls, inner: _gale.Mesh) -> Mesh:
+        mesh = cls.__new__(cls)
+        mesh._mesh = inner
+        return mesh
+
+    @property
+    def vertices(self) -> int:
+        """How many points there are."""
+        return self._mesh.vertices
+
+    @property
+    def tetrahedra(self) -> int:
+        """How many tetrahedra there are."""
+        return self._mesh.tetrahedra
+
+    @property
+    def segments(self) -> int:
+        """How many segments the mesh is divided into."""
+        return self._mesh.segments
+
+    @property
+    def points(self) -> np.ndarray:
+        """A copy of the points, (n, 3)."""
+        return np.asarray(self._mesh.points())
+
+    def __repr__(self) -> str:
+        return f"gale.Mesh({self.vertices} vertices, {self.tetrahedra} tetrahedra)"
+
+    def relation(self, name: str, threads: int = 0, progress: Progress = None) -> Tuple[np.ndarray, np.ndarray]:
+        """Which simplices touch which, e.g. "VT": for each vertex its tetrahedra. As (indptr, indices), (rows + 1,) int64
+        and (entries,) int32: the i-th row is indices[indptr[i]:indptr[i + 1]], ascending. Vertices (V) and tetrahedra (T)
+        have their places in the input; edges (E) and triangles (F) are numbered in the order of their vertices, which
+        "EV" and "FV" give."""
+        return self._relation(name, threads, progress)[:2]
+
+    def relation_matrix(self, name: str, threads: int = 0, progress: Progress = None) -> Any:
+        """The relation as a scipy.sparse.csr_array of ones (int32), with a row and a column for each simplex: `relation`'s
+        arrays, where scipy takes them as they are. Needs scipy."""
+        from scipy.sparse import csr_array
+
+        indptr, indices, columns = self._relation(name, threads, progress)
+        ones = np.ones(len(indices), np.int32)
+        matrix = csr_array((ones, indices, indptr), shape=(len(indptr) - 1, columns))
+        matrix.has_sorted_indices = matrix.has_canonical_format = True
+        return matrix
+
+    def _relation(self, name: str, threads: int, progress: Progress) -> Tuple[np.ndarray, np.ndarray, int]:
+        with told(progress, name) as tell:
+            return self._mesh.relation(name, threads, tell)
+
+    def critical_points(self, field: Any, name: str = "field", threads: int = 0,
+                        progress: Progress = None) -> CriticalPoints:
+        """The critical points of the piecewise linear field, by ascending vertex: CriticalPoints with the arrays `name`,
+        CriticalType (int8: 0 minimum, 1 and 2 saddles, 3 maximum, 4 degenerate), IsOnBoundary (int8) and
+        ttkVertexScalarField (int32), the vertex."""
+        with told(progress, "critical points") as tell:
+            return CriticalPoints(*self._mesh.critical_points(_arrays.field(field), name, threads, tell))
+
+    def critical_simplices(self, field: Any, name: str = "field", threads: int = 0,
+                           progress: Progress = None) -> CriticalPoints:
+        """The simplices that the discrete gradient pairs with no other: CriticalPoints with the arrays `name`,
+        CellDimension (int8: 0 minimum to 3 maximum), CellId (int32), IsOnBoundary (int8) and ttkVertexScalarField (int32),
+        the highest vertex."""
+        with told(progress, "gradient") as tell:
+            return CriticalPoints(*self._mesh.critical_simplices(_arrays.field(field), name, threads, tell))
+
+    def discrete_gradient(self, field: Any, name: str = "field", threads: int = 0,
+                          progress: Progress = None) -> DiscreteGradient:
+        """The discrete gradient: its critical simplices, as `critical_simplices` has them, and its arrows. Large: some 13
+        arrows a vertex."""
+        with told(progress, "gradient") as tell:
+            critical, arrows = self._mesh.discrete_gradient(_arrays.field(field), name, threads, tell)
+        return DiscreteGradient(CriticalPoints(*critical), CriticalPoints(*arrows))
+
+    def persistence_diagram(self, field: Any, persistence: Persistence = 0, name: str = "field", threads: int = 0,
+                            progress: Progress = None) -> Diagram:
+        """The persistent homology of the field, as a Diagram: pairs whose persistence is at least `persistence`, a
+        difference of values or, as in "3%", a part of the field's range; and the classes that never end."""
+        value, is_percent = _persistence(persistence)
+        with told(progress, "gradient") as tell:
+            return Diagram(
+                **self._mesh.persistence_diagram(_arrays.field(field), name, value or 0.0, is_percent, threads, tell))
+
+    def morse_smale(self, field: Any, persistence: Optional[Persistence] = None, extrema_only: bool = False,
+                    name: str = "field", threads: int = 0, progress: Progress = None,
+                    separatrices2: bool = False) -> MorseSmaleComplex:
+        """The MorseSmaleComplex of the field, simplified below `persistence` (as in persistence_diagram) if that is
+        given; of extrema alone with `extrema_only`. With the walls of saddles, which are large, if `separatrices2`."""
+        value, is_percent = _persistence(persistence)
+        with told(progress, "complex") as tell:
+            parts = self._mesh.morse_smale(_arrays.field(field), name, value, is_percent, extrema_only, separatrices2,
+                                           threads, tell)
+        walls = Polygons(*parts["separatrices2"]) if separatrices2 else None
+        return MorseSmaleComplex(CriticalPoints(*parts["critical_points"]), Lines(*parts["separatrices1"]),
+                                 parts["manifolds"], parts["kept_below"], walls)
+
+
+def read(path: Union[str, os.PathLike[str]], above: Optional[float] = None, array: str = "", tetrahedralize: bool = False,
+         outside_files: bool = False, capacity: int = 100) -> Tuple[Mesh, Dict[str, np.ndarray]]:
+    """The mesh of a file, and its point arrays by name, each (n,) or (n, components): (Mesh, dict).
+
+    Meshes: .vtu, .vtk; volumes, of which the voxels with values above `above` are split into tetrahedra: .vti, .nii,
+    .nii.gz, .mha, .mhd, .nrrd, .vtk; and grid:N. `array` is the volume's array that `above` is about."""
+    inner, arrays = _gale.read(os.fspath(path), above, array, tetrahedralize, outside_files, capacity)
+    return Mesh._of(inner), arrays
