@@ -15,7 +15,7 @@ clang_format=$(command -v clang-format-14 || command -v clang-format) ||
   { echo "$0: $("$clang_format" --version), but versions differ in what they make: take 14" >&2; exit 1; }
 
 mapfile -d '' files < <(find . -path './.*' -prune -o -path './build*' -prune -o -path './install*' -prune -o \
-  \( -name '*.cpp' -o -name '*.hpp' \) -type f -print0 | sort --zero-terminated)
+  \( -name '*.cpp' -o -name '*.hpp' -o -name '*.h' \) -type f -print0 | sort --zero-terminated)
 if [ -z "${1:-}" ]; then
   printf '%s\0' "${files[@]}" | xargs --null --max-procs="$(nproc)" --max-args=20 "$clang_format" -i
   exit

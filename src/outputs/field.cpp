@@ -17,10 +17,6 @@ bool ends_with(const std::string& text, const std::string& end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
-bool is_segments(const io::PointArray& array) {
-  return (array.name == segments_name || array.name == ttk_segments_name) && holds_segments(array);
-}
-
 /// The array NAME where `name` is NAME_K, and K; nullptr if it isn't of that form, or there is no such array.
 const io::PointArray* find_component(const io::Dataset& dataset, const std::string& name, int& component) {
   const auto bar = name.rfind('_');
@@ -32,7 +28,7 @@ const io::PointArray* find_component(const io::Dataset& dataset, const std::stri
 
 io::PointArray first_field(const io::Dataset& dataset) {
   for (const auto& array : dataset.arrays) {
-    if (array.components == 1 && !is_segments(array) && !ends_with(array.name, order_suffix)) return array;
+    if (may_be_field(array.name, array.components, holds_segments(array))) return array;
   }
   throw Error("no point array to analyse: " + names_of_arrays(dataset));
 }
@@ -56,6 +52,11 @@ void check_permutation(const io::PointArray& order, std::size_t count) {
 }
 
 }  // namespace
+
+bool may_be_field(const std::string& name, int components, bool is_whole) {
+  const bool is_segments = is_whole && (name == segments_name || name == ttk_segments_name);
+  return components == 1 && !is_segments && !ends_with(name, order_suffix);
+}
 
 io::PointArray select_field(const io::Dataset& dataset, const std::string& name) {
   if (name.empty()) return first_field(dataset);

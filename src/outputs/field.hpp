@@ -8,10 +8,13 @@
 
 namespace gale::outputs {
 
+/// Whether an array can be the field where none is named: one number a point, neither a segmentation (`find_segments`)
+/// nor an order (its name ends in _Order). `is_whole`: its type is one of whole numbers.
+GALE_EXPORT bool may_be_field(const std::string& name, int components, bool is_whole);
+
 /// A copy of the point array to analyse, which has one component: the array called `name`, or component K (from 0) of
-/// NAME where `name` is NAME_K. With an empty `name` the first array of one component that is neither a segmentation
-/// (`find_segments`) nor an order (its name ends in _Order). Throws gale::Error, with the names that there are, if
-/// there is none, or if the array called `name` has several components.
+/// NAME where `name` is NAME_K. With an empty `name` the first array that `may_be_field`. Throws gale::Error, with the
+/// names that there are, if there is none, or if the array called `name` has several components.
 GALE_EXPORT io::PointArray select_field(const io::Dataset& dataset, const std::string& name);
 
 /// The value of a field at an input vertex, which must be there.

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <optional>
+
+#include <vtkSmartPointer.h>
+
+#include <gale/algorithms/vertex_order.hpp>
+#include <gale/io/dataset.hpp>
+#include <gale/mesh/mesh.hpp>
+#include <gale/runtime/sweep_options.hpp>
+
+class vtkAlgorithm;
+class vtkDataArray;
+class vtkDataSet;
+class vtkUnstructuredGrid;
+
+namespace gale::vtk {
+
+/// Thrown where somebody aborts a filter.
+struct Aborted {};
+
+/// What a filter's properties say of its input.
+struct InputOptions {
+  int threads = 0;  ///< 0: as many as there are cores
+  int capacity = 100;
+  std::optional<double> above;  ///< of an image's voxels
+};
+
+/// One execution of a filter: its input as GALE has it, and how it tells how far it is. To be used by the thread that
+/// made it alone.
+class Run {
+ public:
+  /// `field` is an array of the input's points, or nullptr. Throws gale::Error for an input that is no mesh.
+  Run(vtkAlgorithm& filter, vtkDataSet* input, vtkDataArray* field, const InputOptions& options);
+
+  /// The input, or the tetrahedra of the image's voxels with its point arrays.
+  vtkUnstructuredGrid* grid() const { return grid_; }
+
+  const Mesh& mesh() const { return *mesh_; }
+
+  /// The points alone: what outputs are made from.
+  const io::Dataset& dataset() const { return dataset_; }
+
+  /// A copy of the field. Throws gale::Error if there is none, or if it isn't of one number a point.
+  io::PointArray field() const;
+
+  /// The order of the field's values, or that of the array NAME_Order.
+  VertexOrder order(const io::PointArray& field) const;
+
+  /// A sweep that takes the filter's progress from `begin` to `end`, in 0..1. It throws Aborted once the filter is to
+  /// abort. Throws Aborted if that is so already.
+  SweepOptions sweep(double begin, double end) const;
+
+ private:
+  vtkAlgorithm& filter_;
+  int threads_;
+  ThreadLimit limit_;
+  vtkSmartPointer<vtkUnstructuredGrid> grid_;
+  vtkSmartPointer<vtkDataArray> field_;
+  io::Dataset dataset_;
+  std::optional<Mesh> mesh_;
+};
+
+}  // namespace gale::vtk

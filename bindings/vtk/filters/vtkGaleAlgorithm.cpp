@@ -1,0 +1,107 @@
+#include "vtkGaleAlgorithm.h"
+
+#include <cstdlib>
+#include <mutex>
+#include <new>
+#include <string>
+
+#include <Kokkos_Core.hpp>
+#include <vtkDataArray.h>
+#include <vtkDataSet.h>
+#include <vtkImageData.h>
+#include <vtkInformation.h>
+#include <vtkInformationVector.h>
+#include <vtkPointData.h>
+#include <vtkStreamingDemandDrivenPipeline.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <gale/base/error.hpp>
+#include <gale/outputs/field.hpp>
+
+#include "initialize_kokkos.hpp"
+#include "run.hpp"
+
+namespace {
+
+void initialize_once() {
+  static std::once_flag once;
+  std::call_once(once, [] {
+    if (!gale::bindings::initialize_kokkos()) return;
+    std::atexit([] {
+      if (Kokkos::is_initialized()) Kokkos::finalize();
+    });
+  });
+}
+
+vtkDataArray* first_field(vtkPointData* arrays) {
+  if (arrays->GetScalars()) return arrays->GetScalars();
+  for (int k = 0; k < arrays->GetNumberOfArrays(); ++k) {
+    vtkDataArray* const array = arrays->GetArray(k);
+    if (!array || !array->GetName()) continue;
+    const bool is_whole = array->GetDataType() != VTK_FLOAT && array->GetDataType() != VTK_DOUBLE;
+    if (gale::outputs::may_be_field(array->GetName(), array->GetNumberOfComponents(), is_whole)) return array;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+vtkGaleAlgorithm::vtkGaleAlgorithm() { this->SetNumberOfInputPorts(1); }
+
+vtkGaleAlgorithm::~vtkGaleAlgorithm() = default;
+
+int vtkGaleAlgorithm::FillInputPortInformation(int, vtkInformation* info) {
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkUnstructuredGrid");
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");
+  return 1;
+}
+
+vtkTypeBool vtkGaleAlgorithm::ProcessRequest(vtkInformation* request, vtkInformationVector** inputs,
+                                             vtkInformationVector* outputs) {
+  if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA())) {
+    return this->RequestData(inputs, outputs);
+  }
+  return this->Superclass::ProcessRequest(request, inputs, outputs);
+}
+
+vtkDataArray* vtkGaleAlgorithm::SelectField(vtkInformationVector** inputs) {
+  vtkInformation* const chosen = this->GetInputArrayInformation(0);
+  const char* const name = chosen->Get(vtkDataObject::FIELD_NAME());
+  if (!name && !chosen->Has(vtkDataObject::FIELD_ATTRIBUTE_TYPE()))
+    return first_field(vtkDataSet::GetData(inputs[0])->GetPointData());
+  int association = vtkDataObject::FIELD_ASSOCIATION_POINTS;
+  vtkDataArray* const field = this->GetInputArrayToProcess(0, inputs, association);
+  const std::string called = name ? std::string(" '") + name + "'" : "";
+  if (!field) throw gale::Error("the input has no point array" + called);
+  if (association != vtkDataObject::FIELD_ASSOCIATION_POINTS)
+    throw gale::Error("the array" + called + " is not one of points");
+  return field;
+}
+
+int vtkGaleAlgorithm::RequestData(vtkInformationVector** inputs, vtkInformationVector* outputs) {
+  gale::vtk::InputOptions options;
+  options.threads = this->NumberOfThreads;
+  options.capacity = this->Capacity;
+  if (this->UseThreshold) options.above = this->Threshold;
+  try {
+    initialize_once();
+    gale::vtk::Run run(*this, vtkDataSet::GetData(inputs[0]), this->SelectField(inputs), options);
+    this->Compute(run, outputs);
+    return 1;
+  } catch (const gale::vtk::Aborted&) {
+    return 1;
+  } catch (const std::bad_alloc&) {
+    vtkErrorMacro("out of memory");
+  } catch (const std::exception& error) {
+    vtkErrorMacro(<< error.what());
+  }
+  return 0;
+}
+
+void vtkGaleAlgorithm::PrintSelf(ostream& os, vtkIndent indent) {
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
+  os << indent << "Capacity: " << this->Capacity << "\n";
+  os << indent << "UseThreshold: " << this->UseThreshold << "\n";
+  os << indent << "Threshold: " << this->Threshold << "\n";
+}

@@ -1,0 +1,36 @@
+#include "vtkGaleCriticalPoints.h"
+
+#include <Kokkos_Core.hpp>
+#include <vtkInformation.h>
+#include <vtkObjectFactory.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <gale/algorithms/critical_points.hpp>
+#include <gale/outputs/critical_points.hpp>
+#include <gale/runtime/make_structure.hpp>
+
+#include "arrays.hpp"
+#include "run.hpp"
+
+vtkStandardNewMacro(vtkGaleCriticalPoints);
+
+vtkGaleCriticalPoints::vtkGaleCriticalPoints() { this->SetNumberOfOutputPorts(1); }
+
+vtkGaleCriticalPoints::~vtkGaleCriticalPoints() = default;
+
+int vtkGaleCriticalPoints::FillOutputPortInformation(int, vtkInformation* info) {
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkPolyData");
+  return 1;
+}
+
+vtkPolyData* vtkGaleCriticalPoints::GetOutput() { return vtkPolyData::SafeDownCast(this->GetOutputDataObject(0)); }
+
+void vtkGaleCriticalPoints::Compute(gale::vtk::Run& run, vtkInformationVector* outputs) {
+  const auto order = run.order(run.field());
+  const auto structure = gale::make_structure(run.mesh(), gale::critical_points_relations);
+  const auto points = gale::find_critical_points(*structure, order, run.sweep(0, 1));
+  gale::vtk::to_poly_data(gale::outputs::to_point_set(run.dataset(), points), run.grid()->GetPointData(),
+                          vtkPolyData::GetData(outputs, 0));
+}

@@ -1,0 +1,38 @@
+/**
+ * @class vtkGaleCriticalPoints
+ * @brief the critical points of a piecewise linear scalar field
+ *
+ * The output is a vtkPolyData with a vertex for each critical point, by ascending point of the mesh, and the point
+ * arrays CriticalType (0 minimum, 1 and 2 saddles, 3 maximum, 4 degenerate), IsOnBoundary, ttkVertexScalarField (the
+ * point of the mesh) and those of the input.
+ */
+#ifndef vtkGaleCriticalPoints_h
+#define vtkGaleCriticalPoints_h
+
+#include "vtkGaleAlgorithm.h"
+
+class vtkPolyData;
+
+class VTKFILTERSGALE_EXPORT vtkGaleCriticalPoints : public vtkGaleAlgorithm {
+ public:
+  static vtkGaleCriticalPoints* New();
+  vtkTypeMacro(vtkGaleCriticalPoints, vtkGaleAlgorithm);
+
+  /**
+   * The critical points.
+   */
+  vtkPolyData* GetOutput();
+
+ protected:
+  vtkGaleCriticalPoints();
+  ~vtkGaleCriticalPoints() override;
+
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  void Compute(gale::vtk::Run& run, vtkInformationVector* outputs) override;
+
+ private:
+  vtkGaleCriticalPoints(const vtkGaleCriticalPoints&) = delete;
+  void operator=(const vtkGaleCriticalPoints&) = delete;
+};
+
+#endif

@@ -1,0 +1,114 @@
+"""The filters from Python, compared with what the command writes."""
+import os
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+from galevtk.vtkFiltersGale import vtkGaleCriticalPoints, vtkGaleMorseSmaleComplex, vtkGaleSegmentation
+from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
+from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLUnstructuredGridReader
+
+
+def read(reader, path):
+    reader.SetFileName(str(path))
+    reader.Update()
+    return reader.GetOutput()
+
+
+def arrays_of(attributes):
+    """By name: (type, components, all values)."""
+    named = {}
+    for k in range(attributes.GetNumberOfArrays()):
+        array = attributes.GetArray(k)
+        values = [array.GetTuple(i) for i in range(array.GetNumberOfTuples())]
+        named[array.GetName()] = array.GetDataTypeAsString(), array.GetNumberOfComponents(), values
+    return named
+
+
+def cells_of(cells):
+    return [cells.GetConnectivityArray().GetTuple1(k) for k in range(cells.GetConnectivityArray().GetNumberOfTuples())]
+
+
+class SameAsTheCommand(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory(prefix="gale_vtk_")
+        cls.addClassCleanup(folder.cleanup)
+        cls.folder = Path(folder.name)
+        cls.command("generate", "grid:14", "-o", "grid.vtu")
+        cls.grid = read(vtkXMLUnstructuredGridReader(), cls.folder / "grid.vtu")
+
+    @classmethod
+    def command(cls, *arguments):
+        subprocess.run([os.environ["GALE"], *arguments], cwd=cls.folder, check=True, stdout=subprocess.DEVNULL, timeout=300)
+
+    def same(self, found, file):
+        """Are points, cells and all arrays the same?"""
+        expected = read(vtkXMLPolyDataReader(), self.folder / file)
+        self.assertEqual(found.GetNumberOfPoints(), expected.GetNumberOfPoints())
+        self.assertEqual([found.GetPoint(k) for k in range(found.GetNumberOfPoints())],
+                         [expected.GetPoint(k) for k in range(found.GetNumberOfPoints())])
+        self.assertEqual(arrays_of(found.GetPointData()), arrays_of(expected.GetPointData()))
+        self.assertEqual(arrays_of(found.GetCellData()), arrays_of(expected.GetCellData()))
+        for part in ("GetVerts", "GetLines", "GetPolys"):
+            self.assertEqual(cells_of(getattr(found, part)()), cells_of(getattr(expected, part)()), part)
+
+    def test_critical_points(self):
+        self.command("critical-points", "grid.vtu", "-o", "critical.vtp")
+        points = vtkGaleCriticalPoints()
+        points.SetInputData(self.grid)
+        points.Update()
+        self.assertGreater(points.GetOutput().GetNumberOfPoints(), 20)
+        self.same(points.GetOutput(), "critical.vtp")
+
+    def test_complex(self):
+        self.command("morse-smale", "grid.vtu", "--persistence", "1%", "--separatrices2", "-o", "complex")
+        found = vtkGaleMorseSmaleComplex()
+        found.SetInputData(self.grid)
+        found.SimplifyOn()
+        found.SetPersistence(1)
+        found.ComputeSeparatrices2On()
+        found.Update()
+        self.same(found.GetCriticalPoints(), "complex_critical_points.vtp")
+        self.same(found.GetSeparatrices1(), "complex_separatrices1.vtp")
+        self.same(found.GetSeparatrices2(), "complex_separatrices2.vtp")
+        expected = read(vtkXMLUnstructuredGridReader(), self.folder / "complex_segmentation.vtu")
+        self.assertEqual(arrays_of(found.GetSegmentation().GetPointData()), arrays_of(expected.GetPointData()))
+        self.assertEqual(found.GetOutputDataObject(3), found.GetSegmentation())
+
+    def test_segments(self):
+        self.command("segment", "grid.vtu", "--capacity", "30", "-o", "segments.vtu")
+        segments = vtkGaleSegmentation()
+        segments.SetInputData(self.grid)
+        segments.SetCapacity(30)
+        segments.Update()
+        expected = read(vtkXMLUnstructuredGridReader(), self.folder / "segments.vtu")
+        self.assertEqual(arrays_of(segments.GetOutput().GetPointData()), arrays_of(expected.GetPointData()))
+
+    def test_errors_and_progress_reach_observers(self):
+        said, told = [], []
+        points = vtkGaleCriticalPoints()
+        self.assertIsInstance(points, vtkAlgorithm)
+
+        def note(_, __, text):
+            said.append(text)
+
+        note.CallDataType = "string0"
+        points.AddObserver("ErrorEvent", note)
+        points.GetExecutive().AddObserver("ErrorEvent", note)
+        points.AddObserver("ProgressEvent", lambda caller, _: told.append(caller.GetProgress()))
+        points.SetInputData(self.grid)
+        points.SetInputArrayToProcess(0, 0, 0, 0, "nothing")
+        points.Update()
+        self.assertIn("the input has no point array 'nothing'", said[0])
+        points.SetInputArrayToProcess(0, 0, 0, 0, "field")
+        points.SetNumberOfThreads(1)
+        told.clear()
+        points.Update()
+        self.assertGreater(len(told), 10)
+        self.assertEqual((told[-1], told), (1, sorted(told)))
+
+
+if __name__ == "__main__":
+    unittest.main()
