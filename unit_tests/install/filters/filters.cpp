@@ -1,6 +1,5 @@
-#include <vtkGaleCriticalPoints.h>
-
 #include <vtkFloatArray.h>
+#include <vtkGaleCriticalPoints.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
