@@ -16,5 +16,5 @@ python3 -m venv "$environment"
 tests=$PWD/bindings/python/tests
 cd "$environment"
 bin/python -B -m unittest discover -s "$tests"
-bin/pip install --quiet mypy pyvista scipy tqdm
+bin/pip install --quiet gmsh matplotlib mypy pyvista scipy tqdm
 bin/python -B -m unittest discover -s "$tests"
