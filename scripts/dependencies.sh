@@ -1,7 +1,8 @@
 #!/bin/bash
 # Installs what GALE is built from on Debian 12 with apt; does nothing when all is there.
-#   usage: scripts/dependencies.sh [data] [format] [rendering] [releases] [python]
+#   usage: scripts/dependencies.sh [data] [format] [rendering] [releases] [python] [docs]
 #     data: brain volumes    format: clang-format    rendering: without a screen    releases: what scripts/test-releases.sh needs    python: to build the module
+#     docs: the site
 set -euo pipefail
 
 packages=(cmake g++ ninja-build python3 libtrilinos-kokkos-dev libtrilinos-kokkos-kernels-dev libvtk9-dev
@@ -13,7 +14,8 @@ for more in "$@"; do
     rendering) packages+=(libgl1-mesa-dri xvfb xauth) ;;
     releases) packages+=(debootstrap) ;;
     python) packages+=(python3-dev python3-venv) ;;
-    *) echo "usage: $0 [data] [format] [rendering] [releases] [python]" >&2; exit 2 ;;
+    docs) packages+=(doxygen python3-venv) ;;
+    *) echo "usage: $0 [data] [format] [rendering] [releases] [python] [docs]" >&2; exit 2 ;;
   esac
 done
 
