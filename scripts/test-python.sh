@@ -11,7 +11,7 @@ export CMAKE_GENERATOR=${CMAKE_GENERATOR:-Ninja} CMAKE_BUILD_PARALLEL_LEVEL=${CM
 export OMP_WAIT_POLICY=passive # the tests' threads would keep each other from the cores
 python3 -m venv "$environment"
 "$environment/bin/pip" wheel --quiet --no-deps --wheel-dir "$environment" -C build-dir=build-python \
-  -C cmake.define.GALE_ENABLE_CHEAP_BUILD=ON -C cmake.define.CMAKE_CXX_FLAGS_RELEASE="-O1 -DNDEBUG" .
+  -C cmake.define.CMAKE_CXX_FLAGS_RELEASE="-O1 -DNDEBUG" .
 "$environment/bin/pip" install --quiet numpy "$environment"/*.whl
 tests=$PWD/bindings/python/tests
 cd "$environment"
