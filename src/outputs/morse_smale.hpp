@@ -14,13 +14,13 @@
 namespace gale::outputs {
 
 /// What a user asks of a Morse-Smale complex.
-struct MorseSmaleRequest {
+struct GALE_EXPORT MorseSmaleRequest {
   MorseSmaleParts parts;                   ///< what is wanted
   std::optional<Persistence> persistence;  ///< simplify below this threshold
   bool extrema_only = false;               ///< cancel no saddles with one another
 
   /// What has to be found for that: a simplification needs the connectors, and so do the arrays of walls.
-  GALE_EXPORT MorseSmaleParts needed_parts() const;
+  MorseSmaleParts needed_parts() const;
 };
 
 /// Which saddles connectors join, without the ways between them: what `separatrices2` takes.
