@@ -1,6 +1,6 @@
-#include <gale/base/pair_key.hpp>
+#include <gale/base/group_by.hpp>
 #include <gale/base/parallel.hpp>
-#include <gale/base/radix_sort.hpp>
+#include <gale/base/sort_rows.hpp>
 #include <gale/base/transfer.hpp>
 #include <gale/mesh/input_numbers.hpp>
 
@@ -10,9 +10,6 @@ namespace {
 
 template <class Space>
 using Ids = Array<Id, MemoryOf<Space>>;
-template <class Space>
-using Keys = Array<std::uint64_t, MemoryOf<Space>>;
-
 /// Of the mesh, which other threads may use too: a managed View's count isn't atomic where Kokkos has Serial alone.
 template <class Space>
 using VertexInput = Kokkos::View<const Id*, MemoryOf<Space>, Kokkos::MemoryUnmanaged>;
@@ -25,49 +22,66 @@ KOKKOS_INLINE_FUNCTION void order(Id& a, Id& b) {
   }
 }
 
-/// The places that distinct keys have in order. Overwrites the keys.
+template <class Memory>
+struct EntryAt {
+  Array<Id, Memory> entries;
+
+  KOKKOS_FUNCTION Id operator()(Id i) const { return entries(i); }
+};
+
+/// The places that simplices have in order, by two numbers each: `first`, of which there are `firsts`, then `second`.
+/// No two have the same.
 template <class Space>
-Ids<Space> places_of(const Space& space, const Keys<Space>& keys) {
-  const auto sorted = allocate<Ids<Space>>("GALE::input_order", keys.extent(0)),
-             place = allocate<Ids<Space>>("GALE::input_numbers", keys.extent(0));
+Ids<Space> places_of(const Space& space, Offset firsts, const Ids<Space>& first, const Ids<Space>& second) {
+  const auto groups =
+      group_by_key<Id>("GALE::input_order", space, first.extent(0), firsts, EntryAt<MemoryOf<Space>>{first});
+  const auto begin = groups.begin;
+  const auto row = groups.members;
   parallel_for(
-      "GALE::input_order", space, keys.extent(0), KOKKOS_LAMBDA(Offset i) { sorted(i) = static_cast<Id>(i); });
-  stable_sort_by_key(space, keys, sorted);
+      "GALE::input_order", space, row.extent(0), KOKKOS_LAMBDA(Offset i) { row(i) = second(row(i)); });
+  sort_rows(space, "GALE::input_order", begin, row);
+  const auto place = allocate<Ids<Space>>("GALE::input_numbers", row.extent(0));
   parallel_for(
-      "GALE::input_numbers", space, keys.extent(0), KOKKOS_LAMBDA(Offset i) { place(sorted(i)) = static_cast<Id>(i); });
+      "GALE::input_numbers", space, row.extent(0),
+      KOKKOS_LAMBDA(Offset i) { place(i) = detail::find_in(row, begin(first(i)), begin(first(i) + 1), second(i)); });
   return place;
 }
 
 template <class Space>
 Ids<Space> edge_numbers(const Space& space, const Simplices<MemoryOf<Space>>& simplices,
                         const VertexInput<Space>& input) {
-  const auto keys = allocate<Keys<Space>>("GALE::edge_keys", simplices.edge_low.extent(0));
+  const Offset edges = simplices.edge_low.extent(0);
+  const auto low = allocate<Ids<Space>>("GALE::edge_keys", edges),
+             high = allocate<Ids<Space>>("GALE::edge_keys", edges);
   parallel_for(
-      "GALE::edge_keys", space, keys.extent(0), KOKKOS_LAMBDA(Offset e) {
+      "GALE::edge_keys", space, edges, KOKKOS_LAMBDA(Offset e) {
         Id a = input(simplices.edge_low(e)), b = input(simplices.edge_high(e));
         order(a, b);
-        keys(e) = pair_key(a, b);
+        low(e) = a;
+        high(e) = b;
       });
-  return places_of(space, keys);
+  return places_of(space, input.extent(0), low, high);
 }
 
 template <class Space>
 Ids<Space> triangle_numbers(const Space& space, const Simplices<MemoryOf<Space>>& simplices,
                             const VertexInput<Space>& input) {
   const auto edges = edge_numbers(space, simplices, input);
-  const auto keys = allocate<Keys<Space>>("GALE::triangle_keys", simplices.triangle_apex.extent(0));
+  const Offset triangles = simplices.triangle_apex.extent(0);
+  const auto first = allocate<Ids<Space>>("GALE::triangle_keys", triangles),
+             second = allocate<Ids<Space>>("GALE::triangle_keys", triangles);
   parallel_for(
-      "GALE::triangle_keys", space, keys.extent(0), KOKKOS_LAMBDA(Offset f) {
+      "GALE::triangle_keys", space, triangles, KOKKOS_LAMBDA(Offset f) {
         const Id edge = simplices.triangle_edge(f);
         const Id vertices[3] = {simplices.edge_low(edge), simplices.edge_high(edge), simplices.triangle_apex(f)};
         int last = 0;  // the corner whose input id is highest; the edge of the others comes first
         for (int corner = 1; corner < 3; ++corner) {
           if (input(vertices[corner]) > input(vertices[last])) last = corner;
         }
-        const Id first_edge = simplices.edge_of(vertices[last == 0 ? 1 : 0], vertices[last == 2 ? 1 : 2]);
-        keys(f) = pair_key(edges(first_edge), input(vertices[last]));
+        first(f) = edges(simplices.edge_of(vertices[last == 0 ? 1 : 0], vertices[last == 2 ? 1 : 2]));
+        second(f) = input(vertices[last]);
       });
-  return places_of(space, keys);
+  return places_of(space, edges.extent(0), first, second);
 }
 
 template <class Space>
