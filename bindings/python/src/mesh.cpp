@@ -1,6 +1,7 @@
 #include "mesh.hpp"
 
 #include <gale/base/error.hpp>
+#include <gale/mesh/input_numbers.hpp>
 #include <gale/mesh/make_mesh.hpp>
 
 namespace gale::python {
@@ -72,6 +73,13 @@ PyMesh::PyMesh(io::Dataset& dataset, int capacity) {
 const Mesh& PyMesh::mesh() const {
   if (!mesh_) throw Error("gale has ended with the interpreter");
   return *mesh_;
+}
+
+const Id* PyMesh::numbers(int dimension) const {
+  const std::lock_guard<std::mutex> lock(numbers_mutex_);
+  auto& numbers = numbers_[dimension];
+  if (numbers.data() == nullptr) numbers = input_numbers(mesh(), dimension);
+  return numbers.data();
 }
 
 nb::object PyMesh::points() const {

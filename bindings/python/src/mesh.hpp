@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 
@@ -24,6 +26,7 @@ class PyMesh : public Kept {
 
   void end() override {
     mesh_.reset();
+    numbers_ = {};
     dataset_ = {};
   }
 
@@ -47,12 +50,17 @@ class PyMesh : public Kept {
  private:
   const Mesh& mesh() const;
 
+  /// input_numbers of a dimension, made once. As long as the mesh is there; from any thread.
+  const Id* numbers(int dimension) const;
+
   /// The points with the field as their array.
   io::Dataset with(const io::PointArray& field) const;
 
   Array1 points_;        ///< keeps where the points are
   io::Dataset dataset_;  ///< the points alone
   std::optional<Mesh> mesh_;
+  mutable std::mutex numbers_mutex_;
+  mutable std::array<Array<const Id, HostMemory>, 4> numbers_;
 };
 
 /// The mesh that a file has, and its point arrays.

@@ -2,7 +2,6 @@
 
 #include <gale/base/error.hpp>
 #include <gale/base/parallel.hpp>
-#include <gale/mesh/input_numbers.hpp>
 #include <gale/runtime/make_structure.hpp>
 
 #include "mesh.hpp"
@@ -45,9 +44,8 @@ Block block_of(const Rows& rows, const Id* entry_number) {
 }
 
 /// All blocks, by the consumer that met them.
-std::vector<std::vector<Block>> sweep(Structure& structure, Relation relation, const SweepOptions& options) {
-  const auto entries_of = input_numbers(structure.mesh(), entry_dimension(relation));
-  const Id* const entry_number = entries_of.data();
+std::vector<std::vector<Block>> sweep(Structure& structure, Relation relation, const Id* entry_number,
+                                      const SweepOptions& options) {
   std::vector<std::vector<Block>> parts(options.threads);
   structure.for_each_segment(relation, options, [&](int consumer, const SegmentRows& rows) {
     if (rows.interval(relation).size() > 0) parts[consumer].push_back(block_of(rows[relation], entry_number));
@@ -64,19 +62,20 @@ void for_each_block(const std::vector<std::vector<Block>>& parts, const Visit& v
 }
 
 /// The rows by their numbers.
-AllRows gathered(const Mesh& mesh, Relation relation, const std::vector<std::vector<Block>>& parts) {
-  const auto row_number = input_numbers(mesh, row_dimension(relation));
+AllRows gathered(const Mesh& mesh, Relation relation, const Id* row_number,
+                 const std::vector<std::vector<Block>>& parts) {
+  const Id rows = known_simplices(mesh, row_dimension(relation));
   AllRows all;
-  all.begin.resize(row_number.size() + 1);
+  all.begin.resize(static_cast<std::size_t>(rows) + 1);
   for_each_block(parts, [&](const Block& block) {
-    for (Id i = 0; i < block.rows; ++i) all.begin[row_number(block.first + i) + 1] = block.words[i];
+    for (Id i = 0; i < block.rows; ++i) all.begin[row_number[block.first + i] + 1] = block.words[i];
   });
-  for (std::size_t i = 0; i < row_number.size(); ++i) all.begin[i + 1] += all.begin[i];
+  for (Id i = 0; i < rows; ++i) all.begin[i + 1] += all.begin[i];
   all.entries.reset(new Id[all.begin.back()]);
   for_each_block(parts, [&](const Block& block) {
     const Id* from = block.words.get() + block.rows;
     for (Id i = 0; i < block.rows; from += block.words[i++])
-      std::copy_n(from, block.words[i], all.entries.get() + all.begin[row_number(block.first + i)]);
+      std::copy_n(from, block.words[i], all.entries.get() + all.begin[row_number[block.first + i]]);
   });
   all.columns = known_simplices(mesh, entry_dimension(relation));
   return all;
@@ -93,7 +92,8 @@ nb::tuple PyMesh::relation(const std::string& name, int threads, const nb::objec
     const Call call;
     const ThreadLimit limit(options.threads);
     const auto structure = make_structure(mesh(), *relation);
-    rows = gathered(mesh(), *relation, sweep(*structure, *relation, options));
+    const auto parts = sweep(*structure, *relation, numbers(entry_dimension(*relation)), options);
+    rows = gathered(mesh(), *relation, numbers(row_dimension(*relation)), parts);
   }
   const Id* const entries = rows.entries.get();
   const auto count = static_cast<std::size_t>(rows.begin.back());
