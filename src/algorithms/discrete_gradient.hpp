@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <functional>
+#include <limits>
 #include <memory>
 
 #include <gale/algorithms/critical_simplices.hpp>
@@ -57,7 +58,11 @@ class GALE_EXPORT DiscreteGradient {
     const Id* const there = successors_->tetrahedron.load(std::memory_order_acquire);
     return (there != nullptr ? there : fetch_tetrahedron_successors())[tetrahedron];
   }
-  static bool leaves(Id successor) { return successor < no_id; }
+  static bool leaves(Id successor) { return successor < no_id && successor != elsewhere; }
+
+  /// In one rank's part of a mesh, the successor of a ghost, and of a tetrahedron whose highest vertex is a ghost: what
+  /// it is the owner of that vertex knows. Edges and triangles with such a vertex have no pairs here.
+  static constexpr Id elsewhere = std::numeric_limits<Id>::min();
 
   /// Third vertex of the triangle that an edge is paired with; no_id if it is with none. Of any two vertices that have
   /// an edge, in any order.

@@ -38,6 +38,7 @@ Ids<Space> internal_begin_of(const Space& space, const Array<const Id, MemoryOf<
 struct Encoded {
   detail::MeshArrays arrays;
   Mirrored<Id> vertex_input, vertex_internal, tetrahedron_input;
+  Id owned_segments;
 };
 
 /// Ends with a fence: others use the arrays on instances of their own.
@@ -65,7 +66,8 @@ Encoded encode(const Space& space, const Tetrahedra<Index, Memory>& given, const
   arrays.external_begin = external.begin;
   arrays.external = external.ids;
   space.fence();
-  return {arrays, segmentation.vertex_input, vertex_internal, sorted.input};
+  return {arrays, segmentation.vertex_input, vertex_internal, sorted.input,
+          segmentation.is_part() ? segmentation.owned_segments : segmentation.segments()};
 }
 
 /// The arrays of a mesh for code that runs on `Memory`, once someone has asked for them.
@@ -102,6 +104,7 @@ struct Mesh::Data {
 
 template <class Index, class Memory>
 Mesh::Mesh(const Tetrahedra<Index, Memory>& given, const Segmentation& segmentation) {
+  if (given.extent(0) == 0 && !segmentation.is_part()) throw Error("the mesh has no tetrahedra");
   std::string notice;
   const auto encoded = in_worker_or_host_space(
       true, [&](const auto& space) { return encode<Index>(space, given, segmentation); },
@@ -114,6 +117,8 @@ Mesh::Mesh(const Tetrahedra<Index, Memory>& given, const Segmentation& segmentat
 Id Mesh::vertices() const { return static_cast<Id>(data_->encoded.vertex_input.size()); }
 Id Mesh::tetrahedra() const { return static_cast<Id>(data_->encoded.tetrahedron_input.size()); }
 Id Mesh::segments() const { return static_cast<Id>(data_->encoded.arrays.vertex_begin.size()) - 1; }
+Id Mesh::owned_segments() const { return data_->encoded.owned_segments; }
+Id Mesh::owned_vertices() const { return vertex_begin()(owned_segments()); }
 
 bool Mesh::on_device() const { return data_->encoded.arrays.tetrahedra.on_device(); }
 

@@ -33,8 +33,9 @@ class GALE_EXPORT Mesh {
   /// Encodes in the workers' space, in parallel, in time O(n); on the host if it doesn't fit the device's memory, and
   /// says so in notice(). Peak memory beside the input: 20 bytes a tetrahedron and 4 an external one, and 16 a vertex.
   ///
-  /// `Index` is std::int32_t or std::int64_t. Throws gale::Error, naming the tetrahedron at fault, where there is none,
-  /// where one has a vertex outside 0..vertices-1 or the same twice, and where two have the same four.
+  /// `Index` is std::int32_t or std::int64_t. Throws gale::Error, naming the tetrahedron at fault, where there is none
+  /// (unless the mesh is a part), where one has a vertex outside 0..vertices-1 or the same twice, and where two have
+  /// the same four.
   template <class Index, class Memory>
   Mesh(const Tetrahedra<Index, Memory>& tetrahedra, const Segmentation& segmentation);
 
@@ -44,6 +45,12 @@ class GALE_EXPORT Mesh {
   Id vertices() const;
   Id tetrahedra() const;
   Id segments() const;
+
+  /// Sweeps go through the first so many segments, which hold the vertices 0 to owned_vertices() - 1: all of them,
+  /// unless this is one rank's part of a mesh. Then the others hold ghosts: vertices that other ranks own, which are
+  /// there for tetrahedra that touch owned ones. Rows of ghosts lack what the rank doesn't have.
+  Id owned_segments() const;
+  Id owned_vertices() const;
 
   /// Whether its arrays lie in a device's memory. Tables of simplices that are made later may lie in the host's.
   bool on_device() const;

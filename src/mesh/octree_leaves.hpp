@@ -5,11 +5,9 @@
 
 #include <gale/base/memory.hpp>
 #include <gale/base/types.hpp>
+#include <gale/mesh/morton_codes.hpp>
 
 namespace gale::detail {
-
-/// Bits of a Morton code that one axis takes: the octree has this many levels.
-inline constexpr int morton_levels = 21;
 
 /// First positions of the octree's leaves among sorted Morton codes, ascending, the first being 0: cells of at most
 /// `capacity` codes whose parent cell has more. A run of equal codes longer than that is cut every `capacity` codes.

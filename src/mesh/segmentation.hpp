@@ -14,8 +14,13 @@ struct Segmentation {
   Mirrored<Id> vertex_input;  ///< GALE's vertex id -> input vertex id; a permutation
   Mirrored<Id> vertex_begin;  ///< segment -> its first vertex (GALE's id), and one past the last; ascending
 
+  /// For the part of a mesh that one rank of several has: the first so many segments hold the vertices that it owns,
+  /// the others ghosts. no_id for a whole mesh, which has no ghosts.
+  Id owned_segments = no_id;
+
   Id vertices() const { return static_cast<Id>(vertex_input.size()); }
   Id segments() const { return static_cast<Id>(vertex_begin.size()) - 1; }
+  bool is_part() const { return owned_segments != no_id; }
 };
 
 /// Coordinates of points as a caller has them, in host memory or the workers'.

@@ -75,7 +75,6 @@ template <class Index, class Memory>
 template <class Index, class Space>
 void validate(const Space& space, const Tetrahedra<Index, MemoryOf<Space>>& input, Offset vertices) {
   const Offset count = input.extent(0);
-  if (count == 0) throw Error("the mesh has no tetrahedra");
   require_ids("tetrahedra", count);
   const Offset bad = reduce_min(
       "GALE::validate_tetrahedra", space, count, count,
@@ -141,6 +140,7 @@ KOKKOS_FUNCTION bool same_as_next(const SortedTetrahedra<Memory>& sorted, Offset
 template <class Space>
 void refuse_duplicates(const Space& space, const SortedTetrahedra<MemoryOf<Space>>& sorted) {
   const auto count = static_cast<Id>(sorted.vertices.extent(0));
+  if (count == 0) return;
   const Id none = std::numeric_limits<Id>::max();
   const Id twin = reduce_min(
       "GALE::find_duplicates", space, count - 1, none,

@@ -81,8 +81,8 @@ inline int warps_of_team(const DeviceSweepOptions& options, double rows) {
 
 }  // namespace detail
 
-/// Calls functor(team, rows) for each segment of the mesh, with a team of Kokkos' and a SegmentRowsIn of its memory:
-/// all rows of all `relations`, and links if `link_form` is among them. All threads of the team call it.
+/// Calls functor(team, rows) for each segment of the mesh (of ghosts none), with a team of Kokkos' and a SegmentRowsIn
+/// of its memory: all rows of all `relations`, and links if `link_form` is among them. All threads of the team call it.
 template <class Space, class Functor>
 void for_each_segment(const Space& space, const Mesh& mesh, RelationSet relations, const Functor& functor,
                       const DeviceSweepOptions& options = {}) {

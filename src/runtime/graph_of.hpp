@@ -35,8 +35,8 @@ struct CopyEntries {
 }  // namespace detail
 
 /// A relation of all simplices at once, in the memory of `space`; what is said of sweeps (device_sweep.hpp) holds. Rows
-/// are made twice, to be counted and to be copied, so that nothing else takes memory: 8 bytes a row, 4 an entry. Throws
-/// OutOfMemory where that isn't there.
+/// are made twice, to be counted and to be copied, so that nothing else takes memory: 8 bytes a row, 4 an entry. Rows
+/// of simplices that have ghosts alone are empty. Throws OutOfMemory where the memory isn't there.
 template <class Space>
 Graph<detail::MemoryOfSweep<Space>> graph_of(const Space& space, const Mesh& mesh, Relation relation,
                                              const DeviceSweepOptions& options = {}) {
@@ -44,6 +44,7 @@ Graph<detail::MemoryOfSweep<Space>> graph_of(const Space& space, const Mesh& mes
   mesh.simplices<Memory>(needs_of(relation));
   const Offset rows = mesh.interval_begin(row_dimension(relation))(mesh.segments());
   const auto begin = allocate<Array<Offset, Memory>>("GALE::graph_row_map", rows + 1);
+  if (mesh.owned_segments() < mesh.segments()) Kokkos::deep_copy(begin, Offset(0));
   const detail::CountEntries<Memory> count{begin};
   for_each_row(space, mesh, relation, count, options);
   const Offset total = exclusive_scan("GALE::graph_row_map", space, rows, begin, count);

@@ -31,7 +31,7 @@ void Structure::for_each_segment(RelationSet wanted, const SweepOptions& options
     body(consumer, rows);
   };
   const auto sweep = begin_sweep(wanted, std::max(options.threads, 0), untracked);
-  detail::sweep(mesh_.segments(), options,
+  detail::sweep(mesh_.owned_segments(), options,
                 [&](int consumer, Id segment) { sweep->visit(consumer, segment, untracked); });
   sweep->end();
   for (const ConsumerStatistics& one : sweep->statistics) log_->add(one);

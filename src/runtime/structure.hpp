@@ -40,9 +40,9 @@ class GALE_EXPORT Structure {
   /// How many simplices of a dimension 0 to 3 there are; no_id for edges and triangles that nobody needed so far.
   virtual Id count(int dimension) const;
 
-  /// A sweep: calls `body` once for every segment, in no order to rely on, with the rows of the relations `wanted`, on
-  /// `options.threads` consumer threads. If a body throws, no further segment is begun and the exception is thrown
-  /// again here. Throws gale::Error if `wanted` has a relation that was not preconditioned.
+  /// A sweep: calls `body` once for every segment (of ghosts none), in no order to rely on, with the rows of the
+  /// relations `wanted`, on `options.threads` consumer threads. If a body throws, no further segment is begun and the
+  /// exception is thrown again here. Throws gale::Error if `wanted` has a relation that was not preconditioned.
   ///
   /// What a body may do: read the rows that it is given, and others through a consumer of its own. It may copy Views
   /// and take subviews: Kokkos counts no references on its thread meanwhile, since it doesn't count atomically where

@@ -18,17 +18,18 @@ std::vector<T> to_host_vector(const View& view) {
   return values;
 }
 
-/// The vertices that aren't regular, from types that lie in the memory of `space`.
+/// The vertices that aren't regular, from types that lie in the memory of `space`; of ghosts none.
 template <class Space>
 CriticalPoints collect(const Space& space, const Mesh& mesh, const VertexTypes& types) {
   using Bytes = Array<std::uint8_t, MemoryOf<Space>>;
   using Ids = Array<Id, MemoryOf<Space>>;
   const Offset count = mesh.vertices();
   const Id* const internal = mesh.vertex_internal<MemoryOf<Space>>().data();
+  const Id owned = mesh.owned_vertices();
   const auto place = allocate<Ids>("GALE::critical_place", count + 1);
   const Id total = exclusive_scan(
       "GALE::count_critical", space, count, place,
-      KOKKOS_LAMBDA(Offset i) { return types.type(internal[i]) != CriticalType::regular; });
+      KOKKOS_LAMBDA(Offset i) { return internal[i] < owned && types.type(internal[i]) != CriticalType::regular; });
   const auto vertices = allocate<Ids>("GALE::critical_vertices", total);
   const auto their_types = allocate<Bytes>("GALE::critical_types", total),
              on_surface = allocate<Bytes>("GALE::critical_on_surface", total);

@@ -1,9 +1,10 @@
 #include <algorithm>
 
-#include <gale/algorithms/critical_points.hpp>
+#include <gale/algorithms/critical_points/classify.hpp>
 #include <gale/algorithms/critical_points/collect.hpp>
 #include <gale/algorithms/links/large_link.hpp>
 #include <gale/algorithms/order/same_mesh.hpp>
+#include <gale/algorithms/order/whole_mesh.hpp>
 
 namespace gale {
 
@@ -31,7 +32,7 @@ class Classification {
     }
   }
 
-  const detail::VertexTypes& types() const { return types_; }
+  detail::TypeArrays<HostMemory> found() const { return {own_, told_}; }
 
  private:
   void tell(Id v, const Row& neighbours) {
@@ -46,13 +47,24 @@ class Classification {
 
 }  // namespace
 
-CriticalPoints find_critical_points(Structure& structure, const VertexOrder& order, const SweepOptions& options) {
-  detail::require_same_mesh("the vertex order", order.mesh(), structure.mesh());
+namespace detail {
+
+TypeArrays<HostMemory> classify_vertices(Structure& structure, const VertexOrder& order, const SweepOptions& options) {
+  require_same_mesh("the vertex order", order.mesh(), structure.mesh());
   const ThreadLimit limit(options.threads);
   Classification classification(structure.mesh(), order, options.threads);
   structure.for_each_segment(critical_points_relations, options,
                              [&](int consumer, const SegmentRows& rows) { classification.classify(consumer, rows); });
-  return detail::collect(HostSpace(), structure.mesh(), classification.types());
+  return classification.found();
+}
+
+}  // namespace detail
+
+CriticalPoints find_critical_points(Structure& structure, const VertexOrder& order, const SweepOptions& options) {
+  detail::require_whole_mesh("critical points", structure.mesh());
+  const auto found = detail::classify_vertices(structure, order, options);
+  const ThreadLimit limit(options.threads);
+  return detail::collect(HostSpace(), structure.mesh(), found.types());
 }
 
 }  // namespace gale

@@ -2,10 +2,10 @@
 #include <memory>
 #include <vector>
 
-#include <gale/algorithms/critical_points.hpp>
+#include <gale/algorithms/critical_points/classify.hpp>
 #include <gale/algorithms/critical_points/collect.hpp>
-#include <gale/algorithms/critical_points/vertex_types.hpp>
 #include <gale/algorithms/links/large_link.hpp>
+#include <gale/algorithms/order/whole_mesh.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/base/transfer.hpp>
 #include <gale/runtime/device/handed_stars.hpp>
@@ -150,18 +150,29 @@ Classified classify_all(const WorkerSpace& space, const VertexOrder& order, cons
 
 }  // namespace
 
-CriticalPoints find_critical_points(const WorkerSpace& space, const VertexOrder& order,
-                                    const DeviceSweepOptions& options) {
+namespace detail {
+
+TypeArrays<Memory> classify_vertices(const WorkerSpace& space, const VertexOrder& order,
+                                     const DeviceSweepOptions& options) {
   Offset stars = order.mesh().vertices() / 64 + 256, words = 96 * stars;
   auto classified = std::make_unique<Classified>(classify_all(space, order, options, stars, words));
   while (classified->outgrown.overflowed(stars, words)) {
     classified.reset();
     classified = std::make_unique<Classified>(classify_all(space, order, options, stars, words));
   }
-  const Classified& found = *classified;
-  const detail::VertexTypes types(found.own.data(), found.told.data());
-  if (found.outgrown.count() > 0) add(space, classify_on_host(order, found.outgrown.to_host()), types);
-  return detail::collect(space, order.mesh(), types);
+  const TypeArrays<Memory> found{classified->own, classified->told};
+  if (classified->outgrown.count() > 0)
+    add(space, classify_on_host(order, classified->outgrown.to_host()), found.types());
+  return found;
+}
+
+}  // namespace detail
+
+CriticalPoints find_critical_points(const WorkerSpace& space, const VertexOrder& order,
+                                    const DeviceSweepOptions& options) {
+  detail::require_whole_mesh("critical points", order.mesh());
+  const auto found = detail::classify_vertices(space, order, options);
+  return detail::collect(space, order.mesh(), found.types());
 }
 
 }  // namespace gale

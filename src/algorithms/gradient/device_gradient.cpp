@@ -58,6 +58,8 @@ class Attempt {
               {"GALE::critical_triangles", room.triangles},
               {"GALE::critical_tetrahedra", room.tetrahedra},
               {"GALE::critical_stars", room.stars}} {
+    detail::mark_ghosts(space, mesh_, vertex_successor_, tetrahedron_successor_);
+    if (mesh_.owned_vertices() < mesh_.vertices()) Kokkos::deep_copy(space, pairs_begin_, Offset(0));
     const auto rows = static_cast<int>(std::min(1024.0, 1.3 * mesh_.vertices() / mesh_.segments() + 32));
     const detail::PairStars pair{order.keys_in<Memory>().data(),
                                  sink_,

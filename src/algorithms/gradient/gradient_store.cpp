@@ -39,6 +39,7 @@ GradientStore::GradientStore(const Mesh& mesh_, const VertexOrder& order_, int c
       stars_(consumers),
       further_(consumers) {
   require_same_mesh("the vertex order", order.mesh(), mesh);
+  mark_ghosts(HostSpace(), mesh, consumed_vertices_, consumed_tetrahedra_);
   pairs_are_here_([] {});
 }
 

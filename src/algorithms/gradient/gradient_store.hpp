@@ -7,6 +7,7 @@
 #include <gale/algorithms/discrete_gradient.hpp>
 #include <gale/algorithms/gradient/edge_pairs.hpp>
 #include <gale/algorithms/vertex_order.hpp>
+#include <gale/base/parallel.hpp>
 
 namespace gale::detail {
 
@@ -15,6 +16,18 @@ struct InStar {
   std::array<Id, 3> triangle;
   Id tetrahedron;
 };
+
+/// Before a sweep of a rank's part of a mesh: has all successors be elsewhere, so that they are for what it leaves out.
+template <class Space>
+void mark_ghosts(const Space& space, const Mesh& mesh, const Array<Id, MemoryOf<Space>>& vertex_successor,
+                 const Array<Id, MemoryOf<Space>>& tetrahedron_successor) {
+  if (mesh.owned_vertices() == mesh.vertices()) return;
+  for (const auto& successors : {vertex_successor, tetrahedron_successor}) {
+    parallel_for(
+        "GALE::mark_ghosts", space, successors.extent(0),
+        KOKKOS_LAMBDA(Offset i) { successors(i) = DiscreteGradient::elsewhere; });
+  }
+}
 
 /// What kernels found.
 struct DeviceGradient {

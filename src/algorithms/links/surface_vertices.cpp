@@ -4,6 +4,7 @@
 #include <gale/algorithms/links/large_link.hpp>
 #include <gale/algorithms/links/small_link.hpp>
 #include <gale/algorithms/surface_vertices.hpp>
+#include <gale/base/parallel.hpp>
 #include <gale/relations/host_worker.hpp>
 #include <gale/runtime/sweep.hpp>
 
@@ -31,7 +32,9 @@ Array<std::uint8_t, HostMemory> surface_vertices(const Mesh& mesh) {
   const auto on_surface = allocate<Array<std::uint8_t, HostMemory>>("GALE::on_surface", mesh.vertices());
   const SweepOptions options;
   std::vector<std::unique_ptr<Worker>> workers(options.threads);
-  detail::sweep(mesh.segments(), options, [&](int consumer, Id segment) {
+  parallel_for("GALE::ghosts_on_surface", HostSpace(), mesh.vertices() - mesh.owned_vertices(),
+               [&](Offset i) { on_surface(mesh.owned_vertices() + i) = 0; });
+  detail::sweep(mesh.owned_segments(), options, [&](int consumer, Id segment) {
     auto& worker = workers[consumer];
     if (!worker) worker = std::make_unique<Worker>(mesh);
     const SegmentRows rows = worker->worker.compute(segment);

@@ -10,6 +10,7 @@
 #include <gale/algorithms/morse_smale/manifolds.hpp>
 #include <gale/algorithms/morse_smale/separatrices1.hpp>
 #include <gale/algorithms/order/same_mesh.hpp>
+#include <gale/algorithms/order/whole_mesh.hpp>
 #include <gale/base/error.hpp>
 
 namespace gale {
@@ -48,6 +49,7 @@ void find_manifolds(MorseSmaleComplex& complex) {
 
 MorseSmaleComplex find_morse_smale_complex(Structure& structure, const DiscreteGradient& gradient,
                                            const MorseSmaleParts& parts, const SweepOptions& options) {
+  detail::require_whole_mesh("a Morse-Smale complex", structure.mesh());
   detail::require_same_mesh("the gradient", gradient.mesh(), structure.mesh());
   const ThreadLimit limit(options.threads);
   const int threads = std::max(options.threads, 1);

@@ -2,6 +2,7 @@
 
 #include <gale/algorithms/numbers/later_star.hpp>
 #include <gale/algorithms/numbers/number_queries.hpp>
+#include <gale/algorithms/order/whole_mesh.hpp>
 #include <gale/algorithms/simplex_numbers.hpp>
 
 namespace gale {
@@ -96,6 +97,7 @@ class Numbering {
 }  // namespace
 
 SimplexNumbers number_simplices(Structure& structure, const NamedSimplices& named, const SweepOptions& options) {
+  detail::require_whole_mesh("the numbers of simplices", structure.mesh());
   const ThreadLimit limit(options.threads);
   Numbering numbering(structure.mesh(), named, std::max(options.threads, 1));
   structure.for_each_segment(simplex_numbers_relations, options,

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <functional>
 
+#include <gale/algorithms/order/whole_mesh.hpp>
 #include <gale/algorithms/persistence.hpp>
 #include <gale/algorithms/persistence/filtration.hpp>
 #include <gale/algorithms/persistence/forked_maxima.hpp>
@@ -94,6 +95,7 @@ PersistencePairs pairs_of(const DiscreteGradient& gradient, const CriticalPlaces
 }  // namespace
 
 PersistencePairs find_persistence_pairs(const DiscreteGradient& gradient, const SweepOptions& options) {
+  detail::require_whole_mesh("persistence pairs", gradient.mesh());
   const ThreadLimit limit(options.threads);
   const CriticalPlaces places(gradient.critical());
   const bool forks = detail::forks(gradient);

@@ -45,7 +45,7 @@ class BatchSweep<Memory>::Batches {
   Lane* next();
 
  private:
-  bool has_plans() const { return !again_.empty() || ahead_ < mesh_.segments(); }
+  bool has_plans() const { return !again_.empty() || ahead_ < mesh_.owned_segments(); }
   BatchPlan next_plan();
   bool is_large(Id segment) const;
   std::size_t scratch_of(Id segment) const;
@@ -76,7 +76,7 @@ BatchSweep<Memory>::Batches::Batches(const Space& space, const Mesh& mesh, Relat
     kernels_.push_back({std::move(kernel), std::move(bounds)});
   }
   words_ = std::max<Offset>(static_cast<Offset>(filled.memory / filled.batches / sizeof(Id)), 1024);
-  const auto all = static_cast<Offset>(words_per_vertex_ * mesh.vertices()) + 1024;
+  const auto all = static_cast<Offset>(words_per_vertex_ * mesh.owned_vertices()) + 1024;
   const auto batches = static_cast<int>(std::min<Offset>(filled.batches, (all + words_ - 1) / words_));
   for (int i = 0; i < batches; ++i) {
     try {
@@ -134,7 +134,7 @@ BatchPlan BatchSweep<Memory>::Batches::next_plan() {
   plan.begin = ahead_;
   plan.large = is_large(ahead_);
   std::size_t scratch = plan.large ? scratch_of(ahead_) : 0;
-  for (plan.end = ahead_ + 1; plan.end < mesh_.segments(); ++plan.end) {
+  for (plan.end = ahead_ + 1; plan.end < mesh_.owned_segments(); ++plan.end) {
     if (vertex_begin(plan.end + 1) - vertex_begin(plan.begin) > most || is_large(plan.end) != plan.large) break;
     if (!plan.large) continue;
     scratch = std::max(scratch, scratch_of(plan.end));

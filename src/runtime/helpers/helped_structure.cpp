@@ -22,7 +22,7 @@ class HelpedStructure::HelpedTurns : public Sweep {
       : Sweep(consumers),
         structure_(structure),
         idle_(std::move(idle)),
-        helped_(structure.mesh().segments(), consumers, make, idle_->count(), make, budget_of_each) {}
+        helped_(structure.mesh().owned_segments(), consumers, make, idle_->count(), make, budget_of_each) {}
 
   void visit(int consumer, Id, const SegmentBody& body) override {
     helped_.read_next(consumer, [&](const SegmentRows& rows) { body(consumer, rows); });
@@ -50,7 +50,7 @@ HelpedStructure::HelpedStructure(const Mesh& mesh, RelationSet relations, const 
 std::unique_ptr<Structure::Sweep> HelpedStructure::begin_sweep(RelationSet wanted, int consumers,
                                                                const SegmentBody& body) {
   const int all = cores(options_);
-  auto idle = std::make_unique<IdleCores>(all, consumers, mesh().segments() / worth_a_thread);
+  auto idle = std::make_unique<IdleCores>(all, consumers, mesh().owned_segments() / worth_a_thread);
   if (idle->count() == 0) return InlineStructure::begin_sweep(wanted, consumers, body);
   const MakeWorker make = [this, wanted](ConsumerStatistics& statistics, int kept) {
     return std::make_unique<SegmentWorker>(mesh(), wanted, statistics, kept);

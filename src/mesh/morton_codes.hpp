@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+
+#include <gale/base/memory.hpp>
+#include <gale/mesh/segmentation.hpp>
+
+namespace gale::detail {
+
+/// Bits of a Morton code that one axis takes: the octree has this many levels.
+inline constexpr int morton_levels = 21;
+
+/// The least and the greatest coordinates of some points; infinite the wrong way round if there are none.
+struct Box {
+  double low[3];
+  double high[3];
+};
+
+/// The cube that the octree halves: its side is a power of two, so that points on an integer grid meet cell borders
+/// exactly.
+struct Cube {
+  double origin[3];
+  double cells_per_unit;  ///< smallest cells along a unit of length
+};
+
+/// Throws gale::Error, with its place, if a point has a coordinate that isn't finite.
+template <class Coordinate, class Space>
+GALE_EXPORT Box bounding_box(const Space& space, const Points<Coordinate, MemoryOf<Space>>& points);
+
+/// Of a box that holds a point at least.
+GALE_EXPORT Cube cube_around(const Box& box);
+
+/// The places of points along the space-filling curve through a cube that holds them: x the highest bit.
+template <class Coordinate, class Space>
+GALE_EXPORT Array<std::uint64_t, MemoryOf<Space>> morton_codes(const Space& space,
+                                                               const Points<Coordinate, MemoryOf<Space>>& points,
+                                                               const Cube& cube);
+
+}  // namespace gale::detail
