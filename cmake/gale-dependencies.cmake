@@ -55,3 +55,9 @@ macro(gale_find_vtk)
   gale_find(VTK "install it, or set GALE_ENABLE_VTK=OFF (grid:N inputs alone then)"
     COMPONENTS CommonCore CommonDataModel CommonExecutionModel FiltersGeneral expat lz4 lzma zlib)
 endmacro()
+
+# What gale::distributed and those who include its headers need. Gives MPI::MPI_CXX, without MPI's old C++ interface.
+macro(gale_find_mpi)
+  set(MPI_CXX_SKIP_MPICXX ON)
+  gale_find(MPI "install one, e.g. OpenMPI, or set GALE_ENABLE_MPI=OFF (one rank then)" COMPONENTS CXX)
+endmacro()

@@ -1,0 +1,130 @@
+#include <algorithm>
+#include <cstring>
+#include <string>
+
+#include <gale/base/error.hpp>
+#include <gale/distributed/communicator.hpp>
+
+namespace gale {
+
+namespace {
+
+constexpr int tag = 1;
+
+MPI_Comm duplicate(MPI_Comm comm) {
+  int initialized = 0;
+  MPI_Initialized(&initialized);
+  if (!initialized) throw Error("MPI is not initialized: call MPI_Init_thread before using gale::distributed");
+  MPI_Comm own;
+  MPI_Comm_dup(comm, &own);
+  return own;
+}
+
+}  // namespace
+
+struct Communicator::Data {
+  MPI_Comm comm;
+  std::size_t largest_message;
+  int rank = 0, size = 1;
+  SentMessages sent;
+
+  Data(MPI_Comm whose, std::size_t limit) : comm(duplicate(whose)), largest_message(limit) {
+    MPI_Comm_rank(comm, &rank);
+    MPI_Comm_size(comm, &size);
+  }
+  ~Data() {
+    int finalized = 0;
+    MPI_Finalized(&finalized);
+    if (!finalized) MPI_Comm_free(&comm);
+  }
+
+  /// Calls act(first byte, bytes) for each message that the bytes [begin, end) are cut into.
+  template <class Act>
+  void cut(std::int64_t begin, std::int64_t end, const Act& act) const {
+    const auto limit = static_cast<std::int64_t>(largest_message);
+    for (; begin < end; begin += limit) act(begin, static_cast<int>(std::min(limit, end - begin)));
+  }
+};
+
+Communicator::Communicator(MPI_Comm comm, std::size_t largest_message) {
+  if (largest_message < 1 || largest_message > most_bytes_a_message) {
+    throw Error("messages can't be cut to " + std::to_string(largest_message) + " bytes: 1 to " +
+                std::to_string(most_bytes_a_message) + " are possible");
+  }
+  data_ = std::make_shared<Data>(comm, largest_message);
+}
+
+int Communicator::rank() const { return data_->rank; }
+int Communicator::size() const { return data_->size; }
+const SentMessages& Communicator::sent() const { return data_->sent; }
+
+std::int64_t Communicator::sum(std::int64_t value) const {
+  std::int64_t sum = 0;
+  MPI_Allreduce(&value, &sum, 1, MPI_INT64_T, MPI_SUM, data_->comm);
+  return sum;
+}
+
+std::int64_t Communicator::least(std::int64_t value) const {
+  std::int64_t least = 0;
+  MPI_Allreduce(&value, &least, 1, MPI_INT64_T, MPI_MIN, data_->comm);
+  return least;
+}
+
+double Communicator::least(double value) const {
+  double least = 0;
+  MPI_Allreduce(&value, &least, 1, MPI_DOUBLE, MPI_MIN, data_->comm);
+  return least;
+}
+
+std::vector<std::int64_t> Communicator::all(std::int64_t value) const {
+  std::vector<std::int64_t> values(size());
+  MPI_Allgather(&value, 1, MPI_INT64_T, values.data(), 1, MPI_INT64_T, data_->comm);
+  return values;
+}
+
+std::int64_t Communicator::sum_before(std::int64_t value) const {
+  std::int64_t sum = 0;
+  MPI_Exscan(&value, &sum, 1, MPI_INT64_T, MPI_SUM, data_->comm);
+  return rank() == 0 ? 0 : sum;
+}
+
+std::string Communicator::broadcast(const std::string& text, int from) const {
+  auto length = static_cast<std::int64_t>(text.size());
+  MPI_Bcast(&length, 1, MPI_INT64_T, from, data_->comm);
+  std::string all = text;
+  all.resize(static_cast<std::size_t>(length));
+  data_->cut(0, length,
+             [&](std::int64_t begin, int bytes) { MPI_Bcast(&all[begin], bytes, MPI_BYTE, from, data_->comm); });
+  return all;
+}
+
+std::vector<std::int64_t> Communicator::exchange_counts(const std::vector<std::int64_t>& counts) const {
+  std::vector<std::int64_t> theirs(counts.size());
+  MPI_Alltoall(counts.data(), 1, MPI_INT64_T, theirs.data(), 1, MPI_INT64_T, data_->comm);
+  return theirs;
+}
+
+void Communicator::exchange_bytes(const char* from, const std::vector<std::int64_t>& send_begin, char* to,
+                                  const std::vector<std::int64_t>& receive_begin) const {
+  std::vector<MPI_Request> requests;
+  // Each rank begins with the one after it, so that they don't all send to the first at once.
+  for (int step = 1; step < size(); ++step) {
+    const int source = (rank() + size() - step) % size();
+    data_->cut(receive_begin[source], receive_begin[source + 1], [&](std::int64_t begin, int bytes) {
+      MPI_Irecv(to + begin, bytes, MPI_BYTE, source, tag, data_->comm, &requests.emplace_back());
+    });
+  }
+  for (int step = 1; step < size(); ++step) {
+    const int target = (rank() + step) % size();
+    data_->cut(send_begin[target], send_begin[target + 1], [&](std::int64_t begin, int bytes) {
+      MPI_Isend(from + begin, bytes, MPI_BYTE, target, tag, data_->comm, &requests.emplace_back());
+      ++data_->sent.messages;
+      data_->sent.bytes += bytes;
+    });
+  }
+  const std::int64_t own = send_begin[rank() + 1] - send_begin[rank()];
+  if (own > 0) std::memcpy(to + receive_begin[rank()], from + send_begin[rank()], static_cast<std::size_t>(own));
+  MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+}
+
+}  // namespace gale

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <mpi.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <gale/export.hpp>
+
+namespace gale {
+
+/// What one rank has sent to others.
+struct SentMessages {
+  std::int64_t messages = 0;
+  std::int64_t bytes = 0;
+};
+
+/// The ranks that a mesh lies on: an MPI communicator of GALE's own, so that its messages meet no others. Copies share
+/// it. It must go before MPI_Finalize is called, on one thread; so must all that was made with it.
+///
+/// All functions but rank(), size() and sent() are collective: every rank calls them, in the same order, on the thread
+/// that MPI was initialized on (MPI_THREAD_FUNNELED or more).
+class GALE_EXPORT Communicator {
+ public:
+  /// MPI counts bytes by an int.
+  static constexpr std::size_t most_bytes_a_message = std::size_t(1) << 30;
+
+  /// Duplicates `comm`. Messages of more than `largest_message` bytes are cut. Throws gale::Error if MPI is not
+  /// initialized, and for a limit below 1 byte or above most_bytes_a_message.
+  explicit Communicator(MPI_Comm comm, std::size_t largest_message = most_bytes_a_message);
+
+  int rank() const;
+  int size() const;
+
+  /// Of all ranks' values, on each rank.
+  std::int64_t sum(std::int64_t value) const;
+  std::int64_t least(std::int64_t value) const;
+  double least(double value) const;
+  std::vector<std::int64_t> all(std::int64_t value) const;  ///< by rank
+
+  /// The values of all ranks before this one, summed.
+  std::int64_t sum_before(std::int64_t value) const;
+
+  /// A string of one rank, on each rank.
+  std::string broadcast(const std::string& text, int from) const;
+
+  /// Sends counts[r] to each rank r, and returns what each has sent here.
+  std::vector<std::int64_t> exchange_counts(const std::vector<std::int64_t>& counts) const;
+
+  /// Sends the bytes [send_begin[r], send_begin[r + 1]) of `from` to each rank r, and receives [receive_begin[r],
+  /// receive_begin[r + 1]) of `to` from it: as many as that one sends. All at once; returns when all is done.
+  void exchange_bytes(const char* from, const std::vector<std::int64_t>& send_begin, char* to,
+                      const std::vector<std::int64_t>& receive_begin) const;
+
+  /// What this rank has sent through exchange_bytes so far.
+  const SentMessages& sent() const;
+
+ private:
+  struct Data;
+  std::shared_ptr<Data> data_;
+};
+
+}  // namespace gale

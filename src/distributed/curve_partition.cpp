@@ -1,0 +1,75 @@
+#include <algorithm>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include <gale/base/parallel.hpp>
+#include <gale/distributed/curve_partition.hpp>
+#include <gale/distributed/dealt.hpp>
+#include <gale/mesh/morton_codes.hpp>
+
+namespace gale::detail {
+
+namespace {
+
+/// A place on the curve.
+using Stop = std::pair<std::uint64_t, GlobalId>;
+
+/// Of each rank's share, so that shares differ by a few percent.
+constexpr Offset samples_a_rank = 4096;
+
+Box box_of_all(const Communicator& ranks, const Points<double, HostMemory>& points) {
+  Box box{};
+  together(ranks, [&] { box = bounding_box<double>(HostSpace(), points); });
+  for (double& low : box.low) low = ranks.least(low);
+  for (double& high : box.high) high = -ranks.least(-high);
+  return box;
+}
+
+/// Some of this rank's stops, as many of the samples as it has points among all; sent to every rank.
+Dealt<Stop> sampled(const Communicator& ranks, const std::vector<std::int64_t>& points_by_rank,
+                    const std::vector<Stop>& stops) {
+  double all = 0;
+  for (const std::int64_t points : points_by_rank) all += static_cast<double>(points);
+  const auto count = stops.empty() ? Offset(0)
+                                   : static_cast<Offset>(static_cast<double>(samples_a_rank * ranks.size()) *
+                                                         (static_cast<double>(stops.size()) / all)) +
+                                         1;
+  const Dealt<Stop> sent = dealt<Stop>("GALE::samples", std::vector<std::int64_t>(ranks.size(), count));
+  std::mt19937_64 random(static_cast<std::uint64_t>(ranks.rank()));
+  for (Offset i = 0; i < count; ++i) {
+    const Stop stop = stops[random() % stops.size()];
+    for (int rank = 0; rank < ranks.size(); ++rank) sent.entries(sent.begin[rank] + i) = stop;
+  }
+  return sent;
+}
+
+}  // namespace
+
+Array<int, HostMemory> curve_partition(const Communicator& ranks, const Array<const GlobalId, HostMemory>& ids,
+                                       const Points<double, HostMemory>& points) {
+  const Cube cube = cube_around(box_of_all(ranks, points));
+  const auto points_by_rank = ranks.all(points.extent(0));
+  std::vector<Stop> stops(points.extent(0));
+  Dealt<Stop> samples;
+  together(ranks, [&] {
+    const auto codes = morton_codes<double>(HostSpace(), points, cube);
+    parallel_for("GALE::curve_stops", HostSpace(), points.extent(0), [&](Offset i) { stops[i] = {codes(i), ids(i)}; });
+    samples = sampled(ranks, points_by_rank, stops);
+  });
+  const Dealt<Stop> all = exchange(ranks, "GALE::all_samples", samples);
+  Array<int, HostMemory> owners;
+  together(ranks, [&] {
+    std::sort(all.entries.data(), all.entries.data() + all.count());
+    std::vector<Stop> last;  // of each rank but the last one
+    for (int rank = 1; rank < ranks.size() && all.count() > 0; ++rank)
+      last.push_back(all.entries(part_begin(all.count(), ranks.size(), rank)));
+    owners = allocate<Array<int, HostMemory>>("GALE::curve_owners", points.extent(0));
+    parallel_for("GALE::curve_owners", HostSpace(), points.extent(0), [&](Offset i) {
+      owners(i) = static_cast<int>(std::lower_bound(last.begin(), last.end(), stops[i]) - last.begin());
+    });
+  });
+  return owners;
+}
+
+}  // namespace gale::detail

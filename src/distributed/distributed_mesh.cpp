@@ -1,0 +1,157 @@
+#include <string>
+
+#include <gale/base/require_ids.hpp>
+#include <gale/distributed/curve_partition.hpp>
+#include <gale/distributed/distributed_mesh.hpp>
+#include <gale/distributed/exchange_plan.hpp>
+#include <gale/distributed/local_mesh.hpp>
+#include <gale/mesh/morton_codes.hpp>
+
+namespace gale {
+
+namespace {
+
+/// Throws gale::Error for what one rank can see is wrong with its part.
+template <class Index>
+void validate(const MeshPart<Index>& part) {
+  require_ids("vertices", static_cast<Offset>(part.vertex_ids.extent(0)));
+  const Offset count = part.tetrahedra.extent(0);
+  require_ids("tetrahedra", count);
+  for (const auto& ids : {part.vertex_ids, part.tetrahedron_ids}) {
+    const GlobalId least =
+        reduce_min("GALE::least_id", HostSpace(), ids.extent(0), GlobalId(0), [&](Offset i) { return ids(i); });
+    if (least < 0) throw Error("ids are 0 or more, not " + std::to_string(least));
+  }
+  const auto& tetrahedra = part.tetrahedra;
+  const Offset bad = reduce_min("GALE::validate_part", HostSpace(), count, count, [&](Offset t) {
+    for (int corner = 0; corner < 4; ++corner) {
+      if (tetrahedra(t, corner) < 0) return t;
+      for (int other = 0; other < corner; ++other) {
+        if (tetrahedra(t, corner) == tetrahedra(t, other)) return t;
+      }
+    }
+    return count;
+  });
+  if (bad == count) return;
+  std::string vertices;
+  for (int corner = 0; corner < 4; ++corner) vertices += ' ' + std::to_string(tetrahedra(bad, corner));
+  throw Error("the tetrahedron of vertices" + vertices + " is none: they must be different, and 0 or more");
+}
+
+/// Who is to own each vertex that this rank hands over.
+template <class Index>
+Array<const int, HostMemory> owners_of_given(const Communicator& ranks, const MeshPart<Index>& part, bool repartition) {
+  if (repartition) return detail::curve_partition(ranks, part.vertex_ids, part.points);
+  Array<int, HostMemory> owners;
+  detail::together(ranks, [&] {
+    detail::bounding_box<double>(HostSpace(), part.points);
+    owners = allocate<Array<int, HostMemory>>("GALE::given_owners", part.vertex_ids.extent(0));
+    Kokkos::deep_copy(owners, ranks.rank());
+  });
+  return owners;
+}
+
+}  // namespace
+
+struct DistributedMesh::Data {
+  Communicator ranks;
+  GlobalId vertices = 0, tetrahedra = 0;
+  Offset given_vertices = 0;
+  Array<const GlobalId, HostMemory> vertex_ids, tetrahedron_ids;
+  Array<const int, HostMemory> owners;
+  Points<double, HostMemory> points;
+  detail::ExchangePlan from_givers, from_owners;
+  std::unique_ptr<const Mesh> local;
+
+  explicit Data(const Communicator& all) : ranks(all) {}
+
+  template <class Index>
+  void make(const MeshPart<Index>& part, const PartitionOptions& options);
+  void make_plans(const detail::LocalVertices& held, const detail::GlobalIndex& index,
+                  const Array<detail::VertexEntry, HostMemory>& entries);
+  void fetch_points(const Points<double, HostMemory>& given);
+};
+
+/// How values come to this rank: each local vertex' from who handed it over, each ghost's from its owner.
+void DistributedMesh::Data::make_plans(const detail::LocalVertices& held, const detail::GlobalIndex& index,
+                                       const Array<detail::VertexEntry, HostMemory>& entries) {
+  Array<Id, HostMemory> all, ghosts;
+  detail::together(ranks, [&] {
+    all = iota("GALE::all_vertices", HostSpace(), held.ids.extent(0));
+    ghosts = detail::ghosts_of(held);
+    const auto known = allocate<Array<int, HostMemory>>("GALE::owners", held.ids.extent(0));
+    parallel_for("GALE::owners", HostSpace(), known.extent(0), [&](Offset i) { known(i) = entries(i).owner; });
+    owners = known;
+  });
+  from_givers = detail::ExchangePlan(
+      ranks, all, [&](Id i) { return entries(i).giver; }, [&](Id i) { return entries(i).place; },
+      [](GlobalId place) { return static_cast<Id>(place); });
+  from_owners = detail::ExchangePlan(
+      ranks, ghosts, [&](Id i) { return entries(i).owner; }, [&](Id i) { return held.ids(i); },
+      [&](GlobalId id) { return index.find(id); });
+}
+
+void DistributedMesh::Data::fetch_points(const Points<double, HostMemory>& given) {
+  struct Point {
+    double coordinates[3];
+  };
+  Kokkos::View<double* [3], Kokkos::LayoutRight, HostMemory> fetched;
+  detail::together(ranks, [&] { fetched = allocate<decltype(fetched)>("GALE::local_points", vertex_ids.extent(0)); });
+  from_givers(ranks, reinterpret_cast<const Point*>(given.data()), reinterpret_cast<Point*>(fetched.data()));
+  points = fetched;
+}
+
+template <class Index>
+void DistributedMesh::Data::make(const MeshPart<Index>& part, const PartitionOptions& options) {
+  detail::together(ranks, [&] { validate(part); });
+  const auto given_owners = owners_of_given(ranks, part, options.repartition);
+  const detail::VertexDirectory directory(ranks, part.vertex_ids, given_owners);
+  const detail::LocalTetrahedra<Index> held_tetrahedra(ranks, part, directory, options.most_local);
+  const detail::GlobalIds owned = directory.owned();
+  detail::LocalVertices held;
+  detail::GlobalIndex index;
+  detail::together(ranks, [&] {
+    held = detail::local_vertices(owned, held_tetrahedra.vertices_beside(detail::GlobalIndex(owned)));
+    index = detail::GlobalIndex(held.ids);
+  });
+  detail::require_local(ranks, "vertices", held.ids.extent(0), options.most_local);
+  vertices = directory.vertices();
+  tetrahedra = ranks.sum(part.tetrahedra.extent(0));
+  if (tetrahedra == 0) throw Error("the mesh has no tetrahedra");
+  given_vertices = part.vertex_ids.extent(0);
+  vertex_ids = held.ids;
+  tetrahedron_ids = held_tetrahedra.ids();
+  make_plans(held, index, directory.find(vertex_ids));
+  fetch_points(part.points);
+  detail::together(ranks, [&] {
+    local = std::make_unique<const Mesh>(detail::local_mesh(
+        held_tetrahedra, index, detail::local_segmentation(points, held.is_owned, options.capacity)));
+  });
+}
+
+template <class Index>
+DistributedMesh::DistributedMesh(const Communicator& ranks, const MeshPart<Index>& part,
+                                 const PartitionOptions& options) {
+  const auto data = std::make_shared<Data>(ranks);
+  data->make(part, options);
+  data_ = data;
+}
+
+const Communicator& DistributedMesh::ranks() const { return data_->ranks; }
+const Mesh& DistributedMesh::local() const { return *data_->local; }
+GlobalId DistributedMesh::vertices() const { return data_->vertices; }
+GlobalId DistributedMesh::tetrahedra() const { return data_->tetrahedra; }
+const Array<const GlobalId, HostMemory>& DistributedMesh::vertex_ids() const { return data_->vertex_ids; }
+const Array<const GlobalId, HostMemory>& DistributedMesh::tetrahedron_ids() const { return data_->tetrahedron_ids; }
+const Array<const int, HostMemory>& DistributedMesh::owners() const { return data_->owners; }
+const Points<double, HostMemory>& DistributedMesh::points() const { return data_->points; }
+Offset DistributedMesh::given_vertices() const { return data_->given_vertices; }
+const detail::ExchangePlan& DistributedMesh::from_givers() const { return data_->from_givers; }
+const detail::ExchangePlan& DistributedMesh::from_owners() const { return data_->from_owners; }
+
+template GALE_EXPORT DistributedMesh::DistributedMesh(const Communicator&, const MeshPart<std::int32_t>&,
+                                                      const PartitionOptions&);
+template GALE_EXPORT DistributedMesh::DistributedMesh(const Communicator&, const MeshPart<std::int64_t>&,
+                                                      const PartitionOptions&);
+
+}  // namespace gale

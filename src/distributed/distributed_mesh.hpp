@@ -1,0 +1,79 @@
+#pragma once
+
+#include <limits>
+#include <memory>
+
+#include <gale/distributed/communicator.hpp>
+#include <gale/distributed/mesh_part.hpp>
+#include <gale/export.hpp>
+#include <gale/mesh/mesh.hpp>
+
+namespace gale {
+
+namespace detail {
+class ExchangePlan;
+}
+
+/// How a mesh is shared between ranks.
+struct PartitionOptions {
+  /// Deal the vertices out along a space-filling curve, as many to each rank. Else each vertex belongs to the lowest
+  /// rank that hands it over.
+  bool repartition = false;
+
+  int capacity = 100;  ///< of the octree's segments, in vertices
+
+  /// Vertices, and tetrahedra, that one rank may hold: what its local ids, of 32 bits, can number. Less for tests.
+  Offset most_local = std::numeric_limits<Id>::max();
+};
+
+/// A tetrahedral mesh that lies on several MPI ranks. Each vertex is owned by one rank, which holds every tetrahedron
+/// that touches one of its vertices; the other vertices of these are its ghosts. So the star of an owned vertex is
+/// complete. Immutable; copies share all.
+///
+/// Users know vertices and tetrahedra by global ids of 64 bits. Each rank has a `Mesh` of what it holds, the local
+/// mesh, whose ids have 32 bits. Its input ids ascend with the global ones; among GALE's, owned vertices come first,
+/// and sweeps visit these alone. Results are the same for any number of ranks, and for any partition.
+class GALE_EXPORT DistributedMesh {
+ public:
+  /// From what each rank has. Collective. Time and memory grow with the rank's part; messages are those tetrahedra that
+  /// others hold too, and a few words a vertex.
+  ///
+  /// Throws gale::Error on all ranks, with the global ids at fault and the rank that found it: as Mesh and
+  /// octree_segmentation do, for ids below 0, a vertex that no rank hands over, a tetrahedron id that
+  /// a rank holds twice, and if a rank would hold more than `most_local`: then it says how many ranks it takes.
+  template <class Index>
+  DistributedMesh(const Communicator& ranks, const MeshPart<Index>& part, const PartitionOptions& options = {});
+
+  const Communicator& ranks() const;
+
+  /// What this rank holds. It may have no tetrahedra, and no vertices.
+  const Mesh& local() const;
+
+  /// Of all ranks together.
+  GlobalId vertices() const;
+  GlobalId tetrahedra() const;
+
+  /// The global ids of the local mesh's vertices and tetrahedra, by their local input ids; ascending.
+  const Array<const GlobalId, HostMemory>& vertex_ids() const;
+  const Array<const GlobalId, HostMemory>& tetrahedron_ids() const;
+
+  /// The rank that owns each local vertex, by its local input id.
+  const Array<const int, HostMemory>& owners() const;
+
+  /// Where each local vertex is, by its local input id.
+  const Points<double, HostMemory>& points() const;
+
+  /// How many vertices this rank has handed over: a field has a value for each.
+  Offset given_vertices() const;
+
+  /// Brings what the ranks know of the vertices that they handed over to those who hold them; and what they know of
+  /// vertices that they own to those who have them as ghosts. For GALE's own algorithms.
+  const detail::ExchangePlan& from_givers() const;
+  const detail::ExchangePlan& from_owners() const;
+
+ private:
+  struct Data;
+  std::shared_ptr<const Data> data_;
+};
+
+}  // namespace gale

@@ -1,0 +1,62 @@
+#include <algorithm>
+#include <cstdint>
+
+#include <gale/base/parallel.hpp>
+#include <gale/base/radix_sort.hpp>
+#include <gale/distributed/global_index.hpp>
+
+namespace gale::detail {
+
+namespace {
+
+/// The entries that differ from those before them.
+DistinctIds without_repetitions(const GlobalIds& sorted, const Array<Id, HostMemory>& places) {
+  const Offset count = sorted.extent(0);
+  const auto is_new = [&](Offset i) { return i == 0 || sorted(i) != sorted(i - 1); };
+  const auto place = allocate<Array<Offset, HostMemory>>("GALE::distinct_place", count + 1);
+  const Offset distinct = exclusive_scan("GALE::count_distinct", HostSpace(), count, place, is_new);
+  if (distinct == count) return {sorted, places};
+  const DistinctIds found{allocate<GlobalIds>("GALE::distinct_ids", distinct),
+                          allocate<Array<Id, HostMemory>>("GALE::distinct_places", distinct)};
+  parallel_for("GALE::distinct_ids", HostSpace(), count, [&](Offset i) {
+    if (!is_new(i)) return;
+    found.ids(place(i)) = sorted(i);
+    found.places(place(i)) = places(i);
+  });
+  return found;
+}
+
+}  // namespace
+
+DistinctIds distinct_ids(const Array<const GlobalId, HostMemory>& ids) {
+  const Offset count = ids.extent(0);
+  const auto places = iota("GALE::id_places", HostSpace(), count);
+  const auto sorted = allocate<GlobalIds>("GALE::sorted_ids", count);
+  parallel_for("GALE::sorted_ids", HostSpace(), count, [&](Offset i) { sorted(i) = ids(i); });
+  const Offset descent = reduce_min("GALE::find_descent", HostSpace(), count - 1, count,
+                                    [&](Offset i) { return sorted(i) > sorted(i + 1) ? i : count; });
+  const Array<std::uint64_t, HostMemory> keys(reinterpret_cast<std::uint64_t*>(sorted.data()), count);
+  if (descent < count) stable_sort_by_key(HostSpace(), keys, places);
+  return without_repetitions(sorted, places);
+}
+
+GlobalIndex::GlobalIndex(const Array<const GlobalId, HostMemory>& ascending) : ids_(ascending) {
+  constexpr Offset entries_an_id = 4;
+  const Offset count = ids_.extent(0);
+  if (count == 0) return;
+  const Offset span = ids_(count - 1) - ids_(0) + 1;
+  if (span > entries_an_id * count) return;
+  table_ = allocate<Array<Id, HostMemory>>("GALE::global_index", span);
+  Kokkos::deep_copy(table_, no_id);
+  parallel_for("GALE::global_index", HostSpace(), count,
+               [&](Offset i) { table_(ids_(i) - ids_(0)) = static_cast<Id>(i); });
+}
+
+Id GlobalIndex::bisect(GlobalId id) const {
+  const GlobalId* const begin = ids_.data();
+  const GlobalId* const end = begin + ids_.extent(0);
+  const GlobalId* const at = std::lower_bound(begin, end, id);
+  return at == end || *at != id ? no_id : static_cast<Id>(at - begin);
+}
+
+}  // namespace gale::detail

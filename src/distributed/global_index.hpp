@@ -1,0 +1,64 @@
+#pragma once
+
+#include <vector>
+
+#include <gale/base/parallel.hpp>
+
+namespace gale::detail {
+
+using GlobalIds = Array<GlobalId, HostMemory>;
+
+/// Global ids, ascending, none twice; and for each the place where it stood first among those that it was made from.
+struct DistinctIds {
+  GlobalIds ids;
+  Array<Id, HostMemory> places;
+};
+
+/// On all host threads. O(n) if they ascend already, else a sort. Ids are 0 or more.
+DistinctIds distinct_ids(const Array<const GlobalId, HostMemory>& ids);
+
+/// Finds the places of global ids among some that ascend: by a table where they lie so densely that it takes no more
+/// than 16 bytes an id, else by bisection.
+class GlobalIndex {
+ public:
+  GlobalIndex() = default;
+
+  /// Of ids that ascend, at most 2^31 - 1 of them.
+  explicit GlobalIndex(const Array<const GlobalId, HostMemory>& ascending);
+
+  /// no_id if it isn't there. By any thread.
+  Id find(GlobalId id) const {
+    if (table_.extent(0) == 0) return bisect(id);
+    const GlobalId at = id - ids_(0);
+    return at < 0 || at >= static_cast<GlobalId>(table_.extent(0)) ? no_id : table_(at);
+  }
+
+  Offset count() const { return ids_.extent(0); }
+  GlobalId operator[](Offset place) const { return ids_(place); }
+  const Array<const GlobalId, HostMemory>& ids() const { return ids_; }
+
+ private:
+  Id bisect(GlobalId id) const;
+
+  Array<const GlobalId, HostMemory> ids_;
+  Array<Id, HostMemory> table_;  ///< id - ids_(0) -> place
+};
+
+/// Of the ids that visit(i, offer) offers for i in 0..n-1 those that `index` lacks: ascending, none twice.
+template <class Visit>
+GlobalIds missing_ids(const GlobalIndex& index, Offset n, const Visit& visit) {
+  const int parts = threads_for(n);
+  std::vector<std::vector<GlobalId>> of_parts(parts);
+  for_parts("GALE::missing_ids", n, parts, [&](int part, Offset first, Offset last) {
+    for (Offset i = first; i < last; ++i) {
+      visit(i, [&](GlobalId id) {
+        if (index.find(id) == no_id) of_parts[part].push_back(id);
+      });
+    }
+  });
+  std::vector<GlobalId> all;
+  for (const auto& some : of_parts) all.insert(all.end(), some.begin(), some.end());
+  return distinct_ids(Array<const GlobalId, HostMemory>(all.data(), all.size())).ids;
+}
+
+}  // namespace gale::detail

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <string>
+
+#include <gale/base/error.hpp>
+#include <gale/base/transfer.hpp>
+#include <gale/mesh/caller_views.hpp>
+#include <gale/mesh/mesh.hpp>
+
+namespace gale {
+
+/// What one rank hands over of a mesh, on the host: any part of it, which may be empty. A tetrahedron is handed over by
+/// one rank, a vertex by any number of them: what the lowest of them says of it counts.
+///
+/// `Index` is std::int32_t or std::int64_t.
+template <class Index>
+struct MeshPart {
+  Array<const GlobalId, HostMemory> vertex_ids;       ///< global ids, in any order, 0 or more; they may have gaps
+  Points<double, HostMemory> points;                  ///< where each of these is
+  Tetrahedra<Index, HostMemory> tetrahedra;           ///< four global ids each, of vertices that any ranks hand over
+  Array<const GlobalId, HostMemory> tetrahedron_ids;  ///< 0 or more, all different; none: counted from rank to rank
+};
+
+namespace detail {
+
+/// A caller's ids as GALE reads them.
+template <class View>
+Array<const GlobalId, HostMemory> global_ids(const View& view) {
+  static_assert(View::rank == 1, "a global id for each");
+  const auto here = on_host(view);
+  const auto ids = allocate<Array<GlobalId, HostMemory>>("GALE::global_ids", here.extent(0));
+  parallel_for("GALE::global_ids", HostSpace(), here.extent(0),
+               [&](Offset i) { ids(i) = static_cast<GlobalId>(here(i)); });
+  return ids;
+}
+
+}  // namespace detail
+
+/// The part that a caller has in Views: a global id and 3 coordinates for each vertex, 4 global ids for each
+/// tetrahedron. Of any integer and floating-point types, in host memory or a device's, in any layout. Host Views of
+/// tetrahedra that are laid out as GALE reads them aren't copied, and must live as long as the part; all else is.
+/// Throws gale::Error if extents don't fit.
+template <class IdView, class PointView, class TetrahedronView>
+auto make_part(const IdView& vertex_ids, const PointView& points, const TetrahedronView& tetrahedra) {
+  const auto rows = detail::rows_of<4, detail::IndexFor>("tetrahedra", tetrahedra);
+  using Index = typename decltype(rows)::non_const_value_type;
+  MeshPart<Index> part;
+  part.vertex_ids = detail::global_ids(vertex_ids);
+  const auto coordinates = on_host(detail::rows_of<3, detail::CoordinateFor>("points", points));
+  const auto copy =
+      allocate<Kokkos::View<double* [3], Kokkos::LayoutRight, HostMemory>>("GALE::part_points", coordinates.extent(0));
+  parallel_for("GALE::part_points", HostSpace(), coordinates.extent(0), [&](Offset i) {
+    for (int axis = 0; axis < 3; ++axis) copy(i, axis) = coordinates(i, axis);
+  });
+  part.points = copy;
+  part.tetrahedra = on_host(rows);
+  if (part.vertex_ids.extent(0) != part.points.extent(0)) {
+    throw Error("there are " + std::to_string(part.vertex_ids.extent(0)) + " vertex ids, but " +
+                std::to_string(part.points.extent(0)) + " points");
+  }
+  return part;
+}
+
+/// The same with a global id for each tetrahedron.
+template <class IdView, class PointView, class TetrahedronView, class TetrahedronIdView>
+auto make_part(const IdView& vertex_ids, const PointView& points, const TetrahedronView& tetrahedra,
+               const TetrahedronIdView& tetrahedron_ids) {
+  auto part = make_part(vertex_ids, points, tetrahedra);
+  part.tetrahedron_ids = detail::global_ids(tetrahedron_ids);
+  if (part.tetrahedron_ids.extent(0) != part.tetrahedra.extent(0)) {
+    throw Error("there are " + std::to_string(part.tetrahedron_ids.extent(0)) + " tetrahedron ids, but " +
+                std::to_string(part.tetrahedra.extent(0)) + " tetrahedra");
+  }
+  return part;
+}
+
+}  // namespace gale

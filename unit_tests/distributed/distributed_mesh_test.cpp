@@ -1,0 +1,125 @@
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "distributed/every_partition.hpp"
+#include "support/brute_force.hpp"
+
+namespace gale::test {
+
+class DistributedMeshOf : public EveryPartition {};
+
+TEST_P(DistributedMeshOf, every_partition_has_each_vertex_owned_once) {
+  const std::vector<bool> mine = owned();
+  for (Id v = 0; v < input().vertices(); ++v) EXPECT_EQ(ranks_.sum(mine[v] ? 1 : 0), 1) << "vertex " << v;
+  EXPECT_EQ(mesh_.vertices(), input().vertices());
+  EXPECT_EQ(mesh_.tetrahedra(), static_cast<GlobalId>(input().tetrahedra.size()));
+}
+
+TEST_P(DistributedMeshOf, every_partition_holds_the_stars_of_owned_vertices_and_no_more) {
+  const std::vector<bool> mine = owned();
+  std::set<Id> tetrahedra, vertices;
+  for (Id v = 0; v < input().vertices(); ++v) {
+    if (mine[v]) vertices.insert(v);
+  }
+  for (Id t = 0; t < static_cast<Id>(input().tetrahedra.size()); ++t) {
+    const auto& quad = input().tetrahedra[t];
+    if (std::none_of(quad.begin(), quad.end(), [&](Id v) { return mine[v]; })) continue;
+    tetrahedra.insert(t);
+    vertices.insert(quad.begin(), quad.end());
+  }
+  const Mesh& local = mesh_.local();
+  EXPECT_EQ(local.vertices(), static_cast<Id>(vertices.size()));
+  ASSERT_EQ(local.tetrahedra(), static_cast<Id>(tetrahedra.size()));
+  std::set<Id> found_vertices, found_tetrahedra;
+  for (Id v = 0; v < local.vertices(); ++v) found_vertices.insert(input_vertex(v));
+  for (Id t = 0; t < local.tetrahedra(); ++t) {
+    const Id there = input_tetrahedron(t);
+    found_tetrahedra.insert(there);
+    std::set<Id> corners;
+    for (int corner = 0; corner < 4; ++corner) corners.insert(input_vertex(local.encoded().tetrahedra(t, corner)));
+    EXPECT_EQ(corners, std::set<Id>(input().tetrahedra[there].begin(), input().tetrahedra[there].end()));
+  }
+  EXPECT_EQ(found_vertices, vertices);
+  EXPECT_EQ(found_tetrahedra, tetrahedra);
+}
+
+TEST_P(DistributedMeshOf, every_partition_numbers_by_global_ids_and_owned_vertices_first) {
+  const auto& ids = mesh_.vertex_ids();
+  EXPECT_TRUE(std::is_sorted(ids.data(), ids.data() + ids.extent(0)));
+  const auto& tetrahedra = mesh_.tetrahedron_ids();
+  EXPECT_TRUE(std::is_sorted(tetrahedra.data(), tetrahedra.data() + tetrahedra.extent(0)));
+  const Mesh& local = mesh_.local();
+  for (Id v = 0; v < local.vertices(); ++v) {
+    EXPECT_EQ(mesh_.owners()(local.vertex_input()(v)) == ranks_.rank(), v < local.owned_vertices());
+    EXPECT_EQ(local.segment_of(0, v) < local.owned_segments(), v < local.owned_vertices());
+  }
+}
+
+TEST_P(DistributedMeshOf, every_partition_knows_owners_and_points) {
+  std::vector<int> owner(input().vertices());
+  const std::vector<bool> mine = owned();
+  for (Id v = 0; v < input().vertices(); ++v) owner[v] = static_cast<int>(ranks_.sum(mine[v] ? ranks_.rank() : 0));
+  for (std::size_t i = 0; i < mesh_.vertex_ids().extent(0); ++i) {
+    const Id v = vertex_named(mesh_.vertex_ids()(i));
+    EXPECT_EQ(mesh_.owners()(i), owner[v]);
+    for (int axis = 0; axis < 3; ++axis) EXPECT_EQ(mesh_.points()(i, axis), input().points[v][axis]);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Tests, DistributedMeshOf, every_mesh_and_partition(), mesh_and_partition);
+
+TEST(DistributedMesh, leaves_vertices_with_the_lowest_rank_that_hands_them_over) {
+  const Communicator ranks(MPI_COMM_WORLD);
+  const InputMesh& input = mesh_named("one_tetrahedron");
+  const GivenPart part = part_of(input, "shared", ranks);
+  const DistributedMesh mesh = distribute(ranks, part, "shared");
+  EXPECT_EQ(mesh.local().owned_vertices(), ranks.rank() == 0 ? 4 : 0);
+  EXPECT_EQ(mesh.local().vertices(), ranks.rank() == 0 ? 4 : 0);
+}
+
+TEST(DistributedMesh, dealt_out_along_the_curve_has_shares_of_about_one_size) {
+  const Communicator ranks(MPI_COMM_WORLD);
+  const InputMesh input = holed_grid(20);
+  const GivenPart part = part_of(input, "last", ranks);
+  const DistributedMesh mesh = distribute(ranks, part, "curve");
+  const double share = static_cast<double>(input.vertices()) / ranks.size();
+  EXPECT_GT(mesh.local().owned_vertices(), 0.9 * share);
+  EXPECT_LT(mesh.local().owned_vertices(), 1.1 * share);
+}
+
+TEST(DistributedMesh, dealt_out_along_the_curve_has_few_ghosts) {
+  const Communicator ranks(MPI_COMM_WORLD);
+  const InputMesh input = holed_grid(20);
+  const GivenPart part = part_of(input, "random", ranks);
+  const auto ghosts = [&](const char* partition) {
+    const Mesh local = distribute(ranks, part, partition).local();
+    return ranks.sum(local.vertices() - local.owned_vertices());
+  };
+  if (ranks.size() == 1) {
+    EXPECT_EQ(ghosts("random"), 0);
+  } else {
+    EXPECT_LT(3 * ghosts("curve"), ghosts("random"));
+  }
+}
+
+TEST(DistributedMesh, counts_tetrahedra_on_from_rank_to_rank) {
+  const Communicator ranks(MPI_COMM_WORLD);
+  const InputMesh& input = mesh_named("holed_grid_9");
+  GivenPart part = part_of(input, "blocks", ranks);
+  auto views = part.views();
+  views.tetrahedron_ids = {};
+  const DistributedMesh mesh(ranks, views, options_of("blocks"));
+  std::map<std::set<Id>, GlobalId> number;
+  for (std::size_t t = 0; t < input.tetrahedra.size(); ++t)
+    number[std::set<Id>(input.tetrahedra[t].begin(), input.tetrahedra[t].end())] = static_cast<GlobalId>(t);
+  const Mesh& local = mesh.local();
+  for (Id t = 0; t < local.tetrahedra(); ++t) {
+    std::set<Id> corners;
+    for (int corner = 0; corner < 4; ++corner)
+      corners.insert(vertex_named(mesh.vertex_ids()(local.vertex_input()(local.encoded().tetrahedra(t, corner)))));
+    EXPECT_EQ(mesh.tetrahedron_ids()(local.tetrahedron_input()(t)), number.at(corners));
+  }
+}
+
+}  // namespace gale::test

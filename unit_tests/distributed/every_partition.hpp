@@ -1,0 +1,45 @@
+#pragma once
+
+#include <string>
+#include <tuple>
+
+#include <gtest/gtest.h>
+
+#include "distributed/given_parts.hpp"
+
+namespace gale::test {
+
+/// A test that is run with each of `mesh_names()` cut in each of the ways `partition_names()`, on all ranks together.
+class EveryPartition : public testing::TestWithParam<std::tuple<std::string, std::string>> {
+ protected:
+  const std::string& mesh_name() const { return std::get<0>(GetParam()); }
+  const std::string& partition() const { return std::get<1>(GetParam()); }
+  const InputMesh& input() const { return mesh_named(mesh_name()); }
+
+  const Communicator ranks_{MPI_COMM_WORLD, 1000};  // so that messages are cut
+  const GivenPart part_ = part_of(input(), partition(), ranks_);
+  const DistributedMesh mesh_ = distribute(ranks_, part_, partition());
+
+  /// The input's number of a local vertex (GALE's id), of a tetrahedron.
+  Id input_vertex(Id vertex) const { return vertex_named(mesh_.vertex_ids()(mesh_.local().vertex_input()(vertex))); }
+  Id input_tetrahedron(Id tetrahedron) const {
+    return tetrahedron_named(mesh_.tetrahedron_ids()(mesh_.local().tetrahedron_input()(tetrahedron)));
+  }
+
+  /// For each vertex of the input whether this rank owns it.
+  std::vector<bool> owned() const {
+    std::vector<bool> owned(input().vertices(), false);
+    for (Id v = 0; v < mesh_.local().owned_vertices(); ++v) owned[input_vertex(v)] = true;
+    return owned;
+  }
+};
+
+inline auto every_mesh_and_partition() {
+  return testing::Combine(testing::ValuesIn(mesh_names()), testing::ValuesIn(partition_names()));
+}
+
+inline std::string mesh_and_partition(const testing::TestParamInfo<EveryPartition::ParamType>& info) {
+  return std::get<0>(info.param) + "__" + std::get<1>(info.param);
+}
+
+}  // namespace gale::test

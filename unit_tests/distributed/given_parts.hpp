@@ -1,0 +1,54 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include <gale/distributed/distributed_mesh.hpp>
+
+#include "support/input_mesh.hpp"
+
+namespace gale::test {
+
+/// Global ids in tests: they ascend with the input's, and have gaps.
+inline GlobalId vertex_name(Id vertex) { return 3 * GlobalId(vertex) + 5; }
+inline GlobalId tetrahedron_name(Id tetrahedron) { return (GlobalId(1) << 33) + 2 * GlobalId(tetrahedron); }
+inline Id vertex_named(GlobalId name) { return static_cast<Id>((name - 5) / 3); }
+inline Id tetrahedron_named(GlobalId name) { return static_cast<Id>((name - (GlobalId(1) << 33)) / 2); }
+
+/// What one rank hands over of a mesh.
+struct GivenPart {
+  std::vector<Id> vertices;  ///< of the input, in the order in which they are handed over
+  std::vector<GlobalId> vertex_ids;
+  std::vector<double> points;
+  std::vector<GlobalId> tetrahedra;
+  std::vector<GlobalId> tetrahedron_ids;
+
+  void add_vertex(const InputMesh& input, Id vertex);
+  void add_tetrahedron(const InputMesh& input, Id tetrahedron);
+
+  /// Of this, which must live as long.
+  MeshPart<GlobalId> views() const;
+
+  /// A value for each vertex handed over, of one for each of the input.
+  template <class Value>
+  Kokkos::View<Value*, HostMemory> values(const std::vector<Value>& all) const {
+    const Kokkos::View<Value*, HostMemory> mine("test", vertices.size());
+    for (std::size_t i = 0; i < vertices.size(); ++i) mine(i) = all[vertices[i]];
+    return mine;
+  }
+};
+
+/// The ways in which tests cut a mesh into parts: "random", each vertex and each tetrahedron anywhere; "blocks", equal
+/// numbers of tetrahedra, and all their vertices, so that ranks share some; "last", all on the last rank; "shared", all
+/// vertices on all ranks; and "curve", "random" to be dealt out again.
+const std::vector<std::string>& partition_names();
+
+GivenPart part_of(const InputMesh& input, const std::string& partition, const Communicator& ranks);
+
+PartitionOptions options_of(const std::string& partition);
+
+/// That of the whole mesh.
+DistributedMesh distribute(const Communicator& ranks, const GivenPart& part, const std::string& partition);
+
+}  // namespace gale::test
