@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <chrono>
 #include <cstring>
 #include <string>
+#include <thread>
 
 #include <gale/base/error.hpp>
 #include <gale/distributed/communicator.hpp>
@@ -18,6 +20,27 @@ MPI_Comm duplicate(MPI_Comm comm) {
   MPI_Comm own;
   MPI_Comm_dup(comm, &own);
   return own;
+}
+
+/// Waits for all. MPI's own functions would hold the core for as long as it takes: ranks that share a machine, and
+/// threads that compute, need it.
+void wait(std::vector<MPI_Request>& requests) {
+  constexpr std::chrono::milliseconds patience(1);
+  constexpr std::chrono::microseconds nap(50);
+  const auto begin = std::chrono::steady_clock::now();
+  for (int done = 0;;) {
+    MPI_Testall(static_cast<int>(requests.size()), requests.data(), &done, MPI_STATUSES_IGNORE);
+    if (done) return;
+    if (std::chrono::steady_clock::now() - begin > patience) std::this_thread::sleep_for(nap);
+  }
+}
+
+/// Begins something by begin(request), and waits for it.
+template <class Begin>
+void complete(const Begin& begin) {
+  std::vector<MPI_Request> one(1);
+  begin(&one[0]);
+  wait(one);
 }
 
 }  // namespace
@@ -59,48 +82,59 @@ int Communicator::size() const { return data_->size; }
 const SentMessages& Communicator::sent() const { return data_->sent; }
 
 std::int64_t Communicator::sum(std::int64_t value) const {
-  std::int64_t sum = 0;
-  MPI_Allreduce(&value, &sum, 1, MPI_INT64_T, MPI_SUM, data_->comm);
-  return sum;
+  sum(&value, 1);
+  return value;
+}
+
+void Communicator::sum(std::int64_t* values, int count) const {
+  complete([&](MPI_Request* request) {
+    MPI_Iallreduce(MPI_IN_PLACE, values, count, MPI_INT64_T, MPI_SUM, data_->comm, request);
+  });
 }
 
 std::int64_t Communicator::least(std::int64_t value) const {
   std::int64_t least = 0;
-  MPI_Allreduce(&value, &least, 1, MPI_INT64_T, MPI_MIN, data_->comm);
+  complete(
+      [&](MPI_Request* request) { MPI_Iallreduce(&value, &least, 1, MPI_INT64_T, MPI_MIN, data_->comm, request); });
   return least;
 }
 
 double Communicator::least(double value) const {
   double least = 0;
-  MPI_Allreduce(&value, &least, 1, MPI_DOUBLE, MPI_MIN, data_->comm);
+  complete([&](MPI_Request* request) { MPI_Iallreduce(&value, &least, 1, MPI_DOUBLE, MPI_MIN, data_->comm, request); });
   return least;
 }
 
 std::vector<std::int64_t> Communicator::all(std::int64_t value) const {
   std::vector<std::int64_t> values(size());
-  MPI_Allgather(&value, 1, MPI_INT64_T, values.data(), 1, MPI_INT64_T, data_->comm);
+  complete([&](MPI_Request* request) {
+    MPI_Iallgather(&value, 1, MPI_INT64_T, values.data(), 1, MPI_INT64_T, data_->comm, request);
+  });
   return values;
 }
 
 std::int64_t Communicator::sum_before(std::int64_t value) const {
   std::int64_t sum = 0;
-  MPI_Exscan(&value, &sum, 1, MPI_INT64_T, MPI_SUM, data_->comm);
+  complete([&](MPI_Request* request) { MPI_Iexscan(&value, &sum, 1, MPI_INT64_T, MPI_SUM, data_->comm, request); });
   return rank() == 0 ? 0 : sum;
 }
 
 std::string Communicator::broadcast(const std::string& text, int from) const {
   auto length = static_cast<std::int64_t>(text.size());
-  MPI_Bcast(&length, 1, MPI_INT64_T, from, data_->comm);
+  complete([&](MPI_Request* request) { MPI_Ibcast(&length, 1, MPI_INT64_T, from, data_->comm, request); });
   std::string all = text;
   all.resize(static_cast<std::size_t>(length));
-  data_->cut(0, length,
-             [&](std::int64_t begin, int bytes) { MPI_Bcast(&all[begin], bytes, MPI_BYTE, from, data_->comm); });
+  data_->cut(0, length, [&](std::int64_t begin, int bytes) {
+    complete([&](MPI_Request* request) { MPI_Ibcast(&all[begin], bytes, MPI_BYTE, from, data_->comm, request); });
+  });
   return all;
 }
 
 std::vector<std::int64_t> Communicator::exchange_counts(const std::vector<std::int64_t>& counts) const {
   std::vector<std::int64_t> theirs(counts.size());
-  MPI_Alltoall(counts.data(), 1, MPI_INT64_T, theirs.data(), 1, MPI_INT64_T, data_->comm);
+  complete([&](MPI_Request* request) {
+    MPI_Ialltoall(counts.data(), 1, MPI_INT64_T, theirs.data(), 1, MPI_INT64_T, data_->comm, request);
+  });
   return theirs;
 }
 
@@ -124,7 +158,7 @@ void Communicator::exchange_bytes(const char* from, const std::vector<std::int64
   }
   const std::int64_t own = send_begin[rank() + 1] - send_begin[rank()];
   if (own > 0) std::memcpy(to + receive_begin[rank()], from + send_begin[rank()], static_cast<std::size_t>(own));
-  MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+  wait(requests);
 }
 
 }  // namespace gale

@@ -37,6 +37,7 @@ class GALE_EXPORT Communicator {
 
   /// Of all ranks' values, on each rank.
   std::int64_t sum(std::int64_t value) const;
+  void sum(std::int64_t* values, int count) const;  ///< each of several, in place
   std::int64_t least(std::int64_t value) const;
   double least(double value) const;
   std::vector<std::int64_t> all(std::int64_t value) const;  ///< by rank

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <gale/algorithms/critical_points/classify.hpp>
 #include <gale/algorithms/critical_points/collect.hpp>
 #include <gale/distributed/distributed_critical_points.hpp>
@@ -68,7 +70,8 @@ DistributedCriticalPoints complete(const Space& space, const DistributedOrder& o
   });
   all.types = std::move(here.types);
   all.on_surface = std::move(here.on_surface);
-  for (int type = 0; type < 5; ++type) all.counts[type] = mesh.ranks().sum(here.counts[type]);
+  std::copy(here.counts.begin(), here.counts.end(), all.counts.begin());
+  mesh.ranks().sum(all.counts.data(), static_cast<int>(all.counts.size()));
   return all;
 }
 

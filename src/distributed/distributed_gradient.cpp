@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <memory>
 
 #include <gale/distributed/distributed_gradient.hpp>
@@ -13,7 +14,8 @@ DistributedGradient find_by(const DistributedMesh& mesh, const Find& find) {
   detail::together(mesh.ranks(), [&] { local = std::make_unique<const DiscreteGradient>(find()); });
   DistributedGradient gradient{mesh, *local};
   const auto counts = local->critical().counts();
-  for (int dimension = 0; dimension < 4; ++dimension) gradient.counts[dimension] = mesh.ranks().sum(counts[dimension]);
+  std::copy(counts.begin(), counts.end(), gradient.counts.begin());
+  mesh.ranks().sum(gradient.counts.data(), static_cast<int>(gradient.counts.size()));
   return gradient;
 }
 

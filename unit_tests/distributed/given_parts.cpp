@@ -4,14 +4,11 @@
 #include <random>
 #include <set>
 
+#include "support/arrays.hpp"
+
 namespace gale::test {
 
 namespace {
-
-template <class T>
-Array<const T, HostMemory> view_of(const std::vector<T>& values) {
-  return Array<const T, HostMemory>(values.data(), values.size());
-}
 
 GivenPart random_part(const InputMesh& input, int rank, int ranks) {
   std::mt19937 random(31);

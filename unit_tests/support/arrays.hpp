@@ -7,6 +7,12 @@
 
 namespace gale::test {
 
+/// Of a vector that must live as long.
+template <class T>
+Array<const T, HostMemory> view_of(const std::vector<T>& values) {
+  return Array<const T, HostMemory>(values.data(), values.size());
+}
+
 template <class T>
 Array<T, WorkerMemory> to_worker(const std::vector<T>& values) {
   const Array<T, WorkerMemory> array(Kokkos::view_alloc("test", Kokkos::WithoutInitializing), values.size());

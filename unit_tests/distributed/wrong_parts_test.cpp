@@ -1,0 +1,145 @@
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include <gale/algorithms/critical_points.hpp>
+#include <gale/algorithms/morse_smale.hpp>
+#include <gale/algorithms/simplex_numbers.hpp>
+#include <gale/distributed/distributed_gradient.hpp>
+#include <gale/runtime/make_structure.hpp>
+
+#include "distributed/given_parts.hpp"
+#include "support/message_of.hpp"
+
+// What is wrong with a part, or with all together, all ranks throw alike.
+
+namespace gale::test {
+
+namespace {
+
+/// The last rank has one tetrahedron and its four vertices, as it is changed; the others have nothing.
+class LastPart {
+ public:
+  LastPart() {
+    if (is_last()) {
+      for (Id v = 0; v < 4; ++v) part.add_vertex(mesh_named("one_tetrahedron"), v);
+      part.add_tetrahedron(mesh_named("one_tetrahedron"), 0);
+    }
+  }
+
+  bool is_last() const { return ranks.rank() + 1 == ranks.size(); }
+
+  /// What all ranks say, without the name of the last.
+  std::string message() const {
+    const std::string message = message_of([&] { DistributedMesh(ranks, part.views(), options); });
+    const std::string prefix = "rank " + std::to_string(ranks.size() - 1) + ": ";
+    return message.substr(0, prefix.size()) == prefix ? message.substr(prefix.size()) : message;
+  }
+
+  const Communicator ranks{MPI_COMM_WORLD};
+  GivenPart part;
+  PartitionOptions options;
+};
+
+}  // namespace
+
+TEST(WrongParts, have_ids_below_0) {
+  LastPart given;
+  if (given.is_last()) given.part.vertex_ids[2] = -3;
+  EXPECT_EQ(given.message(), "ids are 0 or more, not -3");
+  LastPart other;
+  if (other.is_last()) other.part.tetrahedron_ids[0] = -7;
+  EXPECT_EQ(other.message(), "ids are 0 or more, not -7");
+}
+
+TEST(WrongParts, have_tetrahedra_with_a_vertex_twice) {
+  LastPart given;
+  if (given.is_last()) given.part.tetrahedra = {5, 8, 5, 14};
+  EXPECT_EQ(given.message(), "the tetrahedron of vertices 5 8 5 14 is none: they must be different, and 0 or more");
+}
+
+TEST(WrongParts, have_tetrahedra_of_vertices_that_nobody_has) {
+  LastPart given;
+  if (given.is_last()) given.part.tetrahedra = {5, 8, 77, 14};
+  EXPECT_EQ(given.message(), "a tetrahedron has vertex 77, which no rank hands over");
+}
+
+TEST(WrongParts, have_points_nowhere) {
+  for (const bool repartition : {false, true}) {
+    LastPart given;
+    given.options.repartition = repartition;
+    if (given.is_last()) given.part.points[4] = std::numeric_limits<double>::infinity();
+    EXPECT_EQ(given.message(), "point 1 has a coordinate that is not finite");
+  }
+}
+
+TEST(WrongParts, have_a_tetrahedron_twice) {
+  LastPart given;
+  if (given.is_last()) {
+    given.part.tetrahedra.insert(given.part.tetrahedra.end(), {14, 11, 8, 5});
+    given.part.tetrahedron_ids = {12, 12};
+  }
+  EXPECT_EQ(given.message(), "tetrahedron 12 is handed over twice");
+  if (given.is_last()) given.part.tetrahedron_ids = {12, 99};
+  EXPECT_EQ(given.message(), "tetrahedra 12 and 99 have the same four vertices");
+}
+
+TEST(WrongParts, have_no_tetrahedra) {
+  LastPart given;
+  given.part.tetrahedra.clear();
+  given.part.tetrahedron_ids.clear();
+  EXPECT_EQ(given.message(), "the mesh has no tetrahedra");
+}
+
+TEST(WrongParts, have_a_capacity_of_0) {
+  LastPart given;
+  given.options.capacity = 0;
+  const std::string message = message_of([&] { DistributedMesh(given.ranks, given.part.views(), given.options); });
+  EXPECT_NE(message.find("a segment's capacity must be at least 1 vertex, not 0"), std::string::npos) << message;
+}
+
+TEST(WrongParts, do_not_fit_the_ranks) {
+  const Communicator ranks(MPI_COMM_WORLD);
+  const InputMesh input = holed_grid(9);
+  const auto count = static_cast<Offset>(input.tetrahedra.size());
+  const GivenPart part = part_of(input, "last", ranks);
+  PartitionOptions options;
+  options.most_local = count / 2;
+  EXPECT_EQ(message_of([&] { DistributedMesh(ranks, part.views(), options); }),
+            "a rank would hold " + std::to_string(count) + " tetrahedra, but at most " + std::to_string(count / 2) +
+                " fit: take at least " + std::to_string(count * ranks.size() / (count / 2) + 1) + " ranks");
+}
+
+TEST(PartsOfMeshes, are_refused_by_what_needs_the_whole) {
+  const Communicator ranks(MPI_COMM_WORLD);
+  const InputMesh& input = mesh_named("holed_grid_9");
+  const GivenPart part = part_of(input, "random", ranks);
+  const DistributedMesh mesh = distribute(ranks, part, "random");
+  const Mesh& local = mesh.local();
+  if (local.owned_vertices() == local.vertices()) return;  // one rank
+  const std::string ghosts =
+      " can't be found of one rank's part of a mesh: " + std::to_string(local.vertices() - local.owned_vertices()) +
+      " of its " + std::to_string(local.vertices()) + " vertices are ghosts";
+  const std::vector<float> field(local.vertices(), 1.0f);
+  const VertexOrder order(local, field.data(), field.size());
+  const auto structure = make_structure(local, discrete_gradient_relations);
+  EXPECT_EQ(message_of([&] { find_critical_points(*structure, order); }), "critical points" + ghosts);
+  EXPECT_EQ(message_of([&] { find_critical_points(WorkerSpace(), order); }), "critical points" + ghosts);
+  EXPECT_EQ(message_of([&] { number_simplices(*structure, {}); }), "the numbers of simplices" + ghosts);
+  EXPECT_EQ(message_of([&] { find_morse_smale_complex(*structure, find_discrete_gradient(*structure, order)); }),
+            "a Morse-Smale complex" + ghosts);
+}
+
+TEST(DistributedAlgorithms, fail_on_all_ranks_where_one_lacks_what_it_reads) {
+  const Communicator ranks(MPI_COMM_WORLD);
+  const InputMesh& input = mesh_named("holed_grid_9");
+  const GivenPart part = part_of(input, "blocks", ranks);
+  const DistributedMesh mesh = distribute(ranks, part, "blocks");
+  const DistributedOrder order(mesh, part.values(std::vector<int>(input.vertices(), 1)));
+  const bool is_last = ranks.rank() + 1 == ranks.size();
+  const auto structure =
+      make_structure(mesh.local(), is_last ? RelationSet(Relation::VV) : discrete_gradient_relations);
+  EXPECT_NE(message_of([&] { find_discrete_gradient(*structure, order); }), "no error");
+}
+
+}  // namespace gale::test
