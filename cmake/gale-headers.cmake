@@ -23,6 +23,10 @@ gale_public(baselines discrete_gradient_from_cells oracle)
 gale_public(outputs arrows critical_points critical_simplices field manifolds morse_smale named_simplices persistence
   persistence_diagram segmentation separatrices1 separatrices2)
 gale_public(io arrays atomic_file dataset image read synthetic temporary_files voxels write)
+if(GALE_ENABLE_MPI)
+  gale_public(distributed communicator distributed_critical_points distributed_gradient distributed_manifolds distributed_mesh
+    distributed_order mesh_part)
+endif()
 
 set(gale_included_headers
   base/mirrored.hpp

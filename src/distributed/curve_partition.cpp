@@ -13,7 +13,7 @@ namespace gale::detail {
 namespace {
 
 /// A place on the curve.
-using Stop = std::pair<std::uint64_t, GlobalId>;
+using CurvePlace = std::pair<std::uint64_t, GlobalId>;
 
 /// Of each rank's share, so that shares differ by a few percent.
 constexpr Offset samples_a_rank = 4096;
@@ -27,18 +27,18 @@ Box box_of_all(const Communicator& ranks, const Points<double, HostMemory>& poin
 }
 
 /// Some of this rank's stops, as many of the samples as it has points among all; sent to every rank.
-Dealt<Stop> sampled(const Communicator& ranks, const std::vector<std::int64_t>& points_by_rank,
-                    const std::vector<Stop>& stops) {
+Dealt<CurvePlace> sampled(const Communicator& ranks, const std::vector<std::int64_t>& points_by_rank,
+                          const std::vector<CurvePlace>& stops) {
   double all = 0;
   for (const std::int64_t points : points_by_rank) all += static_cast<double>(points);
   const auto count = stops.empty() ? Offset(0)
                                    : static_cast<Offset>(static_cast<double>(samples_a_rank * ranks.size()) *
                                                          (static_cast<double>(stops.size()) / all)) +
                                          1;
-  const Dealt<Stop> sent = dealt<Stop>("GALE::samples", std::vector<std::int64_t>(ranks.size(), count));
+  const Dealt<CurvePlace> sent = dealt<CurvePlace>("GALE::samples", std::vector<std::int64_t>(ranks.size(), count));
   std::mt19937_64 random(static_cast<std::uint64_t>(ranks.rank()));
   for (Offset i = 0; i < count; ++i) {
-    const Stop stop = stops[random() % stops.size()];
+    const CurvePlace stop = stops[random() % stops.size()];
     for (int rank = 0; rank < ranks.size(); ++rank) sent.entries(sent.begin[rank] + i) = stop;
   }
   return sent;
@@ -50,18 +50,18 @@ Array<int, HostMemory> curve_partition(const Communicator& ranks, const Array<co
                                        const Points<double, HostMemory>& points) {
   const Cube cube = cube_around(box_of_all(ranks, points));
   const auto points_by_rank = ranks.all(points.extent(0));
-  std::vector<Stop> stops(points.extent(0));
-  Dealt<Stop> samples;
+  std::vector<CurvePlace> stops(points.extent(0));
+  Dealt<CurvePlace> samples;
   together(ranks, [&] {
     const auto codes = morton_codes<double>(HostSpace(), points, cube);
     parallel_for("GALE::curve_stops", HostSpace(), points.extent(0), [&](Offset i) { stops[i] = {codes(i), ids(i)}; });
     samples = sampled(ranks, points_by_rank, stops);
   });
-  const Dealt<Stop> all = exchange(ranks, "GALE::all_samples", samples);
+  const Dealt<CurvePlace> all = exchange(ranks, "GALE::all_samples", samples);
   Array<int, HostMemory> owners;
   together(ranks, [&] {
     std::sort(all.entries.data(), all.entries.data() + all.count());
-    std::vector<Stop> last;  // of each rank but the last one
+    std::vector<CurvePlace> last;  // of each rank but the last one
     for (int rank = 1; rank < ranks.size() && all.count() > 0; ++rank)
       last.push_back(all.entries(part_begin(all.count(), ranks.size(), rank)));
     owners = allocate<Array<int, HostMemory>>("GALE::curve_owners", points.extent(0));

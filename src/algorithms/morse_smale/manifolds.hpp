@@ -18,7 +18,8 @@ Mirrored<Id> ascending_manifolds(const DiscreteGradient& gradient);
 
 /// A number for each pair (ascending, descending) that occurs, in lexicographic order, dense from 0; no_id where the
 /// ascending one is missing. And how many pairs there are.
-std::pair<Mirrored<Id>, Id> morse_smale_manifolds(const Mirrored<Id>& ascending, const Mirrored<Id>& descending);
+GALE_EXPORT std::pair<Mirrored<Id>, Id> morse_smale_manifolds(const Mirrored<Id>& ascending,
+                                                              const Mirrored<Id>& descending);
 
 /// The same with names[p] for each place p; no_id stays.
 Mirrored<Id> renamed(const Mirrored<Id>& manifolds, const std::vector<Id>& names);
