@@ -20,7 +20,7 @@ struct DistributedCriticalSimplices {
 
 /// A discrete gradient of a mesh on several ranks: each rank has the pairs of the simplices whose highest vertices it
 /// owns.
-struct DistributedGradient {
+struct GALE_EXPORT DistributedGradient {
   DistributedMesh mesh;
 
   /// Of the local mesh. Where this rank doesn't know a successor, it is DiscreteGradient::elsewhere.
@@ -33,7 +33,7 @@ struct DistributedGradient {
   GlobalId euler() const { return counts[0] - counts[1] + counts[2] - counts[3]; }
 
   /// This rank's.
-  GALE_EXPORT DistributedCriticalSimplices critical() const;
+  DistributedCriticalSimplices critical() const;
 };
 
 /// Finds the discrete gradient of a field on a mesh on several ranks: the same as of the whole mesh on one. `structure`

@@ -7,6 +7,7 @@
 #include <gale/distributed/exchange_plan.hpp>
 #include <gale/distributed/gradient_paths.hpp>
 #include <gale/distributed/key_places.hpp>
+#include <gale/distributed/places_of_ends.hpp>
 
 namespace gale {
 
@@ -14,30 +15,6 @@ namespace {
 
 using GlobalIds = Array<GlobalId, HostMemory>;
 using LocalIds = Array<Id, HostMemory>;
-
-/// The place among all critical simplices at which each end of paths on this rank ends finally; -1 if outside.
-GlobalIds places_of_ends(const Communicator& ranks, const detail::DistributedPaths& paths) {
-  Array<detail::SimplexKey, HostMemory> keys;
-  LocalIds ends;  // those that end at a critical simplex
-  detail::together(ranks, [&] {
-    ends = detail::by_rank(1, paths.ends(), [&](Id end, const auto& visit) {
-             if (paths.final_stop(end).rank == detail::Stop::critical) visit(0);
-           }).members;
-    keys = allocate<decltype(keys)>("GALE::end_keys", ends.extent(0));
-    parallel_for("GALE::end_keys", HostSpace(), ends.extent(0), [&](Offset i) {
-      keys(i) = {paths.final_stop(ends(i)).id, 0, 0};
-    });
-  });
-  const detail::KeyPlaces found = detail::places_of_keys(ranks, keys);
-  GlobalIds places;
-  detail::together(ranks, [&] {
-    places = allocate<GlobalIds>("GALE::places_of_ends", paths.ends());
-    Kokkos::deep_copy(places, GlobalId(-1));
-    parallel_for("GALE::places_of_ends", HostSpace(), ends.extent(0),
-                 [&](Offset i) { places(ends(i)) = found.places(i); });
-  });
-  return places;
-}
 
 /// Has ghosts have what their owners found.
 void complete(const DistributedMesh& mesh, const GlobalIds& labels) {
@@ -52,7 +29,7 @@ struct Ends {
 
 /// From end_of(vertex), an end on this rank or no_id, by GALE's id; and the places of ends.
 template <class EndOf>
-Ends ends_by(const DistributedMesh& mesh, const GlobalIds& places, const EndOf& end_of) {
+Ends ends_by(const DistributedMesh& mesh, const Array<const GlobalId, HostMemory>& places, const EndOf& end_of) {
   const Mesh& local = mesh.local();
   const Id* const input = local.vertex_input().data();
   Ends found;
@@ -74,7 +51,7 @@ Ends descending(const DistributedGradient& gradient, int& rounds) {
   const Communicator& ranks = gradient.mesh.ranks();
   const detail::DistributedPaths paths(ranks, detail::falling_simplices(gradient));
   rounds += paths.rounds();
-  return ends_by(gradient.mesh, places_of_ends(ranks, paths), [&](Id v) { return paths.end(v); });
+  return ends_by(gradient.mesh, detail::places_of_ends(ranks, paths), [&](Id v) { return paths.end(v); });
 }
 
 Ends ascending(const DistributedGradient& gradient, int& rounds) {
@@ -83,7 +60,7 @@ Ends ascending(const DistributedGradient& gradient, int& rounds) {
   rounds += paths.rounds();
   Array<std::uint64_t, HostMemory> first;
   detail::together(ranks, [&] { first = detail::first_tetrahedra(HostSpace(), gradient.mesh.local()); });
-  return ends_by(gradient.mesh, places_of_ends(ranks, paths),
+  return ends_by(gradient.mesh, detail::places_of_ends(ranks, paths),
                  [&](Id v) { return first(v) == detail::no_first ? no_id : paths.end(pair_second(first(v))); });
 }
 

@@ -1,5 +1,9 @@
+#include <map>
+#include <tuple>
+
 #include <gale/algorithms/morse_smale.hpp>
 #include <gale/distributed/distributed_manifolds.hpp>
+#include <gale/distributed/distributed_separatrices.hpp>
 #include <gale/runtime/make_structure.hpp>
 
 #include "algorithms/fields.hpp"
@@ -33,6 +37,9 @@ class ComplexOnRanks : public EveryPartition {
       EXPECT_EQ(found(i), expected[v]) << "vertex " << v;
     }
   }
+
+  void expect_paths(const DistributedSeparatrices& found, const Separatrices<Id>& whole, const Id* whole_input,
+                    Id (*number)(GlobalId)) const;
 };
 
 TEST_P(ComplexOnRanks, manifolds_are_those_of_one_rank) {
@@ -44,6 +51,53 @@ TEST_P(ComplexOnRanks, manifolds_are_those_of_one_rank) {
     expect_numbers(found.ascending, to_vector(whole.ascending_manifold));
     expect_numbers(found.morse_smale, to_vector(whole.morse_smale_manifold));
     EXPECT_EQ(found.morse_smale_manifolds, whole.morse_smale_manifolds);
+  }
+}
+
+/// A path: where it starts, where it ends, and the input's numbers of the simplices on it.
+using NamedPath = std::tuple<GlobalId, GlobalId, std::vector<Id>>;
+
+/// The sum over all ranks of how often each of the paths is there must be how often it is in the whole mesh.
+void ComplexOnRanks::expect_paths(const DistributedSeparatrices& found, const Separatrices<Id>& whole,
+                                  const Id* whole_input, Id (*number)(GlobalId)) const {
+  std::map<NamedPath, std::int64_t> here, expected;
+  for (Offset i = 0; i < found.count(); ++i) {
+    std::vector<Id> cells;
+    for (Offset k = found.begin[i]; k < found.begin[i + 1]; ++k) cells.push_back(number(found.cells[k]));
+    ++here[{found.sources[i], found.destinations[i], cells}];
+  }
+  for (Id i = 0; i < whole.count(); ++i) {
+    std::vector<Id> cells;
+    for (const Id* cell = whole.first(i); cell != whole.last(i); ++cell) cells.push_back(whole_input[*cell]);
+    ++expected[{whole.sources[i], whole.destinations[i], cells}];
+  }
+  for (const auto& [path, times] : here) EXPECT_EQ(expected.count(path), 1u) << "from " << std::get<0>(path);
+  std::vector<std::int64_t> counts;
+  for (const auto& [path, times] : expected) counts.push_back(here.count(path) == 0 ? 0 : here.at(path));
+  ranks_.sum(counts.data(), static_cast<int>(counts.size()));
+  std::size_t at = 0;
+  for (const auto& [path, times] : expected) EXPECT_EQ(counts[at++], times) << "from " << std::get<0>(path);
+}
+
+TEST_P(ComplexOnRanks, separatrices_are_those_of_one_rank) {
+  for (const Field& field : {fields_on(input())[0], fields_on(input())[4]}) {
+    SCOPED_TRACE(field.name);
+    const MorseSmaleComplex whole = complex_on_one(field.values);
+    const Mesh& mesh = whole.gradient.mesh();
+    const DistributedGradient gradient = gradient_of(field.values);
+    const auto descending = find_descending_separatrices(gradient), ascending = find_ascending_separatrices(gradient);
+    expect_paths(descending, whole.descending, mesh.vertex_input().data(), vertex_named);
+    expect_paths(ascending, whole.ascending, mesh.tetrahedron_input().data(), tetrahedron_named);
+    for (std::size_t i = 0; i < descending.cells.size(); ++i)
+      EXPECT_EQ(descending.points[i], input().points[vertex_named(descending.cells[i])]);
+    for (std::size_t i = 0; i < ascending.cells.size(); ++i) {
+      const auto& quad = input().tetrahedra[tetrahedron_named(ascending.cells[i])];
+      for (int axis = 0; axis < 3; ++axis) {
+        double sum = 0;
+        for (const Id v : quad) sum += input().points[v][axis];
+        EXPECT_NEAR(ascending.points[i][axis], sum / 4, 1e-9);
+      }
+    }
   }
 }
 
