@@ -98,9 +98,9 @@ void stable_sort_by_key(const Space& space, const Array<std::uint64_t, MemoryOf<
   }
 }
 
-#define GALE_INSTANTIATE(Space)                                                                \
-  template void stable_sort_by_key(const Space&, const Array<std::uint64_t, MemoryOf<Space>>&, \
-                                   const Array<Id, MemoryOf<Space>>&)
+#define GALE_INSTANTIATE(Space)                                                                            \
+  template GALE_EXPORT void stable_sort_by_key(const Space&, const Array<std::uint64_t, MemoryOf<Space>>&, \
+                                               const Array<Id, MemoryOf<Space>>&)
 GALE_IN_EACH_SPACE(GALE_INSTANTIATE);
 #undef GALE_INSTANTIATE
 

@@ -4,6 +4,7 @@
 
 #include <gale/base/memory.hpp>
 #include <gale/base/types.hpp>
+#include <gale/export.hpp>
 
 namespace gale {
 
@@ -11,7 +12,7 @@ namespace gale {
 /// O(n) a pass of 11 bits of the key; on the host, passes whose bits are the same in all keys are left out. Uses as
 /// much memory again. Enqueued on the instance of a device, as loops are.
 template <class Space>
-void stable_sort_by_key(const Space& space, const Array<std::uint64_t, MemoryOf<Space>>& keys,
-                        const Array<Id, MemoryOf<Space>>& values);
+GALE_EXPORT void stable_sort_by_key(const Space& space, const Array<std::uint64_t, MemoryOf<Space>>& keys,
+                                    const Array<Id, MemoryOf<Space>>& values);
 
 }  // namespace gale

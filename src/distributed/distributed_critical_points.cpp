@@ -11,22 +11,24 @@ namespace {
 
 using Flags = Array<std::uint8_t, HostMemory>;
 
-/// Which of the vertices that a rank holds are on the surface, by local input id: owned ones as they were found here,
-/// ghosts as their owners say.
+/// Which of the vertices that this rank owns are on the surface, by local input id; of ghosts it says nothing.
 template <class Space>
-Flags surface_flags(const Space& space, const DistributedMesh& distributed, const detail::VertexTypes& types) {
-  const Mesh& mesh = distributed.local();
+Flags owned_flags(const Space& space, const Mesh& mesh, const detail::VertexTypes& types) {
+  const auto found = allocate<Array<std::uint8_t, MemoryOf<Space>>>("GALE::surface_flags", mesh.vertices());
+  const Id* const input = mesh.vertex_input<MemoryOf<Space>>().data();
+  parallel_for(
+      "GALE::surface_flags", space, mesh.owned_vertices(),
+      KOKKOS_LAMBDA(Offset v) { found(input[v]) = types.on_surface(static_cast<Id>(v)); });
+  space.fence();
+  return on_host(found);
+}
+
+/// The same of all that it holds, as owners say.
+template <class Space>
+Flags surface_flags(const Space& space, const DistributedMesh& mesh, const detail::VertexTypes& types) {
   Flags flags;
-  detail::together(distributed.ranks(), [&] {
-    const auto found = allocate<Array<std::uint8_t, MemoryOf<Space>>>("GALE::surface_flags", mesh.vertices());
-    const Id* const input = mesh.vertex_input<MemoryOf<Space>>().data();
-    parallel_for(
-        "GALE::surface_flags", space, mesh.owned_vertices(),
-        KOKKOS_LAMBDA(Offset v) { found(input[v]) = types.on_surface(static_cast<Id>(v)); });
-    space.fence();
-    flags = on_host(found);
-  });
-  distributed.from_owners()(distributed.ranks(), flags.data(), flags.data());
+  detail::together(mesh.ranks(), [&] { flags = owned_flags(space, mesh.local(), types); });
+  mesh.from_owners()(mesh.ranks(), flags.data(), flags.data());
   return flags;
 }
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <string>
 
 #include <gale/base/require_ids.hpp>
@@ -51,6 +52,26 @@ Array<const int, HostMemory> owners_of_given(const Communicator& ranks, const Me
   return owners;
 }
 
+/// Whether a part's ids are those that a local mesh would have: they ascend, and those of vertices count from 0.
+template <class Index>
+bool is_numbered_as_local(const MeshPart<Index>& part) {
+  const auto& vertices = part.vertex_ids;
+  const auto& tetrahedra = part.tetrahedron_ids;
+  const Offset gaps = reduce_sum("GALE::count_gaps", HostSpace(), vertices.extent(0),
+                                 [&](Offset i) { return Offset(vertices(i) != i); });
+  const Offset descents = reduce_sum("GALE::count_descents", HostSpace(), tetrahedra.extent(0), [&](Offset i) {
+    return Offset(tetrahedra(i) <= (i == 0 ? -1 : tetrahedra(i - 1)));
+  });
+  return gaps == 0 && descents == 0;
+}
+
+/// 0, 1, ..., count - 1.
+Array<const GlobalId, HostMemory> counted(Offset count) {
+  const auto ids = allocate<Array<GlobalId, HostMemory>>("GALE::tetrahedron_ids", count);
+  parallel_for("GALE::tetrahedron_ids", HostSpace(), count, [&](Offset i) { ids(i) = i; });
+  return ids;
+}
+
 }  // namespace
 
 struct DistributedMesh::Data {
@@ -67,6 +88,10 @@ struct DistributedMesh::Data {
 
   template <class Index>
   void make(const MeshPart<Index>& part, const PartitionOptions& options);
+  template <class Index>
+  void deal(const MeshPart<Index>& part, const PartitionOptions& options);
+  template <class Index>
+  void take(const MeshPart<Index>& part, int capacity);
   void make_plans(const detail::LocalVertices& held, const detail::GlobalIndex& index,
                   const Array<detail::VertexEntry, HostMemory>& entries);
   void fetch_points(const Points<double, HostMemory>& given);
@@ -101,8 +126,9 @@ void DistributedMesh::Data::fetch_points(const Points<double, HostMemory>& given
   points = fetched;
 }
 
+/// Sends everything to where it belongs.
 template <class Index>
-void DistributedMesh::Data::make(const MeshPart<Index>& part, const PartitionOptions& options) {
+void DistributedMesh::Data::deal(const MeshPart<Index>& part, const PartitionOptions& options) {
   detail::together(ranks, [&] { validate(part); });
   const auto given_owners = owners_of_given(ranks, part, options.repartition);
   const detail::VertexDirectory directory(ranks, part.vertex_ids, given_owners);
@@ -118,7 +144,6 @@ void DistributedMesh::Data::make(const MeshPart<Index>& part, const PartitionOpt
   vertices = directory.vertices();
   tetrahedra = ranks.sum(part.tetrahedra.extent(0));
   if (tetrahedra == 0) throw Error("the mesh has no tetrahedra");
-  given_vertices = part.vertex_ids.extent(0);
   vertex_ids = held.ids;
   tetrahedron_ids = held_tetrahedra.ids();
   make_plans(held, index, directory.find(vertex_ids));
@@ -127,6 +152,36 @@ void DistributedMesh::Data::make(const MeshPart<Index>& part, const PartitionOpt
     local = std::make_unique<const Mesh>(detail::local_mesh(
         held_tetrahedra, index, detail::local_segmentation(points, held.is_owned, options.capacity)));
   });
+}
+
+/// Takes a part that is the whole mesh, numbered without gaps, as it is.
+template <class Index>
+void DistributedMesh::Data::take(const MeshPart<Index>& part, int capacity) {
+  local = std::make_unique<const Mesh>(part.tetrahedra, octree_segmentation(part.points, capacity));
+  vertices = part.vertex_ids.extent(0);
+  tetrahedra = part.tetrahedra.extent(0);
+  vertex_ids = part.vertex_ids;
+  points = part.points;
+  tetrahedron_ids = part.tetrahedron_ids;
+  if (tetrahedron_ids.extent(0) == 0) tetrahedron_ids = counted(tetrahedra);
+  const Array<int, HostMemory> all_mine("GALE::owners", vertices);
+  owners = all_mine;
+  from_givers = detail::ExchangePlan(
+      ranks, iota("GALE::all_vertices", HostSpace(), vertices), [](Id) { return 0; }, [](Id i) { return i; },
+      [](GlobalId place) { return static_cast<Id>(place); });
+  from_owners = detail::ExchangePlan(
+      ranks, {}, [](Id) { return 0; }, [](Id i) { return i; }, [](GlobalId id) { return static_cast<Id>(id); });
+}
+
+template <class Index>
+void DistributedMesh::Data::make(const MeshPart<Index>& part, const PartitionOptions& options) {
+  given_vertices = part.vertex_ids.extent(0);
+  const Offset most = std::max(part.vertex_ids.extent(0), part.tetrahedra.extent(0));
+  if (ranks.size() == 1 && most <= options.most_local && is_numbered_as_local(part)) {
+    take(part, options.capacity);
+  } else {
+    deal(part, options);
+  }
 }
 
 template <class Index>

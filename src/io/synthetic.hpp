@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include <gale/export.hpp>
 #include <gale/io/dataset.hpp>
 
@@ -15,5 +18,21 @@ namespace gale::io {
 ///
 /// Runs on all host threads. Throws `Error` if n < 2, or if the vertices or tetrahedra do not fit 32-bit ids (n > 711).
 GALE_EXPORT Dataset make_grid(int n);
+
+/// A slab of the same mesh: some layers of cubes, and the vertices at these.
+struct GridPart {
+  Dataset::Points<float> points;
+  std::vector<float> field;
+  std::int64_t first_vertex = 0;  ///< the others are numbered on from it, as in the whole mesh
+
+  /// By the vertices' numbers in the whole mesh.
+  Kokkos::View<std::int64_t* [4], Kokkos::LayoutRight, Kokkos::HostSpace> tetrahedra;
+  std::int64_t first_tetrahedron = 0;
+};
+
+/// The `part`-th of `parts` slabs of grid:n, of about as many layers; empty ones where there are more parts than
+/// layers. Neighbouring slabs have the vertices between them in common. Throws `Error` if n < 2, if the whole mesh has
+/// more than 2^32 vertices (n > 1625), or if the slab's vertices or tetrahedra don't fit 32-bit ids.
+GALE_EXPORT GridPart make_grid_part(int n, int part, int parts);
 
 }  // namespace gale::io

@@ -2,8 +2,10 @@
 #include <map>
 #include <set>
 
+#include <gale/io/synthetic.hpp>
+
 #include "distributed/every_partition.hpp"
-#include "support/brute_force.hpp"
+#include "support/arrays.hpp"
 
 namespace gale::test {
 
@@ -100,6 +102,39 @@ TEST(DistributedMesh, dealt_out_along_the_curve_has_few_ghosts) {
     EXPECT_EQ(ghosts("random"), 0);
   } else {
     EXPECT_LT(3 * ghosts("curve"), ghosts("random"));
+  }
+}
+
+TEST(DistributedMesh, of_slabs_of_a_grid_has_the_tetrahedra_of_the_grid) {
+  const Communicator ranks(MPI_COMM_WORLD);
+  const io::GridPart slab = io::make_grid_part(6, ranks.rank(), ranks.size());
+  const io::Dataset whole = io::make_grid(6);
+  std::vector<GlobalId> ids, tetrahedron_ids;
+  for (std::size_t i = 0; i < slab.field.size(); ++i) ids.push_back(slab.first_vertex + GlobalId(i));
+  for (std::size_t t = 0; t < slab.tetrahedra.extent(0); ++t)
+    tetrahedron_ids.push_back(slab.first_tetrahedron + GlobalId(t));
+  for (const bool with_ids : {false, true}) {
+    const auto part = with_ids ? make_part(view_of(ids), slab.points, slab.tetrahedra, view_of(tetrahedron_ids))
+                               : make_part(view_of(ids), slab.points, slab.tetrahedra);
+    const DistributedMesh mesh(ranks, part);
+    const Mesh& local = mesh.local();
+    EXPECT_EQ(mesh.vertices(), 216);
+    EXPECT_EQ(mesh.tetrahedra(), 750);
+    EXPECT_EQ(ranks.sum(local.owned_vertices()), 216);
+    EXPECT_GE(ranks.sum(local.tetrahedra()), 750);
+    for (Id t = 0; t < local.tetrahedra(); ++t) {
+      const GlobalId there = mesh.tetrahedron_ids()(local.tetrahedron_input()(t));
+      std::set<GlobalId> corners, expected;
+      for (int corner = 0; corner < 4; ++corner) {
+        corners.insert(mesh.vertex_ids()(local.vertex_input()(local.encoded().tetrahedra(t, corner))));
+        expected.insert(whole.tetrahedra(there, corner));
+      }
+      EXPECT_EQ(corners, expected);
+    }
+    const auto& points = std::get<io::Dataset::Points<float>>(whole.points);
+    for (std::size_t i = 0; i < mesh.vertex_ids().extent(0); ++i) {
+      for (int axis = 0; axis < 3; ++axis) EXPECT_EQ(mesh.points()(i, axis), points(mesh.vertex_ids()(i), axis));
+    }
   }
 }
 

@@ -19,3 +19,16 @@ if(vtk)
     message(FATAL_ERROR "without VTK, COMPONENTS io says: ${message}")
   endif()
 endif()
+
+# COMPONENTS distributed gives gale::distributed, and MPI, where this GALE has it; else it isn't found.
+if(mpi)
+  configure(${consumer} ${here}/distributed -DCMAKE_PREFIX_PATH=${prefix} ${kokkos_kernels} -DCOMPONENTS=distributed)
+  build_and_test(${here}/distributed)
+else()
+  file(REMOVE_RECURSE ${here}/distributed)
+  execute_process(COMMAND ${configure_command} -S ${consumer} -B ${here}/distributed -DCMAKE_PREFIX_PATH=${prefix}
+    ${kokkos_kernels} -DCOMPONENTS=distributed RESULT_VARIABLE result OUTPUT_QUIET ERROR_VARIABLE message)
+  if(result EQUAL 0 OR NOT message MATCHES "distributed")
+    message(FATAL_ERROR "without MPI, COMPONENTS distributed says: ${message}")
+  endif()
+endif()

@@ -95,5 +95,50 @@ TEST(MakeGrid, RefusesWhatHasNoTetrahedraOrTooMany) {
             "grid:2000 has 8000000000 vertices, more than the 2147483647 that 32-bit ids can number");
 }
 
+TEST(MakeGridPart, AllTogetherAreTheWholeGrid) {
+  constexpr int n = 6;
+  const Dataset whole = make_grid(n);
+  const auto& points = std::get<Dataset::Points<float>>(whole.points);
+  const auto& field = test::values_of<float>(whole.arrays[0]);
+  for (const int parts : {1, 2, 3, 5, 8}) {
+    std::size_t next = 0;
+    for (int p = 0; p < parts; ++p) {
+      const GridPart part = make_grid_part(n, p, parts);
+      ASSERT_EQ(part.field.size(), part.points.extent(0));
+      for (std::size_t i = 0; i < part.field.size(); ++i) {
+        const std::size_t there = part.first_vertex + i;
+        EXPECT_EQ(part.field[i], field[there]);
+        for (int axis = 0; axis < 3; ++axis) EXPECT_EQ(part.points(i, axis), points(there, axis));
+      }
+      if (part.tetrahedra.extent(0) > 0) EXPECT_EQ(part.first_tetrahedron, static_cast<std::int64_t>(next));
+      for (std::size_t t = 0; t < part.tetrahedra.extent(0); ++t, ++next) {
+        for (int corner = 0; corner < 4; ++corner) {
+          const std::int64_t vertex = part.tetrahedra(t, corner);
+          EXPECT_EQ(vertex, whole.tetrahedra(next, corner));
+          EXPECT_GE(vertex, part.first_vertex);
+          EXPECT_LT(vertex, part.first_vertex + static_cast<std::int64_t>(part.field.size()));
+        }
+      }
+    }
+    EXPECT_EQ(next, whole.tetrahedra.extent(0)) << parts << " parts";
+  }
+}
+
+TEST(MakeGridPart, NumbersBeyond32Bits) {
+  const GridPart part = make_grid_part(1625, 1623, 1624);
+  EXPECT_EQ(part.first_vertex, 1623LL * 1625 * 1625);
+  EXPECT_EQ(part.first_tetrahedron, 1623LL * 1624 * 1624 * 6);
+  EXPECT_EQ(part.tetrahedra(part.tetrahedra.extent(0) - 1, 3), 1625LL * 1625 * 1625 - 1);
+  EXPECT_EQ(part.points(0, 2), 1623.f);
+}
+
+TEST(MakeGridPart, RefusesWhatIsNone) {
+  EXPECT_EQ(error_of([] { make_grid_part(1, 0, 1); }), "grid:1 has no tetrahedra: N must be at least 2");
+  EXPECT_EQ(error_of([] { make_grid_part(1626, 0, 1); }), "grid:1626 is too large: N is at most 1625");
+  EXPECT_EQ(error_of([] { make_grid_part(4, 2, 2); }), "there is no part 2 of 2");
+  EXPECT_EQ(error_of([] { make_grid_part(1000, 0, 2); }),
+            "part 0 of grid:1000 has 2988014994 tetrahedra, more than the 2147483647 that 32-bit ids can number");
+}
+
 }  // namespace
 }  // namespace gale::io
