@@ -3,8 +3,8 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-scripts/dependencies.sh data
+scripts/dependencies.sh data mpi
 export CMAKE_GENERATOR=${CMAKE_GENERATOR:-Ninja} # of a new build folder; one that is there keeps its own
-cmake --preset ci -DGALE_ENABLE_VTK_FILTERS=ON
+cmake --preset ci -DGALE_ENABLE_VTK_FILTERS=ON -DGALE_ENABLE_MPI=ON
 cmake --build --preset ci --parallel "$(nproc)"
 ctest --preset ci --parallel 2

@@ -17,6 +17,7 @@ PACKAGES = {
     "Kokkos": "kokkos",
     "KokkosKernels": "kokkos-kernels",
     "VTK": "vtk",
+    "MPI": "mpi",
     "CLI11": "cli11",
     "nlohmann_json": "nlohmann-json",
     "GTest": "googletest",
@@ -109,7 +110,7 @@ class Recipe(unittest.TestCase):
         self.assertEqual(versions[:2], ["main", project])
 
     def test_variants(self):
-        self.assertEqual(set(self.variants), {"serial", "openmp", "vtk", "shared"})
+        self.assertEqual(set(self.variants), {"serial", "openmp", "vtk", "mpi", "shared"})
         self.assertEqual({base.__name__ for base in self.recipe.__bases__}, {"CMakePackage", "CudaPackage"})
 
     def test_options_exist(self):
@@ -124,6 +125,7 @@ class Recipe(unittest.TestCase):
             with self.subTest(variant=variant):
                 self.assertNotEqual(changed, without)
         self.assertTrue(cmake_args(self.recipe, self.all_variants(vtk=True), False)["GALE_ENABLE_VTK"])
+        self.assertTrue(cmake_args(self.recipe, self.all_variants(mpi=True), False)["GALE_ENABLE_MPI"])
         self.assertTrue(cmake_args(self.recipe, self.all_variants(shared=True), False)["BUILD_SHARED_LIBS"])
 
     def test_tests_are_built_when_they_are_run(self):

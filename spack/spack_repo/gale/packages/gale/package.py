@@ -23,6 +23,7 @@ class Gale(CMakePackage, CudaPackage):
     variant("serial", default=True, description="Kokkos' Serial backend")
     variant("openmp", default=False, description="Kokkos' OpenMP backend")
     variant("vtk", default=True, description="Read files, and compress those written, with what VTK brings")
+    variant("mpi", default=False, description="Meshes that lie on several MPI ranks")
     variant("shared", default=True, description="Build shared libraries")
 
     depends_on("cxx", type="build")
@@ -30,6 +31,7 @@ class Gale(CMakePackage, CudaPackage):
     depends_on("kokkos@4.4:")
     depends_on("kokkos-kernels@4.4:")
     depends_on("vtk@9.1:", when="+vtk")
+    depends_on("mpi", when="+mpi")
     depends_on("cli11")
     depends_on("nlohmann-json")
     depends_on("googletest", type="test")
@@ -50,6 +52,7 @@ class Gale(CMakePackage, CudaPackage):
         args = [
             self.define_from_variant("BUILD_SHARED_LIBS", "shared"),
             self.define_from_variant("GALE_ENABLE_VTK", "vtk"),
+            self.define_from_variant("GALE_ENABLE_MPI", "mpi"),
             self.define("GALE_ENABLE_KOKKOS_KERNELS", True),
             self.define("GALE_ENABLE_EXAMPLES", self.run_tests),
             self.define("GALE_ENABLE_TESTS", self.run_tests),
