@@ -15,6 +15,7 @@
 
 #include <gale/app/commands/commands.hpp>
 #include <gale/app/machine.hpp>
+#include <gale/app/ranks/ranks.hpp>
 #include <gale/app/step.hpp>
 #include <gale/app/usage_error.hpp>
 #include <gale/base/memory.hpp>
@@ -31,6 +32,7 @@ enum ExitCode { done = 0, failed = 1, wrong_usage = 2 };
 
 /// Prints one line, whatever the message; without memory.
 int complain(ExitCode code, const char* what) {
+  if (gale::app::Ranks::all_fail_alike() && !gale::app::Ranks::is_first()) return code;
   char line[4096];
   std::snprintf(line, sizeof line, "%s", what);
   for (char& c : line) {
@@ -79,6 +81,7 @@ int complain_of_exception() {
   const int code =
       std::current_exception() ? complain_of_exception() : complain_of_step("it failed", "it stopped itself");
   std::fflush(stdout);
+  gale::app::Ranks::end_all(code, gale::app::Ranks::all_fail_alike());
   std::_Exit(code);
 }
 
@@ -119,13 +122,17 @@ bool parse(CLI::App& app, int argc, char** argv) {
 }
 
 void run(const Command& command) {
-  if (command.common().threads) gale::set_host_threads(*command.common().threads);
+  if (command.common().threads) {
+    gale::set_host_threads(*command.common().threads);
+  } else if (gale::app::Ranks::are_several()) {
+    gale::set_host_threads(gale::app::Ranks::threads(gale::host_threads()));
+  }
   gale::app::require_threads(gale::host_threads());
   setenv("KOKKOS_DISABLE_WARNINGS", "1", 0);  // such as on thread binding, which is not what standard error is for
   const Kokkos::ScopeGuard kokkos(gale::initialization_arguments(gale::host_threads()));
   gale::app::watch_device_memory();
   try {
-    command.run();
+    gale::app::Ranks::are_several() ? command.run_on_ranks() : command.run();
   } catch (...) {
     end_by_exception();
   }
@@ -151,6 +158,7 @@ bool output_arrived() { return std::cout.flush() && std::fflush(stdout) == 0 && 
 int main(int argc, char** argv) {
   try {
     prepare_for_the_end();
+    const gale::app::Ranks ranks(argc, argv);
     run(argc, argv);
     return output_arrived() ? done : complain(failed, "cannot write to standard output");
   } catch (...) {

@@ -91,6 +91,7 @@ Json to_json(const Report& report) {
             {"write", seconds.write},
             {"total", seconds.total()}}},
           {"memory", {{"host_peak_bytes", host_peak_bytes()}, {"device_peak_bytes", or_null(device_peak_bytes())}}},
+          {"ranks", report.ranks},
           {"waiting", report.statistics ? to_json(*report.statistics) : Json(nullptr)},
           {"result", report.result}};
 }

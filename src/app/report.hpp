@@ -40,6 +40,7 @@ struct Report {
   std::vector<std::string> notices;  ///< one line each about what was left out or done differently, and why
   Seconds seconds;
   std::optional<StructureStatistics> statistics;
+  nlohmann::ordered_json ranks;  ///< what differs between ranks; null on one
   nlohmann::ordered_json result = nlohmann::ordered_json::object();
 };
 

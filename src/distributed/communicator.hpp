@@ -8,9 +8,17 @@
 #include <string>
 #include <vector>
 
+#include <gale/base/error.hpp>
 #include <gale/export.hpp>
 
 namespace gale {
+
+/// An error that all ranks throw alike, so that each may end in its own time. Others leave the other ranks waiting:
+/// then the application has to end them (MPI_Abort).
+class GALE_EXPORT SharedError : public Error {
+ public:
+  using Error::Error;
+};
 
 /// What one rank has sent to others.
 struct SentMessages {

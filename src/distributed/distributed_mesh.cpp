@@ -143,7 +143,7 @@ void DistributedMesh::Data::deal(const MeshPart<Index>& part, const PartitionOpt
   detail::require_local(ranks, "vertices", held.ids.extent(0), options.most_local);
   vertices = directory.vertices();
   tetrahedra = ranks.sum(part.tetrahedra.extent(0));
-  if (tetrahedra == 0) throw Error("the mesh has no tetrahedra");
+  if (tetrahedra == 0) throw SharedError("the mesh has no tetrahedra");
   vertex_ids = held.ids;
   tetrahedron_ids = held_tetrahedra.ids();
   make_plans(held, index, directory.find(vertex_ids));

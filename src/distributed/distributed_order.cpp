@@ -19,7 +19,7 @@ void refuse_nan(const DistributedMesh& mesh, const Array<Value, HostMemory>& val
     const GlobalId here = reduce_min("GALE::find_nan", HostSpace(), values.extent(0), none,
                                      [&](Offset i) { return values(i) != values(i) ? ids(i) : none; });
     const GlobalId bad = mesh.ranks().least(here);
-    if (bad < none) throw Error("vertex " + std::to_string(bad) + " has no field value: it is NaN");
+    if (bad < none) throw SharedError("vertex " + std::to_string(bad) + " has no field value: it is NaN");
   }
 }
 

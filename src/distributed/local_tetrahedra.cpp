@@ -77,8 +77,9 @@ void require_local(const Communicator& ranks, const char* name, Offset count, Of
   const Offset greatest = -ranks.least(-count);
   if (greatest <= most) return;
   const double shares = static_cast<double>(greatest) * ranks.size() / static_cast<double>(most);
-  throw Error("a rank would hold " + std::to_string(greatest) + ' ' + name + ", but at most " + std::to_string(most) +
-              " fit: take at least " + std::to_string(static_cast<Offset>(shares) + 1) + " ranks");
+  throw SharedError("a rank would hold " + std::to_string(greatest) + ' ' + name + ", but at most " +
+                    std::to_string(most) + " fit: take at least " + std::to_string(static_cast<Offset>(shares) + 1) +
+                    " ranks");
 }
 
 template <class Index>

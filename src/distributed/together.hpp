@@ -8,15 +8,15 @@
 
 namespace gale::detail {
 
-/// Throws gale::Error on all ranks if `failure` isn't empty on one: what the lowest such rank says, with its name.
+/// Throws SharedError if one rank has `failed`: what the lowest such rank says, with its name.
 inline void fail_together(const Communicator& ranks, bool failed, const std::string& failure) {
   const std::int64_t first = ranks.least(std::int64_t(failed ? ranks.rank() : ranks.size()));
   if (first == ranks.size()) return;
   const std::string message = ranks.broadcast(failure, static_cast<int>(first));
-  throw Error(ranks.size() == 1 ? message : "rank " + std::to_string(first) + ": " + message);
+  throw SharedError(ranks.size() == 1 ? message : "rank " + std::to_string(first) + ": " + message);
 }
 
-/// Runs an action on each rank that sends nothing to others. If it throws on some, all ranks throw the same gale::Error
+/// Runs an action on each rank that sends nothing to others. If it throws on some, all ranks throw the same SharedError
 /// when all have ended: nobody waits for a rank that has given up.
 template <class Action>
 void together(const Communicator& ranks, const Action& action) {

@@ -17,15 +17,6 @@ namespace {
 
 const std::string grid_prefix = "grid:";
 
-Dataset read_grid(const std::string& input, const ReadOptions& options) {
-  int n = 0;
-  const char* const end = input.data() + input.size();
-  const auto [stop, failure] = std::from_chars(input.data() + grid_prefix.size(), end, n);
-  if (failure != std::errc() || stop != end) throw Error("cannot make '" + input + "': N must be a whole number");
-  if (options.above) throw Error("cannot apply a threshold to '" + input + "': it is a mesh, not an image");
-  return make_grid(n);
-}
-
 Dataset read_file(const std::string& path, detail::Format format, const ReadOptions& options) {
   detail::Content content = detail::read_content(detail::InputFile(path), format, options);
   if (auto* image = std::get_if<Image>(&content)) {
@@ -40,8 +31,18 @@ Dataset read_file(const std::string& path, detail::Format format, const ReadOpti
 
 }  // namespace
 
+std::optional<int> grid_size(const std::string& input, const ReadOptions& options) {
+  if (input.compare(0, grid_prefix.size(), grid_prefix) != 0) return std::nullopt;
+  int n = 0;
+  const char* const end = input.data() + input.size();
+  const auto [stop, failure] = std::from_chars(input.data() + grid_prefix.size(), end, n);
+  if (failure != std::errc() || stop != end) throw Error("cannot make '" + input + "': N must be a whole number");
+  if (options.above) throw Error("cannot apply a threshold to '" + input + "': it is a mesh, not an image");
+  return n;
+}
+
 Dataset read(const std::string& input, const ReadOptions& options) {
-  if (input.compare(0, grid_prefix.size(), grid_prefix) == 0) return read_grid(input, options);
+  if (const auto n = grid_size(input, options)) return make_grid(*n);
   if (!detail::has_vtk()) throw Error("this gale was built without VTK: it reads grid:N alone, not '" + input + "'");
   const std::optional<detail::Format> format = detail::format_of(input);
   if (!format || *format == detail::Format::vtp) {

@@ -19,6 +19,10 @@ struct ReadOptions {
   bool outside_files = false;
 };
 
+/// The N of an input `grid:N`; nothing for another one. Throws `Error` if N isn't a number, or where a threshold is
+/// given.
+GALE_EXPORT std::optional<int> grid_size(const std::string& input, const ReadOptions& options);
+
 /// Reads what `input` names; extensions count in either case:
 /// - `grid:N`: see `make_grid`.
 /// - `.vtu .vtk`: an unstructured grid. Its points and numeric point arrays travel as they are, the active scalars

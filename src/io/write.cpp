@@ -113,6 +113,10 @@ void write_points(const AtomicFile& file, const PointSet& points) {
   name_in_errors(file.path(), [&] { write_temporary(file, points); });
 }
 
+void write_pieces(const AtomicFile& file, const std::vector<std::string>& pieces, const PointSet& like) {
+  name_in_errors(file.path(), [&] { detail::write_pvtp(file.temporary(), pieces, like); });
+}
+
 void write_surface(const std::string& path, const Surface& surface) {
   require_surface(path);
   write_file(path, [&](const AtomicFile& file) { write_temporary(file, surface); });

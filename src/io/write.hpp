@@ -43,6 +43,11 @@ GALE_EXPORT void write_points(const std::string& path, const PointSet& points);
 /// it: so several files appear together (`AtomicFiles`).
 GALE_EXPORT void write_points(const AtomicFile& file, const PointSet& points);
 
+/// Writes a `.pvtp` that names `pieces`, files of points in the same folder, to the temporary file of `file`. `like`
+/// has the types of coordinates and arrays that each of them has, the arrays in the same order; its points don't
+/// matter.
+GALE_EXPORT void write_pieces(const AtomicFile& file, const std::vector<std::string>& pieces, const PointSet& like);
+
 /// Writes `surface` to a `.vtp`.
 GALE_EXPORT void write_surface(const std::string& path, const Surface& surface);
 GALE_EXPORT void write_surface(const AtomicFile& file, const Surface& surface);

@@ -72,12 +72,16 @@ io::PointArray select_field(const io::Dataset& dataset, const std::string& name)
   return io::extract_component(*array, component);
 }
 
+const io::PointArray& order_values(const io::Dataset& dataset, const io::PointArray& field, std::size_t vertices) {
+  const auto* const order = find_array(dataset, field.name + order_suffix);
+  if (order == nullptr || order->components != 1) return field;
+  check_permutation(*order, vertices);
+  return *order;
+}
+
 VertexOrder order_of(const Mesh& mesh, const io::Dataset& dataset, const io::PointArray& field) {
-  const auto* order = find_array(dataset, field.name + order_suffix);
-  if (order != nullptr && order->components != 1) order = nullptr;
-  if (order != nullptr) check_permutation(*order, mesh.vertices());
   return std::visit([&](const auto& values) { return VertexOrder(mesh, values.data(), values.size()); },
-                    order != nullptr ? order->values : field.values);
+                    order_values(dataset, field, mesh.vertices()).values);
 }
 
 }  // namespace gale::outputs

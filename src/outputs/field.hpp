@@ -22,6 +22,11 @@ inline double value_at(const io::PointArray& field, Id vertex) {
   return std::visit([vertex](const auto& values) { return static_cast<double>(values[vertex]); }, field.values);
 }
 
+/// What orders so many vertices: the field's values; or, where the dataset has an array NAME_Order of one component
+/// beside the field NAME, that one. Refers to either. Throws as order_of does.
+GALE_EXPORT const io::PointArray& order_values(const io::Dataset& dataset, const io::PointArray& field,
+                                               std::size_t vertices);
+
 /// The order of the field's values; or, where the dataset has an array NAME_Order of one component beside the field
 /// NAME, that order. Throws gale::Error, with array and vertex, if NAME_Order isn't a permutation of 0 to vertices-1,
 /// and as `VertexOrder` does.

@@ -26,6 +26,10 @@ bool ends_in(const std::string& file, const std::string& extension) {
 
 }  // namespace
 
+void Command::run_on_ranks() const {
+  throw UsageError("gale " + subcommand_.get_name() + " works on one rank: start it without a launcher");
+}
+
 void Command::require_extension(const std::string& option, const std::string& file,
                                 std::initializer_list<const char*> extensions) const {
   if (file.empty()) return;

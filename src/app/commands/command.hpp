@@ -15,6 +15,9 @@ class Command {
   /// gale::Error or UsageError.
   virtual void run() const = 0;
 
+  /// The same on several ranks, together; by default throws UsageError: not every command can.
+  virtual void run_on_ranks() const;
+
   /// Whether the command line names it.
   bool is_chosen() const;
 

@@ -1,6 +1,8 @@
 #include <CLI/CLI.hpp>
 
 #include <gale/app/commands/commands.hpp>
+#include <gale/app/critical_counts.hpp>
+#include <gale/app/ranks/ranks.hpp>
 #include <gale/app/session.hpp>
 #include <gale/io/write.hpp>
 #include <gale/outputs/critical_points.hpp>
@@ -9,22 +11,6 @@ namespace gale::app {
 
 namespace {
 
-void tell(const CriticalPoints& points, Session& session) {
-  static const struct {
-    CriticalType type;
-    const char *name, *key;
-  } kinds[] = {{CriticalType::minimum, "minima", "minima"},
-               {CriticalType::saddle1, "1-saddles", "saddles1"},
-               {CriticalType::saddle2, "2-saddles", "saddles2"},
-               {CriticalType::maximum, "maxima", "maxima"},
-               {CriticalType::degenerate, "degenerate", "degenerate"}};
-  for (const auto& kind : kinds) {
-    const Id count = points.counts[static_cast<int>(kind.type)];
-    session.console().say(kind.name, grouped(count));
-    session.report().result[kind.key] = count;
-  }
-}
-
 class FindCriticalPoints final : public Command {
  public:
   explicit FindCriticalPoints(CLI::App& app)
@@ -32,7 +18,14 @@ class FindCriticalPoints final : public Command {
     segmentation_.add_to(subcommand());
     structure_.add_to(subcommand());
     structure_.add_consumers_to(subcommand());
-    subcommand().add_option("-o,--output", output_, "The critical points: .vtp");
+    subcommand().add_option("-o,--output", output_,
+                            "The critical points: .vtp; on several ranks .pvtp, with a .vtp a rank");
+  }
+
+  void run_on_ranks() const override {
+    structure_.require_consumers();
+    require_extension("--output", output_, {".pvtp"});
+    critical_points_on_ranks(input(), common(), segmentation_, structure_, output_);
   }
 
   void run() const override {
@@ -50,7 +43,7 @@ class FindCriticalPoints final : public Command {
       const Stopwatch watch(session.report().seconds.run);
       points = find_critical_points(*structure, on.order, session.sweep("critical points"));
     }
-    tell(points, session);
+    tell_points({points.counts.begin(), points.counts.end()}, session.console(), session.report());
     session.write(output_, [&](const io::AtomicFile& file) {
       io::write_points(file, outputs::to_point_set(on.dataset, points));
     });

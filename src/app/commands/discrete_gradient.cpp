@@ -2,6 +2,7 @@
 
 #include <gale/app/commands/commands.hpp>
 #include <gale/app/critical_counts.hpp>
+#include <gale/app/ranks/ranks.hpp>
 #include <gale/app/session.hpp>
 #include <gale/app/usage_error.hpp>
 #include <gale/baselines/discrete_gradient_from_cells.hpp>
@@ -29,6 +30,16 @@ class FindDiscreteGradient final : public Command {
     subcommand().add_option("--arrows", arrows_,
                             "The gradient's arrows, from the barycentre of each simplex to that of the one it is "
                             "paired with: .vtp. Large: a point a pair, some 13 a vertex");
+  }
+
+  void run_on_ranks() const override {
+    structure_.require_consumers();
+    for (const auto& [option, is_given] :
+         {std::make_pair("--output", !output_.empty()), std::make_pair("--arrows", !arrows_.empty()),
+          std::make_pair("--formulation cells", is_from_cells())}) {
+      if (is_given) throw UsageError(std::string(option) + ": not on several ranks");
+    }
+    discrete_gradient_on_ranks(input(), common(), segmentation_, structure_);
   }
 
   void run() const override {

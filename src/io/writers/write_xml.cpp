@@ -64,29 +64,26 @@ void write_plain(OutputFile& file, const WrittenArray& array) {
   }
 }
 
-std::string attribute(const std::string& name, const std::string& value) {
-  return " " + name + "=\"" + xml_text(value) + "\"";
-}
-
 }  // namespace
 
 void write_xml(const std::string& path, const XmlContent& content) {
   OutputFile file(path);
   const std::string order = byte_order_of_machine() == ByteOrder::little ? "LittleEndian" : "BigEndian";
-  file.write("<VTKFile" + attribute("type", content.type) + attribute("version", "1.0") +
-             attribute("byte_order", order) + attribute("header_type", "UInt64") +
-             (has_zlib() ? attribute("compressor", "vtkZLibDataCompressor") : "") + ">\n");
+  file.write("<VTKFile" + xml_attribute("type", content.type) + xml_attribute("version", "1.0") +
+             xml_attribute("byte_order", order) + xml_attribute("header_type", "UInt64") +
+             (has_zlib() ? xml_attribute("compressor", "vtkZLibDataCompressor") : "") + ">\n");
   file.write("  <" + content.type + ">\n    <Piece");
-  for (const auto& [name, size] : content.sizes) file.write(attribute(name, std::to_string(size)));
+  for (const auto& [name, size] : content.sizes) file.write(xml_attribute(name, std::to_string(size)));
   file.write(">\n");
   const std::string blank(21, ' ');  // for any offset and a quote: it is known when what comes before it is compressed
   std::vector<std::uint64_t> offsets_at;
   for (const auto& section : content.sections) {
     file.write("      <" + section.name + ">\n");
     for (const WrittenArray& array : section.arrays) {
-      file.write("        <DataArray" + attribute("type", xml_name_of(array.type)) + attribute("Name", array.name) +
-                 attribute("NumberOfComponents", std::to_string(array.components)) + attribute("format", "appended") +
-                 " offset=\"");
+      file.write("        <DataArray" + xml_attribute("type", xml_name_of(array.type)) +
+                 xml_attribute("Name", array.name) +
+                 xml_attribute("NumberOfComponents", std::to_string(array.components)) +
+                 xml_attribute("format", "appended") + " offset=\"");
       offsets_at.push_back(file.size());
       file.write(blank + "/>\n");
     }

@@ -14,6 +14,9 @@ void write_vtp(const std::string& path, const Surface& surface);
 
 void write_vtu(const std::string& path, const Dataset& mesh, const std::vector<PointArray>& more);
 
+/// Names files of points; `like` has the types of what they have.
+void write_pvtp(const std::string& path, const std::vector<std::string>& pieces, const PointSet& like);
+
 /// The lines, without polygons.
 void write_vtu(const std::string& path, const Surface& lines);
 

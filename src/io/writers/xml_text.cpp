@@ -51,4 +51,8 @@ std::string xml_text(const std::string& text) {
   return escaped;
 }
 
+std::string xml_attribute(const std::string& name, const std::string& value) {
+  return " " + name + "=\"" + xml_text(value) + "\"";
+}
+
 }  // namespace gale::io::detail

@@ -8,4 +8,7 @@ namespace gale::io::detail {
 /// XML has none of, become '?'.
 std::string xml_text(const std::string& text);
 
+/// ' name="value"', with such text.
+std::string xml_attribute(const std::string& name, const std::string& value);
+
 }  // namespace gale::io::detail

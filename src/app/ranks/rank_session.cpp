@@ -1,0 +1,152 @@
+#include <algorithm>
+#include <filesystem>
+
+#include <gale/app/machine.hpp>
+#include <gale/app/output_file.hpp>
+#include <gale/app/ranks/rank_session.hpp>
+#include <gale/app/ranks/ranks.hpp>
+#include <gale/app/ranks/shared_input.hpp>
+#include <gale/app/step.hpp>
+#include <gale/app/usage_error.hpp>
+#include <gale/base/threads.hpp>
+#include <gale/distributed/together.hpp>
+
+namespace gale::app {
+
+namespace {
+
+/// By rank the least, the median and the most.
+nlohmann::ordered_json spread_of(std::vector<std::int64_t> by_rank, double unit) {
+  std::sort(by_rank.begin(), by_rank.end());
+  const auto value = [&](std::size_t at) {
+    return unit == 1 ? nlohmann::ordered_json(by_rank[at]) : nlohmann::ordered_json(unit * double(by_rank[at]));
+  };
+  return {{"least", value(0)}, {"median", value(by_rank.size() / 2)}, {"most", value(by_rank.size() - 1)}};
+}
+
+/// NAME_RANK.vtp for NAME.pvtp.
+std::string piece_of(const std::string& path, int rank) {
+  return std::filesystem::path(path).replace_extension().string() + '_' + std::to_string(rank) + ".vtp";
+}
+
+}  // namespace
+
+RankSession::RankSession(const InputOptions& input, const CommonOptions& common, const std::string& output)
+    : input_(input), common_(common), ranks_(MPI_COMM_WORLD), console_(common.quiet || !Ranks::is_first()) {
+  report_.input = input.input;
+  report_.threads = host_threads();
+  detail::together(ranks_, [&] {
+    for (const std::string& file : {output, common.report}) {
+      if (!file.empty() && ranks_.rank() == 0) require_writable(file);
+    }
+    if (!output.empty()) require_writable(piece_of(output, ranks_.rank()));
+  });
+}
+
+FieldOnRanks RankSession::read_field(const SegmentationOptions& segmentation) {
+  if (!segmentation.array.empty() || segmentation.random_count)
+    throw UsageError("--segments: not on several ranks, where segments are those of an octree");
+  SharedInput shared;
+  {
+    const Stopwatch watch(report_.seconds.read);
+    shared = read_shared(ranks_, input_);
+  }
+  console_.say("input", input_.input);
+  console_.say("ranks", std::to_string(ranks_.size()) + " of " + std::to_string(report_.threads) + " threads");
+  for (const std::string& notice : shared.notices) console_.say("note", notice);
+  report_.notices = shared.notices;
+  const Stopwatch watch(report_.seconds.initialize);
+  begin_step("sharing the mesh");
+  PartitionOptions options;
+  options.repartition = shared.is_dealt_out;
+  options.capacity = segmentation.capacity.value_or(options.capacity);
+  const DistributedMesh mesh(ranks_, shared.part, options);
+  report_.vertices = mesh.vertices();
+  report_.tetrahedra = mesh.tetrahedra();
+  report_.segments = ranks_.sum(mesh.local().owned_segments());
+  console_.say("vertices", grouped(mesh.vertices()));
+  console_.say("tetrahedra", grouped(mesh.tetrahedra()));
+  console_.say("field", shared.order.name);
+  begin_step("ordering the vertices");
+  const DistributedOrder order = std::visit(
+      [&](const auto& values) {
+        using Value = typename std::decay_t<decltype(values)>::value_type;
+        return DistributedOrder(mesh, Array<const Value, HostMemory>(values.data(), values.size()));
+      },
+      shared.order.values);
+  FieldOnRanks on{mesh, order, {}};
+  for (const io::PointArray& array : shared.arrays) on.arrays.push_back(local_values(mesh, array));
+  return on;
+}
+
+/// Where one rank's mesh isn't on a device, nobody's consumers are.
+bool RankSession::on_device(const StructureOption& option, const Mesh& local) {
+  report_.structure = option.name;
+  bool here = false;
+  detail::together(ranks_, [&] { here = option.on_device(local); });
+  const bool everywhere = ranks_.least(std::int64_t(here)) == 1;
+  report_.consumers = everywhere ? "device" : "host";
+  return everywhere;
+}
+
+std::unique_ptr<Structure> RankSession::make_structure(const StructureOption& option, const Mesh& local,
+                                                       RelationSet relations) {
+  const Stopwatch watch(report_.seconds.initialize);
+  begin_step("preparing the structure");
+  std::unique_ptr<Structure> structure;
+  detail::together(ranks_, [&] { structure = option.make(local, relations); });
+  return structure;
+}
+
+SweepOptions RankSession::sweep() const {
+  SweepOptions sweep;
+  sweep.threads = report_.threads;
+  return sweep;
+}
+
+void RankSession::write_pieces(const std::string& path, const io::PointSet& points) {
+  if (path.empty()) return;
+  const Stopwatch watch(report_.seconds.write);
+  begin_step("writing", path);
+  detail::together(ranks_, [&] {
+    const io::AtomicFile& piece = files_.add(piece_of(path, ranks_.rank()));
+    io::write_points(piece, points);
+    io::AtomicFiles::sync(piece);
+    if (ranks_.rank() > 0) return;
+    std::vector<std::string> pieces;
+    for (int rank = 0; rank < ranks_.size(); ++rank)
+      pieces.push_back(std::filesystem::path(piece_of(path, rank)).filename().string());
+    const io::AtomicFile& all = files_.add(path);
+    io::write_pieces(all, pieces, points);
+    io::AtomicFiles::sync(all);
+  });
+}
+
+void RankSession::finish(const DistributedMesh& mesh) {
+  const auto by_rank = [&](double value, double unit = 1) {
+    return spread_of(ranks_.all(static_cast<std::int64_t>(value / unit)), unit);
+  };
+  constexpr double microsecond = 1e-6;
+  const Seconds& seconds = report_.seconds;
+  report_.ranks = {{"count", ranks_.size()},
+                   {"owned_vertices", by_rank(mesh.local().owned_vertices())},
+                   {"tetrahedra", by_rank(mesh.local().tetrahedra())},
+                   {"host_peak_bytes", by_rank(static_cast<double>(host_peak_bytes()))},
+                   {"sent_bytes", by_rank(static_cast<double>(ranks_.sent().bytes))},
+                   {"reading", by_rank(seconds.read, microsecond)},
+                   {"initializing", by_rank(seconds.initialize, microsecond)},
+                   {"running", by_rank(seconds.run, microsecond)}};
+  console_.say("time", gale::app::seconds(seconds.total()) + " (initialize " + gale::app::seconds(seconds.initialize) +
+                           ", run " + gale::app::seconds(seconds.run) + "); read " + gale::app::seconds(seconds.read));
+  console_.say("memory", bytes(report_.ranks["host_peak_bytes"]["most"].get<double>()) + " at most, of one rank");
+  const std::size_t results = files_.all().size();
+  detail::together(ranks_, [&] {
+    if (!common_.report.empty() && ranks_.rank() == 0) write_report(files_.add(common_.report), report_);
+  });
+  begin_step("writing", "the files");
+  detail::together(ranks_, [&] { files_.commit(); });
+  end_steps();
+  for (std::size_t i = 0; i < results; ++i) console_.say("wrote", files_.all()[i]->path());
+}
+
+}  // namespace gale::app

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <gale/app/console.hpp>
+#include <gale/app/options/options.hpp>
+#include <gale/app/options/structure_option.hpp>
+#include <gale/app/report.hpp>
+#include <gale/distributed/distributed_order.hpp>
+#include <gale/io/atomic_file.hpp>
+#include <gale/io/dataset.hpp>
+#include <gale/io/write.hpp>
+
+namespace gale::app {
+
+/// A scalar field on a mesh that lies on several ranks.
+struct FieldOnRanks {
+  DistributedMesh mesh;
+  DistributedOrder order;
+  std::vector<io::PointArray> arrays;  ///< the input's, by local input id
+};
+
+/// One run of a command on several ranks: what Session is on one. The first rank speaks, and writes the report.
+class RankSession {
+ public:
+  /// Throws SharedError if the files, `output` and the report, can't be written where they aren't empty.
+  RankSession(const InputOptions& input, const CommonOptions& common, const std::string& output);
+
+  const Communicator& ranks() const { return ranks_; }
+  const Console& console() const { return console_; }
+  Report& report() { return report_; }
+
+  /// `grid:N` is made by each rank for itself; anything else is read by the first, and dealt out. Throws SharedError.
+  FieldOnRanks read_field(const SegmentationOptions& segmentation);
+
+  /// What by_kernels() finds if consumers are to be kernels on all ranks' devices, else by_consumers(structure), with
+  /// the structure that --structure names of this rank's local mesh.
+  template <class ByConsumers, class ByKernels>
+  auto find(const StructureOption& option, const Mesh& local, RelationSet relations, const ByConsumers& by_consumers,
+            const ByKernels& by_kernels) {
+    std::unique_ptr<Structure> structure;
+    if (!on_device(option, local)) structure = make_structure(option, local, relations);
+    const Stopwatch watch(report_.seconds.run);
+    return structure ? by_consumers(*structure) : by_kernels();
+  }
+
+  /// How to sweep: without a progress bar.
+  SweepOptions sweep() const;
+
+  /// A piece of points a rank, NAME_RANK.vtp, and the file NAME.pvtp that names them. They appear with finish().
+  void write_pieces(const std::string& path, const io::PointSet& points);
+
+  /// Writes the report, and makes all files of all ranks appear once all are written.
+  void finish(const DistributedMesh& mesh);
+
+ private:
+  bool on_device(const StructureOption& option, const Mesh& local);
+  std::unique_ptr<Structure> make_structure(const StructureOption& option, const Mesh& local, RelationSet relations);
+
+  const InputOptions& input_;
+  const CommonOptions& common_;
+  Communicator ranks_;
+  Console console_;
+  Report report_;
+  io::AtomicFiles files_;
+};
+
+}  // namespace gale::app

@@ -1,0 +1,117 @@
+#include <sstream>
+
+#include <gale/app/ranks/shared_input.hpp>
+#include <gale/app/step.hpp>
+#include <gale/distributed/exchange_plan.hpp>
+#include <gale/io/bytes/value_type.hpp>
+#include <gale/io/read.hpp>
+#include <gale/io/synthetic.hpp>
+#include <gale/outputs/field.hpp>
+
+namespace gale::app {
+
+namespace {
+
+Array<GlobalId, HostMemory> counted(GlobalId first, Offset count) {
+  const auto ids = allocate<Array<GlobalId, HostMemory>>("GALE::input_ids", count);
+  parallel_for("GALE::input_ids", HostSpace(), count, [&](Offset i) { ids(i) = first + i; });
+  return ids;
+}
+
+void take_grid(int n, const Communicator& ranks, SharedInput& shared) {
+  io::GridPart slab = io::make_grid_part(n, ranks.rank(), ranks.size());
+  shared.tetrahedra = slab.tetrahedra;
+  shared.part = make_part(counted(slab.first_vertex, static_cast<Offset>(slab.field.size())), slab.points,
+                          shared.tetrahedra, counted(slab.first_tetrahedron, slab.tetrahedra.extent(0)));
+  shared.arrays.push_back({"field", 1, std::move(slab.field)});
+}
+
+void take_file(const InputOptions& input, SharedInput& shared) {
+  io::Dataset dataset = io::read(input.input, input.read);
+  shared.tetrahedra = decltype(shared.tetrahedra)("GALE::input_tetrahedra", dataset.tetrahedra.extent(0));
+  Kokkos::deep_copy(shared.tetrahedra, dataset.tetrahedra);
+  std::visit(
+      [&](const auto& points) { shared.part = make_part(counted(0, points.extent(0)), points, shared.tetrahedra); },
+      dataset.points);
+  const io::PointArray field = outputs::select_field(dataset, input.read.array);
+  shared.order = outputs::order_values(dataset, field, shared.part.vertex_ids.extent(0));
+  shared.arrays = std::move(dataset.arrays);
+  shared.notices = std::move(dataset.notices);
+}
+
+/// Types, components and names of arrays.
+std::string described(const std::vector<io::PointArray>& arrays) {
+  std::ostringstream text;
+  for (const io::PointArray& array : arrays)
+    text << array.values.index() << ' ' << array.components << ' ' << array.name.size() << ' ' << array.name;
+  return text.str();
+}
+
+/// Arrays without values, as they were described.
+std::vector<io::PointArray> empty_arrays(const std::string& description) {
+  std::vector<io::PointArray> arrays;
+  std::istringstream text(description);
+  int type = 0, components = 0;
+  std::size_t length = 0;
+  while (text >> type >> components >> length) {
+    std::string name(length, ' ');
+    text.get();
+    text.read(name.data(), static_cast<std::streamsize>(length));
+    io::PointArray array{name, components, {}};
+    io::detail::with_type(static_cast<io::detail::ValueType>(type),
+                          [&](auto value) { array.values = std::vector<decltype(value)>(); });
+    arrays.push_back(std::move(array));
+  }
+  return arrays;
+}
+
+/// Has the other ranks have the arrays of the first, without values.
+void share_names(const Communicator& ranks, SharedInput& shared) {
+  std::vector<io::PointArray> all = shared.arrays;
+  all.push_back(shared.order);
+  const std::string description = ranks.broadcast(described(all), 0);
+  if (ranks.rank() == 0) return;
+  shared.arrays = empty_arrays(description);
+  shared.order = std::move(shared.arrays.back());
+  shared.arrays.pop_back();
+}
+
+}  // namespace
+
+SharedInput read_shared(const Communicator& ranks, const InputOptions& input) {
+  SharedInput shared;
+  begin_step("reading", input.input);
+  detail::together(ranks, [&] {
+    if (const auto n = io::grid_size(input.input, input.read)) {
+      take_grid(*n, ranks, shared);
+      io::Dataset named;
+      named.arrays = shared.arrays;
+      shared.order = outputs::select_field(named, input.read.array);
+      return;
+    }
+    shared.is_dealt_out = true;
+    if (ranks.rank() == 0) take_file(input, shared);
+  });
+  if (shared.is_dealt_out) share_names(ranks, shared);
+  return shared;
+}
+
+io::PointArray local_values(const DistributedMesh& mesh, const io::PointArray& array) {
+  return std::visit(
+      [&](const auto& values) -> io::PointArray {
+        using Values = std::decay_t<decltype(values)>;
+        using Value = typename Values::value_type;
+        const std::size_t count = mesh.vertex_ids().extent(0), width = array.components;
+        Values all(count * width);
+        std::vector<Value> from(mesh.given_vertices()), to(count);
+        for (std::size_t component = 0; component < width; ++component) {
+          for (std::size_t i = 0; i < from.size(); ++i) from[i] = values[i * width + component];
+          mesh.from_givers()(mesh.ranks(), from.data(), to.data());
+          for (std::size_t i = 0; i < count; ++i) all[i * width + component] = to[i];
+        }
+        return {array.name, array.components, std::move(all)};
+      },
+      array.values);
+}
+
+}  // namespace gale::app

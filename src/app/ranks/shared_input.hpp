@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <gale/app/options/options.hpp>
+#include <gale/distributed/distributed_mesh.hpp>
+#include <gale/io/dataset.hpp>
+
+namespace gale::app {
+
+/// What one rank has of an input before it is dealt out.
+struct SharedInput {
+  MeshPart<std::int64_t> part;
+  Kokkos::View<std::int64_t* [4], Kokkos::LayoutRight, HostMemory> tetrahedra;  ///< to which the part refers
+  io::PointArray order;                ///< what orders the vertices of the part
+  std::vector<io::PointArray> arrays;  ///< of these; the same ones on all ranks
+  bool is_dealt_out = false;           ///< the first rank has all
+  std::vector<std::string> notices;
+};
+
+/// `grid:N` is made by each rank for itself; else the first rank reads all, and the others have nothing. Collective;
+/// throws SharedError.
+SharedInput read_shared(const Communicator& ranks, const InputOptions& input);
+
+/// The values of an array of the part's vertices at all vertices that this rank holds, by local input id. Collective.
+io::PointArray local_values(const DistributedMesh& mesh, const io::PointArray& array);
+
+}  // namespace gale::app

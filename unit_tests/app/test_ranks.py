@@ -1,0 +1,152 @@
+"""gale under mpirun: the same results as on one rank, a piece of output a rank, and ends together."""
+import json
+import os
+import signal
+import subprocess
+import time
+import unittest
+import xml.etree.ElementTree
+from pathlib import Path
+
+import gale
+
+MPIEXEC = os.environ.get("MPIEXEC")
+RANKS = (2, 3, 7)
+
+
+@unittest.skipUnless(MPIEXEC, "this gale was built without MPI")
+class OnRanks(gale.CommandTest):
+    def launcher(self, ranks):
+        return [MPIEXEC, "--allow-run-as-root", "--oversubscribe", "--bind-to", "none", "--mca", "mpi_yield_when_idle", "1",
+                "-n", str(ranks), gale.GALE]
+
+    def launch(self, ranks, *arguments):
+        return subprocess.run([*self.launcher(ranks), *map(str, arguments)], cwd=self.folder, stdin=subprocess.DEVNULL,
+                              capture_output=True, text=True, timeout=300)
+
+    def report_of(self, ranks, *arguments):
+        run = self.launch(ranks, *arguments, "--report", "ranks.json")
+        self.assertEqual((run.returncode, run.stderr), (0, ""))
+        return json.loads((self.folder / "ranks.json").read_text())
+
+    def pieces(self, name):
+        """{vertex: (point, values of arrays)} of all pieces of a .pvtp, and the types of its arrays."""
+        file = xml.etree.ElementTree.parse(self.folder / name).getroot().find("PPolyData")
+        types = {array.get("Name"): array.get("type") for array in file.find("PPointData")}
+        found = {}
+        for piece in file.findall("Piece"):
+            read = gale.XmlFile(self.folder / piece.get("Source"))
+            self.assertEqual(read.types("PointData"), types)
+            self.add(read.points, read.point_arrays, found)
+        return found, types
+
+    def add(self, points, arrays, found):
+        for i, vertex in enumerate(arrays["ttkVertexScalarField"]):
+            self.assertNotIn(vertex, found)
+            found[vertex] = (points[i], {name: values[i] for name, values in arrays.items()})
+
+    def expect_one_line(self, run, code, naming):
+        lines = [line for line in run.stderr.split("\n") if line.startswith("gale: ")]
+        self.assertEqual(run.returncode, code, run.stderr)
+        self.assertEqual(len(lines), 1, run.stderr)
+        self.assertIn(naming, lines[0])
+
+    def test_counts_are_those_of_one_rank(self):
+        for command in ("critical-points", "discrete-gradient"):
+            expected = self.report(command, "grid:24")
+            for ranks in RANKS:
+                with self.subTest(command=command, ranks=ranks):
+                    report = self.report_of(ranks, command, "grid:24")
+                    self.assertEqual(report["result"], expected["result"])
+                    self.assertEqual({**report["mesh"], "segments": None}, {**expected["mesh"], "segments": None})
+
+    @gale.needs_vtk
+    def test_pieces_have_the_points_of_one_rank(self):
+        self.succeed("generate", "grid:9", "-o", "grid.vtu")
+        for source in ("grid:9", "grid.vtu"):
+            self.succeed("critical-points", source, "-o", "one.vtp")
+            expected = {}
+            self.add(*gale.read_vtp(self.folder / "one.vtp"), expected)
+            for ranks in RANKS:
+                with self.subTest(source=source, ranks=ranks):
+                    self.report_of(ranks, "critical-points", source, "-o", "all.pvtp")
+                    found, types = self.pieces("all.pvtp")
+                    self.assertEqual(found, expected)
+                    self.assertEqual(types["ttkVertexScalarField"], "Int64")
+
+    @gale.needs_vtk
+    def test_arrays_of_a_file_travel_and_its_order_counts(self):
+        points = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 1), (2, 2, 2)]
+        cells = [[0, 1, 2, 3], [1, 2, 3, 4], [2, 3, 4, 5]]
+        arrays = {"height": ("float", [1, 1, 1, 1, 1, 1]), "height_Order": ("int", [3, 5, 0, 4, 2, 1]), "weight": ("double", [6, 5, 4, 3, 2, 1])}
+        self.write("small.vtk", gale.vtk_mesh(points, cells, arrays))
+        self.succeed("critical-points", "small.vtk", "--array", "height", "-o", "one.vtp")
+        expected = {}
+        self.add(*gale.read_vtp(self.folder / "one.vtp"), expected)
+        self.assertTrue({"height_Order", "weight"} <= set(next(iter(expected.values()))[1]))
+        for ranks in RANKS:
+            with self.subTest(ranks=ranks):
+                self.report_of(ranks, "critical-points", "small.vtk", "--array", "height", "-o", "all.pvtp")
+                self.assertEqual(self.pieces("all.pvtp")[0], expected)
+
+    def test_the_report_has_what_differs_between_ranks(self):
+        report = self.report_of(3, "critical-points", "grid:16")["ranks"]
+        self.assertEqual(report["count"], 3)
+        self.assertLessEqual(report["owned_vertices"]["least"], 16 ** 3 / 3)
+        self.assertGreaterEqual(report["owned_vertices"]["most"], 16 ** 3 / 3)
+        for key in ("tetrahedra", "host_peak_bytes", "sent_bytes", "reading", "initializing", "running"):
+            with self.subTest(key=key):
+                spread = report[key]
+                self.assertEqual(list(spread), ["least", "median", "most"])
+                self.assertTrue(0 <= spread["least"] <= spread["median"] <= spread["most"])
+        self.assertGreater(report["sent_bytes"]["most"], 0)
+        self.assertIsNone(self.report("critical-points", "grid:4")["ranks"])
+
+    def test_errors_are_one_line_and_leave_nothing(self):
+        for code, naming, arguments in (
+                (1, "nothing.vtu", ["critical-points", "nothing.vtu", "-o", "all.pvtp"]),
+                (1, "N must be at least 2", ["critical-points", "grid:1"]),
+                (1, "no point array 'height'", ["critical-points", "grid:8", "--array", "height"]),
+                (2, ".pvtp", ["critical-points", "grid:8", "-o", "all.vtp"]),
+                (2, "--segments", ["critical-points", "grid:8", "--segments", "field"]),
+                (2, "--output: not on several ranks", ["discrete-gradient", "grid:8", "-o", "all.vtp"]),
+                (2, "morse-smale works on one rank", ["morse-smale", "grid:8"]),
+                (2, "--nonsense", ["critical-points", "grid:8", "--nonsense"])):
+            with self.subTest(arguments=arguments):
+                self.expect_one_line(self.launch(3, *arguments), code, naming)
+                self.assertEqual(self.names(), [])
+
+    def test_a_rank_that_cannot_write_leaves_no_output_of_others(self):
+        (self.folder / "all_1.vtp").mkdir()
+        self.expect_one_line(self.launch(3, "critical-points", "grid:8", "-o", "all.pvtp"), 1, "all_1.vtp")
+        self.assertEqual(self.names(), ["all_1.vtp"])
+
+    def test_a_rank_that_is_killed_ends_all(self):
+        run = subprocess.Popen([*self.launcher(2), "critical-points", "grid:200", "-o", "all.pvtp"], cwd=self.folder,
+                               stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.addCleanup(run.communicate)
+        self.addCleanup(run.kill)
+        children, deadline = [], time.monotonic() + 60
+        while len(children) < 2 and time.monotonic() < deadline:
+            time.sleep(0.1)
+            children = Path(f"/proc/{run.pid}/task/{run.pid}/children").read_text().split()
+        os.kill(int(children[-1]), signal.SIGKILL)
+        begin = time.monotonic()
+        _, error = run.communicate(timeout=60)
+        self.assertNotEqual(run.returncode, 0)
+        self.assertLess(time.monotonic() - begin, 30)
+        self.assertIn("signal 9", error)
+        self.assertNotIn("all.pvtp", self.names())
+
+
+@unittest.skipIf(MPIEXEC, "this gale was built with MPI")
+class WithoutMpi(gale.CommandTest):
+    def test_refuses_to_be_one_of_several_ranks(self):
+        run = subprocess.run([gale.GALE, "info", "grid:4"], env={**os.environ, "OMPI_COMM_WORLD_SIZE": "3"},
+                             capture_output=True, text=True, cwd=self.folder)
+        self.assertEqual(run.returncode, 1)
+        self.assertRegex(run.stderr, r"\Agale: it was started on 3 ranks, but built without MPI[^\n]*\n\Z")
+
+
+if __name__ == "__main__":
+    unittest.main()
