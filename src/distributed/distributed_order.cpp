@@ -3,6 +3,7 @@
 #include <string>
 #include <type_traits>
 
+#include <gale/algorithms/order/each_value.hpp>
 #include <gale/distributed/distributed_order.hpp>
 #include <gale/distributed/exchange_plan.hpp>
 
@@ -44,19 +45,7 @@ VertexOrder local_order(const DistributedMesh& mesh, const FieldValues<Value, Ho
 
 #define GALE_INSTANTIATE(Value) \
   template GALE_EXPORT VertexOrder local_order(const DistributedMesh&, const FieldValues<Value, HostMemory>&)
-GALE_INSTANTIATE(char);
-GALE_INSTANTIATE(signed char);
-GALE_INSTANTIATE(unsigned char);
-GALE_INSTANTIATE(short);
-GALE_INSTANTIATE(unsigned short);
-GALE_INSTANTIATE(int);
-GALE_INSTANTIATE(unsigned int);
-GALE_INSTANTIATE(long);
-GALE_INSTANTIATE(unsigned long);
-GALE_INSTANTIATE(long long);
-GALE_INSTANTIATE(unsigned long long);
-GALE_INSTANTIATE(float);
-GALE_INSTANTIATE(double);
+GALE_FOR_EACH_VALUE(GALE_INSTANTIATE);
 #undef GALE_INSTANTIATE
 
 }  // namespace gale::detail
