@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <optional>
+#include <utility>
 
 #include <gale/app/machine.hpp>
 #include <gale/app/make_segmentation.hpp>
@@ -43,6 +44,12 @@ Session::Session(const InputOptions& input, const CommonOptions& common, std::ve
   }
 }
 
+void Session::warm_up(const StructureOption& option, std::function<void(const VertexOrder&)> run) {
+  warm_up_.begin([&option, run = std::move(run)](const VertexOrder& order) {
+    if (option.on_device(order.mesh())) run(order);
+  });
+}
+
 io::Dataset Session::read_any() {
   io::Dataset dataset;
   {
@@ -77,6 +84,7 @@ Mesh Session::encode(io::Dataset& dataset, const SegmentationOptions& segmentati
   {
     const Stopwatch watch(report_.seconds.segment);
     begin_step("dividing the mesh into segments");
+    warm_up_.wait();
     segments = make_segmentation(dataset, segmentation, console_, notices);
   }
   note(notices);

@@ -12,6 +12,7 @@
 #include <gale/app/options/structure_option.hpp>
 #include <gale/app/report.hpp>
 #include <gale/app/step.hpp>
+#include <gale/app/warm_up.hpp>
 #include <gale/io/atomic_file.hpp>
 #include <gale/io/dataset.hpp>
 #include <gale/mesh/mesh.hpp>
@@ -37,6 +38,10 @@ class Session {
 
   const Console& console() const { return console_; }
   Report& report() { return report_; }
+
+  /// To be called before anything is read: has the device do once what the command will, while that is being read.
+  /// `run` is what kernels do where consumers are on the device.
+  void warm_up(const StructureOption& option, std::function<void(const VertexOrder&)> run);
 
   /// Reads the input. Throws gale::Error if it hasn't the array that --array names, if it names one.
   io::Dataset read();
@@ -98,6 +103,7 @@ class Session {
   Console console_;
   Report report_;
   io::AtomicFiles files_;
+  WarmUp warm_up_;
 };
 
 }  // namespace gale::app

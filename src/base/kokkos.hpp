@@ -55,12 +55,17 @@ using PinnedMemory = Kokkos::CudaHostPinnedSpace;
 using PinnedMemory = Kokkos::HostSpace;
 #endif
 
+#if defined(KOKKOS_ENABLE_CUDA)
+/// Has CUDA's own calls of this thread mean the device that Kokkos uses: a thread begins with the first of the machine.
+inline void use_device() { cudaSetDevice(WorkerSpace().cuda_device()); }
+#endif
+
 /// A launch queue of its own on the device: work on two instances may overlap. On the host, the space itself. Throws
 /// OutOfMemory if the device has no memory for one.
 inline WorkerSpace make_instance() {
 #if defined(KOKKOS_ENABLE_CUDA)
   try {
-    return Kokkos::Experimental::partition_space(WorkerSpace(), std::vector<int>{1, 1})[0];
+    return Kokkos::Experimental::partition_space(WorkerSpace(), std::vector<int>{1})[0];
   } catch (const std::exception& error) {
     cudaGetLastError();  // what this leaves behind is not the next call's
     if (std::string(error.what()).find("cudaErrorMemoryAllocation") == std::string::npos) throw;

@@ -20,7 +20,7 @@ constexpr std::size_t page = 4096;
 
 /// Has the system give all pages, by one thread or, where there are many, by all.
 void touch(void* memory, std::size_t size) {
-  constexpr std::size_t many = std::size_t(64) << 20;
+  constexpr std::size_t many = std::size_t(16) << 20;
   volatile char* const bytes = static_cast<volatile char*>(memory);
   const auto touch_page = [bytes](Offset i) { bytes[static_cast<std::size_t>(i) * page] = 0; };
   const auto pages = static_cast<Offset>(size / page);
@@ -42,6 +42,7 @@ std::shared_ptr<void> allocate_pinned_bytes(std::size_t bytes) {
   if (memory == MAP_FAILED) refuse();
   advise_huge_pages(memory, size);
   touch(memory, size);
+  use_device();
   if (cudaHostRegister(memory, size, cudaHostRegisterDefault) != cudaSuccess) {
     cudaGetLastError();
     munmap(memory, size);

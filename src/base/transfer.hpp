@@ -15,6 +15,9 @@ namespace gale {
 GALE_EXPORT void copy_to_device(void* device, const void* host, std::size_t bytes);
 GALE_EXPORT void copy_from_device(void* host, const void* device, std::size_t bytes);
 
+/// Takes the pinned memory of both for so many threads, which else the first copy does.
+GALE_EXPORT void prepare_copies(int threads);
+
 namespace detail {
 
 /// What a copy is called: as its original, which has no name if it is a caller's.

@@ -32,6 +32,7 @@ class FindCriticalPoints final : public Command {
     structure_.require_consumers();
     require_extension("--output", output_, {".vtp"});
     Session session(input(), common(), {output_});
+    session.warm_up(structure_, [](const VertexOrder& order) { find_critical_points(WorkerSpace(), order); });
     const FieldOnMesh on = session.read_field(segmentation_);
     std::unique_ptr<Structure> structure;
     CriticalPoints points;

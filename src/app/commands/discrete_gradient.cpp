@@ -49,6 +49,7 @@ class FindDiscreteGradient final : public Command {
     require_extension("--output", output_, {".vtp"});
     require_extension("--arrows", arrows_, {".vtp"});
     Session session(input(), common(), {output_, arrows_});
+    session.warm_up(structure_, [](const VertexOrder& order) { find_discrete_gradient(WorkerSpace(), order); });
     const FieldOnMesh on = session.read_field(segmentation_);
     const Session::Gradient found = find(on, session);
     const DiscreteGradient& gradient = found.gradient;

@@ -10,6 +10,7 @@
 #include <gale/app/usage_error.hpp>
 #include <gale/base/error.hpp>
 #include <gale/outputs/morse_smale.hpp>
+#include <gale/runtime/make_structure.hpp>
 
 namespace gale::app {
 
@@ -68,6 +69,12 @@ void require_png(const std::string& file) {
     throw UsageError("--render " + file + ": gale morse-smale draws .png");
 }
 
+/// The same on a tiny mesh.
+void find_small_complex(const VertexOrder& order) {
+  const DiscreteGradient gradient = find_discrete_gradient(WorkerSpace(), order);
+  find_morse_smale_complex(*make_structure(order.mesh(), morse_smale_relations), gradient);
+}
+
 class FindMorseSmale final : public Command {
  public:
   explicit FindMorseSmale(CLI::App& app)
@@ -103,6 +110,7 @@ class FindMorseSmale final : public Command {
     }
     const MorseSmaleFiles files(output_, parts_, render_);
     Session session(input(), common(), files.all());
+    session.warm_up(structure_, find_small_complex);
     const FieldOnMesh on = session.read_field(
         segmentation_, files.segmentation.empty() ? Session::Keep::nothing : Session::Keep::tetrahedra);
     const Session::Gradient found = session.find_gradient(structure_, on.order, morse_smale_relations);

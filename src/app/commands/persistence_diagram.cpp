@@ -47,6 +47,7 @@ class FindPersistenceDiagram final : public Command {
     require_extension("--render", render_, {".png"});
     if (!render_.empty()) require_drawing();
     Session session(input(), common(), {output_, render_, curve_});
+    session.warm_up(structure_, [](const VertexOrder& order) { find_discrete_gradient(WorkerSpace(), order); });
     const FieldOnMesh on = session.read_field(segmentation_);
     const Session::Gradient found = session.find_gradient(structure_, on.order, {});
     const auto diagram = find(found.gradient, on, session);

@@ -36,7 +36,6 @@ Leader::Leader(const Mesh& mesh, const LeaderParameters& parameters, std::vector
       computed_(mesh.segments()),
       words_per_segment_(words_per_vertex(parameters.relations) * mesh.vertices() / std::max(mesh.segments(), Id(1))) {
   for (const auto& worker : workers_) idle_.push_back(worker.get());
-  prepare_arenas();
   statistics_.relations = parameters.relations;
   thread_ = start_thread([this] { run(); });
 }
@@ -44,15 +43,22 @@ Leader::Leader(const Mesh& mesh, const LeaderParameters& parameters, std::vector
 Leader::~Leader() { end(); }
 
 /// What a sweep runs through again and again, so that its memory is there, locked, and soon in the caches; less where
-/// the blocks of all segments take less.
+/// the blocks of all segments take less. Locking it takes as long as a small sweep: not before a request.
 void Leader::prepare_arenas() {
+  if (prepared_) return;
+  prepared_ = true;
   constexpr std::size_t most = 12;
   const std::size_t bytes = static_cast<std::size_t>(parameters_.arena_words) * sizeof(Id);
   if (bytes == 0) return;
   store_.limit_ahead(most * bytes);
   const double all = 1.2 * words_per_segment_ * mesh_.segments() / static_cast<double>(parameters_.arena_words);
   const std::size_t count = std::min({most, parameters_.host_budget / bytes, static_cast<std::size_t>(all) + 1});
-  if (have_device && count > 0) store_.prepare(count, parameters_.arena_words);
+  if (!have_device || count == 0) return;
+  try {
+    store_.prepare(count, parameters_.arena_words);
+  } catch (const OutOfMemory&) {
+    // Each batch takes what it needs.
+  }
 }
 
 void Leader::end() {
@@ -118,6 +124,7 @@ void Leader::listen(bool wait) {
     store_.forget_unread();
   }
   if (news.sweep_began) {
+    prepare_arenas();
     sweeping_ = true;
     ahead_ = must_reach_ = 0;
     ahead_batch_ = first_batch;

@@ -120,6 +120,7 @@ class Leader {
   std::vector<BatchWorker*> idle_;
   std::vector<bool> under_way_;  ///< by segment: planned or launched
   std::vector<bool> computed_;   ///< by segment: at some time
+  bool prepared_ = false;
   bool sweeping_ = false;
   bool stopping_ = false;
   Id ahead_ = 0;       ///< the next segment that run-ahead computes
