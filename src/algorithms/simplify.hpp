@@ -9,6 +9,7 @@ namespace gale {
 
 struct SimplifyOptions {
   bool extrema_only = false;     ///< cancel no 1-saddle with a 2-saddle: nearly as fast as to find the pairs
+  Paths paths = Paths::whole;    ///< `joined`: memory in proportion to what is left, however often paths meet
   int threads = host_threads();  ///< at least 1
 };
 
@@ -24,10 +25,10 @@ struct SimplifyOptions {
 ///   change places with one that was cancelled with a minimum. So nearly all are cancelled. `kept_below` of the result
 ///   says how many weren't.
 ///
-/// Paths, walls and their order are those that `find_morse_smale_complex` gives for that gradient, with three
-/// exceptions. A connector whose 1-saddle is higher than its 2-saddle is left out. An ascending wall consists of those
-/// of the 1-saddles that it leads past, each cell once. Where a triangle has three tetrahedra or more, rising paths
-/// take one way.
+/// Paths (whole, or joined), walls and their order are those that `find_morse_smale_complex` gives for that gradient,
+/// with three exceptions. A connector whose 1-saddle is higher than its 2-saddle is left out. An ascending wall
+/// consists of those of the 1-saddles that it leads past, each cell once. Where a triangle has three tetrahedra or
+/// more, rising paths take one way.
 ///
 /// The Euler characteristic stays as it is. `complex` isn't simplified, and has saddle connectors unless
 /// `extrema_only`: throws gale::Error otherwise. Parts that it was computed without aren't in the result. `value(v)` is

@@ -34,6 +34,7 @@ MorseSmaleComplex find_complex(Structure& structure, const DiscreteGradient& gra
   if (!request.persistence) return complex;
   SimplifyOptions how;
   how.extrema_only = request.extrema_only;
+  how.paths = Paths::joined;
   how.threads = options.threads;
   const auto value = [&](Id vertex) { return value_at(field, vertex); };
   complex = simplify(complex, value, threshold_of(*request.persistence, field), how);

@@ -58,7 +58,7 @@ class Lines {
       const Offset begin = paths.begin[i], end = paths.begin[i + 1];
       for (Offset k = begin; k < end; ++k) {
         set_point(2 * k, along.between[k], along.between_ids[k], k == begin);
-        set_point(2 * k + 1, along.cell_of(paths.cells[k]), along.id_of(k), k + 1 == end);
+        set_point(2 * k + 1, along.cell_of(paths.cells[k]), along.id_of(k), k + 1 == end && paths.is_whole(i));
       }
       set_lines(type, i, 2 * begin, 2 * end, ends.sources[paths.sources[i]], ends.destinations[paths.destinations[i]]);
     });

@@ -13,6 +13,9 @@ namespace gale::outputs {
 /// - Ascending ones: from a critical triangle, over tetrahedra and triangles, to a maximum.
 /// - Connectors: from a critical edge, over triangles and edges, to a critical triangle.
 ///
+/// A joined one (`Separatrices::joins`) ends at a point inside an earlier one, which has the same DestinationId, and a
+/// point there of the same CellDimension and CellId.
+///
 /// They come in that order, each kind in the order of the complex, and are numbered through. Points are placed as by
 /// `to_point_set` and shared by the lines of one separatrix alone. Point arrays: ttkMaskScalarField (int8, 0 at both
 /// ends), CellDimension (int8), CellId (int32). Arrays of lines: SourceId, DestinationId, SeparatrixId (int32),

@@ -25,13 +25,19 @@ class Separatrices1(GeometryTest):
     N = 32
 
     def separatrices(self, file):
-        """The points of each, by SeparatrixId."""
+        """The points of each, by SeparatrixId, as far as they are told."""
         points = defaultdict(list)
         for (begin, end), separatrix in zip(file.cells("Lines"), file.cell_arrays["SeparatrixId"]):
             self.assertEqual(points[separatrix][-1:] or [begin], [begin])
             points[separatrix] = (points[separatrix] or [begin]) + [end]
         self.assertEqual(list(points), list(range(len(points))))
         return list(points.values())
+
+    def rest(self, told, kind, destination, simplex):
+        """What follows a simplex on an earlier separatrix of the same kind and destination."""
+        self.assertIn((kind, destination, simplex), told)
+        points, place = told[kind, destination, simplex]
+        return points[place:]
 
     def check(self, *arguments):
         files = self.files(f"grid:{self.N}", *arguments)
@@ -44,12 +50,17 @@ class Separatrices1(GeometryTest):
         on_boundary = dict(zip(zip(arrays["CellDimension"], arrays["CellId"]), arrays["IsOnBoundary"]))
         dimensions, ids, mask = (lines.point_arrays[name] for name in ("CellDimension", "CellId", "ttkMaskScalarField"))
         first_line = 0
+        told = {}  # where else a separatrix goes on that is told as far as it meets an earlier one
         for points in self.separatrices(lines):
             of = {name: values[first_line] for name, values in lines.cell_arrays.items()}
             for name, values in lines.cell_arrays.items():
                 self.assertEqual(len(set(values[first_line:first_line + len(points) - 1])), 1, name)
             first_line += len(points) - 1
-            kind = of["SeparatrixType"]
+            kind, destination = of["SeparatrixType"], of["DestinationId"]
+            if mask[points[-1]] != 0:
+                points[-1:] = self.rest(told, kind, destination, ids[points[-1]])
+            for place in range(1, len(points), 2):
+                told.setdefault((kind, destination, ids[points[place]]), (points, place))
             odd, even = {DESCENDING: (1, 0), CONNECTOR: (1, 2), ASCENDING: (2, 3)}[kind]
             self.assertEqual([dimensions[p] for p in points], [odd, even] * (len(points) // 2))
             self.assertEqual([mask[p] for p in points], [0] + [1] * (len(points) - 2) + [0])
@@ -82,6 +93,18 @@ class Separatrices1(GeometryTest):
 
     def test_go_on_where_pairs_are_cancelled(self):
         self.assertGreater(len(list(self.check("--persistence", "1e-3"))), 0)
+        self.assertGreater(len(list(self.check("--persistence", "10%", "--extrema-only"))), 0)
+
+    def test_are_told_once_where_pairs_are_cancelled(self):
+        lines = self.files("grid:32", "--persistence", "10%", "--extrema-only")["separatrices1.vtp"]
+        dimensions, ids, mask = (lines.point_arrays[name] for name in ("CellDimension", "CellId", "ttkMaskScalarField"))
+        separatrices = self.separatrices(lines)
+        inside = Counter((dimensions[p], ids[p]) for points in separatrices for p in points if mask[p] != 0)
+        joints = Counter((dimensions[points[-1]], ids[points[-1]]) for points in separatrices if mask[points[-1]] != 0)
+        self.assertGreater(len(joints), 0)
+        for simplex in inside:
+            if simplex[0] in (0, 3):  # of extrema: connectors pass the same triangles as ascending ones
+                self.assertLessEqual(inside[simplex] - joints[simplex], 1, simplex)
 
     def test_are_in_order(self):
         lines = self.files("grid:32")["separatrices1.vtp"].cell_arrays

@@ -15,8 +15,8 @@ namespace {
 /// One thread's part.
 class SurfaceTracer {
  public:
-  SurfaceTracer(const DiscreteGradient& gradient, const TurnedEdges* turned)
-      : wall(gradient, turned), keys_(gradient.order().keys()) {}
+  SurfaceTracer(const DiscreteGradient& gradient, const TurnedEdges* turned, Paths told)
+      : wall(gradient, turned), keys_(gradient.order().keys()), told_(told) {}
 
   void add_wall(Id triangle) {
     walls.sources.push_back(triangle);
@@ -34,7 +34,7 @@ class SurfaceTracer {
     for (const auto& [place, edge] : rim_) {
       connectors.sources.push_back(place);
       connectors.destinations.push_back(triangle);
-      connectors.is_only.push_back(wall.append_path(edge, connectors.cells));
+      append_path(edge);
       connectors.begin.push_back(static_cast<Offset>(connectors.cells.size()));
     }
   }
@@ -43,7 +43,18 @@ class SurfaceTracer {
   Separatrices<TriangleVertices> walls, connectors;
 
  private:
+  void append_path(const DescendingWall::Edge& edge) {
+    if (told_ == Paths::whole) {
+      connectors.is_only.push_back(wall.append_path(edge, connectors.cells));
+    } else {
+      const auto [is_only, joins] = wall.append_joined_path(edge, connectors.cells);
+      connectors.is_only.push_back(is_only);
+      connectors.joins.push_back(joins);
+    }
+  }
+
   const std::uint64_t* keys_;
+  const Paths told_;
   std::vector<std::pair<Id, DescendingWall::Edge>> rim_;  ///< the wall's critical edges by their places
 };
 
@@ -51,13 +62,13 @@ class SurfaceTracer {
 
 DescendingSurfaces descending_surfaces(const DiscreteGradient& gradient, const CriticalSimplices& critical,
                                        const CriticalPlaces& places, bool want_walls, bool want_connectors, int threads,
-                                       const TurnedEdges* turned) {
+                                       const TurnedEdges* turned, Paths told) {
   const auto& triangles = critical.triangles;
   std::vector<std::unique_ptr<SurfaceTracer>> tracers(threads);
   const std::vector<Id> order = space_order(triangles);
   in_turns(threads, static_cast<std::int64_t>(triangles.size()), [&](int thread, std::int64_t i) {
     auto& tracer = tracers[thread];
-    if (!tracer) tracer = std::make_unique<SurfaceTracer>(gradient, turned);
+    if (!tracer) tracer = std::make_unique<SurfaceTracer>(gradient, turned, told);
     tracer->wall.follow(triangles[order[i]]);
     if (want_walls) tracer->add_wall(order[i]);
     if (want_connectors) tracer->add_connectors(places, order[i]);

@@ -18,9 +18,9 @@ struct DescendingSurfaces {
 
 /// Finds those of `critical` on `threads` threads. With `turned` in the gradient that these edges make of it, and no
 /// connector of which the critical edge is higher than the triangle. Walls are in the order of critical triangles, and
-/// so are connectors; those of one triangle in the order of critical edges.
+/// so are connectors; those of one triangle in the order of critical edges. `told` says how connectors are.
 DescendingSurfaces descending_surfaces(const DiscreteGradient& gradient, const CriticalSimplices& critical,
                                        const CriticalPlaces& places, bool want_walls, bool want_connectors, int threads,
-                                       const TurnedEdges* turned = nullptr);
+                                       const TurnedEdges* turned = nullptr, Paths told = Paths::whole);
 
 }  // namespace gale::detail

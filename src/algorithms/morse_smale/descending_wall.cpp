@@ -43,6 +43,7 @@ void DescendingWall::begin(const TriangleVertices& critical) {
   triangles_.assign(1, critical);
   critical_edges_.clear();
   cancelled_edges_.clear();
+  passed_.clear();
   above_.clear();
   cross(critical[0], critical[1], 0);
 }
@@ -94,17 +95,34 @@ Id DescendingWall::third_of(Id high, Id low) const {
   return third == no_id && vertex_successor_[high] == low ? TurnedEdges::with_vertex : third;
 }
 
-bool DescendingWall::append_path(const Edge& from, std::vector<TriangleVertices>& path) const {
+/// Calls visit(i) for the triangles on the path, by their places. True if it is the only path.
+template <class Visit>
+bool DescendingWall::visit_path(const Edge& from, const Visit& visit) const {
   bool is_only = true;
   Edge edge = from;
   while (true) {
     const Above& above = *above_.find(pair_key(edge.high, edge.low));
-    const TriangleVertices& triangle = triangles_[above.least];
     is_only = is_only && !above.are_several;
-    path.push_back(triangle);
+    visit(above.least);
     if (above.least == 0) return is_only;
-    edge = {triangle[0], triangle[1]};
+    edge = {triangles_[above.least][0], triangles_[above.least][1]};
   }
+}
+
+bool DescendingWall::append_path(const Edge& from, std::vector<TriangleVertices>& path) const {
+  return visit_path(from, [&](std::uint32_t i) { path.push_back(triangles_[i]); });
+}
+
+DescendingWall::Joined DescendingWall::append_joined_path(const Edge& from, std::vector<TriangleVertices>& path) {
+  passed_.resize(triangles_.size(), 0);
+  bool joins = false;
+  const bool is_only = visit_path(from, [&](std::uint32_t i) {
+    if (joins) return;
+    path.push_back(triangles_[i]);
+    joins = i != 0 && passed_[i] != 0;
+    passed_[i] = 1;
+  });
+  return {is_only, joins};
 }
 
 void DescendingWall::count_paths() {

@@ -51,6 +51,12 @@ class DescendingWall {
   /// least, written with its input vertices ascending. True if they never do: then it is the only path.
   bool append_path(const Edge& from, std::vector<TriangleVertices>& path) const;
 
+  /// The same as far as the first triangle that a path passes which this call has appended since `follow`.
+  struct Joined {
+    bool is_only, joins;
+  };
+  Joined append_joined_path(const Edge& from, std::vector<TriangleVertices>& path);
+
  private:
   /// An edge of the wall: the least of the wall's triangles that it isn't paired with, by its place among them, and
   /// whether there are more.
@@ -65,6 +71,8 @@ class DescendingWall {
   void cross_in_order(Id a, Id b, std::uint32_t from);
   void cross(Id high, Id low, std::uint32_t from);
   Id third_of(Id high, Id low) const;
+  template <class Visit>
+  bool visit_path(const Edge& from, const Visit& visit) const;
   bool is_less(const TriangleVertices& a, const TriangleVertices& b) const;
 
   const EdgePairs& pairs_;
@@ -75,6 +83,7 @@ class DescendingWall {
   std::uint64_t floor_ = 0;  ///< edges with a lower higher end are left out
   std::vector<TriangleVertices> triangles_;
   std::vector<char> has_one_path_;  ///< of each triangle
+  std::vector<char> passed_;        ///< of each: an appended path is there
   std::vector<Edge> critical_edges_, cancelled_edges_;
   HashTable<Above> above_;
 };

@@ -38,9 +38,11 @@ Separatrices<Cell> gathered(std::vector<Separatrices<Cell>>& parts, std::vector<
   const bool are_paths =
       std::any_of(parts.begin(), parts.end(), [](const auto& part) { return !part.destinations.empty(); });
   const bool say_only = std::any_of(parts.begin(), parts.end(), [](const auto& part) { return !part.is_only.empty(); });
+  const bool are_joined = std::any_of(parts.begin(), parts.end(), [](const auto& part) { return !part.joins.empty(); });
   all.sources.resize(place[count]);
   if (are_paths) all.destinations.resize(place[count]);
   if (say_only) all.is_only.resize(place[count]);
+  if (are_joined) all.joins.resize(place[count]);
   all.begin.resize(place[count] + 1);
   all.cells.resize(cell[count]);
   parallel_for("GALE::gather_separatrices", Kokkos::DefaultHostExecutionSpace(), count, [&](Offset g) {
@@ -52,6 +54,7 @@ Separatrices<Cell> gathered(std::vector<Separatrices<Cell>>& parts, std::vector<
       all.sources[at] = from.sources[group.first + i];
       if (are_paths) all.destinations[at] = from.destinations[group.first + i];
       if (say_only) all.is_only[at] = from.is_only[group.first + i];
+      if (are_joined) all.joins[at] = from.joins[group.first + i];
       all.begin[at + 1] = cell[g] + (from.last(group.first + i) - from.first(group.first));
     }
     std::copy(from.first(group.first), from.last(group.first + group.size - 1), all.cells.data() + cell[g]);

@@ -1,4 +1,5 @@
 #include <gale/algorithms/morse_smale/separatrices1.hpp>
+#include <gale/base/hash_table.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/base/transfer.hpp>
 #include <gale/base/worker_or_host.hpp>
@@ -75,10 +76,52 @@ Separatrices<Id> paths_of(const Followed& followed, const std::vector<Id>& sourc
   return paths;
 }
 
+/// The same, each path as far as the first simplex that an earlier one passes. Sequential: as many steps as there are
+/// simplices in the result, and on ways that leave through the surface.
+template <class Place>
+Separatrices<Id> joined_paths_of(const Id* successors, const std::vector<Id>& starts, const std::vector<Id>& sources,
+                                 const Place& place) {
+  Separatrices<Id> paths;
+  HashTable<Id> passed;  // by simplex: the first path there; no_id if the way leaves through the surface
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    const std::size_t first = paths.cells.size();
+    Id destination = no_id, joined = no_id;
+    for (Id cell = starts[i]; cell >= 0; cell = successors[cell]) {
+      paths.cells.push_back(cell);
+      const auto [path, is_new] = passed.insert(static_cast<std::uint64_t>(cell));
+      if (!is_new) {
+        joined = path;
+        destination = joined == no_id ? no_id : paths.destinations[joined];
+        break;
+      }
+      path = paths.count();
+      if (successors[cell] == no_id) destination = place(cell);
+    }
+    if (destination == no_id) {
+      for (std::size_t k = first; k < paths.cells.size(); ++k)
+        passed.insert(static_cast<std::uint64_t>(paths.cells[k])).first = no_id;
+      paths.cells.resize(first);
+      continue;
+    }
+    paths.sources.push_back(sources[i]);
+    paths.destinations.push_back(destination);
+    paths.joins.push_back(joined != no_id);
+    paths.begin.push_back(static_cast<Offset>(paths.cells.size()));
+  }
+  return paths;
+}
+
+template <class Place>
+Separatrices<Id> paths_from(const Mirrored<Id>& successors, const std::vector<Id>& starts,
+                            const std::vector<Id>& sources, Paths told, const Place& place) {
+  if (told == Paths::joined) return joined_paths_of(successors.in<HostMemory>().data(), starts, sources, place);
+  return paths_of(follow(successors, starts), sources, place);
+}
+
 }  // namespace
 
 Separatrices<Id> descending_separatrices(const Mesh& mesh, const Mirrored<Id>& successors,
-                                         const CriticalSimplices& critical, const CriticalPlaces& places) {
+                                         const CriticalSimplices& critical, const CriticalPlaces& places, Paths told) {
   const auto& edges = critical.edges;
   const Id* const input = mesh.vertex_input().data();
   std::vector<Id> starts, sources;
@@ -88,16 +131,16 @@ Separatrices<Id> descending_separatrices(const Mesh& mesh, const Mirrored<Id>& s
     starts.insert(starts.end(), {in_order ? a : b, in_order ? b : a});
     sources.insert(sources.end(), 2, static_cast<Id>(i));
   }
-  return paths_of(follow(successors, starts), sources, [&](Id vertex) { return places.of_vertex(vertex); });
+  return paths_from(successors, starts, sources, told, [&](Id vertex) { return places.of_vertex(vertex); });
 }
 
 Separatrices<Id> ascending_separatrices(const Mirrored<Id>& successors, const CriticalSimplices& critical,
-                                        const CriticalPlaces& places) {
+                                        const CriticalPlaces& places, Paths told) {
   std::vector<Id> sources;
   for (std::size_t i = 0; i < critical.triangles.size(); ++i)
     sources.insert(sources.end(), critical.star_begin[i + 1] - critical.star_begin[i], static_cast<Id>(i));
-  return paths_of(follow(successors, critical.star), sources,
-                  [&](Id tetrahedron) { return places.of_tetrahedron(tetrahedron); });
+  return paths_from(successors, critical.star, sources, told,
+                    [&](Id tetrahedron) { return places.of_tetrahedron(tetrahedron); });
 }
 
 }  // namespace gale::detail

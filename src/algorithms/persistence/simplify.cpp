@@ -79,14 +79,15 @@ MorseSmaleComplex simplify(const MorseSmaleComplex& complex, const std::function
   MorseSmaleComplex left{gradient, parts, critical_left(complex.critical, cancelled.is_left)};
   const detail::CriticalPlaces places(left.critical);
   if (parts.descending_separatrices) {
-    left.descending =
-        detail::descending_separatrices(gradient.mesh(), cancelled.minima.successors(), left.critical, places);
+    left.descending = detail::descending_separatrices(gradient.mesh(), cancelled.minima.successors(), left.critical,
+                                                      places, options.paths);
   }
   if (parts.ascending_separatrices)
-    left.ascending = detail::ascending_separatrices(cancelled.maxima.successors(), left.critical, places);
+    left.ascending =
+        detail::ascending_separatrices(cancelled.maxima.successors(), left.critical, places, options.paths);
   if (parts.saddle_connectors || parts.separatrices2) {
     auto surfaces = detail::descending_surfaces(gradient, left.critical, places, parts.separatrices2,
-                                                parts.saddle_connectors, threads, &cancelled.edges);
+                                                parts.saddle_connectors, threads, &cancelled.edges, options.paths);
     left.connectors = std::move(surfaces.connectors);
     left.descending_walls = std::move(surfaces.walls);
   }
