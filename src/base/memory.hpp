@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <string>
+#include <utility>
 
 #include <gale/base/kokkos.hpp>
 #include <gale/export.hpp>
@@ -20,6 +21,12 @@ namespace detail {
 GALE_EXPORT void advise_huge_pages(void* data, std::size_t bytes);
 
 }  // namespace detail
+
+/// The first entries of an array.
+template <class View>
+auto first_of(const View& array, std::size_t count) {
+  return Kokkos::subview(array, std::make_pair(std::size_t(0), count));
+}
 
 /// An uninitialized View of the given extents; large ones on the host are backed by huge pages where the system has
 /// them. Throws OutOfMemory, whatever Kokkos throws then, which differs by version and backend; gale::Error if Kokkos

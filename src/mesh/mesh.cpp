@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <map>
+#include <mutex>
 #include <string>
 
 #include <gale/base/error.hpp>
@@ -92,6 +94,8 @@ struct Mesh::Data {
   mutable EncodedOnce<WorkerMemory> worker;
   mutable EncodedOnce<HostMemory> host;
   mutable detail::SimplexStore simplices;
+  mutable std::mutex kept_mutex;
+  mutable std::map<std::string, std::shared_ptr<const void>> kept;
 
   /// What consumers read again and again is copied to the host now.
   Data(const Encoded& mesh, const std::string& what_did_not_fit)
@@ -180,6 +184,14 @@ Intervals Mesh::intervals_of(Id segment) const {
 Id Mesh::segment_of(int dimension, Id simplex) const {
   const Id* const begin = interval_begin(dimension).data();
   return static_cast<Id>(std::upper_bound(begin, begin + segments() + 1, simplex) - begin) - 1;
+}
+
+std::shared_ptr<const void> Mesh::kept(const std::string& key,
+                                       const std::function<std::shared_ptr<const void>()>& make) const {
+  const std::lock_guard<std::mutex> lock(data_->kept_mutex);
+  std::shared_ptr<const void>& what = data_->kept[key];
+  if (!what) what = make();
+  return what;
 }
 
 #define GALE_INSTANTIATE(Index, Memory) \

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -98,6 +99,11 @@ class GALE_EXPORT Mesh {
 
   /// The segment that a simplex of a dimension 0 to 3 (GALE's id) is internal to: a binary search among the segments.
   Id segment_of(int dimension, Id simplex) const;
+
+  /// What someone found out about the mesh, and keeps with it and its copies: what `make` returned when this was first
+  /// called with that key. Any thread may call; those that come at once wait. If `make` throws, the next one tries.
+  std::shared_ptr<const void> kept(const std::string& key,
+                                   const std::function<std::shared_ptr<const void>()>& make) const;
 
  private:
   struct Data;

@@ -20,7 +20,8 @@ struct IntervalTables {
 };
 
 /// Those of a mesh, on the host.
-GALE_EXPORT IntervalTables<HostMemory> interval_tables(const Mesh& mesh);
+template <class Memory = HostMemory>
+GALE_EXPORT IntervalTables<Memory> interval_tables(const Mesh& mesh);
 
 /// The blocks of some segments: what one run of a kernel leaves in `Memory`. A value that owns nothing; its rows are
 /// readable wherever `Memory` is, in kernels and on the host, as long as whoever made it keeps the arrays.

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <string>
 
 #include <gale/base/parallel.hpp>
 #include <gale/runtime/segment_bounds.hpp>
@@ -60,11 +61,9 @@ Id gather(const std::vector<StarSizes>& bounds, const SegmentKernel<Memory>& ker
   return large;
 }
 
-}  // namespace
-
 template <class Memory>
-std::shared_ptr<const SegmentBounds> find_segment_bounds(const Mesh& mesh, const SegmentKernel<Memory>& kernel,
-                                                         int threads_per_segment) {
+std::shared_ptr<const SegmentBounds> find(const Mesh& mesh, const SegmentKernel<Memory>& kernel,
+                                          int threads_per_segment) {
   const int lanes = is_device_memory<Memory> ? 32 : threads_per_segment;
   auto found = std::make_shared<SegmentBounds>();
   found->warps = std::max(threads_per_segment / lanes, 1);
@@ -78,9 +77,19 @@ std::shared_ptr<const SegmentBounds> find_segment_bounds(const Mesh& mesh, const
   }
 }
 
-#define GALE_INSTANTIATE(Space)                                                  \
-  template std::shared_ptr<const SegmentBounds> find_segment_bounds(const Mesh&, \
-                                                                    const SegmentKernel<MemoryOf<Space>>&, int)
+}  // namespace
+
+template <class Memory>
+std::shared_ptr<const SegmentBounds> segment_bounds(const Mesh& mesh, const SegmentKernel<Memory>& kernel,
+                                                    int threads_per_segment) {
+  const std::string key = "segment bounds of " + name_of(kernel.wanted()) + " by " +
+                          std::to_string(threads_per_segment) + " threads in " + Memory::name();
+  return std::static_pointer_cast<const SegmentBounds>(
+      mesh.kept(key, [&] { return find(mesh, kernel, threads_per_segment); }));
+}
+
+#define GALE_INSTANTIATE(Space) \
+  template std::shared_ptr<const SegmentBounds> segment_bounds(const Mesh&, const SegmentKernel<MemoryOf<Space>>&, int)
 GALE_IN_EACH_SPACE(GALE_INSTANTIATE);
 #undef GALE_INSTANTIATE
 

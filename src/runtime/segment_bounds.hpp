@@ -8,7 +8,7 @@
 
 namespace gale::detail {
 
-/// What the segments of a mesh need of a team's scratch memory, found out once for all batches.
+/// What the segments of a mesh need of a team's scratch memory.
 struct SegmentBounds {
   int warps =
       1;  ///< of a team: those wanted, or fewer if with them too many segments wouldn't fit the fast scratch memory
@@ -16,10 +16,10 @@ struct SegmentBounds {
   std::vector<std::uint8_t> is_large;  ///< by segment: 1 if it doesn't fit with the others
 };
 
-/// For a kernel whose teams should have so many threads. In parallel. No segment is large where teams are threads of
-/// the host.
+/// For a kernel whose teams should have so many threads; found out once, in parallel, and kept with the mesh. No
+/// segment is large where teams are threads of the host.
 template <class Memory>
-std::shared_ptr<const SegmentBounds> find_segment_bounds(const Mesh& mesh, const SegmentKernel<Memory>& kernel,
-                                                         int threads_per_segment);
+std::shared_ptr<const SegmentBounds> segment_bounds(const Mesh& mesh, const SegmentKernel<Memory>& kernel,
+                                                    int threads_per_segment);
 
 }  // namespace gale::detail

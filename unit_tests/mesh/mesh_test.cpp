@@ -172,6 +172,19 @@ TEST(Mesh, leaves_its_input_as_it_was) {
   }
 }
 
+TEST(Mesh, keeps_what_was_found_out_once) {
+  const Mesh mesh = encode(mesh_named("one_tetrahedron"), segmentation_by({0, 0, 0, 0}));
+  const Mesh copy = mesh;
+  int made = 0;
+  const auto make = [&] { return std::make_shared<const int>(++made); };
+  EXPECT_THROW(mesh.kept("a", []() -> std::shared_ptr<const void> { throw Error("not now"); }), Error);
+  const auto a = mesh.kept("a", make), b = mesh.kept("b", make);
+  EXPECT_EQ(*std::static_pointer_cast<const int>(a), 1);
+  EXPECT_EQ(*std::static_pointer_cast<const int>(b), 2);
+  EXPECT_EQ(copy.kept("a", make), a);
+  EXPECT_EQ(made, 2);
+}
+
 TEST(Mesh, copies_share_their_arrays) {
   const Mesh mesh = encode(mesh_named("one_tetrahedron"), segmentation_by({0, 0, 0, 0}));
   const Mesh copy = mesh;

@@ -30,7 +30,7 @@ struct LedMesh {
     parameters.host_budget = 1 << 20;
     parameters.segments_per_request = per_request;
     if (has_host) {
-      parameters.make_host_worker = [this] { return detail::make_host_worker(mesh, {Relation::VV, 0, 32, nullptr}); };
+      parameters.make_host_worker = [this] { return detail::make_host_worker(mesh, {Relation::VV, 0, 32}); };
     }
     return std::make_unique<detail::Leader>(mesh, parameters, std::move(workers));
   }

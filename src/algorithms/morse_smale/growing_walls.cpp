@@ -41,7 +41,7 @@ void make_room(const WorkerSpace& space, const char* label, InWorkers<T>& array,
 template <class T>
 void copy_in(const std::vector<T>& from, const InWorkers<T>& to) {
   const Kokkos::View<const T*, HostMemory, Kokkos::MemoryUnmanaged> given(from.data(), from.size());
-  Kokkos::deep_copy(Kokkos::subview(to, std::make_pair(std::size_t(0), from.size())), given);
+  Kokkos::deep_copy(first_of(to, from.size()), given);
 }
 
 /// Crosses the edges of one triangle.

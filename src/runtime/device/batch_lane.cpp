@@ -11,26 +11,10 @@ namespace gale::detail {
 
 namespace {
 
-template <class Memory>
-IntervalTables<Memory> interval_tables_in(const Mesh& mesh) {
-  IntervalTables<Memory> tables;
-  for (int dimension = 0; dimension < 4; ++dimension) {
-    const bool enumerated =
-        (dimension != 1 || mesh.known_edges() != no_id) && (dimension != 2 || mesh.known_triangles() != no_id);
-    if (enumerated) tables.begin[dimension] = mesh.interval_begin<Memory>(dimension).data();
-  }
-  return tables;
-}
-
 /// What Kokkos throws where the device lacks memory for a launch.
 bool says_out_of_memory(const std::exception& error) {
   const std::string what = error.what();
   return what.find("memory") != std::string::npos || what.find("Memory") != std::string::npos;
-}
-
-template <class View>
-auto first(const View& view, std::size_t count) {
-  return Kokkos::subview(view, std::make_pair(std::size_t(0), count));
 }
 
 }  // namespace
@@ -41,7 +25,7 @@ BatchLane<Memory>::BatchLane(const Mesh& mesh, std::vector<SweepKernel<Memory>>&
       words_(words),
       fast_scratch_(fast_scratch_bytes<Space>()),
       memory_(KeptLanes<Memory>::instance().take()) {
-  const auto intervals = interval_tables_in<Memory>(mesh);
+  const auto intervals = interval_tables<Memory>(mesh);
   for (const auto& one : kernels_) {
     batches_.of[batches_.kernels].relations = one.kernel.wanted();
     batches_.of[batches_.kernels++].intervals = intervals;
@@ -132,7 +116,7 @@ BatchShortfall BatchLane<Memory>::finish() {
 template <class Memory>
 std::vector<Id> BatchLane<Memory>::segments_missing() const {
   const auto entries = static_cast<std::size_t>(plan_.count() * relations_);
-  const auto directory = Kokkos::create_mirror_view_and_copy(HostMemory(), first(memory_.directory, entries));
+  const auto directory = Kokkos::create_mirror_view_and_copy(HostMemory(), first_of(memory_.directory, entries));
   std::vector<std::uint8_t> there(plan_.count(), 1);
   const Offset* entry = directory.data();
   for (int k = 0; k < batches_.kernels; ++k) {
@@ -154,7 +138,7 @@ template <class Memory>
 SegmentList BatchLane<Memory>::place_segments() {
   if (plan_.segments.empty()) return SegmentList::from(plan_.begin);
   const Kokkos::View<const Id*, HostMemory, Kokkos::MemoryUnmanaged> list(plan_.segments.data(), plan_.segments.size());
-  Kokkos::deep_copy(first(memory_.segments, plan_.segments.size()), list);
+  Kokkos::deep_copy(first_of(memory_.segments, plan_.segments.size()), list);
   return memory_.segments.data();
 }
 

@@ -72,7 +72,7 @@ BatchSweep<Memory>::Batches::Batches(const Space& space, const Mesh& mesh, Relat
   if (relations.empty()) throw Error("a sweep needs a relation to read");
   for (const RelationSet one : kernels_for(relations)) {
     SegmentKernel<Memory> kernel(mesh, one);
-    auto bounds = find_segment_bounds(mesh, kernel, filled.threads_per_segment);
+    auto bounds = segment_bounds(mesh, kernel, filled.threads_per_segment);
     kernels_.push_back({std::move(kernel), std::move(bounds)});
   }
   words_ = std::max<Offset>(static_cast<Offset>(filled.memory / filled.batches / sizeof(Id)), 1024);

@@ -38,7 +38,7 @@ class DeviceList {
   /// Those there was room for.
   std::vector<T> to_host() const {
     const auto size = std::min(static_cast<std::size_t>(count()), items_.extent(0));
-    const auto there = on_host(Kokkos::subview(items_, std::make_pair(std::size_t(0), size)));
+    const auto there = on_host(first_of(items_, size));
     return {there.data(), there.data() + size};
   }
 

@@ -72,7 +72,7 @@ class HandedStars {
     copy.places_ = places_.to_host();
     const auto used = Kokkos::create_mirror_view_and_copy(HostMemory(), used_);
     const std::size_t words = std::min(static_cast<std::size_t>(used(0)), words_.extent(0));
-    copy.words_ = on_host(Kokkos::subview(words_, std::make_pair(std::size_t(0), words)));
+    copy.words_ = on_host(first_of(words_, words));
     return copy;
   }
 

@@ -7,7 +7,6 @@
 #include <gale/relations/kernels/block_pool.hpp>
 #include <gale/relations/relation.hpp>
 #include <gale/runtime/leaders/arena.hpp>
-#include <gale/runtime/segment_bounds.hpp>
 
 namespace gale::detail {
 
@@ -48,7 +47,6 @@ struct WorkerParameters {
   RelationSet wanted;
   Offset words = 0;  ///< that a batch has, unless one segment needs more
   int threads_per_segment = 128;
-  std::shared_ptr<const SegmentBounds> bounds;  ///< of this kernel and mesh, if they are known; only for a device
 };
 
 /// On the calling thread, when it finishes.

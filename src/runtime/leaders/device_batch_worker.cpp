@@ -9,6 +9,7 @@
 #include <gale/base/pinned.hpp>
 #include <gale/relations/kernels/launch.hpp>
 #include <gale/relations/kernels/segment_kernel.hpp>
+#include <gale/runtime/segment_bounds.hpp>
 
 namespace gale::detail {
 
@@ -25,12 +26,6 @@ struct Header {
   StarSizes needed;
 };
 
-/// The first entries of an array.
-template <class View>
-auto first(const View& view, std::size_t count) {
-  return Kokkos::subview(view, std::make_pair(std::size_t(0), count));
-}
-
 /// A batch on its own execution-space instance. Its memory is taken once, and again only when a batch needs more.
 class DeviceBatchWorker : public BatchWorker {
  public:
@@ -39,8 +34,7 @@ class DeviceBatchWorker : public BatchWorker {
         relations_(parameters.wanted.count()),
         instance_(make_instance()),
         kernel_(mesh, parameters.wanted),
-        bounds_(parameters.bounds ? parameters.bounds
-                                  : find_segment_bounds(mesh, kernel_, parameters.threads_per_segment)),
+        bounds_(segment_bounds(mesh, kernel_, parameters.threads_per_segment)),
         header_(allocate<OnDevice<Header>>("GALE::batch_header", 1)),
         header_copy_(1) {
     task_.pool.used = &header_.data()->used;
@@ -64,17 +58,17 @@ class DeviceBatchWorker : public BatchWorker {
     task_.scratch_level = kernel_.scratch_bytes(sizes, bounds_->warps) > fast_scratch_ ? 1 : 0;
     *header_copy_.data() = Header();
     Kokkos::deep_copy(instance_, header_, header_copy_.view());
-    Kokkos::deep_copy(instance_, first(segments_, count), first(segments_copy_.view(), count));
+    Kokkos::deep_copy(instance_, first_of(segments_, count), first_of(segments_copy_.view(), count));
     kernel_.launch(instance_, task_, static_cast<int>(count), bounds_->warps);
     Kokkos::deep_copy(instance_, header_copy_.view(), header_);
-    Kokkos::deep_copy(instance_, first(directory_copy_.view(), count * relations_),
-                      first(directory_, count * relations_));
+    Kokkos::deep_copy(instance_, first_of(directory_copy_.view(), count * relations_),
+                      first_of(directory_, count * relations_));
   }
 
   void begin_copy(Arena& arena) override {
     instance_.fence("GALE::batch_computed");
     const auto words = static_cast<std::size_t>(std::min(header_copy_.data()->used, task_.pool.capacity));
-    Kokkos::deep_copy(instance_, first(arena.words.view(), words), first(words_, words));
+    Kokkos::deep_copy(instance_, first_of(arena.words.view(), words), first_of(words_, words));
   }
 
   Shortfall finish(Arena& arena) override {

@@ -21,14 +21,10 @@ std::vector<RelationSet> queues_for(RelationSet relations, Queues queues) {
 }
 
 std::unique_ptr<Leader> make_leader(const Mesh& mesh, RelationSet relations, const Sizes& sizes) {
-  WorkerParameters worker{relations, sizes.batch_words, sizes.threads_per_segment, nullptr};
+  const WorkerParameters worker{relations, sizes.batch_words, sizes.threads_per_segment};
   LeaderParameters leader{relations, sizes.batch_words, sizes.host_bytes, sizes.segments_per_request, {}};
   std::vector<std::unique_ptr<BatchWorker>> workers;
-  if (mesh.on_device()) {
-    const SegmentKernel<WorkerMemory> kernel(mesh, relations);
-    worker.bounds = find_segment_bounds(mesh, kernel, worker.threads_per_segment);
-    leader.make_host_worker = [mesh, worker] { return make_host_worker(mesh, worker); };
-  }
+  if (mesh.on_device()) leader.make_host_worker = [mesh, worker] { return make_host_worker(mesh, worker); };
   for (int i = 0; i < workers_per_leader; ++i) {
     workers.push_back(mesh.on_device() ? make_device_worker(mesh, worker) : make_host_worker(mesh, worker));
   }
