@@ -67,11 +67,12 @@ vtkTypeBool vtkGaleAlgorithm::ProcessRequest(vtkInformation* request, vtkInforma
 vtkDataArray* vtkGaleAlgorithm::SelectField(vtkInformationVector** inputs) {
   vtkInformation* const chosen = this->GetInputArrayInformation(0);
   const char* const name = chosen->Get(vtkDataObject::FIELD_NAME());
-  if (!name && !chosen->Has(vtkDataObject::FIELD_ATTRIBUTE_TYPE()))
+  const bool is_named = name && *name;
+  if (!is_named && !chosen->Has(vtkDataObject::FIELD_ATTRIBUTE_TYPE()))
     return first_field(vtkDataSet::GetData(inputs[0])->GetPointData());
   int association = vtkDataObject::FIELD_ASSOCIATION_POINTS;
   vtkDataArray* const field = this->GetInputArrayToProcess(0, inputs, association);
-  const std::string called = name ? std::string(" '") + name + "'" : "";
+  const std::string called = is_named ? std::string(" '") + name + "'" : "";
   if (!field) throw gale::Error("the input has no point array" + called);
   if (association != vtkDataObject::FIELD_ASSOCIATION_POINTS)
     throw gale::Error("the array" + called + " is not one of points");
