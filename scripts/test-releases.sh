@@ -6,6 +6,7 @@
 #   usage: scripts/test-releases.sh [--with-vtk] [--all]
 set -euo pipefail
 source_dir=$(cd "$(dirname "$0")/.." && pwd)
+. "$source_dir/scripts/throw_away_root.sh"
 export DEBIAN_FRONTEND=noninteractive LC_ALL=C
 
 packages=(cmake g++ ninja-build python3 libcli11-dev nlohmann-json3-dev libgtest-dev)
@@ -27,39 +28,18 @@ unset TMPDIR # of this machine, not of the roots
 base=$work/base
 root=$work/root
 
-remove() { # ROOT
-  ! mountpoint --quiet "$1/proc" || umount "$1/proc"
-  rm -rf --one-file-system "$1"
-}
-trap 'remove "$root"; remove "$base"; rm -rf "$work"' EXIT
-
-# The archive that apt itself is set up with.
-mirror() {
-  # shellcheck disable=SC2016 # apt's variables
-  apt-get indextargets --format '$(LABEL) $(REPO_URI)' 'Created-By: Packages' |
-    awk '$1 == "Debian" || $NF ~ /\/debian\/?$/ { print $NF; exit }'
-}
+trap 'remove_root "$root"; remove_root "$base"; rm -rf "$work"' EXIT
 
 # Sid, with what both tests need: made once, and copied.
-make_base() {
-  # An archive that stands still, or a clock that is ahead, outlives the week that sid's index is valid.
-  debootstrap --variant=minbase sid "$base" "$mirror" &&
-    mount -t proc proc "$base/proc" &&
-    chroot "$base" apt-get -o Acquire::Check-Valid-Until=false update &&
-    chroot "$base" apt-get install --yes --no-install-recommends "${packages[@]}" &&
-    umount "$base/proc"
-}
-
 set_up() { # PACKAGE...
-  { [ -e "$work/made" ] || { make_base && touch "$work/made"; }; } &&
+  { [ -e "$work/made" ] || { make_root "$base" sid "${packages[@]}" && umount "$base/proc" && touch "$work/made"; }; } &&
     cp --archive --reflink=auto "$base" "$root" &&
     mount -t proc proc "$root/proc" &&
-    chroot "$root" apt-get install --yes --no-install-recommends "$@"
+    install_in "$root" "$@"
 }
 
 build_and_test() { # CMAKE_OPTION...
-  mkdir "$root/gale" &&
-    tar -C "$source_dir" --exclude=./.git --exclude='./build*' -cf - . | tar -C "$root/gale" -xf - &&
+  copy_sources "$source_dir" "$root" &&
     chroot "$root" cmake -S /gale -B /build -G Ninja -DCMAKE_BUILD_TYPE=Release -DGALE_ENABLE_VTK=$vtk \
       -DCMAKE_CXX_FLAGS_RELEASE="-O1 -DNDEBUG" -DGALE_ENABLE_CHEAP_BUILD=ON "$@" &&
     chroot "$root" cmake --build /build --parallel "$(nproc)" "${targets[@]}" &&
@@ -75,28 +55,18 @@ test_release() { # NAME PACKAGES CMAKE_OPTIONS [COMMAND_IN_ROOT]
   # shellcheck disable=SC2086 # a list
   if ! set_up $2 >"$work/log" 2>&1; then
     skip "$name" "cannot be set up: $(tail -n 1 "$work/log")"
-    remove "$root"
-    [ -e "$work/made" ] || remove "$base"
+    remove_root "$root"
+    [ -e "$work/made" ] || remove_root "$base"
     return
   fi
   [ -z "${4:-}" ] || chroot "$root" sh -c "$4"
   # shellcheck disable=SC2086 # a list
   build_and_test $3 || failed+=("$name")
-  remove "$root"
+  remove_root "$root"
 }
 
-mirror=$(mirror)
-eval "$(apt-config shell http_proxy Acquire::http::Proxy)" # debootstrap doesn't ask apt
-[ -z "${http_proxy:-}" ] || export http_proxy
 failed=()
-unable=
-if [ "$(id -u)" != 0 ]; then
-  unable="only root can make a root"
-elif ! command -v debootstrap >/dev/null; then
-  unable="there is no debootstrap"
-elif [ -z "$mirror" ]; then
-  unable="apt knows no Debian archive"
-fi
+unable=$(why_no_root)
 
 # That package's CMake files name two archives that it doesn't hold; they are empty anyway.
 # shellcheck disable=SC2016

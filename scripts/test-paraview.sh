@@ -1,0 +1,49 @@
+#!/bin/bash
+# Builds the plugin in a throw-away root with Debian 12's ParaView, which brings a VTK of its own, and runs its tests there
+# in pvbatch. Needs root and debootstrap; says why where it skips. What it can set up must pass.
+#   usage: scripts/test-paraview.sh [--keep ROOT]   with --keep: make the root there, or take the one that is there, and leave it
+set -euo pipefail
+source_dir=$(cd "$(dirname "$0")/.." && pwd)
+. "$source_dir/scripts/throw_away_root.sh"
+export DEBIAN_FRONTEND=noninteractive LC_ALL=C
+
+keep=
+if [ $# = 2 ] && [ "$1" = --keep ]; then
+  keep=$2
+elif [ $# != 0 ]; then
+  echo "usage: $0 [--keep ROOT]" >&2
+  exit 2
+fi
+
+# paraview-dev leaves out what its own CMake files look for: from libdouble-conversion-dev on.
+packages=(paraview-dev python3-paraview xvfb xauth libgl1-mesa-dri cmake g++ ninja-build libtrilinos-kokkos-dev libcli11-dev
+  nlohmann-json3-dev libgtest-dev python3-dev libdouble-conversion-dev libexpat1-dev libfreetype-dev libgl-dev libglew-dev
+  liblz4-dev liblzma-dev libopenmpi-dev qtbase5-dev zlib1g-dev)
+
+unable=$(why_no_root)
+[ -z "$unable" ] || { echo "SKIPPED ParaView: $unable"; exit 0; }
+work=$(mktemp -d "${TMPDIR:-/tmp}/gale-paraview.XXXXXX")
+unset TMPDIR # of this machine, not of the root
+root=${keep:-$work/root}
+clean_up() {
+  if [ -z "$keep" ]; then
+    remove_root "$root"
+  elif mountpoint --quiet "$root/proc"; then
+    umount "$root/proc"
+  fi
+  rm -rf "$work"
+}
+trap clean_up EXIT
+
+if [ -e "$root/usr/bin/pvbatch" ]; then
+  mount -t proc proc "$root/proc"
+elif ! make_root "$root" bookworm "${packages[@]}" >"$work/log" 2>&1; then
+  echo "SKIPPED ParaView: a root cannot be set up: $(tail -n 1 "$work/log")"
+  exit 0
+fi
+rm -rf --one-file-system "$root/gale"
+copy_sources "$source_dir" "$root"
+chroot "$root" cmake -S /gale -B /build -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS_RELEASE="-O1 -DNDEBUG" \
+  -DGALE_ENABLE_CHEAP_BUILD=ON -DGALE_ENABLE_KOKKOS_KERNELS=OFF -DGALE_ENABLE_EXAMPLES=OFF -DGALE_ENABLE_PARAVIEW=ON
+chroot "$root" cmake --build /build --parallel "$(nproc)" --target gale_app GALE
+chroot "$root" ctest --test-dir /build --output-on-failure --no-tests=error --tests-regex '^paraview$'
