@@ -7,7 +7,7 @@
 
 namespace gale::io::detail {
 
-enum class Format { vtu, vtk, vti, nifti, meta, nrrd, vtp };
+enum class Format { vtu, pvtu, vtk, vti, nifti, meta, nrrd, exodus, vtkhdf, vtp };
 
 /// By the extension, in either case.
 GALE_EXPORT std::optional<Format> format_of(const std::string& path);

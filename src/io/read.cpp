@@ -48,8 +48,8 @@ Dataset read(const std::string& input, const ReadOptions& options) {
   if (!format || *format == detail::Format::vtp) {
     throw Error(
         "cannot read '" + input +
-        "': its extension is none of .vtu .vtk .vti .nii .nii.gz .mha .mhd .nrrd, nor is it grid:N; for other meshes: "
-        "meshio convert '" +
+        "': its extension is none of .vtu .pvtu .vtk .vti .nii .nii.gz .mha .mhd .nrrd .e .ex2 .exo .hdf .vtkhdf, nor is "
+        "it grid:N; for other meshes: meshio convert '" +
         input + "' mesh.vtu");
   }
   try {

@@ -28,6 +28,10 @@ GALE_EXPORT std::optional<int> grid_size(const std::string& input, const ReadOpt
 /// - `.vtu .vtk`: an unstructured grid. Its points and numeric point arrays travel as they are, the active scalars
 ///   first, and its tetrahedra keep their order. Cells of lower dimension are left out with a notice. Other cells of
 ///   dimension 3 are refused, unless `tetrahedralize`.
+/// - `.pvtu`: the pieces that it names, in its folder or below, as one mesh. Their points are the same where their
+///   global ids are (`GlobalIds` of `PPointData`), or all coordinates if there are no such; ghost cells are left out.
+/// - `.e .ex2 .exo` (Exodus II) and `.hdf .vtkhdf` (VTKHDF: a mesh, or an image): read by VTK, in the program
+///   gale-vtk-reader. Of an Exodus file the blocks of elements, and nodal variables at its first time.
 /// - `.vti .nii .nii.gz .mha .mhd .nrrd`, and `.vtk` of structured points: an image, see `split_voxels`. Values are
 ///   rescaled where the file says so. A NIfTI image keeps the file's voxel order, in the coordinates of its sform, else
 ///   its qform.

@@ -36,7 +36,7 @@ std::string without_spaces(std::string text) {
   return result;
 }
 
-NrrdHeader read_header(const InputFile& file) {
+NrrdHeader read_nrrd_header(const InputFile& file) {
   constexpr std::size_t most_fields = 1000, most_files = 100000;
   NrrdHeader header;
   FileBytes bytes(file, 0);
@@ -240,7 +240,7 @@ PointArray::Values read_data(const InputFile& file, const NrrdHeader& header, co
 }  // namespace
 
 Content read_nrrd(const InputFile& file, const ReadOptions& options) {
-  const NrrdHeader header = read_header(file);
+  const NrrdHeader header = read_nrrd_header(file);
   const Axes axes = axes_of(header);
   Volume volume;
   volume.type = type_of(lower_case(header["type"]));

@@ -19,6 +19,11 @@ Content read_content(const InputFile& file, Format format, const ReadOptions& op
       return read_meta_image(file, options);
     case Format::nrrd:
       return read_nrrd(file, options);
+    case Format::pvtu:
+      return read_pvtu(file, options);
+    case Format::exodus:
+    case Format::vtkhdf:
+      return read_by_program(file, format, options);
     case Format::vtp:
       break;
   }

@@ -25,5 +25,9 @@ Content read_legacy_vtk(const InputFile& file, const ReadOptions& options);
 Content read_nifti(const InputFile& file, const ReadOptions& options);
 Content read_meta_image(const InputFile& file, const ReadOptions& options);
 Content read_nrrd(const InputFile& file, const ReadOptions& options);
+Content read_pvtu(const InputFile& file, const ReadOptions& options);
+
+/// By VTK's reader of that format, in a process of its own: what a file does to it ends there.
+Content read_by_program(const InputFile& file, Format format, const ReadOptions& options);
 
 }  // namespace gale::io::detail

@@ -1,11 +1,10 @@
-#include <algorithm>
 #include <limits>
 
 #include <gale/io/bytes/damaged.hpp>
 #include <gale/io/bytes/value_type.hpp>
-#include <gale/io/cells/cells.hpp>
+#include <gale/io/cells/join.hpp>
 #include <gale/io/formats/readers.hpp>
-#include <gale/io/formats/xml_file.hpp>
+#include <gale/io/formats/vtu.hpp>
 
 namespace gale::io::detail {
 
@@ -25,6 +24,8 @@ const XmlElement& cell_array(const XmlElement& cells, const char* name) {
   }
   damaged(std::string("its Cells have no ") + name);
 }
+
+}  // namespace
 
 MeshParts read_piece(const XmlFile& file, const XmlElement& piece) {
   MeshParts parts;
@@ -47,90 +48,36 @@ MeshParts read_piece(const XmlFile& file, const XmlElement& piece) {
   return parts;
 }
 
-/// All values, in the type of the first.
-template <class To>
-void append(const PointArray::Values& from, To offset, std::vector<To>& to) {
-  std::visit(
-      [&](const auto& values) {
-        to.reserve(to.size() + values.size());
-        for (const auto value : values) to.push_back(static_cast<To>(value) + offset);
-      },
-      from);
+std::optional<PointArray::Values> read_ghosts(const XmlFile& file, const XmlElement& piece) {
+  const XmlElement* const data = piece.child("CellData");
+  if (data == nullptr) return std::nullopt;
+  for (const XmlElement& array : data->children) {
+    if (array.name == "DataArray" && array.attribute("Name") == ghost_array)
+      return read_array(file, array, count_in(piece, "NumberOfCells"));
+  }
+  return std::nullopt;
 }
 
-/// Behind the arrays of the pieces before, of which those stay that this piece has as well.
-void append_arrays(std::vector<PointArray>& from, std::vector<PointArray>& to, std::vector<std::string>& notices) {
-  const auto same = [](const PointArray& a, const PointArray& b) {
-    return a.name == b.name && a.components == b.components && a.values.index() == b.values.index();
-  };
-  for (auto array = to.begin(); array != to.end();) {
-    const auto more = std::find_if(from.begin(), from.end(), [&](const PointArray& a) { return same(*array, a); });
-    if (more == from.end()) {
-      notices.push_back("left out the point array '" + array->name + "': not all pieces have it");
-      array = to.erase(array);
-      continue;
-    }
-    std::visit(
-        [&](auto& values) {
-          const auto& others = std::get<std::decay_t<decltype(values)>>(more->values);
-          values.insert(values.end(), others.begin(), others.end());
-        },
-        array->values);
-    ++array;
-  }
-}
-
-/// The pieces one behind the other.
-MeshParts join(const XmlFile& file, const std::vector<const XmlElement*>& pieces) {
-  MeshParts all = read_piece(file, *pieces.front());
-  if (pieces.size() == 1) return all;
-  // One type for all that pieces may have in different ones.
-  std::vector<double> points;
-  std::vector<std::int64_t> types, ends, connectivity;
-  bool is_double = false, has_arrays = false;
-  const auto add = [&](MeshParts& part) {
-    const auto first_point = static_cast<std::int64_t>(points.size() / 3);
-    const auto begin = static_cast<std::int64_t>(connectivity.size());
-    is_double |= std::holds_alternative<std::vector<double>>(part.points);
-    append(part.points, 0.0, points);
-    append(part.cells.types, std::int64_t(0), types);
-    append(part.cells.ends, begin, ends);
-    append(part.cells.connectivity, first_point, connectivity);
-  };
-  add(all);
-  has_arrays = !points.empty();
-  for (std::size_t k = 1; k < pieces.size(); ++k) {
-    MeshParts part = read_piece(file, *pieces[k]);
-    add(part);
-    if (count_of(part.points) == 0) continue;  // an empty piece may leave out arrays
-    if (has_arrays) {
-      append_arrays(part.arrays, all.arrays, all.notices);
-    } else {
-      all.arrays = std::move(part.arrays);
-      all.notices = std::move(part.notices);
-    }
-    has_arrays = true;
-  }
-  if (is_double) {
-    all.points = std::move(points);
-  } else {
-    all.points = std::vector<float>(points.begin(), points.end());
-  }
-  all.cells = {std::move(types), std::move(ends), std::move(connectivity)};
-  return all;
-}
-
-}  // namespace
-
-Content read_vtu(const InputFile& input, const ReadOptions& options) {
-  const XmlFile file = read_xml(input, "UnstructuredGrid");
+std::vector<const XmlElement*> pieces_of(const XmlFile& file) {
   const XmlElement& grid = file.root.require("UnstructuredGrid");
   std::vector<const XmlElement*> pieces;
   for (const XmlElement& piece : grid.children) {
     if (piece.name == "Piece") pieces.push_back(&piece);
   }
+  return pieces;
+}
+
+Content read_vtu(const InputFile& input, const ReadOptions& options) {
+  const XmlFile file = read_xml(input, "UnstructuredGrid");
+  const std::vector<const XmlElement*> pieces = pieces_of(file);
   if (pieces.empty()) throw Error("it has no tetrahedra");
-  MeshParts parts = join(file, pieces);
+  MeshParts parts = read_piece(file, *pieces.front());
+  if (pieces.size() > 1) {
+    JoinedPieces joined;
+    joined.add(std::move(parts));
+    for (std::size_t k = 1; k < pieces.size(); ++k) joined.add(read_piece(file, *pieces[k]));
+    parts = joined.take();
+  }
   const std::vector<std::string> cell_arrays = names_of_cell_data(*pieces.front());
   if (!cell_arrays.empty()) parts.notices.push_back(note_cell_arrays(cell_arrays));
   return to_mesh(parts, options.tetrahedralize);

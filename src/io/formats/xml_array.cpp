@@ -118,7 +118,7 @@ Blocks read_blocks(Binary& binary, const XmlFile& file) {
 
 /// Uncompresses blocks into values as they are read, some at a time, each by a thread: memory is taken as they arrive.
 template <class T>
-std::vector<T> uncompress(Binary& binary, const Blocks& blocks, const XmlFile& file, std::uint64_t count) {
+std::vector<T> uncompressed_values(Binary& binary, const Blocks& blocks, const XmlFile& file, std::uint64_t count) {
   constexpr std::size_t bytes_at_once = 1 << 24;
   const Uncompress to_bytes = find_uncompress(file.compressor);
   std::vector<T> values;
@@ -190,7 +190,7 @@ PointArray::Values read_binary(const XmlFile& file, const XmlElement& array, Val
   const Blocks blocks = read_blocks(binary, file);
   check(blocks.bytes());
   return with_type(type, [&](auto example) -> PointArray::Values {
-    return uncompress<decltype(example)>(binary, blocks, file, *count);
+    return uncompressed_values<decltype(example)>(binary, blocks, file, *count);
   });
 }
 

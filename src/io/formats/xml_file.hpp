@@ -14,11 +14,14 @@
 /// tree, as base64 or raw.
 namespace gale::io::detail {
 
+/// The cell array that says which cells another piece has, too.
+inline constexpr char ghost_array[] = "vtkGhostType";
+
 struct XmlElement {
   std::string name;
   std::map<std::string, std::string> attributes;
   std::vector<XmlElement> children;
-  std::string text;  ///< of arrays of points and cells alone
+  std::string text;  ///< of arrays of points and cells alone, and of ghosts
 
   /// The attribute's value, or `otherwise`.
   std::string attribute(const std::string& key, const std::string& otherwise = "") const;

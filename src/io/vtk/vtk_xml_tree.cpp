@@ -92,7 +92,8 @@ class Builder {
       XML_StopParser(parser_, XML_FALSE);
       return;
     }
-    keeps_text_ = element.name == "DataArray" && (parent == "PointData" || parent == "Points" || parent == "Cells");
+    keeps_text_ = element.name == "DataArray" && (parent == "PointData" || parent == "Points" || parent == "Cells" ||
+                                                  element.attribute("Name") == ghost_array);
     if (open_.empty()) {
       to_.root = std::move(element);
       open_.push_back(&to_.root);

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <gale/io/cells/cells.hpp>
+
+namespace gale::io::detail {
+
+/// All values behind those of `to`, in its type, with `offset` added.
+template <class To>
+void append(const PointArray::Values& from, To offset, std::vector<To>& to) {
+  std::visit(
+      [&](const auto& values) {
+        to.reserve(to.size() + values.size());
+        for (const auto value : values) to.push_back(static_cast<To>(value) + offset);
+      },
+      from);
+}
+
+/// Pieces of a mesh, one behind the other. Of their arrays those stay that all pieces have which have points. Nothing of
+/// the cells is checked.
+class JoinedPieces {
+ public:
+  /// A piece whose points are numbered from 0 on, behind the points before.
+  void add(MeshParts piece) { add(std::move(piece), static_cast<std::int64_t>(points())); }
+
+  /// A piece whose cells name all points by their places among the joined ones.
+  void add_numbered(MeshParts piece) { add(std::move(piece), 0); }
+
+  std::size_t points() const { return points_.size() / 3; }
+
+  MeshParts take();
+
+ private:
+  void add(MeshParts piece, std::int64_t first_point);
+  void add_arrays(std::vector<PointArray>& from);
+
+  // One type for all that pieces may have in different ones.
+  std::vector<double> points_;
+  std::vector<std::int64_t> types_, ends_, connectivity_;
+  std::vector<PointArray> arrays_;
+  std::vector<std::string> notices_;
+  bool is_double_ = false, has_arrays_ = false;
+};
+
+}  // namespace gale::io::detail

@@ -1,0 +1,128 @@
+// write_foreign SOURCE.vtu FILE.e|FILE.vtkhdf: the mesh of a .vtu in another format. write_foreign SIZE FILE.vtkhdf: an
+// image of SIZE^3 points with the array "ramp", x + 2y + 3z.
+#include <cstdlib>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include <vtkCellArray.h>
+#include <vtkDataArray.h>
+#include <vtkExodusIIWriter.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkXMLUnstructuredGridReader.h>
+#include <vtk_hdf5.h>
+
+namespace {
+
+void put(hid_t group, const char* name, hid_t type, std::vector<hsize_t> shape, const void* values) {
+  const hid_t space = H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr);
+  const hid_t set = H5Dcreate(group, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+  H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values);
+  H5Dclose(set);
+  H5Sclose(space);
+}
+
+void describe(hid_t group, const char* name, hid_t type, std::vector<hsize_t> shape, const void* values) {
+  const hid_t space = H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr);
+  const hid_t attribute = H5Acreate(group, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
+  H5Awrite(attribute, type, values);
+  H5Aclose(attribute);
+  H5Sclose(space);
+}
+
+struct VtkHdf {
+  hid_t file, root, arrays;
+
+  VtkHdf(const char* path, const char* type)
+      : file(H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT)),
+        root(H5Gcreate(file, "VTKHDF", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT)),
+        arrays(H5Gcreate(root, "PointData", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT)) {
+    const long long version[] = {1, 0};
+    describe(root, "Version", H5T_NATIVE_LLONG, {2}, version);
+    const hid_t text = H5Tcopy(H5T_C_S1), scalar = H5Screate(H5S_SCALAR);
+    H5Tset_size(text, std::strlen(type));
+    H5Tset_strpad(text, H5T_STR_NULLPAD);
+    const hid_t attribute = H5Acreate(root, "Type", text, scalar, H5P_DEFAULT, H5P_DEFAULT);
+    H5Awrite(attribute, text, type);
+    H5Aclose(attribute);
+    H5Sclose(scalar);
+    H5Tclose(text);
+  }
+  ~VtkHdf() {
+    H5Gclose(arrays);
+    H5Gclose(root);
+    H5Fclose(file);
+  }
+};
+
+void write_image(int size, const char* path) {
+  const VtkHdf to(path, "ImageData");
+  const long long extent[] = {0, size - 1, 0, size - 1, 0, size - 1};
+  const double origin[] = {1, 2, 3}, spacing[] = {1, 1, 2}, direction[] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  describe(to.root, "WholeExtent", H5T_NATIVE_LLONG, {6}, extent);
+  describe(to.root, "Origin", H5T_NATIVE_DOUBLE, {3}, origin);
+  describe(to.root, "Spacing", H5T_NATIVE_DOUBLE, {3}, spacing);
+  describe(to.root, "Direction", H5T_NATIVE_DOUBLE, {9}, direction);
+  std::vector<float> ramp;
+  for (int i = 0; i < size * size * size; ++i)
+    ramp.push_back(static_cast<float>(i % size + 2 * (i / size % size) + 3 * (i / size / size)));
+  const auto n = static_cast<hsize_t>(size);
+  put(to.arrays, "ramp", H5T_NATIVE_FLOAT, {n, n, n}, ramp.data());
+}
+
+void write_mesh(vtkUnstructuredGrid* grid, const char* path) {
+  const VtkHdf to(path, "UnstructuredGrid");
+  const auto points = static_cast<hsize_t>(grid->GetNumberOfPoints()), cells = static_cast<hsize_t>(grid->GetNumberOfCells());
+  std::vector<float> xyz;
+  std::vector<long long> ends{0}, corners;
+  std::vector<unsigned char> types;
+  for (vtkIdType p = 0; p < grid->GetNumberOfPoints(); ++p)
+    for (int d = 0; d < 3; ++d) xyz.push_back(static_cast<float>(grid->GetPoint(p)[d]));
+  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c) {
+    vtkIdType count;
+    const vtkIdType* ids;
+    grid->GetCellPoints(c, count, ids);
+    corners.insert(corners.end(), ids, ids + count);
+    ends.push_back(static_cast<long long>(corners.size()));
+    types.push_back(static_cast<unsigned char>(grid->GetCellType(c)));
+  }
+  const long long of_points = grid->GetNumberOfPoints(), of_cells = grid->GetNumberOfCells(),
+                  of_corners = static_cast<long long>(corners.size());
+  put(to.root, "NumberOfPoints", H5T_NATIVE_LLONG, {1}, &of_points);
+  put(to.root, "NumberOfCells", H5T_NATIVE_LLONG, {1}, &of_cells);
+  put(to.root, "NumberOfConnectivityIds", H5T_NATIVE_LLONG, {1}, &of_corners);
+  put(to.root, "Points", H5T_NATIVE_FLOAT, {points, 3}, xyz.data());
+  put(to.root, "Offsets", H5T_NATIVE_LLONG, {cells + 1}, ends.data());
+  put(to.root, "Connectivity", H5T_NATIVE_LLONG, {corners.size()}, corners.data());
+  put(to.root, "Types", H5T_NATIVE_UCHAR, {cells}, types.data());
+  std::vector<float> field;
+  vtkDataArray* const array = grid->GetPointData()->GetArray("field");
+  for (vtkIdType p = 0; p < grid->GetNumberOfPoints(); ++p) field.push_back(static_cast<float>(array->GetTuple1(p)));
+  put(to.arrays, "field", H5T_NATIVE_FLOAT, {points}, field.data());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 3) return 2;
+  const std::string from = argv[1], to = argv[2];
+  if (from.find('.') == std::string::npos) {
+    write_image(std::atoi(argv[1]), argv[2]);
+    return 0;
+  }
+  vtkNew<vtkXMLUnstructuredGridReader> reader;
+  reader->SetFileName(argv[1]);
+  reader->Update();
+  if (to.size() > 7 && to.substr(to.size() - 7) == ".vtkhdf") {
+    write_mesh(reader->GetOutput(), argv[2]);
+    return 0;
+  }
+  vtkNew<vtkExodusIIWriter> writer;
+  writer->SetInputConnection(reader->GetOutputPort());
+  writer->SetFileName(argv[2]);
+  writer->WriteAllTimeStepsOff();
+  return writer->Write() != 0 ? 0 : 1;
+}
