@@ -46,11 +46,11 @@ Dataset read(const std::string& input, const ReadOptions& options) {
   if (!detail::has_vtk()) throw Error("this gale was built without VTK: it reads grid:N alone, not '" + input + "'");
   const std::optional<detail::Format> format = detail::format_of(input);
   if (!format || *format == detail::Format::vtp) {
-    throw Error(
-        "cannot read '" + input +
-        "': its extension is none of .vtu .pvtu .vtk .vti .nii .nii.gz .mha .mhd .nrrd .e .ex2 .exo .hdf .vtkhdf, nor is "
-        "it grid:N; for other meshes: meshio convert '" +
-        input + "' mesh.vtu");
+    throw Error("cannot read '" + input +
+                "': its extension is none of .vtu .pvtu .vtk .vti .nii .nii.gz .mha .mhd .nrrd .e .ex2 .exo .hdf "
+                ".vtkhdf, nor is "
+                "it grid:N; for other meshes: meshio convert '" +
+                input + "' mesh.vtu");
   }
   try {
     return read_file(input, *format, options);

@@ -75,7 +75,8 @@ void write_image(int size, const char* path) {
 
 void write_mesh(vtkUnstructuredGrid* grid, const char* path) {
   const VtkHdf to(path, "UnstructuredGrid");
-  const auto points = static_cast<hsize_t>(grid->GetNumberOfPoints()), cells = static_cast<hsize_t>(grid->GetNumberOfCells());
+  const auto points = static_cast<hsize_t>(grid->GetNumberOfPoints()),
+             cells = static_cast<hsize_t>(grid->GetNumberOfCells());
   std::vector<float> xyz;
   std::vector<long long> ends{0}, corners;
   std::vector<unsigned char> types;

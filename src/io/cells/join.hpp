@@ -20,8 +20,8 @@ void append(const PointArray::Values& from, To offset, std::vector<To>& to) {
       from);
 }
 
-/// Pieces of a mesh, one behind the other. Of their arrays those stay that all pieces have which have points. Nothing of
-/// the cells is checked.
+/// Pieces of a mesh, one behind the other. Of their arrays those stay that all pieces have which have points. Nothing
+/// of the cells is checked.
 class JoinedPieces {
  public:
   /// A piece whose points are numbered from 0 on, behind the points before.

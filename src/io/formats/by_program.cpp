@@ -118,16 +118,14 @@ void run(const char* format, const std::string& path, int result) {
   char* const arguments[] = {const_cast<char*>(program.c_str()), const_cast<char*>(format),
                              const_cast<char*>(absolute.c_str()), nullptr};
   pid_t process;
-  const int failure =
-      posix_spawn(&process, program.c_str(), &spawning.files, &spawning.attributes, arguments, environ);
+  const int failure = posix_spawn(&process, program.c_str(), &spawning.files, &spawning.attributes, arguments, environ);
   if (failure != 0) throw Error(program + " can't be run: " + std::strerror(failure));
   to.close();
   const std::string message = all_of(from);
   int status = 0;
   while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
   }
-  if (WIFSIGNALED(status))
-    damaged(std::string("VTK's reader ended by a signal (") + strsignal(WTERMSIG(status)) + ")");
+  if (WIFSIGNALED(status)) damaged(std::string("VTK's reader ended by a signal (") + strsignal(WTERMSIG(status)) + ")");
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
     throw Error(message.empty() ? "VTK's reader ended without a word" : printable(message));
 }

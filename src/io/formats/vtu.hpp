@@ -17,8 +17,8 @@ std::vector<const XmlElement*> pieces_of(const XmlFile& file);
 /// Points, cells and point arrays of one of them. Throws gale::Error for what the file lacks.
 MeshParts read_piece(const XmlFile& file, const XmlElement& piece);
 
-/// What VTK's writers say of each cell in the array vtkGhostType: its bit 1 is set where another piece has the cell, too.
-/// Nothing if there is no such array.
+/// What VTK's writers say of each cell in the array vtkGhostType: its bit 1 is set where another piece has the cell,
+/// too. Nothing if there is no such array.
 std::optional<PointArray::Values> read_ghosts(const XmlFile& file, const XmlElement& piece);
 
 }  // namespace gale::io::detail

@@ -41,8 +41,8 @@ vtkSmartPointer<vtkDataSet> read_exodus(const std::string& path) {
   reader->SetFileName(path.c_str());
   reader->UpdateInformation();
   reader->SetAllArrayStatus(vtkExodusIIReader::NODAL, 1);
-  reader->ApplyDisplacementsOff();        // points are where the file has them
-  reader->SetSqueezePoints(false);        // all blocks have all points, and number them alike
+  reader->ApplyDisplacementsOff();  // points are where the file has them
+  reader->SetSqueezePoints(false);  // all blocks have all points, and number them alike
   reader->GenerateGlobalNodeIdArrayOff();
   reader->Update();
   vtkNew<vtkUnstructuredGrid> mesh;

@@ -1,5 +1,5 @@
-// gale-vtk-reader FORMAT FILE: reads a file by VTK and writes its mesh or image to descriptor 3 as a .vtu or .vti. What is
-// wrong goes to descriptor 4, a line, with exit code 1. GALE runs it; whatever FILE does to VTK's readers ends here.
+// gale-vtk-reader FORMAT FILE: reads a file by VTK and writes its mesh or image to descriptor 3 as a .vtu or .vti. What
+// is wrong goes to descriptor 4, a line, with exit code 1. GALE runs it; whatever FILE does to VTK's readers ends here.
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -93,7 +93,10 @@ int read(const std::string& format, const std::string& path) {
   vtkOutputWindow::SetInstance(messages);
   const bool is_exodus = format == "exodus";
   const auto data = is_exodus ? gale::reader::read_exodus(path) : gale::reader::read_vtkhdf(path);
-  if (!messages->said.empty()) return fail("it is damaged: VTK's reader says: " + message_of(messages->said));
+  if (!messages->said.empty()) {
+    return fail("it is damaged, incomplete or of another format (VTK's reader says: " + message_of(messages->said) +
+                ")");
+  }
   if (!data) return fail(is_exodus ? "it is no Exodus II file" : "it is no VTKHDF file of a mesh or an image");
   data->GetCellData()->Initialize();
   data->GetFieldData()->Initialize();

@@ -16,7 +16,7 @@ constexpr std::size_t most = std::numeric_limits<int>::max();
 bool uncompress_zlib(const char* compressed, std::size_t compressed_bytes, char* to, std::size_t bytes) {
   auto written = static_cast<uLongf>(bytes);
   const int status = ::uncompress(reinterpret_cast<Bytef*>(to), &written, reinterpret_cast<const Bytef*>(compressed),
-                                static_cast<uLong>(compressed_bytes));
+                                  static_cast<uLong>(compressed_bytes));
   return status == Z_OK && written == bytes;
 }
 
