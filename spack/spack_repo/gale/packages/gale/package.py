@@ -3,71 +3,119 @@ import os
 
 from spack_repo.builtin.build_systems.cmake import CMakePackage
 from spack_repo.builtin.build_systems.cuda import CudaPackage
+from spack_repo.builtin.build_systems.python import PythonExtension
 
 from spack.package import *
 
+CHECKOUT = os.path.abspath(os.path.join(os.path.dirname(__file__), *[os.pardir] * 5))
 
-class Gale(CMakePackage, CudaPackage):
-    """Topological relations of large tetrahedral meshes, computed segment by segment and ahead of need, on CPUs and GPUs."""
 
-    # The sources are those of the checkout that this recipe lies in.
-    git = "file://" + os.path.abspath(os.path.join(os.path.dirname(__file__), *[os.pardir] * 5))
+class Gale(CMakePackage, CudaPackage, PythonExtension):
+    """Topological relations of large tetrahedral meshes, computed segment by segment and ahead of need, on CPUs and GPUs;
+    critical points, Morse-Smale complexes and persistent homology of scalar fields on them."""
+
+    # The sources are those of the checkout that this recipe lies in. There are no releases yet.
+    if os.path.exists(os.path.join(CHECKOUT, ".git")):
+        git = f"file://{CHECKOUT}"
 
     license("BSD-3-Clause")
 
     test_requires_compiler = True
 
     version("main", branch="main")
-    version("0.1.0", tag="v0.1.0")
 
+    # Kokkos' backends, which cannot be added to those of the Kokkos that is linked. Without a device, and where Kokkos has
+    # Serial alone, GALE's own loops still use all cores, by the compiler's OpenMP.
     variant("serial", default=True, description="Kokkos' Serial backend")
     variant("openmp", default=False, description="Kokkos' OpenMP backend")
-    variant("vtk", default=True, description="Read files, and compress those written, with what VTK brings")
+    variant("app", default=True, description="The gale command")
+    variant("kokkos_kernels", default=True, description="The explicit structure, through Kokkos-Kernels")
     variant("mpi", default=False, description="Meshes that lie on several MPI ranks")
+    variant("python", default=False, description="The Python module gale")
+    variant("vtk", default=True, description="Read files, and compress those written, with what VTK brings")
     variant("shared", default=True, description="Build shared libraries")
 
+    depends_on("c", type="build", when="+vtk")  # VTK finds HDF5 with it
     depends_on("cxx", type="build")
     depends_on("cmake@3.22:", type="build")
+    depends_on("llvm-openmp", when="%apple-clang")
     depends_on("kokkos@4.4:")
-    depends_on("kokkos-kernels@4.4:")
+    depends_on("kokkos-kernels@4.4:", when="+kokkos_kernels")
     depends_on("vtk@9.1:", when="+vtk")
     depends_on("mpi", when="+mpi")
-    depends_on("cli11")
-    depends_on("nlohmann-json")
+    depends_on("cli11", when="+app")
+    depends_on("nlohmann-json", when="+app")
     depends_on("googletest", type="test")
     depends_on("python@3.9:", type="test")
 
-    for package in ("kokkos", "kokkos-kernels"):
-        depends_on(f"{package}+shared", when="+shared")
-        for backend in ("serial", "openmp"):
-            depends_on(f"{package}+{backend}", when=f"+{backend}")
-        for arch in CudaPackage.cuda_arch_values:
-            depends_on(f"{package}+cuda cuda_arch={arch}", when=f"+cuda cuda_arch={arch}")
+    with when("+python"):
+        extends("python@3.9:")
+        depends_on("py-nanobind@2:", type="build")
+        depends_on("py-numpy", type=("build", "run"))
+        depends_on("kokkos+pic", when="~shared")
+
+    depends_on("kokkos+shared", when="+shared")
+    for backend in ("serial", "openmp"):
+        depends_on(f"kokkos+{backend}", when=f"+{backend}")
+        depends_on(f"kokkos-kernels+{backend}", when=f"+kokkos_kernels+{backend}")
+    depends_on("kokkos-kernels+shared", when="+kokkos_kernels+shared")
+
+    # Kokkos is built for one architecture.
+    for arch in CudaPackage.cuda_arch_values:
+        depends_on(f"kokkos+cuda cuda_arch={arch}", when=f"+cuda cuda_arch={arch}")
+        depends_on(f"kokkos-kernels+cuda cuda_arch={arch}", when=f"+kokkos_kernels+cuda cuda_arch={arch}")
+    depends_on("kokkos+cuda_lambda", when="+cuda ^kokkos@:4")
     depends_on("kokkos+wrapper", when="+cuda %gcc")
 
     conflicts("cuda_arch=none", when="+cuda", msg="name the GPU: cuda_arch=90, for example")
     conflicts("~serial", when="~openmp", msg="Kokkos needs a host backend: +serial or +openmp")
+    for backend in ("rocm", "sycl", "openmptarget", "hpx", "threads"):
+        conflicts(f"^kokkos+{backend}", msg=f"GALE has no code for Kokkos' backend +{backend}: Serial, OpenMP or CUDA")
+    conflicts("^kokkos+cuda", when="~cuda", msg="this Kokkos has CUDA: take +cuda and its cuda_arch")
 
     def cmake_args(self):
         args = [
             self.define_from_variant("BUILD_SHARED_LIBS", "shared"),
-            self.define_from_variant("GALE_ENABLE_VTK", "vtk"),
+            self.define_from_variant("GALE_ENABLE_APP", "app"),
+            self.define_from_variant("GALE_ENABLE_KOKKOS_KERNELS", "kokkos_kernels"),
             self.define_from_variant("GALE_ENABLE_MPI", "mpi"),
-            self.define("GALE_ENABLE_KOKKOS_KERNELS", True),
+            self.define_from_variant("GALE_ENABLE_PYTHON", "python"),
+            self.define_from_variant("GALE_ENABLE_VTK", "vtk"),
             self.define("GALE_ENABLE_EXAMPLES", self.run_tests),
             self.define("GALE_ENABLE_TESTS", self.run_tests),
             self.define(
                 "GALE_REQUIRE_BACKENDS",
                 [backend.upper() for backend in ("serial", "openmp", "cuda") if self.spec.satisfies(f"+{backend}")],
             ),
+            self.define("Kokkos_ROOT", self.spec["kokkos"].prefix),
         ]
         if self.spec.satisfies("+cuda"):
             args.append(self.define("CMAKE_CXX_COMPILER", self["kokkos"].kokkos_cxx))
+        if self.spec.satisfies("+python"):
+            args.append(self.define("GALE_PYTHON_DIR", python_platlib))
+            where = self.spec["python"].command("-m", "nanobind", "--cmake_dir", output=str)
+            args.append(self.define("nanobind_DIR", where.strip()))
         return args
 
     @run_after("install")
     def keep_examples(self):
         cache_extra_test_sources(self, ["examples"])
+
+    def test_command(self):
+        """find the critical points of a synthetic field"""
+        if self.spec.satisfies("~app"):
+            raise SkipTest("there is no command without +app")
+        gale = which(self.prefix.bin.gale, required=True)
+        out = gale("critical-points", "grid:32", output=str.split, error=str.split)
+        check_outputs([r"minima\s+26", r"maxima\s+39"], out)
+
+    def test_python(self):
+        """import the module, and find the critical points of a synthetic field"""
+        if self.spec.satisfies("~python"):
+            raise SkipTest("there is no module without +python")
+        python = self.spec["python"].command
+        script = "import gale; mesh, arrays = gale.read('grid:16'); print(len(mesh.critical_points(arrays['field']).points))"
+        python("-c", script)
 
     def test_examples(self):
         """build the examples against the installed GALE and run them"""
