@@ -166,7 +166,7 @@ def read(path: Union[str, os.PathLike[str]], above: Optional[float] = None, arra
          outside_files: bool = False, capacity: int = 100) -> Tuple[Mesh, Dict[str, np.ndarray]]:
     """The mesh of a file, and its point arrays by name, each (n,) or (n, components): (Mesh, dict).
 
-    Meshes: .vtu, .vtk; volumes, of which the voxels with values above `above` are split into tetrahedra: .vti, .nii,
+    Meshes: .vtu, .pvtu, .vtk, .e, .ex2, .exo, .vtkhdf, .hdf; volumes, of which the voxels with values above `above` are split into tetrahedra: .vti, .nii,
     .nii.gz, .mha, .mhd, .nrrd, .vtk; and grid:N. `array` is the volume's array that `above` is about."""
     inner, arrays = _gale.read(os.fspath(path), above, array, tetrahedralize, outside_files, capacity)
     return Mesh._of(inner), arrays
