@@ -91,7 +91,7 @@ def vtu(*encoding, kind="Float32", pieces=1, more_cells=False, **options):
             cells, types = cells + [[0, 1, 2], [0, 1, 2, 3, 4], [2]], types + [5, 14, 1]
         offsets = [sum(map(len, cells[:i + 1])) for i in range(len(cells))]
         body += (f'<Piece NumberOfPoints="6" NumberOfCells="{len(cells)}">\n<PointData Scalars="field">\n' +
-                 xml.array("field", kind, FIELD) + xml.array("pairs", "Int16", list(range(12)), 2) + "</PointData>\n<CellData>\n" +
+                 xml.array("field", kind, list(map(int, FIELD)) if "Int" in kind else FIELD) + xml.array("pairs", "Int16", list(range(12)), 2) + "</PointData>\n<CellData>\n" +
                  xml.array("part", "UInt8", [1] * len(cells)) + "</CellData>\n<Points>\n" + xml.array("Points", kind, POINTS, 3) +
                  "</Points>\n<Cells>\n" + xml.array("connectivity", "Int64", sum(cells, [])) + xml.array("offsets", "Int64", offsets) +
                  xml.array("types", "UInt8", types) + "</Cells>\n</Piece>\n")
@@ -108,6 +108,14 @@ def vti(*encoding, kind="Float32", pieces=1, **options):
         body += (f'<Piece Extent="0 {x - 1} 0 {y - 1} {low} {high}">\n<PointData Scalars="values">\n' +
                  xml.array("values", kind, values) + "</PointData>\n</Piece>\n")
     return xml.file(body + "</ImageData>\n")
+
+
+def pvtu(**global_ids):
+    """Names twice the same piece, which lies beside it."""
+    attributes = "".join(f' {key}="{value}"' for key, value in global_ids.items())
+    return ('<VTKFile type="PUnstructuredGrid" version="1.0" byte_order="LittleEndian">\n<PUnstructuredGrid GhostLevel="0">\n'
+            f'<PPointData{attributes}></PPointData>\n<Piece Source="input.raw"/>\n<Piece Source="input.raw"/>\n'
+            "</PUnstructuredGrid>\n</VTKFile>\n").encode()
 
 
 class Legacy:
@@ -207,6 +215,8 @@ def seeds():
             "base64": vtu("appended base64"), "base64_zlib": vtu("appended base64", zlib_), "pieces": vtu("ascii", pieces=2),
             "more_cells": vtu("appended raw", zlib_, more_cells=True)}.items():
         yield f"{name}.vtu", content, None
+    yield "coordinates.pvtu", pvtu(), vtu("ascii", more_cells=True)
+    yield "ids.pvtu", pvtu(GlobalIds="field"), vtu("appended raw", "", "UInt64", kind="Int32")
     for name, content in {
             "ascii": vti("ascii"), "binary": vti("binary"), "raw": vti("appended raw", "", "UInt64"), "raw_zlib": vti("appended raw", zlib_),
             "bytes": vti("appended raw", kind="UInt8"), "base64_lz4": vti("appended base64", lz4), "raw_lzma": vti("appended raw", xz),

@@ -195,12 +195,13 @@ TEST_F(ReadMesh, RefusesWhatIsNoSuchFile) {
   const std::string directory = folder / "directory.vtu";
   std::filesystem::create_directory(directory);
   EXPECT_EQ(error_of([&] { read(directory); }), "cannot read '" + directory + "': it is a directory");
-  for (const std::string name : {"mesh.obj", "mesh", ".vtu", "points.vtp", ""}) {
-    EXPECT_EQ(error_of([&] { read(name); }), "cannot read '" + name +
-                                                 "': its extension is none of .vtu .vtk .vti .nii .nii.gz .mha .mhd "
-                                                 ".nrrd, nor is it grid:N; for other meshes: "
-                                                 "meshio convert '" +
-                                                 name + "' mesh.vtu");
+  for (const std::string name : {"mesh.obj", "mesh.msh", "mesh", ".vtu", "points.vtp", ""}) {
+    EXPECT_EQ(error_of([&] { read(name); }),
+              "cannot read '" + name +
+                  "': its extension is none of .vtu .pvtu .vtk .vti .nii .nii.gz .mha .mhd "
+                  ".nrrd .e .ex2 .exo .hdf .vtkhdf, nor is it grid:N; for other meshes: "
+                  "meshio convert '" +
+                  name + "' mesh.vtu");
   }
 }
 

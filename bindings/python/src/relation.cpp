@@ -16,11 +16,33 @@ struct Block {
   std::unique_ptr<Id[]> words;
 };
 
+/// Neither array is touched before it is written, by all threads.
 struct AllRows {
-  std::vector<std::int64_t> begin;
-  std::shared_ptr<Id[]> entries;  ///< not touched before they are written, by all threads
-  Id columns = 0;                 ///< how many simplices the entries are among
+  std::shared_ptr<std::int64_t[]> begin;
+  std::shared_ptr<Id[]> entries;
+  Id rows = 0, columns = 0;  ///< how many simplices have rows, and may be entries
 };
+
+/// Sorts numbers that differ. Most rows are short: there each number's place is how many are less, counted eight at a
+/// time, without a branch to guess wrong.
+void sort_row(Id* row, Id count) {
+  constexpr Id at_once = 8, most = 64;
+  if (count > most) {
+    std::sort(row, row + count);
+    return;
+  }
+  Id copy[most], places[most];
+  const Id padded = (count + at_once - 1) / at_once * at_once;
+  for (Id i = 0; i < padded; ++i) copy[i] = i < count ? row[i] : 0;
+  for (Id i = 0; i < padded; ++i) places[i] = 0;
+  for (Id j = 0; j < count; ++j) {
+    const Id other = copy[j];
+    for (Id begin = 0; begin < padded; begin += at_once) {
+      for (Id i = begin; i < begin + at_once; ++i) places[i] += other < copy[i];
+    }
+  }
+  for (Id i = 0; i < count; ++i) row[places[i]] = copy[i];
+}
 
 /// How many simplices of a dimension the mesh has. They have been needed.
 Id known_simplices(const Mesh& mesh, int dimension) {
@@ -38,7 +60,7 @@ Block block_of(const Rows& rows, const Id* entry_number) {
     block.words[i] = row.size();
     Id* const first = to;
     for (const Id entry : row) *to++ = entry_number[entry];
-    std::sort(first, to);
+    sort_row(first, static_cast<Id>(to - first));
   }
   return block;
 }
@@ -66,17 +88,20 @@ AllRows gathered(const Mesh& mesh, Relation relation, const Id* row_number,
                  const std::vector<std::vector<Block>>& parts) {
   const Id rows = known_simplices(mesh, row_dimension(relation));
   AllRows all;
-  all.begin.resize(static_cast<std::size_t>(rows) + 1);
+  all.begin.reset(new std::int64_t[static_cast<std::size_t>(rows) + 1]);
+  const Array<std::int64_t, HostMemory> begin(all.begin.get(), static_cast<std::size_t>(rows) + 1);
   for_each_block(parts, [&](const Block& block) {
-    for (Id i = 0; i < block.rows; ++i) all.begin[row_number[block.first + i] + 1] = block.words[i];
+    for (Id i = 0; i < block.rows; ++i) begin(row_number[block.first + i]) = block.words[i];
   });
-  for (Id i = 0; i < rows; ++i) all.begin[i + 1] += all.begin[i];
-  all.entries.reset(new Id[all.begin.back()]);
+  const std::int64_t entries =
+      exclusive_scan("GALE::row_begin", Host(), rows, begin, [&](Offset i) { return begin(i); });
+  all.entries.reset(new Id[entries]);
   for_each_block(parts, [&](const Block& block) {
     const Id* from = block.words.get() + block.rows;
     for (Id i = 0; i < block.rows; from += block.words[i++])
-      std::copy_n(from, block.words[i], all.entries.get() + all.begin[row_number[block.first + i]]);
+      std::copy_n(from, block.words[i], all.entries.get() + begin(row_number[block.first + i]));
   });
+  all.rows = rows;
   all.columns = known_simplices(mesh, entry_dimension(relation));
   return all;
 }
@@ -95,10 +120,10 @@ nb::tuple PyMesh::relation(const std::string& name, int threads, const nb::objec
     const auto parts = sweep(*structure, *relation, numbers(entry_dimension(*relation)), options);
     rows = gathered(mesh(), *relation, numbers(row_dimension(*relation)), parts);
   }
-  const Id* const entries = rows.entries.get();
-  const auto count = static_cast<std::size_t>(rows.begin.back());
-  return nb::make_tuple(numpy_of(std::move(rows.begin)), numpy_of(entries, count, 1, std::move(rows.entries)),
-                        rows.columns);
+  const auto begins = static_cast<std::size_t>(rows.rows) + 1;
+  const auto entries = static_cast<std::size_t>(rows.begin[rows.rows]);
+  return nb::make_tuple(numpy_of(rows.begin.get(), begins, 1, rows.begin),
+                        numpy_of(rows.entries.get(), entries, 1, rows.entries), rows.columns);
 }
 
 }  // namespace gale::python

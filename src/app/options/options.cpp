@@ -6,7 +6,10 @@
 namespace gale::app {
 
 void InputOptions::add_to(CLI::App& command) {
-  command.add_option("INPUT", input, "A mesh (.vtu .pvtu .vtk .e .ex2 .exo .vtkhdf), a volume (.vti .nii .nii.gz .mha .mhd .nrrd) or grid:N")
+  command
+      .add_option(
+          "INPUT", input,
+          "A mesh (.vtu .pvtu .vtk .e .ex2 .exo .vtkhdf), a volume (.vti .nii .nii.gz .mha .mhd .nrrd) or grid:N")
       ->required();
   command.add_option("--above", read.above, "Volumes: keep the voxels with values above this");
   command.add_option(
