@@ -23,27 +23,6 @@ struct AllRows {
   Id rows = 0, columns = 0;  ///< how many simplices have rows, and may be entries
 };
 
-/// Sorts numbers that differ. Most rows are short: there each number's place is how many are less, counted eight at a
-/// time, without a branch to guess wrong.
-void sort_row(Id* row, Id count) {
-  constexpr Id at_once = 8, most = 64;
-  if (count > most) {
-    std::sort(row, row + count);
-    return;
-  }
-  Id copy[most], places[most];
-  const Id padded = (count + at_once - 1) / at_once * at_once;
-  for (Id i = 0; i < padded; ++i) copy[i] = i < count ? row[i] : 0;
-  for (Id i = 0; i < padded; ++i) places[i] = 0;
-  for (Id j = 0; j < count; ++j) {
-    const Id other = copy[j];
-    for (Id begin = 0; begin < padded; begin += at_once) {
-      for (Id i = begin; i < begin + at_once; ++i) places[i] += other < copy[i];
-    }
-  }
-  for (Id i = 0; i < count; ++i) row[places[i]] = copy[i];
-}
-
 /// How many simplices of a dimension the mesh has. They have been needed.
 Id known_simplices(const Mesh& mesh, int dimension) {
   const Id counts[] = {mesh.vertices(), mesh.known_edges(), mesh.known_triangles(), mesh.tetrahedra()};
@@ -60,7 +39,7 @@ Block block_of(const Rows& rows, const Id* entry_number) {
     block.words[i] = row.size();
     Id* const first = to;
     for (const Id entry : row) *to++ = entry_number[entry];
-    sort_row(first, static_cast<Id>(to - first));
+    if (!std::is_sorted(first, to)) std::sort(first, to);
   }
   return block;
 }
@@ -94,7 +73,7 @@ AllRows gathered(const Mesh& mesh, Relation relation, const Id* row_number,
     for (Id i = 0; i < block.rows; ++i) begin(row_number[block.first + i]) = block.words[i];
   });
   const std::int64_t entries =
-      exclusive_scan("GALE::row_begin", Host(), rows, begin, [&](Offset i) { return begin(i); });
+      exclusive_scan("GALE::row_begin", HostSpace(), rows, begin, [&](Offset i) { return begin(i); });
   all.entries.reset(new Id[entries]);
   for_each_block(parts, [&](const Block& block) {
     const Id* from = block.words.get() + block.rows;
