@@ -1,6 +1,5 @@
 """The plugin in pvbatch, compared with what the command writes: loaded, run, rendered, applied many times."""
 import os
-import re
 import sys
 import unittest
 from pathlib import Path
@@ -8,8 +7,6 @@ from pathlib import Path
 import gale  # of the command's tests
 from paraview import servermanager, simple
 from vtkmodules.util.numpy_support import vtk_to_numpy
-
-FILTERS = ("GALECriticalPoints", "GALEMorseSmaleComplex", "GALESegmentation")
 
 
 def resident_mib():
@@ -56,29 +53,6 @@ class Plugin(gale.CommandTest):
         self.assertEqual(arrays_of(found.GetPointData()), expected.point_arrays)
         self.assertEqual(arrays_of(found.GetCellData()), expected.cell_arrays)
         self.assertEqual(cells_of(found, kind), expected.cells(kind))
-
-    def test_window_has_a_menu_icons_and_help_for_all_properties(self):
-        icons = Path(__file__).parent.parent / "plugin" / "icons"
-        for name in FILTERS:
-            proxy = getattr(simple, name)(Input=self.grid).SMProxy
-            menu = proxy.GetHints().FindNestedElementByName("ShowInMenu")
-            self.assertEqual(menu.GetAttribute("category"), "GALE")
-            self.assertTrue((icons / Path(menu.GetAttribute("icon")).name).is_file(), menu.GetAttribute("icon"))
-            self.assertGreater(len(proxy.GetDocumentation().GetDescription()), 40)
-            properties = proxy.NewPropertyIterator()
-            properties.Begin()
-            while not properties.IsAtEnd():
-                documentation = properties.GetProperty().GetDocumentation()
-                self.assertTrue(documentation and documentation.GetDescription(), f"{name}: {properties.GetKey()}")
-                properties.Next()
-
-    def test_all_properties_are_there_with_the_defaults_of_the_classes(self):
-        for name in FILTERS:
-            proxy = getattr(simple, name)(Input=self.grid)
-            own = re.findall(r"^  (\w+): ([\d.]+)$", str(proxy.SMProxy.GetClientSideObject()).split("Threads:")[1], re.M)
-            self.assertGreaterEqual(len(own), 3)
-            for key, value in own:
-                self.assertEqual(float(proxy.GetPropertyValue(key)), float(value), f"{name}: {key}")
 
     def test_critical_points_are_the_commands(self):
         self.succeed("critical-points", "grid16.vtk", "-o", "critical.vtp")
