@@ -23,6 +23,11 @@ NB_MODULE(_gale, module) {
     }
   });
   module.attr("version") = gale::version;
+#if defined(KOKKOS_ENABLE_CUDA)
+  module.attr("has_cuda") = true;
+#else
+  module.attr("has_cuda") = false;
+#endif
   module.def("finalize", &gale::python::finalize);
   module.def("after_fork", &gale::python::after_fork);
   module.def("device_array", &gale::python::device_array, "data"_a, "shape"_a, "type"_a, "bytes"_a, "owner"_a);

@@ -44,6 +44,15 @@ vtkDataArray* first_field(vtkPointData* arrays) {
   return nullptr;
 }
 
+/// A server of several processes asks each for a piece, and gives it a piece: which says nothing of the whole mesh.
+void require_whole(vtkInformation* output) {
+  const int pieces = output->Get(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES());
+  if (pieces <= 1) return;
+  throw gale::Error("asked for piece " +
+                    std::to_string(output->Get(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER())) + " of " +
+                    std::to_string(pieces) + ": the whole mesh is needed, in one process");
+}
+
 }  // namespace
 
 vtkGaleAlgorithm::vtkGaleAlgorithm() { this->SetNumberOfInputPorts(1); }
@@ -85,6 +94,7 @@ int vtkGaleAlgorithm::RequestData(vtkInformationVector** inputs, vtkInformationV
   options.capacity = this->Capacity;
   if (this->UseThreshold) options.above = this->Threshold;
   try {
+    require_whole(outputs->GetInformationObject(0));
     initialize_once();
     gale::vtk::Run run(*this, vtkDataSet::GetData(inputs[0]), this->SelectField(inputs), options);
     this->Compute(run, outputs);

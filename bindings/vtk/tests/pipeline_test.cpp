@@ -8,9 +8,11 @@
 #include <vtkGaleCriticalPoints.h>
 #include <vtkGaleMorseSmaleComplex.h>
 #include <vtkGaleSegmentation.h>
+#include <vtkInformation.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
+#include <vtkStreamingDemandDrivenPipeline.h>
 
 #include "fixtures.hpp"
 
@@ -64,6 +66,17 @@ TEST_F(Filters, NeverChangeTheirInput) {
       EXPECT_EQ(input->GetMTime(), time) << filter->GetClassName();
       EXPECT_EQ(content_of(input), before) << filter->GetClassName();
     }
+  }
+}
+
+TEST_F(Filters, RefuseToGiveAPieceOfAMesh) {
+  for (const auto& filter : all()) {
+    filter->SetInputData(grid_);
+    filter->UpdateInformation();
+    const vtkSmartPointer<vtkInformation> information = filter->GetOutputInformation(0);
+    information->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES(), 4);
+    information->Set(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER(), 1);
+    EXPECT_EQ(error_of(*filter), "asked for piece 1 of 4: the whole mesh is needed, in one process");
   }
 }
 
