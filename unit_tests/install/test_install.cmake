@@ -28,6 +28,15 @@ if(gale)
   run(${gale} --version)
 endif()
 
+# The command finds the program beside it that reads Exodus files.
+if(reader)
+  file(WRITE ${here}/text.e "no mesh")
+  execute_process(COMMAND ${gale} info ${here}/text.e ERROR_VARIABLE message RESULT_VARIABLE result)
+  if(NOT result EQUAL 1 OR NOT message MATCHES "it is no Exodus II file")
+    message(FATAL_ERROR "of a text that is called .e the command says ${result}: ${message}")
+  endif()
+endif()
+
 # The manual page names all commands, as the command does where it is given none.
 if(man_page)
   execute_process(COMMAND ${gale} ERROR_VARIABLE message)

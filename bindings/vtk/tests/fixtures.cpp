@@ -95,6 +95,10 @@ void expect_points(vtkPolyData* found, const io::Dataset::Positions& expected) {
 }
 
 std::string error_of(vtkAlgorithm& filter) {
+  return error_of(filter, [&] { filter.Update(); });
+}
+
+std::string error_of(vtkAlgorithm& filter, const std::function<void()>& update) {
   std::string error;
   const auto watch = vtkSmartPointer<vtkCallbackCommand>::New();
   watch->SetCallback(keep_error);
@@ -102,7 +106,7 @@ std::string error_of(vtkAlgorithm& filter) {
   const auto tag = filter.AddObserver(vtkCommand::ErrorEvent, watch);
   const auto other = filter.GetExecutive()->AddObserver(vtkCommand::ErrorEvent, watch);
   filter.Modified();
-  filter.Update();
+  update();
   filter.GetExecutive()->RemoveObserver(other);
   filter.RemoveObserver(tag);
   return error.empty() ? "no error" : error;

@@ -37,6 +37,9 @@ void expect_points(vtkPolyData* found, const io::Dataset::Positions& expected);
 /// What the filter says where it fails; "no error" where it doesn't.
 std::string error_of(vtkAlgorithm& filter);
 
+/// The same where `update` updates it.
+std::string error_of(vtkAlgorithm& filter, const std::function<void()>& update);
+
 /// A text with all that is in a data object.
 std::string content_of(vtkDataObject* data);
 

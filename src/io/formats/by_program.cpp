@@ -36,7 +36,7 @@ fs::path own_folder() {
 /// Beside that, where the Python module has it, or where GALE was installed.
 std::string find_program() {
   const fs::path own = own_folder();
-  for (const fs::path& folder : {own, own / "bin", own / ".." / GALE_LIBEXEC_FROM_BIN, fs::path(GALE_LIBEXEC)}) {
+  for (const fs::path& folder : {own, own / "bin", own / GALE_LIBEXEC_FROM_BIN, fs::path(GALE_LIBEXEC)}) {
     const fs::path program = folder / program_name;
     if (access(program.c_str(), X_OK) == 0) return program.string();
   }
@@ -139,10 +139,14 @@ bool is_image(const InputFile& file) {
 }  // namespace
 
 Content read_by_program(const InputFile& input, Format format, const ReadOptions& options) {
+#if defined(__linux__)
   const Descriptor result(moved_up(memfd_create("gale", MFD_CLOEXEC)));
   run(format == Format::exodus ? "exodus" : "vtkhdf", input.path(), result);
   const InputFile file("/proc/self/fd/" + std::to_string(int(result)));
   return is_image(file) ? read_vti(file, options) : read_vtu(file, options);
+#else
+  throw Error("such files are read on Linux alone");
+#endif
 }
 
 }  // namespace gale::io::detail

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <csignal>
 #include <exception>
+#include <fstream>
 #include <string>
 
 #include <vtkCellData.h>
@@ -54,6 +55,13 @@ std::string message_of(std::string text) {
   return text;
 }
 
+/// What this process has mapped already.
+rlim_t mapped_bytes() {
+  rlim_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  return pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
+}
+
 /// A file can't stand for more than its bytes inflated, nor take long.
 void limit_to(const std::string& path) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -65,8 +73,8 @@ void limit_to(const std::string& path) {
     now.rlim_cur = std::min(now.rlim_max, most);
     setrlimit(static_cast<__rlimit_resource_t>(resource), &now);
   };
-  constexpr rlim_t libraries = rlim_t(2) << 30, best_ratio = 1032, seconds = 60, bytes_a_second = 1000000;
-  limit(RLIMIT_AS, libraries + best_ratio * bytes);
+  constexpr rlim_t more = rlim_t(2) << 30, best_ratio = 1032, seconds = 60, bytes_a_second = 1000000;
+  limit(RLIMIT_AS, mapped_bytes() + more + best_ratio * bytes);
   limit(RLIMIT_CPU, seconds + bytes / bytes_a_second);
   limit(RLIMIT_CORE, 0);
 }
