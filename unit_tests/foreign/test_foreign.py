@@ -65,7 +65,7 @@ class Foreign(gale.CommandTest):
                     self.assertEqual(run.stderr, "")
                 else:
                     self.assertEqual(run.returncode, 1, run.stderr)
-                    self.assertRegex(run.stderr, rf"\Agale: cannot read '{file}': [^\n]+\n\Z")
+                    self.assertRegex(run.stderr, r"\Agale: [^\n]+\n\Z")  # also about a coordinate that isn't finite
         self.assertEqual(outcomes, {0, 1})
 
     def test_program_is_looked_for_beside_the_command(self):
