@@ -81,6 +81,7 @@ struct DistributedMesh::Data {
   Array<const GlobalId, HostMemory> vertex_ids, tetrahedron_ids;
   Array<const int, HostMemory> owners;
   Points<double, HostMemory> points;
+  Tetrahedra<Id, HostMemory> corners;
   detail::ExchangePlan from_givers, from_owners;
   std::unique_ptr<const Mesh> local;
 
@@ -91,7 +92,7 @@ struct DistributedMesh::Data {
   template <class Index>
   void deal(const MeshPart<Index>& part, const PartitionOptions& options);
   template <class Index>
-  void take(const MeshPart<Index>& part, int capacity);
+  void take(const MeshPart<Index>& part, const PartitionOptions& options);
   void make_plans(const detail::LocalVertices& held, const detail::GlobalIndex& index,
                   const Array<detail::VertexEntry, HostMemory>& entries);
   void fetch_points(const Points<double, HostMemory>& given);
@@ -149,15 +150,24 @@ void DistributedMesh::Data::deal(const MeshPart<Index>& part, const PartitionOpt
   make_plans(held, index, directory.find(vertex_ids));
   fetch_points(part.points);
   detail::together(ranks, [&] {
+    const Tetrahedra<Id, HostMemory> quads = detail::local_corners(held_tetrahedra, index);
+    if (options.keep_corners) corners = quads;
     local = std::make_unique<const Mesh>(detail::local_mesh(
-        held_tetrahedra, index, detail::local_segmentation(points, held.is_owned, options.capacity)));
+        quads, tetrahedron_ids, detail::local_segmentation(points, held.is_owned, options.capacity)));
   });
 }
 
 /// Takes a part that is the whole mesh, numbered without gaps, as it is.
 template <class Index>
-void DistributedMesh::Data::take(const MeshPart<Index>& part, int capacity) {
-  local = std::make_unique<const Mesh>(part.tetrahedra, octree_segmentation(part.points, capacity));
+void DistributedMesh::Data::take(const MeshPart<Index>& part, const PartitionOptions& options) {
+  local = std::make_unique<const Mesh>(part.tetrahedra, octree_segmentation(part.points, options.capacity));
+  if (options.keep_corners) {
+    const auto quads = allocate<detail::Quads>("GALE::local_tetrahedra", part.tetrahedra.extent(0));
+    parallel_for("GALE::local_tetrahedra", HostSpace(), quads.extent(0), [&](Offset t) {
+      for (int corner = 0; corner < 4; ++corner) quads(t, corner) = static_cast<Id>(part.tetrahedra(t, corner));
+    });
+    corners = quads;
+  }
   vertices = part.vertex_ids.extent(0);
   tetrahedra = part.tetrahedra.extent(0);
   vertex_ids = part.vertex_ids;
@@ -178,7 +188,7 @@ void DistributedMesh::Data::make(const MeshPart<Index>& part, const PartitionOpt
   given_vertices = part.vertex_ids.extent(0);
   const Offset most = std::max(part.vertex_ids.extent(0), part.tetrahedra.extent(0));
   if (ranks.size() == 1 && most <= options.most_local && is_numbered_as_local(part)) {
-    take(part, options.capacity);
+    take(part, options);
   } else {
     deal(part, options);
   }
@@ -200,6 +210,7 @@ const Array<const GlobalId, HostMemory>& DistributedMesh::vertex_ids() const { r
 const Array<const GlobalId, HostMemory>& DistributedMesh::tetrahedron_ids() const { return data_->tetrahedron_ids; }
 const Array<const int, HostMemory>& DistributedMesh::owners() const { return data_->owners; }
 const Points<double, HostMemory>& DistributedMesh::points() const { return data_->points; }
+const Tetrahedra<Id, HostMemory>& DistributedMesh::corners() const { return data_->corners; }
 Offset DistributedMesh::given_vertices() const { return data_->given_vertices; }
 const detail::ExchangePlan& DistributedMesh::from_givers() const { return data_->from_givers; }
 const detail::ExchangePlan& DistributedMesh::from_owners() const { return data_->from_owners; }

@@ -22,6 +22,8 @@ struct PartitionOptions {
 
   int capacity = 100;  ///< of the octree's segments, in vertices
 
+  bool keep_corners = false;  ///< have corners(): 16 bytes a tetrahedron
+
   /// Vertices, and tetrahedra, that one rank may hold: what its local ids, of 32 bits, can number. Less for tests.
   Offset most_local = std::numeric_limits<Id>::max();
 };
@@ -62,6 +64,10 @@ class GALE_EXPORT DistributedMesh {
 
   /// Where each local vertex is, by its local input id.
   const Points<double, HostMemory>& points() const;
+
+  /// The local input ids of each local tetrahedron's vertices, by its local input id, in the order in which they were
+  /// handed over. Empty unless `keep_corners`.
+  const Tetrahedra<Id, HostMemory>& corners() const;
 
   /// How many vertices this rank has handed over: a field has a value for each.
   Offset given_vertices() const;

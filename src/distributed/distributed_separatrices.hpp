@@ -12,10 +12,16 @@ namespace gale {
 /// 1]. Numbers are those of the whole mesh on one rank.
 struct DistributedSeparatrices {
   std::vector<GlobalId> sources;       ///< the place of the source among the critical simplices of all ranks
+  std::vector<Id> sources_here;        ///< and among those of this rank
   std::vector<GlobalId> destinations;  ///< likewise of the last simplex
   std::vector<Offset> begin{0};
   std::vector<GlobalId> cells;                ///< global ids of vertices, or of tetrahedra
   std::vector<std::array<double, 3>> points;  ///< of each cell: the vertex, or the tetrahedron's barycentre
+
+  /// What precedes each cell: before the first of a path the source, else the simplex that it shares with the one
+  /// before. The global ids of its vertices, ascending; of an edge the third is -1.
+  std::vector<std::array<GlobalId, 3>> between;
+  std::vector<std::array<double, 3>> between_points;  ///< an edge's middle, or a triangle's incentre
 
   Offset count() const { return static_cast<Offset>(sources.size()); }
 };

@@ -11,10 +11,8 @@ namespace gale::detail {
 
 namespace {
 
-using Quads = Kokkos::View<Id* [4], Kokkos::LayoutRight, HostMemory>;
-
 /// Throws if two tetrahedra have the same vertices, by their global ids.
-void refuse_twins(const Quads& tetrahedra, const GlobalIds& ids) {
+void refuse_twins(const Tetrahedra<Id, HostMemory>& tetrahedra, const Array<const GlobalId, HostMemory>& ids) {
   std::vector<std::pair<std::array<Id, 4>, GlobalId>> all(ids.extent(0));
   for (std::size_t t = 0; t < all.size(); ++t) {
     auto& [quad, id] = all[t];
@@ -99,26 +97,27 @@ Segmentation local_segmentation(const Points<double, HostMemory>& points,
 }
 
 template <class Index>
-Mesh local_mesh(const LocalTetrahedra<Index>& tetrahedra, const GlobalIndex& vertices,
-                const Segmentation& segmentation) {
-  const auto local = allocate<Quads>("GALE::local_tetrahedra", tetrahedra.count());
+Quads local_corners(const LocalTetrahedra<Index>& tetrahedra, const GlobalIndex& vertices) {
+  const auto corners = allocate<Quads>("GALE::local_tetrahedra", tetrahedra.count());
   parallel_for("GALE::local_tetrahedra", HostSpace(), tetrahedra.count(), [&](Offset t) {
-    for (int corner = 0; corner < 4; ++corner) local(t, corner) = vertices.find(tetrahedra.vertex(t, corner));
+    for (int corner = 0; corner < 4; ++corner) corners(t, corner) = vertices.find(tetrahedra.vertex(t, corner));
   });
+  return corners;
+}
+
+Mesh local_mesh(const Tetrahedra<Id, HostMemory>& corners, const Array<const GlobalId, HostMemory>& ids,
+                const Segmentation& segmentation) {
   try {
-    return Mesh(Tetrahedra<Id, HostMemory>(local), segmentation);
+    return Mesh(corners, segmentation);
   } catch (const OutOfMemory&) {
     throw;
   } catch (const Error&) {
-    refuse_twins(local, tetrahedra.ids());
+    refuse_twins(corners, ids);
     throw;
   }
 }
 
-#define GALE_INSTANTIATE(Index) \
-  template Mesh local_mesh(const LocalTetrahedra<Index>&, const GlobalIndex&, const Segmentation&)
-GALE_INSTANTIATE(std::int32_t);
-GALE_INSTANTIATE(std::int64_t);
-#undef GALE_INSTANTIATE
+template Quads local_corners(const LocalTetrahedra<std::int32_t>&, const GlobalIndex&);
+template Quads local_corners(const LocalTetrahedra<std::int64_t>&, const GlobalIndex&);
 
 }  // namespace gale::detail

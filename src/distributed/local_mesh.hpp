@@ -20,9 +20,14 @@ Array<Id, HostMemory> ghosts_of(const LocalVertices& vertices);
 Segmentation local_segmentation(const Points<double, HostMemory>& points,
                                 const Array<std::uint8_t, HostMemory>& is_owned, int capacity);
 
-/// The mesh of what a rank holds. Errors name global ids.
+using Quads = Kokkos::View<Id* [4], Kokkos::LayoutRight, HostMemory>;
+
+/// The local input ids of the tetrahedra's vertices, which are places among `vertices`.
 template <class Index>
-Mesh local_mesh(const LocalTetrahedra<Index>& tetrahedra, const GlobalIndex& vertices,
+Quads local_corners(const LocalTetrahedra<Index>& tetrahedra, const GlobalIndex& vertices);
+
+/// The mesh of what a rank holds. Errors name the global ids of tetrahedra.
+Mesh local_mesh(const Tetrahedra<Id, HostMemory>& corners, const Array<const GlobalId, HostMemory>& ids,
                 const Segmentation& segmentation);
 
 }  // namespace gale::detail

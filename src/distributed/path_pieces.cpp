@@ -34,12 +34,8 @@ struct PieceHead {
 
 class Pieces {
  public:
-  Pieces(const Communicator& ranks, const DistributedPaths& paths,
-         const std::function<std::array<double, 3>(Id)>& point_of)
-      : ranks_(ranks),
-        paths_(paths),
-        point_of_(point_of),
-        successors_(paths.simplices().successors->in<HostMemory>()) {}
+  Pieces(const Communicator& ranks, const DistributedPaths& paths, const PathShape& shape)
+      : ranks_(ranks), paths_(paths), shape_(shape), successors_(paths.simplices().successors->in<HostMemory>()) {}
 
   WholePaths gather(const std::vector<Id>& starts) {
     together(ranks_, [&] { begin(starts); });
@@ -53,8 +49,12 @@ class Pieces {
  private:
   /// The cells of a path from a simplex as far as this rank knows its successors.
   void follow(Id simplex, std::vector<PathCell>& cells) const {
-    for (Id next = simplex; next != no_id && successors_(next) != DiscreteGradient::elsewhere; next = successors_(next))
-      cells.push_back({paths_.simplices().global(next), point_of_(next)});
+    for (Id at = simplex; at != no_id && successors_(at) != DiscreteGradient::elsewhere;) {
+      const Id next = successors_(at);
+      cells.push_back(
+          {paths_.simplices().global(at), shape_.point_of(at), next == no_id ? PathStep() : shape_.step(at, next)});
+      at = next;
+    }
   }
 
   void begin(const std::vector<Id>& starts) {
@@ -156,7 +156,7 @@ class Pieces {
 
   const Communicator& ranks_;
   const DistributedPaths& paths_;
-  const std::function<std::array<double, 3>(Id)>& point_of_;
+  const PathShape& shape_;
   const Array<const Id, HostMemory>& successors_;
   std::vector<OpenEnd> open_;
   std::vector<std::pair<PieceHead, Offset>> received_;  ///< and where the cells begin among all
@@ -166,8 +166,8 @@ class Pieces {
 }  // namespace
 
 WholePaths whole_paths(const Communicator& ranks, const DistributedPaths& paths, const std::vector<Id>& starts,
-                       const std::function<std::array<double, 3>(Id)>& point_of) {
-  return Pieces(ranks, paths, point_of).gather(starts);
+                       const PathShape& shape) {
+  return Pieces(ranks, paths, shape).gather(starts);
 }
 
 }  // namespace gale::detail

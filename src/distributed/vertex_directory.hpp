@@ -1,11 +1,6 @@
 #pragma once
 
-#include <vector>
-
-#include <gale/base/memory.hpp>
-#include <gale/base/types.hpp>
-#include <gale/distributed/dealt.hpp>
-#include <gale/distributed/global_index.hpp>
+#include <gale/distributed/home_table.hpp>
 
 namespace gale::detail {
 
@@ -16,8 +11,7 @@ struct VertexEntry {
   int owner = -1;    ///< the rank that owns it, as the giver says
 };
 
-/// Who knows which vertex, spread over the ranks: each keeps the entries of an interval of global ids. Made and asked
-/// by all ranks together.
+/// Who knows which vertex. Made and asked by all ranks together.
 class VertexDirectory {
  public:
   /// Of the vertices that each rank hands over: their ids (a vertex may come from several ranks, and from one several
@@ -29,19 +23,17 @@ class VertexDirectory {
   Offset vertices() const { return vertices_; }
 
   /// The entries of any vertices.
-  Array<VertexEntry, HostMemory> find(const Array<const GlobalId, HostMemory>& ids) const;
+  Array<VertexEntry, HostMemory> find(const Array<const GlobalId, HostMemory>& ids) const {
+    return table_.find(ranks_, ids);
+  }
 
   /// The vertices that this rank owns, ascending.
   GlobalIds owned() const;
 
  private:
-  int home_of(GlobalId id) const { return static_cast<int>(id / ids_a_home_); }
-
   Communicator ranks_;
-  GlobalId ids_a_home_;
+  HomeTable<VertexEntry> table_;
   Offset vertices_;
-  GlobalIndex index_;                       ///< of the ids that this rank keeps
-  Array<VertexEntry, HostMemory> entries_;  ///< theirs
 };
 
 }  // namespace gale::detail

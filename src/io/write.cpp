@@ -117,6 +117,23 @@ void write_pieces(const AtomicFile& file, const std::vector<std::string>& pieces
   name_in_errors(file.path(), [&] { detail::write_pvtp(file.temporary(), pieces, like); });
 }
 
+void write_pieces(const AtomicFile& file, const std::vector<std::string>& pieces, const Surface& like) {
+  name_in_errors(file.path(), [&] { detail::write_pvtp(file.temporary(), pieces, like); });
+}
+
+void write_pieces(const AtomicFile& file, const std::vector<std::string>& pieces, const MeshPiece& like) {
+  name_in_errors(file.path(), [&] { detail::write_pvtu(file.temporary(), pieces, like); });
+}
+
+void write_piece(const AtomicFile& file, const MeshPiece& piece) {
+  require_format(file.path(), "a piece of a mesh", {Format::vtu}, "not .vtu");
+  name_in_errors(file.path(), [&] {
+    check_arrays(size_of(piece.mesh.points), piece.mesh.arrays);
+    check_arrays(piece.mesh.tetrahedra.extent(0), piece.cell_arrays, "tetrahedra");
+    detail::write_vtu(file.temporary(), piece.mesh, {}, piece.cell_arrays);
+  });
+}
+
 void write_surface(const std::string& path, const Surface& surface) {
   require_surface(path);
   write_file(path, [&](const AtomicFile& file) { write_temporary(file, surface); });

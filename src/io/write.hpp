@@ -32,6 +32,16 @@ struct Surface {
   std::vector<PointArray> cell_arrays;  ///< a value for each line, then for each polygon
 };
 
+/// The names of arrays that have global ids, of points and of cells, as others have them.
+inline constexpr const char* global_point_ids = "GlobalPointIds";
+inline constexpr const char* global_cell_ids = "GlobalCellIds";
+
+/// One rank's part of a mesh that lies on several. Its point arrays have GlobalPointIds, its cell arrays GlobalCellIds.
+struct MeshPiece {
+  Dataset mesh;
+  std::vector<PointArray> cell_arrays;  ///< a value for each tetrahedron
+};
+
 /// Writes `points` to a `.vtp`, each as a vertex cell, in their order.
 ///
 /// Here and below: of two arrays of one name the later is written. The file appears complete or not at all
@@ -43,10 +53,15 @@ GALE_EXPORT void write_points(const std::string& path, const PointSet& points);
 /// it: so several files appear together (`AtomicFiles`).
 GALE_EXPORT void write_points(const AtomicFile& file, const PointSet& points);
 
-/// Writes a `.pvtp` that names `pieces`, files of points in the same folder, to the temporary file of `file`. `like`
-/// has the types of coordinates and arrays that each of them has, the arrays in the same order; its points don't
-/// matter.
+/// Writes a `.pvtp`, or of meshes a `.pvtu`, that names `pieces`, files in the same folder, to the temporary file of
+/// `file`. `like` has the types of coordinates and arrays that each of them has, the arrays in the same order; its
+/// points don't matter.
 GALE_EXPORT void write_pieces(const AtomicFile& file, const std::vector<std::string>& pieces, const PointSet& like);
+GALE_EXPORT void write_pieces(const AtomicFile& file, const std::vector<std::string>& pieces, const Surface& like);
+GALE_EXPORT void write_pieces(const AtomicFile& file, const std::vector<std::string>& pieces, const MeshPiece& like);
+
+/// Writes one to the temporary file of a `.vtu`. It may be empty.
+GALE_EXPORT void write_piece(const AtomicFile& file, const MeshPiece& piece);
 
 /// Writes `surface` to a `.vtp`.
 GALE_EXPORT void write_surface(const std::string& path, const Surface& surface);

@@ -1,7 +1,7 @@
 #include <gale/base/parallel.hpp>
 #include <gale/base/require_ids.hpp>
+#include <gale/mesh/positions.hpp>
 #include <gale/outputs/arrows.hpp>
-#include <gale/outputs/positions.hpp>
 
 namespace gale::outputs {
 
@@ -96,7 +96,8 @@ class Arrows {
     std::array<Id, N + 1> partner;
     std::copy(simplex.begin(), simplex.end(), partner.begin());
     partner[N] = more;
-    const detail::Point tail = detail::barycentre(points_, simplex), head = detail::barycentre(points_, partner);
+    const gale::detail::Point tail = gale::detail::barycentre(points_, simplex),
+                              head = gale::detail::barycentre(points_, partner);
     for (int axis = 0; axis < 3; ++axis) {
       tails_(place, axis) = static_cast<Coordinate>(tail[axis]);
       vectors_[3 * std::size_t(place) + axis] = static_cast<Coordinate>(head[axis] - tail[axis]);

@@ -1,7 +1,7 @@
 #include <gale/io/arrays.hpp>
+#include <gale/mesh/positions.hpp>
 #include <gale/outputs/corners.hpp>
 #include <gale/outputs/critical_simplices.hpp>
-#include <gale/outputs/positions.hpp>
 
 namespace gale::outputs {
 
@@ -35,17 +35,17 @@ class Namer {
 };
 
 template <class Coordinate>
-detail::Point middle_of(const io::Dataset::Points<Coordinate>& points, const CriticalSimplex& simplex) {
+gale::detail::Point middle_of(const io::Dataset::Points<Coordinate>& points, const CriticalSimplex& simplex) {
   const auto& v = simplex.vertices;
   switch (simplex.dimension) {
     case 0:
-      return detail::position_of(points, std::array<Id, 1>{v[0]});
+      return gale::detail::position_of(points, std::array<Id, 1>{v[0]});
     case 1:
-      return detail::position_of(points, std::array<Id, 2>{v[0], v[1]});
+      return gale::detail::position_of(points, std::array<Id, 2>{v[0], v[1]});
     case 2:
-      return detail::position_of(points, std::array<Id, 3>{v[0], v[1], v[2]});
+      return gale::detail::position_of(points, std::array<Id, 3>{v[0], v[1], v[2]});
     default:
-      return detail::position_of(points, v);
+      return gale::detail::position_of(points, v);
   }
 }
 
@@ -73,7 +73,7 @@ io::PointSet to_point_set(const io::Dataset& dataset, const KnownSimplices& simp
   std::visit(
       [&](const auto& points) {
         std::decay_t<decltype(points)> positions("GALE::critical_simplices", all.size());
-        for (std::size_t i = 0; i < all.size(); ++i) detail::store(middle_of(points, all[i]), positions, i);
+        for (std::size_t i = 0; i < all.size(); ++i) gale::detail::store(middle_of(points, all[i]), positions, i);
         set.points = positions;
       },
       dataset.points);

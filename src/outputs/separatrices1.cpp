@@ -1,7 +1,7 @@
 #include <gale/base/parallel.hpp>
 #include <gale/base/require_ids.hpp>
+#include <gale/mesh/positions.hpp>
 #include <gale/outputs/corners.hpp>
-#include <gale/outputs/positions.hpp>
 #include <gale/outputs/separatrices1.hpp>
 #include <gale/outputs/separatrix_arrays.hpp>
 
@@ -82,7 +82,7 @@ class Lines {
   template <std::size_t N>
   void set_point(Offset place, const std::array<Id, N>& simplex, Id id, bool is_end) {
     place += first_point_;
-    detail::store(detail::position_of(points_, detail::to_input(input_, simplex)), positions_, place);
+    gale::detail::store(gale::detail::position_of(points_, detail::to_input(input_, simplex)), positions_, place);
     mask_[place] = is_end ? 0 : 1;
     dimensions_[place] = N - 1;
     ids_[place] = id;
@@ -112,7 +112,7 @@ class Lines {
   std::vector<std::int8_t> mask_, dimensions_;
   std::vector<Id> ids_, destinations_;
   io::Surface::Cells lines_;
-  detail::SeparatrixArrays arrays_;
+  detail::SeparatrixArrays<> arrays_;
   Offset first_point_ = 0, first_path_ = 0;
 };
 

@@ -1,6 +1,6 @@
 #include <gale/base/require_ids.hpp>
+#include <gale/mesh/positions.hpp>
 #include <gale/outputs/corners.hpp>
-#include <gale/outputs/positions.hpp>
 #include <gale/outputs/separatrices2.hpp>
 #include <gale/outputs/separatrix_arrays.hpp>
 
@@ -105,10 +105,12 @@ class Walls {
         [&](const auto& points) {
           std::decay_t<decltype(points)> positions("GALE::walls", vertices.size() + tetrahedra.size());
           Offset row = 0;
-          for (const Id vertex : vertices) detail::store(detail::point_of(points, vertex), positions, row++);
+          for (const Id vertex : vertices)
+            gale::detail::store(gale::detail::point_of(points, vertex), positions, row++);
           for (const Id t : tetrahedra)
-            detail::store(detail::barycentre(points, detail::to_input(vertex_input_, detail::corners_of(mesh_, t))),
-                          positions, row++);
+            gale::detail::store(
+                gale::detail::barycentre(points, detail::to_input(vertex_input_, detail::corners_of(mesh_, t))),
+                positions, row++);
           surface_.points = positions;
         },
         dataset_.points);
@@ -185,7 +187,7 @@ class Walls {
   io::Surface surface_;
   Id next_id_ = 0;
   const io::PointArray& field_;
-  detail::SeparatrixArrays arrays_;
+  detail::SeparatrixArrays<> arrays_;
 };
 
 }  // namespace

@@ -11,10 +11,11 @@
 
 namespace gale::outputs::detail {
 
-/// What all cells (lines or polygons) of one separatrix carry.
+/// What all cells (lines or polygons) of one separatrix carry. `Number` is Id, or GlobalId on several ranks.
+template <class Number>
 struct SeparatrixValues {
-  Id source;         ///< CellId of the critical simplex where it begins
-  Id id;             ///< its own number, from 0
+  Number source;     ///< CellId of the critical simplex where it begins
+  Number id;         ///< its own number, from 0
   std::int8_t type;  ///< its kind, in TTK's codes
   double maximum;    ///< the field's
   double minimum;
@@ -22,6 +23,7 @@ struct SeparatrixValues {
 };
 
 /// The cell arrays that TTK gives both lines and walls.
+template <class Number = Id>
 class SeparatrixArrays {
  public:
   std::size_t cells() const { return sources_.size(); }
@@ -34,7 +36,7 @@ class SeparatrixArrays {
   }
 
   /// Gives the cells [begin, end) these values. Threads may set different cells at the same time.
-  void set(std::size_t begin, std::size_t end, const SeparatrixValues& values) {
+  void set(std::size_t begin, std::size_t end, const SeparatrixValues<Number>& values) {
     const auto fill = [&](auto& array, auto value) { std::fill(array.begin() + begin, array.begin() + end, value); };
     fill(sources_, values.source);
     fill(ids_, values.id);
@@ -57,7 +59,7 @@ class SeparatrixArrays {
   }
 
  private:
-  std::vector<Id> sources_, ids_;
+  std::vector<Number> sources_, ids_;
   std::vector<std::int8_t> types_;
   std::vector<double> maxima_, minima_, differences_;
   std::vector<Id> on_surface_;

@@ -62,6 +62,9 @@ class NumberQueries {
     numbers_[index] = place;
   }
 
+  /// Of a simplex, when it is set.
+  Id place(Offset index) const { return numbers_[index]; }
+
   /// When all places are set: the numbers, from those of the first simplex of each input vertex.
   std::vector<Id> take_numbers(const Array<Id, HostMemory>& begin) {
     parallel_for("GALE::add_numbers", Kokkos::DefaultHostExecutionSpace(), numbers_.size(),

@@ -1,8 +1,8 @@
-#include <cstring>
 #include <string>
 #include <type_traits>
 
 #include <gale/algorithms/order/each_value.hpp>
+#include <gale/algorithms/order/ordered_bits.hpp>
 #include <gale/algorithms/vertex_order.hpp>
 #include <gale/base/error.hpp>
 #include <gale/base/parallel.hpp>
@@ -15,26 +15,6 @@ namespace {
 
 template <class Space>
 using Keys = Array<std::uint64_t, MemoryOf<Space>>;
-
-template <class Value>
-using BitsOf = std::conditional_t<sizeof(Value) == 8, std::uint64_t, std::uint32_t>;
-
-/// An unsigned number that compares as the value does.
-template <class Value>
-KOKKOS_FUNCTION BitsOf<Value> ordered_bits(Value value) {
-  using Bits = BitsOf<Value>;
-  constexpr Bits sign = Bits(1) << (8 * sizeof(Bits) - 1);
-  if constexpr (std::is_floating_point_v<Value>) {
-    value += Value(0);  // -0 becomes 0
-    Bits bits;
-    std::memcpy(&bits, &value, sizeof(bits));
-    return bits & sign ? ~bits : bits | sign;
-  } else if constexpr (std::is_signed_v<Value>) {
-    return static_cast<Bits>(value) ^ sign;
-  } else {
-    return value;
-  }
-}
 
 template <class Space, class Value>
 void refuse_nan(const Space& space, const FieldValues<Value, MemoryOf<Space>>& values) {

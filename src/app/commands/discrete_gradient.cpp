@@ -21,7 +21,8 @@ class FindDiscreteGradient final : public Command {
     segmentation_.add_to(subcommand());
     structure_.add_to(subcommand());
     structure_.add_consumers_to(subcommand());
-    subcommand().add_option("-o,--output", output_, "The critical simplices: .vtp");
+    subcommand().add_option("-o,--output", output_,
+                            "The critical simplices: .vtp; on several ranks .pvtp, with a .vtp a rank");
     subcommand()
         .add_option("--formulation", formulation_,
                     "stars (from VV, VT and link) or cells (from VE, VF and VT, as other programs do; slower): the "
@@ -35,11 +36,11 @@ class FindDiscreteGradient final : public Command {
   void run_on_ranks() const override {
     structure_.require_consumers();
     for (const auto& [option, is_given] :
-         {std::make_pair("--output", !output_.empty()), std::make_pair("--arrows", !arrows_.empty()),
-          std::make_pair("--formulation cells", is_from_cells())}) {
+         {std::make_pair("--arrows", !arrows_.empty()), std::make_pair("--formulation cells", is_from_cells())}) {
       if (is_given) throw UsageError(std::string(option) + ": not on several ranks");
     }
-    discrete_gradient_on_ranks(input(), common(), segmentation_, structure_);
+    require_extension("--output", output_, {".pvtp"});
+    discrete_gradient_on_ranks(input(), common(), segmentation_, structure_, output_);
   }
 
   void run() const override {

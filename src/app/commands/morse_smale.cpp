@@ -3,9 +3,11 @@
 #include <gale/algorithms/morse_smale.hpp>
 #include <gale/app/commands/commands.hpp>
 #include <gale/app/commands/morse_smale_files.hpp>
+#include <gale/app/complex_counts.hpp>
 #include <gale/app/critical_counts.hpp>
 #include <gale/app/drawing/scene.hpp>
 #include <gale/app/options/persistence_option.hpp>
+#include <gale/app/ranks/ranks.hpp>
 #include <gale/app/session.hpp>
 #include <gale/app/usage_error.hpp>
 #include <gale/base/error.hpp>
@@ -16,41 +18,12 @@ namespace gale::app {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-/// How many there are of something; reported as null where that is switched off.
-struct Count {
-  const char *name, *key;
-  bool is_on;
-  Id count;
-};
-
-/// Says the counts of one kind in one line, and reports them under `key`.
-void tell(const std::string& title, const char* key, const std::vector<Count>& counts, Session& session) {
-  Json json = Json::object();  // at once: the library crashes where memory for a later one lacks
-  std::string said;
-  for (const Count& one : counts) {
-    json[one.key] = one.is_on ? Json(one.count) : Json(nullptr);
-    if (one.is_on) said += (said.empty() ? "" : ", ") + grouped(one.count) + ' ' + one.name;
-  }
-  if (!said.empty()) session.console().say(title, said);
-  session.report().result[key] = json;
-}
-
 void tell(const MorseSmaleComplex& complex, const MorseSmaleParts& parts, Session& session) {
   tell(complex.critical, session);
-  tell("1-separatrices", "separatrices",
-       {{"descending", "descending", parts.descending_separatrices, complex.descending.count()},
-        {"ascending", "ascending", parts.ascending_separatrices, complex.ascending.count()},
-        {"saddle connectors", "saddle_connectors", parts.saddle_connectors, complex.connectors.count()}},
-       session);
-  const auto counts = complex.critical.counts();
-  tell("manifolds", "manifolds",
-       {{"ascending", "ascending", parts.ascending_manifolds, counts[3]},
-        {"descending", "descending", parts.descending_manifolds, counts[0]},
-        {"Morse-Smale", "morse_smale", parts.ascending_manifolds && parts.descending_manifolds,
-         complex.morse_smale_manifolds}},
-       session);
+  const auto critical = complex.critical.counts();
+  tell({complex.descending.count(), complex.ascending.count(), complex.connectors.count(), critical[3], critical[0],
+        complex.morse_smale_manifolds},
+       parts, session.console(), session.report());
 }
 
 /// How many pairs are left although their persistence is below the threshold.
@@ -86,7 +59,7 @@ class FindMorseSmale final : public Command {
     subcommand()
         .add_option("-o,--output", output_,
                     "Write P_critical_points.vtp, P_separatrices1.vtp, P_segmentation.vtu and, if wanted, "
-                    "P_separatrices2.vtp")
+                    "P_separatrices2.vtp; on several ranks .pvtp and .pvtu, with a piece a rank")
         ->type_name("P");
     add_parts();
     add_persistence(
@@ -99,6 +72,22 @@ class FindMorseSmale final : public Command {
             "--render", render_,
             "Draw the complex to this .png: an octant cut out of the segmented mesh, and there the 1-separatrices")
         ->type_name("FILE.png");
+  }
+
+  /// On several ranks, what follows walls or pairs is refused: both want the whole mesh.
+  void run_on_ranks() const override {
+    structure_.require_consumers();
+    if (parts_.saddle_connectors) {
+      throw UsageError(
+          "saddle connectors: not on several ranks, where walls can't be followed: switch them off by "
+          "--no-saddle-connectors");
+    }
+    for (const auto& [option, is_given] :
+         {std::make_pair("--separatrices2", parts_.separatrices2), std::make_pair("--persistence", bool(persistence_)),
+          std::make_pair("--extrema-only", extrema_only_), std::make_pair("--render", !render_.empty())}) {
+      if (is_given) throw UsageError(std::string(option) + ": not on several ranks");
+    }
+    morse_smale_on_ranks(input(), common(), segmentation_, structure_, parts_, output_);
   }
 
   void run() const override {

@@ -16,13 +16,17 @@ io::PointSet to_point_set(const FieldOnRanks& on, const DistributedCriticalPoint
   std::vector<Id> at;
   for (const GlobalId id : found.vertices)
     at.push_back(static_cast<Id>(std::lower_bound(ids.data(), ids.data() + ids.extent(0), id) - ids.data()));
-  const io::Dataset::Points<double> points("GALE::critical_points", at.size());
-  for (std::size_t i = 0; i < at.size(); ++i) {
-    for (int axis = 0; axis < 3; ++axis) points(i, axis) = on.mesh.points()(at[i], axis);
-  }
   io::PointSet set;
-  set.points = points;
-  for (const io::PointArray& array : on.arrays) set.arrays.push_back(io::gather(array, at));
+  std::visit(
+      [&](const auto& all) {
+        const std::decay_t<decltype(all)> points("GALE::critical_points", at.size());
+        for (std::size_t i = 0; i < at.size(); ++i) {
+          for (int axis = 0; axis < 3; ++axis) points(i, axis) = all(at[i], axis);
+        }
+        set.points = points;
+      },
+      on.local.points);
+  for (const io::PointArray& array : on.local.arrays) set.arrays.push_back(io::gather(array, at));
   std::vector<std::int8_t> types, on_surface(found.on_surface.begin(), found.on_surface.end());
   for (const CriticalType type : found.types) types.push_back(static_cast<std::int8_t>(type));
   set.arrays.push_back({"CriticalType", 1, std::move(types)});
@@ -37,7 +41,7 @@ io::PointSet to_point_set(const FieldOnRanks& on, const DistributedCriticalPoint
 void critical_points_on_ranks(const InputOptions& input, const CommonOptions& common,
                               const SegmentationOptions& segmentation, const StructureOption& structure,
                               const std::string& output) {
-  RankSession session(input, common, output);
+  RankSession session(input, common, {output});
   const FieldOnRanks on = session.read_field(segmentation);
   const DistributedCriticalPoints found = session.find(
       structure, on.mesh.local(), critical_points_relations,

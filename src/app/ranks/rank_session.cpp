@@ -24,22 +24,61 @@ nlohmann::ordered_json spread_of(std::vector<std::int64_t> by_rank, double unit)
   return {{"least", value(0)}, {"median", value(by_rank.size() / 2)}, {"most", value(by_rank.size() - 1)}};
 }
 
-/// NAME_RANK.vtp for NAME.pvtp.
+/// Whether it is a .pvtu.
+bool is_mesh(const std::string& path) { return !path.empty() && (path.back() == 'u' || path.back() == 'U'); }
+
+/// NAME_RANK.vtp for NAME.pvtp, NAME_RANK.vtu for NAME.pvtu.
 std::string piece_of(const std::string& path, int rank) {
-  return std::filesystem::path(path).replace_extension().string() + '_' + std::to_string(rank) + ".vtp";
+  return std::filesystem::path(path).replace_extension().string() + '_' + std::to_string(rank) +
+         (is_mesh(path) ? ".vtu" : ".vtp");
+}
+
+void write_one(const io::AtomicFile& file, const io::PointSet& points) { io::write_points(file, points); }
+void write_one(const io::AtomicFile& file, const io::Surface& surface) { io::write_surface(file, surface); }
+void write_one(const io::AtomicFile& file, const io::MeshPiece& piece) { io::write_piece(file, piece); }
+
+/// Points and arrays of what this rank holds. Collective.
+io::Dataset local_dataset(const DistributedMesh& mesh, const SharedInput& shared) {
+  io::Dataset local;
+  detail::together(mesh.ranks(), [&] {
+    const auto fill = [&](auto coordinate) {
+      using Coordinate = decltype(coordinate);
+      const auto points = allocate<io::Dataset::Points<Coordinate>>("GALE::local_points", mesh.points().extent(0));
+      parallel_for("GALE::local_points", HostSpace(), points.extent(0), [&](Offset i) {
+        for (int axis = 0; axis < 3; ++axis) points(i, axis) = static_cast<Coordinate>(mesh.points()(i, axis));
+      });
+      local.points = points;
+    };
+    shared.is_in_float ? fill(float()) : fill(double());
+  });
+  for (const io::PointArray& array : shared.arrays) local.arrays.push_back(local_values(mesh, array));
+  return local;
 }
 
 }  // namespace
 
-RankSession::RankSession(const InputOptions& input, const CommonOptions& common, const std::string& output)
-    : input_(input), common_(common), ranks_(MPI_COMM_WORLD), console_(common.quiet || !Ranks::is_first()) {
+RankSession::Outputs RankSession::kind_of(const std::vector<std::string>& files) {
+  if (std::any_of(files.begin(), files.end(), is_mesh)) return Outputs::with_mesh;
+  const bool any = std::any_of(files.begin(), files.end(), [](const auto& file) { return !file.empty(); });
+  return any ? Outputs::points : Outputs::none;
+}
+
+RankSession::RankSession(const InputOptions& input, const CommonOptions& common,
+                         const std::vector<std::string>& outputs)
+    : input_(input),
+      common_(common),
+      outputs_(kind_of(outputs)),
+      ranks_(MPI_COMM_WORLD),
+      console_(common.quiet || !Ranks::is_first()) {
   report_.input = input.input;
   report_.threads = host_threads();
   detail::together(ranks_, [&] {
-    for (const std::string& file : {output, common.report}) {
-      if (!file.empty() && ranks_.rank() == 0) require_writable(file);
+    if (!common.report.empty() && ranks_.rank() == 0) require_writable(common.report);
+    for (const std::string& file : outputs) {
+      if (file.empty()) continue;
+      if (ranks_.rank() == 0) require_writable(file);
+      require_writable(piece_of(file, ranks_.rank()));
     }
-    if (!output.empty()) require_writable(piece_of(output, ranks_.rank()));
   });
 }
 
@@ -59,8 +98,11 @@ FieldOnRanks RankSession::read_field(const SegmentationOptions& segmentation) {
   begin_step("sharing the mesh");
   PartitionOptions options;
   options.repartition = shared.is_dealt_out;
+  options.keep_corners = outputs_ == Outputs::with_mesh;
   options.capacity = segmentation.capacity.value_or(options.capacity);
   const DistributedMesh mesh(ranks_, shared.part, options);
+  shared.part = {};
+  shared.tetrahedra = {};
   report_.vertices = mesh.vertices();
   report_.tetrahedra = mesh.tetrahedra();
   report_.segments = ranks_.sum(mesh.local().owned_segments());
@@ -74,8 +116,12 @@ FieldOnRanks RankSession::read_field(const SegmentationOptions& segmentation) {
         return DistributedOrder(mesh, Array<const Value, HostMemory>(values.data(), values.size()));
       },
       shared.order.values);
-  FieldOnRanks on{mesh, order, {}};
-  for (const io::PointArray& array : shared.arrays) on.arrays.push_back(local_values(mesh, array));
+  FieldOnRanks on{mesh, order, {}, {}, {}};
+  if (outputs_ == Outputs::none) return on;
+  begin_step("sharing the arrays");
+  on.local = local_dataset(mesh, shared);
+  on.field = local_values(mesh, shared.field);
+  on.order_from = local_values(mesh, shared.order);
   return on;
 }
 
@@ -98,29 +144,49 @@ std::unique_ptr<Structure> RankSession::make_structure(const StructureOption& op
   return structure;
 }
 
+DistributedGradient RankSession::find_gradient(const StructureOption& option, const FieldOnRanks& on) {
+  return find(
+      option, on.mesh.local(), discrete_gradient_relations,
+      [&](Structure& local) { return find_discrete_gradient(local, on.order, sweep()); },
+      [&] { return find_discrete_gradient(WorkerSpace(), on.order, option.device_sweep()); });
+}
+
+DistributedNumbers RankSession::number(const StructureOption& option, const DistributedMesh& mesh,
+                                       const DistributedNamedSimplices& named) {
+  const auto structure = make_structure(option, mesh.local(), simplex_numbers_relations);
+  const Stopwatch watch(report_.seconds.run);
+  begin_step("numbering simplices");
+  return number_simplices(*structure, mesh, named, sweep());
+}
+
 SweepOptions RankSession::sweep() const {
   SweepOptions sweep;
   sweep.threads = report_.threads;
   return sweep;
 }
 
-void RankSession::write_pieces(const std::string& path, const io::PointSet& points) {
+template <class Piece>
+void RankSession::write_pieces(const std::string& path, const Piece& piece) {
   if (path.empty()) return;
   const Stopwatch watch(report_.seconds.write);
   begin_step("writing", path);
   detail::together(ranks_, [&] {
-    const io::AtomicFile& piece = files_.add(piece_of(path, ranks_.rank()));
-    io::write_points(piece, points);
-    io::AtomicFiles::sync(piece);
+    const io::AtomicFile& mine = files_.add(piece_of(path, ranks_.rank()));
+    write_one(mine, piece);
+    io::AtomicFiles::sync(mine);
     if (ranks_.rank() > 0) return;
     std::vector<std::string> pieces;
     for (int rank = 0; rank < ranks_.size(); ++rank)
       pieces.push_back(std::filesystem::path(piece_of(path, rank)).filename().string());
     const io::AtomicFile& all = files_.add(path);
-    io::write_pieces(all, pieces, points);
+    io::write_pieces(all, pieces, piece);
     io::AtomicFiles::sync(all);
   });
 }
+
+template void RankSession::write_pieces(const std::string&, const io::PointSet&);
+template void RankSession::write_pieces(const std::string&, const io::Surface&);
+template void RankSession::write_pieces(const std::string&, const io::MeshPiece&);
 
 void RankSession::finish(const DistributedMesh& mesh) {
   const auto by_rank = [&](double value, double unit = 1) {

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include <gale/algorithms/morse_smale.hpp>
 #include <gale/app/options/options.hpp>
 #include <gale/app/options/structure_option.hpp>
 
@@ -41,8 +42,14 @@ void critical_points_on_ranks(const InputOptions& input, const CommonOptions& co
                               const SegmentationOptions& segmentation, const StructureOption& structure,
                               const std::string& output);
 
-/// gale discrete-gradient on several ranks.
+/// gale discrete-gradient on several ranks: `output` is empty or a .pvtp.
 void discrete_gradient_on_ranks(const InputOptions& input, const CommonOptions& common,
-                                const SegmentationOptions& segmentation, const StructureOption& structure);
+                                const SegmentationOptions& segmentation, const StructureOption& structure,
+                                const std::string& output);
+
+/// gale morse-smale on several ranks, without walls: `prefix` is empty or what its files begin with.
+void morse_smale_on_ranks(const InputOptions& input, const CommonOptions& common,
+                          const SegmentationOptions& segmentation, const StructureOption& structure,
+                          const MorseSmaleParts& wanted, const std::string& prefix);
 
 }  // namespace gale::app

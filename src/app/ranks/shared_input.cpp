@@ -33,8 +33,9 @@ void take_file(const InputOptions& input, SharedInput& shared) {
   std::visit(
       [&](const auto& points) { shared.part = make_part(counted(0, points.extent(0)), points, shared.tetrahedra); },
       dataset.points);
-  const io::PointArray field = outputs::select_field(dataset, input.read.array);
-  shared.order = outputs::order_values(dataset, field, shared.part.vertex_ids.extent(0));
+  shared.is_in_float = dataset.points.index() == 0;
+  shared.field = outputs::select_field(dataset, input.read.array);
+  shared.order = outputs::order_values(dataset, shared.field, shared.part.vertex_ids.extent(0));
   shared.arrays = std::move(dataset.arrays);
   shared.notices = std::move(dataset.notices);
 }
@@ -68,12 +69,19 @@ std::vector<io::PointArray> empty_arrays(const std::string& description) {
 /// Has the other ranks have the arrays of the first, without values.
 void share_names(const Communicator& ranks, SharedInput& shared) {
   std::vector<io::PointArray> all = shared.arrays;
+  all.push_back(shared.field);
   all.push_back(shared.order);
   const std::string description = ranks.broadcast(described(all), 0);
+  shared.is_in_float = ranks.least(std::int64_t(shared.is_in_float)) == 1;
   if (ranks.rank() == 0) return;
   shared.arrays = empty_arrays(description);
-  shared.order = std::move(shared.arrays.back());
-  shared.arrays.pop_back();
+  const auto take_last = [&] {
+    io::PointArray last = std::move(shared.arrays.back());
+    shared.arrays.pop_back();
+    return last;
+  };
+  shared.order = take_last();
+  shared.field = take_last();
 }
 
 }  // namespace
@@ -86,7 +94,8 @@ SharedInput read_shared(const Communicator& ranks, const InputOptions& input) {
       take_grid(*n, ranks, shared);
       io::Dataset named;
       named.arrays = shared.arrays;
-      shared.order = outputs::select_field(named, input.read.array);
+      shared.field = outputs::select_field(named, input.read.array);
+      shared.order = shared.field;
       return;
     }
     shared.is_dealt_out = true;

@@ -13,8 +13,10 @@ namespace gale::app {
 struct SharedInput {
   MeshPart<std::int64_t> part;
   Kokkos::View<std::int64_t* [4], Kokkos::LayoutRight, HostMemory> tetrahedra;  ///< to which the part refers
+  io::PointArray field;                                                         ///< the one to analyse
   io::PointArray order;                ///< what orders the vertices of the part
   std::vector<io::PointArray> arrays;  ///< of these; the same ones on all ranks
+  bool is_in_float = true;             ///< the input's coordinates
   bool is_dealt_out = false;           ///< the first rank has all
   std::vector<std::string> notices;
 };

@@ -22,6 +22,8 @@ bool Ranks::all_fail_alike() { return true; }
 void critical_points_on_ranks(const InputOptions&, const CommonOptions&, const SegmentationOptions&,
                               const StructureOption&, const std::string&) {}
 void discrete_gradient_on_ranks(const InputOptions&, const CommonOptions&, const SegmentationOptions&,
-                                const StructureOption&) {}
+                                const StructureOption&, const std::string&) {}
+void morse_smale_on_ranks(const InputOptions&, const CommonOptions&, const SegmentationOptions&, const StructureOption&,
+                          const MorseSmaleParts&, const std::string&) {}
 
 }  // namespace gale::app

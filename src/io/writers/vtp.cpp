@@ -37,13 +37,13 @@ void write(const std::string& path, const Parts& parts) {
                     {"NumberOfLines", count(parts.lines)},
                     {"NumberOfStrips", 0},
                     {"NumberOfPolys", count(parts.polygons)}},
-                   {{"PointData", parts.point_arrays},
-                    {"CellData", parts.cell_arrays},
-                    {"Points", {written(parts.points)}},
-                    {"Verts", parts.vertices},
-                    {"Lines", parts.lines},
-                    {"Strips", vertices(0)},
-                    {"Polys", parts.polygons}}});
+                   {{"PointData", parts.point_arrays, ""},
+                    {"CellData", parts.cell_arrays, ""},
+                    {"Points", {written(parts.points)}, ""},
+                    {"Verts", parts.vertices, ""},
+                    {"Lines", parts.lines, ""},
+                    {"Strips", vertices(0), ""},
+                    {"Polys", parts.polygons, ""}}});
 }
 
 }  // namespace

@@ -66,6 +66,10 @@ void write_plain(OutputFile& file, const WrittenArray& array) {
 
 }  // namespace
 
+std::string global_ids_attribute(const std::string& name) {
+  return name.empty() ? "" : xml_attribute("GlobalIds", name);
+}
+
 void write_xml(const std::string& path, const XmlContent& content) {
   OutputFile file(path);
   const std::string order = byte_order_of_machine() == ByteOrder::little ? "LittleEndian" : "BigEndian";
@@ -78,7 +82,7 @@ void write_xml(const std::string& path, const XmlContent& content) {
   const std::string blank(21, ' ');  // for any offset and a quote: it is known when what comes before it is compressed
   std::vector<std::uint64_t> offsets_at;
   for (const auto& section : content.sections) {
-    file.write("      <" + section.name + ">\n");
+    file.write("      <" + section.name + global_ids_attribute(section.global_ids) + ">\n");
     for (const WrittenArray& array : section.arrays) {
       file.write("        <DataArray" + xml_attribute("type", xml_name_of(array.type)) +
                  xml_attribute("Name", array.name) +

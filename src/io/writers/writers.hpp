@@ -12,10 +12,13 @@ namespace gale::io::detail {
 void write_vtp(const std::string& path, const PointSet& points);
 void write_vtp(const std::string& path, const Surface& surface);
 
-void write_vtu(const std::string& path, const Dataset& mesh, const std::vector<PointArray>& more);
+void write_vtu(const std::string& path, const Dataset& mesh, const std::vector<PointArray>& more,
+               const std::vector<PointArray>& cell_arrays = {});
 
-/// Names files of points; `like` has the types of what they have.
+/// Names files; `like` has the types of what each of them has.
 void write_pvtp(const std::string& path, const std::vector<std::string>& pieces, const PointSet& like);
+void write_pvtp(const std::string& path, const std::vector<std::string>& pieces, const Surface& like);
+void write_pvtu(const std::string& path, const std::vector<std::string>& pieces, const MeshPiece& like);
 
 /// The lines, without polygons.
 void write_vtu(const std::string& path, const Surface& lines);

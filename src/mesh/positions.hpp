@@ -5,22 +5,21 @@
 #include <cmath>
 
 #include <gale/base/types.hpp>
-#include <gale/io/dataset.hpp>
 
 // Where simplices are drawn. A simplex is given by its input vertices, in any order: the position is the same, to the
-// last bit, in whichever order they come.
+// last bit, in whichever order they come. `points` is a View of the coordinates of each, in host memory.
 
-namespace gale::outputs::detail {
+namespace gale::detail {
 
 using Point = std::array<double, 3>;
 
-template <class Coordinate>
-Point point_of(const io::Dataset::Points<Coordinate>& points, Id vertex) {
+template <class View>
+Point point_of(const View& points, Id vertex) {
   return {points(vertex, 0), points(vertex, 1), points(vertex, 2)};
 }
 
-template <class Coordinate, std::size_t N>
-Point barycentre(const io::Dataset::Points<Coordinate>& points, std::array<Id, N> simplex) {
+template <class View, std::size_t N>
+Point barycentre(const View& points, std::array<Id, N> simplex) {
   std::sort(simplex.begin(), simplex.end());
   Point sum{};
   for (const Id vertex : simplex) {
@@ -31,8 +30,8 @@ Point barycentre(const io::Dataset::Points<Coordinate>& points, std::array<Id, N
 }
 
 /// The centre of the circle that touches a triangle's sides; the first corner where all three are one point.
-template <class Coordinate>
-Point incentre(const io::Dataset::Points<Coordinate>& points, std::array<Id, 3> triangle) {
+template <class View>
+Point incentre(const View& points, std::array<Id, 3> triangle) {
   std::sort(triangle.begin(), triangle.end());
   Point corners[3], sum{};
   double weights[3], all = 0;
@@ -49,8 +48,8 @@ Point incentre(const io::Dataset::Points<Coordinate>& points, std::array<Id, 3> 
 }
 
 /// Where a simplex is drawn: triangles at their incentre, others at their barycentre.
-template <class Coordinate, std::size_t N>
-Point position_of(const io::Dataset::Points<Coordinate>& points, const std::array<Id, N>& simplex) {
+template <class View, std::size_t N>
+Point position_of(const View& points, const std::array<Id, N>& simplex) {
   if constexpr (N == 3) {
     return incentre(points, simplex);
   } else {
@@ -59,9 +58,10 @@ Point position_of(const io::Dataset::Points<Coordinate>& points, const std::arra
 }
 
 /// Writes a position to a row of `points`.
-template <class Coordinate>
-void store(const Point& position, const io::Dataset::Points<Coordinate>& points, Offset row) {
+template <class View>
+void store(const Point& position, const View& points, Offset row) {
+  using Coordinate = typename View::non_const_value_type;
   for (int axis = 0; axis < 3; ++axis) points(row, axis) = static_cast<Coordinate>(position[axis]);
 }
 
-}  // namespace gale::outputs::detail
+}  // namespace gale::detail

@@ -1,18 +1,22 @@
 #include <gtest/gtest.h>
 
-#include <gale/outputs/positions.hpp>
+#include <gale/base/memory.hpp>
+#include <gale/mesh/positions.hpp>
 
 namespace gale::test {
 
 namespace {
 
-using outputs::detail::Point;
-using outputs::detail::position_of;
+using detail::Point;
+using detail::position_of;
 
 template <class Coordinate>
-io::Dataset::Points<Coordinate> points(const std::vector<Point>& all) {
-  const io::Dataset::Points<Coordinate> points("points", all.size());
-  for (std::size_t i = 0; i < all.size(); ++i) outputs::detail::store(all[i], points, i);
+using PointsOf = Kokkos::View<Coordinate* [3], Kokkos::LayoutRight, HostMemory>;
+
+template <class Coordinate>
+PointsOf<Coordinate> points(const std::vector<Point>& all) {
+  const PointsOf<Coordinate> points("points", all.size());
+  for (std::size_t i = 0; i < all.size(); ++i) detail::store(all[i], points, i);
   return points;
 }
 
