@@ -12,44 +12,30 @@ namespace gale {
 
 namespace {
 
-/// Throws gale::Error for what one rank can see is wrong with its part.
+/// Throws gale::Error for what one rank can see is wrong with its part but for the tetrahedra's vertices.
 template <class Index>
 void validate(const MeshPart<Index>& part) {
   require_ids("vertices", static_cast<Offset>(part.vertex_ids.extent(0)));
-  const Offset count = part.tetrahedra.extent(0);
-  require_ids("tetrahedra", count);
+  require_ids("tetrahedra", static_cast<Offset>(part.tetrahedra.extent(0)));
   for (const auto& ids : {part.vertex_ids, part.tetrahedron_ids}) {
     const GlobalId least =
         reduce_min("GALE::least_id", HostSpace(), ids.extent(0), GlobalId(0), [&](Offset i) { return ids(i); });
     if (least < 0) throw Error("ids are 0 or more, not " + std::to_string(least));
   }
-  const auto& tetrahedra = part.tetrahedra;
-  const Offset bad = reduce_min("GALE::validate_part", HostSpace(), count, count, [&](Offset t) {
-    for (int corner = 0; corner < 4; ++corner) {
-      if (tetrahedra(t, corner) < 0) return t;
-      for (int other = 0; other < corner; ++other) {
-        if (tetrahedra(t, corner) == tetrahedra(t, other)) return t;
-      }
-    }
-    return count;
-  });
-  if (bad == count) return;
-  std::string vertices;
-  for (int corner = 0; corner < 4; ++corner) vertices += ' ' + std::to_string(tetrahedra(bad, corner));
-  throw Error("the tetrahedron of vertices" + vertices + " is none: they must be different, and 0 or more");
+  detail::bounding_box<double>(HostSpace(), part.points);
 }
 
-/// Who is to own each vertex that this rank hands over.
+/// Who hands over and owns which vertex.
 template <class Index>
-Array<const int, HostMemory> owners_of_given(const Communicator& ranks, const MeshPart<Index>& part, bool repartition) {
-  if (repartition) return detail::curve_partition(ranks, part.vertex_ids, part.points);
+detail::VertexDirectory directory_of(const Communicator& ranks, const MeshPart<Index>& part, bool repartition) {
+  if (repartition) return {ranks, part.vertex_ids, detail::curve_partition(ranks, part.vertex_ids, part.points)};
+  if (const auto given = detail::GivenIntervals::of(ranks, part.vertex_ids)) return {ranks, *given};
   Array<int, HostMemory> owners;
   detail::together(ranks, [&] {
-    detail::bounding_box<double>(HostSpace(), part.points);
     owners = allocate<Array<int, HostMemory>>("GALE::given_owners", part.vertex_ids.extent(0));
     Kokkos::deep_copy(owners, ranks.rank());
   });
-  return owners;
+  return {ranks, part.vertex_ids, owners};
 }
 
 /// Whether a part's ids are those that a local mesh would have: they ascend, and those of vertices count from 0.
@@ -131,14 +117,14 @@ void DistributedMesh::Data::fetch_points(const Points<double, HostMemory>& given
 template <class Index>
 void DistributedMesh::Data::deal(const MeshPart<Index>& part, const PartitionOptions& options) {
   detail::together(ranks, [&] { validate(part); });
-  const auto given_owners = owners_of_given(ranks, part, options.repartition);
-  const detail::VertexDirectory directory(ranks, part.vertex_ids, given_owners);
-  const detail::LocalTetrahedra<Index> held_tetrahedra(ranks, part, directory, options.most_local);
+  const detail::VertexDirectory directory = directory_of(ranks, part, options.repartition);
   const detail::GlobalIds owned = directory.owned();
+  const detail::IdInterval own = detail::interval_of(owned);
+  const detail::LocalTetrahedra<Index> held_tetrahedra(ranks, part, directory, own, options.most_local);
   detail::LocalVertices held;
   detail::GlobalIndex index;
   detail::together(ranks, [&] {
-    held = detail::local_vertices(owned, held_tetrahedra.vertices_beside(detail::GlobalIndex(owned)));
+    held = detail::local_vertices(owned, held_tetrahedra.vertices_beside(owned));
     index = detail::GlobalIndex(held.ids);
   });
   detail::require_local(ranks, "vertices", held.ids.extent(0), options.most_local);
@@ -150,7 +136,7 @@ void DistributedMesh::Data::deal(const MeshPart<Index>& part, const PartitionOpt
   make_plans(held, index, directory.find(vertex_ids));
   fetch_points(part.points);
   detail::together(ranks, [&] {
-    const Tetrahedra<Id, HostMemory> quads = detail::local_corners(held_tetrahedra, index);
+    const Tetrahedra<Id, HostMemory> quads = detail::local_corners(held_tetrahedra, own, index);
     if (options.keep_corners) corners = quads;
     local = std::make_unique<const Mesh>(detail::local_mesh(
         quads, tetrahedron_ids, detail::local_segmentation(points, held.is_owned, options.capacity)));

@@ -29,11 +29,14 @@ class ExchangePlan {
       taken = dealt<T>("GALE::taken_values", taken_counts_);
     });
     exchange(ranks, given, taken);
+    parallel_for("GALE::kept_values", HostSpace(), kept_slots_.extent(0),
+                 [&](Offset i) { to[kept_slots_(i)] = from[kept_places_(i)]; });
     parallel_for("GALE::taken_values", HostSpace(), taken.count(), [&](Offset i) { to[slots_(i)] = taken.entries(i); });
   }
 
  private:
-  Dealt<Id> given_;  ///< places, by the rank that takes them
+  Array<Id, HostMemory> kept_slots_, kept_places_;  ///< of values that this rank has itself
+  Dealt<Id> given_;                                 ///< places, by the rank that takes them
   std::vector<std::int64_t> taken_counts_;
   Array<Id, HostMemory> slots_;  ///< in the order in which values come
 };
@@ -41,10 +44,25 @@ class ExchangePlan {
 template <class Source, class Key, class Place>
 ExchangePlan::ExchangePlan(const Communicator& ranks, const Array<const Id, HostMemory>& slots, const Source& source,
                            const Key& key, const Place& place) {
+  Array<Id, HostMemory> others;
+  together(ranks, [&] {
+    const int here = ranks.rank();
+    const ByRank groups =
+        by_rank(2, slots.extent(0), [&](Id i, const auto& visit) { visit(source(slots(i)) != here); });
+    kept_slots_ = allocate<Array<Id, HostMemory>>("GALE::kept_slots", groups.begin[1]);
+    kept_places_ = allocate<Array<Id, HostMemory>>("GALE::kept_places", groups.begin[1]);
+    parallel_for("GALE::kept_slots", HostSpace(), groups.begin[1], [&](Offset i) {
+      kept_slots_(i) = slots(groups.members(i));
+      kept_places_(i) = place(GlobalId(key(kept_slots_(i))));
+    });
+    others = allocate<Array<Id, HostMemory>>("GALE::wanted_slots", groups.begin[2] - groups.begin[1]);
+    parallel_for("GALE::wanted_slots", HostSpace(), others.extent(0),
+                 [&](Offset i) { others(i) = slots(groups.members(groups.begin[1] + i)); });
+  });
   const auto asked = deal<GlobalId>(
-      ranks, "GALE::wanted_values", slots.extent(0), [&](Id i) { return source(slots(i)); },
-      [&](Id i) { return GlobalId(key(slots(i))); }, &slots_);
-  parallel_for("GALE::wanted_slots", HostSpace(), slots_.extent(0), [&](Offset i) { slots_(i) = slots(slots_(i)); });
+      ranks, "GALE::wanted_values", others.extent(0), [&](Id i) { return source(others(i)); },
+      [&](Id i) { return GlobalId(key(others(i))); }, &slots_);
+  parallel_for("GALE::wanted_slots", HostSpace(), slots_.extent(0), [&](Offset i) { slots_(i) = others(slots_(i)); });
   taken_counts_ = counts_of(asked);
   const auto keys = exchange(ranks, "GALE::wanted_keys", asked);
   together(ranks, [&] {

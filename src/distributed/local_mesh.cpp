@@ -67,10 +67,15 @@ LocalVertices local_vertices(const GlobalIds& owned, const GlobalIds& ghosts) {
                           allocate<Array<std::uint8_t, HostMemory>>("GALE::is_owned", count)};
   // Each goes behind those of its own kind, and behind those of the other kind that are less.
   const auto place = [&](const GlobalIds& kind, const GlobalIds& other, std::uint8_t is_owned) {
-    parallel_for("GALE::merge_vertices", HostSpace(), kind.extent(0), [&](Offset i) {
-      const Offset less = std::lower_bound(other.data(), other.data() + other.extent(0), kind(i)) - other.data();
-      all.ids(i + less) = kind(i);
-      all.is_owned(i + less) = is_owned;
+    const Offset kinds = kind.extent(0), others = other.extent(0);
+    for_parts("GALE::merge_vertices", kinds, threads_for(kinds), [&](int, Offset first, Offset last) {
+      if (first == last) return;
+      Offset less = std::lower_bound(other.data(), other.data() + others, kind(first)) - other.data();
+      for (Offset i = first; i < last; ++i) {
+        while (less < others && other(less) < kind(i)) ++less;
+        all.ids(i + less) = kind(i);
+        all.is_owned(i + less) = is_owned;
+      }
     });
   };
   place(owned, ghosts, 1);
@@ -97,10 +102,14 @@ Segmentation local_segmentation(const Points<double, HostMemory>& points,
 }
 
 template <class Index>
-Quads local_corners(const LocalTetrahedra<Index>& tetrahedra, const GlobalIndex& vertices) {
+Quads local_corners(const LocalTetrahedra<Index>& tetrahedra, const IdInterval& own, const GlobalIndex& vertices) {
   const auto corners = allocate<Quads>("GALE::local_tetrahedra", tetrahedra.count());
-  parallel_for("GALE::local_tetrahedra", HostSpace(), tetrahedra.count(), [&](Offset t) {
-    for (int corner = 0; corner < 4; ++corner) corners(t, corner) = vertices.find(tetrahedra.vertex(t, corner));
+  const GlobalId shift = own.is_empty() ? 0 : vertices.find(own.begin) - own.begin;
+  tetrahedra.for_each("GALE::local_tetrahedra", [&](Offset t, const auto& vertex_of) {
+    for (int corner = 0; corner < 4; ++corner) {
+      const GlobalId vertex = vertex_of(corner);
+      corners(t, corner) = own.contains(vertex) ? static_cast<Id>(vertex + shift) : vertices.find(vertex);
+    }
   });
   return corners;
 }
@@ -117,7 +126,7 @@ Mesh local_mesh(const Tetrahedra<Id, HostMemory>& corners, const Array<const Glo
   }
 }
 
-template Quads local_corners(const LocalTetrahedra<std::int32_t>&, const GlobalIndex&);
-template Quads local_corners(const LocalTetrahedra<std::int64_t>&, const GlobalIndex&);
+template Quads local_corners(const LocalTetrahedra<std::int32_t>&, const IdInterval&, const GlobalIndex&);
+template Quads local_corners(const LocalTetrahedra<std::int64_t>&, const IdInterval&, const GlobalIndex&);
 
 }  // namespace gale::detail

@@ -22,9 +22,10 @@ Segmentation local_segmentation(const Points<double, HostMemory>& points,
 
 using Quads = Kokkos::View<Id* [4], Kokkos::LayoutRight, HostMemory>;
 
-/// The local input ids of the tetrahedra's vertices, which are places among `vertices`.
+/// The local input ids of the tetrahedra's vertices, which are places among `vertices`; those of `own` follow one
+/// another there.
 template <class Index>
-Quads local_corners(const LocalTetrahedra<Index>& tetrahedra, const GlobalIndex& vertices);
+Quads local_corners(const LocalTetrahedra<Index>& tetrahedra, const IdInterval& own, const GlobalIndex& vertices);
 
 /// The mesh of what a rank holds. Errors name the global ids of tetrahedra.
 Mesh local_mesh(const Tetrahedra<Id, HostMemory>& corners, const Array<const GlobalId, HostMemory>& ids,

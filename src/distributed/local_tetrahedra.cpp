@@ -1,8 +1,10 @@
 #include <algorithm>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include <gale/distributed/corner_owners.hpp>
 #include <gale/distributed/deal.hpp>
 #include <gale/distributed/local_tetrahedra.hpp>
 
@@ -10,65 +12,15 @@ namespace gale::detail {
 
 namespace {
 
-/// The vertices of a part's tetrahedra, and the ranks that own them.
-template <class Index>
-class CornerOwners {
- public:
-  CornerOwners(const Communicator& ranks, const MeshPart<Index>& part, const VertexDirectory& directory) : part_(part) {
-    GlobalIds others;
-    together(ranks, [&] {
-      given_ = GlobalIndex(distinct_ids(part.vertex_ids).ids);
-      others = missing_ids(given_, part.tetrahedra.extent(0), [&](Offset t, const auto& offer) {
-        for (int corner = 0; corner < 4; ++corner) offer(GlobalId(part.tetrahedra(t, corner)));
-      });
-      others_ = GlobalIndex(others);
-    });
-    of_given_ = directory.find(given_.ids());
-    of_others_ = directory.find(others);
-    together(ranks, [&] { refuse_unknown(); });
-  }
-
-  int owner(Offset t, int corner) const {
-    const GlobalId vertex = part_.tetrahedra(t, corner);
-    const Id place = given_.find(vertex);
-    return place != no_id ? of_given_(place).owner : of_others_(others_.find(vertex)).owner;
-  }
-
-  /// Calls visit(rank) once for each rank that owns a vertex of a tetrahedron.
-  template <class Visit>
-  void visit_ranks(Offset t, const Visit& visit) const {
-    int ranks[4];
-    for (int corner = 0; corner < 4; ++corner) {
-      ranks[corner] = owner(t, corner);
-      bool is_new = true;
-      for (int other = 0; other < corner; ++other) is_new &= ranks[other] != ranks[corner];
-      if (is_new) visit(ranks[corner]);
-    }
-  }
-
- private:
-  void refuse_unknown() const {
-    for (Offset i = 0; i < others_.count(); ++i) {
-      if (of_others_(i).giver < 0)
-        throw Error("a tetrahedron has vertex " + std::to_string(others_[i]) + ", which no rank hands over");
-    }
-  }
-
-  const MeshPart<Index>& part_;
-  GlobalIndex given_, others_;  ///< vertices that this rank hands over, and those that its tetrahedra have beside them
-  Array<VertexEntry, HostMemory> of_given_, of_others_;
-};
-
-template <class Index>
-GlobalId id_of(const MeshPart<Index>& part, GlobalId first_id, Offset t) {
-  return part.tetrahedron_ids.extent(0) == 0 ? first_id + t : part.tetrahedron_ids(t);
-}
-
 /// The least id that occurs more than once.
 GlobalId repeated(const GlobalIds& ids) {
   std::vector<GlobalId> sorted(ids.data(), ids.data() + ids.extent(0));
   std::sort(sorted.begin(), sorted.end());
   return *std::adjacent_find(sorted.begin(), sorted.end());
+}
+
+[[noreturn]] void refuse_repeated(GlobalId id) {
+  throw Error("tetrahedron " + std::to_string(id) + " is handed over twice");
 }
 
 }  // namespace
@@ -84,43 +36,122 @@ void require_local(const Communicator& ranks, const char* name, Offset count, Of
 
 template <class Index>
 LocalTetrahedra<Index>::LocalTetrahedra(const Communicator& ranks, const MeshPart<Index>& part,
-                                        const VertexDirectory& directory, Offset most_local)
-    : part_(part) {
+                                        const VertexDirectory& directory, const IdInterval& own, Offset most_local)
+    : part_(part), own_(own) {
   const GlobalId first_id = ranks.sum_before(part.tetrahedra.extent(0));
-  const CornerOwners<Index> owners(ranks, part, directory);
+  std::vector<Id> outer;
+  together(ranks, [&] { outer = tetrahedra_beyond(part, own); });
   Dealt<SentTetrahedron> sent;
+  choose(ranks, directory, outer, first_id, sent);
+  received_ = exchange(ranks, "GALE::received_tetrahedra", sent);
+  require_local(ranks, "tetrahedra", kept_count_ + received_.count(), most_local);
+  together(ranks, [&] { merge(first_id); });
+}
+
+/// Of those with vertices outside `own`: which are kept, and which go to others.
+template <class Index>
+void LocalTetrahedra<Index>::choose(const Communicator& ranks, const VertexDirectory& directory,
+                                    const std::vector<Id>& outer, GlobalId first_id, Dealt<SentTetrahedron>& sent) {
+  const CornerOwners<Index> owners(ranks, part_, directory, own_, outer);
   together(ranks, [&] {
-    const ByRank groups = by_rank(ranks.size(), part.tetrahedra.extent(0),
-                                  [&](Id t, const auto& visit) { owners.visit_ranks(t, visit); });
+    const int here = ranks.rank();
+    const ByRank groups = by_rank(ranks.size(), static_cast<Offset>(outer.size()),
+                                  [&](Id i, const auto& visit) { owners.visit_ranks(outer[i], visit); });
     std::vector<std::int64_t> counts(ranks.size());
     for (int rank = 0; rank < ranks.size(); ++rank) counts[rank] = groups.begin[rank + 1] - groups.begin[rank];
-    kept_ = allocate<Array<Id, HostMemory>>("GALE::kept_tetrahedra", std::exchange(counts[ranks.rank()], 0));
-    const Offset kept_from = groups.begin[ranks.rank()];
-    parallel_for("GALE::kept_tetrahedra", HostSpace(), kept_.extent(0),
-                 [&](Offset i) { kept_(i) = groups.members(kept_from + i); });
+    const Offset kept = std::exchange(counts[here], 0), kept_from = groups.begin[here];
+    outer_.resize(kept);
+    parallel_for("GALE::outer_tetrahedra", HostSpace(), kept,
+                 [&](Offset i) { outer_[i] = outer[groups.members(kept_from + i)]; });
+    std::vector<Id> dropped;
+    std::set_difference(outer.begin(), outer.end(), outer_.begin(), outer_.end(), std::back_inserter(dropped));
+    keep_all_but(dropped);
     sent = dealt<SentTetrahedron>("GALE::sent_tetrahedra", counts);
-    const Offset kept = kept_.extent(0);
     parallel_for("GALE::sent_tetrahedra", HostSpace(), sent.count(), [&](Offset i) {
-      const Id t = groups.members(i < kept_from ? i : i + kept);
+      const Id t = outer[groups.members(i < kept_from ? i : i + kept)];
       SentTetrahedron& tetrahedron = sent.entries(i);
-      tetrahedron.id = id_of(part, first_id, t);
-      for (int corner = 0; corner < 4; ++corner) tetrahedron.vertices[corner] = part.tetrahedra(t, corner);
+      tetrahedron.id = part_.tetrahedron_ids.extent(0) == 0 ? first_id + t : part_.tetrahedron_ids(t);
+      for (int corner = 0; corner < 4; ++corner) tetrahedron.vertices[corner] = part_.tetrahedra(t, corner);
     });
   });
-  received_ = exchange(ranks, "GALE::received_tetrahedra", sent);
-  require_local(ranks, "tetrahedra", kept_.extent(0) + received_.count(), most_local);
-  together(ranks, [&] { sort(first_id); });
+}
+
+/// `dropped` ascends.
+template <class Index>
+void LocalTetrahedra<Index>::keep_all_but(const std::vector<Id>& dropped) {
+  const Offset count = part_.tetrahedra.extent(0);
+  kept_count_ = count - static_cast<Offset>(dropped.size());
+  if (dropped.empty() || kept_count_ == 0) return;
+  kept_ = allocate<Array<Id, HostMemory>>("GALE::kept_tetrahedra", kept_count_);
+  for_parts("GALE::kept_tetrahedra", count, threads_for(count), [&](int, Offset first, Offset last) {
+    auto next = std::lower_bound(dropped.begin(), dropped.end(), static_cast<Id>(first));
+    for (Offset t = first; t < last; ++t) {
+      if (next != dropped.end() && *next == t) {
+        ++next;
+      } else {
+        kept_(t - (next - dropped.begin())) = static_cast<Id>(t);
+      }
+    }
+  });
+}
+
+/// Puts them in the order of ids: those that are kept have it mostly, and the others are few.
+template <class Index>
+void LocalTetrahedra<Index>::merge(GlobalId first_id) {
+  const Offset descents = reduce_sum("GALE::count_descents", HostSpace(), kept_count_, [&](Offset k) {
+    return Offset(k > 0 && kept_id(k, first_id) <= kept_id(k - 1, first_id));
+  });
+  if (descents > 0) return sort(first_id);
+  const Offset received = received_.count();
+  std::vector<Id> by_id(received);
+  std::iota(by_id.begin(), by_id.end(), Id(0));
+  std::sort(by_id.begin(), by_id.end(), [&](Id a, Id b) { return received_.entries(a).id < received_.entries(b).id; });
+  before_received_.resize(received);
+  received_places_.resize(received);
+  ids_ = allocate<GlobalIds>("GALE::tetrahedron_ids", kept_count_ + received);
+  Offset before = 0;
+  for (Offset r = 0; r < received; ++r) {
+    const GlobalId id = received_.entries(by_id[r]).id;
+    for (Offset end = kept_count_; before < end;) {  // to the first kept one that isn't below it
+      const Offset middle = before + (end - before) / 2;
+      const bool is_below = kept_id(middle, first_id) < id;
+      before = is_below ? middle + 1 : before;
+      end = is_below ? end : middle;
+    }
+    if ((before < kept_count_ && kept_id(before, first_id) == id) ||
+        (r > 0 && received_.entries(by_id[r - 1]).id == id))
+      refuse_repeated(id);
+    before_received_[r] = before;
+    received_places_[by_id[r]] = before + r;
+    ids_(before + r) = id;
+  }
+  for_each_kept("GALE::tetrahedron_ids", [&](Offset i, Offset k) { ids_(i) = kept_id(k, first_id); });
 }
 
 template <class Index>
 void LocalTetrahedra<Index>::sort(GlobalId first_id) {
-  const Offset kept = kept_.extent(0), count = kept + received_.count();
+  const Offset count = kept_count_ + received_.count();
   const auto ids = allocate<GlobalIds>("GALE::tetrahedron_ids", count);
   parallel_for("GALE::tetrahedron_ids", HostSpace(), count, [&](Offset i) {
-    ids(i) = i < kept ? id_of(part_, first_id, kept_(i)) : received_.entries(i - kept).id;
+    ids(i) = i < kept_count_ ? kept_id(i, first_id) : received_.entries(i - kept_count_).id;
   });
-  sorted_ = distinct_ids(ids);
-  if (this->count() < count) throw Error("tetrahedron " + std::to_string(repeated(ids)) + " is handed over twice");
+  const DistinctIds sorted = distinct_ids(ids);
+  if (static_cast<Offset>(sorted.ids.extent(0)) < count) refuse_repeated(repeated(ids));
+  ids_ = sorted.ids;
+  places_ = sorted.places;
+}
+
+template <class Index>
+GlobalIds LocalTetrahedra<Index>::vertices_beside(const GlobalIds& owned) const {
+  const GlobalIndex index(own_.is_empty() ? owned : GlobalIds());
+  const auto outer = static_cast<Offset>(outer_.size());
+  return missing_ids(index, outer + received_.count(), [&](Offset i, const auto& offer) {
+    for (int corner = 0; corner < 4; ++corner) {
+      const GlobalId vertex =
+          i < outer ? GlobalId(part_.tetrahedra(outer_[i], corner)) : received_.entries(i - outer).vertices[corner];
+      if (!own_.contains(vertex)) offer(vertex);
+    }
+  });
 }
 
 template class LocalTetrahedra<std::int32_t>;

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <vector>
+
 #include <gale/distributed/distributed_mesh.hpp>
 #include <gale/distributed/vertex_directory.hpp>
 
@@ -16,37 +19,82 @@ struct SentTetrahedron {
 template <class Index>
 class LocalTetrahedra {
  public:
-  /// Sends each tetrahedron to the ranks that own a vertex of it. Collective. Throws gale::Error as DistributedMesh
-  /// says. Refers to `part`.
+  /// Sends each tetrahedron to the ranks that own a vertex of it. `own`: ids that this rank owns, as many as are known
+  /// without a search: tetrahedra of these alone concern no other rank. Collective. Throws gale::Error as
+  /// DistributedMesh says. Refers to `part`.
   LocalTetrahedra(const Communicator& ranks, const MeshPart<Index>& part, const VertexDirectory& directory,
-                  Offset most_local);
+                  const IdInterval& own, Offset most_local);
 
   /// Their global ids, ascending.
-  const GlobalIds& ids() const { return sorted_.ids; }
-  Offset count() const { return sorted_.ids.extent(0); }
+  const GlobalIds& ids() const { return ids_; }
+  Offset count() const { return ids_.extent(0); }
 
-  /// Global id of a vertex of the i-th.
-  GlobalId vertex(Offset i, int corner) const {
-    const Id place = sorted_.places(i);
-    const Id received = place - static_cast<Id>(kept_.extent(0));
-    return received < 0 ? GlobalId(part_.tetrahedra(kept_(place), corner))
-                        : received_.entries(received).vertices[corner];
+  /// Calls visit(i, vertex_of) for the i-th of all, in no order, on all host threads: vertex_of(corner) is a global id.
+  template <class Visit>
+  void for_each(const char* label, const Visit& visit) const {
+    const auto visit_kept = [&](Offset i, Offset k) {
+      visit(i, [&](int corner) { return GlobalId(part_.tetrahedra(kept(k), corner)); });
+    };
+    if (places_.extent(0) != 0) {
+      parallel_for(label, HostSpace(), count(), [&](Offset i) {
+        if (places_(i) < kept_count_) {
+          visit_kept(i, places_(i));
+        } else {
+          visit_received(i, places_(i) - kept_count_, visit);
+        }
+      });
+      return;
+    }
+    for_each_kept(label, visit_kept);
+    parallel_for(label, HostSpace(), received_.count(),
+                 [&](Offset r) { visit_received(received_places_[r], r, visit); });
   }
 
-  /// The vertices that they have and `owned` lacks, ascending.
-  GlobalIds vertices_beside(const GlobalIndex& owned) const {
-    return missing_ids(owned, count(), [&](Offset i, const auto& offer) {
-      for (int corner = 0; corner < 4; ++corner) offer(vertex(i, corner));
+  /// The vertices that they have and that this rank doesn't own, ascending: neither in `own` nor in `owned`.
+  GlobalIds vertices_beside(const GlobalIds& owned) const;
+
+ private:
+  void choose(const Communicator& ranks, const VertexDirectory& directory, const std::vector<Id>& outer,
+              GlobalId first_id, Dealt<SentTetrahedron>& sent);
+  void keep_all_but(const std::vector<Id>& dropped);
+  void sort(GlobalId first_id);
+  void merge(GlobalId first_id);
+
+  Offset kept(Offset k) const { return kept_.extent(0) == 0 ? k : Offset(kept_(k)); }
+  GlobalId kept_id(Offset k, GlobalId first_id) const {
+    return part_.tetrahedron_ids.extent(0) == 0 ? first_id + kept(k) : part_.tetrahedron_ids(kept(k));
+  }
+
+  template <class Visit>
+  void visit_received(Offset i, Offset r, const Visit& visit) const {
+    visit(i, [&](int corner) { return received_.entries(r).vertices[corner]; });
+  }
+
+  /// Calls visit(i, k) for the k-th one that was kept, which is the i-th of all; where all are merged.
+  template <class Visit>
+  void for_each_kept(const char* label, const Visit& visit) const {
+    for_parts(label, kept_count_, threads_for(kept_count_), [&](int, Offset first, Offset last) {
+      auto next = std::upper_bound(before_received_.begin(), before_received_.end(), first);
+      for (Offset k = first; k < last; ++k) {
+        while (next != before_received_.end() && *next <= k) ++next;
+        visit(k + (next - before_received_.begin()), k);
+      }
     });
   }
 
- private:
-  void sort(GlobalId first_id);
-
   const MeshPart<Index>& part_;
-  Array<Id, HostMemory> kept_;  ///< places in the part
+  const IdInterval own_;
+  std::vector<Id> outer_;       ///< those of the part that are kept and have vertices outside `own`
+  Array<Id, HostMemory> kept_;  ///< places in the part, ascending; empty where all are kept
+  Offset kept_count_ = 0;
   Dealt<SentTetrahedron> received_;
-  DistinctIds sorted_;  ///< ids, and places among the kept ones, then the received ones
+  GlobalIds ids_;
+
+  // Where ids of those that are kept ascend: how many of these come before each received one in the order of ids, which
+  // ascends; and the places of received ones among all, as they were received.
+  std::vector<Offset> before_received_, received_places_;
+
+  Array<Id, HostMemory> places_;  ///< else: the i-th of all among the kept ones, then the received ones
 };
 
 /// Throws gale::Error on all ranks if one would hold more than `most` of what `name` says, e.g. "tetrahedra": it says

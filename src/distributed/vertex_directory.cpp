@@ -10,6 +10,19 @@ struct HandedVertex {
   int owner;
 };
 
+/// How many vertices a rank is the lowest to hand over.
+Offset first_given(const GivenIntervals& given, int rank) {
+  Offset count = 0;
+  given.visit_first_givers_of(rank, [&](const IdInterval& ids) { count += ids.end - ids.begin; });
+  return count;
+}
+
+VertexEntry entry_of(const GivenIntervals& given, GlobalId id) {
+  const int giver = given.giver(id);
+  if (giver < 0) return {};
+  return {giver, static_cast<Id>(id - given.of(giver).begin), giver};
+}
+
 }  // namespace
 
 VertexDirectory::VertexDirectory(const Communicator& ranks, const Array<const GlobalId, HostMemory>& ids,
@@ -25,11 +38,40 @@ VertexDirectory::VertexDirectory(const Communicator& ranks, const Array<const Gl
           }),
       vertices_(ranks.sum(table_.count())) {}
 
+VertexDirectory::VertexDirectory(const Communicator& ranks, const GivenIntervals& given)
+    : ranks_(ranks), given_(given), vertices_(ranks.sum(first_given(given, ranks.rank()))) {}
+
+Array<VertexEntry, HostMemory> VertexDirectory::find(const Array<const GlobalId, HostMemory>& ids) const {
+  if (!given_) return table_.find(ranks_, ids);
+  Array<VertexEntry, HostMemory> found;
+  together(ranks_, [&] {
+    found = allocate<Array<VertexEntry, HostMemory>>("GALE::found_entries", ids.extent(0));
+    parallel_for("GALE::found_entries", HostSpace(), ids.extent(0),
+                 [&](Offset i) { found(i) = entry_of(*given_, ids(i)); });
+  });
+  return found;
+}
+
 GlobalIds VertexDirectory::owned() const {
+  GlobalIds owned;
+  if (given_) {
+    together(ranks_, [&] {
+      owned = allocate<GlobalIds>("GALE::owned_ids", first_given(*given_, ranks_.rank()));
+      Offset from = 0;
+      given_->visit_first_givers_of(ranks_.rank(), [&](const IdInterval& ids) {
+        parallel_for("GALE::owned_ids", HostSpace(), ids.end - ids.begin,
+                     [&](Offset i) { owned(from + i) = ids.begin + i; });
+        from += ids.end - ids.begin;
+      });
+    });
+    return owned;
+  }
   const auto told = deal<GlobalId>(
       ranks_, "GALE::told_ids", table_.count(), [&](Id i) { return table_.entry(i).owner; },
       [&](Id i) { return table_.id(i); });
-  return distinct_ids(exchange(ranks_, "GALE::owned_ids", told).entries).ids;
+  const auto received = exchange(ranks_, "GALE::owned_ids", told);
+  together(ranks_, [&] { owned = distinct_ids(received.entries).ids; });
+  return owned;
 }
 
 }  // namespace gale::detail

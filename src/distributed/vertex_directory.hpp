@@ -1,6 +1,9 @@
 #pragma once
 
+#include <optional>
+
 #include <gale/distributed/home_table.hpp>
+#include <gale/distributed/id_interval.hpp>
 
 namespace gale::detail {
 
@@ -11,7 +14,7 @@ struct VertexEntry {
   int owner = -1;    ///< the rank that owns it, as the giver says
 };
 
-/// Who knows which vertex. Made and asked by all ranks together.
+/// Who knows which vertex: spread over the ranks, or known to all. Made and asked by all ranks together.
 class VertexDirectory {
  public:
   /// Of the vertices that each rank hands over: their ids (a vertex may come from several ranks, and from one several
@@ -19,20 +22,22 @@ class VertexDirectory {
   VertexDirectory(const Communicator& ranks, const Array<const GlobalId, HostMemory>& ids,
                   const Array<const int, HostMemory>& owners);
 
+  /// Where each rank hands over an interval, and each vertex belongs to the lowest rank that hands it over.
+  VertexDirectory(const Communicator& ranks, const GivenIntervals& given);
+
   /// How many different vertices there are on all ranks.
   Offset vertices() const { return vertices_; }
 
   /// The entries of any vertices.
-  Array<VertexEntry, HostMemory> find(const Array<const GlobalId, HostMemory>& ids) const {
-    return table_.find(ranks_, ids);
-  }
+  Array<VertexEntry, HostMemory> find(const Array<const GlobalId, HostMemory>& ids) const;
 
   /// The vertices that this rank owns, ascending.
   GlobalIds owned() const;
 
  private:
   Communicator ranks_;
-  HomeTable<VertexEntry> table_;
+  std::optional<GivenIntervals> given_;
+  HomeTable<VertexEntry> table_;  ///< empty where intervals are given
   Offset vertices_;
 };
 

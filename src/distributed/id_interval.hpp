@@ -1,0 +1,72 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <gale/base/parallel.hpp>
+#include <gale/distributed/communicator.hpp>
+
+namespace gale::detail {
+
+/// Global ids without gaps: begin to end - 1.
+struct IdInterval {
+  GlobalId begin = 0, end = 0;
+
+  bool contains(GlobalId id) const { return id >= begin && id < end; }
+  bool is_empty() const { return begin >= end; }
+};
+
+/// That of ids that ascend, none twice; empty if they have gaps.
+inline IdInterval interval_of(const Array<const GlobalId, HostMemory>& ascending) {
+  const Offset count = ascending.extent(0);
+  if (count == 0 || ascending(count - 1) - ascending(0) + 1 != count) return {};
+  return {ascending(0), ascending(0) + count};
+}
+
+/// What each rank hands over, where those are intervals of ids in their order, as where a grid is cut into slabs. Then
+/// each rank knows by itself who hands over what.
+class GivenIntervals {
+ public:
+  /// Nothing if any rank's ids are other ones. Collective.
+  static std::optional<GivenIntervals> of(const Communicator& ranks, const Array<const GlobalId, HostMemory>& ids) {
+    const Offset count = ids.extent(0);
+    const GlobalId first = count == 0 ? 0 : ids(0);
+    const Offset others =
+        reduce_sum("GALE::count_gaps", HostSpace(), count, [&](Offset i) { return Offset(ids(i) != first + i); });
+    if (ranks.sum(others) > 0) return std::nullopt;
+    GivenIntervals given;
+    const auto begin = ranks.all(first), end = ranks.all(first + count);
+    for (int rank = 0; rank < ranks.size(); ++rank) given.by_rank_.push_back({begin[rank], end[rank]});
+    return given;
+  }
+
+  /// The lowest rank that hands a vertex over; -1 if none does.
+  int giver(GlobalId id) const {
+    for (std::size_t rank = 0; rank < by_rank_.size(); ++rank) {
+      if (by_rank_[rank].contains(id)) return static_cast<int>(rank);
+    }
+    return -1;
+  }
+
+  const IdInterval& of(int rank) const { return by_rank_[rank]; }
+
+  /// Calls visit(interval) for each interval of ids that a rank is the lowest to hand over, ascending.
+  template <class Visit>
+  void visit_first_givers_of(int rank, const Visit& visit) const {
+    for (GlobalId at = by_rank_[rank].begin; at < by_rank_[rank].end;) {
+      GlobalId end = by_rank_[rank].end, covered = at;
+      for (int lower = 0; lower < rank; ++lower) {
+        const IdInterval& other = by_rank_[lower];
+        if (other.contains(at)) covered = std::max(covered, other.end);
+        if (other.begin > at && !other.is_empty()) end = std::min(end, other.begin);
+      }
+      if (covered == at) visit(IdInterval{at, end});
+      at = covered == at ? end : covered;
+    }
+  }
+
+ private:
+  std::vector<IdInterval> by_rank_;
+};
+
+}  // namespace gale::detail
