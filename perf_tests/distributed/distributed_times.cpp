@@ -78,19 +78,22 @@ void measure(int n, int runs, bool repartition) {
   const Communicator ranks(MPI_COMM_WORLD);
   set_host_threads(std::max(host_threads() / ranks.size(), 1));
   Times with, without;
-  std::int64_t before = 0;
+  SentMessages before;
   {
     const io::GridPart part = io::make_grid_part(n, ranks.rank(), ranks.size());
     for (int i = 0; i < runs; ++i) {
-      before = ranks.sent().bytes;
+      before = ranks.sent();
       run_on_ranks(ranks, part, repartition, with);
     }
   }
   if (ranks.rank() == 0)
     std::printf("%s, grid:%d on %d ranks of %d threads\n", perf::context().c_str(), n, ranks.size(), host_threads());
   print(ranks, "with MPI", with);
-  const double sent = -ranks.least(-static_cast<double>(ranks.sent().bytes - before));
-  if (ranks.rank() == 0) std::printf("%-12s %8.1f MB sent by one rank at most\n", "", 1e-6 * sent);
+  const double sent = -ranks.least(-static_cast<double>(ranks.sent().bytes - before.bytes));
+  const double waited = -ranks.least(-(ranks.sent().seconds_waiting - before.seconds_waiting));
+  if (ranks.rank() == 0) {
+    std::printf("%-12s %8.1f MB sent by one rank at most, %.4f s waited by one at most\n", "", 1e-6 * sent, waited);
+  }
   if (ranks.size() > 1) return;
   const io::Dataset data = io::make_grid(n);
   for (int i = 0; i < runs; ++i) run_without_mpi(data, without);

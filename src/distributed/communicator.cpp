@@ -22,27 +22,6 @@ MPI_Comm duplicate(MPI_Comm comm) {
   return own;
 }
 
-/// Waits for all. MPI's own functions would hold the core for as long as it takes: ranks that share a machine, and
-/// threads that compute, need it.
-void wait(std::vector<MPI_Request>& requests) {
-  constexpr std::chrono::milliseconds patience(1);
-  constexpr std::chrono::microseconds nap(50);
-  const auto begin = std::chrono::steady_clock::now();
-  for (int done = 0;;) {
-    MPI_Testall(static_cast<int>(requests.size()), requests.data(), &done, MPI_STATUSES_IGNORE);
-    if (done) return;
-    if (std::chrono::steady_clock::now() - begin > patience) std::this_thread::sleep_for(nap);
-  }
-}
-
-/// Begins something by begin(request), and waits for it.
-template <class Begin>
-void complete(const Begin& begin) {
-  std::vector<MPI_Request> one(1);
-  begin(&one[0]);
-  wait(one);
-}
-
 }  // namespace
 
 struct Communicator::Data {
@@ -59,6 +38,29 @@ struct Communicator::Data {
     int finalized = 0;
     MPI_Finalized(&finalized);
     if (!finalized) MPI_Comm_free(&comm);
+  }
+
+  /// Waits for all. MPI's own functions would hold the core for as long as it takes: ranks that share a machine, and
+  /// threads that compute, need it.
+  void wait(std::vector<MPI_Request>& requests) {
+    using Clock = std::chrono::steady_clock;
+    constexpr std::chrono::milliseconds patience(1);
+    constexpr std::chrono::microseconds nap(50);
+    const auto begin = Clock::now();
+    for (int done = 0;;) {
+      MPI_Testall(static_cast<int>(requests.size()), requests.data(), &done, MPI_STATUSES_IGNORE);
+      if (done) break;
+      if (Clock::now() - begin > patience) std::this_thread::sleep_for(nap);
+    }
+    sent.seconds_waiting += std::chrono::duration<double>(Clock::now() - begin).count();
+  }
+
+  /// Begins something by begin(request), and waits for it.
+  template <class Begin>
+  void complete(const Begin& begin) {
+    std::vector<MPI_Request> one(1);
+    begin(&one[0]);
+    wait(one);
   }
 
   /// Calls act(first byte, bytes) for each message that the bytes [begin, end) are cut into.
@@ -87,27 +89,28 @@ std::int64_t Communicator::sum(std::int64_t value) const {
 }
 
 void Communicator::sum(std::int64_t* values, int count) const {
-  complete([&](MPI_Request* request) {
+  data_->complete([&](MPI_Request* request) {
     MPI_Iallreduce(MPI_IN_PLACE, values, count, MPI_INT64_T, MPI_SUM, data_->comm, request);
   });
 }
 
 std::int64_t Communicator::least(std::int64_t value) const {
   std::int64_t least = 0;
-  complete(
+  data_->complete(
       [&](MPI_Request* request) { MPI_Iallreduce(&value, &least, 1, MPI_INT64_T, MPI_MIN, data_->comm, request); });
   return least;
 }
 
 double Communicator::least(double value) const {
   double least = 0;
-  complete([&](MPI_Request* request) { MPI_Iallreduce(&value, &least, 1, MPI_DOUBLE, MPI_MIN, data_->comm, request); });
+  data_->complete(
+      [&](MPI_Request* request) { MPI_Iallreduce(&value, &least, 1, MPI_DOUBLE, MPI_MIN, data_->comm, request); });
   return least;
 }
 
 std::vector<std::int64_t> Communicator::all(std::int64_t value) const {
   std::vector<std::int64_t> values(size());
-  complete([&](MPI_Request* request) {
+  data_->complete([&](MPI_Request* request) {
     MPI_Iallgather(&value, 1, MPI_INT64_T, values.data(), 1, MPI_INT64_T, data_->comm, request);
   });
   return values;
@@ -115,24 +118,26 @@ std::vector<std::int64_t> Communicator::all(std::int64_t value) const {
 
 std::int64_t Communicator::sum_before(std::int64_t value) const {
   std::int64_t sum = 0;
-  complete([&](MPI_Request* request) { MPI_Iexscan(&value, &sum, 1, MPI_INT64_T, MPI_SUM, data_->comm, request); });
+  data_->complete(
+      [&](MPI_Request* request) { MPI_Iexscan(&value, &sum, 1, MPI_INT64_T, MPI_SUM, data_->comm, request); });
   return rank() == 0 ? 0 : sum;
 }
 
 std::string Communicator::broadcast(const std::string& text, int from) const {
   auto length = static_cast<std::int64_t>(text.size());
-  complete([&](MPI_Request* request) { MPI_Ibcast(&length, 1, MPI_INT64_T, from, data_->comm, request); });
+  data_->complete([&](MPI_Request* request) { MPI_Ibcast(&length, 1, MPI_INT64_T, from, data_->comm, request); });
   std::string all = text;
   all.resize(static_cast<std::size_t>(length));
   data_->cut(0, length, [&](std::int64_t begin, int bytes) {
-    complete([&](MPI_Request* request) { MPI_Ibcast(&all[begin], bytes, MPI_BYTE, from, data_->comm, request); });
+    data_->complete(
+        [&](MPI_Request* request) { MPI_Ibcast(&all[begin], bytes, MPI_BYTE, from, data_->comm, request); });
   });
   return all;
 }
 
 std::vector<std::int64_t> Communicator::exchange_counts(const std::vector<std::int64_t>& counts) const {
   std::vector<std::int64_t> theirs(counts.size());
-  complete([&](MPI_Request* request) {
+  data_->complete([&](MPI_Request* request) {
     MPI_Ialltoall(counts.data(), 1, MPI_INT64_T, theirs.data(), 1, MPI_INT64_T, data_->comm, request);
   });
   return theirs;
@@ -158,7 +163,7 @@ void Communicator::exchange_bytes(const char* from, const std::vector<std::int64
   }
   const std::int64_t own = send_begin[rank() + 1] - send_begin[rank()];
   if (own > 0) std::memcpy(to + receive_begin[rank()], from + send_begin[rank()], static_cast<std::size_t>(own));
-  wait(requests);
+  data_->wait(requests);
 }
 
 }  // namespace gale

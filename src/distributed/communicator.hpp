@@ -20,10 +20,11 @@ class GALE_EXPORT SharedError : public Error {
   using Error::Error;
 };
 
-/// What one rank has sent to others.
+/// What one rank has sent to others, and how long it has waited.
 struct SentMessages {
   std::int64_t messages = 0;
   std::int64_t bytes = 0;
+  double seconds_waiting = 0;  ///< for messages, of itself and of others, from when it had nothing else to do
 };
 
 /// The ranks that a mesh lies on: an MPI communicator of GALE's own, so that its messages meet no others. Copies share
@@ -64,7 +65,7 @@ class GALE_EXPORT Communicator {
   void exchange_bytes(const char* from, const std::vector<std::int64_t>& send_begin, char* to,
                       const std::vector<std::int64_t>& receive_begin) const;
 
-  /// What this rank has sent through exchange_bytes so far.
+  /// What this rank has sent through exchange_bytes so far, and how long it has waited in all these functions.
   const SentMessages& sent() const;
 
  private:

@@ -8,6 +8,7 @@
 #include <gale/io/bytes/value_type.hpp>
 #include <gale/io/formats/readers.hpp>
 #include <gale/io/image.hpp>
+#include <gale/io/pieces.hpp>
 #include <gale/io/read.hpp>
 #include <gale/io/synthetic.hpp>
 #include <gale/io/voxels.hpp>
@@ -27,6 +28,18 @@ Dataset read_file(const std::string& path, detail::Format format, const ReadOpti
   }
   if (options.above) throw Error("a threshold was given, but it is a mesh, not an image");
   return std::get<Dataset>(std::move(content));
+}
+
+/// What read() returns; names the input in whatever goes wrong.
+template <class Read>
+auto naming(const std::string& input, const Read& read) {
+  try {
+    return read();
+  } catch (const std::bad_alloc&) {
+    throw Error("cannot read '" + input + "': not enough memory");
+  } catch (const std::exception& error) {
+    throw Error("cannot read '" + input + "': " + error.what());
+  }
 }
 
 }  // namespace
@@ -52,13 +65,19 @@ Dataset read(const std::string& input, const ReadOptions& options) {
                 "it grid:N; for other meshes: meshio convert '" +
                 input + "' mesh.vtu");
   }
-  try {
-    return read_file(input, *format, options);
-  } catch (const std::bad_alloc&) {
-    throw Error("cannot read '" + input + "': not enough memory");
-  } catch (const std::exception& error) {
-    throw Error("cannot read '" + input + "': " + error.what());
-  }
+  return naming(input, [&] { return read_file(input, *format, options); });
+}
+
+std::optional<PieceNames> piece_names(const std::string& input) {
+  if (!detail::has_vtk() || detail::format_of(input) != detail::Format::pvtu) return std::nullopt;
+  return naming(input, [&] { return detail::names_of_pieces(detail::InputFile(input)); });
+}
+
+Dataset read_pieces(const std::string& input, const PieceNames& some, const ReadOptions& options) {
+  return naming(input, [&] {
+    if (options.above) throw Error("a threshold was given, but it is a mesh, not an image");
+    return detail::read_some_pieces(detail::InputFile(input), some, options);
+  });
 }
 
 }  // namespace gale::io

@@ -55,7 +55,8 @@ void check_permutation(const io::PointArray& order, std::size_t count) {
 
 bool may_be_field(const std::string& name, int components, bool is_whole) {
   const bool is_segments = is_whole && (name == segments_name || name == ttk_segments_name);
-  return components == 1 && !is_segments && !ends_with(name, order_suffix);
+  const bool is_of_pieces = is_whole && (name == "GlobalPointIds" || name == "vtkGhostType");
+  return components == 1 && !is_segments && !is_of_pieces && !ends_with(name, order_suffix);
 }
 
 io::PointArray select_field(const io::Dataset& dataset, const std::string& name) {

@@ -9,7 +9,8 @@
 namespace gale::outputs {
 
 /// Whether an array can be the field where none is named: one number a point, neither a segmentation (`find_segments`)
-/// nor an order (its name ends in _Order). `is_whole`: its type is one of whole numbers.
+/// nor an order (its name ends in _Order), nor what a mesh in pieces says of its points (GlobalPointIds, vtkGhostType).
+/// `is_whole`: its type is one of whole numbers.
 GALE_EXPORT bool may_be_field(const std::string& name, int components, bool is_whole);
 
 /// A copy of the point array to analyse, which has one component: the array called `name`, or component K (from 0) of

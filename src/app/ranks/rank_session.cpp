@@ -3,6 +3,7 @@
 
 #include <gale/app/machine.hpp>
 #include <gale/app/output_file.hpp>
+#include <gale/app/ranks/pieces_input.hpp>
 #include <gale/app/ranks/rank_session.hpp>
 #include <gale/app/ranks/ranks.hpp>
 #include <gale/app/ranks/shared_input.hpp>
@@ -110,6 +111,7 @@ FieldOnRanks RankSession::read_field(const SegmentationOptions& segmentation) {
   console_.say("tetrahedra", grouped(mesh.tetrahedra()));
   console_.say("field", shared.order.name);
   begin_step("ordering the vertices");
+  if (shared.has_order) require_permutation(mesh, local_values(mesh, shared.order));
   const DistributedOrder order = std::visit(
       [&](const auto& values) {
         using Value = typename std::decay_t<decltype(values)>::value_type;
@@ -194,14 +196,21 @@ void RankSession::finish(const DistributedMesh& mesh) {
   };
   constexpr double microsecond = 1e-6;
   const Seconds& seconds = report_.seconds;
-  report_.ranks = {{"count", ranks_.size()},
-                   {"owned_vertices", by_rank(mesh.local().owned_vertices())},
-                   {"tetrahedra", by_rank(mesh.local().tetrahedra())},
-                   {"host_peak_bytes", by_rank(static_cast<double>(host_peak_bytes()))},
-                   {"sent_bytes", by_rank(static_cast<double>(ranks_.sent().bytes))},
-                   {"reading", by_rank(seconds.read, microsecond)},
-                   {"initializing", by_rank(seconds.initialize, microsecond)},
-                   {"running", by_rank(seconds.run, microsecond)}};
+  const double waited = ranks_.sent().seconds_waiting;
+  const auto on_device = device_peak_bytes();
+  report_.ranks = {
+      {"count", ranks_.size()},
+      {"owned_vertices", by_rank(mesh.local().owned_vertices())},
+      {"tetrahedra", by_rank(mesh.local().tetrahedra())},
+      {"host_peak_bytes", by_rank(static_cast<double>(host_peak_bytes()))},
+      {"device_peak_bytes", on_device ? by_rank(static_cast<double>(*on_device)) : nlohmann::ordered_json(nullptr)},
+      {"sent_messages", by_rank(static_cast<double>(ranks_.sent().messages))},
+      {"sent_bytes", by_rank(static_cast<double>(ranks_.sent().bytes))},
+      {"reading", by_rank(seconds.read, microsecond)},
+      {"initializing", by_rank(seconds.initialize, microsecond)},
+      {"running", by_rank(seconds.run, microsecond)},
+      {"writing", by_rank(seconds.write, microsecond)},
+      {"waiting", by_rank(waited, microsecond)}};
   console_.say("time", gale::app::seconds(seconds.total()) + " (initialize " + gale::app::seconds(seconds.initialize) +
                            ", run " + gale::app::seconds(seconds.run) + "); read " + gale::app::seconds(seconds.read));
   console_.say("memory", bytes(report_.ranks["host_peak_bytes"]["most"].get<double>()) + " at most, of one rank");

@@ -1,5 +1,6 @@
 #include <sstream>
 
+#include <gale/app/ranks/pieces_input.hpp>
 #include <gale/app/ranks/shared_input.hpp>
 #include <gale/app/step.hpp>
 #include <gale/distributed/exchange_plan.hpp>
@@ -40,32 +41,6 @@ void take_file(const InputOptions& input, SharedInput& shared) {
   shared.notices = std::move(dataset.notices);
 }
 
-/// Types, components and names of arrays.
-std::string described(const std::vector<io::PointArray>& arrays) {
-  std::ostringstream text;
-  for (const io::PointArray& array : arrays)
-    text << array.values.index() << ' ' << array.components << ' ' << array.name.size() << ' ' << array.name;
-  return text.str();
-}
-
-/// Arrays without values, as they were described.
-std::vector<io::PointArray> empty_arrays(const std::string& description) {
-  std::vector<io::PointArray> arrays;
-  std::istringstream text(description);
-  int type = 0, components = 0;
-  std::size_t length = 0;
-  while (text >> type >> components >> length) {
-    std::string name(length, ' ');
-    text.get();
-    text.read(name.data(), static_cast<std::streamsize>(length));
-    io::PointArray array{name, components, {}};
-    io::detail::with_type(static_cast<io::detail::ValueType>(type),
-                          [&](auto value) { array.values = std::vector<decltype(value)>(); });
-    arrays.push_back(std::move(array));
-  }
-  return arrays;
-}
-
 /// Has the other ranks have the arrays of the first, without values.
 void share_names(const Communicator& ranks, SharedInput& shared) {
   std::vector<io::PointArray> all = shared.arrays;
@@ -86,9 +61,36 @@ void share_names(const Communicator& ranks, SharedInput& shared) {
 
 }  // namespace
 
+std::string described(const std::vector<io::PointArray>& arrays) {
+  std::ostringstream text;
+  for (const io::PointArray& array : arrays)
+    text << array.values.index() << ' ' << array.components << ' ' << array.name.size() << ' ' << array.name;
+  return text.str();
+}
+
+std::vector<io::PointArray> empty_arrays(const std::string& description) {
+  std::vector<io::PointArray> arrays;
+  std::istringstream text(description);
+  int type = 0, components = 0;
+  std::size_t length = 0;
+  while (text >> type >> components >> length) {
+    std::string name(length, ' ');
+    text.get();
+    text.read(name.data(), static_cast<std::streamsize>(length));
+    io::PointArray array{name, components, {}};
+    io::detail::with_type(static_cast<io::detail::ValueType>(type),
+                          [&](auto value) { array.values = std::vector<decltype(value)>(); });
+    arrays.push_back(std::move(array));
+  }
+  return arrays;
+}
+
 SharedInput read_shared(const Communicator& ranks, const InputOptions& input) {
   SharedInput shared;
   begin_step("reading", input.input);
+  std::optional<io::PieceNames> pieces;
+  detail::together(ranks, [&] { pieces = io::piece_names(input.input); });
+  if (pieces) return read_pieces(ranks, input, *pieces);
   detail::together(ranks, [&] {
     if (const auto n = io::grid_size(input.input, input.read)) {
       take_grid(*n, ranks, shared);

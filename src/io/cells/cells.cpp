@@ -169,7 +169,7 @@ Tetrahedra split(const MeshParts& parts, const Types& types, const Ends& ends, c
 
 template <class Ends>
 Tetrahedra to_tetrahedra(const MeshParts& parts, const Types& types, const Ends& ends, bool tetrahedralize,
-                         std::size_t points, Census& census) {
+                         bool may_be_empty, std::size_t points, Census& census) {
   if (types.size() != ends.size()) {
     damaged("it has types of " + std::to_string(types.size()) + " cells and offsets of " + std::to_string(ends.size()));
   }
@@ -177,7 +177,7 @@ Tetrahedra to_tetrahedra(const MeshParts& parts, const Types& types, const Ends&
     census = take_census(types, ends, connectivity.size());
     if (census.other > 0 && tetrahedralize) return split(parts, types, ends, connectivity, points);
     if (census.other > 0) refuse_solid(census.first_other, types[census.first_other]);
-    if (census.tetrahedra == 0) throw Error("it has no tetrahedra");
+    if (census.tetrahedra == 0 && !may_be_empty) throw Error("it has no tetrahedra");
     require_ids(census.tetrahedra, "tetrahedra");
     const auto tetrahedra = allocate<Tetrahedra>("GALE::tetrahedra", census.tetrahedra);
     if (census.tetrahedra == types.size()) {
@@ -189,14 +189,14 @@ Tetrahedra to_tetrahedra(const MeshParts& parts, const Types& types, const Ends&
   });
 }
 
-Tetrahedra to_tetrahedra(MeshParts& parts, bool tetrahedralize, std::size_t points, Census& census) {
+Tetrahedra to_tetrahedra(MeshParts& parts, bool tetrahedralize, bool may_be_empty, std::size_t points, Census& census) {
   const Types types = taken_as<std::uint8_t>(parts.cells.types, "types");
   if (std::holds_alternative<std::vector<std::int32_t>>(parts.cells.ends)) {
     const auto ends = taken_as<std::int32_t>(parts.cells.ends, "offsets");
-    return to_tetrahedra(parts, types, ends, tetrahedralize, points, census);
+    return to_tetrahedra(parts, types, ends, tetrahedralize, may_be_empty, points, census);
   }
   const auto ends = taken_as<std::int64_t>(parts.cells.ends, "offsets");
-  return to_tetrahedra(parts, types, ends, tetrahedralize, points, census);
+  return to_tetrahedra(parts, types, ends, tetrahedralize, may_be_empty, points, census);
 }
 
 template <class Coordinate>
@@ -225,13 +225,13 @@ std::string note_cell_arrays(const std::vector<std::string>& names) {
   return "left out the cell arrays " + list;
 }
 
-Dataset to_mesh(MeshParts& parts, bool tetrahedralize) {
+Dataset to_mesh(MeshParts& parts, bool tetrahedralize, bool may_be_empty) {
   const std::size_t points = count_of(parts.points) / 3;
   require_ids(points, "points");
   for (const PointArray& array : parts.arrays) require_size(array, points);
   Dataset mesh;
   Census census;
-  mesh.tetrahedra = to_tetrahedra(parts, tetrahedralize, points, census);
+  mesh.tetrahedra = to_tetrahedra(parts, tetrahedralize, may_be_empty, points, census);
   parts.cells = {};
   if (std::holds_alternative<std::vector<double>>(parts.points)) {
     mesh.points = to_points<double>(parts.points);

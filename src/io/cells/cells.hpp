@@ -25,9 +25,9 @@ struct MeshParts {
 
 /// The mesh of the tetrahedra among the cells, in their order; those of lower dimension are left out with a notice.
 /// Checks all that it indexes by. Throws gale::Error: offsets that don't ascend or exceed the connectivity, points that
-/// there are not, a cell of dimension 3 that is no tetrahedron unless `tetrahedralize`, no tetrahedra, too many for ids
-/// of 32 bits. Takes what is in `parts`.
-Dataset to_mesh(MeshParts& parts, bool tetrahedralize);
+/// there are not, a cell of dimension 3 that is no tetrahedron unless `tetrahedralize`, no tetrahedra unless it
+/// `may_be_empty`, too many for ids of 32 bits. Takes what is in `parts`.
+Dataset to_mesh(MeshParts& parts, bool tetrahedralize, bool may_be_empty = false);
 
 /// Throws gale::Error about a cell of dimension 3 that is no tetrahedron.
 [[noreturn]] void refuse_solid(std::size_t cell, int type);

@@ -147,22 +147,34 @@ std::vector<std::string> add_file(const std::string& path, SharedPieces& shared)
   return cell_arrays;
 }
 
+/// The names of its pieces' files.
+std::vector<std::string> sources_of(const XmlElement& grid) {
+  std::vector<std::string> sources;
+  for (const XmlElement& piece : grid.children) {
+    if (piece.name != "Piece") continue;
+    sources.push_back(piece.attribute("Source"));
+    if (sources.back().empty()) damaged("one of its pieces has no Source");
+  }
+  return sources;
+}
+
 }  // namespace
 
-Content read_pvtu(const InputFile& input, const ReadOptions& options) {
+PieceNames names_of_pieces(const InputFile& input) {
   const XmlFile file = read_xml(input, "PUnstructuredGrid");
   const XmlElement& grid = file.root.require("PUnstructuredGrid");
   const XmlElement* const arrays = grid.child("PPointData");
-  SharedPieces shared(arrays != nullptr ? arrays->attribute("GlobalIds") : "");
+  return {sources_of(grid), arrays != nullptr ? arrays->attribute("GlobalIds") : ""};
+}
+
+MeshParts read_pieces(const InputFile& input, const PieceNames& names, const ReadOptions& options) {
+  SharedPieces shared(names.global_ids);
   std::vector<std::string> cell_arrays;
-  for (const XmlElement& piece : grid.children) {
-    if (piece.name != "Piece") continue;
-    const std::string source = piece.attribute("Source");
-    if (source.empty()) damaged("one of its pieces has no Source");
+  for (const std::string& source : names.sources) {
     const std::string path = path_of_data(input.path(), source, options);
     try {
-      const std::vector<std::string> names = add_file(path, shared);
-      if (cell_arrays.empty()) cell_arrays = names;
+      const std::vector<std::string> found = add_file(path, shared);
+      if (cell_arrays.empty()) cell_arrays = found;
     } catch (const Error& error) {
       throw Error("its piece '" + printable(source) + "': " + error.what());
     }
@@ -171,7 +183,17 @@ Content read_pvtu(const InputFile& input, const ReadOptions& options) {
   for (auto name = cell_arrays.begin(); name != cell_arrays.end();)
     name = *name == ghost_array ? cell_arrays.erase(name) : name + 1;
   if (!cell_arrays.empty()) parts.notices.push_back(note_cell_arrays(cell_arrays));
+  return parts;
+}
+
+Content read_pvtu(const InputFile& input, const ReadOptions& options) {
+  MeshParts parts = read_pieces(input, names_of_pieces(input), options);
   return to_mesh(parts, options.tetrahedralize);
+}
+
+Dataset read_some_pieces(const InputFile& input, const PieceNames& some, const ReadOptions& options) {
+  MeshParts parts = read_pieces(input, some, options);
+  return to_mesh(parts, options.tetrahedralize, true);
 }
 
 }  // namespace gale::io::detail

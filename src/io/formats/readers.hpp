@@ -6,6 +6,7 @@
 #include <gale/io/dataset.hpp>
 #include <gale/io/formats.hpp>
 #include <gale/io/image.hpp>
+#include <gale/io/pieces.hpp>
 #include <gale/io/read.hpp>
 
 /// The readers, a file a format. Each trusts nothing that a file says: sizes are checked against what the file has
@@ -29,5 +30,9 @@ Content read_pvtu(const InputFile& file, const ReadOptions& options);
 
 /// By VTK's reader of that format, in a process of its own: what a file does to it ends there.
 Content read_by_program(const InputFile& file, Format format, const ReadOptions& options);
+
+/// What a `.pvtu` names, and some of these pieces as one mesh, which may be empty.
+PieceNames names_of_pieces(const InputFile& input);
+Dataset read_some_pieces(const InputFile& input, const PieceNames& some, const ReadOptions& options);
 
 }  // namespace gale::io::detail

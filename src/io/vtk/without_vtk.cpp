@@ -13,6 +13,10 @@ bool has_vtk() { return false; }
 
 Content read_content(const InputFile&, Format, const ReadOptions&) { refuse(); }
 
+PieceNames names_of_pieces(const InputFile&) { refuse(); }
+
+Dataset read_some_pieces(const InputFile&, const PieceNames&, const ReadOptions&) { refuse(); }
+
 bool has_zlib() { return false; }
 
 void compress_by_zlib(const char*, std::size_t, std::vector<char>&) { refuse(); }

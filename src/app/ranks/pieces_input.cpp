@@ -1,0 +1,227 @@
+#include <algorithm>
+#include <cstring>
+
+#include <gale/app/ranks/pieces_input.hpp>
+#include <gale/app/step.hpp>
+#include <gale/app/usage_error.hpp>
+#include <gale/distributed/deal.hpp>
+#include <gale/distributed/key_places.hpp>
+#include <gale/io/arrays.hpp>
+#include <gale/mesh/positions.hpp>
+#include <gale/outputs/field.hpp>
+#include <gale/outputs/find_array.hpp>
+
+namespace gale::app {
+
+namespace {
+
+using GlobalIds = Array<GlobalId, HostMemory>;
+
+/// Those that this rank reads.
+io::PieceNames share_of(const io::PieceNames& all, const Communicator& ranks) {
+  const auto count = static_cast<Offset>(all.sources.size());
+  const auto begin = [&](int rank) { return all.sources.begin() + (count * rank + ranks.size() - 1) / ranks.size(); };
+  return {{begin(ranks.rank()), begin(ranks.rank() + 1)}, all.global_ids};
+}
+
+/// Takes the array of that name out of the arrays, as ids.
+GlobalIds take_ids(io::Dataset& mesh, const std::string& name, Offset points) {
+  const auto ids = allocate<GlobalIds>("GALE::piece_ids", points);
+  for (auto array = mesh.arrays.begin(); array != mesh.arrays.end(); ++array) {
+    if (array->name != name) continue;
+    std::visit(
+        [&](const auto& values) {
+          for (Offset i = 0; i < points; ++i) ids(i) = static_cast<GlobalId>(values[i]);
+        },
+        array->values);
+    mesh.arrays.erase(array);
+    break;
+  }
+  return ids;
+}
+
+/// Of doubles, so that equal ones have equal bits.
+std::array<GlobalId, 3> bits_of(const detail::Point& point) {
+  std::array<GlobalId, 3> bits;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double coordinate = point[axis] + 0.0;  // 0 and -0 are one
+    std::memcpy(&bits[axis], &coordinate, sizeof(double));
+  }
+  return bits;
+}
+
+/// Ids of points by coordinates: those that no lower rank has are counted from rank to rank. Those of one rank differ.
+/// Collective.
+GlobalIds merged_ids(const Communicator& ranks, const Array<detail::Point, HostMemory>& points) {
+  struct Question {
+    std::array<GlobalId, 3> bits;
+    Id place;
+  };
+  const Offset count = points.extent(0);
+  const auto home = [&](const std::array<GlobalId, 3>& bits) {
+    std::uint64_t hash = 0;
+    for (const GlobalId word : bits) hash = (hash ^ static_cast<std::uint64_t>(word)) * 0x9e3779b97f4a7c15u;
+    return static_cast<int>((hash >> 33) % static_cast<std::uint64_t>(ranks.size()));
+  };
+  Array<Id, HostMemory> members;
+  const auto sent = detail::deal<Question>(
+      ranks, "GALE::asked_points", count, [&](Id i) { return home(bits_of(points(i))); },
+      [&](Id i) {
+        return Question{bits_of(points(i)), i};
+      },
+      &members);
+  const auto received = detail::exchange(ranks, "GALE::points_to_merge", sent);
+  // Where each point occurs first: the lowest rank, and the place among its points.
+  struct First {
+    int rank;
+    Id place;
+  };
+  detail::Dealt<First> told, answers;
+  detail::together(ranks, [&] {
+    told = detail::dealt<First>("GALE::told_points", detail::counts_of(received));
+    answers = detail::dealt<First>("GALE::found_points", detail::counts_of(sent));
+    std::vector<Id> sorted(received.count());
+    for (std::size_t i = 0; i < sorted.size(); ++i) sorted[i] = static_cast<Id>(i);
+    std::sort(sorted.begin(), sorted.end(), [&](Id a, Id b) {
+      const auto &left = received.entries(a).bits, &right = received.entries(b).bits;
+      return left != right ? left < right : a < b;
+    });
+    Id first = no_id;
+    for (const Id i : sorted) {
+      if (first == no_id || received.entries(i).bits != received.entries(first).bits) first = i;
+      const auto next = std::upper_bound(received.begin.begin(), received.begin.end(), Offset(first));
+      told.entries(i) = {static_cast<int>(next - received.begin.begin()) - 1, received.entries(first).place};
+    }
+  });
+  detail::exchange(ranks, told, answers);
+  GlobalIds ids;
+  Offset fresh = 0;
+  detail::together(ranks, [&] {
+    ids = allocate<GlobalIds>("GALE::merged_ids", count);
+    Kokkos::deep_copy(ids, GlobalId(-1));
+    std::vector<bool> is_fresh(count);
+    for (Offset k = 0; k < count; ++k) is_fresh[members(k)] = answers.entries(k).rank == ranks.rank();
+    for (Offset i = 0; i < count; ++i) {
+      if (is_fresh[i]) ids(i) = fresh++;
+    }
+  });
+  const GlobalId first_id = ranks.sum_before(fresh);
+  for (Offset i = 0; i < count; ++i) ids(i) += ids(i) < 0 ? 0 : first_id;
+  // The others have the id that the rank has given them where they occur first.
+  std::vector<Id> others;
+  for (Offset k = 0; k < count; ++k) {
+    if (answers.entries(k).rank != ranks.rank()) others.push_back(static_cast<Id>(k));
+  }
+  Array<Id, HostMemory> asked;
+  const auto places = detail::deal<Id>(
+      ranks, "GALE::asked_places", static_cast<Offset>(others.size()),
+      [&](Id i) { return answers.entries(others[i]).rank; }, [&](Id i) { return answers.entries(others[i]).place; },
+      &asked);
+  const auto found = detail::answer<GlobalId>(ranks, "GALE::told_ids", places, [&](Id place) { return ids(place); });
+  for (Offset k = 0; k < found.count(); ++k) ids(members(others[asked(k)])) = found.entries(k);
+  return ids;
+}
+
+/// The arrays that all ranks with points have, of the same types; notices about others. Collective.
+void keep_common(const Communicator& ranks, io::Dataset& mesh, Offset points) {
+  std::vector<io::PointArray> common;
+  bool any = false;
+  for (int rank = 0; rank < ranks.size(); ++rank) {
+    const std::string text = ranks.broadcast(points > 0 ? described(mesh.arrays) : "", rank);
+    const bool has_points = ranks.least(std::int64_t(rank != ranks.rank() || points > 0)) == 1;
+    if (!has_points) continue;
+    std::vector<io::PointArray> theirs = empty_arrays(text);
+    if (!std::exchange(any, true)) {
+      common = std::move(theirs);
+      continue;
+    }
+    for (auto array = common.begin(); array != common.end();) {
+      const bool is_there = std::any_of(theirs.begin(), theirs.end(), [&](const io::PointArray& other) {
+        return other.name == array->name && other.components == array->components &&
+               other.values.index() == array->values.index();
+      });
+      if (!is_there) mesh.notices.push_back("left out the point array '" + array->name + "': not all pieces have it");
+      array = is_there ? array + 1 : common.erase(array);
+    }
+  }
+  if (points > 0) {
+    for (io::PointArray& array : common) array = *outputs::detail::find_array(mesh, array.name);
+  }
+  mesh.arrays = std::move(common);
+}
+
+/// Drops what only other programs' readers take.
+void drop_ghost_array(io::Dataset& mesh) {
+  auto& arrays = mesh.arrays;
+  arrays.erase(
+      std::remove_if(arrays.begin(), arrays.end(), [](const auto& array) { return array.name == "vtkGhostType"; }),
+      arrays.end());
+}
+
+}  // namespace
+
+SharedInput read_pieces(const Communicator& ranks, const InputOptions& input, const io::PieceNames& pieces) {
+  if (input.read.tetrahedralize) throw UsageError("--tetrahedralize: not of pieces on several ranks");
+  SharedInput shared;
+  io::Dataset mesh;
+  detail::together(ranks, [&] { mesh = io::read_pieces(input.input, share_of(pieces, ranks), input.read); });
+  const auto count = std::visit([](const auto& points) { return Offset(points.extent(0)); }, mesh.points);
+  shared.is_in_float = ranks.least(std::int64_t(mesh.points.index() == 0)) == 1;
+  GlobalIds ids;
+  Array<detail::Point, HostMemory> points;
+  detail::together(ranks, [&] {
+    points = allocate<decltype(points)>("GALE::piece_points", count);
+    std::visit(
+        [&](const auto& all) {
+          for (Offset i = 0; i < count; ++i) points(i) = {all(i, 0), all(i, 1), all(i, 2)};
+        },
+        mesh.points);
+    if (!pieces.global_ids.empty()) ids = take_ids(mesh, pieces.global_ids, count);
+  });
+  if (pieces.global_ids.empty()) {
+    ids = merged_ids(ranks, points);
+    mesh.notices.push_back("its points have no global ids: those of equal coordinates are one");
+  }
+  drop_ghost_array(mesh);
+  keep_common(ranks, mesh, count);
+  detail::together(ranks, [&] {
+    shared.tetrahedra = decltype(shared.tetrahedra)("GALE::input_tetrahedra", mesh.tetrahedra.extent(0));
+    parallel_for("GALE::input_tetrahedra", HostSpace(), shared.tetrahedra.extent(0), [&](Offset t) {
+      for (int corner = 0; corner < 4; ++corner) shared.tetrahedra(t, corner) = ids(mesh.tetrahedra(t, corner));
+    });
+    std::visit([&](const auto& all) { shared.part = make_part(ids, all, shared.tetrahedra); }, mesh.points);
+    shared.field = outputs::select_field(mesh, input.read.array);
+    const auto* const order = outputs::detail::find_array(mesh, shared.field.name + "_Order");
+    shared.has_order = order != nullptr && order->components == 1;
+    shared.order = shared.has_order ? *order : shared.field;
+  });
+  shared.arrays = std::move(mesh.arrays);
+  shared.notices = std::move(mesh.notices);
+  shared.is_dealt_out = static_cast<int>(pieces.sources.size()) < ranks.size();
+  return shared;
+}
+
+void require_permutation(const DistributedMesh& mesh, const io::PointArray& order) {
+  const Id* const input = mesh.local().vertex_input().data();
+  const auto count = static_cast<double>(mesh.vertices());
+  Array<detail::SimplexKey, HostMemory> keys;
+  const auto refuse = [&](GlobalId vertex, double value) {
+    throw Error("array '" + order.name + "' is no permutation of 0 to " + std::to_string(mesh.vertices() - 1) +
+                ": vertex " + std::to_string(vertex) + " has " + std::to_string(value));
+  };
+  detail::together(mesh.ranks(), [&] {
+    keys = allocate<decltype(keys)>("GALE::order_keys", mesh.local().owned_vertices());
+    for (std::size_t v = 0; v < keys.extent(0); ++v) {
+      const double value = outputs::value_at(order, input[v]);
+      if (!(value >= 0 && value < count) || value != static_cast<double>(static_cast<GlobalId>(value)))
+        refuse(mesh.vertex_ids()(input[v]), value);
+      keys(v) = {static_cast<GlobalId>(value), 0, 0};
+    }
+  });
+  const auto found = detail::places_of_keys(mesh.ranks(), keys);
+  if (found.count == mesh.vertices()) return;
+  throw SharedError("array '" + order.name + "' is no permutation of 0 to " + std::to_string(mesh.vertices() - 1) +
+                    ": it has " + std::to_string(found.count) + " different values");
+}
+
+}  // namespace gale::app

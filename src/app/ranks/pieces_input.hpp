@@ -1,0 +1,17 @@
+#pragma once
+
+#include <gale/app/ranks/shared_input.hpp>
+#include <gale/io/pieces.hpp>
+
+namespace gale::app {
+
+/// Has each rank read some of the pieces of a `.pvtu`, one behind the other, as many as the others. Vertices have the
+/// global ids of the file's, or, with a notice, are counted where they occur first: points of equal coordinates are
+/// one. Collective; throws SharedError.
+SharedInput read_pieces(const Communicator& ranks, const InputOptions& input, const io::PieceNames& pieces);
+
+/// Throws SharedError if an array that orders the vertices of such a mesh isn't a permutation of 0 to n-1. `values` are
+/// by local input id. Collective.
+void require_permutation(const DistributedMesh& mesh, const io::PointArray& order);
+
+}  // namespace gale::app
