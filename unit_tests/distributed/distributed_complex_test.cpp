@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <map>
+#include <set>
 #include <tuple>
 
 #include <gale/algorithms/morse_smale.hpp>
@@ -38,6 +40,7 @@ class ComplexOnRanks : public EveryPartition {
     }
   }
 
+  void expect_between(const DistributedSeparatrices& found, bool falls) const;
   void expect_paths(const DistributedSeparatrices& found, const Separatrices<Id>& whole, const Id* whole_input,
                     Id (*number)(GlobalId)) const;
 };
@@ -79,6 +82,35 @@ void ComplexOnRanks::expect_paths(const DistributedSeparatrices& found, const Se
   for (const auto& [path, times] : expected) EXPECT_EQ(counts[at++], times) << "from " << std::get<0>(path);
 }
 
+/// Before each cell but the first of a path stands what it shares with the cell before: the edge of two vertices, the
+/// triangle of two tetrahedra. Before the first stands the source, which has it as a vertex, or is a face of it.
+void ComplexOnRanks::expect_between(const DistributedSeparatrices& found, bool falls) const {
+  const auto vertices_of = [&](GlobalId cell) {
+    std::set<GlobalId> vertices;
+    if (falls) return std::set<GlobalId>{cell};
+    for (const Id v : input().tetrahedra[tetrahedron_named(cell)]) vertices.insert(vertex_name(v));
+    return vertices;
+  };
+  ASSERT_EQ(found.between.size(), found.cells.size());
+  ASSERT_EQ(found.sources_here.size(), found.sources.size());
+  for (Offset i = 0; i < found.count(); ++i) {
+    for (Offset k = found.begin[i]; k < found.begin[i + 1]; ++k) {
+      std::set<GlobalId> between(found.between[k].begin(), found.between[k].end());
+      EXPECT_EQ(between.erase(-1), falls ? 1u : 0u);
+      EXPECT_TRUE(std::is_sorted(found.between[k].begin(), found.between[k].end() - (falls ? 1 : 0)));
+      const std::set<GlobalId> here = vertices_of(found.cells[k]);
+      for (const GlobalId v : falls ? here : between) EXPECT_TRUE((falls ? between : here).count(v) == 1) << v;
+      if (k == found.begin[i]) continue;
+      const std::set<GlobalId> before = vertices_of(found.cells[k - 1]);
+      for (const GlobalId v : falls ? before : between) EXPECT_TRUE((falls ? between : before).count(v) == 1) << v;
+      if (!falls) continue;
+      const auto &a = input().points[vertex_named(found.between[k][0])],
+                 &b = input().points[vertex_named(found.between[k][1])];
+      for (int axis = 0; axis < 3; ++axis) EXPECT_EQ(found.between_points[k][axis], (a[axis] + b[axis]) / 2);
+    }
+  }
+}
+
 TEST_P(ComplexOnRanks, separatrices_are_those_of_one_rank) {
   for (const Field& field : {fields_on(input())[0], fields_on(input())[4]}) {
     SCOPED_TRACE(field.name);
@@ -88,6 +120,8 @@ TEST_P(ComplexOnRanks, separatrices_are_those_of_one_rank) {
     const auto descending = find_descending_separatrices(gradient), ascending = find_ascending_separatrices(gradient);
     expect_paths(descending, whole.descending, mesh.vertex_input().data(), vertex_named);
     expect_paths(ascending, whole.ascending, mesh.tetrahedron_input().data(), tetrahedron_named);
+    expect_between(descending, true);
+    expect_between(ascending, false);
     for (std::size_t i = 0; i < descending.cells.size(); ++i)
       EXPECT_EQ(descending.points[i], input().points[vertex_named(descending.cells[i])]);
     for (std::size_t i = 0; i < ascending.cells.size(); ++i) {

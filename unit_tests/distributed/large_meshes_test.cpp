@@ -41,9 +41,9 @@ class Sum {
 /// Of critical points, critical edges and triangles, manifolds, and separatrices of both kinds.
 using Sums = std::array<std::int64_t, 5>;
 
-using Field = Kokkos::View<const float*, HostMemory>;
+using WholeField = Kokkos::View<const float*, HostMemory>;
 
-Sums sums_on_ranks(const DistributedMesh& mesh, const Field& field) {
+Sums sums_on_ranks(const DistributedMesh& mesh, const WholeField& field) {
   const DistributedOrder order(mesh, field);
   const auto structure = make_structure(mesh.local(), discrete_gradient_relations);
   Sum points, simplices, manifolds, paths[2];
@@ -74,7 +74,7 @@ Sums sums_on_ranks(const DistributedMesh& mesh, const Field& field) {
 }
 
 /// The same on this rank alone, of input ids.
-Sums sums_on_one(const io::Dataset& data, const Field& field) {
+Sums sums_on_one(const io::Dataset& data, const WholeField& field) {
   const Mesh mesh = std::visit([&](const auto& points) { return make_mesh(points, data.tetrahedra); }, data.points);
   const VertexOrder order(mesh, field);
   const auto structure = make_structure(mesh, discrete_gradient_relations);
