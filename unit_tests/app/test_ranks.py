@@ -1,62 +1,35 @@
 """gale under mpirun: the same results as on one rank, a piece of output a rank, and ends together."""
-import json
 import os
 import signal
 import subprocess
 import time
 import unittest
-import xml.etree.ElementTree
 from pathlib import Path
 
 import gale
-
-MPIEXEC = os.environ.get("MPIEXEC")
-RANKS = (2, 3, 7)
+import ranks
 
 
-@unittest.skipUnless(MPIEXEC, "this gale was built without MPI")
-class OnRanks(gale.CommandTest):
-    def launcher(self, ranks):
-        return [MPIEXEC, "--allow-run-as-root", "--oversubscribe", "--bind-to", "none", "--mca", "mpi_yield_when_idle", "1",
-                "-n", str(ranks), gale.GALE]
-
-    def launch(self, ranks, *arguments):
-        return subprocess.run([*self.launcher(ranks), *map(str, arguments)], cwd=self.folder, stdin=subprocess.DEVNULL,
-                              capture_output=True, text=True, timeout=300)
-
-    def report_of(self, ranks, *arguments):
-        run = self.launch(ranks, *arguments, "--report", "ranks.json")
-        self.assertEqual((run.returncode, run.stderr), (0, ""))
-        return json.loads((self.folder / "ranks.json").read_text())
-
-    def pieces(self, name):
+@ranks.needs_mpi
+class OnRanks(ranks.RanksTest):
+    def points(self, name):
         """{vertex: (point, values of arrays)} of all pieces of a .pvtp, and the types of its arrays."""
-        file = xml.etree.ElementTree.parse(self.folder / name).getroot().find("PPolyData")
-        types = {array.get("Name"): array.get("type") for array in file.find("PPointData")}
-        found = {}
-        for piece in file.findall("Piece"):
-            read = gale.XmlFile(self.folder / piece.get("Source"))
-            self.assertEqual(read.types("PointData"), types)
-            self.add(read.points, read.point_arrays, found)
-        return found, types
+        found, pieces = {}, self.pieces(name)
+        for piece in pieces:
+            self.add(piece.points, piece.point_arrays, found)
+        return found, pieces[0].types("PointData")
 
     def add(self, points, arrays, found):
         for i, vertex in enumerate(arrays["ttkVertexScalarField"]):
             self.assertNotIn(vertex, found)
             found[vertex] = (points[i], {name: values[i] for name, values in arrays.items()})
 
-    def expect_one_line(self, run, code, naming):
-        lines = [line for line in run.stderr.split("\n") if line.startswith("gale: ")]
-        self.assertEqual(run.returncode, code, run.stderr)
-        self.assertEqual(len(lines), 1, run.stderr)
-        self.assertIn(naming, lines[0])
-
     def test_counts_are_those_of_one_rank(self):
         for command in ("critical-points", "discrete-gradient"):
             expected = self.report(command, "grid:24")
-            for ranks in RANKS:
-                with self.subTest(command=command, ranks=ranks):
-                    report = self.report_of(ranks, command, "grid:24")
+            for count in ranks.RANKS:
+                with self.subTest(command=command, ranks=count):
+                    report = self.report_of(count, command, "grid:24")
                     self.assertEqual(report["result"], expected["result"])
                     self.assertEqual({**report["mesh"], "segments": None}, {**expected["mesh"], "segments": None})
 
@@ -67,10 +40,10 @@ class OnRanks(gale.CommandTest):
             self.succeed("critical-points", source, "-o", "one.vtp")
             expected = {}
             self.add(*gale.read_vtp(self.folder / "one.vtp"), expected)
-            for ranks in RANKS:
-                with self.subTest(source=source, ranks=ranks):
-                    self.report_of(ranks, "critical-points", source, "-o", "all.pvtp")
-                    found, types = self.pieces("all.pvtp")
+            for count in ranks.RANKS:
+                with self.subTest(source=source, ranks=count):
+                    self.report_of(count, "critical-points", source, "-o", "all.pvtp")
+                    found, types = self.points("all.pvtp")
                     self.assertEqual(found, expected)
                     self.assertEqual(types["ttkVertexScalarField"], "Int64")
 
@@ -84,22 +57,24 @@ class OnRanks(gale.CommandTest):
         expected = {}
         self.add(*gale.read_vtp(self.folder / "one.vtp"), expected)
         self.assertTrue({"height_Order", "weight"} <= set(next(iter(expected.values()))[1]))
-        for ranks in RANKS:
-            with self.subTest(ranks=ranks):
-                self.report_of(ranks, "critical-points", "small.vtk", "--array", "height", "-o", "all.pvtp")
-                self.assertEqual(self.pieces("all.pvtp")[0], expected)
+        for count in ranks.RANKS:
+            with self.subTest(ranks=count):
+                self.report_of(count, "critical-points", "small.vtk", "--array", "height", "-o", "all.pvtp")
+                self.assertEqual(self.points("all.pvtp")[0], expected)
 
     def test_the_report_has_what_differs_between_ranks(self):
         report = self.report_of(3, "critical-points", "grid:16")["ranks"]
         self.assertEqual(report["count"], 3)
         self.assertLessEqual(report["owned_vertices"]["least"], 16 ** 3 / 3)
         self.assertGreaterEqual(report["owned_vertices"]["most"], 16 ** 3 / 3)
-        for key in ("tetrahedra", "host_peak_bytes", "sent_bytes", "reading", "initializing", "running"):
+        for key in ("tetrahedra", "host_peak_bytes", "sent_messages", "sent_bytes", "reading", "initializing", "running", "writing",
+                    "waiting"):
             with self.subTest(key=key):
                 spread = report[key]
                 self.assertEqual(list(spread), ["least", "median", "most"])
                 self.assertTrue(0 <= spread["least"] <= spread["median"] <= spread["most"])
         self.assertGreater(report["sent_bytes"]["most"], 0)
+        self.assertGreater(report["waiting"]["most"], 0)
         self.assertIsNone(self.report("critical-points", "grid:4")["ranks"])
 
     def test_errors_are_one_line_and_leave_nothing(self):
@@ -109,8 +84,12 @@ class OnRanks(gale.CommandTest):
                 (1, "no point array 'height'", ["critical-points", "grid:8", "--array", "height"]),
                 (2, ".pvtp", ["critical-points", "grid:8", "-o", "all.vtp"]),
                 (2, "--segments", ["critical-points", "grid:8", "--segments", "field"]),
-                (2, "--output: not on several ranks", ["discrete-gradient", "grid:8", "-o", "all.vtp"]),
-                (2, "morse-smale works on one rank", ["morse-smale", "grid:8"]),
+                (2, ".pvtp", ["discrete-gradient", "grid:8", "-o", "all.vtp"]),
+                (2, "--arrows: not on several ranks", ["discrete-gradient", "grid:8", "--arrows", "all.vtp"]),
+                (2, "--no-saddle-connectors", ["morse-smale", "grid:8"]),
+                (2, "--separatrices2: not on several ranks", ["morse-smale", "grid:8", "--no-saddle-connectors", "--separatrices2"]),
+                (2, "--persistence: not on several ranks", ["morse-smale", "grid:8", "--no-saddle-connectors", "--persistence", "1"]),
+                (2, "persistence-diagram works on one rank", ["persistence-diagram", "grid:8"]),
                 (2, "--nonsense", ["critical-points", "grid:8", "--nonsense"])):
             with self.subTest(arguments=arguments):
                 self.expect_one_line(self.launch(3, *arguments), code, naming)
@@ -139,7 +118,7 @@ class OnRanks(gale.CommandTest):
         self.assertNotIn("all.pvtp", self.names())
 
 
-@unittest.skipIf(MPIEXEC, "this gale was built with MPI")
+@unittest.skipIf(ranks.MPIEXEC, "this gale was built with MPI")
 class WithoutMpi(gale.CommandTest):
     def test_refuses_to_be_one_of_several_ranks(self):
         run = subprocess.run([gale.GALE, "info", "grid:4"], env={**os.environ, "OMPI_COMM_WORLD_SIZE": "3"},
