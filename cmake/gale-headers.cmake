@@ -22,9 +22,9 @@ gale_public(algorithms critical_points critical_simplices discrete_gradient mors
 gale_public(baselines discrete_gradient_from_cells oracle)
 gale_public(outputs arrows critical_points critical_simplices field manifolds morse_smale named_simplices persistence
   persistence_diagram segmentation separatrices1 separatrices2)
-gale_public(io arrays atomic_file dataset image read synthetic temporary_files voxels write)
+gale_public(io arrays atomic_file dataset image pieces read synthetic temporary_files voxels write)
 if(GALE_ENABLE_MPI)
-  gale_public(distributed communicator distributed_critical_points distributed_gradient distributed_manifolds distributed_mesh
+  gale_public(distributed communicator distributed_critical_points distributed_gradient distributed_manifolds distributed_mesh distributed_numbers
     distributed_order distributed_separatrices mesh_part)
 endif()
 

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include <gale/base/parallel.hpp>
+#include <gale/export.hpp>
 
 namespace gale::detail {
 
@@ -15,11 +16,11 @@ struct DistinctIds {
 };
 
 /// On all host threads. O(n) if they ascend already, else a sort. Ids are 0 or more.
-DistinctIds distinct_ids(const Array<const GlobalId, HostMemory>& ids);
+GALE_EXPORT DistinctIds distinct_ids(const Array<const GlobalId, HostMemory>& ids);
 
 /// Finds the places of global ids among some that ascend: by a table where they lie so densely that it takes no more
 /// than 16 bytes an id, else by bisection.
-class GlobalIndex {
+class GALE_EXPORT GlobalIndex {
  public:
   GlobalIndex() = default;
 

@@ -5,6 +5,7 @@
 #include <gale/base/memory.hpp>
 #include <gale/base/types.hpp>
 #include <gale/distributed/communicator.hpp>
+#include <gale/export.hpp>
 
 namespace gale::detail {
 
@@ -19,6 +20,6 @@ struct KeyPlaces {
 
 /// For each key of this rank its place among the different keys of all ranks, in lexicographic order; and how many
 /// these are. Collective; each rank sorts those of an interval.
-KeyPlaces places_of_keys(const Communicator& ranks, const Array<const SimplexKey, HostMemory>& keys);
+GALE_EXPORT KeyPlaces places_of_keys(const Communicator& ranks, const Array<const SimplexKey, HostMemory>& keys);
 
 }  // namespace gale::detail

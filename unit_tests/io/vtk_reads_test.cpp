@@ -15,6 +15,8 @@
 #include <vtkTypeTraits.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkUnstructuredGridReader.h>
+#include <vtkXMLPPolyDataReader.h>
+#include <vtkXMLPUnstructuredGridReader.h>
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
@@ -161,6 +163,56 @@ TEST_F(VtkReads, lines_of_a_grid) {
   ASSERT_EQ(found->GetNumberOfCells(), 2);
   expect_cell(found, 0, VTK_POLY_LINE, {0, 1, 2});
   expect_cell(found, 1, VTK_LINE, {2, 3});
+}
+
+/// A tetrahedron a piece, with two vertices in common, and an empty piece between them.
+TEST_F(VtkReads, meshes_in_pieces) {
+  std::vector<MeshPiece> pieces(3);
+  for (const int k : {0, 2}) {
+    Dataset& mesh = pieces[k].mesh;
+    const Dataset::Points<double> points("points", 4);
+    for (int i = 0; i < 4; ++i) points(i, i % 3) = k + i;
+    mesh.points = points;
+    mesh.tetrahedra = decltype(mesh.tetrahedra)("tetrahedra", 1);
+    for (int corner = 0; corner < 4; ++corner) mesh.tetrahedra(0, corner) = 3 - corner;
+  }
+  pieces[1].mesh.points = Dataset::Points<double>("points", 0);
+  const std::int64_t far = std::int64_t(1) << 40;
+  const std::vector<std::vector<std::int64_t>> ids = {{0, 1, 2, far}, {}, {2, far, far + 1, far + 2}};
+  AtomicFiles files;
+  for (int k = 0; k < 3; ++k) {
+    const std::vector<std::uint8_t> ghosts =
+        k == 2 ? std::vector<std::uint8_t>{1, 1, 0, 0} : std::vector<std::uint8_t>(ids[k].size());
+    pieces[k].mesh.arrays = {{"vtkGhostType", 1, ghosts}, {global_point_ids, 1, ids[k]}};
+    pieces[k].cell_arrays = {{global_cell_ids, 1, std::vector<std::int64_t>(k == 1 ? 0 : 1, far + k)}};
+    write_piece(files.add(folder / ("all_" + std::to_string(k) + ".vtu")), pieces[k]);
+  }
+  write_pieces(files.add(folder / "all.pvtu"), {"all_0.vtu", "all_1.vtu", "all_2.vtu"}, pieces[0]);
+  files.commit();
+  const auto found = read_by<vtkXMLPUnstructuredGridReader>("all.pvtu");
+  ASSERT_EQ(found->GetNumberOfPoints(), 8);
+  ASSERT_EQ(found->GetNumberOfCells(), 2);
+  expect_cell(found, 0, VTK_TETRA, {3, 2, 1, 0});
+  expect_cell(found, 1, VTK_TETRA, {7, 6, 5, 4});
+  vtkDataArray* const points = found->GetPointData()->GetGlobalIds();
+  ASSERT_NE(points, nullptr);
+  expect_array(points, {global_point_ids, 1, std::vector<std::int64_t>{0, 1, 2, far, 2, far, far + 1, far + 2}});
+  expect_array(found->GetPointGhostArray(), {"vtkGhostType", 1, std::vector<std::uint8_t>{0, 0, 0, 0, 1, 1, 0, 0}});
+  ASSERT_NE(found->GetCellData()->GetGlobalIds(), nullptr);
+  expect_array(found->GetCellData()->GetGlobalIds(), {global_cell_ids, 1, std::vector<std::int64_t>{far, far + 2}});
+}
+
+TEST_F(VtkReads, surfaces_in_pieces) {
+  const Surface surface = two_lines_and_a_triangle();
+  AtomicFiles files;
+  for (const char* name : {"all_0.vtp", "all_1.vtp"}) write_surface(files.add(folder / name), surface);
+  write_pieces(files.add(folder / "all.pvtp"), {"all_0.vtp", "all_1.vtp"}, surface);
+  files.commit();
+  const auto found = read_by<vtkXMLPPolyDataReader>("all.pvtp");
+  ASSERT_EQ(found->GetNumberOfPoints(), 10);
+  ASSERT_EQ(found->GetNumberOfCells(), 6);
+  EXPECT_NE(found->GetPointData()->GetArray("CellDimension"), nullptr);
+  EXPECT_EQ(found->GetCellData()->GetArray("SourceId")->GetNumberOfTuples(), 6);
 }
 
 /// What XML can't have is replaced: the file is read all the same.
