@@ -39,7 +39,8 @@ void sweep(const Mesh& mesh, const Order& order, Times& times) {
       [&] { have_device ? find_discrete_gradient(WorkerSpace(), order) : find_discrete_gradient(*structure, order); }));
 }
 
-void run_on_ranks(const Communicator& ranks, const io::GridPart& part, bool repartition, Times& times) {
+template <class Index>
+void run_on_ranks(const Communicator& ranks, const io::GridPartOf<Index>& part, bool repartition, Times& times) {
   const auto count = static_cast<Offset>(part.field.size());
   const auto ids = allocate<Array<GlobalId, HostMemory>>("ids", count);
   parallel_for("ids", HostSpace(), count, [&](Offset i) { ids(i) = part.first_vertex + i; });
@@ -80,11 +81,15 @@ void measure(int n, int runs, bool repartition) {
   Times with, without;
   SentMessages before;
   {
-    const io::GridPart part = io::make_grid_part(n, ranks.rank(), ranks.size());
-    for (int i = 0; i < runs; ++i) {
-      before = ranks.sent();
-      run_on_ranks(ranks, part, repartition, with);
-    }
+    const auto run = [&](const auto& part) {
+      for (int i = 0; i < runs; ++i) {
+        before = ranks.sent();
+        run_on_ranks(ranks, part, repartition, with);
+      }
+    };
+    constexpr int most = 1290;  // whose vertices 32 bits number
+    n <= most ? run(io::make_grid_part<std::int32_t>(n, ranks.rank(), ranks.size()))
+              : run(io::make_grid_part(n, ranks.rank(), ranks.size()));
   }
   if (ranks.rank() == 0)
     std::printf("%s, grid:%d on %d ranks of %d threads\n", perf::context().c_str(), n, ranks.size(), host_threads());

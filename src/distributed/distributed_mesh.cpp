@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <mutex>
 #include <string>
 
 #include <gale/base/require_ids.hpp>
@@ -64,7 +65,9 @@ struct DistributedMesh::Data {
   Communicator ranks;
   GlobalId vertices = 0, tetrahedra = 0;
   Offset given_vertices = 0;
-  Array<const GlobalId, HostMemory> vertex_ids, tetrahedron_ids;
+  Array<const GlobalId, HostMemory> vertex_ids;
+  mutable Array<const GlobalId, HostMemory> tetrahedron_ids;
+  mutable std::once_flag counts_tetrahedra;  ///< where nobody gave them ids: by the first who asks
   Array<const int, HostMemory> owners;
   Points<double, HostMemory> points;
   Tetrahedra<Id, HostMemory> corners;
@@ -159,14 +162,9 @@ void DistributedMesh::Data::take(const MeshPart<Index>& part, const PartitionOpt
   vertex_ids = part.vertex_ids;
   points = part.points;
   tetrahedron_ids = part.tetrahedron_ids;
-  if (tetrahedron_ids.extent(0) == 0) tetrahedron_ids = counted(tetrahedra);
   const Array<int, HostMemory> all_mine("GALE::owners", vertices);
   owners = all_mine;
-  from_givers = detail::ExchangePlan(
-      ranks, iota("GALE::all_vertices", HostSpace(), vertices), [](Id) { return 0; }, [](Id i) { return i; },
-      [](GlobalId place) { return static_cast<Id>(place); });
-  from_owners = detail::ExchangePlan(
-      ranks, {}, [](Id) { return 0; }, [](Id i) { return i; }, [](GlobalId id) { return static_cast<Id>(id); });
+  from_givers = detail::ExchangePlan::of_one_rank(vertices);
 }
 
 template <class Index>
@@ -193,7 +191,13 @@ const Mesh& DistributedMesh::local() const { return *data_->local; }
 GlobalId DistributedMesh::vertices() const { return data_->vertices; }
 GlobalId DistributedMesh::tetrahedra() const { return data_->tetrahedra; }
 const Array<const GlobalId, HostMemory>& DistributedMesh::vertex_ids() const { return data_->vertex_ids; }
-const Array<const GlobalId, HostMemory>& DistributedMesh::tetrahedron_ids() const { return data_->tetrahedron_ids; }
+const Array<const GlobalId, HostMemory>& DistributedMesh::tetrahedron_ids() const {
+  std::call_once(data_->counts_tetrahedra, [this] {
+    const Offset held = local().tetrahedra();
+    if (static_cast<Offset>(data_->tetrahedron_ids.extent(0)) != held) data_->tetrahedron_ids = counted(held);
+  });
+  return data_->tetrahedron_ids;
+}
 const Array<const int, HostMemory>& DistributedMesh::owners() const { return data_->owners; }
 const Points<double, HostMemory>& DistributedMesh::points() const { return data_->points; }
 const Tetrahedra<Id, HostMemory>& DistributedMesh::corners() const { return data_->corners; }

@@ -12,6 +12,13 @@ class ExchangePlan {
  public:
   ExchangePlan() = default;
 
+  /// Where one rank has all: each slot's value is in its place already.
+  static ExchangePlan of_one_rank(Offset count) {
+    ExchangePlan plan;
+    plan.same_ = count;
+    return plan;
+  }
+
   /// For each of `slots` of this rank the value of what the rank source(slot) knows by key(slot). place(key) is where
   /// that rank will have the value among those that it gives from. Collective.
   template <class Source, class Key, class Place>
@@ -21,6 +28,11 @@ class ExchangePlan {
   /// Fills to[slot] for each of the slots with from[place]. Collective.
   template <class T>
   void operator()(const Communicator& ranks, const T* from, T* to) const {
+    if (same_ > 0) {
+      parallel_for("GALE::kept_values", HostSpace(), same_, [&](Offset i) { to[i] = from[i]; });
+      return;
+    }
+    if (taken_counts_.empty()) return;  // nothing is exchanged
     Dealt<T> given, taken;
     together(ranks, [&] {
       given = dealt<T>("GALE::given_values", counts_of(given_));
@@ -35,6 +47,7 @@ class ExchangePlan {
   }
 
  private:
+  Offset same_ = 0;                                 ///< of one rank: slots that are places
   Array<Id, HostMemory> kept_slots_, kept_places_;  ///< of values that this rank has itself
   Dealt<Id> given_;                                 ///< places, by the rank that takes them
   std::vector<std::int64_t> taken_counts_;

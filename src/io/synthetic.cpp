@@ -130,19 +130,24 @@ Dataset make_grid(int n) {
   return dataset;
 }
 
-GridPart make_grid_part(int n, int part, int parts) {
+template <class Index>
+GridPartOf<Index> make_grid_part(int n, int part, int parts) {
   require_cubes(n);
   constexpr int most = 1625;  // its 2^32 numbers make the field's noise
   if (n > most) throw Error(name_of_grid(n) + " is too large: N is at most " + std::to_string(most));
   if (part < 0 || part >= parts)
     throw Error("there is no part " + std::to_string(part) + " of " + std::to_string(parts));
+  if (sizeof(Index) < sizeof(Offset)) require_ids(name_of_grid(n), std::pow(n, 3), "vertices");
   const Offset first = Offset(n - 1) * part / parts, last = Offset(n - 1) * (part + 1) / parts;
   const Layers layers{n, first, last - first};
   const std::string name = "part " + std::to_string(part) + " of " + name_of_grid(n);
   require_ids(name, static_cast<double>(layers.vertices()), "vertices");
   require_ids(name, static_cast<double>(layers.tetrahedra()), "tetrahedra");
-  return {make_points(layers), make_field(layers), layers.first_vertex(), make_tetrahedra<std::int64_t>(layers),
+  return {make_points(layers), make_field(layers), layers.first_vertex(), make_tetrahedra<Index>(layers),
           layers.first_tetrahedron()};
 }
+
+template GALE_EXPORT GridPartOf<std::int32_t> make_grid_part(int, int, int);
+template GALE_EXPORT GridPartOf<std::int64_t> make_grid_part(int, int, int);
 
 }  // namespace gale::io

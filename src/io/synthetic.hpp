@@ -20,19 +20,23 @@ namespace gale::io {
 GALE_EXPORT Dataset make_grid(int n);
 
 /// A slab of the same mesh: some layers of cubes, and the vertices at these.
-struct GridPart {
+template <class Index>
+struct GridPartOf {
   Dataset::Points<float> points;
   std::vector<float> field;
   std::int64_t first_vertex = 0;  ///< the others are numbered on from it, as in the whole mesh
 
   /// By the vertices' numbers in the whole mesh.
-  Kokkos::View<std::int64_t* [4], Kokkos::LayoutRight, Kokkos::HostSpace> tetrahedra;
+  Kokkos::View<Index* [4], Kokkos::LayoutRight, Kokkos::HostSpace> tetrahedra;
   std::int64_t first_tetrahedron = 0;
 };
+using GridPart = GridPartOf<std::int64_t>;
 
 /// The `part`-th of `parts` slabs of grid:n, of about as many layers; empty ones where there are more parts than
 /// layers. Neighbouring slabs have the vertices between them in common. Throws `Error` if n < 2, if the whole mesh has
-/// more than 2^32 vertices (n > 1625), or if the slab's vertices or tetrahedra don't fit 32-bit ids.
-GALE_EXPORT GridPart make_grid_part(int n, int part, int parts);
+/// more than 2^32 vertices (n > 1625), or if the slab's vertices or tetrahedra don't fit 32-bit ids. `Index` is
+/// std::int64_t or, where the whole mesh's vertices fit it (n < 1291), std::int32_t, in half the memory.
+template <class Index = std::int64_t>
+GALE_EXPORT GridPartOf<Index> make_grid_part(int n, int part, int parts);
 
 }  // namespace gale::io

@@ -185,11 +185,13 @@ SharedInput read_pieces(const Communicator& ranks, const InputOptions& input, co
   drop_ghost_array(mesh);
   keep_common(ranks, mesh, count);
   detail::together(ranks, [&] {
-    shared.tetrahedra = decltype(shared.tetrahedra)("GALE::input_tetrahedra", mesh.tetrahedra.extent(0));
-    parallel_for("GALE::input_tetrahedra", HostSpace(), shared.tetrahedra.extent(0), [&](Offset t) {
-      for (int corner = 0; corner < 4; ++corner) shared.tetrahedra(t, corner) = ids(mesh.tetrahedra(t, corner));
+    HeldPart<std::int64_t> held;
+    held.tetrahedra = decltype(held.tetrahedra)("GALE::input_tetrahedra", mesh.tetrahedra.extent(0));
+    parallel_for("GALE::input_tetrahedra", HostSpace(), held.tetrahedra.extent(0), [&](Offset t) {
+      for (int corner = 0; corner < 4; ++corner) held.tetrahedra(t, corner) = ids(mesh.tetrahedra(t, corner));
     });
-    std::visit([&](const auto& all) { shared.part = make_part(ids, all, shared.tetrahedra); }, mesh.points);
+    std::visit([&](const auto& all) { held.part = make_part(ids, all, held.tetrahedra); }, mesh.points);
+    shared.held = held;
     shared.field = outputs::select_field(mesh, input.read.array);
     const auto* const order = outputs::detail::find_array(mesh, shared.field.name + "_Order");
     shared.has_order = order != nullptr && order->components == 1;

@@ -101,9 +101,9 @@ FieldOnRanks RankSession::read_field(const SegmentationOptions& segmentation) {
   options.repartition = shared.is_dealt_out;
   options.keep_corners = outputs_ == Outputs::with_mesh;
   options.capacity = segmentation.capacity.value_or(options.capacity);
-  const DistributedMesh mesh(ranks_, shared.part, options);
-  shared.part = {};
-  shared.tetrahedra = {};
+  const DistributedMesh mesh =
+      std::visit([&](const auto& held) { return DistributedMesh(ranks_, held.part, options); }, shared.held);
+  shared.held = {};
   report_.vertices = mesh.vertices();
   report_.tetrahedra = mesh.tetrahedra();
   report_.segments = ranks_.sum(mesh.local().owned_segments());

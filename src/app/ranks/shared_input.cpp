@@ -19,24 +19,27 @@ Array<GlobalId, HostMemory> counted(GlobalId first, Offset count) {
   return ids;
 }
 
+template <class Index>
 void take_grid(int n, const Communicator& ranks, SharedInput& shared) {
-  io::GridPart slab = io::make_grid_part(n, ranks.rank(), ranks.size());
-  shared.tetrahedra = slab.tetrahedra;
-  shared.part = make_part(counted(slab.first_vertex, static_cast<Offset>(slab.field.size())), slab.points,
-                          shared.tetrahedra, counted(slab.first_tetrahedron, slab.tetrahedra.extent(0)));
+  io::GridPartOf<Index> slab = io::make_grid_part<Index>(n, ranks.rank(), ranks.size());
+  const auto ids = counted(slab.first_vertex, static_cast<Offset>(slab.field.size()));
+  // Tetrahedra are counted from rank to rank, as in the whole grid.
+  shared.held = HeldPart<Index>{slab.tetrahedra, make_part(ids, slab.points, slab.tetrahedra)};
   shared.arrays.push_back({"field", 1, std::move(slab.field)});
 }
 
 void take_file(const InputOptions& input, SharedInput& shared) {
   io::Dataset dataset = io::read(input.input, input.read);
-  shared.tetrahedra = decltype(shared.tetrahedra)("GALE::input_tetrahedra", dataset.tetrahedra.extent(0));
-  Kokkos::deep_copy(shared.tetrahedra, dataset.tetrahedra);
   std::visit(
-      [&](const auto& points) { shared.part = make_part(counted(0, points.extent(0)), points, shared.tetrahedra); },
+      [&](const auto& points) {
+        const auto ids = counted(0, points.extent(0));
+        shared.held = HeldPart<std::int32_t>{dataset.tetrahedra, make_part(ids, points, dataset.tetrahedra)};
+      },
       dataset.points);
   shared.is_in_float = dataset.points.index() == 0;
   shared.field = outputs::select_field(dataset, input.read.array);
-  shared.order = outputs::order_values(dataset, shared.field, shared.part.vertex_ids.extent(0));
+  shared.order = outputs::order_values(dataset, shared.field,
+                                       std::get<HeldPart<std::int32_t>>(shared.held).part.vertex_ids.extent(0));
   shared.arrays = std::move(dataset.arrays);
   shared.notices = std::move(dataset.notices);
 }
@@ -93,7 +96,8 @@ SharedInput read_shared(const Communicator& ranks, const InputOptions& input) {
   if (pieces) return read_pieces(ranks, input, *pieces);
   detail::together(ranks, [&] {
     if (const auto n = io::grid_size(input.input, input.read)) {
-      take_grid(*n, ranks, shared);
+      constexpr int most = 1290;  // whose vertices 32 bits number
+      *n <= most ? take_grid<std::int32_t>(*n, ranks, shared) : take_grid<std::int64_t>(*n, ranks, shared);
       io::Dataset named;
       named.arrays = shared.arrays;
       shared.field = outputs::select_field(named, input.read.array);

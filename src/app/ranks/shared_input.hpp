@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <variant>
 #include <vector>
 
 #include <gale/app/options/options.hpp>
@@ -9,16 +10,22 @@
 
 namespace gale::app {
 
+/// A part, and the tetrahedra to which it refers.
+template <class Index>
+struct HeldPart {
+  Kokkos::View<Index* [4], Kokkos::LayoutRight, HostMemory> tetrahedra;
+  MeshPart<Index> part;
+};
+
 /// What one rank has of an input before it is dealt out.
 struct SharedInput {
-  MeshPart<std::int64_t> part;
-  Kokkos::View<std::int64_t* [4], Kokkos::LayoutRight, HostMemory> tetrahedra;  ///< to which the part refers
-  io::PointArray field;                                                         ///< the one to analyse
-  io::PointArray order;                ///< what orders the vertices of the part
-  std::vector<io::PointArray> arrays;  ///< of these; the same ones on all ranks
-  bool has_order = false;              ///< whether `order` is another array than the field; pieces alone say so
-  bool is_in_float = true;             ///< the input's coordinates
-  bool is_dealt_out = false;           ///< the first rank has all
+  std::variant<HeldPart<std::int32_t>, HeldPart<std::int64_t>> held;  ///< by global ids that fit
+  io::PointArray field;                                               ///< the one to analyse
+  io::PointArray order;                                               ///< what orders the vertices of the part
+  std::vector<io::PointArray> arrays;                                 ///< of these; the same ones on all ranks
+  bool has_order = false;     ///< whether `order` is another array than the field; pieces alone say so
+  bool is_in_float = true;    ///< the input's coordinates
+  bool is_dealt_out = false;  ///< the first rank has all
   std::vector<std::string> notices;
 };
 
