@@ -13,16 +13,20 @@ namespace gale {
 
 namespace {
 
+template <class Ids>
+void require_no_negative(const Ids& ids) {
+  const GlobalId least =
+      reduce_min("GALE::least_id", HostSpace(), ids.extent(0), GlobalId(0), [&](Offset i) { return ids(i); });
+  if (least < 0) throw Error("ids are 0 or more, not " + std::to_string(least));
+}
+
 /// Throws gale::Error for what one rank can see is wrong with its part but for the tetrahedra's vertices.
 template <class Index>
 void validate(const MeshPart<Index>& part) {
   require_ids("vertices", static_cast<Offset>(part.vertex_ids.extent(0)));
   require_ids("tetrahedra", static_cast<Offset>(part.tetrahedra.extent(0)));
-  for (const auto& ids : {part.vertex_ids, part.tetrahedron_ids}) {
-    const GlobalId least =
-        reduce_min("GALE::least_id", HostSpace(), ids.extent(0), GlobalId(0), [&](Offset i) { return ids(i); });
-    if (least < 0) throw Error("ids are 0 or more, not " + std::to_string(least));
-  }
+  require_no_negative(part.vertex_ids);
+  require_no_negative(part.tetrahedron_ids);
   detail::bounding_box<double>(HostSpace(), part.points);
 }
 
