@@ -1,0 +1,35 @@
+#pragma once
+
+#include <gale/base/types.hpp>
+
+namespace gale::ttk {
+
+/// The tetrahedra of a caller's array, which must outlive it: corner k of cell c is first[stride * c + k]. In TTK's
+/// flat layout, `first` is one past the array's begin and the stride is 5; in that of connectivity and offsets it is 4.
+struct Cells {
+  const long long* first = nullptr;
+  Id count = 0;
+  int stride = 4;
+
+  Id vertex(Id cell, int corner) const { return static_cast<Id>(first[Offset(stride) * cell + corner]); }
+
+  /// Which of a cell's corners some vertices are, as bits.
+  template <class Vertices>
+  unsigned corners(Id cell, const Vertices& vertices) const {
+    unsigned bits = 0;
+    for (int corner = 0; corner < 4; ++corner) {
+      const Id here = vertex(cell, corner);
+      for (const Id wanted : vertices) bits |= unsigned(here == wanted) << corner;
+    }
+    return bits;
+  }
+};
+
+/// The corners of a cell's edges and triangles, in the order in which TTK lists them.
+inline constexpr int edge_corners[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
+inline constexpr int triangle_corners[4][3] = {{0, 1, 2}, {1, 2, 3}, {2, 3, 0}, {3, 0, 1}};
+
+/// The place in that order of the edge or the triangle with some corners, given as bits; -1 for other sets.
+inline constexpr int place_of_corners[16] = {-1, -1, -1, 0, -1, 1, 3, 0, -1, 2, 4, 3, 5, 2, 1, -1};
+
+}  // namespace gale::ttk

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include <gale/mesh/intervals.hpp>
+#include <gale/runtime/consumer.hpp>
+#include <gale/ttk/block_store.hpp>
+
+namespace gale::ttk {
+
+/// Where a thread reads one relation.
+struct Reading {
+  Id simplex = no_id;  ///< TTK's id of what was asked for last, and its row
+  Row row;
+  Interval held;  ///< the simplices (GALE's ids) of the block that the thread holds, and their rows
+  Rows rows;
+  BlockStore::Slot* slot = nullptr;
+};
+
+/// What was found last for a simplex.
+template <std::size_t n>
+struct Found {
+  Id simplex = no_id;
+  std::array<Id, n> ids;
+
+  template <class Find>
+  const std::array<Id, n>& of(Id wanted, const Find& find) {
+    if (simplex != wanted) {
+      ids = find(wanted);
+      simplex = wanted;
+    }
+    return ids;
+  }
+};
+
+/// What one thread has of its own.
+struct Reader {
+  explicit Reader(BlockStore& store) : store(store) {}
+  ~Reader() {
+    for (Reading& reading : readings) leave(reading);
+  }
+  Reader(const Reader&) = delete;
+  Reader& operator=(const Reader&) = delete;
+
+  void leave(Reading& reading) {
+    if (reading.slot != nullptr) store.release(*reading.slot);
+    reading = Reading();
+  }
+
+  BlockStore& store;
+  std::unique_ptr<Consumer> consumer;  ///< made when the thread first makes a block
+  std::array<Reading, relation_count> readings;
+  Found<2> edge;
+  Found<3> triangle, triangle_edges;
+  Found<6> cell_edges;
+  Found<4> cell_triangles;
+  Found<5> cell_neighbours;  ///< the last says how many
+
+  std::vector<Id> entries;              ///< of the block that is being made
+  std::vector<std::pair<Id, Id>> star;  ///< of a vertex: cells and their places in its row
+  std::vector<std::uint8_t> seen;       ///< by place among a vertex's neighbours
+};
+
+}  // namespace gale::ttk

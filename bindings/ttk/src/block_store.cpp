@@ -1,0 +1,40 @@
+#include <gale/ttk/block_store.hpp>
+
+namespace gale::ttk {
+
+void BlockStore::add(Relation relation) {
+  auto& slots = slots_[static_cast<int>(relation)];
+  if (slots.empty()) slots = std::vector<Slot>(segments_);
+}
+
+/// Goes round all blocks, twice at most: one that was read since the last time around is spared once.
+void BlockStore::shrink() {
+  const std::unique_lock<std::mutex> alone(shrinking_, std::try_to_lock);
+  if (!alone) return;
+  for (int rounds = 2 * relation_count; bytes_ > budget_ && rounds >= 0; --rounds) {
+    auto& slots = slots_[next_relation_];
+    for (; next_segment_ < static_cast<Id>(slots.size()); ++next_segment_) {
+      if (bytes_ <= budget_) return;
+      drop(slots[next_segment_], next_segment_);
+    }
+    next_segment_ = 0;
+    next_relation_ = (next_relation_ + 1) % relation_count;
+  }
+}
+
+bool BlockStore::drop(Slot& slot, Id segment) {
+  const std::uint32_t state = slot.state_.load(std::memory_order_relaxed);
+  if ((state & present) == 0 || (state & holders) != 0) return false;
+  if ((state & used) != 0) {
+    slot.state_.fetch_and(~used, std::memory_order_relaxed);
+    return false;
+  }
+  const std::unique_lock<std::mutex> lock(mutex_of(segment), std::try_to_lock);
+  std::uint32_t unread = present;
+  if (!lock || !slot.state_.compare_exchange_strong(unread, 0, std::memory_order_acq_rel)) return false;
+  bytes_ -= slot.block_.bytes;
+  slot.block_ = Block();
+  return true;
+}
+
+}  // namespace gale::ttk

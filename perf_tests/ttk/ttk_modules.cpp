@@ -1,0 +1,148 @@
+// TTK's base modules on TTK's explicit triangulation and on GALE's: are the results equal, and what does each take?
+//
+//     ttk_modules INPUT MODULE explicit|gale|both [THREADS [MEMORY_IN_MIB]]
+//
+// INPUT is `grid:N` or a raw mesh (support/inputs.hpp); MODULE one of critical-points, discrete-gradient, morse-smale,
+// persistence, contour-tree, smoother, jacobi-set and path-compression, or all of them. A line each of what it took,
+// peak memory of the process included; `both` also says whether all arrays are equal, element by element, and exits
+// with 1 if not. MEMORY_IN_MIB bounds GALE's translated blocks.
+
+#include <ExplicitTriangulation.h>
+#include <omp.h>
+
+#include <cinttypes>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <optional>
+
+#include <gale/ttk/triangulation.hpp>
+
+#include "modules.hpp"
+#include "support/inputs.hpp"
+
+namespace {
+
+using gale::perf::Fields;
+using gale::perf::ModuleResult;
+
+/// The greatest memory that this process has had, in MB.
+double peak() {
+  std::ifstream status("/proc/self/status");
+  for (std::string word; status >> word;) {
+    if (word != "VmHWM:") continue;
+    double kilobytes = 0;
+    status >> kilobytes;
+    return kilobytes / 1000;
+  }
+  return 0;
+}
+
+/// What TTK is given of a mesh.
+struct CallersMesh {
+  std::vector<float> points;
+  std::vector<::ttk::LongSimplexId> cells;
+  Fields fields;
+};
+
+CallersMesh callers_mesh(const std::string& input, int threads) {
+  const gale::io::Dataset data = gale::perf::make_input(input);
+  const auto& points = std::get<gale::io::Dataset::Points<float>>(data.points);
+  CallersMesh mesh;
+  mesh.points.assign(points.data(), points.data() + points.size());
+  mesh.cells.reserve(5 * data.tetrahedra.extent(0));
+  for (std::size_t c = 0; c < data.tetrahedra.extent(0); ++c) {
+    mesh.cells.push_back(4);
+    for (int corner = 0; corner < 4; ++corner) mesh.cells.push_back(data.tetrahedra(c, corner));
+  }
+  auto& values = mesh.fields.values;
+  values = std::get<std::vector<float>>(data.arrays[0].values);
+  std::vector<::ttk::SimplexId> sorted(values.size());
+  for (std::size_t i = 0; i < sorted.size(); ++i) sorted[i] = static_cast<::ttk::SimplexId>(i);
+  std::sort(sorted.begin(), sorted.end(),
+            [&](auto a, auto b) { return values[a] != values[b] ? values[a] < values[b] : a < b; });
+  mesh.fields.order.resize(sorted.size());
+  for (std::size_t i = 0; i < sorted.size(); ++i) mesh.fields.order[sorted[i]] = static_cast<::ttk::SimplexId>(i);
+  mesh.fields.threads = threads;
+  return mesh;
+}
+
+template <class Triangulation>
+ModuleResult run(const char* kind, const std::string& module, const CallersMesh& mesh, Triangulation& triangulation) {
+  triangulation.setDebugLevel(0);
+  triangulation.setThreadNumber(mesh.fields.threads);
+  const double setup = gale::perf::seconds_of([&] {
+    triangulation.setInputPoints(static_cast<int>(mesh.points.size() / 3), mesh.points.data());
+    triangulation.setInputCells(static_cast<int>(mesh.cells.size() / 5), mesh.cells.data());
+  });
+  const auto result = gale::perf::run_module(module, mesh.fields, triangulation);
+  std::printf("%-18s %-9s threads %d: setup %.3f precondition %.3f run %.3f total %.3f s; peak %.0f MB\n",
+              module.c_str(), kind, mesh.fields.threads, setup, result.precondition, result.run,
+              setup + result.precondition + result.run, peak());
+  return result;
+}
+
+/// Says where two results differ.
+bool equal(const ModuleResult& a, const ModuleResult& b) {
+  bool all = a.arrays.size() == b.arrays.size() && !a.arrays.empty();
+  std::size_t numbers = 0;
+  for (std::size_t i = 0; all && i < a.arrays.size(); ++i) {
+    const auto& [name, values] = a.arrays[i];
+    const auto& others = b.arrays[i].second;
+    numbers += values.size();
+    if (values == others) continue;
+    all = false;
+    std::printf("  %s differ: %zu and %zu numbers", name.c_str(), values.size(), others.size());
+    for (std::size_t k = 0; k < std::min(values.size(), others.size()); ++k) {
+      if (values[k] == others[k]) continue;
+      std::printf("; at %zu %g and %g", k, values[k], others[k]);
+      break;
+    }
+    std::printf("\n");
+  }
+  if (all) std::printf("  equal: %zu numbers in %zu arrays\n", numbers, a.arrays.size());
+  return all;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::vector<std::string> all = {"critical-points", "discrete-gradient", "morse-smale", "persistence",
+                                        "contour-tree",    "smoother",          "jacobi-set",  "path-compression"};
+  const std::string kind = argc > 3 ? argv[3] : "";
+  if (kind != "explicit" && kind != "gale" && kind != "both") {
+    std::fprintf(stderr, "usage: %s INPUT MODULE|all explicit|gale|both [THREADS [MEMORY_IN_MIB]]\n", argv[0]);
+    return 2;
+  }
+  const std::string module = argv[2];
+  if (module != "all" && std::find(all.begin(), all.end(), module) == all.end()) {
+    std::fprintf(stderr, "%s: there is no module '%s'\n", argv[0], argv[2]);
+    return 2;
+  }
+  const int threads = argc > 4 ? std::atoi(argv[4]) : omp_get_max_threads();
+  omp_set_num_threads(threads);
+  ::ttk::globalDebugLevel_ = 0;
+  const Kokkos::ScopeGuard kokkos(gale::initialization_arguments(threads));
+  bool as_told = true;
+  try {
+    const CallersMesh mesh = callers_mesh(argv[1], threads);
+    gale::ttk::Options options;
+    if (argc > 5) options.memory = std::size_t(std::atol(argv[5])) << 20;
+    for (const std::string& name : module == "all" ? all : std::vector<std::string>{module}) {
+      std::optional<ModuleResult> results[2];
+      if (kind != "gale") {
+        ::ttk::ExplicitTriangulation triangulation;
+        results[0] = run("explicit", name, mesh, triangulation);
+      }
+      if (kind != "explicit") {
+        gale::ttk::Triangulation triangulation(options);
+        results[1] = run("gale", name, mesh, triangulation);
+      }
+      if (kind == "both") as_told = equal(*results[0], *results[1]) && as_told;
+    }
+  } catch (const gale::Error& error) {
+    std::fprintf(stderr, "%s: %s\n", argv[0], error.what());
+    return 1;
+  }
+  return as_told ? 0 : 1;
+}
