@@ -9,10 +9,12 @@
 #include <PathCompression.h>
 #include <ScalarFieldCriticalPoints.h>
 #include <ScalarFieldSmoother.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fstream>
 #include <map>
 #include <string>
 #include <utility>
@@ -26,10 +28,38 @@
 
 namespace gale::perf {
 
+/// That this process has used of all processors: what others do on the machine counts less.
+inline double processor_seconds() {
+  rusage used;
+  getrusage(RUSAGE_SELF, &used);
+  const auto seconds = [](const timeval& time) { return double(time.tv_sec) + 1e-6 * double(time.tv_usec); };
+  return seconds(used.ru_utime) + seconds(used.ru_stime);
+}
+
+/// The greatest memory that this process has had.
+inline double peak_megabytes() {
+  std::ifstream status("/proc/self/status");
+  for (std::string word; status >> word;) {
+    if (word != "VmHWM:") continue;
+    double kilobytes = 0;
+    status >> kilobytes;
+    return kilobytes / 1000;
+  }
+  return 0;
+}
+
 /// What a module gave, as named arrays of numbers, and seconds.
 struct ModuleResult {
   std::vector<std::pair<std::string, std::vector<double>>> arrays;
   double precondition = 0, run = 0;
+  double processors_until = 0, peak = 0;  ///< processor_seconds() and peak_megabytes() when it was done
+
+  template <class Run>
+  void time_run(const Run& run_it) {
+    run = seconds_of(run_it);
+    processors_until = processor_seconds();
+    peak = peak_megabytes();
+  }
 
   template <class Values>
   void add(const std::string& name, const Values& values) {
@@ -63,7 +93,7 @@ ModuleResult critical_points(const Fields& fields, Triangulation& mesh) {
   module.setOutput(&found);
   ModuleResult result;
   result.precondition = seconds_of([&] { module.preconditionTriangulation(&mesh); });
-  result.run = seconds_of([&] { module.execute(fields.order.data(), &mesh); });
+  result.time_run([&] { module.execute(fields.order.data(), &mesh); });
   std::vector<double> flat;
   for (const auto& [vertex, type] : found) flat.insert(flat.end(), {double(vertex), double(type)});
   result.add("vertices and types", flat);
@@ -78,7 +108,7 @@ ModuleResult discrete_gradient(const Fields& fields, Triangulation& mesh) {
   result.precondition = seconds_of([&] { module.preconditionTriangulation(&mesh); });
   module.setInputScalarField(fields.values.data(), 1);
   module.setInputOffsets(fields.order.data());
-  result.run = seconds_of([&] { module.buildGradient(mesh, true); });
+  result.time_run([&] { module.buildGradient(mesh, true); });
   std::array<std::vector<::ttk::SimplexId>, 4> critical;
   module.getCriticalPoints(critical, mesh);
   for (int dimension = 0; dimension < 4; ++dimension) {
@@ -95,11 +125,12 @@ ModuleResult discrete_gradient(const Fields& fields, Triangulation& mesh) {
   return result;
 }
 
-template <class Triangulation>
+/// With the 2-separatrices, too, if there are to be `walls`.
+template <bool walls_too, class Triangulation>
 ModuleResult morse_smale(const Fields& fields, Triangulation& mesh) {
   ::ttk::MorseSmaleComplex module;
   detail::prepare(module, fields.threads);
-  module.setComputeSeparatrices2(true, true);
+  module.setComputeSeparatrices2(walls_too, walls_too);
   ModuleResult result;
   result.precondition = seconds_of([&] { module.preconditionTriangulation(&mesh); });
   ::ttk::MorseSmaleComplex::OutputCriticalPoints critical;
@@ -107,7 +138,7 @@ ModuleResult morse_smale(const Fields& fields, Triangulation& mesh) {
   ::ttk::MorseSmaleComplex::Output2Separatrices walls;
   std::vector<::ttk::SimplexId> ascending(fields.order.size()), descending(ascending), both(ascending);
   ::ttk::MorseSmaleComplex::OutputManifold manifolds{ascending.data(), descending.data(), both.data()};
-  result.run = seconds_of(
+  result.time_run(
       [&] { module.execute(critical, lines, walls, manifolds, fields.values.data(), 1, fields.order.data(), mesh); });
   result.add("critical dimensions", critical.cellDimensions_);
   result.add("critical cells", critical.cellIds_);
@@ -144,7 +175,7 @@ ModuleResult persistence(const Fields& fields, Triangulation& mesh) {
   ModuleResult result;
   result.precondition = seconds_of([&] { module.preconditionTriangulation(&mesh); });
   std::vector<::ttk::DiscreteMorseSandwich::PersistencePair> pairs;
-  result.run = seconds_of([&] {
+  result.time_run([&] {
     module.buildGradient(fields.values.data(), 1, fields.order.data(), mesh);
     module.computePersistencePairs(pairs, fields.order.data(), mesh, false);
     ttk::add_essential_pairs(pairs, fields.values.data(), 1, fields.order.data(), mesh);
@@ -170,7 +201,7 @@ ModuleResult contour_tree(const Fields& fields, Triangulation& mesh) {
   module.setVertexSoSoffsets(fields.order.data());
   module.setTreeType(static_cast<int>(::ttk::ftm::TreeType::Contour));
   module.setSegmentation(true);
-  result.run = seconds_of([&] { module.build<float>(&mesh); });
+  result.time_run([&] { module.build<float>(&mesh); });
   auto* const tree = module.getTree(::ttk::ftm::TreeType::Contour);
   std::vector<std::array<double, 3>> arcs;
   for (::ttk::ftm::idSuperArc i = 0; i < tree->getNumberOfSuperArcs(); ++i) {
@@ -195,7 +226,7 @@ ModuleResult smoother(const Fields& fields, Triangulation& mesh) {
   module.setOutputDataPointer(smooth.data());
   ModuleResult result;
   result.precondition = seconds_of([&] { module.preconditionTriangulation(&mesh); });
-  result.run = seconds_of([&] { module.smooth<float>(&mesh, 3); });
+  result.time_run([&] { module.smooth<float>(&mesh, 3); });
   result.add("values", smooth);
   return result;
 }
@@ -218,7 +249,7 @@ ModuleResult jacobi_set(const Fields& fields, Triangulation& mesh) {
   module.setSosOffsetsU(places.data());
   module.setSosOffsetsV(places.data());
   std::vector<std::pair<::ttk::SimplexId, char>> found;
-  result.run = seconds_of([&] { module.execute(found, fields.values.data(), second.data(), mesh); });
+  result.time_run([&] { module.execute(found, fields.values.data(), second.data(), mesh); });
   std::sort(found.begin(), found.end());
   std::vector<double> flat;
   for (const auto& [edge, type] : found) flat.insert(flat.end(), {double(edge), double(type)});
@@ -235,7 +266,7 @@ ModuleResult path_compression(const Fields& fields, Triangulation& mesh) {
   ::ttk::PathCompression::OutputSegmentation segments{ascending.data(), descending.data(), both.data()};
   ModuleResult result;
   result.precondition = seconds_of([&] { module.preconditionTriangulation(&mesh); });
-  result.run = seconds_of([&] { module.execute(segments, fields.order.data(), mesh); });
+  result.time_run([&] { module.execute(segments, fields.order.data(), mesh); });
   result.add("ascending", ascending);
   result.add("descending", descending);
   result.add("both", both);
@@ -246,10 +277,15 @@ ModuleResult path_compression(const Fields& fields, Triangulation& mesh) {
 template <class Triangulation>
 ModuleResult run_module(const std::string& name, const Fields& fields, Triangulation& mesh) {
   const std::map<std::string, ModuleResult (*)(const Fields&, Triangulation&)> modules = {
-      {"critical-points", critical_points<Triangulation>}, {"discrete-gradient", discrete_gradient<Triangulation>},
-      {"morse-smale", morse_smale<Triangulation>},         {"persistence", persistence<Triangulation>},
-      {"contour-tree", contour_tree<Triangulation>},       {"smoother", smoother<Triangulation>},
-      {"jacobi-set", jacobi_set<Triangulation>},           {"path-compression", path_compression<Triangulation>}};
+      {"critical-points", critical_points<Triangulation>},
+      {"discrete-gradient", discrete_gradient<Triangulation>},
+      {"morse-smale", morse_smale<false, Triangulation>},
+      {"morse-smale-walls", morse_smale<true, Triangulation>},
+      {"persistence", persistence<Triangulation>},
+      {"contour-tree", contour_tree<Triangulation>},
+      {"smoother", smoother<Triangulation>},
+      {"jacobi-set", jacobi_set<Triangulation>},
+      {"path-compression", path_compression<Triangulation>}};
   const auto found = modules.find(name);
   return found == modules.end() ? ModuleResult() : found->second(fields, mesh);
 }

@@ -3,9 +3,9 @@
 //     ttk_modules INPUT MODULE explicit|gale|both [THREADS [MEMORY_IN_MIB]]
 //
 // INPUT is `grid:N` or a raw mesh (support/inputs.hpp); MODULE one of critical-points, discrete-gradient, morse-smale,
-// persistence, contour-tree, smoother, jacobi-set and path-compression, or all of them. A line each of what it took,
-// peak memory of the process included; `both` also says whether all arrays are equal, element by element, and exits
-// with 1 if not. MEMORY_IN_MIB bounds GALE's translated blocks.
+// morse-smale-walls, persistence, contour-tree, smoother, jacobi-set and path-compression, or all of them. A line each
+// of what it took, peak memory of the process included; `both` also says whether all arrays are equal, element by
+// element, and exits with 1 if not. MEMORY_IN_MIB bounds GALE's translated blocks.
 
 #include <ExplicitTriangulation.h>
 #include <omp.h>
@@ -13,7 +13,6 @@
 #include <cinttypes>
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
 #include <optional>
 
 #include <gale/ttk/triangulation.hpp>
@@ -25,18 +24,7 @@ namespace {
 
 using gale::perf::Fields;
 using gale::perf::ModuleResult;
-
-/// The greatest memory that this process has had, in MB.
-double peak() {
-  std::ifstream status("/proc/self/status");
-  for (std::string word; status >> word;) {
-    if (word != "VmHWM:") continue;
-    double kilobytes = 0;
-    status >> kilobytes;
-    return kilobytes / 1000;
-  }
-  return 0;
-}
+using gale::perf::processor_seconds;
 
 /// What TTK is given of a mesh.
 struct CallersMesh {
@@ -71,14 +59,16 @@ template <class Triangulation>
 ModuleResult run(const char* kind, const std::string& module, const CallersMesh& mesh, Triangulation& triangulation) {
   triangulation.setDebugLevel(0);
   triangulation.setThreadNumber(mesh.fields.threads);
+  const double processor_before = processor_seconds();
   const double setup = gale::perf::seconds_of([&] {
     triangulation.setInputPoints(static_cast<int>(mesh.points.size() / 3), mesh.points.data());
     triangulation.setInputCells(static_cast<int>(mesh.cells.size() / 5), mesh.cells.data());
   });
   const auto result = gale::perf::run_module(module, mesh.fields, triangulation);
-  std::printf("%-18s %-9s threads %d: setup %.3f precondition %.3f run %.3f total %.3f s; peak %.0f MB\n",
-              module.c_str(), kind, mesh.fields.threads, setup, result.precondition, result.run,
-              setup + result.precondition + result.run, peak());
+  std::printf(
+      "%-18s %-9s threads %d: setup %.3f precondition %.3f run %.3f total %.3f s, of processors %.3f s; peak %.0f MB\n",
+      module.c_str(), kind, mesh.fields.threads, setup, result.precondition, result.run,
+      setup + result.precondition + result.run, result.processors_until - processor_before, result.peak);
   return result;
 }
 
@@ -107,8 +97,9 @@ bool equal(const ModuleResult& a, const ModuleResult& b) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const std::vector<std::string> all = {"critical-points", "discrete-gradient", "morse-smale", "persistence",
-                                        "contour-tree",    "smoother",          "jacobi-set",  "path-compression"};
+  const std::vector<std::string> all = {"critical-points",   "discrete-gradient", "morse-smale",
+                                        "morse-smale-walls", "persistence",       "contour-tree",
+                                        "smoother",          "jacobi-set",        "path-compression"};
   const std::string kind = argc > 3 ? argv[3] : "";
   if (kind != "explicit" && kind != "gale" && kind != "both") {
     std::fprintf(stderr, "usage: %s INPUT MODULE|all explicit|gale|both [THREADS [MEMORY_IN_MIB]]\n", argv[0]);

@@ -7,6 +7,15 @@ void BlockStore::add(Relation relation) {
   if (slots.empty()) slots = std::vector<Slot>(segments_);
 }
 
+void BlockStore::put(Relation relation, Id segment, Block block) {
+  Slot& slot = slots_[static_cast<int>(relation)][segment];
+  const std::lock_guard<std::mutex> lock(mutex_of(segment));
+  if ((slot.state_.load(std::memory_order_acquire) & present) != 0) return;
+  bytes_ += block.bytes;
+  slot.block_ = std::move(block);
+  slot.state_.fetch_add(present + used, std::memory_order_release);
+}
+
 /// Goes round all blocks, twice at most: one that was read since the last time around is spared once.
 void BlockStore::shrink() {
   const std::unique_lock<std::mutex> alone(shrinking_, std::try_to_lock);

@@ -61,6 +61,11 @@ Connectivity::Connectivity(const CallersPoints& points, const Cells& cells, cons
       store_(std::make_unique<BlockStore>(mesh_.segments(), options_.memory)),
       readers_(std::make_unique<PerThread<Reader>>()) {
   internal_[0] = mesh_.vertex_internal().data();
+  segment_of_vertex_ = allocate<Array<Id, HostMemory>>("GALE::ttk_segments", mesh_.vertices());
+  const auto& begin = mesh_.vertex_begin();
+  parallel_for("GALE::ttk_segments", HostSpace(), mesh_.segments(), [&](Offset segment) {
+    for (Id v = begin(segment); v < begin(segment + 1); ++v) segment_of_vertex_(v) = static_cast<Id>(segment);
+  });
 }
 
 Connectivity::~Connectivity() = default;
@@ -91,6 +96,7 @@ void Connectivity::need_rows(Relation relation) {
   }
   const RelationSet more = relation == Relation::VV ? star_relations : RelationSet(relation);
   store_->add(relation);
+  wanted_rows_ = wanted_rows_ | relation;
   if (wanted_.contains(more)) return;
   wanted_ = wanted_ | more;
   readers_ = std::make_unique<PerThread<Reader>>();  // their consumers are of the old structure
@@ -109,8 +115,9 @@ void Connectivity::need_surface(int dimension) {
                  [&](Offset i) { on_surface(i) = static_cast<std::uint8_t>(tetrahedra_of_(i) == 1); });
     return;
   }
-  const auto vertices = surface_vertices(mesh_);
   on_surface = allocate<Array<std::uint8_t, HostMemory>>("GALE::ttk_surface", counts_[0]);
+  if (wanted_rows_.has(Relation::VV)) return sweep_stars(on_surface);
+  const auto vertices = surface_vertices(mesh_);
   parallel_for("GALE::ttk_surface", host, counts_[0], [&](Offset i) { on_surface(vertex_input_[i]) = vertices(i); });
 }
 
@@ -135,7 +142,7 @@ bool Connectivity::is_manifold() const {
 }
 
 std::size_t Connectivity::bytes() const {
-  std::size_t bytes = store_->bytes() + tetrahedra_of_.span();
+  std::size_t bytes = store_->bytes() + tetrahedra_of_.span() + segment_of_vertex_.span() * sizeof(Id);
   for (const CellOrder* order : {&edges_, &triangles_}) {
     bytes += (order->number.span() + order->internal.span()) * sizeof(Id);
   }

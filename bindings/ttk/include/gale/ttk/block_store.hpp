@@ -43,10 +43,14 @@ class BlockStore {
   template <class Make>
   Slot& hold(Relation relation, Id segment, const Make& make);
 
+  /// Has a block there, unless it is, until its place is needed.
+  void put(Relation relation, Id segment, Block block);
+
   void release(Slot& slot) { slot.state_.fetch_sub(1, std::memory_order_release); }
 
   /// Of all blocks that are there.
   std::size_t bytes() const { return bytes_; }
+  std::size_t budget() const { return budget_; }
 
  private:
   static constexpr std::uint32_t present = std::uint32_t(1) << 31, used = std::uint32_t(1) << 30, holders = used - 1;

@@ -54,7 +54,8 @@ class GALE_EXPORT Connectivity {
   /// One of VV, VT, VE, VF, ET, EF and FT.
   void need_rows(Relation relation);
 
-  /// on_surface() of vertices (0), edges (1) or triangles (2).
+  /// on_surface() of vertices (0), edges (1) or triangles (2). Where VV is needed, too, say that first: the sweep that
+  /// finds the vertices keeps its rows then.
   void need_surface(int dimension);
 
   /// Makes what computes rows. Otherwise the first to read does it, with whatever threads it has.
@@ -118,18 +119,20 @@ class GALE_EXPORT Connectivity {
 
   void load(Reader& reader, Relation relation, Id id) const;
   Block make_block(Reader& reader, Relation relation, Id segment) const;
-  void append_neighbours(Reader& reader, Id vertex) const;
-  void append_row(Reader& reader, Relation relation, Id simplex) const;
+  Id segment_of(int dimension, Id id) const;
   const Id* numbers_of(int dimension) const;
   Structure& structure() const;
   std::array<Id, 4> corners_of(Id cell) const;
+  void sweep_stars(const Array<std::uint8_t, HostMemory>& on_surface);
   void find_surface_of_edges();
   void set_numbers(int dimension, const CellOrder& order);
 
   const Cells cells_;
   const Options options_;
   const Mesh mesh_;
-  RelationSet wanted_;
+  RelationSet wanted_rows_;  ///< by callers
+  RelationSet wanted_;       ///< of the structure
+  Array<Id, HostMemory> segment_of_vertex_;
   std::array<Id, 4> counts_;
   std::array<const Id*, 3> internal_{};  ///< TTK's id -> GALE's, by dimension
   const Id* vertex_input_;

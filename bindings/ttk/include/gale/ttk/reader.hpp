@@ -1,14 +1,11 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <memory>
-#include <utility>
-#include <vector>
 
 #include <gale/mesh/intervals.hpp>
 #include <gale/runtime/consumer.hpp>
-#include <gale/ttk/block_store.hpp>
+#include <gale/ttk/translation.hpp>
 
 namespace gale::ttk {
 
@@ -60,9 +57,8 @@ struct Reader {
   Found<4> cell_triangles;
   Found<5> cell_neighbours;  ///< the last says how many
 
-  std::vector<Id> entries;              ///< of the block that is being made
-  std::vector<std::pair<Id, Id>> star;  ///< of a vertex: cells and their places in its row
-  std::vector<std::uint8_t> seen;       ///< by place among a vertex's neighbours
+  BlockBuilder builder;
+  StarOrder star;
 };
 
 }  // namespace gale::ttk

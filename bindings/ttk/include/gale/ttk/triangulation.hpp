@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <gale/base/error.hpp>
+#include <gale/base/threads.hpp>
 #include <gale/ttk/connectivity.hpp>
 
 namespace gale::ttk {
@@ -209,6 +210,7 @@ class Triangulation final : public ::ttk::AbstractTriangulation {
   template <class Action>
   int attempt(const Action& action) {
     try {
+      const ThreadLimit limit(this->threadNumber_);
       action();
       return 0;
     } catch (const Error& error) {
