@@ -65,7 +65,7 @@ auto corners_by(const Mesh& mesh, const Simplices<HostMemory>& simplices, const 
   return [&simplices, &cells, input = mesh.vertex_input().data()](Id simplex, Id cell) {
     auto vertices = face_row<relation>(simplices, simplex);
     for (Id& vertex : vertices.ids) vertex = input[vertex];
-    return cells.corners(cell, vertices);
+    return cells.corners_of(cell, vertices);
   };
 }
 

@@ -17,31 +17,9 @@ Segmentation octree(const CallersPoints& points, int capacity) {
   return octree_segmentation(Points<Coordinate, HostMemory>(view), capacity);
 }
 
-[[noreturn]] void refuse(const Cells& cells, Offset cell, Id points) {
-  for (int corner = 0;; ++corner) {
-    const long long vertex = cells.first[cells.stride * cell + corner];
-    if (vertex >= 0 && vertex < points) continue;
-    throw Error("cell " + std::to_string(cell) + " has the vertex " + std::to_string(vertex) + ", but there are " +
-                std::to_string(points) + " points");
-  }
-}
-
-/// From a copy in GALE's layout and with short ids, which is gone afterwards.
 Mesh encode(const CallersPoints& points, const Cells& cells, int capacity) {
-  const auto segmentation = points.in_double ? octree<double>(points, capacity) : octree<float>(points, capacity);
-  using Ids = Kokkos::View<Id* [4], Kokkos::LayoutRight, HostMemory>;
-  const auto tetrahedra = allocate<Ids>("GALE::ttk_cells", cells.count);
-  const Offset wrong = reduce_min("GALE::ttk_copy_cells", HostSpace(), cells.count, Offset(cells.count), [&](Offset c) {
-    bool right = true;
-    for (int corner = 0; corner < 4; ++corner) {
-      const long long vertex = cells.first[cells.stride * c + corner];
-      right = right && vertex >= 0 && vertex < points.count;
-      tetrahedra(c, corner) = static_cast<Id>(vertex);
-    }
-    return right ? Offset(cells.count) : c;
-  });
-  if (wrong != cells.count) refuse(cells, wrong, points.count);
-  return Mesh(Tetrahedra<Id, HostMemory>(tetrahedra), segmentation);
+  return Mesh(Tetrahedra<Id, HostMemory>(cells.corners()),
+              points.in_double ? octree<double>(points, capacity) : octree<float>(points, capacity));
 }
 
 Options with_defaults(Options options) {

@@ -63,18 +63,18 @@ Row Connectivity::cell_neighbours(Id cell) const {
 
 Id Connectivity::vertex_link(Id vertex, Id i) const {
   const Id cell = row<Relation::VT>(vertex)[i];
-  const unsigned others = 15 ^ cells_.corners(cell, std::array<Id, 1>{vertex});
+  const unsigned others = 15 ^ cells_.corners_of(cell, std::array<Id, 1>{vertex});
   return cell_triangles(cell)[place_of_corners[others]];
 }
 
 Id Connectivity::edge_link(Id edge, Id i) const {
   const Id cell = row<Relation::ET>(edge)[i];
-  return cell_edges(cell)[place_of_corners[15 ^ cells_.corners(cell, this->edge(edge))]];
+  return cell_edges(cell)[place_of_corners[15 ^ cells_.corners_of(cell, this->edge(edge))]];
 }
 
 Id Connectivity::triangle_link(Id triangle, Id i) const {
   const Id cell = row<Relation::FT>(triangle)[i];
-  const unsigned others = 15 ^ cells_.corners(cell, this->triangle(triangle));
+  const unsigned others = 15 ^ cells_.corners_of(cell, this->triangle(triangle));
   int corner = 0;
   while ((others >> corner & 1) == 0) ++corner;
   return cells_.vertex(cell, corner);

@@ -1,21 +1,28 @@
 #pragma once
 
+#include <gale/base/memory.hpp>
 #include <gale/base/types.hpp>
+#include <gale/export.hpp>
 
 namespace gale::ttk {
 
-/// The tetrahedra of a caller's array, which must outlive it: corner k of cell c is first[stride * c + k]. In TTK's
-/// flat layout, `first` is one past the array's begin and the stride is 5; in that of connectivity and offsets it is 4.
-struct Cells {
-  const long long* first = nullptr;
-  Id count = 0;
-  int stride = 4;
+/// The caller's tetrahedra in the caller's order, in a copy with short ids: reading one takes one line of the cache.
+class Cells {
+ public:
+  Cells() = default;
 
-  Id vertex(Id cell, int corner) const { return static_cast<Id>(first[Offset(stride) * cell + corner]); }
+  /// `first`: corner k of cell c is first[stride * c + k]. In TTK's flat layout it is one past the array's begin and
+  /// the stride is 5; in that of connectivity and offsets it is 4. Throws gale::Error for a vertex that isn't one of
+  /// `points`.
+  GALE_EXPORT Cells(const long long* first, int stride, Id count, Id points);
+
+  Id count() const { return static_cast<Id>(corners_.extent(0)); }
+  Id vertex(Id cell, int corner) const { return data_[Offset(4) * cell + corner]; }
+  const Kokkos::View<Id* [4], Kokkos::LayoutRight, HostMemory>& corners() const { return corners_; }
 
   /// Which of a cell's corners some vertices are, as bits.
   template <class Vertices>
-  unsigned corners(Id cell, const Vertices& vertices) const {
+  unsigned corners_of(Id cell, const Vertices& vertices) const {
     unsigned bits = 0;
     for (int corner = 0; corner < 4; ++corner) {
       const Id here = vertex(cell, corner);
@@ -23,6 +30,10 @@ struct Cells {
     }
     return bits;
   }
+
+ private:
+  Kokkos::View<Id* [4], Kokkos::LayoutRight, HostMemory> corners_;
+  const Id* data_ = nullptr;
 };
 
 /// The corners of a cell's edges and triangles, in the order in which TTK lists them.

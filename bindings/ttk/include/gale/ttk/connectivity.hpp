@@ -38,7 +38,7 @@ struct CallersPoints {
 /// must not be read.
 class GALE_EXPORT Connectivity {
  public:
-  /// Segments and encodes. The cells must outlive it. Throws as octree_segmentation and Mesh do.
+  /// Segments and encodes. Throws as octree_segmentation and Mesh do.
   Connectivity(const CallersPoints& points, const Cells& cells, const Options& options);
   ~Connectivity();
 

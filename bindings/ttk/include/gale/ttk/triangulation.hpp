@@ -18,10 +18,10 @@ namespace gale::ttk {
 /// the same ids, and the same order of rows. As there: points and cells first, then the module's
 /// preconditionTriangulation(), then the module.
 ///
-/// Kokkos must be initialized, and stay so as long as this lives. Points and cells must outlive it; clear() forgets
-/// them. Setting and preconditioning are for one thread at a time, queries for any. Where GALE throws, setting and
-/// preconditioning print the reason and return a value below 0; a query throws gale::Error, which no OpenMP loop lets
-/// through, e.g. where the memory ends.
+/// Kokkos must be initialized, and stay so as long as this lives. The points must outlive it, and the cells until both
+/// are set; clear() forgets them. Setting and preconditioning are for one thread at a time, queries for any. Where GALE
+/// throws, setting and preconditioning print the reason and return a value below 0; a query throws gale::Error, which
+/// no OpenMP loop lets through, e.g. where the memory ends.
 ///
 /// One file of a program has to be compiled with the same TTK_ENABLE_... definitions as TTK: they decide which of these
 /// functions modules call directly.
@@ -38,6 +38,7 @@ class Triangulation final : public ::ttk::AbstractTriangulation {
   int clear() {
     connectivity_.reset();
     points_ = CallersPoints();
+    given_ = CallersCells();
     cells_ = Cells();
     lists_ = Lists();
     this->isManifold_ = true;
@@ -78,7 +79,7 @@ class Triangulation final : public ::ttk::AbstractTriangulation {
   SimplexId TTK_TRIANGULATION_INTERNAL(getNumberOfVertices)() const override { return points_.count; }
   SimplexId TTK_TRIANGULATION_INTERNAL(getNumberOfEdges)() const override { return count(1); }
   SimplexId TTK_TRIANGULATION_INTERNAL(getNumberOfTriangles)() const override { return count(2); }
-  SimplexId TTK_TRIANGULATION_INTERNAL(getNumberOfCells)() const override { return cells_.count; }
+  SimplexId TTK_TRIANGULATION_INTERNAL(getNumberOfCells)() const override { return given_.count; }
 
   int TTK_TRIANGULATION_INTERNAL(getVertexPoint)(const SimplexId& vertex, float& x, float& y, float& z) const override {
     const auto read = [&](const auto* of) {
@@ -234,14 +235,15 @@ class Triangulation final : public ::ttk::AbstractTriangulation {
         throw Error("cell " + std::to_string(c) + " has " + std::to_string(corners_of(c)) +
                     " vertices: GALE takes tetrahedra only");
       }
-      cells_ = {first, cells, stride};
+      given_ = {first, stride, cells};
       encode();
     });
   }
 
   /// As soon as there are both.
   void encode() {
-    if (points_.count == 0 || cells_.count == 0) return;
+    if (points_.count == 0 || given_.count == 0) return;
+    cells_ = Cells(given_.first, given_.stride, given_.count, points_.count);
     connectivity_ = std::make_unique<Connectivity>(points_, cells_, options_);
   }
 
@@ -290,8 +292,15 @@ class Triangulation final : public ::ttk::AbstractTriangulation {
     return &all;
   }
 
+  struct CallersCells {
+    const ::ttk::LongSimplexId* first = nullptr;
+    int stride = 5;
+    Id count = 0;
+  };
+
   const Options options_;
   CallersPoints points_;
+  CallersCells given_;
   Cells cells_;
   std::unique_ptr<Connectivity> connectivity_;
   Lists lists_;
