@@ -12,8 +12,12 @@ Structure& Connectivity::structure() const {
   return *structure_;
 }
 
+void Connectivity::refuse(Relation relation) {
+  throw Error("rows of " + name_of(relation) + " were not preconditioned");
+}
+
 void Connectivity::load(Reader& reader, Relation relation, Id id) const {
-  if (!wanted_.has(relation)) throw Error("rows of " + name_of(relation) + " were not preconditioned");
+  if (!wanted_rows_.has(relation)) refuse(relation);
   Reading& reading = reader.readings[static_cast<int>(relation)];
   reader.leave(reading);
   const Id segment = segment_of(row_dimension(relation), id);

@@ -57,7 +57,7 @@ class BlockStore {
 
   std::mutex& mutex_of(Id segment) { return mutexes_[static_cast<std::size_t>(segment) % mutexes_.size()]; }
   void shrink();
-  bool drop(Slot& slot, Id segment);
+  void drop(Slot& slot, Id segment, bool spare);
 
   const Id segments_;
   const std::size_t budget_;

@@ -69,7 +69,9 @@ class GALE_EXPORT Connectivity {
     Reader& mine = reader();
     Reading& reading = mine.readings[static_cast<int>(relation)];
     if (reading.simplex != simplex) {
-      const Id id = internal_[row_dimension(relation)][simplex];
+      const Id* const internal = internal_[row_dimension(relation)];
+      if (internal == nullptr) refuse(relation);
+      const Id id = internal[simplex];
       if (!reading.held.has(id)) load(mine, relation, id);
       reading.simplex = simplex;
       reading.row = reading.rows[id];
@@ -117,6 +119,7 @@ class GALE_EXPORT Connectivity {
   template <Relation relation, std::size_t n>
   std::array<Id, n> vertices_of(Id simplex) const;
 
+  [[noreturn]] static void refuse(Relation relation);
   void load(Reader& reader, Relation relation, Id id) const;
   Block make_block(Reader& reader, Relation relation, Id segment) const;
   Id segment_of(int dimension, Id id) const;
