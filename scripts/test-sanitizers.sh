@@ -9,7 +9,8 @@ scripts/dependencies.sh
 # Some tests ask for more memory than any machine has: that must fail as it does without a sanitizer.
 export ASAN_OPTIONS=allocator_may_return_null=1 TSAN_OPTIONS=allocator_may_return_null=1
 export CMAKE_GENERATOR=${CMAKE_GENERATOR:-Ninja} OMP_PROC_BIND=false OMP_WAIT_POLICY=passive
-lean=(-DGALE_ENABLE_KOKKOS_KERNELS=OFF -DGALE_ENABLE_VTK=OFF -DGALE_ENABLE_APP=OFF -DGALE_ENABLE_EXAMPLES=OFF)
+lean=(-DGALE_ENABLE_KOKKOS_KERNELS=OFF -DGALE_ENABLE_VTK=OFF -DGALE_ENABLE_APP=OFF -DGALE_ENABLE_EXAMPLES=OFF
+  -DGALE_ENABLE_TTK=ON)
 
 # The thread sanitizer wants addresses where older kernels put them; some containers don't let us ask for that.
 fixed_addresses=()
@@ -54,21 +55,21 @@ third() { GTEST_TOTAL_SHARDS=3 GTEST_SHARD_INDEX=1 run_tests "$@"; }
 
 address() {
   export LSAN_OPTIONS=suppressions=$PWD/unit_tests/leaks.supp:print_suppressions=0
-  build sanitize gale_base gale_mesh gale_relations gale_runtime gale_algorithms gale_io
+  build sanitize gale_base gale_mesh gale_relations gale_runtime gale_algorithms gale_io gale_ttk
   together "third sanitize algorithms" "all_but_algorithms"
 }
 
 all_but_algorithms() {
   local folder
-  for folder in base mesh runtime io; do run_tests sanitize $folder; done
+  for folder in base mesh runtime io ttk; do run_tests sanitize $folder; done
   third sanitize relations
 }
 
 # Of the runtime, all but what takes minutes here to compare every mesh with brute force, or has one thread; of the algorithms, those whose
 # sweeps write what several threads read.
 thread() {
-  build sanitize-thread gale_base gale_runtime gale_algorithms
-  together "run_tests sanitize-thread base" \
+  build sanitize-thread gale_base gale_runtime gale_algorithms gale_ttk
+  together "run_tests sanitize-thread base" "run_tests sanitize-thread ttk TtkBlockStore.*:TtkTriangulationOnThreads.*" \
     "run_tests sanitize-thread runtime -MixedSweep.*:Tests/MixedSweepOf.*:Tests/DeviceSweepOf.*" \
     "run_tests sanitize-thread algorithms CriticalPoints.*:DiscreteGradient.*:MorseSmaleComplex.*:Simplify.*"
 }

@@ -20,15 +20,19 @@ if(vtk)
   endif()
 endif()
 
-# COMPONENTS distributed gives gale::distributed, and MPI, where this GALE has it; else it isn't found.
-if(mpi)
-  configure(${consumer} ${here}/distributed -DCMAKE_PREFIX_PATH=${prefix} ${kokkos_kernels} -DCOMPONENTS=distributed)
-  build_and_test(${here}/distributed)
-else()
-  file(REMOVE_RECURSE ${here}/distributed)
-  execute_process(COMMAND ${configure_command} -S ${consumer} -B ${here}/distributed -DCMAKE_PREFIX_PATH=${prefix}
-    ${kokkos_kernels} -DCOMPONENTS=distributed RESULT_VARIABLE result OUTPUT_QUIET ERROR_VARIABLE message)
-  if(result EQUAL 0 OR NOT message MATCHES "distributed")
-    message(FATAL_ERROR "without MPI, COMPONENTS distributed says: ${message}")
+# COMPONENTS distributed and ttk give gale::distributed, and MPI, and gale::ttk, where this GALE has them; else they
+# aren't found.
+foreach(component has IN ZIP_LISTS optional_components has_optional_components)
+  set(to ${here}/${component})
+  if(has)
+    configure(${consumer} ${to} -DCMAKE_PREFIX_PATH=${prefix} ${kokkos_kernels} -DCOMPONENTS=${component})
+    build_and_test(${to})
+  else()
+    file(REMOVE_RECURSE ${to})
+    execute_process(COMMAND ${configure_command} -S ${consumer} -B ${to} -DCMAKE_PREFIX_PATH=${prefix}
+      ${kokkos_kernels} -DCOMPONENTS=${component} RESULT_VARIABLE result OUTPUT_QUIET ERROR_VARIABLE message)
+    if(result EQUAL 0 OR NOT message MATCHES "${component}")
+      message(FATAL_ERROR "a GALE without ${component} says: ${message}")
+    endif()
   endif()
-endif()
+endforeach()

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <vector>
 
+#include <gale/export.hpp>
 #include <gale/relations/relation.hpp>
 #include <gale/relations/rows.hpp>
 
@@ -21,7 +22,7 @@ struct Block {
 
 /// Blocks that all threads share, made when they are first wanted. Those that no thread holds are dropped, the longest
 /// unread about first, as soon as all take more than a budget. Any thread may call anything.
-class BlockStore {
+class GALE_EXPORT BlockStore {
  public:
   /// Where a block is or may be. Its holders are counted in the low bits of the state.
   class Slot {
