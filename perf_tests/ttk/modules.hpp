@@ -3,12 +3,14 @@
 #include <DiscreteGradient.h>
 #include <DiscreteMorseSandwich.h>
 #include <ExTreeM.h>
-#include <FTMTree.h>
 #include <JacobiSet.h>
 #include <MorseSmaleComplex.h>
 #include <PathCompression.h>
 #include <ScalarFieldCriticalPoints.h>
 #include <ScalarFieldSmoother.h>
+#ifndef __CUDACC__
+#include <FTMTree.h>
+#endif
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -189,6 +191,7 @@ ModuleResult persistence(const Fields& fields, Triangulation& mesh) {
   return result;
 }
 
+#ifndef __CUDACC__  // its parser refuses what Boost has for heaps
 /// The arcs of the contour tree by FTM, from node to node.
 template <class Triangulation>
 ModuleResult contour_tree(const Fields& fields, Triangulation& mesh) {
@@ -215,6 +218,7 @@ ModuleResult contour_tree(const Fields& fields, Triangulation& mesh) {
   result.add("arcs and their vertices", flat);
   return result;
 }
+#endif
 
 template <class Triangulation>
 ModuleResult smoother(const Fields& fields, Triangulation& mesh) {
@@ -277,15 +281,17 @@ ModuleResult path_compression(const Fields& fields, Triangulation& mesh) {
 template <class Triangulation>
 ModuleResult run_module(const std::string& name, const Fields& fields, Triangulation& mesh) {
   const std::map<std::string, ModuleResult (*)(const Fields&, Triangulation&)> modules = {
+#ifndef __CUDACC__
+      {"contour-tree", contour_tree<Triangulation>},
+#endif
       {"critical-points", critical_points<Triangulation>},
       {"discrete-gradient", discrete_gradient<Triangulation>},
+      {"jacobi-set", jacobi_set<Triangulation>},
       {"morse-smale", morse_smale<false, Triangulation>},
       {"morse-smale-walls", morse_smale<true, Triangulation>},
+      {"path-compression", path_compression<Triangulation>},
       {"persistence", persistence<Triangulation>},
-      {"contour-tree", contour_tree<Triangulation>},
-      {"smoother", smoother<Triangulation>},
-      {"jacobi-set", jacobi_set<Triangulation>},
-      {"path-compression", path_compression<Triangulation>}};
+      {"smoother", smoother<Triangulation>}};
   const auto found = modules.find(name);
   return found == modules.end() ? ModuleResult() : found->second(fields, mesh);
 }
