@@ -36,15 +36,20 @@ Json to_json(const LeaderStatistics& leader) {
       {"segments_recomputed", leader.segments_recomputed},
       {"bytes", leader.bytes},
       {"blocks_evicted", leader.blocks_evicted},
-      {"batches_split", leader.batches_split}};
+      {"batches_split", leader.batches_split},
+      {"queue_lengths",
+       {{"mean", leader.queue_lengths.mean()},
+        {"median", leader.queue_lengths.median()},
+        {"deviation", leader.queue_lengths.deviation()}}}};
 }
 
 Json to_json(const StructureStatistics& statistics) {
   const ConsumerStatistics all = statistics.all_consumers();
-  Json each = Json::array();
+  Json each = Json::array(), stages_of_each = Json::array();
   double longest = 0;
   for (const auto& one : statistics.consumers) {
     each.push_back(one.waiting.total());
+    stages_of_each.push_back(to_json(one.waiting));
     longest = std::max(longest, one.waiting.total());
   }
   Json leaders = Json::array();
@@ -55,6 +60,7 @@ Json to_json(const StructureStatistics& statistics) {
           {"seconds", to_json(all.waiting)},
           {"longest_seconds", longest},
           {"seconds_of_each", each},
+          {"stages_of_each", stages_of_each},
           {"segments_computed_by_consumers", all.segments_computed},
           {"seconds_computing_by_consumers", all.seconds_computing},
           {"segments_computed_by_helpers", statistics.helpers.segments_computed},

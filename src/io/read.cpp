@@ -42,20 +42,27 @@ auto naming(const std::string& input, const Read& read) {
   }
 }
 
-}  // namespace
-
-std::optional<int> grid_size(const std::string& input, const ReadOptions& options) {
-  if (input.compare(0, grid_prefix.size(), grid_prefix) != 0) return std::nullopt;
+/// The N of grid:N, and of others named like that.
+int size_in_name(const std::string& input, const ReadOptions& options) {
   int n = 0;
   const char* const end = input.data() + input.size();
-  const auto [stop, failure] = std::from_chars(input.data() + grid_prefix.size(), end, n);
+  const auto [stop, failure] = std::from_chars(input.data() + input.find(':') + 1, end, n);
   if (failure != std::errc() || stop != end) throw Error("cannot make '" + input + "': N must be a whole number");
   if (options.above) throw Error("cannot apply a threshold to '" + input + "': it is a mesh, not an image");
   return n;
 }
 
+}  // namespace
+
+std::optional<int> grid_size(const std::string& input, const ReadOptions& options) {
+  if (input.compare(0, grid_prefix.size(), grid_prefix) != 0) return std::nullopt;
+  return size_in_name(input, options);
+}
+
 Dataset read(const std::string& input, const ReadOptions& options) {
   if (const auto n = grid_size(input, options)) return make_grid(*n);
+  const std::string kind = input.substr(0, input.find(':'));
+  if (kind.size() < input.size() && is_synthetic(kind)) return make_synthetic(kind, size_in_name(input, options));
   if (!detail::has_vtk()) throw Error("this gale was built without VTK: it reads grid:N alone, not '" + input + "'");
   const std::optional<detail::Format> format = detail::format_of(input);
   if (!format || *format == detail::Format::vtp) {

@@ -24,7 +24,7 @@ struct ReadOptions {
 GALE_EXPORT std::optional<int> grid_size(const std::string& input, const ReadOptions& options);
 
 /// Reads what `input` names; extensions count in either case:
-/// - `grid:N`: see `make_grid`.
+/// - `grid:N`: see `make_grid`; `smooth:N`, `noisy:N`, `ball:N`, `shells:N`, `dense:N`: see `make_synthetic`.
 /// - `.vtu .vtk`: an unstructured grid. Its points and numeric point arrays travel as they are, the active scalars
 ///   first, and its tetrahedra keep their order. Cells of lower dimension are left out with a notice. Other cells of
 ///   dimension 3 are refused, unless `tetrahedralize`.

@@ -13,20 +13,13 @@
 #include <gale/base/parallel.hpp>
 #include <gale/base/types.hpp>
 #include <gale/io/freudenthal.hpp>
+#include <gale/io/noise.hpp>
 #include <gale/io/synthetic.hpp>
 
 namespace gale::io {
 namespace {
 
 using Host = Kokkos::DefaultHostExecutionSpace;
-
-std::uint32_t hash(std::uint32_t x) {
-  x ^= x >> 16;
-  x *= 0x7feb352dU;
-  x ^= x >> 15;
-  x *= 0x846ca68bU;
-  return x ^ (x >> 16);
-}
 
 /// Cubes z-layer after z-layer, and the layers of vertices at them.
 struct Layers {
@@ -111,7 +104,7 @@ std::vector<float> make_field(const Layers& layers) {
     const Offset y = row % n, z = layers.first + row / n;
     for (int x = 0; x < n; ++x) {
       const std::size_t i = std::size_t(row) * n + x;
-      const double noise = 0.05 * (hash(static_cast<std::uint32_t>(layers.first_vertex() + i)) / 4294967296.0);
+      const double noise = 0.05 * (detail::noise(static_cast<std::uint32_t>(layers.first_vertex() + i)) / 4294967296.0);
       field[i] = static_cast<float>(sine_x[x] * cosine_y[y] + sine_zx[std::size_t(z) * n + x] + noise);
     }
   });

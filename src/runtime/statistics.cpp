@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include <gale/runtime/statistics.hpp>
 
 namespace gale {
@@ -30,6 +32,41 @@ ConsumerStatistics StructureStatistics::all_consumers() const {
   ConsumerStatistics sum;
   for (const auto& one : consumers) sum += one;
   return sum;
+}
+
+void QueueLengths::add(std::size_t length) {
+  if (times.size() <= length) times.resize(length + 1);
+  ++times[length];
+}
+
+double QueueLengths::mean() const {
+  double sum = 0, count = 0;
+  for (std::size_t length = 0; length < times.size(); ++length) {
+    sum += static_cast<double>(length) * static_cast<double>(times[length]);
+    count += static_cast<double>(times[length]);
+  }
+  return count > 0 ? sum / count : 0;
+}
+
+double QueueLengths::deviation() const {
+  double squares = 0, count = 0;
+  const double middle = mean();
+  for (std::size_t length = 0; length < times.size(); ++length) {
+    const double off = static_cast<double>(length) - middle;
+    squares += off * off * static_cast<double>(times[length]);
+    count += static_cast<double>(times[length]);
+  }
+  return count > 0 ? std::sqrt(squares / count) : 0;
+}
+
+std::int64_t QueueLengths::median() const {
+  std::int64_t count = 0, below = 0;
+  for (const std::int64_t here : times) count += here;
+  for (std::size_t length = 0; length < times.size(); ++length) {
+    below += times[length];
+    if (below > 0 && 2 * below >= count) return static_cast<std::int64_t>(length);
+  }
+  return 0;
 }
 
 }  // namespace gale

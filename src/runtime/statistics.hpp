@@ -41,6 +41,16 @@ struct GALE_EXPORT HelperStatistics {
   HelperStatistics& operator+=(const HelperStatistics& other);
 };
 
+/// How many requests a leader found waiting, each time that it found any.
+struct GALE_EXPORT QueueLengths {
+  std::vector<std::int64_t> times;  ///< by length
+
+  void add(std::size_t length);
+  double mean() const;
+  double deviation() const;  ///< the standard one
+  std::int64_t median() const;
+};
+
 /// What one queue's leader did.
 struct LeaderStatistics {
   RelationSet relations;
@@ -51,6 +61,7 @@ struct LeaderStatistics {
   std::int64_t bytes = 0;                ///< of blocks
   std::int64_t blocks_evicted = 0;
   std::int64_t batches_split = 0;  ///< that didn't fit, and were tried again in parts
+  QueueLengths queue_lengths;
 };
 
 /// Everything since a structure was made.

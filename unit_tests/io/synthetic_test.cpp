@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -138,6 +139,51 @@ TEST(MakeGridPart, RefusesWhatIsNone) {
   EXPECT_EQ(error_of([] { make_grid_part(4, 2, 2); }), "there is no part 2 of 2");
   EXPECT_EQ(error_of([] { make_grid_part(1000, 0, 2); }),
             "part 0 of grid:1000 has 2988014994 tetrahedra, more than the 2147483647 that 32-bit ids can number");
+}
+
+TEST(MakeSynthetic, HasAllPointsOfTheCubeOrThoseOfItsShape) {
+  const int n = 24;
+  const double middle = (n - 1) / 2.0;
+  for (const std::string kind : {"smooth", "noisy", "ball", "shells", "dense"}) {
+    SCOPED_TRACE(kind);
+    EXPECT_TRUE(is_synthetic(kind));
+    const Dataset mesh = make_synthetic(kind, n);
+    const auto& points = std::get<Dataset::Points<float>>(mesh.points);
+    const auto& field = std::get<std::vector<float>>(mesh.arrays.at(0).values);
+    EXPECT_EQ(mesh.arrays[0].name, "field");
+    ASSERT_EQ(field.size(), points.extent(0));
+    EXPECT_GT(*std::min_element(field.begin(), field.end()), 0);
+    const bool whole = kind != "ball" && kind != "shells";
+    if (whole) EXPECT_EQ(points.extent(0), static_cast<std::size_t>(n * n * n));
+    if (whole) EXPECT_EQ(mesh.tetrahedra.extent(0), static_cast<std::size_t>(6 * (n - 1) * (n - 1) * (n - 1)));
+    if (whole) continue;
+    EXPECT_LT(points.extent(0), static_cast<std::size_t>(n * n * n) * 6 / 10);
+    for (std::size_t i = 0; i < points.extent(0); ++i) {
+      double square = 0;
+      for (int axis = 0; axis < 3; ++axis) square += std::pow((points(i, axis) - middle) / middle, 2);
+      EXPECT_LE(square, 1 + 1e-9) << i;
+    }
+  }
+}
+
+TEST(MakeSynthetic, DenseHasMorePointsNearTheFirstCorner) {
+  const Dataset mesh = make_synthetic("dense", 17);
+  const auto& points = std::get<Dataset::Points<float>>(mesh.points);
+  const double half = 8;
+  int near = 0;
+  for (std::size_t i = 0; i < points.extent(0); ++i)
+    near += points(i, 0) < half && points(i, 1) < half && points(i, 2) < half;
+  EXPECT_EQ(near, 13 * 13 * 13);  // 16(0.1t + 0.9t^3) < 8 for t up to 12/16
+  EXPECT_EQ(points(0, 0), 0.f);
+  EXPECT_EQ(points(points.extent(0) - 1, 2), 16.f);
+}
+
+TEST(MakeSynthetic, RefusesWhatIsNone) {
+  EXPECT_FALSE(is_synthetic("grid"));
+  EXPECT_EQ(error_of([] { make_synthetic("cube", 5); }), "there is no synthetic mesh 'cube'");
+  EXPECT_EQ(error_of([] { make_synthetic("ball", 1); }), "ball:1 has no tetrahedra: N must be at least 2");
+  EXPECT_EQ(error_of([] { make_synthetic("noisy", 1291); }),
+            "noisy:1291 has more vertices than the 2147483647 that 32-bit ids can number");
 }
 
 }  // namespace

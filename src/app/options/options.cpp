@@ -7,9 +7,9 @@ namespace gale::app {
 
 void InputOptions::add_to(CLI::App& command) {
   command
-      .add_option(
-          "INPUT", input,
-          "A mesh (.vtu .pvtu .vtk .e .ex2 .exo .vtkhdf), a volume (.vti .nii .nii.gz .mha .mhd .nrrd) or grid:N")
+      .add_option("INPUT", input,
+                  "A mesh (.vtu .pvtu .vtk .e .ex2 .exo .vtkhdf), a volume (.vti .nii .nii.gz .mha .mhd .nrrd) or "
+                  "grid:N, smooth:N, noisy:N, ball:N, shells:N, dense:N")
       ->required();
   command.add_option("--above", read.above, "Volumes: keep the voxels with values above this");
   command.add_option(

@@ -31,6 +31,14 @@ void StructureOption::add_to(CLI::App& command) {
       ->check(CLI::IsMember({"gale", "leaders", "helpers", "inline", "explicit", "task-parallel"}));
   command.add_option("--cores", options.cores, "Cores that threads and helpers share (default: as many as threads)")
       ->check(CLI::Range(1, 1024));
+  command
+      .add_option_function<std::string>(
+          "--queues",
+          [this](const std::string& one) {
+            options.queues = one == "relation" ? Queues::per_relation : Queues::per_kernel;
+          },
+          "Of leaders: one for each kernel (default), which may make several relations, or for each relation")
+      ->check(CLI::IsMember({"kernel", "relation"}));
   const CLI::Range launches(1, 1048576);
   command.add_option("--blocks-per-request", options.blocks_per_request, "n_b")->check(launches);
   command.add_option("--threads-per-block", options.threads_per_block, "t_b")->check(launches);

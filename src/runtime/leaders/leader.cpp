@@ -134,6 +134,10 @@ void Leader::listen(bool wait) {
     request.ticket->taken = request.ticket->launched = request.ticket->finished = now;
     waiting_.emplace(request.segment, request.ticket);
   }
+  if (!news.requests.empty()) {
+    const std::lock_guard<std::mutex> lock(statistics_mutex_);
+    statistics_.queue_lengths.add(news.requests.size());
+  }
   for (const auto& request : news.requests) serve(request, now);
 }
 
