@@ -35,7 +35,7 @@ io::Dataset read_raw(const std::string& path) {
 }  // namespace
 
 io::Dataset make_input(const std::string& name) {
-  return name.compare(0, 5, "grid:") == 0 ? io::read(name) : read_raw(name);
+  return name.find(':') != std::string::npos ? io::read(name) : read_raw(name);
 }
 
 }  // namespace gale::perf

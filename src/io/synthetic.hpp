@@ -23,10 +23,10 @@ GALE_EXPORT Dataset make_grid(int n);
 /// Meshes of other character, for measurements: the inputs `smooth:N`, `noisy:N`, `ball:N`, `shells:N` and `dense:N` of
 /// the command. Each has points of a cube of n^3 and one array `field`, above 0:
 /// - `smooth`: all points; few waves, and few critical points;
-/// - `noisy`: all points; every one of another value than its neighbours, so that a fifth of them are critical;
+/// - `noisy`: all points; every one of another value than its neighbours, so that more than half are critical;
 /// - `ball`: the points in the largest ball, waves;
-/// - `shells`: the points in three thin shells about the middle, waves with noise: half of them on the surface;
-/// - `dense`: all points, moved towards a corner: 64 times as many in an eighth of each axis than in the last.
+/// - `shells`: the points in three thin shells about the middle, waves with noise: a third of them on the surface;
+/// - `dense`: all points, moved towards a corner: most of them near it.
 GALE_EXPORT bool is_synthetic(const std::string& kind);
 
 /// Throws `Error` if there is no such kind, or as make_grid does.
