@@ -2,7 +2,6 @@
 
 #include <cstddef>
 
-#include <gale/export.hpp>
 #include <gale/mesh/mesh.hpp>
 #include <gale/relations/relation.hpp>
 #include <gale/runtime/structure_options.hpp>
@@ -29,7 +28,7 @@ struct Sizes {
 Sizes sizes_for(const Mesh& mesh, const StructureOptions& options, int queues);
 
 /// Bytes for blocks on the host, of all queues or helpers together.
-GALE_EXPORT std::size_t host_memory(const StructureOptions& options);
+std::size_t host_memory(const StructureOptions& options);
 
 /// Of a sweep, for consumers and helpers. Throws gale::Error for an option below 0.
 int cores(const StructureOptions& options);

@@ -34,7 +34,7 @@ void Connectivity::sweep_stars(const Array<std::uint8_t, HostMemory>& on_surface
   structure().for_each_segment(star_relations, options, [&](int consumer, const SegmentRows& rows) {
     Worker& worker = workers[consumer];
     const Interval vertices = rows.interval(0);
-    const bool keep = store_->bytes() < store_->budget() / 2;  // all that is new may be wanted soon, too
+    const bool keep = store_->bytes() < store_->budget();
     worker.neighbours.begin(vertices.first, vertices.size());
     worker.cells.begin(vertices.first, vertices.size());
     for (const Id v : vertices) {
