@@ -10,6 +10,7 @@
 #include <gale/base/error.hpp>
 #include <gale/base/threads.hpp>
 #include <gale/ttk/connectivity.hpp>
+#include <gale/ttk/lists.hpp>
 
 namespace gale::ttk {
 
@@ -23,8 +24,7 @@ namespace gale::ttk {
 /// throws, setting and preconditioning print the reason and return a value below 0; a query throws gale::Error, which
 /// no OpenMP loop lets through, e.g. where the memory ends.
 ///
-/// One file of a program has to be compiled with the same TTK_ENABLE_... definitions as TTK: they decide which of these
-/// functions modules call directly.
+/// To be compiled with the TTK_ENABLE_... definitions of the TTK that it is used with.
 class Triangulation final : public ::ttk::AbstractTriangulation {
  public:
   using SimplexId = ::ttk::SimplexId;
@@ -57,7 +57,8 @@ class Triangulation final : public ::ttk::AbstractTriangulation {
   /// In TTK's layout of two arrays. All cells must be tetrahedra.
   int setInputCells(const SimplexId& count, const ::ttk::LongSimplexId* connectivity,
                     const ::ttk::LongSimplexId* offset) {
-    return set_cells(connectivity, count, 4, [&](Offset c) { return offset[c + 1] - offset[c]; });
+    return set_cells(count > 0 ? connectivity + offset[0] : connectivity, count, 4,
+                     [&](Offset c) { return offset[c + 1] - offset[c]; });
   }
 #else
   /// In TTK's flat layout. All cells must be tetrahedra.
@@ -124,10 +125,10 @@ class Triangulation final : public ::ttk::AbstractTriangulation {
   SimplexId TTK_TRIANGULATION_INTERNAL(getCellVertexNumber)(const SimplexId&) const override { return 4; }
 
   const std::vector<std::array<SimplexId, 2>>* TTK_TRIANGULATION_INTERNAL(getEdges)() override {
-    return list(this->edgeList_, count(1), [&](Id i) { return connectivity_->edge(i); });
+    return detail::list(this->edgeList_, count(1), [&](Id i) { return connectivity_->edge(i); });
   }
   const std::vector<std::array<SimplexId, 3>>* TTK_TRIANGULATION_INTERNAL(getTriangles)() override {
-    return list(this->triangleList_, count(2), [&](Id i) { return connectivity_->triangle(i); });
+    return detail::list(this->triangleList_, count(2), [&](Id i) { return connectivity_->triangle(i); });
   }
 
 // The three functions of a kind of row: how many entries a simplex has, one of them, and the lists of all.
@@ -141,7 +142,7 @@ class Triangulation final : public ::ttk::AbstractTriangulation {
     return 0;                                                                                                         \
   }                                                                                                                   \
   const std::vector<std::vector<SimplexId>>* TTK_TRIANGULATION_INTERNAL(get##Many)() override {                       \
-    return list_rows(                                                                                                 \
+    return detail::list_rows(                                                                                         \
         lists_.Many, count(dimension), [this](Id simplex) { return size; },                                           \
         [this](Id simplex, int i) { return entry; });                                                                 \
   }
@@ -269,27 +270,6 @@ class Triangulation final : public ::ttk::AbstractTriangulation {
   SimplexId count(int dimension) const {
     const Id found = connectivity_ ? connectivity_->count(dimension) : 0;
     return found == no_id ? 0 : found;
-  }
-
-  template <class List, class Find>
-  const List* list(List& all, SimplexId count, const Find& find) {
-    all.resize(count);
-    for (Id i = 0; i < count; ++i) {
-      const auto& found = find(i);
-      std::copy(found.begin(), found.end(), all[i].begin());
-    }
-    return &all;
-  }
-
-  template <class Size, class Entry>
-  const std::vector<std::vector<SimplexId>>* list_rows(std::vector<std::vector<SimplexId>>& all, SimplexId count,
-                                                       const Size& size, const Entry& entry) {
-    all.resize(count);
-    for (Id simplex = 0; simplex < count; ++simplex) {
-      all[simplex].resize(size(simplex));
-      for (int i = 0; i < static_cast<int>(all[simplex].size()); ++i) all[simplex][i] = entry(simplex, i);
-    }
-    return &all;
   }
 
   struct CallersCells {
