@@ -11,7 +11,7 @@ namespace gale::io::detail {
 
 namespace {
 
-constexpr std::size_t most = std::numeric_limits<int>::max();
+constexpr std::size_t most_bytes = std::numeric_limits<int>::max();
 
 bool uncompress_zlib(const char* compressed, std::size_t compressed_bytes, char* to, std::size_t bytes) {
   auto written = static_cast<uLongf>(bytes);
@@ -21,7 +21,7 @@ bool uncompress_zlib(const char* compressed, std::size_t compressed_bytes, char*
 }
 
 bool uncompress_lz4(const char* compressed, std::size_t compressed_bytes, char* to, std::size_t bytes) {
-  if (compressed_bytes > most || bytes > most) return false;
+  if (compressed_bytes > most_bytes || bytes > most_bytes) return false;
   return LZ4_decompress_safe(compressed, to, static_cast<int>(compressed_bytes), static_cast<int>(bytes)) ==
          static_cast<int>(bytes);
 }
