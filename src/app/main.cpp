@@ -153,14 +153,24 @@ void run(int argc, char** argv) {
 /// Whether all that went to standard output has arrived: a disk may be full, a descriptor closed.
 bool output_arrived() { return std::cout.flush() && std::fflush(stdout) == 0 && std::ferror(stdout) == 0; }
 
+/// The exit code of a run. What went wrong is said here, while the first rank still has the others wait for it: mpirun
+/// ends all as soon as one has failed.
+int run_and_say(int argc, char** argv) {
+  try {
+    run(argc, argv);
+    return output_arrived() ? done : complain(failed, "cannot write to standard output");
+  } catch (...) {
+    return complain_of_exception();
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   try {
     prepare_for_the_end();
     const gale::app::Ranks ranks(argc, argv);
-    run(argc, argv);
-    return output_arrived() ? done : complain(failed, "cannot write to standard output");
+    return run_and_say(argc, argv);
   } catch (...) {
     return complain_of_exception();
   }

@@ -15,6 +15,9 @@
 // On a device a loop is enqueued on the instance of the space that it is given and doesn't wait for it, as Kokkos' own;
 // what returns a value waits for that. So whoever hands data to the host or to another instance fences first. On the
 // host every loop is done when it returns. All throw gale::Error if Kokkos isn't initialized.
+//
+// A loop in a header that may run on the host takes a functor with a name, no KOKKOS_LAMBDA: nvcc has the host call
+// that one through a pointer, which was null where several sources had the same loop.
 
 namespace gale {
 
@@ -50,12 +53,34 @@ void parallel_for(const char* label, const Space& space, Offset n, const Body& b
   }
 }
 
+namespace detail {
+
+/// Writes its place, or the same value, to each entry.
+template <class Ids>
+struct WritePlace {
+  Ids ids;
+  KOKKOS_FUNCTION void operator()(Offset i) const { ids(i) = static_cast<Id>(i); }
+};
+template <class View>
+struct WriteValue {
+  View view;
+  typename View::non_const_value_type value;
+  KOKKOS_FUNCTION void operator()(Offset i) const { view(i) = value; }
+};
+
+}  // namespace detail
+
+/// Gives all entries of an array of rank 1 the same value.
+template <class Space, class View>
+void fill(const char* label, const Space& space, const View& view, typename View::non_const_value_type value) {
+  parallel_for(label, space, static_cast<Offset>(view.extent(0)), detail::WriteValue<View>{view, value});
+}
+
 /// 0, 1, ..., count - 1.
 template <class Space>
 Array<Id, MemoryOf<Space>> iota(const std::string& label, const Space& space, Offset count) {
   const auto ids = allocate<Array<Id, MemoryOf<Space>>>(label, count);
-  parallel_for(
-      "GALE::iota", space, count, KOKKOS_LAMBDA(Offset i) { ids(i) = static_cast<Id>(i); });
+  parallel_for("GALE::iota", space, count, detail::WritePlace<Array<Id, MemoryOf<Space>>>{ids});
   return ids;
 }
 

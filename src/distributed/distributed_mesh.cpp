@@ -38,7 +38,7 @@ detail::VertexDirectory directory_of(const Communicator& ranks, const MeshPart<I
   Array<int, HostMemory> owners;
   detail::together(ranks, [&] {
     owners = allocate<Array<int, HostMemory>>("GALE::given_owners", part.vertex_ids.extent(0));
-    Kokkos::deep_copy(owners, ranks.rank());
+    fill("GALE::given_owners", HostSpace(), owners, ranks.rank());
   });
   return {ranks, part.vertex_ids, owners};
 }

@@ -47,7 +47,7 @@ GlobalIndex::GlobalIndex(const Array<const GlobalId, HostMemory>& ascending) : i
   const Offset span = ids_(count - 1) - ids_(0) + 1;
   if (span > entries_an_id * count) return;
   table_ = allocate<Array<Id, HostMemory>>("GALE::global_index", span);
-  Kokkos::deep_copy(table_, no_id);
+  fill("GALE::no_index", HostSpace(), table_, no_id);
   parallel_for("GALE::global_index", HostSpace(), count,
                [&](Offset i) { table_(ids_(i) - ids_(0)) = static_cast<Id>(i); });
 }

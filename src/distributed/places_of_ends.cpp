@@ -20,7 +20,7 @@ Array<const GlobalId, HostMemory> places_of_ends(const Communicator& ranks, cons
   Array<GlobalId, HostMemory> places;
   together(ranks, [&] {
     places = allocate<Array<GlobalId, HostMemory>>("GALE::places_of_ends", paths.ends());
-    Kokkos::deep_copy(places, GlobalId(-1));
+    fill("GALE::no_places", HostSpace(), places, GlobalId(-1));
     parallel_for("GALE::places_of_ends", HostSpace(), ends.extent(0),
                  [&](Offset i) { places(ends(i)) = found.places(i); });
   });

@@ -23,6 +23,18 @@ using RowsOf =
     Kokkos::View<const TypeFor<typename View::non_const_value_type>* [columns], Kokkos::LayoutRight,
                  std::conditional_t<is_device_memory<typename View::memory_space>, WorkerMemory, HostMemory>>;
 
+/// Copies a row of `columns` entries.
+template <int columns, class To, class From>
+struct CopyRow {
+  To to;
+  From from;
+
+  KOKKOS_FUNCTION void operator()(Offset i) const {
+    for (int column = 0; column < columns; ++column)
+      to(i, column) = static_cast<typename To::non_const_value_type>(from(i, column));
+  }
+};
+
 /// The same memory if it is laid out so, else a copy. Throws gale::Error, calling it `name`, if it has another number
 /// of columns.
 template <int columns, template <class> class TypeFor, class View>
@@ -40,10 +52,7 @@ RowsOf<columns, TypeFor, View> rows_of(const char* name, const View& view) {
   using Space =
       std::conditional_t<is_device_memory<typename Rows::memory_space>, WorkerSpace, Kokkos::DefaultHostExecutionSpace>;
   const auto copy = allocate<typename Rows::non_const_type>("GALE::caller_rows", view.extent(0));
-  parallel_for(
-      "GALE::caller_rows", Space(), view.extent(0), KOKKOS_LAMBDA(Offset i) {
-        for (int column = 0; column < columns; ++column) copy(i, column) = static_cast<Type>(view(i, column));
-      });
+  parallel_for("GALE::caller_rows", Space(), view.extent(0), CopyRow<columns, decltype(copy), View>{copy, view});
   return copy;
 }
 

@@ -22,11 +22,8 @@ template <class Space>
 void mark_ghosts(const Space& space, const Mesh& mesh, const Array<Id, MemoryOf<Space>>& vertex_successor,
                  const Array<Id, MemoryOf<Space>>& tetrahedron_successor) {
   if (mesh.owned_vertices() == mesh.vertices()) return;
-  for (const auto& successors : {vertex_successor, tetrahedron_successor}) {
-    parallel_for(
-        "GALE::mark_ghosts", space, successors.extent(0),
-        KOKKOS_LAMBDA(Offset i) { successors(i) = DiscreteGradient::elsewhere; });
-  }
+  fill("GALE::mark_ghosts", space, vertex_successor, DiscreteGradient::elsewhere);
+  fill("GALE::mark_ghosts", space, tetrahedron_successor, DiscreteGradient::elsewhere);
 }
 
 /// What kernels found.

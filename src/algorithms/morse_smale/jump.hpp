@@ -1,5 +1,6 @@
 #pragma once
 
+#include <type_traits>
 #include <vector>
 
 #include <gale/base/atomic.hpp>
@@ -15,6 +16,42 @@ KOKKOS_FORCEINLINE_FUNCTION constexpr Id place_of_end(Id end) { return -2 - end;
 /// What stands for the end of a path that leaves through the surface: the place no_id.
 inline constexpr Id path_outside = -1;
 
+/// Begins the paths of `with_ends`.
+template <class Memory>
+struct BeginPath {
+  Array<const Id, Memory> from;
+  Array<Id, Memory> next;
+
+  KOKKOS_FUNCTION void operator()(Offset i) const {
+    const Id successor = from(i);
+    next(i) = successor < no_id ? path_outside : successor;
+  }
+};
+
+/// Ends those that lead to one of the places.
+template <class Memory, class Places>
+struct EndPath {
+  Places places;
+  Array<Id, Memory> next;
+
+  KOKKOS_FUNCTION void operator()(Offset i) const { next(places(i)) = end_at(static_cast<Id>(i)); }
+};
+
+/// Some jumps on a path; 1 if it goes on.
+template <class Memory>
+struct JumpAhead {
+  static constexpr int jumps_a_pass = 4;
+  Array<Id, Memory> next;
+
+  KOKKOS_FUNCTION int operator()(Offset i) const {
+    Id at = atomic_read(&next(i));
+    if (at < 0) return 0;
+    for (int k = 0; k < jumps_a_pass && at >= 0; ++k) at = atomic_read(&next(at));
+    atomic_write(&next(i), at);
+    return at >= 0 ? 1 : 0;
+  }
+};
+
 /// A copy of successors in a space's memory in which those of `ends` lead to their places there, and those that leave
 /// through the surface to `path_outside`.
 template <class Space>
@@ -27,15 +64,10 @@ Array<Id, MemoryOf<Space>> with_ends(const Space& space, const Mirrored<Id>& suc
   } else {
     from = in_memory<MemoryOf<Space>>(successors.in<HostMemory>());
   }
-  parallel_for(
-      "GALE::begin_paths", space, from.extent(0), KOKKOS_LAMBDA(Offset i) {
-        const Id successor = from(i);
-        next(i) = successor < no_id ? path_outside : successor;
-      });
+  parallel_for("GALE::begin_paths", space, from.extent(0), BeginPath<MemoryOf<Space>>{from, next});
   const auto places = in_memory<MemoryOf<Space>>(Array<const Id, HostMemory>(ends.data(), ends.size()));
-  parallel_for(
-      "GALE::end_paths", space, places.extent(0),
-      KOKKOS_LAMBDA(Offset i) { next(places(i)) = end_at(static_cast<Id>(i)); });
+  parallel_for("GALE::end_paths", space, places.extent(0),
+               EndPath<MemoryOf<Space>, std::decay_t<decltype(places)>>{places, next});
   return next;
 }
 
@@ -43,18 +75,7 @@ Array<Id, MemoryOf<Space>> with_ends(const Space& space, const Mirrored<Id>& suc
 /// get closer to their ends.
 template <class Space>
 void jump(const Space& space, const Array<Id, MemoryOf<Space>>& next) {
-  constexpr int jumps_a_pass = 4;
-  const Offset count = next.extent(0);
-  while (true) {
-    const Offset open = reduce_sum(
-        "GALE::jump", space, count, KOKKOS_LAMBDA(Offset i) {
-          Id at = atomic_read(&next(i));
-          if (at < 0) return 0;
-          for (int k = 0; k < jumps_a_pass && at >= 0; ++k) at = atomic_read(&next(at));
-          atomic_write(&next(i), at);
-          return at >= 0 ? 1 : 0;
-        });
-    if (open == 0) return;
+  while (reduce_sum("GALE::jump", space, next.extent(0), JumpAhead<MemoryOf<Space>>{next}) != 0) {
   }
 }
 
