@@ -106,11 +106,18 @@ class Lanes {
 
 void prepare_copies(int threads) { Lanes::instance().prepare(threads); }
 
-void copy_to_device(void* device, const void* host, std::size_t bytes) {
+void write_to_device(void* device, std::size_t bytes,
+                     const std::function<void(char* to, std::size_t begin, std::size_t size)>& write) {
   WorkerSpace().fence("GALE::copy");
   Lanes::instance().for_pieces(bytes, [&](const Lane& lane, std::size_t begin, std::size_t size) {
-    std::memcpy(lane.chunk(), static_cast<const char*>(host) + begin, size);
+    write(lane.chunk(), begin, size);
     lane.copy(static_cast<char*>(device) + begin, lane.chunk(), size);
+  });
+}
+
+void copy_to_device(void* device, const void* host, std::size_t bytes) {
+  write_to_device(device, bytes, [host](char* to, std::size_t begin, std::size_t size) {
+    std::memcpy(to, static_cast<const char*>(host) + begin, size);
   });
 }
 
@@ -129,6 +136,9 @@ void copy_from_device(void* host, const void* device, std::size_t bytes) {
 namespace gale {
 
 void prepare_copies(int) {}
+void write_to_device(void*, std::size_t, const std::function<void(char*, std::size_t, std::size_t)>&) {
+  throw Error("this Kokkos has no device to write to");
+}
 void copy_to_device(void*, const void*, std::size_t) { throw Error("this Kokkos has no device to copy to"); }
 void copy_from_device(void*, const void*, std::size_t) { throw Error("this Kokkos has no device to copy from"); }
 

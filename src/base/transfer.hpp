@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <string>
 
 #include <gale/base/memory.hpp>
@@ -15,7 +16,12 @@ namespace gale {
 GALE_EXPORT void copy_to_device(void* device, const void* host, std::size_t bytes);
 GALE_EXPORT void copy_from_device(void* host, const void* device, std::size_t bytes);
 
-/// Takes the pinned memory of both for so many threads, which else the first copy does.
+/// The same for bytes that write(to, begin, size) puts at `to` as they are wanted: `size` of them from the begin-th on,
+/// by all host threads; both are multiples of 2 MiB, but for the last size.
+GALE_EXPORT void write_to_device(void* device, std::size_t bytes,
+                                 const std::function<void(char* to, std::size_t begin, std::size_t size)>& write);
+
+/// Takes the pinned memory of these for so many threads, which else the first copy does.
 GALE_EXPORT void prepare_copies(int threads);
 
 namespace detail {

@@ -68,7 +68,7 @@ DistributedCriticalPoints complete(const Space& space, const DistributedOrder& o
   detail::together(mesh.ranks(), [&] {
     tell_of_ghosts(space, order.local(), flags, types);
     here = detail::collect(space, mesh.local(), types);
-    for (const Id vertex : here.vertices) all.vertices.push_back(mesh.vertex_ids()(vertex));
+    for (const Id vertex : here.vertices) all.vertices.push_back(mesh.vertex_id(vertex));
   });
   all.types = std::move(here.types);
   all.on_surface = std::move(here.on_surface);

@@ -24,13 +24,13 @@ DistributedGradient find_by(const DistributedMesh& mesh, const Find& find) {
 DistributedCriticalSimplices DistributedGradient::critical() const {
   const CriticalSimplices& here = local.critical();
   const Id* const input = mesh.local().vertex_input().data();
-  const auto id = [&](Id vertex) { return mesh.vertex_ids()(input[vertex]); };
+  const auto id = [&](Id vertex) { return mesh.vertex_id(input[vertex]); };
   DistributedCriticalSimplices critical;
   for (const Id vertex : here.vertices) critical.vertices.push_back(id(vertex));
   for (const auto& [high, low] : here.edges) critical.edges.push_back({id(high), id(low)});
   for (const auto& [high, middle, low] : here.triangles) critical.triangles.push_back({id(high), id(middle), id(low)});
   for (const Id t : here.tetrahedra)
-    critical.tetrahedra.push_back(mesh.tetrahedron_ids()(mesh.local().tetrahedron_input()(t)));
+    critical.tetrahedra.push_back(mesh.tetrahedron_id(mesh.local().tetrahedron_input()(t)));
   return critical;
 }
 

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <mutex>
 #include <string>
 
 #include <gale/base/require_ids.hpp>
@@ -7,9 +6,20 @@
 #include <gale/distributed/distributed_mesh.hpp>
 #include <gale/distributed/exchange_plan.hpp>
 #include <gale/distributed/local_mesh.hpp>
+#include <gale/distributed/local_vertices.hpp>
+#include <gale/distributed/on_demand.hpp>
 #include <gale/mesh/morton_codes.hpp>
 
 namespace gale {
+
+namespace detail {
+
+/// Where what a rank holds is: what it owns, and its ghosts.
+struct OwnAndGhosts {
+  HostPoints owned, ghosts;
+};
+
+}  // namespace detail
 
 namespace {
 
@@ -27,13 +37,16 @@ void validate(const MeshPart<Index>& part) {
   require_ids("tetrahedra", static_cast<Offset>(part.tetrahedra.extent(0)));
   require_no_negative(part.vertex_ids);
   require_no_negative(part.tetrahedron_ids);
-  detail::bounding_box<double>(HostSpace(), part.points);
+  part.points.visit([](const auto& rows) {
+    detail::bounding_box<typename std::decay_t<decltype(rows)>::non_const_value_type>(HostSpace(), rows);
+  });
 }
 
 /// Who hands over and owns which vertex.
 template <class Index>
 detail::VertexDirectory directory_of(const Communicator& ranks, const MeshPart<Index>& part, bool repartition) {
-  if (repartition) return {ranks, part.vertex_ids, detail::curve_partition(ranks, part.vertex_ids, part.points)};
+  if (repartition)
+    return {ranks, part.vertex_ids, detail::curve_partition(ranks, part.vertex_ids, part.points.in_double())};
   if (const auto given = detail::GivenIntervals::of(ranks, part.vertex_ids)) return {ranks, *given};
   Array<int, HostMemory> owners;
   detail::together(ranks, [&] {
@@ -56,11 +69,36 @@ bool is_numbered_as_local(const MeshPart<Index>& part) {
   return gaps == 0 && descents == 0;
 }
 
-/// 0, 1, ..., count - 1.
-Array<const GlobalId, HostMemory> counted(Offset count) {
-  const auto ids = allocate<Array<GlobalId, HostMemory>>("GALE::tetrahedron_ids", count);
-  parallel_for("GALE::tetrahedron_ids", HostSpace(), count, [&](Offset i) { ids(i) = i; });
-  return ids;
+/// A point on its way to another rank.
+struct SentPoint {
+  double coordinates[3];
+};
+using PointRows = Kokkos::View<double* [3], Kokkos::LayoutRight, HostMemory>;
+
+/// Some of the points.
+template <class Place>
+Points<double, HostMemory> gathered(const PointRows& points, Offset count, const Place& place) {
+  const auto some = allocate<PointRows>("GALE::some_points", count);
+  parallel_for("GALE::some_points", HostSpace(), count, [&](Offset i) {
+    for (int axis = 0; axis < 3; ++axis) some(i, axis) = points(place(i), axis);
+  });
+  return some;
+}
+
+/// All of them by local input ids.
+Points<double, HostMemory> by_id(const detail::LocalVertices& vertices, const detail::OwnAndGhosts& points) {
+  if (vertices.ghost_count() == 0) return points.owned.in_double();
+  const auto all = allocate<PointRows>("GALE::local_points", vertices.count());
+  const auto put = [&](const HostPoints& some, const auto& place) {
+    some.visit([&](const auto& rows) {
+      parallel_for("GALE::local_points", HostSpace(), some.count(), [&](Offset i) {
+        for (int axis = 0; axis < 3; ++axis) all(place(i), axis) = rows(i, axis);
+      });
+    });
+  };
+  put(points.owned, [&](Offset i) { return vertices.owned(i); });
+  put(points.ghosts, [&](Offset i) { return vertices.ghost(i); });
+  return all;
 }
 
 }  // namespace
@@ -69,16 +107,19 @@ struct DistributedMesh::Data {
   Communicator ranks;
   GlobalId vertices = 0, tetrahedra = 0;
   Offset given_vertices = 0;
-  Array<const GlobalId, HostMemory> vertex_ids;
-  mutable Array<const GlobalId, HostMemory> tetrahedron_ids;
-  mutable std::once_flag counts_tetrahedra;  ///< where nobody gave them ids: by the first who asks
-  Array<const int, HostMemory> owners;
-  Points<double, HostMemory> points;
+  detail::LocalVertices held;
+  detail::TetrahedronPlaces places;
+  Array<int, HostMemory> ghost_owners;
   Tetrahedra<Id, HostMemory> corners;
   detail::ExchangePlan from_givers, from_owners;
   std::unique_ptr<const Mesh> local;
 
-  explicit Data(const Communicator& all) : ranks(all) {}
+  // What few ask for.
+  detail::OnDemand<Array<const GlobalId, HostMemory>> vertex_ids, tetrahedron_ids;
+  detail::OnDemand<Array<const int, HostMemory>> owners;
+  detail::OnDemand<Points<double, HostMemory>> points;
+
+  explicit Data(const Communicator& all);
 
   template <class Index>
   void make(const MeshPart<Index>& part, const PartitionOptions& options);
@@ -86,38 +127,76 @@ struct DistributedMesh::Data {
   void deal(const MeshPart<Index>& part, const PartitionOptions& options);
   template <class Index>
   void take(const MeshPart<Index>& part, const PartitionOptions& options);
-  void make_plans(const detail::LocalVertices& held, const detail::GlobalIndex& index,
-                  const Array<detail::VertexEntry, HostMemory>& entries);
-  void fetch_points(const Points<double, HostMemory>& given);
+  detail::OwnAndGhosts share(const detail::VertexDirectory& directory, const HostPoints& given);
 };
 
-/// How values come to this rank: each local vertex' from who handed it over, each ghost's from its owner.
-void DistributedMesh::Data::make_plans(const detail::LocalVertices& held, const detail::GlobalIndex& index,
-                                       const Array<detail::VertexEntry, HostMemory>& entries) {
-  Array<Id, HostMemory> all, ghosts;
-  detail::together(ranks, [&] {
-    all = iota("GALE::all_vertices", HostSpace(), held.ids.extent(0));
-    ghosts = detail::ghosts_of(held);
-    const auto known = allocate<Array<int, HostMemory>>("GALE::owners", held.ids.extent(0));
-    parallel_for("GALE::owners", HostSpace(), known.extent(0), [&](Offset i) { known(i) = entries(i).owner; });
-    owners = known;
+DistributedMesh::Data::Data(const Communicator& all) : ranks(all) {
+  vertex_ids.made_by([this] {
+    const auto ids = allocate<detail::GlobalIds>("GALE::vertex_ids", held.count());
+    parallel_for("GALE::vertex_ids", HostSpace(), held.count(),
+                 [&](Offset i) { ids(i) = held.id(static_cast<Id>(i)); });
+    return ids;
   });
-  from_givers = detail::ExchangePlan(
-      ranks, all, [&](Id i) { return entries(i).giver; }, [&](Id i) { return entries(i).place; },
-      [](GlobalId place) { return static_cast<Id>(place); });
-  from_owners = detail::ExchangePlan(
-      ranks, ghosts, [&](Id i) { return entries(i).owner; }, [&](Id i) { return held.ids(i); },
-      [&](GlobalId id) { return index.find(id); });
+  tetrahedron_ids.made_by([this] { return places.ids(); });
+  owners.made_by([this] {
+    const auto known = allocate<Array<int, HostMemory>>("GALE::owners", held.count());
+    fill("GALE::owners", HostSpace(), known, ranks.rank());
+    parallel_for("GALE::owners", HostSpace(), held.ghost_count(),
+                 [&](Offset i) { known(held.ghost(i)) = ghost_owners(i); });
+    return known;
+  });
 }
 
-void DistributedMesh::Data::fetch_points(const Points<double, HostMemory>& given) {
-  struct Point {
-    double coordinates[3];
-  };
-  Kokkos::View<double* [3], Kokkos::LayoutRight, HostMemory> fetched;
-  detail::together(ranks, [&] { fetched = allocate<decltype(fetched)>("GALE::local_points", vertex_ids.extent(0)); });
-  from_givers(ranks, reinterpret_cast<const Point*>(given.data()), reinterpret_cast<Point*>(fetched.data()));
-  points = fetched;
+/// How values come to this rank: each local vertex' from who handed it over, each ghost's from its owner; points first.
+/// A rank that hands over what it owns, one after the other, wants the ghosts' alone.
+detail::OwnAndGhosts DistributedMesh::Data::share(const detail::VertexDirectory& directory, const HostPoints& given) {
+  const bool in_place = directory.given() && !held.interval().is_empty();
+  detail::ExchangePlan::Run run;
+  Array<Id, HostMemory> ghosts, slots;
+  detail::together(ranks, [&] {
+    ghosts = allocate<Array<Id, HostMemory>>("GALE::ghosts", held.ghost_count());
+    parallel_for("GALE::ghosts", HostSpace(), held.ghost_count(), [&](Offset i) { ghosts(i) = held.ghost(i); });
+    slots = in_place ? ghosts : iota("GALE::all_vertices", HostSpace(), held.count());
+    if (!in_place) vertex_ids.get();
+  });
+  if (in_place)
+    run = {held.owned(0), held.interval().begin - directory.given()->of(ranks.rank()).begin, held.owned_count()};
+  const auto entries = in_place ? directory.find(held.ghosts()) : directory.find(vertex_ids.get());
+  const auto of_ghost = [&](Id i) { return entries(in_place ? i : ghosts(i)); };
+  detail::together(ranks, [&] {
+    ghost_owners = allocate<Array<int, HostMemory>>("GALE::ghost_owners", held.ghost_count());
+    parallel_for("GALE::ghost_owners", HostSpace(), held.ghost_count(),
+                 [&](Offset i) { ghost_owners(i) = of_ghost(static_cast<Id>(i)).owner; });
+  });
+  from_givers = detail::ExchangePlan(
+      ranks, run, slots, [&](Id i) { return entries(i).giver; }, [&](Id i) { return entries(i).place; },
+      [](GlobalId place) { return static_cast<Id>(place); });
+  from_owners = detail::ExchangePlan(
+      ranks, {}, ghosts, [&](Id i) { return ghost_owners(i); }, [&](Id i) { return held.ghosts()(i); },
+      [&](GlobalId id) { return held.find(id); });
+  const auto fetched = given.visit([&](const auto& rows) {
+    return from_givers.fetch<SentPoint>(ranks, [&](Id at) {
+      return SentPoint{{rows(at, 0), rows(at, 1), rows(at, 2)}};
+    });
+  });
+  detail::OwnAndGhosts all;
+  detail::together(ranks, [&] {
+    const auto rows = allocate<PointRows>("GALE::local_points", slots.extent(0));
+    if (in_place) {
+      parallel_for("GALE::ghost_points", HostSpace(), fetched.count(), [&](Offset k) {
+        const Offset to = held.ghost_number(from_givers.slots()(k));
+        for (int axis = 0; axis < 3; ++axis) rows(to, axis) = fetched.entries(k).coordinates[axis];
+      });
+      all = {given.part(run.place, run.count), Points<double, HostMemory>(rows)};
+    } else {
+      const Points<double, HostMemory> mine = given.in_double();
+      from_givers.place(HostSpace(), reinterpret_cast<const SentPoint*>(mine.data()), fetched,
+                        reinterpret_cast<SentPoint*>(rows.data()));
+      all = {gathered(rows, held.owned_count(), [&](Offset i) { return held.owned(i); }),
+             gathered(rows, held.ghost_count(), [&](Offset i) { return held.ghost(i); })};
+    }
+  });
+  return all;
 }
 
 /// Sends everything to where it belongs.
@@ -125,35 +204,29 @@ template <class Index>
 void DistributedMesh::Data::deal(const MeshPart<Index>& part, const PartitionOptions& options) {
   detail::together(ranks, [&] { validate(part); });
   const detail::VertexDirectory directory = directory_of(ranks, part, options.repartition);
-  const detail::GlobalIds owned = directory.owned();
-  const detail::IdInterval own = detail::interval_of(owned);
-  const detail::LocalTetrahedra<Index> held_tetrahedra(ranks, part, directory, own, options.most_local);
-  detail::LocalVertices held;
-  detail::GlobalIndex index;
-  detail::together(ranks, [&] {
-    held = detail::local_vertices(owned, held_tetrahedra.vertices_beside(owned));
-    index = detail::GlobalIndex(held.ids);
-  });
-  detail::require_local(ranks, "vertices", held.ids.extent(0), options.most_local);
+  const detail::OwnedIds owned = directory.owned();
+  const detail::LocalTetrahedra<Index> held_tetrahedra(ranks, part, directory, owned.interval, options.most_local);
+  detail::together(ranks, [&] { held = detail::LocalVertices(owned, held_tetrahedra.vertices_beside(owned)); });
+  detail::require_local(ranks, "vertices", held.count(), options.most_local);
   vertices = directory.vertices();
   tetrahedra = ranks.sum(part.tetrahedra.extent(0));
   if (tetrahedra == 0) throw SharedError("the mesh has no tetrahedra");
-  vertex_ids = held.ids;
-  tetrahedron_ids = held_tetrahedra.ids();
-  make_plans(held, index, directory.find(vertex_ids));
-  fetch_points(part.points);
+  places = held_tetrahedra.places();
+  const detail::OwnAndGhosts shared = share(directory, part.points);
+  points.made_by([this, shared] { return by_id(held, shared); });
   detail::together(ranks, [&] {
-    const Tetrahedra<Id, HostMemory> quads = detail::local_corners(held_tetrahedra, own, index);
-    if (options.keep_corners) corners = quads;
-    local = std::make_unique<const Mesh>(detail::local_mesh(
-        quads, tetrahedron_ids, detail::local_segmentation(points, held.is_owned, options.capacity)));
+    if (options.keep_corners) corners = detail::local_corners(held_tetrahedra, held);
+    const Segmentation segmentation = detail::local_segmentation(held, shared.owned, shared.ghosts, options.capacity);
+    local = std::make_unique<const Mesh>(detail::local_mesh(held_tetrahedra, held, segmentation));
   });
 }
 
 /// Takes a part that is the whole mesh, numbered without gaps, as it is.
 template <class Index>
 void DistributedMesh::Data::take(const MeshPart<Index>& part, const PartitionOptions& options) {
-  local = std::make_unique<const Mesh>(part.tetrahedra, octree_segmentation(part.points, options.capacity));
+  local = std::make_unique<const Mesh>(part.tetrahedra, part.points.visit([&](const auto& rows) {
+    return octree_segmentation(rows, options.capacity);
+  }));
   if (options.keep_corners) {
     const auto quads = allocate<detail::Quads>("GALE::local_tetrahedra", part.tetrahedra.extent(0));
     parallel_for("GALE::local_tetrahedra", HostSpace(), quads.extent(0), [&](Offset t) {
@@ -163,11 +236,9 @@ void DistributedMesh::Data::take(const MeshPart<Index>& part, const PartitionOpt
   }
   vertices = part.vertex_ids.extent(0);
   tetrahedra = part.tetrahedra.extent(0);
-  vertex_ids = part.vertex_ids;
-  points = part.points;
-  tetrahedron_ids = part.tetrahedron_ids;
-  const Array<int, HostMemory> all_mine("GALE::owners", vertices);
-  owners = all_mine;
+  held = detail::LocalVertices(detail::OwnedIds(detail::IdInterval{0, vertices}), {});
+  places = detail::TetrahedronPlaces({tetrahedra, {}, part.tetrahedron_ids, 0}, {});
+  points.made_by([given = part.points] { return given.in_double(); });
   from_givers = detail::ExchangePlan::of_one_rank(vertices);
 }
 
@@ -194,16 +265,15 @@ const Communicator& DistributedMesh::ranks() const { return data_->ranks; }
 const Mesh& DistributedMesh::local() const { return *data_->local; }
 GlobalId DistributedMesh::vertices() const { return data_->vertices; }
 GlobalId DistributedMesh::tetrahedra() const { return data_->tetrahedra; }
-const Array<const GlobalId, HostMemory>& DistributedMesh::vertex_ids() const { return data_->vertex_ids; }
+GlobalId DistributedMesh::vertex_id(Id vertex) const { return data_->held.id(vertex); }
+Id DistributedMesh::vertex_of(GlobalId id) const { return data_->held.find(id); }
+GlobalId DistributedMesh::tetrahedron_id(Id tetrahedron) const { return data_->places.id(tetrahedron); }
+const Array<const GlobalId, HostMemory>& DistributedMesh::vertex_ids() const { return data_->vertex_ids.get(); }
 const Array<const GlobalId, HostMemory>& DistributedMesh::tetrahedron_ids() const {
-  std::call_once(data_->counts_tetrahedra, [this] {
-    const Offset held = local().tetrahedra();
-    if (static_cast<Offset>(data_->tetrahedron_ids.extent(0)) != held) data_->tetrahedron_ids = counted(held);
-  });
-  return data_->tetrahedron_ids;
+  return data_->tetrahedron_ids.get();
 }
-const Array<const int, HostMemory>& DistributedMesh::owners() const { return data_->owners; }
-const Points<double, HostMemory>& DistributedMesh::points() const { return data_->points; }
+const Array<const int, HostMemory>& DistributedMesh::owners() const { return data_->owners.get(); }
+const Points<double, HostMemory>& DistributedMesh::points() const { return data_->points.get(); }
 const Tetrahedra<Id, HostMemory>& DistributedMesh::corners() const { return data_->corners; }
 Offset DistributedMesh::given_vertices() const { return data_->given_vertices; }
 const detail::ExchangePlan& DistributedMesh::from_givers() const { return data_->from_givers; }

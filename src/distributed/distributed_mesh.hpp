@@ -55,7 +55,14 @@ class GALE_EXPORT DistributedMesh {
   GlobalId vertices() const;
   GlobalId tetrahedra() const;
 
-  /// The global ids of the local mesh's vertices and tetrahedra, by their local input ids; ascending.
+  /// The global id of a vertex and of a tetrahedron of the local mesh, by its local input id.
+  GlobalId vertex_id(Id vertex) const;
+  GlobalId tetrahedron_id(Id tetrahedron) const;
+
+  /// The local input id of a vertex; no_id if this rank doesn't hold it.
+  Id vertex_of(GlobalId id) const;
+
+  /// All of them, ascending. As the next ones they are made when first asked for.
   const Array<const GlobalId, HostMemory>& vertex_ids() const;
   const Array<const GlobalId, HostMemory>& tetrahedron_ids() const;
 

@@ -16,7 +16,7 @@ using Ids = Array<GlobalId, HostMemory>;
 Ids owned_ids(const DistributedMesh& mesh) {
   const Id* const input = mesh.local().vertex_input().data();
   const auto ids = allocate<Ids>("GALE::owned_ids", mesh.local().owned_vertices());
-  parallel_for("GALE::owned_ids", HostSpace(), ids.extent(0), [&](Offset v) { ids(v) = mesh.vertex_ids()(input[v]); });
+  parallel_for("GALE::owned_ids", HostSpace(), ids.extent(0), [&](Offset v) { ids(v) = mesh.vertex_id(input[v]); });
   return ids;
 }
 
@@ -56,12 +56,12 @@ class Asked {
   }
 
   /// What others ask of this rank, in GALE's ids of its local mesh.
-  std::vector<std::array<Id, N>> local(const detail::GlobalIndex& index) const {
+  std::vector<std::array<Id, N>> local() const {
     const Id* const internal = mesh_.local().vertex_internal().data();
     std::vector<std::array<Id, N>> simplices(received_.count());
     for (Offset i = 0; i < received_.count(); ++i) {
       for (std::size_t k = 0; k < N; ++k) {
-        const Id at = index.find(received_.entries(i)[k]);
+        const Id at = mesh_.vertex_of(received_.entries(i)[k]);
         if (at == no_id)
           throw Error("no simplex of the mesh has the vertices " + std::to_string(received_.entries(i)[0]) + " and " +
                       std::to_string(received_.entries(i)[k]));
@@ -114,24 +114,20 @@ DistributedNumbers number_simplices(Structure& structure, const DistributedMesh&
   const Communicator& ranks = mesh.ranks();
   const ThreadLimit limit(options.threads);
   Ids owned;
-  detail::GlobalIndex index;
-  detail::together(ranks, [&] {
-    owned = owned_ids(mesh);
-    index = detail::GlobalIndex(mesh.vertex_ids());
-  });
+  detail::together(ranks, [&] { owned = owned_ids(mesh); });
   const auto owners = owners_of(mesh, owned);
   const Asked<2> edges(mesh, owners, named.edges);
   const Asked<3> triangles(mesh, owners, named.triangles);
   NamedSimplices local;
   std::unique_ptr<detail::Numbering> found;
   detail::together(ranks, [&] {
-    local = {edges.local(index), triangles.local(index)};
+    local = {edges.local(), triangles.local()};
     found = std::make_unique<detail::Numbering>(structure, local, options);
   });
   const Ids first_edges = first_numbers(mesh, owned, found->edge_counts());
   const Ids first_triangles = first_numbers(mesh, owned, found->triangle_counts());
   const Id* const internal = mesh.local().vertex_internal().data();
-  const auto at = [&](GlobalId vertex) { return internal[index.find(vertex)]; };
+  const auto at = [&](GlobalId vertex) { return internal[mesh.vertex_of(vertex)]; };
   DistributedNumbers numbers;
   numbers.edges =
       edges.answers([&](Offset i) { return first_edges(at(edges.first_vertex(i))) + found->edges().place(i); });

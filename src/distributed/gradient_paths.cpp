@@ -10,9 +10,9 @@ PathSimplices falling_simplices(const DistributedGradient& gradient) {
   const Id* const internal = local.vertex_internal().data();
   const auto ids = gradient.mesh.vertex_ids();
   const auto owners = gradient.mesh.owners();
-  const GlobalIndex index(ids);
+  const DistributedMesh mesh = gradient.mesh;
   return {&gradient.local.store().vertex_successors(), &gradient.local.critical().vertices,
-          [=](Id vertex) { return ids(input[vertex]); }, [=](GlobalId id) { return internal[index.find(id)]; },
+          [=](Id vertex) { return ids(input[vertex]); }, [=](GlobalId id) { return internal[mesh.vertex_of(id)]; },
           [=](Id vertex) { return owners(input[vertex]); }};
 }
 

@@ -23,6 +23,20 @@ inline IdInterval interval_of(const Array<const GlobalId, HostMemory>& ascending
   return {ascending(0), ascending(0) + count};
 }
 
+/// The vertices that a rank owns: an interval where their ids have no gaps, else the ids, ascending.
+struct OwnedIds {
+  IdInterval interval;
+  Array<GlobalId, HostMemory> ids;  ///< none where there is an interval
+
+  OwnedIds() = default;
+  explicit OwnedIds(const IdInterval& some) : interval(some) {}
+  explicit OwnedIds(const Array<GlobalId, HostMemory>& ascending) : interval(interval_of(ascending)) {
+    if (interval.is_empty()) ids = ascending;
+  }
+
+  Offset count() const { return interval.is_empty() ? Offset(ids.extent(0)) : interval.end - interval.begin; }
+};
+
 /// What each rank hands over, where those are intervals of ids in their order, as where a grid is cut into slabs. Then
 /// each rank knows by itself who hands over what.
 class GivenIntervals {

@@ -4,21 +4,24 @@
 #include <utility>
 #include <vector>
 
-#include <gale/distributed/deal.hpp>
+#include <gale/base/worker_or_host.hpp>
 #include <gale/distributed/local_mesh.hpp>
 
 namespace gale::detail {
 
 namespace {
 
+template <class Memory>
+using CornersIn = Kokkos::View<Id* [4], Kokkos::LayoutRight, Memory>;
+
 /// Throws if two tetrahedra have the same vertices, by their global ids.
-void refuse_twins(const Tetrahedra<Id, HostMemory>& tetrahedra, const Array<const GlobalId, HostMemory>& ids) {
-  std::vector<std::pair<std::array<Id, 4>, GlobalId>> all(ids.extent(0));
+void refuse_twins(const Quads& tetrahedra, const TetrahedronPlaces& places) {
+  std::vector<std::pair<std::array<Id, 4>, GlobalId>> all(tetrahedra.extent(0));
   for (std::size_t t = 0; t < all.size(); ++t) {
     auto& [quad, id] = all[t];
     for (int corner = 0; corner < 4; ++corner) quad[corner] = tetrahedra(t, corner);
     std::sort(quad.begin(), quad.end());
-    id = ids(t);
+    id = places.id(static_cast<Offset>(t));
   }
   std::sort(all.begin(), all.end());
   for (std::size_t t = 1; t < all.size(); ++t) {
@@ -28,105 +31,118 @@ void refuse_twins(const Tetrahedra<Id, HostMemory>& tetrahedra, const Array<cons
   }
 }
 
-/// The vertices that a rank owns, or those that it doesn't.
-Array<Id, HostMemory> members_of(const Array<std::uint8_t, HostMemory>& is_owned, std::uint8_t owned) {
-  return by_rank(1, is_owned.extent(0),
-                 [&](Id i, const auto& visit) {
-                   if (is_owned(i) == owned) visit(0);
-                 })
-      .members;
+Segmentation octree_of(const HostPoints& points, int capacity) {
+  return points.visit([&](const auto& rows) { return octree_segmentation(rows, capacity); });
 }
 
-/// The octree of some of the points: their places among all, segment after segment, and where segments begin.
-struct SomeSegments {
-  Array<Id, HostMemory> members;
-  Array<const Id, HostMemory> order, begin;
+/// The local input ids of some of a rank's vertices; an interval of them where there is no array.
+template <class Memory>
+struct Members {
+  Id first;
+  Array<const Id, Memory> ids;
 
-  SomeSegments(const Points<double, HostMemory>& points, const Array<std::uint8_t, HostMemory>& is_owned,
-               std::uint8_t owned, int capacity) {
-    members = members_of(is_owned, owned);
-    const auto some =
-        allocate<Kokkos::View<double* [3], Kokkos::LayoutRight, HostMemory>>("GALE::some_points", members.extent(0));
-    parallel_for("GALE::some_points", HostSpace(), members.extent(0), [&](Offset i) {
-      for (int axis = 0; axis < 3; ++axis) some(i, axis) = points(members(i), axis);
-    });
-    const Segmentation segmentation = octree_segmentation(Points<double, HostMemory>(some), capacity);
-    order = segmentation.vertex_input.in<HostMemory>();
-    begin = segmentation.vertex_begin.in<HostMemory>();
-  }
-
-  Id segments() const { return static_cast<Id>(begin.extent(0)) - 1; }
-  Id vertices() const { return static_cast<Id>(members.extent(0)); }
+  KOKKOS_FUNCTION Id operator()(Id i) const { return ids.extent(0) == 0 ? first + i : ids(i); }
 };
 
-}  // namespace
+template <class Space>
+Members<MemoryOf<Space>> owned_members(const Space&, const LocalVertices& vertices) {
+  if (vertices.owned_count() == 0) return {0, {}};
+  return {vertices.owned(0), in_memory<MemoryOf<Space>>(vertices.owned_ids())};
+}
 
-LocalVertices local_vertices(const GlobalIds& owned, const GlobalIds& ghosts) {
-  const Offset count = owned.extent(0) + ghosts.extent(0);
-  const LocalVertices all{allocate<GlobalIds>("GALE::local_vertices", count),
-                          allocate<Array<std::uint8_t, HostMemory>>("GALE::is_owned", count)};
-  // Each goes behind those of its own kind, and behind those of the other kind that are less.
-  const auto place = [&](const GlobalIds& kind, const GlobalIds& other, std::uint8_t is_owned) {
-    const Offset kinds = kind.extent(0), others = other.extent(0);
-    for_parts("GALE::merge_vertices", kinds, threads_for(kinds), [&](int, Offset first, Offset last) {
-      if (first == last) return;
-      Offset less = std::lower_bound(other.data(), other.data() + others, kind(first)) - other.data();
-      for (Offset i = first; i < last; ++i) {
-        while (less < others && other(less) < kind(i)) ++less;
-        all.ids(i + less) = kind(i);
-        all.is_owned(i + less) = is_owned;
-      }
-    });
-  };
-  place(owned, ghosts, 1);
-  place(ghosts, owned, 0);
+/// Owned vertices segment after segment, then the ghosts likewise.
+template <class Space>
+Mirrored<Id> joined(const Space& space, const LocalVertices& vertices, const Mirrored<Id>& owned,
+                    const Mirrored<Id>& ghosts) {
+  using Here = MemoryOf<Space>;
+  const auto all = allocate<Array<Id, Here>>("GALE::vertex_input", vertices.count());
+  const auto members = owned_members(space, vertices);
+  const Array<const Id, Here> order = owned.in<Here>();
+  parallel_for(
+      "GALE::owned_input", space, vertices.owned_count(), KOKKOS_LAMBDA(Offset i) { all(i) = members(order(i)); });
+  const Offset count = vertices.ghost_count(), before = vertices.owned_count();
+  const auto ghost_ids = allocate<Array<Id, HostMemory>>("GALE::ghost_input", count);
+  const Array<const Id, HostMemory> ghost_order = ghosts.in<HostMemory>();
+  parallel_for("GALE::ghost_input", HostSpace(), count,
+               [&](Offset i) { ghost_ids(i) = vertices.ghost(ghost_order(i)); });
+  const auto here = in_memory<Here>(ghost_ids);
+  parallel_for(
+      "GALE::append_ghosts", space, count, KOKKOS_LAMBDA(Offset i) { all(before + i) = here(i); });
+  space.fence();
   return all;
 }
 
-Array<Id, HostMemory> ghosts_of(const LocalVertices& vertices) { return members_of(vertices.is_owned, 0); }
-
-Segmentation local_segmentation(const Points<double, HostMemory>& points,
-                                const Array<std::uint8_t, HostMemory>& is_owned, int capacity) {
-  const SomeSegments owned(points, is_owned, 1, capacity), ghosts(points, is_owned, 0, capacity);
-  const auto vertex_input = allocate<Array<Id, HostMemory>>("GALE::vertex_input", points.extent(0));
-  const auto vertex_begin =
-      allocate<Array<Id, HostMemory>>("GALE::vertex_begin", owned.segments() + ghosts.segments() + Offset(1));
-  const auto append = [&](const SomeSegments& some, Id vertices_before, Id segments_before) {
-    parallel_for("GALE::append_vertices", HostSpace(), some.vertices(),
-                 [&](Offset i) { vertex_input(vertices_before + i) = some.members(some.order(i)); });
-    for (Id s = 0; s <= some.segments(); ++s) vertex_begin(segments_before + s) = vertices_before + some.begin(s);
-  };
-  append(owned, 0, 0);
-  append(ghosts, owned.vertices(), owned.segments());
-  return {vertex_input, vertex_begin, owned.segments()};
+/// Writes the corners of tetrahedra first..last-1 from `to` on.
+template <class Index>
+void write_corners(const LocalTetrahedra<Index>& tetrahedra, const LocalVertices& vertices, Offset first, Offset last,
+                   Id* to) {
+  tetrahedra.visit(first, last, [&](Offset, const auto& vertex_of) {
+    for (int corner = 0; corner < 4; ++corner) *to++ = vertices.find(vertex_of(corner));
+  });
 }
 
-template <class Index>
-Quads local_corners(const LocalTetrahedra<Index>& tetrahedra, const IdInterval& own, const GlobalIndex& vertices) {
-  const auto corners = allocate<Quads>("GALE::local_tetrahedra", tetrahedra.count());
-  const GlobalId shift = own.is_empty() ? 0 : vertices.find(own.begin) - own.begin;
-  tetrahedra.for_each("GALE::local_tetrahedra", [&](Offset t, const auto& vertex_of) {
-    for (int corner = 0; corner < 4; ++corner) {
-      const GlobalId vertex = vertex_of(corner);
-      corners(t, corner) = own.contains(vertex) ? static_cast<Id>(vertex + shift) : vertices.find(vertex);
-    }
-  });
+template <class Index, class Space>
+CornersIn<MemoryOf<Space>> corners_in(const Space&, const LocalTetrahedra<Index>& tetrahedra,
+                                      const LocalVertices& vertices) {
+  const Offset count = tetrahedra.count();
+  const auto corners = allocate<CornersIn<MemoryOf<Space>>>("GALE::local_tetrahedra", count);
+  if constexpr (is_device<Space>) {
+    constexpr std::size_t row = 4 * sizeof(Id);
+    write_to_device(corners.data(), static_cast<std::size_t>(count) * row,
+                    [&](char* to, std::size_t begin, std::size_t size) {
+                      write_corners(tetrahedra, vertices, static_cast<Offset>(begin / row),
+                                    static_cast<Offset>((begin + size) / row), reinterpret_cast<Id*>(to));
+                    });
+  } else {
+    for_parts("GALE::local_tetrahedra", count, threads_for(count), [&](int, Offset first, Offset last) {
+      write_corners(tetrahedra, vertices, first, last, corners.data() + 4 * first);
+    });
+  }
   return corners;
 }
 
-Mesh local_mesh(const Tetrahedra<Id, HostMemory>& corners, const Array<const GlobalId, HostMemory>& ids,
+}  // namespace
+
+Segmentation local_segmentation(const LocalVertices& vertices, const HostPoints& owned, const HostPoints& ghosts,
+                                int capacity) {
+  const Segmentation inner = octree_of(owned, capacity), outer = octree_of(ghosts, capacity);
+  const Mirrored<Id> vertex_input = in_worker_or_host_space(inner.vertex_input.on_device(), [&](const auto& space) {
+    return joined(space, vertices, inner.vertex_input, outer.vertex_input);
+  });
+  const Id segments = inner.segments() + outer.segments();
+  const auto vertex_begin = allocate<Array<Id, HostMemory>>("GALE::vertex_begin", segments + Offset(1));
+  const auto inner_begin = inner.vertex_begin.in<HostMemory>(), outer_begin = outer.vertex_begin.in<HostMemory>();
+  for (Id s = 0; s < inner.segments(); ++s) vertex_begin(s) = inner_begin(s);
+  for (Id s = 0; s <= outer.segments(); ++s) vertex_begin(inner.segments() + s) = inner.vertices() + outer_begin(s);
+  return {vertex_input, vertex_begin, inner.segments()};
+}
+
+template <class Index>
+Quads local_corners(const LocalTetrahedra<Index>& tetrahedra, const LocalVertices& vertices) {
+  return corners_in<Index>(HostSpace(), tetrahedra, vertices);
+}
+
+template <class Index>
+Mesh local_mesh(const LocalTetrahedra<Index>& tetrahedra, const LocalVertices& vertices,
                 const Segmentation& segmentation) {
   try {
-    return Mesh(corners, segmentation);
+    return in_worker_or_host_space(true, [&](const auto& space) {
+      using Here = MemoryOf<std::decay_t<decltype(space)>>;
+      return Mesh(Tetrahedra<Id, Here>(corners_in<Index>(space, tetrahedra, vertices)), segmentation);
+    });
   } catch (const OutOfMemory&) {
     throw;
   } catch (const Error&) {
-    refuse_twins(corners, ids);
+    refuse_twins(local_corners(tetrahedra, vertices), tetrahedra.places());
     throw;
   }
 }
 
-template Quads local_corners(const LocalTetrahedra<std::int32_t>&, const IdInterval&, const GlobalIndex&);
-template Quads local_corners(const LocalTetrahedra<std::int64_t>&, const IdInterval&, const GlobalIndex&);
+#define GALE_INSTANTIATE(Index)                                                      \
+  template Quads local_corners(const LocalTetrahedra<Index>&, const LocalVertices&); \
+  template Mesh local_mesh(const LocalTetrahedra<Index>&, const LocalVertices&, const Segmentation&)
+GALE_INSTANTIATE(std::int32_t);
+GALE_INSTANTIATE(std::int64_t);
+#undef GALE_INSTANTIATE
 
 }  // namespace gale::detail

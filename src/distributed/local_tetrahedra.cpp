@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,15 +11,28 @@ namespace gale::detail {
 
 namespace {
 
-/// The least id that occurs more than once.
-GlobalId repeated(const GlobalIds& ids) {
-  std::vector<GlobalId> sorted(ids.data(), ids.data() + ids.extent(0));
-  std::sort(sorted.begin(), sorted.end());
-  return *std::adjacent_find(sorted.begin(), sorted.end());
+/// The places 0..count-1 but for those that are dropped, which ascend; none if none is.
+Array<Id, HostMemory> all_but(const std::vector<Id>& dropped, Offset count) {
+  if (dropped.empty()) return {};
+  const auto kept =
+      allocate<Array<Id, HostMemory>>("GALE::kept_tetrahedra", count - static_cast<Offset>(dropped.size()));
+  for_parts("GALE::kept_tetrahedra", count, threads_for(count), [&](int, Offset first, Offset last) {
+    auto next = std::lower_bound(dropped.begin(), dropped.end(), static_cast<Id>(first));
+    for (Offset t = first; t < last; ++t) {
+      if (next != dropped.end() && *next == t) {
+        ++next;
+      } else {
+        kept(t - (next - dropped.begin())) = static_cast<Id>(t);
+      }
+    }
+  });
+  return kept;
 }
 
-[[noreturn]] void refuse_repeated(GlobalId id) {
-  throw Error("tetrahedron " + std::to_string(id) + " is handed over twice");
+GlobalIds ids_of(const Dealt<SentTetrahedron>& some) {
+  const auto ids = allocate<GlobalIds>("GALE::received_ids", some.count());
+  parallel_for("GALE::received_ids", HostSpace(), some.count(), [&](Offset i) { ids(i) = some.entries(i).id; });
+  return ids;
 }
 
 }  // namespace
@@ -42,17 +54,19 @@ LocalTetrahedra<Index>::LocalTetrahedra(const Communicator& ranks, const MeshPar
   std::vector<Id> outer;
   together(ranks, [&] { outer = tetrahedra_beyond(part, own); });
   Dealt<SentTetrahedron> sent;
-  choose(ranks, directory, outer, first_id, sent);
+  const KeptTetrahedra kept = choose(ranks, directory, outer, first_id, sent);
   received_ = exchange(ranks, "GALE::received_tetrahedra", sent);
-  require_local(ranks, "tetrahedra", kept_count_ + received_.count(), most_local);
-  together(ranks, [&] { merge(first_id); });
+  require_local(ranks, "tetrahedra", kept.count + received_.count(), most_local);
+  together(ranks, [&] { places_ = TetrahedronPlaces(kept, ids_of(received_)); });
 }
 
 /// Of those with vertices outside `own`: which are kept, and which go to others.
 template <class Index>
-void LocalTetrahedra<Index>::choose(const Communicator& ranks, const VertexDirectory& directory,
-                                    const std::vector<Id>& outer, GlobalId first_id, Dealt<SentTetrahedron>& sent) {
+KeptTetrahedra LocalTetrahedra<Index>::choose(const Communicator& ranks, const VertexDirectory& directory,
+                                              const std::vector<Id>& outer, GlobalId first_id,
+                                              Dealt<SentTetrahedron>& sent) {
   const CornerOwners<Index> owners(ranks, part_, directory, own_, outer);
+  KeptTetrahedra all_kept;
   together(ranks, [&] {
     const int here = ranks.rank();
     const ByRank groups = by_rank(ranks.size(), static_cast<Offset>(outer.size()),
@@ -65,85 +79,22 @@ void LocalTetrahedra<Index>::choose(const Communicator& ranks, const VertexDirec
                  [&](Offset i) { outer_[i] = outer[groups.members(kept_from + i)]; });
     std::vector<Id> dropped;
     std::set_difference(outer.begin(), outer.end(), outer_.begin(), outer_.end(), std::back_inserter(dropped));
-    keep_all_but(dropped);
+    const Offset count = part_.tetrahedra.extent(0);
+    all_kept = {count - static_cast<Offset>(dropped.size()), all_but(dropped, count), part_.tetrahedron_ids, first_id};
     sent = dealt<SentTetrahedron>("GALE::sent_tetrahedra", counts);
     parallel_for("GALE::sent_tetrahedra", HostSpace(), sent.count(), [&](Offset i) {
       const Id t = outer[groups.members(i < kept_from ? i : i + kept)];
       SentTetrahedron& tetrahedron = sent.entries(i);
-      tetrahedron.id = part_.tetrahedron_ids.extent(0) == 0 ? first_id + t : part_.tetrahedron_ids(t);
+      tetrahedron.id = all_kept.id_at(t);
       for (int corner = 0; corner < 4; ++corner) tetrahedron.vertices[corner] = part_.tetrahedra(t, corner);
     });
   });
-}
-
-/// `dropped` ascends.
-template <class Index>
-void LocalTetrahedra<Index>::keep_all_but(const std::vector<Id>& dropped) {
-  const Offset count = part_.tetrahedra.extent(0);
-  kept_count_ = count - static_cast<Offset>(dropped.size());
-  if (dropped.empty() || kept_count_ == 0) return;
-  kept_ = allocate<Array<Id, HostMemory>>("GALE::kept_tetrahedra", kept_count_);
-  for_parts("GALE::kept_tetrahedra", count, threads_for(count), [&](int, Offset first, Offset last) {
-    auto next = std::lower_bound(dropped.begin(), dropped.end(), static_cast<Id>(first));
-    for (Offset t = first; t < last; ++t) {
-      if (next != dropped.end() && *next == t) {
-        ++next;
-      } else {
-        kept_(t - (next - dropped.begin())) = static_cast<Id>(t);
-      }
-    }
-  });
-}
-
-/// Puts them in the order of ids: those that are kept have it mostly, and the others are few.
-template <class Index>
-void LocalTetrahedra<Index>::merge(GlobalId first_id) {
-  const Offset descents = reduce_sum("GALE::count_descents", HostSpace(), kept_count_, [&](Offset k) {
-    return Offset(k > 0 && kept_id(k, first_id) <= kept_id(k - 1, first_id));
-  });
-  if (descents > 0) return sort(first_id);
-  const Offset received = received_.count();
-  std::vector<Id> by_id(received);
-  std::iota(by_id.begin(), by_id.end(), Id(0));
-  std::sort(by_id.begin(), by_id.end(), [&](Id a, Id b) { return received_.entries(a).id < received_.entries(b).id; });
-  before_received_.resize(received);
-  received_places_.resize(received);
-  ids_ = allocate<GlobalIds>("GALE::tetrahedron_ids", kept_count_ + received);
-  Offset before = 0;
-  for (Offset r = 0; r < received; ++r) {
-    const GlobalId id = received_.entries(by_id[r]).id;
-    for (Offset end = kept_count_; before < end;) {  // to the first kept one that isn't below it
-      const Offset middle = before + (end - before) / 2;
-      const bool is_below = kept_id(middle, first_id) < id;
-      before = is_below ? middle + 1 : before;
-      end = is_below ? end : middle;
-    }
-    if ((before < kept_count_ && kept_id(before, first_id) == id) ||
-        (r > 0 && received_.entries(by_id[r - 1]).id == id))
-      refuse_repeated(id);
-    before_received_[r] = before;
-    received_places_[by_id[r]] = before + r;
-    ids_(before + r) = id;
-  }
-  for_each_kept("GALE::tetrahedron_ids", [&](Offset i, Offset k) { ids_(i) = kept_id(k, first_id); });
+  return all_kept;
 }
 
 template <class Index>
-void LocalTetrahedra<Index>::sort(GlobalId first_id) {
-  const Offset count = kept_count_ + received_.count();
-  const auto ids = allocate<GlobalIds>("GALE::tetrahedron_ids", count);
-  parallel_for("GALE::tetrahedron_ids", HostSpace(), count, [&](Offset i) {
-    ids(i) = i < kept_count_ ? kept_id(i, first_id) : received_.entries(i - kept_count_).id;
-  });
-  const DistinctIds sorted = distinct_ids(ids);
-  if (static_cast<Offset>(sorted.ids.extent(0)) < count) refuse_repeated(repeated(ids));
-  ids_ = sorted.ids;
-  places_ = sorted.places;
-}
-
-template <class Index>
-GlobalIds LocalTetrahedra<Index>::vertices_beside(const GlobalIds& owned) const {
-  const GlobalIndex index(own_.is_empty() ? owned : GlobalIds());
+GlobalIds LocalTetrahedra<Index>::vertices_beside(const OwnedIds& owned) const {
+  const GlobalIndex index(owned.ids);
   const auto outer = static_cast<Offset>(outer_.size());
   return missing_ids(index, outer + received_.count(), [&](Offset i, const auto& offer) {
     for (int corner = 0; corner < 4; ++corner) {

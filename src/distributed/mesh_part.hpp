@@ -4,6 +4,7 @@
 
 #include <gale/base/error.hpp>
 #include <gale/base/transfer.hpp>
+#include <gale/distributed/host_points.hpp>
 #include <gale/mesh/caller_views.hpp>
 #include <gale/mesh/mesh.hpp>
 
@@ -16,18 +17,19 @@ namespace gale {
 template <class Index>
 struct MeshPart {
   Array<const GlobalId, HostMemory> vertex_ids;       ///< global ids, in any order, 0 or more; they may have gaps
-  Points<double, HostMemory> points;                  ///< where each of these is
+  HostPoints points;                                  ///< where each of these is, in float or double
   Tetrahedra<Index, HostMemory> tetrahedra;           ///< four global ids each, of vertices that any ranks hand over
   Array<const GlobalId, HostMemory> tetrahedron_ids;  ///< 0 or more, all different; none: counted from rank to rank
 };
 
 namespace detail {
 
-/// A caller's ids as GALE reads them.
+/// A caller's ids as GALE reads them: the same memory if they are that already, else a copy.
 template <class View>
 Array<const GlobalId, HostMemory> global_ids(const View& view) {
   static_assert(View::rank == 1, "a global id for each");
   const auto here = on_host(view);
+  if constexpr (std::is_convertible_v<decltype(here), Array<const GlobalId, HostMemory>>) return here;
   const auto ids = allocate<Array<GlobalId, HostMemory>>("GALE::global_ids", here.extent(0));
   parallel_for("GALE::global_ids", HostSpace(), here.extent(0),
                [&](Offset i) { ids(i) = static_cast<GlobalId>(here(i)); });
@@ -37,26 +39,21 @@ Array<const GlobalId, HostMemory> global_ids(const View& view) {
 }  // namespace detail
 
 /// The part that a caller has in Views: a global id and 3 coordinates for each vertex, 4 global ids for each
-/// tetrahedron. Of any integer and floating-point types, in host memory or a device's, in any layout. Host Views of
-/// tetrahedra that are laid out as GALE reads them aren't copied, and must live as long as the part; all else is.
-/// Throws gale::Error if extents don't fit.
+/// tetrahedron. Of any integer and floating-point types, in host memory or a device's, in any layout. Host Views that
+/// are laid out as GALE reads them (64-bit ids, rows of float or double, of 32-bit or 64-bit integers) aren't copied:
+/// those of ids and tetrahedra must live as long as the part, those of points, and of tetrahedra's ids, as long as the
+/// mesh. Views that Kokkos manages do so by themselves. Throws gale::Error if extents don't fit.
 template <class IdView, class PointView, class TetrahedronView>
 auto make_part(const IdView& vertex_ids, const PointView& points, const TetrahedronView& tetrahedra) {
   const auto rows = detail::rows_of<4, detail::IndexFor>("tetrahedra", tetrahedra);
   using Index = typename decltype(rows)::non_const_value_type;
   MeshPart<Index> part;
   part.vertex_ids = detail::global_ids(vertex_ids);
-  const auto coordinates = on_host(detail::rows_of<3, detail::CoordinateFor>("points", points));
-  const auto copy =
-      allocate<Kokkos::View<double* [3], Kokkos::LayoutRight, HostMemory>>("GALE::part_points", coordinates.extent(0));
-  parallel_for("GALE::part_points", HostSpace(), coordinates.extent(0), [&](Offset i) {
-    for (int axis = 0; axis < 3; ++axis) copy(i, axis) = coordinates(i, axis);
-  });
-  part.points = copy;
+  part.points = on_host(detail::rows_of<3, detail::CoordinateFor>("points", points));
   part.tetrahedra = on_host(rows);
-  if (part.vertex_ids.extent(0) != part.points.extent(0)) {
+  if (static_cast<Offset>(part.vertex_ids.extent(0)) != part.points.count()) {
     throw Error("there are " + std::to_string(part.vertex_ids.extent(0)) + " vertex ids, but " +
-                std::to_string(part.points.extent(0)) + " points");
+                std::to_string(part.points.count()) + " points");
   }
   return part;
 }

@@ -17,6 +17,21 @@ Offset first_given(const GivenIntervals& given, int rank) {
   return count;
 }
 
+/// What it owns, where each vertex belongs to the lowest rank that hands it over.
+OwnedIds owned_of(const GivenIntervals& given, int rank) {
+  std::vector<IdInterval> intervals;
+  given.visit_first_givers_of(rank, [&](const IdInterval& some) { intervals.push_back(some); });
+  if (intervals.size() == 1) return OwnedIds(intervals.front());
+  const auto ids = allocate<GlobalIds>("GALE::owned_ids", first_given(given, rank));
+  Offset from = 0;
+  for (const IdInterval& some : intervals) {
+    parallel_for("GALE::owned_ids", HostSpace(), some.end - some.begin,
+                 [&](Offset i) { ids(from + i) = some.begin + i; });
+    from += some.end - some.begin;
+  }
+  return OwnedIds(ids);
+}
+
 VertexEntry entry_of(const GivenIntervals& given, GlobalId id) {
   const int giver = given.giver(id);
   if (giver < 0) return {};
@@ -52,25 +67,17 @@ Array<VertexEntry, HostMemory> VertexDirectory::find(const Array<const GlobalId,
   return found;
 }
 
-GlobalIds VertexDirectory::owned() const {
-  GlobalIds owned;
+OwnedIds VertexDirectory::owned() const {
+  OwnedIds owned;
   if (given_) {
-    together(ranks_, [&] {
-      owned = allocate<GlobalIds>("GALE::owned_ids", first_given(*given_, ranks_.rank()));
-      Offset from = 0;
-      given_->visit_first_givers_of(ranks_.rank(), [&](const IdInterval& ids) {
-        parallel_for("GALE::owned_ids", HostSpace(), ids.end - ids.begin,
-                     [&](Offset i) { owned(from + i) = ids.begin + i; });
-        from += ids.end - ids.begin;
-      });
-    });
+    together(ranks_, [&] { owned = owned_of(*given_, ranks_.rank()); });
     return owned;
   }
   const auto told = deal<GlobalId>(
       ranks_, "GALE::told_ids", table_.count(), [&](Id i) { return table_.entry(i).owner; },
       [&](Id i) { return table_.id(i); });
   const auto received = exchange(ranks_, "GALE::owned_ids", told);
-  together(ranks_, [&] { owned = distinct_ids(received.entries).ids; });
+  together(ranks_, [&] { owned = OwnedIds(distinct_ids(received.entries).ids); });
   return owned;
 }
 

@@ -31,8 +31,11 @@ class VertexDirectory {
   /// The entries of any vertices.
   Array<VertexEntry, HostMemory> find(const Array<const GlobalId, HostMemory>& ids) const;
 
-  /// The vertices that this rank owns, ascending.
-  GlobalIds owned() const;
+  /// The vertices that this rank owns.
+  OwnedIds owned() const;
+
+  /// What the ranks hand over, where these are intervals: then each vertex comes from the rank that owns it.
+  const std::optional<GivenIntervals>& given() const { return given_; }
 
  private:
   Communicator ranks_;

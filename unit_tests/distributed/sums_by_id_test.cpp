@@ -79,9 +79,12 @@ TEST(VertexDirectory, of_intervals_says_what_that_of_any_ids_says) {
     Kokkos::deep_copy(owners, ranks.rank());
     const detail::VertexDirectory by_intervals(ranks, *given), by_homes(ranks, to_ids(handed), owners);
     EXPECT_EQ(by_intervals.vertices(), by_homes.vertices());
-    const auto owned = by_intervals.owned(), expected = by_homes.owned();
-    ASSERT_EQ(owned.extent(0), expected.extent(0));
-    for (std::size_t i = 0; i < owned.extent(0); ++i) EXPECT_EQ(owned(i), expected(i));
+    const detail::OwnedIds owned = by_intervals.owned(), expected = by_homes.owned();
+    ASSERT_EQ(owned.count(), expected.count());
+    EXPECT_EQ(owned.interval.begin, expected.interval.begin);
+    EXPECT_EQ(owned.interval.end, expected.interval.end);
+    ASSERT_EQ(owned.ids.extent(0), expected.ids.extent(0));
+    for (std::size_t i = 0; i < owned.ids.extent(0); ++i) EXPECT_EQ(owned.ids(i), expected.ids(i));
     const auto found = by_intervals.find(to_ids(asked)), said = by_homes.find(to_ids(asked));
     for (std::size_t i = 0; i < asked.size(); ++i) {
       EXPECT_EQ(found(i).giver, said(i).giver) << asked[i];

@@ -48,7 +48,7 @@ GlobalIds places_of_maxima(const DistributedGradient& gradient) {
   const auto& maxima = gradient.local.critical().tetrahedra;
   const Array<detail::SimplexKey, HostMemory> keys("GALE::maxima", maxima.size());
   const auto& input = gradient.mesh.local().tetrahedron_input();
-  for (std::size_t i = 0; i < maxima.size(); ++i) keys(i) = {gradient.mesh.tetrahedron_ids()(input(maxima[i])), 0, 0};
+  for (std::size_t i = 0; i < maxima.size(); ++i) keys(i) = {gradient.mesh.tetrahedron_id(input(maxima[i])), 0, 0};
   return detail::places_of_keys(gradient.mesh.ranks(), keys).places;
 }
 
@@ -82,7 +82,7 @@ io::PointSet to_point_set(const FieldOnRanks& on, const DistributedGradient& gra
   cells.insert(cells.end(), numbers.triangles.begin(), numbers.triangles.begin() + critical.triangles.size());
   cells.insert(cells.end(), critical.tetrahedra.begin(), critical.tetrahedra.end());
   for (const auto& some : known) {
-    for (const auto& simplex : some) highest.push_back(on.mesh.vertex_ids()(simplex.highest()));
+    for (const auto& simplex : some) highest.push_back(on.mesh.vertex_id(simplex.highest()));
   }
   replace(set, "CellId", std::move(cells));
   replace(set, "ttkVertexScalarField", std::move(highest));

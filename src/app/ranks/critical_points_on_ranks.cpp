@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include <gale/app/critical_counts.hpp>
 #include <gale/app/ranks/rank_session.hpp>
 #include <gale/app/ranks/ranks.hpp>
@@ -12,10 +10,8 @@ namespace {
 
 /// This rank's, with the arrays that outputs::to_point_set gives them; ids have 64 bits.
 io::PointSet to_point_set(const FieldOnRanks& on, const DistributedCriticalPoints& found) {
-  const auto& ids = on.mesh.vertex_ids();
   std::vector<Id> at;
-  for (const GlobalId id : found.vertices)
-    at.push_back(static_cast<Id>(std::lower_bound(ids.data(), ids.data() + ids.extent(0), id) - ids.data()));
+  for (const GlobalId id : found.vertices) at.push_back(on.mesh.vertex_of(id));
   io::PointSet set;
   std::visit(
       [&](const auto& all) {

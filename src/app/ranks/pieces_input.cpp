@@ -216,7 +216,7 @@ void require_permutation(const DistributedMesh& mesh, const io::PointArray& orde
     for (std::size_t v = 0; v < keys.extent(0); ++v) {
       const double value = outputs::value_at(order, input[v]);
       if (!(value >= 0 && value < count) || value != static_cast<double>(static_cast<GlobalId>(value)))
-        refuse(mesh.vertex_ids()(input[v]), value);
+        refuse(mesh.vertex_id(input[v]), value);
       keys(v) = {static_cast<GlobalId>(value), 0, 0};
     }
   });

@@ -35,8 +35,7 @@ std::vector<End> ends_of(const FieldOnRanks& on, const std::vector<outputs::Crit
   const auto height = [&](Id vertex) {
     return std::visit(
         [&](const auto& order) -> Height {
-          return {detail::ordered_bits(order[vertex]), on.mesh.vertex_ids()(vertex),
-                  outputs::value_at(on.field, vertex)};
+          return {detail::ordered_bits(order[vertex]), on.mesh.vertex_id(vertex), outputs::value_at(on.field, vertex)};
         },
         on.order_from.values);
   };

@@ -116,7 +116,7 @@ io::PointArray local_values(const DistributedMesh& mesh, const io::PointArray& a
       [&](const auto& values) -> io::PointArray {
         using Values = std::decay_t<decltype(values)>;
         using Value = typename Values::value_type;
-        const std::size_t count = mesh.vertex_ids().extent(0), width = array.components;
+        const std::size_t count = mesh.local().vertices(), width = array.components;
         Values all(count * width);
         std::vector<Value> from(mesh.given_vertices()), to(count);
         for (std::size_t component = 0; component < width; ++component) {

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <utility>
+#include <variant>
+
+#include <gale/base/parallel.hpp>
+#include <gale/mesh/segmentation.hpp>
+
+namespace gale {
+
+/// Where points are, on the host, in the precision that a caller has them in.
+class HostPoints {
+ public:
+  HostPoints() = default;
+  HostPoints(const Points<float, HostMemory>& points) : points_(points) {}
+  HostPoints(const Points<double, HostMemory>& points) : points_(points) {}
+
+  /// f(points), which have float or double coordinates.
+  template <class F>
+  auto visit(const F& f) const {
+    return std::visit(f, points_);
+  }
+
+  Offset count() const {
+    return visit([](const auto& points) { return static_cast<Offset>(points.extent(0)); });
+  }
+
+  /// Points begin to begin + count - 1, which share this memory.
+  HostPoints part(Offset begin, Offset count) const {
+    return visit([&](const auto& points) {
+      return HostPoints(
+          std::decay_t<decltype(points)>(Kokkos::subview(points, std::make_pair(begin, begin + count), Kokkos::ALL())));
+    });
+  }
+
+  /// As doubles: this memory if they are so already, else a copy.
+  Points<double, HostMemory> in_double() const {
+    if (const auto* points = std::get_if<Points<double, HostMemory>>(&points_)) return *points;
+    const auto copy = allocate<Kokkos::View<double* [3], Kokkos::LayoutRight, HostMemory>>("GALE::points", count());
+    visit([&](const auto& points) {
+      parallel_for("GALE::points", HostSpace(), count(), [&](Offset i) {
+        for (int axis = 0; axis < 3; ++axis) copy(i, axis) = points(i, axis);
+      });
+    });
+    return copy;
+  }
+
+ private:
+  std::variant<Points<float, HostMemory>, Points<double, HostMemory>> points_;
+};
+
+}  // namespace gale
