@@ -1,10 +1,17 @@
+#include <algorithm>
+
 #include <gale/distributed/corner_owners.hpp>
+#include <gale/distributed/index_interval.hpp>
 
 namespace gale::detail {
 
 namespace {
 
-[[noreturn]] void refuse(const GlobalId* quad) {
+/// Throws for a tetrahedron that is none.
+template <class Index>
+void require_tetrahedron(const Index* quad) {
+  const Index a = quad[0], b = quad[1], c = quad[2], d = quad[3];
+  if (a != b && a != c && a != d && b != c && b != d && c != d && a >= 0 && b >= 0 && c >= 0 && d >= 0) return;
   std::string vertices;
   for (int corner = 0; corner < 4; ++corner) vertices += ' ' + std::to_string(quad[corner]);
   throw Error("the tetrahedron of vertices" + vertices + " is none: they must be different, and 0 or more");
@@ -14,33 +21,31 @@ namespace {
 
 template <class Index>
 std::vector<Id> tetrahedra_beyond(const MeshPart<Index>& part, const IdInterval& own) {
+  constexpr Offset block = 64;
   const Offset count = part.tetrahedra.extent(0);
+  const Index* const corners = part.tetrahedra.data();
+  const IndexInterval<Index> inner(own);
   const int parts = threads_for(count);
   std::vector<std::vector<Id>> of_parts(parts);
-  std::vector<Offset> bad(parts, count);
-  for_parts("GALE::validate_part", count, parts, [&](int some, Offset first, Offset last) {
-    std::vector<Id>& found = of_parts[some];
-    for (Offset t = first; t < last; ++t) {
-      const Index a = part.tetrahedra(t, 0), b = part.tetrahedra(t, 1), c = part.tetrahedra(t, 2),
-                  d = part.tetrahedra(t, 3);
-      const bool is_none = a == b || a == c || a == d || b == c || b == d || c == d || a < 0 || b < 0 || c < 0 || d < 0;
-      if (is_none) {
-        bad[some] = t;
-        return;
+  for_parts("GALE::outer_tetrahedra", count, parts, [&](int some, Offset first, Offset last) {
+    for (Offset begin = first; begin < last; begin += block) {
+      const Offset end = std::min(begin + block, last);
+      if (inner.contains(corners + 4 * begin, 4 * (end - begin))) continue;
+      for (Offset t = begin; t < end; ++t) {
+        if (inner.contains(corners + 4 * t, 4)) continue;
+        require_tetrahedron(corners + 4 * t);
+        of_parts[some].push_back(static_cast<Id>(t));
       }
-      if (!own.contains(a) || !own.contains(b) || !own.contains(c) || !own.contains(d))
-        found.push_back(static_cast<Id>(t));
     }
   });
-  for (const Offset t : bad) {
-    if (t == count) continue;
-    const GlobalId quad[4] = {part.tetrahedra(t, 0), part.tetrahedra(t, 1), part.tetrahedra(t, 2),
-                              part.tetrahedra(t, 3)};
-    refuse(quad);
-  }
   std::vector<Id> all;
   for (const auto& some : of_parts) all.insert(all.end(), some.begin(), some.end());
   return all;
+}
+
+template <class Index>
+void require_tetrahedra(const MeshPart<Index>& part) {
+  for (std::size_t t = 0; t < part.tetrahedra.extent(0); ++t) require_tetrahedron(part.tetrahedra.data() + 4 * t);
 }
 
 template <class Index>
@@ -73,6 +78,7 @@ void CornerOwners<Index>::refuse_unknown() const {
 
 #define GALE_INSTANTIATE(Index)                                                              \
   template std::vector<Id> tetrahedra_beyond(const MeshPart<Index>&, const IdInterval& own); \
+  template void require_tetrahedra(const MeshPart<Index>&);                                  \
   template class CornerOwners<Index>
 GALE_INSTANTIATE(std::int32_t);
 GALE_INSTANTIATE(std::int64_t);

@@ -8,10 +8,14 @@
 
 namespace gale::detail {
 
-/// The tetrahedra of a part with vertices outside `own`: their places in it, ascending. Throws gale::Error for one
-/// whose vertices are below 0 or not different.
+/// The tetrahedra of a part with vertices outside `own`: their places in it, ascending. Throws gale::Error for one of
+/// these whose vertices are below 0 or not different.
 template <class Index>
 std::vector<Id> tetrahedra_beyond(const MeshPart<Index>& part, const IdInterval& own);
+
+/// Throws gale::Error for the first tetrahedron whose vertices are below 0 or not different.
+template <class Index>
+void require_tetrahedra(const MeshPart<Index>& part);
 
 /// The ranks that own the vertices of some tetrahedra of a part.
 template <class Index>

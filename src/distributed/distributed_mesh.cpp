@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <future>
 #include <string>
 
 #include <gale/base/require_ids.hpp>
@@ -8,18 +9,10 @@
 #include <gale/distributed/local_mesh.hpp>
 #include <gale/distributed/local_vertices.hpp>
 #include <gale/distributed/on_demand.hpp>
+#include <gale/distributed/own_and_ghosts.hpp>
 #include <gale/mesh/morton_codes.hpp>
 
 namespace gale {
-
-namespace detail {
-
-/// Where what a rank holds is: what it owns, and its ghosts.
-struct OwnAndGhosts {
-  HostPoints owned, ghosts;
-};
-
-}  // namespace detail
 
 namespace {
 
@@ -38,7 +31,7 @@ void validate(const MeshPart<Index>& part) {
   require_no_negative(part.vertex_ids);
   require_no_negative(part.tetrahedron_ids);
   part.points.visit([](const auto& rows) {
-    detail::bounding_box<typename std::decay_t<decltype(rows)>::non_const_value_type>(HostSpace(), rows);
+    detail::require_finite<typename std::decay_t<decltype(rows)>::non_const_value_type>(HostSpace(), rows);
   });
 }
 
@@ -67,38 +60,6 @@ bool is_numbered_as_local(const MeshPart<Index>& part) {
     return Offset(tetrahedra(i) <= (i == 0 ? -1 : tetrahedra(i - 1)));
   });
   return gaps == 0 && descents == 0;
-}
-
-/// A point on its way to another rank.
-struct SentPoint {
-  double coordinates[3];
-};
-using PointRows = Kokkos::View<double* [3], Kokkos::LayoutRight, HostMemory>;
-
-/// Some of the points.
-template <class Place>
-Points<double, HostMemory> gathered(const PointRows& points, Offset count, const Place& place) {
-  const auto some = allocate<PointRows>("GALE::some_points", count);
-  parallel_for("GALE::some_points", HostSpace(), count, [&](Offset i) {
-    for (int axis = 0; axis < 3; ++axis) some(i, axis) = points(place(i), axis);
-  });
-  return some;
-}
-
-/// All of them by local input ids.
-Points<double, HostMemory> by_id(const detail::LocalVertices& vertices, const detail::OwnAndGhosts& points) {
-  if (vertices.ghost_count() == 0) return points.owned.in_double();
-  const auto all = allocate<PointRows>("GALE::local_points", vertices.count());
-  const auto put = [&](const HostPoints& some, const auto& place) {
-    some.visit([&](const auto& rows) {
-      parallel_for("GALE::local_points", HostSpace(), some.count(), [&](Offset i) {
-        for (int axis = 0; axis < 3; ++axis) all(place(i), axis) = rows(i, axis);
-      });
-    });
-  };
-  put(points.owned, [&](Offset i) { return vertices.owned(i); });
-  put(points.ghosts, [&](Offset i) { return vertices.ghost(i); });
-  return all;
 }
 
 }  // namespace
@@ -175,27 +136,12 @@ detail::OwnAndGhosts DistributedMesh::Data::share(const detail::VertexDirectory&
       ranks, {}, ghosts, [&](Id i) { return ghost_owners(i); }, [&](Id i) { return held.ghosts()(i); },
       [&](GlobalId id) { return held.find(id); });
   const auto fetched = given.visit([&](const auto& rows) {
-    return from_givers.fetch<SentPoint>(ranks, [&](Id at) {
-      return SentPoint{{rows(at, 0), rows(at, 1), rows(at, 2)}};
+    return from_givers.fetch<detail::SentPoint>(ranks, [&](Id at) {
+      return detail::SentPoint{{rows(at, 0), rows(at, 1), rows(at, 2)}};
     });
   });
   detail::OwnAndGhosts all;
-  detail::together(ranks, [&] {
-    const auto rows = allocate<PointRows>("GALE::local_points", slots.extent(0));
-    if (in_place) {
-      parallel_for("GALE::ghost_points", HostSpace(), fetched.count(), [&](Offset k) {
-        const Offset to = held.ghost_number(from_givers.slots()(k));
-        for (int axis = 0; axis < 3; ++axis) rows(to, axis) = fetched.entries(k).coordinates[axis];
-      });
-      all = {given.part(run.place, run.count), Points<double, HostMemory>(rows)};
-    } else {
-      const Points<double, HostMemory> mine = given.in_double();
-      from_givers.place(HostSpace(), reinterpret_cast<const SentPoint*>(mine.data()), fetched,
-                        reinterpret_cast<SentPoint*>(rows.data()));
-      all = {gathered(rows, held.owned_count(), [&](Offset i) { return held.owned(i); }),
-             gathered(rows, held.ghost_count(), [&](Offset i) { return held.ghost(i); })};
-    }
-  });
+  detail::together(ranks, [&] { all = detail::own_and_ghosts(held, given, run, from_givers, fetched); });
   return all;
 }
 
@@ -205,6 +151,17 @@ void DistributedMesh::Data::deal(const MeshPart<Index>& part, const PartitionOpt
   detail::together(ranks, [&] { validate(part); });
   const detail::VertexDirectory directory = directory_of(ranks, part, options.repartition);
   const detail::OwnedIds owned = directory.owned();
+  // What a rank owns as it hands it over gets its segments on a device while tetrahedra travel.
+  const bool in_place = directory.given() && !owned.interval.is_empty();
+  std::future<Segmentation> segments;
+  if (have_device && in_place) {
+    const Offset place = owned.interval.begin - directory.given()->of(ranks.rank()).begin;
+    segments =
+        std::async(std::launch::async | std::launch::deferred, [&, some = part.points.part(place, owned.count())] {
+          const ThreadLimit few(std::max(host_threads() / 4, 1));
+          return detail::octree_of(some, options.capacity);
+        });
+  }
   const detail::LocalTetrahedra<Index> held_tetrahedra(ranks, part, directory, owned.interval, options.most_local);
   detail::together(ranks, [&] { held = detail::LocalVertices(owned, held_tetrahedra.vertices_beside(owned)); });
   detail::require_local(ranks, "vertices", held.count(), options.most_local);
@@ -213,10 +170,12 @@ void DistributedMesh::Data::deal(const MeshPart<Index>& part, const PartitionOpt
   if (tetrahedra == 0) throw SharedError("the mesh has no tetrahedra");
   places = held_tetrahedra.places();
   const detail::OwnAndGhosts shared = share(directory, part.points);
-  points.made_by([this, shared] { return by_id(held, shared); });
+  points.made_by([this, shared] { return shared.by_id(held); });
   detail::together(ranks, [&] {
     if (options.keep_corners) corners = detail::local_corners(held_tetrahedra, held);
-    const Segmentation segmentation = detail::local_segmentation(held, shared.owned, shared.ghosts, options.capacity);
+    const Segmentation segmentation = detail::local_segmentation(
+        held, segments.valid() ? segments.get() : detail::octree_of(shared.owned, options.capacity),
+        detail::octree_of(shared.ghosts, options.capacity));
     local = std::make_unique<const Mesh>(detail::local_mesh(held_tetrahedra, held, segmentation));
   });
 }

@@ -40,6 +40,24 @@ DistinctIds distinct_ids(const Array<const GlobalId, HostMemory>& ids) {
   return without_repetitions(sorted, places);
 }
 
+void keep_distinct(std::vector<GlobalId>& ids) {
+  if (ids.empty()) return;
+  const auto [least, greatest] = std::minmax_element(ids.begin(), ids.end());
+  const GlobalId first = *least, span = *greatest - first + 1;
+  constexpr std::size_t flags_an_id = 16;
+  if (static_cast<std::size_t>(span) > flags_an_id * ids.size()) {
+    std::sort(ids.begin(), ids.end());
+    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+    return;
+  }
+  std::vector<std::uint8_t> is_there(span, 0);
+  for (const GlobalId id : ids) is_there[id - first] = 1;
+  ids.clear();
+  for (GlobalId i = 0; i < span; ++i) {
+    if (is_there[i] != 0) ids.push_back(first + i);
+  }
+}
+
 GlobalIndex::GlobalIndex(const Array<const GlobalId, HostMemory>& ascending) : ids_(ascending) {
   constexpr Offset entries_an_id = 4;
   const Offset count = ids_.extent(0);

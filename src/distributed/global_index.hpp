@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include <gale/base/parallel.hpp>
@@ -17,6 +18,9 @@ struct DistinctIds {
 
 /// On all host threads. O(n) if they ascend already, else a sort. Ids are 0 or more.
 GALE_EXPORT DistinctIds distinct_ids(const Array<const GlobalId, HostMemory>& ids);
+
+/// Sorts ids, and drops those that repeat others. O(n) where they lie densely.
+GALE_EXPORT void keep_distinct(std::vector<GlobalId>& ids);
 
 /// Finds the places of global ids among some that ascend: by a table where they lie so densely that it takes no more
 /// than 16 bytes an id, else by bisection.
@@ -56,10 +60,14 @@ GlobalIds missing_ids(const GlobalIndex& index, Offset n, const Visit& visit) {
         if (index.find(id) == no_id) of_parts[part].push_back(id);
       });
     }
+    keep_distinct(of_parts[part]);
   });
   std::vector<GlobalId> all;
   for (const auto& some : of_parts) all.insert(all.end(), some.begin(), some.end());
-  return distinct_ids(Array<const GlobalId, HostMemory>(all.data(), all.size())).ids;
+  keep_distinct(all);
+  const auto missing = allocate<GlobalIds>("GALE::missing_ids", all.size());
+  std::copy(all.begin(), all.end(), missing.data());
+  return missing;
 }
 
 }  // namespace gale::detail

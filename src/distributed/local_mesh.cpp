@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <gale/base/worker_or_host.hpp>
+#include <gale/distributed/index_interval.hpp>
 #include <gale/distributed/local_mesh.hpp>
 
 namespace gale::detail {
@@ -29,10 +30,6 @@ void refuse_twins(const Quads& tetrahedra, const TetrahedronPlaces& places) {
     throw Error("tetrahedra " + std::to_string(all[t - 1].second) + " and " + std::to_string(all[t].second) +
                 " have the same four vertices");
   }
-}
-
-Segmentation octree_of(const HostPoints& points, int capacity) {
-  return points.visit([&](const auto& rows) { return octree_segmentation(rows, capacity); });
 }
 
 /// The local input ids of some of a rank's vertices; an interval of them where there is no array.
@@ -72,12 +69,23 @@ Mirrored<Id> joined(const Space& space, const LocalVertices& vertices, const Mir
   return all;
 }
 
-/// Writes the corners of tetrahedra first..last-1 from `to` on.
+/// Writes the local input ids of the vertices of tetrahedra first..last-1 from `to` on.
 template <class Index>
 void write_corners(const LocalTetrahedra<Index>& tetrahedra, const LocalVertices& vertices, Offset first, Offset last,
                    Id* to) {
-  tetrahedra.visit(first, last, [&](Offset, const auto& vertex_of) {
-    for (int corner = 0; corner < 4; ++corner) *to++ = vertices.find(vertex_of(corner));
+  constexpr Offset block = 256;
+  const IndexInterval<Index> owned(vertices.interval());
+  const GlobalId shift = vertices.interval().is_empty() ? 0 : vertices.owned(0) - vertices.interval().begin;
+  tetrahedra.visit(first, last, [&](Offset, const Index* corners, Offset count) {
+    for (Offset begin = 0; begin < 4 * count; begin += block) {
+      const Offset size = std::min(block, 4 * count - begin);
+      if (owned.contains(corners + begin, size)) {
+        for (Offset k = 0; k < size; ++k) to[k] = static_cast<Id>(corners[begin + k] + shift);
+      } else {
+        for (Offset k = 0; k < size; ++k) to[k] = vertices.find(corners[begin + k]);
+      }
+      to += size;
+    }
   });
 }
 
@@ -103,18 +111,20 @@ CornersIn<MemoryOf<Space>> corners_in(const Space&, const LocalTetrahedra<Index>
 
 }  // namespace
 
-Segmentation local_segmentation(const LocalVertices& vertices, const HostPoints& owned, const HostPoints& ghosts,
-                                int capacity) {
-  const Segmentation inner = octree_of(owned, capacity), outer = octree_of(ghosts, capacity);
-  const Mirrored<Id> vertex_input = in_worker_or_host_space(inner.vertex_input.on_device(), [&](const auto& space) {
-    return joined(space, vertices, inner.vertex_input, outer.vertex_input);
+Segmentation octree_of(const HostPoints& points, int capacity) {
+  return points.visit([&](const auto& rows) { return octree_segmentation(rows, capacity); });
+}
+
+Segmentation local_segmentation(const LocalVertices& vertices, const Segmentation& owned, const Segmentation& ghosts) {
+  const Mirrored<Id> vertex_input = in_worker_or_host_space(owned.vertex_input.on_device(), [&](const auto& space) {
+    return joined(space, vertices, owned.vertex_input, ghosts.vertex_input);
   });
-  const Id segments = inner.segments() + outer.segments();
-  const auto vertex_begin = allocate<Array<Id, HostMemory>>("GALE::vertex_begin", segments + Offset(1));
-  const auto inner_begin = inner.vertex_begin.in<HostMemory>(), outer_begin = outer.vertex_begin.in<HostMemory>();
-  for (Id s = 0; s < inner.segments(); ++s) vertex_begin(s) = inner_begin(s);
-  for (Id s = 0; s <= outer.segments(); ++s) vertex_begin(inner.segments() + s) = inner.vertices() + outer_begin(s);
-  return {vertex_input, vertex_begin, inner.segments()};
+  const Id inner = owned.segments(), outer = ghosts.segments();
+  const auto vertex_begin = allocate<Array<Id, HostMemory>>("GALE::vertex_begin", inner + outer + Offset(1));
+  const auto inner_begin = owned.vertex_begin.in<HostMemory>(), outer_begin = ghosts.vertex_begin.in<HostMemory>();
+  for (Id s = 0; s < inner; ++s) vertex_begin(s) = inner_begin(s);
+  for (Id s = 0; s <= outer; ++s) vertex_begin(inner + s) = owned.vertices() + outer_begin(s);
+  return {vertex_input, vertex_begin, inner};
 }
 
 template <class Index>
@@ -133,6 +143,7 @@ Mesh local_mesh(const LocalTetrahedra<Index>& tetrahedra, const LocalVertices& v
   } catch (const OutOfMemory&) {
     throw;
   } catch (const Error&) {
+    tetrahedra.require_tetrahedra();
     refuse_twins(local_corners(tetrahedra, vertices), tetrahedra.places());
     throw;
   }

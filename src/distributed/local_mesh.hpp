@@ -5,10 +5,11 @@
 
 namespace gale::detail {
 
-/// The octree of the vertices that a rank owns, then that of its ghosts; by local input ids. Points are in the order of
-/// `vertices`' owned ones, and of its ghosts.
-Segmentation local_segmentation(const LocalVertices& vertices, const HostPoints& owned, const HostPoints& ghosts,
-                                int capacity);
+Segmentation octree_of(const HostPoints& points, int capacity);
+
+/// The segments of the vertices that a rank owns, then those of its ghosts, by local input ids. From segmentations by
+/// places among the owned ones, and among the ghosts.
+Segmentation local_segmentation(const LocalVertices& vertices, const Segmentation& owned, const Segmentation& ghosts);
 
 using Quads = Kokkos::View<Id* [4], Kokkos::LayoutRight, HostMemory>;
 

@@ -29,7 +29,8 @@ Array<Id, HostMemory> all_but(const std::vector<Id>& dropped, Offset count) {
   return kept;
 }
 
-GlobalIds ids_of(const Dealt<SentTetrahedron>& some) {
+template <class Index>
+GlobalIds ids_of(const Dealt<SentTetrahedron<Index>>& some) {
   const auto ids = allocate<GlobalIds>("GALE::received_ids", some.count());
   parallel_for("GALE::received_ids", HostSpace(), some.count(), [&](Offset i) { ids(i) = some.entries(i).id; });
   return ids;
@@ -53,7 +54,7 @@ LocalTetrahedra<Index>::LocalTetrahedra(const Communicator& ranks, const MeshPar
   const GlobalId first_id = ranks.sum_before(part.tetrahedra.extent(0));
   std::vector<Id> outer;
   together(ranks, [&] { outer = tetrahedra_beyond(part, own); });
-  Dealt<SentTetrahedron> sent;
+  Dealt<SentTetrahedron<Index>> sent;
   const KeptTetrahedra kept = choose(ranks, directory, outer, first_id, sent);
   received_ = exchange(ranks, "GALE::received_tetrahedra", sent);
   require_local(ranks, "tetrahedra", kept.count + received_.count(), most_local);
@@ -64,7 +65,7 @@ LocalTetrahedra<Index>::LocalTetrahedra(const Communicator& ranks, const MeshPar
 template <class Index>
 KeptTetrahedra LocalTetrahedra<Index>::choose(const Communicator& ranks, const VertexDirectory& directory,
                                               const std::vector<Id>& outer, GlobalId first_id,
-                                              Dealt<SentTetrahedron>& sent) {
+                                              Dealt<SentTetrahedron<Index>>& sent) {
   const CornerOwners<Index> owners(ranks, part_, directory, own_, outer);
   KeptTetrahedra all_kept;
   together(ranks, [&] {
@@ -81,10 +82,10 @@ KeptTetrahedra LocalTetrahedra<Index>::choose(const Communicator& ranks, const V
     std::set_difference(outer.begin(), outer.end(), outer_.begin(), outer_.end(), std::back_inserter(dropped));
     const Offset count = part_.tetrahedra.extent(0);
     all_kept = {count - static_cast<Offset>(dropped.size()), all_but(dropped, count), part_.tetrahedron_ids, first_id};
-    sent = dealt<SentTetrahedron>("GALE::sent_tetrahedra", counts);
+    sent = dealt<SentTetrahedron<Index>>("GALE::sent_tetrahedra", counts);
     parallel_for("GALE::sent_tetrahedra", HostSpace(), sent.count(), [&](Offset i) {
       const Id t = outer[groups.members(i < kept_from ? i : i + kept)];
-      SentTetrahedron& tetrahedron = sent.entries(i);
+      SentTetrahedron<Index>& tetrahedron = sent.entries(i);
       tetrahedron.id = all_kept.id_at(t);
       for (int corner = 0; corner < 4; ++corner) tetrahedron.vertices[corner] = part_.tetrahedra(t, corner);
     });
@@ -99,7 +100,7 @@ GlobalIds LocalTetrahedra<Index>::vertices_beside(const OwnedIds& owned) const {
   return missing_ids(index, outer + received_.count(), [&](Offset i, const auto& offer) {
     for (int corner = 0; corner < 4; ++corner) {
       const GlobalId vertex =
-          i < outer ? GlobalId(part_.tetrahedra(outer_[i], corner)) : received_.entries(i - outer).vertices[corner];
+          i < outer ? part_.tetrahedra(outer_[i], corner) : received_.entries(i - outer).vertices[corner];
       if (!own_.contains(vertex)) offer(vertex);
     }
   });

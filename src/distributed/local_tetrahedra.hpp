@@ -3,6 +3,7 @@
 #include <array>
 #include <vector>
 
+#include <gale/distributed/corner_owners.hpp>
 #include <gale/distributed/distributed_mesh.hpp>
 #include <gale/distributed/tetrahedron_places.hpp>
 #include <gale/distributed/vertex_directory.hpp>
@@ -10,9 +11,10 @@
 namespace gale::detail {
 
 /// A tetrahedron on its way to another rank.
+template <class Index>
 struct SentTetrahedron {
   GlobalId id;
-  GlobalId vertices[4];
+  Index vertices[4];
 };
 
 /// The tetrahedra that touch a vertex which this rank owns: those of its own part where they are, and those that it
@@ -31,26 +33,30 @@ class LocalTetrahedra {
   /// Their global ids, ascending, and where they come from.
   const TetrahedronPlaces& places() const { return places_; }
 
-  /// Calls visit(i, vertex_of) for i in first..last-1 of all: vertex_of(corner) is a global id.
+  /// The global ids of the vertices of tetrahedra first..last-1 of all, in order: calls visit(i, corners, count) for
+  /// some that follow one another, i to i + count - 1, of which `corners` are.
   template <class Visit>
   void visit(Offset first, Offset last, const Visit& visit) const {
     places_.visit(
         first, last,
-        [&](Offset i, Offset t) { visit(i, [&](int corner) { return GlobalId(part_.tetrahedra(t, corner)); }); },
-        [&](Offset i, Offset r) { visit(i, [&](int corner) { return received_.entries(r).vertices[corner]; }); });
+        [&](Offset i, Offset place, Offset count) { visit(i, part_.tetrahedra.data() + 4 * place, count); },
+        [&](Offset i, Offset r) { visit(i, received_.entries(r).vertices, Offset(1)); });
   }
+
+  /// Throws gale::Error for one of the part that is none.
+  void require_tetrahedra() const { detail::require_tetrahedra(part_); }
 
   /// The vertices that they have and that this rank doesn't own, ascending.
   GlobalIds vertices_beside(const OwnedIds& owned) const;
 
  private:
   KeptTetrahedra choose(const Communicator& ranks, const VertexDirectory& directory, const std::vector<Id>& outer,
-                        GlobalId first_id, Dealt<SentTetrahedron>& sent);
+                        GlobalId first_id, Dealt<SentTetrahedron<Index>>& sent);
 
   const MeshPart<Index>& part_;
   const IdInterval own_;
   std::vector<Id> outer_;  ///< those of the part that are kept and have vertices outside `own`
-  Dealt<SentTetrahedron> received_;
+  Dealt<SentTetrahedron<Index>> received_;
   TetrahedronPlaces places_;
 };
 

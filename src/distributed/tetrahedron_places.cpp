@@ -35,11 +35,18 @@ void TetrahedronPlaces::merge() {
   received_by_id_.resize(received);
   received_at_.resize(received);
   std::iota(received_by_id_.begin(), received_by_id_.end(), Id(0));
-  std::sort(received_by_id_.begin(), received_by_id_.end(), [&](Id a, Id b) { return received_(a) < received_(b); });
+  const auto is_less = [&](Id a, Id b) { return received_(a) < received_(b); };
+  if (!std::is_sorted(received_by_id_.begin(), received_by_id_.end(), is_less))
+    std::sort(received_by_id_.begin(), received_by_id_.end(), is_less);
   Offset before = 0;
   for (Offset r = 0; r < received; ++r) {
     const GlobalId id = received_(received_by_id_[r]);
-    for (Offset end = kept_.count; before < end;) {  // to the first kept one that isn't below it
+    Offset end = before;  // the first kept one that isn't below it is mostly near
+    for (Offset step = 1; end < kept_.count && kept_.id(end) < id; step *= 2) {
+      before = end + 1;
+      end = std::min(before + step, kept_.count);
+    }
+    while (before < end) {
       const Offset middle = before + (end - before) / 2;
       const bool is_below = kept_.id(middle) < id;
       before = is_below ? middle + 1 : before;
@@ -73,7 +80,10 @@ GlobalIds TetrahedronPlaces::ids() const {
   const auto ids = allocate<GlobalIds>("GALE::tetrahedron_ids", count());
   for_parts("GALE::tetrahedron_ids", count(), threads_for(count()), [&](int, Offset first, Offset last) {
     visit(
-        first, last, [&](Offset i, Offset place) { ids(i) = kept_.id_at(place); },
+        first, last,
+        [&](Offset i, Offset place, Offset count) {
+          for (Offset k = 0; k < count; ++k) ids(i + k) = kept_.id_at(place + k);
+        },
         [&](Offset i, Offset r) { ids(i) = received_(r); });
   });
   return ids;

@@ -15,6 +15,15 @@ struct KeptTetrahedra {
   GlobalId first_id = 0;                  ///< the part's first one, where they are counted
 
   Offset place(Offset k) const { return places.extent(0) == 0 ? k : Offset(places(k)); }
+
+  /// How many of those from k on, before `end`, follow one another in the part.
+  Offset run(Offset k, Offset end) const {
+    if (places.extent(0) == 0) return end - k;
+    Offset next = k + 1;
+    while (next < end && places(next) == places(next - 1) + 1) ++next;
+    return next - k;
+  }
+
   GlobalId id_at(Offset place) const { return ids.extent(0) == 0 ? first_id + place : ids(place); }
   GlobalId id(Offset k) const { return id_at(place(k)); }
 };
@@ -34,22 +43,27 @@ class TetrahedronPlaces {
   GlobalId id(Offset i) const;
   GlobalIds ids() const;
 
-  /// Calls kept(i, place) for those i in first..last-1 that are at a place of the part, received(i, r) for the others.
+  /// Where those among first..last-1 come from, in order: calls kept(i, place, count) for some, i to i + count - 1,
+  /// that follow one another in the part, and received(i, r) for others.
   template <class Kept, class Received>
   void visit(Offset first, Offset last, const Kept& kept, const Received& received) const {
     if (sources_.extent(0) != 0) {
       for (Offset i = first; i < last; ++i)
-        sources_(i) < kept_.count ? kept(i, kept_.place(sources_(i))) : received(i, sources_(i) - kept_.count);
+        sources_(i) < kept_.count ? kept(i, kept_.place(sources_(i)), Offset(1))
+                                  : received(i, sources_(i) - kept_.count);
       return;
     }
     auto next = std::lower_bound(received_at_.begin(), received_at_.end(), first);
-    for (Offset i = first; i < last; ++i) {
+    for (Offset i = first; i < last;) {
       const Offset before = next - received_at_.begin();
-      if (next != received_at_.end() && *next == i) {
-        received(i, Offset(received_by_id_[before]));
-        ++next;
+      const Offset end = next == received_at_.end() ? last : std::min(*next, last);
+      if (i < end) {
+        const Offset run = kept_.run(i - before, end - before);
+        kept(i, kept_.place(i - before), run);
+        i += run;
       } else {
-        kept(i, kept_.place(i - before));
+        received(i++, Offset(received_by_id_[before]));
+        ++next;
       }
     }
   }

@@ -24,7 +24,7 @@ KOKKOS_FUNCTION std::uint64_t spread_bits(std::uint64_t x) {
 }  // namespace
 
 template <class Coordinate, class Space>
-Box bounding_box(const Space& space, const Points<Coordinate, MemoryOf<Space>>& points) {
+void require_finite(const Space& space, const Points<Coordinate, MemoryOf<Space>>& points) {
   const Offset count = points.extent(0);
   const Offset bad = reduce_min(
       "GALE::finite_points", space, count, count, KOKKOS_LAMBDA(Offset i) {
@@ -32,6 +32,12 @@ Box bounding_box(const Space& space, const Points<Coordinate, MemoryOf<Space>>& 
         return (x - x) + (y - y) + (z - z) == 0 ? count : i;
       });
   if (bad < count) throw Error("point " + std::to_string(bad) + " has a coordinate that is not finite");
+}
+
+template <class Coordinate, class Space>
+Box bounding_box(const Space& space, const Points<Coordinate, MemoryOf<Space>>& points) {
+  require_finite<Coordinate>(space, points);
+  const Offset count = points.extent(0);
   Box box{};
   for (int axis = 0; axis < 3; ++axis) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -74,9 +80,10 @@ Array<std::uint64_t, MemoryOf<Space>> morton_codes(const Space& space,
   return codes;
 }
 
-#define GALE_INSTANTIATE_FOR(Coordinate, Space)                                                                \
-  template GALE_EXPORT Box bounding_box<Coordinate>(const Space&, const Points<Coordinate, MemoryOf<Space>>&); \
-  template GALE_EXPORT Array<std::uint64_t, MemoryOf<Space>> morton_codes<Coordinate>(                         \
+#define GALE_INSTANTIATE_FOR(Coordinate, Space)                                                                   \
+  template GALE_EXPORT void require_finite<Coordinate>(const Space&, const Points<Coordinate, MemoryOf<Space>>&); \
+  template GALE_EXPORT Box bounding_box<Coordinate>(const Space&, const Points<Coordinate, MemoryOf<Space>>&);    \
+  template GALE_EXPORT Array<std::uint64_t, MemoryOf<Space>> morton_codes<Coordinate>(                            \
       const Space&, const Points<Coordinate, MemoryOf<Space>>&, const Cube&)
 #define GALE_INSTANTIATE(Space)       \
   GALE_INSTANTIATE_FOR(float, Space); \

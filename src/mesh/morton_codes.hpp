@@ -25,6 +25,10 @@ struct Cube {
 
 /// Throws gale::Error, with its place, if a point has a coordinate that isn't finite.
 template <class Coordinate, class Space>
+GALE_EXPORT void require_finite(const Space& space, const Points<Coordinate, MemoryOf<Space>>& points);
+
+/// Throws likewise.
+template <class Coordinate, class Space>
 GALE_EXPORT Box bounding_box(const Space& space, const Points<Coordinate, MemoryOf<Space>>& points);
 
 /// Of a box that holds a point at least.
