@@ -9,47 +9,60 @@ namespace gale {
 
 namespace {
 
-using Flags = Array<std::uint8_t, HostMemory>;
-
-/// Which of the vertices that this rank owns are on the surface, by local input id; of ghosts it says nothing.
 template <class Space>
-Flags owned_flags(const Space& space, const Mesh& mesh, const detail::VertexTypes& types) {
-  const auto found = allocate<Array<std::uint8_t, MemoryOf<Space>>>("GALE::surface_flags", mesh.vertices());
-  const Id* const input = mesh.vertex_input<MemoryOf<Space>>().data();
+using Flags = Array<std::uint8_t, MemoryOf<Space>>;
+
+/// Which of the vertices that others have as ghosts are on the surface, in the order in which they are told.
+template <class Space>
+Flags<HostSpace> told_flags(const Space& space, const DistributedMesh& mesh, const detail::VertexTypes& types) {
+  const Array<Id, MemoryOf<Space>> places = in_memory<MemoryOf<Space>>(mesh.from_owners().given_places());
+  const auto flags = allocate<Flags<Space>>("GALE::surface_flags", places.extent(0));
+  const Id* const internal = mesh.local().vertex_internal<MemoryOf<Space>>().data();
   parallel_for(
-      "GALE::surface_flags", space, mesh.owned_vertices(),
-      KOKKOS_LAMBDA(Offset v) { found(input[v]) = types.on_surface(static_cast<Id>(v)); });
+      "GALE::surface_flags", space, places.extent(0),
+      KOKKOS_LAMBDA(Offset i) { flags(i) = types.on_surface(internal[places(i)]); });
   space.fence();
-  return on_host(found);
+  return on_host(flags);
 }
 
-/// The same of all that it holds, as owners say.
+/// Which of this rank's ghosts are on the surface, as their owners say; from the first one on.
 template <class Space>
-Flags surface_flags(const Space& space, const DistributedMesh& mesh, const detail::VertexTypes& types) {
-  Flags flags;
-  detail::together(mesh.ranks(), [&] { flags = owned_flags(space, mesh.local(), types); });
-  mesh.from_owners()(mesh.ranks(), flags.data(), flags.data());
+Flags<Space> ghost_flags(const Space& space, const DistributedMesh& mesh, const detail::VertexTypes& types) {
+  Flags<HostSpace> told;
+  detail::together(mesh.ranks(), [&] { told = told_flags(space, mesh, types); });
+  const auto fetched = mesh.from_owners().fetch(mesh.ranks(), told);
+  Flags<Space> flags;
+  detail::together(mesh.ranks(), [&] {
+    const Id owned = mesh.local().owned_vertices();
+    flags = allocate<Flags<Space>>("GALE::ghost_flags", mesh.local().vertices() - owned);
+    const Id* const internal = mesh.local().vertex_internal<MemoryOf<Space>>().data();
+    const Array<Id, MemoryOf<Space>> slots = in_memory<MemoryOf<Space>>(mesh.from_owners().slots());
+    const Flags<Space> values = in_memory<MemoryOf<Space>>(fetched.entries);
+    const Flags<Space> to = flags;
+    parallel_for(
+        "GALE::ghost_flags", space, slots.extent(0),
+        KOKKOS_LAMBDA(Offset i) { to(internal[slots(i)] - owned) = values(i); });
+    space.fence();
+  });
   return flags;
 }
 
 /// Has ghosts on the surface tell their neighbours, as the sweep has owned vertices do.
 template <class Space>
-void tell_of_ghosts(const Space& space, const VertexOrder& order, const Flags& flags,
+void tell_of_ghosts(const Space& space, const VertexOrder& order, const Flags<Space>& on_surface,
                     const detail::VertexTypes& types) {
   using Memory = MemoryOf<Space>;
   const Mesh& mesh = order.mesh();
   const Id owned = mesh.owned_vertices();
   if (owned == mesh.vertices()) return;
-  const auto on_surface = in_memory<Memory>(flags);
   const auto encoded = mesh.encoded<Memory>();
-  const Id* const input = mesh.vertex_input<Memory>().data();
   const std::uint64_t* const keys = order.keys_in<Memory>().data();
   parallel_for(
       "GALE::tell_of_ghosts", space, mesh.tetrahedra(), KOKKOS_LAMBDA(Offset t) {
         const Quad corners = encoded.tetrahedron(static_cast<Id>(t));
         for (int i = 3; i > 0 && corners[i] >= owned; --i) {
           const Id ghost = corners[i];
-          if (!on_surface(input[ghost])) continue;
+          if (!on_surface(ghost - owned)) continue;
           for (int k = 0; k < i && corners[k] < owned; ++k)
             types.tell(corners[k], detail::VertexTypes::seen_from(keys, corners[k], ghost));
         }
@@ -62,7 +75,7 @@ template <class Space>
 DistributedCriticalPoints complete(const Space& space, const DistributedOrder& order,
                                    const detail::VertexTypes& types) {
   const DistributedMesh& mesh = order.mesh();
-  const Flags flags = surface_flags(space, mesh, types);
+  const Flags<Space> flags = ghost_flags(space, mesh, types);
   DistributedCriticalPoints all;
   CriticalPoints here;
   detail::together(mesh.ranks(), [&] {

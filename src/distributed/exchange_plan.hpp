@@ -48,17 +48,28 @@ class ExchangePlan {
   /// The values that other ranks give: each of these has value_of(place) for what it gives. Collective.
   template <class T, class ValueOf>
   Dealt<T> fetch(const Communicator& ranks, const ValueOf& value_of) const {
-    Dealt<T> given, taken;
+    Array<T, HostMemory> values;
     if (taken_counts_.empty()) return {{}, {0}};
     together(ranks, [&] {
-      given = dealt<T>("GALE::given_values", counts_of(given_));
-      parallel_for("GALE::given_values", HostSpace(), given.count(),
-                   [&](Offset i) { given.entries(i) = value_of(given_.entries(i)); });
-      taken = dealt<T>("GALE::taken_values", taken_counts_);
+      values = allocate<Array<T, HostMemory>>("GALE::given_values", given_.count());
+      parallel_for("GALE::given_values", HostSpace(), given_.count(),
+                   [&](Offset i) { values(i) = value_of(given_.entries(i)); });
     });
-    exchange(ranks, given, taken);
+    return fetch(ranks, values);
+  }
+
+  /// The same from the values of given_places().
+  template <class T>
+  Dealt<T> fetch(const Communicator& ranks, const Array<T, HostMemory>& values) const {
+    Dealt<T> taken;
+    if (taken_counts_.empty()) return {{}, {0}};
+    together(ranks, [&] { taken = dealt<T>("GALE::taken_values", taken_counts_); });
+    exchange(ranks, Dealt<T>{values, given_.begin}, taken);
     return taken;
   }
+
+  /// The places whose values this rank gives to others, in the order in which it does.
+  const Array<Id, HostMemory>& given_places() const { return given_.entries; }
 
   /// Fills to[slot], in the memory of `space`, for each of the slots: with what was fetched, and this rank's own values
   /// from[place], on the host.
