@@ -16,19 +16,19 @@ namespace {
 
 }  // namespace
 
-Cells::Cells(const long long* first, int stride, Id count, Id points)
-    : corners_(allocate<Kokkos::View<Id* [4], Kokkos::LayoutRight, HostMemory>>("GALE::ttk_cells", count)),
-      data_(corners_.data()) {
-  const Offset wrong = reduce_min("GALE::ttk_copy_cells", HostSpace(), count, Offset(count), [&](Offset c) {
+Kokkos::View<Id* [4], Kokkos::LayoutRight, HostMemory> Cells::copy(Id points) const {
+  const auto corners = allocate<Kokkos::View<Id* [4], Kokkos::LayoutRight, HostMemory>>("GALE::ttk_cells", count_);
+  const Offset wrong = reduce_min("GALE::ttk_copy_cells", HostSpace(), count_, Offset(count_), [&](Offset c) {
     bool right = true;
     for (int corner = 0; corner < 4; ++corner) {
-      const long long vertex = first[stride * c + corner];
+      const long long vertex = first_[stride_ * c + corner];
       right = right && vertex >= 0 && vertex < points;
-      corners_(c, corner) = static_cast<Id>(vertex);
+      corners(c, corner) = static_cast<Id>(vertex);
     }
-    return right ? Offset(count) : c;
+    return right ? Offset(count_) : c;
   });
-  if (wrong != count) refuse(first + stride * wrong, wrong, points);
+  if (wrong != count_) refuse(first_ + stride_ * wrong, wrong, points);
+  return corners;
 }
 
 }  // namespace gale::ttk

@@ -4,25 +4,46 @@
 
 namespace gale::ttk {
 
-/// GALE's ids of a cell's vertices, in the caller's order.
-std::array<Id, 4> Connectivity::corners_of(Id cell) const {
-  std::array<Id, 4> corners;
-  for (int corner = 0; corner < 4; ++corner) corners[corner] = internal_[0][cells_.vertex(cell, corner)];
-  return corners;
+/// GALE's ids of vertices, ascending.
+template <std::size_t n>
+std::array<Id, n> Connectivity::sorted_internal(std::array<Id, n> vertices) const {
+  for (std::size_t i = 0; i < n; ++i) {
+    const Id vertex = vertex_internal_[vertices[i]];
+    std::size_t at = i;
+    for (; at > 0 && vertices[at - 1] > vertex; --at) vertices[at] = vertices[at - 1];
+    vertices[at] = vertex;
+  }
+  return vertices;
+}
+
+Id Connectivity::internal_by_vertices(Relation relation, Id simplex) const {
+  if (row_dimension(relation) == 1) {
+    if (!edges_.is_there()) refuse(relation);
+    const auto [a, b] = sorted_internal(edge(simplex));
+    return simplices_.edge_of(a, b);
+  }
+  const auto [a, b, c] = sorted_internal(triangle(simplex));
+  return simplices_.triangle_of(a, b, c);
+}
+
+std::array<Id, 3> Connectivity::edges_of_triangle(Id triangle) const {
+  const auto [a, b, c] = sorted_internal(part_of_cell(triangles_, triangle_corners, triangle));
+  std::array<Id, 3> edges;
+  edges[0] = edges_.number(simplices_.edge_of(a, b));
+  edges[1] = edges_.number(simplices_.edge_of(a, c));
+  edges[2] = edges_.number(simplices_.edge_of(b, c));
+  std::sort(edges.begin(), edges.end());
+  return edges;
 }
 
 const std::array<Id, 3>& Connectivity::triangle_edges(Id triangle) const {
-  return reader().triangle_edges.of(triangle, [this](Id wanted) {
-    const auto row = face_row<Relation::FE>(simplices_, triangles_.internal(wanted));
-    std::array<Id, 3> edges = {edges_.number(row[0]), edges_.number(row[1]), edges_.number(row[2])};
-    std::sort(edges.begin(), edges.end());
-    return edges;
-  });
+  return reader().triangle_edges.of(triangle, [this](Id wanted) { return edges_of_triangle(wanted); });
 }
 
 const std::array<Id, 6>& Connectivity::cell_edges(Id cell) const {
   return reader().cell_edges.of(cell, [this](Id wanted) {
-    const auto corners = corners_of(wanted);
+    std::array<Id, 4> corners;
+    for (int corner = 0; corner < 4; ++corner) corners[corner] = vertex_internal_[cells_.vertex(wanted, corner)];
     std::array<Id, 6> edges;
     for (int place = 0; place < 6; ++place) {
       const auto [a, b] = std::minmax(corners[edge_corners[place][0]], corners[edge_corners[place][1]]);
@@ -34,14 +55,24 @@ const std::array<Id, 6>& Connectivity::cell_edges(Id cell) const {
 
 const std::array<Id, 4>& Connectivity::cell_triangles(Id cell) const {
   return reader().cell_triangles.of(cell, [this](Id wanted) {
-    const auto corners = corners_of(wanted);
-    std::array<Id, 4> triangles;
-    for (int place = 0; place < 4; ++place) {
-      std::array<Id, 3> vertices;
-      for (int i = 0; i < 3; ++i) vertices[i] = corners[triangle_corners[place][i]];
-      std::sort(vertices.begin(), vertices.end());
-      triangles[place] = triangles_.number(simplices_.triangle_of(vertices[0], vertices[1], vertices[2]));
+    std::array<Id, 4> corners, places;  // by GALE's ids of the vertices, and where the caller has them
+    for (int corner = 0; corner < 4; ++corner) {
+      const Id vertex = vertex_internal_[cells_.vertex(wanted, corner)];
+      int at = corner;
+      for (; at > 0 && corners[at - 1] > vertex; --at) {
+        corners[at] = corners[at - 1];
+        places[at] = places[at - 1];
+      }
+      corners[at] = vertex;
+      places[at] = corner;
     }
+    const auto [a, b, c, d] = corners;
+    const auto& s = simplices_;
+    const Id ab = s.edge_of(a, b);
+    const Id without[4] = {s.triangle_of(s.edge_of(b, c), d), s.triangle_of(s.edge_of(a, c), d), s.triangle_of(ab, d),
+                           s.triangle_of(ab, c)};
+    std::array<Id, 4> triangles;
+    for (int i = 0; i < 4; ++i) triangles[(places[i] + 1) % 4] = triangles_.number(without[i]);
     return triangles;
   });
 }

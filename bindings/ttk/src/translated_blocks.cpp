@@ -6,10 +6,11 @@
 
 namespace gale::ttk {
 
-Structure& Connectivity::structure() const {
+Structure& Connectivity::structure(int source) const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (!structure_) structure_ = make_structure(mesh_, wanted_, options_.structure);
-  return *structure_;
+  auto& [wanted, structure] = sources_[source];
+  if (!structure) structure = make_structure(mesh_, wanted, options_.structure);
+  return *structure;
 }
 
 void Connectivity::refuse(Relation relation) {
@@ -35,8 +36,9 @@ Id Connectivity::segment_of(int dimension, Id id) const {
 
 /// Computes the rows of a segment's simplices and puts them into TTK's ids and order.
 Block Connectivity::make_block(Reader& reader, Relation relation, Id segment) const {
-  if (!reader.consumer) reader.consumer = structure().consumer();
-  Consumer& consumer = *reader.consumer;
+  const int source = source_of(relation);
+  if (!reader.consumers[source]) reader.consumers[source] = structure(source).consumer();
+  Consumer& consumer = *reader.consumers[source];
   const Id* const numbers = numbers_of(entry_dimension(relation));
   const auto& begin = mesh_.interval_begin(row_dimension(relation));
   reader.builder.begin(begin(segment), begin(segment + 1) - begin(segment));

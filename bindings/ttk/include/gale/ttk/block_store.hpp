@@ -53,6 +53,9 @@ class GALE_EXPORT BlockStore {
   std::size_t bytes() const { return bytes_; }
   std::size_t budget() const { return budget_; }
 
+  /// Not while others call anything.
+  void set_budget(std::size_t budget) { budget_ = budget; }
+
  private:
   static constexpr std::uint32_t present = std::uint32_t(1) << 31, used = std::uint32_t(1) << 30, holders = used - 1;
 
@@ -61,7 +64,7 @@ class GALE_EXPORT BlockStore {
   void drop(Slot& slot, Id segment, bool spare);
 
   const Id segments_;
-  const std::size_t budget_;
+  std::size_t budget_;
   std::array<std::vector<Slot>, relation_count> slots_;
   std::array<std::mutex, 256> mutexes_;  ///< who makes or drops a block has that of its segment
   std::atomic<std::size_t> bytes_{0};

@@ -6,19 +6,20 @@
 
 namespace gale::ttk {
 
-/// The caller's tetrahedra in the caller's order, in a copy with short ids: reading one takes one line of the cache.
+/// The caller's tetrahedra in the caller's order, where the caller has them.
 class Cells {
  public:
   Cells() = default;
 
   /// `first`: corner k of cell c is first[stride * c + k]. In TTK's flat layout it is one past the array's begin and
-  /// the stride is 5; in that of connectivity and offsets it is 4. Throws gale::Error for a vertex that isn't one of
-  /// `points`.
-  GALE_EXPORT Cells(const long long* first, int stride, Id count, Id points);
+  /// the stride is 5; in that of connectivity and offsets it is 4.
+  Cells(const long long* first, int stride, Id count) : first_(first), stride_(stride), count_(count) {}
 
-  Id count() const { return static_cast<Id>(corners_.extent(0)); }
-  Id vertex(Id cell, int corner) const { return data_[Offset(4) * cell + corner]; }
-  const Kokkos::View<Id* [4], Kokkos::LayoutRight, HostMemory>& corners() const { return corners_; }
+  Id count() const { return count_; }
+  Id vertex(Id cell, int corner) const { return static_cast<Id>(first_[stride_ * cell + corner]); }
+
+  /// All corners, in short ids. Throws gale::Error for a vertex that isn't one of `points`.
+  GALE_EXPORT Kokkos::View<Id* [4], Kokkos::LayoutRight, HostMemory> copy(Id points) const;
 
   /// Which of a cell's corners some vertices are, as bits.
   template <class Vertices>
@@ -32,8 +33,9 @@ class Cells {
   }
 
  private:
-  Kokkos::View<Id* [4], Kokkos::LayoutRight, HostMemory> corners_;
-  const Id* data_ = nullptr;
+  const long long* first_ = nullptr;
+  Offset stride_ = 5;
+  Id count_ = 0;
 };
 
 /// The corners of a cell's edges and triangles, in the order in which TTK lists them.

@@ -1,13 +1,13 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <mutex>
 
 #include <gale/mesh/mesh.hpp>
-#include <gale/relations/faces.hpp>
 #include <gale/runtime/structure.hpp>
 #include <gale/ttk/cell_order.hpp>
 #include <gale/ttk/per_thread.hpp>
@@ -19,7 +19,8 @@ namespace gale::ttk {
 struct Options {
   StructureOptions structure;  ///< its host_memory is 512 MiB by default, since the blocks are kept translated
   int capacity = 100;          ///< vertices of a segment, at most
-  std::size_t memory = 0;  ///< bytes for translated blocks; by default 192 a vertex, which VV and VT take, and 16 MiB
+  std::size_t memory = 0;      ///< bytes for translated blocks; by default 192 a vertex, which VV and VT take, 40 where
+                               ///< other rows are needed, and at least 16 MiB
 };
 
 /// A caller's points: three coordinates each, float or double.
@@ -55,23 +56,21 @@ class GALE_EXPORT Connectivity {
   void need_rows(Relation relation);
 
   /// on_surface() of vertices (0), edges (1) or triangles (2). Where VV is needed, too, say that first: the sweep that
-  /// finds the vertices keeps its rows then.
+  /// finds the vertices keeps its rows then. Vertices without VV wait for the triangles, and are found in a sweep of
+  /// their own if they are read before these are needed.
   void need_surface(int dimension);
-
-  /// Makes what computes rows. Otherwise the first to read does it, with whatever threads it has.
-  void prepare() { structure(); }
-
-  /// What was done for rows since some were last said to be needed; of the consumers, those that have ended.
-  StructureStatistics statistics() { return structure().statistics(); }
 
   template <Relation relation>
   Row row(Id simplex) const {
+    if constexpr (relation == Relation::FT) {
+      if (!triangles_.is_there()) refuse(relation);
+      const Id* const star = triangles_.star(simplex);
+      if (star[1] != TriangleOrder::crowded) return {star, star[1] == no_id ? 1 : 2};
+    }
     Reader& mine = reader();
     Reading& reading = mine.readings[static_cast<int>(relation)];
     if (reading.simplex != simplex) {
-      const Id* const internal = internal_[row_dimension(relation)];
-      if (internal == nullptr) refuse(relation);
-      const Id id = internal[simplex];
+      const Id id = internal<row_dimension(relation)>(relation, simplex);
       if (!reading.held.has(id)) load(mine, relation, id);
       reading.simplex = simplex;
       reading.row = reading.rows[id];
@@ -81,11 +80,11 @@ class GALE_EXPORT Connectivity {
 
   /// Vertices, ascending.
   const std::array<Id, 2>& edge(Id edge) const {
-    return reader().edge.of(edge, [this](Id wanted) { return vertices_of<Relation::EV, 2>(edges_.internal(wanted)); });
+    return reader().edge.of(edge, [this](Id wanted) { return part_of_cell(edges_, edge_corners, wanted); });
   }
   const std::array<Id, 3>& triangle(Id triangle) const {
-    return reader().triangle.of(
-        triangle, [this](Id wanted) { return vertices_of<Relation::FV, 3>(triangles_.internal(wanted)); });
+    return reader().triangle.of(triangle,
+                                [this](Id wanted) { return part_of_cell(triangles_, triangle_corners, wanted); });
   }
 
   /// Ascending.
@@ -103,10 +102,14 @@ class GALE_EXPORT Connectivity {
   Id edge_link(Id edge, Id i) const;
   Id triangle_link(Id triangle, Id i) const;
 
-  bool on_surface(int dimension, Id simplex) const { return on_surface_[dimension](simplex) != 0; }
+  bool on_surface(int dimension, Id simplex) const {
+    const std::uint8_t* flags = surface_flags_[dimension].load(std::memory_order_acquire);
+    if (flags == nullptr) flags = late_surface(dimension);
+    return flags[simplex] != 0;
+  }
 
   /// Whether all triangles have one or two tetrahedra; those must be needed.
-  bool is_manifold() const;
+  bool is_manifold() const { return !triangles_.any_crowded; }
 
   /// Of tables and blocks, beside the mesh and its simplices.
   std::size_t bytes() const;
@@ -116,45 +119,69 @@ class GALE_EXPORT Connectivity {
     return readers_->here([this] { return std::make_unique<Reader>(*store_); });
   }
 
-  template <Relation relation, std::size_t n>
-  std::array<Id, n> vertices_of(Id simplex) const;
+  template <std::size_t n, std::size_t parts>
+  std::array<Id, n> part_of_cell(const CellOrder& order, const int (&corners)[parts][n], Id simplex) const;
+
+  /// GALE's id of a simplex by TTK's. Of edges and triangles a search among those of the lowest vertex.
+  template <int dimension>
+  Id internal(Relation relation, Id simplex) const {
+    if constexpr (dimension == 0) return vertex_internal_[simplex];
+    return internal_by_vertices(relation, simplex);
+  }
 
   [[noreturn]] static void refuse(Relation relation);
+  Id internal_by_vertices(Relation relation, Id simplex) const;
   void load(Reader& reader, Relation relation, Id id) const;
   Block make_block(Reader& reader, Relation relation, Id segment) const;
   Id segment_of(int dimension, Id id) const;
   const Id* numbers_of(int dimension) const;
-  Structure& structure() const;
-  std::array<Id, 4> corners_of(Id cell) const;
-  void sweep_stars(const Array<std::uint8_t, HostMemory>& on_surface);
-  void find_surface_of_edges();
-  void set_numbers(int dimension, const CellOrder& order);
+  template <std::size_t n>
+  std::array<Id, n> sorted_internal(std::array<Id, n> vertices) const;
+  std::array<Id, 3> edges_of_triangle(Id triangle) const;
+
+  /// What computes VV, and what all other rows. Each is made when it is first read from.
+  struct Source {
+    RelationSet wanted;
+    std::unique_ptr<Structure> structure;
+  };
+  static int source_of(Relation relation) { return relation == Relation::VV ? 0 : 1; }
+  Structure& structure(int source) const;
+
+  using Flags = Array<std::uint8_t, HostMemory>;
+  Flags find_surface_in_sweep();
+  Flags surface_from_triangles(int dimension) const;
+  void set_surface(int dimension, const Flags& flags) const;
+  const std::uint8_t* late_surface(int dimension) const;
+  void set_numbers(int dimension);
 
   const Cells cells_;
   const Options options_;
   const Mesh mesh_;
   RelationSet wanted_rows_;  ///< by callers
-  RelationSet wanted_;       ///< of the structure
   Array<Id, HostMemory> segment_of_vertex_;
   std::array<Id, 4> counts_;
-  std::array<const Id*, 3> internal_{};  ///< TTK's id -> GALE's, by dimension
-  const Id* vertex_input_;
-  CellOrder edges_, triangles_;
-  Array<std::uint8_t, HostMemory> tetrahedra_of_;              ///< by triangle: how many, at most 3
-  std::array<Array<std::uint8_t, HostMemory>, 3> on_surface_;  ///< by dimension
+  const Id* const vertex_internal_;
+  const Id* const vertex_input_;
+  CellOrder edges_;
+  TriangleOrder triangles_;
+  bool surface_waits_ = false;               ///< that of vertices, for the triangles
+  mutable std::array<Flags, 3> on_surface_;  ///< by dimension, and the same for readers
+  mutable std::array<std::atomic<const std::uint8_t*>, 3> surface_flags_{};
   Simplices<HostMemory> simplices_;
   mutable std::mutex mutex_;
-  mutable std::unique_ptr<Structure> structure_;
+  mutable std::array<Source, 2> sources_;
   std::unique_ptr<BlockStore> store_;
-  std::unique_ptr<PerThread<Reader>> readers_;  ///< gone before the store and the structure
+  std::unique_ptr<PerThread<Reader>> readers_;  ///< gone before the store and the structures
 };
 
-template <Relation relation, std::size_t n>
-std::array<Id, n> Connectivity::vertices_of(Id simplex) const {
-  const auto row = face_row<relation>(simplices_, simplex);
+/// Vertices of an edge or a triangle, ascending: those of its first cell at some corners.
+template <std::size_t n, std::size_t parts>
+std::array<Id, n> Connectivity::part_of_cell(const CellOrder& order, const int (&corners)[parts][n], Id simplex) const {
+  const Id cell = order.first_cell(simplex);
+  const int place = order.place(simplex);
   std::array<Id, n> vertices;
   for (std::size_t i = 0; i < n; ++i) {
-    const Id vertex = vertex_input_[row[static_cast<int>(i)]];
+    const Id vertex = cells_.vertex(cell, corners[place][i]);
     std::size_t at = i;
     for (; at > 0 && vertices[at - 1] > vertex; --at) vertices[at] = vertices[at - 1];
     vertices[at] = vertex;

@@ -49,7 +49,7 @@ struct Reader {
   }
 
   BlockStore& store;
-  std::unique_ptr<Consumer> consumer;  ///< made when the thread first makes a block
+  std::unique_ptr<Consumer> consumers[2];  ///< by source, made when the thread first makes a block of it
   std::array<Reading, relation_count> readings;
   Found<2> edge;
   Found<3> triangle, triangle_edges;

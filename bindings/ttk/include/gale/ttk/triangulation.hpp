@@ -19,8 +19,8 @@ namespace gale::ttk {
 /// the same ids, and the same order of rows. As there: points and cells first, then the module's
 /// preconditionTriangulation(), then the module.
 ///
-/// Kokkos must be initialized, and stay so as long as this lives. The points must outlive it, and the cells until both
-/// are set; clear() forgets them. Setting and preconditioning are for one thread at a time, queries for any. Where GALE
+/// Kokkos must be initialized, and stay so as long as this lives. The points and the cells must outlive it;
+/// clear() forgets them. Setting and preconditioning are for one thread at a time, queries for any. Where GALE
 /// throws, setting and preconditioning print the reason and return a value below 0; a query throws gale::Error, which
 /// no OpenMP loop lets through, e.g. where the memory ends.
 ///
@@ -38,7 +38,6 @@ class Triangulation final : public ::ttk::AbstractTriangulation {
   int clear() {
     connectivity_.reset();
     points_ = CallersPoints();
-    given_ = CallersCells();
     cells_ = Cells();
     lists_ = Lists();
     this->isManifold_ = true;
@@ -67,9 +66,6 @@ class Triangulation final : public ::ttk::AbstractTriangulation {
   }
 #endif
 
-  /// What answers; null before points and cells are set. E.g. for its statistics.
-  Connectivity* connectivity() const { return connectivity_.get(); }
-
   /// Bytes, added to `size`.
   std::size_t footprint(std::size_t size = 0) const { return connectivity_ ? size + connectivity_->bytes() : size; }
 
@@ -80,7 +76,7 @@ class Triangulation final : public ::ttk::AbstractTriangulation {
   SimplexId TTK_TRIANGULATION_INTERNAL(getNumberOfVertices)() const override { return points_.count; }
   SimplexId TTK_TRIANGULATION_INTERNAL(getNumberOfEdges)() const override { return count(1); }
   SimplexId TTK_TRIANGULATION_INTERNAL(getNumberOfTriangles)() const override { return count(2); }
-  SimplexId TTK_TRIANGULATION_INTERNAL(getNumberOfCells)() const override { return given_.count; }
+  SimplexId TTK_TRIANGULATION_INTERNAL(getNumberOfCells)() const override { return cells_.count(); }
 
   int TTK_TRIANGULATION_INTERNAL(getVertexPoint)(const SimplexId& vertex, float& x, float& y, float& z) const override {
     const auto read = [&](const auto* of) {
@@ -236,15 +232,14 @@ class Triangulation final : public ::ttk::AbstractTriangulation {
         throw Error("cell " + std::to_string(c) + " has " + std::to_string(corners_of(c)) +
                     " vertices: GALE takes tetrahedra only");
       }
-      given_ = {first, stride, cells};
+      cells_ = Cells(first, stride, cells);
       encode();
     });
   }
 
   /// As soon as there are both.
   void encode() {
-    if (points_.count == 0 || given_.count == 0) return;
-    cells_ = Cells(given_.first, given_.stride, given_.count, points_.count);
+    if (points_.count == 0 || cells_.count() == 0) return;
     connectivity_ = std::make_unique<Connectivity>(points_, cells_, options_);
   }
 
@@ -272,15 +267,8 @@ class Triangulation final : public ::ttk::AbstractTriangulation {
     return found == no_id ? 0 : found;
   }
 
-  struct CallersCells {
-    const ::ttk::LongSimplexId* first = nullptr;
-    int stride = 5;
-    Id count = 0;
-  };
-
   const Options options_;
   CallersPoints points_;
-  CallersCells given_;
   Cells cells_;
   std::unique_ptr<Connectivity> connectivity_;
   Lists lists_;
