@@ -32,28 +32,28 @@ Connectivity::Flags Connectivity::find_surface_in_sweep() {
   std::vector<Worker> workers(options.threads);
   const Id* const tetrahedron_input = numbers_of(3);
   const bool keeps_cells = wanted_rows_.has(Relation::VT);
-  structure(source_of(Relation::VV))
-      .for_each_segment(star_relations, options, [&](int consumer, const SegmentRows& rows) {
-        Worker& worker = workers[consumer];
-        const Interval vertices = rows.interval(0);
-        const bool keep = store_->bytes() < store_->budget();
-        worker.neighbours.begin(vertices.first, vertices.size());
-        worker.cells.begin(vertices.first, vertices.size());
-        for (const Id v : vertices) {
-          const Row neighbours = rows[Relation::VV][v];
-          const LinkRow link = rows.links()[v];
-          on_surface(vertex_input_[v]) = worker.is_on_surface(neighbours.size(), link);
-          if (!keep) continue;
-          worker.star.sort(rows[Relation::VT][v], tetrahedron_input);
-          worker.star.add_neighbours(worker.neighbours, neighbours, link, cells_, vertex_input_);
-          worker.neighbours.end_row();
-          for (Id i = 0; keeps_cells && i < worker.star.size(); ++i) worker.cells.add(worker.star.cell(i));
-          worker.cells.end_row();
-        }
-        if (!keep) return;
-        store_->put(Relation::VV, rows.segment(), worker.neighbours.take());
-        if (keeps_cells) store_->put(Relation::VT, rows.segment(), worker.cells.take());
-      });
+  Structure& stars = structure(source_of(Relation::VV));
+  stars.for_each_segment(star_relations, options, [&](int consumer, const SegmentRows& rows) {
+    Worker& worker = workers[consumer];
+    const Interval vertices = rows.interval(0);
+    const bool keep = store_->bytes() < store_->budget();
+    worker.neighbours.begin(vertices.first, vertices.size());
+    worker.cells.begin(vertices.first, vertices.size());
+    for (const Id v : vertices) {
+      const Row neighbours = rows[Relation::VV][v];
+      const LinkRow link = rows.links()[v];
+      if (keep) worker.star.sort(rows[Relation::VT][v], tetrahedron_input, cells_);
+      on_surface(vertex_input_[v]) = worker.is_on_surface(neighbours.size(), link);
+      if (!keep) continue;
+      worker.star.add_neighbours(worker.neighbours, neighbours, link, cells_, vertex_input_);
+      worker.neighbours.end_row();
+      for (Id i = 0; keeps_cells && i < worker.star.size(); ++i) worker.cells.add(worker.star.cell(i));
+      worker.cells.end_row();
+    }
+    if (!keep) return;
+    store_->put(Relation::VV, rows.segment(), worker.neighbours.take());
+    if (keeps_cells) store_->put(Relation::VT, rows.segment(), worker.cells.take());
+  });
   return on_surface;
 }
 

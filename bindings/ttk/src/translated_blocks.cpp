@@ -44,7 +44,7 @@ Block Connectivity::make_block(Reader& reader, Relation relation, Id segment) co
   reader.builder.begin(begin(segment), begin(segment + 1) - begin(segment));
   for (Id i = begin(segment); i < begin(segment + 1); ++i) {
     if (relation == Relation::VV) {
-      reader.star.sort(consumer.row(Relation::VT, i), numbers_of(3));
+      reader.star.sort(consumer.row(Relation::VT, i), numbers_of(3), cells_);
       reader.star.add_neighbours(reader.builder, consumer.row(Relation::VV, i), consumer.link(i), cells_, numbers);
     } else {
       reader.builder.add_sorted(consumer.row(relation, i), numbers);

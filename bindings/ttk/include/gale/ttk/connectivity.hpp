@@ -68,14 +68,8 @@ class GALE_EXPORT Connectivity {
       if (star[1] != TriangleOrder::crowded) return {star, star[1] == no_id ? 1 : 2};
     }
     Reader& mine = reader();
-    Reading& reading = mine.readings[static_cast<int>(relation)];
-    if (reading.simplex != simplex) {
-      const Id id = internal<row_dimension(relation)>(relation, simplex);
-      if (!reading.held.has(id)) load(mine, relation, id);
-      reading.simplex = simplex;
-      reading.row = reading.rows[id];
-    }
-    return reading.row;
+    const Reading& reading = mine.readings[static_cast<int>(relation)];
+    return reading.simplex == simplex ? reading.row : read<relation>(mine, simplex);
   }
 
   /// Vertices, ascending.
@@ -118,6 +112,9 @@ class GALE_EXPORT Connectivity {
   Reader& reader() const {
     return readers_->here([this] { return std::make_unique<Reader>(*store_); });
   }
+
+  template <Relation relation>
+  Row read(Reader& reader, Id simplex) const;
 
   template <std::size_t n, std::size_t parts>
   std::array<Id, n> part_of_cell(const CellOrder& order, const int (&corners)[parts][n], Id simplex) const;
@@ -173,6 +170,16 @@ class GALE_EXPORT Connectivity {
   std::unique_ptr<BlockStore> store_;
   std::unique_ptr<PerThread<Reader>> readers_;  ///< gone before the store and the structures
 };
+
+/// The row of another simplex than the last time: apart from row(), which is called for each entry.
+template <Relation relation>
+__attribute__((noinline)) Row Connectivity::read(Reader& reader, Id simplex) const {
+  Reading& reading = reader.readings[static_cast<int>(relation)];
+  const Id id = internal<row_dimension(relation)>(relation, simplex);
+  if (!reading.held.has(id)) load(reader, relation, id);
+  reading.simplex = simplex;
+  return reading.row = reading.rows[id];
+}
 
 /// Vertices of an edge or a triangle, ascending: those of its first cell at some corners.
 template <std::size_t n, std::size_t parts>

@@ -42,7 +42,7 @@ class PerThread {
   };
 
   template <class Make>
-  State& find(const Make& make) {
+  __attribute__((noinline)) State& find(const Make& make) {
     const std::lock_guard<std::mutex> lock(mutex_);
     auto& state = states_[std::this_thread::get_id()];
     if (!state) state = make();
