@@ -1,21 +1,14 @@
 #pragma once
 
 #include <algorithm>
-#include <chrono>
 #include <string>
 #include <vector>
 
 #include <gale/base/kokkos.hpp>
 
-namespace gale::perf {
+#include "support/seconds.hpp"
 
-/// Seconds that `action` takes.
-template <class Action>
-double seconds_of(const Action& action) {
-  const auto begin = std::chrono::steady_clock::now();
-  action();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
+namespace gale::perf {
 
 /// The median of an odd number of runs, after one that isn't counted.
 template <class Action>

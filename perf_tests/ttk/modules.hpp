@@ -8,15 +8,10 @@
 #include <PathCompression.h>
 #include <ScalarFieldCriticalPoints.h>
 #include <ScalarFieldSmoother.h>
-#ifndef __CUDACC__
-#include <FTMTree.h>
-#endif
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <string>
 #include <utility>
@@ -24,72 +19,17 @@
 
 #include <gale/ttk/essential_pairs.hpp>
 
-#include "support/clock.hpp"
+#include "contour_tree.hpp"
+#include "module_result.hpp"
 
 // TTK's base modules on any triangulation, each with how long it took and all that it gave.
 
 namespace gale::perf {
 
-/// That this process has used of all processors: what others do on the machine counts less.
-inline double processor_seconds() {
-  rusage used;
-  getrusage(RUSAGE_SELF, &used);
-  const auto seconds = [](const timeval& time) { return double(time.tv_sec) + 1e-6 * double(time.tv_usec); };
-  return seconds(used.ru_utime) + seconds(used.ru_stime);
-}
-
-/// The greatest memory that this process has had.
-inline double peak_megabytes() {
-  std::ifstream status("/proc/self/status");
-  for (std::string word; status >> word;) {
-    if (word != "VmHWM:") continue;
-    double kilobytes = 0;
-    status >> kilobytes;
-    return kilobytes / 1000;
-  }
-  return 0;
-}
-
-/// What a module gave, as named arrays of numbers, and seconds.
-struct ModuleResult {
-  std::vector<std::pair<std::string, std::vector<double>>> arrays;
-  double precondition = 0, run = 0;
-  double processors_until = 0, peak = 0;  ///< processor_seconds() and peak_megabytes() when it was done
-
-  template <class Run>
-  void time_run(const Run& run_it) {
-    run = seconds_of(run_it);
-    processors_until = processor_seconds();
-    peak = peak_megabytes();
-  }
-
-  template <class Values>
-  void add(const std::string& name, const Values& values) {
-    arrays.emplace_back(name, std::vector<double>(values.begin(), values.end()));
-  }
-};
-
-/// The fields that modules read: values, and the vertices' ranks by value and number.
-struct Fields {
-  std::vector<float> values;
-  std::vector<::ttk::SimplexId> order;
-  int threads = 1;
-};
-
-namespace detail {
-
-template <class Module>
-void prepare(Module& module, int threads) {
-  module.setDebugLevel(0);
-  module.setThreadNumber(threads);
-}
-
-}  // namespace detail
-
 template <class Triangulation>
 ModuleResult critical_points(const Fields& fields, Triangulation& mesh) {
   ::ttk::ScalarFieldCriticalPoints module;
-  detail::prepare(module, fields.threads);
+  prepare(module, fields.threads);
   module.setDomainDimension(3);
   std::vector<std::pair<::ttk::SimplexId, char>> found;
   module.setOutput(&found);
@@ -105,7 +45,7 @@ ModuleResult critical_points(const Fields& fields, Triangulation& mesh) {
 template <class Triangulation>
 ModuleResult discrete_gradient(const Fields& fields, Triangulation& mesh) {
   ::ttk::dcg::DiscreteGradient module;
-  detail::prepare(module, fields.threads);
+  prepare(module, fields.threads);
   ModuleResult result;
   result.precondition = seconds_of([&] { module.preconditionTriangulation(&mesh); });
   module.setInputScalarField(fields.values.data(), 1);
@@ -131,7 +71,7 @@ ModuleResult discrete_gradient(const Fields& fields, Triangulation& mesh) {
 template <bool walls_too, class Triangulation>
 ModuleResult morse_smale(const Fields& fields, Triangulation& mesh) {
   ::ttk::MorseSmaleComplex module;
-  detail::prepare(module, fields.threads);
+  prepare(module, fields.threads);
   module.setComputeSeparatrices2(walls_too, walls_too);
   ModuleResult result;
   result.precondition = seconds_of([&] { module.preconditionTriangulation(&mesh); });
@@ -170,7 +110,7 @@ ModuleResult morse_smale(const Fields& fields, Triangulation& mesh) {
 template <class Triangulation>
 ModuleResult persistence(const Fields& fields, Triangulation& mesh) {
   ::ttk::DiscreteMorseSandwich module;
-  detail::prepare(module, fields.threads);
+  prepare(module, fields.threads);
   module.setComputeMinSad(true);
   module.setComputeSadSad(true);
   module.setComputeSadMax(true);
@@ -191,39 +131,10 @@ ModuleResult persistence(const Fields& fields, Triangulation& mesh) {
   return result;
 }
 
-#ifndef __CUDACC__  // its parser refuses what Boost has for heaps
-/// The arcs of the contour tree by FTM, from node to node.
-template <class Triangulation>
-ModuleResult contour_tree(const Fields& fields, Triangulation& mesh) {
-  ::ttk::ftm::FTMTree module;
-  detail::prepare(module, fields.threads);
-  ModuleResult result;
-  result.precondition = seconds_of([&] { module.preconditionTriangulation(&mesh); });
-  auto values = fields.values;  // it isn't const to the module
-  module.setVertexScalars(values.data());
-  module.setVertexSoSoffsets(fields.order.data());
-  module.setTreeType(static_cast<int>(::ttk::ftm::TreeType::Contour));
-  module.setSegmentation(true);
-  result.time_run([&] { module.build<float>(&mesh); });
-  auto* const tree = module.getTree(::ttk::ftm::TreeType::Contour);
-  std::vector<std::array<double, 3>> arcs;
-  for (::ttk::ftm::idSuperArc i = 0; i < tree->getNumberOfSuperArcs(); ++i) {
-    const auto* const arc = tree->getSuperArc(i);
-    arcs.push_back({double(tree->getNode(arc->getDownNodeId())->getVertexId()),
-                    double(tree->getNode(arc->getUpNodeId())->getVertexId()), double(arc->size())});
-  }
-  std::sort(arcs.begin(), arcs.end());
-  std::vector<double> flat;
-  for (const auto& arc : arcs) flat.insert(flat.end(), arc.begin(), arc.end());
-  result.add("arcs and their vertices", flat);
-  return result;
-}
-#endif
-
 template <class Triangulation>
 ModuleResult smoother(const Fields& fields, Triangulation& mesh) {
   ::ttk::ScalarFieldSmoother module;
-  detail::prepare(module, fields.threads);
+  prepare(module, fields.threads);
   auto values = fields.values, smooth = fields.values;
   module.setDimensionNumber(1);
   module.setInputDataPointer(values.data());
@@ -239,7 +150,7 @@ ModuleResult smoother(const Fields& fields, Triangulation& mesh) {
 template <class Triangulation>
 ModuleResult jacobi_set(const Fields& fields, Triangulation& mesh) {
   ::ttk::JacobiSet module;
-  detail::prepare(module, fields.threads);
+  prepare(module, fields.threads);
   ModuleResult result;
   result.precondition = seconds_of([&] { module.preconditionTriangulation(&mesh); });
   std::vector<float> second(fields.values.size());
@@ -264,7 +175,7 @@ ModuleResult jacobi_set(const Fields& fields, Triangulation& mesh) {
 template <class Triangulation>
 ModuleResult path_compression(const Fields& fields, Triangulation& mesh) {
   ::ttk::PathCompression module;
-  detail::prepare(module, fields.threads);
+  prepare(module, fields.threads);
   module.setComputeSegmentation(true, true, true);
   std::vector<::ttk::SimplexId> ascending(fields.order.size()), descending(ascending), both(ascending);
   ::ttk::PathCompression::OutputSegmentation segments{ascending.data(), descending.data(), both.data()};
@@ -281,9 +192,7 @@ ModuleResult path_compression(const Fields& fields, Triangulation& mesh) {
 template <class Triangulation>
 ModuleResult run_module(const std::string& name, const Fields& fields, Triangulation& mesh) {
   const std::map<std::string, ModuleResult (*)(const Fields&, Triangulation&)> modules = {
-#ifndef __CUDACC__
-      {"contour-tree", contour_tree<Triangulation>},
-#endif
+      {"contour-tree", [](const Fields& fields, Triangulation& mesh) { return contour_tree(fields, mesh); }},
       {"critical-points", critical_points<Triangulation>},
       {"discrete-gradient", discrete_gradient<Triangulation>},
       {"jacobi-set", jacobi_set<Triangulation>},

@@ -2,11 +2,11 @@
 //
 //     ttk_modules INPUT MODULE explicit|gale|both [THREADS [MEMORY_IN_MIB]]
 //
-// INPUT is `grid:N` or a raw mesh (support/inputs.hpp); MODULE one of critical-points, discrete-gradient, morse-smale,
-// morse-smale-walls, persistence, contour-tree (not where nvcc compiles this), smoother, jacobi-set and
-// path-compression, or all of them. A line each of what it took, peak memory of the process included; `both` also says
-// whether all arrays are equal, element by element, and exits with 1 if not. MEMORY_IN_MIB bounds GALE's translated
-// blocks.
+// INPUT is `grid:N`, a raw mesh (support/inputs.hpp), or, where unit tests are built, `test:NAME`, one of their meshes;
+// MODULE one of critical-points, discrete-gradient, morse-smale, morse-smale-walls, persistence, contour-tree,
+// smoother, jacobi-set and path-compression, or all of them. A line each of what it took, peak memory of the process
+// included; `both` also says whether all arrays are equal, element by element, and exits with 1 if not. MEMORY_IN_MIB
+// bounds GALE's translated blocks.
 
 #include <ExplicitTriangulation.h>
 #include <omp.h>
@@ -20,6 +20,9 @@
 
 #include "modules.hpp"
 #include "support/inputs.hpp"
+#ifdef GALE_TEST_MESHES
+#include "support/input_mesh.hpp"
+#endif
 
 namespace {
 
@@ -34,8 +37,38 @@ struct CallersMesh {
   Fields fields;
 };
 
+/// A mesh that unit tests loop over, with a field that has many equal values.
+gale::io::Dataset test_mesh(const std::string& name) {
+#ifdef GALE_TEST_MESHES
+  const auto& names = gale::test::mesh_names();
+  if (std::find(names.begin(), names.end(), name) != names.end()) {
+    const gale::test::InputMesh& mesh = gale::test::mesh_named(name);
+    gale::io::Dataset data;
+    const gale::io::Dataset::Points<float> points("points", mesh.points.size());
+    std::vector<float> field;
+    for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+      for (int axis = 0; axis < 3; ++axis) points(v, axis) = static_cast<float>(mesh.points[v][axis]);
+      field.push_back(static_cast<float>(v * 7919 % 31));
+    }
+    data.points = points;
+    data.tetrahedra = decltype(data.tetrahedra)("tetrahedra", mesh.tetrahedra.size());
+    for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
+      for (int corner = 0; corner < 4; ++corner) data.tetrahedra(t, corner) = mesh.tetrahedra[t][corner];
+    }
+    data.arrays.push_back({"field", 1, std::move(field)});
+    return data;
+  }
+  std::string there;
+  for (const std::string& one : names) there += " test:" + one;
+  throw gale::Error("there is no mesh 'test:" + name + "', but" + there);
+#else
+  throw gale::Error("'test:" + name + "' needs a build with GALE_ENABLE_TESTS");
+#endif
+}
+
 CallersMesh callers_mesh(const std::string& input, int threads) {
-  const gale::io::Dataset data = gale::perf::make_input(input);
+  const gale::io::Dataset data =
+      input.rfind("test:", 0) == 0 ? test_mesh(input.substr(5)) : gale::perf::make_input(input);
   const auto& points = std::get<gale::io::Dataset::Points<float>>(data.points);
   CallersMesh mesh;
   mesh.points.assign(points.data(), points.data() + points.size());
@@ -98,12 +131,9 @@ bool equal(const ModuleResult& a, const ModuleResult& b) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const std::vector<std::string> all = {
-#ifndef __CUDACC__
-      "contour-tree",
-#endif
-      "critical-points",   "discrete-gradient", "jacobi-set",  "morse-smale",
-      "morse-smale-walls", "path-compression",  "persistence", "smoother"};
+  const std::vector<std::string> all = {"contour-tree",     "critical-points", "discrete-gradient",
+                                        "jacobi-set",       "morse-smale",     "morse-smale-walls",
+                                        "path-compression", "persistence",     "smoother"};
   const std::string kind = argc > 3 ? argv[3] : "";
   if (kind != "explicit" && kind != "gale" && kind != "both") {
     std::fprintf(stderr, "usage: %s INPUT MODULE|all explicit|gale|both [THREADS [MEMORY_IN_MIB]]\n", argv[0]);

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <DataTypes.h>
+#include <sys/resource.h>
+
+#include <fstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "support/seconds.hpp"
+
+// What TTK's modules are given and what they gave. Nothing of GALE's or Kokkos', so that what the device's compiler
+// refuses may be compiled without it.
+
+namespace gale::perf {
+
+/// That this process has used of all processors: what others do on the machine counts less.
+inline double processor_seconds() {
+  rusage used;
+  getrusage(RUSAGE_SELF, &used);
+  const auto seconds = [](const timeval& time) { return double(time.tv_sec) + 1e-6 * double(time.tv_usec); };
+  return seconds(used.ru_utime) + seconds(used.ru_stime);
+}
+
+/// The greatest memory that this process has had.
+inline double peak_megabytes() {
+  std::ifstream status("/proc/self/status");
+  for (std::string word; status >> word;) {
+    if (word != "VmHWM:") continue;
+    double kilobytes = 0;
+    status >> kilobytes;
+    return kilobytes / 1000;
+  }
+  return 0;
+}
+
+/// What a module gave, as named arrays of numbers, and seconds.
+struct ModuleResult {
+  std::vector<std::pair<std::string, std::vector<double>>> arrays;
+  double precondition = 0, run = 0;
+  double processors_until = 0, peak = 0;  ///< processor_seconds() and peak_megabytes() when it was done
+
+  template <class Run>
+  void time_run(const Run& run_it) {
+    run = seconds_of(run_it);
+    processors_until = processor_seconds();
+    peak = peak_megabytes();
+  }
+
+  template <class Values>
+  void add(const std::string& name, const Values& values) {
+    arrays.emplace_back(name, std::vector<double>(values.begin(), values.end()));
+  }
+};
+
+/// The fields that modules read: values, and the vertices' ranks by value and number.
+struct Fields {
+  std::vector<float> values;
+  std::vector<::ttk::SimplexId> order;
+  int threads = 1;
+};
+
+/// Has a module print nothing, and take so many threads.
+template <class Module>
+void prepare(Module& module, int threads) {
+  module.setDebugLevel(0);
+  module.setThreadNumber(threads);
+}
+
+}  // namespace gale::perf
