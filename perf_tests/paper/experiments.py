@@ -3,18 +3,6 @@ import statistics
 
 from runs import medians, spread
 
-# Six meshes of the paper's numbers of tetrahedra, of different character; the last is the one that the paper looks at
-# closest. `small` bears two cores for ten minutes, `smallest` is for tests.
-PAPER = {"Engine": "smooth:108", "Foot": "noisy:142", "Fish": "ball:196", "Asteroid": "shells:318", "Hole": "dense:209",
-         "Stent": "grid:256"}
-SMALL = {"Engine": "smooth:28", "Foot": "noisy:36", "Fish": "ball:48", "Asteroid": "shells:76", "Hole": "dense:52",
-         "Stent": "grid:64"}
-SMALLEST = {"Engine": "smooth:8", "Stent": "grid:10"}
-SIZES = {
-    "smallest": {"meshes": SMALLEST, "runs": 1, "consumers": [1, 2], "values": 2, "studied": ["Stent"]},
-    "small": {"meshes": SMALL, "runs": 5, "consumers": [1, 2, 4, 8, 16, 24, 32, 40], "values": 99, "studied": ["Engine", "Stent"]},
-    "paper": {"meshes": PAPER, "runs": 5, "consumers": [1, 8, 16, 24, 32, 40], "values": 99, "studied": list(PAPER)},
-}
 ALGORITHMS = {"critical points": "critical-points", "discrete gradient": "discrete-gradient", "Morse-Smale complex": "morse-smale"}
 WAYS = ["gale", "leaders", "inline", "explicit", "task-parallel"]
 STAGES = ["push", "queue", "preparation", "kernel_and_transfer", "integration"]

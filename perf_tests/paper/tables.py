@@ -64,6 +64,10 @@ def write(machine, out):
             writer.writeheader()
             writer.writerows(flat_rows)
         page += [f"## {TITLES[name]}\n", markdown([with_spread(row) for row in rows]) + "\n"]
+    if machine.took:
+        took = [{"experiment": name, **{key: f"{value:.0f}" for key, value in one.items()}} for name, one in machine.took.items()]
+        total = {key: f"{sum(one[key] for one in machine.took.values()):.0f}" for key in ("seconds", "processor_seconds")}
+        page += ["## What the experiments took\n", markdown(took + [{"experiment": "all", **total}]) + "\n"]
     if machine.missing:
         page += ["## Not run\n", markdown(machine.missing) + "\n"]
     (out / "results.md").write_text("\n".join(page))

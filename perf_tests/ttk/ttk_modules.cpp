@@ -1,12 +1,13 @@
 // TTK's base modules on TTK's explicit triangulation and on GALE's: are the results equal, and what does each take?
 //
-//     ttk_modules INPUT MODULE explicit|gale|both [THREADS [MEMORY_IN_MIB]]
+//     ttk_modules INPUT MODULE explicit|gale|both [THREADS [MEMORY_IN_MIB [WAY]]]
 //
 // INPUT is `grid:N`, a raw mesh (support/inputs.hpp), or, where unit tests are built, `test:NAME`, one of their meshes;
 // MODULE one of critical-points, discrete-gradient, morse-smale, morse-smale-walls, persistence, contour-tree,
 // smoother, jacobi-set and path-compression, or all of them. A line each of what it took, peak memory of the process
 // included; `both` also says whether all arrays are equal, element by element, and exits with 1 if not. MEMORY_IN_MIB
-// bounds GALE's translated blocks.
+// bounds GALE's translated blocks (0: as many as by default), WAY is how GALE computes rows: gale, leaders, helpers,
+// inline or task-parallel.
 
 #include <ExplicitTriangulation.h>
 #include <omp.h>
@@ -106,6 +107,9 @@ ModuleResult run(const char* kind, const std::string& module, const CallersMesh&
   return result;
 }
 
+/// Positions of degenerate cells may be no numbers.
+bool same(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
+
 /// Says where two results differ.
 bool equal(const ModuleResult& a, const ModuleResult& b) {
   bool all = a.arrays.size() == b.arrays.size() && !a.arrays.empty();
@@ -114,11 +118,11 @@ bool equal(const ModuleResult& a, const ModuleResult& b) {
     const auto& [name, values] = a.arrays[i];
     const auto& others = b.arrays[i].second;
     numbers += values.size();
-    if (values == others) continue;
+    if (std::equal(values.begin(), values.end(), others.begin(), others.end(), same)) continue;
     all = false;
     std::printf("  %s differ: %zu and %zu numbers", name.c_str(), values.size(), others.size());
     for (std::size_t k = 0; k < std::min(values.size(), others.size()); ++k) {
-      if (values[k] == others[k]) continue;
+      if (same(values[k], others[k])) continue;
       std::printf("; at %zu %g and %g", k, values[k], others[k]);
       break;
     }
@@ -136,7 +140,7 @@ int main(int argc, char** argv) {
                                         "path-compression", "persistence",     "smoother"};
   const std::string kind = argc > 3 ? argv[3] : "";
   if (kind != "explicit" && kind != "gale" && kind != "both") {
-    std::fprintf(stderr, "usage: %s INPUT MODULE|all explicit|gale|both [THREADS [MEMORY_IN_MIB]]\n", argv[0]);
+    std::fprintf(stderr, "usage: %s INPUT MODULE|all explicit|gale|both [THREADS [MEMORY_IN_MIB [WAY]]]\n", argv[0]);
     return 2;
   }
   const std::string module = argv[2];
@@ -153,6 +157,11 @@ int main(int argc, char** argv) {
     const CallersMesh mesh = callers_mesh(argv[1], threads);
     gale::ttk::Options options;
     if (argc > 5) options.memory = std::size_t(std::atol(argv[5])) << 20;
+    if (argc > 6) {
+      const auto way = gale::way_named(argv[6]);
+      if (!way) throw gale::Error(std::string("there is no way '") + argv[6] + "'");
+      options.structure.way = *way;
+    }
     for (const std::string& name : module == "all" ? all : std::vector<std::string>{module}) {
       std::optional<ModuleResult> results[2];
       if (kind != "gale") {

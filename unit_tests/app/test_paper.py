@@ -44,6 +44,7 @@ class Paper(gale.CommandTest):
 
         missing = {one["what"] for one in data["missing"]}
         self.assertLessEqual({"TTK's modules", "ACTOPO", "seven relations by threads a segment"}, missing)
+        self.assertGreater(data["took"]["algorithms"]["processor_seconds"], 0)
         page = (self.folder / "results.md").read_text()
         for title in ("Three algorithms on all meshes", "What consumers wait for", "Not run"):
             self.assertIn(f"## {title}", page)
@@ -62,6 +63,19 @@ class Paper(gale.CommandTest):
         missing = json.loads((self.folder / "results.json").read_text())["missing"]
         self.assertEqual({one["why"] for one in missing}, {"no such thing"})
         self.assertIn("| ttk | smooth:8 critical-points explicit", (self.folder / "results.md").read_text())
+
+    def test_parts_of_it_are_put_together(self):
+        for name, limit in (("meshes", "100"), ("blocks", "0.000001")):
+            run = paper("--gale", gale.GALE, "--size", "smallest", "--only", name, "--runs", 2, "--time-limit", limit, "--out",
+                        self.folder / name)
+            self.assertEqual((run.returncode, run.stderr), (0, ""))
+        whole = self.folder / "whole"
+        files = [self.folder / name / "results.json" for name in ("meshes", "blocks")]
+        self.assertEqual(paper("--from", *files, "--out", whole).returncode, 0)
+        page = (whole / "results.md").read_text()
+        self.assertIn("| Stent | grid:10 | 1000 |", page)
+        self.assertIn("the 1e-06 seconds were over", page)
+        self.assertFalse((whole / "blocks.csv").exists())
 
 
 if __name__ == "__main__":
