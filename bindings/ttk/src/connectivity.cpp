@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <cmath>
 
 #include <gale/base/parallel.hpp>
+#include <gale/base/threads.hpp>
 #include <gale/runtime/defaults.hpp>
 #include <gale/ttk/connectivity.hpp>
 
@@ -20,11 +22,16 @@ Mesh encode(const CallersPoints& points, const Cells& cells, int capacity) {
               points.in_double ? octree<double>(points, capacity) : octree<float>(points, capacity));
 }
 
-/// For blocks. VV and VT of a regular mesh take 192 a vertex, and one sweep makes them all. Of others, those around the
-/// front of whoever goes through the simplices suffice: more made nothing faster.
+/// For blocks. VV and VT of a regular mesh take 192 bytes a vertex, and one sweep makes them all. Of other rows, those
+/// that TTK's threads go through at one time suffice: each has a part of the vertices, in the caller's order, hence
+/// comes by the segments of some layers again and again. More made nothing faster.
 std::size_t default_memory(RelationSet wanted, Id vertices) {
-  const std::size_t bytes_of_vertex = (RelationSet(Relation::VV) | Relation::VT).contains(wanted) ? 192 : 40;
-  return std::max(bytes_of_vertex * vertices, 16 * gale::detail::mebibyte);
+  const auto stars = std::size_t(192) * vertices;
+  if ((RelationSet(Relation::VV) | Relation::VT).contains(wanted)) return std::max(stars, 16 * gale::detail::mebibyte);
+  constexpr double layers = 6, bytes_of_vertex = 300;
+  const double side = std::cbrt(vertices), passed = layers * bytes_of_vertex * side * side * host_threads();
+  const auto most = std::min(static_cast<std::size_t>(passed), stars);
+  return std::max({most, std::size_t(40) * vertices, 16 * gale::detail::mebibyte});
 }
 
 Options with_defaults(Options options) {

@@ -19,8 +19,8 @@ namespace gale::ttk {
 struct Options {
   StructureOptions structure;  ///< its host_memory is 512 MiB by default, since the blocks are kept translated
   int capacity = 100;          ///< vertices of a segment, at most
-  std::size_t memory = 0;      ///< bytes for translated blocks; by default 192 a vertex, which VV and VT take, 40 where
-                               ///< other rows are needed, and at least 16 MiB
+  std::size_t memory = 0;  ///< bytes for translated blocks; by default 192 a vertex, which VV and VT take; where other
+                           ///< rows are needed 40 to 192, by what all threads go through at one time
 };
 
 /// A caller's points: three coordinates each, float or double.
