@@ -224,6 +224,30 @@ TEST(TtkTriangulationSteps, may_be_preconditioned_in_any_order_and_again_after_r
   EXPECT_EQ(mesh.footprint(5), before + 5);
 }
 
+TEST(TtkTriangulationSteps, finds_vertices_on_the_boundary_with_and_without_rows_and_triangles) {
+  const InputMesh& input = mesh_named("holed_grid_9");
+  const CallersMesh callers(input);
+  const ExpectedTriangulation expected(input);
+  using Steps = std::vector<int (Mesh::*)()>;
+  const auto surface = &Mesh::preconditionBoundaryVertices, rows = &Mesh::preconditionVertexNeighbors,
+             triangles = &Mesh::preconditionTriangles;
+  for (const Steps& steps : {Steps{surface}, Steps{surface, rows}, Steps{rows, surface}, Steps{surface, triangles},
+                             Steps{triangles, surface}, Steps{surface, rows, triangles}}) {
+    ttk::Triangulation mesh;
+    callers.set(mesh);
+    for (const auto step : steps) (mesh.*step)();
+    std::vector<std::thread> readers;
+    std::atomic<int> wrong{0};
+    for (int thread = 0; thread < 3; ++thread) {
+      readers.emplace_back([&] {
+        for (Id v = 0; v < input.vertices(); ++v) wrong += mesh.isVertexOnBoundary(v) != expected.vertex_on_surface[v];
+      });
+    }
+    for (std::thread& reader : readers) reader.join();
+    EXPECT_EQ(wrong, 0) << steps.size();
+  }
+}
+
 TEST(TtkTriangulationSteps, begins_anew_with_other_cells) {
   const InputMesh inputs[2] = {ball(6), mesh_named("isolated_vertices")};
   const CallersMesh callers[2] = {CallersMesh(inputs[0]), CallersMesh(inputs[1])};
@@ -271,6 +295,9 @@ TEST(TtkTriangulationErrors, rows_that_nobody_preconditioned_are_refused_by_name
   mesh.preconditionVertexNeighbors();
   EXPECT_EQ(message_of([&] { mesh.getVertexStarNumber(0); }), "rows of VT were not preconditioned");
   EXPECT_EQ(message_of([&] { mesh.getEdgeStarNumber(0); }), "rows of ET were not preconditioned");
+  EXPECT_EQ(message_of([&] { mesh.getTriangleStarNumber(0); }), "rows of FT were not preconditioned");
+  EXPECT_EQ(message_of([&] { mesh.isVertexOnBoundary(0); }), "what is on the boundary was not preconditioned");
+  EXPECT_EQ(message_of([&] { mesh.isEdgeOnBoundary(0); }), "what is on the boundary was not preconditioned");
 }
 
 }  // namespace
