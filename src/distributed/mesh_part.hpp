@@ -29,7 +29,7 @@ template <class View>
 Array<const GlobalId, HostMemory> global_ids(const View& view) {
   static_assert(View::rank == 1, "a global id for each");
   const auto here = on_host(view);
-  if constexpr (std::is_convertible_v<decltype(here), Array<const GlobalId, HostMemory>>) return here;
+  if constexpr (Kokkos::is_always_assignable<Array<const GlobalId, HostMemory>, decltype(here)>::value) return here;
   const auto ids = allocate<Array<GlobalId, HostMemory>>("GALE::global_ids", here.extent(0));
   parallel_for("GALE::global_ids", HostSpace(), here.extent(0),
                [&](Offset i) { ids(i) = static_cast<GlobalId>(here(i)); });

@@ -48,7 +48,7 @@ RowsOf<columns, TypeFor, View> rows_of(const char* name, const View& view) {
   }
   if constexpr (std::is_same_v<Type, typename View::non_const_value_type>) {
     if (view.stride(0) == columns && view.stride(1) == 1) {
-      if constexpr (std::is_convertible_v<View, Rows>) return view;  // which shares its ownership
+      if constexpr (Kokkos::is_always_assignable<Rows, View>::value) return view;  // which shares its ownership
       return Rows(view.data(), view.extent(0));
     }
   }
