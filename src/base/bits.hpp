@@ -8,9 +8,23 @@
 
 namespace gale {
 
+namespace detail {
+
+/// For processors of which the compiler doesn't know that they count bits: its own way is a call, and looks up tables.
+KOKKOS_FORCEINLINE_FUNCTION int add_up_bits(std::uint64_t bits) {
+  bits -= bits >> 1 & 0x5555555555555555U;
+  bits = (bits & 0x3333333333333333U) + (bits >> 2 & 0x3333333333333333U);
+  bits = (bits + (bits >> 4)) & 0x0f0f0f0f0f0f0f0fU;
+  return static_cast<int>(bits * 0x0101010101010101U >> 56);
+}
+
+}  // namespace detail
+
 KOKKOS_FORCEINLINE_FUNCTION int count_bits(std::uint32_t bits) {
 #if defined(__CUDA_ARCH__)
   return __popc(bits);
+#elif defined(__x86_64__) && !defined(__POPCNT__)
+  return detail::add_up_bits(bits);
 #else
   return __builtin_popcount(bits);
 #endif
@@ -19,6 +33,8 @@ KOKKOS_FORCEINLINE_FUNCTION int count_bits(std::uint32_t bits) {
 KOKKOS_FORCEINLINE_FUNCTION int count_bits(std::uint64_t bits) {
 #if defined(__CUDA_ARCH__)
   return __popcll(bits);
+#elif defined(__x86_64__) && !defined(__POPCNT__)
+  return detail::add_up_bits(bits);
 #else
   return __builtin_popcountll(bits);
 #endif

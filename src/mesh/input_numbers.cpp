@@ -1,95 +1,31 @@
-#include <gale/base/group_by.hpp>
-#include <gale/base/parallel.hpp>
-#include <gale/base/sort_rows.hpp>
 #include <gale/base/transfer.hpp>
 #include <gale/mesh/input_numbers.hpp>
+#include <gale/mesh/number_by_sorting.hpp>
+#include <gale/mesh/number_by_vertex.hpp>
 
 namespace gale {
 
 namespace {
 
 template <class Space>
-using Ids = Array<Id, MemoryOf<Space>>;
-/// Of the mesh, which other threads may use too: a managed View's count isn't atomic where Kokkos has Serial alone.
-template <class Space>
-using VertexInput = Kokkos::View<const Id*, MemoryOf<Space>, Kokkos::MemoryUnmanaged>;
-
-KOKKOS_INLINE_FUNCTION void order(Id& a, Id& b) {
-  if (b < a) {
-    const Id low = b;
-    b = a;
-    a = low;
+InputNumbers numbers_in(const Space& space, const Mesh& mesh, bool edges, bool triangles) {
+  using Memory = MemoryOf<Space>;
+  SimplexNeeds needs;
+  needs.upto = triangles ? Enumeration::triangles : Enumeration::edges;
+  const auto simplices = mesh.simplices<Memory>(needs);
+  const detail::VertexInput<Memory> input = mesh.vertex_input<Memory>();
+  if constexpr (is_device<Space>) {
+    InputNumbers numbers;
+    if (edges) numbers.edges = on_host(detail::sort_edges(space, simplices, input));
+    if (triangles) numbers.triangles = on_host(detail::sort_triangles(space, simplices, input));
+    return numbers;
+  } else {
+    return detail::number_by_vertex(simplices, input, edges, triangles);
   }
 }
 
-template <class Memory>
-struct EntryAt {
-  Array<Id, Memory> entries;
-
-  KOKKOS_FUNCTION Id operator()(Id i) const { return entries(i); }
-};
-
-/// The places that simplices have in order, by two numbers each: `first`, of which there are `firsts`, then `second`.
-/// No two have the same.
-template <class Space>
-Ids<Space> places_of(const Space& space, Offset firsts, const Ids<Space>& first, const Ids<Space>& second) {
-  const auto groups =
-      group_by_key<Id>("GALE::input_order", space, first.extent(0), firsts, EntryAt<MemoryOf<Space>>{first});
-  const auto begin = groups.begin;
-  const auto row = groups.members;
-  parallel_for(
-      "GALE::input_order", space, row.extent(0), KOKKOS_LAMBDA(Offset i) { row(i) = second(row(i)); });
-  sort_rows(space, "GALE::input_order", begin, row);
-  const auto place = allocate<Ids<Space>>("GALE::input_numbers", row.extent(0));
-  parallel_for(
-      "GALE::input_numbers", space, row.extent(0),
-      KOKKOS_LAMBDA(Offset i) { place(i) = detail::find_in(row, begin(first(i)), begin(first(i) + 1), second(i)); });
-  return place;
-}
-
-template <class Space>
-Ids<Space> edge_numbers(const Space& space, const Simplices<MemoryOf<Space>>& simplices,
-                        const VertexInput<Space>& input) {
-  const Offset edges = simplices.edge_low.extent(0);
-  const auto low = allocate<Ids<Space>>("GALE::edge_keys", edges),
-             high = allocate<Ids<Space>>("GALE::edge_keys", edges);
-  parallel_for(
-      "GALE::edge_keys", space, edges, KOKKOS_LAMBDA(Offset e) {
-        Id a = input(simplices.edge_low(e)), b = input(simplices.edge_high(e));
-        order(a, b);
-        low(e) = a;
-        high(e) = b;
-      });
-  return places_of(space, input.extent(0), low, high);
-}
-
-template <class Space>
-Ids<Space> triangle_numbers(const Space& space, const Simplices<MemoryOf<Space>>& simplices,
-                            const VertexInput<Space>& input) {
-  const auto edges = edge_numbers(space, simplices, input);
-  const Offset triangles = simplices.triangle_apex.extent(0);
-  const auto first = allocate<Ids<Space>>("GALE::triangle_keys", triangles),
-             second = allocate<Ids<Space>>("GALE::triangle_keys", triangles);
-  parallel_for(
-      "GALE::triangle_keys", space, triangles, KOKKOS_LAMBDA(Offset f) {
-        const Id edge = simplices.triangle_edge(f);
-        const Id vertices[3] = {simplices.edge_low(edge), simplices.edge_high(edge), simplices.triangle_apex(f)};
-        int last = 0;  // the corner whose input id is highest; the edge of the others comes first
-        for (int corner = 1; corner < 3; ++corner) {
-          if (input(vertices[corner]) > input(vertices[last])) last = corner;
-        }
-        first(f) = edges(simplices.edge_of(vertices[last == 0 ? 1 : 0], vertices[last == 2 ? 1 : 2]));
-        second(f) = input(vertices[last]);
-      });
-  return places_of(space, edges.extent(0), first, second);
-}
-
-template <class Space>
-Array<const Id, HostMemory> numbers_in(const Space& space, const Mesh& mesh, const SimplexNeeds& needs) {
-  const auto simplices = mesh.simplices<MemoryOf<Space>>(needs);
-  const VertexInput<Space> input = mesh.vertex_input<MemoryOf<Space>>();
-  return on_host(needs.upto == Enumeration::edges ? edge_numbers(space, simplices, input)
-                                                  : triangle_numbers(space, simplices, input));
+InputNumbers numbers_of(const Mesh& mesh, bool edges, bool triangles) {
+  return in_worker_or_host_space(mesh, [&](const auto& space) { return numbers_in(space, mesh, edges, triangles); });
 }
 
 }  // namespace
@@ -97,9 +33,9 @@ Array<const Id, HostMemory> numbers_in(const Space& space, const Mesh& mesh, con
 Array<const Id, HostMemory> input_numbers(const Mesh& mesh, int dimension) {
   if (dimension == 0) return mesh.vertex_input();
   if (dimension == 3) return mesh.tetrahedron_input();
-  SimplexNeeds needs;
-  needs.upto = dimension == 1 ? Enumeration::edges : Enumeration::triangles;
-  return in_worker_or_host_space(mesh, [&](const auto& space) { return numbers_in(space, mesh, needs); });
+  return dimension == 1 ? numbers_of(mesh, true, false).edges : numbers_of(mesh, false, true).triangles;
 }
+
+InputNumbers input_numbers(const Mesh& mesh) { return numbers_of(mesh, true, true); }
 
 }  // namespace gale

@@ -9,8 +9,16 @@ namespace gale {
 /// places in the input; an edge or a triangle has its place among all of the mesh, each written with its input vertices
 /// ascending, in lexicographic order. So the numbers depend on nothing but the input.
 ///
-/// Edges and triangles are enumerated if they haven't been, and sorted: O(n), O(n log n) at vertices and edges of very
-/// many; 16 bytes each in the workers' memory meanwhile.
+/// Edges and triangles are enumerated if they haven't been, and numbered: O(n), O(n log n) at vertices and edges of
+/// very many. On the host each vertex numbers those of which it has the least input id, in 16 bytes a vertex and 4 for
+/// some of the simplices; a device sorts all, in 16 bytes each of its memory.
 GALE_EXPORT Array<const Id, HostMemory> input_numbers(const Mesh& mesh, int dimension);
+
+struct InputNumbers {
+  Array<const Id, HostMemory> edges, triangles;
+};
+
+/// Those of edges and of triangles, which take less time together.
+GALE_EXPORT InputNumbers input_numbers(const Mesh& mesh);
 
 }  // namespace gale

@@ -1,5 +1,7 @@
 #include "mesh.hpp"
 
+#include <algorithm>
+
 #include <gale/base/error.hpp>
 #include <gale/mesh/input_numbers.hpp>
 #include <gale/mesh/make_mesh.hpp>
@@ -75,11 +77,18 @@ const Mesh& PyMesh::mesh() const {
   return *mesh_;
 }
 
-const Id* PyMesh::numbers(int dimension) const {
+std::array<const Id*, 2> PyMesh::numbers(int one, int other) const {
   const std::lock_guard<std::mutex> lock(numbers_mutex_);
-  auto& numbers = numbers_[dimension];
-  if (numbers.data() == nullptr) numbers = input_numbers(mesh(), dimension);
-  return numbers.data();
+  const auto missing = [&](int dimension) { return numbers_[dimension].data() == nullptr; };
+  if (std::min(one, other) == 1 && std::max(one, other) == 2 && missing(1) && missing(2)) {
+    const InputNumbers both = input_numbers(mesh());
+    numbers_[1] = both.edges;
+    numbers_[2] = both.triangles;
+  }
+  for (const int dimension : {one, other}) {
+    if (missing(dimension)) numbers_[dimension] = input_numbers(mesh(), dimension);
+  }
+  return {numbers_[one].data(), numbers_[other].data()};
 }
 
 nb::object PyMesh::points() const {

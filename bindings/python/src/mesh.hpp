@@ -50,8 +50,8 @@ class PyMesh : public Kept {
  private:
   const Mesh& mesh() const;
 
-  /// input_numbers of a dimension, made once. As long as the mesh is there; from any thread.
-  const Id* numbers(int dimension) const;
+  /// input_numbers of two dimensions, made once. As long as the mesh is there; from any thread.
+  std::array<const Id*, 2> numbers(int one, int other) const;
 
   /// The points with the field as their array.
   io::Dataset with(const io::PointArray& field) const;

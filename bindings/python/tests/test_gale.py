@@ -70,6 +70,16 @@ class Meshes(unittest.TestCase):
 class Relations(unittest.TestCase):
     def test_are_those_of_sets(self):
         points, tetrahedra, _ = random_mesh(2)
+        self.check(points, tetrahedra)
+
+    def test_of_vertices_with_many_neighbours(self):
+        """A ring of 80 vertices around an edge: rows of 80, and more neighbours than a word has bits."""
+        rng = np.random.default_rng(5)
+        ids = rng.permutation(82)
+        ring, hubs = ids[:80], np.broadcast_to(ids[80:], (80, 2))
+        self.check(rng.random((82, 3)), np.column_stack([ring, np.roll(ring, 1), hubs]))
+
+    def check(self, points, tetrahedra):
         mesh = gale.Mesh(points, tetrahedra, capacity=7)
         simplices = [
             sorted({tuple(sorted(c)) for cell in tetrahedra.tolist() for c in itertools.combinations(cell, d + 1)})

@@ -1,0 +1,308 @@
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include <gale/base/bits.hpp>
+#include <gale/base/group_by.hpp>
+#include <gale/base/parallel.hpp>
+#include <gale/mesh/number_by_vertex.hpp>
+
+// A vertex' own simplices here are those of which it has the least input id. GALE's tables have them by the least of
+// GALE's ids; the two agree for most where vertices of a segment are in the order of the input.
+
+namespace gale::detail {
+
+namespace {
+
+using HostTables = Simplices<HostMemory>;
+using HostIds = Array<Id, HostMemory>;
+
+/// What each vertex owns and another one has in the tables: edges (., x), and the edges (a, b) of triangles (a, b, x).
+/// Triangles (a, x, .) are over those edges.
+struct Elsewhere {
+  Array<bool, HostMemory> has_all;  ///< vertex a -> whether it owns all that the tables have of it, (a, ...)
+  Groups<HostMemory, Id> edges, triangles;
+  const Id *edge_begin, *edge_ids;  ///< in `edges`, or all edges by their higher vertex if the tables have these
+};
+
+Elsewhere find_elsewhere(const HostTables& tables, const Id* input, bool triangles) {
+  const Offset vertices = tables.edge_begin.extent(0) - 1, edges = tables.edge_high.extent(0);
+  Elsewhere elsewhere;
+  elsewhere.has_all = allocate<Array<bool, HostMemory>>("GALE::has_all", vertices);
+  parallel_for("GALE::has_all", HostSpace(), vertices, [&](Offset v) {
+    const Id* const ends = tables.edge_high.data();
+    elsewhere.has_all(v) = std::all_of(ends + tables.edge_begin(v), ends + tables.edge_begin(v + 1),
+                                       [&](Id end) { return input[end] > input[v]; });
+  });
+  if (tables.lower_begin.extent(0) > 0) {
+    elsewhere.edge_begin = tables.lower_begin.data();
+    elsewhere.edge_ids = tables.lower_edges.data();
+  } else {
+    elsewhere.edges =
+        group_by<Id>("GALE::edges_elsewhere", HostSpace(), edges, vertices, [&](Id edge, const auto& visit) {
+          const Id low = tables.edge_low(edge), high = tables.edge_high(edge);
+          if (!elsewhere.has_all(low) && input[high] < input[low]) visit(high);
+        });
+    elsewhere.edge_begin = elsewhere.edges.begin.data();
+    elsewhere.edge_ids = elsewhere.edges.members.data();
+  }
+  if (triangles) {
+    elsewhere.triangles =
+        group_by<Id>("GALE::triangles_elsewhere", HostSpace(), edges, vertices, [&](Id edge, const auto& visit) {
+          if (elsewhere.has_all(tables.edge_low(edge))) return;
+          const Id least = std::min(input[tables.edge_low(edge)], input[tables.edge_high(edge)]);
+          for (Id f = tables.triangle_begin(edge); f < tables.triangle_begin(edge + 1); ++f) {
+            const Id apex = tables.triangle_apex(f);
+            if (input[apex] < least) visit(apex);
+          }
+        });
+  }
+  return elsewhere;
+}
+
+/// What a vertex owns.
+class OwnSimplices {
+ public:
+  OwnSimplices(const HostTables& tables, const Id* input, const Elsewhere& elsewhere)
+      : tables_(tables), input_(input), elsewhere_(elsewhere) {}
+
+  /// Whether it owns what the tables have of it, and nothing else.
+  bool is_as_in_tables(Id vertex) const {
+    if (!elsewhere_.has_all(vertex)) return false;
+    bool none = true;
+    for_each_edge_elsewhere(vertex, [&](Id, Id) { none = false; });
+    return none;
+  }
+
+  /// Calls visit(edge, other end).
+  template <class Visit>
+  void for_each_edge(Id vertex, const Visit& visit) const {
+    const Id here = input_[vertex];
+    for (Id e = tables_.edge_begin(vertex); e < tables_.edge_begin(vertex + 1); ++e) {
+      const Id high = tables_.edge_high(e);
+      if (input_[high] > here) visit(e, high);
+    }
+    for_each_edge_elsewhere(vertex, visit);
+  }
+
+  /// Calls visit(triangle, third corner) for those that the tables have over one of these edges.
+  template <class Visit>
+  void for_each_triangle_over(Id edge, Id vertex, const Visit& visit) const {
+    const Id here = input_[vertex];
+    for (Id f = tables_.triangle_begin(edge); f < tables_.triangle_begin(edge + 1); ++f) {
+      const Id apex = tables_.triangle_apex(f);
+      if (input_[apex] > here) visit(f, apex);
+    }
+  }
+
+  /// Calls visit(edge) for the others: the vertex is their apex over that edge.
+  template <class Visit>
+  void for_each_triangle_below(Id vertex, const Visit& visit) const {
+    const auto& [begin, members] = elsewhere_.triangles;
+    for (Id i = begin(vertex); i < begin(vertex + 1); ++i) visit(members(i));
+  }
+
+ private:
+  template <class Visit>
+  void for_each_edge_elsewhere(Id vertex, const Visit& visit) const {
+    for (Id i = elsewhere_.edge_begin[vertex]; i < elsewhere_.edge_begin[vertex + 1]; ++i) {
+      const Id edge = elsewhere_.edge_ids[i], low = tables_.edge_low(edge);
+      if (input_[low] > input_[vertex]) visit(edge, low);
+    }
+  }
+
+  const HostTables& tables_;
+  const Id* input_;
+  const Elsewhere& elsewhere_;
+};
+
+/// Where the numbers of what each vertex owns begin, by input id.
+struct OwnBegins {
+  HostIds edges, triangles;
+};
+
+OwnBegins find_begins(const OwnSimplices& own, const HostTables& tables, const Id* input, Id vertices, bool triangles) {
+  OwnBegins begins;
+  begins.edges = allocate<HostIds>("GALE::edge_numbers_begin", vertices + 1);
+  if (triangles) begins.triangles = allocate<HostIds>("GALE::triangle_numbers_begin", vertices + 1);
+  parallel_for("GALE::count_own", HostSpace(), vertices, [&](Offset v) {
+    const Id vertex = static_cast<Id>(v);
+    if (own.is_as_in_tables(vertex)) {
+      const Id first = tables.edge_begin(v), last = tables.edge_begin(v + 1);
+      begins.edges(input[v]) = last - first;
+      if (triangles) begins.triangles(input[v]) = tables.triangle_begin(last) - tables.triangle_begin(first);
+      return;
+    }
+    Id edge_count = 0, triangle_count = 0;
+    own.for_each_edge(vertex, [&](Id edge, Id) {
+      ++edge_count;
+      if (triangles) own.for_each_triangle_over(edge, vertex, [&](Id, Id) { ++triangle_count; });
+    });
+    begins.edges(input[vertex]) = edge_count;
+    if (!triangles) return;
+    own.for_each_triangle_below(vertex, [&](Id) { ++triangle_count; });
+    begins.triangles(input[vertex]) = triangle_count;
+  });
+  for (const HostIds& begin : {begins.edges, begins.triangles}) {
+    if (begin.extent(0) == 0) continue;
+    exclusive_scan("GALE::scan_own", HostSpace(), vertices, begin, [&](Offset i) { return begin(i); });
+  }
+  return begins;
+}
+
+struct OwnNumbers {
+  HostIds edges, triangles;
+};
+
+/// The order of some neighbours, by input ids.
+class OwnNeighbours {
+ public:
+  void begin(std::size_t count) {
+    count_ = count;
+    if (count > few) many_.resize(count);
+  }
+  Id* ids() { return count_ > few ? many_.data() : few_; }
+
+  /// When all ids are written.
+  void sort() {
+    if (count_ > few) {
+      std::sort(many_.begin(), many_.end());
+    } else {
+      std::fill(few_ + count_, few_ + few, std::numeric_limits<Id>::max());
+    }
+  }
+
+  /// How many are before one; few are compared with all of them, in no order.
+  Id rank_of(Id id) const {
+    if (count_ > few) return static_cast<Id>(std::lower_bound(many_.begin(), many_.end(), id) - many_.begin());
+    Id rank = 0;
+    for (std::size_t i = 0; i < half; ++i) rank += few_[i] < id;
+    if (count_ > half) {
+      for (std::size_t i = half; i < few; ++i) rank += few_[i] < id;
+    }
+    return rank;
+  }
+
+ private:
+  static constexpr std::size_t few = 16, half = few / 2;
+  std::size_t count_ = 0;
+  Id few_[few];
+  std::vector<Id> many_;
+};
+
+/// OwnNumbers what one vertex after the other owns.
+class OwnNumberer {
+ public:
+  OwnNumberer(const OwnSimplices& own, const HostTables& tables, const Id* input, const OwnNumbers& numbers)
+      : own_(own), tables_(tables), input_(input), numbers_(numbers) {}
+
+  /// Goes to a vertex, which owns so many edges.
+  void order_edges(Id vertex, Id edges_there) {
+    edges_.resize(edges_there);
+    neighbours_.begin(edges_.size());
+    Id *const edges = edges_.data(), *const ids = neighbours_.ids();
+    Id count = 0;
+    own_.for_each_edge(vertex, [&](Id edge, Id other) {
+      edges[count] = edge;
+      ids[count++] = input_[other];
+    });
+    in_order_ = own_.is_as_in_tables(vertex) && std::is_sorted(ids, ids + count);
+    if (in_order_) return;
+    ends_.assign(ids, ids + count);
+    neighbours_.sort();
+    for (Id& end : ends_) end = neighbours_.rank_of(end);
+  }
+
+  /// Its edges, from `begin`.
+  void number_edges(Id begin) {
+    for (std::size_t i = 0; i < edges_.size(); ++i)
+      numbers_.edges(edges_[i]) = begin + (in_order_ ? static_cast<Id>(i) : ends_[i]);
+  }
+
+  /// Its triangles, from `begin` to before `end`.
+  void number_triangles(Id vertex, Id begin, Id end) {
+    if (in_order_) {
+      for (Id f = tables_.triangle_begin(tables_.edge_begin(vertex)); begin < end; ++f) numbers_.triangles(f) = begin++;
+      return;
+    }
+    triangles_.resize(end - begin);
+    Corners* to = triangles_.data();
+    const auto add = [&](Id triangle, Id a, Id b) { *to++ = {triangle, std::min(a, b), std::max(a, b)}; };
+    for (std::size_t i = 0; i < edges_.size(); ++i) {
+      own_.for_each_triangle_over(
+          edges_[i], vertex, [&](Id triangle, Id apex) { add(triangle, ends_[i], neighbours_.rank_of(input_[apex])); });
+    }
+    own_.for_each_triangle_below(vertex, [&](Id edge) {
+      add(tables_.triangle_of(edge, vertex), neighbours_.rank_of(input_[tables_.edge_low(edge)]),
+          neighbours_.rank_of(input_[tables_.edge_high(edge)]));
+    });
+    if (edges_.size() <= bits) {
+      number_by_bits(begin);
+    } else {
+      number_by_sorting(begin);
+    }
+  }
+
+ private:
+  static constexpr std::size_t bits = 64;
+
+  struct Corners {
+    Id triangle, second, third;  ///< ranks among the neighbours
+  };
+
+  void number_by_bits(Id begin) {
+    std::uint64_t joined[bits];
+    Id begins[bits];
+    for (std::size_t i = 0; i < edges_.size(); ++i) joined[i] = 0;
+    for (const Corners& corners : triangles_) joined[corners.second] |= std::uint64_t(1) << corners.third;
+    for (std::size_t i = 0; i < edges_.size(); ++i) {
+      begins[i] = begin;
+      begin += count_bits(joined[i]);
+    }
+    for (const Corners& corners : triangles_) {
+      const std::uint64_t before = joined[corners.second] & ((std::uint64_t(1) << corners.third) - 1);
+      numbers_.triangles(corners.triangle) = begins[corners.second] + count_bits(before);
+    }
+  }
+
+  void number_by_sorting(Id begin) {
+    std::sort(triangles_.begin(), triangles_.end(), [](const Corners& a, const Corners& b) {
+      return a.second != b.second ? a.second < b.second : a.third < b.third;
+    });
+    for (const Corners& corners : triangles_) numbers_.triangles(corners.triangle) = begin++;
+  }
+
+  const OwnSimplices& own_;
+  const HostTables& tables_;
+  const Id* input_;
+  const OwnNumbers& numbers_;
+  OwnNeighbours neighbours_;
+  bool in_order_ = false;         ///< as in the tables
+  std::vector<Id> edges_, ends_;  ///< of the vertex; the ends' ranks
+  std::vector<Corners> triangles_;
+};
+
+}  // namespace
+
+InputNumbers number_by_vertex(const HostTables& simplices, const VertexInput<HostMemory>& input, bool edges,
+                              bool triangles) {
+  const Id vertices = static_cast<Id>(simplices.edge_begin.extent(0)) - 1;
+  const Elsewhere elsewhere = find_elsewhere(simplices, input.data(), triangles);
+  const OwnSimplices own(simplices, input.data(), elsewhere);
+  const OwnBegins begins = find_begins(own, simplices, input.data(), vertices, triangles);
+  OwnNumbers numbers;
+  if (edges) numbers.edges = allocate<HostIds>("GALE::edge_numbers", simplices.edge_high.extent(0));
+  if (triangles) numbers.triangles = allocate<HostIds>("GALE::triangle_numbers", simplices.triangle_apex.extent(0));
+  for_parts("GALE::number_own", vertices, threads_for(vertices), [&](int, Offset first, Offset last) {
+    OwnNumberer numberer(own, simplices, input.data(), numbers);
+    for (Id vertex = static_cast<Id>(first); vertex < last; ++vertex) {
+      const Id here = input(vertex);
+      numberer.order_edges(vertex, begins.edges(here + 1) - begins.edges(here));
+      if (edges) numberer.number_edges(begins.edges(here));
+      if (triangles) numberer.number_triangles(vertex, begins.triangles(here), begins.triangles(here + 1));
+    }
+  });
+  return {numbers.edges, numbers.triangles};
+}
+
+}  // namespace gale::detail
