@@ -1,10 +1,10 @@
 #include <algorithm>
-#include <limits>
 #include <vector>
 
 #include <gale/base/bits.hpp>
 #include <gale/base/group_by.hpp>
 #include <gale/base/parallel.hpp>
+#include <gale/mesh/neighbour_ranks.hpp>
 #include <gale/mesh/number_by_vertex.hpp>
 
 // A vertex' own simplices here are those of which it has the least input id. GALE's tables have them by the least of
@@ -154,43 +154,7 @@ struct OwnNumbers {
   HostIds edges, triangles;
 };
 
-/// The order of some neighbours, by input ids.
-class OwnNeighbours {
- public:
-  void begin(std::size_t count) {
-    count_ = count;
-    if (count > few) many_.resize(count);
-  }
-  Id* ids() { return count_ > few ? many_.data() : few_; }
-
-  /// When all ids are written.
-  void sort() {
-    if (count_ > few) {
-      std::sort(many_.begin(), many_.end());
-    } else {
-      std::fill(few_ + count_, few_ + few, std::numeric_limits<Id>::max());
-    }
-  }
-
-  /// How many are before one; few are compared with all of them, in no order.
-  Id rank_of(Id id) const {
-    if (count_ > few) return static_cast<Id>(std::lower_bound(many_.begin(), many_.end(), id) - many_.begin());
-    Id rank = 0;
-    for (std::size_t i = 0; i < half; ++i) rank += few_[i] < id;
-    if (count_ > half) {
-      for (std::size_t i = half; i < few; ++i) rank += few_[i] < id;
-    }
-    return rank;
-  }
-
- private:
-  static constexpr std::size_t few = 16, half = few / 2;
-  std::size_t count_ = 0;
-  Id few_[few];
-  std::vector<Id> many_;
-};
-
-/// OwnNumbers what one vertex after the other owns.
+/// Numbers what one vertex after the other owns.
 class OwnNumberer {
  public:
   OwnNumberer(const OwnSimplices& own, const HostTables& tables, const Id* input, const OwnNumbers& numbers)
@@ -276,7 +240,7 @@ class OwnNumberer {
   const HostTables& tables_;
   const Id* input_;
   const OwnNumbers& numbers_;
-  OwnNeighbours neighbours_;
+  NeighbourRanks neighbours_;
   bool in_order_ = false;         ///< as in the tables
   std::vector<Id> edges_, ends_;  ///< of the vertex; the ends' ranks
   std::vector<Corners> triangles_;
