@@ -32,7 +32,7 @@ void require_distinct(const std::vector<std::string>& files) {
 }  // namespace
 
 Session::Session(const InputOptions& input, const CommonOptions& common, std::vector<std::string> files)
-    : input_(input), common_(common), console_(common.quiet) {
+    : input_(input), common_(common), console_(common.quiet), files_(common.encoding) {
   report_.input = input.input;
   report_.threads = host_threads();
   files.push_back(common.report);

@@ -30,7 +30,7 @@ void named(const std::string& path, const Use& use) {
 
 }  // namespace
 
-AtomicFile::AtomicFile(const std::string& path) : path_(path), target_(path) {
+AtomicFile::AtomicFile(const std::string& path, Encoding encoding) : path_(path), target_(path), encoding_(encoding) {
   namespace fs = std::filesystem;
   std::error_code unknown;  // what can't be looked at can't be opened either, which says why
   if (fs::is_symlink(target_, unknown)) target_ = fs::weakly_canonical(target_).string();
@@ -55,7 +55,7 @@ void AtomicFile::commit() {
 }
 
 AtomicFile& AtomicFiles::add(const std::string& path) {
-  named(path, [&] { files_.push_back(std::make_unique<AtomicFile>(path)); });
+  named(path, [&] { files_.push_back(std::make_unique<AtomicFile>(path, encoding_)); });
   return *files_.back();
 }
 

@@ -9,6 +9,10 @@
 
 namespace gale::io {
 
+/// How VTK's XML files have their arrays: after all XML, as they are in memory; or as base64 in it, which takes a third
+/// more and more time, and which readers take that refuse what isn't XML.
+enum class Encoding { appended, base64 };
+
 /// A file that appears under its name complete or not at all.
 ///
 /// Write to `temporary()`, a new, empty file in the same directory, and close it; `commit` then gives it its name,
@@ -17,13 +21,16 @@ namespace gale::io {
 class GALE_EXPORT AtomicFile {
  public:
   /// Throws `Error` if the directory takes no new file, or if `path` exists and is no regular file.
-  explicit AtomicFile(const std::string& path);
+  explicit AtomicFile(const std::string& path, Encoding encoding = Encoding::appended);
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
   /// As it was given.
   const std::string& path() const { return path_; }
   const std::string& temporary() const { return temporary_.path(); }
+
+  /// What its arrays are to be written in, if it is to be one of VTK's XML files.
+  Encoding encoding() const { return encoding_; }
 
   /// Waits until what was written is on disk. Throws `Error` if it does not get there.
   void sync() const;
@@ -35,6 +42,7 @@ class GALE_EXPORT AtomicFile {
   friend class AtomicFiles;
 
   std::string path_, target_;  ///< `target_`: where links lead
+  Encoding encoding_;
   detail::TemporaryName temporary_;
 };
 
@@ -44,6 +52,8 @@ class GALE_EXPORT AtomicFile {
 /// All errors name the file.
 class GALE_EXPORT AtomicFiles {
  public:
+  explicit AtomicFiles(Encoding encoding = Encoding::appended) : encoding_(encoding) {}
+
   /// Another one; it stays where it is as long as this object.
   AtomicFile& add(const std::string& path);
 
@@ -56,6 +66,7 @@ class GALE_EXPORT AtomicFiles {
   const std::vector<std::unique_ptr<AtomicFile>>& all() const { return files_; }
 
  private:
+  Encoding encoding_;
   std::vector<std::unique_ptr<AtomicFile>> files_;
 };
 

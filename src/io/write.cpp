@@ -79,7 +79,7 @@ void write_file(const std::string& path, const Write& write) {
 
 void write_temporary(const AtomicFile& file, const PointSet& points) {
   check_arrays(size_of(points.points), points.arrays);
-  detail::write_vtp(file.temporary(), points);
+  detail::write_vtp(file, points);
 }
 
 void write_temporary(const AtomicFile& file, const Surface& surface) {
@@ -88,14 +88,14 @@ void write_temporary(const AtomicFile& file, const Surface& surface) {
   check_cells(points, surface.polygons);
   check_arrays(points, surface.point_arrays);
   check_arrays(surface.lines.begin.size() + surface.polygons.begin.size() - 2, surface.cell_arrays, "cells");
-  detail::write_vtp(file.temporary(), surface);
+  detail::write_vtp(file, surface);
 }
 
 void write_temporary(const AtomicFile& file, const Dataset& mesh, const std::vector<PointArray>& more) {
   check_arrays(size_of(mesh.points), mesh.arrays);
   check_arrays(size_of(mesh.points), more);
   if (detail::format_of(file.path()) == Format::vtu) {
-    detail::write_vtu(file.temporary(), mesh, more);
+    detail::write_vtu(file, mesh, more);
   } else {
     detail::write_legacy_vtk(file.temporary(), mesh, more);
   }
@@ -130,7 +130,7 @@ void write_piece(const AtomicFile& file, const MeshPiece& piece) {
   name_in_errors(file.path(), [&] {
     check_arrays(size_of(piece.mesh.points), piece.mesh.arrays);
     check_arrays(piece.mesh.tetrahedra.extent(0), piece.cell_arrays, "tetrahedra");
-    detail::write_vtu(file.temporary(), piece.mesh, {}, piece.cell_arrays);
+    detail::write_vtu(file, piece.mesh, {}, piece.cell_arrays);
   });
 }
 
@@ -161,7 +161,7 @@ void write_lines(const AtomicFile& file, const Surface& lines) {
     check_cells(points, lines.lines);
     check_arrays(points, lines.point_arrays);
     check_arrays(lines.lines.begin.size() - 1, lines.cell_arrays, "lines");
-    detail::write_vtu(file.temporary(), lines);
+    detail::write_vtu(file, lines);
   });
 }
 

@@ -5,6 +5,7 @@ import signal
 import subprocess
 import time
 import unittest
+import xml.etree.ElementTree
 
 import gale
 
@@ -21,6 +22,18 @@ class Outputs(gale.CommandTest):
     def start(self, *arguments, **options):
         return subprocess.Popen([gale.GALE, *arguments], cwd=self.folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                                 stderr=subprocess.PIPE, text=True, **options)
+
+    @gale.needs_vtk
+    def test_all_files_in_base64_are_xml(self):
+        for command, *options in (MANY, ["critical-points", "grid:12", "-o", "c.vtp"], ["segment", "grid:12", "-o", "s.vtu"],
+                                  ["discrete-gradient", "grid:12", "-o", "g.vtp", "--arrows", "a.vtp"],
+                                  ["persistence-diagram", "grid:12", "-o", "d.vtu"], ["generate", "grid:12", "-o", "m.vtu"]):
+            self.succeed(command, *options, "--encoding", "base64")
+        names = [name for name in self.names() if name.endswith((".vtp", ".vtu"))]
+        self.assertEqual(len(names), 10)
+        for name in names:
+            arrays = xml.etree.ElementTree.parse(self.folder / name).getroot().iter("DataArray")
+            self.assertEqual({array.get("format") for array in arrays}, {"binary"}, name)
 
     @gale.needs_vtk
     def test_a_signal_leaves_no_files_and_ends_the_process(self):

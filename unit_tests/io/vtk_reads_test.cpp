@@ -49,6 +49,23 @@ class VtkReads : public testing::Test {
   test::Folder folder;
 };
 
+/// In each encoding.
+class VtkReadsEncoded : public VtkReads, public testing::WithParamInterface<Encoding> {
+ protected:
+  /// What `write(file)` writes appears under that name.
+  template <class Write>
+  void write_to(const std::string& name, const Write& write) const {
+    AtomicFile file(folder / name, GetParam());
+    write(file);
+    file.commit();
+    const std::string format = GetParam() == Encoding::base64 ? "binary" : "appended";
+    EXPECT_NE(test::content_of(folder / name).find("format=\"" + format + '"'), std::string::npos);
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(Tests, VtkReadsEncoded, testing::Values(Encoding::appended, Encoding::base64),
+                         [](const auto& info) { return info.param == Encoding::base64 ? "base64" : "appended"; });
+
 void expect_array(vtkDataArray* found, const PointArray& array) {
   ASSERT_NE(found, nullptr) << array.name;
   EXPECT_EQ(found->GetNumberOfComponents(), array.components) << array.name;
@@ -105,12 +122,13 @@ void expect_mesh(vtkUnstructuredGrid* found, const Dataset& mesh) {
   for (const PointArray& array : mesh.arrays) expect_array(found->GetPointData()->GetArray(array.name.c_str()), array);
 }
 
-TEST_F(VtkReads, meshes_whatever_the_threads) {
+TEST_P(VtkReadsEncoded, meshes_whatever_the_threads) {
   const Dataset mesh = large_mesh();
   for (const int threads : {1, 3}) {
     const ThreadLimit limit(threads);
-    write_mesh(folder / "mesh.vtu", mesh);
+    write_to("mesh.vtu", [&](const AtomicFile& file) { write_mesh(file, mesh); });
     expect_mesh(read_by<vtkXMLUnstructuredGridReader>("mesh.vtu"), mesh);
+    test::expect_same(read(folder / "mesh.vtu"), mesh);
   }
 }
 
@@ -120,17 +138,17 @@ TEST_F(VtkReads, legacy_meshes) {
   expect_mesh(read_by<vtkUnstructuredGridReader>("mesh.vtk"), mesh);
 }
 
-TEST_F(VtkReads, empty_meshes) {
+TEST_P(VtkReadsEncoded, empty_meshes) {
   Dataset mesh = make_grid(2);
   mesh.tetrahedra = {};
-  write_mesh(folder / "mesh.vtu", mesh);
+  write_to("mesh.vtu", [&](const AtomicFile& file) { write_mesh(file, mesh); });
   EXPECT_EQ(read_by<vtkXMLUnstructuredGridReader>("mesh.vtu")->GetNumberOfCells(), 0);
   EXPECT_EQ(read_by<vtkXMLUnstructuredGridReader>("mesh.vtu")->GetNumberOfPoints(), 8);
 }
 
-TEST_F(VtkReads, points) {
+TEST_P(VtkReadsEncoded, points) {
   const PointArray types{"CriticalType", 1, std::vector<std::int8_t>{0, 1, 0, 3, 2}};
-  write_points(folder / "points.vtp", {five_points(), {types}});
+  write_to("points.vtp", [&](const AtomicFile& file) { write_points(file, {five_points(), {types}}); });
   const auto found = read_by<vtkXMLPolyDataReader>("points.vtp");
   expect_points(found, five_points());
   expect_array(found->GetPointData()->GetArray("CriticalType"), types);
@@ -138,9 +156,9 @@ TEST_F(VtkReads, points) {
   for (int i = 0; i < 5; ++i) expect_cell(found, i, VTK_VERTEX, {i});
 }
 
-TEST_F(VtkReads, surfaces) {
+TEST_P(VtkReadsEncoded, surfaces) {
   const Surface surface = two_lines_and_a_triangle();
-  write_surface(folder / "surface.vtp", surface);
+  write_to("surface.vtp", [&](const AtomicFile& file) { write_surface(file, surface); });
   const auto found = read_by<vtkXMLPolyDataReader>("surface.vtp");
   expect_points(found, surface.points);
   expect_array(found->GetPointData()->GetArray("CellDimension"), surface.point_arrays[0]);
@@ -151,12 +169,10 @@ TEST_F(VtkReads, surfaces) {
   expect_cell(found, 2, VTK_TRIANGLE, {0, 1, 4});
 }
 
-TEST_F(VtkReads, lines_of_a_grid) {
+TEST_P(VtkReadsEncoded, lines_of_a_grid) {
   Surface lines = two_lines_and_a_triangle();
   lines.cell_arrays = {{"PairId", 1, std::vector<std::int64_t>{-1, 5}}};
-  AtomicFile file(folder / "lines.vtu");
-  write_lines(file, lines);
-  file.commit();
+  write_to("lines.vtu", [&](const AtomicFile& file) { write_lines(file, lines); });
   const auto found = read_by<vtkXMLUnstructuredGridReader>("lines.vtu");
   expect_points(found, lines.points);
   expect_array(found->GetCellData()->GetArray("PairId"), lines.cell_arrays[0]);

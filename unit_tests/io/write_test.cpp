@@ -1,9 +1,11 @@
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <csignal>
 
 #include <gtest/gtest.h>
 
+#include <gale/io/atomic_file.hpp>
 #include <gale/io/read.hpp>
 #include <gale/io/synthetic.hpp>
 #include <gale/io/write.hpp>
@@ -149,6 +151,21 @@ void expect_all_or_nothing(const test::Folder& folder, const std::string& name, 
 TEST_F(WriteMesh, LeavesNoHalfFileOnAFullDisk) {
   const Dataset mesh = make_grid(12);
   expect_all_or_nothing(folder, "mesh.vtu", [&] { write_mesh(folder / "mesh.vtu", mesh); });
+}
+
+/// Without VTK's compression too.
+TEST_F(WriteMesh, InBase64IsXmlThatComesBackAsItWas) {
+  const Dataset mesh = grid_with_every_type(5);
+  {
+    AtomicFile file(folder / "mesh.vtu", Encoding::base64);
+    write_mesh(file, mesh);
+    file.commit();
+  }
+  const std::string content = content_of(folder / "mesh.vtu");
+  EXPECT_TRUE(std::all_of(content.begin(), content.end(), [](char c) { return c == '\n' || (c >= ' ' && c <= '~'); }));
+#ifdef GALE_ENABLE_VTK
+  test::expect_same(read(folder / "mesh.vtu"), mesh);
+#endif
 }
 
 TEST_F(WriteMesh, LeavesNoHalfLegacyFileOnAFullDisk) {

@@ -30,6 +30,9 @@ class Command {
   /// Where it adds options of its own.
   CLI::App& subcommand() { return subcommand_; }
 
+  /// Adds --encoding, if it writes VTK's XML files.
+  void add_encoding() { common_.add_encoding_to(subcommand_); }
+
   const InputOptions& input() const { return input_; }
 
   /// Throws UsageError unless `file`, the value of `option`, is empty or ends in one of `extensions`, in either case.

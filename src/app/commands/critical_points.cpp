@@ -20,6 +20,7 @@ class FindCriticalPoints final : public Command {
     structure_.add_consumers_to(subcommand());
     subcommand().add_option("-o,--output", output_,
                             "The critical points: .vtp; on several ranks .pvtp, with a .vtp a rank");
+    add_encoding();
   }
 
   void run_on_ranks() const override {

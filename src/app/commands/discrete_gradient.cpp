@@ -23,6 +23,7 @@ class FindDiscreteGradient final : public Command {
     structure_.add_consumers_to(subcommand());
     subcommand().add_option("-o,--output", output_,
                             "The critical simplices: .vtp; on several ranks .pvtp, with a .vtp a rank");
+    add_encoding();
     subcommand()
         .add_option("--formulation", formulation_,
                     "stars (from VV, VT and link) or cells (from VE, VF and VT, as other programs do; slower): the "

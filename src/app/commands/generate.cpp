@@ -12,6 +12,7 @@ class Generate final : public Command {
  public:
   explicit Generate(CLI::App& app) : Command(app, "generate", "Writes the tetrahedral mesh that an input stands for") {
     subcommand().add_option("-o,--output", output_, ".vtu or .vtk")->required();
+    add_encoding();
   }
 
   void run() const override {

@@ -61,6 +61,7 @@ class FindMorseSmale final : public Command {
                     "Write P_critical_points.vtp, P_separatrices1.vtp, P_segmentation.vtu and, if wanted, "
                     "P_separatrices2.vtp; on several ranks .pvtp and .pvtu, with a piece a rank")
         ->type_name("P");
+    add_encoding();
     add_parts();
     add_persistence(
         subcommand(), persistence_,

@@ -33,6 +33,7 @@ class FindPersistenceDiagram final : public Command {
     structure_.add_to(subcommand());
     structure_.add_consumers_to(subcommand());
     subcommand().add_option("-o,--output", output_, "The diagram, a line a pair: .vtu");
+    add_encoding();
     subcommand().add_option("--curve", curve_,
                             "How many pairs have at least a persistence, for each that occurs: .csv");
     add_persistence(subcommand(), persistence_,

@@ -31,6 +31,7 @@ class Segment final : public Command {
   explicit Segment(CLI::App& app) : Command(app, "segment", "Divides a mesh into segments") {
     segmentation_.add_to(subcommand());
     subcommand().add_option("-o,--output", output_, "The mesh with its segments as a point array: .vtu or .vtk");
+    add_encoding();
   }
 
   void run() const override {

@@ -26,6 +26,18 @@ void CommonOptions::add_to(CLI::App& command) {
   command.add_flag("--quiet", quiet, "Print nothing but errors");
 }
 
+void CommonOptions::add_encoding_to(CLI::App& command) {
+  const auto set = [this](const std::string& name) {
+    encoding = name == "base64" ? io::Encoding::base64 : io::Encoding::appended;
+  };
+  command
+      .add_option_function<std::string>("--encoding", set,
+                                        "How .vtu and .vtp have their arrays: appended (default), or base64 for "
+                                        "readers that want all to be XML, such "
+                                        "as ParaView 5.11 in Debian 12")
+      ->check(CLI::IsMember({"appended", "base64"}));
+}
+
 void SegmentationOptions::add_to(CLI::App& command) {
   CLI::Option* const largest = command.add_option("--capacity", capacity, "Most vertices of a segment (default: 100)");
   largest->check(CLI::Range(1, 2147483647));

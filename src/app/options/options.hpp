@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include <gale/io/atomic_file.hpp>
 #include <gale/io/read.hpp>
 
 namespace CLI {
@@ -28,8 +29,12 @@ struct CommonOptions {
   std::optional<int> threads;  ///< all cores unless given
   std::string report;          ///< a file's name, or empty
   bool quiet = false;
+  io::Encoding encoding = io::Encoding::appended;  ///< --encoding
 
   void add_to(CLI::App& command);
+
+  /// For commands that write VTK's XML files.
+  void add_encoding_to(CLI::App& command);
 };
 
 /// How to divide the mesh's vertices into segments.

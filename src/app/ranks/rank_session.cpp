@@ -70,7 +70,8 @@ RankSession::RankSession(const InputOptions& input, const CommonOptions& common,
       common_(common),
       outputs_(kind_of(outputs)),
       ranks_(MPI_COMM_WORLD),
-      console_(common.quiet || !Ranks::is_first()) {
+      console_(common.quiet || !Ranks::is_first()),
+      files_(common.encoding) {
   report_.input = input.input;
   report_.threads = host_threads();
   detail::together(ranks_, [&] {

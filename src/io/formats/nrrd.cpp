@@ -62,7 +62,7 @@ NrrdHeader read_nrrd_header(const InputFile& file) {
   return header;
 }
 
-ValueType type_of(const std::string& name) {
+ValueType type_named(const std::string& name) {
   static const std::map<std::string, ValueType> types = {{"signed char", ValueType::int8},
                                                          {"int8", ValueType::int8},
                                                          {"int8_t", ValueType::int8},
@@ -243,7 +243,7 @@ Content read_nrrd(const InputFile& file, const ReadOptions& options) {
   const NrrdHeader header = read_nrrd_header(file);
   const Axes axes = axes_of(header);
   Volume volume;
-  volume.type = type_of(lower_case(header["type"]));
+  volume.type = type_named(lower_case(header["type"]));
   if (axes.first_in_space == 1) volume.components = axes.sizes[0];
   for (std::size_t k = 0; k < 3 && axes.first_in_space + k < axes.sizes.size(); ++k)
     volume.dimensions[k] = axes.sizes[axes.first_in_space + k];

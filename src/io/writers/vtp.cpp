@@ -29,9 +29,9 @@ struct Parts {
   Arrays vertices, lines, polygons;
 };
 
-void write(const std::string& path, const Parts& parts) {
+void write(const AtomicFile& file, const Parts& parts) {
   const auto count = [](const Arrays& cells) { return cells[1].count; };
-  write_xml(path, {"PolyData",
+  write_xml(file, {"PolyData",
                    {{"NumberOfPoints", written(parts.points).count / 3},
                     {"NumberOfVerts", count(parts.vertices)},
                     {"NumberOfLines", count(parts.lines)},
@@ -48,13 +48,13 @@ void write(const std::string& path, const Parts& parts) {
 
 }  // namespace
 
-void write_vtp(const std::string& path, const PointSet& points) {
+void write_vtp(const AtomicFile& file, const PointSet& points) {
   const std::uint64_t count = written(points.points).count / 3;
-  write(path, {points.points, written({&points.arrays}), {}, vertices(count), vertices(0), vertices(0)});
+  write(file, {points.points, written({&points.arrays}), {}, vertices(count), vertices(0), vertices(0)});
 }
 
-void write_vtp(const std::string& path, const Surface& surface) {
-  write(path, {surface.points, written({&surface.point_arrays}), written({&surface.cell_arrays}), vertices(0),
+void write_vtp(const AtomicFile& file, const Surface& surface) {
+  write(file, {surface.points, written({&surface.point_arrays}), written({&surface.cell_arrays}), vertices(0),
                cells_of(surface.lines), cells_of(surface.polygons)});
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include <gale/io/atomic_file.hpp>
 #include <gale/io/writers/written_array.hpp>
 
 namespace gale::io::detail {
@@ -25,8 +26,9 @@ struct XmlContent {
 /// How a section, of pieces or of what they have in common, says which array has global ids; nothing for no name.
 std::string global_ids_attribute(const std::string& name);
 
-/// Writes it with its arrays appended as they are in memory, compressed where there is a zlib: block by block, so that
-/// it takes little memory, and on as many threads as loops take. Throws gale::Error without the path.
-void write_xml(const std::string& path, const XmlContent& content);
+/// Writes it to the temporary file of `to`, its arrays in the encoding that this says, compressed where there is a
+/// zlib: block by block, so that it takes little memory, and on as many threads as loops take. Throws gale::Error
+/// without the path.
+void write_xml(const AtomicFile& to, const XmlContent& content);
 
 }  // namespace gale::io::detail
