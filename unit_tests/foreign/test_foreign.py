@@ -10,8 +10,8 @@ import gale  # of the command's tests
 
 
 class Foreign(gale.CommandTest):
-    def convert(self, source, to):
-        subprocess.run([os.environ["GALE_WRITE_FOREIGN"], source, to], cwd=self.folder, check=True, timeout=60)
+    def convert(self, source, to, *times):
+        subprocess.run([os.environ["GALE_WRITE_FOREIGN"], source, to, *times], cwd=self.folder, check=True, timeout=60)
         return to
 
     def mesh(self, size, to):
@@ -26,6 +26,14 @@ class Foreign(gale.CommandTest):
             with self.subTest(name):
                 self.succeed("critical-points", self.convert("mesh.vtu", name), "-o", "found.vtp")
                 self.assertEqual(gale.read_vtp(self.folder / "found.vtp"), expected)
+
+    def test_of_several_times_the_first_is_read_and_the_others_noted(self):
+        self.mesh(12, "once.e")
+        self.convert("mesh.vtu", "often.e", "3")
+        for name, notices in (("once.e", []), ("often.e", ["left out all but the first of 3 time steps"])):
+            report = self.report("critical-points", name, "-o", f"{name}.vtp")
+            self.assertEqual(report["notices"], notices)
+        self.assertEqual(gale.read_vtp(self.folder / "often.e.vtp"), gale.read_vtp(self.folder / "once.e.vtp"))
 
     def test_image_is_split(self):
         self.convert("5", "image.vtkhdf")

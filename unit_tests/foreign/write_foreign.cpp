@@ -1,5 +1,6 @@
 // write_foreign SOURCE.vtu FILE.e|FILE.vtkhdf: the mesh of a .vtu in another format. write_foreign SIZE FILE.vtkhdf: an
-// image of SIZE^3 points with the array "ramp", x + 2y + 3z.
+// image of SIZE^3 points with the array "ramp", x + 2y + 3z. write_foreign SOURCE.vtu FILE.e TIMES: "field" grows by
+// one from one time to the next.
 #include <cstdlib>
 #include <cstring>
 #include <string>
@@ -7,11 +8,17 @@
 
 #include <vtkCellArray.h>
 #include <vtkDataArray.h>
+#include <vtkDoubleArray.h>
 #include <vtkExodusIIWriter.h>
+#include <vtkInformation.h>
+#include <vtkInformationVector.h>
 #include <vtkNew.h>
+#include <vtkObjectFactory.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
+#include <vtkStreamingDemandDrivenPipeline.h>
 #include <vtkUnstructuredGrid.h>
+#include <vtkUnstructuredGridAlgorithm.h>
 #include <vtkXMLUnstructuredGridReader.h>
 #include <vtk_hdf5.h>
 
@@ -105,10 +112,46 @@ void write_mesh(vtkUnstructuredGrid* grid, const char* path) {
   put(to.arrays, "field", H5T_NATIVE_FLOAT, {points}, field.data());
 }
 
+/// Its input at the times 0, 1 ...
+class AtTimes : public vtkUnstructuredGridAlgorithm {
+ public:
+  static AtTimes* New();
+  vtkTypeMacro(AtTimes, vtkUnstructuredGridAlgorithm);
+  int times = 1;
+
+ protected:
+  int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs) override {
+    std::vector<double> steps;
+    for (int t = 0; t < times; ++t) steps.push_back(t);
+    const double range[] = {0, steps.back()};
+    vtkInformation* const output = outputs->GetInformationObject(0);
+    output->Set(vtkStreamingDemandDrivenPipeline::TIME_STEPS(), steps.data(), times);
+    output->Set(vtkStreamingDemandDrivenPipeline::TIME_RANGE(), range, 2);
+    return 1;
+  }
+
+  int RequestData(vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs) override {
+    auto* const from = vtkUnstructuredGrid::GetData(inputs[0]);
+    auto* const to = vtkUnstructuredGrid::GetData(outputs);
+    vtkInformation* const asked = outputs->GetInformationObject(0);
+    auto* const key = vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP();
+    const double time = asked->Has(key) ? asked->Get(key) : 0;
+    to->ShallowCopy(from);
+    vtkNew<vtkDoubleArray> field;
+    field->SetName("field");
+    for (vtkIdType p = 0; p < from->GetNumberOfPoints(); ++p)
+      field->InsertNextValue(from->GetPointData()->GetArray("field")->GetTuple1(p) + time);
+    to->GetPointData()->AddArray(field);
+    to->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), time);
+    return 1;
+  }
+};
+vtkStandardNewMacro(AtTimes);
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 3) return 2;
+  if (argc != 3 && argc != 4) return 2;
   const std::string from = argv[1], to = argv[2];
   if (from.find('.') == std::string::npos) {
     write_image(std::atoi(argv[1]), argv[2]);
@@ -121,9 +164,12 @@ int main(int argc, char** argv) {
     write_mesh(reader->GetOutput(), argv[2]);
     return 0;
   }
+  vtkNew<AtTimes> at_times;
+  at_times->SetInputConnection(reader->GetOutputPort());
+  if (argc == 4) at_times->times = std::atoi(argv[3]);
   vtkNew<vtkExodusIIWriter> writer;
-  writer->SetInputConnection(reader->GetOutputPort());
+  writer->SetInputConnection(at_times->GetOutputPort());
   writer->SetFileName(argv[2]);
-  writer->WriteAllTimeStepsOff();
+  writer->SetWriteAllTimeSteps(argc == 4);
   return writer->Write() != 0 ? 0 : 1;
 }

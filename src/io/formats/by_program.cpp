@@ -62,7 +62,8 @@ class Descriptor {
   int number_;
 };
 
-/// What the program finds in descriptors 3 and 4: a file for the result, and a pipe for a line about what is wrong.
+/// What the program finds in descriptors 3 and 4: a file for the result, and a pipe for a line about what is wrong or
+/// left out.
 constexpr int result_number = 3, message_number = 4;
 
 struct Spawning {
@@ -107,8 +108,8 @@ std::string all_of(int pipe) {
   }
 }
 
-/// Runs the program. Throws gale::Error with what it says, or how it ended.
-void run(const char* format, const std::string& path, int result) {
+/// Runs the program, and returns what it has to note. Throws gale::Error with what it says, or how it ended.
+std::string run(const char* format, const std::string& path, int result) {
   const std::string program = find_program();
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) throw Error(std::string("no pipe: ") + std::strerror(errno));
@@ -128,6 +129,7 @@ void run(const char* format, const std::string& path, int result) {
   if (WIFSIGNALED(status)) damaged(std::string("VTK's reader ended by a signal (") + strsignal(WTERMSIG(status)) + ")");
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
     throw Error(message.empty() ? "VTK's reader ended without a word" : printable(message));
+  return message;
 }
 
 bool is_image(const InputFile& file) {
@@ -141,9 +143,11 @@ bool is_image(const InputFile& file) {
 Content read_by_program(const InputFile& input, Format format, const ReadOptions& options) {
 #if defined(__linux__)
   const Descriptor result(moved_up(memfd_create("gale", MFD_CLOEXEC)));
-  run(format == Format::exodus ? "exodus" : "vtkhdf", input.path(), result);
+  const std::string notice = run(format == Format::exodus ? "exodus" : "vtkhdf", input.path(), result);
   const InputFile file("/proc/self/fd/" + std::to_string(int(result)));
-  return is_image(file) ? read_vti(file, options) : read_vtu(file, options);
+  Content content = is_image(file) ? read_vti(file, options) : read_vtu(file, options);
+  if (!notice.empty()) std::visit([&](auto& found) { found.notices.push_back(printable(notice)); }, content);
+  return content;
 #else
   throw Error("such files are read on Linux alone");
 #endif

@@ -35,9 +35,9 @@ void keep_variables(vtkExodusIIReader* reader, vtkPointData* arrays) {
 
 }  // namespace
 
-vtkSmartPointer<vtkDataSet> read_exodus(const std::string& path) {
+FoundData read_exodus(const std::string& path) {
   vtkNew<vtkExodusIIReader> reader;
-  if (reader->CanReadFile(path.c_str()) == 0) return nullptr;
+  if (reader->CanReadFile(path.c_str()) == 0) return {};
   reader->SetFileName(path.c_str());
   reader->UpdateInformation();
   reader->SetAllArrayStatus(vtkExodusIIReader::NODAL, 1);
@@ -58,7 +58,8 @@ vtkSmartPointer<vtkDataSet> read_exodus(const std::string& path) {
     append_cells(grid, mesh);
   }
   keep_variables(reader, mesh->GetPointData());
-  return mesh;
+  const int times = reader->GetNumberOfTimeSteps();
+  return {mesh, times > 1 ? "left out all but the first of " + std::to_string(times) + " time steps" : ""};
 }
 
 }  // namespace gale::reader

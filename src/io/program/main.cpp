@@ -1,5 +1,6 @@
 // gale-vtk-reader FORMAT FILE: reads a file by VTK and writes its mesh or image to descriptor 3 as a .vtu or .vti. What
-// is wrong goes to descriptor 4, a line, with exit code 1. GALE runs it; whatever FILE does to VTK's readers ends here.
+// is wrong goes to descriptor 4, a line, with exit code 1; with 0 it is a notice. GALE runs it; whatever FILE does to
+// VTK's readers ends here.
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -79,10 +80,11 @@ void limit_to(const std::string& path) {
   limit(RLIMIT_CORE, 0);
 }
 
-int fail(const std::string& why) {
-  const ssize_t ignored = write(message_number, why.data(), why.size());
-  return ignored < 0 ? 2 : 1;
+bool say(const std::string& line) {
+  return write(message_number, line.data(), line.size()) == static_cast<ssize_t>(line.size());
 }
+
+int fail(const std::string& why) { return say(why) ? 1 : 2; }
 
 template <class Writer>
 bool write_as(vtkDataSet* data) {
@@ -100,7 +102,7 @@ int read(const std::string& format, const std::string& path) {
   const auto messages = vtkSmartPointer<FirstError>::New();
   vtkOutputWindow::SetInstance(messages);
   const bool is_exodus = format == "exodus";
-  const auto data = is_exodus ? gale::reader::read_exodus(path) : gale::reader::read_vtkhdf(path);
+  const auto [data, notice] = is_exodus ? gale::reader::read_exodus(path) : gale::reader::read_vtkhdf(path);
   if (!messages->said.empty()) {
     return fail("it is damaged, incomplete or of another format (VTK's reader says: " + message_of(messages->said) +
                 ")");
@@ -118,7 +120,7 @@ int read(const std::string& format, const std::string& path) {
     return fail(std::string("it holds a ") + data->GetClassName() + ", neither a mesh nor an image");
   }
   if (!is_written || !messages->said.empty()) return fail("there is no memory for what is in it");
-  return 0;
+  return say(notice) ? 0 : 2;
 }
 
 }  // namespace

@@ -7,10 +7,16 @@
 
 namespace gale::reader {
 
-/// The mesh of a file, with its point arrays, or nullptr if the file isn't one of that format.
-vtkSmartPointer<vtkDataSet> read_exodus(const std::string& path);
+/// What is in a file.
+struct FoundData {
+  vtkSmartPointer<vtkDataSet> data;  ///< with its point arrays; nullptr if the file isn't one of that format
+  std::string notice;                ///< a line on what was left out, or empty
+};
 
-/// The mesh or the image of a file, or nullptr if the file isn't one of that format.
-vtkSmartPointer<vtkDataSet> read_vtkhdf(const std::string& path);
+/// A mesh.
+FoundData read_exodus(const std::string& path);
+
+/// A mesh or an image.
+FoundData read_vtkhdf(const std::string& path);
 
 }  // namespace gale::reader

@@ -5,12 +5,12 @@
 
 namespace gale::reader {
 
-vtkSmartPointer<vtkDataSet> read_vtkhdf(const std::string& path) {
+FoundData read_vtkhdf(const std::string& path) {
   vtkNew<vtkHDFReader> reader;
-  if (reader->CanReadFile(path.c_str()) == 0) return nullptr;
+  if (reader->CanReadFile(path.c_str()) == 0) return {};
   reader->SetFileName(path.c_str());
   reader->Update();
-  return vtkDataSet::SafeDownCast(reader->GetOutputDataObject(0));
+  return {vtkDataSet::SafeDownCast(reader->GetOutputDataObject(0)), ""};
 }
 
 }  // namespace gale::reader
