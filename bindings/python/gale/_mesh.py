@@ -167,6 +167,7 @@ def read(path: Union[str, os.PathLike[str]], above: Optional[float] = None, arra
     """The mesh of a file, and its point arrays by name, each (n,) or (n, components): (Mesh, dict).
 
     Meshes: .vtu, .pvtu, .vtk, .e, .ex2, .exo, .vtkhdf, .hdf; volumes, of which the voxels with values above `above` are split into tetrahedra: .vti, .nii,
-    .nii.gz, .mha, .mhd, .nrrd, .vtk; and grid:N. `array` is the volume's array that `above` is about."""
+    .nii.gz, .mha, .mhd, .nrrd, .vtk; and grid:N. `array` is the volume's array that `above` is about. What of the file
+    is left out, such as all but the first of several times, is a UserWarning."""
     inner, arrays = _gale.read(os.fspath(path), above, array, tetrahedralize, outside_files, capacity)
     return Mesh._of(inner), arrays

@@ -117,6 +117,10 @@ nb::tuple read(const std::string& path, std::optional<double> above, const std::
     dataset = io::read(path, options);
     mesh = std::make_unique<PyMesh>(dataset, capacity);
   }
+  for (const std::string& notice : dataset.notices) {
+    constexpr int of_the_caller = 2;
+    if (PyErr_WarnEx(PyExc_UserWarning, (path + ": " + notice).c_str(), of_the_caller) != 0) throw nb::python_error();
+  }
   return nb::make_tuple(nb::cast(mesh.release(), nb::rv_policy::take_ownership), numpy_of(std::move(dataset.arrays)));
 }
 

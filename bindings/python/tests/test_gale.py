@@ -2,9 +2,11 @@
 import itertools
 import multiprocessing
 import os
+import pathlib
 import signal
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 import unittest
@@ -154,6 +156,16 @@ class Analyses(unittest.TestCase):
             np.testing.assert_array_equal(found["CriticalType"], expected["CriticalType"])
         for dtype in (np.int8, np.uint16, np.int64, np.bool_, np.float16, ">f4"):
             self.mesh.critical_points((10 * self.field).astype(dtype))
+
+    def test_what_of_a_file_is_left_out_is_a_warning_at_the_caller(self):
+        header = b"NRRD0004\ntype: float\ndimension: 4\nsizes: 3 3 3 2\nkinds: domain domain domain list\nendian: little\nencoding: raw\n\n"
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "twice.nrrd")
+            path.write_bytes(header + np.arange(54, dtype="<f4").tobytes())
+            with self.assertWarnsRegex(UserWarning, "twice.nrrd: left out all but the first of 2") as warned:
+                mesh, arrays = gale.read(path)
+        self.assertEqual(warned.filename, __file__)
+        self.assertEqual((mesh.vertices, *next(iter(arrays.values()))[:2]), (27, 0, 1))
 
     def test_arrays_outlive_their_owners(self):
         mesh, arrays = gale.read("grid:9")
