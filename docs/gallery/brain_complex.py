@@ -7,6 +7,8 @@ import gale
 import pyvista
 from pictures import COLORS, save, surface_of
 
+if len(sys.argv) != 5:
+    sys.exit(__doc__)
 volume, above, persistence, picture = sys.argv[1:]
 mesh, arrays = gale.read(volume, above=None if volume.startswith("grid:") else float(above))
 values = next(iter(arrays.values()))

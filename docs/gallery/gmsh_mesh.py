@@ -9,6 +9,8 @@ import numpy as np
 import pyvista
 from pictures import COLORS, save
 
+if len(sys.argv) != 3:
+    sys.exit(__doc__)
 size, picture = float(sys.argv[1]), sys.argv[2]
 gmsh.initialize()
 gmsh.option.setNumber("General.Terminal", 0)

@@ -8,6 +8,8 @@ import matplotlib.pyplot as plt
 import numpy as np
 from pictures import COLORS, save_figure
 
+if len(sys.argv) != 4:
+    sys.exit(__doc__)
 volume, above, picture = sys.argv[1:]
 mesh, arrays = gale.read(volume, above=None if volume.startswith("grid:") else float(above))
 values = next(iter(arrays.values()))

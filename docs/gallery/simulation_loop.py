@@ -10,6 +10,8 @@ import matplotlib.pyplot as plt
 import numpy as np
 from pictures import COLORS, NAMES, save_figure
 
+if len(sys.argv) != 3:
+    sys.exit(__doc__)
 n, picture = int(sys.argv[1]), sys.argv[2]
 mesh, _ = gale.read(f"grid:{n}")
 neighbours = mesh.relation_matrix("VV").astype(np.float64)

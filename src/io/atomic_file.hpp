@@ -52,6 +52,7 @@ class GALE_EXPORT AtomicFile {
 /// All errors name the file.
 class GALE_EXPORT AtomicFiles {
  public:
+  /// Whose arrays are all to be written in this encoding.
   explicit AtomicFiles(Encoding encoding = Encoding::appended) : encoding_(encoding) {}
 
   /// Another one; it stays where it is as long as this object.

@@ -14,6 +14,7 @@ namespace gale {
 /// some of the simplices; a device sorts all, in 16 bytes each of its memory.
 GALE_EXPORT Array<const Id, HostMemory> input_numbers(const Mesh& mesh, int dimension);
 
+/// The numbers of all edges and of all triangles, by GALE's ids.
 struct InputNumbers {
   Array<const Id, HostMemory> edges, triangles;
 };

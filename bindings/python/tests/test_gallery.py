@@ -37,6 +37,9 @@ class Gallery(unittest.TestCase):
                     done = subprocess.run(command, capture_output=True, text=True, timeout=300)
                     self.assertEqual(done.returncode, 0, done.stderr)
                     self.assertGreater(self.colors_of(file), 30)
+                    done = subprocess.run(command[:3], capture_output=True, text=True, timeout=300)
+                    self.assertEqual(done.returncode, 1)
+                    self.assertIn(f"usage: {name}.py", done.stderr)
 
     def test_every_script_has_its_picture(self):
         index = (GALLERY / "README.md").read_text()
