@@ -25,7 +25,7 @@ gale_public(outputs arrows critical_points critical_simplices field manifolds mo
 gale_public(io arrays atomic_file dataset image pieces read synthetic temporary_files voxels write)
 if(GALE_ENABLE_MPI)
   gale_public(distributed communicator distributed_critical_points distributed_gradient distributed_manifolds distributed_mesh distributed_numbers
-    distributed_order distributed_separatrices mesh_part)
+    distributed_order distributed_separatrices host_points mesh_part)
 endif()
 
 set(gale_included_headers
