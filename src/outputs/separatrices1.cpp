@@ -1,9 +1,8 @@
 #include <gale/base/parallel.hpp>
-#include <gale/base/require_ids.hpp>
 #include <gale/mesh/positions.hpp>
 #include <gale/outputs/corners.hpp>
+#include <gale/outputs/line_arrays.hpp>
 #include <gale/outputs/separatrices1.hpp>
-#include <gale/outputs/separatrix_arrays.hpp>
 
 namespace gale::outputs {
 
@@ -39,17 +38,7 @@ class Lines {
   /// Of that many cells on so many paths, of all kinds together.
   Lines(const io::Dataset::Points<Coordinate>& points, const Mesh& mesh, const detail::Heights& heights, Offset cells,
         Offset paths)
-      : input_(mesh.vertex_input().data()), points_(points), heights_(heights) {
-    require_ids("points of 1-separatrices", 2 * cells);
-    positions_ = allocate<io::Dataset::Points<Coordinate>>("GALE::separatrices", 2 * cells);
-    const Offset lines = 2 * cells - paths;
-    for (auto* const array : {&mask_, &dimensions_}) array->resize(2 * cells);
-    ids_.resize(2 * cells);
-    lines_.begin.resize(lines + 1);
-    lines_.points.resize(2 * lines);
-    destinations_.resize(lines);
-    arrays_.resize(lines);
-  }
+      : input_(mesh.vertex_input().data()), points_(points), heights_(heights), arrays_(cells, paths) {}
 
   /// Two points for each cell of the paths: the simplex that precedes it, and itself.
   template <class Cell, class Simplices>
@@ -66,53 +55,30 @@ class Lines {
     first_path_ += paths.count();
   }
 
-  io::Surface take(const io::PointArray& field) {
-    io::Surface surface;
-    surface.points = positions_;
-    surface.point_arrays = {{"ttkMaskScalarField", 1, std::move(mask_)},
-                            {"CellDimension", 1, std::move(dimensions_)},
-                            {"CellId", 1, std::move(ids_)}};
-    surface.lines = std::move(lines_);
-    surface.cell_arrays = arrays_.take(field);
-    surface.cell_arrays.insert(surface.cell_arrays.begin() + 1, {"DestinationId", 1, std::move(destinations_)});
-    return surface;
-  }
+  io::Surface take(const io::PointArray& field) { return arrays_.take(field); }
 
  private:
   template <std::size_t N>
   void set_point(Offset place, const std::array<Id, N>& simplex, Id id, bool is_end) {
-    place += first_point_;
-    gale::detail::store(gale::detail::position_of(points_, detail::to_input(input_, simplex)), positions_, place);
-    mask_[place] = is_end ? 0 : 1;
-    dimensions_[place] = N - 1;
-    ids_[place] = id;
+    arrays_.set_point(first_point_ + place, gale::detail::position_of(points_, detail::to_input(input_, simplex)), id,
+                      N - 1, is_end);
   }
 
   /// Lines between consecutive points of [begin, end), those of the i-th path of the kind being added.
   void set_lines(Type type, Offset i, Offset begin, Offset end, const CriticalSimplex& source,
                  const CriticalSimplex& destination) {
-    const Offset id = first_path_ + i, first_line = first_point_ + begin - id;  // a path has a point more than lines
-    const Offset last_line = first_line + (end - begin) - 1;
-    for (Offset line = first_line; line < last_line; ++line) {
-      lines_.begin[line + 1] = 2 * (line + 1);
-      lines_.points[2 * line] = static_cast<Id>(line + id);
-      lines_.points[2 * line + 1] = static_cast<Id>(line + id + 1);
-      destinations_[line] = destination.cell;
-    }
+    const Offset id = first_path_ + i, point = first_point_ + begin;
     const double maximum = heights_.value(heights_.higher(source.highest(), destination.highest()));
     const double minimum = heights_.value(heights_.lower(source.lowest(), destination.lowest()));
-    arrays_.set(first_line, last_line,
-                {source.cell, static_cast<Id>(id), type, maximum, minimum, source.on_surface + destination.on_surface});
+    arrays_.set_lines(
+        point - id, end - begin - 1, point, destination.cell,  // a path has a point more than lines
+        {source.cell, static_cast<Id>(id), type, maximum, minimum, source.on_surface + destination.on_surface});
   }
 
   const Id* input_;
   const io::Dataset::Points<Coordinate>& points_;
   const detail::Heights& heights_;
-  io::Dataset::Points<Coordinate> positions_;
-  std::vector<std::int8_t> mask_, dimensions_;
-  std::vector<Id> ids_, destinations_;
-  io::Surface::Cells lines_;
-  detail::SeparatrixArrays<> arrays_;
+  detail::LineArrays<Coordinate> arrays_;
   Offset first_point_ = 0, first_path_ = 0;
 };
 

@@ -2,11 +2,10 @@
 
 #include <gale/algorithms/order/ordered_bits.hpp>
 #include <gale/app/ranks/complex_pieces.hpp>
-#include <gale/base/require_ids.hpp>
 #include <gale/distributed/sums_by_id.hpp>
 #include <gale/mesh/positions.hpp>
 #include <gale/outputs/field.hpp>
-#include <gale/outputs/separatrix_arrays.hpp>
+#include <gale/outputs/line_arrays.hpp>
 
 namespace gale::app {
 
@@ -90,11 +89,7 @@ Kind kind_of(const FieldOnRanks& on, Type type, const DistributedSeparatrices& p
 template <class Coordinate>
 class Lines {
  public:
-  Lines(const io::PointArray& field, Offset cells, Offset paths) : field_(field) {
-    require_ids("points of 1-separatrices", 2 * cells);
-    positions_ = allocate<io::Dataset::Points<Coordinate>>("GALE::separatrices", 2 * cells);
-    arrays_.resize(2 * cells - paths);
-  }
+  Lines(const io::PointArray& field, Offset cells, Offset paths) : field_(field), arrays_(cells, paths) {}
 
   /// The paths of all ranks are numbered from `first` on.
   void add(const Kind& kind, GlobalId first) {
@@ -113,49 +108,27 @@ class Lines {
     }
   }
 
-  io::Surface take() {
-    io::Surface surface;
-    surface.points = positions_;
-    surface.point_arrays = {{"ttkMaskScalarField", 1, std::move(mask_)},
-                            {"CellDimension", 1, std::move(dimensions_)},
-                            {"CellId", 1, std::move(ids_)}};
-    surface.lines = std::move(lines_);
-    surface.cell_arrays = arrays_.take(field_);
-    surface.cell_arrays.insert(surface.cell_arrays.begin() + 1, {"DestinationId", 1, std::move(destinations_)});
-    return surface;
-  }
+  io::Surface take() { return arrays_.take(field_); }
 
  private:
   void add_point(const detail::Point& at, GlobalId id, int dimension, bool is_end) {
-    detail::store(at, positions_, static_cast<Offset>(ids_.size()));
-    mask_.push_back(is_end ? 0 : 1);
-    dimensions_.push_back(static_cast<std::int8_t>(dimension));
-    ids_.push_back(id);
+    arrays_.set_point(points_++, at, id, dimension, is_end);
   }
 
   /// Between the points of the i-th path, which were added last.
   void add_lines(const Kind& kind, Offset i, GlobalId number) {
     const DistributedSeparatrices& paths = kind.paths;
-    const Offset points = 2 * (paths.begin[i + 1] - paths.begin[i]);
-    const auto end = static_cast<Offset>(ids_.size()), begin = end - points;
-    const std::size_t first_line = destinations_.size();
-    for (Offset point = begin; point + 1 < end; ++point) {
-      lines_.points.insert(lines_.points.end(), {static_cast<Id>(point), static_cast<Id>(point + 1)});
-      lines_.begin.push_back(static_cast<std::int64_t>(lines_.points.size()));
-      destinations_.push_back(ids_.back());
-    }
+    const Offset points = 2 * (paths.begin[i + 1] - paths.begin[i]), begin = points_ - points;
     const End &source = kind.sources[paths.sources_here[i]], &last = kind.last(i);
-    arrays_.set(first_line, destinations_.size(),
-                {ids_[begin], number, kind.type, std::max(source.highest, last.highest).value,
-                 std::min(source.lowest, last.lowest).value, source.on_surface + last.on_surface});
+    arrays_.set_lines(lines_, points - 1, begin, arrays_.id(points_ - 1),
+                      {arrays_.id(begin), number, kind.type, std::max(source.highest, last.highest).value,
+                       std::min(source.lowest, last.lowest).value, source.on_surface + last.on_surface});
+    lines_ += points - 1;
   }
 
   const io::PointArray& field_;
-  io::Dataset::Points<Coordinate> positions_;
-  std::vector<std::int8_t> mask_, dimensions_;
-  std::vector<std::int64_t> ids_, destinations_;
-  io::Surface::Cells lines_;
-  outputs::detail::SeparatrixArrays<std::int64_t> arrays_;
+  outputs::detail::LineArrays<Coordinate, GlobalId> arrays_;
+  Offset points_ = 0, lines_ = 0;  ///< so far
 };
 
 }  // namespace
