@@ -18,9 +18,15 @@ using CurvePlace = std::pair<std::uint64_t, GlobalId>;
 /// Of each rank's share, so that shares differ by a few percent.
 constexpr Offset samples_a_rank = 4096;
 
-Box box_of_all(const Communicator& ranks, const Points<double, HostMemory>& points) {
+template <class Rows>
+using CoordinateOf = typename Rows::non_const_value_type;
+
+Box box_of_all(const Communicator& ranks, const HostPoints& points) {
   Box box{};
-  together(ranks, [&] { box = bounding_box<double>(HostSpace(), points); });
+  together(ranks, [&] {
+    box = points.visit(
+        [](const auto& rows) { return bounding_box<CoordinateOf<std::decay_t<decltype(rows)>>>(HostSpace(), rows); });
+  });
   for (double& low : box.low) low = ranks.least(low);
   for (double& high : box.high) high = -ranks.least(-high);
   return box;
@@ -47,14 +53,17 @@ Dealt<CurvePlace> sampled(const Communicator& ranks, const std::vector<std::int6
 }  // namespace
 
 Array<int, HostMemory> curve_partition(const Communicator& ranks, const Array<const GlobalId, HostMemory>& ids,
-                                       const Points<double, HostMemory>& points) {
+                                       const HostPoints& points) {
   const Cube cube = cube_around(box_of_all(ranks, points));
-  const auto points_by_rank = ranks.all(points.extent(0));
-  std::vector<CurvePlace> stops(points.extent(0));
+  const auto points_by_rank = ranks.all(points.count());
+  std::vector<CurvePlace> stops;
   Dealt<CurvePlace> samples;
   together(ranks, [&] {
-    const auto codes = morton_codes<double>(HostSpace(), points, cube);
-    parallel_for("GALE::curve_stops", HostSpace(), points.extent(0), [&](Offset i) { stops[i] = {codes(i), ids(i)}; });
+    const auto codes = points.visit([&](const auto& rows) {
+      return morton_codes<CoordinateOf<std::decay_t<decltype(rows)>>>(HostSpace(), rows, cube);
+    });
+    stops.resize(points.count());
+    parallel_for("GALE::curve_stops", HostSpace(), points.count(), [&](Offset i) { stops[i] = {codes(i), ids(i)}; });
     samples = sampled(ranks, points_by_rank, stops);
   });
   const Dealt<CurvePlace> all = exchange(ranks, "GALE::all_samples", samples);
@@ -64,8 +73,8 @@ Array<int, HostMemory> curve_partition(const Communicator& ranks, const Array<co
     std::vector<CurvePlace> last;  // of each rank but the last one
     for (int rank = 1; rank < ranks.size() && all.count() > 0; ++rank)
       last.push_back(all.entries(part_begin(all.count(), ranks.size(), rank)));
-    owners = allocate<Array<int, HostMemory>>("GALE::curve_owners", points.extent(0));
-    parallel_for("GALE::curve_owners", HostSpace(), points.extent(0), [&](Offset i) {
+    owners = allocate<Array<int, HostMemory>>("GALE::curve_owners", points.count());
+    parallel_for("GALE::curve_owners", HostSpace(), points.count(), [&](Offset i) {
       owners(i) = static_cast<int>(std::lower_bound(last.begin(), last.end(), stops[i]) - last.begin());
     });
   });

@@ -2,7 +2,7 @@
 
 #include <gale/distributed/communicator.hpp>
 #include <gale/distributed/global_index.hpp>
-#include <gale/mesh/segmentation.hpp>
+#include <gale/distributed/host_points.hpp>
 
 namespace gale::detail {
 
@@ -11,6 +11,6 @@ namespace gale::detail {
 /// each run; points at one place are told apart by their ids. Collective; throws gale::Error if a coordinate isn't
 /// finite.
 Array<int, HostMemory> curve_partition(const Communicator& ranks, const Array<const GlobalId, HostMemory>& ids,
-                                       const Points<double, HostMemory>& points);
+                                       const HostPoints& points);
 
 }  // namespace gale::detail

@@ -16,11 +16,17 @@ namespace gale {
 
 namespace {
 
+/// Sums of an id and a count, and of two ids, are ids.
+constexpr GlobalId greatest_id = (GlobalId(1) << 62) - 1;
+
 template <class Ids>
-void require_no_negative(const Ids& ids) {
-  const GlobalId least =
-      reduce_min("GALE::least_id", HostSpace(), ids.extent(0), GlobalId(0), [&](Offset i) { return ids(i); });
-  if (least < 0) throw Error("ids are 0 or more, not " + std::to_string(least));
+void require_global_ids(const Ids& ids) {
+  const Offset count = ids.extent(0);
+  const Offset bad = reduce_min("GALE::bad_id", HostSpace(), count, count,
+                                [&](Offset i) { return ids(i) < 0 || ids(i) > greatest_id ? i : count; });
+  if (bad == count) return;
+  const std::string bounds = ids(bad) < 0 ? "0 or more" : "at most " + std::to_string(greatest_id);
+  throw Error("ids are " + bounds + ", not " + std::to_string(ids(bad)));
 }
 
 /// Throws gale::Error for what one rank can see is wrong with its part but for the tetrahedra's vertices.
@@ -28,18 +34,29 @@ template <class Index>
 void validate(const MeshPart<Index>& part) {
   require_ids("vertices", static_cast<Offset>(part.vertex_ids.extent(0)));
   require_ids("tetrahedra", static_cast<Offset>(part.tetrahedra.extent(0)));
-  require_no_negative(part.vertex_ids);
-  require_no_negative(part.tetrahedron_ids);
+  require_global_ids(part.vertex_ids);
+  require_global_ids(part.tetrahedron_ids);
   part.points.visit([](const auto& rows) {
     detail::require_finite<typename std::decay_t<decltype(rows)>::non_const_value_type>(HostSpace(), rows);
+  });
+}
+
+/// The octree of some points, which grows on a thread of its own, by a quarter of this one's threads.
+std::future<Segmentation> octree_meanwhile(const HostPoints& points, int capacity) {
+  const int few = std::max(host_threads() / 4, 1);
+  return std::async(std::launch::async | std::launch::deferred, [points, capacity, few] {
+#if defined(KOKKOS_ENABLE_CUDA)
+    use_device();
+#endif
+    const ThreadLimit limit(few);
+    return detail::octree_of(points, capacity);
   });
 }
 
 /// Who hands over and owns which vertex.
 template <class Index>
 detail::VertexDirectory directory_of(const Communicator& ranks, const MeshPart<Index>& part, bool repartition) {
-  if (repartition)
-    return {ranks, part.vertex_ids, detail::curve_partition(ranks, part.vertex_ids, part.points.in_double())};
+  if (repartition) return {ranks, part.vertex_ids, detail::curve_partition(ranks, part.vertex_ids, part.points)};
   if (const auto given = detail::GivenIntervals::of(ranks, part.vertex_ids)) return {ranks, *given};
   Array<int, HostMemory> owners;
   detail::together(ranks, [&] {
@@ -70,6 +87,7 @@ struct DistributedMesh::Data {
   Offset given_vertices = 0;
   detail::LocalVertices held;
   detail::TetrahedronPlaces places;
+  detail::OwnAndGhosts placed;
   Array<int, HostMemory> ghost_owners;
   Tetrahedra<Id, HostMemory> corners;
   detail::ExchangePlan from_givers, from_owners;
@@ -99,6 +117,7 @@ DistributedMesh::Data::Data(const Communicator& all) : ranks(all) {
     return ids;
   });
   tetrahedron_ids.made_by([this] { return places.ids(); });
+  points.made_by([this] { return placed.by_id(held); });
   owners.made_by([this] {
     const auto known = allocate<Array<int, HostMemory>>("GALE::owners", held.count());
     fill("GALE::owners", HostSpace(), known, ranks.rank());
@@ -156,11 +175,7 @@ void DistributedMesh::Data::deal(const MeshPart<Index>& part, const PartitionOpt
   std::future<Segmentation> segments;
   if (have_device && in_place) {
     const Offset place = owned.interval.begin - directory.given()->of(ranks.rank()).begin;
-    segments =
-        std::async(std::launch::async | std::launch::deferred, [&, some = part.points.part(place, owned.count())] {
-          const ThreadLimit few(std::max(host_threads() / 4, 1));
-          return detail::octree_of(some, options.capacity);
-        });
+    segments = octree_meanwhile(part.points.part(place, owned.count()), options.capacity);
   }
   const detail::LocalTetrahedra<Index> held_tetrahedra(ranks, part, directory, owned.interval, options.most_local);
   detail::together(ranks, [&] { held = detail::LocalVertices(owned, held_tetrahedra.vertices_beside(owned)); });
@@ -168,14 +183,13 @@ void DistributedMesh::Data::deal(const MeshPart<Index>& part, const PartitionOpt
   vertices = directory.vertices();
   tetrahedra = ranks.sum(part.tetrahedra.extent(0));
   if (tetrahedra == 0) throw SharedError("the mesh has no tetrahedra");
-  places = held_tetrahedra.places();
-  const detail::OwnAndGhosts shared = share(directory, part.points);
-  points.made_by([this, shared] { return shared.by_id(held); });
+  placed = share(directory, part.points);
   detail::together(ranks, [&] {
+    places = held_tetrahedra.places();
     if (options.keep_corners) corners = detail::local_corners(held_tetrahedra, held);
-    const Segmentation segmentation = detail::local_segmentation(
-        held, segments.valid() ? segments.get() : detail::octree_of(shared.owned, options.capacity),
-        detail::octree_of(shared.ghosts, options.capacity));
+    const Segmentation own = segments.valid() ? segments.get() : detail::octree_of(placed.owned, options.capacity);
+    const Segmentation ghosts = detail::octree_of(placed.ghosts, options.capacity);
+    const Segmentation segmentation = detail::local_segmentation(held, own, ghosts);
     local = std::make_unique<const Mesh>(detail::local_mesh(held_tetrahedra, held, segmentation));
   });
 }
@@ -197,7 +211,7 @@ void DistributedMesh::Data::take(const MeshPart<Index>& part, const PartitionOpt
   tetrahedra = part.tetrahedra.extent(0);
   held = detail::LocalVertices(detail::OwnedIds(detail::IdInterval{0, vertices}), {});
   places = detail::TetrahedronPlaces({tetrahedra, {}, part.tetrahedron_ids, 0}, {});
-  points.made_by([given = part.points] { return given.in_double(); });
+  placed.owned = part.points;
   from_givers = detail::ExchangePlan::of_one_rank(vertices);
 }
 
@@ -206,10 +220,16 @@ void DistributedMesh::Data::make(const MeshPart<Index>& part, const PartitionOpt
   given_vertices = part.vertex_ids.extent(0);
   const Offset most = std::max(part.vertex_ids.extent(0), part.tetrahedra.extent(0));
   if (ranks.size() == 1 && most <= options.most_local && is_numbered_as_local(part)) {
-    take(part, options);
-  } else {
-    deal(part, options);
+    try {
+      take(part, options);
+      return;
+    } catch (const OutOfMemory&) {
+      throw;
+    } catch (const Error&) {
+      // Dealing says by global ids what is wrong.
+    }
   }
+  deal(part, options);
 }
 
 template <class Index>

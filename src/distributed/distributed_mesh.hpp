@@ -41,7 +41,7 @@ class GALE_EXPORT DistributedMesh {
   /// others hold too, and a few words a vertex.
   ///
   /// Throws gale::Error on all ranks, with the global ids at fault and the rank that found it: as Mesh and
-  /// octree_segmentation do, for ids below 0, a vertex that no rank hands over, a tetrahedron id that
+  /// octree_segmentation do, for ids below 0 or from 2^62 on, a vertex that no rank hands over, a tetrahedron id that
   /// a rank holds twice, and if a rank would hold more than `most_local`: then it says how many ranks it takes.
   template <class Index>
   DistributedMesh(const Communicator& ranks, const MeshPart<Index>& part, const PartitionOptions& options = {});
@@ -55,14 +55,16 @@ class GALE_EXPORT DistributedMesh {
   GlobalId vertices() const;
   GlobalId tetrahedra() const;
 
-  /// The global id of a vertex and of a tetrahedron of the local mesh, by its local input id.
+  /// The global id of a vertex and of a tetrahedron of the local mesh, by its local input id. The latter takes
+  /// O(log n) for n tetrahedra that came from other ranks.
   GlobalId vertex_id(Id vertex) const;
   GlobalId tetrahedron_id(Id tetrahedron) const;
 
   /// The local input id of a vertex; no_id if this rank doesn't hold it.
   Id vertex_of(GlobalId id) const;
 
-  /// All of them, ascending. As the next ones they are made when first asked for.
+  /// All of them, ascending. These two arrays and the next two are made by the first call, on any thread; it throws
+  /// OutOfMemory where they don't fit.
   const Array<const GlobalId, HostMemory>& vertex_ids() const;
   const Array<const GlobalId, HostMemory>& tetrahedron_ids() const;
 

@@ -34,7 +34,7 @@ Ordered order_in(const Space& space, const DistributedMesh& mesh, const FieldVal
                  const Dealt<Value>& fetched) {
   const Mesh& local = mesh.local();
   const auto values = allocate<Array<Value, MemoryOf<Space>>>("GALE::local_values", local.vertices());
-  mesh.from_givers().place(space, given.data(), fetched, values.data());
+  mesh.from_givers().fill(space, given.data(), fetched, values.data());
   const Offset bad = find_nan(space, values);
   if (bad < local.vertices()) return {nullptr, bad};
   return {std::make_shared<const VertexOrder>(local, values), bad};

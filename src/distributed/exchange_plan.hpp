@@ -74,7 +74,7 @@ class ExchangePlan {
   /// Fills to[slot], in the memory of `space`, for each of the slots: with what was fetched, and this rank's own values
   /// from[place], on the host.
   template <class Space, class T>
-  void place(const Space& space, const T* from, const Dealt<T>& fetched, T* to) const {
+  void fill(const Space& space, const T* from, const Dealt<T>& fetched, T* to) const {
     copy_run(space, from + run_.place, to + run_.slot);
     const auto kept = allocate<Array<T, HostMemory>>("GALE::kept_values", kept_places_.extent(0));
     parallel_for("GALE::kept_values", HostSpace(), kept.extent(0), [&](Offset i) { kept(i) = from[kept_places_(i)]; });
@@ -89,7 +89,7 @@ class ExchangePlan {
   template <class T>
   void operator()(const Communicator& ranks, const T* from, T* to) const {
     const Dealt<T> fetched = fetch<T>(ranks, [&](Id place) { return from[place]; });
-    place(HostSpace(), from, fetched, to);
+    fill(HostSpace(), from, fetched, to);
   }
 
  private:

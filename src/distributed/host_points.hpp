@@ -1,5 +1,6 @@
 #pragma once
 
+#include <any>
 #include <utility>
 #include <variant>
 
@@ -8,12 +9,17 @@
 
 namespace gale {
 
-/// Where points are, on the host, in the precision that a caller has them in.
+/// Where points are, on the host, in the precision that a caller has them in. Copies share them, and keep alive what
+/// they were made from.
 class HostPoints {
  public:
   HostPoints() = default;
   HostPoints(const Points<float, HostMemory>& points) : points_(points) {}
   HostPoints(const Points<double, HostMemory>& points) : points_(points) {}
+
+  /// Points in the memory of `owner`, a View of any kind.
+  template <class Coordinate, class Owner>
+  HostPoints(const Points<Coordinate, HostMemory>& points, const Owner& owner) : points_(points), owner_(owner) {}
 
   /// f(points), which have float or double coordinates.
   template <class F>
@@ -28,8 +34,8 @@ class HostPoints {
   /// Points begin to begin + count - 1, which share this memory.
   HostPoints part(Offset begin, Offset count) const {
     return visit([&](const auto& points) {
-      return HostPoints(
-          std::decay_t<decltype(points)>(Kokkos::subview(points, std::make_pair(begin, begin + count), Kokkos::ALL())));
+      using Some = std::decay_t<decltype(points)>;
+      return HostPoints(Some(Kokkos::subview(points, std::make_pair(begin, begin + count), Kokkos::ALL())), owner_);
     });
   }
 
@@ -47,6 +53,7 @@ class HostPoints {
 
  private:
   std::variant<Points<float, HostMemory>, Points<double, HostMemory>> points_;
+  std::any owner_;
 };
 
 }  // namespace gale

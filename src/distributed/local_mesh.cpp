@@ -34,7 +34,7 @@ void refuse_twins(const Quads& tetrahedra, const TetrahedronPlaces& places) {
 
 /// The local input ids of some of a rank's vertices; an interval of them where there is no array.
 template <class Memory>
-struct Members {
+struct OwnedInputIds {
   Id first;
   Array<const Id, Memory> ids;
 
@@ -42,7 +42,7 @@ struct Members {
 };
 
 template <class Space>
-Members<MemoryOf<Space>> owned_members(const Space&, const LocalVertices& vertices) {
+OwnedInputIds<MemoryOf<Space>> owned_input_ids(const Space&, const LocalVertices& vertices) {
   if (vertices.owned_count() == 0) return {0, {}};
   return {vertices.owned(0), in_memory<MemoryOf<Space>>(vertices.owned_ids())};
 }
@@ -53,10 +53,10 @@ Mirrored<Id> joined(const Space& space, const LocalVertices& vertices, const Mir
                     const Mirrored<Id>& ghosts) {
   using Here = MemoryOf<Space>;
   const auto all = allocate<Array<Id, Here>>("GALE::vertex_input", vertices.count());
-  const auto members = owned_members(space, vertices);
+  const auto owned_ids = owned_input_ids(space, vertices);
   const Array<const Id, Here> order = owned.in<Here>();
   parallel_for(
-      "GALE::owned_input", space, vertices.owned_count(), KOKKOS_LAMBDA(Offset i) { all(i) = members(order(i)); });
+      "GALE::owned_input", space, vertices.owned_count(), KOKKOS_LAMBDA(Offset i) { all(i) = owned_ids(order(i)); });
   const Offset count = vertices.ghost_count(), before = vertices.owned_count();
   const auto ghost_ids = allocate<Array<Id, HostMemory>>("GALE::ghost_input", count);
   const Array<const Id, HostMemory> ghost_order = ghosts.in<HostMemory>();

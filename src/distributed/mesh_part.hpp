@@ -16,13 +16,22 @@ namespace gale {
 /// `Index` is std::int32_t or std::int64_t.
 template <class Index>
 struct MeshPart {
-  Array<const GlobalId, HostMemory> vertex_ids;       ///< global ids, in any order, 0 or more; they may have gaps
-  HostPoints points;                                  ///< where each of these is, in float or double
-  Tetrahedra<Index, HostMemory> tetrahedra;           ///< four global ids each, of vertices that any ranks hand over
-  Array<const GlobalId, HostMemory> tetrahedron_ids;  ///< 0 or more, all different; none: counted from rank to rank
+  Array<const GlobalId, HostMemory> vertex_ids;  ///< global ids, 0 to 2^62 - 1, in any order, also with gaps
+  HostPoints points;                             ///< where each of these is; the mesh keeps them
+  Tetrahedra<Index, HostMemory> tetrahedra;      ///< four global ids each, of vertices that any ranks hand over
+
+  /// 0 to 2^62 - 1, all different, which the mesh keeps; none: they are counted from rank to rank.
+  Array<const GlobalId, HostMemory> tetrahedron_ids;
 };
 
 namespace detail {
+
+/// A caller's points, which `rows` are or were copied from.
+template <class Rows, class View>
+HostPoints kept_points(const Rows& rows, const View& view) {
+  const bool is_copy = static_cast<const void*>(rows.data()) != static_cast<const void*>(view.data());
+  return is_copy ? HostPoints(rows) : HostPoints(rows, view);
+}
 
 /// A caller's ids as GALE reads them: the same memory if they are that already, else a copy.
 template <class View>
@@ -49,7 +58,8 @@ auto make_part(const IdView& vertex_ids, const PointView& points, const Tetrahed
   using Index = typename decltype(rows)::non_const_value_type;
   MeshPart<Index> part;
   part.vertex_ids = detail::global_ids(vertex_ids);
-  part.points = on_host(detail::rows_of<3, detail::CoordinateFor>("points", points));
+  const auto rows_of_points = on_host(detail::rows_of<3, detail::CoordinateFor>("points", points));
+  part.points = detail::kept_points(rows_of_points, points);
   part.tetrahedra = on_host(rows);
   if (static_cast<Offset>(part.vertex_ids.extent(0)) != part.points.count()) {
     throw Error("there are " + std::to_string(part.vertex_ids.extent(0)) + " vertex ids, but " +

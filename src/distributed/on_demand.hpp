@@ -7,7 +7,7 @@
 
 namespace gale::detail {
 
-/// Something that whoever asks for it first makes; others wait for that. By any thread.
+/// A value that the first caller of get() makes, on any thread. Other threads wait for it.
 template <class T>
 class OnDemand {
  public:

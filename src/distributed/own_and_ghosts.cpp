@@ -47,8 +47,8 @@ OwnAndGhosts own_and_ghosts(const LocalVertices& vertices, const HostPoints& giv
   }
   const auto all = allocate<Rows>("GALE::local_points", vertices.count());
   const Points<double, HostMemory> mine = given.in_double();
-  plan.place(HostSpace(), reinterpret_cast<const SentPoint*>(mine.data()), fetched,
-             reinterpret_cast<SentPoint*>(all.data()));
+  plan.fill(HostSpace(), reinterpret_cast<const SentPoint*>(mine.data()), fetched,
+            reinterpret_cast<SentPoint*>(all.data()));
   return {gathered(all, vertices.owned_count(), [&](Offset i) { return vertices.owned(i); }),
           gathered(all, vertices.ghost_count(), [&](Offset i) { return vertices.ghost(i); })};
 }

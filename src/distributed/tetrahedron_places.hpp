@@ -7,7 +7,7 @@
 
 namespace gale::detail {
 
-/// The tetrahedra of its own part that a rank keeps: their places in it, ascending, and their global ids.
+/// The tetrahedra that a rank keeps of its own part: their places in it, ascending, and their global ids.
 struct KeptTetrahedra {
   Offset count = 0;
   Array<Id, HostMemory> places;           ///< none where all are kept

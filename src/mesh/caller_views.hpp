@@ -47,10 +47,7 @@ RowsOf<columns, TypeFor, View> rows_of(const char* name, const View& view) {
                 std::to_string(columns));
   }
   if constexpr (std::is_same_v<Type, typename View::non_const_value_type>) {
-    if (view.stride(0) == columns && view.stride(1) == 1) {
-      if constexpr (Kokkos::is_always_assignable<Rows, View>::value) return view;  // which shares its ownership
-      return Rows(view.data(), view.extent(0));
-    }
+    if (view.stride(0) == columns && view.stride(1) == 1) return Rows(view.data(), view.extent(0));
   }
   using Space =
       std::conditional_t<is_device_memory<typename Rows::memory_space>, WorkerSpace, Kokkos::DefaultHostExecutionSpace>;

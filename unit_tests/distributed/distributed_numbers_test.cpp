@@ -68,7 +68,7 @@ TEST_P(NumbersOnRanks, every_simplex_has_its_place_among_those_of_all_ranks) {
 TEST_P(NumbersOnRanks, simplices_that_are_none_are_refused_on_all_ranks) {
   const auto structure = make_structure(mesh_.local(), simplex_numbers_relations);
   DistributedNamedSimplices asked;
-  if (ranks_.rank() == 0) asked.edges.push_back({vertex_name(0), vertex_name(0) + 1});  // between two names
+  if (ranks_.rank() == 0) asked.edges.push_back({vertex_name(0), vertex_name(0) - 1});  // which is no name
   EXPECT_THROW(number_simplices(*structure, mesh_, asked), SharedError);
 }
 

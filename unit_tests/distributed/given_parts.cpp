@@ -10,19 +10,46 @@ namespace gale::test {
 
 namespace {
 
+/// Each of `count` on any rank: those on this one.
+std::vector<Id> random_share(Id count, int rank, int ranks, std::mt19937& random) {
+  std::vector<Id> mine;
+  for (Id i = 0; i < count; ++i) {
+    if (static_cast<int>(random() % ranks) == rank) mine.push_back(i);
+  }
+  return mine;
+}
+
 GivenPart random_part(const InputMesh& input, int rank, int ranks) {
   std::mt19937 random(31);
   GivenPart part;
-  for (Id v = 0; v < input.vertices(); ++v) {
-    if (static_cast<int>(random() % ranks) == rank) part.add_vertex(input, v);
-  }
-  std::vector<Id> tetrahedra;
-  for (Id t = 0; t < static_cast<Id>(input.tetrahedra.size()); ++t) {
-    if (static_cast<int>(random() % ranks) == rank) tetrahedra.push_back(t);
-  }
+  for (const Id v : random_share(input.vertices(), rank, ranks, random)) part.add_vertex(input, v);
+  std::vector<Id> tetrahedra = random_share(static_cast<Id>(input.tetrahedra.size()), rank, ranks, random);
   std::shuffle(tetrahedra.begin(), tetrahedra.end(), random);
   for (const Id t : tetrahedra) part.add_tetrahedron(input, t);
   return part;
+}
+
+/// An interval of vertices, and tetrahedra anywhere, in order.
+GivenPart interval_part(const InputMesh& input, std::pair<Id, Id> vertices, int rank, int ranks) {
+  std::mt19937 random(37);
+  GivenPart part;
+  for (Id v = vertices.first; v < vertices.second; ++v) part.add_vertex(input, v);
+  for (const Id t : random_share(static_cast<Id>(input.tetrahedra.size()), rank, ranks, random))
+    part.add_tetrahedron(input, t);
+  return part;
+}
+
+/// Intervals that share a part with the next.
+std::pair<Id, Id> overlapping(Id count, int rank, int ranks) {
+  const Id begin = static_cast<Id>(Offset(count) * rank / ranks),
+           end = static_cast<Id>(Offset(count) * (rank + 1) / ranks);
+  return {std::max(begin - count / 7, 0), std::min(end + count / 5, count)};
+}
+
+/// The middle on the first rank, all on the last, so that it owns both sides; nothing between.
+std::pair<Id, Id> island(Id count, int rank, int ranks) {
+  if (rank == ranks - 1) return {0, count};
+  return rank == 0 ? std::make_pair(count / 3, 2 * count / 3) : std::make_pair(0, 0);
 }
 
 GivenPart block(const InputMesh& input, int rank, int ranks) {
@@ -59,12 +86,16 @@ MeshPart<GlobalId> GivenPart::views() const {
 }
 
 const std::vector<std::string>& partition_names() {
-  static const std::vector<std::string> names = {"random", "blocks", "last", "shared", "curve"};
+  static const std::vector<std::string> names = {"random", "blocks", "last", "shared", "curve", "overlap", "island"};
   return names;
 }
 
 GivenPart part_of(const InputMesh& input, const std::string& partition, const Communicator& ranks) {
   const int rank = ranks.rank(), size = ranks.size();
+  const bool is_overlap = partition == "overlap", is_island = partition == "island";
+  vertex_names = is_overlap || is_island ? names_without_gaps : names_with_gaps;
+  if (is_overlap) return interval_part(input, overlapping(input.vertices(), rank, size), rank, size);
+  if (is_island) return interval_part(input, island(input.vertices(), rank, size), rank == 0 ? 0 : 1, 1);
   if (partition == "blocks") return block(input, rank, size);
   GivenPart part;
   if (partition == "last") return rank == size - 1 ? random_part(input, 0, 1) : part;

@@ -10,10 +10,19 @@
 
 namespace gale::test {
 
-/// Global ids in tests: they ascend with the input's, and have gaps.
-inline GlobalId vertex_name(Id vertex) { return 3 * GlobalId(vertex) + 5; }
+/// How vertices are named in tests: by global ids that ascend with the input's, with gaps or without.
+struct VertexNames {
+  GlobalId first, stride;
+};
+inline constexpr VertexNames names_with_gaps{5, 3};
+inline constexpr VertexNames names_without_gaps{GlobalId(3) << 31, 1};
+
+/// What counts until another is set: part_of sets what its partition wants.
+inline VertexNames vertex_names = names_with_gaps;
+
+inline GlobalId vertex_name(Id vertex) { return vertex_names.first + vertex_names.stride * GlobalId(vertex); }
 inline GlobalId tetrahedron_name(Id tetrahedron) { return (GlobalId(1) << 33) + 2 * GlobalId(tetrahedron); }
-inline Id vertex_named(GlobalId name) { return static_cast<Id>((name - 5) / 3); }
+inline Id vertex_named(GlobalId name) { return static_cast<Id>((name - vertex_names.first) / vertex_names.stride); }
 inline Id tetrahedron_named(GlobalId name) { return static_cast<Id>((name - (GlobalId(1) << 33)) / 2); }
 
 /// What one rank hands over of a mesh.
@@ -41,7 +50,8 @@ struct GivenPart {
 
 /// The ways in which tests cut a mesh into parts: "random", each vertex and each tetrahedron anywhere; "blocks", equal
 /// numbers of tetrahedra, and all their vertices, so that ranks share some; "last", all on the last rank; "shared", all
-/// vertices on all ranks; and "curve", "random" to be dealt out again.
+/// vertices on all ranks; and "curve", "random" to be dealt out again. Without gaps between ids: "overlap", intervals
+/// of vertices that have some in common, and "island", those of the first rank amid those of the last.
 const std::vector<std::string>& partition_names();
 
 GivenPart part_of(const InputMesh& input, const std::string& partition, const Communicator& ranks);

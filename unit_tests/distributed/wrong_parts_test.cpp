@@ -20,7 +20,8 @@ namespace {
 /// The last rank has one tetrahedron and its four vertices, as it is changed; the others have nothing.
 class LastPart {
  public:
-  LastPart() {
+  explicit LastPart(const VertexNames& names = names_with_gaps) {
+    vertex_names = names;
     if (is_last()) {
       for (Id v = 0; v < 4; ++v) part.add_vertex(mesh_named("one_tetrahedron"), v);
       part.add_tetrahedron(mesh_named("one_tetrahedron"), 0);
@@ -50,6 +51,31 @@ TEST(WrongParts, have_ids_below_0) {
   LastPart other;
   if (other.is_last()) other.part.tetrahedron_ids[0] = -7;
   EXPECT_EQ(other.message(), "ids are 0 or more, not -7");
+}
+
+TEST(WrongParts, have_ids_whose_sums_are_none) {
+  constexpr GlobalId most = (GlobalId(1) << 62) - 1;
+  EXPECT_EQ(LastPart({most - 3, 1}).message(), "no error");
+  for (const GlobalId first : {most - 2, std::numeric_limits<GlobalId>::max() - 3}) {
+    EXPECT_EQ(LastPart({first, 1}).message(),
+              "ids are at most 4611686018427387903, not " + std::to_string(std::max(first, most + 1)));
+  }
+}
+
+/// Where one rank has all, as it would number it, the same is said.
+TEST(WrongParts, that_are_numbered_from_0_are_refused_alike) {
+  LastPart twice({0, 1});
+  if (twice.is_last()) twice.part.tetrahedra = {0, 1, 0, 3};
+  EXPECT_EQ(twice.message(), "the tetrahedron of vertices 0 1 0 3 is none: they must be different, and 0 or more");
+  LastPart unknown({0, 1});
+  if (unknown.is_last()) unknown.part.tetrahedra = {0, 1, 77, 3};
+  EXPECT_EQ(unknown.message(), "a tetrahedron has vertex 77, which no rank hands over");
+  LastPart twins({0, 1});
+  if (twins.is_last()) {
+    twins.part.tetrahedra.insert(twins.part.tetrahedra.end(), {3, 2, 1, 0});
+    twins.part.tetrahedron_ids = {12, 99};
+  }
+  EXPECT_EQ(twins.message(), "tetrahedra 12 and 99 have the same four vertices");
 }
 
 TEST(WrongParts, have_tetrahedra_with_a_vertex_twice) {

@@ -31,7 +31,14 @@ GlobalIds take_ids(io::Dataset& mesh, const std::string& name, Offset points) {
     if (array->name != name) continue;
     std::visit(
         [&](const auto& values) {
-          for (Offset i = 0; i < points; ++i) ids(i) = static_cast<GlobalId>(values[i]);
+          for (Offset i = 0; i < points; ++i) {
+            constexpr double too_many = 4611686018427387904.0;  // 2^62
+            const auto value = static_cast<double>(values[i]);
+            if (!(value >= 0 && value < too_many))
+              throw Error("the array '" + name + "' gives point " + std::to_string(i) + " the id " +
+                          std::to_string(values[i]) + ", which is none");
+            ids(i) = static_cast<GlobalId>(values[i]);
+          }
         },
         array->values);
     mesh.arrays.erase(array);
