@@ -21,12 +21,12 @@ Simplices<Memory> view_of(const MeshArrays& mesh, const SimplexTables& tables, c
   }
   if (needs.upto >= Enumeration::edges && has(tables.edge_begin)) {
     view.edge_begin = tables.edge_begin.in<Memory>();
-    view.edge_low = tables.edge_low.in<Memory>();
+    if (needs.owners) view.edge_low = tables.edge_low.in<Memory>();
     view.edge_high = tables.edge_high.in<Memory>();
   }
   if (needs.upto >= Enumeration::triangles && has(tables.triangle_begin)) {
     view.triangle_begin = tables.triangle_begin.in<Memory>();
-    view.triangle_edge = tables.triangle_edge.in<Memory>();
+    if (needs.owners) view.triangle_edge = tables.triangle_edge.in<Memory>();
     view.triangle_apex = tables.triangle_apex.in<Memory>();
   }
   if (needs.lower_edges && has(tables.lower_begin)) {

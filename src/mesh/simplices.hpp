@@ -38,6 +38,7 @@ struct SimplexNeeds {
   Enumeration upto = Enumeration::tetrahedra;
   bool lower_edges = false;  ///< the edges by their higher vertex too; needs edges
   bool tetrahedra = false;   ///< the tetrahedra themselves; on a device that has them they always come along
+  bool owners = true;        ///< edge_low and triangle_edge, which lead from a simplex to its vertices
 };
 
 /// All simplices of a mesh, each with its vertices ascending (a < b < c < d) and all of a dimension in lexicographic

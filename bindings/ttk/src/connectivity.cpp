@@ -74,7 +74,7 @@ void Connectivity::need_triangles() {
 
 void Connectivity::set_numbers(int dimension) {
   counts_[dimension] = (dimension == 1 ? edges_ : triangles_).count();
-  simplices_ = mesh_.simplices({triangles_.is_there() ? Enumeration::triangles : Enumeration::edges, false, true});
+  simplices_ = mesh_.simplices(triangles_.is_there() ? tables_of_triangles : tables_of_edges);
 }
 
 void Connectivity::need_rows(Relation relation) {
@@ -95,9 +95,7 @@ void Connectivity::need_rows(Relation relation) {
 
 std::size_t Connectivity::bytes() const {
   std::size_t bytes = store_->bytes() + segment_of_vertex_.span() * sizeof(Id);
-  for (const CellOrder* order : {&edges_, static_cast<const CellOrder*>(&triangles_)}) {
-    bytes += (order->number.span() + order->first_cells.span()) * sizeof(Id) + order->fresh.span();
-  }
+  bytes += edges_.bytes() + triangles_.bytes() + triangles_.second.span() * sizeof(Id);
   for (const auto& flags : on_surface_) bytes += flags.span();
   return bytes;
 }

@@ -16,14 +16,14 @@ std::array<Id, n> Connectivity::sorted_internal(std::array<Id, n> vertices) cons
   return vertices;
 }
 
-Id Connectivity::internal_by_vertices(Relation relation, Id simplex) const {
+Connectivity::Internal Connectivity::internal_by_vertices(Relation relation, Id simplex) const {
   if (row_dimension(relation) == 1) {
     if (!edges_.is_there()) refuse(relation);
     const auto [a, b] = sorted_internal(edge(simplex));
-    return simplices_.edge_of(a, b);
+    return {simplices_.edge_of(a, b), a};
   }
   const auto [a, b, c] = sorted_internal(triangle(simplex));
-  return simplices_.triangle_of(a, b, c);
+  return {simplices_.triangle_of(a, b, c), a};
 }
 
 std::array<Id, 3> Connectivity::edges_of_triangle(Id triangle) const {
@@ -42,37 +42,16 @@ const std::array<Id, 3>& Connectivity::triangle_edges(Id triangle) const {
 
 const std::array<Id, 6>& Connectivity::cell_edges(Id cell) const {
   return reader().cell_edges.of(cell, [this](Id wanted) {
-    std::array<Id, 4> corners;
-    for (int corner = 0; corner < 4; ++corner) corners[corner] = vertex_internal_[cells_.vertex(wanted, corner)];
-    std::array<Id, 6> edges;
-    for (int place = 0; place < 6; ++place) {
-      const auto [a, b] = std::minmax(corners[edge_corners[place][0]], corners[edge_corners[place][1]]);
-      edges[place] = edges_.number(simplices_.edge_of(a, b));
-    }
+    auto edges = SortedCorners(cells_, wanted, vertex_internal_).edges(simplices_);
+    for (Id& edge : edges) edge = edges_.number.data()[edge];
     return edges;
   });
 }
 
 const std::array<Id, 4>& Connectivity::cell_triangles(Id cell) const {
   return reader().cell_triangles.of(cell, [this](Id wanted) {
-    std::array<Id, 4> corners, places;  // by GALE's ids of the vertices, and where the caller has them
-    for (int corner = 0; corner < 4; ++corner) {
-      const Id vertex = vertex_internal_[cells_.vertex(wanted, corner)];
-      int at = corner;
-      for (; at > 0 && corners[at - 1] > vertex; --at) {
-        corners[at] = corners[at - 1];
-        places[at] = places[at - 1];
-      }
-      corners[at] = vertex;
-      places[at] = corner;
-    }
-    const auto [a, b, c, d] = corners;
-    const auto& s = simplices_;
-    const Id ab = s.edge_of(a, b);
-    const Id without[4] = {s.triangle_of(s.edge_of(b, c), d), s.triangle_of(s.edge_of(a, c), d), s.triangle_of(ab, d),
-                           s.triangle_of(ab, c)};
-    std::array<Id, 4> triangles;
-    for (int i = 0; i < 4; ++i) triangles[(places[i] + 1) % 4] = triangles_.number(without[i]);
+    auto triangles = SortedCorners(cells_, wanted, vertex_internal_).triangles(simplices_);
+    for (Id& triangle : triangles) triangle = triangles_.number.data()[triangle];
     return triangles;
   });
 }

@@ -47,7 +47,7 @@ Connectivity::Flags Connectivity::surface_from_triangles(int dimension) const {
   fill("GALE::ttk_clear_surface", host, flags, 0);
   parallel_for("GALE::ttk_surface", host, counts_[2], [&](Offset i) {
     const Id triangle = static_cast<Id>(i);
-    if (triangles_.star(triangle)[1] != no_id) return;
+    if (triangles_.second(triangle) != no_id) return;
     if (dimension == 2) {
       flags(triangle) = 1;
       return;

@@ -17,21 +17,14 @@ void Connectivity::refuse(Relation relation) {
   throw Error("rows of " + name_of(relation) + " were not preconditioned");
 }
 
-void Connectivity::load(Reader& reader, Relation relation, Id id) const {
+void Connectivity::load(Reader& reader, Relation relation, Id lowest) const {
   if (!wanted_rows_.has(relation)) refuse(relation);
   Reading& reading = reader.readings[static_cast<int>(relation)];
   reader.leave(reading);
-  const Id segment = segment_of(row_dimension(relation), id);
+  const Id segment = segment_of_vertex_(lowest);  // to which a simplex is internal
   reading.slot = &store_->hold(relation, segment, [&] { return make_block(reader, relation, segment); });
   reading.rows = reading.slot->rows();
   reading.held = {reading.rows.first, reading.rows.first + reading.rows.count};
-}
-
-/// The segment that a simplex (GALE's id) is internal to: that of its lowest vertex.
-Id Connectivity::segment_of(int dimension, Id id) const {
-  if (dimension == 2) id = simplices_.triangle_edge(id);
-  if (dimension != 0) id = simplices_.edge_low(id);
-  return segment_of_vertex_(id);
 }
 
 /// Computes the rows of a segment's simplices and puts them into TTK's ids and order.

@@ -5,45 +5,79 @@
 #include <gale/export.hpp>
 #include <gale/mesh/mesh.hpp>
 #include <gale/ttk/cells.hpp>
+#include <gale/ttk/first_met.hpp>
 
 namespace gale::ttk {
 
 /// TTK's numbers of edges or triangles: the order in which they are met first when one goes through the cells, and in
 /// each cell through its edges or triangles as TTK lists them. So they depend on the caller's cells alone.
 struct CellOrder {
-  Array<Id, HostMemory> number;           ///< GALE's id -> TTK's
-  Array<Id, HostMemory> first_cells;      ///< TTK's id -> the first cell that has it; every `stride`-th entry
-  Array<std::uint8_t, HostMemory> fresh;  ///< by cell: those of its edges or triangles that it is the first to have
-  int stride = 1;
+  Array<Id, HostMemory> number;  ///< GALE's id -> TTK's
+  FirstMet met;                  ///< TTK's id -> its first cell, and which of that cell's edges or triangles it is
 
   bool is_there() const { return number.data() != nullptr; }
   Id count() const { return static_cast<Id>(number.extent(0)); }
-  Id first_cell(Id simplex) const { return first_cells.data()[Offset(stride) * simplex]; }
-
-  /// Which of its first cell's edges or triangles it is, as TTK lists them.
-  int place(Id simplex) const {
-    const Id cell = first_cell(simplex);
-    unsigned left = fresh.data()[cell];
-    while (simplex-- > 0 && first_cell(simplex) == cell) left &= left - 1;
-    return __builtin_ctz(left);
-  }
+  std::size_t bytes() const { return number.span() * sizeof(Id) + met.bytes(); }
 };
 
 /// Of the edges; enumerates them if they haven't been. `cells` are those that the mesh was made of. O(n), on all our
-/// threads; 4 bytes a cell beside the result meanwhile.
+/// threads.
 CellOrder order_of_edges(const Mesh& mesh, const Cells& cells);
 
 /// Likewise of the triangles, with their stars; 8 bytes a triangle more meanwhile.
 struct TriangleOrder : CellOrder {
   static constexpr Id crowded = -2;
 
-  /// The cells of a triangle, ascending: the second is no_id if there is one only, `crowded` if there are three or
-  /// more.
-  const Id* star(Id triangle) const { return first_cells.data() + Offset(2) * triangle; }
+  /// TTK's id -> the second of its cells, ascending; no_id if there is one only, `crowded` if there are three or more.
+  Array<Id, HostMemory> second;
 
   bool any_crowded = false;
 };
 
 TriangleOrder order_of_triangles(const Mesh& mesh, const Cells& cells);
+
+/// The tables that are read on the host: edges and triangles by their vertices.
+inline constexpr SimplexNeeds tables_of_edges = {Enumeration::edges, false, false, false};
+inline constexpr SimplexNeeds tables_of_triangles = {Enumeration::triangles, false, false, false};
+
+/// A cell's corners in GALE's ids, ascending, and where the caller has them.
+struct SortedCorners {
+  std::array<Id, 4> vertices;
+  std::array<int, 4> places;
+
+  SortedCorners(const Cells& cells, Id cell, const Id* vertex_internal) {
+    for (int corner = 0; corner < 4; ++corner) {
+      const Id vertex = vertex_internal[cells.vertex(cell, corner)];
+      int at = corner;
+      for (; at > 0 && vertices[at - 1] > vertex; --at) {
+        vertices[at] = vertices[at - 1];
+        places[at] = places[at - 1];
+      }
+      vertices[at] = vertex;
+      places[at] = corner;
+    }
+  }
+
+  /// GALE's edges, or triangles, in the order of TTK's.
+  std::array<Id, 6> edges(const Simplices<HostMemory>& simplices) const {
+    std::array<Id, 6> found;
+    for (int high = 1; high < 4; ++high) {
+      for (int low = 0; low < high; ++low) {
+        found[place_of_corners[1 << places[low] | 1 << places[high]]] =
+            simplices.edge_of(vertices[low], vertices[high]);
+      }
+    }
+    return found;
+  }
+  std::array<Id, 4> triangles(const Simplices<HostMemory>& s) const {
+    const auto [a, b, c, d] = vertices;
+    const Id ab = s.edge_of(a, b);
+    const Id without[4] = {s.triangle_of(s.edge_of(b, c), d), s.triangle_of(s.edge_of(a, c), d), s.triangle_of(ab, d),
+                           s.triangle_of(ab, c)};
+    std::array<Id, 4> found;
+    for (int i = 0; i < 4; ++i) found[(places[i] + 1) % 4] = without[i];
+    return found;
+  }
+};
 
 }  // namespace gale::ttk

@@ -64,8 +64,13 @@ class GALE_EXPORT Connectivity {
   Row row(Id simplex) const {
     if constexpr (relation == Relation::FT) {
       if (!triangles_.is_there()) refuse(relation);
-      const Id* const star = triangles_.star(simplex);
-      if (star[1] != TriangleOrder::crowded) return {star, star[1] == no_id ? 1 : 2};
+      const Id second = triangles_.second.data()[simplex];
+      if (second != TriangleOrder::crowded) {
+        const auto& star = reader().star_of_triangle.of(simplex, [this, second](Id wanted) {
+          return std::array<Id, 2>{triangles_.met[wanted].cell, second};
+        });
+        return {star.data(), second == no_id ? 1 : 2};
+      }
     }
     Reader& mine = reader();
     const Reading& reading = mine.readings[static_cast<int>(relation)];
@@ -119,18 +124,22 @@ class GALE_EXPORT Connectivity {
   template <std::size_t n, std::size_t parts>
   std::array<Id, n> part_of_cell(const CellOrder& order, const int (&corners)[parts][n], Id simplex) const;
 
-  /// GALE's id of a simplex by TTK's. Of edges and triangles a search among those of the lowest vertex.
+  /// A simplex and its lowest vertex, in GALE's ids.
+  struct Internal {
+    Id id, lowest;
+  };
+
+  /// By TTK's id. Of edges and triangles a search among those of the lowest vertex.
   template <int dimension>
-  Id internal(Relation relation, Id simplex) const {
-    if constexpr (dimension == 0) return vertex_internal_[simplex];
+  Internal internal(Relation relation, Id simplex) const {
+    if constexpr (dimension == 0) return {vertex_internal_[simplex], vertex_internal_[simplex]};
     return internal_by_vertices(relation, simplex);
   }
 
   [[noreturn]] static void refuse(Relation relation);
-  Id internal_by_vertices(Relation relation, Id simplex) const;
-  void load(Reader& reader, Relation relation, Id id) const;
+  Internal internal_by_vertices(Relation relation, Id simplex) const;
+  void load(Reader& reader, Relation relation, Id lowest) const;
   Block make_block(Reader& reader, Relation relation, Id segment) const;
-  Id segment_of(int dimension, Id id) const;
   const Id* numbers_of(int dimension) const;
   template <std::size_t n>
   std::array<Id, n> sorted_internal(std::array<Id, n> vertices) const;
@@ -175,8 +184,8 @@ class GALE_EXPORT Connectivity {
 template <Relation relation>
 __attribute__((noinline)) Row Connectivity::read(Reader& reader, Id simplex) const {
   Reading& reading = reader.readings[static_cast<int>(relation)];
-  const Id id = internal<row_dimension(relation)>(relation, simplex);
-  if (!reading.held.has(id)) load(reader, relation, id);
+  const auto [id, lowest] = internal<row_dimension(relation)>(relation, simplex);
+  if (!reading.held.has(id)) load(reader, relation, lowest);
   reading.simplex = simplex;
   return reading.row = reading.rows[id];
 }
@@ -184,8 +193,7 @@ __attribute__((noinline)) Row Connectivity::read(Reader& reader, Id simplex) con
 /// Vertices of an edge or a triangle, ascending: those of its first cell at some corners.
 template <std::size_t n, std::size_t parts>
 std::array<Id, n> Connectivity::part_of_cell(const CellOrder& order, const int (&corners)[parts][n], Id simplex) const {
-  const Id cell = order.first_cell(simplex);
-  const int place = order.place(simplex);
+  const auto [cell, place] = order.met[simplex];
   std::array<Id, n> vertices;
   for (std::size_t i = 0; i < n; ++i) {
     const Id vertex = cells_.vertex(cell, corners[place][i]);
