@@ -28,14 +28,14 @@ Mesh encode(const CallersPoints& points, const Cells& cells, int capacity) {
 std::size_t default_memory(RelationSet wanted, Id vertices) {
   const auto stars = std::size_t(192) * vertices;
   if ((RelationSet(Relation::VV) | Relation::VT).contains(wanted)) return std::max(stars, 16 * gale::detail::mebibyte);
-  constexpr double layers = 6, bytes_of_vertex = 300;
+  constexpr double layers = 4, bytes_of_vertex = 300;
   const double side = std::cbrt(vertices), passed = layers * bytes_of_vertex * side * side * host_threads();
   const auto most = std::min(static_cast<std::size_t>(passed), stars);
   return std::max({most, std::size_t(40) * vertices, 16 * gale::detail::mebibyte});
 }
 
 Options with_defaults(Options options) {
-  if (options.structure.host_memory == 0) options.structure.host_memory = 512 * gale::detail::mebibyte;
+  if (options.structure.host_memory == 0) options.structure.host_memory = 256 * gale::detail::mebibyte;
   return options;
 }
 

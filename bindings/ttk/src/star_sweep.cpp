@@ -27,7 +27,7 @@ struct alignas(64) Worker {
 /// Finds the vertices on the surface in a sweep, which has the rows of VV and VT: as many as there is memory for are
 /// kept as blocks.
 Connectivity::Flags Connectivity::find_surface_in_sweep() {
-  const auto on_surface = allocate<Flags>("GALE::ttk_surface", counts_[0]);
+  const Flags on_surface = no_flags(0);
   const SweepOptions options;
   std::vector<Worker> workers(options.threads);
   const Id* const tetrahedron_input = numbers_of(3);
@@ -43,7 +43,7 @@ Connectivity::Flags Connectivity::find_surface_in_sweep() {
       const Row neighbours = rows[Relation::VV][v];
       const LinkRow link = rows.links()[v];
       if (keep) worker.star.sort(rows[Relation::VT][v], tetrahedron_input, cells_);
-      on_surface(vertex_input_[v]) = worker.is_on_surface(neighbours.size(), link);
+      if (worker.is_on_surface(neighbours.size(), link)) set_flag(on_surface, vertex_input_[v]);
       if (!keep) continue;
       worker.star.add_neighbours(worker.neighbours, neighbours, link, cells_, vertex_input_);
       worker.neighbours.end_row();

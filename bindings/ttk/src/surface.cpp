@@ -1,5 +1,4 @@
 #include <gale/algorithms/surface_vertices.hpp>
-#include <gale/base/atomic.hpp>
 #include <gale/base/error.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/ttk/connectivity.hpp>
@@ -21,6 +20,12 @@ void Connectivity::need_surface(int dimension) {
   }
 }
 
+Connectivity::Flags Connectivity::no_flags(int dimension) const {
+  const auto flags = allocate<Flags>("GALE::ttk_surface", (Offset(counts_[dimension]) + 7) / 8);
+  fill("GALE::ttk_clear_surface", HostSpace(), flags, 0);
+  return flags;
+}
+
 void Connectivity::set_surface(int dimension, const Flags& flags) const {
   on_surface_[dimension] = flags;
   surface_flags_[dimension].store(flags.data(), std::memory_order_release);
@@ -31,10 +36,11 @@ const std::uint8_t* Connectivity::late_surface(int dimension) const {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (dimension != 0 || !surface_waits_) throw Error("what is on the boundary was not preconditioned");
   if (on_surface_[0].data() == nullptr) {
-    const auto flags = allocate<Flags>("GALE::ttk_surface", counts_[0]);
+    const auto flags = no_flags(0);
     const auto vertices = surface_vertices(mesh_);
-    parallel_for("GALE::ttk_surface", HostSpace(), counts_[0],
-                 [&](Offset i) { flags(vertex_input_[i]) = vertices(i); });
+    parallel_for("GALE::ttk_surface", HostSpace(), counts_[0], [&](Offset i) {
+      if (vertices(i)) set_flag(flags, vertex_input_[i]);
+    });
     set_surface(0, flags);
   }
   return on_surface_[0].data();
@@ -42,19 +48,17 @@ const std::uint8_t* Connectivity::late_surface(int dimension) const {
 
 /// The triangles with one cell, or their vertices or edges.
 Connectivity::Flags Connectivity::surface_from_triangles(int dimension) const {
-  const HostSpace host;
-  const auto flags = allocate<Flags>("GALE::ttk_surface", counts_[dimension]);
-  fill("GALE::ttk_clear_surface", host, flags, 0);
-  parallel_for("GALE::ttk_surface", host, counts_[2], [&](Offset i) {
+  const auto flags = no_flags(dimension);
+  parallel_for("GALE::ttk_surface", HostSpace(), counts_[2], [&](Offset i) {
     const Id triangle = static_cast<Id>(i);
     if (triangles_.second(triangle) != no_id) return;
     if (dimension == 2) {
-      flags(triangle) = 1;
+      set_flag(flags, triangle);
       return;
     }
     const auto parts =
         dimension == 1 ? edges_of_triangle(triangle) : part_of_cell(triangles_, triangle_corners, triangle);
-    for (const Id part : parts) atomic_write(&flags(part), std::uint8_t(1));
+    for (const Id part : parts) set_flag(flags, part);
   });
   return flags;
 }

@@ -17,7 +17,7 @@ namespace gale::ttk {
 
 /// How rows are computed and kept.
 struct Options {
-  StructureOptions structure;  ///< its host_memory is 512 MiB by default, since the blocks are kept translated
+  StructureOptions structure;  ///< its host_memory is 256 MiB by default, since the blocks are kept translated
   int capacity = 100;          ///< vertices of a segment, at most
   std::size_t memory = 0;  ///< bytes for translated blocks; by default 192 a vertex, which VV and VT take; where other
                            ///< rows are needed 40 to 192, by what all threads go through at one time
@@ -104,7 +104,7 @@ class GALE_EXPORT Connectivity {
   bool on_surface(int dimension, Id simplex) const {
     const std::uint8_t* flags = surface_flags_[dimension].load(std::memory_order_acquire);
     if (flags == nullptr) flags = late_surface(dimension);
-    return flags[simplex] != 0;
+    return (flags[simplex / 8] >> simplex % 8 & 1) != 0;
   }
 
   /// Whether all triangles have one or two tetrahedra; those must be needed.
@@ -153,7 +153,12 @@ class GALE_EXPORT Connectivity {
   static int source_of(Relation relation) { return relation == Relation::VV ? 0 : 1; }
   Structure& structure(int source) const;
 
+  /// A bit each.
   using Flags = Array<std::uint8_t, HostMemory>;
+  Flags no_flags(int dimension) const;
+  static void set_flag(const Flags& flags, Id simplex) {  // by several threads
+    __atomic_fetch_or(&flags.data()[simplex / 8], static_cast<std::uint8_t>(1u << simplex % 8), __ATOMIC_RELAXED);
+  }
   Flags find_surface_in_sweep();
   Flags surface_from_triangles(int dimension) const;
   void set_surface(int dimension, const Flags& flags) const;
