@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cstdint>
+#include <array>
 
 #include <gale/export.hpp>
 #include <gale/mesh/mesh.hpp>
