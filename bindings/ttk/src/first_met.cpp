@@ -1,3 +1,4 @@
+#include <gale/base/bits.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/ttk/first_met.hpp>
 
@@ -22,6 +23,12 @@ void FirstMet::count(Id simplices) {
       samples(k) = static_cast<Id>(w);
     }
   });
+}
+
+Id FirstMet::number(Id cell, int place) const {
+  const EightCells& word = words_.data()[cell / 8];
+  const std::uint64_t lower = (std::uint64_t(1) << (8 * (cell % 8) + place)) - 1;
+  return word.before + count_bits(word.bits() & lower);
 }
 
 }  // namespace gale::ttk

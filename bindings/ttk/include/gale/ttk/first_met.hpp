@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <cstring>
 
-#include <gale/base/bits.hpp>
 #include <gale/base/memory.hpp>
 #include <gale/base/types.hpp>
 #include <gale/export.hpp>
@@ -47,16 +46,12 @@ class GALE_EXPORT FirstMet {
     const EightCells& word = words_.data()[low];
     std::uint64_t bits = word.bits();
     for (Id left = simplex - word.before; left > 0; --left) bits &= bits - 1;
-    const int bit = lowest_bit(bits);
+    const int bit = __builtin_ctzll(bits);
     return {8 * low + bit / 8, bit % 8};
   }
 
   /// The number of one that was met.
-  Id number(Id cell, int place) const {
-    const EightCells& word = words_.data()[cell / 8];
-    const std::uint64_t lower = (std::uint64_t(1) << (8 * (cell % 8) + place)) - 1;
-    return word.before + count_bits(word.bits() & lower);
-  }
+  Id number(Id cell, int place) const;
 
   std::size_t bytes() const { return words_.span() * sizeof(EightCells) + samples_.span() * sizeof(Id); }
 
