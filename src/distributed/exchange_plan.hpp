@@ -76,9 +76,15 @@ class ExchangePlan {
   template <class Space, class T>
   void fill(const Space& space, const T* from, const Dealt<T>& fetched, T* to) const {
     copy_run(space, from + run_.place, to + run_.slot);
-    const auto kept = allocate<Array<T, HostMemory>>("GALE::kept_values", kept_places_.extent(0));
-    parallel_for("GALE::kept_values", HostSpace(), kept.extent(0), [&](Offset i) { kept(i) = from[kept_places_(i)]; });
-    scatter(space, kept_slots_, kept, to);
+    if constexpr (is_device<Space>) {
+      const auto kept = allocate<Array<T, HostMemory>>("GALE::kept_values", kept_places_.extent(0));
+      parallel_for("GALE::kept_values", HostSpace(), kept.extent(0),
+                   [&](Offset i) { kept(i) = from[kept_places_(i)]; });
+      scatter(space, kept_slots_, kept, to);
+    } else {
+      parallel_for("GALE::kept_values", space, kept_slots_.extent(0),
+                   [&](Offset i) { to[kept_slots_(i)] = from[kept_places_(i)]; });
+    }
     scatter(space, slots_, fetched.entries, to);
   }
 

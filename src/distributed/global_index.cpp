@@ -9,6 +9,11 @@ namespace gale::detail {
 
 namespace {
 
+/// How many ids there are from `least` to `greatest`, which is 2^63 at most.
+std::uint64_t span_of(GlobalId least, GlobalId greatest) {
+  return static_cast<std::uint64_t>(greatest) - static_cast<std::uint64_t>(least) + 1;
+}
+
 /// The entries that differ from those before them.
 DistinctIds without_repetitions(const GlobalIds& sorted, const Array<Id, HostMemory>& places) {
   const Offset count = sorted.extent(0);
@@ -43,9 +48,10 @@ DistinctIds distinct_ids(const Array<const GlobalId, HostMemory>& ids) {
 void keep_distinct(std::vector<GlobalId>& ids) {
   if (ids.empty()) return;
   const auto [least, greatest] = std::minmax_element(ids.begin(), ids.end());
-  const GlobalId first = *least, span = *greatest - first + 1;
-  constexpr std::size_t flags_an_id = 16;
-  if (static_cast<std::size_t>(span) > flags_an_id * ids.size()) {
+  const GlobalId first = *least;
+  const std::uint64_t span = span_of(first, *greatest);
+  constexpr std::uint64_t flags_an_id = 16;
+  if (span > flags_an_id * ids.size()) {
     std::sort(ids.begin(), ids.end());
     ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
     return;
@@ -53,17 +59,17 @@ void keep_distinct(std::vector<GlobalId>& ids) {
   std::vector<std::uint8_t> is_there(span, 0);
   for (const GlobalId id : ids) is_there[id - first] = 1;
   ids.clear();
-  for (GlobalId i = 0; i < span; ++i) {
-    if (is_there[i] != 0) ids.push_back(first + i);
+  for (std::uint64_t i = 0; i < span; ++i) {
+    if (is_there[i] != 0) ids.push_back(first + static_cast<GlobalId>(i));
   }
 }
 
 GlobalIndex::GlobalIndex(const Array<const GlobalId, HostMemory>& ascending) : ids_(ascending) {
-  constexpr Offset entries_an_id = 4;
+  constexpr std::uint64_t entries_an_id = 4;
   const Offset count = ids_.extent(0);
   if (count == 0) return;
-  const Offset span = ids_(count - 1) - ids_(0) + 1;
-  if (span > entries_an_id * count) return;
+  const std::uint64_t span = span_of(ids_(0), ids_(count - 1));
+  if (span > entries_an_id * static_cast<std::uint64_t>(count)) return;
   table_ = allocate<Array<Id, HostMemory>>("GALE::global_index", span);
   fill("GALE::no_index", HostSpace(), table_, no_id);
   parallel_for("GALE::global_index", HostSpace(), count,

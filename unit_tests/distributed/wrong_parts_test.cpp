@@ -88,6 +88,8 @@ TEST(WrongParts, have_tetrahedra_of_vertices_that_nobody_has) {
   LastPart given;
   if (given.is_last()) given.part.tetrahedra = {5, 8, 77, 14};
   EXPECT_EQ(given.message(), "a tetrahedron has vertex 77, which no rank hands over");
+  if (given.is_last()) given.part.tetrahedra = {0, 8, std::numeric_limits<GlobalId>::max(), 14};
+  EXPECT_EQ(given.message(), "a tetrahedron has vertex 0, which no rank hands over");
 }
 
 TEST(WrongParts, have_points_nowhere) {
