@@ -17,7 +17,7 @@ int main(int argc, char** argv) {
   const gale::Segmentation segmentation = std::visit(
       [](const auto& points) {
         using Coordinate = typename std::decay_t<decltype(points)>::non_const_value_type;
-        return gale::octree_segmentation(gale::Points<Coordinate, gale::HostMemory>(points), 100);
+        return gale::octree_segmentation(gale::Points<Coordinate, gale::HostMemory>(points));
       },
       data.points);
   const gale::Mesh mesh(gale::Tetrahedra<gale::Id, gale::HostMemory>(data.tetrahedra), segmentation);

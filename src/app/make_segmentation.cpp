@@ -7,8 +7,6 @@ namespace gale::app {
 
 namespace {
 
-constexpr int default_capacity = 100;
-
 Segmentation by_labels(const std::vector<std::int64_t>& labels) {
   return given_segmentation(Array<const std::int64_t, HostMemory>(labels.data(), labels.size()));
 }

@@ -20,7 +20,7 @@ struct PartitionOptions {
   /// rank that hands it over.
   bool repartition = false;
 
-  int capacity = 100;  ///< of the octree's segments, in vertices
+  int capacity = default_capacity;  ///< of the octree's segments, in vertices
 
   bool keep_corners = false;  ///< have corners(): 16 bytes a tetrahedron
 

@@ -18,14 +18,15 @@ namespace gale {
 /// Segmented by an octree of `capacity` vertices a segment. Throws as octree_segmentation and Mesh do, and if the
 /// second extents aren't 3 and 4.
 template <class PointView, class TetrahedronView>
-Mesh make_mesh(const PointView& points, const TetrahedronView& tetrahedra, int capacity = 100) {
+Mesh make_mesh(const PointView& points, const TetrahedronView& tetrahedra, int capacity = default_capacity) {
   return Mesh(detail::rows_of<4, detail::IndexFor>("tetrahedra", tetrahedra),
               octree_segmentation(detail::rows_of<3, detail::CoordinateFor>("points", points), capacity));
 }
 
 /// The same from vectors of 3 coordinates a point and 4 vertex ids a tetrahedron.
 template <class Coordinate, class Index>
-Mesh make_mesh(const std::vector<Coordinate>& points, const std::vector<Index>& tetrahedra, int capacity = 100) {
+Mesh make_mesh(const std::vector<Coordinate>& points, const std::vector<Index>& tetrahedra,
+               int capacity = default_capacity) {
   return make_mesh(detail::view_of<3>("points", points), detail::view_of<4>("tetrahedra", tetrahedra), capacity);
 }
 

@@ -27,6 +27,10 @@ struct Segmentation {
 template <class Coordinate, class Memory>
 using Points = Kokkos::View<const Coordinate* [3], Kokkos::LayoutRight, Memory>;
 
+/// Vertices of a segment, at most, unless the caller says otherwise. With more, segments of irregular meshes don't fit
+/// the fast memory of a device's teams; on a host it makes no difference.
+inline constexpr int default_capacity = 64;
+
 /// The leaves of a PR octree that hold at most `capacity` vertices each, consecutive ones merged while they fit.
 /// Vertices and thus segments are in Morton order (x the highest bit), those of one cell of the deepest level in input
 /// order. More than `capacity` vertices at one point (to 2^-21 of the mesh's extent) are split arbitrarily.
@@ -35,7 +39,7 @@ using Points = Kokkos::View<const Coordinate* [3], Kokkos::LayoutRight, Memory>;
 /// host computes where that doesn't fit.
 /// Throws gale::Error for a capacity below 1, more than 2^31 - 1 points, or a coordinate that isn't finite.
 template <class Coordinate, class Memory>
-GALE_EXPORT Segmentation octree_segmentation(const Points<Coordinate, Memory>& points, int capacity);
+GALE_EXPORT Segmentation octree_segmentation(const Points<Coordinate, Memory>& points, int capacity = default_capacity);
 
 /// The segments that the caller gives: vertices with equal labels, in input order; segments in ascending order of
 /// label. Labels may have gaps and any sign.

@@ -20,6 +20,11 @@ class SegmentList {
     return list;
   }
 
+  /// Those from a place on.
+  KOKKOS_FUNCTION SegmentList from_place(Id place) const {
+    return segments_ == nullptr ? from(first_ + place) : SegmentList(segments_ + place);
+  }
+
   KOKKOS_FUNCTION Id operator[](Id place) const {
     assert((segments_ != nullptr || first_ >= 0) && "there are no segments");
     return segments_ == nullptr ? first_ + place : segments_[place];

@@ -8,6 +8,7 @@
 #include "support/brute_force.hpp"
 #include "support/every_mesh.hpp"
 #include "support/message_of.hpp"
+#include "support/segmentations.hpp"
 
 namespace gale::test {
 
@@ -135,6 +136,15 @@ TEST(DeviceSweep, goes_through_many_batches) {
     for (const int batches : {0, 1, 2, 5})
       expect_sweep(mesh, expected, star_relations | Relation::EF, with_memory(memory, batches));
   }
+}
+
+TEST(DeviceSweep, goes_through_large_segments_between_small_ones) {
+  const InputMesh input = holed_grid(18);
+  const Mesh mesh = encode(input, large_and_small(input));
+  const RelationSet relations = all_relations | link_form;
+  const ExpectedRows expected(input, BruteForce(input), mesh, relations);
+  for (const std::size_t memory : {std::size_t(1), std::size_t(1) << 18, std::size_t(0)})
+    expect_sweep(mesh, expected, relations, with_memory(memory, 2));
 }
 
 TEST(DeviceSweep, leaves_what_its_functor_wrote_for_any_reader) {

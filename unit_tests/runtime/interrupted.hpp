@@ -18,7 +18,6 @@ class Interrupted : public detail::BatchWorker {
         at_launch_(std::move(at_launch)),
         at_finish_(std::move(at_finish)) {}
 
-  bool is_large(Id) const override { return false; }
   void launch(const std::vector<Id>& segments, Offset words, const StarSizes& scratch) override {
     if (at_launch_) at_launch_(segments);
     segments_ = segments;

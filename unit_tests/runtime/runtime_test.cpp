@@ -85,6 +85,24 @@ TEST(Runtime, answers_consumers_that_jump_at_random) {
   }
 }
 
+TEST(Runtime, serves_large_segments_between_small_ones) {
+  const InputMesh input = holed_grid(18);
+  const Mesh mesh = encode(input, large_and_small(input));
+  const ExpectedRows expected(input, BruteForce(input), mesh);
+  for (const NamedWay& way : ways()) {
+    SCOPED_TRACE(way.name);
+    const auto runtime = make_structure(mesh, star_relations, way.options);
+    std::atomic<int> wrong{0}, right{0};
+    runtime->for_each_segment(star_relations, with_threads(3), [&](int, const SegmentRows& rows) {
+      ++(expected.match(rows, star_relations) ? right : wrong);
+    });
+    EXPECT_EQ(wrong, 0);
+    EXPECT_EQ(right, mesh.segments());
+    const auto consumer = runtime->consumer();
+    for (Id v = 0; v < mesh.vertices(); v += 210) EXPECT_TRUE(rows_match(*consumer, expected, v));
+  }
+}
+
 TEST(Runtime, serves_a_sweep_whose_bodies_read_other_segments) {
   const Holed holed;
   for (const NamedWay& way : ways()) {

@@ -69,4 +69,8 @@ Segmentation segmentation_by(const std::vector<std::int64_t>& labels) {
   return given_segmentation(view);
 }
 
+Segmentation large_and_small(const InputMesh& mesh) {
+  return labelled(mesh, [](Id v) { return 2 * (v / 420) + (v % 420 < 400 ? 0 : 1); });
+}
+
 }  // namespace gale::test

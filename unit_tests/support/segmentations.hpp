@@ -20,4 +20,7 @@ Mesh encode(const InputMesh& mesh, int capacity);
 
 Segmentation segmentation_by(const std::vector<std::int64_t>& labels);
 
+/// Segments of 400 and of 20 vertices by turns, in input order: those outgrow the fast memory of a device's teams.
+Segmentation large_and_small(const InputMesh& mesh);
+
 }  // namespace gale::test

@@ -7,6 +7,7 @@
 #include <gale/algorithms/vertex_order.hpp>
 #include <gale/io/dataset.hpp>
 #include <gale/mesh/mesh.hpp>
+#include <gale/mesh/segmentation.hpp>
 #include <gale/runtime/sweep_options.hpp>
 
 class vtkAlgorithm;
@@ -22,7 +23,7 @@ struct Aborted {};
 /// What a filter's properties say of its input.
 struct InputOptions {
   int threads = 0;  ///< 0: as many as there are cores
-  int capacity = 100;
+  int capacity = default_capacity;
   std::optional<double> above;  ///< of an image's voxels
 };
 

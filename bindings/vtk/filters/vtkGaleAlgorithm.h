@@ -79,7 +79,7 @@ class VTKFILTERSGALE_EXPORT vtkGaleAlgorithm : public vtkAlgorithm {
   virtual void Compute(gale::vtk::Run& run, vtkInformationVector* outputs) = 0;
 
   int NumberOfThreads = 0;
-  int Capacity = 100;
+  int Capacity = 64;
   bool UseThreshold = false;
   double Threshold = 0;
 

@@ -2,6 +2,7 @@
 
 #include <gale/app/options/options.hpp>
 #include <gale/app/options/parse.hpp>
+#include <gale/mesh/segmentation.hpp>
 
 namespace gale::app {
 
@@ -39,7 +40,8 @@ void CommonOptions::add_encoding_to(CLI::App& command) {
 }
 
 void SegmentationOptions::add_to(CLI::App& command) {
-  CLI::Option* const largest = command.add_option("--capacity", capacity, "Most vertices of a segment (default: 100)");
+  CLI::Option* const largest = command.add_option(
+      "--capacity", capacity, "Most vertices of a segment (default: " + std::to_string(default_capacity) + ")");
   largest->check(CLI::Range(1, 2147483647));
   const auto set = [this](const std::string& text) {
     random_count = parse_random("--segments", text);

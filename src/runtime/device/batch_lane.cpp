@@ -1,30 +1,13 @@
 #include <algorithm>
-#include <exception>
-#include <string>
 
-#include <gale/base/error.hpp>
 #include <gale/base/memory.hpp>
-#include <gale/relations/kernels/launch.hpp>
 #include <gale/runtime/device/batch_lane.hpp>
 
 namespace gale::detail {
 
-namespace {
-
-/// What Kokkos throws where the device lacks memory for a launch.
-bool says_out_of_memory(const std::exception& error) {
-  const std::string what = error.what();
-  return what.find("memory") != std::string::npos || what.find("Memory") != std::string::npos;
-}
-
-}  // namespace
-
 template <class Memory>
 BatchLane<Memory>::BatchLane(const Mesh& mesh, std::vector<SweepKernel<Memory>>& kernels, Offset words)
-    : kernels_(kernels),
-      words_(words),
-      fast_scratch_(fast_scratch_bytes<Space>()),
-      memory_(KeptLanes<Memory>::instance().take()) {
+    : kernels_(kernels), words_(words), memory_(KeptLanes<Memory>::instance().take()) {
   const auto intervals = interval_tables<Memory>(mesh);
   for (const auto& one : kernels_) {
     batches_.of[batches_.kernels].relations = one.kernel.wanted();
@@ -52,11 +35,10 @@ void BatchLane<Memory>::launch(BatchPlan plan) {
   try {
     launch_kernels();
     in_flight_ = true;
-  } catch (const std::exception& error) {
+  } catch (...) {
     is_worth_keeping_ = false;  // Kokkos may have lost some of the instance's memory
     memory_.instance.fence();
-    if (dynamic_cast<const Error*>(&error) != nullptr || !says_out_of_memory(error)) throw;
-    throw OutOfMemory("there is no scratch memory for a batch of " + std::to_string(plan_.count()) + " segments");
+    throw;
   }
 }
 
@@ -77,19 +59,13 @@ template <class Memory>
 void BatchLane<Memory>::launch_kernel(int k, SegmentList segments, Offset* directory) {
   const Id count = plan_.count();
   SegmentKernel<Memory>& kernel = kernels_[k].kernel;
-  const SegmentBounds& bounds = *kernels_[k].bounds;
   KernelTask task;
   task.segments = segments;
-  task.sizes = plan_.scratch.empty() ? bounds.usual : larger(bounds.usual, plan_.scratch[k]);
-  for (Id slot = 0; plan_.large && slot < count; ++slot) {
-    const Id segment = plan_.segment(slot);
-    if (bounds.is_large[segment]) task.sizes = larger(task.sizes, kernel.bound(segment));
-  }
-  task.scratch_level = kernel.scratch_bytes(task.sizes, bounds.warps) > fast_scratch_ ? 1 : 0;
-  if (task.scratch_level > 0) is_worth_keeping_ = false;  // nor what its instance takes for that
   task.pool = {memory_.words.data(), plan_.words, &memory_.header.data()->used, directory,
                &memory_.header.data()->needed[k]};
-  kernel.launch(memory_.instance, task, count, bounds.warps);
+  const BatchLaunch launch = plan_.order.launch(count, plan_.scratch.empty() ? StarSizes() : plan_.scratch[k]);
+  if (!launch_batch(memory_.instance, kernel, *kernels_[k].bounds, task, launch))
+    is_worth_keeping_ = false;  // nor what its instance takes for that
   Batch<Memory>& batch = batches_.of[k];
   batch.count = count;
   batch.segments = segments;
@@ -136,9 +112,10 @@ std::vector<Id> BatchLane<Memory>::segments_missing() const {
 /// Where the kernels read their segments.
 template <class Memory>
 SegmentList BatchLane<Memory>::place_segments() {
-  if (plan_.segments.empty()) return SegmentList::from(plan_.begin);
-  const Kokkos::View<const Id*, HostMemory, Kokkos::MemoryUnmanaged> list(plan_.segments.data(), plan_.segments.size());
-  Kokkos::deep_copy(first_of(memory_.segments, plan_.segments.size()), list);
+  if (plan_.is_interval()) return SegmentList::from(plan_.begin);
+  const std::size_t count = plan_.order.segments.size();
+  std::copy(plan_.order.segments.begin(), plan_.order.segments.end(), memory_.segments_copy.data());
+  Kokkos::deep_copy(memory_.instance, first_of(memory_.segments, count), first_of(memory_.segments_copy.view(), count));
   return memory_.segments.data();
 }
 
@@ -151,6 +128,8 @@ void BatchLane<Memory>::reserve(Offset words, Id slots) {
   };
   grow(memory_.words, "GALE::sweep_words", words);
   grow(memory_.segments, "GALE::sweep_segments", slots);
+  if (memory_.segments_copy.size() < memory_.segments.extent(0))
+    memory_.segments_copy = PinnedArray<Id>(memory_.segments.extent(0));
   grow(memory_.directory, "GALE::sweep_directory", slots * relations_);
 }
 

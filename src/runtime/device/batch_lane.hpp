@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <gale/runtime/device/lane_memory.hpp>
-#include <gale/runtime/segment_bounds.hpp>
+#include <gale/runtime/device/launch_batch.hpp>
 
 namespace gale::detail {
 
@@ -18,14 +18,14 @@ struct SweepKernel {
 
 /// Segments for one batch, and what they are known to need beyond the usual.
 struct BatchPlan {
-  Id begin = 0, end = 0;           ///< those of an interval, or
-  std::vector<Id> segments;        ///< these
+  Id begin = 0, end = 0;           ///< of the interval that they are; none of it if they are what others lacked
+  LaunchOrder order;               ///< they; empty where it is the interval's
   Offset words = 0;                ///< room for so many at least
   std::vector<StarSizes> scratch;  ///< by kernel; none: the usual
-  bool large = false;              ///< one of them needs more than the fast scratch memory
 
-  Id count() const { return segments.empty() ? end - begin : static_cast<Id>(segments.size()); }
-  Id segment(Id slot) const { return segments.empty() ? begin + slot : segments[slot]; }
+  bool is_interval() const { return order.segments.empty(); }
+  Id count() const { return is_interval() ? end - begin : static_cast<Id>(order.segments.size()); }
+  Id segment(Id slot) const { return is_interval() ? begin + slot : order.segments[slot]; }
 };
 
 /// What a batch took and lacked.
@@ -74,7 +74,6 @@ class BatchLane {
 
   std::vector<SweepKernel<Memory>>& kernels_;
   const Offset words_;  ///< that a batch has at least
-  const std::size_t fast_scratch_;
   Offset relations_ = 0;
   LaneMemory<Memory> memory_;
   SegmentBatches<Memory> batches_;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <deque>
+#include <numeric>
 #include <vector>
 
 #include <gale/base/error.hpp>
@@ -13,9 +14,6 @@ namespace {
 
 /// Rows beyond those of a regular mesh, at first.
 constexpr double margin = 1.2;
-
-/// Bytes of scratch memory for the teams of one batch whose segments need more than the fast one.
-constexpr std::size_t most_scratch = 256 * mebibyte;
 
 /// Options, with what they leave open filled in.
 template <class Memory>
@@ -48,7 +46,7 @@ class BatchSweep<Memory>::Batches {
   bool has_plans() const { return !again_.empty() || ahead_ < mesh_.owned_segments(); }
   BatchPlan next_plan();
   bool is_large(Id segment) const;
-  std::size_t scratch_of(Id segment) const;
+  LaunchOrder order_of(Id begin, Id end) const;
   void launch(Lane& lane, BatchPlan plan);
   void finish(Lane& lane);
   void plan_again(const BatchPlan& plan, BatchShortfall lacked);
@@ -111,16 +109,17 @@ bool BatchSweep<Memory>::Batches::is_large(Id segment) const {
                      [segment](const auto& one) { return one.bounds->is_large[segment] != 0; });
 }
 
-/// What a team of the greediest kernel asks for, to compute a segment.
+/// None if it is theirs.
 template <class Memory>
-std::size_t BatchSweep<Memory>::Batches::scratch_of(Id segment) const {
-  std::size_t most = 0;
-  for (const auto& one : kernels_)
-    most = std::max(most, one.kernel.scratch_bytes(one.kernel.bound(segment), one.bounds->warps));
-  return most;
+LaunchOrder BatchSweep<Memory>::Batches::order_of(Id begin, Id end) const {
+  const auto large = [this](Id segment) { return is_large(segment); };
+  std::vector<Id> segments(end - begin);
+  std::iota(segments.begin(), segments.end(), begin);
+  if (std::none_of(segments.begin(), segments.end(), large)) return {};
+  return LaunchOrder::of(std::move(segments), large);
 }
 
-/// Segments as far as they fit; those that need more than the fast scratch memory by themselves.
+/// Segments as far as they fit.
 template <class Memory>
 BatchPlan BatchSweep<Memory>::Batches::next_plan() {
   BatchPlan plan;
@@ -132,14 +131,9 @@ BatchPlan BatchSweep<Memory>::Batches::next_plan() {
   const auto& vertex_begin = mesh_.vertex_begin();
   const double most = static_cast<double>(words_) / words_per_vertex_;
   plan.begin = ahead_;
-  plan.large = is_large(ahead_);
-  std::size_t scratch = plan.large ? scratch_of(ahead_) : 0;
-  for (plan.end = ahead_ + 1; plan.end < mesh_.owned_segments(); ++plan.end) {
-    if (vertex_begin(plan.end + 1) - vertex_begin(plan.begin) > most || is_large(plan.end) != plan.large) break;
-    if (!plan.large) continue;
-    scratch = std::max(scratch, scratch_of(plan.end));
-    if (scratch * static_cast<std::size_t>(plan.end + 1 - plan.begin) > most_scratch) break;
-  }
+  plan.end = ahead_ + 1;
+  while (plan.end < mesh_.owned_segments() && vertex_begin(plan.end + 1) - vertex_begin(plan.begin) <= most) ++plan.end;
+  plan.order = order_of(plan.begin, plan.end);
   ahead_ = plan.end;
   return plan;
 }
@@ -161,7 +155,7 @@ template <class Memory>
 void BatchSweep<Memory>::Batches::finish(Lane& lane) {
   BatchShortfall lacked = lane.finish();
   const BatchPlan& plan = lane.plan();
-  if (plan.segments.empty()) {
+  if (plan.begin < plan.end) {
     const auto& begin = mesh_.vertex_begin();
     const double words =
         1.05 * static_cast<double>(lacked.words) / std::max(begin(plan.end) - begin(plan.begin), Id(1));
@@ -174,8 +168,8 @@ void BatchSweep<Memory>::Batches::finish(Lane& lane) {
 /// it is one alone, the room.
 template <class Memory>
 void BatchSweep<Memory>::Batches::plan_again(const BatchPlan& plan, BatchShortfall lacked) {
+  const auto large = [this](Id segment) { return is_large(segment); };
   BatchPlan half;
-  half.large = plan.large;
   half.scratch = plan.scratch;
   for (std::size_t k = 0; k < lacked.scratch.size(); ++k) {
     if (half.scratch.size() == k) half.scratch.push_back({});
@@ -184,9 +178,10 @@ void BatchSweep<Memory>::Batches::plan_again(const BatchPlan& plan, BatchShortfa
   const auto middle = lacked.segments.begin() + static_cast<std::ptrdiff_t>((lacked.segments.size() + 1) / 2);
   for (const auto& [begin, end] :
        {std::make_pair(lacked.segments.begin(), middle), std::make_pair(middle, lacked.segments.end())}) {
-    half.segments.assign(begin, end);
+    if (begin == end) continue;
+    half.order = LaunchOrder::of({begin, end}, large);
     half.words = half.count() == 1 ? lacked.words : plan.words;
-    if (!half.segments.empty()) again_.push_back(half);
+    again_.push_back(half);
   }
 }
 

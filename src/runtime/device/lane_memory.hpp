@@ -23,6 +23,7 @@ struct LaneMemory {
   Space instance;
   Array<BatchHeader, Memory> header;
   PinnedArray<BatchHeader> header_copy;
+  PinnedArray<Id> segments_copy;
   Array<Id, Memory> segments, words;
   Array<Offset, Memory> directory;
 

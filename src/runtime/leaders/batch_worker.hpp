@@ -23,9 +23,6 @@ class BatchWorker {
  public:
   virtual ~BatchWorker() = default;
 
-  /// Has it to be a batch of its own, since it needs more of the fast scratch memory than there is?
-  virtual bool is_large(Id segment) const = 0;
-
   /// Begins to compute the blocks of `segments`, in `words` words, each with at least the scratch memory that `scratch`
   /// says. Returns at once on a device. Throws OutOfMemory where the batch is too big for the device's memory.
   virtual void launch(const std::vector<Id>& segments, Offset words, const StarSizes& scratch) = 0;
@@ -33,7 +30,7 @@ class BatchWorker {
   /// Waits until it is computed, and begins to copy its blocks to `arena`, which has so many words.
   virtual void begin_copy(Arena& arena) = 0;
 
-  /// Waits until they are there: words, segments and directory.
+  /// Waits until they are there: words, directory, and segments in whatever order.
   virtual Shortfall finish(Arena& arena) = 0;
 
   /// Waits for what was launched, and forgets it. Never throws.

@@ -7,9 +7,8 @@
 #include <atomic>
 
 #include <gale/base/pinned.hpp>
-#include <gale/relations/kernels/launch.hpp>
 #include <gale/relations/kernels/segment_kernel.hpp>
-#include <gale/runtime/segment_bounds.hpp>
+#include <gale/runtime/device/launch_batch.hpp>
 
 namespace gale::detail {
 
@@ -42,24 +41,18 @@ class DeviceBatchWorker : public BatchWorker {
     reserve(parameters.words);
   }
 
-  bool is_large(Id segment) const override { return bounds_->is_large[segment] != 0; }
-
   void launch(const std::vector<Id>& segments, Offset words, const StarSizes& scratch) override {
     reserve(words);
     const std::size_t count = segments.size();
     reserve_segments(count);
     count_ = count;
-    StarSizes sizes = larger(scratch, bounds_->usual);
-    for (const Id segment : segments) {
-      if (is_large(segment)) sizes = larger(sizes, kernel_.bound(segment));
-    }
-    std::copy(segments.begin(), segments.end(), segments_copy_.data());
-    task_.sizes = sizes;
-    task_.scratch_level = kernel_.scratch_bytes(sizes, bounds_->warps) > fast_scratch_ ? 1 : 0;
+    const auto is_large = [&](Id segment) { return bounds_->is_large[segment] != 0; };
+    const LaunchOrder order = LaunchOrder::of(segments, is_large);
+    std::copy(order.segments.begin(), order.segments.end(), segments_copy_.data());
     *header_copy_.data() = Header();
     Kokkos::deep_copy(instance_, header_, header_copy_.view());
     Kokkos::deep_copy(instance_, first_of(segments_, count), first_of(segments_copy_.view(), count));
-    kernel_.launch(instance_, task_, static_cast<int>(count), bounds_->warps);
+    launch_batch(instance_, kernel_, *bounds_, task_, order.launch(static_cast<Id>(count), scratch));
     Kokkos::deep_copy(instance_, header_copy_.view(), header_);
     Kokkos::deep_copy(instance_, first_of(directory_copy_.view(), count * relations_),
                       first_of(directory_, count * relations_));
@@ -126,7 +119,6 @@ class DeviceBatchWorker : public BatchWorker {
   OnDevice<Offset> directory_;
   Pinned<Offset> directory_copy_;
   KernelTask task_;
-  const std::size_t fast_scratch_ = fast_scratch_bytes<WorkerSpace>();
   std::atomic<std::size_t> device_bytes_{0};  ///< of words, which outweigh the rest
   std::size_t count_ = 0;
 };

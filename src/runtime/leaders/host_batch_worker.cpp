@@ -13,7 +13,6 @@ class HostBatchWorker : public BatchWorker {
   HostBatchWorker(const Mesh& mesh, const WorkerParameters& parameters)
       : worker_(mesh, parameters.wanted), relations_(parameters.wanted.count()) {}
 
-  bool is_large(Id) const override { return false; }
   void launch(const std::vector<Id>& segments, Offset, const StarSizes&) override { segments_ = segments; }
 
   void begin_copy(Arena&) override {}

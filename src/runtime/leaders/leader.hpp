@@ -71,7 +71,7 @@ class Leader {
     StarSizes scratch;   ///< that they need at least, as an earlier try has shown
     Offset words = 0;    ///< likewise
     bool ahead = false;  ///< computed for the running sweep, which will read them
-    bool alone = false;  ///< not to be joined with others: it is part of one that didn't fit, or of one large segment
+    bool alone = false;  ///< not to be joined with others: it is part of one that didn't fit
   };
   struct Flight {
     Plan plan;

@@ -26,9 +26,7 @@ void Leader::plan_from(Id segment) {
   Plan plan;
   const Id count = std::min(parameters_.segments_per_request, segments_that_fit());
   const Id end = static_cast<Id>(std::min<Offset>(mesh_.segments(), Offset(segment) + count));
-  plan.alone = workers_.front()->is_large(segment);
   for (Id s = segment; s < end; ++s) {
-    if (s != segment && (plan.alone || workers_.front()->is_large(s))) break;
     if (!is_wanted(s)) continue;
     under_way_[s] = true;
     plan.segments.push_back(s);
@@ -86,11 +84,8 @@ Leader::Plan Leader::plan_ahead() {
   Plan plan;
   plan.ahead = true;
   const auto count = static_cast<std::size_t>(std::min(ahead_batch_, segments_that_fit()));
-  bool large = false;
-  for (; ahead_ < mesh_.owned_segments() && plan.segments.size() < count && !large; ++ahead_) {
+  for (; ahead_ < mesh_.owned_segments() && plan.segments.size() < count; ++ahead_) {
     if (!is_wanted(ahead_)) continue;
-    large = workers_.front()->is_large(ahead_);
-    if (large && !plan.segments.empty()) break;
     under_way_[ahead_] = true;
     plan.segments.push_back(ahead_);
   }
@@ -162,7 +157,7 @@ void Leader::finish_oldest() {
   const std::size_t relations = parameters_.relations.count();
   for (std::size_t slot = 0; slot < flight.plan.segments.size(); ++slot) {
     const bool there = flight.arena->directory[slot * relations] != BlockPool::missing;
-    (there ? made : missing).segments.push_back(flight.plan.segments[slot]);
+    (there ? made : missing).segments.push_back(flight.arena->segments[slot]);
   }
   account(made, shortfall, flight.plan.segments.size());
   if (made.segments.empty()) {

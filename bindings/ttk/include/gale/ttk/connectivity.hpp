@@ -17,8 +17,8 @@ namespace gale::ttk {
 
 /// How rows are computed and kept.
 struct Options {
-  StructureOptions structure;  ///< its host_memory is 256 MiB by default, since the blocks are kept translated
-  int capacity = 100;          ///< vertices of a segment, at most
+  StructureOptions structure;       ///< its host_memory is 256 MiB by default, since the blocks are kept translated
+  int capacity = default_capacity;  ///< vertices of a segment, at most
   std::size_t memory = 0;  ///< bytes for translated blocks; by default 192 a vertex, which VV and VT take; where other
                            ///< rows are needed 40 to 192, by what all threads go through at one time
 };
