@@ -10,9 +10,6 @@ namespace gale::detail {
 
 namespace {
 
-/// More than this share of the segments should fit the fast scratch memory.
-constexpr double share_that_fits = 0.99;
-
 /// Bytes of scratch memory within which a segment isn't large.
 template <class Memory>
 std::size_t fast_bytes() {
@@ -40,14 +37,11 @@ StarSizes greatest_bound(const Mesh& mesh, const SegmentKernel<Memory>& kernel) 
   return std::accumulate(greatest.begin(), greatest.end(), StarSizes(), larger);
 }
 
-/// Gathers, segment after segment, what those need that fit the fast scratch memory together with the ones before. How
-/// many don't.
+/// Gathers, segment after segment, what those need that fit the fast scratch memory together with the ones before.
 template <class Memory>
-Id gather(const std::vector<StarSizes>& bounds, const SegmentKernel<Memory>& kernel, SegmentBounds& found) {
+void gather(const std::vector<StarSizes>& bounds, const SegmentKernel<Memory>& kernel, SegmentBounds& found) {
   const std::size_t fast = fast_bytes<Memory>();
-  Id large = 0;
   found.usual = StarSizes();
-  found.is_large.assign(bounds.size(), 0);
   for (std::size_t s = 0; s < bounds.size(); ++s) {
     if (found.usual.contains(bounds[s])) continue;
     const StarSizes together = larger(found.usual, bounds[s]);
@@ -55,10 +49,8 @@ Id gather(const std::vector<StarSizes>& bounds, const SegmentKernel<Memory>& ker
       found.usual = together;
     } else {
       found.is_large[s] = 1;
-      ++large;
     }
   }
-  return large;
 }
 
 template <class Memory>
@@ -69,12 +61,9 @@ std::shared_ptr<const SegmentBounds> find(const Mesh& mesh, const SegmentKernel<
   found->warps = std::max(threads_per_segment / lanes, 1);
   found->usual = greatest_bound(mesh, kernel);
   found->is_large.assign(mesh.segments(), 0);
-  if (kernel.scratch_bytes(found->usual, found->warps) <= fast_bytes<Memory>()) return found;
-  const auto bounds = bounds_of(mesh, kernel);
-  for (;; found->warps /= 2) {
-    const Id large = gather(bounds, kernel, *found);
-    if (found->warps == 1 || large <= (1 - share_that_fits) * mesh.segments()) return found;
-  }
+  if (kernel.scratch_bytes(found->usual, found->warps) > fast_bytes<Memory>())
+    gather(bounds_of(mesh, kernel), kernel, *found);
+  return found;
 }
 
 }  // namespace

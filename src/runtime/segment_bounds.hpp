@@ -10,8 +10,7 @@ namespace gale::detail {
 
 /// What the segments of a mesh need of a team's scratch memory.
 struct SegmentBounds {
-  int warps =
-      1;  ///< of a team: those wanted, or fewer if with them too many segments wouldn't fit the fast scratch memory
+  int warps = 1;                       ///< of a team
   StarSizes usual;                     ///< what suffices for every segment that isn't large
   std::vector<std::uint8_t> is_large;  ///< by segment: 1 if it doesn't fit with the others
 };

@@ -5,6 +5,7 @@
 #include <gale/mesh/input_numbers.hpp>
 #include <gale/mesh/number_by_vertex.hpp>
 
+#include "support/arrays.hpp"
 #include "support/every_mesh.hpp"
 
 namespace gale::test {

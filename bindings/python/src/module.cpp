@@ -4,6 +4,7 @@
 #include <nanobind/stl/vector.h>
 
 #include <gale/base/error.hpp>
+#include <gale/io/formats.hpp>
 #include <gale/mesh/segmentation.hpp>
 #include <gale/version.hpp>
 
@@ -24,6 +25,7 @@ NB_MODULE(_gale, module) {
     }
   });
   module.attr("version") = gale::version;
+  module.attr("has_vtk") = gale::io::detail::has_vtk();
   module.attr("default_capacity") = gale::default_capacity;
 #if defined(KOKKOS_ENABLE_CUDA)
   module.attr("has_cuda") = true;

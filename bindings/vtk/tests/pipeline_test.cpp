@@ -12,6 +12,8 @@
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 
+#include <gale/mesh/segmentation.hpp>
+
 #include "fixtures.hpp"
 
 // What holds for all filters.
@@ -162,7 +164,7 @@ TEST_F(Filters, PrintThemselves) {
   for (const auto& filter : all()) {
     std::ostringstream text;
     filter->Print(text);
-    EXPECT_NE(text.str().find("Capacity: 100"), std::string::npos);
+    EXPECT_NE(text.str().find("Capacity: " + std::to_string(default_capacity)), std::string::npos);
   }
 }
 
