@@ -32,8 +32,8 @@ double step(const char* name, const Action& action) {
 void initialize(const io::Dataset& data) {
   const auto& points = std::get<io::Dataset::Points<float>>(data.points);
   Segmentation segmentation;
-  const double octree = step(
-      "octree", [&] { segmentation = octree_segmentation<float, HostMemory>(Points<float, HostMemory>(points), 100); });
+  const double octree =
+      step("octree", [&] { segmentation = octree_segmentation<float, HostMemory>(Points<float, HostMemory>(points)); });
   std::unique_ptr<Mesh> mesh;
   const double encoding = step("encoding (VV and VT need no more)", [&] {
     mesh = std::make_unique<Mesh>(Tetrahedra<Id, HostMemory>(data.tetrahedra), segmentation);

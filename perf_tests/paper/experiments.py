@@ -85,7 +85,7 @@ def segment_threads(machine):
         return machine.miss("seven relations by threads a segment", "--relation-rates was not given")
     size = stent(machine).split(":")[1]
     for relation in SEVEN:
-        printed = machine.run(machine.options.relation_rates, size, 100, relation)
+        printed = machine.run(machine.options.relation_rates, size, 64, relation)
         for line in (printed or "").splitlines():
             words = line.split()
             if words and words[0] == relation:

@@ -92,7 +92,7 @@ void measure(const Mesh& mesh, RelationSet wanted, double link) {
 int main(int argc, char** argv) {
   const Kokkos::ScopeGuard kokkos(argc, argv);
   const int n = argc > 1 ? std::atoi(argv[1]) : 64;
-  const Mesh mesh = perf::encode(io::make_grid(n), argc > 2 ? std::atoi(argv[2]) : 100);
+  const Mesh mesh = perf::encode(io::make_grid(n), argc > 2 ? std::atoi(argv[2]) : default_capacity);
   const double link = perf::link_bandwidth(copied_at_once);
   std::printf("%s, grid:%d, %d segments; link %.1f GB/s\n", perf::context().c_str(), n, mesh.segments(), link / 1e9);
   std::vector<RelationSet> wanted;

@@ -95,7 +95,7 @@ void measure(const Mesh& mesh, RelationSet wanted, double link) {
 int main(int argc, char** argv) {
   const Kokkos::ScopeGuard kokkos(argc, argv);
   const int n = argc > 1 ? std::atoi(argv[1]) : 64;
-  const Mesh mesh = perf::encode(io::make_grid(n), argc > 2 ? std::atoi(argv[2]) : 100);
+  const Mesh mesh = perf::encode(io::make_grid(n), argc > 2 ? std::atoi(argv[2]) : default_capacity);
   const double link = perf::link_bandwidth(std::size_t(16) << 20);
   std::printf("%s, grid:%d, %d segments\n", perf::context().c_str(), n, mesh.segments());
   for (const RelationSet wanted : {RelationSet(Relation::VT), RelationSet(Relation::VV), Relation::VV | link_form,

@@ -12,7 +12,7 @@ namespace gale::perf {
 /// The mesh of an input and the order of its first field, and the seconds that each step to them took.
 class Initialized {
  public:
-  explicit Initialized(const io::Dataset& data, int capacity = 100) {
+  explicit Initialized(const io::Dataset& data, int capacity = default_capacity) {
     const auto& points = std::get<io::Dataset::Points<float>>(data.points);
     const auto& field = std::get<std::vector<float>>(data.arrays[0].values);
     std::optional<Segmentation> segmentation;
