@@ -45,6 +45,7 @@ Connectivity::Connectivity(const CallersPoints& points, const Cells& cells, cons
     : cells_(cells),
       options_(with_defaults(options)),
       mesh_(encode(points, cells, options.capacity)),
+      finds_stars_in_cells_(!mesh_.on_device() && options.structure.way == Way::gale),
       counts_{mesh_.vertices(), no_id, no_id, mesh_.tetrahedra()},
       vertex_internal_(mesh_.vertex_internal().data()),
       vertex_input_(mesh_.vertex_input().data()),
@@ -86,6 +87,7 @@ void Connectivity::need_rows(Relation relation) {
   wanted_rows_ = wanted_rows_ | relation;
   if (options_.memory == 0) store_->set_budget(default_memory(wanted_rows_, counts_[0]));
   if (relation == Relation::FT && is_manifold()) return;  // the triangles have their stars
+  if (finds_in_cells(relation)) return;
   Source& source = sources_[source_of(relation)];
   if (source.wanted.contains(relation)) return;
   source.wanted = relation == Relation::VV ? star_relations : source.wanted | relation;

@@ -1,7 +1,10 @@
+#include <algorithm>
+#include <memory>
 #include <vector>
 
 #include <gale/algorithms/links/large_link.hpp>
 #include <gale/algorithms/links/small_link.hpp>
+#include <gale/base/threads.hpp>
 #include <gale/runtime/structure.hpp>
 #include <gale/ttk/connectivity.hpp>
 
@@ -28,6 +31,30 @@ struct alignas(64) Worker {
 /// kept as blocks.
 Connectivity::Flags Connectivity::find_surface_in_sweep() {
   const Flags on_surface = no_flags(0);
+  finds_stars_in_cells_ ? sweep_cells(on_surface) : sweep_structure(on_surface);
+  return on_surface;
+}
+
+void Connectivity::sweep_cells(const Flags& on_surface) {
+  constexpr Id together = 16;
+  const int threads = host_threads();
+  std::vector<std::unique_ptr<StarRows>> workers(threads);
+  in_turns(threads, (Offset(mesh_.segments()) + together - 1) / together, [&](int thread, Offset turn) {
+    auto& stars = workers[thread];
+    if (!stars) stars = std::make_unique<StarRows>(mesh_, cells_);
+    const Id begin = static_cast<Id>(turn) * together, end = std::min(begin + together, mesh_.segments());
+    for (Id segment = begin; segment < end; ++segment) {
+      stars->find(segment);
+      Block neighbours = stars->neighbours();
+      for (const Id vertex : stars->on_surface()) set_flag(on_surface, vertex);
+      if (store_->bytes() >= store_->budget()) continue;
+      store_->put(Relation::VV, segment, std::move(neighbours));
+      if (wanted_rows_.has(Relation::VT)) store_->put(Relation::VT, segment, stars->stars());
+    }
+  });
+}
+
+void Connectivity::sweep_structure(const Flags& on_surface) {
   const SweepOptions options;
   std::vector<Worker> workers(options.threads);
   const Id* const tetrahedron_input = numbers_of(3);
@@ -54,7 +81,6 @@ Connectivity::Flags Connectivity::find_surface_in_sweep() {
     store_->put(Relation::VV, rows.segment(), worker.neighbours.take());
     if (keeps_cells) store_->put(Relation::VT, rows.segment(), worker.cells.take());
   });
-  return on_surface;
 }
 
 }  // namespace gale::ttk

@@ -29,6 +29,11 @@ void Connectivity::load(Reader& reader, Relation relation, Id lowest) const {
 
 /// Computes the rows of a segment's simplices and puts them into TTK's ids and order.
 Block Connectivity::make_block(Reader& reader, Relation relation, Id segment) const {
+  if (finds_in_cells(relation)) {
+    if (!reader.stars) reader.stars = std::make_unique<StarRows>(mesh_, cells_);
+    reader.stars->find(segment);
+    return relation == Relation::VV ? reader.stars->neighbours() : reader.stars->stars();
+  }
   const int source = source_of(relation);
   if (!reader.consumers[source]) reader.consumers[source] = structure(source).consumer();
   Consumer& consumer = *reader.consumers[source];

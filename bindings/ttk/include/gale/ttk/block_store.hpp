@@ -15,6 +15,14 @@ namespace gale::ttk {
 
 /// The rows of one relation for one segment, in memory of its own.
 struct Block {
+  Block() = default;
+
+  /// With room for so many entries of consecutive rows; all is to be written.
+  Block(Id first, Id count, std::size_t entries)
+      : words(new Id[count + 1 + entries]), bytes((count + 1 + entries) * sizeof(Id)) {
+    rows = BlockLayout{first, count}.rows_in(words.get());
+  }
+
   Rows rows;  ///< of the segment's simplices (GALE's ids); entries are TTK's ids
   std::unique_ptr<Id[]> words;
   std::size_t bytes = 0;

@@ -150,6 +150,9 @@ class GALE_EXPORT Connectivity {
     RelationSet wanted;
     std::unique_ptr<Structure> structure;
   };
+  bool finds_in_cells(Relation relation) const {
+    return finds_stars_in_cells_ && (relation == Relation::VV || relation == Relation::VT);
+  }
   static int source_of(Relation relation) { return relation == Relation::VV ? 0 : 1; }
   Structure& structure(int source) const;
 
@@ -160,6 +163,8 @@ class GALE_EXPORT Connectivity {
     __atomic_fetch_or(&flags.data()[simplex / 8], static_cast<std::uint8_t>(1u << simplex % 8), __ATOMIC_RELAXED);
   }
   Flags find_surface_in_sweep();
+  void sweep_cells(const Flags& on_surface);
+  void sweep_structure(const Flags& on_surface);
   Flags surface_from_triangles(int dimension) const;
   void set_surface(int dimension, const Flags& flags) const;
   const std::uint8_t* late_surface(int dimension) const;
@@ -168,6 +173,7 @@ class GALE_EXPORT Connectivity {
   const Cells cells_;
   const Options options_;
   const Mesh mesh_;
+  const bool finds_stars_in_cells_;  ///< VV and VT, rather than by a structure
   RelationSet wanted_rows_;  ///< by callers
   Array<Id, HostMemory> segment_of_vertex_;
   std::array<Id, 4> counts_;

@@ -5,6 +5,7 @@
 
 #include <gale/mesh/intervals.hpp>
 #include <gale/runtime/consumer.hpp>
+#include <gale/ttk/star_rows.hpp>
 #include <gale/ttk/translation.hpp>
 
 namespace gale::ttk {
@@ -57,6 +58,7 @@ struct Reader {
   Found<4> cell_triangles;
   Found<5> cell_neighbours;  ///< the last says how many
 
+  std::unique_ptr<StarRows> stars;  ///< likewise
   BlockBuilder builder;
   StarOrder star;
 };

@@ -32,11 +32,8 @@ class BlockBuilder {
   void end_row() { words_[++row_] = static_cast<Id>(words_.size()) - rows_ - 1; }
 
   Block take() const {
-    Block block;
-    block.words.reset(new Id[words_.size()]);
+    Block block(first_, rows_, words_.size() - rows_ - 1);
     std::copy(words_.begin(), words_.end(), block.words.get());
-    block.rows = BlockLayout{first_, rows_}.rows_in(block.words.get());
-    block.bytes = words_.size() * sizeof(Id);
     return block;
   }
 

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <gale/algorithms/links/large_link.hpp>
+#include <gale/mesh/mesh.hpp>
+#include <gale/ttk/block_store.hpp>
+#include <gale/ttk/cells.hpp>
+
+namespace gale::ttk {
+
+/// The other vertices that a segment's cells have, numbered as they come.
+class OutsideVertices {
+ public:
+  /// Forgets all. The next is numbered `first`.
+  void begin(Id first);
+
+  /// The number of a vertex (the caller's id), which is a new one if it wasn't asked for yet.
+  Id number(Id vertex) {
+    for (std::uint32_t at = hash(vertex);; at = (at + 1) & mask_) {
+      Slot& slot = slots_[at];
+      if (slot.vertex == vertex) return slot.number;
+      if (slot.vertex == no_id) return add(vertex, slot);
+    }
+  }
+
+ private:
+  struct Slot {
+    Id vertex, number;
+  };
+
+  std::uint32_t hash(Id vertex) const { return (std::uint32_t(vertex) * 2654435769u >> 7) & mask_; }
+  Id add(Id vertex, Slot& slot);
+
+  std::vector<Slot> slots_;
+  std::uint32_t mask_ = 0;
+  Id first_ = 0, next_ = 0;
+};
+
+/// Stars and neighbours of a segment's vertices in the caller's ids and in TTK's order, straight from the caller's
+/// cells: these are sorted once for the segment, so that no star is. What the host does where no device makes stars. One
+/// serves one thread, for one segment after the other, and keeps its memory. O(n) in the segment's cells.
+class StarRows {
+ public:
+  StarRows(const Mesh& mesh, const Cells& cells);
+
+  /// Finds the stars of a segment's vertices; at once if it did so the last time.
+  void find(Id segment);
+
+  /// The cells of each vertex, ascending.
+  Block stars() const;
+
+  /// The neighbours of each vertex in the order of the edges to them: the order in which one meets them in the cells of
+  /// its star, and in each cell as the caller has its corners.
+  Block neighbours();
+
+  /// The vertices that have a triangle with one cell only, in the caller's ids; after neighbours().
+  const std::vector<Id>& on_surface() const { return on_surface_; }
+
+ private:
+  /// A cell's corners as the caller has them: rows of the segment, or numbers of other vertices.
+  using Corners = std::array<Id, 4>;
+
+  void gather_cells();
+  void number_corners();
+  void place_cells();
+  Id* add_neighbours(Id row, Id* to);
+  bool is_on_surface(Id row, Id neighbours);
+
+  const EncodedMesh<HostMemory>& mesh_;
+  const Id *const tetrahedron_input_, *const vertex_internal_, *const vertex_input_;
+  const Cells cells_;
+
+  Id segment_ = no_id, first_ = 0, rows_ = 0;
+  std::vector<Id> near_, unsorted_;  ///< the cells that touch the segment, ascending
+  std::vector<Corners> corners_;     ///< of each of them
+  std::vector<Id> vertices_;         ///< row or number -> the caller's id
+  OutsideVertices outside_;
+  std::vector<Id> star_begin_, star_;  ///< row -> places in near_, ascending
+
+  /// Of the row that is made: where it has each vertex (by number, with the row above, so that nothing is cleared
+  /// between rows), and what link there is.
+  std::vector<std::uint64_t> met_;
+  std::vector<Id> places_;             ///< in the row, of the three other vertices of each cell
+  std::vector<std::uint64_t> parity_;  ///< by place: bits of those with which it shares an odd number of link triangles
+  std::vector<Id> words_;
+  std::vector<Id> on_surface_;
+  gale::detail::LargeLink large_;
+};
+
+}  // namespace gale::ttk

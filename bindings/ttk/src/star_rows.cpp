@@ -1,0 +1,186 @@
+#include <algorithm>
+
+#include <gale/algorithms/links/small_link.hpp>
+#include <gale/ttk/star_rows.hpp>
+
+namespace gale::ttk {
+
+namespace {
+
+/// Ascending, by digits of `bits` bits; few by comparing.
+void sort_ids(std::vector<Id>& ids, std::vector<Id>& other) {
+  constexpr std::size_t few = 64;
+  constexpr int bits = 9;
+  if (ids.size() <= few) {
+    std::sort(ids.begin(), ids.end());
+    return;
+  }
+  const auto [least, greatest] = std::minmax_element(ids.begin(), ids.end());
+  const Id lowest = *least, range = *greatest - lowest;
+  other.resize(ids.size());
+  for (int shift = 0; shift < 31 && range >> shift > 0; shift += bits) {
+    const auto digit = [&](Id id) { return (id - lowest) >> shift & ((1 << bits) - 1); };
+    std::array<Id, (1 << bits) + 1> begin{};
+    for (const Id id : ids) ++begin[digit(id) + 1];
+    for (int i = 0; i < 1 << bits; ++i) begin[i + 1] += begin[i];
+    for (const Id id : ids) other[begin[digit(id)]++] = id;
+    ids.swap(other);
+  }
+}
+
+}  // namespace
+
+void OutsideVertices::begin(Id first) {
+  first_ = next_ = first;
+  if (slots_.empty()) slots_.resize(512);
+  mask_ = static_cast<std::uint32_t>(slots_.size()) - 1;
+  std::fill(slots_.begin(), slots_.end(), Slot{no_id, no_id});
+}
+
+/// Half of the slots stay empty.
+Id OutsideVertices::add(Id vertex, Slot& slot) {
+  slot = {vertex, next_++};
+  const Id number = slot.number;
+  if (2 * std::size_t(next_ - first_) > slots_.size()) {
+    std::vector<Slot> filled(2 * slots_.size(), Slot{no_id, no_id});
+    filled.swap(slots_);
+    mask_ = static_cast<std::uint32_t>(slots_.size()) - 1;
+    for (const Slot& old : filled) {
+      if (old.vertex == no_id) continue;
+      std::uint32_t at = hash(old.vertex);
+      while (slots_[at].vertex != no_id) at = (at + 1) & mask_;
+      slots_[at] = old;
+    }
+  }
+  return number;
+}
+
+StarRows::StarRows(const Mesh& mesh, const Cells& cells)
+    : mesh_(mesh.encoded<HostMemory>()),
+      tetrahedron_input_(mesh.tetrahedron_input().data()),
+      vertex_internal_(mesh.vertex_internal().data()),
+      vertex_input_(mesh.vertex_input().data()),
+      cells_(cells) {}
+
+void StarRows::find(Id segment) {
+  if (segment == segment_) return;
+  segment_ = segment;
+  first_ = mesh_.vertex_begin(segment);
+  rows_ = mesh_.vertex_begin(segment + 1) - first_;
+  gather_cells();
+  sort_ids(near_, unsorted_);
+  number_corners();
+  place_cells();
+}
+
+void StarRows::gather_cells() {
+  near_.clear();
+  for (Id t = mesh_.internal_begin(segment_); t < mesh_.internal_begin(segment_ + 1); ++t) {
+    near_.push_back(tetrahedron_input_[t]);
+  }
+  for (Offset i = mesh_.external_begin(segment_); i < mesh_.external_begin(segment_ + 1); ++i) {
+    near_.push_back(tetrahedron_input_[mesh_.external(i)]);
+  }
+}
+
+/// Counts the stars, too.
+void StarRows::number_corners() {
+  constexpr std::size_t ahead = 12;
+  vertices_.assign(vertex_input_ + first_, vertex_input_ + first_ + rows_);
+  outside_.begin(rows_);
+  star_begin_.assign(rows_ + 1, 0);
+  corners_.resize(near_.size());
+  for (std::size_t i = 0; i < near_.size(); ++i) {
+    if (i + ahead < near_.size()) cells_.prefetch(near_[i + ahead]);
+    for (int corner = 0; corner < 4; ++corner) {
+      const Id vertex = cells_.vertex(near_[i], corner);
+      Id number = vertex_internal_[vertex] - first_;
+      if (number >= 0 && number < rows_) {
+        ++star_begin_[number + 1];
+      } else {
+        number = outside_.number(vertex);
+        if (number == static_cast<Id>(vertices_.size())) vertices_.push_back(vertex);
+      }
+      corners_[i][corner] = number;
+    }
+  }
+}
+
+void StarRows::place_cells() {
+  for (Id row = 0; row < rows_; ++row) star_begin_[row + 1] += star_begin_[row];
+  star_.resize(star_begin_[rows_]);
+  for (Id i = 0; i < static_cast<Id>(near_.size()); ++i) {
+    for (const Id number : corners_[i]) {
+      if (number < rows_) star_[star_begin_[number]++] = i;
+    }
+  }
+  for (Id row = rows_; row > 0; --row) star_begin_[row] = star_begin_[row - 1];
+  star_begin_[0] = 0;
+}
+
+Block StarRows::stars() const {
+  Block block(first_, rows_, star_.size());
+  std::copy(star_begin_.begin(), star_begin_.end(), block.words.get());
+  Id* to = block.words.get() + rows_ + 1;
+  for (const Id i : star_) *to++ = near_[i];
+  return block;
+}
+
+Block StarRows::neighbours() {
+  met_.assign(vertices_.size(), 0);
+  on_surface_.clear();
+  words_.resize(rows_ + 1 + 3 * star_.size());
+  Id* const begin = words_.data() + rows_ + 1;
+  Id* end = begin;
+  for (Id row = 0; row < rows_; ++row) {
+    words_[row] = static_cast<Id>(end - begin);
+    end = add_neighbours(row, end);
+  }
+  words_[rows_] = static_cast<Id>(end - begin);
+  Block block(first_, rows_, end - begin);
+  std::copy(words_.data(), end, block.words.get());
+  return block;
+}
+
+/// Writes a row; returns its end.
+Id* StarRows::add_neighbours(Id row, Id* to) {
+  const Id size = star_begin_[row + 1] - star_begin_[row];
+  places_.resize(3 * std::size_t(size));
+  if (parity_.size() < places_.size()) parity_.resize(places_.size());
+  const std::uint64_t mine = std::uint64_t(row + 1) << 32;
+  Id neighbours = 0;
+  Id* place = places_.data();
+  for (Id i = star_begin_[row]; i < star_begin_[row + 1]; ++i) {
+    for (const Id number : corners_[star_[i]]) {
+      if (number == row) continue;
+      std::uint64_t& met = met_[number];
+      if ((met >> 32) != (mine >> 32)) {
+        met = mine | static_cast<std::uint32_t>(neighbours);
+        parity_[neighbours++] = 0;
+        *to++ = vertices_[number];
+      }
+      *place++ = static_cast<Id>(met & 0xffffffff);
+    }
+    const auto bit = [&](int corner) { return std::uint64_t(1) << (place[corner - 3] & 63); };
+    parity_[place[-3]] ^= bit(1) | bit(2);
+    parity_[place[-2]] ^= bit(0) | bit(2);
+    parity_[place[-1]] ^= bit(0) | bit(1);
+  }
+  if (is_on_surface(row, neighbours)) on_surface_.push_back(vertices_[row]);
+  return to;
+}
+
+/// An edge of the link with one triangle would leave a bit; so do some without, in meshes that are no manifolds.
+bool StarRows::is_on_surface(Id row, Id neighbours) {
+  using gale::detail::SmallLink;
+  const LinkRow link{places_.data(), star_begin_[row + 1] - star_begin_[row], sizeof(Id)};
+  if (neighbours > SmallLink::capacity) {
+    large_.build(link);
+    return large_.is_open();
+  }
+  std::uint64_t odd = 0;
+  for (Id i = 0; i < neighbours; ++i) odd |= parity_[i];
+  return odd != 0 && SmallLink(neighbours, link).is_open();
+}
+
+}  // namespace gale::ttk
