@@ -11,13 +11,13 @@ ModuleResult contour_tree(const Fields& fields, ::ttk::AbstractTriangulation& me
   ::ttk::ftm::FTMTree module;
   prepare(module, fields.threads);
   ModuleResult result;
-  result.precondition = seconds_of([&] { module.preconditionTriangulation(&mesh); });
+  result.precondition.time([&] { module.preconditionTriangulation(&mesh); });
   auto values = fields.values;  // it isn't const to the module
   module.setVertexScalars(values.data());
   module.setVertexSoSoffsets(fields.order.data());
   module.setTreeType(static_cast<int>(::ttk::ftm::TreeType::Contour));
   module.setSegmentation(true);
-  result.time_run([&] { module.build<float>(&mesh); });
+  result.run.time([&] { module.build<float>(&mesh); });
   auto* const tree = module.getTree(::ttk::ftm::TreeType::Contour);
   std::vector<std::array<double, 3>> arcs;
   for (::ttk::ftm::idSuperArc i = 0; i < tree->getNumberOfSuperArcs(); ++i) {

@@ -35,18 +35,23 @@ inline double peak_megabytes() {
   return 0;
 }
 
-/// What a module gave, as named arrays of numbers, and seconds.
-struct ModuleResult {
-  std::vector<std::pair<std::string, std::vector<double>>> arrays;
-  double precondition = 0, run = 0;
-  double processors_until = 0, peak = 0;  ///< processor_seconds() and peak_megabytes() when it was done
+/// What a part of the work took: seconds, those of all processors, and the peak of memory when it was done.
+struct Took {
+  double seconds = 0, processors = 0, peak = 0;
 
-  template <class Run>
-  void time_run(const Run& run_it) {
-    run = seconds_of(run_it);
-    processors_until = processor_seconds();
+  template <class Work>
+  void time(const Work& work) {
+    const double before = processor_seconds();
+    seconds = seconds_of(work);
+    processors = processor_seconds() - before;
     peak = peak_megabytes();
   }
+};
+
+/// What a module gave, as named arrays of numbers, and what it took.
+struct ModuleResult {
+  std::vector<std::pair<std::string, std::vector<double>>> arrays;
+  Took precondition, run;
 
   template <class Values>
   void add(const std::string& name, const Values& values) {

@@ -34,8 +34,8 @@ ModuleResult critical_points(const Fields& fields, Triangulation& mesh) {
   std::vector<std::pair<::ttk::SimplexId, char>> found;
   module.setOutput(&found);
   ModuleResult result;
-  result.precondition = seconds_of([&] { module.preconditionTriangulation(&mesh); });
-  result.time_run([&] { module.execute(fields.order.data(), &mesh); });
+  result.precondition.time([&] { module.preconditionTriangulation(&mesh); });
+  result.run.time([&] { module.execute(fields.order.data(), &mesh); });
   std::vector<double> flat;
   for (const auto& [vertex, type] : found) flat.insert(flat.end(), {double(vertex), double(type)});
   result.add("vertices and types", flat);
@@ -47,10 +47,10 @@ ModuleResult discrete_gradient(const Fields& fields, Triangulation& mesh) {
   ::ttk::dcg::DiscreteGradient module;
   prepare(module, fields.threads);
   ModuleResult result;
-  result.precondition = seconds_of([&] { module.preconditionTriangulation(&mesh); });
+  result.precondition.time([&] { module.preconditionTriangulation(&mesh); });
   module.setInputScalarField(fields.values.data(), 1);
   module.setInputOffsets(fields.order.data());
-  result.time_run([&] { module.buildGradient(mesh, true); });
+  result.run.time([&] { module.buildGradient(mesh, true); });
   std::array<std::vector<::ttk::SimplexId>, 4> critical;
   module.getCriticalPoints(critical, mesh);
   for (int dimension = 0; dimension < 4; ++dimension) {
@@ -74,13 +74,13 @@ ModuleResult morse_smale(const Fields& fields, Triangulation& mesh) {
   prepare(module, fields.threads);
   module.setComputeSeparatrices2(walls_too, walls_too);
   ModuleResult result;
-  result.precondition = seconds_of([&] { module.preconditionTriangulation(&mesh); });
+  result.precondition.time([&] { module.preconditionTriangulation(&mesh); });
   ::ttk::MorseSmaleComplex::OutputCriticalPoints critical;
   ::ttk::MorseSmaleComplex::Output1Separatrices lines;
   ::ttk::MorseSmaleComplex::Output2Separatrices walls;
   std::vector<::ttk::SimplexId> ascending(fields.order.size()), descending(ascending), both(ascending);
   ::ttk::MorseSmaleComplex::OutputManifold manifolds{ascending.data(), descending.data(), both.data()};
-  result.time_run(
+  result.run.time(
       [&] { module.execute(critical, lines, walls, manifolds, fields.values.data(), 1, fields.order.data(), mesh); });
   result.add("critical dimensions", critical.cellDimensions_);
   result.add("critical cells", critical.cellIds_);
@@ -115,9 +115,9 @@ ModuleResult persistence(const Fields& fields, Triangulation& mesh) {
   module.setComputeSadSad(true);
   module.setComputeSadMax(true);
   ModuleResult result;
-  result.precondition = seconds_of([&] { module.preconditionTriangulation(&mesh); });
+  result.precondition.time([&] { module.preconditionTriangulation(&mesh); });
   std::vector<::ttk::DiscreteMorseSandwich::PersistencePair> pairs;
-  result.time_run([&] {
+  result.run.time([&] {
     module.buildGradient(fields.values.data(), 1, fields.order.data(), mesh);
     module.computePersistencePairs(pairs, fields.order.data(), mesh, false);
     ttk::add_essential_pairs(pairs, fields.values.data(), 1, fields.order.data(), mesh);
@@ -140,8 +140,8 @@ ModuleResult smoother(const Fields& fields, Triangulation& mesh) {
   module.setInputDataPointer(values.data());
   module.setOutputDataPointer(smooth.data());
   ModuleResult result;
-  result.precondition = seconds_of([&] { module.preconditionTriangulation(&mesh); });
-  result.time_run([&] { module.smooth<float>(&mesh, 3); });
+  result.precondition.time([&] { module.preconditionTriangulation(&mesh); });
+  result.run.time([&] { module.smooth<float>(&mesh, 3); });
   result.add("values", smooth);
   return result;
 }
@@ -152,7 +152,7 @@ ModuleResult jacobi_set(const Fields& fields, Triangulation& mesh) {
   ::ttk::JacobiSet module;
   prepare(module, fields.threads);
   ModuleResult result;
-  result.precondition = seconds_of([&] { module.preconditionTriangulation(&mesh); });
+  result.precondition.time([&] { module.preconditionTriangulation(&mesh); });
   std::vector<float> second(fields.values.size());
   std::vector<::ttk::SimplexId> places(second.size());
   for (std::size_t i = 0; i < second.size(); ++i) {
@@ -164,7 +164,7 @@ ModuleResult jacobi_set(const Fields& fields, Triangulation& mesh) {
   module.setSosOffsetsU(places.data());
   module.setSosOffsetsV(places.data());
   std::vector<std::pair<::ttk::SimplexId, char>> found;
-  result.time_run([&] { module.execute(found, fields.values.data(), second.data(), mesh); });
+  result.run.time([&] { module.execute(found, fields.values.data(), second.data(), mesh); });
   std::sort(found.begin(), found.end());
   std::vector<double> flat;
   for (const auto& [edge, type] : found) flat.insert(flat.end(), {double(edge), double(type)});
@@ -180,8 +180,8 @@ ModuleResult path_compression(const Fields& fields, Triangulation& mesh) {
   std::vector<::ttk::SimplexId> ascending(fields.order.size()), descending(ascending), both(ascending);
   ::ttk::PathCompression::OutputSegmentation segments{ascending.data(), descending.data(), both.data()};
   ModuleResult result;
-  result.precondition = seconds_of([&] { module.preconditionTriangulation(&mesh); });
-  result.time_run([&] { module.execute(segments, fields.order.data(), mesh); });
+  result.precondition.time([&] { module.preconditionTriangulation(&mesh); });
+  result.run.time([&] { module.execute(segments, fields.order.data(), mesh); });
   result.add("ascending", ascending);
   result.add("descending", descending);
   result.add("both", both);

@@ -5,9 +5,9 @@
 // INPUT is `grid:N`, a raw mesh (support/inputs.hpp), or, where unit tests are built, `test:NAME`, one of their meshes;
 // MODULE one of critical-points, discrete-gradient, morse-smale, morse-smale-walls, persistence, contour-tree,
 // smoother, jacobi-set and path-compression, or all of them. A line each of what it took, peak memory of the process
-// included; `both` also says whether all arrays are equal, element by element, and exits with 1 if not. MEMORY_IN_MIB
-// bounds GALE's translated blocks (0: as many as by default), WAY is how GALE computes rows: gale, leaders, helpers,
-// inline or task-parallel.
+// included, and of processors and peaks by setup, preconditioning and run; `both` also says whether all arrays are
+// equal, element by element, and exits with 1 if not. MEMORY_IN_MIB bounds GALE's translated blocks (0: as many as by
+// default), WAY is how GALE computes rows: gale, leaders, helpers, inline or task-parallel.
 
 #include <ExplicitTriangulation.h>
 #include <omp.h>
@@ -16,6 +16,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <optional>
+#include <tuple>
 
 #include <gale/ttk/triangulation.hpp>
 
@@ -29,7 +30,6 @@ namespace {
 
 using gale::perf::Fields;
 using gale::perf::ModuleResult;
-using gale::perf::processor_seconds;
 
 /// What TTK is given of a mesh.
 struct CallersMesh {
@@ -94,16 +94,19 @@ template <class Triangulation>
 ModuleResult run(const char* kind, const std::string& module, const CallersMesh& mesh, Triangulation& triangulation) {
   triangulation.setDebugLevel(0);
   triangulation.setThreadNumber(mesh.fields.threads);
-  const double processor_before = processor_seconds();
-  const double setup = gale::perf::seconds_of([&] {
+  gale::perf::Took setup;
+  setup.time([&] {
     triangulation.setInputPoints(static_cast<int>(mesh.points.size() / 3), mesh.points.data());
     triangulation.setInputCells(static_cast<int>(mesh.cells.size() / 5), mesh.cells.data());
   });
   const auto result = gale::perf::run_module(module, mesh.fields, triangulation);
+  const auto& [precondition, run] = std::tie(result.precondition, result.run);
   std::printf(
-      "%-18s %-9s threads %d: setup %.3f precondition %.3f run %.3f total %.3f s, of processors %.3f s; peak %.0f MB\n",
-      module.c_str(), kind, mesh.fields.threads, setup, result.precondition, result.run,
-      setup + result.precondition + result.run, result.processors_until - processor_before, result.peak);
+      "%-18s %-9s threads %d: setup %.3f precondition %.3f run %.3f total %.3f s, of processors %.3f s; peak %.0f MB "
+      "(%.3f + %.3f + %.3f s; %.0f, %.0f, %.0f MB)\n",
+      module.c_str(), kind, mesh.fields.threads, setup.seconds, precondition.seconds, run.seconds,
+      setup.seconds + precondition.seconds + run.seconds, setup.processors + precondition.processors + run.processors,
+      run.peak, setup.processors, precondition.processors, run.processors, setup.peak, precondition.peak, run.peak);
   return result;
 }
 

@@ -49,8 +49,8 @@ Connectivity::Connectivity(const CallersPoints& points, const Cells& cells, cons
       counts_{mesh_.vertices(), no_id, no_id, mesh_.tetrahedra()},
       vertex_internal_(mesh_.vertex_internal().data()),
       vertex_input_(mesh_.vertex_input().data()),
-      store_(std::make_unique<BlockStore>(mesh_.segments(), options_.memory)),
-      readers_(std::make_unique<PerThread<Reader>>()) {
+      store_(std::make_unique<BlockStore>(mesh_.segments(), options_.memory)) {
+  renew_readers();
   segment_of_vertex_ = allocate<Array<Id, HostMemory>>("GALE::ttk_segments", mesh_.vertices());
   const auto& begin = mesh_.vertex_begin();
   parallel_for("GALE::ttk_segments", HostSpace(), mesh_.segments(), [&](Offset segment) {
@@ -91,7 +91,7 @@ void Connectivity::need_rows(Relation relation) {
   Source& source = sources_[source_of(relation)];
   if (source.wanted.contains(relation)) return;
   source.wanted = relation == Relation::VV ? star_relations : source.wanted | relation;
-  readers_ = std::make_unique<PerThread<Reader>>();  // their consumers are of the old structure
+  renew_readers();  // their consumers are of the old structure
   source.structure.reset();
 }
 

@@ -17,14 +17,18 @@ void Connectivity::refuse(Relation relation) {
   throw Error("rows of " + name_of(relation) + " were not preconditioned");
 }
 
-void Connectivity::load(Reader& reader, Relation relation, Id lowest) const {
+/// Has the block be `now` that has a simplex.
+void Connectivity::load(Reader& reader, Relation relation, Id id, Id lowest) const {
   if (!wanted_rows_.has(relation)) refuse(relation);
-  Reading& reading = reader.readings[static_cast<int>(relation)];
-  reader.leave(reading);
+  auto& [now, next] = reader.readings[static_cast<int>(relation)];
+  if (next.has(id)) {
+    std::swap(now, next);
+    reader.leave(next);
+    return;
+  }
+  reader.leave(now);
   const Id segment = segment_of_vertex_(lowest);  // to which a simplex is internal
-  reading.slot = &store_->hold(relation, segment, [&] { return make_block(reader, relation, segment); });
-  reading.rows = reading.slot->rows();
-  reading.held = {reading.rows.first, reading.rows.first + reading.rows.count};
+  now = HeldBlock(store_->hold(relation, segment, [&] { return make_block(reader, relation, segment); }));
 }
 
 /// Computes the rows of a segment's simplices and puts them into TTK's ids and order.

@@ -52,6 +52,9 @@ class GALE_EXPORT BlockStore {
   template <class Make>
   Slot& hold(Relation relation, Id segment, const Make& make);
 
+  /// The same of a block that is there; nothing if it isn't.
+  Slot* hold_present(Relation relation, Id segment);
+
   /// Has a block there, unless it is, until its place is needed.
   void put(Relation relation, Id segment, Block block);
 
@@ -81,15 +84,21 @@ class GALE_EXPORT BlockStore {
   Id next_segment_ = 0;
 };
 
-template <class Make>
-BlockStore::Slot& BlockStore::hold(Relation relation, Id segment, const Make& make) {
+inline BlockStore::Slot* BlockStore::hold_present(Relation relation, Id segment) {
   Slot& slot = slots_[static_cast<int>(relation)][segment];
   const std::uint32_t state = slot.state_.fetch_add(1, std::memory_order_acquire);
-  if ((state & present) != 0) {
-    if ((state & used) == 0) slot.state_.fetch_or(used, std::memory_order_relaxed);
-    return slot;
+  if ((state & present) == 0) {
+    slot.state_.fetch_sub(1, std::memory_order_relaxed);
+    return nullptr;
   }
-  slot.state_.fetch_sub(1, std::memory_order_relaxed);
+  if ((state & used) == 0) slot.state_.fetch_or(used, std::memory_order_relaxed);
+  return &slot;
+}
+
+template <class Make>
+BlockStore::Slot& BlockStore::hold(Relation relation, Id segment, const Make& make) {
+  if (Slot* const held = hold_present(relation, segment)) return *held;
+  Slot& slot = slots_[static_cast<int>(relation)][segment];
   {
     const std::lock_guard<std::mutex> lock(mutex_of(segment));
     if ((slot.state_.load(std::memory_order_acquire) & present) != 0) {

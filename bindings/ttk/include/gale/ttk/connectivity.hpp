@@ -72,9 +72,8 @@ class GALE_EXPORT Connectivity {
         return {star.data(), second == no_id ? 1 : 2};
       }
     }
-    Reader& mine = reader();
-    const Reading& reading = mine.readings[static_cast<int>(relation)];
-    return reading.simplex == simplex ? reading.row : read<relation>(mine, simplex);
+    const LastRow& last = last_row<relation>();
+    return last.key == key_of(simplex) ? last.row : read<relation>(simplex);
   }
 
   /// Vertices, ascending.
@@ -118,8 +117,25 @@ class GALE_EXPORT Connectivity {
     return readers_->here([this] { return std::make_unique<Reader>(*store_); });
   }
 
+  /// The row that a thread read last, of any triangulation: found without a look at what else the thread has.
+  struct LastRow {
+    std::uint64_t key = 0;
+    Row row;
+  };
   template <Relation relation>
-  Row read(Reader& reader, Id simplex) const;
+  static LastRow& last_row() {
+    static thread_local LastRow last;
+    return last;
+  }
+  std::uint64_t key_of(Id simplex) const { return readers_number_ << 31 | static_cast<std::uint32_t>(simplex); }
+
+  void renew_readers() {
+    readers_ = std::make_unique<PerThread<Reader>>();
+    readers_number_ = readers_->number();
+  }
+
+  template <Relation relation>
+  Row read(Id simplex) const;
 
   template <std::size_t n, std::size_t parts>
   std::array<Id, n> part_of_cell(const CellOrder& order, const int (&corners)[parts][n], Id simplex) const;
@@ -138,7 +154,8 @@ class GALE_EXPORT Connectivity {
 
   [[noreturn]] static void refuse(Relation relation);
   Internal internal_by_vertices(Relation relation, Id simplex) const;
-  void load(Reader& reader, Relation relation, Id lowest) const;
+  void load(Reader& reader, Relation relation, Id id, Id lowest) const;
+  void look_ahead(Reader& reader, Relation relation, Id vertex) const;
   Block make_block(Reader& reader, Relation relation, Id segment) const;
   const Id* numbers_of(int dimension) const;
   template <std::size_t n>
@@ -174,7 +191,7 @@ class GALE_EXPORT Connectivity {
   const Options options_;
   const Mesh mesh_;
   const bool finds_stars_in_cells_;  ///< VV and VT, rather than by a structure
-  RelationSet wanted_rows_;  ///< by callers
+  RelationSet wanted_rows_;          ///< by callers
   Array<Id, HostMemory> segment_of_vertex_;
   std::array<Id, 4> counts_;
   const Id* const vertex_internal_;
@@ -188,17 +205,46 @@ class GALE_EXPORT Connectivity {
   mutable std::mutex mutex_;
   mutable std::array<Source, 2> sources_;
   std::unique_ptr<BlockStore> store_;
+  std::uint64_t readers_number_ = 0;
   std::unique_ptr<PerThread<Reader>> readers_;  ///< gone before the store and the structures
 };
 
 /// The row of another simplex than the last time: apart from row(), which is called for each entry.
 template <Relation relation>
-__attribute__((noinline)) Row Connectivity::read(Reader& reader, Id simplex) const {
+__attribute__((noinline)) Row Connectivity::read(Id simplex) const {
+  LastRow& last = last_row<relation>();
+  Reader& reader = this->reader();
   Reading& reading = reader.readings[static_cast<int>(relation)];
   const auto [id, lowest] = internal<row_dimension(relation)>(relation, simplex);
-  if (!reading.held.has(id)) load(reader, relation, lowest);
-  reading.simplex = simplex;
-  return reading.row = reading.rows[id];
+  if (!reading.now.has(id)) {
+    last.key = 0;  // its block is let go
+    load(reader, relation, id, lowest);
+  }
+  last = {key_of(simplex), reading.now.rows[id]};
+  if constexpr (row_dimension(relation) == 0) look_ahead(reader, relation, simplex);
+  if constexpr (relation == Relation::VT) {
+    for (const Id cell : last.row) cells_.prefetch(cell);
+  }
+  return last.row;
+}
+
+/// Has the next vertex' row fetched, and the block of one that follows.
+inline void Connectivity::look_ahead(Reader& reader, Relation relation, Id vertex) const {
+  constexpr Id ahead = 2;
+  if (vertex >= counts_[0] - ahead) return;
+  auto& [now, next] = reader.readings[static_cast<int>(relation)];
+  const Id follows = vertex_internal_[vertex + 1], later = vertex_internal_[vertex + ahead];
+  if (now.has(follows)) {
+    now.prefetch(follows);
+  } else if (next.has(follows)) {
+    next.prefetch(follows);
+  }
+  if (now.has(later) || next.has(later)) return;
+  if (BlockStore::Slot* const slot = store_->hold_present(relation, segment_of_vertex_.data()[later])) {
+    reader.leave(next);
+    next = HeldBlock(*slot);
+    __builtin_prefetch(next.rows.offsets + (later - next.rows.first));
+  }
 }
 
 /// Vertices of an edge or a triangle, ascending: those of its first cell at some corners.

@@ -27,6 +27,8 @@ class PerThread {
  public:
   PerThread() : number_(detail::next_number()) {}
 
+  std::uint64_t number() const { return number_; }
+
   /// The calling thread's; make() returns a new one, as a unique_ptr.
   template <class Make>
   State& here(const Make& make) {

@@ -10,13 +10,30 @@
 
 namespace gale::ttk {
 
-/// Where a thread reads one relation.
-struct Reading {
-  Id simplex = no_id;  ///< TTK's id of what was asked for last, and its row
-  Row row;
-  Interval held;  ///< the simplices (GALE's ids) of the block that the thread holds, and their rows
+/// A block that a thread holds: the simplices (GALE's ids) that it has, and their rows.
+struct HeldBlock {
+  Interval held;
   Rows rows;
   BlockStore::Slot* slot = nullptr;
+
+  HeldBlock() = default;
+  explicit HeldBlock(BlockStore::Slot& in)
+      : held{in.rows().first, in.rows().first + in.rows().count}, rows(in.rows()), slot(&in) {}
+
+  bool has(Id id) const { return held.has(id); }
+
+  void prefetch(Id id) const {
+    const Row row = rows[id];
+    __builtin_prefetch(row.begin());
+    __builtin_prefetch(row.begin() + 16);
+  }
+};
+
+/// Where a thread reads one relation: in a block, and soon in another, if that is there by then. Modules go from vertex
+/// to vertex, a few of each segment before they come to the next, and every row lies elsewhere: without a look ahead
+/// they would wait for memory three times a block and once or twice a row.
+struct Reading {
+  HeldBlock now, next;
 };
 
 /// What was found last for a simplex.
@@ -39,14 +56,17 @@ struct Found {
 struct Reader {
   explicit Reader(BlockStore& store) : store(store) {}
   ~Reader() {
-    for (Reading& reading : readings) leave(reading);
+    for (Reading& reading : readings) {
+      leave(reading.now);
+      leave(reading.next);
+    }
   }
   Reader(const Reader&) = delete;
   Reader& operator=(const Reader&) = delete;
 
-  void leave(Reading& reading) {
-    if (reading.slot != nullptr) store.release(*reading.slot);
-    reading = Reading();
+  void leave(HeldBlock& block) {
+    if (block.slot != nullptr) store.release(*block.slot);
+    block = HeldBlock();
   }
 
   BlockStore& store;

@@ -40,8 +40,8 @@ class OutsideVertices {
 };
 
 /// Stars and neighbours of a segment's vertices in the caller's ids and in TTK's order, straight from the caller's
-/// cells: these are sorted once for the segment, so that no star is. What the host does where no device makes stars. One
-/// serves one thread, for one segment after the other, and keeps its memory. O(n) in the segment's cells.
+/// cells: these are sorted once for the segment, so that no star is. What the host does where no device makes stars.
+/// One serves one thread, for one segment after the other, and keeps its memory. O(n) in the segment's cells.
 class StarRows {
  public:
   StarRows(const Mesh& mesh, const Cells& cells);
