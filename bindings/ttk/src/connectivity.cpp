@@ -17,9 +17,8 @@ Segmentation octree(const CallersPoints& points, int capacity) {
   return octree_segmentation(Points<Coordinate, HostMemory>(view), capacity);
 }
 
-Mesh encode(const CallersPoints& points, const Cells& cells, int capacity) {
-  return Mesh(Tetrahedra<Id, HostMemory>(cells.copy(points.count)),
-              points.in_double ? octree<double>(points, capacity) : octree<float>(points, capacity));
+Segmentation octree(const CallersPoints& points, int capacity) {
+  return points.in_double ? octree<double>(points, capacity) : octree<float>(points, capacity);
 }
 
 /// For blocks. VV and VT of a regular mesh take 192 bytes a vertex, and one sweep makes them all. Of other rows, those
@@ -44,38 +43,53 @@ Options with_defaults(Options options) {
 Connectivity::Connectivity(const CallersPoints& points, const Cells& cells, const Options& options)
     : cells_(cells),
       options_(with_defaults(options)),
-      mesh_(encode(points, cells, options.capacity)),
-      finds_stars_in_cells_(!mesh_.on_device() && options.structure.way == Way::gale),
-      counts_{mesh_.vertices(), no_id, no_id, mesh_.tetrahedra()},
-      vertex_internal_(mesh_.vertex_internal().data()),
-      vertex_input_(mesh_.vertex_input().data()),
-      store_(std::make_unique<BlockStore>(mesh_.segments(), options_.memory)) {
+      segmentation_(octree(points, options.capacity)),
+      finds_stars_in_cells_(!have_device && options.structure.way == Way::gale),
+      counts_{points.count, no_id, no_id, cells.count()},
+      store_(std::make_unique<BlockStore>(segmentation_.segments(), options_.memory)) {
+  if (finds_stars_in_cells_) {
+    cells.require_valid(points.count);
+    set_segments(Segments(segmentation_));
+  } else {
+    need_mesh();
+  }
+}
+
+/// Encodes, if nobody needed that yet.
+void Connectivity::need_mesh() {
+  if (mesh_) return;
+  segments_ = Segments();  // what cells touch a segment is found again, sooner than both would fit
+  mesh_.emplace(Tetrahedra<Id, HostMemory>(cells_.copy(counts_[0])), segmentation_);
+  set_segments(Segments(*mesh_));
+}
+
+void Connectivity::set_segments(const Segments& segments) {
+  segments_ = segments;
+  vertex_internal_ = segments_.vertex_internal();
+  vertex_input_ = segments_.vertex_input();
   renew_readers();
-  segment_of_vertex_ = allocate<Array<Id, HostMemory>>("GALE::ttk_segments", mesh_.vertices());
-  const auto& begin = mesh_.vertex_begin();
-  parallel_for("GALE::ttk_segments", HostSpace(), mesh_.segments(), [&](Offset segment) {
-    for (Id v = begin(segment); v < begin(segment + 1); ++v) segment_of_vertex_(v) = static_cast<Id>(segment);
-  });
 }
 
 Connectivity::~Connectivity() = default;
 
 void Connectivity::need_edges() {
   if (edges_.is_there()) return;
-  edges_ = order_of_edges(mesh_, cells_);
+  need_mesh();
+  edges_ = order_of_edges(*mesh_, cells_);
   set_numbers(1);
 }
 
 void Connectivity::need_triangles() {
   if (triangles_.is_there()) return;
-  triangles_ = order_of_triangles(mesh_, cells_);
+  need_mesh();
+  triangles_ = order_of_triangles(*mesh_, cells_);
   set_numbers(2);
   if (surface_waits_) need_surface(0);
 }
 
 void Connectivity::set_numbers(int dimension) {
   counts_[dimension] = (dimension == 1 ? edges_ : triangles_).count();
-  simplices_ = mesh_.simplices(triangles_.is_there() ? tables_of_triangles : tables_of_edges);
+  simplices_ = mesh_->simplices(triangles_.is_there() ? tables_of_triangles : tables_of_edges);
 }
 
 void Connectivity::need_rows(Relation relation) {
@@ -88,6 +102,7 @@ void Connectivity::need_rows(Relation relation) {
   if (options_.memory == 0) store_->set_budget(default_memory(wanted_rows_, counts_[0]));
   if (relation == Relation::FT && is_manifold()) return;  // the triangles have their stars
   if (finds_in_cells(relation)) return;
+  need_mesh();
   Source& source = sources_[source_of(relation)];
   if (source.wanted.contains(relation)) return;
   source.wanted = relation == Relation::VV ? star_relations : source.wanted | relation;
@@ -96,7 +111,7 @@ void Connectivity::need_rows(Relation relation) {
 }
 
 std::size_t Connectivity::bytes() const {
-  std::size_t bytes = store_->bytes() + segment_of_vertex_.span() * sizeof(Id);
+  std::size_t bytes = store_->bytes() + segments_.bytes();
   bytes += edges_.bytes() + triangles_.bytes() + triangles_.second.span() * sizeof(Id);
   for (const auto& flags : on_surface_) bytes += flags.span();
   return bytes;

@@ -7,8 +7,9 @@ namespace gale::ttk {
 
 namespace {
 
-/// Ascending, by digits of `bits` bits; few by comparing.
+/// Ascending, by digits of `bits` bits; few by comparing. Most come sorted: one thread has put them there.
 void sort_ids(std::vector<Id>& ids, std::vector<Id>& other) {
+  if (std::is_sorted(ids.begin(), ids.end())) return;
   constexpr std::size_t few = 64;
   constexpr int bits = 9;
   if (ids.size() <= few) {
@@ -55,38 +56,22 @@ Id OutsideVertices::add(Id vertex, Slot& slot) {
   return number;
 }
 
-StarRows::StarRows(const Mesh& mesh, const Cells& cells)
-    : mesh_(mesh.encoded<HostMemory>()),
-      tetrahedron_input_(mesh.tetrahedron_input().data()),
-      vertex_internal_(mesh.vertex_internal().data()),
-      vertex_input_(mesh.vertex_input().data()),
-      cells_(cells) {}
-
 void StarRows::find(Id segment) {
   if (segment == segment_) return;
   segment_ = segment;
-  first_ = mesh_.vertex_begin(segment);
-  rows_ = mesh_.vertex_begin(segment + 1) - first_;
-  gather_cells();
+  first_ = segments_.vertices(segment).first;
+  rows_ = segments_.vertices(segment).size();
+  segments_.gather(segment, near_);
   sort_ids(near_, unsorted_);
   number_corners();
   place_cells();
 }
 
-void StarRows::gather_cells() {
-  near_.clear();
-  for (Id t = mesh_.internal_begin(segment_); t < mesh_.internal_begin(segment_ + 1); ++t) {
-    near_.push_back(tetrahedron_input_[t]);
-  }
-  for (Offset i = mesh_.external_begin(segment_); i < mesh_.external_begin(segment_ + 1); ++i) {
-    near_.push_back(tetrahedron_input_[mesh_.external(i)]);
-  }
-}
-
 /// Counts the stars, too.
 void StarRows::number_corners() {
   constexpr std::size_t ahead = 12;
-  vertices_.assign(vertex_input_ + first_, vertex_input_ + first_ + rows_);
+  const Id *const vertex_input = segments_.vertex_input(), *const vertex_internal = segments_.vertex_internal();
+  vertices_.assign(vertex_input + first_, vertex_input + first_ + rows_);
   outside_.begin(rows_);
   star_begin_.assign(rows_ + 1, 0);
   corners_.resize(near_.size());
@@ -94,7 +79,7 @@ void StarRows::number_corners() {
     if (i + ahead < near_.size()) cells_.prefetch(near_[i + ahead]);
     for (int corner = 0; corner < 4; ++corner) {
       const Id vertex = cells_.vertex(near_[i], corner);
-      Id number = vertex_internal_[vertex] - first_;
+      Id number = vertex_internal[vertex] - first_;
       if (number >= 0 && number < rows_) {
         ++star_begin_[number + 1];
       } else {

@@ -31,23 +31,24 @@ struct alignas(64) Worker {
 /// kept as blocks.
 Connectivity::Flags Connectivity::find_surface_in_sweep() {
   const Flags on_surface = no_flags(0);
-  finds_stars_in_cells_ ? sweep_cells(on_surface) : sweep_structure(on_surface);
+  finds_stars_in_cells_ ? sweep_cells(on_surface, true) : sweep_structure(on_surface);
   return on_surface;
 }
 
-void Connectivity::sweep_cells(const Flags& on_surface) {
+void Connectivity::sweep_cells(const Flags& on_surface, bool keep) const {
   constexpr Id together = 16;
   const int threads = host_threads();
+  segments_.group(cells_);
   std::vector<std::unique_ptr<StarRows>> workers(threads);
-  in_turns(threads, (Offset(mesh_.segments()) + together - 1) / together, [&](int thread, Offset turn) {
+  in_turns(threads, (Offset(segments_.count()) + together - 1) / together, [&](int thread, Offset turn) {
     auto& stars = workers[thread];
-    if (!stars) stars = std::make_unique<StarRows>(mesh_, cells_);
-    const Id begin = static_cast<Id>(turn) * together, end = std::min(begin + together, mesh_.segments());
+    if (!stars) stars = std::make_unique<StarRows>(segments_, cells_);
+    const Id begin = static_cast<Id>(turn) * together, end = std::min(begin + together, segments_.count());
     for (Id segment = begin; segment < end; ++segment) {
       stars->find(segment);
       Block neighbours = stars->neighbours();
       for (const Id vertex : stars->on_surface()) set_flag(on_surface, vertex);
-      if (store_->bytes() >= store_->budget()) continue;
+      if (!keep || store_->bytes() >= store_->budget()) continue;
       store_->put(Relation::VV, segment, std::move(neighbours));
       if (wanted_rows_.has(Relation::VT)) store_->put(Relation::VT, segment, stars->stars());
     }

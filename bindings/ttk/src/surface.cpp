@@ -37,10 +37,14 @@ const std::uint8_t* Connectivity::late_surface(int dimension) const {
   if (dimension != 0 || !surface_waits_) throw Error("what is on the boundary was not preconditioned");
   if (on_surface_[0].data() == nullptr) {
     const auto flags = no_flags(0);
-    const auto vertices = surface_vertices(mesh_);
-    parallel_for("GALE::ttk_surface", HostSpace(), counts_[0], [&](Offset i) {
-      if (vertices(i)) set_flag(flags, vertex_input_[i]);
-    });
+    if (mesh_) {
+      const auto vertices = surface_vertices(*mesh_);
+      parallel_for("GALE::ttk_surface", HostSpace(), counts_[0], [&](Offset i) {
+        if (vertices(i)) set_flag(flags, vertex_input_[i]);
+      });
+    } else {
+      sweep_cells(flags, false);
+    }
     set_surface(0, flags);
   }
   return on_surface_[0].data();

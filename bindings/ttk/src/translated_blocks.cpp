@@ -9,7 +9,7 @@ namespace gale::ttk {
 Structure& Connectivity::structure(int source) const {
   const std::lock_guard<std::mutex> lock(mutex_);
   auto& [wanted, structure] = sources_[source];
-  if (!structure) structure = make_structure(mesh_, wanted, options_.structure);
+  if (!structure) structure = make_structure(*mesh_, wanted, options_.structure);
   return *structure;
 }
 
@@ -27,14 +27,21 @@ void Connectivity::load(Reader& reader, Relation relation, Id id, Id lowest) con
     return;
   }
   reader.leave(now);
-  const Id segment = segment_of_vertex_(lowest);  // to which a simplex is internal
+  const Id segment = segments_.of(vertex_input_[lowest]);  // to which a simplex is internal
   now = HeldBlock(store_->hold(relation, segment, [&] { return make_block(reader, relation, segment); }));
+}
+
+/// Groups cells by segments, unless that was done: modules that need edges, too, never come here before.
+std::unique_ptr<StarRows> Connectivity::new_stars() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  segments_.group(cells_);
+  return std::make_unique<StarRows>(segments_, cells_);
 }
 
 /// Computes the rows of a segment's simplices and puts them into TTK's ids and order.
 Block Connectivity::make_block(Reader& reader, Relation relation, Id segment) const {
   if (finds_in_cells(relation)) {
-    if (!reader.stars) reader.stars = std::make_unique<StarRows>(mesh_, cells_);
+    if (!reader.stars) reader.stars = new_stars();
     reader.stars->find(segment);
     return relation == Relation::VV ? reader.stars->neighbours() : reader.stars->stars();
   }
@@ -42,7 +49,7 @@ Block Connectivity::make_block(Reader& reader, Relation relation, Id segment) co
   if (!reader.consumers[source]) reader.consumers[source] = structure(source).consumer();
   Consumer& consumer = *reader.consumers[source];
   const Id* const numbers = numbers_of(entry_dimension(relation));
-  const auto& begin = mesh_.interval_begin(row_dimension(relation));
+  const auto& begin = mesh_->interval_begin(row_dimension(relation));
   reader.builder.begin(begin(segment), begin(segment + 1) - begin(segment));
   for (Id i = begin(segment); i < begin(segment + 1); ++i) {
     if (relation == Relation::VV) {
@@ -61,7 +68,7 @@ const Id* Connectivity::numbers_of(int dimension) const {
   return dimension == 0   ? vertex_input_
          : dimension == 1 ? edges_.number.data()
          : dimension == 2 ? triangles_.number.data()
-                          : mesh_.tetrahedron_input().data();
+                          : mesh_->tetrahedron_input().data();
 }
 
 }  // namespace gale::ttk

@@ -20,7 +20,10 @@ class Cells {
 
   void prefetch(Id cell) const { __builtin_prefetch(first_ + stride_ * cell); }
 
-  /// All corners, in short ids. Throws gale::Error for a vertex that isn't one of `points`.
+  /// Throws gale::Error for a vertex that isn't one of `points`, or that a cell has twice.
+  GALE_EXPORT void require_valid(Id points) const;
+
+  /// All corners, in short ids. Throws likewise.
   GALE_EXPORT Kokkos::View<Id* [4], Kokkos::LayoutRight, HostMemory> copy(Id points) const;
 
   /// Which of a cell's corners some vertices are, as bits.

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 
 #include <gale/mesh/mesh.hpp>
 #include <gale/runtime/structure.hpp>
@@ -43,7 +44,6 @@ class GALE_EXPORT Connectivity {
   Connectivity(const CallersPoints& points, const Cells& cells, const Options& options);
   ~Connectivity();
 
-  const Mesh& mesh() const { return mesh_; }
   const Cells& cells() const { return cells_; }
 
   /// Of edges and triangles no_id as long as nobody needed them.
@@ -167,6 +167,9 @@ class GALE_EXPORT Connectivity {
     RelationSet wanted;
     std::unique_ptr<Structure> structure;
   };
+  void need_mesh();
+  void set_segments(const Segments& segments);
+  std::unique_ptr<StarRows> new_stars() const;
   bool finds_in_cells(Relation relation) const {
     return finds_stars_in_cells_ && (relation == Relation::VV || relation == Relation::VT);
   }
@@ -180,7 +183,7 @@ class GALE_EXPORT Connectivity {
     __atomic_fetch_or(&flags.data()[simplex / 8], static_cast<std::uint8_t>(1u << simplex % 8), __ATOMIC_RELAXED);
   }
   Flags find_surface_in_sweep();
-  void sweep_cells(const Flags& on_surface);
+  void sweep_cells(const Flags& on_surface, bool keep) const;
   void sweep_structure(const Flags& on_surface);
   Flags surface_from_triangles(int dimension) const;
   void set_surface(int dimension, const Flags& flags) const;
@@ -189,13 +192,14 @@ class GALE_EXPORT Connectivity {
 
   const Cells cells_;
   const Options options_;
-  const Mesh mesh_;
-  const bool finds_stars_in_cells_;  ///< VV and VT, rather than by a structure
-  RelationSet wanted_rows_;          ///< by callers
-  Array<Id, HostMemory> segment_of_vertex_;
+  const Segmentation segmentation_;
+  std::optional<const Mesh> mesh_;  ///< where VV and VT are found in the cells, when something else is needed
+  bool finds_stars_in_cells_;       ///< VV and VT, rather than by a structure
+  mutable Segments segments_;
+  RelationSet wanted_rows_;  ///< by callers
   std::array<Id, 4> counts_;
-  const Id* const vertex_internal_;
-  const Id* const vertex_input_;
+  const Id* vertex_internal_;
+  const Id* vertex_input_;
   CellOrder edges_;
   TriangleOrder triangles_;
   bool surface_waits_ = false;               ///< that of vertices, for the triangles
@@ -240,7 +244,7 @@ inline void Connectivity::look_ahead(Reader& reader, Relation relation, Id verte
     next.prefetch(follows);
   }
   if (now.has(later) || next.has(later)) return;
-  if (BlockStore::Slot* const slot = store_->hold_present(relation, segment_of_vertex_.data()[later])) {
+  if (BlockStore::Slot* const slot = store_->hold_present(relation, segments_.of(vertex + ahead))) {
     reader.leave(next);
     next = HeldBlock(*slot);
     __builtin_prefetch(next.rows.offsets + (later - next.rows.first));

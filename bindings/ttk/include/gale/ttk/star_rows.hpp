@@ -5,9 +5,8 @@
 #include <vector>
 
 #include <gale/algorithms/links/large_link.hpp>
-#include <gale/mesh/mesh.hpp>
 #include <gale/ttk/block_store.hpp>
-#include <gale/ttk/cells.hpp>
+#include <gale/ttk/segments.hpp>
 
 namespace gale::ttk {
 
@@ -44,7 +43,8 @@ class OutsideVertices {
 /// One serves one thread, for one segment after the other, and keeps its memory. O(n) in the segment's cells.
 class StarRows {
  public:
-  StarRows(const Mesh& mesh, const Cells& cells);
+  /// Cells must be grouped.
+  StarRows(const Segments& segments, const Cells& cells) : segments_(segments), cells_(cells) {}
 
   /// Finds the stars of a segment's vertices; at once if it did so the last time.
   void find(Id segment);
@@ -63,14 +63,12 @@ class StarRows {
   /// A cell's corners as the caller has them: rows of the segment, or numbers of other vertices.
   using Corners = std::array<Id, 4>;
 
-  void gather_cells();
   void number_corners();
   void place_cells();
   Id* add_neighbours(Id row, Id* to);
   bool is_on_surface(Id row, Id neighbours);
 
-  const EncodedMesh<HostMemory>& mesh_;
-  const Id *const tetrahedron_input_, *const vertex_internal_, *const vertex_input_;
+  const Segments& segments_;
   const Cells cells_;
 
   Id segment_ = no_id, first_ = 0, rows_ = 0;
