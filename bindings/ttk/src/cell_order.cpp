@@ -72,7 +72,7 @@ CellOrder order_of_edges(const Mesh& mesh, const Cells& cells) {
   const auto count = static_cast<Id>(simplices.edge_high.extent(0));
   const Id* const input = mesh.vertex_input().data();
   CellOrder order;
-  const auto first = order.number = allocate<Ids>("GALE::ttk_number", count);  // numbers take the cells' place
+  const auto first = allocate<Ids>("GALE::ttk_number", count);  // numbers take the cells' place
   fill("GALE::ttk_clear_first", HostSpace(), first, mesh.tetrahedra());
   find_parts(
       mesh, cells, [&](const SortedCorners& corners) { return corners.edges(simplices); },
@@ -87,6 +87,7 @@ CellOrder order_of_edges(const Mesh& mesh, const Cells& cells) {
   number(
       order, count, cells, each, [&](Id edge) { return first(edge); },
       [&](Id edge, Id number) { first(edge) = number; });
+  order.number = PackedIds(first, 0, count - 1);
   return order;
 }
 
@@ -103,8 +104,8 @@ TriangleOrder order_of_triangles(const Mesh& mesh, const Cells& cells) {
   TriangleOrder order;
   order.any_crowded = reduce_sum("GALE::ttk_crowded_triangles", host, count,
                                  [&](Offset i) { return second_of(stars(i)) == TriangleOrder::crowded ? 1 : 0; }) != 0;
-  const auto numbers = order.number = allocate<Ids>("GALE::ttk_number", count);
-  const auto second = order.second = allocate<Ids>("GALE::ttk_second_cells", count);
+  const auto numbers = allocate<Ids>("GALE::ttk_number", count);
+  const auto second = allocate<Ids>("GALE::ttk_second_cells", count);
   const auto each = [&](const auto& visit) {
     parallel_for("GALE::ttk_number_triangles", host, mesh.vertices(), [&](Offset a) {
       for (Id edge = simplices.edge_begin(a); edge < simplices.edge_begin(a + 1); ++edge) {
@@ -121,6 +122,8 @@ TriangleOrder order_of_triangles(const Mesh& mesh, const Cells& cells) {
         numbers(triangle) = number;
         second(number) = second_of(stars(triangle));
       });
+  order.number = PackedIds(numbers, 0, count - 1);
+  order.second = PackedIds(second, TriangleOrder::crowded, cells.count() - 1);
   return order;
 }
 

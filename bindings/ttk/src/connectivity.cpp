@@ -34,7 +34,7 @@ std::size_t default_memory(RelationSet wanted, Id vertices) {
 }
 
 Options with_defaults(Options options) {
-  if (options.structure.host_memory == 0) options.structure.host_memory = 256 * gale::detail::mebibyte;
+  if (options.structure.host_memory == 0) options.structure.host_memory = 128 * gale::detail::mebibyte;
   return options;
 }
 
@@ -112,7 +112,7 @@ void Connectivity::need_rows(Relation relation) {
 
 std::size_t Connectivity::bytes() const {
   std::size_t bytes = store_->bytes() + segments_.bytes();
-  bytes += edges_.bytes() + triangles_.bytes() + triangles_.second.span() * sizeof(Id);
+  bytes += edges_.bytes() + triangles_.bytes() + triangles_.second.bytes();
   for (const auto& flags : on_surface_) bytes += flags.span();
   return bytes;
 }

@@ -29,9 +29,9 @@ Connectivity::Internal Connectivity::internal_by_vertices(Relation relation, Id 
 std::array<Id, 3> Connectivity::edges_of_triangle(Id triangle) const {
   const auto [a, b, c] = sorted_internal(part_of_cell(triangles_, triangle_corners, triangle));
   std::array<Id, 3> edges;
-  edges[0] = edges_.number(simplices_.edge_of(a, b));
-  edges[1] = edges_.number(simplices_.edge_of(a, c));
-  edges[2] = edges_.number(simplices_.edge_of(b, c));
+  edges[0] = edges_.number[simplices_.edge_of(a, b)];
+  edges[1] = edges_.number[simplices_.edge_of(a, c)];
+  edges[2] = edges_.number[simplices_.edge_of(b, c)];
   std::sort(edges.begin(), edges.end());
   return edges;
 }
@@ -43,7 +43,7 @@ const std::array<Id, 3>& Connectivity::triangle_edges(Id triangle) const {
 const std::array<Id, 6>& Connectivity::cell_edges(Id cell) const {
   return reader().cell_edges.of(cell, [this](Id wanted) {
     auto edges = SortedCorners(cells_, wanted, vertex_internal_).edges(simplices_);
-    for (Id& edge : edges) edge = edges_.number.data()[edge];
+    for (Id& edge : edges) edge = edges_.number[edge];
     return edges;
   });
 }
@@ -51,7 +51,7 @@ const std::array<Id, 6>& Connectivity::cell_edges(Id cell) const {
 const std::array<Id, 4>& Connectivity::cell_triangles(Id cell) const {
   return reader().cell_triangles.of(cell, [this](Id wanted) {
     auto triangles = SortedCorners(cells_, wanted, vertex_internal_).triangles(simplices_);
-    for (Id& triangle : triangles) triangle = triangles_.number.data()[triangle];
+    for (Id& triangle : triangles) triangle = triangles_.number[triangle];
     return triangles;
   });
 }

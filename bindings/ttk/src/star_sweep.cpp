@@ -58,7 +58,7 @@ void Connectivity::sweep_cells(const Flags& on_surface, bool keep) const {
 void Connectivity::sweep_structure(const Flags& on_surface) {
   const SweepOptions options;
   std::vector<Worker> workers(options.threads);
-  const Id* const tetrahedron_input = numbers_of(3);
+  const Id* const tetrahedron_input = mesh_->tetrahedron_input().data();
   const bool keeps_cells = wanted_rows_.has(Relation::VT);
   Structure& stars = structure(source_of(Relation::VV));
   stars.for_each_segment(star_relations, options, [&](int consumer, const SegmentRows& rows) {

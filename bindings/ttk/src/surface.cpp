@@ -55,7 +55,7 @@ Connectivity::Flags Connectivity::surface_from_triangles(int dimension) const {
   const auto flags = no_flags(dimension);
   parallel_for("GALE::ttk_surface", HostSpace(), counts_[2], [&](Offset i) {
     const Id triangle = static_cast<Id>(i);
-    if (triangles_.second(triangle) != no_id) return;
+    if (triangles_.second[triangle] != no_id) return;
     if (dimension == 2) {
       set_flag(flags, triangle);
       return;

@@ -48,27 +48,34 @@ Block Connectivity::make_block(Reader& reader, Relation relation, Id segment) co
   const int source = source_of(relation);
   if (!reader.consumers[source]) reader.consumers[source] = structure(source).consumer();
   Consumer& consumer = *reader.consumers[source];
-  const Id* const numbers = numbers_of(entry_dimension(relation));
   const auto& begin = mesh_->interval_begin(row_dimension(relation));
-  reader.builder.begin(begin(segment), begin(segment + 1) - begin(segment));
-  for (Id i = begin(segment); i < begin(segment + 1); ++i) {
-    if (relation == Relation::VV) {
-      reader.star.sort(consumer.row(Relation::VT, i), numbers_of(3), cells_);
-      reader.star.add_neighbours(reader.builder, consumer.row(Relation::VV, i), consumer.link(i), cells_, numbers);
-    } else {
+  const Interval rows{begin(segment), begin(segment + 1)};
+  reader.builder.begin(rows.first, rows.size());
+  const auto add = [&](const auto& numbers) {
+    for (const Id i : rows) {
       reader.builder.add_sorted(consumer.row(relation, i), numbers);
+      reader.builder.end_row();
     }
-    reader.builder.end_row();
+  };
+  switch (entry_dimension(relation)) {
+    case 0:  // VV, in another order
+      for (const Id i : rows) {
+        reader.star.sort(consumer.row(Relation::VT, i), mesh_->tetrahedron_input().data(), cells_);
+        reader.star.add_neighbours(reader.builder, consumer.row(Relation::VV, i), consumer.link(i), cells_,
+                                   vertex_input_);
+        reader.builder.end_row();
+      }
+      break;
+    case 1:
+      add(edges_.number);
+      break;
+    case 2:
+      add(triangles_.number);
+      break;
+    default:
+      add(mesh_->tetrahedron_input().data());
   }
   return reader.builder.take();
-}
-
-/// GALE's id -> TTK's.
-const Id* Connectivity::numbers_of(int dimension) const {
-  return dimension == 0   ? vertex_input_
-         : dimension == 1 ? edges_.number.data()
-         : dimension == 2 ? triangles_.number.data()
-                          : mesh_->tetrahedron_input().data();
 }
 
 }  // namespace gale::ttk

@@ -6,30 +6,31 @@
 #include <gale/mesh/mesh.hpp>
 #include <gale/ttk/cells.hpp>
 #include <gale/ttk/first_met.hpp>
+#include <gale/ttk/packed_ids.hpp>
 
 namespace gale::ttk {
 
 /// TTK's numbers of edges or triangles: the order in which they are met first when one goes through the cells, and in
 /// each cell through its edges or triangles as TTK lists them. So they depend on the caller's cells alone.
 struct CellOrder {
-  Array<Id, HostMemory> number;  ///< GALE's id -> TTK's
-  FirstMet met;                  ///< TTK's id -> its first cell, and which of that cell's edges or triangles it is
+  PackedIds number;  ///< GALE's id -> TTK's
+  FirstMet met;      ///< TTK's id -> its first cell, and which of that cell's edges or triangles it is
 
-  bool is_there() const { return number.data() != nullptr; }
-  Id count() const { return static_cast<Id>(number.extent(0)); }
-  std::size_t bytes() const { return number.span() * sizeof(Id) + met.bytes(); }
+  bool is_there() const { return number.bytes() > 0; }
+  Id count() const { return number.size(); }
+  std::size_t bytes() const { return number.bytes() + met.bytes(); }
 };
 
 /// Of the edges; enumerates them if they haven't been. `cells` are those that the mesh was made of. O(n), on all our
 /// threads.
 CellOrder order_of_edges(const Mesh& mesh, const Cells& cells);
 
-/// Likewise of the triangles, with their stars; 8 bytes a triangle more meanwhile.
+/// Likewise of the triangles, with their stars; 16 bytes a triangle more meanwhile.
 struct TriangleOrder : CellOrder {
   static constexpr Id crowded = -2;
 
   /// TTK's id -> the second of its cells, ascending; no_id if there is one only, `crowded` if there are three or more.
-  Array<Id, HostMemory> second;
+  PackedIds second;
 
   bool any_crowded = false;
 };

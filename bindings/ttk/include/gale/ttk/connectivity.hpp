@@ -18,7 +18,7 @@ namespace gale::ttk {
 
 /// How rows are computed and kept.
 struct Options {
-  StructureOptions structure;       ///< its host_memory is 256 MiB by default, since the blocks are kept translated
+  StructureOptions structure;       ///< its host_memory is 128 MiB by default, since the blocks are kept translated
   int capacity = default_capacity;  ///< vertices of a segment, at most
   std::size_t memory = 0;  ///< bytes for translated blocks; by default 192 a vertex, which VV and VT take; where other
                            ///< rows are needed 40 to 192, by what all threads go through at one time
@@ -64,7 +64,7 @@ class GALE_EXPORT Connectivity {
   Row row(Id simplex) const {
     if constexpr (relation == Relation::FT) {
       if (!triangles_.is_there()) refuse(relation);
-      const Id second = triangles_.second.data()[simplex];
+      const Id second = triangles_.second[simplex];
       if (second != TriangleOrder::crowded) {
         const auto& star = reader().star_of_triangle.of(simplex, [this, second](Id wanted) {
           return std::array<Id, 2>{triangles_.met[wanted].cell, second};
@@ -157,7 +157,6 @@ class GALE_EXPORT Connectivity {
   void load(Reader& reader, Relation relation, Id id, Id lowest) const;
   void look_ahead(Reader& reader, Relation relation, Id vertex) const;
   Block make_block(Reader& reader, Relation relation, Id segment) const;
-  const Id* numbers_of(int dimension) const;
   template <std::size_t n>
   std::array<Id, n> sorted_internal(std::array<Id, n> vertices) const;
   std::array<Id, 3> edges_of_triangle(Id triangle) const;

@@ -23,7 +23,8 @@ class BlockBuilder {
   void add(Id entry) { words_.push_back(entry); }
 
   /// GALE's ids, by their numbers, ascending.
-  void add_sorted(const Row& row, const Id* numbers) {
+  template <class Numbers>
+  void add_sorted(const Row& row, const Numbers& numbers) {
     const auto begin = static_cast<std::ptrdiff_t>(words_.size());
     for (const Id entry : row) words_.push_back(numbers[entry]);
     std::sort(words_.begin() + begin, words_.end());
