@@ -160,6 +160,7 @@ bool StarRows::is_on_surface(Id row, Id neighbours) {
   using gale::detail::SmallLink;
   const LinkRow link{places_.data(), star_begin_[row + 1] - star_begin_[row], sizeof(Id)};
   if (neighbours > SmallLink::capacity) {
+    for (std::size_t i = 0; i < places_.size(); i += 3) std::sort(&places_[i], &places_[i] + 3);  // as links have them
     large_.build(link);
     return large_.is_open();
   }
