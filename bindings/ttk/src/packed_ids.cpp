@@ -12,14 +12,19 @@ PackedIds::PackedIds(const Array<Id, HostMemory>& ids, Id least, Id greatest)
   const Offset groups = (size_ + together - 1) / together;
   bytes_ = allocate<Array<std::uint8_t, HostMemory>>("GALE::ttk_packed", groups * bits_ + sizeof(std::uint64_t));
   parallel_for("GALE::ttk_pack", HostSpace(), groups, [&](Offset group) {
-    std::uint8_t packed[32 + sizeof(std::uint64_t)] = {};
-    for (Offset i = group * together; i < (group + 1) * together && i < size_; ++i) {
-      const std::uint64_t bit = (i % together) * bits_;
-      std::uint64_t word;
-      std::memcpy(&word, packed + bit / 8, sizeof word);
-      word |= static_cast<std::uint64_t>(Offset(ids(i)) - least_) << (bit % 8);
-      std::memcpy(packed + bit / 8, &word, sizeof word);
+    std::uint32_t packed[together + 1];
+    std::uint32_t* to = packed;
+    std::uint64_t word = 0;  // of which so many bits are filled, less than 32
+    std::uint32_t filled = 0;
+    for (Offset i = group * together; i < (group + 1) * together; ++i) {
+      if (i < size_) word |= static_cast<std::uint64_t>(Offset(ids(i)) - least_) << filled;
+      filled += bits_;
+      if (filled < 32) continue;
+      *to++ = static_cast<std::uint32_t>(word);
+      word >>= 32;
+      filled -= 32;
     }
+    *to = static_cast<std::uint32_t>(word);
     std::memcpy(bytes_.data() + group * bits_, packed, bits_);
   });
 }
