@@ -22,7 +22,7 @@ class GALE_EXPORT PackedIds {
     const std::uint64_t bit = std::uint64_t(std::uint32_t(i)) * bits_;
     std::uint64_t word;
     std::memcpy(&word, bytes_.data() + bit / 8, sizeof word);
-    return least_ + static_cast<Id>(word >> (bit % 8) & mask_);
+    return static_cast<Id>(least_ + static_cast<Offset>(word >> (bit % 8) & mask_));
   }
 
   std::size_t bytes() const { return bytes_.span(); }
