@@ -1,3 +1,4 @@
+#include <gale/base/group_by.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/ttk/segments.hpp>
 
@@ -29,9 +30,9 @@ void Segments::find_segments() {
 }
 
 void Segments::group(const Cells& cells) {
-  if (tetrahedron_input_ != nullptr || groups_.begin.data() != nullptr) return;
+  if (tetrahedron_input_ != nullptr || group_begin_.data() != nullptr) return;
   const Id* const segment_of = segment_of_.data();
-  groups_ = group_by("GALE::ttk_cells", HostSpace(), cells.count(), count(), [=](Id cell, const auto& visit) {
+  const auto groups = group_by("GALE::ttk_cells", HostSpace(), cells.count(), count(), [=](Id cell, const auto& visit) {
     Id met[4];
     for (int corner = 0; corner < 4; ++corner) {
       const Id here = met[corner] = segment_of[cells.vertex(cell, corner)];
@@ -40,13 +41,15 @@ void Segments::group(const Cells& cells) {
       if (fresh) visit(here);
     }
   });
+  group_begin_ = groups.begin;
+  grouped_ = groups.members;
 }
 
 void Segments::gather(Id segment, std::vector<Id>& cells) const {
   cells.clear();
   if (tetrahedron_input_ == nullptr) {
-    const auto begin = groups_.begin.data();
-    cells.assign(groups_.members.data() + begin[segment], groups_.members.data() + begin[segment + 1]);
+    const Offset* const begin = group_begin_.data() + segment;
+    cells.assign(grouped_.data() + begin[0], grouped_.data() + begin[1]);
     return;
   }
   for (Id t = encoded_.internal_begin(segment); t < encoded_.internal_begin(segment + 1); ++t) {

@@ -1,7 +1,8 @@
+#include "star_rows.hpp"
+
 #include <algorithm>
 
 #include <gale/algorithms/links/small_link.hpp>
-#include <gale/ttk/star_rows.hpp>
 
 namespace gale::ttk {
 

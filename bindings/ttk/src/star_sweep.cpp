@@ -8,6 +8,8 @@
 #include <gale/runtime/structure.hpp>
 #include <gale/ttk/connectivity.hpp>
 
+#include "star_rows.hpp"
+
 namespace gale::ttk {
 
 namespace {

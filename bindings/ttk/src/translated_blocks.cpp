@@ -4,6 +4,8 @@
 #include <gale/runtime/make_structure.hpp>
 #include <gale/ttk/connectivity.hpp>
 
+#include "star_rows.hpp"
+
 namespace gale::ttk {
 
 Structure& Connectivity::structure(int source) const {
@@ -32,10 +34,10 @@ void Connectivity::load(Reader& reader, Relation relation, Id id, Id lowest) con
 }
 
 /// Groups cells by segments, unless that was done: modules that need edges, too, never come here before.
-std::unique_ptr<StarRows> Connectivity::new_stars() const {
+std::shared_ptr<StarRows> Connectivity::new_stars() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   segments_.group(cells_);
-  return std::make_unique<StarRows>(segments_, cells_);
+  return std::make_shared<StarRows>(segments_, cells_);
 }
 
 /// Computes the rows of a segment's simplices and puts them into TTK's ids and order.

@@ -13,6 +13,7 @@
 #include <gale/ttk/cell_order.hpp>
 #include <gale/ttk/per_thread.hpp>
 #include <gale/ttk/reader.hpp>
+#include <gale/ttk/segments.hpp>
 
 namespace gale::ttk {
 
@@ -168,7 +169,7 @@ class GALE_EXPORT Connectivity {
   };
   void need_mesh();
   void set_segments(const Segments& segments);
-  std::unique_ptr<StarRows> new_stars() const;
+  std::shared_ptr<StarRows> new_stars() const;
   bool finds_in_cells(Relation relation) const {
     return finds_stars_in_cells_ && (relation == Relation::VV || relation == Relation::VT);
   }

@@ -5,10 +5,11 @@
 
 #include <gale/mesh/intervals.hpp>
 #include <gale/runtime/consumer.hpp>
-#include <gale/ttk/star_rows.hpp>
 #include <gale/ttk/translation.hpp>
 
 namespace gale::ttk {
+
+class StarRows;
 
 /// A block that a thread holds: the simplices (GALE's ids) that it has, and their rows.
 struct HeldBlock {
@@ -78,7 +79,7 @@ struct Reader {
   Found<4> cell_triangles;
   Found<5> cell_neighbours;  ///< the last says how many
 
-  std::unique_ptr<StarRows> stars;  ///< likewise
+  std::shared_ptr<StarRows> stars;  ///< likewise; shared, as users don't have its header
   BlockBuilder builder;
   StarOrder star;
 };

@@ -2,8 +2,9 @@
 
 #include <vector>
 
-#include <gale/base/group_by.hpp>
+#include <gale/base/memory.hpp>
 #include <gale/export.hpp>
+#include <gale/mesh/intervals.hpp>
 #include <gale/mesh/mesh.hpp>
 #include <gale/ttk/cells.hpp>
 
@@ -37,14 +38,15 @@ class GALE_EXPORT Segments {
   /// Replaces `cells` by those that touch a segment, in no order. To be grouped before, where there is no mesh.
   void gather(Id segment, std::vector<Id>& cells) const;
 
-  std::size_t bytes() const { return sizeof(Id) * (segment_of_.span() + groups_.members.span()); }
+  std::size_t bytes() const { return sizeof(Id) * (segment_of_.span() + grouped_.span()); }
 
  private:
   void find_segments();
 
   Array<const Id, HostMemory> vertex_input_, vertex_internal_, vertex_begin_;
   Array<Id, HostMemory> segment_of_;
-  Groups<HostMemory> groups_;
+  Array<Offset, HostMemory> group_begin_;  ///< segment -> its cells in grouped_
+  Array<Id, HostMemory> grouped_;
   EncodedMesh<HostMemory> encoded_;
   const Id* tetrahedron_input_ = nullptr;  ///< where there is a mesh
 };
