@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <limits>
 #include <vector>
 
 #include <gale/base/types.hpp>
@@ -11,37 +10,52 @@ namespace gale::detail {
 /// The order of some neighbours, by input ids.
 class NeighbourRanks {
  public:
-  void begin(std::size_t count) {
+  void begin(Id count) {
     count_ = count;
-    if (count > few) many_.resize(count);
+    if (ids_.size() < static_cast<std::size_t>(count)) ids_.resize(count);
   }
-  Id* ids() { return count_ > few ? many_.data() : few_; }
+  Id* ids() { return ids_.data(); }
 
   /// When all ids are written.
   void sort() {
-    if (count_ > few) {
-      std::sort(many_.begin(), many_.end());
-    } else {
-      std::fill(few_ + count_, few_ + few, std::numeric_limits<Id>::max());
-    }
+    if (count_ > few) std::sort(ids_.begin(), ids_.begin() + count_);
   }
 
-  /// How many are before one; few are compared with all of them, in no order.
+  /// How many are before one.
   Id rank_of(Id id) const {
-    if (count_ > few) return static_cast<Id>(std::lower_bound(many_.begin(), many_.end(), id) - many_.begin());
+    if (count_ > few) return static_cast<Id>(std::lower_bound(ids_.begin(), ids_.begin() + count_, id) - ids_.begin());
     Id rank = 0;
-    for (std::size_t i = 0; i < half; ++i) rank += few_[i] < id;
-    if (count_ > half) {
-      for (std::size_t i = half; i < few; ++i) rank += few_[i] < id;
-    }
+    for (Id i = 0; i < count_; ++i) rank += ids_[i] < id ? 1 : 0;
     return rank;
   }
 
+  /// Replaces ids by their ranks. Few neighbours are compared with `at_once` ids each, in no order: the vector's
+  /// entries up to the next multiple of that are read and written too.
+  void replace_by_ranks(std::vector<Id>& ids, Id count) const {
+    if (count_ > few) {
+      for (Id i = 0; i < count; ++i) ids[i] = rank_of(ids[i]);
+      return;
+    }
+    for (Id first = 0; first < count; first += at_once) {
+      Id ranks[at_once] = {};
+      Id* const here = ids.data() + first;
+      for (Id k = 0; k < count_; ++k) {
+        for (Id i = 0; i < at_once; ++i) ranks[i] += ids_[k] < here[i] ? 1 : 0;
+      }
+      std::copy(ranks, ranks + at_once, here);
+    }
+  }
+
+  /// Makes room for at least so many ids to be replaced.
+  static void make_room(std::vector<Id>& ids, Id count) {
+    const std::size_t room = (static_cast<std::size_t>(count) + at_once - 1) / at_once * at_once;
+    if (ids.size() < room) ids.resize(room);
+  }
+
  private:
-  static constexpr std::size_t few = 16, half = few / 2;
-  std::size_t count_ = 0;
-  Id few_[few];
-  std::vector<Id> many_;
+  static constexpr Id few = 16, at_once = 8;
+  Id count_ = 0;
+  std::vector<Id> ids_;
 };
 
 }  // namespace gale::detail

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <vector>
 
 #include <gale/base/bits.hpp>
@@ -22,11 +23,10 @@ using HostIds = Array<Id, HostMemory>;
 struct Elsewhere {
   Array<bool, HostMemory> has_all;  ///< vertex a -> whether it owns all that the tables have of it, (a, ...)
   Groups<HostMemory, Id> edges, triangles;
-  const Id *edge_begin, *edge_ids;  ///< in `edges`, or all edges by their higher vertex if the tables have these
 };
 
 Elsewhere find_elsewhere(const HostTables& tables, const Id* input, bool triangles) {
-  const Offset vertices = tables.edge_begin.extent(0) - 1, edges = tables.edge_high.extent(0);
+  const Offset vertices = tables.edge_begin.extent(0) - 1;
   Elsewhere elsewhere;
   elsewhere.has_all = allocate<Array<bool, HostMemory>>("GALE::has_all", vertices);
   parallel_for("GALE::has_all", HostSpace(), vertices, [&](Offset v) {
@@ -34,18 +34,15 @@ Elsewhere find_elsewhere(const HostTables& tables, const Id* input, bool triangl
     elsewhere.has_all(v) = std::all_of(ends + tables.edge_begin(v), ends + tables.edge_begin(v + 1),
                                        [&](Id end) { return input[end] > input[v]; });
   });
-  if (tables.lower_begin.extent(0) > 0) {
-    elsewhere.edge_begin = tables.lower_begin.data();
-    elsewhere.edge_ids = tables.lower_edges.data();
-  } else {
-    elsewhere.edges =
-        group_by<Id>("GALE::edges_elsewhere", HostSpace(), edges, vertices, [&](Id edge, const auto& visit) {
-          const Id low = tables.edge_low(edge), high = tables.edge_high(edge);
-          if (!elsewhere.has_all(low) && input[high] < input[low]) visit(high);
-        });
-    elsewhere.edge_begin = elsewhere.edges.begin.data();
-    elsewhere.edge_ids = elsewhere.edges.members.data();
-  }
+  // None where all vertices have all.
+  const bool none =
+      reduce_sum("GALE::has_all", HostSpace(), vertices, [&](Offset v) { return elsewhere.has_all(v); }) == vertices;
+  const Offset edges = none ? 0 : tables.edge_high.extent(0);
+  elsewhere.edges =
+      group_by<Id>("GALE::edges_elsewhere", HostSpace(), edges, vertices, [&](Id edge, const auto& visit) {
+        const Id low = tables.edge_low(edge), high = tables.edge_high(edge);
+        if (!elsewhere.has_all(low) && input[high] < input[low]) visit(high);
+      });
   if (triangles) {
     elsewhere.triangles =
         group_by<Id>("GALE::triangles_elsewhere", HostSpace(), edges, vertices, [&](Id edge, const auto& visit) {
@@ -68,10 +65,8 @@ class OwnSimplices {
 
   /// Whether it owns what the tables have of it, and nothing else.
   bool is_as_in_tables(Id vertex) const {
-    if (!elsewhere_.has_all(vertex)) return false;
-    bool none = true;
-    for_each_edge_elsewhere(vertex, [&](Id, Id) { none = false; });
-    return none;
+    const auto& begin = elsewhere_.edges.begin;
+    return elsewhere_.has_all(vertex) && begin(vertex) == begin(vertex + 1);
   }
 
   /// Calls visit(edge, other end).
@@ -82,7 +77,8 @@ class OwnSimplices {
       const Id high = tables_.edge_high(e);
       if (input_[high] > here) visit(e, high);
     }
-    for_each_edge_elsewhere(vertex, visit);
+    const auto& [begin, members] = elsewhere_.edges;
+    for (Id i = begin(vertex); i < begin(vertex + 1); ++i) visit(members(i), tables_.edge_low(members(i)));
   }
 
   /// Calls visit(triangle, third corner) for those that the tables have over one of these edges.
@@ -103,14 +99,6 @@ class OwnSimplices {
   }
 
  private:
-  template <class Visit>
-  void for_each_edge_elsewhere(Id vertex, const Visit& visit) const {
-    for (Id i = elsewhere_.edge_begin[vertex]; i < elsewhere_.edge_begin[vertex + 1]; ++i) {
-      const Id edge = elsewhere_.edge_ids[i], low = tables_.edge_low(edge);
-      if (input_[low] > input_[vertex]) visit(edge, low);
-    }
-  }
-
   const HostTables& tables_;
   const Id* input_;
   const Elsewhere& elsewhere_;
@@ -154,6 +142,40 @@ struct OwnNumbers {
   HostIds edges, triangles;
 };
 
+/// Puts triangles of one vertex in order by the ranks of their other corners among its neighbours.
+class TriangleOrder {
+ public:
+  static constexpr Id most_neighbours = 64;
+
+  /// Of a vertex of so many neighbours, at most `most_neighbours`.
+  void begin(Id neighbours) {
+    shift_ = neighbours <= 8 ? 3 : neighbours <= 16 ? 4 : 6;
+    words_ = ((neighbours << shift_) + 63) / 64;
+    for (Id word = 0; word < words_; ++word) there_[word] = 0;
+  }
+
+  void add(Id second, Id third, Id triangle) {
+    const Id at = (second << shift_) + third;
+    there_[at / 64] |= std::uint64_t(1) << at % 64;
+    triangles_[at] = triangle;
+  }
+
+  /// Calls visit(triangle) for those that were added.
+  template <class Visit>
+  void for_each(const Visit& visit) const {
+    for (Id word = 0; word < words_; ++word) {
+      for (std::uint64_t bits = there_[word]; bits != 0; bits &= bits - 1)
+        visit(triangles_[64 * word + lowest_bit(bits)]);
+    }
+  }
+
+ private:
+  int shift_ = 0;
+  Id words_ = 0;
+  std::uint64_t there_[most_neighbours];
+  Id triangles_[most_neighbours * most_neighbours];
+};
+
 /// Numbers what one vertex after the other owns.
 class OwnNumberer {
  public:
@@ -162,25 +184,25 @@ class OwnNumberer {
 
   /// Goes to a vertex, which owns so many edges.
   void order_edges(Id vertex, Id edges_there) {
-    edges_.resize(edges_there);
-    neighbours_.begin(edges_.size());
-    Id *const edges = edges_.data(), *const ids = neighbours_.ids();
+    count_ = edges_there;
+    for (std::vector<Id>* ids : {&edges_, &ends_}) NeighbourRanks::make_room(*ids, count_);
+    neighbours_.begin(count_);
+    Id* const ids = neighbours_.ids();
     Id count = 0;
     own_.for_each_edge(vertex, [&](Id edge, Id other) {
-      edges[count] = edge;
+      edges_[count] = edge;
       ids[count++] = input_[other];
     });
     in_order_ = own_.is_as_in_tables(vertex) && std::is_sorted(ids, ids + count);
     if (in_order_) return;
-    ends_.assign(ids, ids + count);
+    std::copy(ids, ids + count, ends_.begin());
     neighbours_.sort();
-    for (Id& end : ends_) end = neighbours_.rank_of(end);
+    neighbours_.replace_by_ranks(ends_, count);
   }
 
   /// Its edges, from `begin`.
   void number_edges(Id begin) {
-    for (std::size_t i = 0; i < edges_.size(); ++i)
-      numbers_.edges(edges_[i]) = begin + (in_order_ ? static_cast<Id>(i) : ends_[i]);
+    for (Id i = 0; i < count_; ++i) numbers_.edges(edges_[i]) = begin + (in_order_ ? i : ends_[i]);
   }
 
   /// Its triangles, from `begin` to before `end`.
@@ -189,51 +211,41 @@ class OwnNumberer {
       for (Id f = tables_.triangle_begin(tables_.edge_begin(vertex)); begin < end; ++f) numbers_.triangles(f) = begin++;
       return;
     }
-    triangles_.resize(end - begin);
-    Corners* to = triangles_.data();
-    const auto add = [&](Id triangle, Id a, Id b) { *to++ = {triangle, std::min(a, b), std::max(a, b)}; };
-    for (std::size_t i = 0; i < edges_.size(); ++i) {
-      own_.for_each_triangle_over(
-          edges_[i], vertex, [&](Id triangle, Id apex) { add(triangle, ends_[i], neighbours_.rank_of(input_[apex])); });
-    }
-    own_.for_each_triangle_below(vertex, [&](Id edge) {
-      add(tables_.triangle_of(edge, vertex), neighbours_.rank_of(input_[tables_.edge_low(edge)]),
-          neighbours_.rank_of(input_[tables_.edge_high(edge)]));
-    });
-    if (edges_.size() <= bits) {
-      number_by_bits(begin);
+    const Id count = end - begin;
+    find_triangles(vertex, count);
+    const auto for_each = [&](const auto& visit) {
+      for (Id i = 0; i < count; ++i)
+        visit(std::min(corners_[i], others_[i]), std::max(corners_[i], others_[i]), triangles_[i]);
+    };
+    if (count_ <= TriangleOrder::most_neighbours) {
+      few_.begin(count_);
+      for_each([&](Id second, Id third, Id triangle) { few_.add(second, third, triangle); });
+      few_.for_each([&](Id triangle) { numbers_.triangles(triangle) = begin++; });
     } else {
-      number_by_sorting(begin);
+      many_.clear();
+      for_each([&](Id second, Id third, Id triangle) { many_.push_back({second, third, triangle}); });
+      std::sort(many_.begin(), many_.end());
+      for (const auto& triangle : many_) numbers_.triangles(triangle[2]) = begin++;
     }
   }
 
  private:
-  static constexpr std::size_t bits = 64;
-
-  struct Corners {
-    Id triangle, second, third;  ///< ranks among the neighbours
-  };
-
-  void number_by_bits(Id begin) {
-    std::uint64_t joined[bits];
-    Id begins[bits];
-    for (std::size_t i = 0; i < edges_.size(); ++i) joined[i] = 0;
-    for (const Corners& corners : triangles_) joined[corners.second] |= std::uint64_t(1) << corners.third;
-    for (std::size_t i = 0; i < edges_.size(); ++i) {
-      begins[i] = begin;
-      begin += count_bits(joined[i]);
-    }
-    for (const Corners& corners : triangles_) {
-      const std::uint64_t before = joined[corners.second] & ((std::uint64_t(1) << corners.third) - 1);
-      numbers_.triangles(corners.triangle) = begins[corners.second] + count_bits(before);
-    }
-  }
-
-  void number_by_sorting(Id begin) {
-    std::sort(triangles_.begin(), triangles_.end(), [](const Corners& a, const Corners& b) {
-      return a.second != b.second ? a.second < b.second : a.third < b.third;
+  /// So many triangles, and the ranks of their other two corners among the neighbours.
+  void find_triangles(Id vertex, Id count) {
+    for (std::vector<Id>* ids : {&triangles_, &corners_, &others_}) NeighbourRanks::make_room(*ids, count);
+    Id found = 0;
+    const auto add = [&](Id triangle, Id rank, Id other) {
+      triangles_[found] = triangle;
+      corners_[found] = rank;
+      others_[found++] = input_[other];
+    };
+    for (Id i = 0; i < count_; ++i)
+      own_.for_each_triangle_over(edges_[i], vertex, [&](Id triangle, Id apex) { add(triangle, ends_[i], apex); });
+    own_.for_each_triangle_below(vertex, [&](Id edge) {
+      add(tables_.triangle_of(edge, vertex), neighbours_.rank_of(input_[tables_.edge_low(edge)]),
+          tables_.edge_high(edge));
     });
-    for (const Corners& corners : triangles_) numbers_.triangles(corners.triangle) = begin++;
+    neighbours_.replace_by_ranks(others_, count);
   }
 
   const OwnSimplices& own_;
@@ -241,9 +253,12 @@ class OwnNumberer {
   const Id* input_;
   const OwnNumbers& numbers_;
   NeighbourRanks neighbours_;
-  bool in_order_ = false;         ///< as in the tables
+  bool in_order_ = false;  ///< as in the tables
+  Id count_ = 0;
   std::vector<Id> edges_, ends_;  ///< of the vertex; the ends' ranks
-  std::vector<Corners> triangles_;
+  std::vector<Id> triangles_, corners_, others_;
+  TriangleOrder few_;
+  std::vector<std::array<Id, 3>> many_;
 };
 
 }  // namespace
@@ -257,9 +272,13 @@ InputNumbers number_by_vertex(const HostTables& simplices, const VertexInput<Hos
   OwnNumbers numbers;
   if (edges) numbers.edges = allocate<HostIds>("GALE::edge_numbers", simplices.edge_high.extent(0));
   if (triangles) numbers.triangles = allocate<HostIds>("GALE::triangle_numbers", simplices.triangle_apex.extent(0));
+  constexpr Offset ahead = 8;
   for_parts("GALE::number_own", vertices, threads_for(vertices), [&](int, Offset first, Offset last) {
     OwnNumberer numberer(own, simplices, input.data(), numbers);
     for (Id vertex = static_cast<Id>(first); vertex < last; ++vertex) {
+      const Id later = input(std::min<Offset>(vertex + ahead, last - 1));
+      if (edges) __builtin_prefetch(&begins.edges(later));
+      if (triangles) __builtin_prefetch(&begins.triangles(later));
       const Id here = input(vertex);
       numberer.order_edges(vertex, begins.edges(here + 1) - begins.edges(here));
       if (edges) numberer.number_edges(begins.edges(here));
