@@ -81,7 +81,15 @@ class Relations(unittest.TestCase):
         ring, hubs = ids[:80], np.broadcast_to(ids[80:], (80, 2))
         self.check(rng.random((82, 3)), np.column_stack([ring, np.roll(ring, 1), hubs]))
 
-    def check(self, points, tetrahedra):
+    def test_of_few_long_rows_among_short_ones(self):
+        """A ring of 40 vertices around an edge, whose rows come first, in the middle or last; and vertices of no cell."""
+        points = np.random.default_rng(6).random((48, 3))
+        for hubs in ((0, 1), (20, 30), (46, 47)):
+            ring = np.setdiff1d(np.arange(3, 48), hubs)[:40]
+            pairs = np.column_stack([ring, np.roll(ring, 1), np.broadcast_to(hubs, (40, 2))])
+            self.check(points, pairs, every=1)
+
+    def check(self, points, tetrahedra, every=5):
         mesh = gale.Mesh(points, tetrahedra, capacity=7)
         simplices = [
             sorted({tuple(sorted(c)) for cell in tetrahedra.tolist() for c in itertools.combinations(cell, d + 1)})
@@ -91,7 +99,7 @@ class Relations(unittest.TestCase):
         for (a, x), (b, y) in itertools.product(enumerate("VEFT"), repeat=2):
             found = rows_of(*mesh.relation(x + y, threads=3))
             self.assertEqual(len(found), len(simplices[a]))
-            for i in range(0, len(found), 5):
+            for i in range(0, len(found), every):
                 one = set(simplices[a][i])
                 if a != b:
                     right = [j for j, other in enumerate(simplices[b]) if one <= set(other) or one >= set(other)]

@@ -1,0 +1,206 @@
+#include "whole_relation.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <limits>
+#include <new>
+#include <utility>
+#include <vector>
+
+#include <gale/base/parallel.hpp>
+
+namespace gale::python {
+
+namespace {
+
+/// How many simplices of a dimension the mesh has. They have been needed.
+Id known_simplices(const Mesh& mesh, int dimension) {
+  const Id counts[] = {mesh.vertices(), mesh.known_edges(), mesh.known_triangles(), mesh.tetrahedra()};
+  return counts[dimension];
+}
+
+/// Sizes of some rows from all over the mesh, ascending.
+std::vector<Id> sizes_of_some_rows(Structure& structure, Relation relation, Id rows) {
+  constexpr Offset places = 16, at_each = 64;
+  const auto consumer = structure.consumer();
+  std::vector<Id> sizes;
+  for (Offset place = 0; place < places; ++place) {
+    const Offset first = rows * place / places, end = std::min(first + at_each, rows * (place + 1) / places);
+    for (Offset row = first; row < end; ++row) sizes.push_back(consumer->row(relation, static_cast<Id>(row)).size());
+  }
+  std::sort(sizes.begin(), sizes.end());
+  return sizes;
+}
+
+/// The best size of slots for rows of such sizes, which ascend. An entry that waits elsewhere costs as much as three
+/// that a slot has room for: it is written, read and written again.
+Id best_slot_size(const std::vector<Id>& sizes) {
+  constexpr std::int64_t waiting = 3;
+  const auto rows = static_cast<std::int64_t>(sizes.size());
+  Id best = 0;
+  std::int64_t least = std::numeric_limits<std::int64_t>::max(), longer = 0;
+  for (std::int64_t i = rows - 1; i >= 0; --i) {
+    const std::int64_t cost = sizes[i] * rows + waiting * longer;
+    if (cost < least) {
+      best = sizes[i];
+      least = cost;
+    }
+    longer += sizes[i];
+  }
+  return best;
+}
+
+/// Most numbers come nearly in order.
+void sort_numbers(Id* numbers, Id count) {
+  constexpr Id few = 64;
+  if (count > few) {
+    if (!std::is_sorted(numbers, numbers + count)) std::sort(numbers, numbers + count);
+    return;
+  }
+  for (Id i = 1; i < count; ++i) {
+    const Id number = numbers[i];
+    Id at = i;
+    for (; at > 0 && numbers[at - 1] > number; --at) numbers[at] = numbers[at - 1];
+    numbers[at] = number;
+  }
+}
+
+/// Entries whose memory isn't touched before they are written.
+class Entries {
+ public:
+  explicit Entries(std::size_t count) { resize(count); }
+  ~Entries() { std::free(ids_); }
+  Entries(const Entries&) = delete;
+  Entries& operator=(const Entries&) = delete;
+
+  Id* ids() { return ids_; }
+
+  /// The first ones stay as they are.
+  void resize(std::size_t count) {
+    void* const ids = std::realloc(ids_, std::max<std::size_t>(count, 1) * sizeof(Id));
+    if (ids == nullptr) throw std::bad_alloc();
+    ids_ = static_cast<Id*>(ids);
+  }
+
+  std::shared_ptr<Id> release() { return {std::exchange(ids_, nullptr), std::free}; }
+
+ private:
+  Id* ids_ = nullptr;
+};
+
+/// Where rows go: each has a slot of its own, by its number.
+struct Slots {
+  Id size;  ///< entries of each
+  Id* ids;
+  std::int64_t* sizes;  ///< of the rows
+
+  Id* operator[](Id number) const { return ids + static_cast<std::int64_t>(number) * size; }
+};
+
+/// What one consumer does with its rows.
+class alignas(64) RowWriter {
+ public:
+  RowWriter(const Slots& slots, const Id* row_number, const Id* entry_number)
+      : slots_(slots), row_number_(row_number), entry_number_(entry_number) {}
+
+  /// Writes a segment's rows, step by step: no step waits for the branches and cache misses of another one.
+  void write(const Rows& rows) {
+    const auto begin = [&](Id i) { return rows.offsets[i] - rows.offsets[0]; };
+    const Id count = begin(rows.count);
+    if (translated_.size() < static_cast<std::size_t>(count)) translated_.resize(count);
+    Id* const numbers = translated_.data();
+    const Id* const ids = rows.ids + rows.offsets[0];
+    for (Id i = 0; i < count; ++i) numbers[i] = entry_number_[ids[i]];
+    for (Id i = 0; i < rows.count; ++i) sort_numbers(numbers + begin(i), begin(i + 1) - begin(i));
+    for (Id i = 0; i < rows.count; ++i) place(row_number_[rows.first + i], numbers + begin(i), begin(i + 1) - begin(i));
+  }
+
+  /// Puts rows that no slot holds where they begin in the end.
+  void put_longer(const std::int64_t* begin, Id* to) const {
+    const Id* from = longer_entries_.data();
+    for (const Id number : longer_) {
+      const std::int64_t count = begin[number + 1] - begin[number];
+      std::copy(from, from + count, to + begin[number]);
+      from += count;
+    }
+  }
+
+ private:
+  void place(Id number, const Id* row, Id count) {
+    slots_.sizes[number] = count;
+    if (count <= slots_.size) {
+      Id* const slot = slots_[number];
+      for (Id i = 0; i < count; ++i) slot[i] = row[i];
+    } else {
+      longer_.push_back(number);
+      longer_entries_.insert(longer_entries_.end(), row, row + count);
+    }
+  }
+
+  const Slots slots_;
+  const Id *row_number_, *entry_number_;
+  std::vector<Id> translated_;  ///< the entries of a segment
+  std::vector<Id> longer_, longer_entries_;
+};
+
+/// Moves rows from their slots to where they begin, in the same memory, and leaves gaps for longer ones. Rows that move
+/// down go first to last, neighbours that move up last to first: none is written over before it has moved.
+void move_together(const Slots& slots, const std::int64_t* begin, Id rows) {
+  const auto shift = [&](Id row) { return begin[row] - static_cast<std::int64_t>(row) * slots.size; };
+  const auto held = [&](Id row) {
+    const std::int64_t count = begin[row + 1] - begin[row];
+    return count <= slots.size ? count : 0;
+  };
+  for (Id row = 0; row < rows;) {
+    if (shift(row) <= 0) {
+      const Id* const from = slots[row];
+      Id* const to = slots.ids + begin[row];
+      if (to != from) {
+        for (std::int64_t i = 0, count = held(row); i < count; ++i) to[i] = from[i];
+      }
+      ++row;
+      continue;
+    }
+    const Id first = row;
+    while (row < rows && shift(row) > 0) ++row;
+    for (Id up = row - 1; up >= first; --up) {
+      const Id* const from = slots[up];
+      for (std::int64_t i = held(up) - 1; i >= 0; --i) slots.ids[begin[up] + i] = from[i];
+    }
+  }
+}
+
+}  // namespace
+
+WholeRelation whole_relation(Structure& structure, Relation relation, const Id* row_number, const Id* entry_number,
+                             const SweepOptions& options) {
+  WholeRelation all;
+  all.rows = known_simplices(structure.mesh(), row_dimension(relation));
+  all.columns = known_simplices(structure.mesh(), entry_dimension(relation));
+  const Array<std::int64_t, HostMemory> begin(new std::int64_t[static_cast<std::size_t>(all.rows) + 1],
+                                              static_cast<std::size_t>(all.rows) + 1);
+  all.begin.reset(begin.data());
+
+  Slots slots;
+  slots.size = best_slot_size(sizes_of_some_rows(structure, relation, all.rows));
+  const std::int64_t in_slots = static_cast<std::int64_t>(all.rows) * slots.size;
+  Entries entries(in_slots);
+  slots.ids = entries.ids();
+  slots.sizes = begin.data();
+  std::vector<RowWriter> writers(options.threads, RowWriter(slots, row_number, entry_number));
+  structure.for_each_segment(relation, options, [&](int consumer, const SegmentRows& rows) {
+    if (rows.interval(relation).size() > 0) writers[consumer].write(rows[relation]);
+  });
+
+  const std::int64_t count =
+      exclusive_scan("GALE::row_begin", HostSpace(), all.rows, begin, [&](Offset i) { return begin(i); });
+  if (count > in_slots) entries.resize(count);
+  slots.ids = entries.ids();
+  move_together(slots, begin.data(), all.rows);
+  for (const RowWriter& writer : writers) writer.put_longer(begin.data(), entries.ids());
+  if (count < in_slots) entries.resize(count);
+  all.entries = entries.release();
+  return all;
+}
+
+}  // namespace gale::python
