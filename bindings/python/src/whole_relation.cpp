@@ -7,8 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include <gale/base/parallel.hpp>
-
 namespace gale::python {
 
 namespace {
@@ -110,10 +108,14 @@ class alignas(64) RowWriter {
     if (translated_.size() < static_cast<std::size_t>(count)) translated_.resize(count);
     Id* const numbers = translated_.data();
     const Id* const ids = rows.ids + rows.offsets[0];
+    written_ += count;
     for (Id i = 0; i < count; ++i) numbers[i] = entry_number_[ids[i]];
     for (Id i = 0; i < rows.count; ++i) sort_numbers(numbers + begin(i), begin(i + 1) - begin(i));
     for (Id i = 0; i < rows.count; ++i) place(row_number_[rows.first + i], numbers + begin(i), begin(i + 1) - begin(i));
   }
+
+  /// How many entries.
+  std::int64_t written() const { return written_; }
 
   /// Puts rows that no slot holds where they begin in the end.
   void put_longer(const std::int64_t* begin, Id* to) const {
@@ -140,34 +142,43 @@ class alignas(64) RowWriter {
   const Slots slots_;
   const Id *row_number_, *entry_number_;
   std::vector<Id> translated_;  ///< the entries of a segment
+  std::int64_t written_ = 0;
   std::vector<Id> longer_, longer_entries_;
 };
 
-/// Moves rows from their slots to where they begin, in the same memory, and leaves gaps for longer ones. Rows that move
-/// down go first to last, neighbours that move up last to first: none is written over before it has moved.
-void move_together(const Slots& slots, const std::int64_t* begin, Id rows) {
-  const auto shift = [&](Id row) { return begin[row] - static_cast<std::int64_t>(row) * slots.size; };
-  const auto held = [&](Id row) {
-    const std::int64_t count = begin[row + 1] - begin[row];
-    return count <= slots.size ? count : 0;
+/// Makes of the rows' sizes where they begin, and moves the rows there from their slots, in the same memory; leaves
+/// gaps for longer ones. Rows that move down go first to last, neighbours that move up last to first: none is written
+/// over before it has moved.
+void move_together(const Slots& slots, std::int64_t* begin, Id rows) {
+  std::int64_t end = 0;  // of the rows so far
+  const auto begin_row = [&](Id row) {
+    const std::int64_t size = std::exchange(begin[row], end);
+    end += size;
   };
+  const auto moves_up = [&](Id row) { return end > static_cast<std::int64_t>(row) * slots.size; };
+  const auto held = [&](std::int64_t count) { return count <= slots.size ? count : 0; };
   for (Id row = 0; row < rows;) {
-    if (shift(row) <= 0) {
+    if (!moves_up(row)) {
+      begin_row(row);
       const Id* const from = slots[row];
       Id* const to = slots.ids + begin[row];
+      const std::int64_t count = held(end - begin[row]);
       if (to != from) {
-        for (std::int64_t i = 0, count = held(row); i < count; ++i) to[i] = from[i];
+        for (std::int64_t i = 0; i < count; ++i) to[i] = from[i];
       }
       ++row;
       continue;
     }
     const Id first = row;
-    while (row < rows && shift(row) > 0) ++row;
+    for (; row < rows && moves_up(row); ++row) begin_row(row);
+    std::int64_t up_end = end;
     for (Id up = row - 1; up >= first; --up) {
       const Id* const from = slots[up];
-      for (std::int64_t i = held(up) - 1; i >= 0; --i) slots.ids[begin[up] + i] = from[i];
+      for (std::int64_t i = held(up_end - begin[up]) - 1; i >= 0; --i) slots.ids[begin[up] + i] = from[i];
+      up_end = begin[up];
     }
   }
+  begin[rows] = end;
 }
 
 }  // namespace
@@ -177,27 +188,25 @@ WholeRelation whole_relation(Structure& structure, Relation relation, const Id* 
   WholeRelation all;
   all.rows = known_simplices(structure.mesh(), row_dimension(relation));
   all.columns = known_simplices(structure.mesh(), entry_dimension(relation));
-  const Array<std::int64_t, HostMemory> begin(new std::int64_t[static_cast<std::size_t>(all.rows) + 1],
-                                              static_cast<std::size_t>(all.rows) + 1);
-  all.begin.reset(begin.data());
+  all.begin.reset(new std::int64_t[static_cast<std::size_t>(all.rows) + 1]);
 
   Slots slots;
   slots.size = best_slot_size(sizes_of_some_rows(structure, relation, all.rows));
   const std::int64_t in_slots = static_cast<std::int64_t>(all.rows) * slots.size;
   Entries entries(in_slots);
   slots.ids = entries.ids();
-  slots.sizes = begin.data();
+  slots.sizes = all.begin.get();
   std::vector<RowWriter> writers(options.threads, RowWriter(slots, row_number, entry_number));
   structure.for_each_segment(relation, options, [&](int consumer, const SegmentRows& rows) {
     if (rows.interval(relation).size() > 0) writers[consumer].write(rows[relation]);
   });
 
-  const std::int64_t count =
-      exclusive_scan("GALE::row_begin", HostSpace(), all.rows, begin, [&](Offset i) { return begin(i); });
+  std::int64_t count = 0;
+  for (const RowWriter& writer : writers) count += writer.written();
   if (count > in_slots) entries.resize(count);
   slots.ids = entries.ids();
-  move_together(slots, begin.data(), all.rows);
-  for (const RowWriter& writer : writers) writer.put_longer(begin.data(), entries.ids());
+  move_together(slots, all.begin.get(), all.rows);
+  for (const RowWriter& writer : writers) writer.put_longer(all.begin.get(), entries.ids());
   if (count < in_slots) entries.resize(count);
   all.entries = entries.release();
   return all;
