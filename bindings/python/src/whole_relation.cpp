@@ -7,6 +7,12 @@
 #include <utility>
 #include <vector>
 
+#if defined(__linux__)
+#include <sys/mman.h>
+#endif
+
+#include <gale/base/threads.hpp>
+
 namespace gale::python {
 
 namespace {
@@ -61,6 +67,22 @@ void sort_numbers(Id* numbers, Id count) {
     for (; at > 0 && numbers[at - 1] > number; --at) numbers[at] = numbers[at - 1];
     numbers[at] = number;
   }
+}
+
+/// Has the system give memory that will be written all over, many pages at a time on all threads: a sixth less time
+/// than one by one. A hint: nothing depends on it.
+void expect_writes([[maybe_unused]] void* data, [[maybe_unused]] std::size_t bytes, [[maybe_unused]] int threads) {
+#ifdef MADV_POPULATE_WRITE
+  constexpr std::uintptr_t piece = 1 << 16;
+  const auto place = reinterpret_cast<std::uintptr_t>(data);
+  const std::uintptr_t first = (place + piece - 1) / piece, end = (place + bytes) / piece;
+  if (end <= first) return;
+  on_threads(threads, [&](int thread) {
+    const auto begin_of = [&](int i) { return (first + (end - first) * i / threads) * piece; };
+    const std::uintptr_t begin = begin_of(thread), length = begin_of(thread + 1) - begin;
+    if (length > 0) madvise(reinterpret_cast<void*>(begin), length, MADV_POPULATE_WRITE);
+  });
+#endif
 }
 
 /// Entries whose memory isn't touched before they are written.
@@ -196,6 +218,8 @@ WholeRelation whole_relation(Structure& structure, Relation relation, const Id* 
   Entries entries(in_slots);
   slots.ids = entries.ids();
   slots.sizes = all.begin.get();
+  expect_writes(slots.ids, in_slots * sizeof(Id), options.threads);
+  expect_writes(slots.sizes, static_cast<std::size_t>(all.rows) * sizeof(std::int64_t), options.threads);
   std::vector<RowWriter> writers(options.threads, RowWriter(slots, row_number, entry_number));
   structure.for_each_segment(relation, options, [&](int consumer, const SegmentRows& rows) {
     if (rows.interval(relation).size() > 0) writers[consumer].write(rows[relation]);
