@@ -1,0 +1,117 @@
+"""Relations of grid:N as numpy arrays beside `gale relations`, which writes nothing: processor seconds.
+
+    relation_times.py --command build/bin/gale [-n N] [--turns TURNS] [--threads THREADS] [RELATION...]
+
+Python and the command run in turns, each in a process of its own; medians are printed. Python counts from points and
+tetrahedra in memory to the arrays; the command counts whole, less the seconds that it says it reads (the least of all
+turns). `again` is the same relation of the same mesh once more.
+"""
+
+import argparse
+import json
+import os
+import resource
+import statistics
+import subprocess
+import sys
+import tempfile
+
+ALL = "VV VE VF VT EV EE EF ET FV FE FF FT TV TE TF TT"
+
+
+def spent(who):
+    usage = resource.getrusage(who)
+    return usage.ru_utime + usage.ru_stime
+
+
+def make_input(n, file):
+    import gale
+    import numpy
+
+    mesh, _ = gale.read(f"grid:{n}")
+    _, tetrahedra = mesh.relation("TV")
+    numpy.savez(file, points=mesh.points, tetrahedra=tetrahedra.reshape(-1, 4))
+
+
+def one_relation(name, threads, file):
+    """Prints the seconds of the first call and of the next, and the peak in MiB."""
+    import gale
+    import numpy
+
+    given = numpy.load(file)
+    points, tetrahedra = given["points"], given["tetrahedra"]
+    gale.Mesh(points[:4], [[0, 1, 2, 3]])  # begins Kokkos
+    before = spent(resource.RUSAGE_SELF)
+    mesh = gale.Mesh(points, tetrahedra)
+    rows = mesh.relation(name, threads=threads)
+    first = spent(resource.RUSAGE_SELF) - before
+    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+    del rows
+    before = spent(resource.RUSAGE_SELF)
+    mesh.relation(name, threads=threads)
+    print(first, spent(resource.RUSAGE_SELF) - before, peak)
+
+
+def turn_of_python(name, options, file):
+    call = [sys.executable, __file__, "--one", name, "--threads", str(options.threads), "--file", file]
+    return [float(word) for word in subprocess.run(call, check=True, capture_output=True, text=True).stdout.split()]
+
+
+def turn_of_command(name, options):
+    with tempfile.NamedTemporaryFile() as report:
+        call = [options.command, "relations", f"grid:{options.n}", "--relation", name, "--report", report.name, "--quiet"]
+        before = spent(resource.RUSAGE_CHILDREN)
+        subprocess.run(call + ["--threads", str(options.threads)], check=True)
+        seconds = spent(resource.RUSAGE_CHILDREN) - before
+        with open(report.name) as file:  # the command has put a new one there
+            said = json.load(file)
+    return [seconds, said["seconds"]["read"], said["memory"]["host_peak_bytes"] / 2**20]
+
+
+def medians(turns):
+    return [statistics.median(values) for values in zip(*turns)]
+
+
+def measure(options, file):
+    print(f"grid:{options.n}, {options.threads} threads, medians of {options.turns} turns")
+    print("| | mesh to arrays | the command less reading | of its speed | again | peaks, MiB |\n|---|---|---|---|---|---|")
+    least_read = float("inf")
+    for name in options.relations:
+        python, command = [], []
+        for turn in range(options.turns):
+            for way in ("python", "command") if turn % 2 else ("command", "python"):
+                if way == "python":
+                    python.append(turn_of_python(name, options, file))
+                else:
+                    command.append(turn_of_command(name, options))
+        whole, again, peak = medians(python)
+        command_whole, _, command_peak = medians(command)
+        least_read = min([least_read] + [read for _, read, _ in command])
+        command_whole -= least_read
+        print(f"| {name} | {whole:.2f} s | {command_whole:.2f} s | {100 * command_whole / whole:.0f} % | {again:.2f} s "
+              f"| {peak:.0f}, {command_peak:.0f} |", flush=True)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("relations", nargs="*", default=ALL.split(), metavar="RELATION")
+    parser.add_argument("--command", default="gale")
+    parser.add_argument("-n", type=int, default=120)
+    parser.add_argument("--turns", type=int, default=5)
+    parser.add_argument("--threads", type=int, default=len(os.sched_getaffinity(0)))
+    parser.add_argument("--make", action="store_true", help=argparse.SUPPRESS)
+    parser.add_argument("--one", help=argparse.SUPPRESS)
+    parser.add_argument("--file", help=argparse.SUPPRESS)
+    options = parser.parse_args()
+    if options.make:
+        return make_input(options.n, options.file)
+    if options.one:
+        return one_relation(options.one, options.threads, options.file)
+    with tempfile.TemporaryDirectory() as folder:
+        file = os.path.join(folder, "input.npz")
+        subprocess.run([sys.executable, __file__, "--make", "-n", str(options.n), "--file", file], check=True)
+        measure(options, file)
+
+
+if __name__ == "__main__":
+    main()
