@@ -4,7 +4,7 @@
 #include <vector>
 
 #include <gale/base/require_ids.hpp>
-#include <gale/io/dataset.hpp>
+#include <gale/io/write.hpp>
 #include <gale/mesh/positions.hpp>
 #include <gale/outputs/separatrix_arrays.hpp>
 

@@ -27,7 +27,7 @@ Segmentation octree(const CallersPoints& points, int capacity) {
 std::size_t default_memory(RelationSet wanted, Id vertices) {
   const auto stars = std::size_t(192) * vertices;
   if ((RelationSet(Relation::VV) | Relation::VT).contains(wanted)) return std::max(stars, 16 * gale::detail::mebibyte);
-  constexpr double layers = 4, bytes_of_vertex = 300;
+  constexpr double layers = 5.3, bytes_of_vertex = 300;
   const double side = std::cbrt(vertices), passed = layers * bytes_of_vertex * side * side * host_threads();
   const auto most = std::min(static_cast<std::size_t>(passed), stars);
   return std::max({most, std::size_t(40) * vertices, 16 * gale::detail::mebibyte});
