@@ -45,12 +45,12 @@ class Mesh:
 
     _mesh: _gale.Mesh
 
-    def __init__(self, points: Any, tetrahedra: Any, capacity: int = _gale.default_capacity) -> None:
+    def __init__(self, points: Any, tetrahedra: Any, capacity: int = 64) -> None:
         self._mesh = _gale.Mesh(_arrays.rows(points, (np.float32, np.float64), np.float64),
                                 _arrays.rows(tetrahedra, (np.int32, np.int64), np.int64), capacity)
 
     @classmethod
-    def from_pyvista(cls, grid: Any, capacity: int = _gale.default_capacity) -> Mesh:
+    def from_pyvista(cls, grid: Any, capacity: int = 64) -> Mesh:
         """Of a pyvista.UnstructuredGrid, or a vtkUnstructuredGrid, all of whose cells are tetrahedra. Its points and
         cells are read where they are."""
         from vtkmodules.util.numpy_support import vtk_to_numpy
@@ -163,7 +163,7 @@ class Mesh:
 
 
 def read(path: Union[str, os.PathLike[str]], above: Optional[float] = None, array: str = "", tetrahedralize: bool = False,
-         outside_files: bool = False, capacity: int = _gale.default_capacity) -> Tuple[Mesh, Dict[str, np.ndarray]]:
+         outside_files: bool = False, capacity: int = 64) -> Tuple[Mesh, Dict[str, np.ndarray]]:
     """The mesh of a file, and its point arrays by name, each (n,) or (n, components): (Mesh, dict).
 
     Meshes: .vtu, .pvtu, .vtk, .e, .ex2, .exo, .vtkhdf, .hdf; volumes, of which the voxels with values above `above` are split into tetrahedra: .vti, .nii,

@@ -1,4 +1,5 @@
 """The module as its users have it. Oracles: numpy on the input, and what topology says."""
+import inspect
 import itertools
 import multiprocessing
 import os
@@ -175,6 +176,10 @@ class Analyses(unittest.TestCase):
                 mesh, arrays = gale.read(path)
         self.assertEqual(warned.filename, __file__)
         self.assertEqual((mesh.vertices, *next(iter(arrays.values()))[:2]), (27, 0, 1))
+
+    def test_segments_are_as_large_as_the_library_makes_them(self):
+        for made_by in (gale.Mesh, gale.Mesh.from_pyvista, gale.read):
+            self.assertEqual(inspect.signature(made_by).parameters["capacity"].default, gale._gale.default_capacity)
 
     def test_arrays_outlive_their_owners(self):
         mesh, arrays = gale.read("grid:9")
