@@ -11,7 +11,9 @@
 #include <sys/mman.h>
 #endif
 
+#include <gale/base/parallel.hpp>
 #include <gale/base/threads.hpp>
+#include <gale/relations/faces.hpp>
 
 namespace gale::python {
 
@@ -112,7 +114,7 @@ class Entries {
 struct Slots {
   Id size;  ///< entries of each
   Id* ids;
-  std::int64_t* sizes;  ///< of the rows
+  std::int64_t* sizes;  ///< of the rows; null where all are as long as slots
 
   Id* operator[](Id number) const { return ids + static_cast<std::int64_t>(number) * size; }
 };
@@ -151,7 +153,7 @@ class alignas(64) RowWriter {
 
  private:
   void place(Id number, const Id* row, Id count) {
-    slots_.sizes[number] = count;
+    if (slots_.sizes != nullptr) slots_.sizes[number] = count;
     if (count <= slots_.size) {
       Id* const slot = slots_[number];
       for (Id i = 0; i < count; ++i) slot[i] = row[i];
@@ -212,19 +214,26 @@ WholeRelation whole_relation(Structure& structure, Relation relation, const Id* 
   all.columns = known_simplices(structure.mesh(), entry_dimension(relation));
   all.begin.reset(new std::int64_t[static_cast<std::size_t>(all.rows) + 1]);
 
+  const bool faces = row_dimension(relation) > entry_dimension(relation);
   Slots slots;
-  slots.size = best_slot_size(sizes_of_some_rows(structure, relation, all.rows));
+  slots.size = faces ? face_count(relation) : best_slot_size(sizes_of_some_rows(structure, relation, all.rows));
   const std::int64_t in_slots = static_cast<std::int64_t>(all.rows) * slots.size;
   Entries entries(in_slots);
   slots.ids = entries.ids();
-  slots.sizes = all.begin.get();
+  slots.sizes = faces ? nullptr : all.begin.get();
   expect_writes(slots.ids, in_slots * sizeof(Id), options.threads);
-  expect_writes(slots.sizes, static_cast<std::size_t>(all.rows) * sizeof(std::int64_t), options.threads);
+  expect_writes(all.begin.get(), static_cast<std::size_t>(all.rows) * sizeof(std::int64_t), options.threads);
   std::vector<RowWriter> writers(options.threads, RowWriter(slots, row_number, entry_number));
   structure.for_each_segment(relation, options, [&](int consumer, const SegmentRows& rows) {
     if (rows.interval(relation).size() > 0) writers[consumer].write(rows[relation]);
   });
 
+  if (faces) {
+    parallel_for("GALE::row_begin", HostSpace(), all.rows + Offset(1),
+                 [&](Offset i) { all.begin[i] = slots.size * i; });
+    all.entries = entries.release();
+    return all;
+  }
   std::int64_t count = 0;
   for (const RowWriter& writer : writers) count += writer.written();
   if (count > in_slots) entries.resize(count);

@@ -55,11 +55,16 @@ Connectivity::Connectivity(const CallersPoints& points, const Cells& cells, cons
   }
 }
 
-/// Encodes, if nobody needed that yet.
+/// Encodes, if nobody needed that yet. If it throws, all is as it was.
 void Connectivity::need_mesh() {
   if (mesh_) return;
   segments_ = Segments();  // what cells touch a segment is found again, sooner than both would fit
-  mesh_.emplace(Tetrahedra<Id, HostMemory>(cells_.copy(counts_[0])), segmentation_);
+  try {
+    mesh_.emplace(Tetrahedra<Id, HostMemory>(cells_.copy(counts_[0])), segmentation_);
+  } catch (...) {
+    if (finds_stars_in_cells_) set_segments(Segments(segmentation_));
+    throw;
+  }
   set_segments(Segments(*mesh_));
 }
 

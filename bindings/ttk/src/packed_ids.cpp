@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <gale/base/parallel.hpp>
 #include <gale/ttk/packed_ids.hpp>
 
@@ -5,7 +7,7 @@ namespace gale::ttk {
 
 PackedIds::PackedIds(const Array<Id, HostMemory>& ids, Id least, Id greatest)
     : least_(least), size_(static_cast<Id>(ids.extent(0))) {
-  const auto range = static_cast<std::uint64_t>(Offset(greatest) - least);
+  const auto range = static_cast<std::uint64_t>(std::max(Offset(greatest) - least, Offset(0)));  // of none, below 0
   while (range >> bits_ > 0) ++bits_;
   mask_ = (std::uint64_t(1) << bits_) - 1;
   constexpr Offset together = 8;  // they fill bytes, so that no other thread writes there

@@ -32,11 +32,20 @@ void sort_ids(std::vector<Id>& ids, std::vector<Id>& other) {
 
 }  // namespace
 
+/// What one segment with very many made large becomes smaller again, by half a segment.
 void OutsideVertices::begin(Id first) {
+  constexpr std::size_t least = 512;
+  const auto before = static_cast<std::size_t>(next_ - first_);
+  if (slots_.empty()) slots_.resize(least);
+  if (slots_.size() > least && 16 * before < slots_.size()) slots_.resize(slots_.size() / 2);
   first_ = next_ = first;
-  if (slots_.empty()) slots_.resize(512);
-  mask_ = static_cast<std::uint32_t>(slots_.size()) - 1;
   std::fill(slots_.begin(), slots_.end(), Slot{no_id, no_id});
+  set_mask();
+}
+
+void OutsideVertices::set_mask() {
+  mask_ = static_cast<std::uint32_t>(slots_.size()) - 1;
+  for (shift_ = 32; shift_ > 0 && slots_.size() >> (32 - shift_) > 1;) --shift_;
 }
 
 /// Half of the slots stay empty.
@@ -46,7 +55,7 @@ Id OutsideVertices::add(Id vertex, Slot& slot) {
   if (2 * std::size_t(next_ - first_) > slots_.size()) {
     std::vector<Slot> filled(2 * slots_.size(), Slot{no_id, no_id});
     filled.swap(slots_);
-    mask_ = static_cast<std::uint32_t>(slots_.size()) - 1;
+    set_mask();
     for (const Slot& old : filled) {
       if (old.vertex == no_id) continue;
       std::uint32_t at = hash(old.vertex);
@@ -59,13 +68,14 @@ Id OutsideVertices::add(Id vertex, Slot& slot) {
 
 void StarRows::find(Id segment) {
   if (segment == segment_) return;
-  segment_ = segment;
+  segment_ = no_id;  // unless all goes well
   first_ = segments_.vertices(segment).first;
   rows_ = segments_.vertices(segment).size();
   segments_.gather(segment, near_);
   sort_ids(near_, unsorted_);
   number_corners();
   place_cells();
+  segment_ = segment;
 }
 
 /// Counts the stars, too.

@@ -30,11 +30,14 @@ class OutsideVertices {
     Id vertex, number;
   };
 
-  std::uint32_t hash(Id vertex) const { return (std::uint32_t(vertex) * 2654435769u >> 7) & mask_; }
+  /// By the highest bits of a product: in grids ids that differ by powers of two come together.
+  std::uint32_t hash(Id vertex) const { return std::uint32_t(vertex) * 2654435769u >> shift_; }
+  void set_mask();
   Id add(Id vertex, Slot& slot);
 
   std::vector<Slot> slots_;
   std::uint32_t mask_ = 0;
+  int shift_ = 32;  ///< to as many bits as number the slots
   Id first_ = 0, next_ = 0;
 };
 

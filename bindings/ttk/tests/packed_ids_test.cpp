@@ -41,6 +41,11 @@ TEST(TtkPackedIds, are_those_that_were_packed) {
   }
 }
 
+TEST(TtkPackedIds, may_be_none) {
+  const ttk::PackedIds none(Array<Id, HostMemory>("ids", 0), 0, -1);
+  EXPECT_EQ(none.size(), 0);
+}
+
 TEST(TtkPackedIds, take_no_more_bits_than_the_greatest) {
   Array<Id, HostMemory> array("ids", 8000);
   for (Id i = 0; i < 8000; ++i) array(i) = i;

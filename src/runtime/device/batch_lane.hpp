@@ -19,7 +19,7 @@ struct SweepKernel {
 /// Segments for one batch, and what they are known to need beyond the usual.
 struct BatchPlan {
   Id begin = 0, end = 0;           ///< of the interval that they are; none of it if they are what others lacked
-  LaunchOrder order;               ///< they; empty where it is the interval's
+  LaunchOrder order;               ///< they; empty where they are an interval of which none is large
   Offset words = 0;                ///< room for so many at least
   std::vector<StarSizes> scratch;  ///< by kernel; none: the usual
 

@@ -13,9 +13,10 @@ namespace {
 /// Bytes of scratch memory for the teams of one launch whose segments need more than the fast one.
 constexpr std::size_t most_scratch = 256 * mebibyte;
 
-/// What Kokkos throws where the device lacks memory for a launch.
+/// What Kokkos throws where the device lacks memory for a launch, and not for an illegal access to it.
 bool says_out_of_memory(const std::exception& error) {
   const std::string what = error.what();
+  if (what.find("illegal") != std::string::npos) return false;
   return what.find("memory") != std::string::npos || what.find("Memory") != std::string::npos;
 }
 
@@ -30,17 +31,23 @@ class Launches {
 
   bool all_fast() const { return all_fast_; }
 
+  /// On the segments at such places in the batch, each in the memory for `sizes`.
   void launch(Id begin, Id end, const StarSizes& sizes) {
     KernelTask part = task_;
-    part.segments = task_.segments.from_place(begin);
-    part.pool.directory += Offset(begin) * kernel_.wanted().count();
     part.sizes = sizes;
     part.scratch_level = is_fast(sizes) ? 0 : 1;
     all_fast_ &= part.scratch_level == 0;
-    kernel_.launch(instance_, part, end - begin, bounds_.warps);
+    const Id most =
+        part.scratch_level == 0 ? end - begin : static_cast<Id>(std::max<std::size_t>(most_scratch / bytes(sizes), 1));
+    for (Id last = begin; begin < end; begin = last) {
+      last = end - begin > most ? begin + most : end;
+      part.segments = task_.segments.from_place(begin);
+      part.pool.directory = task_.pool.directory + Offset(begin) * kernel_.wanted().count();
+      kernel_.launch(instance_, part, last - begin, bounds_.warps);
+    }
   }
 
-  /// On the segments whose places in the batch begin at `begin`, each group in the memory of its greediest.
+  /// On the large ones, whose places begin at `begin`, each group in the memory of its greediest.
   void launch_large(Id begin, const BatchLaunch& batch, const StarSizes& usual) {
     for (Id first = 0, end = 0; first < batch.large_count; first = end) {
       StarSizes sizes = usual;
@@ -81,7 +88,7 @@ bool launch_batch(const typename SegmentKernel<Memory>::Space& instance, Segment
     Launches<Memory> launches(instance, kernel, bounds, task);
     const StarSizes usual = larger(bounds.usual, batch.least);
     const Id others = batch.count - batch.large_count;
-    if (others > 0) launches.launch(0, others, usual);
+    launches.launch(0, others, usual);
     launches.launch_large(others, batch, usual);
     return launches.all_fast();
   } catch (const std::exception& error) {

@@ -94,8 +94,8 @@ Arena* BlockStore::find_evictable(Use use, std::size_t words) {
   for (Arena* const arena : use == Use::read ? requested_ : ahead_) {
     const bool unread = arena->unread.load() > 0;
     if (arena->pins.load() != 0 || arena->words.size() < words || unread != (use == Use::unread)) continue;
-    const std::int64_t age =
-        unread ? -std::int64_t(arena->segments.front()) : arena->last_use.load(std::memory_order_relaxed);
+    const std::int64_t age = unread ? -std::int64_t(*std::min_element(arena->segments.begin(), arena->segments.end()))
+                                    : arena->last_use.load(std::memory_order_relaxed);
     candidates.emplace_back(age, arena);
   }
   std::sort(candidates.begin(), candidates.end());

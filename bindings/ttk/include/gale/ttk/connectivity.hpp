@@ -118,7 +118,9 @@ class GALE_EXPORT Connectivity {
     return readers_->here([this] { return std::make_unique<Reader>(*store_); });
   }
 
-  /// The row that a thread read last, of any triangulation: found without a look at what else the thread has.
+  /// The row that a thread read last, of any triangulation: found without a look at what else the thread has. It stays
+  /// valid as long as it is found, since its block is left by read() alone, on the same thread, which forgets it first;
+  /// and no number of readers is given twice.
   struct LastRow {
     std::uint64_t key = 0;
     Row row;

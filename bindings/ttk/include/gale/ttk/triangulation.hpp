@@ -2,6 +2,7 @@
 
 #include <AbstractTriangulation.h>
 
+#include <exception>
 #include <limits>
 #include <memory>
 #include <string>
@@ -211,7 +212,7 @@ class Triangulation final : public ::ttk::AbstractTriangulation {
       const ThreadLimit limit(this->threadNumber_);
       action();
       return 0;
-    } catch (const Error& error) {
+    } catch (const std::exception& error) {
       this->printErr(error.what());
       return -1;
     }
