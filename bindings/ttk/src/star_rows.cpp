@@ -32,40 +32,6 @@ void sort_ids(std::vector<Id>& ids, std::vector<Id>& other) {
 
 }  // namespace
 
-/// What one segment with very many made large becomes smaller again, by half a segment.
-void OutsideVertices::begin(Id first) {
-  constexpr std::size_t least = 512;
-  const auto before = static_cast<std::size_t>(next_ - first_);
-  if (slots_.empty()) slots_.resize(least);
-  if (slots_.size() > least && 16 * before < slots_.size()) slots_.resize(slots_.size() / 2);
-  first_ = next_ = first;
-  std::fill(slots_.begin(), slots_.end(), Slot{no_id, no_id});
-  set_mask();
-}
-
-void OutsideVertices::set_mask() {
-  mask_ = static_cast<std::uint32_t>(slots_.size()) - 1;
-  for (shift_ = 32; shift_ > 0 && slots_.size() >> (32 - shift_) > 1;) --shift_;
-}
-
-/// Half of the slots stay empty.
-Id OutsideVertices::add(Id vertex, Slot& slot) {
-  slot = {vertex, next_++};
-  const Id number = slot.number;
-  if (2 * std::size_t(next_ - first_) > slots_.size()) {
-    std::vector<Slot> filled(2 * slots_.size(), Slot{no_id, no_id});
-    filled.swap(slots_);
-    set_mask();
-    for (const Slot& old : filled) {
-      if (old.vertex == no_id) continue;
-      std::uint32_t at = hash(old.vertex);
-      while (slots_[at].vertex != no_id) at = (at + 1) & mask_;
-      slots_[at] = old;
-    }
-  }
-  return number;
-}
-
 void StarRows::find(Id segment) {
   if (segment == segment_) return;
   segment_ = no_id;  // unless all goes well
@@ -83,7 +49,7 @@ void StarRows::number_corners() {
   constexpr std::size_t ahead = 12;
   const Id *const vertex_input = segments_.vertex_input(), *const vertex_internal = segments_.vertex_internal();
   vertices_.assign(vertex_input + first_, vertex_input + first_ + rows_);
-  outside_.begin(rows_);
+  outside_.clear();
   star_begin_.assign(rows_ + 1, 0);
   corners_.resize(near_.size());
   for (std::size_t i = 0; i < near_.size(); ++i) {
@@ -94,8 +60,12 @@ void StarRows::number_corners() {
       if (number >= 0 && number < rows_) {
         ++star_begin_[number + 1];
       } else {
-        number = outside_.number(vertex);
-        if (number == static_cast<Id>(vertices_.size())) vertices_.push_back(vertex);
+        const auto [known, is_new] = outside_.insert(static_cast<std::uint32_t>(vertex));
+        if (is_new) {
+          known = static_cast<Id>(vertices_.size());
+          vertices_.push_back(vertex);
+        }
+        number = known;
       }
       corners_[i][corner] = number;
     }

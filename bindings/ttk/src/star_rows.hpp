@@ -5,41 +5,11 @@
 #include <vector>
 
 #include <gale/algorithms/links/large_link.hpp>
+#include <gale/base/hash_table.hpp>
 #include <gale/ttk/block_store.hpp>
 #include <gale/ttk/segments.hpp>
 
 namespace gale::ttk {
-
-/// The other vertices that a segment's cells have, numbered as they come.
-class OutsideVertices {
- public:
-  /// Forgets all. The next is numbered `first`.
-  void begin(Id first);
-
-  /// The number of a vertex (the caller's id), which is a new one if it wasn't asked for yet.
-  Id number(Id vertex) {
-    for (std::uint32_t at = hash(vertex);; at = (at + 1) & mask_) {
-      Slot& slot = slots_[at];
-      if (slot.vertex == vertex) return slot.number;
-      if (slot.vertex == no_id) return add(vertex, slot);
-    }
-  }
-
- private:
-  struct Slot {
-    Id vertex, number;
-  };
-
-  /// By the highest bits of a product: in grids ids that differ by powers of two come together.
-  std::uint32_t hash(Id vertex) const { return std::uint32_t(vertex) * 2654435769u >> shift_; }
-  void set_mask();
-  Id add(Id vertex, Slot& slot);
-
-  std::vector<Slot> slots_;
-  std::uint32_t mask_ = 0;
-  int shift_ = 32;  ///< to as many bits as number the slots
-  Id first_ = 0, next_ = 0;
-};
 
 /// Stars and neighbours of a segment's vertices in the caller's ids and in TTK's order, straight from the caller's
 /// cells: these are sorted once for the segment, so that no star is. What the host does where no device makes stars.
@@ -75,10 +45,10 @@ class StarRows {
   const Cells cells_;
 
   Id segment_ = no_id, first_ = 0, rows_ = 0;
-  std::vector<Id> near_, unsorted_;  ///< the cells that touch the segment, ascending
-  std::vector<Corners> corners_;     ///< of each of them
-  std::vector<Id> vertices_;         ///< row or number -> the caller's id
-  OutsideVertices outside_;
+  std::vector<Id> near_, unsorted_;    ///< the cells that touch the segment, ascending
+  std::vector<Corners> corners_;       ///< of each of them
+  std::vector<Id> vertices_;           ///< row or number -> the caller's id
+  HashTable<Id> outside_;              ///< vertices that other segments hold (the caller's ids) -> their numbers
   std::vector<Id> star_begin_, star_;  ///< row -> places in near_, ascending
 
   /// Of the row that is made: where it has each vertex (by number, with the row above, so that nothing is cleared

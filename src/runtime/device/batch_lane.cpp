@@ -63,8 +63,8 @@ void BatchLane<Memory>::launch_kernel(int k, SegmentList segments, Offset* direc
   task.segments = segments;
   task.pool = {memory_.words.data(), plan_.words, &memory_.header.data()->used, directory,
                &memory_.header.data()->needed[k]};
-  const BatchLaunch launch = plan_.order.launch(count, plan_.scratch.empty() ? StarSizes() : plan_.scratch[k]);
-  if (!launch_batch(memory_.instance, kernel, *kernels_[k].bounds, task, launch))
+  const StarSizes least = plan_.scratch.empty() ? StarSizes() : plan_.scratch[k];
+  if (!launch_batch(memory_.instance, kernel, *kernels_[k].bounds, task, plan_.order, count, least))
     is_worth_keeping_ = false;  // nor what its instance takes for that
   Batch<Memory>& batch = batches_.of[k];
   batch.count = count;

@@ -48,11 +48,12 @@ class Launches {
   }
 
   /// On the large ones, whose places begin at `begin`, each group in the memory of its greediest.
-  void launch_large(Id begin, const BatchLaunch& batch, const StarSizes& usual) {
-    for (Id first = 0, end = 0; first < batch.large_count; first = end) {
+  void launch_large(Id begin, const LaunchOrder& order, const StarSizes& usual) {
+    const Id* const large = order.segments.data() + order.segments.size() - order.large;
+    for (Id first = 0, end = 0; first < order.large; first = end) {
       StarSizes sizes = usual;
-      for (; end < batch.large_count; ++end) {
-        const StarSizes together = larger(sizes, need_of(batch.large[end], usual));
+      for (; end < order.large; ++end) {
+        const StarSizes together = larger(sizes, need_of(large[end], usual));
         if (end > first && !is_fast(together) &&
             bytes(together) * static_cast<std::size_t>(end + 1 - first) > most_scratch)
           break;
@@ -83,23 +84,24 @@ class Launches {
 
 template <class Memory>
 bool launch_batch(const typename SegmentKernel<Memory>::Space& instance, SegmentKernel<Memory>& kernel,
-                  const SegmentBounds& bounds, const KernelTask& task, const BatchLaunch& batch) {
+                  const SegmentBounds& bounds, const KernelTask& task, const LaunchOrder& order, Id count,
+                  const StarSizes& least) {
   try {
     Launches<Memory> launches(instance, kernel, bounds, task);
-    const StarSizes usual = larger(bounds.usual, batch.least);
-    const Id others = batch.count - batch.large_count;
+    const StarSizes usual = larger(bounds.usual, least);
+    const Id others = count - order.large;
     launches.launch(0, others, usual);
-    launches.launch_large(others, batch, usual);
+    launches.launch_large(others, order, usual);
     return launches.all_fast();
   } catch (const std::exception& error) {
     if (dynamic_cast<const Error*>(&error) != nullptr || !says_out_of_memory(error)) throw;
-    throw OutOfMemory("there is no scratch memory for a batch of " + std::to_string(batch.count) + " segments");
+    throw OutOfMemory("there is no scratch memory for a batch of " + std::to_string(count) + " segments");
   }
 }
 
 #define GALE_INSTANTIATE(Space)                                                                                      \
   template bool launch_batch(const Space&, SegmentKernel<MemoryOf<Space>>&, const SegmentBounds&, const KernelTask&, \
-                             const BatchLaunch&)
+                             const LaunchOrder&, Id, const StarSizes&)
 GALE_IN_EACH_SPACE(GALE_INSTANTIATE);
 #undef GALE_INSTANTIATE
 

@@ -52,7 +52,7 @@ class DeviceBatchWorker : public BatchWorker {
     *header_copy_.data() = Header();
     Kokkos::deep_copy(instance_, header_, header_copy_.view());
     Kokkos::deep_copy(instance_, first_of(segments_, count), first_of(segments_copy_.view(), count));
-    launch_batch(instance_, kernel_, *bounds_, task_, order.launch(static_cast<Id>(count), scratch));
+    launch_batch(instance_, kernel_, *bounds_, task_, order, static_cast<Id>(count), scratch);
     Kokkos::deep_copy(instance_, header_copy_.view(), header_);
     Kokkos::deep_copy(instance_, first_of(directory_copy_.view(), count * relations_),
                       first_of(directory_, count * relations_));
