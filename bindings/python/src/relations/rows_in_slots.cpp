@@ -1,29 +1,15 @@
-#include "whole_relation.hpp"
+#include "rows_in_slots.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 #include <limits>
-#include <new>
 #include <utility>
 #include <vector>
 
-#if defined(__linux__)
-#include <sys/mman.h>
-#endif
-
-#include <gale/base/parallel.hpp>
-#include <gale/base/threads.hpp>
-#include <gale/relations/faces.hpp>
+#include "entries.hpp"
 
 namespace gale::python {
 
 namespace {
-
-/// How many simplices of a dimension the mesh has. They have been needed.
-Id known_simplices(const Mesh& mesh, int dimension) {
-  const Id counts[] = {mesh.vertices(), mesh.known_edges(), mesh.known_triangles(), mesh.tetrahedra()};
-  return counts[dimension];
-}
 
 /// Sizes of some rows from all over the mesh, ascending.
 std::vector<Id> sizes_of_some_rows(Structure& structure, Relation relation, Id rows) {
@@ -71,50 +57,11 @@ void sort_numbers(Id* numbers, Id count) {
   }
 }
 
-/// Has the system give memory that will be written all over, many pages at a time on all threads: a sixth less time
-/// than one by one. A hint: nothing depends on it.
-void expect_writes([[maybe_unused]] void* data, [[maybe_unused]] std::size_t bytes, [[maybe_unused]] int threads) {
-#ifdef MADV_POPULATE_WRITE
-  constexpr std::uintptr_t piece = 1 << 16;
-  const auto place = reinterpret_cast<std::uintptr_t>(data);
-  const std::uintptr_t first = (place + piece - 1) / piece, end = (place + bytes) / piece;
-  if (end <= first) return;
-  on_threads(threads, [&](int thread) {
-    const auto begin_of = [&](int i) { return (first + (end - first) * i / threads) * piece; };
-    const std::uintptr_t begin = begin_of(thread), length = begin_of(thread + 1) - begin;
-    if (length > 0) madvise(reinterpret_cast<void*>(begin), length, MADV_POPULATE_WRITE);
-  });
-#endif
-}
-
-/// Entries whose memory isn't touched before they are written.
-class Entries {
- public:
-  explicit Entries(std::size_t count) { resize(count); }
-  ~Entries() { std::free(ids_); }
-  Entries(const Entries&) = delete;
-  Entries& operator=(const Entries&) = delete;
-
-  Id* ids() { return ids_; }
-
-  /// The first ones stay as they are.
-  void resize(std::size_t count) {
-    void* const ids = std::realloc(ids_, std::max<std::size_t>(count, 1) * sizeof(Id));
-    if (ids == nullptr) throw std::bad_alloc();
-    ids_ = static_cast<Id*>(ids);
-  }
-
-  std::shared_ptr<Id> release() { return {std::exchange(ids_, nullptr), std::free}; }
-
- private:
-  Id* ids_ = nullptr;
-};
-
 /// Where rows go: each has a slot of its own, by its number.
 struct Slots {
   Id size;  ///< entries of each
   Id* ids;
-  std::int64_t* sizes;  ///< of the rows; null where all are as long as slots
+  std::int64_t* sizes;  ///< of the rows
 
   Id* operator[](Id number) const { return ids + static_cast<std::int64_t>(number) * size; }
 };
@@ -122,8 +69,7 @@ struct Slots {
 /// What one consumer does with its rows.
 class alignas(64) RowWriter {
  public:
-  RowWriter(const Slots& slots, const Id* row_number, const Id* entry_number)
-      : slots_(slots), row_number_(row_number), entry_number_(entry_number) {}
+  RowWriter(const Slots& slots, const Numbers& numbers) : slots_(slots), numbers_(numbers) {}
 
   /// Writes a segment's rows, step by step: no step waits for the branches and cache misses of another one.
   void write(const Rows& rows) {
@@ -133,9 +79,11 @@ class alignas(64) RowWriter {
     Id* const numbers = translated_.data();
     const Id* const ids = rows.ids + rows.offsets[0];
     written_ += count;
-    for (Id i = 0; i < count; ++i) numbers[i] = entry_number_[ids[i]];
+    for (Id i = 0; i < rows.count; ++i) prefetch(numbers_.rows[rows.first + i], begin(i + 1) - begin(i));
+    for (Id i = 0; i < count; ++i) numbers[i] = numbers_.entries[ids[i]];
     for (Id i = 0; i < rows.count; ++i) sort_numbers(numbers + begin(i), begin(i + 1) - begin(i));
-    for (Id i = 0; i < rows.count; ++i) place(row_number_[rows.first + i], numbers + begin(i), begin(i + 1) - begin(i));
+    for (Id i = 0; i < rows.count; ++i)
+      place(numbers_.rows[rows.first + i], numbers + begin(i), begin(i + 1) - begin(i));
   }
 
   /// How many entries.
@@ -152,8 +100,15 @@ class alignas(64) RowWriter {
   }
 
  private:
+  void prefetch(Id number, Id count) const {
+    constexpr Id line = 16;
+    __builtin_prefetch(slots_.sizes + number, 1);
+    const Id* const slot = slots_[number];
+    for (Id i = 0; i < count; i += line) __builtin_prefetch(slot + i, 1);
+  }
+
   void place(Id number, const Id* row, Id count) {
-    if (slots_.sizes != nullptr) slots_.sizes[number] = count;
+    slots_.sizes[number] = count;
     if (count <= slots_.size) {
       Id* const slot = slots_[number];
       for (Id i = 0; i < count; ++i) slot[i] = row[i];
@@ -164,7 +119,7 @@ class alignas(64) RowWriter {
   }
 
   const Slots slots_;
-  const Id *row_number_, *entry_number_;
+  const Numbers numbers_;
   std::vector<Id> translated_;  ///< the entries of a segment
   std::int64_t written_ = 0;
   std::vector<Id> longer_, longer_entries_;
@@ -207,33 +162,22 @@ void move_together(const Slots& slots, std::int64_t* begin, Id rows) {
 
 }  // namespace
 
-WholeRelation whole_relation(Structure& structure, Relation relation, const Id* row_number, const Id* entry_number,
-                             const SweepOptions& options) {
-  WholeRelation all;
-  all.rows = known_simplices(structure.mesh(), row_dimension(relation));
-  all.columns = known_simplices(structure.mesh(), entry_dimension(relation));
-  all.begin.reset(new std::int64_t[static_cast<std::size_t>(all.rows) + 1]);
-
-  const bool faces = row_dimension(relation) > entry_dimension(relation);
+WholeRelation rows_in_slots(Structure& structure, Relation relation, const Numbers& numbers,
+                            const SweepOptions& options) {
+  const auto known = [&](int dimension) { return known_simplices(structure.mesh(), dimension); };
+  WholeRelation all = {known(row_dimension(relation)), known(entry_dimension(relation)), nullptr, nullptr};
+  all.begin = new_begins(all.rows + std::size_t(1), options.threads);
   Slots slots;
-  slots.size = faces ? face_count(relation) : best_slot_size(sizes_of_some_rows(structure, relation, all.rows));
+  slots.size = best_slot_size(sizes_of_some_rows(structure, relation, all.rows));
   const std::int64_t in_slots = static_cast<std::int64_t>(all.rows) * slots.size;
-  Entries entries(in_slots);
+  Entries entries(in_slots, options.threads);
   slots.ids = entries.ids();
-  slots.sizes = faces ? nullptr : all.begin.get();
-  expect_writes(slots.ids, in_slots * sizeof(Id), options.threads);
-  expect_writes(all.begin.get(), static_cast<std::size_t>(all.rows) * sizeof(std::int64_t), options.threads);
-  std::vector<RowWriter> writers(options.threads, RowWriter(slots, row_number, entry_number));
+  slots.sizes = all.begin.get();
+  std::vector<RowWriter> writers(options.threads, RowWriter(slots, numbers));
   structure.for_each_segment(relation, options, [&](int consumer, const SegmentRows& rows) {
     if (rows.interval(relation).size() > 0) writers[consumer].write(rows[relation]);
   });
 
-  if (faces) {
-    parallel_for("GALE::row_begin", HostSpace(), all.rows + Offset(1),
-                 [&](Offset i) { all.begin[i] = slots.size * i; });
-    all.entries = entries.release();
-    return all;
-  }
   std::int64_t count = 0;
   for (const RowWriter& writer : writers) count += writer.written();
   if (count > in_slots) entries.resize(count);

@@ -1,7 +1,6 @@
 #include <gale/base/error.hpp>
-#include <gale/runtime/make_structure.hpp>
 
-#include "mesh.hpp"
+#include "../mesh.hpp"
 #include "whole_relation.hpp"
 
 namespace gale::python {
@@ -14,9 +13,11 @@ nb::tuple PyMesh::relation(const std::string& name, int threads, const nb::objec
   {
     const Call call;
     const ThreadLimit limit(options.threads);
-    const auto structure = make_structure(mesh(), *relation);
-    const auto [row_number, entry_number] = numbers(row_dimension(*relation), entry_dimension(*relation));
-    rows = whole_relation(*structure, *relation, row_number, entry_number, options);
+    const auto numbers_of = [this](Relation one) {
+      const auto [of_rows, of_entries] = numbers(row_dimension(one), entry_dimension(one));
+      return Numbers{of_rows, of_entries};
+    };
+    rows = whole_relation(mesh(), *relation, numbers_of, options);
   }
   const auto begins = static_cast<std::size_t>(rows.rows) + 1;
   const auto entries = static_cast<std::size_t>(rows.begin[rows.rows]);

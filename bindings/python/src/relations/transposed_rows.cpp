@@ -1,0 +1,96 @@
+#include "transposed_rows.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <limits>
+#include <new>
+#include <utility>
+#include <vector>
+
+#include <gale/base/parallel.hpp>
+#include <gale/base/threads.hpp>
+
+#include "entries.hpp"
+#include "row_begins.hpp"
+
+namespace gale::python {
+
+namespace {
+
+/// Consecutive simplices, and how many of them each face has. Most parts have some faces only: memory of the others'
+/// counts is never touched.
+class Part {
+ public:
+  Part(const FaceRows& faces, Offset first, Offset last)
+      : faces_(faces),
+        first_(first),
+        last_(last),
+        counts_(static_cast<Id*>(std::calloc(std::max(faces.columns, 1), sizeof(Id)))) {
+    if (!counts_) throw std::bad_alloc();
+  }
+
+  void count() {
+    Id* const counts = counts_.get();
+    for (Offset i = first_; i < last_; ++i) {
+      const Id* const row = faces_.row(i);
+      least_ = std::min(least_, row[0]);
+      most_ = std::max(most_, row[faces_.size - 1]);
+      for (int k = 0; k < faces_.size; ++k) ++counts[row[k]];
+    }
+  }
+
+  /// Returns how many simplices a face has here, and remembers instead how many are before them in its row.
+  Id begin_behind(Id before, Id face) {
+    if (face < least_ || face > most_) return 0;
+    return std::exchange(counts_.get()[face], before);
+  }
+
+  /// Writes them; begin[face] is where the face's row begins.
+  void place(const std::int64_t* begin, Id* entries) {
+    Id* const next = counts_.get();
+    for (Offset i = first_; i < last_; ++i) {
+      const Id* const row = faces_.row(i);
+      for (int k = 0; k < faces_.size; ++k) entries[begin[row[k]] + next[row[k]]++] = static_cast<Id>(i);
+    }
+  }
+
+ private:
+  struct Free {
+    void operator()(Id* ids) const { std::free(ids); }
+  };
+
+  const FaceRows& faces_;
+  Offset first_, last_;
+  std::unique_ptr<Id, Free> counts_;
+  Id least_ = std::numeric_limits<Id>::max(), most_ = no_id;  ///< faces that are counted
+};
+
+/// So few that the counts take no more than twice the memory of the entries, also where each part has all faces.
+std::vector<Part> parts_of(const FaceRows& faces, int threads) {
+  const Offset entries = faces.size * Offset(faces.rows);
+  const int count = static_cast<int>(std::clamp<Offset>(2 * entries / std::max(faces.columns, 1), 1, threads));
+  std::vector<Part> parts;
+  for (int i = 0; i < count; ++i)
+    parts.emplace_back(faces, detail::part_begin(faces.rows, count, i), detail::part_begin(faces.rows, count, i + 1));
+  return parts;
+}
+
+}  // namespace
+
+WholeRelation transposed_rows(const FaceRows& faces, int threads) {
+  WholeRelation all = {faces.columns, faces.rows, new_begins(faces.columns + std::size_t(1), threads), nullptr};
+  std::vector<Part> parts = parts_of(faces, threads);
+  const int part_count = static_cast<int>(parts.size());
+  on_threads(part_count, [&](int i) { parts[i].count(); });
+  const std::int64_t count = set_begins(all, [&](Offset face) {
+    Id sum = 0;
+    for (Part& part : parts) sum += part.begin_behind(sum, static_cast<Id>(face));
+    return sum;
+  });
+  Entries entries(count, threads);
+  on_threads(part_count, [&](int i) { parts[i].place(all.begin.get(), entries.ids()); });
+  all.entries = entries.release();
+  return all;
+}
+
+}  // namespace gale::python
