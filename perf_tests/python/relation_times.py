@@ -64,9 +64,9 @@ def turn_of_python(name, options, file):
 
 def turn_of_command(name, options):
     with tempfile.NamedTemporaryFile() as report:
-        call = [options.command, "relations", f"grid:{options.n}", "--relation", name, "--report", report.name, "--quiet"]
+        call = [options.command, "relations", f"grid:{options.n}", "--relation", name, "--report", report.name]
         before = spent(resource.RUSAGE_CHILDREN)
-        subprocess.run(call + ["--threads", str(options.threads)], check=True)
+        subprocess.run(call + ["--quiet", "--threads", str(options.threads)], check=True)
         seconds = spent(resource.RUSAGE_CHILDREN) - before
         with open(report.name) as file:  # the command has put a new one there
             said = json.load(file)

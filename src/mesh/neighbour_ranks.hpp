@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstring>
 #include <vector>
 
 #include <gale/base/types.hpp>
@@ -37,12 +38,16 @@ class NeighbourRanks {
       return;
     }
     for (Id first = 0; first < count; first += at_once) {
-      Id ranks[at_once] = {};
       Id* const here = ids.data() + first;
-      for (Id k = 0; k < count_; ++k) {
-        for (Id i = 0; i < at_once; ++i) ranks[i] += ids_[k] < here[i] ? 1 : 0;
+      Lanes low, high, low_ranks = {}, high_ranks = {};
+      std::memcpy(&low, here, sizeof low);
+      std::memcpy(&high, here + at_once / 2, sizeof high);
+      for (const Id *id = ids_.data(), *const end = id + count_; id < end; ++id) {
+        low_ranks -= low > *id;
+        high_ranks -= high > *id;
       }
-      std::copy(ranks, ranks + at_once, here);
+      std::memcpy(here, &low_ranks, sizeof low_ranks);
+      std::memcpy(here + at_once / 2, &high_ranks, sizeof high_ranks);
     }
   }
 
@@ -54,6 +59,11 @@ class NeighbourRanks {
 
  private:
   static constexpr Id few = 16, at_once = 8;
+
+  /// Ids side by side; comparing them gives -1 where it holds. Left to itself the compiler puts neighbours side by
+  /// side, and adds up across them: three times as slow.
+  using Lanes = Id __attribute__((vector_size(at_once / 2 * sizeof(Id))));
+
   Id count_ = 0;
   std::vector<Id> ids_;
 };

@@ -31,6 +31,24 @@ class Bars(unittest.TestCase):
             self.mesh.critical_points(self.field, progress=True)
         self.assertEqual(shown.getvalue(), "")
 
+    def test_functions_are_told_of_relations_until_all_is_done(self):
+        for name in "VT", "FE", "EE", "FF", "VV":
+            told = []
+            self.mesh.relation(name, progress=lambda done, of: told.append((done, of)))
+            self.assertTrue(all(0 < done <= of for done, of in told), (name, told))
+            self.assertEqual(*told[-1], name)
+
+    def test_what_a_function_raises_ends_a_relation(self):
+        class Enough(Exception):
+            pass
+
+        def stop(done, of):
+            raise Enough
+
+        for name in "VT", "FE", "EE", "VV":
+            with self.assertRaises(Enough):
+                self.mesh.relation(name, progress=stop)
+
     def test_false_is_none(self):
         self.mesh.relation("VT", progress=False)
 

@@ -46,10 +46,14 @@ void StarRows::find(Id segment) {
 
 /// Counts the stars, too.
 void StarRows::number_corners() {
-  constexpr std::size_t ahead = 12;
+  constexpr std::size_t ahead = 12, many_outside = 1 << 14;
   const Id *const vertex_input = segments_.vertex_input(), *const vertex_internal = segments_.vertex_internal();
   vertices_.assign(vertex_input + first_, vertex_input + first_ + rows_);
-  outside_.clear();
+  if (outside_.size() > many_outside) {
+    outside_ = HashTable<Id>();  // what one segment has made large would have the others miss the cache
+  } else {
+    outside_.clear();
+  }
   star_begin_.assign(rows_ + 1, 0);
   corners_.resize(near_.size());
   for (std::size_t i = 0; i < near_.size(); ++i) {

@@ -113,9 +113,9 @@ bool BatchSweep<Memory>::Batches::is_large(Id segment) const {
 template <class Memory>
 LaunchOrder BatchSweep<Memory>::Batches::order_of(Id begin, Id end) const {
   const auto large = [this](Id segment) { return is_large(segment); };
-  Id first_large = begin;
-  while (first_large < end && !large(first_large)) ++first_large;
-  if (first_large == end) return {};
+  Id small = 0;
+  while (begin + small < end && !large(begin + small)) ++small;
+  if (begin + small == end) return {};
   std::vector<Id> segments(end - begin);
   std::iota(segments.begin(), segments.end(), begin);
   return LaunchOrder::of(std::move(segments), large);

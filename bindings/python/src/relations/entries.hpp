@@ -7,8 +7,7 @@
 
 namespace gale::python {
 
-/// Memory for entries that will be written all over, which nothing writes before: the system gives it many pages at a
-/// time, on so many threads.
+/// Memory for entries. The system gives its pages before they are written: many at a time, on so many threads.
 class Entries {
  public:
   Entries(std::size_t count, int threads);

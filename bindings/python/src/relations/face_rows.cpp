@@ -34,7 +34,7 @@ void write_rows(const Mesh& mesh, const Simplices<HostMemory>& simplices, const 
     const Interval all = mesh.intervals_of(segment)[row_dimension(relation)];
     const auto place_of = [&](Id simplex) { return to + Offset(size) * numbers.rows[simplex]; };
     for (const Id simplex : all) {
-      __builtin_prefetch(place_of(std::min(simplex + ahead, all.last - 1)), 1);
+      if (all.last - simplex > ahead) __builtin_prefetch(place_of(simplex + ahead), 1);
       FaceRow<size> row = face_row<relation>(simplices, simplex);
       for (Id& id : row.ids) id = numbers.entries[id];
       sort_row(row);
@@ -50,8 +50,9 @@ FaceRows rows_of(const Mesh& mesh, const NumbersOf& numbers_of, const SweepOptio
   all.size = face_count(relation);
   all.rows = known_simplices(mesh, row_dimension(relation));
   all.columns = known_simplices(mesh, entry_dimension(relation));
+  const Numbers numbers = numbers_of(relation);
   Entries faces(all.size * Offset(all.rows), options.threads);
-  write_rows<relation>(mesh, simplices, numbers_of(relation), faces.ids(), options);
+  write_rows<relation>(mesh, simplices, numbers, faces.ids(), options);
   all.faces = faces.release();
   return all;
 }

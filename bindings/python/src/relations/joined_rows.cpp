@@ -76,7 +76,7 @@ WholeRelation joined_rows(const FaceRows& faces, const WholeRelation& cofaces, c
   std::vector<RowJoiner> joiners(options.threads, RowJoiner(faces, cofaces));
   const std::int64_t count = set_begins(all, [&](Offset row) { return joiners[0].size(row); });
   Entries entries(count, options.threads);
-  constexpr Offset at_once = 4096;
+  constexpr Offset at_once = 256;
   detail::sweep(static_cast<Id>((all.rows + at_once - 1) / at_once), options, [&](int consumer, Id some) {
     const Offset end = std::min<Offset>((some + 1) * at_once, all.rows);
     for (Offset row = some * at_once; row < end; ++row) joiners[consumer].write(row, entries.ids() + all.begin[row]);

@@ -17,8 +17,8 @@ namespace gale::python {
 
 namespace {
 
-/// Consecutive simplices, and how many of them each face has. Most parts have some faces only: memory of the others'
-/// counts is never touched.
+/// Consecutive simplices, and how many of them each face has. Where parts lie together in space, each has some faces
+/// only, and the memory of counts before and behind these is never touched.
 class Part {
  public:
   Part(const FaceRows& faces, Offset first, Offset last)
@@ -65,7 +65,8 @@ class Part {
   Id least_ = std::numeric_limits<Id>::max(), most_ = no_id;  ///< faces that are counted
 };
 
-/// So few that the counts take no more than twice the memory of the entries, also where each part has all faces.
+/// As many as threads, but so few that the counts take no more than twice the memory of the entries, also where each
+/// part has all faces.
 std::vector<Part> parts_of(const FaceRows& faces, int threads) {
   const Offset entries = faces.size * Offset(faces.rows);
   const int count = static_cast<int>(std::clamp<Offset>(2 * entries / std::max(faces.columns, 1), 1, threads));

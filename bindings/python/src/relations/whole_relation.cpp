@@ -41,14 +41,14 @@ WholeRelation whole_relation(const Mesh& mesh, Relation relation, const NumbersO
                              const SweepOptions& options) {
   const int rows = row_dimension(relation), entries = entry_dimension(relation);
   const auto faces = [&](Relation one) { return face_rows(mesh, one, numbers_of, options); };
+  if (mesh.on_device() || relation == Relation::VV || relation == Relation::TT) {
+    const auto structure = make_structure(mesh, relation);
+    return rows_in_slots(*structure, relation, numbers_of(relation), options);
+  }
   if (entries < rows) return with_begins(faces(relation), options.threads);
   if (entries > rows) return transposed_rows(faces(to_faces(entries, rows)), options.threads);
-  if (relation == Relation::EE || relation == Relation::FF) {
-    const FaceRows own = faces(to_faces(rows, rows - 1));
-    return joined_rows(own, transposed_rows(own, options.threads), options);
-  }
-  const auto structure = make_structure(mesh, relation);
-  return rows_in_slots(*structure, relation, numbers_of(relation), options);
+  const FaceRows own = faces(to_faces(rows, rows - 1));
+  return joined_rows(own, transposed_rows(own, options.threads), options);
 }
 
 }  // namespace gale::python

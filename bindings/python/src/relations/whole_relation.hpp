@@ -23,8 +23,9 @@ struct Numbers {
 };
 using NumbersOf = std::function<Numbers(Relation)>;
 
-/// Computes it. A relation to faces is looked up; one from faces is such a relation the other way round; edges and
-/// triangles that share a face are put together from both; VV and TT come from a sweep.
+/// Computes it: in a sweep where the mesh lies on a device, which does the work then. On the host a relation to faces
+/// is looked up in the tables of simplices; one from faces is such a relation the other way round; EE and FF are merged
+/// from the rows of each simplex's faces; VV and TT come from a sweep.
 WholeRelation whole_relation(const Mesh& mesh, Relation relation, const NumbersOf& numbers_of,
                              const SweepOptions& options);
 
