@@ -4,6 +4,7 @@
 
 #include <gale/base/parallel.hpp>
 #include <gale/mesh/few_distinct.hpp>
+#include <gale/mesh/last_seen.hpp>
 
 namespace gale::detail {
 
@@ -20,9 +21,12 @@ class FoundRows {
       constexpr Offset usual = 8;
       std::vector<Id>& found = parts_[part];
       found.reserve(usual * (end - begin));
+      LastSeen seen;
       for (Offset row = begin; row < end; ++row) {
         FewDistinct few;
-        candidates(static_cast<Id>(row), [&](Id id) { few.insert(id); });
+        candidates(static_cast<Id>(row), [&](Id id) {
+          if (seen.is_new(row, id)) few.insert(id);
+        });
         count(row) = few.size();
         for (Id i = 0; i < few.size(); ++i) found.push_back(few[i]);
       }
