@@ -147,32 +147,36 @@ class TriangleOrder {
  public:
   static constexpr Id most_neighbours = 64;
 
-  /// Of a vertex of so many neighbours, at most `most_neighbours`.
-  void begin(Id neighbours) {
-    shift_ = neighbours <= 8 ? 3 : neighbours <= 16 ? 4 : 6;
-    words_ = ((neighbours << shift_) + 63) / 64;
-    for (Id word = 0; word < words_; ++word) there_[word] = 0;
-  }
-
-  void add(Id second, Id third, Id triangle) {
-    const Id at = (second << shift_) + third;
-    there_[at / 64] |= std::uint64_t(1) << at % 64;
-    triangles_[at] = triangle;
-  }
-
-  /// Calls visit(triangle) for those that were added.
-  template <class Visit>
-  void for_each(const Visit& visit) const {
-    for (Id word = 0; word < words_; ++word) {
-      for (std::uint64_t bits = there_[word]; bits != 0; bits &= bits - 1)
-        visit(triangles_[64 * word + lowest_bit(bits)]);
+  /// `for_each(add)` calls add(second, third, triangle) for triangles of a vertex of so many neighbours, at most
+  /// `most_neighbours`. Then visit(triangle) is called for each.
+  template <class ForEach, class Visit>
+  void visit(Id neighbours, const ForEach& for_each, const Visit& visit) {
+    if (neighbours <= 8) {
+      visit_by<3>(for_each, visit);
+    } else if (neighbours <= 16) {
+      visit_by<4>(for_each, visit);
+    } else {
+      visit_by<6>(for_each, visit);
     }
   }
 
  private:
-  int shift_ = 0;
-  Id words_ = 0;
-  std::uint64_t there_[most_neighbours];
+  /// Ranks have so many bits.
+  template <int bits, class ForEach, class Visit>
+  void visit_by(const ForEach& for_each, const Visit& visit) {
+    constexpr std::uint32_t words = (1 << 2 * bits) / 64;
+    std::uint64_t there[words] = {};  // the only one stays in a register
+    for_each([&](Id second, Id third, Id triangle) {
+      const std::uint32_t at = second << bits | third;
+      there[at / 64 % words] |= std::uint64_t(1) << at % 64;
+      triangles_[at] = triangle;
+    });
+    for (std::uint32_t word = 0; word < words; ++word) {
+      for (std::uint64_t rest = there[word]; rest != 0; rest &= rest - 1)
+        visit(triangles_[64 * word + lowest_bit(rest)]);
+    }
+  }
+
   Id triangles_[most_neighbours * most_neighbours];
 };
 
@@ -218,9 +222,7 @@ class OwnNumberer {
         visit(std::min(corners_[i], others_[i]), std::max(corners_[i], others_[i]), triangles_[i]);
     };
     if (count_ <= TriangleOrder::most_neighbours) {
-      few_.begin(count_);
-      for_each([&](Id second, Id third, Id triangle) { few_.add(second, third, triangle); });
-      few_.for_each([&](Id triangle) { numbers_.triangles(triangle) = begin++; });
+      few_.visit(count_, for_each, [&](Id triangle) { numbers_.triangles(triangle) = begin++; });
     } else {
       many_.clear();
       for_each([&](Id second, Id third, Id triangle) { many_.push_back({second, third, triangle}); });

@@ -24,22 +24,53 @@ void sort_row(FaceRow<size>& row) {
   }
 }
 
-/// Writes the rows of a mesh that has the simplices. Where a row goes is fetched some rows before.
+/// Calls visit(triangle, its row of FV or FE) for each triangle over an edge. Their apexes ascend, and so do the edges
+/// to them.
+template <Relation relation, class Visit>
+void for_each_triangle_row(const Simplices<HostMemory>& simplices, Id edge, const Visit& visit) {
+  const auto& s = simplices;
+  const Id a = s.edge_low(edge), b = s.edge_high(edge);
+  Id ac = edge, bc = s.edge_begin(b);
+  for (Id triangle = s.triangle_begin(edge); triangle < s.triangle_begin(edge + 1); ++triangle) {
+    const Id c = s.triangle_apex(triangle);
+    if constexpr (relation == Relation::FV) {
+      visit(triangle, FaceRow<3>{{a, b, c}});
+    } else {
+      while (s.edge_high(ac) != c) ++ac;
+      while (s.edge_high(bc) != c) ++bc;
+      visit(triangle, FaceRow<3>{{edge, ac, bc}});
+    }
+  }
+}
+
+/// Likewise for each simplex of a segment.
+template <Relation relation, class Visit>
+void for_each_row(const Simplices<HostMemory>& simplices, const Intervals& segment, const Visit& visit) {
+  if constexpr (row_dimension(relation) == 2) {
+    for (const Id edge : segment[1]) for_each_triangle_row<relation>(simplices, edge, visit);
+  } else {
+    for (const Id simplex : segment[row_dimension(relation)]) visit(simplex, face_row<relation>(simplices, simplex));
+  }
+}
+
+/// Writes the rows of a mesh that has the simplices. Where a row goes is fetched some rows before. Ids are written one
+/// by one: a copy of a row would read several at once, and wait until they are where they were put one by one.
 template <Relation relation>
 void write_rows(const Mesh& mesh, const Simplices<HostMemory>& simplices, const Numbers& numbers, Id* to,
                 const SweepOptions& options) {
   constexpr int size = face_count(relation);
   constexpr Id ahead = 32;
   detail::sweep(mesh.owned_segments(), options, [&](int, Id segment) {
-    const Interval all = mesh.intervals_of(segment)[row_dimension(relation)];
+    const Intervals all = mesh.intervals_of(segment);
+    const Id last = all[row_dimension(relation)].last;
     const auto place_of = [&](Id simplex) { return to + Offset(size) * numbers.rows[simplex]; };
-    for (const Id simplex : all) {
-      if (all.last - simplex > ahead) __builtin_prefetch(place_of(simplex + ahead), 1);
-      FaceRow<size> row = face_row<relation>(simplices, simplex);
+    for_each_row<relation>(simplices, all, [&](Id simplex, FaceRow<size> row) {
+      if (last - simplex > ahead) __builtin_prefetch(place_of(simplex + ahead), 1);
       for (Id& id : row.ids) id = numbers.entries[id];
       sort_row(row);
-      std::copy(row.begin(), row.end(), place_of(simplex));
-    }
+      Id* const place = place_of(simplex);
+      for (int i = 0; i < size; ++i) place[i] = row[i];
+    });
   });
 }
 

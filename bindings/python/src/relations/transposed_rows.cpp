@@ -18,7 +18,8 @@ namespace gale::python {
 namespace {
 
 /// Consecutive simplices, and how many of them each face has. Where parts lie together in space, each has some faces
-/// only, and the memory of counts before and behind these is never touched.
+/// only, and the memory of counts before and behind these is never touched. All have `size` faces.
+template <int size>
 class Part {
  public:
   Part(const FaceRows& faces, Offset first, Offset last)
@@ -31,12 +32,15 @@ class Part {
 
   void count() {
     Id* const counts = counts_.get();
-    for (Offset i = first_; i < last_; ++i) {
-      const Id* const row = faces_.row(i);
-      least_ = std::min(least_, row[0]);
-      most_ = std::max(most_, row[faces_.size - 1]);
-      for (int k = 0; k < faces_.size; ++k) ++counts[row[k]];
+    Id least = least_, most = most_;
+    const Id* row = faces_.row(first_);
+    for (const Id* const end = faces_.row(last_); row != end; row += size) {
+      least = std::min(least, row[0]);
+      most = std::max(most, row[size - 1]);
+      for (int k = 0; k < size; ++k) ++counts[row[k]];
     }
+    least_ = least;
+    most_ = most;
   }
 
   /// Returns how many simplices a face has here, and remembers instead how many are before them in its row.
@@ -49,13 +53,13 @@ class Part {
   void place(const std::int64_t* begin, Id* entries) {
     constexpr Offset ahead = 16;
     Id* const next = counts_.get();
-    for (Offset i = first_; i < last_; ++i) {
-      if (last_ - i > ahead) {
-        const Id* const later = faces_.row(i + ahead);
-        for (int k = 0; k < faces_.size; ++k) __builtin_prefetch(entries + begin[later[k]] + next[later[k]], 1);
+    const Id* row = faces_.row(first_);
+    for (Offset i = first_, last = last_; i < last; ++i, row += size) {
+      if (last - i > ahead) {
+        const Id* const later = row + size * ahead;
+        for (int k = 0; k < size; ++k) __builtin_prefetch(entries + begin[later[k]] + next[later[k]], 1);
       }
-      const Id* const row = faces_.row(i);
-      for (int k = 0; k < faces_.size; ++k) entries[begin[row[k]] + next[row[k]]++] = static_cast<Id>(i);
+      for (int k = 0; k < size; ++k) entries[begin[row[k]] + next[row[k]]++] = static_cast<Id>(i);
     }
   }
 
@@ -72,31 +76,46 @@ class Part {
 
 /// As many as threads, but so few that the counts take no more than twice the memory of the entries, also where each
 /// part has all faces.
-std::vector<Part> parts_of(const FaceRows& faces, int threads) {
-  const Offset entries = faces.size * Offset(faces.rows);
+template <int size>
+std::vector<Part<size>> parts_of(const FaceRows& faces, int threads) {
+  const Offset entries = size * Offset(faces.rows);
   const int count = static_cast<int>(std::clamp<Offset>(2 * entries / std::max(faces.columns, 1), 1, threads));
-  std::vector<Part> parts;
+  std::vector<Part<size>> parts;
   for (int i = 0; i < count; ++i)
     parts.emplace_back(faces, detail::part_begin(faces.rows, count, i), detail::part_begin(faces.rows, count, i + 1));
   return parts;
 }
 
-}  // namespace
-
-WholeRelation transposed_rows(const FaceRows& faces, int threads) {
+template <int size>
+WholeRelation transposed(const FaceRows& faces, int threads) {
   WholeRelation all = {faces.columns, faces.rows, new_begins(faces.columns + std::size_t(1), threads), nullptr};
-  std::vector<Part> parts = parts_of(faces, threads);
+  std::vector<Part<size>> parts = parts_of<size>(faces, threads);
   const int part_count = static_cast<int>(parts.size());
   on_threads(part_count, [&](int i) { parts[i].count(); });
   const std::int64_t count = set_begins(all, [&](Offset face) {
     Id sum = 0;
-    for (Part& part : parts) sum += part.begin_behind(sum, static_cast<Id>(face));
+    for (Part<size>& part : parts) sum += part.begin_behind(sum, static_cast<Id>(face));
     return sum;
   });
   Entries entries(count, threads);
   on_threads(part_count, [&](int i) { parts[i].place(all.begin.get(), entries.ids()); });
   all.entries = entries.release();
   return all;
+}
+
+}  // namespace
+
+WholeRelation transposed_rows(const FaceRows& faces, int threads) {
+  switch (faces.size) {
+    case 2:
+      return transposed<2>(faces, threads);
+    case 3:
+      return transposed<3>(faces, threads);
+    case 4:
+      return transposed<4>(faces, threads);
+    default:
+      return transposed<6>(faces, threads);
+  }
 }
 
 }  // namespace gale::python
