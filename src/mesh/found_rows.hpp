@@ -1,5 +1,6 @@
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include <gale/base/parallel.hpp>
@@ -19,7 +20,7 @@ class FoundRows {
   void count(const Candidates& candidates, const Array<Id, HostMemory>& count) {
     for_parts("GALE::count_distinct", count.extent(0), size(), [&](int part, Offset begin, Offset end) {
       constexpr Offset usual = 8;
-      std::vector<Id>& found = parts_[part];
+      std::vector<Id> found;  // of this thread alone: those of all parts lie side by side
       found.reserve(usual * (end - begin));
       LastSeen seen;
       for (Offset row = begin; row < end; ++row) {
@@ -30,6 +31,7 @@ class FoundRows {
         count(row) = few.size();
         for (Id i = 0; i < few.size(); ++i) found.push_back(few[i]);
       }
+      parts_[part] = std::move(found);
     });
   }
 
