@@ -72,23 +72,16 @@ void count_triangles(const Space& space, const Simplices<MemoryOf<Space>>& simpl
       });
 }
 
-/// Writes edges and apexes of those triangles. begin[e] is where those of edge e are.
+/// Writes the apexes of those triangles. begin[e] is where those of edge e are.
 template <class Space>
 void write_triangles(const Space& space, const Simplices<MemoryOf<Space>>& simplices,
-                     const MiddleStars<MemoryOf<Space>>& stars, const Ids<Space>& begin, const Ids<Space>& edges,
-                     const Ids<Space>& apexes) {
+                     const MiddleStars<MemoryOf<Space>>& stars, const Ids<Space>& begin, const Ids<Space>& apexes) {
   parallel_for(
       "GALE::write_triangles", space, simplices.edge_begin.extent(0) - 1, KOKKOS_LAMBDA(Offset v) {
         if (!has_upper_link(simplices, v)) return;
         with_upper_link(simplices, stars, v, [&](const UpperLink& link) {
-          const Id first = simplices.edge_begin(v);
-          Id at = begin(first);
-          for (Id i = 0; i < link.size(); ++i) {
-            link.for_each_apex(i, [&](Id c) {
-              edges(at) = first + i;
-              apexes(at++) = c;
-            });
-          }
+          Id at = begin(simplices.edge_begin(v));
+          for (Id i = 0; i < link.size(); ++i) link.for_each_apex(i, [&](Id c) { apexes(at++) = c; });
         });
       });
 }
@@ -147,13 +140,22 @@ void enumerate_triangles(const Space& space, const Simplices<MemoryOf<Space>>& s
   require_ids("triangles", total);
   exclusive_scan(
       "GALE::scan_triangles", space, edges, begin, KOKKOS_LAMBDA(Offset e) { return begin(e); });
-  const auto edge_of = allocate<Ids<Space>>("GALE::triangle_edge", total),
-             apex = allocate<Ids<Space>>("GALE::triangle_apex", total);
-  write_triangles(space, simplices, stars, begin, edge_of, apex);
-  many.write(begin, edge_of, apex);
+  const auto apex = allocate<Ids<Space>>("GALE::triangle_apex", total);
+  write_triangles(space, simplices, stars, begin, apex);
+  many.write(begin, apex);
   tables.triangle_begin = begin;
-  tables.triangle_edge = edge_of;
   tables.triangle_apex = apex;
+}
+
+template <class Space>
+void find_triangle_edges(const Space& space, const Simplices<MemoryOf<Space>>& simplices, SimplexTables& tables) {
+  const auto edge_of = allocate<Ids<Space>>("GALE::triangle_edge", simplices.triangle_apex.extent(0));
+  parallel_for(
+      "GALE::triangle_edge", space, simplices.edge_high.extent(0), KOKKOS_LAMBDA(Offset e) {
+        for (Id f = simplices.triangle_begin(e); f < simplices.triangle_begin(e + 1); ++f)
+          edge_of(f) = static_cast<Id>(e);
+      });
+  tables.triangle_edge = edge_of;
 }
 
 template <class Space>
@@ -174,6 +176,7 @@ void sort_edges_by_higher(const Space& space, const Simplices<MemoryOf<Space>>& 
                                 SimplexTables&);                                                                      \
   template void enumerate_triangles(const Space&, const Simplices<MemoryOf<Space>>&,                                  \
                                     const MiddleStars<MemoryOf<Space>>&, SimplexTables&);                             \
+  template void find_triangle_edges(const Space&, const Simplices<MemoryOf<Space>>&, SimplexTables&);                 \
   template void sort_edges_by_higher(const Space&, const Simplices<MemoryOf<Space>>&, SimplexTables&)
 GALE_IN_EACH_SPACE(GALE_INSTANTIATE);
 #undef GALE_INSTANTIATE

@@ -24,12 +24,16 @@ template <class Space>
 void enumerate_edges(const Space& space, const Simplices<MemoryOf<Space>>& simplices,
                      const MiddleStars<MemoryOf<Space>>& stars, SimplexTables& tables);
 
-/// triangle_begin, triangle_edge and triangle_apex. `simplices` has the edges too.
+/// triangle_begin and triangle_apex. `simplices` has the edges too.
 template <class Space>
 void enumerate_triangles(const Space& space, const Simplices<MemoryOf<Space>>& simplices,
                          const MiddleStars<MemoryOf<Space>>& stars, SimplexTables& tables);
 
-/// lower_begin and lower_edges. Likewise.
+/// triangle_edge. `simplices` has the triangles too.
+template <class Space>
+void find_triangle_edges(const Space& space, const Simplices<MemoryOf<Space>>& simplices, SimplexTables& tables);
+
+/// lower_begin and lower_edges. `simplices` has the edges.
 template <class Space>
 void sort_edges_by_higher(const Space& space, const Simplices<MemoryOf<Space>>& simplices, SimplexTables& tables);
 

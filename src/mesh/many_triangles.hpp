@@ -60,8 +60,8 @@ class ManyTriangles {
         });
   }
 
-  /// Writes edges and apexes of the triangles. begin[e] is where those of edge e are.
-  void write(const Ids& begin, const Ids& edges, const Ids& apexes) const {
+  /// Writes the apexes of the triangles. begin[e] is where those of edge e are.
+  void write(const Ids& begin, const Ids& apexes) const {
     const auto keys = keys_;
     const auto number = number_;
     parallel_for(
@@ -69,7 +69,6 @@ class ManyTriangles {
           if (number(i + 1) == number(i)) return;
           const Id edge = edge_of(keys(i));
           const Offset at = begin(edge) + number(i) - number(first_of(keys, edge));
-          edges(at) = edge;
           apexes(at) = static_cast<Id>(keys(i) & 0xffffffffu);
         });
   }

@@ -21,12 +21,12 @@ Simplices<Memory> view_of(const MeshArrays& mesh, const SimplexTables& tables, c
   }
   if (needs.upto >= Enumeration::edges && has(tables.edge_begin)) {
     view.edge_begin = tables.edge_begin.in<Memory>();
-    if (needs.owners) view.edge_low = tables.edge_low.in<Memory>();
+    if (needs.edge_owners) view.edge_low = tables.edge_low.in<Memory>();
     view.edge_high = tables.edge_high.in<Memory>();
   }
   if (needs.upto >= Enumeration::triangles && has(tables.triangle_begin)) {
     view.triangle_begin = tables.triangle_begin.in<Memory>();
-    if (needs.owners) view.triangle_edge = tables.triangle_edge.in<Memory>();
+    if (needs.triangle_owners) view.triangle_edge = tables.triangle_edge.in<Memory>();
     view.triangle_apex = tables.triangle_apex.in<Memory>();
   }
   if (needs.lower_edges && has(tables.lower_begin)) {
@@ -40,6 +40,7 @@ Simplices<Memory> view_of(const MeshArrays& mesh, const SimplexTables& tables, c
 /// The tables from which others are made.
 constexpr SimplexNeeds tetrahedra = {Enumeration::tetrahedra, false, true};
 constexpr SimplexNeeds edges = {Enumeration::edges, false, true};
+constexpr SimplexNeeds triangles = {Enumeration::triangles, false, true, true, false};
 
 template <class Space>
 Mirrored<Id> interval_begin_of(const Space& space, const MeshArrays& mesh, const SimplexTables& tables, int dimension) {
@@ -74,6 +75,7 @@ const Array<const Id, Memory>& SimplexStore::interval_begin(int dimension) {
   const std::lock_guard<std::mutex> lock(mutex_);
   SimplexNeeds needs;
   needs.upto = dimension == 1 ? Enumeration::edges : Enumeration::triangles;
+  needs.triangle_owners = false;
   enumerate(needs);
   return intervals_[dimension - 1].in<Memory>();
 }
@@ -108,6 +110,14 @@ void SimplexStore::enumerate(const SimplexNeeds& needs) {
         enumerate_triangles(space, view_of<Memory>(mesh_, tables_, edges), stars, tables_);
         publish_intervals(space, 2);
       }
+    });
+  }
+  if (needs.upto >= Enumeration::triangles && needs.triangle_owners &&
+      static_cast<Id>(tables_.triangle_edge.size()) < known(2)) {
+    make("edges of triangles", [&](const auto& space) {
+      using Memory = MemoryOf<std::decay_t<decltype(space)>>;
+      find_triangle_edges(space, view_of<Memory>(mesh_, tables_, triangles), tables_);
+      space.fence();
     });
   }
   if (needs.lower_edges && !has(tables_.lower_begin)) {

@@ -50,6 +50,21 @@ TEST(Enumeration, of_edges_needs_no_triangles) {
   EXPECT_EQ(mesh.known_triangles(), count_of(2));
 }
 
+TEST(Enumeration, of_triangles_leaves_out_their_edges_until_someone_needs_them) {
+  const Mesh mesh = holed();
+  SimplexNeeds needs = triangles;
+  needs.triangle_owners = false;
+  const auto without = mesh.simplices(needs);
+  EXPECT_EQ(without.triangle_apex.extent(0), static_cast<std::size_t>(count_of(2)));
+  EXPECT_EQ(without.triangle_edge.extent(0), 0u);
+  const auto with = mesh.simplices(triangles);
+  EXPECT_EQ(with.triangle_apex.data(), without.triangle_apex.data());
+  ASSERT_EQ(with.triangle_edge.extent(0), static_cast<std::size_t>(count_of(2)));
+  for (Id f = 0; f < count_of(2); ++f)
+    ASSERT_EQ(with.triangle_of(with.triangle_edge(f), with.triangle_apex(f)), f) << "triangle " << f;
+  EXPECT_EQ(mesh.simplices(needs).triangle_edge.extent(0), 0u) << "nobody gets what it did not ask for";
+}
+
 TEST(Enumeration, comes_with_the_intervals) {
   const Mesh mesh = holed();
   EXPECT_EQ(mesh.interval_begin(1)(mesh.segments()), count_of(1));

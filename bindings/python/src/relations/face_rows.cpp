@@ -76,7 +76,9 @@ void write_rows(const Mesh& mesh, const Simplices<HostMemory>& simplices, const 
 
 template <Relation relation>
 FaceRows rows_of(const Mesh& mesh, const NumbersOf& numbers_of, const SweepOptions& options) {
-  const Simplices<HostMemory> simplices = mesh.simplices(needs_of(relation));
+  SimplexNeeds needs = needs_of(relation);
+  needs.triangle_owners = false;
+  const Simplices<HostMemory> simplices = mesh.simplices(needs);
   FaceRows all;
   all.size = face_count(relation);
   all.rows = known_simplices(mesh, row_dimension(relation));

@@ -39,7 +39,7 @@ TriangleOrder order_of_triangles(const Mesh& mesh, const Cells& cells);
 
 /// The tables that are read on the host: edges and triangles by their vertices.
 inline constexpr SimplexNeeds tables_of_edges = {Enumeration::edges, false, false, false};
-inline constexpr SimplexNeeds tables_of_triangles = {Enumeration::triangles, false, false, false};
+inline constexpr SimplexNeeds tables_of_triangles = {Enumeration::triangles, false, false, false, false};
 
 /// A cell's corners in GALE's ids, ascending, and where the caller has them.
 struct SortedCorners {
