@@ -1,7 +1,5 @@
 #include "face_rows.hpp"
 
-#include <algorithm>
-
 #include <gale/relations/faces.hpp>
 #include <gale/relations/preconditioning.hpp>
 #include <gale/runtime/sweep.hpp>
@@ -12,15 +10,14 @@ namespace gale::python {
 
 namespace {
 
-/// Puts a row in ascending order by exchanging neighbours, every second pair in turn: no step waits for a branch.
+/// Writes a row's ids, no two of them alike, in ascending order: each where as many are smaller. No step waits for a
+/// branch, nor for ids that were put into memory one by one and are read several at once.
 template <int size>
-void sort_row(FaceRow<size>& row) {
-  for (int turn = 0; turn < size; ++turn) {
-    for (int i = turn % 2; i + 1 < size; i += 2) {
-      const auto [low, high] = std::minmax({row.ids[i], row.ids[i + 1]});
-      row.ids[i] = low;
-      row.ids[i + 1] = high;
-    }
+void write_ascending(const FaceRow<size>& row, Id* to) {
+  for (int i = 0; i < size; ++i) {
+    int smaller = 0;
+    for (int k = 0; k < size; ++k) smaller += row.ids[k] < row.ids[i] ? 1 : 0;
+    to[smaller] = row.ids[i];
   }
 }
 
@@ -53,8 +50,7 @@ void for_each_row(const Simplices<HostMemory>& simplices, const Intervals& segme
   }
 }
 
-/// Writes the rows of a mesh that has the simplices. Where a row goes is fetched some rows before. Ids are written one
-/// by one: a copy of a row would read several at once, and wait until they are where they were put one by one.
+/// Writes the rows of a mesh that has the simplices. Where a row goes is fetched some rows before.
 template <Relation relation>
 void write_rows(const Mesh& mesh, const Simplices<HostMemory>& simplices, const Numbers& numbers, Id* to,
                 const SweepOptions& options) {
@@ -67,9 +63,7 @@ void write_rows(const Mesh& mesh, const Simplices<HostMemory>& simplices, const 
     for_each_row<relation>(simplices, all, [&](Id simplex, FaceRow<size> row) {
       if (last - simplex > ahead) __builtin_prefetch(place_of(simplex + ahead), 1);
       for (Id& id : row.ids) id = numbers.entries[id];
-      sort_row(row);
-      Id* const place = place_of(simplex);
-      for (int i = 0; i < size; ++i) place[i] = row[i];
+      write_ascending(row, place_of(simplex));
     });
   });
 }
