@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <vector>
 
+#include <gale/base/parallel_sort.hpp>
 #include <gale/distributed/deal.hpp>
 #include <gale/distributed/key_places.hpp>
 
@@ -19,7 +20,7 @@ KeyPlaces places_of_keys(const Communicator& ranks, const Array<const SimplexKey
   std::vector<SimplexKey> distinct;
   together(ranks, [&] {
     distinct.assign(received.entries.data(), received.entries.data() + received.count());
-    std::sort(distinct.begin(), distinct.end());
+    parallel_sort("GALE::sort_keys", distinct.begin(), distinct.end());
     distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
   });
   const auto here = static_cast<GlobalId>(distinct.size());

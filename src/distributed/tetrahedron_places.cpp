@@ -2,6 +2,7 @@
 #include <string>
 
 #include <gale/base/error.hpp>
+#include <gale/base/parallel_sort.hpp>
 #include <gale/distributed/tetrahedron_places.hpp>
 
 namespace gale::detail {
@@ -37,7 +38,7 @@ void TetrahedronPlaces::merge() {
   std::iota(received_by_id_.begin(), received_by_id_.end(), Id(0));
   const auto is_less = [&](Id a, Id b) { return received_(a) < received_(b); };
   if (!std::is_sorted(received_by_id_.begin(), received_by_id_.end(), is_less))
-    std::sort(received_by_id_.begin(), received_by_id_.end(), is_less);
+    parallel_sort("GALE::sort_received", received_by_id_.begin(), received_by_id_.end(), is_less);
   Offset before = 0;
   for (Offset r = 0; r < received; ++r) {
     const GlobalId id = received_(received_by_id_[r]);

@@ -1,9 +1,11 @@
 #include <algorithm>
+#include <functional>
 #include <numeric>
 #include <random>
 
 #include <gtest/gtest.h>
 
+#include <gale/base/parallel_sort.hpp>
 #include <gale/base/radix_sort.hpp>
 #include <gale/base/sort_rows.hpp>
 
@@ -47,6 +49,22 @@ void expect_sorted_rows(const std::vector<Offset>& begin, const std::vector<Id>&
 }
 
 }  // namespace
+
+TEST(ParallelSort, is_that_of_the_standard_library) {
+  const int before = host_threads();
+  for (const int threads : {1, 2, 3, 5, 7, 16}) {
+    set_host_threads(threads);
+    for (const std::size_t count : {0, 1, 4095, 8192, 12289, 70000}) {
+      for (const std::uint64_t mask : {~std::uint64_t(0), std::uint64_t(255)}) {
+        Keys sorted = random_keys(count, mask), expected = sorted;
+        std::sort(expected.begin(), expected.end(), std::greater<>());
+        parallel_sort("test_sort", sorted.begin(), sorted.end(), std::greater<>());
+        EXPECT_EQ(sorted, expected) << count << " keys, " << threads << " threads";
+      }
+    }
+  }
+  set_host_threads(before);
+}
 
 TEST(StableSortByKey, of_nothing_and_of_one) {
   expect_stable_sort({});

@@ -1,11 +1,9 @@
 #include <algorithm>
-#include <functional>
-#include <iterator>
 
 #include <gale/algorithms/gradient/gradient_store.hpp>
 #include <gale/algorithms/order/same_mesh.hpp>
 #include <gale/algorithms/order/written.hpp>
-#include <gale/base/threads.hpp>
+#include <gale/base/parallel_sort.hpp>
 
 namespace gale::detail {
 
@@ -14,14 +12,21 @@ namespace {
 /// What all consumers found, sorted by `key`, which is unique.
 template <class T, class Part, class Member, class Key>
 std::vector<T> merged(const std::vector<Part>& parts, const Member& member, const Key& key) {
-  std::vector<std::pair<decltype(key(T())), T>> keyed;
+  std::size_t count = 0;
+  for (const auto& part : parts) count += member(part).size();
+  std::vector<std::pair<decltype(key(T())), T>> keyed(count);
+  Offset begin = 0;
   for (const auto& part : parts) {
-    for (const T& simplex : member(part)) keyed.push_back({key(simplex), simplex});
+    const std::vector<T>& own = member(part);
+    parallel_for("GALE::critical_keys", HostSpace(), own.size(), [&](Offset i) {
+      keyed[begin + i] = {key(own[i]), own[i]};
+    });
+    begin += own.size();
   }
-  std::sort(keyed.begin(), keyed.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::vector<T> all;
-  all.reserve(keyed.size());
-  for (const auto& [sorted_by, simplex] : keyed) all.push_back(simplex);
+  parallel_sort("GALE::sort_critical", keyed.begin(), keyed.end(),
+                [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<T> all(count);
+  parallel_for("GALE::critical", HostSpace(), count, [&](Offset i) { all[i] = keyed[i].second; });
   return all;
 }
 
@@ -77,34 +82,23 @@ void GradientStore::finish() {
   const Id* const vertex_input = mesh.vertex_input().data();
   const Id* const tetrahedron_input = mesh.tetrahedron_input().data();
   using Found = CriticalSimplices;
-  std::vector<InStar> stars;
-  const std::function<void()> parts[] = {
-      [&] {
-        stars = merged<InStar>(
-            stars_, [](const auto& found) -> const auto& { return found; },
-            [=](const InStar& in_star) {
-              return std::make_pair(written(vertex_input, in_star.triangle), tetrahedron_input[in_star.tetrahedron]);
-            });
-      },
-      [&] {
-        critical.triangles = merged<std::array<Id, 3>>(
-            found_, [](const Found& found) -> const auto& { return found.triangles; },
-            [=](const auto& triangle) { return written(vertex_input, triangle); });
-      },
-      [&] {
-        critical.edges = merged<std::array<Id, 2>>(
-            found_, [](const Found& found) -> const auto& { return found.edges; },
-            [=](const auto& edge) { return written(vertex_input, edge); });
-      },
-      [&] {
-        critical.vertices = merged<Id>(
-            found_, [](const Found& found) -> const auto& { return found.vertices; },
-            [=](Id vertex) { return vertex_input[vertex]; });
-        critical.tetrahedra = merged<Id>(
-            found_, [](const Found& found) -> const auto& { return found.tetrahedra; },
-            [=](Id tetrahedron) { return tetrahedron_input[tetrahedron]; });
-      }};
-  in_turns(host_threads(), std::size(parts), [&](int, std::int64_t i) { parts[i](); });
+  const auto stars = merged<InStar>(
+      stars_, [](const auto& found) -> const auto& { return found; },
+      [=](const InStar& in_star) {
+        return std::make_pair(written(vertex_input, in_star.triangle), tetrahedron_input[in_star.tetrahedron]);
+      });
+  critical.triangles = merged<std::array<Id, 3>>(
+      found_, [](const Found& found) -> const auto& { return found.triangles; },
+      [=](const auto& triangle) { return written(vertex_input, triangle); });
+  critical.edges = merged<std::array<Id, 2>>(
+      found_, [](const Found& found) -> const auto& { return found.edges; },
+      [=](const auto& edge) { return written(vertex_input, edge); });
+  critical.vertices = merged<Id>(
+      found_, [](const Found& found) -> const auto& { return found.vertices; },
+      [=](Id vertex) { return vertex_input[vertex]; });
+  critical.tetrahedra = merged<Id>(
+      found_, [](const Found& found) -> const auto& { return found.tetrahedra; },
+      [=](Id tetrahedron) { return tetrahedron_input[tetrahedron]; });
   for (const auto& some : further_) further_successors.insert(further_successors.end(), some.begin(), some.end());
   std::sort(further_successors.begin(), further_successors.end());
   found_.clear();

@@ -1,8 +1,7 @@
 #include <algorithm>
-#include <functional>
 
 #include <gale/algorithms/persistence/filtration.hpp>
-#include <gale/base/threads.hpp>
+#include <gale/base/parallel_sort.hpp>
 
 namespace gale::detail {
 
@@ -17,7 +16,9 @@ void sort_places(const std::uint64_t* keys, std::size_t count, const VerticesOf&
     Id place;
   };
   std::vector<Keyed> keyed(count);
-  for (std::size_t i = 0; i < count; ++i) keyed[i] = {keys[vertices_of(i)[0]], static_cast<Id>(i)};
+  parallel_for("GALE::filtration_keys", HostSpace(), count, [&](Offset i) {
+    keyed[i] = {keys[vertices_of(i)[0]], static_cast<Id>(i)};
+  });
   const auto is_before = [&](const Keyed& a, const Keyed& b) {
     if (a.highest != b.highest) return a.highest < b.highest;
     const auto of_a = vertices_of(a.place), of_b = vertices_of(b.place);
@@ -26,13 +27,13 @@ void sort_places(const std::uint64_t* keys, std::size_t count, const VerticesOf&
     }
     return false;
   };
-  std::sort(keyed.begin(), keyed.end(), is_before);
+  parallel_sort("GALE::sort_filtration", keyed.begin(), keyed.end(), is_before);
   by_rank.resize(count);
   rank.resize(count);
-  for (std::size_t i = 0; i < count; ++i) {
+  parallel_for("GALE::filtration", HostSpace(), count, [&](Offset i) {
     by_rank[i] = keyed[i].place;
     rank[keyed[i].place] = static_cast<Id>(i);
-  }
+  });
 }
 
 }  // namespace
@@ -47,6 +48,7 @@ std::array<Id, 4> from_highest(const DiscreteGradient& gradient, Id tetrahedron)
 }
 
 Filtration filtration_of(const DiscreteGradient& gradient, int threads) {
+  const ThreadLimit limit(threads);
   const CriticalSimplices& critical = gradient.critical();
   const std::uint64_t* const keys = gradient.order().keys();
   Filtration filtration;
@@ -54,12 +56,10 @@ Filtration filtration_of(const DiscreteGradient& gradient, int threads) {
     sort_places(keys, critical.counts()[dimension], vertices_of, filtration.by_rank[dimension],
                 filtration.rank[dimension]);
   };
-  const std::function<void()> parts[] = {
-      [&] { sort(2, [&](std::size_t i) { return critical.triangles[i]; }); },
-      [&] { sort(1, [&](std::size_t i) { return critical.edges[i]; }); },
-      [&] { sort(0, [&](std::size_t i) { return std::array<Id, 1>{critical.vertices[i]}; }); },
-      [&] { sort(3, [&](std::size_t i) { return from_highest(gradient, critical.tetrahedra[i]); }); }};
-  in_turns(threads, std::size(parts), [&](int, std::int64_t i) { parts[i](); });
+  sort(0, [&](Offset i) { return std::array<Id, 1>{critical.vertices[i]}; });
+  sort(1, [&](Offset i) { return critical.edges[i]; });
+  sort(2, [&](Offset i) { return critical.triangles[i]; });
+  sort(3, [&](Offset i) { return from_highest(gradient, critical.tetrahedra[i]); });
   return filtration;
 }
 
