@@ -151,7 +151,7 @@ template <class Space>
 void find_triangle_edges(const Space& space, const Simplices<MemoryOf<Space>>& simplices, SimplexTables& tables) {
   const auto edge_of = allocate<Ids<Space>>("GALE::triangle_edge", simplices.triangle_apex.extent(0));
   parallel_for(
-      "GALE::triangle_edge", space, simplices.edge_high.extent(0), KOKKOS_LAMBDA(Offset e) {
+      "GALE::triangle_edge", space, simplices.triangle_begin.extent(0) - 1, KOKKOS_LAMBDA(Offset e) {
         for (Id f = simplices.triangle_begin(e); f < simplices.triangle_begin(e + 1); ++f)
           edge_of(f) = static_cast<Id>(e);
       });

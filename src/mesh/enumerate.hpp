@@ -29,7 +29,7 @@ template <class Space>
 void enumerate_triangles(const Space& space, const Simplices<MemoryOf<Space>>& simplices,
                          const MiddleStars<MemoryOf<Space>>& stars, SimplexTables& tables);
 
-/// triangle_edge. `simplices` has the triangles too.
+/// triangle_edge. `simplices` has the triangles; the edges and tetrahedra it may lack.
 template <class Space>
 void find_triangle_edges(const Space& space, const Simplices<MemoryOf<Space>>& simplices, SimplexTables& tables);
 

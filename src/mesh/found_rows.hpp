@@ -20,7 +20,7 @@ class FoundRows {
   void count(const Candidates& candidates, const Array<Id, HostMemory>& count) {
     for_parts("GALE::count_distinct", count.extent(0), size(), [&](int part, Offset begin, Offset end) {
       constexpr Offset usual = 8;
-      std::vector<Id> found;  // of this thread alone: those of all parts lie side by side
+      std::vector<Id> found;  // the ends of those in parts_ share cache lines
       found.reserve(usual * (end - begin));
       LastSeen seen;
       for (Offset row = begin; row < end; ++row) {

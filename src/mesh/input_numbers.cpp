@@ -12,7 +12,7 @@ InputNumbers numbers_in(const Space& space, const Mesh& mesh, bool edges, bool t
   using Memory = MemoryOf<Space>;
   SimplexNeeds needs;
   needs.upto = triangles ? Enumeration::triangles : Enumeration::edges;
-  needs.triangle_owners = is_device<Space>;
+  needs.triangle_edge = false;
   const auto simplices = mesh.simplices<Memory>(needs);
   const detail::VertexInput<Memory> input = mesh.vertex_input<Memory>();
   if constexpr (is_device<Space>) {

@@ -70,15 +70,16 @@ Array<Id, MemoryOf<Space>> sort_triangles(const Space& space, const Simplices<Me
   const auto first = allocate<SpaceIds<Space>>("GALE::triangle_keys", triangles),
              second = allocate<SpaceIds<Space>>("GALE::triangle_keys", triangles);
   parallel_for(
-      "GALE::triangle_keys", space, triangles, KOKKOS_LAMBDA(Offset f) {
-        const Id edge = simplices.triangle_edge(f);
-        const Id vertices[3] = {simplices.edge_low(edge), simplices.edge_high(edge), simplices.triangle_apex(f)};
-        int last = 0;  // the corner whose input id is highest; the edge of the others comes first
-        for (int corner = 1; corner < 3; ++corner) {
-          if (input(vertices[corner]) > input(vertices[last])) last = corner;
+      "GALE::triangle_keys", space, edges.extent(0), KOKKOS_LAMBDA(Offset edge) {
+        for (Id f = simplices.triangle_begin(edge); f < simplices.triangle_begin(edge + 1); ++f) {
+          const Id vertices[3] = {simplices.edge_low(edge), simplices.edge_high(edge), simplices.triangle_apex(f)};
+          int last = 0;  // the corner whose input id is highest; the edge of the others comes first
+          for (int corner = 1; corner < 3; ++corner) {
+            if (input(vertices[corner]) > input(vertices[last])) last = corner;
+          }
+          first(f) = edges(simplices.edge_of(vertices[last == 0 ? 1 : 0], vertices[last == 2 ? 1 : 2]));
+          second(f) = input(vertices[last]);
         }
-        first(f) = edges(simplices.edge_of(vertices[last == 0 ? 1 : 0], vertices[last == 2 ? 1 : 2]));
-        second(f) = input(vertices[last]);
       });
   return places_of(space, edges.extent(0), first, second);
 }

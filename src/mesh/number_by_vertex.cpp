@@ -155,6 +155,8 @@ class TriangleOrder {
       visit_by<3>(for_each, visit);
     } else if (neighbours <= 16) {
       visit_by<4>(for_each, visit);
+    } else if (neighbours <= 32) {
+      visit_by<5>(for_each, visit);
     } else {
       visit_by<6>(for_each, visit);
     }
@@ -165,9 +167,10 @@ class TriangleOrder {
   template <int bits, class ForEach, class Visit>
   void visit_by(const ForEach& for_each, const Visit& visit) {
     constexpr std::uint32_t words = (1 << 2 * bits) / 64;
-    std::uint64_t there[words] = {};  // the only one stays in a register
+    std::uint64_t there[words] = {};
     for_each([&](Id second, Id third, Id triangle) {
       const std::uint32_t at = second << bits | third;
+      // Always below `words`; where that is one, the compiler knows so too, and keeps it in a register.
       there[at / 64 % words] |= std::uint64_t(1) << at % 64;
       triangles_[at] = triangle;
     });

@@ -21,12 +21,12 @@ Simplices<Memory> view_of(const MeshArrays& mesh, const SimplexTables& tables, c
   }
   if (needs.upto >= Enumeration::edges && has(tables.edge_begin)) {
     view.edge_begin = tables.edge_begin.in<Memory>();
-    if (needs.edge_owners) view.edge_low = tables.edge_low.in<Memory>();
+    if (needs.edge_low) view.edge_low = tables.edge_low.in<Memory>();
     view.edge_high = tables.edge_high.in<Memory>();
   }
   if (needs.upto >= Enumeration::triangles && has(tables.triangle_begin)) {
     view.triangle_begin = tables.triangle_begin.in<Memory>();
-    if (needs.triangle_owners) view.triangle_edge = tables.triangle_edge.in<Memory>();
+    if (needs.triangle_edge) view.triangle_edge = tables.triangle_edge.in<Memory>();
     view.triangle_apex = tables.triangle_apex.in<Memory>();
   }
   if (needs.lower_edges && has(tables.lower_begin)) {
@@ -40,7 +40,7 @@ Simplices<Memory> view_of(const MeshArrays& mesh, const SimplexTables& tables, c
 /// The tables from which others are made.
 constexpr SimplexNeeds tetrahedra = {Enumeration::tetrahedra, false, true};
 constexpr SimplexNeeds edges = {Enumeration::edges, false, true};
-constexpr SimplexNeeds triangles = {Enumeration::triangles, false, true, true, false};
+constexpr SimplexNeeds triangles = {Enumeration::triangles, false, false, false, false};
 
 template <class Space>
 Mirrored<Id> interval_begin_of(const Space& space, const MeshArrays& mesh, const SimplexTables& tables, int dimension) {
@@ -75,7 +75,7 @@ const Array<const Id, Memory>& SimplexStore::interval_begin(int dimension) {
   const std::lock_guard<std::mutex> lock(mutex_);
   SimplexNeeds needs;
   needs.upto = dimension == 1 ? Enumeration::edges : Enumeration::triangles;
-  needs.triangle_owners = false;
+  needs.triangle_edge = false;
   enumerate(needs);
   return intervals_[dimension - 1].in<Memory>();
 }
@@ -96,32 +96,34 @@ std::string SimplexStore::notice() const {
 /// fence.
 void SimplexStore::enumerate(const SimplexNeeds& needs) {
   const TrackedViews tracked;  // the tables last, also where a sweep's body asks for them
-  const bool edges_too = needs.upto >= Enumeration::edges && !has(tables_.edge_begin);
-  const bool triangles_too = needs.upto >= Enumeration::triangles && !has(tables_.triangle_begin);
+  const bool edges_too = needs.upto >= Enumeration::edges && known(1) == no_id;
+  const bool triangles_too = needs.upto >= Enumeration::triangles && known(2) == no_id;
   if (edges_too || triangles_too) {
-    make(triangles_too ? "triangles" : "edges", [&](const auto& space) {
+    make(triangles_too ? "triangles" : "edges", mesh_.tetrahedra, [&](const auto& space) {
       using Memory = MemoryOf<std::decay_t<decltype(space)>>;
       const auto stars = find_middle_stars(space, view_of<Memory>(mesh_, tables_, tetrahedra));
       if (!has(tables_.edge_begin)) {
         enumerate_edges(space, view_of<Memory>(mesh_, tables_, tetrahedra), stars, tables_);
       }
       publish_intervals(space, 1);
-      if (triangles_too) {
+      if (!triangles_too) return;
+      if (!has(tables_.triangle_begin)) {
         enumerate_triangles(space, view_of<Memory>(mesh_, tables_, edges), stars, tables_);
-        publish_intervals(space, 2);
       }
+      publish_intervals(space, 2);
     });
   }
-  if (needs.upto >= Enumeration::triangles && needs.triangle_owners &&
-      static_cast<Id>(tables_.triangle_edge.size()) < known(2)) {
-    make("edges of triangles", [&](const auto& space) {
+  const bool triangle_edge_too = needs.upto >= Enumeration::triangles && needs.triangle_edge &&
+                                 tables_.triangle_edge.size() < tables_.triangle_apex.size();
+  if (triangle_edge_too) {
+    make("edges that its triangles lie over", tables_.triangle_apex, [&](const auto& space) {
       using Memory = MemoryOf<std::decay_t<decltype(space)>>;
       find_triangle_edges(space, view_of<Memory>(mesh_, tables_, triangles), tables_);
       space.fence();
     });
   }
   if (needs.lower_edges && !has(tables_.lower_begin)) {
-    make("edges by their higher vertices", [&](const auto& space) {
+    make("edges by their higher vertices", tables_.edge_high, [&](const auto& space) {
       using Memory = MemoryOf<std::decay_t<decltype(space)>>;
       sort_edges_by_higher(space, view_of<Memory>(mesh_, tables_, edges), tables_);
       space.fence();
@@ -129,10 +131,10 @@ void SimplexStore::enumerate(const SimplexNeeds& needs) {
   }
 }
 
-/// Calls make(space) where the mesh is, and on the host if there is no memory for that.
-template <class Make>
-void SimplexStore::make(const char* what, const Make& make) {
-  in_worker_or_host_space(mesh_.tetrahedra.on_device(), make, [&](const OutOfMemory& error) {
+/// Calls make(space) where what it is made from is, and on the host if there is no memory for that.
+template <class From, class Make>
+void SimplexStore::make(const char* what, const From& from, const Make& make) {
+  in_worker_or_host_space(from.on_device(), make, [&](const OutOfMemory& error) {
     if (!notice_.empty()) return;
     notice_ = std::string("the mesh's ") + (has(tables_.edge_begin) ? what : "edges") +
               " don't fit the device's memory (" + error.missing() + "): the host computes them";

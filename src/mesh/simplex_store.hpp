@@ -31,8 +31,8 @@ class SimplexStore {
 
  private:
   void enumerate(const SimplexNeeds& needs);
-  template <class Make>
-  void make(const char* what, const Make& make);
+  template <class From, class Make>
+  void make(const char* what, const From& from, const Make& make);
   template <class Space>
   void publish_intervals(const Space& space, int dimension);
 

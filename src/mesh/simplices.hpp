@@ -36,10 +36,10 @@ enum class Enumeration { tetrahedra, edges, triangles };
 /// What someone needs of the tables of `Simplices`.
 struct SimplexNeeds {
   Enumeration upto = Enumeration::tetrahedra;
-  bool lower_edges = false;     ///< the edges by their higher vertex too; needs edges
-  bool tetrahedra = false;      ///< the tetrahedra themselves; on a device that has them they always come along
-  bool edge_owners = true;      ///< edge_low, which leads from an edge to its vertices
-  bool triangle_owners = true;  ///< likewise triangle_edge, if triangles are numbered; made when someone needs it
+  bool lower_edges = false;   ///< the edges by their higher vertex too; needs edges
+  bool tetrahedra = false;    ///< the tetrahedra themselves; on a device that has them they always come along
+  bool edge_low = true;       ///< that table, if edges are numbered
+  bool triangle_edge = true;  ///< that table, if triangles are numbered; made when someone needs it first
 };
 
 /// All simplices of a mesh, each with its vertices ascending (a < b < c < d) and all of a dimension in lexicographic

@@ -8,13 +8,13 @@ namespace gale {
 
 SimplexNeeds needs_of(RelationSet relations) {
   SimplexNeeds needs;
-  needs.triangle_owners = false;
+  needs.triangle_edge = false;
   for (const Relation relation : members_of(relations)) {
     const SimplexNeeds one = traits_of(relation).needs;
     needs.upto = std::max(needs.upto, one.upto);
     needs.lower_edges |= one.lower_edges;
     needs.tetrahedra |= one.tetrahedra;
-    needs.triangle_owners |= one.upto == Enumeration::triangles && one.triangle_owners;
+    needs.triangle_edge |= row_dimension(relation) == 2;
   }
   return needs;
 }

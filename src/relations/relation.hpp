@@ -27,7 +27,7 @@ struct RelationTraits {
   signed char row_dimension;    ///< of the X, of which there is a row each
   signed char entry_dimension;  ///< of the Y, which are the rows' entries
   ComputedBy computed_by;
-  SimplexNeeds needs;     ///< tables of simplices that whoever computes a row reads
+  SimplexNeeds needs;     ///< tables of simplices that whoever computes a row reads; triangle_edge see `needs_of`
   short words_of_vertex;  ///< what its blocks take for each vertex of a regular mesh, in words of an Id
 };
 
@@ -35,18 +35,18 @@ KOKKOS_FUNCTION constexpr RelationTraits traits_of(Relation relation) {
   using By = ComputedBy;
   constexpr auto vertices = Enumeration::tetrahedra, edges = Enumeration::edges, triangles = Enumeration::triangles;
   // A vertex of a regular mesh has 14 neighbours, 36 triangles and 24 tetrahedra. The needs: what is numbered, whether
-  // edges are sorted by their higher vertex too, whether the host needs the tetrahedra, and who leads to vertices.
+  // edges are sorted by their higher vertex too, and whether the host needs the tetrahedra.
   constexpr RelationTraits table[relation_count] = {
       {"EV", 1, 0, By::look_up, {edges, false, false}, 21},
       {"FV", 2, 0, By::look_up, {triangles, false, false}, 48},
       {"FE", 2, 1, By::look_up, {triangles, false, false}, 48},
       {"TV", 3, 0, By::look_up, {vertices, false, true}, 30},
       {"TE", 3, 1, By::look_up, {edges, false, true}, 42},
-      {"TF", 3, 2, By::look_up, {triangles, false, true, true, false}, 30},
+      {"TF", 3, 2, By::look_up, {triangles, false, true}, 30},
       {"VE", 0, 1, By::row_kernel, {edges, true, false}, 16},
-      {"VF", 0, 2, By::row_kernel, {triangles, true, false, true, false}, 38},
+      {"VF", 0, 2, By::row_kernel, {triangles, true, false}, 38},
       {"VT", 0, 3, By::star_kernel, {vertices, false, false}, 26},
-      {"EF", 1, 2, By::row_kernel, {triangles, true, false, true, false}, 44},
+      {"EF", 1, 2, By::row_kernel, {triangles, true, false}, 44},
       {"ET", 1, 3, By::row_kernel, {edges, true, true}, 44},
       {"FT", 2, 3, By::row_kernel, {triangles, true, true}, 37},
       {"VV", 0, 0, By::star_kernel, {vertices, false, false}, 16},

@@ -53,7 +53,7 @@ TEST(Enumeration, of_edges_needs_no_triangles) {
 TEST(Enumeration, of_triangles_leaves_out_their_edges_until_someone_needs_them) {
   const Mesh mesh = holed();
   SimplexNeeds needs = triangles;
-  needs.triangle_owners = false;
+  needs.triangle_edge = false;
   const auto without = mesh.simplices(needs);
   EXPECT_EQ(without.triangle_apex.extent(0), static_cast<std::size_t>(count_of(2)));
   EXPECT_EQ(without.triangle_edge.extent(0), 0u);

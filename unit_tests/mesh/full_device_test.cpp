@@ -32,8 +32,10 @@ void expect_equal(const Mesh& mesh, const Mesh& expected) {
   EXPECT_EQ(values(mesh.tetrahedron_input()), values(expected.tetrahedron_input()));
   const auto tables = mesh.simplices(all_tables), wanted = expected.simplices(all_tables);
   EXPECT_EQ(values(tables.edge_begin), values(wanted.edge_begin));
+  EXPECT_EQ(values(tables.edge_low), values(wanted.edge_low));
   EXPECT_EQ(values(tables.edge_high), values(wanted.edge_high));
   EXPECT_EQ(values(tables.triangle_begin), values(wanted.triangle_begin));
+  EXPECT_EQ(values(tables.triangle_edge), values(wanted.triangle_edge));
   EXPECT_EQ(values(tables.triangle_apex), values(wanted.triangle_apex));
   EXPECT_EQ(values(tables.lower_edges), values(wanted.lower_edges));
   for (const int dimension : {0, 1, 2, 3}) {
@@ -75,6 +77,22 @@ TEST(FullDevice, lets_the_host_enumerate) {
   expect_equal(mesh, expected);
   EXPECT_TRUE(mesh.on_device());
   EXPECT_EQ(mesh.notice().rfind("the mesh's edges don't fit the device's memory (", 0), 0u) << mesh.notice();
+}
+
+TEST(FullDevice, lets_the_host_find_what_triangles_lie_over) {
+  if (!have_device) GTEST_SKIP() << "there is no device";
+  const InputMesh input = holed_grid(70);  // two million triangles
+  const Mesh expected = encode(input, 100);
+  const Mesh mesh = encode(input, 100);
+  mesh.simplices<WorkerMemory>({Enumeration::triangles, true, true, true, false});
+  EXPECT_EQ(mesh.notice(), "");
+  expected.simplices(all_tables);
+  const FullDevice full(2 * mebi);
+  const auto found = mesh.simplices({Enumeration::triangles}), wanted = expected.simplices({Enumeration::triangles});
+  ASSERT_EQ(found.triangle_edge.extent(0), wanted.triangle_edge.extent(0));
+  for (Id f = 0; f < mesh.known_triangles(); ++f) ASSERT_EQ(found.triangle_edge(f), wanted.triangle_edge(f)) << f;
+  EXPECT_EQ(mesh.notice().rfind("the mesh's edges that its triangles lie over don't fit the device's memory (", 0), 0u)
+      << mesh.notice();
 }
 
 }  // namespace gale::test

@@ -23,8 +23,8 @@ void expect_needs(RelationSet relations, Enumeration upto, bool lower_edges, boo
 TEST(Preconditioning, finds_edges_of_triangles_for_rows_of_triangles_alone) {
   for (const Relation relation : members_of(all_relations)) {
     const bool of_triangles = row_dimension(relation) == 2;
-    EXPECT_EQ(needs_of(relation).triangle_owners, of_triangles) << name_of(relation);
-    EXPECT_EQ(needs_of(relation | Relation::EV).triangle_owners, of_triangles) << name_of(relation);
+    EXPECT_EQ(needs_of(relation).triangle_edge, of_triangles) << name_of(relation);
+    EXPECT_EQ(needs_of(relation | Relation::EV).triangle_edge, of_triangles) << name_of(relation);
   }
 }
 

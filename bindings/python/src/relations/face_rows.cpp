@@ -33,14 +33,14 @@ void for_each_triangle_row(const Simplices<HostMemory>& simplices, Id edge, cons
     if constexpr (relation == Relation::FV) {
       visit(triangle, FaceRow<3>{{a, b, c}});
     } else {
-      while (s.edge_high(ac) != c) ++ac;
-      while (s.edge_high(bc) != c) ++bc;
+      ac = detail::find_in(s.edge_high, ac, s.edge_begin(a + 1), c);
+      bc = detail::find_in(s.edge_high, bc, s.edge_begin(b + 1), c);
       visit(triangle, FaceRow<3>{{edge, ac, bc}});
     }
   }
 }
 
-/// Likewise for each simplex of a segment.
+/// Calls visit(simplex, its row) for each of a segment; triangles are gone through edge by edge.
 template <Relation relation, class Visit>
 void for_each_row(const Simplices<HostMemory>& simplices, const Intervals& segment, const Visit& visit) {
   if constexpr (row_dimension(relation) == 2) {
@@ -71,7 +71,7 @@ void write_rows(const Mesh& mesh, const Simplices<HostMemory>& simplices, const 
 template <Relation relation>
 FaceRows rows_of(const Mesh& mesh, const NumbersOf& numbers_of, const SweepOptions& options) {
   SimplexNeeds needs = needs_of(relation);
-  needs.triangle_owners = false;
+  needs.triangle_edge = false;  // since edges are gone through
   const Simplices<HostMemory> simplices = mesh.simplices(needs);
   FaceRows all;
   all.size = face_count(relation);

@@ -4,9 +4,11 @@
 #include <cstdlib>
 #include <limits>
 #include <new>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include <gale/base/error.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/base/threads.hpp>
 
@@ -32,7 +34,7 @@ class Part {
 
   void count() {
     Id* const counts = counts_.get();
-    Id least = least_, most = most_;
+    Id least = least_, most = most_;  // in registers: counts might be them
     const Id* row = faces_.row(first_);
     for (const Id* const end = faces_.row(last_); row != end; row += size) {
       least = std::min(least, row[0]);
@@ -54,8 +56,8 @@ class Part {
     constexpr Offset ahead = 16;
     Id* const next = counts_.get();
     const Id* row = faces_.row(first_);
-    for (Offset i = first_, last = last_; i < last; ++i, row += size) {
-      if (last - i > ahead) {
+    for (Offset i = first_; i < last_; ++i, row += size) {
+      if (last_ - i > ahead) {
         const Id* const later = row + size * ahead;
         for (int k = 0; k < size; ++k) __builtin_prefetch(entries + begin[later[k]] + next[later[k]], 1);
       }
@@ -113,9 +115,10 @@ WholeRelation transposed_rows(const FaceRows& faces, int threads) {
       return transposed<3>(faces, threads);
     case 4:
       return transposed<4>(faces, threads);
-    default:
+    case 6:
       return transposed<6>(faces, threads);
   }
+  throw Error("faces have rows of " + std::to_string(faces.size));
 }
 
 }  // namespace gale::python
