@@ -14,7 +14,7 @@ void parallel_sort(const char* label, Iterator first, Iterator last, const Less&
   const int parts = detail::threads_for(count);
   const auto begin_of = [&](int part) { return first + detail::part_begin(count, parts, std::min(part, parts)); };
   detail::for_parts(label, count, parts,
-                    [&](int part, Offset, Offset) { std::sort(begin_of(part), begin_of(part + 1), less); });
+                    [&](int, Offset begin, Offset end) { std::sort(first + begin, first + end, less); });
   for (int sorted = 1; sorted < parts; sorted *= 2) {
     on_threads((parts + 2 * sorted - 1) / (2 * sorted), [&](int pair) {
       const int begin = 2 * sorted * pair;

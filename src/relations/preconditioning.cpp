@@ -14,7 +14,7 @@ SimplexNeeds needs_of(RelationSet relations) {
     needs.upto = std::max(needs.upto, one.upto);
     needs.lower_edges |= one.lower_edges;
     needs.tetrahedra |= one.tetrahedra;
-    needs.triangle_edge |= row_dimension(relation) == 2;
+    needs.triangle_edge |= row_dimension(relation) == 2;  // whose rows begin with the triangle's vertices
   }
   return needs;
 }

@@ -42,7 +42,7 @@ void for_each_triangle_row(const Simplices<HostMemory>& simplices, Id edge, cons
 
 /// Calls visit(simplex, its row) for each of a segment; triangles are gone through edge by edge.
 template <Relation relation, class Visit>
-void for_each_row(const Simplices<HostMemory>& simplices, const Intervals& segment, const Visit& visit) {
+void for_each_row_of(const Simplices<HostMemory>& simplices, const Intervals& segment, const Visit& visit) {
   if constexpr (row_dimension(relation) == 2) {
     for (const Id edge : segment[1]) for_each_triangle_row<relation>(simplices, edge, visit);
   } else {
@@ -60,7 +60,7 @@ void write_rows(const Mesh& mesh, const Simplices<HostMemory>& simplices, const 
     const Intervals all = mesh.intervals_of(segment);
     const Id last = all[row_dimension(relation)].last;
     const auto place_of = [&](Id simplex) { return to + Offset(size) * numbers.rows[simplex]; };
-    for_each_row<relation>(simplices, all, [&](Id simplex, FaceRow<size> row) {
+    for_each_row_of<relation>(simplices, all, [&](Id simplex, FaceRow<size> row) {
       if (last - simplex > ahead) __builtin_prefetch(place_of(simplex + ahead), 1);
       for (Id& id : row.ids) id = numbers.entries[id];
       write_ascending(row, place_of(simplex));

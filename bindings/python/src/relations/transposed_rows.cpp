@@ -34,7 +34,7 @@ class Part {
 
   void count() {
     Id* const counts = counts_.get();
-    Id least = least_, most = most_;  // in registers: counts might be them
+    Id least = least_, most = most_;  // as members they might be among the counts, and stay in memory
     const Id* row = faces_.row(first_);
     for (const Id* const end = faces_.row(last_); row != end; row += size) {
       least = std::min(least, row[0]);
