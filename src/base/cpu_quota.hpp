@@ -12,7 +12,7 @@ int cpus_of_quota(const std::string& cpu_max);
 /// Version 1 has two: cpu.cfs_quota_us, -1 for none, and cpu.cfs_period_us.
 int cpus_of_quota(const std::string& quota, const std::string& period);
 
-/// Those of the container that the process runs in; 0 where it has no quota.
+/// The processors of the container that the process runs in; 0 where it has no quota.
 int cpu_quota();
 
 /// The cores that the process may run on: those of its affinity, and no more than its quota. At least 1.

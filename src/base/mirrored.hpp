@@ -108,10 +108,10 @@ class Mirrored {
   using Arrays = std::conditional_t<have_device, detail::TwoArrays<T>, detail::OneArray<T>>;
 
  public:
-  /// Of no entries.
+  /// An array of no entries.
   Mirrored() = default;
 
-  /// Of a View of T or const T of rank 1, in the workers' memory or the host's.
+  /// Takes a View of T or const T of rank 1, in the workers' memory or the host's.
   template <class View, class = std::enable_if_t<std::is_same_v<typename View::non_const_value_type, T>>>
   Mirrored(const View& array) : arrays_(Array<const T, MemoryOfView<View>>(array)) {}
 

@@ -70,7 +70,7 @@ KOKKOS_FORCEINLINE_FUNCTION void for_all(const Team& team, int n, const Body& bo
   Kokkos::parallel_for(Kokkos::TeamVectorRange(team, n), body);
 }
 
-/// The same for body(i, load(i)). Where a lane takes several, it loads the next before it works on one: body must not
+/// Calls body(i, load(i)) likewise. Where a lane takes several, it loads the next before it works on one: body must not
 /// write what load reads.
 template <class Team, class Load, class Body>
 KOKKOS_FORCEINLINE_FUNCTION void for_all_loaded(const Team& team, int n, const Load& load, const Body& body) {

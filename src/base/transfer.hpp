@@ -16,7 +16,7 @@ namespace gale {
 GALE_EXPORT void copy_to_device(void* device, const void* host, std::size_t bytes);
 GALE_EXPORT void copy_from_device(void* host, const void* device, std::size_t bytes);
 
-/// The same for bytes that write(to, begin, size) puts at `to` as they are wanted: `size` of them from the begin-th on,
+/// Copies bytes that write(to, begin, size) puts at `to` as they are wanted: `size` of them from the begin-th on,
 /// by all host threads; both are multiples of 2 MiB, but for the last size.
 GALE_EXPORT void write_to_device(void* device, std::size_t bytes,
                                  const std::function<void(char* to, std::size_t begin, std::size_t size)>& write);
@@ -31,7 +31,7 @@ inline std::string copy_label(const std::string& label) { return label.empty() ?
 
 }  // namespace detail
 
-/// The same contents where the workers can read them: the View itself if they can already, else a copy.
+/// The contents of a View where the workers can read them: the View itself if they can already, else a copy.
 template <class T, class... Properties>
 auto on_worker(const Kokkos::View<T, Properties...>& view) {
   using Given = Kokkos::View<T, Properties...>;
@@ -45,7 +45,7 @@ auto on_worker(const Kokkos::View<T, Properties...>& view) {
   }
 }
 
-/// The same contents where the host can read them; likewise.
+/// The contents of a View where the host can read them: itself if it can already, else a copy.
 template <class T, class... Properties>
 auto on_host(const Kokkos::View<T, Properties...>& view) {
   using Given = Kokkos::View<T, Properties...>;
@@ -59,7 +59,7 @@ auto on_host(const Kokkos::View<T, Properties...>& view) {
   }
 }
 
-/// The same contents in `Memory`, which is the host's or the workers'; likewise.
+/// The contents of a View in `Memory`, the host's or the workers': itself if it lies there, else a copy.
 template <class Memory, class T, class... Properties>
 auto in_memory(const Kokkos::View<T, Properties...>& view) {
   if constexpr (is_device_memory<Memory>) {

@@ -21,7 +21,7 @@ void require_tetrahedra(const MeshPart<Index>& part);
 template <class Index>
 class CornerOwners {
  public:
-  /// Of the `outer` ones: the others have vertices in `own` alone. Collective. Throws gale::Error on all ranks for a
+  /// Takes the `outer` ones: the others have vertices in `own` alone. Collective. Throws gale::Error on all ranks for a
   /// vertex that no rank hands over.
   CornerOwners(const Communicator& ranks, const MeshPart<Index>& part, const VertexDirectory& directory,
                const IdInterval& own, const std::vector<Id>& outer);

@@ -15,7 +15,7 @@ namespace {
 /// A place on the curve.
 using CurvePlace = std::pair<std::uint64_t, GlobalId>;
 
-/// Of each rank's share, so that shares differ by a few percent.
+/// Samples of each rank's share: so many that shares differ by a few percent.
 constexpr Offset samples_a_rank = 4096;
 
 template <class Rows>

@@ -41,7 +41,7 @@ class Named {
     return detail::barycentre(points_, detail::written(input_, tetrahedron));
   }
 
-  /// Of an edge or a triangle.
+  /// The step at an edge or a triangle.
   template <std::size_t N>
   detail::PathStep step(const std::array<Id, N>& simplex) const {
     const auto input = detail::written(input_, simplex);

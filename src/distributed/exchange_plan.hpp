@@ -58,7 +58,7 @@ class ExchangePlan {
     return fetch(ranks, values);
   }
 
-  /// The same from the values of given_places().
+  /// Fetches what the others have, from the values of given_places().
   template <class T>
   Dealt<T> fetch(const Communicator& ranks, const Array<T, HostMemory>& values) const {
     Dealt<T> taken;

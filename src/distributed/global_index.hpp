@@ -28,7 +28,7 @@ class GALE_EXPORT GlobalIndex {
  public:
   GlobalIndex() = default;
 
-  /// Of ids that ascend, at most 2^31 - 1 of them.
+  /// Takes ids that ascend, at most 2^31 - 1 of them.
   explicit GlobalIndex(const Array<const GlobalId, HostMemory>& ascending);
 
   /// no_id if it isn't there. By any thread.
@@ -49,7 +49,7 @@ class GALE_EXPORT GlobalIndex {
   Array<Id, HostMemory> table_;  ///< id - ids_(0) -> place
 };
 
-/// Of the ids that visit(i, offer) offers for i in 0..n-1 those that `index` lacks: ascending, none twice.
+/// The ids that `index` lacks among those that visit(i, offer) offers for i in 0..n-1: ascending, none twice.
 template <class Visit>
 GlobalIds missing_ids(const GlobalIndex& index, Offset n, const Visit& visit) {
   const int parts = threads_for(n);

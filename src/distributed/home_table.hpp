@@ -20,7 +20,7 @@ class Homes {
     ids_a_home_ = greatest / ranks.size() + 1;
   }
 
-  /// Of any id, the last one's too of those beyond all.
+  /// The home of any id; ids beyond all have the last rank.
   int of(GlobalId id) const { return static_cast<int>(std::min<GlobalId>(id / ids_a_home_, ranks_ - 1)); }
 
  private:
@@ -35,8 +35,8 @@ class HomeTable {
  public:
   HomeTable() = default;
 
-  /// Of ids that ranks have, with handed_of(i) for the i-th of this rank; entry_from(rank, handed) is what its home
-  /// keeps of one. Of an id that several ranks have, or one several times, the lowest rank's first counts.
+  /// Takes ids that ranks have, with handed_of(i) for the i-th of this rank; entry_from(rank, handed) is what its home
+  /// keeps of one. Where several ranks have an id, or one several times, the lowest rank's first counts.
   template <class HandedOf, class EntryFrom>
   HomeTable(const Communicator& ranks, const Array<const GlobalId, HostMemory>& ids, const HandedOf& handed_of,
             const EntryFrom& entry_from)

@@ -61,7 +61,7 @@ LocalTetrahedra<Index>::LocalTetrahedra(const Communicator& ranks, const MeshPar
   together(ranks, [&] { places_ = TetrahedronPlaces(kept, ids_of(received_)); });
 }
 
-/// Of those with vertices outside `own`: which are kept, and which go to others.
+/// Says which tetrahedra with vertices outside `own` are kept, and which go to others.
 template <class Index>
 KeptTetrahedra LocalTetrahedra<Index>::choose(const Communicator& ranks, const VertexDirectory& directory,
                                               const std::vector<Id>& outer, GlobalId first_id,

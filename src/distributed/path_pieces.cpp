@@ -26,7 +26,7 @@ struct OpenEnd {
   Id exit;
 };
 
-/// Of the cells that a rank sends for a piece.
+/// The head of the cells that a rank sends for a piece.
 struct PieceHead {
   Id path;
   Offset position, cells;

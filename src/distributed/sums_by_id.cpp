@@ -9,7 +9,7 @@ struct Count {
   GlobalId id, count;
 };
 
-/// Of numbers that ascend the different ones, each with how often it occurs.
+/// The different ones of numbers that ascend, each with how often it occurs.
 std::vector<Count> counted(const Array<const std::uint64_t, HostMemory>& ascending) {
   std::vector<Count> counts;
   for (std::size_t i = 0; i < ascending.extent(0); ++i) {

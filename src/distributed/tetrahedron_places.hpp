@@ -29,7 +29,7 @@ struct KeptTetrahedra {
 };
 
 /// Where the tetrahedra that a rank holds come from, by ascending global ids: local input ids are places among them.
-/// Those that it keeps have that order mostly, and received ones are few: then it takes room for these alone.
+/// Tetrahedra that it keeps have that order mostly, and received ones are few: then it takes room for these alone.
 class TetrahedronPlaces {
  public:
   TetrahedronPlaces() = default;

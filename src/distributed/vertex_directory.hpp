@@ -17,8 +17,8 @@ struct VertexEntry {
 /// Who knows which vertex: spread over the ranks, or known to all. Made and asked by all ranks together.
 class VertexDirectory {
  public:
-  /// Of the vertices that each rank hands over: their ids (a vertex may come from several ranks, and from one several
-  /// times), and who is to own each.
+  /// Takes the vertices that each rank hands over: their ids (a vertex may come from several ranks, and from one
+  /// several times), and who is to own each.
   VertexDirectory(const Communicator& ranks, const Array<const GlobalId, HostMemory>& ids,
                   const Array<const int, HostMemory>& owners);
 

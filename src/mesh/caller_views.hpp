@@ -35,7 +35,7 @@ struct CopyRow {
   }
 };
 
-/// The same memory if it is laid out so, else a copy. Throws gale::Error, calling it `name`, if it has another number
+/// The View's memory if it is laid out so, else a copy. Throws gale::Error, calling it `name`, if it has another number
 /// of columns.
 template <int columns, template <class> class TypeFor, class View>
 RowsOf<columns, TypeFor, View> rows_of(const char* name, const View& view) {

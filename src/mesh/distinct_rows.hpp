@@ -27,7 +27,7 @@ class LargeRows {
   using Ids = Array<Id, Memory>;
   using Offsets = Array<Offset, Memory>;
 
-  /// Those whose count is FewDistinct::too_many. Replaces it by the number of distinct candidates.
+  /// Takes the rows whose count is FewDistinct::too_many, and replaces it by the number of distinct candidates.
   LargeRows(const Space& space, const Ids& count, Id large, const Candidates& candidates)
       : space_(space),
         rows_(allocate<Ids>("GALE::large_rows", large)),

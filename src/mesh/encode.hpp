@@ -28,7 +28,7 @@ struct ExternalTetrahedra {
   Array<Id, Memory> ids;
 };
 
-/// Of a mesh of so many vertices, which has everything else.
+/// Finds T_ex of a mesh of so many vertices, which has everything else.
 template <class Space>
 ExternalTetrahedra<MemoryOf<Space>> find_external_tetrahedra(const Space& space,
                                                              const EncodedMesh<MemoryOf<Space>>& mesh, Id vertices);

@@ -37,7 +37,7 @@ class ManyTriangles {
   using Offsets = Array<Offset, Memory>;
   using Keys = Array<std::uint64_t, Memory>;
 
-  /// None.
+  /// Holds no triangles.
   ManyTriangles() = default;
 
   /// All of them. `simplices` has the edges.

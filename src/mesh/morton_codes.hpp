@@ -31,7 +31,7 @@ GALE_EXPORT void require_finite(const Space& space, const Points<Coordinate, Mem
 template <class Coordinate, class Space>
 GALE_EXPORT Box bounding_box(const Space& space, const Points<Coordinate, MemoryOf<Space>>& points);
 
-/// Of a box that holds a point at least.
+/// The cube around a box that holds a point at least.
 GALE_EXPORT Cube cube_around(const Box& box);
 
 /// The places of points along the space-filling curve through a cube that holds them: x the highest bit.

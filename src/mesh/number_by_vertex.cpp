@@ -34,7 +34,7 @@ Elsewhere find_elsewhere(const HostTables& tables, const Id* input, bool triangl
     elsewhere.has_all(v) = std::all_of(ends + tables.edge_begin(v), ends + tables.edge_begin(v + 1),
                                        [&](Id end) { return input[end] > input[v]; });
   });
-  // None where all vertices have all.
+  // Empty where all vertices have all.
   const bool none =
       reduce_sum("GALE::has_all", HostSpace(), vertices, [&](Offset v) { return elsewhere.has_all(v); }) == vertices;
   const Offset edges = none ? 0 : tables.edge_high.extent(0);
@@ -235,7 +235,7 @@ class OwnNumberer {
   }
 
  private:
-  /// So many triangles, and the ranks of their other two corners among the neighbours.
+  /// Finds `count` triangles, and the ranks of their other two corners among the neighbours.
   void find_triangles(Id vertex, Id count) {
     for (std::vector<Id>* ids : {&triangles_, &corners_, &others_}) NeighbourRanks::make_room(*ids, count);
     Id found = 0;

@@ -51,7 +51,7 @@ class UpperLink {
  private:
   KOKKOS_FORCEINLINE_FUNCTION static std::uint64_t bit(Id i) { return std::uint64_t(1) << i; }
 
-  /// Of one that is there, not before `from`.
+  /// The place of a neighbour that is there, not before `from`.
   KOKKOS_FORCEINLINE_FUNCTION Id place_of(Id neighbour, Id from) const {
     while (neighbours_[from] != neighbour) ++from;
     return from;

@@ -22,7 +22,7 @@ class Heights {
 
   double value(Id vertex) const { return value_at(field_, vertex); }
 
-  /// Of two values; 0 where both are the same infinity.
+  /// The difference of two values; 0 where both are one infinity.
   static double difference(double high, double low) { return high == low ? 0 : high - low; }
 
   bool is_below(Id a, Id b) const { return keys_[internal_[a]] < keys_[internal_[b]]; }

@@ -15,7 +15,7 @@ namespace gale::outputs::detail {
 template <class Coordinate, class Number = Id>
 class LineArrays {
  public:
-  /// Of that many cells on so many paths. Throws gale::Error if that is more than ids can number.
+  /// Arrays for that many cells on so many paths. Throws gale::Error if that is more than ids can number.
   LineArrays(Offset cells, Offset paths) {
     require_ids("points of 1-separatrices", 2 * cells);
     const Offset lines = 2 * cells - paths;

@@ -35,7 +35,7 @@ struct Ends {
 template <class Coordinate>
 class Lines {
  public:
-  /// Of that many cells on so many paths, of all kinds together.
+  /// Lines for that many cells on so many paths, of all kinds together.
   Lines(const io::Dataset::Points<Coordinate>& points, const Mesh& mesh, const detail::Heights& heights, Offset cells,
         Offset paths)
       : input_(mesh.vertex_input().data()), points_(points), heights_(heights), arrays_(cells, paths) {}

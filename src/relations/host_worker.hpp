@@ -31,7 +31,7 @@ class HostWorker {
     Offset words = 0;
   };
 
-  /// The same of a worker whose relations one kernel computes (kernels_for).
+  /// Computes the batch of a worker whose relations one kernel makes (kernels_for).
   Computed compute_batch(Id segment);
 
   /// Allocated for blocks, now.

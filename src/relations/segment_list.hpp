@@ -20,7 +20,7 @@ class SegmentList {
     return list;
   }
 
-  /// Those from a place on.
+  /// The segments from a place on.
   KOKKOS_FUNCTION SegmentList from_place(Id place) const {
     return segments_ == nullptr ? from(first_ + place) : SegmentList(segments_ + place);
   }

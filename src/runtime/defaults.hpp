@@ -30,7 +30,7 @@ Sizes sizes_for(const Mesh& mesh, const StructureOptions& options, int queues);
 /// Bytes for blocks on the host, of all queues or helpers together.
 std::size_t host_memory(const StructureOptions& options);
 
-/// Of a sweep, for consumers and helpers. Throws gale::Error for an option below 0.
+/// The cores of a sweep, for consumers and helpers. Throws gale::Error for an option below 0.
 int cores(const StructureOptions& options);
 
 }  // namespace gale::detail

@@ -78,7 +78,7 @@ class EdgePairs {
   EdgePairs() = default;
   EdgePairs(Id vertices, int consumers);
 
-  /// Of rows that were made elsewhere: their words, and where among them each vertex' row begins.
+  /// Takes rows that were made elsewhere: their words, and where among them each vertex's row begins.
   EdgePairs(const Array<const Id, HostMemory>& words, const Array<const Offset, HostMemory>& begin, int consumers);
 
   /// A row for a vertex, to be filled. A consumer may begin rows while others do; each vertex once.

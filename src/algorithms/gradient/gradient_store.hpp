@@ -46,7 +46,7 @@ class GradientStore {
   /// What kernels found, complete.
   GradientStore(const VertexOrder& order, const DeviceGradient& found);
 
-  /// The same on the host, for consumers to add vertices that they left out.
+  /// Makes a store on the host from what kernels found, for consumers to add the vertices that kernels left out.
   static std::shared_ptr<GradientStore> on_host(const VertexOrder& order, const DeviceGradient& found, int consumers);
 
   /// Pairs a vertex with the edge to `other`; no_id if the vertex is critical.

@@ -27,10 +27,10 @@ class SetIncidences {
     cofacets_[bc].add(cell);
   }
 
-  /// Of a triangle or a tetrahedron.
+  /// The facets of a triangle or a tetrahedron.
   KOKKOS_FORCEINLINE_FUNCTION const Cells& facets(int cell) const { return facets_[cell]; }
 
-  /// Of any cell, which may be among them itself.
+  /// The cofacets of any cell, which may be among them itself.
   KOKKOS_FORCEINLINE_FUNCTION const Cells& cofacets(int cell) const { return cofacets_[cell]; }
 
  private:
@@ -49,7 +49,7 @@ class ByteIncidences {
  public:
   using Cells = CellSet<Words>;
 
-  /// Of a cell of an edge whose number is `edge`.
+  /// Adds a cell that is an edge, whose number is `edge`.
   KOKKOS_FORCEINLINE_FUNCTION void add_edge(int cell, int edge) {
     cells_[cell] = Bytes(edge, 0, 0, is_edge);
     cofacets_[edge] = Cells::none();

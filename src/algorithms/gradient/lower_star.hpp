@@ -46,10 +46,10 @@ class LowerStar {
   KOKKOS_FORCEINLINE_FUNCTION int cells() const { return cells_; }
   KOKKOS_FORCEINLINE_FUNCTION const Cells& all_edges() const { return all_edges_; }
 
-  /// Of a triangle or a tetrahedron.
+  /// The facets of a triangle or a tetrahedron.
   KOKKOS_FORCEINLINE_FUNCTION Cells facets(int cell) const { return incidences_.facets(cell); }
 
-  /// Of any cell, which may be among them itself.
+  /// The cofacets of any cell, which may be among them itself.
   KOKKOS_FORCEINLINE_FUNCTION Cells cofacets(int cell) const { return incidences_.cofacets(cell); }
 
   /// Dimension of a cell: 1 to 3.
@@ -108,7 +108,7 @@ class LowerStar {
     KOKKOS_FORCEINLINE_FUNCTION int places() const { return static_cast<int>(sums_ & 255); }
 
    private:
-    /// Of two tetrahedra, no sum outgrows its byte. Of more, carries make the count higher, never less than three: 128
+    /// Two tetrahedra let no sum outgrow its byte. With more, carries make the count higher, never less than three: 128
     /// tetrahedra carry less than 128 times.
     std::uint32_t sums_;
   };

@@ -23,7 +23,7 @@ struct LaneSink {
   DeviceList<InStar> stars;
 };
 
-/// The same for one lane, whose row of edges has its place.
+/// Where one lane puts what it finds: its row of edges has a place of its own.
 struct RowSink {
   const LaneSink& all;
   Id* row;
@@ -141,7 +141,7 @@ struct PairStars {
   }
 };
 
-/// The same for the stars that they hand on; those of more than two words are handed on again.
+/// Pairs the stars that PairStars hands on; those of more than two words are handed on again.
 struct PairLargeStars {
   const std::uint64_t* keys;
   LaneSink sink;

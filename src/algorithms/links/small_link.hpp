@@ -79,7 +79,7 @@ class LinkBits {
   Word open_ = 0;
 };
 
-/// The same of a vertex with at most 64 neighbours, with the memory that it takes.
+/// The link of a vertex with at most 64 neighbours as bits, with the memory that these take.
 class SmallLink {
  public:
   using Word = std::uint64_t;

@@ -36,7 +36,7 @@ class DescendingWall {
   /// The critical edges of its rim.
   const std::vector<Edge>& critical_edges() const { return critical_edges_; }
 
-  /// Those edges of its rim that `turned` pairs with vertices.
+  /// The edges of its rim that `turned` pairs with vertices.
   const std::vector<Edge>& cancelled_edges() const { return cancelled_edges_; }
 
   /// Finds out which triangles one path alone leads to, for `paths_from`.
@@ -51,7 +51,7 @@ class DescendingWall {
   /// least, written with its input vertices ascending. True if they never do: then it is the only path.
   bool append_path(const Edge& from, std::vector<TriangleVertices>& path) const;
 
-  /// The same as far as the first triangle that a path passes which this call has appended since `follow`.
+  /// Appends that path as far as the first triangle of a path that this call has appended since `follow`.
   struct Joined {
     bool is_only, joins;
   };

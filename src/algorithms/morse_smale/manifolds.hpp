@@ -21,7 +21,7 @@ Mirrored<Id> ascending_manifolds(const DiscreteGradient& gradient);
 GALE_EXPORT std::pair<Mirrored<Id>, Id> morse_smale_manifolds(const Mirrored<Id>& ascending,
                                                               const Mirrored<Id>& descending);
 
-/// The same with names[p] for each place p; no_id stays.
+/// The manifolds with names[p] for each place p; no_id stays.
 Mirrored<Id> renamed(const Mirrored<Id>& manifolds, const std::vector<Id>& names);
 
 }  // namespace gale::detail

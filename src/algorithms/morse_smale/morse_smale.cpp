@@ -34,7 +34,7 @@ void find_surfaces(const detail::CriticalPlaces& places, int threads, MorseSmale
   complex.descending_walls = std::move(surfaces.walls);
 }
 
-/// Those of the parts that the complex is to have.
+/// Finds the manifolds that the complex is to have.
 void find_manifolds(MorseSmaleComplex& complex) {
   const MorseSmaleParts& parts = complex.parts;
   if (parts.descending_manifolds) complex.descending_manifold = detail::descending_manifolds(complex.gradient);

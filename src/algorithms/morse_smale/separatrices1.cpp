@@ -76,7 +76,7 @@ Separatrices<Id> paths_of(const Followed& followed, const std::vector<Id>& sourc
   return paths;
 }
 
-/// The same, each path as far as the first simplex that an earlier one passes. Sequential: as many steps as there are
+/// These paths, each as far as the first simplex that an earlier one passes. Sequential: as many steps as there are
 /// simplices in the result, and on ways that leave through the surface.
 template <class Place>
 Separatrices<Id> joined_paths_of(const Id* successors, const std::vector<Id>& starts, const std::vector<Id>& sources,

@@ -55,7 +55,7 @@ class SmallLaterStar {
     return earlier;
   }
 
-  /// Of a neighbour; nothing of another vertex.
+  /// The bit of a neighbour; 0 for another vertex.
   std::uint64_t bit_of(Id other) const {
     const Id* const at = std::lower_bound(neighbours_.begin(), neighbours_.end(), other);
     return at != neighbours_.end() && *at == other ? std::uint64_t(1) << (at - neighbours_.begin()) : 0;

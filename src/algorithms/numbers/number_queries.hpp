@@ -45,7 +45,7 @@ class NumberQueries {
     });
   }
 
-  /// Those of a segment, in no order.
+  /// The queries of a segment, in no order.
   Query* begin(Id segment) const { return queries_.data() + begin_(segment); }
   Query* end(Id segment) const { return queries_.data() + begin_(segment + 1); }
 
@@ -62,7 +62,7 @@ class NumberQueries {
     numbers_[index] = place;
   }
 
-  /// Of a simplex, when it is set.
+  /// The place of a simplex, when it is set.
   Id place(Offset index) const { return numbers_[index]; }
 
   /// When all places are set: the numbers, from those of the first simplex of each input vertex.

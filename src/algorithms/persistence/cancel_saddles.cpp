@@ -212,7 +212,7 @@ class Canceller {
     });
   }
 
-  /// Of those whose other 1-saddle has one path to a 2-saddle, which has this wall, that with the highest one.
+  /// The exchange with the highest other 1-saddle among those with one path to the 2-saddle that has this wall.
   const Exchange* best_exchange(const std::vector<Exchange>& possible, Id upper, const DescendingWall& wall) const {
     const Exchange* best = nullptr;
     for (const Exchange& exchange : possible) {

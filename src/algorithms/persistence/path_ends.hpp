@@ -18,7 +18,7 @@ PathEnds ends_of_edges(const DiscreteGradient& gradient, const CriticalPlaces& p
 /// the outside on its other side; one of three or more has it on both. Paths don't fork here.
 PathEnds ends_of_triangles(const DiscreteGradient& gradient, const CriticalPlaces& places);
 
-/// Of all saddles.
+/// The ends of all saddles' paths.
 struct ExtremumEnds {
   PathEnds of_edges, of_triangles;
 };

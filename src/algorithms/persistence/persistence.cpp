@@ -45,7 +45,7 @@ class Partners {
     return pairs;
   }
 
-  /// The same from what the simplices of `dimension` + 1 are paired with.
+  /// The pairs, from what the simplices of `dimension` + 1 are paired with.
   std::vector<PersistencePair> from_upper(int dimension, const std::vector<Id>& lower) {
     std::vector<Id> upper(is_paired_[dimension].size(), no_id);
     for (std::size_t i = 0; i < lower.size(); ++i) {

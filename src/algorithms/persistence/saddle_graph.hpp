@@ -16,7 +16,7 @@ class SaddleGraph {
  public:
   static constexpr int one = 1, several = 2;
 
-  /// Of saddles for which `lower` and `upper` are set.
+  /// Takes the saddles for which `lower` and `upper` are set.
   SaddleGraph(const Separatrices<TriangleVertices>& connectors, const std::vector<char>& lower,
               const std::vector<char>& upper);
 

@@ -42,7 +42,7 @@ void require_png(const std::string& file) {
     throw UsageError("--render " + file + ": gale morse-smale draws .png");
 }
 
-/// The same on a tiny mesh.
+/// Finds the complex of a tiny mesh.
 void find_small_complex(const VertexOrder& order) {
   const DiscreteGradient gradient = find_discrete_gradient(WorkerSpace(), order);
   find_morse_smale_complex(*make_structure(order.mesh(), morse_smale_relations), gradient);

@@ -23,7 +23,7 @@ void append(const DistributedSeparatrices& descending, const DistributedSeparatr
 /// This rank's critical simplices, with local input ids and no CellIds.
 outputs::KnownSimplices known_simplices(const DistributedGradient& gradient, const DistributedNumbers& numbers);
 
-/// They as points. `numbers` begin with those of named_simplices(gradient).
+/// The critical simplices as points. `numbers` begin with those of named_simplices(gradient).
 io::PointSet to_point_set(const FieldOnRanks& on, const DistributedGradient& gradient,
                           const DistributedNumbers& numbers);
 

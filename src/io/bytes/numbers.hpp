@@ -12,7 +12,7 @@ namespace gale::io::detail {
 template <class T>
 bool parse(std::string_view word, T& value);
 
-/// The same, but throws gale::Error; `what` the number is goes into the message.
+/// The number that a word is; throws gale::Error, with `what` it should be, for one that isn't.
 template <class T>
 T number(std::string_view word, const std::string& what) {
   T value;

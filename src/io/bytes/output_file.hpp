@@ -11,7 +11,7 @@ namespace gale::io::detail {
 /// gale::Error, without the path, where the system takes no more: a full disk, a limit of the file's size.
 class OutputFile {
  public:
-  /// Of a file that is there, and loses what it has.
+  /// Opens a file that is there, which loses what it has.
   explicit OutputFile(const std::string& path);
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;

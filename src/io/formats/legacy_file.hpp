@@ -15,7 +15,7 @@ class LegacyFile {
   /// Reads the first three lines. Throws gale::Error if they are those of no such file.
   explicit LegacyFile(const InputFile& file);
 
-  /// Of the format: from 5 on, cells are offsets and connectivity.
+  /// The format's version: from 5 on, cells are offsets and connectivity.
   int major_version() const { return major_version_; }
 
   /// The next keyword, in lower case; empty at the end. Skips metadata.
@@ -36,7 +36,7 @@ class LegacyFile {
   /// skipped then.
   std::optional<PointArray::Values> array(const std::string& type, std::uint64_t count);
 
-  /// The same for one that has to be of numbers. `what` it holds.
+  /// Reads an array that has to be of numbers. `what` it holds.
   PointArray::Values array_of_numbers(std::uint64_t count, const char* what);
 
   /// Values of cells, which have no type in the file.

@@ -24,12 +24,12 @@ struct WrittenArray {
   std::function<void(std::uint64_t begin, std::uint64_t end, char* to)> copy;
 };
 
-/// Of values that outlive it.
+/// An array of values that outlive it.
 WrittenArray written(const PointArray& array);
 WrittenArray written(const Dataset::Positions& points);
 
-/// Of two arrays of one name, the later takes the place of the earlier. One without a name is called "unnamed", as VTK
-/// reads no other.
+/// All arrays. The later of two with one name takes the place of the earlier. One without a name is called "unnamed",
+/// as VTK reads no other.
 std::vector<WrittenArray> written(std::initializer_list<const std::vector<PointArray>*> arrays);
 
 /// Whose k-th value is value(k).
@@ -43,7 +43,7 @@ WrittenArray made(const std::string& name, std::uint64_t count, const Value& val
           }};
 }
 
-/// The same, in the narrower of two integers that holds values of up to `most`.
+/// An array of integers, in the narrower of two types that holds values of up to `most`.
 template <class Value>
 WrittenArray made_integers(const std::string& name, std::uint64_t count, std::uint64_t most, const Value& value) {
   return most <= std::numeric_limits<std::int32_t>::max() ? made<std::int32_t>(name, count, value)

@@ -16,8 +16,8 @@ struct TeamShape {
 
   TeamShape(int full_warps, int warp_lanes = 32) : warps(full_warps), lanes(warp_lanes) {}
 
-  /// Of exactly so many threads, at least 1: with full warps if they are a multiple of 32, else with the largest ones
-  /// that they are a multiple of.
+  /// A team of exactly so many threads, at least 1: with full warps if they are a multiple of 32, else with the largest
+  /// ones that they are a multiple of.
   static TeamShape of(int threads) {
     int lanes = 32;
     while (threads % lanes != 0) lanes /= 2;

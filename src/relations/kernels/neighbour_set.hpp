@@ -67,7 +67,7 @@ class NeighbourSet {
   /// Where in the row that write_ordered wrote the member stands before which so many came.
   KOKKOS_FORCEINLINE_FUNCTION Id rank_of(Id came) const { return ranks_[came]; }
 
-  /// The same of a member by its id; by any lane.
+  /// The place of a member by its id; by any lane.
   KOKKOS_FORCEINLINE_FUNCTION Id place_of(Id id, const Id* row) const {
     if (!remembers_ranks()) return place_in(row, size(), id);
     Id slot = first_slot(id);

@@ -25,7 +25,7 @@ KOKKOS_FUNCTION constexpr bool can_bisect(Relation relation) {
          relation == Relation::FF || relation == Relation::TT;
 }
 
-/// The same as for_each_entry, by bisection.
+/// Does what for_each_entry does, by bisection.
 template <Relation relation, class Memory, class Visit>
 KOKKOS_INLINE_FUNCTION void for_each_bisected_entry(const Simplices<Memory>& s, Id simplex, const Visit& visit) {
   static_assert(can_bisect(relation));

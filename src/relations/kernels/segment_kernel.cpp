@@ -22,8 +22,8 @@ struct AnyKernel<Memory, std::index_sequence<places...>> {
     return traits_of(static_cast<Relation>(place)).computed_by != ComputedBy::star_kernel;
   }
 
-  /// Of the relation at a place of the table; where a star kernel makes it, the one of the first, which no one asks
-  /// for.
+  /// The kernel of the relation at a place of the table; where a star kernel makes it, the one of the first, which no
+  /// one asks for.
   template <std::size_t place>
   using RowKernelAt = RowKernel<static_cast<Relation>(is_row(place) ? place : 0), Memory>;
 

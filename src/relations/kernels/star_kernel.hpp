@@ -40,7 +40,7 @@ class StarKernel : public detail::StarRequest<Memory> {
     return sizes;
   }
 
-  /// Of a team of so many warps.
+  /// The scratch memory of a team of so many warps.
   static std::size_t scratch_bytes(const StarSizes& sizes, int warps) {
     const std::size_t hashed = detail::HashedStarScratch::bytes(sizes, warps);
     if (!is_small(sizes)) return hashed;

@@ -18,7 +18,7 @@ struct alignas(16) StarShared {
   Offset vv, vt, link;  ///< where their blocks begin in the pool
 };
 
-/// So many vertices of other segments do that many tetrahedra around a segment usually reach. It is some more for a
+/// Outside vertices that this many tetrahedra around a segment usually reach. The bound is some more for a
 /// grid, whose segments of 64 vertices have 640 tetrahedra and reach 130; thin parts of a mesh may need more.
 KOKKOS_FORCEINLINE_FUNCTION Id usual_outside(Id tetrahedra) { return tetrahedra / 5 + 64; }
 

@@ -54,7 +54,7 @@ class BatchLane {
   /// Begins to make the blocks of a batch, on a device without waiting. Throws OutOfMemory.
   void launch(BatchPlan plan);
 
-  /// They, for what is enqueued on the same instance.
+  /// The launched batches, for what is enqueued on the same instance.
   const SegmentBatches<Memory>& launched() const { return batches_; }
 
   /// Was a batch launched that isn't finished?

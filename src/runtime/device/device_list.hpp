@@ -35,7 +35,7 @@ class DeviceList {
 
   bool overflowed() const { return count() > static_cast<Offset>(items_.extent(0)); }
 
-  /// Those there was room for.
+  /// The items that there was room for.
   std::vector<T> to_host() const {
     const auto size = std::min(static_cast<std::size_t>(count()), items_.extent(0));
     const auto there = on_host(first_of(items_, size));

@@ -67,7 +67,7 @@ class Launches {
   std::size_t bytes(const StarSizes& sizes) const { return kernel_.scratch_bytes(sizes, bounds_.warps); }
   bool is_fast(const StarSizes& sizes) const { return bytes(sizes) <= fast_; }
 
-  /// It may be large for another kernel alone.
+  /// What a segment needs; it may be large for another kernel alone.
   StarSizes need_of(Id segment, const StarSizes& usual) const {
     return bounds_.is_large[segment] != 0 ? kernel_.bound(segment) : usual;
   }

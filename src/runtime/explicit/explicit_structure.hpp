@@ -23,7 +23,7 @@ class ExplicitStructure : public Structure {
   /// XY from YX; an adjacency relation XX from XY and YX, where Y is what two X share (in VV a tetrahedron); EV from
   /// TE, FV and FE from TF, TF from TE. The mesh isn't made to number its simplices.
   ///
-  /// Those that aren't wanted go when they have served. Beside what is kept, in the workers' memory, numbering the
+  /// Relations that aren't wanted go when they have served. Beside what is kept, in the workers' memory, numbering the
   /// edges takes 144 bytes a tetrahedron, then the triangles 120, and an adjacency relation what it is computed from, 4
   /// bytes an entry and 16 a row.
   ///

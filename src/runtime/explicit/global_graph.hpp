@@ -21,7 +21,7 @@ struct GlobalGraph {
   Ids ids;
 };
 
-/// The same on the host, as it is kept.
+/// A relation of the whole mesh on the host, as it is kept.
 struct GlobalRows {
   Array<const Id, HostMemory> offsets;  ///< rows + 1
   Array<const Id, HostMemory> ids;

@@ -11,8 +11,8 @@ namespace gale::detail {
 
 namespace {
 
-/// Of a helper whose ring is full. Nobody wakes it, which would cost consumers more than a helper that looks now and
-/// then costs its core.
+/// The nap of a helper whose ring is full. Nobody wakes it, which would cost consumers more than a helper that looks
+/// now and then costs its core.
 constexpr std::chrono::microseconds nap(20);
 
 /// Has the calling thread give way to consumers where cores aren't as idle as they seem: other programs may use them,

@@ -9,7 +9,7 @@ namespace gale::detail {
 /// also of other structures, share them.
 class IdleCores {
  public:
-  /// Of `cores` cores, of which the sweep's consumers use some, and for helpers at most `at_most`.
+  /// Takes `cores` cores, of which the sweep's consumers use some, and for helpers at most `at_most`.
   IdleCores(int cores, int consumers, int at_most) {
     const std::lock_guard<std::mutex> lock(mutex_);
     count_ = std::clamp(cores - in_use_ - consumers, 0, std::max(at_most, 0));

@@ -19,7 +19,7 @@ class Leaders {
   /// The leader of one relation, or of the links. There is one, unless it is a face relation.
   Leader& of(RelationSet one) const;
 
-  /// Those that have some of the relations wanted.
+  /// The leaders that have some of the relations wanted.
   std::vector<Leader*> some_of(RelationSet wanted) const;
 
   /// Fails all requests, and returns when their consumers have gone.
