@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <memory>
 
-#include <gale/algorithms/numbers/numbering.hpp>
+#include <gale/algorithms/numbers/numbering_sweep.hpp>
 #include <gale/distributed/distributed_numbers.hpp>
 #include <gale/distributed/sums_by_id.hpp>
 
@@ -119,10 +119,10 @@ DistributedNumbers number_simplices(Structure& structure, const DistributedMesh&
   const Asked<2> edges(mesh, owners, named.edges);
   const Asked<3> triangles(mesh, owners, named.triangles);
   NamedSimplices local;
-  std::unique_ptr<detail::Numbering> found;
+  std::unique_ptr<detail::NumberingSweep> found;
   detail::together(ranks, [&] {
     local = {edges.local(), triangles.local()};
-    found = std::make_unique<detail::Numbering>(structure, local, options);
+    found = std::make_unique<detail::NumberingSweep>(structure, local, options);
   });
   const Ids first_edges = first_numbers(mesh, owned, found->edge_counts());
   const Ids first_triangles = first_numbers(mesh, owned, found->triangle_counts());

@@ -5,7 +5,7 @@
 #include <gale/base/bits.hpp>
 #include <gale/base/group_by.hpp>
 #include <gale/base/parallel.hpp>
-#include <gale/mesh/neighbour_ranks.hpp>
+#include <gale/mesh/input_id_ranks.hpp>
 #include <gale/mesh/number_by_vertex.hpp>
 
 // A vertex' own simplices here are those of which it has the least input id. GALE's tables have them by the least of
@@ -192,7 +192,7 @@ class OwnNumberer {
   /// Goes to a vertex, which owns so many edges.
   void order_edges(Id vertex, Id edges_there) {
     count_ = edges_there;
-    for (std::vector<Id>* ids : {&edges_, &ends_}) NeighbourRanks::make_room(*ids, count_);
+    for (std::vector<Id>* ids : {&edges_, &ends_}) InputIdRanks::make_room(*ids, count_);
     neighbours_.begin(count_);
     Id* const ids = neighbours_.ids();
     Id count = 0;
@@ -237,7 +237,7 @@ class OwnNumberer {
  private:
   /// Finds `count` triangles, and the ranks of their other two corners among the neighbours.
   void find_triangles(Id vertex, Id count) {
-    for (std::vector<Id>* ids : {&triangles_, &corners_, &others_}) NeighbourRanks::make_room(*ids, count);
+    for (std::vector<Id>* ids : {&triangles_, &corners_, &others_}) InputIdRanks::make_room(*ids, count);
     Id found = 0;
     const auto add = [&](Id triangle, Id rank, Id other) {
       triangles_[found] = triangle;
@@ -257,7 +257,7 @@ class OwnNumberer {
   const HostTables& tables_;
   const Id* input_;
   const OwnNumbers& numbers_;
-  NeighbourRanks neighbours_;
+  InputIdRanks neighbours_;
   bool in_order_ = false;  ///< as in the tables
   Id count_ = 0;
   std::vector<Id> edges_, ends_;  ///< of the vertex; the ends' ranks

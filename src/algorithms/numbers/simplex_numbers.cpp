@@ -1,4 +1,4 @@
-#include <gale/algorithms/numbers/numbering.hpp>
+#include <gale/algorithms/numbers/numbering_sweep.hpp>
 #include <gale/algorithms/order/whole_mesh.hpp>
 #include <gale/algorithms/simplex_numbers.hpp>
 
@@ -22,7 +22,7 @@ SimplexNumbers number_simplices(Structure& structure, const NamedSimplices& name
   const Mesh& mesh = structure.mesh();
   detail::require_whole_mesh("the numbers of simplices", mesh);
   const ThreadLimit limit(options.threads);
-  detail::Numbering found(structure, named, options);
+  detail::NumberingSweep found(structure, named, options);
   return {found.edges().take_numbers(scan("edges", mesh.vertices(), found.edge_counts())),
           found.triangles().take_numbers(scan("triangles", mesh.vertices(), found.triangle_counts())),
           found.on_surface()};

@@ -7,7 +7,7 @@
 #include <gale/algorithms/gradient/gradient_store.hpp>
 #include <gale/algorithms/gradient/pair_cells.hpp>
 #include <gale/algorithms/gradient/pair_star.hpp>
-#include <gale/baselines/gradient_from_cells/neighbour_ranks.hpp>
+#include <gale/baselines/gradient_from_cells/lower_neighbour_ranks.hpp>
 #include <gale/baselines/gradient_from_cells/queued_lower_star.hpp>
 #include <gale/relations/segment_rows.hpp>
 
@@ -131,7 +131,7 @@ class CellSweep {
   const Id* tetrahedron_input_;
   Faces faces_;
   std::vector<Id> neighbours_;
-  NeighbourRanks ranks_;
+  LowerNeighbourRanks ranks_;
   QueuedLowerStar star_;
   EdgePairRow row_;
 };

@@ -58,7 +58,7 @@ Id count_different(const Keys& keys, const Ids& before) {
 }
 
 /// Numbers the simplices by their keys, one a place. Its own copy of `keys` goes as soon as it may.
-Numbering number(Keys keys, Id per_tetrahedron) {
+GlobalSimplices number(Keys keys, Id per_tetrahedron) {
   const Offset places = keys.extent(0);
   const Ids place = numbers_below(places);
   stable_sort_by_key(WorkerSpace(), keys, place);
@@ -83,22 +83,22 @@ GlobalGraph tetrahedron_vertices(const Mesh& mesh) {
   return {mesh.tetrahedra(), 4, {}, GlobalGraph::Ids(mesh.encoded<WorkerMemory>().tetrahedra.data(), 4 * rows)};
 }
 
-Numbering number_edges(const GlobalGraph& tv) {
+GlobalSimplices number_edges(const GlobalGraph& tv) {
   require_countable(Relation::TE, 6 * Offset(tv.rows));
   return number(keys_of(tv, edge_vertices, tv, edge_vertices), 6);
 }
 
-Numbering number_triangles(const GlobalGraph& tv, const GlobalGraph& te) {
+GlobalSimplices number_triangles(const GlobalGraph& tv, const GlobalGraph& te) {
   require_countable(Relation::TF, 4 * Offset(tv.rows));
   return number(keys_of(te, triangle_edges, tv, triangle_vertices), 4);
 }
 
-GlobalGraph faces(Relation relation, const Numbering& numbering, const GlobalGraph& of_tetrahedra) {
+GlobalGraph faces(Relation relation, const GlobalSimplices& simplices, const GlobalGraph& of_tetrahedra) {
   const Faces faces = faces_of(relation);
-  const Offset entries = Offset(faces.length) * numbering.count();
+  const Offset entries = Offset(faces.length) * simplices.count();
   require_countable(relation, entries);
   const auto ids = allocate<Ids>(label_of(relation), entries);
-  const auto any_place = numbering.any_place;
+  const auto any_place = simplices.any_place;
   const auto from = of_tetrahedra.ids;
   const Id from_length = of_tetrahedra.length;
   parallel_for(
@@ -107,14 +107,14 @@ GlobalGraph faces(Relation relation, const Numbering& numbering, const GlobalGra
         const Id corner = faces.at[place % faces.per_tetrahedron][i % faces.length];
         ids(i) = from(Offset(from_length) * (place / faces.per_tetrahedron) + corner);
       });
-  return {numbering.count(), faces.length, {}, ids};
+  return {simplices.count(), faces.length, {}, ids};
 }
 
-Array<const Id, HostMemory> segment_begin(const Mesh& mesh, int dimension, const Numbering& numbering) {
+Array<const Id, HostMemory> segment_begin(const Mesh& mesh, int dimension, const GlobalSimplices& simplices) {
   const Faces faces = dimension == 1 ? edge_vertices : triangle_vertices;
   const auto begin = allocate<Ids>("GALE::segment_begin", Offset(mesh.segments()) + 1);
-  const auto any_place = numbering.any_place;
-  const Id count = numbering.count();
+  const auto any_place = simplices.any_place;
+  const Id count = simplices.count();
   const auto tetrahedra = mesh.encoded<WorkerMemory>().tetrahedra;
   const auto vertex_begin = mesh.encoded<WorkerMemory>().vertex_begin;
   parallel_for(

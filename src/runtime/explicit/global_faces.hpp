@@ -10,7 +10,7 @@ namespace gale::detail {
 
 /// The edges or the triangles of a mesh. A tetrahedron's places are its six edges or its four triangles, in
 /// lexicographic order; those of tetrahedron t follow those of t - 1.
-struct Numbering {
+struct GlobalSimplices {
   GlobalGraph of_tetrahedra;                ///< TE or TF: the number of the simplex at each place
   Array<const Id, WorkerMemory> any_place;  ///< simplex -> one of the places where it is
 
@@ -23,15 +23,15 @@ GlobalGraph tetrahedron_vertices(const Mesh& mesh);
 /// Numbers the simplices in the lexicographic order of their vertices, in the workers' space. O(n). For the edges it
 /// takes 144 bytes a tetrahedron while it works and leaves 24, and 4 an edge; for the triangles 96, 16 and 4. Throws
 /// gale::Error if TE, or TF, has more entries than an Id counts.
-Numbering number_edges(const GlobalGraph& tv);
-Numbering number_triangles(const GlobalGraph& tv, const GlobalGraph& te);
+GlobalSimplices number_edges(const GlobalGraph& tv);
+GlobalSimplices number_triangles(const GlobalGraph& tv, const GlobalGraph& te);
 
 /// EV, FV or FE: what bounds each simplex, from a tetrahedron that has it. Throws gale::Error if that has more entries
 /// than an Id counts.
-GlobalGraph faces(Relation relation, const Numbering& numbering, const GlobalGraph& of_tetrahedra);
+GlobalGraph faces(Relation relation, const GlobalSimplices& simplices, const GlobalGraph& of_tetrahedra);
 
 /// Where the edges, or triangles, that are internal to each segment begin, and one past the last; on the host.
 /// `dimension` is theirs.
-Array<const Id, HostMemory> segment_begin(const Mesh& mesh, int dimension, const Numbering& numbering);
+Array<const Id, HostMemory> segment_begin(const Mesh& mesh, int dimension, const GlobalSimplices& simplices);
 
 }  // namespace gale::detail

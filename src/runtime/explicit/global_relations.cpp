@@ -94,16 +94,16 @@ class Build {
     if (relation == Relation::TV) return tetrahedron_vertices(mesh_);
     if (relation == Relation::TE) return of_tetrahedra(1, number_edges(graph(Relation::TV)));
     if (relation == Relation::TF) return of_tetrahedra(2, number_triangles(graph(Relation::TV), graph(Relation::TE)));
-    return faces(relation, numberings_[row_dimension(relation)],
+    return faces(relation, simplices_[row_dimension(relation)],
                  graph(entry_dimension(relation) == 0 ? Relation::TV : Relation::TE));
   }
 
-  /// Keeps a numbering as long as others are from it.
-  GlobalGraph of_tetrahedra(int dimension, const Numbering& numbering) {
-    result_.count[dimension] = numbering.count();
-    result_.segment_begin[dimension] = segment_begin(mesh_, dimension, numbering);
-    numberings_[dimension] = numbering;
-    return numbering.of_tetrahedra;
+  /// Keeps the simplices as long as others are from them.
+  GlobalGraph of_tetrahedra(int dimension, const GlobalSimplices& simplices) {
+    result_.count[dimension] = simplices.count();
+    result_.segment_begin[dimension] = segment_begin(mesh_, dimension, simplices);
+    simplices_[dimension] = simplices;
+    return simplices.of_tetrahedra;
   }
 
   GlobalGraph coboundary_of(const Recipe& recipe) {
@@ -134,14 +134,14 @@ class Build {
     }
     for (const Relation relation : members_of(needed_ - sources)) graph(relation) = {};
     for (int dimension = 0; dimension < 4; ++dimension) {
-      if (!numbered[dimension]) numberings_[dimension] = {};
+      if (!numbered[dimension]) simplices_[dimension] = {};
     }
   }
 
   const Mesh& mesh_;
   const RelationSet wanted_, needed_;
   std::array<GlobalGraph, relation_count> graphs_;
-  std::array<Numbering, 4> numberings_;  // of edges and triangles
+  std::array<GlobalSimplices, 4> simplices_;  // edges and triangles
   GlobalRelations result_;
 };
 

@@ -11,12 +11,12 @@ namespace gale::detail {
 
 /// A sweep of the owned vertices. It counts the edges and triangles that have each vertex as their first, the one with
 /// the lowest input id, and finds the places of those asked for among these.
-class Numbering {
+class NumberingSweep {
  public:
   using Ids = Array<Id, HostMemory>;
 
   /// `named` must outlive it; the first vertices of all are owned.
-  Numbering(Structure& structure, const NamedSimplices& named, const SweepOptions& options)
+  NumberingSweep(Structure& structure, const NamedSimplices& named, const SweepOptions& options)
       : vertices_(structure.mesh().vertices()),
         input_(structure.mesh().vertex_input().data()),
         edges_(structure.mesh(), named.edges),

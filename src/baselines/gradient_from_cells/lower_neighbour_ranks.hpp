@@ -10,7 +10,7 @@ namespace gale::detail {
 
 /// The lower neighbours of a vertex, by their ranks among each other, 0 the lowest; and the rank of any neighbour. For
 /// any number of neighbours. One serves one thread, and keeps its memory.
-class NeighbourRanks {
+class LowerNeighbourRanks {
  public:
   /// `neighbours`: all neighbours of the vertex, ascending. They are kept by reference until the next call.
   void find(const std::uint64_t* keys, Id vertex, const std::vector<Id>& neighbours) {

@@ -9,7 +9,7 @@
 namespace gale::detail {
 
 /// The order of some neighbours, by input ids.
-class NeighbourRanks {
+class InputIdRanks {
  public:
   void begin(Id count) {
     count_ = count;
