@@ -1,4 +1,9 @@
-# Says the paths of the public headers, for scripts/docs.sh: cmake -DPROJECT_SOURCE_DIR=... -P docs/headers.cmake
+# Says which headers the reference of C++ describes, for scripts/docs.sh: the public ones, whatever a build has switched
+# on, and those of the others whose classes public declarations hand out.
+#   usage: cmake -DPROJECT_SOURCE_DIR=... -P docs/headers.cmake
+set(GALE_ENABLE_MPI ON)
 include(${PROJECT_SOURCE_DIR}/cmake/gale-headers.cmake)
-list(TRANSFORM gale_public_headers PREPEND src/)
-execute_process(COMMAND ${CMAKE_COMMAND} -E echo ${gale_public_headers})
+set(handed_out base/mirrored.hpp mesh/quad.hpp relations/segment_list.hpp runtime/device/segment_batches.hpp)
+foreach(header IN LISTS gale_public_headers handed_out)
+  execute_process(COMMAND ${CMAKE_COMMAND} -E echo gale/${header})
+endforeach()

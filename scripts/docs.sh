@@ -12,6 +12,19 @@ if [ ! -x "$environment/bin/sphinx-build" ]; then
 fi
 "$environment/bin/sphinx-build" -W --keep-going -q -b html -d build/docs-doctrees docs "$site"
 
-headers=$(cmake "-DPROJECT_SOURCE_DIR=$PWD" -P docs/headers.cmake)
-{ cat docs/Doxyfile; echo "INPUT = $headers"; echo "OUTPUT_DIRECTORY = $site"; echo "HTML_OUTPUT = cpp"; } | doxygen -
+# The headers as programs include them. What they declare without a comment is an error, and so is a header that the list
+# in docs/reference.dox leaves out.
+mkdir -p build/docs-include
+ln -sfn "$PWD/src" build/docs-include/gale
+mapfile -t headers < <(cmake "-DPROJECT_SOURCE_DIR=$PWD" -P docs/headers.cmake)
+for header in "${headers[@]}"; do
+  grep -qx "/\*\* .file $header" docs/reference.dox || { echo "docs/reference.dox doesn't list $header" >&2; exit 1; }
+done
+awk '{ begins = /^ *\/\/\/ / && !within; within = /^ *\/\/\/ / }
+  begins && /\/\/\/ (Of|They|Those|None|It|The same|Likewise|So many) / || /\/\/\/< (of|they|those|none|it|the same|likewise|so many) / {
+    print FILENAME ":" FNR ": a comment begins with a verb or with the noun that it documents: " $0; found = 1
+  } END { exit found }' "${headers[@]/#gale/src}" >&2
+options=$(cat docs/Doxyfile && printf '%s\n' "INPUT = $PWD/docs/reference.dox ${headers[*]}" "OUTPUT_DIRECTORY = $site" "HTML_OUTPUT = cpp")
+cd build/docs-include # what \ref says of folders is relative to it
+doxygen - <<<"$options"
 echo "built $site/index.html"

@@ -24,7 +24,7 @@ enum class CriticalType : std::uint8_t {
 /// The vertices that aren't regular, by ascending input id.
 struct CriticalPoints {
   std::vector<Id> vertices;              ///< input ids
-  std::vector<CriticalType> types;       ///< of each
+  std::vector<CriticalType> types;       ///< the type of each
   std::vector<std::uint8_t> on_surface;  ///< 1 if it belongs to a triangle with exactly one tetrahedron
 
   /// How many there are of each type but `regular`.
@@ -45,10 +45,10 @@ struct CriticalPoints {
 GALE_EXPORT CriticalPoints find_critical_points(Structure& structure, const VertexOrder& order,
                                                 const SweepOptions& options = {});
 
-/// The same by kernels where the relations are made, which reads a mesh and an order that lie there and brings nothing
-/// but the result to the host. Vertices of more than 64 neighbours are classified on the host: for them alone, if there
-/// are any, the mesh and the keys come to it. 10 bytes a vertex beside the blocks. What is said of sweeps
-/// (device_sweep.hpp) holds.
+/// Finds the same critical points by kernels where the relations are made: reads a mesh and an order that lie there and
+/// brings nothing but the result to the host. Vertices of more than 64 neighbours are classified on the host: for them
+/// alone, if there are any, the mesh and the keys come to it. 10 bytes a vertex beside the blocks. What is said of
+/// sweeps (device_sweep.hpp) holds.
 GALE_EXPORT CriticalPoints find_critical_points(const WorkerSpace& space, const VertexOrder& order,
                                                 const DeviceSweepOptions& options = {});
 

@@ -17,8 +17,9 @@ struct CriticalSimplices {
 
   /// The tetrahedra of the i-th triangle, by input id: star[star_begin[i]] to star[star_begin[i + 1] - 1].
   std::vector<Id> star_begin{0};
-  std::vector<Id> star;
+  std::vector<Id> star;  ///< GALE's ids, see star_begin
 
+  /// How many critical simplices there are of each dimension, 0 to 3.
   std::array<Id, 4> counts() const {
     return {static_cast<Id>(vertices.size()), static_cast<Id>(edges.size()), static_cast<Id>(triangles.size()),
             static_cast<Id>(tetrahedra.size())};

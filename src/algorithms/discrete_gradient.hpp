@@ -24,9 +24,10 @@ struct HostSuccessors {
 
 /// What a simplex is paired with: another of one dimension less or more, which has one vertex less or more.
 struct Partner {
-  int dimension;  ///< of the other simplex; -1 if there is none: the simplex is critical
+  int dimension;  ///< the other simplex' dimension; -1 if there is none: the simplex is critical
   Id vertex;      ///< the vertex in which the two differ
 
+  /// Whether there is no other: the simplex is critical, and `vertex` says nothing.
   bool is_critical() const { return dimension < 0; }
 };
 
@@ -34,16 +35,22 @@ struct Partner {
 /// most; those in none are critical. Immutable, for any number of threads; copies share the arrays. Where kernels found
 /// it, it stays with them: each array comes to the host when somebody there first asks for it.
 ///
-/// It stores what paths along the gradient ask for. Each vertex and each tetrahedron has its successor, 4 bytes. Each
-/// vertex has a row of its edges to lower vertices, with the third vertex of the triangle that each edge is paired
-/// with: 5 bytes an edge and 12 a vertex. Edges and triangles have no ids here: they are named by their vertices
+/// What it stores is what paths along the gradient ask for. Each vertex and each tetrahedron has its successor, 4
+/// bytes. Each vertex has a row of its edges to lower vertices, with the third vertex of the triangle that each edge is
+/// paired with: 5 bytes an edge and 12 a vertex. Edges and triangles have no ids here: they are named by their vertices
 /// (GALE's ids).
 class GALE_EXPORT DiscreteGradient {
  public:
+  /// For GALE's own algorithms; users have gradients from find_discrete_gradient.
   explicit DiscreteGradient(std::shared_ptr<const detail::GradientStore> store);
 
+  /// The mesh that it is a gradient of.
   const Mesh& mesh() const;
+
+  /// The order of the field that it descends.
   const VertexOrder& order() const;
+
+  /// The simplices that it pairs with no other.
   const CriticalSimplices& critical() const;
 
   /// The next vertex on the falling path: the other end of the paired edge. no_id for a critical vertex.
@@ -58,38 +65,46 @@ class GALE_EXPORT DiscreteGradient {
     const Id* const there = successors_->tetrahedron.load(std::memory_order_acquire);
     return (there != nullptr ? there : fetch_tetrahedron_successors())[tetrahedron];
   }
+
+  /// Whether a tetrahedron's successor says that the path leaves through the mesh's surface.
   static bool leaves(Id successor) { return successor < no_id && successor != elsewhere; }
 
   /// In one rank's part of a mesh, the successor of a ghost, and of a tetrahedron whose highest vertex is a ghost: what
   /// it is the owner of that vertex knows. Edges and triangles with such a vertex have no pairs here.
   static constexpr Id elsewhere = std::numeric_limits<Id>::min();
 
-  /// Third vertex of the triangle that an edge is paired with; no_id if it is with none. Of any two vertices that have
-  /// an edge, in any order.
+  /// Third vertex of the triangle that the edge between two vertices, in any order, is paired with; no_id if it is with
+  /// none. They must have an edge: nothing is checked.
   Id triangle_of_edge(Id a, Id b) const;
 
-  /// The same, faster, of an edge whose higher end is known.
+  /// What triangle_of_edge says, faster, of an edge whose higher end is known.
   Id triangle_of_lower_edge(Id high, Id low) const;
 
   /// Calls visit(low, third) for each edge (high, low) that is paired with a triangle (high, low, third) and has no
   /// vertex above `high`. In no order that means anything to users.
   void for_each_edge_pair(Id high, const std::function<void(Id low, Id third)>& visit) const;
 
-  /// The pair of a vertex, of an edge, of a tetrahedron. The simplices must be there: nothing is checked.
+  /// What a vertex is paired with. Here and below the simplices must be there: nothing is checked.
   Partner pair_of_vertex(Id vertex) const;
+
+  /// What the edge between two vertices, in any order, is paired with.
   Partner pair_of_edge(Id a, Id b) const;
+
+  /// What a tetrahedron is paired with.
   Partner pair_of_tetrahedron(Id tetrahedron) const;
 
   /// The pair of the triangle of a tetrahedron that is opposite the `corner`-th of its vertices (EncodedMesh's order).
   /// `others` has the other tetrahedra of that triangle.
   Partner pair_of_triangle(Id tetrahedron, int corner, const Row& others) const;
 
-  /// All successors. Several threads may refer to them; copies of the Views are for one thread, as Kokkos counts them
-  /// without atomics where it has Serial alone.
+  /// vertex_successor of all vertices, by GALE's id. Several threads may refer to the View; copies of it are for one
+  /// thread, as Kokkos counts them without atomics where it has Serial alone.
   const Array<const Id, HostMemory>& vertex_successors() const;
+
+  /// tetrahedron_successor of all tetrahedra, by GALE's id. What is said of copies above holds.
   const Array<const Id, HostMemory>& tetrahedron_successors() const;
 
-  /// The memory that it takes.
+  /// The memory that it takes, in bytes.
   std::size_t bytes() const;
 
   /// For GALE's own algorithms.
@@ -107,16 +122,16 @@ class GALE_EXPORT DiscreteGradient {
 /// itself, so simplices are paired only with simplices that have the same highest vertex. Keys are unique: the result
 /// depends on nothing but mesh and order.
 ///
-/// A sweep of VV, VT and link; throws gale::Error if `structure` isn't preconditioned for them, and if `order` is
-/// of another mesh than the structure's. No edge or triangle is
-/// enumerated: beside the blocks of the sweep there is only the gradient in memory.
+/// A sweep of VV, VT and link; throws gale::Error if `structure` isn't preconditioned for them, and if `order` is of
+/// another mesh than the structure's. No edge or triangle is enumerated: beside the blocks of the sweep there is only
+/// the gradient in memory.
 GALE_EXPORT DiscreteGradient find_discrete_gradient(Structure& structure, const VertexOrder& order,
                                                     const SweepOptions& options = {});
 
-/// The same by kernels where the relations are made, where it stays; only the critical simplices come to the host.
-/// Stars of more than 64 lower edges, 128 cells, or with a triangle of three tetrahedra are paired on the host: if
-/// there are any, all comes there. What is said of sweeps (device_sweep.hpp) holds. 4 bytes a vertex beside the
-/// gradient and the blocks.
+/// Finds the same gradient by kernels where the relations are made, where it stays; only the critical simplices come to
+/// the host. Stars of more than 64 lower edges, 128 cells, or with a triangle of three tetrahedra are paired on the
+/// host: if there are any, all comes there. What is said of sweeps (device_sweep.hpp) holds. 4 bytes a vertex beside
+/// the gradient and the blocks.
 GALE_EXPORT DiscreteGradient find_discrete_gradient(const WorkerSpace& space, const VertexOrder& order,
                                                     const DeviceSweepOptions& options = {});
 

@@ -10,12 +10,12 @@ namespace gale {
 /// Which parts of a Morse-Smale complex are wanted. Parts that aren't take no time and no memory; the others don't
 /// depend on them.
 struct MorseSmaleParts {
-  bool descending_separatrices = true;
-  bool ascending_separatrices = true;
-  bool saddle_connectors = true;
-  bool separatrices2 = false;
-  bool descending_manifolds = true;
-  bool ascending_manifolds = true;
+  bool descending_separatrices = true;  ///< paths from 1-saddles to minima
+  bool ascending_separatrices = true;   ///< paths from 2-saddles to maxima
+  bool saddle_connectors = true;        ///< paths from 1-saddles to 2-saddles
+  bool separatrices2 = false;           ///< walls: descending ones of 2-saddles, ascending ones of 1-saddles
+  bool descending_manifolds = true;     ///< which minimum each vertex falls to
+  bool ascending_manifolds = true;      ///< which maximum each vertex rises to
 };
 
 /// The surfaces that the rising paths of critical edges sweep. Each consists of polygons: one for each edge that it
@@ -26,22 +26,23 @@ struct AscendingWalls {
 
   /// The tetrahedra of the i-th cell of `walls` are star[star_begin[i]] to star[star_begin[i + 1] - 1].
   std::vector<Offset> star_begin{0};
-  std::vector<Id> star;
+  std::vector<Id> star;  ///< GALE's ids, see star_begin
 };
 
 /// Pairs of saddles that `simplify` could not cancel, although their persistence is below the threshold.
 struct KeptBelow {
   Id several_paths = 0;  ///< several paths lead from the 1-saddle to the 2-saddle
-  Id no_path = 0;        ///< none does: one of the two was cancelled with another saddle
+  Id no_path = 0;        ///< no path does: one of the two was cancelled with another saddle
 
+  /// How many pairs are left.
   Id count() const { return several_paths + no_path; }
 };
 
 /// The Morse-Smale complex of a discrete gradient. Sources, destinations and manifolds are places among the simplices
 /// of `critical`; cells are in GALE's ids. What wasn't wanted is empty.
 struct MorseSmaleComplex {
-  DiscreteGradient gradient;
-  MorseSmaleParts parts;  ///< which were computed
+  DiscreteGradient gradient;  ///< what it is the complex of
+  MorseSmaleParts parts;      ///< which were computed
 
   /// The critical simplices of the gradient, or those of them that `simplify` left.
   CriticalSimplices critical;
@@ -62,6 +63,7 @@ struct MorseSmaleComplex {
   /// For each critical triangle, the triangles that its falling paths sweep, itself first.
   Separatrices<TriangleVertices> descending_walls;
 
+  /// For each critical edge, the polygons that its rising paths sweep.
   AscendingWalls ascending_walls;
 
   // Manifolds, by input vertex: where they were found, a device or the host, where they take 12 bytes a
@@ -78,7 +80,7 @@ struct MorseSmaleComplex {
   Mirrored<Id> morse_smale_manifold;
   Id morse_smale_manifolds = 0;  ///< how many pairs there are
 
-  KeptBelow kept_below;  ///< of what `simplify` left
+  KeptBelow kept_below;  ///< what `simplify` had to leave
 };
 
 /// Traces the complex of a gradient: connectors and walls on options.threads threads, other separatrices on the host's,

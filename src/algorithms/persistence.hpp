@@ -11,8 +11,10 @@ namespace gale {
 /// Two critical simplices, `upper` one dimension higher than `lower`: their places in CriticalSimplices. `lower` begins
 /// a class of homology when the mesh is built up along the field, `upper` ends it.
 struct PersistencePair {
-  Id lower, upper;
+  Id lower;  ///< place among the critical simplices of the lower dimension
+  Id upper;  ///< place among those of the next
 
+  /// Compares both simplices.
   friend bool operator==(const PersistencePair& a, const PersistencePair& b) {
     return a.lower == b.lower && a.upper == b.upper;
   }

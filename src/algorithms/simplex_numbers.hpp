@@ -13,13 +13,14 @@ namespace gale {
 /// Some edges and triangles of a mesh, named by their vertices: GALE's ids, in any order. The same simplex may occur
 /// more than once.
 struct NamedSimplices {
-  std::vector<std::array<Id, 2>> edges;
-  std::vector<std::array<Id, 3>> triangles;
+  std::vector<std::array<Id, 2>> edges;      ///< two vertices each
+  std::vector<std::array<Id, 3>> triangles;  ///< three vertices each
 };
 
 /// The numbers by which users know these simplices.
 struct SimplexNumbers {
-  std::vector<Id> edges, triangles;  ///< in the order in which they were asked for
+  std::vector<Id> edges;      ///< in the order in which they were asked for
+  std::vector<Id> triangles;  ///< in the order in which they were asked for
 
   /// For each vertex of the mesh (GALE's id) 1 if it belongs to a triangle with exactly one tetrahedron, else 0.
   Array<const std::uint8_t, HostMemory> on_surface;

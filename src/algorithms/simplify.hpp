@@ -7,6 +7,7 @@
 
 namespace gale {
 
+/// How to simplify a Morse-Smale complex.
 struct SimplifyOptions {
   bool extrema_only = false;     ///< cancel no 1-saddle with a 2-saddle: nearly as fast as to find the pairs
   Paths paths = Paths::whole;    ///< `joined`: memory in proportion to what is left, however often paths meet

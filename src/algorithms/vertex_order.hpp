@@ -33,16 +33,17 @@ class GALE_EXPORT VertexOrder {
   VertexOrder(const Mesh& mesh, const Value* values, std::size_t count)
       : mesh_(mesh), keys_(detail::order_keys(mesh, detail::FieldValues<Value, HostMemory>(values, count))) {}
 
-  /// The same from a caller's View of rank 1, in host memory or the device's. What wrote it must be done.
+  /// From a caller's View of rank 1, in host memory or the device's, as from an array. What wrote it must be done.
   template <class View, class = std::enable_if_t<Kokkos::is_view<View>::value>>
   VertexOrder(const Mesh& mesh, const View& values) : mesh_(mesh), keys_(keys_of_view(mesh, values)) {}
 
+  /// The mesh whose vertices it orders.
   const Mesh& mesh() const { return mesh_; }
 
-  /// On the host.
+  /// The key of each vertex, by GALE's id, on the host. Throws OutOfMemory if they don't fit there.
   const std::uint64_t* keys() const { return keys_.in<HostMemory>().data(); }
 
-  /// Where code that runs on `Memory` reads them. Throws OutOfMemory.
+  /// The keys where code that runs on `Memory` reads them. Throws OutOfMemory if they don't fit there.
   template <class Memory>
   const Array<const std::uint64_t, Memory>& keys_in() const {
     return keys_.in<Memory>();

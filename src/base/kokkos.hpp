@@ -19,12 +19,17 @@ inline void require_kokkos() {
 
 /// Where workers compute relations: the device where Kokkos has one, else the host.
 using WorkerSpace = Kokkos::DefaultExecutionSpace;
+
+/// The memory of that space.
 using WorkerMemory = WorkerSpace::memory_space;
+
+/// The host's memory.
 using HostMemory = Kokkos::HostSpace;
 
 /// The host's threads. Where Kokkos has no device, the same type as WorkerSpace.
 using HostSpace = Kokkos::DefaultHostExecutionSpace;
 
+/// The memory that an execution space works in.
 template <class Space>
 using MemoryOf = typename Space::memory_space;
 
@@ -46,6 +51,7 @@ inline constexpr bool is_device_memory = !Kokkos::SpaceAccessibility<Kokkos::Hos
 template <class Space>
 inline constexpr bool is_device = is_device_memory<typename Space::memory_space>;
 
+/// Whether workers run on a device.
 inline constexpr bool have_device = is_device<WorkerSpace>;
 
 /// Host memory that the device copies to and from at full speed.
@@ -105,6 +111,7 @@ inline std::string kokkos_version() {
 /// Tells Kokkos Tools about a loop that runs on our own threads, from construction to destruction.
 class ToolsRegion {
  public:
+  /// Begins a region of that name.
   explicit ToolsRegion(const char* label) {
     if (Kokkos::Tools::profileLibraryLoaded()) {
       Kokkos::Tools::beginParallelFor(label, 0, &id_);

@@ -108,10 +108,10 @@ class Mirrored {
   using Arrays = std::conditional_t<have_device, detail::TwoArrays<T>, detail::OneArray<T>>;
 
  public:
-  /// An array of no entries.
+  /// An array without entries.
   Mirrored() = default;
 
-  /// Takes a View of T or const T of rank 1, in the workers' memory or the host's.
+  /// An array that lies in a View of T or const T of rank 1, in the workers' memory or the host's.
   template <class View, class = std::enable_if_t<std::is_same_v<typename View::non_const_value_type, T>>>
   Mirrored(const View& array) : arrays_(Array<const T, MemoryOfView<View>>(array)) {}
 
@@ -126,6 +126,7 @@ class Mirrored {
   /// Whether it was made in a device's memory.
   bool on_device() const { return arrays_.on_device(); }
 
+  /// How many entries it has.
   std::size_t size() const { return arrays_.size(); }
 
  private:

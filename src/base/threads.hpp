@@ -29,6 +29,7 @@ GALE_EXPORT void set_host_threads(int count);
 /// least counts. To be destroyed on the thread that made it, last made first.
 class GALE_EXPORT ThreadLimit {
  public:
+  /// At most so many, at least 1, until it is destroyed.
   explicit ThreadLimit(int threads);
   ~ThreadLimit();
   ThreadLimit(const ThreadLimit&) = delete;

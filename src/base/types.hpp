@@ -13,6 +13,7 @@ using GlobalId = std::int64_t;
 /// Position in an array that may have more than 2^31 entries.
 using Offset = std::int64_t;
 
+/// No simplex, or no segment.
 inline constexpr Id no_id = -1;
 
 }  // namespace gale

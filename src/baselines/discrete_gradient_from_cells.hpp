@@ -5,7 +5,7 @@
 
 namespace gale {
 
-/// The same discrete gradient as that of `find_discrete_gradient`, pair by pair, as other programs compute it: they
+/// Finds the discrete gradient of `find_discrete_gradient`, pair by pair, as other programs compute it: they
 /// collect the edges, triangles and tetrahedra of each vertex, keep those of its lower star, and pair these with two
 /// priority queues. That asks for more relations and takes longer. It is there to compare how structures serve such
 /// programs.

@@ -22,8 +22,8 @@ class GALE_EXPORT SharedError : public Error {
 
 /// What one rank has sent to others, and how long it has waited.
 struct SentMessages {
-  std::int64_t messages = 0;
-  std::int64_t bytes = 0;
+  std::int64_t messages = 0;   ///< to other ranks
+  std::int64_t bytes = 0;      ///< all of these together
   double seconds_waiting = 0;  ///< for messages, of itself and of others, from when it had nothing else to do
 };
 
@@ -41,17 +41,24 @@ class GALE_EXPORT Communicator {
   /// initialized, and for a limit below 1 byte or above most_bytes_a_message.
   explicit Communicator(MPI_Comm comm, std::size_t largest_message = most_bytes_a_message);
 
+  /// This rank's number, from 0.
   int rank() const;
+
+  /// How many ranks there are.
   int size() const;
 
-  /// Of all ranks' values, on each rank.
+  /// The sum of all ranks' values, on each rank.
   std::int64_t sum(std::int64_t value) const;
   void sum(std::int64_t* values, int count) const;  ///< each of several, in place
-  std::int64_t least(std::int64_t value) const;
-  double least(double value) const;
-  std::vector<std::int64_t> all(std::int64_t value) const;  ///< by rank
 
-  /// The values of all ranks before this one, summed.
+  /// The least of all ranks' values, on each rank.
+  std::int64_t least(std::int64_t value) const;
+  double least(double value) const;  ///< the least of real numbers
+
+  /// All ranks' values, by rank, on each rank.
+  std::vector<std::int64_t> all(std::int64_t value) const;
+
+  /// The sum of the values of all ranks before this one.
   std::int64_t sum_before(std::int64_t value) const;
 
   /// A string of one rank, on each rank.

@@ -11,7 +11,7 @@ namespace gale {
 /// The critical points of a mesh on several ranks: those that this rank owns, and how many there are in all.
 struct DistributedCriticalPoints {
   std::vector<GlobalId> vertices;        ///< global ids, ascending
-  std::vector<CriticalType> types;       ///< of each
+  std::vector<CriticalType> types;       ///< the type of each
   std::vector<std::uint8_t> on_surface;  ///< as CriticalPoints has it
 
   /// How many there are of each type but `regular`, on all ranks.
@@ -24,7 +24,7 @@ struct DistributedCriticalPoints {
 GALE_EXPORT DistributedCriticalPoints find_critical_points(Structure& structure, const DistributedOrder& order,
                                                            const SweepOptions& options = {});
 
-/// The same by kernels where the relations are made.
+/// Finds the same critical points by kernels where the relations are made.
 GALE_EXPORT DistributedCriticalPoints find_critical_points(const WorkerSpace& space, const DistributedOrder& order,
                                                            const DeviceSweepOptions& options = {});
 

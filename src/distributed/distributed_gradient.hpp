@@ -12,18 +12,18 @@ namespace gale {
 /// own: those whose highest vertex this rank owns. By dimension they are ordered as those of CriticalSimplices: by ids,
 /// written with the vertices ascending.
 struct DistributedCriticalSimplices {
-  std::vector<GlobalId> vertices;
-  std::vector<std::array<GlobalId, 2>> edges;
-  std::vector<std::array<GlobalId, 3>> triangles;
-  std::vector<GlobalId> tetrahedra;
+  std::vector<GlobalId> vertices;                  ///< minima
+  std::vector<std::array<GlobalId, 2>> edges;      ///< 1-saddles
+  std::vector<std::array<GlobalId, 3>> triangles;  ///< 2-saddles
+  std::vector<GlobalId> tetrahedra;                ///< maxima
 };
 
 /// A discrete gradient of a mesh on several ranks: each rank has the pairs of the simplices whose highest vertices it
 /// owns.
 struct GALE_EXPORT DistributedGradient {
-  DistributedMesh mesh;
+  DistributedMesh mesh;  ///< what it is a gradient of
 
-  /// Of the local mesh. Where this rank doesn't know a successor, it is DiscreteGradient::elsewhere.
+  /// The gradient of the local mesh. A successor that this rank doesn't know is DiscreteGradient::elsewhere.
   DiscreteGradient local;
 
   /// How many critical simplices there are on all ranks, by dimension.
@@ -32,7 +32,7 @@ struct GALE_EXPORT DistributedGradient {
   /// Alternating sum of the counts: the Euler characteristic of the whole mesh.
   GlobalId euler() const { return counts[0] - counts[1] + counts[2] - counts[3]; }
 
-  /// This rank's.
+  /// The critical simplices whose highest vertices this rank owns.
   DistributedCriticalSimplices critical() const;
 };
 
@@ -42,7 +42,7 @@ struct GALE_EXPORT DistributedGradient {
 GALE_EXPORT DistributedGradient find_discrete_gradient(Structure& structure, const DistributedOrder& order,
                                                        const SweepOptions& options = {});
 
-/// The same by kernels where the relations are made.
+/// Finds the same gradient by kernels where the relations are made.
 GALE_EXPORT DistributedGradient find_discrete_gradient(const WorkerSpace& space, const DistributedOrder& order,
                                                        const DeviceSweepOptions& options = {});
 

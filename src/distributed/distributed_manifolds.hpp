@@ -19,11 +19,11 @@ struct DistributedManifolds {
   Array<const GlobalId, HostMemory> morse_smale;
   GlobalId morse_smale_manifolds = 0;  ///< how many pairs there are
 
-  int rounds = 0;  ///< of messages that paths took from rank to rank
+  int rounds = 0;  ///< how many rounds of messages paths took from rank to rank
 };
 
-/// Finds them by pointer jumping on each rank, then from rank to rank. Collective; throws gale::Error on all ranks. 12
-/// bytes a tetrahedron and 60 a vertex beside the gradient.
+/// Finds the manifolds of a gradient by pointer jumping on each rank, then from rank to rank. Collective; throws
+/// gale::Error on all ranks. 12 bytes a tetrahedron and 60 a vertex beside the gradient.
 GALE_EXPORT DistributedManifolds find_manifolds(const DistributedGradient& gradient);
 
 }  // namespace gale

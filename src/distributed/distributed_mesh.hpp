@@ -20,7 +20,7 @@ struct PartitionOptions {
   /// rank that hands it over.
   bool repartition = false;
 
-  int capacity = default_capacity;  ///< of the octree's segments, in vertices
+  int capacity = default_capacity;  ///< vertices of a segment of the octree, at most
 
   bool keep_corners = false;  ///< have corners(): 16 bytes a tetrahedron
 
@@ -46,26 +46,33 @@ class GALE_EXPORT DistributedMesh {
   template <class Index>
   DistributedMesh(const Communicator& ranks, const MeshPart<Index>& part, const PartitionOptions& options = {});
 
+  /// The ranks that it lies on.
   const Communicator& ranks() const;
 
   /// What this rank holds. It may have no tetrahedra, and no vertices.
   const Mesh& local() const;
 
-  /// Of all ranks together.
+  /// How many vertices all ranks own together.
   GlobalId vertices() const;
+
+  /// How many tetrahedra all ranks have handed over.
   GlobalId tetrahedra() const;
 
-  /// The global id of a vertex and of a tetrahedron of the local mesh, by its local input id. The latter takes
-  /// O(log n) for n tetrahedra that came from other ranks.
+  /// The global id of a vertex of the local mesh, by its local input id.
   GlobalId vertex_id(Id vertex) const;
+
+  /// The global id of a tetrahedron of the local mesh, by its local input id. Takes O(log n) for n tetrahedra that came
+  /// from other ranks.
   GlobalId tetrahedron_id(Id tetrahedron) const;
 
   /// The local input id of a vertex; no_id if this rank doesn't hold it.
   Id vertex_of(GlobalId id) const;
 
-  /// All of them, ascending. These two arrays and the next two are made by the first call, on any thread; it throws
-  /// OutOfMemory where they don't fit.
+  /// The global ids of all local vertices, by local input id: ascending. This array and the next three are made by the
+  /// first call, on any thread; it throws OutOfMemory where they don't fit.
   const Array<const GlobalId, HostMemory>& vertex_ids() const;
+
+  /// The global ids of all local tetrahedra, by local input id: ascending.
   const Array<const GlobalId, HostMemory>& tetrahedron_ids() const;
 
   /// The rank that owns each local vertex, by its local input id.
@@ -81,9 +88,11 @@ class GALE_EXPORT DistributedMesh {
   /// How many vertices this rank has handed over: a field has a value for each.
   Offset given_vertices() const;
 
-  /// Brings what the ranks know of the vertices that they handed over to those who hold them; and what they know of
-  /// vertices that they own to those who have them as ghosts. For GALE's own algorithms.
+  /// Brings what the ranks know of the vertices that they handed over to those who hold them. For GALE's own
+  /// algorithms.
   const detail::ExchangePlan& from_givers() const;
+
+  /// Brings what the ranks know of vertices that they own to those who have them as ghosts. For GALE's own algorithms.
   const detail::ExchangePlan& from_owners() const;
 
  private:

@@ -11,13 +11,14 @@ namespace gale {
 /// Edges and triangles of a mesh on several ranks, named by the global ids of their vertices, in any order. The same
 /// one may occur more than once, and any rank may name any.
 struct DistributedNamedSimplices {
-  std::vector<std::array<GlobalId, 2>> edges;
-  std::vector<std::array<GlobalId, 3>> triangles;
+  std::vector<std::array<GlobalId, 2>> edges;      ///< two vertices each
+  std::vector<std::array<GlobalId, 3>> triangles;  ///< three vertices each
 };
 
 /// The numbers by which users know them.
 struct DistributedNumbers {
-  std::vector<GlobalId> edges, triangles;  ///< in the order in which they were asked for
+  std::vector<GlobalId> edges;      ///< in the order in which they were asked for
+  std::vector<GlobalId> triangles;  ///< in the order in which they were asked for
 
   /// For each vertex that this rank owns (GALE's id of the local mesh) 1 if it is on the surface of the whole mesh.
   Array<const std::uint8_t, HostMemory> on_surface;

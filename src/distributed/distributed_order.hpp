@@ -25,9 +25,10 @@ class DistributedOrder {
   DistributedOrder(const DistributedMesh& mesh, const View& values)
       : mesh_(mesh), local_(order_of(mesh, on_host(values))) {}
 
+  /// The mesh whose vertices it orders.
   const DistributedMesh& mesh() const { return mesh_; }
 
-  /// Of this rank's local mesh: its vertices compare as they do among all.
+  /// The order of this rank's local mesh: its vertices compare as they do among all.
   const VertexOrder& local() const { return local_; }
 
  private:

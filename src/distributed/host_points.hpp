@@ -14,19 +14,23 @@ namespace gale {
 class HostPoints {
  public:
   HostPoints() = default;
+  /// Points in the memory of a View.
   HostPoints(const Points<float, HostMemory>& points) : points_(points) {}
+
+  /// Points in the memory of a View.
   HostPoints(const Points<double, HostMemory>& points) : points_(points) {}
 
   /// Points in the memory of `owner`, a View of any kind.
   template <class Coordinate, class Owner>
   HostPoints(const Points<Coordinate, HostMemory>& points, const Owner& owner) : points_(points), owner_(owner) {}
 
-  /// f(points), which have float or double coordinates.
+  /// Returns f(points), which have float or double coordinates.
   template <class F>
   auto visit(const F& f) const {
     return std::visit(f, points_);
   }
 
+  /// How many points there are.
   Offset count() const {
     return visit([](const auto& points) { return static_cast<Offset>(points.extent(0)); });
   }
@@ -39,7 +43,7 @@ class HostPoints {
     });
   }
 
-  /// As doubles: this memory if they are so already, else a copy.
+  /// The points as doubles: this memory if they are so already, else a copy.
   Points<double, HostMemory> in_double() const {
     if (const auto* points = std::get_if<Points<double, HostMemory>>(&points_)) return *points;
     const auto copy = allocate<Kokkos::View<double* [3], Kokkos::LayoutRight, HostMemory>>("GALE::points", count());

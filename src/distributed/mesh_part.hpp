@@ -68,7 +68,8 @@ auto make_part(const IdView& vertex_ids, const PointView& points, const Tetrahed
   return part;
 }
 
-/// The same with a global id for each tetrahedron.
+/// The part that a caller has in Views, with a global id for each tetrahedron: throws gale::Error if there aren't as
+/// many.
 template <class IdView, class PointView, class TetrahedronView, class TetrahedronIdView>
 auto make_part(const IdView& vertex_ids, const PointView& points, const TetrahedronView& tetrahedra,
                const TetrahedronIdView& tetrahedron_ids) {

@@ -25,8 +25,10 @@ class GALE_EXPORT AtomicFile {
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
-  /// As it was given.
+  /// The path, as it was given.
   const std::string& path() const { return path_; }
+
+  /// The path of the file to write to.
   const std::string& temporary() const { return temporary_.path(); }
 
   /// What its arrays are to be written in, if it is to be one of VTK's XML files.
@@ -52,10 +54,10 @@ class GALE_EXPORT AtomicFile {
 /// All errors name the file.
 class GALE_EXPORT AtomicFiles {
  public:
-  /// Whose arrays are all to be written in this encoding.
+  /// Files whose arrays are all to be written in this encoding.
   explicit AtomicFiles(Encoding encoding = Encoding::appended) : encoding_(encoding) {}
 
-  /// Another one; it stays where it is as long as this object.
+  /// Adds a file, which stays where it is as long as this object. Throws as the constructor of AtomicFile does.
   AtomicFile& add(const std::string& path);
 
   /// Syncs one of them, so that less is left to do at the end.
@@ -64,6 +66,7 @@ class GALE_EXPORT AtomicFiles {
   /// Gives all of them their names. To be called once, when all are written and closed.
   void commit();
 
+  /// All files, in the order in which they were added.
   const std::vector<std::unique_ptr<AtomicFile>>& all() const { return files_; }
 
  private:

@@ -24,11 +24,11 @@ struct PointArray {
   struct Values : detail::AnyVector {
     using detail::AnyVector::AnyVector;
 
-    Values() = default;
-    Values(const Values& other) : Values(copy_of(other)) {}
-    Values(Values&&) = default;
-    Values& operator=(const Values& other) { return *this = copy_of(other); }
-    Values& operator=(Values&&) = default;
+    Values() = default;                                                        ///< no values, of the type that is first
+    Values(const Values& other) : Values(copy_of(other)) {}                    ///< copies first, then moves
+    Values(Values&&) = default;                                                ///< moves
+    Values& operator=(const Values& other) { return *this = copy_of(other); }  ///< copies first, then moves
+    Values& operator=(Values&&) = default;                                     ///< moves
     ~Values() = default;
 
    private:
@@ -42,23 +42,27 @@ struct PointArray {
     }
   };
 
-  std::string name;
-  int components = 1;
-  Values values;
+  std::string name;    ///< as in the file
+  int components = 1;  ///< values of each point, at least 1
+  Values values;       ///< the values of point p begin at p * components
 };
 
 /// A tetrahedral mesh in input ids, as read from a file or generated: what goes into a `gale::Mesh`, and what outputs
 /// are made from.
 struct Dataset {
+  /// Three coordinates a point.
   template <class Coordinate>
   using Points = Kokkos::View<Coordinate* [3], Kokkos::LayoutRight, Kokkos::HostSpace>;
 
-  /// xyz each.
+  /// Points of either precision, as the file has them.
   using Positions = std::variant<Points<float>, Points<double>>;
 
-  Positions points;  ///< of the vertices
+  Positions points;  ///< where the vertices are
+
+  /// The four vertices of each tetrahedron.
   Kokkos::View<std::int32_t* [4], Kokkos::LayoutRight, Kokkos::HostSpace> tetrahedra;
-  std::vector<PointArray> arrays;
+
+  std::vector<PointArray> arrays;    ///< the file's point arrays, the active scalars first
   std::vector<std::string> notices;  ///< one line each about what of the file was left out
 };
 

@@ -11,7 +11,8 @@ namespace gale::io {
 
 /// A regular image: dimensions[0] * dimensions[1] * dimensions[2] voxels, x fastest, each with a value of every array.
 struct Image {
-  std::array<int, 3> dimensions{};
+  std::array<int, 3> dimensions{};  ///< voxels along x, y and z
+
   /// Row d gives coordinate d of the voxel (i, j, k): row[0]*i + row[1]*j + row[2]*k + row[3].
   std::array<std::array<double, 4>, 3> index_to_physical{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
   std::vector<PointArray> arrays;    ///< the scalars first

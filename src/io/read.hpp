@@ -8,6 +8,7 @@
 
 namespace gale::io {
 
+/// What of a file is read, and how.
 struct ReadOptions {
   /// Images: only voxels with values above this become vertices; without it all with finite values do.
   std::optional<double> above;

@@ -20,8 +20,9 @@ namespace gale::io {
 /// Runs on all host threads. Throws `Error` if n < 2, or if the vertices or tetrahedra do not fit 32-bit ids (n > 711).
 GALE_EXPORT Dataset make_grid(int n);
 
-/// Meshes of other character, for measurements: the inputs `smooth:N`, `noisy:N`, `ball:N`, `shells:N` and `dense:N` of
-/// the command. Each has points of a cube of n^3 and one array `field`, above 0:
+/// Whether there is a synthetic mesh of that kind: meshes of other character than the grid's, for measurements, the
+/// inputs `smooth:N`, `noisy:N`, `ball:N`, `shells:N` and `dense:N` of the command. Each has points of a cube of n^3
+/// and one array `field`, above 0:
 /// - `smooth`: all points; few waves, and few critical points;
 /// - `noisy`: all points; every one of another value than its neighbours, so that more than half are critical;
 /// - `ball`: the points in the largest ball, waves;
@@ -29,20 +30,23 @@ GALE_EXPORT Dataset make_grid(int n);
 /// - `dense`: all points, moved towards a corner: most of them near it.
 GALE_EXPORT bool is_synthetic(const std::string& kind);
 
-/// Throws `Error` if there is no such kind, or as make_grid does.
+/// Makes a mesh of a kind (`is_synthetic`), with n^3 points or those of them that it keeps. Throws `Error` if there is
+/// no such kind, and as make_grid does.
 GALE_EXPORT Dataset make_synthetic(const std::string& kind, int n);
 
-/// A slab of the same mesh: some layers of cubes, and the vertices at these.
+/// A slab of the mesh of make_grid: some layers of cubes, and the vertices at these.
 template <class Index>
 struct GridPartOf {
-  Dataset::Points<float> points;
-  std::vector<float> field;
+  Dataset::Points<float> points;  ///< as in the whole mesh
+  std::vector<float> field;       ///< a value for each point
   std::int64_t first_vertex = 0;  ///< the others are numbered on from it, as in the whole mesh
 
-  /// By the vertices' numbers in the whole mesh.
+  /// The four vertices of each tetrahedron, by their numbers in the whole mesh.
   Kokkos::View<Index* [4], Kokkos::LayoutRight, Kokkos::HostSpace> tetrahedra;
-  std::int64_t first_tetrahedron = 0;
+  std::int64_t first_tetrahedron = 0;  ///< the others are numbered on from it, as in the whole mesh
 };
+
+/// A slab whose tetrahedra name vertices by 64 bits.
 using GridPart = GridPartOf<std::int64_t>;
 
 /// The `part`-th of `parts` slabs of grid:n, of about as many layers; empty ones where there are more parts than

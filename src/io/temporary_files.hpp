@@ -12,7 +12,7 @@ namespace gale::io {
 /// has none of its own: the library never calls it.
 GALE_EXPORT void remove_temporary_files_at_end();
 
-/// Removes them now, in a signal handler too: for who ends the process otherwise.
+/// Removes the temporary files of all `AtomicFile`s now, in a signal handler too: for who ends the process otherwise.
 GALE_EXPORT void remove_temporary_files();
 
 namespace detail {

@@ -14,31 +14,34 @@ class AtomicFile;
 
 /// Points by themselves, such as critical points, with their arrays.
 struct PointSet {
-  Dataset::Positions points;
-  std::vector<PointArray> arrays;
+  Dataset::Positions points;       ///< three coordinates each
+  std::vector<PointArray> arrays;  ///< with values for each point
 };
 
 /// Lines and polygons between points, with arrays of both.
 struct Surface {
   /// The k-th has the points `points[begin[k]]` to `points[begin[k + 1] - 1]`, in their order along it.
   struct Cells {
-    std::vector<std::int64_t> begin{0};
-    std::vector<std::int32_t> points;
+    std::vector<std::int64_t> begin{0};  ///< one more than there are cells
+    std::vector<std::int32_t> points;    ///< places in Surface::points
   };
 
-  Dataset::Positions points;
-  std::vector<PointArray> point_arrays;
-  Cells lines, polygons;
-  std::vector<PointArray> cell_arrays;  ///< a value for each line, then for each polygon
+  Dataset::Positions points;             ///< three coordinates each
+  std::vector<PointArray> point_arrays;  ///< with values for each point
+  Cells lines;                           ///< paths, of two points at least
+  Cells polygons;                        ///< three points at least, in their order around
+  std::vector<PointArray> cell_arrays;   ///< a value for each line, then for each polygon
 };
 
-/// The names of arrays that have global ids, of points and of cells, as others have them.
+/// The name of the array that has points' global ids, as others have it.
 inline constexpr const char* global_point_ids = "GlobalPointIds";
+
+/// The name of the array that has cells' global ids.
 inline constexpr const char* global_cell_ids = "GlobalCellIds";
 
 /// One rank's part of a mesh that lies on several. Its point arrays have GlobalPointIds, its cell arrays GlobalCellIds.
 struct MeshPiece {
-  Dataset mesh;
+  Dataset mesh;                         ///< the rank's own tetrahedra, with all their vertices
   std::vector<PointArray> cell_arrays;  ///< a value for each tetrahedron
 };
 
@@ -49,22 +52,28 @@ struct MeshPiece {
 /// directory that is missing or not writable, a full disk.
 GALE_EXPORT void write_points(const std::string& path, const PointSet& points);
 
-/// Here and below: writes to the temporary file of `file`, whose path decides, and leaves it to the caller to commit
+/// Writes to the temporary file of `file`, here and below, whose path decides, and leaves it to the caller to commit
 /// it: so several files appear together (`AtomicFiles`).
 GALE_EXPORT void write_points(const AtomicFile& file, const PointSet& points);
 
-/// Writes a `.pvtp`, or of meshes a `.pvtu`, that names `pieces`, files in the same folder, to the temporary file of
-/// `file`. `like` has the types of coordinates and arrays that each of them has, the arrays in the same order; its
-/// points don't matter.
+/// Writes a `.pvtp`, or for meshes (below) a `.pvtu`, that names `pieces`, files in the same folder, to the temporary
+/// file of `file`. `like` has the types of coordinates and arrays that each of them has, the arrays in the same order;
+/// its points don't matter.
 GALE_EXPORT void write_pieces(const AtomicFile& file, const std::vector<std::string>& pieces, const PointSet& like);
+
+/// Writes the `.pvtp` of pieces that are surfaces.
 GALE_EXPORT void write_pieces(const AtomicFile& file, const std::vector<std::string>& pieces, const Surface& like);
+
+/// Writes the `.pvtu` of pieces that are meshes.
 GALE_EXPORT void write_pieces(const AtomicFile& file, const std::vector<std::string>& pieces, const MeshPiece& like);
 
-/// Writes one to the temporary file of a `.vtu`. It may be empty.
+/// Writes a piece, which may be empty, to the temporary file of a `.vtu`.
 GALE_EXPORT void write_piece(const AtomicFile& file, const MeshPiece& piece);
 
 /// Writes `surface` to a `.vtp`.
 GALE_EXPORT void write_surface(const std::string& path, const Surface& surface);
+
+/// Writes `surface` to the temporary file of a `.vtp`.
 GALE_EXPORT void write_surface(const AtomicFile& file, const Surface& surface);
 
 /// Writes the lines of `lines`, without its polygons, to the temporary file of a `.vtu`: for what others give as an
@@ -74,6 +83,8 @@ GALE_EXPORT void write_lines(const AtomicFile& file, const Surface& lines);
 /// Writes points, tetrahedra and arrays of `mesh` in their order to a `.vtu` or (binary, legacy) `.vtk`, by the
 /// extension; then those of `more`, so that results need not be copied into the mesh first.
 GALE_EXPORT void write_mesh(const std::string& path, const Dataset& mesh, const std::vector<PointArray>& more = {});
+
+/// Writes a mesh to the temporary file of a `.vtu` or `.vtk`.
 GALE_EXPORT void write_mesh(const AtomicFile& file, const Dataset& mesh, const std::vector<PointArray>& more = {});
 
 }  // namespace gale::io

@@ -17,6 +17,7 @@ using IdsByFour = Kokkos::View<const Id* [4], Kokkos::LayoutRight, Memory, Kokko
 /// alone): a `Mesh` keeps the arrays.
 template <class Memory>
 struct EncodedMesh {
+  /// An array that this doesn't own.
   template <class T>
   using Unmanaged = Kokkos::View<const T*, Memory, Kokkos::MemoryUnmanaged>;
 
@@ -28,6 +29,7 @@ struct EncodedMesh {
   Unmanaged<Id>
       external;  ///< T_ex: the tetrahedra that touch it and are internal to an earlier segment, ascending in a row
 
+  /// The four vertices of a tetrahedron, in one load.
   KOKKOS_FORCEINLINE_FUNCTION Quad tetrahedron(Id t) const { return quad_at(tetrahedra.data(), t); }
 };
 

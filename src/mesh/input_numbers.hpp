@@ -16,10 +16,11 @@ GALE_EXPORT Array<const Id, HostMemory> input_numbers(const Mesh& mesh, int dime
 
 /// The numbers of all edges and of all triangles, by GALE's ids.
 struct InputNumbers {
-  Array<const Id, HostMemory> edges, triangles;
+  Array<const Id, HostMemory> edges;      ///< GALE's id of an edge -> its number
+  Array<const Id, HostMemory> triangles;  ///< GALE's id of a triangle -> its number
 };
 
-/// Those of edges and of triangles, which take less time together.
+/// Numbers all edges and all triangles, which takes less time than one after the other.
 GALE_EXPORT InputNumbers input_numbers(const Mesh& mesh);
 
 }  // namespace gale

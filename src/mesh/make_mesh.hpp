@@ -10,10 +10,10 @@
 
 namespace gale {
 
-/// The mesh of what a caller has in Views of its own: `points` are n x 3 coordinates, `tetrahedra` m x 4 vertex ids.
-/// Any layout, in host memory or the workers', managed or not; float or double, any integer type. They are read where
-/// they are if their rows are contiguous and their types are those of GALE (std::int32_t or std::int64_t), else copied
-/// first. Nothing keeps them.
+/// Makes the mesh of what a caller has in Views of its own: `points` are n x 3 coordinates, `tetrahedra` m x 4 vertex
+/// ids. Any layout, in host memory or the workers', managed or not; float or double, any integer type. They are read
+/// where they are if their rows are contiguous and their types are those of GALE (std::int32_t or std::int64_t), else
+/// copied first. Nothing keeps them.
 ///
 /// Segmented by an octree of `capacity` vertices a segment. Throws as octree_segmentation and Mesh do, and if the
 /// second extents aren't 3 and 4.
@@ -23,7 +23,8 @@ Mesh make_mesh(const PointView& points, const TetrahedronView& tetrahedra, int c
               octree_segmentation(detail::rows_of<3, detail::CoordinateFor>("points", points), capacity));
 }
 
-/// The same from vectors of 3 coordinates a point and 4 vertex ids a tetrahedron.
+/// Makes the mesh of vectors of 3 coordinates a point and 4 vertex ids a tetrahedron. Throws gale::Error, too, if the
+/// lengths are no multiples of 3 and 4.
 template <class Coordinate, class Index>
 Mesh make_mesh(const std::vector<Coordinate>& points, const std::vector<Index>& tetrahedra,
                int capacity = default_capacity) {

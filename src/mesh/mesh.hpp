@@ -43,15 +43,15 @@ class GALE_EXPORT Mesh {
   /// Is it the same mesh, or a copy of it? Another one of equal tetrahedra isn't.
   bool operator==(const Mesh& other) const { return data_ == other.data_; }
 
-  Id vertices() const;
-  Id tetrahedra() const;
-  Id segments() const;
+  Id vertices() const;    ///< how many vertices it has, ghosts included
+  Id tetrahedra() const;  ///< how many tetrahedra it has
+  Id segments() const;    ///< how many segments it has, those of ghosts included
 
   /// Sweeps go through the first so many segments, which hold the vertices 0 to owned_vertices() - 1: all of them,
   /// unless this is one rank's part of a mesh. Then the others hold ghosts: vertices that other ranks own, which are
   /// there for tetrahedra that touch owned ones. Rows of ghosts lack what the rank doesn't have.
   Id owned_segments() const;
-  Id owned_vertices() const;
+  Id owned_vertices() const;  ///< how many vertices these segments hold
 
   /// Whether its arrays lie in a device's memory. Tables of simplices that are made later may lie in the host's.
   bool on_device() const;
@@ -59,6 +59,7 @@ class GALE_EXPORT Mesh {
   /// One line on what didn't fit the device's memory, so that the host computes; empty if everything did, so far.
   std::string notice() const;
 
+  /// The arrays that relations are computed from. Valid as long as the mesh or a copy of it.
   template <class Memory = HostMemory>
   const EncodedMesh<Memory>& encoded() const;
 
@@ -70,8 +71,10 @@ class GALE_EXPORT Mesh {
   template <class Memory = HostMemory>
   Simplices<Memory> simplices(const SimplexNeeds& needs) const;
 
-  /// How many edges or triangles there are; no_id as long as nobody needed them.
+  /// How many edges there are; no_id as long as nobody needed them.
   Id known_edges() const;
+
+  /// How many triangles there are; no_id as long as nobody needed them.
   Id known_triangles() const;
 
   /// The intervals: where the simplices of a dimension 0 to 3 that are internal to each segment begin, and one past the
@@ -83,17 +86,21 @@ class GALE_EXPORT Mesh {
   /// The simplices that are internal to a segment.
   Intervals intervals_of(Id segment) const;
 
-  /// interval_begin(0), on the host.
+  /// Where each segment's vertices begin, and one past the last: interval_begin(0), on the host.
   const Array<const Id, HostMemory>& vertex_begin() const;
 
   /// Where each segment's row of T_ex begins, on the host.
   const Array<const Offset, HostMemory>& external_begin() const;
 
-  /// GALE's vertex -> input vertex, and back; the tetrahedra likewise.
+  /// GALE's vertex -> input vertex.
   template <class Memory = HostMemory>
   const Array<const Id, Memory>& vertex_input() const;
+
+  /// Input vertex -> GALE's vertex.
   template <class Memory = HostMemory>
   const Array<const Id, Memory>& vertex_internal() const;
+
+  /// GALE's tetrahedron -> input tetrahedron.
   template <class Memory = HostMemory>
   const Array<const Id, Memory>& tetrahedron_input() const;
 

@@ -7,7 +7,10 @@ namespace gale {
 
 /// The four vertices of a tetrahedron, ascending unless it says otherwise.
 struct alignas(16) Quad {
-  Id a, b, c, d;
+  Id a;  ///< the vertex at corner 0
+  Id b;  ///< the vertex at corner 1
+  Id c;  ///< the vertex at corner 2
+  Id d;  ///< the vertex at corner 3
 
   /// The vertex at a corner 0 to 3. Selects, so that it stays in registers where the corner isn't known at compile
   /// time.
@@ -16,11 +19,12 @@ struct alignas(16) Quad {
   }
 };
 
+/// Compares corner by corner.
 KOKKOS_FORCEINLINE_FUNCTION bool operator==(const Quad& one, const Quad& other) {
   return one.a == other.a && one.b == other.b && one.c == other.c && one.d == other.d;
 }
 
-/// In lexicographic order.
+/// Compares in lexicographic order.
 KOKKOS_FORCEINLINE_FUNCTION bool operator<(const Quad& one, const Quad& other) {
   if (one.a != other.a) return one.a < other.a;
   if (one.b != other.b) return one.b < other.b;

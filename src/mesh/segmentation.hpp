@@ -18,8 +18,13 @@ struct Segmentation {
   /// the others ghosts. no_id for a whole mesh, which has no ghosts.
   Id owned_segments = no_id;
 
+  /// How many vertices it numbers.
   Id vertices() const { return static_cast<Id>(vertex_input.size()); }
+
+  /// How many segments it has.
   Id segments() const { return static_cast<Id>(vertex_begin.size()) - 1; }
+
+  /// Whether it is that of one rank's part of a mesh.
   bool is_part() const { return owned_segments != no_id; }
 };
 
@@ -31,9 +36,10 @@ using Points = Kokkos::View<const Coordinate* [3], Kokkos::LayoutRight, Memory>;
 /// the fast memory of a device's teams; on a host it makes no difference.
 inline constexpr int default_capacity = 64;
 
-/// The leaves of a PR octree that hold at most `capacity` vertices each, consecutive ones merged while they fit.
-/// Vertices and thus segments are in Morton order (x the highest bit), those of one cell of the deepest level in input
-/// order. More than `capacity` vertices at one point (to 2^-21 of the mesh's extent) are split arbitrarily.
+/// Makes segments of the leaves of a PR octree that hold at most `capacity` vertices each, consecutive ones merged
+/// while they fit. Vertices and thus segments are in Morton order (x the highest bit), those of one cell of the deepest
+/// level in input order. More than `capacity` vertices at one point (to 2^-21 of the mesh's extent) are split
+/// arbitrarily.
 ///
 /// `Coordinate` is float or double. Takes time O(n), 24 bytes a vertex beside the result in the workers' memory; the
 /// host computes where that doesn't fit.
@@ -41,7 +47,7 @@ inline constexpr int default_capacity = 64;
 template <class Coordinate, class Memory>
 GALE_EXPORT Segmentation octree_segmentation(const Points<Coordinate, Memory>& points, int capacity = default_capacity);
 
-/// The segments that the caller gives: vertices with equal labels, in input order; segments in ascending order of
+/// Takes the segments that the caller gives: vertices with equal labels, in input order; segments in ascending order of
 /// label. Labels may have gaps and any sign.
 GALE_EXPORT Segmentation given_segmentation(const Array<const std::int64_t, HostMemory>& labels);
 

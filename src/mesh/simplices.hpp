@@ -35,8 +35,8 @@ enum class Enumeration { tetrahedra, edges, triangles };
 
 /// What someone needs of the tables of `Simplices`.
 struct SimplexNeeds {
-  Enumeration upto = Enumeration::tetrahedra;
-  bool lower_edges = false;   ///< the edges by their higher vertex too; needs edges
+  Enumeration upto = Enumeration::tetrahedra;  ///< what is numbered
+  bool lower_edges = false;                    ///< the edges by their higher vertex too; needs edges
   bool tetrahedra = false;    ///< the tetrahedra themselves; on a device that has them they always come along
   bool edge_low = true;       ///< that table, if edges are numbered
   bool triangle_edge = true;  ///< that table, if triangles are numbered; made when someone needs it first
@@ -49,10 +49,11 @@ struct SimplexNeeds {
 /// Owns nothing; may be copied into kernels. All ids are GALE's.
 template <class Memory>
 struct Simplices {
+  /// An array that this doesn't own.
   template <class T>
   using Unmanaged = Kokkos::View<const T*, Memory, Kokkos::MemoryUnmanaged>;
 
-  IdsByFour<Memory> tetrahedra;
+  IdsByFour<Memory> tetrahedra;     ///< four vertices each, ascending
   Unmanaged<Id> tetrahedron_begin;  ///< vertex a -> the first tetrahedron (a, ., ., .); one more at the end, as in all
                                     ///< that follow
 
@@ -69,6 +70,7 @@ struct Simplices {
   Id longest_list = 0;  ///< known with lower_edges: the most edges (a, .), edges (., a) or tetrahedra (a, ., ., .)
                         ///< that a vertex a has
 
+  /// The four vertices of a tetrahedron, in one load.
   KOKKOS_FUNCTION Quad tetrahedron(Id t) const { return quad_at(tetrahedra.data(), t); }
 
   /// The edge (a, b), a < b; no_id if there is none.
@@ -81,6 +83,7 @@ struct Simplices {
     return detail::find_in(triangle_apex, triangle_begin(edge), triangle_begin(edge + 1), c);
   }
 
+  /// The triangle (a, b, c), a < b < c; no_id if there is none.
   KOKKOS_FUNCTION Id triangle_of(Id a, Id b, Id c) const {
     const Id edge = edge_of(a, b);
     return edge == no_id ? no_id : triangle_of(edge, c);

@@ -14,7 +14,10 @@ struct CriticalSimplex {
   std::int8_t dimension;       ///< 0 to 3
   std::int8_t on_surface;      ///< 1 if its highest vertex is on the mesh's surface, else 0
 
+  /// The input id of its highest vertex.
   Id highest() const { return vertices[0]; }
+
+  /// The input id of its lowest vertex.
   Id lowest() const { return vertices[dimension]; }
 };
 
@@ -22,14 +25,15 @@ struct CriticalSimplex {
 /// ascending CellId.
 using KnownSimplices = std::array<std::vector<CriticalSimplex>, 4>;
 
-/// `critical` is what the gradient left unpaired, or what `simplify` left of that. `numbers` begin with those of
-/// `critical.edges` and `critical.triangles`, in their order; more may follow (`named_simplices`).
+/// Names critical simplices as users know them. `critical` is what the gradient left unpaired, or what `simplify` left
+/// of that. `numbers` begin with those of `critical.edges` and `critical.triangles`, in their order; more may follow
+/// (`named_simplices`).
 GALE_EXPORT KnownSimplices known_simplices(const DiscreteGradient& gradient, const CriticalSimplices& critical,
                                            const SimplexNumbers& numbers);
 
-/// All of them as points, dimension by dimension. They are at vertices, the middles of edges, the incentres of
-/// triangles and the barycentres of tetrahedra, rounded to the type of the input's coordinates. Each has the input's
-/// point arrays at its highest vertex, then CellDimension (int8), CellId (int32), IsOnBoundary (int8) and
+/// Makes points of critical simplices, dimension by dimension. They are at vertices, the middles of edges, the
+/// incentres of triangles and the barycentres of tetrahedra, rounded to the type of the input's coordinates. Each has
+/// the input's point arrays at its highest vertex, then CellDimension (int8), CellId (int32), IsOnBoundary (int8) and
 /// ttkVertexScalarField (int32, the input id of its highest vertex). Throws gale::Error for a vertex that an array of
 /// the dataset has no value for.
 GALE_EXPORT io::PointSet to_point_set(const io::Dataset& dataset, const KnownSimplices& simplices);

@@ -40,8 +40,8 @@ struct MorseSmaleOutputs {
   io::PointSet critical_points;           ///< to_point_set, and manifold_sizes
   io::Surface separatrices1;              ///< lines
   io::Surface separatrices2;              ///< polygons
-  std::vector<io::PointArray> manifolds;  ///< of the mesh's vertices, in input order
-  KeptBelow kept_below;
+  std::vector<io::PointArray> manifolds;  ///< arrays of the mesh's vertices, in input order
+  KeptBelow kept_below;                   ///< pairs of saddles that simplification had to leave
 };
 
 /// Finds the complex and makes its outputs. `dataset` has the points and arrays that travel with the critical points;

@@ -14,10 +14,13 @@ namespace gale::outputs {
 struct DiagramPoint {
   std::int8_t type;      ///< the dimension of the class
   bool is_finite;        ///< whether it ends; if not, its end is the field's highest vertex
-  Id begin, end;         ///< input ids: the highest vertices of the pair's simplices
-  double birth, death;   ///< the field's values there
+  Id begin;              ///< input id of the highest vertex of the simplex that begins it
+  Id end;                ///< input id of the highest vertex of the simplex that ends it
+  double birth;          ///< the field's value at `begin`
+  double death;          ///< the field's value at `end`
   std::int8_t end_type;  ///< the dimension of the simplex that ends it, 3 if none does
 
+  /// The difference of the two values; 0 where they are equal, infinities included.
   double persistence() const { return birth == death ? 0 : death - birth; }
 };
 
@@ -27,10 +30,13 @@ GALE_EXPORT std::vector<DiagramPoint> persistence_diagram(const DiscreteGradient
                                                           const PersistencePairs& pairs, const io::PointArray& field,
                                                           double least = 0);
 
-/// How many pairs and essential classes of each dimension a diagram has.
+/// How many pairs and essential classes a diagram has.
 struct DiagramCounts {
-  Id pairs[3] = {}, essential[4] = {};
+  Id pairs[3] = {};      ///< by the dimension of the class, 0 to 2
+  Id essential[4] = {};  ///< by dimension, 0 to 3
 };
+
+/// Counts what a diagram has.
 GALE_EXPORT DiagramCounts counts_of(const std::vector<DiagramPoint>& diagram);
 
 /// The diagram as lines, one for each of its points, from (birth, birth, 0) to (birth, death, 0), then the diagonal,
@@ -46,9 +52,11 @@ GALE_EXPORT io::Surface to_lines(const io::Dataset& dataset, const io::PointArra
 /// How many pairs persist: for each persistence that a pair has, ascending, the number of pairs of each type of that
 /// persistence or more. What never ends doesn't count.
 struct PersistenceCurve {
-  std::vector<double> persistence;
-  std::vector<Id> pairs[3];
+  std::vector<double> persistence;  ///< each that occurs once, ascending
+  std::vector<Id> pairs[3];         ///< by type; as many entries as `persistence`
 };
+
+/// Makes the curve of a diagram.
 GALE_EXPORT PersistenceCurve persistence_curve(const std::vector<DiagramPoint>& diagram);
 
 /// The curve as comma-separated values, with a line of titles: Persistence, MinimumSaddle, SaddleSaddle, SaddleMaximum,

@@ -12,8 +12,10 @@
 
 namespace gale::outputs {
 
-/// The names under which segments are found in an input. GALE writes its own under the first.
+/// The name under which GALE writes segments, and finds them in an input.
 inline constexpr const char* segments_name = "ttkCompactTriangulationIndex";
+
+/// The other name under which segments are found in an input.
 inline constexpr const char* ttk_segments_name = "_index";
 
 /// The segment of each vertex, in input order, as the array `segments_name` (int32).

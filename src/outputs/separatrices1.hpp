@@ -16,7 +16,7 @@ namespace gale::outputs {
 /// A joined one (`Separatrices::joins`) ends at a point inside an earlier one, which has the same DestinationId, and a
 /// point there of the same CellDimension and CellId.
 ///
-/// They come in that order, each kind in the order of the complex, and are numbered through. Points are placed as by
+/// All come in that order, each kind in the order of the complex, and are numbered through. Points are placed as by
 /// `to_point_set` and shared by the lines of one separatrix alone. Point arrays: ttkMaskScalarField (int8, 0 at both
 /// ends), CellDimension (int8), CellId (int32). Arrays of lines: SourceId, DestinationId, SeparatrixId (int32),
 /// SeparatrixType (int8: 0 descending, 1 connector, 2 ascending), SeparatrixFunctionMaximum, Minimum and Difference

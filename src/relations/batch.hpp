@@ -11,15 +11,16 @@ namespace gale {
 /// code that can read `Memory`. Null for what is not enumerated. Owns nothing.
 template <class Memory>
 struct IntervalTables {
-  const Id* begin[4] = {};
+  const Id* begin[4] = {};  ///< by dimension: segment -> its first simplex, and one past the last
 
+  /// The simplices of a dimension that are internal to a segment; none where they aren't enumerated.
   KOKKOS_FUNCTION Interval operator()(int dimension, Id segment) const {
     return begin[dimension] == nullptr ? Interval()
                                        : Interval{begin[dimension][segment], begin[dimension][segment + 1]};
   }
 };
 
-/// Those of a mesh, on the host.
+/// Takes the tables of a mesh. To be called on the host.
 template <class Memory = HostMemory>
 GALE_EXPORT IntervalTables<Memory> interval_tables(const Mesh& mesh);
 
@@ -30,19 +31,22 @@ GALE_EXPORT IntervalTables<Memory> interval_tables(const Mesh& mesh);
 /// none.
 template <class Memory>
 struct Batch {
-  RelationSet relations;              ///< of which each segment has a block
-  Id count = 0;                       ///< segments
+  RelationSet relations;              ///< what each segment has a block of
+  Id count = 0;                       ///< how many segments there are
   SegmentList segments;               ///< slot -> segment
   const Offset* directory = nullptr;  ///< slot and relation -> where the block begins in `words`; below 0 if missing
   const Id* words = nullptr;          ///< the blocks, see BlockLayout
-  IntervalTables<Memory> intervals;   ///< of the mesh
+  IntervalTables<Memory> intervals;   ///< the mesh's
 
   /// Are the blocks of a slot there?
   KOKKOS_FUNCTION bool has(Id slot) const { return directory[Offset(slot) * relations.count()] >= 0; }
 
+  /// The rows of a relation of the segment in a slot, whose blocks must be there.
   KOKKOS_FUNCTION Rows rows(Id slot, Relation relation) const {
     return layout(slot, row_dimension(relation)).rows_in(block(slot, relations.index_of(relation)));
   }
+
+  /// The links of the segment in a slot, whose blocks must be there.
   KOKKOS_FUNCTION LinkRows links(Id slot) const {
     return layout(slot, 0).links_in(block(slot, relations.index_of_links()));
   }

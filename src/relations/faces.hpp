@@ -8,10 +8,15 @@ namespace gale {
 /// A row of a face relation: `size` ids, ascending.
 template <int size>
 struct FaceRow {
-  Id ids[size];
+  Id ids[size];  ///< GALE's ids
 
+  /// The i-th entry, counted from 0.
   KOKKOS_FUNCTION Id operator[](int i) const { return ids[i]; }
+
+  /// The first entry.
   KOKKOS_FUNCTION const Id* begin() const { return ids; }
+
+  /// One past the last entry.
   KOKKOS_FUNCTION const Id* end() const { return ids + size; }
 };
 

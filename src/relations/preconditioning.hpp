@@ -13,10 +13,10 @@ GALE_EXPORT SimplexNeeds needs_of(RelationSet relations);
 /// contain `wanted`.
 GALE_EXPORT void require_preconditioned(RelationSet preconditioned, RelationSet wanted);
 
-/// Throws gale::Error unless `simplex` is one of the mesh' of that dimension.
+/// Throws gale::Error unless the mesh has a simplex of that dimension and GALE's id.
 GALE_EXPORT void require_simplex(const Mesh& mesh, int dimension, Id simplex);
 
-/// Likewise where the number of them is known.
+/// Throws gale::Error unless `simplex` is one of `count` simplices of that dimension.
 GALE_EXPORT void require_simplex(Id count, int dimension, Id simplex);
 
 }  // namespace gale

@@ -15,6 +15,7 @@ namespace gale {
 /// vertices an edge.
 enum class Relation : std::uint8_t { EV, FV, FE, TV, TE, TF, VE, VF, VT, EF, ET, FT, VV, EE, FF, TT };
 
+/// How many relations there are.
 inline constexpr int relation_count = 16;
 
 /// What computes the rows of a relation: a look-up in the tables of simplices, also made by the row kernels; the row
@@ -23,14 +24,15 @@ enum class ComputedBy : std::uint8_t { look_up, row_kernel, star_kernel };
 
 /// All that is particular about one relation. To add one, add a line to the table in `traits_of`, and a kernel.
 struct RelationTraits {
-  char name[3];
-  signed char row_dimension;    ///< of the X, of which there is a row each
-  signed char entry_dimension;  ///< of the Y, which are the rows' entries
-  ComputedBy computed_by;
-  SimplexNeeds needs;     ///< tables of simplices that whoever computes a row reads; triangle_edge see `needs_of`
-  short words_of_vertex;  ///< what its blocks take for each vertex of a regular mesh, in words of an Id
+  char name[3];                 ///< "VV"
+  signed char row_dimension;    ///< dimension of the X, of which there is a row each
+  signed char entry_dimension;  ///< dimension of the Y, which are the rows' entries
+  ComputedBy computed_by;       ///< what computes its rows
+  SimplexNeeds needs;           ///< tables of simplices that whoever computes a row reads; triangle_edge see `needs_of`
+  short words_of_vertex;        ///< what its blocks take for each vertex of a regular mesh, in words of an Id
 };
 
+/// What is particular about a relation.
 KOKKOS_FUNCTION constexpr RelationTraits traits_of(Relation relation) {
   using By = ComputedBy;
   constexpr auto vertices = Enumeration::tetrahedra, edges = Enumeration::edges, triangles = Enumeration::triangles;
@@ -57,10 +59,13 @@ KOKKOS_FUNCTION constexpr RelationTraits traits_of(Relation relation) {
   return table[static_cast<int>(relation)];
 }
 
+/// Dimension of the simplices that a relation has a row each of.
 KOKKOS_FUNCTION constexpr int row_dimension(Relation relation) { return traits_of(relation).row_dimension; }
+
+/// Dimension of the simplices that a relation's rows consist of.
 KOKKOS_FUNCTION constexpr int entry_dimension(Relation relation) { return traits_of(relation).entry_dimension; }
 
-/// "VV"
+/// The name of a relation: "VV".
 GALE_EXPORT std::string name_of(Relation relation);
 
 /// The relation of a name; nothing for any other.
@@ -70,12 +75,22 @@ GALE_EXPORT std::optional<Relation> relation_named(const std::string& name);
 /// each tetrahedron of a vertex the places of its other three vertices in the vertex's VV row.
 class RelationSet {
  public:
+  /// No relations.
   constexpr RelationSet() = default;
+
+  /// One relation.
   KOKKOS_FUNCTION constexpr RelationSet(Relation relation) : bits_(bit(static_cast<int>(relation))) {}
 
+  /// Whether a relation is among them.
   KOKKOS_FUNCTION constexpr bool has(Relation relation) const { return (bits_ >> static_cast<int>(relation)) & 1; }
+
+  /// Whether the links are among them.
   KOKKOS_FUNCTION constexpr bool has_links() const { return (bits_ >> relation_count) & 1; }
+
+  /// Whether all of another set are among them.
   KOKKOS_FUNCTION constexpr bool contains(RelationSet other) const { return (bits_ & other.bits_) == other.bits_; }
+
+  /// Whether there is no relation, and there are no links.
   KOKKOS_FUNCTION constexpr bool empty() const { return bits_ == 0; }
 
   /// How many blocks a segment has of it: one for each relation, and one for the links.
@@ -87,20 +102,29 @@ class RelationSet {
 
   /// Place of a member's block among these: in the order of `Relation`, the links last.
   KOKKOS_FUNCTION constexpr int index_of(Relation relation) const { return before(static_cast<int>(relation)); }
+
+  /// Place of the links' block among these.
   KOKKOS_FUNCTION constexpr int index_of_links() const { return before(relation_count); }
 
   /// The links alone; `link_form` is their name.
   KOKKOS_FUNCTION static constexpr RelationSet links() { return RelationSet(bit(relation_count), 0); }
 
+  /// What is in both sets.
   friend KOKKOS_FUNCTION constexpr RelationSet operator&(RelationSet a, RelationSet b) {
     return RelationSet(a.bits_ & b.bits_, 0);
   }
+
+  /// What is in the first set and not in the second.
   friend KOKKOS_FUNCTION constexpr RelationSet operator-(RelationSet a, RelationSet b) {
     return RelationSet(a.bits_ & ~b.bits_, 0);
   }
+
+  /// What is in either set.
   friend KOKKOS_FUNCTION constexpr RelationSet operator|(RelationSet a, RelationSet b) {
     return RelationSet(a.bits_ | b.bits_, 0);
   }
+
+  /// Whether both sets have the same members.
   friend KOKKOS_FUNCTION constexpr bool operator==(RelationSet a, RelationSet b) { return a.bits_ == b.bits_; }
 
  private:
@@ -111,26 +135,33 @@ class RelationSet {
   std::uint32_t bits_ = 0;
 };
 
+/// A set of two relations.
 KOKKOS_FUNCTION constexpr RelationSet operator|(Relation a, Relation b) { return RelationSet(a) | RelationSet(b); }
 
 /// The links of vertices, as part of a set: `Relation::VV | link_form`.
 inline constexpr RelationSet link_form = RelationSet::links();
 
-/// Its relations, in the order of `Relation`.
+/// The relations of a set, in the order of `Relation`; the links aren't among them.
 GALE_EXPORT std::vector<Relation> members_of(RelationSet relations);
 
 /// Dimension of the rows of one relation, or of the links.
 inline int row_dimension(RelationSet one) { return one == link_form ? 0 : row_dimension(members_of(one).front()); }
 
-/// "VT, VV, link"
+/// The names of a set's members: "VT, VV, link".
 GALE_EXPORT std::string name_of(RelationSet relations);
 
-/// The faces of a simplex: its parts of a lower dimension, always as many.
+/// The relations to faces of a simplex, its parts of a lower dimension: rows of one length.
 inline constexpr RelationSet face_relations =
     Relation::EV | Relation::FV | Relation::FE | Relation::TV | Relation::TE | Relation::TF;
+
+/// The relations to the simplices of a higher dimension that have a simplex as a face.
 inline constexpr RelationSet coboundary_relations =
     Relation::VE | Relation::VF | Relation::VT | Relation::EF | Relation::ET | Relation::FT;
+
+/// The relations between simplices of one dimension.
 inline constexpr RelationSet adjacency_relations = Relation::VV | Relation::EE | Relation::FF | Relation::TT;
+
+/// The sixteen relations.
 inline constexpr RelationSet all_relations = face_relations | coboundary_relations | adjacency_relations;
 
 /// What one kernel can compute from the star of each of a segment's vertices.

@@ -15,24 +15,26 @@ namespace gale {
 /// caller: an assertion where NDEBUG is not defined, undefined otherwise.
 class SegmentRows {
  public:
+  /// No segment, and no rows.
   SegmentRows() = default;
 
-  /// Of a segment, or of any simplices; no rows yet.
+  /// A segment, or any simplices, without rows so far.
   SegmentRows(Id segment, const Intervals& simplices) : segment_(segment), simplices_(simplices) {}
 
-  /// A relation's rows.
+  /// Adds a relation's rows.
   void set(Relation relation, const Rows& rows) { rows_[static_cast<int>(relation)] = rows; }
 
-  /// The links.
+  /// Adds the links.
   void set(const LinkRows& links) { links_ = links; }
 
+  /// The segment that the rows are those of.
   Id segment() const { return segment_; }
 
   /// The segment's simplices that a relation has rows for: those of the rows' dimension whose lowest vertex it holds
   /// (GALE's ids). `for (const Id edge : rows.interval(Relation::EF)) use(rows[Relation::EF][edge]);`
   const Interval& interval(Relation relation) const { return interval(row_dimension(relation)); }
 
-  /// Those of a dimension 0 to 3; empty where they were not enumerated.
+  /// The segment's simplices of a dimension 0 to 3; empty where they were not enumerated.
   const Interval& interval(int dimension) const { return simplices_[dimension]; }
 
   /// Is a simplex of that dimension one of the segment's?

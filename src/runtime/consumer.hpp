@@ -23,7 +23,7 @@ class GALE_EXPORT Consumer {
     return rows[relation][simplex];
   }
 
-  /// The link of a vertex; likewise.
+  /// The link of a vertex (GALE's id), as `row` has rows: the same cost, errors, and validity.
   LinkRow link(Id vertex) {
     SegmentRows& rows = current_[relation_count];
     if (!rows.has(0, vertex)) reload(rows, link_form, vertex);

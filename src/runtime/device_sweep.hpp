@@ -55,7 +55,7 @@ struct OnEachRow {
   }
 };
 
-/// The same for large segments: a team each, a thread a row.
+/// A team a segment, a thread a row: for large segments.
 template <class Memory, class Functor>
 struct OnRowsOfSegment {
   Relation relation;

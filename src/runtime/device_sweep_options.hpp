@@ -11,12 +11,13 @@ struct DeviceSweepOptions {
   std::size_t memory = 0;
 
   int batches = 0;              ///< under way at a time; by default 3 on a device, 1 on the host
-  int threads_per_segment = 0;  ///< of the teams that make rows; by default 128
+  int threads_per_segment = 0;  ///< threads of the teams that make rows; by default 128
 
-  /// Of the teams that read them: threads, rounded up to whole warps, by default one a row up to 256, or 256 in
-  /// for_each_row; and bytes of scratch memory, at level 0, which is the functor's own. On the host a team is one
-  /// thread.
+  /// Threads of the teams that read rows, rounded up to whole warps; by default one a row up to 256, or 256 in
+  /// for_each_row. On the host a team is one thread.
   int threads_per_team = 0;
+
+  /// Bytes of scratch memory, at level 0, that the functor has in each of these teams.
   std::size_t team_scratch = 0;
 };
 

@@ -9,8 +9,8 @@ namespace gale {
 /// Kokkos-Kernels and others take graphs.
 template <class Memory>
 struct Graph {
-  Array<const Offset, Memory> row_map;
-  Array<const Id, Memory> entries;
+  Array<const Offset, Memory> row_map;  ///< where each row begins, and the end of the last
+  Array<const Id, Memory> entries;      ///< GALE's ids, row after row
 };
 
 namespace detail {
@@ -34,9 +34,9 @@ struct CopyEntries {
 
 }  // namespace detail
 
-/// A relation of all simplices at once, in the memory of `space`; what is said of sweeps (device_sweep.hpp) holds. Rows
-/// are made twice, to be counted and to be copied, so that nothing else takes memory: 8 bytes a row, 4 an entry. Rows
-/// of simplices that have ghosts alone are empty. Throws OutOfMemory where the memory isn't there.
+/// Makes a relation of all simplices at once, in the memory of `space`; what is said of sweeps (device_sweep.hpp)
+/// holds. Rows are made twice, to be counted and to be copied, so that nothing else takes memory: 8 bytes a row, 4 an
+/// entry. Rows of simplices that have ghosts alone are empty. Throws OutOfMemory where the memory isn't there.
 template <class Space>
 Graph<detail::MemoryOfSweep<Space>> graph_of(const Space& space, const Mesh& mesh, Relation relation,
                                              const DeviceSweepOptions& options = {}) {

@@ -18,26 +18,31 @@ struct GALE_EXPORT WaitingTimes {
   double kernel_and_transfer = 0;  ///< until the blocks were on the host
   double integration = 0;          ///< until the consumer had its block
 
+  /// All stages together.
   double total() const { return push + queue + preparation + kernel_and_transfer + integration; }
+
+  /// Adds another's seconds, stage by stage.
   WaitingTimes& operator+=(const WaitingTimes& other);
 };
 
 /// What one consumer did.
 struct GALE_EXPORT ConsumerStatistics {
-  std::int64_t hits = 0;      ///< blocks that were there already
-  std::int64_t requests = 0;  ///< blocks that it waited for
-  WaitingTimes waiting;
+  std::int64_t hits = 0;               ///< blocks that were there already
+  std::int64_t requests = 0;           ///< blocks that it waited for
+  WaitingTimes waiting;                ///< how long it waited for these
   std::int64_t segments_computed = 0;  ///< by itself
-  double seconds_computing = 0;
+  double seconds_computing = 0;        ///< spent on these
 
+  /// Adds what another did.
   ConsumerStatistics& operator+=(const ConsumerStatistics& other);
 };
 
 /// What cores that sweeps left idle did ahead of the consumers.
 struct GALE_EXPORT HelperStatistics {
-  std::int64_t segments_computed = 0;
-  double seconds_computing = 0;
+  std::int64_t segments_computed = 0;  ///< by all helpers
+  double seconds_computing = 0;        ///< spent on these
 
+  /// Adds what others did.
   HelperStatistics& operator+=(const HelperStatistics& other);
 };
 
@@ -45,34 +50,35 @@ struct GALE_EXPORT HelperStatistics {
 struct GALE_EXPORT QueueLengths {
   std::vector<std::int64_t> times;  ///< by length
 
-  void add(std::size_t length);
-  double mean() const;
-  double deviation() const;  ///< the standard one
-  std::int64_t median() const;
+  void add(std::size_t length);  ///< counts one more time
+  double mean() const;           ///< 0 where it never found any
+  double deviation() const;      ///< the standard deviation
+  std::int64_t median() const;   ///< the lower one of two
 };
 
 /// What one queue's leader did.
 struct LeaderStatistics {
-  RelationSet relations;
-  std::int64_t batches = 0;
-  std::int64_t segments_computed = 0;
-  std::int64_t segments_recomputed = 0;  ///< of them, those that it had computed before
-  std::int64_t segments_on_host = 0;     ///< of them, those that the host computed since the device lacked memory
-  std::int64_t bytes = 0;                ///< of blocks
-  std::int64_t blocks_evicted = 0;
-  std::int64_t batches_split = 0;  ///< that didn't fit, and were tried again in parts
-  QueueLengths queue_lengths;
+  RelationSet relations;                 ///< what its batches compute
+  std::int64_t batches = 0;              ///< how many were launched
+  std::int64_t segments_computed = 0;    ///< in all batches
+  std::int64_t segments_recomputed = 0;  ///< how many of these it had computed before
+  std::int64_t segments_on_host = 0;     ///< how many of these the host computed since the device lacked memory
+  std::int64_t bytes = 0;                ///< all blocks together
+  std::int64_t blocks_evicted = 0;       ///< blocks whose place others took
+  std::int64_t batches_split = 0;        ///< batches that didn't fit, and were tried again in parts
+  QueueLengths queue_lengths;            ///< requests that it found waiting
 };
 
 /// Everything since a structure was made.
 struct GALE_EXPORT StructureStatistics {
-  std::vector<ConsumerStatistics> consumers;  ///< of those that have ended; a sweep's consumers by their number
-  HelperStatistics helpers;  ///< of all sweeps; a block of theirs that a consumer read is one of its hits
-  std::vector<LeaderStatistics> leaders;
-  std::size_t host_bytes = 0;        ///< allocated for blocks on the host, at most at one time
-  std::size_t device_bytes = 0;      ///< allocated for batches on the device
-  std::vector<std::string> notices;  ///< one line each about what it did differently than asked for, and why
+  std::vector<ConsumerStatistics> consumers;  ///< one for each that has ended; a sweep's consumers by their number
+  HelperStatistics helpers;               ///< in all sweeps; a block of theirs that a consumer read is one of its hits
+  std::vector<LeaderStatistics> leaders;  ///< one for each queue
+  std::size_t host_bytes = 0;             ///< allocated for blocks on the host, at most at one time
+  std::size_t device_bytes = 0;           ///< allocated for batches on the device
+  std::vector<std::string> notices;       ///< one line each about what it did differently than asked for, and why
 
+  /// The sum over all consumers.
   ConsumerStatistics all_consumers() const;
 };
 

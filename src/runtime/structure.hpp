@@ -25,6 +25,7 @@ class GALE_EXPORT Structure {
   Structure(const Structure&) = delete;
   Structure& operator=(const Structure&) = delete;
 
+  /// The mesh whose relations it answers.
   const Mesh& mesh() const { return mesh_; }
 
   /// What it was preconditioned for.
@@ -50,7 +51,7 @@ class GALE_EXPORT Structure {
   /// makes must not outlive the body. It must begin no parallel loop of Kokkos where Serial is the only backend.
   void for_each_segment(RelationSet wanted, const SweepOptions& options, const SegmentBody& body);
 
-  /// For rows in any order. Any thread may make one, and any number of them.
+  /// Makes a consumer, for rows in any order. Any thread may make one, and any number of them.
   virtual std::unique_ptr<Consumer> consumer() = 0;
 
   /// What it did since it was made.
@@ -60,6 +61,7 @@ class GALE_EXPORT Structure {
   void add_notice(const std::string& notice) { notices_.push_back(notice); }
 
  protected:
+  /// For the ways of computing, which derive from this.
   Structure(const Mesh& mesh, RelationSet relations, Way way);
 
   /// One sweep over all segments: what `for_each_segment` runs. Made when the sweep begins, gone when it ends.
@@ -76,8 +78,10 @@ class GALE_EXPORT Structure {
     /// After all segments were visited, if none has failed.
     virtual void end() {}
 
-    std::vector<ConsumerStatistics> statistics;  ///< of the consumers
+    std::vector<ConsumerStatistics> statistics;  ///< by consumer
   };
+
+  /// Begins a sweep of so many consumers, which will read the relations `wanted`.
   virtual std::unique_ptr<Sweep> begin_sweep(RelationSet wanted, int consumers, const SegmentBody& body) = 0;
 
   /// Adds what the consumers don't know.

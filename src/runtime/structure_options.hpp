@@ -32,21 +32,20 @@ enum class Queues {
 
 /// How a structure works. 0 stands for a default that suits the backend; none of them changes a result.
 struct StructureOptions {
-  Way way = Way::gale;
-  Queues queues = Queues::per_kernel;
+  Way way = Way::gale;                 ///< how rows are computed
+  Queues queues = Queues::per_kernel;  ///< for leaders: what shares a queue
 
-  /// The paper's n_b, t_b and t_s: for each request, n_b * t_b / t_s segments are computed, the one asked for and those
-  /// that follow; a segment by t_s threads, rounded up to whole warps.
+  /// The paper's n_b: for each request, n_b * t_b / t_s segments are computed, the one asked for and those that follow.
   int blocks_per_request = 0;
-  int threads_per_block = 0;
-  int threads_per_segment = 0;
+  int threads_per_block = 0;    ///< the paper's t_b
+  int threads_per_segment = 0;  ///< the paper's t_s: threads that compute a segment, rounded up to whole warps
 
   /// Bytes for blocks that are kept on the host, for all queues or helpers together; by default an eighth of the
   /// machine's memory. Exceeded only by what consumers hold at one time, and by a block of each helper; helpers that it
   /// is too small for don't help.
   std::size_t host_memory = 0;
 
-  /// Of helpers: how many cores a sweep's consumers and helpers share. With as many consumers there is no helper. By
+  /// For helpers: how many cores a sweep's consumers and helpers share. With as many consumers there is no helper. By
   /// default as many as host_threads() says, which a ThreadLimit bounds.
   int cores = 0;
 

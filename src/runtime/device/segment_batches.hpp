@@ -46,14 +46,17 @@ struct SegmentBatches {
 template <class Memory>
 class SegmentRowsIn {
  public:
+  /// For sweeps, which hand it to their functors.
   KOKKOS_FUNCTION SegmentRowsIn(const detail::SegmentBatches<Memory>& batches, Id slot)
       : batches_(batches), slot_(slot) {}
 
+  /// The segment that the rows are those of.
   KOKKOS_FUNCTION Id segment() const { return batches_.of[0].segments[slot_]; }
 
-  /// The segment's simplices that a relation has rows for, or those of a dimension 0 to 3 (GALE's ids); empty where
-  /// they were not enumerated.
+  /// The segment's simplices that a relation has rows for (GALE's ids): `for (Id edge : rows.interval(Relation::EF))`.
   KOKKOS_FUNCTION Interval interval(Relation relation) const { return interval(row_dimension(relation)); }
+
+  /// The segment's simplices of a dimension 0 to 3; empty where they were not enumerated.
   KOKKOS_FUNCTION Interval interval(int dimension) const { return batches_.of[0].intervals(dimension, segment()); }
 
   /// The rows of a relation, one for each simplex of interval(relation).
