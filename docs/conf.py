@@ -27,3 +27,5 @@ myst_heading_anchors = 3
 exclude_patterns = ["_build"]
 html_theme = "furo"
 html_title = "GALE"
+html_static_path = ["style"]
+html_css_files = ["site.css"]
