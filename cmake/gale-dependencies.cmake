@@ -5,12 +5,36 @@
 
 set(gale_missing "")
 
-# gale_find(<package> <what to do about it> [find_package's arguments])
+# gale_find(<package> <what to do about it> [find_package's arguments]). Where gale_built_with_<package> says which
+# version this GALE was built with, from <...>_dir, another one won't do: a program would load both.
 macro(gale_find package advice)
-  find_package(${package} QUIET ${ARGN})
-  if(NOT ${package}_FOUND)
-    list(APPEND gale_missing "GALE needs ${package}, which isn't found: ${advice}")
+  if(${package}_FOUND AND gale_built_with_${package} AND NOT "${${package}_VERSION}" STREQUAL gale_built_with_${package})
+    gale_refuse(${package} "${${package}_VERSION}" "${${package}_DIR}")
+  else()
+    set(gale_package_arguments QUIET ${ARGN})
+    if(gale_built_with_${package}_dir AND NOT ${package}_FOUND)
+      list(APPEND gale_package_arguments HINTS ${gale_built_with_${package}_dir})
+    endif()
+    if(gale_built_with_${package} AND NOT ${package}_FOUND)
+      list(PREPEND gale_package_arguments ${gale_built_with_${package}} EXACT)
+    endif()
+    find_package(${package} ${gale_package_arguments})
+    if(${package}_FOUND)
+    elseif(gale_built_with_${package} AND ${package}_CONSIDERED_VERSIONS AND NOT gale_built_with_${package} IN_LIST ${package}_CONSIDERED_VERSIONS)
+      list(GET ${package}_CONSIDERED_VERSIONS 0 gale_other_version)
+      list(GET ${package}_CONSIDERED_CONFIGS 0 gale_other_file)
+      get_filename_component(gale_other_dir ${gale_other_file} DIRECTORY)
+      gale_refuse(${package} "${gale_other_version}" "${gale_other_dir}")
+    else()
+      list(APPEND gale_missing "GALE needs ${package}, which isn't found: ${advice}")
+    endif()
   endif()
+endmacro()
+
+macro(gale_refuse package version dir)
+  string(CONCAT gale_refused "this GALE was built with ${package} ${gale_built_with_${package}}, and found is ${version} in ${dir}: "
+    "set ${package}_DIR to where that version is now (it was in ${gale_built_with_${package}_dir})")
+  list(APPEND gale_missing "${gale_refused}")
 endmacro()
 
 # gale_adopt(<name> <package> [<target>...]): gale::<name> is the first of the targets that exists. Trilinos up to 13 (Debian 12)
@@ -56,8 +80,23 @@ macro(gale_find_vtk)
     COMPONENTS CommonCore CommonDataModel CommonExecutionModel FiltersGeneral expat lz4 lzma zlib)
 endmacro()
 
-# What gale::distributed and those who include its headers need. Gives MPI::MPI_CXX, without MPI's old C++ interface.
+# What gale::distributed and those who include its headers need. Gives MPI::MPI_CXX, without MPI's old C++ interface, and
+# gale_mpi, whose it is: others have types of other sizes.
 macro(gale_find_mpi)
   set(MPI_CXX_SKIP_MPICXX ON)
   gale_find(MPI "install one, e.g. OpenMPI, or set GALE_ENABLE_MPI=OFF (one rank then)" COMPONENTS CXX)
+  set(gale_mpi "")
+  if(EXISTS "${MPI_CXX_HEADER_DIR}/mpi.h")
+    file(STRINGS ${MPI_CXX_HEADER_DIR}/mpi.h gale_mpi REGEX "define +(OPEN_MPI|MPICH_VERSION|I_MPI_VERSION) ")
+  endif()
+  if(gale_mpi MATCHES "OPEN_MPI")
+    set(gale_mpi "Open MPI")
+  elseif(gale_mpi)
+    set(gale_mpi "MPICH, or one of its interface,")
+  endif()
+  if(gale_mpi AND gale_built_with_mpi AND NOT gale_mpi STREQUAL gale_built_with_mpi)
+    string(CONCAT gale_refused "this GALE was built with ${gale_built_with_mpi}, and found is ${gale_mpi} in ${MPI_CXX_HEADER_DIR}: "
+      "set MPI_CXX_COMPILER to the former's")
+    list(APPEND gale_missing "${gale_refused}")
+  endif()
 endmacro()
