@@ -16,6 +16,7 @@ if(GALE_ENABLE_TTK)
 endif()
 foreach(name IN LISTS gale_exports)
   install(EXPORT ${name} NAMESPACE gale:: DESTINATION ${gale_package_dir})
+  export(EXPORT ${name} NAMESPACE gale::) # VTK's module exports itself from the build, with shared libraries that it links
 endforeach()
 if(GALE_ENABLE_APP)
   install(TARGETS gale_app)
