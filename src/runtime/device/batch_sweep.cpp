@@ -202,9 +202,9 @@ auto BatchSweep<Memory>::next() -> std::optional<Launched> {
   return Launched{lane->instance(), lane->launched()};
 }
 
-template class BatchSweep<WorkerMemory>;
+template class GALE_EXPORT BatchSweep<WorkerMemory>;
 #if defined(KOKKOS_ENABLE_CUDA)
-template class BatchSweep<HostMemory>;
+template class GALE_EXPORT BatchSweep<HostMemory>;
 #endif
 
 }  // namespace gale::detail

@@ -1,0 +1,146 @@
+#include <vector>
+
+#include <gale/mesh/make_mesh.hpp>
+#include <gale/relations/batch.hpp>
+#include <gale/relations/faces.hpp>
+#include <gale/relations/preconditioning.hpp>
+
+#include "parts.hpp"
+
+namespace every_template {
+
+namespace {
+
+using gale::HostMemory;
+using gale::Id;
+using gale::PinnedMemory;
+using gale::WorkerMemory;
+
+template <class PointView, class TetrahedronView>
+void make(const PointView& points_view, const TetrahedronView& tetrahedron_view) {
+  const gale::Mesh mesh = gale::make_mesh(points_view, tetrahedron_view);
+  expect(mesh.vertices() == vertices && mesh.tetrahedra() == tetrahedra, "a mesh of Views");
+}
+
+/// From Views of some layout and memory, of such types, and from their const and unmanaged kinds.
+template <class Coordinate, class Index, class Layout, class Memory>
+void make_of() {
+  const Kokkos::View<Coordinate**, Layout, Memory> p("points", vertices, 3);
+  const Kokkos::View<Index* [4], Layout, Memory> t("tetrahedra", tetrahedra);
+  fill(p, points);
+  fill(t, corners);
+  make(p, t);
+  make(Kokkos::View<const Coordinate**, Layout, Memory>(p), Kokkos::View<const Index* [4], Layout, Memory>(t));
+  make(Kokkos::View<Coordinate**, Layout, Memory, Kokkos::MemoryUnmanaged>(p.data(), vertices, 3),
+       Kokkos::View<const Index**, Layout, Memory, Kokkos::MemoryUnmanaged>(t.data(), tetrahedra, 4));
+}
+
+/// Rows with something behind them.
+template <class Memory>
+void make_of_strided() {
+  const Kokkos::View<double* [4], Kokkos::LayoutRight, Memory> p("points", vertices);
+  const Kokkos::View<int* [5], Kokkos::LayoutRight, Memory> t("tetrahedra", tetrahedra);
+  double wide_points[vertices][4] = {};
+  int wide_corners[tetrahedra][5] = {};
+  for (int i = 0; i < vertices; ++i) std::copy_n(points[i], 3, wide_points[i]);
+  for (int i = 0; i < tetrahedra; ++i) std::copy_n(corners[i], 4, wide_corners[i]);
+  fill(p, wide_points);
+  fill(t, wide_corners);
+  make(Kokkos::subview(p, Kokkos::ALL(), std::make_pair(0, 3)),
+       Kokkos::subview(t, Kokkos::ALL(), std::make_pair(0, 4)));
+}
+
+template <class Memory>
+void make_in() {
+  make_of<double, std::int64_t, Kokkos::LayoutRight, Memory>();
+  make_of<float, std::int32_t, Kokkos::LayoutRight, Memory>();
+  make_of<double, long long, Kokkos::LayoutLeft, Memory>();
+  make_of<float, unsigned, Kokkos::LayoutLeft, Memory>();
+  make_of<double, short, Kokkos::LayoutRight, Memory>();
+  make_of<double, unsigned char, Kokkos::LayoutRight, Memory>();
+  make_of<float, unsigned long, Kokkos::LayoutRight, Memory>();
+  make_of_strided<Memory>();
+}
+
+template <class Coordinate, class Index>
+void make_of_vectors() {
+  std::vector<Coordinate> p;
+  std::vector<Index> t;
+  for (const auto& point : points) p.insert(p.end(), point, point + 3);
+  for (const auto& cell : corners) t.insert(t.end(), cell, cell + 4);
+  expect(gale::make_mesh(p, t).tetrahedra() == tetrahedra, "a mesh of vectors");
+}
+
+/// A mesh with a segmentation of the caller's, from arrays in such memory.
+template <class Coordinate, class Index, class Memory>
+void segment() {
+  const Kokkos::View<Coordinate* [3], Kokkos::LayoutRight, Memory> p("points", vertices);
+  const Kokkos::View<Index* [4], Kokkos::LayoutRight, Memory> t("tetrahedra", tetrahedra);
+  const gale::Points<Coordinate, Memory> const_points = fill(p, points);
+  const gale::Tetrahedra<Index, Memory> const_tetrahedra = fill(t, corners);
+  const gale::Mesh mesh(const_tetrahedra, gale::octree_segmentation(const_points, 2));
+  expect(mesh.segments() >= 3, "segments of two vertices");
+}
+
+template <gale::Relation relation, class Memory>
+void look_up(const gale::Mesh& mesh) {
+  const auto simplices = mesh.simplices<Memory>(gale::needs_of(relation));
+  if constexpr (!gale::is_device_memory<Memory>) {
+    const gale::FaceRow<gale::face_count(relation)> row = gale::face_row<relation>(simplices, 0);
+    expect(row[0] == 0, "the first face of the first simplex");
+  }
+}
+
+/// What a mesh has in such memory.
+template <class Memory>
+void read(const gale::Mesh& mesh) {
+  const gale::EncodedMesh<Memory> encoded = mesh.encoded<Memory>();
+  expect(encoded.tetrahedra.extent(0) == tetrahedra, "encoded tetrahedra");
+  for (const auto* const permutation : {&mesh.vertex_input<Memory>(), &mesh.vertex_internal<Memory>()})
+    expect(permutation->extent(0) == vertices, "permuted vertices");
+  expect(mesh.tetrahedron_input<Memory>().extent(0) == tetrahedra, "permuted tetrahedra");
+  const gale::Simplices<Memory> simplices = mesh.simplices<Memory>({gale::Enumeration::triangles});
+  expect(simplices.edge_high.extent(0) == edges && simplices.triangle_apex.extent(0) == triangles, "simplices");
+  expect(gale::first_of(mesh.interval_begin<Memory>(1), 1).extent(0) == 1, "intervals");
+  const gale::IntervalTables<Memory> intervals = gale::interval_tables<Memory>(mesh);
+  const gale::Batch<Memory> batch{{}, 0, {}, nullptr, nullptr, intervals};
+  expect(batch.count == 0 && intervals.begin[0] != nullptr, "tables of intervals");
+  look_up<gale::Relation::EV, Memory>(mesh);
+  look_up<gale::Relation::FV, Memory>(mesh);
+  look_up<gale::Relation::FE, Memory>(mesh);
+  look_up<gale::Relation::TV, Memory>(mesh);
+  look_up<gale::Relation::TE, Memory>(mesh);
+  look_up<gale::Relation::TF, Memory>(mesh);
+}
+
+}  // namespace
+
+gale::Mesh two_tetrahedra() {
+  const Kokkos::View<double* [3], HostMemory> p("points", vertices);
+  const Kokkos::View<int* [4], HostMemory> t("tetrahedra", tetrahedra);
+  return gale::make_mesh(fill(p, points), fill(t, corners));
+}
+
+void use_meshes() {
+  make_in<HostMemory>();
+  make_in<WorkerMemory>();
+  make_in<PinnedMemory>();
+  make_of_vectors<float, int>();
+  make_of_vectors<double, std::int64_t>();
+  make_of_vectors<double, unsigned>();
+  segment<float, std::int32_t, HostMemory>();
+  segment<double, std::int64_t, HostMemory>();
+  segment<float, std::int64_t, WorkerMemory>();
+  segment<double, std::int32_t, WorkerMemory>();
+  const gale::Mesh mesh = two_tetrahedra();
+  read<HostMemory>(mesh);
+  read<WorkerMemory>(mesh);
+  gale::in_worker_or_host_space(mesh, [&](const auto& space) {
+    using Memory = gale::MemoryOf<std::decay_t<decltype(space)>>;
+    const auto ids = gale::allocate<gale::Array<Id, Memory>>("ids", mesh.vertices());
+    Kokkos::deep_copy(ids, mesh.vertex_input<Memory>());
+    return ids.extent(0);
+  });
+}
+
+}  // namespace every_template
