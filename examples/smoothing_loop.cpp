@@ -103,6 +103,7 @@ int main(int argc, char** argv) {
 
   const gale::Mesh mesh = gale::make_mesh(points, tetrahedra);
   const auto& vertex_input = mesh.vertex_input<Memory>();
+  // On a host whose Kokkos has Serial alone, Space() is one thread; gale::HostThreads() in its place takes all cores.
   gale::for_each_row(Space(), mesh, gale::Relation::VT,
                      DualVolume{vertex_input, mesh.tetrahedron_input<Memory>(), points, tetrahedra, volume});
   const double whole = sum_of(volume);

@@ -88,7 +88,7 @@ void measure_overhead() {
 /// What it takes before its first batch.
 void measure_set_up(const Mesh& mesh) {
   const double seconds = perf::median_seconds_of(
-      runs, [&] { const detail::BatchSweep<Memory> sweep(WorkerSpace(), mesh, critical_points_relations, {}); });
+      runs, [&] { const detail::BatchSweep<Memory> sweep(mesh, critical_points_relations, {}); });
   std::printf("set up for VV and link: %.2f ms\n", 1e3 * seconds);
 }
 

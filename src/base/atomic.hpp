@@ -1,47 +1,114 @@
 #pragma once
 
+#include <type_traits>
+
 #include <gale/base/kokkos.hpp>
+
+// Atomics for kernels and loops in every execution space: on a device Kokkos' own, on the host the compiler's. Kokkos'
+// are none on the host where Serial is its only backend, and GALE runs several threads there too (HostThreads, sweeps
+// of a Structure).
+//
+// `T` is any type of 1, 2, 4 or 8 bytes that can be copied byte by byte; on a device one that Kokkos' atomics take.
+// What changes something returns what was there before. All are relaxed: they order nothing else.
 
 namespace gale {
 
-/// Adds to what several threads share, relaxed, and returns what was there. Kokkos' own is no atomic on the host where
-/// Serial is its only backend; our host loops run on several threads there too.
+namespace detail {
+
+/// Writes `value` unless there is something else than `there`, which becomes that then.
 template <class T>
-KOKKOS_FORCEINLINE_FUNCTION T atomic_add(T* to, T value) {
-#if defined(__CUDA_ARCH__)
-  return Kokkos::atomic_fetch_add(to, value);
-#else
-  return __atomic_fetch_add(to, value, __ATOMIC_RELAXED);
-#endif
+bool replaced(T* at, T& there, T value) {
+  return __atomic_compare_exchange(at, &there, &value, true, __ATOMIC_RELAXED, __ATOMIC_RELAXED);
 }
 
-/// Makes it `desired` if it is `expected`, relaxed, and returns what was there.
-template <class T>
-KOKKOS_FORCEINLINE_FUNCTION T atomic_compare_exchange(T* at, T expected, T desired) {
-#if defined(__CUDA_ARCH__)
-  return Kokkos::atomic_compare_exchange(at, expected, desired);
-#else
-  __atomic_compare_exchange_n(at, &expected, desired, false, __ATOMIC_RELAXED, __ATOMIC_RELAXED);
-  return expected;
-#endif
-}
+}  // namespace detail
 
-/// Reads and writes what other threads may be writing and reading, whole.
+/// Reads, whole, what other threads may be writing.
 template <class T>
 KOKKOS_FORCEINLINE_FUNCTION T atomic_read(const T* from) {
 #if defined(__CUDA_ARCH__)
   return *static_cast<const volatile T*>(from);
 #else
-  return __atomic_load_n(from, __ATOMIC_RELAXED);
+  T here;
+  __atomic_load(from, &here, __ATOMIC_RELAXED);
+  return here;
 #endif
 }
 
+/// Writes, whole, what other threads may be reading.
 template <class T>
-KOKKOS_FORCEINLINE_FUNCTION void atomic_write(T* to, T value) {
+KOKKOS_FORCEINLINE_FUNCTION void atomic_write(T* to, std::common_type_t<T> value) {
 #if defined(__CUDA_ARCH__)
   *static_cast<volatile T*>(to) = value;
 #else
-  __atomic_store_n(to, value, __ATOMIC_RELAXED);
+  __atomic_store(to, &value, __ATOMIC_RELAXED);
+#endif
+}
+
+/// Adds.
+template <class T>
+KOKKOS_FORCEINLINE_FUNCTION T atomic_add(T* to, std::common_type_t<T> value) {
+#if defined(__CUDA_ARCH__)
+  return Kokkos::atomic_fetch_add(to, value);
+#else
+  if constexpr (std::is_integral_v<T>) {
+    return __atomic_fetch_add(to, value, __ATOMIC_RELAXED);
+  } else {
+    T there = atomic_read(to);
+    while (!detail::replaced(to, there, static_cast<T>(there + value))) {
+    }
+    return there;
+  }
+#endif
+}
+
+/// Makes it at least `value`.
+template <class T>
+KOKKOS_FORCEINLINE_FUNCTION T atomic_max(T* at, std::common_type_t<T> value) {
+#if defined(__CUDA_ARCH__)
+  return Kokkos::atomic_fetch_max(at, value);
+#else
+  T there = atomic_read(at);
+  while (there < value && !detail::replaced(at, there, value)) {
+  }
+  return there;
+#endif
+}
+
+/// Makes it at most `value`.
+template <class T>
+KOKKOS_FORCEINLINE_FUNCTION T atomic_min(T* at, std::common_type_t<T> value) {
+#if defined(__CUDA_ARCH__)
+  return Kokkos::atomic_fetch_min(at, value);
+#else
+  T there = atomic_read(at);
+  while (value < there && !detail::replaced(at, there, value)) {
+  }
+  return there;
+#endif
+}
+
+/// Makes it `desired` if it is `expected`.
+template <class T>
+KOKKOS_FORCEINLINE_FUNCTION T atomic_compare_exchange(T* at, std::common_type_t<T> expected,
+                                                      std::common_type_t<T> desired) {
+#if defined(__CUDA_ARCH__)
+  return Kokkos::atomic_compare_exchange(at, expected, desired);
+#else
+  __atomic_compare_exchange(at, &expected, &desired, false, __ATOMIC_RELAXED, __ATOMIC_RELAXED);
+  return expected;
+#endif
+}
+
+/// Makes it `value`.
+template <class T>
+KOKKOS_FORCEINLINE_FUNCTION T atomic_exchange(T* at, std::common_type_t<T> value) {
+#if defined(__CUDA_ARCH__)
+  return Kokkos::atomic_exchange(at, value);
+#else
+  T before;
+  __atomic_exchange(at, &value, &before, __ATOMIC_RELAXED);
+  return before;
 #endif
 }
 

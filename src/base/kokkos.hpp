@@ -33,6 +33,15 @@ using HostSpace = Kokkos::DefaultHostExecutionSpace;
 template <class Space>
 using MemoryOf = typename Space::memory_space;
 
+/// An execution space to name where a caller's kernels are to run on all threads that GALE may use on the host
+/// (host_threads()), whatever backends Kokkos has. Kokkos' own spaces run them as they promise: Kokkos::Serial on one
+/// thread. What these threads share is changed by gale::atomic_add and its like (base/atomic.hpp): Kokkos' atomics are
+/// none where Serial is its only backend.
+struct HostThreads {
+  using memory_space = HostMemory;
+  void fence() const {}  ///< returns at once: what runs here is done when a call returns
+};
+
 /// instantiate(Space) for each space that a mesh may be made in: what is a template over the space is instantiated with
 /// it in its source.
 #if defined(KOKKOS_ENABLE_CUDA)

@@ -6,8 +6,8 @@
 #include <gale/base/kokkos.hpp>
 
 // The steps that team kernels are made of, for two kinds of team: Kokkos' own, and a team of one host thread that needs
-// no launch. A kernel written with them is one source for all. A "warp" is what Kokkos calls a thread with its vector
-// lanes.
+// no launch. A kernel written with them is one source for all, such as a functor of for_each_segment
+// (runtime/device_sweep.hpp). A "warp" is what Kokkos calls a thread with its vector lanes.
 
 namespace gale {
 
@@ -18,6 +18,9 @@ class HostTeam {
   KOKKOS_FUNCTION HostTeam(int league_rank, char* scratch) : scratch_(scratch), league_rank_(league_rank) {}
 
   KOKKOS_FUNCTION int league_rank() const { return league_rank_; }
+  KOKKOS_FUNCTION int team_rank() const { return 0; }
+  KOKKOS_FUNCTION int team_size() const { return 1; }
+  KOKKOS_FUNCTION void team_barrier() const {}
   KOKKOS_FUNCTION char* scratch() const { return scratch_; }
 
  private:
@@ -45,6 +48,10 @@ KOKKOS_FORCEINLINE_FUNCTION int warp(const Team& team) {
 /// The team's scratch memory of `bytes` bytes, aligned to 16, at a level that is known at compile time. If it is not,
 /// nvcc keeps the whole kernel object of each thread in memory, and accesses scratch memory in the slower way that
 /// works for any.
+template <int level>
+KOKKOS_FORCEINLINE_FUNCTION char* scratch(const HostTeam& team, std::size_t) {
+  return team.scratch();
+}
 template <int level, class Team>
 KOKKOS_FORCEINLINE_FUNCTION char* scratch(const Team& team, std::size_t bytes) {
   char* const memory = static_cast<char*>(team.team_scratch(level).get_shmem_aligned(bytes, 16, level));

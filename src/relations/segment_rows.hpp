@@ -28,26 +28,26 @@ class SegmentRows {
   void set(const LinkRows& links) { links_ = links; }
 
   /// The segment that the rows are those of.
-  Id segment() const { return segment_; }
+  KOKKOS_FUNCTION Id segment() const { return segment_; }
 
   /// The segment's simplices that a relation has rows for: those of the rows' dimension whose lowest vertex it holds
   /// (GALE's ids). `for (const Id edge : rows.interval(Relation::EF)) use(rows[Relation::EF][edge]);`
-  const Interval& interval(Relation relation) const { return interval(row_dimension(relation)); }
+  KOKKOS_FUNCTION const Interval& interval(Relation relation) const { return interval(row_dimension(relation)); }
 
   /// The segment's simplices of a dimension 0 to 3; empty where they were not enumerated.
-  const Interval& interval(int dimension) const { return simplices_[dimension]; }
+  KOKKOS_FUNCTION const Interval& interval(int dimension) const { return simplices_[dimension]; }
 
   /// Is a simplex of that dimension one of the segment's?
-  bool has(int dimension, Id simplex) const { return simplices_[dimension].has(simplex); }
+  KOKKOS_FUNCTION bool has(int dimension, Id simplex) const { return simplices_[dimension].has(simplex); }
 
   /// The rows of a relation, one for each simplex of interval(relation).
-  const Rows& operator[](Relation relation) const {
+  KOKKOS_FUNCTION const Rows& operator[](Relation relation) const {
     assert(rows_[static_cast<int>(relation)].offsets != nullptr && "the sweep was not asked for this relation");
     return rows_[static_cast<int>(relation)];
   }
 
   /// The links, one for each vertex.
-  const LinkRows& links() const {
+  KOKKOS_FUNCTION const LinkRows& links() const {
     assert(links_.offsets != nullptr && "the sweep was not asked for links");
     return links_;
   }

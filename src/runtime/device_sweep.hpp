@@ -1,8 +1,11 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <limits>
 #include <string>
+#include <type_traits>
+#include <vector>
 
 #include <gale/base/error.hpp>
 #include <gale/base/team.hpp>
@@ -12,10 +15,17 @@
 
 // Sweeps whose consumers are kernels: they read rows where these are made, and nothing is copied.
 //
-// `space` is an execution space that can read the mesh's arrays: the workers' (a device, where Kokkos has one) or the
-// host's. A sweep begins when what was enqueued on `space` before is done, and all it does is done when the call
-// returns: what a functor wrote can be read anywhere. It works on instances of its own; functors run side by side. To
-// be called from one thread at a time. Ids are GALE's; `mesh.vertex_input<Memory>()` leads back to those of the input.
+// `space` says where a functor runs, and on how many threads:
+// - an execution space of Kokkos' that can read the mesh's arrays, the workers' (a device, where Kokkos has one) or one
+//   of the host. The functor runs in a kernel of that space, and all that Kokkos promises of these holds: its atomics,
+//   ScatterView, UniqueToken. Kokkos::Serial is one thread.
+// - HostThreads: all threads that GALE may use on the host. What they share is for gale::atomic_add and its like
+//   (base/atomic.hpp), which are right in every space; Kokkos' atomics may not be. Views that a functor copies
+//   meanwhile own nothing.
+//
+// A sweep begins when what was enqueued on `space` before is done, and all it does is done when the call returns: what
+// a functor wrote can be read anywhere. On a device it works on instances of its own. Functors run side by side. To be
+// called from one thread at a time. Ids are GALE's; `mesh.vertex_input<Memory>()` leads back to those of the input.
 //
 // Throws gale::Error for an option below 0, for a relation with more than 2^31 - 1 entries in one segment, and as
 // Mesh::simplices does; OutOfMemory if the device has no room for the mesh, or for the blocks of one segment.
@@ -55,14 +65,14 @@ struct OnEachRow {
   }
 };
 
-/// A team a segment, a thread a row: for large segments.
-template <class Memory, class Functor>
+/// A team a segment, a thread a row: for large segments, and on the host.
+template <class Functor>
 struct OnRowsOfSegment {
   Relation relation;
   Functor functor;
 
-  template <class Team>
-  KOKKOS_FUNCTION void operator()(const Team& team, const SegmentRowsIn<Memory>& segment) const {
+  template <class Team, class Segment>
+  KOKKOS_FUNCTION void operator()(const Team& team, const Segment& segment) const {
     const Rows rows = segment[relation];
     team::for_all(team, rows.count, [&](int i) { functor(rows.first + i, rows[rows.first + i]); });
   }
@@ -79,54 +89,85 @@ inline int warps_of_team(const DeviceSweepOptions& options, double rows) {
   return std::clamp(static_cast<int>((rows + lanes - 1) / lanes), 1, most);
 }
 
+/// Calls kernel(instance) for a batch: on a device with the instance that makes it, behind that; on the host with the
+/// caller's, and waits.
+template <class Space, class Launched, class Kernel>
+void read_batch(const Space& space, const Launched& launched, const Kernel& kernel) {
+  if constexpr (is_device<Space>) {
+    kernel(launched.instance);
+  } else {
+    launched.instance.fence();
+    kernel(space);
+    space.fence();
+  }
+}
+
+/// for_each_segment on all host threads: each makes the rows that it reads.
+template <class Functor>
+void for_each_segment_on_threads(const Mesh& mesh, RelationSet relations, const Functor& functor,
+                                 const DeviceSweepOptions& options) {
+  require_sweep(relations, options);
+  SweepOptions threads;
+  std::vector<std::vector<std::max_align_t>> scratch(threads.threads);
+  for (auto& one : scratch) one.resize(options.team_scratch / sizeof(std::max_align_t) + 1);
+  StructureOptions inline_way;
+  inline_way.way = Way::inline_;
+  make_structure(mesh, relations, inline_way)
+      ->for_each_segment(relations, threads, [&](int thread, const SegmentRows& rows) {
+        functor(HostTeam(rows.segment(), reinterpret_cast<char*>(scratch[thread].data())), rows);
+      });
+}
+
 }  // namespace detail
 
-/// Calls functor(team, rows) for each segment of the mesh (of ghosts none), with a team of Kokkos' and a SegmentRowsIn
-/// of its memory: all rows of all `relations`, and links if `link_form` is among them. All threads of the team call it.
+/// Calls functor(team, rows) for each segment of the mesh (of ghosts none), with all rows of all `relations`, and links
+/// if `link_form` is among them. In a space of Kokkos' all threads of a team of Kokkos' call it, and rows are a
+/// SegmentRowsIn of the space's memory; on HostThreads one thread does, the team is a HostTeam, and rows are
+/// SegmentRows, which are read alike. A functor whose loops over a team are those of base/team.hpp compiles for all.
 template <class Space, class Functor>
 void for_each_segment(const Space& space, const Mesh& mesh, RelationSet relations, const Functor& functor,
                       const DeviceSweepOptions& options = {}) {
-  using Memory = detail::MemoryOfSweep<Space>;
   if (options.team_scratch > std::size_t(std::numeric_limits<int>::max()))
     throw Error("a team can't have " + std::to_string(options.team_scratch) + " bytes of scratch memory");
-  detail::BatchSweep<Memory> sweep(space, mesh, relations, options);
-  const int warps = is_device<Space> ? detail::warps_of_team(options, detail::mean_vertices(mesh)) : 1;
-  sweep.run([&](const auto& launched) {
-    Kokkos::TeamPolicy<Space> policy(launched.instance, launched.blocks.count(), warps, is_device<Space> ? 32 : 1);
-    policy.set_scratch_size(0, Kokkos::PerTeam(static_cast<int>(options.team_scratch)));
-    Kokkos::parallel_for("GALE::for_each_segment", overlapping(policy),
-                         detail::OnEachSegment<Memory, Functor>{launched.blocks, functor});
-  });
+  space.fence();
+  if constexpr (std::is_same_v<Space, HostThreads>) {
+    detail::for_each_segment_on_threads(mesh, relations, functor, options);
+  } else {
+    using Memory = detail::MemoryOfSweep<Space>;
+    detail::BatchSweep<Memory> sweep(mesh, relations, options);
+    const int warps = is_device<Space> ? detail::warps_of_team(options, detail::mean_vertices(mesh)) : 1;
+    sweep.run([&](const auto& launched) {
+      detail::read_batch(space, launched, [&](const Space& instance) {
+        Kokkos::TeamPolicy<Space> policy(instance, launched.blocks.count(), warps, is_device<Space> ? 32 : 1);
+        policy.set_scratch_size(0, Kokkos::PerTeam(static_cast<int>(options.team_scratch)));
+        Kokkos::parallel_for("GALE::for_each_segment", overlapping(policy),
+                             detail::OnEachSegment<Memory, Functor>{launched.blocks, functor});
+      });
+    });
+  }
 }
 
 /// Calls functor(simplex, row) for each simplex that a relation has a row of, with the Row. A lane a row and a warp a
-/// segment on a device; on the host on all threads that GALE may use there, whatever backend Kokkos has.
+/// segment on a device; a thread a segment on the host.
 template <class Space, class Functor>
 void for_each_row(const Space& space, const Mesh& mesh, Relation relation, const Functor& functor,
                   const DeviceSweepOptions& options = {}) {
+  constexpr int lanes = 32, usual_threads = 256, most_for_a_warp = 512;
   if constexpr (is_device<Space>) {
-    constexpr int lanes = 32, usual_threads = 256, most_for_a_warp = 512;
-    if (detail::mean_vertices(mesh) > most_for_a_warp) {
-      const detail::OnRowsOfSegment<WorkerMemory, Functor> on_rows{relation, functor};
-      return for_each_segment(space, mesh, relation, on_rows, options);
+    if (detail::mean_vertices(mesh) <= most_for_a_warp) {
+      const int warps = detail::warps_of_team(options, usual_threads);
+      space.fence();
+      detail::BatchSweep<WorkerMemory> sweep(mesh, relation, options);
+      sweep.run([&](const auto& launched) {
+        const Batch<WorkerMemory>& blocks = launched.blocks.of[0];
+        const Kokkos::TeamPolicy<Space> policy(launched.instance, (blocks.count + warps - 1) / warps, warps, lanes);
+        Kokkos::parallel_for("GALE::for_each_row", overlapping(policy),
+                             detail::OnEachRow<WorkerMemory, Functor>{blocks, relation, functor});
+      });
+      return;
     }
-    const int warps = detail::warps_of_team(options, usual_threads);
-    detail::BatchSweep<WorkerMemory> sweep(space, mesh, relation, options);
-    sweep.run([&](const auto& launched) {
-      const Batch<WorkerMemory>& blocks = launched.blocks.of[0];
-      const Kokkos::TeamPolicy<Space> policy(launched.instance, (blocks.count + warps - 1) / warps, warps, lanes);
-      Kokkos::parallel_for("GALE::for_each_row", overlapping(policy),
-                           detail::OnEachRow<WorkerMemory, Functor>{blocks, relation, functor});
-    });
-  } else {
-    space.fence();
-    StructureOptions inline_way;
-    inline_way.way = Way::inline_;
-    make_structure(mesh, relation, inline_way)->for_each_segment(relation, {}, [&](int, const SegmentRows& segment) {
-      const Rows rows = segment[relation];
-      for (const Id simplex : segment.interval(relation)) functor(simplex, rows[simplex]);
-    });
   }
+  for_each_segment(space, mesh, relation, detail::OnRowsOfSegment<Functor>{relation, functor}, options);
 }
 
 }  // namespace gale

@@ -14,7 +14,7 @@ struct DeviceSweepOptions {
   int threads_per_segment = 0;  ///< threads of the teams that make rows; by default 128
 
   /// Threads of the teams that read rows, rounded up to whole warps; by default one a row up to 256, or 256 in
-  /// for_each_row. On the host a team is one thread.
+  /// for_each_row. On the host a team is one thread; on HostThreads nothing else of these options is taken notice of.
   int threads_per_team = 0;
 
   /// Bytes of scratch memory, at level 0, that the functor has in each of these teams.

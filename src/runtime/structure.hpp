@@ -48,7 +48,9 @@ class GALE_EXPORT Structure {
   /// What a body may do: read the rows that it is given, and others through a consumer of its own. It may copy Views
   /// and take subviews: Kokkos counts no references on its thread meanwhile, since it doesn't count atomically where
   /// Serial is its only backend. So what a body copies must not outlive the View that it copied, and a View that it
-  /// makes must not outlive the body. It must begin no parallel loop of Kokkos where Serial is the only backend.
+  /// makes must not outlive the body. It must begin no parallel loop of Kokkos where Serial is the only backend. What
+  /// bodies share they may change by gale::atomic_add and its like (base/atomic.hpp), not by Kokkos' atomics, which are
+  /// none there.
   void for_each_segment(RelationSet wanted, const SweepOptions& options, const SegmentBody& body);
 
   /// Makes a consumer, for rows in any order. Any thread may make one, and any number of them.

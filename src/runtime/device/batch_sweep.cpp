@@ -31,13 +31,18 @@ struct Filled {
 
 }  // namespace
 
+void require_sweep(RelationSet relations, const DeviceSweepOptions& options) {
+  if (relations.empty()) throw Error("a sweep needs a relation to read");
+  const Filled<HostMemory> filled(options);
+}
+
 /// The batches of a sweep: what is planned, and what is under way.
 template <class Memory>
 class BatchSweep<Memory>::Batches {
  public:
   using Lane = BatchLane<Memory>;
 
-  Batches(const Space& space, const Mesh& mesh, RelationSet relations, const DeviceSweepOptions& options);
+  Batches(const Mesh& mesh, RelationSet relations, const DeviceSweepOptions& options);
 
   /// The lane of the next batch, launched; nullptr when all are done.
   Lane* next();
@@ -62,12 +67,10 @@ class BatchSweep<Memory>::Batches {
 };
 
 template <class Memory>
-BatchSweep<Memory>::Batches::Batches(const Space& space, const Mesh& mesh, RelationSet relations,
-                                     const DeviceSweepOptions& options)
+BatchSweep<Memory>::Batches::Batches(const Mesh& mesh, RelationSet relations, const DeviceSweepOptions& options)
     : mesh_(mesh), words_per_vertex_(margin * words_per_vertex(relations)) {
-  space.fence();
+  require_sweep(relations, options);
   const Filled<Memory> filled(options);
-  if (relations.empty()) throw Error("a sweep needs a relation to read");
   for (const RelationSet one : kernels_for(relations)) {
     SegmentKernel<Memory> kernel(mesh, one);
     auto bounds = segment_bounds(mesh, kernel, filled.threads_per_segment);
@@ -188,9 +191,8 @@ void BatchSweep<Memory>::Batches::plan_again(const BatchPlan& plan, BatchShortfa
 }
 
 template <class Memory>
-BatchSweep<Memory>::BatchSweep(const Space& space, const Mesh& mesh, RelationSet relations,
-                               const DeviceSweepOptions& options)
-    : batches_(new Batches(space, mesh, relations, options)) {}
+BatchSweep<Memory>::BatchSweep(const Mesh& mesh, RelationSet relations, const DeviceSweepOptions& options)
+    : batches_(new Batches(mesh, relations, options)) {}
 
 template <class Memory>
 BatchSweep<Memory>::~BatchSweep() = default;

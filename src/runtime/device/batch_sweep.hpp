@@ -10,6 +10,9 @@
 
 namespace gale::detail {
 
+/// Throws gale::Error for no relation at all, and for an option below 0.
+GALE_EXPORT void require_sweep(RelationSet relations, const DeviceSweepOptions& options);
+
 /// Has the rows of all segments of a mesh made, batch after batch, for kernels that read them where they are made.
 /// Several batches are under way: while one is read, the next is made.
 template <class Memory>
@@ -24,9 +27,8 @@ class GALE_EXPORT BatchSweep {
     SegmentBatches<Memory> blocks;
   };
 
-  /// Waits for what was enqueued on `space`. Throws gale::Error for a negative option, OutOfMemory if not even one
-  /// segment has room.
-  BatchSweep(const Space& space, const Mesh& mesh, RelationSet relations, const DeviceSweepOptions& options);
+  /// Throws as require_sweep does, and OutOfMemory if not even one segment has room.
+  BatchSweep(const Mesh& mesh, RelationSet relations, const DeviceSweepOptions& options);
 
   /// Waits for all that is under way.
   ~BatchSweep();
