@@ -43,7 +43,7 @@ template <class Index>
 void run_on_ranks(const Communicator& ranks, const io::GridPartOf<Index>& part, bool repartition, Times& times) {
   const auto count = static_cast<Offset>(part.field.size());
   const auto ids = allocate<Array<GlobalId, HostMemory>>("ids", count);
-  parallel_for("ids", HostSpace(), count, [&](Offset i) { ids(i) = part.first_vertex + i; });
+  parallel_for("ids", HostExecutionSpace(), count, [&](Offset i) { ids(i) = part.first_vertex + i; });
   PartitionOptions options;
   options.repartition = repartition;
   std::optional<DistributedMesh> mesh;

@@ -26,8 +26,9 @@ using WorkerMemory = WorkerSpace::memory_space;
 /// The host's memory.
 using HostMemory = Kokkos::HostSpace;
 
-/// The host's threads. Where Kokkos has no device, the same type as WorkerSpace.
-using HostSpace = Kokkos::DefaultHostExecutionSpace;
+/// Kokkos' own on the host, for loops of GALE's, which run on all threads there (base/parallel.hpp). Where Kokkos has
+/// no device, the same type as WorkerSpace.
+using HostExecutionSpace = Kokkos::DefaultHostExecutionSpace;
 
 /// The memory that an execution space works in.
 template <class Space>
@@ -47,7 +48,7 @@ struct HostThreads {
 #if defined(KOKKOS_ENABLE_CUDA)
 #define GALE_IN_EACH_SPACE(instantiate) \
   instantiate(WorkerSpace);             \
-  instantiate(HostSpace)
+  instantiate(HostExecutionSpace)
 #else
 #define GALE_IN_EACH_SPACE(instantiate) instantiate(WorkerSpace)
 #endif

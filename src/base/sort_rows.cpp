@@ -30,7 +30,7 @@ void sort_on_device(const WorkerSpace& space, const char* label, const Array<Ind
 
 template <class Index>
 void sort_on_host(const char* label, const Array<Index, HostMemory>& begin, const Array<Id, HostMemory>& values) {
-  parallel_for(label, HostSpace(), begin.extent(0) - 1, [&](Offset row) {
+  parallel_for(label, HostExecutionSpace(), begin.extent(0) - 1, [&](Offset row) {
     Id* const first = values.data() + begin(row);
     Id* const last = values.data() + begin(row + 1);
     if (!std::is_sorted(first, last)) std::sort(first, last);

@@ -6,9 +6,9 @@
 namespace gale {
 
 /// Computes something in the workers' space, or on the host's threads if it doesn't fit the device's memory: returns
-/// f(WorkerSpace()), or f(HostSpace()) if that throws OutOfMemory. What f returns is of the same type for both. So a
-/// call of f that fails must leave nothing half done. With `worker` false, the host alone. `refused(error)` is told why
-/// the device was given up.
+/// f(WorkerSpace()), or f(HostExecutionSpace()) if that throws OutOfMemory. What f returns is of the same type for
+/// both. So a call of f that fails must leave nothing half done. With `worker` false, the host alone. `refused(error)`
+/// is told why the device was given up.
 template <class F, class Refused>
 auto in_worker_or_host_space(bool worker, const F& f, const Refused& refused) {
   require_kokkos();
@@ -21,7 +21,7 @@ auto in_worker_or_host_space(bool worker, const F& f, const Refused& refused) {
       }
     }
   }
-  return f(HostSpace());
+  return f(HostExecutionSpace());
 }
 
 template <class F>

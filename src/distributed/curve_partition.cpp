@@ -24,8 +24,9 @@ using CoordinateOf = typename Rows::non_const_value_type;
 Box box_of_all(const Communicator& ranks, const HostPoints& points) {
   Box box{};
   together(ranks, [&] {
-    box = points.visit(
-        [](const auto& rows) { return bounding_box<CoordinateOf<std::decay_t<decltype(rows)>>>(HostSpace(), rows); });
+    box = points.visit([](const auto& rows) {
+      return bounding_box<CoordinateOf<std::decay_t<decltype(rows)>>>(HostExecutionSpace(), rows);
+    });
   });
   for (double& low : box.low) low = ranks.least(low);
   for (double& high : box.high) high = -ranks.least(-high);
@@ -60,10 +61,12 @@ Array<int, HostMemory> curve_partition(const Communicator& ranks, const Array<co
   Dealt<CurvePlace> samples;
   together(ranks, [&] {
     const auto codes = points.visit([&](const auto& rows) {
-      return morton_codes<CoordinateOf<std::decay_t<decltype(rows)>>>(HostSpace(), rows, cube);
+      return morton_codes<CoordinateOf<std::decay_t<decltype(rows)>>>(HostExecutionSpace(), rows, cube);
     });
     stops.resize(points.count());
-    parallel_for("GALE::curve_stops", HostSpace(), points.count(), [&](Offset i) { stops[i] = {codes(i), ids(i)}; });
+    parallel_for("GALE::curve_stops", HostExecutionSpace(), points.count(), [&](Offset i) {
+      stops[i] = {codes(i), ids(i)};
+    });
     samples = sampled(ranks, points_by_rank, stops);
   });
   const Dealt<CurvePlace> all = exchange(ranks, "GALE::all_samples", samples);
@@ -74,7 +77,7 @@ Array<int, HostMemory> curve_partition(const Communicator& ranks, const Array<co
     for (int rank = 1; rank < ranks.size() && all.count() > 0; ++rank)
       last.push_back(all.entries(part_begin(all.count(), ranks.size(), rank)));
     owners = allocate<Array<int, HostMemory>>("GALE::curve_owners", points.count());
-    parallel_for("GALE::curve_owners", HostSpace(), points.count(), [&](Offset i) {
+    parallel_for("GALE::curve_owners", HostExecutionSpace(), points.count(), [&](Offset i) {
       owners(i) = static_cast<int>(std::lower_bound(last.begin(), last.end(), stops[i]) - last.begin());
     });
   });

@@ -52,7 +52,8 @@ Dealt<T> deal(const Communicator& ranks, const char* label, Offset items, const 
     const ByRank groups =
         by_rank(ranks.size(), items, [&](Id i, const auto& visit) { visit(static_cast<int>(rank_of(i))); });
     sent = {allocate<Array<T, HostMemory>>(label, items), groups.begin};
-    parallel_for("GALE::deal", HostSpace(), items, [&](Offset k) { sent.entries(k) = entry_of(groups.members(k)); });
+    parallel_for("GALE::deal", HostExecutionSpace(), items,
+                 [&](Offset k) { sent.entries(k) = entry_of(groups.members(k)); });
     if (members != nullptr) *members = groups.members;
   });
   return sent;
@@ -67,7 +68,7 @@ Dealt<Answer> answer(const Communicator& ranks, const char* label, const Dealt<Q
   Dealt<Answer> given, received;
   together(ranks, [&] {
     given = dealt<Answer>("GALE::answers", counts_of(questions));
-    parallel_for("GALE::answers", HostSpace(), questions.count(),
+    parallel_for("GALE::answers", HostExecutionSpace(), questions.count(),
                  [&](Offset i) { given.entries(i) = answer_of(questions.entries(i)); });
     received = dealt<Answer>(label, counts_of(asked));
   });

@@ -14,7 +14,8 @@ using Flags = Array<std::uint8_t, MemoryOf<Space>>;
 
 /// Which of the vertices that others have as ghosts are on the surface, in the order in which they are told.
 template <class Space>
-Flags<HostSpace> told_flags(const Space& space, const DistributedMesh& mesh, const detail::VertexTypes& types) {
+Flags<HostExecutionSpace> told_flags(const Space& space, const DistributedMesh& mesh,
+                                     const detail::VertexTypes& types) {
   const Array<Id, MemoryOf<Space>> places = in_memory<MemoryOf<Space>>(mesh.from_owners().given_places());
   const auto flags = allocate<Flags<Space>>("GALE::surface_flags", places.extent(0));
   const Id* const internal = mesh.local().vertex_internal<MemoryOf<Space>>().data();
@@ -28,7 +29,7 @@ Flags<HostSpace> told_flags(const Space& space, const DistributedMesh& mesh, con
 /// Which of this rank's ghosts are on the surface, as their owners say; from the first one on.
 template <class Space>
 Flags<Space> ghost_flags(const Space& space, const DistributedMesh& mesh, const detail::VertexTypes& types) {
-  Flags<HostSpace> told;
+  Flags<HostExecutionSpace> told;
   detail::together(mesh.ranks(), [&] { told = told_flags(space, mesh, types); });
   const auto fetched = mesh.from_owners().fetch(mesh.ranks(), told);
   Flags<Space> flags;
@@ -97,7 +98,7 @@ DistributedCriticalPoints find_critical_points(Structure& structure, const Distr
   detail::TypeArrays<HostMemory> found;
   detail::together(order.mesh().ranks(), [&] { found = detail::classify_vertices(structure, order.local(), options); });
   const ThreadLimit limit(options.threads);
-  return complete(HostSpace(), order, found.types());
+  return complete(HostExecutionSpace(), order, found.types());
 }
 
 DistributedCriticalPoints find_critical_points(const WorkerSpace& space, const DistributedOrder& order,

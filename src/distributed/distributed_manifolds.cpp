@@ -36,7 +36,7 @@ Ends ends_by(const DistributedMesh& mesh, const Array<const GlobalId, HostMemory
   detail::together(mesh.ranks(), [&] {
     found.ends = allocate<LocalIds>("GALE::path_ends", local.vertices());
     found.places = allocate<GlobalIds>("GALE::manifolds", local.vertices());
-    parallel_for("GALE::manifolds", HostSpace(), local.vertices(), [&](Offset v) {
+    parallel_for("GALE::manifolds", HostExecutionSpace(), local.vertices(), [&](Offset v) {
       const Id end = v < local.owned_vertices() ? end_of(static_cast<Id>(v)) : no_id;
       const GlobalId place = end == no_id ? -1 : places(end);
       found.ends(input[v]) = place < 0 ? no_id : end;
@@ -59,7 +59,7 @@ Ends ascending(const DistributedGradient& gradient, int& rounds) {
   const detail::DistributedPaths paths(ranks, detail::rising_simplices(gradient));
   rounds += paths.rounds();
   Array<std::uint64_t, HostMemory> first;
-  detail::together(ranks, [&] { first = detail::first_tetrahedra(HostSpace(), gradient.mesh.local()); });
+  detail::together(ranks, [&] { first = detail::first_tetrahedra(HostExecutionSpace(), gradient.mesh.local()); });
   return ends_by(gradient.mesh, detail::places_of_ends(ranks, paths),
                  [&](Id v) { return first(v) == detail::no_first ? no_id : paths.end(pair_second(first(v))); });
 }
@@ -80,7 +80,7 @@ std::pair<GlobalIds, GlobalId> find_pairs(const DistributedMesh& mesh, const End
     pairs = allocate<GlobalIds>("GALE::morse_smale_manifolds", vertices);
   });
   const detail::KeyPlaces found = detail::places_of_keys(mesh.ranks(), keys);
-  parallel_for("GALE::morse_smale_manifolds", HostSpace(), vertices,
+  parallel_for("GALE::morse_smale_manifolds", HostExecutionSpace(), vertices,
                [&](Offset v) { pairs(v) = numbers(v) == no_id ? -1 : found.places(numbers(v)); });
   complete(mesh, pairs);
   return {pairs, found.count};

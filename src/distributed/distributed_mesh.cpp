@@ -22,7 +22,7 @@ constexpr GlobalId greatest_id = (GlobalId(1) << 62) - 1;
 template <class Ids>
 void require_global_ids(const Ids& ids) {
   const Offset count = ids.extent(0);
-  const Offset bad = reduce_min("GALE::bad_id", HostSpace(), count, count,
+  const Offset bad = reduce_min("GALE::bad_id", HostExecutionSpace(), count, count,
                                 [&](Offset i) { return ids(i) < 0 || ids(i) > greatest_id ? i : count; });
   if (bad == count) return;
   const std::string bounds = ids(bad) < 0 ? "0 or more" : "at most " + std::to_string(greatest_id);
@@ -37,7 +37,7 @@ void validate(const MeshPart<Index>& part) {
   require_global_ids(part.vertex_ids);
   require_global_ids(part.tetrahedron_ids);
   part.points.visit([](const auto& rows) {
-    detail::require_finite<typename std::decay_t<decltype(rows)>::non_const_value_type>(HostSpace(), rows);
+    detail::require_finite<typename std::decay_t<decltype(rows)>::non_const_value_type>(HostExecutionSpace(), rows);
   });
 }
 
@@ -61,7 +61,7 @@ detail::VertexDirectory directory_of(const Communicator& ranks, const MeshPart<I
   Array<int, HostMemory> owners;
   detail::together(ranks, [&] {
     owners = allocate<Array<int, HostMemory>>("GALE::given_owners", part.vertex_ids.extent(0));
-    fill("GALE::given_owners", HostSpace(), owners, ranks.rank());
+    fill("GALE::given_owners", HostExecutionSpace(), owners, ranks.rank());
   });
   return {ranks, part.vertex_ids, owners};
 }
@@ -71,9 +71,9 @@ template <class Index>
 bool is_numbered_as_local(const MeshPart<Index>& part) {
   const auto& vertices = part.vertex_ids;
   const auto& tetrahedra = part.tetrahedron_ids;
-  const Offset gaps = reduce_sum("GALE::count_gaps", HostSpace(), vertices.extent(0),
+  const Offset gaps = reduce_sum("GALE::count_gaps", HostExecutionSpace(), vertices.extent(0),
                                  [&](Offset i) { return Offset(vertices(i) != i); });
-  const Offset descents = reduce_sum("GALE::count_descents", HostSpace(), tetrahedra.extent(0), [&](Offset i) {
+  const Offset descents = reduce_sum("GALE::count_descents", HostExecutionSpace(), tetrahedra.extent(0), [&](Offset i) {
     return Offset(tetrahedra(i) <= (i == 0 ? -1 : tetrahedra(i - 1)));
   });
   return gaps == 0 && descents == 0;
@@ -112,7 +112,7 @@ struct DistributedMesh::Data {
 DistributedMesh::Data::Data(const Communicator& all) : ranks(all) {
   vertex_ids.made_by([this] {
     const auto ids = allocate<detail::GlobalIds>("GALE::vertex_ids", held.count());
-    parallel_for("GALE::vertex_ids", HostSpace(), held.count(),
+    parallel_for("GALE::vertex_ids", HostExecutionSpace(), held.count(),
                  [&](Offset i) { ids(i) = held.id(static_cast<Id>(i)); });
     return ids;
   });
@@ -120,8 +120,8 @@ DistributedMesh::Data::Data(const Communicator& all) : ranks(all) {
   points.made_by([this] { return placed.by_id(held); });
   owners.made_by([this] {
     const auto known = allocate<Array<int, HostMemory>>("GALE::owners", held.count());
-    fill("GALE::owners", HostSpace(), known, ranks.rank());
-    parallel_for("GALE::owners", HostSpace(), held.ghost_count(),
+    fill("GALE::owners", HostExecutionSpace(), known, ranks.rank());
+    parallel_for("GALE::owners", HostExecutionSpace(), held.ghost_count(),
                  [&](Offset i) { known(held.ghost(i)) = ghost_owners(i); });
     return known;
   });
@@ -135,8 +135,9 @@ detail::OwnAndGhosts DistributedMesh::Data::share(const detail::VertexDirectory&
   Array<Id, HostMemory> ghosts, slots;
   detail::together(ranks, [&] {
     ghosts = allocate<Array<Id, HostMemory>>("GALE::ghosts", held.ghost_count());
-    parallel_for("GALE::ghosts", HostSpace(), held.ghost_count(), [&](Offset i) { ghosts(i) = held.ghost(i); });
-    slots = in_place ? ghosts : iota("GALE::all_vertices", HostSpace(), held.count());
+    parallel_for("GALE::ghosts", HostExecutionSpace(), held.ghost_count(),
+                 [&](Offset i) { ghosts(i) = held.ghost(i); });
+    slots = in_place ? ghosts : iota("GALE::all_vertices", HostExecutionSpace(), held.count());
     if (!in_place) vertex_ids.get();
   });
   if (in_place)
@@ -145,7 +146,7 @@ detail::OwnAndGhosts DistributedMesh::Data::share(const detail::VertexDirectory&
   const auto of_ghost = [&](Id i) { return entries(in_place ? i : ghosts(i)); };
   detail::together(ranks, [&] {
     ghost_owners = allocate<Array<int, HostMemory>>("GALE::ghost_owners", held.ghost_count());
-    parallel_for("GALE::ghost_owners", HostSpace(), held.ghost_count(),
+    parallel_for("GALE::ghost_owners", HostExecutionSpace(), held.ghost_count(),
                  [&](Offset i) { ghost_owners(i) = of_ghost(static_cast<Id>(i)).owner; });
   });
   from_givers = detail::ExchangePlan(
@@ -202,7 +203,7 @@ void DistributedMesh::Data::take(const MeshPart<Index>& part, const PartitionOpt
   }));
   if (options.keep_corners) {
     const auto quads = allocate<detail::Quads>("GALE::local_tetrahedra", part.tetrahedra.extent(0));
-    parallel_for("GALE::local_tetrahedra", HostSpace(), quads.extent(0), [&](Offset t) {
+    parallel_for("GALE::local_tetrahedra", HostExecutionSpace(), quads.extent(0), [&](Offset t) {
       for (int corner = 0; corner < 4; ++corner) quads(t, corner) = static_cast<Id>(part.tetrahedra(t, corner));
     });
     corners = quads;

@@ -16,7 +16,8 @@ using Ids = Array<GlobalId, HostMemory>;
 Ids owned_ids(const DistributedMesh& mesh) {
   const Id* const input = mesh.local().vertex_input().data();
   const auto ids = allocate<Ids>("GALE::owned_ids", mesh.local().owned_vertices());
-  parallel_for("GALE::owned_ids", HostSpace(), ids.extent(0), [&](Offset v) { ids(v) = mesh.vertex_id(input[v]); });
+  parallel_for("GALE::owned_ids", HostExecutionSpace(), ids.extent(0),
+               [&](Offset v) { ids(v) = mesh.vertex_id(input[v]); });
   return ids;
 }
 
@@ -38,7 +39,7 @@ class Asked {
     Ids first;
     detail::together(ranks, [&] {
       first = allocate<Ids>("GALE::first_vertices", simplices.size());
-      parallel_for("GALE::first_vertices", HostSpace(), simplices.size(), [&](Offset i) {
+      parallel_for("GALE::first_vertices", HostExecutionSpace(), simplices.size(), [&](Offset i) {
         std::sort(simplices[i].begin(), simplices[i].end());
         first(i) = simplices[i][0];
       });
@@ -78,7 +79,8 @@ class Asked {
     std::vector<GlobalId> numbers;
     detail::together(mesh_.ranks(), [&] {
       told = detail::dealt<GlobalId>("GALE::told_numbers", detail::counts_of(received_));
-      parallel_for("GALE::told_numbers", HostSpace(), told.count(), [&](Offset i) { told.entries(i) = number_of(i); });
+      parallel_for("GALE::told_numbers", HostExecutionSpace(), told.count(),
+                   [&](Offset i) { told.entries(i) = number_of(i); });
       found = detail::dealt<GlobalId>("GALE::found_numbers", detail::counts_of(sent_));
       numbers.resize(sent_.count());
     });
@@ -102,7 +104,8 @@ Ids first_numbers(const DistributedMesh& mesh, const Ids& owned, const Array<Id,
   detail::together(mesh.ranks(), [&] {
     const Id* const input = mesh.local().vertex_input().data();
     of_owned = allocate<Ids>("GALE::owned_counts", owned.extent(0));
-    parallel_for("GALE::owned_counts", HostSpace(), owned.extent(0), [&](Offset v) { of_owned(v) = counts(input[v]); });
+    parallel_for("GALE::owned_counts", HostExecutionSpace(), owned.extent(0),
+                 [&](Offset v) { of_owned(v) = counts(input[v]); });
   });
   return detail::sums_before(mesh.ranks(), owned, of_owned);
 }

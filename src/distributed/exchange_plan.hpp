@@ -52,7 +52,7 @@ class ExchangePlan {
     if (taken_counts_.empty()) return {{}, {0}};
     together(ranks, [&] {
       values = allocate<Array<T, HostMemory>>("GALE::given_values", given_.count());
-      parallel_for("GALE::given_values", HostSpace(), given_.count(),
+      parallel_for("GALE::given_values", HostExecutionSpace(), given_.count(),
                    [&](Offset i) { values(i) = value_of(given_.entries(i)); });
     });
     return fetch(ranks, values);
@@ -78,7 +78,7 @@ class ExchangePlan {
     copy_run(space, from + run_.place, to + run_.slot);
     if constexpr (is_device<Space>) {
       const auto kept = allocate<Array<T, HostMemory>>("GALE::kept_values", kept_places_.extent(0));
-      parallel_for("GALE::kept_values", HostSpace(), kept.extent(0),
+      parallel_for("GALE::kept_values", HostExecutionSpace(), kept.extent(0),
                    [&](Offset i) { kept(i) = from[kept_places_(i)]; });
       scatter(space, kept_slots_, kept, to);
     } else {
@@ -95,7 +95,7 @@ class ExchangePlan {
   template <class T>
   void operator()(const Communicator& ranks, const T* from, T* to) const {
     const Dealt<T> fetched = fetch<T>(ranks, [&](Id place) { return from[place]; });
-    fill(HostSpace(), from, fetched, to);
+    fill(HostExecutionSpace(), from, fetched, to);
   }
 
  private:
@@ -104,7 +104,7 @@ class ExchangePlan {
     if constexpr (is_device<Space>) {
       copy_to_device(to, from, static_cast<std::size_t>(run_.count) * sizeof(T));
     } else {
-      parallel_for("GALE::kept_run", HostSpace(), run_.count, [&](Offset i) { to[i] = from[i]; });
+      parallel_for("GALE::kept_run", HostExecutionSpace(), run_.count, [&](Offset i) { to[i] = from[i]; });
     }
   }
 
@@ -136,25 +136,25 @@ ExchangePlan::ExchangePlan(const Communicator& ranks, const Run& run, const Arra
     const ByRank groups = by_rank(2, slots.extent(0), [&](Id i, const auto& visit) { visit(source(i) != here); });
     kept_slots_ = allocate<Array<Id, HostMemory>>("GALE::kept_slots", groups.begin[1]);
     kept_places_ = allocate<Array<Id, HostMemory>>("GALE::kept_places", groups.begin[1]);
-    parallel_for("GALE::kept_slots", HostSpace(), groups.begin[1], [&](Offset k) {
+    parallel_for("GALE::kept_slots", HostExecutionSpace(), groups.begin[1], [&](Offset k) {
       const Id i = groups.members(k);
       kept_slots_(k) = slots(i);
       kept_places_(k) = place(GlobalId(key(i)));
     });
     others = allocate<Array<Id, HostMemory>>("GALE::wanted_slots", groups.begin[2] - groups.begin[1]);
-    parallel_for("GALE::wanted_slots", HostSpace(), others.extent(0),
+    parallel_for("GALE::wanted_slots", HostExecutionSpace(), others.extent(0),
                  [&](Offset i) { others(i) = groups.members(groups.begin[1] + i); });
   });
   const auto asked = deal<GlobalId>(
       ranks, "GALE::wanted_values", others.extent(0), [&](Id i) { return source(others(i)); },
       [&](Id i) { return GlobalId(key(others(i))); }, &slots_);
-  parallel_for("GALE::wanted_slots", HostSpace(), slots_.extent(0),
+  parallel_for("GALE::wanted_slots", HostExecutionSpace(), slots_.extent(0),
                [&](Offset i) { slots_(i) = slots(others(slots_(i))); });
   taken_counts_ = counts_of(asked);
   const auto keys = exchange(ranks, "GALE::wanted_keys", asked);
   together(ranks, [&] {
     given_ = dealt<Id>("GALE::given_places", counts_of(keys));
-    parallel_for("GALE::given_places", HostSpace(), keys.count(),
+    parallel_for("GALE::given_places", HostExecutionSpace(), keys.count(),
                  [&](Offset i) { given_.entries(i) = place(keys.entries(i)); });
   });
 }

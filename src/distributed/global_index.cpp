@@ -19,11 +19,11 @@ DistinctIds without_repetitions(const GlobalIds& sorted, const Array<Id, HostMem
   const Offset count = sorted.extent(0);
   const auto is_new = [&](Offset i) { return i == 0 || sorted(i) != sorted(i - 1); };
   const auto place = allocate<Array<Offset, HostMemory>>("GALE::distinct_place", count + 1);
-  const Offset distinct = exclusive_scan("GALE::count_distinct", HostSpace(), count, place, is_new);
+  const Offset distinct = exclusive_scan("GALE::count_distinct", HostExecutionSpace(), count, place, is_new);
   if (distinct == count) return {sorted, places};
   const DistinctIds found{allocate<GlobalIds>("GALE::distinct_ids", distinct),
                           allocate<Array<Id, HostMemory>>("GALE::distinct_places", distinct)};
-  parallel_for("GALE::distinct_ids", HostSpace(), count, [&](Offset i) {
+  parallel_for("GALE::distinct_ids", HostExecutionSpace(), count, [&](Offset i) {
     if (!is_new(i)) return;
     found.ids(place(i)) = sorted(i);
     found.places(place(i)) = places(i);
@@ -35,13 +35,13 @@ DistinctIds without_repetitions(const GlobalIds& sorted, const Array<Id, HostMem
 
 DistinctIds distinct_ids(const Array<const GlobalId, HostMemory>& ids) {
   const Offset count = ids.extent(0);
-  const auto places = iota("GALE::id_places", HostSpace(), count);
+  const auto places = iota("GALE::id_places", HostExecutionSpace(), count);
   const auto sorted = allocate<GlobalIds>("GALE::sorted_ids", count);
-  parallel_for("GALE::sorted_ids", HostSpace(), count, [&](Offset i) { sorted(i) = ids(i); });
-  const Offset descent = reduce_min("GALE::find_descent", HostSpace(), count - 1, count,
+  parallel_for("GALE::sorted_ids", HostExecutionSpace(), count, [&](Offset i) { sorted(i) = ids(i); });
+  const Offset descent = reduce_min("GALE::find_descent", HostExecutionSpace(), count - 1, count,
                                     [&](Offset i) { return sorted(i) > sorted(i + 1) ? i : count; });
   const Array<std::uint64_t, HostMemory> keys(reinterpret_cast<std::uint64_t*>(sorted.data()), count);
-  if (descent < count) stable_sort_by_key(HostSpace(), keys, places);
+  if (descent < count) stable_sort_by_key(HostExecutionSpace(), keys, places);
   return without_repetitions(sorted, places);
 }
 
@@ -71,8 +71,8 @@ GlobalIndex::GlobalIndex(const Array<const GlobalId, HostMemory>& ascending) : i
   const std::uint64_t span = span_of(ids_(0), ids_(count - 1));
   if (span > entries_an_id * static_cast<std::uint64_t>(count)) return;
   table_ = allocate<Array<Id, HostMemory>>("GALE::global_index", span);
-  fill("GALE::no_index", HostSpace(), table_, no_id);
-  parallel_for("GALE::global_index", HostSpace(), count,
+  fill("GALE::no_index", HostExecutionSpace(), table_, no_id);
+  parallel_for("GALE::global_index", HostExecutionSpace(), count,
                [&](Offset i) { table_(ids_(i) - ids_(0)) = static_cast<Id>(i); });
 }
 

@@ -26,7 +26,7 @@ PathSimplices rising_simplices(const DistributedGradient& gradient) {
   const auto tetrahedra = local.encoded().tetrahedra;
   const GlobalIndex index(ids);
   const auto internal = allocate<Array<Id, HostMemory>>("GALE::tetrahedron_internal", ids.extent(0));
-  parallel_for("GALE::tetrahedron_internal", HostSpace(), internal.extent(0),
+  parallel_for("GALE::tetrahedron_internal", HostExecutionSpace(), internal.extent(0),
                [&](Offset t) { internal(input[t]) = static_cast<Id>(t); });
   return {&gradient.local.store().tetrahedron_successors(), &gradient.local.critical().tetrahedra,
           [=](Id t) { return ids(input[t]); }, [=](GlobalId id) { return internal(index.find(id)); },

@@ -15,8 +15,8 @@ class Homes {
 
   /// For these ids of all ranks. Collective.
   Homes(const Communicator& ranks, const Array<const GlobalId, HostMemory>& ids) : ranks_(ranks.size()) {
-    const GlobalId greatest = -ranks.least(
-        reduce_min("GALE::greatest_id", HostSpace(), ids.extent(0), GlobalId(0), [&](Offset i) { return -ids(i); }));
+    const GlobalId greatest = -ranks.least(reduce_min("GALE::greatest_id", HostExecutionSpace(), ids.extent(0),
+                                                      GlobalId(0), [&](Offset i) { return -ids(i); }));
     ids_a_home_ = greatest / ranks.size() + 1;
   }
 
@@ -53,11 +53,12 @@ class HomeTable {
     const auto received = exchange(ranks, "GALE::known_entries", sent);
     together(ranks, [&] {
       const auto all = allocate<GlobalIds>("GALE::known_ids", received.count());
-      parallel_for("GALE::known_ids", HostSpace(), all.extent(0), [&](Offset i) { all(i) = received.entries(i).id; });
+      parallel_for("GALE::known_ids", HostExecutionSpace(), all.extent(0),
+                   [&](Offset i) { all(i) = received.entries(i).id; });
       const DistinctIds distinct = distinct_ids(all);
       index_ = GlobalIndex(distinct.ids);
       entries_ = allocate<Array<Entry, HostMemory>>("GALE::home_entries", index_.count());
-      parallel_for("GALE::home_entries", HostSpace(), index_.count(), [&](Offset i) {
+      parallel_for("GALE::home_entries", HostExecutionSpace(), index_.count(), [&](Offset i) {
         const Id at = distinct.places(i);
         const auto next = std::upper_bound(received.begin.begin(), received.begin.end(), Offset(at));
         entries_(i) = entry_from(static_cast<int>(next - received.begin.begin()) - 1, received.entries(at).what);
@@ -79,7 +80,7 @@ class HomeTable {
     Array<Entry, HostMemory> found;
     together(ranks, [&] {
       found = allocate<Array<Entry, HostMemory>>("GALE::found_entries", ids.extent(0));
-      parallel_for("GALE::found_entries", HostSpace(), ids.extent(0),
+      parallel_for("GALE::found_entries", HostExecutionSpace(), ids.extent(0),
                    [&](Offset k) { found(by_home(k)) = answers.entries(k); });
     });
     return found;

@@ -48,7 +48,7 @@ class HostPoints {
     if (const auto* points = std::get_if<Points<double, HostMemory>>(&points_)) return *points;
     const auto copy = allocate<Kokkos::View<double* [3], Kokkos::LayoutRight, HostMemory>>("GALE::points", count());
     visit([&](const auto& points) {
-      parallel_for("GALE::points", HostSpace(), count(), [&](Offset i) {
+      parallel_for("GALE::points", HostExecutionSpace(), count(), [&](Offset i) {
         for (int axis = 0; axis < 3; ++axis) copy(i, axis) = points(i, axis);
       });
     });

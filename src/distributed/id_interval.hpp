@@ -45,8 +45,8 @@ class GivenIntervals {
   static std::optional<GivenIntervals> of(const Communicator& ranks, const Array<const GlobalId, HostMemory>& ids) {
     const Offset count = ids.extent(0);
     const GlobalId first = count == 0 ? 0 : ids(0);
-    const Offset others =
-        reduce_sum("GALE::count_gaps", HostSpace(), count, [&](Offset i) { return Offset(ids(i) != first + i); });
+    const Offset others = reduce_sum("GALE::count_gaps", HostExecutionSpace(), count,
+                                     [&](Offset i) { return Offset(ids(i) != first + i); });
     if (ranks.sum(others) > 0) return std::nullopt;
     GivenIntervals given;
     const auto begin = ranks.all(first), end = ranks.all(first + count);

@@ -9,8 +9,8 @@ namespace gale::detail {
 
 KeyPlaces places_of_keys(const Communicator& ranks, const Array<const SimplexKey, HostMemory>& keys) {
   const Offset count = keys.extent(0);
-  const GlobalId greatest = -ranks.least(
-      reduce_min("GALE::greatest_key", HostSpace(), count, GlobalId(0), [&](Offset i) { return -keys(i)[0]; }));
+  const GlobalId greatest = -ranks.least(reduce_min("GALE::greatest_key", HostExecutionSpace(), count, GlobalId(0),
+                                                    [&](Offset i) { return -keys(i)[0]; }));
   const GlobalId keys_a_home = greatest / ranks.size() + 1;
   Array<Id, HostMemory> members;
   const auto sent = deal<SimplexKey>(
@@ -30,7 +30,7 @@ KeyPlaces places_of_keys(const Communicator& ranks, const Array<const SimplexKey
   Dealt<GlobalId> told, answers;
   together(ranks, [&] {
     told = dealt<GlobalId>("GALE::told_places", counts_of(received));
-    parallel_for("GALE::told_places", HostSpace(), told.count(), [&](Offset i) {
+    parallel_for("GALE::told_places", HostExecutionSpace(), told.count(), [&](Offset i) {
       told.entries(i) =
           first + (std::lower_bound(distinct.begin(), distinct.end(), received.entries(i)) - distinct.begin());
     });
@@ -38,7 +38,7 @@ KeyPlaces places_of_keys(const Communicator& ranks, const Array<const SimplexKey
     found.places = allocate<Array<GlobalId, HostMemory>>("GALE::key_places", count);
   });
   exchange(ranks, told, answers);
-  parallel_for("GALE::key_places", HostSpace(), count,
+  parallel_for("GALE::key_places", HostExecutionSpace(), count,
                [&](Offset i) { found.places(members(i)) = answers.entries(i); });
   return found;
 }

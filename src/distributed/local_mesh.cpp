@@ -60,7 +60,7 @@ Mirrored<Id> joined(const Space& space, const LocalVertices& vertices, const Mir
   const Offset count = vertices.ghost_count(), before = vertices.owned_count();
   const auto ghost_ids = allocate<Array<Id, HostMemory>>("GALE::ghost_input", count);
   const Array<const Id, HostMemory> ghost_order = ghosts.in<HostMemory>();
-  parallel_for("GALE::ghost_input", HostSpace(), count,
+  parallel_for("GALE::ghost_input", HostExecutionSpace(), count,
                [&](Offset i) { ghost_ids(i) = vertices.ghost(ghost_order(i)); });
   const auto here = in_memory<Here>(ghost_ids);
   parallel_for(
@@ -129,7 +129,7 @@ Segmentation local_segmentation(const LocalVertices& vertices, const Segmentatio
 
 template <class Index>
 Quads local_corners(const LocalTetrahedra<Index>& tetrahedra, const LocalVertices& vertices) {
-  return corners_in<Index>(HostSpace(), tetrahedra, vertices);
+  return corners_in<Index>(HostExecutionSpace(), tetrahedra, vertices);
 }
 
 template <class Index>

@@ -32,7 +32,8 @@ Array<Id, HostMemory> all_but(const std::vector<Id>& dropped, Offset count) {
 template <class Index>
 GlobalIds ids_of(const Dealt<SentTetrahedron<Index>>& some) {
   const auto ids = allocate<GlobalIds>("GALE::received_ids", some.count());
-  parallel_for("GALE::received_ids", HostSpace(), some.count(), [&](Offset i) { ids(i) = some.entries(i).id; });
+  parallel_for("GALE::received_ids", HostExecutionSpace(), some.count(),
+               [&](Offset i) { ids(i) = some.entries(i).id; });
   return ids;
 }
 
@@ -76,14 +77,14 @@ KeptTetrahedra LocalTetrahedra<Index>::choose(const Communicator& ranks, const V
     for (int rank = 0; rank < ranks.size(); ++rank) counts[rank] = groups.begin[rank + 1] - groups.begin[rank];
     const Offset kept = std::exchange(counts[here], 0), kept_from = groups.begin[here];
     outer_.resize(kept);
-    parallel_for("GALE::outer_tetrahedra", HostSpace(), kept,
+    parallel_for("GALE::outer_tetrahedra", HostExecutionSpace(), kept,
                  [&](Offset i) { outer_[i] = outer[groups.members(kept_from + i)]; });
     std::vector<Id> dropped;
     std::set_difference(outer.begin(), outer.end(), outer_.begin(), outer_.end(), std::back_inserter(dropped));
     const Offset count = part_.tetrahedra.extent(0);
     all_kept = {count - static_cast<Offset>(dropped.size()), all_but(dropped, count), part_.tetrahedron_ids, first_id};
     sent = dealt<SentTetrahedron<Index>>("GALE::sent_tetrahedra", counts);
-    parallel_for("GALE::sent_tetrahedra", HostSpace(), sent.count(), [&](Offset i) {
+    parallel_for("GALE::sent_tetrahedra", HostExecutionSpace(), sent.count(), [&](Offset i) {
       const Id t = outer[groups.members(i < kept_from ? i : i + kept)];
       SentTetrahedron<Index>& tetrahedron = sent.entries(i);
       tetrahedron.id = all_kept.id_at(t);

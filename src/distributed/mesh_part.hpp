@@ -40,7 +40,7 @@ Array<const GlobalId, HostMemory> global_ids(const View& view) {
   const auto here = on_host(view);
   if constexpr (Kokkos::is_always_assignable<Array<const GlobalId, HostMemory>, decltype(here)>::value) return here;
   const auto ids = allocate<Array<GlobalId, HostMemory>>("GALE::global_ids", here.extent(0));
-  parallel_for("GALE::global_ids", HostSpace(), here.extent(0),
+  parallel_for("GALE::global_ids", HostExecutionSpace(), here.extent(0),
                [&](Offset i) { ids(i) = static_cast<GlobalId>(here(i)); });
   return ids;
 }

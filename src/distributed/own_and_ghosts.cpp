@@ -15,7 +15,8 @@ void copy_row(const To& to, Offset i, const From& from, Offset k) {
 template <class Place>
 Points<double, HostMemory> gathered(const Rows& points, Offset count, const Place& place) {
   const auto some = allocate<Rows>("GALE::some_points", count);
-  parallel_for("GALE::some_points", HostSpace(), count, [&](Offset i) { copy_row(some, i, points, place(i)); });
+  parallel_for("GALE::some_points", HostExecutionSpace(), count,
+               [&](Offset i) { copy_row(some, i, points, place(i)); });
   return some;
 }
 
@@ -26,7 +27,7 @@ Points<double, HostMemory> OwnAndGhosts::by_id(const LocalVertices& vertices) co
   const auto all = allocate<Rows>("GALE::local_points", vertices.count());
   const auto put = [&](const HostPoints& some, const auto& place) {
     some.visit([&](const auto& rows) {
-      parallel_for("GALE::local_points", HostSpace(), some.count(),
+      parallel_for("GALE::local_points", HostExecutionSpace(), some.count(),
                    [&](Offset i) { copy_row(all, place(i), rows, i); });
     });
   };
@@ -39,7 +40,7 @@ OwnAndGhosts own_and_ghosts(const LocalVertices& vertices, const HostPoints& giv
                             const ExchangePlan& plan, const Dealt<SentPoint>& fetched) {
   if (run.count > 0) {
     const auto ghosts = allocate<Rows>("GALE::ghost_points", vertices.ghost_count());
-    parallel_for("GALE::ghost_points", HostSpace(), fetched.count(), [&](Offset k) {
+    parallel_for("GALE::ghost_points", HostExecutionSpace(), fetched.count(), [&](Offset k) {
       const Offset ghost = vertices.ghost_number(plan.slots()(k));
       for (int axis = 0; axis < 3; ++axis) ghosts(ghost, axis) = fetched.entries(k).coordinates[axis];
     });
@@ -47,7 +48,7 @@ OwnAndGhosts own_and_ghosts(const LocalVertices& vertices, const HostPoints& giv
   }
   const auto all = allocate<Rows>("GALE::local_points", vertices.count());
   const Points<double, HostMemory> mine = given.in_double();
-  plan.fill(HostSpace(), reinterpret_cast<const SentPoint*>(mine.data()), fetched,
+  plan.fill(HostExecutionSpace(), reinterpret_cast<const SentPoint*>(mine.data()), fetched,
             reinterpret_cast<SentPoint*>(all.data()));
   return {gathered(all, vertices.owned_count(), [&](Offset i) { return vertices.owned(i); }),
           gathered(all, vertices.ghost_count(), [&](Offset i) { return vertices.ghost(i); })};

@@ -12,7 +12,7 @@ Array<const GlobalId, HostMemory> places_of_ends(const Communicator& ranks, cons
              if (paths.final_stop(end).rank == Stop::critical) visit(0);
            }).members;
     keys = allocate<decltype(keys)>("GALE::end_keys", ends.extent(0));
-    parallel_for("GALE::end_keys", HostSpace(), ends.extent(0), [&](Offset i) {
+    parallel_for("GALE::end_keys", HostExecutionSpace(), ends.extent(0), [&](Offset i) {
       keys(i) = {paths.final_stop(ends(i)).id, 0, 0};
     });
   });
@@ -20,8 +20,8 @@ Array<const GlobalId, HostMemory> places_of_ends(const Communicator& ranks, cons
   Array<GlobalId, HostMemory> places;
   together(ranks, [&] {
     places = allocate<Array<GlobalId, HostMemory>>("GALE::places_of_ends", paths.ends());
-    fill("GALE::no_places", HostSpace(), places, GlobalId(-1));
-    parallel_for("GALE::places_of_ends", HostSpace(), ends.extent(0),
+    fill("GALE::no_places", HostExecutionSpace(), places, GlobalId(-1));
+    parallel_for("GALE::places_of_ends", HostExecutionSpace(), ends.extent(0),
                  [&](Offset i) { places(ends(i)) = found.places(i); });
   });
   return places;

@@ -40,7 +40,8 @@ Array<GlobalId, HostMemory> sums_before(const Communicator& ranks, const Array<c
   together(ranks, [&] {
     told = dealt<GlobalId>("GALE::told_sums", counts_of(received));
     const auto all = allocate<GlobalIds>("GALE::received_ids", received.count());
-    parallel_for("GALE::received_ids", HostSpace(), all.extent(0), [&](Offset i) { all(i) = received.entries(i).id; });
+    parallel_for("GALE::received_ids", HostExecutionSpace(), all.extent(0),
+                 [&](Offset i) { all(i) = received.entries(i).id; });
     const auto places = distinct_ids(all).places;
     for (std::size_t i = 0; i < places.extent(0); ++i) {
       told.entries(places(i)) = sum;
@@ -50,9 +51,10 @@ Array<GlobalId, HostMemory> sums_before(const Communicator& ranks, const Array<c
     sums = allocate<Array<GlobalId, HostMemory>>("GALE::sums_before", here + 1);
   });
   const GlobalId before = ranks.sum_before(sum);
-  parallel_for("GALE::told_sums", HostSpace(), told.count(), [&](Offset i) { told.entries(i) += before; });
+  parallel_for("GALE::told_sums", HostExecutionSpace(), told.count(), [&](Offset i) { told.entries(i) += before; });
   exchange(ranks, told, answers);
-  parallel_for("GALE::sums_before", HostSpace(), here, [&](Offset i) { sums(members(i)) = answers.entries(i); });
+  parallel_for("GALE::sums_before", HostExecutionSpace(), here,
+               [&](Offset i) { sums(members(i)) = answers.entries(i); });
   sums(here) = ranks.sum(sum);
   return sums;
 }
@@ -63,10 +65,10 @@ Array<GlobalId, HostMemory> occurrences(const Communicator& ranks, const Array<c
   std::vector<Count> counts;
   together(ranks, [&] {
     const auto sorted = allocate<Array<std::uint64_t, HostMemory>>("GALE::sorted_numbers", all.extent(0));
-    parallel_for("GALE::sorted_numbers", HostSpace(), all.extent(0),
+    parallel_for("GALE::sorted_numbers", HostExecutionSpace(), all.extent(0),
                  [&](Offset i) { sorted(i) = static_cast<std::uint64_t>(all(i)); });
-    const auto places = iota("GALE::number_places", HostSpace(), all.extent(0));
-    stable_sort_by_key(HostSpace(), sorted, places);
+    const auto places = iota("GALE::number_places", HostExecutionSpace(), all.extent(0));
+    stable_sort_by_key(HostExecutionSpace(), sorted, places);
     counts = counted(sorted);
   });
   const auto received = exchange(ranks, "GALE::received_occurrences",
@@ -77,7 +79,8 @@ Array<GlobalId, HostMemory> occurrences(const Communicator& ranks, const Array<c
   Array<GlobalId, HostMemory> sums;
   together(ranks, [&] {
     const auto ids = allocate<GlobalIds>("GALE::counted_ids", received.count());
-    parallel_for("GALE::counted_ids", HostSpace(), ids.extent(0), [&](Offset i) { ids(i) = received.entries(i).id; });
+    parallel_for("GALE::counted_ids", HostExecutionSpace(), ids.extent(0),
+                 [&](Offset i) { ids(i) = received.entries(i).id; });
     index = GlobalIndex(distinct_ids(ids).ids);
     sums = Array<GlobalId, HostMemory>("GALE::occurrences", index.count());
     for (Offset i = 0; i < received.count(); ++i) sums(index.find(received.entries(i).id)) += received.entries(i).count;
@@ -93,7 +96,7 @@ Array<GlobalId, HostMemory> occurrences(const Communicator& ranks, const Array<c
   Array<GlobalId, HostMemory> found;
   together(ranks, [&] {
     found = allocate<Array<GlobalId, HostMemory>>("GALE::found_occurrences", asked.extent(0));
-    parallel_for("GALE::found_occurrences", HostSpace(), asked.extent(0),
+    parallel_for("GALE::found_occurrences", HostExecutionSpace(), asked.extent(0),
                  [&](Offset k) { found(members(k)) = answers.entries(k); });
   });
   return found;

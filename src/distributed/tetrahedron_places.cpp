@@ -25,9 +25,9 @@ GlobalId repeated(const GlobalIds& ids) {
 TetrahedronPlaces::TetrahedronPlaces(const KeptTetrahedra& kept, const GlobalIds& received)
     : kept_(kept), received_(received) {
   const bool ascend = kept.ids.extent(0) == 0;
-  const Offset descents = ascend ? 0 : reduce_sum("GALE::count_descents", HostSpace(), kept.count, [&](Offset k) {
-    return Offset(k > 0 && kept.id(k) <= kept.id(k - 1));
-  });
+  const Offset descents = ascend ? 0
+                                 : reduce_sum("GALE::count_descents", HostExecutionSpace(), kept.count,
+                                              [&](Offset k) { return Offset(k > 0 && kept.id(k) <= kept.id(k - 1)); });
   descents > 0 ? sort() : merge();
 }
 
@@ -61,7 +61,7 @@ void TetrahedronPlaces::merge() {
 
 void TetrahedronPlaces::sort() {
   const auto ids = allocate<GlobalIds>("GALE::tetrahedron_ids", count());
-  parallel_for("GALE::tetrahedron_ids", HostSpace(), count(),
+  parallel_for("GALE::tetrahedron_ids", HostExecutionSpace(), count(),
                [&](Offset i) { ids(i) = i < kept_.count ? kept_.id(i) : received_(i - kept_.count); });
   const DistinctIds sorted = distinct_ids(ids);
   if (static_cast<Offset>(sorted.ids.extent(0)) < count()) refuse_repeated(repeated(ids));

@@ -25,7 +25,7 @@ OwnedIds owned_of(const GivenIntervals& given, int rank) {
   const auto ids = allocate<GlobalIds>("GALE::owned_ids", first_given(given, rank));
   Offset from = 0;
   for (const IdInterval& some : intervals) {
-    parallel_for("GALE::owned_ids", HostSpace(), some.end - some.begin,
+    parallel_for("GALE::owned_ids", HostExecutionSpace(), some.end - some.begin,
                  [&](Offset i) { ids(from + i) = some.begin + i; });
     from += some.end - some.begin;
   }
@@ -61,7 +61,7 @@ Array<VertexEntry, HostMemory> VertexDirectory::find(const Array<const GlobalId,
   Array<VertexEntry, HostMemory> found;
   together(ranks_, [&] {
     found = allocate<Array<VertexEntry, HostMemory>>("GALE::found_entries", ids.extent(0));
-    parallel_for("GALE::found_entries", HostSpace(), ids.extent(0),
+    parallel_for("GALE::found_entries", HostExecutionSpace(), ids.extent(0),
                  [&](Offset i) { found(i) = entry_of(*given_, ids(i)); });
   });
   return found;

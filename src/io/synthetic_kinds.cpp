@@ -52,7 +52,7 @@ const SyntheticKind* kind_named(const std::string& name) {
 /// Towards the first corner: the density falls with the square of a coordinate.
 void gather_points(Dataset& dataset, int n) {
   const auto& points = std::get<Dataset::Points<float>>(dataset.points);
-  parallel_for("GALE::gather_points", HostSpace(), static_cast<Offset>(points.extent(0)), [&](Offset i) {
+  parallel_for("GALE::gather_points", HostExecutionSpace(), static_cast<Offset>(points.extent(0)), [&](Offset i) {
     for (int axis = 0; axis < 3; ++axis) {
       const double from = points(i, axis) / double(n - 1);
       points(i, axis) = static_cast<float>((n - 1) * (0.1 * from + 0.9 * from * from * from));
@@ -74,7 +74,7 @@ Dataset make_synthetic(const std::string& kind, int n) {
   image.dimensions = {n, n, n};
   std::vector<float> values(static_cast<std::size_t>(n) * n * n);
   const auto coordinate = [n](Offset i) { return 2.0 * static_cast<double>(i) / (n - 1) - 1; };
-  parallel_for("GALE::make_synthetic", HostSpace(), Offset(n) * n, [&](Offset row) {
+  parallel_for("GALE::make_synthetic", HostExecutionSpace(), Offset(n) * n, [&](Offset row) {
     for (Offset x = 0; x < n; ++x) {
       const Offset i = row * n + x;
       const CubePoint place = {coordinate(x), coordinate(row % n), coordinate(row / n),

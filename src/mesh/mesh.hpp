@@ -118,7 +118,7 @@ class GALE_EXPORT Mesh {
 };
 
 /// Computes something from a mesh in the workers' space if the mesh is there, and on the host's threads otherwise, or
-/// if it doesn't fit the device's memory: f(WorkerSpace()) or f(HostSpace()).
+/// if it doesn't fit the device's memory: f(WorkerSpace()) or f(HostExecutionSpace()).
 template <class F>
 auto in_worker_or_host_space(const Mesh& mesh, const F& f) {
   return in_worker_or_host_space(mesh.on_device(), f);

@@ -29,23 +29,23 @@ Elsewhere find_elsewhere(const HostTables& tables, const Id* input, bool triangl
   const Offset vertices = tables.edge_begin.extent(0) - 1;
   Elsewhere elsewhere;
   elsewhere.has_all = allocate<Array<bool, HostMemory>>("GALE::has_all", vertices);
-  parallel_for("GALE::has_all", HostSpace(), vertices, [&](Offset v) {
+  parallel_for("GALE::has_all", HostExecutionSpace(), vertices, [&](Offset v) {
     const Id* const ends = tables.edge_high.data();
     elsewhere.has_all(v) = std::all_of(ends + tables.edge_begin(v), ends + tables.edge_begin(v + 1),
                                        [&](Id end) { return input[end] > input[v]; });
   });
   // Empty where all vertices have all.
-  const bool none =
-      reduce_sum("GALE::has_all", HostSpace(), vertices, [&](Offset v) { return elsewhere.has_all(v); }) == vertices;
+  const bool none = reduce_sum("GALE::has_all", HostExecutionSpace(), vertices,
+                               [&](Offset v) { return elsewhere.has_all(v); }) == vertices;
   const Offset edges = none ? 0 : tables.edge_high.extent(0);
   elsewhere.edges =
-      group_by<Id>("GALE::edges_elsewhere", HostSpace(), edges, vertices, [&](Id edge, const auto& visit) {
+      group_by<Id>("GALE::edges_elsewhere", HostExecutionSpace(), edges, vertices, [&](Id edge, const auto& visit) {
         const Id low = tables.edge_low(edge), high = tables.edge_high(edge);
         if (!elsewhere.has_all(low) && input[high] < input[low]) visit(high);
       });
   if (triangles) {
-    elsewhere.triangles =
-        group_by<Id>("GALE::triangles_elsewhere", HostSpace(), edges, vertices, [&](Id edge, const auto& visit) {
+    elsewhere.triangles = group_by<Id>(
+        "GALE::triangles_elsewhere", HostExecutionSpace(), edges, vertices, [&](Id edge, const auto& visit) {
           if (elsewhere.has_all(tables.edge_low(edge))) return;
           const Id least = std::min(input[tables.edge_low(edge)], input[tables.edge_high(edge)]);
           for (Id f = tables.triangle_begin(edge); f < tables.triangle_begin(edge + 1); ++f) {
@@ -113,7 +113,7 @@ OwnBegins find_begins(const OwnSimplices& own, const HostTables& tables, const I
   OwnBegins begins;
   begins.edges = allocate<HostIds>("GALE::edge_numbers_begin", vertices + 1);
   if (triangles) begins.triangles = allocate<HostIds>("GALE::triangle_numbers_begin", vertices + 1);
-  parallel_for("GALE::count_own", HostSpace(), vertices, [&](Offset v) {
+  parallel_for("GALE::count_own", HostExecutionSpace(), vertices, [&](Offset v) {
     const Id vertex = static_cast<Id>(v);
     if (own.is_as_in_tables(vertex)) {
       const Id first = tables.edge_begin(v), last = tables.edge_begin(v + 1);
@@ -133,7 +133,7 @@ OwnBegins find_begins(const OwnSimplices& own, const HostTables& tables, const I
   });
   for (const HostIds& begin : {begins.edges, begins.triangles}) {
     if (begin.extent(0) == 0) continue;
-    exclusive_scan("GALE::scan_own", HostSpace(), vertices, begin, [&](Offset i) { return begin(i); });
+    exclusive_scan("GALE::scan_own", HostExecutionSpace(), vertices, begin, [&](Offset i) { return begin(i); });
   }
   return begins;
 }

@@ -51,7 +51,7 @@ template <class Coordinate, class Memory>
 Segmentation octree_segmentation(const Points<Coordinate, Memory>& given, int capacity) {
   if (capacity < 1) throw Error("a segment's capacity must be at least 1 vertex, not " + std::to_string(capacity));
   require_ids("vertices", static_cast<Offset>(given.extent(0)));
-  if (given.extent(0) == 0) return {iota("GALE::vertex_input", HostSpace(), 0), vertex_begin_of({0})};
+  if (given.extent(0) == 0) return {iota("GALE::vertex_input", HostExecutionSpace(), 0), vertex_begin_of({0})};
   return in_worker_or_host_space(true, [&](const auto& space) {
     using Here = MemoryOf<std::decay_t<decltype(space)>>;
     return octree_in<Coordinate>(space, in_memory<Here>(given), capacity);

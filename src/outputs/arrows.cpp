@@ -7,8 +7,6 @@ namespace gale::outputs {
 
 namespace {
 
-using HostSpace = Kokkos::DefaultHostExecutionSpace;
-
 /// How many simplices of `sorted`, which are by ascending input id, have a lower one than `id`.
 Id count_before(const std::vector<Id>& sorted, const Id* input, Id id) {
   const auto at = std::lower_bound(sorted.begin(), sorted.end(), id,
@@ -51,12 +49,12 @@ class Arrows {
       gradient_.for_each_edge_pair(internal[i], [&](Id, Id) { ++pairs; });
       return pairs;
     };
-    require_ids("arrows", reduce_sum("GALE::count_arrows", HostSpace(), mesh_.vertices(), count));
-    return exclusive_scan("GALE::place_arrows", HostSpace(), mesh_.vertices(), edge_begin_, count);
+    require_ids("arrows", reduce_sum("GALE::count_arrows", HostExecutionSpace(), mesh_.vertices(), count));
+    return exclusive_scan("GALE::place_arrows", HostExecutionSpace(), mesh_.vertices(), edge_begin_, count);
   }
 
   void draw_vertices() {
-    parallel_for("GALE::arrows_of_vertices", HostSpace(), mesh_.vertices(), [&](Offset v) {
+    parallel_for("GALE::arrows_of_vertices", HostExecutionSpace(), mesh_.vertices(), [&](Offset v) {
       const Id other = gradient_.vertex_successor(v);
       if (other == no_id) return;
       const Id tail = input_[v];
@@ -65,7 +63,7 @@ class Arrows {
   }
 
   void draw_edges(Id begin) {
-    parallel_for("GALE::arrows_of_edges", HostSpace(), mesh_.vertices(), [&](Offset high) {
+    parallel_for("GALE::arrows_of_edges", HostExecutionSpace(), mesh_.vertices(), [&](Offset high) {
       std::vector<std::array<Id, 2>> pairs;
       gradient_.for_each_edge_pair(high, [&](Id low, Id third) { pairs.push_back({input_[low], input_[third]}); });
       std::sort(pairs.begin(), pairs.end());
@@ -77,7 +75,7 @@ class Arrows {
   void draw_triangles(Id begin) {
     const Id* const tetrahedron_input = mesh_.tetrahedron_input().data();
     const auto& tetrahedra = mesh_.encoded().tetrahedra;
-    parallel_for("GALE::arrows_of_triangles", HostSpace(), mesh_.tetrahedra(), [&](Offset t) {
+    parallel_for("GALE::arrows_of_triangles", HostExecutionSpace(), mesh_.tetrahedra(), [&](Offset t) {
       const Partner partner = gradient_.pair_of_tetrahedron(t);
       if (partner.is_critical()) return;
       std::array<Id, 3> triangle{};

@@ -6,7 +6,6 @@ namespace gale::outputs {
 
 namespace {
 
-using HostSpace = Kokkos::DefaultHostExecutionSpace;
 using Edge = std::array<Id, 2>;
 using Triangle = TriangleVertices;
 
@@ -28,7 +27,7 @@ void append_between(const Separatrices<Cell>& paths, const std::vector<Simplex>&
                     std::vector<Simplex>& simplices) {
   const std::size_t first = simplices.size();
   simplices.resize(first + paths.cells.size());
-  parallel_for("GALE::between_cells", HostSpace(), paths.count(), [&](Offset i) {
+  parallel_for("GALE::between_cells", HostExecutionSpace(), paths.count(), [&](Offset i) {
     for (Offset k = paths.begin[i]; k < paths.begin[i + 1]; ++k) {
       simplices[first + k] =
           k == paths.begin[i] ? saddles[paths.sources[i]] : between(paths.cells[k - 1], paths.cells[k]);

@@ -8,7 +8,6 @@ namespace gale::outputs {
 
 namespace {
 
-using HostSpace = Kokkos::DefaultHostExecutionSpace;
 using Triangle = TriangleVertices;
 
 enum Type : std::int8_t { descending = 0, connector = 1, ascending = 2 };
@@ -43,7 +42,7 @@ class Lines {
   /// Two points for each cell of the paths: the simplex that precedes it, and itself.
   template <class Cell, class Simplices>
   void add(Type type, const Separatrices<Cell>& paths, const Simplices& along, const Ends& ends) {
-    parallel_for("GALE::separatrices1", HostSpace(), paths.count(), [&](Offset i) {
+    parallel_for("GALE::separatrices1", HostExecutionSpace(), paths.count(), [&](Offset i) {
       const Offset begin = paths.begin[i], end = paths.begin[i + 1];
       for (Offset k = begin; k < end; ++k) {
         set_point(2 * k, along.between[k], along.between_ids[k], k == begin);

@@ -13,8 +13,6 @@ namespace gale::test {
 
 namespace {
 
-using HostSpace = Kokkos::DefaultHostExecutionSpace;
-
 /// Around the sizes at which loops begin to use several threads, and beyond.
 constexpr Offset sizes[] = {0, 1, 2, 4095, 4096, 4097, 8192, 100003};
 
@@ -62,7 +60,7 @@ TEST(ParallelFor, calls_the_body_once_for_each_index) {
 TEST(ParallelFor, on_the_host_uses_threads_but_each_index_once) {
   constexpr Offset n = 50000;
   std::vector<std::atomic<int>> calls(n);
-  parallel_for("test_for", HostSpace(), n, [&](Offset i) { ++calls[i]; });
+  parallel_for("test_for", HostExecutionSpace(), n, [&](Offset i) { ++calls[i]; });
   for (const auto& count : calls) ASSERT_EQ(count, 1);
 }
 

@@ -48,8 +48,8 @@ TEST(Uninitialized, arrays_are_refused) {
 TEST(Uninitialized, loops_are_refused) {
   if (KOKKOS_VERSION >= 50000) GTEST_SKIP() << "Kokkos 5 makes no execution space before it is initialized";
   int calls = 0;
-  expect_told([&] { parallel_for("test", HostSpace(), 3, [&](Offset) { ++calls; }); });
-  expect_told([&] { reduce_sum("test", HostSpace(), 3, [](Offset) { return 1; }); });
+  expect_told([&] { parallel_for("test", HostExecutionSpace(), 3, [&](Offset) { ++calls; }); });
+  expect_told([&] { reduce_sum("test", HostExecutionSpace(), 3, [](Offset) { return 1; }); });
   EXPECT_EQ(calls, 0);
 }
 

@@ -60,7 +60,7 @@ void number(CellOrder& order, Id count, const Cells& cells, const Each& each, co
 template <class Parts, class Found>
 void find_parts(const Mesh& mesh, const Cells& cells, const Parts& parts, const Found& found) {
   const Id *const input = mesh.tetrahedron_input().data(), *const vertex_internal = mesh.vertex_internal().data();
-  parallel_for("GALE::ttk_first_cells", HostSpace(), mesh.tetrahedra(), [&](Offset t) {
+  parallel_for("GALE::ttk_first_cells", HostExecutionSpace(), mesh.tetrahedra(), [&](Offset t) {
     for (const Id part : parts(SortedCorners(cells, input[t], vertex_internal))) found(part, input[t]);
   });
 }
@@ -73,12 +73,12 @@ CellOrder order_of_edges(const Mesh& mesh, const Cells& cells) {
   const Id* const input = mesh.vertex_input().data();
   CellOrder order;
   const auto first = allocate<Ids>("GALE::ttk_number", count);  // numbers take the cells' place
-  fill("GALE::ttk_clear_first", HostSpace(), first, mesh.tetrahedra());
+  fill("GALE::ttk_clear_first", HostExecutionSpace(), first, mesh.tetrahedra());
   find_parts(
       mesh, cells, [&](const SortedCorners& corners) { return corners.edges(simplices); },
       [&](Id edge, Id cell) { update(&first(edge), [&](Id there) { return cell < there ? cell : there; }); });
   const auto each = [&](const auto& visit) {
-    parallel_for("GALE::ttk_number_edges", HostSpace(), mesh.vertices(), [&](Offset a) {
+    parallel_for("GALE::ttk_number_edges", HostExecutionSpace(), mesh.vertices(), [&](Offset a) {
       for (Id edge = simplices.edge_begin(a); edge < simplices.edge_begin(a + 1); ++edge) {
         visit(edge, std::array<Id, 2>{input[a], input[simplices.edge_high(edge)]});
       }
@@ -95,7 +95,7 @@ TriangleOrder order_of_triangles(const Mesh& mesh, const Cells& cells) {
   const auto simplices = mesh.simplices(tables_of_triangles);
   const auto count = static_cast<Id>(simplices.triangle_apex.extent(0));
   const Id* const input = mesh.vertex_input().data();
-  const HostSpace host;
+  const HostExecutionSpace host;
   const auto stars = allocate<Array<Star, HostMemory>>("GALE::ttk_stars", count);
   fill("GALE::ttk_clear_stars", host, stars, star_of(no_id, no_id));
   find_parts(

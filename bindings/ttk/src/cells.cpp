@@ -34,15 +34,15 @@ bool is_valid(const long long* corners, Id points) {
 }  // namespace
 
 void Cells::require_valid(Id points) const {
-  const Offset wrong = reduce_min("GALE::ttk_validate_cells", HostSpace(), count_, Offset(count_), [&](Offset c) {
-    return is_valid(first_ + stride_ * c, points) ? Offset(count_) : c;
-  });
+  const Offset wrong =
+      reduce_min("GALE::ttk_validate_cells", HostExecutionSpace(), count_, Offset(count_),
+                 [&](Offset c) { return is_valid(first_ + stride_ * c, points) ? Offset(count_) : c; });
   if (wrong != count_) refuse(first_ + stride_ * wrong, wrong, points);
 }
 
 Kokkos::View<Id* [4], Kokkos::LayoutRight, HostMemory> Cells::copy(Id points) const {
   const auto corners = allocate<Kokkos::View<Id* [4], Kokkos::LayoutRight, HostMemory>>("GALE::ttk_cells", count_);
-  const Offset wrong = reduce_min("GALE::ttk_copy_cells", HostSpace(), count_, Offset(count_), [&](Offset c) {
+  const Offset wrong = reduce_min("GALE::ttk_copy_cells", HostExecutionSpace(), count_, Offset(count_), [&](Offset c) {
     const long long* const from = first_ + stride_ * c;
     for (int corner = 0; corner < 4; ++corner) corners(c, corner) = static_cast<Id>(from[corner]);
     return is_valid(from, points) ? Offset(count_) : c;

@@ -6,11 +6,11 @@ namespace gale::ttk {
 
 FirstMet::FirstMet(Id cells) {
   words_ = allocate<Array<EightCells, HostMemory>>("GALE::ttk_first_met", Offset(cells) / 8 + 1);
-  fill("GALE::ttk_clear_met", HostSpace(), words_, EightCells{});
+  fill("GALE::ttk_clear_met", HostExecutionSpace(), words_, EightCells{});
 }
 
 void FirstMet::count(Id simplices) {
-  const HostSpace host;
+  const HostExecutionSpace host;
   const auto words = words_;
   const auto count = static_cast<Offset>(words.extent(0));
   const auto before = allocate<Array<Id, HostMemory>>("GALE::ttk_met_before", count + 1);

@@ -13,7 +13,7 @@ PackedIds::PackedIds(const Array<Id, HostMemory>& ids, Id least, Id greatest)
   constexpr Offset together = 8;  // they fill bytes, so that no other thread writes there
   const Offset groups = (size_ + together - 1) / together;
   bytes_ = allocate<Array<std::uint8_t, HostMemory>>("GALE::ttk_packed", groups * bits_ + sizeof(std::uint64_t));
-  parallel_for("GALE::ttk_pack", HostSpace(), groups, [&](Offset group) {
+  parallel_for("GALE::ttk_pack", HostExecutionSpace(), groups, [&](Offset group) {
     std::uint32_t packed[together + 1];
     std::uint32_t* to = packed;
     std::uint64_t word = 0;  // of which so many bits are filled, less than 32

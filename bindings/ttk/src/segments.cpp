@@ -8,7 +8,7 @@ Segments::Segments(const Segmentation& segmentation)
     : vertex_input_(segmentation.vertex_input.in<HostMemory>()),
       vertex_begin_(segmentation.vertex_begin.in<HostMemory>()) {
   const auto internal = allocate<Array<Id, HostMemory>>("GALE::ttk_vertex_internal", vertex_input_.extent(0));
-  parallel_for("GALE::ttk_invert", HostSpace(), vertex_input_.extent(0),
+  parallel_for("GALE::ttk_invert", HostExecutionSpace(), vertex_input_.extent(0),
                [&](Offset i) { internal(vertex_input_(i)) = static_cast<Id>(i); });
   vertex_internal_ = internal;
   find_segments();
@@ -24,7 +24,7 @@ Segments::Segments(const Mesh& mesh)
 
 void Segments::find_segments() {
   segment_of_ = allocate<Array<Id, HostMemory>>("GALE::ttk_segments", vertex_input_.extent(0));
-  parallel_for("GALE::ttk_segments", HostSpace(), count(), [&](Offset segment) {
+  parallel_for("GALE::ttk_segments", HostExecutionSpace(), count(), [&](Offset segment) {
     for (const Id v : vertices(static_cast<Id>(segment))) segment_of_(vertex_input_(v)) = static_cast<Id>(segment);
   });
 }
@@ -32,15 +32,16 @@ void Segments::find_segments() {
 void Segments::group(const Cells& cells) {
   if (tetrahedron_input_ != nullptr || group_begin_.data() != nullptr) return;
   const Id* const segment_of = segment_of_.data();
-  const auto groups = group_by("GALE::ttk_cells", HostSpace(), cells.count(), count(), [=](Id cell, const auto& visit) {
-    Id met[4];
-    for (int corner = 0; corner < 4; ++corner) {
-      const Id here = met[corner] = segment_of[cells.vertex(cell, corner)];
-      bool fresh = true;
-      for (int before = 0; before < corner; ++before) fresh = fresh && met[before] != here;
-      if (fresh) visit(here);
-    }
-  });
+  const auto groups =
+      group_by("GALE::ttk_cells", HostExecutionSpace(), cells.count(), count(), [=](Id cell, const auto& visit) {
+        Id met[4];
+        for (int corner = 0; corner < 4; ++corner) {
+          const Id here = met[corner] = segment_of[cells.vertex(cell, corner)];
+          bool fresh = true;
+          for (int before = 0; before < corner; ++before) fresh = fresh && met[before] != here;
+          if (fresh) visit(here);
+        }
+      });
   group_begin_ = groups.begin;
   grouped_ = groups.members;
 }

@@ -22,7 +22,7 @@ void Connectivity::need_surface(int dimension) {
 
 Connectivity::Flags Connectivity::no_flags(int dimension) const {
   const auto flags = allocate<Flags>("GALE::ttk_surface", (Offset(counts_[dimension]) + 7) / 8);
-  fill("GALE::ttk_clear_surface", HostSpace(), flags, 0);
+  fill("GALE::ttk_clear_surface", HostExecutionSpace(), flags, 0);
   return flags;
 }
 
@@ -39,7 +39,7 @@ const std::uint8_t* Connectivity::late_surface(int dimension) const {
     const auto flags = no_flags(0);
     if (mesh_) {
       const auto vertices = surface_vertices(*mesh_);
-      parallel_for("GALE::ttk_surface", HostSpace(), counts_[0], [&](Offset i) {
+      parallel_for("GALE::ttk_surface", HostExecutionSpace(), counts_[0], [&](Offset i) {
         if (vertices(i)) set_flag(flags, vertex_input_[i]);
       });
     } else {
@@ -53,7 +53,7 @@ const std::uint8_t* Connectivity::late_surface(int dimension) const {
 /// The triangles with one cell, or their vertices or edges.
 Connectivity::Flags Connectivity::surface_from_triangles(int dimension) const {
   const auto flags = no_flags(dimension);
-  parallel_for("GALE::ttk_surface", HostSpace(), counts_[2], [&](Offset i) {
+  parallel_for("GALE::ttk_surface", HostExecutionSpace(), counts_[2], [&](Offset i) {
     const Id triangle = static_cast<Id>(i);
     if (triangles_.second[triangle] != no_id) return;
     if (dimension == 2) {

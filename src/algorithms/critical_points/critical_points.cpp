@@ -64,7 +64,7 @@ CriticalPoints find_critical_points(Structure& structure, const VertexOrder& ord
   detail::require_whole_mesh("critical points", structure.mesh());
   const auto found = detail::classify_vertices(structure, order, options);
   const ThreadLimit limit(options.threads);
-  return detail::collect(HostSpace(), structure.mesh(), found.types());
+  return detail::collect(HostExecutionSpace(), structure.mesh(), found.types());
 }
 
 }  // namespace gale

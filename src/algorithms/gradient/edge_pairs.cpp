@@ -14,7 +14,7 @@ EdgePairs::EdgePairs(const Array<const Id, HostMemory>& words, const Array<const
     : EdgePairs(static_cast<Id>(begin.extent(0)), consumers) {
   made_elsewhere_ = words;
   Id* const first = const_cast<Id*>(words.data());  // rows are written once, and these are
-  parallel_for("GALE::edge_pair_rows", HostSpace(), begin.extent(0),
+  parallel_for("GALE::edge_pair_rows", HostExecutionSpace(), begin.extent(0),
                [&](Offset v) { rows_(v) = EdgePairRow(first + begin(v)); });
 }
 

@@ -18,7 +18,7 @@ std::vector<T> merged(const std::vector<Part>& parts, const Member& member, cons
   Offset begin = 0;
   for (const auto& part : parts) {
     const std::vector<T>& own = member(part);
-    parallel_for("GALE::critical_keys", HostSpace(), own.size(), [&](Offset i) {
+    parallel_for("GALE::critical_keys", HostExecutionSpace(), own.size(), [&](Offset i) {
       keyed[begin + i] = {key(own[i]), own[i]};
     });
     begin += own.size();
@@ -26,7 +26,7 @@ std::vector<T> merged(const std::vector<Part>& parts, const Member& member, cons
   parallel_sort("GALE::sort_critical", keyed.begin(), keyed.end(),
                 [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<T> all(count);
-  parallel_for("GALE::critical", HostSpace(), count, [&](Offset i) { all[i] = keyed[i].second; });
+  parallel_for("GALE::critical", HostExecutionSpace(), count, [&](Offset i) { all[i] = keyed[i].second; });
   return all;
 }
 
@@ -44,7 +44,7 @@ GradientStore::GradientStore(const Mesh& mesh_, const VertexOrder& order_, int c
       stars_(consumers),
       further_(consumers) {
   require_same_mesh("the vertex order", order.mesh(), mesh);
-  mark_ghosts(HostSpace(), mesh, consumed_vertices_, consumed_tetrahedra_);
+  mark_ghosts(HostExecutionSpace(), mesh, consumed_vertices_, consumed_tetrahedra_);
   pairs_are_here_([] {});
 }
 

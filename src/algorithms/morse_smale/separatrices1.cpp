@@ -60,13 +60,13 @@ Separatrices<Id> paths_of(const Followed& followed, const std::vector<Id>& sourc
   const Offset count = static_cast<Offset>(sources.size());
   const auto rank = allocate<Array<Id, HostMemory>>("GALE::path_rank", count + 1);
   const auto is_there = [&](Offset i) { return followed.begin(i + 1) > followed.begin(i); };
-  const Id paths_there = exclusive_scan("GALE::count_paths", HostSpace(), count, rank, is_there);
+  const Id paths_there = exclusive_scan("GALE::count_paths", HostExecutionSpace(), count, rank, is_there);
   Separatrices<Id> paths;
   paths.sources.resize(paths_there);
   paths.destinations.resize(paths_there);
   paths.begin.resize(paths_there + 1);
   paths.cells.assign(followed.cells.data(), followed.cells.data() + followed.cells.extent(0));
-  parallel_for("GALE::name_paths", HostSpace(), count, [&](Offset i) {
+  parallel_for("GALE::name_paths", HostExecutionSpace(), count, [&](Offset i) {
     if (!is_there(i)) return;
     const Offset end = followed.begin(i + 1);
     paths.sources[rank(i)] = sources[i];

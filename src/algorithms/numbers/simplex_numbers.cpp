@@ -6,13 +6,11 @@ namespace gale {
 
 namespace {
 
-using HostSpace = Kokkos::DefaultHostExecutionSpace;
-
 /// Turns the counts of so many vertices into the number of each vertex's first simplex.
 const Array<Id, HostMemory>& scan(const char* name, Id vertices, const Array<Id, HostMemory>& counts) {
   const auto count = [&](Offset i) { return counts(i); };
-  require_ids(name, reduce_sum("GALE::sum_simplices", HostSpace(), vertices, count));
-  exclusive_scan("GALE::number_first_simplices", HostSpace(), vertices, counts, count);
+  require_ids(name, reduce_sum("GALE::sum_simplices", HostExecutionSpace(), vertices, count));
+  exclusive_scan("GALE::number_first_simplices", HostExecutionSpace(), vertices, counts, count);
   return counts;
 }
 

@@ -16,7 +16,7 @@ void sort_places(const std::uint64_t* keys, std::size_t count, const VerticesOf&
     Id place;
   };
   std::vector<Keyed> keyed(count);
-  parallel_for("GALE::filtration_keys", HostSpace(), count, [&](Offset i) {
+  parallel_for("GALE::filtration_keys", HostExecutionSpace(), count, [&](Offset i) {
     keyed[i] = {keys[vertices_of(i)[0]], static_cast<Id>(i)};
   });
   const auto is_before = [&](const Keyed& a, const Keyed& b) {
@@ -30,7 +30,7 @@ void sort_places(const std::uint64_t* keys, std::size_t count, const VerticesOf&
   parallel_sort("GALE::sort_filtration", keyed.begin(), keyed.end(), is_before);
   by_rank.resize(count);
   rank.resize(count);
-  parallel_for("GALE::filtration", HostSpace(), count, [&](Offset i) {
+  parallel_for("GALE::filtration", HostExecutionSpace(), count, [&](Offset i) {
     by_rank[i] = keyed[i].place;
     rank[keyed[i].place] = static_cast<Id>(i);
   });

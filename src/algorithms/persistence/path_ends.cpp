@@ -21,7 +21,7 @@ PathEnds ends_of_edges(const DiscreteGradient& gradient, const CriticalPlaces& p
   const auto& edges = gradient.critical().edges;
   const Id* const successors = gradient.vertex_successors().data();
   PathEnds ends(edges.size());
-  parallel_for("GALE::ends_of_edges", HostSpace(), edges.size(), [&](Offset i) {
+  parallel_for("GALE::ends_of_edges", HostExecutionSpace(), edges.size(), [&](Offset i) {
     for (int k = 0; k < 2; ++k) ends[i][k] = places.of_vertex(end_of(successors, edges[i][k]));
   });
   return ends;
@@ -31,7 +31,7 @@ PathEnds ends_of_triangles(const DiscreteGradient& gradient, const CriticalPlace
   const CriticalSimplices& critical = gradient.critical();
   const Id* const successors = gradient.tetrahedron_successors().data();
   PathEnds ends(critical.triangles.size(), {no_id, no_id});
-  parallel_for("GALE::ends_of_triangles", HostSpace(), ends.size(), [&](Offset i) {
+  parallel_for("GALE::ends_of_triangles", HostExecutionSpace(), ends.size(), [&](Offset i) {
     const Id first = critical.star_begin[i], count = critical.star_begin[i + 1] - first;
     for (Id k = 0; k < count && count <= 2; ++k) {
       const Id end = end_of(successors, critical.star[first + k]);

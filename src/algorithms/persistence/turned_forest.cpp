@@ -8,7 +8,7 @@ namespace gale::detail {
 TurnedForest::TurnedForest(const Array<const Id, HostMemory>& successors)
     : successors_(allocate<Array<Id, HostMemory>>("GALE::turned_successors", successors.extent(0))),
       crosses_(successors.extent(0), 0) {
-  parallel_for("GALE::turned_successors", HostSpace(), successors.extent(0),
+  parallel_for("GALE::turned_successors", HostExecutionSpace(), successors.extent(0),
                [&](Offset i) { successors_(i) = successors(i); });
 }
 

@@ -194,7 +194,7 @@ SharedInput read_pieces(const Communicator& ranks, const InputOptions& input, co
   detail::together(ranks, [&] {
     HeldPart<std::int64_t> held;
     held.tetrahedra = decltype(held.tetrahedra)("GALE::input_tetrahedra", mesh.tetrahedra.extent(0));
-    parallel_for("GALE::input_tetrahedra", HostSpace(), held.tetrahedra.extent(0), [&](Offset t) {
+    parallel_for("GALE::input_tetrahedra", HostExecutionSpace(), held.tetrahedra.extent(0), [&](Offset t) {
       for (int corner = 0; corner < 4; ++corner) held.tetrahedra(t, corner) = ids(mesh.tetrahedra(t, corner));
     });
     std::visit([&](const auto& all) { held.part = make_part(ids, all, held.tetrahedra); }, mesh.points);

@@ -45,7 +45,7 @@ io::Dataset local_dataset(const DistributedMesh& mesh, const SharedInput& shared
     const auto fill = [&](auto coordinate) {
       using Coordinate = decltype(coordinate);
       const auto points = allocate<io::Dataset::Points<Coordinate>>("GALE::local_points", mesh.points().extent(0));
-      parallel_for("GALE::local_points", HostSpace(), points.extent(0), [&](Offset i) {
+      parallel_for("GALE::local_points", HostExecutionSpace(), points.extent(0), [&](Offset i) {
         for (int axis = 0; axis < 3; ++axis) points(i, axis) = static_cast<Coordinate>(mesh.points()(i, axis));
       });
       local.points = points;

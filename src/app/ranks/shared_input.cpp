@@ -15,7 +15,7 @@ namespace {
 
 Array<GlobalId, HostMemory> counted(GlobalId first, Offset count) {
   const auto ids = allocate<Array<GlobalId, HostMemory>>("GALE::input_ids", count);
-  parallel_for("GALE::input_ids", HostSpace(), count, [&](Offset i) { ids(i) = first + i; });
+  parallel_for("GALE::input_ids", HostExecutionSpace(), count, [&](Offset i) { ids(i) = first + i; });
   return ids;
 }
 

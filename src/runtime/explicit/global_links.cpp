@@ -7,16 +7,14 @@ namespace gale::detail {
 
 namespace {
 
-using HostSpace = Kokkos::DefaultHostExecutionSpace;
-
 Id longest_row(const Rows& rows, Id count) {
-  return -reduce_min("GALE::longest_row", HostSpace(), count, Id(0),
+  return -reduce_min("GALE::longest_row", HostExecutionSpace(), count, Id(0),
                      [&](Offset v) { return -rows[static_cast<Id>(v)].size(); });
 }
 
 template <class Place>
 void look_up(const EncodedMesh<HostMemory>& mesh, const Rows& vt, const Rows& vv, Id vertices, Place* places) {
-  parallel_for("GALE::link", HostSpace(), vertices, [&](Offset i) {
+  parallel_for("GALE::link", HostExecutionSpace(), vertices, [&](Offset i) {
     const Id v = static_cast<Id>(i);
     const Row neighbours = vv[v];
     Place* to = places + Offset(3) * vt.offsets[v];

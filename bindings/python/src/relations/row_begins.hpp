@@ -11,8 +11,9 @@ namespace gale::python {
 template <class Size>
 std::int64_t set_begins(const WholeRelation& all, const Size& size) {
   const Kokkos::View<std::int64_t*, HostMemory> begin(all.begin.get(), all.rows + std::size_t(1));
-  parallel_for("GALE::row_size", HostSpace(), all.rows, [&](Offset row) { begin(row) = size(row); });
-  return exclusive_scan("GALE::row_begin", HostSpace(), all.rows, begin, [&](Offset row) { return begin(row); });
+  parallel_for("GALE::row_size", HostExecutionSpace(), all.rows, [&](Offset row) { begin(row) = size(row); });
+  return exclusive_scan("GALE::row_begin", HostExecutionSpace(), all.rows, begin,
+                        [&](Offset row) { return begin(row); });
 }
 
 }  // namespace gale::python

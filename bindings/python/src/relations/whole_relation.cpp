@@ -25,7 +25,7 @@ Relation to_faces(int dimension, int face_dimension) {
 
 WholeRelation with_begins(const FaceRows& faces, int threads) {
   const WholeRelation all = {faces.rows, faces.columns, new_begins(faces.rows + std::size_t(1), threads), faces.faces};
-  parallel_for("GALE::row_begin", HostSpace(), faces.rows + Offset(1),
+  parallel_for("GALE::row_begin", HostExecutionSpace(), faces.rows + Offset(1),
                [&](Offset i) { all.begin[i] = faces.size * i; });
   return all;
 }
