@@ -13,7 +13,7 @@ function(gale_public folder)
   set(gale_public_headers ${gale_public_headers} ${ARGN} PARENT_SCOPE)
 endfunction()
 
-gale_public(base atomic error kokkos memory team threads types)
+gale_public(base atomic error kokkos memory stop team threads types)
 gale_public(mesh encoded_mesh input_numbers intervals make_mesh mesh segmentation simplices)
 gale_public(relations batch faces preconditioning relation rows segment_rows)
 gale_public(runtime consumer device_sweep device_sweep_options graph_of make_structure statistics structure structure_options sweep_options)

@@ -5,6 +5,7 @@
 #include <mutex>
 
 #include <gale/base/memory.hpp>
+#include <gale/base/stop.hpp>
 #include <gale/base/transfer.hpp>
 #include <gale/base/view_tracking.hpp>
 
@@ -19,7 +20,7 @@ class Once {
   template <class Action>
   void operator()(const Action& action) {
     if (done_.load(std::memory_order_acquire)) return;
-    const std::lock_guard<std::mutex> lock(mutex_);
+    const auto lock = lock_or_stop(mutex_);
     if (done_.load(std::memory_order_relaxed)) return;
     const TrackedViews tracked;  // what is made here lasts, also where it is asked for in a sweep's body
     action();

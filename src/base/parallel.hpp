@@ -16,6 +16,8 @@
 // what returns a value waits for that. So whoever hands data to the host or to another instance fences first. On the
 // host every loop is done when it returns. All throw gale::Error if Kokkos isn't initialized.
 //
+// On the host a loop throws Stopped soon after it is asked to (gale/base/stop.hpp).
+//
 // A loop in a header that may run on the host takes a functor with a name, no KOKKOS_LAMBDA: nvcc has the host call
 // that one through a pointer, which was null where several sources had the same loop.
 
@@ -48,7 +50,9 @@ void parallel_for(const char* label, const Space& space, Offset n, const Body& b
     Kokkos::parallel_for(label, Kokkos::RangePolicy<Space, Kokkos::IndexType<Offset>>(space, 0, n), body);
   } else {
     detail::for_parts(label, n, detail::threads_for(n), [&](int, Offset begin, Offset end) {
-      for (Offset i = begin; i < end; ++i) body(i);
+      for (Offset i = begin; i < end;) {
+        for (const Offset last = detail::piece_end(i, end); i < last; ++i) body(i);
+      }
     });
   }
 }
@@ -105,16 +109,20 @@ T exclusive_scan(const char* label, const Space& space, Offset n, const Array<T,
     std::vector<T> part_sum(parts + 1, 0);
     detail::for_parts(label, n, parts, [&](int part, Offset first, Offset last) {
       T sum = 0;
-      for (Offset i = first; i < last; ++i) sum += static_cast<T>(count(i));
+      for (Offset i = first; i < last;) {
+        for (const Offset end = detail::piece_end(i, last); i < end; ++i) sum += static_cast<T>(count(i));
+      }
       part_sum[part + 1] = sum;
     });
     for (int part = 0; part < parts; ++part) part_sum[part + 1] += part_sum[part];
     detail::for_parts(label, n, parts, [&](int part, Offset first, Offset last) {
       T sum = part_sum[part];
-      for (Offset i = first; i < last; ++i) {
-        const T here = static_cast<T>(count(i));
-        begin(i) = sum;
-        sum += here;
+      for (Offset i = first; i < last;) {
+        for (const Offset end = detail::piece_end(i, last); i < end; ++i) {
+          const T here = static_cast<T>(count(i));
+          begin(i) = sum;
+          sum += here;
+        }
       }
     });
     begin(n) = part_sum[parts];
@@ -140,9 +148,11 @@ T reduce_min(const char* label, const Space& space, Offset n, T initial, const V
     std::vector<T> part_min(parts, initial);
     detail::for_parts(label, n, parts, [&](int part, Offset first, Offset last) {
       T best = initial;
-      for (Offset i = first; i < last; ++i) {
-        const T here = value(i);
-        if (here < best) best = here;
+      for (Offset i = first; i < last;) {
+        for (const Offset end = detail::piece_end(i, last); i < end; ++i) {
+          const T here = value(i);
+          if (here < best) best = here;
+        }
       }
       part_min[part] = best;
     });
@@ -164,7 +174,9 @@ Offset reduce_sum(const char* label, const Space& space, Offset n, const Value& 
     std::vector<Offset> part_sum(parts, 0);
     detail::for_parts(label, n, parts, [&](int part, Offset first, Offset last) {
       Offset sum = 0;
-      for (Offset i = first; i < last; ++i) sum += value(i);
+      for (Offset i = first; i < last;) {
+        for (const Offset end = detail::piece_end(i, last); i < end; ++i) sum += value(i);
+      }
       part_sum[part] = sum;
     });
     Offset total = 0;

@@ -7,18 +7,34 @@
 
 namespace gale {
 
+namespace detail {
+
+/// `less`, asking now and then whether to stop. One serves one thread.
+template <class Less>
+auto stoppable(const Less& less) {
+  return [&less, calls = std::int64_t(0)](const auto& a, const auto& b) mutable {
+    stop_if_asked_at(++calls);
+    return less(a, b);
+  };
+}
+
+}  // namespace detail
+
 /// As std::sort, on the host's threads: each sorts a part, and then parts are merged two by two.
 template <class Iterator, class Less = std::less<>>
 void parallel_sort(const char* label, Iterator first, Iterator last, const Less& less = {}) {
   const Offset count = last - first;
   const int parts = detail::threads_for(count);
   const auto begin_of = [&](int part) { return first + detail::part_begin(count, parts, std::min(part, parts)); };
-  detail::for_parts(label, count, parts,
-                    [&](int, Offset begin, Offset end) { std::sort(first + begin, first + end, less); });
+  detail::for_parts(label, count, parts, [&](int, Offset begin, Offset end) {
+    auto is_before = detail::stoppable(less);
+    std::sort(first + begin, first + end, std::ref(is_before));
+  });
   for (int sorted = 1; sorted < parts; sorted *= 2) {
     on_threads((parts + 2 * sorted - 1) / (2 * sorted), [&](int pair) {
       const int begin = 2 * sorted * pair;
-      std::inplace_merge(begin_of(begin), begin_of(begin + sorted), begin_of(begin + 2 * sorted), less);
+      auto is_before = detail::stoppable(less);
+      std::inplace_merge(begin_of(begin), begin_of(begin + sorted), begin_of(begin + 2 * sorted), std::ref(is_before));
     });
   }
 }

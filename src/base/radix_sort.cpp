@@ -51,7 +51,9 @@ bool place_digits(const Keys& keys, int shift, std::vector<Histogram>& place) {
   detail::for_parts("GALE::sort_count", n, place.size(), [&](int part, Offset first, Offset last) {
     Histogram& mine = place[part];
     mine.fill(0);
-    for (Offset i = first; i < last; ++i) ++mine[digit_of(keys(i), shift)];
+    for (Offset i = first; i < last;) {
+      for (const Offset end = detail::piece_end(i, last); i < end; ++i) ++mine[digit_of(keys(i), shift)];
+    }
   });
   Offset sum = 0;
   for (int digit = 0; digit < digits; ++digit) {
@@ -70,10 +72,12 @@ void sort_on_host(const Keys& keys, const Values& values) {
   for (int shift = 0; shift < 64; shift += digit_bits) {
     if (!place_digits(from_keys, shift, place)) continue;
     detail::for_parts("GALE::sort_move", n, place.size(), [&](int part, Offset first, Offset last) {
-      for (Offset i = first; i < last; ++i) {
-        const Offset to = place[part][digit_of(from_keys(i), shift)]++;
-        to_keys(to) = from_keys(i);
-        to_values(to) = from_values(i);
+      for (Offset i = first; i < last;) {
+        for (const Offset end = detail::piece_end(i, last); i < end; ++i) {
+          const Offset to = place[part][digit_of(from_keys(i), shift)]++;
+          to_keys(to) = from_keys(i);
+          to_values(to) = from_values(i);
+        }
       }
     });
     std::swap(from_keys, to_keys);

@@ -12,6 +12,7 @@
 #include <omp.h>
 #endif
 
+#include <gale/base/stop.hpp>
 #include <gale/export.hpp>
 
 namespace gale {
@@ -41,7 +42,7 @@ class GALE_EXPORT ThreadLimit {
 
 /// Calls `body(i)` for i in 0..count-1, each on a thread of its own as far as OpenMP grants them, and returns when all
 /// have returned. The first exception that a body throws is thrown again here, after the others have ended. Loops that
-/// a body begins run on its own thread.
+/// a body begins run on its own thread. What asks this thread to stop asks the bodies.
 template <class Body>
 void on_threads(int count, const Body& body) {
   if (count <= 1) {
@@ -50,8 +51,10 @@ void on_threads(int count, const Body& body) {
   }
   std::exception_ptr failure;
   std::mutex failure_mutex;
+  const StopRequest* const request = detail::stop_request();
   const auto guarded = [&](int i) {
     const ThreadLimit alone(1);
+    const StopScope stoppable(request);
     try {
       body(i);
     } catch (...) {
@@ -83,7 +86,10 @@ void in_turns(int count, std::int64_t n, const Body& body) {
   std::atomic<std::int64_t> next{0};
   on_threads(count < n ? count : static_cast<int>(n), [&](int thread) {
     try {
-      for (std::int64_t i = next++; i < n; i = next++) body(thread, i);
+      for (std::int64_t i = next++; i < n; i = next++) {
+        detail::stop_if_asked();
+        body(thread, i);
+      }
     } catch (...) {
       next = n;
       throw;

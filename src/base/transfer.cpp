@@ -81,6 +81,7 @@ class Lanes {
     std::atomic<std::size_t> next{0};
     on_threads(threads, [&](int thread) {
       for (std::size_t chunk; (chunk = next++) < chunks;) {
+        detail::stop_if_asked();
         const std::size_t begin = chunk * chunk_bytes;
         copy(lanes_[thread], begin, std::min(chunk_bytes, bytes - begin));
       }

@@ -24,6 +24,7 @@ class FoundRows {
       found.reserve(usual * (end - begin));
       LastSeen seen;
       for (Offset row = begin; row < end; ++row) {
+        stop_if_asked_at(row);
         FewDistinct few;
         candidates(static_cast<Id>(row), [&](Id id) {
           if (seen.is_new(row, id)) few.insert(id);
@@ -41,6 +42,7 @@ class FoundRows {
     for_parts("GALE::write_distinct", begin.extent(0) - 1, size(), [&](int part, Offset first, Offset last) {
       const Id* from = parts_[part].data();
       for (Offset row = first; row < last; ++row) {
+        stop_if_asked_at(row);
         for (Id at = begin(row); at < begin(row + 1); ++at) {
           values(at) = *from++;
           row_of(at) = static_cast<Id>(row);

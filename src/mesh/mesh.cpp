@@ -188,7 +188,7 @@ Id Mesh::segment_of(int dimension, Id simplex) const {
 
 std::shared_ptr<const void> Mesh::kept(const std::string& key,
                                        const std::function<std::shared_ptr<const void>()>& make) const {
-  const std::lock_guard<std::mutex> lock(data_->kept_mutex);
+  const auto lock = detail::lock_or_stop(data_->kept_mutex);
   std::shared_ptr<const void>& what = data_->kept[key];
   if (!what) what = make();
   return what;

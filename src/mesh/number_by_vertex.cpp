@@ -281,6 +281,7 @@ InputNumbers number_by_vertex(const HostTables& simplices, const VertexInput<Hos
   for_parts("GALE::number_own", vertices, threads_for(vertices), [&](int, Offset first, Offset last) {
     OwnNumberer numberer(own, simplices, input.data(), numbers);
     for (Id vertex = static_cast<Id>(first); vertex < last; ++vertex) {
+      stop_if_asked_at(vertex);
       const Id later = input(std::min<Offset>(vertex + ahead, last - 1));
       if (edges) __builtin_prefetch(&begins.edges(later));
       if (triangles) __builtin_prefetch(&begins.triangles(later));

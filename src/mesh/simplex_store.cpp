@@ -63,7 +63,7 @@ Mirrored<Id> interval_begin_of(const Space& space, const MeshArrays& mesh, const
 
 template <class Memory>
 Simplices<Memory> SimplexStore::in(const SimplexNeeds& needs) {
-  const std::lock_guard<std::mutex> lock(mutex_);
+  const auto lock = lock_or_stop(mutex_);
   enumerate(needs);
   return view_of<Memory>(mesh_, tables_, needs);
 }
@@ -72,7 +72,7 @@ template <class Memory>
 const Array<const Id, Memory>& SimplexStore::interval_begin(int dimension) {
   const auto* const published = published_intervals_[dimension - 1].load(std::memory_order_acquire);
   if (published != nullptr) return published->in<Memory>();
-  const std::lock_guard<std::mutex> lock(mutex_);
+  const auto lock = lock_or_stop(mutex_);
   SimplexNeeds needs;
   needs.upto = dimension == 1 ? Enumeration::edges : Enumeration::triangles;
   needs.triangle_edge = false;

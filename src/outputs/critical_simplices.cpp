@@ -1,3 +1,4 @@
+#include <gale/base/stop.hpp>
 #include <gale/io/arrays.hpp>
 #include <gale/mesh/positions.hpp>
 #include <gale/outputs/corners.hpp>
@@ -56,13 +57,16 @@ KnownSimplices known_simplices(const DiscreteGradient& gradient, const CriticalS
   const Mesh& mesh = gradient.mesh();
   const Namer namer(gradient, numbers);
   KnownSimplices known;
-  for (const Id v : critical.vertices) known[0].push_back(namer.name(std::array<Id, 1>{v}, mesh.vertex_input()(v)));
-  for (std::size_t i = 0; i < critical.edges.size(); ++i)
-    known[1].push_back(namer.name(critical.edges[i], numbers.edges[i]));
+  const auto add = [&](int dimension, const CriticalSimplex& simplex) {
+    gale::detail::stop_if_asked_at(static_cast<Offset>(known[dimension].size()));
+    known[dimension].push_back(simplex);
+  };
+  for (const Id v : critical.vertices) add(0, namer.name(std::array<Id, 1>{v}, mesh.vertex_input()(v)));
+  for (std::size_t i = 0; i < critical.edges.size(); ++i) add(1, namer.name(critical.edges[i], numbers.edges[i]));
   for (std::size_t i = 0; i < critical.triangles.size(); ++i)
-    known[2].push_back(namer.name(critical.triangles[i], numbers.triangles[i]));
+    add(2, namer.name(critical.triangles[i], numbers.triangles[i]));
   for (const Id t : critical.tetrahedra)
-    known[3].push_back(namer.name_tetrahedron(detail::corners_of(mesh, t), mesh.tetrahedron_input()(t)));
+    add(3, namer.name_tetrahedron(detail::corners_of(mesh, t), mesh.tetrahedron_input()(t)));
   return known;
 }
 
@@ -73,13 +77,17 @@ io::PointSet to_point_set(const io::Dataset& dataset, const KnownSimplices& simp
   std::visit(
       [&](const auto& points) {
         std::decay_t<decltype(points)> positions("GALE::critical_simplices", all.size());
-        for (std::size_t i = 0; i < all.size(); ++i) gale::detail::store(middle_of(points, all[i]), positions, i);
+        for (std::size_t i = 0; i < all.size(); ++i) {
+          gale::detail::stop_if_asked_at(static_cast<Offset>(i));
+          gale::detail::store(middle_of(points, all[i]), positions, i);
+        }
         set.points = positions;
       },
       dataset.points);
   std::vector<std::int8_t> dimensions, on_surface;
   std::vector<Id> cells, highest;
   for (const CriticalSimplex& simplex : all) {
+    gale::detail::stop_if_asked_at(static_cast<Offset>(cells.size()));
     dimensions.push_back(simplex.dimension);
     on_surface.push_back(simplex.on_surface);
     cells.push_back(simplex.cell);

@@ -1,4 +1,5 @@
 #include <gale/base/require_ids.hpp>
+#include <gale/base/stop.hpp>
 #include <gale/mesh/positions.hpp>
 #include <gale/outputs/corners.hpp>
 #include <gale/outputs/separatrices2.hpp>
@@ -92,10 +93,13 @@ class Walls {
   }
 
   void number_points() {
+    Offset used = 0;
     for (const auto& triangle : complex_.descending_walls.cells) {
+      gale::detail::stop_if_asked_at(used++);
       for (const Id vertex : triangle) vertices_.use(vertex_input_[vertex], vertex_input_[vertex]);
     }
     for (std::size_t edge = 0; edge < complex_.ascending_walls.walls.cells.size(); ++edge) {
+      gale::detail::stop_if_asked_at(used++);
       if (is_polygon(edge)) for_each_in_star(edge, [&](Id t) { tetrahedra_.use(tetrahedron_input_[t], t); });
     }
     const std::vector<Id> vertices = vertices_.number(0);
@@ -105,12 +109,13 @@ class Walls {
         [&](const auto& points) {
           std::decay_t<decltype(points)> positions("GALE::walls", vertices.size() + tetrahedra.size());
           Offset row = 0;
-          for (const Id vertex : vertices)
-            gale::detail::store(gale::detail::point_of(points, vertex), positions, row++);
+          const auto add = [&](const auto& point) {
+            gale::detail::stop_if_asked_at(row);
+            gale::detail::store(point, positions, row++);
+          };
+          for (const Id vertex : vertices) add(gale::detail::point_of(points, vertex));
           for (const Id t : tetrahedra)
-            gale::detail::store(
-                gale::detail::barycentre(points, detail::to_input(vertex_input_, detail::corners_of(mesh_, t))),
-                positions, row++);
+            add(gale::detail::barycentre(points, detail::to_input(vertex_input_, detail::corners_of(mesh_, t))));
           surface_.points = positions;
         },
         dataset_.points);
@@ -123,6 +128,7 @@ class Walls {
     const auto met = neighbours(connectors_.destinations, connectors_.sources, critical_[2].size());
     for (Id i = 0; i < walls.count(); ++i) {
       const CriticalSimplex& source = critical_[2][walls.sources[i]];
+      gale::detail::stop_if_asked();
       std::vector<Id> low;
       for (auto triangle = walls.first(i); triangle != walls.last(i); ++triangle) {
         for (const Id vertex : *triangle) {
@@ -146,6 +152,7 @@ class Walls {
     const auto met = neighbours(connectors_.sources, connectors_.destinations, critical_[1].size());
     for (Id i = 0; i < walls.count(); ++i) {
       const CriticalSimplex& source = critical_[1][walls.sources[i]];
+      gale::detail::stop_if_asked();
       std::vector<Id> high;
       for (Offset edge = walls.begin[i]; edge < walls.begin[i + 1]; ++edge) {
         high.push_back(vertex_input_[walls.cells[edge][0]]);

@@ -31,7 +31,10 @@ StarSizes greatest_bound(const Mesh& mesh, const SegmentKernel<Memory>& kernel) 
   std::vector<StarSizes> greatest(threads);
   for_parts("GALE::greatest_bound", mesh.segments(), threads, [&](int thread, Offset begin, Offset end) {
     StarSizes sizes;
-    for (Offset s = begin; s < end; ++s) sizes = larger(sizes, kernel.bound(static_cast<Id>(s)));
+    for (Offset s = begin; s < end; ++s) {
+      detail::stop_if_asked_at(s);
+      sizes = larger(sizes, kernel.bound(static_cast<Id>(s)));
+    }
     greatest[thread] = sizes;
   });
   return std::accumulate(greatest.begin(), greatest.end(), StarSizes(), larger);

@@ -62,8 +62,8 @@ class ProgressReport {
 /// The loop of every sweep: calls `body(consumer, segment)` once for each segment 0..segments-1 on `options.threads`
 /// threads, each with a consumer's number of its own. Each consumer's segments ascend. Progress is told on the calling
 /// thread, which is consumer 0, and at the end. The first exception that a body or the progress callback throws is
-/// thrown again here, when the segments under way are done; no other is begun. Throws gale::Error for less than one
-/// thread.
+/// thrown again here, when the segments under way are done; no other is begun, nor when it is asked to stop. Throws
+/// gale::Error for less than one thread.
 template <class Body>
 void sweep(Id segments, const SweepOptions& options, const Body& body) {
   if (options.threads < 1) throw Error("a sweep takes at least 1 thread, not " + std::to_string(options.threads));
@@ -74,6 +74,7 @@ void sweep(Id segments, const SweepOptions& options, const Body& body) {
       for (auto range = cursor.take(); range.begin < range.end; range = cursor.take()) {
         for (Id segment = range.begin; segment < range.end; ++segment) {
           if (cursor.stopped()) return;
+          stop_if_asked();
           body(consumer, segment);
         }
         const Id done = cursor.finish(range.end - range.begin);

@@ -63,6 +63,7 @@ class WallTracer {
     seen_.insert(pair_key(critical[0], critical[1]));
     const auto first = static_cast<std::ptrdiff_t>(walls.cells.size());
     for (Edge edge = critical;; edge = pending_.take()) {
+      stop_if_asked();
       const auto [high, low] = edge;
       star_.find(high, low, consumer_->row(Relation::VT, high));
       walls.cells.push_back({edge, thread_, static_cast<Id>(star_.around().size()), static_cast<Offset>(stars.size())});

@@ -4,6 +4,7 @@
 
 #include <gale/algorithms/critical_simplices.hpp>
 #include <gale/base/hash_table.hpp>
+#include <gale/base/stop.hpp>
 
 namespace gale::detail {
 
@@ -24,6 +25,7 @@ class CriticalPlaces {
  private:
   static void add(HashTable<Id>& places, std::uint64_t key) {
     const Id place = static_cast<Id>(places.size());
+    stop_if_asked_at(place);
     places.insert(key).first = place;
   }
 

@@ -1,5 +1,6 @@
 #include <gale/algorithms/morse_smale/descending_wall.hpp>
 #include <gale/algorithms/order/written.hpp>
+#include <gale/base/stop.hpp>
 
 namespace gale::detail {
 
@@ -14,6 +15,7 @@ void DescendingWall::follow(const TriangleVertices& critical) {
   floor_ = 0;
   begin(critical);
   for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
+    stop_if_asked_at(i);
     prefetch(i + 8);
     cross_sides(i);
   }
@@ -29,6 +31,7 @@ bool DescendingWall::follow_to(const TriangleVertices& critical, const Edge& edg
   floor_ = above_it ? keys_[edge.high] : 0;
   begin(critical);
   for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
+    stop_if_asked_at(i);
     cross_sides(i);
     while (!critical_edges_.empty()) {
       const Edge met = critical_edges_.back();

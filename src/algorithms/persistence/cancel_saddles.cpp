@@ -90,6 +90,7 @@ class Canceller {
   }
 
   void cancel(Id lower, Id upper) {
+    stop_if_asked();
     turn_path(lower, upper);
     lower_[lower] = upper_[upper] = 0;
     graph_.cancel(lower, upper, [this](Id from, Id to) {
@@ -191,7 +192,10 @@ class Canceller {
 
   std::vector<Exchange> possible_exchanges() const {
     std::vector<Exchange> possible;
-    for (const Id lower : left(lower_)) add_exchanges(lower, possible);
+    for (const Id lower : left(lower_)) {
+      stop_if_asked();
+      add_exchanges(lower, possible);
+    }
     return possible;
   }
 

@@ -6,6 +6,7 @@
 
 #include <gale/algorithms/discrete_gradient.hpp>
 #include <gale/algorithms/gradient/gradient_store.hpp>
+#include <gale/base/stop.hpp>
 
 namespace gale::detail {
 
@@ -47,6 +48,7 @@ class EdgeChain {
   /// Lets it fall until the highest of its edges is a critical one, which is set. False if nothing is left of it.
   bool fall(LowerEdge& highest) {
     while (!heap_.empty()) {
+      stop_if_asked_at(++steps_);
       const Id high = take_star();
       cross_star(high);
       if (critical_.empty()) continue;
@@ -121,6 +123,7 @@ class EdgeChain {
   const std::uint64_t* keys_;
   std::vector<Entry> heap_;
   std::vector<Id> lows_, critical_;
+  std::int64_t steps_ = 0;
 };
 
 }  // namespace gale::detail

@@ -4,6 +4,7 @@
 
 #include <gale/algorithms/gradient/gradient_store.hpp>
 #include <gale/algorithms/persistence/forked_maxima.hpp>
+#include <gale/base/stop.hpp>
 
 namespace gale::detail {
 
@@ -30,6 +31,7 @@ class ForkedEnds {
   const Ranks& of(Id tetrahedron) {
     std::vector<Id> path = {tetrahedron};
     while (!path.empty()) {
+      stop_if_asked();
       const Id at = path.back();
       const Id next = ends_.count(at) != 0 ? no_id : first_unknown(at);
       if (next != no_id) {
@@ -86,7 +88,10 @@ std::vector<Id> pair_forked_maxima(const DiscreteGradient& gradient, const Criti
     Ranks left;
     for (Id i = critical.star_begin[*saddle]; i < critical.star_begin[*saddle + 1]; ++i)
       add(left, ends.of(critical.star[i]));
-    while (!left.empty() && !reduced[left[0]].empty()) add(left, reduced[left[0]]);
+    while (!left.empty() && !reduced[left[0]].empty()) {
+      stop_if_asked();
+      add(left, reduced[left[0]]);
+    }
     if (left.empty()) continue;
     const Id lowest = left[0];
     saddle_of[maxima[lowest]] = *saddle;

@@ -1,6 +1,7 @@
 #include <utility>
 
 #include <gale/algorithms/persistence/joined_ends.hpp>
+#include <gale/base/stop.hpp>
 
 namespace gale::detail {
 
@@ -33,6 +34,7 @@ std::vector<Id> join_ends(const std::vector<Id>& saddles, const PathEnds& ends, 
   Sets sets(age.size() + 1);
   const auto oldest = [&](Id end) { return sets.oldest(end == no_id ? 0 : age[end] + 1); };
   for (const Id saddle : saddles) {
+    stop_if_asked_at(saddle);
     Id one = oldest(ends[saddle][0]), other = oldest(ends[saddle][1]);
     if (one == other) continue;
     if (one < other) std::swap(one, other);

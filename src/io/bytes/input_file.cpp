@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include <gale/base/error.hpp>
+#include <gale/base/stop.hpp>
 #include <gale/io/bytes/damaged.hpp>
 #include <gale/io/bytes/input_file.hpp>
 
@@ -39,8 +40,9 @@ void InputFile::read(std::uint64_t at, char* to, std::size_t bytes) const {
     damaged("it ends after " + std::to_string(size_) + " bytes, where " + std::to_string(bytes) + " from byte " +
             std::to_string(at) + " on were to come");
   }
-  constexpr std::size_t most_at_once = 1 << 30;  // of a call: some systems take no more than 2 GiB
+  constexpr std::size_t most_at_once = 1 << 24;
   while (bytes > 0) {
+    gale::detail::stop_if_asked();
     const ssize_t got = pread(descriptor_, to, std::min(bytes, most_at_once), static_cast<off_t>(at));
     if (got == -1 && errno == EINTR) continue;
     if (got == -1) throw Error(std::strerror(errno));

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include <gale/base/stop.hpp>
 #include <gale/io/bytes/damaged.hpp>
 #include <gale/io/bytes/text_reader.hpp>
 
@@ -17,6 +18,7 @@ bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 TextReader::TextReader(ByteSource& source) : source_(source), buffer_(1 << 17) {}
 
 bool TextReader::refill() {
+  gale::detail::stop_if_asked();
   if (at_ > 0) {
     std::memmove(buffer_.data(), buffer_.data() + at_, end_ - at_);
     end_ -= at_;

@@ -2,6 +2,7 @@
 #include <limits>
 #include <string>
 
+#include <gale/base/stop.hpp>
 #include <gale/io/bytes/damaged.hpp>
 #include <gale/io/bytes/numbers.hpp>
 #include <gale/io/bytes/values.hpp>
@@ -42,6 +43,7 @@ PointArray::Values read_values(ByteSource& source, ValueType type, std::uint64_t
     std::vector<T> values;
     values.reserve(count);
     while (values.size() < count) {
+      gale::detail::stop_if_asked();
       const std::size_t begin = values.size();
       const std::size_t wanted = std::min<std::size_t>(count - begin, bytes_at_once / sizeof(T));
       values.resize(begin + wanted);

@@ -52,6 +52,7 @@ std::vector<T> taken_as(PointArray::Values& values, const char* what) {
   return with_integers(values, what, [&](const auto& from) {
     std::vector<T> to(from.size());
     for (std::size_t k = 0; k < from.size(); ++k) {
+      gale::detail::stop_if_asked_at(static_cast<Offset>(k));
       to[k] = static_cast<T>(from[k]);
       const bool fits = static_cast<std::decay_t<decltype(from[k])>>(to[k]) == from[k] && (to[k] < 0) == (from[k] < 0);
       if (!fits) damaged(std::string("one of its ") + what + " is " + std::to_string(from[k]));
@@ -75,6 +76,7 @@ Census take_census(const Types& types, const Ends& ends, std::size_t connectivit
   for (int number = 0; number < 256; ++number) known[number] = find_cell_type(number);
   std::uint64_t begin = 0;
   for (std::size_t c = 0; c < types.size(); ++c) {
+    gale::detail::stop_if_asked_at(static_cast<Offset>(c));
     const int number = types[c];
     const CellType* const type = known[number];
     if (type == nullptr) damaged("cell " + std::to_string(c) + " has the unknown type " + std::to_string(number));
@@ -127,6 +129,7 @@ void copy_some(const Types& types, const Ends& ends, const Connectivity& from, s
                const Tetrahedra& to) {
   std::size_t t = 0;
   for (std::size_t c = 0; c < types.size(); ++c) {
+    gale::detail::stop_if_asked_at(static_cast<Offset>(c));
     if (types[c] != tetrahedron_type) continue;
     for (int k = 0; k < 4; ++k) {
       const auto id = from[static_cast<std::size_t>(ends[c]) - 4 + k];
@@ -145,6 +148,7 @@ Tetrahedra split(const MeshParts& parts, const Types& types, const Ends& ends, c
   std::vector<std::int64_t> solid_ends, solid_points;
   std::size_t begin = 0;
   for (std::size_t c = 0; c < types.size(); ++c) {
+    gale::detail::stop_if_asked_at(static_cast<Offset>(c));
     const auto end = static_cast<std::size_t>(ends[c]);
     const CellType& type = *find_cell_type(types[c]);
     if (type.dimension == 3) {

@@ -1,5 +1,6 @@
 #include <dlfcn.h>
 #include <fcntl.h>
+#include <poll.h>
 #include <spawn.h>
 #include <sys/mman.h>
 #include <sys/wait.h>
@@ -10,6 +11,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include <gale/base/stop.hpp>
 #include <gale/io/bytes/damaged.hpp>
 #include <gale/io/formats/readers.hpp>
 
@@ -97,10 +99,39 @@ int moved_up(int number) {
   return moved;
 }
 
+/// A process that doesn't outlive what waits for it.
+class Process {
+ public:
+  explicit Process(pid_t id) : id_(id) {}
+  ~Process() {
+    if (id_ == 0) return;
+    kill(id_, SIGKILL);
+    wait();
+  }
+  Process(const Process&) = delete;
+  Process& operator=(const Process&) = delete;
+
+  /// Its status.
+  int wait() {
+    int status = 0;
+    while (waitpid(id_, &status, 0) < 0 && errno == EINTR) {
+    }
+    id_ = 0;
+    return status;
+  }
+
+ private:
+  pid_t id_;
+};
+
 std::string all_of(int pipe) {
   std::string text;
   char buffer[1024];
   for (;;) {
+    constexpr int milliseconds = 50;
+    pollfd ready = {pipe, POLLIN, 0};
+    gale::detail::stop_if_asked();
+    if (poll(&ready, 1, milliseconds) == 0) continue;
     const ssize_t got = ::read(pipe, buffer, sizeof buffer);
     if (got < 0 && errno == EINTR) continue;
     if (got <= 0) return text;
@@ -118,14 +149,13 @@ std::string run(const char* format, const std::string& path, int result) {
   const std::string absolute = fs::absolute(path).string();
   char* const arguments[] = {const_cast<char*>(program.c_str()), const_cast<char*>(format),
                              const_cast<char*>(absolute.c_str()), nullptr};
-  pid_t process;
-  const int failure = posix_spawn(&process, program.c_str(), &spawning.files, &spawning.attributes, arguments, environ);
+  pid_t id;
+  const int failure = posix_spawn(&id, program.c_str(), &spawning.files, &spawning.attributes, arguments, environ);
   if (failure != 0) throw Error(program + " can't be run: " + std::strerror(failure));
+  Process process(id);
   to.close();
   const std::string message = all_of(from);
-  int status = 0;
-  while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
-  }
+  const int status = process.wait();
   if (WIFSIGNALED(status)) damaged(std::string("VTK's reader ended by a signal (") + strsignal(WTERMSIG(status)) + ")");
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
     throw Error(message.empty() ? "VTK's reader ended without a word" : printable(message));

@@ -5,6 +5,7 @@
 #include <vtk_zlib.h>
 
 #include <gale/base/error.hpp>
+#include <gale/base/stop.hpp>
 #include <gale/io/bytes/damaged.hpp>
 #include <gale/io/bytes/inflated_bytes.hpp>
 
@@ -36,6 +37,7 @@ std::size_t InflatedBytes::read(char* to, std::size_t bytes) {
   Stream& s = *stream_;
   std::size_t got = 0;
   while (got < bytes) {
+    gale::detail::stop_if_asked();
     if (!s.refill()) {
       if (!s.ended) damaged("its compressed data ends too early");
       break;
@@ -46,7 +48,7 @@ std::size_t InflatedBytes::read(char* to, std::size_t bytes) {
       inflateReset(&s.z);
       s.ended = false;
     }
-    const auto wanted = static_cast<uInt>(std::min<std::size_t>(bytes - got, 1u << 30));
+    const auto wanted = static_cast<uInt>(std::min<std::size_t>(bytes - got, 1u << 24));
     s.z.next_out = reinterpret_cast<Bytef*>(to + got);
     s.z.avail_out = wanted;
     const int status = inflate(&s.z, Z_NO_FLUSH);

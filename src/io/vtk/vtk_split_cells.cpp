@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <type_traits>
 
 #include <vtkCellArray.h>
@@ -8,6 +9,7 @@
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 
+#include <gale/base/stop.hpp>
 #include <gale/io/cells/cells.hpp>
 #include <gale/io/vtk/vtk_messages.hpp>
 
@@ -27,30 +29,29 @@ std::vector<std::int32_t> split_cells(const PointArray::Values& points, const st
                         static_cast<double>(from[i + 2]));
       },
       points);
-  vtkNew<vtkUnstructuredGrid> grid;
-  grid->SetPoints(xyz);
-  grid->Allocate(static_cast<vtkIdType>(types.size()));
-  std::vector<vtkIdType> ids;
-  std::int64_t begin = 0;
-  for (std::size_t c = 0; c < types.size(); ++c) {
-    ids.assign(connectivity.begin() + begin, connectivity.begin() + ends[c]);
-    grid->InsertNextCell(types[c], static_cast<vtkIdType>(ids.size()), ids.data());
-    begin = ends[c];
-  }
-  vtkNew<vtkDataSetTriangleFilter> filter;
-  filter->SetInputData(grid);
-  filter->TetrahedraOnlyOn();
-  filter->Update();
-  messages.check(filter->GetErrorCode());
-
-  vtkUnstructuredGrid* const split = filter->GetOutput();
   std::vector<std::int32_t> result;
-  result.reserve(4 * static_cast<std::size_t>(split->GetNumberOfCells()));
-  for (vtkIdType c = 0; c < split->GetNumberOfCells(); ++c) {
-    vtkIdType size;
-    const vtkIdType* corners;
-    split->GetCellPoints(c, size, corners);
-    for (vtkIdType k = 0; size == 4 && k < 4; ++k) result.push_back(static_cast<std::int32_t>(corners[k]));
+  constexpr std::size_t at_once = 1 << 14;  // cells: VTK is not asked to stop
+  for (std::size_t first = 0; first < types.size(); first += at_once) {
+    gale::detail::stop_if_asked();
+    vtkNew<vtkUnstructuredGrid> grid;
+    grid->SetPoints(xyz);
+    std::vector<vtkIdType> ids;
+    for (std::size_t c = first; c < std::min(first + at_once, types.size()); ++c) {
+      ids.assign(connectivity.begin() + (c == 0 ? 0 : ends[c - 1]), connectivity.begin() + ends[c]);
+      grid->InsertNextCell(types[c], static_cast<vtkIdType>(ids.size()), ids.data());
+    }
+    vtkNew<vtkDataSetTriangleFilter> filter;
+    filter->SetInputData(grid);
+    filter->TetrahedraOnlyOn();
+    filter->Update();
+    messages.check(filter->GetErrorCode());
+    vtkUnstructuredGrid* const split = filter->GetOutput();
+    for (vtkIdType c = 0; c < split->GetNumberOfCells(); ++c) {
+      vtkIdType size;
+      const vtkIdType* corners;
+      split->GetCellPoints(c, size, corners);
+      for (vtkIdType k = 0; size == 4 && k < 4; ++k) result.push_back(static_cast<std::int32_t>(corners[k]));
+    }
   }
   return result;
 }
