@@ -17,7 +17,7 @@ diagram = mesh.persistence_diagram(values)
 
 figure, (left, right) = plt.subplots(1, 2, figsize=(10, 4.6), layout="constrained")
 for kind, name in enumerate(("minimum and 1-saddle", "1-saddle and 2-saddle", "2-saddle and maximum")):
-    pairs = (diagram.type == kind) & (diagram.is_finite == 1)
+    pairs = (diagram.type == kind) & diagram.is_finite
     shown = np.unique(np.column_stack([diagram.birth[pairs], diagram.death[pairs]]), axis=0)
     left.scatter(*shown.T, s=3, color=COLORS[kind + kind // 2] / 255, label=name)
     persistence = np.sort(diagram.persistence[pairs])

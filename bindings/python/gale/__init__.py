@@ -9,6 +9,10 @@
 import atexit
 import os
 
+from . import _interpreter
+
+_interpreter.require_main()  # before anything else, since what is loaded by a second interpreter breaks the first
+
 from . import _gale
 from ._gale import Error
 from ._gale import version as __version__

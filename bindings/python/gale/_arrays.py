@@ -9,6 +9,7 @@ from . import _gale
 from ._gale import Error
 
 _HOST = (1, 3)  # DLPack's codes of host memory, and of host memory that CUDA knows
+_AT_ONCE = 1 << 20  # rows that are converted between two looks at whether the user has interrupted
 
 
 def _device_array(array: Any) -> Any:
@@ -28,34 +29,59 @@ def _device_array(array: Any) -> Any:
 
 
 def _host_array(array: Any) -> np.ndarray:
+    if np.ma.is_masked(array):
+        raise Error("some values of an array are masked: fill them first")
     is_numpys = hasattr(array, "__array__") or hasattr(array, "__array_interface__") or not hasattr(array, "__dlpack__")
-    return np.asarray(array) if is_numpys else np.from_dlpack(array)
+    try:
+        return np.asarray(array) if is_numpys else np.from_dlpack(array)
+    except (BufferError, RuntimeError, TypeError, ValueError) as error:
+        raise Error(f"what is no array can't be read as one: {error}") from error
 
 
-def rows(array: Any, kinds: tuple[type, ...], default: type) -> Any:
-    """The array itself, if its type is one of `kinds` and its rows follow each other; else a copy of type `default`.
-    What a device has stays as it is."""
+def _converted(array: np.ndarray, dtype: np.dtype) -> np.ndarray:
+    """The array itself if it is of that type and its rows follow each other, else a copy."""
+    if array.dtype == dtype and array.flags.c_contiguous:
+        return array
+    if array.ndim == 0:
+        return array.astype(dtype)
+    copy = np.empty(array.shape, dtype)
+    for begin in range(0, len(array), _AT_ONCE):
+        copy[begin:begin + _AT_ONCE] = array[begin:begin + _AT_ONCE]
+    return copy
+
+
+def points(array: Any) -> Any:
+    """As float32 or float64."""
     on_device = _device_array(array)
     if on_device is not None:
         return on_device
     array = _host_array(array)
-    if array.dtype not in kinds:
-        if not (np.issubdtype(array.dtype, np.integer) or np.issubdtype(array.dtype, np.floating)):
-            raise Error(f"an array of {array.dtype} is not one of numbers")
-        array = array.astype(default)
-    return np.ascontiguousarray(array)
+    if array.dtype.kind not in "iuf":
+        raise Error(f"points of {array.dtype} are not numbers")
+    return _converted(array, np.dtype(np.float32 if array.dtype == np.float32 else np.float64))
+
+
+def ids(array: Any) -> Any:
+    """As int32 or int64, from any integers."""
+    on_device = _device_array(array)
+    if on_device is not None:
+        return on_device
+    array = _host_array(array)
+    if array.dtype.kind not in "iu":
+        raise Error(f"tetrahedra of {array.dtype} are not integers: they are ids of vertices, numbers of points from 0")
+    if array.dtype.kind == "u" and array.dtype.itemsize == 8 and array.size > 0 and array.max() > np.iinfo(np.int64).max:
+        raise Error(f"tetrahedra have a vertex {array.max()}, which is too large for any mesh")
+    return _converted(array, np.dtype(np.int32 if array.dtype == np.int32 else np.int64))
 
 
 def field(values: Any) -> Any:
-    """The values as one of the types that GALE has fields of. What a device has stays as it is."""
+    """As one of the types that GALE has fields of."""
     on_device = _device_array(values)
     if on_device is not None:
         return on_device
     values = _host_array(values)
     if values.dtype == np.bool_:
         values = values.view(np.uint8)
-    elif values.dtype == np.float16:
-        values = values.astype(np.float32)
-    elif values.dtype.kind not in "iuf" or values.dtype.itemsize > 8:
+    if values.dtype.kind not in "iuf" or values.dtype.itemsize > 8:
         raise Error(f"a field of {values.dtype} is not one of numbers of up to 8 bytes")
-    return np.ascontiguousarray(values.astype(values.dtype.newbyteorder("="), copy=False))
+    return _converted(values, np.dtype(np.float32) if values.dtype == np.float16 else values.dtype.newbyteorder("="))

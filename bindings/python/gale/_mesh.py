@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import os
+import warnings
 from typing import Any, Dict, Optional, Tuple, Union
 
 import numpy as np
@@ -18,25 +19,47 @@ def _persistence(threshold: Optional[Persistence]) -> Tuple[Optional[float], boo
     """(threshold, whether it is in percent of the field's range)"""
     if threshold is None:
         return None, False
-    if isinstance(threshold, str):
-        if not threshold.endswith("%"):
-            raise Error(f"the persistence '{threshold}' is neither a number nor a percentage such as '3%'")
-        value, is_percent = float(threshold[:-1]), True
-    else:
-        value, is_percent = float(threshold), False
+    is_percent = isinstance(threshold, str)
+    try:
+        if isinstance(threshold, str) and not threshold.endswith("%"):
+            raise ValueError
+        value = float(threshold[:-1] if isinstance(threshold, str) else threshold)
+    except (OverflowError, TypeError, ValueError):
+        raise Error(f"the persistence {threshold!r} is neither a number nor a percentage such as '3%'") from None
     if not value >= 0:
         raise Error(f"the persistence {threshold} is not 0 or more")
     return value, is_percent
+
+
+def _cells_of(grid: Any) -> Tuple[np.ndarray, np.ndarray]:
+    """(points, tetrahedra) of an unstructured grid."""
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+
+    if grid.GetNumberOfCells() == 0:
+        raise Error("the grid has no cells")
+    has_distinct = hasattr(grid, "GetDistinctCellTypesArray")  # newer VTKs have no type for each cell where all agree
+    types = grid.GetDistinctCellTypesArray() if has_distinct else grid.GetCellTypesArray()
+    if not np.all(vtk_to_numpy(types) == 10):  # VTK_TETRA
+        raise Error("not all cells are tetrahedra: triangulate() makes such a grid")
+    offsets = vtk_to_numpy(grid.GetCells().GetOffsetsArray())
+    for begin in range(0, len(offsets), 1 << 20):
+        some = offsets[begin:begin + (1 << 20)]
+        if np.any(some != np.arange(4 * begin, 4 * (begin + len(some)), 4)):
+            raise Error("not all of the grid's tetrahedra have four points")
+    connectivity = vtk_to_numpy(grid.GetCells().GetConnectivityArray())
+    return vtk_to_numpy(grid.GetPoints().GetData()), connectivity.reshape(-1, 4)
 
 
 class Mesh:
     """A tetrahedral mesh.
 
     points: (n, 3) float32 or float64, tetrahedra: (m, 4) int32 or int64 vertex ids: numpy's, or by the array interface or
-    DLPack; on a GALE with CUDA also in a device's memory, by DLPack or `__cuda_array_interface__`. Read where they are;
-    of other types, or where rows don't follow each other, a copy. `points` must not change while the mesh lives.
+    DLPack; on a GALE with CUDA also in a device's memory, by DLPack or `__cuda_array_interface__`. They are copied: what
+    happens to them afterwards, the mesh doesn't see.
 
     capacity: how many vertices a segment has at most; no result depends on it.
+
+    Meshes don't change. They can be pickled, and sent to other processes.
 
     Fields are arrays, (n,), of a number for each point, from where points may be. Everywhere, `threads` is how many
     threads to use (0: as many as there are cores). `progress(done, all)` is called now and then, and may raise to end the
@@ -46,23 +69,14 @@ class Mesh:
     _mesh: _gale.Mesh
 
     def __init__(self, points: Any, tetrahedra: Any, capacity: int = 64) -> None:
-        self._mesh = _gale.Mesh(_arrays.rows(points, (np.float32, np.float64), np.float64),
-                                _arrays.rows(tetrahedra, (np.int32, np.int64), np.int64), capacity)
+        self._mesh = _gale.Mesh(_arrays.points(points), _arrays.ids(tetrahedra), capacity)
 
     @classmethod
     def from_pyvista(cls, grid: Any, capacity: int = 64) -> Mesh:
-        """Of a pyvista.UnstructuredGrid, or a vtkUnstructuredGrid, all of whose cells are tetrahedra. Its points and
-        cells are read where they are."""
-        from vtkmodules.util.numpy_support import vtk_to_numpy
-
-        if grid.GetNumberOfCells() == 0:
-            raise Error("the grid has no cells")
-        has_distinct = hasattr(grid, "GetDistinctCellTypesArray")  # newer VTKs have no type for each cell where all agree
-        types = grid.GetDistinctCellTypesArray() if has_distinct else grid.GetCellTypesArray()
-        if not np.all(vtk_to_numpy(types) == 10):  # VTK_TETRA
-            raise Error("not all cells are tetrahedra: triangulate() makes such a grid")
-        connectivity = vtk_to_numpy(grid.GetCells().GetConnectivityArray())
-        return cls(vtk_to_numpy(grid.GetPoints().GetData()), connectivity.reshape(-1, 4), capacity)
+        """Of a pyvista.UnstructuredGrid, or a vtkUnstructuredGrid, all of whose cells are tetrahedra."""
+        if not hasattr(grid, "IsA") or not grid.IsA("vtkUnstructuredGrid"):
+            raise Error(f"what is of {type(grid).__name__} is no unstructured grid of tetrahedra")
+        return cls(*_cells_of(grid), capacity)
 
     @classmethod
     def _of(cls, inner: _gale.Mesh) -> Mesh:
@@ -89,6 +103,15 @@ class Mesh:
     def points(self) -> np.ndarray:
         """A copy of the points, (n, 3)."""
         return np.asarray(self._mesh.points())
+
+    def __reduce__(self) -> Tuple[Any, ...]:
+        return type(self), (self.points, self.relation("TV")[1].reshape(-1, 4), self._mesh.capacity)
+
+    def __copy__(self) -> Mesh:
+        return self
+
+    def __deepcopy__(self, memo: Any) -> Mesh:
+        return self
 
     def __repr__(self) -> str:
         return f"gale.Mesh({self.vertices} vertices, {self.tetrahedra} tetrahedra)"
@@ -118,7 +141,7 @@ class Mesh:
     def critical_points(self, field: Any, name: str = "field", threads: int = 0,
                         progress: Progress = None) -> CriticalPoints:
         """The critical points of the piecewise linear field, by ascending vertex: CriticalPoints with the arrays `name`,
-        CriticalType (int8: 0 minimum, 1 and 2 saddles, 3 maximum, 4 degenerate), IsOnBoundary (int8) and
+        CriticalType (int8: 0 minimum, 1 and 2 saddles, 3 maximum, 4 degenerate), IsOnBoundary (bool) and
         ttkVertexScalarField (int32), the vertex."""
         with told(progress, "critical points") as tell:
             return CriticalPoints(*self._mesh.critical_points(_arrays.field(field), name, threads, tell))
@@ -126,7 +149,7 @@ class Mesh:
     def critical_simplices(self, field: Any, name: str = "field", threads: int = 0,
                            progress: Progress = None) -> CriticalPoints:
         """The simplices that the discrete gradient pairs with no other: CriticalPoints with the arrays `name`,
-        CellDimension (int8: 0 minimum to 3 maximum), CellId (int32), IsOnBoundary (int8) and ttkVertexScalarField (int32),
+        CellDimension (int8: 0 minimum to 3 maximum), CellId (int32), IsOnBoundary (bool) and ttkVertexScalarField (int32),
         the highest vertex."""
         with told(progress, "gradient") as tell:
             return CriticalPoints(*self._mesh.critical_simplices(_arrays.field(field), name, threads, tell))
@@ -169,5 +192,13 @@ def read(path: Union[str, os.PathLike[str]], above: Optional[float] = None, arra
     Meshes: .vtu, .pvtu, .vtk, .e, .ex2, .exo, .vtkhdf, .hdf; volumes, of which the voxels with values above `above` are split into tetrahedra: .vti, .nii,
     .nii.gz, .mha, .mhd, .nrrd, .vtk; and grid:N. `array` is the volume's array that `above` is about. What of the file
     is left out, such as all but the first of several times, is a UserWarning."""
-    inner, arrays = _gale.read(os.fspath(path), above, array, tetrahedralize, outside_files, capacity)
+    place = os.fsencode(path)
+    if b"\0" in place:
+        raise Error(f"the path {path!r} has a null character")
+    inner, arrays, notices = _gale.read(place, above, array, tetrahedralize, outside_files, capacity)
+    name = os.fsdecode(path)
+    if array and array not in arrays:
+        raise Error(f"{name} has no point array '{array}': it has {', '.join(arrays) or 'none'}")
+    for notice in notices:
+        warnings.warn(f"{name}: {notice}", stacklevel=2)
     return Mesh._of(inner), arrays

@@ -4,6 +4,8 @@ from __future__ import annotations
 from contextlib import contextmanager
 from typing import Any, Callable, Iterator, Optional, Union
 
+import numpy as np
+
 Progress = Union[bool, Callable[[int, int], Any], None]
 
 
@@ -13,6 +15,8 @@ def told(progress: Progress, title: str) -> Iterator[Optional[Callable[[int, int
     if progress is None or progress is False or callable(progress):
         yield progress or None
         return
+    if not isinstance(progress, (bool, np.bool_)):
+        raise TypeError(f"progress is {progress!r}: neither a function nor True")
     try:
         from tqdm.auto import tqdm
     except ImportError:

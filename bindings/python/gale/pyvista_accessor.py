@@ -7,7 +7,7 @@ from typing import Any, Optional, Tuple
 import numpy as np
 import pyvista
 
-from . import Diagram, Mesh
+from . import Diagram, Error, Mesh
 
 
 @pyvista.register_dataset_accessor("gale", pyvista.UnstructuredGrid)
@@ -34,8 +34,9 @@ class GaleAccessor:
         return (self._grid.n_points, self._grid.n_cells) != self._made_from[1:] or max(times) > self._made_from[0]
 
     def _field(self, name: str) -> Any:
-        if name not in self._grid.point_data:
-            raise KeyError(f"the grid has no point array '{name}': it has {', '.join(self._grid.point_data) or 'none'}")
+        names = self._grid.point_data.keys()
+        if name not in names:
+            raise Error(f"the grid has no point array '{name}': it has {', '.join(names) or 'none'}")
         return self._grid.point_data[name]
 
     def critical_points(self, name: str, **options: Any) -> Any:
@@ -50,13 +51,14 @@ class GaleAccessor:
         """The gale.Diagram of the point array `name`."""
         return self.mesh.persistence_diagram(self._field(name), name=name, **options)
 
-    def morse_smale(self, name: str, **options: Any) -> Tuple[Any, Any, Any]:
+    def morse_smale(self, name: str, **options: Any) -> Tuple[Any, ...]:
         """(critical points, separatrices, grid): two pyvista.PolyData, and a copy of the grid with the manifolds as point
-        arrays."""
+        arrays. With `separatrices2`, a pyvista.PolyData of the walls comes last."""
         found = self.mesh.morse_smale(self._field(name), name=name, **options)
         grid = self._grid.copy(deep=False)
         grid.point_data.update(found.manifolds)
-        return found.critical_points.to_pyvista(), found.separatrices1.to_pyvista(), grid
+        walls = () if found.separatrices2 is None else (found.separatrices2.to_pyvista(),)
+        return (found.critical_points.to_pyvista(), found.separatrices1.to_pyvista(), grid, *walls)
 
     def relation(self, name: str, **options: Any) -> Tuple[np.ndarray, np.ndarray]:
         """(indptr, indices) of a relation such as "VT"."""

@@ -9,6 +9,7 @@
 #include <gale/runtime/make_structure.hpp>
 
 #include "fields.hpp"
+#include "job.hpp"
 #include "mesh.hpp"
 
 namespace gale::python {
@@ -25,13 +26,14 @@ nb::object column(const std::vector<outputs::DiagramPoint>& diagram, const Membe
 
 /// What `use(structure, order, field)` finds on the threads of the options, while Python goes on.
 template <class Use>
-auto analyse(const Mesh& mesh, const Array1& values, const std::string& name, RelationSet relations,
+auto analyse(Job& job, const Mesh& mesh, const Array1& values, const std::string& name, RelationSet relations,
              const SweepOptions& options, const Use& use) {
-  const Call call;
-  const ThreadLimit limit(options.threads);
-  const io::PointArray field = field_of(values, name);
-  const auto structure = make_structure(mesh, relations);
-  return use(*structure, order_of(mesh, field), field);
+  return job.run([&] {
+    const ThreadLimit limit(options.threads);
+    const io::PointArray field = field_of(values, name);
+    const auto structure = make_structure(mesh, relations);
+    return use(*structure, order_of(mesh, field), field);
+  });
 }
 
 io::PointSet critical_set(Structure& structure, const DiscreteGradient& gradient, const io::Dataset& dataset,
@@ -45,8 +47,9 @@ io::PointSet critical_set(Structure& structure, const DiscreteGradient& gradient
 
 nb::tuple PyMesh::critical_points(Array1 values, const std::string& name, int threads,
                                   const nb::object& progress) const {
-  const SweepOptions options = sweep_options(threads, progress);
-  return numpy_of(analyse(mesh(), values, name, critical_points_relations, options,
+  Job job(progress);
+  const SweepOptions options = job.sweep_options(threads);
+  return numpy_of(analyse(job, mesh(), values, name, critical_points_relations, options,
                           [&](Structure& structure, const VertexOrder& order, const io::PointArray& field) {
                             return outputs::to_point_set(with(field), find_critical_points(structure, order, options));
                           }));
@@ -54,40 +57,45 @@ nb::tuple PyMesh::critical_points(Array1 values, const std::string& name, int th
 
 nb::tuple PyMesh::critical_simplices(Array1 values, const std::string& name, int threads,
                                      const nb::object& progress) const {
-  const SweepOptions options = sweep_options(threads, progress);
+  Job job(progress);
+  const SweepOptions options = job.sweep_options(threads);
   const auto find = [&](Structure& structure, const VertexOrder& order, const io::PointArray& field) {
     return critical_set(structure, find_discrete_gradient(structure, order, options), with(field), options);
   };
-  return numpy_of(analyse(mesh(), values, name, discrete_gradient_relations, options, find));
+  return numpy_of(analyse(job, mesh(), values, name, discrete_gradient_relations, options, find));
 }
 
 nb::tuple PyMesh::discrete_gradient(Array1 values, const std::string& name, int threads,
                                     const nb::object& progress) const {
-  const SweepOptions options = sweep_options(threads, progress);
+  Job job(progress);
+  const SweepOptions options = job.sweep_options(threads);
   const auto find = [&](Structure& structure, const VertexOrder& order, const io::PointArray& field) {
     const DiscreteGradient gradient = find_discrete_gradient(structure, order, options);
     const io::Dataset dataset = with(field);
     return std::make_pair(critical_set(structure, gradient, dataset, options), outputs::arrows_of(dataset, gradient));
   };
-  auto [critical, arrows] = analyse(mesh(), values, name, discrete_gradient_relations, options, find);
+  auto [critical, arrows] = analyse(job, mesh(), values, name, discrete_gradient_relations, options, find);
   return nb::make_tuple(numpy_of(std::move(critical)), numpy_of(std::move(arrows)));
 }
 
 nb::dict PyMesh::persistence_diagram(Array1 values, const std::string& name, double persistence, bool is_percent,
                                      int threads, const nb::object& progress) const {
-  const SweepOptions options = sweep_options(threads, progress);
+  Job job(progress);
+  const SweepOptions options = job.sweep_options(threads);
   const auto find = [&](Structure& structure, const VertexOrder& order, const io::PointArray& field) {
     const DiscreteGradient gradient = find_discrete_gradient(structure, order, options);
     return outputs::persistence_diagram(gradient, find_persistence_pairs(gradient, options), field,
                                         outputs::threshold_of({persistence, is_percent}, field));
   };
-  const auto diagram = analyse(mesh(), values, name, discrete_gradient_relations, options, find);
+  const auto diagram = analyse(job, mesh(), values, name, discrete_gradient_relations, options, find);
   using Point = outputs::DiagramPoint;
   nb::dict columns;
   columns["type"] = column<std::int8_t>(diagram, [](const Point& point) { return point.type; });
   columns["birth"] = column<double>(diagram, [](const Point& point) { return point.birth; });
   columns["death"] = column<double>(diagram, [](const Point& point) { return point.death; });
-  columns["is_finite"] = column<std::uint8_t>(diagram, [](const Point& point) { return point.is_finite; });
+  std::vector<std::uint8_t> is_finite;
+  for (const Point& point : diagram) is_finite.push_back(point.is_finite ? 1 : 0);
+  columns["is_finite"] = flags_of(std::move(is_finite));
   columns["birth_vertex"] = column<Id>(diagram, [](const Point& point) { return point.begin; });
   columns["death_vertex"] = column<Id>(diagram, [](const Point& point) { return point.end; });
   return columns;
@@ -95,7 +103,8 @@ nb::dict PyMesh::persistence_diagram(Array1 values, const std::string& name, dou
 
 nb::dict PyMesh::morse_smale(Array1 values, const std::string& name, std::optional<double> persistence, bool is_percent,
                              bool extrema_only, bool separatrices2, int threads, const nb::object& progress) const {
-  const SweepOptions options = sweep_options(threads, progress);
+  Job job(progress);
+  const SweepOptions options = job.sweep_options(threads);
   outputs::MorseSmaleRequest request;
   request.parts.separatrices2 = separatrices2;
   if (persistence) request.persistence = outputs::Persistence{*persistence, is_percent};
@@ -104,7 +113,7 @@ nb::dict PyMesh::morse_smale(Array1 values, const std::string& name, std::option
     const DiscreteGradient gradient = find_discrete_gradient(structure, order, options);
     return outputs::morse_smale(structure, gradient, with(field), field, request, options);
   };
-  auto found = analyse(mesh(), values, name, morse_smale_relations, options, find);
+  auto found = analyse(job, mesh(), values, name, morse_smale_relations, options, find);
   nb::dict parts;
   parts["critical_points"] = numpy_of(std::move(found.critical_points));
   parts["separatrices1"] = numpy_of(std::move(found.separatrices1));

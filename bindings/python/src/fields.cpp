@@ -16,7 +16,7 @@ std::vector<T> copy_of(const Array1& values) {
       Kokkos::deep_copy(Kokkos::View<T*, Kokkos::LayoutRight, HostMemory>(copy.data(), copy.size()), view);
       return copy;
     } else {
-      return std::vector<T>(view.data(), view.data() + view.extent(0));
+      return vector_of<T>(view.data(), view.extent(0));
     }
   });
 }

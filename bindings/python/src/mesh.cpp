@@ -6,6 +6,9 @@
 #include <gale/mesh/input_numbers.hpp>
 #include <gale/mesh/make_mesh.hpp>
 
+#include "fields.hpp"
+#include "job.hpp"
+
 namespace gale::python {
 
 namespace {
@@ -24,49 +27,61 @@ auto with_type(const Array1& array, const char* refusal, const Use& use) {
   return *std::move(result);
 }
 
-/// The points on the host: where they are, or a copy if a device has them.
-io::Dataset::Positions positions_of(const Array1& points) {
-  return with_type<float, double>(
-      points, "points are neither float32 nor float64", [&](auto one) -> io::Dataset::Positions {
-        using Coordinate = decltype(one);
-        using Kept = io::Dataset::Points<Coordinate>;
-        return with_view<const Coordinate* [3]>(points, "points", [](const auto& view) {
-          if constexpr (is_device_memory<typename std::decay_t<decltype(view)>::memory_space>) {
-            const Kept copy("GALE::points", view.extent(0));
-            Kokkos::deep_copy(copy, view);
-            return copy;
-          } else {
-            return Kept(const_cast<Coordinate*>(view.data()), view.extent(0));
-          }
-        });
-      });
+/// A copy in the same memory: what is checked is what is used, whatever other threads of Python write meanwhile.
+template <class View>
+auto copy_of(const char* label, const View& view) {
+  using Copy = typename View::non_const_type;
+  const auto copy = allocate<Copy>(label, view.extent(0));
+  if constexpr (is_device_memory<typename View::memory_space>) {
+    Kokkos::deep_copy(copy, view);
+  } else {
+    constexpr int columns = View::static_extent(1);
+    parallel_for(label, HostSpace(), view.extent(0), detail::CopyRow<columns, Copy, View>{copy, view});
+  }
+  return copy;
 }
 
-Segmentation segmentation_of(const Array1& points, int capacity) {
+struct SegmentedPoints {
+  io::Dataset::Positions points;
+  Segmentation segmentation;
+};
+
+SegmentedPoints segmented(const Array1& points, int capacity) {
   return with_type<float, double>(points, "points are neither float32 nor float64", [&](auto one) {
-    return with_view<const decltype(one)* [3]>(points, "points",
-                                               [&](const auto& view) { return octree_segmentation(view, capacity); });
+    using Coordinate = decltype(one);
+    return with_view<const Coordinate* [3]>(points, "points", [&](const auto& view) -> SegmentedPoints {
+      const auto copy = copy_of("GALE::points", view);
+      const Points<Coordinate, typename std::decay_t<decltype(copy)>::memory_space> read_only = copy;
+      const io::Dataset::Points<Coordinate> on_host = Kokkos::create_mirror_view_and_copy(HostMemory(), copy);
+      return {on_host, octree_segmentation(read_only, capacity)};
+    });
   });
 }
 
 Mesh mesh_of(const Array1& tetrahedra, const Segmentation& segmentation) {
   return with_type<std::int32_t, std::int64_t>(tetrahedra, "tetrahedra are neither int32 nor int64", [&](auto one) {
-    return with_view<const decltype(one)* [4]>(tetrahedra, "tetrahedra",
-                                               [&](const auto& view) { return Mesh(view, segmentation); });
+    using Index = decltype(one);
+    return with_view<const Index* [4]>(tetrahedra, "tetrahedra", [&](const auto& view) {
+      const Tetrahedra<Index, typename std::decay_t<decltype(view)>::memory_space> copy =
+          copy_of("GALE::tetrahedra", view);
+      return Mesh(copy, segmentation);
+    });
   });
 }
 
 }  // namespace
 
-PyMesh::PyMesh(Array1 points, Array1 tetrahedra, int capacity) : points_(points) {
+PyMesh::PyMesh(Array1 points, Array1 tetrahedra, int capacity) : capacity_(capacity) {
   require_rows(points, 3, "points");
   require_rows(tetrahedra, 4, "tetrahedra");
-  const Call call;
-  dataset_.points = positions_of(points);
-  mesh_ = mesh_of(tetrahedra, segmentation_of(points, capacity));
+  mesh_ = Job().run([&] {
+    const SegmentedPoints found = segmented(points, capacity);
+    dataset_.points = found.points;
+    return mesh_of(tetrahedra, found.segmentation);
+  });
 }
 
-PyMesh::PyMesh(io::Dataset& dataset, int capacity) {
+PyMesh::PyMesh(io::Dataset& dataset, int capacity) : capacity_(capacity) {
   dataset_.points = dataset.points;
   mesh_ =
       std::visit([&](const auto& points) { return make_mesh(points, dataset.tetrahedra, capacity); }, dataset.points);
@@ -78,7 +93,7 @@ const Mesh& PyMesh::mesh() const {
 }
 
 std::array<const Id*, 2> PyMesh::numbers(int one, int other) const {
-  const std::lock_guard<std::mutex> lock(numbers_mutex_);
+  const auto lock = gale::detail::lock_or_stop(numbers_mutex_);
   const auto missing = [&](int dimension) { return numbers_[dimension].data() == nullptr; };
   if (std::min(one, other) == 1 && std::max(one, other) == 2 && missing(1) && missing(2)) {
     const InputNumbers both = input_numbers(mesh());
@@ -93,7 +108,12 @@ std::array<const Id*, 2> PyMesh::numbers(int one, int other) const {
 
 nb::object PyMesh::points() const {
   mesh();
-  return numpy_of(dataset_.points);
+  return std::visit(
+      [](const auto& xyz) {
+        using Coordinate = typename std::decay_t<decltype(xyz)>::value_type;
+        return numpy_of(Job().run([&] { return vector_of<Coordinate>(xyz.data(), 3 * xyz.extent(0)); }), 3);
+      },
+      dataset_.points);
 }
 
 io::Dataset PyMesh::with(const io::PointArray& field) const {
@@ -103,25 +123,23 @@ io::Dataset PyMesh::with(const io::PointArray& field) const {
   return dataset;
 }
 
-nb::tuple read(const std::string& path, std::optional<double> above, const std::string& array, bool tetrahedralize,
+nb::tuple read(const nb::bytes& path, std::optional<double> above, const std::string& array, bool tetrahedralize,
                bool outside_files, int capacity) {
-  std::unique_ptr<PyMesh> mesh;
+  const std::string place(path.c_str(), path.size());
+  io::ReadOptions options;
+  options.above = above;
+  options.array = array;
+  options.tetrahedralize = tetrahedralize;
+  options.outside_files = outside_files;
   io::Dataset dataset;
-  {
-    const Call call;
-    io::ReadOptions options;
-    options.above = above;
-    options.array = array;
-    options.tetrahedralize = tetrahedralize;
-    options.outside_files = outside_files;
-    dataset = io::read(path, options);
-    mesh = std::make_unique<PyMesh>(dataset, capacity);
-  }
-  for (const std::string& notice : dataset.notices) {
-    constexpr int of_the_caller = 2;
-    if (PyErr_WarnEx(PyExc_UserWarning, (path + ": " + notice).c_str(), of_the_caller) != 0) throw nb::python_error();
-  }
-  return nb::make_tuple(nb::cast(mesh.release(), nb::rv_policy::take_ownership), numpy_of(std::move(dataset.arrays)));
+  auto mesh = Job().run([&] {
+    dataset = io::read(place, options);
+    return std::make_unique<PyMesh>(dataset, capacity);
+  });
+  nb::list notices;
+  for (const std::string& notice : dataset.notices) notices.append(text_of(notice));
+  return nb::make_tuple(nb::cast(mesh.release(), nb::rv_policy::take_ownership), numpy_of(std::move(dataset.arrays)),
+                        notices);
 }
 
 }  // namespace gale::python

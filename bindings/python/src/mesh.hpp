@@ -15,10 +15,10 @@
 
 namespace gale::python {
 
-/// A mesh and where its points are.
+/// A mesh and its points.
 class PyMesh : public Kept {
  public:
-  /// Reads the arrays where they are; keeps that of the points.
+  /// Copies the arrays before it checks them.
   PyMesh(Array1 points, Array1 tetrahedra, int capacity);
 
   /// Of what a file has; takes its points.
@@ -33,6 +33,7 @@ class PyMesh : public Kept {
   Id vertices() const { return mesh().vertices(); }
   Id tetrahedra() const { return mesh().tetrahedra(); }
   Id segments() const { return mesh().segments(); }
+  int capacity() const { return capacity_; }
   nb::object points() const;
 
   /// (where rows begin, their entries, how many simplices the entries are among)
@@ -56,15 +57,15 @@ class PyMesh : public Kept {
   /// The points with the field as their array.
   io::Dataset with(const io::PointArray& field) const;
 
-  Array1 points_;        ///< keeps where the points are
+  int capacity_;
   io::Dataset dataset_;  ///< the points alone
   std::optional<Mesh> mesh_;
   mutable std::mutex numbers_mutex_;
   mutable std::array<Array<const Id, HostMemory>, 4> numbers_;
 };
 
-/// The mesh that a file has, and its point arrays.
-nb::tuple read(const std::string& path, std::optional<double> above, const std::string& array, bool tetrahedralize,
+/// (the mesh that a file has, its point arrays, what of it was left out)
+nb::tuple read(const nb::bytes& path, std::optional<double> above, const std::string& array, bool tetrahedralize,
                bool outside_files, int capacity);
 
 }  // namespace gale::python

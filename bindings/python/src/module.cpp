@@ -16,12 +16,15 @@ NB_MODULE(_gale, module) {
   using namespace nb::literals;
   using gale::python::PyMesh;
 
+  nb::set_leak_warnings(false);  // what users keep until the end is no fault of theirs
   static nb::exception<gale::Error> error(module, "Error", PyExc_ValueError);
   nb::register_exception_translator([](const std::exception_ptr& thrown, void*) {
     try {
       std::rethrow_exception(thrown);
     } catch (const gale::OutOfMemory& full) {
-      PyErr_SetString(PyExc_MemoryError, full.what());
+      PyErr_SetObject(PyExc_MemoryError, gale::python::text_of(full.what()).ptr());
+    } catch (const gale::Error& refused) {
+      PyErr_SetObject(error.ptr(), gale::python::text_of(refused.what()).ptr());
     }
   });
   module.attr("version") = gale::version;
@@ -43,6 +46,7 @@ NB_MODULE(_gale, module) {
       .def_prop_ro("vertices", &PyMesh::vertices)
       .def_prop_ro("tetrahedra", &PyMesh::tetrahedra)
       .def_prop_ro("segments", &PyMesh::segments)
+      .def_prop_ro("capacity", &PyMesh::capacity)
       .def("points", &PyMesh::points)
       .def("relation", &PyMesh::relation, "name"_a, "threads"_a, "progress"_a.none())
       .def("critical_points", &PyMesh::critical_points, "field"_a, "name"_a, "threads"_a, "progress"_a.none())

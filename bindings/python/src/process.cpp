@@ -1,8 +1,17 @@
 #include "process.hpp"
 
+#include <nanobind/nanobind.h>
+
+#include <atomic>
+#include <chrono>
+#include <mutex>
+#include <set>
+#include <thread>
+
 #include <gale/base/error.hpp>
 
 #include "initialize_kokkos.hpp"
+#include "job.hpp"
 
 namespace gale::python {
 
@@ -11,7 +20,7 @@ namespace {
 enum class Phase { running, ended, forked };
 
 std::atomic<Phase> phase{Phase::running};
-std::atomic<int> calls{0};
+std::thread::id ending_thread;  // set before the phase
 bool initialized_here = false;  // guarded by Python's lock
 
 std::mutex kept_mutex;
@@ -19,6 +28,12 @@ std::mutex kept_mutex;
 std::set<Kept*>& all_kept() {
   static std::set<Kept*> all;
   return all;
+}
+
+bool is_left_behind() { return phase.load() == Phase::ended && std::this_thread::get_id() != ending_thread; }
+
+[[noreturn]] void wait_for_the_end() {
+  while (true) std::this_thread::sleep_for(std::chrono::hours(1));
 }
 
 }  // namespace
@@ -34,8 +49,15 @@ Kept::~Kept() {
 }
 
 void finalize() {
-  if (phase.load() != Phase::running || calls.load() > 0) return;
+  if (phase.load() != Phase::running) return;
+  ending_thread = std::this_thread::get_id();
   phase.store(Phase::ended);
+  {
+    const nanobind::gil_scoped_release released;  // which others need to end what they do
+    constexpr std::chrono::seconds most(5);
+    if (!stop_jobs(most)) return;
+  }
+  end_workers();
   const std::lock_guard<std::mutex> lock(kept_mutex);
   for (Kept* const one : all_kept()) one->end();
   if (initialized_here) Kokkos::finalize();
@@ -45,30 +67,19 @@ void after_fork() {
   if (Kokkos::is_initialized()) phase.store(Phase::forked);
 }
 
-Call::Entered::Entered() {
+void begin_call() {
+  if (is_left_behind()) {
+    const nanobind::gil_scoped_release released;
+    wait_for_the_end();
+  }
   if (phase.load() == Phase::forked)
     throw Error("gale can't be used in a process that was forked from one that uses it: start processes by 'spawn'");
   if (phase.load() == Phase::ended) throw Error("gale has ended with the interpreter");
   if (bindings::initialize_kokkos()) initialized_here = true;
-  ++calls;
 }
 
-Call::Entered::~Entered() { --calls; }
-
-Call::Call() = default;
-Call::~Call() = default;
-
-SweepOptions sweep_options(int threads, const nanobind::object& progress) {
-  if (threads < 0) throw Error("threads is " + std::to_string(threads));
-  SweepOptions options;
-  if (threads > 0) options.threads = threads;
-  const nanobind::handle tell = progress;  // the caller holds it
-  options.progress = [tell](Id done, Id segments) {
-    const nanobind::gil_scoped_acquire acquired;
-    if (PyErr_CheckSignals() != 0) throw nanobind::python_error();
-    if (!tell.is_none()) tell(done, segments);
-  };
-  return options;
+void end_call() {
+  if (is_left_behind()) wait_for_the_end();
 }
 
 }  // namespace gale::python

@@ -1,15 +1,5 @@
 #pragma once
 
-#include <nanobind/nanobind.h>
-
-#include <atomic>
-#include <functional>
-#include <memory>
-#include <mutex>
-#include <set>
-
-#include <gale/runtime/sweep_options.hpp>
-
 // Kokkos and this process: it is initialized by the first call, unless somebody else did that, and finalized at exit.
 
 namespace gale::python {
@@ -26,34 +16,19 @@ class Kept {
   virtual void end() = 0;
 };
 
-/// At exit. Ends what is kept, then Kokkos if it was initialized here; does neither while another thread is in a
-/// `Call`.
+/// At exit. Stops what other threads compute, ends what is kept, then Kokkos if it was initialized here; does neither
+/// if a computation doesn't end.
 void finalize();
 
 /// In a process that was forked from this one: if GALE was used before, its threads aren't there.
 void after_fork();
 
-/// One call into GALE, without Python's lock; the first one initializes Kokkos. Throws gale::Error after finalize, and
-/// after_fork where Kokkos was initialized before.
-class Call {
- public:
-  Call();
-  ~Call();
-  Call(const Call&) = delete;
-  Call& operator=(const Call&) = delete;
+/// To be called, with Python's lock, before anything is computed; the first call initializes Kokkos. Throws gale::Error
+/// after finalize, and after_fork where Kokkos was initialized before.
+void begin_call();
 
- private:
-  struct Entered {
-    Entered();
-    ~Entered();
-  };
-
-  Entered entered_;
-  nanobind::gil_scoped_release released_;
-};
-
-/// Sweeps on so many threads, or as many as there are cores for 0; an interrupt (Ctrl-C) ends them, and `progress`, if
-/// it isn't None, is called with how much is done, of how much.
-SweepOptions sweep_options(int threads, const nanobind::object& progress);
+/// To be called, without Python's lock, when it is done. Doesn't return to the threads that finalize leaves behind:
+/// Python stops them too, as soon as they need it.
+void end_call();
 
 }  // namespace gale::python

@@ -137,6 +137,7 @@ void move_together(const Slots& slots, std::int64_t* begin, Id rows) {
   const auto moves_up = [&](Id row) { return end > static_cast<std::int64_t>(row) * slots.size; };
   const auto held = [&](std::int64_t count) { return count <= slots.size ? count : 0; };
   for (Id row = 0; row < rows;) {
+    detail::stop_if_asked_at(row);
     if (!moves_up(row)) {
       begin_row(row);
       const Id* const from = slots[row];
@@ -149,9 +150,13 @@ void move_together(const Slots& slots, std::int64_t* begin, Id rows) {
       continue;
     }
     const Id first = row;
-    for (; row < rows && moves_up(row); ++row) begin_row(row);
+    for (; row < rows && moves_up(row); ++row) {
+      detail::stop_if_asked_at(row);
+      begin_row(row);
+    }
     std::int64_t up_end = end;
     for (Id up = row - 1; up >= first; --up) {
+      detail::stop_if_asked_at(up);
       const Id* const from = slots[up];
       for (std::int64_t i = held(up_end - begin[up]) - 1; i >= 0; --i) slots.ids[begin[up] + i] = from[i];
       up_end = begin[up];

@@ -36,10 +36,12 @@ class Part {
     Id* const counts = counts_.get();
     Id least = least_, most = most_;  // as members they might be among the counts, and stay in memory
     const Id* row = faces_.row(first_);
-    for (const Id* const end = faces_.row(last_); row != end; row += size) {
-      least = std::min(least, row[0]);
-      most = std::max(most, row[size - 1]);
-      for (int k = 0; k < size; ++k) ++counts[row[k]];
+    for (Offset i = first_; i < last_;) {
+      for (const Offset end = detail::piece_end(i, last_); i < end; ++i, row += size) {
+        least = std::min(least, row[0]);
+        most = std::max(most, row[size - 1]);
+        for (int k = 0; k < size; ++k) ++counts[row[k]];
+      }
     }
     least_ = least;
     most_ = most;
@@ -56,12 +58,14 @@ class Part {
     constexpr Offset ahead = 16;
     Id* const next = counts_.get();
     const Id* row = faces_.row(first_);
-    for (Offset i = first_; i < last_; ++i, row += size) {
-      if (last_ - i > ahead) {
-        const Id* const later = row + size * ahead;
-        for (int k = 0; k < size; ++k) __builtin_prefetch(entries + begin[later[k]] + next[later[k]], 1);
+    for (Offset i = first_; i < last_;) {
+      for (const Offset end = detail::piece_end(i, last_); i < end; ++i, row += size) {
+        if (last_ - i > ahead) {
+          const Id* const later = row + size * ahead;
+          for (int k = 0; k < size; ++k) __builtin_prefetch(entries + begin[later[k]] + next[later[k]], 1);
+        }
+        for (int k = 0; k < size; ++k) entries[begin[row[k]] + next[row[k]]++] = static_cast<Id>(i);
       }
-      for (int k = 0; k < size; ++k) entries[begin[row[k]] + next[row[k]]++] = static_cast<Id>(i);
     }
   }
 

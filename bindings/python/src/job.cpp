@@ -1,0 +1,222 @@
+#include "job.hpp"
+
+#include <chrono>
+#include <memory>
+#include <set>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <gale/base/error.hpp>
+#include <gale/base/kokkos.hpp>
+#include <gale/base/start_thread.hpp>
+#include <gale/base/threads.hpp>
+
+#include "process.hpp"
+
+namespace gale::python {
+
+namespace {
+
+/// A thread for one computation after the other, so that those that OpenMP begins for it stay. Waits for the last one
+/// when it is destroyed.
+class Worker {
+ public:
+  Worker() : thread_(gale::detail::start_thread([this] { work(); })) {}
+  ~Worker() {
+    begin(nullptr);
+    thread_.join();
+  }
+  Worker(const Worker&) = delete;
+  Worker& operator=(const Worker&) = delete;
+
+  /// To be called when the last one is done; null ends the thread.
+  void begin(const std::function<void()>* compute) {
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      next_ = compute;
+      has_next_ = true;
+    }
+    changed_.notify_one();
+  }
+
+ private:
+  void work() {
+#if defined(KOKKOS_ENABLE_CUDA)
+    use_device();
+#endif
+    while (true) {
+      std::unique_lock<std::mutex> lock(mutex_);
+      changed_.wait(lock, [this] { return has_next_; });
+      has_next_ = false;
+      const std::function<void()>* const compute = next_;
+      lock.unlock();
+      if (compute == nullptr) return;
+      (*compute)();
+    }
+  }
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  const std::function<void()>* next_ = nullptr;
+  bool has_next_ = false;
+  std::thread thread_;
+};
+
+/// All jobs, and the workers without one. Never destroyed: in a process that was forked the threads aren't there.
+struct Shared {
+  std::mutex mutex;
+  bool are_stopped = false;
+  std::set<Job*> jobs;
+  std::vector<std::unique_ptr<Worker>> idle;
+};
+
+Shared& shared() {
+  static auto* const all = new Shared;
+  return *all;
+}
+
+/// A job under way, and its worker.
+class UnderWay {
+ public:
+  explicit UnderWay(Job* job) : job_(job) {
+    const std::lock_guard<std::mutex> lock(shared().mutex);
+    shared().idle.reserve(shared().jobs.size() + shared().idle.size() + 1);
+    if (shared().idle.empty()) {
+      worker = std::make_unique<Worker>();
+    } else {
+      worker = std::move(shared().idle.back());
+      shared().idle.pop_back();
+    }
+    shared().jobs.insert(job);
+    if (shared().are_stopped) job->stop();
+  }
+  ~UnderWay() {
+    const std::lock_guard<std::mutex> lock(shared().mutex);
+    shared().jobs.erase(job_);
+    shared().idle.push_back(std::move(worker));
+  }
+  UnderWay(const UnderWay&) = delete;
+  UnderWay& operator=(const UnderWay&) = delete;
+
+  std::unique_ptr<Worker> worker;
+
+ private:
+  Job* const job_;
+};
+
+/// As many threads as OpenMP would give the caller, whose choice is its thread's own.
+int openmp_threads() {
+#ifdef GALE_ENABLE_STD_THREADS
+  return 0;
+#else
+  return omp_get_max_threads();
+#endif
+}
+void set_openmp_threads([[maybe_unused]] int count) {
+#ifndef GALE_ENABLE_STD_THREADS
+  omp_set_num_threads(count);
+#endif
+}
+
+}  // namespace
+
+SweepOptions Job::sweep_options(int threads) {
+  constexpr int most = 1024;  // as the command takes; OpenMP ends the process where the system starts no more
+  if (threads < 0 || threads > most)
+    throw Error("threads is " + std::to_string(threads) + ", not 0 to " + std::to_string(most));
+  SweepOptions options;
+  if (threads > 0) options.threads = threads;
+  if (!progress_.is_none()) options.progress = [this](Id done, Id all) { tell(done, all); };
+  return options;
+}
+
+void Job::run_until_done(const std::function<void()>& compute) {
+  begin_call();
+  const nanobind::gil_scoped_release released;
+  compute_on_worker(compute);
+  end_call();
+  if (raised_) std::rethrow_exception(raised_);
+  if (failure_) std::rethrow_exception(failure_);
+}
+
+void Job::compute_on_worker(const std::function<void()>& compute) {
+  const int threads = openmp_threads();
+  const std::function<void()> guarded = [&] {
+    set_openmp_threads(threads);
+    std::exception_ptr failure;
+    try {
+      const StopScope stoppable(&request_);
+      compute();
+    } catch (...) {
+      failure = std::current_exception();
+    }
+    const std::lock_guard<std::mutex> lock(mutex_);
+    failure_ = std::move(failure);
+    is_done_ = true;
+    changed_.notify_all();
+  };
+  const UnderWay under_way(this);
+  under_way.worker->begin(&guarded);
+  std::unique_lock<std::mutex> lock(mutex_);
+  while (!is_done_) watch(lock);
+}
+
+/// Waits until it is done, there is progress to tell, or it is time to look whether Python has something.
+void Job::watch(std::unique_lock<std::mutex>& lock) {
+  constexpr std::chrono::milliseconds between(50);
+  changed_.wait_for(lock, between, [this] { return is_done_ || told_; });
+  if (is_done_) return;
+  const std::optional<Told> told = told_;
+  if (!raised_) {
+    lock.unlock();
+    look_at_python(told);
+    lock.lock();
+  }
+  if (!told) return;
+  told_.reset();  // who tells waits for that
+  changed_.notify_all();
+}
+
+void Job::look_at_python(const std::optional<Told>& told) {
+  const nanobind::gil_scoped_acquire acquired;
+  try {
+    if (PyErr_CheckSignals() != 0) throw nanobind::python_error();
+    if (told) progress_(told->done, told->all);
+  } catch (const std::exception&) {
+    raised_ = std::current_exception();
+    stop();
+  }
+}
+
+/// Has the caller's thread call `progress`, and waits for that.
+void Job::tell(Id done, Id all) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  told_ = Told{done, all};
+  changed_.notify_all();
+  changed_.wait(lock, [this] { return !told_; });
+  lock.unlock();
+  gale::detail::stop_if_asked();
+}
+
+bool stop_jobs(std::chrono::milliseconds time) {
+  const auto are_stopped = [] {
+    const std::lock_guard<std::mutex> lock(shared().mutex);
+    shared().are_stopped = true;
+    for (Job* const job : shared().jobs) job->stop();
+    return shared().jobs.empty();
+  };
+  constexpr std::chrono::milliseconds between(1);
+  while (!are_stopped() && time.count() > 0) {
+    std::this_thread::sleep_for(between);
+    time -= between;
+  }
+  return are_stopped();
+}
+
+void end_workers() {
+  const std::lock_guard<std::mutex> lock(shared().mutex);
+  shared().idle.clear();
+}
+
+}  // namespace gale::python

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <nanobind/nanobind.h>
+
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <utility>
+
+#include <gale/base/stop.hpp>
+#include <gale/runtime/sweep_options.hpp>
+
+// How GALE computes for Python: on a thread of its own, while the caller's waits and looks every 50 ms whether Python
+// has an interrupt for it. So Ctrl-C comes when the computation asks whether to stop, in whichever of its loops it is.
+
+namespace gale::python {
+
+/// One computation. To be made with Python's lock.
+class Job {
+ public:
+  /// `progress` is None, or called on the caller's thread with how much is done, of how much.
+  explicit Job(nanobind::handle progress = nanobind::none()) : progress_(progress) {}
+
+  Job(const Job&) = delete;
+  Job& operator=(const Job&) = delete;
+
+  /// Sweeps of this job, on so many threads, or as many as there are cores for 0.
+  SweepOptions sweep_options(int threads);
+
+  /// What `compute()` returns, which is called without Python's lock. Throws what it throws; or what an interrupt or
+  /// `progress` raises, when it has ended.
+  template <class Compute>
+  auto run(const Compute& compute) {
+    std::optional<decltype(compute())> result;
+    run_until_done([&] { result.emplace(compute()); });
+    return *std::move(result);
+  }
+
+  /// From any thread.
+  void stop() { request_.stop(); }
+
+ private:
+  struct Told {
+    Id done, all;
+  };
+
+  void run_until_done(const std::function<void()>& compute);
+  void compute_on_worker(const std::function<void()>& compute);
+  void watch(std::unique_lock<std::mutex>& lock);
+  void look_at_python(const std::optional<Told>& told);
+  void tell(Id done, Id all);
+
+  const nanobind::handle progress_;  ///< the caller holds it
+  StopRequest request_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool is_done_ = false;
+  std::optional<Told> told_;    ///< what `progress` hasn't heard yet
+  std::exception_ptr failure_;  ///< of the computation
+  std::exception_ptr raised_;   ///< by Python
+};
+
+/// Stops all that are under way, and waits for that; false if one doesn't end in time. Others that begin stop too.
+bool stop_jobs(std::chrono::milliseconds time);
+
+/// Ends the threads that jobs have run on.
+void end_workers();
+
+}  // namespace gale::python

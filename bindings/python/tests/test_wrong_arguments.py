@@ -1,0 +1,159 @@
+"""Every public function with wrong arguments of every kind: gale.Error, TypeError or ValueError, and nothing else."""
+import inspect
+import os
+import pathlib
+import tempfile
+import unittest
+
+import gale
+import numpy as np
+from meshes import random_mesh
+
+POINTS, TETRAHEDRA, FIELD = random_mesh(1)
+UNDECODABLE = "\udc80"
+
+
+def changed(array, place, value):
+    copy = np.array(array)
+    copy[place] = value
+    return copy
+
+
+NO_ARRAYS = [None, object(), "x", 3, {}, [[1, 2], [3]], np.array(["x"]), np.array(3)]
+NOT_THREADS = [-1, 1025, 10**9, 10**30, 1.5, "x", None]
+
+# By parameter: what none may be, whatever the function.
+WRONG = {
+    "points": NO_ARRAYS + [[], POINTS[:, :2], POINTS.ravel(), POINTS * 1j, POINTS.astype(str), POINTS.astype(object),
+                           changed(POINTS, (3, 1), np.nan), changed(POINTS, (3, 1), np.inf), POINTS > 0,
+                           np.ma.masked_less(POINTS, 1), POINTS[:5]],
+    "tetrahedra": NO_ARRAYS + [[], TETRAHEDRA[:, :3], TETRAHEDRA.ravel(), TETRAHEDRA.astype(float), TETRAHEDRA * 1j,
+                               TETRAHEDRA.astype(object), TETRAHEDRA > 0, changed(TETRAHEDRA, (2, 3), -1),
+                               changed(TETRAHEDRA, (2, 3), 64), changed(TETRAHEDRA, (2, 3), 2**40),
+                               changed(TETRAHEDRA, 2, 7), changed(TETRAHEDRA, 5, TETRAHEDRA[4]), TETRAHEDRA[:0],
+                               changed(TETRAHEDRA.astype(np.uint64), (2, 3), 2**63 + 1),
+                               np.ma.masked_less(TETRAHEDRA, 1)],
+    "capacity": [0, -1, 1.5, "x", None, 2**31, 10**30],
+    "field": NO_ARRAYS + [[], FIELD[1:], FIELD.reshape(8, 8), FIELD * np.nan, FIELD * 1j, FIELD.astype(str),
+                          FIELD.astype(object), FIELD.astype(np.longdouble), np.ma.masked_less(FIELD, 0),
+                          FIELD.astype("datetime64[s]")],
+    "threads": NOT_THREADS,
+    "progress": [5, "x", object(), []],
+    "persistence": ["x%", "3", "", "%", "nan%", "-3%", -1, np.nan, object(), [1, 2], 1j, b"3%", 10**400],
+    "extrema_only": ["x", object()],
+    "separatrices2": ["x", object()],
+    "path": [None, 3, "", "missing.vtu", "missing.unknown", "grid:", "grid:x", "grid:1", "grid:-9", "grid:9\0", "a\0b.vtu",
+             b"missing.vtu", b"\xff.vtu", UNDECODABLE + ".vtu", os.devnull, tempfile.gettempdir(), "grid:" + 30 * "9"],
+    "above": ["x", object(), [1], 0.5],  # a mesh has no threshold
+    "array": [3, object(), "missing", UNDECODABLE],
+    "tetrahedralize": ["x", object()],
+    "outside_files": ["x", object()],
+}
+NAMES = [3, None, b"x", UNDECODABLE]
+NOT_RELATIONS = [3, None, "", "V", "vt", "VX", "VVV", "VT\0", UNDECODABLE]
+OF_FIELDS = {"field": FIELD}
+
+MESH = gale.Mesh(POINTS, TETRAHEDRA)
+
+# By function: arguments that are right, and names that are wrong.
+FUNCTIONS = {
+    gale.Mesh: ({"points": POINTS, "tetrahedra": TETRAHEDRA}, []),
+    gale.read: ({"path": "grid:4"}, []),
+    MESH.relation: ({"name": "VT"}, NOT_RELATIONS),
+    MESH.relation_matrix: ({"name": "VT"}, NOT_RELATIONS),
+    MESH.critical_points: (OF_FIELDS, NAMES + ["CriticalType", "IsOnBoundary", "ttkVertexScalarField"]),
+    MESH.critical_simplices: (OF_FIELDS, NAMES + ["CellDimension", "CellId"]),
+    MESH.discrete_gradient: (OF_FIELDS, NAMES + ["CellDimension", "IsOnBoundary"]),
+    MESH.persistence_diagram: (OF_FIELDS, NAMES),
+    MESH.morse_smale: (OF_FIELDS, NAMES + ["CellId"]),
+}
+
+
+class WrongArguments(unittest.TestCase):
+    def refused(self, call, words="."):
+        try:
+            call()
+        except (gale.Error, TypeError, ValueError) as error:
+            self.assertRegex(str(error), words)
+            if type(error) is ValueError:
+                self.fail(f"a ValueError that isn't a gale.Error: {error}")
+        else:
+            self.fail("nothing was raised")
+
+    def test_no_function_takes_any(self):
+        for function, (right, wrong_names) in FUNCTIONS.items():
+            for name in inspect.signature(function).parameters:
+                for wrong in wrong_names if name == "name" else WRONG[name]:
+                    with self.subTest(function=function, name=name, wrong=wrong):
+                        if function == MESH.relation_matrix:
+                            self.needs_scipy()
+                        self.refused(lambda: function(**{**right, name: wrong}))
+            if function != MESH.relation_matrix:
+                function(**right)
+
+    def needs_scipy(self):
+        try:
+            import scipy.sparse
+        except ImportError:
+            self.skipTest("there is no scipy")
+
+    def test_all_functions_are_here(self):
+        public = {name for name, _ in inspect.getmembers(gale.Mesh, inspect.isroutine) if not name.startswith("_")}
+        self.assertEqual(public - {"from_pyvista"}, {function.__name__ for function in FUNCTIONS} - {"Mesh", "read"})
+
+    def test_grids_that_are_none(self):
+        for wrong in (None, 3, "x", object(), POINTS, {}, MESH):
+            self.refused(lambda: gale.Mesh.from_pyvista(wrong), "no unstructured grid")
+
+    def test_grids_that_do_not_fit(self):
+        try:
+            import pyvista
+        except ImportError:
+            self.skipTest("there is no pyvista")
+        sphere, image = pyvista.Sphere(), pyvista.ImageData(dimensions=(3, 3, 3))
+        hexahedra = image.cast_to_unstructured_grid()
+        five = pyvista.UnstructuredGrid()
+        five.points = POINTS
+        five.SetCells(10, pyvista.CellArray([5, 0, 1, 2, 3, 4, 3, 5, 6, 7]))
+        pointless = pyvista.UnstructuredGrid()
+        for wrong in (sphere, image, hexahedra, five, pointless, pyvista.MultiBlock([hexahedra]), sphere.points):
+            with self.subTest(wrong=type(wrong)):
+                self.refused(lambda: gale.Mesh.from_pyvista(wrong), "grid|cells")
+        if hasattr(pyvista, "register_dataset_accessor"):
+            grid = pyvista.UnstructuredGrid({10: TETRAHEDRA}, POINTS)
+            grid["height"] = FIELD
+            for wrong in ("width", 3, None, UNDECODABLE):
+                for function in (grid.gale.critical_points, grid.gale.critical_simplices, grid.gale.persistence_diagram,
+                                 grid.gale.morse_smale):
+                    self.refused(lambda: function(wrong), "it has height$")
+
+    def test_unknown_names_say_which_there_are(self):
+        found = MESH.morse_smale(FIELD, separatrices2=True)
+        for result in (found, found.critical_points, found.separatrices1, found.separatrices2, MESH.critical_points(FIELD),
+                       MESH.discrete_gradient(FIELD), MESH.persistence_diagram(FIELD)):
+            for wrong in ("missing", 0, None):
+                with self.assertRaisesRegex(gale.Error, f"^there is no '{wrong}' here, but {', '.join(result)}$"):
+                    result[wrong]
+        with self.assertRaisesRegex(gale.Error, "^grid:4 has no point array 'missing': it has field$"):
+            gale.read("grid:4", array="missing")
+
+    @unittest.skipUnless(gale._gale.has_vtk, "this gale reads no files")
+    def test_files_whose_names_and_arrays_are_any_bytes(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(os.fsencode(folder), b"caf\xe9.vtk")
+            lines = [b"# vtk DataFile Version 3.0", b"x", b"ASCII", b"DATASET UNSTRUCTURED_GRID", b"POINTS 4 float",
+                     b"0 0 0 1 0 0 0 1 0 0 0 1", b"CELLS 1 5", b"4 0 1 2 3", b"CELL_TYPES 1", b"10", b"POINT_DATA 4",
+                     b"SCALARS h\xf6he float 1", b"LOOKUP_TABLE default", b"0 1 2 3"]
+            pathlib.Path(os.fsdecode(path)).write_bytes(b"\n".join(lines) + b"\n")
+            for name in (path, os.fsdecode(path), pathlib.Path(os.fsdecode(path))):
+                mesh, arrays = gale.read(name)
+                self.assertEqual((mesh.tetrahedra, list(arrays)), (1, ["h\\xf6he"]))
+            with self.assertRaisesRegex(gale.Error, "h\\\\xf6he"):
+                gale.read(path, array="missing")
+            pathlib.Path(os.fsdecode(path)).write_bytes(b"\n".join(lines[:-1]) + b"\n")
+            with self.assertRaisesRegex(gale.Error, r"caf\\xe9"):
+                gale.read(path)
+
+
+if __name__ == "__main__":
+    unittest.main()
