@@ -4,6 +4,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 
 scripts/dependencies.sh docs
+python3 docs/pictures/check.py
 site=$PWD/build/docs environment=$PWD/build/docs-environment
 mkdir -p "$site"
 if [ ! -x "$environment/bin/sphinx-build" ]; then

@@ -21,7 +21,7 @@ namespace gale::outputs {
 /// ends), CellDimension (int8), CellId (int32). Arrays of lines: SourceId, DestinationId, SeparatrixId (int32),
 /// SeparatrixType (int8: 0 descending, 1 connector, 2 ascending), SeparatrixFunctionMaximum, Minimum and Difference
 /// (the highest and the lowest value at the vertices of both ends; float if the field is, else double),
-/// NumberOfCriticalPointsOnBoundary (int32).
+/// NumberOfCriticalPointsOnBoundary (int32: how many of the two ends have their highest vertex on the mesh's surface).
 ///
 /// `field` is that of the complex, `numbers` are those of `named`, the complex's `named_simplices`, and `critical` its
 /// critical simplices. In parallel. Throws gale::Error if there are more than 2^31 - 1 points.

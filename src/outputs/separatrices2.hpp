@@ -14,7 +14,8 @@ namespace gale::outputs {
 /// Points are shared by all polygons: first vertices, then barycentres, each by ascending input id of the vertex or the
 /// tetrahedron. Arrays of polygons: SourceId, SeparatrixId (int32), SeparatrixType (int8: 1 ascending, 2 descending),
 /// SeparatrixFunctionMaximum, Minimum and Difference (float if the field is, else double),
-/// NumberOfCriticalPointsOnBoundary (int32). A descending wall reaches from its source's highest vertex down to the
+/// NumberOfCriticalPointsOnBoundary (int32: of the source and the critical simplices that bound the wall, how many have
+/// their highest vertex on the mesh's surface). A descending wall reaches from its source's highest vertex down to the
 /// lowest vertex of the critical edges that bound it, or of itself where none does; an ascending one from its source's
 /// lowest vertex up, likewise.
 ///
