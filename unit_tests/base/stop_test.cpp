@@ -52,7 +52,7 @@ void expect_stops(const char* name, const Loop& loop) {
 }  // namespace
 
 TEST(Stop, ends_every_kind_of_loop) {
-  const HostSpace space;
+  const HostExecutionSpace space;
   const Array<Offset, HostMemory> begin("begin", n + 1);
   expect_stops("parallel_for", [&](const auto& ask, int) { parallel_for("test", space, n, [&](Offset) { ask(); }); });
   expect_stops("exclusive_scan", [&](const auto& ask, int) {
@@ -82,7 +82,7 @@ TEST(Stop, ends_a_radix_sort) {
   StopRequest request;
   request.stop();
   const StopScope stoppable(&request);
-  EXPECT_THROW(stable_sort_by_key(HostSpace(), keys, values), Stopped);
+  EXPECT_THROW(stable_sort_by_key(HostExecutionSpace(), keys, values), Stopped);
 }
 
 TEST(Stop, is_for_the_scope_alone) {

@@ -36,7 +36,7 @@ auto copy_of(const char* label, const View& view) {
     Kokkos::deep_copy(copy, view);
   } else {
     constexpr int columns = View::static_extent(1);
-    parallel_for(label, HostSpace(), view.extent(0), detail::CopyRow<columns, Copy, View>{copy, view});
+    parallel_for(label, HostExecutionSpace(), view.extent(0), detail::CopyRow<columns, Copy, View>{copy, view});
   }
   return copy;
 }
