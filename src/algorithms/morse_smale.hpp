@@ -49,38 +49,38 @@ struct MorseSmaleComplex {
 
   /// From each critical edge, from both its vertices, that of lower input id first, down to a minimum: the vertices on
   /// the way, the minimum included.
-  Separatrices<Id> descending;
+  Separatrices<Id> descending{};
 
   /// From each critical triangle, from each of its tetrahedra, by input id, up to a maximum: the tetrahedra on the way,
   /// the maximum included. Those that leave through the mesh's surface are left out.
-  Separatrices<Id> ascending;
+  Separatrices<Id> ascending{};
 
   /// From a critical edge up to a critical triangle whose descending wall reaches it: the triangles on the way, the
   /// last included. Ordered by triangle, then edge. Where paths fork, it takes the least triangle, each written with
   /// its input vertices ascending.
-  Separatrices<TriangleVertices> connectors;
+  Separatrices<TriangleVertices> connectors{};
 
   /// For each critical triangle, the triangles that its falling paths sweep, itself first.
-  Separatrices<TriangleVertices> descending_walls;
+  Separatrices<TriangleVertices> descending_walls{};
 
   /// For each critical edge, the polygons that its rising paths sweep.
-  AscendingWalls ascending_walls;
+  AscendingWalls ascending_walls{};
 
   // Manifolds, by input vertex: where they were found, a device or the host, where they take 12 bytes a
   // vertex; in<HostMemory>() has them on the host, too.
 
   /// The place among the critical vertices of the minimum that the vertex's path falls to.
-  Mirrored<Id> descending_manifold;
+  Mirrored<Id> descending_manifold{};
 
   /// The place among the critical tetrahedra of the maximum that the path from the vertex's tetrahedron of lowest input
   /// id rises to; no_id if that path leaves through the surface.
-  Mirrored<Id> ascending_manifold;
+  Mirrored<Id> ascending_manifold{};
 
   /// A number for each pair of both, dense from 0; no_id where one is missing.
-  Mirrored<Id> morse_smale_manifold;
+  Mirrored<Id> morse_smale_manifold{};
   Id morse_smale_manifolds = 0;  ///< how many pairs there are
 
-  KeptBelow kept_below;  ///< what `simplify` had to leave
+  KeptBelow kept_below{};  ///< what `simplify` had to leave
 };
 
 /// Traces the complex of a gradient: connectors and walls on options.threads threads, other separatrices on the host's,

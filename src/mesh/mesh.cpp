@@ -11,6 +11,31 @@
 
 namespace gale {
 
+namespace detail {
+
+/// A mesh and its permutations.
+struct PermutedMesh {
+  MeshArrays arrays;
+  Mirrored<Id> vertex_input, vertex_internal, tetrahedron_input;
+  Id owned_segments;
+};
+
+/// The arrays of a mesh for code that runs on `Memory`, once someone has asked for them.
+template <class Memory>
+class EncodedOnce {
+ public:
+  const EncodedMesh<Memory>& of(const MeshArrays& arrays) {
+    once_([&] { mesh_ = arrays.in<Memory>(); });
+    return mesh_;
+  }
+
+ private:
+  Once once_;
+  EncodedMesh<Memory> mesh_;
+};
+
+}  // namespace detail
+
 namespace {
 
 template <class Space>
@@ -36,16 +61,10 @@ Ids<Space> internal_begin_of(const Space& space, const Array<const Id, MemoryOf<
   return begin;
 }
 
-/// A mesh and its permutations.
-struct Encoded {
-  detail::MeshArrays arrays;
-  Mirrored<Id> vertex_input, vertex_internal, tetrahedron_input;
-  Id owned_segments;
-};
-
 /// Ends with a fence: others use the arrays on instances of their own.
 template <class Index, class Space, class Memory>
-Encoded encode(const Space& space, const Tetrahedra<Index, Memory>& given, const Segmentation& segmentation) {
+detail::PermutedMesh encode(const Space& space, const Tetrahedra<Index, Memory>& given,
+                            const Segmentation& segmentation) {
   using Here = MemoryOf<Space>;
   const auto vertex_internal = inverse_of(space, segmentation.vertex_input.in<Here>());
   detail::SortedTetrahedra<Here> sorted;
@@ -72,33 +91,19 @@ Encoded encode(const Space& space, const Tetrahedra<Index, Memory>& given, const
           segmentation.is_part() ? segmentation.owned_segments : segmentation.segments()};
 }
 
-/// The arrays of a mesh for code that runs on `Memory`, once someone has asked for them.
-template <class Memory>
-class EncodedOnce {
- public:
-  const EncodedMesh<Memory>& of(const detail::MeshArrays& arrays) {
-    once_([&] { mesh_ = arrays.in<Memory>(); });
-    return mesh_;
-  }
-
- private:
-  detail::Once once_;
-  EncodedMesh<Memory> mesh_;
-};
-
 }  // namespace
 
 struct Mesh::Data {
-  const Encoded encoded;
+  const detail::PermutedMesh encoded;
   const std::string notice;
-  mutable EncodedOnce<WorkerMemory> worker;
-  mutable EncodedOnce<HostMemory> host;
+  mutable detail::EncodedOnce<WorkerMemory> worker;
+  mutable detail::EncodedOnce<HostMemory> host;
   mutable detail::SimplexStore simplices;
   mutable std::mutex kept_mutex;
   mutable std::map<std::string, std::shared_ptr<const void>> kept;
 
   /// What consumers read again and again is copied to the host now.
-  Data(const Encoded& mesh, const std::string& what_did_not_fit)
+  Data(const detail::PermutedMesh& mesh, const std::string& what_did_not_fit)
       : encoded(mesh), notice(what_did_not_fit), simplices(mesh.arrays) {
     encoded.arrays.vertex_begin.in<HostMemory>();
     encoded.arrays.internal_begin.in<HostMemory>();

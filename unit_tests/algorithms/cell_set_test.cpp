@@ -37,8 +37,6 @@ class CellSetOf : public testing::Test {};
 using Sets = testing::Types<CellSet<1>, CellSet<2>, CellSet<4>>;
 TYPED_TEST_SUITE(CellSetOf, Sets);
 
-}  // namespace
-
 TYPED_TEST(CellSetOf, each_size_is_empty_at_first) {
   EXPECT_TRUE(TypeParam::none().empty());
   EXPECT_FALSE(TypeParam::none().is_single());
@@ -74,5 +72,7 @@ TYPED_TEST(CellSetOf, each_size_is_what_a_set_is) {
     EXPECT_EQ((set_a - set_b).empty(), rest.empty());
   }
 }
+
+}  // namespace
 
 }  // namespace gale::test

@@ -189,8 +189,6 @@ std::vector<std::vector<double>> some_fields(const InputMesh& input) {
   return fields;
 }
 
-}  // namespace
-
 class GradientOn : public testing::TestWithParam<Shape> {
  protected:
   Subject subject{GetParam().make()};
@@ -296,5 +294,7 @@ TEST(DiscreteGradient, of_a_constant_field_is_that_of_the_input_ids) {
   std::iota(ids.begin(), ids.end(), 0);
   EXPECT_EQ(subject.pairs(std::vector<double>(ids.size(), 42)), subject.pairs(ids));
 }
+
+}  // namespace
 
 }  // namespace gale::test

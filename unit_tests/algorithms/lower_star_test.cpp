@@ -167,8 +167,6 @@ class LowerStarOf : public testing::Test {};
 using Stars = testing::Types<LowerStar<1>, LowerStar<2>, LowerStar<1, true>, LowerStar<2, true>>;
 TYPED_TEST_SUITE(LowerStarOf, Stars);
 
-}  // namespace
-
 TYPED_TEST(LowerStarOf, each_size_pairs_random_links_as_the_large_one_does) {
   constexpr std::size_t capacity = TypeParam::Cells::capacity;
   std::mt19937 random(17);
@@ -292,5 +290,7 @@ TEST(LowerNeighbours, are_those_that_sorting_finds) {
     }
   }
 }
+
+}  // namespace
 
 }  // namespace gale::test

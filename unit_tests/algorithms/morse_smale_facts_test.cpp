@@ -115,8 +115,6 @@ void expect_facts(const Case& of, const NamedComplex& complex) {
   expect_numbered_by_pair(complex);
 }
 
-}  // namespace
-
 class MorseSmaleFacts : public testing::TestWithParam<std::string> {
  protected:
   const Case& of() const { return case_; }
@@ -228,5 +226,7 @@ TEST_P(MorseSmaleFacts, hold_after_simplification) {
 
 INSTANTIATE_TEST_SUITE_P(Tests, MorseSmaleFacts, testing::Values("ball", "solid_torus", "thick_shell", "holed_grid"),
                          [](const auto& info) { return info.param; });
+
+}  // namespace
 
 }  // namespace gale::test

@@ -45,7 +45,7 @@ struct XmlFile {
   // As the root says.
   ByteOrder order = byte_order_of_machine();
   std::size_t header_bytes = 4;  ///< of the numbers that say how long an array is
-  std::string compressor;        ///< VTK's class, or empty
+  std::string compressor{};      ///< VTK's class, or empty
 };
 
 /// Reads the tree, of which `type` must be the root's. Throws gale::Error for a file that isn't well-formed, nested too

@@ -54,6 +54,9 @@ bool says_why_not_written(unsigned long error) {
   return std::find(std::begin(reasons), std::end(reasons), error) != std::end(reasons);
 }
 
+}  // namespace
+
+/// Keeps what VTK says to itself.
 class SilentWindow : public vtkOutputWindow {
  public:
   static SilentWindow* New();
@@ -74,8 +77,6 @@ class SilentWindow : public vtkOutputWindow {
 };
 
 vtkStandardNewMacro(SilentWindow);
-
-}  // namespace
 
 struct VtkMessages::State {
   std::string verdict;
