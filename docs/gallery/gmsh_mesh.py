@@ -1,4 +1,4 @@
-"""A mesh from gmsh, of a part that was bored through: where each basin of a field is, and the lines between its extrema.
+"""A mesh from gmsh, of a part that was bored through: where each basin of a field is, and the paths down to its minima.
 
 usage: gmsh_mesh.py SIZE PICTURE: SIZE is the length of edges, e.g. gmsh_mesh.py 0.07 gmsh.png"""
 import sys
@@ -7,7 +7,7 @@ import gale
 import gmsh
 import numpy as np
 import pyvista
-from pictures import COLORS, save
+from pictures import ASCENDING, COLORS, DESCENDING, add_critical, add_legend, paths_of, save
 
 if len(sys.argv) != 3:
     sys.exit(__doc__)
@@ -38,12 +38,15 @@ tetrahedra = np.full(mesh.tetrahedra, pyvista.CellType.TETRA)
 grid = pyvista.UnstructuredGrid(np.insert(corners, 0, 4, axis=1).ravel(), tetrahedra, mesh.points)
 grid.cell_data["basin"] = complex.manifolds["DescendingManifold"][corners[:, 0]]
 plotter = pyvista.Plotter(off_screen=True, window_size=(800, 600))
-plotter.add_mesh(grid.extract_cells(mesh.points[corners].mean(axis=1) @ [1, -1, 0] < 0), scalars="basin", cmap="Pastel1",
-                 show_scalar_bar=False)
-plotter.add_mesh(complex.separatrices1.to_pyvista(), color="black", line_width=4)
-critical = complex.critical_points
-plotter.add_points(critical.points, scalars=COLORS[critical["CellDimension"]], rgb=True, point_size=16,
-                   render_points_as_spheres=True)
+BASINS = ["#f2cdbb", "#d3cbe3", "#cfe3cf", "#efe6b8"]
+plotter.add_mesh(grid.extract_cells(mesh.points[corners].mean(axis=1) @ [1, -1, 0] < 0), scalars="basin", cmap=BASINS[: grid["basin"].max() + 1],
+                 show_scalar_bar=False, ambient=0.2)
+legend = add_critical(plotter, complex.critical_points, 16)
+for kind, dimension, name in ((DESCENDING, 0, "paths down to minima"), (ASCENDING, 3, "paths up to maxima")):
+    if (complex.separatrices1.line_arrays["SeparatrixType"] == kind).any():
+        plotter.add_mesh(paths_of(complex.separatrices1, kind, steps=8).tube(radius=0.012), color=COLORS[dimension].tolist(), ambient=0.35)
+        legend.append(("line", dimension, name))
+legend += [("patch", pyvista.Color(color).int_rgb, f"basin of minimum {k + 1}") for k, color in enumerate(BASINS[: grid["basin"].max() + 1])]
 plotter.view_vector((1.5, -1, 1.2))
-plotter.camera.zoom(1.2)
-save(plotter.screenshot(return_img=True), picture)
+plotter.camera.zoom(1.3)
+save(add_legend(plotter.screenshot(return_img=True), legend), picture)
