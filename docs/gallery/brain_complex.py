@@ -6,7 +6,7 @@ import sys
 import gale
 import numpy as np
 import pyvista
-from pictures import ASCENDING, COLORS, DESCENDING, add_critical, add_legend, paths_of, save, surface_of
+from pictures import add_critical, add_legend, add_paths, save, surface_of
 
 if len(sys.argv) != 5:
     sys.exit(__doc__)
@@ -18,12 +18,8 @@ print(f"{len(complex.critical_points)} critical simplices are left at {persisten
 
 plotter = pyvista.Plotter(off_screen=True, window_size=(1000, 700))
 plotter.add_mesh(surface_of(mesh).smooth(n_iter=100), color="wheat", opacity=0.12)
-legend = []
-for kind, dimension, name in ((DESCENDING, 0, "paths down to minima"), (ASCENDING, 3, "paths up to maxima")):
-    paths = paths_of(complex.separatrices1, kind)
-    plotter.add_mesh(paths.tube(radius=np.ptp(mesh.points) / 600), color=COLORS[dimension].tolist(), ambient=0.35)
-    legend.append(("line", dimension, name))
-legend = add_critical(plotter, complex.critical_points, 11) + legend
+legend = add_critical(plotter, complex.critical_points, 11)
+legend += add_paths(plotter, complex.separatrices1, np.ptp(mesh.points) / 600)
 plotter.view_vector((1, -1.2, 0.6))
 plotter.camera.zoom(1.5)
 save(add_legend(plotter.screenshot(return_img=True), legend), picture)

@@ -7,7 +7,7 @@ import gale
 import gmsh
 import numpy as np
 import pyvista
-from pictures import ASCENDING, COLORS, DESCENDING, add_critical, add_legend, paths_of, save
+from pictures import add_critical, add_legend, add_paths, save
 
 if len(sys.argv) != 3:
     sys.exit(__doc__)
@@ -38,15 +38,13 @@ tetrahedra = np.full(mesh.tetrahedra, pyvista.CellType.TETRA)
 grid = pyvista.UnstructuredGrid(np.insert(corners, 0, 4, axis=1).ravel(), tetrahedra, mesh.points)
 grid.cell_data["basin"] = complex.manifolds["DescendingManifold"][corners[:, 0]]
 plotter = pyvista.Plotter(off_screen=True, window_size=(800, 600))
-BASINS = ["#f2cdbb", "#d3cbe3", "#cfe3cf", "#efe6b8"]
-plotter.add_mesh(grid.extract_cells(mesh.points[corners].mean(axis=1) @ [1, -1, 0] < 0), scalars="basin", cmap=BASINS[: grid["basin"].max() + 1],
-                 show_scalar_bar=False, ambient=0.2)
+pastels = ["#f2cdbb", "#d3cbe3", "#cfe3cf", "#efe6b8", "#bfe0ea", "#e6c7dd"]
+colors = [pastels[k % len(pastels)] for k in range(grid["basin"].max() + 1)]
+half = grid.extract_cells(mesh.points[corners].mean(axis=1) @ [1, -1, 0] < 0)
+plotter.add_mesh(half, scalars="basin", clim=(0, len(colors) - 1), cmap=colors, show_scalar_bar=False, ambient=0.2)
 legend = add_critical(plotter, complex.critical_points, 16)
-for kind, dimension, name in ((DESCENDING, 0, "paths down to minima"), (ASCENDING, 3, "paths up to maxima")):
-    if (complex.separatrices1.line_arrays["SeparatrixType"] == kind).any():
-        plotter.add_mesh(paths_of(complex.separatrices1, kind, steps=8).tube(radius=0.012), color=COLORS[dimension].tolist(), ambient=0.35)
-        legend.append(("line", dimension, name))
-legend += [("patch", pyvista.Color(color).int_rgb, f"basin of minimum {k + 1}") for k, color in enumerate(BASINS[: grid["basin"].max() + 1])]
+legend += add_paths(plotter, complex.separatrices1, 0.012, steps=8)
+legend += [("patch", pyvista.Color(color).int_rgb, f"basin of minimum {k + 1}") for k, color in enumerate(colors)]
 plotter.view_vector((1.5, -1, 1.2))
 plotter.camera.zoom(1.3)
 save(add_legend(plotter.screenshot(return_img=True), legend), picture)

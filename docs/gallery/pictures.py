@@ -21,8 +21,8 @@ def surface_of(mesh):
     return triangles_of(mesh, np.diff(mesh.relation("FT")[0]) == 1)
 
 
-def paths_of(separatrices1, kind, steps=30):
-    """The separatrices of one type as smooth lines: each point but the ends is moved towards the middle of its
+def paths_of(separatrices1, kind, steps):
+    """The separatrices of a type that occurs, as smooth lines: each point but the ends is moved towards the middle of its
     neighbours, since a path runs from simplex to simplex."""
     import pyvista
 
@@ -36,6 +36,17 @@ def paths_of(separatrices1, kind, steps=30):
         lines.append(np.append(len(path), np.arange(len(path)) + sum(map(len, points))))
         points.append(path)
     return pyvista.PolyData(np.concatenate(points), lines=np.concatenate(lines))
+
+
+def add_paths(plotter, separatrices1, radius, steps=30):
+    """Adds the paths down to minima and up to maxima as tubes. Returns the legend's entries for those that there are."""
+    legend = []
+    for kind, dimension, name in ((DESCENDING, 0, "paths down to minima"), (ASCENDING, 3, "paths up to maxima")):
+        if (separatrices1.cell_arrays["SeparatrixType"] == kind).any():
+            tubes = paths_of(separatrices1, kind, steps).tube(radius=radius)
+            plotter.add_mesh(tubes, color=COLORS[dimension].tolist(), ambient=0.35)
+            legend.append(("line", dimension, name))
+    return legend
 
 
 def add_critical(plotter, critical, size):
