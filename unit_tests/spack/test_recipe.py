@@ -1,13 +1,18 @@
 """The Spack recipe against the build that it drives: usage test_recipe.py SOURCE_DIR [unittest's arguments]
 
-Spack itself isn't needed: its directives are replaced by ones that remember what they were told.
+Spack itself isn't needed: its directives are replaced by ones that remember what they were told, and what else a recipe
+may import by doubles that have no more than the real ones.
 """
+import builtins
 import contextlib
+import dis
 import importlib.util
+import os
 import re
 import sys
 import types
 import unittest
+import unittest.mock
 from pathlib import Path
 
 SOURCE = Path(sys.argv.pop(1))
@@ -24,9 +29,33 @@ PACKAGES = {
     "GTest": "googletest",
     "Python3": "python",
 }
+EXPORTED = set((Path(__file__).parent / "spack_package_v2.2.txt").read_text().split("\n", 1)[1].split())
 BUILT_INTO_CMAKE = {"BUILD_SHARED_LIBS", "CMAKE_CXX_COMPILER", "CMAKE_PREFIX_PATH", "Kokkos_ROOT", "nanobind_DIR"}
 BACKENDS = {"serial", "openmp", "cuda"}
 CUDA_ARCHS = ("70", "90")
+
+
+class SkipTest(Exception):
+    """What a test of Spack's raises where it has nothing to test."""
+
+
+class Program:
+    """Remembers its calls, as (arguments, keywords), and answers."""
+
+    def __init__(self, path):
+        self.path = path
+        self.calls = []
+
+    def __call__(self, *arguments, **keywords):
+        self.calls.append((arguments, keywords))
+        return f"{self.path}/answer\n"
+
+
+class PythonExtension:
+    """As Spack's: with a test that runs whatever the variants are, and needs what only +python has."""
+
+    def test_imports(self):
+        self.module.python("-c", "", *self.import_modules)
 
 
 class Directives:
@@ -36,42 +65,84 @@ class Directives:
 
     def __init__(self):
         self.calls = {name: [] for name in self.NAMES}
+        self.programs = {}
+
+    def which(self, path, required):
+        return self.programs.setdefault(path, Program(path))
 
     def install(self):
         package = types.ModuleType("spack.package")
+        package.__all__ = sorted(EXPORTED)
+        for name in EXPORTED:
+            setattr(package, name, None)
         for name in self.NAMES:
             setattr(package, name, lambda *args, _name=name, **keywords: self.calls[_name].append((args, keywords)))
         package.extends = lambda spec, **keywords: self.calls["depends_on"].append(((spec,), keywords))
         package.run_after = lambda phase: lambda function: function
-        package.when = lambda condition: contextlib.nullcontext()
-        package.python_platlib = "lib/python3/site-packages"
+        package.when = self.when
+        package.SkipTest = SkipTest
+        package.which = self.which
+        package.join_path = os.path.join
+        package.working_dir = lambda path, create: contextlib.nullcontext()
+        package.check_outputs = lambda expected, found: None
+        package.get_cmake_prefix_path = lambda of: ["/opt/kokkos"]
         build_systems = "spack_repo.builtin.build_systems"
         cmake = types.ModuleType(f"{build_systems}.cmake")
         cmake.CMakePackage = type("CMakePackage", (), {})
         cuda = types.ModuleType(f"{build_systems}.cuda")
         cuda.CudaPackage = type("CudaPackage", (), {"cuda_arch_values": CUDA_ARCHS})
         python = types.ModuleType(f"{build_systems}.python")
-        python.PythonExtension = type("PythonExtension", (), {})
+        python.PythonExtension = PythonExtension
         parents = ["spack", "spack_repo", "spack_repo.builtin", build_systems]
         for module in [types.ModuleType(name) for name in parents] + [package, cmake, cuda, python]:
             sys.modules[module.__name__] = module
+
+    @contextlib.contextmanager
+    def when(self, condition):
+        """What is said inside has this condition as well."""
+        before = len(self.calls["depends_on"])
+        yield
+        for _, keywords in self.calls["depends_on"][before:]:
+            keywords["when"] = condition + keywords.get("when", "")
 
     def dependencies(self):
         """{(spec, condition)} of all depends_on."""
         return {(args[0], keywords.get("when")) for args, keywords in self.calls["depends_on"]}
 
+    def packages(self, variants, run_tests):
+        """What there is for these variants, by its name."""
+        found = set()
+        for (spec,), keywords in self.calls["depends_on"]:
+            said = re.findall(r"([+~])(\w+)", keywords.get("when", ""))
+            if all(variants.get(name, False) == (sign == "+") for sign, name in said):
+                if run_tests or keywords.get("type") != "test":
+                    found.add(re.match(r"[\w-]+", spec).group(0))
+        return found
+
 
 class Spec:
-    """Has the variants that are said; its packages are where they are asked for."""
+    """Has the variants that are said, and those packages that the recipe depends on then."""
 
-    def __init__(self, variants):
+    def __init__(self, variants, packages):
         self.variants = variants
+        self.packages = packages
 
-    def __getitem__(self, package):
-        return types.SimpleNamespace(prefix=f"/opt/{package}", command=lambda *arguments, **_: f"/opt/{package}/answer\n")
+    def __getitem__(self, name):
+        if name not in self.packages:
+            raise KeyError(f"No spec with name {name}")
+        has_wrapper = name == "kokkos" and self.variants["cuda"]
+        return types.SimpleNamespace(prefix=Prefix(f"/opt/{name}"), command=Program(f"/opt/{name}"),
+                                     satisfies=lambda text: text == "+wrapper" and has_wrapper)
 
     def satisfies(self, text):
         return self.variants[text[1:]] == (text[0] == "+")
+
+
+class Prefix(str):
+    """A folder, whose attributes are what is in it."""
+
+    def __getattr__(self, name):
+        return Prefix(f"{self}/{name}")
 
 
 def load_recipe():
@@ -84,15 +155,38 @@ def load_recipe():
     return module.Gale, directives
 
 
-def cmake_args(recipe, variants, run_tests):
-    """What the recipe would pass to CMake, as {option: value}."""
-    package = recipe()
-    package.spec = Spec(variants)
-    package.run_tests = run_tests
-    package.define = lambda option, value: (option, value)
-    package.define_from_variant = lambda option, variant: (option, variants[variant])
-    recipe.__getitem__ = lambda self, name: types.SimpleNamespace(kokkos_cxx="nvcc_wrapper")
-    return dict(package.cmake_args())
+def make_package(recipe, directives, variants, run_tests=False):
+    """The package, as far as the recipe may ask it."""
+    packages = directives.packages(variants, run_tests)
+    of_python = {"python": Program("python"), "python_platlib": "lib/python3/site-packages"}
+
+    class Package(recipe):
+        spec = Spec(variants, packages)
+        prefix = Prefix("/opt/gale")
+        test_suite = types.SimpleNamespace(current_test_cache_dir="/cache")
+        module = types.SimpleNamespace(**(of_python if variants["python"] else {}))
+
+        def __getitem__(self, name):
+            if name not in packages:
+                raise KeyError(f"No spec with name {name}")
+            return types.SimpleNamespace(cxx="/opt/gcc/bin/g++", kokkos_cxx="nvcc_wrapper")
+
+        def define(self, option, value):
+            return option, value
+
+        def define_from_variant(self, option, variant):
+            return option, variants[variant]
+
+    Package.run_tests = run_tests
+    return Package()
+
+
+def code_of(code):
+    """A code object and all that is defined in it."""
+    yield code
+    for constant in code.co_consts:
+        if isinstance(constant, types.CodeType):
+            yield from code_of(constant)
 
 
 class Recipe(unittest.TestCase):
@@ -107,6 +201,10 @@ class Recipe(unittest.TestCase):
 
     def all_variants(self, **changed):
         return {**dict.fromkeys(self.variants, False), "cuda": False, **changed}
+
+    def cmake_args(self, variants, run_tests):
+        """What the recipe would pass to CMake, as {option: value}."""
+        return dict(make_package(self.recipe, self.directives, variants, run_tests).cmake_args())
 
     def test_repository_is_where_its_namespace_says(self):
         text = (REPOSITORY / "repo.yaml").read_text()
@@ -130,9 +228,51 @@ class Recipe(unittest.TestCase):
 
     def test_what_is_installed_is_tested(self):
         tests = {name for name in dir(self.recipe) if name.startswith("test_") and callable(getattr(self.recipe, name))}
-        self.assertEqual(tests, {"test_command", "test_examples", "test_python"})
+        self.assertEqual(tests, {"test_command", "test_examples", "test_imports", "test_python"})
         for name in tests:
             self.assertTrue(getattr(self.recipe, name).__doc__, name)  # Spack prints it
+
+    def test_names_are_those_that_spack_exports(self):
+        path = REPOSITORY / "packages" / "gale" / "package.py"
+        known = set(self.recipe.cmake_args.__globals__) | set(dir(builtins))
+        for code in code_of(compile(path.read_text(), str(path), "exec")):
+            for step in dis.get_instructions(code):
+                if step.opname == "LOAD_GLOBAL":  # what no import brings is there at some times of a build only, or never
+                    self.assertTrue(step.argval in known, f"{code.co_name} uses {step.argval}")
+
+    def test_lines_are_as_spack_style_wants_them(self):
+        for number, line in enumerate((REPOSITORY / "packages" / "gale" / "package.py").read_text().split("\n"), 1):
+            self.assertLessEqual(len(line), 99, f"line {number}")
+            self.assertFalse(line.startswith("from spack.package import *"), "spack style takes such names as undefined")
+
+    def test_no_condition_is_about_what_it_adds(self):
+        for spec, condition in self.directives.dependencies():
+            self.assertNotIn("^", condition or "", f"spack audit calls the condition of {spec} self-referential")
+
+    def test_tests_run_or_are_skipped_for_all_variants(self):
+        """In the environment that Spack gives tests, which has no CXX, and with no package but those of the variants."""
+        tests = [name for name in dir(self.recipe) if name.startswith("test_") and callable(getattr(self.recipe, name))]
+        self.assertIn("test_imports", tests)  # which PythonExtension brings
+        needed = {"test_command": "app", "test_imports": "python", "test_python": "python"}
+        for name in tests:
+            for on in (False, True):
+                variants = self.all_variants(**dict.fromkeys(self.variants, on), cuda=False)
+                package = make_package(self.recipe, self.directives, variants, run_tests=False)
+                with self.subTest(name, all_variants=on), unittest.mock.patch.dict(os.environ, clear=True):
+                    if name in needed and not on:
+                        self.assertRaises(SkipTest, getattr(package, name))
+                    else:
+                        getattr(package, name)()
+
+    def test_examples_are_compiled_by_what_compiled_gale(self):
+        for cuda, compiler in ((False, "/opt/gcc/bin/g++"), (True, "nvcc_wrapper")):
+            self.directives.programs.clear()
+            make_package(self.recipe, self.directives, self.all_variants(cuda=cuda)).test_examples()
+            calls = self.directives.programs["/opt/cmake/bin/cmake"].calls
+            self.assertIn(("CMAKE_CXX_COMPILER", compiler), calls[0][0])
+            for _, keywords in calls:
+                self.assertEqual(keywords["extra_env"], {"NVCC_WRAPPER_DEFAULT_COMPILER": "/opt/gcc/bin/g++"})
+            self.assertTrue(self.directives.programs["/opt/cmake/bin/ctest"].calls)
 
     def test_command_finds_what_the_recipe_expects(self):
         source = (REPOSITORY / "packages" / "gale" / "package.py").read_text()
@@ -140,23 +280,23 @@ class Recipe(unittest.TestCase):
             self.assertIn(rf"{kind}\s+{count}", source)
 
     def test_options_exist(self):
-        for options in (cmake_args(self.recipe, self.all_variants(), True),
-                        cmake_args(self.recipe, self.all_variants(cuda=True, python=True), False)):
+        for options in (self.cmake_args(self.all_variants(), True),
+                        self.cmake_args(self.all_variants(cuda=True, python=True), False)):
             self.assertEqual(set(options) - self.options - BUILT_INTO_CMAKE, set())
 
     def test_each_variant_changes_an_option(self):
-        without = cmake_args(self.recipe, self.all_variants(), False)
+        without = self.cmake_args(self.all_variants(), False)
         for variant in self.all_variants():
-            changed = cmake_args(self.recipe, self.all_variants(**{variant: True}), False)
+            changed = self.cmake_args(self.all_variants(**{variant: True}), False)
             with self.subTest(variant=variant):
                 self.assertNotEqual(changed, without)
-        self.assertTrue(cmake_args(self.recipe, self.all_variants(vtk=True), False)["GALE_ENABLE_VTK"])
-        self.assertTrue(cmake_args(self.recipe, self.all_variants(mpi=True), False)["GALE_ENABLE_MPI"])
-        self.assertTrue(cmake_args(self.recipe, self.all_variants(shared=True), False)["BUILD_SHARED_LIBS"])
+        self.assertTrue(self.cmake_args(self.all_variants(vtk=True), False)["GALE_ENABLE_VTK"])
+        self.assertTrue(self.cmake_args(self.all_variants(mpi=True), False)["GALE_ENABLE_MPI"])
+        self.assertTrue(self.cmake_args(self.all_variants(shared=True), False)["BUILD_SHARED_LIBS"])
 
     def test_tests_are_built_when_they_are_run(self):
         for run_tests in (False, True):
-            self.assertIs(cmake_args(self.recipe, self.all_variants(), run_tests)["GALE_ENABLE_TESTS"], run_tests)
+            self.assertIs(self.cmake_args(self.all_variants(), run_tests)["GALE_ENABLE_TESTS"], run_tests)
 
     def test_backends_are_forwarded_and_required(self):
         for package, condition in (("kokkos", ""), ("kokkos-kernels", "+kokkos_kernels")):
@@ -166,7 +306,7 @@ class Recipe(unittest.TestCase):
                 self.assertIn((f"{package}+cuda cuda_arch={arch}", f"{condition}+cuda cuda_arch={arch}"),
                               self.directives.dependencies())
         for backend in BACKENDS:
-            options = cmake_args(self.recipe, self.all_variants(**{backend: True}), False)
+            options = self.cmake_args(self.all_variants(**{backend: True}), False)
             self.assertEqual(options["GALE_REQUIRE_BACKENDS"], [backend.upper()])
 
     def test_cuda_needs_an_architecture(self):

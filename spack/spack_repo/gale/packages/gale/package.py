@@ -5,14 +5,31 @@ from spack_repo.builtin.build_systems.cmake import CMakePackage
 from spack_repo.builtin.build_systems.cuda import CudaPackage
 from spack_repo.builtin.build_systems.python import PythonExtension
 
-from spack.package import *
+from spack.package import (
+    SkipTest,
+    cache_extra_test_sources,
+    check_outputs,
+    conflicts,
+    depends_on,
+    extends,
+    get_cmake_prefix_path,
+    join_path,
+    license,
+    run_after,
+    variant,
+    version,
+    when,
+    which,
+    working_dir,
+)
 
 CHECKOUT = os.path.abspath(os.path.join(os.path.dirname(__file__), *[os.pardir] * 5))
 
 
 class Gale(CMakePackage, CudaPackage, PythonExtension):
-    """Topological relations of large tetrahedral meshes, computed segment by segment and ahead of need, on CPUs and GPUs;
-    critical points, Morse-Smale complexes and persistent homology of scalar fields on them."""
+    """Topological relations of large tetrahedral meshes, computed segment by segment and ahead of
+    need, on CPUs and GPUs; critical points, Morse-Smale complexes and persistent homology of
+    scalar fields on them."""
 
     # The sources are those of the checkout that this recipe lies in. There are no releases yet.
     if os.path.exists(os.path.join(CHECKOUT, ".git")):
@@ -22,17 +39,21 @@ class Gale(CMakePackage, CudaPackage, PythonExtension):
 
     test_requires_compiler = True
 
+    # What test_imports imports.
+    import_modules = ["gale"]
+
     version("main", branch="main")
 
-    # Kokkos' backends, which cannot be added to those of the Kokkos that is linked. Without a device, and where Kokkos has
-    # Serial alone, GALE's own loops still use all cores, by the compiler's OpenMP.
+    # Kokkos' backends, which cannot be added to those of the Kokkos that is linked. Without a
+    # device, and where Kokkos has Serial alone, GALE's own loops still use all cores, by the
+    # compiler's OpenMP.
     variant("serial", default=True, description="Kokkos' Serial backend")
     variant("openmp", default=False, description="Kokkos' OpenMP backend")
     variant("app", default=True, description="The gale command")
-    variant("kokkos_kernels", default=True, description="The explicit structure, through Kokkos-Kernels")
+    variant("kokkos_kernels", default=True, description="The explicit structure")
     variant("mpi", default=False, description="Meshes that lie on several MPI ranks")
     variant("python", default=False, description="The Python module gale")
-    variant("vtk", default=True, description="Read files, and compress those written, with what VTK brings")
+    variant("vtk", default=True, description="Read and compress with what VTK brings")
     variant("shared", default=True, description="Build shared libraries")
 
     depends_on("c", type="build", when="+vtk")  # VTK finds HDF5 with it
@@ -62,18 +83,25 @@ class Gale(CMakePackage, CudaPackage, PythonExtension):
 
     # Kokkos is built for one architecture.
     for arch in CudaPackage.cuda_arch_values:
-        depends_on(f"kokkos+cuda cuda_arch={arch}", when=f"+cuda cuda_arch={arch}")
-        depends_on(f"kokkos-kernels+cuda cuda_arch={arch}", when=f"+kokkos_kernels+cuda cuda_arch={arch}")
-    depends_on("kokkos+cuda_lambda", when="+cuda ^kokkos@:4")
+        this_gpu = f"+cuda cuda_arch={arch}"
+        depends_on(f"kokkos{this_gpu}", when=this_gpu)
+        depends_on(f"kokkos-kernels{this_gpu}", when=f"+kokkos_kernels{this_gpu}")
     depends_on("kokkos+wrapper", when="+cuda %gcc")
 
     conflicts("cuda_arch=none", when="+cuda", msg="name the GPU: cuda_arch=90, for example")
+    conflicts("^kokkos@:4~cuda_lambda", when="+cuda", msg="GALE's kernels on a GPU are lambdas")
     conflicts("~serial", when="~openmp", msg="Kokkos needs a host backend: +serial or +openmp")
     for backend in ("rocm", "sycl", "openmptarget", "hpx", "threads"):
-        conflicts(f"^kokkos+{backend}", msg=f"GALE has no code for Kokkos' backend +{backend}: Serial, OpenMP or CUDA")
-    conflicts("^kokkos+cuda", when="~cuda", msg="this Kokkos has CUDA: take +cuda and its cuda_arch")
+        conflicts(
+            f"^kokkos+{backend}",
+            msg=f"GALE has no code for Kokkos' backend +{backend}: Serial, OpenMP or CUDA",
+        )
+    conflicts(
+        "^kokkos+cuda", when="~cuda", msg="this Kokkos has CUDA: take +cuda and its cuda_arch"
+    )
 
     def cmake_args(self):
+        backends = [b for b in ("serial", "openmp", "cuda") if self.spec.satisfies(f"+{b}")]
         args = [
             self.define_from_variant("BUILD_SHARED_LIBS", "shared"),
             self.define_from_variant("GALE_ENABLE_APP", "app"),
@@ -83,16 +111,13 @@ class Gale(CMakePackage, CudaPackage, PythonExtension):
             self.define_from_variant("GALE_ENABLE_VTK", "vtk"),
             self.define("GALE_ENABLE_EXAMPLES", self.run_tests),
             self.define("GALE_ENABLE_TESTS", self.run_tests),
-            self.define(
-                "GALE_REQUIRE_BACKENDS",
-                [backend.upper() for backend in ("serial", "openmp", "cuda") if self.spec.satisfies(f"+{backend}")],
-            ),
+            self.define("GALE_REQUIRE_BACKENDS", [b.upper() for b in backends]),
             self.define("Kokkos_ROOT", self.spec["kokkos"].prefix),
         ]
         if self.spec.satisfies("+cuda"):
             args.append(self.define("CMAKE_CXX_COMPILER", self["kokkos"].kokkos_cxx))
         if self.spec.satisfies("+python"):
-            args.append(self.define("GALE_PYTHON_DIR", python_platlib))
+            args.append(self.define("GALE_PYTHON_DIR", self.module.python_platlib))
             where = self.spec["python"].command("-m", "nanobind", "--cmake_dir", output=str)
             args.append(self.define("nanobind_DIR", where.strip()))
         return args
@@ -109,17 +134,26 @@ class Gale(CMakePackage, CudaPackage, PythonExtension):
         out = gale("critical-points", "grid:32", output=str.split, error=str.split)
         check_outputs([r"minima\s+26", r"maxima\s+39"], out)
 
-    def test_python(self):
-        """import the module, and find the critical points of a synthetic field"""
+    def test_imports(self):
+        """import the module"""
         if self.spec.satisfies("~python"):
             raise SkipTest("there is no module without +python")
-        python = self.spec["python"].command
-        script = "import gale; mesh, arrays = gale.read('grid:16'); print(len(mesh.critical_points(arrays['field']).points))"
-        python("-c", script)
+        super().test_imports()
+
+    def test_python(self):
+        """find the critical points of a synthetic field with the module"""
+        if self.spec.satisfies("~python"):
+            raise SkipTest("there is no module without +python")
+        script = "mesh, arrays = gale.read('grid:16'); mesh.critical_points(arrays['field'])"
+        self.spec["python"].command("-c", f"import gale; {script}")
 
     def test_examples(self):
         """build the examples against the installed GALE and run them"""
-        compiler = self["kokkos"].kokkos_cxx if self.spec.satisfies("+cuda") else os.environ["CXX"]
+        # The environment of tests has no CXX.
+        compiler = host_compiler = self["cxx"].cxx
+        if self.spec["kokkos"].satisfies("+wrapper"):
+            compiler = self["kokkos"].kokkos_cxx
+        environment = {"NVCC_WRAPPER_DEFAULT_COMPILER": host_compiler}
         source = join_path(self.test_suite.current_test_cache_dir, "examples")
         with working_dir("build", create=True):
             cmake = which(self.spec["cmake"].prefix.bin.cmake, required=True)
@@ -127,6 +161,8 @@ class Gale(CMakePackage, CudaPackage, PythonExtension):
                 source,
                 self.define("CMAKE_PREFIX_PATH", [self.prefix] + get_cmake_prefix_path(self)),
                 self.define("CMAKE_CXX_COMPILER", compiler),
+                extra_env=environment,
             )
-            cmake("--build", ".")
-            which("ctest", required=True)("--output-on-failure")
+            cmake("--build", ".", extra_env=environment)
+            ctest = which(self.spec["cmake"].prefix.bin.ctest, required=True)
+            ctest("--output-on-failure")
