@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,15 +13,23 @@ namespace gale::io {
 /// The pieces that a `.pvtu` names.
 struct PieceNames {
   std::vector<std::string> sources;  ///< their paths
-  std::string global_ids;            ///< the point array that has global ids; empty if there is none
+  std::string point_ids, cell_ids;   ///< the arrays that have global ids; empty where there are none
+};
+
+/// Some pieces as one mesh, which may have no tetrahedra and no points: points that several pieces have are there
+/// once, and ghost cells are left out.
+struct SomePieces {
+  Dataset mesh;  ///< points and tetrahedra in the order of their ids, or, without ids, in which they occur first
+
+  // In that order; empty without ids.
+  std::vector<std::int64_t> point_ids;        ///< the global ids of points, which differ
+  std::vector<std::int64_t> tetrahedron_ids;  ///< the global ids of tetrahedra
 };
 
 /// Reads which pieces `input` names if it is a `.pvtu`; nothing for another one. Throws Error, naming it.
 GALE_EXPORT std::optional<PieceNames> piece_names(const std::string& input);
 
-/// Reads some of the pieces of a `.pvtu` as one mesh, which may have no tetrahedra and no points: points that several
-/// of them have are there once, in the order in which they occur first, and ghost cells are left out. Throws Error,
-/// naming the input.
-GALE_EXPORT Dataset read_pieces(const std::string& input, const PieceNames& some, const ReadOptions& options);
+/// Reads some of the pieces of a `.pvtu` as one mesh. Throws Error, naming the input.
+GALE_EXPORT SomePieces read_pieces(const std::string& input, const PieceNames& some, const ReadOptions& options);
 
 }  // namespace gale::io

@@ -80,7 +80,7 @@ std::optional<PieceNames> piece_names(const std::string& input) {
   return naming(input, [&] { return detail::names_of_pieces(detail::InputFile(input)); });
 }
 
-Dataset read_pieces(const std::string& input, const PieceNames& some, const ReadOptions& options) {
+SomePieces read_pieces(const std::string& input, const PieceNames& some, const ReadOptions& options) {
   return naming(input, [&] {
     if (options.above) throw Error("a threshold was given, but it is a mesh, not an image");
     return detail::read_some_pieces(detail::InputFile(input), some, options);

@@ -31,6 +31,7 @@ GALE_EXPORT std::optional<int> grid_size(const std::string& input, const ReadOpt
 ///   dimension 3 are refused, unless `tetrahedralize`.
 /// - `.pvtu`: the pieces that it names, in its folder or below, as one mesh. Their points are the same where their
 ///   global ids are (`GlobalIds` of `PPointData`), or all coordinates if there are no such; ghost cells are left out.
+///   Points are in the order of these ids, cells in that of theirs (`GlobalIds` of `PCellData`), else as they occur.
 /// - `.e .ex2 .exo` (Exodus II) and `.hdf .vtkhdf` (VTKHDF: a mesh, or an image): read by VTK, in the program
 ///   gale-vtk-reader. Of an Exodus file the blocks of elements, and nodal variables at its first time.
 /// - `.vti .nii .nii.gz .mha .mhd .nrrd`, and `.vtk` of structured points: an image, see `split_voxels`. Values are

@@ -1,6 +1,7 @@
 """What the tests of the command on several ranks share."""
 import json
 import os
+import random
 import subprocess
 import unittest
 import xml.etree.ElementTree
@@ -14,13 +15,18 @@ needs_mpi = unittest.skipUnless(MPIEXEC, "this gale was built without MPI")
 
 
 class RanksTest(gale.CommandTest):
-    def launcher(self, ranks):
-        return [MPIEXEC, "--allow-run-as-root", "--oversubscribe", "--bind-to", "none", "--mca", "mpi_yield_when_idle", "1",
-                "-n", str(ranks), gale.GALE]
+    launcher = [MPIEXEC, "--allow-run-as-root", "--oversubscribe", "--bind-to", "none", "--mca", "mpi_yield_when_idle", "1"]
+
+    def start(self, *command):
+        return subprocess.run([*self.launcher, *map(str, command)], cwd=self.folder, stdin=subprocess.DEVNULL, capture_output=True,
+                              text=True, timeout=300)
 
     def launch(self, ranks, *arguments):
-        return subprocess.run([*self.launcher(ranks), *map(str, arguments)], cwd=self.folder, stdin=subprocess.DEVNULL,
-                              capture_output=True, text=True, timeout=300)
+        return self.start("-n", ranks, gale.GALE, *arguments)
+
+    def launch_each(self, *commands):
+        """A rank for each command."""
+        return self.start(*[word for command in commands for word in (":", "-n", "1", *command)][1:])
 
     def report_of(self, ranks, *arguments):
         run = self.launch(ranks, *arguments, "--report", "ranks.json")
@@ -42,3 +48,73 @@ class RanksTest(gale.CommandTest):
             for piece in pieces:
                 self.assertEqual(list(piece.types(kind).items()), list(types.items()))
         return pieces
+
+    def write_ties(self, grid):
+        """The grid's mesh as ties.vtk, with a field of few values: most neighbours have equal ones."""
+        self.succeed("generate", grid, "-o", "whole.vtu")
+        whole = gale.XmlFile(self.folder / "whole.vtu")
+        chance = random.Random(3)
+        arrays = {"height": ("float", [chance.randrange(3) for _ in whole.points])}
+        self.write("ties.vtk", gale.vtk_mesh(whole.points, whole.cells("Cells"), arrays))
+
+
+class ComplexTest(RanksTest):
+    """Compares what several ranks wrote with what one did."""
+
+    def simplices(self, files):
+        """{(dimension, CellId): (point, values of arrays)} of critical simplices."""
+        found = {}
+        for file in files:
+            arrays = file.point_arrays
+            for i, key in enumerate(zip(arrays["CellDimension"], arrays["CellId"])):
+                self.assertNotIn(key, found)
+                found[key] = (file.points[i], {name: values[i] for name, values in arrays.items()})
+        return found
+
+    def lines(self, files):
+        """{SeparatrixId: its points with their arrays, and the arrays of each of its lines}."""
+        found = {}
+        for file in files:
+            arrays, cells = file.cell_arrays, file.cells("Lines")
+            here = set(arrays["SeparatrixId"])
+            self.assertFalse(here & set(found), "a separatrix in two pieces")
+            for i, ends in enumerate(cells):
+                points = [(file.points[k], *(values[k] for values in file.point_arrays.values())) for k in ends]
+                found.setdefault(arrays["SeparatrixId"][i], []).append(
+                    (points, {name: values[i] for name, values in arrays.items()}))
+        return found
+
+    def expect_segmentation(self, one, pieces):
+        """Each vertex is no ghost in one piece, each tetrahedron is in one; in all, vertices have the values of one rank."""
+        owned, cells = set(), {}
+        for piece in pieces:
+            arrays, ids = piece.point_arrays, piece.point_arrays["GlobalPointIds"]
+            self.assertEqual(set(arrays), set(one.point_arrays) | {"vtkGhostType", "GlobalPointIds"})
+            for i, vertex in enumerate(ids):
+                self.assertEqual(piece.points[i], one.points[vertex])
+                for name, values in one.point_arrays.items():
+                    self.assertEqual(arrays[name][i], values[vertex], (name, vertex))
+                if arrays["vtkGhostType"][i] == 0:
+                    self.assertNotIn(vertex, owned)
+                    owned.add(vertex)
+            for cell, corners in zip(piece.cell_arrays["GlobalCellIds"], piece.cells("Cells")):
+                self.assertNotIn(cell, cells)
+                cells[cell] = [ids[k] for k in corners]
+        self.assertEqual(owned, set(range(len(one.points))))
+        self.assertEqual([cells[cell] for cell in sorted(cells)], one.cells("Cells"))
+
+    def expect_files(self, pieces_named, *options):
+        read = {kind: gale.XmlFile(self.folder / f"one_{kind}") for kind in
+                ("critical_points.vtp", "separatrices1.vtp", "segmentation.vtu")}
+        pieces = {kind: self.pieces(f"{pieces_named}_{kind.replace('.', '.p')}") for kind in read}
+        self.assertEqual(self.simplices(pieces["critical_points.vtp"]), self.simplices([read["critical_points.vtp"]]))
+        self.assertEqual(self.lines(pieces["separatrices1.vtp"]), self.lines([read["separatrices1.vtp"]]))
+        self.expect_segmentation(read["segmentation.vtu"], pieces["segmentation.vtu"])
+
+    def expect_complex_of_one_rank(self, count, source):
+        """The complex of an input on so many ranks, compared with that of one."""
+        arguments = ("morse-smale", source, "--no-saddle-connectors", "-o")
+        expected = self.report(*arguments, "one")["result"]
+        self.assertGreater(expected["separatrices"]["ascending"], 0)
+        self.assertEqual(self.report_of(count, *arguments, "all")["result"], expected)
+        self.expect_files("all")

@@ -2,11 +2,7 @@
 import unittest
 
 import gale
-
-
-def xml_array(kind, name, values, components=1):
-    return (f'<DataArray type="{kind}" Name="{name}" NumberOfComponents="{components}" format="ascii">'
-            f'{" ".join(map(str, values))}</DataArray>\n')
+from meshes_in_pieces import MeshWithIds, pvtu, vtu, xml_array
 
 
 @gale.needs_vtk
@@ -30,23 +26,13 @@ class Pieces(gale.CommandTest):
         if with_ids:
             arrays += xml_array("Int64", "ids", [v + 10**12 for v in vertices])
         ghosts = xml_array("UInt8", "vtkGhostType", [ghost for _, ghost in kept]) if with_ghosts else ""
-        self.write(f"part{rank}.vtu", (
-            '<VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian" header_type="UInt64">\n<UnstructuredGrid>\n'
-            f'<Piece NumberOfPoints="{len(vertices)}" NumberOfCells="{len(kept)}">\n<PointData>\n{arrays}</PointData>\n'
-            f"<CellData>\n{ghosts}</CellData>\n<Points>\n" +
-            xml_array("Float32", "Points", [x for v in vertices for x in self.points[v]], 3) + "</Points>\n<Cells>\n" +
-            xml_array("Int64", "connectivity", [place[v] for cell, _ in kept for v in cell]) +
-            xml_array("Int64", "offsets", range(4, 4 * len(kept) + 1, 4)) + xml_array("UInt8", "types", [10] * len(kept)) +
-            "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n"))
+        self.write(f"part{rank}.vtu", vtu([self.points[v] for v in vertices], [[place[v] for v in cell] for cell, _ in kept],
+                                          arrays, ghosts, "Float32"))
 
     def put(self, with_ids=False, with_ghosts=False, ranks=3, ids="ids"):
         for rank in range(ranks):
             self.put_piece(rank, with_ids, with_ghosts)
-        sources = "".join(f'<Piece Source="part{rank}.vtu"/>\n' for rank in range(3))
-        self.write("parts.pvtu", (
-            '<VTKFile type="PUnstructuredGrid" version="1.0" byte_order="LittleEndian">\n'
-            f'<PUnstructuredGrid GhostLevel="{int(with_ghosts)}">\n<PPointData{f""" GlobalIds="{ids}" """ if with_ids else ""}>\n'
-            f'<PDataArray type="Float32" Name="field"/></PPointData>\n{sources}</PUnstructuredGrid>\n</VTKFile>\n'))
+        self.write("parts.pvtu", pvtu([f"part{rank}.vtu" for rank in range(3)], ids if with_ids else ""))
 
     def types_at_points(self, mesh):
         self.succeed("critical-points", mesh, "--array", "field", "-o", "critical.vtp")
@@ -63,6 +49,42 @@ class Pieces(gale.CommandTest):
                     mesh = self.report("info", "parts.pvtu")["mesh"]
                     self.assertEqual((mesh["vertices"], mesh["tetrahedra"]), (len(self.points), len(self.cells)))
                     self.assertEqual(self.types_at_points("parts.pvtu"), expected)
+
+    def test_points_and_cells_are_numbered_by_their_ids_whatever_the_pieces(self):
+        mesh = MeshWithIds(self.points, self.cells)
+        points, cells, heights, ids = mesh.in_order_of_ids()
+        self.write("sorted.vtk", gale.vtk_mesh(points, cells, {"height": ("float", heights), "ids": ("int", ids)}))
+        self.succeed("morse-smale", "sorted.vtk", "-o", "one")
+        expected = {name: (self.folder / name).read_bytes() for name in self.names() if name.startswith("one_")}
+        self.assertEqual(len(expected), 3)
+        for count, seed in ((1, 1), (3, 2), (5, 3)):
+            with self.subTest(pieces=count):
+                for k, text in enumerate(mesh.pieces(count, seed)):
+                    self.write(f"part{k}.vtu", text)
+                self.write("parts.pvtu", pvtu([f"part{k}.vtu" for k in range(count)], "ids", "cell ids"))
+                self.succeed("generate", "parts.pvtu", "-o", "joined.vtu")
+                joined = gale.XmlFile(self.folder / "joined.vtu")
+                self.assertTrue((joined.points, joined.cells("Cells")) == (points, cells))  # assertEqual takes minutes to say no
+                self.assertTrue(list(joined.point_arrays.items()) == [("height", heights), ("ids", ids)])
+                self.succeed("morse-smale", "parts.pvtu", "-o", "one")
+                for name, content in expected.items():
+                    self.assertTrue((self.folder / name).read_bytes() == content, name)
+
+    def test_ids_that_are_none_are_named(self):
+        tetrahedron = ([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], [[0, 1, 2, 3]])
+        self.write("parts.pvtu", pvtu(["part.vtu"], "ids", "cell ids"))
+        fields = xml_array("Float32", "field", range(4))
+        for kind, wrong in (("Int32", -1), ("Int64", -2**63), ("Int64", 2**62), ("UInt64", 2**63 + 5)):
+            for name in ("ids", "cell ids"):
+                with self.subTest(kind=kind, wrong=wrong, name=name):
+                    points = xml_array(kind, "ids", [5, 0, 7, wrong if name == "ids" else 1])
+                    cells = xml_array(kind, "cell ids", [wrong if name == "cell ids" else 3])
+                    self.write("part.vtu", vtu(*tetrahedron, fields + points, cells))
+                    whose = "point 3" if name == "ids" else "cell 0"
+                    self.refuse(1, "critical-points", "parts.pvtu",
+                                naming=f"its piece 'part.vtu': the array '{name}' gives {whose} the id {wrong}, which is none")
+        self.write("part.vtu", vtu(*tetrahedron, fields + xml_array("Int64", "ids", [2**62 - 1, 0, 7, 1])))
+        self.refuse(1, "info", "parts.pvtu", naming="it has no global ids 'cell ids' of cells")
 
     def test_array_that_a_piece_lacks_is_left_out(self):
         self.put()

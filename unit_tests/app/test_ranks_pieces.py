@@ -1,45 +1,35 @@
 """gale under mpirun of a .pvtu: its pieces are read by the ranks."""
-import json
 import unittest
 
 import gale
 import ranks
+from meshes_in_pieces import MeshWithIds, pvtu, vtu, xml_array
 
 POINTS = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 1), (2, 2, 2)]
 CELLS = [[0, 1, 2, 3], [1, 2, 3, 4], [2, 3, 4, 5]]
 HEIGHTS = [3, 5, 0, 4, 2, 1]
 
 
-def array(kind, name, values):
-    return f'<DataArray type="{kind}" Name="{name}" format="ascii">{" ".join(map(str, values))}</DataArray>'
-
-
 def piece(vertices, cells, ghosts, names=None):
     """A .vtu by hand of some vertices, and of cells by their places in CELLS; `ghosts` are 1 for those of other pieces."""
-    ids = array("Int64", "GlobalPointIds", [names[v] for v in vertices]) if names else ""
-    coordinates = " ".join(str(x) for v in vertices for x in POINTS[v])
-    corners = [vertices.index(v) for cell in cells for v in CELLS[cell]]
-    return (f'<VTKFile type="UnstructuredGrid" byte_order="LittleEndian"><UnstructuredGrid>'
-            f'<Piece NumberOfPoints="{len(vertices)}" NumberOfCells="{len(cells)}">'
-            f'<PointData>{array("Float32", "height", [HEIGHTS[v] for v in vertices])}{ids}</PointData>'
-            f'<CellData>{array("UInt8", "vtkGhostType", ghosts)}</CellData>'
-            f'<Points><DataArray type="Float64" NumberOfComponents="3" format="ascii">{coordinates}</DataArray></Points>'
-            f'<Cells>{array("Int32", "connectivity", corners)}'
-            f'{array("Int32", "offsets", [4 * (i + 1) for i in range(len(cells))])}'
-            f'{array("UInt8", "types", [10] * len(cells))}</Cells></Piece></UnstructuredGrid></VTKFile>')
+    arrays = xml_array("Float32", "height", [HEIGHTS[v] for v in vertices])
+    if names:
+        arrays += xml_array("Int64", "GlobalPointIds", [names[v] for v in vertices])
+    return vtu([POINTS[v] for v in vertices], [[vertices.index(v) for v in CELLS[cell]] for cell in cells], arrays,
+               xml_array("UInt8", "vtkGhostType", ghosts))
 
 
 @ranks.needs_mpi
 @gale.needs_vtk
-class PiecesOnRanks(ranks.RanksTest):
-    def points(self, files):
-        """{(vertex, type): (point, height, on the surface)} of critical points."""
+class PiecesOnRanks(ranks.ComplexTest):
+    def points(self, files, more=()):
+        """{vertex: (point, values of arrays)} of critical points."""
         found = {}
         for file in files:
             arrays = file.point_arrays
             for i, vertex in enumerate(arrays["ttkVertexScalarField"]):
                 self.assertNotIn(vertex, found)
-                found[vertex] = (file.points[i], {name: arrays[name][i] for name in ("CriticalType", "IsOnBoundary")})
+                found[vertex] = (file.points[i], {name: arrays[name][i] for name in ("CriticalType", "IsOnBoundary", *more)})
         return found
 
     def write_pieces(self, names=None):
@@ -47,24 +37,46 @@ class PiecesOnRanks(ranks.RanksTest):
         self.write("small_0.vtu", piece([3, 1, 0, 2, 4], [0, 1], [0, 1], names))
         self.write("small_1.vtu", piece([], [], [], names))
         self.write("small_2.vtu", piece([0, 2, 1, 5, 3, 4], [0, 2, 1], [1, 0, 0], names))
-        ids = ' GlobalIds="GlobalPointIds"' if names else ""
-        sources = "".join(f'<Piece Source="small_{k}.vtu"/>' for k in range(3))
-        self.write("small.pvtu", f'<VTKFile type="PUnstructuredGrid"><PUnstructuredGrid GhostLevel="1"><PPointData{ids}/>'
-                                 f'{sources}</PUnstructuredGrid></VTKFile>')
+        self.write("small.pvtu", pvtu([f"small_{k}.vtu" for k in range(3)], "GlobalPointIds" if names else ""))
 
-    def test_vertices_have_the_global_ids_of_the_file(self):
-        names = [7 + (v << 33) for v in range(6)]
+    def test_vertices_are_numbered_by_the_global_ids_of_the_file(self):
+        names = [7 + (v << 33) for v in (3, 1, 4, 0, 5, 2)]
         self.write_pieces(names)
-        self.write("small.vtk", gale.vtk_mesh(POINTS, CELLS, {"height": ("float", HEIGHTS)}))
-        self.succeed("critical-points", "small.vtk", "-o", "one.vtp")
-        expected = self.points([gale.XmlFile(self.folder / "one.vtp")])
+        self.succeed("critical-points", "small.pvtu", "-o", "one.vtp")
+        expected = self.points([gale.XmlFile(self.folder / "one.vtp")], ["GlobalPointIds"])
+        self.assertTrue(expected)
+        for vertex, (point, arrays) in expected.items():
+            self.assertEqual(arrays["GlobalPointIds"], names[POINTS.index(point)])
+            self.assertEqual(vertex, sorted(names).index(arrays["GlobalPointIds"]))
         for count in ranks.RANKS:
             with self.subTest(ranks=count):
                 report = self.report_of(count, "critical-points", "small.pvtu", "-o", "all.pvtp")
                 self.assertEqual((report["mesh"]["vertices"], report["mesh"]["tetrahedra"]), (6, 3))
                 self.assertFalse([notice for notice in report["notices"] if "coordinates" in notice])
-                found = self.points(self.pieces("all.pvtp"))
-                self.assertEqual(found, {names[v]: what for v, what in expected.items()})
+                self.assertEqual(self.points(self.pieces("all.pvtp"), ["GlobalPointIds"]), expected)
+
+    def test_ties_go_by_ids_on_any_number_of_ranks_and_pieces(self):
+        self.succeed("generate", "grid:7", "-o", "whole.vtu")
+        whole = gale.XmlFile(self.folder / "whole.vtu")
+        mesh = MeshWithIds(whole.points, whole.cells("Cells"))
+        for count, pieces, with_order in ((2, 5, False), (3, 1, True)):
+            with self.subTest(ranks=count, pieces=pieces):
+                for k, text in enumerate(mesh.pieces(pieces, count, with_order)):
+                    self.write(f"part{k}.vtu", text)
+                self.write("parts.pvtu", pvtu([f"part{k}.vtu" for k in range(pieces)], "ids", "cell ids"))
+                self.expect_complex_of_one_rank(count, "parts.pvtu")
+
+    def test_ids_of_one_file_are_no_order(self):
+        """Points of a file have one, which counts on any number of ranks."""
+        self.succeed("generate", "grid:7", "-o", "whole.vtu")
+        whole = gale.XmlFile(self.folder / "whole.vtu")
+        mesh = MeshWithIds(whole.points, whole.cells("Cells"))
+        arrays = mesh.arrays(range(len(mesh.points)))
+        self.write("ids.vtu", vtu(mesh.points, mesh.cells, arrays, global_ids="ids"))
+        self.write("no_ids.vtu", vtu(mesh.points, mesh.cells, arrays))
+        expected = self.report("critical-points", "no_ids.vtu", "--array", "height")["result"]
+        self.assertEqual(self.report("critical-points", "ids.vtu", "--array", "height")["result"], expected)
+        self.assertEqual(self.report_of(2, "critical-points", "ids.vtu", "--array", "height")["result"], expected)
 
     def test_points_of_equal_coordinates_are_one_without_global_ids(self):
         self.write_pieces()
@@ -78,16 +90,22 @@ class PiecesOnRanks(ranks.RanksTest):
                 self.assertEqual(self.points(self.pieces("all.pvtp")), expected)
 
     def test_what_ranks_wrote_they_read(self):
-        expected = self.report("critical-points", "grid:12", "-o", "one.vtp")
+        self.write_ties("grid:8")
+        expected = self.report("critical-points", "ties.vtk", "-o", "one.vtp")
         expected_points = self.points([gale.XmlFile(self.folder / "one.vtp")])
-        self.report_of(3, "morse-smale", "grid:12", "--no-saddle-connectors", "-o", "wrote")
+        self.report_of(3, "morse-smale", "ties.vtk", "--no-saddle-connectors", "-o", "wrote")
         for count in ranks.RANKS:
             with self.subTest(ranks=count):
                 report = self.report_of(count, "critical-points", "wrote_segmentation.pvtu", "-o", "all.pvtp")
                 self.assertEqual(report["result"], expected["result"])
                 self.assertEqual(self.points(self.pieces("all.pvtp")), expected_points)
+        self.expect_complex_of_one_rank(2, "wrote_segmentation.pvtu")
 
     def test_what_is_wrong_is_said_in_one_line(self):
+        self.write_pieces([0, 1, 2, 2**62, 4, 5])
+        line = f"its piece 'small_0.vtu': the array 'GlobalPointIds' gives point 0 the id {2**62}, which is none"
+        self.refuse(1, "critical-points", "small.pvtu", naming=line)
+        self.expect_one_line(self.launch(2, "critical-points", "small.pvtu"), 1, line)
         self.write_pieces()
         self.expect_one_line(self.launch(2, "critical-points", "small.pvtu", "--tetrahedralize"), 2, "--tetrahedralize")
         self.expect_one_line(self.launch(2, "critical-points", "small.pvtu", "--above", "1"), 1, "not an image")

@@ -6,7 +6,7 @@
 #include <gale/app/usage_error.hpp>
 #include <gale/distributed/deal.hpp>
 #include <gale/distributed/key_places.hpp>
-#include <gale/io/arrays.hpp>
+#include <gale/io/write.hpp>
 #include <gale/mesh/positions.hpp>
 #include <gale/outputs/field.hpp>
 #include <gale/outputs/find_array.hpp>
@@ -21,30 +21,19 @@ using GlobalIds = Array<GlobalId, HostMemory>;
 io::PieceNames share_of(const io::PieceNames& all, const Communicator& ranks) {
   const auto count = static_cast<Offset>(all.sources.size());
   const auto begin = [&](int rank) { return all.sources.begin() + (count * rank + ranks.size() - 1) / ranks.size(); };
-  return {{begin(ranks.rank()), begin(ranks.rank() + 1)}, all.global_ids};
+  return {{begin(ranks.rank()), begin(ranks.rank() + 1)}, all.point_ids, all.cell_ids};
 }
 
-/// Takes the array of that name out of the arrays, as ids.
-GlobalIds take_ids(io::Dataset& mesh, const std::string& name, Offset points) {
-  const auto ids = allocate<GlobalIds>("GALE::piece_ids", points);
-  for (auto array = mesh.arrays.begin(); array != mesh.arrays.end(); ++array) {
-    if (array->name != name) continue;
-    std::visit(
-        [&](const auto& values) {
-          for (Offset i = 0; i < points; ++i) {
-            constexpr double too_many = 4611686018427387904.0;  // 2^62
-            const auto value = static_cast<double>(values[i]);
-            if (!(value >= 0 && value < too_many))
-              throw Error("the array '" + name + "' gives point " + std::to_string(i) + " the id " +
-                          std::to_string(values[i]) + ", which is none");
-            ids(i) = static_cast<GlobalId>(values[i]);
-          }
-        },
-        array->values);
-    mesh.arrays.erase(array);
-    break;
-  }
-  return ids;
+/// For each of this rank's ids, which ascend, its place among those of all ranks; with `all_differ`, ids that several
+/// ranks have count for each. Collective.
+GlobalIds places_of(const Communicator& ranks, const std::vector<std::int64_t>& ids, bool all_differ) {
+  Array<detail::SimplexKey, HostMemory> keys;
+  detail::together(ranks, [&] {
+    keys = allocate<decltype(keys)>("GALE::keys_of_ids", ids.size());
+    for (std::size_t i = 0; i < ids.size(); ++i)
+      keys(i) = {ids[i], all_differ ? ranks.rank() : 0, all_differ ? static_cast<GlobalId>(i) : 0};
+  });
+  return detail::places_of_keys(ranks, keys).places;
 }
 
 /// Of doubles, so that equal ones have equal bits.
@@ -157,39 +146,33 @@ void keep_common(const Communicator& ranks, io::Dataset& mesh, Offset points) {
   mesh.arrays = std::move(common);
 }
 
-/// Drops what only other programs' readers take.
-void drop_ghost_array(io::Dataset& mesh) {
-  auto& arrays = mesh.arrays;
-  arrays.erase(
-      std::remove_if(arrays.begin(), arrays.end(), [](const auto& array) { return array.name == "vtkGhostType"; }),
-      arrays.end());
-}
-
 }  // namespace
 
 SharedInput read_pieces(const Communicator& ranks, const InputOptions& input, const io::PieceNames& pieces) {
   if (input.read.tetrahedralize) throw UsageError("--tetrahedralize: not of pieces on several ranks");
   SharedInput shared;
-  io::Dataset mesh;
-  detail::together(ranks, [&] { mesh = io::read_pieces(input.input, share_of(pieces, ranks), input.read); });
+  io::SomePieces some;
+  detail::together(ranks, [&] { some = io::read_pieces(input.input, share_of(pieces, ranks), input.read); });
+  io::Dataset& mesh = some.mesh;
   const auto count = std::visit([](const auto& points) { return Offset(points.extent(0)); }, mesh.points);
   shared.is_in_float = ranks.least(std::int64_t(mesh.points.index() == 0)) == 1;
-  GlobalIds ids;
-  Array<detail::Point, HostMemory> points;
-  detail::together(ranks, [&] {
-    points = allocate<decltype(points)>("GALE::piece_points", count);
-    std::visit(
-        [&](const auto& all) {
-          for (Offset i = 0; i < count; ++i) points(i) = {all(i, 0), all(i, 1), all(i, 2)};
-        },
-        mesh.points);
-    if (!pieces.global_ids.empty()) ids = take_ids(mesh, pieces.global_ids, count);
-  });
-  if (pieces.global_ids.empty()) {
+  GlobalIds ids, tetrahedron_ids;
+  if (pieces.point_ids.empty()) {
+    Array<detail::Point, HostMemory> points;
+    detail::together(ranks, [&] {
+      points = allocate<decltype(points)>("GALE::piece_points", count);
+      std::visit(
+          [&](const auto& all) {
+            for (Offset i = 0; i < count; ++i) points(i) = {all(i, 0), all(i, 1), all(i, 2)};
+          },
+          mesh.points);
+    });
     ids = merged_ids(ranks, points);
     mesh.notices.push_back("its points have no global ids: those of equal coordinates are one");
+  } else {
+    ids = places_of(ranks, some.point_ids, false);
   }
-  drop_ghost_array(mesh);
+  if (!pieces.cell_ids.empty()) tetrahedron_ids = places_of(ranks, some.tetrahedron_ids, true);
   keep_common(ranks, mesh, count);
   detail::together(ranks, [&] {
     HeldPart<std::int64_t> held;
@@ -197,12 +180,19 @@ SharedInput read_pieces(const Communicator& ranks, const InputOptions& input, co
     parallel_for("GALE::input_tetrahedra", HostExecutionSpace(), held.tetrahedra.extent(0), [&](Offset t) {
       for (int corner = 0; corner < 4; ++corner) held.tetrahedra(t, corner) = ids(mesh.tetrahedra(t, corner));
     });
-    std::visit([&](const auto& all) { held.part = make_part(ids, all, held.tetrahedra); }, mesh.points);
+    std::visit(
+        [&](const auto& all) {
+          held.part = pieces.cell_ids.empty() ? make_part(ids, all, held.tetrahedra)
+                                              : make_part(ids, all, held.tetrahedra, tetrahedron_ids);
+        },
+        mesh.points);
     shared.held = held;
     shared.field = outputs::select_field(mesh, input.read.array);
     const auto* const order = outputs::detail::find_array(mesh, shared.field.name + "_Order");
     shared.has_order = order != nullptr && order->components == 1;
     shared.order = shared.has_order ? *order : shared.field;
+    shared.has_ids =
+        pieces.point_ids == io::global_point_ids && outputs::detail::find_array(mesh, io::global_point_ids) != nullptr;
   });
   shared.arrays = std::move(mesh.arrays);
   shared.notices = std::move(mesh.notices);

@@ -5,9 +5,10 @@
 
 namespace gale::app {
 
-/// Has each rank read some of the pieces of a `.pvtu`, one behind the other, as many as the others. Vertices have the
-/// global ids of the file's, or, with a notice, are counted where they occur first: points of equal coordinates are
-/// one. Collective; throws SharedError.
+/// Has each rank read some of the pieces of a `.pvtu`, one behind the other, as many as the others. Vertices and
+/// tetrahedra are numbered as one rank numbers them: in the order of the file's global ids. Without those, tetrahedra
+/// are counted, and vertices, with a notice, where they occur first: points of equal coordinates are one. Collective;
+/// throws SharedError.
 SharedInput read_pieces(const Communicator& ranks, const InputOptions& input, const io::PieceNames& pieces);
 
 /// Throws SharedError if an array that orders the vertices of such a mesh isn't a permutation of 0 to n-1. `values` are

@@ -110,7 +110,7 @@ FieldOnRanks RankSession::read_field(const SegmentationOptions& segmentation) {
   report_.segments = ranks_.sum(mesh.local().owned_segments());
   console_.say("vertices", grouped(mesh.vertices()));
   console_.say("tetrahedra", grouped(mesh.tetrahedra()));
-  console_.say("field", shared.order.name);
+  console_.say("field", shared.field.name);
   begin_step("ordering the vertices");
   if (shared.has_order) require_permutation(mesh, local_values(mesh, shared.order));
   const DistributedOrder order = std::visit(
@@ -119,7 +119,7 @@ FieldOnRanks RankSession::read_field(const SegmentationOptions& segmentation) {
         return DistributedOrder(mesh, Array<const Value, HostMemory>(values.data(), values.size()));
       },
       shared.order.values);
-  FieldOnRanks on{mesh, order, {}, {}, {}};
+  FieldOnRanks on{mesh, order, {}, {}, {}, shared.has_ids};
   if (outputs_ == Outputs::none) return on;
   begin_step("sharing the arrays");
   on.local = local_dataset(mesh, shared);

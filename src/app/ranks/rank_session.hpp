@@ -26,12 +26,14 @@ struct FieldOnRanks {
   io::Dataset local;          ///< points and arrays as the input has them, without tetrahedra
   io::PointArray field;       ///< the one that is analysed
   io::PointArray order_from;  ///< what `order` was made from
+  bool has_ids = false;       ///< whether GlobalPointIds of `local` are the points' in the input
 };
 
 /// One run of a command on several ranks: what Session is on one. The first rank speaks, and writes the report.
 class RankSession {
  public:
-  /// Throws SharedError if the files, `outputs` and the report, can't be written where they aren't empty.
+  /// Throws SharedError if the files, `outputs` and the report, can't be written where they aren't empty, or if two of
+  /// all that will be written, or one and the input, are the same file.
   RankSession(const InputOptions& input, const CommonOptions& common, const std::vector<std::string>& outputs);
 
   const Communicator& ranks() const { return ranks_; }

@@ -82,7 +82,7 @@ io::MeshPiece segmentation(const FieldOnRanks& on, const DistributedManifolds& m
   std::vector<std::uint8_t> ghosts;
   for (const Id v : vertices.all) ghosts.push_back(on.mesh.owners()(v) != on.mesh.ranks().rank());
   arrays.push_back({"vtkGhostType", 1, std::move(ghosts)});
-  arrays.push_back(ids_of(io::global_point_ids, on.mesh.vertex_ids(), vertices.all));
+  if (!on.has_ids) arrays.push_back(ids_of(io::global_point_ids, on.mesh.vertex_ids(), vertices.all));
   piece.cell_arrays.push_back(ids_of(io::global_cell_ids, on.mesh.tetrahedron_ids(), tetrahedra));
   return piece;
 }

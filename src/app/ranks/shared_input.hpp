@@ -24,6 +24,7 @@ struct SharedInput {
   io::PointArray order;                                               ///< what orders the vertices of the part
   std::vector<io::PointArray> arrays;                                 ///< of these; the same ones on all ranks
   bool has_order = false;     ///< whether `order` is another array than the field; pieces alone say so
+  bool has_ids = false;       ///< whether GlobalPointIds of `arrays` are the points' in the input
   bool is_in_float = true;    ///< the input's coordinates
   bool is_dealt_out = false;  ///< the first rank has all
   std::vector<std::string> notices;

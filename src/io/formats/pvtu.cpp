@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <optional>
@@ -5,8 +6,9 @@
 
 #include <gale/io/arrays.hpp>
 #include <gale/io/bytes/damaged.hpp>
-#include <gale/io/bytes/value_type.hpp>
+#include <gale/io/cells/cell_types.hpp>
 #include <gale/io/cells/join.hpp>
+#include <gale/io/cells/number_by_ids.hpp>
 #include <gale/io/formats/readers.hpp>
 #include <gale/io/formats/volume.hpp>
 #include <gale/io/formats/vtu.hpp>
@@ -15,7 +17,7 @@ namespace gale::io::detail {
 
 namespace {
 
-constexpr std::uint8_t has_other_piece = 1;  // of vtkGhostType
+using Ids = std::vector<std::int64_t>;
 
 /// What points of several pieces have in common that are one point: a global id, or all three coordinates.
 using Key = std::array<std::uint64_t, 3>;
@@ -38,76 +40,127 @@ std::uint64_t bits_of(double coordinate) {
   return bits;
 }
 
-/// By the point array of that name, or by coordinates if there is no name.
-std::vector<Key> keys_of(const MeshParts& piece, const std::string& global_ids) {
-  const std::size_t points = count_of(piece.points) / 3;
-  std::vector<Key> keys(points);
-  if (global_ids.empty()) {
-    std::visit(
-        [&](const auto& xyz) {
-          for (std::size_t i = 0; i < 3 * points; ++i) keys[i / 3][i % 3] = bits_of(static_cast<double>(xyz[i]));
-        },
-        piece.points);
-    return keys;
-  }
-  for (const PointArray& array : piece.arrays) {
-    if (array.name != global_ids) continue;
-    if (array.components != 1) damaged("its global ids '" + printable(global_ids) + "' have several components");
-    std::visit(
-        [&](const auto& ids) {
-          if (!std::is_integral_v<typename std::decay_t<decltype(ids)>::value_type>)
-            damaged("its global ids '" + printable(global_ids) + "' are no whole numbers");
-          for (std::size_t i = 0; i < points; ++i) keys[i] = {static_cast<std::uint64_t>(ids[i]), 0, 0};
-        },
-        array.values);
-    return keys;
-  }
-  damaged("it has no global ids '" + printable(global_ids) + "'");
+/// The global ids that an array gives points or cells, `of_what`. Throws gale::Error for one that ranks can't number
+/// by.
+Ids to_ids(const PointArray::Values& values, const std::string& name, const std::string& of_what) {
+  return std::visit(
+      [&](const auto& all) {
+        if (!std::is_integral_v<typename std::decay_t<decltype(all)>::value_type>)
+          damaged("its global ids '" + printable(name) + "' are no whole numbers");
+        constexpr std::int64_t greatest = (std::int64_t(1) << 62) - 1;
+        Ids ids(all.size());
+        for (std::size_t i = 0; i < all.size(); ++i) {
+          ids[i] = static_cast<std::int64_t>(all[i]);  // of 64 bits without a sign, those beyond become negative
+          if (ids[i] >= 0 && ids[i] <= greatest) continue;
+          throw Error("the array '" + printable(name) + "' gives " + of_what + " " + std::to_string(i) + " the id " +
+                      std::to_string(all[i]) + ", which is none: ids are 0 to " + std::to_string(greatest));
+        }
+        return ids;
+      },
+      values);
 }
+
+Ids ids_of_points(const MeshParts& piece, const std::string& name) {
+  for (const PointArray& array : piece.arrays) {
+    if (array.name != name) continue;
+    if (array.components != 1) damaged("its global ids '" + printable(name) + "' have several components");
+    return to_ids(array.values, name, "point");
+  }
+  damaged("it has no global ids '" + printable(name) + "'");
+}
+
+/// All three coordinates of each point.
+std::vector<Key> coordinates_of(const MeshParts& piece) {
+  std::vector<Key> keys(count_of(piece.points) / 3);
+  std::visit(
+      [&](const auto& xyz) {
+        for (std::size_t i = 0; i < 3 * keys.size(); ++i) keys[i / 3][i % 3] = bits_of(static_cast<double>(xyz[i]));
+      },
+      piece.points);
+  return keys;
+}
+
+/// One of the pieces as its file has it.
+struct Piece {
+  MeshParts parts;
+  std::optional<PointArray::Values> ghosts;  ///< of cells
+  Ids cell_ids;                              ///< empty without ids
+};
+
+/// What all pieces have in common, and the ids there: of points, each once, and of cells that are no ghosts.
+struct JoinedWithIds {
+  MeshParts parts;
+  Ids point_ids, cell_ids;
+};
 
 /// Pieces that share points and, as ghosts, cells.
 class SharedPieces {
  public:
-  explicit SharedPieces(std::string global_ids) : global_ids_(std::move(global_ids)) {}
+  explicit SharedPieces(const PieceNames& names) : names_(names) {}
 
-  void add(MeshParts piece, const std::optional<PointArray::Values>& ghosts) {
+  void add(Piece piece) {
+    MeshParts& parts = piece.parts;
+    drop_ghosts(parts.arrays);
     const std::size_t before = joined_.points();
-    std::vector<std::int64_t> fresh;  // of its points, those that no piece before has
-    const std::vector<std::int64_t> places = place_points(piece, before, fresh);
-    piece.cells = numbered_cells(piece.cells, places, ghosts);
+    Ids fresh;  // of its points, those that no piece before has
+    const Ids places = place_points(parts, before, fresh);
+    parts.cells = numbered_cells(parts.cells, places, piece);
     if (fresh.size() < places.size()) {
-      const PointArray points = gather(PointArray{"", 3, std::move(piece.points)}, fresh);
-      piece.points = points.values;
-      for (PointArray& array : piece.arrays) array = gather(array, fresh);
+      const PointArray points = gather(PointArray{"", 3, std::move(parts.points)}, fresh);
+      parts.points = points.values;
+      for (PointArray& array : parts.arrays) array = gather(array, fresh);
     }
-    joined_.add_numbered(std::move(piece));
+    joined_.add_numbered(std::move(parts));
   }
 
-  MeshParts take() { return joined_.take(); }
+  /// Points and cells are in the order of their ids, so that no result depends on how they were dealt out to pieces.
+  /// The array of the points' ids comes last: it is no field that one looks at.
+  JoinedWithIds take() {
+    JoinedWithIds all{joined_.take(), std::move(point_ids_), std::move(cell_ids_)};
+    number_points(all.point_ids, all.parts);
+    number_cells(all.cell_ids, all.parts.cells);
+    auto& arrays = all.parts.arrays;
+    std::stable_partition(arrays.begin(), arrays.end(),
+                          [&](const PointArray& array) { return array.name != names_.point_ids; });
+    return all;
+  }
 
  private:
-  std::vector<std::int64_t> place_points(const MeshParts& piece, std::size_t before, std::vector<std::int64_t>& fresh) {
+  /// What says of points that other pieces have them is true of none any more.
+  static void drop_ghosts(std::vector<PointArray>& arrays) {
+    const auto is_ghosts = [](const PointArray& array) { return array.name == ghost_array; };
+    arrays.erase(std::remove_if(arrays.begin(), arrays.end(), is_ghosts), arrays.end());
+  }
+
+  Ids place_points(const MeshParts& piece, std::size_t before, Ids& fresh) {
     const std::size_t points = count_of(piece.points) / 3;
     for (const PointArray& array : piece.arrays) require_size(array, points);
-    const std::vector<Key> keys = points > 0 ? keys_of(piece, global_ids_) : std::vector<Key>();
-    std::vector<std::int64_t> places(points);
-    for (std::size_t i = 0; i < points; ++i) {
-      const auto [found, is_new] = place_of_.emplace(keys[i], static_cast<std::int64_t>(before + fresh.size()));
-      if (is_new) fresh.push_back(static_cast<std::int64_t>(i));
-      places[i] = found->second;
+    Ids places(points);
+    const auto place_all = [&](const auto& keys, auto& place_of) {
+      for (std::size_t i = 0; i < points; ++i) {
+        const auto [found, is_new] = place_of.emplace(keys[i], static_cast<std::int64_t>(before + fresh.size()));
+        if (is_new) fresh.push_back(static_cast<std::int64_t>(i));
+        places[i] = found->second;
+      }
+    };
+    if (names_.point_ids.empty()) {
+      place_all(coordinates_of(piece), place_of_coordinates_);
+    } else if (points > 0) {
+      const Ids ids = ids_of_points(piece, names_.point_ids);
+      place_all(ids, place_of_id_);
+      for (const std::int64_t i : fresh) point_ids_.push_back(ids[i]);
     }
     return places;
   }
 
   /// The cells that are no ghosts, with the joined points' numbers.
-  static Cells numbered_cells(const Cells& cells, const std::vector<std::int64_t>& places,
-                              const std::optional<PointArray::Values>& ghosts) {
-    std::vector<std::int64_t> types, ends, connectivity, is_ghost;
+  Cells numbered_cells(const Cells& cells, const Ids& places, const Piece& piece) {
+    Ids types, ends, connectivity, is_ghost;
     append(cells.types, std::int64_t(0), types);
     append(cells.ends, std::int64_t(0), ends);
     append(cells.connectivity, std::int64_t(0), connectivity);
-    if (ghosts) append(*ghosts, std::int64_t(0), is_ghost);
-    std::vector<std::int64_t> kept_types, kept_ends, kept_points;
+    if (piece.ghosts) append(*piece.ghosts, std::int64_t(0), is_ghost);
+    Ids kept_types, kept_ends, kept_points;
     std::int64_t begin = 0;
     for (std::size_t c = 0; c < types.size(); ++c) {
       if (ends[c] < begin || ends[c] > static_cast<std::int64_t>(connectivity.size())) {
@@ -118,31 +171,44 @@ class SharedPieces {
         for (std::int64_t k = begin; k < ends[c]; ++k) kept_points.push_back(place(places, connectivity[k], c));
         kept_types.push_back(types[c]);
         kept_ends.push_back(static_cast<std::int64_t>(kept_points.size()));
+        if (!piece.cell_ids.empty()) cell_ids_.push_back(piece.cell_ids[c]);
       }
       begin = ends[c];
     }
     return {std::move(kept_types), std::move(kept_ends), std::move(kept_points)};
   }
 
-  static std::int64_t place(const std::vector<std::int64_t>& places, std::int64_t point, std::size_t cell) {
+  static std::int64_t place(const Ids& places, std::int64_t point, std::size_t cell) {
     if (point >= 0 && point < static_cast<std::int64_t>(places.size())) return places[static_cast<std::size_t>(point)];
     throw Error("cell " + std::to_string(cell) + " names point " + std::to_string(point) + " of " +
                 std::to_string(places.size()));
   }
 
-  std::string global_ids_;
+  const PieceNames& names_;
   JoinedPieces joined_;
-  std::unordered_map<Key, std::int64_t, HashOfKey> place_of_;
+  std::unordered_map<Key, std::int64_t, HashOfKey> place_of_coordinates_;
+  std::unordered_map<std::int64_t, std::int64_t> place_of_id_;
+  Ids point_ids_, cell_ids_;  ///< of the joined ones
 };
 
+/// Empty if nothing names them.
+Ids ids_of_cells(const XmlFile& file, const XmlElement& piece, std::size_t cells, const std::string& name) {
+  if (name.empty() || cells == 0) return {};
+  const auto values = read_cell_array(file, piece, name);
+  if (!values) damaged("it has no global ids '" + printable(name) + "' of cells");
+  return to_ids(*values, name, "cell");
+}
+
 /// Adds a piece's file, and says what its cell arrays are called.
-std::vector<std::string> add_file(const std::string& path, SharedPieces& shared) {
+std::vector<std::string> add_file(const std::string& path, const PieceNames& names, SharedPieces& shared) {
   std::vector<std::string> cell_arrays;
   const InputFile input(path);
-  const XmlFile file = read_xml(input, "UnstructuredGrid");
-  for (const XmlElement* piece : pieces_of(file)) {
-    shared.add(read_piece(file, *piece), read_ghosts(file, *piece));
-    if (cell_arrays.empty()) cell_arrays = names_of_cell_data(*piece);
+  const XmlFile file = read_xml(input, "UnstructuredGrid", names.cell_ids);
+  for (const XmlElement* element : pieces_of(file)) {
+    Piece piece{read_piece(file, *element), read_cell_array(file, *element, ghost_array), {}};
+    piece.cell_ids = ids_of_cells(file, *element, count_of(piece.parts.cells.types), names.cell_ids);
+    shared.add(std::move(piece));
+    if (cell_arrays.empty()) cell_arrays = names_of_cell_data(*element);
   }
   return cell_arrays;
 }
@@ -158,42 +224,52 @@ std::vector<std::string> sources_of(const XmlElement& grid) {
   return sources;
 }
 
-}  // namespace
-
-PieceNames names_of_pieces(const InputFile& input) {
-  const XmlFile file = read_xml(input, "PUnstructuredGrid");
-  const XmlElement& grid = file.root.require("PUnstructuredGrid");
-  const XmlElement* const arrays = grid.child("PPointData");
-  return {sources_of(grid), arrays != nullptr ? arrays->attribute("GlobalIds") : ""};
+/// The name that a section has for its array of ids.
+std::string name_of_ids(const XmlElement& grid, const char* section) {
+  const XmlElement* const arrays = grid.child(section);
+  return arrays != nullptr ? arrays->attribute("GlobalIds") : "";
 }
 
-MeshParts read_pieces(const InputFile& input, const PieceNames& names, const ReadOptions& options) {
-  SharedPieces shared(names.global_ids);
+JoinedWithIds join(const InputFile& input, const PieceNames& names, const ReadOptions& options) {
+  SharedPieces shared(names);
   std::vector<std::string> cell_arrays;
   for (const std::string& source : names.sources) {
     const std::string path = path_of_data(input.path(), source, options);
     try {
-      const std::vector<std::string> found = add_file(path, shared);
+      const std::vector<std::string> found = add_file(path, names, shared);
       if (cell_arrays.empty()) cell_arrays = found;
     } catch (const Error& error) {
       throw Error("its piece '" + printable(source) + "': " + error.what());
     }
   }
-  MeshParts parts = shared.take();
-  for (auto name = cell_arrays.begin(); name != cell_arrays.end();)
-    name = *name == ghost_array ? cell_arrays.erase(name) : name + 1;
-  if (!cell_arrays.empty()) parts.notices.push_back(note_cell_arrays(cell_arrays));
-  return parts;
+  JoinedWithIds all = shared.take();
+  for (const std::string& used : {std::string(ghost_array), names.cell_ids})
+    cell_arrays.erase(std::remove(cell_arrays.begin(), cell_arrays.end(), used), cell_arrays.end());
+  if (!cell_arrays.empty()) all.parts.notices.push_back(note_cell_arrays(cell_arrays));
+  return all;
+}
+
+}  // namespace
+
+PieceNames names_of_pieces(const InputFile& input) {
+  const XmlFile file = read_xml(input, "PUnstructuredGrid");
+  const XmlElement& grid = file.root.require("PUnstructuredGrid");
+  return {sources_of(grid), name_of_ids(grid, "PPointData"), name_of_ids(grid, "PCellData")};
 }
 
 Content read_pvtu(const InputFile& input, const ReadOptions& options) {
-  MeshParts parts = read_pieces(input, names_of_pieces(input), options);
+  MeshParts parts = join(input, names_of_pieces(input), options).parts;
   return to_mesh(parts, options.tetrahedralize);
 }
 
-Dataset read_some_pieces(const InputFile& input, const PieceNames& some, const ReadOptions& options) {
-  MeshParts parts = read_pieces(input, some, options);
-  return to_mesh(parts, options.tetrahedralize, true);
+SomePieces read_some_pieces(const InputFile& input, const PieceNames& some, const ReadOptions& options) {
+  JoinedWithIds all = join(input, some, options);
+  Ids tetrahedra;
+  const auto& types = std::get<Ids>(all.parts.cells.types);
+  for (std::size_t c = 0; c < all.cell_ids.size(); ++c) {
+    if (types[c] == tetrahedron_type) tetrahedra.push_back(all.cell_ids[c]);
+  }
+  return {to_mesh(all.parts, options.tetrahedralize, true), std::move(all.point_ids), std::move(tetrahedra)};
 }
 
 }  // namespace gale::io::detail

@@ -33,6 +33,6 @@ Content read_by_program(const InputFile& file, Format format, const ReadOptions&
 
 /// What a `.pvtu` names, and some of these pieces as one mesh, which may be empty.
 PieceNames names_of_pieces(const InputFile& input);
-Dataset read_some_pieces(const InputFile& input, const PieceNames& some, const ReadOptions& options);
+SomePieces read_some_pieces(const InputFile& input, const PieceNames& some, const ReadOptions& options);
 
 }  // namespace gale::io::detail

@@ -48,11 +48,12 @@ MeshParts read_piece(const XmlFile& file, const XmlElement& piece) {
   return parts;
 }
 
-std::optional<PointArray::Values> read_ghosts(const XmlFile& file, const XmlElement& piece) {
+std::optional<PointArray::Values> read_cell_array(const XmlFile& file, const XmlElement& piece,
+                                                  const std::string& name) {
   const XmlElement* const data = piece.child("CellData");
   if (data == nullptr) return std::nullopt;
   for (const XmlElement& array : data->children) {
-    if (array.name == "DataArray" && array.attribute("Name") == ghost_array)
+    if (array.name == "DataArray" && array.attribute("Name") == name)
       return read_array(file, array, count_in(piece, "NumberOfCells"));
   }
   return std::nullopt;

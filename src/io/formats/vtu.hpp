@@ -18,11 +18,8 @@ std::vector<const XmlElement*> pieces_of(const XmlFile& file);
 /// Points, cells and point arrays of one of them. Throws gale::Error for what the file lacks.
 MeshParts read_piece(const XmlFile& file, const XmlElement& piece);
 
-/// What VTK's writers say of each cell in the array vtkGhostType: its bit 1 is set where another piece has the cell,
-/// too. Nothing if there is no such array.
-std::optional<PointArray::Values> read_ghosts(const XmlFile& file, const XmlElement& piece);
-
-/// The points of these pieces, each once, and their cells without ghosts. Throws gale::Error, naming the piece.
-MeshParts read_pieces(const InputFile& input, const PieceNames& names, const ReadOptions& options);
+/// The values of a cell array of one component, which read_xml() was told of. Nothing if there is no such array.
+std::optional<PointArray::Values> read_cell_array(const XmlFile& file, const XmlElement& piece,
+                                                  const std::string& name);
 
 }  // namespace gale::io::detail

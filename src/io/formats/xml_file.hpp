@@ -14,14 +14,15 @@
 /// tree, as base64 or raw.
 namespace gale::io::detail {
 
-/// The cell array that says which cells another piece has, too.
+/// The array in which VTK's writers say of each cell, and of each point, by a bit whether another piece has it, too.
 inline constexpr char ghost_array[] = "vtkGhostType";
+inline constexpr std::uint8_t has_other_piece = 1;
 
 struct XmlElement {
   std::string name;
   std::map<std::string, std::string> attributes;
   std::vector<XmlElement> children;
-  std::string text;  ///< of arrays of points and cells alone, and of ghosts
+  std::string text;  ///< of arrays of points and cells alone, of ghosts, and of what else read_xml() was told of
 
   /// The attribute's value, or `otherwise`.
   std::string attribute(const std::string& key, const std::string& otherwise = "") const;
@@ -48,9 +49,10 @@ struct XmlFile {
   std::string compressor{};      ///< VTK's class, or empty
 };
 
-/// Reads the tree, of which `type` must be the root's. Throws gale::Error for a file that isn't well-formed, nested too
-/// deeply, of too many elements, or of another type. The file must outlive what is returned.
-XmlFile read_xml(const InputFile& file, const std::string& type);
+/// Reads the tree, of which `type` must be the root's, and the cell array of that name. Throws gale::Error for a file
+/// that isn't well-formed, nested too deeply, of too many elements, or of another type. The file must outlive what is
+/// returned.
+XmlFile read_xml(const InputFile& file, const std::string& type, const std::string& cell_array = "");
 
 /// The values of an array: `count` of them, or all that it has. Throws gale::Error if it has less, or they are damaged.
 PointArray::Values read_array(const XmlFile& file, const XmlElement& array, std::optional<std::uint64_t> count);

@@ -14,7 +14,8 @@ constexpr std::size_t deepest = 32, most_elements = 200000;
 /// Builds the tree from what expat tells. What goes wrong is kept and told at the end: no exception may pass through C.
 class Builder {
  public:
-  explicit Builder(XmlFile& to) : to_(to), parser_(XML_ParserCreate(nullptr)) {
+  Builder(XmlFile& to, const std::string& cell_array)
+      : to_(to), cell_array_(cell_array), parser_(XML_ParserCreate(nullptr)) {
     if (parser_ == nullptr) throw std::bad_alloc();
     XML_SetUserData(parser_, this);
     XML_SetElementHandler(parser_, start, end);
@@ -92,8 +93,10 @@ class Builder {
       XML_StopParser(parser_, XML_FALSE);
       return;
     }
-    keeps_text_ = element.name == "DataArray" && (parent == "PointData" || parent == "Points" || parent == "Cells" ||
-                                                  element.attribute("Name") == ghost_array);
+    const std::string array = element.attribute("Name");
+    keeps_text_ =
+        element.name == "DataArray" && (parent == "PointData" || parent == "Points" || parent == "Cells" ||
+                                        array == ghost_array || (parent == "CellData" && array == cell_array_));
     if (open_.empty()) {
       to_.root = std::move(element);
       open_.push_back(&to_.root);
@@ -118,6 +121,7 @@ class Builder {
   }
 
   XmlFile& to_;
+  const std::string& cell_array_;
   XML_Parser parser_;
   std::vector<XmlElement*> open_;
   std::size_t elements_ = 0;
@@ -145,9 +149,9 @@ const XmlElement& XmlElement::require(const std::string& wanted) const {
   return *found;
 }
 
-XmlFile read_xml(const InputFile& file, const std::string& type) {
+XmlFile read_xml(const InputFile& file, const std::string& type, const std::string& cell_array) {
   XmlFile result{file, {}};
-  Builder(result).parse();
+  Builder(result, cell_array).parse();
   const XmlElement& root = result.root;
   if (root.name != "VTKFile" || root.attribute("type") != type)
     damaged("it is no VTKFile of type " + type + " but a " + root.name + " of type '" + root.attribute("type") + "'");

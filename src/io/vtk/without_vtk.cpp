@@ -15,7 +15,7 @@ Content read_content(const InputFile&, Format, const ReadOptions&) { refuse(); }
 
 PieceNames names_of_pieces(const InputFile&) { refuse(); }
 
-Dataset read_some_pieces(const InputFile&, const PieceNames&, const ReadOptions&) { refuse(); }
+SomePieces read_some_pieces(const InputFile&, const PieceNames&, const ReadOptions&) { refuse(); }
 
 bool has_zlib() { return false; }
 
