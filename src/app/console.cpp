@@ -1,10 +1,14 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
+#include <iostream>
 #include <memory>
 
 #include <gale/app/console.hpp>
+#include <gale/base/error.hpp>
 
 namespace gale::app {
 
@@ -42,13 +46,21 @@ class Bar {
 }  // namespace
 
 void Console::say(const std::string& name, const std::string& value) const {
-  if (!quiet_) std::printf("%-16s %s\n", name.c_str(), value.c_str());
-  std::fflush(stdout);
+  if (quiet_) return;
+  std::printf("%-16s %s\n", name.c_str(), value.c_str());
+  require_output();
 }
 
 std::function<void(Id, Id)> Console::progress(const std::string& title) const {
   if (quiet_ || isatty(STDERR_FILENO) == 0) return {};
   return [bar = std::make_shared<Bar>(title)](Id done, Id all) { bar->draw(done, all); };
+}
+
+void require_output() {
+  const int failure = std::cout.flush() && std::fflush(stdout) == 0 ? 0 : errno;
+  if (failure == 0 && std::ferror(stdout) == 0) return;
+  const std::string reason = failure != 0 ? std::string(": ") + std::strerror(failure) : "";
+  throw Error("cannot write to standard output" + reason);
 }
 
 std::string grouped(std::int64_t number) {

@@ -13,7 +13,7 @@ class Console {
  public:
   explicit Console(bool quiet) : quiet_(quiet) {}
 
-  /// Prints one line: a name, padded, and a value. Nothing when quiet.
+  /// Prints one line: a name, padded, and a value. Nothing when quiet. Throws gale::Error if that doesn't arrive.
   void say(const std::string& name, const std::string& value) const;
 
   /// For SweepOptions::progress: on a terminal a function that draws a bar with this title, elsewhere none. The bar is
@@ -23,6 +23,10 @@ class Console {
  private:
   bool quiet_;
 };
+
+/// Throws gale::Error, with the system's reason, unless all that was printed has arrived: a disk may be full, a
+/// descriptor closed.
+void require_output();
 
 /// "1,732,840"
 std::string grouped(std::int64_t number);

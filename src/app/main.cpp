@@ -1,8 +1,10 @@
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
-#include <iostream>
 #include <memory>
 #include <new>
 #include <stdexcept>
@@ -14,6 +16,7 @@
 #include <Kokkos_Core.hpp>
 
 #include <gale/app/commands/commands.hpp>
+#include <gale/app/console.hpp>
 #include <gale/app/machine.hpp>
 #include <gale/app/ranks/ranks.hpp>
 #include <gale/app/step.hpp>
@@ -85,6 +88,16 @@ int complain_of_exception() {
   std::_Exit(code);
 }
 
+/// Has standard input, output and error take their descriptors where the parent process closed them: else the first
+/// files that are opened would, and what is printed would be written to these. Writing to such an output fails.
+void take_standard_descriptors() {
+  for (int descriptor = open("/dev/null", O_RDONLY); descriptor >= 0; descriptor = dup(descriptor)) {
+    if (descriptor <= STDERR_FILENO) continue;
+    close(descriptor);
+    return;
+  }
+}
+
 /// Temporary files go with the process, however it ends; a limit of the size of files is an error like a full disk.
 void prepare_for_the_end() {
   gale::io::remove_temporary_files_at_end();
@@ -114,7 +127,7 @@ bool parse(CLI::App& app, int argc, char** argv) {
     app.parse(argc, argv);
     return true;
   } catch (const CLI::Success& success) {
-    app.exit(success);
+    if (gale::app::Ranks::is_first()) app.exit(success);
     return false;
   } catch (const CLI::ParseError& error) {
     throw UsageError(app.get_subcommands().empty() ? without_command(app, argc, argv) : error.what());
@@ -150,16 +163,16 @@ void run(int argc, char** argv) {
   }
 }
 
-/// Whether all that went to standard output has arrived: a disk may be full, a descriptor closed.
-bool output_arrived() { return std::cout.flush() && std::fflush(stdout) == 0 && std::ferror(stdout) == 0; }
-
 /// The exit code of a run. What went wrong is said here, while the first rank still has the others wait for it: mpirun
-/// ends all as soon as one has failed.
+/// ends all as soon as one has failed. A rank that fails alone ends the others, which may wait for it.
 int run_and_say(int argc, char** argv) {
   try {
+    gale::app::Ranks::require_same_arguments(argc, argv);
     run(argc, argv);
-    return output_arrived() ? done : complain(failed, "cannot write to standard output");
+    gale::app::require_output();
+    return done;
   } catch (...) {
+    if (!gale::app::Ranks::all_fail_alike()) end_by_exception();
     return complain_of_exception();
   }
 }
@@ -168,6 +181,7 @@ int run_and_say(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
+    take_standard_descriptors();
     prepare_for_the_end();
     const gale::app::Ranks ranks(argc, argv);
     return run_and_say(argc, argv);

@@ -1,11 +1,37 @@
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
+#include <set>
+#include <system_error>
 
 #include <gale/app/output_file.hpp>
+#include <gale/app/usage_error.hpp>
 #include <gale/base/error.hpp>
 
 namespace gale::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Where a path leads, as far as links can be followed.
+fs::path real_path(const std::string& path) {
+  std::error_code failure;
+  const fs::path absolute = fs::absolute(path, failure), real = fs::weakly_canonical(absolute, failure);
+  return failure ? absolute.lexically_normal() : real;
+}
+
+}  // namespace
+
+void require_distinct(const std::vector<std::string>& files, const std::string& input) {
+  std::set<fs::path> all{real_path(input)};
+  std::error_code unknown;
+  for (const std::string& file : files) {
+    if (!all.insert(real_path(file)).second || fs::equivalent(file, input, unknown))
+      throw UsageError("'" + file + "' is named for two files");
+  }
+}
 
 void require_writable(const std::string& path) {
   try {

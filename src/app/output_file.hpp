@@ -3,10 +3,14 @@
 #include <functional>
 #include <ostream>
 #include <string>
+#include <vector>
 
 #include <gale/io/atomic_file.hpp>
 
 namespace gale::app {
+
+/// Throws UsageError if two of the files are the same, or if one is the input.
+void require_distinct(const std::vector<std::string>& files, const std::string& input);
 
 /// Throws gale::Error, naming the path, unless a file can be made there now. A file that is there stays as it is.
 void require_writable(const std::string& path);

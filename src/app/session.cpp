@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <filesystem>
 #include <optional>
 #include <utility>
 
@@ -7,41 +6,23 @@
 #include <gale/app/make_segmentation.hpp>
 #include <gale/app/output_file.hpp>
 #include <gale/app/session.hpp>
-#include <gale/app/usage_error.hpp>
 #include <gale/base/error.hpp>
 #include <gale/io/read.hpp>
 #include <gale/outputs/field.hpp>
 
 namespace gale::app {
 
-namespace {
-
-/// Throws UsageError if two of the files, of those that aren't empty, are the same.
-void require_distinct(const std::vector<std::string>& files) {
-  const auto plain = [](const std::string& file) {
-    return std::filesystem::weakly_canonical(std::filesystem::absolute(file));
-  };
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      if (!files[i].empty() && !files[j].empty() && plain(files[i]) == plain(files[j]))
-        throw UsageError("'" + files[i] + "' is named for two files");
-    }
-  }
-}
-
-}  // namespace
+namespace {}  // namespace
 
 Session::Session(const InputOptions& input, const CommonOptions& common, std::vector<std::string> files)
     : input_(input), common_(common), console_(common.quiet), files_(common.encoding) {
   report_.input = input.input;
   report_.threads = host_threads();
   files.push_back(common.report);
-  std::vector<std::string> all = files;
-  all.push_back(input.input);
-  require_distinct(all);
-  for (const auto& file : files) {
-    if (!file.empty()) require_writable(file);
-  }
+  files.erase(std::remove(files.begin(), files.end(), ""), files.end());
+  require_distinct(files, input.input);
+  for (const auto& file : files) require_writable(file);
+  input_.read.outputs = std::move(files);
 }
 
 void Session::warm_up(const StructureOption& option, std::function<void(const VertexOrder&)> run) {
@@ -183,9 +164,10 @@ void Session::appear() {
   const std::size_t results = files_.all().size();
   if (!common_.report.empty()) write_report(files_.add(common_.report), report_);
   begin_step("writing", "the files");
-  files_.commit();
+  files_.commit([&] {
+    for (std::size_t i = 0; i < results; ++i) console_.say("wrote", files_.all()[i]->path());
+  });
   end_steps();
-  for (std::size_t i = 0; i < results; ++i) console_.say("wrote", files_.all()[i]->path());
 }
 
 }  // namespace gale::app

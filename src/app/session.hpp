@@ -32,7 +32,7 @@ struct FieldOnMesh {
 class Session {
  public:
   /// Finds out before the work whether its `files` and the report, each if it isn't empty, can be written. Throws
-  /// gale::Error for one that can't; UsageError if two of them, or one and the input, are the same file. The options
+  /// gale::Error for one that can't; UsageError if two of them, or one and the input, are the same file. `common`
   /// must outlive the session.
   Session(const InputOptions& input, const CommonOptions& common, std::vector<std::string> files = {});
 
@@ -98,7 +98,7 @@ class Session {
   /// Says and reports those that haven't been.
   void note(const std::vector<std::string>& notices);
 
-  const InputOptions& input_;
+  InputOptions input_;  ///< which knows what is to be written
   const CommonOptions& common_;
   Console console_;
   Report report_;

@@ -51,7 +51,7 @@ void AtomicFile::sync() const { check(detail::sync_file(temporary())); }
 
 void AtomicFile::commit() {
   check(detail::sync_file(temporary()));
-  check(detail::rename_together({{&temporary_, target_}}).reason);
+  check(detail::rename_together({{&temporary_, target_}}, [] {}).reason);
 }
 
 AtomicFile& AtomicFiles::add(const std::string& path) {
@@ -63,13 +63,13 @@ void AtomicFiles::sync(const AtomicFile& file) {
   named(file.path(), [&] { file.sync(); });
 }
 
-void AtomicFiles::commit() {
+void AtomicFiles::commit(const std::function<void()>& confirm) {
   std::vector<detail::Renaming> renamings;
   for (const auto& file : files_) {
     sync(*file);
     renamings.push_back({&file->temporary_, file->target_});
   }
-  const detail::FailedRename failed = detail::rename_together(renamings);
+  const detail::FailedRename failed = detail::rename_together(renamings, confirm);
   if (failed.reason != 0) refuse_to_write(files_[failed.which]->path(), std::strerror(failed.reason));
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -63,8 +64,9 @@ class GALE_EXPORT AtomicFiles {
   /// Syncs one of them, so that less is left to do at the end.
   static void sync(const AtomicFile& file);
 
-  /// Gives all of them their names. To be called once, when all are written and closed.
-  void commit();
+  /// Gives all of them their names, and calls confirm(): if that throws, they lose them again, and what it threw passes
+  /// on. To be called once, when all are written and closed.
+  void commit(const std::function<void()>& confirm = [] {});
 
   /// All files, in the order in which they were added.
   const std::vector<std::unique_ptr<AtomicFile>>& all() const { return files_; }

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <gale/export.hpp>
 #include <gale/io/dataset.hpp>
@@ -18,6 +19,8 @@ struct ReadOptions {
   std::string array;
   /// Headers such as `.mhd` may name data files that aren't in their own folder, nor below it.
   bool outside_files = false;
+  /// Files that will be written: those that a header or a `.pvtu` names can't be any of them.
+  std::vector<std::string> outputs;
 };
 
 /// The N of an input `grid:N`; nothing for another one. Throws `Error` if N isn't a number, or where a threshold is

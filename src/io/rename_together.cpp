@@ -66,7 +66,7 @@ std::string hidden_name_beside(const std::string& path) {
 
 int sync_file(const std::string& path) { return sync(path, O_RDONLY); }
 
-FailedRename rename_together(const std::vector<Renaming>& renamings) {
+FailedRename rename_together(const std::vector<Renaming>& renamings, const std::function<void()>& confirm) {
   std::vector<Before> before;
   std::vector<std::string> folders;
   for (const Renaming& renaming : renamings) {
@@ -88,7 +88,19 @@ FailedRename rename_together(const std::vector<Renaming>& renamings) {
     const int failure = sync(folders[i], O_RDONLY | O_DIRECTORY);
     if (failure != 0 && failure != EACCES) failed = {i, failure};  // EACCES: a folder that only takes files
   }
-  for (std::size_t i = 0; i < done && failed.reason != 0; ++i) undo(renamings[i].to, before[i]);
+  const auto undo_all = [&] {
+    for (std::size_t i = 0; i < done; ++i) undo(renamings[i].to, before[i]);
+  };
+  if (failed.reason != 0) {
+    undo_all();
+    return failed;
+  }
+  try {
+    confirm();
+  } catch (...) {
+    undo_all();
+    throw;
+  }
   return failed;
 }
 

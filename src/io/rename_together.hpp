@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -24,8 +25,8 @@ struct FailedRename {
   int reason = 0;  ///< errno, or 0 where all went well
 };
 
-/// Renames all files and syncs their folders. If one of that fails, what the names had before gets them again, unless
-/// the file system has no hard links.
-FailedRename rename_together(const std::vector<Renaming>& renamings);
+/// Renames all files, syncs their folders, and calls confirm(). If one of that fails, what the names had before gets
+/// them again, unless the file system has no hard links. Throws what confirm() throws.
+FailedRename rename_together(const std::vector<Renaming>& renamings, const std::function<void()>& confirm);
 
 }  // namespace gale::io::detail

@@ -3,11 +3,13 @@ import os
 import resource
 import signal
 import subprocess
+import tempfile
 import time
 import unittest
 import xml.etree.ElementTree
 
 import gale
+from meshes_in_pieces import pvtu
 
 # Commands that write several files, and their names.
 MANY = ["morse-smale", "grid:24", "-o", "p", "--separatrices2", "--report", "report.json", "--quiet"]
@@ -82,6 +84,78 @@ class Outputs(gale.CommandTest):
                          preexec_fn=no_larger_files_than(1000))
         self.assertEqual(run.communicate(timeout=300), ("", "gale: cannot write 'rows.txt': File too large\n"))
         self.assertEqual((run.returncode, self.names()), (1, []))
+
+    def expect_nothing_written(self, run, before):
+        """It failed in one line, since standard output took nothing more, and all files are as before."""
+        error = run.communicate(timeout=300)[1]
+        self.assertEqual(run.returncode, 1, error)
+        self.assertRegex(error, r"\Agale: cannot write to standard output[^\n]*\n\Z")
+        self.assertEqual({name: (self.folder / name).read_bytes() for name in self.names()}, before)
+
+    @unittest.skipUnless(os.path.exists("/dev/full"), "there is no /dev/full")
+    def test_a_summary_that_cannot_be_printed_leaves_no_files(self):
+        before = {"c.vtp": b"old"}
+        self.write("c.vtp", "old")
+        with open("/dev/full", "w") as full:
+            for line in ("critical-points grid:6 -o c.vtp --report r.json", "discrete-gradient grid:6 -o g.vtp --arrows a.vtp",
+                         "morse-smale grid:6 -o p", "persistence-diagram grid:6 -o d.vtu --curve c.csv", "segment grid:6 -o s.vtu",
+                         "relations grid:6 --relation VV --dump rows.txt", "generate grid:6 -o m.vtu", "info grid:6 --report r.json"):
+                for closed in (False, True):
+                    with self.subTest(line=line, closed=closed):
+                        run = subprocess.Popen([gale.GALE, *line.split()], cwd=self.folder, stdin=subprocess.DEVNULL,
+                                               stdout=None if closed else full, stderr=subprocess.PIPE, text=True,
+                                               preexec_fn=(lambda: os.close(1)) if closed else None)
+                        self.expect_nothing_written(run, before)
+        for option in ("--help", "--version"):
+            with self.subTest(option=option), open("/dev/full", "w") as full:
+                self.expect_nothing_written(subprocess.Popen([gale.GALE, option], cwd=self.folder, stdout=full,
+                                                             stderr=subprocess.PIPE, text=True), before)
+
+    def test_a_summary_of_which_a_part_is_printed_leaves_no_files(self):
+        """Even where only the lines are missing that say what was written."""
+        line, limit = ["critical-points", "grid:6", "-o", "c.vtp", "--report", "r.json"], 1 << 16
+        whole = self.succeed(*line)
+        (self.folder / "r.json").unlink()
+        self.write("c.vtp", "old")
+        before = {"c.vtp": b"old"}
+        for room in (1, whole.index("time"), whole.index("wrote") - 8, whole.index("wrote"), whole.index("wrote") + 8):
+            with self.subTest(room=room), tempfile.NamedTemporaryFile("a") as said:
+                said.write(" " * (limit - room))
+                said.flush()
+                run = subprocess.Popen([gale.GALE, *line], cwd=self.folder, stdin=subprocess.DEVNULL, stdout=said,
+                                       stderr=subprocess.PIPE, text=True, preexec_fn=no_larger_files_than(limit))
+                self.expect_nothing_written(run, before)
+
+    @gale.needs_vtk
+    def test_an_output_that_is_a_file_of_the_input_is_refused(self):
+        self.succeed("generate", "grid:4", "-o", "part.vtu")
+        self.write("parts.pvtu", pvtu(["part.vtu"]))
+        volume = gale.Volume((4, 4, 4), lambda x, y, z: x + 5 * y + 7 * z)
+        self.write("part.raw", volume.data)
+        self.write("volume.mhd", volume.mha("part.raw"))
+        self.write("volume.nhdr.nrrd", volume.nrrd().split(b"\n\n")[0] + b"\ndata file: part.raw\n\n")
+        (self.folder / "folder").mkdir()
+        for name in ("link.vtu", "link.vtp", "link.csv", "link.txt", "p_segmentation.vtu"):
+            (self.folder / name).symlink_to("part.vtu")
+        os.link(self.folder / "part.vtu", self.folder / "hard.vtu")
+        before = {name: (self.folder / name).read_bytes() for name in self.names() if name != "folder"}
+        lines = [f"generate parts.pvtu -o {name}" for name in ("part.vtu", "folder/../part.vtu", self.folder / "part.vtu", "link.vtu",
+                                                               "hard.vtu")]
+        lines += ["segment parts.pvtu -o part.vtu", "critical-points parts.pvtu -o link.vtp", "discrete-gradient parts.pvtu -o link.vtp",
+                  "discrete-gradient parts.pvtu --arrows link.vtp", "morse-smale parts.pvtu -o p",
+                  "persistence-diagram parts.pvtu -o link.vtu", "persistence-diagram parts.pvtu --curve link.csv",
+                  "relations parts.pvtu --relation VV --dump link.txt"]
+        for command in ("info", "segment", "critical-points", "discrete-gradient", "morse-smale", "persistence-diagram"):
+            lines.append(f"{command} parts.pvtu --report part.vtu")
+        lines += ["info volume.mhd --report part.raw", "info volume.nhdr.nrrd --report part.raw"]
+        for line in lines:
+            with self.subTest(line=line):
+                self.refuse(1, *line.split(), naming="is to be written")
+        for line in ("generate part.vtu -o hard.vtu", "generate link.vtu -o part.vtu", "info parts.pvtu --report ./parts.pvtu",
+                     "info grid:4 --report grid:4"):
+            with self.subTest(line=line):
+                self.refuse(2, *line.split(), naming="is named for two files")
+        self.assertEqual({name: (self.folder / name).read_bytes() for name in self.names() if name != "folder"}, before)
 
     @gale.needs_vtk
     def test_files_of_before_are_replaced_together(self):

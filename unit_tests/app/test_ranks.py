@@ -8,6 +8,7 @@ from pathlib import Path
 
 import gale
 import ranks
+from meshes_in_pieces import pvtu
 
 
 @ranks.needs_mpi
@@ -35,8 +36,8 @@ class OnRanks(ranks.RanksTest):
 
     @gale.needs_vtk
     def test_pieces_have_the_points_of_one_rank(self):
-        self.succeed("generate", "grid:9", "-o", "grid.vtu")
-        for source in ("grid:9", "grid.vtu"):
+        self.write_ties("grid:9")
+        for source in ("grid:9", "ties.vtk"):
             self.succeed("critical-points", source, "-o", "one.vtp")
             expected = {}
             self.add(*gale.read_vtp(self.folder / "one.vtp"), expected)
@@ -95,13 +96,59 @@ class OnRanks(ranks.RanksTest):
                 self.expect_one_line(self.launch(3, *arguments), code, naming)
                 self.assertEqual(self.names(), [])
 
+    def test_ranks_of_different_command_lines_end_together(self):
+        line = ["critical-points", "grid:8", "-o", "all.pvtp"]
+        for other, theirs, ours in (([*line, "--nonsense"], "'--nonsense'", "nothing more"),
+                                    (["--help"], "'--help'", "'critical-points'"), ([], "nothing more", "'critical-points'"),
+                                    ([*line[:3], "other.pvtp"], "'other.pvtp'", "'all.pvtp'")):
+            with self.subTest(other=other):
+                run = self.launch_each([gale.GALE, *line], [gale.GALE, *other])
+                self.expect_one_line(run, 2, f"rank 1 has {theirs} where rank 0 has {ours}")
+                self.assertEqual((run.stdout, self.names()), ("", []))
+
+    def test_help_is_printed_once(self):
+        run = self.launch(3, "--help")
+        self.assertEqual((run.returncode, run.stdout, run.stderr), (0, self.succeed("--help"), ""))
+
+    @gale.needs_vtk
+    def test_an_output_that_is_a_file_of_the_input_is_refused(self):
+        self.succeed("generate", "grid:4", "-o", "part.vtu")
+        self.write("parts.pvtu", pvtu(["part.vtu"]))
+        (self.folder / "all_1.vtp").symlink_to("part.vtu")
+        before = {name: (self.folder / name).read_bytes() for name in self.names()}
+        for options, naming in ((["-o", "all.pvtp"], "'part.vtu' is to be written, as 'all_1.vtp'"),
+                                (["--report", "parts.pvtu"], "'parts.pvtu' is named for two files")):
+            with self.subTest(options=options):
+                self.expect_one_line(self.launch(2, "critical-points", "parts.pvtu", *options), 1, naming)
+                self.assertEqual({name: (self.folder / name).read_bytes() for name in self.names()}, before)
+
+    def test_a_summary_of_which_a_part_is_printed_leaves_no_files(self):
+        """Where the first rank can't say what was written, by all ranks by then."""
+        line, limit = [gale.GALE, "critical-points", "grid:6", "-o", "all.pvtp"], 16 * 512
+        whole = self.launch_each(line, line).stdout
+        for name in self.names():
+            (self.folder / name).unlink()
+        self.write("all_1.vtp", "old")
+        self.write("said", " " * (limit - whole.index("wrote") - 8))
+        run = self.launch_each(["sh", "-c", 'ulimit -f 16; exec "$0" "$@" >> said', *line], line)
+        self.expect_one_line(run, 1, "cannot write to standard output: File too large")
+        self.assertEqual(self.names(), ["all_1.vtp", "said"])
+        self.assertEqual((self.folder / "all_1.vtp").read_text(), "old")
+
+    def test_a_rank_that_fails_before_the_command_begins_ends_all(self):
+        line = [gale.GALE, "critical-points", "grid:8", "-o", "all.pvtp"]
+        run = self.launch_each(line, ["env", "KOKKOS_NUM_THREADS=many", *line])
+        self.assertNotEqual(run.returncode, 0)
+        self.assertIn("KOKKOS_NUM_THREADS", run.stderr)
+        self.assertEqual(self.names(), [])
+
     def test_a_rank_that_cannot_write_leaves_no_output_of_others(self):
         (self.folder / "all_1.vtp").mkdir()
         self.expect_one_line(self.launch(3, "critical-points", "grid:8", "-o", "all.pvtp"), 1, "all_1.vtp")
         self.assertEqual(self.names(), ["all_1.vtp"])
 
     def test_a_rank_that_is_killed_ends_all(self):
-        run = subprocess.Popen([*self.launcher(2), "critical-points", "grid:200", "-o", "all.pvtp"], cwd=self.folder,
+        run = subprocess.Popen([*self.launcher, "-n", "2", gale.GALE, "critical-points", "grid:200", "-o", "all.pvtp"], cwd=self.folder,
                                stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         self.addCleanup(run.communicate)
         self.addCleanup(run.kill)

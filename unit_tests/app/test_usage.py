@@ -1,6 +1,5 @@
 """How the command takes its arguments and how it ends."""
 import os
-import subprocess
 import unittest
 
 import gale
@@ -54,13 +53,6 @@ class Usage(gale.CommandTest):
         for size in ("512MiB", "1.5GiB", "8G", "1000000", "64 mb", "2k"):
             with self.subTest(size=size):
                 self.succeed("critical-points", "grid:4", "--host-memory", size)
-
-    @unittest.skipUnless(os.path.exists("/dev/full"), "there is no /dev/full")
-    def test_lost_output_is_an_error(self):
-        for arguments in (["info", "grid:4"], ["--help"], ["--version"]):
-            with self.subTest(arguments=arguments), open("/dev/full", "w") as full:
-                run = subprocess.run([gale.GALE, *arguments], stdout=full, stderr=subprocess.PIPE, text=True, timeout=300)
-                self.assertEqual((run.returncode, run.stderr), (1, "gale: cannot write to standard output\n"))
 
     def test_output_of_another_kind(self):
         for command, name in (("critical-points", "points.vtu"), ("discrete-gradient", "points.vtu"), ("segment", "mesh.vtp"), ("generate", "mesh.stl")):

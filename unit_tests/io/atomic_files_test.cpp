@@ -60,6 +60,24 @@ TEST(AtomicFiles, AppearTogetherOrNotAtAll) {
   EXPECT_EQ(content_of(folder / "b"), "old");
 }
 
+/// What comes after them can't be done: all have their names then, and lose them.
+TEST(AtomicFiles, LoseTheirNamesWhereThatIsNotConfirmed) {
+  const Folder folder;
+  folder.put("b", "old");
+  {
+    AtomicFiles files;
+    add(files, folder / "a", "1");
+    add(files, folder / "b", "2");
+    const auto refuse = [&] {
+      EXPECT_EQ(content_of(folder / "a") + content_of(folder / "b"), "12");
+      throw Error("no");
+    };
+    EXPECT_EQ(error_of([&] { files.commit(refuse); }), "no");
+  }
+  EXPECT_EQ(folder.names(), Names{"b"});
+  EXPECT_EQ(content_of(folder / "b"), "old");
+}
+
 TEST(AtomicFiles, NameTheOneThatCannotBe) {
   AtomicFiles files;
   EXPECT_EQ(error_of([&] { files.add("/nowhere/a"); }), "cannot write '/nowhere/a': No such file or directory");

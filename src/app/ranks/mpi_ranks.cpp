@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <string>
 #include <thread>
 
 #include <gale/app/ranks/launched_ranks.hpp>
@@ -14,6 +15,18 @@ namespace gale::app {
 namespace {
 
 int count = 1, rank = 0, ranks_of_machine = 1;
+
+/// Each ends with a 0, which none can have in it.
+std::string joined(int argc, char** argv) {
+  std::string all;
+  for (int i = 1; i < argc; ++i) all.append(argv[i]).push_back('\0');
+  return all;
+}
+
+/// The argument of `joined` ones that begins at `at`, as it is said.
+std::string argument(const std::string& joined, std::size_t at) {
+  return at < joined.size() ? "'" + std::string(joined.c_str() + at) + "'" : "nothing more";
+}
 
 }  // namespace
 
@@ -42,6 +55,21 @@ int Ranks::threads(int alone) {
   // A rank that the launcher has bound to some cores has them for itself.
   const bool is_bound = alone < static_cast<int>(std::thread::hardware_concurrency());
   return is_bound ? alone : std::max(alone / ranks_of_machine, 1);
+}
+
+void Ranks::require_same_arguments(int argc, char** argv) {
+  if (count == 1) return;
+  const Communicator ranks(MPI_COMM_WORLD);
+  const std::string mine = joined(argc, argv), first = ranks.broadcast(mine, 0);
+  const auto other = static_cast<int>(ranks.least(std::int64_t(mine == first ? count : rank)));
+  if (other == count) return;
+  const std::string theirs = ranks.broadcast(mine, other);
+  std::size_t at = 0;  // of the first argument that differs
+  for (std::size_t i = 0; i < theirs.size() && i < first.size() && theirs[i] == first[i]; ++i) {
+    if (first[i] == '\0') at = i + 1;
+  }
+  throw UsageError("all ranks take the same arguments: rank " + std::to_string(other) + " has " + argument(theirs, at) +
+                   " where rank 0 has " + argument(first, at));
 }
 
 void Ranks::end_all(int code, bool all_fail_alike) {

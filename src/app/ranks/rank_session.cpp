@@ -75,12 +75,20 @@ RankSession::RankSession(const InputOptions& input, const CommonOptions& common,
   report_.input = input.input;
   report_.threads = host_threads();
   detail::together(ranks_, [&] {
-    if (!common.report.empty() && ranks_.rank() == 0) require_writable(common.report);
+    std::vector<std::string> mine, all;
+    const auto add = [&](const std::string& file, int writer) {
+      all.push_back(file);
+      if (writer == ranks_.rank()) mine.push_back(file);
+    };
+    if (!common.report.empty()) add(common.report, 0);
     for (const std::string& file : outputs) {
       if (file.empty()) continue;
-      if (ranks_.rank() == 0) require_writable(file);
-      require_writable(piece_of(file, ranks_.rank()));
+      add(file, 0);
+      for (int rank = 0; rank < ranks_.size(); ++rank) add(piece_of(file, rank), rank);
     }
+    if (ranks_.rank() == 0) require_distinct(all, input.input);
+    for (const std::string& file : mine) require_writable(file);
+    input_.read.outputs = std::move(all);
   });
 }
 
@@ -220,9 +228,25 @@ void RankSession::finish(const DistributedMesh& mesh) {
     if (!common_.report.empty() && ranks_.rank() == 0) write_report(files_.add(common_.report), report_);
   });
   begin_step("writing", "the files");
-  detail::together(ranks_, [&] { files_.commit(); });
+  appear(results);
   end_steps();
-  for (std::size_t i = 0; i < results; ++i) console_.say("wrote", files_.all()[i]->path());
+}
+
+void RankSession::appear(std::size_t results) {
+  bool is_there = false;
+  const auto agree = [&] {
+    is_there = true;
+    detail::together(ranks_, [] {});  // the files of others are there, too
+    detail::together(ranks_, [&] {
+      for (std::size_t i = 0; i < results; ++i) console_.say("wrote", files_.all()[i]->path());
+    });
+  };
+  try {
+    files_.commit(agree);
+  } catch (...) {
+    if (is_there) throw;
+    detail::together(ranks_, [] { throw; });
+  }
 }
 
 }  // namespace gale::app

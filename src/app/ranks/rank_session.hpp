@@ -80,9 +80,12 @@ class RankSession {
   enum class Outputs { none, points, with_mesh };
   static Outputs kind_of(const std::vector<std::string>& files);
 
+  /// Makes all files of all ranks appear, or none; says so of the first ones.
+  void appear(std::size_t results);
+
   bool on_device(const StructureOption& option, const Mesh& local);
 
-  const InputOptions& input_;
+  InputOptions input_;  ///< which knows what is to be written
   const CommonOptions& common_;
   const Outputs outputs_;
   Communicator ranks_;

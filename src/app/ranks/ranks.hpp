@@ -29,6 +29,9 @@ class Ranks {
   /// How many of the machine's threads one rank may take, of those that it would take alone.
   static int threads(int alone);
 
+  /// Throws UsageError, on all ranks alike, if their command lines differ: each would wait for another one's steps.
+  static void require_same_arguments(int argc, char** argv);
+
   /// Ends this process and, where others don't fail by themselves in the same way, them too. Returns where there is one
   /// alone.
   static void end_all(int code, bool all_fail_alike);

@@ -16,6 +16,7 @@ Ranks::~Ranks() = default;
 bool Ranks::are_several() { return false; }
 bool Ranks::is_first() { return true; }
 int Ranks::threads(int alone) { return alone; }
+void Ranks::require_same_arguments(int, char**) {}
 void Ranks::end_all(int, bool) {}
 bool Ranks::all_fail_alike() { return true; }
 

@@ -125,12 +125,13 @@ void place(const Header& header, std::size_t axes, Image& image) {
 
 /// Where one data file is, raw or compressed; MetaIO looks for name.gz as well.
 std::string find_data(const InputFile& file, const std::string& name, const ReadOptions& options, bool& compressed) {
-  const std::string path = path_of_data(file.path(), name, options);
+  const std::string path = path_of_data(file.path(), name, options),
+                    zipped = path_of_data(file.path(), name + ".gz", options);
   try {
     return InputFile(path).path();
   } catch (const Error&) {
     try {
-      const std::string zipped = InputFile(path_of_data(file.path(), name + ".gz", options)).path();
+      InputFile found(zipped);
       compressed = true;
       return zipped;
     } catch (const Error&) {

@@ -64,6 +64,10 @@ std::string path_of_data(const std::string& header, const std::string& name, con
   std::error_code unknown;
   const fs::path folder = fs::absolute(header, unknown).parent_path();
   const fs::path path = folder / name;
+  for (const std::string& output : options.outputs) {
+    if (fs::equivalent(output, path, unknown))
+      throw Error("its data file '" + printable(name) + "' is to be written, as '" + output + "'");
+  }
   if (options.outside_files) return path.string();
   const fs::path real_folder = fs::weakly_canonical(folder, unknown), real = fs::weakly_canonical(path, unknown);
   const auto [stop, ignored] = std::mismatch(real_folder.begin(), real_folder.end(), real.begin(), real.end());

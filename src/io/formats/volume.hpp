@@ -43,7 +43,7 @@ void check_sum(ByteSource& source);
 void require_finite(const Image& image);
 
 /// The path of a data file that a header names. Relative names begin at the header's folder. Throws gale::Error if it
-/// leaves that folder, unless options.outside_files.
+/// leaves that folder, unless options.outside_files, and if it is one of options.outputs.
 std::string path_of_data(const std::string& header, const std::string& name, const ReadOptions& options);
 
 /// The names that a pattern such as `slice%03d.raw` makes for first, first + step, ... up to last. Throws gale::Error
