@@ -1,7 +1,7 @@
 """Arrays of callers as GALE reads them: where they are, if their types and layouts allow it."""
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, List, Tuple
 
 import numpy as np
 
@@ -48,6 +48,34 @@ def _converted(array: np.ndarray, dtype: np.dtype) -> np.ndarray:
     for begin in range(0, len(array), _AT_ONCE):
         copy[begin:begin + _AT_ONCE] = array[begin:begin + _AT_ONCE]
     return copy
+
+
+class _Piece:
+    """Some rows of an array to be pickled: Python looks for interrupts between two of them, and not within an array."""
+
+    def __init__(self, rows: np.ndarray) -> None:
+        self._rows = rows
+
+    def __reduce__(self) -> Tuple[Any, ...]:
+        return _rows_of, (self._rows,)
+
+
+def _rows_of(rows: np.ndarray) -> np.ndarray:
+    return rows
+
+
+def pieces(array: np.ndarray) -> List[_Piece]:
+    """What is pickled in place of an array, and unpickled as what `joined` takes."""
+    return [_Piece(array[begin:begin + _AT_ONCE]) for begin in range(0, len(array), _AT_ONCE)]
+
+
+def joined(parts: List[np.ndarray]) -> np.ndarray:
+    whole = np.empty((sum(map(len, parts)), *parts[0].shape[1:]), parts[0].dtype)
+    begin = 0
+    for part in parts:
+        whole[begin:begin + len(part)] = part
+        begin += len(part)
+    return whole
 
 
 def points(array: Any) -> Any:

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import os
 import warnings
-from typing import Any, Dict, Optional, Tuple, Union
+from typing import Any, Dict, List, Optional, Tuple, Union
 
 import numpy as np
 
@@ -48,6 +48,11 @@ def _cells_of(grid: Any) -> Tuple[np.ndarray, np.ndarray]:
             raise Error("not all of the grid's tetrahedra have four points")
     connectivity = vtk_to_numpy(grid.GetCells().GetConnectivityArray())
     return vtk_to_numpy(grid.GetPoints().GetData()), connectivity.reshape(-1, 4)
+
+
+def _joined(of: Any, points: List[Any], tetrahedra: List[Any], capacity: int) -> Any:
+    """A mesh that was pickled."""
+    return of(_arrays.joined(points), _arrays.joined(tetrahedra), capacity)
 
 
 class Mesh:
@@ -105,7 +110,8 @@ class Mesh:
         return np.asarray(self._mesh.points())
 
     def __reduce__(self) -> Tuple[Any, ...]:
-        return type(self), (self.points, self.relation("TV")[1].reshape(-1, 4), self._mesh.capacity)
+        tetrahedra = self.relation("TV")[1].reshape(-1, 4)
+        return _joined, (type(self), _arrays.pieces(self.points), _arrays.pieces(tetrahedra), self._mesh.capacity)
 
     def __copy__(self) -> Mesh:
         return self

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <limits>
 
+#include <gale/base/stop.hpp>
 #include <gale/io/bytes/damaged.hpp>
 #include <gale/io/cells/cell_types.hpp>
 #include <gale/io/cells/cells.hpp>
@@ -154,6 +155,7 @@ void add_grid_cells(Sections& to, int type, bool tetrahedralize) {
   std::vector<std::int64_t> ends(cells);
   for (std::int64_t z = 0; z + 1 < nz; ++z) {
     for (std::int64_t y = 0; y + 1 < ny; ++y) {
+      gale::detail::stop_if_asked();
       for (std::int64_t x = 0; x + 1 < nx; ++x) {
         static constexpr int corners[2][8] = {{0, 1, 2, 3, 4, 5, 6, 7}, {0, 1, 3, 2, 4, 5, 7, 6}};
         for (const int corner : corners[type == hexahedron_type]) {
@@ -189,6 +191,7 @@ void add_grid_points(Sections& to) {
   points.reserve(3 * static_cast<std::size_t>(to.points));
   for (std::int64_t z = 0; z < to.dimensions[2]; ++z) {
     for (std::int64_t y = 0; y < to.dimensions[1]; ++y) {
+      gale::detail::stop_if_asked();
       for (std::int64_t x = 0; x < to.dimensions[0]; ++x) {
         points.push_back(at(to.coordinates[0], static_cast<std::size_t>(x)));
         points.push_back(at(to.coordinates[1], static_cast<std::size_t>(y)));

@@ -4,6 +4,7 @@
 #include <optional>
 #include <unordered_map>
 
+#include <gale/base/stop.hpp>
 #include <gale/io/arrays.hpp>
 #include <gale/io/bytes/damaged.hpp>
 #include <gale/io/cells/cell_types.hpp>
@@ -138,6 +139,7 @@ class SharedPieces {
     Ids places(points);
     const auto place_all = [&](const auto& keys, auto& place_of) {
       for (std::size_t i = 0; i < points; ++i) {
+        gale::detail::stop_if_asked_at(static_cast<std::int64_t>(i));
         const auto [found, is_new] = place_of.emplace(keys[i], static_cast<std::int64_t>(before + fresh.size()));
         if (is_new) fresh.push_back(static_cast<std::int64_t>(i));
         places[i] = found->second;
@@ -163,6 +165,7 @@ class SharedPieces {
     Ids kept_types, kept_ends, kept_points;
     std::int64_t begin = 0;
     for (std::size_t c = 0; c < types.size(); ++c) {
+      gale::detail::stop_if_asked_at(static_cast<std::int64_t>(c));
       if (ends[c] < begin || ends[c] > static_cast<std::int64_t>(connectivity.size())) {
         damaged("cell " + std::to_string(c) + " ends at " + std::to_string(ends[c]) + " in a connectivity of " +
                 std::to_string(connectivity.size()) + ", and the one before it at " + std::to_string(begin));
