@@ -15,5 +15,5 @@ volume=/usr/share/mricron/templates/ch2bet.nii.gz
 mkdir -p build/demo
 build/bin/gale critical-points "$volume" --above 0 -o build/demo/brain.vtp --report build/demo/brain.json
 xvfb-run --auto-servernum build/render_critical_points/render_critical_points "$volume" build/demo/brain.vtp build/demo/brain.png
-xvfb-run --auto-servernum build/bin/gale morse-smale "$(dirname "$volume")/inia19-t1-brain.nii.gz" --above 0 --persistence 3% --render build/demo/complex.png
+xvfb-run --auto-servernum build/bin/gale morse-smale "$(dirname "$volume")/inia19-t1-brain.nii.gz" --above 0 --persistence 10% --render build/demo/complex.png
 echo "wrote build/demo/brain.vtp, brain.json, brain.png and complex.png"

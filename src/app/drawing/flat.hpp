@@ -1,12 +1,16 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 
-#include <gale/app/drawing/scene.hpp>
+#include <gale/io/atomic_file.hpp>
 
 namespace gale::app {
+
+/// Red, green and blue, 0 to 255.
+using Color = std::array<std::uint8_t, 3>;
 
 /// A flat drawing, such as a plot: in pixels, from its lower left corner; what comes later covers what came before. It
 /// knows nothing of what draws it.

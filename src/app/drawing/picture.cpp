@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
-#include <unordered_set>
 
-#include <gale/app/console.hpp>
 #include <gale/app/drawing/picture.hpp>
+#include <gale/app/drawing/picture_legend.hpp>
+#include <gale/app/drawing/points.hpp>
 #include <gale/outputs/field.hpp>
 
 namespace gale::app {
@@ -12,30 +12,8 @@ namespace {
 
 using Triangle = std::array<Id, 3>;
 
-/// Of critical simplices, by dimension.
-const Color color_of_dimension[] = {{26, 89, 217}, {26, 168, 150}, {245, 166, 26}, {214, 31, 36}};
-/// Of 1-separatrices, by type: descending, connectors, ascending.
-const Color color_of_type[] = {{92, 142, 232}, {150, 150, 158}, {236, 112, 86}};
-
-/// Points of either type, as doubles.
-std::vector<Point> to_points(const std::variant<io::Dataset::Points<float>, io::Dataset::Points<double>>& points) {
-  std::vector<Point> all;
-  std::visit(
-      [&](const auto& rows) {
-        all.resize(rows.extent(0));
-        for (std::size_t i = 0; i < all.size(); ++i) all[i] = {rows(i, 0), rows(i, 1), rows(i, 2)};
-      },
-      points);
-  return all;
-}
-
-/// The values of the array of that name and type, which must be there.
-template <class T>
-const std::vector<T>& values_of(const std::vector<io::PointArray>& arrays, const std::string& name) {
-  const auto at =
-      std::find_if(arrays.begin(), arrays.end(), [&](const io::PointArray& array) { return array.name == name; });
-  return std::get<std::vector<T>>(at->values);
-}
+/// Paths of each type that a picture shows, at most: with more of them nobody can follow one.
+constexpr Id most_paths = 25;
 
 /// A colour from its hue, saturation and value, each from 0 to 1.
 Color to_color(double hue, double saturation, double value) {
@@ -72,9 +50,11 @@ class Painter {
   }
 
   Scene paint(const io::PointSet& critical, const io::Surface& lines) {
-    paint_balls(critical);
-    paint_tubes(lines);
+    ShownPaths shown = shown_paths(lines, most_paths, [this](const Point& point) { return octant_.has(point); });
     paint_skin();
+    paint_balls(critical, shown);
+    scene_.legend = legend_of(complex_, shown, skin_samples());
+    paint_tubes(std::move(shown));
     return std::move(scene_);
   }
 
@@ -101,74 +81,26 @@ class Painter {
     size_ = std::sqrt(size);
   }
 
-  void paint_balls(const io::PointSet& critical) {
-    static const char* const names[] = {"minima", "1-saddles", "2-saddles", "maxima"};
-    const auto counts = complex_.critical.counts();
+  /// The ends of the paths that are shown; all critical simplices where no path is left out.
+  void paint_balls(const io::PointSet& critical, const ShownPaths& shown) {
     const auto& dimensions = values_of<std::int8_t>(critical.arrays, "CellDimension");
+    const auto& ids = values_of<Id>(critical.arrays, "CellId");
     const std::vector<Point> points = to_points(critical.points);
-    std::size_t shown = 0;
-    for (int dimension = 0; dimension < 4; ++dimension) {
-      Scene::Balls balls{grouped(counts[dimension]) + ' ' + names[dimension], color_of_dimension[dimension], {}};
-      for (std::size_t i = 0; i < points.size(); ++i) {
-        if (dimensions[i] == dimension && octant_.has(points[i])) balls.centres.push_back(points[i]);
-      }
-      shown += balls.centres.size();
-      scene_.balls.push_back(std::move(balls));
+    std::size_t count = 0;
+    for (const Color& color : color_of_dimension) scene_.balls.push_back({color, {}});
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (!octant_.has(points[i]) || (!shown.are_all() && shown.ends.count({dimensions[i], ids[i]}) == 0)) continue;
+      scene_.balls[dimensions[i]].centres.push_back(points[i]);
+      ++count;
     }
-    scene_.ball_radius = size_ * std::clamp(0.045 / std::cbrt(shown + 1.0), 0.0025, 0.008);
+    scene_.ball_radius = size_ * std::clamp(0.03 / std::cbrt(count + 1.0), 0.005, 0.008);
   }
 
   /// Draws connectors first and thinner than the others.
-  void paint_tubes(const io::Surface& lines) {
-    static constexpr int tubes_of_type[] = {1, 0, 2};
-    for (const int type : {1, 0, 2})
-      scene_.tubes.push_back({color_of_type[type], scene_.ball_radius * (type == 1 ? 0.14 : 0.27), {}});
-    const std::vector<Point> points = to_points(lines.points);
-    const auto& types = values_of<std::int8_t>(lines.cell_arrays, "SeparatrixType");
-    const auto& mask = values_of<std::int8_t>(lines.point_arrays, "ttkMaskScalarField");
-    const auto& ids = values_of<Id>(lines.point_arrays, "CellId");
-    std::unordered_set<std::uint64_t> seen[3];
-    for (std::size_t first = 0, line = 0; first < points.size();) {
-      std::size_t last = first + 1;  // of the path that begins at `first`
-      while (mask[last] != 0) ++last;
-      const int type = types[line];
-      std::vector<bool> is_new(last - first);
-      for (std::size_t k = first; k < last; ++k) {
-        if (!octant_.has(points[k]) || !octant_.has(points[k + 1])) continue;
-        // The ids of a line's ends, that of the path's first dimension first: the two dimensions take turns.
-        const std::size_t even = k + (k - first) % 2, odd = even == k ? k + 1 : k;
-        const auto key = std::uint64_t(ids[even]) << 32 | static_cast<std::uint32_t>(ids[odd]);
-        is_new[k - first] = seen[type].insert(key).second;
-      }
-      if (std::find(is_new.begin(), is_new.end(), true) != is_new.end()) {
-        add_path(smoothed({points.begin() + first, points.begin() + last + 1}), is_new,
-                 scene_.tubes[tubes_of_type[type]].paths);
-      }
-      line += last - first;
-      first = last + 1;
-    }
-  }
-
-  /// The path with each point but the ends moved towards the middle of its neighbours, twenty times.
-  static std::vector<Point> smoothed(std::vector<Point> path) {
-    std::vector<Point> next = path;
-    for (int i = 0; i < 20; ++i, path.swap(next)) {
-      for (std::size_t k = 1; k + 1 < path.size(); ++k) {
-        for (int axis = 0; axis < 3; ++axis)
-          next[k][axis] = path[k][axis] / 2 + (path[k - 1][axis] + path[k + 1][axis]) / 4;
-      }
-    }
-    return path;
-  }
-
-  /// Adds the stretches of a path that are new: in the octant, and drawn for no other path before. Many paths share
-  /// most of their way.
-  static void add_path(const std::vector<Point>& path, const std::vector<bool>& is_new,
-                       std::vector<std::vector<Point>>& paths) {
-    for (std::size_t k = 0; k < is_new.size(); ++k) {
-      if (!is_new[k]) continue;
-      if (k == 0 || !is_new[k - 1]) paths.push_back({path[k]});
-      paths.back().push_back(path[k + 1]);
+  void paint_tubes(ShownPaths shown) {
+    for (const int type : {1, 0, 2}) {
+      const double radius = scene_.ball_radius * (type == 1 ? 0.13 : 0.24);
+      scene_.tubes.push_back({color_of_type[type], radius, std::move(shown.kinds[type].stretches)});
     }
   }
 
@@ -226,33 +158,44 @@ class Painter {
   }
 
   void add_skin(const std::vector<Triangle>& triangles) {
-    std::vector<Id> places(mesh_.vertices(), no_id), vertices;
+    std::vector<Id> places(mesh_.vertices(), no_id);
     for (Triangle triangle : triangles) {
       for (Id& v : triangle) {
         if (places[v] == no_id) {
-          places[v] = static_cast<Id>(vertices.size());
-          vertices.push_back(v);
+          places[v] = static_cast<Id>(skin_vertices_.size());
+          skin_vertices_.push_back(v);
           scene_.skin.points.push_back(point(v));
         }
         v = places[v];
       }
       scene_.skin.triangles.push_back(triangle);
     }
-    paint(vertices);
+    paint_manifolds();
   }
 
-  void paint(const std::vector<Id>& vertices) {
+  void paint_manifolds() {
     std::vector<double> all(mesh_.vertices());
     for (std::size_t v = 0; v < all.size(); ++v) all[v] = outputs::value_at(field_, static_cast<Id>(v));
     std::sort(all.begin(), all.end());
     const double dark = all[all.size() / 20], bright = all[all.size() - 1 - all.size() / 100];
-    for (const Id v : vertices) {
+    for (const Id v : skin_vertices_) {
       const Id vertex = mesh_.vertex_input()(v);
       const double part = bright > dark && std::isfinite(bright - dark)
                               ? std::clamp((outputs::value_at(field_, vertex) - dark) / (bright - dark), 0.0, 1.0)
                               : 1;
-      scene_.skin.colors.push_back(color_of(vertex, 0.62 + 0.38 * part));
+      scene_.skin.colors.push_back(color_of(vertex, 0.75 + 0.25 * part));
     }
+  }
+
+  /// Three colours of the skin.
+  std::vector<Color> skin_samples() const {
+    std::vector<Color> samples;
+    for (const Triangle& triangle : scene_.skin.triangles) {
+      const Color color = color_of(mesh_.vertex_input()(skin_vertices_[triangle[0]]), 0.95);
+      if (std::find(samples.begin(), samples.end(), color) == samples.end()) samples.push_back(color);
+      if (samples.size() == 3) break;
+    }
+    return samples;
   }
 
   /// A hue for each pair of manifolds; paler where one is missing, grey where both are.
@@ -264,7 +207,7 @@ class Painter {
     const double turn = 0.6180339887498949 * (down + 1) + 0.7548776662466927 * (up + 1) +
                         0.33;  // irrational: labels nearby get hues far apart
     const int manifolds = (down != no_id) + (up != no_id);
-    return to_color(turn - std::floor(turn), manifolds == 0 ? 0 : manifolds == 1 ? 0.3 : 0.5, brightness);
+    return to_color(turn - std::floor(turn), manifolds == 0 ? 0 : manifolds == 1 ? 0.15 : 0.3, brightness);
   }
 
   const Point& point(Id v) const { return points_[mesh_.vertex_input()(v)]; }
@@ -275,6 +218,7 @@ class Painter {
   const SimplexNumbers& numbers_;
   const io::PointArray& field_;
   Octant octant_{};
+  std::vector<Id> skin_vertices_;  ///< GALE's ids, in the skin's order
   double size_ = 0;
   Scene scene_;
 };

@@ -1,25 +1,19 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
-#include <string>
 #include <vector>
 
+#include <gale/app/drawing/flat.hpp>
 #include <gale/base/types.hpp>
-#include <gale/io/atomic_file.hpp>
 
 namespace gale::app {
 
 using Point = std::array<double, 3>;
 
-/// Red, green and blue, 0 to 255.
-using Color = std::array<std::uint8_t, 3>;
-
 /// What a picture shows; it knows nothing of what draws it.
 struct Scene {
-  /// Points of one kind, drawn as balls. The caption is for the legend.
+  /// Points of one kind, drawn as balls.
   struct Balls {
-    std::string caption;
     Color color;
     std::vector<Point> centres;
   };
@@ -42,6 +36,7 @@ struct Scene {
   double ball_radius = 1;
   std::vector<Tubes> tubes;
   Skin skin;
+  Flat legend;          ///< drawn over it, as wide and high as the picture
   Point low{}, high{};  ///< corners of the whole mesh, whatever of it is drawn
 };
 

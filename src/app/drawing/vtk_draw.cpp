@@ -8,7 +8,6 @@
 #include <vtkCellArray.h>
 #include <vtkFloatArray.h>
 #include <vtkGlyph3DMapper.h>
-#include <vtkLegendBoxActor.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -16,14 +15,13 @@
 #include <vtkPolyDataMapper.h>
 #include <vtkPolyDataNormals.h>
 #include <vtkProperty.h>
-#include <vtkRegularPolygonSource.h>
 #include <vtkRenderer.h>
 #include <vtkSphereSource.h>
-#include <vtkTextProperty.h>
 #include <vtkTubeFilter.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkWindowedSincPolyDataFilter.h>
 
+#include <gale/app/drawing/picture_legend.hpp>
 #include <gale/app/drawing/scene.hpp>
 #include <gale/app/drawing/vtk_png.hpp>
 #include <gale/base/error.hpp>
@@ -34,8 +32,6 @@ VTK_MODULE_INIT(vtkRenderingFreeType)
 namespace gale::app {
 
 namespace {
-
-constexpr int width = 1200, height = 800;
 
 vtkSmartPointer<vtkPoints> to_vtk(const std::vector<Point>& points) {
   auto all = vtkSmartPointer<vtkPoints>::New();
@@ -128,26 +124,10 @@ void add_balls(vtkRenderer* renderer, const Scene::Balls& balls, double radius) 
   renderer->AddActor(actor);
 }
 
-void add_legend(vtkRenderer* renderer, const std::vector<Scene::Balls>& balls) {
-  vtkNew<vtkRegularPolygonSource> disc;
-  disc->SetNumberOfSides(32);
-  disc->Update();
-  vtkNew<vtkLegendBoxActor> legend;
-  legend->SetNumberOfEntries(static_cast<int>(balls.size()));
-  for (std::size_t i = 0; i < balls.size(); ++i) {
-    double color[3] = {balls[i].color[0] / 255.0, balls[i].color[1] / 255.0, balls[i].color[2] / 255.0};
-    legend->SetEntry(static_cast<int>(i), disc->GetOutput(), balls[i].caption.c_str(), color);
-  }
-  legend->GetEntryTextProperty()->SetColor(0.1, 0.1, 0.1);
-  legend->BorderOff();
-  legend->SetPosition(0.82, 0.4);
-  legend->SetPosition2(0.17, 0.18);
-  renderer->AddActor(legend);
-}
-
 /// Looks from the high corner, without perspective. The mesh is as large as there is room for left of the legend.
 void aim(vtkRenderer* renderer, const Scene& scene) {
-  constexpr double aspect = double(width) / height, left_part = 0.78, margin = 0.96;
+  const double aspect = double(scene.legend.width) / scene.legend.height, left_part = part_left_of_legend,
+               margin = 0.96;
   const Point towards = {0.664, 0.544, 0.513}, right = {-0.634, 0.773, 0}, up = {-0.397, -0.325, 0.858};
   const auto along = [](const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
   double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL};
@@ -182,7 +162,7 @@ void aim(vtkRenderer* renderer, const Scene& scene) {
 }  // namespace
 
 void require_drawing() {
-  const auto window = make_window(width, height);
+  const auto window = make_window(picture_width, picture_height);
   if (!window->IsA("vtkXOpenGLRenderWindow")) return;
   // This kind of window ends the process if there is no display. So ask first, through the X library that it loaded.
   const auto open = reinterpret_cast<void* (*)(const char*)>(dlsym(RTLD_DEFAULT, "XOpenDisplay"));
@@ -195,13 +175,14 @@ void require_drawing() {
 }
 
 void draw(const io::AtomicFile& file, const Scene& scene) {
-  write_png(file, width, height, [&](vtkRenderer* renderer) {
+  const Fill fill_scene = [&](vtkRenderer* renderer) {
     add_skin(renderer, scene.skin);
     for (const auto& tubes : scene.tubes) add_tubes(renderer, tubes);
     for (const auto& balls : scene.balls) add_balls(renderer, balls, scene.ball_radius);
-    add_legend(renderer, scene.balls);
     aim(renderer, scene);
-  });
+  };
+  const Fill fill_legend = [&](vtkRenderer* renderer) { fill(renderer, scene.legend); };
+  write_png(file, scene.legend.width, scene.legend.height, {fill_scene, fill_legend});
 }
 
 }  // namespace gale::app

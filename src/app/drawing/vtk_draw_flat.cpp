@@ -101,14 +101,16 @@ void aim(vtkRenderer* renderer, const Flat& flat) {
 
 }  // namespace
 
+void fill(vtkRenderer* renderer, const Flat& flat) {
+  double depth = 0;
+  for (const auto& lines : flat.lines) add_lines(renderer, lines, depth += 1);
+  for (const auto& dots : flat.dots) add_dots(renderer, dots, depth += 1);
+  for (const auto& text : flat.texts) add_text(renderer, text);
+  aim(renderer, flat);
+}
+
 void draw(const io::AtomicFile& file, const Flat& flat) {
-  write_png(file, flat.width, flat.height, [&](vtkRenderer* renderer) {
-    double depth = 0;
-    for (const auto& lines : flat.lines) add_lines(renderer, lines, depth += 1);
-    for (const auto& dots : flat.dots) add_dots(renderer, dots, depth += 1);
-    for (const auto& text : flat.texts) add_text(renderer, text);
-    aim(renderer, flat);
-  });
+  write_png(file, flat.width, flat.height, {[&](vtkRenderer* renderer) { fill(renderer, flat); }});
 }
 
 }  // namespace gale::app

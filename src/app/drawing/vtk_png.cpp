@@ -21,14 +21,18 @@ vtkSmartPointer<vtkRenderWindow> make_window(int width, int height) {
   return window;
 }
 
-void write_png(const io::AtomicFile& file, int width, int height, const std::function<void(vtkRenderer*)>& fill) {
+void write_png(const io::AtomicFile& file, int width, int height, const std::vector<Fill>& layers) {
   try {
     const io::detail::VtkMessages messages("VTK gave up");
-    vtkNew<vtkRenderer> renderer;
-    renderer->SetBackground(1, 1, 1);
-    fill(renderer);
     const auto window = make_window(width, height);
-    window->AddRenderer(renderer);
+    window->SetNumberOfLayers(static_cast<int>(layers.size()));
+    for (std::size_t i = 0; i < layers.size(); ++i) {
+      vtkNew<vtkRenderer> renderer;
+      renderer->SetBackground(1, 1, 1);
+      renderer->SetLayer(static_cast<int>(i));
+      layers[i](renderer);
+      window->AddRenderer(renderer);
+    }
     window->Render();
     vtkNew<vtkWindowToImageFilter> drawn;
     drawn->SetInput(window);
