@@ -1,11 +1,11 @@
 #include "grid.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include <vtkCell.h>
 #include <vtkCellArray.h>
 #include <vtkCellType.h>
-#include <vtkCellTypes.h>
 #include <vtkDoubleArray.h>
 #include <vtkFloatArray.h>
 #include <vtkGenericCell.h>
@@ -38,15 +38,25 @@ Mesh mesh_of(const io::Dataset::Positions& points, const Index* corners, vtkIdTy
   return std::visit([&](const auto& xyz) { return make_mesh(xyz, tetrahedra, capacity); }, points);
 }
 
-int dimension_of(int type) {
+/// Whether a type of VTK's has dimension 3; so have those that VTK doesn't know, which are refused as well.
+bool may_be_solid(int type) {
   const auto cell = vtkSmartPointer<vtkCell>::Take(vtkGenericCell::InstantiateCell(type));
-  return cell ? cell->GetCellDimension() : 0;
+  return !cell || cell->GetCellDimension() == 3;
+}
+
+[[noreturn]] void refuse(vtkIdType cell, int type) {
+  const auto known = vtkSmartPointer<vtkCell>::Take(vtkGenericCell::InstantiateCell(type));
+  if (!known)
+    throw Error("cell " + std::to_string(cell) + " has type " + std::to_string(type) + ", which is none of VTK's");
+  throw Error("cell " + std::to_string(cell) + " is a " + known->GetClassName() +
+              ": vtkDataSetTriangleFilter makes tetrahedra of such");
 }
 
 /// The corners of the tetrahedra among cells of several types.
 std::vector<std::int64_t> corners_among(vtkUnstructuredGrid* grid) {
-  bool is_solid[VTK_NUMBER_OF_CELL_TYPES] = {};
-  for (int type = 0; type < VTK_NUMBER_OF_CELL_TYPES; ++type) is_solid[type] = dimension_of(type) == 3;
+  constexpr int types = std::numeric_limits<unsigned char>::max() + 1;  // of VTK's or not
+  bool is_solid[types] = {};
+  for (int type = 0; type < types; ++type) is_solid[type] = may_be_solid(type);
   std::vector<std::int64_t> corners;
   for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell) {
     const int type = grid->GetCellType(cell);
@@ -54,10 +64,11 @@ std::vector<std::int64_t> corners_among(vtkUnstructuredGrid* grid) {
       vtkIdType count;
       const vtkIdType* points;
       grid->GetCellPoints(cell, count, points);
+      if (count != 4)
+        throw Error("cell " + std::to_string(cell) + " is a tetrahedron of " + std::to_string(count) + " points");
       corners.insert(corners.end(), points, points + count);
     } else if (is_solid[type]) {
-      throw Error("cell " + std::to_string(cell) + " is a " + vtkCellTypes::GetClassNameFromTypeId(type) +
-                  ": vtkDataSetTriangleFilter makes tetrahedra of such");
+      refuse(cell, type);
     }
   }
   return corners;
@@ -66,7 +77,7 @@ std::vector<std::int64_t> corners_among(vtkUnstructuredGrid* grid) {
 bool has_tetrahedra_alone(vtkUnstructuredGrid* grid) {
   auto* const types = grid->GetCellTypesArray();
   const vtkIdType count = grid->GetNumberOfCells();
-  if (types == nullptr || count == 0) return false;
+  if (types == nullptr || count == 0 || grid->GetCells()->IsHomogeneous() != 4) return false;
   const unsigned char* const all = types->GetPointer(0);
   return std::all_of(all, all + count, [](unsigned char type) { return type == VTK_TETRA; });
 }

@@ -2,7 +2,6 @@
 
 #include <vtkAlgorithm.h>
 #include <vtkDataArray.h>
-#include <vtkImageData.h>
 #include <vtkPointData.h>
 #include <vtkUnstructuredGrid.h>
 
@@ -11,7 +10,7 @@
 
 #include "arrays.hpp"
 #include "grid.hpp"
-#include "image.hpp"
+#include "voxels.hpp"
 
 namespace gale::vtk {
 
@@ -21,11 +20,12 @@ Run::Run(vtkAlgorithm& filter, vtkDataSet* input, vtkDataArray* field, const Inp
       limit_(threads_),
       grid_(vtkUnstructuredGrid::SafeDownCast(input)),
       field_(field) {
-  if (auto* const image = vtkImageData::SafeDownCast(input)) {
-    grid_ = split_image(image, field, options.above);
+  if (!grid_) {
+    tell(0, "Splitting voxels");
+    grid_ = split_voxels(input, field, options.above);
     field_ = grid_->GetPointData()->GetArray(0);
   }
-  if (!grid_) throw Error("the input is neither an unstructured grid nor an image");
+  tell(0, "Dividing the mesh into segments");
   dataset_.points = positions_of(grid_);
   mesh_ = mesh_of(grid_, dataset_.points, options.capacity);
 }
@@ -45,8 +45,14 @@ VertexOrder Run::order(const io::PointArray& field) const {
   return outputs::order_of(mesh(), dataset, field);
 }
 
-SweepOptions Run::sweep(double begin, double end) const {
+void Run::tell(double progress, const char* text) const {
+  filter_.SetProgressText(text);
+  filter_.UpdateProgress(progress);
   if (filter_.GetAbortExecute() != 0) throw Aborted();
+}
+
+SweepOptions Run::sweep(const char* text, double begin, double end) const {
+  tell(begin, text);
   SweepOptions options;
   options.threads = threads_;
   options.progress = [this, begin, end](Id done, Id segments) {

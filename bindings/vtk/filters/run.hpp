@@ -24,17 +24,18 @@ struct Aborted {};
 struct InputOptions {
   int threads = 0;  ///< 0: as many as there are cores
   int capacity = default_capacity;
-  std::optional<double> above;  ///< of an image's voxels
+  std::optional<double> above;  ///< of voxels
 };
 
 /// One execution of a filter: its input as GALE has it, and how it tells how far it is. To be used by the thread that
 /// made it alone.
 class Run {
  public:
-  /// `field` is an array of the input's points, or nullptr. Throws gale::Error for an input that is no mesh.
+  /// `field` is an array of the input's points, or nullptr. Throws gale::Error for an input that is no mesh, and
+  /// Aborted.
   Run(vtkAlgorithm& filter, vtkDataSet* input, vtkDataArray* field, const InputOptions& options);
 
-  /// The input, or the tetrahedra of the image's voxels with its point arrays.
+  /// The input, or the tetrahedra of the voxels with their point arrays.
   vtkUnstructuredGrid* grid() const { return grid_; }
 
   const Mesh& mesh() const { return *mesh_; }
@@ -48,11 +49,13 @@ class Run {
   /// The order of the field's values, or that of the array NAME_Order.
   VertexOrder order(const io::PointArray& field) const;
 
-  /// A sweep that takes the filter's progress from `begin` to `end`, in 0..1. It throws Aborted once the filter is to
-  /// abort. Throws Aborted if that is so already.
-  SweepOptions sweep(double begin, double end) const;
+  /// A sweep that takes the filter's progress from `begin` to `end`, in 0..1, with a text of what is done. It throws
+  /// Aborted once the filter is to abort. Throws Aborted if that is so already.
+  SweepOptions sweep(const char* text, double begin, double end) const;
 
  private:
+  void tell(double progress, const char* text) const;
+
   vtkAlgorithm& filter_;
   int threads_;
   ThreadLimit limit_;

@@ -12,6 +12,7 @@
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
 #include <vtkPointData.h>
+#include <vtkRectilinearGrid.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
 #include <vtkUnstructuredGrid.h>
 
@@ -53,6 +54,31 @@ void require_whole(vtkInformation* output) {
                     std::to_string(pieces) + ": the whole mesh is needed, in one process");
 }
 
+/// The input. Throws gale::Error if it is no mesh, or where an array hasn't one row a point.
+vtkDataSet* mesh_of(vtkInformationVector* inputs) {
+  vtkDataObject* const input = vtkDataObject::GetData(inputs);
+  if (!vtkUnstructuredGrid::SafeDownCast(input) && !vtkImageData::SafeDownCast(input) &&
+      !vtkRectilinearGrid::SafeDownCast(input))
+    throw gale::Error(std::string("the input is a ") + input->GetClassName() +
+                      ", not an unstructured grid, an image or a rectilinear grid");
+  auto* const mesh = vtkDataSet::SafeDownCast(input);
+  vtkPointData* const arrays = mesh->GetPointData();
+  for (int k = 0; k < arrays->GetNumberOfArrays(); ++k) {
+    vtkAbstractArray* const array = arrays->GetAbstractArray(k);
+    if (array->GetNumberOfTuples() == mesh->GetNumberOfPoints()) continue;
+    throw gale::Error(std::string("array '") + (array->GetName() ? array->GetName() : "") + "' has " +
+                      std::to_string(array->GetNumberOfTuples()) + " rows for " +
+                      std::to_string(mesh->GetNumberOfPoints()) + " points");
+  }
+  return mesh;
+}
+
+/// Leaves nothing of what was begun.
+void empty(vtkInformationVector* outputs) {
+  for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
+    vtkDataObject::GetData(outputs, port)->Initialize();
+}
+
 }  // namespace
 
 vtkGaleAlgorithm::vtkGaleAlgorithm() { this->SetNumberOfInputPorts(1); }
@@ -60,8 +86,10 @@ vtkGaleAlgorithm::vtkGaleAlgorithm() { this->SetNumberOfInputPorts(1); }
 vtkGaleAlgorithm::~vtkGaleAlgorithm() = default;
 
 int vtkGaleAlgorithm::FillInputPortInformation(int, vtkInformation* info) {
-  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkUnstructuredGrid");
-  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");
+  // More than is taken: RequestData refuses the others. Where the pipeline does, outputs stay those of the input
+  // before.
+  for (const char* const type : {"vtkDataSet", "vtkHyperTreeGrid", "vtkTable", "vtkGraph"})
+    info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), type);
   return 1;
 }
 
@@ -95,17 +123,21 @@ int vtkGaleAlgorithm::RequestData(vtkInformationVector** inputs, vtkInformationV
   if (this->UseThreshold) options.above = this->Threshold;
   try {
     require_whole(outputs->GetInformationObject(0));
+    vtkDataSet* const mesh = mesh_of(inputs[0]);
+    if (mesh->GetNumberOfCells() == 0) return 1;  // as empty blocks are: the pipeline has emptied the outputs
     initialize_once();
-    gale::vtk::Run run(*this, vtkDataSet::GetData(inputs[0]), this->SelectField(inputs), options);
+    gale::vtk::Run run(*this, mesh, this->SelectField(inputs), options);
     this->Compute(run, outputs);
     return 1;
   } catch (const gale::vtk::Aborted&) {
+    empty(outputs);
     return 1;
   } catch (const std::bad_alloc&) {
     vtkErrorMacro("out of memory");
   } catch (const std::exception& error) {
     vtkErrorMacro(<< error.what());
   }
+  empty(outputs);
   return 0;
 }
 

@@ -25,12 +25,16 @@ int vtkGaleCriticalPoints::FillOutputPortInformation(int, vtkInformation* info) 
   return 1;
 }
 
-vtkPolyData* vtkGaleCriticalPoints::GetOutput() { return vtkPolyData::SafeDownCast(this->GetOutputDataObject(0)); }
+vtkPolyData* vtkGaleCriticalPoints::GetOutput() { return this->GetOutput(0); }
+
+vtkPolyData* vtkGaleCriticalPoints::GetOutput(int port) {
+  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(port));
+}
 
 void vtkGaleCriticalPoints::Compute(gale::vtk::Run& run, vtkInformationVector* outputs) {
   const auto order = run.order(run.field());
   const auto structure = gale::make_structure(run.mesh(), gale::critical_points_relations);
-  const auto points = gale::find_critical_points(*structure, order, run.sweep(0, 1));
+  const auto points = gale::find_critical_points(*structure, order, run.sweep("Finding critical points", 0, 1));
   gale::vtk::to_poly_data(gale::outputs::to_point_set(run.dataset(), points), run.grid()->GetPointData(),
                           vtkPolyData::GetData(outputs, 0));
 }

@@ -18,10 +18,13 @@ class VTKFILTERSGALE_EXPORT vtkGaleCriticalPoints : public vtkGaleAlgorithm {
   static vtkGaleCriticalPoints* New();
   vtkTypeMacro(vtkGaleCriticalPoints, vtkGaleAlgorithm);
 
+  //@{
   /**
-   * The critical points.
+   * The critical points: port 0 is the only one.
    */
   vtkPolyData* GetOutput();
+  vtkPolyData* GetOutput(int port);
+  //@}
 
  protected:
   vtkGaleCriticalPoints();

@@ -31,6 +31,10 @@ int vtkGaleMorseSmaleComplex::FillOutputPortInformation(int port, vtkInformation
   return 1;
 }
 
+vtkPolyData* vtkGaleMorseSmaleComplex::GetOutput() { return this->GetCriticalPoints(); }
+
+vtkDataObject* vtkGaleMorseSmaleComplex::GetOutput(int port) { return this->GetOutputDataObject(port); }
+
 vtkPolyData* vtkGaleMorseSmaleComplex::GetCriticalPoints() {
   return vtkPolyData::SafeDownCast(this->GetOutputDataObject(0));
 }
@@ -62,8 +66,9 @@ void vtkGaleMorseSmaleComplex::Compute(gale::vtk::Run& run, vtkInformationVector
   const auto field = run.field();
   const auto order = run.order(field);
   const auto structure = gale::make_structure(run.mesh(), gale::morse_smale_relations);
-  const auto gradient = gale::find_discrete_gradient(*structure, order, run.sweep(0, 0.6));
-  const auto found = gale::outputs::morse_smale(*structure, gradient, run.dataset(), field, request, run.sweep(0.6, 1));
+  const auto gradient = gale::find_discrete_gradient(*structure, order, run.sweep("Pairing simplices", 0, 0.6));
+  const auto found = gale::outputs::morse_smale(*structure, gradient, run.dataset(), field, request,
+                                                run.sweep("Tracing the complex", 0.6, 1));
   vtkPointData* const arrays = run.grid()->GetPointData();
   gale::vtk::to_poly_data(found.critical_points, arrays, vtkPolyData::GetData(outputs, 0));
   gale::vtk::to_poly_data(found.separatrices1, vtkPolyData::GetData(outputs, 1));

@@ -79,8 +79,10 @@ class VTKFILTERSGALE_EXPORT vtkGaleMorseSmaleComplex : public vtkGaleAlgorithm {
 
   //@{
   /**
-   * The outputs.
+   * The outputs. GetOutput is that of a port: 0 unless said.
    */
+  vtkPolyData* GetOutput();
+  vtkDataObject* GetOutput(int port);
   vtkPolyData* GetCriticalPoints();
   vtkPolyData* GetSeparatrices1();
   vtkPolyData* GetSeparatrices2();

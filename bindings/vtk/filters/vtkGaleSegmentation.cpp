@@ -23,8 +23,10 @@ int vtkGaleSegmentation::FillOutputPortInformation(int, vtkInformation* info) {
   return 1;
 }
 
-vtkUnstructuredGrid* vtkGaleSegmentation::GetOutput() {
-  return vtkUnstructuredGrid::SafeDownCast(this->GetOutputDataObject(0));
+vtkUnstructuredGrid* vtkGaleSegmentation::GetOutput() { return this->GetOutput(0); }
+
+vtkUnstructuredGrid* vtkGaleSegmentation::GetOutput(int port) {
+  return vtkUnstructuredGrid::SafeDownCast(this->GetOutputDataObject(port));
 }
 
 void vtkGaleSegmentation::Compute(gale::vtk::Run& run, vtkInformationVector* outputs) {

@@ -17,10 +17,13 @@ class VTKFILTERSGALE_EXPORT vtkGaleSegmentation : public vtkGaleAlgorithm {
   static vtkGaleSegmentation* New();
   vtkTypeMacro(vtkGaleSegmentation, vtkGaleAlgorithm);
 
+  //@{
   /**
-   * The mesh with its segments.
+   * The mesh with its segments: port 0 is the only one.
    */
   vtkUnstructuredGrid* GetOutput();
+  vtkUnstructuredGrid* GetOutput(int port);
+  //@}
 
  protected:
   vtkGaleSegmentation();

@@ -86,6 +86,17 @@ class SameAsTheCommand(unittest.TestCase):
         expected = read(vtkXMLUnstructuredGridReader(), self.folder / "segments.vtu")
         self.assertEqual(arrays_of(segments.GetOutput().GetPointData()), arrays_of(expected.GetPointData()))
 
+    def test_outputs_have_the_types_of_their_ports(self):
+        types = {vtkGaleCriticalPoints: ["vtkPolyData"], vtkGaleMorseSmaleComplex: 3 * ["vtkPolyData"] + ["vtkUnstructuredGrid"],
+                 vtkGaleSegmentation: ["vtkUnstructuredGrid"]}
+        for made, names in types.items():
+            found = made()
+            found.SetInputData(self.grid)
+            found.Update()
+            self.assertEqual([found.GetOutput(port).GetClassName() for port in range(len(names))], names)
+            self.assertEqual(found.GetOutput(), found.GetOutput(0))
+            self.assertGreater(found.GetOutput().GetNumberOfPoints(), 20)
+
     def test_errors_and_progress_reach_observers(self):
         said, told = [], []
         points = vtkGaleCriticalPoints()

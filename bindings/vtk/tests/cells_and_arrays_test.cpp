@@ -1,0 +1,138 @@
+#include <limits>
+
+#include <gtest/gtest.h>
+#include <vtkCell.h>
+#include <vtkCellType.h>
+#include <vtkDoubleArray.h>
+#include <vtkGaleAlgorithm.h>
+#include <vtkGenericCell.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+
+#include "inputs.hpp"
+
+namespace gale::test {
+namespace {
+
+TEST_F(Inputs, CellsOfEveryType) {
+  int solid = 0;
+  for (int type = 0; type < VTK_NUMBER_OF_CELL_TYPES + 2; ++type) {
+    SCOPED_TRACE(type);
+    const auto cell = vtkSmartPointer<vtkCell>::Take(vtkGenericCell::InstantiateCell(type));
+    std::vector<vtkIdType> points(cell && cell->GetNumberOfPoints() > 0 ? cell->GetNumberOfPoints() : 4);
+    for (std::size_t k = 0; k < points.size(); ++k) points[k] = static_cast<vtkIdType>(k);
+    if (type == VTK_TETRA) points = {0, 2, 50, 124};
+    const auto mixed = grid_of(dataset_);
+    if (type == VTK_POLYHEDRON) {
+      const vtkIdType faces[] = {3, 0, 1, 2, 3, 0, 1, 3, 3, 0, 2, 3, 3, 1, 2, 3};
+      mixed->InsertNextCell(type, 4, points.data(), 4, faces);
+    } else {
+      mixed->InsertNextCell(type, static_cast<vtkIdType>(points.size()), points.data());
+    }
+    const bool is_solid = cell && cell->GetCellDimension() == 3 && type != VTK_TETRA;
+    solid += is_solid ? 1 : 0;
+    std::string said = "has type " + std::to_string(type) + ", which is none of VTK's";
+    if (cell) said = is_solid ? std::string(" is a ") + cell->GetClassName() : "";
+    expect_line(mixed, said);
+  }
+  EXPECT_GT(solid, 15);
+}
+
+TEST_F(Inputs, TetrahedraThatAreNone) {
+  const auto with = [&](std::vector<vtkIdType> points) {
+    const auto grid = grid_of(dataset_);
+    grid->InsertNextCell(VTK_TETRA, static_cast<vtkIdType>(points.size()), points.data());
+    return grid;
+  };
+  expect_line(with({0, 1, 2}), "is a tetrahedron of 3 points");
+  expect_line(with({0, 1, 2, 50, 60}), "is a tetrahedron of 5 points");
+  expect_line(with({0, 1, 2, 999}), "has vertex 999");
+  expect_line(with({0, 1, 2, -1}), "has vertex -1");
+  expect_line(with({0, 1, 2, 2}), "has vertex 2 twice");
+  auto moved = grid_of(dataset_);
+  moved->GetPoints()->SetPoint(7, std::numeric_limits<double>::infinity(), 0, 0);
+  expect_line(moved, "point 7 has a coordinate that is not finite");
+  vtkNew<vtkUnstructuredGrid> pointless;
+  pointless->SetCells(VTK_TETRA, grid_->GetCells());
+  expect_line(pointless, "tetrahedron 0 has vertex", "");
+  vtkNew<vtkUnstructuredGrid> flat;
+  const vtkIdType triangle[] = {0, 1, 5};
+  flat->SetPoints(grid_->GetPoints());
+  flat->GetPointData()->ShallowCopy(grid_->GetPointData());
+  flat->InsertNextCell(VTK_TRIANGLE, 3, triangle);
+  expect_line(flat, "the mesh has no tetrahedra");
+}
+
+TEST_F(Inputs, ArraysOfEveryType) {
+  for (const int type : {VTK_BIT, VTK_CHAR, VTK_SIGNED_CHAR, VTK_UNSIGNED_CHAR, VTK_SHORT, VTK_UNSIGNED_SHORT, VTK_INT,
+                         VTK_UNSIGNED_INT, VTK_LONG, VTK_UNSIGNED_LONG, VTK_LONG_LONG, VTK_UNSIGNED_LONG_LONG,
+                         VTK_ID_TYPE, VTK_FLOAT, VTK_DOUBLE, VTK_STRING, VTK_VARIANT}) {
+    SCOPED_TRACE(type);
+    const auto array = vtkSmartPointer<vtkAbstractArray>::Take(vtkAbstractArray::CreateArray(type));
+    array->SetName("one");
+    array->SetNumberOfTuples(grid_->GetNumberOfPoints());
+    for (vtkIdType k = 0; vtkDataArray::SafeDownCast(array) && k < grid_->GetNumberOfPoints(); ++k)
+      vtkDataArray::SafeDownCast(array)->SetTuple1(k, type == VTK_BIT ? k % 2 : k % 7);
+    const auto image = image_of(dataset_, n);
+    const auto rectilinear = rectilinear_of({0, 1, 2, 3, 4});
+    const auto grid = grid_of(dataset_);
+    for (vtkDataSet* const input : std::initializer_list<vtkDataSet*>{image, rectilinear, grid}) {
+      input->GetPointData()->AddArray(array);
+      expect_line(input, "");  // it travels
+      for (const auto& filter : all()) {
+        const std::string said = line(*filter, input, "one");
+        const bool is_number = array->IsNumeric() && type != VTK_BIT;
+        if (is_number) {
+          EXPECT_EQ(said, "");
+        } else if (!filter->IsA("vtkGaleSegmentation")) {
+          EXPECT_NE(said.find("'one'"), std::string::npos) << said;
+        }
+      }
+    }
+  }
+}
+
+TEST_F(Inputs, ArraysThatAreNoField) {
+  vtkNew<vtkDoubleArray> vectors, nan, few;
+  vectors->SetName("vectors");
+  vectors->SetNumberOfComponents(3);
+  nan->SetName("nan");
+  for (vtkDoubleArray* const array : {vectors.Get(), nan.Get()}) {
+    array->SetNumberOfTuples(grid_->GetNumberOfPoints());
+    array->Fill(1);
+  }
+  nan->SetValue(17, std::numeric_limits<double>::quiet_NaN());
+  few->SetName("few");
+  few->SetNumberOfTuples(3);
+  few->Fill(1);
+  for (const vtkSmartPointer<vtkDataSet>& input :
+       {vtkSmartPointer<vtkDataSet>(grid_of(dataset_).Get()), vtkSmartPointer<vtkDataSet>(image_of(dataset_, n).Get()),
+        vtkSmartPointer<vtkDataSet>(rectilinear_of({0, 1, 2, 3, 4}).Get())}) {
+    SCOPED_TRACE(input->GetClassName());
+    input->GetPointData()->AddArray(vectors);
+    input->GetPointData()->AddArray(nan);
+    for (const auto& filter : all()) {
+      const bool needs_field = !filter->IsA("vtkGaleSegmentation") || !input->IsA("vtkUnstructuredGrid");
+      const bool has_voxels = !input->IsA("vtkUnstructuredGrid");
+      EXPECT_EQ(line(*filter, input, "vectors"), needs_field ? "array 'vectors' has 3 components, not 1" : "");
+      EXPECT_EQ(line(*filter, input, "nothing"), "the input has no point array 'nothing'");
+      // A voxel without a value is left out, a vertex without one is refused.
+      const std::string of_nan = line(*filter, input, "nan");
+      if (has_voxels || !needs_field) {
+        EXPECT_EQ(of_nan, "");
+      } else {
+        EXPECT_NE(of_nan.find("17"), std::string::npos) << of_nan;
+      }
+    }
+    input->GetPointData()->AddArray(few);
+    expect_line(input, "array 'few' has 3 rows for 125 points");
+    input->GetPointData()->Initialize();
+    for (const auto& filter : all())
+      EXPECT_EQ(line(*filter, input, "").empty(),
+                filter->IsA("vtkGaleSegmentation") && input->IsA("vtkUnstructuredGrid"));
+  }
+}
+
+}  // namespace
+}  // namespace gale::test
