@@ -5,6 +5,7 @@ cd "$(dirname "$0")/.."
 
 scripts/dependencies.sh data mpi
 export CMAKE_GENERATOR=${CMAKE_GENERATOR:-Ninja} # of a new build folder; one that is there keeps its own
-cmake --preset ci -DGALE_ENABLE_VTK_FILTERS=ON -DGALE_ENABLE_MPI=ON -DGALE_ENABLE_TTK=ON
+cmake --preset ci -DGALE_ENABLE_VTK_FILTERS=ON -DGALE_ENABLE_MPI=ON -DGALE_ENABLE_TTK=ON \
+  -DGALE_ENABLE_EXAMPLES=OFF # the tests build them against an install
 cmake --build --preset ci --parallel "$(nproc)"
 ctest --preset ci --parallel 2
