@@ -1,8 +1,3 @@
-#include <algorithm>
-#include <cmath>
-
-#include <gale/base/parallel.hpp>
-#include <gale/base/threads.hpp>
 #include <gale/runtime/defaults.hpp>
 #include <gale/ttk/connectivity.hpp>
 
@@ -19,18 +14,6 @@ Segmentation octree(const CallersPoints& points, int capacity) {
 
 Segmentation octree(const CallersPoints& points, int capacity) {
   return points.in_double ? octree<double>(points, capacity) : octree<float>(points, capacity);
-}
-
-/// For blocks. VV and VT of a regular mesh take 192 bytes a vertex, and one sweep makes them all. Of other rows, those
-/// that TTK's threads go through at one time suffice: each has a part of the vertices, in the caller's order, hence
-/// comes by the segments of some layers again and again. More made nothing faster.
-std::size_t default_memory(RelationSet wanted, Id vertices) {
-  const auto stars = std::size_t(192) * vertices;
-  if ((RelationSet(Relation::VV) | Relation::VT).contains(wanted)) return std::max(stars, 16 * gale::detail::mebibyte);
-  constexpr double layers = 5.3, bytes_of_vertex = 300;
-  const double side = std::cbrt(vertices), passed = layers * bytes_of_vertex * side * side * host_threads();
-  const auto most = std::min(static_cast<std::size_t>(passed), stars);
-  return std::max({most, std::size_t(40) * vertices, 16 * gale::detail::mebibyte});
 }
 
 Options with_defaults(Options options) {
@@ -104,7 +87,7 @@ void Connectivity::need_rows(Relation relation) {
   }
   store_->add(relation);
   wanted_rows_ = wanted_rows_ | relation;
-  if (options_.memory == 0) store_->set_budget(default_memory(wanted_rows_, counts_[0]));
+  if (options_.memory == 0) store_->set_budget(default_memory());
   if (relation == Relation::FT && is_manifold()) return;  // the triangles have their stars
   if (finds_in_cells(relation)) return;
   need_mesh();

@@ -42,6 +42,7 @@ std::shared_ptr<StarRows> Connectivity::new_stars() const {
 
 /// Computes the rows of a segment's simplices and puts them into TTK's ids and order.
 Block Connectivity::make_block(Reader& reader, Relation relation, Id segment) const {
+  blocks_made_.fetch_add(1, std::memory_order_relaxed);
   if (finds_in_cells(relation)) {
     if (!reader.stars) reader.stars = new_stars();
     reader.stars->find(segment);

@@ -22,7 +22,8 @@ struct Options {
   StructureOptions structure;       ///< its host_memory is 128 MiB by default, since the blocks are kept translated
   int capacity = default_capacity;  ///< vertices of a segment, at most
   std::size_t memory = 0;  ///< bytes for translated blocks; by default 192 a vertex, which VV and VT take; where other
-                           ///< rows are needed 40 to 192, by what all threads go through at one time
+                           ///< rows are needed 40 to 192, by what all threads go through at one time; no bound where
+                           ///< the numbers of vertices or cells don't follow places
 };
 
 /// A caller's points: three coordinates each, float or double.
@@ -110,6 +111,9 @@ class GALE_EXPORT Connectivity {
   /// Whether all triangles have one or two tetrahedra; those must be needed.
   bool is_manifold() const { return !triangles_.any_crowded; }
 
+  /// Blocks computed so far: those of the segments that were read, and again what was dropped meanwhile.
+  std::size_t blocks_made() const { return blocks_made_.load(std::memory_order_relaxed); }
+
   /// Of tables and blocks, beside the mesh and its simplices.
   std::size_t bytes() const;
 
@@ -177,6 +181,8 @@ class GALE_EXPORT Connectivity {
   }
   static int source_of(Relation relation) { return relation == Relation::VV ? 0 : 1; }
   Structure& structure(int source) const;
+  bool is_by_place(int dimension) const;
+  std::size_t default_memory() const;
 
   /// A bit each.
   using Flags = Array<std::uint8_t, HostMemory>;
@@ -204,6 +210,8 @@ class GALE_EXPORT Connectivity {
   const Id* vertex_input_;
   CellOrder edges_;
   TriangleOrder triangles_;
+  mutable std::array<std::optional<bool>, 2> by_place_;  ///< the vertices, the cells; as soon as it is asked
+  mutable std::atomic<std::size_t> blocks_made_{0};
   bool surface_waits_ = false;               ///< that of vertices, for the triangles
   mutable std::array<Flags, 3> on_surface_;  ///< by dimension, and the same for readers
   mutable std::array<std::atomic<const std::uint8_t*>, 3> surface_flags_{};
