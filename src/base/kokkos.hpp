@@ -39,8 +39,8 @@ using MemoryOf = typename Space::memory_space;
 /// thread. What these threads share is changed by gale::atomic_add and its like (base/atomic.hpp): Kokkos' atomics are
 /// none where Serial is its only backend.
 struct HostThreads {
-  using memory_space = HostMemory;
-  void fence() const {}  ///< returns at once: what runs here is done when a call returns
+  using memory_space = HostMemory;  ///< where its kernels read and write
+  void fence() const {}             ///< returns at once: what runs here is done when a call returns
 };
 
 /// instantiate(Space) for each space that a mesh may be made in: what is a template over the space is instantiated with

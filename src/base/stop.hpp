@@ -15,7 +15,10 @@ struct GALE_EXPORT Stopped {};
 /// Asks computations to stop, from any thread or a signal handler.
 class StopRequest {
  public:
+  /// Makes the request. It can't be taken back.
   void stop() { is_made_.store(true, std::memory_order_relaxed); }
+
+  /// Whether it was made.
   bool is_made() const { return is_made_.load(std::memory_order_relaxed); }
 
  private:
@@ -27,7 +30,10 @@ class StopRequest {
 /// used as before. To be destroyed on the thread that made it, last made first.
 class GALE_EXPORT StopScope {
  public:
+  /// Begins with `request`, which must outlive this.
   explicit StopScope(const StopRequest* request);
+
+  /// Ends: what was asked before this holds again.
   ~StopScope();
   StopScope(const StopScope&) = delete;
   StopScope& operator=(const StopScope&) = delete;
@@ -45,7 +51,7 @@ GALE_EXPORT const StopRequest* stop_request();
 /// host, calls it now and then.
 GALE_EXPORT void stop_if_asked();
 
-/// The same in the i-th step of a loop of short ones: looks in some of them.
+/// Throws Stopped likewise in the i-th step of a loop of short ones: looks in some of them.
 inline void stop_if_asked_at(std::int64_t i) {
   constexpr std::int64_t between = 1 << 12;
   if (i % between == 0) stop_if_asked();

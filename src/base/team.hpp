@@ -15,13 +15,14 @@ namespace gale {
 /// function call: Kokkos' Serial TeamPolicy is not safe from several threads before 4.4, and its launch is not free.
 class HostTeam {
  public:
+  /// The team of that rank, whose scratch memory begins at `scratch`.
   KOKKOS_FUNCTION HostTeam(int league_rank, char* scratch) : scratch_(scratch), league_rank_(league_rank) {}
 
-  KOKKOS_FUNCTION int league_rank() const { return league_rank_; }
-  KOKKOS_FUNCTION int team_rank() const { return 0; }
-  KOKKOS_FUNCTION int team_size() const { return 1; }
-  KOKKOS_FUNCTION void team_barrier() const {}
-  KOKKOS_FUNCTION char* scratch() const { return scratch_; }
+  KOKKOS_FUNCTION int league_rank() const { return league_rank_; }  ///< which team of the league it is
+  KOKKOS_FUNCTION int team_rank() const { return 0; }               ///< which thread of the team: there is one
+  KOKKOS_FUNCTION int team_size() const { return 1; }               ///< how many threads the team has
+  KOKKOS_FUNCTION void team_barrier() const {}                      ///< returns at once
+  KOKKOS_FUNCTION char* scratch() const { return scratch_; }        ///< where its scratch memory begins
 
  private:
   char* scratch_;
@@ -32,14 +33,19 @@ class HostTeam {
 template <class Team>
 inline constexpr bool is_sequential = std::is_same_v<Team, HostTeam>;
 
+/// The steps that kernels of teams are made of.
 namespace team {
 
+/// How many warps the team has.
 KOKKOS_FORCEINLINE_FUNCTION int warps(const HostTeam&) { return 1; }
+/// The number of this thread's warp in its team.
 KOKKOS_FORCEINLINE_FUNCTION int warp(const HostTeam&) { return 0; }
+/// warps for a team of Kokkos'.
 template <class Team>
 KOKKOS_FORCEINLINE_FUNCTION int warps(const Team& team) {
   return team.team_size();
 }
+/// warp for a team of Kokkos'.
 template <class Team>
 KOKKOS_FORCEINLINE_FUNCTION int warp(const Team& team) {
   return team.team_rank();
@@ -52,6 +58,7 @@ template <int level>
 KOKKOS_FORCEINLINE_FUNCTION char* scratch(const HostTeam& team, std::size_t) {
   return team.scratch();
 }
+/// scratch for a team of Kokkos'.
 template <int level, class Team>
 KOKKOS_FORCEINLINE_FUNCTION char* scratch(const Team& team, std::size_t bytes) {
   char* const memory = static_cast<char*>(team.team_scratch(level).get_shmem_aligned(bytes, 16, level));
@@ -61,7 +68,9 @@ KOKKOS_FORCEINLINE_FUNCTION char* scratch(const Team& team, std::size_t bytes) {
   return memory;
 }
 
+/// All threads of the team meet, and see each other's writes.
 KOKKOS_FORCEINLINE_FUNCTION void barrier(const HostTeam&) {}
+/// barrier for a team of Kokkos'.
 template <class Team>
 KOKKOS_FORCEINLINE_FUNCTION void barrier(const Team& team) {
   team.team_barrier();
@@ -72,6 +81,7 @@ template <class Body>
 KOKKOS_FORCEINLINE_FUNCTION void for_all(const HostTeam&, int n, const Body& body) {
   for (int i = 0; i < n; ++i) body(i);
 }
+/// for_all for a team of Kokkos'.
 template <class Team, class Body>
 KOKKOS_FORCEINLINE_FUNCTION void for_all(const Team& team, int n, const Body& body) {
   Kokkos::parallel_for(Kokkos::TeamVectorRange(team, n), body);
@@ -102,6 +112,7 @@ template <class Body>
 KOKKOS_FORCEINLINE_FUNCTION void for_warps(const HostTeam&, int n, const Body& body) {
   for (int i = 0; i < n; ++i) body(i);
 }
+/// for_warps for a team of Kokkos'.
 template <class Team, class Body>
 KOKKOS_FORCEINLINE_FUNCTION void for_warps(const Team& team, int n, const Body& body) {
   Kokkos::parallel_for(Kokkos::TeamThreadRange(team, n), body);
@@ -113,6 +124,7 @@ template <class Body>
 KOKKOS_FORCEINLINE_FUNCTION void for_lanes(const HostTeam&, int n, const Body& body) {
   for (int i = 0; i < n; ++i) body(i);
 }
+/// for_lanes for a team of Kokkos'.
 template <class Team, class Body>
 KOKKOS_FORCEINLINE_FUNCTION void for_lanes(const Team& team, int n, const Body& body) {
   Kokkos::parallel_for(Kokkos::ThreadVectorRange(team, n), body);
@@ -120,6 +132,7 @@ KOKKOS_FORCEINLINE_FUNCTION void for_lanes(const Team& team, int n, const Body& 
 
 /// Inside for_warps: the lanes of this warp meet and see each other's writes.
 KOKKOS_FORCEINLINE_FUNCTION void warp_barrier(const HostTeam&) {}
+/// warp_barrier for a team of Kokkos'.
 template <class Team>
 KOKKOS_FORCEINLINE_FUNCTION void warp_barrier(const Team& team) {
   for_lanes(team, 1, [](int) {});
@@ -143,6 +156,7 @@ template <class Body>
 KOKKOS_FORCEINLINE_FUNCTION void once_per_warp(const HostTeam&, const Body& body) {
   body();
 }
+/// once_per_warp for a team of Kokkos'.
 template <class Team, class Body>
 KOKKOS_FORCEINLINE_FUNCTION void once_per_warp(const Team& team, const Body& body) {
   Kokkos::single(Kokkos::PerThread(team), body);
@@ -153,6 +167,7 @@ template <class Body>
 KOKKOS_FORCEINLINE_FUNCTION void once(const HostTeam&, const Body& body) {
   body();
 }
+/// once for a team of Kokkos'.
 template <class Team, class Body>
 KOKKOS_FORCEINLINE_FUNCTION void once(const Team& team, const Body& body) {
   Kokkos::single(Kokkos::PerTeam(team), body);
@@ -167,6 +182,7 @@ KOKKOS_FORCEINLINE_FUNCTION T add(const HostTeam&, T* to, T value) {
   *to += value;
   return before;
 }
+/// add for a team of Kokkos'.
 template <class Team, class T>
 KOKKOS_FORCEINLINE_FUNCTION T add(const Team&, T* to, T value) {
 #if defined(__CUDA_ARCH__)
@@ -185,6 +201,7 @@ template <class T>
 KOKKOS_FORCEINLINE_FUNCTION void raise(const HostTeam&, T* to, T value) {
   if (*to < value) *to = value;
 }
+/// raise for a team of Kokkos'.
 template <class Team, class T>
 KOKKOS_FORCEINLINE_FUNCTION void raise(const Team&, T* to, T value) {
 #if defined(__CUDA_ARCH__)
@@ -196,6 +213,7 @@ KOKKOS_FORCEINLINE_FUNCTION void raise(const Team&, T* to, T value) {
 
 /// Sets bits of what the team shares.
 KOKKOS_FORCEINLINE_FUNCTION void set_bits(const HostTeam&, std::uint32_t* of, std::uint32_t bits) { *of |= bits; }
+/// set_bits for a team of Kokkos'.
 template <class Team>
 KOKKOS_FORCEINLINE_FUNCTION void set_bits(const Team&, std::uint32_t* of, std::uint32_t bits) {
 #if defined(__CUDA_ARCH__)
@@ -212,6 +230,7 @@ KOKKOS_FORCEINLINE_FUNCTION T exchange_if(const HostTeam&, T* at, T expected, T 
   if (before == expected) *at = value;
   return before;
 }
+/// exchange_if for a team of Kokkos'.
 template <class Team, class T>
 KOKKOS_FORCEINLINE_FUNCTION T exchange_if(const Team&, T* at, T expected, T value) {
 #if defined(__CUDA_ARCH__)
@@ -233,6 +252,7 @@ KOKKOS_FORCEINLINE_FUNCTION void exclusive_scan(const HostTeam&, int n, T* value
   }
   values[n] = sum;
 }
+/// exclusive_scan for a team of Kokkos'.
 template <class Team, class T>
 KOKKOS_FORCEINLINE_FUNCTION void exclusive_scan(const Team& team, int n, T* values) {
   team.team_barrier();

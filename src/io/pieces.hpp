@@ -13,7 +13,8 @@ namespace gale::io {
 /// The pieces that a `.pvtu` names.
 struct PieceNames {
   std::vector<std::string> sources;  ///< their paths
-  std::string point_ids, cell_ids;   ///< the arrays that have global ids; empty where there are none
+  std::string point_ids;             ///< the point array that has global ids; empty where there is none
+  std::string cell_ids;              ///< the cell array that has global ids; empty where there is none
 };
 
 /// Some pieces as one mesh, which may have no tetrahedra and no points: points that several pieces have are there

@@ -47,8 +47,8 @@ struct CopyEntries {
 
 /// Makes a relation of all simplices at once, in the memory of `space`; what is said of sweeps (device_sweep.hpp)
 /// holds. On the host all threads make it, whatever the space. Rows are made twice, to be counted and to be copied, so
-/// that nothing else takes memory: 8 bytes a row, 4 an entry. Rows of simplices that have ghosts alone are empty. Throws
-/// OutOfMemory where the memory isn't there.
+/// that nothing else takes memory: 8 bytes a row, 4 an entry. Rows of simplices that have ghosts alone are empty.
+/// Throws OutOfMemory where the memory isn't there.
 template <class Space>
 Graph<detail::MemoryOfSweep<Space>> graph_of(const Space& space, const Mesh& mesh, Relation relation,
                                              const DeviceSweepOptions& options = {}) {
