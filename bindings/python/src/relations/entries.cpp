@@ -26,7 +26,7 @@ void expect_writes([[maybe_unused]] void* data, [[maybe_unused]] std::size_t byt
   on_threads(threads, [&](int thread) {
     const auto begin_of = [&](int i) { return (first + (end - first) * i / threads) * piece; };
     const std::uintptr_t begin = begin_of(thread), length = begin_of(thread + 1) - begin;
-    constexpr std::uintptr_t at_once = 256 * piece;
+    constexpr std::uintptr_t at_once = 16 * piece;
     for (std::uintptr_t done = 0; done < length; done += at_once) {
       detail::stop_if_asked();
       madvise(reinterpret_cast<void*>(begin + done), std::min(length - done, at_once), MADV_POPULATE_WRITE);
