@@ -45,6 +45,20 @@ function(gale_closure variable target)
   set(${variable} "${items}" PARENT_SCOPE)
 endfunction()
 
+# gale_can_link(<variable> <target>...): whether these are there, with all that linking them links.
+function(gale_can_link variable)
+  set(${variable} TRUE PARENT_SCOPE)
+  foreach(target IN LISTS ARGN)
+    gale_closure(items ${target})
+    list(FILTER items INCLUDE REGEX "^[^$]*::")
+    foreach(item IN LISTS items)
+      if(NOT TARGET ${item})
+        set(${variable} FALSE PARENT_SCOPE) # such as HDF5 itself, without its headers
+      endif()
+    endforeach()
+  endforeach()
+endfunction()
+
 # gale_file_of(<variable> <target>): the library of an imported target; empty for one that only carries properties.
 function(gale_file_of variable target)
   set(${variable} "" PARENT_SCOPE)

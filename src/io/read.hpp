@@ -35,8 +35,8 @@ GALE_EXPORT std::optional<int> grid_size(const std::string& input, const ReadOpt
 /// - `.pvtu`: the pieces that it names, in its folder or below, as one mesh. Their points are the same where their
 ///   global ids are (`GlobalIds` of `PPointData`), or all coordinates if there are no such; ghost cells are left out.
 ///   Points are in the order of these ids, cells in that of theirs (`GlobalIds` of `PCellData`), else as they occur.
-/// - `.e .ex2 .exo` (Exodus II) and `.hdf .vtkhdf` (VTKHDF: a mesh, or an image): read by VTK, in the program
-///   gale-vtk-reader. Of an Exodus file the blocks of elements, and nodal variables at its first time.
+/// - `.e .ex2 .exo` (Exodus II): the blocks of elements, and nodal variables at its first time. `.hdf .vtkhdf`: VTKHDF,
+///   a mesh, or an image. These, and Exodus of NetCDF-4, are HDF5, which the program gale-hdf5-reader reads.
 /// - `.vti .nii .nii.gz .mha .mhd .nrrd`, and `.vtk` of structured points: an image, see `split_voxels`. Values are
 ///   rescaled where the file says so. A NIfTI image keeps the file's voxel order, in the coordinates of its sform, else
 ///   its qform.

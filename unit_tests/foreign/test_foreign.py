@@ -1,11 +1,13 @@
-"""Exodus and VTKHDF files, which gale-vtk-reader reads: the same results as from a .vtu, and one line for bad files."""
+"""Exodus and VTKHDF files: the same results as from a .vtu, and one line for bad files, in little memory and time."""
 import os
 import random
+import resource
 import shutil
 import subprocess
 import unittest
 from pathlib import Path
 
+import exodus_files  # of the fuzzer
 import gale  # of the command's tests
 
 
@@ -78,11 +80,71 @@ class Foreign(gale.CommandTest):
 
     def test_program_is_looked_for_beside_the_command(self):
         alone = shutil.copy(gale.GALE, self.folder)
-        self.mesh(4, "mesh.e")
-        run = subprocess.run([alone, "info", "mesh.e"], cwd=self.folder, capture_output=True, text=True, timeout=60)
-        self.assertRegex(run.stderr, r"\Agale: cannot read 'mesh.e': such files are read by gale-vtk-reader, which isn't [^\n]+\n\Z")
-        shutil.copy(Path(gale.GALE).parent / "gale-vtk-reader", self.folder)
-        subprocess.run([alone, "info", "mesh.e"], cwd=self.folder, check=True, stdout=subprocess.DEVNULL, timeout=60)
+        self.mesh(4, "mesh.vtkhdf")
+        run = subprocess.run([alone, "info", "mesh.vtkhdf"], cwd=self.folder, capture_output=True, text=True, timeout=60)
+        self.assertRegex(run.stderr, r"\Agale: cannot read 'mesh.vtkhdf': such files are read by gale-hdf5-reader, which isn't [^\n]+\n\Z")
+        shutil.copy(Path(gale.GALE).parent / "gale-hdf5-reader", self.folder)
+        subprocess.run([alone, "info", "mesh.vtkhdf"], cwd=self.folder, check=True, stdout=subprocess.DEVNULL, timeout=60)
+
+    def strange(self):
+        (self.folder / "strange").mkdir()
+        self.convert("strange", "strange")
+        return self.folder / "strange"
+
+    def test_values_of_other_files_are_refused_by_name(self):
+        folder = self.strange()
+        (folder / "secret.raw").write_bytes(bytes(256))
+        self.assertIn("ramp", self.succeed("info", "strange/secret.vtkhdf"))
+        ramp = "its 'VTKHDF/PointData/ramp' "
+        for name, naming in {
+                "outside": ramp + "has its values in the file 'secret.raw'",
+                "virtual": ramp + "consists of parts of other datasets, in the file 'secret.vtkhdf'",
+                "link_to_array": ramp + "is a link to '/VTKHDF/PointData/ramp' in the file 'secret.vtkhdf'",
+                "link_to_group": "its 'VTKHDF/PointData' is a link to '/VTKHDF/PointData' in the file 'secret.vtkhdf'",
+                "link_to_link": ramp + "is a soft link to '/elsewhere'",
+                "link_to_itself": ramp + "is a soft link to 'ramp'",
+                "link_of_a_user": ramp + "is a link of an unknown kind",
+                "plugin": ramp + "is packed by HDF5's filter 300"}.items():
+            for more in ((), ("--outside-files",)):
+                with self.subTest(name, more=more):
+                    self.refuse(1, "info", f"strange/{name}.vtkhdf", *more, naming=naming)
+
+    def test_values_that_a_file_does_not_have_are_refused(self):
+        self.strange()
+        for name, naming in {"never_written": "has no values", "half_written": "has no values from (2, 0, 0) on",
+                             "chunk_of_few_bytes": "stands for 256 bytes, and there are 8"}.items():
+            with self.subTest(name):
+                self.refuse(1, "info", f"strange/{name}.vtkhdf", naming=naming)
+        whole = exodus_files.exodus()
+        self.write("whole.e", whole.content())
+        self.assertIn("other", self.succeed("info", "whole.e"))
+        for absent, naming in {"vals_nod_var2": "'other' is declared and has no values", "coordy": "it has no 'coordy'",
+                               "connect2": "it has no 'connect2'", "name_nod_var": "it has no 'name_nod_var'"}.items():
+            with self.subTest(absent):
+                file = exodus_files.exodus()
+                file.variables = [variable for variable in file.variables if variable.name != absent]
+                self.write("part.e", file.content())
+                self.refuse(1, "info", "part.e", naming=naming)
+        self.write("cut.e", whole.content()[:-120])
+        self.refuse(1, "info", "cut.e", naming="ends at byte")
+        self.write("early.e", exodus_files.exodus(times=0).content())
+        self.assertIn("it has no time yet", self.report("info", "early.e")["notices"][0])
+
+    def test_vectors_have_the_names_that_vtk_gives_them(self):
+        names = ("a", "v_x", "v_y", "v_z", "UX", "UY", "sxx", "syy", "szz", "sxy", "sxz", "syz", "x", "y")
+        self.write("vectors.e", exodus_files.exodus(names=names).content())
+        arrays = {array["name"]: array["components"] for array in self.report("info", "vectors.e")["result"]["arrays"]}
+        self.assertEqual(arrays, {"a": 1, "v_": 3, "U": 2, "s": 6, "x": 1, "y": 1})
+
+    def test_small_files_take_little_memory_and_time(self):
+        self.strange()
+        for name, naming in {"parts": "it has no", "points": "its 'VTKHDF/Points'"}.items():
+            with self.subTest(name):
+                before = resource.getrusage(resource.RUSAGE_CHILDREN)
+                self.refuse(1, "info", f"strange/{name}.vtkhdf", naming=naming)
+                after = resource.getrusage(resource.RUSAGE_CHILDREN)
+                self.assertLess(after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, 5)  # 55, before
+                self.assertLess(after.ru_maxrss, 160 << 10)  # KiB of the largest so far; 2.8 GiB, before
 
 
 if __name__ == "__main__":

@@ -1,8 +1,8 @@
 // write_foreign SOURCE.vtu FILE.e|FILE.vtkhdf: the mesh of a .vtu in another format. write_foreign SIZE FILE.vtkhdf: an
 // image of SIZE^3 points with the array "ramp", x + 2y + 3z. write_foreign SOURCE.vtu FILE.e TIMES: "field" grows by
-// one from one time to the next.
+// one from one time to the next. write_foreign strange FOLDER, write_foreign random FOLDER COUNT: see
+// strange_files.hpp.
 #include <cstdlib>
-#include <cstring>
 #include <string>
 #include <vector>
 
@@ -20,59 +20,15 @@
 #include <vtkUnstructuredGrid.h>
 #include <vtkUnstructuredGridAlgorithm.h>
 #include <vtkXMLUnstructuredGridReader.h>
-#include <vtk_hdf5.h>
+
+#include "hdf5_writing.hpp"
+#include "strange_files.hpp"
 
 namespace {
 
-void put(hid_t group, const char* name, hid_t type, std::vector<hsize_t> shape, const void* values) {
-  const hid_t space = H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr);
-  const hid_t set = H5Dcreate(group, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-  H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values);
-  H5Dclose(set);
-  H5Sclose(space);
-}
-
-void describe(hid_t group, const char* name, hid_t type, std::vector<hsize_t> shape, const void* values) {
-  const hid_t space = H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr);
-  const hid_t attribute = H5Acreate(group, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
-  H5Awrite(attribute, type, values);
-  H5Aclose(attribute);
-  H5Sclose(space);
-}
-
-struct VtkHdf {
-  hid_t file, root, arrays;
-
-  VtkHdf(const char* path, const char* type)
-      : file(H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT)),
-        root(H5Gcreate(file, "VTKHDF", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT)),
-        arrays(H5Gcreate(root, "PointData", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT)) {
-    const long long version[] = {1, 0};
-    describe(root, "Version", H5T_NATIVE_LLONG, {2}, version);
-    const hid_t text = H5Tcopy(H5T_C_S1), scalar = H5Screate(H5S_SCALAR);
-    H5Tset_size(text, std::strlen(type));
-    H5Tset_strpad(text, H5T_STR_NULLPAD);
-    const hid_t attribute = H5Acreate(root, "Type", text, scalar, H5P_DEFAULT, H5P_DEFAULT);
-    H5Awrite(attribute, text, type);
-    H5Aclose(attribute);
-    H5Sclose(scalar);
-    H5Tclose(text);
-  }
-  ~VtkHdf() {
-    H5Gclose(arrays);
-    H5Gclose(root);
-    H5Fclose(file);
-  }
-};
-
 void write_image(int size, const char* path) {
   const VtkHdf to(path, "ImageData");
-  const long long extent[] = {0, size - 1, 0, size - 1, 0, size - 1};
-  const double origin[] = {1, 2, 3}, spacing[] = {1, 1, 2}, direction[] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
-  describe(to.root, "WholeExtent", H5T_NATIVE_LLONG, {6}, extent);
-  describe(to.root, "Origin", H5T_NATIVE_DOUBLE, {3}, origin);
-  describe(to.root, "Spacing", H5T_NATIVE_DOUBLE, {3}, spacing);
-  describe(to.root, "Direction", H5T_NATIVE_DOUBLE, {9}, direction);
+  describe_image(to, size);
   std::vector<float> ramp;
   for (int i = 0; i < size * size * size; ++i)
     ramp.push_back(static_cast<float>(i % size + 2 * (i / size % size) + 3 * (i / size / size)));
@@ -153,6 +109,14 @@ vtkStandardNewMacro(AtTimes);
 int main(int argc, char** argv) {
   if (argc != 3 && argc != 4) return 2;
   const std::string from = argv[1], to = argv[2];
+  if (from == "strange") {
+    write_strange_files(to);
+    return 0;
+  }
+  if (from == "random") {
+    write_random_files(to, std::atoi(argv[3]));
+    return 0;
+  }
   if (from.find('.') == std::string::npos) {
     write_image(std::atoi(argv[1]), argv[2]);
     return 0;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <iterator>
 
 #include <Kokkos_Core.hpp>
 
@@ -20,10 +21,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     std::filesystem::create_directories(made);
     return made;
   }();
-  static const char* const extensions[] = {".vtu", ".vti", ".vtk", ".nii", ".nii.gz", ".mha", ".mhd", ".nrrd"};
+  static const char* const extensions[] = {".vtu", ".vti", ".vtk", ".nii", ".nii.gz", ".mha", ".mhd", ".nrrd", ".e"};
   if (size < 2) return 0;
   gale::fuzz::Case one;
-  one.extension = extensions[data[0] % 8];
+  one.extension = extensions[data[0] % std::size(extensions)];
   one.options.tetrahedralize = data[1] & 1;
   if (data[1] & 2) one.options.above = 2;
   one.content.assign(reinterpret_cast<const char*>(data) + 2, size - 2);

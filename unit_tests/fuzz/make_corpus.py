@@ -12,6 +12,8 @@ import sys
 import zlib
 from pathlib import Path
 
+from exodus_files import exodus
+
 POINTS = [0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1, 2, 0, 1]
 TETRAHEDRA = [0, 1, 2, 3, 1, 2, 3, 4, 1, 4, 3, 5]
 FIELD = [0.5, 3, 1, 4, -1, 5]
@@ -235,6 +237,9 @@ def seeds():
                           "doubles": nii("Float64", 64, ">"), "words": nii("UInt16", 512, ">")}.items():
         yield f"{name}.nii", content, None
         yield f"{name}.nii.gz", gzip.compress(content, mtime=0), None
+    for name, file in {"classic": exodus(1, "f"), "large": exodus(2, names=("v_x", "v_y", "v_z", "p")), "cdf5": exodus(5), "old": exodus(1, large=False),
+                       "once": exodus(2, times=1, names=("field",))}.items():
+        yield f"{name}.e", file.content(), None
     for mode in ("raw", "compressed", "ascii"):
         yield f"{mode}.mha", b"".join(meta("Float32", "MET_FLOAT", mode=mode)), None
     yield "shorts.mha", b"".join(meta("Int16", "MET_SHORT", order=">")), None

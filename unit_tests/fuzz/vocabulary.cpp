@@ -81,6 +81,10 @@ const std::vector<std::vector<std::string>> words = {
      "content"},
     {"input.raw", "input.mhd", "input.nrrd", "LOCAL", "LIST", "../input.raw", "/etc/passwd", "/dev/zero", "%s%s%n%n",
      "slice%03d.raw 1 3 1", "SKIPLIST 1", "/", "."},
+    {"coordx", "coordy", "coordz", "coord", "connect1", "connect2", "eb_prop1", "vals_nod_var1", "vals_nod_var2"},
+    {"num_dim", "num_nodes", "num_el_blk", "num_elem", "num_nod_var", "time_step", "len_name", "num_el_in_blk1",
+     "num_el_in_blk2", "num_nod_per_el1"},
+    {"Points", "Types", "Offsets", "Connectivity", "PointData", "NumberOfPoints", "NumberOfCells", "VTKHDF"},
     {"domain", "none", "vector", "3-vector", "list", "scalar", "RGB-color", "???"}};
 
 }  // namespace gale::fuzz

@@ -32,12 +32,12 @@ if(gale)
   run(${gale} --version)
 endif()
 
-# The command finds the program beside it that reads Exodus files.
+# The command finds the program beside it that reads HDF5 files, of which this one has only the first bytes.
 if(reader)
-  file(WRITE ${here}/text.e "no mesh")
-  execute_process(COMMAND ${gale} info ${here}/text.e ERROR_VARIABLE message RESULT_VARIABLE result)
-  if(NOT result EQUAL 1 OR NOT message MATCHES "it is no Exodus II file")
-    message(FATAL_ERROR "of a text that is called .e the command says ${result}: ${message}")
+  execute_process(COMMAND printf "\\211HDF\\r\\n\\032\\n" OUTPUT_FILE ${here}/start.vtkhdf)
+  execute_process(COMMAND ${gale} info ${here}/start.vtkhdf ERROR_VARIABLE message RESULT_VARIABLE result)
+  if(NOT result EQUAL 1 OR NOT message MATCHES "HDF5 says")
+    message(FATAL_ERROR "of an HDF5 file that ends the command says ${result}: ${message}")
   endif()
 endif()
 

@@ -26,8 +26,11 @@ std::size_t FileBytes::read(char* to, std::size_t bytes) {
 
 FileSequence::FileSequence(const std::vector<std::string>& paths, std::uint64_t begin, std::uint64_t bytes)
     : paths_(paths), begin_(begin), bytes_(bytes) {
+  DistinctFiles files;
   for (const std::string& path : paths_) {
-    const std::uint64_t size = open_input(path)->size();
+    const std::unique_ptr<InputFile> file = open_input(path);
+    const std::uint64_t size = file->size();
+    files.add(*file, path);
     if (size >= begin && size - begin >= bytes) continue;
     damaged("its file '" + path + "' has " + std::to_string(size) + " bytes, not " + std::to_string(bytes) +
             " from byte " + std::to_string(begin) + " on");

@@ -42,7 +42,7 @@ class FileBytes : public ByteSource {
 /// open at a time.
 class FileSequence : public ByteSource {
  public:
-  /// Throws gale::Error, naming the file, if one can't be opened or is shorter.
+  /// Throws gale::Error, naming the file, if one can't be opened, is shorter, or is there twice.
   FileSequence(const std::vector<std::string>& paths, std::uint64_t begin, std::uint64_t bytes);
   std::size_t read(char* to, std::size_t bytes) override;
   std::uint64_t at_most() const override { return (paths_.size() - current_) * bytes_ - read_; }

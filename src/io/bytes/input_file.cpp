@@ -31,6 +31,7 @@ InputFile::InputFile(const std::string& path)
     throw Error(refusal);
   }
   size_ = static_cast<std::uint64_t>(status.st_size);
+  identity_ = {status.st_dev, status.st_ino};
 }
 
 InputFile::~InputFile() { close(descriptor_); }
@@ -51,6 +52,13 @@ void InputFile::read(std::uint64_t at, char* to, std::size_t bytes) const {
     to += got;
     bytes -= static_cast<std::size_t>(got);
   }
+}
+
+void DistinctFiles::add(const InputFile& file, const std::string& name) {
+  const auto [found, is_new] = names_.emplace(file.identity(), name);
+  if (is_new) return;
+  const std::string first = printable(found->second), again = printable(name);
+  throw Error("it names the file '" + again + "' twice" + (first == again ? "" : ", first as '" + first + "'"));
 }
 
 std::unique_ptr<InputFile> open_input(const std::string& path) {

@@ -6,30 +6,40 @@
 
 namespace gale::io::detail {
 
+ArraysByKind by_kind(std::vector<PointArray>& arrays) {
+  ArraysByKind result;
+  for (PointArray& array : arrays)
+    result.emplace(std::tuple(array.name, array.components, array.values.index()), &array);
+  return result;
+}
+
+PointArray* find_alike(const ArraysByKind& arrays, const PointArray& array) {
+  const auto found = arrays.find(std::tuple(array.name, array.components, array.values.index()));
+  return found == arrays.end() ? nullptr : found->second;
+}
+
 void JoinedPieces::add_arrays(std::vector<PointArray>& from) {
   if (!has_arrays_) {
     arrays_ = std::move(from);
     has_arrays_ = true;
     return;
   }
-  const auto same = [](const PointArray& a, const PointArray& b) {
-    return a.name == b.name && a.components == b.components && a.values.index() == b.values.index();
-  };
-  for (auto array = arrays_.begin(); array != arrays_.end();) {
-    const auto more = std::find_if(from.begin(), from.end(), [&](const PointArray& a) { return same(*array, a); });
-    if (more == from.end()) {
-      notices_.push_back("left out the point array '" + array->name + "': not all pieces have it");
-      array = arrays_.erase(array);
-      continue;
+  const ArraysByKind others = by_kind(from);
+  const auto is_missing = [&](PointArray& array) {
+    const PointArray* const more = find_alike(others, array);
+    if (more == nullptr) {
+      notices_.push_back("left out the point array '" + array.name + "': not all pieces have it");
+      return true;
     }
     std::visit(
         [&](auto& values) {
-          const auto& others = std::get<std::decay_t<decltype(values)>>(more->values);
-          values.insert(values.end(), others.begin(), others.end());
+          const auto& behind = std::get<std::decay_t<decltype(values)>>(more->values);
+          values.insert(values.end(), behind.begin(), behind.end());
         },
-        array->values);
-    ++array;
-  }
+        array.values);
+    return false;
+  };
+  arrays_.erase(std::remove_if(arrays_.begin(), arrays_.end(), is_missing), arrays_.end());
 }
 
 void JoinedPieces::add(MeshParts piece, std::int64_t first_point) {
@@ -41,7 +51,7 @@ void JoinedPieces::add(MeshParts piece, std::int64_t first_point) {
   append(piece.cells.connectivity, first_point, connectivity_);
   if (count_of(piece.points) > 0) add_arrays(piece.arrays);  // an empty piece may leave out arrays
   for (std::string& notice : piece.notices) {
-    if (std::find(notices_.begin(), notices_.end(), notice) == notices_.end()) notices_.push_back(std::move(notice));
+    if (known_notices_.insert(notice).second) notices_.push_back(std::move(notice));
   }
 }
 

@@ -1,8 +1,12 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <map>
+#include <set>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include <gale/io/cells/cells.hpp>
@@ -14,11 +18,18 @@ template <class To>
 void append(const PointArray::Values& from, To offset, std::vector<To>& to) {
   std::visit(
       [&](const auto& values) {
-        to.reserve(to.size() + values.size());
+        const std::size_t wanted = to.size() + values.size();
+        if (wanted > to.capacity()) to.reserve(std::max(wanted, 2 * to.capacity()));  // pieces may be many and small
         for (const auto value : values) to.push_back(static_cast<To>(value) + offset);
       },
       from);
 }
+
+/// Arrays by what those of several pieces have in common that become one: name, components, type. Of two alike the
+/// first counts. The arrays must stay.
+using ArraysByKind = std::map<std::tuple<std::string, int, std::size_t>, PointArray*>;
+ArraysByKind by_kind(std::vector<PointArray>& arrays);
+PointArray* find_alike(const ArraysByKind& arrays, const PointArray& array);
 
 /// Pieces of a mesh, one behind the other. Of their arrays those stay that all pieces have which have points. Nothing
 /// of the cells is checked.
@@ -43,6 +54,7 @@ class JoinedPieces {
   std::vector<std::int64_t> types_, ends_, connectivity_;
   std::vector<PointArray> arrays_;
   std::vector<std::string> notices_;
+  std::set<std::string> known_notices_;
   bool is_double_ = false, has_arrays_ = false;
 };
 

@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <filesystem>
 #include <optional>
+#include <set>
 #include <unordered_map>
 
 #include <gale/base/stop.hpp>
@@ -203,9 +205,8 @@ Ids ids_of_cells(const XmlFile& file, const XmlElement& piece, std::size_t cells
 }
 
 /// Adds a piece's file, and says what its cell arrays are called.
-std::vector<std::string> add_file(const std::string& path, const PieceNames& names, SharedPieces& shared) {
+std::vector<std::string> add_file(const InputFile& input, const PieceNames& names, SharedPieces& shared) {
   std::vector<std::string> cell_arrays;
-  const InputFile input(path);
   const XmlFile file = read_xml(input, "UnstructuredGrid", names.cell_ids);
   for (const XmlElement* element : pieces_of(file)) {
     Piece piece{read_piece(file, *element), read_cell_array(file, *element, ghost_array), {}};
@@ -216,13 +217,16 @@ std::vector<std::string> add_file(const std::string& path, const PieceNames& nam
   return cell_arrays;
 }
 
-/// The names of its pieces' files.
+/// The names of its pieces' files. Who reads some of them alone sees here that none is named twice.
 std::vector<std::string> sources_of(const XmlElement& grid) {
   std::vector<std::string> sources;
+  std::set<std::filesystem::path> paths;
   for (const XmlElement& piece : grid.children) {
     if (piece.name != "Piece") continue;
     sources.push_back(piece.attribute("Source"));
     if (sources.back().empty()) damaged("one of its pieces has no Source");
+    if (!paths.insert(std::filesystem::path(sources.back()).lexically_normal()).second)
+      throw Error("it names the piece '" + printable(sources.back()) + "' twice");
   }
   return sources;
 }
@@ -236,10 +240,13 @@ std::string name_of_ids(const XmlElement& grid, const char* section) {
 JoinedWithIds join(const InputFile& input, const PieceNames& names, const ReadOptions& options) {
   SharedPieces shared(names);
   std::vector<std::string> cell_arrays;
+  DistinctFiles files;
   for (const std::string& source : names.sources) {
     const std::string path = path_of_data(input.path(), source, options);
     try {
-      const std::vector<std::string> found = add_file(path, names, shared);
+      const InputFile piece(path);
+      files.add(piece, source);
+      const std::vector<std::string> found = add_file(piece, names, shared);
       if (cell_arrays.empty()) cell_arrays = found;
     } catch (const Error& error) {
       throw Error("its piece '" + printable(source) + "': " + error.what());

@@ -22,8 +22,9 @@ Content read_content(const InputFile& file, Format format, const ReadOptions& op
     case Format::pvtu:
       return read_pvtu(file, options);
     case Format::exodus:
+      return read_exodus(file, options);
     case Format::vtkhdf:
-      return read_by_program(file, format, options);
+      return read_vtkhdf(file, options);
     case Format::vtp:
       break;
   }

@@ -27,9 +27,8 @@ Content read_nifti(const InputFile& file, const ReadOptions& options);
 Content read_meta_image(const InputFile& file, const ReadOptions& options);
 Content read_nrrd(const InputFile& file, const ReadOptions& options);
 Content read_pvtu(const InputFile& file, const ReadOptions& options);
-
-/// By VTK's reader of that format, in a process of its own: what a file does to it ends there.
-Content read_by_program(const InputFile& file, Format format, const ReadOptions& options);
+Content read_exodus(const InputFile& file, const ReadOptions& options);
+Content read_vtkhdf(const InputFile& file, const ReadOptions& options);
 
 /// What a `.pvtu` names, and some of these pieces as one mesh, which may be empty.
 PieceNames names_of_pieces(const InputFile& input);

@@ -46,6 +46,25 @@ Image Volume::image(const std::string& name, PointArray::Values values) const {
   return image;
 }
 
+Image oriented_image(const std::array<std::int64_t, 3>& low, const std::array<std::int64_t, 3>& high,
+                     const std::vector<double>& origin, const std::vector<double>& spacing,
+                     const std::vector<double>& direction) {
+  Image image;
+  for (int d = 0; d < 3; ++d) {
+    if (high[d] < low[d] || high[d] - low[d] >= std::numeric_limits<std::int32_t>::max())
+      damaged("it extends from " + std::to_string(low[d]) + " to " + std::to_string(high[d]));
+    image.dimensions[d] = static_cast<int>(high[d] - low[d] + 1);
+    auto& row = image.index_to_physical[d];
+    row[3] = origin[d];
+    for (int k = 0; k < 3; ++k) {
+      row[k] = direction[3 * d + k] * spacing[k];
+      row[3] += row[k] * static_cast<double>(low[k]);
+    }
+  }
+  require_finite(image);
+  return image;
+}
+
 void check_sum(ByteSource& source) {
   char next;
   source.read(&next, 1);  // asked for more at its end, a compressed source looks at its sum

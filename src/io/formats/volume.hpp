@@ -35,6 +35,12 @@ struct Volume {
   Image image(const std::string& name, PointArray::Values values) const;
 };
 
+/// An image whose voxels have the places from `low` up to `high`, of VTK's origin, spacing and direction. Throws
+/// gale::Error unless it has voxels, whose positions are finite.
+Image oriented_image(const std::array<std::int64_t, 3>& low, const std::array<std::int64_t, 3>& high,
+                     const std::vector<double>& origin, const std::vector<double>& spacing,
+                     const std::vector<double>& direction);
+
 /// To be called when all that is wanted was read. Throws gale::Error if the source is at its end, compressed, and its
 /// sum isn't that of what was read.
 void check_sum(ByteSource& source);

@@ -4,6 +4,7 @@
 #include <gale/io/bytes/damaged.hpp>
 #include <gale/io/bytes/numbers.hpp>
 #include <gale/io/bytes/value_type.hpp>
+#include <gale/io/cells/join.hpp>
 #include <gale/io/formats/readers.hpp>
 #include <gale/io/formats/volume.hpp>
 #include <gale/io/formats/xml_file.hpp>
@@ -90,6 +91,8 @@ XmlArrays join(const XmlFile& file, const std::vector<Piece>& pieces, const Exte
   for (const Piece& piece : pieces) parts.push_back(read_point_data(file, *piece.element, piece.extent.points()));
   XmlArrays all;
   if (parts[0].arrays.empty()) return parts[0];
+  std::vector<ArraysByKind> kinds;
+  for (XmlArrays& part : parts) kinds.push_back(by_kind(part.arrays));
   std::vector<bool> covered(points);
   for (const Piece& piece : pieces) {
     for_each_row(piece.extent, whole, [&](std::size_t, std::size_t to, std::size_t count) {
@@ -104,12 +107,8 @@ XmlArrays join(const XmlFile& file, const std::vector<Piece>& pieces, const Exte
       using Vector = std::decay_t<decltype(values)>;
       Vector joined(points * width);
       for (std::size_t k = 0; k < pieces.size(); ++k) {
-        const auto& arrays = parts[k].arrays;
-        const auto found = std::find_if(arrays.begin(), arrays.end(), [&](const PointArray& array) {
-          return array.name == first.name && array.components == first.components &&
-                 array.values.index() == first.values.index();
-        });
-        if (found == arrays.end()) damaged("not all pieces have the array '" + first.name + "', in one type");
+        const PointArray* const found = find_alike(kinds[k], first);
+        if (found == nullptr) damaged("not all pieces have the array '" + first.name + "', in one type");
         const auto& from_values = std::get<Vector>(found->values);
         for_each_row(pieces[k].extent, whole, [&](std::size_t from, std::size_t to, std::size_t count) {
           std::copy_n(from_values.begin() + static_cast<std::ptrdiff_t>(from * width), count * width,
@@ -132,17 +131,7 @@ Content read_vti(const InputFile& input, const ReadOptions&) {
   const auto origin = numbers<double>(element, "Origin", {0, 0, 0}, 3);
   const auto spacing = numbers<double>(element, "Spacing", {1, 1, 1}, 3);
   const auto direction = numbers<double>(element, "Direction", {1, 0, 0, 0, 1, 0, 0, 0, 1}, 9);
-  Image image;
-  for (int d = 0; d < 3; ++d) {
-    image.dimensions[d] = static_cast<int>(whole.size(d));
-    auto& row = image.index_to_physical[d];
-    row[3] = origin[d];
-    for (int k = 0; k < 3; ++k) {
-      row[k] = direction[3 * d + k] * spacing[k];
-      row[3] += row[k] * static_cast<double>(whole.low[k]);
-    }
-  }
-  require_finite(image);
+  Image image = oriented_image(whole.low, whole.high, origin, spacing, direction);
   const std::vector<Piece> pieces = pieces_of(element, whole);
   if (pieces.empty()) not_covered();
   XmlArrays arrays = join(file, pieces, whole);

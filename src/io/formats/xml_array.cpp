@@ -2,6 +2,7 @@
 #include <atomic>
 #include <cstring>
 #include <memory>
+#include <numeric>
 
 #include <gale/base/error.hpp>
 #include <gale/base/threads.hpp>
@@ -54,6 +55,15 @@ class Binary {
 
   void begin_next_piece() {
     if (base64_ != nullptr) base64_->begin_next();
+  }
+
+  /// To be called with how many bytes the array takes before they are read. Throws gale::Error if it lies where
+  /// others do: all together take more than there are.
+  void claim(std::uint64_t bytes, const XmlElement& array) const {
+    if (array.attribute("format") != "appended") return;
+    if (bytes > file_.file.size() - file_.appended_read)
+      damaged(its(array) + " lies where other arrays do: all together are longer than the file");
+    file_.appended_read += bytes;
   }
 
   std::uint64_t header_number() {
@@ -184,10 +194,12 @@ PointArray::Values read_binary(const XmlFile& file, const XmlElement& array, Val
     const std::uint64_t bytes = binary.header_number();
     if (bytes > binary.bytes().at_most())
       damaged(its(array) + " claims " + std::to_string(bytes) + " bytes, more than follow");
+    binary.claim(bytes, array);
     check(bytes);
     return read_values(binary.bytes(), type, *count, file.order);
   }
   const Blocks blocks = read_blocks(binary, file);
+  binary.claim(std::accumulate(blocks.compressed.begin(), blocks.compressed.end(), std::uint64_t(0)), array);
   check(blocks.bytes());
   return with_type(type, [&](auto example) -> PointArray::Values {
     return uncompressed_values<decltype(example)>(binary, blocks, file, *count);

@@ -47,6 +47,9 @@ struct XmlFile {
   ByteOrder order = byte_order_of_machine();
   std::size_t header_bytes = 4;  ///< of the numbers that say how long an array is
   std::string compressor{};      ///< VTK's class, or empty
+
+  /// Bytes so far: arrays that lie on each other would make them more than there are.
+  mutable std::uint64_t appended_read = 0;
 };
 
 /// Reads the tree, of which `type` must be the root's, and the cell array of that name. Throws gale::Error for a file

@@ -1,59 +1,51 @@
-// gale-vtk-reader FORMAT FILE: reads a file by VTK and writes its mesh or image to descriptor 3 as a .vtu or .vti. What
-// is wrong goes to descriptor 4, a line, with exit code 1; with 0 it is a notice. GALE runs it; whatever FILE does to
-// VTK's readers ends here.
+// gale-hdf5-reader FILE: answers what GALE asks of an HDF5 file, see protocol.hpp: requests come from standard input,
+// answers go to standard output. Whatever FILE does to HDF5 ends here: from before its first byte is looked at, this
+// process can open nothing else.
+#include <fcntl.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <csignal>
+#include <cstring>
 #include <exception>
 #include <fstream>
-#include <string>
+#include <new>
 
-#include <vtkCellData.h>
-#include <vtkFieldData.h>
-#include <vtkImageData.h>
-#include <vtkNew.h>
-#include <vtkObjectFactory.h>
-#include <vtkOutputWindow.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkXMLImageDataWriter.h>
-#include <vtkXMLUnstructuredGridWriter.h>
-
-#include "readers.hpp"
+#include <gale/io/program/confine.hpp>
+#include <gale/io/program/file.hpp>
 
 namespace {
 
-constexpr char result_path[] = "/proc/self/fd/3";
-constexpr int message_number = 4;
+using namespace gale::reader;
 
-/// VTK's messages: the first error is kept.
-class FirstError : public vtkOutputWindow {
- public:
-  static FirstError* New();
-  vtkTypeMacro(FirstError, vtkOutputWindow);
+/// The bytes of a file.
+struct Image {
+  const void* data = nullptr;
+  std::size_t bytes = 0;
 
-  void DisplayText(const char*) override {}
-  void DisplayErrorText(const char* text) override {
-    if (said.empty()) said = text;
+  explicit Image(const char* path) {
+    const int descriptor = open(path, O_RDONLY | O_CLOEXEC);
+    struct stat status = {};
+    if (descriptor < 0 || fstat(descriptor, &status) != 0) throw std::runtime_error(std::strerror(errno));
+    bytes = static_cast<std::size_t>(status.st_size);
+    data = mmap(nullptr, bytes, PROT_READ, MAP_PRIVATE, descriptor, 0);
+    if (data == MAP_FAILED) throw std::runtime_error(std::strerror(errno));
+    close(descriptor);
   }
-  void DisplayGenericWarningText(const char*) override {}
-  void DisplayWarningText(const char*) override {}
-  void DisplayDebugText(const char*) override {}
-
-  std::string said;
 };
-vtkStandardNewMacro(FirstError);
 
-/// "ERROR: In FILE, line N\nvtkClass (0x...): the message\n\n" from the message on.
-std::string message_of(std::string text) {
-  text.erase(0, std::min(text.find('\n') + 1, text.size()));
-  const std::size_t object = text.find("): ");
-  if (object != std::string::npos) text.erase(0, object + 3);
-  text.erase(std::min(text.find('\n'), text.size()));
-  return text;
+/// Whoever started GALE may have left descriptors open that aren't ours.
+void close_inherited() {
+#if defined(SYS_close_range)
+  if (syscall(SYS_close_range, 3u, ~0u, 0u) == 0) return;
+#endif
+  for (int descriptor = 3; descriptor < 65536; ++descriptor) close(descriptor);
 }
 
 /// What this process has mapped already.
@@ -63,76 +55,179 @@ rlim_t mapped_bytes() {
   return pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
 }
 
-/// A file can't stand for more than its bytes inflated, nor take long.
-void limit_to(const std::string& path) {
+/// What HDF5 needs to find its way in a file is less than the file. All that is large goes through unread.
+void limit_to(std::size_t bytes) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  struct stat file = {};
-  const rlim_t bytes = stat(path.c_str(), &file) == 0 ? static_cast<rlim_t>(file.st_size) : 0;
-  const auto limit = [](int resource, rlim_t most) {
+  const auto limit = [](auto resource, rlim_t most) {
     rlimit now;
-    getrlimit(static_cast<__rlimit_resource_t>(resource), &now);
-    now.rlim_cur = std::min(now.rlim_max, most);
-    setrlimit(static_cast<__rlimit_resource_t>(resource), &now);
+    getrlimit(resource, &now);
+    now.rlim_cur = now.rlim_max = std::min(now.rlim_max, most);
+    setrlimit(resource, &now);
   };
-  constexpr rlim_t more = rlim_t(2) << 30, best_ratio = 1032, seconds = 60, bytes_a_second = 1000000;
-  limit(RLIMIT_AS, mapped_bytes() + more + best_ratio * bytes);
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  constexpr rlim_t more = rlim_t(2) << 30;
+#else
+  constexpr rlim_t more = rlim_t(40) << 20;
+#endif
+  constexpr rlim_t seconds = 3, bytes_a_second = 250000;
+  limit(RLIMIT_AS, mapped_bytes() + more + 3 * bytes);
   limit(RLIMIT_CPU, seconds + bytes / bytes_a_second);
   limit(RLIMIT_CORE, 0);
 }
 
-bool say(const std::string& line) {
-  return write(message_number, line.data(), line.size()) == static_cast<ssize_t>(line.size());
+void put(const void* from, std::size_t bytes) {
+  for (const char* at = static_cast<const char*>(from); bytes > 0;) {
+    const ssize_t written = write(STDOUT_FILENO, at, bytes);
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) _exit(2);  // nobody asks any more
+    at += written;
+    bytes -= static_cast<std::size_t>(written);
+  }
 }
 
-int fail(const std::string& why) { return say(why) ? 1 : 2; }
-
-template <class Writer>
-bool write_as(vtkDataSet* data) {
-  vtkNew<Writer> writer;
-  writer->SetInputData(data);
-  writer->SetFileName(result_path);
-  writer->SetDataModeToAppended();
-  writer->EncodeAppendedDataOff();
-  writer->SetCompressorTypeToNone();
-  writer->SetHeaderTypeToUInt64();
-  return writer->Write() != 0;
+template <class T>
+void put(const T& value) {
+  put(&value, sizeof value);
 }
 
-int read(const std::string& format, const std::string& path) {
-  const auto messages = vtkSmartPointer<FirstError>::New();
-  vtkOutputWindow::SetInstance(messages);
-  const bool is_exodus = format == "exodus";
-  const auto [data, notice] = is_exodus ? gale::reader::read_exodus(path) : gale::reader::read_vtkhdf(path);
-  if (!messages->said.empty()) {
-    return fail("it is damaged, incomplete or of another format (VTK's reader says: " + message_of(messages->said) +
-                ")");
+template <class T>
+void put_all(const std::vector<T>& values) {
+  put(values.data(), values.size() * sizeof(T));
+}
+
+void put_text(const std::string& text) {
+  put(static_cast<std::uint32_t>(text.size()));
+  put(text.data(), text.size());
+}
+
+/// False at the end.
+bool get(void* to, std::size_t bytes) {
+  for (char* at = static_cast<char*>(to); bytes > 0;) {
+    const ssize_t got = read(STDIN_FILENO, at, bytes);
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) return false;
+    at += got;
+    bytes -= static_cast<std::size_t>(got);
   }
-  if (!data) return fail(is_exodus ? "it is no Exodus II file" : "it is no VTKHDF file of a mesh or an image");
-  data->GetCellData()->Initialize();
-  data->GetFieldData()->Initialize();
-  bool is_written = false;
-  if (vtkUnstructuredGrid::SafeDownCast(data)) {
-    if (data->GetNumberOfCells() == 0) return fail("it has no tetrahedra");
-    is_written = write_as<vtkXMLUnstructuredGridWriter>(data);
-  } else if (vtkImageData::SafeDownCast(data)) {
-    is_written = write_as<vtkXMLImageDataWriter>(data);
-  } else {
-    return fail(std::string("it holds a ") + data->GetClassName() + ", neither a mesh nor an image");
+  return true;
+}
+
+void answer_group(const File& file, const std::string& path) {
+  std::vector<File::Description> datasets;
+  put(static_cast<std::uint8_t>(file.list(path, datasets)));
+  put(static_cast<std::uint64_t>(datasets.size()));
+  for (const auto& dataset : datasets) {
+    put_text(dataset.name);
+    put(dataset.fixed);
+    put_all(dataset.shape);
+    put_all(dataset.chunk);
+    put_all(dataset.filters);
   }
-  if (!is_written || !messages->said.empty()) return fail("there is no memory for what is in it");
-  return say(notice) ? 0 : 2;
+}
+
+void answer_attribute(const File& file, const std::string& path, const std::string& name) {
+  const File::Attribute attribute = file.attribute(path, name);
+  put(attribute.kind);
+  if (attribute.kind == AttributeKind::text) put_text(attribute.text);
+  if (attribute.kind != AttributeKind::numbers) return;
+  put(static_cast<std::uint32_t>(attribute.numbers.size()));
+  put_all(attribute.numbers);
+}
+
+/// HDF5 has no more than 64 KiB in a header.
+void answer_bytes(const File& file, const std::string& path) {
+  const Handle dataset = file.open(path);
+  const Handle type(H5Dget_type(dataset), H5Tclose, "a type");
+  const std::uint64_t bytes = file.describe(path).fixed.stored;
+  const Handle space(H5Dget_space(dataset), H5Sclose, "a shape");
+  const hssize_t count = H5Sget_simple_extent_npoints(space);
+  if (bytes > 65536 || count < 0 || static_cast<std::uint64_t>(count) * H5Tget_size(type) != bytes)
+    throw std::runtime_error("its '" + path + "' has a size that isn't that of its values");
+  std::vector<char> values(static_cast<std::size_t>(bytes));
+  if (H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0) fail("a dataset");
+  put_all(values);
+}
+
+void answer_chunks(const File& file, const std::string& path, std::uint64_t rows, std::size_t file_bytes) {
+  const Handle dataset = file.open(path);
+  const auto [name, fixed, shape, chunk, filters] = file.describe(path);
+  put(static_cast<std::uint64_t>(H5Dget_storage_size(dataset)));
+  std::vector<hsize_t> at(chunk.size());
+  std::vector<char> bytes;
+  const auto advance = [&] {
+    for (std::size_t d = at.size(); d-- > 0; at[d] = 0) {
+      const std::uint64_t end = d == 0 ? rows : shape[d];
+      if (end - at[d] <= chunk[d]) continue;
+      at[d] += chunk[d];
+      return true;
+    }
+    return false;
+  };
+  do {
+    Chunk one;
+    hsize_t stored = 0;
+    if (H5Dget_chunk_storage_size(dataset, at.data(), &stored) < 0 || stored == 0) {
+      std::string place;
+      for (const hsize_t k : at) place += (place.empty() ? "" : ", ") + std::to_string(k);
+      throw std::runtime_error("its '" + path + "' has no values from (" + place + ") on");
+    }
+    if (stored > file_bytes) throw std::runtime_error("a chunk of its '" + path + "' is longer than the file");
+    bytes.resize(static_cast<std::size_t>(stored));
+    std::uint32_t left_out = 0;
+    if (H5Dread_chunk(dataset, H5P_DEFAULT, at.data(), &left_out, bytes.data()) < 0) fail("a chunk");
+    one.bytes = stored;
+    one.left_out = left_out;
+    put(one);
+    put_all(bytes);
+  } while (advance());
+}
+
+void answer(const File& file, std::size_t file_bytes, const std::vector<char>& request) {
+  std::vector<std::string> texts;
+  for (std::size_t begin = 1; begin < request.size();) {
+    texts.emplace_back(&request[begin]);  // ends by a zero
+    begin += texts.back().size() + 1;
+  }
+  texts.resize(2);
+  switch (static_cast<Request>(request[0])) {
+    case Request::group:
+      return answer_group(file, texts[0]);
+    case Request::attribute:
+      return answer_attribute(file, texts[0], texts[1]);
+    case Request::bytes:
+      return answer_bytes(file, texts[0]);
+    case Request::chunks:
+      return answer_chunks(file, texts[0], std::stoull(texts[1]), file_bytes);
+  }
+}
+
+void serve(const char* path) {
+  close_inherited();
+  const Image image(path);
+  limit_to(image.bytes);
+  confine();
+  const File file(image.data, image.bytes);
+  std::uint32_t length;
+  while (get(&length, sizeof length)) {
+    std::vector<char> request(length + 1);
+    if (length == 0 || !get(request.data(), length)) return;
+    answer(file, image.bytes, request);
+  }
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 3 || (std::string(argv[1]) != "exodus" && std::string(argv[1]) != "vtkhdf")) return 2;
-  limit_to(argv[2]);
+  std::string wrong;
   try {
-    return read(argv[1], argv[2]);
+    if (argc != 2) return 2;
+    serve(argv[1]);
   } catch (const std::bad_alloc&) {
-    return fail("not enough memory for what it says of its sizes");
+    wrong = "it is damaged: to find its way in it takes more memory than it has bytes";
   } catch (const std::exception& error) {
-    return fail(std::string("VTK's reader says: ") + error.what());
+    wrong = error.what();
   }
+  // Libraries do not clean up: the file may have left them in any state.
+  if (wrong.empty()) _exit(0);
+  _exit(write(STDERR_FILENO, wrong.data(), wrong.size()) > 0 ? 1 : 2);
 }

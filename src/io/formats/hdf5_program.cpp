@@ -1,0 +1,201 @@
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <spawn.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <filesystem>
+
+#include <gale/base/stop.hpp>
+#include <gale/io/bytes/damaged.hpp>
+#include <gale/io/formats/hdf5_program.hpp>
+
+extern char** environ;
+
+namespace gale::io::detail {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr char program_name[] = "gale-hdf5-reader";
+
+/// The folder of the program, or of the library or module, that holds this code.
+fs::path own_folder() {
+  static const int here = 0;
+  std::error_code unknown;
+  Dl_info info;
+  const bool is_known = dladdr(&here, &info) != 0 && std::strchr(info.dli_fname, '/') != nullptr;
+  const fs::path own = is_known ? fs::canonical(info.dli_fname, unknown) : fs::path();
+  return (own.empty() ? fs::read_symlink("/proc/self/exe", unknown) : own).parent_path();
+}
+
+/// Beside that, where the Python module has it, or where GALE was installed.
+std::string find_program() {
+  const fs::path own = own_folder();
+  for (const fs::path& folder : {own, own / "bin", own / GALE_LIBEXEC_FROM_BIN, fs::path(GALE_LIBEXEC)}) {
+    const fs::path program = folder / program_name;
+    if (access(program.c_str(), X_OK) == 0) return program.string();
+  }
+  throw Error(std::string("such files are read by ") + program_name + ", which isn't beside " + own.string() +
+              " nor in " + GALE_LIBEXEC + ": it is built where VTK has HDF5, on Linux");
+}
+
+[[noreturn]] void throw_errno(const char* what) { throw Error(std::string(what) + ": " + std::strerror(errno)); }
+
+struct Spawning {
+  posix_spawn_file_actions_t files;
+  posix_spawnattr_t attributes;
+
+  Spawning(int talk, int message) {
+    posix_spawn_file_actions_init(&files);
+    posix_spawn_file_actions_adddup2(&files, talk, STDIN_FILENO);
+    posix_spawn_file_actions_adddup2(&files, talk, STDOUT_FILENO);
+    posix_spawn_file_actions_adddup2(&files, message, STDERR_FILENO);
+    posix_spawnattr_init(&attributes);
+    sigset_t none;
+    sigemptyset(&none);
+    posix_spawnattr_setsigmask(&attributes, &none);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK);
+  }
+  ~Spawning() {
+    posix_spawn_file_actions_destroy(&files);
+    posix_spawnattr_destroy(&attributes);
+  }
+  Spawning(const Spawning&) = delete;
+  Spawning& operator=(const Spawning&) = delete;
+};
+
+/// Above what the program's own descriptors are.
+int moved_up(int number) {
+  const int moved = number < 0 ? number : fcntl(number, F_DUPFD_CLOEXEC, 16);
+  if (number >= 0) ::close(number);
+  return moved;
+}
+
+/// Waits until there is something to read, or an end; asks meanwhile whether to stop.
+void wait_for(int descriptor) {
+  constexpr int milliseconds = 50;
+  pollfd ready = {descriptor, POLLIN, 0};
+  do {
+    gale::detail::stop_if_asked();
+  } while (poll(&ready, 1, milliseconds) == 0);
+}
+
+std::string all_of(int pipe) {
+  std::string text;
+  char buffer[1024];
+  for (;;) {
+    wait_for(pipe);
+    const ssize_t got = ::read(pipe, buffer, sizeof buffer);
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) return text;
+    if (text.size() < 4096) text.append(buffer, static_cast<std::size_t>(got));
+  }
+}
+
+}  // namespace
+
+Descriptor::Descriptor(int number) : number_(number) {
+  if (number < 0) throw_errno("no descriptor");
+}
+
+void Descriptor::close() {
+  if (number_ >= 0) ::close(number_);
+  number_ = -1;
+}
+
+struct Hdf5Program::Ends {
+  int talk[2] = {-1, -1}, message[2] = {-1, -1};
+
+  Ends() {
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, talk) != 0) throw_errno("no socket");
+    if (pipe2(message, O_CLOEXEC) != 0) {
+      ::close(talk[0]);
+      ::close(talk[1]);
+      throw_errno("no pipe");
+    }
+  }
+};
+
+Hdf5Program::Hdf5Program(const std::string& path) : Hdf5Program(path, Ends()) {}
+
+Hdf5Program::Hdf5Program(const std::string& path, const Ends& ends)
+    : talk_(moved_up(ends.talk[0])), message_(moved_up(ends.message[0])) {
+  const Descriptor its_talk(moved_up(ends.talk[1])), its_message(moved_up(ends.message[1]));
+  const std::string program = find_program();
+  const Spawning spawning(its_talk, its_message);
+  const std::string absolute = fs::absolute(path).string();
+  char* const arguments[] = {const_cast<char*>(program.c_str()), const_cast<char*>(absolute.c_str()), nullptr};
+  const int failure =
+      posix_spawn(&process_, program.c_str(), &spawning.files, &spawning.attributes, arguments, environ);
+  if (failure != 0) {
+    process_ = -1;
+    throw Error(program + " can't be run: " + std::strerror(failure));
+  }
+}
+
+Hdf5Program::~Hdf5Program() {
+  if (process_ < 0) return;
+  talk_.close();  // it ends then, or is of no use any more
+  message_.close();
+  kill(process_, SIGKILL);
+  wait();
+}
+
+int Hdf5Program::wait() {
+  int status = 0;
+  while (waitpid(process_, &status, 0) < 0 && errno == EINTR) {
+  }
+  process_ = -1;
+  return status;
+}
+
+void Hdf5Program::throw_end() {
+  talk_.close();
+  const std::string message = all_of(message_);
+  const int status = wait();
+  if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL))
+    damaged("HDF5 takes longer than a file of its size may");
+  if (WIFSIGNALED(status)) damaged(std::string("HDF5 ended by a signal: ") + strsignal(WTERMSIG(status)));
+  throw Error(message.empty() ? std::string(program_name) + " ended without a word" : printable(message));
+}
+
+void Hdf5Program::ask(reader::Request request, const std::vector<std::string>& texts) {
+  std::string all(1, static_cast<char>(request));
+  for (const std::string& text : texts) all += text + '\0';
+  const auto length = static_cast<std::uint32_t>(all.size());
+  all.insert(0, reinterpret_cast<const char*>(&length), sizeof length);
+  for (std::size_t sent = 0; sent < all.size();) {
+    const ssize_t now = send(talk_, all.data() + sent, all.size() - sent, MSG_NOSIGNAL);
+    if (now < 0 && errno == EINTR) continue;
+    if (now < 0) throw_end();
+    sent += static_cast<std::size_t>(now);
+  }
+}
+
+void Hdf5Program::receive(void* to, std::size_t bytes) {
+  for (char* at = static_cast<char*>(to); bytes > 0;) {
+    wait_for(talk_);
+    const ssize_t got = recv(talk_, at, bytes, 0);
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) throw_end();
+    at += got;
+    bytes -= static_cast<std::size_t>(got);
+  }
+}
+
+std::string Hdf5Program::receive_text(std::uint32_t most) {
+  const auto length = receive<std::uint32_t>();
+  if (length > most) damaged("a name of " + std::to_string(length) + " characters");
+  std::string text(length, '\0');
+  receive(text.data(), length);
+  return text;
+}
+
+}  // namespace gale::io::detail
