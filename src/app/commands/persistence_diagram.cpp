@@ -3,6 +3,7 @@
 #include <gale/algorithms/persistence.hpp>
 #include <gale/app/commands/commands.hpp>
 #include <gale/app/drawing/diagram_plot.hpp>
+#include <gale/app/drawing/scene.hpp>
 #include <gale/app/options/parse.hpp>
 #include <gale/app/options/persistence_option.hpp>
 #include <gale/app/output_file.hpp>
