@@ -1,6 +1,9 @@
 #include "voxels.hpp"
 
 #include <algorithm>
+#include <array>
+#include <utility>
+#include <vector>
 
 #include <vtkCellArray.h>
 #include <vtkCellType.h>
@@ -48,23 +51,32 @@ void add_arrays(vtkPointData* from, vtkDataArray* field, io::Image& image) {
   }
 }
 
+std::array<vtkDataArray*, 3> axes_of(vtkRectilinearGrid* grid) {
+  return {grid->GetXCoordinates(), grid->GetYCoordinates(), grid->GetZCoordinates()};
+}
+
 /// The points that lie at these whole numbers along the axes of a grid.
 vtkSmartPointer<vtkPoints> points_along(vtkRectilinearGrid* grid, vtkPoints* places) {
-  vtkDataArray* const axes[] = {grid->GetXCoordinates(), grid->GetYCoordinates(), grid->GetZCoordinates()};
-  const bool are_float = std::all_of(axes, axes + 3, [](auto* axis) { return vtkFloatArray::SafeDownCast(axis); });
+  const auto axes = axes_of(grid);
+  const bool are_float =
+      std::all_of(axes.begin(), axes.end(), [](auto* axis) { return vtkFloatArray::SafeDownCast(axis); });
+  std::vector<double> along[3];
+  for (int d = 0; d < 3; ++d) {
+    for (vtkIdType k = 0; k < axes[d]->GetNumberOfTuples(); ++k) along[d].push_back(axes[d]->GetTuple1(k));
+  }
   const auto points = vtkSmartPointer<vtkPoints>::Take(vtkPoints::New(are_float ? VTK_FLOAT : VTK_DOUBLE));
   points->SetNumberOfPoints(places->GetNumberOfPoints());
   for (vtkIdType k = 0; k < places->GetNumberOfPoints(); ++k) {
     double point[3];
     places->GetPoint(k, point);
-    for (int d = 0; d < 3; ++d) point[d] = axes[d]->GetTuple1(static_cast<vtkIdType>(point[d]));
+    for (int d = 0; d < 3; ++d) point[d] = along[d][static_cast<std::size_t>(point[d])];
     points->SetPoint(k, point);
   }
   return points;
 }
 
 void require_axes(vtkRectilinearGrid* grid) {
-  vtkDataArray* const axes[] = {grid->GetXCoordinates(), grid->GetYCoordinates(), grid->GetZCoordinates()};
+  const auto axes = axes_of(grid);
   for (int d = 0; d < 3; ++d) {
     const vtkIdType count = axes[d] != nullptr ? axes[d]->GetNumberOfTuples() : 0;
     if (count == grid->GetDimensions()[d]) continue;
@@ -82,10 +94,8 @@ vtkSmartPointer<vtkUnstructuredGrid> split_voxels(vtkDataSet* voxels, vtkDataArr
   if (rectilinear != nullptr) {
     require_axes(rectilinear);
     rectilinear->GetDimensions(image.dimensions.data());
-  } else if (auto* const regular = vtkImageData::SafeDownCast(voxels)) {
-    place(regular, image);
   } else {
-    throw Error(std::string("the input is a ") + voxels->GetClassName() + ", no mesh of voxels");
+    place(vtkImageData::SafeDownCast(voxels), image);
   }
   if (field == nullptr) throw Error("the voxels have no point array to analyse");
   if (field->GetNumberOfComponents() != 1) {
