@@ -38,8 +38,8 @@ class Variable:
 class NetCdf:
     """`dimensions`: name to length, of which 0 is the unlimited one, `records` long."""
 
-    def __init__(self, version, dimensions, variables, records):
-        self.version, self.dimensions, self.variables, self.records = version, dimensions, variables, records
+    def __init__(self, version, dimensions, variables, records, word=8, large=True):
+        self.version, self.dimensions, self.variables, self.records, self.word, self.large = version, dimensions, variables, records, word, large
 
     def number(self, value):
         return struct.pack(">Q" if self.version == 5 else ">I", value % (2**64 if self.version == 5 else 2**32))
@@ -52,10 +52,12 @@ class NetCdf:
             return struct.pack(">I", 0) + self.number(0)
         data = struct.pack(">I", 12) + self.number(len(values))
         for name, value in values.items():
+            data += self.text(name)
             if isinstance(value, str):
-                data += self.text(name) + struct.pack(">I", 2) + self.text(value)
+                data += struct.pack(">I", 2) + self.text(value)
             else:
-                data += self.text(name) + struct.pack(">I", 5) + self.number(1) + struct.pack(">f", value)
+                code = "i" if isinstance(value, int) else "f"
+                data += struct.pack(">I", TYPES[code]) + self.number(1) + struct.pack(">" + code, value)
         return data
 
     def header(self, begins):
@@ -64,7 +66,7 @@ class NetCdf:
         data += struct.pack(">I", 10) + self.number(len(names))
         for name in names:
             data += self.text(name) + self.number(self.dimensions[name])
-        data += self.attributes({"api_version": 5.2, "title": "seed"})
+        data += self.attributes({"api_version": 5.2, "version": 5.2, "floating_point_word_size": self.word, "file_size": int(self.large), "title": "seed"})
         data += struct.pack(">I", 11) + self.number(len(self.variables))
         for variable, begin in zip(self.variables, begins):
             data += self.text(variable.name) + self.number(len(variable.dimensions))
@@ -112,7 +114,7 @@ def exodus(version=2, real="d", times=2, names=("field", "other"), large=True):
         variables += [Variable(f"vals_nod_var{k + 1}", ["time_step", "num_nodes"], real, field * times) for k, field in enumerate(fields)]
     else:
         variables.append(Variable("vals_nod_var", ["time_step", "num_nod_var", "num_nodes"], real, sum(fields, []) * times))
-    return NetCdf(version, dimensions, variables, times)
+    return NetCdf(version, dimensions, variables, times, 8 if real == "d" else 4, large)
 
 
 def change(file, choice):

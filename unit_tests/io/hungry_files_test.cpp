@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <gale/io/cells/join.hpp>
 #include <gale/io/pieces.hpp>
 #include <gale/io/read.hpp>
 
@@ -78,7 +79,7 @@ TEST_F(HungryFiles, ArraysThatLieOnEachOther) {
   };
   EXPECT_EQ(read(file(1)).arrays.size(), 1u);
   EXPECT_EQ(read(file(2)).arrays.size(), 2u);  // 64 bytes are no more than the file has
-  // Each of them names 32 bytes in 71: with 1000 values there it would be 8000.
+  // A hundred times 8000 bytes, of which the file has 8000 once.
   const std::uint64_t many = 1000 * 8;
   values.assign(sizeof many + many, '\0');
   std::copy_n(reinterpret_cast<const char*>(&many), sizeof many, values.begin());
@@ -92,6 +93,8 @@ TEST_F(HungryFiles, ArraysThatLieOnEachOther) {
   EXPECT_NE(message.find("lies where other arrays do"), std::string::npos) << message;
 }
 
+#ifdef GALE_ENABLE_VTK  // else there are no readers, and what they are made of isn't there
+
 /// Seconds of this process, the least of some runs.
 template <class Work>
 double seconds_of(const Work& work) {
@@ -104,32 +107,42 @@ double seconds_of(const Work& work) {
   return least;
 }
 
-/// Eight times as much takes eight times as long, and not 64 times.
-template <class Make>
-void expect_linear(const test::Folder& folder, int count, const Make& make) {
-  const std::string few = folder.put("few.vtu", make(count)), many = folder.put("many.vtu", make(8 * count));
-  const double one = seconds_of([&] { read(few); }), eight = seconds_of([&] { read(many); });
-  EXPECT_LT(eight, 24 * one) << count << ": " << one << " s";
+/// Joins eight times as many, which takes eight times as long, and not 64 times.
+template <class Join>
+void expect_linear(const Join& join) {
+  constexpr int count = 1000;
+  const double one = seconds_of([&] { join(count); }), eight = seconds_of([&] { join(8 * count); });
+  EXPECT_LT(eight, 24 * one) << one << " s";
 }
 
-TEST_F(HungryFiles, ManyPiecesTakeAsLongAsTheyAre) {
-  expect_linear(folder, 2000, [](int count) {
-    std::string pieces;
-    for (int k = 0; k < count; ++k) pieces += piece_of();
-    return vtu_of(pieces);
+detail::MeshParts small_piece() {
+  detail::MeshParts parts;
+  parts.points = std::vector<float>(12);
+  parts.cells = {std::vector<std::uint8_t>{10}, std::vector<std::int64_t>{4}, std::vector<std::int64_t>{0, 1, 2, 3}};
+  return parts;
+}
+
+TEST(JoinedPieces, ManyTakeAsLongAsTheyAre) {
+  expect_linear([](int count) {
+    detail::JoinedPieces joined;
+    for (int k = 0; k < count; ++k) joined.add(small_piece());
+    EXPECT_EQ(joined.points(), 4u * static_cast<unsigned>(count));
   });
 }
 
-TEST_F(HungryFiles, ManyArraysOfTwoPiecesTakeAsLongAsTheyAre) {
-  expect_linear(folder, 1000, [](int count) {
-    std::string arrays, others;
-    for (int k = 0; k < count; ++k) {
-      arrays += R"(<DataArray type="Int8" Name="h)" + std::to_string(k) + R"(">1 2 3 4</DataArray>)";
-      others += R"(<DataArray type="Int8" Name="g)" + std::to_string(k) + R"(">1 2 3 4</DataArray>)";
+TEST(JoinedPieces, ArraysOfOnePieceAloneTakeAsLongAsTheyAre) {
+  expect_linear([](int count) {
+    detail::JoinedPieces joined;
+    for (const std::string name : {"first", "second"}) {
+      detail::MeshParts parts = small_piece();
+      for (int k = 0; k < count; ++k) parts.arrays.push_back({name + std::to_string(k), 1, std::vector<float>(4)});
+      joined.add(std::move(parts));
     }
-    return vtu_of(piece_of(arrays) + piece_of(others));
+    EXPECT_EQ(joined.take().notices.size(), static_cast<std::size_t>(count));
   });
 }
+
+#endif
 
 }  // namespace
 }  // namespace gale::io

@@ -34,7 +34,7 @@ constexpr std::uint32_t allowed[] = {__NR_read,          __NR_write,        __NR
                                      __NR_mmap,          __NR_munmap,       __NR_mremap,       __NR_mprotect,
                                      __NR_madvise,       __NR_brk,          __NR_futex,        __NR_getrandom,
                                      __NR_clock_gettime, __NR_gettimeofday, __NR_rt_sigreturn, __NR_rt_sigprocmask,
-                                     __NR_exit,          __NR_exit_group};
+                                     __NR_sigaltstack,   __NR_exit,         __NR_exit_group};
 
 /// Of Linux 6.12; older kernels know the beginning of it, and want the rest to be 0.
 struct LandlockRules {
