@@ -1,5 +1,6 @@
 #include "strange_files.hpp"
 
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -126,13 +127,21 @@ void write_strange_files(const std::string& folder) {
     }
     H5Dclose(set);
   });
-  write_image(path("chunk_of_few_bytes"), [&](const VtkHdf& to) {
-    put_and_close(to, shape, nullptr, make_chunks(shape));
+  const auto put_few_bytes = [&](const VtkHdf& to, hid_t list, std::uint32_t left_out) {
+    put_and_close(to, shape, nullptr, list);
     const hid_t set = H5Dopen(to.arrays, "ramp", H5P_DEFAULT);
     const hsize_t at[] = {0, 0, 0};
-    H5Dwrite_chunk(set, H5P_DEFAULT, 0, at, 8, zeros.data());
+    H5Dwrite_chunk(set, H5P_DEFAULT, left_out, at, 8, zeros.data());
     H5Dclose(set);
-  });
+  };
+  const auto make_packed = [] {
+    const hid_t list = make_chunks(shape);
+    H5Pset_deflate(list, 9);
+    return list;
+  };
+  write_image(path("chunk_of_few_bytes"), [&](const VtkHdf& to) { put_few_bytes(to, make_chunks(shape), 0); });
+  write_image(path("unpacked_chunk_of_few_bytes"), [&](const VtkHdf& to) { put_few_bytes(to, make_packed(), 1); });
+  write_image(path("packed_chunk_of_other_bytes"), [&](const VtkHdf& to) { put_few_bytes(to, make_packed(), 0); });
   write_parts(path("parts"), 200000, 0, 0);
   write_parts(path("points"), 1, 60000000, 60000000);
 }

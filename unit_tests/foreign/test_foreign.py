@@ -112,7 +112,8 @@ class Foreign(gale.CommandTest):
     def test_values_that_a_file_does_not_have_are_refused(self):
         self.strange()
         for name, naming in {"never_written": "has no values", "half_written": "has no values from (2, 0, 0) on",
-                             "chunk_of_few_bytes": "stands for 256 bytes, and there are 8"}.items():
+                             "chunk_of_few_bytes": "stands for 256 bytes, and there are 8", "unpacked_chunk_of_few_bytes": "has another size",
+                             "packed_chunk_of_other_bytes": "isn't what deflate makes"}.items():
             with self.subTest(name):
                 self.refuse(1, "info", f"strange/{name}.vtkhdf", naming=naming)
         whole = exodus_files.exodus()
