@@ -1,8 +1,8 @@
 #!/bin/bash
 # Installs what GALE is built from on Debian 12 with apt; does nothing when all is there.
-#   usage: scripts/dependencies.sh [data] [format] [rendering] [releases] [python] [docs] [mpi] [plots]
+#   usage: scripts/dependencies.sh [data] [format] [rendering] [releases] [python] [docs] [mpi] [clang] [plots]
 #     data: brain volumes    format: clang-format    rendering: without a screen    releases: what scripts/test-releases.sh needs    python: to build the module
-#     docs: the site    mpi: for several ranks    plots: pictures of measurements
+#     docs: the site    mpi: for several ranks    clang: the other compiler    plots: pictures of measurements
 set -euo pipefail
 
 packages=(cmake g++ ninja-build python3 libtrilinos-kokkos-dev libtrilinos-kokkos-kernels-dev libvtk9-dev
@@ -16,8 +16,9 @@ for more in "$@"; do
     python) packages+=(python3-dev python3-venv) ;;
     docs) packages+=(doxygen python3-venv) ;;
     mpi) packages+=(libopenmpi-dev) ;;
+    clang) packages+=(clang-14 libomp-14-dev) ;;
     plots) packages+=(python3-matplotlib) ;;
-    *) echo "usage: $0 [data] [format] [rendering] [releases] [python] [docs] [mpi] [plots]" >&2; exit 2 ;;
+    *) echo "usage: $0 [data] [format] [rendering] [releases] [python] [docs] [mpi] [clang] [plots]" >&2; exit 2 ;;
   esac
 done
 
