@@ -24,9 +24,9 @@ struct Variable : FileArray {
 std::uint64_t padded(std::uint64_t bytes) { return (bytes + 3) / 4 * 4; }
 
 /// The header, as it is read.
-class Header {
+class NetcdfHeader {
  public:
-  explicit Header(const InputFile& file) : bytes_(file, 4) {
+  explicit NetcdfHeader(const InputFile& file) : bytes_(file, 4) {
     char magic[4];
     file.read(0, magic, sizeof magic);
     if (magic[3] != 1 && magic[3] != 2 && magic[3] != 5)
@@ -130,7 +130,7 @@ class Header {
 class NetcdfFile : public ArrayFile {
  public:
   explicit NetcdfFile(const InputFile& file) : ArrayFile(file) {
-    Header header(file);
+    NetcdfHeader header(file);
     records_ = header.count();
     if (header.is_endless(records_)) damaged("its number of records is left open");
     read_dimensions(header);
@@ -193,7 +193,7 @@ class NetcdfFile : public ArrayFile {
   }
   static std::uint64_t sum(std::uint64_t a, std::uint64_t b) { return a > ~b ? ~std::uint64_t(0) : a + b; }
 
-  void read_dimensions(Header& header) {
+  void read_dimensions(NetcdfHeader& header) {
     for (std::uint64_t rest = header.list(10, "dimensions"); rest > 0; --rest) {
       std::string name = header.text();
       const std::uint64_t length = header.count();
@@ -205,7 +205,7 @@ class NetcdfFile : public ArrayFile {
     }
   }
 
-  void read_variable(Header& header) {
+  void read_variable(NetcdfHeader& header) {
     Variable variable;
     variable.name = header.text();
     variable.order = ByteOrder::big;
