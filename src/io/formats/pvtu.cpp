@@ -84,7 +84,7 @@ std::vector<Key> coordinates_of(const MeshParts& piece) {
 }
 
 /// One of the pieces as its file has it.
-struct Piece {
+struct MeshPiece {
   MeshParts parts;
   std::optional<PointArray::Values> ghosts;  ///< of cells
   Ids cell_ids;                              ///< empty without ids
@@ -101,7 +101,7 @@ class SharedPieces {
  public:
   explicit SharedPieces(const PieceNames& names) : names_(names) {}
 
-  void add(Piece piece) {
+  void add(MeshPiece piece) {
     MeshParts& parts = piece.parts;
     drop_ghosts(parts.arrays);
     const std::size_t before = joined_.points();
@@ -158,7 +158,7 @@ class SharedPieces {
   }
 
   /// The cells that are no ghosts, with the joined points' numbers.
-  Cells numbered_cells(const Cells& cells, const Ids& places, const Piece& piece) {
+  Cells numbered_cells(const Cells& cells, const Ids& places, const MeshPiece& piece) {
     Ids types, ends, connectivity, is_ghost;
     append(cells.types, std::int64_t(0), types);
     append(cells.ends, std::int64_t(0), ends);
@@ -209,7 +209,7 @@ std::vector<std::string> add_file(const InputFile& input, const PieceNames& name
   std::vector<std::string> cell_arrays;
   const XmlFile file = read_xml(input, "UnstructuredGrid", names.cell_ids);
   for (const XmlElement* element : pieces_of(file)) {
-    Piece piece{read_piece(file, *element), read_cell_array(file, *element, ghost_array), {}};
+    MeshPiece piece{read_piece(file, *element), read_cell_array(file, *element, ghost_array), {}};
     piece.cell_ids = ids_of_cells(file, *element, count_of(piece.parts.cells.types), names.cell_ids);
     shared.add(std::move(piece));
     if (cell_arrays.empty()) cell_arrays = names_of_cell_data(*element);
