@@ -7,18 +7,6 @@ set(other ${here}/other_versions)
 list(REMOVE_ITEM configure_command ${kokkos}) # left to the package to find
 file(REMOVE_RECURSE ${other})
 
-# refused(<message> <option>...): the program can't be configured, and is told why.
-function(refused expected)
-  file(REMOVE_RECURSE ${here}/refused)
-  execute_process(COMMAND ${configure_command} -S ${consumer} -B ${here}/refused ${ARGN}
-    RESULT_VARIABLE result OUTPUT_QUIET ERROR_VARIABLE message)
-  string(REGEX REPLACE "[ \n]+" " " message "${message}") # CMake wraps lines
-  string(FIND "${message}" "${expected}" at)
-  if(result EQUAL 0 OR at EQUAL -1)
-    message(FATAL_ERROR "with ${ARGN} it says, instead of ${expected}: ${message}")
-  endif()
-endfunction()
-
 foreach(package version IN ZIP_LISTS built_with built_with_versions)
   file(WRITE ${other}/lib/cmake/${package}/${package}Config.cmake "")
   file(WRITE ${other}/lib/cmake/${package}/${package}ConfigVersion.cmake
@@ -35,14 +23,14 @@ foreach(package version dir IN ZIP_LISTS built_with built_with_versions built_wi
 
   # The program has found the other version before GALE; and there is no other, since GALE's own has gone.
   set(message "this GALE was built with ${package} ${version}, and found is 0.9.8 in ${other}/lib/cmake/${package}: set ${package}_DIR ")
-  refused("${message}" -DCMAKE_PREFIX_PATH=${prefix} -DFIRST=${package} -DOTHER=${other})
+  refused(${consumer} "${message}" -DCMAKE_PREFIX_PATH=${prefix} -DFIRST=${package} -DOTHER=${other})
   set(moved ${here}/moved/lib/cmake/gale)
   file(REMOVE_RECURSE ${moved})
   file(COPY ${package_dir}/ DESTINATION ${moved})
   file(READ ${moved}/gale-config.cmake config)
   string(REPLACE "_dir \"${dir}\"" "_dir \"/nowhere\"" config "${config}")
   file(WRITE ${moved}/gale-config.cmake "${config}")
-  refused("${message}" -Dgale_DIR=${moved} -DCMAKE_PREFIX_PATH=${other} -DCMAKE_FIND_USE_CMAKE_SYSTEM_PATH=OFF
+  refused(${consumer} "${message}" -Dgale_DIR=${moved} -DCMAKE_PREFIX_PATH=${other} -DCMAKE_FIND_USE_CMAKE_SYSTEM_PATH=OFF
     -DCMAKE_FIND_USE_SYSTEM_ENVIRONMENT_PATH=OFF -DCMAKE_FIND_USE_PACKAGE_REGISTRY=OFF)
 endforeach()
 
@@ -54,6 +42,6 @@ if(mpi)
     set(kind "Open MPI")
     file(WRITE ${other}/include/mpi.h "#define OPEN_MPI 1\n")
   endif()
-  refused("this GALE was built with ${mpi}, and found is ${kind} in ${other}/include: set MPI_CXX_COMPILER"
+  refused(${consumer} "this GALE was built with ${mpi}, and found is ${kind} in ${other}/include: set MPI_CXX_COMPILER"
     -DCMAKE_PREFIX_PATH=${prefix} -DCOMPONENTS=distributed -DMPI_CXX_HEADER_DIR=${other}/include)
 endif()
