@@ -150,7 +150,8 @@ void answer_bytes(const File& file, const std::string& path) {
 
 void answer_chunks(const File& file, const std::string& path, std::uint64_t rows, std::size_t file_bytes) {
   const Handle dataset = file.open(path);
-  const auto [name, fixed, shape, chunk, filters] = file.describe(path);
+  const auto description = file.describe(path);
+  const auto &shape = description.shape, &chunk = description.chunk;
   put(static_cast<std::uint64_t>(H5Dget_storage_size(dataset)));
   std::vector<hsize_t> at(chunk.size());
   std::vector<char> bytes;
