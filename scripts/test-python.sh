@@ -14,6 +14,7 @@ python3 -m venv "$environment"
   -C cmake.define.CMAKE_CXX_FLAGS_RELEASE="-O1 -DNDEBUG" .
 "$environment/bin/pip" install --quiet numpy "$environment"/*.whl
 tests=$PWD/bindings/python/tests
+python3 -B unit_tests/install/check_library_paths.py readelf --in "$environment"/lib/python*/site-packages/gale --never "$PWD"
 cd "$environment"
 bin/python -B -m unittest discover -s "$tests"
 bin/pip install --quiet gmsh matplotlib mypy pyvista scipy tqdm
