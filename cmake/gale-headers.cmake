@@ -19,7 +19,6 @@ gale_public(relations batch faces preconditioning relation rows segment_rows)
 gale_public(runtime consumer device_sweep device_sweep_options graph_of make_structure statistics structure structure_options sweep_options)
 gale_public(algorithms critical_points critical_simplices discrete_gradient morse_smale persistence separatrices
   simplex_numbers simplify surface_vertices vertex_order)
-gale_public(baselines discrete_gradient_from_cells oracle)
 gale_public(outputs arrows critical_points critical_simplices field manifolds morse_smale named_simplices persistence
   persistence_diagram segmentation separatrices1 separatrices2)
 gale_public(io arrays atomic_file dataset image pieces read synthetic temporary_files voxels write)

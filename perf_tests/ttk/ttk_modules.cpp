@@ -7,7 +7,7 @@
 // smoother, jacobi-set and path-compression, or all of them. A line each of what it took, peak memory of the process
 // included, and of processors and peaks by setup, preconditioning and run; `both` also says whether all arrays are
 // equal, element by element, and exits with 1 if not. MEMORY_IN_MIB bounds GALE's translated blocks (0: as many as by
-// default), WAY is how GALE computes rows: gale, leaders, helpers, inline or task-parallel.
+// default), WAY is how GALE computes rows: gale, leaders, helpers or inline.
 
 #include <ExplicitTriangulation.h>
 #include <omp.h>

@@ -9,7 +9,7 @@ namespace gale {
 /// Computes relations segment by segment on the calling thread, with the kernels that the device runs. Its memory grows
 /// to what the largest segment so far has needed, and is used again. One worker serves one thread; any number may work
 /// at once.
-class HostWorker {
+class GALE_EXPORT HostWorker {
  public:
   /// Enumerates what `wanted` needs of the mesh's simplices, if it isn't there. The blocks of the last `kept` segments
   /// stay valid.

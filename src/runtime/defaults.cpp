@@ -30,6 +30,10 @@ int given_or(int given, int otherwise, const char* name) {
   return given == 0 ? otherwise : given;
 }
 
+void require_relations(RelationSet wanted) {
+  if (wanted.empty()) throw Error("a structure needs at least one relation to be preconditioned for");
+}
+
 double words_per_vertex(RelationSet relations) {
   constexpr int words_of_links = 22;
   double sum = relations.has_links() ? 1 + words_of_links : 1;

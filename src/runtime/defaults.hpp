@@ -2,6 +2,7 @@
 
 #include <cstddef>
 
+#include <gale/export.hpp>
 #include <gale/mesh/mesh.hpp>
 #include <gale/relations/relation.hpp>
 #include <gale/runtime/structure_options.hpp>
@@ -12,6 +13,9 @@ inline constexpr std::size_t mebibyte = std::size_t(1) << 20;
 
 /// An option, or what it is where it was left open (0). Throws gale::Error, naming it, if it is below 0.
 int given_or(int given, int otherwise, const char* name);
+
+/// Throws gale::Error if a structure is to be preconditioned for nothing.
+GALE_EXPORT void require_relations(RelationSet wanted);
 
 /// A guess for the first batch: words that the blocks of a regular mesh take for each vertex.
 double words_per_vertex(RelationSet relations);

@@ -1,5 +1,5 @@
 #include <gale/base/error.hpp>
-#include <gale/baselines/task_parallel/task_parallel_structure.hpp>
+#include <gale/runtime/defaults.hpp>
 #include <gale/runtime/explicit/explicit_structure.hpp>
 #include <gale/runtime/helpers/helped_structure.hpp>
 #include <gale/runtime/inline/inline_structure.hpp>
@@ -17,7 +17,7 @@ struct NamedWay {
 
 constexpr NamedWay named_ways[] = {
     {Way::gale, "gale"},      {Way::leaders, "leaders"},    {Way::helpers, "helpers"},
-    {Way::inline_, "inline"}, {Way::explicit_, "explicit"}, {Way::task_parallel, "task-parallel"},
+    {Way::inline_, "inline"}, {Way::explicit_, "explicit"},
 };
 
 std::unique_ptr<Structure> make(const Mesh& mesh, RelationSet wanted, const StructureOptions& options, Way way) {
@@ -32,8 +32,6 @@ std::unique_ptr<Structure> make(const Mesh& mesh, RelationSet wanted, const Stru
       return std::make_unique<detail::InlineStructure>(mesh, wanted);
     case Way::explicit_:
       return std::make_unique<ExplicitStructure>(mesh, wanted);
-    case Way::task_parallel:
-      return std::make_unique<detail::TaskParallelStructure>(mesh, wanted);
   }
   throw Error("there is no such way of computing");
 }
@@ -55,7 +53,7 @@ std::optional<Way> way_named(const std::string& name) {
 }
 
 std::unique_ptr<Structure> make_structure(const Mesh& mesh, RelationSet wanted, const StructureOptions& options) {
-  if (wanted.empty()) throw Error("a structure needs at least one relation to be preconditioned for");
+  detail::require_relations(wanted);
   try {
     return make(mesh, wanted, options, options.way);
   } catch (const OutOfMemory& error) {

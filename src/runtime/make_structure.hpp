@@ -18,7 +18,6 @@ namespace gale {
 ///   helpers on the others compute segments ahead of them; a consumer takes what is ready, computes when nothing is,
 ///   and waits for nobody.
 /// - `explicit`: every row at once. Throws gale::Error where GALE was built without Kokkos-Kernels.
-/// - `task-parallel`: a worker thread for each consumer of a sweep.
 ///
 /// Where the device lacks memory for any of them, the host computes in the way of helpers, and notices say so.
 ///

@@ -34,6 +34,9 @@ class GALE_EXPORT Structure {
   /// How it computes; never Way::gale.
   Way way() const { return way_; }
 
+  /// What reports call it: the name of its way, or its own if it isn't one of make_structure's.
+  virtual std::string name() const { return name_of(way_); }
+
   /// Has it every row at any time? Then a consumer reads each in a few ns. Else rows of face relations come from the
   /// mesh's tables, and `face_row` is the fast way to them.
   virtual bool keeps_all_rows() const { return false; }

@@ -8,17 +8,16 @@
 
 namespace gale {
 
-/// The ways to compute relations, each a `Structure`. None of them changes a result.
+/// The ways to compute relations, each a `Structure`. All give the same results.
 enum class Way {
-  gale,           ///< leaders where the mesh is on a device, else helpers
-  leaders,        ///< one leader thread a queue, which has batches computed in the workers' space, ahead of need
-  helpers,        ///< inline, and in a sweep cores without a consumer compute ahead of those; nobody waits for another
-  inline_,        ///< each consumer computes what it misses, on the host: nothing is handed over and nobody waits
-  explicit_,      ///< everything at once, kept on the host (`GALE_ENABLE_KOKKOS_KERNELS`)
-  task_parallel,  ///< on the host, a worker thread for each consumer of a sweep, which runs ahead of it, as in ACTOPO
+  gale,      ///< leaders where the mesh is on a device, else helpers
+  leaders,   ///< one leader thread a queue, which has batches computed in the workers' space, ahead of need
+  helpers,   ///< inline, and in a sweep cores without a consumer compute ahead of those; nobody waits for another
+  inline_,   ///< each consumer computes what it misses, on the host: nothing is handed over and nobody waits
+  explicit_  ///< everything at once, kept on the host (`GALE_ENABLE_KOKKOS_KERNELS`)
 };
 
-/// "gale", "leaders", "helpers", "inline", "explicit" or "task-parallel": its name in the command and in reports.
+/// "gale", "leaders", "helpers", "inline" or "explicit": its name in the command and in reports.
 GALE_EXPORT const char* name_of(Way way);
 
 /// The way of a name; nothing for any other.

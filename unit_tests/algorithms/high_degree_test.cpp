@@ -12,7 +12,7 @@
 #include <gale/algorithms/morse_smale.hpp>
 #include <gale/algorithms/simplex_numbers.hpp>
 #include <gale/algorithms/surface_vertices.hpp>
-#include <gale/baselines/gradient_from_cells/queued_lower_star.hpp>
+#include <gale/baselines/queued_lower_star.hpp>
 #include <gale/runtime/make_structure.hpp>
 
 #include "algorithms/brute_force_complex.hpp"

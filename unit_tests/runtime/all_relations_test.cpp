@@ -71,7 +71,7 @@ TEST_P(MixedSweepOf, small_meshes_have_the_rows_of_brute_force) {
   const ExpectedRows expected(input(), brute_force_of(mesh_name()), mesh, (all_relations | link_form));
   for (const NamedWay& way : ways()) {
     SCOPED_TRACE(way.name);
-    const auto runtime = make_structure(mesh, (all_relations | link_form), way.options);
+    const auto runtime = way.make(mesh, (all_relations | link_form));
     expect_sweep(*runtime, (all_relations | link_form), 2, expected);
   }
 }
@@ -88,7 +88,7 @@ TEST(MixedSweep, has_the_rows_of_brute_force_for_any_relations_and_threads) {
   for (const NamedWay& way : ways()) {
     SCOPED_TRACE(way.name);
     for (const RelationSet wanted : mixed_sets) {
-      const auto runtime = make_structure(holed.mesh, wanted, way.options);
+      const auto runtime = way.make(holed.mesh, wanted);
       for (const int threads : {1, 2, 8}) expect_sweep(*runtime, wanted, threads, holed.expected);
     }
   }
@@ -98,7 +98,7 @@ TEST(MixedSweep, of_some_of_the_relations_that_were_preconditioned) {
   const Fixture holed("holed_grid_9");
   for (const NamedWay& way : ways()) {
     SCOPED_TRACE(way.name);
-    const auto runtime = make_structure(holed.mesh, (all_relations | link_form), way.options);
+    const auto runtime = way.make(holed.mesh, (all_relations | link_form));
     for (const RelationSet wanted : mixed_sets) expect_sweep(*runtime, wanted, 2, holed.expected);
   }
 }
@@ -110,7 +110,7 @@ TEST(MixedConsumers, that_jump_at_random_get_the_rows_of_brute_force) {
   members.push_back(link_form);
   for (const NamedWay& way : ways()) {
     for (const int consumers : {1, 2, 8}) {
-      const auto runtime = make_structure(holed.mesh, (all_relations | link_form), way.options);
+      const auto runtime = way.make(holed.mesh, (all_relations | link_form));
       std::vector<testing::AssertionResult> result(consumers, testing::AssertionSuccess());
       std::vector<std::thread> threads;
       for (int i = 0; i < consumers; ++i) {
@@ -134,7 +134,7 @@ TEST(MixedConsumers, keep_a_row_while_they_read_any_number_of_others) {
   const Fixture holed("holed_grid_9");
   const auto members = members_of(all_relations);
   for (const NamedWay& way : ways()) {
-    const auto runtime = make_structure(holed.mesh, (all_relations | link_form), way.options);
+    const auto runtime = way.make(holed.mesh, (all_relations | link_form));
     for (const Relation kept : members) {
       const auto consumer = runtime->consumer();
       const Id simplex = holed.rows(kept) - 1;  // of a segment that the others don't touch
@@ -152,7 +152,7 @@ TEST(MixedConsumers, keep_a_row_while_they_read_any_number_of_others) {
 TEST(MixedConsumers, read_beside_a_sweep_and_inside_of_it) {
   const Fixture holed("holed_grid_9");
   for (const NamedWay& way : ways()) {
-    const auto runtime = make_structure(holed.mesh, (all_relations | link_form), way.options);
+    const auto runtime = way.make(holed.mesh, (all_relations | link_form));
     std::vector<testing::AssertionResult> result(4, testing::AssertionSuccess());
     std::vector<std::unique_ptr<Consumer>> consumers;
     for (int i = 0; i < 4; ++i) consumers.push_back(runtime->consumer());
@@ -199,15 +199,15 @@ TEST(MixedRuntime, enumerates_no_more_than_its_relations_need) {
   const InputMesh& input = mesh_named("ball");
   for (const NamedWay& way : ways()) {
     const Mesh mesh = encode(input, 7);
-    const auto stars = make_structure(mesh, star_relations | Relation::TV, way.options);
+    const auto stars = way.make(mesh, star_relations | Relation::TV);
     stars->consumer()->row(Relation::TV, 0);
     stars->for_each_segment(star_relations | Relation::TV, with_threads(1), [](int, const SegmentRows&) {});
     EXPECT_EQ(mesh.known_edges(), no_id) << way.name;
-    const auto edges = make_structure(mesh, Relation::VE | Relation::TT, way.options);
+    const auto edges = way.make(mesh, Relation::VE | Relation::TT);
     EXPECT_NE(mesh.known_edges(), no_id) << way.name << ": before the first row";
     edges->consumer()->row(Relation::TT, 0);
     EXPECT_EQ(mesh.known_triangles(), no_id) << way.name;
-    const auto triangles = make_structure(mesh, Relation::FV, way.options);
+    const auto triangles = way.make(mesh, Relation::FV);
     EXPECT_NE(mesh.known_triangles(), no_id) << way.name;
   }
 }
@@ -216,7 +216,7 @@ TEST(MixedRuntime, says_what_it_was_not_preconditioned_for) {
   const Fixture papers("the_papers");
   for (const NamedWay& way : ways()) {
     SCOPED_TRACE(way.name);
-    const auto runtime = make_structure(papers.mesh, Relation::EF | Relation::FV, way.options);
+    const auto runtime = way.make(papers.mesh, Relation::EF | Relation::FV);
     const auto consumer = runtime->consumer();
     const std::string expected = "the structure was preconditioned for FV, EF, not for ";
     const std::string what_to_do = ": name every relation that you read when you construct it";
@@ -237,7 +237,7 @@ TEST(MixedRuntime, names_a_simplex_that_is_not_there) {
   const Fixture papers("the_papers");
   for (const NamedWay& way : ways()) {
     SCOPED_TRACE(way.name);
-    const auto runtime = make_structure(papers.mesh, (all_relations | link_form), way.options);
+    const auto runtime = way.make(papers.mesh, (all_relations | link_form));
     const auto consumer = runtime->consumer();
     for (const Id outside : {-1, 1000}) {
       const std::string there_is_no[] = {

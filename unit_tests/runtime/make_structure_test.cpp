@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <gale/base/error.hpp>
+#include <gale/baselines/task_parallel_structure.hpp>
 #include <gale/runtime/make_structure.hpp>
 
 #include "support/brute_force.hpp"
@@ -11,21 +12,23 @@
 namespace gale::test {
 
 TEST(Way, has_one_name) {
-  for (const Way way : {Way::gale, Way::leaders, Way::helpers, Way::inline_, Way::explicit_, Way::task_parallel}) {
+  for (const Way way : {Way::gale, Way::leaders, Way::helpers, Way::inline_, Way::explicit_}) {
     EXPECT_EQ(way_named(name_of(way)), way);
   }
   EXPECT_STREQ(name_of(Way::inline_), "inline");
-  EXPECT_STREQ(name_of(Way::task_parallel), "task-parallel");
   EXPECT_EQ(way_named("pairs"), std::nullopt);
 }
 
 TEST(MakeStructure, says_which_way_it_took) {
   const Mesh mesh = encode(mesh_named("the_papers"), 2);
-  for (const Way way : {Way::leaders, Way::helpers, Way::inline_, Way::task_parallel}) {
+  for (const Way way : {Way::leaders, Way::helpers, Way::inline_}) {
     StructureOptions options;
     options.way = way;
-    EXPECT_EQ(make_structure(mesh, Relation::VV, options)->way(), way);
+    const auto structure = make_structure(mesh, Relation::VV, options);
+    EXPECT_EQ(structure->way(), way);
+    EXPECT_EQ(structure->name(), name_of(way));
   }
+  EXPECT_EQ(baselines::make_task_parallel_structure(mesh, Relation::VV)->name(), "task-parallel");
   const auto structure = make_structure(mesh, Relation::VV);
   EXPECT_EQ(structure->way(), have_device ? Way::leaders : Way::helpers);
   EXPECT_TRUE(structure->statistics().notices.empty());

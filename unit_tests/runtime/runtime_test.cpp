@@ -47,7 +47,7 @@ TEST_P(SweepOf, every_mesh_visits_each_segment_once_with_its_rows) {
   const ExpectedRows expected(input(), brute_force_of(mesh_name()), mesh);
   for (const NamedWay& way : ways()) {
     SCOPED_TRACE(way.name);
-    const auto runtime = make_structure(mesh, star_relations, way.options);
+    const auto runtime = way.make(mesh, star_relations);
     for (const int threads : {1, 3}) {
       std::vector<std::atomic<int>> visits(mesh.segments());
       std::atomic<int> wrong{0};
@@ -67,7 +67,7 @@ TEST(Runtime, answers_consumers_that_jump_at_random) {
   const Holed holed;
   for (const NamedWay& way : ways()) {
     for (const int consumers : {1, 2, 16}) {
-      const auto runtime = make_structure(holed.mesh, star_relations, way.options);
+      const auto runtime = way.make(holed.mesh, star_relations);
       std::atomic<int> wrong{0};
       std::vector<std::thread> threads;
       for (int i = 0; i < consumers; ++i) {
@@ -91,7 +91,7 @@ TEST(Runtime, serves_large_segments_between_small_ones) {
   const ExpectedRows expected(input, BruteForce(input), mesh);
   for (const NamedWay& way : ways()) {
     SCOPED_TRACE(way.name);
-    const auto runtime = make_structure(mesh, star_relations, way.options);
+    const auto runtime = way.make(mesh, star_relations);
     std::atomic<int> wrong{0}, right{0};
     runtime->for_each_segment(star_relations, with_threads(3), [&](int, const SegmentRows& rows) {
       ++(expected.match(rows, star_relations) ? right : wrong);
@@ -106,7 +106,7 @@ TEST(Runtime, serves_large_segments_between_small_ones) {
 TEST(Runtime, serves_a_sweep_whose_bodies_read_other_segments) {
   const Holed holed;
   for (const NamedWay& way : ways()) {
-    const auto runtime = make_structure(holed.mesh, star_relations, way.options);
+    const auto runtime = way.make(holed.mesh, star_relations);
     std::atomic<int> wrong{0};
     runtime->for_each_segment(Relation::VV, with_threads(4), [&](int, const SegmentRows& rows) {
       const auto consumer = runtime->consumer();
@@ -121,7 +121,7 @@ TEST(Runtime, serves_a_sweep_whose_bodies_read_other_segments) {
 TEST(Runtime, hands_an_exception_of_a_body_to_the_caller_and_goes_on) {
   const Holed holed;
   for (const NamedWay& way : ways()) {
-    const auto runtime = make_structure(holed.mesh, star_relations, way.options);
+    const auto runtime = way.make(holed.mesh, star_relations);
     for (int again = 0; again < 3; ++again) {
       const auto sweep = [&] {
         runtime->for_each_segment(star_relations, with_threads(4), [&](int, const SegmentRows& rows) {
@@ -139,7 +139,7 @@ TEST(Runtime, hands_an_exception_of_a_body_to_the_caller_and_goes_on) {
 TEST(Runtime, lets_two_sweeps_run_at_once) {
   const Holed holed;
   for (const NamedWay& way : ways()) {
-    const auto runtime = make_structure(holed.mesh, star_relations, way.options);
+    const auto runtime = way.make(holed.mesh, star_relations);
     std::atomic<Id> visited{0};
     const auto sweep = [&] {
       runtime->for_each_segment(star_relations, with_threads(2), [&](int, const SegmentRows&) { ++visited; });
@@ -194,21 +194,21 @@ TEST(Runtime, counts_what_consumers_and_leaders_did) {
 TEST(Runtime, says_what_it_was_not_preconditioned_for) {
   const Holed holed;
   for (const NamedWay& way : ways()) {
-    const auto runtime = make_structure(holed.mesh, Relation::VV, way.options);
+    const auto runtime = way.make(holed.mesh, Relation::VV);
     const auto consumer = runtime->consumer();
     EXPECT_THROW(consumer->row(Relation::VT, 0), Error) << way.name;
     EXPECT_EQ(consumer->row(Relation::VV, 0).size(), static_cast<Id>(holed.expected.vv[0].size()));
     EXPECT_THROW(runtime->for_each_segment(star_relations, with_threads(1), [](int, const SegmentRows&) {}), Error)
         << way.name;
     EXPECT_THROW(consumer->row(Relation::EF, 0), Error) << way.name;
-    EXPECT_THROW(make_structure(holed.mesh, RelationSet(), way.options), Error);
+    EXPECT_THROW(way.make(holed.mesh, RelationSet()), Error);
   }
 }
 
 TEST(Runtime, refuses_a_vertex_that_is_not_there) {
   const Holed holed;
   for (const NamedWay& way : ways()) {
-    const auto runtime = make_structure(holed.mesh, star_relations, way.options);
+    const auto runtime = way.make(holed.mesh, star_relations);
     const auto consumer = runtime->consumer();
     const Row row = consumer->row(Relation::VV, 0);
     for (const Id vertex : {-1, holed.mesh.vertices()}) {

@@ -100,7 +100,7 @@ TEST(Stress, of_consumers_and_sweeps_with_budgets_that_hold_next_to_nothing) {
   for (NamedWay way : ways()) {
     // Helpers need a little to help at all.
     way.options.host_memory = way.options.way == Way::helpers ? 1 << 24 : 1 << 13;
-    const auto runtime = make_structure(stressed.mesh, relations, way.options);
+    const auto runtime = way.make(stressed.mesh, relations);
     std::atomic<long> wrong{0};
     std::atomic<int> swept{0};
     const int rounds = 20 * times();

@@ -15,7 +15,7 @@ TEST(Bodies, may_copy_views_and_take_subviews_on_many_threads) {
   const Mesh mesh = encode(mesh_named("holed_grid_9"), 7);
   for (const NamedWay& way : ways()) {
     SCOPED_TRACE(way.name);
-    const auto structure = make_structure(mesh, Relation::VV, way.options);
+    const auto structure = way.make(mesh, Relation::VV);
     const Kokkos::View<int*, HostMemory> values("test_values", 64);
     Kokkos::deep_copy(values, 1);
     const int before = values.use_count();

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
-#include <gale/runtime/structure_options.hpp>
+#include <gale/baselines/task_parallel_structure.hpp>
+#include <gale/runtime/make_structure.hpp>
 
 namespace gale::test {
 
@@ -10,6 +12,12 @@ namespace gale::test {
 struct NamedWay {
   const char* name;
   StructureOptions options;
+  bool is_task_parallel = false;
+
+  std::unique_ptr<Structure> make(const Mesh& mesh, RelationSet relations) const {
+    return is_task_parallel ? baselines::make_task_parallel_structure(mesh, relations)
+                            : make_structure(mesh, relations, options);
+  }
 };
 
 /// Everything that can be told apart about how a runtime works.
@@ -27,7 +35,7 @@ inline std::vector<NamedWay> ways() {
   all[3].options.way = Way::leaders;
   all[3].options.blocks_per_request = all[3].options.threads_per_block = 1;
   all[4].name = "pairs";
-  all[4].options.way = Way::task_parallel;
+  all[4].is_task_parallel = true;
   all[5].name = "helpers, on sixteen cores";
   all[5].options.way = Way::helpers;
   all[5].options.cores = 16;

@@ -1,11 +1,11 @@
 #pragma once
 
 #include <array>
-#include <set>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include <gale/baselines/brute_force.hpp>
 #include <gale/relations/segment_rows.hpp>
 
 #include "support/expected_simplices.hpp"
@@ -13,34 +13,15 @@
 
 namespace gale::test {
 
-/// What touches what, from the input alone, by sets and maps; in input ids. Edges and triangles, which have none, are
-/// numbered as they are found.
-class BruteForce {
- public:
-  using Table = std::vector<std::vector<Id>>;  ///< ascending ids, by simplex
-
-  std::vector<std::set<Id>> vv, vt;
-  std::vector<std::uint8_t> on_surface;  ///< per vertex: 1 if some triangle of it has exactly one tetrahedron
-
+/// What touches what, from the input alone, in input ids.
+struct BruteForce : baselines::BruteForce {
   explicit BruteForce(const InputMesh& mesh);
 
-  /// The vertices of all simplices of a dimension. Found at the first call; this and `rows` by one thread at a time.
-  const Table& simplices(int dimension) const;
-
-  /// The rows of any relation but link. Likewise.
-  const Table& rows(Relation relation) const;
-
- private:
-  void find_simplices(int dimension) const;
-  Table parts(int dimension, int part_dimension) const;
-  Table neighbours(int dimension) const;
-
-  std::vector<std::array<Id, 4>> tetrahedra_;
-  mutable std::array<Table, 4> simplices_;
-  mutable std::array<Table, relation_count> rows_;
+  Table vv, vt;
+  std::vector<std::uint8_t> on_surface;  ///< per vertex: 1 if some triangle of it has exactly one tetrahedron
 };
 
-/// The same of one of `mesh_names()`; computed at the first call.
+/// What touches what in one of `mesh_names()`; computed at the first call.
 const BruteForce& brute_force_of(const std::string& mesh_name);
 
 /// What the rows of a mesh must be, in GALE's ids. It trusts the mesh' permutations and vertex_begin(), which

@@ -163,7 +163,7 @@ TEST(TtkTriangulationOnThreads, answers_in_every_way_of_computing_with_and_witho
   const InputMesh input = voxels(6, 5, 4, [](Id x, Id y, Id z) { return (x + 2 * y + 3 * z) % 5 != 0; });
   const CallersMesh callers(input);
   const ExpectedTriangulation expected(input);
-  for (const Way way : {Way::gale, Way::leaders, Way::inline_, Way::task_parallel}) {
+  for (const Way way : {Way::gale, Way::leaders, Way::inline_}) {
     for (const std::size_t memory : {std::size_t(1), std::size_t(20000), std::size_t(0)}) {
       SCOPED_TRACE(std::string(name_of(way)) + ", " + std::to_string(memory));
       ttk::Options options;

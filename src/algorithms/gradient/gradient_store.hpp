@@ -8,6 +8,7 @@
 #include <gale/algorithms/gradient/edge_pairs.hpp>
 #include <gale/algorithms/vertex_order.hpp>
 #include <gale/base/parallel.hpp>
+#include <gale/export.hpp>
 
 namespace gale::detail {
 
@@ -38,7 +39,7 @@ struct DeviceGradient {
 /// What a DiscreteGradient is made of, and how the consumers of a sweep fill it: each vertex is one consumer's, and
 /// with it all simplices that have it as their highest vertex. One that kernels found stays on the device; each part
 /// comes to the host when somebody there first asks for it.
-class GradientStore {
+class GALE_EXPORT GradientStore {
  public:
   /// For consumers on the host. Throws gale::Error if the order is of another mesh.
   GradientStore(const Mesh& mesh, const VertexOrder& order, int consumers);

@@ -4,6 +4,7 @@
 #include <gale/app/options/structure_option.hpp>
 #include <gale/app/usage_error.hpp>
 #include <gale/base/error.hpp>
+#include <gale/baselines/task_parallel_structure.hpp>
 #include <gale/runtime/make_structure.hpp>
 
 namespace gale::app {
@@ -76,6 +77,7 @@ DeviceSweepOptions StructureOption::device_sweep() const {
 }
 
 std::unique_ptr<Structure> StructureOption::make(const Mesh& mesh, RelationSet relations) const {
+  if (name == "task-parallel") return baselines::make_task_parallel_structure(mesh, relations);
   StructureOptions chosen = options;
   chosen.way = *way_named(name);
   if (chosen.cores == 0) chosen.cores = host_threads();
@@ -85,7 +87,7 @@ std::unique_ptr<Structure> StructureOption::make(const Mesh& mesh, RelationSet r
 void report_structure(const Structure& structure, Report& report) {
   report.edges = known(structure.count(1));
   report.triangles = known(structure.count(2));
-  report.way = name_of(structure.way());
+  report.way = structure.name();
   const StructureStatistics statistics = structure.statistics();
   if (structure.way() != Way::explicit_) report.statistics = statistics;
 }

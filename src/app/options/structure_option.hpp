@@ -15,7 +15,7 @@ namespace gale::app {
 
 /// --structure, which way to compute relations, and the options that tune it.
 struct StructureOption {
-  std::string name = "gale";  ///< the name of a Way
+  std::string name = "gale";  ///< of a Way, or "task-parallel"
   StructureOptions options;
 
   /// --consumers, "host" or "device"; empty: on the device where the mesh is there and `name` doesn't say otherwise.

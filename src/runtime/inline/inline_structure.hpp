@@ -1,12 +1,13 @@
 #pragma once
 
+#include <gale/export.hpp>
 #include <gale/relations/host_worker.hpp>
 #include <gale/runtime/structure.hpp>
 
 namespace gale::detail {
 
 /// Way::inline_: each consumer computes what it misses.
-class InlineStructure : public Structure {
+class GALE_EXPORT InlineStructure : public Structure {
  public:
   InlineStructure(const Mesh& mesh, RelationSet relations, Way way = Way::inline_);
 

@@ -1,16 +1,22 @@
-#pragma once
-
 #include <array>
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <exception>
 #include <mutex>
+#include <thread>
+#include <vector>
 
+#include <gale/base/start_thread.hpp>
+#include <gale/baselines/task_parallel_structure.hpp>
 #include <gale/relations/host_worker.hpp>
+#include <gale/runtime/defaults.hpp>
+#include <gale/runtime/inline/inline_structure.hpp>
 #include <gale/runtime/statistics.hpp>
 
-namespace gale::detail {
+namespace gale::baselines {
+
+namespace {
 
 /// Between a consumer and its worker: some segments' blocks, computed in turn and read in turn. Who has to wait looks
 /// for a while before it sleeps, since a segment takes no longer than falling asleep and being woken.
@@ -109,4 +115,64 @@ class Pipe {
   std::condition_variable changed_;
 };
 
-}  // namespace gale::detail
+/// In a sweep each consumer has a worker thread, which runs ahead of it.
+class TaskParallelStructure : public detail::InlineStructure {
+ public:
+  using InlineStructure::InlineStructure;
+
+  std::string name() const override { return "task-parallel"; }
+
+ protected:
+  std::unique_ptr<Sweep> begin_sweep(RelationSet wanted, int consumers, const SegmentBody& body) override;
+};
+
+std::unique_ptr<Structure::Sweep> TaskParallelStructure::begin_sweep(RelationSet wanted, int consumers,
+                                                                     const SegmentBody& body) {
+  /// The sweep's threads compute; the consumers are threads that each read a pipe.
+  class PipedSweep : public Sweep {
+   public:
+    PipedSweep(const Mesh& mesh, RelationSet wanted, int consumers, const SegmentBody& body) : Sweep(consumers) {
+      for (int i = 0; i < consumers; ++i) pipes_.push_back(std::make_unique<Pipe>(mesh, wanted, stopped_));
+      try {
+        for (int i = 0; i < consumers; ++i) {
+          threads_.push_back(detail::start_thread([this, i, &body] {
+            pipes_[i]->consume([&](const SegmentRows& rows) { body(i, rows); }, statistics[i]);
+          }));
+        }
+      } catch (...) {  // there are no more threads to be had
+        join();
+        throw;
+      }
+    }
+    ~PipedSweep() override { join(); }
+
+    void visit(int worker, Id segment, const SegmentBody&) override { pipes_[worker]->fill(segment); }
+
+    void end() override {
+      join();
+      for (const auto& pipe : pipes_) pipe->rethrow();
+    }
+
+   private:
+    /// Waits until everything is read.
+    void join() {
+      for (auto& pipe : pipes_) pipe->end();
+      for (auto& thread : threads_) thread.join();
+      threads_.clear();
+    }
+
+    std::atomic<bool> stopped_{false};
+    std::vector<std::unique_ptr<Pipe>> pipes_;
+    std::vector<std::thread> threads_;
+  };
+  return std::make_unique<PipedSweep>(mesh(), wanted, consumers, body);
+}
+
+}  // namespace
+
+std::unique_ptr<Structure> make_task_parallel_structure(const Mesh& mesh, RelationSet relations) {
+  detail::require_relations(relations);
+  return std::make_unique<TaskParallelStructure>(mesh, relations);
+}
+
+}  // namespace gale::baselines

@@ -15,7 +15,7 @@ class GALE_EXPORT Oracle {
  public:
   virtual ~Oracle() = default;
 
-  /// "the explicit structure"
+  /// "the explicit structure" or "brute force"
   virtual std::string name() const = 0;
 
   /// How many rows there are.
@@ -28,8 +28,5 @@ class GALE_EXPORT Oracle {
 /// The explicit structure where GALE was built with Kokkos-Kernels, else brute force. Brute force too where it is the
 /// explicit structure that is to be verified (`is_explicit`).
 GALE_EXPORT std::unique_ptr<Oracle> make_oracle(const Mesh& mesh, Relation relation, int threads, bool is_explicit);
-
-/// Slow and simple: it lists all simplices, and searches the lists.
-GALE_EXPORT std::unique_ptr<Oracle> make_brute_force(const Mesh& mesh, Relation relation);
 
 }  // namespace gale::baselines

@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include <gale/baselines/gradient_from_cells/queued_lower_star.hpp>
+#include <gale/baselines/queued_lower_star.hpp>
 
 namespace gale::detail {
 

@@ -1,24 +1,57 @@
-#pragma once
-
+#include <algorithm>
 #include <array>
+#include <memory>
 #include <utility>
 #include <vector>
 
 #include <gale/algorithms/gradient/gradient_store.hpp>
 #include <gale/algorithms/gradient/pair_cells.hpp>
 #include <gale/algorithms/gradient/pair_star.hpp>
-#include <gale/baselines/gradient_from_cells/lower_neighbour_ranks.hpp>
-#include <gale/baselines/gradient_from_cells/queued_lower_star.hpp>
-#include <gale/relations/segment_rows.hpp>
+#include <gale/baselines/discrete_gradient_from_cells.hpp>
+#include <gale/baselines/lower_neighbour_ranks.hpp>
+#include <gale/baselines/queued_lower_star.hpp>
+#include <gale/relations/faces.hpp>
+#include <gale/relations/preconditioning.hpp>
 
-namespace gale::detail {
+namespace gale {
+
+namespace {
+
+/// Rows of face relations from the mesh's tables, as localized structures have them.
+class LookedUpFaces {
+ public:
+  explicit LookedUpFaces(const Simplices<HostMemory>& simplices) : simplices_(simplices) {}
+
+  template <Relation relation>
+  auto row(Id simplex) const {
+    return face_row<relation>(simplices_, simplex);
+  }
+
+ private:
+  Simplices<HostMemory> simplices_;
+};
+
+/// Rows of face relations from a structure that keeps all rows. One serves one thread; a row is valid until the next of
+/// its relation.
+class KeptFaces {
+ public:
+  explicit KeptFaces(Structure& structure) : consumer_(structure.consumer()) {}
+
+  template <Relation relation>
+  Row row(Id simplex) const {
+    return consumer_->row(relation, simplex);
+  }
+
+ private:
+  std::unique_ptr<Consumer> consumer_;
+};
 
 /// One consumer's part in the sweep of `find_discrete_gradient_from_cells`. `Faces` has row<relation>(simplex) for EV,
 /// FV and TV.
 template <class Faces>
 class CellSweep {
  public:
-  CellSweep(GradientStore& store, int consumer, Faces faces)
+  CellSweep(detail::GradientStore& store, int consumer, Faces faces)
       : store_(store),
         consumer_(consumer),
         keys_(store.order.keys()),
@@ -110,7 +143,8 @@ class CellSweep {
   static Id other_of(Id one, Id last, Id vertex) { return one ^ ((one ^ last) & -Id(one == vertex)); }
 
   /// The rank of the vertex that a tetrahedron has and its triangle hasn't.
-  static Id odd_one(const QueuedLowerStar::Corners& tetrahedron, const QueuedLowerStar::Corners& triangle) {
+  static Id odd_one(const detail::QueuedLowerStar::Corners& tetrahedron,
+                    const detail::QueuedLowerStar::Corners& triangle) {
     return tetrahedron[0] != triangle[0]   ? tetrahedron[0]
            : tetrahedron[1] != triangle[1] ? tetrahedron[1]
                                            : tetrahedron[2];
@@ -122,18 +156,50 @@ class CellSweep {
     const auto vertices = faces_.template row<Relation::TV>(tetrahedron);
     int corner = 0;
     while (vertices[corner] != ranks_.id(rank)) ++corner;
-    return outside(corner);
+    return detail::outside(corner);
   }
 
-  GradientStore& store_;
+  detail::GradientStore& store_;
   int consumer_;
   const std::uint64_t* keys_;
   const Id* tetrahedron_input_;
   Faces faces_;
   std::vector<Id> neighbours_;
-  LowerNeighbourRanks ranks_;
-  QueuedLowerStar star_;
-  EdgePairRow row_;
+  detail::LowerNeighbourRanks ranks_;
+  detail::QueuedLowerStar star_;
+  detail::EdgePairRow row_;
 };
 
-}  // namespace gale::detail
+constexpr RelationSet swept = discrete_gradient_from_cells_relations & coboundary_relations;
+constexpr RelationSet looked_up = discrete_gradient_from_cells_relations & face_relations;
+
+/// `faces()` makes a consumer's look-ups.
+template <class MakeFaces>
+void sweep(Structure& structure, detail::GradientStore& store, int consumers, const SweepOptions& options,
+           const MakeFaces& faces) {
+  using Sweep = CellSweep<decltype(faces())>;
+  std::vector<std::unique_ptr<Sweep>> sweeps;
+  for (int i = 0; i < consumers; ++i) sweeps.push_back(std::make_unique<Sweep>(store, i, faces()));
+  structure.for_each_segment(swept, options,
+                             [&](int consumer, const SegmentRows& rows) { sweeps[consumer]->pair(rows); });
+}
+
+}  // namespace
+
+DiscreteGradient find_discrete_gradient_from_cells(Structure& structure, const VertexOrder& order,
+                                                   const SweepOptions& options) {
+  const ThreadLimit limit(options.threads);
+  require_preconditioned(structure.relations(), discrete_gradient_from_cells_relations);
+  const int consumers = std::max(options.threads, 1);
+  const auto store = std::make_shared<detail::GradientStore>(structure.mesh(), order, consumers);
+  if (structure.keeps_all_rows()) {
+    sweep(structure, *store, consumers, options, [&] { return KeptFaces(structure); });
+  } else {
+    const auto simplices = structure.mesh().simplices(needs_of(looked_up));
+    sweep(structure, *store, consumers, options, [&] { return LookedUpFaces(simplices); });
+  }
+  store->finish();
+  return DiscreteGradient(store);
+}
+
+}  // namespace gale
