@@ -7,7 +7,7 @@
 #include <thread>
 #include <vector>
 
-#include <gale/base/start_thread.hpp>
+#include <gale/base/threads.hpp>
 #include <gale/baselines/task_parallel_structure.hpp>
 #include <gale/relations/host_worker.hpp>
 #include <gale/runtime/defaults.hpp>

@@ -31,7 +31,6 @@ set(gale_included_headers
   base/mirrored.hpp
   base/parallel.hpp
   base/transfer.hpp
-  base/view_tracking.hpp
   base/worker_or_host.hpp
   mesh/caller_views.hpp
   mesh/quad.hpp

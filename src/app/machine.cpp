@@ -9,8 +9,9 @@
 #include <vector>
 
 #include <gale/app/machine.hpp>
+#include <gale/base/device.hpp>
 #include <gale/base/kokkos.hpp>
-#include <gale/base/start_thread.hpp>
+#include <gale/base/threads.hpp>
 
 namespace gale::app {
 
@@ -55,13 +56,7 @@ void watch_device_memory() {
   Kokkos::Tools::Experimental::set_deallocate_data_callback(on_deallocation);
 }
 
-std::optional<std::string> device_name() {
-#if defined(KOKKOS_ENABLE_CUDA)
-  return std::string(WorkerSpace().cuda_device_prop().name);
-#else
-  return std::nullopt;
-#endif
-}
+std::optional<std::string> device_name() { return gale::device_name(); }
 
 void require_threads(int count) {
   std::mutex mutex;

@@ -1,7 +1,6 @@
 #include <utility>
 
 #include <gale/app/warm_up.hpp>
-#include <gale/base/start_thread.hpp>
 #include <gale/base/threads.hpp>
 #include <gale/base/transfer.hpp>
 #include <gale/io/synthetic.hpp>

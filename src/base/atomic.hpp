@@ -26,7 +26,7 @@ bool replaced(T* at, T& there, T value) {
 /// Reads, whole, what other threads may be writing.
 template <class T>
 KOKKOS_FORCEINLINE_FUNCTION T atomic_read(const T* from) {
-#if defined(__CUDA_ARCH__)
+#if defined(GALE_ON_DEVICE)
   return *static_cast<const volatile T*>(from);
 #else
   T here;
@@ -38,7 +38,7 @@ KOKKOS_FORCEINLINE_FUNCTION T atomic_read(const T* from) {
 /// Writes, whole, what other threads may be reading.
 template <class T>
 KOKKOS_FORCEINLINE_FUNCTION void atomic_write(T* to, std::common_type_t<T> value) {
-#if defined(__CUDA_ARCH__)
+#if defined(GALE_ON_DEVICE)
   *static_cast<volatile T*>(to) = value;
 #else
   __atomic_store(to, &value, __ATOMIC_RELAXED);
@@ -48,7 +48,7 @@ KOKKOS_FORCEINLINE_FUNCTION void atomic_write(T* to, std::common_type_t<T> value
 /// Adds.
 template <class T>
 KOKKOS_FORCEINLINE_FUNCTION T atomic_add(T* to, std::common_type_t<T> value) {
-#if defined(__CUDA_ARCH__)
+#if defined(GALE_ON_DEVICE)
   return Kokkos::atomic_fetch_add(to, value);
 #else
   if constexpr (std::is_integral_v<T>) {
@@ -65,7 +65,7 @@ KOKKOS_FORCEINLINE_FUNCTION T atomic_add(T* to, std::common_type_t<T> value) {
 /// Makes it at least `value`.
 template <class T>
 KOKKOS_FORCEINLINE_FUNCTION T atomic_max(T* at, std::common_type_t<T> value) {
-#if defined(__CUDA_ARCH__)
+#if defined(GALE_ON_DEVICE)
   return Kokkos::atomic_fetch_max(at, value);
 #else
   T there = atomic_read(at);
@@ -78,7 +78,7 @@ KOKKOS_FORCEINLINE_FUNCTION T atomic_max(T* at, std::common_type_t<T> value) {
 /// Makes it at most `value`.
 template <class T>
 KOKKOS_FORCEINLINE_FUNCTION T atomic_min(T* at, std::common_type_t<T> value) {
-#if defined(__CUDA_ARCH__)
+#if defined(GALE_ON_DEVICE)
   return Kokkos::atomic_fetch_min(at, value);
 #else
   T there = atomic_read(at);
@@ -92,7 +92,7 @@ KOKKOS_FORCEINLINE_FUNCTION T atomic_min(T* at, std::common_type_t<T> value) {
 template <class T>
 KOKKOS_FORCEINLINE_FUNCTION T atomic_compare_exchange(T* at, std::common_type_t<T> expected,
                                                       std::common_type_t<T> desired) {
-#if defined(__CUDA_ARCH__)
+#if defined(GALE_ON_DEVICE)
   return Kokkos::atomic_compare_exchange(at, expected, desired);
 #else
   __atomic_compare_exchange(at, &expected, &desired, false, __ATOMIC_RELAXED, __ATOMIC_RELAXED);
@@ -103,7 +103,7 @@ KOKKOS_FORCEINLINE_FUNCTION T atomic_compare_exchange(T* at, std::common_type_t<
 /// Makes it `value`.
 template <class T>
 KOKKOS_FORCEINLINE_FUNCTION T atomic_exchange(T* at, std::common_type_t<T> value) {
-#if defined(__CUDA_ARCH__)
+#if defined(GALE_ON_DEVICE)
   return Kokkos::atomic_exchange(at, value);
 #else
   T before;

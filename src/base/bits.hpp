@@ -21,7 +21,7 @@ KOKKOS_FORCEINLINE_FUNCTION int add_up_bits(std::uint64_t bits) {
 }  // namespace detail
 
 KOKKOS_FORCEINLINE_FUNCTION int count_bits(std::uint32_t bits) {
-#if defined(__CUDA_ARCH__)
+#if defined(GALE_ON_DEVICE)
   return __popc(bits);
 #elif defined(__x86_64__) && !defined(__POPCNT__)
   return detail::add_up_bits(bits);
@@ -31,7 +31,7 @@ KOKKOS_FORCEINLINE_FUNCTION int count_bits(std::uint32_t bits) {
 }
 
 KOKKOS_FORCEINLINE_FUNCTION int count_bits(std::uint64_t bits) {
-#if defined(__CUDA_ARCH__)
+#if defined(GALE_ON_DEVICE)
   return __popcll(bits);
 #elif defined(__x86_64__) && !defined(__POPCNT__)
   return detail::add_up_bits(bits);
@@ -42,7 +42,7 @@ KOKKOS_FORCEINLINE_FUNCTION int count_bits(std::uint64_t bits) {
 
 /// Place of the lowest bit that is set; one is.
 KOKKOS_FORCEINLINE_FUNCTION int lowest_bit(std::uint32_t bits) {
-#if defined(__CUDA_ARCH__)
+#if defined(GALE_ON_DEVICE)
   return __ffs(static_cast<int>(bits)) - 1;
 #else
   return __builtin_ctz(bits);
@@ -50,7 +50,7 @@ KOKKOS_FORCEINLINE_FUNCTION int lowest_bit(std::uint32_t bits) {
 }
 
 KOKKOS_FORCEINLINE_FUNCTION int lowest_bit(std::uint64_t bits) {
-#if defined(__CUDA_ARCH__)
+#if defined(GALE_ON_DEVICE)
   return __ffsll(static_cast<long long>(bits)) - 1;
 #else
   return __builtin_ctzll(bits);
@@ -69,5 +69,23 @@ KOKKOS_FORCEINLINE_FUNCTION void for_each_bit(const std::uint32_t* column, int s
     bits &= bits - 1;
   }
 }
+
+namespace detail {
+
+/// Four small numbers in one word, so that memory is asked once for all of them.
+class Bytes {
+ public:
+  KOKKOS_DEFAULTED_FUNCTION Bytes() = default;
+  KOKKOS_FORCEINLINE_FUNCTION Bytes(int a, int b, int c, int d = 0)
+      : word_(static_cast<std::uint32_t>(a) | static_cast<std::uint32_t>(b) << 8 | static_cast<std::uint32_t>(c) << 16 |
+              static_cast<std::uint32_t>(d) << 24) {}
+
+  KOKKOS_FORCEINLINE_FUNCTION int operator[](int i) const { return static_cast<int>(word_ >> (8 * i) & 255); }
+
+ private:
+  std::uint32_t word_;
+};
+
+}  // namespace detail
 
 }  // namespace gale

@@ -26,9 +26,7 @@ struct CountMembers {
   VisitKeys visit_keys;
   Indices counts;
 
-#if defined(__CUDACC__)
-#pragma nv_exec_check_disable
-#endif
+  GALE_CALLS_ANY
   KOKKOS_FUNCTION void operator()(Offset item) const {
     using Index = typename Indices::value_type;
     visit_keys(static_cast<Id>(item), [&](Id key) { atomic_add(&counts(key), Index(1)); });
@@ -48,9 +46,7 @@ struct FillGroups {
   Indices next;
   Members members;
 
-#if defined(__CUDACC__)
-#pragma nv_exec_check_disable
-#endif
+  GALE_CALLS_ANY
   KOKKOS_FUNCTION void operator()(Offset item) const {
     using Index = typename Indices::value_type;
     visit_keys(static_cast<Id>(item),
@@ -69,9 +65,7 @@ template <class KeyOf>
 struct SingleKey {
   KeyOf key_of;
 
-#if defined(__CUDACC__)
-#pragma nv_exec_check_disable
-#endif
+  GALE_CALLS_ANY
   template <class Visit>
   KOKKOS_FUNCTION void operator()(Id item, const Visit& visit) const {
     visit(key_of(item));

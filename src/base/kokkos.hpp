@@ -1,13 +1,32 @@
 #pragma once
 
-// All that GALE knows about differences between Kokkos versions (3.4.1, 4.4 to 5.x) and backends.
+// All that GALE knows about differences between Kokkos versions (3.4.1, 4.4 to 5.x) and backends, but for the device's
+// runtime, which is behind base/device.hpp.
 
+#include <cstdint>
 #include <string>
-#include <vector>
 
 #include <Kokkos_Core.hpp>
 
 #include <gale/base/error.hpp>
+
+/// Defined where workers run on a device, for what `have_device` can't tell: code that is there or isn't.
+#if defined(KOKKOS_ENABLE_CUDA) || defined(KOKKOS_ENABLE_HIP)
+#define GALE_HAS_DEVICE
+#endif
+
+/// Defined in code that is compiled for the device.
+#if defined(__CUDA_ARCH__) || defined(__HIP_DEVICE_COMPILE__)
+#define GALE_ON_DEVICE
+#endif
+
+/// Before a function for host and device that calls what it is given, which may be for the host alone: nvcc warns
+/// without it.
+#if defined(__CUDACC__)
+#define GALE_CALLS_ANY _Pragma("nv_exec_check_disable")
+#else
+#define GALE_CALLS_ANY
+#endif
 
 namespace gale {
 
@@ -45,7 +64,7 @@ struct HostThreads {
 
 /// instantiate(Space) for each space that a mesh may be made in: what is a template over the space is instantiated with
 /// it in its source.
-#if defined(KOKKOS_ENABLE_CUDA)
+#if defined(GALE_HAS_DEVICE)
 #define GALE_IN_EACH_SPACE(instantiate) \
   instantiate(WorkerSpace);             \
   instantiate(HostExecutionSpace)
@@ -64,31 +83,36 @@ inline constexpr bool is_device = is_device_memory<typename Space::memory_space>
 /// Whether workers run on a device.
 inline constexpr bool have_device = is_device<WorkerSpace>;
 
+/// Whether that is a device of NVIDIA's, by whose names other programs hand over arrays in its memory.
+#if defined(KOKKOS_ENABLE_CUDA)
+inline constexpr bool device_is_cuda = true;
+#else
+inline constexpr bool device_is_cuda = false;
+#endif
+
+/// Lanes of a warp, which go through a kernel together.
+#if defined(KOKKOS_ENABLE_HIP)
+inline constexpr int lanes_per_warp = 64;
+#else
+inline constexpr int lanes_per_warp = 32;
+#endif
+
 /// Host memory that the device copies to and from at full speed.
 #if defined(KOKKOS_ENABLE_CUDA)
 using PinnedMemory = Kokkos::CudaHostPinnedSpace;
+#elif defined(KOKKOS_ENABLE_HIP)
+using PinnedMemory = Kokkos::HIPHostPinnedSpace;
 #else
 using PinnedMemory = Kokkos::HostSpace;
 #endif
 
-#if defined(KOKKOS_ENABLE_CUDA)
-/// Has CUDA's own calls of this thread mean the device that Kokkos uses: a thread begins with the first of the machine.
-inline void use_device() { cudaSetDevice(WorkerSpace().cuda_device()); }
-#endif
-
-/// A launch queue of its own on the device: work on two instances may overlap. On the host, the space itself. Throws
-/// OutOfMemory if the device has no memory for one.
-inline WorkerSpace make_instance() {
-#if defined(KOKKOS_ENABLE_CUDA)
-  try {
-    return Kokkos::Experimental::partition_space(WorkerSpace(), std::vector<int>{1})[0];
-  } catch (const std::exception& error) {
-    cudaGetLastError();  // what this leaves behind is not the next call's
-    if (std::string(error.what()).find("cudaErrorMemoryAllocation") == std::string::npos) throw;
-    throw OutOfMemory("Cuda has no memory for another instance");
-  }
+/// Waits for what was enqueued on an execution space. Kokkos Tools are told the label.
+template <class Space>
+void wait_for(const Space& space, [[maybe_unused]] const char* label) {
+#if KOKKOS_VERSION >= 40000
+  space.fence(label);
 #else
-  return WorkerSpace();
+  space.fence();
 #endif
 }
 
@@ -138,5 +162,70 @@ class ToolsRegion {
   std::uint64_t id_ = 0;
   bool told_ = false;
 };
+
+namespace detail {
+
+/// Sets whether the calling thread counts references to Views, as long as it lives. Kokkos counts without atomics where
+/// Serial is its only backend; our own threads share Views there too.
+class ViewTracking {
+ public:
+  explicit ViewTracking(bool on) : was_on_(Record::tracking_enabled() != 0) { set(on); }
+  ~ViewTracking() { set(was_on_); }
+  ViewTracking(const ViewTracking&) = delete;
+  ViewTracking& operator=(const ViewTracking&) = delete;
+
+ private:
+  using Record = Kokkos::Impl::SharedAllocationRecord<void, void>;
+
+  static void set(bool on) { on ? Record::tracking_enable() : Record::tracking_disable(); }
+
+  const bool was_on_;
+};
+
+/// Copies of Views made meanwhile own nothing.
+struct UntrackedViews : ViewTracking {
+  UntrackedViews() : ViewTracking(false) {}
+};
+
+/// For what is made to last, e.g. the first time that somebody needs it, wherever that is.
+struct TrackedViews : ViewTracking {
+  TrackedViews() : ViewTracking(true) {}
+};
+
+/// An address in a team's scratch memory of level 0, of which the compiler knows then that it is one.
+KOKKOS_FORCEINLINE_FUNCTION void* in_shared_memory(void* address) {
+#if defined(__CUDA_ARCH__)
+  return __cvta_shared_to_generic(__cvta_generic_to_shared(address));
+#else
+  return address;
+#endif
+}
+
+/// A bit for each lane of a warp.
+#if defined(KOKKOS_ENABLE_HIP)
+using LaneMask = unsigned long long;
+#else
+using LaneMask = unsigned;
+#endif
+
+/// The lanes of this warp that are here together.
+KOKKOS_FORCEINLINE_FUNCTION LaneMask lanes_here() {
+#if defined(__CUDA_ARCH__)
+  return __activemask();
+#elif defined(__HIP_DEVICE_COMPILE__)
+  return __ballot(1);
+#else
+  return 1;
+#endif
+}
+
+/// Lanes of this warp meet. On HIP they never part.
+KOKKOS_FORCEINLINE_FUNCTION void meet([[maybe_unused]] LaneMask lanes = ~LaneMask(0)) {
+#if defined(__CUDA_ARCH__)
+  __syncwarp(lanes);
+#endif
+}
+
+}  // namespace detail
 
 }  // namespace gale

@@ -4,10 +4,10 @@
 #include <memory>
 #include <mutex>
 
+#include <gale/base/kokkos.hpp>
 #include <gale/base/memory.hpp>
 #include <gale/base/stop.hpp>
 #include <gale/base/transfer.hpp>
-#include <gale/base/view_tracking.hpp>
 
 namespace gale {
 

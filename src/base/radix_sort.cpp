@@ -2,38 +2,13 @@
 #include <utility>
 #include <vector>
 
+#include <gale/base/device.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/base/radix_sort.hpp>
-
-#if defined(KOKKOS_ENABLE_CUDA)
-#include <cub/device/device_radix_sort.cuh>
-
-#include <gale/base/cub.hpp>
-#endif
 
 namespace gale {
 
 namespace {
-
-#if defined(KOKKOS_ENABLE_CUDA)
-
-void sort_on_device(const WorkerSpace& space, const Array<std::uint64_t, WorkerMemory>& keys,
-                    const Array<Id, WorkerMemory>& values) {
-  using Keys = Array<std::uint64_t, WorkerMemory>;
-  using Values = Array<Id, WorkerMemory>;
-  const auto n = static_cast<std::int64_t>(keys.extent(0));
-  const auto other_keys = allocate<Keys>("GALE::sort_keys", n);
-  const auto other_values = allocate<Values>("GALE::sort_values", n);
-  cub::DoubleBuffer<std::uint64_t> key_buffer(keys.data(), other_keys.data());
-  cub::DoubleBuffer<Id> value_buffer(values.data(), other_values.data());
-  detail::run_cub(space, "GALE::sort_by_key", [&](void* workspace, std::size_t& bytes, cudaStream_t stream) {
-    return cub::DeviceRadixSort::SortPairs(workspace, bytes, key_buffer, value_buffer, n, 0, 64, stream);
-  });
-  if (key_buffer.Current() != keys.data()) Kokkos::deep_copy(space, keys, other_keys);
-  if (value_buffer.Current() != values.data()) Kokkos::deep_copy(space, values, other_values);
-}
-
-#endif
 
 using Keys = Array<std::uint64_t, HostMemory>;
 using Values = Array<Id, HostMemory>;
@@ -96,7 +71,7 @@ void stable_sort_by_key(const Space& space, const Array<std::uint64_t, MemoryOf<
                         const Array<Id, MemoryOf<Space>>& values) {
   if (keys.extent(0) < 2) return;
   if constexpr (is_device<Space>) {
-    sort_on_device(space, keys, values);
+    detail::sort_by_key_on_device(space, keys, values);
   } else {
     sort_on_host(keys, values);
   }

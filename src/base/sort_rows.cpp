@@ -1,32 +1,12 @@
 #include <algorithm>
 
+#include <gale/base/device.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/base/sort_rows.hpp>
-
-#if defined(KOKKOS_ENABLE_CUDA)
-#include <cub/device/device_segmented_sort.cuh>
-
-#include <gale/base/cub.hpp>
-#endif
 
 namespace gale {
 
 namespace {
-
-#if defined(KOKKOS_ENABLE_CUDA)
-template <class Index>
-void sort_on_device(const WorkerSpace& space, const char* label, const Array<Index, WorkerMemory>& begin,
-                    const Array<Id, WorkerMemory>& values) {
-  const auto rows = static_cast<Offset>(begin.extent(0)) - 1;
-  const auto other = allocate<Array<Id, WorkerMemory>>("GALE::sort_rows", values.extent(0));
-  cub::DoubleBuffer<Id> buffer(values.data(), other.data());
-  detail::run_cub(space, label, [&](void* workspace, std::size_t& bytes, cudaStream_t stream) {
-    return cub::DeviceSegmentedSort::SortKeys(workspace, bytes, buffer, static_cast<Offset>(values.extent(0)), rows,
-                                              begin.data(), begin.data() + 1, stream);
-  });
-  if (buffer.Current() != values.data()) Kokkos::deep_copy(space, values, other);
-}
-#endif
 
 template <class Index>
 void sort_on_host(const char* label, const Array<Index, HostMemory>& begin, const Array<Id, HostMemory>& values) {
@@ -44,7 +24,7 @@ void sort_rows(const Space& space, const char* label, const Array<Index, MemoryO
                const Array<Id, MemoryOf<Space>>& values) {
   if (begin.extent(0) < 2 || values.extent(0) == 0) return;
   if constexpr (is_device<Space>) {
-    sort_on_device(space, label, begin, values);
+    detail::sort_rows_on_device(space, label, begin, values);
   } else {
     sort_on_host(label, begin, values);
   }

@@ -62,8 +62,8 @@ KOKKOS_FORCEINLINE_FUNCTION char* scratch(const HostTeam& team, std::size_t) {
 template <int level, class Team>
 KOKKOS_FORCEINLINE_FUNCTION char* scratch(const Team& team, std::size_t bytes) {
   char* const memory = static_cast<char*>(team.team_scratch(level).get_shmem_aligned(bytes, 16, level));
-#if defined(__CUDA_ARCH__)
-  if constexpr (level == 0) return static_cast<char*>(__cvta_shared_to_generic(__cvta_generic_to_shared(memory)));
+#if defined(GALE_ON_DEVICE)
+  if constexpr (level == 0) return static_cast<char*>(detail::in_shared_memory(memory));
 #endif
   return memory;
 }
@@ -91,16 +91,16 @@ KOKKOS_FORCEINLINE_FUNCTION void for_all(const Team& team, int n, const Body& bo
 /// write what load reads.
 template <class Team, class Load, class Body>
 KOKKOS_FORCEINLINE_FUNCTION void for_all_loaded(const Team& team, int n, const Load& load, const Body& body) {
-#if defined(__CUDA_ARCH__)
+#if defined(GALE_ON_DEVICE)
   const int lane = static_cast<int>(threadIdx.y * blockDim.x + threadIdx.x),
             step = static_cast<int>(blockDim.x * blockDim.y);
   decltype(load(0)) next;
   if (lane < n) next = load(lane);
-  for (int i = lane; i - lane % 32 < n; i += step) {
+  for (int i = lane; i - lane % lanes_per_warp < n; i += step) {
     const auto loaded = next;
     if (i + step < n) next = load(i + step);
     if (i < n) body(i, loaded);
-    __syncwarp();
+    detail::meet();
   }
 #else
   for_all(team, n, [&](int i) { body(i, load(i)); });
@@ -142,10 +142,10 @@ KOKKOS_FORCEINLINE_FUNCTION void warp_barrier(const Team& team) {
 /// long without it.
 template <class Body>
 KOKKOS_FORCEINLINE_FUNCTION void together(const Body& body) {
-#if defined(__CUDA_ARCH__)
-  const unsigned lanes = __activemask();
+#if defined(GALE_ON_DEVICE)
+  const auto lanes = detail::lanes_here();
   body();
-  __syncwarp(lanes);
+  detail::meet(lanes);
 #else
   body();
 #endif
@@ -173,7 +173,7 @@ KOKKOS_FORCEINLINE_FUNCTION void once(const Team& team, const Body& body) {
   Kokkos::single(Kokkos::PerTeam(team), body);
 }
 
-// Atomics. On CUDA its own, whose memory the compiler sees: those of Kokkos are assembly that takes any address.
+// Atomics. On a device its own, whose memory the compiler sees: those of Kokkos are assembly that takes any address.
 
 /// Adds to what the team shares and returns what was there.
 template <class T>
@@ -185,7 +185,7 @@ KOKKOS_FORCEINLINE_FUNCTION T add(const HostTeam&, T* to, T value) {
 /// add for a team of Kokkos'.
 template <class Team, class T>
 KOKKOS_FORCEINLINE_FUNCTION T add(const Team&, T* to, T value) {
-#if defined(__CUDA_ARCH__)
+#if defined(GALE_ON_DEVICE)
   if constexpr (sizeof(T) == sizeof(unsigned)) {
     return static_cast<T>(atomicAdd(reinterpret_cast<unsigned*>(to), static_cast<unsigned>(value)));
   } else {
@@ -204,7 +204,7 @@ KOKKOS_FORCEINLINE_FUNCTION void raise(const HostTeam&, T* to, T value) {
 /// raise for a team of Kokkos'.
 template <class Team, class T>
 KOKKOS_FORCEINLINE_FUNCTION void raise(const Team&, T* to, T value) {
-#if defined(__CUDA_ARCH__)
+#if defined(GALE_ON_DEVICE)
   atomicMax(to, value);
 #else
   Kokkos::atomic_fetch_max(to, value);
@@ -216,7 +216,7 @@ KOKKOS_FORCEINLINE_FUNCTION void set_bits(const HostTeam&, std::uint32_t* of, st
 /// set_bits for a team of Kokkos'.
 template <class Team>
 KOKKOS_FORCEINLINE_FUNCTION void set_bits(const Team&, std::uint32_t* of, std::uint32_t bits) {
-#if defined(__CUDA_ARCH__)
+#if defined(GALE_ON_DEVICE)
   atomicOr(of, bits);
 #else
   Kokkos::atomic_fetch_or(of, bits);
@@ -233,7 +233,7 @@ KOKKOS_FORCEINLINE_FUNCTION T exchange_if(const HostTeam&, T* at, T expected, T 
 /// exchange_if for a team of Kokkos'.
 template <class Team, class T>
 KOKKOS_FORCEINLINE_FUNCTION T exchange_if(const Team&, T* at, T expected, T value) {
-#if defined(__CUDA_ARCH__)
+#if defined(GALE_ON_DEVICE)
   return atomicCAS(at, expected, value);
 #else
   return Kokkos::atomic_compare_exchange(at, expected, value);

@@ -4,14 +4,18 @@
 #include <cstdint>
 #include <exception>
 #include <mutex>
+#include <string>
+#include <system_error>
+#include <thread>
+#include <utility>
 
 #ifdef GALE_ENABLE_STD_THREADS
-#include <thread>
 #include <vector>
 #else
 #include <omp.h>
 #endif
 
+#include <gale/base/error.hpp>
 #include <gale/base/stop.hpp>
 #include <gale/export.hpp>
 
@@ -96,5 +100,34 @@ void in_turns(int count, std::int64_t n, const Body& body) {
     }
   });
 }
+
+namespace detail {
+
+/// A new thread that runs `body`. Throws Error where the system starts no more.
+template <class Body>
+std::thread start_thread(Body&& body) {
+  try {
+    return std::thread(std::forward<Body>(body));
+  } catch (const std::system_error& error) {
+    throw Error(std::string("the system starts no more threads (") + error.code().message() +
+                "): take fewer, or raise its limit of threads or of memory");
+  }
+}
+
+/// How many CPUs a quota amounts to, rounded up, from the text of a control group's files; 0 where there is none, or
+/// where the text isn't understood. Version 2 has one file, cpu.max: "150000 100000" is a quota and a period in
+/// microseconds, "max 100000" none.
+int cpus_of_quota(const std::string& cpu_max);
+
+/// Version 1 has two: cpu.cfs_quota_us, -1 for none, and cpu.cfs_period_us.
+int cpus_of_quota(const std::string& quota, const std::string& period);
+
+/// The processors of the container that the process runs in; 0 where it has no quota.
+int cpu_quota();
+
+/// The cores that the process may run on: those of its affinity, and no more than its quota. At least 1.
+int available_cores();
+
+}  // namespace detail
 
 }  // namespace gale

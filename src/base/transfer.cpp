@@ -1,67 +1,75 @@
-#include <gale/base/error.hpp>
-#include <gale/base/transfer.hpp>
-
-#if defined(KOKKOS_ENABLE_CUDA)
-
-#include <cuda_runtime_api.h>
+#include <sys/mman.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cstring>
 #include <mutex>
+#include <new>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include <gale/base/pinned.hpp>
+#include <gale/base/device.hpp>
+#include <gale/base/error.hpp>
+#include <gale/base/parallel.hpp>
 #include <gale/base/threads.hpp>
+#include <gale/base/transfer.hpp>
 
 namespace gale {
 
 namespace {
+
+constexpr std::size_t page_bytes = 4096;
+
+/// Has the system give all pages, by one thread or, where there are many, by all.
+void touch(void* memory, std::size_t size) {
+  constexpr std::size_t many = std::size_t(16) << 20;
+  volatile char* const bytes = static_cast<volatile char*>(memory);
+  const auto touch_page = [bytes](Offset i) { bytes[static_cast<std::size_t>(i) * page_bytes] = 0; };
+  const auto pages = static_cast<Offset>(size / page_bytes);
+  if (size >= many) {
+    parallel_for("GALE::touch_pinned", Kokkos::DefaultHostExecutionSpace(), pages, touch_page);
+  } else {
+    for (Offset i = 0; i < pages; ++i) touch_page(i);
+  }
+}
+
+/// The driver's own way takes ten times as long.
+std::shared_ptr<void> allocate_locked_pages(std::size_t bytes) {
+  const std::size_t size = (bytes + page_bytes) / page_bytes * page_bytes;
+  void* const memory = mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  const auto refuse = [size] {
+    throw OutOfMemory("the host has no " + std::to_string(size) + " bytes of page-locked memory");
+  };
+  if (memory == MAP_FAILED) refuse();
+  detail::advise_huge_pages(memory, size);
+  touch(memory, size);
+  if (!detail::lock_pages(memory, size)) {
+    munmap(memory, size);
+    refuse();
+  }
+  return {memory, [size](void* at) {
+            detail::unlock_pages(at);
+            munmap(at, size);
+          }};
+}
 
 constexpr std::size_t chunk_bytes = std::size_t(2) << 20;
 
 /// Enough for some to fill or empty their chunks while those of others travel.
 constexpr int most_lanes = 16;
 
-void require(cudaError_t status) {
-  if (status != cudaSuccess)
-    throw Error(std::string("a copy to or from the device failed: ") + cudaGetErrorString(status));
-}
-
-/// One thread's way to the device and back. A stream alone: an instance of Kokkos::Cuda takes ten times as long to
-/// make.
-class Lane {
- public:
-  explicit Lane(const PinnedArray<char>& chunk) : chunk_(chunk) {
-    require(cudaStreamCreateWithFlags(&stream_, cudaStreamNonBlocking));
-  }
-  Lane(Lane&& other) noexcept : chunk_(other.chunk_), stream_(std::exchange(other.stream_, nullptr)) {}
-  Lane& operator=(Lane&&) = delete;
-  ~Lane() {
-    if (stream_ != nullptr) cudaStreamDestroy(stream_);
-  }
-
-  char* chunk() const { return chunk_.data(); }
-
-  /// Between the chunk and the device, one of which is `to`.
-  void copy(void* to, const void* from, std::size_t bytes) const {
-    use_device();
-    require(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDefault, stream_));
-    require(cudaStreamSynchronize(stream_));
-  }
-
- private:
-  PinnedArray<char> chunk_;
-  cudaStream_t stream_ = nullptr;
+/// One thread's way to the device and back, and the pinned memory that it goes through.
+struct CopyLane {
+  detail::CopyStream stream;
+  PinnedArray<char> chunk;
 };
 
 /// The lanes of the process, which live until Kokkos is finalized: pinning memory takes longer than most copies.
-class Lanes {
+class CopyLanes {
  public:
-  static Lanes& instance() {
-    static Lanes lanes;
+  static CopyLanes& instance() {
+    static CopyLanes lanes;
     return lanes;
   }
 
@@ -96,23 +104,36 @@ class Lanes {
     use_device();
     if (lanes_.empty()) Kokkos::push_finalize_hook([this] { lanes_.clear(); });
     const PinnedArray<char> chunks(static_cast<std::size_t>(missing) * chunk_bytes);
-    for (int i = 0; i < missing; ++i) lanes_.emplace_back(chunks.slice(i * chunk_bytes, chunk_bytes));
+    for (int i = 0; i < missing; ++i)
+      lanes_.push_back({detail::CopyStream(), chunks.slice(i * chunk_bytes, chunk_bytes)});
   }
 
   std::mutex mutex_;
-  std::vector<Lane> lanes_;
+  std::vector<CopyLane> lanes_;
 };
 
 }  // namespace
 
-void prepare_copies(int threads) { Lanes::instance().prepare(threads); }
+std::shared_ptr<void> detail::allocate_pinned_bytes(std::size_t bytes) {
+  if constexpr (have_device) {
+    return allocate_locked_pages(bytes);
+  } else {
+    try {
+      return {::operator new(bytes), [](void* at) { ::operator delete(at); }};
+    } catch (const std::bad_alloc&) {
+      throw OutOfMemory("the host has no " + std::to_string(bytes) + " bytes for a batch");
+    }
+  }
+}
+
+void prepare_copies(int threads) { CopyLanes::instance().prepare(threads); }
 
 void write_to_device(void* device, std::size_t bytes,
                      const std::function<void(char* to, std::size_t begin, std::size_t size)>& write) {
-  WorkerSpace().fence("GALE::copy");
-  Lanes::instance().for_pieces(bytes, [&](const Lane& lane, std::size_t begin, std::size_t size) {
-    write(lane.chunk(), begin, size);
-    lane.copy(static_cast<char*>(device) + begin, lane.chunk(), size);
+  wait_for(WorkerSpace(), "GALE::copy");
+  CopyLanes::instance().for_pieces(bytes, [&](const CopyLane& lane, std::size_t begin, std::size_t size) {
+    write(lane.chunk.data(), begin, size);
+    lane.stream.copy(static_cast<char*>(device) + begin, lane.chunk.data(), size);
   });
 }
 
@@ -123,26 +144,11 @@ void copy_to_device(void* device, const void* host, std::size_t bytes) {
 }
 
 void copy_from_device(void* host, const void* device, std::size_t bytes) {
-  WorkerSpace().fence("GALE::copy");
-  Lanes::instance().for_pieces(bytes, [&](const Lane& lane, std::size_t begin, std::size_t size) {
-    lane.copy(lane.chunk(), static_cast<const char*>(device) + begin, size);
-    std::memcpy(static_cast<char*>(host) + begin, lane.chunk(), size);
+  wait_for(WorkerSpace(), "GALE::copy");
+  CopyLanes::instance().for_pieces(bytes, [&](const CopyLane& lane, std::size_t begin, std::size_t size) {
+    lane.stream.copy(lane.chunk.data(), static_cast<const char*>(device) + begin, size);
+    std::memcpy(static_cast<char*>(host) + begin, lane.chunk.data(), size);
   });
 }
 
 }  // namespace gale
-
-#else
-
-namespace gale {
-
-void prepare_copies(int) {}
-void write_to_device(void*, std::size_t, const std::function<void(char*, std::size_t, std::size_t)>&) {
-  throw Error("this Kokkos has no device to write to");
-}
-void copy_to_device(void*, const void*, std::size_t) { throw Error("this Kokkos has no device to copy to"); }
-void copy_from_device(void*, const void*, std::size_t) { throw Error("this Kokkos has no device to copy from"); }
-
-}  // namespace gale
-
-#endif

@@ -2,6 +2,7 @@
 #include <future>
 #include <string>
 
+#include <gale/base/device.hpp>
 #include <gale/base/require_ids.hpp>
 #include <gale/distributed/curve_partition.hpp>
 #include <gale/distributed/distributed_mesh.hpp>
@@ -45,9 +46,7 @@ void validate(const MeshPart<Index>& part) {
 std::future<Segmentation> octree_meanwhile(const HostPoints& points, int capacity) {
   const int few = std::max(host_threads() / 4, 1);
   return std::async(std::launch::async | std::launch::deferred, [points, capacity, few] {
-#if defined(KOKKOS_ENABLE_CUDA)
     use_device();
-#endif
     const ThreadLimit limit(few);
     return detail::octree_of(points, capacity);
   });

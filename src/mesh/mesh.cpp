@@ -203,7 +203,7 @@ std::shared_ptr<const void> Mesh::kept(const std::string& key,
   template GALE_EXPORT Mesh::Mesh(const Tetrahedra<Index, Memory>&, const Segmentation&)
 GALE_INSTANTIATE(std::int32_t, HostMemory);
 GALE_INSTANTIATE(std::int64_t, HostMemory);
-#if defined(KOKKOS_ENABLE_CUDA)
+#if defined(GALE_HAS_DEVICE)
 GALE_INSTANTIATE(std::int32_t, WorkerMemory);
 GALE_INSTANTIATE(std::int64_t, WorkerMemory);
 #endif

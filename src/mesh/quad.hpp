@@ -35,7 +35,7 @@ KOKKOS_FORCEINLINE_FUNCTION bool operator<(const Quad& one, const Quad& other) {
 /// The t-th of four ids each, in one load. `vertices` is aligned to 16 bytes, as the memory of Views is, and nothing
 /// writes it while a kernel runs.
 KOKKOS_FORCEINLINE_FUNCTION Quad quad_at(const Id* vertices, Id t) {
-#if defined(__CUDA_ARCH__)
+#if defined(GALE_ON_DEVICE)
   const int4 four = __ldg(reinterpret_cast<const int4*>(vertices) + t);
   return {four.x, four.y, four.z, four.w};
 #else

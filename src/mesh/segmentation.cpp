@@ -76,7 +76,7 @@ Segmentation given_segmentation(const Array<const std::int64_t, HostMemory>& lab
   template GALE_EXPORT Segmentation octree_segmentation(const Points<Coordinate, Memory>&, int)
 GALE_INSTANTIATE(float, HostMemory);
 GALE_INSTANTIATE(double, HostMemory);
-#if defined(KOKKOS_ENABLE_CUDA)
+#if defined(GALE_HAS_DEVICE)
 GALE_INSTANTIATE(float, WorkerMemory);
 GALE_INSTANTIATE(double, WorkerMemory);
 #endif

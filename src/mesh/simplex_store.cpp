@@ -1,5 +1,5 @@
+#include <gale/base/kokkos.hpp>
 #include <gale/base/parallel.hpp>
-#include <gale/base/view_tracking.hpp>
 #include <gale/base/worker_or_host.hpp>
 #include <gale/mesh/enumerate.hpp>
 #include <gale/mesh/simplex_store.hpp>

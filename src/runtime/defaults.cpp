@@ -42,7 +42,6 @@ double words_per_vertex(RelationSet relations) {
 }
 
 Sizes sizes_for(const Mesh& mesh, const StructureOptions& options, int queues) {
-  constexpr int warp = 32;
   const int threads_per_segment = given_or(options.threads_per_segment, 128, "threads per segment");
   const int threads_per_block = given_or(options.threads_per_block, 256, "threads per block");
   const int blocks = given_or(options.blocks_per_request, 16, "blocks per request");
@@ -55,7 +54,7 @@ Sizes sizes_for(const Mesh& mesh, const StructureOptions& options, int queues) {
   sizes.host_bytes = host;
   const Offset per_request = Offset(blocks) * threads_per_block / threads_per_segment;
   sizes.segments_per_request = static_cast<Id>(std::clamp<Offset>(per_request, 1, std::max(mesh.segments(), Id(1))));
-  sizes.threads_per_segment = (threads_per_segment + warp - 1) / warp * warp;
+  sizes.threads_per_segment = (threads_per_segment + lanes_per_warp - 1) / lanes_per_warp * lanes_per_warp;
   return sizes;
 }
 

@@ -84,7 +84,7 @@ inline double mean_vertices(const Mesh& mesh) {
 
 /// Warps for a team that reads about so many rows.
 inline int warps_of_team(const DeviceSweepOptions& options, double rows) {
-  constexpr int lanes = 32, most = 8;
+  constexpr int lanes = lanes_per_warp, most = 256 / lanes;
   if (options.threads_per_team > 0) return (options.threads_per_team + lanes - 1) / lanes;
   return std::clamp(static_cast<int>((rows + lanes - 1) / lanes), 1, most);
 }
@@ -138,7 +138,8 @@ void for_each_segment(const Space& space, const Mesh& mesh, RelationSet relation
     const int warps = is_device<Space> ? detail::warps_of_team(options, detail::mean_vertices(mesh)) : 1;
     sweep.run([&](const auto& launched) {
       detail::read_batch(space, launched, [&](const Space& instance) {
-        Kokkos::TeamPolicy<Space> policy(instance, launched.blocks.count(), warps, is_device<Space> ? 32 : 1);
+        Kokkos::TeamPolicy<Space> policy(instance, launched.blocks.count(), warps,
+                                         is_device<Space> ? lanes_per_warp : 1);
         policy.set_scratch_size(0, Kokkos::PerTeam(static_cast<int>(options.team_scratch)));
         Kokkos::parallel_for("GALE::for_each_segment", overlapping(policy),
                              detail::OnEachSegment<Memory, Functor>{launched.blocks, functor});
@@ -152,7 +153,7 @@ void for_each_segment(const Space& space, const Mesh& mesh, RelationSet relation
 template <class Space, class Functor>
 void for_each_row(const Space& space, const Mesh& mesh, Relation relation, const Functor& functor,
                   const DeviceSweepOptions& options = {}) {
-  constexpr int lanes = 32, usual_threads = 256, most_for_a_warp = 512;
+  constexpr int usual_threads = 256, most_for_a_warp = 512;
   if constexpr (is_device<Space>) {
     if (detail::mean_vertices(mesh) <= most_for_a_warp) {
       const int warps = detail::warps_of_team(options, usual_threads);
@@ -160,7 +161,8 @@ void for_each_row(const Space& space, const Mesh& mesh, Relation relation, const
       detail::BatchSweep<WorkerMemory> sweep(mesh, relation, options);
       sweep.run([&](const auto& launched) {
         const Batch<WorkerMemory>& blocks = launched.blocks.of[0];
-        const Kokkos::TeamPolicy<Space> policy(launched.instance, (blocks.count + warps - 1) / warps, warps, lanes);
+        const Kokkos::TeamPolicy<Space> policy(launched.instance, (blocks.count + warps - 1) / warps, warps,
+                                               lanes_per_warp);
         Kokkos::parallel_for("GALE::for_each_row", overlapping(policy),
                              detail::OnEachRow<WorkerMemory, Functor>{blocks, relation, functor});
       });

@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include <gale/base/view_tracking.hpp>
+#include <gale/base/kokkos.hpp>
 #include <gale/runtime/structure.hpp>
 #include <gale/runtime/sweep.hpp>
 

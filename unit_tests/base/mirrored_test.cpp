@@ -74,14 +74,14 @@ TEST(WorkerOrHost, calls_the_host_if_there_is_no_room_on_a_device) {
   std::vector<bool> on_device;
   const auto f = [&](const auto& space) {
     on_device.push_back(is_device<std::decay_t<decltype(space)>>);
-    if (on_device.back()) throw OutOfMemory("CudaSpace has no 8 bytes for a test");
+    if (on_device.back()) throw OutOfMemory("the device has no 8 bytes for a test");
     return 7;
   };
   std::string missing;
   const int result = in_worker_or_host_space(true, f, [&](const OutOfMemory& error) { missing = error.missing(); });
   EXPECT_EQ(result, 7);
   EXPECT_EQ(on_device, have_device ? (std::vector<bool>{true, false}) : std::vector<bool>{false});
-  EXPECT_EQ(missing, have_device ? "CudaSpace has no 8 bytes for a test" : "");
+  EXPECT_EQ(missing, have_device ? "the device has no 8 bytes for a test" : "");
   on_device.clear();
   EXPECT_EQ(in_worker_or_host_space(false, f), 7);
   EXPECT_EQ(on_device, std::vector<bool>{false});

@@ -8,7 +8,6 @@
 #include <gtest/gtest.h>
 
 #include <gale/base/atomic.hpp>
-#include <gale/base/cpu_quota.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/base/threads.hpp>
 #include <gale/base/types.hpp>

@@ -30,6 +30,21 @@ TEST(Transfer, there_and_back_keeps_every_entry) {
   }
 }
 
+TEST(Transfer, goes_in_pieces_through_pinned_memory) {
+  constexpr std::size_t mebi = 1 << 20;  // pieces have 2 MiB
+  prepare_copies(3);
+  for (const std::size_t count : {std::size_t(0), std::size_t(1), mebi / 2, 5 * mebi + 3}) {
+    const auto from = numbers(count), back = numbers(count);
+    const auto there = allocate<Array<Id, WorkerMemory>>("there", count);
+    Kokkos::deep_copy(back, 0);
+    copy_to_device(there.data(), from.data(), count * sizeof(Id));
+    copy_from_device(back.data(), there.data(), count * sizeof(Id));
+    std::size_t different = 0;
+    for (std::size_t i = 0; i < count; ++i) different += back(i) != from(i);
+    EXPECT_EQ(different, 0u) << "of " << count;
+  }
+}
+
 TEST(Transfer, of_rows_of_four) {
   const Kokkos::View<Id* [4], Kokkos::LayoutRight, HostMemory> rows("rows", 3);
   for (int i = 0; i < 12; ++i) rows(i / 4, i % 4) = i;

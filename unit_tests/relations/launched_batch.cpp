@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <gale/base/device.hpp>
+
 #include "support/arrays.hpp"
 
 namespace gale::test {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <gale/base/device.hpp>
 #include <gale/base/error.hpp>
 #include <gale/relations/batch.hpp>
 #include <gale/relations/kernels/launch.hpp>

@@ -14,16 +14,13 @@ bool is_on_device(const Array1& array, const char* name) {
   if (type == nb::device::cpu::value || type == nb::device::cuda_host::value) return false;
   const bool is_cuda = type == nb::device::cuda::value || type == nb::device::cuda_managed::value;
   const std::string where = is_cuda ? "a CUDA device" : "a device of DLPack's type " + std::to_string(type);
-#if defined(KOKKOS_ENABLE_CUDA)
-  if (is_cuda) {
-    Kokkos::fence("GALE::array_of_a_caller");
+  if (is_cuda && device_is_cuda) {
+    Kokkos::fence();
     return true;
   }
-  throw Error(std::string(name) + " is in the memory of " + where + ", which this gale can't read");
-#else
   throw Error(std::string(name) + " is in the memory of " + where +
-              ", and this gale was built without CUDA: copy it to the host first");
-#endif
+              (device_is_cuda ? ", which this gale can't read"
+                              : ", and this gale was built without CUDA: copy it to the host first"));
 }
 
 nb::ndarray<> device_array(std::uintptr_t data, const std::vector<std::size_t>& shape, char type, int bytes,

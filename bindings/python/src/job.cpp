@@ -7,9 +7,9 @@
 #include <thread>
 #include <vector>
 
+#include <gale/base/device.hpp>
 #include <gale/base/error.hpp>
 #include <gale/base/kokkos.hpp>
-#include <gale/base/start_thread.hpp>
 #include <gale/base/threads.hpp>
 
 #include "process.hpp"
@@ -42,9 +42,7 @@ class Worker {
 
  private:
   void work() {
-#if defined(KOKKOS_ENABLE_CUDA)
     use_device();
-#endif
     while (true) {
       std::unique_lock<std::mutex> lock(mutex_);
       changed_.wait(lock, [this] { return has_next_; });

@@ -30,11 +30,7 @@ NB_MODULE(_gale, module) {
   module.attr("version") = gale::version;
   module.attr("has_vtk") = gale::io::detail::has_vtk();
   module.attr("default_capacity") = gale::default_capacity;
-#if defined(KOKKOS_ENABLE_CUDA)
-  module.attr("has_cuda") = true;
-#else
-  module.attr("has_cuda") = false;
-#endif
+  module.attr("has_cuda") = gale::device_is_cuda;
   module.def("finalize", &gale::python::finalize);
   module.def("after_fork", &gale::python::after_fork);
   module.def("device_array", &gale::python::device_array, "data"_a, "shape"_a, "type"_a, "bytes"_a, "owner"_a);

@@ -45,7 +45,7 @@ class VertexTypes {
     return keys[vertex] > keys[neighbour] ? upper_on_surface : lower_on_surface;
   }
   KOKKOS_FUNCTION void tell(Id neighbour, std::uint8_t what) const {
-#if defined(__CUDA_ARCH__)
+#if defined(GALE_ON_DEVICE)
     // A word at a time, as atomics are: of four neighbours.
     auto* const words = reinterpret_cast<unsigned*>(told_ - reinterpret_cast<std::uintptr_t>(told_) % 4);
     const auto at = static_cast<std::size_t>(told_ + neighbour - reinterpret_cast<std::uint8_t*>(words));

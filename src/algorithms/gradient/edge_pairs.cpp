@@ -1,8 +1,8 @@
 #include <algorithm>
 
 #include <gale/algorithms/gradient/edge_pairs.hpp>
+#include <gale/base/kokkos.hpp>
 #include <gale/base/parallel.hpp>
-#include <gale/base/view_tracking.hpp>
 
 namespace gale::detail {
 

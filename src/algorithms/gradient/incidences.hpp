@@ -1,7 +1,7 @@
 #pragma once
 
 #include <gale/algorithms/gradient/cell_set.hpp>
-#include <gale/base/bytes.hpp>
+#include <gale/base/bits.hpp>
 
 // Which cells of a lower star are facets and cofacets of which. Edges are added first, each by its cell and its number
 // among the edges; then triangles, then tetrahedra. A triangle gets two cofacets at most.

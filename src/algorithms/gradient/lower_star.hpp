@@ -5,7 +5,7 @@
 
 #include <gale/algorithms/gradient/incidences.hpp>
 #include <gale/algorithms/gradient/lower_neighbours.hpp>
-#include <gale/base/bytes.hpp>
+#include <gale/base/bits.hpp>
 
 namespace gale::detail {
 

@@ -15,9 +15,7 @@ namespace gale::detail {
 ///
 /// Calls pair(facet, cell) for each pair and critical(cell) for each cell that is left. For the
 /// host alone where `queues` are.
-#if defined(__CUDACC__)
-#pragma nv_exec_check_disable
-#endif
+GALE_CALLS_ANY
 template <class Queues, class Pair, class Critical>
 KOKKOS_FORCEINLINE_FUNCTION void pair_cells(Queues&& queues, const Pair& pair, const Critical& critical) {
   queues.add_edges();

@@ -20,9 +20,7 @@ KOKKOS_INLINE_FUNCTION Id surface_successor(const VertexStar& star, Id place, Id
 
 /// Pairs the lower star of a vertex and puts what it finds into `sink`. `lower` are its lower neighbours, `cells` the
 /// star, `queues` are for pair_cells. For the host alone where these are.
-#if defined(__CUDACC__)
-#pragma nv_exec_check_disable
-#endif
+GALE_CALLS_ANY
 template <class Sink, class Lower, class Cells, class Queues>
 KOKKOS_FORCEINLINE_FUNCTION void pair_star(const Sink& sink, const VertexStar& star, const Lower& lower,
                                            const Cells& cells, Queues&& queues) {

@@ -86,7 +86,7 @@ Mirrored<std::uint64_t> order_keys(const Mesh& mesh, const FieldValues<Value, Me
 
 #define GALE_INSTANTIATE_FOR(Value, Memory) \
   template GALE_EXPORT Mirrored<std::uint64_t> order_keys(const Mesh&, const FieldValues<Value, Memory>&)
-#if defined(KOKKOS_ENABLE_CUDA)
+#if defined(GALE_HAS_DEVICE)
 #define GALE_INSTANTIATE(Value)            \
   GALE_INSTANTIATE_FOR(Value, HostMemory); \
   GALE_INSTANTIATE_FOR(Value, WorkerMemory)

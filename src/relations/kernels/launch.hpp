@@ -14,12 +14,12 @@ struct TeamShape {
   int warps;
   int lanes;
 
-  TeamShape(int full_warps, int warp_lanes = 32) : warps(full_warps), lanes(warp_lanes) {}
+  TeamShape(int full_warps, int warp_lanes = lanes_per_warp) : warps(full_warps), lanes(warp_lanes) {}
 
-  /// A team of exactly so many threads, at least 1: with full warps if they are a multiple of 32, else with the largest
-  /// ones that they are a multiple of.
+  /// A team of exactly so many threads, at least 1: with full warps if they are a multiple of theirs, else with the
+  /// largest ones that they are a multiple of.
   static TeamShape of(int threads) {
-    int lanes = 32;
+    int lanes = lanes_per_warp;
     while (threads % lanes != 0) lanes /= 2;
     return {threads / lanes, lanes};
   }

@@ -149,9 +149,8 @@ void SegmentKernel<Memory>::run(const KernelTask& task, char* scratch) {
   if constexpr (!is_device_memory<Memory>) any_->visit([&](const auto& kernel) { kernel(HostTeam(0, scratch)); });
 }
 
-template class SegmentKernel<WorkerMemory>;
-#if defined(KOKKOS_ENABLE_CUDA)
-template class SegmentKernel<HostMemory>;
-#endif
+#define GALE_INSTANTIATE(Space) template class SegmentKernel<MemoryOf<Space>>
+GALE_IN_EACH_SPACE(GALE_INSTANTIATE);
+#undef GALE_INSTANTIATE
 
 }  // namespace gale

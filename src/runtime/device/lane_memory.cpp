@@ -1,3 +1,4 @@
+#include <gale/base/device.hpp>
 #include <gale/base/memory.hpp>
 #include <gale/runtime/device/lane_memory.hpp>
 

@@ -3,7 +3,7 @@
 #include <mutex>
 #include <vector>
 
-#include <gale/base/pinned.hpp>
+#include <gale/base/transfer.hpp>
 #include <gale/relations/kernels/segment_kernel.hpp>
 #include <gale/runtime/device/segment_batches.hpp>
 

@@ -1,4 +1,4 @@
-#include <gale/base/start_thread.hpp>
+#include <gale/base/threads.hpp>
 #include <gale/runtime/helpers/helper.hpp>
 
 #ifdef __linux__

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include <gale/base/pinned.hpp>
+#include <gale/base/transfer.hpp>
 #include <gale/relations/batch.hpp>
 
 namespace gale::detail {

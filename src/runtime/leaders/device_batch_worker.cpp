@@ -6,7 +6,8 @@
 #include <algorithm>
 #include <atomic>
 
-#include <gale/base/pinned.hpp>
+#include <gale/base/device.hpp>
+#include <gale/base/transfer.hpp>
 #include <gale/relations/kernels/segment_kernel.hpp>
 #include <gale/runtime/device/launch_batch.hpp>
 

@@ -2,7 +2,7 @@
 #include <new>
 
 #include <gale/base/error.hpp>
-#include <gale/base/start_thread.hpp>
+#include <gale/base/threads.hpp>
 #include <gale/runtime/defaults.hpp>
 #include <gale/runtime/leaders/leader.hpp>
 

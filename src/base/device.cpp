@@ -1,0 +1,129 @@
+#include <cstring>
+#include <utility>
+#include <vector>
+
+#include <gale/base/device.hpp>
+#include <gale/base/error.hpp>
+
+#if defined(KOKKOS_ENABLE_CUDA)
+
+#include <cuda_runtime_api.h>
+
+#include <cub/device/device_radix_sort.cuh>
+#include <cub/device/device_segmented_sort.cuh>
+
+namespace gale {
+
+namespace {
+
+void require_success(cudaError_t status, const std::string& what) {
+  if (status != cudaSuccess) throw Error(what + " failed: " + cudaGetErrorString(status));
+}
+
+/// `algorithm(workspace, bytes, stream)` calls one of CUB's, as they all want to be called: once for the size of the
+/// workspace, once for the work.
+template <class Algorithm>
+void run_cub(const WorkerSpace& space, const char* label, const Algorithm& algorithm) {
+  const std::string what = std::string(label) + " on the device";
+  std::size_t bytes = 0;
+  require_success(algorithm(nullptr, bytes, space.cuda_stream()), what);
+  const auto workspace = allocate<Array<char, WorkerMemory>>(label, bytes);
+  require_success(algorithm(workspace.data(), bytes, space.cuda_stream()), what);
+}
+
+}  // namespace
+
+void use_device() { cudaSetDevice(WorkerSpace().cuda_device()); }
+
+std::optional<std::string> device_name() { return std::string(WorkerSpace().cuda_device_prop().name); }
+
+WorkerSpace make_instance() {
+  try {
+    return Kokkos::Experimental::partition_space(WorkerSpace(), std::vector<int>{1})[0];
+  } catch (const std::exception& error) {
+    cudaGetLastError();  // what this leaves behind is not the next call's
+    if (std::string(error.what()).find("cudaErrorMemoryAllocation") == std::string::npos) throw;
+    throw OutOfMemory("Cuda has no memory for another instance");
+  }
+}
+
+bool detail::lock_pages(void* memory, std::size_t bytes) {
+  use_device();
+  if (cudaHostRegister(memory, bytes, cudaHostRegisterDefault) == cudaSuccess) return true;
+  cudaGetLastError();
+  return false;
+}
+
+void detail::unlock_pages(void* memory) { cudaHostUnregister(memory); }
+
+detail::CopyStream::CopyStream() {
+  cudaStream_t stream = nullptr;
+  require_success(cudaStreamCreateWithFlags(&stream, cudaStreamNonBlocking), "a copy to or from the device");
+  stream_ = stream;
+}
+
+detail::CopyStream::~CopyStream() {
+  if (stream_ != nullptr) cudaStreamDestroy(static_cast<cudaStream_t>(stream_));
+}
+
+void detail::CopyStream::copy(void* to, const void* from, std::size_t bytes) const {
+  use_device();
+  const auto stream = static_cast<cudaStream_t>(stream_);
+  require_success(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDefault, stream), "a copy to or from the device");
+  require_success(cudaStreamSynchronize(stream), "a copy to or from the device");
+}
+
+void detail::sort_by_key_on_device(const WorkerSpace& space, const Array<std::uint64_t, WorkerMemory>& keys,
+                                   const Array<Id, WorkerMemory>& values) {
+  const auto n = static_cast<std::int64_t>(keys.extent(0));
+  const auto other_keys = allocate<Array<std::uint64_t, WorkerMemory>>("GALE::sort_keys", n);
+  const auto other_values = allocate<Array<Id, WorkerMemory>>("GALE::sort_values", n);
+  cub::DoubleBuffer<std::uint64_t> key_buffer(keys.data(), other_keys.data());
+  cub::DoubleBuffer<Id> value_buffer(values.data(), other_values.data());
+  run_cub(space, "GALE::sort_by_key", [&](void* workspace, std::size_t& bytes, cudaStream_t stream) {
+    return cub::DeviceRadixSort::SortPairs(workspace, bytes, key_buffer, value_buffer, n, 0, 64, stream);
+  });
+  if (key_buffer.Current() != keys.data()) Kokkos::deep_copy(space, keys, other_keys);
+  if (value_buffer.Current() != values.data()) Kokkos::deep_copy(space, values, other_values);
+}
+
+template <class Index>
+void detail::sort_rows_on_device(const WorkerSpace& space, const char* label, const Array<Index, WorkerMemory>& begin,
+                                 const Array<Id, WorkerMemory>& values) {
+  const auto rows = static_cast<Offset>(begin.extent(0)) - 1;
+  const auto other = allocate<Array<Id, WorkerMemory>>("GALE::sort_rows", values.extent(0));
+  cub::DoubleBuffer<Id> buffer(values.data(), other.data());
+  run_cub(space, label, [&](void* workspace, std::size_t& bytes, cudaStream_t stream) {
+    return cub::DeviceSegmentedSort::SortKeys(workspace, bytes, buffer, static_cast<Offset>(values.extent(0)), rows,
+                                              begin.data(), begin.data() + 1, stream);
+  });
+  if (buffer.Current() != values.data()) Kokkos::deep_copy(space, values, other);
+}
+
+template void detail::sort_rows_on_device(const WorkerSpace&, const char*, const Array<Id, WorkerMemory>&,
+                                          const Array<Id, WorkerMemory>&);
+template void detail::sort_rows_on_device(const WorkerSpace&, const char*, const Array<Offset, WorkerMemory>&,
+                                          const Array<Id, WorkerMemory>&);
+
+}  // namespace gale
+
+#else
+
+namespace gale {
+
+void use_device() {}
+std::optional<std::string> device_name() { return std::nullopt; }
+WorkerSpace make_instance() { return {}; }
+
+bool detail::lock_pages(void*, std::size_t) { return true; }
+void detail::unlock_pages(void*) {}
+
+detail::CopyStream::CopyStream() = default;
+detail::CopyStream::~CopyStream() = default;
+void detail::CopyStream::copy(void* to, const void* from, std::size_t bytes) const { std::memcpy(to, from, bytes); }
+
+}  // namespace gale
+
+#endif
+
+gale::detail::CopyStream::CopyStream(CopyStream&& other) noexcept : stream_(std::exchange(other.stream_, nullptr)) {}
