@@ -5,7 +5,6 @@
 
 #include <gale/algorithms/simplify.hpp>
 #include <gale/mesh/make_mesh.hpp>
-#include <gale/runtime/make_structure.hpp>
 
 int main(int argc, char** argv) {
   const Kokkos::ScopeGuard kokkos(argc, argv);
@@ -21,9 +20,8 @@ int main(int argc, char** argv) {
 
   const gale::Mesh mesh = gale::make_mesh(points, tetrahedra);
   const gale::VertexOrder order(mesh, values.data(), values.size());
-  const auto runtime = gale::make_structure(mesh, gale::morse_smale_relations);
-  const gale::DiscreteGradient gradient = gale::find_discrete_gradient(*runtime, order);
-  const gale::MorseSmaleComplex complex = gale::find_morse_smale_complex(*runtime, gradient);
+  const gale::DiscreteGradient gradient = gale::find_discrete_gradient(order);
+  const gale::MorseSmaleComplex complex = gale::find_morse_smale_complex(gradient);
 
   for (gale::Id i = 0; i < complex.descending.count(); ++i) {
     std::printf("from a 1-saddle down to a minimum:");

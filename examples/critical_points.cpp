@@ -6,7 +6,6 @@
 
 #include <gale/algorithms/critical_points.hpp>
 #include <gale/io/synthetic.hpp>
-#include <gale/runtime/make_structure.hpp>
 
 int main(int argc, char** argv) {
   const Kokkos::ScopeGuard kokkos(argc, argv);
@@ -22,8 +21,7 @@ int main(int argc, char** argv) {
       data.points);
   const gale::Mesh mesh(gale::Tetrahedra<gale::Id, gale::HostMemory>(data.tetrahedra), segmentation);
 
-  const auto runtime = gale::make_structure(mesh, gale::critical_points_relations);
-  const auto critical = gale::find_critical_points(*runtime, gale::VertexOrder(mesh, field.data(), field.size()));
+  const auto critical = gale::find_critical_points(gale::VertexOrder(mesh, field.data(), field.size()));
 
   const auto [minima, saddles1, saddles2, maxima, degenerate] = critical.counts;
   std::printf("%d minima, %d 1-saddles, %d 2-saddles, %d maxima, %d degenerate\n", minima, saddles1, saddles2, maxima,

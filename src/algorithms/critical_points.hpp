@@ -6,8 +6,7 @@
 
 #include <gale/algorithms/vertex_order.hpp>
 #include <gale/export.hpp>
-#include <gale/runtime/device_sweep_options.hpp>
-#include <gale/runtime/structure.hpp>
+#include <gale/runtime/computation.hpp>
 
 namespace gale {
 
@@ -39,13 +38,19 @@ struct CriticalPoints {
 /// except that a vertex on the surface with L, U = 1, 1 is a 1-saddle if some upper neighbour is on the surface and no
 /// lower one, and a 2-saddle if some lower one is and no upper one, as TTK has it.
 ///
-/// A sweep of VV and link, for which `structure` must be preconditioned; the same result whatever the structure, its
-/// segments, and the number of threads. 2 bytes a vertex beside the result. Throws gale::Error if it isn't
-/// preconditioned for them, and if `order` is of another mesh than the structure's.
+/// By kernels where the mesh is on a device and they find room there, else by threads of the host: `options` may say
+/// otherwise, and `computed` is told. The result is the same. Throws gale::Error if the mesh is one rank's part, and as
+/// require_consumers, make_structure and sweeps do.
+GALE_EXPORT CriticalPoints find_critical_points(const VertexOrder& order, const ComputeOptions& options = {},
+                                                Computed* computed = nullptr);
+
+/// Finds them by threads of the host, in a sweep of VV and link, for which `structure` must be preconditioned; the same
+/// result whatever the structure, its segments, and the number of threads. 2 bytes a vertex beside the result. Throws
+/// gale::Error if it isn't preconditioned for them, and if `order` is of another mesh than the structure's.
 GALE_EXPORT CriticalPoints find_critical_points(Structure& structure, const VertexOrder& order,
                                                 const SweepOptions& options = {});
 
-/// Finds the same critical points by kernels where the relations are made: reads a mesh and an order that lie there and
+/// Finds them by kernels where the relations are made: reads a mesh and an order that lie there and
 /// brings nothing but the result to the host. Vertices of more than 64 neighbours are classified on the host: for them
 /// alone, if there are any, the mesh and the keys come to it. 10 bytes a vertex beside the blocks. What is said of
 /// sweeps (device_sweep.hpp) holds.

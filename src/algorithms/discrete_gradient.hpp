@@ -8,8 +8,7 @@
 #include <gale/algorithms/critical_simplices.hpp>
 #include <gale/algorithms/vertex_order.hpp>
 #include <gale/export.hpp>
-#include <gale/runtime/device_sweep_options.hpp>
-#include <gale/runtime/structure.hpp>
+#include <gale/runtime/computation.hpp>
 
 namespace gale {
 
@@ -122,13 +121,19 @@ class GALE_EXPORT DiscreteGradient {
 /// itself, so simplices are paired only with simplices that have the same highest vertex. Keys are unique: the result
 /// depends on nothing but mesh and order.
 ///
-/// A sweep of VV, VT and link; throws gale::Error if `structure` isn't preconditioned for them, and if `order` is of
-/// another mesh than the structure's. No edge or triangle is enumerated: beside the blocks of the sweep there is only
-/// the gradient in memory.
+/// By kernels where the mesh is on a device and they find room there, else by threads of the host: `options` may say
+/// otherwise, and `computed` is told. The result is the same. Throws gale::Error as require_consumers, make_structure
+/// and sweeps do.
+GALE_EXPORT DiscreteGradient find_discrete_gradient(const VertexOrder& order, const ComputeOptions& options = {},
+                                                    Computed* computed = nullptr);
+
+/// Finds it by threads of the host, in a sweep of VV, VT and link. Throws gale::Error if `structure` isn't
+/// preconditioned for them, and if `order` is of another mesh than the structure's. No edge or triangle is enumerated:
+/// beside the blocks of the sweep there is only the gradient in memory.
 GALE_EXPORT DiscreteGradient find_discrete_gradient(Structure& structure, const VertexOrder& order,
                                                     const SweepOptions& options = {});
 
-/// Finds the same gradient by kernels where the relations are made, where it stays; only the critical simplices come to
+/// Finds it by kernels where the relations are made, where it stays; only the critical simplices come to
 /// the host. Stars of more than 64 lower edges, 128 cells, or with a triangle of three tetrahedra are paired on the
 /// host: if there are any, all comes there. What is said of sweeps (device_sweep.hpp) holds. 4 bytes a vertex beside
 /// the gradient and the blocks.

@@ -85,12 +85,19 @@ struct MorseSmaleComplex {
 
 /// Traces the complex of a gradient: connectors and walls on options.threads threads, other separatrices on the host's,
 /// manifolds in the workers' space. Of a gradient that kernels found, separatrices and, unless separatrices2 are
-/// wanted, connectors are found where it is, if there is room. options.progress isn't called. The same result whatever
-/// the structure, its segments, and the number of threads.
+/// wanted, connectors are found where it is, if there is room. options.progress isn't called. The result is the same
+/// whatever found the gradient, and for any number of threads.
 ///
-/// `structure` is one of the gradient's mesh: throws gale::Error if it isn't. Only separatrices2 reads it, for VT:
-/// throws gale::Error if it isn't preconditioned for that. Time and memory grow with what is found, and for manifolds
-/// with the mesh. Walls share cells: all together may have many times as many as the mesh.
+/// Only separatrices2 needs a structure, which `computed` has, or is given. Time and memory grow with what is found,
+/// and for manifolds with the mesh. Walls share cells: all together may have many times as many as the mesh. Throws
+/// gale::Error if the mesh is one rank's part, and as require_consumers and make_structure do.
+GALE_EXPORT MorseSmaleComplex find_morse_smale_complex(const DiscreteGradient& gradient,
+                                                       const MorseSmaleParts& parts = {},
+                                                       const ComputeOptions& options = {},
+                                                       Computed* computed = nullptr);
+
+/// Traces the complex with a structure of the caller's, which only separatrices2 reads, for VT. Throws gale::Error if
+/// it isn't preconditioned for that, and if it isn't one of the gradient's mesh.
 GALE_EXPORT MorseSmaleComplex find_morse_smale_complex(Structure& structure, const DiscreteGradient& gradient,
                                                        const MorseSmaleParts& parts = {},
                                                        const SweepOptions& options = {});

@@ -6,7 +6,7 @@
 
 #include <gale/base/memory.hpp>
 #include <gale/export.hpp>
-#include <gale/runtime/structure.hpp>
+#include <gale/runtime/computation.hpp>
 
 namespace gale {
 
@@ -29,10 +29,15 @@ struct SimplexNumbers {
 /// The place of each named edge (triangle) among all of the mesh, each written with its input vertices ascending, in
 /// lexicographic order: what `input_numbers` has for all of them, without enumerating any.
 ///
-/// A sweep of VV and link, for which `structure` must be preconditioned; the same result whatever the structure, its
-/// segments, and the number of threads. The work of a sweep of critical points, and 0.1 us a named simplex, in
-/// parallel; 9 bytes a vertex and 12 a named simplex, the result among them. Throws gale::Error, with the input
-/// vertices, if the mesh has no such simplex, and if it has more than 2^31 - 1 edges or triangles.
+/// By threads of the host, with a structure that `computed` has, or is given. The work of a sweep of critical points,
+/// and 0.1 us a named simplex, in parallel; 9 bytes a vertex and 12 a named simplex, the result among them. Throws
+/// gale::Error, with the input vertices, if the mesh has no such simplex, and if it has more than 2^31 - 1 edges or
+/// triangles; if it is one rank's part; and as require_consumers, make_structure and sweeps do.
+GALE_EXPORT SimplexNumbers number_simplices(const Mesh& mesh, const NamedSimplices& named,
+                                            const ComputeOptions& options = {}, Computed* computed = nullptr);
+
+/// Finds them in a sweep of VV and link with a structure of the caller's, which must be preconditioned for these; the
+/// same result whatever the structure, its segments, and the number of threads.
 GALE_EXPORT SimplexNumbers number_simplices(Structure& structure, const NamedSimplices& named,
                                             const SweepOptions& options = {});
 

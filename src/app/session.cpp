@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <optional>
 #include <utility>
 
 #include <gale/app/machine.hpp>
@@ -11,8 +10,6 @@
 #include <gale/outputs/field.hpp>
 
 namespace gale::app {
-
-namespace {}  // namespace
 
 Session::Session(const InputOptions& input, const CommonOptions& common, std::vector<std::string> files)
     : input_(input), common_(common), console_(common.quiet), files_(common.encoding) {
@@ -26,9 +23,9 @@ Session::Session(const InputOptions& input, const CommonOptions& common, std::ve
 }
 
 void Session::warm_up(const StructureOption& option, std::function<void(const VertexOrder&)> run) {
-  warm_up_.begin([&option, run = std::move(run)](const VertexOrder& order) {
-    if (option.on_device(order.mesh())) run(order);
-  });
+  const ComputeOptions& options = option.options;
+  if (options.consumers != ConsumerPlace::host && !options.make_structure && options.structure.way == Way::gale)
+    warm_up_.begin(std::move(run));
 }
 
 io::Dataset Session::read_any() {
@@ -97,36 +94,10 @@ std::unique_ptr<Structure> Session::make_structure(const StructureOption& option
   return option.make(mesh, relations);
 }
 
-bool Session::on_device(const StructureOption& option, const Mesh& mesh, const std::function<void()>& run) {
-  report_.structure = option.name;
-  report_.consumers = "host";
-  if (!option.on_device(mesh)) return false;
-  const Stopwatch watch(report_.seconds.run);
-  begin_step("computing on the device");
-  try {
-    run();
-  } catch (const OutOfMemory& error) {
-    if (!option.consumers.empty()) throw;
-    note({"the sweep doesn't fit the device's memory (" + error.missing() + "): consumers are on the host"});
-    return false;
-  }
-  report_.consumers = "device";
-  return true;
-}
-
-Session::Gradient Session::find_gradient(const StructureOption& option, const VertexOrder& order, RelationSet then) {
-  std::optional<DiscreteGradient> gradient;
-  const bool done = on_device(option, order.mesh(),
-                              [&] { gradient = find_discrete_gradient(WorkerSpace(), order, option.device_sweep()); });
-  std::unique_ptr<Structure> structure;
-  if (!done) {
-    structure = make_structure(option, order.mesh(), discrete_gradient_relations | then);
-    const Stopwatch watch(report_.seconds.run);
-    gradient = find_discrete_gradient(*structure, order, sweep("gradient"));
-  } else if (!then.empty()) {
-    structure = make_structure(option, order.mesh(), then);
-  }
-  return {*gradient, std::move(structure)};
+ComputeOptions Session::compute(const StructureOption& option, const std::string& title) const {
+  ComputeOptions options = option.options;
+  static_cast<SweepOptions&>(options) = sweep(title);
+  return options;
 }
 
 SweepOptions Session::sweep(const std::string& title) const {
@@ -143,6 +114,15 @@ void Session::note(const std::vector<std::string>& notices) {
     report_.notices.push_back(notice);
     console_.say("note", notice);
   }
+}
+
+void Session::finish(const StructureOption& option, const Computed& computed) {
+  report_.structure = option.name;
+  report_.consumers = computed.on_device ? "device" : "host";
+  report_.seconds.initialize += computed.seconds_preparing;
+  report_.seconds.run += computed.seconds_running;
+  note(computed.notices);
+  finish(computed.structure.get());
 }
 
 void Session::finish(const Structure* structure) {

@@ -40,7 +40,7 @@ class Session {
   Report& report() { return report_; }
 
   /// To be called before anything is read: has the device do once what the command will, while that is being read.
-  /// `run` is what kernels do where consumers are on the device.
+  /// `run` is what the command computes, unless its consumers are to be on the host.
   void warm_up(const StructureOption& option, std::function<void(const VertexOrder&)> run);
 
   /// Reads the input. Throws gale::Error if it hasn't the array that --array names, if it names one.
@@ -57,17 +57,8 @@ class Session {
   /// The structure that --structure names, preconditioned for `relations`.
   std::unique_ptr<Structure> make_structure(const StructureOption& option, const Mesh& mesh, RelationSet relations);
 
-  /// Calls run() if consumers are to be kernels on the device; false if they aren't, or if there was no memory for them
-  /// and nobody asked for them by name.
-  bool on_device(const StructureOption& option, const Mesh& mesh, const std::function<void()>& run);
-
-  /// The gradient, by consumers where `option` says, and the structure for what comes `then`: null if that is nothing,
-  /// and no consumer on the host needed one.
-  struct Gradient {
-    DiscreteGradient gradient;
-    std::unique_ptr<Structure> structure;
-  };
-  Gradient find_gradient(const StructureOption& option, const VertexOrder& order, RelationSet then);
+  /// How to compute: where `option` says, on the threads that --threads says, with a progress bar of this title.
+  ComputeOptions compute(const StructureOption& option, const std::string& title) const;
 
   /// How to sweep: on the threads that --threads says, with a progress bar of this title.
   SweepOptions sweep(const std::string& title) const;
@@ -87,6 +78,9 @@ class Session {
   /// Writes the report, with what is to say of the structure, if there was one; makes all files appear, or none, and
   /// says so.
   void finish(const Structure* structure = nullptr);
+
+  /// Finishes, with how all was computed in the report.
+  void finish(const StructureOption& option, const Computed& computed);
 
  private:
   io::Dataset read_any();

@@ -28,27 +28,30 @@ void leave_out_unwanted(const MorseSmaleParts& wanted, MorseSmaleComplex& comple
   if (!wanted.saddle_connectors) complex.connectors = {};
 }
 
-MorseSmaleComplex find_complex(Structure& structure, const DiscreteGradient& gradient, const io::PointArray& field,
-                               const MorseSmaleRequest& request, const SweepOptions& options) {
-  MorseSmaleComplex complex = find_morse_smale_complex(structure, gradient, request.needed_parts(), options);
+MorseSmaleComplex find_complex(const DiscreteGradient& gradient, const io::PointArray& field,
+                               const MorseSmaleRequest& request, const ComputeOptions& options, Computed* computed) {
+  Computed own;
+  if (computed == nullptr) computed = &own;
+  const MorseSmaleComplex complex = find_morse_smale_complex(gradient, request.needed_parts(), options, computed);
   if (!request.persistence) return complex;
+  const gale::detail::Stopwatch running(computed->seconds_running);
   SimplifyOptions how;
   how.extrema_only = request.extrema_only;
   how.paths = Paths::joined;
   how.threads = options.threads;
   const auto value = [&](Id vertex) { return value_at(field, vertex); };
-  complex = simplify(complex, value, threshold_of(*request.persistence, field), how);
-  return complex;
+  return simplify(complex, value, threshold_of(*request.persistence, field), how);
 }
 
-MorseSmaleOutputs morse_smale(Structure& structure, const DiscreteGradient& gradient, const io::Dataset& dataset,
-                              const io::PointArray& field, const MorseSmaleRequest& request,
-                              const SweepOptions& options) {
-  MorseSmaleComplex complex = find_complex(structure, gradient, field, request, options);
+MorseSmaleOutputs morse_smale(const DiscreteGradient& gradient, const io::Dataset& dataset, const io::PointArray& field,
+                              const MorseSmaleRequest& request, const ComputeOptions& options, Computed* computed) {
+  Computed own;
+  if (computed == nullptr) computed = &own;
+  MorseSmaleComplex complex = find_complex(gradient, field, request, options, computed);
   const auto connectors = ends_of(complex.connectors);  // of all, wanted or not: they bound walls
   leave_out_unwanted(request.parts, complex);
   const NamedSimplices named = named_simplices(complex);
-  const SimplexNumbers numbers = number_simplices(structure, named, options);
+  const SimplexNumbers numbers = number_simplices(gradient.mesh(), named, options, computed);
   const KnownSimplices critical = known_simplices(complex.gradient, complex.critical, numbers);
   MorseSmaleOutputs all;
   all.critical_points = to_point_set(dataset, critical);

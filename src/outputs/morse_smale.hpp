@@ -31,9 +31,9 @@ GALE_EXPORT void leave_out_unwanted(const MorseSmaleParts& wanted, MorseSmaleCom
 
 /// The complex of a gradient with the needed parts, simplified if that is wanted. `field` is that of the gradient.
 /// Throws as find_morse_smale_complex, simplify and threshold_of do.
-GALE_EXPORT MorseSmaleComplex find_complex(Structure& structure, const DiscreteGradient& gradient,
-                                           const io::PointArray& field, const MorseSmaleRequest& request,
-                                           const SweepOptions& options);
+GALE_EXPORT MorseSmaleComplex find_complex(const DiscreteGradient& gradient, const io::PointArray& field,
+                                           const MorseSmaleRequest& request, const ComputeOptions& options = {},
+                                           Computed* computed = nullptr);
 
 /// Everything that a complex is written as. What isn't wanted is empty.
 struct MorseSmaleOutputs {
@@ -44,10 +44,10 @@ struct MorseSmaleOutputs {
   KeptBelow kept_below;                   ///< pairs of saddles that simplification had to leave
 };
 
-/// Finds the complex and makes its outputs. `dataset` has the points and arrays that travel with the critical points;
-/// `structure` is preconditioned for `morse_smale_relations`. Throws as what it calls.
-GALE_EXPORT MorseSmaleOutputs morse_smale(Structure& structure, const DiscreteGradient& gradient,
-                                          const io::Dataset& dataset, const io::PointArray& field,
-                                          const MorseSmaleRequest& request, const SweepOptions& options);
+/// Finds the complex and makes its outputs. `dataset` has the points and arrays that travel with the critical points.
+/// Throws as what it calls.
+GALE_EXPORT MorseSmaleOutputs morse_smale(const DiscreteGradient& gradient, const io::Dataset& dataset,
+                                          const io::PointArray& field, const MorseSmaleRequest& request,
+                                          const ComputeOptions& options = {}, Computed* computed = nullptr);
 
 }  // namespace gale::outputs

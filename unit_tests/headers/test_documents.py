@@ -19,6 +19,7 @@ options = parser.parse_args()
 FRAME = """
 #include <gale/algorithms/critical_points.hpp>
 #include <gale/algorithms/persistence.hpp>
+#include <gale/algorithms/simplex_numbers.hpp>
 #include <gale/algorithms/simplify.hpp>
 #include <gale/mesh/make_mesh.hpp>
 #include <gale/relations/faces.hpp>

@@ -3,7 +3,6 @@
 #include <gale/outputs/morse_smale.hpp>
 #include <gale/outputs/separatrices1.hpp>
 #include <gale/outputs/separatrices2.hpp>
-#include <gale/runtime/make_structure.hpp>
 
 #include "outputs/outputs_of.hpp"
 
@@ -17,8 +16,7 @@ constexpr MorseSmaleParts everything{true, true, true, true, true, true};
 const std::vector<double> up_to_the_centre{10, 5, -5, 1, 2, 3, 4};  ///< of the octahedron
 
 outputs::MorseSmaleOutputs all_of(const OutputsOf& of, const MorseSmaleRequest& request) {
-  const auto structure = make_structure(of.complex.gradient.mesh(), morse_smale_relations);
-  return outputs::morse_smale(*structure, of.complex.gradient, of.dataset, of.field, request, {});
+  return outputs::morse_smale(of.complex.gradient, of.dataset, of.field, request);
 }
 
 }  // namespace

@@ -6,7 +6,6 @@
 #include <gale/outputs/critical_simplices.hpp>
 #include <gale/outputs/morse_smale.hpp>
 #include <gale/outputs/persistence_diagram.hpp>
-#include <gale/runtime/make_structure.hpp>
 
 #include "fields.hpp"
 #include "job.hpp"
@@ -24,22 +23,22 @@ nb::object column(const std::vector<outputs::DiagramPoint>& diagram, const Membe
   return numpy_of(std::move(values));
 }
 
-/// What `use(structure, order, field)` finds on the threads of the options, while Python goes on.
+/// What `use(order, field)` finds on the threads of the options, while Python goes on.
 template <class Use>
-auto analyse(Job& job, const Mesh& mesh, const Array1& values, const std::string& name, RelationSet relations,
-             const SweepOptions& options, const Use& use) {
+auto analyse(Job& job, const Mesh& mesh, const Array1& values, const std::string& name, const ComputeOptions& options,
+             const Use& use) {
   return job.run([&] {
     const ThreadLimit limit(options.threads);
     const io::PointArray field = field_of(values, name);
-    const auto structure = make_structure(mesh, relations);
-    return use(*structure, order_of(mesh, field), field);
+    return use(order_of(mesh, field), field);
   });
 }
 
-io::PointSet critical_set(Structure& structure, const DiscreteGradient& gradient, const io::Dataset& dataset,
-                          const SweepOptions& options) {
+io::PointSet critical_set(const DiscreteGradient& gradient, const io::Dataset& dataset, const ComputeOptions& options,
+                          Computed& computed) {
   const CriticalSimplices& critical = gradient.critical();
-  const SimplexNumbers numbers = number_simplices(structure, {critical.edges, critical.triangles}, options);
+  const SimplexNumbers numbers =
+      number_simplices(gradient.mesh(), {critical.edges, critical.triangles}, options, &computed);
   return outputs::to_point_set(dataset, outputs::known_simplices(gradient, critical, numbers));
 }
 
@@ -48,46 +47,49 @@ io::PointSet critical_set(Structure& structure, const DiscreteGradient& gradient
 nb::tuple PyMesh::critical_points(Array1 values, const std::string& name, int threads,
                                   const nb::object& progress) const {
   Job job(progress);
-  const SweepOptions options = job.sweep_options(threads);
-  return numpy_of(analyse(job, mesh(), values, name, critical_points_relations, options,
-                          [&](Structure& structure, const VertexOrder& order, const io::PointArray& field) {
-                            return outputs::to_point_set(with(field), find_critical_points(structure, order, options));
-                          }));
+  const ComputeOptions options = job.sweep_options(threads);
+  return numpy_of(
+      analyse(job, mesh(), values, name, options, [&](const VertexOrder& order, const io::PointArray& field) {
+        return outputs::to_point_set(with(field), find_critical_points(order, options));
+      }));
 }
 
 nb::tuple PyMesh::critical_simplices(Array1 values, const std::string& name, int threads,
                                      const nb::object& progress) const {
   Job job(progress);
-  const SweepOptions options = job.sweep_options(threads);
-  const auto find = [&](Structure& structure, const VertexOrder& order, const io::PointArray& field) {
-    return critical_set(structure, find_discrete_gradient(structure, order, options), with(field), options);
+  const ComputeOptions options = job.sweep_options(threads);
+  const auto find = [&](const VertexOrder& order, const io::PointArray& field) {
+    Computed computed;
+    const DiscreteGradient gradient = find_discrete_gradient(order, options, &computed);
+    return critical_set(gradient, with(field), options, computed);
   };
-  return numpy_of(analyse(job, mesh(), values, name, discrete_gradient_relations, options, find));
+  return numpy_of(analyse(job, mesh(), values, name, options, find));
 }
 
 nb::tuple PyMesh::discrete_gradient(Array1 values, const std::string& name, int threads,
                                     const nb::object& progress) const {
   Job job(progress);
-  const SweepOptions options = job.sweep_options(threads);
-  const auto find = [&](Structure& structure, const VertexOrder& order, const io::PointArray& field) {
-    const DiscreteGradient gradient = find_discrete_gradient(structure, order, options);
+  const ComputeOptions options = job.sweep_options(threads);
+  const auto find = [&](const VertexOrder& order, const io::PointArray& field) {
+    Computed computed;
+    const DiscreteGradient gradient = find_discrete_gradient(order, options, &computed);
     const io::Dataset dataset = with(field);
-    return std::make_pair(critical_set(structure, gradient, dataset, options), outputs::arrows_of(dataset, gradient));
+    return std::make_pair(critical_set(gradient, dataset, options, computed), outputs::arrows_of(dataset, gradient));
   };
-  auto [critical, arrows] = analyse(job, mesh(), values, name, discrete_gradient_relations, options, find);
+  auto [critical, arrows] = analyse(job, mesh(), values, name, options, find);
   return nb::make_tuple(numpy_of(std::move(critical)), numpy_of(std::move(arrows)));
 }
 
 nb::dict PyMesh::persistence_diagram(Array1 values, const std::string& name, double persistence, bool is_percent,
                                      int threads, const nb::object& progress) const {
   Job job(progress);
-  const SweepOptions options = job.sweep_options(threads);
-  const auto find = [&](Structure& structure, const VertexOrder& order, const io::PointArray& field) {
-    const DiscreteGradient gradient = find_discrete_gradient(structure, order, options);
+  const ComputeOptions options = job.sweep_options(threads);
+  const auto find = [&](const VertexOrder& order, const io::PointArray& field) {
+    const DiscreteGradient gradient = find_discrete_gradient(order, options);
     return outputs::persistence_diagram(gradient, find_persistence_pairs(gradient, options), field,
                                         outputs::threshold_of({persistence, is_percent}, field));
   };
-  const auto diagram = analyse(job, mesh(), values, name, discrete_gradient_relations, options, find);
+  const auto diagram = analyse(job, mesh(), values, name, options, find);
   using Point = outputs::DiagramPoint;
   nb::dict columns;
   columns["type"] = column<std::int8_t>(diagram, [](const Point& point) { return point.type; });
@@ -104,16 +106,17 @@ nb::dict PyMesh::persistence_diagram(Array1 values, const std::string& name, dou
 nb::dict PyMesh::morse_smale(Array1 values, const std::string& name, std::optional<double> persistence, bool is_percent,
                              bool extrema_only, bool separatrices2, int threads, const nb::object& progress) const {
   Job job(progress);
-  const SweepOptions options = job.sweep_options(threads);
+  const ComputeOptions options = job.sweep_options(threads);
   outputs::MorseSmaleRequest request;
   request.parts.separatrices2 = separatrices2;
   if (persistence) request.persistence = outputs::Persistence{*persistence, is_percent};
   request.extrema_only = extrema_only;
-  const auto find = [&](Structure& structure, const VertexOrder& order, const io::PointArray& field) {
-    const DiscreteGradient gradient = find_discrete_gradient(structure, order, options);
-    return outputs::morse_smale(structure, gradient, with(field), field, request, options);
+  const auto find = [&](const VertexOrder& order, const io::PointArray& field) {
+    Computed computed;
+    const DiscreteGradient gradient = find_discrete_gradient(order, options, &computed);
+    return outputs::morse_smale(gradient, with(field), field, request, options, &computed);
   };
-  auto found = analyse(job, mesh(), values, name, morse_smale_relations, options, find);
+  auto found = analyse(job, mesh(), values, name, options, find);
   nb::dict parts;
   parts["critical_points"] = numpy_of(std::move(found.critical_points));
   parts["separatrices1"] = numpy_of(std::move(found.separatrices1));

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include <gale/base/stop.hpp>
-#include <gale/runtime/sweep_options.hpp>
+#include <gale/runtime/computation.hpp>
 
 // How GALE computes for Python: on a thread of its own, while the caller's waits and looks every 50 ms whether Python
 // has an interrupt for it. So Ctrl-C comes when the computation asks whether to stop, in whichever of its loops it is.
@@ -27,8 +27,8 @@ class Job {
   Job(const Job&) = delete;
   Job& operator=(const Job&) = delete;
 
-  /// Sweeps of this job, on so many threads, or as many as there are cores for 0.
-  SweepOptions sweep_options(int threads);
+  /// How this job computes: on so many threads, or as many as there are cores for 0.
+  ComputeOptions sweep_options(int threads);
 
   /// What `compute()` returns, which is called without Python's lock. Throws what it throws; or what an interrupt or
   /// `progress` raises, when it has ended.

@@ -51,9 +51,9 @@ void Run::tell(double progress, const char* text) const {
   if (filter_.GetAbortExecute() != 0) throw Aborted();
 }
 
-SweepOptions Run::sweep(const char* text, double begin, double end) const {
+ComputeOptions Run::compute(const char* text, double begin, double end) const {
   tell(begin, text);
-  SweepOptions options;
+  ComputeOptions options;
   options.threads = threads_;
   options.progress = [this, begin, end](Id done, Id segments) {
     filter_.UpdateProgress(begin + (end - begin) * done / segments);

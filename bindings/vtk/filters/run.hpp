@@ -8,7 +8,7 @@
 #include <gale/io/dataset.hpp>
 #include <gale/mesh/mesh.hpp>
 #include <gale/mesh/segmentation.hpp>
-#include <gale/runtime/sweep_options.hpp>
+#include <gale/runtime/computation.hpp>
 
 class vtkAlgorithm;
 class vtkDataArray;
@@ -49,9 +49,9 @@ class Run {
   /// The order of the field's values, or that of the array NAME_Order.
   VertexOrder order(const io::PointArray& field) const;
 
-  /// A sweep that takes the filter's progress from `begin` to `end`, in 0..1, with a text of what is done. It throws
-  /// Aborted once the filter is to abort. Throws Aborted if that is so already.
-  SweepOptions sweep(const char* text, double begin, double end) const;
+  /// How to compute: sweeps take the filter's progress from `begin` to `end`, in 0..1, with a text of what is done.
+  /// They throw Aborted once the filter is to abort. Throws Aborted if that is so already.
+  ComputeOptions compute(const char* text, double begin, double end) const;
 
  private:
   void tell(double progress, const char* text) const;

@@ -9,7 +9,6 @@
 
 #include <gale/algorithms/critical_points.hpp>
 #include <gale/outputs/critical_points.hpp>
-#include <gale/runtime/make_structure.hpp>
 
 #include "arrays.hpp"
 #include "run.hpp"
@@ -33,8 +32,7 @@ vtkPolyData* vtkGaleCriticalPoints::GetOutput(int port) {
 
 void vtkGaleCriticalPoints::Compute(gale::vtk::Run& run, vtkInformationVector* outputs) {
   const auto order = run.order(run.field());
-  const auto structure = gale::make_structure(run.mesh(), gale::critical_points_relations);
-  const auto points = gale::find_critical_points(*structure, order, run.sweep("Finding critical points", 0, 1));
+  const auto points = gale::find_critical_points(order, run.compute("Finding critical points", 0, 1));
   gale::vtk::to_poly_data(gale::outputs::to_point_set(run.dataset(), points), run.grid()->GetPointData(),
                           vtkPolyData::GetData(outputs, 0));
 }

@@ -9,7 +9,6 @@
 #include <vtkUnstructuredGrid.h>
 
 #include <gale/outputs/morse_smale.hpp>
-#include <gale/runtime/make_structure.hpp>
 
 #include "arrays.hpp"
 #include "run.hpp"
@@ -65,10 +64,10 @@ void vtkGaleMorseSmaleComplex::Compute(gale::vtk::Run& run, vtkInformationVector
   }
   const auto field = run.field();
   const auto order = run.order(field);
-  const auto structure = gale::make_structure(run.mesh(), gale::morse_smale_relations);
-  const auto gradient = gale::find_discrete_gradient(*structure, order, run.sweep("Pairing simplices", 0, 0.6));
-  const auto found = gale::outputs::morse_smale(*structure, gradient, run.dataset(), field, request,
-                                                run.sweep("Tracing the complex", 0.6, 1));
+  gale::Computed computed;
+  const auto gradient = gale::find_discrete_gradient(order, run.compute("Pairing simplices", 0, 0.6), &computed);
+  const auto found = gale::outputs::morse_smale(gradient, run.dataset(), field, request,
+                                                run.compute("Tracing the complex", 0.6, 1), &computed);
   vtkPointData* const arrays = run.grid()->GetPointData();
   gale::vtk::to_poly_data(found.critical_points, arrays, vtkPolyData::GetData(outputs, 0));
   gale::vtk::to_poly_data(found.separatrices1, vtkPolyData::GetData(outputs, 1));

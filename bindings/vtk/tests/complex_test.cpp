@@ -33,7 +33,7 @@ class ComplexFilter : public testing::Test {
     const io::PointArray& field = dataset_.arrays.at(0);
     const auto structure = make_structure(mesh_, morse_smale_relations);
     const auto gradient = find_discrete_gradient(*structure, outputs::order_of(mesh_, dataset_, field));
-    const auto expected = outputs::morse_smale(*structure, gradient, dataset_, field, request, {});
+    const auto expected = outputs::morse_smale(gradient, dataset_, field, request);
     filter_->SetInputData(grid_);
     filter_->Update();
     expect_points(filter_->GetCriticalPoints(), expected.critical_points.points);

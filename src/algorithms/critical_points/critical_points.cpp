@@ -60,6 +60,14 @@ TypeArrays<HostMemory> classify_vertices(Structure& structure, const VertexOrder
 
 }  // namespace detail
 
+CriticalPoints find_critical_points(const VertexOrder& order, const ComputeOptions& options, Computed* computed) {
+  return detail::Computing(order.mesh(), options, computed)
+      .find(
+          critical_points_relations,
+          [&](const DeviceSweepOptions& sweep) { return find_critical_points(WorkerSpace(), order, sweep); },
+          [&](Structure& structure) { return find_critical_points(structure, order, options); });
+}
+
 CriticalPoints find_critical_points(Structure& structure, const VertexOrder& order, const SweepOptions& options) {
   detail::require_whole_mesh("critical points", structure.mesh());
   const auto found = detail::classify_vertices(structure, order, options);

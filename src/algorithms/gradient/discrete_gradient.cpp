@@ -98,6 +98,14 @@ Partner DiscreteGradient::pair_of_triangle(Id tetrahedron, int corner, const Row
   return {-1, no_id};
 }
 
+DiscreteGradient find_discrete_gradient(const VertexOrder& order, const ComputeOptions& options, Computed* computed) {
+  return detail::Computing(order.mesh(), options, computed)
+      .find(
+          discrete_gradient_relations,
+          [&](const DeviceSweepOptions& sweep) { return find_discrete_gradient(WorkerSpace(), order, sweep); },
+          [&](Structure& structure) { return find_discrete_gradient(structure, order, options); });
+}
+
 DiscreteGradient find_discrete_gradient(Structure& structure, const VertexOrder& order, const SweepOptions& options) {
   const ThreadLimit limit(options.threads);
   const int consumers = std::max(options.threads, 1);

@@ -45,14 +45,11 @@ void find_manifolds(MorseSmaleComplex& complex) {
   }
 }
 
-}  // namespace
-
-MorseSmaleComplex find_morse_smale_complex(Structure& structure, const DiscreteGradient& gradient,
-                                           const MorseSmaleParts& parts, const SweepOptions& options) {
-  detail::require_whole_mesh("a Morse-Smale complex", structure.mesh());
-  detail::require_same_mesh("the gradient", gradient.mesh(), structure.mesh());
-  const ThreadLimit limit(options.threads);
-  const int threads = std::max(options.threads, 1);
+/// Calls structure() if it needs one.
+template <class GetStructure>
+MorseSmaleComplex find_parts(const DiscreteGradient& gradient, const MorseSmaleParts& parts, int threads,
+                             const GetStructure& structure) {
+  detail::require_whole_mesh("a Morse-Smale complex", gradient.mesh());
   const detail::CriticalPlaces places(gradient.critical());
   MorseSmaleComplex complex{gradient, parts, gradient.critical()};
   if (parts.descending_separatrices)
@@ -62,9 +59,25 @@ MorseSmaleComplex find_morse_smale_complex(Structure& structure, const DiscreteG
     complex.ascending =
         detail::ascending_separatrices(gradient.store().tetrahedron_successors(), complex.critical, places);
   if (parts.saddle_connectors || parts.separatrices2) find_surfaces(places, threads, complex);
-  if (parts.separatrices2) complex.ascending_walls = detail::ascending_walls(structure, gradient, threads);
+  if (parts.separatrices2) complex.ascending_walls = detail::ascending_walls(structure(), gradient, threads);
   find_manifolds(complex);
   return complex;
+}
+
+}  // namespace
+
+MorseSmaleComplex find_morse_smale_complex(const DiscreteGradient& gradient, const MorseSmaleParts& parts,
+                                           const ComputeOptions& options, Computed* computed) {
+  detail::Computing computing(gradient.mesh(), options, computed);
+  return find_parts(gradient, parts, std::max(options.threads, 1),
+                    [&]() -> Structure& { return computing.structure(morse_smale_relations); });
+}
+
+MorseSmaleComplex find_morse_smale_complex(Structure& structure, const DiscreteGradient& gradient,
+                                           const MorseSmaleParts& parts, const SweepOptions& options) {
+  detail::require_same_mesh("the gradient", gradient.mesh(), structure.mesh());
+  const ThreadLimit limit(options.threads);
+  return find_parts(gradient, parts, std::max(options.threads, 1), [&]() -> Structure& { return structure; });
 }
 
 }  // namespace gale

@@ -16,6 +16,12 @@ const Array<Id, HostMemory>& scan(const char* name, Id vertices, const Array<Id,
 
 }  // namespace
 
+SimplexNumbers number_simplices(const Mesh& mesh, const NamedSimplices& named, const ComputeOptions& options,
+                                Computed* computed) {
+  detail::Computing computing(mesh, options, computed);
+  return number_simplices(computing.structure(simplex_numbers_relations), named, options);
+}
+
 SimplexNumbers number_simplices(Structure& structure, const NamedSimplices& named, const SweepOptions& options) {
   const Mesh& mesh = structure.mesh();
   detail::require_whole_mesh("the numbers of simplices", mesh);

@@ -33,23 +33,16 @@ class FindCriticalPoints final : public Command {
     structure_.require_consumers();
     require_extension("--output", output_, {".vtp"});
     Session session(input(), common(), {output_});
-    session.warm_up(structure_, [](const VertexOrder& order) { find_critical_points(WorkerSpace(), order); });
+    session.warm_up(structure_, [](const VertexOrder& order) { find_critical_points(order); });
     const FieldOnMesh on = session.read_field(segmentation_);
-    std::unique_ptr<Structure> structure;
-    CriticalPoints points;
-    const bool done = session.on_device(structure_, on.mesh, [&] {
-      points = find_critical_points(WorkerSpace(), on.order, structure_.device_sweep());
-    });
-    if (!done) {
-      structure = session.make_structure(structure_, on.mesh, critical_points_relations);
-      const Stopwatch watch(session.report().seconds.run);
-      points = find_critical_points(*structure, on.order, session.sweep("critical points"));
-    }
+    Computed computed;
+    const CriticalPoints points =
+        find_critical_points(on.order, session.compute(structure_, "critical points"), &computed);
     tell_points({points.counts.begin(), points.counts.end()}, session.console(), session.report());
     session.write(output_, [&](const io::AtomicFile& file) {
       io::write_points(file, outputs::to_point_set(on.dataset, points));
     });
-    session.finish(structure.get());
+    session.finish(structure_, computed);
   }
 
  private:

@@ -46,43 +46,38 @@ class FindDiscreteGradient final : public Command {
 
   void run() const override {
     structure_.require_consumers();
-    if (is_from_cells() && structure_.consumers == "device")
+    if (is_from_cells() && structure_.options.consumers == ConsumerPlace::device)
       throw UsageError("--consumers device: not with --formulation cells");
     require_extension("--output", output_, {".vtp"});
     require_extension("--arrows", arrows_, {".vtp"});
     Session session(input(), common(), {output_, arrows_});
-    session.warm_up(structure_, [](const VertexOrder& order) { find_discrete_gradient(WorkerSpace(), order); });
+    session.warm_up(structure_, [](const VertexOrder& order) { find_discrete_gradient(order); });
     const FieldOnMesh on = session.read_field(segmentation_);
-    const Session::Gradient found = find(on, session);
-    const DiscreteGradient& gradient = found.gradient;
+    Computed computed;
+    const DiscreteGradient gradient = find(on, session, computed);
     tell(gradient.critical(), session);
-    if (!output_.empty()) write_critical(on.dataset, gradient, *found.structure, session);
+    if (!output_.empty()) write_critical(on.dataset, gradient, session, computed);
     session.write(
         arrows_, [&](const io::AtomicFile& file) { io::write_points(file, outputs::arrows_of(on.dataset, gradient)); });
-    session.finish(found.structure.get());
+    session.finish(structure_, computed);
   }
 
  private:
   bool is_from_cells() const { return formulation_ == "cells"; }
 
-  Session::Gradient find(const FieldOnMesh& on, Session& session) const {
+  DiscreteGradient find(const FieldOnMesh& on, Session& session, Computed& computed) const {
+    if (!is_from_cells()) return find_discrete_gradient(on.order, session.compute(structure_, "gradient"), &computed);
     const RelationSet numbers = output_.empty() ? RelationSet() : simplex_numbers_relations;
-    if (!is_from_cells()) return session.find_gradient(structure_, on.order, numbers);
-    auto structure = session.make_structure(structure_, on.mesh, discrete_gradient_from_cells_relations | numbers);
+    computed.structure = session.make_structure(structure_, on.mesh, discrete_gradient_from_cells_relations | numbers);
     const Stopwatch watch(session.report().seconds.run);
-    const DiscreteGradient gradient =
-        find_discrete_gradient_from_cells(*structure, on.order, session.sweep("gradient"));
-    return {gradient, std::move(structure)};
+    return find_discrete_gradient_from_cells(*computed.structure, on.order, session.sweep("gradient"));
   }
 
-  void write_critical(const io::Dataset& dataset, const DiscreteGradient& gradient, Structure& structure,
-                      Session& session) const {
+  void write_critical(const io::Dataset& dataset, const DiscreteGradient& gradient, Session& session,
+                      Computed& computed) const {
     const CriticalSimplices& critical = gradient.critical();
-    SimplexNumbers numbers;
-    {
-      const Stopwatch watch(session.report().seconds.run);
-      numbers = number_simplices(structure, {critical.edges, critical.triangles}, session.sweep("numbers"));
-    }
+    const SimplexNumbers numbers = number_simplices(gradient.mesh(), {critical.edges, critical.triangles},
+                                                    session.compute(structure_, "numbers"), &computed);
     session.write(output_, [&](const io::AtomicFile& file) {
       io::write_points(file, outputs::to_point_set(dataset, outputs::known_simplices(gradient, critical, numbers)));
     });

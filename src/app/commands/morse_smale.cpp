@@ -12,7 +12,6 @@
 #include <gale/app/usage_error.hpp>
 #include <gale/base/error.hpp>
 #include <gale/outputs/morse_smale.hpp>
-#include <gale/runtime/make_structure.hpp>
 
 namespace gale::app {
 
@@ -43,10 +42,7 @@ void require_png(const std::string& file) {
 }
 
 /// Finds the complex of a tiny mesh.
-void find_small_complex(const VertexOrder& order) {
-  const DiscreteGradient gradient = find_discrete_gradient(WorkerSpace(), order);
-  find_morse_smale_complex(*make_structure(order.mesh(), morse_smale_relations), gradient);
-}
+void find_small_complex(const VertexOrder& order) { find_morse_smale_complex(find_discrete_gradient(order)); }
 
 class FindMorseSmale final : public Command {
  public:
@@ -103,13 +99,14 @@ class FindMorseSmale final : public Command {
     session.warm_up(structure_, find_small_complex);
     const FieldOnMesh on = session.read_field(
         segmentation_, files.segmentation.empty() ? Session::Keep::nothing : Session::Keep::tetrahedra);
-    const Session::Gradient found = session.find_gradient(structure_, on.order, morse_smale_relations);
-    Structure& structure = *found.structure;
-    MorseSmaleComplex complex = find(structure, found.gradient, on, session);
+    Computed computed;
+    const DiscreteGradient gradient =
+        find_discrete_gradient(on.order, session.compute(structure_, "gradient"), &computed);
+    MorseSmaleComplex complex = find(gradient, on, session, computed);
     tell(complex, parts_, session);
     if (persistence_) tell(complex.kept_below, session);
-    if (files.any()) write(files, parts_, on, complex, structure, session);
-    session.finish(&structure);
+    if (files.any()) write(files, parts_, on, complex, structure_, session, computed);
+    session.finish(structure_, computed);
   }
 
  private:
@@ -133,12 +130,11 @@ class FindMorseSmale final : public Command {
   }
 
   /// The complex, simplified if that is wanted, with the needed parts.
-  MorseSmaleComplex find(Structure& structure, const DiscreteGradient& gradient, const FieldOnMesh& on,
-                         Session& session) const {
-    const Stopwatch watch(session.report().seconds.run);
+  MorseSmaleComplex find(const DiscreteGradient& gradient, const FieldOnMesh& on, Session& session,
+                         Computed& computed) const {
     outputs::MorseSmaleRequest request{parts_, persistence_, extrema_only_};
     if (persistence_) request.persistence = outputs::Persistence{threshold_of_option(*persistence_, on.field), false};
-    return outputs::find_complex(structure, gradient, on.field, request, session.sweep("complex"));
+    return outputs::find_complex(gradient, on.field, request, session.compute(structure_, "complex"), &computed);
   }
 
   SegmentationOptions segmentation_;

@@ -43,14 +43,13 @@ bool MorseSmaleFiles::any() const {
 }
 
 void write(const MorseSmaleFiles& files, const MorseSmaleParts& wanted, const FieldOnMesh& on,
-           MorseSmaleComplex& complex, Structure& structure, Session& session) {
+           MorseSmaleComplex& complex, const StructureOption& option, Session& session, Computed& computed) {
   const io::Dataset& dataset = on.dataset;
   const auto connectors = outputs::ends_of(complex.connectors);  // of all, wanted or not: they bound walls
   outputs::leave_out_unwanted(wanted, complex);
   Seconds& seconds = session.report().seconds;
   const NamedSimplices named = timed(seconds.write, [&] { return outputs::named_simplices(complex); });
-  const SimplexNumbers numbers =
-      timed(seconds.run, [&] { return number_simplices(structure, named, session.sweep("numbers")); });
+  const SimplexNumbers numbers = number_simplices(on.mesh, named, session.compute(option, "numbers"), &computed);
   const outputs::KnownSimplices critical =
       timed(seconds.write, [&] { return outputs::known_simplices(complex.gradient, complex.critical, numbers); });
   const io::PointSet points = timed(seconds.write, [&] {

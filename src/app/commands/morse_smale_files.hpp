@@ -20,9 +20,9 @@ struct MorseSmaleFiles {
   bool any() const;
 };
 
-/// Writes the files. `complex` may have more than is wanted: the rest is taken out of it first. The structure numbers
-/// the simplices in the files.
+/// Writes the files. `complex` may have more than is wanted: the rest is taken out of it first. Their simplices are
+/// numbered as `option` says.
 void write(const MorseSmaleFiles& files, const MorseSmaleParts& wanted, const FieldOnMesh& on,
-           MorseSmaleComplex& complex, Structure& structure, Session& session);
+           MorseSmaleComplex& complex, const StructureOption& option, Session& session, Computed& computed);
 
 }  // namespace gale::app

@@ -49,10 +49,12 @@ class FindPersistenceDiagram final : public Command {
     require_extension("--render", render_, {".png"});
     if (!render_.empty()) require_drawing();
     Session session(input(), common(), {output_, render_, curve_});
-    session.warm_up(structure_, [](const VertexOrder& order) { find_discrete_gradient(WorkerSpace(), order); });
+    session.warm_up(structure_, [](const VertexOrder& order) { find_discrete_gradient(order); });
     const FieldOnMesh on = session.read_field(segmentation_);
-    const Session::Gradient found = session.find_gradient(structure_, on.order, {});
-    const auto diagram = find(found.gradient, on, session);
+    Computed computed;
+    const DiscreteGradient gradient =
+        find_discrete_gradient(on.order, session.compute(structure_, "gradient"), &computed);
+    const auto diagram = find(gradient, on, session);
     tell(outputs::counts_of(diagram), session);
     session.write(output_, [&](const io::AtomicFile& file) {
       io::write_lines(file, outputs::to_lines(on.dataset, on.field, diagram));
@@ -61,7 +63,7 @@ class FindPersistenceDiagram final : public Command {
       write_text(file, [&](std::ostream& out) { out << outputs::to_csv(outputs::persistence_curve(diagram)); });
     });
     session.write(render_, [&](const io::AtomicFile& file) { draw(file, plot_of(diagram, on.field.name)); });
-    session.finish(found.structure.get());
+    session.finish(structure_, computed);
   }
 
  private:

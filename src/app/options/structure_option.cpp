@@ -22,66 +22,69 @@ std::optional<std::int64_t> known(Id count) {
 
 }  // namespace
 
+void StructureOption::set(const std::string& named) {
+  name = named;
+  if (const auto way = way_named(name))
+    options.structure.way = *way;
+  else
+    options.make_structure = baselines::make_task_parallel_structure;
+}
+
 void StructureOption::add_to(CLI::App& command) {
   command
-      .add_option(
-          "--structure", name,
+      .add_option_function<std::string>(
+          "--structure", [this](const std::string& named) { set(named); },
           "gale (leaders on a device, else helpers), leaders (threads that have batches computed ahead), helpers "
           "(cores beyond --threads compute ahead), inline (no leaders, no helpers), explicit (everything at "
           "once) or task-parallel (a worker thread for each consumer)")
       ->check(CLI::IsMember({"gale", "leaders", "helpers", "inline", "explicit", "task-parallel"}));
-  command.add_option("--cores", options.cores, "Cores that threads and helpers share (default: as many as threads)")
+  command
+      .add_option("--cores", options.structure.cores,
+                  "Cores that threads and helpers share (default: as many as threads)")
       ->check(CLI::Range(1, 1024));
   command
       .add_option_function<std::string>(
           "--queues",
           [this](const std::string& one) {
-            options.queues = one == "relation" ? Queues::per_relation : Queues::per_kernel;
+            options.structure.queues = one == "relation" ? Queues::per_relation : Queues::per_kernel;
           },
           "Of leaders: one for each kernel (default), which may make several relations, or for each relation")
       ->check(CLI::IsMember({"kernel", "relation"}));
   const CLI::Range launches(1, 1048576);
-  command.add_option("--blocks-per-request", options.blocks_per_request, "n_b")->check(launches);
-  command.add_option("--threads-per-block", options.threads_per_block, "t_b")->check(launches);
-  command.add_option("--threads-per-segment", options.threads_per_segment, "t_s")->check(CLI::Range(1, 1024));
-  add_size(command, options.host_memory, "--host-memory", "Budget for blocks on the host, e.g. 512MiB");
-  add_size(command, options.device_memory, "--device-memory", "Budget for batches on the device");
+  command.add_option("--blocks-per-request", options.structure.blocks_per_request, "n_b")->check(launches);
+  command.add_option("--threads-per-block", options.structure.threads_per_block, "t_b")->check(launches);
+  command.add_option("--threads-per-segment", options.structure.threads_per_segment, "t_s")->check(CLI::Range(1, 1024));
+  add_size(command, options.structure.host_memory, "--host-memory", "Budget for blocks on the host, e.g. 512MiB");
+  add_size(command, options.structure.device_memory, "--device-memory", "Budget for batches on the device");
 }
 
 void StructureOption::add_consumers_to(CLI::App& command) {
   command
-      .add_option("--consumers", consumers,
-                  "Where rows are read: by threads of the host, or by kernels on the device, where they are made "
-                  "(default: the device if there is one, with --structure gale)")
+      .add_option_function<std::string>(
+          "--consumers",
+          [this](const std::string& place) {
+            options.consumers = place == "device" ? ConsumerPlace::device : ConsumerPlace::host;
+          },
+          "Where rows are read: by threads of the host, or by kernels on the device, where they are made "
+          "(default: the device if there is one, with --structure gale)")
       ->check(CLI::IsMember({"host", "device"}));
 }
 
 void StructureOption::require_consumers() const {
-  if (consumers != "device") return;
-  if (!have_device) throw UsageError("--consumers device: this gale has no device");
-  if (way_named(name) != Way::gale)
-    throw UsageError("--consumers device: --structure " + name + " computes rows for the host");
+  try {
+    gale::require_consumers(options);
+  } catch (const Error& error) {
+    throw UsageError(std::string("--consumers device: ") + error.what());
+  }
 }
 
-bool StructureOption::on_device(const Mesh& mesh) const {
-  if (consumers != "device") return consumers.empty() && way_named(name) == Way::gale && mesh.on_device();
-  if (!mesh.on_device()) throw Error("--consumers device: " + mesh.notice());
-  return true;
-}
+bool StructureOption::on_device(const Mesh& mesh) const { return gale::detail::kernels_read(mesh, options); }
 
-DeviceSweepOptions StructureOption::device_sweep() const {
-  DeviceSweepOptions sweep;
-  sweep.memory = options.device_memory;
-  sweep.threads_per_segment = options.threads_per_segment;
-  return sweep;
-}
+DeviceSweepOptions StructureOption::device_sweep() const { return gale::detail::sweep_of_kernels(options.structure); }
 
 std::unique_ptr<Structure> StructureOption::make(const Mesh& mesh, RelationSet relations) const {
-  if (name == "task-parallel") return baselines::make_task_parallel_structure(mesh, relations);
-  StructureOptions chosen = options;
-  chosen.way = *way_named(name);
-  if (chosen.cores == 0) chosen.cores = host_threads();
-  return make_structure(mesh, relations, chosen);
+  return options.make_structure ? options.make_structure(mesh, relations)
+                                : make_structure(mesh, relations, options.structure);
 }
 
 void report_structure(const Structure& structure, Report& report) {

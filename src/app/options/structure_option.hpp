@@ -4,8 +4,7 @@
 #include <string>
 
 #include <gale/app/report.hpp>
-#include <gale/runtime/device_sweep_options.hpp>
-#include <gale/runtime/structure.hpp>
+#include <gale/runtime/computation.hpp>
 
 namespace CLI {
 class App;
@@ -13,13 +12,9 @@ class App;
 
 namespace gale::app {
 
-/// --structure, which way to compute relations, and the options that tune it.
+/// --structure, which way to compute relations, the options that tune it, and --consumers.
 struct StructureOption {
-  std::string name = "gale";  ///< of a Way, or "task-parallel"
-  StructureOptions options;
-
-  /// --consumers, "host" or "device"; empty: on the device where the mesh is there and `name` doesn't say otherwise.
-  std::string consumers;
+  ComputeOptions options;  ///< but for threads and progress
 
   void add_to(CLI::App& command);
 
@@ -30,6 +25,13 @@ struct StructureOption {
   /// called before the work.
   void require_consumers() const;
 
+  /// What --structure says: the name of a Way, or "task-parallel".
+  std::string name = name_of(Way::gale);
+
+  bool is_explicit() const { return options.structure.way == Way::explicit_; }
+
+  // What ranks ask, which agree on the answers.
+
   /// Should consumers be kernels on the device that the mesh is on? Throws gale::Error where --consumers says so and
   /// the mesh doesn't fit it.
   bool on_device(const Mesh& mesh) const;
@@ -37,10 +39,11 @@ struct StructureOption {
   /// How these go through the mesh.
   DeviceSweepOptions device_sweep() const;
 
-  bool is_explicit() const { return name == "explicit"; }
-
   /// The structure, preconditioned for `relations`.
   std::unique_ptr<Structure> make(const Mesh& mesh, RelationSet relations) const;
+
+ private:
+  void set(const std::string& named);
 };
 
 /// Puts into the report how the structure worked, and how many edges and triangles it had to enumerate; not its

@@ -1,0 +1,69 @@
+#include <algorithm>
+
+#include <gale/runtime/computation.hpp>
+#include <gale/runtime/make_structure.hpp>
+
+namespace gale {
+
+void require_consumers(const ComputeOptions& options) {
+  if (options.consumers != ConsumerPlace::device) return;
+  if (!have_device) throw Error("this gale has no device for consumers");
+  if (options.make_structure) throw Error("the structure that is named computes rows for consumers on the host");
+  if (options.structure.way != Way::gale)
+    throw Error(std::string("the way '") + name_of(options.structure.way) +
+                "' computes rows for consumers on the host");
+}
+
+namespace detail {
+
+bool kernels_read(const Mesh& mesh, const ComputeOptions& options) {
+  require_consumers(options);
+  if (options.consumers == ConsumerPlace::device) {
+    if (!mesh.on_device()) throw Error("no consumers can be on the device: " + mesh.notice());
+    return true;
+  }
+  return options.consumers == ConsumerPlace::best && !options.make_structure && options.structure.way == Way::gale &&
+         mesh.on_device();
+}
+
+DeviceSweepOptions sweep_of_kernels(const StructureOptions& options) {
+  DeviceSweepOptions sweep;
+  sweep.memory = options.device_memory;
+  sweep.threads_per_segment = options.threads_per_segment;
+  return sweep;
+}
+
+Computing::Computing(const Mesh& mesh, const ComputeOptions& options, Computed* computed)
+    : mesh_(mesh),
+      options_(options),
+      computed_(computed != nullptr ? *computed : own_),
+      limit_(std::max(options.threads, 1)),
+      running_(computed_.seconds_running) {
+  require_consumers(options);
+}
+
+void Computing::fall_back(const OutOfMemory& error) {
+  computed_.on_device = false;
+  computed_.notices.push_back("the sweep doesn't fit the device's memory (" + error.missing() +
+                              "): consumers are on the host");
+}
+
+Structure& Computing::structure(RelationSet relations) {
+  auto& there = computed_.structure;
+  if (there == nullptr || !(there->mesh() == mesh_) || !there->relations().contains(relations)) {
+    double seconds = 0;
+    {
+      const Stopwatch preparing(seconds);
+      there.reset();
+      there = options_.make_structure ? options_.make_structure(mesh_, relations)
+                                      : make_structure(mesh_, relations, options_.structure);
+    }
+    computed_.seconds_preparing += seconds;
+    computed_.seconds_running -= seconds;  // which all of this is added to
+  }
+  return *there;
+}
+
+}  // namespace detail
+
+}  // namespace gale
