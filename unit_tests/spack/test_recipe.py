@@ -158,7 +158,7 @@ def load_recipe():
 def make_package(recipe, directives, variants, run_tests=False):
     """The package, as far as the recipe may ask it."""
     packages = directives.packages(variants, run_tests)
-    of_python = {"python": Program("python"), "python_platlib": "lib/python3/site-packages"}
+    of_python = {"python": Program("python"), "python_platlib": "/opt/gale/lib/python3/site-packages"}
 
     class Package(recipe):
         spec = Spec(variants, packages)
@@ -293,6 +293,11 @@ class Recipe(unittest.TestCase):
         self.assertTrue(self.cmake_args(self.all_variants(vtk=True), False)["GALE_ENABLE_VTK"])
         self.assertTrue(self.cmake_args(self.all_variants(mpi=True), False)["GALE_ENABLE_MPI"])
         self.assertTrue(self.cmake_args(self.all_variants(shared=True), False)["BUILD_SHARED_LIBS"])
+
+    def test_python_goes_below_the_prefix(self):
+        """CMake finds the way from the module to the libraries by that."""
+        options = self.cmake_args(self.all_variants(python=True), False)
+        self.assertEqual(options["GALE_PYTHON_DIR"], "lib/python3/site-packages")
 
     def test_tests_are_built_when_they_are_run(self):
         for run_tests in (False, True):

@@ -117,7 +117,8 @@ class Gale(CMakePackage, CudaPackage, PythonExtension):
         if self.spec.satisfies("+cuda"):
             args.append(self.define("CMAKE_CXX_COMPILER", self["kokkos"].kokkos_cxx))
         if self.spec.satisfies("+python"):
-            args.append(self.define("GALE_PYTHON_DIR", self.module.python_platlib))
+            modules = os.path.relpath(self.module.python_platlib, self.prefix)
+            args.append(self.define("GALE_PYTHON_DIR", modules))
             where = self.spec["python"].command("-m", "nanobind", "--cmake_dir", output=str)
             args.append(self.define("nanobind_DIR", where.strip()))
         return args
