@@ -2,7 +2,7 @@
 
 #include <gale/algorithms/discrete_gradient.hpp>
 #include <gale/algorithms/morse_smale/critical_places.hpp>
-#include <gale/algorithms/persistence/turned_edges.hpp>
+#include <gale/algorithms/persistence/turned_gradient.hpp>
 #include <gale/algorithms/separatrices.hpp>
 
 namespace gale::detail {

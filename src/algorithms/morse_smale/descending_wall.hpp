@@ -4,7 +4,7 @@
 
 #include <gale/algorithms/discrete_gradient.hpp>
 #include <gale/algorithms/gradient/gradient_store.hpp>
-#include <gale/algorithms/persistence/turned_edges.hpp>
+#include <gale/algorithms/persistence/turned_gradient.hpp>
 #include <gale/algorithms/separatrices.hpp>
 #include <gale/base/hash_table.hpp>
 

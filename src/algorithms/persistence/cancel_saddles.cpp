@@ -5,8 +5,8 @@
 
 #include <gale/algorithms/morse_smale/descending_wall.hpp>
 #include <gale/algorithms/persistence/cancel_saddles.hpp>
-#include <gale/algorithms/persistence/first_paths.hpp>
 #include <gale/algorithms/persistence/saddle_graph.hpp>
+#include <gale/algorithms/persistence/turned_gradient.hpp>
 #include <gale/base/threads.hpp>
 
 namespace gale::detail {

@@ -6,8 +6,7 @@
 #include <gale/algorithms/morse_smale.hpp>
 #include <gale/algorithms/morse_smale/critical_places.hpp>
 #include <gale/algorithms/persistence.hpp>
-#include <gale/algorithms/persistence/turned_edges.hpp>
-#include <gale/algorithms/persistence/turned_forest.hpp>
+#include <gale/algorithms/persistence/turned_gradient.hpp>
 
 namespace gale::detail {
 

@@ -5,7 +5,7 @@
 
 #include <gale/algorithms/morse_smale.hpp>
 #include <gale/algorithms/persistence/cancel_saddles.hpp>
-#include <gale/algorithms/persistence/values.hpp>
+#include <gale/algorithms/persistence/filtration.hpp>
 
 namespace gale::detail {
 

@@ -3,10 +3,8 @@
 
 #include <gale/algorithms/order/whole_mesh.hpp>
 #include <gale/algorithms/persistence.hpp>
+#include <gale/algorithms/persistence/extremum_pairs.hpp>
 #include <gale/algorithms/persistence/filtration.hpp>
-#include <gale/algorithms/persistence/forked_maxima.hpp>
-#include <gale/algorithms/persistence/joined_ends.hpp>
-#include <gale/algorithms/persistence/pairs.hpp>
 #include <gale/algorithms/persistence/saddle_pairs.hpp>
 #include <gale/base/threads.hpp>
 

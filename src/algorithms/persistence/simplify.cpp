@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <set>
 #include <string>
 #include <tuple>
 
@@ -6,7 +7,6 @@
 #include <gale/algorithms/morse_smale/manifolds.hpp>
 #include <gale/algorithms/morse_smale/separatrices1.hpp>
 #include <gale/algorithms/persistence/cancellations.hpp>
-#include <gale/algorithms/persistence/walls_left.hpp>
 #include <gale/algorithms/simplify.hpp>
 #include <gale/base/error.hpp>
 
@@ -64,6 +64,48 @@ Mirrored<Id> manifold_left(const Mirrored<Id>& manifold, const std::vector<Id>& 
   return detail::renamed(manifold, heir_place);
 }
 
+/// The walls that make up that of a saddle: its own, then the others, in the order of their places.
+std::vector<Id> parts_of(const std::vector<std::vector<Id>>& joined, Id saddle) {
+  std::set<Id> found = {saddle};
+  std::vector<Id> rest = {saddle};
+  while (!rest.empty()) {
+    const Id at = rest.back();
+    rest.pop_back();
+    for (const Id other : joined[at]) {
+      if (found.insert(other).second) rest.push_back(other);
+    }
+  }
+  found.erase(saddle);
+  std::vector<Id> parts = {saddle};
+  parts.insert(parts.end(), found.begin(), found.end());
+  return parts;
+}
+
+/// The ascending walls of the 1-saddles for which `is_left` is set: each is made of its own and of those of the
+/// 1-saddles that are joined to it, directly or not, by place; a cell that is in several is there once.
+AscendingWalls ascending_walls_left(const AscendingWalls& all, const std::vector<std::vector<Id>>& joined,
+                                    const std::vector<char>& is_left) {
+  AscendingWalls left;
+  Id place = 0;
+  for (Id saddle = 0; saddle < all.walls.count(); ++saddle) {
+    if (!is_left[saddle]) continue;
+    const std::vector<Id> parts = parts_of(joined, saddle);
+    std::set<std::array<Id, 2>> seen;
+    for (const Id part : parts) {
+      for (Offset cell = all.walls.begin[part]; cell < all.walls.begin[part + 1]; ++cell) {
+        if (parts.size() > 1 && !seen.insert(all.walls.cells[cell]).second) continue;
+        left.walls.cells.push_back(all.walls.cells[cell]);
+        left.star.insert(left.star.end(), all.star.begin() + all.star_begin[cell],
+                         all.star.begin() + all.star_begin[cell + 1]);
+        left.star_begin.push_back(static_cast<Offset>(left.star.size()));
+      }
+    }
+    left.walls.sources.push_back(place++);
+    left.walls.begin.push_back(static_cast<Offset>(left.walls.cells.size()));
+  }
+  return left;
+}
+
 }  // namespace
 
 MorseSmaleComplex simplify(const MorseSmaleComplex& complex, const std::function<double(Id)>& value, double threshold,
@@ -94,10 +136,9 @@ MorseSmaleComplex simplify(const MorseSmaleComplex& complex, const std::function
   if (want_ascending_walls) {
     left.ascending_walls =
         options.extrema_only
-            ? detail::ascending_walls_left(complex.ascending_walls,
-                                           std::vector<std::vector<Id>>(complex.critical.edges.size()),
-                                           cancelled.is_left[1])
-            : detail::ascending_walls_left(complex.ascending_walls, cancelled.saddles.joined, cancelled.is_left[1]);
+            ? ascending_walls_left(complex.ascending_walls, std::vector<std::vector<Id>>(complex.critical.edges.size()),
+                                   cancelled.is_left[1])
+            : ascending_walls_left(complex.ascending_walls, cancelled.saddles.joined, cancelled.is_left[1]);
   }
   left.descending_manifold =
       manifold_left(complex.descending_manifold, cancelled.heir_of_minimum, cancelled.is_left[0]);

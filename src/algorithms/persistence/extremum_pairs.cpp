@@ -1,12 +1,98 @@
 #include <algorithm>
 #include <iterator>
 #include <unordered_map>
+#include <utility>
 
 #include <gale/algorithms/gradient/gradient_store.hpp>
-#include <gale/algorithms/persistence/forked_maxima.hpp>
+#include <gale/algorithms/persistence/extremum_pairs.hpp>
+#include <gale/base/parallel.hpp>
 #include <gale/base/stop.hpp>
 
 namespace gale::detail {
+
+namespace {
+
+/// The critical simplex at which a path ends; less than no_id if it leaves through the surface.
+Id end_of(const Id* successors, Id at) {
+  for (Id next = successors[at]; next != no_id; next = successors[at]) {
+    if (DiscreteGradient::leaves(next)) return next;
+    at = next;
+  }
+  return at;
+}
+
+}  // namespace
+
+PathEnds ends_of_edges(const DiscreteGradient& gradient, const CriticalPlaces& places) {
+  const auto& edges = gradient.critical().edges;
+  const Id* const successors = gradient.vertex_successors().data();
+  PathEnds ends(edges.size());
+  parallel_for("GALE::ends_of_edges", HostExecutionSpace(), edges.size(), [&](Offset i) {
+    for (int k = 0; k < 2; ++k) ends[i][k] = places.of_vertex(end_of(successors, edges[i][k]));
+  });
+  return ends;
+}
+
+PathEnds ends_of_triangles(const DiscreteGradient& gradient, const CriticalPlaces& places) {
+  const CriticalSimplices& critical = gradient.critical();
+  const Id* const successors = gradient.tetrahedron_successors().data();
+  PathEnds ends(critical.triangles.size(), {no_id, no_id});
+  parallel_for("GALE::ends_of_triangles", HostExecutionSpace(), ends.size(), [&](Offset i) {
+    const Id first = critical.star_begin[i], count = critical.star_begin[i + 1] - first;
+    for (Id k = 0; k < count && count <= 2; ++k) {
+      const Id end = end_of(successors, critical.star[first + k]);
+      ends[i][k] = end < no_id ? no_id : places.of_tetrahedron(end);
+    }
+  });
+  return ends;
+}
+
+bool forks(const DiscreteGradient& gradient) {
+  const auto& begin = gradient.critical().star_begin;
+  for (std::size_t i = 0; i + 1 < begin.size(); ++i) {
+    if (begin[i + 1] - begin[i] > 2) return true;
+  }
+  return !gradient.store().further_successors.empty();
+}
+
+namespace {
+
+/// Sets of extrema, by age; each is known by its oldest.
+class Sets {
+ public:
+  explicit Sets(std::size_t count) : older_(count) {
+    for (std::size_t i = 0; i < count; ++i) older_[i] = static_cast<Id>(i);
+  }
+
+  Id oldest(Id of) {
+    while (older_[of] != of) of = older_[of] = older_[older_[of]];
+    return of;
+  }
+
+  void join(Id younger, Id older) { older_[younger] = older; }
+
+ private:
+  std::vector<Id> older_;
+};
+
+}  // namespace
+
+std::vector<Id> join_ends(const std::vector<Id>& saddles, const PathEnds& ends, const std::vector<Id>& age) {
+  // The outside has age 0 here, and the extrema follow.
+  std::vector<Id> extremum(age.size() + 1, no_id), saddle_of(age.size(), no_id);
+  for (std::size_t i = 0; i < age.size(); ++i) extremum[age[i] + 1] = static_cast<Id>(i);
+  Sets sets(age.size() + 1);
+  const auto oldest = [&](Id end) { return sets.oldest(end == no_id ? 0 : age[end] + 1); };
+  for (const Id saddle : saddles) {
+    stop_if_asked_at(saddle);
+    Id one = oldest(ends[saddle][0]), other = oldest(ends[saddle][1]);
+    if (one == other) continue;
+    if (one < other) std::swap(one, other);
+    saddle_of[extremum[one]] = saddle;
+    sets.join(one, other);
+  }
+  return saddle_of;
+}
 
 namespace {
 
