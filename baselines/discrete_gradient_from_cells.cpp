@@ -5,7 +5,6 @@
 #include <vector>
 
 #include <gale/algorithms/gradient/gradient_store.hpp>
-#include <gale/algorithms/gradient/pair_cells.hpp>
 #include <gale/algorithms/gradient/pair_star.hpp>
 #include <gale/baselines/discrete_gradient_from_cells.hpp>
 #include <gale/baselines/lower_neighbour_ranks.hpp>

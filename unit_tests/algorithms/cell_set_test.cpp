@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include <gale/algorithms/gradient/cell_set.hpp>
+#include <gale/algorithms/gradient/incidences.hpp>
 
 namespace gale::test {
 

@@ -2,10 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <gale/algorithms/gradient/bit_queues.hpp>
 #include <gale/algorithms/gradient/lower_neighbours.hpp>
 #include <gale/algorithms/gradient/lower_star.hpp>
-#include <gale/algorithms/gradient/pair_cells.hpp>
+#include <gale/algorithms/gradient/pair_star.hpp>
 #include <gale/algorithms/vertex_order.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/runtime/make_structure.hpp>

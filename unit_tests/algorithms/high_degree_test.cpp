@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <gale/algorithms/critical_points.hpp>
-#include <gale/algorithms/gradient/pair_cells.hpp>
+#include <gale/algorithms/gradient/pair_star.hpp>
 #include <gale/algorithms/morse_smale.hpp>
 #include <gale/algorithms/simplex_numbers.hpp>
 #include <gale/algorithms/surface_vertices.hpp>

@@ -8,11 +8,10 @@
 
 #include <gtest/gtest.h>
 
-#include <gale/algorithms/gradient/bit_queues.hpp>
 #include <gale/algorithms/gradient/large_lower_star.hpp>
 #include <gale/algorithms/gradient/lower_neighbours.hpp>
 #include <gale/algorithms/gradient/lower_star.hpp>
-#include <gale/algorithms/gradient/pair_cells.hpp>
+#include <gale/algorithms/gradient/pair_star.hpp>
 
 namespace gale::test {
 

@@ -1,6 +1,6 @@
-#include <gale/algorithms/gradient/bit_queues.hpp>
 #include <gale/algorithms/gradient/gradient_sweep.hpp>
 #include <gale/algorithms/gradient/lower_star.hpp>
+#include <gale/algorithms/gradient/pair_star.hpp>
 
 namespace gale::detail {
 

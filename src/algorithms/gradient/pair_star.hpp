@@ -1,10 +1,92 @@
 #pragma once
 
 #include <gale/algorithms/gradient/edge_pairs.hpp>
-#include <gale/algorithms/gradient/pair_cells.hpp>
+#include <gale/base/kokkos.hpp>
 #include <gale/relations/vertex_star.hpp>
 
 namespace gale::detail {
+
+/// Pairs the cells of a vertex's lower star, but for the vertex and its edge of the smallest key, cell 0, which are a
+/// pair already. It is homotopy expansion after Robins, Wood and Sheppard, "Theory and algorithms for constructing
+/// discrete Morse complexes from grayscale digital images" (2011).
+///
+/// `queues` knows the star. `add_edges()` queues all but cell 0; `settle(cell)` says that it is paired or critical;
+/// `push(cell)` queues its cofacets with exactly one unsettled facet; `next(cell)` takes the least unsettled one of
+/// these; `facet(cell)` is the unsettled facet of such a cell, or -1 if it has none by now; `defer(cell)` queues a cell
+/// that has none; `next_deferred(cell)` takes the least unsettled one of these and of the edges.
+///
+/// Calls pair(facet, cell) for each pair and critical(cell) for each cell that is left. For the
+/// host alone where `queues` are.
+GALE_CALLS_ANY
+template <class Queues, class Pair, class Critical>
+KOKKOS_FORCEINLINE_FUNCTION void pair_cells(Queues&& queues, const Pair& pair, const Critical& critical) {
+  queues.add_edges();
+  queues.settle(0);
+  queues.push(0);
+  int cell;
+  while (true) {
+    if (queues.next(cell)) {
+      const int facet = queues.facet(cell);
+      if (facet < 0) {
+        queues.defer(cell);
+        continue;
+      }
+      queues.settle(facet);
+      queues.settle(cell);
+      pair(facet, cell);
+      queues.push(cell);
+      queues.push(facet);
+    } else if (queues.next_deferred(cell)) {
+      queues.settle(cell);
+      critical(cell);
+      queues.push(cell);
+    } else {
+      return;
+    }
+  }
+}
+
+/// The queues of `pair_cells` for a LowerStar: sets of bits, the lowest of which is the head.
+template <class Star>
+class BitQueues {
+ public:
+  KOKKOS_FORCEINLINE_FUNCTION explicit BitQueues(const Star& star) : star_(star) {}
+
+  KOKKOS_FORCEINLINE_FUNCTION void add_edges() { deferred_ = star_.all_edges(); }
+  KOKKOS_FORCEINLINE_FUNCTION void settle(int cell) { settled_.add(cell); }
+
+  KOKKOS_FORCEINLINE_FUNCTION void push(int cell) {
+    for (Cells rest = star_.cofacets(cell) - settled_; !rest.empty(); rest.remove_lowest()) {
+      const int cofacet = rest.lowest();
+      if ((star_.facets(cofacet) - settled_).is_single()) ready_.add(cofacet);
+    }
+  }
+
+  KOKKOS_FORCEINLINE_FUNCTION bool next(int& cell) { return take(ready_, cell); }
+  KOKKOS_FORCEINLINE_FUNCTION bool next_deferred(int& cell) { return take(deferred_, cell); }
+  KOKKOS_FORCEINLINE_FUNCTION void defer(int cell) { deferred_.add(cell); }
+
+  KOKKOS_FORCEINLINE_FUNCTION int facet(int cell) const {
+    const Cells left = star_.facets(cell) - settled_;
+    return left.empty() ? -1 : left.lowest();
+  }
+
+ private:
+  using Cells = typename Star::Cells;
+
+  KOKKOS_FORCEINLINE_FUNCTION bool take(Cells& from, int& cell) {
+    from -= settled_;
+    if (from.empty()) return false;
+    cell = from.lowest();
+    from.remove_lowest();
+    return true;
+  }
+
+  const Star& star_;
+  Cells settled_ = Cells::none();
+  Cells ready_ = Cells::none();
+  Cells deferred_ = Cells::none();
+};
 
 /// The successor of a tetrahedron that leaves through the surface, by the triangle opposite its corner.
 KOKKOS_INLINE_FUNCTION Id outside(int corner) { return no_id - 1 - corner; }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 
-#include <gale/algorithms/gradient/bit_queues.hpp>
 #include <gale/algorithms/gradient/gradient_store.hpp>
 #include <gale/algorithms/gradient/lower_star.hpp>
 #include <gale/algorithms/gradient/pair_star.hpp>
