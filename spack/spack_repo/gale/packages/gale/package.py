@@ -72,6 +72,7 @@ class Gale(CMakePackage, CudaPackage, PythonExtension):
     with when("+python"):
         extends("python@3.9:")
         depends_on("py-nanobind@2:", type="build")
+        depends_on("py-typing-extensions", type="build", when="^python@:3.10")  # nanobind's stubs
         depends_on("py-numpy", type=("build", "run"))
         depends_on("kokkos+pic", when="~shared")
 
