@@ -21,7 +21,7 @@ gale_public(algorithms critical_points critical_simplices discrete_gradient mors
   simplex_numbers simplify surface_vertices vertex_order)
 gale_public(outputs arrows critical_points critical_simplices field manifolds morse_smale named_simplices persistence
   persistence_diagram segmentation separatrices1 separatrices2)
-gale_public(io arrays atomic_file dataset image pieces read synthetic temporary_files voxels write)
+gale_public(io atomic_file dataset formats image read synthetic write)
 if(GALE_ENABLE_MPI)
   gale_public(distributed communicator distributed_critical_points distributed_gradient distributed_manifolds distributed_mesh distributed_numbers
     distributed_order distributed_separatrices host_points mesh_part)

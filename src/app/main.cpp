@@ -23,7 +23,7 @@
 #include <gale/app/usage_error.hpp>
 #include <gale/base/memory.hpp>
 #include <gale/base/threads.hpp>
-#include <gale/io/temporary_files.hpp>
+#include <gale/io/atomic_file.hpp>
 #include <gale/version.hpp>
 
 namespace {

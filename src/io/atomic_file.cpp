@@ -2,16 +2,123 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <random>
+#include <sstream>
 #include <system_error>
 
 #include <gale/base/error.hpp>
 #include <gale/io/atomic_file.hpp>
-#include <gale/io/rename_together.hpp>
+#include <gale/io/bytes/damaged.hpp>
 
 namespace gale::io {
 namespace {
+
+using detail::refuse;
+
+/// A name in the folder of `path` that no other process or thread takes.
+std::string hidden_name_beside(const std::string& path) {
+  const std::filesystem::path whole(path);
+  std::random_device random;
+  std::ostringstream name;
+  name << "." << whole.filename().string().substr(0, 200) << "." << std::hex << random() << random() << ".part";
+  return (whole.parent_path() / name.str()).string();
+}
+
+std::string folder_of(const std::string& path) {
+  const std::string folder = std::filesystem::path(path).parent_path().string();
+  return folder.empty() ? "." : folder;
+}
+
+/// Some file systems sync no folders, or nothing.
+bool cannot_sync(int failure) { return failure == EINVAL || failure == EROFS || failure == ENOTSUP; }
+
+int sync(const std::string& path, int flags) {
+  const int file = open(path.c_str(), flags | O_CLOEXEC);
+  if (file == -1) return errno;
+  const int failure = fsync(file) == 0 || cannot_sync(errno) ? 0 : errno;
+  close(file);
+  return failure;
+}
+
+/// What has the name that a file is to get.
+struct Before {
+  detail::TemporaryName name;  ///< another name for it
+  bool exists = false, is_kept = false;
+};
+
+Before keep(const std::string& path) {
+  Before before;
+  before.exists = access(path.c_str(), F_OK) == 0;
+  if (!before.exists) return before;
+  before.name = detail::TemporaryName(hidden_name_beside(path));
+  before.is_kept = link(path.c_str(), before.name.path().c_str()) == 0;
+  if (!before.is_kept) before.name.forget();
+  return before;
+}
+
+void undo(const std::string& path, Before& before) {
+  if (!before.exists) {
+    unlink(path.c_str());
+  } else if (before.is_kept && std::rename(before.name.path().c_str(), path.c_str()) == 0) {
+    before.name.forget();
+  }
+}
+
+struct Renaming {
+  detail::TemporaryName* from;
+  std::string to;
+};
+
+struct FailedRename {
+  std::size_t which = 0;
+  int reason = 0;  ///< errno, or 0 where all went well
+};
+
+/// Waits until what is in a file is on disk. A value of errno, or 0 where that went well.
+int sync_file(const std::string& path) { return sync(path, O_RDONLY); }
+
+/// Renames all files, syncs their folders, and calls confirm(). If one of that fails, what the names had before gets
+/// them again, unless the file system has no hard links. Throws what confirm() throws.
+FailedRename rename_together(const std::vector<Renaming>& renamings, const std::function<void()>& confirm) {
+  std::vector<Before> before;
+  std::vector<std::string> folders;
+  for (const Renaming& renaming : renamings) {
+    folders.push_back(folder_of(renaming.to));
+    before.push_back(keep(renaming.to));
+  }
+  FailedRename failed;
+  std::size_t done = 0;
+  const detail::Uninterrupted renaming_all;
+  for (; done < renamings.size() && failed.reason == 0; ++done) {
+    if (std::rename(renamings[done].from->path().c_str(), renamings[done].to.c_str()) != 0) {
+      failed = {done, errno};
+      break;
+    }
+    renamings[done].from->forget();
+  }
+  for (std::size_t i = 0; i < done && failed.reason == 0; ++i) {
+    if (i > 0 && folders[i] == folders[i - 1]) continue;
+    const int failure = sync(folders[i], O_RDONLY | O_DIRECTORY);
+    if (failure != 0 && failure != EACCES) failed = {i, failure};  // EACCES: a folder that only takes files
+  }
+  const auto undo_all = [&] {
+    for (std::size_t i = 0; i < done; ++i) undo(renamings[i].to, before[i]);
+  };
+  if (failed.reason != 0) {
+    undo_all();
+    return failed;
+  }
+  try {
+    confirm();
+  } catch (...) {
+    undo_all();
+    throw;
+  }
+  return failed;
+}
 
 /// Throws for a value of errno that isn't 0.
 void check(int failure) {
@@ -37,7 +144,7 @@ AtomicFile::AtomicFile(const std::string& path, Encoding encoding) : path_(path)
   const fs::file_status there = fs::status(target_, unknown);
   if (fs::is_directory(there)) throw Error("it is a directory");
   if (fs::exists(there) && !fs::is_regular_file(there)) throw Error("it is not a regular file");
-  const std::string name = detail::hidden_name_beside(target_);
+  const std::string name = hidden_name_beside(target_);
   const detail::Uninterrupted creating;
   temporary_ = detail::TemporaryName(name);
   const int file = open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
@@ -47,11 +154,11 @@ AtomicFile::AtomicFile(const std::string& path, Encoding encoding) : path_(path)
   close(file);
 }
 
-void AtomicFile::sync() const { check(detail::sync_file(temporary())); }
+void AtomicFile::sync() const { check(sync_file(temporary())); }
 
 void AtomicFile::commit() {
-  check(detail::sync_file(temporary()));
-  check(detail::rename_together({{&temporary_, target_}}, [] {}).reason);
+  check(sync_file(temporary()));
+  check(rename_together({{&temporary_, target_}}, [] {}).reason);
 }
 
 AtomicFile& AtomicFiles::add(const std::string& path) {
@@ -64,17 +171,17 @@ void AtomicFiles::sync(const AtomicFile& file) {
 }
 
 void AtomicFiles::commit(const std::function<void()>& confirm) {
-  std::vector<detail::Renaming> renamings;
+  std::vector<Renaming> renamings;
   for (const auto& file : files_) {
     sync(*file);
     renamings.push_back({&file->temporary_, file->target_});
   }
-  const detail::FailedRename failed = detail::rename_together(renamings, confirm);
+  const FailedRename failed = rename_together(renamings, confirm);
   if (failed.reason != 0) refuse_to_write(files_[failed.which]->path(), std::strerror(failed.reason));
 }
 
 void refuse_to_write(const std::string& path, const std::string& reason) {
-  throw Error("cannot write '" + path + "': " + reason);
+  refuse("cannot write '", path, "': ", reason);
 }
 
 }  // namespace gale::io

@@ -1,25 +1,61 @@
-#include <algorithm>
-#include <cctype>
-#include <utility>
-
+#include <gale/io/bytes/text.hpp>
 #include <gale/io/formats.hpp>
 
-namespace gale::io::detail {
+namespace gale::io {
+namespace detail {
 
-std::optional<Format> format_of(const std::string& path) {
-  static const std::pair<const char*, Format> formats[] = {
-      {".vtu", Format::vtu},    {".pvtu", Format::pvtu},     {".vtk", Format::vtk},    {".vti", Format::vti},
-      {".nii", Format::nifti},  {".nii.gz", Format::nifti},  {".mha", Format::meta},   {".mhd", Format::meta},
-      {".nrrd", Format::nrrd},  {".e", Format::exodus},      {".ex2", Format::exodus}, {".exo", Format::exodus},
-      {".hdf", Format::vtkhdf}, {".vtkhdf", Format::vtkhdf}, {".vtp", Format::vtp}};
-  std::string lower = path;
-  std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return std::tolower(c); });
-  for (const auto& [extension, format] : formats) {
-    const std::string ending = extension;
-    if (lower.size() > ending.size() && lower.compare(lower.size() - ending.size(), ending.size(), ending) == 0)
-      return format;
-  }
-  return std::nullopt;
+// Each in a file of that format's name.
+Reader read_vtu, read_pvtu, read_legacy_vtk, read_vti, read_nifti, read_meta_image, read_nrrd, read_exodus, read_vtkhdf;
+
+}  // namespace detail
+
+const std::vector<Format>& formats() {
+  using namespace detail;
+  static const std::vector<Format> all = {
+      {"VTK XML mesh", ".vtu", Input::mesh, written_meshes | written_lines | written_pieces, false,
+       "an unstructured grid, in one piece or several", read_vtu},
+      {"pieces of VTK XML meshes", ".pvtu", Input::mesh, written_pieces, true,
+       "the `.vtu` that it names, in its folder or below, as one mesh", read_pvtu},
+      {"legacy VTK", ".vtk", Input::mesh, written_meshes, false,
+       "an unstructured grid; a structured or rectilinear one with `--tetrahedralize`; structured points are a volume",
+       read_legacy_vtk},
+      {"VTK XML image", ".vti", Input::volume, 0, false, "an image, in one piece or several", read_vti},
+      {"NIfTI", ".nii .nii.gz", Input::volume, 0, false,
+       "versions 1 and 2, the first time, placed by its sform, else its qform", read_nifti},
+      {"MetaImage", ".mha .mhd", Input::volume, 0, false, "values in the file or in others, raw, deflated or text",
+       read_meta_image},
+      {"NRRD", ".nrrd", Input::volume, 0, false,
+       "values in the file or in others, raw, gzip or text; the first of several volumes", read_nrrd},
+      {"Exodus II", ".e .ex2 .exo", Input::mesh, 0, false,
+       "NetCDF's classic forms and NetCDF-4: all blocks of elements, nodal variables at the first time", read_exodus},
+      {"VTKHDF", ".hdf .vtkhdf", Input::mesh, 0, false, "versions 1 and 2, a mesh or an image, at one time",
+       read_vtkhdf},
+      {"VTK XML surface", ".vtp", Input::none, written_points | written_surfaces, false, "", nullptr},
+      {"pieces of VTK XML surfaces", ".pvtp", Input::none, written_points | written_surfaces, true, "", nullptr}};
+  return all;
 }
 
-}  // namespace gale::io::detail
+const Format* format_of(const std::string& path) {
+  const std::string lower = detail::lower_case(path);
+  for (const Format& format : formats()) {
+    for (const std::string& ending : detail::words_of(format.extensions)) {
+      if (lower.size() > ending.size() && lower.compare(lower.size() - ending.size(), ending.size(), ending) == 0)
+        return &format;
+    }
+  }
+  return nullptr;
+}
+
+std::string extensions_of(const std::function<bool(const Format& format)>& is_meant) {
+  std::string all;
+  for (const Format& format : formats()) {
+    if (is_meant(format)) all += (all.empty() ? "" : " ") + std::string(format.extensions);
+  }
+  return all;
+}
+
+std::string extensions_of(Input input) {
+  return extensions_of([input](const Format& format) { return format.input == input; });
+}
+
+}  // namespace gale::io

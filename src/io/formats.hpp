@@ -1,19 +1,70 @@
 #pragma once
 
-#include <optional>
+#include <functional>
 #include <string>
+#include <variant>
+#include <vector>
 
 #include <gale/export.hpp>
+#include <gale/io/dataset.hpp>
+#include <gale/io/image.hpp>
+#include <gale/io/read.hpp>
 
-namespace gale::io::detail {
+namespace gale::io {
+namespace detail {
 
-enum class Format { vtu, pvtu, vtk, vti, nifti, meta, nrrd, exodus, vtkhdf, vtp };
+class InputFile;
 
-/// By the extension, in either case.
-GALE_EXPORT std::optional<Format> format_of(const std::string& path);
+/// A mesh, or an image whose `select_scalars` and `split_voxels` are still to come.
+using Content = std::variant<Dataset, Image>;
 
-/// Whether files can be read: VTK has with it what that takes. Where GALE is built without VTK, vtk/without_vtk.cpp
-/// stands for all of cells/, formats/ and vtk/vtk_*.cpp.
+/// What reads a format. Trusts nothing that a file says: sizes are checked against what the file has before memory is
+/// taken, and values against their ranges before they index anything. Throws gale::Error without naming the file.
+using Reader = Content(const InputFile& file, const ReadOptions& options);
+
+}  // namespace detail
+
+/// What a file of a format stands for, when it is read.
+enum class Input { none, mesh, volume };
+
+/// What is written to files of a format, each a bit: points alone, lines and polygons, lines alone, meshes, and pieces
+/// of meshes with their global ids.
+enum Written : unsigned {
+  written_points = 1,
+  written_surfaces = 2,
+  written_lines = 4,
+  written_meshes = 8,
+  written_pieces = 16
+};
+
+/// A format of files that are read or written.
+struct Format {
+  const char* name;        ///< e.g. "Exodus II"
+  const char* extensions;  ///< in lower case, separated by spaces; they count in either case
+  Input input;             ///< what its files are read as
+  unsigned written;        ///< bits of `Written`; 0 if none are
+  bool of_pieces;          ///< its files name others, which have what is written
+  const char* about;       ///< what of its files is read, or nothing, for the documentation
+  detail::Reader* reader;  ///< nullptr where none are read
+};
+
+/// All formats: what is read and written by its extension, what help and documentation say of it.
+GALE_EXPORT const std::vector<Format>& formats();
+
+/// The format of a file by its extension; nullptr for none that is known.
+GALE_EXPORT const Format* format_of(const std::string& path);
+
+/// The extensions of the formats that are meant, separated by spaces.
+GALE_EXPORT std::string extensions_of(const std::function<bool(const Format& format)>& is_meant);
+
+/// The extensions of files that are read as `input`, separated by spaces.
+GALE_EXPORT std::string extensions_of(Input input);
+
+namespace detail {
+
+/// Whether files can be read: GALE was built with VTK, which brings what that takes. vtk/without_vtk.cpp stands for
+/// vtk/vtk_*.cpp where it wasn't.
 GALE_EXPORT bool has_vtk();
 
-}  // namespace gale::io::detail
+}  // namespace detail
+}  // namespace gale::io

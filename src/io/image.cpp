@@ -6,11 +6,14 @@
 #include <variant>
 
 #include <gale/base/error.hpp>
-#include <gale/io/arrays.hpp>
+#include <gale/io/bytes/damaged.hpp>
+#include <gale/io/dataset.hpp>
 #include <gale/io/image.hpp>
 
 namespace gale::io {
 namespace {
+
+using detail::refuse;
 
 std::string component_name(const PointArray& array, int component) {
   return array.name + "_" + std::to_string(component);
@@ -42,11 +45,10 @@ std::string names(const std::vector<PointArray>& arrays) {
 void select_scalars(Image& image, const std::string& name) {
   if (image.arrays.empty()) throw Error("the image has no scalars");
   const auto chosen = name.empty() ? image.arrays.begin() : find_or_extract(image.arrays, name);
-  if (chosen == image.arrays.end()) throw Error("the image has no array '" + name + "', only " + names(image.arrays));
+  if (chosen == image.arrays.end()) refuse("the image has no array '", name, "', only ", names(image.arrays));
   if (chosen->components != 1) {
-    throw Error("the array '" + chosen->name + "' has " + std::to_string(chosen->components) +
-                " components: choose one of '" + component_name(*chosen, 0) + "' to '" +
-                component_name(*chosen, chosen->components - 1) + "'");
+    refuse("the array '", chosen->name, "' has ", chosen->components, " components: choose one of '",
+           component_name(*chosen, 0), "' to '", component_name(*chosen, chosen->components - 1), "'");
   }
   std::rotate(image.arrays.begin(), chosen, chosen + 1);
 }
@@ -64,25 +66,6 @@ void rescale(Image& image, double slope, double intercept) {
     return to;
   };
   for (PointArray& array : image.arrays) array.values = std::visit(scaled, array.values);
-}
-
-void reverse_slices(Image& image) {
-  const auto [nx, ny, nz] = image.dimensions;
-  const std::size_t voxels = std::size_t(nx) * ny;
-  for (PointArray& array : image.arrays) {
-    const std::size_t slice = voxels * array.components;
-    const auto reverse = [slice, slices = nz](auto& values) {
-      for (int low = 0, high = slices - 1; low < high; ++low, --high) {
-        std::swap_ranges(values.begin() + low * slice, values.begin() + (low + 1) * slice,
-                         values.begin() + high * slice);
-      }
-    };
-    std::visit(reverse, array.values);
-  }
-  for (auto& row : image.index_to_physical) {
-    row[3] += row[2] * (nz - 1);
-    row[2] = -row[2];
-  }
 }
 
 }  // namespace gale::io

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,7 +30,27 @@ GALE_EXPORT void select_scalars(Image& image, const std::string& name);
 /// Does nothing where that would change nothing, or for a slope of 0, which stands for "none" in NIfTI.
 GALE_EXPORT void rescale(Image& image, double slope, double intercept);
 
-/// Reverses the order of the slices (k) and the transformation with it: every voxel stays where it is in space.
-GALE_EXPORT void reverse_slices(Image& image);
+/// The tetrahedral mesh of the voxels whose value in the image's first array is above `above`; without it, of those
+/// whose value is finite. NaN is never above. A cube of eight such neighbouring voxels becomes six tetrahedra along its
+/// main diagonal (Freudenthal), so neighbours share faces.
+///
+/// Vertices are the voxels that some cube uses, x fastest; tetrahedra follow their cubes, x fastest, and within a cube
+/// `make_grid`'s order. (Every edge joins voxels that are ordered alike along all three axes, so where values tie
+/// it makes no difference to critical points which axis is numbered fastest.) Points are float unless that would move
+/// them by more than a hundredth of a voxel; all arrays travel, in their types.
+///
+/// Runs on all host threads; besides image and result it takes two bytes a voxel. Throws `Error` if a dimension is
+/// below 2, if no cube is left, or if the vertices or tetrahedra do not fit 32-bit ids. Precondition: `select_scalars`.
+GALE_EXPORT Dataset split_voxels(Image image, std::optional<double> above);
 
+namespace detail {
+
+/// The six tetrahedra of a cube, along its main diagonal. Corners are numbered by their coordinates: bit 0 is x, bit 1
+/// y, bit 2 z. Each tetrahedron walks from corner 0 to corner 7 along the axes in one of the orders xyz, xzy, yxz, yzx,
+/// zxy, zyx.
+inline constexpr int tetrahedra_per_cube = 6;
+inline constexpr std::uint8_t freudenthal[tetrahedra_per_cube][4] = {{0, 1, 3, 7}, {0, 1, 5, 7}, {0, 2, 3, 7},
+                                                                     {0, 2, 6, 7}, {0, 4, 5, 7}, {0, 4, 6, 7}};
+
+}  // namespace detail
 }  // namespace gale::io

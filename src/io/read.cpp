@@ -4,22 +4,22 @@
 #include <utility>
 #include <variant>
 
-#include <gale/base/error.hpp>
-#include <gale/io/bytes/value_type.hpp>
-#include <gale/io/formats/readers.hpp>
+#include <gale/io/bytes/values.hpp>
+#include <gale/io/formats.hpp>
+#include <gale/io/formats/vtu.hpp>
 #include <gale/io/image.hpp>
-#include <gale/io/pieces.hpp>
 #include <gale/io/read.hpp>
 #include <gale/io/synthetic.hpp>
-#include <gale/io/voxels.hpp>
 
 namespace gale::io {
 namespace {
 
+using detail::refuse;
+
 const std::string grid_prefix = "grid:";
 
-Dataset read_file(const std::string& path, detail::Format format, const ReadOptions& options) {
-  detail::Content content = detail::read_content(detail::InputFile(path), format, options);
+Dataset read_file(const std::string& path, const Format& format, const ReadOptions& options) {
+  detail::Content content = format.reader(detail::InputFile(path), options);
   if (auto* image = std::get_if<Image>(&content)) {
     const auto& [nx, ny, nz] = image->dimensions;
     for (const PointArray& array : image->arrays) detail::require_size(array, std::uint64_t(nx) * ny * nz);
@@ -36,9 +36,9 @@ auto naming(const std::string& input, const Read& read) {
   try {
     return read();
   } catch (const std::bad_alloc&) {
-    throw Error("cannot read '" + input + "': not enough memory");
+    refuse("cannot read '", input, "': not enough memory");
   } catch (const std::exception& error) {
-    throw Error("cannot read '" + input + "': " + error.what());
+    refuse("cannot read '", input, "': ", error.what());
   }
 }
 
@@ -47,8 +47,8 @@ int size_in_name(const std::string& input, const ReadOptions& options) {
   int n = 0;
   const char* const end = input.data() + input.size();
   const auto [stop, failure] = std::from_chars(input.data() + input.find(':') + 1, end, n);
-  if (failure != std::errc() || stop != end) throw Error("cannot make '" + input + "': N must be a whole number");
-  if (options.above) throw Error("cannot apply a threshold to '" + input + "': it is a mesh, not an image");
+  if (failure != std::errc() || stop != end) refuse("cannot make '", input, "': N must be a whole number");
+  if (options.above) refuse("cannot apply a threshold to '", input, "': it is a mesh, not an image");
   return n;
 }
 
@@ -63,20 +63,19 @@ Dataset read(const std::string& input, const ReadOptions& options) {
   if (const auto n = grid_size(input, options)) return make_grid(*n);
   const std::string kind = input.substr(0, input.find(':'));
   if (kind.size() < input.size() && is_synthetic(kind)) return make_synthetic(kind, size_in_name(input, options));
-  if (!detail::has_vtk()) throw Error("this gale was built without VTK: it reads grid:N alone, not '" + input + "'");
-  const std::optional<detail::Format> format = detail::format_of(input);
-  if (!format || *format == detail::Format::vtp) {
-    throw Error("cannot read '" + input +
-                "': its extension is none of .vtu .pvtu .vtk .vti .nii .nii.gz .mha .mhd .nrrd .e .ex2 .exo .hdf "
-                ".vtkhdf, nor is "
-                "it grid:N; for other meshes: meshio convert '" +
-                input + "' mesh.vtu");
+  if (!detail::has_vtk()) refuse("this gale was built without VTK: it reads grid:N alone, not '", input, "'");
+  const Format* const format = format_of(input);
+  if (format == nullptr || format->reader == nullptr) {
+    refuse("cannot read '", input, "': its extension is none of ",
+           extensions_of([](const Format& one) { return one.reader != nullptr; }),
+           ", nor is it grid:N; for other meshes: meshio convert '", input, "' mesh.vtu");
   }
   return naming(input, [&] { return read_file(input, *format, options); });
 }
 
 std::optional<PieceNames> piece_names(const std::string& input) {
-  if (!detail::has_vtk() || detail::format_of(input) != detail::Format::pvtu) return std::nullopt;
+  const Format* const format = format_of(input);
+  if (!detail::has_vtk() || format == nullptr || !format->of_pieces || format->reader == nullptr) return std::nullopt;
   return naming(input, [&] { return detail::names_of_pieces(detail::InputFile(input)); });
 }
 

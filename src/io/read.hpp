@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -47,5 +48,28 @@ GALE_EXPORT std::optional<int> grid_size(const std::string& input, const ReadOpt
 /// values that it lacks are an error. Nothing is printed. Any number of threads may read at the same time, but those
 /// that `tetrahedralize` wait for each other.
 GALE_EXPORT Dataset read(const std::string& input, const ReadOptions& options = {});
+
+/// The pieces that a `.pvtu` names.
+struct PieceNames {
+  std::vector<std::string> sources;  ///< their paths
+  std::string point_ids;             ///< the point array that has global ids; empty where there is none
+  std::string cell_ids;              ///< the cell array that has global ids; empty where there is none
+};
+
+/// Some pieces as one mesh, which may have no tetrahedra and no points: points that several pieces have are there
+/// once, and ghost cells are left out.
+struct SomePieces {
+  Dataset mesh;  ///< points and tetrahedra in the order of their ids, or, without ids, in which they occur first
+
+  // In that order; empty without ids.
+  std::vector<std::int64_t> point_ids;        ///< the global ids of points, which differ
+  std::vector<std::int64_t> tetrahedron_ids;  ///< the global ids of tetrahedra
+};
+
+/// Reads which pieces `input` names if it is a `.pvtu`; nothing for another one. Throws Error, naming it.
+GALE_EXPORT std::optional<PieceNames> piece_names(const std::string& input);
+
+/// Reads some of the pieces of a `.pvtu` as one mesh. Throws Error, naming the input.
+GALE_EXPORT SomePieces read_pieces(const std::string& input, const PieceNames& some, const ReadOptions& options);
 
 }  // namespace gale::io

@@ -12,14 +12,25 @@
 #include <gale/base/memory.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/base/types.hpp>
-#include <gale/io/freudenthal.hpp>
-#include <gale/io/noise.hpp>
+#include <gale/io/bytes/damaged.hpp>
+#include <gale/io/image.hpp>
 #include <gale/io/synthetic.hpp>
 
 namespace gale::io {
 namespace {
 
+using detail::refuse;
+
 using Host = Kokkos::DefaultHostExecutionSpace;
+
+/// A number that looks random, for any other: the noise of synthetic fields.
+std::uint32_t hashed(std::uint32_t x) {
+  x ^= x >> 16;
+  x *= 0x7feb352dU;
+  x ^= x >> 15;
+  x *= 0x846ca68bU;
+  return x ^ (x >> 16);
+}
 
 /// Cubes z-layer after z-layer, and the layers of vertices at them.
 struct Layers {
@@ -37,14 +48,14 @@ void require_ids(const std::string& what, double count, const std::string& of_wh
   if (count <= std::numeric_limits<Id>::max()) return;
   std::ostringstream digits;
   digits << std::fixed << std::setprecision(0) << count;
-  throw Error(what + " has " + digits.str() + " " + of_what + ", more than the " +
-              std::to_string(std::numeric_limits<Id>::max()) + " that 32-bit ids can number");
+  refuse(what, " has ", digits.str(), " ", of_what, ", more than the ", std::numeric_limits<Id>::max(),
+         " that 32-bit ids can number");
 }
 
 std::string name_of_grid(int n) { return "grid:" + std::to_string(n); }
 
 void require_cubes(int n) {
-  if (n < 2) throw Error(name_of_grid(n) + " has no tetrahedra: N must be at least 2");
+  if (n < 2) refuse(name_of_grid(n), " has no tetrahedra: N must be at least 2");
 }
 
 void check_size(int n) {
@@ -104,11 +115,59 @@ std::vector<float> make_field(const Layers& layers) {
     const Offset y = row % n, z = layers.first + row / n;
     for (int x = 0; x < n; ++x) {
       const std::size_t i = std::size_t(row) * n + x;
-      const double noise = 0.05 * (detail::noise(static_cast<std::uint32_t>(layers.first_vertex() + i)) / 4294967296.0);
+      const double noise = 0.05 * (hashed(static_cast<std::uint32_t>(layers.first_vertex() + i)) / 4294967296.0);
       field[i] = static_cast<float>(sine_x[x] * cosine_y[y] + sine_zx[std::size_t(z) * n + x] + noise);
     }
   });
   return field;
+}
+
+/// A point of the cube from -1 to 1, and a number of its own between 0 and 1.
+struct CubePoint {
+  double x, y, z, noise;
+
+  double radius() const { return std::sqrt(x * x + y * y + z * z); }
+  double waves() const { return 3 + std::sin(9 * x) * std::cos(7 * y) + std::sin(8 * z + 3 * x); }
+};
+
+struct SyntheticKind {
+  const char* name;
+  bool (*has)(const CubePoint&);
+  double (*value)(const CubePoint&);  ///< above 0
+};
+
+bool everywhere(const CubePoint&) { return true; }
+
+constexpr SyntheticKind synthetic_kinds[] = {
+    {"smooth", everywhere,
+     [](const CubePoint& p) { return 4 + std::sin(3 * p.x + 1) * std::cos(2 * p.y) + p.z * p.x; }},
+    {"noisy", everywhere, [](const CubePoint& p) { return 1 + p.noise; }},
+    {"ball", [](const CubePoint& p) { return p.radius() <= 1; }, [](const CubePoint& p) { return p.waves(); }},
+    {"shells",
+     [](const CubePoint& p) {
+       const double of_three = 3 * p.radius();
+       return of_three <= 3 && of_three - std::floor(of_three) >= 0.55;
+     },
+     [](const CubePoint& p) { return p.waves() + 0.3 * p.noise; }},
+    {"dense", everywhere, [](const CubePoint& p) { return p.waves() + 0.02 * p.noise; }},
+};
+
+const SyntheticKind* kind_named(const std::string& name) {
+  for (const SyntheticKind& kind : synthetic_kinds) {
+    if (name == kind.name) return &kind;
+  }
+  return nullptr;
+}
+
+/// Towards the first corner: the density falls with the square of a coordinate.
+void gather_points(Dataset& dataset, int n) {
+  const auto& points = std::get<Dataset::Points<float>>(dataset.points);
+  parallel_for("GALE::gather_points", Host(), static_cast<Offset>(points.extent(0)), [&](Offset i) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const double from = points(i, axis) / double(n - 1);
+      points(i, axis) = static_cast<float>((n - 1) * (0.1 * from + 0.9 * from * from * from));
+    }
+  });
 }
 
 }  // namespace
@@ -127,9 +186,8 @@ template <class Index>
 GridPartOf<Index> make_grid_part(int n, int part, int parts) {
   require_cubes(n);
   constexpr int most = 1625;  // its 2^32 numbers make the field's noise
-  if (n > most) throw Error(name_of_grid(n) + " is too large: N is at most " + std::to_string(most));
-  if (part < 0 || part >= parts)
-    throw Error("there is no part " + std::to_string(part) + " of " + std::to_string(parts));
+  if (n > most) refuse(name_of_grid(n), " is too large: N is at most ", most);
+  if (part < 0 || part >= parts) refuse("there is no part ", part, " of ", parts);
   if (sizeof(Index) < sizeof(Offset)) require_ids(name_of_grid(n), std::pow(n, 3), "vertices");
   const Offset first = Offset(n - 1) * part / parts, last = Offset(n - 1) * (part + 1) / parts;
   const Layers layers{n, first, last - first};
@@ -142,5 +200,31 @@ GridPartOf<Index> make_grid_part(int n, int part, int parts) {
 
 template GALE_EXPORT GridPartOf<std::int32_t> make_grid_part(int, int, int);
 template GALE_EXPORT GridPartOf<std::int64_t> make_grid_part(int, int, int);
+
+bool is_synthetic(const std::string& kind) { return kind_named(kind) != nullptr; }
+
+Dataset make_synthetic(const std::string& kind, int n) {
+  const SyntheticKind* const made = kind_named(kind);
+  if (made == nullptr) refuse("there is no synthetic mesh '", kind, "'");
+  const std::string name = kind + ":" + std::to_string(n);
+  if (n < 2) refuse(name, " has no tetrahedra: N must be at least 2");
+  if (n > 1290) refuse(name, " has more vertices than the 2147483647 that 32-bit ids can number");
+  Image image;
+  image.dimensions = {n, n, n};
+  std::vector<float> values(static_cast<std::size_t>(n) * n * n);
+  const auto coordinate = [n](Offset i) { return 2.0 * static_cast<double>(i) / (n - 1) - 1; };
+  parallel_for("GALE::make_synthetic", Host(), Offset(n) * n, [&](Offset row) {
+    for (Offset x = 0; x < n; ++x) {
+      const Offset i = row * n + x;
+      const CubePoint place = {coordinate(x), coordinate(row % n), coordinate(row / n),
+                               hashed(static_cast<std::uint32_t>(i)) / 4294967296.0};
+      values[static_cast<std::size_t>(i)] = made->has(place) ? static_cast<float>(made->value(place)) : 0.0F;
+    }
+  });
+  image.arrays.push_back({"field", 1, std::move(values)});
+  Dataset dataset = split_voxels(std::move(image), 0);
+  if (kind == "dense") gather_points(dataset, n);
+  return dataset;
+}
 
 }  // namespace gale::io

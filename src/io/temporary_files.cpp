@@ -8,7 +8,7 @@
 #include <new>
 #include <utility>
 
-#include <gale/io/temporary_files.hpp>
+#include <gale/io/atomic_file.hpp>
 
 namespace gale::io {
 namespace {

@@ -17,11 +17,13 @@
 #include <gale/base/memory.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/base/types.hpp>
-#include <gale/io/freudenthal.hpp>
-#include <gale/io/voxels.hpp>
+#include <gale/io/bytes/damaged.hpp>
+#include <gale/io/image.hpp>
 
 namespace gale::io {
 namespace {
+
+using detail::refuse;
 
 using Host = Kokkos::DefaultHostExecutionSpace;
 
@@ -139,8 +141,8 @@ void check(const Kept& kept, const PointArray& scalars, const std::optional<doub
   }
   const auto require_ids = [](Offset count, const std::string& of_what) {
     if (count <= std::numeric_limits<Id>::max()) return;
-    throw Error("the voxels make " + std::to_string(count) + " " + of_what + ", more than the " +
-                std::to_string(std::numeric_limits<Id>::max()) + " that 32-bit ids can number");
+    refuse("the voxels make ", count, " ", of_what, ", more than the ", std::numeric_limits<Id>::max(),
+           " that 32-bit ids can number");
   };
   require_ids(kept.voxel_begin.back(), "vertices");
   require_ids(kept.cube_begin.back() * detail::tetrahedra_per_cube, "tetrahedra");
@@ -235,8 +237,7 @@ auto make_tetrahedra(const Kept& kept) {
 Dataset split_voxels(Image image, std::optional<double> above) {
   const auto [nx, ny, nz] = image.dimensions;
   if (nx < 2 || ny < 2 || nz < 2) {
-    throw Error("the image has " + std::to_string(nx) + " x " + std::to_string(ny) + " x " + std::to_string(nz) +
-                " voxels: it needs at least 2 in each direction");
+    refuse("the image has ", nx, " x ", ny, " x ", nz, " voxels: it needs at least 2 in each direction");
   }
   const Kept kept = keep({nx, ny, nz}, image.arrays.front(), above);
   check(kept, image.arrays.front(), above);

@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <cstddef>
 #include <exception>
-#include <initializer_list>
 #include <new>
+#include <type_traits>
 
 #include <gale/base/error.hpp>
-#include <gale/io/arrays.hpp>
 #include <gale/io/atomic_file.hpp>
+#include <gale/io/bytes/text.hpp>
 #include <gale/io/formats.hpp>
 #include <gale/io/write.hpp>
 #include <gale/io/writers/writers.hpp>
@@ -14,18 +14,18 @@
 namespace gale::io {
 namespace {
 
-using detail::Format;
+using detail::refuse;
 
 void check_arrays(std::size_t count, const std::vector<PointArray>& arrays, const std::string& of = "points") {
   for (const PointArray& array : arrays) {
     const std::size_t values = std::visit([](const auto& v) { return v.size(); }, array.values);
     if (array.components > 0 && values == count * array.components) continue;
-    throw Error("the array '" + array.name + "' has " + std::to_string(values) + " values for " +
-                std::to_string(count) + " " + of + " of " + std::to_string(array.components) + " components");
+    refuse("the array '", array.name, "' has ", values, " values for ", count, " ", of, " of ", array.components,
+           " components");
   }
 }
 
-std::size_t size_of(const Dataset::Positions& points) {
+std::size_t points_of(const Dataset::Positions& points) {
   return std::visit([](const auto& p) { return p.extent(0); }, points);
 }
 
@@ -37,22 +37,21 @@ void check_cells(std::size_t points, const Surface::Cells& cells) {
   }
   for (const std::int32_t point : cells.points) {
     if (point < 0 || static_cast<std::size_t>(point) >= points) {
-      throw Error("there is no point " + std::to_string(point) + " among " + std::to_string(points));
+      refuse("there is no point ", point, " among ", points);
     }
   }
 }
 
-void require_format(const std::string& path, const std::string& what, std::initializer_list<Format> formats,
-                    const std::string& rule) {
-  const auto format = detail::format_of(path);
-  if (format && std::find(formats.begin(), formats.end(), *format) != formats.end()) return;
-  throw Error("cannot write " + what + " to '" + path + "': its extension is " + rule);
-}
-
-void require_points(const std::string& path) { require_format(path, "points", {Format::vtp}, "not .vtp"); }
-void require_surface(const std::string& path) { require_format(path, "a surface", {Format::vtp}, "not .vtp"); }
-void require_mesh(const std::string& path) {
-  require_format(path, "a mesh", {Format::vtu, Format::vtk}, "neither .vtu nor .vtk");
+/// Throws Error unless the file's extension is one that is written with that. `what` it is.
+void require_format(const std::string& path, Written bit, const char* what) {
+  const auto is_meant = [bit](const Format& one) { return (one.written & bit) != 0 && !one.of_pieces; };
+  const Format* const format = format_of(path);
+  if (format != nullptr && is_meant(*format)) return;
+  std::string rule;
+  for (const std::string& extension : detail::words_of(extensions_of(is_meant)))
+    rule += (rule.empty() ? "" : " nor ") + extension;
+  const bool several = rule.find(' ') != std::string::npos;
+  refuse("cannot write ", what, " to '", path, "': its extension is ", several ? "neither " : "not ", rule);
 }
 
 /// Runs `write`; names `path` in whatever goes wrong.
@@ -67,9 +66,10 @@ void name_in_errors(const std::string& path, const Write& write) {
   }
 }
 
-/// Runs `write(file)` and makes its file appear as `path`.
+/// Runs `write(file)` for a file that appears as `path` then, if its format is written with that.
 template <class Write>
-void write_file(const std::string& path, const Write& write) {
+void write_as(const std::string& path, Written bit, const char* what, const Write& write) {
+  require_format(path, bit, what);
   name_in_errors(path, [&] {
     AtomicFile file(path);
     write(file);
@@ -77,92 +77,93 @@ void write_file(const std::string& path, const Write& write) {
   });
 }
 
-void write_temporary(const AtomicFile& file, const PointSet& points) {
-  check_arrays(size_of(points.points), points.arrays);
-  detail::write_vtp(file, points);
+/// Runs `write(file)` for a file that the caller commits.
+template <class Write>
+void write_as(const AtomicFile& file, Written bit, const char* what, const Write& write) {
+  require_format(file.path(), bit, what);
+  name_in_errors(file.path(), [&] { write(file); });
 }
 
-void write_temporary(const AtomicFile& file, const Surface& surface) {
-  const std::size_t points = size_of(surface.points);
-  check_cells(points, surface.lines);
-  check_cells(points, surface.polygons);
-  check_arrays(points, surface.point_arrays);
-  check_arrays(surface.lines.begin.size() + surface.polygons.begin.size() - 2, surface.cell_arrays, "cells");
-  detail::write_vtp(file, surface);
+template <class To>
+void write_points_to(const To& to, const PointSet& points) {
+  write_as(to, written_points, "points", [&](const AtomicFile& file) {
+    check_arrays(points_of(points.points), points.arrays);
+    detail::write_xml(file, detail::content_of(points));
+  });
 }
 
-void write_temporary(const AtomicFile& file, const Dataset& mesh, const std::vector<PointArray>& more) {
-  check_arrays(size_of(mesh.points), mesh.arrays);
-  check_arrays(size_of(mesh.points), more);
-  if (detail::format_of(file.path()) == Format::vtu) {
-    detail::write_vtu(file, mesh, more);
-  } else {
-    detail::write_legacy_vtk(file.temporary(), mesh, more);
-  }
+template <class To>
+void write_surface_to(const To& to, const Surface& surface) {
+  write_as(to, written_surfaces, "a surface", [&](const AtomicFile& file) {
+    const std::size_t points = points_of(surface.points);
+    check_cells(points, surface.lines);
+    check_cells(points, surface.polygons);
+    check_arrays(points, surface.point_arrays);
+    check_arrays(surface.lines.begin.size() + surface.polygons.begin.size() - 2, surface.cell_arrays, "cells");
+    detail::write_xml(file, detail::content_of(surface));
+  });
+}
+
+template <class To>
+void write_mesh_to(const To& to, const Dataset& mesh, const std::vector<PointArray>& more) {
+  write_as(to, written_meshes, "a mesh", [&](const AtomicFile& file) {
+    check_arrays(points_of(mesh.points), mesh.arrays);
+    check_arrays(points_of(mesh.points), more);
+    if ((format_of(file.path())->written & written_pieces) != 0) {
+      detail::write_xml(file, detail::content_of(mesh, more));
+    } else {
+      detail::write_legacy_vtk(file, mesh, more);
+    }
+  });
+}
+
+void write_names(const AtomicFile& file, const std::vector<std::string>& pieces, const detail::XmlContent& like) {
+  name_in_errors(file.path(), [&] { detail::write_xml_pieces(file, pieces, like); });
 }
 
 }  // namespace
 
-void write_points(const std::string& path, const PointSet& points) {
-  require_points(path);
-  write_file(path, [&](const AtomicFile& file) { write_temporary(file, points); });
-}
+void write_points(const std::string& path, const PointSet& points) { write_points_to(path, points); }
+void write_points(const AtomicFile& file, const PointSet& points) { write_points_to(file, points); }
 
-void write_points(const AtomicFile& file, const PointSet& points) {
-  require_points(file.path());
-  name_in_errors(file.path(), [&] { write_temporary(file, points); });
-}
-
-void write_pieces(const AtomicFile& file, const std::vector<std::string>& pieces, const PointSet& like) {
-  name_in_errors(file.path(), [&] { detail::write_pvtp(file.temporary(), pieces, like); });
-}
-
-void write_pieces(const AtomicFile& file, const std::vector<std::string>& pieces, const Surface& like) {
-  name_in_errors(file.path(), [&] { detail::write_pvtp(file.temporary(), pieces, like); });
-}
-
-void write_pieces(const AtomicFile& file, const std::vector<std::string>& pieces, const MeshPiece& like) {
-  name_in_errors(file.path(), [&] { detail::write_pvtu(file.temporary(), pieces, like); });
-}
-
-void write_piece(const AtomicFile& file, const MeshPiece& piece) {
-  require_format(file.path(), "a piece of a mesh", {Format::vtu}, "not .vtu");
-  name_in_errors(file.path(), [&] {
-    check_arrays(size_of(piece.mesh.points), piece.mesh.arrays);
-    check_arrays(piece.mesh.tetrahedra.extent(0), piece.cell_arrays, "tetrahedra");
-    detail::write_vtu(file, piece.mesh, {}, piece.cell_arrays);
-  });
-}
-
-void write_surface(const std::string& path, const Surface& surface) {
-  require_surface(path);
-  write_file(path, [&](const AtomicFile& file) { write_temporary(file, surface); });
-}
-
-void write_surface(const AtomicFile& file, const Surface& surface) {
-  require_surface(file.path());
-  name_in_errors(file.path(), [&] { write_temporary(file, surface); });
-}
+void write_surface(const std::string& path, const Surface& surface) { write_surface_to(path, surface); }
+void write_surface(const AtomicFile& file, const Surface& surface) { write_surface_to(file, surface); }
 
 void write_mesh(const std::string& path, const Dataset& mesh, const std::vector<PointArray>& more) {
-  require_mesh(path);
-  write_file(path, [&](const AtomicFile& file) { write_temporary(file, mesh, more); });
+  write_mesh_to(path, mesh, more);
 }
-
 void write_mesh(const AtomicFile& file, const Dataset& mesh, const std::vector<PointArray>& more) {
-  require_mesh(file.path());
-  name_in_errors(file.path(), [&] { write_temporary(file, mesh, more); });
+  write_mesh_to(file, mesh, more);
 }
 
 void write_lines(const AtomicFile& file, const Surface& lines) {
-  require_format(file.path(), "lines", {Format::vtu}, "not .vtu");
-  name_in_errors(file.path(), [&] {
-    const std::size_t points = size_of(lines.points);
+  write_as(file, written_lines, "lines", [&](const AtomicFile& to) {
+    const std::size_t points = points_of(lines.points);
     check_cells(points, lines.lines);
     check_arrays(points, lines.point_arrays);
     check_arrays(lines.lines.begin.size() - 1, lines.cell_arrays, "lines");
-    detail::write_vtu(file, lines);
+    detail::write_xml(to, detail::content_of_lines(lines));
   });
+}
+
+void write_piece(const AtomicFile& file, const MeshPiece& piece) {
+  write_as(file, written_pieces, "a piece of a mesh", [&](const AtomicFile& to) {
+    check_arrays(points_of(piece.mesh.points), piece.mesh.arrays);
+    check_arrays(piece.mesh.tetrahedra.extent(0), piece.cell_arrays, "tetrahedra");
+    detail::write_xml(to, detail::content_of(piece.mesh, {}, piece.cell_arrays));
+  });
+}
+
+void write_pieces(const AtomicFile& file, const std::vector<std::string>& pieces, const PointSet& like) {
+  write_names(file, pieces, detail::content_of(like));
+}
+
+void write_pieces(const AtomicFile& file, const std::vector<std::string>& pieces, const Surface& like) {
+  write_names(file, pieces, detail::content_of(like));
+}
+
+void write_pieces(const AtomicFile& file, const std::vector<std::string>& pieces, const MeshPiece& like) {
+  write_names(file, pieces, detail::content_of(like.mesh, {}, like.cell_arrays));
 }
 
 }  // namespace gale::io

@@ -1,4 +1,4 @@
-#include <gale/io/arrays.hpp>
+#include <gale/io/dataset.hpp>
 #include <gale/outputs/critical_points.hpp>
 
 namespace gale::outputs {

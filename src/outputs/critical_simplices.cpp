@@ -1,5 +1,5 @@
 #include <gale/base/stop.hpp>
-#include <gale/io/arrays.hpp>
+#include <gale/io/dataset.hpp>
 #include <gale/mesh/positions.hpp>
 #include <gale/outputs/corners.hpp>
 #include <gale/outputs/critical_simplices.hpp>

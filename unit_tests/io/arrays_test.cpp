@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include <gale/io/arrays.hpp>
+#include <gale/io/dataset.hpp>
 
 #include "io/io_fixtures.hpp"
 

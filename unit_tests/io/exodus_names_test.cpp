@@ -14,7 +14,7 @@
 #include <vtkQuadraticWedge.h>
 #include <vtkTriQuadraticHexahedron.h>
 
-#include <gale/io/formats/exodus_names.hpp>
+#include <gale/io/formats/exodus.hpp>
 
 namespace gale::io::detail {
 namespace {

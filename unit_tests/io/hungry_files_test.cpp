@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include <gale/io/cells/join.hpp>
-#include <gale/io/pieces.hpp>
 #include <gale/io/read.hpp>
 
 #include "io/io_fixtures.hpp"

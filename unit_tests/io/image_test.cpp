@@ -64,19 +64,5 @@ TEST(Rescale, LeavesAloneWhatItWouldNotChange) {
   EXPECT_EQ(values_of<std::int16_t>(image.arrays[0]), (std::vector<std::int16_t>{-1, 2}));
 }
 
-TEST(ReverseSlices, MovesValuesAndKeepsTheirPlaces) {
-  Image image;
-  image.dimensions = {2, 1, 3};
-  image.index_to_physical = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 2, 5}}};
-  image.arrays = {{"a", 1, std::vector<int>{0, 1, 2, 3, 4, 5}},
-                  {"b", 2, std::vector<int>{0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5}}};
-  reverse_slices(image);
-  EXPECT_EQ(values_of<int>(image.arrays[0]), (std::vector<int>{4, 5, 2, 3, 0, 1}));
-  EXPECT_EQ(values_of<int>(image.arrays[1]), (std::vector<int>{4, 4, 5, 5, 2, 2, 3, 3, 0, 0, 1, 1}));
-  // The values 4 and 5 were at k = 2, z = 2*2 + 5; now they are at k = 0.
-  EXPECT_EQ(image.index_to_physical[2], (std::array<double, 4>{0, 0, -2, 9}));
-  EXPECT_EQ(image.index_to_physical[0], (std::array<double, 4>{1, 0, 0, 0}));
-}
-
 }  // namespace
 }  // namespace gale::io

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <gale/io/image.hpp>
 #include <gale/io/synthetic.hpp>
-#include <gale/io/voxels.hpp>
 
 #include "io/io_fixtures.hpp"
 

@@ -18,7 +18,7 @@
 #include <vtkUnstructuredGrid.h>
 
 #include <gale/base/error.hpp>
-#include <gale/io/voxels.hpp>
+#include <gale/io/image.hpp>
 
 #include "arrays.hpp"
 

@@ -2,6 +2,7 @@
 
 #include <gale/app/options/options.hpp>
 #include <gale/app/options/parse.hpp>
+#include <gale/io/formats.hpp>
 #include <gale/mesh/segmentation.hpp>
 
 namespace gale::app {
@@ -9,8 +10,9 @@ namespace gale::app {
 void InputOptions::add_to(CLI::App& command) {
   command
       .add_option("INPUT", input,
-                  "A mesh (.vtu .pvtu .vtk .e .ex2 .exo .vtkhdf), a volume (.vti .nii .nii.gz .mha .mhd .nrrd) or "
-                  "grid:N, smooth:N, noisy:N, ball:N, shells:N, dense:N")
+                  "A mesh (" + io::extensions_of(io::Input::mesh) + "), a volume (" +
+                      io::extensions_of(io::Input::volume) +
+                      ") or grid:N, smooth:N, noisy:N, ball:N, shells:N, dense:N")
       ->required();
   command.add_option("--above", read.above, "Volumes: keep the voxels with values above this");
   command.add_option(

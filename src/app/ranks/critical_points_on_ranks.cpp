@@ -2,7 +2,7 @@
 #include <gale/app/ranks/rank_session.hpp>
 #include <gale/app/ranks/ranks.hpp>
 #include <gale/distributed/distributed_critical_points.hpp>
-#include <gale/io/arrays.hpp>
+#include <gale/io/dataset.hpp>
 
 namespace gale::app {
 

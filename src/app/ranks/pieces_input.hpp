@@ -1,7 +1,7 @@
 #pragma once
 
 #include <gale/app/ranks/shared_input.hpp>
-#include <gale/io/pieces.hpp>
+#include <gale/io/read.hpp>
 
 namespace gale::app {
 

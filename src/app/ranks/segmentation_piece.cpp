@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include <gale/app/ranks/complex_pieces.hpp>
-#include <gale/io/arrays.hpp>
+#include <gale/io/dataset.hpp>
 
 namespace gale::app {
 

@@ -4,7 +4,7 @@
 #include <gale/app/ranks/shared_input.hpp>
 #include <gale/app/step.hpp>
 #include <gale/distributed/exchange_plan.hpp>
-#include <gale/io/bytes/value_type.hpp>
+#include <gale/io/bytes/values.hpp>
 #include <gale/io/read.hpp>
 #include <gale/io/synthetic.hpp>
 #include <gale/outputs/field.hpp>

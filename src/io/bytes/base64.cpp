@@ -6,16 +6,15 @@
 #include <gale/io/bytes/damaged.hpp>
 
 namespace gale::io::detail {
-
 namespace {
 
+constexpr char alphabet[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 constexpr signed char space = -1, wrong = -2, padding = -3;
 
 std::array<signed char, 256> make_digits() {
   std::array<signed char, 256> digits;
   digits.fill(wrong);
   for (const char c : {' ', '\t', '\r', '\n'}) digits[static_cast<unsigned char>(c)] = space;
-  const char* const alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   for (int k = 0; k < 64; ++k) digits[static_cast<unsigned char>(alphabet[k])] = static_cast<signed char>(k);
   digits['='] = padding;
   return digits;
@@ -38,7 +37,7 @@ bool Base64Bytes::decode() {
     const char c = buffer_[buffer_at_++];
     const signed char digit = digits[static_cast<unsigned char>(c)];
     if (digit == space) continue;
-    if (digit == wrong || (digit >= 0 && paddings > 0)) damaged(std::string("its base64 has a '") + c + "'");
+    if (digit == wrong || (digit >= 0 && paddings > 0)) damaged("its base64 has a '", c, "'");
     digit == padding ? ++paddings : ++digits_read;
     bits = bits << 6 | (digit == padding ? 0u : static_cast<std::uint32_t>(digit));
   }
@@ -68,11 +67,34 @@ void Base64Bytes::begin_next() {
   ended_ = false;
 }
 
-std::size_t MemoryBytes::read(char* to, std::size_t bytes) {
-  const std::size_t count = std::min(bytes, bytes_.size() - at_);
-  std::memcpy(to, bytes_.data() + at_, count);
-  at_ += count;
-  return count;
+std::vector<char> encoded(const void* bytes, std::size_t size, Encoding encoding) {
+  const auto* const from = static_cast<const unsigned char*>(bytes);
+  if (encoding == Encoding::appended) return {from, from + size};
+  std::vector<char> text;
+  text.reserve((size + 2) / 3 * 4);
+  for (std::size_t at = 0; at < size; at += 3) {
+    const std::size_t count = std::min<std::size_t>(3, size - at);
+    unsigned bits = from[at] << 16;
+    if (count > 1) bits |= from[at + 1] << 8;
+    if (count > 2) bits |= from[at + 2];
+    const char four[] = {alphabet[bits >> 18], alphabet[bits >> 12 & 63], count > 1 ? alphabet[bits >> 6 & 63] : '=',
+                         count > 2 ? alphabet[bits & 63] : '='};
+    text.insert(text.end(), four, four + 4);
+  }
+  return text;
+}
+
+void EncodedBytes::write(const void* bytes, std::size_t size) {
+  if (encoding_ == Encoding::appended) return file_.write(bytes, size);
+  const auto* const from = static_cast<const char*>(bytes);
+  waiting_.insert(waiting_.end(), from, from + size);
+  write_first(waiting_.size() / 3 * 3);  // as whole groups of four characters
+}
+
+void EncodedBytes::write_first(std::size_t bytes) {
+  const std::vector<char> text = encoded(waiting_.data(), bytes, encoding_);
+  file_.write(text.data(), text.size());
+  waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(bytes));
 }
 
 }  // namespace gale::io::detail

@@ -1,6 +1,10 @@
 #pragma once
 
-#include <gale/io/bytes/byte_source.hpp>
+#include <vector>
+
+#include <gale/io/atomic_file.hpp>
+#include <gale/io/bytes/input_file.hpp>
+#include <gale/io/bytes/output_file.hpp>
 
 namespace gale::io::detail {
 
@@ -29,16 +33,26 @@ class Base64Bytes : public ByteSource {
   std::size_t buffer_at_ = 0;
 };
 
-/// Bytes in memory, which must outlive it.
-class MemoryBytes : public ByteSource {
+/// What stands for some bytes by themselves; as many characters for as many bytes, whatever these are.
+std::vector<char> encoded(const void* bytes, std::size_t size, Encoding encoding);
+
+/// Writes bytes to a file as they are, or as one piece of base64.
+class EncodedBytes {
  public:
-  explicit MemoryBytes(const std::string& bytes) : bytes_(bytes) {}
-  std::size_t read(char* to, std::size_t bytes) override;
-  std::uint64_t at_most() const override { return bytes_.size() - at_; }
+  /// The file must outlive it.
+  EncodedBytes(OutputFile& file, Encoding encoding) : file_(file), encoding_(encoding) {}
+
+  void write(const void* bytes, std::size_t size);
+
+  /// To be called at the end: writes what is left, with padding.
+  void end() { write_first(waiting_.size()); }
 
  private:
-  const std::string& bytes_;
-  std::size_t at_ = 0;
+  void write_first(std::size_t bytes);
+
+  OutputFile& file_;
+  Encoding encoding_;
+  std::vector<char> waiting_;  ///< what isn't written yet
 };
 
 }  // namespace gale::io::detail

@@ -16,8 +16,4 @@ std::string printable(const std::string& text) {
   return line;
 }
 
-void damaged(const std::string& reason) {
-  throw Error("it is damaged, incomplete or of another format (" + printable(reason) + ")");
-}
-
 }  // namespace gale::io::detail

@@ -6,7 +6,6 @@
 #include <cerrno>
 #include <cstring>
 
-#include <gale/base/error.hpp>
 #include <gale/base/stop.hpp>
 #include <gale/io/bytes/damaged.hpp>
 #include <gale/io/bytes/input_file.hpp>
@@ -16,7 +15,7 @@ namespace gale::io::detail {
 // Not blocking: a pipe would keep us waiting for somebody who writes to it.
 InputFile::InputFile(const std::string& path)
     : path_(path), descriptor_(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
-  if (descriptor_ == -1) throw Error(std::strerror(errno));
+  if (descriptor_ == -1) refuse(std::strerror(errno));
   struct stat status;
   std::string refusal;
   if (fstat(descriptor_, &status) != 0) {
@@ -28,7 +27,7 @@ InputFile::InputFile(const std::string& path)
   }
   if (!refusal.empty()) {
     close(descriptor_);
-    throw Error(refusal);
+    refuse(refusal);
   }
   size_ = static_cast<std::uint64_t>(status.st_size);
   identity_ = {status.st_dev, status.st_ino};
@@ -37,16 +36,14 @@ InputFile::InputFile(const std::string& path)
 InputFile::~InputFile() { close(descriptor_); }
 
 void InputFile::read(std::uint64_t at, char* to, std::size_t bytes) const {
-  if (at > size_ || bytes > size_ - at) {
-    damaged("it ends after " + std::to_string(size_) + " bytes, where " + std::to_string(bytes) + " from byte " +
-            std::to_string(at) + " on were to come");
-  }
+  if (at > size_ || bytes > size_ - at)
+    damaged("it ends after ", size_, " bytes, where ", bytes, " from byte ", at, " on were to come");
   constexpr std::size_t most_at_once = 1 << 24;
   while (bytes > 0) {
     gale::detail::stop_if_asked();
     const ssize_t got = pread(descriptor_, to, std::min(bytes, most_at_once), static_cast<off_t>(at));
     if (got == -1 && errno == EINTR) continue;
-    if (got == -1) throw Error(std::strerror(errno));
+    if (got == -1) refuse(std::strerror(errno));
     if (got == 0) damaged("it became shorter while it was read");
     at += static_cast<std::uint64_t>(got);
     to += got;
@@ -54,19 +51,84 @@ void InputFile::read(std::uint64_t at, char* to, std::size_t bytes) const {
   }
 }
 
+bool InputFile::begins_with(const std::string& magic) const {
+  std::string begin(magic.size(), '\0');
+  if (size_ < magic.size()) return false;
+  read(0, begin.data(), begin.size());
+  return begin == magic;
+}
+
 void DistinctFiles::add(const InputFile& file, const std::string& name) {
   const auto [found, is_new] = names_.emplace(file.identity(), name);
   if (is_new) return;
   const std::string first = printable(found->second), again = printable(name);
-  throw Error("it names the file '" + again + "' twice" + (first == again ? "" : ", first as '" + first + "'"));
+  refuse("it names the file '", again, "' twice", first == again ? "" : ", first as '" + first + "'");
 }
 
 std::unique_ptr<InputFile> open_input(const std::string& path) {
   try {
     return std::make_unique<InputFile>(path);
   } catch (const Error& error) {
-    damaged("its file '" + path + "': " + error.what());
+    damaged("its file '", path, "': ", error.what());
   }
+}
+
+void read_all(ByteSource& source, char* to, std::size_t bytes, const char* what) {
+  const std::size_t got = source.read(to, bytes);
+  if (got < bytes) damaged(what, " ends after ", got, " of ", bytes, " bytes");
+}
+
+void skip_all(ByteSource& source, std::uint64_t bytes, const char* what) {
+  std::vector<char> buffer(static_cast<std::size_t>(std::min<std::uint64_t>(bytes, 1 << 16)));
+  while (bytes > 0) {
+    const auto part = static_cast<std::size_t>(std::min<std::uint64_t>(bytes, buffer.size()));
+    read_all(source, buffer.data(), part, what);
+    bytes -= part;
+  }
+}
+
+FileBytes::FileBytes(const InputFile& file, std::uint64_t begin) : file_(file), at_(std::min(begin, file.size())) {}
+
+std::size_t FileBytes::read(char* to, std::size_t bytes) {
+  const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(bytes, at_most()));
+  file_.read(at_, to, count);
+  at_ += count;
+  return count;
+}
+
+FileSequence::FileSequence(const std::vector<std::string>& paths, std::uint64_t begin, std::uint64_t bytes)
+    : paths_(paths), begin_(begin), bytes_(bytes) {
+  DistinctFiles files;
+  for (const std::string& path : paths_) {
+    const std::unique_ptr<InputFile> file = open_input(path);
+    const std::uint64_t size = file->size();
+    files.add(*file, path);
+    if (size < begin || size - begin < bytes)
+      damaged("its file '", path, "' has ", size, " bytes, not ", bytes, " from byte ", begin, " on");
+  }
+}
+
+std::size_t FileSequence::read(char* to, std::size_t bytes) {
+  std::size_t got = 0;
+  while (got < bytes && current_ < paths_.size()) {
+    if (!file_) file_ = open_input(paths_[current_]);
+    const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(bytes - got, bytes_ - read_));
+    file_->read(begin_ + read_, to + got, count);
+    got += count;
+    read_ += count;
+    if (read_ < bytes_) continue;
+    file_.reset();
+    read_ = 0;
+    ++current_;
+  }
+  return got;
+}
+
+std::size_t MemoryBytes::read(char* to, std::size_t bytes) {
+  const std::size_t count = std::min(bytes, bytes_.size() - at_);
+  std::memcpy(to, bytes_.data() + at_, count);
+  at_ += count;
+  return count;
 }
 
 }  // namespace gale::io::detail

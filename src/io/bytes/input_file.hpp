@@ -6,7 +6,9 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
+/// Files that are read, and bytes that come one after the other, from these or elsewhere.
 namespace gale::io::detail {
 
 /// A regular file that is read at any place, by any number of threads at the same time.
@@ -29,6 +31,9 @@ class InputFile {
   /// Copies the bytes [at, at + bytes) to `to`. Throws gale::Error if the file ends before, or cannot be read.
   void read(std::uint64_t at, char* to, std::size_t bytes) const;
 
+  /// Whether the file's first bytes are these.
+  bool begins_with(const std::string& magic) const;
+
  private:
   std::string path_;
   int descriptor_;
@@ -48,5 +53,64 @@ class DistinctFiles {
 
 /// One of the files that another one names. Throws gale::Error, naming its path, if it can't be opened.
 std::unique_ptr<InputFile> open_input(const std::string& path);
+
+/// Bytes that come one after the other.
+class ByteSource {
+ public:
+  virtual ~ByteSource() = default;
+
+  /// Copies what comes next to `to`; returns how much, which is less than `bytes` at the end alone.
+  virtual std::size_t read(char* to, std::size_t bytes) = 0;
+
+  /// No more than this can still come: known without reading, so that nothing is allocated that no file can fill.
+  virtual std::uint64_t at_most() const = 0;
+};
+
+/// Throws gale::Error unless `source` had all of them. `what` they are is for the message.
+void read_all(ByteSource& source, char* to, std::size_t bytes, const char* what);
+
+/// Reads bytes that nobody wants. Throws gale::Error unless `source` had all of them.
+void skip_all(ByteSource& source, std::uint64_t bytes, const char* what);
+
+/// The bytes of a file, which must outlive it, from `begin` on.
+class FileBytes : public ByteSource {
+ public:
+  FileBytes(const InputFile& file, std::uint64_t begin);
+  std::size_t read(char* to, std::size_t bytes) override;
+  std::uint64_t at_most() const override { return file_.size() - at_; }
+
+ private:
+  const InputFile& file_;
+  std::uint64_t at_;
+};
+
+/// What several files have in the same place: the bytes [begin, begin + bytes) of each, one after the other. One is
+/// open at a time.
+class FileSequence : public ByteSource {
+ public:
+  /// Throws gale::Error, naming the file, if one can't be opened, is shorter, or is there twice.
+  FileSequence(const std::vector<std::string>& paths, std::uint64_t begin, std::uint64_t bytes);
+  std::size_t read(char* to, std::size_t bytes) override;
+  std::uint64_t at_most() const override { return (paths_.size() - current_) * bytes_ - read_; }
+
+ private:
+  std::vector<std::string> paths_;
+  std::uint64_t begin_, bytes_;
+  std::size_t current_ = 0;
+  std::uint64_t read_ = 0;  ///< of the current file
+  std::unique_ptr<InputFile> file_;
+};
+
+/// Bytes in memory, which must outlive it.
+class MemoryBytes : public ByteSource {
+ public:
+  explicit MemoryBytes(const std::string& bytes) : bytes_(bytes) {}
+  std::size_t read(char* to, std::size_t bytes) override;
+  std::uint64_t at_most() const override { return bytes_.size() - at_; }
+
+ private:
+  const std::string& bytes_;
+  std::size_t at_ = 0;
+};
 
 }  // namespace gale::io::detail

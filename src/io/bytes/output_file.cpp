@@ -9,7 +9,6 @@
 #include <gale/io/bytes/output_file.hpp>
 
 namespace gale::io::detail {
-
 namespace {
 
 constexpr std::size_t buffer_size = 1 << 20;

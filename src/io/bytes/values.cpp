@@ -1,45 +1,84 @@
 #include <algorithm>
-#include <limits>
 #include <string>
 
 #include <gale/base/stop.hpp>
-#include <gale/io/bytes/damaged.hpp>
-#include <gale/io/bytes/numbers.hpp>
 #include <gale/io/bytes/values.hpp>
 
 namespace gale::io::detail {
-
 namespace {
 
 constexpr std::size_t bytes_at_once = 1 << 20;  // they stay in the cache between the steps
 
 [[noreturn]] void ends_early(std::uint64_t has, std::uint64_t count, ValueType type) {
-  damaged("it ends after " + std::to_string(has) + " of " + std::to_string(count) + " values of type " + name_of(type));
+  damaged("it ends after ", has, " of ", count, " values of type ", name_of(type));
 }
 
-[[noreturn]] void has_too_little(std::uint64_t can_come, std::uint64_t count, ValueType type) {
-  damaged("no more than " + std::to_string(can_come) + " of " + std::to_string(count) + " values of type " +
-          name_of(type) + " can follow");
+/// Throws gale::Error if less can come.
+void require_to_come(std::uint64_t can_come, std::uint64_t count, ValueType type) {
+  if (count > can_come)
+    damaged("no more than ", can_come, " of ", count, " values of type ", name_of(type), " can follow");
 }
 
-/// The next number of the text; false at its end.
-template <class T>
-bool next(TextReader& text, ValueType type, T& value) {
-  const std::string_view word = text.word();
-  if (word.empty()) return false;
-  if (!parse(word, value)) {
-    damaged("'" + std::string(word.substr(0, 40)) + "' is no value of type " + name_of(type));
-  }
-  return true;
+/// The first of the names in such a list; what is behind it stays.
+std::string_view take_name(std::string_view& list) {
+  const std::string_view name = list.substr(0, list.find('|'));
+  list.remove_prefix(std::min(list.size(), name.size() + 1));
+  return name;
 }
 
 }  // namespace
 
+std::optional<ValueType> find_type(const TypeNames& names, std::string_view name) {
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    for (std::string_view list = names[k]; !list.empty();) {
+      if (take_name(list) == name) return static_cast<ValueType>(k);
+    }
+  }
+  return std::nullopt;
+}
+
+std::string_view name_in(const TypeNames& names, ValueType type) {
+  std::string_view list = names[static_cast<std::size_t>(type)];
+  return take_name(list);
+}
+
+const char* name_of(ValueType type) {
+  static const char* const names[] = {"int8",   "uint8", "int16",  "uint16",  "int32",
+                                      "uint32", "int64", "uint64", "float32", "float64"};
+  return names[static_cast<int>(type)];
+}
+
+std::size_t size_of(ValueType type) {
+  return with_type(type, [](auto value) { return sizeof(value); });
+}
+
+const PointArray::Values& no_values(ValueType type) {
+  static const PointArray::Values none[] = {std::vector<std::int8_t>(),  std::vector<std::uint8_t>(),
+                                            std::vector<std::int16_t>(), std::vector<std::uint16_t>(),
+                                            std::vector<std::int32_t>(), std::vector<std::uint32_t>(),
+                                            std::vector<std::int64_t>(), std::vector<std::uint64_t>(),
+                                            std::vector<float>(),        std::vector<double>()};
+  return none[static_cast<int>(type)];
+}
+
+void require_size(const PointArray& array, std::uint64_t points) {
+  const auto components = static_cast<std::uint64_t>(array.components);
+  const std::uint64_t tuples = count_of(array.values) / components;
+  if (tuples != points || count_of(array.values) % components != 0)
+    damaged("the array '", array.name, "' has ", tuples, " tuples for ", points, " points");
+}
+
+ByteOrder byte_order_of_machine() {
+  const std::uint16_t one = 1;
+  unsigned char first;
+  std::memcpy(&first, &one, 1);
+  return first == 1 ? ByteOrder::little : ByteOrder::big;
+}
+
 PointArray::Values read_values(ByteSource& source, ValueType type, std::uint64_t count, ByteOrder order) {
   return with_type(type, [&](auto example) -> PointArray::Values {
     using T = decltype(example);
-    const std::uint64_t can_come = source.at_most() / sizeof(T);
-    if (count > can_come) has_too_little(can_come, count, type);
+    require_to_come(source.at_most() / sizeof(T), count, type);
     std::vector<T> values;
     values.reserve(count);
     while (values.size() < count) {
@@ -55,25 +94,18 @@ PointArray::Values read_values(ByteSource& source, ValueType type, std::uint64_t
   });
 }
 
-PointArray::Values read_text_values(TextReader& text, ValueType type, std::uint64_t count) {
-  return with_type(type, [&](auto example) -> PointArray::Values {
-    using T = decltype(example);
-    const std::uint64_t can_come = text.at_most() / 2 + 1;  // a digit and a space each
-    if (count > can_come) has_too_little(can_come, count, type);
-    std::vector<T> values;
-    values.reserve(count);
-    for (T value; values.size() < count; values.push_back(value)) {
-      if (!next(text, type, value)) ends_early(values.size(), count, type);
+PointArray::Values read_text_values(TextReader& text, ValueType type, std::optional<std::uint64_t> count) {
+  return with_type(type, [&](auto value) -> PointArray::Values {
+    if (count) require_to_come(text.at_most() / 2 + 1, *count, type);  // a digit and a space each
+    std::vector<decltype(value)> values;
+    values.reserve(count.value_or(0));
+    while (values.size() != count) {
+      const std::string_view word = text.word();
+      if (word.empty() && !count) break;
+      if (word.empty()) ends_early(values.size(), *count, type);
+      if (!parse(word, value)) damaged("'", word.substr(0, 40), "' is no value of type ", name_of(type));
+      values.push_back(value);
     }
-    return values;
-  });
-}
-
-PointArray::Values read_all_text_values(TextReader& text, ValueType type) {
-  return with_type(type, [&](auto example) -> PointArray::Values {
-    using T = decltype(example);
-    std::vector<T> values;
-    for (T value; next(text, type, value);) values.push_back(value);
     return values;
   });
 }
@@ -82,10 +114,9 @@ std::uint64_t product(std::initializer_list<std::int64_t> factors, const char* w
   constexpr std::uint64_t most = std::uint64_t(1) << 62;
   std::uint64_t result = 1;
   for (const std::int64_t factor : factors) {
-    if (factor < 0) damaged(std::string(what) + " of " + std::to_string(factor));
-    if (factor > 0 && result > most / static_cast<std::uint64_t>(factor)) {
-      damaged(std::string(what) + " whose product no file can have");
-    }
+    if (factor < 0) damaged(what, " of ", factor);
+    if (factor > 0 && result > most / static_cast<std::uint64_t>(factor))
+      damaged(what, " whose product no file can have");
     result *= static_cast<std::uint64_t>(factor);
   }
   return result;

@@ -1,10 +1,9 @@
 #include <algorithm>
 #include <iterator>
 
-#include <gale/io/cells/cell_types.hpp>
+#include <gale/io/cells/cells.hpp>
 
 namespace gale::io::detail {
-
 namespace {
 
 constexpr CellType all_types[] = {{0, "vtkEmptyCell", 0, 0},

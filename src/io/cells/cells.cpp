@@ -7,12 +7,10 @@
 #include <gale/base/parallel.hpp>
 #include <gale/base/types.hpp>
 #include <gale/io/bytes/damaged.hpp>
-#include <gale/io/bytes/value_type.hpp>
-#include <gale/io/cells/cell_types.hpp>
+#include <gale/io/bytes/values.hpp>
 #include <gale/io/cells/cells.hpp>
 
 namespace gale::io::detail {
-
 namespace {
 
 using Host = Kokkos::DefaultHostExecutionSpace;
@@ -27,7 +25,7 @@ auto with_integers(const PointArray::Values& values, const char* what, const Use
         if constexpr (std::is_integral_v<typename std::decay_t<decltype(v)>::value_type>) {
           return use(v);
         } else {
-          damaged(std::string("its ") + what + " are no whole numbers");
+          damaged("its ", what, " are no whole numbers");
         }
       },
       values);
@@ -36,13 +34,11 @@ auto with_integers(const PointArray::Values& values, const char* what, const Use
 void require_ids(std::size_t count, const char* of_what) {
   constexpr auto most = static_cast<std::size_t>(std::numeric_limits<Id>::max());
   if (count <= most) return;
-  throw Error("it has " + std::to_string(count) + " " + of_what + ", more than the " + std::to_string(most) +
-              " that 32-bit ids can number");
+  refuse("it has ", count, " ", of_what, ", more than the ", most, " that 32-bit ids can number");
 }
 
 [[noreturn]] void refuse_point(std::size_t cell, std::int64_t point, std::size_t points) {
-  throw Error("cell " + std::to_string(cell) + " names point " + std::to_string(point) + " of " +
-              std::to_string(points));
+  refuse("cell ", cell, " names point ", point, " of ", points);
 }
 
 /// The values as T, without a copy if they are. Throws gale::Error for one that T doesn't hold. `what` they are.
@@ -55,7 +51,7 @@ std::vector<T> taken_as(PointArray::Values& values, const char* what) {
       gale::detail::stop_if_asked_at(static_cast<Offset>(k));
       to[k] = static_cast<T>(from[k]);
       const bool fits = static_cast<std::decay_t<decltype(from[k])>>(to[k]) == from[k] && (to[k] < 0) == (from[k] < 0);
-      if (!fits) damaged(std::string("one of its ") + what + " is " + std::to_string(from[k]));
+      if (!fits) damaged("one of its ", what, " is ", from[k]);
     }
     return to;
   });
@@ -79,16 +75,16 @@ Census take_census(const Types& types, const Ends& ends, std::size_t connectivit
     gale::detail::stop_if_asked_at(static_cast<Offset>(c));
     const int number = types[c];
     const CellType* const type = known[number];
-    if (type == nullptr) damaged("cell " + std::to_string(c) + " has the unknown type " + std::to_string(number));
+    if (type == nullptr) damaged("cell ", c, " has the unknown type ", number);
     const auto end = static_cast<std::uint64_t>(ends[c]);  // below 0 becomes a huge one
     if (end < begin || end > connectivity) {
-      damaged("cell " + std::to_string(c) + " ends at " + std::to_string(ends[c]) + " in a connectivity of " +
-              std::to_string(connectivity) + ", and the one before it at " + std::to_string(begin));
+      damaged("cell ", c, " ends at ", ends[c], " in a connectivity of ", connectivity, ", and the one before it at ",
+              begin);
     }
     if (type->dimension == 3 && type->points > 0 && end - begin != static_cast<std::uint64_t>(type->points)) {
       damaged(
-          (number == tetrahedron_type ? "the tetrahedron in cell " : std::string("the ") + type->name + " in cell ") +
-          std::to_string(c) + " has " + std::to_string(end - begin) + " points");
+          (number == tetrahedron_type ? "the tetrahedron in cell " : std::string("the ") + type->name + " in cell "), c,
+          " has ", end - begin, " points");
     }
     begin = end;
     if (number == tetrahedron_type) {
@@ -152,7 +148,7 @@ Tetrahedra split(const MeshParts& parts, const Types& types, const Ends& ends, c
     const auto end = static_cast<std::size_t>(ends[c]);
     const CellType& type = *find_cell_type(types[c]);
     if (type.dimension == 3) {
-      if (type.points == 0) throw Error("cell " + std::to_string(c) + " is a " + type.name + ", which isn't split");
+      if (type.points == 0) refuse("cell ", c, " is a ", type.name, ", which isn't split");
       for (std::size_t k = begin; k < end; ++k) {
         const auto id = connectivity[k];
         if (static_cast<std::uint64_t>(id) >= points) refuse_point(c, static_cast<std::int64_t>(id), points);
@@ -175,7 +171,7 @@ template <class Ends>
 Tetrahedra to_tetrahedra(const MeshParts& parts, const Types& types, const Ends& ends, bool tetrahedralize,
                          bool may_be_empty, std::size_t points, Census& census) {
   if (types.size() != ends.size()) {
-    damaged("it has types of " + std::to_string(types.size()) + " cells and offsets of " + std::to_string(ends.size()));
+    damaged("it has types of ", types.size(), " cells and offsets of ", ends.size());
   }
   return with_integers(parts.cells.connectivity, "connectivities", [&](const auto& connectivity) {
     census = take_census(types, ends, connectivity.size());
@@ -219,8 +215,11 @@ Dataset::Points<Coordinate> to_points(const PointArray::Values& values) {
 }  // namespace
 
 void refuse_solid(std::size_t cell, int type) {
-  throw Error("cell " + std::to_string(cell) + " is a " + find_cell_type(type)->name +
-              ", not a tetrahedron (tetrahedralize splits such cells)");
+  refuse("cell ", cell, " is a ", find_cell_type(type)->name, ", not a tetrahedron (tetrahedralize splits such cells)");
+}
+
+std::string note_array(const std::string& name, const std::string& why) {
+  return "left out the point array '" + name + "': " + why;
 }
 
 std::string note_cell_arrays(const std::vector<std::string>& names) {

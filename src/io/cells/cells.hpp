@@ -8,6 +8,19 @@
 
 namespace gale::io::detail {
 
+/// A type of cell as VTK's files number them.
+struct CellType {
+  int number;
+  const char* name;  ///< as users of VTK know it
+  int dimension;
+  int points;  ///< that each has, or 0 if their numbers differ
+};
+
+/// nullptr for a number that stands for no type.
+const CellType* find_cell_type(int number);
+
+inline constexpr int tetrahedron_type = 10, voxel_type = 11, hexahedron_type = 12;
+
 /// The cells of a file, as it has them: nothing in them is checked yet.
 struct Cells {
   PointArray::Values types;         ///< of each, as `CellType::number`
@@ -31,6 +44,9 @@ Dataset to_mesh(MeshParts& parts, bool tetrahedralize, bool may_be_empty = false
 
 /// Throws gale::Error about a cell of dimension 3 that is no tetrahedron.
 [[noreturn]] void refuse_solid(std::size_t cell, int type);
+
+/// The notice about a point array that is left out, and why.
+std::string note_array(const std::string& name, const std::string& why);
 
 /// The notice about cell arrays of these names, which aren't read.
 std::string note_cell_arrays(const std::vector<std::string>& names);

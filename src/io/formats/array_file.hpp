@@ -6,9 +6,8 @@
 #include <string>
 #include <vector>
 
-#include <gale/io/bytes/byte_order.hpp>
 #include <gale/io/bytes/input_file.hpp>
-#include <gale/io/bytes/value_type.hpp>
+#include <gale/io/bytes/values.hpp>
 #include <gale/io/dataset.hpp>
 
 namespace gale::io::detail {
@@ -72,9 +71,8 @@ class ArrayFile {
   std::uint64_t read_bytes_ = 0;
 };
 
-/// Whether it begins as files of NetCDF's classic forms do, or HDF5's.
-bool is_netcdf(const InputFile& file);
-bool is_hdf5(const InputFile& file);
+/// How files of NetCDF's classic forms and of HDF5 begin.
+inline constexpr char netcdf_magic[] = "CDF", hdf5_magic[] = "\x89HDF\r\n\x1a\n";
 
 /// A file of NetCDF's classic forms, which must outlive what is returned.
 std::unique_ptr<ArrayFile> open_netcdf(const InputFile& file);

@@ -1,25 +1,141 @@
 #include <algorithm>
+#include <cctype>
 #include <cstring>
 #include <numeric>
 
 #include <gale/io/bytes/damaged.hpp>
 #include <gale/io/bytes/values.hpp>
 #include <gale/io/cells/cells.hpp>
-#include <gale/io/formats/exodus_names.hpp>
+#include <gale/io/formats.hpp>
+#include <gale/io/formats/exodus.hpp>
 #include <gale/io/formats/hdf5_file.hpp>
-#include <gale/io/formats/readers.hpp>
 #include <gale/io/formats/volume.hpp>
 
 // Exodus II is NetCDF with names agreed upon: coordx coordy coordz, or coord in older files; connect1 connect2 ..., the
 // elements of each block, whose points are numbered from 1 on; vals_nod_var1 vals_nod_var2 ..., at each time, or
 // vals_nod_var in older files.
 namespace gale::io::detail {
+namespace {
+
+// Exodus has the middles of edges between bottom and top before those of the top, VTK behind them.
+const std::vector<std::uint8_t> hexahedron_20 = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 16, 17, 18, 19, 12, 13, 14, 15};
+const std::vector<std::uint8_t> hexahedron_27 = {0,  1,  2,  3,  4,  5,  6,  7,  8,  9,  10, 11, 16, 17,
+                                                 18, 19, 12, 13, 14, 15, 23, 24, 25, 26, 21, 22, 20};
+const std::vector<std::uint8_t> wedge_15 = {0, 1, 2, 3, 4, 5, 6, 7, 8, 12, 13, 14, 9, 10, 11};
+const std::vector<std::uint8_t> wedge_18 = {0, 1, 2, 3, 4, 5, 6, 7, 8, 12, 13, 14, 9, 10, 11, 15, 16, 17};
+
+constexpr int any = 0, as_many = 0;
+
+/// Elements whose names begin with one of these, of three letters each.
+struct Family {
+  const char* names;
+  int element_points;  ///< or any
+  int cell_type;
+  int cell_points;  ///< or as many as the element has
+  const std::vector<std::uint8_t>* order = nullptr;
+};
+
+const Family families[] = {{"TET", 10, 24, 10},
+                           {"TET", 11, 24, 10},
+                           {"TET", 15, 71, 15},
+                           {"TET", any, tetrahedron_type, 4},
+                           {"HEX", 20, 25, 20, &hexahedron_20},
+                           {"HEX", 21, 25, 20, &hexahedron_20},
+                           {"HEX", 27, 29, 27, &hexahedron_27},
+                           {"HEX", any, hexahedron_type, 8},
+                           {"WED", 15, 26, 15, &wedge_15},
+                           {"WED", 18, 32, 18, &wedge_18},
+                           {"WED", 21, 73, 21},
+                           {"WED", any, 13, 6},
+                           {"PYR", 13, 27, 13},
+                           {"PYR", any, 14, 5},
+                           {"TRI", 6, 22, 6},
+                           {"TRI", any, 5, 3},
+                           {"QUA SHE", 8, 23, 8},
+                           {"QUA", 9, 28, 9},
+                           {"SHE", 9, 23, 8},
+                           {"SHE", 3, 5, 3},
+                           {"QUA SHE", any, 9, 4},
+                           {"TRU BEA BAR EDG", 3, 21, 3},
+                           {"TRU BEA BAR EDG STR", any, 3, 2},
+                           {"SPH CIR", any, 1, 1},
+                           {"SUP", any, 2, as_many}};
+
+std::string upper_case(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::toupper(c); });
+  return text;
+}
+
+/// What is before those endings in all of the names that begin at `first`; empty if they don't end so.
+std::string common_name(const std::vector<PointArray>& arrays, std::size_t first,
+                        const std::vector<std::string>& endings) {
+  if (arrays.size() - first < endings.size()) return "";
+  std::string common;
+  for (std::size_t k = 0; k < endings.size(); ++k) {
+    const PointArray& array = arrays[first + k];
+    const std::string& name = array.name;
+    const std::size_t rest = name.size() - std::min(name.size(), endings[k].size());
+    if (upper_case(name.substr(rest)) != endings[k] || array.values.index() != arrays[first].values.index()) return "";
+    if (k == 0) common = name.substr(0, rest);
+    if (name.substr(0, rest) != common) return "";
+  }
+  return common;
+}
+
+PointArray joined(const std::vector<PointArray>& arrays, std::size_t first, std::size_t count, std::string name,
+                  std::size_t components) {
+  return std::visit(
+      [&](const auto& example) {
+        using Vector = std::decay_t<decltype(example)>;
+        Vector all(example.size() * components);
+        for (std::size_t c = 0; c < count; ++c) {
+          const auto& from = std::get<Vector>(arrays[first + c].values);
+          for (std::size_t k = 0; k < from.size(); ++k) all[k * components + c] = from[k];
+        }
+        return PointArray{std::move(name), static_cast<int>(components), std::move(all)};
+      },
+      arrays[first].values);
+}
+
+}  // namespace
+
+ElementType find_element_type(const std::string& name, std::uint64_t points, const std::string& array) {
+  const std::string begin = upper_case(name.substr(0, 3));
+  for (const Family& family : families) {
+    const std::vector<std::string> names = words_of(family.names);
+    const bool is_it = std::find(names.begin(), names.end(), begin) != names.end() &&
+                       (family.element_points == any || static_cast<std::uint64_t>(family.element_points) == points);
+    if (!is_it || points < static_cast<std::uint64_t>(family.cell_points)) continue;
+    const std::size_t used = family.cell_points == as_many ? points : static_cast<std::size_t>(family.cell_points);
+    return {family.cell_type, used, family.order != nullptr ? *family.order : std::vector<std::uint8_t>()};
+  }
+  refuse("its '", printable(array), "' has elements of the type '", printable(name), "' with ", points,
+         " points each, which is unknown");
+}
+
+std::vector<PointArray> with_vectors(std::vector<PointArray> arrays, std::uint64_t dimensions) {
+  static const std::vector<std::string> endings[] = {{"XX", "YY", "ZZ", "XY", "XZ", "YZ"}, {"X", "Y", "Z"}, {"X", "Y"}};
+  std::vector<PointArray> result;
+  for (std::size_t k = 0; k < arrays.size();) {
+    std::size_t count = 1;
+    for (const auto& some : endings) {
+      std::string name = common_name(arrays, k, some);
+      if (name.empty()) continue;
+      count = some.size();
+      result.push_back(joined(arrays, k, count, std::move(name), count == 2 && dimensions == 2 ? 3 : count));
+      break;
+    }
+    if (count == 1) result.push_back(std::move(arrays[k]));
+    k += count;
+  }
+  return result;
+}
 
 namespace {
 
 std::uint64_t require_dimension(const ArrayFile& file, const char* name) {
   const std::optional<std::uint64_t> length = file.dimension(name);
-  if (!length) throw Error("it is no Exodus II file: it has no " + std::string(name));
+  if (!length) refuse("it is no Exodus II file: it has no ", name);
   return *length;
 }
 
@@ -30,14 +146,13 @@ void require_shape(const FileArray& array, const std::vector<std::uint64_t>& sha
     for (const std::uint64_t length : lengths) result += (result.empty() ? "" : " x ") + std::to_string(length);
     return result;
   };
-  if (array.shape != shape)
-    damaged("its '" + array.name + "' has " + text(array.shape) + " values, not " + text(shape));
+  if (array.shape != shape) damaged("its '", array.name, "' has ", text(array.shape), " values, not ", text(shape));
 }
 
 void require_numbers(const FileArray& array, bool whole) {
   const bool is_whole = *array.type < ValueType::float32;
   if (array.is_text || is_whole != whole)
-    damaged("its '" + array.name + "' has values of type " + (array.is_text ? "text" : name_of(*array.type)));
+    damaged("its '", array.name, "' has values of type ", (array.is_text ? "text" : name_of(*array.type)));
 }
 
 /// The coordinates, which are float or double, point by point.
@@ -142,7 +257,7 @@ class Elements {
 std::vector<std::string> read_names(ArrayFile& file, const std::string& name, std::uint64_t count) {
   const FileArray& array = file.require(name);
   if (!array.is_text || array.shape.size() != 2 || array.shape[0] != count || array.shape[1] == 0)
-    damaged("its '" + name + "' isn't " + std::to_string(count) + " names");
+    damaged("its '", name, "' isn't ", count, " names");
   const auto characters = std::get<std::vector<std::int8_t>>(file.read(array));
   std::vector<std::string> names;
   for (std::uint64_t k = 0; k < count; ++k) {
@@ -182,7 +297,7 @@ void read_variables(ArrayFile& file, std::uint64_t points, MeshParts& parts) {
     for (std::uint64_t k = 0; k < count; ++k) {
       const std::string name = "vals_nod_var" + std::to_string(k + 1);
       if (file.find(name) == nullptr)
-        damaged("its nodal variable '" + names[k] + "' is declared and has no values: there is no '" + name + "'");
+        damaged("its nodal variable '", names[k], "' is declared and has no values: there is no '", name, "'");
       const FileArray& array = file.require(name);
       require_numbers(array, false);
       require_shape(array, {array.rows(), points});
@@ -195,7 +310,7 @@ void read_variables(ArrayFile& file, std::uint64_t points, MeshParts& parts) {
 
 Content read_exodus_from(ArrayFile& file, const ReadOptions& options) {
   const std::uint64_t dimensions = require_dimension(file, "num_dim"), points = require_dimension(file, "num_nodes");
-  if (dimensions < 1 || dimensions > 3) damaged("it has " + std::to_string(dimensions) + " dimensions");
+  if (dimensions < 1 || dimensions > 3) damaged("it has ", dimensions, " dimensions");
   MeshParts parts;
   parts.points = read_points(file, dimensions, points);
   Elements elements(file);
@@ -208,8 +323,8 @@ Content read_exodus_from(ArrayFile& file, const ReadOptions& options) {
 }  // namespace
 
 Content read_exodus(const InputFile& input, const ReadOptions& options) {
-  if (is_netcdf(input)) return read_exodus_from(*open_netcdf(input), options);
-  if (!is_hdf5(input)) throw Error("it is no Exodus II file");
+  if (input.begins_with(netcdf_magic)) return read_exodus_from(*open_netcdf(input), options);
+  if (!input.begins_with(hdf5_magic)) throw Error("it is no Exodus II file");
   Hdf5File file(input);
   file.open_group("");
   return read_exodus_from(file, options);

@@ -1,13 +1,12 @@
 #include <algorithm>
 #include <cstring>
 
+#include <gale/io/bytes/compression.hpp>
 #include <gale/io/bytes/damaged.hpp>
 #include <gale/io/bytes/values.hpp>
-#include <gale/io/formats/hdf5_chunk.hpp>
 #include <gale/io/formats/hdf5_file.hpp>
 
 namespace gale::io::detail {
-
 namespace {
 
 constexpr std::uint32_t longest_name = 65536;
@@ -16,21 +15,7 @@ std::string joined(const std::string& group, const std::string& name) {
   return group.empty() ? name : group + "/" + name;
 }
 
-std::uint64_t product_of(std::uint64_t a, std::uint64_t b) {
-  return product({static_cast<std::int64_t>(a), static_cast<std::int64_t>(b)}, "an array");
-}
-
 using Places = std::vector<std::uint64_t>;
-
-/// Goes on by `step` below `ends`, the last dimension first; false at the end.
-bool advance(Places& at, const Places& step, const Places& ends) {
-  for (std::size_t d = at.size(); d-- > 0; at[d] = 0) {
-    if (ends[d] - at[d] <= step[d]) continue;
-    at[d] += step[d];
-    return true;
-  }
-  return false;
-}
 
 /// Copies those values of a chunk which the array has, which ends at `ends`; `first` is its first one's place there.
 void place_chunk(const char* values, const Places& chunk, const Places& first, const Places& ends,
@@ -46,7 +31,88 @@ void place_chunk(const char* values, const Places& chunk, const Places& first, c
       place = place * ends[d] + first[d] + inside[d];
     }
     std::memcpy(to + place * value_bytes, values + from * value_bytes, size[last] * value_bytes);
-  } while (advance(inside, step, size));
+  } while (reader::advance(inside, step, size));
+}
+
+constexpr std::uint64_t sum_bytes = 4;  // of fletcher32, behind the values
+
+[[noreturn]] void wrong(const std::string& array, const char* why) { damaged("a chunk of its '", array, "' ", why); }
+
+/// The first bytes of all values come first, then their second ones ...
+void unshuffle(std::vector<char>& bytes, std::size_t value_bytes) {
+  const std::size_t values = bytes.size() / value_bytes;
+  if (value_bytes < 2 || values < 2) return;
+  std::vector<char> in_order(bytes);  // what is left behind the last whole value stays where it is
+  for (std::size_t k = 0; k < value_bytes; ++k) {
+    for (std::size_t v = 0; v < values; ++v) in_order[v * value_bytes + k] = bytes[k * values + v];
+  }
+  bytes = std::move(in_order);
+}
+
+/// Fletcher's sum of big-endian words of 16 bits.
+std::uint32_t fletcher_sum(const char* bytes, std::size_t count) {
+  const auto* at = reinterpret_cast<const unsigned char*>(bytes);
+  std::uint64_t low = 0, high = 0;
+  const auto add = [&](std::uint32_t word) {
+    low = (low + word) % 65535;
+    high = (high + low) % 65535;
+  };
+  for (std::size_t k = 0; k + 1 < count; k += 2) add(std::uint32_t(at[k]) << 8 | at[k + 1]);
+  if (count % 2 == 1) add(std::uint32_t(at[count - 1]) << 8);
+  return static_cast<std::uint32_t>(high << 16 | low);
+}
+
+/// HDF5 folds sums into 1 to 65535; zeros alone give 0.
+bool same_sum(std::uint32_t a, std::uint32_t b) {
+  return (a & 0xffff) % 65535 == (b & 0xffff) % 65535 && (a >> 16) % 65535 == (b >> 16) % 65535;
+}
+
+void take_sum(std::vector<char>& bytes, const std::string& array) {
+  if (bytes.size() < sum_bytes) wrong(array, "has no room for its sum");
+  const std::size_t rest = bytes.size() - sum_bytes;
+  std::uint32_t said = 0;
+  for (std::size_t k = sum_bytes; k-- > 0;) said = said << 8 | static_cast<unsigned char>(bytes[rest + k]);
+  bytes.resize(rest);
+  if (!same_sum(said, fletcher_sum(bytes.data(), rest))) wrong(array, "has another sum");
+}
+
+/// No stream of zlib's stands for more than that many times its bytes.
+constexpr std::uint64_t best_deflate_ratio = 1032;
+
+/// Throws gale::Error unless these are filters that are undone here: deflate, once, shuffle and fletcher32.
+void require_known_filters(const std::vector<std::uint32_t>& filters, const std::string& array) {
+  int deflates = 0;
+  for (const std::uint32_t filter : filters) {
+    deflates += filter == reader::deflate;
+    const bool is_known = filter == reader::deflate || filter == reader::shuffle || filter == reader::fletcher32;
+    if (is_known && deflates < 2) continue;
+    refuse("its '", printable(array), "' is packed by HDF5's filter ", filter,
+           ": deflate, once, shuffle and fletcher32 are read");
+  }
+}
+
+/// Undoes the filters of a chunk, all but those whose bit in `left_out` is set: `stored` becomes `bytes` bytes, of
+/// values of `value_bytes` each. Throws gale::Error if it can't.
+std::vector<char> decoded_chunk(std::vector<char> stored, const std::vector<std::uint32_t>& filters,
+                                std::uint64_t left_out, std::uint64_t bytes, std::size_t value_bytes,
+                                const std::string& array) {
+  const auto applied = [&](std::size_t k) { return (left_out >> k & 1) == 0; };
+  for (std::size_t k = filters.size(); k-- > 0;) {
+    if (!applied(k)) continue;
+    if (filters[k] == reader::fletcher32) take_sum(stored, array);
+    if (filters[k] == reader::shuffle) unshuffle(stored, value_bytes);
+    if (filters[k] != reader::deflate) continue;
+    std::uint64_t before = bytes;
+    for (std::size_t j = 0; j < k; ++j) before += applied(j) && filters[j] == reader::fletcher32 ? sum_bytes : 0;
+    if (before / best_deflate_ratio > stored.size()) wrong(array, "stands for less than it should");
+    std::vector<char> inflated(static_cast<std::size_t>(before));
+    static const Uncompress inflate = find_uncompress("vtkZLibDataCompressor");
+    if (!inflate(stored.data(), stored.size(), inflated.data(), inflated.size()))
+      wrong(array, "isn't what deflate makes");
+    stored = std::move(inflated);
+  }
+  if (stored.size() != bytes) wrong(array, "has another size");
+  return stored;
 }
 
 }  // namespace
@@ -104,7 +170,7 @@ std::optional<FileAttribute> Hdf5File::attribute(const std::string& path, const 
       return result;
     case reader::AttributeKind::numbers: {
       const auto count = program_.receive<std::uint32_t>();
-      if (count > longest_name) damaged("an attribute has " + std::to_string(count) + " numbers");
+      if (count > longest_name) damaged("an attribute has ", count, " numbers");
       result.numbers.resize(count);
       program_.receive(result.numbers.data(), count * sizeof(double));
       return result;
@@ -117,13 +183,12 @@ std::optional<FileAttribute> Hdf5File::attribute(const std::string& path, const 
 
 std::uint64_t Hdf5File::stored_bytes(const FileArray& array, std::uint64_t rows, std::uint64_t bytes) {
   const Dataset& dataset = datasets_.at(array.name);
-  const std::uint64_t all = product_of(dataset.count(dataset.rows()), size_of(*dataset.type));
+  const std::uint64_t all = product(dataset.count(dataset.rows()), size_of(*dataset.type));
   if (dataset.at.layout != reader::Layout::chunked) {
     if (dataset.at.layout == reader::Layout::contiguous && dataset.at.address == reader::no_address)
-      damaged("its '" + array.name + "' has no values");
+      damaged("its '", array.name, "' has no values");
     if (dataset.at.stored < all) {
-      damaged("its '" + array.name + "' has " + std::to_string(dataset.at.stored) + " bytes, not " +
-              std::to_string(all));
+      damaged("its '", array.name, "' has ", dataset.at.stored, " bytes, not ", all);
     }
     return bytes;
   }
@@ -132,8 +197,7 @@ std::uint64_t Hdf5File::stored_bytes(const FileArray& array, std::uint64_t rows,
   const auto stored = program_.receive<std::uint64_t>();
   const std::uint64_t ratio = dataset.filters.empty() ? 1 : best_deflate_ratio;
   if (all / ratio > stored) {
-    damaged("its '" + array.name + "' stands for " + std::to_string(all) + " bytes, and there are " +
-            std::to_string(stored) + " of them");
+    damaged("its '", array.name, "' stands for ", all, " bytes, and there are ", stored, " of them");
   }
   return stored;
 }
@@ -154,19 +218,19 @@ void Hdf5File::copy_chunks(const Dataset& dataset, std::uint64_t rows, char* to)
   ends[0] = rows;
   std::uint64_t chunk_bytes = value_bytes, unread = file_.size();
   for (const std::uint64_t length : dataset.chunk) {
-    if (length == 0) damaged("the chunks of its '" + dataset.name + "' are empty");
-    chunk_bytes = product_of(chunk_bytes, length);
+    if (length == 0) damaged("the chunks of its '", dataset.name, "' are empty");
+    chunk_bytes = product(chunk_bytes, length);
   }
   do {
     const auto chunk = program_.receive<reader::Chunk>();
-    if (chunk.bytes > unread) damaged("the chunks of its '" + dataset.name + "' are longer than the file");
+    if (chunk.bytes > unread) damaged("the chunks of its '", dataset.name, "' are longer than the file");
     unread -= chunk.bytes;
     std::vector<char> stored(static_cast<std::size_t>(chunk.bytes));
     program_.receive(stored.data(), stored.size());
     const std::vector<char> values =
         decoded_chunk(std::move(stored), dataset.filters, chunk.left_out, chunk_bytes, value_bytes, dataset.name);
     place_chunk(values.data(), dataset.chunk, first, ends, value_bytes, to);
-  } while (advance(first, dataset.chunk, ends));
+  } while (reader::advance(first, dataset.chunk, ends));
 }
 
 }  // namespace gale::io::detail

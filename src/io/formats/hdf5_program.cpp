@@ -18,7 +18,6 @@
 extern char** environ;
 
 namespace gale::io::detail {
-
 namespace {
 
 namespace fs = std::filesystem;
@@ -42,11 +41,11 @@ std::string find_program() {
     const fs::path program = folder / program_name;
     if (access(program.c_str(), X_OK) == 0) return program.string();
   }
-  throw Error(std::string("such files are read by ") + program_name + ", which isn't beside " + own.string() +
-              " nor in " + GALE_LIBEXEC + ": it is built where VTK has HDF5, on Linux");
+  refuse("such files are read by ", program_name, ", which isn't beside ", own.string(), " nor in ", GALE_LIBEXEC,
+         ": it is built where VTK has HDF5, on Linux");
 }
 
-[[noreturn]] void throw_errno(const char* what) { throw Error(std::string(what) + ": " + std::strerror(errno)); }
+[[noreturn]] void throw_errno(const char* what) { refuse(what, ": ", std::strerror(errno)); }
 
 struct Spawning {
   posix_spawn_file_actions_t files;
@@ -71,11 +70,14 @@ struct Spawning {
   Spawning& operator=(const Spawning&) = delete;
 };
 
-/// Above what the program's own descriptors are.
-int moved_up(int number) {
-  const int moved = number < 0 ? number : fcntl(number, F_DUPFD_CLOEXEC, 16);
-  if (number >= 0) ::close(number);
-  return moved;
+/// Connects `one` and `other`, whose numbers are above those that the program has as its own.
+void connect(Descriptor& one, Descriptor& other) {
+  int ends[2];
+  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) throw_errno("no socket");
+  const Descriptor first(ends[0]), second(ends[1]);
+  one = Descriptor(fcntl(first, F_DUPFD_CLOEXEC, 16));
+  other = Descriptor(fcntl(second, F_DUPFD_CLOEXEC, 16));
+  if (one < 0 || other < 0) throw_errno("no descriptor");
 }
 
 /// Waits until there is something to read, or an end; asks meanwhile whether to stop.
@@ -101,33 +103,15 @@ std::string all_of(int pipe) {
 
 }  // namespace
 
-Descriptor::Descriptor(int number) : number_(number) {
-  if (number < 0) throw_errno("no descriptor");
-}
-
 void Descriptor::close() {
   if (number_ >= 0) ::close(number_);
   number_ = -1;
 }
 
-struct Hdf5Program::Ends {
-  int talk[2] = {-1, -1}, message[2] = {-1, -1};
-
-  Ends() {
-    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, talk) != 0) throw_errno("no socket");
-    if (pipe2(message, O_CLOEXEC) != 0) {
-      ::close(talk[0]);
-      ::close(talk[1]);
-      throw_errno("no pipe");
-    }
-  }
-};
-
-Hdf5Program::Hdf5Program(const std::string& path) : Hdf5Program(path, Ends()) {}
-
-Hdf5Program::Hdf5Program(const std::string& path, const Ends& ends)
-    : talk_(moved_up(ends.talk[0])), message_(moved_up(ends.message[0])) {
-  const Descriptor its_talk(moved_up(ends.talk[1])), its_message(moved_up(ends.message[1]));
+Hdf5Program::Hdf5Program(const std::string& path) {
+  Descriptor its_talk, its_message;
+  connect(talk_, its_talk);
+  connect(message_, its_message);
   const std::string program = find_program();
   const Spawning spawning(its_talk, its_message);
   const std::string absolute = fs::absolute(path).string();
@@ -136,7 +120,7 @@ Hdf5Program::Hdf5Program(const std::string& path, const Ends& ends)
       posix_spawn(&process_, program.c_str(), &spawning.files, &spawning.attributes, arguments, environ);
   if (failure != 0) {
     process_ = -1;
-    throw Error(program + " can't be run: " + std::strerror(failure));
+    refuse(program, " can't be run: ", std::strerror(failure));
   }
 }
 
@@ -162,7 +146,7 @@ void Hdf5Program::throw_end() {
   const int status = wait();
   if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL))
     damaged("HDF5 takes longer than a file of its size may");
-  if (WIFSIGNALED(status)) damaged(std::string("HDF5 ended by a signal: ") + strsignal(WTERMSIG(status)));
+  if (WIFSIGNALED(status)) damaged("HDF5 ended by a signal: ", strsignal(WTERMSIG(status)));
   throw Error(message.empty() ? std::string(program_name) + " ended without a word" : printable(message));
 }
 
@@ -192,7 +176,7 @@ void Hdf5Program::receive(void* to, std::size_t bytes) {
 
 std::string Hdf5Program::receive_text(std::uint32_t most) {
   const auto length = receive<std::uint32_t>();
-  if (length > most) damaged("a name of " + std::to_string(length) + " characters");
+  if (length > most) damaged("a name of ", length, " characters");
   std::string text(length, '\0');
   receive(text.data(), length);
   return text;

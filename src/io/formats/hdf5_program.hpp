@@ -4,19 +4,23 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gale/io/program/protocol.hpp>
 
 namespace gale::io::detail {
 
+/// A descriptor, which closes itself; none if it is below 0.
 class Descriptor {
  public:
-  /// Throws gale::Error unless there is such a descriptor.
-  explicit Descriptor(int number);
+  explicit Descriptor(int number = -1) : number_(number) {}
+  Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
   ~Descriptor() { close(); }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
+  Descriptor& operator=(Descriptor&& other) noexcept {
+    std::swap(number_, other.number_);
+    return *this;
+  }
   operator int() const { return number_; }
   void close();
 
@@ -47,9 +51,6 @@ class Hdf5Program {
   std::string receive_text(std::uint32_t most);
 
  private:
-  struct Ends;
-  Hdf5Program(const std::string& path, const Ends& ends);
-
   /// Waits until it has ended; returns its status.
   int wait();
   [[noreturn]] void throw_end();

@@ -1,19 +1,23 @@
-#include <gale/base/error.hpp>
+#include <iterator>
+#include <utility>
+
 #include <gale/io/bytes/damaged.hpp>
-#include <gale/io/bytes/numbers.hpp>
+#include <gale/io/cells/cells.hpp>
 #include <gale/io/formats/legacy_file.hpp>
-#include <gale/io/formats/volume.hpp>
 
 namespace gale::io::detail {
-
 namespace {
 
 constexpr std::int64_t most_components = 1 << 20, most_arrays = 100000;
 
+void require_components(std::int64_t components, const std::string& array) {
+  if (components < 1 || components > most_components) damaged("the components of ", array, " are ", components);
+}
+
 /// Reads attributes of one set of points or cells.
-class Reader {
+class AttributeReader {
  public:
-  Reader(LegacyFile& file, std::uint64_t count) : file_(file), count_(count) {}
+  AttributeReader(LegacyFile& file, std::uint64_t count) : file_(file), count_(count) {}
 
   /// False, with nothing read, if the keyword begins no attribute.
   bool read(std::string& keyword) {
@@ -22,21 +26,19 @@ class Reader {
         {"global_ids", 1}, {"pedigree_ids", 1}, {"edge_flags", 1}};
     for (const auto& [known, components] : of_fixed_size) {
       if (keyword != known) continue;
-      const std::string name = file_.name("the name of an array");
+      const std::string name = name_of_array();
       take(name, components);
       return next(keyword);
     }
     if (keyword == "scalars") {
-      read_scalars(keyword);
-      return true;
-    }
-    if (keyword == "color_scalars") {
-      const std::string name = file_.name("the name of an array");
-      const std::int64_t components = components_of("the components of " + name);
+      read_scalars();
+    } else if (keyword == "color_scalars") {
+      const std::string name = name_of_array();
+      const std::int64_t components = components_of(name);
       add(name, components, file_.colors(size(components)), true);
     } else if (keyword == "texture_coordinates") {
-      const std::string name = file_.name("the name of an array");
-      take(name, components_of("the components of " + name));
+      const std::string name = name_of_array();
+      take(name, components_of(name));
     } else if (keyword == "lookup_table") {
       file_.name("the name of a lookup table");
       file_.skip_table(static_cast<std::uint64_t>(file_.count("the size of a lookup table")));
@@ -64,27 +66,21 @@ class Reader {
     return true;
   }
 
-  std::int64_t components_of(const std::string& what) {
-    const std::int64_t components = file_.count(what.c_str());
-    if (components < 1 || components > most_components) damaged(what + " are " + std::to_string(components));
+  std::string name_of_array() { return file_.name("the name of an array"); }
+
+  std::int64_t components_of(const std::string& array) {
+    const std::int64_t components = file_.count(("the components of " + array).c_str());
+    require_components(components, array);
     return components;
   }
 
-  std::uint64_t size(std::int64_t components) const {
-    return product({static_cast<std::int64_t>(count_), components}, "an array");
-  }
+  std::uint64_t size(std::int64_t components) const { return product(count_, static_cast<std::uint64_t>(components)); }
 
   void add(const std::string& name, std::int64_t components, std::optional<PointArray::Values> values, bool scalars,
            const std::string& type = "") {
-    found_.names.push_back(name);
-    if (!values) {
-      found_.left_out.push_back("left out the point array '" + name + "': its values are of type " + type);
-      return;
-    }
-    const bool first = scalars && !has_scalars_;
-    has_scalars_ |= scalars;
-    found_.arrays.insert(first ? found_.arrays.begin() : found_.arrays.end(),
-                         PointArray{name, static_cast<int>(components), std::move(*values)});
+    const bool first = values && scalars && !has_scalars_;
+    has_scalars_ |= first;
+    found_.add(name, components, std::move(values), type, first);
   }
 
   void take(const std::string& name, std::int64_t components) {
@@ -93,21 +89,19 @@ class Reader {
   }
 
   /// SCALARS name type [components] LOOKUP_TABLE table
-  void read_scalars(std::string& keyword) {
-    const std::string name = file_.name("the name of an array");
+  void read_scalars() {
+    const std::string name = name_of_array();
     const std::string type = lower_case(file_.name("the type of an array"));
     std::string word = lower_case(file_.name("LOOKUP_TABLE"));
     std::int64_t components = 1;
     if (word != "lookup_table") {
       components = number<std::int64_t>(word, "the components of " + name);
-      if (components < 1 || components > most_components)
-        damaged("the components of " + name + " are " + std::to_string(components));
+      require_components(components, name);
       word = lower_case(file_.name("LOOKUP_TABLE"));
     }
-    if (word != "lookup_table") damaged("no LOOKUP_TABLE follows the scalars " + name);
+    if (word != "lookup_table") damaged("no LOOKUP_TABLE follows the scalars ", name);
     file_.name("the name of a lookup table");
     add(name, components, file_.array(type, size(components)), true, type);
-    keyword = file_.keyword();
   }
 
   LegacyFile& file_;
@@ -118,8 +112,19 @@ class Reader {
 
 }  // namespace
 
+void LegacyAttributes::add(const std::string& name, std::int64_t components, std::optional<PointArray::Values> values,
+                           const std::string& type, bool first) {
+  names.push_back(name);
+  if (!values) {
+    left_out.push_back(note_array(name, "its values are of type " + type));
+  } else {
+    arrays.insert(first ? arrays.begin() : arrays.end(),
+                  PointArray{name, static_cast<int>(components), std::move(*values)});
+  }
+}
+
 LegacyAttributes read_attributes(LegacyFile& file, std::uint64_t count, std::string& keyword) {
-  Reader reader(file, count);
+  AttributeReader reader(file, count);
   while (reader.read(keyword)) {
   }
   return reader.take_found();
@@ -129,7 +134,7 @@ LegacyAttributes read_field(LegacyFile& file, const std::uint64_t* count) {
   LegacyAttributes found;
   file.name("the name of a field");
   const std::int64_t arrays = file.count("the number of a field's arrays");
-  if (arrays > most_arrays) damaged("a field has " + std::to_string(arrays) + " arrays");
+  if (arrays > most_arrays) damaged("a field has ", arrays, " arrays");
   for (std::int64_t k = 0; k < arrays; ++k) {
     std::string name = file.name("the name of an array");
     if (name == "METADATA") {  // of the array before
@@ -141,18 +146,10 @@ LegacyAttributes read_field(LegacyFile& file, const std::uint64_t* count) {
     const std::int64_t tuples = file.count("the tuples of an array");
     const std::string type = lower_case(file.name("the type of an array"));
     auto values = file.array(type, product({components, tuples}, "an array"));
-    found.names.push_back(name);
-    if (!values) {
-      found.left_out.push_back("left out the point array '" + name + "': its values are of type " + type);
-      continue;
-    }
-    if (count != nullptr && static_cast<std::uint64_t>(tuples) != *count) {
-      throw Error("the array '" + printable(name) + "' has " + std::to_string(tuples) + " tuples for " +
-                  std::to_string(*count) + " points");
-    }
-    if (components < 1 || components > most_components)
-      damaged("the components of " + name + " are " + std::to_string(components));
-    found.arrays.push_back({name, static_cast<int>(components), std::move(*values)});
+    if (values && count != nullptr && static_cast<std::uint64_t>(tuples) != *count)
+      refuse("the array '", printable(name), "' has ", tuples, " tuples for ", *count, " points");
+    if (values) require_components(components, name);
+    found.add(name, components, std::move(values), type, false);
   }
   return found;
 }

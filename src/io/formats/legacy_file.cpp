@@ -3,12 +3,11 @@
 #include <cstring>
 
 #include <gale/io/bytes/damaged.hpp>
-#include <gale/io/bytes/numbers.hpp>
+#include <gale/io/bytes/text.hpp>
 #include <gale/io/formats/legacy_file.hpp>
 #include <gale/io/formats/volume.hpp>
 
 namespace gale::io::detail {
-
 namespace {
 
 /// "%20" and the like as the bytes that they stand for.
@@ -28,39 +27,17 @@ std::string decoded(const std::string& text) {
   return result;
 }
 
-std::optional<ValueType> type_of(const std::string& name) {
-  static const std::pair<const char*, ValueType> types[] = {{"char", ValueType::int8},
-                                                            {"signed_char", ValueType::int8},
-                                                            {"unsigned_char", ValueType::uint8},
-                                                            {"short", ValueType::int16},
-                                                            {"unsigned_short", ValueType::uint16},
-                                                            {"int", ValueType::int32},
-                                                            {"vtkidtype", ValueType::int32},  // so it is written
-                                                            {"unsigned_int", ValueType::uint32},
-                                                            {"long", ValueType::int64},
-                                                            {"vtktypeint64", ValueType::int64},
-                                                            {"unsigned_long", ValueType::uint64},
-                                                            {"vtktypeuint64", ValueType::uint64},
-                                                            {"float", ValueType::float32},
-                                                            {"double", ValueType::float64}};
-  for (const auto& [known, type] : types) {
-    if (name == known) return type;
-  }
-  return std::nullopt;
-}
-
 }  // namespace
 
 LegacyFile::LegacyFile(const InputFile& file) : bytes_(file, 0), text_(bytes_) {
   const std::string start = "# vtk DataFile Version ";
   std::string line;
-  if (!text_.line(line) || line.compare(0, start.size(), start) != 0)
-    damaged("its first line is not '" + start + "...'");
+  if (!text_.line(line) || line.compare(0, start.size(), start) != 0) damaged("its first line is not '", start, "...'");
   const std::string version = trimmed(line.substr(start.size()));
   major_version_ = number<int>(version.substr(0, version.find('.')), "the version");
   if (!text_.line(line)) damaged("it ends after its first line");
   const std::string kind = keyword();
-  if (kind != "ascii" && kind != "binary") damaged("its third line is '" + kind + "', neither ASCII nor BINARY");
+  if (kind != "ascii" && kind != "binary") damaged("its third line is '", kind, "', neither ASCII nor BINARY");
   binary_ = kind == "binary";
 }
 
@@ -81,13 +58,13 @@ void LegacyFile::skip_metadata() {
 
 std::string LegacyFile::name(const char* what) {
   const std::string_view word = text_.word();
-  if (word.empty()) damaged(std::string("it ends before ") + what);
+  if (word.empty()) damaged("it ends before ", what);
   return decoded(std::string(word));
 }
 
 std::int64_t LegacyFile::count(const char* what) {
   const auto result = number<std::int64_t>(text_.word(), what);
-  if (result < 0) damaged(std::string(what) + " is " + std::to_string(result));
+  if (result < 0) damaged(what, " is ", result);
   return result;
 }
 
@@ -110,7 +87,7 @@ PointArray::Values LegacyFile::values(ValueType type, std::uint64_t count) {
 
 std::optional<PointArray::Values> LegacyFile::array(const std::string& type, std::uint64_t count) {
   const std::string name = lower_case(type);
-  if (const auto known = type_of(name)) return values(*known, count);
+  if (const auto known = find_type(legacy_types, name)) return values(*known, count);
   if (name == "bit") {
     if (binary_) end_line();
     binary_ ? skip_bytes(count / 8 + (count % 8 != 0)) : skip_words(count);
@@ -119,7 +96,7 @@ std::optional<PointArray::Values> LegacyFile::array(const std::string& type, std
   } else if (name == "variant") {
     skip_words(2 * count);
   } else {
-    damaged("an array has values of the unknown type '" + type + "'");
+    damaged("an array has values of the unknown type '", type, "'");
   }
   return std::nullopt;
 }
@@ -127,7 +104,7 @@ std::optional<PointArray::Values> LegacyFile::array(const std::string& type, std
 PointArray::Values LegacyFile::array_of_numbers(std::uint64_t count, const char* what) {
   const std::string type = name(what);
   auto values = array(type, count);
-  if (!values) damaged(std::string("the values of ") + what + " are of type " + type);
+  if (!values) damaged("the values of ", what, " are of type ", type);
   return std::move(*values);
 }
 
@@ -154,18 +131,13 @@ void LegacyFile::skip_table(std::uint64_t colors) {
 
 void LegacyFile::skip_words(std::uint64_t count) {
   for (std::uint64_t k = 0; k < count; ++k) {
-    if (text_.word().empty()) damaged("it ends before " + std::to_string(count) + " values");
+    if (text_.word().empty()) damaged("it ends before ", count, " values");
   }
 }
 
 void LegacyFile::skip_bytes(std::uint64_t count) {
-  char buffer[4096];
-  if (count > text_.at_most()) damaged("it ends before " + std::to_string(count) + " bytes of values");
-  while (count > 0) {
-    const auto part = static_cast<std::size_t>(std::min<std::uint64_t>(count, sizeof(buffer)));
-    read_all(text_, buffer, part, "it");
-    count -= part;
-  }
+  if (count > text_.at_most()) damaged("it ends before ", count, " bytes of values");
+  skip_all(text_, count, "it");
 }
 
 /// In a text one a line; else each behind its length, whose first two bits say how long that is.
@@ -174,7 +146,7 @@ void LegacyFile::skip_strings(std::uint64_t count) {
   for (std::uint64_t k = 0; k < count; ++k) {
     std::string line;
     if (!binary_) {
-      if (!text_.line(line)) damaged("it ends before " + std::to_string(count) + " strings");
+      if (!text_.line(line)) damaged("it ends before ", count, " strings");
       continue;
     }
     unsigned char first = 0, rest[7] = {};

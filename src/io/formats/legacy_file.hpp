@@ -66,6 +66,10 @@ struct LegacyAttributes {
   std::vector<PointArray> arrays;
   std::vector<std::string> names;     ///< of all
   std::vector<std::string> left_out;  ///< a notice about each whose values are no numbers
+
+  /// Adds an array, in front if it is to be `first`, or the notice where it has no `values` but such of another `type`.
+  void add(const std::string& name, std::int64_t components, std::optional<PointArray::Values> values,
+           const std::string& type, bool first);
 };
 
 /// Reads attributes of `count` points or cells, up to the next keyword that begins none: `keyword` is the next one,

@@ -3,14 +3,12 @@
 
 #include <gale/base/stop.hpp>
 #include <gale/io/bytes/damaged.hpp>
-#include <gale/io/cells/cell_types.hpp>
 #include <gale/io/cells/cells.hpp>
+#include <gale/io/formats.hpp>
 #include <gale/io/formats/legacy_file.hpp>
-#include <gale/io/formats/readers.hpp>
 #include <gale/io/formats/volume.hpp>
 
 namespace gale::io::detail {
-
 namespace {
 
 /// What a file of any kind may say, as far as it does.
@@ -32,14 +30,11 @@ void read_old_cells(LegacyFile& file, Sections& to) {
   std::size_t from = 0, end = 0;
   while (from < all.size()) {
     const auto points = static_cast<std::size_t>(all[from++]);  // below 0 becomes a huge one
-    if (points > all.size() - from)
-      damaged("cell " + std::to_string(ends.size()) + " has " + std::to_string(all[from - 1]) +
-              " points, more than follow");
+    if (points > all.size() - from) damaged("cell ", ends.size(), " has ", all[from - 1], " points, more than follow");
     for (std::size_t k = 0; k < points; ++k) all[end++] = all[from++];
     ends.push_back(static_cast<std::int64_t>(end));
   }
-  if (ends.size() != static_cast<std::size_t>(to.cells))
-    damaged("it has " + std::to_string(ends.size()) + " cells, not " + std::to_string(to.cells));
+  if (ends.size() != static_cast<std::size_t>(to.cells)) damaged("it has ", ends.size(), " cells, not ", to.cells);
   all.resize(end);
   to.mesh.cells.connectivity = std::move(all);
   to.mesh.cells.ends = std::move(ends);
@@ -56,7 +51,7 @@ void read_new_cells(LegacyFile& file, Sections& to) {
   to.mesh.cells.connectivity = file.array_of_numbers(static_cast<std::uint64_t>(size), "the points of its cells");
   std::visit(
       [](auto& v) {
-        if (v.front() != 0) damaged("the first offset of its cells is " + std::to_string(v.front()));
+        if (v.front() != 0) damaged("the first offset of its cells is ", v.front());
         v.erase(v.begin());
       },
       begins);
@@ -79,8 +74,7 @@ bool read_section(LegacyFile& file, const std::string& kind, std::string& keywor
   if (keyword == "point_data" || keyword == "cell_data") {
     const bool of_points = keyword == "point_data";
     const std::int64_t count = file.count(of_points ? "POINT_DATA" : "CELL_DATA");
-    if (of_points && count != to.points)
-      damaged("POINT_DATA of " + std::to_string(count) + " for " + std::to_string(to.points) + " points");
+    if (of_points && count != to.points) damaged("POINT_DATA of ", count, " for ", to.points, " points");
     keyword = file.keyword();
     LegacyAttributes found = read_attributes(file, static_cast<std::uint64_t>(count), keyword);
     if (of_points) {
@@ -126,7 +120,7 @@ Image to_image(Sections& from) {
   Image image;
   for (int d = 0; d < 3; ++d) {
     if (from.dimensions[d] < 1 || from.dimensions[d] > std::numeric_limits<int>::max())
-      damaged("one of its DIMENSIONS is " + std::to_string(from.dimensions[d]));
+      damaged("one of its DIMENSIONS is ", from.dimensions[d]);
     image.dimensions[d] = static_cast<int>(from.dimensions[d]);
     image.index_to_physical[d][d] = from.spacing[d];
     image.index_to_physical[d][3] = from.origin[d];
@@ -145,9 +139,9 @@ void add_grid_cells(Sections& to, int type, bool tetrahedralize) {
   if (nx < 2 || ny < 2 || nz < 2) return;
   constexpr std::int64_t most_without_values = 100000;
   if (to.mesh.arrays.empty() && to.points > most_without_values)
-    throw Error("it has " + std::to_string(to.points) + " points, and no values at them");
+    refuse("it has ", to.points, " points, and no values at them");
   if (to.points > std::numeric_limits<std::int32_t>::max())
-    throw Error("it has " + std::to_string(to.points) + " points, more than 32-bit ids can number");
+    refuse("it has ", to.points, " points, more than 32-bit ids can number");
   if (!tetrahedralize) refuse_solid(0, type);
   const std::size_t cells = static_cast<std::size_t>((nx - 1) * (ny - 1) * (nz - 1));
   std::vector<std::int32_t> connectivity;
@@ -175,11 +169,10 @@ void require_grid_points(const Sections& of, bool rectilinear) {
   if (of.dimensions.empty()) damaged("it has no DIMENSIONS");
   for (int d = 0; rectilinear && d < 3; ++d) {
     if (static_cast<std::int64_t>(count_of(of.coordinates[d])) == of.dimensions[d]) continue;
-    damaged("it has " + std::to_string(count_of(of.coordinates[d])) + " coordinates along an axis of " +
-            std::to_string(of.dimensions[d]));
+    damaged("it has ", count_of(of.coordinates[d]), " coordinates along an axis of ", of.dimensions[d]);
   }
   if (!rectilinear && count_of(of.mesh.points) != 3 * grid_points(of)) {
-    damaged("it has " + std::to_string(count_of(of.mesh.points) / 3) + " points, not those of its DIMENSIONS");
+    damaged("it has ", count_of(of.mesh.points) / 3, " points, not those of its DIMENSIONS");
   }
 }
 
@@ -212,12 +205,12 @@ Content read_legacy_vtk(const InputFile& input, const ReadOptions& options) {
   if (kind == "polydata") throw Error("it has no tetrahedra");
   if (kind != "unstructured_grid" && kind != "structured_points" && kind != "structured_grid" &&
       kind != "rectilinear_grid")
-    damaged("its kind of data set is '" + kind + "'");
+    damaged("its kind of data set is '", kind, "'");
   Sections sections;
   keyword = file.keyword();
   while (!keyword.empty()) {
     const std::string before = keyword;
-    if (!read_section(file, kind, keyword, sections)) damaged("it has the unknown keyword '" + before + "'");
+    if (!read_section(file, kind, keyword, sections)) damaged("it has the unknown keyword '", before, "'");
   }
   if (kind == "structured_points") return to_image(sections);
   if (kind != "unstructured_grid") {

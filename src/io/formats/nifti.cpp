@@ -1,12 +1,11 @@
 #include <cmath>
 #include <cstring>
 
+#include <gale/io/bytes/compression.hpp>
 #include <gale/io/bytes/damaged.hpp>
-#include <gale/io/bytes/inflated_bytes.hpp>
 #include <gale/io/formats/volume.hpp>
 
 namespace gale::io::detail {
-
 namespace {
 
 /// The fields of a NIfTI header, of version 1 or 2, that matter here; names as in nifti1.h.
@@ -63,7 +62,7 @@ void take_fields(const Fields& from, std::size_t datatype, std::size_t dim, std:
   for (std::size_t row = 0; row < 3; ++row) from.copy<Real>(quatern + (6 + 4 * row) * sizeof(Real), to.srow[row]);
 }
 
-NiftiHeader read_header(ByteSource& source) {
+NiftiHeader read_nifti_header(ByteSource& source) {
   std::vector<char> bytes(size_of_2);
   read_all(source, bytes.data(), size_of_1, "its header");
   NiftiHeader header;
@@ -105,7 +104,7 @@ void take_type(const NiftiHeader& header, Volume& volume) {
     volume.components = type.components;
     return;
   }
-  damaged("its values are of the NIfTI type " + std::to_string(header.datatype));
+  damaged("its values are of the NIfTI type ", header.datatype);
 }
 
 /// The rotation of a unit quaternion, of which b, c and d are given.
@@ -141,20 +140,15 @@ void place(const NiftiHeader& header, Image& image) {
 }
 
 void skip(ByteSource& source, std::uint64_t bytes) {
-  std::vector<char> buffer(1 << 16);
-  if (bytes > source.at_most()) damaged("its voxels begin " + std::to_string(bytes) + " bytes behind its header");
-  while (bytes > 0) {
-    const auto part = static_cast<std::size_t>(std::min<std::uint64_t>(bytes, buffer.size()));
-    read_all(source, buffer.data(), part, "what comes before its voxels");
-    bytes -= part;
-  }
+  if (bytes > source.at_most()) damaged("its voxels begin ", bytes, " bytes behind its header");
+  skip_all(source, bytes, "what comes before its voxels");
 }
 
 /// Planes of components, one after the other, with all time steps of each: of the first step, component by component.
 PointArray::Values read_planes(ByteSource& source, const Volume& whole, std::int64_t planes, std::int64_t times) {
   Volume plane = whole;
   plane.components = whole.components / planes;
-  if (whole.bytes() > source.at_most()) damaged("it ends before its " + std::to_string(planes) + " components");
+  if (whole.bytes() > source.at_most()) damaged("it ends before its ", planes, " components");
   std::vector<PointArray::Values> parts;
   for (std::int64_t p = 0; p < planes; ++p) {
     if (p > 0) skip(source, plane.bytes() * static_cast<std::uint64_t>(times - 1));
@@ -179,14 +173,14 @@ PointArray::Values read_planes(ByteSource& source, const Volume& whole, std::int
 }  // namespace
 
 Content read_nifti(const InputFile& file, const ReadOptions&) {
-  const auto source = open_inflated(file);
-  const NiftiHeader header = read_header(*source);
+  std::unique_ptr<ByteSource> source = std::make_unique<FileBytes>(file, 0);
+  if (file.begins_with("\x1f\x8b")) source = inflated(std::move(source));  // gzip's
+  const NiftiHeader header = read_nifti_header(*source);
   const std::int64_t axes = header.dim[0];
-  if (axes < 1 || axes > 7) damaged("it has " + std::to_string(axes) + " dimensions");
+  if (axes < 1 || axes > 7) damaged("it has ", axes, " dimensions");
   const auto extent = [&](int axis) { return axis <= axes ? header.dim[axis] : 1; };
   for (int axis = 1; axis <= axes; ++axis) {
-    if (header.dim[axis] < 1)
-      damaged("its dimension " + std::to_string(axis) + " is " + std::to_string(header.dim[axis]));
+    if (header.dim[axis] < 1) damaged("its dimension ", axis, " is ", header.dim[axis]);
   }
   Volume volume;
   volume.order = header.order;
@@ -199,7 +193,7 @@ Content read_nifti(const InputFile& file, const ReadOptions&) {
 
   const double begin = header.vox_offset == 0 ? static_cast<double>(header.bytes + 4) : header.vox_offset;
   if (!(begin >= static_cast<double>(header.bytes)) || begin > 1e15 || begin != std::floor(begin))
-    damaged("its voxels begin at byte " + std::to_string(begin));
+    damaged("its voxels begin at byte ", begin);
   skip(*source, static_cast<std::uint64_t>(begin) - header.bytes);
   Image image = volume.image("NIFTI", planes > 1 ? read_planes(*source, volume, planes, times) : volume.read(*source));
   check_sum(*source);

@@ -7,17 +7,15 @@
 #include <unordered_map>
 
 #include <gale/base/stop.hpp>
-#include <gale/io/arrays.hpp>
 #include <gale/io/bytes/damaged.hpp>
-#include <gale/io/cells/cell_types.hpp>
+#include <gale/io/cells/cells.hpp>
 #include <gale/io/cells/join.hpp>
-#include <gale/io/cells/number_by_ids.hpp>
-#include <gale/io/formats/readers.hpp>
+#include <gale/io/dataset.hpp>
+#include <gale/io/formats.hpp>
 #include <gale/io/formats/volume.hpp>
 #include <gale/io/formats/vtu.hpp>
 
 namespace gale::io::detail {
-
 namespace {
 
 using Ids = std::vector<std::int64_t>;
@@ -49,14 +47,14 @@ Ids to_ids(const PointArray::Values& values, const std::string& name, const std:
   return std::visit(
       [&](const auto& all) {
         if (!std::is_integral_v<typename std::decay_t<decltype(all)>::value_type>)
-          damaged("its global ids '" + printable(name) + "' are no whole numbers");
+          damaged("its global ids '", printable(name), "' are no whole numbers");
         constexpr std::int64_t greatest = (std::int64_t(1) << 62) - 1;
         Ids ids(all.size());
         for (std::size_t i = 0; i < all.size(); ++i) {
           ids[i] = static_cast<std::int64_t>(all[i]);  // of 64 bits without a sign, those beyond become negative
           if (ids[i] >= 0 && ids[i] <= greatest) continue;
-          throw Error("the array '" + printable(name) + "' gives " + of_what + " " + std::to_string(i) + " the id " +
-                      std::to_string(all[i]) + ", which is none: ids are 0 to " + std::to_string(greatest));
+          refuse("the array '", printable(name), "' gives ", of_what, " ", i, " the id ", all[i],
+                 ", which is none: ids are 0 to ", greatest);
         }
         return ids;
       },
@@ -66,10 +64,10 @@ Ids to_ids(const PointArray::Values& values, const std::string& name, const std:
 Ids ids_of_points(const MeshParts& piece, const std::string& name) {
   for (const PointArray& array : piece.arrays) {
     if (array.name != name) continue;
-    if (array.components != 1) damaged("its global ids '" + printable(name) + "' have several components");
+    if (array.components != 1) damaged("its global ids '", printable(name), "' have several components");
     return to_ids(array.values, name, "point");
   }
-  damaged("it has no global ids '" + printable(name) + "'");
+  damaged("it has no global ids '", printable(name), "'");
 }
 
 /// All three coordinates of each point.
@@ -169,8 +167,8 @@ class SharedPieces {
     for (std::size_t c = 0; c < types.size(); ++c) {
       gale::detail::stop_if_asked_at(static_cast<std::int64_t>(c));
       if (ends[c] < begin || ends[c] > static_cast<std::int64_t>(connectivity.size())) {
-        damaged("cell " + std::to_string(c) + " ends at " + std::to_string(ends[c]) + " in a connectivity of " +
-                std::to_string(connectivity.size()) + ", and the one before it at " + std::to_string(begin));
+        damaged("cell ", c, " ends at ", ends[c], " in a connectivity of ", connectivity.size(),
+                ", and the one before it at ", begin);
       }
       if (is_ghost.empty() || (is_ghost[c] & has_other_piece) == 0) {
         for (std::int64_t k = begin; k < ends[c]; ++k) kept_points.push_back(place(places, connectivity[k], c));
@@ -185,8 +183,7 @@ class SharedPieces {
 
   static std::int64_t place(const Ids& places, std::int64_t point, std::size_t cell) {
     if (point >= 0 && point < static_cast<std::int64_t>(places.size())) return places[static_cast<std::size_t>(point)];
-    throw Error("cell " + std::to_string(cell) + " names point " + std::to_string(point) + " of " +
-                std::to_string(places.size()));
+    refuse("cell ", cell, " names point ", point, " of ", places.size());
   }
 
   const PieceNames& names_;
@@ -200,7 +197,7 @@ class SharedPieces {
 Ids ids_of_cells(const XmlFile& file, const XmlElement& piece, std::size_t cells, const std::string& name) {
   if (name.empty() || cells == 0) return {};
   const auto values = read_cell_array(file, piece, name);
-  if (!values) damaged("it has no global ids '" + printable(name) + "' of cells");
+  if (!values) damaged("it has no global ids '", printable(name), "' of cells");
   return to_ids(*values, name, "cell");
 }
 
@@ -226,7 +223,7 @@ std::vector<std::string> sources_of(const XmlElement& grid) {
     sources.push_back(piece.attribute("Source"));
     if (sources.back().empty()) damaged("one of its pieces has no Source");
     if (!paths.insert(std::filesystem::path(sources.back()).lexically_normal()).second)
-      throw Error("it names the piece '" + printable(sources.back()) + "' twice");
+      refuse("it names the piece '", printable(sources.back()), "' twice");
   }
   return sources;
 }
@@ -249,7 +246,7 @@ JoinedWithIds join(const InputFile& input, const PieceNames& names, const ReadOp
       const std::vector<std::string> found = add_file(piece, names, shared);
       if (cell_arrays.empty()) cell_arrays = found;
     } catch (const Error& error) {
-      throw Error("its piece '" + printable(source) + "': " + error.what());
+      refuse("its piece '", printable(source), "': ", error.what());
     }
   }
   JoinedWithIds all = shared.take();

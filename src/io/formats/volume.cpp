@@ -5,9 +5,9 @@
 #include <limits>
 #include <sstream>
 
+#include <gale/io/bytes/compression.hpp>
 #include <gale/io/bytes/damaged.hpp>
-#include <gale/io/bytes/inflated_bytes.hpp>
-#include <gale/io/bytes/numbers.hpp>
+#include <gale/io/bytes/text.hpp>
 #include <gale/io/formats/volume.hpp>
 
 namespace gale::io::detail {
@@ -15,8 +15,8 @@ namespace gale::io::detail {
 std::uint64_t Volume::count() const {
   for (const std::int64_t n : {dimensions[0], dimensions[1], dimensions[2], components}) {
     if (n < 1 || n > std::numeric_limits<int>::max()) {
-      damaged("it has " + std::to_string(dimensions[0]) + " x " + std::to_string(dimensions[1]) + " x " +
-              std::to_string(dimensions[2]) + " voxels of " + std::to_string(components) + " components");
+      damaged("it has ", dimensions[0], " x ", dimensions[1], " x ", dimensions[2], " voxels of ", components,
+              " components");
     }
   }
   return product({dimensions[0], dimensions[1], dimensions[2], components}, "dimensions");
@@ -26,16 +26,16 @@ std::uint64_t Volume::bytes() const { return count() * size_of(type); }
 
 PointArray::Values Volume::read(ByteSource& source) const { return read_values(source, type, count(), order); }
 
-PointArray::Values Volume::read(const InputFile& file, std::uint64_t begin, Encoding encoding) const {
+PointArray::Values Volume::read(const InputFile& file, std::uint64_t begin, Packing packing) const {
   auto bytes = std::make_unique<FileBytes>(file, begin);
-  if (encoding == Encoding::raw) return read(*bytes);
-  if (encoding == Encoding::text) {
+  if (packing == Packing::raw) return read(*bytes);
+  if (packing == Packing::text) {
     TextReader text(*bytes);
     return read_text_values(text, type, count());
   }
-  InflatedBytes inflated(std::move(bytes));
-  PointArray::Values values = read(inflated);
-  check_sum(inflated);
+  const auto whole = inflated(std::move(bytes));
+  PointArray::Values values = read(*whole);
+  check_sum(*whole);
   return values;
 }
 
@@ -52,7 +52,7 @@ Image oriented_image(const std::array<std::int64_t, 3>& low, const std::array<st
   Image image;
   for (int d = 0; d < 3; ++d) {
     if (high[d] < low[d] || high[d] - low[d] >= std::numeric_limits<std::int32_t>::max())
-      damaged("it extends from " + std::to_string(low[d]) + " to " + std::to_string(high[d]));
+      damaged("it extends from ", low[d], " to ", high[d]);
     image.dimensions[d] = static_cast<int>(high[d] - low[d] + 1);
     auto& row = image.index_to_physical[d];
     row[3] = origin[d];
@@ -73,7 +73,7 @@ void check_sum(ByteSource& source) {
 void require_finite(const Image& image) {
   for (const auto& row : image.index_to_physical) {
     for (const double value : row) {
-      if (!std::isfinite(value)) damaged("the position of its voxels has a value of " + std::to_string(value));
+      if (!std::isfinite(value)) damaged("the position of its voxels has a value of ", value);
     }
   }
 }
@@ -85,14 +85,14 @@ std::string path_of_data(const std::string& header, const std::string& name, con
   const fs::path path = folder / name;
   for (const std::string& output : options.outputs) {
     if (fs::equivalent(output, path, unknown))
-      throw Error("its data file '" + printable(name) + "' is to be written, as '" + output + "'");
+      refuse("its data file '", printable(name), "' is to be written, as '", output, "'");
   }
   if (options.outside_files) return path.string();
   const fs::path real_folder = fs::weakly_canonical(folder, unknown), real = fs::weakly_canonical(path, unknown);
   const auto [stop, ignored] = std::mismatch(real_folder.begin(), real_folder.end(), real.begin(), real.end());
   if (name.empty() || name.find('\0') != std::string::npos || stop != real_folder.end()) {
-    throw Error("its data file '" + printable(name) +
-                "' is outside of its folder: reading that has to be allowed (--outside-files)");
+    refuse("its data file '", printable(name),
+           "' is outside of its folder: reading that has to be allowed (--outside-files)");
   }
   return path.string();
 }
@@ -108,11 +108,10 @@ std::vector<std::string> names_of_pattern(const std::string& pattern, std::int64
   }
   const bool ends_in_d = end < pattern.size() && (pattern[end] == 'd' || pattern[end] == 'i' || pattern[end] == 'u');
   if (percent == std::string::npos || !ends_in_d || width >= 100 || pattern.find('%', end) != std::string::npos) {
-    damaged("'" + pattern + "' is no pattern of file names such as slice%03d.raw");
+    damaged("'", pattern, "' is no pattern of file names such as slice%03d.raw");
   }
   if (step < 1 || first < 0 || last < first || static_cast<std::uint64_t>(last - first) / step >= most) {
-    damaged("its data files go from " + std::to_string(first) + " to " + std::to_string(last) + " by " +
-            std::to_string(step) + ", where at most " + std::to_string(most) + " are needed");
+    damaged("its data files go from ", first, " to ", last, " by ", step, ", where at most ", most, " are needed");
   }
   std::vector<std::string> names;
   for (std::int64_t k = first; k <= last; k += step) {
@@ -123,22 +122,25 @@ std::vector<std::string> names_of_pattern(const std::string& pattern, std::int64
   return names;
 }
 
-std::vector<std::string> words_of(const std::string& line) {
-  std::istringstream stream(line);
-  std::vector<std::string> words;
-  for (std::string word; stream >> word;) words.push_back(word);
-  return words;
+const std::string& TextHeader::operator[](const std::string& field) const {
+  static const std::string none;
+  const auto found = fields.find(field);
+  return found == fields.end() ? none : found->second;
 }
 
-std::string trimmed(const std::string& text) {
-  const char* const space = " \t\r\n\v\f";
-  const std::size_t first = text.find_first_not_of(space);
-  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(space) - first + 1);
+void TextHeader::set(const std::string& field, const std::string& value) {
+  constexpr std::size_t most = 1000;
+  if (fields.size() == most) damaged("it has more than ", most, " fields");
+  fields[field] = value;
 }
 
-std::string lower_case(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-  return text;
+void TextHeader::read_list(TextReader& text, bool empty_line_ends_it) {
+  for (std::string line; text.line(line);) {
+    const std::string name = trimmed(line);
+    if (name.empty() && empty_line_ends_it) return;
+    if (!name.empty()) list.push_back(name);
+    if (list.size() > most_files) damaged("it lists more than ", most_files, " files");
+  }
 }
 
 }  // namespace gale::io::detail

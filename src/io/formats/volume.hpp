@@ -2,18 +2,19 @@
 
 #include <array>
 #include <cstdint>
-#include <memory>
+#include <map>
 #include <string>
 #include <vector>
 
 #include <gale/io/bytes/input_file.hpp>
 #include <gale/io/bytes/values.hpp>
-#include <gale/io/formats/readers.hpp>
+#include <gale/io/formats.hpp>
 
 /// What the volume formats have in common: a small header that says how the values of one array lie in a file.
 namespace gale::io::detail {
 
-enum class Encoding { raw, text, compressed };
+/// How the values lie in the file.
+enum class Packing { raw, text, compressed };
 
 struct Volume {
   std::array<std::int64_t, 3> dimensions{1, 1, 1};
@@ -29,7 +30,7 @@ struct Volume {
   PointArray::Values read(ByteSource& source) const;
 
   /// Throws gale::Error unless the file has them all from that byte on.
-  PointArray::Values read(const InputFile& file, std::uint64_t begin, Encoding encoding) const;
+  PointArray::Values read(const InputFile& file, std::uint64_t begin, Packing packing) const;
 
   /// With one array and nothing else.
   Image image(const std::string& name, PointArray::Values values) const;
@@ -52,15 +53,31 @@ void require_finite(const Image& image);
 /// leaves that folder, unless options.outside_files, and if it is one of options.outputs.
 std::string path_of_data(const std::string& header, const std::string& name, const ReadOptions& options);
 
+/// The most data files that a header may name.
+inline constexpr std::size_t most_files = 100000;
+
 /// The names that a pattern such as `slice%03d.raw` makes for first, first + step, ... up to last. Throws gale::Error
 /// for a pattern of another form, or for more than `most` names.
 std::vector<std::string> names_of_pattern(const std::string& pattern, std::int64_t first, std::int64_t last,
                                           std::int64_t step, std::size_t most);
 
-/// The words of a line.
-std::vector<std::string> words_of(const std::string& line);
+/// A header of text: fields with values, and the data files that it lists.
+struct TextHeader {
+  std::map<std::string, std::string> fields;
+  std::vector<std::string> list;
+  std::uint64_t end = 0;  ///< where in its file what follows it begins
 
-std::string trimmed(const std::string& text);
-std::string lower_case(std::string text);
+  bool has(const std::string& field) const { return fields.count(field) > 0; }
+
+  /// The value of a field; empty if it isn't there.
+  const std::string& operator[](const std::string& field) const;
+
+  /// Throws gale::Error for more fields than a header has.
+  void set(const std::string& field, const std::string& value);
+
+  /// Reads names of files, a line each, up to the end of the text or, if that ends it, an empty line. Throws
+  /// gale::Error for too many.
+  void read_list(TextReader& text, bool empty_line_ends_it);
+};
 
 }  // namespace gale::io::detail

@@ -2,15 +2,14 @@
 #include <limits>
 
 #include <gale/io/bytes/damaged.hpp>
-#include <gale/io/bytes/numbers.hpp>
-#include <gale/io/bytes/value_type.hpp>
+#include <gale/io/bytes/text.hpp>
+#include <gale/io/bytes/values.hpp>
 #include <gale/io/cells/join.hpp>
-#include <gale/io/formats/readers.hpp>
+#include <gale/io/formats.hpp>
 #include <gale/io/formats/volume.hpp>
 #include <gale/io/formats/xml_file.hpp>
 
 namespace gale::io::detail {
-
 namespace {
 
 template <class T>
@@ -18,9 +17,7 @@ std::vector<T> numbers(const XmlElement& element, const char* key, const std::ve
   std::vector<T> result;
   for (const std::string& word : words_of(element.attribute(key))) result.push_back(number<T>(word, key));
   if (result.empty() && !otherwise.empty()) return otherwise;
-  if (result.size() != count)
-    damaged(std::string("its ") + key + " has " + std::to_string(result.size()) + " numbers, not " +
-            std::to_string(count));
+  if (result.size() != count) damaged("its ", key, " has ", result.size(), " numbers, not ", count);
   return result;
 }
 
@@ -39,7 +36,7 @@ Extent extent_of(const XmlElement& element, const char* key) {
     extent.low[d] = values[2 * d];
     extent.high[d] = values[2 * d + 1];
     if (extent.size(d) < 1 || extent.size(d) > std::numeric_limits<std::int32_t>::max())
-      damaged(std::string("its ") + key + " is '" + element.attribute(key) + "'");
+      damaged("its ", key, " is '", element.attribute(key), "'");
   }
   return extent;
 }
@@ -70,7 +67,7 @@ std::vector<Piece> pieces_of(const XmlElement& image, const Extent& whole) {
     const Extent extent = extent_of(element, "Extent");
     for (int d = 0; d < 3; ++d) {
       if (extent.low[d] < whole.low[d] || extent.high[d] > whole.high[d])
-        damaged("a piece's Extent '" + element.attribute("Extent") + "' leaves the WholeExtent");
+        damaged("a piece's Extent '", element.attribute("Extent"), "' leaves the WholeExtent");
     }
     pieces.push_back({extent, &element});
   }
@@ -108,7 +105,7 @@ XmlArrays join(const XmlFile& file, const std::vector<Piece>& pieces, const Exte
       Vector joined(points * width);
       for (std::size_t k = 0; k < pieces.size(); ++k) {
         const PointArray* const found = find_alike(kinds[k], first);
-        if (found == nullptr) damaged("not all pieces have the array '" + first.name + "', in one type");
+        if (found == nullptr) damaged("not all pieces have the array '", first.name, "', in one type");
         const auto& from_values = std::get<Vector>(found->values);
         for_each_row(pieces[k].extent, whole, [&](std::size_t from, std::size_t to, std::size_t count) {
           std::copy_n(from_values.begin() + static_cast<std::ptrdiff_t>(from * width), count * width,

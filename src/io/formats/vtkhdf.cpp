@@ -6,14 +6,13 @@
 #include <gale/io/bytes/damaged.hpp>
 #include <gale/io/bytes/values.hpp>
 #include <gale/io/cells/cells.hpp>
+#include <gale/io/formats.hpp>
 #include <gale/io/formats/hdf5_file.hpp>
-#include <gale/io/formats/readers.hpp>
 #include <gale/io/formats/volume.hpp>
 
 // VTKHDF: the group VTKHDF has the arrays of a mesh, whose parts follow each other in each array, or says where the
 // voxels of an image are; its groups PointData and CellData have the arrays of points and cells.
 namespace gale::io::detail {
-
 namespace {
 
 const std::string root = "VTKHDF", point_data = root + "/PointData", cell_data = root + "/CellData";
@@ -22,10 +21,8 @@ const std::string root = "VTKHDF", point_data = root + "/PointData", cell_data =
 std::vector<double> numbers(Hdf5File& file, const char* name, std::size_t count, const std::vector<double>& otherwise) {
   const std::optional<FileAttribute> found = file.attribute(root, name);
   if (!found && !otherwise.empty()) return otherwise;
-  if (!found) damaged(std::string("it has no ") + name);
-  if (found->numbers.size() != count)
-    damaged(std::string("its ") + name + " has " + std::to_string(found->numbers.size()) + " numbers, not " +
-            std::to_string(count));
+  if (!found) damaged("it has no ", name);
+  if (found->numbers.size() != count) damaged("its ", name, " has ", found->numbers.size(), " numbers, not ", count);
   return found->numbers;
 }
 
@@ -39,7 +36,7 @@ std::vector<PointArray> read_arrays(Hdf5File& file, const std::vector<std::uint6
   for (const std::string& name : names) {
     const FileArray& array = *file.find(point_data + "/" + name);
     if (!array.type || array.is_text) {
-      notices.push_back("left out the point array '" + printable(name) + "': its values are no numbers");
+      notices.push_back(note_array(printable(name), "its values are no numbers"));
       continue;
     }
     const bool has_components = array.shape.size() == shape.size() + 1;
@@ -47,7 +44,7 @@ std::vector<PointArray> read_arrays(Hdf5File& file, const std::vector<std::uint6
     if (array.shape.size() < shape.size() || array.shape.size() > shape.size() + 1 ||
         !std::equal(shape.begin() + 1, shape.end(), array.shape.begin() + 1) || components < 1 ||
         components > (1u << 20))
-      damaged("its point array '" + name + "' has another shape than the points");
+      damaged("its point array '", name, "' has another shape than the points");
     const bool is_active = active && active->text.c_str() == name;
     arrays.insert(is_active ? arrays.begin() : arrays.end(),
                   PointArray{name, static_cast<int>(components), file.read(array, shape[0])});
@@ -56,71 +53,61 @@ std::vector<PointArray> read_arrays(Hdf5File& file, const std::vector<std::uint6
   return arrays;
 }
 
-/// Whole numbers of a part each.
-std::vector<std::uint64_t> read_counts(Hdf5File& file, const char* name) {
-  const FileArray& array = file.require(root + "/" + name);
-  if (array.shape.size() != 1) damaged(std::string("its ") + name + " is no list");
-  std::vector<std::uint64_t> counts;
-  std::visit(
-      [&](const auto& values) {
-        if constexpr (std::is_integral_v<typename std::decay_t<decltype(values)>::value_type>) {
-          for (const auto value : values) {
-            if (value < 0) damaged(std::string("its ") + name + " is " + std::to_string(value));
-            counts.push_back(static_cast<std::uint64_t>(value));
-          }
-        } else {
-          damaged(std::string("its ") + name + " are no whole numbers");
-        }
-      },
-      file.read(array));
-  return counts;
-}
-
-std::uint64_t sum_of(const std::vector<std::uint64_t>& counts, const char* what) {
-  constexpr std::uint64_t most = std::numeric_limits<std::int64_t>::max() / 64;
-  std::uint64_t sum = 0;
-  for (const std::uint64_t count : counts) {
-    if (count > most || sum > most) damaged(std::string("its ") + what + " says " + std::to_string(count));
-    sum += count;
-  }
-  return sum;
-}
-
-/// The first so many whole numbers of a list.
-std::vector<std::int64_t> read_integers(Hdf5File& file, const char* name, std::uint64_t count) {
+/// The whole numbers of a list, all or the first `count`.
+std::vector<std::int64_t> read_integers(Hdf5File& file, const char* name, std::optional<std::uint64_t> count = {}) {
   const FileArray& array = file.require(root + "/" + name);
   if (array.shape.size() != 1 || *array.type >= ValueType::float32 || array.is_text)
-    damaged(std::string("its ") + name + " is no list of whole numbers");
-  PointArray::Values values = file.read(array, count);
+    damaged("its ", name, " is no list of whole numbers");
+  PointArray::Values values = file.read(array, count.value_or(array.rows()));
   if (auto* const same = std::get_if<std::vector<std::int64_t>>(&values)) return std::move(*same);
   return std::visit([](const auto& from) { return std::vector<std::int64_t>(from.begin(), from.end()); }, values);
 }
 
+/// How many of something each part has, and all together.
 struct Counts {
-  std::vector<std::uint64_t> points, cells, corners;
+  Counts(Hdf5File& file, const char* name) : of_part(read_integers(file, name)) {
+    constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max() / 64;
+    for (const std::int64_t count : of_part) {
+      if (count < 0 || count > most || sum > std::uint64_t(most)) damaged("its ", name, " says ", count);
+      sum += static_cast<std::uint64_t>(count);
+    }
+  }
+
+  std::vector<std::int64_t> of_part;
+  std::uint64_t sum = 0;
+};
+
+struct MeshCounts {
+  explicit MeshCounts(Hdf5File& file)
+      : points(file, "NumberOfPoints"), cells(file, "NumberOfCells"), corners(file, "NumberOfConnectivityIds") {
+    const std::size_t parts = points.of_part.size();
+    if (cells.of_part.size() != parts || corners.of_part.size() != parts)
+      damaged("its numbers of points, cells and corners are of ", parts, ", ", cells.of_part.size(), " and ",
+              corners.of_part.size(), " parts");
+  }
+
+  Counts points, cells, corners;
 };
 
 /// Where each cell ends, among the corners of all parts; corners become points of all.
-std::vector<std::int64_t> join_parts(const Counts& counts, const std::vector<std::int64_t>& offsets,
+std::vector<std::int64_t> join_parts(const MeshCounts& counts, const std::vector<std::int64_t>& offsets,
                                      std::vector<std::int64_t>& corners) {
   std::vector<std::int64_t> ends;
-  std::uint64_t first_point = 0, first_corner = 0, offset = 0;
-  for (std::size_t part = 0; part < counts.points.size(); ++part) {
-    const std::uint64_t own_corners = counts.corners[part], own_points = counts.points[part];
-    for (std::uint64_t k = 0; k <= counts.cells[part]; ++k, ++offset) {
+  std::int64_t first_point = 0, first_corner = 0;
+  std::size_t offset = 0;
+  for (std::size_t part = 0; part < counts.points.of_part.size(); ++part) {
+    const std::int64_t own_corners = counts.corners.of_part[part], own_points = counts.points.of_part[part];
+    for (std::int64_t k = 0; k <= counts.cells.of_part[part]; ++k, ++offset) {
       const std::int64_t end = offsets[offset];
-      if (end < 0 || static_cast<std::uint64_t>(end) > own_corners || (k == 0 && end != 0)) {
-        damaged("a cell ends at " + std::to_string(end) + " of the " + std::to_string(own_corners) +
-                " corners of part " + std::to_string(part));
-      }
-      if (k > 0) ends.push_back(static_cast<std::int64_t>(first_corner) + end);
+      if (end < 0 || end > own_corners || (k == 0 && end != 0))
+        damaged("a cell ends at ", end, " of the ", own_corners, " corners of part ", part);
+      if (k > 0) ends.push_back(first_corner + end);
     }
-    for (std::uint64_t k = first_corner; k < first_corner + own_corners; ++k) {
-      if (corners[k] < 0 || static_cast<std::uint64_t>(corners[k]) >= own_points) {
-        throw Error("corner " + std::to_string(k - first_corner) + " of part " + std::to_string(part) + " is point " +
-                    std::to_string(corners[k]) + " of " + std::to_string(own_points));
-      }
-      corners[k] += static_cast<std::int64_t>(first_point);
+    for (std::int64_t k = 0; k < own_corners; ++k) {
+      std::int64_t& corner = corners[static_cast<std::size_t>(first_corner + k)];
+      if (corner < 0 || corner >= own_points)
+        refuse("corner ", k, " of part ", part, " is point ", corner, " of ", own_points);
+      corner += first_point;
     }
     first_point += own_points;
     first_corner += own_corners;
@@ -129,23 +116,17 @@ std::vector<std::int64_t> join_parts(const Counts& counts, const std::vector<std
 }
 
 Content read_mesh(Hdf5File& file, const ReadOptions& options) {
-  const Counts counts{read_counts(file, "NumberOfPoints"), read_counts(file, "NumberOfCells"),
-                      read_counts(file, "NumberOfConnectivityIds")};
-  const std::size_t part_count = counts.points.size();
-  if (counts.cells.size() != part_count || counts.corners.size() != part_count)
-    damaged("its numbers of points, cells and corners are of " + std::to_string(part_count) + ", " +
-            std::to_string(counts.cells.size()) + " and " + std::to_string(counts.corners.size()) + " parts");
-  const std::uint64_t points = sum_of(counts.points, "NumberOfPoints"), cells = sum_of(counts.cells, "NumberOfCells"),
-                      corners = sum_of(counts.corners, "NumberOfConnectivityIds");
+  const MeshCounts counts(file);
   const FileArray& xyz = file.require(root + "/Points");
   if (xyz.shape.size() != 2 || xyz.shape[1] != 3) damaged("its Points have no three coordinates each");
   MeshParts parts;
-  parts.points = file.read(xyz, points);
-  std::vector<std::int64_t> connectivity = read_integers(file, "Connectivity", corners);
-  parts.cells.ends = join_parts(counts, read_integers(file, "Offsets", cells + part_count), connectivity);
+  parts.points = file.read(xyz, counts.points.sum);
+  std::vector<std::int64_t> connectivity = read_integers(file, "Connectivity", counts.corners.sum);
+  const std::uint64_t offsets = counts.cells.sum + counts.points.of_part.size();
+  parts.cells.ends = join_parts(counts, read_integers(file, "Offsets", offsets), connectivity);
   parts.cells.connectivity = std::move(connectivity);
-  parts.cells.types = file.read(file.require(root + "/Types"), cells);
-  parts.arrays = read_arrays(file, {points}, parts.notices);
+  parts.cells.types = file.read(file.require(root + "/Types"), counts.cells.sum);
+  parts.arrays = read_arrays(file, {counts.points.sum}, parts.notices);
   return to_mesh(parts, options.tetrahedralize);
 }
 
@@ -155,7 +136,7 @@ Content read_image(Hdf5File& file) {
   for (int d = 0; d < 3; ++d) {
     constexpr double most = std::numeric_limits<std::int32_t>::max();
     for (const double end : {extent[2 * d], extent[2 * d + 1]}) {
-      if (!(std::abs(end) <= most)) damaged("its WholeExtent has the number " + std::to_string(end));
+      if (!(std::abs(end) <= most)) damaged("its WholeExtent has the number ", end);
     }
     low[d] = static_cast<std::int64_t>(extent[2 * d]);
     high[d] = static_cast<std::int64_t>(extent[2 * d + 1]);
@@ -174,18 +155,18 @@ Content read_image(Hdf5File& file) {
 
 Content read_vtkhdf(const InputFile& input, const ReadOptions& options) {
   constexpr char other[] = "it is no VTKHDF file of a mesh or an image";
-  if (!is_hdf5(input)) throw Error(other);
+  if (!input.begins_with(hdf5_magic)) throw Error(other);
   Hdf5File file(input);
   if (!file.open_group(root)) throw Error(other);
   const std::optional<FileAttribute> version = file.attribute(root, "Version"), type = file.attribute(root, "Type");
   if (!version || version->numbers.size() != 2 || !type) throw Error(other);
   if (version->numbers[0] != 1 && version->numbers[0] != 2)
-    throw Error("its version of VTKHDF is " + std::to_string(version->numbers[0]) + ", and 1 and 2 are read");
+    refuse("its version of VTKHDF is ", version->numbers[0], ", and 1 and 2 are read");
   if (file.open_group(root + "/Steps")) throw Error("it has several times, which are not read");
   const std::string kind = type->text.c_str();
   if (kind == "UnstructuredGrid") return read_mesh(file, options);
   if (kind == "ImageData") return read_image(file);
-  throw Error("it holds a " + printable(kind) + ", neither a mesh nor an image");
+  refuse("it holds a ", printable(kind), ", neither a mesh nor an image");
 }
 
 }  // namespace gale::io::detail

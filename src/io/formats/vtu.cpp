@@ -1,20 +1,19 @@
 #include <limits>
 
 #include <gale/io/bytes/damaged.hpp>
-#include <gale/io/bytes/value_type.hpp>
+#include <gale/io/bytes/values.hpp>
 #include <gale/io/cells/join.hpp>
-#include <gale/io/formats/readers.hpp>
+#include <gale/io/formats.hpp>
 #include <gale/io/formats/vtu.hpp>
 
 namespace gale::io::detail {
-
 namespace {
 
 constexpr auto most = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max() / 64);
 
 std::uint64_t count_in(const XmlElement& piece, const char* of_what) {
   const std::uint64_t count = piece.number(of_what);
-  if (count > most) damaged(std::string(of_what) + " is " + std::to_string(count));
+  if (count > most) damaged(of_what, " is ", count);
   return count;
 }
 
@@ -22,7 +21,7 @@ const XmlElement& cell_array(const XmlElement& cells, const char* name) {
   for (const XmlElement& array : cells.children) {
     if (array.name == "DataArray" && array.attribute("Name") == name) return array;
   }
-  damaged(std::string("its Cells have no ") + name);
+  damaged("its Cells have no ", name);
 }
 
 }  // namespace
@@ -33,7 +32,7 @@ MeshParts read_piece(const XmlFile& file, const XmlElement& piece) {
   if (points > 0) {
     const XmlElement& array = piece.require("Points").require("DataArray");
     if (array.attribute("NumberOfComponents", "3") != "3")
-      damaged("its points have " + array.attribute("NumberOfComponents") + " components");
+      damaged("its points have ", array.attribute("NumberOfComponents"), " components");
     parts.points = read_array(file, array, 3 * points);
   }
   if (cells > 0) {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <gale/io/cells/cells.hpp>
-#include <gale/io/formats/readers.hpp>
+#include <gale/io/formats.hpp>
 #include <gale/io/formats/xml_file.hpp>
 
 // What `.vtu` and the `.pvtu` that names several of them have in common.
@@ -21,5 +21,9 @@ MeshParts read_piece(const XmlFile& file, const XmlElement& piece);
 /// The values of a cell array of one component, which read_xml() was told of. Nothing if there is no such array.
 std::optional<PointArray::Values> read_cell_array(const XmlFile& file, const XmlElement& piece,
                                                   const std::string& name);
+
+/// What a `.pvtu` names, and some of these pieces as one mesh, which may be empty.
+PieceNames names_of_pieces(const InputFile& input);
+SomePieces read_some_pieces(const InputFile& input, const PieceNames& some, const ReadOptions& options);
 
 }  // namespace gale::io::detail

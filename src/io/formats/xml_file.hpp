@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include <gale/io/bytes/byte_order.hpp>
 #include <gale/io/bytes/input_file.hpp>
+#include <gale/io/bytes/values.hpp>
 #include <gale/io/dataset.hpp>
 
 /// VTK's XML files: a tree of elements, whose arrays hold their values in themselves, as text or base64, or behind the
@@ -57,6 +57,9 @@ struct XmlFile {
 /// returned.
 XmlFile read_xml(const InputFile& file, const std::string& type, const std::string& cell_array = "");
 
+/// Reads the tree up to what is appended; the file's part of read_xml(). Through expat, which comes with VTK.
+void read_tree(XmlFile& to, const std::string& cell_array);
+
 /// The values of an array: `count` of them, or all that it has. Throws gale::Error if it has less, or they are damaged.
 PointArray::Values read_array(const XmlFile& file, const XmlElement& array, std::optional<std::uint64_t> count);
 
@@ -70,10 +73,5 @@ XmlArrays read_point_data(const XmlFile& file, const XmlElement& piece, std::uin
 
 /// The names of a piece's cell arrays.
 std::vector<std::string> names_of_cell_data(const XmlElement& piece);
-
-/// Writes the `bytes` that `compressed` stands for to `to`. False if it doesn't stand for so many. `compressor` is one
-/// of VTK's classes; throws gale::Error for another one.
-using Uncompress = bool (*)(const char* compressed, std::size_t compressed_bytes, char* to, std::size_t bytes);
-Uncompress find_uncompress(const std::string& compressor);
 
 }  // namespace gale::io::detail

@@ -151,21 +151,13 @@ void answer_bytes(const File& file, const std::string& path) {
 void answer_chunks(const File& file, const std::string& path, std::uint64_t rows, std::size_t file_bytes) {
   const Handle dataset = file.open(path);
   const auto description = file.describe(path);
-  const auto &shape = description.shape, &chunk = description.chunk;
+  const auto& chunk = description.chunk;
+  auto ends = description.shape;
+  ends[0] = rows;
   put(static_cast<std::uint64_t>(H5Dget_storage_size(dataset)));
   std::vector<hsize_t> at(chunk.size());
   std::vector<char> bytes;
-  const auto advance = [&] {
-    for (std::size_t d = at.size(); d-- > 0; at[d] = 0) {
-      const std::uint64_t end = d == 0 ? rows : shape[d];
-      if (end - at[d] <= chunk[d]) continue;
-      at[d] += chunk[d];
-      return true;
-    }
-    return false;
-  };
   do {
-    Chunk one;
     hsize_t stored = 0;
     if (H5Dget_chunk_storage_size(dataset, at.data(), &stored) < 0 || stored == 0) {
       std::string place;
@@ -176,11 +168,9 @@ void answer_chunks(const File& file, const std::string& path, std::uint64_t rows
     bytes.resize(static_cast<std::size_t>(stored));
     std::uint32_t left_out = 0;
     if (H5Dread_chunk(dataset, H5P_DEFAULT, at.data(), &left_out, bytes.data()) < 0) fail("a chunk");
-    one.bytes = stored;
-    one.left_out = left_out;
-    put(one);
+    put(Chunk{stored, left_out});
     put_all(bytes);
-  } while (advance());
+  } while (advance(at, chunk, ends));
 }
 
 void answer(const File& file, std::size_t file_bytes, const std::vector<char>& request) {

@@ -43,4 +43,15 @@ inline constexpr unsigned most_dimensions = 32, most_filters = 32;
 /// As HDF5 numbers them.
 inline constexpr std::uint32_t deflate = 1, shuffle = 2, fletcher32 = 3;
 
+/// Goes on to the next chunk below `ends`, the last dimension first; false at the end.
+template <class Places, class Lengths>
+bool advance(Places& at, const Lengths& chunk, const Lengths& ends) {
+  for (auto d = at.size(); d-- > 0; at[d] = 0) {
+    if (ends[d] - at[d] <= chunk[d]) continue;
+    at[d] += chunk[d];
+    return true;
+  }
+  return false;
+}
+
 }  // namespace gale::reader

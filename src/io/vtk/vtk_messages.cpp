@@ -109,11 +109,9 @@ void VtkMessages::check_written(unsigned long code) const {
     if (says_why_not_written(reason)) throw Error(std::strerror(static_cast<int>(reason)));
   }
   const std::string said = one_line(without_addresses(state_->window->first_error));
-  throw Error("not all of it could be written" + (said.empty() ? "" : " (VTK: " + said + ")"));
+  refuse("not all of it could be written", (said.empty() ? "" : " (VTK: " + said + ")"));
 }
 
-void VtkMessages::fail(const std::string& reason) const {
-  throw Error(state_->verdict + " (" + one_line(reason) + ")");
-}
+void VtkMessages::fail(const std::string& reason) const { refuse(state_->verdict, " (", one_line(reason), ")"); }
 
 }  // namespace gale::io::detail

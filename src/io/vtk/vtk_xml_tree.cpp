@@ -6,7 +6,6 @@
 #include <gale/io/formats/xml_file.hpp>
 
 namespace gale::io::detail {
-
 namespace {
 
 constexpr std::size_t deepest = 32, most_elements = 200000;
@@ -38,8 +37,7 @@ class Builder {
       if (out_of_memory_) throw std::bad_alloc();
       if (!failure_.empty()) damaged(failure_);
       if (status != XML_STATUS_OK && !at_appended_) {
-        damaged(std::string(XML_ErrorString(XML_GetErrorCode(parser_))) + " in line " +
-                std::to_string(XML_GetCurrentLineNumber(parser_)));
+        damaged(XML_ErrorString(XML_GetErrorCode(parser_)), " in line ", XML_GetCurrentLineNumber(parser_));
       }
       if (last) break;
     }
@@ -131,38 +129,6 @@ class Builder {
 
 }  // namespace
 
-std::string XmlElement::attribute(const std::string& key, const std::string& otherwise) const {
-  const auto found = attributes.find(key);
-  return found == attributes.end() ? otherwise : found->second;
-}
-
-const XmlElement* XmlElement::child(const std::string& wanted) const {
-  for (const XmlElement& element : children) {
-    if (element.name == wanted) return &element;
-  }
-  return nullptr;
-}
-
-const XmlElement& XmlElement::require(const std::string& wanted) const {
-  const XmlElement* const found = child(wanted);
-  if (found == nullptr) damaged("its " + name + " has no " + wanted);
-  return *found;
-}
-
-XmlFile read_xml(const InputFile& file, const std::string& type, const std::string& cell_array) {
-  XmlFile result{file, {}};
-  Builder(result, cell_array).parse();
-  const XmlElement& root = result.root;
-  if (root.name != "VTKFile" || root.attribute("type") != type)
-    damaged("it is no VTKFile of type " + type + " but a " + root.name + " of type '" + root.attribute("type") + "'");
-  const std::string order = root.attribute("byte_order");
-  if (!order.empty() && order != "LittleEndian" && order != "BigEndian") damaged("its byte_order is '" + order + "'");
-  if (!order.empty()) result.order = order == "BigEndian" ? ByteOrder::big : ByteOrder::little;
-  const std::string header = root.attribute("header_type", "UInt32");
-  if (header != "UInt32" && header != "UInt64") damaged("its header_type is '" + header + "'");
-  result.header_bytes = header == "UInt64" ? 8 : 4;
-  result.compressor = root.attribute("compressor");
-  return result;
-}
+void read_tree(XmlFile& to, const std::string& cell_array) { Builder(to, cell_array).parse(); }
 
 }  // namespace gale::io::detail

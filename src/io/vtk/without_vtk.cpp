@@ -1,24 +1,30 @@
 #include <gale/base/error.hpp>
-#include <gale/io/bytes/zlib.hpp>
-#include <gale/io/formats/readers.hpp>
+#include <gale/io/bytes/compression.hpp>
+#include <gale/io/cells/cells.hpp>
+#include <gale/io/formats.hpp>
+#include <gale/io/formats/xml_file.hpp>
 
+// What is in vtk/vtk_*.cpp, where GALE is built without VTK. io::read() refuses files before any of these is called.
 namespace gale::io::detail {
 namespace {
 
-[[noreturn]] void refuse() { throw Error("this gale was built without VTK"); }
+[[noreturn]] void refuse_without_vtk() { throw Error("this gale was built without VTK"); }
 
 }  // namespace
 
 bool has_vtk() { return false; }
 
-Content read_content(const InputFile&, Format, const ReadOptions&) { refuse(); }
+void compress_by_zlib(const char*, std::size_t, std::vector<char>&) { refuse_without_vtk(); }
 
-PieceNames names_of_pieces(const InputFile&) { refuse(); }
+std::unique_ptr<ByteSource> inflated(std::unique_ptr<ByteSource>) { refuse_without_vtk(); }
 
-SomePieces read_some_pieces(const InputFile&, const PieceNames&, const ReadOptions&) { refuse(); }
+Uncompress find_uncompress(const std::string&) { refuse_without_vtk(); }
 
-bool has_zlib() { return false; }
+void read_tree(XmlFile&, const std::string&) { refuse_without_vtk(); }
 
-void compress_by_zlib(const char*, std::size_t, std::vector<char>&) { refuse(); }
+std::vector<std::int32_t> split_cells(const PointArray::Values&, const std::vector<std::uint8_t>&,
+                                      const std::vector<std::int64_t>&, const std::vector<std::int64_t>&) {
+  refuse_without_vtk();
+}
 
 }  // namespace gale::io::detail

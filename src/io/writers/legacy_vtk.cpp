@@ -1,23 +1,13 @@
 #include <algorithm>
-#include <cstring>
 
-#include <gale/io/bytes/byte_order.hpp>
 #include <gale/io/bytes/output_file.hpp>
 #include <gale/io/writers/writers.hpp>
-#include <gale/io/writers/written_array.hpp>
 
 namespace gale::io::detail {
-
 namespace {
 
-const char* legacy_name_of(ValueType type) {
-  static const char* const names[] = {"signed_char",  "unsigned_char", "short",         "unsigned_short", "int",
-                                      "unsigned_int", "vtktypeint64",  "vtktypeuint64", "float",          "double"};
-  return names[static_cast<int>(type)];
-}
-
-/// As one word.
-std::string encoded(const std::string& name) {
+/// The name as one word.
+std::string as_word(const std::string& name) {
   static const char digits[] = "0123456789ABCDEF";
   std::string word;
   for (const char c : name) {
@@ -48,13 +38,13 @@ void write_values(OutputFile& file, const WrittenArray& array) {
 
 }  // namespace
 
-void write_legacy_vtk(const std::string& path, const Dataset& mesh, const std::vector<PointArray>& more) {
+void write_legacy_vtk(const AtomicFile& to, const Dataset& mesh, const std::vector<PointArray>& more) {
   const WrittenArray points = written(mesh.points);
   const std::uint64_t count = mesh.tetrahedra.extent(0);
   const std::string vertices = std::to_string(points.count / 3), cells = std::to_string(count);
-  OutputFile file(path);
+  OutputFile file(to.temporary());
   file.write("# vtk DataFile Version 5.1\nwritten by gale\nBINARY\nDATASET UNSTRUCTURED_GRID\n");
-  file.write("POINTS " + vertices + " " + legacy_name_of(points.type) + "\n");
+  file.write(text_of("POINTS ", vertices, " ", name_in(legacy_types, points.type), "\n"));
   write_values(file, points);
   file.write("CELLS " + std::to_string(count + 1) + " " + std::to_string(4 * count) + "\nOFFSETS vtktypeint64\n");
   write_values(file, made<std::int64_t>("", count + 1, [](std::uint64_t k) { return 4 * k; }));
@@ -64,12 +54,12 @@ void write_legacy_vtk(const std::string& path, const Dataset& mesh, const std::v
   file.write("CELL_TYPES " + cells + "\n");
   constexpr int tetrahedron = 10;
   write_values(file, made<std::int32_t>("", count, [](std::uint64_t) { return tetrahedron; }));
-  const auto arrays = written({&mesh.arrays, &more});
+  const auto arrays = written(mesh.arrays, more);
   if (!arrays.empty()) {
     file.write("POINT_DATA " + vertices + "\nFIELD FieldData " + std::to_string(arrays.size()) + "\n");
     for (const WrittenArray& array : arrays) {
-      file.write(encoded(array.name) + " " + std::to_string(array.components) + " " + vertices + " " +
-                 legacy_name_of(array.type) + "\n");
+      file.write(text_of(as_word(array.name), " ", array.components, " ", vertices, " ",
+                         name_in(legacy_types, array.type), "\n"));
       write_values(file, array);
     }
   }

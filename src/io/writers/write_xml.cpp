@@ -1,15 +1,66 @@
 #include <algorithm>
+#include <cstddef>
+#include <string_view>
 
 #include <gale/base/threads.hpp>
-#include <gale/io/bytes/byte_order.hpp>
-#include <gale/io/bytes/encoded_bytes.hpp>
-#include <gale/io/bytes/zlib.hpp>
-#include <gale/io/writers/write_xml.hpp>
-#include <gale/io/writers/xml_text.hpp>
+#include <gale/io/bytes/base64.hpp>
+#include <gale/io/bytes/compression.hpp>
+#include <gale/io/bytes/output_file.hpp>
+#include <gale/io/formats.hpp>
+#include <gale/io/writers/writers.hpp>
 
 namespace gale::io::detail {
-
 namespace {
+
+unsigned byte(const std::string& text, std::size_t at) {
+  return at < text.size() ? static_cast<unsigned char>(text[at]) : 0;
+}
+
+/// The bytes of the character of UTF-8 that begins there; 0 if none does, or none that XML may have.
+std::size_t utf8_size(const std::string& text, std::size_t at) {
+  const unsigned first = byte(text, at);
+  if (first >> 6 == 2) return 0;
+  const std::size_t size = first < 0x80 ? 1 : first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2;
+  unsigned code = size == 1 ? first : first & (0xff >> (size + 1));
+  for (std::size_t k = 1; k < size; ++k) {
+    if (byte(text, at + k) >> 6 != 2) return 0;
+    code = code << 6 | (byte(text, at + k) & 0x3f);
+  }
+  constexpr unsigned least[] = {0, 0, 0x80, 0x800, 0x10000};
+  const bool is_no_character = code > 0x10ffff || (code >= 0xd800 && code < 0xe000) || code == 0xfffe || code == 0xffff;
+  return first >= 0xf8 || code < least[size] || is_no_character ? 0 : size;
+}
+
+bool is_utf8(const std::string& text) {
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t size = utf8_size(text, at);
+    if (size == 0) return false;
+    at += size;
+  }
+  return true;
+}
+
+/// As the value of an attribute in XML of UTF-8. Text that isn't UTF-8 is taken for Latin-1; control characters, which
+/// XML has none of, become '?'.
+std::string xml_text(const std::string& text) {
+  const bool latin1 = !is_utf8(text);
+  std::string escaped;
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    const bool is_space = c == '\t' || c == '\n' || c == '\r';
+    if (c == '&' || c == '<' || c == '>' || c == '"' || c == '\'' || is_space || (latin1 && code >= 0x80)) {
+      escaped += "&#" + std::to_string(code) + ";";
+    } else {
+      escaped += code < 0x20 ? '?' : c;
+    }
+  }
+  return escaped;
+}
+
+/// ' name="value"', with such text.
+std::string xml_attribute(std::string_view name, std::string_view value) {
+  return text_of(" ", name, "=\"", xml_text(std::string(value)), "\"");
+}
 
 constexpr std::uint64_t block_bytes = 1 << 18;
 
@@ -73,17 +124,30 @@ void write_plain(OutputFile& file, const WrittenArray& array, Encoding encoding)
 }
 
 void write_values(OutputFile& file, const WrittenArray& array, Encoding encoding) {
-  if (has_zlib()) {
+  if (has_vtk()) {
     CompressedBlocks(array).write(file, encoding);
   } else {
     write_plain(file, array, encoding);
   }
 }
 
-/// Up to its format.
-std::string begin_of(const WrittenArray& array) {
-  return "        <DataArray" + xml_attribute("type", xml_name_of(array.type)) + xml_attribute("Name", array.name) +
+/// An array's element up to its format.
+std::string begin_of(const std::string& element, const WrittenArray& array) {
+  return element + xml_attribute("type", name_in(xml_types, array.type)) + xml_attribute("Name", array.name) +
          xml_attribute("NumberOfComponents", std::to_string(array.components));
+}
+
+/// A section's element; pieces' sections and those of what they have in common say alike which array has global ids.
+std::string begin_of(const std::string& element, const XmlContent::Section& section) {
+  return element + section.name + (section.global_ids.empty() ? "" : xml_attribute("GlobalIds", section.global_ids)) +
+         ">\n";
+}
+
+/// A file's first element and its second, up to what else that says.
+std::string begin_of_file(const std::string& type, const std::string& more_attributes) {
+  const std::string order = byte_order_of_machine() == ByteOrder::little ? "LittleEndian" : "BigEndian";
+  return "<VTKFile" + xml_attribute("type", type) + xml_attribute("version", "1.0") +
+         xml_attribute("byte_order", order) + more_attributes + ">\n  <" + type;
 }
 
 /// The arrays' elements first, then all values.
@@ -93,7 +157,7 @@ class AppendedArrays {
 
   void add(const WrittenArray& array) {
     const std::string blank(21, ' ');  // for any offset and a quote: it is known when what comes before is compressed
-    file_.write(begin_of(array) + xml_attribute("format", "appended") + " offset=\"");
+    file_.write(begin_of("        <DataArray", array) + xml_attribute("format", "appended") + " offset=\"");
     offsets_at_.push_back({&array, file_.size()});
     file_.write(blank + "/>\n");
   }
@@ -115,30 +179,24 @@ class AppendedArrays {
 };
 
 void write_in_place(OutputFile& file, const WrittenArray& array) {
-  file.write(begin_of(array) + xml_attribute("format", "binary") + ">\n");
+  file.write(begin_of("        <DataArray", array) + xml_attribute("format", "binary") + ">\n");
   write_values(file, array, Encoding::base64);
   file.write("\n        </DataArray>\n");
 }
 
 }  // namespace
 
-std::string global_ids_attribute(const std::string& name) {
-  return name.empty() ? "" : xml_attribute("GlobalIds", name);
-}
-
 void write_xml(const AtomicFile& to, const XmlContent& content) {
   OutputFile file(to.temporary());
-  const std::string order = byte_order_of_machine() == ByteOrder::little ? "LittleEndian" : "BigEndian";
-  file.write("<VTKFile" + xml_attribute("type", content.type) + xml_attribute("version", "1.0") +
-             xml_attribute("byte_order", order) + xml_attribute("header_type", "UInt64") +
-             (has_zlib() ? xml_attribute("compressor", "vtkZLibDataCompressor") : "") + ">\n");
-  file.write("  <" + content.type + ">\n    <Piece");
+  file.write(begin_of_file(content.type, xml_attribute("header_type", "UInt64") +
+                                             (has_vtk() ? xml_attribute("compressor", "vtkZLibDataCompressor") : "")) +
+             ">\n    <Piece");
   for (const auto& [name, size] : content.sizes) file.write(xml_attribute(name, std::to_string(size)));
   file.write(">\n");
   const bool appended = to.encoding() == Encoding::appended;
   AppendedArrays arrays(file);
   for (const auto& section : content.sections) {
-    file.write("      <" + section.name + global_ids_attribute(section.global_ids) + ">\n");
+    file.write(begin_of("      <", section));
     for (const WrittenArray& array : section.arrays) {
       if (appended) {
         arrays.add(array);
@@ -151,6 +209,23 @@ void write_xml(const AtomicFile& to, const XmlContent& content) {
   file.write("    </Piece>\n  </" + content.type + ">\n");
   if (appended) arrays.write();
   file.write("</VTKFile>\n");
+  file.flush();
+}
+
+void write_xml_pieces(const AtomicFile& to, const std::vector<std::string>& pieces, const XmlContent& like) {
+  const std::string type = "P" + like.type;
+  OutputFile file(to.temporary());
+  file.write(begin_of_file(type, "") + xml_attribute("GhostLevel", "0") + ">\n");
+  for (const auto& section : like.sections) {
+    const bool is_in_pieces = section.name == "PointData" || section.name == "Points" ||
+                              (section.name == "CellData" && !section.arrays.empty());
+    if (!is_in_pieces) continue;
+    file.write(begin_of("    <P", section));
+    for (const WrittenArray& array : section.arrays) file.write(begin_of("      <PDataArray", array) + "/>\n");
+    file.write("    </P" + section.name + ">\n");
+  }
+  for (const std::string& piece : pieces) file.write("    <Piece" + xml_attribute("Source", piece) + "/>\n");
+  file.write("  </" + type + ">\n</VTKFile>\n");
   file.flush();
 }
 

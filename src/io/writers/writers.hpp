@@ -1,30 +1,88 @@
 #pragma once
 
+#include <cstdint>
+#include <cstring>
+#include <functional>
+#include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gale/io/atomic_file.hpp>
+#include <gale/io/bytes/values.hpp>
 #include <gale/io/write.hpp>
 
-/// Each writes to a file that is there, or to the temporary one of another, whatever its name. What is written is
-/// consistent: io::write_mesh and the others see to that. They throw gale::Error without the path.
+/// How files are written: what stands in them first, of arrays that aren't copied, then that in VTK's XML or in its
+/// legacy form. All write to the temporary file of another, whatever its name, and throw gale::Error without the path.
 namespace gale::io::detail {
 
-void write_vtp(const AtomicFile& file, const PointSet& points);
-void write_vtp(const AtomicFile& file, const Surface& surface);
+/// An array on its way into a file. Its values stay where they are, or are made when they are asked for.
+struct WrittenArray {
+  std::string name;
+  int components;
+  ValueType type;
+  std::uint64_t count;  ///< values, not rows
 
-void write_vtu(const AtomicFile& file, const Dataset& mesh, const std::vector<PointArray>& more,
-               const std::vector<PointArray>& cell_arrays = {});
+  /// Puts the values [begin, end) to `to`, in this machine's order of bytes. Any number of threads may call it.
+  std::function<void(std::uint64_t begin, std::uint64_t end, char* to)> copy;
+};
 
-/// Names files; `like` has the types of what each of them has.
-void write_pvtp(const std::string& path, const std::vector<std::string>& pieces, const PointSet& like);
-void write_pvtp(const std::string& path, const std::vector<std::string>& pieces, const Surface& like);
-void write_pvtu(const std::string& path, const std::vector<std::string>& pieces, const MeshPiece& like);
+using WrittenArrays = std::vector<WrittenArray>;
 
-/// The lines, without polygons.
-void write_vtu(const AtomicFile& file, const Surface& lines);
+/// The coordinates, which outlive it.
+WrittenArray written(const Dataset::Positions& points);
 
-/// Binary, of the version 5.1.
-void write_legacy_vtk(const std::string& path, const Dataset& mesh, const std::vector<PointArray>& more);
+/// All arrays, which outlive it. The later of two with one name takes the place of the earlier. One without a name is
+/// called "unnamed", as VTK reads no other.
+WrittenArrays written(const std::vector<PointArray>& arrays, const std::vector<PointArray>& more = {});
+
+/// An array whose k-th value is value(k).
+template <class T, class Value>
+WrittenArray made(const std::string& name, std::uint64_t count, const Value& value) {
+  return {name, 1, value_type_of<T>(), count, [value](std::uint64_t begin, std::uint64_t end, char* to) {
+            for (std::uint64_t k = begin; k < end; ++k, to += sizeof(T)) {
+              const T made = static_cast<T>(value(k));
+              std::memcpy(to, &made, sizeof(T));
+            }
+          }};
+}
+
+/// An array of integers, in the narrower of two types that holds values of up to `most`.
+template <class Value>
+WrittenArray made_integers(const std::string& name, std::uint64_t count, std::uint64_t most, const Value& value) {
+  return most <= std::numeric_limits<std::int32_t>::max() ? made<std::int32_t>(name, count, value)
+                                                          : made<std::int64_t>(name, count, value);
+}
+
+/// What stands in one of VTK's XML files.
+struct XmlContent {
+  struct Section {
+    std::string name;  ///< e.g. "PointData"
+    WrittenArrays arrays;
+    std::string global_ids{};  ///< the one of the arrays that has global ids, where there is one
+  };
+
+  std::string type;                                          ///< e.g. "UnstructuredGrid"
+  std::vector<std::pair<std::string, std::uint64_t>> sizes;  ///< e.g. "NumberOfPoints"
+  std::vector<Section> sections;
+};
+
+/// The content of a file of points, of lines and polygons, of a mesh with the arrays `more` behind its own, of lines
+/// alone. What it is made of outlives it, and is consistent: io::write_mesh and the others see to that.
+XmlContent content_of(const PointSet& points);
+XmlContent content_of(const Surface& surface);
+XmlContent content_of(const Dataset& mesh, const std::vector<PointArray>& more,
+                      const std::vector<PointArray>& cell_arrays = {});
+XmlContent content_of_lines(const Surface& lines);
+
+/// Writes it, its arrays in the encoding of `to`, compressed where there is a zlib: block by block, so that it takes
+/// little memory, and on as many threads as loops take.
+void write_xml(const AtomicFile& to, const XmlContent& content);
+
+/// Writes the names of files, each of which has what `like` has, with other values.
+void write_xml_pieces(const AtomicFile& to, const std::vector<std::string>& pieces, const XmlContent& like);
+
+/// Writes a legacy file, binary, of the version 5.1.
+void write_legacy_vtk(const AtomicFile& to, const Dataset& mesh, const std::vector<PointArray>& more);
 
 }  // namespace gale::io::detail

@@ -2,7 +2,7 @@
 
 #include <gale/algorithms/morse_smale.hpp>
 #include <gale/algorithms/vertex_order.hpp>
-#include <gale/io/arrays.hpp>
+#include <gale/io/dataset.hpp>
 #include <gale/io/synthetic.hpp>
 
 #include "parts.hpp"

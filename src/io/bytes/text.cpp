@@ -1,12 +1,12 @@
 #include <algorithm>
+#include <cctype>
 #include <cstring>
+#include <sstream>
 
 #include <gale/base/stop.hpp>
-#include <gale/io/bytes/damaged.hpp>
-#include <gale/io/bytes/text_reader.hpp>
+#include <gale/io/bytes/text.hpp>
 
 namespace gale::io::detail {
-
 namespace {
 
 constexpr std::size_t longest_word = 1 << 16, longest_line = 1 << 20;
@@ -14,8 +14,6 @@ constexpr std::size_t longest_word = 1 << 16, longest_line = 1 << 20;
 bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
 }  // namespace
-
-TextReader::TextReader(ByteSource& source) : source_(source), buffer_(1 << 17) {}
 
 bool TextReader::refill() {
   gale::detail::stop_if_asked();
@@ -39,7 +37,7 @@ std::string_view TextReader::word() {
   while (true) {
     while (at_ + length < end_ && !is_space(buffer_[at_ + length])) ++length;
     if (at_ + length < end_) break;
-    if (length > longest_word) damaged("a word of more than " + std::to_string(longest_word) + " bytes");
+    if (length > longest_word) damaged("a word of more than ", longest_word, " bytes");
     if (!refill()) break;
   }
   const std::string_view found(buffer_.data() + at_, length);
@@ -59,7 +57,7 @@ bool TextReader::line(std::string& text) {
       break;
     }
     length = end_ - at_;
-    if (length > longest_line) damaged("a line of more than " + std::to_string(longest_line) + " bytes");
+    if (length > longest_line) damaged("a line of more than ", longest_line, " bytes");
     if (refill()) continue;
     if (length == 0) return false;
     text.assign(buffer_.data() + at_, length);
@@ -71,10 +69,29 @@ bool TextReader::line(std::string& text) {
 }
 
 std::size_t TextReader::read(char* to, std::size_t bytes) {
+  if (bytes < 4096 && bytes > end_ - at_) refill();  // many small pieces go through the buffer
   const std::size_t held = std::min(bytes, end_ - at_);
   std::memcpy(to, buffer_.data() + at_, held);
   at_ += held;
   return held == bytes ? held : held + source_.read(to + held, bytes - held);
+}
+
+std::vector<std::string> words_of(const std::string& line) {
+  std::istringstream stream(line);
+  std::vector<std::string> words;
+  for (std::string word; stream >> word;) words.push_back(word);
+  return words;
+}
+
+std::string trimmed(const std::string& text) {
+  const char* const space = " \t\r\n\v\f";
+  const std::size_t first = text.find_first_not_of(space);
+  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(space) - first + 1);
+}
+
+std::string lower_case(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+  return text;
 }
 
 }  // namespace gale::io::detail

@@ -7,23 +7,17 @@
 #include <gale/base/error.hpp>
 #include <gale/base/threads.hpp>
 #include <gale/io/bytes/base64.hpp>
+#include <gale/io/bytes/compression.hpp>
 #include <gale/io/bytes/damaged.hpp>
-#include <gale/io/bytes/numbers.hpp>
+#include <gale/io/bytes/text.hpp>
 #include <gale/io/bytes/values.hpp>
+#include <gale/io/cells/cells.hpp>
 #include <gale/io/formats/xml_file.hpp>
 
 namespace gale::io::detail {
-
 namespace {
 
-std::optional<ValueType> type_of(const XmlElement& array) {
-  const std::string name = array.attribute("type");
-  if (name == "vtkIdType") return ValueType::int64;
-  for (int k = 0; k <= static_cast<int>(ValueType::float64); ++k) {
-    if (name == xml_name_of(static_cast<ValueType>(k))) return static_cast<ValueType>(k);
-  }
-  return std::nullopt;
-}
+std::optional<ValueType> type_of(const XmlElement& array) { return find_type(xml_types, array.attribute("type")); }
 
 /// "its array 'name'", for messages.
 std::string its(const XmlElement& array) { return "its array '" + printable(array.attribute("Name")) + "'"; }
@@ -34,16 +28,14 @@ class Binary {
   Binary(const XmlFile& file, const XmlElement& array) : file_(file) {
     const std::string format = array.attribute("format", "ascii");
     if (format == "appended") {
-      if (file.appended_begin == 0) damaged(its(array) + " is appended, but nothing is");
+      if (file.appended_begin == 0) damaged(its(array), " is appended, but nothing is");
       const std::uint64_t offset = array.number("offset"), behind = file.file.size() - file.appended_begin;
-      if (offset > behind)
-        damaged(its(array) + " begins at " + std::to_string(offset) + " of " + std::to_string(behind) +
-                " appended bytes");
+      if (offset > behind) damaged(its(array), " begins at ", offset, " of ", behind, " appended bytes");
       inner_ = std::make_unique<FileBytes>(file.file, file.appended_begin + offset);
     } else if (format == "binary") {
       inner_ = std::make_unique<MemoryBytes>(array.text);
     } else {
-      damaged(its(array) + " has the format '" + format + "'");
+      damaged(its(array), " has the format '", format, "'");
     }
     if (format == "appended" && file.appended_is_raw) return;
     auto base64 = std::make_unique<Base64Bytes>(*inner_);
@@ -62,7 +54,7 @@ class Binary {
   void claim(std::uint64_t bytes, const XmlElement& array) const {
     if (array.attribute("format") != "appended") return;
     if (bytes > file_.file.size() - file_.appended_read)
-      damaged(its(array) + " lies where other arrays do: all together are longer than the file");
+      damaged(its(array), " lies where other arrays do: all together are longer than the file");
     file_.appended_read += bytes;
   }
 
@@ -106,12 +98,10 @@ Blocks read_blocks(Binary& binary, const XmlFile& file) {
   const std::uint64_t count = binary.header_number();
   blocks.block_bytes = binary.header_number();
   blocks.last_bytes = binary.header_number();
-  if (count > binary.bytes().at_most() / file.header_bytes)
-    damaged("an array claims " + std::to_string(count) + " blocks");
+  if (count > binary.bytes().at_most() / file.header_bytes) damaged("an array claims ", count, " blocks");
   if (blocks.last_bytes > blocks.block_bytes || blocks.block_bytes > (std::uint64_t(1) << 40) ||
       (count > 0 && blocks.block_bytes == 0))
-    damaged("an array claims blocks of " + std::to_string(blocks.block_bytes) + " bytes and a last one of " +
-            std::to_string(blocks.last_bytes));
+    damaged("an array claims blocks of ", blocks.block_bytes, " bytes and a last one of ", blocks.last_bytes);
   std::uint64_t sum = 0;
   for (std::uint64_t k = 0; k < count; ++k) {
     blocks.compressed.push_back(binary.header_number());
@@ -121,8 +111,7 @@ Blocks read_blocks(Binary& binary, const XmlFile& file) {
   binary.begin_next_piece();
   if (sum > binary.bytes().at_most()) damaged("an array's blocks are longer than the file");
   constexpr std::uint64_t best_ratio = 8192;  // LZMA's; no block can be of more
-  if (blocks.bytes() / best_ratio > sum + 1024)
-    damaged("an array claims " + std::to_string(blocks.bytes()) + " bytes in " + std::to_string(sum));
+  if (blocks.bytes() / best_ratio > sum + 1024) damaged("an array claims ", blocks.bytes(), " bytes in ", sum);
   return blocks;
 }
 
@@ -186,14 +175,12 @@ PointArray::Values read_binary(const XmlFile& file, const XmlElement& array, Val
   const auto check = [&](std::uint64_t bytes) {
     if (!count) count = bytes / size;
     if (bytes / size < *count) {
-      damaged(its(array) + " has " + std::to_string(bytes) + " bytes, not " + std::to_string(*count) +
-              " values of type " + name_of(type));
+      damaged(its(array), " has ", bytes, " bytes, not ", *count, " values of type ", name_of(type));
     }
   };
   if (file.compressor.empty()) {
     const std::uint64_t bytes = binary.header_number();
-    if (bytes > binary.bytes().at_most())
-      damaged(its(array) + " claims " + std::to_string(bytes) + " bytes, more than follow");
+    if (bytes > binary.bytes().at_most()) damaged(its(array), " claims ", bytes, " bytes, more than follow");
     binary.claim(bytes, array);
     check(bytes);
     return read_values(binary.bytes(), type, *count, file.order);
@@ -208,21 +195,55 @@ PointArray::Values read_binary(const XmlFile& file, const XmlElement& array, Val
 
 }  // namespace
 
+std::string XmlElement::attribute(const std::string& key, const std::string& otherwise) const {
+  const auto found = attributes.find(key);
+  return found == attributes.end() ? otherwise : found->second;
+}
+
+const XmlElement* XmlElement::child(const std::string& wanted) const {
+  for (const XmlElement& element : children) {
+    if (element.name == wanted) return &element;
+  }
+  return nullptr;
+}
+
+const XmlElement& XmlElement::require(const std::string& wanted) const {
+  const XmlElement* const found = child(wanted);
+  if (found == nullptr) damaged("its ", name, " has no ", wanted);
+  return *found;
+}
+
 std::uint64_t XmlElement::number(const std::string& key) const {
   const auto found = attributes.find(key);
-  if (found == attributes.end()) damaged("its " + name + " has no " + key);
+  if (found == attributes.end()) damaged("its ", name, " has no ", key);
   std::uint64_t value;
-  if (!parse(found->second, value)) damaged("the " + key + " of its " + name + " is '" + found->second + "'");
+  if (!parse(found->second, value)) damaged("the ", key, " of its ", name, " is '", found->second, "'");
   return value;
+}
+
+XmlFile read_xml(const InputFile& file, const std::string& type, const std::string& cell_array) {
+  XmlFile result{file, {}};
+  read_tree(result, cell_array);
+  const XmlElement& root = result.root;
+  if (root.name != "VTKFile" || root.attribute("type") != type)
+    damaged("it is no VTKFile of type ", type, " but a ", root.name, " of type '", root.attribute("type"), "'");
+  const std::string order = root.attribute("byte_order");
+  if (!order.empty() && order != "LittleEndian" && order != "BigEndian") damaged("its byte_order is '", order, "'");
+  if (!order.empty()) result.order = order == "BigEndian" ? ByteOrder::big : ByteOrder::little;
+  const std::string header = root.attribute("header_type", "UInt32");
+  if (header != "UInt32" && header != "UInt64") damaged("its header_type is '", header, "'");
+  result.header_bytes = header == "UInt64" ? 8 : 4;
+  result.compressor = root.attribute("compressor");
+  return result;
 }
 
 PointArray::Values read_array(const XmlFile& file, const XmlElement& array, std::optional<std::uint64_t> count) {
   const std::optional<ValueType> type = type_of(array);
-  if (!type) damaged(its(array) + " has values of type '" + array.attribute("type") + "'");
+  if (!type) damaged(its(array), " has values of type '", array.attribute("type"), "'");
   if (array.attribute("format", "ascii") != "ascii") return read_binary(file, array, *type, count);
   MemoryBytes bytes(array.text);
   TextReader text(bytes);
-  return count ? read_text_values(text, *type, *count) : read_all_text_values(text, *type);
+  return read_text_values(text, *type, count);
 }
 
 XmlArrays read_point_data(const XmlFile& file, const XmlElement& piece, std::uint64_t points) {
@@ -235,17 +256,13 @@ XmlArrays read_point_data(const XmlFile& file, const XmlElement& piece, std::uin
     if (array.name != "DataArray" && array.name != "Array") continue;
     const std::string name = array.attribute("Name", "scalars");
     if (!type_of(array)) {
-      std::string type = array.attribute("type");
-      std::transform(type.begin(), type.end(), type.begin(), [](unsigned char c) { return std::tolower(c); });
-      result.notices.push_back("left out the point array '" + name + "': its values are of type " + type);
+      result.notices.push_back(note_array(name, "its values are of type " + lower_case(array.attribute("type"))));
       continue;
     }
     const bool has_components = array.attributes.count("NumberOfComponents") > 0;
     const std::uint64_t components = has_components ? array.number("NumberOfComponents") : 1;
-    if (components < 1 || components > (1u << 20))
-      damaged(its(array) + " has " + std::to_string(components) + " components");
-    const std::uint64_t count =
-        product({static_cast<std::int64_t>(points), static_cast<std::int64_t>(components)}, "an array");
+    if (components < 1 || components > (1u << 20)) damaged(its(array), " has ", components, " components");
+    const std::uint64_t count = product(points, components);
     const bool first = !has_scalars && name == scalars;
     has_scalars |= first;
     result.arrays.insert(first ? result.arrays.begin() : result.arrays.end(),

@@ -1,8 +1,9 @@
-#include <cstdint>
-
-#include <gale/io/arrays.hpp>
+#include <gale/io/bytes/damaged.hpp>
+#include <gale/io/dataset.hpp>
 
 namespace gale::io {
+
+using detail::refuse;
 
 std::size_t point_count(const PointArray& array) {
   const std::size_t values = std::visit([](const auto& v) { return v.size(); }, array.values);
@@ -20,8 +21,7 @@ PointArray extract_component(const PointArray& array, int component) {
 }
 
 void detail::refuse_row(const PointArray& array, std::size_t row) {
-  throw Error("the array '" + array.name + "' has " + std::to_string(point_count(array)) + " rows, no row " +
-              std::to_string(static_cast<std::int64_t>(row)));
+  refuse("the array '", array.name, "' has ", point_count(array), " rows, no row ", static_cast<std::int64_t>(row));
 }
 
 }  // namespace gale::io
