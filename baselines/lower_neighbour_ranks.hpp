@@ -110,7 +110,7 @@ class LowerNeighbourRanks {
   const std::vector<Id>* neighbours_ = nullptr;
   Id count_ = 0;
   std::vector<Id> lower_;            ///< by id, with room for one more; likewise
-  std::vector<std::uint64_t> keys_;  ///< of these
+  std::vector<std::uint64_t> keys_;  ///< the keys of lower neighbours
   std::vector<Id> place_;            ///< rank -> place in lower_
   bool is_hashed_ = false;
   std::uint32_t multiplier_ = 0;

@@ -117,7 +117,7 @@ class QueuedLowerStar {
   int facet(int cell) const { return cells_[cell].open == 0 ? -1 : cells_[cell].left; }
 
  private:
-  /// In a list of those of one cell.
+  /// An element of one cell's list.
   struct Link {
     Id to;
     int next;
@@ -125,7 +125,7 @@ class QueuedLowerStar {
 
   struct Cell {
     Corners corners;
-    int place;     ///< of a triangle or a tetrahedron, in `sides_of_` or `inner_`
+    int place;     ///< a triangle's or a tetrahedron's, in `sides_of_` or `inner_`
     int open;      ///< how many facets are unsettled; below 0 once the cell itself is settled
     int left;      ///< exclusive or of these facets: if there is one, that facet
     int cofacets;  ///< the first link to them, or -1
@@ -133,7 +133,7 @@ class QueuedLowerStar {
 
   struct Triangle {
     int cell;
-    int tetrahedra;  ///< of the lower star, with a lower third vertex
+    int tetrahedra;  ///< how many of the lower star have a lower third vertex
     int sides;       ///< the first link to any of its tetrahedra, or -1
   };
 

@@ -9,7 +9,7 @@
 
 #include <gale/base/threads.hpp>
 #include <gale/baselines/task_parallel_structure.hpp>
-#include <gale/relations/host_worker.hpp>
+#include <gale/runtime/batches/host_worker.hpp>
 #include <gale/runtime/defaults.hpp>
 #include <gale/runtime/inline/inline_structure.hpp>
 #include <gale/runtime/statistics.hpp>
@@ -115,7 +115,7 @@ class Pipe {
   std::condition_variable changed_;
 };
 
-/// In a sweep each consumer has a worker thread, which runs ahead of it.
+/// A structure whose sweeps give each consumer a worker thread, which runs ahead of it.
 class TaskParallelStructure : public detail::InlineStructure {
  public:
   using InlineStructure::InlineStructure;

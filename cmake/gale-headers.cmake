@@ -16,7 +16,7 @@ endfunction()
 gale_public(base atomic error kokkos memory stop team threads types)
 gale_public(mesh encoded_mesh input_numbers intervals make_mesh mesh segmentation simplices)
 gale_public(relations batch faces preconditioning relation rows segment_rows)
-gale_public(runtime computation consumer device_sweep device_sweep_options graph_of make_structure statistics structure structure_options sweep_options)
+gale_public(runtime computation consumer device_sweep graph_of make_structure statistics structure structure_options sweep_options)
 gale_public(algorithms critical_points critical_simplices discrete_gradient morse_smale persistence separatrices
   simplex_numbers simplify surface_vertices vertex_order)
 gale_public(outputs arrows critical_points critical_simplices field manifolds morse_smale named_simplices persistence
@@ -36,7 +36,7 @@ set(gale_included_headers
   mesh/quad.hpp
   relations/segment_list.hpp
   runtime/device/batch_sweep.hpp
-  runtime/device/segment_batches.hpp)
+  runtime/batches/segment_batches.hpp)
 
 # Made by the build, beside those of src/.
 set(gale_generated_headers export.hpp version.hpp)

@@ -8,8 +8,8 @@
 #include <gale/base/error.hpp>
 #include <gale/export.hpp>
 #include <gale/mesh/mesh.hpp>
-#include <gale/runtime/device_sweep_options.hpp>
 #include <gale/runtime/structure.hpp>
+#include <gale/runtime/sweep_options.hpp>
 
 namespace gale {
 

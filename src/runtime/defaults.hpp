@@ -20,15 +20,15 @@ GALE_EXPORT void require_relations(RelationSet wanted);
 /// A guess for the first batch: words that the blocks of a regular mesh take for each vertex.
 double words_per_vertex(RelationSet relations);
 
-/// StructureOptions, with what they leave open filled in; for one of the queues.
+/// What StructureOptions come to for one of the queues, with what they leave open filled in.
 struct Sizes {
-  Offset batch_words = 0;      ///< of a batch and of the arena that takes its blocks
-  std::size_t host_bytes = 0;  ///< for arenas
+  Offset batch_words = 0;      ///< room of a batch, and of the arena that takes its blocks
+  std::size_t host_bytes = 0;  ///< budget of arenas
   Id segments_per_request = 1;
   int threads_per_segment = 0;
 };
 
-/// For each of `queues` queues. Throws gale::Error for an option below 0.
+/// Finds these for each of `queues` queues. Throws gale::Error for an option below 0.
 Sizes sizes_for(const Mesh& mesh, const StructureOptions& options, int queues);
 
 /// Bytes for blocks on the host, of all queues or helpers together.

@@ -10,8 +10,8 @@
 #include <gale/base/error.hpp>
 #include <gale/base/team.hpp>
 #include <gale/runtime/device/batch_sweep.hpp>
-#include <gale/runtime/device_sweep_options.hpp>
 #include <gale/runtime/make_structure.hpp>
+#include <gale/runtime/sweep_options.hpp>
 
 // Sweeps whose consumers are kernels: they read rows where these are made, and nothing is copied.
 //

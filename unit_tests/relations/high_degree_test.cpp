@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <gale/relations/host_worker.hpp>
+#include <gale/runtime/batches/host_worker.hpp>
 
 #include "support/input_mesh.hpp"
 #include "support/segmentations.hpp"

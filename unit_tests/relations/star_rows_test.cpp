@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <gale/base/threads.hpp>
-#include <gale/relations/host_worker.hpp>
+#include <gale/runtime/batches/host_worker.hpp>
 
 #include "relations/star_subsets.hpp"
 #include "support/brute_force.hpp"

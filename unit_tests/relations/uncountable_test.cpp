@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include <gale/relations/host_worker.hpp>
 #include <gale/relations/kernels/segment_kernel.hpp>
+#include <gale/runtime/batches/host_worker.hpp>
 
 #include "support/message_of.hpp"
 #include "support/segmentations.hpp"

@@ -18,13 +18,13 @@ class Interrupted : public detail::BatchWorker {
         at_launch_(std::move(at_launch)),
         at_finish_(std::move(at_finish)) {}
 
-  void launch(const std::vector<Id>& segments, Offset words, const StarSizes& scratch) override {
-    if (at_launch_) at_launch_(segments);
-    segments_ = segments;
-    worker_->launch(segments, words, scratch);
+  void launch(const detail::BatchPlan& plan) override {
+    if (at_launch_) at_launch_(plan.segments);
+    segments_ = plan.segments;
+    worker_->launch(plan);
   }
   void begin_copy(detail::Arena& arena) override { worker_->begin_copy(arena); }
-  detail::Shortfall finish(detail::Arena& arena) override {
+  detail::BatchShortfall finish(detail::Arena& arena) override {
     if (at_finish_) at_finish_(segments_);
     return worker_->finish(arena);
   }

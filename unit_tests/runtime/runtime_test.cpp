@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <gale/base/error.hpp>
-#include <gale/relations/host_worker.hpp>
+#include <gale/runtime/batches/host_worker.hpp>
 #include <gale/runtime/make_structure.hpp>
 
 #include "runtime/ways.hpp"

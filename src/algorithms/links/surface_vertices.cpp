@@ -5,7 +5,7 @@
 #include <gale/algorithms/links/small_link.hpp>
 #include <gale/algorithms/surface_vertices.hpp>
 #include <gale/base/parallel.hpp>
-#include <gale/relations/host_worker.hpp>
+#include <gale/runtime/batches/host_worker.hpp>
 #include <gale/runtime/sweep.hpp>
 
 namespace gale {

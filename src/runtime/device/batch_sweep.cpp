@@ -1,11 +1,10 @@
 #include <algorithm>
 #include <deque>
-#include <numeric>
 #include <vector>
 
 #include <gale/base/error.hpp>
+#include <gale/runtime/batches/batch_lane.hpp>
 #include <gale/runtime/defaults.hpp>
-#include <gale/runtime/device/batch_lane.hpp>
 #include <gale/runtime/device/batch_sweep.hpp>
 
 namespace gale::detail {
@@ -50,20 +49,18 @@ class BatchSweep<Memory>::Batches {
  private:
   bool has_plans() const { return !again_.empty() || ahead_ < mesh_.owned_segments(); }
   BatchPlan next_plan();
-  bool is_large(Id segment) const;
-  LaunchOrder order_of(Id begin, Id end) const;
   void launch(Lane& lane, BatchPlan plan);
   void finish(Lane& lane);
-  void plan_again(const BatchPlan& plan, BatchShortfall lacked);
+  void plan_again(const BatchPlan& plan, const BatchShortfall& lacked);
 
   const Mesh mesh_;
   double words_per_vertex_;  ///< that blocks take, by those so far
-  std::vector<SweepKernel<Memory>> kernels_;
-  Offset words_ = 0;  ///< that a batch has room for, unless one segment needs more
+  Offset words_ = 0;         ///< that a batch is planned for
+  Offset room_ = 0;          ///< words that one has, unless one segment needs more; fewer where the mesh takes fewer
   std::vector<std::unique_ptr<Lane>> lanes_;
   std::size_t turn_ = 0;         ///< the lane that is next
   Id ahead_ = 0;                 ///< the first segment that no batch had yet
-  std::deque<BatchPlan> again_;  ///< of segments that lacked room
+  std::deque<BatchPlan> again_;  ///< plans of segments that lacked room
 };
 
 template <class Memory>
@@ -71,17 +68,15 @@ BatchSweep<Memory>::Batches::Batches(const Mesh& mesh, RelationSet relations, co
     : mesh_(mesh), words_per_vertex_(margin * words_per_vertex(relations)) {
   require_sweep(relations, options);
   const Filled<Memory> filled(options);
-  for (const RelationSet one : kernels_for(relations)) {
-    SegmentKernel<Memory> kernel(mesh, one);
-    auto bounds = segment_bounds(mesh, kernel, filled.threads_per_segment);
-    kernels_.push_back({std::move(kernel), std::move(bounds)});
-  }
+  const auto kernels = std::make_shared<typename Lane::Kernels>();
+  for (const RelationSet one : kernels_for(relations)) kernels->emplace_back(mesh, one, filled.threads_per_segment);
   words_ = std::max<Offset>(static_cast<Offset>(filled.memory / filled.batches / sizeof(Id)), 1024);
   const auto all = static_cast<Offset>(words_per_vertex_ * mesh.owned_vertices()) + 1024;
+  room_ = std::min(words_, all);
   const auto batches = static_cast<int>(std::min<Offset>(filled.batches, (all + words_ - 1) / words_));
   for (int i = 0; i < batches; ++i) {
     try {
-      lanes_.push_back(std::make_unique<Lane>(mesh_, kernels_, std::min(words_, all)));
+      lanes_.push_back(std::make_unique<Lane>(mesh_, kernels, room_, BatchReader::kernels));
     } catch (const OutOfMemory&) {
       if (lanes_.empty()) throw;
       break;  // fewer do as well
@@ -106,25 +101,7 @@ BatchLane<Memory>* BatchSweep<Memory>::Batches::next() {
   return nullptr;
 }
 
-template <class Memory>
-bool BatchSweep<Memory>::Batches::is_large(Id segment) const {
-  return std::any_of(kernels_.begin(), kernels_.end(),
-                     [segment](const auto& one) { return one.bounds->is_large[segment] != 0; });
-}
-
-/// None if it is theirs.
-template <class Memory>
-LaunchOrder BatchSweep<Memory>::Batches::order_of(Id begin, Id end) const {
-  const auto large = [this](Id segment) { return is_large(segment); };
-  Id small = 0;
-  while (begin + small < end && !large(begin + small)) ++small;
-  if (begin + small == end) return {};
-  std::vector<Id> segments(end - begin);
-  std::iota(segments.begin(), segments.end(), begin);
-  return LaunchOrder::of(std::move(segments), large);
-}
-
-/// Segments as far as they fit.
+/// Takes segments as far as they fit.
 template <class Memory>
 BatchPlan BatchSweep<Memory>::Batches::next_plan() {
   BatchPlan plan;
@@ -135,30 +112,28 @@ BatchPlan BatchSweep<Memory>::Batches::next_plan() {
   }
   const auto& vertex_begin = mesh_.vertex_begin();
   const double most = static_cast<double>(words_) / words_per_vertex_;
+  plan.words = room_;
   plan.begin = ahead_;
   plan.end = ahead_ + 1;
   while (plan.end < mesh_.owned_segments() && vertex_begin(plan.end + 1) - vertex_begin(plan.begin) <= most) ++plan.end;
-  plan.order = order_of(plan.begin, plan.end);
   ahead_ = plan.end;
   return plan;
 }
 
-/// In halves if the memory for more than the lane has isn't there.
+/// Launches a plan, or plans its halves if the memory for more than the lane has isn't there.
 template <class Memory>
 void BatchSweep<Memory>::Batches::launch(Lane& lane, BatchPlan plan) {
   try {
     lane.launch(plan);
   } catch (const OutOfMemory&) {
     if (plan.count() == 1) throw;
-    BatchShortfall all;
-    for (Id slot = 0; slot < plan.count(); ++slot) all.segments.push_back(plan.segment(slot));
-    plan_again(plan, std::move(all));
+    plan_again(plan, all_of(plan));
   }
 }
 
 template <class Memory>
 void BatchSweep<Memory>::Batches::finish(Lane& lane) {
-  BatchShortfall lacked = lane.finish();
+  const BatchShortfall lacked = lane.finish();
   const BatchPlan& plan = lane.plan();
   if (plan.begin < plan.end) {
     const auto& begin = mesh_.vertex_begin();
@@ -166,28 +141,12 @@ void BatchSweep<Memory>::Batches::finish(Lane& lane) {
         1.05 * static_cast<double>(lacked.words) / std::max(begin(plan.end) - begin(plan.begin), Id(1));
     words_per_vertex_ = std::max(words, 0.5 * (words_per_vertex_ + words));
   }
-  if (!lacked.segments.empty()) plan_again(plan, std::move(lacked));
+  if (!lacked.segments.empty()) plan_again(plan, lacked);
 }
 
-/// Plans the segments that a batch lacked once more, in two batches: with the scratch memory that they need and, where
-/// it is one alone, the room.
 template <class Memory>
-void BatchSweep<Memory>::Batches::plan_again(const BatchPlan& plan, BatchShortfall lacked) {
-  const auto large = [this](Id segment) { return is_large(segment); };
-  BatchPlan half;
-  half.scratch = plan.scratch;
-  for (std::size_t k = 0; k < lacked.scratch.size(); ++k) {
-    if (half.scratch.size() == k) half.scratch.push_back({});
-    half.scratch[k] = larger(half.scratch[k], lacked.scratch[k]);
-  }
-  const auto middle = lacked.segments.begin() + static_cast<std::ptrdiff_t>((lacked.segments.size() + 1) / 2);
-  for (const auto& [begin, end] :
-       {std::make_pair(lacked.segments.begin(), middle), std::make_pair(middle, lacked.segments.end())}) {
-    if (begin == end) continue;
-    half.order = LaunchOrder::of({begin, end}, large);
-    half.words = half.count() == 1 ? lacked.words : plan.words;
-    again_.push_back(half);
-  }
+void BatchSweep<Memory>::Batches::plan_again(const BatchPlan& plan, const BatchShortfall& lacked) {
+  for (BatchPlan& half : in_halves(plan, lacked)) again_.push_back(std::move(half));
 }
 
 template <class Memory>
@@ -204,9 +163,8 @@ auto BatchSweep<Memory>::next() -> std::optional<Launched> {
   return Launched{lane->instance(), lane->launched()};
 }
 
-template class GALE_EXPORT BatchSweep<WorkerMemory>;
-#if defined(KOKKOS_ENABLE_CUDA)
-template class GALE_EXPORT BatchSweep<HostMemory>;
-#endif
+#define GALE_INSTANTIATE(Space) template class GALE_EXPORT BatchSweep<MemoryOf<Space>>
+GALE_IN_EACH_SPACE(GALE_INSTANTIATE);
+#undef GALE_INSTANTIATE
 
 }  // namespace gale::detail

@@ -5,8 +5,8 @@
 
 #include <gale/export.hpp>
 #include <gale/mesh/mesh.hpp>
-#include <gale/runtime/device/segment_batches.hpp>
-#include <gale/runtime/device_sweep_options.hpp>
+#include <gale/runtime/batches/segment_batches.hpp>
+#include <gale/runtime/sweep_options.hpp>
 
 namespace gale::detail {
 

@@ -1,9 +1,9 @@
 #include <algorithm>
+#include <mutex>
 
 #include <gale/runtime/defaults.hpp>
 #include <gale/runtime/helpers/helped_structure.hpp>
 #include <gale/runtime/helpers/helped_sweep.hpp>
-#include <gale/runtime/helpers/idle_cores.hpp>
 
 namespace gale::detail {
 
@@ -11,6 +11,32 @@ namespace {
 
 /// Segments for each helper, at least: fewer take no longer than starting it.
 constexpr Id worth_a_thread = 8;
+
+/// The cores that a sweep takes for helpers since it leaves them idle, as long as this lives. Sweeps that run at once,
+/// also of other structures, share them.
+class IdleCores {
+ public:
+  /// Takes `cores` cores, of which the sweep's consumers use some, and for helpers at most `at_most`.
+  IdleCores(int cores, int consumers, int at_most) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    count_ = std::clamp(cores - in_use_ - consumers, 0, std::max(at_most, 0));
+    claimed_ = consumers + count_;
+    in_use_ += claimed_;
+  }
+  ~IdleCores() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    in_use_ -= claimed_;
+  }
+  IdleCores(const IdleCores&) = delete;
+  IdleCores& operator=(const IdleCores&) = delete;
+
+  int count() const { return count_; }
+
+ private:
+  inline static std::mutex mutex_;
+  inline static int in_use_ = 0;
+  int count_, claimed_;
+};
 
 }  // namespace
 

@@ -1,9 +1,20 @@
+#include <algorithm>
 #include <chrono>
+#include <vector>
 
-#include <gale/runtime/inline/inline_consumer.hpp>
+#include <gale/relations/face_reader.hpp>
+#include <gale/relations/kernels/segment_kernel.hpp>
 #include <gale/runtime/inline/inline_structure.hpp>
 
 namespace gale::detail {
+
+SegmentRows compute_counted(HostWorker& worker, Id segment, ConsumerStatistics& statistics) {
+  const auto begin = std::chrono::steady_clock::now();
+  const SegmentRows rows = worker.compute(segment);
+  statistics.seconds_computing += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  ++statistics.segments_computed;
+  return rows;
+}
 
 namespace {
 
@@ -15,15 +26,88 @@ void precondition(const Mesh& mesh, RelationSet relations) {
   mesh.simplices(needs);
 }
 
-}  // namespace
+/// What one kernel made last for a consumer, for some segments.
+class RecentBlocks {
+ public:
+  /// `mesh` must outlive it.
+  RecentBlocks(const Mesh& mesh, RelationSet relations) : mesh_(&mesh), relations_(relations) {}
 
-SegmentRows compute_counted(HostWorker& worker, Id segment, ConsumerStatistics& statistics) {
-  const auto begin = std::chrono::steady_clock::now();
-  const SegmentRows rows = worker.compute(segment);
-  statistics.seconds_computing += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  ++statistics.segments_computed;
-  return rows;
-}
+  RelationSet relations() const { return relations_; }
+
+  /// The rows of a segment. Those of `one`, a relation or the links, are valid until the next call for the same.
+  const SegmentRows& rows_of(RelationSet one, Id segment, ConsumerStatistics& statistics) {
+    for (Kept& kept : kept_) kept.readers = kept.readers - one;
+    Kept& kept = find(segment);
+    kept.readers = kept.readers | one;
+    kept.last_use = ++now_;
+    if (kept.rows.segment() == segment) {
+      ++statistics.hits;
+    } else {
+      kept.rows = SegmentRows();
+      kept.rows = compute_counted(kept.worker, segment, statistics);
+    }
+    return kept.rows;
+  }
+
+ private:
+  /// More than relations that one kernel makes, of each of which the block read last stays.
+  static constexpr std::size_t capacity = 32;
+
+  struct Kept {
+    HostWorker worker;
+    SegmentRows rows;
+    RelationSet readers;  ///< whose row was read here last
+    std::int64_t last_use = 0;
+  };
+
+  /// Where the segment's blocks are kept, or where they may be.
+  Kept& find(Id segment) {
+    Kept* oldest = nullptr;
+    for (Kept& kept : kept_) {
+      if (kept.rows.segment() == segment) return kept;
+      if (kept.readers.empty() && (oldest == nullptr || kept.last_use < oldest->last_use)) oldest = &kept;
+    }
+    if (kept_.size() == capacity) return *oldest;
+    kept_.push_back({HostWorker(*mesh_, relations_), SegmentRows(), RelationSet(), 0});
+    return kept_.back();
+  }
+
+  const Mesh* mesh_;
+  RelationSet relations_;
+  std::vector<Kept> kept_;
+  std::int64_t now_ = 0;
+};
+
+/// A consumer that computes what it misses and keeps the blocks of the segments that it read last.
+class InlineConsumer : public Consumer {
+ public:
+  InlineConsumer(const Mesh& mesh, RelationSet relations, std::shared_ptr<ConsumerLog> log)
+      : mesh_(mesh), relations_(relations), faces_(mesh, relations & face_relations), log_(std::move(log)) {
+    for (const RelationSet kernel : kernels_for(relations - face_relations)) blocks_.emplace_back(mesh, kernel);
+  }
+  ~InlineConsumer() override { log_->add(statistics_); }
+
+ protected:
+  SegmentRows load(RelationSet one, Id simplex) override {
+    require_preconditioned(relations_, one);
+    const int dimension = row_dimension(one);
+    require_simplex(mesh_, dimension, simplex);
+    if (face_relations.contains(one)) return faces_.row(members_of(one).front(), simplex);
+    const auto has = [one](const RecentBlocks& blocks) { return blocks.relations().contains(one); };
+    return std::find_if(blocks_.begin(), blocks_.end(), has)
+        ->rows_of(one, mesh_.segment_of(dimension, simplex), statistics_);
+  }
+
+ private:
+  const Mesh mesh_;
+  const RelationSet relations_;
+  FaceReader faces_;
+  const std::shared_ptr<ConsumerLog> log_;
+  ConsumerStatistics statistics_;
+  std::vector<RecentBlocks> blocks_;  ///< by kernel
+};
+
+}  // namespace
 
 InlineStructure::InlineStructure(const Mesh& mesh, RelationSet relations, Way way) : Structure(mesh, relations, way) {
   precondition(mesh, relations);

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <gale/export.hpp>
-#include <gale/relations/host_worker.hpp>
+#include <gale/runtime/batches/host_worker.hpp>
 #include <gale/runtime/structure.hpp>
 
 namespace gale::detail {

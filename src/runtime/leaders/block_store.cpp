@@ -88,8 +88,8 @@ Arena* BlockStore::add_arena(PinnedArray<Id> words) {
 }
 
 Arena* BlockStore::find_evictable(Use use, std::size_t words) {
-  // By age; of what a sweep has still to read, what it will read last. A retry for each that a consumer pins at the
-  // same moment.
+  // The oldest first; of what a sweep has still to read, what it will read last. A retry for each that a consumer pins
+  // at the same moment.
   std::vector<std::pair<std::int64_t, Arena*>> candidates;
   for (Arena* const arena : use == Use::read ? requested_ : ahead_) {
     const bool unread = arena->unread.load() > 0;

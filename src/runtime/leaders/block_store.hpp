@@ -1,12 +1,80 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <memory>
+#include <utility>
 #include <vector>
 
-#include <gale/runtime/leaders/arena.hpp>
+#include <gale/base/transfer.hpp>
+#include <gale/relations/batch.hpp>
 
 namespace gale::detail {
+
+/// The blocks of one batch on the host, in one stretch of memory. A leader fills and publishes it; then any number of
+/// consumers read it, each with a pin on it; then the leader takes it back, and fills it again.
+struct Arena {
+  PinnedArray<Id> words;
+  std::uint64_t number = 0;       ///< among the arenas of its store, from 1
+  std::vector<Id> segments;       ///< the batch's
+  std::vector<Offset> directory;  ///< the batch's; see Batch
+
+  std::atomic<int> pins{0};
+  std::atomic<Id> unread{0};  ///< segments that the running sweep has still to read; not above 0: none
+  std::atomic<std::int64_t> last_use{0};
+  bool ahead = false;  ///< published for a sweep, which reads each block once
+
+  /// Its blocks, of the relations given.
+  Batch<HostMemory> batch(RelationSet relations, const IntervalTables<HostMemory>& intervals) const {
+    return {relations, static_cast<Id>(segments.size()), segments.data(), directory.data(), words.data(), intervals};
+  }
+
+  std::size_t bytes() const { return words.size() * sizeof(Id); }
+};
+
+/// One segment's blocks in an arena that can't be taken back as long as this lives: a pin.
+class Lease {
+ public:
+  Lease() = default;
+  /// Takes over a pin that the caller has set.
+  Lease(Arena& arena, Id slot) : arena_(&arena), slot_(slot) {}
+  ~Lease() { release(); }
+  Lease(Lease&& other) noexcept : arena_(std::exchange(other.arena_, nullptr)), slot_(other.slot_) {}
+  Lease& operator=(Lease&& other) noexcept {
+    if (this != &other) {
+      release();
+      arena_ = std::exchange(other.arena_, nullptr);
+      slot_ = other.slot_;
+    }
+    return *this;
+  }
+
+  explicit operator bool() const { return arena_ != nullptr; }
+
+  const Arena& arena() const { return *arena_; }
+  Id slot() const { return slot_; }
+
+  /// Another segment's blocks of the same arena from now on.
+  void move_to(Id slot) { slot_ = slot; }
+
+  /// The number of the arena.
+  std::uint64_t number() const { return arena_->number; }
+
+  /// Gives the pin back, and tells that a sweep has read so many segments. True if the arena has none left for it.
+  bool release_read(Id segments) {
+    Arena* const arena = std::exchange(arena_, nullptr);
+    arena->pins.fetch_sub(1);
+    return arena->unread.fetch_sub(segments) == segments;
+  }
+
+  void release() {
+    if (arena_ != nullptr) std::exchange(arena_, nullptr)->pins.fetch_sub(1);
+  }
+
+ private:
+  Arena* arena_ = nullptr;
+  Id slot_ = 0;
+};
 
 /// The blocks that are resident on the host: which arena has those of which segment. Consumers look up and pin, without
 /// a lock; one leader publishes, and evicts by arena, the least recently used first, when the budget is reached.
@@ -15,8 +83,8 @@ namespace gale::detail {
 /// gone: so either the reader sees that they are gone, or the leader sees the pin.
 class BlockStore {
  public:
-  /// For a mesh of so many segments. Arenas take at most `budget` bytes together, unless all that are large enough are
-  /// in use and one more is needed.
+  /// A store for a mesh of so many segments. Arenas take at most `budget` bytes together, unless all that are large
+  /// enough are in use and one more is needed.
   BlockStore(Id segments, std::size_t budget);
 
   /// What a sweep has still to read takes at most so many bytes; without a call, as many as the budget.
@@ -90,7 +158,7 @@ class BlockStore {
   std::vector<Arena*> ahead_;      ///< published for a sweep
   std::vector<Arena*> requested_;  ///< published for requests
   std::size_t slab_words_;
-  PinnedArray<Id> slab_;  ///< of which small arenas are cut; pinning costs by the call
+  PinnedArray<Id> slab_;  ///< cut into small arenas; pinning costs by the call
   std::size_t slab_used_ = 0;
   std::size_t budget_;
   std::size_t ahead_budget_ = budget_;

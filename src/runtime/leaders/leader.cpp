@@ -143,9 +143,7 @@ void Leader::listen(bool wait) {
 
 void Leader::serve(const Request& request, Clock::time_point taken) {
   if (store_.is_resident(request.segment)) {
-    Plan there;
-    there.segments = {request.segment};
-    deliver(there, taken, taken);
+    deliver({request.segment}, taken, taken);
     return;
   }
   if (under_way_[request.segment]) return;
@@ -157,8 +155,8 @@ void Leader::serve(const Request& request, Clock::time_point taken) {
 }
 
 /// Gives the blocks to those who wait for them.
-void Leader::deliver(const Plan& plan, Clock::time_point launched, Clock::time_point finished) {
-  for (const Id segment : plan.segments) {
+void Leader::deliver(const std::vector<Id>& segments, Clock::time_point launched, Clock::time_point finished) {
+  for (const Id segment : segments) {
     if (waiting_.empty()) return;
     const auto range = waiting_.equal_range(segment);
     for (auto it = range.first; it != range.second; ++it) {

@@ -8,7 +8,6 @@
 
 #include <gale/mesh/mesh.hpp>
 #include <gale/runtime/leaders/batch_worker.hpp>
-#include <gale/runtime/leaders/block_store.hpp>
 #include <gale/runtime/leaders/request_queue.hpp>
 
 namespace gale::detail {
@@ -65,11 +64,8 @@ class Leader {
   static bool is_out_of_memory();
 
  private:
-  /// Segments to be computed together.
-  struct Plan {
-    std::vector<Id> segments;
-    StarSizes scratch;   ///< that they need at least, as an earlier try has shown
-    Offset words = 0;    ///< likewise
+  /// Segments in a list, to be computed together. Where one of them is known to need more words, it says so.
+  struct Plan : BatchPlan {
     bool ahead = false;  ///< computed for the running sweep, which will read them
     bool alone = false;  ///< not to be joined with others: it is part of one that didn't fit
   };
@@ -93,14 +89,13 @@ class Leader {
   bool launch_ahead();
   Plan plan_ahead();
   void launch(Plan plan, Arena& arena);
-  bool launch_on_host(const Plan& plan, Arena& arena);
+  bool launch_on_host(const Plan& plan, const BatchPlan& in_arena, Arena& arena);
   void release(const Flight& flight);
-  void split(Plan plan);
+  void plan_again(const Plan& plan, const BatchShortfall& lacked);
   void begin_copy(Flight& flight);
   void finish_oldest();
-  void account(const Plan& made, const Shortfall& shortfall, std::size_t launched);
-  void retry(Plan plan, const Shortfall& shortfall);
-  void deliver(const Plan& plan, Clock::time_point launched, Clock::time_point finished);
+  void account(const std::vector<Id>& made, const BatchShortfall& lacked, std::size_t launched);
+  void deliver(const std::vector<Id>& segments, Clock::time_point launched, Clock::time_point finished);
   void fail_all(const std::string& why);
   Id segments_that_fit() const;
   Offset words_for(std::size_t segments) const;

@@ -95,26 +95,28 @@ Leader::Plan Leader::plan_ahead() {
 
 void Leader::launch(Plan plan, Arena& arena) {
   BatchWorker* const worker = idle_.back();
+  BatchPlan in_arena = plan;
+  in_arena.words = static_cast<Offset>(arena.words.size());
   try {
-    worker->launch(plan.segments, static_cast<Offset>(arena.words.size()), plan.scratch);
+    worker->launch(in_arena);
   } catch (...) {
     worker->abandon();
     const bool is_too_big = is_out_of_memory();
-    if (is_too_big && plan.segments.size() == 1 && launch_on_host(plan, arena)) return;
+    if (is_too_big && plan.count() == 1 && launch_on_host(plan, in_arena, arena)) return;
     store_.give_back(arena);
-    if (!is_too_big || plan.segments.size() == 1) throw;
-    split(std::move(plan));
+    if (!is_too_big || plan.count() == 1) throw;
+    plan_again(plan, all_of(plan));
     return;
   }
   idle_.pop_back();
   flights_.push_back({std::move(plan), worker, nullptr, &arena, Clock::now(), false});
 }
 
-/// For a segment that the device has no memory for; false if the leader has nobody on the host.
-bool Leader::launch_on_host(const Plan& plan, Arena& arena) {
+/// Has a segment computed that the device has no memory for; false if the leader has nobody on the host.
+bool Leader::launch_on_host(const Plan& plan, const BatchPlan& in_arena, Arena& arena) {
   if (!parameters_.make_host_worker) return false;
   const std::shared_ptr<BatchWorker> worker = parameters_.make_host_worker();
-  worker->launch(plan.segments, static_cast<Offset>(arena.words.size()), plan.scratch);
+  worker->launch(in_arena);
   flights_.push_back({plan, worker.get(), worker, &arena, Clock::now(), false});
   const std::lock_guard<std::mutex> lock(statistics_mutex_);
   ++statistics_.segments_on_host;
@@ -126,17 +128,13 @@ void Leader::release(const Flight& flight) {
   if (!flight.on_host) idle_.push_back(flight.worker);
 }
 
-/// Tries the plan in two parts, if it has more than one segment; before all other plans.
-void Leader::split(Plan plan) {
+/// Tries again what a plan's batch lacked, before all other plans.
+void Leader::plan_again(const Plan& plan, const BatchShortfall& lacked) {
+  std::vector<BatchPlan> halves = in_halves(plan, lacked);
+  for (auto half = halves.rbegin(); half != halves.rend(); ++half)
+    plans_.push_front({std::move(*half), plan.ahead, true});
   const std::lock_guard<std::mutex> lock(statistics_mutex_);
   ++statistics_.batches_split;
-  plan.alone = true;
-  Plan second = plan;
-  const auto half = plan.segments.begin() + static_cast<std::ptrdiff_t>((plan.segments.size() + 1) / 2);
-  second.segments.assign(half, plan.segments.end());
-  plan.segments.erase(half, plan.segments.end());
-  if (!second.segments.empty()) plans_.push_front(std::move(second));
-  plans_.push_front(std::move(plan));
 }
 
 void Leader::begin_copy(Flight& flight) {
@@ -147,51 +145,41 @@ void Leader::begin_copy(Flight& flight) {
 void Leader::finish_oldest() {
   // The next copy begins before this one's blocks are published, so that the link never rests.
   for (std::size_t i = 0; i < std::min<std::size_t>(flights_.size(), 2); ++i) begin_copy(flights_[i]);
-  const Shortfall shortfall = flights_.front().worker->finish(*flights_.front().arena);
+  const BatchShortfall lacked = flights_.front().worker->finish(*flights_.front().arena);
   const auto finished = Clock::now();
   const Flight flight = std::move(flights_.front());
   flights_.pop_front();
   release(flight);
-  Plan made, missing = flight.plan;
-  missing.segments.clear();
+  std::vector<Id> made;
   const std::size_t relations = parameters_.relations.count();
-  for (std::size_t slot = 0; slot < flight.plan.segments.size(); ++slot) {
-    const bool there = flight.arena->directory[slot * relations] != BlockPool::missing;
-    (there ? made : missing).segments.push_back(flight.arena->segments[slot]);
+  for (std::size_t slot = 0; slot < flight.arena->segments.size(); ++slot) {
+    if (flight.arena->directory[slot * relations] != BlockPool::missing) made.push_back(flight.arena->segments[slot]);
   }
-  account(made, shortfall, flight.plan.segments.size());
-  if (made.segments.empty()) {
+  account(made, lacked, flight.plan.segments.size());
+  if (made.empty()) {
     store_.give_back(*flight.arena);
   } else {
-    store_.publish(*flight.arena, sweeping_ && flight.plan.ahead ? static_cast<Id>(made.segments.size()) : 0);
+    store_.publish(*flight.arena, sweeping_ && flight.plan.ahead ? static_cast<Id>(made.size()) : 0);
     deliver(made, flight.launched, finished);
   }
-  if (!missing.segments.empty()) retry(std::move(missing), shortfall);
+  if (!lacked.segments.empty()) plan_again(flight.plan, lacked);
 }
 
-void Leader::account(const Plan& made, const Shortfall& shortfall, std::size_t launched) {
+void Leader::account(const std::vector<Id>& made, const BatchShortfall& lacked, std::size_t launched) {
   std::int64_t again = 0;
-  for (const Id segment : made.segments) {
+  for (const Id segment : made) {
     again += computed_[segment] ? 1 : 0;
     computed_[segment] = true;
     under_way_[segment] = false;
   }
-  const double words = static_cast<double>(shortfall.words) / static_cast<double>(launched);
+  const double words = static_cast<double>(lacked.words) / static_cast<double>(launched);
   words_per_segment_ = std::max(words, 0.75 * words_per_segment_ + 0.25 * words);
   const std::lock_guard<std::mutex> lock(statistics_mutex_);
   ++statistics_.batches;
-  statistics_.segments_computed += static_cast<std::int64_t>(made.segments.size());
+  statistics_.segments_computed += static_cast<std::int64_t>(made.size());
   statistics_.segments_recomputed += again;
-  statistics_.bytes += shortfall.words * static_cast<Offset>(sizeof(Id));
+  statistics_.bytes += lacked.words * static_cast<Offset>(sizeof(Id));
   statistics_.blocks_evicted = store_.evicted();
-}
-
-/// Tries what didn't fit again: with the scratch memory that it needs, and fewer segments at a time or, for one, more
-/// room.
-void Leader::retry(Plan plan, const Shortfall& shortfall) {
-  plan.scratch = larger(plan.scratch, shortfall.scratch);
-  if (plan.segments.size() == 1) plan.words = std::max(plan.words, shortfall.words);
-  split(std::move(plan));
 }
 
 }  // namespace gale::detail

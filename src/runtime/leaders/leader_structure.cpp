@@ -1,9 +1,170 @@
-#include <gale/relations/host_worker.hpp>
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include <gale/relations/face_reader.hpp>
+#include <gale/relations/kernels/segment_kernel.hpp>
+#include <gale/relations/preconditioning.hpp>
+#include <gale/runtime/batches/host_worker.hpp>
+#include <gale/runtime/defaults.hpp>
+#include <gale/runtime/leaders/leader.hpp>
 #include <gale/runtime/leaders/leader_structure.hpp>
-#include <gale/runtime/leaders/requesting_consumer.hpp>
-#include <gale/runtime/leaders/sweep_reader.hpp>
 
 namespace gale::detail {
+
+namespace {
+
+/// One computes, another's blocks are copied, and those of the third are published.
+constexpr int workers_per_leader = 3;
+
+std::vector<RelationSet> queues_for(RelationSet relations, Queues queues) {
+  if (queues == Queues::per_kernel) return kernels_for(relations);
+  const auto members = members_of(relations);
+  std::vector<RelationSet> each(members.begin(), members.end());
+  if (relations.has_links()) each.push_back(link_form);
+  return each;
+}
+
+std::unique_ptr<Leader> make_leader(const Mesh& mesh, RelationSet relations, const Sizes& sizes) {
+  const WorkerParameters worker{relations, sizes.batch_words, sizes.threads_per_segment};
+  LeaderParameters leader{relations, sizes.batch_words, sizes.host_bytes, sizes.segments_per_request, {}};
+  std::vector<std::unique_ptr<BatchWorker>> workers;
+  if (mesh.on_device()) leader.make_host_worker = [mesh, worker] { return make_host_worker(mesh, worker); };
+  for (int i = 0; i < workers_per_leader; ++i) {
+    workers.push_back(mesh.on_device() ? make_launched_worker<WorkerMemory>(mesh, worker)
+                                       : make_host_worker(mesh, worker));
+  }
+  return std::make_unique<Leader>(mesh, leader, std::move(workers));
+}
+
+}  // namespace
+
+/// The leaders of a structure, one a queue. Consumers share it, so that one that the structure's end surprises finds
+/// everything in place.
+class Leaders {
+ public:
+  /// Where the mesh is on a device, its workers are there too.
+  Leaders(const Mesh& mesh, RelationSet relations, const StructureOptions& options)
+      : mesh_(mesh), relations_(relations) {
+    mesh.simplices(needs_of(relations & face_relations));
+    const auto queues = queues_for(relations - face_relations, options.queues);
+    const Sizes sizes = sizes_for(mesh, options, std::max(static_cast<int>(queues.size()), 1));
+    for (const RelationSet members : queues) leaders_.push_back(make_leader(mesh, members, sizes));
+  }
+
+  const Mesh& mesh() const { return mesh_; }
+  RelationSet relations() const { return relations_; }
+  const std::vector<std::unique_ptr<Leader>>& all() const { return leaders_; }
+
+  /// The leader of one relation, or of the links. There is one, unless it is a face relation.
+  Leader& of(RelationSet one) const {
+    const auto has = [one](const auto& leader) { return leader->relations().contains(one); };
+    return **std::find_if(leaders_.begin(), leaders_.end(), has);
+  }
+
+  /// The leaders that have some of the relations wanted.
+  std::vector<Leader*> some_of(RelationSet wanted) const {
+    std::vector<Leader*> some;
+    for (const auto& leader : leaders_) {
+      if (!(leader->relations() & wanted).empty()) some.push_back(leader.get());
+    }
+    return some;
+  }
+
+  /// Fails all requests, and returns when their consumers have gone.
+  void end() {
+    for (const auto& leader : leaders_) leader->end();
+  }
+
+ private:
+  const Mesh mesh_;
+  const RelationSet relations_;
+  std::vector<std::unique_ptr<Leader>> leaders_;
+};
+
+namespace {
+
+/// How one consumer of a sweep reads the blocks of one leader: an arena is pinned once for all of its segments that
+/// come one after the other, since what many consumers touch for each segment, they wait for.
+class SweepReader {
+ public:
+  /// `runs_ahead`: the leader runs ahead of this sweep, and wants to know what is read.
+  SweepReader(Leader& leader, bool runs_ahead) : leader_(&leader), runs_ahead_(runs_ahead) {}
+  ~SweepReader() { release(); }
+  SweepReader(SweepReader&& other) noexcept
+      : leader_(other.leader_),
+        runs_ahead_(other.runs_ahead_),
+        lease_(std::move(other.lease_)),
+        read_(std::exchange(other.read_, 0)) {}
+
+  /// The blocks of a segment, valid until the next call. Waits for them without holding others.
+  const Lease& read(Id segment, ConsumerStatistics& statistics) {
+    if (leader_->move(lease_, segment)) {
+      ++statistics.hits;
+    } else {
+      release();
+      lease_ = leader_->acquire(segment, runs_ahead_, statistics);
+    }
+    return lease_;
+  }
+
+  /// The segment that was read last won't be again.
+  void done() { ++read_; }
+
+  const Leader& leader() const { return *leader_; }
+
+ private:
+  void release() {
+    if (!lease_) return;
+    if (!runs_ahead_) {
+      lease_.release();
+    } else if (lease_.release_read(read_)) {
+      leader_->tell_read();
+    }
+    read_ = 0;
+  }
+
+  Leader* leader_;
+  bool runs_ahead_;
+  Lease lease_;
+  Id read_ = 0;  ///< segments of the lease's arena
+};
+
+/// A consumer that asks leaders for what it misses, and waits.
+class RequestingConsumer : public Consumer {
+ public:
+  RequestingConsumer(std::shared_ptr<Leaders> leaders, std::shared_ptr<ConsumerLog> log)
+      : leaders_(std::move(leaders)),
+        log_(std::move(log)),
+        faces_(leaders_->mesh(), leaders_->relations() & face_relations) {}
+  ~RequestingConsumer() override { log_->add(statistics_); }
+
+ protected:
+  SegmentRows load(RelationSet one, Id simplex) override {
+    const Mesh& mesh = leaders_->mesh();
+    const int dimension = row_dimension(one);
+    require_preconditioned(leaders_->relations(), one);
+    require_simplex(mesh, dimension, simplex);
+    if (face_relations.contains(one)) return faces_.row(members_of(one).front(), simplex);
+    Leader& leader = leaders_->of(one);
+    const Id segment = mesh.segment_of(dimension, simplex);
+    Lease& lease = leases_[all_relations.contains(one) ? static_cast<int>(members_of(one).front()) : relation_count];
+    lease.release();
+    lease = leader.acquire(segment, false, statistics_);
+    SegmentRows rows(segment, mesh.intervals_of(segment));
+    leader.add_rows(lease, rows);
+    return rows;
+  }
+
+ private:
+  const std::shared_ptr<Leaders> leaders_;
+  const std::shared_ptr<ConsumerLog> log_;
+  FaceReader faces_;
+  ConsumerStatistics statistics_;
+  Lease leases_[relation_count + 1];  ///< pins on the block read last in each relation; the last is that of links
+};
+
+}  // namespace
 
 /// Has the leaders run ahead as long as it lives; a sweep inside or beside another asks for each segment instead.
 class LeaderStructure::LeaderSweep : public Sweep {

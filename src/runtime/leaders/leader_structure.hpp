@@ -1,11 +1,13 @@
 #pragma once
 
 #include <atomic>
+#include <memory>
 
-#include <gale/runtime/leaders/leaders.hpp>
 #include <gale/runtime/structure.hpp>
 
 namespace gale::detail {
+
+class Leaders;
 
 /// Way::leaders: consumers ask, leaders have batches computed, and run ahead of sweeps.
 class LeaderStructure : public Structure {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <gale/base/error.hpp>
-#include <gale/runtime/leaders/arena.hpp>
+#include <gale/runtime/leaders/block_store.hpp>
 #include <gale/runtime/statistics.hpp>
 
 namespace gale::detail {

@@ -1,5 +1,5 @@
 #include <gale/base/threads.hpp>
-#include <gale/runtime/helpers/helper.hpp>
+#include <gale/runtime/helpers/helped_sweep.hpp>
 
 #ifdef __linux__
 #include <unistd.h>

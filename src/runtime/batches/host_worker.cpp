@@ -1,15 +1,35 @@
 #include <algorithm>
-#include <vector>
 
-#include <gale/relations/host_worker.hpp>
-#include <gale/relations/kernels/segment_kernel.hpp>
+#include <gale/runtime/batches/host_worker.hpp>
 
 namespace gale {
 
-/// One kernel on the calling thread: its scratch memory, and the blocks that it made last, in turn.
-class HostWorker::Kernel {
+void detail::HostKernel::run(Id segment, const BlockPool& pool) {
+  require_scratch(kernel_.bound(segment));
+  const Offset used = *pool.used;
+  for (;;) {
+    StarSizes needed;
+    BlockPool own = pool;
+    own.needed = &needed;
+    kernel_.run({&segment, sizes_, 0, own}, scratch_.get());
+    if (sizes_.contains(needed)) return;
+    *pool.used = used;
+    require_scratch(needed);
+  }
+}
+
+/// May throw: the old memory serves the old sizes then.
+void detail::HostKernel::require_scratch(const StarSizes& sizes) {
+  if (scratch_ && sizes_.contains(sizes)) return;
+  const StarSizes all = larger(sizes_, sizes);
+  scratch_.reset(new char[kernel_.scratch_bytes(all, 1)]);
+  sizes_ = all;
+}
+
+/// One kernel, and the blocks that it made last, in turn.
+class HostWorker::BlockMaker {
  public:
-  Kernel(const Mesh& mesh, RelationSet wanted, int kept)
+  BlockMaker(const Mesh& mesh, RelationSet wanted, int kept)
       : kernel_(mesh, wanted), directory_(wanted.count()), buffers_(std::max(kept, 1)) {
     batch_.relations = wanted;
     batch_.count = 1;
@@ -18,27 +38,19 @@ class HostWorker::Kernel {
     batch_.intervals = interval_tables(mesh);
     for (Buffer& buffer : buffers_) grow(buffer, Offset(1) << 14);
   }
-  Kernel(const Kernel&) = delete;
-  Kernel& operator=(const Kernel&) = delete;
+  BlockMaker(const BlockMaker&) = delete;
+  BlockMaker& operator=(const BlockMaker&) = delete;
 
-  /// Runs the kernel, again with more memory if it lacked some.
-  Computed compute(Id segment) {
+  /// Runs the kernel, again with more room if it lacked some.
+  const Batch<HostMemory>& make(Id segment) {
     Buffer& buffer = buffers_[next_++ % buffers_.size()];
     segment_ = segment;
-    require_scratch(kernel_.bound(segment));
     for (;;) {
-      StarSizes needed;
       Offset used = 0;
-      const BlockPool pool{buffer.words.get(), buffer.capacity, &used, directory_.data(), &needed};
-      kernel_.run({&segment_, sizes_, 0, pool}, scratch_.get());
+      kernel_.run(segment, {buffer.words.get(), buffer.capacity, &used, directory_.data(), nullptr});
       batch_.words = buffer.words.get();
-      if (!sizes_.contains(needed)) {
-        require_scratch(needed);
-      } else if (are_there(batch_)) {
-        return {batch_, used};
-      } else {
-        grow(buffer, used);
-      }
+      if (are_there(batch_)) return batch_;
+      grow(buffer, used);
     }
   }
 
@@ -54,24 +66,13 @@ class HostWorker::Kernel {
     Offset capacity = 0;
   };
 
-  // Both may throw: the old memory serves the old sizes then.
-
   static void grow(Buffer& buffer, Offset count) {
     const Offset capacity = count + count / 2;
     buffer.words.reset(new Id[capacity]);
     buffer.capacity = capacity;
   }
 
-  void require_scratch(const StarSizes& sizes) {
-    if (scratch_ && sizes_.contains(sizes)) return;
-    const StarSizes all = larger(sizes_, sizes);
-    scratch_.reset(new char[kernel_.scratch_bytes(all, 1)]);
-    sizes_ = all;
-  }
-
-  SegmentKernel<HostMemory> kernel_;
-  StarSizes sizes_;
-  std::unique_ptr<char[]> scratch_;
+  detail::HostKernel kernel_;
   std::vector<Offset> directory_;
   std::vector<Buffer> buffers_;
   std::size_t next_ = 0;
@@ -80,7 +81,7 @@ class HostWorker::Kernel {
 };
 
 HostWorker::HostWorker(const Mesh& mesh, RelationSet wanted, int kept) : mesh_(mesh) {
-  for (const RelationSet one : kernels_for(wanted)) kernels_.push_back(std::make_unique<Kernel>(mesh, one, kept));
+  for (const RelationSet one : kernels_for(wanted)) makers_.push_back(std::make_unique<BlockMaker>(mesh, one, kept));
 }
 HostWorker::~HostWorker() = default;
 HostWorker::HostWorker(HostWorker&&) noexcept = default;
@@ -93,14 +94,12 @@ SegmentRows HostWorker::compute(Id segment) {
 }
 
 void HostWorker::compute(SegmentRows& rows) {
-  for (const auto& kernel : kernels_) add_rows(kernel->compute(rows.segment()).batch, 0, rows);
+  for (const auto& maker : makers_) add_rows(maker->make(rows.segment()), 0, rows);
 }
-
-HostWorker::Computed HostWorker::compute_batch(Id segment) { return kernels_.front()->compute(segment); }
 
 std::size_t HostWorker::block_bytes() const {
   std::size_t sum = 0;
-  for (const auto& kernel : kernels_) sum += kernel->block_bytes();
+  for (const auto& maker : makers_) sum += maker->block_bytes();
   return sum;
 }
 

@@ -46,7 +46,7 @@ struct SegmentBatches {
 template <class Memory>
 class SegmentRowsIn {
  public:
-  /// For sweeps, which hand it to their functors.
+  /// Made by sweeps, which hand it to their functors.
   KOKKOS_FUNCTION SegmentRowsIn(const detail::SegmentBatches<Memory>& batches, Id slot)
       : batches_(batches), slot_(slot) {}
 
