@@ -154,6 +154,12 @@ void run(const Command& command) {
 void run(int argc, char** argv) {
   CLI::App app("Topological analysis of large tetrahedral meshes", "gale");
   app.set_version_flag("--version", std::string("gale ") + gale::version);
+  const auto describe = [] {
+    if (gale::app::Ranks::is_first()) std::printf("%s\n", gale::app::analyses_as_json().c_str());
+    throw CLI::Success();
+  };
+  app.add_flag_callback("--analyses", describe, "Print what the analyses are, their options and results, as JSON")
+      ->trigger_on_parse();
   app.require_subcommand(1);
   std::vector<std::unique_ptr<Command>> commands;
   for (const gale::app::AddCommand add : gale::app::all_commands) commands.push_back(add(app));

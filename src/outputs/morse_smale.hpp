@@ -13,6 +13,29 @@
 
 namespace gale::outputs {
 
+/// A part of a complex that users can switch on or off.
+struct PartOfComplex {
+  const char* option;                ///< the name of the option that does so
+  bool MorseSmaleParts::*is_wanted;  ///< what it sets
+  const char* property;              ///< its name among the properties of VTK's filters
+  const char* help;                  ///< what the part is
+};
+
+/// All of them.
+inline constexpr PartOfComplex parts_of_complexes[] = {
+    {"descending_separatrices", &MorseSmaleParts::descending_separatrices, "ComputeDescendingSeparatrices1",
+     "The 1-separatrices from 1-saddles down to minima"},
+    {"ascending_separatrices", &MorseSmaleParts::ascending_separatrices, "ComputeAscendingSeparatrices1",
+     "The 1-separatrices from 2-saddles up to maxima"},
+    {"saddle_connectors", &MorseSmaleParts::saddle_connectors, "ComputeSaddleConnectors",
+     "The 1-separatrices from 1-saddles to 2-saddles"},
+    {"separatrices2", &MorseSmaleParts::separatrices2, "ComputeSeparatrices2",
+     "The 2-separatrices, walls of triangles below 2-saddles and of polygons above 1-saddles. Large"},
+    {"descending_segmentation", &MorseSmaleParts::descending_manifolds, "ComputeDescendingSegmentation",
+     "The minimum that each vertex falls to"},
+    {"ascending_segmentation", &MorseSmaleParts::ascending_manifolds, "ComputeAscendingSegmentation",
+     "The maximum that each vertex rises to"}};
+
 /// What a user asks of a Morse-Smale complex.
 struct GALE_EXPORT MorseSmaleRequest {
   MorseSmaleParts parts;                   ///< what is wanted

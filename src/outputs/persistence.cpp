@@ -1,7 +1,12 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
+#include <type_traits>
 
 #include <gale/base/error.hpp>
+#include <gale/outputs/corners.hpp>
+#include <gale/outputs/heights.hpp>
 #include <gale/outputs/persistence.hpp>
 
 namespace gale::outputs {
@@ -30,6 +35,197 @@ double threshold_of(const Persistence& persistence, const io::PointArray& field)
   if (!std::isfinite(range))
     throw Error("there are no percents of the range of '" + field.name + "', which isn't finite");
   return persistence.value / 100 * range;
+}
+
+namespace {
+
+/// The highest vertices of critical simplices, by their input ids.
+class Highest {
+ public:
+  explicit Highest(const DiscreteGradient& gradient)
+      : gradient_(gradient),
+        keys_(gradient.order().keys()),
+        input_(gradient.mesh().vertex_input().data()),
+        vertices_(gradient.mesh().vertices()) {}
+
+  Id of(int dimension, Id place) const {
+    const CriticalSimplices& critical = gradient_.critical();
+    switch (dimension) {
+      case 0:
+        return input_[critical.vertices[place]];
+      case 1:
+        return input_[critical.edges[place][0]];
+      case 2:
+        return input_[critical.triangles[place][0]];
+    }
+    const auto corners = detail::corners_of(gradient_.mesh(), critical.tetrahedra[place]);
+    return input_[highest(corners.begin(), corners.end())];
+  }
+
+  Id of_all() const {
+    Id highest = 0;
+    for (Id v = 1; v < vertices_; ++v) highest = keys_[v] > keys_[highest] ? v : highest;
+    return input_[highest];
+  }
+
+ private:
+  template <class Iterator>
+  Id highest(Iterator begin, Iterator end) const {
+    return *std::max_element(begin, end, [this](Id a, Id b) { return keys_[a] < keys_[b]; });
+  }
+
+  const DiscreteGradient& gradient_;
+  const std::uint64_t* keys_;
+  const Id* input_;
+  Id vertices_;
+};
+
+bool is_float(const io::PointArray& array) { return std::holds_alternative<std::vector<float>>(array.values); }
+
+io::PointArray::Values positions_of(const io::Dataset& dataset, const std::vector<Id>& vertices) {
+  return std::visit(
+      [&](const auto& points) -> io::PointArray::Values {
+        std::vector<typename std::decay_t<decltype(points)>::non_const_value_type> positions;
+        positions.reserve(3 * vertices.size());
+        for (const Id v : vertices) positions.insert(positions.end(), {points(v, 0), points(v, 1), points(v, 2)});
+        return positions;
+      },
+      dataset.points);
+}
+
+/// Two points for each of the diagram's: where the class begins, and where it ends.
+template <class Coordinate>
+io::Dataset::Points<Coordinate> points_of(const std::vector<DiagramPoint>& diagram) {
+  const io::Dataset::Points<Coordinate> points("GALE::persistence_diagram", 2 * diagram.size());
+  for (std::size_t i = 0; i < diagram.size(); ++i) {
+    points(2 * i, 0) = points(2 * i, 1) = points(2 * i + 1, 0) = static_cast<Coordinate>(diagram[i].birth);
+    points(2 * i + 1, 1) = static_cast<Coordinate>(diagram[i].death);
+  }
+  return points;
+}
+
+void add_diagonal(const std::vector<DiagramPoint>& diagram, io::Surface& lines, std::vector<double>& persistence,
+                  std::vector<double>& births) {
+  if (diagram.empty()) return;
+  const auto [first, last] = std::minmax_element(diagram.begin(), diagram.end(),
+                                                 [](const auto& a, const auto& b) { return a.birth < b.birth; });
+  lines.lines.points.push_back(static_cast<std::int32_t>(2 * (first - diagram.begin())));
+  lines.lines.points.push_back(static_cast<std::int32_t>(2 * (last - diagram.begin())));
+  lines.lines.begin.push_back(static_cast<std::int64_t>(lines.lines.points.size()));
+  double most = 0;
+  for (const DiagramPoint& point : diagram) most = std::max(most, point.is_finite ? point.persistence() : 0);
+  persistence.push_back(2 * most);
+  births.push_back(first->birth);
+}
+
+}  // namespace
+
+std::vector<DiagramPoint> persistence_diagram(const DiscreteGradient& gradient, const PersistencePairs& pairs,
+                                              const io::PointArray& field, double least) {
+  const Highest highest(gradient);
+  const auto value = [&](Id vertex) { return value_at(field, vertex); };
+  std::vector<DiagramPoint> diagram;
+  const Id last = highest.of_all();
+  for (int type = 0; type < 4; ++type) {
+    const auto type8 = static_cast<std::int8_t>(type);
+    for (std::size_t i = 0; type < 3 && i < pairs.pairs[type].size(); ++i) {
+      const Id begin = highest.of(type, pairs.pairs[type][i].lower);
+      const Id end = highest.of(type + 1, pairs.pairs[type][i].upper);
+      const DiagramPoint point{type8, true, begin, end, value(begin), value(end), static_cast<std::int8_t>(type + 1)};
+      if (point.persistence() >= least) diagram.push_back(point);
+    }
+    for (const Id place : pairs.essential[type]) {
+      const Id begin = highest.of(type, place);
+      diagram.push_back({type8, false, begin, last, value(begin), value(last), 3});
+    }
+  }
+  return diagram;
+}
+
+DiagramCounts counts_of(const std::vector<DiagramPoint>& diagram) {
+  DiagramCounts counts;
+  for (const DiagramPoint& point : diagram) ++(point.is_finite ? counts.pairs : counts.essential)[point.type];
+  return counts;
+}
+
+io::Surface to_lines(const io::Dataset& dataset, const io::PointArray& field,
+                     const std::vector<DiagramPoint>& diagram) {
+  std::vector<Id> vertices, identifiers;
+  std::vector<std::int8_t> critical_types, types;
+  std::vector<double> persistence, births;
+  std::vector<std::uint8_t> finite;
+  io::Surface lines;
+  for (std::size_t i = 0; i < diagram.size(); ++i) {
+    const DiagramPoint& point = diagram[i];
+    for (const Id vertex : {point.begin, point.end}) {
+      lines.lines.points.push_back(static_cast<std::int32_t>(vertices.size()));
+      vertices.push_back(vertex);
+    }
+    lines.lines.begin.push_back(static_cast<std::int64_t>(lines.lines.points.size()));
+    critical_types.insert(critical_types.end(), {point.type, point.end_type});
+    identifiers.push_back(static_cast<Id>(i));
+    types.push_back(point.type);
+    persistence.push_back(point.persistence());
+    births.push_back(point.birth);
+    finite.push_back(point.is_finite);
+  }
+  add_diagonal(diagram, lines, persistence, births);
+  identifiers.resize(persistence.size(), -1);
+  types.resize(persistence.size(), -1);
+  finite.resize(persistence.size(), 0);
+  if (is_float(field)) {
+    lines.points = points_of<float>(diagram);
+  } else {
+    lines.points = points_of<double>(diagram);
+  }
+  lines.point_arrays.push_back({"Coordinates", 3, positions_of(dataset, vertices)});
+  lines.point_arrays.push_back({"ttkVertexScalarField", 1, std::move(vertices)});
+  lines.point_arrays.push_back({"CriticalType", 1, std::move(critical_types)});
+  lines.cell_arrays.push_back({"PairIdentifier", 1, std::move(identifiers)});
+  lines.cell_arrays.push_back({"PairType", 1, std::move(types)});
+  lines.cell_arrays.push_back({"Persistence", 1, detail::values_as(field, std::move(persistence))});
+  lines.cell_arrays.push_back({"Birth", 1, detail::values_as(field, std::move(births))});
+  lines.cell_arrays.push_back({"IsFinite", 1, std::move(finite)});
+  return lines;
+}
+
+PersistenceCurve persistence_curve(const std::vector<DiagramPoint>& diagram) {
+  std::array<std::vector<double>, 3> by_type;
+  PersistenceCurve curve;
+  for (const DiagramPoint& point : diagram) {
+    if (!point.is_finite) continue;
+    by_type[point.type].push_back(point.persistence());
+    curve.persistence.push_back(point.persistence());
+  }
+  const auto sort = [](std::vector<double>& values) { std::sort(values.begin(), values.end()); };
+  sort(curve.persistence);
+  curve.persistence.erase(std::unique(curve.persistence.begin(), curve.persistence.end()), curve.persistence.end());
+  for (int type = 0; type < 3; ++type) {
+    auto& values = by_type[type];
+    sort(values);
+    auto first = values.begin();
+    for (const double least : curve.persistence) {
+      while (first != values.end() && *first < least) ++first;
+      curve.pairs[type].push_back(static_cast<Id>(values.end() - first));
+    }
+  }
+  return curve;
+}
+
+std::string to_csv(const PersistenceCurve& curve) {
+  std::string csv = "Persistence,MinimumSaddle,SaddleSaddle,SaddleMaximum,All\n";
+  for (std::size_t i = 0; i < curve.persistence.size(); ++i) {
+    char number[32];
+    std::snprintf(number, sizeof(number), "%.17g", curve.persistence[i]);
+    csv += number;
+    std::int64_t all = 0;
+    for (const auto& pairs : curve.pairs) {
+      csv += ',' + std::to_string(pairs[i]);
+      all += pairs[i];
+    }
+    csv += ',' + std::to_string(all) + '\n';
+  }
+  return csv;
 }
 
 }  // namespace gale::outputs

@@ -15,10 +15,10 @@ from .results import CriticalPoints, Diagram, DiscreteGradient, Lines, MorseSmal
 Persistence = Union[float, str]
 
 
-def _persistence(threshold: Optional[Persistence]) -> Tuple[Optional[float], bool]:
-    """(threshold, whether it is in percent of the field's range)"""
+def _persistence(threshold: Optional[Persistence]) -> Dict[str, Tuple[float, bool]]:
+    """The threshold, and whether it is in percent of the field's range, if there is one."""
     if threshold is None:
-        return None, False
+        return {}
     is_percent = isinstance(threshold, str)
     try:
         if isinstance(threshold, str) and not threshold.endswith("%"):
@@ -28,7 +28,7 @@ def _persistence(threshold: Optional[Persistence]) -> Tuple[Optional[float], boo
         raise Error(f"the persistence {threshold!r} is neither a number nor a percentage such as '3%'") from None
     if not value >= 0:
         raise Error(f"the persistence {threshold} is not 0 or more")
-    return value, is_percent
+    return {"persistence": (value, is_percent)}
 
 
 def _cells_of(grid: Any) -> Tuple[np.ndarray, np.ndarray]:
@@ -149,46 +149,48 @@ class Mesh:
         """The critical points of the piecewise linear field, by ascending vertex: CriticalPoints with the arrays `name`,
         CriticalType (int8: 0 minimum, 1 and 2 saddles, 3 maximum, 4 degenerate), IsOnBoundary (bool) and
         ttkVertexScalarField (int32), the vertex."""
-        with told(progress, "critical points") as tell:
-            return CriticalPoints(*self._mesh.critical_points(_arrays.field(field), name, threads, tell))
+        found = self._analyse("critical-points", field, name, threads, progress)
+        return CriticalPoints(*found["critical_points"])
 
     def critical_simplices(self, field: Any, name: str = "field", threads: int = 0,
                            progress: Progress = None) -> CriticalPoints:
         """The simplices that the discrete gradient pairs with no other: CriticalPoints with the arrays `name`,
         CellDimension (int8: 0 minimum to 3 maximum), CellId (int32), IsOnBoundary (bool) and ttkVertexScalarField (int32),
         the highest vertex."""
-        with told(progress, "gradient") as tell:
-            return CriticalPoints(*self._mesh.critical_simplices(_arrays.field(field), name, threads, tell))
+        found = self._analyse("discrete-gradient", field, name, threads, progress)
+        return CriticalPoints(*found["critical_simplices"])
 
     def discrete_gradient(self, field: Any, name: str = "field", threads: int = 0,
                           progress: Progress = None) -> DiscreteGradient:
         """The discrete gradient: its critical simplices, as `critical_simplices` has them, and its arrows. Large: some 13
         arrows a vertex."""
-        with told(progress, "gradient") as tell:
-            critical, arrows = self._mesh.discrete_gradient(_arrays.field(field), name, threads, tell)
-        return DiscreteGradient(CriticalPoints(*critical), CriticalPoints(*arrows))
+        found = self._analyse("discrete-gradient", field, name, threads, progress, {"arrows": True})
+        return DiscreteGradient(CriticalPoints(*found["critical_simplices"]), CriticalPoints(*found["arrows"]))
 
     def persistence_diagram(self, field: Any, persistence: Persistence = 0, name: str = "field", threads: int = 0,
                             progress: Progress = None) -> Diagram:
         """The persistent homology of the field, as a Diagram: pairs whose persistence is at least `persistence`, a
         difference of values or, as in "3%", a part of the field's range; and the classes that never end."""
-        value, is_percent = _persistence(persistence)
-        with told(progress, "gradient") as tell:
-            return Diagram(
-                **self._mesh.persistence_diagram(_arrays.field(field), name, value or 0.0, is_percent, threads, tell))
+        thresholds = _persistence(persistence)
+        return Diagram(**self._analyse("persistence-diagram", field, name, threads, progress, {}, thresholds)["diagram"])
 
     def morse_smale(self, field: Any, persistence: Optional[Persistence] = None, extrema_only: bool = False,
                     name: str = "field", threads: int = 0, progress: Progress = None,
                     separatrices2: bool = False) -> MorseSmaleComplex:
         """The MorseSmaleComplex of the field, simplified below `persistence` (as in persistence_diagram) if that is
         given; of extrema alone with `extrema_only`. With the walls of saddles, which are large, if `separatrices2`."""
-        value, is_percent = _persistence(persistence)
-        with told(progress, "complex") as tell:
-            parts = self._mesh.morse_smale(_arrays.field(field), name, value, is_percent, extrema_only, separatrices2,
-                                           threads, tell)
-        walls = Polygons(*parts["separatrices2"]) if separatrices2 else None
-        return MorseSmaleComplex(CriticalPoints(*parts["critical_points"]), Lines(*parts["separatrices1"]),
-                                 parts["manifolds"], parts["kept_below"], walls)
+        flags = {"extrema_only": extrema_only, "separatrices2": separatrices2}
+        found = self._analyse("morse-smale", field, name, threads, progress, flags, _persistence(persistence))
+        walls = Polygons(*found["separatrices2"]) if separatrices2 else None
+        return MorseSmaleComplex(CriticalPoints(*found["critical_points"]), Lines(*found["separatrices1"]),
+                                 found["manifolds"], found["kept_below"], walls)
+
+    def _analyse(self, analysis: str, field: Any, name: str, threads: int, progress: Progress,
+                 flags: Optional[Dict[str, bool]] = None,
+                 thresholds: Optional[Dict[str, Tuple[float, bool]]] = None) -> Dict[str, Any]:
+        """What an analysis finds, by the names of its results; with options that aren't given at their defaults."""
+        with told(progress, analysis) as tell:
+            return self._mesh.analyse(analysis, _arrays.field(field), name, flags or {}, thresholds or {}, threads, tell)
 
 
 def read(path: Union[str, os.PathLike[str]], above: Optional[float] = None, array: str = "", tetrahedralize: bool = False,

@@ -1,11 +1,6 @@
 #include <utility>
 
-#include <gale/algorithms/critical_points.hpp>
-#include <gale/outputs/arrows.hpp>
-#include <gale/outputs/critical_points.hpp>
-#include <gale/outputs/critical_simplices.hpp>
-#include <gale/outputs/morse_smale.hpp>
-#include <gale/outputs/persistence_diagram.hpp>
+#include <gale/outputs/analyses.hpp>
 
 #include "fields.hpp"
 #include "job.hpp"
@@ -23,73 +18,8 @@ nb::object column(const std::vector<outputs::DiagramPoint>& diagram, const Membe
   return numpy_of(std::move(values));
 }
 
-/// What `use(order, field)` finds on the threads of the options, while Python goes on.
-template <class Use>
-auto analyse(Job& job, const Mesh& mesh, const Array1& values, const std::string& name, const ComputeOptions& options,
-             const Use& use) {
-  return job.run([&] {
-    const ThreadLimit limit(options.threads);
-    const io::PointArray field = field_of(values, name);
-    return use(order_of(mesh, field), field);
-  });
-}
-
-io::PointSet critical_set(const DiscreteGradient& gradient, const io::Dataset& dataset, const ComputeOptions& options,
-                          Computed& computed) {
-  const CriticalSimplices& critical = gradient.critical();
-  const SimplexNumbers numbers =
-      number_simplices(gradient.mesh(), {critical.edges, critical.triangles}, options, &computed);
-  return outputs::to_point_set(dataset, outputs::known_simplices(gradient, critical, numbers));
-}
-
-}  // namespace
-
-nb::tuple PyMesh::critical_points(Array1 values, const std::string& name, int threads,
-                                  const nb::object& progress) const {
-  Job job(progress);
-  const ComputeOptions options = job.sweep_options(threads);
-  return numpy_of(
-      analyse(job, mesh(), values, name, options, [&](const VertexOrder& order, const io::PointArray& field) {
-        return outputs::to_point_set(with(field), find_critical_points(order, options));
-      }));
-}
-
-nb::tuple PyMesh::critical_simplices(Array1 values, const std::string& name, int threads,
-                                     const nb::object& progress) const {
-  Job job(progress);
-  const ComputeOptions options = job.sweep_options(threads);
-  const auto find = [&](const VertexOrder& order, const io::PointArray& field) {
-    Computed computed;
-    const DiscreteGradient gradient = find_discrete_gradient(order, options, &computed);
-    return critical_set(gradient, with(field), options, computed);
-  };
-  return numpy_of(analyse(job, mesh(), values, name, options, find));
-}
-
-nb::tuple PyMesh::discrete_gradient(Array1 values, const std::string& name, int threads,
-                                    const nb::object& progress) const {
-  Job job(progress);
-  const ComputeOptions options = job.sweep_options(threads);
-  const auto find = [&](const VertexOrder& order, const io::PointArray& field) {
-    Computed computed;
-    const DiscreteGradient gradient = find_discrete_gradient(order, options, &computed);
-    const io::Dataset dataset = with(field);
-    return std::make_pair(critical_set(gradient, dataset, options, computed), outputs::arrows_of(dataset, gradient));
-  };
-  auto [critical, arrows] = analyse(job, mesh(), values, name, options, find);
-  return nb::make_tuple(numpy_of(std::move(critical)), numpy_of(std::move(arrows)));
-}
-
-nb::dict PyMesh::persistence_diagram(Array1 values, const std::string& name, double persistence, bool is_percent,
-                                     int threads, const nb::object& progress) const {
-  Job job(progress);
-  const ComputeOptions options = job.sweep_options(threads);
-  const auto find = [&](const VertexOrder& order, const io::PointArray& field) {
-    const DiscreteGradient gradient = find_discrete_gradient(order, options);
-    return outputs::persistence_diagram(gradient, find_persistence_pairs(gradient, options), field,
-                                        outputs::threshold_of({persistence, is_percent}, field));
-  };
-  const auto diagram = analyse(job, mesh(), values, name, options, find);
+/// A persistence diagram in columns.
+nb::dict numpy_of(const std::vector<outputs::DiagramPoint>& diagram) {
   using Point = outputs::DiagramPoint;
   nb::dict columns;
   columns["type"] = column<std::int8_t>(diagram, [](const Point& point) { return point.type; });
@@ -103,27 +33,30 @@ nb::dict PyMesh::persistence_diagram(Array1 values, const std::string& name, dou
   return columns;
 }
 
-nb::dict PyMesh::morse_smale(Array1 values, const std::string& name, std::optional<double> persistence, bool is_percent,
-                             bool extrema_only, bool separatrices2, int threads, const nb::object& progress) const {
+nb::int_ numpy_of(Id count) { return nb::int_(count); }
+
+}  // namespace
+
+nb::dict PyMesh::analyse(const std::string& analysis, Array1 values, const std::string& name,
+                         const std::map<std::string, bool>& flags,
+                         const std::map<std::string, std::pair<double, bool>>& thresholds, int threads,
+                         const nb::object& progress) const {
   Job job(progress);
   const ComputeOptions options = job.sweep_options(threads);
-  outputs::MorseSmaleRequest request;
-  request.parts.separatrices2 = separatrices2;
-  if (persistence) request.persistence = outputs::Persistence{*persistence, is_percent};
-  request.extrema_only = extrema_only;
-  const auto find = [&](const VertexOrder& order, const io::PointArray& field) {
-    Computed computed;
-    const DiscreteGradient gradient = find_discrete_gradient(order, options, &computed);
-    return outputs::morse_smale(gradient, with(field), field, request, options, &computed);
-  };
-  auto found = analyse(job, mesh(), values, name, options, find);
-  nb::dict parts;
-  parts["critical_points"] = numpy_of(std::move(found.critical_points));
-  parts["separatrices1"] = numpy_of(std::move(found.separatrices1));
-  if (separatrices2) parts["separatrices2"] = numpy_of(std::move(found.separatrices2));
-  parts["manifolds"] = numpy_of(std::move(found.manifolds));
-  parts["kept_below"] = found.kept_below.count();
-  return parts;
+  outputs::Settings settings{flags, {}};
+  for (const auto& [option, given] : thresholds) settings.thresholds[option] = {given.first, given.second};
+  auto found = job.run([&] {
+    const ThreadLimit limit(options.threads);
+    const io::PointArray field = field_of(values, name);
+    const VertexOrder order = order_of(mesh(), field);
+    const io::Dataset dataset = with(field);
+    return outputs::analysis_named(analysis).run(
+        {dataset, field, order, [&](const char*, double, double) { return options; }}, settings);
+  });
+  nb::dict results;
+  for (auto& [result, outcome] : found)
+    results[result.c_str()] = std::visit([](auto& one) -> nb::object { return numpy_of(std::move(one)); }, outcome);
+  return results;
 }
 
 }  // namespace gale::python

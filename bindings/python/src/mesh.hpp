@@ -1,10 +1,12 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include <gale/io/read.hpp>
 #include <gale/mesh/mesh.hpp>
@@ -38,15 +40,13 @@ class PyMesh : public Kept {
 
   /// (where rows begin, their entries, how many simplices the entries are among)
   nb::tuple relation(const std::string& name, int threads, const nb::object& progress) const;
-  nb::tuple critical_points(Array1 field, const std::string& name, int threads, const nb::object& progress) const;
-  nb::tuple critical_simplices(Array1 field, const std::string& name, int threads, const nb::object& progress) const;
 
-  /// (critical simplices, arrows)
-  nb::tuple discrete_gradient(Array1 field, const std::string& name, int threads, const nb::object& progress) const;
-  nb::dict persistence_diagram(Array1 field, const std::string& name, double persistence, bool is_percent, int threads,
-                               const nb::object& progress) const;
-  nb::dict morse_smale(Array1 field, const std::string& name, std::optional<double> persistence, bool is_percent,
-                       bool extrema_only, bool separatrices2, int threads, const nb::object& progress) const;
+  /// What an analysis of outputs/analyses.hpp finds, by the names of its results. `thresholds` are values, and whether
+  /// they are in percent of the field's range.
+  nb::dict analyse(const std::string& analysis, Array1 field, const std::string& name,
+                   const std::map<std::string, bool>& flags,
+                   const std::map<std::string, std::pair<double, bool>>& thresholds, int threads,
+                   const nb::object& progress) const;
 
  private:
   const Mesh& mesh() const;

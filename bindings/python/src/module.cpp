@@ -1,5 +1,7 @@
 #include <nanobind/nanobind.h>
+#include <nanobind/stl/map.h>
 #include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
@@ -45,11 +47,6 @@ NB_MODULE(_gale, module) {
       .def_prop_ro("capacity", &PyMesh::capacity)
       .def("points", &PyMesh::points)
       .def("relation", &PyMesh::relation, "name"_a, "threads"_a, "progress"_a.none())
-      .def("critical_points", &PyMesh::critical_points, "field"_a, "name"_a, "threads"_a, "progress"_a.none())
-      .def("critical_simplices", &PyMesh::critical_simplices, "field"_a, "name"_a, "threads"_a, "progress"_a.none())
-      .def("discrete_gradient", &PyMesh::discrete_gradient, "field"_a, "name"_a, "threads"_a, "progress"_a.none())
-      .def("persistence_diagram", &PyMesh::persistence_diagram, "field"_a, "name"_a, "persistence"_a, "is_percent"_a,
-           "threads"_a, "progress"_a.none())
-      .def("morse_smale", &PyMesh::morse_smale, "field"_a, "name"_a, "persistence"_a.none(), "is_percent"_a,
-           "extrema_only"_a, "separatrices2"_a, "threads"_a, "progress"_a.none());
+      .def("analyse", &PyMesh::analyse, "analysis"_a, "field"_a, "name"_a, "flags"_a, "thresholds"_a, "threads"_a,
+           "progress"_a.none());
 }

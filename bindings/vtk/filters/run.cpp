@@ -2,7 +2,9 @@
 
 #include <vtkAlgorithm.h>
 #include <vtkDataArray.h>
+#include <vtkInformationVector.h>
 #include <vtkPointData.h>
+#include <vtkPolyData.h>
 #include <vtkUnstructuredGrid.h>
 
 #include <gale/base/error.hpp>
@@ -60,6 +62,30 @@ ComputeOptions Run::compute(const char* text, double begin, double end) const {
     if (filter_.GetAbortExecute() != 0) throw Aborted();
   };
   return options;
+}
+
+void Run::analyse(const char* analysis, const outputs::Settings& settings, vtkInformationVector* outputs) const {
+  const io::PointArray values = field();
+  const VertexOrder values_order = order(values);
+  const outputs::Analysis& described = outputs::analysis_named(analysis);
+  const auto next = [this](const char* what, double begin, double end) { return compute(what, begin, end); };
+  const auto found = described.run({dataset_, values, values_order, next}, settings);
+  for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port) {
+    const auto outcome = found.find(described.results[port].name);
+    if (outcome == found.end()) continue;  // it wasn't asked for
+    if (const auto* const points = std::get_if<io::PointSet>(&outcome->second))
+      to_poly_data(*points, grid_->GetPointData(), vtkPolyData::GetData(outputs, port));
+    if (const auto* const surface = std::get_if<io::Surface>(&outcome->second))
+      to_poly_data(*surface, vtkPolyData::GetData(outputs, port));
+    if (const auto* const arrays = std::get_if<std::vector<io::PointArray>>(&outcome->second))
+      give(*arrays, outputs, port);
+  }
+}
+
+void Run::give(const std::vector<io::PointArray>& arrays, vtkInformationVector* outputs, int port) const {
+  vtkUnstructuredGrid* const mesh = vtkUnstructuredGrid::GetData(outputs, port);
+  mesh->ShallowCopy(grid_);
+  add(arrays, mesh->GetPointData());
 }
 
 }  // namespace gale::vtk

@@ -8,11 +8,12 @@
 #include <gale/io/dataset.hpp>
 #include <gale/mesh/mesh.hpp>
 #include <gale/mesh/segmentation.hpp>
-#include <gale/runtime/computation.hpp>
+#include <gale/outputs/analyses.hpp>
 
 class vtkAlgorithm;
 class vtkDataArray;
 class vtkDataSet;
+class vtkInformationVector;
 class vtkUnstructuredGrid;
 
 namespace gale::vtk {
@@ -40,20 +41,19 @@ class Run {
 
   const Mesh& mesh() const { return *mesh_; }
 
-  /// The points alone: what outputs are made from.
-  const io::Dataset& dataset() const { return dataset_; }
+  /// Runs an analysis on the field, along the order of its values, or that of the array NAME_Order, and gives its
+  /// results to the outputs in their order. Sweeps tell the filter's progress, with a text of what is done, and throw
+  /// Aborted once the filter is to abort. Throws gale::Error if there is no field, or if it isn't of one number a
+  /// point.
+  void analyse(const char* analysis, const outputs::Settings& settings, vtkInformationVector* outputs) const;
 
-  /// A copy of the field. Throws gale::Error if there is none, or if it isn't of one number a point.
-  io::PointArray field() const;
-
-  /// The order of the field's values, or that of the array NAME_Order.
-  VertexOrder order(const io::PointArray& field) const;
-
-  /// How to compute: sweeps take the filter's progress from `begin` to `end`, in 0..1, with a text of what is done.
-  /// They throw Aborted once the filter is to abort. Throws Aborted if that is so already.
-  ComputeOptions compute(const char* text, double begin, double end) const;
+  /// Gives the mesh, with these arrays at its points, to an output.
+  void give(const std::vector<io::PointArray>& arrays, vtkInformationVector* outputs, int port) const;
 
  private:
+  io::PointArray field() const;
+  VertexOrder order(const io::PointArray& field) const;
+  ComputeOptions compute(const char* text, double begin, double end) const;
   void tell(double progress, const char* text) const;
 
   vtkAlgorithm& filter_;

@@ -81,7 +81,10 @@ void empty(vtkInformationVector* outputs) {
 
 }  // namespace
 
-vtkGaleAlgorithm::vtkGaleAlgorithm() { this->SetNumberOfInputPorts(1); }
+vtkGaleAlgorithm::vtkGaleAlgorithm(int outputPorts, int meshPort) : MeshPort(meshPort) {
+  this->SetNumberOfInputPorts(1);
+  this->SetNumberOfOutputPorts(outputPorts);
+}
 
 vtkGaleAlgorithm::~vtkGaleAlgorithm() = default;
 
@@ -90,6 +93,11 @@ int vtkGaleAlgorithm::FillInputPortInformation(int, vtkInformation* info) {
   // before.
   for (const char* const type : {"vtkDataSet", "vtkHyperTreeGrid", "vtkTable", "vtkGraph"})
     info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), type);
+  return 1;
+}
+
+int vtkGaleAlgorithm::FillOutputPortInformation(int port, vtkInformation* info) {
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == this->MeshPort ? "vtkUnstructuredGrid" : "vtkPolyData");
   return 1;
 }
 

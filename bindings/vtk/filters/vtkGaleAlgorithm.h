@@ -47,7 +47,7 @@ class VTKFILTERSGALE_EXPORT vtkGaleAlgorithm : public vtkAlgorithm {
 
   //@{
   /**
-   * How many vertices a segment of the mesh has at most; 100 by default. Results don't depend on it, but for
+   * How many vertices a segment of the mesh has at most; 64 by default. Results don't depend on it, but for
    * vtkGaleSegmentation.
    */
   vtkSetClampMacro(Capacity, int, 1, VTK_INT_MAX);
@@ -69,10 +69,14 @@ class VTKFILTERSGALE_EXPORT vtkGaleAlgorithm : public vtkAlgorithm {
   vtkTypeBool ProcessRequest(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
  protected:
-  vtkGaleAlgorithm();
+  /**
+   * With output ports of vtkPolyData, but for meshPort, which is a vtkUnstructuredGrid.
+   */
+  vtkGaleAlgorithm(int outputPorts, int meshPort);
   ~vtkGaleAlgorithm() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
 
   /**
    * Computes the outputs. Throws std::exception for what RequestData says by vtkErrorMacro.
@@ -85,6 +89,8 @@ class VTKFILTERSGALE_EXPORT vtkGaleAlgorithm : public vtkAlgorithm {
   double Threshold = 0;
 
  private:
+  int MeshPort;
+
   vtkDataArray* SelectField(vtkInformationVector** inputs);
   int RequestData(vtkInformationVector** inputs, vtkInformationVector* outputs);
 

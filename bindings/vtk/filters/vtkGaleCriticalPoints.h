@@ -30,7 +30,6 @@ class VTKFILTERSGALE_EXPORT vtkGaleCriticalPoints : public vtkGaleAlgorithm {
   vtkGaleCriticalPoints();
   ~vtkGaleCriticalPoints() override;
 
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
   void Compute(gale::vtk::Run& run, vtkInformationVector* outputs) override;
 
  private:

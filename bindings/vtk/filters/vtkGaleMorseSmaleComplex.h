@@ -93,7 +93,6 @@ class VTKFILTERSGALE_EXPORT vtkGaleMorseSmaleComplex : public vtkGaleAlgorithm {
   vtkGaleMorseSmaleComplex();
   ~vtkGaleMorseSmaleComplex() override;
 
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
   void Compute(gale::vtk::Run& run, vtkInformationVector* outputs) override;
 
   bool Simplify = false;

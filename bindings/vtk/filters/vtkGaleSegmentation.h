@@ -29,7 +29,6 @@ class VTKFILTERSGALE_EXPORT vtkGaleSegmentation : public vtkGaleAlgorithm {
   vtkGaleSegmentation();
   ~vtkGaleSegmentation() override;
 
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
   void Compute(gale::vtk::Run& run, vtkInformationVector* outputs) override;
 
  private:

@@ -14,6 +14,18 @@ Command::Command(CLI::App& app, const std::string& name, const std::string& what
   common_.add_to(subcommand_);
 }
 
+void Command::add_flag(const outputs::AnalysisOption& option, bool& is_on) {
+  std::string name = option.name, help = option.help;
+  std::replace(name.begin(), name.end(), '_', '-');
+  if (option.is_on) {
+    help[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(help[0])));
+    subcommand_.add_flag_callback(
+        "--no-" + name, [&is_on] { is_on = false; }, "Without " + help);
+  } else {
+    subcommand_.add_flag("--" + name, is_on, help);
+  }
+}
+
 bool Command::is_chosen() const { return subcommand_.parsed(); }
 
 namespace {

@@ -3,6 +3,7 @@
 #include <string>
 
 #include <gale/app/options/options.hpp>
+#include <gale/outputs/analyses.hpp>
 
 namespace gale::app {
 
@@ -27,8 +28,14 @@ class Command {
   /// `what` it does is for the help. `app` must outlive the command.
   Command(CLI::App& app, const std::string& name, const std::string& what);
 
+  /// A command that runs an analysis, with its name and its help.
+  Command(CLI::App& app, const outputs::Analysis& analysis) : Command(app, analysis.name, analysis.help) {}
+
   /// Where it adds options of its own.
   CLI::App& subcommand() { return subcommand_; }
+
+  /// Adds a switch of an analysis: --name; where it is on by default, --no-name, which sets `is_on` to false.
+  void add_flag(const outputs::AnalysisOption& option, bool& is_on);
 
   /// Adds --encoding, if it writes VTK's XML files.
   void add_encoding() { common_.add_encoding_to(subcommand_); }

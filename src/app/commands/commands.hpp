@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include <gale/app/commands/command.hpp>
 
@@ -15,6 +16,9 @@ std::unique_ptr<Command> add_morse_smale(CLI::App& app);
 std::unique_ptr<Command> add_persistence_diagram(CLI::App& app);
 std::unique_ptr<Command> add_relations(CLI::App& app);
 std::unique_ptr<Command> add_generate(CLI::App& app);
+
+/// The analyses, their options and results (outputs/analyses.hpp), as JSON.
+std::string analyses_as_json();
 
 /// The table of all subcommands, in the order of the help.
 using AddCommand = std::unique_ptr<Command> (*)(CLI::App& app);

@@ -13,8 +13,7 @@ namespace {
 
 class FindCriticalPoints final : public Command {
  public:
-  explicit FindCriticalPoints(CLI::App& app)
-      : Command(app, "critical-points", "Finds the critical points of a scalar field") {
+  explicit FindCriticalPoints(CLI::App& app) : Command(app, outputs::analysis_named("critical-points")) {
     segmentation_.add_to(subcommand());
     structure_.add_to(subcommand());
     structure_.add_consumers_to(subcommand());

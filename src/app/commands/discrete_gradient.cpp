@@ -15,9 +15,7 @@ namespace {
 
 class FindDiscreteGradient final : public Command {
  public:
-  explicit FindDiscreteGradient(CLI::App& app)
-      : Command(app, "discrete-gradient",
-                "Pairs the simplices of a mesh along a scalar field; finds those that are left, the critical ones") {
+  explicit FindDiscreteGradient(CLI::App& app) : Command(app, outputs::analysis_named("discrete-gradient")) {
     segmentation_.add_to(subcommand());
     structure_.add_to(subcommand());
     structure_.add_consumers_to(subcommand());
@@ -29,9 +27,7 @@ class FindDiscreteGradient final : public Command {
                     "stars (from VV, VT and link) or cells (from VE, VF and VT, as other programs do; slower): the "
                     "same result")
         ->check(CLI::IsMember({"stars", "cells"}));
-    subcommand().add_option("--arrows", arrows_,
-                            "The gradient's arrows, from the barycentre of each simplex to that of the one it is "
-                            "paired with: .vtp. Large: a point a pair, some 13 a vertex");
+    subcommand().add_option("--arrows", arrows_, outputs::analysis_named("discrete-gradient").option("arrows").help);
   }
 
   void run_on_ranks() const override {

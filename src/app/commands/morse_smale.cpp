@@ -46,9 +46,7 @@ void find_small_complex(const VertexOrder& order) { find_morse_smale_complex(fin
 
 class FindMorseSmale final : public Command {
  public:
-  explicit FindMorseSmale(CLI::App& app)
-      : Command(app, "morse-smale",
-                "Finds the Morse-Smale complex of a scalar field: critical simplices, separatrices, segmentation") {
+  explicit FindMorseSmale(CLI::App& app) : Command(app, outputs::analysis_named("morse-smale")) {
     segmentation_.add_to(subcommand());
     structure_.add_to(subcommand());
     structure_.add_consumers_to(subcommand());
@@ -59,11 +57,8 @@ class FindMorseSmale final : public Command {
         ->type_name("P");
     add_encoding();
     add_parts();
-    add_persistence(
-        subcommand(), persistence_,
-        "Cancel pairs of critical simplices whose values differ by less than this; with a % of the field's range");
-    subcommand().add_flag("--extrema-only", extrema_only_,
-                          "With --persistence: cancel minima and maxima, but no saddles with one another");
+    add_persistence(subcommand(), persistence_, analysis_.option("persistence").help);
+    add_flag(analysis_.option("extrema_only"), extrema_only_);
     subcommand()
         .add_option(
             "--render", render_,
@@ -111,22 +106,8 @@ class FindMorseSmale final : public Command {
 
  private:
   void add_parts() {
-    const auto add_switch = [this](const std::string& name, bool& is_on, const std::string& what) {
-      subcommand().add_flag_callback(
-          name, [&is_on] { is_on = false; }, what);
-    };
-    add_switch("--no-descending-separatrices", parts_.descending_separatrices,
-               "Without the 1-separatrices from 1-saddles to minima");
-    add_switch("--no-ascending-separatrices", parts_.ascending_separatrices,
-               "Without the 1-separatrices from 2-saddles to maxima");
-    add_switch("--no-saddle-connectors", parts_.saddle_connectors,
-               "Without the 1-separatrices from 1-saddles to 2-saddles");
-    add_switch("--no-descending-segmentation", parts_.descending_manifolds,
-               "Without the minimum that each vertex falls to");
-    add_switch("--no-ascending-segmentation", parts_.ascending_manifolds,
-               "Without the maximum that each vertex rises to");
-    subcommand().add_flag("--separatrices2", parts_.separatrices2,
-                          "Also the 2-separatrices, the walls of saddles. Large");
+    for (const outputs::PartOfComplex& part : outputs::parts_of_complexes)
+      add_flag(analysis_.option(part.option), parts_.*part.is_wanted);
   }
 
   /// The complex, simplified if that is wanted, with the needed parts.
@@ -137,6 +118,7 @@ class FindMorseSmale final : public Command {
     return outputs::find_complex(gradient, on.field, request, session.compute(structure_, "complex"), &computed);
   }
 
+  const outputs::Analysis& analysis_ = outputs::analysis_named("morse-smale");
   SegmentationOptions segmentation_;
   StructureOption structure_;
   MorseSmaleParts parts_;  ///< that are wanted

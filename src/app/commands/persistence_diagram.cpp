@@ -9,7 +9,7 @@
 #include <gale/app/output_file.hpp>
 #include <gale/app/session.hpp>
 #include <gale/io/write.hpp>
-#include <gale/outputs/persistence_diagram.hpp>
+#include <gale/outputs/persistence.hpp>
 
 namespace gale::app {
 
@@ -26,10 +26,7 @@ void tell(const outputs::DiagramCounts& counts, Session& session) {
 
 class FindPersistenceDiagram final : public Command {
  public:
-  explicit FindPersistenceDiagram(CLI::App& app)
-      : Command(app, "persistence-diagram",
-                "Pairs the critical simplices of a scalar field: which topological features it has, and how persistent "
-                "they are") {
+  explicit FindPersistenceDiagram(CLI::App& app) : Command(app, outputs::analysis_named("persistence-diagram")) {
     segmentation_.add_to(subcommand());
     structure_.add_to(subcommand());
     structure_.add_consumers_to(subcommand());
@@ -38,7 +35,7 @@ class FindPersistenceDiagram final : public Command {
     subcommand().add_option("--curve", curve_,
                             "How many pairs have at least a persistence, for each that occurs: .csv");
     add_persistence(subcommand(), persistence_,
-                    "Leave out pairs whose values differ by less than this; with a % of the field's range");
+                    outputs::analysis_named("persistence-diagram").option("persistence").help);
     subcommand().add_option("--render", render_, "Draw diagram and curve to this .png")->type_name("FILE.png");
   }
 

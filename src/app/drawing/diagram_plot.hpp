@@ -3,7 +3,7 @@
 #include <vector>
 
 #include <gale/app/drawing/flat.hpp>
-#include <gale/outputs/persistence_diagram.hpp>
+#include <gale/outputs/persistence.hpp>
 
 namespace gale::app {
 

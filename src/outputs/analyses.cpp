@@ -1,0 +1,206 @@
+#include <algorithm>
+#include <utility>
+
+#include <gale/base/error.hpp>
+#include <gale/outputs/analyses.hpp>
+#include <gale/outputs/arrows.hpp>
+#include <gale/outputs/critical_points.hpp>
+#include <gale/outputs/critical_simplices.hpp>
+#include <gale/outputs/morse_smale.hpp>
+
+namespace gale::outputs {
+
+namespace {
+
+using Found = std::map<std::string, Outcome>;
+using Kind = AnalysisOption::Kind;
+using Shape = AnalysisResult::Shape;
+
+const AnalysisArray on_boundary{"IsOnBoundary", "int8"}, vertex{"ttkVertexScalarField", "int32"},
+    dimension{"CellDimension", "int8"}, cell{"CellId", "int32"};
+
+const std::vector<AnalysisArray> critical_arrays{dimension, cell, on_boundary, vertex};
+
+/// Those that lines and polygons of separatrices have, with `DestinationId` for the former.
+std::vector<AnalysisArray> separatrix_arrays(bool has_destination) {
+  std::vector<AnalysisArray> arrays{{"SourceId", "int32"},
+                                    {"DestinationId", "int32"},
+                                    {"SeparatrixId", "int32"},
+                                    {"SeparatrixType", "int8"},
+                                    {"SeparatrixFunctionMaximum", "field"},
+                                    {"SeparatrixFunctionMinimum", "field"},
+                                    {"SeparatrixFunctionDifference", "field"},
+                                    {"NumberOfCriticalPointsOnBoundary", "int32"}};
+  if (!has_destination) arrays.erase(arrays.begin() + 1);
+  return arrays;
+}
+
+Analysis critical_points() {
+  Analysis analysis{"critical-points", "Finds the critical points of a scalar field", {}, {}, {}};
+  analysis.results = {{"critical_points",
+                       Shape::points,
+                       "vertices, by type: 0 minimum, 1 and 2 saddles, 3 maximum, 4 degenerate",
+                       {{"CriticalType", "int8"}, on_boundary, vertex},
+                       {},
+                       {}}};
+  analysis.find = [](const AnalysisInput& input, const Settings&, Computed& computed) -> Found {
+    const ComputeOptions options = input.next("Finding critical points", 0, 1);
+    return {{"critical_points", to_point_set(input.dataset, find_critical_points(input.order, options, &computed))}};
+  };
+  return analysis;
+}
+
+Analysis discrete_gradient() {
+  Analysis analysis{"discrete-gradient",
+                    "Pairs the simplices of a mesh along a scalar field; finds those that are left, the critical ones",
+                    {},
+                    {},
+                    {}};
+  analysis.options = {{"arrows", Kind::flag, false, "",
+                       "The gradient's arrows, from the barycentre of each simplex to that of the one it is paired "
+                       "with: .vtp. Large: a point a pair, some 13 a vertex",
+                       true}};
+  analysis.results = {{"critical_simplices",
+                       Shape::points,
+                       "the simplices that are paired with no other, at their middles",
+                       critical_arrays,
+                       {},
+                       {}},
+                      {"arrows",
+                       Shape::points,
+                       "the pairs, at the middles of their lower simplices",
+                       {dimension, {"Vector", "points", 3}},
+                       {},
+                       "arrows"}};
+  analysis.find = [](const AnalysisInput& input, const Settings& settings, Computed& computed) {
+    const DiscreteGradient gradient =
+        find_discrete_gradient(input.order, input.next("Pairing simplices", 0, 0.7), &computed);
+    const CriticalSimplices& critical = gradient.critical();
+    const SimplexNumbers numbers = number_simplices(gradient.mesh(), {critical.edges, critical.triangles},
+                                                    input.next("Numbering simplices", 0.7, 1), &computed);
+    Found found;
+    found["critical_simplices"] = to_point_set(input.dataset, known_simplices(gradient, critical, numbers));
+    if (settings.flags.at("arrows")) found["arrows"] = arrows_of(input.dataset, gradient);
+    return found;
+  };
+  return analysis;
+}
+
+Analysis persistence_diagrams() {
+  Analysis analysis{"persistence-diagram",
+                    "Pairs the critical simplices of a scalar field: which topological features it has, and how "
+                    "persistent they are",
+                    {},
+                    {},
+                    {}};
+  analysis.options = {{"persistence", Kind::threshold, false, "Persistence",
+                       "Leave out pairs whose values differ by less than this; with a % of the field's range"}};
+  analysis.results = {{"diagram",
+                       Shape::diagram,
+                       "a line for each pair and each class that never ends, and the diagonal",
+                       {{"Coordinates", "points", 3}, vertex, {"CriticalType", "int8"}},
+                       {{"PairIdentifier", "int32"},
+                        {"PairType", "int8"},
+                        {"Persistence", "field"},
+                        {"Birth", "field"},
+                        {"IsFinite", "uint8"}},
+                       {}}};
+  analysis.find = [](const AnalysisInput& input, const Settings& settings, Computed& computed) -> Found {
+    const auto least = settings.thresholds.find("persistence");
+    const double threshold = least == settings.thresholds.end() ? 0 : threshold_of(least->second, input.field);
+    const DiscreteGradient gradient =
+        find_discrete_gradient(input.order, input.next("Pairing simplices", 0, 0.6), &computed);
+    const PersistencePairs pairs = find_persistence_pairs(gradient, input.next("Finding pairs", 0.6, 1));
+    return {{"diagram", persistence_diagram(gradient, pairs, input.field, threshold)}};
+  };
+  return analysis;
+}
+
+std::vector<AnalysisResult> results_of_complexes() {
+  std::vector<AnalysisArray> critical = critical_arrays;
+  critical.push_back({"ManifoldSize", "int32"});
+  const std::vector<AnalysisArray> manifolds{
+      {"AscendingManifold", "int32"}, {"DescendingManifold", "int32"}, {"MorseSmaleManifold", "int32"}};
+  return {{"critical_points", Shape::points, "the critical simplices, at their middles", critical, {}, {}},
+          {"separatrices1",
+           Shape::lines,
+           "the lines that join them",
+           {{"ttkMaskScalarField", "int8"}, dimension, cell},
+           separatrix_arrays(true),
+           {}},
+          {"separatrices2", Shape::polygons, "the walls of saddles", {}, separatrix_arrays(false), "separatrices2"},
+          {"manifolds", Shape::mesh, "the numbers of each vertex's manifolds, -1 where it has none", manifolds, {}, {}},
+          {"kept_below", Shape::count, "pairs of saddles below the threshold that could not be cancelled", {}, {}, {}}};
+}
+
+Analysis morse_smale_complexes() {
+  Analysis analysis{"morse-smale",
+                    "Finds the Morse-Smale complex of a scalar field: critical simplices, separatrices, segmentation",
+                    {},
+                    results_of_complexes(),
+                    {}};
+  for (const PartOfComplex& part : parts_of_complexes)
+    analysis.options.push_back({part.option, Kind::flag, MorseSmaleParts().*part.is_wanted, part.property, part.help});
+  analysis.options.push_back({"persistence", Kind::threshold, false, "Persistence",
+                              "Cancel pairs of critical simplices whose values differ by less than this; with a % of "
+                              "the field's range"});
+  analysis.options.push_back({"extrema_only", Kind::flag, false, "ExtremaOnly",
+                              "With persistence: cancel minima and maxima, but no saddles with one another"});
+  analysis.find = [](const AnalysisInput& input, const Settings& settings, Computed& computed) {
+    MorseSmaleRequest request;
+    for (const PartOfComplex& part : parts_of_complexes) request.parts.*part.is_wanted = settings.flags.at(part.option);
+    request.extrema_only = settings.flags.at("extrema_only");
+    const auto threshold = settings.thresholds.find("persistence");
+    if (threshold != settings.thresholds.end()) request.persistence = threshold->second;
+    const DiscreteGradient gradient =
+        find_discrete_gradient(input.order, input.next("Pairing simplices", 0, 0.6), &computed);
+    MorseSmaleOutputs all = morse_smale(gradient, input.dataset, input.field, request,
+                                        input.next("Tracing the complex", 0.6, 1), &computed);
+    Found found;
+    found["critical_points"] = std::move(all.critical_points);
+    found["separatrices1"] = std::move(all.separatrices1);
+    if (request.parts.separatrices2) found["separatrices2"] = std::move(all.separatrices2);
+    found["manifolds"] = std::move(all.manifolds);
+    found["kept_below"] = all.kept_below.count();
+    return found;
+  };
+  return analysis;
+}
+
+}  // namespace
+
+const std::vector<Analysis>& analyses() {
+  static const std::vector<Analysis> all{critical_points(), discrete_gradient(), morse_smale_complexes(),
+                                         persistence_diagrams()};
+  return all;
+}
+
+const Analysis& analysis_named(const std::string& name) {
+  for (const Analysis& analysis : analyses()) {
+    if (analysis.name == name) return analysis;
+  }
+  throw Error("there is no analysis '" + name + "'");
+}
+
+const AnalysisOption& Analysis::option(const std::string& option_name) const {
+  for (const AnalysisOption& option : options) {
+    if (option.name == option_name) return option;
+  }
+  throw Error(name + " has no option '" + option_name + "'");
+}
+
+std::map<std::string, Outcome> Analysis::run(const AnalysisInput& input, Settings settings) const {
+  const auto require = [this](const std::string& given, Kind kind) {
+    if (option(given).kind != kind)
+      throw Error(name + "'s option '" + given + "' is " + (kind == Kind::flag ? "no switch" : "no threshold"));
+  };
+  for (const auto& [given, is_on] : settings.flags) require(given, Kind::flag);
+  for (const auto& [given, threshold] : settings.thresholds) require(given, Kind::threshold);
+  for (const AnalysisOption& one : options) {
+    if (one.kind == Kind::flag) settings.flags.emplace(one.name, one.is_on);
+  }
+  Computed computed;
+  return find(input, settings, computed);
+}
+
+}  // namespace gale::outputs

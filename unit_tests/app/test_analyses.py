@@ -1,0 +1,111 @@
+"""What outputs/analyses.hpp says of each analysis, against its doors: the command, Python, VTK's filters and ParaView."""
+import ast
+import json
+import re
+import unittest
+import xml.etree.ElementTree
+from pathlib import Path
+
+import gale
+
+ROOT = Path(__file__).parents[2]
+FILTERS = ROOT / "bindings" / "vtk" / "filters"
+DOCUMENTS = "".join(page.read_text() for page in (ROOT / "docs").glob("*.md"))
+OF_ALL = {"field", "name", "threads", "progress"}  # arguments in Python
+THRESHOLD = {"Simplify": "0", "Persistence": "1", "PersistenceIsPercent": "1"}  # what filters have for a threshold
+
+
+def methods():
+    """The methods of gale.Mesh, by name."""
+    module = ast.parse((ROOT / "bindings" / "python" / "gale" / "_mesh.py").read_text())
+    mesh = next(one for one in module.body if isinstance(one, ast.ClassDef) and one.name == "Mesh")
+    return {one.name: one for one in mesh.body if isinstance(one, ast.FunctionDef)}
+
+
+def arguments(method):
+    """The arguments of a method without self, and their defaults."""
+    names = [one.arg for one in method.args.args[1:]]
+    defaults = [ast.literal_eval(one) for one in method.args.defaults]
+    return dict(zip(names, [None] * (len(names) - len(defaults)) + defaults))
+
+
+def arrays(analysis):
+    return [array["name"] for result in analysis["results"] for array in result["point_arrays"] + result["cell_arrays"]]
+
+
+class Analyses(gale.CommandTest):
+    def setUp(self):
+        super().setUp()
+        self.analyses = json.loads(self.succeed("--analyses"))
+
+    def each(self):
+        for analysis in self.analyses:
+            with self.subTest(analysis=analysis["name"]):
+                yield analysis
+
+    def test_the_command_has_their_options(self):
+        common = set(re.findall(r"--[\w-]+", self.succeed("segment", "--help") + self.succeed("relations", "--help")))
+        common |= {"--consumers", "--render", "--curve", "--formulation"}  # where rows are read; of the command alone
+        for analysis in self.each():
+            help_text = self.succeed(analysis["name"], "--help")
+            words = " ".join(help_text.split())
+            self.assertIn(analysis["help"], words)
+            expected = set()
+            for option in analysis["options"]:
+                said = option["help"]
+                if option["is_on"]:
+                    said = "Without " + said[0].lower() + said[1:]
+                name = ("--no-" if option["is_on"] else "--") + option["name"].replace("_", "-")
+                expected.add(name)
+                self.assertIn(said, words)
+            own = set(re.findall(r"^ +(?:-\w,)?(--[\w-]+)", help_text, re.MULTILINE))
+            self.assertEqual(own - common, expected)
+
+    def test_python_has_their_options(self):
+        all_methods = methods()
+        for analysis in self.each():
+            method = all_methods[analysis["name"].replace("-", "_")]
+            given = arguments(method)
+            options = {one["name"]: one for one in analysis["options"] if not one["is_on"] and not one["has_own_file"]}
+            self.assertEqual(set(given) - OF_ALL, set(options))
+            for name, option in options.items():
+                self.assertIn(given[name], [False] if option["kind"] == "flag" else [None, 0])
+                self.assertIn(f"`{name}`", ast.get_docstring(method))
+
+    def test_filters_have_their_options(self):
+        proxies = {proxy.get("class"): proxy for proxy in
+                   xml.etree.ElementTree.parse(ROOT / "bindings" / "paraview" / "plugin" / "filters.xml").iter("SourceProxy")}
+        bodies = re.findall(r"^void (\w+)::Compute\(.*?\) {\n(.*?)^}", (FILTERS / "filters.cpp").read_text(), re.MULTILINE | re.DOTALL)
+        classes = {name[1]: (one, body) for one, body in bodies if (name := re.search(r'analyse\("([\w-]+)"', body))}
+        self.assertEqual(set(classes) - {one["name"] for one in self.analyses}, set())
+        for analysis in self.each():
+            if analysis["name"] not in classes:
+                continue  # it is no filter
+            of_class, body = classes[analysis["name"]]
+            header = (FILTERS / f"{of_class}.h").read_text()
+            properties = {one.get("name"): one for one in proxies[of_class] if one.tag.endswith("Property")}
+            expected = {}
+            for option in analysis["options"]:
+                if option["kind"] == "threshold":
+                    expected.update(THRESHOLD)
+                else:
+                    expected[option["property"]] = "01"[option["is_on"]]
+                    self.assertEqual(properties[option["property"]].find("Documentation").text, option["help"] + ".")
+                    self.assertIn(f'"{option["name"]}", this->{option["property"]}', body)
+            self.assertEqual({name: one.get("default_values") for name, one in properties.items()}, expected)
+            for name, default in expected.items():
+                self.assertRegex(header, rf"vtkSet(?:Clamp)?Macro\({name},")
+                value = re.search(rf"^  \w+ {name} = (\w+);$", header, re.MULTILINE)[1]
+                self.assertEqual({"false": "0", "true": "1"}.get(value, value), default)
+            ports = [result for result in analysis["results"] if result["shape"] != "count"]
+            self.assertEqual(len(proxies[of_class].findall("OutputPort")), len(ports))
+
+    def test_documents_name_their_arrays(self):
+        for analysis in self.each():
+            self.assertIn(f"`{analysis['name']}`", DOCUMENTS)
+            for name in arrays(analysis):
+                self.assertTrue(f"`{name}`" in DOCUMENTS or name.startswith("SeparatrixFunction"), name)
+
+
+if __name__ == "__main__":
+    unittest.main()
