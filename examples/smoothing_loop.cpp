@@ -49,7 +49,7 @@ struct DualVolume {
   }
 };
 
-/// Half of the way to the mean of a vertex' neighbours (VV), weighted by their volumes.
+/// Half of the way to the mean of a vertex's neighbours (VV), weighted by their volumes.
 struct Smooth {
   gale::Array<const Id, Memory> vertex_input;
   Values volume, before, after;

@@ -146,7 +146,7 @@ ModuleResult smoother(const Fields& fields, Triangulation& mesh) {
   return result;
 }
 
-/// Of the field, and of the square of the distance to the first vertex.
+/// The Jacobi set of the field and the square of the distance to the first vertex.
 template <class Triangulation>
 ModuleResult jacobi_set(const Fields& fields, Triangulation& mesh) {
   ::ttk::JacobiSet module;

@@ -12,7 +12,7 @@ namespace gale::test {
 /// polygons are sorted; pairs of manifolds have no numbers.
 NamedComplex brute_force_complex(const InputMesh& mesh, const BruteForceGradient& gradient);
 
-/// Of each of fields_on one of `mesh_names()`; found at the first call.
+/// The complex of each of fields_on one of `mesh_names()`; found at the first call.
 const std::vector<NamedComplex>& brute_force_complexes(const std::string& mesh_name);
 
 }  // namespace gale::test

@@ -25,7 +25,7 @@ struct BruteForceGradient {
   std::array<std::set<Simplex>, 4> critical;  ///< those that have none, by dimension
 };
 
-/// Of each of fields_on one of `mesh_names()`; found at the first call.
+/// The gradient of each of fields_on one of `mesh_names()`; found at the first call.
 const std::vector<BruteForceGradient>& brute_force_gradients(const std::string& mesh_name);
 
 }  // namespace gale::test

@@ -24,7 +24,7 @@ NamedPairs brute_force_pairs(const std::vector<double>& field, const BruteForceG
 using VertexPairs = std::multiset<std::tuple<int, Id, Id>>;
 VertexPairs brute_force_vertex_pairs(const InputMesh& mesh, const std::vector<double>& field);
 
-/// The same of pairs that are known.
+/// Names known pairs by their vertices.
 VertexPairs vertex_pairs(const std::vector<double>& field, const NamedPairs& pairs);
 
 }  // namespace gale::test

@@ -30,7 +30,7 @@ struct Shape {
 
 constexpr Id no_euler = -1000;
 
-/// Of each of so many copies of a mesh, moved apart.
+/// Makes so many copies of a mesh, moved apart.
 InputMesh copies(const InputMesh& mesh, int count) {
   InputMesh all;
   for (int copy = 0; copy < count; ++copy) {
@@ -234,7 +234,7 @@ TEST_P(GradientOn, every_shape_has_the_minima_of_the_piecewise_linear_field) {
   }
 }
 
-/// The same mesh and order under other numbers: vertices, tetrahedra and corners are shuffled.
+/// Gives mesh and order other numbers: vertices, tetrahedra and corners are shuffled.
 TEST_P(GradientOn, every_shape_does_not_depend_on_numbers) {
   const InputMesh& input = subject.input();
   std::mt19937 random(8);

@@ -14,7 +14,7 @@ namespace gale::test {
 
 namespace {
 
-/// Of each of fields_on a mesh, by brute force.
+/// The pairs of each of fields_on a mesh, by brute force.
 const std::vector<PairTable>& brute_force_pairs(const std::string& mesh_name) {
   static std::map<std::string, std::vector<PairTable>> known;
   std::vector<PairTable>& tables = known[mesh_name];

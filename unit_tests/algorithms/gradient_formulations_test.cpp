@@ -65,7 +65,7 @@ void expect_equal(const Array<const Id, HostMemory>& one, const Array<const Id, 
   for (std::size_t i = 0; i < one.extent(0); ++i) ASSERT_EQ(one(i), other(i)) << what << ' ' << i;
 }
 
-/// Of the pairs, those of vertices, edges and tetrahedra: the others follow from them.
+/// Compares the pairs of vertices, edges and tetrahedra: the others follow from them.
 void expect_same(const DiscreteGradient& gradient, const DiscreteGradient& expected) {
   EXPECT_EQ(gradient.critical().vertices, expected.critical().vertices);
   EXPECT_EQ(gradient.critical().edges, expected.critical().edges);

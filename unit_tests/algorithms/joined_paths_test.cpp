@@ -70,7 +70,7 @@ void expect_same(const Separatrices<Cell>& joined, const Separatrices<Cell>& who
   EXPECT_EQ(told_twice(joined), 0);
 }
 
-/// Of all three kinds, in a complex simplified both ways; returns how many cells less.
+/// Compares paths of all three kinds in a complex simplified both ways; returns how many cells less there are.
 std::size_t expect_joined(const ComplexOf& found, double threshold, bool extrema_only) {
   const auto value = [&](Id v) { return found.field().at(v); };
   SimplifyOptions options;

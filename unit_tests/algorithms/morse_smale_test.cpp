@@ -32,7 +32,7 @@ MorseSmaleComplex complex_of(Structure& structure, const Field& field, int threa
   return find_morse_smale_complex(structure, gradient, parts, with_threads(threads));
 }
 
-/// Of the gradient that kernels find.
+/// The complex of the gradient that kernels find.
 MorseSmaleComplex complex_of_kernels(Structure& structure, const Field& field) {
   const VertexOrder order(structure.mesh(), field.values.data(), field.values.size());
   return find_morse_smale_complex(structure, find_discrete_gradient(WorkerSpace(), order));

@@ -53,7 +53,7 @@ NamedComplex as_defined(NamedComplex complex);
 /// Are all parts the same? Says which isn't.
 testing::AssertionResult equal(const NamedComplex& a, const NamedComplex& b);
 
-/// The same of two complexes of one mesh, in GALE's ids. Faster.
+/// Compares two complexes of one mesh, in GALE's ids: faster.
 testing::AssertionResult equal(const MorseSmaleComplex& a, const MorseSmaleComplex& b);
 
 }  // namespace gale::test

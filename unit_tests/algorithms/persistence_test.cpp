@@ -83,7 +83,7 @@ INSTANTIATE_TEST_SUITE_P(Tests, PersistencePairsOf, every_mesh_and_segmentation(
 
 class PersistencePairsWithoutGradient : public testing::TestWithParam<std::string> {};
 
-/// The same homology from all simplices.
+/// Finds the homology from all simplices.
 TEST_P(PersistencePairsWithoutGradient, begin_and_end_at_the_same_vertices) {
   const InputMesh& input = mesh_named(GetParam());
   const Mesh mesh = encode(input, 50);

@@ -17,7 +17,7 @@ struct StructureKind {
   std::function<std::unique_ptr<Structure>(const Mesh&, RelationSet)> make;
 };
 
-/// Those that this build has.
+/// The kinds that this build has.
 std::vector<StructureKind> structure_kinds();
 
 }  // namespace gale::test

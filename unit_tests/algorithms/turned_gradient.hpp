@@ -22,7 +22,7 @@ class TurnedGradient {
   /// lead to.
   void cancel_with_minima(std::vector<Simplex> saddles);
 
-  /// The same from the highest 2-saddle down with the lower one of the two maxima; the outside is above all.
+  /// Cancels from the highest 2-saddle down with the lower one of the two maxima; the outside is above all.
   void cancel_with_maxima(std::vector<Simplex> saddles);
 
  private:

@@ -29,7 +29,7 @@ Dataset grid_with_every_type(int n) {
   return mesh;
 }
 
-/// The same with coordinates that float cannot hold.
+/// Gives a mesh coordinates that float cannot hold.
 Dataset with_double_points(Dataset mesh) {
   const Dataset::Points<double> points("GALE::points", test::point_count_of(mesh));
   for (std::size_t i = 0; i < points.extent(0); ++i) {

@@ -135,7 +135,6 @@ TEST(ExplicitStructure, knows_which_simplices_are_internal_to_a_segment) {
   });
 }
 
-/// The same mesh.
 TEST(ExplicitStructure, reads_rows_of_any_simplices) {
   ExplicitStructure structure(encode(mesh_named("the_papers"), segmentation_by({1, 1, 1, 2, 2, 2})),
                               (all_relations | link_form));

@@ -28,7 +28,7 @@ class LaunchedBatch {
   bool lacks(Id segment) const { return missing_blocks(segment) == wanted_.count(); }
   bool has_all() const;
 
-  /// Those that are there.
+  /// The rows that are there.
   SegmentRows rows(Id segment) const;
 
   /// What the kernel says that the whole batch takes of the pool, in words, and what those that are missing take of

@@ -49,7 +49,7 @@ struct Fixture {
 
   explicit Fixture(const char* mesh_name) : name(mesh_name) {}
 
-  /// Of one relation, or of the links.
+  /// How many rows one relation has, or the links.
   Id rows(RelationSet one) const {
     return one == link_form ? mesh.vertices() : static_cast<Id>(expected[members_of(one).front()].size());
   }

@@ -7,7 +7,7 @@
 
 namespace gale::test {
 
-/// Of a vector that must live as long.
+/// A view of a vector, which must live as long.
 template <class T>
 Array<const T, HostMemory> view_of(const std::vector<T>& values) {
   return Array<const T, HostMemory>(values.data(), values.size());

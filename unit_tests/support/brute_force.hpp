@@ -31,7 +31,7 @@ class ExpectedRows {
   using Table = BruteForce::Table;
   using Links = std::vector<std::vector<std::array<Id, 3>>>;
 
-  /// Those of `relations` alone.
+  /// Expects the rows of `relations` alone.
   ExpectedRows(const InputMesh& input, const BruteForce& brute_force, const Mesh& mesh,
                RelationSet relations = star_relations);
   ExpectedRows(const ExpectedRows&) = delete;

@@ -102,7 +102,7 @@ testing::AssertionResult ExpectedRows::match(const SegmentRows& rows, RelationSe
   return result ? result : result << "\n  in segment " << rows.segment();
 }
 
-/// Those of a dimension that nobody needed may be empty.
+/// Intervals of a dimension that nobody needed may be empty.
 testing::AssertionResult ExpectedRows::match_intervals(const SegmentRows& rows, RelationSet wanted) const {
   for (int dimension = 0; dimension < 4; ++dimension) {
     const auto in_dimension = [dimension](Relation relation) { return row_dimension(relation) == dimension; };

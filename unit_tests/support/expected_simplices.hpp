@@ -17,10 +17,10 @@ struct ExpectedSimplices {
   std::array<std::vector<Id>, 4> number;                 ///< by dimension and brute force's number: GALE's id
   std::vector<Id> vertex_begin;                          ///< where each segment's vertices begin
 
-  /// Of the dimensions up to `highest`, and the tetrahedra.
+  /// Expects the simplices of the dimensions up to `highest`, and the tetrahedra.
   ExpectedSimplices(const BruteForce& brute_force, const Mesh& mesh, int highest = 3);
 
-  /// Those whose lowest vertex a segment holds.
+  /// The simplices whose lowest vertex a segment holds.
   Interval internal_to(Id segment, int dimension) const;
 };
 

@@ -6,7 +6,7 @@ from . import Error
 
 
 def main() -> None:
-    """Becomes the command `gale`, with this process' arguments."""
+    """Becomes the command `gale`, with this process's arguments."""
     command = os.path.join(os.path.dirname(os.path.abspath(__file__)), "bin", "gale")
     if not os.path.exists(command):
         raise Error(f"this package was built without the command gale: there is no {command}")

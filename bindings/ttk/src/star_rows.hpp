@@ -51,8 +51,8 @@ class StarRows {
   HashTable<Id> outside_;              ///< vertices that other segments hold (the caller's ids) -> their numbers
   std::vector<Id> star_begin_, star_;  ///< row -> places in near_, ascending
 
-  /// Of the row that is made: where it has each vertex (by number, with the row above, so that nothing is cleared
-  /// between rows), and what link there is.
+  /// Where the row that is made has each vertex (by number, with the row above, so that nothing is cleared between
+  /// rows), and what link there is.
   std::vector<std::uint64_t> met_;
   std::vector<Id> places_;             ///< in the row, of the three other vertices of each cell
   std::vector<std::uint64_t> parity_;  ///< by place: bits of those with which it shares an odd number of link triangles

@@ -31,7 +31,7 @@ void Connectivity::set_surface(int dimension, const Flags& flags) const {
   surface_flags_[dimension].store(flags.data(), std::memory_order_release);
 }
 
-/// Of vertices whose surface still waits.
+/// Finds the surface of vertices that still waits.
 const std::uint8_t* Connectivity::late_surface(int dimension) const {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (dimension != 0 || !surface_waits_) throw Error("what is on the boundary was not preconditioned");

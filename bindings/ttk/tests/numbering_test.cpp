@@ -32,7 +32,7 @@ void number_vertices_by_place(InputMesh& mesh) {
   }
 }
 
-/// Likewise cells, by the place of their first points.
+/// Numbers cells by the place of their first points.
 void number_cells_by_place(InputMesh& mesh) {
   const auto first = [&](const std::array<Id, 4>& cell) {
     return std::min({mesh.points[cell[0]], mesh.points[cell[1]], mesh.points[cell[2]], mesh.points[cell[3]]});

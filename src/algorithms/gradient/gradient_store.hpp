@@ -31,7 +31,7 @@ void mark_ghosts(const Space& space, const Mesh& mesh, const Array<Id, MemoryOf<
 struct DeviceGradient {
   Array<Id, WorkerMemory> vertex_successor, tetrahedron_successor;
   Array<Id, WorkerMemory> pair_words;       ///< the words of EdgePairRows
-  Array<Offset, WorkerMemory> pairs_begin;  ///< where each vertex' row begins among them
+  Array<Offset, WorkerMemory> pairs_begin;  ///< where each vertex's row begins among them
   CriticalSimplices critical;               ///< in no order, without stars
   std::vector<InStar> stars;
 };
@@ -99,7 +99,7 @@ class GALE_EXPORT GradientStore {
   const Mirrored<Id>& tetrahedron_successors() const { return tetrahedron_successors_; }
   const EdgePairs& pairs() const;
 
-  /// Whether kernels found it. Then these are the words of EdgePairRows, and where each vertex' row begins among them.
+  /// Whether kernels found it. Then these are the words of EdgePairRows, and where each vertex's row begins among them.
   bool is_from_kernels() const { return pairs_begin_.size() != 0; }
   const Mirrored<Id>& pair_words() const { return pair_words_; }
   const Mirrored<Offset>& pairs_begin() const { return pairs_begin_; }

@@ -52,7 +52,7 @@ class GALE_EXPORT BlockStore {
   template <class Make>
   Slot& hold(Relation relation, Id segment, const Make& make);
 
-  /// The same of a block that is there; nothing if it isn't.
+  /// Holds a block that is there as `hold` does; null if it isn't.
   Slot* hold_present(Relation relation, Id segment);
 
   /// Has a block there, unless it is, until its place is needed.
@@ -60,7 +60,7 @@ class GALE_EXPORT BlockStore {
 
   void release(Slot& slot) { slot.state_.fetch_sub(1, std::memory_order_release); }
 
-  /// Of all blocks that are there.
+  /// Counts the bytes of all blocks that are there.
   std::size_t bytes() const { return bytes_; }
   std::size_t budget() const { return budget_; }
 

@@ -21,11 +21,11 @@ struct CellOrder {
   std::size_t bytes() const { return number.bytes() + met.bytes(); }
 };
 
-/// Of the edges; enumerates them if they haven't been. `cells` are those that the mesh was made of. O(n), on all our
-/// threads.
+/// Orders the edges, which are enumerated if they haven't been. `cells` are those that the mesh was made of. O(n), on
+/// all our threads.
 CellOrder order_of_edges(const Mesh& mesh, const Cells& cells);
 
-/// Likewise of the triangles, with their stars; 16 bytes a triangle more meanwhile.
+/// The order of the triangles, with their stars; takes 16 bytes a triangle more meanwhile.
 struct TriangleOrder : CellOrder {
   static constexpr Id crowded = -2;
 

@@ -48,7 +48,7 @@ class GALE_EXPORT Connectivity {
 
   const Cells& cells() const { return cells_; }
 
-  /// Of edges and triangles no_id as long as nobody needed them.
+  /// How many simplices of a dimension there are: no_id for edges and triangles as long as nobody needed them.
   Id count(int dimension) const { return counts_[dimension]; }
 
   void need_edges();
@@ -114,7 +114,7 @@ class GALE_EXPORT Connectivity {
   /// Blocks computed so far: those of the segments that were read, and again what was dropped meanwhile.
   std::size_t blocks_made() const { return blocks_made_.load(std::memory_order_relaxed); }
 
-  /// Of tables and blocks, beside the mesh and its simplices.
+  /// Bytes of tables and blocks, beside the mesh and its simplices.
   std::size_t bytes() const;
 
  private:
@@ -242,7 +242,7 @@ __attribute__((noinline)) Row Connectivity::read(Id simplex) const {
   return last.row;
 }
 
-/// Has the next vertex' row fetched, and the block of one that follows.
+/// Has the next vertex's row fetched, and the block of one that follows.
 inline void Connectivity::look_ahead(Reader& reader, Relation relation, Id vertex) const {
   constexpr Id ahead = 2;
   if (vertex >= counts_[0] - ahead) return;

@@ -14,7 +14,7 @@ namespace gale::ttk {
 /// stored: 1.5 bytes a cell, and a fourth of a byte a simplex.
 class GALE_EXPORT FirstMet {
  public:
-  /// Of so many cells, none of which has any yet.
+  /// Begins with so many cells, none of which has any yet.
   explicit FirstMet(Id cells);
   FirstMet() = default;
 

@@ -14,7 +14,7 @@ class GALE_EXPORT PackedIds {
  public:
   PackedIds() = default;
 
-  /// Of ids from `least` to `greatest`. O(n), on all our threads.
+  /// Packs ids from `least` to `greatest`. O(n), on all our threads.
   PackedIds(const Array<Id, HostMemory>& ids, Id least, Id greatest);
 
   Id size() const { return size_; }

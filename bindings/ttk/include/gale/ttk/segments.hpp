@@ -15,10 +15,10 @@ class GALE_EXPORT Segments {
  public:
   Segments() = default;
 
-  /// Of a mesh that isn't encoded yet. O(n), on all our threads.
+  /// Takes the segments of a mesh that isn't encoded yet. O(n), on all our threads.
   explicit Segments(const Segmentation& segmentation);
 
-  /// Of one that is, which knows what touches a segment, too, where it isn't on a device.
+  /// Takes those of an encoded mesh, which knows what touches a segment, too, where it isn't on a device.
   explicit Segments(const Mesh& mesh);
 
   Id count() const { return static_cast<Id>(vertex_begin_.extent(0)) - 1; }
@@ -28,7 +28,7 @@ class GALE_EXPORT Segments {
   /// The vertices of a segment, in GALE's ids.
   Interval vertices(Id segment) const { return {vertex_begin_.data()[segment], vertex_begin_.data()[segment + 1]}; }
 
-  /// Of a vertex (the caller's id).
+  /// The segment of a vertex (the caller's id).
   Id of(Id vertex) const { return segment_of_.data()[vertex]; }
 
   /// Groups cells by the segments that they touch, unless what touches a segment is known. These must be valid. O(n),
