@@ -106,16 +106,6 @@ using PinnedMemory = Kokkos::HIPHostPinnedSpace;
 using PinnedMemory = Kokkos::HostSpace;
 #endif
 
-/// Waits for what was enqueued on an execution space. Kokkos Tools are told the label.
-template <class Space>
-void wait_for(const Space& space, [[maybe_unused]] const char* label) {
-#if KOKKOS_VERSION >= 40000
-  space.fence(label);
-#else
-  space.fence();
-#endif
-}
-
 /// The policy of a launch that overlaps with launches on other instances: its functor, of less than 4 KiB, travels with
 /// the launch. In constant memory, where Kokkos::Cuda puts those of more than 512 bytes otherwise, there is one at a
 /// time; larger ones are launched as always.
@@ -164,6 +154,16 @@ class ToolsRegion {
 };
 
 namespace detail {
+
+/// Waits for what was enqueued on an execution space. Kokkos Tools are told the label.
+template <class Space>
+void wait_for(const Space& space, [[maybe_unused]] const char* label) {
+#if KOKKOS_VERSION >= 40000
+  space.fence(label);
+#else
+  space.fence();
+#endif
+}
 
 /// Sets whether the calling thread counts references to Views, as long as it lives. Kokkos counts without atomics where
 /// Serial is its only backend; our own threads share Views there too.

@@ -130,7 +130,7 @@ void prepare_copies(int threads) { CopyLanes::instance().prepare(threads); }
 
 void write_to_device(void* device, std::size_t bytes,
                      const std::function<void(char* to, std::size_t begin, std::size_t size)>& write) {
-  wait_for(WorkerSpace(), "GALE::copy");
+  detail::wait_for(WorkerSpace(), "GALE::copy");
   CopyLanes::instance().for_pieces(bytes, [&](const CopyLane& lane, std::size_t begin, std::size_t size) {
     write(lane.chunk.data(), begin, size);
     lane.stream.copy(static_cast<char*>(device) + begin, lane.chunk.data(), size);
@@ -144,7 +144,7 @@ void copy_to_device(void* device, const void* host, std::size_t bytes) {
 }
 
 void copy_from_device(void* host, const void* device, std::size_t bytes) {
-  wait_for(WorkerSpace(), "GALE::copy");
+  detail::wait_for(WorkerSpace(), "GALE::copy");
   CopyLanes::instance().for_pieces(bytes, [&](const CopyLane& lane, std::size_t begin, std::size_t size) {
     lane.stream.copy(lane.chunk.data(), static_cast<const char*>(device) + begin, size);
     std::memcpy(static_cast<char*>(host) + begin, lane.chunk.data(), size);

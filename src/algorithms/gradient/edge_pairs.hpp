@@ -6,6 +6,7 @@
 
 #include <gale/base/memory.hpp>
 #include <gale/base/types.hpp>
+#include <gale/export.hpp>
 
 namespace gale::detail {
 
@@ -73,7 +74,7 @@ class EdgePairRow {
 
 /// The rows of all vertices. Each consumer of a sweep takes the memory of its rows from chunks of its own, so that
 /// nobody waits.
-class EdgePairs {
+class GALE_EXPORT EdgePairs {
  public:
   EdgePairs() = default;
   EdgePairs(Id vertices, int consumers);
