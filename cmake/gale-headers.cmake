@@ -13,10 +13,10 @@ function(gale_public folder)
   set(gale_public_headers ${gale_public_headers} ${ARGN} PARENT_SCOPE)
 endfunction()
 
-gale_public(base atomic error kokkos memory stop team threads types)
+gale_public(base atomic csr error kokkos memory stop team threads types)
 gale_public(mesh encoded_mesh input_numbers intervals make_mesh mesh segmentation simplices)
 gale_public(relations batch faces preconditioning relation rows segment_rows)
-gale_public(runtime computation consumer device_sweep graph_of make_structure statistics structure structure_options sweep_options)
+gale_public(runtime computation consumer device_sweep graph_of make_structure relation_of statistics structure structure_options sweep_options)
 gale_public(algorithms critical_points critical_simplices discrete_gradient morse_smale persistence separatrices
   simplex_numbers simplify surface_vertices vertex_order)
 gale_public(outputs analyses arrows critical_points critical_simplices field manifolds morse_smale named_simplices persistence
@@ -32,9 +32,6 @@ set(gale_included_headers
   base/parallel.hpp
   base/transfer.hpp
   base/worker_or_host.hpp
-  mesh/caller_views.hpp
-  mesh/quad.hpp
-  relations/segment_list.hpp
   runtime/device/batch_sweep.hpp
   runtime/batches/segment_batches.hpp)
 

@@ -81,7 +81,7 @@ int colors_of(const gale::Mesh& mesh) {
   const auto graph = gale::graph_of(Space(), mesh, gale::Relation::VV);
   Handle handle;
   handle.create_graph_coloring_handle();
-  KokkosGraph::Experimental::graph_color(&handle, mesh.vertices(), mesh.vertices(), graph.row_map, graph.entries);
+  KokkosGraph::Experimental::graph_color(&handle, mesh.vertices(), mesh.vertices(), graph.offsets, graph.entries);
   const int colors = static_cast<int>(handle.get_graph_coloring_handle()->get_num_colors());
   handle.destroy_graph_coloring_handle();
   return colors;

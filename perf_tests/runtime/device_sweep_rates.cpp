@@ -59,11 +59,11 @@ DeviceSweepOptions with_memory(std::size_t bytes) {
 
 void measure(const Mesh& mesh, Relation relation, double bandwidth) {
   const auto graph = graph_of(WorkerSpace(), mesh, relation);
-  const double bytes = 4.0 * static_cast<double>(graph.entries.extent(0) + graph.row_map.extent(0));
+  const double bytes = 4.0 * static_cast<double>(graph.entries.extent(0) + graph.offsets.extent(0));
   mesh.simplices<Memory>(needs_of(RelationSet(relation)));
   const Id entries = mesh.interval_begin(entry_dimension(relation))(mesh.segments());
   const AddValues add{Kokkos::View<float*, Memory>("values", entries),
-                      Kokkos::View<float*, Memory>("sums", graph.row_map.extent(0))};
+                      Kokkos::View<float*, Memory>("sums", graph.offsets.extent(0))};
   for (const std::size_t memory : {std::size_t(0), 24 * mebi, 48 * mebi, 96 * mebi, 384 * mebi, 1536 * mebi}) {
     const auto options = with_memory(memory);
     const double made =

@@ -4,18 +4,12 @@
 #include <utility>
 
 #include <gale/base/atomic.hpp>
+#include <gale/base/csr.hpp>
 #include <gale/base/memory.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/base/types.hpp>
 
 namespace gale {
-
-/// Items by key: those of key k are members[begin[k]] to members[begin[k + 1] - 1], in no order.
-template <class Memory, class Index = Offset>
-struct Groups {
-  Array<Index, Memory> begin;  ///< keys + 1
-  Array<Id, Memory> members;
-};
 
 namespace detail {
 
@@ -54,13 +48,6 @@ struct FillGroups {
   }
 };
 
-template <class Indices>
-struct EntryOf {
-  Indices entries;
-
-  KOKKOS_FUNCTION auto operator()(Offset i) const { return entries(i); }
-};
-
 template <class KeyOf>
 struct SingleKey {
   KeyOf key_of;
@@ -74,14 +61,15 @@ struct SingleKey {
 
 }  // namespace detail
 
-/// Groups the items 0..items-1 by keys 0..keys-1. `visit_keys(item, visit)` calls visit(key) for each key of an item,
-/// of which there may be any number; it is called twice for each item, with the same keys both times. On a device it is
-/// a functor whose call operator is a template, as nvcc has no generic lambdas in kernels.
+/// Groups the items 0..items-1 by keys 0..keys-1: row k has the items of key k, in no order. `visit_keys(item, visit)`
+/// calls visit(key) for each key of an item, of which there may be any number; it is called twice for each item, with
+/// the same keys both times. On a device it is a functor whose call operator is a template, as nvcc has no generic
+/// lambdas in kernels.
 ///
 /// `Index` counts the members: Id where there are at most 2^31 - 1. Time and memory O(items + keys + members).
 template <class Index = Offset, class Space, class VisitKeys>
-Groups<typename Space::memory_space, Index> group_by(const char* label, const Space& space, Offset items, Offset keys,
-                                                     const VisitKeys& visit_keys) {
+Csr<Id, typename Space::memory_space, Index> group_by(const char* label, const Space& space, Offset items, Offset keys,
+                                                      const VisitKeys& visit_keys) {
   using Memory = typename Space::memory_space;
   using Indices = Array<Index, Memory>;
   using Members = Array<Id, Memory>;
@@ -101,8 +89,8 @@ Groups<typename Space::memory_space, Index> group_by(const char* label, const Sp
 
 /// Groups items that have one key each: `key_of(item)`.
 template <class Index = Offset, class Space, class KeyOf>
-Groups<typename Space::memory_space, Index> group_by_key(const char* label, const Space& space, Offset items,
-                                                         Offset keys, const KeyOf& key_of) {
+Csr<Id, typename Space::memory_space, Index> group_by_key(const char* label, const Space& space, Offset items,
+                                                          Offset keys, const KeyOf& key_of) {
   return group_by<Index>(label, space, items, keys, detail::SingleKey<KeyOf>{key_of});
 }
 

@@ -9,32 +9,28 @@ namespace gale {
 namespace {
 
 template <class Index>
-void sort_on_host(const char* label, const Array<Index, HostMemory>& begin, const Array<Id, HostMemory>& values) {
-  parallel_for(label, HostExecutionSpace(), begin.extent(0) - 1, [&](Offset row) {
-    Id* const first = values.data() + begin(row);
-    Id* const last = values.data() + begin(row + 1);
-    if (!std::is_sorted(first, last)) std::sort(first, last);
+void sort_on_host(const char* label, const Csr<Id, HostMemory, Index>& rows) {
+  parallel_for(label, HostExecutionSpace(), rows.rows(), [&](Offset i) {
+    const Span<Id> row = rows.row(i);
+    if (!std::is_sorted(row.begin(), row.end())) std::sort(row.begin(), row.end());
   });
 }
 
 }  // namespace
 
 template <class Space, class Index>
-void sort_rows(const Space& space, const char* label, const Array<Index, MemoryOf<Space>>& begin,
-               const Array<Id, MemoryOf<Space>>& values) {
-  if (begin.extent(0) < 2 || values.extent(0) == 0) return;
+void sort_rows(const Space& space, const char* label, const Csr<Id, MemoryOf<Space>, Index>& rows) {
+  if (rows.rows() == 0 || rows.entries.extent(0) == 0) return;
   if constexpr (is_device<Space>) {
-    detail::sort_rows_on_device(space, label, begin, values);
+    detail::sort_rows_on_device(space, label, rows.offsets, rows.entries);
   } else {
-    sort_on_host(label, begin, values);
+    sort_on_host(label, rows);
   }
 }
 
-#define GALE_INSTANTIATE(Space)                                                             \
-  template void sort_rows(const Space&, const char*, const Array<Id, MemoryOf<Space>>&,     \
-                          const Array<Id, MemoryOf<Space>>&);                               \
-  template void sort_rows(const Space&, const char*, const Array<Offset, MemoryOf<Space>>&, \
-                          const Array<Id, MemoryOf<Space>>&)
+#define GALE_INSTANTIATE(Space)                                                            \
+  template void sort_rows(const Space&, const char*, const Csr<Id, MemoryOf<Space>, Id>&); \
+  template void sort_rows(const Space&, const char*, const Csr<Id, MemoryOf<Space>, Offset>&)
 GALE_IN_EACH_SPACE(GALE_INSTANTIATE);
 #undef GALE_INSTANTIATE
 

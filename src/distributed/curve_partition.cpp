@@ -6,7 +6,7 @@
 #include <gale/base/parallel.hpp>
 #include <gale/distributed/curve_partition.hpp>
 #include <gale/distributed/dealt.hpp>
-#include <gale/mesh/morton_codes.hpp>
+#include <gale/mesh/octree.hpp>
 
 namespace gale::detail {
 

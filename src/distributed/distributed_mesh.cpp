@@ -11,7 +11,7 @@
 #include <gale/distributed/local_vertices.hpp>
 #include <gale/distributed/on_demand.hpp>
 #include <gale/distributed/own_and_ghosts.hpp>
-#include <gale/mesh/morton_codes.hpp>
+#include <gale/mesh/octree.hpp>
 
 namespace gale {
 

@@ -5,7 +5,7 @@
 #include <gale/base/error.hpp>
 #include <gale/base/transfer.hpp>
 #include <gale/distributed/host_points.hpp>
-#include <gale/mesh/caller_views.hpp>
+#include <gale/mesh/make_mesh.hpp>
 #include <gale/mesh/mesh.hpp>
 
 namespace gale {

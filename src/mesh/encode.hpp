@@ -1,5 +1,6 @@
 #pragma once
 
+#include <gale/base/csr.hpp>
 #include <gale/mesh/encoded_mesh.hpp>
 #include <gale/mesh/mesh.hpp>
 
@@ -11,9 +12,8 @@ namespace gale::detail {
 /// What the renumbering of a mesh's tetrahedra yields.
 template <class Memory>
 struct SortedTetrahedra {
-  Array<Quad, Memory> vertices;  ///< ascending in each, and from each to the next
-  Array<Id, Memory> input;       ///< GALE's tetrahedron -> input tetrahedron
-  Array<Id, Memory> begin;       ///< vertex -> the first tetrahedron whose lowest vertex it is; one more at the end
+  Csr<Quad, Memory, Id> of_lowest;  ///< by their lowest vertices; ascending in each, and from each to the next
+  Array<Id, Memory> input;          ///< GALE's tetrahedron -> input tetrahedron
 };
 
 /// Renumbers and sorts (see Mesh). `vertex_internal` maps input vertices to GALE's.
@@ -21,16 +21,9 @@ template <class Space, class Index>
 SortedTetrahedra<MemoryOf<Space>> sort_tetrahedra(const Space& space, const Tetrahedra<Index, MemoryOf<Space>>& input,
                                                   const Array<Id, MemoryOf<Space>>& vertex_internal);
 
-/// T_ex: see EncodedMesh.
-template <class Memory>
-struct ExternalTetrahedra {
-  Array<Offset, Memory> begin;
-  Array<Id, Memory> ids;
-};
-
-/// Finds T_ex of a mesh of so many vertices, which has everything else.
+/// Finds T_ex (see EncodedMesh), by segment, of a mesh of so many vertices, which has everything else.
 template <class Space>
-ExternalTetrahedra<MemoryOf<Space>> find_external_tetrahedra(const Space& space,
-                                                             const EncodedMesh<MemoryOf<Space>>& mesh, Id vertices);
+Csr<Id, MemoryOf<Space>> find_external_tetrahedra(const Space& space, const EncodedMesh<MemoryOf<Space>>& mesh,
+                                                  Id vertices);
 
 }  // namespace gale::detail

@@ -7,7 +7,7 @@
 #include <gale/base/parallel.hpp>
 #include <gale/mesh/encode.hpp>
 #include <gale/mesh/mesh.hpp>
-#include <gale/mesh/simplex_store.hpp>
+#include <gale/mesh/numbering/simplex_store.hpp>
 
 namespace gale {
 
@@ -39,11 +39,11 @@ class EncodedOnce {
 namespace {
 
 template <class Space>
-using Ids = Array<Id, MemoryOf<Space>>;
+using IdsIn = Array<Id, MemoryOf<Space>>;
 
 template <class Space>
-Ids<Space> inverse_of(const Space& space, const Array<const Id, MemoryOf<Space>>& permutation) {
-  const auto inverse = allocate<Ids<Space>>("GALE::vertex_internal", permutation.extent(0));
+IdsIn<Space> inverse_of(const Space& space, const Array<const Id, MemoryOf<Space>>& permutation) {
+  const auto inverse = allocate<IdsIn<Space>>("GALE::vertex_internal", permutation.extent(0));
   parallel_for(
       "GALE::invert", space, permutation.extent(0),
       KOKKOS_LAMBDA(Offset i) { inverse(permutation(i)) = static_cast<Id>(i); });
@@ -52,9 +52,9 @@ Ids<Space> inverse_of(const Space& space, const Array<const Id, MemoryOf<Space>>
 
 /// I_T: where each segment's lowest vertex begins.
 template <class Space>
-Ids<Space> internal_begin_of(const Space& space, const Array<const Id, MemoryOf<Space>>& vertex_begin,
-                             const Ids<Space>& tetrahedra_of_lowest) {
-  const auto begin = allocate<Ids<Space>>("GALE::internal_begin", vertex_begin.extent(0));
+IdsIn<Space> internal_begin_of(const Space& space, const Array<const Id, MemoryOf<Space>>& vertex_begin,
+                               const IdsIn<Space>& tetrahedra_of_lowest) {
+  const auto begin = allocate<IdsIn<Space>>("GALE::internal_begin", vertex_begin.extent(0));
   parallel_for(
       "GALE::internal_begin", space, vertex_begin.extent(0),
       KOKKOS_LAMBDA(Offset s) { begin(s) = tetrahedra_of_lowest(vertex_begin(s)); });
@@ -73,19 +73,20 @@ detail::PermutedMesh encode(const Space& space, const Tetrahedra<Index, Memory>&
     sorted = detail::sort_tetrahedra<Space, Index>(space, input, vertex_internal);
   }
   detail::MeshArrays arrays;
-  arrays.tetrahedra = sorted.vertices;
-  arrays.tetrahedron_begin = sorted.begin;
+  arrays.tetrahedra = sorted.of_lowest.entries;
+  arrays.tetrahedron_begin = sorted.of_lowest.offsets;
   arrays.vertex_begin = segmentation.vertex_begin;
-  arrays.internal_begin = internal_begin_of(space, segmentation.vertex_begin.in<Here>(), sorted.begin);
-  const auto external = detail::find_external_tetrahedra(space,
-                                                         EncodedMesh<Here>{detail::by_four<Here>(sorted.vertices),
-                                                                           arrays.vertex_begin.in<Here>(),
-                                                                           arrays.internal_begin.in<Here>(),
-                                                                           {},
-                                                                           {}},
-                                                         segmentation.vertices());
-  arrays.external_begin = external.begin;
-  arrays.external = external.ids;
+  arrays.internal_begin = internal_begin_of(space, segmentation.vertex_begin.in<Here>(), sorted.of_lowest.offsets);
+  const auto external =
+      detail::find_external_tetrahedra(space,
+                                       EncodedMesh<Here>{detail::by_four<Here>(sorted.of_lowest.entries),
+                                                         arrays.vertex_begin.in<Here>(),
+                                                         arrays.internal_begin.in<Here>(),
+                                                         {},
+                                                         {}},
+                                       segmentation.vertices());
+  arrays.external_begin = external.offsets;
+  arrays.external = external.entries;
   space.fence();
   return {arrays, segmentation.vertex_input, vertex_internal, sorted.input,
           segmentation.is_part() ? segmentation.owned_segments : segmentation.segments()};

@@ -7,8 +7,7 @@
 #include <gale/base/require_ids.hpp>
 #include <gale/base/transfer.hpp>
 #include <gale/base/worker_or_host.hpp>
-#include <gale/mesh/morton_codes.hpp>
-#include <gale/mesh/octree_leaves.hpp>
+#include <gale/mesh/octree.hpp>
 #include <gale/mesh/segmentation.hpp>
 
 namespace gale {

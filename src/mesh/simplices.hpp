@@ -51,7 +51,7 @@ template <class Memory>
 struct Simplices {
   /// An array that this doesn't own.
   template <class T>
-  using Unmanaged = Kokkos::View<const T*, Memory, Kokkos::MemoryUnmanaged>;
+  using Unmanaged = detail::Borrowed<T, Memory>;
 
   IdsByFour<Memory> tetrahedra;     ///< four vertices each, ascending
   Unmanaged<Id> tetrahedron_begin;  ///< vertex a -> the first tetrahedron (a, ., ., .); one more at the end, as in all
@@ -89,17 +89,5 @@ struct Simplices {
     return edge == no_id ? no_id : triangle_of(edge, c);
   }
 };
-
-namespace detail {
-
-/// The tables themselves; empty until they are made.
-struct SimplexTables {
-  Mirrored<Id> edge_begin, edge_low, edge_high;
-  Mirrored<Id> triangle_begin, triangle_edge, triangle_apex;
-  Mirrored<Id> lower_begin, lower_edges;
-  Id longest_list = 0;
-};
-
-}  // namespace detail
 
 }  // namespace gale

@@ -1,11 +1,45 @@
 #pragma once
 
-#include <gale/export.hpp>
+#include <cassert>
+
+#include <gale/base/kokkos.hpp>
+#include <gale/base/types.hpp>
 #include <gale/mesh/mesh.hpp>
-#include <gale/relations/segment_list.hpp>
 #include <gale/relations/segment_rows.hpp>
 
 namespace gale {
+
+/// Segments by their place in a batch: those of an array, or consecutive ones. Owns nothing.
+class SegmentList {
+ public:
+  /// A list of no segments.
+  KOKKOS_DEFAULTED_FUNCTION SegmentList() = default;
+
+  /// The segments of an array, which must outlive it.
+  KOKKOS_FUNCTION SegmentList(const Id* segments) : segments_(segments) {}
+
+  /// The segments `first`, first + 1, ...
+  KOKKOS_FUNCTION static SegmentList from(Id first) {
+    SegmentList list;
+    list.first_ = first;
+    return list;
+  }
+
+  /// The list without the segments before a place.
+  KOKKOS_FUNCTION SegmentList from_place(Id place) const {
+    return segments_ == nullptr ? from(first_ + place) : SegmentList(segments_ + place);
+  }
+
+  /// The segment at a place, counted from 0.
+  KOKKOS_FUNCTION Id operator[](Id place) const {
+    assert((segments_ != nullptr || first_ >= 0) && "there are no segments");
+    return segments_ == nullptr ? first_ + place : segments_[place];
+  }
+
+ private:
+  const Id* segments_ = nullptr;
+  Id first_ = no_id;
+};
 
 /// Where the simplices of each dimension that are internal to a segment begin, by segment (I_V, I_E, I_F and I_T), for
 /// code that can read `Memory`. Null for what is not enumerated. Owns nothing.
@@ -22,7 +56,15 @@ struct IntervalTables {
 
 /// Takes the tables of a mesh. To be called on the host.
 template <class Memory = HostMemory>
-GALE_EXPORT IntervalTables<Memory> interval_tables(const Mesh& mesh);
+IntervalTables<Memory> interval_tables(const Mesh& mesh) {
+  IntervalTables<Memory> tables;
+  for (int dimension = 0; dimension < 4; ++dimension) {
+    const bool enumerated =
+        (dimension != 1 || mesh.known_edges() != no_id) && (dimension != 2 || mesh.known_triangles() != no_id);
+    if (enumerated) tables.begin[dimension] = mesh.interval_begin<Memory>(dimension).data();
+  }
+  return tables;
+}
 
 /// The blocks of some segments: what one run of a kernel leaves in `Memory`. A value that owns nothing; its rows are
 /// readable wherever `Memory` is, in kernels and on the host, as long as whoever made it keeps the arrays.
@@ -62,6 +104,9 @@ struct Batch {
 };
 
 /// Adds all rows that a batch has of a slot to those of its segment.
-GALE_EXPORT void add_rows(const Batch<HostMemory>& batch, Id slot, SegmentRows& rows);
+inline void add_rows(const Batch<HostMemory>& batch, Id slot, SegmentRows& rows) {
+  for (const Relation relation : members_of(batch.relations)) rows.set(relation, batch.rows(slot, relation));
+  if (batch.relations.has_links()) rows.set(batch.links(slot));
+}
 
 }  // namespace gale

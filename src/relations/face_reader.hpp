@@ -1,17 +1,29 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 
 #include <gale/mesh/mesh.hpp>
+#include <gale/relations/faces.hpp>
+#include <gale/relations/preconditioning.hpp>
 #include <gale/relations/segment_rows.hpp>
 
 namespace gale::detail {
+
+/// Writes the row to `ids` if `relation` is the one wanted; its size then, else 0.
+template <Relation relation>
+Id write_face_row_if(Relation wanted, const Simplices<HostMemory>& simplices, Id simplex, Id* ids) {
+  if (wanted != relation) return 0;
+  const auto row = face_row<relation>(simplices, simplex);
+  std::copy(row.begin(), row.end(), ids);
+  return face_count(relation);
+}
 
 /// How a consumer looks up rows of face relations. Used by one thread at a time.
 class FaceReader {
  public:
   /// `relations`: some of face_relations, or none. Enumerates what they need, if it isn't there.
-  FaceReader(const Mesh& mesh, RelationSet relations);
+  FaceReader(const Mesh& mesh, RelationSet relations) : simplices_(mesh.simplices(needs_of(relations))) {}
 
   /// The row of a simplex, which must be one; valid until the next call for the same relation.
   SegmentRows row(Relation relation, Id simplex);
@@ -25,5 +37,21 @@ class FaceReader {
   Simplices<HostMemory> simplices_;
   std::array<Found, 6> found_;  ///< by face relation, which are the first
 };
+
+inline SegmentRows FaceReader::row(Relation relation, Id simplex) {
+  Found& found = found_[static_cast<int>(relation)];
+  Id* const ids = found.ids.data();
+  found.offsets[1] = write_face_row_if<Relation::EV>(relation, simplices_, simplex, ids) +
+                     write_face_row_if<Relation::FV>(relation, simplices_, simplex, ids) +
+                     write_face_row_if<Relation::FE>(relation, simplices_, simplex, ids) +
+                     write_face_row_if<Relation::TV>(relation, simplices_, simplex, ids) +
+                     write_face_row_if<Relation::TE>(relation, simplices_, simplex, ids) +
+                     write_face_row_if<Relation::TF>(relation, simplices_, simplex, ids);
+  Intervals one;
+  one[row_dimension(relation)] = {simplex, simplex + 1};
+  SegmentRows rows(no_id, one);
+  rows.set(relation, Rows{simplex, 1, found.offsets, ids});
+  return rows;
+}
 
 }  // namespace gale::detail

@@ -6,7 +6,7 @@
 
 namespace gale {
 
-/// What of a mesh' simplices whoever looks up or computes rows of these relations reads.
+/// What of a mesh's simplices whoever looks up or computes rows of these relations reads.
 GALE_EXPORT SimplexNeeds needs_of(RelationSet relations);
 
 /// Throws gale::Error, naming the relations and what to do, unless those that a structure was preconditioned for

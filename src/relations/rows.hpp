@@ -80,6 +80,14 @@ struct LinkRows {
   }
 };
 
+/// A vertex and what touches it: its rows of VV and VT, and its link.
+struct VertexStar {
+  Id vertex = no_id;  ///< the vertex itself
+  Row neighbours;     ///< its row of VV
+  Row tetrahedra;     ///< its row of VT
+  LinkRow link;       ///< its link
+};
+
 /// Bytes that a place in rows of at most `longest` entries takes.
 KOKKOS_INLINE_FUNCTION int width_for(Id longest) { return longest <= 256 ? 1 : longest <= 65536 ? 2 : 4; }
 

@@ -2,29 +2,11 @@
 
 #include <gale/base/parallel.hpp>
 #include <gale/runtime/device_sweep.hpp>
+#include <gale/runtime/relation_of.hpp>
 
 namespace gale {
 
-/// A whole relation: the row of simplex i is entries[row_map[i]] to entries[row_map[i + 1] - 1], ascending. As
-/// Kokkos-Kernels and others take graphs.
-template <class Memory>
-struct Graph {
-  Array<const Offset, Memory> row_map;  ///< where each row begins, and the end of the last
-  Array<const Id, Memory> entries;      ///< GALE's ids, row after row
-};
-
 namespace detail {
-
-/// Where GALE's own functors run, which may share a host with any threads: on all of its threads.
-template <class Space>
-auto with_all_threads(const Space& space) {
-  if constexpr (is_device<Space>) {
-    return space;
-  } else {
-    space.fence();
-    return HostThreads();
-  }
-}
 
 template <class Memory>
 struct CountEntries {
@@ -45,25 +27,30 @@ struct CopyEntries {
 
 }  // namespace detail
 
-/// Makes a relation of all simplices at once, in the memory of `space`; what is said of sweeps (device_sweep.hpp)
-/// holds. On the host all threads make it, whatever the space. Rows are made twice, to be counted and to be copied, so
-/// that nothing else takes memory: 8 bytes a row, 4 an entry. Rows of simplices that have ghosts alone are empty.
-/// Throws OutOfMemory where the memory isn't there.
+/// Makes a relation of all simplices at once, in the memory of `space` and in GALE's ids: the row of each simplex,
+/// ascending. On the host it is relation_of on all threads, whatever the space. What is said of sweeps
+/// (device_sweep.hpp) holds on a device; there rows are made twice, to be counted and to be copied, so that nothing
+/// else takes memory: 8 bytes a row, 4 an entry. Rows of simplices that have ghosts alone are empty. Throws OutOfMemory
+/// where the memory isn't there.
 template <class Space>
-Graph<detail::MemoryOfSweep<Space>> graph_of(const Space& space, const Mesh& mesh, Relation relation,
-                                             const DeviceSweepOptions& options = {}) {
-  using Memory = detail::MemoryOfSweep<Space>;
-  mesh.simplices<Memory>(needs_of(relation));
-  const auto all = detail::with_all_threads(space);
-  const Offset rows = mesh.interval_begin(row_dimension(relation))(mesh.segments());
-  const auto begin = allocate<Array<Offset, Memory>>("GALE::graph_row_map", rows + 1);
-  if (mesh.owned_segments() < mesh.segments()) Kokkos::deep_copy(begin, Offset(0));
-  const detail::CountEntries<Memory> count{begin};
-  for_each_row(all, mesh, relation, count, options);
-  const Offset total = exclusive_scan("GALE::graph_row_map", all, rows, begin, count);
-  const auto entries = allocate<Array<Id, Memory>>("GALE::graph_entries", total);
-  for_each_row(all, mesh, relation, detail::CopyEntries<Memory>{begin, entries}, options);
-  return {begin, entries};
+Csr<const Id, detail::MemoryOfSweep<Space>> graph_of(const Space& space, const Mesh& mesh, Relation relation,
+                                                     const DeviceSweepOptions& options = {}) {
+  if constexpr (is_device<Space>) {
+    using Memory = detail::MemoryOfSweep<Space>;
+    mesh.simplices<Memory>(needs_of(relation));
+    const Offset rows = mesh.interval_begin(row_dimension(relation))(mesh.segments());
+    const auto offsets = allocate<Array<Offset, Memory>>("GALE::graph_offsets", rows + 1);
+    if (mesh.owned_segments() < mesh.segments()) Kokkos::deep_copy(offsets, Offset(0));
+    const detail::CountEntries<Memory> count{offsets};
+    for_each_row(space, mesh, relation, count, options);
+    const Offset total = exclusive_scan("GALE::graph_offsets", space, rows, offsets, count);
+    const auto entries = allocate<Array<Id, Memory>>("GALE::graph_entries", total);
+    for_each_row(space, mesh, relation, detail::CopyEntries<Memory>{offsets, entries}, options);
+    return {offsets, entries};
+  } else {
+    space.fence();
+    return relation_of(mesh, relation, Ids::gale);
+  }
 }
 
 }  // namespace gale

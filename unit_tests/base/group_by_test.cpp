@@ -15,8 +15,8 @@ using Lists = std::vector<std::vector<Id>>;
 
 template <class Groups>
 Lists to_lists(const Groups& groups) {
-  const auto begin = to_vector(groups.begin);
-  const auto members = to_vector(groups.members);
+  const auto begin = to_vector(groups.offsets);
+  const auto members = to_vector(groups.entries);
   EXPECT_EQ(begin.front(), 0);
   EXPECT_EQ(static_cast<std::size_t>(begin.back()), members.size());
   Lists lists;
@@ -68,9 +68,9 @@ TEST(GroupBy, takes_any_number_of_keys_an_item) {
 
 TEST(GroupBy, of_no_keys_is_empty) {
   const auto groups = group_by("test_group", WorkerSpace(), 0, 0, Residues());
-  EXPECT_EQ(groups.begin.extent(0), 1u);
-  EXPECT_EQ(to_vector(groups.begin), std::vector<Offset>{0});
-  EXPECT_EQ(groups.members.extent(0), 0u);
+  EXPECT_EQ(groups.rows(), 0);
+  EXPECT_EQ(to_vector(groups.offsets), std::vector<Offset>{0});
+  EXPECT_EQ(groups.entries.extent(0), 0u);
 }
 
 }  // namespace gale::test

@@ -40,7 +40,7 @@ Keys random_keys(std::size_t count, std::uint64_t mask) {
 
 void expect_sorted_rows(const std::vector<Offset>& begin, const std::vector<Id>& values) {
   const auto sorted = to_worker(values);
-  sort_rows(WorkerSpace(), "test_sort", to_worker(begin), sorted);
+  sort_rows(WorkerSpace(), "test_sort", Csr<Id, WorkerMemory>{to_worker(begin), sorted});
   std::vector<Id> expected = values;
   for (std::size_t row = 0; row + 1 < begin.size(); ++row) {
     std::sort(expected.begin() + begin[row], expected.begin() + begin[row + 1]);

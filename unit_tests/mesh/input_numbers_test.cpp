@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <gale/mesh/input_numbers.hpp>
-#include <gale/mesh/number_by_vertex.hpp>
+#include <gale/mesh/numbering/number.hpp>
 
 #include "support/arrays.hpp"
 #include "support/every_mesh.hpp"
@@ -58,9 +58,9 @@ TEST_P(InputNumbersOf, every_mesh_are_those_that_sorting_gives) {
   needs.upto = Enumeration::triangles;
   const auto all = mesh.simplices(needs);
   const auto numbers = detail::number_by_vertex(all, mesh.vertex_input(), true, true);
-  EXPECT_EQ(to_vector(numbers.edges), to_vector(detail::sort_edges(HostExecutionSpace(), all, mesh.vertex_input())));
-  EXPECT_EQ(to_vector(numbers.triangles),
-            to_vector(detail::sort_triangles(HostExecutionSpace(), all, mesh.vertex_input())));
+  const auto sorted = detail::number_by_sorting(HostExecutionSpace(), all, mesh.vertex_input(), true, true);
+  EXPECT_EQ(to_vector(numbers.edges), to_vector(sorted.edges));
+  EXPECT_EQ(to_vector(numbers.triangles), to_vector(sorted.triangles));
 }
 
 INSTANTIATE_TEST_SUITE_P(Tests, InputNumbersOf, every_mesh_and_segmentation(), mesh_and_segmentation);

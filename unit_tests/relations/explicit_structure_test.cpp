@@ -4,7 +4,7 @@
 
 #include <gale/base/error.hpp>
 #include <gale/runtime/explicit/explicit_structure.hpp>
-#include <gale/runtime/explicit/global_graph.hpp>
+#include <gale/runtime/explicit/kokkos_kernels.hpp>
 
 #include "relations/star_subsets.hpp"
 #include "support/brute_force.hpp"

@@ -152,11 +152,11 @@ TEST(DeviceSweep, leaves_what_its_functor_wrote_for_any_reader) {
   const Mesh mesh = encode(input, 100);
   const ExpectedRows expected(input, BruteForce(input), mesh, Relation::VV);
   const auto graph = graph_of(WorkerSpace(), mesh, Relation::VV);
-  const auto row_map = to_vector(graph.row_map);
+  const auto offsets = to_vector(graph.offsets);
   const auto entries = to_vector(graph.entries);
-  ASSERT_EQ(row_map.size(), expected.vv.size() + 1);
+  ASSERT_EQ(offsets.size(), expected.vv.size() + 1);
   for (std::size_t v = 0; v < expected.vv.size(); ++v) {
-    const std::vector<Id> row(entries.begin() + row_map[v], entries.begin() + row_map[v + 1]);
+    const std::vector<Id> row(entries.begin() + offsets[v], entries.begin() + offsets[v + 1]);
     ASSERT_EQ(row, expected.vv[v]) << v;
   }
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include <gale/base/error.hpp>
-#include <gale/mesh/input_numbers.hpp>
 #include <gale/mesh/make_mesh.hpp>
 
 #include "fields.hpp"
@@ -90,20 +89,6 @@ PyMesh::PyMesh(io::Dataset& dataset, int capacity) : capacity_(capacity) {
 const Mesh& PyMesh::mesh() const {
   if (!mesh_) throw Error("gale has ended with the interpreter");
   return *mesh_;
-}
-
-std::array<const Id*, 2> PyMesh::numbers(int one, int other) const {
-  const auto lock = gale::detail::lock_or_stop(numbers_mutex_);
-  const auto missing = [&](int dimension) { return numbers_[dimension].data() == nullptr; };
-  if (std::min(one, other) == 1 && std::max(one, other) == 2 && missing(1) && missing(2)) {
-    const InputNumbers both = input_numbers(mesh());
-    numbers_[1] = both.edges;
-    numbers_[2] = both.triangles;
-  }
-  for (const int dimension : {one, other}) {
-    if (missing(dimension)) numbers_[dimension] = input_numbers(mesh(), dimension);
-  }
-  return {numbers_[one].data(), numbers_[other].data()};
 }
 
 nb::object PyMesh::points() const {

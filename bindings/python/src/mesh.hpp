@@ -3,7 +3,6 @@
 #include <array>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <utility>
@@ -28,7 +27,6 @@ class PyMesh : public Kept {
 
   void end() override {
     mesh_.reset();
-    numbers_ = {};
     dataset_ = {};
   }
 
@@ -51,17 +49,12 @@ class PyMesh : public Kept {
  private:
   const Mesh& mesh() const;
 
-  /// input_numbers of two dimensions, made once. As long as the mesh is there; from any thread.
-  std::array<const Id*, 2> numbers(int one, int other) const;
-
   /// The points with the field as their array.
   io::Dataset with(const io::PointArray& field) const;
 
   int capacity_;
   io::Dataset dataset_;  ///< the points alone
   std::optional<Mesh> mesh_;
-  mutable std::mutex numbers_mutex_;
-  mutable std::array<Array<const Id, HostMemory>, 4> numbers_;
 };
 
 /// (the mesh that a file has, its point arrays, what of it was left out)

@@ -30,27 +30,24 @@ void Segments::find_segments() {
 }
 
 void Segments::group(const Cells& cells) {
-  if (tetrahedron_input_ != nullptr || group_begin_.data() != nullptr) return;
+  if (tetrahedron_input_ != nullptr || grouped_.rows() > 0) return;
   const Id* const segment_of = segment_of_.data();
-  const auto groups =
-      group_by("GALE::ttk_cells", HostExecutionSpace(), cells.count(), count(), [=](Id cell, const auto& visit) {
-        Id met[4];
-        for (int corner = 0; corner < 4; ++corner) {
-          const Id here = met[corner] = segment_of[cells.vertex(cell, corner)];
-          bool fresh = true;
-          for (int before = 0; before < corner; ++before) fresh = fresh && met[before] != here;
-          if (fresh) visit(here);
-        }
-      });
-  group_begin_ = groups.begin;
-  grouped_ = groups.members;
+  grouped_ = group_by("GALE::ttk_cells", HostExecutionSpace(), cells.count(), count(), [=](Id cell, const auto& visit) {
+    Id met[4];
+    for (int corner = 0; corner < 4; ++corner) {
+      const Id here = met[corner] = segment_of[cells.vertex(cell, corner)];
+      bool fresh = true;
+      for (int before = 0; before < corner; ++before) fresh = fresh && met[before] != here;
+      if (fresh) visit(here);
+    }
+  });
 }
 
 void Segments::gather(Id segment, std::vector<Id>& cells) const {
   cells.clear();
   if (tetrahedron_input_ == nullptr) {
-    const Offset* const begin = group_begin_.data() + segment;
-    cells.assign(grouped_.data() + begin[0], grouped_.data() + begin[1]);
+    const Span<Id> row = grouped_.row(segment);
+    cells.assign(row.begin(), row.end());
     return;
   }
   for (Id t = encoded_.internal_begin(segment); t < encoded_.internal_begin(segment + 1); ++t) {

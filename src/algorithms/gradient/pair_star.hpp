@@ -2,7 +2,7 @@
 
 #include <gale/algorithms/gradient/edge_pairs.hpp>
 #include <gale/base/kokkos.hpp>
-#include <gale/relations/vertex_star.hpp>
+#include <gale/relations/rows.hpp>
 
 namespace gale::detail {
 

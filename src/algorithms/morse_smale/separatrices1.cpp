@@ -1,4 +1,5 @@
 #include <gale/algorithms/morse_smale/separatrices1.hpp>
+#include <gale/base/csr.hpp>
 #include <gale/base/hash_table.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/base/transfer.hpp>
@@ -8,12 +9,8 @@ namespace gale::detail {
 
 namespace {
 
-/// Paths one after the other, on the host: that from the i-th start is cells[begin[i]] to cells[begin[i + 1] - 1];
-/// empty if it leaves through the surface.
-struct Followed {
-  Array<const Offset, HostMemory> begin;
-  Array<const Id, HostMemory> cells;
-};
+/// The cells of the path from each start, on the host; none if it leaves through the surface.
+using Followed = Csr<const Id, HostMemory>;
 
 /// How many simplices a path of successors has; 0 if it leaves through the surface.
 KOKKOS_INLINE_FUNCTION Offset length_of(const Id* successors, Id from) {
@@ -59,18 +56,18 @@ template <class Place>
 Separatrices<Id> paths_of(const Followed& followed, const std::vector<Id>& sources, const Place& place) {
   const Offset count = static_cast<Offset>(sources.size());
   const auto rank = allocate<Array<Id, HostMemory>>("GALE::path_rank", count + 1);
-  const auto is_there = [&](Offset i) { return followed.begin(i + 1) > followed.begin(i); };
+  const auto is_there = [&](Offset i) { return followed.offsets(i + 1) > followed.offsets(i); };
   const Id paths_there = exclusive_scan("GALE::count_paths", HostExecutionSpace(), count, rank, is_there);
   Separatrices<Id> paths;
   paths.sources.resize(paths_there);
   paths.destinations.resize(paths_there);
   paths.begin.resize(paths_there + 1);
-  paths.cells.assign(followed.cells.data(), followed.cells.data() + followed.cells.extent(0));
+  paths.cells.assign(followed.entries.data(), followed.entries.data() + followed.entries.extent(0));
   parallel_for("GALE::name_paths", HostExecutionSpace(), count, [&](Offset i) {
     if (!is_there(i)) return;
-    const Offset end = followed.begin(i + 1);
+    const Offset end = followed.offsets(i + 1);
     paths.sources[rank(i)] = sources[i];
-    paths.destinations[rank(i)] = place(followed.cells(end - 1));
+    paths.destinations[rank(i)] = place(followed.entries(end - 1));
     paths.begin[rank(i) + 1] = end;
   });
   return paths;

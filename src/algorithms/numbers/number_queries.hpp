@@ -37,17 +37,15 @@ class NumberQueries {
       require_vertices(mesh, simplices[i]);
       return mesh.segment_of(0, ascending(i)[0]);
     });
-    begin_ = by_segment.begin;
-    queries_ = allocate<Array<Query, HostMemory>>("GALE::number_queries", count);
+    queries_ = {by_segment.offsets, allocate<Array<Query, HostMemory>>("GALE::number_queries", count)};
     parallel_for("GALE::fill_number_queries", host, count, [&](Offset i) {
-      const Id index = by_segment.members(i);
-      queries_(i) = {ascending(index)[0], index};
+      const Id index = by_segment.entries(i);
+      queries_.entries(i) = {ascending(index)[0], index};
     });
   }
 
   /// The queries of a segment, in no order.
-  Query* begin(Id segment) const { return queries_.data() + begin_(segment); }
-  Query* end(Id segment) const { return queries_.data() + begin_(segment + 1); }
+  Span<Query> of(Id segment) const { return queries_.row(segment); }
 
   /// The vertices of a simplex (GALE's), by ascending input id.
   Simplex ascending(Offset index) const {
@@ -67,8 +65,9 @@ class NumberQueries {
 
   /// When all places are set: the numbers, from those of the first simplex of each input vertex.
   std::vector<Id> take_numbers(const Array<Id, HostMemory>& begin) {
+    const auto& all = queries_.entries;
     parallel_for("GALE::add_numbers", Kokkos::DefaultHostExecutionSpace(), numbers_.size(),
-                 [&](Offset i) { numbers_[queries_(i).index] += begin(input_[queries_(i).vertex]); });
+                 [&](Offset i) { numbers_[all(i).index] += begin(input_[all(i).vertex]); });
     return std::move(numbers_);
   }
 
@@ -89,8 +88,7 @@ class NumberQueries {
 
   const std::vector<Simplex>& simplices_;
   const Id* input_;
-  Array<Id, HostMemory> begin_;  ///< of each segment's queries
-  Array<Query, HostMemory> queries_;
+  Csr<Query, HostMemory, Id> queries_;  ///< by segment
   std::vector<Id> numbers_;
 };
 

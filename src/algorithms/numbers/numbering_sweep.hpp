@@ -13,7 +13,7 @@ namespace gale::detail {
 /// the lowest input id, and finds the places of those asked for among these.
 class NumberingSweep {
  public:
-  using Ids = Array<Id, HostMemory>;
+  using Counts = Array<Id, HostMemory>;
 
   /// `named` must outlive it; the first vertices of all are owned.
   NumberingSweep(Structure& structure, const NamedSimplices& named, const SweepOptions& options)
@@ -21,8 +21,8 @@ class NumberingSweep {
         input_(structure.mesh().vertex_input().data()),
         edges_(structure.mesh(), named.edges),
         triangles_(structure.mesh(), named.triangles),
-        edge_counts_(allocate<Ids>("GALE::first_edges", vertices_ + 1)),
-        triangle_counts_(allocate<Ids>("GALE::first_triangles", vertices_ + 1)),
+        edge_counts_(allocate<Counts>("GALE::first_edges", vertices_ + 1)),
+        triangle_counts_(allocate<Counts>("GALE::first_triangles", vertices_ + 1)),
         on_surface_(allocate<Array<std::uint8_t, HostMemory>>("GALE::on_surface", vertices_)),
         large_(std::max(options.threads, 1)) {
     structure.for_each_segment(simplex_numbers_relations, options,
@@ -30,8 +30,8 @@ class NumberingSweep {
   }
 
   /// By input vertex, with room for one more. Those of ghosts mean nothing.
-  const Ids& edge_counts() const { return edge_counts_; }
-  const Ids& triangle_counts() const { return triangle_counts_; }
+  const Counts& edge_counts() const { return edge_counts_; }
+  const Counts& triangle_counts() const { return triangle_counts_; }
 
   NumberQueries<2>& edges() { return edges_; }
   NumberQueries<3>& triangles() { return triangles_; }
@@ -57,10 +57,10 @@ class NumberingSweep {
   /// The simplices of one segment whose places are still to be found, in the order of its vertices.
   struct Pending {
     Pending(const NumberQueries<2>& edges, const NumberQueries<3>& triangles, Id segment)
-        : edge(edges.begin(segment)),
-          last_edge(edges.end(segment)),
-          triangle(triangles.begin(segment)),
-          last_triangle(triangles.end(segment)) {
+        : edge(edges.of(segment).begin()),
+          last_edge(edges.of(segment).end()),
+          triangle(triangles.of(segment).begin()),
+          last_triangle(triangles.of(segment).end()) {
       std::sort(edge, last_edge);
       std::sort(triangle, last_triangle);
     }
@@ -89,7 +89,7 @@ class NumberingSweep {
   const Id* input_;
   NumberQueries<2> edges_;
   NumberQueries<3> triangles_;
-  Ids edge_counts_, triangle_counts_;
+  Counts edge_counts_, triangle_counts_;
   Array<std::uint8_t, HostMemory> on_surface_;
   std::vector<LargeLaterStar> large_;
 };

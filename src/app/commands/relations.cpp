@@ -9,7 +9,7 @@
 #include <gale/app/session.hpp>
 #include <gale/base/error.hpp>
 #include <gale/baselines/oracle.hpp>
-#include <gale/mesh/input_numbers.hpp>
+#include <gale/runtime/relation_of.hpp>
 
 namespace gale::app {
 
@@ -69,21 +69,13 @@ std::int64_t count_differences(Structure& structure, Relation relation, baseline
   return oracle.rows() - same + more;
 }
 
-/// All rows, in input ids.
-void write_rows(std::ostream& out, Structure& structure, Relation relation, const Sizes& sizes) {
-  const Mesh& mesh = structure.mesh();
-  const auto row_numbers = input_numbers(mesh, row_dimension(relation)),
-             entry_numbers = input_numbers(mesh, entry_dimension(relation));
-  std::vector<Id> simplex_of(row_numbers.extent(0)), entries;
-  for (std::size_t i = 0; i < simplex_of.size(); ++i) simplex_of[row_numbers(i)] = static_cast<Id>(i);
-  const auto consumer = structure.consumer();
-  out << "# " << name_of(relation) << ": " << sizes.rows << " rows, " << sizes.entries << " entries\n";
-  for (std::size_t number = 0; number < simplex_of.size(); ++number) {
-    entries.clear();
-    for (const Id entry : consumer->row(relation, simplex_of[number])) entries.push_back(entry_numbers(entry));
-    std::sort(entries.begin(), entries.end());
-    out << number << ':';
-    for (const Id entry : entries) out << ' ' << entry;
+/// Writes all rows, in input ids.
+void write_rows(std::ostream& out, const Mesh& mesh, Relation relation) {
+  const auto rows = relation_of(mesh, relation, Ids::input);
+  out << "# " << name_of(relation) << ": " << rows.rows() << " rows, " << rows.entries.extent(0) << " entries\n";
+  for (Offset i = 0; i < rows.rows(); ++i) {
+    out << i << ':';
+    for (const Id entry : rows.row(i)) out << ' ' << entry;
     out << '\n';
   }
 }
@@ -155,7 +147,7 @@ class ComputeRelation final : public Command {
     tell(sizes, relation, session);
     if (verify_) verify(*structure, relation, structure_.is_explicit(), sizes, session);
     session.write(dump_, [&](const io::AtomicFile& file) {
-      write_text(file, [&](std::ostream& out) { write_rows(out, *structure, relation, sizes); });
+      write_text(file, [&](std::ostream& out) { write_rows(out, mesh, relation); });
     });
     session.finish(structure.get());
   }

@@ -2,8 +2,7 @@
 
 #include <gale/base/bits.hpp>
 #include <gale/relations/kernels/bit_star_scratch.hpp>
-#include <gale/relations/kernels/outside_vertices.hpp>
-#include <gale/relations/kernels/segment_tetrahedra.hpp>
+#include <gale/relations/kernels/star_request.hpp>
 
 namespace gale::detail {
 

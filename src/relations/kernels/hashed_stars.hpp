@@ -1,8 +1,7 @@
 #pragma once
 
-#include <gale/relations/kernels/hashed_star_scratch.hpp>
 #include <gale/relations/kernels/neighbour_set.hpp>
-#include <gale/relations/kernels/segment_tetrahedra.hpp>
+#include <gale/relations/kernels/star_request.hpp>
 
 namespace gale::detail {
 

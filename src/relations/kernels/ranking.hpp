@@ -1,5 +1,6 @@
 #pragma once
 
+#include <gale/base/ordered.hpp>
 #include <gale/base/team.hpp>
 #include <gale/base/types.hpp>
 
@@ -16,36 +17,12 @@ KOKKOS_FORCEINLINE_FUNCTION Id count_less(const Id* ids, Id count, Id than) {
 
 /// Place of `id` in an ascending row that has it.
 KOKKOS_FORCEINLINE_FUNCTION Id place_in(const Id* row, Id count, Id id) {
-  Id low = 0, high = count;
-  while (low < high) {
-    const Id middle = low + (high - low) / 2;
-    if (row[middle] < id) {
-      low = middle + 1;
-    } else {
-      high = middle;
-    }
-  }
-  return low;
+  return bisect(Id(0), count, [=](Id i) { return row[i] < id; });
 }
 
 KOKKOS_FORCEINLINE_FUNCTION void heap_sort(Id* ids, Id count) {
-  const auto sift_down = [ids](Id root, Id end) {
-    const Id id = ids[root];
-    for (Id child = 2 * root + 1; child < end; child = 2 * root + 1) {
-      if (child + 1 < end && ids[child] < ids[child + 1]) ++child;
-      if (!(id < ids[child])) break;
-      ids[root] = ids[child];
-      root = child;
-    }
-    ids[root] = id;
-  };
-  for (Id root = count / 2 - 1; root >= 0; --root) sift_down(root, count);
-  for (Id end = count - 1; end > 0; --end) {
-    const Id last = ids[end];
-    ids[end] = ids[0];
-    ids[0] = last;
-    sift_down(0, end);
-  }
+  gale::heap_sort(
+      count, [=](Id i) { return ids[i]; }, [=](Id i, Id id) { ids[i] = id; });
 }
 
 /// Inside for_warps: calls visit(i, id, place) with the place in ascending order that each of the distinct `ids` has; i

@@ -6,13 +6,63 @@
 
 #include <gale/base/team.hpp>
 #include <gale/mesh/simplices.hpp>
+#include <gale/relations/batch.hpp>
 #include <gale/relations/kernels/block_pool.hpp>
 #include <gale/relations/kernels/row_entries.hpp>
-#include <gale/relations/kernels/row_stash.hpp>
 #include <gale/relations/rows.hpp>
-#include <gale/relations/segment_list.hpp>
 
 namespace gale {
+
+namespace detail {
+
+/// Up to how many entries of a row its lane keeps from counting to writing, so that it needn't find them twice: as many
+/// as most rows have, unless finding them is no work. On a device scratch memory is short.
+KOKKOS_FUNCTION constexpr Id stash_capacity(Relation relation, bool on_device) {
+  if (relation == Relation::VF) return 40;
+  if (relation == Relation::EF || relation == Relation::ET) return 8;
+  if (relation == Relation::FF) return on_device ? 0 : 18;
+  if (relation == Relation::FT) return 2;
+  return relation == Relation::TT ? 4 : 0;
+}
+
+/// The first entries of each row of a segment, in ascending order, in its scratch memory. Those of neighbouring rows
+/// lie side by side.
+template <Relation relation, bool on_device>
+class RowStash {
+ public:
+  /// Nothing is kept in segments of more rows.
+  static constexpr Id most_rows = 4096;
+
+  KOKKOS_INLINE_FUNCTION static constexpr Id capacity_for(Id rows) {
+    return rows > most_rows ? 0 : stash_capacity(relation, on_device);
+  }
+
+  /// In memory for rows * capacity_for(rows) ids.
+  KOKKOS_INLINE_FUNCTION RowStash(Id* ids, Id rows) : ids_(ids), rows_(rows), capacity_(capacity_for(rows)) {}
+
+  KOKKOS_INLINE_FUNCTION Id capacity() const { return capacity_; }
+
+  /// Adds the entry that comes after `count` others, if there is room.
+  KOKKOS_INLINE_FUNCTION void add(Id row, Id count, Id id) const {
+    if (count >= capacity_) return;
+    Id at = count;
+    if constexpr (!visits_in_order(relation)) {
+      for (; at > 0 && ids_[(at - 1) * rows_ + row] > id; --at) ids_[at * rows_ + row] = ids_[(at - 1) * rows_ + row];
+    }
+    ids_[at * rows_ + row] = id;
+  }
+
+  KOKKOS_INLINE_FUNCTION void read(Id row, Id count, Id* to) const {
+    for (Id i = 0; i < count; ++i) to[i] = ids_[i * rows_ + row];
+  }
+
+ private:
+  Id* ids_;
+  Id rows_;
+  Id capacity_;
+};
+
+}  // namespace detail
 
 /// Computes one relation other than VV, VT and link for one segment a team: the rows of the simplices that are internal
 /// to it, compact and ascending.
@@ -32,8 +82,6 @@ class RowKernel {
   int scratch_level = 0;
   BlockPool pool;
 
-  using Search = detail::Search;
-
   const char* label() const;
 
   KOKKOS_FUNCTION static std::size_t scratch_bytes(const StarSizes& sizes, int /*warps*/) {
@@ -43,9 +91,9 @@ class RowKernel {
   /// On the calling thread.
   void operator()(const HostTeam& team) const {
     if constexpr (detail::can_bisect(relation)) {
-      if (bisects()) return compute<Search::bisect>(team, team.scratch());
+      if (bisects()) return compute<detail::Bisect>(team, team.scratch());
     }
-    compute<Search::look_through>(team, team.scratch());
+    compute<detail::LookThrough>(team, team.scratch());
   }
 
   /// Calls use(functor) with what Kokkos is to run on its teams: one for each level of scratch memory, see
@@ -55,17 +103,17 @@ class RowKernel {
     kernel.use_on_teams(use);
   }
 
-  template <int level, Search search>
+  template <int level, class Search>
   struct OnTeams {
     RowKernel kernel;
 
     template <class Team>
     KOKKOS_FUNCTION void operator()(const Team& team) const {
-      kernel.template compute<search>(team, team::scratch<level>(team, scratch_bytes(kernel.sizes, 1)));
+      kernel.template compute<Search>(team, team::scratch<level>(team, scratch_bytes(kernel.sizes, 1)));
     }
   };
 
-  template <Search search, class Team>
+  template <class Search, class Team>
   KOKKOS_FORCEINLINE_FUNCTION void compute(const Team& team, char* memory) const {
     Shared& shared = *reinterpret_cast<Shared*>(memory);
     auto* const begin = reinterpret_cast<std::uint32_t*>(memory + sizeof(Shared));
@@ -82,7 +130,7 @@ class RowKernel {
     const Stash stash(reinterpret_cast<Id*>(begin) + sizes.rows + 1, sizes.rows);
     team::once(team, [&] { shared.overflows = 0; });
     team::for_all(team, rows,
-                  [&](Id row) { begin[row] = static_cast<std::uint32_t>(count<search>(first + row, stash, row)); });
+                  [&](Id row) { begin[row] = static_cast<std::uint32_t>(count<Search>(first + row, stash, row)); });
     team::exclusive_scan(team, rows, begin);
     team::for_all(team, rows, [&](Id row) {
       if (begin[row + 1] > most_entries) shared.overflows = 1;  // the first that is too many hasn't wrapped around yet
@@ -99,7 +147,7 @@ class RowKernel {
     Id* const ids = offsets + rows + 1;
     team::for_all(team, rows + 1, [&](Id row) { offsets[row] = static_cast<Id>(begin[row]); });
     team::for_all(team, rows, [&](Id row) {
-      write<search>(first + row, stash, row, ids + begin[row], static_cast<Id>(begin[row + 1] - begin[row]));
+      write<Search>(first + row, stash, row, ids + begin[row], static_cast<Id>(begin[row + 1] - begin[row]));
     });
   }
 
@@ -110,14 +158,14 @@ class RowKernel {
   template <class Use>
   void use_on_teams(const Use& use) const {
     if constexpr (detail::can_bisect(relation)) {
-      if (bisects()) return use_at_level<Search::bisect>(use);
+      if (bisects()) return use_at_level<detail::Bisect>(use);
     }
-    use_at_level<Search::look_through>(use);
+    use_at_level<detail::LookThrough>(use);
   }
 
-  template <Search search, class Use>
+  template <class Search, class Use>
   void use_at_level(const Use& use) const {
-    scratch_level == 0 ? use(OnTeams<0, search>{*this}) : use(OnTeams<1, search>{*this});
+    scratch_level == 0 ? use(OnTeams<0, Search>{*this}) : use(OnTeams<1, Search>{*this});
   }
 
   static constexpr std::uint32_t most_entries = 2147483647;  ///< that an Id counts
@@ -138,20 +186,20 @@ class RowKernel {
     if constexpr (dimension == 3) return simplices.tetrahedron_begin(vertex);
   }
 
-  template <Search search>
+  template <class Search>
   KOKKOS_FUNCTION Id count(Id simplex, const Stash& stash, Id row) const {
-    if (stash.capacity() == 0) return detail::count_entries<relation, search>(simplices, simplex);
+    if (stash.capacity() == 0) return detail::count_entries<relation, Search>(simplices, simplex);
     Id entries = 0;
-    detail::for_each_entry<relation, search>(simplices, simplex, [&](Id id) { stash.add(row, entries++, id); });
+    detail::for_each_entry<relation, Search>(simplices, simplex, [&](Id id) { stash.add(row, entries++, id); });
     return entries;
   }
 
-  template <Search search>
+  template <class Search>
   KOKKOS_FUNCTION void write(Id simplex, const Stash& stash, Id row, Id* out, Id count) const {
     if (count <= stash.capacity()) {
       stash.read(row, count, out);
     } else {
-      detail::write_entries<relation, search>(simplices, simplex, out, count);
+      detail::write_entries<relation, Search>(simplices, simplex, out, count);
     }
   }
 };

@@ -33,7 +33,7 @@ struct KernelTask {
 template <class Memory>
 class SegmentKernel {
  public:
-  /// Enumerates what the kernel needs of the mesh' simplices.
+  /// Enumerates what the kernel needs of the mesh's simplices.
   SegmentKernel(const Mesh& mesh, RelationSet wanted);
   ~SegmentKernel();
   SegmentKernel(SegmentKernel&&) noexcept;

@@ -6,7 +6,7 @@
 #include <gale/base/atomic.hpp>
 #include <gale/base/memory.hpp>
 #include <gale/base/transfer.hpp>
-#include <gale/relations/vertex_star.hpp>
+#include <gale/relations/rows.hpp>
 
 namespace gale::detail {
 

@@ -1,25 +1,23 @@
+#include <gale/runtime/explicit/explicit_relations.hpp>
 #include <gale/runtime/explicit/explicit_structure.hpp>
-#include <gale/runtime/explicit/global_relations.hpp>
 
 namespace gale {
 
 struct ExplicitStructure::Data {
-  detail::GlobalRelations global;
+  detail::ExplicitRelations all;
 
   /// Rows of the simplices given; those of all lie together, so there is nothing to compute.
   SegmentRows rows(RelationSet wanted, Id segment, const Intervals& simplices) const {
     SegmentRows rows(segment, simplices);
-    for (const Relation relation : members_of(wanted)) rows.set(relation, rows_of(relation));
-    if (wanted.has_links()) rows.set(global.links.rows(rows_of(Relation::VT)));
+    for (const Relation relation : members_of(wanted)) rows.set(relation, all.rows(relation));
+    if (wanted.has_links()) rows.set(all.links());
     return rows;
   }
-
-  Rows rows_of(Relation relation) const { return global.rows[static_cast<int>(relation)].rows(); }
 
   Intervals intervals_of(Id segment) const {
     Intervals intervals;
     for (int dimension = 0; dimension < 4; ++dimension) {
-      const auto& begin = global.segment_begin[dimension];
+      const auto& begin = all.segment_begin[dimension];
       if (begin.extent(0) != 0) intervals[dimension] = {begin(segment), begin(segment + 1)};
     }
     return intervals;
@@ -29,17 +27,17 @@ struct ExplicitStructure::Data {
   Intervals intervals() const {
     Intervals intervals;
     for (int dimension = 0; dimension < 4; ++dimension) {
-      if (global.count[dimension] != no_id) intervals[dimension] = {0, global.count[dimension]};
+      if (all.count[dimension] != no_id) intervals[dimension] = {0, all.count[dimension]};
     }
     return intervals;
   }
 };
 
 ExplicitStructure::ExplicitStructure(const Mesh& mesh, RelationSet wanted)
-    : Structure(mesh, wanted, Way::explicit_), data_(new Data{detail::global_relations(mesh, wanted)}) {}
+    : Structure(mesh, wanted, Way::explicit_), data_(new Data{detail::explicit_relations(mesh, wanted)}) {}
 ExplicitStructure::~ExplicitStructure() = default;
 
-Id ExplicitStructure::count(int dimension) const { return data_->global.count[dimension]; }
+Id ExplicitStructure::count(int dimension) const { return data_->all.count[dimension]; }
 
 std::unique_ptr<Structure::Sweep> ExplicitStructure::begin_sweep(RelationSet wanted, int consumers,
                                                                  const SegmentBody&) {

@@ -107,8 +107,8 @@ void sweep_in(const Space& space, const gale::Mesh& mesh) {
   use_atomics<unsigned long long, Memory>(space, mesh);
   use_atomics<float, Memory>(space, mesh);
   use_atomics<double, Memory>(space, mesh);
-  const gale::Graph<Memory> graph = gale::graph_of(space, mesh, Relation::VT);
-  expect(graph.row_map.extent(0) == vertices + 1 && graph.entries.extent(0) == 4 * tetrahedra, "a graph");
+  const gale::Csr<const gale::Id, Memory> graph = gale::graph_of(space, mesh, Relation::VT);
+  expect(graph.offsets.extent(0) == vertices + 1 && graph.entries.extent(0) == 4 * tetrahedra, "a graph");
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include <gale/base/memory.hpp>
+#include <gale/base/csr.hpp>
 #include <gale/export.hpp>
 #include <gale/mesh/intervals.hpp>
 #include <gale/mesh/mesh.hpp>
@@ -38,15 +38,14 @@ class GALE_EXPORT Segments {
   /// Replaces `cells` by those that touch a segment, in no order. To be grouped before, where there is no mesh.
   void gather(Id segment, std::vector<Id>& cells) const;
 
-  std::size_t bytes() const { return sizeof(Id) * (segment_of_.span() + grouped_.span()); }
+  std::size_t bytes() const { return sizeof(Id) * (segment_of_.span() + grouped_.entries.span()); }
 
  private:
   void find_segments();
 
   Array<const Id, HostMemory> vertex_input_, vertex_internal_, vertex_begin_;
   Array<Id, HostMemory> segment_of_;
-  Array<Offset, HostMemory> group_begin_;  ///< segment -> its cells in grouped_
-  Array<Id, HostMemory> grouped_;
+  Csr<Id, HostMemory> grouped_;  ///< segment -> its cells
   EncodedMesh<HostMemory> encoded_;
   const Id* tetrahedron_input_ = nullptr;  ///< where there is a mesh
 };

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <gale/base/kokkos.hpp>
+#include <gale/base/types.hpp>
+
+// Searching and sorting as one thread does by itself, on the host and in kernels.
+
+namespace gale {
+
+/// The first place from `begin` on, before `end`, that isn't before what is sought; `end` if all are.
+/// `is_before(place)` holds for some first ones, and for none after these.
+template <class Place, class IsBefore>
+KOKKOS_FORCEINLINE_FUNCTION Place bisect(Place begin, Place end, const IsBefore& is_before) {
+  while (begin < end) {
+    const Place middle = begin + (end - begin) / 2;
+    if (is_before(middle)) {
+      begin = middle + 1;
+    } else {
+      end = middle;
+    }
+  }
+  return begin;
+}
+
+/// Sorts entries ascending, in place and in n log n time: load(i) is the i-th, store(i, entry) replaces it.
+template <class Load, class Store>
+KOKKOS_INLINE_FUNCTION void heap_sort(Id count, const Load& load, const Store& store) {
+  const auto sift_down = [&](Id root, Id end) {
+    const auto entry = load(root);
+    for (Id child = 2 * root + 1; child < end; child = 2 * root + 1) {
+      if (child + 1 < end && load(child) < load(child + 1)) ++child;
+      const auto larger = load(child);
+      if (!(entry < larger)) break;
+      store(root, larger);
+      root = child;
+    }
+    store(root, entry);
+  };
+  for (Id root = count / 2 - 1; root >= 0; --root) sift_down(root, count);
+  for (Id end = count - 1; end > 0; --end) {
+    const auto last = load(end);
+    store(end, load(0));
+    store(0, last);
+    sift_down(0, end);
+  }
+}
+
+}  // namespace gale

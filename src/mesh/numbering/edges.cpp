@@ -1,0 +1,222 @@
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include <gale/base/group_by.hpp>
+#include <gale/base/parallel.hpp>
+#include <gale/base/require_ids.hpp>
+#include <gale/base/sort_rows.hpp>
+#include <gale/mesh/numbering/candidates.hpp>
+#include <gale/mesh/numbering/enumerate.hpp>
+#include <gale/mesh/numbering/sorted_pairs.hpp>
+
+namespace gale::detail {
+
+namespace {
+
+/// The second and third vertex of a tetrahedron.
+template <class Memory>
+struct MiddleVertices {
+  Simplices<Memory> simplices;
+
+  template <class Visit>
+  KOKKOS_FUNCTION void operator()(Id t, const Visit& visit) const {
+    for (int corner = 1; corner < 3; ++corner) visit(simplices.tetrahedra(t, corner));
+  }
+};
+
+/// The higher neighbours of a vertex, once for each of its tetrahedra.
+template <class Memory>
+struct HigherNeighbours {
+  Simplices<Memory> simplices;
+  Borrowed<Offset, Memory> middle_begin;
+  Borrowed<Id, Memory> middle;
+
+  HigherNeighbours(const Simplices<Memory>& all, const MiddleStars<Memory>& stars)
+      : simplices(all), middle_begin(stars.offsets), middle(stars.entries) {}
+
+  template <class Visit>
+  KOKKOS_FUNCTION void operator()(Id vertex, const Visit& visit) const {
+    for (Id t = simplices.tetrahedron_begin(vertex); t < simplices.tetrahedron_begin(vertex + 1); ++t) {
+      for (int corner = 1; corner < 4; ++corner) visit(simplices.tetrahedra(t, corner));
+    }
+    for (Offset i = middle_begin(vertex); i < middle_begin(vertex + 1); ++i) {
+      const Id t = middle(i);
+      if (simplices.tetrahedra(t, 1) == vertex) visit(simplices.tetrahedra(t, 2));
+      visit(simplices.tetrahedra(t, 3));
+    }
+  }
+};
+
+/// The edges of a tetrahedron whose lower vertex has too many for a lane.
+template <class Memory>
+struct EdgesOfMany {
+  Simplices<Memory> simplices;
+  Borrowed<Id, Memory> count;
+
+  template <class Visit>
+  KOKKOS_FUNCTION void operator()(Id t, const Visit& visit) const {
+    for (int low = 0; low < 3; ++low) {
+      const Id vertex = simplices.tetrahedra(t, low);
+      if (count(vertex) != FewDistinct::too_many) continue;
+      for (int high = low + 1; high < 4; ++high) visit(pair_key(vertex, simplices.tetrahedra(t, high)));
+    }
+  }
+};
+
+/// The higher vertex of an edge.
+template <class Memory>
+struct HigherVertex {
+  Simplices<Memory> simplices;
+
+  KOKKOS_FUNCTION Id operator()(Id edge) const { return simplices.edge_high(edge); }
+};
+
+/// Makes of how many edges each vertex has where they begin.
+template <class Space>
+Csr<Id, MemoryOf<Space>, Id> edges_with(const Space& space, const Array<Id, MemoryOf<Space>>& count) {
+  const Offset vertices = static_cast<Offset>(count.extent(0)) - 1;
+  const Offset total = reduce_sum(
+      "GALE::total_edges", space, vertices, KOKKOS_LAMBDA(Offset v) { return Offset(count(v)); });
+  require_ids("edges", total);
+  exclusive_scan(
+      "GALE::scan_edges", space, vertices, count, KOKKOS_LAMBDA(Offset v) { return count(v); });
+  return {count, allocate<Array<Id, MemoryOf<Space>>>("GALE::edge_high", total)};
+}
+
+}  // namespace
+
+template <class Space>
+MiddleStars<MemoryOf<Space>> find_middle_stars(const Space& space, const Simplices<MemoryOf<Space>>& simplices) {
+  const Offset vertices = simplices.tetrahedron_begin.extent(0) - 1, tetrahedra = simplices.tetrahedra.extent(0);
+  return group_by("GALE::middle_stars", space, tetrahedra, vertices, MiddleVertices<MemoryOf<Space>>{simplices});
+}
+
+template <class Space>
+Csr<Id, MemoryOf<Space>, Id> edges_by_lanes(const Space& space, const Simplices<MemoryOf<Space>>& simplices,
+                                            const MiddleStars<MemoryOf<Space>>& stars) {
+  using Memory = MemoryOf<Space>;
+  const Offset vertices = simplices.tetrahedron_begin.extent(0) - 1;
+  const HigherNeighbours<Memory> candidates(simplices, stars);
+  const auto count = allocate<Array<Id, Memory>>("GALE::edge_begin", vertices + 1);
+  parallel_for(
+      "GALE::count_edges", space, vertices, KOKKOS_LAMBDA(Offset v) {
+        FewDistinct few;
+        candidates(static_cast<Id>(v), [&](Id id) { few.insert(id); });
+        count(v) = few.size();
+      });
+  const bool some_have_many = reduce_min(
+                                  "GALE::find_many_edges", space, vertices, Id(0),
+                                  KOKKOS_LAMBDA(Offset v) { return count(v); }) == FewDistinct::too_many;
+  const auto many =
+      some_have_many ? SortedPairs<Space>(space, simplices.tetrahedra.extent(0), EdgesOfMany<Memory>{simplices, count})
+                     : SortedPairs<Space>();
+  many.write_counts(count);
+  const auto ends = edges_with(space, count);
+  parallel_for(
+      "GALE::write_edges", space, vertices, KOKKOS_LAMBDA(Offset v) {
+        FewDistinct few;
+        candidates(static_cast<Id>(v), [&](Id id) { few.insert(id); });
+        for (Id i = 0; i < few.size(); ++i) ends.entries(ends.offsets(v) + i) = few[i];
+      });
+  many.write(ends.offsets, ends.entries);
+  return ends;
+}
+
+Csr<Id, HostMemory, Id> edges_by_threads(const Simplices<HostMemory>& simplices, const MiddleStars<HostMemory>& stars) {
+  const Offset vertices = simplices.tetrahedron_begin.extent(0) - 1;
+  const HigherNeighbours<HostMemory> candidates(simplices, stars);
+  const auto count = allocate<Array<Id, HostMemory>>("GALE::edge_begin", vertices + 1);
+  std::vector<std::vector<Id>> found(host_threads());  // by the threads' parts of the vertices
+  const int parts = static_cast<int>(found.size());
+  for_parts("GALE::count_edges", vertices, parts, [&](int part, Offset first, Offset last) {
+    constexpr Offset usual = 8;
+    std::vector<Id> all, many;  // the ends of those in `found` share cache lines
+    all.reserve(usual * (last - first));
+    LastSeen seen;
+    for (Offset v = first; v < last; ++v) {
+      stop_if_asked_at(v);
+      FewDistinct few;
+      candidates(static_cast<Id>(v), [&](Id id) {
+        if (seen.is_new(v, id)) few.insert(id);
+      });
+      if (few.size() != FewDistinct::too_many) {
+        for (Id i = 0; i < few.size(); ++i) all.push_back(few[i]);
+        count(v) = few.size();
+        continue;
+      }
+      many.clear();
+      candidates(static_cast<Id>(v), [&](Id id) { many.push_back(id); });
+      std::sort(many.begin(), many.end());
+      many.erase(std::unique(many.begin(), many.end()), many.end());
+      all.insert(all.end(), many.begin(), many.end());
+      count(v) = static_cast<Id>(many.size());
+    }
+    found[part] = std::move(all);
+  });
+  const auto ends = edges_with(HostExecutionSpace(), count);
+  for_parts("GALE::write_edges", vertices, parts, [&](int part, Offset first, Offset) {
+    std::copy(found[part].begin(), found[part].end(), ends.entries.data() + ends.offsets(first));
+  });
+  return ends;
+}
+
+template <class Space>
+void enumerate_edges(const Space& space, const Simplices<MemoryOf<Space>>& simplices,
+                     const MiddleStars<MemoryOf<Space>>& stars, SimplexTables& tables) {
+  Csr<Id, MemoryOf<Space>, Id> ends;
+  if constexpr (is_device<Space>) {
+    ends = edges_by_lanes(space, simplices, stars);
+  } else {
+    ends = edges_by_threads(simplices, stars);
+  }
+  const auto low = row_of_entries(space, "GALE::edge_low", ends.offsets, ends.entries.extent(0));
+  tables.edge_begin = ends.offsets;
+  tables.edge_low = low;
+  tables.edge_high = ends.entries;
+}
+
+template <class Space>
+void sort_edges_by_higher(const Space& space, const Simplices<MemoryOf<Space>>& simplices, SimplexTables& tables) {
+  const Offset vertices = simplices.edge_begin.extent(0) - 1, edges = simplices.edge_high.extent(0);
+  const auto lower =
+      group_by_key<Id>("GALE::lower_edges", space, edges, vertices, HigherVertex<MemoryOf<Space>>{simplices});
+  sort_rows(space, "GALE::sort_lower", lower);
+  tables.lower_begin = lower.offsets;
+  tables.lower_edges = lower.entries;
+  tables.longest_list = std::max({longest_row(space, lower.offsets), longest_row(space, simplices.edge_begin),
+                                  longest_row(space, simplices.tetrahedron_begin)});
+}
+
+template <class Space>
+Array<Id, MemoryOf<Space>> row_of_entries(const Space& space, const char* label,
+                                          const Borrowed<Id, MemoryOf<Space>>& begin, Offset entries) {
+  const auto row_of = allocate<Array<Id, MemoryOf<Space>>>(label, entries);
+  parallel_for(
+      label, space, Offset(begin.extent(0)) - 1, KOKKOS_LAMBDA(Offset row) {
+        for (Id i = begin(row); i < begin(row + 1); ++i) row_of(i) = static_cast<Id>(row);
+      });
+  return row_of;
+}
+
+template <class Space>
+Id longest_row(const Space& space, const Borrowed<Id, MemoryOf<Space>>& begin) {
+  return -reduce_min(
+      "GALE::longest_row", space, Offset(begin.extent(0)) - 1, Id(0),
+      KOKKOS_LAMBDA(Offset row) { return begin(row) - begin(row + 1); });
+}
+
+#define GALE_INSTANTIATE(Space)                                                                                       \
+  template MiddleStars<MemoryOf<Space>> find_middle_stars(const Space&, const Simplices<MemoryOf<Space>>&);           \
+  template Csr<Id, MemoryOf<Space>, Id> edges_by_lanes(const Space&, const Simplices<MemoryOf<Space>>&,               \
+                                                       const MiddleStars<MemoryOf<Space>>&);                          \
+  template void enumerate_edges(const Space&, const Simplices<MemoryOf<Space>>&, const MiddleStars<MemoryOf<Space>>&, \
+                                SimplexTables&);                                                                      \
+  template void sort_edges_by_higher(const Space&, const Simplices<MemoryOf<Space>>&, SimplexTables&);                \
+  template Array<Id, MemoryOf<Space>> row_of_entries(const Space&, const char*, const Borrowed<Id, MemoryOf<Space>>&, \
+                                                     Offset);                                                         \
+  template Id longest_row(const Space&, const Borrowed<Id, MemoryOf<Space>>&)
+GALE_IN_EACH_SPACE(GALE_INSTANTIATE);
+#undef GALE_INSTANTIATE
+
+}  // namespace gale::detail

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <gale/base/csr.hpp>
+#include <gale/mesh/simplices.hpp>
+
+// Edges and triangles in lexicographic order, vertex by vertex: each finds its own, which are those to higher vertices,
+// in the tetrahedra that have them. Functions throw gale::Error if there are more than 2^31 - 1 simplices, naming their
+// number, and OutOfMemory; then the tables are as they were. The last steps are enqueued on the instance of a device,
+// as loops are.
+
+namespace gale::detail {
+
+/// The tables of `Simplices` themselves; empty until they are made.
+struct SimplexTables {
+  Mirrored<Id> edge_begin, edge_low, edge_high;
+  Mirrored<Id> triangle_begin, triangle_edge, triangle_apex;
+  Mirrored<Id> lower_begin, lower_edges;
+  Id longest_list = 0;
+};
+
+/// For each vertex the tetrahedra of which it is the second or third, in no order: with those of which it is the
+/// lowest, all that its edges and triangles to higher vertices are in.
+template <class Memory>
+using MiddleStars = Csr<Id, Memory>;
+
+template <class Space>
+MiddleStars<MemoryOf<Space>> find_middle_stars(const Space& space, const Simplices<MemoryOf<Space>>& simplices);
+
+/// The higher end of each edge, by the lower one, as a device finds them: lanes count those of a vertex in memory of
+/// their own and find them again to write them; where they are too many, they are sorted. `simplices` has the
+/// tetrahedra.
+template <class Space>
+Csr<Id, MemoryOf<Space>, Id> edges_by_lanes(const Space& space, const Simplices<MemoryOf<Space>>& simplices,
+                                            const MiddleStars<MemoryOf<Space>>& stars);
+
+/// Finds them as the host does: its threads write them down as they count them.
+Csr<Id, HostMemory, Id> edges_by_threads(const Simplices<HostMemory>& simplices, const MiddleStars<HostMemory>& stars);
+
+/// Makes edge_begin, edge_low and edge_high. `simplices` has the tetrahedra.
+template <class Space>
+void enumerate_edges(const Space& space, const Simplices<MemoryOf<Space>>& simplices,
+                     const MiddleStars<MemoryOf<Space>>& stars, SimplexTables& tables);
+
+/// Makes lower_begin, lower_edges and longest_list. `simplices` has the edges and tetrahedron_begin.
+template <class Space>
+void sort_edges_by_higher(const Space& space, const Simplices<MemoryOf<Space>>& simplices, SimplexTables& tables);
+
+/// Makes triangle_begin and triangle_apex. `simplices` has the tetrahedra and edges.
+template <class Space>
+void enumerate_triangles(const Space& space, const Simplices<MemoryOf<Space>>& simplices,
+                         const MiddleStars<MemoryOf<Space>>& stars, SimplexTables& tables);
+
+/// The row of each entry, where rows begin at `begin`: e.g. edge_low from edge_begin.
+template <class Space>
+Array<Id, MemoryOf<Space>> row_of_entries(const Space& space, const char* label,
+                                          const Borrowed<Id, MemoryOf<Space>>& begin, Offset entries);
+
+/// How many entries the longest row has.
+template <class Space>
+Id longest_row(const Space& space, const Borrowed<Id, MemoryOf<Space>>& begin);
+
+}  // namespace gale::detail

@@ -1,0 +1,179 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include <gale/base/error.hpp>
+#include <gale/base/ordered.hpp>
+#include <gale/base/parallel.hpp>
+#include <gale/base/transfer.hpp>
+#include <gale/mesh/octree.hpp>
+
+namespace gale::detail {
+
+namespace {
+
+/// Two zero bits between any two of the lowest 21.
+KOKKOS_FUNCTION std::uint64_t spread_bits(std::uint64_t x) {
+  x &= 0x1fffff;
+  x = (x | x << 32) & 0x001f00000000ffffULL;
+  x = (x | x << 16) & 0x001f0000ff0000ffULL;
+  x = (x | x << 8) & 0x100f00f00f00f00fULL;
+  x = (x | x << 4) & 0x10c30c30c30c30c3ULL;
+  return (x | x << 2) & 0x1249249249249249ULL;
+}
+
+template <class Memory>
+using Codes = Array<std::uint64_t, Memory>;
+
+/// The octree cell that holds the codes of equal `code >> shift`, looked at around the sorted position `at`, which it
+/// holds. It is searched no further than `capacity` positions away.
+template <class Memory>
+struct CellWindow {
+  const Codes<Memory>& codes;
+  int shift;
+  Id at;
+  Id capacity;
+
+  KOKKOS_FUNCTION bool inside(Id i) const { return (codes(i) >> shift) == (codes(at) >> shift); }
+
+  KOKKOS_FUNCTION Id begin() const {
+    return bisect(at > capacity ? at - capacity : 0, at, [this](Id i) { return !inside(i); });
+  }
+
+  /// Does the cell hold more than `capacity` codes? If `first` is where it begins, as `begin()` says.
+  KOKKOS_FUNCTION bool overflows(Id first) const {
+    return static_cast<Offset>(first) + capacity < static_cast<Offset>(codes.extent(0)) && inside(first + capacity);
+  }
+};
+
+/// Levels of the octree at which two different codes lie in the same cell.
+KOKKOS_FUNCTION int common_levels(std::uint64_t a, std::uint64_t b) {
+  int shift = 3 * (morton_levels - 1);
+  int levels = 0;
+  while (levels < morton_levels && (a >> shift) == (b >> shift)) {
+    ++levels;
+    shift -= 3;
+  }
+  return levels;
+}
+
+template <class Memory>
+KOKKOS_FUNCTION Id run_begin(const Codes<Memory>& codes, Id at) {
+  return bisect(Id(0), at, [&](Id i) { return codes(i) != codes(at); });
+}
+
+/// A leaf begins where the smallest cell that holds both a code and its predecessor has more than `capacity` codes.
+template <class Memory>
+KOKKOS_FUNCTION bool begins_leaf(const Codes<Memory>& codes, Id at, Id capacity) {
+  if (at == 0) return true;
+  if (codes(at - 1) == codes(at)) {
+    if (at < capacity || codes(at - capacity) != codes(at)) return false;
+    return (at - run_begin(codes, at)) % capacity == 0;
+  }
+  const int levels = common_levels(codes(at - 1), codes(at));
+  const CellWindow<Memory> cell{codes, 3 * (morton_levels - levels), at, capacity};
+  return cell.overflows(cell.begin());
+}
+
+}  // namespace
+
+template <class Coordinate, class Space>
+void require_finite(const Space& space, const Points<Coordinate, MemoryOf<Space>>& points) {
+  const Offset count = points.extent(0);
+  const Offset bad = reduce_min(
+      "GALE::finite_points", space, count, count, KOKKOS_LAMBDA(Offset i) {
+        const double x = points(i, 0), y = points(i, 1), z = points(i, 2);
+        return (x - x) + (y - y) + (z - z) == 0 ? count : i;
+      });
+  if (bad < count) throw Error("point " + std::to_string(bad) + " has a coordinate that is not finite");
+}
+
+template <class Coordinate, class Space>
+Box bounding_box(const Space& space, const Points<Coordinate, MemoryOf<Space>>& points) {
+  require_finite<Coordinate>(space, points);
+  const Offset count = points.extent(0);
+  Box box{};
+  for (int axis = 0; axis < 3; ++axis) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    box.low[axis] = reduce_min(
+        "GALE::lowest_point", space, count, infinity, KOKKOS_LAMBDA(Offset i) { return double(points(i, axis)); });
+    box.high[axis] = -reduce_min(
+        "GALE::highest_point", space, count, infinity, KOKKOS_LAMBDA(Offset i) { return -double(points(i, axis)); });
+  }
+  return box;
+}
+
+Cube cube_around(const Box& box) {
+  Cube cube{};
+  double extent = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    cube.origin[axis] = box.low[axis];
+    extent = std::max(extent, box.high[axis] - box.low[axis]);
+  }
+  int exponent = 0;
+  std::frexp(extent, &exponent);  // extent < 2^exponent
+  cube.cells_per_unit = extent > 0 ? std::ldexp(1.0, morton_levels - exponent) : 0.0;
+  return cube;
+}
+
+template <class Coordinate, class Space>
+Array<std::uint64_t, MemoryOf<Space>> morton_codes(const Space& space,
+                                                   const Points<Coordinate, MemoryOf<Space>>& points,
+                                                   const Cube& cube) {
+  const auto codes = allocate<Array<std::uint64_t, MemoryOf<Space>>>("GALE::morton_codes", points.extent(0));
+  parallel_for(
+      "GALE::morton_codes", space, points.extent(0), KOKKOS_LAMBDA(Offset i) {
+        std::uint64_t code = 0;
+        for (int axis = 0; axis < 3; ++axis) {
+          constexpr double last = (1 << morton_levels) - 1;
+          const double cell = (double(points(i, axis)) - cube.origin[axis]) * cube.cells_per_unit;
+          code |= spread_bits(static_cast<std::uint64_t>(cell < last ? cell : last)) << (2 - axis);
+        }
+        codes(i) = code;
+      });
+  return codes;
+}
+
+template <class Space>
+std::vector<Id> octree_leaves(const Space& space, const Array<std::uint64_t, MemoryOf<Space>>& codes, int capacity) {
+  using Ids = Array<Id, MemoryOf<Space>>;
+  const auto count = static_cast<Id>(codes.extent(0));
+  const auto leaf_of = allocate<Ids>("GALE::leaf_of", count + Offset(1));
+  const Id limit = capacity;
+  const Id leaves = exclusive_scan(
+      "GALE::octree_leaves", space, count, leaf_of,
+      KOKKOS_LAMBDA(Offset i) { return begins_leaf(codes, static_cast<Id>(i), limit) ? 1 : 0; });
+  const auto begin = allocate<Ids>("GALE::leaf_begin", leaves);
+  parallel_for(
+      "GALE::leaf_begin", space, count, KOKKOS_LAMBDA(Offset i) {
+        if (leaf_of(i + 1) > leaf_of(i)) begin(leaf_of(i)) = static_cast<Id>(i);
+      });
+  const auto begin_on_host = on_host(begin);
+  return {begin_on_host.data(), begin_on_host.data() + leaves};
+}
+
+std::vector<Id> merge_leaves(const std::vector<Id>& leaves, Id count, int capacity) {
+  std::vector<Id> begin;
+  for (std::size_t leaf = 0; leaf < leaves.size(); ++leaf) {
+    const Id end = leaf + 1 < leaves.size() ? leaves[leaf + 1] : count;
+    if (begin.empty() || end - begin.back() > capacity) begin.push_back(leaves[leaf]);
+  }
+  begin.push_back(count);
+  return begin;
+}
+
+#define GALE_INSTANTIATE_FOR(Coordinate, Space)                                                                   \
+  template GALE_EXPORT void require_finite<Coordinate>(const Space&, const Points<Coordinate, MemoryOf<Space>>&); \
+  template GALE_EXPORT Box bounding_box<Coordinate>(const Space&, const Points<Coordinate, MemoryOf<Space>>&);    \
+  template GALE_EXPORT Array<std::uint64_t, MemoryOf<Space>> morton_codes<Coordinate>(                            \
+      const Space&, const Points<Coordinate, MemoryOf<Space>>&, const Cube&)
+#define GALE_INSTANTIATE(Space)        \
+  GALE_INSTANTIATE_FOR(float, Space);  \
+  GALE_INSTANTIATE_FOR(double, Space); \
+  template std::vector<Id> octree_leaves(const Space&, const Array<std::uint64_t, MemoryOf<Space>>&, int)
+GALE_IN_EACH_SPACE(GALE_INSTANTIATE);
+#undef GALE_INSTANTIATE
+#undef GALE_INSTANTIATE_FOR
+
+}  // namespace gale::detail
