@@ -6,7 +6,6 @@
 
 #include <gale/base/error.hpp>
 #include <gale/base/parallel.hpp>
-#include <gale/base/view_tracking.hpp>
 #include <gale/mesh/input_numbers.hpp>
 #include <gale/runtime/make_structure.hpp>
 #include <gale/runtime/relation_of.hpp>
