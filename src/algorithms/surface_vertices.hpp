@@ -9,7 +9,7 @@ namespace gale {
 
 /// Which vertices are on the surface: 1 for a vertex (GALE's id) of a triangle that exactly one tetrahedron has, else
 /// 0. Vertices without tetrahedra are not on the surface. Triangles with three or more tetrahedra aren't part of it.
-/// Of ghosts, 0.
+/// Ghosts have 0.
 ///
 /// A sweep of link rows on all our threads.
 GALE_EXPORT Array<std::uint8_t, HostMemory> surface_vertices(const Mesh& mesh);

@@ -21,7 +21,7 @@ const AnalysisArray on_boundary{"IsOnBoundary", "int8"}, vertex{"ttkVertexScalar
 
 const std::vector<AnalysisArray> critical_arrays{dimension, cell, on_boundary, vertex};
 
-/// Those that lines and polygons of separatrices have, with `DestinationId` for the former.
+/// Cell arrays of separatrices: lines have a destination, polygons none.
 std::vector<AnalysisArray> separatrix_arrays(bool has_destination) {
   std::vector<AnalysisArray> arrays{{"SourceId", "int32"},
                                     {"DestinationId", "int32"},

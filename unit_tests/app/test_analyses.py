@@ -75,14 +75,14 @@ class Analyses(gale.CommandTest):
     def test_filters_have_their_options(self):
         proxies = {proxy.get("class"): proxy for proxy in
                    xml.etree.ElementTree.parse(ROOT / "bindings" / "paraview" / "plugin" / "filters.xml").iter("SourceProxy")}
-        bodies = re.findall(r"^void (\w+)::Compute\(.*?\) {\n(.*?)^}", (FILTERS / "filters.cpp").read_text(), re.MULTILINE | re.DOTALL)
-        classes = {name[1]: (one, body) for one, body in bodies if (name := re.search(r'analyse\("([\w-]+)"', body))}
+        headers = {header.stem: header.read_text() for header in FILTERS.glob("vtkGale*.h")}
+        classes = {run[1]: name for name, text in headers.items() if (run := re.search(r'vtkGaleAlgorithm\("([\w-]+)"', text))}
         self.assertEqual(set(classes) - {one["name"] for one in self.analyses}, set())
         for analysis in self.each():
             if analysis["name"] not in classes:
                 continue  # it is no filter
-            of_class, body = classes[analysis["name"]]
-            header = (FILTERS / f"{of_class}.h").read_text()
+            of_class = classes[analysis["name"]]
+            header = headers[of_class]
             properties = {one.get("name"): one for one in proxies[of_class] if one.tag.endswith("Property")}
             expected = {}
             for option in analysis["options"]:
@@ -91,14 +91,16 @@ class Analyses(gale.CommandTest):
                 else:
                     expected[option["property"]] = "01"[option["is_on"]]
                     self.assertEqual(properties[option["property"]].find("Documentation").text, option["help"] + ".")
-                    self.assertIn(f'"{option["name"]}", this->{option["property"]}', body)
+                    self.assertIn(f'AskFlag("{option["name"]}", this->{option["property"]})', header)
             self.assertEqual({name: one.get("default_values") for name, one in properties.items()}, expected)
             for name, default in expected.items():
                 self.assertRegex(header, rf"vtkSet(?:Clamp)?Macro\({name},")
                 value = re.search(rf"^  \w+ {name} = (\w+);$", header, re.MULTILINE)[1]
                 self.assertEqual({"false": "0", "true": "1"}.get(value, value), default)
-            ports = [result for result in analysis["results"] if result["shape"] != "count"]
+            ports = [result["shape"] for result in analysis["results"] if result["shape"] != "count"]
             self.assertEqual(len(proxies[of_class].findall("OutputPort")), len(ports))
+            mesh_port = ports.index("mesh") if "mesh" in ports else -1
+            self.assertIn(f'("{analysis["name"]}", {len(ports)}, {mesh_port})', header)
 
     def test_documents_name_their_arrays(self):
         for analysis in self.each():

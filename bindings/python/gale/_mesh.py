@@ -78,7 +78,7 @@ class Mesh:
 
     @classmethod
     def from_pyvista(cls, grid: Any, capacity: int = 64) -> Mesh:
-        """Of a pyvista.UnstructuredGrid, or a vtkUnstructuredGrid, all of whose cells are tetrahedra."""
+        """The mesh of a pyvista.UnstructuredGrid, or a vtkUnstructuredGrid, all of whose cells are tetrahedra."""
         if not hasattr(grid, "IsA") or not grid.IsA("vtkUnstructuredGrid"):
             raise Error(f"what is of {type(grid).__name__} is no unstructured grid of tetrahedra")
         return cls(*_cells_of(grid), capacity)

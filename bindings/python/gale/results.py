@@ -70,7 +70,7 @@ _SHOWN = 10  # rows
 
 
 class _Table(_Result):
-    """Of n rows, in columns."""
+    """A table of n rows, in columns."""
 
     def _tables(self) -> str:
         columns = self._columns()

@@ -2,7 +2,6 @@
 
 #include <gale/outputs/analyses.hpp>
 
-#include "fields.hpp"
 #include "job.hpp"
 #include "mesh.hpp"
 

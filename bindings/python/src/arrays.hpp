@@ -3,16 +3,24 @@
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 
+#include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include <Kokkos_Core.hpp>
 
+#include <gale/algorithms/vertex_order.hpp>
 #include <gale/base/error.hpp>
 #include <gale/base/kokkos.hpp>
+#include <gale/base/stop.hpp>
+#include <gale/io/dataset.hpp>
+#include <gale/io/write.hpp>
 
-// Arrays that callers hand over, by DLPack or as numpy's, in host memory or a device's.
+// Arrays that callers hand over, by DLPack or as numpy's, in host memory or a device's; and those that they are given.
 
 namespace gale::python {
 
@@ -47,5 +55,67 @@ auto with_view(const Array1& array, const char* name, const Use& use) {
   if (is_on_device(array, name)) return use(InWorker(data, array.shape(0)));
   return use(InHost(data, array.shape(0)));
 }
+
+/// Any bytes as a text: files don't promise UTF-8.
+nb::str text_of(std::string_view bytes);
+
+/// A numpy array of what `owner` keeps alive: `values` in rows of `width`, or in one dimension if that is 1.
+template <class T, class Owner>
+nb::object numpy_of(const T* values, std::size_t count, std::size_t width, std::shared_ptr<Owner> owner) {
+  auto* const kept = new std::shared_ptr<Owner>(std::move(owner));
+  const nb::capsule capsule(kept, [](void* p) noexcept { delete static_cast<std::shared_ptr<Owner>*>(p); });
+  const std::size_t shape[] = {count / width, width};
+  return nb::cast(nb::ndarray<nb::numpy, T>(const_cast<T*>(values), width == 1 ? 1 : 2, shape, capsule));
+}
+
+/// A numpy array of a vector, whose memory it takes.
+template <class T>
+nb::object numpy_of(std::vector<T> values, std::size_t width = 1) {
+  const auto owner = std::make_shared<std::vector<T>>(std::move(values));
+  return numpy_of(owner->data(), owner->size(), width, owner);
+}
+
+/// A numpy array of bool, of zeros and ones, whose memory it takes.
+template <class T>
+nb::object flags_of(std::vector<T> zeros_and_ones) {
+  static_assert(sizeof(T) == sizeof(bool));
+  const auto owner = std::make_shared<std::vector<T>>(std::move(zeros_and_ones));
+  return numpy_of(reinterpret_cast<const bool*>(owner->data()), owner->size(), 1, owner);
+}
+
+nb::object numpy_of(const io::Dataset::Positions& points);
+
+/// By their names; of two of one name the latter.
+nb::dict numpy_of(std::vector<io::PointArray> arrays);
+
+/// A result's arrays by their names, flags as bool. Throws gale::Error if the field has the name of another one.
+nb::dict numpy_of_result(std::vector<io::PointArray> arrays);
+
+/// (points, point arrays)
+nb::tuple numpy_of(io::PointSet set);
+
+/// (points, point arrays, where cells begin, their points, arrays of cells), for what has either lines or polygons
+nb::tuple numpy_of(io::Surface surface);
+
+/// A copy of values on the host, which asks now and then whether to stop.
+template <class T>
+std::vector<T> vector_of(const T* values, std::size_t count) {
+  std::vector<T> copy;
+  copy.reserve(count);
+  for (std::size_t done = 0; done < count;) {
+    constexpr std::size_t at_once = 1 << 20;
+    gale::detail::stop_if_asked();
+    const std::size_t next = std::min(done + at_once, count);
+    copy.insert(copy.end(), values + done, values + next);
+    done = next;
+  }
+  return copy;
+}
+
+/// A copy of the field on the host, as the outputs take it. Throws gale::Error unless it has one dimension, and numbers
+/// of up to 8 bytes. To be called within a `Job`, since it may be on a device.
+io::PointArray field_of(const Array1& values, const std::string& name);
+
+VertexOrder order_of(const Mesh& mesh, const io::PointArray& field);
 
 }  // namespace gale::python

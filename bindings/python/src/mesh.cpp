@@ -5,7 +5,6 @@
 #include <gale/base/error.hpp>
 #include <gale/mesh/make_mesh.hpp>
 
-#include "fields.hpp"
 #include "job.hpp"
 
 namespace gale::python {

@@ -11,7 +11,6 @@
 #include <gale/mesh/mesh.hpp>
 
 #include "arrays.hpp"
-#include "numpy.hpp"
 #include "process.hpp"
 
 namespace gale::python {
@@ -22,7 +21,7 @@ class PyMesh : public Kept {
   /// Copies the arrays before it checks them.
   PyMesh(Array1 points, Array1 tetrahedra, int capacity);
 
-  /// Of what a file has; takes its points.
+  /// Makes the mesh that a file has; takes its points.
   PyMesh(io::Dataset& dataset, int capacity);
 
   void end() override {

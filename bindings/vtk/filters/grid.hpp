@@ -1,9 +1,15 @@
 #pragma once
 
+#include <optional>
+
+#include <vtkSmartPointer.h>
+
 #include <gale/io/dataset.hpp>
 #include <gale/mesh/mesh.hpp>
 
 class vtkUnstructuredGrid;
+class vtkDataArray;
+class vtkDataSet;
 
 namespace gale::vtk {
 
@@ -13,5 +19,11 @@ io::Dataset::Positions positions_of(vtkUnstructuredGrid* grid);
 /// The mesh of the grid's tetrahedra, which are read where they are if there are no other cells. Cells of lower
 /// dimension are left out. Throws gale::Error for other cells of dimension 3, and as make_mesh.
 Mesh mesh_of(vtkUnstructuredGrid* grid, const io::Dataset::Positions& points, int capacity);
+
+/// The tetrahedra of the voxels of an image or a rectilinear grid whose values are above `above`, or are finite without
+/// it (`io::split_voxels`), with all point arrays of numbers. `field` is the array that `above` is about; one without a
+/// name is called "field". Throws gale::Error for no field, for axes that aren't as long as their dimensions, and as
+/// io::split_voxels does. Precondition: each array has a row for each point.
+vtkSmartPointer<vtkUnstructuredGrid> split_voxels(vtkDataSet* voxels, vtkDataArray* field, std::optional<double> above);
 
 }  // namespace gale::vtk

@@ -12,7 +12,6 @@
 
 #include "arrays.hpp"
 #include "grid.hpp"
-#include "voxels.hpp"
 
 namespace gale::vtk {
 

@@ -18,6 +18,7 @@
 
 #include <gale/base/error.hpp>
 #include <gale/outputs/field.hpp>
+#include <gale/outputs/segmentation.hpp>
 
 #include "initialize_kokkos.hpp"
 #include "run.hpp"
@@ -81,12 +82,26 @@ void empty(vtkInformationVector* outputs) {
 
 }  // namespace
 
-vtkGaleAlgorithm::vtkGaleAlgorithm(int outputPorts, int meshPort) : MeshPort(meshPort) {
+/// What a filter asks for.
+struct vtkGaleAlgorithm::Request {
+  const char* analysis;
+  int mesh_port;
+  gale::outputs::Settings settings;
+};
+
+vtkGaleAlgorithm::vtkGaleAlgorithm(const char* analysis, int outputPorts, int meshPort)
+    : Asked(new Request{analysis, meshPort, {}}) {
   this->SetNumberOfInputPorts(1);
   this->SetNumberOfOutputPorts(outputPorts);
 }
 
 vtkGaleAlgorithm::~vtkGaleAlgorithm() = default;
+
+void vtkGaleAlgorithm::AskFlag(const char* option, bool isOn) { this->Asked->settings.flags[option] = isOn; }
+
+void vtkGaleAlgorithm::AskThreshold(const char* option, double value, bool isPercent) {
+  this->Asked->settings.thresholds[option] = {value, isPercent};
+}
 
 int vtkGaleAlgorithm::FillInputPortInformation(int, vtkInformation* info) {
   // More than is taken: RequestData refuses the others. Where the pipeline does, outputs stay those of the input
@@ -97,7 +112,7 @@ int vtkGaleAlgorithm::FillInputPortInformation(int, vtkInformation* info) {
 }
 
 int vtkGaleAlgorithm::FillOutputPortInformation(int port, vtkInformation* info) {
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == this->MeshPort ? "vtkUnstructuredGrid" : "vtkPolyData");
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == this->Asked->mesh_port ? "vtkUnstructuredGrid" : "vtkPolyData");
   return 1;
 }
 
@@ -135,7 +150,13 @@ int vtkGaleAlgorithm::RequestData(vtkInformationVector** inputs, vtkInformationV
     if (mesh->GetNumberOfCells() == 0) return 1;  // as empty blocks are: the pipeline has emptied the outputs
     initialize_once();
     gale::vtk::Run run(*this, mesh, this->SelectField(inputs), options);
-    this->Compute(run, outputs);
+    this->Asked->settings = {};
+    this->Ask();
+    if (this->Asked->analysis) {
+      run.analyse(this->Asked->analysis, this->Asked->settings, outputs);
+    } else {
+      run.give({gale::outputs::segments_of(run.mesh())}, outputs, this->Asked->mesh_port);
+    }
     return 1;
   } catch (const gale::vtk::Aborted&) {
     empty(outputs);

@@ -14,18 +14,13 @@
 #ifndef vtkGaleAlgorithm_h
 #define vtkGaleAlgorithm_h
 
+#include <memory>  // for the request
+
 #include "vtkAlgorithm.h"
 #include "vtkFiltersGaleModule.h"  // for export macro
 
 class vtkDataArray;
 class vtkDataObject;
-
-namespace gale {
-namespace vtk  // so that VTK's wrappers can read it
-{
-class Run;
-}
-}  // namespace gale
 
 class VTKFILTERSGALE_EXPORT vtkGaleAlgorithm : public vtkAlgorithm {
  public:
@@ -56,7 +51,7 @@ class VTKFILTERSGALE_EXPORT vtkGaleAlgorithm : public vtkAlgorithm {
 
   //@{
   /**
-   * Of an image or a rectilinear grid, only voxels with values above Threshold become vertices, if UseThreshold is on;
+   * Only voxels of an image or a rectilinear grid with values above Threshold become vertices, if UseThreshold is on;
    * all with finite values if it is off, the default.
    */
   vtkSetMacro(UseThreshold, bool);
@@ -70,18 +65,22 @@ class VTKFILTERSGALE_EXPORT vtkGaleAlgorithm : public vtkAlgorithm {
 
  protected:
   /**
-   * With output ports of vtkPolyData, but for meshPort, which is a vtkUnstructuredGrid.
+   * A filter that runs an analysis (gale/outputs/analyses.hpp) and has an output port for each of its results, of
+   * vtkPolyData, but for meshPort, which is a vtkUnstructuredGrid. Without an analysis that is the mesh with its
+   * segments.
    */
-  vtkGaleAlgorithm(int outputPorts, int meshPort);
+  vtkGaleAlgorithm(const char* analysis, int outputPorts, int meshPort);
   ~vtkGaleAlgorithm() override;
+
+  /**
+   * Says by the two functions below what the properties ask of the analysis.
+   */
+  virtual void Ask() = 0;
+  void AskFlag(const char* option, bool isOn);
+  void AskThreshold(const char* option, double value, bool isPercent);
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
-
-  /**
-   * Computes the outputs. Throws std::exception for what RequestData says by vtkErrorMacro.
-   */
-  virtual void Compute(gale::vtk::Run& run, vtkInformationVector* outputs) = 0;
 
   int NumberOfThreads = 0;
   int Capacity = 64;
@@ -89,7 +88,8 @@ class VTKFILTERSGALE_EXPORT vtkGaleAlgorithm : public vtkAlgorithm {
   double Threshold = 0;
 
  private:
-  int MeshPort;
+  struct Request;
+  const std::unique_ptr<Request> Asked;
 
   vtkDataArray* SelectField(vtkInformationVector** inputs);
   int RequestData(vtkInformationVector** inputs, vtkInformationVector* outputs);

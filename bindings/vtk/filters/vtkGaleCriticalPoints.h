@@ -10,27 +10,25 @@
 #define vtkGaleCriticalPoints_h
 
 #include "vtkGaleAlgorithm.h"
-
-class vtkPolyData;
+#include "vtkObjectFactory.h"  // for New
+#include "vtkPolyData.h"       // for the output
 
 class VTKFILTERSGALE_EXPORT vtkGaleCriticalPoints : public vtkGaleAlgorithm {
  public:
-  static vtkGaleCriticalPoints* New();
+  static vtkGaleCriticalPoints* New() { VTK_STANDARD_NEW_BODY(vtkGaleCriticalPoints); }
   vtkTypeMacro(vtkGaleCriticalPoints, vtkGaleAlgorithm);
 
   //@{
   /**
    * The critical points: port 0 is the only one.
    */
-  vtkPolyData* GetOutput();
-  vtkPolyData* GetOutput(int port);
+  vtkPolyData* GetOutput() { return this->GetOutput(0); }
+  vtkPolyData* GetOutput(int port) { return vtkPolyData::SafeDownCast(this->GetOutputDataObject(port)); }
   //@}
 
  protected:
-  vtkGaleCriticalPoints();
-  ~vtkGaleCriticalPoints() override;
-
-  void Compute(gale::vtk::Run& run, vtkInformationVector* outputs) override;
+  vtkGaleCriticalPoints() : vtkGaleAlgorithm("critical-points", 1, -1) {}
+  void Ask() override {}
 
  private:
   vtkGaleCriticalPoints(const vtkGaleCriticalPoints&) = delete;

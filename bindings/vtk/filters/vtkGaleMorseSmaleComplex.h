@@ -13,15 +13,27 @@
 #define vtkGaleMorseSmaleComplex_h
 
 #include "vtkGaleAlgorithm.h"
-
-class vtkPolyData;
-class vtkUnstructuredGrid;
+#include "vtkObjectFactory.h"     // for New
+#include "vtkPolyData.h"          // for the outputs
+#include "vtkUnstructuredGrid.h"  // for the outputs
 
 class VTKFILTERSGALE_EXPORT vtkGaleMorseSmaleComplex : public vtkGaleAlgorithm {
  public:
-  static vtkGaleMorseSmaleComplex* New();
+  static vtkGaleMorseSmaleComplex* New() { VTK_STANDARD_NEW_BODY(vtkGaleMorseSmaleComplex); }
   vtkTypeMacro(vtkGaleMorseSmaleComplex, vtkGaleAlgorithm);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
+  void PrintSelf(ostream& os, vtkIndent indent) override {
+    this->Superclass::PrintSelf(os, indent);
+    os << indent << "Simplify: " << this->Simplify << "\n";
+    os << indent << "Persistence: " << this->Persistence << "\n";
+    os << indent << "PersistenceIsPercent: " << this->PersistenceIsPercent << "\n";
+    os << indent << "ExtremaOnly: " << this->ExtremaOnly << "\n";
+    os << indent << "ComputeDescendingSeparatrices1: " << this->ComputeDescendingSeparatrices1 << "\n";
+    os << indent << "ComputeAscendingSeparatrices1: " << this->ComputeAscendingSeparatrices1 << "\n";
+    os << indent << "ComputeSaddleConnectors: " << this->ComputeSaddleConnectors << "\n";
+    os << indent << "ComputeSeparatrices2: " << this->ComputeSeparatrices2 << "\n";
+    os << indent << "ComputeDescendingSegmentation: " << this->ComputeDescendingSegmentation << "\n";
+    os << indent << "ComputeAscendingSegmentation: " << this->ComputeAscendingSegmentation << "\n";
+  }
 
   //@{
   /**
@@ -81,19 +93,27 @@ class VTKFILTERSGALE_EXPORT vtkGaleMorseSmaleComplex : public vtkGaleAlgorithm {
   /**
    * The outputs. GetOutput is that of a port: 0 unless said.
    */
-  vtkPolyData* GetOutput();
-  vtkDataObject* GetOutput(int port);
-  vtkPolyData* GetCriticalPoints();
-  vtkPolyData* GetSeparatrices1();
-  vtkPolyData* GetSeparatrices2();
-  vtkUnstructuredGrid* GetSegmentation();
+  vtkPolyData* GetOutput() { return this->GetCriticalPoints(); }
+  vtkDataObject* GetOutput(int port) { return this->GetOutputDataObject(port); }
+  vtkPolyData* GetCriticalPoints() { return vtkPolyData::SafeDownCast(this->GetOutputDataObject(0)); }
+  vtkPolyData* GetSeparatrices1() { return vtkPolyData::SafeDownCast(this->GetOutputDataObject(1)); }
+  vtkPolyData* GetSeparatrices2() { return vtkPolyData::SafeDownCast(this->GetOutputDataObject(2)); }
+  vtkUnstructuredGrid* GetSegmentation() { return vtkUnstructuredGrid::SafeDownCast(this->GetOutputDataObject(3)); }
   //@}
 
  protected:
-  vtkGaleMorseSmaleComplex();
-  ~vtkGaleMorseSmaleComplex() override;
+  vtkGaleMorseSmaleComplex() : vtkGaleAlgorithm("morse-smale", 4, 3) {}
 
-  void Compute(gale::vtk::Run& run, vtkInformationVector* outputs) override;
+  void Ask() override {
+    this->AskFlag("descending_separatrices", this->ComputeDescendingSeparatrices1);
+    this->AskFlag("ascending_separatrices", this->ComputeAscendingSeparatrices1);
+    this->AskFlag("saddle_connectors", this->ComputeSaddleConnectors);
+    this->AskFlag("separatrices2", this->ComputeSeparatrices2);
+    this->AskFlag("descending_segmentation", this->ComputeDescendingSegmentation);
+    this->AskFlag("ascending_segmentation", this->ComputeAscendingSegmentation);
+    this->AskFlag("extrema_only", this->ExtremaOnly);
+    if (this->Simplify) this->AskThreshold("persistence", this->Persistence, this->PersistenceIsPercent);
+  }
 
   bool Simplify = false;
   double Persistence = 1;

@@ -9,27 +9,27 @@
 #define vtkGaleSegmentation_h
 
 #include "vtkGaleAlgorithm.h"
-
-class vtkUnstructuredGrid;
+#include "vtkObjectFactory.h"     // for New
+#include "vtkUnstructuredGrid.h"  // for the output
 
 class VTKFILTERSGALE_EXPORT vtkGaleSegmentation : public vtkGaleAlgorithm {
  public:
-  static vtkGaleSegmentation* New();
+  static vtkGaleSegmentation* New() { VTK_STANDARD_NEW_BODY(vtkGaleSegmentation); }
   vtkTypeMacro(vtkGaleSegmentation, vtkGaleAlgorithm);
 
   //@{
   /**
    * The mesh with its segments: port 0 is the only one.
    */
-  vtkUnstructuredGrid* GetOutput();
-  vtkUnstructuredGrid* GetOutput(int port);
+  vtkUnstructuredGrid* GetOutput() { return this->GetOutput(0); }
+  vtkUnstructuredGrid* GetOutput(int port) {
+    return vtkUnstructuredGrid::SafeDownCast(this->GetOutputDataObject(port));
+  }
   //@}
 
  protected:
-  vtkGaleSegmentation();
-  ~vtkGaleSegmentation() override;
-
-  void Compute(gale::vtk::Run& run, vtkInformationVector* outputs) override;
+  vtkGaleSegmentation() : vtkGaleAlgorithm(nullptr, 1, 0) {}
+  void Ask() override {}
 
  private:
   vtkGaleSegmentation(const vtkGaleSegmentation&) = delete;

@@ -19,10 +19,10 @@ namespace gale::test {
 /// grid:N as GALE makes it.
 io::Dataset synthetic(int n);
 
-/// The dataset as VTK has it: float points, cells of 64 bits, and the point array "field", which is the active scalars.
+/// A mesh as VTK has it: float points, cells of 64 bits, and the point array "field", which is the active scalars.
 vtkSmartPointer<vtkUnstructuredGrid> grid_of(const io::Dataset& dataset);
 
-/// The dataset as an image of its points: its tetrahedra are those that it is split into.
+/// An image of its points: its tetrahedra are those that it is split into.
 vtkSmartPointer<vtkImageData> image_of(const io::Dataset& dataset, int n);
 
 /// What outputs are made from: the dataset's points with no arrays.
@@ -37,7 +37,7 @@ void expect_points(vtkPolyData* found, const io::Dataset::Positions& expected);
 /// What the filter says where it fails; "no error" where it doesn't.
 std::string error_of(vtkAlgorithm& filter);
 
-/// What the filter says is wrong where `update` updates it.
+/// What the filter says where `update` makes it work; "no error" where it doesn't fail.
 std::string error_of(vtkAlgorithm& filter, const std::function<void()>& update);
 
 /// A text with all that is in a data object.

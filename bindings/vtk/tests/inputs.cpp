@@ -75,7 +75,7 @@ std::string Inputs::line(vtkGaleAlgorithm& filter, vtkDataObject* input, const c
     const char* const type = filter.GetOutputPortInformation(port)->Get(vtkDataObject::DATA_TYPE_NAME());
     for (vtkDataObject* const leaf : leaves_of(filter.GetOutputDataObject(port)))
       EXPECT_TRUE(leaf != nullptr && leaf->IsA(type)) << filter.GetClassName() << ", port " << port;
-    // Of blocks those that can be analysed are.
+    // Blocks that can be analysed are.
     if (errors.empty() || input->IsA("vtkCompositeDataSet")) continue;
     EXPECT_EQ(points_in(filter.GetOutputDataObject(port)), 0) << filter.GetClassName();
   }

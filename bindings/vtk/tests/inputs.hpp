@@ -35,7 +35,7 @@ class Inputs : public testing::Test {
   /// Checks that all filters say this, "" for nothing.
   void expect_line(vtkDataObject* input, const std::string& said, const char* array = nullptr);
 
-  /// The dataset as an image whose axes are told one by one.
+  /// An image whose axes are told one by one.
   vtkSmartPointer<vtkRectilinearGrid> rectilinear_of(const std::vector<double>& axis) const;
 
   io::Dataset dataset_;

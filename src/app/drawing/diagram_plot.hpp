@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include <gale/app/drawing/flat.hpp>
+#include <gale/app/drawing/scene.hpp>
 #include <gale/outputs/persistence.hpp>
 
 namespace gale::app {

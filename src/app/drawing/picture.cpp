@@ -2,8 +2,7 @@
 #include <cmath>
 
 #include <gale/app/drawing/picture.hpp>
-#include <gale/app/drawing/picture_legend.hpp>
-#include <gale/app/drawing/points.hpp>
+#include <gale/app/drawing/scene.hpp>
 #include <gale/outputs/field.hpp>
 
 namespace gale::app {

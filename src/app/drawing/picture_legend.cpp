@@ -1,5 +1,5 @@
 #include <gale/app/console.hpp>
-#include <gale/app/drawing/picture_legend.hpp>
+#include <gale/app/drawing/picture.hpp>
 
 namespace gale::app {
 

@@ -1,16 +1,60 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstdint>
+#include <string>
 #include <vector>
 
-#include <gale/app/drawing/flat.hpp>
 #include <gale/base/types.hpp>
+#include <gale/io/atomic_file.hpp>
+#include <gale/io/dataset.hpp>
+
+// What is drawn: flat drawings and scenes, which know nothing of what draws them.
 
 namespace gale::app {
 
+/// Red, green and blue, 0 to 255.
+using Color = std::array<std::uint8_t, 3>;
+
+/// A flat drawing, such as a plot: in pixels, from its lower left corner; what comes later covers what came before.
+struct Flat {
+  using Place = std::array<double, 2>;
+
+  struct Lines {
+    Color color;
+    double width, opacity;
+    std::vector<std::vector<Place>> paths;
+  };
+
+  struct Dots {
+    Color color;
+    double size;
+    std::vector<Place> places;
+  };
+
+  struct Text {
+    enum class Anchor { left, middle, right };
+    std::string text;
+    Place place;  ///< of the anchor, at half of the text's height
+    Anchor anchor = Anchor::middle;
+    double size = 14;
+    bool upright = false;  ///< written from below to above
+    Color color{40, 40, 40};
+  };
+
+  int width = 1200, height = 560;
+  std::vector<Lines> lines;  ///< drawn before the dots
+  std::vector<Dots> dots;
+  std::vector<Text> texts;
+};
+
+/// Draws to a PNG file, the temporary of `file`. Throws gale::Error, naming the file.
+void draw(const io::AtomicFile& file, const Flat& flat);
+
 using Point = std::array<double, 3>;
 
-/// What a picture shows; it knows nothing of what draws it.
+/// What a picture shows.
 struct Scene {
   /// Points of one kind, drawn as balls.
   struct Balls {
@@ -46,5 +90,28 @@ void require_drawing();
 
 /// Draws a scene, seen from its high corner, to the temporary of `file`, a PNG. Throws gale::Error, naming the file.
 void draw(const io::AtomicFile& file, const Scene& scene);
+
+/// Points of either type, as doubles.
+inline std::vector<Point> to_points(const io::Dataset::Positions& points) {
+  std::vector<Point> all;
+  std::visit(
+      [&](const auto& rows) {
+        all.resize(rows.extent(0));
+        for (std::size_t i = 0; i < all.size(); ++i) all[i] = {rows(i, 0), rows(i, 1), rows(i, 2)};
+      },
+      points);
+  return all;
+}
+
+/// The array of that name, which must be there.
+inline const io::PointArray& array_of(const std::vector<io::PointArray>& arrays, const std::string& name) {
+  return *std::find_if(arrays.begin(), arrays.end(), [&](const io::PointArray& array) { return array.name == name; });
+}
+
+/// The values of the array of that name and type, which must be there.
+template <class T>
+const std::vector<T>& values_of(const std::vector<io::PointArray>& arrays, const std::string& name) {
+  return std::get<std::vector<T>>(array_of(arrays, name).values);
+}
 
 }  // namespace gale::app

@@ -2,7 +2,7 @@
 #include <unordered_map>
 #include <unordered_set>
 
-#include <gale/app/drawing/points.hpp>
+#include <gale/app/drawing/scene.hpp>
 #include <gale/app/drawing/shown_paths.hpp>
 #include <gale/outputs/field.hpp>
 

@@ -21,7 +21,7 @@
 #include <vtkUnsignedCharArray.h>
 #include <vtkWindowedSincPolyDataFilter.h>
 
-#include <gale/app/drawing/picture_legend.hpp>
+#include <gale/app/drawing/picture.hpp>
 #include <gale/app/drawing/scene.hpp>
 #include <gale/app/drawing/vtk_png.hpp>
 #include <gale/base/error.hpp>

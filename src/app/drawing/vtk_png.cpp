@@ -1,12 +1,22 @@
 #include <cerrno>
 
+#include <vtkActor.h>
+#include <vtkCamera.h>
+#include <vtkCellArray.h>
 #include <vtkErrorCode.h>
 #include <vtkImageResize.h>
 #include <vtkNew.h>
 #include <vtkPNGWriter.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
 #include <vtkRenderer.h>
+#include <vtkTextActor.h>
+#include <vtkTextProperty.h>
 #include <vtkWindowToImageFilter.h>
 
+#include <gale/app/drawing/scene.hpp>
 #include <gale/app/drawing/vtk_png.hpp>
 #include <gale/base/error.hpp>
 #include <gale/io/vtk/vtk_messages.hpp>
@@ -51,6 +61,104 @@ void write_png(const io::AtomicFile& file, int width, int height, const std::vec
   } catch (const std::exception& error) {
     throw Error("cannot draw '" + file.path() + "': " + error.what());
   }
+}
+
+namespace {
+
+void set_color(vtkProperty* property, const Color& color) {
+  property->SetColor(color[0] / 255.0, color[1] / 255.0, color[2] / 255.0);
+  property->LightingOff();
+}
+
+vtkActor* add(vtkRenderer* renderer, vtkPolyData* data, const Color& color) {
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(data);
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  set_color(actor->GetProperty(), color);
+  renderer->AddActor(actor);
+  return actor;
+}
+
+vtkIdType insert(vtkPoints* points, const Flat::Place& place, double depth) {
+  return points->InsertNextPoint(finer * place[0], finer * place[1], depth);
+}
+
+void add_lines(vtkRenderer* renderer, const Flat::Lines& lines, double depth) {
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> cells;
+  for (const auto& path : lines.paths) {
+    cells->InsertNextCell(static_cast<int>(path.size()));
+    for (const auto& place : path) cells->InsertCellPoint(insert(points, place, depth));
+  }
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(points);
+  data->SetLines(cells);
+  vtkActor* const actor = add(renderer, data, lines.color);
+  actor->GetProperty()->SetLineWidth(static_cast<float>(finer * lines.width));
+  actor->GetProperty()->SetOpacity(lines.opacity);
+}
+
+void add_dots(vtkRenderer* renderer, const Flat::Dots& dots, double depth) {
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> cells;
+  for (const auto& place : dots.places) {
+    const vtkIdType id = insert(points, place, depth);
+    cells->InsertNextCell(1, &id);
+  }
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(points);
+  data->SetVerts(cells);
+  vtkActor* const actor = add(renderer, data, dots.color);
+  actor->GetProperty()->SetPointSize(static_cast<float>(finer * dots.size));
+  actor->GetProperty()->RenderPointsAsSpheresOn();
+}
+
+void add_text(vtkRenderer* renderer, const Flat::Text& text) {
+  vtkNew<vtkTextActor> actor;
+  actor->SetInput(text.text.c_str());
+  vtkTextProperty* const property = actor->GetTextProperty();
+  property->SetFontFamilyToArial();
+  property->SetFontSize(static_cast<int>(finer * text.size));
+  property->SetColor(text.color[0] / 255.0, text.color[1] / 255.0, text.color[2] / 255.0);
+  property->SetVerticalJustificationToCentered();
+  if (text.upright) property->SetOrientation(90);
+  switch (text.anchor) {
+    case Flat::Text::Anchor::left:
+      property->SetJustificationToLeft();
+      break;
+    case Flat::Text::Anchor::middle:
+      property->SetJustificationToCentered();
+      break;
+    case Flat::Text::Anchor::right:
+      property->SetJustificationToRight();
+      break;
+  }
+  actor->SetPosition(finer * text.place[0], finer * text.place[1]);
+  renderer->AddActor2D(actor);
+}
+
+void aim(vtkRenderer* renderer, const Flat& flat) {
+  vtkCamera* const camera = renderer->GetActiveCamera();
+  camera->ParallelProjectionOn();
+  camera->SetFocalPoint(finer * flat.width / 2.0, finer * flat.height / 2.0, 0);
+  camera->SetPosition(finer * flat.width / 2.0, finer * flat.height / 2.0, 1000);
+  camera->SetParallelScale(finer * flat.height / 2.0);
+  camera->SetClippingRange(1, 2000);
+}
+
+}  // namespace
+
+void fill(vtkRenderer* renderer, const Flat& flat) {
+  double depth = 0;
+  for (const auto& lines : flat.lines) add_lines(renderer, lines, depth += 1);
+  for (const auto& dots : flat.dots) add_dots(renderer, dots, depth += 1);
+  for (const auto& text : flat.texts) add_text(renderer, text);
+  aim(renderer, flat);
+}
+
+void draw(const io::AtomicFile& file, const Flat& flat) {
+  write_png(file, flat.width, flat.height, {[&](vtkRenderer* renderer) { fill(renderer, flat); }});
 }
 
 }  // namespace gale::app

@@ -1,4 +1,3 @@
-#include <gale/app/drawing/flat.hpp>
 #include <gale/app/drawing/scene.hpp>
 #include <gale/base/error.hpp>
 
