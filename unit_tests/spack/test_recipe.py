@@ -31,6 +31,7 @@ PACKAGES = {
 }
 EXPORTED = set((Path(__file__).parent / "spack_package_v2.2.txt").read_text().split("\n", 1)[1].split())
 BUILT_INTO_CMAKE = {"BUILD_SHARED_LIBS", "CMAKE_CXX_COMPILER", "CMAKE_PREFIX_PATH", "Kokkos_ROOT", "nanobind_DIR"}
+EXTERNAL = {"kokkos"}  # of the system
 BACKENDS = {"serial", "openmp", "cuda"}
 CUDA_ARCHS = ("70", "90")
 
@@ -77,7 +78,7 @@ class Directives:
             setattr(package, name, None)
         for name in self.NAMES:
             setattr(package, name, lambda *args, _name=name, **keywords: self.calls[_name].append((args, keywords)))
-        package.extends = lambda spec, **keywords: self.calls["depends_on"].append(((spec,), keywords))
+        package.extends = lambda spec: self.calls["depends_on"].append(((spec,), {"type": ("build", "run")}))
         package.run_after = lambda phase: lambda function: function
         package.when = self.when
         package.SkipTest = SkipTest
@@ -85,7 +86,6 @@ class Directives:
         package.join_path = os.path.join
         package.working_dir = lambda path, create: contextlib.nullcontext()
         package.check_outputs = lambda expected, found: None
-        package.get_cmake_prefix_path = lambda of: ["/opt/kokkos"]
         build_systems = "spack_repo.builtin.build_systems"
         cmake = types.ModuleType(f"{build_systems}.cmake")
         cmake.CMakePackage = type("CMakePackage", (), {})
@@ -110,13 +110,15 @@ class Directives:
         return {(args[0], keywords.get("when")) for args, keywords in self.calls["depends_on"]}
 
     def packages(self, variants, run_tests):
-        """What there is for these variants, by its name."""
-        found = set()
+        """What there is for these variants: {its name: whether it is linked}."""
+        found = {}
         for (spec,), keywords in self.calls["depends_on"]:
             said = re.findall(r"([+~])(\w+)", keywords.get("when", ""))
             if all(variants.get(name, False) == (sign == "+") for sign, name in said):
                 if run_tests or keywords.get("type") != "test":
-                    found.add(re.match(r"[\w-]+", spec).group(0))
+                    name = re.match(r"[\w-]+", spec).group(0)
+                    linked = "link" in keywords.get("type", ("build", "link"))
+                    found[name] = found.get(name, False) or linked
         return found
 
 
@@ -130,9 +132,19 @@ class Spec:
     def __getitem__(self, name):
         if name not in self.packages:
             raise KeyError(f"No spec with name {name}")
+        return self.node(name)
+
+    def node(self, name):
         has_wrapper = name == "kokkos" and self.variants["cuda"]
-        return types.SimpleNamespace(prefix=Prefix(f"/opt/{name}"), command=Program(f"/opt/{name}"),
+        prefix = Prefix("/usr" if name in EXTERNAL else f"/opt/{name}")
+        return types.SimpleNamespace(prefix=prefix, command=Program(f"/opt/{name}"), external=name in EXTERNAL,
+                                     package=types.SimpleNamespace(cmake_prefix_paths=[prefix]),
                                      satisfies=lambda text: text == "+wrapper" and has_wrapper)
+
+    def traverse(self, deptype):
+        """The package itself and what it links. Of what it is only built with, a test cannot ask for the prefixes."""
+        assert deptype == "link"
+        return [self.node(name) for name in ["gale"] + [name for name, linked in self.packages.items() if linked]]
 
     def satisfies(self, text):
         return self.variants[text[1:]] == (text[0] == "+")
@@ -274,6 +286,15 @@ class Recipe(unittest.TestCase):
             for _, keywords in calls:
                 self.assertEqual(keywords["extra_env"], {"NVCC_WRAPPER_DEFAULT_COMPILER": "/opt/gcc/bin/g++"})
             self.assertTrue(self.directives.programs["/opt/cmake/bin/ctest"].calls)
+
+    def test_examples_find_what_gale_links(self):
+        self.directives.programs.clear()
+        make_package(self.recipe, self.directives, self.all_variants(**dict.fromkeys(self.variants, True))).test_examples()
+        prefixes = dict(self.directives.programs["/opt/cmake/bin/cmake"].calls[0][0][1:])["CMAKE_PREFIX_PATH"]
+        self.assertEqual(prefixes[0], "/opt/gale")
+        self.assertLessEqual({"/opt/vtk", "/opt/mpi", "/opt/kokkos-kernels"}, set(prefixes))
+        self.assertEqual(set(prefixes) & {"/opt/py-nanobind", "/opt/python", "/opt/cmake"}, set())
+        self.assertEqual(prefixes[-1], "/usr", "what Spack built is found before the system's")
 
     def test_command_finds_what_the_recipe_expects(self):
         source = (REPOSITORY / "packages" / "gale" / "package.py").read_text()

@@ -12,7 +12,6 @@ from spack.package import (
     conflicts,
     depends_on,
     extends,
-    get_cmake_prefix_path,
     join_path,
     license,
     run_after,
@@ -156,12 +155,16 @@ class Gale(CMakePackage, CudaPackage, PythonExtension):
         if self.spec["kokkos"].satisfies("+wrapper"):
             compiler = self["kokkos"].kokkos_cxx
         environment = {"NVCC_WRAPPER_DEFAULT_COMPILER": host_compiler}
+        # What GALE links, and nothing else: a test has less than a build, of which py-nanobind
+        # makes its prefixes. Externals, whose prefix may be the system's, come last.
+        linked = sorted(self.spec.traverse(deptype="link"), key=lambda spec: spec.external)
+        prefixes = [prefix for spec in linked for prefix in spec.package.cmake_prefix_paths]
         source = join_path(self.test_suite.current_test_cache_dir, "examples")
         with working_dir("build", create=True):
             cmake = which(self.spec["cmake"].prefix.bin.cmake, required=True)
             cmake(
                 source,
-                self.define("CMAKE_PREFIX_PATH", [self.prefix] + get_cmake_prefix_path(self)),
+                self.define("CMAKE_PREFIX_PATH", prefixes),
                 self.define("CMAKE_CXX_COMPILER", compiler),
                 extra_env=environment,
             )
