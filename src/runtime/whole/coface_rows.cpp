@@ -81,8 +81,6 @@ class FacePart {
 
 /// As many as threads, but so few that the counts take no more than twice the memory of the entries, also where each
 /// part has all faces.
-/// As many as threads, but so few that the counts take no more than twice the memory of the entries, also where each
-/// part has all faces.
 template <int size>
 std::vector<FacePart<size>> parts_of(const EvenRows<HostMemory>& faces, Id face_count, int threads) {
   const Offset entries = faces.entries.extent(0), rows = faces.rows();
@@ -98,8 +96,8 @@ template <class Size>
 Csr<Id, HostMemory> rows_with(Offset rows, int threads, const Size& size) {
   const auto begin = array_to_write<Offset>("GALE::relation_offsets", rows + std::size_t(1), threads);
   parallel_for("GALE::row_size", HostExecutionSpace(), rows, [&](Offset row) { begin(row) = size(row); });
-  const Offset count =
-      exclusive_scan("GALE::row_begin", HostExecutionSpace(), rows, begin, [&](Offset row) { return begin(row); });
+  const Offset count = exclusive_scan("GALE::row_begin", HostExecutionSpace(), rows, begin,
+                                      [counts = begin.data()](Offset row) { return counts[row]; });
   return {begin, array_to_write<Id>("GALE::relation_entries", count, threads)};
 }
 
