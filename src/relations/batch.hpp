@@ -4,13 +4,14 @@
 
 #include <gale/base/kokkos.hpp>
 #include <gale/base/types.hpp>
+#include <gale/export.hpp>
 #include <gale/mesh/mesh.hpp>
 #include <gale/relations/segment_rows.hpp>
 
 namespace gale {
 
 /// Segments by their place in a batch: those of an array, or consecutive ones. Owns nothing.
-class SegmentList {
+class GALE_EXPORT SegmentList {
  public:
   /// A list of no segments.
   KOKKOS_DEFAULTED_FUNCTION SegmentList() = default;

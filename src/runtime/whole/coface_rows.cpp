@@ -141,24 +141,27 @@ Id* merge(Ascending a, Ascending b, Id* to) {
 class RowJoiner {
  public:
   RowJoiner(const EvenRows<HostMemory>& faces, const Csr<const Id, HostMemory>& cofaces)
-      : faces_(faces), cofaces_(cofaces) {}
+      : faces_(faces.entries.data()),
+        length_(faces.length),
+        begin_(cofaces.offsets.data()),
+        entries_(cofaces.entries.data()) {}
 
   Offset size(Offset row) const {
     Offset sum = 0;
-    for (int k = 0; k < faces_.length; ++k) sum += cofaces_of(row, k).size() - 1;
+    for (int k = 0; k < length_; ++k) sum += cofaces_of(row, k).size() - 1;
     return sum;
   }
 
   void write(Offset row, Id* to) {
     Ascending first = cofaces_of(row, 0);
-    if (faces_.length == 3) first = join(first, cofaces_of(row, 1));
-    merge<false>(first, cofaces_of(row, faces_.length - 1), to);
+    if (length_ == 3) first = join(first, cofaces_of(row, 1));
+    merge<false>(first, cofaces_of(row, length_ - 1), to);
   }
 
  private:
   Ascending cofaces_of(Offset row, int k) const {
-    const auto found = cofaces_.row(faces_.row(row)[k]);
-    return {found.begin(), found.end()};
+    const Id face = faces_[length_ * row + k];
+    return {entries_ + begin_[face], entries_ + begin_[face + 1]};
   }
 
   Ascending join(Ascending a, Ascending b) {
@@ -167,8 +170,10 @@ class RowJoiner {
     return {joined_.data(), merge<true>(a, b, joined_.data())};
   }
 
-  const EvenRows<HostMemory>& faces_;
-  const Csr<const Id, HostMemory>& cofaces_;
+  const Id* faces_;
+  int length_;
+  const Offset* begin_;
+  const Id* entries_;
   std::vector<Id> joined_;
 };
 

@@ -9,16 +9,9 @@
 
 namespace gale::detail {
 
-/// What simplices of one dimension are called, by GALE's id: the same, or what an array says.
-struct SimplexNames {
-  const Id* names = nullptr;
-
-  Id operator[](Id id) const { return names == nullptr ? id : names[id]; }
-};
-
-/// The names of a relation's rows and of its entries.
+/// What a relation's rows and its entries are called, by GALE's ids.
 struct RelationNames {
-  SimplexNames rows, entries;
+  const Id *rows, *entries;
 };
 
 /// Gives the names of a relation's simplices, when these have been enumerated.

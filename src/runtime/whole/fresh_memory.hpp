@@ -11,7 +11,7 @@ namespace gale::detail {
 /// takes half of the time that it takes alone. A hint: nothing depends on it.
 void expect_writes(void* data, std::size_t bytes, int threads);
 
-/// Lets the system have back the pages of memory that nobody will read. Likewise a hint.
+/// Lets the system have back the pages of memory that nobody will read. A hint, too.
 void give_back(void* data, std::size_t bytes);
 
 /// An array of the host's that will be written from end to end.

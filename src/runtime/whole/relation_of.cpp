@@ -43,7 +43,7 @@ detail::RelationNames names_in_input(const Mesh& mesh, Relation relation) {
   const auto kept = mesh.kept("GALE::input_numbers", [] { return std::make_shared<KeptNumbers>(); });
   auto& numbers = *std::const_pointer_cast<KeptNumbers>(std::static_pointer_cast<const KeptNumbers>(kept));
   const auto [rows, entries] = numbers.of(mesh, row_dimension(relation), entry_dimension(relation));
-  return {{rows}, {entries}};
+  return {rows, entries};
 }
 
 /// The relation from simplices of a dimension to those of a lower one.
@@ -64,8 +64,16 @@ Csr<const Id, HostMemory> relation_of(const Mesh& mesh, Relation relation, Ids i
   const detail::TrackedViews tracked;  // it lasts, also where a sweep's body asks for it
   const ThreadLimit limit(options.threads);
   const int rows = row_dimension(relation), entries = entry_dimension(relation);
+  std::array<Array<Id, HostMemory>, 4> own;  // GALE's ids, where these are wanted
+  const auto own_ids = [&](int dimension) {
+    auto& ids_there = own[dimension];
+    if (ids_there.data() == nullptr)
+      ids_there = iota("GALE::own_ids", HostExecutionSpace(), detail::count_of(mesh, dimension));
+    return ids_there.data();
+  };
   const detail::NamesOf names_of = [&](Relation one) {
-    return ids == Ids::gale ? detail::RelationNames() : names_in_input(mesh, one);
+    if (ids == Ids::input) return names_in_input(mesh, one);
+    return detail::RelationNames{own_ids(row_dimension(one)), own_ids(entry_dimension(one))};
   };
   const bool has_ghosts = mesh.owned_segments() < mesh.segments();
   if (mesh.on_device() || has_ghosts || relation == Relation::VV || relation == Relation::TT) {

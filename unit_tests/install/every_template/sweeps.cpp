@@ -109,6 +109,9 @@ void sweep_in(const Space& space, const gale::Mesh& mesh) {
   use_atomics<double, Memory>(space, mesh);
   const gale::Csr<const gale::Id, Memory> graph = gale::graph_of(space, mesh, Relation::VT);
   expect(graph.offsets.extent(0) == vertices + 1 && graph.entries.extent(0) == 4 * tetrahedra, "a graph");
+  const gale::Csr<const gale::Id, gale::HostMemory> rows = gale::relation_of(mesh, Relation::TV, gale::Ids::input);
+  const gale::Span<const gale::Id> row = rows.row(0);
+  expect(row.size() == 4 && row[0] < row[3], "a row");
 }
 
 }  // namespace
