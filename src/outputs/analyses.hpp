@@ -72,7 +72,7 @@ struct GALE_EXPORT Analysis {
   std::string name;                     ///< "critical-points": the command's
   std::string help;                     ///< what it does, without a full stop
   std::vector<AnalysisOption> options;  ///< its own
-  std::vector<AnalysisResult> results;  ///< all that it can have
+  std::vector<AnalysisResult> results;  ///< all that it can have; counts come last
 
   /// Finds the results, by their names. To be called by run().
   std::function<std::map<std::string, Outcome>(const AnalysisInput&, const Settings&, Computed&)> find;

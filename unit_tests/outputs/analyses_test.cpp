@@ -94,6 +94,8 @@ TEST(Analyses, have_names_of_their_own_and_help) {
     EXPECT_EQ(&outputs::analysis_named(analysis.name), &analysis);
     EXPECT_GT(analysis.help.size(), 20u);
     for (const AnalysisOption& option : analysis.options) EXPECT_GT(option.help.size(), 20u) << option.name;
+    for (std::size_t i = 1; i < analysis.results.size(); ++i)
+      EXPECT_NE(analysis.results[i - 1].shape, AnalysisResult::Shape::count) << "counts have no ports: they come last";
   }
   EXPECT_EQ(message_of([] { outputs::analysis_named("pairs"); }), "there is no analysis 'pairs'");
 }

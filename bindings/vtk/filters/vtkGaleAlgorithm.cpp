@@ -3,7 +3,9 @@
 #include <cstdlib>
 #include <mutex>
 #include <new>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include <Kokkos_Core.hpp>
 #include <vtkDataArray.h>
@@ -12,18 +14,130 @@
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
 #include <vtkPointData.h>
+#include <vtkPolyData.h>
 #include <vtkRectilinearGrid.h>
+#include <vtkSmartPointer.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
 #include <vtkUnstructuredGrid.h>
 
 #include <gale/base/error.hpp>
+#include <gale/outputs/analyses.hpp>
 #include <gale/outputs/field.hpp>
 #include <gale/outputs/segmentation.hpp>
 
+#include "arrays.hpp"
+#include "grid.hpp"
 #include "initialize_kokkos.hpp"
-#include "run.hpp"
 
 namespace {
+
+using gale::io::PointArray;
+
+/// Thrown where somebody aborts a filter.
+struct Aborted {};
+
+/// What a filter's properties say of its input.
+struct InputOptions {
+  int threads;  ///< 0: as many as there are cores
+  int capacity;
+  std::optional<double> above;  ///< of voxels
+};
+
+/// One execution of a filter: its input as GALE has it, and how it tells how far it is. To be used by the thread that
+/// made it alone.
+class Run {
+ public:
+  /// `field` is an array of the input's points, or nullptr. Throws gale::Error for an input that is no mesh, and
+  /// Aborted.
+  Run(vtkAlgorithm& filter, vtkDataSet* input, vtkDataArray* field, const InputOptions& options)
+      : filter_(filter),
+        threads_(options.threads > 0 ? options.threads : gale::host_threads()),
+        limit_(threads_),
+        grid_(vtkUnstructuredGrid::SafeDownCast(input)),
+        field_(field) {
+    if (!grid_) {
+      tell(0, "Splitting voxels");
+      grid_ = gale::vtk::split_voxels(input, field, options.above);
+      field_ = grid_->GetPointData()->GetArray(0);
+    }
+    tell(0, "Dividing the mesh into segments");
+    dataset_.points = gale::vtk::positions_of(grid_);
+    mesh_ = gale::vtk::mesh_of(grid_, dataset_.points, options.capacity);
+  }
+
+  const gale::Mesh& mesh() const { return *mesh_; }
+
+  /// Runs an analysis on the field, along the order of its values, or that of the array NAME_Order, and gives its
+  /// results to the outputs in their order. Sweeps tell the filter's progress, with a text of what is done, and throw
+  /// Aborted once the filter is to abort. Throws gale::Error if there is no field, or if it isn't of one number a
+  /// point.
+  void analyse(const char* analysis, const gale::outputs::Settings& settings, vtkInformationVector* outputs) const {
+    const PointArray values = field();
+    const gale::VertexOrder order = order_of(values);
+    const gale::outputs::Analysis& described = gale::outputs::analysis_named(analysis);
+    const auto next = [this](const char* what, double begin, double end) { return compute(what, begin, end); };
+    const auto found = described.run({dataset_, values, order, next}, settings);
+    for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port) {
+      const auto outcome = found.find(described.results[port].name);
+      if (outcome == found.end()) continue;  // it wasn't asked for
+      if (const auto* const points = std::get_if<gale::io::PointSet>(&outcome->second))
+        gale::vtk::to_poly_data(*points, grid_->GetPointData(), vtkPolyData::GetData(outputs, port));
+      if (const auto* const surface = std::get_if<gale::io::Surface>(&outcome->second))
+        gale::vtk::to_poly_data(*surface, vtkPolyData::GetData(outputs, port));
+      if (const auto* const arrays = std::get_if<std::vector<PointArray>>(&outcome->second))
+        give(*arrays, outputs, port);
+    }
+  }
+
+  /// Gives the mesh, with these arrays at its points, to an output.
+  void give(const std::vector<PointArray>& arrays, vtkInformationVector* outputs, int port) const {
+    vtkUnstructuredGrid* const mesh = vtkUnstructuredGrid::GetData(outputs, port);
+    mesh->ShallowCopy(grid_);
+    gale::vtk::add(arrays, mesh->GetPointData());
+  }
+
+ private:
+  PointArray field() const {
+    if (!field_)
+      throw gale::Error("no point array to analyse: set the array to process, or make one the active scalars");
+    const PointArray field = gale::vtk::point_array(field_);
+    if (field.components != 1)
+      throw gale::Error("array '" + field.name + "' has " + std::to_string(field.components) + " components, not 1");
+    return field;
+  }
+
+  gale::VertexOrder order_of(const PointArray& field) const {
+    gale::io::Dataset dataset;
+    vtkDataArray* const order = grid_->GetPointData()->GetArray((field.name + "_Order").c_str());
+    if (order != nullptr) dataset.arrays.push_back(gale::vtk::point_array(order));
+    return gale::outputs::order_of(mesh(), dataset, field);
+  }
+
+  void tell(double progress, const char* text) const {
+    filter_.SetProgressText(text);
+    filter_.UpdateProgress(progress);
+    if (filter_.GetAbortExecute() != 0) throw Aborted();
+  }
+
+  gale::ComputeOptions compute(const char* text, double begin, double end) const {
+    tell(begin, text);
+    gale::ComputeOptions options;
+    options.threads = threads_;
+    options.progress = [this, begin, end](gale::Id done, gale::Id segments) {
+      filter_.UpdateProgress(begin + (end - begin) * done / segments);
+      if (filter_.GetAbortExecute() != 0) throw Aborted();
+    };
+    return options;
+  }
+
+  vtkAlgorithm& filter_;
+  int threads_;
+  gale::ThreadLimit limit_;
+  vtkSmartPointer<vtkUnstructuredGrid> grid_;
+  vtkSmartPointer<vtkDataArray> field_;
+  gale::io::Dataset dataset_;
+  std::optional<gale::Mesh> mesh_;
+};
 
 void initialize_once() {
   static std::once_flag once;
@@ -140,7 +254,7 @@ vtkDataArray* vtkGaleAlgorithm::SelectField(vtkInformationVector** inputs) {
 }
 
 int vtkGaleAlgorithm::RequestData(vtkInformationVector** inputs, vtkInformationVector* outputs) {
-  gale::vtk::InputOptions options;
+  InputOptions options;
   options.threads = this->NumberOfThreads;
   options.capacity = this->Capacity;
   if (this->UseThreshold) options.above = this->Threshold;
@@ -149,7 +263,7 @@ int vtkGaleAlgorithm::RequestData(vtkInformationVector** inputs, vtkInformationV
     vtkDataSet* const mesh = mesh_of(inputs[0]);
     if (mesh->GetNumberOfCells() == 0) return 1;  // as empty blocks are: the pipeline has emptied the outputs
     initialize_once();
-    gale::vtk::Run run(*this, mesh, this->SelectField(inputs), options);
+    const Run run(*this, mesh, this->SelectField(inputs), options);
     this->Asked->settings = {};
     this->Ask();
     if (this->Asked->analysis) {
@@ -158,7 +272,7 @@ int vtkGaleAlgorithm::RequestData(vtkInformationVector** inputs, vtkInformationV
       run.give({gale::outputs::segments_of(run.mesh())}, outputs, this->Asked->mesh_port);
     }
     return 1;
-  } catch (const gale::vtk::Aborted&) {
+  } catch (const Aborted&) {
     empty(outputs);
     return 1;
   } catch (const std::bad_alloc&) {

@@ -6,7 +6,8 @@ from pathlib import Path
 from galevtk import vtkFiltersGale
 
 PLUGIN = Path(__file__).parents[2] / "paraview" / "plugin"
-CLASSES = ("vtkGaleCriticalPoints", "vtkGaleMorseSmaleComplex", "vtkGaleSegmentation")
+HEADERS = (Path(__file__).parents[1] / "filters").glob("vtkGale*.h")
+CLASSES = sorted({header.stem for header in HEADERS} - {"vtkGaleAlgorithm"})
 OF_VTK = ("InputArrayToProcess", "InputConnection")
 
 
