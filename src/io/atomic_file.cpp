@@ -11,7 +11,7 @@
 
 #include <gale/base/error.hpp>
 #include <gale/io/atomic_file.hpp>
-#include <gale/io/bytes/damaged.hpp>
+#include <gale/io/bytes/text.hpp>
 
 namespace gale::io {
 namespace {
@@ -32,7 +32,7 @@ std::string folder_of(const std::string& path) {
   return folder.empty() ? "." : folder;
 }
 
-/// Some file systems sync no folders, or nothing.
+/// Whether fsync() failed since the file system syncs no folders, or nothing.
 bool cannot_sync(int failure) { return failure == EINVAL || failure == EROFS || failure == ENOTSUP; }
 
 int sync(const std::string& path, int flags) {
@@ -43,7 +43,7 @@ int sync(const std::string& path, int flags) {
   return failure;
 }
 
-/// What has the name that a file is to get.
+/// The file that has the name which another is to get.
 struct Before {
   detail::TemporaryName name;  ///< another name for it
   bool exists = false, is_kept = false;
@@ -125,7 +125,7 @@ void check(int failure) {
   if (failure != 0) throw Error(std::strerror(failure));
 }
 
-/// What `use` does; names `path` in whatever goes wrong.
+/// Does what `use` does; names `path` in whatever goes wrong.
 template <class Use>
 void named(const std::string& path, const Use& use) {
   try {

@@ -10,9 +10,9 @@
 
 namespace gale::io {
 
-/// From now on the signals that end a process, and an `exit`, remove the temporary files of all `AtomicFile`s first;
-/// the process still ends by the signal. A signal that is ignored or has a handler keeps that. For an application that
-/// has none of its own: the library never calls it.
+/// Has the signals that end a process, and an `exit`, remove the temporary files of all `AtomicFile`s first, from now
+/// on; the process still ends by the signal. A signal that is ignored or has a handler keeps that. For an application
+/// that has none of its own: the library never calls it.
 GALE_EXPORT void remove_temporary_files_at_end();
 
 /// Removes the temporary files of all `AtomicFile`s now, in a signal handler too: for who ends the process otherwise.
@@ -76,7 +76,7 @@ class GALE_EXPORT AtomicFile {
   /// The path of the file to write to.
   const std::string& temporary() const { return temporary_.path(); }
 
-  /// What its arrays are to be written in, if it is to be one of VTK's XML files.
+  /// The encoding of its arrays, if it is to be one of VTK's XML files.
   Encoding encoding() const { return encoding_; }
 
   /// Waits until what was written is on disk. Throws `Error` if it does not get there.

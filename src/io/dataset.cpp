@@ -1,4 +1,4 @@
-#include <gale/io/bytes/damaged.hpp>
+#include <gale/io/bytes/text.hpp>
 #include <gale/io/dataset.hpp>
 
 namespace gale::io {

@@ -4,7 +4,7 @@
 namespace gale::io {
 namespace detail {
 
-// Each in a file of that format's name.
+// Defined in formats/, a file each.
 Reader read_vtu, read_pvtu, read_legacy_vtk, read_vti, read_nifti, read_meta_image, read_nrrd, read_exodus, read_vtkhdf;
 
 }  // namespace detail

@@ -18,17 +18,17 @@ class InputFile;
 /// A mesh, or an image whose `select_scalars` and `split_voxels` are still to come.
 using Content = std::variant<Dataset, Image>;
 
-/// What reads a format. Trusts nothing that a file says: sizes are checked against what the file has before memory is
+/// A reader of a format. Trusts nothing that a file says: sizes are checked against what the file has before memory is
 /// taken, and values against their ranges before they index anything. Throws gale::Error without naming the file.
 using Reader = Content(const InputFile& file, const ReadOptions& options);
 
 }  // namespace detail
 
-/// What a file of a format stands for, when it is read.
+/// The kinds of inputs that files of a format are read as.
 enum class Input { none, mesh, volume };
 
-/// What is written to files of a format, each a bit: points alone, lines and polygons, lines alone, meshes, and pieces
-/// of meshes with their global ids.
+/// The kinds of results that are written to files of a format, each a bit: points alone, lines and polygons, lines
+/// alone, meshes, and pieces of meshes with their global ids.
 enum Written : unsigned {
   written_points = 1,
   written_surfaces = 2,
@@ -46,6 +46,9 @@ struct Format {
   bool of_pieces;          ///< its files name others, which have what is written
   const char* about;       ///< what of its files is read, or nothing, for the documentation
   detail::Reader* reader;  ///< nullptr where none are read
+
+  /// Whether that is written to its files, not to others that they name.
+  bool takes(Written what) const { return (written & what) != 0 && !of_pieces; }
 };
 
 /// All formats: what is read and written by its extension, what help and documentation say of it.

@@ -6,7 +6,7 @@
 #include <variant>
 
 #include <gale/base/error.hpp>
-#include <gale/io/bytes/damaged.hpp>
+#include <gale/io/bytes/text.hpp>
 #include <gale/io/dataset.hpp>
 #include <gale/io/image.hpp>
 
@@ -46,10 +46,9 @@ void select_scalars(Image& image, const std::string& name) {
   if (image.arrays.empty()) throw Error("the image has no scalars");
   const auto chosen = name.empty() ? image.arrays.begin() : find_or_extract(image.arrays, name);
   if (chosen == image.arrays.end()) refuse("the image has no array '", name, "', only ", names(image.arrays));
-  if (chosen->components != 1) {
+  if (chosen->components != 1)
     refuse("the array '", chosen->name, "' has ", chosen->components, " components: choose one of '",
            component_name(*chosen, 0), "' to '", component_name(*chosen, chosen->components - 1), "'");
-  }
   std::rotate(image.arrays.begin(), chosen, chosen + 1);
 }
 

@@ -30,7 +30,7 @@ Dataset read_file(const std::string& path, const Format& format, const ReadOptio
   return std::get<Dataset>(std::move(content));
 }
 
-/// What read() returns; names the input in whatever goes wrong.
+/// Returns what read() returns; names the input in whatever goes wrong.
 template <class Read>
 auto naming(const std::string& input, const Read& read) {
   try {
@@ -42,7 +42,7 @@ auto naming(const std::string& input, const Read& read) {
   }
 }
 
-/// The N of grid:N, and of others named like that.
+/// The N of grid:N, or of another input named like that.
 int size_in_name(const std::string& input, const ReadOptions& options) {
   int n = 0;
   const char* const end = input.data() + input.size();

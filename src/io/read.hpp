@@ -10,7 +10,7 @@
 
 namespace gale::io {
 
-/// What of a file is read, and how.
+/// Options of reading: what of a file is read, and how.
 struct ReadOptions {
   /// Images: only voxels with values above this become vertices; without it all with finite values do.
   std::optional<double> above;
@@ -61,7 +61,7 @@ struct PieceNames {
 struct SomePieces {
   Dataset mesh;  ///< points and tetrahedra in the order of their ids, or, without ids, in which they occur first
 
-  // In that order; empty without ids.
+  // Ids in that order; empty without ids.
   std::vector<std::int64_t> point_ids;        ///< the global ids of points, which differ
   std::vector<std::int64_t> tetrahedron_ids;  ///< the global ids of tetrahedra
 };

@@ -12,7 +12,7 @@
 #include <gale/base/memory.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/base/types.hpp>
-#include <gale/io/bytes/damaged.hpp>
+#include <gale/io/bytes/text.hpp>
 #include <gale/io/image.hpp>
 #include <gale/io/synthetic.hpp>
 
@@ -32,7 +32,7 @@ std::uint32_t hashed(std::uint32_t x) {
   return x ^ (x >> 16);
 }
 
-/// Cubes z-layer after z-layer, and the layers of vertices at them.
+/// Layers of cubes along z, and the layers of vertices at them.
 struct Layers {
   int n;
   Offset first, cubes;
@@ -43,7 +43,7 @@ struct Layers {
   Offset first_tetrahedron() const { return first * (n - 1) * (n - 1) * detail::tetrahedra_per_cube; }
 };
 
-/// `what` has `count` of these.
+/// Throws gale::Error if `what` has more of something than ids can number.
 void require_ids(const std::string& what, double count, const std::string& of_what) {
   if (count <= std::numeric_limits<Id>::max()) return;
   std::ostringstream digits;
@@ -79,7 +79,7 @@ Dataset::Points<float> make_points(const Layers& layers) {
   return points;
 }
 
-/// By the numbers of vertices in the whole mesh.
+/// The tetrahedra, by the numbers of vertices in the whole mesh.
 template <class Index>
 auto make_tetrahedra(const Layers& layers) {
   const int n = layers.n, c = n - 1;
@@ -159,7 +159,7 @@ const SyntheticKind* kind_named(const std::string& name) {
   return nullptr;
 }
 
-/// Towards the first corner: the density falls with the square of a coordinate.
+/// Moves points towards the first corner: the density falls with the square of a coordinate.
 void gather_points(Dataset& dataset, int n) {
   const auto& points = std::get<Dataset::Points<float>>(dataset.points);
   parallel_for("GALE::gather_points", Host(), static_cast<Offset>(points.extent(0)), [&](Offset i) {

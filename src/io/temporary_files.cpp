@@ -77,9 +77,8 @@ void remove_temporary_files_at_end() {
   std::atexit(remove_all);
   for (const int signal : ending_signals) {
     struct sigaction there {};
-    if (sigaction(signal, nullptr, &there) != 0 || (there.sa_flags & SA_SIGINFO) != 0 || there.sa_handler != SIG_DFL) {
+    if (sigaction(signal, nullptr, &there) != 0 || (there.sa_flags & SA_SIGINFO) != 0 || there.sa_handler != SIG_DFL)
       continue;
-    }
     struct sigaction ours {};
     ours.sa_handler = end_by;
     ours.sa_mask = all_ending_signals();

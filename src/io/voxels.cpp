@@ -17,7 +17,7 @@
 #include <gale/base/memory.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/base/types.hpp>
-#include <gale/io/bytes/damaged.hpp>
+#include <gale/io/bytes/text.hpp>
 #include <gale/io/image.hpp>
 
 namespace gale::io {
@@ -43,7 +43,7 @@ struct Rows {
   int z(Offset row) const { return static_cast<int>(row / ny); }
 };
 
-/// What is left of the image: the cubes and the voxels that they use, and how many come before each row (with the total
+/// The rest of the image: the cubes and the voxels that they use, and how many come before each row (with the total
 /// at the end).
 struct Kept {
   Rows rows;
@@ -87,9 +87,8 @@ Flags mark_cubes(const Rows& rows, const Flags& inside) {
     const std::uint8_t* b = &inside[rows.begin(row + 1)];
     const std::uint8_t* c = &inside[rows.begin(row + rows.ny)];
     const std::uint8_t* d = &inside[rows.begin(row + rows.ny + 1)];
-    for (int x = 0; x + 1 < rows.nx; ++x) {
+    for (int x = 0; x + 1 < rows.nx; ++x)
       out[x] = a[x] & b[x] & c[x] & d[x] & a[x + 1] & b[x + 1] & c[x + 1] & d[x + 1];
-    }
     out[rows.nx - 1] = 0;
   });
   return cube;
@@ -236,9 +235,8 @@ auto make_tetrahedra(const Kept& kept) {
 
 Dataset split_voxels(Image image, std::optional<double> above) {
   const auto [nx, ny, nz] = image.dimensions;
-  if (nx < 2 || ny < 2 || nz < 2) {
+  if (nx < 2 || ny < 2 || nz < 2)
     refuse("the image has ", nx, " x ", ny, " x ", nz, " voxels: it needs at least 2 in each direction");
-  }
   const Kept kept = keep({nx, ny, nz}, image.arrays.front(), above);
   check(kept, image.arrays.front(), above);
 

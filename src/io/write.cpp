@@ -36,20 +36,18 @@ void check_cells(std::size_t points, const Surface::Cells& cells) {
     throw Error("its cells don't begin one after the other");
   }
   for (const std::int32_t point : cells.points) {
-    if (point < 0 || static_cast<std::size_t>(point) >= points) {
-      refuse("there is no point ", point, " among ", points);
-    }
+    if (point < 0 || static_cast<std::size_t>(point) >= points) refuse("there is no point ", point, " among ", points);
   }
 }
 
 /// Throws Error unless the file's extension is one that is written with that. `what` it is.
 void require_format(const std::string& path, Written bit, const char* what) {
-  const auto is_meant = [bit](const Format& one) { return (one.written & bit) != 0 && !one.of_pieces; };
   const Format* const format = format_of(path);
-  if (format != nullptr && is_meant(*format)) return;
+  if (format != nullptr && format->takes(bit)) return;
   std::string rule;
-  for (const std::string& extension : detail::words_of(extensions_of(is_meant)))
-    rule += (rule.empty() ? "" : " nor ") + extension;
+  for (const Format& other : formats()) {
+    if (other.takes(bit)) rule += (rule.empty() ? "" : " nor ") + std::string(other.extensions);
+  }
   const bool several = rule.find(' ') != std::string::npos;
   refuse("cannot write ", what, " to '", path, "': its extension is ", several ? "neither " : "not ", rule);
 }
@@ -109,7 +107,7 @@ void write_mesh_to(const To& to, const Dataset& mesh, const std::vector<PointArr
   write_as(to, written_meshes, "a mesh", [&](const AtomicFile& file) {
     check_arrays(points_of(mesh.points), mesh.arrays);
     check_arrays(points_of(mesh.points), more);
-    if ((format_of(file.path())->written & written_pieces) != 0) {
+    if (format_of(file.path())->takes(written_pieces)) {
       detail::write_xml(file, detail::content_of(mesh, more));
     } else {
       detail::write_legacy_vtk(file, mesh, more);

@@ -24,7 +24,7 @@ namespace {
 
 constexpr int succeeded = 0, failed = 1, not_confined = 2;
 
-/// In a process of its own: confines it, and tries something.
+/// Confines a process of its own, and tries something there.
 int try_confined(const std::function<bool()>& confines, const std::function<bool()>& what) {
   const pid_t child = fork();
   if (child == 0) _exit(!confines() ? not_confined : what() ? succeeded : failed);

@@ -80,7 +80,7 @@ class RandomGroup {
     length = lengths[below(std::size(lengths))];
   }
 
-  /// In chunks, through filters that are known or not.
+  /// Writes chunks, through filters that are known or not.
   void pack(hid_t list, const std::vector<hsize_t>& shape) {
     std::vector<hsize_t> chunk;
     for (const hsize_t length : shape) chunk.push_back(1 + below(std::min<hsize_t>(length, 100) + 1));
@@ -114,7 +114,7 @@ void write_random_mesh(const std::string& path, std::mt19937& random) {
   arrays.put_numbers("pairs", H5T_IEEE_F64LE, {6, 2}, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11});
 }
 
-/// What NetCDF-4 makes of an Exodus file: dimensions are datasets of their lengths.
+/// An Exodus file as NetCDF-4 has it: dimensions are datasets of their lengths.
 void write_random_exodus(const std::string& path, std::mt19937& random) {
   const hid_t file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
   RandomGroup group(file, random);

@@ -33,7 +33,7 @@ hid_t make_chunks(const std::vector<hsize_t>& chunk) {
 
 size_t keep_all(unsigned, size_t, const unsigned*, size_t bytes, size_t*, void**) { return bytes; }
 
-/// As if written by a plugin.
+/// Writes values as a plugin's filter would.
 hid_t make_unknown_filter() {
   constexpr H5Z_filter_t number = 300;
   const H5Z_class2_t filter = {H5Z_CLASS_T_VERS, number, 1, 1, "unheard of", nullptr, nullptr, keep_all};

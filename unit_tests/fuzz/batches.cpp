@@ -27,7 +27,7 @@ double seconds_now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// What parent and child both see.
+/// Memory that parent and child both see.
 struct Shared {
   std::atomic<std::uint64_t> next{0};  ///< that the child is at
   std::atomic<double> begun{0};

@@ -34,7 +34,7 @@ std::size_t can_hold(const Case& one) {
 Outcome read_once(const std::string& path, const io::ReadOptions& options, unsigned char fill, std::size_t limit) {
   Outcome outcome;
   outcome.message.reserve(1000);
-  // What programs find in fresh memory that read for us; malloc fills it with the complement.
+  // Fresh memory of programs that read for us has these bytes; malloc fills it with the complement.
   setenv("GLIBC_TUNABLES", ("glibc.malloc.perturb=" + std::to_string(fill)).c_str(), 1);
   const auto begin = std::chrono::steady_clock::now();
   {

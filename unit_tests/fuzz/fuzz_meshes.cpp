@@ -26,7 +26,7 @@ using namespace gale;
 using namespace gale::test;
 using fuzz::Random;
 
-/// What is wrong; empty if nothing is.
+/// Says what is wrong; empty if nothing is.
 using Complaint = std::string;
 
 Complaint complaint_of(const testing::AssertionResult& result, const std::string& about) {

@@ -15,7 +15,7 @@ z_stream stream_of(const std::string& content) {
   return stream;
 }
 
-/// What a step makes of all that is in a stream.
+/// The result of a step for all that is in a stream.
 template <class Step>
 std::string all_of(z_stream& stream, const Step& step) {
   std::string result;

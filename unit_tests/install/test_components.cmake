@@ -1,10 +1,12 @@
-# COMPONENTS io and outputs give gale::io and gale::outputs. Static ones need VTK, and say so where it isn't; shared
+# COMPONENTS io and outputs give gale::io and gale::outputs, io alone the first. Static ones need VTK, and say so where it isn't; shared
 # ones don't.
 include(${CMAKE_ARGV3}/common.cmake)
 
 set(consumer ${source}/unit_tests/install/consumer)
 configure(${consumer} ${here}/components -DCMAKE_PREFIX_PATH=${prefix} ${vtk_dir} ${kokkos_kernels} "-DCOMPONENTS=io outputs")
 build_and_test(${here}/components)
+configure(${consumer} ${here}/files -DCMAKE_PREFIX_PATH=${prefix} ${vtk_dir} ${kokkos_kernels} -DCOMPONENTS=io)
+build_and_test(${here}/files)
 
 if(vtk)
   file(REMOVE_RECURSE ${here}/no_vtk)

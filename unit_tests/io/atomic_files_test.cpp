@@ -60,7 +60,7 @@ TEST(AtomicFiles, AppearTogetherOrNotAtAll) {
   EXPECT_EQ(content_of(folder / "b"), "old");
 }
 
-/// What comes after them can't be done: all have their names then, and lose them.
+/// Fails what comes after them: all have their names then, and lose them.
 TEST(AtomicFiles, LoseTheirNamesWhereThatIsNotConfirmed) {
   const Folder folder;
   folder.put("b", "old");
@@ -90,7 +90,7 @@ TEST(AtomicFile, OfALongNameHasATemporary) {
   EXPECT_EQ(folder.names(), Names{name});
 }
 
-/// What a child process that calls `run` ends with.
+/// The status that a child process which calls `run` ends with.
 int status_of_child(const std::function<void()>& run) {
   const pid_t child = fork();
   if (child == 0) {

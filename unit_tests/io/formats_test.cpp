@@ -8,7 +8,7 @@
 
 #include "io/io_fixtures.hpp"
 
-/// What the table of formats says of itself, and what pages say that should be the same.
+/// The table of formats agrees with itself, and pages with it.
 namespace gale::io {
 namespace {
 

@@ -134,7 +134,7 @@ TEST_F(HostileFiles, ArraysThatStopEarly) {
 }
 
 TEST_F(HostileFiles, CompressedArraysOfNoBytes) {
-  // Of no blocks, where 8 values are to be: the header's three numbers are 0.
+  // No blocks, where 8 values are to be: the header's three numbers are 0.
   const std::string path =
       folder.put("a.vti", hostile_vti("compressor=\"vtkZLibDataCompressor\"",
                                       piece("0 1 0 1 0 1", R"(format="binary")", "AAAAAAAAAAAAAAAA")));

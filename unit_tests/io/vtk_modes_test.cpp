@@ -22,7 +22,7 @@
 #include <gale/io/read.hpp>
 #include <gale/io/synthetic.hpp>
 
-/// What VTK writes, in each of its ways, is what GALE reads.
+/// GALE reads what VTK writes, in each of its ways.
 namespace gale::io {
 namespace {
 

@@ -28,7 +28,7 @@
 
 #include "io/small_surface.hpp"
 
-/// What GALE writes is what VTK's own readers read.
+/// VTK's own readers read what GALE writes.
 namespace gale::io {
 namespace {
 
@@ -49,10 +49,10 @@ class VtkReads : public testing::Test {
   test::Folder folder;
 };
 
-/// In each encoding.
+/// Runs in each encoding.
 class VtkReadsEncoded : public VtkReads, public testing::WithParamInterface<Encoding> {
  protected:
-  /// What `write(file)` writes appears under that name.
+  /// Makes what `write(file)` writes appear under that name.
   template <class Write>
   void write_to(const std::string& name, const Write& write) const {
     AtomicFile file(folder / name, GetParam());
@@ -231,7 +231,7 @@ TEST_F(VtkReads, surfaces_in_pieces) {
   EXPECT_EQ(found->GetCellData()->GetArray("SourceId")->GetNumberOfTuples(), 6);
 }
 
-/// What XML can't have is replaced: the file is read all the same.
+/// Characters that XML can't have are replaced: the file is read all the same.
 TEST_F(VtkReads, names_of_any_bytes) {
   Dataset mesh = make_grid(2);
   mesh.arrays.clear();

@@ -29,7 +29,7 @@ Dataset grid_with_every_type(int n) {
   return mesh;
 }
 
-/// Gives a mesh coordinates that float cannot hold.
+/// Has coordinates that float cannot hold.
 Dataset with_double_points(Dataset mesh) {
   const Dataset::Points<double> points("GALE::points", test::point_count_of(mesh));
   for (std::size_t i = 0; i < points.extent(0); ++i) {
@@ -153,7 +153,7 @@ TEST_F(WriteMesh, LeavesNoHalfFileOnAFullDisk) {
   expect_all_or_nothing(folder, "mesh.vtu", [&] { write_mesh(folder / "mesh.vtu", mesh); });
 }
 
-/// Without VTK's compression too.
+/// Holds without VTK's compression, too.
 TEST_F(WriteMesh, InBase64IsXmlThatComesBackAsItWas) {
   const Dataset mesh = grid_with_every_type(5);
   {

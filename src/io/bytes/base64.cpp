@@ -3,7 +3,7 @@
 #include <cstring>
 
 #include <gale/io/bytes/base64.hpp>
-#include <gale/io/bytes/damaged.hpp>
+#include <gale/io/bytes/text.hpp>
 
 namespace gale::io::detail {
 namespace {

@@ -8,8 +8,8 @@
 
 namespace gale::io::detail {
 
-/// What base64 text stands for, up to its padding. The source must outlive it. Throws gale::Error for a character that
-/// is none of base64's.
+/// The bytes that base64 text stands for, up to its padding. The source must outlive it. Throws gale::Error for a
+/// character that is none of base64's.
 class Base64Bytes : public ByteSource {
  public:
   explicit Base64Bytes(ByteSource& text) : text_(text) {}
@@ -33,7 +33,7 @@ class Base64Bytes : public ByteSource {
   std::size_t buffer_at_ = 0;
 };
 
-/// What stands for some bytes by themselves; as many characters for as many bytes, whatever these are.
+/// Encodes some bytes by themselves; as many characters for as many bytes, whatever these are.
 std::vector<char> encoded(const void* bytes, std::size_t size, Encoding encoding);
 
 /// Writes bytes to a file as they are, or as one piece of base64.

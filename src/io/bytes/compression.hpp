@@ -14,8 +14,8 @@ namespace gale::io::detail {
 /// `compressed` becomes the zlib stream of `size` bytes.
 void compress_by_zlib(const char* bytes, std::size_t size, std::vector<char>& compressed);
 
-/// What is in compressed bytes, of gzip or zlib, whichever it is; gzip's members may follow each other. Reading throws
-/// gale::Error for bytes that are neither, or damaged.
+/// The content of compressed bytes, of gzip or zlib, whichever it is; gzip's members may follow each other. Reading
+/// throws gale::Error for bytes that are neither, or damaged.
 std::unique_ptr<ByteSource> inflated(std::unique_ptr<ByteSource> compressed);
 
 /// Writes the `bytes` that `compressed` stands for to `to`. False if it doesn't stand for so many.

@@ -7,8 +7,8 @@
 #include <cstring>
 
 #include <gale/base/stop.hpp>
-#include <gale/io/bytes/damaged.hpp>
 #include <gale/io/bytes/input_file.hpp>
+#include <gale/io/bytes/text.hpp>
 
 namespace gale::io::detail {
 

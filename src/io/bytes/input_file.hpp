@@ -22,7 +22,7 @@ class InputFile {
 
   const std::string& path() const { return path_; }
 
-  /// In bytes, when it was opened.
+  /// The size in bytes when it was opened.
   std::uint64_t size() const { return size_; }
 
   /// Which file it is, by whatever name: its device and its number there.
@@ -84,8 +84,8 @@ class FileBytes : public ByteSource {
   std::uint64_t at_;
 };
 
-/// What several files have in the same place: the bytes [begin, begin + bytes) of each, one after the other. One is
-/// open at a time.
+/// Values that several files have in the same place: the bytes [begin, begin + bytes) of each, one after the other. One
+/// is open at a time.
 class FileSequence : public ByteSource {
  public:
   /// Throws gale::Error, naming the file, if one can't be opened, is shorter, or is there twice.

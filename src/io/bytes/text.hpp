@@ -2,17 +2,49 @@
 
 #include <charconv>
 #include <cstdlib>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <system_error>
 #include <type_traits>
 #include <vector>
 
-#include <gale/io/bytes/damaged.hpp>
+#include <gale/base/error.hpp>
 #include <gale/io/bytes/input_file.hpp>
 
+/// Texts: of messages, and of files as words, lines and numbers.
 namespace gale::io::detail {
+
+/// The parts one behind the other; numbers as std::to_string() writes them.
+template <class... Parts>
+std::string text_of(const Parts&... parts) {
+  std::string text;
+  const auto add = [&text](const auto& part) {
+    using Part = std::decay_t<decltype(part)>;
+    if constexpr (std::is_arithmetic_v<Part> && !std::is_same_v<Part, char>) {
+      text += std::to_string(part);
+    } else {
+      text += part;
+    }
+  };
+  (add(parts), ...);
+  return text;
+}
+
+/// Throws gale::Error with a message of these parts.
+template <class... Parts>
+[[noreturn]] void refuse(const Parts&... parts) {
+  throw Error(text_of(parts...));
+}
+
+/// `text` from a file as one short line that can be printed.
+std::string printable(const std::string& text);
+
+/// Throws gale::Error about a file whose content isn't what its format says. The parts are the reason, which names the
+/// value at fault; bytes of the file that it quotes become printable, and it is cut where it is long.
+template <class... Parts>
+[[noreturn]] void damaged(const Parts&... parts) {
+  refuse("it is damaged, incomplete or of another format (", printable(text_of(parts...)), ")");
+}
 
 /// Words, lines and raw bytes of a source, which must outlive it.
 class TextReader : public ByteSource {
@@ -23,11 +55,11 @@ class TextReader : public ByteSource {
   /// for a word of more than 64 KiB.
   std::string_view word();
 
-  /// What is left of the line, without its end; an empty line is "". False at the end of the source. Throws gale::Error
-  /// for a line of more than a MiB.
+  /// Reads the rest of the line, without its end; an empty line is "". False at the end of the source. Throws
+  /// gale::Error for a line of more than a MiB.
   bool line(std::string& text);
 
-  /// As many bytes as come next, whatever they are.
+  /// Reads the bytes that come next, whatever they are.
   std::size_t read(char* to, std::size_t bytes) override;
 
   std::uint64_t at_most() const override { return (end_ - at_) + source_.at_most(); }

@@ -46,7 +46,7 @@ std::string_view name_in(const TypeNames& names, ValueType type);
 /// "int8" to "float64", for messages.
 const char* name_of(ValueType type);
 
-/// In bytes.
+/// The size of a value in bytes.
 std::size_t size_of(ValueType type);
 
 /// The type of values of the C++ type T.

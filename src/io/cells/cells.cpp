@@ -6,7 +6,7 @@
 #include <gale/base/memory.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/base/types.hpp>
-#include <gale/io/bytes/damaged.hpp>
+#include <gale/io/bytes/text.hpp>
 #include <gale/io/bytes/values.hpp>
 #include <gale/io/cells/cells.hpp>
 
@@ -59,7 +59,7 @@ std::vector<T> taken_as(PointArray::Values& values, const char* what) {
 
 using Types = std::vector<std::uint8_t>;
 
-/// What kinds of cells there are.
+/// How many cells of each kind there are.
 struct Census {
   std::size_t tetrahedra = 0, lower = 0, other = 0, first_other = 0;
 };
@@ -77,10 +77,9 @@ Census take_census(const Types& types, const Ends& ends, std::size_t connectivit
     const CellType* const type = known[number];
     if (type == nullptr) damaged("cell ", c, " has the unknown type ", number);
     const auto end = static_cast<std::uint64_t>(ends[c]);  // below 0 becomes a huge one
-    if (end < begin || end > connectivity) {
+    if (end < begin || end > connectivity)
       damaged("cell ", c, " ends at ", ends[c], " in a connectivity of ", connectivity, ", and the one before it at ",
               begin);
-    }
     if (type->dimension == 3 && type->points > 0 && end - begin != static_cast<std::uint64_t>(type->points)) {
       damaged(
           (number == tetrahedron_type ? "the tetrahedron in cell " : std::string("the ") + type->name + " in cell "), c,
@@ -98,7 +97,7 @@ Census take_census(const Types& types, const Ends& ends, std::size_t connectivit
   return census;
 }
 
-/// Where all cells are tetrahedra: a parallel copy.
+/// Copies all cells, which are tetrahedra, in parallel.
 template <class Connectivity>
 void copy_all(const Connectivity& from, std::size_t points, const Tetrahedra& to) {
   const Offset count = to.extent(0);
@@ -136,7 +135,7 @@ void copy_some(const Types& types, const Ends& ends, const Connectivity& from, s
   }
 }
 
-/// The cells of dimension 3, checked, as tetrahedra.
+/// Checks the cells of dimension 3, and splits them into tetrahedra.
 template <class Ends, class Connectivity>
 Tetrahedra split(const MeshParts& parts, const Types& types, const Ends& ends, const Connectivity& connectivity,
                  std::size_t points) {
@@ -170,9 +169,7 @@ Tetrahedra split(const MeshParts& parts, const Types& types, const Ends& ends, c
 template <class Ends>
 Tetrahedra to_tetrahedra(const MeshParts& parts, const Types& types, const Ends& ends, bool tetrahedralize,
                          bool may_be_empty, std::size_t points, Census& census) {
-  if (types.size() != ends.size()) {
-    damaged("it has types of ", types.size(), " cells and offsets of ", ends.size());
-  }
+  if (types.size() != ends.size()) damaged("it has types of ", types.size(), " cells and offsets of ", ends.size());
   return with_integers(parts.cells.connectivity, "connectivities", [&](const auto& connectivity) {
     census = take_census(types, ends, connectivity.size());
     if (census.other > 0 && tetrahedralize) return split(parts, types, ends, connectivity, points);

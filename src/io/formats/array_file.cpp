@@ -2,8 +2,8 @@
 #include <limits>
 #include <map>
 
-#include <gale/io/bytes/damaged.hpp>
 #include <gale/io/bytes/input_file.hpp>
+#include <gale/io/bytes/text.hpp>
 #include <gale/io/bytes/values.hpp>
 #include <gale/io/formats/array_file.hpp>
 
@@ -23,17 +23,14 @@ const FileArray& ArrayFile::require(const std::string& name) const {
 }
 
 PointArray::Values ArrayFile::read(const FileArray& array, std::uint64_t rows) {
-  if (rows > array.rows()) {
-    damaged("its '", array.name, "' has ", array.rows(), " rows, not ", rows);
-  }
+  if (rows > array.rows()) damaged("its '", array.name, "' has ", array.rows(), " rows, not ", rows);
   return with_type(array.type.value(), [&](auto example) -> PointArray::Values {
     using T = decltype(example);
     const std::uint64_t count = array.count(rows), bytes = product(count, sizeof(T));
     if (count == 0) return std::vector<T>();
     const std::uint64_t stored = stored_bytes(array, rows, bytes);
-    if (stored > file_.size() - read_bytes_) {
+    if (stored > file_.size() - read_bytes_)
       damaged("its '", array.name, "' lies where other arrays do: all together are longer than the file");
-    }
     read_bytes_ += stored;
     std::vector<T> values(count);
     copy(array, rows, reinterpret_cast<char*>(values.data()), bytes);
@@ -189,9 +186,8 @@ class NetcdfFile : public ArrayFile {
   std::uint64_t stored_bytes(const FileArray& array, std::uint64_t rows, std::uint64_t bytes) override {
     const Variable& variable = variables_.at(array.name);
     const std::uint64_t last = variable.is_in_records ? product(rows - 1, record_bytes_) + variable.row_bytes() : bytes;
-    if (variable.begin > file_.size() || last > file_.size() - variable.begin) {
+    if (variable.begin > file_.size() || last > file_.size() - variable.begin)
       damaged("its '", array.name, "' ends at byte ", sum(variable.begin, last), " of ", file_.size());
-    }
     return bytes;
   }
 

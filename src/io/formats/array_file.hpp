@@ -26,7 +26,7 @@ struct FileArray {
   std::uint64_t count(std::uint64_t rows) const;
 };
 
-/// What an attribute says, characters or numbers.
+/// The value of an attribute, characters or numbers.
 struct FileAttribute {
   std::string text;
   std::vector<double> numbers;
@@ -43,13 +43,13 @@ class ArrayFile {
   /// nullptr if there is none of that name.
   virtual const FileArray* find(const std::string& name) const = 0;
 
-  /// The same, but throws gale::Error if there is none, or it has no values.
+  /// The array of that name. Throws gale::Error if there is none, or it has no values.
   const FileArray& require(const std::string& name) const;
 
   /// The length of a dimension of NetCDF's.
   virtual std::optional<std::uint64_t> dimension(const std::string& name) const = 0;
 
-  /// Of an array; nothing if it has none of that name.
+  /// An attribute of an array; nothing if it has none of that name.
   virtual std::optional<FileAttribute> attribute(const std::string& array, const std::string& name) = 0;
 
   /// The first `rows` rows. Throws gale::Error if the array or the file has less, or if more is read altogether than

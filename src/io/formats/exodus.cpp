@@ -3,7 +3,7 @@
 #include <cstring>
 #include <numeric>
 
-#include <gale/io/bytes/damaged.hpp>
+#include <gale/io/bytes/text.hpp>
 #include <gale/io/bytes/values.hpp>
 #include <gale/io/cells/cells.hpp>
 #include <gale/io/formats.hpp>
@@ -66,7 +66,7 @@ std::string upper_case(std::string text) {
   return text;
 }
 
-/// What is before those endings in all of the names that begin at `first`; empty if they don't end so.
+/// The common begin, before these endings, of the names from `first` on; empty if they don't end so.
 std::string common_name(const std::vector<PointArray>& arrays, std::size_t first,
                         const std::vector<std::string>& endings) {
   if (arrays.size() - first < endings.size()) return "";

@@ -6,7 +6,7 @@
 
 #include <gale/io/dataset.hpp>
 
-/// What VTK's reader makes of Exodus' names.
+/// The meaning of Exodus's names, as VTK's reader has it.
 namespace gale::io::detail {
 
 struct ElementType {

@@ -2,7 +2,7 @@
 #include <cstring>
 
 #include <gale/io/bytes/compression.hpp>
-#include <gale/io/bytes/damaged.hpp>
+#include <gale/io/bytes/text.hpp>
 #include <gale/io/bytes/values.hpp>
 #include <gale/io/formats/hdf5_file.hpp>
 
@@ -187,18 +187,15 @@ std::uint64_t Hdf5File::stored_bytes(const FileArray& array, std::uint64_t rows,
   if (dataset.at.layout != reader::Layout::chunked) {
     if (dataset.at.layout == reader::Layout::contiguous && dataset.at.address == reader::no_address)
       damaged("its '", array.name, "' has no values");
-    if (dataset.at.stored < all) {
-      damaged("its '", array.name, "' has ", dataset.at.stored, " bytes, not ", all);
-    }
+    if (dataset.at.stored < all) damaged("its '", array.name, "' has ", dataset.at.stored, " bytes, not ", all);
     return bytes;
   }
   require_known_filters(dataset.filters, array.name);
   program_.ask(reader::Request::chunks, {array.name, std::to_string(rows)});
   const auto stored = program_.receive<std::uint64_t>();
   const std::uint64_t ratio = dataset.filters.empty() ? 1 : best_deflate_ratio;
-  if (all / ratio > stored) {
+  if (all / ratio > stored)
     damaged("its '", array.name, "' stands for ", all, " bytes, and there are ", stored, " of them");
-  }
   return stored;
 }
 

@@ -1,15 +1,67 @@
 #pragma once
 
+#include <sys/types.h>
+
+#include <cstdint>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gale/io/formats/array_file.hpp>
-#include <gale/io/formats/hdf5_program.hpp>
+#include <gale/io/program/protocol.hpp>
 
 namespace gale::io::detail {
 
-/// An HDF5 file. Of it gale-hdf5-reader says what is where; values come from the file itself, or in chunks, which are
+/// A descriptor, which closes itself; none if it is below 0.
+class Descriptor {
+ public:
+  explicit Descriptor(int number = -1) : number_(number) {}
+  Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
+  ~Descriptor() { close(); }
+  Descriptor& operator=(Descriptor&& other) noexcept {
+    std::swap(number_, other.number_);
+    return *this;
+  }
+  operator int() const { return number_; }
+  void close();
+
+ private:
+  int number_;
+};
+
+/// gale-hdf5-reader with a file, and what passes between it and us.
+class Hdf5Program {
+ public:
+  /// Throws gale::Error if it isn't there, or can't be run.
+  explicit Hdf5Program(const std::string& path);
+  ~Hdf5Program();
+  Hdf5Program(const Hdf5Program&) = delete;
+  Hdf5Program& operator=(const Hdf5Program&) = delete;
+
+  /// Sends a request, whose texts have no zeros.
+  void ask(reader::Request request, const std::vector<std::string>& texts);
+
+  /// Waits for the next bytes of its answer. Throws gale::Error with what it says is wrong, or how it ended.
+  void receive(void* to, std::size_t bytes);
+  template <class T>
+  T receive() {
+    T value;
+    receive(&value, sizeof value);
+    return value;
+  }
+  std::string receive_text(std::uint32_t most);
+
+ private:
+  /// Waits until it has ended; returns its status.
+  int wait();
+  [[noreturn]] void throw_end();
+
+  Descriptor talk_, message_;
+  pid_t process_ = -1;
+};
+
+/// An HDF5 file. gale-hdf5-reader says what is where in it; values come from the file itself, or in chunks, which are
 /// decoded here. All that the program says is checked.
 class Hdf5File : public ArrayFile {
  public:
@@ -24,7 +76,7 @@ class Hdf5File : public ArrayFile {
   /// NetCDF has a dimension as a dataset of that length.
   std::optional<std::uint64_t> dimension(const std::string& name) const override;
 
-  /// Of a dataset or a group that is there.
+  /// An attribute of a dataset or a group that is there.
   std::optional<FileAttribute> attribute(const std::string& path, const std::string& name) override;
 
  protected:

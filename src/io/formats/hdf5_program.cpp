@@ -12,8 +12,8 @@
 #include <filesystem>
 
 #include <gale/base/stop.hpp>
-#include <gale/io/bytes/damaged.hpp>
-#include <gale/io/formats/hdf5_program.hpp>
+#include <gale/io/bytes/text.hpp>
+#include <gale/io/formats/hdf5_file.hpp>
 
 extern char** environ;
 
@@ -34,7 +34,7 @@ fs::path own_folder() {
   return (own.empty() ? fs::read_symlink("/proc/self/exe", unknown) : own).parent_path();
 }
 
-/// Beside that, where the Python module has it, or where GALE was installed.
+/// Finds the program beside that, where the Python module has it, or where GALE was installed.
 std::string find_program() {
   const fs::path own = own_folder();
   for (const fs::path& folder : {own, own / "bin", own / GALE_LIBEXEC_FROM_BIN, fs::path(GALE_LIBEXEC)}) {

@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <cmath>
-#include <cstring>
+#include <map>
+#include <utility>
 
-#include <gale/io/bytes/damaged.hpp>
 #include <gale/io/bytes/text.hpp>
+#include <gale/io/cells/cells.hpp>
 #include <gale/io/formats/legacy_file.hpp>
-#include <gale/io/formats/volume.hpp>
 
 namespace gale::io::detail {
 namespace {
@@ -25,6 +25,26 @@ std::string decoded(const std::string& text) {
     if (escape) k += 2;
   }
   return result;
+}
+
+constexpr std::int64_t most_components = 1 << 20, most_arrays = 100000;
+
+void require_components(std::int64_t components, const std::string& array) {
+  if (components < 1 || components > most_components) damaged("the components of ", array, " are ", components);
+}
+
+/// Adds an array, or the notice where it has no `values` but such of another `type`.
+void add(const std::string& name, std::int64_t components, std::optional<PointArray::Values> values,
+         const std::string& type, bool are_scalars, LegacyAttributes& to) {
+  to.names.push_back(name);
+  if (!values) {
+    to.left_out.push_back(note_array(name, "its values are of type " + type));
+    return;
+  }
+  const bool first = are_scalars && !to.has_scalars;
+  to.has_scalars |= first;
+  to.arrays.insert(first ? to.arrays.begin() : to.arrays.end(),
+                   PointArray{name, static_cast<int>(components), std::move(*values)});
 }
 
 }  // namespace
@@ -140,7 +160,7 @@ void LegacyFile::skip_bytes(std::uint64_t count) {
   skip_all(text_, count, "it");
 }
 
-/// In a text one a line; else each behind its length, whose first two bits say how long that is.
+/// Strings of a text are one a line; else each is behind its length, whose first two bits say how long that is.
 void LegacyFile::skip_strings(std::uint64_t count) {
   end_line();
   for (std::uint64_t k = 0; k < count; ++k) {
@@ -157,6 +177,73 @@ void LegacyFile::skip_strings(std::uint64_t count) {
     std::uint64_t length = first & 63;
     for (int b = 0; b < more; ++b) length = length << 8 | rest[b];
     skip_bytes(length);
+  }
+}
+
+bool read_attribute(LegacyFile& file, const std::string& keyword, std::uint64_t count, LegacyAttributes& to) {
+  constexpr int in_file = 0;
+  static const std::map<std::string, int> all = {{"vectors", 3},
+                                                 {"normals", 3},
+                                                 {"tensors", 9},
+                                                 {"tensors6", 6},
+                                                 {"global_ids", 1},
+                                                 {"pedigree_ids", 1},
+                                                 {"edge_flags", 1},
+                                                 {"scalars", in_file},
+                                                 {"color_scalars", in_file},
+                                                 {"texture_coordinates", in_file}};
+  if (keyword == "lookup_table") {
+    file.name("the name of a lookup table");
+    file.skip_table(static_cast<std::uint64_t>(file.count("the size of a lookup table")));
+    return true;
+  }
+  if (keyword == "field") {
+    read_field(file, &count, to);
+    return true;
+  }
+  const auto known = all.find(keyword);
+  if (known == all.end()) return false;
+  const std::string name = file.name("the name of an array"), its_components = "the components of " + name;
+  const bool are_scalars = keyword == "scalars", are_colors = keyword == "color_scalars";
+  std::int64_t components = known->second;
+  std::string type;
+  if (are_scalars) {  // SCALARS name type [components] LOOKUP_TABLE table
+    type = lower_case(file.name("the type of an array"));
+    std::string word = lower_case(file.name("LOOKUP_TABLE"));
+    const bool says_components = word != "lookup_table";
+    components = says_components ? number<std::int64_t>(word, its_components) : 1;
+    if (says_components) word = lower_case(file.name("LOOKUP_TABLE"));
+    if (word != "lookup_table") damaged("no LOOKUP_TABLE follows the scalars ", name);
+    file.name("the name of a lookup table");
+  } else {
+    if (components == in_file) components = file.count(its_components.c_str());
+    if (!are_colors) type = lower_case(file.name("the type of an array"));
+  }
+  require_components(components, name);
+  const std::uint64_t size = product(count, static_cast<std::uint64_t>(components));
+  add(name, components, are_colors ? file.colors(size) : file.array(type, size), type, are_scalars || are_colors, to);
+  return true;
+}
+
+void read_field(LegacyFile& file, const std::uint64_t* count, LegacyAttributes& to) {
+  file.name("the name of a field");
+  const std::int64_t arrays = file.count("the number of a field's arrays");
+  if (arrays > most_arrays) damaged("a field has ", arrays, " arrays");
+  for (std::int64_t k = 0; k < arrays; ++k) {
+    std::string name = file.name("the name of an array");
+    if (name == "METADATA") {  // of the array before
+      file.skip_metadata();
+      name = file.name("the name of an array");
+    }
+    if (name == "NULL_ARRAY") continue;
+    const std::int64_t components = file.count("the components of an array");
+    const std::int64_t tuples = file.count("the tuples of an array");
+    const std::string type = lower_case(file.name("the type of an array"));
+    auto values = file.array(type, product({components, tuples}, "an array"));
+    if (values && count != nullptr && static_cast<std::uint64_t>(tuples) != *count)
+      refuse("the array '", printable(name), "' has ", tuples, " tuples for ", *count, " points");
+    if (values) require_components(components, name);
+    add(name, components, std::move(values), type, false, to);
   }
 }
 

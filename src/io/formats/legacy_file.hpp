@@ -66,17 +66,15 @@ struct LegacyAttributes {
   std::vector<PointArray> arrays;
   std::vector<std::string> names;     ///< of all
   std::vector<std::string> left_out;  ///< a notice about each whose values are no numbers
-
-  /// Adds an array, in front if it is to be `first`, or the notice where it has no `values` but such of another `type`.
-  void add(const std::string& name, std::int64_t components, std::optional<PointArray::Values> values,
-           const std::string& type, bool first);
+  bool has_scalars = false;
 };
 
-/// Reads attributes of `count` points or cells, up to the next keyword that begins none: `keyword` is the next one,
-/// before and after. Throws gale::Error for an array of another size.
-LegacyAttributes read_attributes(LegacyFile& file, std::uint64_t count, std::string& keyword);
+/// Reads an attribute of `count` points or cells, whose keyword was read. False, with nothing read, if the keyword
+/// begins none. Throws gale::Error for an array of another size.
+bool read_attribute(LegacyFile& file, const std::string& keyword, std::uint64_t count, LegacyAttributes& to);
 
-/// A field, whose keyword was read: arrays with sizes of their own, which have to be `*count` unless that is nullptr.
-LegacyAttributes read_field(LegacyFile& file, const std::uint64_t* count);
+/// Reads a field, whose keyword was read: arrays with sizes of their own, which have to be `*count` unless that is
+/// nullptr.
+void read_field(LegacyFile& file, const std::uint64_t* count, LegacyAttributes& to);
 
 }  // namespace gale::io::detail

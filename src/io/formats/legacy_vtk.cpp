@@ -2,7 +2,7 @@
 #include <limits>
 
 #include <gale/base/stop.hpp>
-#include <gale/io/bytes/damaged.hpp>
+#include <gale/io/bytes/text.hpp>
 #include <gale/io/cells/cells.hpp>
 #include <gale/io/formats.hpp>
 #include <gale/io/formats/legacy_file.hpp>
@@ -11,7 +11,7 @@
 namespace gale::io::detail {
 namespace {
 
-/// What a file of any kind may say, as far as it does.
+/// The sections that a file of any kind may have, as far as it does.
 struct Sections {
   MeshParts mesh;
   std::vector<std::int64_t> dimensions;
@@ -21,7 +21,7 @@ struct Sections {
   std::vector<std::string> cell_arrays;
 };
 
-/// Before version 5: for each cell how many points it has, and those.
+/// Reads cells before version 5: for each how many points it has, and those.
 void read_old_cells(LegacyFile& file, Sections& to) {
   to.cells = file.count("the number of cells");
   const std::int64_t size = file.count("the size of the cells");
@@ -40,7 +40,7 @@ void read_old_cells(LegacyFile& file, Sections& to) {
   to.mesh.cells.ends = std::move(ends);
 }
 
-/// From version 5 on: where each begins, and the end.
+/// Reads cells from version 5 on: where each begins, and the end.
 void read_new_cells(LegacyFile& file, Sections& to) {
   const std::int64_t offsets = file.count("the number of offsets");
   const std::int64_t size = file.count("the size of the connectivity");
@@ -63,7 +63,7 @@ std::uint64_t grid_points(const Sections& from) {
   return product({from.dimensions[0], from.dimensions[1], from.dimensions[2]}, "dimensions");
 }
 
-/// One of a rectilinear grid's axes, by its letter.
+/// Reads one of a rectilinear grid's axes.
 void read_axis(LegacyFile& file, int axis, Sections& to) {
   const std::int64_t count = file.count("the number of coordinates");
   to.coordinates[axis] = file.array_of_numbers(static_cast<std::uint64_t>(count), "the coordinates");
@@ -75,8 +75,10 @@ bool read_section(LegacyFile& file, const std::string& kind, std::string& keywor
     const bool of_points = keyword == "point_data";
     const std::int64_t count = file.count(of_points ? "POINT_DATA" : "CELL_DATA");
     if (of_points && count != to.points) damaged("POINT_DATA of ", count, " for ", to.points, " points");
-    keyword = file.keyword();
-    LegacyAttributes found = read_attributes(file, static_cast<std::uint64_t>(count), keyword);
+    LegacyAttributes found;
+    do {
+      keyword = file.keyword();
+    } while (read_attribute(file, keyword, static_cast<std::uint64_t>(count), found));
     if (of_points) {
       to.mesh.arrays = std::move(found.arrays);
       to.mesh.notices = std::move(found.left_out);
@@ -86,7 +88,8 @@ bool read_section(LegacyFile& file, const std::string& kind, std::string& keywor
     return true;
   }
   if (keyword == "field") {
-    read_field(file, nullptr);
+    LegacyAttributes unused;
+    read_field(file, nullptr, unused);
   } else if (keyword == "dimensions") {
     to.dimensions.clear();
     for (int d = 0; d < 3; ++d) to.dimensions.push_back(file.count("DIMENSIONS"));
@@ -133,7 +136,7 @@ Image to_image(Sections& from) {
   return image;
 }
 
-/// Hexahedra of the grid, as cells of `type`, a voxel or a hexahedron.
+/// Adds the hexahedra of the grid, as cells of `type`, a voxel or a hexahedron.
 void add_grid_cells(Sections& to, int type, bool tetrahedralize) {
   const std::int64_t nx = to.dimensions[0], ny = to.dimensions[1], nz = to.dimensions[2];
   if (nx < 2 || ny < 2 || nz < 2) return;
@@ -171,9 +174,8 @@ void require_grid_points(const Sections& of, bool rectilinear) {
     if (static_cast<std::int64_t>(count_of(of.coordinates[d])) == of.dimensions[d]) continue;
     damaged("it has ", count_of(of.coordinates[d]), " coordinates along an axis of ", of.dimensions[d]);
   }
-  if (!rectilinear && count_of(of.mesh.points) != 3 * grid_points(of)) {
+  if (!rectilinear && count_of(of.mesh.points) != 3 * grid_points(of))
     damaged("it has ", count_of(of.mesh.points) / 3, " points, not those of its DIMENSIONS");
-  }
 }
 
 void add_grid_points(Sections& to) {

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <gale/io/bytes/damaged.hpp>
 #include <gale/io/bytes/text.hpp>
 #include <gale/io/formats/volume.hpp>
 
@@ -149,9 +148,8 @@ PointArray::Values read_slices(const InputFile& file, const TextHeader& header, 
                                std::size_t axes, const Volume& volume, const ReadOptions& options) {
   const auto names = names_of_slices(header, words, axes, volume);
   const std::uint64_t bytes = volume.bytes();
-  if (names.empty() || bytes % names.size() != 0) {
+  if (names.empty() || bytes % names.size() != 0)
     damaged("it has ", names.size(), " data files for ", volume.dimensions[axes - 1], " slices");
-  }
   std::vector<std::string> paths;
   for (const std::string& name : names) paths.push_back(path_of_data(file.path(), name, options));
   const auto begin = number_or<std::int64_t>(header, "HeaderSize", 0);

@@ -2,7 +2,7 @@
 #include <cstring>
 
 #include <gale/io/bytes/compression.hpp>
-#include <gale/io/bytes/damaged.hpp>
+#include <gale/io/bytes/text.hpp>
 #include <gale/io/formats/volume.hpp>
 
 namespace gale::io::detail {
@@ -107,7 +107,7 @@ void take_type(const NiftiHeader& header, Volume& volume) {
   damaged("its values are of the NIfTI type ", header.datatype);
 }
 
-/// The rotation of a unit quaternion, of which b, c and d are given.
+/// The rotation of a unit quaternion, whose b, c and d are given.
 std::array<std::array<double, 3>, 3> rotation(const std::array<double, 3>& bcd) {
   const auto [b, c, d] = bcd;
   const double rest = 1 - b * b - c * c - d * d, a = rest > 0 ? std::sqrt(rest) : 0;
@@ -117,7 +117,7 @@ std::array<std::array<double, 3>, 3> rotation(const std::array<double, 3>& bcd) 
            {2 * (b * d - a * c) * s, 2 * (c * d + a * b) * s, (a * a - b * b - c * c + d * d) * s}}};
 }
 
-/// In the order of the file's voxels, by its sform, else its qform, else its spacing alone.
+/// Places the voxels, in the file's order, by its sform, else its qform, else its spacing alone.
 void place(const NiftiHeader& header, Image& image) {
   auto& to = image.index_to_physical;
   if (header.sform_code > 0) {
@@ -144,7 +144,8 @@ void skip(ByteSource& source, std::uint64_t bytes) {
   skip_all(source, bytes, "what comes before its voxels");
 }
 
-/// Planes of components, one after the other, with all time steps of each: of the first step, component by component.
+/// Reads planes of components, one after the other, with all time steps of each: of the first step, component by
+/// component.
 PointArray::Values read_planes(ByteSource& source, const Volume& whole, std::int64_t planes, std::int64_t times) {
   Volume plane = whole;
   plane.components = whole.components / planes;

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <gale/io/bytes/damaged.hpp>
 #include <gale/io/bytes/text.hpp>
 #include <gale/io/formats/volume.hpp>
 
@@ -68,7 +67,7 @@ std::vector<double> vector_of(const std::string& text, const std::string& field)
   }
 }
 
-/// What the axes of the file are: components first, if any, then up to three of space, then others, of which the first
+/// The axes of the file: components first, if any, then up to three of space, then others, of which the first
 /// place alone is read.
 struct Axes {
   std::vector<std::int64_t> sizes;
@@ -80,9 +79,8 @@ Axes axes_of(const TextHeader& header) {
   Axes axes;
   axes.sizes = numbers_of<std::int64_t>(header["sizes"], "sizes");
   const auto dimension = integer(header, "dimension", 0);
-  if (dimension < 1 || dimension > 16 || axes.sizes.size() != static_cast<std::size_t>(dimension)) {
+  if (dimension < 1 || dimension > 16 || axes.sizes.size() != static_cast<std::size_t>(dimension))
     damaged("it has ", axes.sizes.size(), " sizes for ", dimension, " dimensions");
-  }
   for (const std::int64_t size : axes.sizes) {
     if (size < 1) damaged("one of its sizes is ", size);
   }
@@ -136,7 +134,7 @@ std::vector<std::string> data_files(const TextHeader& header) {
                           most_files);
 }
 
-/// Past so many lines and bytes.
+/// Where the values begin: past the lines and bytes to skip.
 std::uint64_t skip(const InputFile& data, std::uint64_t begin, const TextHeader& header, std::uint64_t bytes_at_end) {
   const auto lines = integer(header, "lineskip", 0), bytes = integer(header, "byteskip", 0);
   if (lines < 0 || bytes < -1) damaged("it skips ", lines, " lines and ", bytes, " bytes");

@@ -7,7 +7,7 @@
 #include <unordered_map>
 
 #include <gale/base/stop.hpp>
-#include <gale/io/bytes/damaged.hpp>
+#include <gale/io/bytes/text.hpp>
 #include <gale/io/cells/cells.hpp>
 #include <gale/io/cells/join.hpp>
 #include <gale/io/dataset.hpp>
@@ -20,7 +20,7 @@ namespace {
 
 using Ids = std::vector<std::int64_t>;
 
-/// What points of several pieces have in common that are one point: a global id, or all three coordinates.
+/// The key by which points of several pieces are one point: a global id, or all three coordinates.
 using Key = std::array<std::uint64_t, 3>;
 
 struct HashOfKey {
@@ -82,13 +82,13 @@ std::vector<Key> coordinates_of(const MeshParts& piece) {
 }
 
 /// One of the pieces as its file has it.
-struct MeshPiece {
+struct FilePiece {
   MeshParts parts;
   std::optional<PointArray::Values> ghosts;  ///< of cells
   Ids cell_ids;                              ///< empty without ids
 };
 
-/// What all pieces have in common, and the ids there: of points, each once, and of cells that are no ghosts.
+/// The joined pieces and their ids: of points, each once, and of cells that are no ghosts.
 struct JoinedWithIds {
   MeshParts parts;
   Ids point_ids, cell_ids;
@@ -99,7 +99,7 @@ class SharedPieces {
  public:
   explicit SharedPieces(const PieceNames& names) : names_(names) {}
 
-  void add(MeshPiece piece) {
+  void add(FilePiece piece) {
     MeshParts& parts = piece.parts;
     drop_ghosts(parts.arrays);
     const std::size_t before = joined_.points();
@@ -127,7 +127,7 @@ class SharedPieces {
   }
 
  private:
-  /// What says of points that other pieces have them is true of none any more.
+  /// Drops the array that says which points other pieces have: it is true of none any more.
   static void drop_ghosts(std::vector<PointArray>& arrays) {
     const auto is_ghosts = [](const PointArray& array) { return array.name == ghost_array; };
     arrays.erase(std::remove_if(arrays.begin(), arrays.end(), is_ghosts), arrays.end());
@@ -156,7 +156,7 @@ class SharedPieces {
   }
 
   /// The cells that are no ghosts, with the joined points' numbers.
-  Cells numbered_cells(const Cells& cells, const Ids& places, const MeshPiece& piece) {
+  Cells numbered_cells(const Cells& cells, const Ids& places, const FilePiece& piece) {
     Ids types, ends, connectivity, is_ghost;
     append(cells.types, std::int64_t(0), types);
     append(cells.ends, std::int64_t(0), ends);
@@ -166,10 +166,9 @@ class SharedPieces {
     std::int64_t begin = 0;
     for (std::size_t c = 0; c < types.size(); ++c) {
       gale::detail::stop_if_asked_at(static_cast<std::int64_t>(c));
-      if (ends[c] < begin || ends[c] > static_cast<std::int64_t>(connectivity.size())) {
+      if (ends[c] < begin || ends[c] > static_cast<std::int64_t>(connectivity.size()))
         damaged("cell ", c, " ends at ", ends[c], " in a connectivity of ", connectivity.size(),
                 ", and the one before it at ", begin);
-      }
       if (is_ghost.empty() || (is_ghost[c] & has_other_piece) == 0) {
         for (std::int64_t k = begin; k < ends[c]; ++k) kept_points.push_back(place(places, connectivity[k], c));
         kept_types.push_back(types[c]);
@@ -193,7 +192,7 @@ class SharedPieces {
   Ids point_ids_, cell_ids_;  ///< of the joined ones
 };
 
-/// Empty if nothing names them.
+/// The global ids of cells; empty if nothing names them.
 Ids ids_of_cells(const XmlFile& file, const XmlElement& piece, std::size_t cells, const std::string& name) {
   if (name.empty() || cells == 0) return {};
   const auto values = read_cell_array(file, piece, name);
@@ -206,7 +205,7 @@ std::vector<std::string> add_file(const InputFile& input, const PieceNames& name
   std::vector<std::string> cell_arrays;
   const XmlFile file = read_xml(input, "UnstructuredGrid", names.cell_ids);
   for (const XmlElement* element : pieces_of(file)) {
-    MeshPiece piece{read_piece(file, *element), read_cell_array(file, *element, ghost_array), {}};
+    FilePiece piece{read_piece(file, *element), read_cell_array(file, *element, ghost_array), {}};
     piece.cell_ids = ids_of_cells(file, *element, count_of(piece.parts.cells.types), names.cell_ids);
     shared.add(std::move(piece));
     if (cell_arrays.empty()) cell_arrays = names_of_cell_data(*element);
@@ -218,9 +217,8 @@ std::vector<std::string> add_file(const InputFile& input, const PieceNames& name
 std::vector<std::string> sources_of(const XmlElement& grid) {
   std::vector<std::string> sources;
   std::set<std::filesystem::path> paths;
-  for (const XmlElement& piece : grid.children) {
-    if (piece.name != "Piece") continue;
-    sources.push_back(piece.attribute("Source"));
+  for (const XmlElement* const piece : grid.all("Piece")) {
+    sources.push_back(piece->attribute("Source"));
     if (sources.back().empty()) damaged("one of its pieces has no Source");
     if (!paths.insert(std::filesystem::path(sources.back()).lexically_normal()).second)
       refuse("it names the piece '", printable(sources.back()), "' twice");

@@ -6,7 +6,6 @@
 #include <sstream>
 
 #include <gale/io/bytes/compression.hpp>
-#include <gale/io/bytes/damaged.hpp>
 #include <gale/io/bytes/text.hpp>
 #include <gale/io/formats/volume.hpp>
 
@@ -14,10 +13,9 @@ namespace gale::io::detail {
 
 std::uint64_t Volume::count() const {
   for (const std::int64_t n : {dimensions[0], dimensions[1], dimensions[2], components}) {
-    if (n < 1 || n > std::numeric_limits<int>::max()) {
+    if (n < 1 || n > std::numeric_limits<int>::max())
       damaged("it has ", dimensions[0], " x ", dimensions[1], " x ", dimensions[2], " voxels of ", components,
               " components");
-    }
   }
   return product({dimensions[0], dimensions[1], dimensions[2], components}, "dimensions");
 }
@@ -90,10 +88,9 @@ std::string path_of_data(const std::string& header, const std::string& name, con
   if (options.outside_files) return path.string();
   const fs::path real_folder = fs::weakly_canonical(folder, unknown), real = fs::weakly_canonical(path, unknown);
   const auto [stop, ignored] = std::mismatch(real_folder.begin(), real_folder.end(), real.begin(), real.end());
-  if (name.empty() || name.find('\0') != std::string::npos || stop != real_folder.end()) {
+  if (name.empty() || name.find('\0') != std::string::npos || stop != real_folder.end())
     refuse("its data file '", printable(name),
            "' is outside of its folder: reading that has to be allowed (--outside-files)");
-  }
   return path.string();
 }
 
@@ -103,16 +100,13 @@ std::vector<std::string> names_of_pattern(const std::string& pattern, std::int64
   std::size_t end = percent + 1;
   const bool zeros = end < pattern.size() && pattern[end] == '0';
   std::size_t width = 0;
-  while (end < pattern.size() && std::isdigit(static_cast<unsigned char>(pattern[end])) && width < 100) {
+  while (end < pattern.size() && std::isdigit(static_cast<unsigned char>(pattern[end])) && width < 100)
     width = 10 * width + static_cast<std::size_t>(pattern[end++] - '0');
-  }
   const bool ends_in_d = end < pattern.size() && (pattern[end] == 'd' || pattern[end] == 'i' || pattern[end] == 'u');
-  if (percent == std::string::npos || !ends_in_d || width >= 100 || pattern.find('%', end) != std::string::npos) {
+  if (percent == std::string::npos || !ends_in_d || width >= 100 || pattern.find('%', end) != std::string::npos)
     damaged("'", pattern, "' is no pattern of file names such as slice%03d.raw");
-  }
-  if (step < 1 || first < 0 || last < first || static_cast<std::uint64_t>(last - first) / step >= most) {
+  if (step < 1 || first < 0 || last < first || static_cast<std::uint64_t>(last - first) / step >= most)
     damaged("its data files go from ", first, " to ", last, " by ", step, ", where at most ", most, " are needed");
-  }
   std::vector<std::string> names;
   for (std::int64_t k = first; k <= last; k += step) {
     std::string number = std::to_string(k);

@@ -10,7 +10,7 @@
 #include <gale/io/bytes/values.hpp>
 #include <gale/io/formats.hpp>
 
-/// What the volume formats have in common: a small header that says how the values of one array lie in a file.
+/// Common parts of the volume formats: a small header that says how the values of one array lie in a file.
 namespace gale::io::detail {
 
 /// How the values lie in the file.
@@ -32,7 +32,7 @@ struct Volume {
   /// Throws gale::Error unless the file has them all from that byte on.
   PointArray::Values read(const InputFile& file, std::uint64_t begin, Packing packing) const;
 
-  /// With one array and nothing else.
+  /// An image with one array and nothing else.
   Image image(const std::string& name, PointArray::Values values) const;
 };
 

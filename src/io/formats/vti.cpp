@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <limits>
 
-#include <gale/io/bytes/damaged.hpp>
 #include <gale/io/bytes/text.hpp>
 #include <gale/io/bytes/values.hpp>
 #include <gale/io/cells/join.hpp>
@@ -14,8 +13,7 @@ namespace {
 
 template <class T>
 std::vector<T> numbers(const XmlElement& element, const char* key, const std::vector<T>& otherwise, std::size_t count) {
-  std::vector<T> result;
-  for (const std::string& word : words_of(element.attribute(key))) result.push_back(number<T>(word, key));
+  std::vector<T> result = numbers_of<T>(element.attribute(key), key);
   if (result.empty() && !otherwise.empty()) return otherwise;
   if (result.size() != count) damaged("its ", key, " has ", result.size(), " numbers, not ", count);
   return result;
@@ -62,14 +60,13 @@ void for_each_row(const Extent& piece, const Extent& whole, const Visit& visit) 
 
 std::vector<Piece> pieces_of(const XmlElement& image, const Extent& whole) {
   std::vector<Piece> pieces;
-  for (const XmlElement& element : image.children) {
-    if (element.name != "Piece") continue;
-    const Extent extent = extent_of(element, "Extent");
+  for (const XmlElement* const element : image.all("Piece")) {
+    const Extent extent = extent_of(*element, "Extent");
     for (int d = 0; d < 3; ++d) {
       if (extent.low[d] < whole.low[d] || extent.high[d] > whole.high[d])
-        damaged("a piece's Extent '", element.attribute("Extent"), "' leaves the WholeExtent");
+        damaged("a piece's Extent '", element->attribute("Extent"), "' leaves the WholeExtent");
     }
-    pieces.push_back({extent, &element});
+    pieces.push_back({extent, element});
   }
   return pieces;
 }

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include <gale/io/bytes/damaged.hpp>
+#include <gale/io/bytes/text.hpp>
 #include <gale/io/bytes/values.hpp>
 #include <gale/io/cells/cells.hpp>
 #include <gale/io/formats.hpp>

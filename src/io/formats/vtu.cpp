@@ -1,6 +1,6 @@
 #include <limits>
 
-#include <gale/io/bytes/damaged.hpp>
+#include <gale/io/bytes/text.hpp>
 #include <gale/io/bytes/values.hpp>
 #include <gale/io/cells/join.hpp>
 #include <gale/io/formats.hpp>
@@ -17,11 +17,13 @@ std::uint64_t count_in(const XmlElement& piece, const char* of_what) {
   return count;
 }
 
-const XmlElement& cell_array(const XmlElement& cells, const char* name) {
-  for (const XmlElement& array : cells.children) {
-    if (array.name == "DataArray" && array.attribute("Name") == name) return array;
-  }
-  damaged("its Cells have no ", name);
+/// Reads one of the arrays that say what cells there are.
+PointArray::Values read_cells(const XmlFile& file, const XmlElement& piece, const char* name,
+                              std::optional<std::uint64_t> count) {
+  piece.require("Cells");
+  const XmlElement* const array = piece.array("Cells", name);
+  if (array == nullptr) damaged("its Cells have no ", name);
+  return read_array(file, *array, count);
 }
 
 }  // namespace
@@ -36,10 +38,9 @@ MeshParts read_piece(const XmlFile& file, const XmlElement& piece) {
     parts.points = read_array(file, array, 3 * points);
   }
   if (cells > 0) {
-    const XmlElement& arrays = piece.require("Cells");
-    parts.cells.types = read_array(file, cell_array(arrays, "types"), cells);
-    parts.cells.ends = read_array(file, cell_array(arrays, "offsets"), cells);
-    parts.cells.connectivity = read_array(file, cell_array(arrays, "connectivity"), std::nullopt);
+    parts.cells.types = read_cells(file, piece, "types", cells);
+    parts.cells.ends = read_cells(file, piece, "offsets", cells);
+    parts.cells.connectivity = read_cells(file, piece, "connectivity", std::nullopt);
   }
   XmlArrays data = read_point_data(file, piece, points);
   parts.arrays = std::move(data.arrays);
@@ -49,22 +50,13 @@ MeshParts read_piece(const XmlFile& file, const XmlElement& piece) {
 
 std::optional<PointArray::Values> read_cell_array(const XmlFile& file, const XmlElement& piece,
                                                   const std::string& name) {
-  const XmlElement* const data = piece.child("CellData");
-  if (data == nullptr) return std::nullopt;
-  for (const XmlElement& array : data->children) {
-    if (array.name == "DataArray" && array.attribute("Name") == name)
-      return read_array(file, array, count_in(piece, "NumberOfCells"));
-  }
-  return std::nullopt;
+  const XmlElement* const array = piece.array("CellData", name);
+  if (array == nullptr) return std::nullopt;
+  return read_array(file, *array, count_in(piece, "NumberOfCells"));
 }
 
 std::vector<const XmlElement*> pieces_of(const XmlFile& file) {
-  const XmlElement& grid = file.root.require("UnstructuredGrid");
-  std::vector<const XmlElement*> pieces;
-  for (const XmlElement& piece : grid.children) {
-    if (piece.name == "Piece") pieces.push_back(&piece);
-  }
-  return pieces;
+  return file.root.require("UnstructuredGrid").all("Piece");
 }
 
 Content read_vtu(const InputFile& input, const ReadOptions& options) {

@@ -8,7 +8,7 @@
 #include <gale/io/formats.hpp>
 #include <gale/io/formats/xml_file.hpp>
 
-// What `.vtu` and the `.pvtu` that names several of them have in common.
+// Common parts of `.vtu` and of the `.pvtu` that names several of them.
 
 namespace gale::io::detail {
 
@@ -22,7 +22,7 @@ MeshParts read_piece(const XmlFile& file, const XmlElement& piece);
 std::optional<PointArray::Values> read_cell_array(const XmlFile& file, const XmlElement& piece,
                                                   const std::string& name);
 
-/// What a `.pvtu` names, and some of these pieces as one mesh, which may be empty.
+/// The pieces that a `.pvtu` names, and some of these as one mesh, which may be empty.
 PieceNames names_of_pieces(const InputFile& input);
 SomePieces read_some_pieces(const InputFile& input, const PieceNames& some, const ReadOptions& options);
 

@@ -8,7 +8,6 @@
 #include <gale/base/threads.hpp>
 #include <gale/io/bytes/base64.hpp>
 #include <gale/io/bytes/compression.hpp>
-#include <gale/io/bytes/damaged.hpp>
 #include <gale/io/bytes/text.hpp>
 #include <gale/io/bytes/values.hpp>
 #include <gale/io/cells/cells.hpp>
@@ -19,7 +18,7 @@ namespace {
 
 std::optional<ValueType> type_of(const XmlElement& array) { return find_type(xml_types, array.attribute("type")); }
 
-/// "its array 'name'", for messages.
+/// Names the array in messages.
 std::string its(const XmlElement& array) { return "its array '" + printable(array.attribute("Name")) + "'"; }
 
 /// The bytes of one array that isn't text: raw, or base64 whose pieces, a header and values, may be padded each.
@@ -174,9 +173,8 @@ PointArray::Values read_binary(const XmlFile& file, const XmlElement& array, Val
   const std::size_t size = size_of(type);
   const auto check = [&](std::uint64_t bytes) {
     if (!count) count = bytes / size;
-    if (bytes / size < *count) {
+    if (bytes / size < *count)
       damaged(its(array), " has ", bytes, " bytes, not ", *count, " values of type ", name_of(type));
-    }
   };
   if (file.compressor.empty()) {
     const std::uint64_t bytes = binary.header_number();
@@ -211,6 +209,23 @@ const XmlElement& XmlElement::require(const std::string& wanted) const {
   const XmlElement* const found = child(wanted);
   if (found == nullptr) damaged("its ", name, " has no ", wanted);
   return *found;
+}
+
+std::vector<const XmlElement*> XmlElement::all(const std::string& wanted) const {
+  std::vector<const XmlElement*> found;
+  for (const XmlElement& element : children) {
+    if (element.name == wanted) found.push_back(&element);
+  }
+  return found;
+}
+
+const XmlElement* XmlElement::array(const std::string& section, const std::string& wanted) const {
+  const XmlElement* const arrays = child(section);
+  if (arrays == nullptr) return nullptr;
+  for (const XmlElement* const array : arrays->all("DataArray")) {
+    if (array->attribute("Name") == wanted) return array;
+  }
+  return nullptr;
 }
 
 std::uint64_t XmlElement::number(const std::string& key) const {

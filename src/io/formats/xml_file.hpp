@@ -35,6 +35,12 @@ struct XmlElement {
 
   /// The first child of that name. Throws gale::Error if there is none.
   const XmlElement& require(const std::string& name) const;
+
+  /// All children of that name.
+  std::vector<const XmlElement*> all(const std::string& name) const;
+
+  /// The array of that name in the child `section`, or nullptr.
+  const XmlElement* array(const std::string& section, const std::string& name) const;
 };
 
 struct XmlFile {
@@ -43,7 +49,7 @@ struct XmlFile {
   std::uint64_t appended_begin = 0;  ///< in the file, of what is behind the tree; 0 if nothing is
   bool appended_is_raw = false;
 
-  // As the root says.
+  // What the root says.
   ByteOrder order = byte_order_of_machine();
   std::size_t header_bytes = 4;  ///< of the numbers that say how long an array is
   std::string compressor{};      ///< VTK's class, or empty

@@ -36,7 +36,7 @@ constexpr std::uint32_t allowed[] = {__NR_read,          __NR_write,        __NR
                                      __NR_clock_gettime, __NR_gettimeofday, __NR_rt_sigreturn, __NR_rt_sigprocmask,
                                      __NR_sigaltstack,   __NR_exit,         __NR_exit_group};
 
-/// Of Linux 6.12; older kernels know the beginning of it, and want the rest to be 0.
+/// Landlock's structure in Linux 6.12; older kernels know the beginning of it, and want the rest to be 0.
 struct LandlockRules {
   std::uint64_t files, network, scopes;
 };

@@ -2,9 +2,9 @@
 
 namespace gale::reader {
 
-/// From here on this process opens no file, socket or anything else, and runs no program: it reads, writes and maps
-/// what it has open already, takes memory, and ends. By each of the three below that the kernel has; the last is always
-/// there.
+/// Keeps this process from opening any file, socket or anything else, and from running programs: it reads, writes and
+/// maps what it has open already, takes memory, and ends. Does each of the three below that the kernel has; the last is
+/// always there.
 void confine();
 
 /// Landlock, Linux 5.13: no path is opened, created or run; no connection over TCP, no signal to others (6.7, 6.12).

@@ -7,14 +7,14 @@ namespace gale::reader {
 
 namespace {
 
-/// The error that all others came of.
+/// Keeps the error that all others came of.
 herr_t keep_first(unsigned, const H5E_error2_t* error, void* to) {
   auto& first = *static_cast<std::string*>(to);
   if (first.empty() && error->desc != nullptr) first = error->desc;
   return 0;
 }
 
-/// As gale::io::detail::ValueType numbers them.
+/// The types of numbers in the order of gale::io::detail::ValueType.
 std::array<hid_t, 10> types_in(bool is_big_endian) {
   if (is_big_endian)
     return {H5T_STD_I8BE,  H5T_STD_U8BE,  H5T_STD_I16BE, H5T_STD_U16BE,  H5T_STD_I32BE,

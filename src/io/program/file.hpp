@@ -56,7 +56,7 @@ class File {
 
   Description describe(const std::string& path) const;
 
-  /// Of a dataset.
+  /// Opens a dataset.
   Handle open(const std::string& path) const;
 
  private:

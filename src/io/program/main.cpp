@@ -40,7 +40,7 @@ struct Image {
   }
 };
 
-/// Whoever started GALE may have left descriptors open that aren't ours.
+/// Closes descriptors that whoever started GALE may have left open.
 void close_inherited() {
 #if defined(SYS_close_range)
   if (syscall(SYS_close_range, 3u, ~0u, 0u) == 0) return;
@@ -48,14 +48,15 @@ void close_inherited() {
   for (int descriptor = 3; descriptor < 65536; ++descriptor) close(descriptor);
 }
 
-/// What this process has mapped already.
+/// The bytes that this process has mapped already.
 rlim_t mapped_bytes() {
   rlim_t pages = 0;
   std::ifstream("/proc/self/statm") >> pages;
   return pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
 }
 
-/// What HDF5 needs to find its way in a file is less than the file. All that is large goes through unread.
+/// Limits memory and time: what HDF5 needs to find its way in a file is less than the file, and all that is large goes
+/// through unread.
 void limit_to(std::size_t bytes) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   const auto limit = [](auto resource, rlim_t most) {
@@ -100,7 +101,7 @@ void put_text(const std::string& text) {
   put(text.data(), text.size());
 }
 
-/// False at the end.
+/// Reads from standard input; false at the end.
 bool get(void* to, std::size_t bytes) {
   for (char* at = static_cast<char*>(to); bytes > 0;) {
     const ssize_t got = read(STDIN_FILENO, at, bytes);
@@ -134,7 +135,7 @@ void answer_attribute(const File& file, const std::string& path, const std::stri
   put_all(attribute.numbers);
 }
 
-/// HDF5 has no more than 64 KiB in a header.
+/// Answers with a compact dataset's bytes, of which HDF5 has no more than 64 KiB.
 void answer_bytes(const File& file, const std::string& path) {
   const Handle dataset = file.open(path);
   const Handle type(H5Dget_type(dataset), H5Tclose, "a type");

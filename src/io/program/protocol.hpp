@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-/// What GALE asks gale-hdf5-reader, and what it answers, in the machine's bytes.
+/// Requests of GALE to gale-hdf5-reader, and its answers, in the machine's bytes.
 ///
 /// A request is its length, 32 bits, its kind, and texts that end by a zero each; GALE sends it when the answer to the
 /// one before has come. A text of an answer is its length, 32 bits, and its characters.
@@ -12,7 +12,7 @@
 /// - bytes PATH: those of a compact dataset, as many as its Dataset says.
 /// - chunks PATH ROWS: how many bytes all chunks of the dataset have, 64 bits; of each chunk that has some of the first
 ///   ROWS, a number, rows, the last dimension running fastest: a Chunk and its bytes.
-/// What is wrong goes to its standard error, a line, and it ends.
+/// Where something is wrong, it writes a line to its standard error, and ends.
 namespace gale::reader {
 
 enum class Request : std::uint8_t { group, attribute, bytes, chunks };
@@ -40,7 +40,7 @@ struct Chunk {
 inline constexpr std::uint64_t no_address = ~std::uint64_t(0);
 inline constexpr unsigned most_dimensions = 32, most_filters = 32;
 
-/// As HDF5 numbers them.
+/// Filters by HDF5's numbers.
 inline constexpr std::uint32_t deflate = 1, shuffle = 2, fletcher32 = 3;
 
 /// Goes on to the next chunk below `ends`, the last dimension first; false at the end.

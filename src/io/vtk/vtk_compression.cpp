@@ -9,7 +9,7 @@
 
 #include <gale/base/stop.hpp>
 #include <gale/io/bytes/compression.hpp>
-#include <gale/io/bytes/damaged.hpp>
+#include <gale/io/bytes/text.hpp>
 #include <gale/io/formats.hpp>
 
 namespace gale::io::detail {

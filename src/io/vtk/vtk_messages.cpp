@@ -11,7 +11,7 @@
 #include <vtkSmartPointer.h>
 
 #include <gale/base/error.hpp>
-#include <gale/io/bytes/damaged.hpp>
+#include <gale/io/bytes/text.hpp>
 #include <gale/io/vtk/vtk_messages.hpp>
 
 namespace gale::io::detail {
@@ -27,7 +27,7 @@ std::string message_of(const std::string& text) {
   return message;
 }
 
-/// As one short line that can be printed, without a full stop.
+/// The text as one short line that can be printed, without a full stop.
 std::string one_line(const std::string& text) {
   std::string line = printable(text);
   if (!line.empty() && line.back() == '.') line.pop_back();

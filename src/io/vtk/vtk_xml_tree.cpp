@@ -2,7 +2,7 @@
 
 #include <vtk_expat.h>
 
-#include <gale/io/bytes/damaged.hpp>
+#include <gale/io/bytes/text.hpp>
 #include <gale/io/formats/xml_file.hpp>
 
 namespace gale::io::detail {
@@ -36,9 +36,8 @@ class Builder {
       const XML_Status status = XML_Parse(parser_, buffer.data(), static_cast<int>(buffer.size()), last);
       if (out_of_memory_) throw std::bad_alloc();
       if (!failure_.empty()) damaged(failure_);
-      if (status != XML_STATUS_OK && !at_appended_) {
+      if (status != XML_STATUS_OK && !at_appended_)
         damaged(XML_ErrorString(XML_GetErrorCode(parser_)), " in line ", XML_GetCurrentLineNumber(parser_));
-      }
       if (last) break;
     }
     if (at_appended_) find_appended();
@@ -109,7 +108,7 @@ class Builder {
     if (!open_.empty()) open_.pop_back();
   }
 
-  /// What is appended begins behind an underscore.
+  /// Finds where the appended data begins, behind an underscore.
   void find_appended() {
     char c = ' ';
     std::uint64_t at = to_.appended_begin;

@@ -4,7 +4,7 @@
 #include <gale/io/formats.hpp>
 #include <gale/io/formats/xml_file.hpp>
 
-// What is in vtk/vtk_*.cpp, where GALE is built without VTK. io::read() refuses files before any of these is called.
+// Stands for vtk/vtk_*.cpp, where GALE is built without VTK. io::read() refuses files before any of these is called.
 namespace gale::io::detail {
 namespace {
 

@@ -23,7 +23,7 @@ WrittenArrays cells_of(const Surface::Cells& cells) {
                     [begin = cells.begin.data()](std::uint64_t cell) { return begin[cell + 1]; })};
 }
 
-/// Each point a cell.
+/// Makes each point a cell.
 WrittenArrays vertices(std::uint64_t count) {
   return {made_integers("connectivity", count, count, [](std::uint64_t k) { return k; }),
           made_integers("offsets", count, count, [](std::uint64_t k) { return k + 1; })};

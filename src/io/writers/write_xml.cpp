@@ -40,8 +40,8 @@ bool is_utf8(const std::string& text) {
   return true;
 }
 
-/// As the value of an attribute in XML of UTF-8. Text that isn't UTF-8 is taken for Latin-1; control characters, which
-/// XML has none of, become '?'.
+/// The text as the value of an attribute in XML of UTF-8. Text that isn't UTF-8 is taken for Latin-1; control
+/// characters, which XML has none of, become '?'.
 std::string xml_text(const std::string& text) {
   const bool latin1 = !is_utf8(text);
   std::string escaped;
@@ -57,15 +57,15 @@ std::string xml_text(const std::string& text) {
   return escaped;
 }
 
-/// ' name="value"', with such text.
+/// Makes ' name="value"', with such text.
 std::string xml_attribute(std::string_view name, std::string_view value) {
   return text_of(" ", name, "=\"", xml_text(std::string(value)), "\"");
 }
 
 constexpr std::uint64_t block_bytes = 1 << 18;
 
-/// As VTK has them: how many blocks, the bytes of a block, and of the last where that is another number, and the bytes
-/// of each when it is compressed; then the blocks.
+/// Compressed values as VTK has them: how many blocks, the bytes of a block, and of the last where that is another
+/// number, and the bytes of each when it is compressed; then the blocks.
 class CompressedBlocks {
  public:
   explicit CompressedBlocks(const WrittenArray& array)

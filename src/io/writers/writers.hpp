@@ -54,7 +54,7 @@ WrittenArray made_integers(const std::string& name, std::uint64_t count, std::ui
                                                           : made<std::int64_t>(name, count, value);
 }
 
-/// What stands in one of VTK's XML files.
+/// The content of one of VTK's XML files.
 struct XmlContent {
   struct Section {
     std::string name;  ///< e.g. "PointData"
