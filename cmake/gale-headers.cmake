@@ -14,17 +14,16 @@ function(gale_public folder)
 endfunction()
 
 gale_public(base atomic csr error kokkos memory stop team threads types)
-gale_public(mesh encoded_mesh input_numbers intervals make_mesh mesh segmentation simplices)
+gale_public(mesh encoded_mesh exchange input_numbers intervals make_mesh mesh ranks segmentation simplices)
 gale_public(relations batch faces preconditioning relation rows segment_rows)
 gale_public(runtime computation consumer device_sweep graph_of make_structure relation_of statistics structure structure_options sweep_options)
 gale_public(algorithms critical_points critical_simplices discrete_gradient morse_smale persistence separatrices
   simplex_numbers simplify surface_vertices vertex_order)
-gale_public(outputs analyses arrows critical_points critical_simplices field manifolds morse_smale named_simplices persistence
+gale_public(outputs analyses arrows critical_points critical_simplices field manifolds mesh_piece morse_smale named_simplices persistence
   segmentation separatrices1 separatrices2)
 gale_public(io atomic_file dataset formats image read synthetic write)
 if(GALE_ENABLE_MPI)
-  gale_public(distributed communicator distributed_critical_points distributed_gradient distributed_manifolds distributed_mesh distributed_numbers
-    distributed_order distributed_separatrices host_points mesh_part)
+  gale_public(distributed communicator distributed_mesh mesh_part)
 endif()
 
 set(gale_included_headers

@@ -4,10 +4,10 @@
 #include <cstdio>
 #include <vector>
 
-#include <gale/distributed/distributed_critical_points.hpp>
-#include <gale/distributed/distributed_gradient.hpp>
+#include <gale/algorithms/critical_points.hpp>
+#include <gale/algorithms/discrete_gradient.hpp>
+#include <gale/distributed/distributed_mesh.hpp>
 #include <gale/io/synthetic.hpp>
-#include <gale/runtime/make_structure.hpp>
 
 namespace {
 
@@ -26,15 +26,14 @@ bool run() {
   const gale::io::GridPart part = gale::io::make_grid_part(32, ranks.rank(), ranks.size());
   const gale::DistributedMesh mesh = distribute(ranks, part);
   const Kokkos::View<const float*, gale::HostMemory> field(part.field.data(), part.field.size());
-  const gale::DistributedOrder order(mesh, field);
+  const gale::VertexOrder order(mesh, field);
 
-  const auto structure = gale::make_structure(mesh.local(), gale::discrete_gradient_relations);
-  const auto points = gale::find_critical_points(*structure, order);
-  const auto gradient = gale::find_discrete_gradient(*structure, order);
+  const auto points = gale::find_critical_points(order);
+  const auto gradient = gale::find_discrete_gradient(order);
 
   if (ranks.rank() == 0) {
     std::printf("%lld tetrahedra on %d ranks: %lld minima, %lld maxima; Euler characteristic %lld\n",
-                static_cast<long long>(mesh.tetrahedra()), ranks.size(), static_cast<long long>(points.counts[0]),
+                static_cast<long long>(mesh.all_tetrahedra()), ranks.size(), static_cast<long long>(points.counts[0]),
                 static_cast<long long>(points.counts[3]), static_cast<long long>(gradient.euler()));
   }
   return points.counts[0] == 26 && points.counts[3] == 39 && gradient.euler() == 1;

@@ -11,9 +11,10 @@
 #include <string>
 #include <vector>
 
+#include <gale/algorithms/critical_points.hpp>
+#include <gale/algorithms/discrete_gradient.hpp>
 #include <gale/base/threads.hpp>
-#include <gale/distributed/distributed_critical_points.hpp>
-#include <gale/distributed/distributed_gradient.hpp>
+#include <gale/distributed/distributed_mesh.hpp>
 #include <gale/runtime/make_structure.hpp>
 
 #include "support/clock.hpp"
@@ -27,8 +28,7 @@ using namespace gale;
 using Times = std::map<std::string, std::vector<double>>;
 
 /// Both sweeps, by consumers on the host or, where there is a device, by kernels.
-template <class Order>
-void sweep(const Mesh& mesh, const Order& order, Times& times) {
+void sweep(const Mesh& mesh, const VertexOrder& order, Times& times) {
   std::unique_ptr<Structure> structure;
   times["3 structure"].push_back(perf::seconds_of([&] {
     if (!have_device) structure = make_structure(mesh, discrete_gradient_relations);
@@ -47,12 +47,12 @@ void run_on_ranks(const Communicator& ranks, const io::GridPartOf<Index>& part, 
   PartitionOptions options;
   options.repartition = repartition;
   std::optional<DistributedMesh> mesh;
-  std::optional<DistributedOrder> order;
+  std::optional<VertexOrder> order;
   times["1 mesh"].push_back(
       perf::seconds_of([&] { mesh.emplace(ranks, make_part(ids, part.points, part.tetrahedra), options); }));
   times["2 order"].push_back(perf::seconds_of(
       [&] { order.emplace(*mesh, Kokkos::View<const float*, HostMemory>(part.field.data(), part.field.size())); }));
-  sweep(mesh->local(), *order, times);
+  sweep(*mesh, *order, times);
 }
 
 void run_without_mpi(const io::Dataset& data, Times& times) {

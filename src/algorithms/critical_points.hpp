@@ -20,14 +20,14 @@ enum class CriticalType : std::uint8_t {
   regular = 5
 };
 
-/// The vertices that aren't regular, by ascending input id.
+/// The vertices that aren't regular, by ascending input id; on one rank's part of a mesh those that it owns.
 struct CriticalPoints {
   std::vector<Id> vertices;              ///< input ids
   std::vector<CriticalType> types;       ///< the type of each
   std::vector<std::uint8_t> on_surface;  ///< 1 if it belongs to a triangle with exactly one tetrahedron
 
-  /// How many there are of each type but `regular`.
-  std::array<Id, 5> counts{};
+  /// How many there are of each type but `regular`, on all ranks.
+  std::array<GlobalId, 5> counts{};
 };
 
 /// Finds the critical points of a piecewise linear field (Banchoff 1970) by the numbers L and U of connected components
@@ -39,14 +39,15 @@ struct CriticalPoints {
 /// lower one, and a 2-saddle if some lower one is and no upper one, as TTK has it.
 ///
 /// By kernels where the mesh is on a device and they find room there, else by threads of the host: `options` may say
-/// otherwise, and `computed` is told. The result is the same. Throws gale::Error if the mesh is one rank's part, and as
-/// require_consumers, make_structure and sweeps do.
+/// otherwise, and `computed` is told. The result is the same, and so it is for any number of ranks; collective where
+/// the mesh is one rank's part. Throws gale::Error as require_consumers, make_structure and sweeps do.
 GALE_EXPORT CriticalPoints find_critical_points(const VertexOrder& order, const ComputeOptions& options = {},
                                                 Computed* computed = nullptr);
 
 /// Finds them by threads of the host, in a sweep of VV and link, for which `structure` must be preconditioned; the same
-/// result whatever the structure, its segments, and the number of threads. 2 bytes a vertex beside the result. Throws
-/// gale::Error if it isn't preconditioned for them, and if `order` is of another mesh than the structure's.
+/// result whatever the structure, its segments, and the number of threads. 2 bytes a vertex beside the result, and on
+/// ranks one exchange of a byte a ghost. Throws gale::Error if it isn't preconditioned for them, and if `order` is of
+/// another mesh than the structure's.
 GALE_EXPORT CriticalPoints find_critical_points(Structure& structure, const VertexOrder& order,
                                                 const SweepOptions& options = {});
 

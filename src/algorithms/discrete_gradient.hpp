@@ -49,8 +49,14 @@ class GALE_EXPORT DiscreteGradient {
   /// The order of the field that it descends.
   const VertexOrder& order() const;
 
-  /// The simplices that it pairs with no other.
+  /// The simplices that it pairs with no other; on one rank's part of a mesh those whose highest vertex it owns.
   const CriticalSimplices& critical() const;
+
+  /// How many critical simplices there are of each dimension, 0 to 3, on all ranks.
+  const std::array<GlobalId, 4>& counts() const;
+
+  /// Alternating sum of these counts: the mesh's Euler characteristic.
+  GlobalId euler() const { return counts()[0] - counts()[1] + counts()[2] - counts()[3]; }
 
   /// The next vertex on the falling path: the other end of the paired edge. no_id for a critical vertex.
   Id vertex_successor(Id vertex) const {
@@ -122,8 +128,9 @@ class GALE_EXPORT DiscreteGradient {
 /// depends on nothing but mesh and order.
 ///
 /// By kernels where the mesh is on a device and they find room there, else by threads of the host: `options` may say
-/// otherwise, and `computed` is told. The result is the same. Throws gale::Error as require_consumers, make_structure
-/// and sweeps do.
+/// otherwise, and `computed` is told. The result is the same. On one rank's part of a mesh it has the pairs of the
+/// simplices whose highest vertices the rank owns, and is collective; nothing is exchanged beside the counts. Throws
+/// gale::Error as require_consumers, make_structure and sweeps do.
 GALE_EXPORT DiscreteGradient find_discrete_gradient(const VertexOrder& order, const ComputeOptions& options = {},
                                                     Computed* computed = nullptr);
 

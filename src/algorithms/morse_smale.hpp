@@ -29,6 +29,14 @@ struct AscendingWalls {
   std::vector<Id> star;  ///< GALE's ids, see star_begin
 };
 
+/// Vertices and tetrahedra on the separatrices of one rank's part of a mesh which the part doesn't hold. They are
+/// called by numbers after GALE's ids of those that it has: the first vertex here is mesh.vertices().
+struct SimplicesBeyond {
+  std::vector<GlobalId> vertices;          ///< global ids
+  std::vector<GlobalId> tetrahedra;        ///< global ids
+  std::vector<std::array<Id, 4>> corners;  ///< of each of these tetrahedra its vertices, here or in the part
+};
+
 /// Pairs of saddles that `simplify` could not cancel, although their persistence is below the threshold.
 struct KeptBelow {
   Id several_paths = 0;  ///< several paths lead from the 1-saddle to the 2-saddle
@@ -40,6 +48,10 @@ struct KeptBelow {
 
 /// The Morse-Smale complex of a discrete gradient. Sources, destinations and manifolds are places among the simplices
 /// of `critical`; cells are in GALE's ids. What wasn't wanted is empty.
+///
+/// On one rank's part of a mesh it has the separatrices from the saddles in `critical`, which are this rank's, and the
+/// manifolds of all vertices that it holds. Destinations and manifolds are places among the minima, or maxima, of all
+/// ranks then, by ascending global ids.
 struct MorseSmaleComplex {
   DiscreteGradient gradient;  ///< what it is the complex of
   MorseSmaleParts parts;      ///< which were computed
@@ -80,6 +92,8 @@ struct MorseSmaleComplex {
   Mirrored<Id> morse_smale_manifold{};
   Id morse_smale_manifolds = 0;  ///< how many pairs there are
 
+  SimplicesBeyond beyond{};  ///< on separatrices; none of a whole mesh
+
   KeptBelow kept_below{};  ///< what `simplify` had to leave
 };
 
@@ -88,9 +102,13 @@ struct MorseSmaleComplex {
 /// wanted, connectors are found where it is, if there is room. options.progress isn't called. The result is the same
 /// whatever found the gradient, and for any number of threads.
 ///
+/// Saddle connectors and separatrices2 want the whole mesh: throws gale::Error for them on one rank's part of several.
+/// The rest is collective there, in a number of rounds of messages that grows with the logarithm of how often a path
+/// changes ranks.
+///
 /// Only separatrices2 needs a structure, which `computed` has, or is given. Time and memory grow with what is found,
 /// and for manifolds with the mesh. Walls share cells: all together may have many times as many as the mesh. Throws
-/// gale::Error if the mesh is one rank's part, and as require_consumers and make_structure do.
+/// gale::Error as require_consumers and make_structure do.
 GALE_EXPORT MorseSmaleComplex find_morse_smale_complex(const DiscreteGradient& gradient,
                                                        const MorseSmaleParts& parts = {},
                                                        const ComputeOptions& options = {},

@@ -11,18 +11,23 @@
 namespace gale {
 
 /// Some edges and triangles of a mesh, named by their vertices: GALE's ids, in any order. The same simplex may occur
-/// more than once.
+/// more than once. On one rank's part of a mesh any simplex of the whole may be named.
 struct NamedSimplices {
   std::vector<std::array<Id, 2>> edges;      ///< two vertices each
   std::vector<std::array<Id, 3>> triangles;  ///< three vertices each
+
+  /// The global ids of vertices that the part doesn't hold: the i-th of these is called by the number of its vertices
+  /// plus i.
+  std::vector<GlobalId> beyond{};
 };
 
 /// The numbers by which users know these simplices.
 struct SimplexNumbers {
-  std::vector<Id> edges;      ///< in the order in which they were asked for
-  std::vector<Id> triangles;  ///< in the order in which they were asked for
+  std::vector<GlobalId> edges;      ///< in the order in which they were asked for
+  std::vector<GlobalId> triangles;  ///< in the order in which they were asked for
 
-  /// For each vertex of the mesh (GALE's id) 1 if it belongs to a triangle with exactly one tetrahedron, else 0.
+  /// For each vertex of the mesh (GALE's id) 1 if it belongs to a triangle with exactly one tetrahedron, else 0; of
+  /// ghosts it says nothing.
   Array<const std::uint8_t, HostMemory> on_surface;
 };
 
@@ -30,9 +35,12 @@ struct SimplexNumbers {
 /// lexicographic order: what `input_numbers` has for all of them, without enumerating any.
 ///
 /// By threads of the host, with a structure that `computed` has, or is given. The work of a sweep of critical points,
-/// and 0.1 us a named simplex, in parallel; 9 bytes a vertex and 12 a named simplex, the result among them. Throws
+/// and 0.1 us a named simplex, in parallel; 9 bytes a vertex and 16 a named simplex, the result among them. Throws
 /// gale::Error, with the input vertices, if the mesh has no such simplex, and if it has more than 2^31 - 1 edges or
-/// triangles; if it is one rank's part; and as require_consumers, make_structure and sweeps do.
+/// triangles; and as require_consumers, make_structure and sweeps do.
+///
+/// On one rank's part of a mesh these are places among those of all ranks, vertices have their global ids, and there
+/// may be more. Collective then: a few rounds of messages, of 16 bytes a vertex and 40 a simplex.
 GALE_EXPORT SimplexNumbers number_simplices(const Mesh& mesh, const NamedSimplices& named,
                                             const ComputeOptions& options = {}, Computed* computed = nullptr);
 

@@ -23,12 +23,16 @@ GALE_EXPORT Mirrored<std::uint64_t> order_keys(const Mesh& mesh, const FieldValu
 /// A total order of a mesh's vertices: by field value, then by input vertex id. Keys compare as the vertices do, under
 /// GALE's vertex ids, and no two are equal. It serves that mesh and its copies alone. They are made where the mesh's
 /// arrays are, a device or the host; the first call that wants them elsewhere copies them there.
+///
+/// On one rank's part of a mesh vertices compare as they do among all, then by global id. A field has a value for each
+/// vertex that this rank has handed over, in that order; of a vertex that came from several ranks the lowest rank's
+/// value counts. Making it is collective then: one exchange.
 class GALE_EXPORT VertexOrder {
  public:
   /// From a value for each vertex, in input order; `Value` is `char`, any signed or unsigned integer type from
   /// `signed char` to `unsigned long long`, `float` or `double`. Infinities are values, and the two zeros are equal.
   /// Parallel; O(n) for types of up to 32 bits, else a sort. 8 bytes a vertex. Throws gale::Error if a value is NaN,
-  /// naming the first such vertex, and if there aren't as many values as vertices.
+  /// naming the first such vertex, and if there aren't as many values as vertices: of a part on all ranks.
   template <class Value>
   VertexOrder(const Mesh& mesh, const Value* values, std::size_t count)
       : mesh_(mesh), keys_(detail::order_keys(mesh, detail::FieldValues<Value, HostMemory>(values, count))) {}

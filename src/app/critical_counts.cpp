@@ -3,7 +3,7 @@
 
 namespace gale::app {
 
-void tell_points(const std::vector<std::int64_t>& counts, const Console& console, Report& report) {
+void tell_points(const std::array<std::int64_t, 5>& counts, Session& session) {
   static const struct {
     CriticalType type;
     const char *name, *key;
@@ -14,22 +14,18 @@ void tell_points(const std::vector<std::int64_t>& counts, const Console& console
                {CriticalType::degenerate, "degenerate", "degenerate"}};
   for (const auto& kind : kinds) {
     const std::int64_t count = counts[static_cast<int>(kind.type)];
-    console.say(kind.name, grouped(count));
-    report.result[kind.key] = count;
+    session.console().say(kind.name, grouped(count));
+    session.report().result[kind.key] = count;
   }
 }
 
-void tell(const CriticalSimplices& critical, Session& session) {
-  const auto counts = critical.counts();
-  tell_simplices({counts.begin(), counts.end()}, session.console(), session.report());
-}
-
-void tell_simplices(const std::vector<std::int64_t>& counts, const Console& console, Report& report) {
+void tell_simplices(const std::array<std::int64_t, 4>& counts, Session& session) {
   static const char* const names[] = {"minima", "1-saddles", "2-saddles", "maxima"};
-  for (int dimension = 0; dimension < 4; ++dimension) console.say(names[dimension], grouped(counts[dimension]));
+  for (int dimension = 0; dimension < 4; ++dimension)
+    session.console().say(names[dimension], grouped(counts[dimension]));
   const std::int64_t euler = counts[0] - counts[1] + counts[2] - counts[3];
-  console.say("Euler number", grouped(euler));
-  report.result = {{"critical", counts}, {"euler", euler}};
+  session.console().say("Euler number", grouped(euler));
+  session.report().result = {{"critical", counts}, {"euler", euler}};
 }
 
 }  // namespace gale::app

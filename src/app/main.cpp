@@ -35,7 +35,7 @@ enum ExitCode { done = 0, failed = 1, wrong_usage = 2 };
 
 /// Prints one line, whatever the message; without memory.
 int complain(ExitCode code, const char* what) {
-  if (gale::app::Ranks::all_fail_alike() && !gale::app::Ranks::is_first()) return code;
+  if (gale::app::Launch::all_fail_alike() && !gale::app::Launch::is_first()) return code;
   char line[4096];
   std::snprintf(line, sizeof line, "%s", what);
   for (char& c : line) {
@@ -84,7 +84,7 @@ int complain_of_exception() {
   const int code =
       std::current_exception() ? complain_of_exception() : complain_of_step("it failed", "it stopped itself");
   std::fflush(stdout);
-  gale::app::Ranks::end_all(code, gale::app::Ranks::all_fail_alike());
+  gale::app::Launch::end_all(code, gale::app::Launch::all_fail_alike());
   std::_Exit(code);
 }
 
@@ -127,7 +127,7 @@ bool parse(CLI::App& app, int argc, char** argv) {
     app.parse(argc, argv);
     return true;
   } catch (const CLI::Success& success) {
-    if (gale::app::Ranks::is_first()) app.exit(success);
+    if (gale::app::Launch::is_first()) app.exit(success);
     return false;
   } catch (const CLI::ParseError& error) {
     throw UsageError(app.get_subcommands().empty() ? without_command(app, argc, argv) : error.what());
@@ -135,17 +135,18 @@ bool parse(CLI::App& app, int argc, char** argv) {
 }
 
 void run(const Command& command) {
+  command.require_ranks();
   if (command.common().threads) {
     gale::set_host_threads(*command.common().threads);
-  } else if (gale::app::Ranks::are_several()) {
-    gale::set_host_threads(gale::app::Ranks::threads(gale::host_threads()));
+  } else if (gale::app::Launch::are_several()) {
+    gale::set_host_threads(gale::app::Launch::threads(gale::host_threads()));
   }
   gale::app::require_threads(gale::host_threads());
   setenv("KOKKOS_DISABLE_WARNINGS", "1", 0);  // such as on thread binding, which is not what standard error is for
   const Kokkos::ScopeGuard kokkos(gale::initialization_arguments(gale::host_threads()));
   gale::app::watch_device_memory();
   try {
-    gale::app::Ranks::are_several() ? command.run_on_ranks() : command.run();
+    command.run();
   } catch (...) {
     end_by_exception();
   }
@@ -173,12 +174,12 @@ void run(int argc, char** argv) {
 /// ends all as soon as one has failed. A rank that fails alone ends the others, which may wait for it.
 int run_and_say(int argc, char** argv) {
   try {
-    gale::app::Ranks::require_same_arguments(argc, argv);
+    gale::app::Launch::require_same_arguments(argc, argv);
     run(argc, argv);
     gale::app::require_output();
     return done;
   } catch (...) {
-    if (!gale::app::Ranks::all_fail_alike()) end_by_exception();
+    if (!gale::app::Launch::all_fail_alike()) end_by_exception();
     return complain_of_exception();
   }
 }
@@ -189,7 +190,7 @@ int main(int argc, char** argv) {
   try {
     take_standard_descriptors();
     prepare_for_the_end();
-    const gale::app::Ranks ranks(argc, argv);
+    const gale::app::Launch launch(argc, argv);
     return run_and_say(argc, argv);
   } catch (...) {
     return complain_of_exception();

@@ -1,31 +1,79 @@
 #include <algorithm>
+#include <filesystem>
+#include <optional>
 #include <utility>
 
 #include <gale/app/machine.hpp>
 #include <gale/app/make_segmentation.hpp>
 #include <gale/app/output_file.hpp>
+#include <gale/app/ranks/ranks.hpp>
 #include <gale/app/session.hpp>
+#include <gale/app/usage_error.hpp>
 #include <gale/base/error.hpp>
 #include <gale/io/read.hpp>
+#include <gale/io/write.hpp>
 #include <gale/outputs/field.hpp>
 
 namespace gale::app {
 
+namespace {
+
+/// Whether it is a .pvtu.
+bool is_mesh(const std::string& path) { return !path.empty() && (path.back() == 'u' || path.back() == 'U'); }
+
+/// NAME_RANK.vtp for NAME.pvtp, NAME_RANK.vtu for NAME.pvtu.
+std::string piece_of(const std::string& path, int rank) {
+  return std::filesystem::path(path).replace_extension().string() + '_' + std::to_string(rank) +
+         (is_mesh(path) ? ".vtu" : ".vtp");
+}
+
+void write_to(const io::AtomicFile& file, const io::PointSet& points) { io::write_points(file, points); }
+void write_to(const io::AtomicFile& file, const io::Surface& surface) { io::write_surface(file, surface); }
+void write_to(const io::AtomicFile& file, const io::MeshPiece& piece) { io::write_piece(file, piece); }
+
+/// By rank the least, the median and the most.
+nlohmann::ordered_json spread_of(std::vector<std::int64_t> by_rank, double unit) {
+  std::sort(by_rank.begin(), by_rank.end());
+  const auto value = [&](std::size_t at) {
+    return unit == 1 ? nlohmann::ordered_json(by_rank[at]) : nlohmann::ordered_json(unit * double(by_rank[at]));
+  };
+  return {{"least", value(0)}, {"median", value(by_rank.size() / 2)}, {"most", value(by_rank.size() - 1)}};
+}
+
+}  // namespace
+
 Session::Session(const InputOptions& input, const CommonOptions& common, std::vector<std::string> files)
-    : input_(input), common_(common), console_(common.quiet), files_(common.encoding) {
+    : input_(input),
+      common_(common),
+      ranks_(Launch::ranks()),
+      has_outputs_(std::any_of(files.begin(), files.end(), [](const auto& file) { return !file.empty(); })),
+      console_(common.quiet || !Launch::is_first()),
+      files_(common.encoding) {
   report_.input = input.input;
   report_.threads = host_threads();
-  files.push_back(common.report);
   files.erase(std::remove(files.begin(), files.end(), ""), files.end());
-  require_distinct(files, input.input);
-  for (const auto& file : files) require_writable(file);
-  input_.read.outputs = std::move(files);
+  detail::together(ranks_, [&] {
+    std::vector<std::string> all, mine;
+    const auto add = [&](const std::string& file, int writer) {
+      all.push_back(file);
+      if (writer == ranks_.rank()) mine.push_back(file);
+    };
+    for (const std::string& file : files) {
+      add(file, 0);
+      for (int rank = 0; rank < ranks_.size() && Launch::are_several(); ++rank) add(piece_of(file, rank), rank);
+    }
+    if (!common.report.empty()) add(common.report, 0);
+    if (Launch::is_first()) require_distinct(all, input.input);
+    for (const std::string& file : mine) require_writable(file);
+    input_.read.outputs = std::move(all);
+  });
 }
 
 void Session::warm_up(const StructureOption& option, std::function<void(const VertexOrder&)> run) {
   const ComputeOptions& options = option.options;
-  if (options.consumers != ConsumerPlace::host && !options.make_structure && options.structure.way == Way::gale)
-    warm_up_.begin(std::move(run));
+  const bool on_device =
+      options.consumers != ConsumerPlace::host && !options.make_structure && options.structure.way == Way::gale;
+  if (on_device && !Launch::are_several()) warm_up_.begin(std::move(run));
 }
 
 io::Dataset Session::read_any() {
@@ -76,7 +124,32 @@ Mesh Session::encode(io::Dataset& dataset, const SegmentationOptions& segmentati
   return mesh;
 }
 
+FieldOnMesh Session::read_part(const SegmentationOptions& segmentation, Keep keep) {
+  if (!segmentation.array.empty() || segmentation.random_count)
+    throw UsageError("--segments: not on several ranks, where segments are those of an octree");
+  std::optional<SharedField> shared;
+  {
+    const Stopwatch watch(report_.seconds.read);
+    shared.emplace(input_);
+  }
+  console_.say("input", input_.input);
+  console_.say("ranks", std::to_string(ranks_.size()) + " of " + std::to_string(report_.threads) + " threads");
+  note(shared->notices());
+  const Stopwatch watch(report_.seconds.initialize);
+  FieldOnMesh on = shared->share(segmentation.capacity.value_or(default_capacity),
+                                 {has_outputs_, has_outputs_ && keep == Keep::tetrahedra});
+  report_.vertices = on.mesh.all_vertices();
+  report_.tetrahedra = on.mesh.all_tetrahedra();
+  report_.segments = ranks_.sum(on.mesh.owned_segments());
+  console_.say("vertices", grouped(*report_.vertices));
+  console_.say("tetrahedra", grouped(*report_.tetrahedra));
+  console_.say("field", on.field.name);
+  part_ = on.mesh;
+  return on;
+}
+
 FieldOnMesh Session::read_field(const SegmentationOptions& segmentation, Keep keep) {
+  if (Launch::are_several()) return read_part(segmentation, keep);
   io::Dataset dataset = read_any();
   io::PointArray field = select_field(dataset);
   const Mesh mesh = encode(dataset, segmentation, keep);
@@ -104,7 +177,7 @@ SweepOptions Session::sweep(const std::string& title) const {
   begin_step("computing", title);
   SweepOptions sweep;
   sweep.threads = report_.threads;
-  sweep.progress = console_.progress(title);
+  if (!Launch::are_several()) sweep.progress = console_.progress(title);
   return sweep;
 }
 
@@ -125,29 +198,91 @@ void Session::finish(const StructureOption& option, const Computed& computed) {
   finish(computed.structure.get());
 }
 
+template <class Result>
+void Session::write_one(const std::string& path, const Result& result) {
+  detail::together(ranks_, [&] {
+    const io::AtomicFile& mine = files_.add(Launch::are_several() ? piece_of(path, ranks_.rank()) : path);
+    write_to(mine, result);
+    io::AtomicFiles::sync(mine);
+    if (!Launch::are_several() || !Launch::is_first()) return;
+    std::vector<std::string> pieces;
+    for (int rank = 0; rank < ranks_.size(); ++rank)
+      pieces.push_back(std::filesystem::path(piece_of(path, rank)).filename().string());
+    const io::AtomicFile& all = files_.add(path);
+    io::write_pieces(all, pieces, result);
+    io::AtomicFiles::sync(all);
+  });
+}
+
+template void Session::write_one(const std::string&, const io::PointSet&);
+template void Session::write_one(const std::string&, const io::Surface&);
+template void Session::write_one(const std::string&, const io::MeshPiece&);
+
 void Session::finish(const Structure* structure) {
-  if (structure != nullptr) {
+  if (part_) {
+    report_.ranks = differences_of_ranks();
+  } else if (structure != nullptr) {
     report_structure(*structure, report_);
     note(structure->statistics().notices);
   }
   if (report_.edges) console_.say("edges", grouped(*report_.edges));
   if (report_.triangles) console_.say("triangles", grouped(*report_.triangles));
-  const Seconds& times = report_.seconds;
-  console_.say("time", seconds(times.total()) + " (segment " + seconds(times.segment) + ", initialize " +
-                           seconds(times.initialize) + ", run " + seconds(times.run) + "); read " +
-                           seconds(times.read));
-  console_.say("memory", bytes(static_cast<double>(host_peak_bytes())) + " at most");
-  appear();
+  tell_costs();
+  const std::size_t results = files_.all().size();
+  detail::together(ranks_, [&] {
+    if (!common_.report.empty() && Launch::is_first()) write_report(files_.add(common_.report), report_);
+  });
+  begin_step("writing", "the files");
+  appear(results);
+  end_steps();
 }
 
-void Session::appear() {
-  const std::size_t results = files_.all().size();
-  if (!common_.report.empty()) write_report(files_.add(common_.report), report_);
-  begin_step("writing", "the files");
-  files_.commit([&] {
-    for (std::size_t i = 0; i < results; ++i) console_.say("wrote", files_.all()[i]->path());
-  });
-  end_steps();
+nlohmann::ordered_json Session::differences_of_ranks() const {
+  const auto by_rank = [&](double value, double unit = 1) {
+    return spread_of(ranks_.all(static_cast<std::int64_t>(value / unit)), unit);
+  };
+  constexpr double microsecond = 1e-6;
+  const Seconds& seconds = report_.seconds;
+  const double waited = ranks_.sent().seconds_waiting;
+  const auto on_device = device_peak_bytes();
+  return {{"count", ranks_.size()},
+          {"owned_vertices", by_rank(part_->owned_vertices())},
+          {"tetrahedra", by_rank(part_->tetrahedra())},
+          {"host_peak_bytes", by_rank(static_cast<double>(host_peak_bytes()))},
+          {"device_peak_bytes", on_device ? by_rank(static_cast<double>(*on_device)) : nlohmann::ordered_json(nullptr)},
+          {"sent_messages", by_rank(static_cast<double>(ranks_.sent().messages))},
+          {"sent_bytes", by_rank(static_cast<double>(ranks_.sent().bytes))},
+          {"reading", by_rank(seconds.read, microsecond)},
+          {"initializing", by_rank(seconds.initialize, microsecond)},
+          {"running", by_rank(seconds.run, microsecond)},
+          {"writing", by_rank(seconds.write, microsecond)},
+          {"waiting", by_rank(waited, microsecond)}};
+}
+
+void Session::tell_costs() {
+  const Seconds& times = report_.seconds;
+  const std::string segment = part_ ? "" : "segment " + seconds(times.segment) + ", ";
+  console_.say("time", seconds(times.total()) + " (" + segment + "initialize " + seconds(times.initialize) + ", run " +
+                           seconds(times.run) + "); read " + seconds(times.read));
+  console_.say("memory", part_ ? bytes(report_.ranks["host_peak_bytes"]["most"].get<double>()) + " at most, of one rank"
+                               : bytes(static_cast<double>(host_peak_bytes())) + " at most");
+}
+
+void Session::appear(std::size_t results) {
+  bool are_there = false;
+  const auto say = [&] {
+    are_there = true;
+    detail::together(ranks_, [] {});  // the files of others are there, too
+    detail::together(ranks_, [&] {
+      for (std::size_t i = 0; i < results; ++i) console_.say("wrote", files_.all()[i]->path());
+    });
+  };
+  try {
+    files_.commit(say);
+  } catch (...) {
+    if (are_there) throw;
+    detail::together(ranks_, [] { throw; });
+  }
 }
 
 }  // namespace gale::app

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,26 +17,32 @@
 #include <gale/io/atomic_file.hpp>
 #include <gale/io/dataset.hpp>
 #include <gale/mesh/mesh.hpp>
+#include <gale/mesh/ranks.hpp>
 #include <gale/runtime/structure.hpp>
 
 namespace gale::app {
 
-/// A scalar field on a mesh: where every analysis begins.
+/// A scalar field on a mesh: where every analysis begins. On several ranks it is what this one has; the dataset, and
+/// the field's values, are empty then where no output takes them.
 struct FieldOnMesh {
-  io::Dataset dataset;  ///< without its tetrahedra, unless they are kept
+  io::Dataset dataset;  ///< by input ids of the mesh; without its tetrahedra, unless they are kept
   Mesh mesh;
   io::PointArray field;
   VertexOrder order;
+  bool has_ids = false;  ///< whether GlobalPointIds of the dataset are the points' in the input of all ranks
 };
 
-/// One run of a command: the steps that several commands take, each timed and said.
+/// One run of a command: the steps that several commands take, each timed and said. On several ranks all take them
+/// together: the first one speaks, and writes the report, and each writes a piece of every output. What fails on one
+/// throws SharedError on all.
 class Session {
  public:
   /// Finds out before the work whether its `files` and the report, each if it isn't empty, can be written. Throws
-  /// gale::Error for one that can't; UsageError if two of them, or one and the input, are the same file. `common`
-  /// must outlive the session.
+  /// gale::Error for one that can't; UsageError if two of them, or one and the input, are the same file. On several
+  /// ranks `files` are those that name the pieces. `common` must outlive the session.
   Session(const InputOptions& input, const CommonOptions& common, std::vector<std::string> files = {});
 
+  const Ranks& ranks() const { return ranks_; }
   const Console& console() const { return console_; }
   Report& report() { return report_; }
 
@@ -63,8 +70,18 @@ class Session {
   /// How to sweep: on the threads that --threads says, with a progress bar of this title.
   SweepOptions sweep(const std::string& title) const;
 
+  /// Writes make(), points, lines or a piece of a mesh, unless the path is empty: on several ranks a piece of each, and
+  /// the file that names these. All files appear when the session finishes.
+  template <class Make>
+  void write_result(const std::string& path, const Make& make) {
+    if (path.empty()) return;
+    const Stopwatch watch(report_.seconds.write);
+    begin_step("writing", path);
+    write_one(path, make());
+  }
+
   /// Calls write_to(file) unless the path is empty, with a file that appears when the session finishes, together with
-  /// all others.
+  /// all others. On one rank.
   template <class Write>
   void write(const std::string& path, const Write& write_to) {
     if (path.empty()) return;
@@ -84,7 +101,17 @@ class Session {
 
  private:
   io::Dataset read_any();
-  void appear();
+  FieldOnMesh read_part(const SegmentationOptions& segmentation, Keep keep);
+
+  template <class Result>
+  void write_one(const std::string& path, const Result& result);
+
+  /// Says how long it took, and how much memory.
+  void tell_costs();
+  nlohmann::ordered_json differences_of_ranks() const;
+
+  /// Makes all files appear, or none; says so of the first ones.
+  void appear(std::size_t results);
 
   /// The field that --array names, or the first; says which. A copy: once a run.
   io::PointArray select_field(const io::Dataset& dataset);
@@ -94,9 +121,12 @@ class Session {
 
   InputOptions input_;  ///< which knows what is to be written
   const CommonOptions& common_;
+  const Ranks& ranks_;
+  const bool has_outputs_;  ///< beside the report
   Console console_;
   Report report_;
   io::AtomicFiles files_;
+  std::optional<Mesh> part_;  ///< on several ranks
   WarmUp warm_up_;
 };
 

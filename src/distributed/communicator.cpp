@@ -83,11 +83,6 @@ int Communicator::rank() const { return data_->rank; }
 int Communicator::size() const { return data_->size; }
 const SentMessages& Communicator::sent() const { return data_->sent; }
 
-std::int64_t Communicator::sum(std::int64_t value) const {
-  sum(&value, 1);
-  return value;
-}
-
 void Communicator::sum(std::int64_t* values, int count) const {
   data_->complete([&](MPI_Request* request) {
     MPI_Iallreduce(MPI_IN_PLACE, values, count, MPI_INT64_T, MPI_SUM, data_->comm, request);

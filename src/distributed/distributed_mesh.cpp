@@ -1,19 +1,47 @@
 #include <algorithm>
+#include <functional>
 #include <future>
+#include <memory>
+#include <optional>
 #include <string>
 
 #include <gale/base/device.hpp>
+#include <gale/base/mirrored.hpp>
 #include <gale/base/require_ids.hpp>
-#include <gale/distributed/curve_partition.hpp>
 #include <gale/distributed/distributed_mesh.hpp>
-#include <gale/distributed/exchange_plan.hpp>
-#include <gale/distributed/local_mesh.hpp>
-#include <gale/distributed/local_vertices.hpp>
-#include <gale/distributed/on_demand.hpp>
-#include <gale/distributed/own_and_ghosts.hpp>
+#include <gale/distributed/sharing/curve_partition.hpp>
+#include <gale/distributed/sharing/local_mesh.hpp>
+#include <gale/distributed/sharing/local_vertices.hpp>
+#include <gale/distributed/sharing/vertex_directory.hpp>
+#include <gale/mesh/exchange/exchange_plan.hpp>
 #include <gale/mesh/octree.hpp>
 
 namespace gale {
+
+namespace detail {
+
+/// A value that the first caller of get() makes, on any thread. Other threads wait for it.
+template <class T>
+class OnDemand {
+ public:
+  /// Before anybody asks.
+  void made_by(std::function<T()> make) { make_ = std::move(make); }
+
+  const T& get() const {
+    once_([this] {
+      if (make_) value_ = make_();
+      make_ = nullptr;
+    });
+    return value_;
+  }
+
+ private:
+  mutable Once once_;
+  mutable std::function<T()> make_;
+  mutable T value_{};
+};
+
+}  // namespace detail
 
 namespace {
 
@@ -80,126 +108,171 @@ bool is_numbered_as_local(const MeshPart<Index>& part) {
 
 }  // namespace
 
-struct DistributedMesh::Data {
-  Communicator ranks;
-  GlobalId vertices = 0, tetrahedra = 0;
-  Offset given_vertices = 0;
-  detail::LocalVertices held;
-  detail::TetrahedronPlaces places;
-  detail::OwnAndGhosts placed;
-  Array<int, HostMemory> ghost_owners;
-  Tetrahedra<Id, HostMemory> corners;
-  detail::ExchangePlan from_givers, from_owners;
-  std::unique_ptr<const Mesh> local;
+/// How the mesh lies on the ranks, and what this one asks of the others.
+class DistributedMesh::Sharing final : public Exchange {
+ public:
+  explicit Sharing(const Communicator& all);
+
+  /// Makes this rank's part, with `self` for what it asks of others.
+  template <class Index>
+  Mesh make(const MeshPart<Index>& part, const PartitionOptions& options, const std::shared_ptr<const Exchange>& self);
+
+  const Ranks& ranks() const override { return ranks_; }
+  GlobalId vertices() const override { return vertices_; }
+  GlobalId tetrahedra() const override { return tetrahedra_; }
+  GlobalId vertex_id(Id vertex) const override { return held_.id(vertex); }
+  GlobalId tetrahedron_id(Id tetrahedron) const override { return places_.id(tetrahedron); }
+  Id vertex_of(GlobalId id) const override { return held_.find(id); }
+  Id tetrahedron_of(GlobalId id) const override { return tetrahedron_index_.get().find(id); }
+  int owner(Id vertex) const override { return owners.get()(vertex); }
+  Array<int, HostMemory> owners_of(const Array<const GlobalId, HostMemory>& ids) const override;
+  Offset given_vertices() const override { return given_vertices_; }
+  const detail::ExchangePlan& from_givers() const override { return from_givers_; }
+  const detail::ExchangePlan& from_owners() const override { return from_owners_; }
 
   // What few ask for.
   detail::OnDemand<Array<const GlobalId, HostMemory>> vertex_ids, tetrahedron_ids;
   detail::OnDemand<Array<const int, HostMemory>> owners;
   detail::OnDemand<Points<double, HostMemory>> points;
+  Tetrahedra<Id, HostMemory> corners;
 
-  explicit Data(const Communicator& all);
-
+ private:
   template <class Index>
-  void make(const MeshPart<Index>& part, const PartitionOptions& options);
+  Mesh deal(const MeshPart<Index>& part, const PartitionOptions& options, const std::shared_ptr<const Exchange>& self);
   template <class Index>
-  void deal(const MeshPart<Index>& part, const PartitionOptions& options);
-  template <class Index>
-  void take(const MeshPart<Index>& part, const PartitionOptions& options);
+  Mesh take(const MeshPart<Index>& part, const PartitionOptions& options, const std::shared_ptr<const Exchange>& self);
   detail::OwnAndGhosts share(const detail::VertexDirectory& directory, const HostPoints& given);
+
+  Communicator ranks_;
+  GlobalId vertices_ = 0, tetrahedra_ = 0;
+  Offset given_vertices_ = 0;
+  detail::LocalVertices held_;
+  detail::TetrahedronPlaces places_;
+  detail::OwnAndGhosts placed_;
+  Array<int, HostMemory> ghost_owners_;
+  std::optional<detail::GivenIntervals> given_;
+  detail::ExchangePlan from_givers_, from_owners_;
+  detail::OnDemand<detail::GlobalIndex> tetrahedron_index_;
 };
 
-DistributedMesh::Data::Data(const Communicator& all) : ranks(all) {
+DistributedMesh::Sharing::Sharing(const Communicator& all) : ranks_(all) {
   vertex_ids.made_by([this] {
-    const auto ids = allocate<detail::GlobalIds>("GALE::vertex_ids", held.count());
-    parallel_for("GALE::vertex_ids", HostExecutionSpace(), held.count(),
-                 [&](Offset i) { ids(i) = held.id(static_cast<Id>(i)); });
+    const auto ids = allocate<detail::GlobalIds>("GALE::vertex_ids", held_.count());
+    parallel_for("GALE::vertex_ids", HostExecutionSpace(), held_.count(),
+                 [&](Offset i) { ids(i) = held_.id(static_cast<Id>(i)); });
     return ids;
   });
-  tetrahedron_ids.made_by([this] { return places.ids(); });
-  points.made_by([this] { return placed.by_id(held); });
+  tetrahedron_ids.made_by([this] { return places_.ids(); });
+  tetrahedron_index_.made_by([this] { return detail::GlobalIndex(tetrahedron_ids.get()); });
+  points.made_by([this] { return placed_.by_id(held_); });
   owners.made_by([this] {
-    const auto known = allocate<Array<int, HostMemory>>("GALE::owners", held.count());
-    fill("GALE::owners", HostExecutionSpace(), known, ranks.rank());
-    parallel_for("GALE::owners", HostExecutionSpace(), held.ghost_count(),
-                 [&](Offset i) { known(held.ghost(i)) = ghost_owners(i); });
+    const auto known = allocate<Array<int, HostMemory>>("GALE::owners", held_.count());
+    fill("GALE::owners", HostExecutionSpace(), known, ranks_.rank());
+    parallel_for("GALE::owners", HostExecutionSpace(), held_.ghost_count(),
+                 [&](Offset i) { known(held_.ghost(i)) = ghost_owners_(i); });
     return known;
   });
 }
 
-/// How values come to this rank: each local vertex' from who handed it over, each ghost's from its owner; points first.
-/// A rank that hands over what it owns, one after the other, wants the ghosts' alone.
-detail::OwnAndGhosts DistributedMesh::Data::share(const detail::VertexDirectory& directory, const HostPoints& given) {
-  const bool in_place = directory.given() && !held.interval().is_empty();
+Array<int, HostMemory> DistributedMesh::Sharing::owners_of(const Array<const GlobalId, HostMemory>& ids) const {
+  struct Nothing {};
+  Array<int, HostMemory> owners;
+  detail::GlobalIds owned;
+  detail::together(ranks_, [&] {
+    if (given_) {
+      owners = allocate<Array<int, HostMemory>>("GALE::owners_of_ids", ids.extent(0));
+      parallel_for("GALE::owners_of_ids", HostExecutionSpace(), ids.extent(0),
+                   [&](Offset i) { owners(i) = given_->giver(ids(i)); });
+      return;
+    }
+    owned = allocate<detail::GlobalIds>("GALE::owned_ids", held_.owned_count());
+    parallel_for("GALE::owned_ids", HostExecutionSpace(), owned.extent(0),
+                 [&](Offset i) { owned(i) = held_.id(held_.owned(i)); });
+  });
+  if (given_) return owners;
+  const detail::HomeTable<int> table(
+      ranks_, owned, [](Id) { return Nothing(); }, [](int rank, Nothing) { return rank; });
+  return table.find(ranks_, ids, -1);
+}
+
+/// How values come to this rank: each local vertex's from who handed it over, each ghost's from its owner; points
+/// first. A rank that hands over what it owns, one after the other, wants the ghosts' alone.
+detail::OwnAndGhosts DistributedMesh::Sharing::share(const detail::VertexDirectory& directory,
+                                                     const HostPoints& given) {
+  const bool in_place = directory.given() && !held_.interval().is_empty();
   detail::ExchangePlan::Run run;
   Array<Id, HostMemory> ghosts, slots;
-  detail::together(ranks, [&] {
-    ghosts = allocate<Array<Id, HostMemory>>("GALE::ghosts", held.ghost_count());
-    parallel_for("GALE::ghosts", HostExecutionSpace(), held.ghost_count(),
-                 [&](Offset i) { ghosts(i) = held.ghost(i); });
-    slots = in_place ? ghosts : iota("GALE::all_vertices", HostExecutionSpace(), held.count());
+  detail::together(ranks_, [&] {
+    ghosts = allocate<Array<Id, HostMemory>>("GALE::ghosts", held_.ghost_count());
+    parallel_for("GALE::ghosts", HostExecutionSpace(), held_.ghost_count(),
+                 [&](Offset i) { ghosts(i) = held_.ghost(i); });
+    slots = in_place ? ghosts : iota("GALE::all_vertices", HostExecutionSpace(), held_.count());
     if (!in_place) vertex_ids.get();
   });
   if (in_place)
-    run = {held.owned(0), held.interval().begin - directory.given()->of(ranks.rank()).begin, held.owned_count()};
-  const auto entries = in_place ? directory.find(held.ghosts()) : directory.find(vertex_ids.get());
+    run = {held_.owned(0), held_.interval().begin - directory.given()->of(ranks_.rank()).begin, held_.owned_count()};
+  const auto entries = in_place ? directory.find(held_.ghosts()) : directory.find(vertex_ids.get());
   const auto of_ghost = [&](Id i) { return entries(in_place ? i : ghosts(i)); };
-  detail::together(ranks, [&] {
-    ghost_owners = allocate<Array<int, HostMemory>>("GALE::ghost_owners", held.ghost_count());
-    parallel_for("GALE::ghost_owners", HostExecutionSpace(), held.ghost_count(),
-                 [&](Offset i) { ghost_owners(i) = of_ghost(static_cast<Id>(i)).owner; });
+  detail::together(ranks_, [&] {
+    ghost_owners_ = allocate<Array<int, HostMemory>>("GALE::ghost_owners", held_.ghost_count());
+    parallel_for("GALE::ghost_owners", HostExecutionSpace(), held_.ghost_count(),
+                 [&](Offset i) { ghost_owners_(i) = of_ghost(static_cast<Id>(i)).owner; });
   });
-  from_givers = detail::ExchangePlan(
-      ranks, run, slots, [&](Id i) { return entries(i).giver; }, [&](Id i) { return entries(i).place; },
+  from_givers_ = detail::ExchangePlan(
+      ranks_, run, slots, [&](Id i) { return entries(i).giver; }, [&](Id i) { return entries(i).place; },
       [](GlobalId place) { return static_cast<Id>(place); });
-  from_owners = detail::ExchangePlan(
-      ranks, {}, ghosts, [&](Id i) { return ghost_owners(i); }, [&](Id i) { return held.ghosts()(i); },
-      [&](GlobalId id) { return held.find(id); });
+  from_owners_ = detail::ExchangePlan(
+      ranks_, {}, ghosts, [&](Id i) { return ghost_owners_(i); }, [&](Id i) { return held_.ghosts()(i); },
+      [&](GlobalId id) { return held_.find(id); });
   const auto fetched = given.visit([&](const auto& rows) {
-    return from_givers.fetch<detail::SentPoint>(ranks, [&](Id at) {
+    return from_givers_.fetch<detail::SentPoint>(ranks_, [&](Id at) {
       return detail::SentPoint{{rows(at, 0), rows(at, 1), rows(at, 2)}};
     });
   });
   detail::OwnAndGhosts all;
-  detail::together(ranks, [&] { all = detail::own_and_ghosts(held, given, run, from_givers, fetched); });
+  detail::together(ranks_, [&] { all = detail::own_and_ghosts(held_, given, run, from_givers_, fetched); });
   return all;
 }
 
 /// Sends everything to where it belongs.
 template <class Index>
-void DistributedMesh::Data::deal(const MeshPart<Index>& part, const PartitionOptions& options) {
-  detail::together(ranks, [&] { validate(part); });
-  const detail::VertexDirectory directory = directory_of(ranks, part, options.repartition);
+Mesh DistributedMesh::Sharing::deal(const MeshPart<Index>& part, const PartitionOptions& options,
+                                    const std::shared_ptr<const Exchange>& self) {
+  detail::together(ranks_, [&] { validate(part); });
+  const detail::VertexDirectory directory = directory_of(ranks_, part, options.repartition);
   const detail::OwnedIds owned = directory.owned();
   // What a rank owns as it hands it over gets its segments on a device while tetrahedra travel.
   const bool in_place = directory.given() && !owned.interval.is_empty();
   std::future<Segmentation> segments;
   if (have_device && in_place) {
-    const Offset place = owned.interval.begin - directory.given()->of(ranks.rank()).begin;
+    const Offset place = owned.interval.begin - directory.given()->of(ranks_.rank()).begin;
     segments = octree_meanwhile(part.points.part(place, owned.count()), options.capacity);
   }
-  const detail::LocalTetrahedra<Index> held_tetrahedra(ranks, part, directory, owned.interval, options.most_local);
-  detail::together(ranks, [&] { held = detail::LocalVertices(owned, held_tetrahedra.vertices_beside(owned)); });
-  detail::require_local(ranks, "vertices", held.count(), options.most_local);
-  vertices = directory.vertices();
-  tetrahedra = ranks.sum(part.tetrahedra.extent(0));
-  if (tetrahedra == 0) throw SharedError("the mesh has no tetrahedra");
-  placed = share(directory, part.points);
-  detail::together(ranks, [&] {
-    places = held_tetrahedra.places();
-    if (options.keep_corners) corners = detail::local_corners(held_tetrahedra, held);
-    const Segmentation own = segments.valid() ? segments.get() : detail::octree_of(placed.owned, options.capacity);
-    const Segmentation ghosts = detail::octree_of(placed.ghosts, options.capacity);
-    const Segmentation segmentation = detail::local_segmentation(held, own, ghosts);
-    local = std::make_unique<const Mesh>(detail::local_mesh(held_tetrahedra, held, segmentation));
+  const detail::LocalTetrahedra<Index> held_tetrahedra(ranks_, part, directory, owned.interval, options.most_local);
+  detail::together(ranks_, [&] { held_ = detail::LocalVertices(owned, held_tetrahedra.vertices_beside(owned)); });
+  detail::require_local(ranks_, "vertices", held_.count(), options.most_local);
+  vertices_ = directory.vertices();
+  tetrahedra_ = ranks_.sum(part.tetrahedra.extent(0));
+  if (tetrahedra_ == 0) throw SharedError("the mesh has no tetrahedra");
+  given_ = directory.given();
+  placed_ = share(directory, part.points);
+  std::optional<Mesh> mesh;
+  detail::together(ranks_, [&] {
+    places_ = held_tetrahedra.places();
+    if (options.keep_corners) corners = detail::local_corners(held_tetrahedra, held_);
+    const Segmentation own = segments.valid() ? segments.get() : detail::octree_of(placed_.owned, options.capacity);
+    const Segmentation ghosts = detail::octree_of(placed_.ghosts, options.capacity);
+    const Segmentation segmentation = detail::local_segmentation(held_, own, ghosts);
+    mesh = detail::local_mesh(held_tetrahedra, held_, segmentation, self);
   });
+  return *mesh;
 }
 
 /// Takes a part that is the whole mesh, numbered without gaps, as it is.
 template <class Index>
-void DistributedMesh::Data::take(const MeshPart<Index>& part, const PartitionOptions& options) {
-  local = std::make_unique<const Mesh>(part.tetrahedra, part.points.visit([&](const auto& rows) {
-    return octree_segmentation(rows, options.capacity);
-  }));
+Mesh DistributedMesh::Sharing::take(const MeshPart<Index>& part, const PartitionOptions& options,
+                                    const std::shared_ptr<const Exchange>& self) {
+  const Mesh mesh(part.tetrahedra, detail::octree_of(part.points, options.capacity), self);
   if (options.keep_corners) {
     const auto quads = allocate<detail::Quads>("GALE::local_tetrahedra", part.tetrahedra.extent(0));
     parallel_for("GALE::local_tetrahedra", HostExecutionSpace(), quads.extent(0), [&](Offset t) {
@@ -207,60 +280,53 @@ void DistributedMesh::Data::take(const MeshPart<Index>& part, const PartitionOpt
     });
     corners = quads;
   }
-  vertices = part.vertex_ids.extent(0);
-  tetrahedra = part.tetrahedra.extent(0);
-  held = detail::LocalVertices(detail::OwnedIds(detail::IdInterval{0, vertices}), {});
-  places = detail::TetrahedronPlaces({tetrahedra, {}, part.tetrahedron_ids, 0}, {});
-  placed.owned = part.points;
-  from_givers = detail::ExchangePlan::of_one_rank(vertices);
+  vertices_ = part.vertex_ids.extent(0);
+  tetrahedra_ = part.tetrahedra.extent(0);
+  held_ = detail::LocalVertices(detail::OwnedIds(detail::IdInterval{0, vertices_}), {});
+  places_ = detail::TetrahedronPlaces({tetrahedra_, {}, part.tetrahedron_ids, 0}, {});
+  placed_.owned = part.points;
+  from_givers_ = detail::ExchangePlan::of_one_rank(vertices_);
+  return mesh;
 }
 
 template <class Index>
-void DistributedMesh::Data::make(const MeshPart<Index>& part, const PartitionOptions& options) {
-  given_vertices = part.vertex_ids.extent(0);
+Mesh DistributedMesh::Sharing::make(const MeshPart<Index>& part, const PartitionOptions& options,
+                                    const std::shared_ptr<const Exchange>& self) {
+  given_vertices_ = part.vertex_ids.extent(0);
   const Offset most = std::max(part.vertex_ids.extent(0), part.tetrahedra.extent(0));
-  if (ranks.size() == 1 && most <= options.most_local && is_numbered_as_local(part)) {
+  if (ranks_.size() == 1 && most <= options.most_local && is_numbered_as_local(part)) {
     try {
-      take(part, options);
-      return;
+      return take(part, options, self);
     } catch (const OutOfMemory&) {
       throw;
     } catch (const Error&) {
       // Dealing says by global ids what is wrong.
     }
   }
-  deal(part, options);
+  return deal(part, options, self);
 }
 
 template <class Index>
-DistributedMesh::DistributedMesh(const Communicator& ranks, const MeshPart<Index>& part,
-                                 const PartitionOptions& options) {
-  const auto data = std::make_shared<Data>(ranks);
-  data->make(part, options);
-  data_ = data;
+DistributedMesh::Shared DistributedMesh::shared(const Communicator& ranks, const MeshPart<Index>& part,
+                                                const PartitionOptions& options) {
+  const auto sharing = std::make_shared<Sharing>(ranks);
+  const Mesh mesh = sharing->make(part, options, sharing);
+  return {mesh, sharing};
 }
 
-const Communicator& DistributedMesh::ranks() const { return data_->ranks; }
-const Mesh& DistributedMesh::local() const { return *data_->local; }
-GlobalId DistributedMesh::vertices() const { return data_->vertices; }
-GlobalId DistributedMesh::tetrahedra() const { return data_->tetrahedra; }
-GlobalId DistributedMesh::vertex_id(Id vertex) const { return data_->held.id(vertex); }
-Id DistributedMesh::vertex_of(GlobalId id) const { return data_->held.find(id); }
-GlobalId DistributedMesh::tetrahedron_id(Id tetrahedron) const { return data_->places.id(tetrahedron); }
-const Array<const GlobalId, HostMemory>& DistributedMesh::vertex_ids() const { return data_->vertex_ids.get(); }
+const Array<const GlobalId, HostMemory>& DistributedMesh::vertex_ids() const { return sharing_->vertex_ids.get(); }
 const Array<const GlobalId, HostMemory>& DistributedMesh::tetrahedron_ids() const {
-  return data_->tetrahedron_ids.get();
+  return sharing_->tetrahedron_ids.get();
 }
-const Array<const int, HostMemory>& DistributedMesh::owners() const { return data_->owners.get(); }
-const Points<double, HostMemory>& DistributedMesh::points() const { return data_->points.get(); }
-const Tetrahedra<Id, HostMemory>& DistributedMesh::corners() const { return data_->corners; }
-Offset DistributedMesh::given_vertices() const { return data_->given_vertices; }
-const detail::ExchangePlan& DistributedMesh::from_givers() const { return data_->from_givers; }
-const detail::ExchangePlan& DistributedMesh::from_owners() const { return data_->from_owners; }
+const Array<const int, HostMemory>& DistributedMesh::owners() const { return sharing_->owners.get(); }
+const Points<double, HostMemory>& DistributedMesh::points() const { return sharing_->points.get(); }
+const Tetrahedra<Id, HostMemory>& DistributedMesh::corners() const { return sharing_->corners; }
 
-template GALE_EXPORT DistributedMesh::DistributedMesh(const Communicator&, const MeshPart<std::int32_t>&,
-                                                      const PartitionOptions&);
-template GALE_EXPORT DistributedMesh::DistributedMesh(const Communicator&, const MeshPart<std::int64_t>&,
-                                                      const PartitionOptions&);
+#define GALE_INSTANTIATE(Index)                                                                                     \
+  template GALE_EXPORT DistributedMesh::Shared DistributedMesh::shared(const Communicator&, const MeshPart<Index>&, \
+                                                                       const PartitionOptions&)
+GALE_INSTANTIATE(std::int32_t);
+GALE_INSTANTIATE(std::int64_t);
+#undef GALE_INSTANTIATE
 
 }  // namespace gale

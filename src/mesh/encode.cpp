@@ -24,7 +24,7 @@ struct Entry {
   }
 };
 
-KOKKOS_INLINE_FUNCTION void order(Id& a, Id& b) {
+KOKKOS_INLINE_FUNCTION void put_in_order(Id& a, Id& b) {
   const Id low = a < b ? a : b;
   b = a < b ? b : a;
   a = low;
@@ -35,11 +35,11 @@ KOKKOS_FUNCTION Quad renumbered(const Tetrahedra<Index, Memory>& input, const Ar
                                 Offset t) {
   Quad quad{vertex_internal(input(t, 0)), vertex_internal(input(t, 1)), vertex_internal(input(t, 2)),
             vertex_internal(input(t, 3))};
-  order(quad.a, quad.b);
-  order(quad.c, quad.d);
-  order(quad.a, quad.c);
-  order(quad.b, quad.d);
-  order(quad.b, quad.c);
+  put_in_order(quad.a, quad.b);
+  put_in_order(quad.c, quad.d);
+  put_in_order(quad.a, quad.c);
+  put_in_order(quad.b, quad.d);
+  put_in_order(quad.b, quad.c);
   return quad;
 }
 

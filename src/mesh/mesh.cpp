@@ -2,6 +2,7 @@
 #include <map>
 #include <mutex>
 #include <string>
+#include <utility>
 
 #include <gale/base/error.hpp>
 #include <gale/base/parallel.hpp>
@@ -97,6 +98,7 @@ detail::PermutedMesh encode(const Space& space, const Tetrahedra<Index, Memory>&
 struct Mesh::Data {
   const detail::PermutedMesh encoded;
   const std::string notice;
+  const std::shared_ptr<const Exchange> exchange;  ///< of a part
   mutable detail::EncodedOnce<WorkerMemory> worker;
   mutable detail::EncodedOnce<HostMemory> host;
   mutable detail::SimplexStore simplices;
@@ -104,8 +106,8 @@ struct Mesh::Data {
   mutable std::map<std::string, std::shared_ptr<const void>> kept;
 
   /// What consumers read again and again is copied to the host now.
-  Data(const detail::PermutedMesh& mesh, const std::string& what_did_not_fit)
-      : encoded(mesh), notice(what_did_not_fit), simplices(mesh.arrays) {
+  Data(const detail::PermutedMesh& mesh, const std::string& what_did_not_fit, std::shared_ptr<const Exchange> others)
+      : encoded(mesh), notice(what_did_not_fit), exchange(std::move(others)), simplices(mesh.arrays) {
     encoded.arrays.vertex_begin.in<HostMemory>();
     encoded.arrays.internal_begin.in<HostMemory>();
     encoded.arrays.external_begin.in<HostMemory>();
@@ -113,7 +115,8 @@ struct Mesh::Data {
 };
 
 template <class Index, class Memory>
-Mesh::Mesh(const Tetrahedra<Index, Memory>& given, const Segmentation& segmentation) {
+Mesh::Mesh(const Tetrahedra<Index, Memory>& given, const Segmentation& segmentation,
+           std::shared_ptr<const Exchange> exchange) {
   if (given.extent(0) == 0 && !segmentation.is_part()) throw Error("the mesh has no tetrahedra");
   std::string notice;
   const auto encoded = in_worker_or_host_space(
@@ -121,7 +124,7 @@ Mesh::Mesh(const Tetrahedra<Index, Memory>& given, const Segmentation& segmentat
       [&](const OutOfMemory& error) {
         notice = "the mesh doesn't fit the device's memory (" + error.missing() + "): the host computes";
       });
-  data_ = std::make_shared<Data>(encoded, notice);
+  data_ = std::make_shared<Data>(encoded, notice, std::move(exchange));
 }
 
 Id Mesh::vertices() const { return static_cast<Id>(data_->encoded.vertex_input.size()); }
@@ -129,6 +132,15 @@ Id Mesh::tetrahedra() const { return static_cast<Id>(data_->encoded.tetrahedron_
 Id Mesh::segments() const { return static_cast<Id>(data_->encoded.arrays.vertex_begin.size()) - 1; }
 Id Mesh::owned_segments() const { return data_->encoded.owned_segments; }
 Id Mesh::owned_vertices() const { return vertex_begin()(owned_segments()); }
+
+bool Mesh::is_part() const { return data_->exchange != nullptr; }
+const Exchange& Mesh::exchange() const { return is_part() ? *data_->exchange : Exchange::of_whole_mesh(); }
+Id Mesh::vertex_of(GlobalId id) const {
+  if (is_part()) return exchange().vertex_of(id);
+  return id >= 0 && id < vertices() ? static_cast<Id>(id) : no_id;
+}
+GlobalId Mesh::all_vertices() const { return is_part() ? exchange().vertices() : vertices(); }
+GlobalId Mesh::all_tetrahedra() const { return is_part() ? exchange().tetrahedra() : tetrahedra(); }
 
 bool Mesh::on_device() const { return data_->encoded.arrays.tetrahedra.on_device(); }
 
@@ -200,8 +212,9 @@ std::shared_ptr<const void> Mesh::kept(const std::string& key,
   return what;
 }
 
-#define GALE_INSTANTIATE(Index, Memory) \
-  template GALE_EXPORT Mesh::Mesh(const Tetrahedra<Index, Memory>&, const Segmentation&)
+#define GALE_INSTANTIATE(Index, Memory)                                                  \
+  template GALE_EXPORT Mesh::Mesh(const Tetrahedra<Index, Memory>&, const Segmentation&, \
+                                  std::shared_ptr<const Exchange>)
 GALE_INSTANTIATE(std::int32_t, HostMemory);
 GALE_INSTANTIATE(std::int64_t, HostMemory);
 #if defined(GALE_HAS_DEVICE)

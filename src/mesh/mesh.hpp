@@ -7,6 +7,7 @@
 #include <gale/base/worker_or_host.hpp>
 #include <gale/export.hpp>
 #include <gale/mesh/encoded_mesh.hpp>
+#include <gale/mesh/exchange.hpp>
 #include <gale/mesh/intervals.hpp>
 #include <gale/mesh/segmentation.hpp>
 #include <gale/mesh/simplices.hpp>
@@ -37,8 +38,11 @@ class GALE_EXPORT Mesh {
   /// `Index` is std::int32_t or std::int64_t. Throws gale::Error, naming the tetrahedron at fault, where there is none
   /// (unless the mesh is a part), where one has a vertex outside 0..vertices-1 or the same twice, and where two have
   /// the same four.
+  ///
+  /// With an `exchange` the mesh is one rank's part of a larger one.
   template <class Index, class Memory>
-  Mesh(const Tetrahedra<Index, Memory>& tetrahedra, const Segmentation& segmentation);
+  Mesh(const Tetrahedra<Index, Memory>& tetrahedra, const Segmentation& segmentation,
+       std::shared_ptr<const Exchange> exchange = nullptr);
 
   /// Is it the same mesh, or a copy of it? Another one of equal tetrahedra isn't.
   bool operator==(const Mesh& other) const { return data_ == other.data_; }
@@ -52,6 +56,24 @@ class GALE_EXPORT Mesh {
   /// there for tetrahedra that touch owned ones. Rows of ghosts lack what the rank doesn't have.
   Id owned_segments() const;
   Id owned_vertices() const;  ///< how many vertices these segments hold
+
+  /// What this part of a mesh asks of other ranks; a whole mesh asks nobody.
+  const Exchange& exchange() const;
+
+  /// Whether it is one rank's part of a mesh, which may be all of it where there is one rank.
+  bool is_part() const;
+
+  /// The global id of a vertex, by its input id: that itself unless the mesh is a part.
+  GlobalId vertex_id(Id vertex) const { return exchange().vertex_id(vertex); }
+
+  /// The global id of a tetrahedron, by its input id: that itself unless the mesh is a part.
+  GlobalId tetrahedron_id(Id tetrahedron) const { return exchange().tetrahedron_id(tetrahedron); }
+
+  /// The input id of the vertex that has a global id; no_id if the mesh doesn't hold it.
+  Id vertex_of(GlobalId id) const;
+
+  GlobalId all_vertices() const;    ///< how many vertices the parts of all ranks have together
+  GlobalId all_tetrahedra() const;  ///< how many tetrahedra the parts of all ranks have together
 
   /// Whether its arrays lie in a device's memory. Tables of simplices that are made later may lie in the host's.
   bool on_device() const;

@@ -1,5 +1,6 @@
 #include <gale/io/dataset.hpp>
 #include <gale/outputs/critical_points.hpp>
+#include <gale/outputs/ids.hpp>
 
 namespace gale::outputs {
 
@@ -17,7 +18,7 @@ io::Dataset::Points<Coordinate> rows_of(const io::Dataset::Points<Coordinate>& p
 
 }  // namespace
 
-io::PointSet to_point_set(const io::Dataset& dataset, const CriticalPoints& points) {
+io::PointSet to_point_set(const io::Dataset& dataset, const CriticalPoints& points, const Exchange& exchange) {
   io::PointSet set;
   std::visit([&](const auto& all) { set.points = rows_of(all, points.vertices); }, dataset.points);
   for (const auto& array : dataset.arrays) set.arrays.push_back(io::gather(array, points.vertices));
@@ -25,7 +26,9 @@ io::PointSet to_point_set(const io::Dataset& dataset, const CriticalPoints& poin
   for (const CriticalType type : points.types) types.push_back(static_cast<std::int8_t>(type));
   set.arrays.push_back({"CriticalType", 1, std::move(types)});
   set.arrays.push_back({"IsOnBoundary", 1, std::move(on_surface)});
-  set.arrays.push_back({"ttkVertexScalarField", 1, points.vertices});
+  std::vector<GlobalId> ids;
+  for (const Id vertex : points.vertices) ids.push_back(exchange.vertex_id(vertex));
+  set.arrays.push_back({"ttkVertexScalarField", 1, detail::ids_as(exchange, std::move(ids))});
   return set;
 }
 

@@ -3,6 +3,7 @@
 #include <gale/mesh/positions.hpp>
 #include <gale/outputs/corners.hpp>
 #include <gale/outputs/critical_simplices.hpp>
+#include <gale/outputs/ids.hpp>
 
 namespace gale::outputs {
 
@@ -16,7 +17,7 @@ class Namer {
 
   /// `simplex` are its vertices (GALE's ids) from the highest to the lowest; `cell` is its CellId.
   template <std::size_t N>
-  CriticalSimplex name(const std::array<Id, N>& simplex, Id cell) const {
+  CriticalSimplex name(const std::array<Id, N>& simplex, GlobalId cell) const {
     CriticalSimplex named{cell, {}, N - 1, static_cast<std::int8_t>(numbers_.on_surface(simplex[0]))};
     const std::array<Id, N> vertices = detail::to_input(input_, simplex);
     std::copy(vertices.begin(), vertices.end(), named.vertices.begin());
@@ -24,7 +25,7 @@ class Namer {
   }
 
   /// The vertices of a tetrahedron may come in any order.
-  CriticalSimplex name_tetrahedron(std::array<Id, 4> simplex, Id cell) const {
+  CriticalSimplex name_tetrahedron(std::array<Id, 4> simplex, GlobalId cell) const {
     std::sort(simplex.begin(), simplex.end(), [this](Id a, Id b) { return keys_[a] > keys_[b]; });
     return name(simplex, cell);
   }
@@ -61,16 +62,16 @@ KnownSimplices known_simplices(const DiscreteGradient& gradient, const CriticalS
     gale::detail::stop_if_asked_at(static_cast<Offset>(known[dimension].size()));
     known[dimension].push_back(simplex);
   };
-  for (const Id v : critical.vertices) add(0, namer.name(std::array<Id, 1>{v}, mesh.vertex_input()(v)));
+  for (const Id v : critical.vertices) add(0, namer.name(std::array<Id, 1>{v}, mesh.vertex_id(mesh.vertex_input()(v))));
   for (std::size_t i = 0; i < critical.edges.size(); ++i) add(1, namer.name(critical.edges[i], numbers.edges[i]));
   for (std::size_t i = 0; i < critical.triangles.size(); ++i)
     add(2, namer.name(critical.triangles[i], numbers.triangles[i]));
   for (const Id t : critical.tetrahedra)
-    add(3, namer.name_tetrahedron(detail::corners_of(mesh, t), mesh.tetrahedron_input()(t)));
+    add(3, namer.name_tetrahedron(detail::corners_of(mesh, t), mesh.tetrahedron_id(mesh.tetrahedron_input()(t))));
   return known;
 }
 
-io::PointSet to_point_set(const io::Dataset& dataset, const KnownSimplices& simplices) {
+io::PointSet to_point_set(const io::Dataset& dataset, const KnownSimplices& simplices, const Exchange& exchange) {
   io::PointSet set;
   std::vector<CriticalSimplex> all;
   for (const auto& some : simplices) all.insert(all.end(), some.begin(), some.end());
@@ -85,19 +86,21 @@ io::PointSet to_point_set(const io::Dataset& dataset, const KnownSimplices& simp
       },
       dataset.points);
   std::vector<std::int8_t> dimensions, on_surface;
-  std::vector<Id> cells, highest;
+  std::vector<Id> highest;
+  std::vector<GlobalId> cells, highest_ids;
   for (const CriticalSimplex& simplex : all) {
     gale::detail::stop_if_asked_at(static_cast<Offset>(cells.size()));
     dimensions.push_back(simplex.dimension);
     on_surface.push_back(simplex.on_surface);
     cells.push_back(simplex.cell);
     highest.push_back(simplex.highest());
+    highest_ids.push_back(exchange.vertex_id(simplex.highest()));
   }
   for (const auto& array : dataset.arrays) set.arrays.push_back(io::gather(array, highest));
   set.arrays.push_back({"CellDimension", 1, std::move(dimensions)});
-  set.arrays.push_back({"CellId", 1, std::move(cells)});
+  set.arrays.push_back({"CellId", 1, detail::ids_as(exchange, std::move(cells))});
   set.arrays.push_back({"IsOnBoundary", 1, std::move(on_surface)});
-  set.arrays.push_back({"ttkVertexScalarField", 1, std::move(highest)});
+  set.arrays.push_back({"ttkVertexScalarField", 1, detail::ids_as(exchange, std::move(highest_ids))});
   return set;
 }
 

@@ -9,7 +9,7 @@ namespace gale::outputs {
 
 /// A critical simplex as users know it.
 struct CriticalSimplex {
-  Id cell;                     ///< its CellId: the input id of a vertex or tetrahedron, else as in `SimplexNumbers`
+  GlobalId cell;               ///< its CellId: the global id of a vertex or tetrahedron, else as in `SimplexNumbers`
   std::array<Id, 4> vertices;  ///< input ids, from the highest to the lowest; the first dimension + 1 count
   std::int8_t dimension;       ///< 0 to 3
   std::int8_t on_surface;      ///< 1 if its highest vertex is on the mesh's surface, else 0
@@ -34,8 +34,9 @@ GALE_EXPORT KnownSimplices known_simplices(const DiscreteGradient& gradient, con
 /// Makes points of critical simplices, dimension by dimension. They are at vertices, the middles of edges, the
 /// incentres of triangles and the barycentres of tetrahedra, rounded to the type of the input's coordinates. Each has
 /// the input's point arrays at its highest vertex, then CellDimension (int8), CellId (int32), IsOnBoundary (int8) and
-/// ttkVertexScalarField (int32, the input id of its highest vertex). Throws gale::Error for a vertex that an array of
-/// the dataset has no value for.
-GALE_EXPORT io::PointSet to_point_set(const io::Dataset& dataset, const KnownSimplices& simplices);
+/// ttkVertexScalarField (int32, the input id of its highest vertex). Of one rank's part of a mesh, whose `exchange` it
+/// is, ids are global ones and int64. Throws gale::Error for a vertex that an array of the dataset has no value for.
+GALE_EXPORT io::PointSet to_point_set(const io::Dataset& dataset, const KnownSimplices& simplices,
+                                      const Exchange& exchange = Exchange::of_whole_mesh());
 
 }  // namespace gale::outputs

@@ -73,11 +73,15 @@ io::PointArray select_field(const io::Dataset& dataset, const std::string& name)
   return io::extract_component(*array, component);
 }
 
-const io::PointArray& order_values(const io::Dataset& dataset, const io::PointArray& field, std::size_t vertices) {
+const io::PointArray& order_array(const io::Dataset& dataset, const io::PointArray& field) {
   const auto* const order = find_array(dataset, field.name + order_suffix);
-  if (order == nullptr || order->components != 1) return field;
-  check_permutation(*order, vertices);
-  return *order;
+  return order == nullptr || order->components != 1 ? field : *order;
+}
+
+const io::PointArray& order_values(const io::Dataset& dataset, const io::PointArray& field, std::size_t vertices) {
+  const io::PointArray& order = order_array(dataset, field);
+  if (&order != &field) check_permutation(order, vertices);
+  return order;
 }
 
 VertexOrder order_of(const Mesh& mesh, const io::Dataset& dataset, const io::PointArray& field) {

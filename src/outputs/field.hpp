@@ -23,8 +23,11 @@ inline double value_at(const io::PointArray& field, Id vertex) {
   return std::visit([vertex](const auto& values) { return static_cast<double>(values[vertex]); }, field.values);
 }
 
-/// What orders so many vertices: the field's values; or, where the dataset has an array NAME_Order of one component
-/// beside the field NAME, that one. Refers to either. Throws as order_of does.
+/// What orders vertices: the field's values; or, where the dataset has an array NAME_Order of one component beside the
+/// field NAME, that one. Refers to either.
+GALE_EXPORT const io::PointArray& order_array(const io::Dataset& dataset, const io::PointArray& field);
+
+/// What orders so many vertices: their order_array. Throws as order_of does.
 GALE_EXPORT const io::PointArray& order_values(const io::Dataset& dataset, const io::PointArray& field,
                                                std::size_t vertices);
 

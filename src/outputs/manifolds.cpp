@@ -1,3 +1,7 @@
+#include <algorithm>
+
+#include <gale/mesh/exchange/places.hpp>
+#include <gale/outputs/ids.hpp>
 #include <gale/outputs/manifolds.hpp>
 
 namespace gale::outputs {
@@ -5,7 +9,7 @@ namespace gale::outputs {
 namespace {
 
 /// Appends the sizes of the manifolds 0 to count-1.
-void append_sizes(const Mirrored<Id>& found, Id count, std::vector<Id>& sizes) {
+void append_sizes(const Mirrored<Id>& found, Id count, std::vector<GlobalId>& sizes) {
   const auto& manifold = found.in<HostMemory>();
   const bool is_there = manifold.extent(0) != 0;
   const std::size_t first = sizes.size();
@@ -15,28 +19,93 @@ void append_sizes(const Mirrored<Id>& found, Id count, std::vector<Id>& sizes) {
   }
 }
 
+using Labels = Array<GlobalId, HostMemory>;
+
+/// Appends how many vertices of all ranks are in each of the manifolds that are `asked` for. Collective.
+void append_sizes(const Mesh& mesh, const Mirrored<Id>& found, const Labels& asked, std::vector<GlobalId>& sizes) {
+  Labels owned;
+  gale::detail::together(mesh.exchange().ranks(), [&] {
+    const auto& manifold = found.in<HostMemory>();
+    std::vector<GlobalId> all;
+    for (Id v = 0; v < mesh.owned_vertices(); ++v) {
+      const Id label = manifold(mesh.vertex_input()(v));
+      if (label != no_id) all.push_back(label);
+    }
+    owned = allocate<Labels>("GALE::owned_labels", all.size());
+    std::copy(all.begin(), all.end(), owned.data());
+  });
+  const auto counts = gale::detail::occurrences(mesh.exchange().ranks(), owned, asked);
+  sizes.insert(sizes.end(), counts.data(), counts.data() + counts.extent(0));
+}
+
+/// The places of this rank's minima, or maxima, among those of all, by the global ids of `simplices` (GALE's ids).
+template <class IdOf>
+Labels places_of_extrema(const Ranks& ranks, const std::vector<Id>& simplices, const IdOf& id_of) {
+  Array<gale::detail::SimplexKey, HostMemory> keys;
+  gale::detail::together(ranks, [&] {
+    keys = allocate<decltype(keys)>("GALE::extrema", simplices.size());
+    for (std::size_t i = 0; i < simplices.size(); ++i) keys(i) = {id_of(simplices[i]), 0, 0};
+  });
+  return gale::detail::places_of_keys(ranks, keys).places;
+}
+
+std::vector<GlobalId> sizes_on_ranks(const MorseSmaleComplex& complex) {
+  const Mesh& mesh = complex.gradient.mesh();
+  const Ranks& ranks = mesh.exchange().ranks();
+  const auto counts = complex.critical.counts();
+  std::vector<GlobalId> sizes;
+  if (complex.parts.descending_manifolds) {
+    const auto minima = places_of_extrema(ranks, complex.critical.vertices,
+                                          [&](Id v) { return mesh.vertex_id(mesh.vertex_input()(v)); });
+    append_sizes(mesh, complex.descending_manifold, minima, sizes);
+  }
+  sizes.resize(counts[0], -1);
+  sizes.resize(sizes.size() + counts[1] + counts[2], 0);
+  if (complex.parts.ascending_manifolds) {
+    const auto maxima = places_of_extrema(ranks, complex.critical.tetrahedra,
+                                          [&](Id t) { return mesh.tetrahedron_id(mesh.tetrahedron_input()(t)); });
+    append_sizes(mesh, complex.ascending_manifold, maxima, sizes);
+  }
+  sizes.resize(counts[0] + counts[1] + counts[2] + counts[3], -1);
+  return sizes;
+}
+
+std::vector<GlobalId> sizes_of_all(const MorseSmaleComplex& complex) {
+  const auto counts = complex.critical.counts();
+  std::vector<GlobalId> sizes;
+  append_sizes(complex.descending_manifold, counts[0], sizes);
+  sizes.resize(sizes.size() + counts[1] + counts[2], 0);
+  append_sizes(complex.ascending_manifold, counts[3], sizes);
+  return sizes;
+}
+
 }  // namespace
 
 std::vector<io::PointArray> manifold_arrays(const MorseSmaleComplex& complex) {
+  const MorseSmaleParts& parts = complex.parts;
+  const bool is_part = complex.gradient.mesh().is_part();  // which may have no vertices
   std::vector<io::PointArray> arrays;
-  const auto add = [&](const char* name, const Mirrored<Id>& found) {
-    if (found.size() == 0) return;
+  const auto add = [&](const char* name, bool is_wanted, const Mirrored<Id>& found) {
+    if (found.size() == 0 && !(is_part && is_wanted)) return;
     const auto& manifold = found.in<HostMemory>();
-    arrays.push_back({name, 1, std::vector<Id>(manifold.data(), manifold.data() + manifold.extent(0))});
+    const Id* const end = manifold.data() + manifold.extent(0);
+    arrays.push_back({name, 1, {}});
+    if (is_part) {
+      arrays.back().values = std::vector<GlobalId>(manifold.data(), end);
+    } else {
+      arrays.back().values = std::vector<Id>(manifold.data(), end);
+    }
   };
-  add("AscendingManifold", complex.ascending_manifold);
-  add("DescendingManifold", complex.descending_manifold);
-  add("MorseSmaleManifold", complex.morse_smale_manifold);
+  add("AscendingManifold", parts.ascending_manifolds, complex.ascending_manifold);
+  add("DescendingManifold", parts.descending_manifolds, complex.descending_manifold);
+  add("MorseSmaleManifold", parts.ascending_manifolds && parts.descending_manifolds, complex.morse_smale_manifold);
   return arrays;
 }
 
 io::PointArray manifold_sizes(const MorseSmaleComplex& complex) {
-  const auto counts = complex.critical.counts();
-  std::vector<Id> sizes;
-  append_sizes(complex.descending_manifold, counts[0], sizes);
-  sizes.resize(sizes.size() + counts[1] + counts[2], 0);
-  append_sizes(complex.ascending_manifold, counts[3], sizes);
-  return {"ManifoldSize", 1, std::move(sizes)};
+  const Exchange& exchange = complex.gradient.mesh().exchange();
+  auto sizes = exchange.is_of_part() ? sizes_on_ranks(complex) : sizes_of_all(complex);
+  return {"ManifoldSize", 1, detail::ids_as(exchange, std::move(sizes))};
 }
 
 }  // namespace gale::outputs

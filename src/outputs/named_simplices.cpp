@@ -38,12 +38,13 @@ void append_between(const Separatrices<Cell>& paths, const std::vector<Simplex>&
 }  // namespace
 
 NamedSimplices named_simplices(const MorseSmaleComplex& complex) {
-  const Mesh& mesh = complex.gradient.mesh();
-  NamedSimplices named = {complex.critical.edges, complex.critical.triangles};
+  NamedSimplices named = {complex.critical.edges, complex.critical.triangles, complex.beyond.vertices};
   const auto edge_of = [](Id a, Id b) { return Edge{a, b}; };
   append_between(complex.descending, complex.critical.edges, edge_of, named.edges);
   append_between(complex.connectors, complex.critical.edges, common<2, Triangle>, named.edges);
-  const auto shared = [&](Id a, Id b) { return common<3>(detail::corners_of(mesh, a), detail::corners_of(mesh, b)); };
+  const auto shared = [&](Id a, Id b) {
+    return common<3>(detail::corners_of(complex, a), detail::corners_of(complex, b));
+  };
   append_between(complex.ascending, complex.critical.triangles, shared, named.triangles);
   named.triangles.insert(named.triangles.end(), complex.connectors.cells.begin(), complex.connectors.cells.end());
   return named;

@@ -1,4 +1,9 @@
+#include <algorithm>
+
+#include <gale/algorithms/order/ordered_bits.hpp>
 #include <gale/base/parallel.hpp>
+#include <gale/mesh/exchange/home_table.hpp>
+#include <gale/mesh/exchange/places.hpp>
 #include <gale/mesh/positions.hpp>
 #include <gale/outputs/corners.hpp>
 #include <gale/outputs/line_arrays.hpp>
@@ -8,6 +13,7 @@ namespace gale::outputs {
 
 namespace {
 
+using gale::detail::Point;
 using Triangle = TriangleVertices;
 
 enum Type : std::int8_t { descending = 0, connector = 1, ascending = 2 };
@@ -15,102 +21,290 @@ enum Type : std::int8_t { descending = 0, connector = 1, ascending = 2 };
 /// The simplices along the paths of one kind. On each path, every cell is preceded by a simplex of another dimension.
 template <class Simplex, class CellOf, class IdOf>
 struct Along {
-  const Simplex* between;  ///< what precedes each cell (GALE's ids)
-  const Id* between_ids;   ///< and its CellId
-  CellOf cell_of;          ///< cell_of(cell): the cell's vertices (GALE's ids)
-  IdOf id_of;              ///< id_of(k): the CellId of the k-th cell
+  const Simplex* between;       ///< what precedes each cell (GALE's ids)
+  const GlobalId* between_ids;  ///< and its CellId
+  CellOf cell_of;               ///< cell_of(cell): the cell's vertices (GALE's ids)
+  IdOf id_of;                   ///< id_of(k): the CellId of the k-th cell
 };
 
 template <class Simplex, class CellOf, class IdOf>
-Along(const Simplex*, const Id*, CellOf, IdOf) -> Along<Simplex, CellOf, IdOf>;
+Along(const Simplex*, const GlobalId*, CellOf, IdOf) -> Along<Simplex, CellOf, IdOf>;
 
-/// The critical simplices where paths of one kind begin and where they end.
-struct Ends {
-  const std::vector<CriticalSimplex>& sources;
-  const std::vector<CriticalSimplex>& destinations;
+/// The global id of a vertex, or of a tetrahedron, that paths pass.
+GlobalId vertex_id(const MorseSmaleComplex& complex, Id vertex) {
+  const Mesh& mesh = complex.gradient.mesh();
+  return vertex < mesh.vertices() ? mesh.vertex_id(mesh.vertex_input()(vertex))
+                                  : complex.beyond.vertices[vertex - mesh.vertices()];
+}
+GlobalId tetrahedron_id(const MorseSmaleComplex& complex, Id tetrahedron) {
+  const Mesh& mesh = complex.gradient.mesh();
+  return tetrahedron < mesh.tetrahedra() ? mesh.tetrahedron_id(mesh.tetrahedron_input()(tetrahedron))
+                                         : complex.beyond.tetrahedra[tetrahedron - mesh.tetrahedra()];
+}
+
+/// Where the simplices on paths are drawn, by GALE's ids of their vertices.
+template <class Coordinate>
+class Positions {
+ public:
+  /// Asks the owners where vertices beyond this rank's part are: collective.
+  Positions(const io::Dataset::Points<Coordinate>& points, const MorseSmaleComplex& complex)
+      : points_(points), complex_(complex), input_(mesh().vertex_input().data()) {
+    if (mesh().exchange().ranks().size() > 1) ask_owners();
+  }
+
+  template <std::size_t N>
+  Point operator()(const std::array<Id, N>& simplex) const {
+    const bool is_here = std::all_of(simplex.begin(), simplex.end(), [&](Id v) { return v < mesh().vertices(); });
+    return is_here ? gale::detail::position_of(points_, detail::to_input(input_, simplex)) : position_beyond(simplex);
+  }
+
+ private:
+  const Mesh& mesh() const { return complex_.gradient.mesh(); }
+
+  void ask_owners() {
+    using gale::detail::answer, gale::detail::deal, gale::detail::together;
+    const Exchange& exchange = mesh().exchange();
+    const Ranks& ranks = exchange.ranks();
+    const auto& vertices = complex_.beyond.vertices;
+    const auto owners = exchange.owners_of(Array<const GlobalId, HostMemory>(vertices.data(), vertices.size()));
+    Array<Id, HostMemory> members;
+    const auto asked = deal<GlobalId>(
+        ranks, "GALE::points_beyond", static_cast<Offset>(vertices.size()), [&](Id i) { return owners(i); },
+        [&](Id i) { return vertices[i]; }, &members);
+    const auto answers = answer<Point>(ranks, "GALE::told_points", asked, [&](GlobalId id) {
+      return gale::detail::point_of(points_, exchange.vertex_of(id));
+    });
+    together(ranks, [&] { beyond_.resize(vertices.size()); });
+    for (Offset i = 0; i < answers.count(); ++i) beyond_[members(i)] = answers.entries(i);
+  }
+
+  /// The position does not depend on who asks: vertices come in the order of their global ids.
+  template <std::size_t N>
+  Point position_beyond(std::array<Id, N> simplex) const {
+    std::sort(simplex.begin(), simplex.end(),
+              [&](Id a, Id b) { return vertex_id(complex_, a) < vertex_id(complex_, b); });
+    std::array<Point, N> points{};
+    std::array<Id, N> all{};
+    for (std::size_t k = 0; k < N; ++k) {
+      const Id v = simplex[k], n = mesh().vertices();
+      points[k] = v < n ? gale::detail::point_of(points_, input_[v]) : beyond_[v - n];
+      all[k] = static_cast<Id>(k);
+    }
+    return gale::detail::position_of([&](Id k, int axis) { return points[k][axis]; }, all);
+  }
+
+  const io::Dataset::Points<Coordinate>& points_;
+  const MorseSmaleComplex& complex_;
+  const Id* input_;
+  std::vector<Point> beyond_;
+};
+
+/// A vertex in the order of all ranks, and the field's value there.
+struct Height {
+  std::uint64_t order = 0;
+  GlobalId vertex = -1;
+  double value = 0;
+
+  bool operator<(const Height& other) const {
+    return order != other.order ? order < other.order : vertex < other.vertex;
+  }
+};
+
+/// What separatrices say of a critical simplex at one of their ends.
+struct End {
+  GlobalId cell = -1;
+  Height highest, lowest;
+  std::int8_t on_surface = 0;
+};
+
+/// Tells what separatrices say of this rank's critical simplices.
+class Ends {
+ public:
+  Ends(const io::Dataset& dataset, const io::PointArray& field, const MorseSmaleComplex& complex)
+      : mesh_(complex.gradient.mesh()),
+        field_(field),
+        order_(order_array(dataset, field)),
+        internal_(mesh_.vertex_internal().data()),
+        keys_(complex.gradient.order().keys()) {}
+
+  std::vector<End> operator()(const std::vector<CriticalSimplex>& simplices) const {
+    std::vector<End> ends;
+    for (const CriticalSimplex& simplex : simplices)
+      ends.push_back({simplex.cell, height(simplex.highest()), height(simplex.lowest()), simplex.on_surface});
+    return ends;
+  }
+
+ private:
+  /// Keys say nothing to other ranks: where there are several, values do.
+  Height height(Id vertex) const {
+    const auto bits = [&](const auto& values) { return std::uint64_t(gale::detail::ordered_bits(values[vertex])); };
+    return {mesh_.is_part() ? std::visit(bits, order_.values) : keys_[internal_[vertex]], mesh_.vertex_id(vertex),
+            value_at(field_, vertex)};
+  }
+
+  const Mesh& mesh_;
+  const io::PointArray &field_, &order_;
+  const Id* internal_;
+  const std::uint64_t* keys_;
+};
+
+/// The paths of one kind: what is known of their ends, and their numbers.
+template <class Cell>
+class PathEnds {
+ public:
+  PathEnds(const Separatrices<Cell>& paths, std::vector<End> sources, std::vector<End> destinations)
+      : paths_(paths), sources_(std::move(sources)), destinations_(std::move(destinations)), count_(paths.count()) {}
+
+  /// Asks other ranks for the ends of this rank's paths, and numbers the paths of all. last_of(i) is the CellId of the
+  /// i-th path's last cell. Collective.
+  template <class LastOf>
+  void ask(const Ranks& ranks, const LastOf& last_of) {
+    using Ids = Array<GlobalId, HostMemory>;
+    Ids known, wanted, sources, counts;
+    std::vector<Offset> first;  // path of each source that has one
+    gale::detail::together(ranks, [&] {
+      for (Offset i = 0; i < paths_.count(); ++i) {
+        if (i == 0 || paths_.sources[i] != paths_.sources[i - 1]) first.push_back(i);
+      }
+      first.push_back(paths_.count());
+      known = allocate<Ids>("GALE::known_ends", destinations_.size());
+      wanted = allocate<Ids>("GALE::wanted_ends", paths_.count());
+      sources = allocate<Ids>("GALE::path_sources", first.size() - 1);
+      counts = allocate<Ids>("GALE::paths_of_sources", first.size() - 1);
+      for (std::size_t i = 0; i < destinations_.size(); ++i) known(i) = destinations_[i].cell;
+      for (Offset i = 0; i < paths_.count(); ++i) wanted(i) = last_of(i);
+      for (std::size_t s = 0; s + 1 < first.size(); ++s) {
+        sources(s) = sources_[paths_.sources[first[s]]].cell;
+        counts(s) = first[s + 1] - first[s];
+      }
+    });
+    const gale::detail::HomeTable<End> table(
+        ranks, known, [&](Id i) { return destinations_[i]; }, [](int, const End& end) { return end; });
+    last_ = table.find(ranks, wanted);
+    const Ids numbers = gale::detail::sums_before(ranks, sources, counts);
+    count_ = numbers(numbers.extent(0) - 1);
+    for (std::size_t s = 0; s + 1 < first.size(); ++s) {
+      for (Offset i = first[s]; i < first[s + 1]; ++i) numbers_.push_back(numbers(s) + i - first[s]);
+    }
+  }
+
+  const End& source(Offset i) const { return sources_[paths_.sources[i]]; }
+  const End& destination(Offset i) const {
+    return last_.extent(0) == 0 ? destinations_[paths_.destinations[i]] : last_(i);
+  }
+
+  /// The number of the i-th path among those of all ranks, and how many these are.
+  GlobalId number(Offset i) const { return numbers_.empty() ? i : numbers_[i]; }
+  GlobalId count() const { return count_; }
+
+ private:
+  const Separatrices<Cell>& paths_;
+  std::vector<End> sources_, destinations_;
+  GlobalId count_;
+
+  // Where there are several ranks, by path.
+  Array<End, HostMemory> last_;
+  std::vector<GlobalId> numbers_;
 };
 
 /// Collects the separatrices of one kind after the other.
-template <class Coordinate>
+template <class Coordinate, class Number>
 class Lines {
  public:
   /// Lines for that many cells on so many paths, of all kinds together.
-  Lines(const io::Dataset::Points<Coordinate>& points, const Mesh& mesh, const detail::Heights& heights, Offset cells,
-        Offset paths)
-      : input_(mesh.vertex_input().data()), points_(points), heights_(heights), arrays_(cells, paths) {}
+  Lines(const Positions<Coordinate>& positions, Offset cells, Offset paths)
+      : positions_(positions), arrays_(cells, paths) {}
 
   /// Two points for each cell of the paths: the simplex that precedes it, and itself.
   template <class Cell, class Simplices>
-  void add(Type type, const Separatrices<Cell>& paths, const Simplices& along, const Ends& ends) {
+  void add(Type type, const Separatrices<Cell>& paths, const Simplices& along, const PathEnds<Cell>& ends) {
     parallel_for("GALE::separatrices1", HostExecutionSpace(), paths.count(), [&](Offset i) {
       const Offset begin = paths.begin[i], end = paths.begin[i + 1];
       for (Offset k = begin; k < end; ++k) {
         set_point(2 * k, along.between[k], along.between_ids[k], k == begin);
         set_point(2 * k + 1, along.cell_of(paths.cells[k]), along.id_of(k), k + 1 == end && paths.is_whole(i));
       }
-      set_lines(type, i, 2 * begin, 2 * end, ends.sources[paths.sources[i]], ends.destinations[paths.destinations[i]]);
+      set_lines(type, i, 2 * begin, 2 * end, first_number_ + ends.number(i), ends.source(i), ends.destination(i));
     });
     first_point_ += 2 * paths.cells.size();
     first_path_ += paths.count();
+    first_number_ += ends.count();
   }
 
   io::Surface take(const io::PointArray& field) { return arrays_.take(field); }
 
  private:
   template <std::size_t N>
-  void set_point(Offset place, const std::array<Id, N>& simplex, Id id, bool is_end) {
-    arrays_.set_point(first_point_ + place, gale::detail::position_of(points_, detail::to_input(input_, simplex)), id,
-                      N - 1, is_end);
+  void set_point(Offset place, const std::array<Id, N>& simplex, GlobalId id, bool is_end) {
+    arrays_.set_point(first_point_ + place, positions_(simplex), static_cast<Number>(id), N - 1, is_end);
   }
 
   /// Lines between consecutive points of [begin, end), those of the i-th path of the kind being added.
-  void set_lines(Type type, Offset i, Offset begin, Offset end, const CriticalSimplex& source,
-                 const CriticalSimplex& destination) {
-    const Offset id = first_path_ + i, point = first_point_ + begin;
-    const double maximum = heights_.value(heights_.higher(source.highest(), destination.highest()));
-    const double minimum = heights_.value(heights_.lower(source.lowest(), destination.lowest()));
-    arrays_.set_lines(
-        point - id, end - begin - 1, point, destination.cell,  // a path has a point more than lines
-        {source.cell, static_cast<Id>(id), type, maximum, minimum, source.on_surface + destination.on_surface});
+  void set_lines(Type type, Offset i, Offset begin, Offset end, GlobalId number, const End& source,
+                 const End& destination) {
+    const Offset point = first_point_ + begin;
+    const double maximum = std::max(source.highest, destination.highest).value;
+    const double minimum = std::min(source.lowest, destination.lowest).value;
+    arrays_.set_lines(point - first_path_ - i, end - begin - 1, point,  // a path has a point more than lines
+                      static_cast<Number>(destination.cell),
+                      {static_cast<Number>(source.cell), static_cast<Number>(number), type, maximum, minimum,
+                       source.on_surface + destination.on_surface});
   }
 
-  const Id* input_;
-  const io::Dataset::Points<Coordinate>& points_;
-  const detail::Heights& heights_;
-  detail::LineArrays<Coordinate> arrays_;
+  const Positions<Coordinate>& positions_;
+  detail::LineArrays<Coordinate, Number> arrays_;
   Offset first_point_ = 0, first_path_ = 0;
+  GlobalId first_number_ = 0;
 };
 
 }  // namespace
 
 io::Surface separatrices1(const io::Dataset& dataset, const io::PointArray& field, const MorseSmaleComplex& complex,
                           const NamedSimplices& named, const SimplexNumbers& numbers, const KnownSimplices& critical) {
-  const Mesh& mesh = complex.gradient.mesh();
   const auto &falling = complex.descending, &rising = complex.ascending;
   const auto& connectors = complex.connectors;
-  const detail::Heights heights(complex.gradient, field);
   const detail::NamedGroups groups(complex);
   const Offset cells = falling.cells.size() + rising.cells.size() + connectors.cells.size();
   const Offset paths = Offset(falling.count()) + rising.count() + connectors.count();
-  const Id *edge_ids = numbers.edges.data(), *triangle_ids = numbers.triangles.data();
+  const GlobalId *edge_ids = numbers.edges.data(), *triangle_ids = numbers.triangles.data();
   const Along descending_along{named.edges.data() + groups.descending_edges, edge_ids + groups.descending_edges,
                                [](Id v) { return std::array<Id, 1>{v}; },
-                               [&](Offset k) { return mesh.vertex_input()(falling.cells[k]); }};
+                               [&](Offset k) { return vertex_id(complex, falling.cells[k]); }};
   const Along ascending_along{named.triangles.data() + groups.ascending_triangles,
                               triangle_ids + groups.ascending_triangles,
-                              [&](Id t) { return detail::corners_of(mesh, t); },
-                              [&](Offset k) { return mesh.tetrahedron_input()(rising.cells[k]); }};
+                              [&](Id t) { return detail::corners_of(complex, t); },
+                              [&](Offset k) { return tetrahedron_id(complex, rising.cells[k]); }};
   const Along connecting{named.edges.data() + groups.connector_edges, edge_ids + groups.connector_edges,
                          [](const Triangle& triangle) { return triangle; },
                          [&](Offset k) { return triangle_ids[groups.connector_triangles + k]; }};
+  const Ranks& ranks = complex.gradient.mesh().exchange().ranks();
+  std::vector<End> ends[4];
+  gale::detail::together(ranks, [&] {
+    const Ends ends_of(dataset, field, complex);
+    for (int dimension = 0; dimension < 4; ++dimension) ends[dimension] = ends_of(critical[dimension]);
+  });
+  PathEnds<Id> falling_ends(falling, ends[1], ends[0]), rising_ends(rising, ends[2], ends[3]);
+  const PathEnds<Triangle> connector_ends(connectors, ends[1], ends[2]);
+  if (ranks.size() > 1) {
+    falling_ends.ask(ranks, [&](Offset i) { return descending_along.id_of(falling.begin[i + 1] - 1); });
+    rising_ends.ask(ranks, [&](Offset i) { return ascending_along.id_of(rising.begin[i + 1] - 1); });
+  }
   return std::visit(
       [&](const auto& points) {
         using Coordinate = typename std::decay_t<decltype(points)>::non_const_value_type;
-        Lines<Coordinate> lines(points, mesh, heights, cells, paths);
-        lines.add(descending, falling, descending_along, {critical[1], critical[0]});
-        lines.add(ascending, rising, ascending_along, {critical[2], critical[3]});
-        lines.add(connector, connectors, connecting, {critical[1], critical[2]});
-        return lines.take(field);
+        const Positions<Coordinate> positions(points, complex);
+        io::Surface surface;
+        const auto fill = [&](auto lines) {
+          lines.add(descending, falling, descending_along, falling_ends);
+          lines.add(ascending, rising, ascending_along, rising_ends);
+          lines.add(connector, connectors, connecting, connector_ends);
+          surface = lines.take(field);
+        };
+        gale::detail::together(ranks, [&] {
+          complex.gradient.mesh().is_part() ? fill(Lines<Coordinate, GlobalId>(positions, cells, paths))
+                                            : fill(Lines<Coordinate, Id>(positions, cells, paths));
+        });
+        return surface;
       },
       dataset.points);
 }

@@ -25,6 +25,9 @@ namespace gale::outputs {
 ///
 /// `field` is that of the complex, `numbers` are those of `named`, the complex's `named_simplices`, and `critical` its
 /// critical simplices. In parallel. Throws gale::Error if there are more than 2^31 - 1 points.
+///
+/// On one rank's part of a mesh these are the separatrices that begin at critical simplices of its own, with the
+/// numbers that they have among those of all ranks; ids are int64. Collective then.
 GALE_EXPORT io::Surface separatrices1(const io::Dataset& dataset, const io::PointArray& field,
                                       const MorseSmaleComplex& complex, const NamedSimplices& named,
                                       const SimplexNumbers& numbers, const KnownSimplices& critical);

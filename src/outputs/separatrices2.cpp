@@ -178,8 +178,9 @@ class Walls {
     for (const Id saddle : met) on_surface += critical[saddle].on_surface;
     const std::size_t begin = arrays_.cells(), end = surface_.polygons.begin.size() - 1;
     arrays_.resize(end);
-    arrays_.set(begin, end,
-                {source.cell, next_id_++, type, heights_.value(highest), heights_.value(lowest), on_surface});
+    arrays_.set(
+        begin, end,
+        {static_cast<Id>(source.cell), next_id_++, type, heights_.value(highest), heights_.value(lowest), on_surface});
   }
 
   const io::Dataset& dataset_;

@@ -18,12 +18,15 @@ namespace detail {
 
 bool kernels_read(const Mesh& mesh, const ComputeOptions& options) {
   require_consumers(options);
-  if (options.consumers == ConsumerPlace::device) {
-    if (!mesh.on_device()) throw Error("no consumers can be on the device: " + mesh.notice());
-    return true;
-  }
-  return options.consumers == ConsumerPlace::best && !options.make_structure && options.structure.way == Way::gale &&
-         mesh.on_device();
+  const Ranks& ranks = mesh.exchange().ranks();
+  together(ranks, [&] {
+    if (options.consumers == ConsumerPlace::device && !mesh.on_device())
+      throw Error("no consumers can be on the device: " + mesh.notice());
+  });
+  const bool are_wanted =
+      options.consumers == ConsumerPlace::device ||
+      (options.consumers == ConsumerPlace::best && !options.make_structure && options.structure.way == Way::gale);
+  return ranks.least(std::int64_t(are_wanted && mesh.on_device())) == 1;
 }
 
 DeviceSweepOptions sweep_of_kernels(const StructureOptions& options) {
@@ -55,8 +58,10 @@ Structure& Computing::structure(RelationSet relations) {
     {
       const Stopwatch preparing(seconds);
       there.reset();
-      there = options_.make_structure ? options_.make_structure(mesh_, relations)
-                                      : make_structure(mesh_, relations, options_.structure);
+      together(mesh_.exchange().ranks(), [&] {
+        there = options_.make_structure ? options_.make_structure(mesh_, relations)
+                                        : make_structure(mesh_, relations, options_.structure);
+      });
     }
     computed_.seconds_preparing += seconds;
     computed_.seconds_running -= seconds;  // which all of this is added to

@@ -33,7 +33,7 @@ struct ComputeOptions : SweepOptions {
 
 /// How one or several analyses of a mesh were computed, one after the other: each adds to it what it did. An analysis
 /// that needs a structure reads the one that is here, if it is of the same mesh and has the relations; else it makes
-/// one, and leaves it here for the next.
+/// one, and leaves it here for the next. On one rank's part of a mesh all of this is collective.
 struct Computed {
   bool on_device = false;                ///< whether kernels read the rows of the latest analysis that kernels can do
   std::shared_ptr<Structure> structure;  ///< what threads of the host read; null as long as nobody needed one
@@ -49,7 +49,8 @@ GALE_EXPORT void require_consumers(const ComputeOptions& options);
 namespace detail {
 
 /// Are consumers to be kernels on the device that the mesh is on? Throws gale::Error where `options` want that by name,
-/// and the mesh isn't there.
+/// and the mesh isn't there. Of a mesh on several ranks it is collective: where one rank's part isn't on a device,
+/// nobody's consumers are.
 GALE_EXPORT bool kernels_read(const Mesh& mesh, const ComputeOptions& options);
 
 /// How these go through the mesh.

@@ -15,7 +15,7 @@ namespace gale::test {
 namespace {
 
 void expect_types(const CriticalPoints& points, const std::vector<int>& types, const BruteForce& brute_force) {
-  std::array<Id, 5> counts{};
+  std::array<GlobalId, 5> counts{};
   std::size_t at = 0;
   for (std::size_t v = 0; v < types.size(); ++v) {
     if (types[v] == 5) continue;

@@ -12,8 +12,8 @@ namespace gale::test {
 
 struct KnownCounts {
   int n;
-  std::array<Id, 5> points;     ///< by CriticalType
-  std::array<Id, 4> simplices;  ///< by dimension
+  std::array<GlobalId, 5> points;  ///< by CriticalType
+  std::array<Id, 4> simplices;     ///< by dimension
   std::vector<int> threads;
 };
 

@@ -46,7 +46,9 @@ class SimplexNumbersOf : public EveryMesh {};
 TEST_P(SimplexNumbersOf, every_mesh_are_those_of_the_enumeration_on_every_structure) {
   const Mesh enumerated = encode(input(), segmentation());
   const NamedSimplices named = all_simplices(enumerated);
-  const auto edges = to_vector(input_numbers(enumerated, 1)), triangles = to_vector(input_numbers(enumerated, 2));
+  const auto in_64_bits = [](const std::vector<Id>& ids) { return std::vector<GlobalId>(ids.begin(), ids.end()); };
+  const auto edges = in_64_bits(to_vector(input_numbers(enumerated, 1))),
+             triangles = in_64_bits(to_vector(input_numbers(enumerated, 2)));
   const auto on_surface = surface_vertices(enumerated);
   for (const auto& kind : structure_kinds()) {
     SCOPED_TRACE(kind.name);
@@ -78,8 +80,8 @@ TEST_F(SimplexNumbersOfTwo, are_places_in_lexicographic_order) {
   const auto numbers =
       number_simplices(*runtime, {{edge(3, 2), edge(0, 1), edge(4, 1), edge(3, 4), edge(0, 1)},
                                   {triangle(3, 2, 1), triangle(0, 1, 2), triangle(4, 2, 3), triangle(3, 1, 2)}});
-  EXPECT_EQ(numbers.edges, (std::vector<Id>{6, 0, 5, 8, 0}));
-  EXPECT_EQ(numbers.triangles, (std::vector<Id>{3, 0, 6, 3}));
+  EXPECT_EQ(numbers.edges, (std::vector<GlobalId>{6, 0, 5, 8, 0}));
+  EXPECT_EQ(numbers.triangles, (std::vector<GlobalId>{3, 0, 6, 3}));
 }
 
 TEST_F(SimplexNumbersOfTwo, of_nothing_are_none) {
@@ -124,8 +126,8 @@ TEST(SimplexNumbers, of_a_vertex_with_more_neighbours_than_bits) {
     const auto internal = mesh.vertex_internal();
     const auto numbers = number_simplices(*runtime, {{{internal(degree), internal(0)}, {internal(2), internal(1)}},
                                                      {{internal(degree), internal(0), internal(1)}}});
-    EXPECT_EQ(numbers.edges, (std::vector<Id>{degree - 1, degree}));  // the last of 0's, and the next
-    EXPECT_EQ(numbers.triangles, (std::vector<Id>{degree - 2}));      // the last of 0 and 1, of degree - 1
+    EXPECT_EQ(numbers.edges, (std::vector<GlobalId>{degree - 1, degree}));  // the last of 0's, and the next
+    EXPECT_EQ(numbers.triangles, (std::vector<GlobalId>{degree - 2}));      // the last of 0 and 1, of degree - 1
   }
 }
 

@@ -2,7 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <gale/distributed/deal.hpp>
+#include <gale/distributed/communicator.hpp>
+#include <gale/mesh/exchange/messages.hpp>
 
 #include "support/message_of.hpp"
 

@@ -14,8 +14,8 @@ class DistributedMeshOf : public EveryPartition {};
 TEST_P(DistributedMeshOf, every_partition_has_each_vertex_owned_once) {
   const std::vector<bool> mine = owned();
   for (Id v = 0; v < input().vertices(); ++v) EXPECT_EQ(ranks_.sum(mine[v] ? 1 : 0), 1) << "vertex " << v;
-  EXPECT_EQ(mesh_.vertices(), input().vertices());
-  EXPECT_EQ(mesh_.tetrahedra(), static_cast<GlobalId>(input().tetrahedra.size()));
+  EXPECT_EQ(mesh_.all_vertices(), input().vertices());
+  EXPECT_EQ(mesh_.all_tetrahedra(), static_cast<GlobalId>(input().tetrahedra.size()));
 }
 
 TEST_P(DistributedMeshOf, every_partition_holds_the_stars_of_owned_vertices_and_no_more) {
@@ -30,7 +30,7 @@ TEST_P(DistributedMeshOf, every_partition_holds_the_stars_of_owned_vertices_and_
     tetrahedra.insert(t);
     vertices.insert(quad.begin(), quad.end());
   }
-  const Mesh& local = mesh_.local();
+  const Mesh& local = mesh_;
   EXPECT_EQ(local.vertices(), static_cast<Id>(vertices.size()));
   ASSERT_EQ(local.tetrahedra(), static_cast<Id>(tetrahedra.size()));
   std::set<Id> found_vertices, found_tetrahedra;
@@ -51,7 +51,7 @@ TEST_P(DistributedMeshOf, every_partition_numbers_by_global_ids_and_owned_vertic
   EXPECT_TRUE(std::is_sorted(ids.data(), ids.data() + ids.extent(0)));
   const auto& tetrahedra = mesh_.tetrahedron_ids();
   EXPECT_TRUE(std::is_sorted(tetrahedra.data(), tetrahedra.data() + tetrahedra.extent(0)));
-  const Mesh& local = mesh_.local();
+  const Mesh& local = mesh_;
   for (Id v = 0; v < local.vertices(); ++v) {
     EXPECT_EQ(mesh_.owners()(local.vertex_input()(v)) == ranks_.rank(), v < local.owned_vertices());
     EXPECT_EQ(local.segment_of(0, v) < local.owned_segments(), v < local.owned_vertices());
@@ -65,8 +65,20 @@ TEST_P(DistributedMeshOf, every_partition_knows_owners_and_points) {
   for (std::size_t i = 0; i < mesh_.vertex_ids().extent(0); ++i) {
     const Id v = vertex_named(mesh_.vertex_ids()(i));
     EXPECT_EQ(mesh_.owners()(i), owner[v]);
+    EXPECT_EQ(mesh_.exchange().owner(static_cast<Id>(i)), owner[v]);
     for (int axis = 0; axis < 3; ++axis) EXPECT_EQ(mesh_.points()(i, axis), input().points[v][axis]);
   }
+}
+
+TEST_P(DistributedMeshOf, every_partition_knows_who_owns_any_vertex) {
+  std::vector<GlobalId> names;
+  for (Id v = input().vertices(); v-- > 0;) names.push_back(vertex_name(v));
+  names.push_back(vertex_name(0) - 1);
+  const std::vector<bool> mine = owned();
+  const auto owners = mesh_.exchange().owners_of(view_of(names));
+  for (std::size_t i = 0; i + 1 < names.size(); ++i)
+    EXPECT_EQ(owners(i) == ranks_.rank(), mine[vertex_named(names[i])]) << names[i];
+  EXPECT_EQ(owners(names.size() - 1), -1);
 }
 
 INSTANTIATE_TEST_SUITE_P(Tests, DistributedMeshOf, every_mesh_and_partition(), mesh_and_partition);
@@ -76,8 +88,8 @@ TEST(DistributedMesh, leaves_vertices_with_the_lowest_rank_that_hands_them_over)
   const InputMesh& input = mesh_named("one_tetrahedron");
   const GivenPart part = part_of(input, "shared", ranks);
   const DistributedMesh mesh = distribute(ranks, part, "shared");
-  EXPECT_EQ(mesh.local().owned_vertices(), ranks.rank() == 0 ? 4 : 0);
-  EXPECT_EQ(mesh.local().vertices(), ranks.rank() == 0 ? 4 : 0);
+  EXPECT_EQ(mesh.owned_vertices(), ranks.rank() == 0 ? 4 : 0);
+  EXPECT_EQ(mesh.vertices(), ranks.rank() == 0 ? 4 : 0);
 }
 
 TEST(DistributedMesh, dealt_out_along_the_curve_has_shares_of_about_one_size) {
@@ -86,8 +98,8 @@ TEST(DistributedMesh, dealt_out_along_the_curve_has_shares_of_about_one_size) {
   const GivenPart part = part_of(input, "last", ranks);
   const DistributedMesh mesh = distribute(ranks, part, "curve");
   const double share = static_cast<double>(input.vertices()) / ranks.size();
-  EXPECT_GT(mesh.local().owned_vertices(), 0.9 * share);
-  EXPECT_LT(mesh.local().owned_vertices(), 1.1 * share);
+  EXPECT_GT(mesh.owned_vertices(), 0.9 * share);
+  EXPECT_LT(mesh.owned_vertices(), 1.1 * share);
 }
 
 TEST(DistributedMesh, dealt_out_along_the_curve_has_few_ghosts) {
@@ -95,7 +107,7 @@ TEST(DistributedMesh, dealt_out_along_the_curve_has_few_ghosts) {
   const InputMesh input = holed_grid(20);
   const GivenPart part = part_of(input, "random", ranks);
   const auto ghosts = [&](const char* partition) {
-    const Mesh local = distribute(ranks, part, partition).local();
+    const Mesh local = distribute(ranks, part, partition);
     return ranks.sum(local.vertices() - local.owned_vertices());
   };
   if (ranks.size() == 1) {
@@ -117,9 +129,9 @@ TEST(DistributedMesh, of_slabs_of_a_grid_has_the_tetrahedra_of_the_grid) {
     const auto part = with_ids ? make_part(view_of(ids), slab.points, slab.tetrahedra, view_of(tetrahedron_ids))
                                : make_part(view_of(ids), slab.points, slab.tetrahedra);
     const DistributedMesh mesh(ranks, part);
-    const Mesh& local = mesh.local();
-    EXPECT_EQ(mesh.vertices(), 216);
-    EXPECT_EQ(mesh.tetrahedra(), 750);
+    const Mesh& local = mesh;
+    EXPECT_EQ(mesh.all_vertices(), 216);
+    EXPECT_EQ(mesh.all_tetrahedra(), 750);
     EXPECT_EQ(ranks.sum(local.owned_vertices()), 216);
     EXPECT_GE(ranks.sum(local.tetrahedra()), 750);
     for (Id t = 0; t < local.tetrahedra(); ++t) {
@@ -148,7 +160,7 @@ TEST(DistributedMesh, counts_tetrahedra_on_from_rank_to_rank) {
   std::map<std::set<Id>, GlobalId> number;
   for (std::size_t t = 0; t < input.tetrahedra.size(); ++t)
     number[std::set<Id>(input.tetrahedra[t].begin(), input.tetrahedra[t].end())] = static_cast<GlobalId>(t);
-  const Mesh& local = mesh.local();
+  const Mesh& local = mesh;
   for (Id t = 0; t < local.tetrahedra(); ++t) {
     std::set<Id> corners;
     for (int corner = 0; corner < 4; ++corner)

@@ -21,15 +21,15 @@ class EveryPartition : public testing::TestWithParam<std::tuple<std::string, std
   const DistributedMesh mesh_ = distribute(ranks_, part_, partition());
 
   /// The input's number of a local vertex (GALE's id), of a tetrahedron.
-  Id input_vertex(Id vertex) const { return vertex_named(mesh_.vertex_ids()(mesh_.local().vertex_input()(vertex))); }
+  Id input_vertex(Id vertex) const { return vertex_named(mesh_.vertex_ids()(mesh_.vertex_input()(vertex))); }
   Id input_tetrahedron(Id tetrahedron) const {
-    return tetrahedron_named(mesh_.tetrahedron_ids()(mesh_.local().tetrahedron_input()(tetrahedron)));
+    return tetrahedron_named(mesh_.tetrahedron_ids()(mesh_.tetrahedron_input()(tetrahedron)));
   }
 
   /// For each vertex of the input whether this rank owns it.
   std::vector<bool> owned() const {
     std::vector<bool> owned(input().vertices(), false);
-    for (Id v = 0; v < mesh_.local().owned_vertices(); ++v) owned[input_vertex(v)] = true;
+    for (Id v = 0; v < mesh_.owned_vertices(); ++v) owned[input_vertex(v)] = true;
     return owned;
   }
 };

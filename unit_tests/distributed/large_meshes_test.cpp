@@ -6,9 +6,7 @@
 
 #include <gale/algorithms/critical_points.hpp>
 #include <gale/algorithms/morse_smale.hpp>
-#include <gale/distributed/distributed_critical_points.hpp>
-#include <gale/distributed/distributed_manifolds.hpp>
-#include <gale/distributed/distributed_separatrices.hpp>
+#include <gale/distributed/distributed_mesh.hpp>
 #include <gale/io/read.hpp>
 #include <gale/io/synthetic.hpp>
 #include <gale/mesh/make_mesh.hpp>
@@ -44,32 +42,44 @@ using Sums = std::array<std::int64_t, 5>;
 using WholeField = Kokkos::View<const float*, HostMemory>;
 
 Sums sums_on_ranks(const DistributedMesh& mesh, const WholeField& field) {
-  const DistributedOrder order(mesh, field);
-  const auto structure = make_structure(mesh.local(), discrete_gradient_relations);
+  const VertexOrder order(mesh, field);
+  const auto structure = make_structure(mesh, discrete_gradient_relations);
   Sum points, simplices, manifolds, paths[2];
   const auto critical = find_critical_points(*structure, order);
   for (std::size_t i = 0; i < critical.vertices.size(); ++i)
-    points.add(critical.vertices[i], static_cast<int>(critical.types[i]), critical.on_surface[i]);
-  const auto gradient = find_discrete_gradient(*structure, order);
-  const auto found = gradient.critical();
-  for (const auto& [high, low] : found.edges) simplices.add(high, low);
-  for (const auto& [high, middle, low] : found.triangles) simplices.add(high, middle, low);
-  const auto labels = find_manifolds(gradient);
-  for (Id v = 0; v < mesh.local().owned_vertices(); ++v) {
-    const Id at = mesh.local().vertex_input()(v);
-    manifolds.add(mesh.vertex_ids()(at), labels.descending(at), labels.ascending(at), labels.morse_smale(at));
+    points.add(mesh.vertex_id(critical.vertices[i]), static_cast<int>(critical.types[i]), critical.on_surface[i]);
+  MorseSmaleParts parts;
+  parts.saddle_connectors = false;
+  const auto complex = find_morse_smale_complex(*structure, find_discrete_gradient(*structure, order), parts);
+  const auto id = [&](Id v) {
+    return v < mesh.vertices() ? mesh.vertex_id(mesh.vertex_input()(v)) : complex.beyond.vertices[v - mesh.vertices()];
+  };
+  const auto tetrahedron_id = [&](Id t) {
+    return t < mesh.tetrahedra() ? mesh.tetrahedron_id(mesh.tetrahedron_input()(t))
+                                 : complex.beyond.tetrahedra[t - mesh.tetrahedra()];
+  };
+  for (const auto& [high, low] : complex.critical.edges) simplices.add(id(high), id(low));
+  for (const auto& [high, middle, low] : complex.critical.triangles) simplices.add(id(high), id(middle), id(low));
+  const auto down = to_vector(complex.descending_manifold), up = to_vector(complex.ascending_manifold),
+             pairs = to_vector(complex.morse_smale_manifold);
+  for (Id v = 0; v < mesh.owned_vertices(); ++v) {
+    const Id at = mesh.vertex_input()(v);
+    manifolds.add(mesh.vertex_ids()(at), down[at], up[at], pairs[at]);
   }
-  const DistributedSeparatrices both[] = {find_descending_separatrices(gradient),
-                                          find_ascending_separatrices(gradient)};
-  for (int kind = 0; kind < 2; ++kind) {
-    for (Offset i = 0; i < both[kind].count(); ++i) {
-      for (Offset k = both[kind].begin[i]; k < both[kind].begin[i + 1]; ++k)
-        paths[kind].add(both[kind].sources[i], both[kind].destinations[i], k - both[kind].begin[i],
-                        both[kind].cells[k]);
-    }
+  for (Id i = 0; i < complex.descending.count(); ++i) {
+    const auto& some = complex.descending;
+    for (const Id* cell = some.first(i); cell != some.last(i); ++cell)
+      paths[0].add(id(complex.critical.edges[some.sources[i]][0]), some.destinations[i], cell - some.first(i),
+                   id(*cell));
+  }
+  for (Id i = 0; i < complex.ascending.count(); ++i) {
+    const auto& some = complex.ascending;
+    for (const Id* cell = some.first(i); cell != some.last(i); ++cell)
+      paths[1].add(id(complex.critical.triangles[some.sources[i]][0]), some.destinations[i], cell - some.first(i),
+                   tetrahedron_id(*cell));
   }
   Sums sums{points.value(), simplices.value(), manifolds.value(), paths[0].value(), paths[1].value()};
-  mesh.ranks().sum(sums.data(), static_cast<int>(sums.size()));
+  mesh.exchange().ranks().sum(sums.data(), static_cast<int>(sums.size()));
   return sums;
 }
 
@@ -94,8 +104,10 @@ Sums sums_on_one(const io::Dataset& data, const WholeField& field) {
     const auto& some = kind == 0 ? complex.descending : complex.ascending;
     const auto& numbers = kind == 0 ? input : mesh.tetrahedron_input();
     for (Id i = 0; i < some.count(); ++i) {
+      const Id highest =
+          kind == 0 ? complex.critical.edges[some.sources[i]][0] : complex.critical.triangles[some.sources[i]][0];
       for (const Id* cell = some.first(i); cell != some.last(i); ++cell)
-        paths[kind].add(some.sources[i], some.destinations[i], cell - some.first(i), numbers(*cell));
+        paths[kind].add(input(highest), some.destinations[i], cell - some.first(i), numbers(*cell));
     }
   }
   return {points.value(), simplices.value(), manifolds.value(), paths[0].value(), paths[1].value()};
@@ -139,10 +151,10 @@ TEST(LargeMeshes, a_grid_of_64_has_the_known_counts) {
   const io::GridPart slab = io::make_grid_part(64, ranks.rank(), ranks.size());
   const auto part = make_part(counted(slab.first_vertex, slab.field.size()), slab.points, slab.tetrahedra);
   const DistributedMesh mesh(ranks, part);
-  const DistributedOrder order(mesh, view_of(slab.field));
-  const auto structure = make_structure(mesh.local(), discrete_gradient_relations);
+  const VertexOrder order(mesh, view_of(slab.field));
+  const auto structure = make_structure(mesh, discrete_gradient_relations);
   EXPECT_EQ(find_critical_points(*structure, order).counts, (std::array<GlobalId, 5>{134, 383, 387, 127, 22}));
-  EXPECT_EQ(find_discrete_gradient(*structure, order).counts, (std::array<GlobalId, 4>{134, 356, 263, 40}));
+  EXPECT_EQ(find_discrete_gradient(*structure, order).counts(), (std::array<GlobalId, 4>{134, 356, 263, 40}));
 }
 
 class Brains : public testing::TestWithParam<std::string> {};

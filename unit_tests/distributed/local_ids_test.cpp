@@ -8,9 +8,9 @@
 #include <gtest/gtest.h>
 
 #include <gale/base/error.hpp>
-#include <gale/distributed/index_interval.hpp>
-#include <gale/distributed/local_vertices.hpp>
-#include <gale/distributed/tetrahedron_places.hpp>
+#include <gale/distributed/sharing/id_interval.hpp>
+#include <gale/distributed/sharing/local_vertices.hpp>
+#include <gale/distributed/sharing/tetrahedron_places.hpp>
 
 #include "support/arrays.hpp"
 

@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <gale/algorithms/critical_points.hpp>
+#include <gale/algorithms/discrete_gradient.hpp>
 #include <gale/algorithms/morse_smale.hpp>
-#include <gale/algorithms/simplex_numbers.hpp>
-#include <gale/distributed/distributed_gradient.hpp>
+#include <gale/algorithms/simplify.hpp>
 #include <gale/runtime/make_structure.hpp>
 
 #include "distributed/given_parts.hpp"
@@ -143,19 +143,21 @@ TEST(PartsOfMeshes, are_refused_by_what_needs_the_whole) {
   const InputMesh& input = mesh_named("holed_grid_9");
   const GivenPart part = part_of(input, "random", ranks);
   const DistributedMesh mesh = distribute(ranks, part, "random");
-  const Mesh& local = mesh.local();
-  if (local.owned_vertices() == local.vertices()) return;  // one rank
-  const std::string ghosts =
-      " can't be found of one rank's part of a mesh: " + std::to_string(local.vertices() - local.owned_vertices()) +
-      " of its " + std::to_string(local.vertices()) + " vertices are ghosts";
-  const std::vector<float> field(local.vertices(), 1.0f);
-  const VertexOrder order(local, field.data(), field.size());
-  const auto structure = make_structure(local, discrete_gradient_relations);
-  EXPECT_EQ(message_of([&] { find_critical_points(*structure, order); }), "critical points" + ghosts);
-  EXPECT_EQ(message_of([&] { find_critical_points(WorkerSpace(), order); }), "critical points" + ghosts);
-  EXPECT_EQ(message_of([&] { number_simplices(*structure, {}); }), "the numbers of simplices" + ghosts);
-  EXPECT_EQ(message_of([&] { find_morse_smale_complex(*structure, find_discrete_gradient(*structure, order)); }),
-            "a Morse-Smale complex" + ghosts);
+  if (ranks.size() == 1) return;
+  const std::string which =
+      " can't be found of one rank's part of a mesh: it lies on " + std::to_string(ranks.size()) + " ranks";
+  const VertexOrder order(mesh, part.values(std::vector<float>(input.vertices(), 1.0f)));
+  const auto structure = make_structure(mesh, discrete_gradient_relations);
+  const DiscreteGradient gradient = find_discrete_gradient(*structure, order);
+  MorseSmaleParts parts;
+  EXPECT_EQ(message_of([&] { find_morse_smale_complex(*structure, gradient, parts); }), "saddle connectors" + which);
+  parts.saddle_connectors = false;
+  parts.separatrices2 = true;
+  EXPECT_EQ(message_of([&] { find_morse_smale_complex(*structure, gradient, parts); }), "2-separatrices" + which);
+  parts.separatrices2 = false;
+  const auto value = [](Id) { return 1.0; };
+  const auto complex = find_morse_smale_complex(*structure, gradient, parts);
+  EXPECT_EQ(message_of([&] { simplify(complex, value, 1, {}); }), "a simplified complex" + which);
 }
 
 TEST(DistributedAlgorithms, fail_on_all_ranks_where_one_lacks_what_it_reads) {
@@ -163,10 +165,9 @@ TEST(DistributedAlgorithms, fail_on_all_ranks_where_one_lacks_what_it_reads) {
   const InputMesh& input = mesh_named("holed_grid_9");
   const GivenPart part = part_of(input, "blocks", ranks);
   const DistributedMesh mesh = distribute(ranks, part, "blocks");
-  const DistributedOrder order(mesh, part.values(std::vector<int>(input.vertices(), 1)));
+  const VertexOrder order(mesh, part.values(std::vector<int>(input.vertices(), 1)));
   const bool is_last = ranks.rank() + 1 == ranks.size();
-  const auto structure =
-      make_structure(mesh.local(), is_last ? RelationSet(Relation::VV) : discrete_gradient_relations);
+  const auto structure = make_structure(mesh, is_last ? RelationSet(Relation::VV) : discrete_gradient_relations);
   EXPECT_NE(message_of([&] { find_discrete_gradient(*structure, order); }), "no error");
 }
 

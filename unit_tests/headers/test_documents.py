@@ -27,12 +27,7 @@ FRAME = """
 #include <gale/runtime/graph_of.hpp>
 #include <gale/runtime/make_structure.hpp>
 #ifdef WITH_MPI
-#include <gale/distributed/distributed_critical_points.hpp>
-#include <gale/distributed/distributed_manifolds.hpp>
-#include <gale/distributed/distributed_numbers.hpp>
-#include <gale/distributed/distributed_separatrices.hpp>
-#else
-namespace gale { struct DistributedNamedSimplices {}; }
+#include <gale/distributed/distributed_mesh.hpp>
 #endif
 struct Functor {
   template <class Team, class Rows>
@@ -44,7 +39,7 @@ KOKKOS_FUNCTION void use(const Any&...) {}
 GIVEN = """int argc, char** argv, int provided, const gale::WorkerSpace& space, const gale::Mesh& mesh, gale::Structure* structure,
     Kokkos::View<double* [3], Kokkos::HostSpace> points, Kokkos::View<std::int64_t* [4], Kokkos::HostSpace> tetrahedra,
     Kokkos::View<std::int64_t*, Kokkos::HostSpace> vertex_ids, Kokkos::View<std::int64_t*, Kokkos::HostSpace> tetrahedron_ids,
-    Kokkos::View<double*, Kokkos::HostSpace> values, Kokkos::View<double*> field, gale::DistributedNamedSimplices named, Functor functor,
+    Kokkos::View<double*, Kokkos::HostSpace> values, Kokkos::View<double*> field, gale::NamedSimplices named, Functor functor,
     gale::Id vertex, gale::Id tetrahedron, double threshold"""
 
 

@@ -14,10 +14,9 @@ struct TypeArrays {
   VertexTypes types() const { return {own.data(), told.data()}; }
 };
 
-/// The sweeps of find_critical_points: each vertex' type by its own link, and what its neighbours told it.
-GALE_EXPORT TypeArrays<HostMemory> classify_vertices(Structure& structure, const VertexOrder& order,
-                                                     const SweepOptions& options);
-GALE_EXPORT TypeArrays<MemoryOfSweep<WorkerSpace>> classify_vertices(const WorkerSpace& space, const VertexOrder& order,
-                                                                     const DeviceSweepOptions& options);
+/// The sweeps of find_critical_points: each vertex's type by its own link, and what its neighbours told it.
+TypeArrays<HostMemory> classify_vertices(Structure& structure, const VertexOrder& order, const SweepOptions& options);
+TypeArrays<MemoryOfSweep<WorkerSpace>> classify_vertices(const WorkerSpace& space, const VertexOrder& order,
+                                                         const DeviceSweepOptions& options);
 
 }  // namespace gale::detail

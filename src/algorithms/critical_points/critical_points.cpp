@@ -4,7 +4,6 @@
 #include <gale/algorithms/critical_points/collect.hpp>
 #include <gale/algorithms/links/large_link.hpp>
 #include <gale/algorithms/order/same_mesh.hpp>
-#include <gale/algorithms/order/whole_mesh.hpp>
 
 namespace gale {
 
@@ -69,10 +68,11 @@ CriticalPoints find_critical_points(const VertexOrder& order, const ComputeOptio
 }
 
 CriticalPoints find_critical_points(Structure& structure, const VertexOrder& order, const SweepOptions& options) {
-  detail::require_whole_mesh("critical points", structure.mesh());
-  const auto found = detail::classify_vertices(structure, order, options);
+  detail::TypeArrays<HostMemory> found;
+  detail::together(order.mesh().exchange().ranks(),
+                   [&] { found = detail::classify_vertices(structure, order, options); });
   const ThreadLimit limit(options.threads);
-  return detail::collect(HostExecutionSpace(), structure.mesh(), found.types());
+  return detail::collect(HostExecutionSpace(), order, found.types());
 }
 
 }  // namespace gale

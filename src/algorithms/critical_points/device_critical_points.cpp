@@ -5,7 +5,6 @@
 #include <gale/algorithms/critical_points/classify.hpp>
 #include <gale/algorithms/critical_points/collect.hpp>
 #include <gale/algorithms/links/large_link.hpp>
-#include <gale/algorithms/order/whole_mesh.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/base/transfer.hpp>
 #include <gale/runtime/device/handed_stars.hpp>
@@ -170,9 +169,9 @@ TypeArrays<Memory> classify_vertices(const WorkerSpace& space, const VertexOrder
 
 CriticalPoints find_critical_points(const WorkerSpace& space, const VertexOrder& order,
                                     const DeviceSweepOptions& options) {
-  detail::require_whole_mesh("critical points", order.mesh());
-  const auto found = detail::classify_vertices(space, order, options);
-  return detail::collect(space, order.mesh(), found.types());
+  detail::TypeArrays<Memory> found;
+  detail::together(order.mesh().exchange().ranks(), [&] { found = detail::classify_vertices(space, order, options); });
+  return detail::collect(space, order, found.types());
 }
 
 }  // namespace gale

@@ -145,10 +145,8 @@ std::shared_ptr<detail::GradientStore> complete_on_host(const VertexOrder& order
   return store;
 }
 
-}  // namespace
-
-DiscreteGradient find_discrete_gradient(const WorkerSpace& space, const VertexOrder& order,
-                                        const DeviceSweepOptions& options) {
+std::shared_ptr<detail::GradientStore> find_by_kernels(const WorkerSpace& space, const VertexOrder& order,
+                                                       const DeviceSweepOptions& options) {
   Room room(order.mesh());
   auto attempt = std::make_unique<Attempt>(space, order, room, options);
   while (!attempt->fitted(room)) {
@@ -156,8 +154,18 @@ DiscreteGradient find_discrete_gradient(const WorkerSpace& space, const VertexOr
     attempt = std::make_unique<Attempt>(space, order, room, options);
   }
   const std::vector<Offset> outgrown = attempt->outgrown();
-  if (!outgrown.empty()) return DiscreteGradient(complete_on_host(order, *attempt, outgrown));
-  return DiscreteGradient(std::make_shared<detail::GradientStore>(order, attempt->found()));
+  if (!outgrown.empty()) return complete_on_host(order, *attempt, outgrown);
+  return std::make_shared<detail::GradientStore>(order, attempt->found());
+}
+
+}  // namespace
+
+DiscreteGradient find_discrete_gradient(const WorkerSpace& space, const VertexOrder& order,
+                                        const DeviceSweepOptions& options) {
+  std::shared_ptr<detail::GradientStore> store;
+  detail::together(order.mesh().exchange().ranks(), [&] { store = find_by_kernels(space, order, options); });
+  store->share_counts();
+  return DiscreteGradient(store);
 }
 
 }  // namespace gale

@@ -22,6 +22,7 @@ DiscreteGradient::DiscreteGradient(std::shared_ptr<const detail::GradientStore> 
 const Mesh& DiscreteGradient::mesh() const { return store_->mesh; }
 const VertexOrder& DiscreteGradient::order() const { return store_->order; }
 const CriticalSimplices& DiscreteGradient::critical() const { return store_->critical; }
+const std::array<GlobalId, 4>& DiscreteGradient::counts() const { return store_->counts; }
 const Array<const Id, HostMemory>& DiscreteGradient::vertex_successors() const {
   return store_->vertex_successors().in<HostMemory>();
 }
@@ -109,12 +110,16 @@ DiscreteGradient find_discrete_gradient(const VertexOrder& order, const ComputeO
 DiscreteGradient find_discrete_gradient(Structure& structure, const VertexOrder& order, const SweepOptions& options) {
   const ThreadLimit limit(options.threads);
   const int consumers = std::max(options.threads, 1);
-  const auto store = std::make_shared<detail::GradientStore>(structure.mesh(), order, consumers);
-  std::vector<std::unique_ptr<detail::GradientSweep>> sweeps;
-  for (int i = 0; i < consumers; ++i) sweeps.push_back(std::make_unique<detail::GradientSweep>(*store, i));
-  structure.for_each_segment(discrete_gradient_relations, options,
-                             [&](int consumer, const SegmentRows& rows) { sweeps[consumer]->pair(rows); });
-  store->finish();
+  std::shared_ptr<detail::GradientStore> store;
+  detail::together(order.mesh().exchange().ranks(), [&] {
+    store = std::make_shared<detail::GradientStore>(structure.mesh(), order, consumers);
+    std::vector<std::unique_ptr<detail::GradientSweep>> sweeps;
+    for (int i = 0; i < consumers; ++i) sweeps.push_back(std::make_unique<detail::GradientSweep>(*store, i));
+    structure.for_each_segment(discrete_gradient_relations, options,
+                               [&](int consumer, const SegmentRows& rows) { sweeps[consumer]->pair(rows); });
+    store->finish();
+  });
+  store->share_counts();
   return DiscreteGradient(store);
 }
 

@@ -109,7 +109,11 @@ void GradientStore::finish() {
     for (; next != stars.end() && next->triangle == triangle; ++next) critical.star.push_back(next->tetrahedron);
     critical.star_begin.push_back(static_cast<Id>(critical.star.size()));
   }
+  const auto found = critical.counts();
+  std::copy(found.begin(), found.end(), counts.begin());
 }
+
+void GradientStore::share_counts() { mesh.exchange().ranks().sum(counts.data(), static_cast<int>(counts.size())); }
 
 std::size_t GradientStore::bytes() const {
   const std::size_t words =

@@ -85,8 +85,11 @@ class GALE_EXPORT GradientStore {
     stars_[consumer].push_back({triangle, tetrahedron});
   }
 
-  /// After the sweep: gathers what the consumers found, in the order of input numbers.
+  /// After the sweep: gathers what the consumers found, in the order of input numbers, and counts it.
   void finish();
+
+  /// When it is finished on all ranks: the counts become those of all. Collective.
+  void share_counts();
 
   std::size_t bytes() const;
 
@@ -108,6 +111,7 @@ class GALE_EXPORT GradientStore {
   mutable HostSuccessors host_successors;
 
   CriticalSimplices critical;
+  std::array<GlobalId, 4> counts{};  ///< of critical simplices
 
   /// (tetrahedron, successor), ascending: where rising paths fork, at triangles of three tetrahedra or more, the
   /// successors that `tetrahedron_successor` hasn't.

@@ -2,8 +2,12 @@
 #include <gale/algorithms/morse_smale/first_tetrahedra.hpp>
 #include <gale/algorithms/morse_smale/jump.hpp>
 #include <gale/algorithms/morse_smale/manifolds.hpp>
+#include <gale/algorithms/morse_smale/paths_on_ranks.hpp>
 #include <gale/base/radix_sort.hpp>
+#include <gale/base/require_ids.hpp>
 #include <gale/base/transfer.hpp>
+#include <gale/mesh/exchange/exchange_plan.hpp>
+#include <gale/mesh/exchange/places.hpp>
 
 namespace gale::detail {
 
@@ -83,19 +87,83 @@ Mirrored<Id> renamed_in(const Space& space, const Mirrored<Id>& manifolds, const
   return to;
 }
 
+/// The places among those of all ranks where the paths from vertices end that start at start_of(vertex), which is a
+/// simplex or no_id, by GALE's ids. Collective.
+template <class StartOf>
+Mirrored<Id> manifolds_on_ranks(const PathSimplices& simplices, const StartOf& start_of) {
+  const Mesh& mesh = simplices.mesh();
+  const PathsOnRanks paths(simplices);
+  const auto places = paths.places_of_ends();
+  Array<Id, HostMemory> manifolds;
+  together(paths.ranks(), [&] {
+    const Id* const input = mesh.vertex_input().data();
+    manifolds = allocate<Array<Id, HostMemory>>("GALE::manifolds", mesh.vertices());
+    parallel_for("GALE::manifolds", HostExecutionSpace(), mesh.vertices(), [&](Offset v) {
+      const Id start = v < mesh.owned_vertices() ? start_of(static_cast<Id>(v)) : no_id;
+      const Id end = start == no_id ? no_id : paths.end(start);
+      manifolds(input[v]) = end == no_id ? no_id : places(end);
+    });
+  });
+  mesh.exchange().from_owners()(paths.ranks(), manifolds.data(), manifolds.data());
+  return manifolds;
+}
+
+Mirrored<Id> descending_on_ranks(const DiscreteGradient& gradient) {
+  const auto vertices = PathSimplices::make(gradient, PathSimplices::Kind::falling_vertices);
+  return manifolds_on_ranks(*vertices, [](Id v) { return v; });
+}
+
+Mirrored<Id> ascending_on_ranks(const DiscreteGradient& gradient) {
+  const auto tetrahedra = PathSimplices::make(gradient, PathSimplices::Kind::rising_tetrahedra);
+  Array<std::uint64_t, HostMemory> first;
+  together(gradient.mesh().exchange().ranks(),
+           [&] { first = first_tetrahedra(HostExecutionSpace(), gradient.mesh()); });
+  return manifolds_on_ranks(*tetrahedra,
+                            [&](Id v) { return first(v) == no_first ? no_id : Id(pair_second(first(v))); });
+}
+
+/// The pairs that this rank has numbered among themselves get their places among those of all.
+std::pair<Mirrored<Id>, Id> pairs_on_ranks(const Ranks& ranks, const Mirrored<Id>& ascending,
+                                           const Mirrored<Id>& descending, const Mirrored<Id>& numbers, Id count) {
+  Array<SimplexKey, HostMemory> keys;
+  together(ranks, [&] {
+    const auto &of_vertex = numbers.in<HostMemory>(), &up = ascending.in<HostMemory>(),
+               &down = descending.in<HostMemory>();
+    keys = allocate<decltype(keys)>("GALE::manifold_pairs", count);
+    for (std::size_t v = 0; v < of_vertex.extent(0); ++v) {
+      if (of_vertex(v) != no_id) keys(of_vertex(v)) = {up(v), down(v), 0};
+    }
+  });
+  const KeyPlaces found = places_of_keys(ranks, keys);
+  Mirrored<Id> all;
+  together(ranks, [&] {
+    require_ids("Morse-Smale manifolds of all ranks", found.count);
+    all = renamed(numbers, std::vector<Id>(found.places.data(), found.places.data() + count));
+  });
+  return {all, static_cast<Id>(found.count)};
+}
+
 }  // namespace
 
 Mirrored<Id> descending_manifolds(const DiscreteGradient& gradient) {
+  if (gradient.mesh().exchange().ranks().size() > 1) return descending_on_ranks(gradient);
   return in_worker_or_host_space(gradient.mesh(), [&](const auto& space) { return descending_in(space, gradient); });
 }
 
 Mirrored<Id> ascending_manifolds(const DiscreteGradient& gradient) {
+  if (gradient.mesh().exchange().ranks().size() > 1) return ascending_on_ranks(gradient);
   return in_worker_or_host_space(gradient.mesh(), [&](const auto& space) { return ascending_in(space, gradient); });
 }
 
-std::pair<Mirrored<Id>, Id> morse_smale_manifolds(const Mirrored<Id>& ascending, const Mirrored<Id>& descending) {
-  return in_worker_or_host_space(ascending.on_device(),
-                                 [&](const auto& space) { return pairs_in(space, ascending, descending); });
+std::pair<Mirrored<Id>, Id> morse_smale_manifolds(const Mesh& mesh, const Mirrored<Id>& ascending,
+                                                  const Mirrored<Id>& descending) {
+  const Ranks& ranks = mesh.exchange().ranks();
+  std::pair<Mirrored<Id>, Id> pairs;
+  together(ranks, [&] {
+    pairs = in_worker_or_host_space(ascending.on_device(),
+                                    [&](const auto& space) { return pairs_in(space, ascending, descending); });
+  });
+  return ranks.size() == 1 ? pairs : pairs_on_ranks(ranks, ascending, descending, pairs.first, pairs.second);
 }
 
 Mirrored<Id> renamed(const Mirrored<Id>& manifolds, const std::vector<Id>& names) {

@@ -9,6 +9,7 @@
 #include <gale/algorithms/morse_smale/device_connectors.hpp>
 #include <gale/algorithms/morse_smale/manifolds.hpp>
 #include <gale/algorithms/morse_smale/separatrices1.hpp>
+#include <gale/algorithms/morse_smale/separatrices_on_ranks.hpp>
 #include <gale/algorithms/order/same_mesh.hpp>
 #include <gale/algorithms/order/whole_mesh.hpp>
 #include <gale/base/error.hpp>
@@ -41,7 +42,7 @@ void find_manifolds(MorseSmaleComplex& complex) {
   if (parts.ascending_manifolds) complex.ascending_manifold = detail::ascending_manifolds(complex.gradient);
   if (parts.descending_manifolds && parts.ascending_manifolds) {
     std::tie(complex.morse_smale_manifold, complex.morse_smale_manifolds) =
-        detail::morse_smale_manifolds(complex.ascending_manifold, complex.descending_manifold);
+        detail::morse_smale_manifolds(complex.gradient.mesh(), complex.ascending_manifold, complex.descending_manifold);
   }
 }
 
@@ -49,9 +50,18 @@ void find_manifolds(MorseSmaleComplex& complex) {
 template <class GetStructure>
 MorseSmaleComplex find_parts(const DiscreteGradient& gradient, const MorseSmaleParts& parts, int threads,
                              const GetStructure& structure) {
-  detail::require_whole_mesh("a Morse-Smale complex", gradient.mesh());
-  const detail::CriticalPlaces places(gradient.critical());
+  if (parts.saddle_connectors) detail::require_whole_mesh("saddle connectors", gradient.mesh());
+  if (parts.separatrices2) detail::require_whole_mesh("2-separatrices", gradient.mesh());
   MorseSmaleComplex complex{gradient, parts, gradient.critical()};
+  if (gradient.mesh().exchange().ranks().size() > 1) {
+    if (parts.descending_separatrices)
+      complex.descending = detail::descending_separatrices_on_ranks(gradient, complex.beyond);
+    if (parts.ascending_separatrices)
+      complex.ascending = detail::ascending_separatrices_on_ranks(gradient, complex.beyond);
+    find_manifolds(complex);
+    return complex;
+  }
+  const detail::CriticalPlaces places(gradient.critical());
   if (parts.descending_separatrices)
     complex.descending = detail::descending_separatrices(gradient.mesh(), gradient.store().vertex_successors(),
                                                          complex.critical, places);

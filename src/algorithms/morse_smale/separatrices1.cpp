@@ -1,4 +1,5 @@
 #include <gale/algorithms/morse_smale/separatrices1.hpp>
+#include <gale/algorithms/morse_smale/separatrices_on_ranks.hpp>
 #include <gale/base/csr.hpp>
 #include <gale/base/hash_table.hpp>
 #include <gale/base/parallel.hpp>
@@ -109,34 +110,43 @@ Separatrices<Id> joined_paths_of(const Id* successors, const std::vector<Id>& st
 }
 
 template <class Place>
-Separatrices<Id> paths_from(const Mirrored<Id>& successors, const std::vector<Id>& starts,
-                            const std::vector<Id>& sources, Paths told, const Place& place) {
-  if (told == Paths::joined) return joined_paths_of(successors.in<HostMemory>().data(), starts, sources, place);
-  return paths_of(follow(successors, starts), sources, place);
+Separatrices<Id> paths_from(const Mirrored<Id>& successors, const PathStarts& starts, Paths told, const Place& place) {
+  const auto& [simplices, sources] = starts;
+  if (told == Paths::joined) return joined_paths_of(successors.in<HostMemory>().data(), simplices, sources, place);
+  return paths_of(follow(successors, simplices), sources, place);
 }
 
 }  // namespace
 
+PathStarts descending_starts(const Mesh& mesh, const CriticalSimplices& critical) {
+  const Id* const input = mesh.vertex_input().data();
+  PathStarts starts;
+  for (std::size_t i = 0; i < critical.edges.size(); ++i) {
+    const auto [a, b] = critical.edges[i];
+    const bool in_order = input[a] < input[b];
+    starts.simplices.insert(starts.simplices.end(), {in_order ? a : b, in_order ? b : a});
+    starts.sources.insert(starts.sources.end(), 2, static_cast<Id>(i));
+  }
+  return starts;
+}
+
+PathStarts ascending_starts(const CriticalSimplices& critical) {
+  PathStarts starts{critical.star, {}};
+  for (std::size_t i = 0; i < critical.triangles.size(); ++i)
+    starts.sources.insert(starts.sources.end(), critical.star_begin[i + 1] - critical.star_begin[i],
+                          static_cast<Id>(i));
+  return starts;
+}
+
 Separatrices<Id> descending_separatrices(const Mesh& mesh, const Mirrored<Id>& successors,
                                          const CriticalSimplices& critical, const CriticalPlaces& places, Paths told) {
-  const auto& edges = critical.edges;
-  const Id* const input = mesh.vertex_input().data();
-  std::vector<Id> starts, sources;
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    const auto [a, b] = edges[i];
-    const bool in_order = input[a] < input[b];
-    starts.insert(starts.end(), {in_order ? a : b, in_order ? b : a});
-    sources.insert(sources.end(), 2, static_cast<Id>(i));
-  }
-  return paths_from(successors, starts, sources, told, [&](Id vertex) { return places.of_vertex(vertex); });
+  return paths_from(successors, descending_starts(mesh, critical), told,
+                    [&](Id vertex) { return places.of_vertex(vertex); });
 }
 
 Separatrices<Id> ascending_separatrices(const Mirrored<Id>& successors, const CriticalSimplices& critical,
                                         const CriticalPlaces& places, Paths told) {
-  std::vector<Id> sources;
-  for (std::size_t i = 0; i < critical.triangles.size(); ++i)
-    sources.insert(sources.end(), critical.star_begin[i + 1] - critical.star_begin[i], static_cast<Id>(i));
-  return paths_from(successors, critical.star, sources, told,
+  return paths_from(successors, ascending_starts(critical), told,
                     [&](Id tetrahedron) { return places.of_tetrahedron(tetrahedron); });
 }
 

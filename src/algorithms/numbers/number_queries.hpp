@@ -61,10 +61,10 @@ class NumberQueries {
   }
 
   /// The place of a simplex, when it is set.
-  Id place(Offset index) const { return numbers_[index]; }
+  GlobalId place(Offset index) const { return numbers_[index]; }
 
   /// When all places are set: the numbers, from those of the first simplex of each input vertex.
-  std::vector<Id> take_numbers(const Array<Id, HostMemory>& begin) {
+  std::vector<GlobalId> take_numbers(const Array<Id, HostMemory>& begin) {
     const auto& all = queries_.entries;
     parallel_for("GALE::add_numbers", Kokkos::DefaultHostExecutionSpace(), numbers_.size(),
                  [&](Offset i) { numbers_[all(i).index] += begin(input_[all(i).vertex]); });
@@ -89,7 +89,7 @@ class NumberQueries {
   const std::vector<Simplex>& simplices_;
   const Id* input_;
   Csr<Query, HostMemory, Id> queries_;  ///< by segment
-  std::vector<Id> numbers_;
+  std::vector<GlobalId> numbers_;
 };
 
 }  // namespace gale::detail

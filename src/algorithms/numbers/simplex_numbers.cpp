@@ -1,6 +1,10 @@
+#include <algorithm>
+#include <memory>
+
 #include <gale/algorithms/numbers/numbering_sweep.hpp>
-#include <gale/algorithms/order/whole_mesh.hpp>
 #include <gale/algorithms/simplex_numbers.hpp>
+#include <gale/mesh/exchange/messages.hpp>
+#include <gale/mesh/exchange/places.hpp>
 
 namespace gale {
 
@@ -14,6 +18,142 @@ const Array<Id, HostMemory>& scan(const char* name, Id vertices, const Array<Id,
   return counts;
 }
 
+SimplexNumbers number_of_whole(Structure& structure, const NamedSimplices& named, const SweepOptions& options) {
+  const Id vertices = structure.mesh().vertices();
+  detail::NumberingSweep found(structure, named, options);
+  return {found.edges().take_numbers(scan("edges", vertices, found.edge_counts())),
+          found.triangles().take_numbers(scan("triangles", vertices, found.triangle_counts())), found.on_surface()};
+}
+
+using NumbersOfRanks = Array<GlobalId, HostMemory>;
+
+/// The global ids of a simplex's vertices, ascending.
+template <std::size_t N>
+std::array<GlobalId, N> global_ids(const Mesh& mesh, const std::vector<GlobalId>& beyond,
+                                   const std::array<Id, N>& simplex) {
+  const Id* const input = mesh.vertex_input().data();
+  std::array<GlobalId, N> ids;
+  for (std::size_t k = 0; k < N; ++k) {
+    const Id v = simplex[k];
+    if (v < 0 || v - mesh.vertices() >= static_cast<Offset>(beyond.size()))
+      throw Error("no vertex " + std::to_string(v) + " to number a simplex of");
+    ids[k] = v < mesh.vertices() ? mesh.vertex_id(input[v]) : beyond[v - mesh.vertices()];
+  }
+  std::sort(ids.begin(), ids.end());
+  return ids;
+}
+
+/// Simplices of N vertices on their way to the owners of their first vertices, and back with numbers.
+template <std::size_t N>
+class AskedSimplices {
+ public:
+  using Simplex = std::array<GlobalId, N>;
+
+  AskedSimplices(const Mesh& mesh, const std::vector<std::array<Id, N>>& named, const std::vector<GlobalId>& beyond)
+      : mesh_(mesh) {
+    const Ranks& ranks = mesh.exchange().ranks();
+    std::vector<Simplex> simplices(named.size());
+    NumbersOfRanks first;
+    detail::together(ranks, [&] {
+      first = allocate<NumbersOfRanks>("GALE::first_vertices", simplices.size());
+      parallel_for("GALE::first_vertices", HostExecutionSpace(), simplices.size(), [&](Offset i) {
+        simplices[i] = global_ids(mesh, beyond, named[i]);
+        first(i) = simplices[i][0];
+      });
+    });
+    const auto owner = mesh.exchange().owners_of(first);
+    detail::together(ranks, [&] {
+      for (std::size_t i = 0; i < simplices.size(); ++i) {
+        if (owner(i) < 0) throw Error("no vertex " + std::to_string(first(i)) + " to number a simplex of");
+      }
+    });
+    sent_ = detail::deal<Simplex>(
+        ranks, "GALE::named_simplices", static_cast<Offset>(simplices.size()), [&](Id i) { return owner(i); },
+        [&](Id i) { return simplices[i]; }, &members_);
+    received_ = detail::exchange(ranks, "GALE::simplices_to_number", sent_);
+  }
+
+  /// What others ask of this rank, in GALE's ids of its local mesh.
+  std::vector<std::array<Id, N>> local() const {
+    const Id* const internal = mesh_.vertex_internal().data();
+    std::vector<std::array<Id, N>> simplices(received_.count());
+    for (Offset i = 0; i < received_.count(); ++i) {
+      for (std::size_t k = 0; k < N; ++k) {
+        const Id at = mesh_.vertex_of(received_.entries(i)[k]);
+        if (at == no_id)
+          throw Error("no simplex of the mesh has the vertices " + std::to_string(received_.entries(i)[0]) + " and " +
+                      std::to_string(received_.entries(i)[k]));
+        simplices[i][k] = internal[at];
+      }
+    }
+    return simplices;
+  }
+
+  /// Tells number_of(i) of the i-th of these to who asked, and returns what others tell. Collective.
+  template <class NumberOf>
+  std::vector<GlobalId> answers(const NumberOf& number_of) const {
+    detail::Dealt<GlobalId> told, found;
+    std::vector<GlobalId> numbers;
+    detail::together(mesh_.exchange().ranks(), [&] {
+      told = detail::dealt<GlobalId>("GALE::told_numbers", detail::counts_of(received_));
+      parallel_for("GALE::told_numbers", HostExecutionSpace(), told.count(),
+                   [&](Offset i) { told.entries(i) = number_of(i); });
+      found = detail::dealt<GlobalId>("GALE::found_numbers", detail::counts_of(sent_));
+      numbers.resize(sent_.count());
+    });
+    detail::exchange(mesh_.exchange().ranks(), told, found);
+    for (Offset i = 0; i < found.count(); ++i) numbers[members_(i)] = found.entries(i);
+    return numbers;
+  }
+
+  GlobalId first_vertex(Offset i) const { return received_.entries(i)[0]; }
+
+ private:
+  const Mesh& mesh_;
+  detail::Dealt<Simplex> sent_, received_;
+  Array<Id, HostMemory> members_;
+};
+
+/// For each vertex that this rank owns, by GALE's id, the number of the first simplex whose first vertex it is, of the
+/// simplices that `counts` counts by input id. Collective.
+NumbersOfRanks first_numbers(const Mesh& mesh, const Array<Id, HostMemory>& counts) {
+  const Ranks& ranks = mesh.exchange().ranks();
+  NumbersOfRanks owned, of_owned;
+  detail::together(ranks, [&] {
+    const Id* const input = mesh.vertex_input().data();
+    owned = allocate<NumbersOfRanks>("GALE::owned_ids", mesh.owned_vertices());
+    of_owned = allocate<NumbersOfRanks>("GALE::owned_counts", mesh.owned_vertices());
+    parallel_for("GALE::owned_counts", HostExecutionSpace(), owned.extent(0), [&](Offset v) {
+      owned(v) = mesh.vertex_id(input[v]);
+      of_owned(v) = counts(input[v]);
+    });
+  });
+  return detail::sums_before(ranks, owned, of_owned);
+}
+
+SimplexNumbers number_of_part(Structure& structure, const NamedSimplices& named, const SweepOptions& options) {
+  const Mesh& mesh = structure.mesh();
+  const AskedSimplices<2> edges(mesh, named.edges, named.beyond);
+  const AskedSimplices<3> triangles(mesh, named.triangles, named.beyond);
+  NamedSimplices local;
+  std::unique_ptr<detail::NumberingSweep> found;
+  detail::together(mesh.exchange().ranks(), [&] {
+    local = {edges.local(), triangles.local(), {}};
+    found = std::make_unique<detail::NumberingSweep>(structure, local, options);
+  });
+  const NumbersOfRanks first_edges = first_numbers(mesh, found->edge_counts());
+  const NumbersOfRanks first_triangles = first_numbers(mesh, found->triangle_counts());
+  const Id* const internal = mesh.vertex_internal().data();
+  const auto at = [&](GlobalId vertex) { return internal[mesh.vertex_of(vertex)]; };
+  SimplexNumbers numbers;
+  numbers.edges =
+      edges.answers([&](Offset i) { return first_edges(at(edges.first_vertex(i))) + found->edges().place(i); });
+  numbers.triangles = triangles.answers(
+      [&](Offset i) { return first_triangles(at(triangles.first_vertex(i))) + found->triangles().place(i); });
+  numbers.on_surface = found->on_surface();
+  return numbers;
+}
+
 }  // namespace
 
 SimplexNumbers number_simplices(const Mesh& mesh, const NamedSimplices& named, const ComputeOptions& options,
@@ -23,13 +163,9 @@ SimplexNumbers number_simplices(const Mesh& mesh, const NamedSimplices& named, c
 }
 
 SimplexNumbers number_simplices(Structure& structure, const NamedSimplices& named, const SweepOptions& options) {
-  const Mesh& mesh = structure.mesh();
-  detail::require_whole_mesh("the numbers of simplices", mesh);
   const ThreadLimit limit(options.threads);
-  detail::NumberingSweep found(structure, named, options);
-  return {found.edges().take_numbers(scan("edges", mesh.vertices(), found.edge_counts())),
-          found.triangles().take_numbers(scan("triangles", mesh.vertices(), found.triangle_counts())),
-          found.on_surface()};
+  return structure.mesh().is_part() ? number_of_part(structure, named, options)
+                                    : number_of_whole(structure, named, options);
 }
 
 }  // namespace gale

@@ -1,3 +1,4 @@
+#include <limits>
 #include <string>
 #include <type_traits>
 
@@ -8,6 +9,7 @@
 #include <gale/base/parallel.hpp>
 #include <gale/base/radix_sort.hpp>
 #include <gale/base/transfer.hpp>
+#include <gale/mesh/exchange/exchange_plan.hpp>
 
 namespace gale::detail {
 
@@ -16,14 +18,19 @@ namespace {
 template <class Space>
 using Keys = Array<std::uint64_t, MemoryOf<Space>>;
 
+/// The least input id of a vertex without a value; their count if all have one.
 template <class Space, class Value>
-void refuse_nan(const Space& space, const FieldValues<Value, MemoryOf<Space>>& values) {
+Offset find_nan(const Space& space, const FieldValues<Value, MemoryOf<Space>>& values) {
+  const auto count = static_cast<Offset>(values.extent(0));
   if constexpr (std::is_floating_point_v<Value>) {
-    const auto count = static_cast<Offset>(values.extent(0));
-    const Offset bad = reduce_min(
+    return reduce_min(
         "GALE::find_nan", space, count, count, KOKKOS_LAMBDA(Offset i) { return values(i) != values(i) ? i : count; });
-    if (bad < count) throw Error("vertex " + std::to_string(bad) + " has no field value: it is NaN");
   }
+  return count;
+}
+
+std::string without_value(GlobalId vertex) {
+  return "vertex " + std::to_string(vertex) + " has no field value: it is NaN";
 }
 
 /// Value and input id fit one key.
@@ -59,7 +66,6 @@ void fill_ranks(const Space& space, const Mesh& mesh, const FieldValues<Value, M
 template <class Space, class Value>
 Mirrored<std::uint64_t> make_keys(const Space& space, const Mesh& mesh,
                                   const FieldValues<Value, MemoryOf<Space>>& values) {
-  refuse_nan<Space, Value>(space, values);
   const auto keys = allocate<Keys<Space>>("GALE::order_keys", mesh.vertices());
   if constexpr (sizeof(Value) == 8) {
     fill_ranks<Space, Value>(space, mesh, values, keys);
@@ -70,18 +76,69 @@ Mirrored<std::uint64_t> make_keys(const Space& space, const Mesh& mesh,
   return keys;
 }
 
+/// Makes keys of a value for each vertex of the mesh.
+template <class Value, class Memory>
+Mirrored<std::uint64_t> keys_of_all(const Mesh& mesh, const FieldValues<Value, Memory>& values) {
+  return in_worker_or_host_space(mesh, [&](const auto& space) {
+    using Space = std::decay_t<decltype(space)>;
+    const auto copy = in_memory<MemoryOf<Space>>(values);
+    const FieldValues<Value, MemoryOf<Space>> here(copy);
+    const Offset bad = find_nan<Space, Value>(space, here);
+    if (bad < mesh.vertices()) throw Error(without_value(bad));
+    return make_keys<Space, Value>(space, mesh, here);
+  });
+}
+
+/// The keys of a part's vertices, or the one without a value: its input id.
+struct PartKeys {
+  Mirrored<std::uint64_t> keys;
+  Offset bad;
+};
+
+template <class Space, class Value>
+PartKeys part_keys_in(const Space& space, const Mesh& mesh, const FieldValues<Value, HostMemory>& given,
+                      const Dealt<Value>& fetched) {
+  const auto values = allocate<Array<Value, MemoryOf<Space>>>("GALE::local_values", mesh.vertices());
+  mesh.exchange().from_givers().fill(space, given.data(), fetched, values.data());
+  const FieldValues<Value, MemoryOf<Space>> all(values.data(), values.extent(0));
+  const Offset bad = find_nan<Space, Value>(space, all);
+  if (bad < mesh.vertices()) return {{}, bad};
+  return {make_keys<Space, Value>(space, mesh, all), bad};
+}
+
+/// Makes keys of a value for each vertex that this rank has handed over. Collective.
+template <class Value>
+Mirrored<std::uint64_t> keys_of_part(const Mesh& mesh, const FieldValues<Value, HostMemory>& given) {
+  const Exchange& exchange = mesh.exchange();
+  PartKeys found{{}, 0};
+  if (exchange.from_givers().keeps_all()) {
+    together(exchange.ranks(), [&] { found.keys = keys_of_all(mesh, given); });
+    return found.keys;
+  }
+  const auto fetched = exchange.from_givers().fetch<Value>(exchange.ranks(), [&](Id place) { return given(place); });
+  together(exchange.ranks(), [&] {
+    found = in_worker_or_host_space(mesh, [&](const auto& space) { return part_keys_in(space, mesh, given, fetched); });
+  });
+  constexpr GlobalId none = std::numeric_limits<GlobalId>::max();
+  const bool is_bad = found.bad < mesh.vertices();
+  const GlobalId bad = exchange.ranks().least(is_bad ? mesh.vertex_id(static_cast<Id>(found.bad)) : none);
+  if (bad < none) throw SharedError(without_value(bad));
+  return found.keys;
+}
+
 }  // namespace
 
 template <class Value, class Memory>
 Mirrored<std::uint64_t> order_keys(const Mesh& mesh, const FieldValues<Value, Memory>& values) {
-  if (values.extent(0) != static_cast<std::size_t>(mesh.vertices())) {
-    throw Error("the field has " + std::to_string(values.extent(0)) + " values, the mesh " +
-                std::to_string(mesh.vertices()) + " vertices");
-  }
-  return in_worker_or_host_space(mesh, [&](const auto& space) {
-    const auto here = in_memory<MemoryOf<std::decay_t<decltype(space)>>>(values);
-    return make_keys<std::decay_t<decltype(space)>, Value>(space, mesh, here);
+  const Offset given = mesh.exchange().given_vertices(), count = given < 0 ? Offset(mesh.vertices()) : given;
+  together(mesh.exchange().ranks(), [&] {
+    if (static_cast<Offset>(values.extent(0)) == count) return;
+    throw Error("the field has " + std::to_string(values.extent(0)) + " values, " +
+                (mesh.is_part() ? "this part of the mesh " : "the mesh ") + std::to_string(count) + " vertices");
   });
+  if (!mesh.is_part()) return keys_of_all(mesh, values);
+  const auto here = on_host(values);
+  return keys_of_part(mesh, FieldValues<Value, HostMemory>(here.data(), here.extent(0)));
 }
 
 #define GALE_INSTANTIATE_FOR(Value, Memory) \

@@ -6,6 +6,7 @@
 #include <gale/algorithms/morse_smale/descending_surfaces.hpp>
 #include <gale/algorithms/morse_smale/manifolds.hpp>
 #include <gale/algorithms/morse_smale/separatrices1.hpp>
+#include <gale/algorithms/order/whole_mesh.hpp>
 #include <gale/algorithms/persistence/cancellations.hpp>
 #include <gale/algorithms/simplify.hpp>
 #include <gale/base/error.hpp>
@@ -110,6 +111,7 @@ AscendingWalls ascending_walls_left(const AscendingWalls& all, const std::vector
 
 MorseSmaleComplex simplify(const MorseSmaleComplex& complex, const std::function<double(Id)>& value, double threshold,
                            const SimplifyOptions& options) {
+  detail::require_whole_mesh("a simplified complex", complex.gradient.mesh());
   require_whole(complex, options.extrema_only);
   const ThreadLimit limit(options.threads);
   const int threads = std::max(options.threads, 1);
@@ -145,7 +147,7 @@ MorseSmaleComplex simplify(const MorseSmaleComplex& complex, const std::function
   left.ascending_manifold = manifold_left(complex.ascending_manifold, cancelled.heir_of_maximum, cancelled.is_left[3]);
   if (complex.morse_smale_manifold.size() != 0) {
     std::tie(left.morse_smale_manifold, left.morse_smale_manifolds) =
-        detail::morse_smale_manifolds(left.ascending_manifold, left.descending_manifold);
+        detail::morse_smale_manifolds(gradient.mesh(), left.ascending_manifold, left.descending_manifold);
   }
   left.kept_below = cancelled.kept_below;
   return left;

@@ -4,12 +4,13 @@
 #include <CLI/CLI.hpp>
 
 #include <gale/app/commands/command.hpp>
+#include <gale/app/ranks/ranks.hpp>
 #include <gale/app/usage_error.hpp>
 
 namespace gale::app {
 
-Command::Command(CLI::App& app, const std::string& name, const std::string& what)
-    : subcommand_(*app.add_subcommand(name, what)) {
+Command::Command(CLI::App& app, const std::string& name, const std::string& what, Works works)
+    : subcommand_(*app.add_subcommand(name, what)), works_(works) {
   input_.add_to(subcommand_);
   common_.add_to(subcommand_);
 }
@@ -38,8 +39,19 @@ bool ends_in(const std::string& file, const std::string& extension) {
 
 }  // namespace
 
-void Command::run_on_ranks() const {
+void Command::require_ranks() const {
+  if (works_ == Works::on_many_ranks || !Launch::are_several()) return;
   throw UsageError("gale " + subcommand_.get_name() + " works on one rank: start it without a launcher");
+}
+
+void Command::refuse_on_ranks(std::initializer_list<std::pair<const char*, bool>> options) {
+  for (const auto& [option, is_given] : options) {
+    if (is_given && Launch::are_several()) throw UsageError(std::string(option) + ": not on several ranks");
+  }
+}
+
+void Command::require_points_extension(const std::string& option, const std::string& file) const {
+  require_extension(option, file, {Launch::are_several() ? ".pvtp" : ".vtp"});
 }
 
 void Command::require_extension(const std::string& option, const std::string& file,

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <initializer_list>
 #include <string>
+#include <utility>
 
 #include <gale/app/options/options.hpp>
 #include <gale/outputs/analyses.hpp>
@@ -16,8 +18,8 @@ class Command {
   /// gale::Error or UsageError.
   virtual void run() const = 0;
 
-  /// The same on several ranks, together; by default throws UsageError: not every command can.
-  virtual void run_on_ranks() const;
+  /// Throws UsageError if it was started on several ranks, and works on one alone.
+  void require_ranks() const;
 
   /// Whether the command line names it.
   bool is_chosen() const;
@@ -26,10 +28,12 @@ class Command {
 
  protected:
   /// `what` it does is for the help. `app` must outlive the command.
-  Command(CLI::App& app, const std::string& name, const std::string& what);
+  enum class Works { on_one_rank, on_many_ranks };
+  Command(CLI::App& app, const std::string& name, const std::string& what, Works works = Works::on_one_rank);
 
   /// A command that runs an analysis, with its name and its help.
-  Command(CLI::App& app, const outputs::Analysis& analysis) : Command(app, analysis.name, analysis.help) {}
+  Command(CLI::App& app, const outputs::Analysis& analysis, Works works = Works::on_one_rank)
+      : Command(app, analysis.name, analysis.help, works) {}
 
   /// Where it adds options of its own.
   CLI::App& subcommand() { return subcommand_; }
@@ -42,14 +46,22 @@ class Command {
 
   const InputOptions& input() const { return input_; }
 
+  /// Throws UsageError, with its name, for an option that is given although there are several ranks: each pair says
+  /// whether it is.
+  static void refuse_on_ranks(std::initializer_list<std::pair<const char*, bool>> options);
+
   /// Throws UsageError unless `file`, the value of `option`, is empty or ends in one of `extensions`, in either case.
   void require_extension(const std::string& option, const std::string& file,
                          std::initializer_list<const char*> extensions) const;
+
+  /// Throws UsageError unless `file` is empty or ends in .vtp or, on several ranks, in .pvtp.
+  void require_points_extension(const std::string& option, const std::string& file) const;
 
  private:
   CLI::App& subcommand_;
   InputOptions input_;
   CommonOptions common_;
+  Works works_;
 };
 
 }  // namespace gale::app

@@ -2,9 +2,7 @@
 
 #include <gale/app/commands/commands.hpp>
 #include <gale/app/critical_counts.hpp>
-#include <gale/app/ranks/ranks.hpp>
 #include <gale/app/session.hpp>
-#include <gale/io/write.hpp>
 #include <gale/outputs/critical_points.hpp>
 
 namespace gale::app {
@@ -13,7 +11,8 @@ namespace {
 
 class FindCriticalPoints final : public Command {
  public:
-  explicit FindCriticalPoints(CLI::App& app) : Command(app, outputs::analysis_named("critical-points")) {
+  explicit FindCriticalPoints(CLI::App& app)
+      : Command(app, outputs::analysis_named("critical-points"), Works::on_many_ranks) {
     segmentation_.add_to(subcommand());
     structure_.add_to(subcommand());
     structure_.add_consumers_to(subcommand());
@@ -22,25 +21,17 @@ class FindCriticalPoints final : public Command {
     add_encoding();
   }
 
-  void run_on_ranks() const override {
-    structure_.require_consumers();
-    require_extension("--output", output_, {".pvtp"});
-    critical_points_on_ranks(input(), common(), segmentation_, structure_, output_);
-  }
-
   void run() const override {
     structure_.require_consumers();
-    require_extension("--output", output_, {".vtp"});
+    require_points_extension("--output", output_);
     Session session(input(), common(), {output_});
     session.warm_up(structure_, [](const VertexOrder& order) { find_critical_points(order); });
     const FieldOnMesh on = session.read_field(segmentation_);
     Computed computed;
     const CriticalPoints points =
         find_critical_points(on.order, session.compute(structure_, "critical points"), &computed);
-    tell_points({points.counts.begin(), points.counts.end()}, session.console(), session.report());
-    session.write(output_, [&](const io::AtomicFile& file) {
-      io::write_points(file, outputs::to_point_set(on.dataset, points));
-    });
+    tell_points(points.counts, session);
+    session.write_result(output_, [&] { return outputs::to_point_set(on.dataset, points, on.mesh.exchange()); });
     session.finish(structure_, computed);
   }
 

@@ -2,7 +2,6 @@
 
 #include <gale/app/commands/commands.hpp>
 #include <gale/app/critical_counts.hpp>
-#include <gale/app/ranks/ranks.hpp>
 #include <gale/app/session.hpp>
 #include <gale/app/usage_error.hpp>
 #include <gale/baselines/discrete_gradient_from_cells.hpp>
@@ -15,7 +14,8 @@ namespace {
 
 class FindDiscreteGradient final : public Command {
  public:
-  explicit FindDiscreteGradient(CLI::App& app) : Command(app, outputs::analysis_named("discrete-gradient")) {
+  explicit FindDiscreteGradient(CLI::App& app)
+      : Command(app, outputs::analysis_named("discrete-gradient"), Works::on_many_ranks) {
     segmentation_.add_to(subcommand());
     structure_.add_to(subcommand());
     structure_.add_consumers_to(subcommand());
@@ -30,29 +30,20 @@ class FindDiscreteGradient final : public Command {
     subcommand().add_option("--arrows", arrows_, outputs::analysis_named("discrete-gradient").option("arrows").help);
   }
 
-  void run_on_ranks() const override {
-    structure_.require_consumers();
-    for (const auto& [option, is_given] :
-         {std::make_pair("--arrows", !arrows_.empty()), std::make_pair("--formulation cells", is_from_cells())}) {
-      if (is_given) throw UsageError(std::string(option) + ": not on several ranks");
-    }
-    require_extension("--output", output_, {".pvtp"});
-    discrete_gradient_on_ranks(input(), common(), segmentation_, structure_, output_);
-  }
-
   void run() const override {
     structure_.require_consumers();
+    refuse_on_ranks({{"--arrows", !arrows_.empty()}, {"--formulation cells", is_from_cells()}});
     if (is_from_cells() && structure_.options.consumers == ConsumerPlace::device)
       throw UsageError("--consumers device: not with --formulation cells");
-    require_extension("--output", output_, {".vtp"});
+    require_points_extension("--output", output_);
     require_extension("--arrows", arrows_, {".vtp"});
     Session session(input(), common(), {output_, arrows_});
     session.warm_up(structure_, [](const VertexOrder& order) { find_discrete_gradient(order); });
     const FieldOnMesh on = session.read_field(segmentation_);
     Computed computed;
     const DiscreteGradient gradient = find(on, session, computed);
-    tell(gradient.critical(), session);
-    if (!output_.empty()) write_critical(on.dataset, gradient, session, computed);
+    tell_simplices(gradient.counts(), session);
+    if (!output_.empty()) write_critical(on, gradient, session, computed);
     session.write(
         arrows_, [&](const io::AtomicFile& file) { io::write_points(file, outputs::arrows_of(on.dataset, gradient)); });
     session.finish(structure_, computed);
@@ -69,13 +60,14 @@ class FindDiscreteGradient final : public Command {
     return find_discrete_gradient_from_cells(*computed.structure, on.order, session.sweep("gradient"));
   }
 
-  void write_critical(const io::Dataset& dataset, const DiscreteGradient& gradient, Session& session,
+  void write_critical(const FieldOnMesh& on, const DiscreteGradient& gradient, Session& session,
                       Computed& computed) const {
     const CriticalSimplices& critical = gradient.critical();
     const SimplexNumbers numbers = number_simplices(gradient.mesh(), {critical.edges, critical.triangles},
                                                     session.compute(structure_, "numbers"), &computed);
-    session.write(output_, [&](const io::AtomicFile& file) {
-      io::write_points(file, outputs::to_point_set(dataset, outputs::known_simplices(gradient, critical, numbers)));
+    session.write_result(output_, [&] {
+      return outputs::to_point_set(on.dataset, outputs::known_simplices(gradient, critical, numbers),
+                                   on.mesh.exchange());
     });
   }
 

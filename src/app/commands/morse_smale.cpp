@@ -3,7 +3,6 @@
 #include <gale/algorithms/morse_smale.hpp>
 #include <gale/app/commands/commands.hpp>
 #include <gale/app/commands/morse_smale_files.hpp>
-#include <gale/app/complex_counts.hpp>
 #include <gale/app/critical_counts.hpp>
 #include <gale/app/drawing/scene.hpp>
 #include <gale/app/options/persistence_option.hpp>
@@ -17,12 +16,45 @@ namespace gale::app {
 
 namespace {
 
-void tell(const MorseSmaleComplex& complex, const MorseSmaleParts& parts, Session& session) {
-  tell(complex.critical, session);
-  const auto critical = complex.critical.counts();
-  tell({complex.descending.count(), complex.ascending.count(), complex.connectors.count(), critical[3], critical[0],
-        complex.morse_smale_manifolds},
-       parts, session.console(), session.report());
+using Json = nlohmann::ordered_json;
+
+/// How many there are of something; reported as null where that is switched off.
+struct Count {
+  const char *name, *key;
+  bool is_on;
+  std::int64_t count;
+};
+
+/// Says the counts of one kind in one line, and reports them under `key`.
+void tell(const std::string& title, const char* key, const std::vector<Count>& counts, Session& session) {
+  Json json = Json::object();  // at once: the library crashes where memory for a later one lacks
+  std::string said;
+  for (const Count& one : counts) {
+    json[one.key] = one.is_on ? Json(one.count) : Json(nullptr);
+    if (one.is_on) said += (said.empty() ? "" : ", ") + grouped(one.count) + ' ' + one.name;
+  }
+  if (!said.empty()) session.console().say(title, said);
+  session.report().result[key] = json;
+}
+
+void tell(const MorseSmaleComplex& complex, const MorseSmaleParts& wanted, Session& session) {
+  const auto here = complex.critical.counts();
+  std::array<std::int64_t, 4> critical{here[0], here[1], here[2], here[3]};
+  std::int64_t paths[] = {complex.descending.count(), complex.ascending.count(), complex.connectors.count()};
+  session.ranks().sum(critical.data(), 4);
+  session.ranks().sum(paths, 3);
+  tell_simplices(critical, session);
+  tell("1-separatrices", "separatrices",
+       {{"descending", "descending", wanted.descending_separatrices, paths[0]},
+        {"ascending", "ascending", wanted.ascending_separatrices, paths[1]},
+        {"saddle connectors", "saddle_connectors", wanted.saddle_connectors, paths[2]}},
+       session);
+  tell("manifolds", "manifolds",
+       {{"ascending", "ascending", wanted.ascending_manifolds, critical[3]},
+        {"descending", "descending", wanted.descending_manifolds, critical[0]},
+        {"Morse-Smale", "morse_smale", wanted.ascending_manifolds && wanted.descending_manifolds,
+         complex.morse_smale_manifolds}},
+       session);
 }
 
 /// How many pairs are left although their persistence is below the threshold.
@@ -46,7 +78,7 @@ void find_small_complex(const VertexOrder& order) { find_morse_smale_complex(fin
 
 class FindMorseSmale final : public Command {
  public:
-  explicit FindMorseSmale(CLI::App& app) : Command(app, outputs::analysis_named("morse-smale")) {
+  explicit FindMorseSmale(CLI::App& app) : Command(app, outputs::analysis_named("morse-smale"), Works::on_many_ranks) {
     segmentation_.add_to(subcommand());
     structure_.add_to(subcommand());
     structure_.add_consumers_to(subcommand());
@@ -66,24 +98,9 @@ class FindMorseSmale final : public Command {
         ->type_name("FILE.png");
   }
 
-  /// On several ranks, what follows walls or pairs is refused: both want the whole mesh.
-  void run_on_ranks() const override {
-    structure_.require_consumers();
-    if (parts_.saddle_connectors) {
-      throw UsageError(
-          "saddle connectors: not on several ranks, where walls can't be followed: switch them off by "
-          "--no-saddle-connectors");
-    }
-    for (const auto& [option, is_given] :
-         {std::make_pair("--separatrices2", parts_.separatrices2), std::make_pair("--persistence", bool(persistence_)),
-          std::make_pair("--extrema-only", extrema_only_), std::make_pair("--render", !render_.empty())}) {
-      if (is_given) throw UsageError(std::string(option) + ": not on several ranks");
-    }
-    morse_smale_on_ranks(input(), common(), segmentation_, structure_, parts_, output_);
-  }
-
   void run() const override {
     structure_.require_consumers();
+    refuse_whole();
     if (extrema_only_ && !persistence_) throw UsageError("--extrema-only: it goes with --persistence");
     if (!render_.empty()) {
       require_png(render_);
@@ -105,6 +122,19 @@ class FindMorseSmale final : public Command {
   }
 
  private:
+  /// On several ranks, what follows walls or pairs is refused: both want the whole mesh.
+  void refuse_whole() const {
+    if (Launch::are_several() && parts_.saddle_connectors) {
+      throw UsageError(
+          "saddle connectors: not on several ranks, where walls can't be followed: switch them off by "
+          "--no-saddle-connectors");
+    }
+    refuse_on_ranks({{"--separatrices2", parts_.separatrices2},
+                     {"--persistence", bool(persistence_)},
+                     {"--extrema-only", extrema_only_},
+                     {"--render", !render_.empty()}});
+  }
+
   void add_parts() {
     for (const outputs::PartOfComplex& part : outputs::parts_of_complexes)
       add_flag(analysis_.option(part.option), parts_.*part.is_wanted);

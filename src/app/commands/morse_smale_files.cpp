@@ -2,9 +2,11 @@
 
 #include <gale/app/commands/morse_smale_files.hpp>
 #include <gale/app/drawing/picture.hpp>
+#include <gale/app/ranks/ranks.hpp>
 #include <gale/io/write.hpp>
 #include <gale/outputs/critical_simplices.hpp>
 #include <gale/outputs/manifolds.hpp>
+#include <gale/outputs/mesh_piece.hpp>
 #include <gale/outputs/morse_smale.hpp>
 #include <gale/outputs/named_simplices.hpp>
 #include <gale/outputs/separatrices1.hpp>
@@ -26,11 +28,12 @@ auto timed(double& seconds, const Make& make) {
 MorseSmaleFiles::MorseSmaleFiles(const std::string& prefix, const MorseSmaleParts& wanted, const std::string& picture)
     : picture(picture) {
   if (prefix.empty()) return;
-  critical_points = prefix + "_critical_points.vtp";
+  const std::string points = Launch::are_several() ? ".pvtp" : ".vtp", mesh = Launch::are_several() ? ".pvtu" : ".vtu";
+  critical_points = prefix + "_critical_points" + points;
   if (wanted.descending_separatrices || wanted.ascending_separatrices || wanted.saddle_connectors)
-    separatrices1 = prefix + "_separatrices1.vtp";
-  if (wanted.separatrices2) separatrices2 = prefix + "_separatrices2.vtp";
-  if (wanted.descending_manifolds || wanted.ascending_manifolds) segmentation = prefix + "_segmentation.vtu";
+    separatrices1 = prefix + "_separatrices1" + points;
+  if (wanted.separatrices2) separatrices2 = prefix + "_separatrices2" + points;
+  if (wanted.descending_manifolds || wanted.ascending_manifolds) segmentation = prefix + "_segmentation" + mesh;
 }
 
 std::vector<std::string> MorseSmaleFiles::all() const {
@@ -53,17 +56,26 @@ void write(const MorseSmaleFiles& files, const MorseSmaleParts& wanted, const Fi
   const outputs::KnownSimplices critical =
       timed(seconds.write, [&] { return outputs::known_simplices(complex.gradient, complex.critical, numbers); });
   const io::PointSet points = timed(seconds.write, [&] {
-    io::PointSet set = outputs::to_point_set(dataset, critical);
+    io::PointSet set = outputs::to_point_set(dataset, critical, on.mesh.exchange());
     set.arrays.push_back(outputs::manifold_sizes(complex));
     return set;
   });
   const io::Surface lines = timed(
       seconds.write, [&] { return outputs::separatrices1(dataset, on.field, complex, named, numbers, critical); });
-  session.write(files.critical_points, [&](const io::AtomicFile& file) { io::write_points(file, points); });
-  session.write(files.separatrices1, [&](const io::AtomicFile& file) { io::write_surface(file, lines); });
-  session.write(files.separatrices2, [&](const io::AtomicFile& file) {
-    io::write_surface(file, outputs::separatrices2(dataset, on.field, complex, connectors, critical));
-  });
+  session.write_result(files.critical_points, [&]() -> const io::PointSet& { return points; });
+  session.write_result(files.separatrices1, [&]() -> const io::Surface& { return lines; });
+  session.write_result(files.separatrices2,
+                       [&] { return outputs::separatrices2(dataset, on.field, complex, connectors, critical); });
+  if (on.mesh.is_part()) {
+    session.write_result(files.segmentation, [&] {
+      io::MeshPiece piece;
+      detail::together(session.ranks(), [&] {
+        piece = outputs::piece_of(on.order, dataset, outputs::manifold_arrays(complex), on.has_ids);
+      });
+      return piece;
+    });
+    return;
+  }
   session.write(files.segmentation,
                 [&](const io::AtomicFile& file) { io::write_mesh(file, dataset, outputs::manifold_arrays(complex)); });
   session.write(files.picture, [&](const io::AtomicFile& file) {

@@ -13,7 +13,7 @@ struct MorseSmaleFiles {
   std::string critical_points, separatrices1, separatrices2, segmentation;
   std::string picture;
 
-  /// Those that begin with `prefix`, none if that is empty, for the parts that are wanted; and the picture.
+  /// Names the files that begin with `prefix`, none if that is empty, for the parts that are wanted; and the picture.
   MorseSmaleFiles(const std::string& prefix, const MorseSmaleParts& wanted, const std::string& picture);
 
   std::vector<std::string> all() const;

@@ -78,10 +78,6 @@ void StructureOption::require_consumers() const {
   }
 }
 
-bool StructureOption::on_device(const Mesh& mesh) const { return gale::detail::kernels_read(mesh, options); }
-
-DeviceSweepOptions StructureOption::device_sweep() const { return gale::detail::sweep_of_kernels(options.structure); }
-
 std::unique_ptr<Structure> StructureOption::make(const Mesh& mesh, RelationSet relations) const {
   return options.make_structure ? options.make_structure(mesh, relations)
                                 : make_structure(mesh, relations, options.structure);

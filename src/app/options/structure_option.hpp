@@ -30,15 +30,6 @@ struct StructureOption {
 
   bool is_explicit() const { return options.structure.way == Way::explicit_; }
 
-  // What ranks ask, which agree on the answers.
-
-  /// Should consumers be kernels on the device that the mesh is on? Throws gale::Error where --consumers says so and
-  /// the mesh doesn't fit it.
-  bool on_device(const Mesh& mesh) const;
-
-  /// How these go through the mesh.
-  DeviceSweepOptions device_sweep() const;
-
   /// The structure, preconditioned for `relations`.
   std::unique_ptr<Structure> make(const Mesh& mesh, RelationSet relations) const;
 

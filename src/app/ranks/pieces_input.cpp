@@ -4,9 +4,9 @@
 #include <gale/app/ranks/pieces_input.hpp>
 #include <gale/app/step.hpp>
 #include <gale/app/usage_error.hpp>
-#include <gale/distributed/deal.hpp>
-#include <gale/distributed/key_places.hpp>
 #include <gale/io/write.hpp>
+#include <gale/mesh/exchange/messages.hpp>
+#include <gale/mesh/exchange/places.hpp>
 #include <gale/mesh/positions.hpp>
 #include <gale/outputs/field.hpp>
 #include <gale/outputs/find_array.hpp>
@@ -17,8 +17,8 @@ namespace {
 
 using GlobalIds = Array<GlobalId, HostMemory>;
 
-/// Those that this rank reads.
-io::PieceNames share_of(const io::PieceNames& all, const Communicator& ranks) {
+/// Chooses the pieces that this rank reads.
+io::PieceNames share_of(const io::PieceNames& all, const Ranks& ranks) {
   const auto count = static_cast<Offset>(all.sources.size());
   const auto begin = [&](int rank) { return all.sources.begin() + (count * rank + ranks.size() - 1) / ranks.size(); };
   return {{begin(ranks.rank()), begin(ranks.rank() + 1)}, all.point_ids, all.cell_ids};
@@ -26,7 +26,7 @@ io::PieceNames share_of(const io::PieceNames& all, const Communicator& ranks) {
 
 /// For each of this rank's ids, which ascend, its place among those of all ranks; with `all_differ`, ids that several
 /// ranks have count for each. Collective.
-GlobalIds places_of(const Communicator& ranks, const std::vector<std::int64_t>& ids, bool all_differ) {
+GlobalIds places_of(const Ranks& ranks, const std::vector<std::int64_t>& ids, bool all_differ) {
   Array<detail::SimplexKey, HostMemory> keys;
   detail::together(ranks, [&] {
     keys = allocate<decltype(keys)>("GALE::keys_of_ids", ids.size());
@@ -36,7 +36,7 @@ GlobalIds places_of(const Communicator& ranks, const std::vector<std::int64_t>& 
   return detail::places_of_keys(ranks, keys).places;
 }
 
-/// Of doubles, so that equal ones have equal bits.
+/// Gives the bits of coordinates as doubles, so that equal points have equal ones.
 std::array<GlobalId, 3> bits_of(const detail::Point& point) {
   std::array<GlobalId, 3> bits;
   for (int axis = 0; axis < 3; ++axis) {
@@ -48,7 +48,7 @@ std::array<GlobalId, 3> bits_of(const detail::Point& point) {
 
 /// Ids of points by coordinates: those that no lower rank has are counted from rank to rank. Those of one rank differ.
 /// Collective.
-GlobalIds merged_ids(const Communicator& ranks, const Array<detail::Point, HostMemory>& points) {
+GlobalIds merged_ids(const Ranks& ranks, const Array<detail::Point, HostMemory>& points) {
   struct Question {
     std::array<GlobalId, 3> bits;
     Id place;
@@ -119,7 +119,7 @@ GlobalIds merged_ids(const Communicator& ranks, const Array<detail::Point, HostM
 }
 
 /// The arrays that all ranks with points have, of the same types; notices about others. Collective.
-void keep_common(const Communicator& ranks, io::Dataset& mesh, Offset points) {
+void keep_common(const Ranks& ranks, io::Dataset& mesh, Offset points) {
   std::vector<io::PointArray> common;
   bool any = false;
   for (int rank = 0; rank < ranks.size(); ++rank) {
@@ -148,7 +148,7 @@ void keep_common(const Communicator& ranks, io::Dataset& mesh, Offset points) {
 
 }  // namespace
 
-SharedInput read_pieces(const Communicator& ranks, const InputOptions& input, const io::PieceNames& pieces) {
+SharedInput read_pieces(const Ranks& ranks, const InputOptions& input, const io::PieceNames& pieces) {
   if (input.read.tetrahedralize) throw UsageError("--tetrahedralize: not of pieces on several ranks");
   SharedInput shared;
   io::SomePieces some;
@@ -188,9 +188,8 @@ SharedInput read_pieces(const Communicator& ranks, const InputOptions& input, co
         mesh.points);
     shared.held = held;
     shared.field = outputs::select_field(mesh, input.read.array);
-    const auto* const order = outputs::detail::find_array(mesh, shared.field.name + "_Order");
-    shared.has_order = order != nullptr && order->components == 1;
-    shared.order = shared.has_order ? *order : shared.field;
+    shared.order = outputs::order_array(mesh, shared.field);
+    shared.has_order = shared.order.name != shared.field.name;
     shared.has_ids =
         pieces.point_ids == io::global_point_ids && outputs::detail::find_array(mesh, io::global_point_ids) != nullptr;
   });
@@ -200,16 +199,16 @@ SharedInput read_pieces(const Communicator& ranks, const InputOptions& input, co
   return shared;
 }
 
-void require_permutation(const DistributedMesh& mesh, const io::PointArray& order) {
-  const Id* const input = mesh.local().vertex_input().data();
-  const auto count = static_cast<double>(mesh.vertices());
+void require_permutation(const Mesh& mesh, const io::PointArray& order) {
+  const Id* const input = mesh.vertex_input().data();
+  const auto count = static_cast<double>(mesh.all_vertices());
   Array<detail::SimplexKey, HostMemory> keys;
   const auto refuse = [&](GlobalId vertex, double value) {
-    throw Error("array '" + order.name + "' is no permutation of 0 to " + std::to_string(mesh.vertices() - 1) +
+    throw Error("array '" + order.name + "' is no permutation of 0 to " + std::to_string(mesh.all_vertices() - 1) +
                 ": vertex " + std::to_string(vertex) + " has " + std::to_string(value));
   };
-  detail::together(mesh.ranks(), [&] {
-    keys = allocate<decltype(keys)>("GALE::order_keys", mesh.local().owned_vertices());
+  detail::together(mesh.exchange().ranks(), [&] {
+    keys = allocate<decltype(keys)>("GALE::order_keys", mesh.owned_vertices());
     for (std::size_t v = 0; v < keys.extent(0); ++v) {
       const double value = outputs::value_at(order, input[v]);
       if (!(value >= 0 && value < count) || value != static_cast<double>(static_cast<GlobalId>(value)))
@@ -217,9 +216,9 @@ void require_permutation(const DistributedMesh& mesh, const io::PointArray& orde
       keys(v) = {static_cast<GlobalId>(value), 0, 0};
     }
   });
-  const auto found = detail::places_of_keys(mesh.ranks(), keys);
-  if (found.count == mesh.vertices()) return;
-  throw SharedError("array '" + order.name + "' is no permutation of 0 to " + std::to_string(mesh.vertices() - 1) +
+  const auto found = detail::places_of_keys(mesh.exchange().ranks(), keys);
+  if (found.count == mesh.all_vertices()) return;
+  throw SharedError("array '" + order.name + "' is no permutation of 0 to " + std::to_string(mesh.all_vertices() - 1) +
                     ": it has " + std::to_string(found.count) + " different values");
 }
 

@@ -9,10 +9,10 @@ namespace gale::app {
 /// tetrahedra are numbered as one rank numbers them: in the order of the file's global ids. Without those, tetrahedra
 /// are counted, and vertices, with a notice, where they occur first: points of equal coordinates are one. Collective;
 /// throws SharedError.
-SharedInput read_pieces(const Communicator& ranks, const InputOptions& input, const io::PieceNames& pieces);
+SharedInput read_pieces(const Ranks& ranks, const InputOptions& input, const io::PieceNames& pieces);
 
-/// Throws SharedError if an array that orders the vertices of such a mesh isn't a permutation of 0 to n-1. `values` are
-/// by local input id. Collective.
-void require_permutation(const DistributedMesh& mesh, const io::PointArray& order);
+/// Throws SharedError if an array that orders the vertices of such a mesh isn't a permutation of 0 to n-1. It has
+/// values by input id of the part. Collective.
+void require_permutation(const Mesh& mesh, const io::PointArray& order);
 
 }  // namespace gale::app

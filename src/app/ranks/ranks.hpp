@@ -1,30 +1,34 @@
 #pragma once
 
+#include <memory>
 #include <string>
+#include <vector>
 
-#include <gale/algorithms/morse_smale.hpp>
-#include <gale/app/options/options.hpp>
-#include <gale/app/options/structure_option.hpp>
+#include <gale/app/session.hpp>
+#include <gale/mesh/ranks.hpp>
 
 // The command on several ranks, which a launcher such as mpirun has started it on. All that knows MPI is in this
 // folder, and left out where gale is built without it: then it refuses to be started so.
 
 namespace gale::app {
 
-/// The ranks that this process is one of; alone without a launcher. Initializes MPI where there are several, and ends
+/// How this process was started: alone, or as one of several ranks. Initializes MPI where there are several, and ends
 /// it.
-class Ranks {
+class Launch {
  public:
   /// Throws gale::Error if there are several, and this gale has no MPI.
-  Ranks(int& argc, char**& argv);
-  ~Ranks();
-  Ranks(const Ranks&) = delete;
-  Ranks& operator=(const Ranks&) = delete;
+  Launch(int& argc, char**& argv);
+  ~Launch();
+  Launch(const Launch&) = delete;
+  Launch& operator=(const Launch&) = delete;
 
-  static bool are_several();
+  /// The ranks that this process is one of; Ranks::alone() without a launcher.
+  static const Ranks& ranks();
+
+  static bool are_several() { return ranks().size() > 1; }
 
   /// Whether this one speaks for all.
-  static bool is_first();
+  static bool is_first() { return ranks().rank() == 0; }
 
   /// How many of the machine's threads one rank may take, of those that it would take alone.
   static int threads(int alone);
@@ -40,19 +44,28 @@ class Ranks {
   static bool all_fail_alike();
 };
 
-/// gale critical-points on several ranks: `output` is empty or a .pvtp.
-void critical_points_on_ranks(const InputOptions& input, const CommonOptions& common,
-                              const SegmentationOptions& segmentation, const StructureOption& structure,
-                              const std::string& output);
+/// An input that several ranks read together. Its functions are collective, and throw SharedError.
+class SharedField {
+ public:
+  /// Reads: `grid:N` is made by each rank for itself, the pieces of a `.pvtu` are read by all ranks; else the first
+  /// rank reads all, and the others have nothing.
+  explicit SharedField(const InputOptions& input);
+  ~SharedField();
 
-/// gale discrete-gradient on several ranks: `output` is empty or a .pvtp.
-void discrete_gradient_on_ranks(const InputOptions& input, const CommonOptions& common,
-                                const SegmentationOptions& segmentation, const StructureOption& structure,
-                                const std::string& output);
+  /// What is to be said of it.
+  const std::vector<std::string>& notices() const;
 
-/// gale morse-smale on several ranks, without walls: `prefix` is empty or what its files begin with.
-void morse_smale_on_ranks(const InputOptions& input, const CommonOptions& common,
-                          const SegmentationOptions& segmentation, const StructureOption& structure,
-                          const MorseSmaleParts& wanted, const std::string& prefix);
+  /// What of the input outputs take.
+  struct Wanted {
+    bool arrays, tetrahedra;
+  };
+
+  /// This rank's part of the mesh, and the field on it. Forgets what was read.
+  FieldOnMesh share(int capacity, const Wanted& wanted);
+
+ private:
+  struct Data;
+  std::unique_ptr<Data> data_;
+};
 
 }  // namespace gale::app

@@ -1,12 +1,13 @@
 #include <sstream>
 
 #include <gale/app/ranks/pieces_input.hpp>
+#include <gale/app/ranks/ranks.hpp>
 #include <gale/app/ranks/shared_input.hpp>
 #include <gale/app/step.hpp>
-#include <gale/distributed/exchange_plan.hpp>
 #include <gale/io/bytes/values.hpp>
 #include <gale/io/read.hpp>
 #include <gale/io/synthetic.hpp>
+#include <gale/mesh/exchange/exchange_plan.hpp>
 #include <gale/outputs/field.hpp>
 
 namespace gale::app {
@@ -20,7 +21,7 @@ Array<GlobalId, HostMemory> counted(GlobalId first, Offset count) {
 }
 
 template <class Index>
-void take_grid(int n, const Communicator& ranks, SharedInput& shared) {
+void take_grid(int n, const Ranks& ranks, SharedInput& shared) {
   io::GridPartOf<Index> slab = io::make_grid_part<Index>(n, ranks.rank(), ranks.size());
   const auto ids = counted(slab.first_vertex, static_cast<Offset>(slab.field.size()));
   // Tetrahedra are counted from rank to rank, as in the whole grid.
@@ -45,7 +46,7 @@ void take_file(const InputOptions& input, SharedInput& shared) {
 }
 
 /// Has the other ranks have the arrays of the first, without values.
-void share_names(const Communicator& ranks, SharedInput& shared) {
+void share_names(const Ranks& ranks, SharedInput& shared) {
   std::vector<io::PointArray> all = shared.arrays;
   all.push_back(shared.field);
   all.push_back(shared.order);
@@ -88,7 +89,9 @@ std::vector<io::PointArray> empty_arrays(const std::string& description) {
   return arrays;
 }
 
-SharedInput read_shared(const Communicator& ranks, const InputOptions& input) {
+namespace {
+
+SharedInput read_shared(const Ranks& ranks, const InputOptions& input) {
   SharedInput shared;
   begin_step("reading", input.input);
   std::optional<io::PieceNames> pieces;
@@ -111,22 +114,90 @@ SharedInput read_shared(const Communicator& ranks, const InputOptions& input) {
   return shared;
 }
 
-io::PointArray local_values(const DistributedMesh& mesh, const io::PointArray& array) {
+/// The values of an array of the part's vertices at all vertices that this rank holds, by input id. Collective.
+io::PointArray held_values(const Mesh& mesh, const io::PointArray& array) {
+  const Exchange& exchange = mesh.exchange();
   return std::visit(
       [&](const auto& values) -> io::PointArray {
         using Values = std::decay_t<decltype(values)>;
         using Value = typename Values::value_type;
-        const std::size_t count = mesh.local().vertices(), width = array.components;
+        const std::size_t count = mesh.vertices(), width = array.components;
         Values all(count * width);
-        std::vector<Value> from(mesh.given_vertices()), to(count);
+        std::vector<Value> from(exchange.given_vertices()), to(count);
         for (std::size_t component = 0; component < width; ++component) {
           for (std::size_t i = 0; i < from.size(); ++i) from[i] = values[i * width + component];
-          mesh.from_givers()(mesh.ranks(), from.data(), to.data());
+          exchange.from_givers()(exchange.ranks(), from.data(), to.data());
           for (std::size_t i = 0; i < count; ++i) all[i * width + component] = to[i];
         }
         return {array.name, array.components, std::move(all)};
       },
       array.values);
+}
+
+/// Points, arrays and, if they were kept, tetrahedra of what this rank holds. Collective.
+io::Dataset held_dataset(const DistributedMesh& mesh, const SharedInput& shared) {
+  io::Dataset held;
+  detail::together(mesh.exchange().ranks(), [&] {
+    const auto fill = [&](auto coordinate) {
+      using Coordinate = decltype(coordinate);
+      const auto points = allocate<io::Dataset::Points<Coordinate>>("GALE::local_points", mesh.points().extent(0));
+      parallel_for("GALE::local_points", HostExecutionSpace(), points.extent(0), [&](Offset i) {
+        for (int axis = 0; axis < 3; ++axis) points(i, axis) = static_cast<Coordinate>(mesh.points()(i, axis));
+      });
+      held.points = points;
+    };
+    shared.is_in_float ? fill(float()) : fill(double());
+    const auto& corners = mesh.corners();
+    held.tetrahedra = decltype(held.tetrahedra)("GALE::local_tetrahedra", corners.extent(0));
+    if (corners.extent(0) > 0) Kokkos::deep_copy(held.tetrahedra, corners);
+  });
+  for (const io::PointArray& array : shared.arrays) held.arrays.push_back(held_values(mesh, array));
+  return held;
+}
+
+VertexOrder order_by(const Mesh& mesh, const io::PointArray& order) {
+  return std::visit(
+      [&](const auto& values) {
+        using Value = typename std::decay_t<decltype(values)>::value_type;
+        return VertexOrder(mesh, Array<const Value, HostMemory>(values.data(), values.size()));
+      },
+      order.values);
+}
+
+}  // namespace
+
+struct SharedField::Data {
+  SharedInput input;
+};
+
+SharedField::SharedField(const InputOptions& input)
+    : data_(std::make_unique<Data>(Data{read_shared(Launch::ranks(), input)})) {}
+SharedField::~SharedField() = default;
+
+const std::vector<std::string>& SharedField::notices() const { return data_->input.notices; }
+
+FieldOnMesh SharedField::share(int capacity, const Wanted& wanted) {
+  SharedInput& input = data_->input;
+  const auto& ranks = static_cast<const Communicator&>(Launch::ranks());  // as there are several
+  begin_step("sharing the mesh");
+  PartitionOptions options;
+  options.repartition = input.is_dealt_out;
+  options.keep_corners = wanted.tetrahedra;
+  options.capacity = capacity;
+  const DistributedMesh mesh =
+      std::visit([&](const auto& held) { return DistributedMesh(ranks, held.part, options); }, input.held);
+  input.held = {};
+  begin_step("ordering the vertices");
+  if (input.has_order) require_permutation(mesh, held_values(mesh, input.order));
+  const VertexOrder order = order_by(mesh, input.order);
+  io::PointArray field{input.field.name, 1, {}};
+  io::Dataset dataset;
+  if (wanted.arrays) {
+    begin_step("sharing the arrays");
+    dataset = held_dataset(mesh, input);
+    field = held_values(mesh, input.field);
+  }
+  return {std::move(dataset), mesh, std::move(field), order, input.has_ids};
 }
 
 }  // namespace gale::app

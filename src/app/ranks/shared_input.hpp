@@ -30,13 +30,6 @@ struct SharedInput {
   std::vector<std::string> notices;
 };
 
-/// `grid:N` is made by each rank for itself, the pieces of a `.pvtu` are read by all ranks; else the first rank reads
-/// all, and the others have nothing. Collective; throws SharedError.
-SharedInput read_shared(const Communicator& ranks, const InputOptions& input);
-
-/// The values of an array of the part's vertices at all vertices that this rank holds, by local input id. Collective.
-io::PointArray local_values(const DistributedMesh& mesh, const io::PointArray& array);
-
 /// Types, components and names of arrays; and arrays without values, as they were described.
 std::string described(const std::vector<io::PointArray>& arrays);
 std::vector<io::PointArray> empty_arrays(const std::string& description);

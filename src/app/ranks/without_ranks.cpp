@@ -6,25 +6,26 @@
 
 namespace gale::app {
 
-Ranks::Ranks(int&, char**&) {
+Launch::Launch(int&, char**&) {
   if (launched_ranks() == 1) return;
   throw Error("it was started on " + std::to_string(launched_ranks()) +
               " ranks, but built without MPI: build it with GALE_ENABLE_MPI=ON");
 }
-Ranks::~Ranks() = default;
+Launch::~Launch() = default;
 
-bool Ranks::are_several() { return false; }
-bool Ranks::is_first() { return true; }
-int Ranks::threads(int alone) { return alone; }
-void Ranks::require_same_arguments(int, char**) {}
-void Ranks::end_all(int, bool) {}
-bool Ranks::all_fail_alike() { return true; }
+const Ranks& Launch::ranks() { return Ranks::alone(); }
+int Launch::threads(int alone) { return alone; }
+void Launch::require_same_arguments(int, char**) {}
+void Launch::end_all(int, bool) {}
+bool Launch::all_fail_alike() { return true; }
 
-void critical_points_on_ranks(const InputOptions&, const CommonOptions&, const SegmentationOptions&,
-                              const StructureOption&, const std::string&) {}
-void discrete_gradient_on_ranks(const InputOptions&, const CommonOptions&, const SegmentationOptions&,
-                                const StructureOption&, const std::string&) {}
-void morse_smale_on_ranks(const InputOptions&, const CommonOptions&, const SegmentationOptions&, const StructureOption&,
-                          const MorseSmaleParts&, const std::string&) {}
+struct SharedField::Data {};
+SharedField::SharedField(const InputOptions&) { throw Error("there are no ranks to share it"); }
+SharedField::~SharedField() = default;
+const std::vector<std::string>& SharedField::notices() const {
+  static const std::vector<std::string> none;
+  return none;
+}
+FieldOnMesh SharedField::share(int, const Wanted&) { throw Error("there are no ranks to share it"); }
 
 }  // namespace gale::app

@@ -2,7 +2,8 @@
 #include <cstdint>
 #include <cstdio>
 
-#include <gale/distributed/distributed_gradient.hpp>
+#include <gale/algorithms/discrete_gradient.hpp>
+#include <gale/distributed/distributed_mesh.hpp>
 #include <gale/runtime/make_structure.hpp>
 
 int main(int argc, char** argv) {
@@ -20,8 +21,8 @@ int main(int argc, char** argv) {
                         Kokkos::View<const double* [3], Kokkos::LayoutRight, Host>(&points[0][0], 4),
                         Kokkos::View<const std::int64_t* [4], Kokkos::LayoutRight, Host>(&tetrahedra[0][0], 1));
     const gale::DistributedMesh mesh(gale::Communicator(MPI_COMM_WORLD), part);
-    const auto structure = gale::make_structure(mesh.local(), gale::discrete_gradient_relations);
-    const gale::DistributedOrder order(mesh, Kokkos::View<const float*, Host>(values, 4));
+    const auto structure = gale::make_structure(mesh, gale::discrete_gradient_relations);
+    const gale::VertexOrder order(mesh, Kokkos::View<const float*, Host>(values, 4));
     euler = gale::find_discrete_gradient(*structure, order).euler();
   }
   MPI_Finalize();

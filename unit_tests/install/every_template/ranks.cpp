@@ -1,7 +1,6 @@
-#include <gale/distributed/distributed_critical_points.hpp>
-#include <gale/distributed/distributed_gradient.hpp>
+#include <gale/algorithms/critical_points.hpp>
+#include <gale/algorithms/discrete_gradient.hpp>
 #include <gale/distributed/distributed_mesh.hpp>
-#include <gale/distributed/distributed_order.hpp>
 
 #include "parts.hpp"
 
@@ -26,7 +25,7 @@ void distribute(const gale::Communicator& ranks) {
   expect(with_ids.tetrahedron_ids.extent(0) == tetrahedra, "ids of tetrahedra");
   const gale::MeshPart<typename decltype(part.tetrahedra)::non_const_value_type>& same = part;
   const gale::DistributedMesh mesh(ranks, same);
-  expect(mesh.vertices() == vertices, "a mesh on ranks");
+  expect(mesh.all_vertices() == vertices, "a mesh on ranks");
   const gale::HostPoints& kept = same.points;
   expect(kept.visit([](const auto& rows) { return rows.extent(0); }) == vertices, "points of ranks");
 }
@@ -35,9 +34,9 @@ template <class Value>
 void order(const gale::DistributedMesh& mesh) {
   const Value values[vertices] = {3, 1, 4, 1, 5};
   const Kokkos::View<const Value*, gale::HostMemory, Kokkos::MemoryUnmanaged> host(values, vertices);
-  const gale::DistributedOrder order(mesh, host);
+  const gale::VertexOrder order(mesh, host);
   const auto worker = Kokkos::create_mirror_view_and_copy(gale::WorkerMemory(), host);
-  expect(gale::DistributedOrder(mesh, worker).local().keys()[0] == order.local().keys()[0], "keys of ranks");
+  expect(gale::VertexOrder(mesh, worker).keys()[0] == order.keys()[0], "keys of ranks");
 }
 
 template <class... Values>
@@ -63,7 +62,7 @@ void use_ranks() {
              unsigned long long, float, double>(mesh);
 
   const Kokkos::View<double*, gale::HostMemory> field("field", vertices);
-  const gale::DistributedOrder order(mesh, field);
+  const gale::VertexOrder order(mesh, field);
   expect(gale::find_critical_points(gale::WorkerSpace(), order).counts[0] == 1, "one minimum on ranks");
   expect(gale::find_discrete_gradient(gale::WorkerSpace(), order).euler() == 1, "the Euler characteristic on ranks");
 }

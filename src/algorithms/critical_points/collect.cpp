@@ -1,0 +1,157 @@
+#include <algorithm>
+#include <vector>
+
+#include <gale/algorithms/critical_points/collect.hpp>
+#include <gale/base/parallel.hpp>
+#include <gale/base/transfer.hpp>
+#include <gale/mesh/exchange/exchange_plan.hpp>
+
+namespace gale::detail {
+
+namespace {
+
+template <class T, class View>
+std::vector<T> to_host_vector(const View& view) {
+  const auto there = on_host(view);
+  std::vector<T> values(there.extent(0));
+  std::transform(there.data(), there.data() + there.extent(0), values.begin(),
+                 [](auto value) { return static_cast<T>(value); });
+  return values;
+}
+
+/// 1 for an input vertex that isn't regular, nor a ghost.
+struct IsCritical {
+  const Id* internal;
+  VertexTypes types;
+  Id owned;
+
+  KOKKOS_FUNCTION bool operator()(Offset i) const {
+    return internal[i] < owned && types.type(internal[i]) != CriticalType::regular;
+  }
+};
+
+/// Writes what is said of such a vertex to its place.
+template <class Memory>
+struct WriteCritical {
+  const Id* internal;
+  VertexTypes types;
+  Array<Id, Memory> place, vertices;
+  Array<std::uint8_t, Memory> their_types, on_surface;
+
+  KOKKOS_FUNCTION void operator()(Offset i) const {
+    const Id at = place(i);
+    if (place(i + 1) == at) return;
+    vertices(at) = static_cast<Id>(i);
+    their_types(at) = static_cast<std::uint8_t>(types.type(internal[i]));
+    on_surface(at) = types.on_surface(internal[i]);
+  }
+};
+
+/// The owned vertices that aren't regular, once all are set and told.
+template <class Space>
+CriticalPoints owned_points(const Space& space, const Mesh& mesh, const VertexTypes& types) {
+  using Bytes = Array<std::uint8_t, MemoryOf<Space>>;
+  using Ids = Array<Id, MemoryOf<Space>>;
+  const Offset count = mesh.vertices();
+  const Id* const internal = mesh.vertex_internal<MemoryOf<Space>>().data();
+  const Id owned = mesh.owned_vertices();
+  const auto place = allocate<Ids>("GALE::critical_place", count + 1);
+  const Id total = exclusive_scan("GALE::count_critical", space, count, place, IsCritical{internal, types, owned});
+  const auto vertices = allocate<Ids>("GALE::critical_vertices", total);
+  const auto their_types = allocate<Bytes>("GALE::critical_types", total),
+             on_surface = allocate<Bytes>("GALE::critical_on_surface", total);
+  parallel_for("GALE::collect_critical", space, count,
+               WriteCritical<MemoryOf<Space>>{internal, types, place, vertices, their_types, on_surface});
+  space.fence();
+  CriticalPoints points;
+  points.vertices = to_host_vector<Id>(vertices);
+  points.types = to_host_vector<CriticalType>(their_types);
+  points.on_surface = to_host_vector<std::uint8_t>(on_surface);
+  for (const CriticalType type : points.types) ++points.counts[static_cast<int>(type)];
+  return points;
+}
+
+template <class Space>
+using Flags = Array<std::uint8_t, MemoryOf<Space>>;
+
+/// Which of the vertices that others have as ghosts are on the surface, in the order in which they are told.
+template <class Space>
+Flags<HostExecutionSpace> told_flags(const Space& space, const Mesh& mesh, const VertexTypes& types) {
+  const Array<Id, MemoryOf<Space>> places = in_memory<MemoryOf<Space>>(mesh.exchange().from_owners().given_places());
+  const auto flags = allocate<Flags<Space>>("GALE::surface_flags", places.extent(0));
+  const Id* const internal = mesh.vertex_internal<MemoryOf<Space>>().data();
+  parallel_for(
+      "GALE::surface_flags", space, places.extent(0),
+      KOKKOS_LAMBDA(Offset i) { flags(i) = types.on_surface(internal[places(i)]); });
+  space.fence();
+  return on_host(flags);
+}
+
+/// Which of this rank's ghosts are on the surface, as their owners say; from the first one on.
+template <class Space>
+Flags<Space> ghost_flags(const Space& space, const Mesh& mesh, const VertexTypes& types) {
+  Flags<HostExecutionSpace> told;
+  together(mesh.exchange().ranks(), [&] { told = told_flags(space, mesh, types); });
+  const auto fetched = mesh.exchange().from_owners().fetch(mesh.exchange().ranks(), told);
+  Flags<Space> flags;
+  together(mesh.exchange().ranks(), [&] {
+    const Id owned = mesh.owned_vertices();
+    flags = allocate<Flags<Space>>("GALE::ghost_flags", mesh.vertices() - owned);
+    const Id* const internal = mesh.vertex_internal<MemoryOf<Space>>().data();
+    const Array<Id, MemoryOf<Space>> slots = in_memory<MemoryOf<Space>>(mesh.exchange().from_owners().slots());
+    const Flags<Space> values = in_memory<MemoryOf<Space>>(fetched.entries);
+    const Flags<Space> to = flags;
+    parallel_for(
+        "GALE::ghost_flags", space, slots.extent(0),
+        KOKKOS_LAMBDA(Offset i) { to(internal[slots(i)] - owned) = values(i); });
+    space.fence();
+  });
+  return flags;
+}
+
+/// Has ghosts on the surface tell their neighbours, as the sweep has owned vertices do.
+template <class Space>
+void tell_of_ghosts(const Space& space, const VertexOrder& order, const Flags<Space>& on_surface,
+                    const VertexTypes& types) {
+  using Memory = MemoryOf<Space>;
+  const Mesh& mesh = order.mesh();
+  const Id owned = mesh.owned_vertices();
+  if (owned == mesh.vertices()) return;
+  const auto encoded = mesh.encoded<Memory>();
+  const std::uint64_t* const keys = order.keys_in<Memory>().data();
+  parallel_for(
+      "GALE::tell_of_ghosts", space, mesh.tetrahedra(), KOKKOS_LAMBDA(Offset t) {
+        const Quad corners = encoded.tetrahedron(static_cast<Id>(t));
+        for (int i = 3; i > 0 && corners[i] >= owned; --i) {
+          const Id ghost = corners[i];
+          if (!on_surface(ghost - owned)) continue;
+          for (int k = 0; k < i && corners[k] < owned; ++k)
+            types.tell(corners[k], VertexTypes::seen_from(keys, corners[k], ghost));
+        }
+      });
+  space.fence();
+}
+
+}  // namespace
+
+template <class Space>
+CriticalPoints collect(const Space& space, const VertexOrder& order, const VertexTypes& types) {
+  const Mesh& mesh = order.mesh();
+  const Ranks& ranks = mesh.exchange().ranks();
+  Flags<Space> flags;
+  if (ranks.size() > 1) flags = ghost_flags(space, mesh, types);
+  CriticalPoints points;
+  together(ranks, [&] {
+    if (ranks.size() > 1) tell_of_ghosts(space, order, flags, types);
+    points = owned_points(space, mesh, types);
+  });
+  ranks.sum(points.counts.data(), static_cast<int>(points.counts.size()));
+  return points;
+}
+
+#define GALE_INSTANTIATE(Space) \
+  template CriticalPoints collect<Space>(const Space&, const VertexOrder&, const VertexTypes&)
+GALE_IN_EACH_SPACE(GALE_INSTANTIATE);
+#undef GALE_INSTANTIATE
+
+}  // namespace gale::detail

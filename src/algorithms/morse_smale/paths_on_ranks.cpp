@@ -1,0 +1,158 @@
+#include <gale/algorithms/gradient/gradient_store.hpp>
+#include <gale/algorithms/morse_smale/jump.hpp>
+#include <gale/algorithms/morse_smale/paths_on_ranks.hpp>
+#include <gale/base/require_ids.hpp>
+#include <gale/base/worker_or_host.hpp>
+#include <gale/mesh/exchange/messages.hpp>
+#include <gale/mesh/exchange/places.hpp>
+
+namespace gale::detail {
+
+namespace {
+
+/// The ends of paths inside one rank: see jump().
+Array<const Id, HostMemory> ends_here(const Mirrored<Id>& successors, const std::vector<Id>& ends) {
+  return in_worker_or_host_space(successors.on_device(), [&](const auto& space) -> Array<const Id, HostMemory> {
+    const auto next = with_ends(space, successors, ends);
+    jump(space, next);
+    space.fence();
+    return on_host(next);
+  });
+}
+
+}  // namespace
+
+PathSimplices::PathSimplices(const DiscreteGradient& gradient, Kind kind)
+    : gradient_(gradient),
+      are_vertices_(kind == Kind::falling_vertices),
+      input_(are_vertices_ ? mesh().vertex_input().data() : mesh().tetrahedron_input().data()),
+      vertex_input_(mesh().vertex_input().data()),
+      keys_(gradient.order().keys()),
+      corners_(mesh().encoded().tetrahedra) {
+  if (are_vertices_) return;
+  tetrahedron_internal_ = allocate<Array<Id, HostMemory>>("GALE::tetrahedron_internal", mesh().tetrahedra());
+  parallel_for("GALE::tetrahedron_internal", HostExecutionSpace(), mesh().tetrahedra(),
+               [&](Offset t) { tetrahedron_internal_(input_[t]) = static_cast<Id>(t); });
+}
+
+std::unique_ptr<const PathSimplices> PathSimplices::make(const DiscreteGradient& gradient, Kind kind) {
+  std::unique_ptr<const PathSimplices> made;
+  together(gradient.mesh().exchange().ranks(), [&] { made = std::make_unique<const PathSimplices>(gradient, kind); });
+  return made;
+}
+
+const Mirrored<Id>& PathSimplices::successors() const {
+  const GradientStore& store = gradient_.store();
+  return are_vertices_ ? store.vertex_successors() : store.tetrahedron_successors();
+}
+
+const std::vector<Id>& PathSimplices::critical() const {
+  return are_vertices_ ? gradient_.critical().vertices : gradient_.critical().tetrahedra;
+}
+
+GlobalId PathSimplices::global(Id simplex) const {
+  return are_vertices_ ? mesh().vertex_id(input_[simplex]) : mesh().tetrahedron_id(input_[simplex]);
+}
+
+Id PathSimplices::local(GlobalId id) const {
+  return are_vertices_ ? mesh().vertex_internal()(mesh().vertex_of(id))
+                       : tetrahedron_internal_(mesh().exchange().tetrahedron_of(id));
+}
+
+int PathSimplices::owner(Id simplex) const {
+  Id highest = simplex;
+  if (!are_vertices_) {
+    highest = corners_(simplex, 0);
+    for (int corner = 1; corner < 4; ++corner) {
+      if (keys_[corners_(simplex, corner)] > keys_[highest]) highest = corners_(simplex, corner);
+    }
+  }
+  return mesh().exchange().owner(vertex_input_[highest]);
+}
+
+PathCell PathSimplices::cell(Id simplex) const {
+  PathCell cell{global(simplex), {}};
+  for (int corner = 0; corner < 4 && !are_vertices_; ++corner)
+    cell.corners[corner] = mesh().vertex_id(vertex_input_[corners_(simplex, corner)]);
+  return cell;
+}
+
+PathsOnRanks::PathsOnRanks(const PathSimplices& simplices)
+    : simplices_(simplices), criticals_(static_cast<Id>(simplices.critical().size())) {
+  together(ranks(), [&] { find_exits(); });
+  while (jump()) {
+  }
+}
+
+void PathsOnRanks::find_exits() {
+  const auto& successors = simplices_.successors().in<HostMemory>();
+  const auto elsewhere = by_rank(1, successors.extent(0), [&](Id i, const auto& visit) {
+    if (successors(i) == DiscreteGradient::elsewhere) visit(0);
+  });
+  exits_.assign(elsewhere.members.data(), elsewhere.members.data() + elsewhere.members.extent(0));
+  std::vector<Id> ends = simplices_.critical();
+  ends.insert(ends.end(), exits_.begin(), exits_.end());
+  ends_ = ends_here(simplices_.successors(), ends);
+  std::vector<PathStop> first(exits_.size());
+  for (std::size_t i = 0; i < exits_.size(); ++i)
+    first[i] = {simplices_.owner(exits_[i]), simplices_.global(exits_[i])};
+  stops_.push_back(std::move(first));
+}
+
+Id PathsOnRanks::end(Id simplex) const {
+  const Id end = ends_(simplex);
+  return end == path_outside ? no_id : place_of_end(end);
+}
+
+PathStop PathsOnRanks::final_stop(Id end) const {
+  if (end == no_id) return {};
+  if (is_exit(end)) return stops_.back()[exit_of(end)];
+  return {PathStop::critical, simplices_.global(simplices_.critical()[end])};
+}
+
+Array<const Id, HostMemory> PathsOnRanks::places_of_ends() const {
+  Array<SimplexKey, HostMemory> keys;
+  Array<Id, HostMemory> critical_ends;  // those that end at a critical simplex
+  together(ranks(), [&] {
+    critical_ends = by_rank(1, ends(), [&](Id end, const auto& visit) {
+                      if (final_stop(end).rank == PathStop::critical) visit(0);
+                    }).members;
+    keys = allocate<decltype(keys)>("GALE::end_keys", critical_ends.extent(0));
+    parallel_for("GALE::end_keys", HostExecutionSpace(), critical_ends.extent(0), [&](Offset i) {
+      keys(i) = {final_stop(critical_ends(i)).id, 0, 0};
+    });
+  });
+  const KeyPlaces found = places_of_keys(ranks(), keys);
+  Array<Id, HostMemory> places;
+  together(ranks(), [&] {
+    require_ids("minima or maxima of all ranks", found.count);
+    places = allocate<Array<Id, HostMemory>>("GALE::places_of_ends", ends());
+    fill("GALE::no_places", HostExecutionSpace(), places, no_id);
+    parallel_for("GALE::places_of_ends", HostExecutionSpace(), critical_ends.extent(0),
+                 [&](Offset i) { places(critical_ends(i)) = static_cast<Id>(found.places(i)); });
+  });
+  return places;
+}
+
+/// One round: each exit whose path goes on elsewhere learns from the rank where it is how it ends there. False, and
+/// nothing done, if all have ended on all ranks.
+bool PathsOnRanks::jump() {
+  const std::vector<PathStop>& stops = stops_.back();
+  std::vector<Id> open;
+  for (std::size_t i = 0; i < stops.size(); ++i) {
+    if (!stops[i].is_end()) open.push_back(static_cast<Id>(i));
+  }
+  if (ranks().sum(static_cast<std::int64_t>(open.size())) == 0) return false;
+  Array<Id, HostMemory> members;
+  const auto asked = deal<GlobalId>(
+      ranks(), "GALE::open_paths", static_cast<Offset>(open.size()), [&](Id i) { return stops[open[i]].rank; },
+      [&](Id i) { return stops[open[i]].id; }, &members);
+  const auto answers = answer<PathStop>(ranks(), "GALE::next_stops", asked,
+                                        [&](GlobalId id) { return final_stop(end(simplices_.local(id))); });
+  std::vector<PathStop> further = stops;
+  for (Offset i = 0; i < answers.count(); ++i) further[open[members(i)]] = answers.entries(i);
+  stops_.push_back(std::move(further));
+  return true;
+}
+
+}  // namespace gale::detail

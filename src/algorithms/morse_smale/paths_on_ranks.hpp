@@ -1,0 +1,110 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include <gale/algorithms/discrete_gradient.hpp>
+#include <gale/mesh/exchange/global_index.hpp>
+
+namespace gale::detail {
+
+/// A simplex on a path: its global id and, of a tetrahedron, those of its vertices.
+struct PathCell {
+  GlobalId id;
+  std::array<GlobalId, 4> corners;
+};
+
+/// The simplices of one kind that paths along a gradient lead through, as one rank has them. Refers to the gradient.
+class PathSimplices {
+ public:
+  enum class Kind { falling_vertices, rising_tetrahedra };
+
+  PathSimplices(const DiscreteGradient& gradient, Kind kind);
+
+  /// Makes them on all ranks. Collective; throws gale::Error on all.
+  static std::unique_ptr<const PathSimplices> make(const DiscreteGradient& gradient, Kind kind);
+
+  const Mesh& mesh() const { return gradient_.mesh(); }
+  bool are_vertices() const { return are_vertices_; }
+
+  /// The next simplex on the path from each, by GALE's id; those that another rank knows are elsewhere.
+  const Mirrored<Id>& successors() const;
+
+  /// Where paths end: GALE's ids.
+  const std::vector<Id>& critical() const;
+
+  /// GALE's id -> global id, and back for those that this rank holds.
+  GlobalId global(Id simplex) const;
+  Id local(GlobalId id) const;
+
+  /// The rank that knows the successor.
+  int owner(Id simplex) const;
+
+  PathCell cell(Id simplex) const;
+
+ private:
+  const DiscreteGradient& gradient_;
+  bool are_vertices_;
+  const Id *input_, *vertex_input_;
+  const std::uint64_t* keys_;
+  IdsByFour<HostMemory> corners_;
+  Array<Id, HostMemory> tetrahedron_internal_;  ///< input tetrahedron -> GALE's; of tetrahedra alone
+};
+
+/// Where a path goes on or ends.
+struct PathStop {
+  static constexpr int critical = -1, outside = -2;
+
+  int rank = outside;  ///< that has to follow the path on; or how it ends
+  GlobalId id = -1;    ///< of the simplex where it goes on, or of the critical one where it ends
+
+  bool is_end() const { return rank < 0; }
+};
+
+/// The ends of all paths along the successors of a mesh on several ranks, by pointer jumping: first on each rank, then
+/// from rank to rank, in a number of rounds that grows with the logarithm of how often a path changes ranks.
+class PathsOnRanks {
+ public:
+  /// Collective; throws gale::Error on all ranks. Refers to `simplices`.
+  explicit PathsOnRanks(const PathSimplices& simplices);
+
+  /// How the path from each local simplex (GALE's id) ends on this rank: the number of that end, below; no_id if it
+  /// leaves through the surface.
+  Id end(Id simplex) const;
+
+  /// Exits: simplices of this rank that another one follows the paths of. Ends are numbered: first the critical ones,
+  /// then the exits.
+  Id ends() const { return criticals_ + static_cast<Id>(exits_.size()); }
+  bool is_exit(Id end) const { return end >= criticals_; }
+
+  /// Where the paths that end here so end finally.
+  PathStop final_stop(Id end) const;
+
+  /// For each end that paths have on this rank the place of the critical simplex where they end finally among those of
+  /// all ranks, by global id; no_id if they leave through the surface. Collective. Throws gale::Error on all ranks if
+  /// there are more than ids can number.
+  Array<const Id, HostMemory> places_of_ends() const;
+
+  /// How many rounds of messages it took.
+  int rounds() const { return static_cast<int>(stops_.size()) - 1; }
+
+  /// stops(round)[i]: where the path from the i-th exit is after 2^round changes of ranks, or ends before.
+  const std::vector<PathStop>& stops(int round) const { return stops_[round]; }
+  Id exit_of(Id end) const { return end - criticals_; }
+
+  const PathSimplices& simplices() const { return simplices_; }
+  const Ranks& ranks() const { return simplices_.mesh().exchange().ranks(); }
+
+ private:
+  void find_exits();
+  bool jump();
+
+  const PathSimplices& simplices_;
+  Id criticals_;
+  std::vector<Id> exits_;
+  Array<const Id, HostMemory> ends_;  ///< by simplex: end_at(number), or path_outside
+  std::vector<std::vector<PathStop>> stops_;
+};
+
+}  // namespace gale::detail

@@ -1,0 +1,99 @@
+#include <mpi.h>
+
+#include <algorithm>
+#include <exception>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include <gale/app/ranks/launched_ranks.hpp>
+#include <gale/app/ranks/ranks.hpp>
+#include <gale/app/usage_error.hpp>
+#include <gale/distributed/communicator.hpp>
+
+namespace gale::app {
+
+namespace {
+
+int ranks_of_machine = 1;
+std::optional<Communicator> communicator;  // where there are several
+
+/// Joins all arguments, each with a 0 behind it, which none can have in it.
+std::string joined(int argc, char** argv) {
+  std::string all;
+  for (int i = 1; i < argc; ++i) all.append(argv[i]).push_back('\0');
+  return all;
+}
+
+/// The argument of `joined` ones that begins at `at`, as it is said.
+std::string argument(const std::string& joined, std::size_t at) {
+  return at < joined.size() ? "'" + std::string(joined.c_str() + at) + "'" : "nothing more";
+}
+
+}  // namespace
+
+Launch::Launch(int& argc, char**& argv) {
+  if (launched_ranks() == 1) return;
+  int provided = 0;
+  MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
+  int count = 1;
+  MPI_Comm_size(MPI_COMM_WORLD, &count);
+  if (count == 1) return;
+  communicator.emplace(MPI_COMM_WORLD);
+  MPI_Comm machine;
+  MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, communicator->rank(), MPI_INFO_NULL, &machine);
+  MPI_Comm_size(machine, &ranks_of_machine);
+  MPI_Comm_free(&machine);
+}
+
+Launch::~Launch() {
+  communicator.reset();
+  int initialized = 0;
+  MPI_Initialized(&initialized);
+  if (initialized) MPI_Finalize();
+}
+
+const Ranks& Launch::ranks() { return communicator ? *communicator : Ranks::alone(); }
+
+int Launch::threads(int alone) {
+  // A rank that the launcher has bound to some cores has them for itself.
+  const bool is_bound = alone < static_cast<int>(std::thread::hardware_concurrency());
+  return is_bound ? alone : std::max(alone / ranks_of_machine, 1);
+}
+
+void Launch::require_same_arguments(int argc, char** argv) {
+  if (!are_several()) return;
+  const int count = ranks().size();
+  const std::string mine = joined(argc, argv), first = ranks().broadcast(mine, 0);
+  const auto other = static_cast<int>(ranks().least(std::int64_t(mine == first ? count : ranks().rank())));
+  if (other == count) return;
+  const std::string theirs = ranks().broadcast(mine, other);
+  std::size_t at = 0;  // of the first argument that differs
+  for (std::size_t i = 0; i < theirs.size() && i < first.size() && theirs[i] == first[i]; ++i) {
+    if (first[i] == '\0') at = i + 1;
+  }
+  throw UsageError("all ranks take the same arguments: rank " + std::to_string(other) + " has " + argument(theirs, at) +
+                   " where rank 0 has " + argument(first, at));
+}
+
+void Launch::end_all(int code, bool all_fail_alike) {
+  if (!are_several()) return;
+  if (!all_fail_alike) MPI_Abort(MPI_COMM_WORLD, code);
+  MPI_Finalize();
+}
+
+bool Launch::all_fail_alike() {
+  if (!are_several()) return true;
+  if (!std::current_exception()) return false;
+  try {
+    throw;
+  } catch (const SharedError&) {
+    return true;
+  } catch (const UsageError&) {  // of one command line
+    return true;
+  } catch (...) {
+    return false;
+  }
+}
+
+}  // namespace gale::app

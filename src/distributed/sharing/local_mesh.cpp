@@ -1,0 +1,160 @@
+#include <algorithm>
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gale/base/worker_or_host.hpp>
+#include <gale/distributed/sharing/id_interval.hpp>
+#include <gale/distributed/sharing/local_mesh.hpp>
+
+namespace gale::detail {
+
+namespace {
+
+template <class Memory>
+using CornersIn = Kokkos::View<Id* [4], Kokkos::LayoutRight, Memory>;
+
+/// Throws if two tetrahedra have the same vertices, by their global ids.
+void refuse_twins(const Quads& tetrahedra, const TetrahedronPlaces& places) {
+  std::vector<std::pair<std::array<Id, 4>, GlobalId>> all(tetrahedra.extent(0));
+  for (std::size_t t = 0; t < all.size(); ++t) {
+    auto& [quad, id] = all[t];
+    for (int corner = 0; corner < 4; ++corner) quad[corner] = tetrahedra(t, corner);
+    std::sort(quad.begin(), quad.end());
+    id = places.id(static_cast<Offset>(t));
+  }
+  std::sort(all.begin(), all.end());
+  for (std::size_t t = 1; t < all.size(); ++t) {
+    if (all[t].first != all[t - 1].first) continue;
+    throw Error("tetrahedra " + std::to_string(all[t - 1].second) + " and " + std::to_string(all[t].second) +
+                " have the same four vertices");
+  }
+}
+
+/// The local input ids of some of a rank's vertices; an interval of them where there is no array.
+template <class Memory>
+struct OwnedInputIds {
+  Id first;
+  Array<const Id, Memory> ids;
+
+  KOKKOS_FUNCTION Id operator()(Id i) const { return ids.extent(0) == 0 ? first + i : ids(i); }
+};
+
+template <class Space>
+OwnedInputIds<MemoryOf<Space>> owned_input_ids(const Space&, const LocalVertices& vertices) {
+  if (vertices.owned_count() == 0) return {0, {}};
+  return {vertices.owned(0), in_memory<MemoryOf<Space>>(vertices.owned_ids())};
+}
+
+/// Owned vertices segment after segment, then the ghosts likewise.
+template <class Space>
+Mirrored<Id> joined(const Space& space, const LocalVertices& vertices, const Mirrored<Id>& owned,
+                    const Mirrored<Id>& ghosts) {
+  using Here = MemoryOf<Space>;
+  const auto all = allocate<Array<Id, Here>>("GALE::vertex_input", vertices.count());
+  const auto owned_ids = owned_input_ids(space, vertices);
+  const Array<const Id, Here> order = owned.in<Here>();
+  parallel_for(
+      "GALE::owned_input", space, vertices.owned_count(), KOKKOS_LAMBDA(Offset i) { all(i) = owned_ids(order(i)); });
+  const Offset count = vertices.ghost_count(), before = vertices.owned_count();
+  const auto ghost_ids = allocate<Array<Id, HostMemory>>("GALE::ghost_input", count);
+  const Array<const Id, HostMemory> ghost_order = ghosts.in<HostMemory>();
+  parallel_for("GALE::ghost_input", HostExecutionSpace(), count,
+               [&](Offset i) { ghost_ids(i) = vertices.ghost(ghost_order(i)); });
+  const auto here = in_memory<Here>(ghost_ids);
+  parallel_for(
+      "GALE::append_ghosts", space, count, KOKKOS_LAMBDA(Offset i) { all(before + i) = here(i); });
+  space.fence();
+  return all;
+}
+
+/// Writes the local input ids of the vertices of tetrahedra first..last-1 from `to` on.
+template <class Index>
+void write_corners(const LocalTetrahedra<Index>& tetrahedra, const LocalVertices& vertices, Offset first, Offset last,
+                   Id* to) {
+  constexpr Offset block = 256;
+  const IndexInterval<Index> owned(vertices.interval());
+  const GlobalId shift = vertices.interval().is_empty() ? 0 : vertices.owned(0) - vertices.interval().begin;
+  tetrahedra.visit(first, last, [&](Offset, const Index* corners, Offset count) {
+    for (Offset begin = 0; begin < 4 * count; begin += block) {
+      const Offset size = std::min(block, 4 * count - begin);
+      if (owned.contains(corners + begin, size)) {
+        for (Offset k = 0; k < size; ++k) to[k] = static_cast<Id>(corners[begin + k] + shift);
+      } else {
+        for (Offset k = 0; k < size; ++k) to[k] = vertices.find(corners[begin + k]);
+      }
+      to += size;
+    }
+  });
+}
+
+template <class Index, class Space>
+CornersIn<MemoryOf<Space>> corners_in(const Space&, const LocalTetrahedra<Index>& tetrahedra,
+                                      const LocalVertices& vertices) {
+  const Offset count = tetrahedra.count();
+  const auto corners = allocate<CornersIn<MemoryOf<Space>>>("GALE::local_tetrahedra", count);
+  if constexpr (is_device<Space>) {
+    constexpr std::size_t row = 4 * sizeof(Id);
+    write_to_device(corners.data(), static_cast<std::size_t>(count) * row,
+                    [&](char* to, std::size_t begin, std::size_t size) {
+                      write_corners(tetrahedra, vertices, static_cast<Offset>(begin / row),
+                                    static_cast<Offset>((begin + size) / row), reinterpret_cast<Id*>(to));
+                    });
+  } else {
+    for_parts("GALE::local_tetrahedra", count, threads_for(count), [&](int, Offset first, Offset last) {
+      write_corners(tetrahedra, vertices, first, last, corners.data() + 4 * first);
+    });
+  }
+  return corners;
+}
+
+}  // namespace
+
+Segmentation octree_of(const HostPoints& points, int capacity) {
+  return points.visit([&](const auto& rows) { return octree_segmentation(rows, capacity); });
+}
+
+Segmentation local_segmentation(const LocalVertices& vertices, const Segmentation& owned, const Segmentation& ghosts) {
+  const Mirrored<Id> vertex_input = in_worker_or_host_space(owned.vertex_input.on_device(), [&](const auto& space) {
+    return joined(space, vertices, owned.vertex_input, ghosts.vertex_input);
+  });
+  const Id inner = owned.segments(), outer = ghosts.segments();
+  const auto vertex_begin = allocate<Array<Id, HostMemory>>("GALE::vertex_begin", inner + outer + Offset(1));
+  const auto inner_begin = owned.vertex_begin.in<HostMemory>(), outer_begin = ghosts.vertex_begin.in<HostMemory>();
+  for (Id s = 0; s < inner; ++s) vertex_begin(s) = inner_begin(s);
+  for (Id s = 0; s <= outer; ++s) vertex_begin(inner + s) = owned.vertices() + outer_begin(s);
+  return {vertex_input, vertex_begin, inner};
+}
+
+template <class Index>
+Quads local_corners(const LocalTetrahedra<Index>& tetrahedra, const LocalVertices& vertices) {
+  return corners_in<Index>(HostExecutionSpace(), tetrahedra, vertices);
+}
+
+template <class Index>
+Mesh local_mesh(const LocalTetrahedra<Index>& tetrahedra, const LocalVertices& vertices,
+                const Segmentation& segmentation, const std::shared_ptr<const Exchange>& exchange) {
+  try {
+    return in_worker_or_host_space(true, [&](const auto& space) {
+      using Here = MemoryOf<std::decay_t<decltype(space)>>;
+      return Mesh(Tetrahedra<Id, Here>(corners_in<Index>(space, tetrahedra, vertices)), segmentation, exchange);
+    });
+  } catch (const OutOfMemory&) {
+    throw;
+  } catch (const Error&) {
+    tetrahedra.require_tetrahedra();
+    refuse_twins(local_corners(tetrahedra, vertices), tetrahedra.places());
+    throw;
+  }
+}
+
+#define GALE_INSTANTIATE(Index)                                                                      \
+  template Quads local_corners(const LocalTetrahedra<Index>&, const LocalVertices&);                 \
+  template Mesh local_mesh(const LocalTetrahedra<Index>&, const LocalVertices&, const Segmentation&, \
+                           const std::shared_ptr<const Exchange>&)
+GALE_INSTANTIATE(std::int32_t);
+GALE_INSTANTIATE(std::int64_t);
+#undef GALE_INSTANTIATE
+
+}  // namespace gale::detail

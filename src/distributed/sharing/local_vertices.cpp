@@ -1,0 +1,92 @@
+#include <algorithm>
+
+#include <gale/distributed/sharing/local_vertices.hpp>
+
+namespace gale::detail {
+
+namespace {
+
+using Rows = Kokkos::View<double* [3], Kokkos::LayoutRight, HostMemory>;
+
+template <class To, class From>
+void copy_row(const To& to, Offset i, const From& from, Offset k) {
+  for (int axis = 0; axis < 3; ++axis) to(i, axis) = from(k, axis);
+}
+
+/// Some of the points.
+template <class Place>
+Points<double, HostMemory> gathered(const Rows& points, Offset count, const Place& place) {
+  const auto some = allocate<Rows>("GALE::some_points", count);
+  parallel_for("GALE::some_points", HostExecutionSpace(), count,
+               [&](Offset i) { copy_row(some, i, points, place(i)); });
+  return some;
+}
+
+}  // namespace
+
+LocalVertices::LocalVertices(const OwnedIds& owned, const GlobalIds& ghosts)
+    : interval_(owned.interval), owned_count_(owned.count()), ghosts_(ghosts) {
+  if (interval_.is_empty()) {
+    merge(owned.ids);
+    return;
+  }
+  const GlobalId* const begin = ghosts.data();
+  lower_ghosts_ = std::lower_bound(begin, begin + ghosts.extent(0), interval_.begin) - begin;
+  index_ = GlobalIndex(ghosts);
+}
+
+/// Each goes behind those of its own kind, and behind those of the other kind that are less.
+void LocalVertices::merge(const GlobalIds& owned) {
+  all_ = allocate<GlobalIds>("GALE::local_vertices", count());
+  const auto place = [&](const GlobalIds& kind, const GlobalIds& other) {
+    const Offset kinds = kind.extent(0), others = other.extent(0);
+    const auto places = allocate<Array<Id, HostMemory>>("GALE::merged_vertices", kinds);
+    for_parts("GALE::merge_vertices", kinds, threads_for(kinds), [&](int, Offset first, Offset last) {
+      if (first == last) return;
+      Offset less = std::lower_bound(other.data(), other.data() + others, kind(first)) - other.data();
+      for (Offset i = first; i < last; ++i) {
+        while (less < others && other(less) < kind(i)) ++less;
+        places(i) = static_cast<Id>(i + less);
+        all_(i + less) = kind(i);
+      }
+    });
+    return places;
+  };
+  owned_ = place(owned, ghosts_);
+  ghost_ = place(ghosts_, owned);
+  index_ = GlobalIndex(all_);
+}
+
+Points<double, HostMemory> OwnAndGhosts::by_id(const LocalVertices& vertices) const {
+  if (vertices.ghost_count() == 0) return owned.in_double();
+  const auto all = allocate<Rows>("GALE::local_points", vertices.count());
+  const auto put = [&](const HostPoints& some, const auto& place) {
+    some.visit([&](const auto& rows) {
+      parallel_for("GALE::local_points", HostExecutionSpace(), some.count(),
+                   [&](Offset i) { copy_row(all, place(i), rows, i); });
+    });
+  };
+  put(owned, [&](Offset i) { return vertices.owned(i); });
+  put(ghosts, [&](Offset i) { return vertices.ghost(i); });
+  return all;
+}
+
+OwnAndGhosts own_and_ghosts(const LocalVertices& vertices, const HostPoints& given, const ExchangePlan::Run& run,
+                            const ExchangePlan& plan, const Dealt<SentPoint>& fetched) {
+  if (run.count > 0) {
+    const auto ghosts = allocate<Rows>("GALE::ghost_points", vertices.ghost_count());
+    parallel_for("GALE::ghost_points", HostExecutionSpace(), fetched.count(), [&](Offset k) {
+      const Offset ghost = vertices.ghost_number(plan.slots()(k));
+      for (int axis = 0; axis < 3; ++axis) ghosts(ghost, axis) = fetched.entries(k).coordinates[axis];
+    });
+    return {given.part(run.place, run.count), Points<double, HostMemory>(ghosts)};
+  }
+  const auto all = allocate<Rows>("GALE::local_points", vertices.count());
+  const Points<double, HostMemory> mine = given.in_double();
+  plan.fill(HostExecutionSpace(), reinterpret_cast<const SentPoint*>(mine.data()), fetched,
+            reinterpret_cast<SentPoint*>(all.data()));
+  return {gathered(all, vertices.owned_count(), [&](Offset i) { return vertices.owned(i); }),
+          gathered(all, vertices.ghost_count(), [&](Offset i) { return vertices.ghost(i); })};
+}
+
+}  // namespace gale::detail

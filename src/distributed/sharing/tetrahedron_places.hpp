@@ -1,0 +1,85 @@
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include <gale/mesh/exchange/global_index.hpp>
+
+namespace gale::detail {
+
+/// The tetrahedra that a rank keeps of its own part: their places in it, ascending, and their global ids.
+struct KeptTetrahedra {
+  Offset count = 0;
+  Array<Id, HostMemory> places;           ///< none where all are kept
+  Array<const GlobalId, HostMemory> ids;  ///< of the whole part; none where they are counted
+  GlobalId first_id = 0;                  ///< the part's first one, where they are counted
+
+  Offset place(Offset k) const { return places.extent(0) == 0 ? k : Offset(places(k)); }
+
+  /// How many of those from k on, before `end`, follow one another in the part.
+  Offset run(Offset k, Offset end) const {
+    if (places.extent(0) == 0) return end - k;
+    Offset next = k + 1;
+    while (next < end && places(next) == places(next - 1) + 1) ++next;
+    return next - k;
+  }
+
+  GlobalId id_at(Offset place) const { return ids.extent(0) == 0 ? first_id + place : ids(place); }
+  GlobalId id(Offset k) const { return id_at(place(k)); }
+};
+
+/// Where the tetrahedra that a rank holds come from, by ascending global ids: local input ids are places among them.
+/// Tetrahedra that it keeps have that order mostly, and received ones are few: then it takes room for these alone.
+class TetrahedronPlaces {
+ public:
+  TetrahedronPlaces() = default;
+
+  /// Throws gale::Error for an id that occurs twice.
+  TetrahedronPlaces(const KeptTetrahedra& kept, const GlobalIds& received);
+
+  Offset count() const { return kept_.count + static_cast<Offset>(received_.extent(0)); }
+
+  /// The global id of the i-th, and those of all.
+  GlobalId id(Offset i) const;
+  GlobalIds ids() const;
+
+  /// Where those among first..last-1 come from, in order: calls kept(i, place, count) for some, i to i + count - 1,
+  /// that follow one another in the part, and received(i, r) for others.
+  template <class Kept, class Received>
+  void visit(Offset first, Offset last, const Kept& kept, const Received& received) const {
+    if (sources_.extent(0) != 0) {
+      for (Offset i = first; i < last; ++i)
+        sources_(i) < kept_.count ? kept(i, kept_.place(sources_(i)), Offset(1))
+                                  : received(i, sources_(i) - kept_.count);
+      return;
+    }
+    auto next = std::lower_bound(received_at_.begin(), received_at_.end(), first);
+    for (Offset i = first; i < last;) {
+      const Offset before = next - received_at_.begin();
+      const Offset end = next == received_at_.end() ? last : std::min(*next, last);
+      if (i < end) {
+        const Offset run = kept_.run(i - before, end - before);
+        kept(i, kept_.place(i - before), run);
+        i += run;
+      } else {
+        received(i++, Offset(received_by_id_[before]));
+        ++next;
+      }
+    }
+  }
+
+ private:
+  void merge();
+  void sort();
+
+  KeptTetrahedra kept_;
+  GlobalIds received_;  ///< as they came
+  std::vector<Id> received_by_id_;
+  std::vector<Offset> received_at_;  ///< their places among all, ascending
+
+  // Where ids of those that are kept don't ascend.
+  Array<Id, HostMemory> sources_;  ///< the i-th of all among the kept ones, then the received ones
+  GlobalIds sorted_;
+};
+
+}  // namespace gale::detail

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <optional>
+
+#include <gale/distributed/sharing/id_interval.hpp>
+#include <gale/mesh/exchange/home_table.hpp>
+
+namespace gale::detail {
+
+/// Where a vertex comes from, and where it goes to.
+struct VertexEntry {
+  int giver = -1;    ///< the lowest rank that hands it over; -1 if none does
+  Id place = no_id;  ///< there, among the vertices that it hands over
+  int owner = -1;    ///< the rank that owns it, as the giver says
+};
+
+/// Who knows which vertex: spread over the ranks, or known to all. Made and asked by all ranks together.
+class VertexDirectory {
+ public:
+  /// Takes the vertices that each rank hands over: their ids (a vertex may come from several ranks, and from one
+  /// several times), and who is to own each.
+  VertexDirectory(const Communicator& ranks, const Array<const GlobalId, HostMemory>& ids,
+                  const Array<const int, HostMemory>& owners);
+
+  /// Where each rank hands over an interval, and each vertex belongs to the lowest rank that hands it over.
+  VertexDirectory(const Communicator& ranks, const GivenIntervals& given);
+
+  /// How many different vertices there are on all ranks.
+  Offset vertices() const { return vertices_; }
+
+  /// The entries of any vertices.
+  Array<VertexEntry, HostMemory> find(const Array<const GlobalId, HostMemory>& ids) const;
+
+  /// The vertices that this rank owns.
+  OwnedIds owned() const;
+
+  /// What the ranks hand over, where these are intervals: then each vertex comes from the rank that owns it.
+  const std::optional<GivenIntervals>& given() const { return given_; }
+
+ private:
+  Communicator ranks_;
+  std::optional<GivenIntervals> given_;
+  HomeTable<VertexEntry> table_;  ///< empty where intervals are given
+  Offset vertices_;
+};
+
+}  // namespace gale::detail

@@ -1,0 +1,162 @@
+#pragma once
+
+#include <gale/base/memory.hpp>
+#include <gale/base/transfer.hpp>
+#include <gale/base/types.hpp>
+#include <gale/mesh/exchange/messages.hpp>
+
+namespace gale::detail {
+
+/// Writes each value to its slot.
+template <class T, class Memory>
+struct WriteToSlots {
+  T* to;
+  Array<Id, Memory> slots;
+  Array<T, Memory> values;
+
+  KOKKOS_FUNCTION void operator()(Offset i) const { to[slots(i)] = values(i); }
+};
+
+/// Which values this rank takes from which others, and gives to them: made once, then each exchange is one message from
+/// rank to rank.
+class ExchangePlan {
+ public:
+  /// Values of this rank's own that follow one another: that of slot + i is at place + i.
+  struct Run {
+    Offset slot = 0, place = 0, count = 0;
+  };
+
+  ExchangePlan() = default;
+
+  /// Where one rank has all: each slot's value is in its place already.
+  static ExchangePlan of_one_rank(Offset count) {
+    ExchangePlan plan;
+    plan.run_ = {0, 0, count};
+    return plan;
+  }
+
+  /// For the i-th of `slots` of this rank the value of what the rank source(i) knows by key(i). place(key) is where
+  /// that rank will have the value among those that it gives from. Beside them those of `run`, of none of which it has
+  /// a slot. Collective.
+  template <class Source, class Key, class Place>
+  ExchangePlan(const Ranks& ranks, const Run& run, const Array<const Id, HostMemory>& slots, const Source& source,
+               const Key& key, const Place& place);
+
+  /// Whether the values of all slots are in their places already.
+  bool keeps_all() const { return taken_counts_.empty() && run_.slot == 0 && run_.place == 0; }
+
+  /// The values that other ranks give: each of these has value_of(place) for what it gives. Collective.
+  template <class T, class ValueOf>
+  Dealt<T> fetch(const Ranks& ranks, const ValueOf& value_of) const {
+    Array<T, HostMemory> values;
+    if (taken_counts_.empty()) return {{}, {0}};
+    together(ranks, [&] {
+      values = allocate<Array<T, HostMemory>>("GALE::given_values", given_.count());
+      parallel_for("GALE::given_values", HostExecutionSpace(), given_.count(),
+                   [&](Offset i) { values(i) = value_of(given_.entries(i)); });
+    });
+    return fetch(ranks, values);
+  }
+
+  /// Fetches what the others have, from the values of given_places().
+  template <class T>
+  Dealt<T> fetch(const Ranks& ranks, const Array<T, HostMemory>& values) const {
+    Dealt<T> taken;
+    if (taken_counts_.empty()) return {{}, {0}};
+    together(ranks, [&] { taken = dealt<T>("GALE::taken_values", taken_counts_); });
+    exchange(ranks, Dealt<T>{values, given_.begin}, taken);
+    return taken;
+  }
+
+  /// The places whose values this rank gives to others, in the order in which it does.
+  const Array<Id, HostMemory>& given_places() const { return given_.entries; }
+
+  /// Fills to[slot], in the memory of `space`, for each of the slots: with what was fetched, and this rank's own values
+  /// from[place], on the host.
+  template <class Space, class T>
+  void fill(const Space& space, const T* from, const Dealt<T>& fetched, T* to) const {
+    copy_run(space, from + run_.place, to + run_.slot);
+    if constexpr (is_device<Space>) {
+      const auto kept = allocate<Array<T, HostMemory>>("GALE::kept_values", kept_places_.extent(0));
+      parallel_for("GALE::kept_values", HostExecutionSpace(), kept.extent(0),
+                   [&](Offset i) { kept(i) = from[kept_places_(i)]; });
+      scatter(space, kept_slots_, kept, to);
+    } else {
+      parallel_for("GALE::kept_values", space, kept_slots_.extent(0),
+                   [&](Offset i) { to[kept_slots_(i)] = from[kept_places_(i)]; });
+    }
+    scatter(space, slots_, fetched.entries, to);
+  }
+
+  /// The slots of what is fetched, in that order.
+  const Array<Id, HostMemory>& slots() const { return slots_; }
+
+  /// Fills to[slot] for each of the slots with from[place], all on the host. Collective.
+  template <class T>
+  void operator()(const Ranks& ranks, const T* from, T* to) const {
+    const Dealt<T> fetched = fetch<T>(ranks, [&](Id place) { return from[place]; });
+    fill(HostExecutionSpace(), from, fetched, to);
+  }
+
+ private:
+  template <class Space, class T>
+  void copy_run(const Space&, const T* from, T* to) const {
+    if constexpr (is_device<Space>) {
+      copy_to_device(to, from, static_cast<std::size_t>(run_.count) * sizeof(T));
+    } else {
+      parallel_for("GALE::kept_run", HostExecutionSpace(), run_.count, [&](Offset i) { to[i] = from[i]; });
+    }
+  }
+
+  template <class Space, class T>
+  static void scatter(const Space& space, const Array<Id, HostMemory>& slots, const Array<T, HostMemory>& values,
+                      T* to) {
+    using Memory = MemoryOf<Space>;
+    if (slots.extent(0) == 0) return;
+    const Array<Id, Memory> slots_here = in_memory<Memory>(slots);
+    const Array<T, Memory> values_here = in_memory<Memory>(values);
+    parallel_for("GALE::write_to_slots", space, slots.extent(0), WriteToSlots<T, Memory>{to, slots_here, values_here});
+    space.fence();
+  }
+
+  Run run_;
+  Array<Id, HostMemory> kept_slots_, kept_places_;  ///< of other values that this rank has itself
+  Dealt<Id> given_;                                 ///< places, by the rank that takes them
+  std::vector<std::int64_t> taken_counts_;          ///< by rank; empty where nothing is exchanged
+  Array<Id, HostMemory> slots_;                     ///< in the order in which values come
+};
+
+template <class Source, class Key, class Place>
+ExchangePlan::ExchangePlan(const Ranks& ranks, const Run& run, const Array<const Id, HostMemory>& slots,
+                           const Source& source, const Key& key, const Place& place)
+    : run_(run) {
+  Array<Id, HostMemory> others;
+  together(ranks, [&] {
+    const int here = ranks.rank();
+    const ByRank groups = by_rank(2, slots.extent(0), [&](Id i, const auto& visit) { visit(source(i) != here); });
+    kept_slots_ = allocate<Array<Id, HostMemory>>("GALE::kept_slots", groups.begin[1]);
+    kept_places_ = allocate<Array<Id, HostMemory>>("GALE::kept_places", groups.begin[1]);
+    parallel_for("GALE::kept_slots", HostExecutionSpace(), groups.begin[1], [&](Offset k) {
+      const Id i = groups.members(k);
+      kept_slots_(k) = slots(i);
+      kept_places_(k) = place(GlobalId(key(i)));
+    });
+    others = allocate<Array<Id, HostMemory>>("GALE::wanted_slots", groups.begin[2] - groups.begin[1]);
+    parallel_for("GALE::wanted_slots", HostExecutionSpace(), others.extent(0),
+                 [&](Offset i) { others(i) = groups.members(groups.begin[1] + i); });
+  });
+  const auto asked = deal<GlobalId>(
+      ranks, "GALE::wanted_values", others.extent(0), [&](Id i) { return source(others(i)); },
+      [&](Id i) { return GlobalId(key(others(i))); }, &slots_);
+  parallel_for("GALE::wanted_slots", HostExecutionSpace(), slots_.extent(0),
+               [&](Offset i) { slots_(i) = slots(others(slots_(i))); });
+  taken_counts_ = counts_of(asked);
+  const auto keys = exchange(ranks, "GALE::wanted_keys", asked);
+  together(ranks, [&] {
+    given_ = dealt<Id>("GALE::given_places", counts_of(keys));
+    parallel_for("GALE::given_places", HostExecutionSpace(), keys.count(),
+                 [&](Offset i) { given_.entries(i) = place(keys.entries(i)); });
+  });
+}
+
+}  // namespace gale::detail

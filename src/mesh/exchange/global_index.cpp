@@ -1,0 +1,86 @@
+#include <algorithm>
+#include <cstdint>
+
+#include <gale/base/parallel.hpp>
+#include <gale/base/radix_sort.hpp>
+#include <gale/mesh/exchange/global_index.hpp>
+
+namespace gale::detail {
+
+namespace {
+
+/// How many ids there are from `least` to `greatest`, which is 2^63 at most.
+std::uint64_t span_of(GlobalId least, GlobalId greatest) {
+  return static_cast<std::uint64_t>(greatest) - static_cast<std::uint64_t>(least) + 1;
+}
+
+/// The entries that differ from those before them.
+DistinctIds without_repetitions(const GlobalIds& sorted, const Array<Id, HostMemory>& places) {
+  const Offset count = sorted.extent(0);
+  const auto is_new = [&](Offset i) { return i == 0 || sorted(i) != sorted(i - 1); };
+  const auto place = allocate<Array<Offset, HostMemory>>("GALE::distinct_place", count + 1);
+  const Offset distinct = exclusive_scan("GALE::count_distinct", HostExecutionSpace(), count, place, is_new);
+  if (distinct == count) return {sorted, places};
+  const DistinctIds found{allocate<GlobalIds>("GALE::distinct_ids", distinct),
+                          allocate<Array<Id, HostMemory>>("GALE::distinct_places", distinct)};
+  parallel_for("GALE::distinct_ids", HostExecutionSpace(), count, [&](Offset i) {
+    if (!is_new(i)) return;
+    found.ids(place(i)) = sorted(i);
+    found.places(place(i)) = places(i);
+  });
+  return found;
+}
+
+}  // namespace
+
+DistinctIds distinct_ids(const Array<const GlobalId, HostMemory>& ids) {
+  const Offset count = ids.extent(0);
+  const auto places = iota("GALE::id_places", HostExecutionSpace(), count);
+  const auto sorted = allocate<GlobalIds>("GALE::sorted_ids", count);
+  parallel_for("GALE::sorted_ids", HostExecutionSpace(), count, [&](Offset i) { sorted(i) = ids(i); });
+  const Offset descent = reduce_min("GALE::find_descent", HostExecutionSpace(), count - 1, count,
+                                    [&](Offset i) { return sorted(i) > sorted(i + 1) ? i : count; });
+  const Array<std::uint64_t, HostMemory> keys(reinterpret_cast<std::uint64_t*>(sorted.data()), count);
+  if (descent < count) stable_sort_by_key(HostExecutionSpace(), keys, places);
+  return without_repetitions(sorted, places);
+}
+
+void keep_distinct(std::vector<GlobalId>& ids) {
+  if (ids.empty()) return;
+  const auto [least, greatest] = std::minmax_element(ids.begin(), ids.end());
+  const GlobalId first = *least;
+  const std::uint64_t span = span_of(first, *greatest);
+  constexpr std::uint64_t flags_an_id = 16;
+  if (span > flags_an_id * ids.size()) {
+    std::sort(ids.begin(), ids.end());
+    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+    return;
+  }
+  std::vector<std::uint8_t> is_there(span, 0);
+  for (const GlobalId id : ids) is_there[id - first] = 1;
+  ids.clear();
+  for (std::uint64_t i = 0; i < span; ++i) {
+    if (is_there[i] != 0) ids.push_back(first + static_cast<GlobalId>(i));
+  }
+}
+
+GlobalIndex::GlobalIndex(const Array<const GlobalId, HostMemory>& ascending) : ids_(ascending) {
+  constexpr std::uint64_t entries_an_id = 4;
+  const Offset count = ids_.extent(0);
+  if (count == 0) return;
+  const std::uint64_t span = span_of(ids_(0), ids_(count - 1));
+  if (span > entries_an_id * static_cast<std::uint64_t>(count)) return;
+  table_ = allocate<Array<Id, HostMemory>>("GALE::global_index", span);
+  fill("GALE::no_index", HostExecutionSpace(), table_, no_id);
+  parallel_for("GALE::global_index", HostExecutionSpace(), count,
+               [&](Offset i) { table_(ids_(i) - ids_(0)) = static_cast<Id>(i); });
+}
+
+Id GlobalIndex::bisect(GlobalId id) const {
+  const GlobalId* const begin = ids_.data();
+  const GlobalId* const end = begin + ids_.extent(0);
+  const GlobalId* const at = std::lower_bound(begin, end, id);
+  return at == end || *at != id ? no_id : static_cast<Id>(at - begin);
+}
+
+}  // namespace gale::detail

@@ -1,0 +1,100 @@
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include <gale/mesh/exchange/global_index.hpp>
+#include <gale/mesh/exchange/messages.hpp>
+
+namespace gale::detail {
+
+/// Intervals of global ids of equal lengths, one a rank: the rank is their home.
+class Homes {
+ public:
+  Homes() = default;
+
+  /// For these ids of all ranks. Collective.
+  Homes(const Ranks& ranks, const Array<const GlobalId, HostMemory>& ids) : ranks_(ranks.size()) {
+    const GlobalId greatest = -ranks.least(reduce_min("GALE::greatest_id", HostExecutionSpace(), ids.extent(0),
+                                                      GlobalId(0), [&](Offset i) { return -ids(i); }));
+    ids_a_home_ = greatest / ranks.size() + 1;
+  }
+
+  /// The home of any id; ids beyond all have the last rank.
+  int of(GlobalId id) const { return static_cast<int>(std::min<GlobalId>(id / ids_a_home_, ranks_ - 1)); }
+
+ private:
+  int ranks_ = 1;
+  GlobalId ids_a_home_ = 1;
+};
+
+/// Entries by global id, spread over the ranks: each keeps those of its interval of ids. Made and asked by all ranks
+/// together.
+template <class Entry>
+class HomeTable {
+ public:
+  HomeTable() = default;
+
+  /// Takes ids that ranks have, with handed_of(i) for the i-th of this rank; entry_from(rank, handed) is what its home
+  /// keeps of one. Where several ranks have an id, or one several times, the lowest rank's first counts.
+  template <class HandedOf, class EntryFrom>
+  HomeTable(const Ranks& ranks, const Array<const GlobalId, HostMemory>& ids, const HandedOf& handed_of,
+            const EntryFrom& entry_from)
+      : homes_(ranks, ids) {
+    struct Handed {
+      GlobalId id;
+      decltype(handed_of(Id())) what;
+    };
+    const auto sent = deal<Handed>(
+        ranks, "GALE::handed_entries", ids.extent(0), [&](Id i) { return homes_.of(ids(i)); },
+        [&](Id i) {
+          return Handed{ids(i), handed_of(i)};
+        });
+    const auto received = exchange(ranks, "GALE::known_entries", sent);
+    together(ranks, [&] {
+      const auto all = allocate<GlobalIds>("GALE::known_ids", received.count());
+      parallel_for("GALE::known_ids", HostExecutionSpace(), all.extent(0),
+                   [&](Offset i) { all(i) = received.entries(i).id; });
+      const DistinctIds distinct = distinct_ids(all);
+      index_ = GlobalIndex(distinct.ids);
+      entries_ = allocate<Array<Entry, HostMemory>>("GALE::home_entries", index_.count());
+      parallel_for("GALE::home_entries", HostExecutionSpace(), index_.count(), [&](Offset i) {
+        const Id at = distinct.places(i);
+        const auto next = std::upper_bound(received.begin.begin(), received.begin.end(), Offset(at));
+        entries_(i) = entry_from(static_cast<int>(next - received.begin.begin()) - 1, received.entries(at).what);
+      });
+    });
+  }
+
+  /// The entries of any ids, `otherwise` for those that it lacks.
+  Array<Entry, HostMemory> find(const Ranks& ranks, const Array<const GlobalId, HostMemory>& ids,
+                                const Entry& otherwise = Entry()) const {
+    Array<Id, HostMemory> by_home;
+    const auto asked = deal<GlobalId>(
+        ranks, "GALE::asked_ids", ids.extent(0), [&](Id i) { return homes_.of(ids(i)); }, [&](Id i) { return ids(i); },
+        &by_home);
+    const auto answers = answer<Entry>(ranks, "GALE::asked_entries", asked, [&](GlobalId id) {
+      const Id place = index_.find(id);
+      return place == no_id ? otherwise : entries_(place);
+    });
+    Array<Entry, HostMemory> found;
+    together(ranks, [&] {
+      found = allocate<Array<Entry, HostMemory>>("GALE::found_entries", ids.extent(0));
+      parallel_for("GALE::found_entries", HostExecutionSpace(), ids.extent(0),
+                   [&](Offset k) { found(by_home(k)) = answers.entries(k); });
+    });
+    return found;
+  }
+
+  /// What this rank keeps, by ascending id.
+  Offset count() const { return index_.count(); }
+  GlobalId id(Offset i) const { return index_[i]; }
+  const Entry& entry(Offset i) const { return entries_(i); }
+
+ private:
+  Homes homes_;
+  GlobalIndex index_;
+  Array<Entry, HostMemory> entries_;
+};
+
+}  // namespace gale::detail

@@ -1,0 +1,132 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include <gale/base/memory.hpp>
+#include <gale/base/parallel.hpp>
+#include <gale/base/types.hpp>
+#include <gale/mesh/ranks.hpp>
+
+// Messages of which each rank decides by itself what it sends to whom.
+
+namespace gale::detail {
+
+/// Entries by rank, to be sent to it or received from it: those of rank r are entries(begin[r]) to
+/// entries(begin[r + 1] - 1).
+template <class T>
+struct Dealt {
+  Array<T, HostMemory> entries;
+  std::vector<Offset> begin;
+
+  Offset count() const { return begin.back(); }
+  Offset count(int rank) const { return begin[rank + 1] - begin[rank]; }
+};
+
+/// Room for so many entries by rank.
+template <class T>
+Dealt<T> dealt(const char* label, const std::vector<std::int64_t>& counts) {
+  Dealt<T> all;
+  all.begin.assign(counts.size() + 1, 0);
+  std::partial_sum(counts.begin(), counts.end(), all.begin.begin() + 1);
+  all.entries = allocate<Array<T, HostMemory>>(label, all.count());
+  return all;
+}
+
+template <class T>
+std::vector<std::int64_t> counts_of(const Dealt<T>& some) {
+  std::vector<std::int64_t> counts(some.begin.size() - 1);
+  std::adjacent_difference(some.begin.begin() + 1, some.begin.end(), counts.begin());
+  return counts;
+}
+
+/// Sends each rank its entries into the room that it has for them; both know how many there are. Collective.
+template <class T>
+void exchange(const Ranks& ranks, const Dealt<T>& sent, const Dealt<T>& received) {
+  const auto in_bytes = [](std::vector<Offset> begin) {
+    for (Offset& at : begin) at *= static_cast<Offset>(sizeof(T));
+    return begin;
+  };
+  ranks.exchange_bytes(reinterpret_cast<const char*>(sent.entries.data()), in_bytes(sent.begin),
+                       reinterpret_cast<char*>(received.entries.data()), in_bytes(received.begin));
+}
+
+/// Sends each rank its entries, and returns what all have sent here. Collective.
+template <class T>
+Dealt<T> exchange(const Ranks& ranks, const char* label, const Dealt<T>& sent) {
+  const auto counts = ranks.exchange_counts(counts_of(sent));
+  Dealt<T> received;
+  together(ranks, [&] { received = dealt<T>(label, counts); });
+  exchange(ranks, sent, received);
+  return received;
+}
+
+/// Items by rank: those of rank r are members(begin[r]) to members(begin[r + 1] - 1), ascending.
+struct ByRank {
+  std::vector<Offset> begin;
+  Array<Id, HostMemory> members;
+};
+
+/// Groups the items 0..items-1: visit_ranks(item, visit) calls visit(rank) for each rank of an item, the same ones each
+/// time. Unlike group_by it is for few groups of many items: no two threads count in one place.
+template <class VisitRanks>
+ByRank by_rank(int ranks, Offset items, const VisitRanks& visit_ranks) {
+  const int parts = threads_for(items);
+  std::vector<std::vector<Offset>> places(parts);
+  for_parts("GALE::count_by_rank", items, parts, [&](int part, Offset first, Offset last) {
+    std::vector<Offset> counts(ranks, 0);
+    for (Offset i = first; i < last; ++i) visit_ranks(static_cast<Id>(i), [&](int rank) { ++counts[rank]; });
+    places[part] = std::move(counts);
+  });
+  ByRank groups{{0}, {}};
+  Offset total = 0;
+  for (int rank = 0; rank < ranks; ++rank) {
+    for (auto& of_part : places) total += std::exchange(of_part[rank], total);
+    groups.begin.push_back(total);
+  }
+  groups.members = allocate<Array<Id, HostMemory>>("GALE::items_by_rank", total);
+  for_parts("GALE::fill_by_rank", items, parts, [&](int part, Offset first, Offset last) {
+    std::vector<Offset>& next = places[part];
+    for (Offset i = first; i < last; ++i)
+      visit_ranks(static_cast<Id>(i), [&](int rank) { groups.members(next[rank]++) = static_cast<Id>(i); });
+  });
+  return groups;
+}
+
+/// For each rank the entries entry_of(i) of those items i in 0..items-1 whose rank_of(i) it is, ascending. `members`
+/// becomes the items in the order of the entries. Collective.
+template <class T, class RankOf, class EntryOf>
+Dealt<T> deal(const Ranks& ranks, const char* label, Offset items, const RankOf& rank_of, const EntryOf& entry_of,
+              Array<Id, HostMemory>* members = nullptr) {
+  Dealt<T> sent;
+  together(ranks, [&] {
+    const ByRank groups =
+        by_rank(ranks.size(), items, [&](Id i, const auto& visit) { visit(static_cast<int>(rank_of(i))); });
+    sent = {allocate<Array<T, HostMemory>>(label, items), groups.begin};
+    parallel_for("GALE::deal", HostExecutionSpace(), items,
+                 [&](Offset k) { sent.entries(k) = entry_of(groups.members(k)); });
+    if (members != nullptr) *members = groups.members;
+  });
+  return sent;
+}
+
+/// What the ranks answer to what was `asked` of them, in the same places: answer_of(question), found by the rank that
+/// it was sent to. Collective; no answer_of sends anything.
+template <class Answer, class Question, class AnswerOf>
+Dealt<Answer> answer(const Ranks& ranks, const char* label, const Dealt<Question>& asked, const AnswerOf& answer_of) {
+  const Dealt<Question> questions = exchange(ranks, "GALE::questions", asked);
+  Dealt<Answer> given, received;
+  together(ranks, [&] {
+    given = dealt<Answer>("GALE::answers", counts_of(questions));
+    parallel_for("GALE::answers", HostExecutionSpace(), questions.count(),
+                 [&](Offset i) { given.entries(i) = answer_of(questions.entries(i)); });
+    received = dealt<Answer>(label, counts_of(asked));
+  });
+  exchange(ranks, given, received);
+  return received;
+}
+
+}  // namespace gale::detail

@@ -1,0 +1,105 @@
+#pragma once
+
+#include <cstdint>
+#include <exception>
+#include <string>
+#include <vector>
+
+#include <gale/base/error.hpp>
+#include <gale/export.hpp>
+
+namespace gale {
+
+/// An error that all ranks throw alike, so that each may end in its own time. Others leave the other ranks waiting:
+/// then the application has to end them (MPI_Abort).
+class GALE_EXPORT SharedError : public Error {
+ public:
+  using Error::Error;
+};
+
+/// What one rank has sent to others, and how long it has waited.
+struct SentMessages {
+  std::int64_t messages = 0;   ///< to other ranks
+  std::int64_t bytes = 0;      ///< all of these together
+  double seconds_waiting = 0;  ///< for messages, of itself and of others, from when it had nothing else to do
+};
+
+/// The ranks that a mesh lies on, which send one another messages: a Communicator of MPI's, or a process alone.
+///
+/// All functions but rank(), size(), is_alone() and sent() are collective: every rank calls them, in the same order.
+class GALE_EXPORT Ranks {
+ public:
+  virtual ~Ranks() = default;
+
+  /// A process by itself, which sends nothing to anybody.
+  static const Ranks& alone();
+
+  /// Whether this is a process by itself: its errors are nobody else's.
+  bool is_alone() const { return this == &alone(); }
+
+  /// This rank's number, from 0.
+  virtual int rank() const = 0;
+
+  /// How many ranks there are.
+  virtual int size() const = 0;
+
+  /// The sum of all ranks' values, on each rank: of each of several, in place.
+  virtual void sum(std::int64_t* values, int count) const = 0;
+
+  /// The sum of all ranks' values, on each rank.
+  std::int64_t sum(std::int64_t value) const {
+    sum(&value, 1);
+    return value;
+  }
+
+  /// The least of all ranks' values, on each rank.
+  virtual std::int64_t least(std::int64_t value) const = 0;
+  virtual double least(double value) const = 0;  ///< the least of real numbers
+
+  /// All ranks' values, by rank, on each rank.
+  virtual std::vector<std::int64_t> all(std::int64_t value) const = 0;
+
+  /// The sum of the values of all ranks before this one.
+  virtual std::int64_t sum_before(std::int64_t value) const = 0;
+
+  /// A string of one rank, on each rank.
+  virtual std::string broadcast(const std::string& text, int from) const = 0;
+
+  /// Sends counts[r] to each rank r, and returns what each has sent here.
+  virtual std::vector<std::int64_t> exchange_counts(const std::vector<std::int64_t>& counts) const = 0;
+
+  /// Sends the bytes [send_begin[r], send_begin[r + 1]) of `from` to each rank r, and receives [receive_begin[r],
+  /// receive_begin[r + 1]) of `to` from it: as many as that one sends. All at once; returns when all is done.
+  virtual void exchange_bytes(const char* from, const std::vector<std::int64_t>& send_begin, char* to,
+                              const std::vector<std::int64_t>& receive_begin) const = 0;
+
+  /// What this rank has sent through exchange_bytes so far, and how long it has waited in all these functions.
+  virtual const SentMessages& sent() const = 0;
+};
+
+namespace detail {
+
+/// Throws SharedError if one rank has `failed`: what the lowest such rank says, with its name.
+GALE_EXPORT void fail_together(const Ranks& ranks, bool failed, const std::string& failure);
+
+/// Runs an action on each rank that sends nothing to others. If it throws on some, all ranks throw the same SharedError
+/// when all have ended: nobody waits for a rank that has given up. A process alone just runs it.
+template <class Action>
+void together(const Ranks& ranks, const Action& action) {
+  if (ranks.is_alone()) return action();
+  std::string failure;
+  bool failed = true;
+  try {
+    action();
+    failed = false;
+  } catch (const std::exception& error) {
+    failure = error.what();
+  } catch (...) {
+    failure = "unknown exception";
+  }
+  fail_together(ranks, failed, failure);
+}
+
+}  // namespace detail
+
+}  // namespace gale
