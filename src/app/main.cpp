@@ -156,7 +156,7 @@ void run(int argc, char** argv) {
   CLI::App app("Topological analysis of large tetrahedral meshes", "gale");
   app.set_version_flag("--version", std::string("gale ") + gale::version);
   const auto describe = [] {
-    if (gale::app::Ranks::is_first()) std::printf("%s\n", gale::app::analyses_as_json().c_str());
+    if (gale::app::Launch::is_first()) std::printf("%s\n", gale::app::analyses_as_json().c_str());
     throw CLI::Success();
   };
   app.add_flag_callback("--analyses", describe, "Print what the analyses are, their options and results, as JSON")
