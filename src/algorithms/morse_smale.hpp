@@ -34,7 +34,7 @@ struct AscendingWalls {
 struct SimplicesBeyond {
   std::vector<GlobalId> vertices;          ///< global ids
   std::vector<GlobalId> tetrahedra;        ///< global ids
-  std::vector<std::array<Id, 4>> corners;  ///< of each of these tetrahedra its vertices, here or in the part
+  std::vector<std::array<Id, 4>> corners;  ///< the vertices of each of these tetrahedra, here or in the part
 };
 
 /// Pairs of saddles that `simplify` could not cancel, although their persistence is below the threshold.

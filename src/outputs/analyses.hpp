@@ -44,21 +44,21 @@ struct AnalysisResult {
   Shape shape;                              ///< what it is
   std::string help;                         ///< what it has, without a full stop
   std::vector<AnalysisArray> point_arrays;  ///< in their order
-  std::vector<AnalysisArray> cell_arrays;   ///< of lines and polygons, in their order
+  std::vector<AnalysisArray> cell_arrays;   ///< arrays of the cells of lines and polygons, in their order
   std::string only_with;                    ///< the flag without which it isn't there; empty where it always is
 };
 
 /// What users say of an analysis' options.
 struct Settings {
   std::map<std::string, bool> flags;              ///< by the option's name; defaults of those that aren't here
-  std::map<std::string, Persistence> thresholds;  ///< those that are given
+  std::map<std::string, Persistence> thresholds;  ///< by the option's name: the given ones
 };
 
 /// What an analysis is run on.
 struct AnalysisInput {
   const io::Dataset& dataset;   ///< points, and the arrays that travel along; cells aren't read
   const io::PointArray& field;  ///< whose values `order` has
-  const VertexOrder& order;     ///< of the vertices of the mesh that is analysed
+  const VertexOrder& order;     ///< orders the vertices of the mesh that is analysed
 
   /// How to compute what comes next, which takes the progress of all from `begin` to `end`, in 0 to 1.
   std::function<ComputeOptions(const char* what, double begin, double end)> next;
