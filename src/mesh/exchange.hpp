@@ -35,12 +35,16 @@ class GALE_EXPORT Exchange {
   /// How many tetrahedra there are on all ranks; -1 of a whole mesh.
   virtual GlobalId tetrahedra() const { return -1; }
 
-  /// The global id of a vertex, and of a tetrahedron.
+  /// The global id of a vertex.
   virtual GlobalId vertex_id(Id vertex) const { return vertex; }
+
+  /// The global id of a tetrahedron.
   virtual GlobalId tetrahedron_id(Id tetrahedron) const { return tetrahedron; }
 
-  /// The vertex, or the tetrahedron, that has a global id; no_id if this rank doesn't hold it.
+  /// The vertex that has a global id; no_id if this rank doesn't hold it.
   virtual Id vertex_of(GlobalId id) const { return static_cast<Id>(id); }
+
+  /// The tetrahedron that has a global id; no_id if this rank doesn't hold it.
   virtual Id tetrahedron_of(GlobalId id) const { return static_cast<Id>(id); }
 
   /// The rank that owns a vertex of this part.

@@ -38,7 +38,8 @@ struct AnalysisArray {
 
 /// Something that an analysis finds.
 struct AnalysisResult {
-  enum class Shape { points, lines, polygons, diagram, mesh, count };  ///< `mesh`: arrays of the mesh's own points
+  /// What a result is made of; `mesh`: arrays of the mesh's own points.
+  enum class Shape { points, lines, polygons, diagram, mesh, count };
 
   std::string name;                         ///< "separatrices1"
   Shape shape;                              ///< what it is
