@@ -34,8 +34,8 @@ void touch(void* memory, std::size_t size) {
   }
 }
 
-/// The driver's own way takes ten times as long.
-std::shared_ptr<void> allocate_locked_pages(std::size_t bytes) {
+/// The driver's own way takes ten times as long. Without a device nobody needs it.
+[[maybe_unused]] std::shared_ptr<void> allocate_locked_pages(std::size_t bytes) {
   const std::size_t size = (bytes + page_bytes) / page_bytes * page_bytes;
   void* const memory = mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   const auto refuse = [size] {

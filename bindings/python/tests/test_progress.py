@@ -22,8 +22,8 @@ class Bars(unittest.TestCase):
             self.mesh.critical_points(self.field, progress=True)
             self.mesh.morse_smale(self.field, progress=True)
         last = [line.split("\r")[-1] for line in shown.getvalue().strip().split("\n")]
-        self.assertRegex(last[0], f"^critical points: 100%.* {self.mesh.segments}/{self.mesh.segments} ")
-        self.assertRegex(last[1], f"^complex: 100%.* {self.mesh.segments}/{self.mesh.segments} ")
+        self.assertRegex(last[0], f"^critical-points: 100%.* {self.mesh.segments}/{self.mesh.segments} ")
+        self.assertRegex(last[1], f"^morse-smale: 100%.* {self.mesh.segments}/{self.mesh.segments} ")
 
     def test_true_shows_nothing_where_tqdm_is_not(self):
         with mock.patch.dict(sys.modules, {"tqdm": None, "tqdm.auto": None}), \
