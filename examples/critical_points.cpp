@@ -1,6 +1,6 @@
 // Finds the critical points of a field on a tetrahedral mesh that the program holds in its own Kokkos Views.
 
-#include <cstdio>
+#include <iostream>
 #include <variant>
 #include <vector>
 
@@ -24,7 +24,7 @@ int main(int argc, char** argv) {
   const auto critical = gale::find_critical_points(gale::VertexOrder(mesh, field.data(), field.size()));
 
   const auto [minima, saddles1, saddles2, maxima, degenerate] = critical.counts;
-  std::printf("%d minima, %d 1-saddles, %d 2-saddles, %d maxima, %d degenerate\n", minima, saddles1, saddles2, maxima,
-              degenerate);
+  std::cout << minima << " minima, " << saddles1 << " 1-saddles, " << saddles2 << " 2-saddles, " << maxima << " maxima, "
+            << degenerate << " degenerate\n";
   return minima == 26 && saddles1 == 76 && saddles2 == 88 && maxima == 39 && degenerate == 6 ? 0 : 1;
 }
