@@ -24,7 +24,7 @@ int main(int argc, char** argv) {
   const auto critical = gale::find_critical_points(gale::VertexOrder(mesh, field.data(), field.size()));
 
   const auto [minima, saddles1, saddles2, maxima, degenerate] = critical.counts;
-  std::cout << minima << " minima, " << saddles1 << " 1-saddles, " << saddles2 << " 2-saddles, " << maxima << " maxima, "
-            << degenerate << " degenerate\n";
+  std::cout << minima << " minima, " << saddles1 << " 1-saddles, " << saddles2 << " 2-saddles, " << maxima
+            << " maxima, " << degenerate << " degenerate\n";
   return minima == 26 && saddles1 == 76 && saddles2 == 88 && maxima == 39 && degenerate == 6 ? 0 : 1;
 }
