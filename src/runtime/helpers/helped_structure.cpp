@@ -12,6 +12,8 @@ namespace {
 /// Segments for each helper, at least: fewer take no longer than starting it.
 constexpr Id worth_a_thread = 8;
 
+}  // namespace
+
 /// The cores that a sweep takes for helpers since it leaves them idle, as long as this lives. Sweeps that run at once,
 /// also of other structures, share them.
 class IdleCores {
@@ -37,8 +39,6 @@ class IdleCores {
   inline static int in_use_ = 0;
   int count_, claimed_;
 };
-
-}  // namespace
 
 /// A sweep with helpers: as many turns as segments; which one is read in a turn shows then.
 class HelpedStructure::HelpedTurns : public Sweep {

@@ -82,8 +82,6 @@ class Leaders {
   std::vector<std::unique_ptr<Leader>> leaders_;
 };
 
-namespace {
-
 /// How one consumer of a sweep reads the blocks of one leader: an arena is pinned once for all of its segments that
 /// come one after the other, since what many consumers touch for each segment, they wait for.
 class SweepReader {
@@ -129,6 +127,8 @@ class SweepReader {
   Lease lease_;
   Id read_ = 0;  ///< segments of the lease's arena
 };
+
+namespace {
 
 /// A consumer that asks leaders for what it misses, and waits.
 class RequestingConsumer : public Consumer {
