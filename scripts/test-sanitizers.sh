@@ -70,7 +70,7 @@ all_but_algorithms() {
 thread() {
   build sanitize-thread gale_base gale_runtime gale_algorithms gale_ttk
   together "run_tests sanitize-thread base" "run_tests sanitize-thread ttk TtkBlockStore.*:TtkTriangulationOnThreads.*" \
-    "run_tests sanitize-thread runtime -MixedSweep.*:Tests/MixedSweepOf.*:Tests/DeviceSweepOf.*" \
+    "run_tests sanitize-thread runtime -MixedSweep.*:Tests/MixedSweepOf.*:Tests/DeviceSweepOf.*:*RelationOf*" \
     "run_tests sanitize-thread algorithms CriticalPoints.*:DiscreteGradient.*:MorseSmaleComplex.*:Simplify.*"
 }
 
