@@ -30,7 +30,6 @@ set(gale_included_headers
   base/mirrored.hpp
   base/parallel.hpp
   base/transfer.hpp
-  base/worker_or_host.hpp
   runtime/device/batch_sweep.hpp
   runtime/batches/segment_batches.hpp)
 

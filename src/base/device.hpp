@@ -46,7 +46,7 @@ class CopyStream {
   void* stream_ = nullptr;
 };
 
-/// The device's stable_sort_by_key and sort_rows (radix_sort.hpp, sort_rows.hpp). Enqueued on the instance, but for
+/// The device's stable_sort_by_key and sort_rows (sort.hpp). Enqueued on the instance, but for
 /// giving back their workspace, which waits. Not without a device.
 void sort_by_key_on_device(const WorkerSpace& space, const Array<std::uint64_t, WorkerMemory>& keys,
                            const Array<Id, WorkerMemory>& values);

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include <gale/base/pair_key.hpp>
+#include <gale/base/bits.hpp>
 
 namespace gale {
 

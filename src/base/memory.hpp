@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include <gale/base/error.hpp>
 #include <gale/base/kokkos.hpp>
 #include <gale/export.hpp>
 
@@ -47,6 +48,31 @@ ViewType allocate(const std::string& label, Extents... extents) {
     detail::advise_huge_pages(view.data(), view.span() * sizeof(typename ViewType::value_type));
   }
   return view;
+}
+
+/// Computes something in the workers' space, or on the host's threads if it doesn't fit the device's memory: returns
+/// f(WorkerSpace()), or f(HostExecutionSpace()) if that throws OutOfMemory. What f returns is of the same type for
+/// both. So a call of f that fails must leave nothing half done. With `worker` false, the host alone. `refused(error)`
+/// is told why the device was given up.
+template <class F, class Refused>
+auto in_worker_or_host_space(bool worker, const F& f, const Refused& refused) {
+  require_kokkos();
+  if constexpr (have_device) {
+    if (worker) {
+      try {
+        return f(WorkerSpace());
+      } catch (const OutOfMemory& error) {
+        refused(error);
+      }
+    }
+  }
+  return f(HostExecutionSpace());
+}
+
+/// Computes something there without asking why the device was given up.
+template <class F>
+auto in_worker_or_host_space(bool worker, const F& f) {
+  return in_worker_or_host_space(worker, f, [](const OutOfMemory&) {});
 }
 
 }  // namespace gale

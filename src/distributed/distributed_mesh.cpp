@@ -6,8 +6,8 @@
 #include <string>
 
 #include <gale/base/device.hpp>
+#include <gale/base/error.hpp>
 #include <gale/base/mirrored.hpp>
-#include <gale/base/require_ids.hpp>
 #include <gale/distributed/distributed_mesh.hpp>
 #include <gale/distributed/sharing/curve_partition.hpp>
 #include <gale/distributed/sharing/local_mesh.hpp>

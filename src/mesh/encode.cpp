@@ -6,8 +6,7 @@
 #include <gale/base/group_by.hpp>
 #include <gale/base/ordered.hpp>
 #include <gale/base/parallel.hpp>
-#include <gale/base/require_ids.hpp>
-#include <gale/base/sort_rows.hpp>
+#include <gale/base/sort.hpp>
 #include <gale/mesh/encode.hpp>
 
 namespace gale::detail {

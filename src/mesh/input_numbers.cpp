@@ -1,6 +1,6 @@
 #include <gale/base/group_by.hpp>
 #include <gale/base/parallel.hpp>
-#include <gale/base/sort_rows.hpp>
+#include <gale/base/sort.hpp>
 #include <gale/base/transfer.hpp>
 #include <gale/mesh/numbering/number.hpp>
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include <gale/base/worker_or_host.hpp>
+#include <gale/base/memory.hpp>
 #include <gale/export.hpp>
 #include <gale/mesh/encoded_mesh.hpp>
 #include <gale/mesh/exchange.hpp>

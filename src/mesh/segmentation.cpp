@@ -2,11 +2,10 @@
 #include <string>
 
 #include <gale/base/error.hpp>
+#include <gale/base/memory.hpp>
 #include <gale/base/parallel.hpp>
-#include <gale/base/radix_sort.hpp>
-#include <gale/base/require_ids.hpp>
+#include <gale/base/sort.hpp>
 #include <gale/base/transfer.hpp>
-#include <gale/base/worker_or_host.hpp>
 #include <gale/mesh/octree.hpp>
 #include <gale/mesh/segmentation.hpp>
 

@@ -1,5 +1,5 @@
+#include <gale/base/error.hpp>
 #include <gale/base/parallel.hpp>
-#include <gale/base/require_ids.hpp>
 #include <gale/mesh/positions.hpp>
 #include <gale/outputs/arrows.hpp>
 

@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include <gale/base/require_ids.hpp>
+#include <gale/base/error.hpp>
 #include <gale/io/write.hpp>
 #include <gale/mesh/positions.hpp>
 #include <gale/outputs/separatrix_arrays.hpp>

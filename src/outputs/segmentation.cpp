@@ -1,5 +1,5 @@
 #include <gale/base/error.hpp>
-#include <gale/outputs/find_array.hpp>
+#include <gale/outputs/field.hpp>
 #include <gale/outputs/segmentation.hpp>
 
 namespace gale::outputs {

@@ -1,4 +1,4 @@
-#include <gale/base/require_ids.hpp>
+#include <gale/base/error.hpp>
 #include <gale/base/stop.hpp>
 #include <gale/mesh/positions.hpp>
 #include <gale/outputs/corners.hpp>

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <gale/base/memory.hpp>
 #include <gale/base/types.hpp>
-#include <gale/base/worker_or_host.hpp>
 
 #include "support/arrays.hpp"
 

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include <gale/base/require_ids.hpp>
+#include <gale/base/error.hpp>
 
 namespace gale::test {
 

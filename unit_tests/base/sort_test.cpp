@@ -5,9 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include <gale/base/parallel_sort.hpp>
-#include <gale/base/radix_sort.hpp>
-#include <gale/base/sort_rows.hpp>
+#include <gale/base/sort.hpp>
 
 #include "support/arrays.hpp"
 

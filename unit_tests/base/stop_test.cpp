@@ -8,8 +8,7 @@
 
 #include <gale/base/atomic.hpp>
 #include <gale/base/parallel.hpp>
-#include <gale/base/parallel_sort.hpp>
-#include <gale/base/radix_sort.hpp>
+#include <gale/base/sort.hpp>
 #include <gale/base/stop.hpp>
 #include <gale/base/threads.hpp>
 #include <gale/runtime/sweep.hpp>

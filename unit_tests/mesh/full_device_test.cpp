@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <gale/base/worker_or_host.hpp>
+#include <gale/base/memory.hpp>
 #include <gale/mesh/input_numbers.hpp>
 
 #include "support/arrays.hpp"

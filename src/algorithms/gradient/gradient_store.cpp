@@ -3,7 +3,7 @@
 #include <gale/algorithms/gradient/gradient_store.hpp>
 #include <gale/algorithms/order/same_mesh.hpp>
 #include <gale/algorithms/order/written.hpp>
-#include <gale/base/parallel_sort.hpp>
+#include <gale/base/sort.hpp>
 
 namespace gale::detail {
 

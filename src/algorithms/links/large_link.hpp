@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <gale/algorithms/links/small_link.hpp>
-#include <gale/base/pair_key.hpp>
+#include <gale/base/bits.hpp>
 
 namespace gale::detail {
 

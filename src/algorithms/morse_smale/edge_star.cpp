@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include <gale/algorithms/morse_smale/edge_star.hpp>
-#include <gale/base/pair_key.hpp>
+#include <gale/base/bits.hpp>
 
 namespace gale::detail {
 

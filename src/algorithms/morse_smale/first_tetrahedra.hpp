@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include <gale/base/pair_key.hpp>
+#include <gale/base/bits.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/mesh/mesh.hpp>
 

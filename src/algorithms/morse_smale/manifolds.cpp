@@ -3,8 +3,8 @@
 #include <gale/algorithms/morse_smale/jump.hpp>
 #include <gale/algorithms/morse_smale/manifolds.hpp>
 #include <gale/algorithms/morse_smale/paths_on_ranks.hpp>
-#include <gale/base/radix_sort.hpp>
-#include <gale/base/require_ids.hpp>
+#include <gale/base/error.hpp>
+#include <gale/base/sort.hpp>
 #include <gale/base/transfer.hpp>
 #include <gale/mesh/exchange/exchange_plan.hpp>
 #include <gale/mesh/exchange/places.hpp>

@@ -1,8 +1,8 @@
 #include <gale/algorithms/gradient/gradient_store.hpp>
 #include <gale/algorithms/morse_smale/jump.hpp>
 #include <gale/algorithms/morse_smale/paths_on_ranks.hpp>
-#include <gale/base/require_ids.hpp>
-#include <gale/base/worker_or_host.hpp>
+#include <gale/base/error.hpp>
+#include <gale/base/memory.hpp>
 #include <gale/mesh/exchange/messages.hpp>
 #include <gale/mesh/exchange/places.hpp>
 
@@ -143,14 +143,11 @@ bool PathsOnRanks::jump() {
     if (!stops[i].is_end()) open.push_back(static_cast<Id>(i));
   }
   if (ranks().sum(static_cast<std::int64_t>(open.size())) == 0) return false;
-  Array<Id, HostMemory> members;
-  const auto asked = deal<GlobalId>(
-      ranks(), "GALE::open_paths", static_cast<Offset>(open.size()), [&](Id i) { return stops[open[i]].rank; },
-      [&](Id i) { return stops[open[i]].id; }, &members);
-  const auto answers = answer<PathStop>(ranks(), "GALE::next_stops", asked,
-                                        [&](GlobalId id) { return final_stop(end(simplices_.local(id))); });
+  const auto next = ask<PathStop>(
+      ranks(), "GALE::next_stops", static_cast<Offset>(open.size()), [&](Id i) { return stops[open[i]].rank; },
+      [&](Id i) { return stops[open[i]].id; }, [&](GlobalId id) { return final_stop(end(simplices_.local(id))); });
   std::vector<PathStop> further = stops;
-  for (Offset i = 0; i < answers.count(); ++i) further[open[members(i)]] = answers.entries(i);
+  for (std::size_t i = 0; i < open.size(); ++i) further[open[i]] = next(i);
   stops_.push_back(std::move(further));
   return true;
 }

@@ -2,9 +2,9 @@
 #include <gale/algorithms/morse_smale/separatrices_on_ranks.hpp>
 #include <gale/base/csr.hpp>
 #include <gale/base/hash_table.hpp>
+#include <gale/base/memory.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/base/transfer.hpp>
-#include <gale/base/worker_or_host.hpp>
 
 namespace gale::detail {
 

@@ -3,8 +3,8 @@
 
 #include <gale/algorithms/morse_smale/paths_on_ranks.hpp>
 #include <gale/algorithms/morse_smale/separatrices_on_ranks.hpp>
+#include <gale/base/error.hpp>
 #include <gale/base/hash_table.hpp>
-#include <gale/base/require_ids.hpp>
 #include <gale/mesh/exchange/messages.hpp>
 
 namespace gale::detail {

@@ -3,8 +3,8 @@
 #include <cstdint>
 
 #include <gale/base/atomic.hpp>
+#include <gale/base/bits.hpp>
 #include <gale/base/memory.hpp>
-#include <gale/base/pair_key.hpp>
 
 namespace gale::detail {
 

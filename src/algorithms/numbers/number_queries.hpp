@@ -9,7 +9,6 @@
 #include <gale/base/error.hpp>
 #include <gale/base/group_by.hpp>
 #include <gale/base/parallel.hpp>
-#include <gale/base/require_ids.hpp>
 #include <gale/mesh/mesh.hpp>
 
 namespace gale::detail {

@@ -7,7 +7,7 @@
 #include <gale/algorithms/vertex_order.hpp>
 #include <gale/base/error.hpp>
 #include <gale/base/parallel.hpp>
-#include <gale/base/radix_sort.hpp>
+#include <gale/base/sort.hpp>
 #include <gale/base/transfer.hpp>
 #include <gale/mesh/exchange/exchange_plan.hpp>
 

@@ -4,7 +4,7 @@
 
 #include <gale/algorithms/persistence/filtration.hpp>
 #include <gale/base/error.hpp>
-#include <gale/base/parallel_sort.hpp>
+#include <gale/base/sort.hpp>
 
 namespace gale::detail {
 

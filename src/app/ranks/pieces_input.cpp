@@ -9,7 +9,6 @@
 #include <gale/mesh/exchange/places.hpp>
 #include <gale/mesh/positions.hpp>
 #include <gale/outputs/field.hpp>
-#include <gale/outputs/find_array.hpp>
 
 namespace gale::app {
 
@@ -108,13 +107,11 @@ GlobalIds merged_ids(const Ranks& ranks, const Array<detail::Point, HostMemory>&
   for (Offset k = 0; k < count; ++k) {
     if (answers.entries(k).rank != ranks.rank()) others.push_back(static_cast<Id>(k));
   }
-  Array<Id, HostMemory> asked;
-  const auto places = detail::deal<Id>(
-      ranks, "GALE::asked_places", static_cast<Offset>(others.size()),
+  const auto found = detail::ask<GlobalId>(
+      ranks, "GALE::told_ids", static_cast<Offset>(others.size()),
       [&](Id i) { return answers.entries(others[i]).rank; }, [&](Id i) { return answers.entries(others[i]).place; },
-      &asked);
-  const auto found = detail::answer<GlobalId>(ranks, "GALE::told_ids", places, [&](Id place) { return ids(place); });
-  for (Offset k = 0; k < found.count(); ++k) ids(members(others[asked(k)])) = found.entries(k);
+      [&](Id place) { return ids(place); });
+  for (std::size_t i = 0; i < others.size(); ++i) ids(members(others[i])) = found(i);
   return ids;
 }
 

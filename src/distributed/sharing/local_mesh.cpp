@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include <gale/base/worker_or_host.hpp>
+#include <gale/base/memory.hpp>
 #include <gale/distributed/sharing/id_interval.hpp>
 #include <gale/distributed/sharing/local_mesh.hpp>
 

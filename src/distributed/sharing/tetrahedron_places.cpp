@@ -2,7 +2,7 @@
 #include <string>
 
 #include <gale/base/error.hpp>
-#include <gale/base/parallel_sort.hpp>
+#include <gale/base/sort.hpp>
 #include <gale/distributed/sharing/tetrahedron_places.hpp>
 
 namespace gale::detail {

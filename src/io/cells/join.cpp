@@ -2,7 +2,7 @@
 #include <tuple>
 #include <utility>
 
-#include <gale/base/parallel_sort.hpp>
+#include <gale/base/sort.hpp>
 #include <gale/io/bytes/values.hpp>
 #include <gale/io/cells/join.hpp>
 #include <gale/io/dataset.hpp>

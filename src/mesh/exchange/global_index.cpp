@@ -2,7 +2,7 @@
 #include <cstdint>
 
 #include <gale/base/parallel.hpp>
-#include <gale/base/radix_sort.hpp>
+#include <gale/base/sort.hpp>
 #include <gale/mesh/exchange/global_index.hpp>
 
 namespace gale::detail {

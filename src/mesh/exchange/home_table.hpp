@@ -69,21 +69,13 @@ class HomeTable {
   /// The entries of any ids, `otherwise` for those that it lacks.
   Array<Entry, HostMemory> find(const Ranks& ranks, const Array<const GlobalId, HostMemory>& ids,
                                 const Entry& otherwise = Entry()) const {
-    Array<Id, HostMemory> by_home;
-    const auto asked = deal<GlobalId>(
-        ranks, "GALE::asked_ids", ids.extent(0), [&](Id i) { return homes_.of(ids(i)); }, [&](Id i) { return ids(i); },
-        &by_home);
-    const auto answers = answer<Entry>(ranks, "GALE::asked_entries", asked, [&](GlobalId id) {
-      const Id place = index_.find(id);
-      return place == no_id ? otherwise : entries_(place);
-    });
-    Array<Entry, HostMemory> found;
-    together(ranks, [&] {
-      found = allocate<Array<Entry, HostMemory>>("GALE::found_entries", ids.extent(0));
-      parallel_for("GALE::found_entries", HostExecutionSpace(), ids.extent(0),
-                   [&](Offset k) { found(by_home(k)) = answers.entries(k); });
-    });
-    return found;
+    return ask<Entry>(
+        ranks, "GALE::found_entries", ids.extent(0), [&](Id i) { return homes_.of(ids(i)); },
+        [&](Id i) { return ids(i); },
+        [&](GlobalId id) {
+          const Id place = index_.find(id);
+          return place == no_id ? otherwise : entries_(place);
+        });
   }
 
   /// What this rank keeps, by ascending id.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -113,20 +114,29 @@ Dealt<T> deal(const Ranks& ranks, const char* label, Offset items, const RankOf&
   return sent;
 }
 
-/// What the ranks answer to what was `asked` of them, in the same places: answer_of(question), found by the rank that
-/// it was sent to. Collective; no answer_of sends anything.
-template <class Answer, class Question, class AnswerOf>
-Dealt<Answer> answer(const Ranks& ranks, const char* label, const Dealt<Question>& asked, const AnswerOf& answer_of) {
+/// What the ranks answer to a question about each of the items 0..items-1, by item: answer_of(question_of(i)), found by
+/// the rank rank_of(i). Collective; no answer_of sends anything.
+template <class Answer, class RankOf, class QuestionOf, class AnswerOf>
+Array<Answer, HostMemory> ask(const Ranks& ranks, const char* label, Offset items, const RankOf& rank_of,
+                              const QuestionOf& question_of, const AnswerOf& answer_of) {
+  using Question = std::decay_t<decltype(question_of(Id()))>;
+  Array<Id, HostMemory> members;
+  const Dealt<Question> asked = deal<Question>(ranks, "GALE::asked", items, rank_of, question_of, &members);
   const Dealt<Question> questions = exchange(ranks, "GALE::questions", asked);
   Dealt<Answer> given, received;
   together(ranks, [&] {
     given = dealt<Answer>("GALE::answers", counts_of(questions));
     parallel_for("GALE::answers", HostExecutionSpace(), questions.count(),
                  [&](Offset i) { given.entries(i) = answer_of(questions.entries(i)); });
-    received = dealt<Answer>(label, counts_of(asked));
+    received = dealt<Answer>("GALE::answered", counts_of(asked));
   });
   exchange(ranks, given, received);
-  return received;
+  Array<Answer, HostMemory> answers;
+  together(ranks, [&] {
+    answers = allocate<Array<Answer, HostMemory>>(label, items);
+    parallel_for(label, HostExecutionSpace(), items, [&](Offset k) { answers(members(k)) = received.entries(k); });
+  });
+  return answers;
 }
 
 }  // namespace gale::detail

@@ -1,8 +1,7 @@
 #include <algorithm>
 #include <vector>
 
-#include <gale/base/parallel_sort.hpp>
-#include <gale/base/radix_sort.hpp>
+#include <gale/base/sort.hpp>
 #include <gale/mesh/exchange/home_table.hpp>
 #include <gale/mesh/exchange/messages.hpp>
 #include <gale/mesh/exchange/places.hpp>
@@ -127,21 +126,13 @@ Array<GlobalId, HostMemory> occurrences(const Ranks& ranks, const Array<const Gl
     sums = Array<GlobalId, HostMemory>("GALE::occurrences", index.count());
     for (Offset i = 0; i < received.count(); ++i) sums(index.find(received.entries(i).id)) += received.entries(i).count;
   });
-  Array<Id, HostMemory> members;
-  const auto questions = deal<GlobalId>(
-      ranks, "GALE::asked_numbers", asked.extent(0), [&](Id i) { return homes.of(asked(i)); },
-      [&](Id i) { return asked(i); }, &members);
-  const auto answers = answer<GlobalId>(ranks, "GALE::told_occurrences", questions, [&](GlobalId id) {
-    const Id place = index.find(id);
-    return place == no_id ? GlobalId(0) : sums(place);
-  });
-  Array<GlobalId, HostMemory> found;
-  together(ranks, [&] {
-    found = allocate<Array<GlobalId, HostMemory>>("GALE::found_occurrences", asked.extent(0));
-    parallel_for("GALE::found_occurrences", HostExecutionSpace(), asked.extent(0),
-                 [&](Offset k) { found(members(k)) = answers.entries(k); });
-  });
-  return found;
+  return ask<GlobalId>(
+      ranks, "GALE::found_occurrences", asked.extent(0), [&](Id i) { return homes.of(asked(i)); },
+      [&](Id i) { return asked(i); },
+      [&](GlobalId id) {
+        const Id place = index.find(id);
+        return place == no_id ? GlobalId(0) : sums(place);
+      });
 }
 
 }  // namespace gale::detail

@@ -2,10 +2,10 @@
 #include <utility>
 #include <vector>
 
+#include <gale/base/error.hpp>
 #include <gale/base/group_by.hpp>
 #include <gale/base/parallel.hpp>
-#include <gale/base/require_ids.hpp>
-#include <gale/base/sort_rows.hpp>
+#include <gale/base/sort.hpp>
 #include <gale/mesh/numbering/candidates.hpp>
 #include <gale/mesh/numbering/enumerate.hpp>
 #include <gale/mesh/numbering/sorted_pairs.hpp>

@@ -1,6 +1,6 @@
 #include <gale/base/kokkos.hpp>
+#include <gale/base/memory.hpp>
 #include <gale/base/parallel.hpp>
-#include <gale/base/worker_or_host.hpp>
 #include <gale/mesh/numbering/enumerate.hpp>
 #include <gale/mesh/numbering/simplex_store.hpp>
 

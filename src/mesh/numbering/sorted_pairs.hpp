@@ -3,10 +3,10 @@
 #include <cstdint>
 
 #include <gale/base/atomic.hpp>
+#include <gale/base/bits.hpp>
 #include <gale/base/ordered.hpp>
-#include <gale/base/pair_key.hpp>
 #include <gale/base/parallel.hpp>
-#include <gale/base/radix_sort.hpp>
+#include <gale/base/sort.hpp>
 
 namespace gale::detail {
 

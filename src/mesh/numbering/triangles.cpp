@@ -1,6 +1,6 @@
 #include <gale/base/bits.hpp>
+#include <gale/base/error.hpp>
 #include <gale/base/parallel.hpp>
-#include <gale/base/require_ids.hpp>
 #include <gale/mesh/numbering/enumerate.hpp>
 #include <gale/mesh/numbering/sorted_pairs.hpp>
 

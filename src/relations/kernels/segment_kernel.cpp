@@ -1,7 +1,7 @@
 #include <utility>
 #include <variant>
 
-#include <gale/base/require_ids.hpp>
+#include <gale/base/error.hpp>
 #include <gale/relations/kernels/launch.hpp>
 #include <gale/relations/kernels/row_kernel.hpp>
 #include <gale/relations/kernels/segment_kernel.hpp>

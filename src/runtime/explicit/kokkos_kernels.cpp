@@ -18,7 +18,7 @@
 #endif
 
 #include <gale/base/parallel.hpp>
-#include <gale/base/sort_rows.hpp>
+#include <gale/base/sort.hpp>
 
 namespace gale::detail {
 

@@ -1,6 +1,6 @@
 #include <gale/base/ordered.hpp>
 #include <gale/base/parallel.hpp>
-#include <gale/base/radix_sort.hpp>
+#include <gale/base/sort.hpp>
 #include <gale/base/transfer.hpp>
 #include <gale/runtime/explicit/kokkos_kernels.hpp>
 #include <gale/runtime/explicit/sorted_simplices.hpp>

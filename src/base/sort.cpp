@@ -1,10 +1,11 @@
+#include <algorithm>
 #include <array>
 #include <utility>
 #include <vector>
 
 #include <gale/base/device.hpp>
 #include <gale/base/parallel.hpp>
-#include <gale/base/radix_sort.hpp>
+#include <gale/base/sort.hpp>
 
 namespace gale {
 
@@ -80,6 +81,34 @@ void stable_sort_by_key(const Space& space, const Array<std::uint64_t, MemoryOf<
 #define GALE_INSTANTIATE(Space)                                                                            \
   template GALE_EXPORT void stable_sort_by_key(const Space&, const Array<std::uint64_t, MemoryOf<Space>>&, \
                                                const Array<Id, MemoryOf<Space>>&)
+GALE_IN_EACH_SPACE(GALE_INSTANTIATE);
+#undef GALE_INSTANTIATE
+
+namespace {
+
+template <class Index>
+void sort_rows_on_host(const char* label, const Csr<Id, HostMemory, Index>& rows) {
+  parallel_for(label, HostExecutionSpace(), rows.rows(), [&](Offset i) {
+    const Span<Id> row = rows.row(i);
+    if (!std::is_sorted(row.begin(), row.end())) std::sort(row.begin(), row.end());
+  });
+}
+
+}  // namespace
+
+template <class Space, class Index>
+void sort_rows(const Space& space, const char* label, const Csr<Id, MemoryOf<Space>, Index>& rows) {
+  if (rows.rows() == 0 || rows.entries.extent(0) == 0) return;
+  if constexpr (is_device<Space>) {
+    detail::sort_rows_on_device(space, label, rows.offsets, rows.entries);
+  } else {
+    sort_rows_on_host(label, rows);
+  }
+}
+
+#define GALE_INSTANTIATE(Space)                                                            \
+  template void sort_rows(const Space&, const char*, const Csr<Id, MemoryOf<Space>, Id>&); \
+  template void sort_rows(const Space&, const char*, const Csr<Id, MemoryOf<Space>, Offset>&)
 GALE_IN_EACH_SPACE(GALE_INSTANTIATE);
 #undef GALE_INSTANTIATE
 

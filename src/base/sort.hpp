@@ -1,11 +1,28 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <functional>
 
+#include <gale/base/csr.hpp>
+#include <gale/base/memory.hpp>
 #include <gale/base/parallel.hpp>
+#include <gale/base/types.hpp>
+#include <gale/export.hpp>
 
 namespace gale {
+
+/// Sorts `keys` ascending and carries `values` along; equal keys keep their order. Both arrays are overwritten.
+/// O(n) a pass of 11 bits of the key; on the host, passes whose bits are the same in all keys are left out. Uses as
+/// much memory again. Enqueued on the instance of a device, as loops are.
+template <class Space>
+GALE_EXPORT void stable_sort_by_key(const Space& space, const Array<std::uint64_t, MemoryOf<Space>>& keys,
+                                    const Array<Id, MemoryOf<Space>>& values);
+
+/// Sorts the entries of each row ascending, rows in parallel. Rows that are in order already cost one reading. `Index`
+/// is Id or Offset. Enqueued on the instance of a device, as loops are.
+template <class Space, class Index>
+void sort_rows(const Space& space, const char* label, const Csr<Id, MemoryOf<Space>, Index>& rows);
 
 namespace detail {
 
