@@ -12,7 +12,7 @@ namespace gale::outputs::detail {
 GALE_EXPORT const io::PointArray* find_array(const io::Dataset& dataset, const std::string& name);
 
 /// "the input has A, B": for messages.
-std::string names_of_arrays(const io::Dataset& dataset);
+GALE_EXPORT std::string names_of_arrays(const io::Dataset& dataset);
 
 }  // namespace gale::outputs::detail
 
