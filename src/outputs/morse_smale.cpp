@@ -32,7 +32,7 @@ MorseSmaleComplex find_complex(const DiscreteGradient& gradient, const io::Point
                                const MorseSmaleRequest& request, const ComputeOptions& options, Computed* computed) {
   Computed own;
   if (computed == nullptr) computed = &own;
-  const MorseSmaleComplex complex = find_morse_smale_complex(gradient, request.needed_parts(), options, computed);
+  MorseSmaleComplex complex = find_morse_smale_complex(gradient, request.needed_parts(), options, computed);
   if (!request.persistence) return complex;
   const gale::detail::Stopwatch running(computed->seconds_running);
   SimplifyOptions how;
