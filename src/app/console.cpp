@@ -43,6 +43,9 @@ class Bar {
   bool drawn_ = false;
 };
 
+char step[512] = "starting";  // allocates nothing, as it is for when memory has run out
+bool ended = false;
+
 }  // namespace
 
 void Console::say(const std::string& name, const std::string& value) const {
@@ -63,6 +66,16 @@ void require_output() {
   throw Error("cannot write to standard output" + reason);
 }
 
+void end_steps() { ended = true; }
+bool steps_ended() { return ended; }
+
+void begin_step(const char* doing, const std::string& what) {
+  const char* const quote = what.empty() ? "" : "'";
+  std::snprintf(step, sizeof step, "%s%s%s%s%s", doing, what.empty() ? "" : " ", quote, what.c_str(), quote);
+}
+
+const char* current_step() { return step; }
+
 std::string grouped(std::int64_t number) {
   std::string digits = std::to_string(number);
   for (int at = static_cast<int>(digits.size()) - 3; at > (number < 0 ? 1 : 0); at -= 3) {
@@ -71,19 +84,19 @@ std::string grouped(std::int64_t number) {
   return digits;
 }
 
-std::string seconds(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3f s", value);
+std::string formatted(const char* format, double value, const char* unit) {
+  char text[64];
+  std::snprintf(text, sizeof text, format, value, unit);
   return text;
 }
+
+std::string seconds(double value) { return formatted("%.3f s", value); }
 
 std::string bytes(double value) {
   static const char* const units[] = {"B", "KiB", "MiB", "GiB", "TiB"};
   int unit = 0;
   for (; value >= 1024 && unit < 4; ++unit) value /= 1024;
-  char text[32];
-  std::snprintf(text, sizeof text, unit == 0 ? "%.0f %s" : "%.1f %s", value, units[unit]);
-  return text;
+  return formatted(unit == 0 ? "%.0f %s" : "%.1f %s", value, units[unit]);
 }
 
 }  // namespace gale::app

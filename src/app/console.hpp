@@ -1,8 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
-#include <vector>
 
 #include <gale/base/types.hpp>
 
@@ -28,6 +28,16 @@ class Console {
 /// descriptor closed.
 void require_output();
 
+/// Says what the command does from now on, for an error that doesn't say where it happened.
+void begin_step(const char* doing, const std::string& what = {});
+
+/// Everything was written: what fails now is only tidying up.
+void end_steps();
+bool steps_ended();
+
+/// What was begun last: "reading 'mesh.vtu'".
+const char* current_step();
+
 /// "1,732,840"
 std::string grouped(std::int64_t number);
 
@@ -36,5 +46,8 @@ std::string seconds(double value);
 
 /// "2.1 GiB"
 std::string bytes(double value);
+
+/// What std::printf() makes of a number, in `format`, and of a unit if that has room for one.
+std::string formatted(const char* format, double value, const char* unit = "");
 
 }  // namespace gale::app

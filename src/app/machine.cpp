@@ -6,12 +6,15 @@
 #include <exception>
 #include <mutex>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <gale/app/machine.hpp>
-#include <gale/base/device.hpp>
 #include <gale/base/kokkos.hpp>
 #include <gale/base/threads.hpp>
+#include <gale/base/transfer.hpp>
+#include <gale/io/synthetic.hpp>
+#include <gale/mesh/make_mesh.hpp>
 
 namespace gale::app {
 
@@ -36,6 +39,16 @@ void on_deallocation(Kokkos::Tools::SpaceHandle space, const char*, const void*,
   if (is_on_device(space)) device_bytes -= static_cast<std::int64_t>(bytes);
 }
 
+/// Runs that on a mesh with as few points along an axis as give every kind of critical simplex.
+void run_on_tiny_mesh(const std::function<void(const VertexOrder&)>& run) {
+  prepare_copies(host_threads());
+  const ThreadLimit alone(1);  // the others read
+  const io::Dataset data = io::make_grid(12);
+  const auto& values = std::get<std::vector<float>>(data.arrays.front().values);
+  const Mesh mesh = make_mesh(std::get<io::Dataset::Points<float>>(data.points), data.tetrahedra);
+  if (mesh.on_device()) run(VertexOrder(mesh, values.data(), values.size()));
+}
+
 }  // namespace
 
 std::int64_t host_peak_bytes() {
@@ -55,8 +68,6 @@ void watch_device_memory() {
   Kokkos::Tools::Experimental::set_allocate_data_callback(on_allocation);
   Kokkos::Tools::Experimental::set_deallocate_data_callback(on_deallocation);
 }
-
-std::optional<std::string> device_name() { return gale::device_name(); }
 
 void require_threads(int count) {
   std::mutex mutex;
@@ -82,6 +93,21 @@ void require_threads(int count) {
   all_begun.notify_all();
   for (std::thread& thread : threads) thread.join();
   if (failure) std::rethrow_exception(failure);
+}
+
+void WarmUp::begin(std::function<void(const VertexOrder&)> run) {
+  if (!have_device) return;
+  thread_ = detail::start_thread([run = std::move(run)] {
+    try {
+      run_on_tiny_mesh(run);
+    } catch (...) {
+      // The work meets the same, and says it.
+    }
+  });
+}
+
+void WarmUp::wait() {
+  if (thread_.joinable()) thread_.join();
 }
 
 }  // namespace gale::app

@@ -1,8 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
-#include <string>
+#include <thread>
+
+#include <gale/algorithms/vertex_order.hpp>
 
 namespace gale::app {
 
@@ -16,10 +19,27 @@ std::optional<std::int64_t> device_peak_bytes();
 /// Begins to count what Kokkos allocates on the device. To be called right after Kokkos is initialized.
 void watch_device_memory();
 
-/// The device's name, such as "NVIDIA H200"; nothing without a device.
-std::optional<std::string> device_name();
-
 /// Throws gale::Error unless the system starts so many threads: OpenMP would end the process.
 void require_threads(int count);
+
+/// Has the device do all that a command does, once, on a tiny mesh, while the input is read: the first time in a
+/// process costs tens of milliseconds that have nothing to do with the input (kernels are loaded, memory is locked and
+/// mapped). Where there is no device, nothing.
+class WarmUp {
+ public:
+  WarmUp() = default;
+  WarmUp(const WarmUp&) = delete;
+  WarmUp& operator=(const WarmUp&) = delete;
+  ~WarmUp() { wait(); }
+
+  /// Begins, on a thread of its own; `run` gets the order of the tiny mesh's vertices, which are on the device. What
+  /// fails here fails in the work, too, and is said there.
+  void begin(std::function<void(const VertexOrder&)> run);
+
+  void wait();
+
+ private:
+  std::thread thread_;
+};
 
 }  // namespace gale::app

@@ -15,12 +15,10 @@
 #include <CLI/CLI.hpp>
 #include <Kokkos_Core.hpp>
 
-#include <gale/app/commands/commands.hpp>
+#include <gale/app/commands/command.hpp>
 #include <gale/app/console.hpp>
 #include <gale/app/machine.hpp>
 #include <gale/app/ranks/ranks.hpp>
-#include <gale/app/step.hpp>
-#include <gale/app/usage_error.hpp>
 #include <gale/base/memory.hpp>
 #include <gale/base/threads.hpp>
 #include <gale/io/atomic_file.hpp>

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include <gale/app/console.hpp>
-#include <gale/app/options/options.hpp>
+#include <gale/app/options.hpp>
 #include <gale/io/dataset.hpp>
 #include <gale/mesh/segmentation.hpp>
 

@@ -5,8 +5,8 @@
 #include <set>
 #include <system_error>
 
+#include <gale/app/options.hpp>
 #include <gale/app/output_file.hpp>
-#include <gale/app/usage_error.hpp>
 #include <gale/base/error.hpp>
 
 namespace gale::app {

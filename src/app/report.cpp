@@ -3,6 +3,7 @@
 #include <gale/app/machine.hpp>
 #include <gale/app/output_file.hpp>
 #include <gale/app/report.hpp>
+#include <gale/base/device.hpp>
 #include <gale/base/kokkos.hpp>
 #include <gale/version.hpp>
 
@@ -100,6 +101,14 @@ Json to_json(const Report& report) {
           {"ranks", report.ranks},
           {"waiting", report.statistics ? to_json(*report.statistics) : Json(nullptr)},
           {"result", report.result}};
+}
+
+void report_structure(const Structure& structure, Report& report) {
+  const auto known = [](Id count) { return count == no_id ? std::nullopt : std::optional<std::int64_t>(count); };
+  report.edges = known(structure.count(1));
+  report.triangles = known(structure.count(2));
+  report.way = structure.name();
+  if (structure.way() != Way::explicit_) report.statistics = structure.statistics();
 }
 
 void write_report(const io::AtomicFile& file, const Report& report) {

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include <gale/io/atomic_file.hpp>
-#include <gale/runtime/statistics.hpp>
+#include <gale/runtime/structure.hpp>
 
 namespace gale::app {
 
@@ -33,6 +33,10 @@ struct Report {
 };
 
 nlohmann::ordered_json to_json(const Report& report);
+
+/// Puts into the report how the structure worked, and how many edges and triangles it had to enumerate; not its
+/// notices.
+void report_structure(const Structure& structure, Report& report);
 
 /// Writes the report to the temporary of `file`. Throws gale::Error, naming the file.
 void write_report(const io::AtomicFile& file, const Report& report);

@@ -3,12 +3,10 @@
 #include <optional>
 #include <utility>
 
-#include <gale/app/machine.hpp>
 #include <gale/app/make_segmentation.hpp>
 #include <gale/app/output_file.hpp>
 #include <gale/app/ranks/ranks.hpp>
 #include <gale/app/session.hpp>
-#include <gale/app/usage_error.hpp>
 #include <gale/base/error.hpp>
 #include <gale/io/read.hpp>
 #include <gale/io/write.hpp>
@@ -127,17 +125,15 @@ Mesh Session::encode(io::Dataset& dataset, const SegmentationOptions& segmentati
 FieldOnMesh Session::read_part(const SegmentationOptions& segmentation, Keep keep) {
   if (!segmentation.array.empty() || segmentation.random_count)
     throw UsageError("--segments: not on several ranks, where segments are those of an octree");
-  std::optional<SharedField> shared;
-  {
-    const Stopwatch watch(report_.seconds.read);
-    shared.emplace(input_);
-  }
-  console_.say("input", input_.input);
-  console_.say("ranks", std::to_string(ranks_.size()) + " of " + std::to_string(report_.threads) + " threads");
-  note(shared->notices());
-  const Stopwatch watch(report_.seconds.initialize);
-  FieldOnMesh on = shared->share(segmentation.capacity.value_or(default_capacity),
-                                 {has_outputs_, has_outputs_ && keep == Keep::tetrahedra});
+  std::optional<Stopwatch> watch(std::in_place, report_.seconds.read);
+  const auto was_read = [&](const std::vector<std::string>& notices) {
+    watch.emplace(report_.seconds.initialize);
+    console_.say("input", input_.input);
+    console_.say("ranks", std::to_string(ranks_.size()) + " of " + std::to_string(report_.threads) + " threads");
+    note(notices);
+  };
+  FieldOnMesh on = read_on_ranks(input_, segmentation.capacity.value_or(default_capacity),
+                                 {has_outputs_, has_outputs_ && keep == Keep::tetrahedra}, was_read);
   report_.vertices = on.mesh.all_vertices();
   report_.tetrahedra = on.mesh.all_tetrahedra();
   report_.segments = ranks_.sum(on.mesh.owned_segments());

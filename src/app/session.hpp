@@ -9,11 +9,9 @@
 #include <gale/algorithms/discrete_gradient.hpp>
 #include <gale/algorithms/vertex_order.hpp>
 #include <gale/app/console.hpp>
-#include <gale/app/options/options.hpp>
-#include <gale/app/options/structure_option.hpp>
+#include <gale/app/machine.hpp>
+#include <gale/app/options.hpp>
 #include <gale/app/report.hpp>
-#include <gale/app/step.hpp>
-#include <gale/app/warm_up.hpp>
 #include <gale/io/atomic_file.hpp>
 #include <gale/io/dataset.hpp>
 #include <gale/mesh/mesh.hpp>

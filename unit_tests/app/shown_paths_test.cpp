@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <gale/app/drawing/shown_paths.hpp>
+#include <gale/app/drawing/picture.hpp>
 
 namespace gale::app {
 

@@ -1,6 +1,6 @@
 #include <nlohmann/json.hpp>
 
-#include <gale/app/commands/commands.hpp>
+#include <gale/app/commands/command.hpp>
 #include <gale/outputs/analyses.hpp>
 
 namespace gale::app {

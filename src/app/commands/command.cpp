@@ -4,8 +4,9 @@
 #include <CLI/CLI.hpp>
 
 #include <gale/app/commands/command.hpp>
+#include <gale/app/drawing/scene.hpp>
 #include <gale/app/ranks/ranks.hpp>
-#include <gale/app/usage_error.hpp>
+#include <gale/io/bytes/text.hpp>
 
 namespace gale::app {
 
@@ -15,29 +16,13 @@ Command::Command(CLI::App& app, const std::string& name, const std::string& what
   common_.add_to(subcommand_);
 }
 
-void Command::add_flag(const outputs::AnalysisOption& option, bool& is_on) {
-  std::string name = option.name, help = option.help;
-  std::replace(name.begin(), name.end(), '_', '-');
-  if (option.is_on) {
-    help[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(help[0])));
-    subcommand_.add_flag_callback(
-        "--no-" + name, [&is_on] { is_on = false; }, "Without " + help);
-  } else {
-    subcommand_.add_flag("--" + name, is_on, help);
-  }
+CLI::Option* Command::add_file(const std::string& option, std::string& file, const std::string& what,
+                               const std::vector<std::string>& extensions) {
+  files_.push_back({option.substr(option.find("--")), file, extensions});
+  return subcommand_.add_option(option, file, what);
 }
 
 bool Command::is_chosen() const { return subcommand_.parsed(); }
-
-namespace {
-
-/// In either case; more than the extension alone.
-bool ends_in(const std::string& file, const std::string& extension) {
-  return file.size() > extension.size() && std::equal(extension.rbegin(), extension.rend(), file.rbegin(),
-                                                      [](char a, unsigned char b) { return a == std::tolower(b); });
-}
-
-}  // namespace
 
 void Command::require_ranks() const {
   if (works_ == Works::on_many_ranks || !Launch::are_several()) return;
@@ -50,19 +35,68 @@ void Command::refuse_on_ranks(std::initializer_list<std::pair<const char*, bool>
   }
 }
 
-void Command::require_points_extension(const std::string& option, const std::string& file) const {
-  require_extension(option, file, {Launch::are_several() ? ".pvtp" : ".vtp"});
-}
-
-void Command::require_extension(const std::string& option, const std::string& file,
-                                std::initializer_list<const char*> extensions) const {
-  if (file.empty()) return;
+void Command::require_extension(const File& file) const {
+  if (file.name.empty() || file.extensions.empty()) return;
+  const std::string name = io::detail::lower_case(file.name);
   std::string list;
-  for (const std::string extension : extensions) {
-    if (ends_in(file, extension)) return;
+  for (std::string extension : file.extensions) {
+    if (extension == ".vtp" && Launch::are_several()) extension = ".pvtp";
+    const bool ends_so = name.size() > extension.size() &&
+                         name.compare(name.size() - extension.size(), extension.size(), extension) == 0;
+    if (ends_so) return;
     list += (list.empty() ? "" : " or ") + extension;
   }
-  throw UsageError(option + ' ' + file + ": gale " + subcommand_.get_name() + " writes " + list);
+  throw UsageError(file.option + ' ' + file.name + ": gale " + subcommand_.get_name() + " writes " + list);
+}
+
+Session Command::begin(const std::vector<std::string>& more) const {
+  std::vector<std::string> files = more;
+  for (const File& file : files_) {
+    require_extension(file);
+    if (!file.name.empty() && file.extensions == std::vector<std::string>{".png"}) require_drawing();
+    files.push_back(file.name);
+  }
+  return Session(input_, common_, files);
+}
+
+AnalysisCommand::AnalysisCommand(CLI::App& app, const std::string& name, Works works)
+    : Command(app, name, outputs::analysis_named(name).help, works), analysis_(outputs::analysis_named(name)) {
+  segmentation_.add_to(subcommand());
+  structure_.add_to(subcommand());
+  structure_.add_consumers_to(subcommand());
+  add_encoding();
+}
+
+void AnalysisCommand::add_flag(const std::string& name, bool& is_on) {
+  std::string option = name, help = analysis_.option(name).help;
+  std::replace(option.begin(), option.end(), '_', '-');
+  if (analysis_.option(name).is_on) {
+    help[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(help[0])));
+    subcommand().add_flag_callback(
+        "--no-" + option, [&is_on] { is_on = false; }, "Without " + help);
+  } else {
+    subcommand().add_flag("--" + option, is_on, help);
+  }
+}
+
+void AnalysisCommand::run() const {
+  structure_.require_consumers();
+  require_usage();
+  Session session = begin(more_files());
+  session.warm_up(structure_, [this](const VertexOrder& order) { warm_up(order); });
+  const FieldOnMesh on = session.read_field(segmentation_, keep());
+  Computed computed;
+  analyse(on, session, computed);
+  session.finish(structure_, computed);
+}
+
+void tell_simplices(const std::array<std::int64_t, 4>& counts, Session& session) {
+  static const char* const names[] = {"minima", "1-saddles", "2-saddles", "maxima"};
+  for (int dimension = 0; dimension < 4; ++dimension)
+    session.console().say(names[dimension], grouped(counts[dimension]));
+  const std::int64_t euler = counts[0] - counts[1] + counts[2] - counts[3];
+  session.console().say("Euler number", grouped(euler));
+  session.report().result = {{"critical", counts}, {"euler", euler}};
 }
 
 }  // namespace gale::app

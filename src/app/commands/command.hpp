@@ -1,10 +1,13 @@
 #pragma once
 
-#include <initializer_list>
+#include <array>
+#include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
-#include <gale/app/options/options.hpp>
+#include <gale/app/options.hpp>
+#include <gale/app/session.hpp>
 #include <gale/outputs/analyses.hpp>
 
 namespace gale::app {
@@ -31,37 +34,93 @@ class Command {
   enum class Works { on_one_rank, on_many_ranks };
   Command(CLI::App& app, const std::string& name, const std::string& what, Works works = Works::on_one_rank);
 
-  /// A command that runs an analysis, with its name and its help.
-  Command(CLI::App& app, const outputs::Analysis& analysis, Works works = Works::on_one_rank)
-      : Command(app, analysis.name, analysis.help, works) {}
-
   /// Where it adds options of its own.
   CLI::App& subcommand() { return subcommand_; }
 
-  /// Adds a switch of an analysis: --name; where it is on by default, --no-name, which sets `is_on` to false.
-  void add_flag(const outputs::AnalysisOption& option, bool& is_on);
+  /// Adds an option that names a file to write, of any extension or one of these, in either case; on several ranks
+  /// .pvtp for .vtp. Empty where it isn't given. Returns the option.
+  CLI::Option* add_file(const std::string& option, std::string& file, const std::string& what,
+                        const std::vector<std::string>& extensions = {});
 
   /// Adds --encoding, if it writes VTK's XML files.
   void add_encoding() { common_.add_encoding_to(subcommand_); }
 
   const InputOptions& input() const { return input_; }
 
+  /// The session of a run, which writes the files that options name, and `more`. Throws UsageError for a file of
+  /// another extension, gale::Error for a .png that can't be drawn here, and as Session does.
+  Session begin(const std::vector<std::string>& more = {}) const;
+
   /// Throws UsageError, with its name, for an option that is given although there are several ranks: each pair says
   /// whether it is.
   static void refuse_on_ranks(std::initializer_list<std::pair<const char*, bool>> options);
 
-  /// Throws UsageError unless `file`, the value of `option`, is empty or ends in one of `extensions`, in either case.
-  void require_extension(const std::string& option, const std::string& file,
-                         std::initializer_list<const char*> extensions) const;
-
-  /// Throws UsageError unless `file` is empty or ends in .vtp or, on several ranks, in .pvtp.
-  void require_points_extension(const std::string& option, const std::string& file) const;
-
  private:
+  struct File {
+    std::string option;
+    const std::string& name;
+    std::vector<std::string> extensions;
+  };
+  void require_extension(const File& file) const;
+
   CLI::App& subcommand_;
   InputOptions input_;
   CommonOptions common_;
+  std::vector<File> files_;
   Works works_;
 };
+
+/// A command that runs an analysis of a field, with its name, its help and its options.
+class AnalysisCommand : public Command {
+ public:
+  void run() const final;
+
+ protected:
+  explicit AnalysisCommand(CLI::App& app, const std::string& name, Works works = Works::on_one_rank);
+
+  /// Adds a switch of the analysis: --name; where it is on by default, --no-name, which sets `is_on` to false.
+  void add_flag(const std::string& name, bool& is_on);
+
+  /// Throws UsageError or gale::Error for what the command line says together and can't; before anything is read.
+  virtual void require_usage() const {}
+
+  /// The names of files beside those that options name, each empty where it isn't wanted.
+  virtual std::vector<std::string> more_files() const { return {}; }
+
+  /// Whether the session keeps the dataset's tetrahedra.
+  virtual Session::Keep keep() const { return Session::Keep::nothing; }
+
+  /// Has the device do on a tiny mesh what it will do on the input.
+  virtual void warm_up(const VertexOrder& order) const { find_discrete_gradient(order); }
+
+  /// Finds, says and writes what the analysis is about.
+  virtual void analyse(const FieldOnMesh& on, Session& session, Computed& computed) const = 0;
+
+  const outputs::Analysis& analysis_;
+  SegmentationOptions segmentation_;
+  StructureOption structure_;
+};
+
+/// Says and reports how many critical simplices there are, by dimension.
+void tell_simplices(const std::array<std::int64_t, 4>& counts, Session& session);
+
+// Each adds its subcommand to the command line, which must outlive it.
+std::unique_ptr<Command> add_info(CLI::App& app);
+std::unique_ptr<Command> add_segment(CLI::App& app);
+std::unique_ptr<Command> add_critical_points(CLI::App& app);
+std::unique_ptr<Command> add_discrete_gradient(CLI::App& app);
+std::unique_ptr<Command> add_morse_smale(CLI::App& app);
+std::unique_ptr<Command> add_persistence_diagram(CLI::App& app);
+std::unique_ptr<Command> add_relations(CLI::App& app);
+std::unique_ptr<Command> add_generate(CLI::App& app);
+
+/// The analyses, their options and results (outputs/analyses.hpp), as JSON.
+std::string analyses_as_json();
+
+/// The table of all subcommands, in the order of the help.
+using AddCommand = std::unique_ptr<Command> (*)(CLI::App& app);
+inline constexpr AddCommand all_commands[] = {
+    add_info,      add_segment, add_critical_points, add_discrete_gradient, add_morse_smale, add_persistence_diagram,
+    add_relations, add_generate};
 
 }  // namespace gale::app

@@ -1,43 +1,46 @@
 #include <CLI/CLI.hpp>
 
-#include <gale/app/commands/commands.hpp>
-#include <gale/app/critical_counts.hpp>
-#include <gale/app/session.hpp>
+#include <gale/algorithms/critical_points.hpp>
+#include <gale/app/commands/command.hpp>
 #include <gale/outputs/critical_points.hpp>
 
 namespace gale::app {
 
 namespace {
 
-class FindCriticalPoints final : public Command {
- public:
-  explicit FindCriticalPoints(CLI::App& app)
-      : Command(app, outputs::analysis_named("critical-points"), Works::on_many_ranks) {
-    segmentation_.add_to(subcommand());
-    structure_.add_to(subcommand());
-    structure_.add_consumers_to(subcommand());
-    subcommand().add_option("-o,--output", output_,
-                            "The critical points: .vtp; on several ranks .pvtp, with a .vtp a rank");
-    add_encoding();
+/// Says and reports how many critical points there are, by CriticalType but `regular`.
+void tell(const std::array<std::int64_t, 5>& counts, Session& session) {
+  static const struct {
+    CriticalType type;
+    const char *name, *key;
+  } kinds[] = {{CriticalType::minimum, "minima", "minima"},
+               {CriticalType::saddle1, "1-saddles", "saddles1"},
+               {CriticalType::saddle2, "2-saddles", "saddles2"},
+               {CriticalType::maximum, "maxima", "maxima"},
+               {CriticalType::degenerate, "degenerate", "degenerate"}};
+  for (const auto& kind : kinds) {
+    const std::int64_t count = counts[static_cast<int>(kind.type)];
+    session.console().say(kind.name, grouped(count));
+    session.report().result[kind.key] = count;
   }
+}
 
-  void run() const override {
-    structure_.require_consumers();
-    require_points_extension("--output", output_);
-    Session session(input(), common(), {output_});
-    session.warm_up(structure_, [](const VertexOrder& order) { find_critical_points(order); });
-    const FieldOnMesh on = session.read_field(segmentation_);
-    Computed computed;
-    const CriticalPoints points =
-        find_critical_points(on.order, session.compute(structure_, "critical points"), &computed);
-    tell_points(points.counts, session);
-    session.write_result(output_, [&] { return outputs::to_point_set(on.dataset, points, on.mesh.exchange()); });
-    session.finish(structure_, computed);
+class FindCriticalPoints final : public AnalysisCommand {
+ public:
+  explicit FindCriticalPoints(CLI::App& app) : AnalysisCommand(app, "critical-points", Works::on_many_ranks) {
+    add_file("-o,--output", output_, "The critical points: .vtp; on several ranks .pvtp, with a .vtp a rank", {".vtp"});
   }
 
  private:
-  SegmentationOptions segmentation_;
-  StructureOption structure_;
+  void warm_up(const VertexOrder& order) const override { find_critical_points(order); }
+
+  void analyse(const FieldOnMesh& on, Session& session, Computed& computed) const override {
+    const CriticalPoints points =
+        find_critical_points(on.order, session.compute(structure_, "critical points"), &computed);
+    tell(points.counts, session);
+    session.write_result(output_, [&] { return outputs::to_point_set(on.dataset, points, on.mesh.exchange()); });
+  }
+
   std::string output_;
 };
 

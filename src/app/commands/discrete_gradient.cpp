@@ -1,9 +1,6 @@
 #include <CLI/CLI.hpp>
 
-#include <gale/app/commands/commands.hpp>
-#include <gale/app/critical_counts.hpp>
-#include <gale/app/session.hpp>
-#include <gale/app/usage_error.hpp>
+#include <gale/app/commands/command.hpp>
 #include <gale/baselines/discrete_gradient_from_cells.hpp>
 #include <gale/outputs/arrows.hpp>
 #include <gale/outputs/critical_simplices.hpp>
@@ -12,45 +9,35 @@ namespace gale::app {
 
 namespace {
 
-class FindDiscreteGradient final : public Command {
+class FindDiscreteGradient final : public AnalysisCommand {
  public:
-  explicit FindDiscreteGradient(CLI::App& app)
-      : Command(app, outputs::analysis_named("discrete-gradient"), Works::on_many_ranks) {
-    segmentation_.add_to(subcommand());
-    structure_.add_to(subcommand());
-    structure_.add_consumers_to(subcommand());
-    subcommand().add_option("-o,--output", output_,
-                            "The critical simplices: .vtp; on several ranks .pvtp, with a .vtp a rank");
-    add_encoding();
+  explicit FindDiscreteGradient(CLI::App& app) : AnalysisCommand(app, "discrete-gradient", Works::on_many_ranks) {
+    add_file("-o,--output", output_, "The critical simplices: .vtp; on several ranks .pvtp, with a .vtp a rank",
+             {".vtp"});
     subcommand()
         .add_option("--formulation", formulation_,
                     "stars (from VV, VT and link) or cells (from VE, VF and VT, as other programs do; slower): the "
                     "same result")
         ->check(CLI::IsMember({"stars", "cells"}));
-    subcommand().add_option("--arrows", arrows_, outputs::analysis_named("discrete-gradient").option("arrows").help);
+    add_file("--arrows", arrows_, analysis_.option("arrows").help, {".vtp"});
   }
 
-  void run() const override {
-    structure_.require_consumers();
+ private:
+  bool is_from_cells() const { return formulation_ == "cells"; }
+
+  void require_usage() const override {
     refuse_on_ranks({{"--arrows", !arrows_.empty()}, {"--formulation cells", is_from_cells()}});
     if (is_from_cells() && structure_.options.consumers == ConsumerPlace::device)
       throw UsageError("--consumers device: not with --formulation cells");
-    require_points_extension("--output", output_);
-    require_extension("--arrows", arrows_, {".vtp"});
-    Session session(input(), common(), {output_, arrows_});
-    session.warm_up(structure_, [](const VertexOrder& order) { find_discrete_gradient(order); });
-    const FieldOnMesh on = session.read_field(segmentation_);
-    Computed computed;
+  }
+
+  void analyse(const FieldOnMesh& on, Session& session, Computed& computed) const override {
     const DiscreteGradient gradient = find(on, session, computed);
     tell_simplices(gradient.counts(), session);
     if (!output_.empty()) write_critical(on, gradient, session, computed);
     session.write(
         arrows_, [&](const io::AtomicFile& file) { io::write_points(file, outputs::arrows_of(on.dataset, gradient)); });
-    session.finish(structure_, computed);
   }
-
- private:
-  bool is_from_cells() const { return formulation_ == "cells"; }
 
   DiscreteGradient find(const FieldOnMesh& on, Session& session, Computed& computed) const {
     if (!is_from_cells()) return find_discrete_gradient(on.order, session.compute(structure_, "gradient"), &computed);
@@ -71,8 +58,6 @@ class FindDiscreteGradient final : public Command {
     });
   }
 
-  SegmentationOptions segmentation_;
-  StructureOption structure_;
   std::string output_, arrows_;
   std::string formulation_ = "stars";
 };

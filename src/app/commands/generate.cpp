@@ -1,8 +1,6 @@
 #include <CLI/CLI.hpp>
 
-#include <gale/app/commands/commands.hpp>
-#include <gale/app/session.hpp>
-#include <gale/io/write.hpp>
+#include <gale/app/commands/command.hpp>
 
 namespace gale::app {
 
@@ -11,13 +9,12 @@ namespace {
 class Generate final : public Command {
  public:
   explicit Generate(CLI::App& app) : Command(app, "generate", "Writes the tetrahedral mesh that an input stands for") {
-    subcommand().add_option("-o,--output", output_, ".vtu or .vtk")->required();
+    add_file("-o,--output", output_, ".vtu or .vtk", {".vtu", ".vtk"})->required();
     add_encoding();
   }
 
   void run() const override {
-    require_extension("--output", output_, {".vtu", ".vtk"});
-    Session session(input(), common(), {output_});
+    Session session = begin();
     const io::Dataset dataset = session.read();
     session.write(output_, [&](const io::AtomicFile& file) { io::write_mesh(file, dataset); });
     session.finish();

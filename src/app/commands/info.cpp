@@ -1,11 +1,9 @@
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <numeric>
 
 #include <gale/algorithms/surface_vertices.hpp>
-#include <gale/app/commands/commands.hpp>
-#include <gale/app/session.hpp>
+#include <gale/app/commands/command.hpp>
 
 namespace gale::app {
 
@@ -13,24 +11,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct TypeName {
-  const char* operator()(const std::vector<std::int8_t>&) const { return "int8"; }
-  const char* operator()(const std::vector<std::uint8_t>&) const { return "uint8"; }
-  const char* operator()(const std::vector<std::int16_t>&) const { return "int16"; }
-  const char* operator()(const std::vector<std::uint16_t>&) const { return "uint16"; }
-  const char* operator()(const std::vector<std::int32_t>&) const { return "int32"; }
-  const char* operator()(const std::vector<std::uint32_t>&) const { return "uint32"; }
-  const char* operator()(const std::vector<std::int64_t>&) const { return "int64"; }
-  const char* operator()(const std::vector<std::uint64_t>&) const { return "uint64"; }
-  const char* operator()(const std::vector<float>&) const { return "float"; }
-  const char* operator()(const std::vector<double>&) const { return "double"; }
-};
-
-std::string brief(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return text;
+/// How the values of an array are called.
+std::string type_of(const io::PointArray& array) {
+  static const char* const names[] = {"int8",   "uint8", "int16",  "uint16", "int32",
+                                      "uint32", "int64", "uint64", "float",  "double"};
+  return names[array.values.index()];
 }
+
+std::string brief(double value) { return formatted("%.6g", value); }
 
 /// The least and the largest of the values added. NaN is neither: those are counted.
 struct Range {
@@ -70,7 +58,7 @@ void tell_extent(const io::Dataset& dataset, Session& session) {
 void tell_arrays(const io::Dataset& dataset, Session& session) {
   Json arrays = Json::array();
   for (const auto& array : dataset.arrays) {
-    const std::string type = std::visit(TypeName(), array.values);
+    const std::string type = type_of(array);
     Range range;
     std::visit(
         [&](const auto& values) {
@@ -104,7 +92,7 @@ class Info final : public Command {
   explicit Info(CLI::App& app) : Command(app, "info", "Says what a mesh is: sizes, extent, arrays") {}
 
   void run() const override {
-    Session session(input(), common());
+    Session session = begin();
     io::Dataset dataset = session.read();
     tell_extent(dataset, session);
     tell_arrays(dataset, session);

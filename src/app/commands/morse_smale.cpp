@@ -1,16 +1,16 @@
 #include <CLI/CLI.hpp>
 
 #include <gale/algorithms/morse_smale.hpp>
-#include <gale/app/commands/commands.hpp>
-#include <gale/app/commands/morse_smale_files.hpp>
-#include <gale/app/critical_counts.hpp>
-#include <gale/app/drawing/scene.hpp>
-#include <gale/app/options/persistence_option.hpp>
+#include <gale/app/commands/command.hpp>
+#include <gale/app/drawing/picture.hpp>
 #include <gale/app/ranks/ranks.hpp>
-#include <gale/app/session.hpp>
-#include <gale/app/usage_error.hpp>
-#include <gale/base/error.hpp>
+#include <gale/outputs/critical_simplices.hpp>
+#include <gale/outputs/manifolds.hpp>
+#include <gale/outputs/mesh_piece.hpp>
 #include <gale/outputs/morse_smale.hpp>
+#include <gale/outputs/named_simplices.hpp>
+#include <gale/outputs/separatrices1.hpp>
+#include <gale/outputs/separatrices2.hpp>
 
 namespace gale::app {
 
@@ -67,63 +67,64 @@ void tell(const KeptBelow& kept, Session& session) {
   session.report().result["kept_below"] = {{"several_paths", kept.several_paths}, {"no_path", kept.no_path}};
 }
 
-void require_png(const std::string& file) {
-  const std::string extension = file.size() > 4 ? file.substr(file.size() - 4) : "";
-  if (extension != ".png" && extension != ".PNG")
-    throw UsageError("--render " + file + ": gale morse-smale draws .png");
+/// The files of the command but for the picture. A name is empty where the file isn't wanted or nothing would be in it.
+struct ComplexFiles {
+  std::string critical_points, separatrices1, separatrices2, segmentation;
+
+  /// Names the files that begin with `prefix`, none if that is empty, for the parts that are wanted.
+  ComplexFiles(const std::string& prefix, const MorseSmaleParts& wanted) {
+    if (prefix.empty()) return;
+    const std::string parallel = Launch::are_several() ? ".p" : ".";
+    critical_points = prefix + "_critical_points" + parallel + "vtp";
+    if (wanted.descending_separatrices || wanted.ascending_separatrices || wanted.saddle_connectors)
+      separatrices1 = prefix + "_separatrices1" + parallel + "vtp";
+    if (wanted.separatrices2) separatrices2 = prefix + "_separatrices2" + parallel + "vtp";
+    if (wanted.descending_manifolds || wanted.ascending_manifolds)
+      segmentation = prefix + "_segmentation" + parallel + "vtu";
+  }
+};
+
+/// What `make` makes, whose time is added to `seconds`.
+template <class Make>
+auto timed(double& seconds, const Make& make) {
+  const Stopwatch watch(seconds);
+  return make();
 }
 
-/// Finds the complex of a tiny mesh.
-void find_small_complex(const VertexOrder& order) { find_morse_smale_complex(find_discrete_gradient(order)); }
-
-class FindMorseSmale final : public Command {
+class FindMorseSmale final : public AnalysisCommand {
  public:
-  explicit FindMorseSmale(CLI::App& app) : Command(app, outputs::analysis_named("morse-smale"), Works::on_many_ranks) {
-    segmentation_.add_to(subcommand());
-    structure_.add_to(subcommand());
-    structure_.add_consumers_to(subcommand());
+  explicit FindMorseSmale(CLI::App& app) : AnalysisCommand(app, "morse-smale", Works::on_many_ranks) {
     subcommand()
         .add_option("-o,--output", output_,
                     "Write P_critical_points.vtp, P_separatrices1.vtp, P_segmentation.vtu and, if wanted, "
                     "P_separatrices2.vtp; on several ranks .pvtp and .pvtu, with a piece a rank")
         ->type_name("P");
-    add_encoding();
-    add_parts();
+    for (const outputs::PartOfComplex& part : outputs::parts_of_complexes)
+      add_flag(part.option, parts_.*part.is_wanted);
     add_persistence(subcommand(), persistence_, analysis_.option("persistence").help);
-    add_flag(analysis_.option("extrema_only"), extrema_only_);
-    subcommand()
-        .add_option(
-            "--render", render_,
-            "Draw the complex to this .png: an octant cut out of the segmented mesh, and there the 1-separatrices")
+    add_flag("extrema_only", extrema_only_);
+    add_file("--render", render_,
+             "Draw the complex to this .png: an octant cut out of the segmented mesh, and there the 1-separatrices",
+             {".png"})
         ->type_name("FILE.png");
   }
 
-  void run() const override {
-    structure_.require_consumers();
-    refuse_whole();
-    if (extrema_only_ && !persistence_) throw UsageError("--extrema-only: it goes with --persistence");
-    if (!render_.empty()) {
-      require_png(render_);
-      require_drawing();
-    }
-    const MorseSmaleFiles files(output_, parts_, render_);
-    Session session(input(), common(), files.all());
-    session.warm_up(structure_, find_small_complex);
-    const FieldOnMesh on = session.read_field(
-        segmentation_, files.segmentation.empty() ? Session::Keep::nothing : Session::Keep::tetrahedra);
-    Computed computed;
-    const DiscreteGradient gradient =
-        find_discrete_gradient(on.order, session.compute(structure_, "gradient"), &computed);
-    MorseSmaleComplex complex = find(gradient, on, session, computed);
-    tell(complex, parts_, session);
-    if (persistence_) tell(complex.kept_below, session);
-    if (files.any()) write(files, parts_, on, complex, structure_, session, computed);
-    session.finish(structure_, computed);
+ private:
+  ComplexFiles files() const { return {output_, parts_}; }
+
+  std::vector<std::string> more_files() const override {
+    const ComplexFiles all = files();
+    return {all.critical_points, all.separatrices1, all.separatrices2, all.segmentation};
   }
 
- private:
+  Session::Keep keep() const override {
+    return files().segmentation.empty() ? Session::Keep::nothing : Session::Keep::tetrahedra;
+  }
+
+  void warm_up(const VertexOrder& order) const override { find_morse_smale_complex(find_discrete_gradient(order)); }
+
   /// On several ranks, what follows walls or pairs is refused: both want the whole mesh.
-  void refuse_whole() const {
+  void require_usage() const override {
     if (Launch::are_several() && parts_.saddle_connectors) {
       throw UsageError(
           "saddle connectors: not on several ranks, where walls can't be followed: switch them off by "
@@ -133,11 +134,16 @@ class FindMorseSmale final : public Command {
                      {"--persistence", bool(persistence_)},
                      {"--extrema-only", extrema_only_},
                      {"--render", !render_.empty()}});
+    if (extrema_only_ && !persistence_) throw UsageError("--extrema-only: it goes with --persistence");
   }
 
-  void add_parts() {
-    for (const outputs::PartOfComplex& part : outputs::parts_of_complexes)
-      add_flag(analysis_.option(part.option), parts_.*part.is_wanted);
+  void analyse(const FieldOnMesh& on, Session& session, Computed& computed) const override {
+    const DiscreteGradient gradient =
+        find_discrete_gradient(on.order, session.compute(structure_, "gradient"), &computed);
+    MorseSmaleComplex complex = find(gradient, on, session, computed);
+    tell(complex, parts_, session);
+    if (persistence_) tell(complex.kept_below, session);
+    if (!output_.empty() || !render_.empty()) write(on, complex, session, computed);
   }
 
   /// The complex, simplified if that is wanted, with the needed parts.
@@ -148,9 +154,46 @@ class FindMorseSmale final : public Command {
     return outputs::find_complex(gradient, on.field, request, session.compute(structure_, "complex"), &computed);
   }
 
-  const outputs::Analysis& analysis_ = outputs::analysis_named("morse-smale");
-  SegmentationOptions segmentation_;
-  StructureOption structure_;
+  /// Writes the files. `complex` may have more than is wanted: the rest is taken out of it first.
+  void write(const FieldOnMesh& on, MorseSmaleComplex& complex, Session& session, Computed& computed) const {
+    const ComplexFiles to = files();
+    const io::Dataset& dataset = on.dataset;
+    const auto connectors = outputs::ends_of(complex.connectors);  // of all, wanted or not: they bound walls
+    outputs::leave_out_unwanted(parts_, complex);
+    double& seconds = session.report().seconds.write;
+    const NamedSimplices named = timed(seconds, [&] { return outputs::named_simplices(complex); });
+    const SimplexNumbers numbers = number_simplices(on.mesh, named, session.compute(structure_, "numbers"), &computed);
+    const outputs::KnownSimplices critical =
+        timed(seconds, [&] { return outputs::known_simplices(complex.gradient, complex.critical, numbers); });
+    const io::PointSet points = timed(seconds, [&] {
+      io::PointSet set = outputs::to_point_set(dataset, critical, on.mesh.exchange());
+      set.arrays.push_back(outputs::manifold_sizes(complex));
+      return set;
+    });
+    const io::Surface lines =
+        timed(seconds, [&] { return outputs::separatrices1(dataset, on.field, complex, named, numbers, critical); });
+    session.write_result(to.critical_points, [&]() -> const io::PointSet& { return points; });
+    session.write_result(to.separatrices1, [&]() -> const io::Surface& { return lines; });
+    session.write_result(to.separatrices2,
+                         [&] { return outputs::separatrices2(dataset, on.field, complex, connectors, critical); });
+    if (on.mesh.is_part()) {
+      session.write_result(to.segmentation, [&] {
+        io::MeshPiece piece;
+        detail::together(session.ranks(), [&] {
+          piece = outputs::piece_of(on.order, dataset, outputs::manifold_arrays(complex), on.has_ids);
+        });
+        return piece;
+      });
+      return;
+    }
+    session.write(to.segmentation, [&](const io::AtomicFile& file) {
+      io::write_mesh(file, dataset, outputs::manifold_arrays(complex));
+    });
+    session.write(render_, [&](const io::AtomicFile& file) {
+      draw(file, picture_of(dataset, on.field, complex, numbers, points, lines));
+    });
+  }
+
   MorseSmaleParts parts_;  ///< that are wanted
   std::optional<outputs::Persistence> persistence_;
   bool extrema_only_ = false;

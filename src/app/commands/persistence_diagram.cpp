@@ -1,15 +1,9 @@
 #include <CLI/CLI.hpp>
 
 #include <gale/algorithms/persistence.hpp>
-#include <gale/app/commands/commands.hpp>
-#include <gale/app/drawing/diagram_plot.hpp>
-#include <gale/app/drawing/scene.hpp>
-#include <gale/app/options/parse.hpp>
-#include <gale/app/options/persistence_option.hpp>
+#include <gale/app/commands/command.hpp>
+#include <gale/app/drawing/picture.hpp>
 #include <gale/app/output_file.hpp>
-#include <gale/app/session.hpp>
-#include <gale/io/write.hpp>
-#include <gale/outputs/persistence.hpp>
 
 namespace gale::app {
 
@@ -24,31 +18,17 @@ void tell(const outputs::DiagramCounts& counts, Session& session) {
   session.report().result = {{"pairs", counts.pairs}, {"essential", counts.essential}};
 }
 
-class FindPersistenceDiagram final : public Command {
+class FindPersistenceDiagram final : public AnalysisCommand {
  public:
-  explicit FindPersistenceDiagram(CLI::App& app) : Command(app, outputs::analysis_named("persistence-diagram")) {
-    segmentation_.add_to(subcommand());
-    structure_.add_to(subcommand());
-    structure_.add_consumers_to(subcommand());
-    subcommand().add_option("-o,--output", output_, "The diagram, a line a pair: .vtu");
-    add_encoding();
-    subcommand().add_option("--curve", curve_,
-                            "How many pairs have at least a persistence, for each that occurs: .csv");
-    add_persistence(subcommand(), persistence_,
-                    outputs::analysis_named("persistence-diagram").option("persistence").help);
-    subcommand().add_option("--render", render_, "Draw diagram and curve to this .png")->type_name("FILE.png");
+  explicit FindPersistenceDiagram(CLI::App& app) : AnalysisCommand(app, "persistence-diagram") {
+    add_file("-o,--output", output_, "The diagram, a line a pair: .vtu", {".vtu"});
+    add_file("--curve", curve_, "How many pairs have at least a persistence, for each that occurs: .csv", {".csv"});
+    add_persistence(subcommand(), persistence_, analysis_.option("persistence").help);
+    add_file("--render", render_, "Draw diagram and curve to this .png", {".png"})->type_name("FILE.png");
   }
 
-  void run() const override {
-    structure_.require_consumers();
-    require_extension("--output", output_, {".vtu"});
-    require_extension("--curve", curve_, {".csv"});
-    require_extension("--render", render_, {".png"});
-    if (!render_.empty()) require_drawing();
-    Session session(input(), common(), {output_, render_, curve_});
-    session.warm_up(structure_, [](const VertexOrder& order) { find_discrete_gradient(order); });
-    const FieldOnMesh on = session.read_field(segmentation_);
-    Computed computed;
+ private:
+  void analyse(const FieldOnMesh& on, Session& session, Computed& computed) const override {
     const DiscreteGradient gradient =
         find_discrete_gradient(on.order, session.compute(structure_, "gradient"), &computed);
     const auto diagram = find(gradient, on, session);
@@ -60,10 +40,8 @@ class FindPersistenceDiagram final : public Command {
       write_text(file, [&](std::ostream& out) { out << outputs::to_csv(outputs::persistence_curve(diagram)); });
     });
     session.write(render_, [&](const io::AtomicFile& file) { draw(file, plot_of(diagram, on.field.name)); });
-    session.finish(structure_, computed);
   }
 
- private:
   std::vector<outputs::DiagramPoint> find(const DiscreteGradient& gradient, const FieldOnMesh& on,
                                           Session& session) const {
     const Stopwatch watch(session.report().seconds.run);
@@ -72,8 +50,6 @@ class FindPersistenceDiagram final : public Command {
     return outputs::persistence_diagram(gradient, pairs, on.field, least);
   }
 
-  SegmentationOptions segmentation_;
-  StructureOption structure_;
   std::optional<outputs::Persistence> persistence_;
   std::string output_, curve_, render_;
 };

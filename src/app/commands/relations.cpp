@@ -4,9 +4,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include <gale/app/commands/commands.hpp>
+#include <gale/app/commands/command.hpp>
 #include <gale/app/output_file.hpp>
-#include <gale/app/session.hpp>
 #include <gale/base/error.hpp>
 #include <gale/baselines/oracle.hpp>
 #include <gale/runtime/relation_of.hpp>
@@ -80,12 +79,6 @@ void write_rows(std::ostream& out, const Mesh& mesh, Relation relation) {
   }
 }
 
-std::string rate(double amount, double seconds, const std::string& unit) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%.1f %s", seconds > 0 ? amount / seconds : 0.0, unit.c_str());
-  return text;
-}
-
 void tell(const Sizes& sizes, Relation relation, Session& session) {
   const double run = session.report().seconds.run, entries = static_cast<double>(sizes.entries),
                rows = static_cast<double>(sizes.rows);
@@ -93,8 +86,11 @@ void tell(const Sizes& sizes, Relation relation, Session& session) {
   session.console().say("rows", grouped(sizes.rows));
   session.console().say("entries", grouped(sizes.entries));
   session.console().say("longest row", grouped(sizes.longest));
-  session.console().say("rates", rate(rows / 1e6, run, "M rows/s, ") + rate(entries / 1e6, run, "M entries/s, ") +
-                                     rate((entries + rows) * sizeof(Id) / 1e9, run, "GB/s"));
+  const auto rate = [&](double amount, const char* unit) {
+    return formatted("%.1f %s", run > 0 ? amount / run : 0, unit);
+  };
+  session.console().say("rates", rate(rows / 1e6, "M rows/s, ") + rate(entries / 1e6, "M entries/s, ") +
+                                     rate((entries + rows) * sizeof(Id) / 1e9, "GB/s"));
   session.report().result = {{"relation", name_of(relation)},
                              {"rows", sizes.rows},
                              {"entries", sizes.entries},
@@ -130,11 +126,11 @@ class ComputeRelation final : public Command {
     subcommand().add_flag("--verify", verify_,
                           "Compare every row with the explicit structure (with brute force if it is that one, or "
                           "without Kokkos-Kernels)");
-    subcommand().add_option("--dump", dump_, "Write all rows to this text file");
+    add_file("--dump", dump_, "Write all rows to this text file");
   }
 
   void run() const override {
-    Session session(input(), common(), {dump_});
+    Session session = begin();
     const Relation relation = *relation_named(relation_);
     io::Dataset dataset = session.read();
     const Mesh mesh = session.encode(dataset, segmentation_, Session::Keep::nothing);

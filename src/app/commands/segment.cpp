@@ -2,9 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include <gale/app/commands/commands.hpp>
-#include <gale/app/session.hpp>
-#include <gale/io/write.hpp>
+#include <gale/app/commands/command.hpp>
 #include <gale/outputs/segmentation.hpp>
 
 namespace gale::app {
@@ -30,13 +28,12 @@ class Segment final : public Command {
  public:
   explicit Segment(CLI::App& app) : Command(app, "segment", "Divides a mesh into segments") {
     segmentation_.add_to(subcommand());
-    subcommand().add_option("-o,--output", output_, "The mesh with its segments as a point array: .vtu or .vtk");
+    add_file("-o,--output", output_, "The mesh with its segments as a point array: .vtu or .vtk", {".vtu", ".vtk"});
     add_encoding();
   }
 
   void run() const override {
-    require_extension("--output", output_, {".vtu", ".vtk"});
-    Session session(input(), common(), {output_});
+    Session session = begin();
     io::Dataset dataset = session.read();
     const Mesh mesh = session.encode(dataset, segmentation_, Session::Keep::tetrahedra);
     tell(mesh, session);

@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include <gale/app/drawing/picture.hpp>
-#include <gale/app/drawing/scene.hpp>
 #include <gale/outputs/field.hpp>
 
 namespace gale::app {

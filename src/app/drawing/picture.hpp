@@ -1,13 +1,25 @@
 #pragma once
 
+#include <array>
+#include <functional>
+#include <set>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include <gale/algorithms/morse_smale.hpp>
 #include <gale/algorithms/simplex_numbers.hpp>
-#include <gale/app/drawing/shown_paths.hpp>
+#include <gale/app/drawing/scene.hpp>
 #include <gale/io/write.hpp>
+#include <gale/outputs/persistence.hpp>
+
+// What is drawn of results, as flat drawings and scenes.
 
 namespace gale::app {
+
+/// A persistence diagram and beside it its curve, both axes of which are logarithmic. What has a birth or a death that
+/// isn't finite isn't drawn.
+Flat plot_of(const std::vector<outputs::DiagramPoint>& diagram, const std::string& field);
 
 /// A picture of a complex: the mesh without the octant of its high corner, its skin in a pale colour for each
 /// Morse-Smale manifold that is as bright as `field` is high; in the octant the critical simplices, as balls, and the
@@ -16,6 +28,26 @@ namespace gale::app {
 /// complex; of `numbers` only `on_surface` is read.
 Scene picture_of(const io::Dataset& dataset, const io::PointArray& field, const MorseSmaleComplex& complex,
                  const SimplexNumbers& numbers, const io::PointSet& critical, const io::Surface& separatrices1);
+
+/// The 1-separatrices that a picture shows: those of each type along which the field changes most.
+struct ShownPaths {
+  /// The paths of one type, smoothed, without what another one shows already.
+  struct Kind {
+    std::vector<std::vector<Point>> stretches;
+    Id inside = 0;  ///< how many paths come inside
+    Id shown = 0;   ///< how many of these are shown
+  };
+
+  std::array<Kind, 3> kinds;          ///< by SeparatrixType: descending, connectors, ascending
+  std::set<std::pair<int, Id>> ends;  ///< CellDimension and CellId of the critical simplices that they join
+
+  /// Whether every path that comes inside is shown.
+  bool are_all() const;
+};
+
+/// Chooses `most` of each type among the paths of `separatrices1` that have a line with both ends `inside`, and leaves
+/// out all other lines. A path that is told as far as an earlier one goes on as that one does.
+ShownPaths shown_paths(const io::Surface& separatrices1, Id most, const std::function<bool(const Point&)>& inside);
 
 /// Colours of critical simplices, by dimension.
 inline constexpr Color color_of_dimension[] = {{26, 89, 217}, {0, 140, 90}, {245, 150, 16}, {214, 31, 36}};

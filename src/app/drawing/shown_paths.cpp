@@ -2,8 +2,7 @@
 #include <unordered_map>
 #include <unordered_set>
 
-#include <gale/app/drawing/scene.hpp>
-#include <gale/app/drawing/shown_paths.hpp>
+#include <gale/app/drawing/picture.hpp>
 #include <gale/outputs/field.hpp>
 
 namespace gale::app {

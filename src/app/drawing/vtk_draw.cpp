@@ -2,27 +2,19 @@
 
 #include <cmath>
 
-#include <vtkActor.h>
 #include <vtkAutoInit.h>
 #include <vtkCamera.h>
-#include <vtkCellArray.h>
 #include <vtkFloatArray.h>
 #include <vtkGlyph3DMapper.h>
-#include <vtkNew.h>
 #include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkPolyDataNormals.h>
-#include <vtkProperty.h>
-#include <vtkRenderer.h>
 #include <vtkSphereSource.h>
 #include <vtkTubeFilter.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkWindowedSincPolyDataFilter.h>
 
 #include <gale/app/drawing/picture.hpp>
-#include <gale/app/drawing/scene.hpp>
 #include <gale/app/drawing/vtk_png.hpp>
 #include <gale/base/error.hpp>
 
@@ -39,8 +31,11 @@ vtkSmartPointer<vtkPoints> to_vtk(const std::vector<Point>& points) {
   return all;
 }
 
-void set_color(vtkActor* actor, const Color& color) {
-  actor->GetProperty()->SetColor(color[0] / 255.0, color[1] / 255.0, color[2] / 255.0);
+void shade(vtkProperty* look, double ambient, double diffuse, double specular, double power) {
+  look->SetAmbient(ambient);
+  look->SetDiffuse(diffuse);
+  look->SetSpecular(specular);
+  look->SetSpecularPower(power);
 }
 
 void add_skin(vtkRenderer* renderer, const Scene::Skin& skin) {
@@ -69,25 +64,12 @@ void add_skin(vtkRenderer* renderer, const Scene::Skin& skin) {
   normals->SplittingOn();
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputConnection(normals->GetOutputPort());
-  vtkNew<vtkActor> actor;
-  actor->SetMapper(mapper);
-  actor->GetProperty()->SetAmbient(0.38);
-  actor->GetProperty()->SetDiffuse(0.8);
-  actor->GetProperty()->SetSpecular(0.08);
-  actor->GetProperty()->SetSpecularPower(20);
-  renderer->AddActor(actor);
+  shade(add_actor(renderer, mapper, {255, 255, 255}), 0.38, 0.8, 0.08, 20);
 }
 
 void add_tubes(vtkRenderer* renderer, const Scene::Tubes& tubes) {
-  vtkNew<vtkPoints> points;
-  vtkNew<vtkCellArray> lines;
-  for (const auto& path : tubes.paths) {
-    lines->InsertNextCell(static_cast<int>(path.size()));
-    for (const Point& point : path) lines->InsertCellPoint(points->InsertNextPoint(point.data()));
-  }
-  vtkNew<vtkPolyData> data;
-  data->SetPoints(points);
-  data->SetLines(lines);
+  const auto data =
+      lines_along(tubes.paths, [](vtkPoints* to, const Point& point) { return to->InsertNextPoint(point.data()); });
   vtkNew<vtkTubeFilter> tube;
   tube->SetInputData(data);
   tube->SetRadius(tubes.radius);
@@ -96,12 +78,7 @@ void add_tubes(vtkRenderer* renderer, const Scene::Tubes& tubes) {
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputConnection(tube->GetOutputPort());
   mapper->ScalarVisibilityOff();
-  vtkNew<vtkActor> actor;
-  actor->SetMapper(mapper);
-  set_color(actor, tubes.color);
-  actor->GetProperty()->SetAmbient(0.3);
-  actor->GetProperty()->SetSpecular(0.2);
-  renderer->AddActor(actor);
+  shade(add_actor(renderer, mapper, tubes.color), 0.3, 1, 0.2, 1);
 }
 
 void add_balls(vtkRenderer* renderer, const Scene::Balls& balls, double radius) {
@@ -114,14 +91,7 @@ void add_balls(vtkRenderer* renderer, const Scene::Balls& balls, double radius) 
   vtkNew<vtkGlyph3DMapper> mapper;
   mapper->SetInputData(data);
   mapper->SetSourceConnection(ball->GetOutputPort());
-  vtkNew<vtkActor> actor;
-  actor->SetMapper(mapper);
-  set_color(actor, balls.color);
-  actor->GetProperty()->SetAmbient(0.25);
-  actor->GetProperty()->SetDiffuse(0.8);
-  actor->GetProperty()->SetSpecular(0.35);
-  actor->GetProperty()->SetSpecularPower(30);
-  renderer->AddActor(actor);
+  shade(add_actor(renderer, mapper, balls.color), 0.25, 0.8, 0.35, 30);
 }
 
 /// Looks from the high corner, without perspective. The mesh is as large as there is room for left of the legend.

@@ -1,22 +1,14 @@
 #include <cerrno>
 
-#include <vtkActor.h>
 #include <vtkCamera.h>
-#include <vtkCellArray.h>
 #include <vtkErrorCode.h>
 #include <vtkImageResize.h>
-#include <vtkNew.h>
 #include <vtkPNGWriter.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
-#include <vtkProperty.h>
-#include <vtkRenderer.h>
 #include <vtkTextActor.h>
 #include <vtkTextProperty.h>
 #include <vtkWindowToImageFilter.h>
 
-#include <gale/app/drawing/scene.hpp>
 #include <gale/app/drawing/vtk_png.hpp>
 #include <gale/base/error.hpp>
 #include <gale/io/vtk/vtk_messages.hpp>
@@ -65,19 +57,12 @@ void write_png(const io::AtomicFile& file, int width, int height, const std::vec
 
 namespace {
 
-void set_color(vtkProperty* property, const Color& color) {
-  property->SetColor(color[0] / 255.0, color[1] / 255.0, color[2] / 255.0);
-  property->LightingOff();
-}
-
-vtkActor* add(vtkRenderer* renderer, vtkPolyData* data, const Color& color) {
+vtkProperty* add(vtkRenderer* renderer, vtkPolyData* data, const Color& color) {
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputData(data);
-  vtkNew<vtkActor> actor;
-  actor->SetMapper(mapper);
-  set_color(actor->GetProperty(), color);
-  renderer->AddActor(actor);
-  return actor;
+  vtkProperty* const look = add_actor(renderer, mapper, color);
+  look->LightingOff();
+  return look;
 }
 
 vtkIdType insert(vtkPoints* points, const Flat::Place& place, double depth) {
@@ -85,18 +70,11 @@ vtkIdType insert(vtkPoints* points, const Flat::Place& place, double depth) {
 }
 
 void add_lines(vtkRenderer* renderer, const Flat::Lines& lines, double depth) {
-  vtkNew<vtkPoints> points;
-  vtkNew<vtkCellArray> cells;
-  for (const auto& path : lines.paths) {
-    cells->InsertNextCell(static_cast<int>(path.size()));
-    for (const auto& place : path) cells->InsertCellPoint(insert(points, place, depth));
-  }
-  vtkNew<vtkPolyData> data;
-  data->SetPoints(points);
-  data->SetLines(cells);
-  vtkActor* const actor = add(renderer, data, lines.color);
-  actor->GetProperty()->SetLineWidth(static_cast<float>(finer * lines.width));
-  actor->GetProperty()->SetOpacity(lines.opacity);
+  const auto data =
+      lines_along(lines.paths, [&](vtkPoints* to, const Flat::Place& place) { return insert(to, place, depth); });
+  vtkProperty* const look = add(renderer, data, lines.color);
+  look->SetLineWidth(static_cast<float>(finer * lines.width));
+  look->SetOpacity(lines.opacity);
 }
 
 void add_dots(vtkRenderer* renderer, const Flat::Dots& dots, double depth) {
@@ -109,9 +87,9 @@ void add_dots(vtkRenderer* renderer, const Flat::Dots& dots, double depth) {
   vtkNew<vtkPolyData> data;
   data->SetPoints(points);
   data->SetVerts(cells);
-  vtkActor* const actor = add(renderer, data, dots.color);
-  actor->GetProperty()->SetPointSize(static_cast<float>(finer * dots.size));
-  actor->GetProperty()->RenderPointsAsSpheresOn();
+  vtkProperty* const look = add(renderer, data, dots.color);
+  look->SetPointSize(static_cast<float>(finer * dots.size));
+  look->RenderPointsAsSpheresOn();
 }
 
 void add_text(vtkRenderer* renderer, const Flat::Text& text) {
@@ -123,17 +101,8 @@ void add_text(vtkRenderer* renderer, const Flat::Text& text) {
   property->SetColor(text.color[0] / 255.0, text.color[1] / 255.0, text.color[2] / 255.0);
   property->SetVerticalJustificationToCentered();
   if (text.upright) property->SetOrientation(90);
-  switch (text.anchor) {
-    case Flat::Text::Anchor::left:
-      property->SetJustificationToLeft();
-      break;
-    case Flat::Text::Anchor::middle:
-      property->SetJustificationToCentered();
-      break;
-    case Flat::Text::Anchor::right:
-      property->SetJustificationToRight();
-      break;
-  }
+  static constexpr int justifications[] = {VTK_TEXT_LEFT, VTK_TEXT_CENTERED, VTK_TEXT_RIGHT};
+  property->SetJustification(justifications[static_cast<int>(text.anchor)]);
   actor->SetPosition(finer * text.place[0], finer * text.place[1]);
   renderer->AddActor2D(actor);
 }

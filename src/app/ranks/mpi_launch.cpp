@@ -6,9 +6,7 @@
 #include <string>
 #include <thread>
 
-#include <gale/app/ranks/launched_ranks.hpp>
 #include <gale/app/ranks/ranks.hpp>
-#include <gale/app/usage_error.hpp>
 #include <gale/distributed/communicator.hpp>
 
 namespace gale::app {

@@ -1,9 +1,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include <gale/app/ranks/pieces_input.hpp>
-#include <gale/app/step.hpp>
-#include <gale/app/usage_error.hpp>
+#include <gale/app/ranks/shared_input.hpp>
 #include <gale/io/write.hpp>
 #include <gale/mesh/exchange/messages.hpp>
 #include <gale/mesh/exchange/places.hpp>

@@ -1,6 +1,8 @@
 #pragma once
 
-#include <memory>
+#include <algorithm>
+#include <cstdlib>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -44,28 +46,25 @@ class Launch {
   static bool all_fail_alike();
 };
 
-/// An input that several ranks read together. Its functions are collective, and throw SharedError.
-class SharedField {
- public:
-  /// Reads: `grid:N` is made by each rank for itself, the pieces of a `.pvtu` are read by all ranks; else the first
-  /// rank reads all, and the others have nothing.
-  explicit SharedField(const InputOptions& input);
-  ~SharedField();
+/// How many ranks a launcher says that it has started, of which this process is one; 1 without a launcher.
+inline int launched_ranks() {
+  int most = 1;
+  for (const char* const name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"}) {
+    const char* const value = std::getenv(name);
+    if (value != nullptr) most = std::max(most, std::atoi(value));
+  }
+  return most;
+}
 
-  /// What is to be said of it.
-  const std::vector<std::string>& notices() const;
-
-  /// What of the input outputs take.
-  struct Wanted {
-    bool arrays, tetrahedra;
-  };
-
-  /// This rank's part of the mesh, and the field on it. Forgets what was read.
-  FieldOnMesh share(int capacity, const Wanted& wanted);
-
- private:
-  struct Data;
-  std::unique_ptr<Data> data_;
+/// What of an input outputs take.
+struct WantedOfInput {
+  bool arrays, tetrahedra;
 };
+
+/// Reads an input on several ranks together: `grid:N` is made by each rank for itself, the pieces of a `.pvtu` are read
+/// by all ranks; else the first rank reads all. Calls was_read() with what is to be said of it, then shares it: returns
+/// this rank's part of the mesh, and the field on it. Collective; throws SharedError.
+FieldOnMesh read_on_ranks(const InputOptions& from, int capacity, const WantedOfInput& wanted,
+                          const std::function<void(const std::vector<std::string>& notices)>& was_read);
 
 }  // namespace gale::app

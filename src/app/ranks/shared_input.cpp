@@ -1,9 +1,7 @@
 #include <sstream>
 
-#include <gale/app/ranks/pieces_input.hpp>
 #include <gale/app/ranks/ranks.hpp>
 #include <gale/app/ranks/shared_input.hpp>
-#include <gale/app/step.hpp>
 #include <gale/io/bytes/values.hpp>
 #include <gale/io/read.hpp>
 #include <gale/io/synthetic.hpp>
@@ -81,10 +79,7 @@ std::vector<io::PointArray> empty_arrays(const std::string& description) {
     std::string name(length, ' ');
     text.get();
     text.read(name.data(), static_cast<std::streamsize>(length));
-    io::PointArray array{name, components, {}};
-    io::detail::with_type(static_cast<io::detail::ValueType>(type),
-                          [&](auto value) { array.values = std::vector<decltype(value)>(); });
-    arrays.push_back(std::move(array));
+    arrays.push_back({name, components, io::detail::no_values(static_cast<io::detail::ValueType>(type))});
   }
   return arrays;
 }
@@ -166,19 +161,11 @@ VertexOrder order_by(const Mesh& mesh, const io::PointArray& order) {
 
 }  // namespace
 
-struct SharedField::Data {
-  SharedInput input;
-};
-
-SharedField::SharedField(const InputOptions& input)
-    : data_(std::make_unique<Data>(Data{read_shared(Launch::ranks(), input)})) {}
-SharedField::~SharedField() = default;
-
-const std::vector<std::string>& SharedField::notices() const { return data_->input.notices; }
-
-FieldOnMesh SharedField::share(int capacity, const Wanted& wanted) {
-  SharedInput& input = data_->input;
+FieldOnMesh read_on_ranks(const InputOptions& from, int capacity, const WantedOfInput& wanted,
+                          const std::function<void(const std::vector<std::string>& notices)>& was_read) {
   const auto& ranks = static_cast<const Communicator&>(Launch::ranks());  // as there are several
+  SharedInput input = read_shared(ranks, from);
+  was_read(input.notices);
   begin_step("sharing the mesh");
   PartitionOptions options;
   options.repartition = input.is_dealt_out;

@@ -1,6 +1,5 @@
 #include <string>
 
-#include <gale/app/ranks/launched_ranks.hpp>
 #include <gale/app/ranks/ranks.hpp>
 #include <gale/base/error.hpp>
 
@@ -19,13 +18,9 @@ void Launch::require_same_arguments(int, char**) {}
 void Launch::end_all(int, bool) {}
 bool Launch::all_fail_alike() { return true; }
 
-struct SharedField::Data {};
-SharedField::SharedField(const InputOptions&) { throw Error("there are no ranks to share it"); }
-SharedField::~SharedField() = default;
-const std::vector<std::string>& SharedField::notices() const {
-  static const std::vector<std::string> none;
-  return none;
+FieldOnMesh read_on_ranks(const InputOptions&, int, const WantedOfInput&,
+                          const std::function<void(const std::vector<std::string>&)>&) {
+  throw Error("there are no ranks to share it");
 }
-FieldOnMesh SharedField::share(int, const Wanted&) { throw Error("there are no ranks to share it"); }
 
 }  // namespace gale::app

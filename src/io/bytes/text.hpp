@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <gale/base/error.hpp>
+#include <gale/export.hpp>
 #include <gale/io/bytes/input_file.hpp>
 
 /// Texts: of messages, and of files as words, lines and numbers.
@@ -110,6 +111,7 @@ std::vector<T> numbers_of(const std::string& line, const std::string& what) {
 /// The text without white space at its ends.
 std::string trimmed(const std::string& text);
 
-std::string lower_case(std::string text);
+/// The text with small letters for those of ASCII.
+GALE_EXPORT std::string lower_case(std::string text);
 
 }  // namespace gale::io::detail
