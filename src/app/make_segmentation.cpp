@@ -1,6 +1,6 @@
 #include <random>
 
-#include <gale/app/make_segmentation.hpp>
+#include <gale/app/session.hpp>
 #include <gale/outputs/segmentation.hpp>
 
 namespace gale::app {

@@ -13,6 +13,7 @@
 
 namespace CLI {
 class App;
+class Option;
 }
 
 // The groups of options that several commands have. Each adds its own to a command, which must outlive the parsing;
@@ -49,7 +50,7 @@ struct CommonOptions {
 
 /// How to divide the mesh's vertices into segments.
 struct SegmentationOptions {
-  std::optional<int> capacity;               ///< of the octree's leaves; not given: a default
+  std::optional<int> capacity;               ///< most vertices of the octree's leaves; not given: a default
   std::string array;                         ///< the point array that has the segments, or empty
   std::optional<std::int64_t> random_count;  ///< so many segments, by no rule
 

@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
 
 #include <gale/app/machine.hpp>
-#include <gale/app/output_file.hpp>
 #include <gale/app/report.hpp>
 #include <gale/base/device.hpp>
 #include <gale/base/kokkos.hpp>
@@ -109,6 +111,19 @@ void report_structure(const Structure& structure, Report& report) {
   report.triangles = known(structure.count(2));
   report.way = structure.name();
   if (structure.way() != Way::explicit_) report.statistics = structure.statistics();
+}
+
+void write_text(const io::AtomicFile& file, const std::function<void(std::ostream&)>& write) {
+  errno = 0;
+  try {
+    std::ofstream out;
+    out.exceptions(std::ios::badbit | std::ios::failbit);  // which keeps errno as the failed write left it
+    out.open(file.temporary());
+    write(out);
+    out.close();
+  } catch (const std::ios::failure&) {
+    io::refuse_to_write(file.path(), errno != 0 ? std::strerror(errno) : "not all of it could be written");
+  }
 }
 
 void write_report(const io::AtomicFile& file, const Report& report) {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <functional>
 #include <optional>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -18,6 +20,13 @@ struct Seconds {
 };
 
 using gale::detail::Stopwatch;
+
+/// What `make` makes, whose time is added to `seconds`.
+template <class Make>
+auto timed(double& seconds, const Make& make) {
+  const Stopwatch watch(seconds);
+  return make();
+}
 
 /// What `--report` writes; the README has the schema.
 struct Report {
@@ -37,6 +46,10 @@ nlohmann::ordered_json to_json(const Report& report);
 /// Puts into the report how the structure worked, and how many edges and triangles it had to enumerate; not its
 /// notices.
 void report_structure(const Structure& structure, Report& report);
+
+/// Writes what `write` puts out to the temporary of `file`. Throws gale::Error, naming the file, with the system's
+/// reason, as soon as something can't be written; whatever `write` throws, too.
+void write_text(const io::AtomicFile& file, const std::function<void(std::ostream&)>& write);
 
 /// Writes the report to the temporary of `file`. Throws gale::Error, naming the file.
 void write_report(const io::AtomicFile& file, const Report& report);

@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <filesystem>
 #include <optional>
+#include <set>
+#include <system_error>
 #include <utility>
 
-#include <gale/app/make_segmentation.hpp>
-#include <gale/app/output_file.hpp>
 #include <gale/app/ranks/ranks.hpp>
 #include <gale/app/session.hpp>
 #include <gale/base/error.hpp>
@@ -16,13 +16,31 @@ namespace gale::app {
 
 namespace {
 
+namespace fs = std::filesystem;
+
+/// Where a path leads, as far as links can be followed.
+fs::path real_path(const std::string& path) {
+  std::error_code failure;
+  const fs::path absolute = fs::absolute(path, failure), real = fs::weakly_canonical(absolute, failure);
+  return failure ? absolute.lexically_normal() : real;
+}
+
+/// Throws UsageError if two of the files are the same, or if one is the input.
+void require_distinct(const std::vector<std::string>& files, const std::string& input) {
+  std::set<fs::path> all{real_path(input)};
+  std::error_code unknown;
+  for (const std::string& file : files) {
+    if (!all.insert(real_path(file)).second || fs::equivalent(file, input, unknown))
+      throw UsageError("'" + file + "' is named for two files");
+  }
+}
+
 /// Whether it is a .pvtu.
 bool is_mesh(const std::string& path) { return !path.empty() && (path.back() == 'u' || path.back() == 'U'); }
 
 /// NAME_RANK.vtp for NAME.pvtp, NAME_RANK.vtu for NAME.pvtu.
 std::string piece_of(const std::string& path, int rank) {
-  return std::filesystem::path(path).replace_extension().string() + '_' + std::to_string(rank) +
-         (is_mesh(path) ? ".vtu" : ".vtp");
+  return fs::path(path).replace_extension().string() + '_' + std::to_string(rank) + (is_mesh(path) ? ".vtu" : ".vtp");
 }
 
 void write_to(const io::AtomicFile& file, const io::PointSet& points) { io::write_points(file, points); }
@@ -62,7 +80,7 @@ Session::Session(const InputOptions& input, const CommonOptions& common, std::ve
     }
     if (!common.report.empty()) add(common.report, 0);
     if (Launch::is_first()) require_distinct(all, input.input);
-    for (const std::string& file : mine) require_writable(file);
+    for (const std::string& file : mine) io::AtomicFiles().add(file);  // throws if it can't be made there now
     input_.read.outputs = std::move(all);
   });
 }
@@ -75,12 +93,8 @@ void Session::warm_up(const StructureOption& option, std::function<void(const Ve
 }
 
 io::Dataset Session::read_any() {
-  io::Dataset dataset;
-  {
-    const Stopwatch watch(report_.seconds.read);
-    begin_step("reading", input_.input);
-    dataset = io::read(input_.input, input_.read);
-  }
+  begin_step("reading", input_.input);
+  io::Dataset dataset = timed(report_.seconds.read, [&] { return io::read(input_.input, input_.read); });
   report_.vertices = std::visit([](const auto& points) { return std::int64_t(points.extent(0)); }, dataset.points);
   report_.tetrahedra = static_cast<std::int64_t>(dataset.tetrahedra.extent(0));
   console_.say("input", input_.input);
@@ -103,14 +117,12 @@ io::PointArray Session::select_field(const io::Dataset& dataset) {
 }
 
 Mesh Session::encode(io::Dataset& dataset, const SegmentationOptions& segmentation, Keep keep) {
-  Segmentation segments;
   std::vector<std::string> notices;
-  {
-    const Stopwatch watch(report_.seconds.segment);
-    begin_step("dividing the mesh into segments");
+  begin_step("dividing the mesh into segments");
+  const Segmentation segments = timed(report_.seconds.segment, [&] {
     warm_up_.wait();
-    segments = make_segmentation(dataset, segmentation, console_, notices);
-  }
+    return make_segmentation(dataset, segmentation, console_, notices);
+  });
   note(notices);
   const Stopwatch watch(report_.seconds.initialize);
   begin_step("encoding the mesh");
@@ -203,7 +215,7 @@ void Session::write_one(const std::string& path, const Result& result) {
     if (!Launch::are_several() || !Launch::is_first()) return;
     std::vector<std::string> pieces;
     for (int rank = 0; rank < ranks_.size(); ++rank)
-      pieces.push_back(std::filesystem::path(piece_of(path, rank)).filename().string());
+      pieces.push_back(fs::path(piece_of(path, rank)).filename().string());
     const io::AtomicFile& all = files_.add(path);
     io::write_pieces(all, pieces, result);
     io::AtomicFiles::sync(all);

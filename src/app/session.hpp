@@ -16,6 +16,7 @@
 #include <gale/io/dataset.hpp>
 #include <gale/mesh/mesh.hpp>
 #include <gale/mesh/ranks.hpp>
+#include <gale/mesh/segmentation.hpp>
 #include <gale/runtime/structure.hpp>
 
 namespace gale::app {
@@ -30,6 +31,12 @@ struct FieldOnMesh {
   bool has_ids = false;  ///< whether GlobalPointIds of the dataset are the points' in the input of all ranks
 };
 
+/// Segments the dataset's vertices as the options say: by an array, at random, or by an octree. Without options by the
+/// array of segments that the input brings, else by an octree. Says which array was taken; adds a line to `notices`
+/// about each that was ignored. Throws gale::Error for an array that isn't there or holds no segments.
+Segmentation make_segmentation(const io::Dataset& dataset, const SegmentationOptions& options, const Console& console,
+                               std::vector<std::string>& notices);
+
 /// One run of a command: the steps that several commands take, each timed and said. On several ranks all take them
 /// together: the first one speaks, and writes the report, and each writes a piece of every output. What fails on one
 /// throws SharedError on all.
@@ -43,6 +50,16 @@ class Session {
   const Ranks& ranks() const { return ranks_; }
   const Console& console() const { return console_; }
   Report& report() { return report_; }
+
+  /// Says a result, and reports it under `key`.
+  void tell(const std::string& name, const char* key, std::int64_t count) {
+    console_.say(name, grouped(count));
+    report_.result[key] = count;
+  }
+  void tell(const std::string& name, const char* key, const std::string& text) {
+    console_.say(name, text);
+    report_.result[key] = text;
+  }
 
   /// To be called before anything is read: has the device do once what the command will, while that is being read.
   /// `run` is what the command computes, unless its consumers are to be on the host.

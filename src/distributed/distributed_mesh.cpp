@@ -9,7 +9,6 @@
 #include <gale/base/error.hpp>
 #include <gale/base/mirrored.hpp>
 #include <gale/distributed/distributed_mesh.hpp>
-#include <gale/distributed/sharing/curve_partition.hpp>
 #include <gale/distributed/sharing/local_mesh.hpp>
 #include <gale/distributed/sharing/local_vertices.hpp>
 #include <gale/distributed/sharing/vertex_directory.hpp>
@@ -87,8 +86,8 @@ detail::VertexDirectory directory_of(const Communicator& ranks, const MeshPart<I
   if (const auto given = detail::GivenIntervals::of(ranks, part.vertex_ids)) return {ranks, *given};
   Array<int, HostMemory> owners;
   detail::together(ranks, [&] {
-    owners = allocate<Array<int, HostMemory>>("GALE::given_owners", part.vertex_ids.extent(0));
-    fill("GALE::given_owners", HostExecutionSpace(), owners, ranks.rank());
+    owners =
+        detail::tabulated<int>("GALE::given_owners", part.vertex_ids.extent(0), [&](Offset) { return ranks.rank(); });
   });
   return {ranks, part.vertex_ids, owners};
 }
@@ -157,17 +156,14 @@ class DistributedMesh::Sharing final : public Exchange {
 
 DistributedMesh::Sharing::Sharing(const Communicator& all) : ranks_(all) {
   vertex_ids.made_by([this] {
-    const auto ids = allocate<detail::GlobalIds>("GALE::vertex_ids", held_.count());
-    parallel_for("GALE::vertex_ids", HostExecutionSpace(), held_.count(),
-                 [&](Offset i) { ids(i) = held_.id(static_cast<Id>(i)); });
-    return ids;
+    return detail::tabulated<GlobalId>("GALE::vertex_ids", held_.count(),
+                                       [&](Offset i) { return held_.id(static_cast<Id>(i)); });
   });
   tetrahedron_ids.made_by([this] { return places_.ids(); });
   tetrahedron_index_.made_by([this] { return detail::GlobalIndex(tetrahedron_ids.get()); });
   points.made_by([this] { return placed_.by_id(held_); });
   owners.made_by([this] {
-    const auto known = allocate<Array<int, HostMemory>>("GALE::owners", held_.count());
-    fill("GALE::owners", HostExecutionSpace(), known, ranks_.rank());
+    const auto known = detail::tabulated<int>("GALE::owners", held_.count(), [&](Offset) { return ranks_.rank(); });
     parallel_for("GALE::owners", HostExecutionSpace(), held_.ghost_count(),
                  [&](Offset i) { known(held_.ghost(i)) = ghost_owners_(i); });
     return known;
@@ -180,14 +176,12 @@ Array<int, HostMemory> DistributedMesh::Sharing::owners_of(const Array<const Glo
   detail::GlobalIds owned;
   detail::together(ranks_, [&] {
     if (given_) {
-      owners = allocate<Array<int, HostMemory>>("GALE::owners_of_ids", ids.extent(0));
-      parallel_for("GALE::owners_of_ids", HostExecutionSpace(), ids.extent(0),
-                   [&](Offset i) { owners(i) = given_->giver(ids(i)); });
-      return;
+      owners =
+          detail::tabulated<int>("GALE::owners_of_ids", ids.extent(0), [&](Offset i) { return given_->giver(ids(i)); });
+    } else {
+      owned = detail::tabulated<GlobalId>("GALE::owned_ids", held_.owned_count(),
+                                          [&](Offset i) { return held_.id(held_.owned(i)); });
     }
-    owned = allocate<detail::GlobalIds>("GALE::owned_ids", held_.owned_count());
-    parallel_for("GALE::owned_ids", HostExecutionSpace(), owned.extent(0),
-                 [&](Offset i) { owned(i) = held_.id(held_.owned(i)); });
   });
   if (given_) return owners;
   const detail::HomeTable<int> table(
@@ -203,9 +197,7 @@ detail::OwnAndGhosts DistributedMesh::Sharing::share(const detail::VertexDirecto
   detail::ExchangePlan::Run run;
   Array<Id, HostMemory> ghosts, slots;
   detail::together(ranks_, [&] {
-    ghosts = allocate<Array<Id, HostMemory>>("GALE::ghosts", held_.ghost_count());
-    parallel_for("GALE::ghosts", HostExecutionSpace(), held_.ghost_count(),
-                 [&](Offset i) { ghosts(i) = held_.ghost(i); });
+    ghosts = detail::tabulated<Id>("GALE::ghosts", held_.ghost_count(), [&](Offset i) { return held_.ghost(i); });
     slots = in_place ? ghosts : iota("GALE::all_vertices", HostExecutionSpace(), held_.count());
     if (!in_place) vertex_ids.get();
   });
@@ -214,9 +206,8 @@ detail::OwnAndGhosts DistributedMesh::Sharing::share(const detail::VertexDirecto
   const auto entries = in_place ? directory.find(held_.ghosts()) : directory.find(vertex_ids.get());
   const auto of_ghost = [&](Id i) { return entries(in_place ? i : ghosts(i)); };
   detail::together(ranks_, [&] {
-    ghost_owners_ = allocate<Array<int, HostMemory>>("GALE::ghost_owners", held_.ghost_count());
-    parallel_for("GALE::ghost_owners", HostExecutionSpace(), held_.ghost_count(),
-                 [&](Offset i) { ghost_owners_(i) = of_ghost(static_cast<Id>(i)).owner; });
+    ghost_owners_ = detail::tabulated<int>("GALE::ghost_owners", held_.ghost_count(),
+                                           [&](Offset i) { return of_ghost(static_cast<Id>(i)).owner; });
   });
   from_givers_ = detail::ExchangePlan(
       ranks_, run, slots, [&](Id i) { return entries(i).giver; }, [&](Id i) { return entries(i).place; },
@@ -274,11 +265,8 @@ Mesh DistributedMesh::Sharing::take(const MeshPart<Index>& part, const Partition
                                     const std::shared_ptr<const Exchange>& self) {
   const Mesh mesh(part.tetrahedra, detail::octree_of(part.points, options.capacity), self);
   if (options.keep_corners) {
-    const auto quads = allocate<detail::Quads>("GALE::local_tetrahedra", part.tetrahedra.extent(0));
-    parallel_for("GALE::local_tetrahedra", HostExecutionSpace(), quads.extent(0), [&](Offset t) {
-      for (int corner = 0; corner < 4; ++corner) quads(t, corner) = static_cast<Id>(part.tetrahedra(t, corner));
-    });
-    corners = quads;
+    corners = detail::tabulated_rows<Id, 4>("GALE::local_tetrahedra", part.tetrahedra.extent(0),
+                                            [&](Offset t, int corner) { return part.tetrahedra(t, corner); });
   }
   vertices_ = part.vertex_ids.extent(0);
   tetrahedra_ = part.tetrahedra.extent(0);

@@ -13,6 +13,28 @@
 
 namespace gale {
 
+namespace detail {
+
+/// An array whose i-th entry is value(i).
+template <class T, class Value>
+Array<T, HostMemory> tabulated(const char* label, Offset count, const Value& value) {
+  const auto all = allocate<Array<T, HostMemory>>(label, count);
+  parallel_for(label, HostExecutionSpace(), count, [&](Offset i) { all(i) = value(i); });
+  return all;
+}
+
+/// Rows of T, `width` in each, whose k-th of row i is value(i, k).
+template <class T, int width, class Value>
+auto tabulated_rows(const char* label, Offset count, const Value& value) {
+  const auto all = allocate<Kokkos::View<T* [width], Kokkos::LayoutRight, HostMemory>>(label, count);
+  parallel_for(label, HostExecutionSpace(), count, [&](Offset i) {
+    for (int k = 0; k < width; ++k) all(i, k) = static_cast<T>(value(i, k));
+  });
+  return all;
+}
+
+}  // namespace detail
+
 /// Where points are, on the host, in the precision that a caller has them in. Copies share them, and keep alive what
 /// they were made from.
 class HostPoints {
@@ -50,13 +72,10 @@ class HostPoints {
   /// The points as doubles: this memory if they are so already, else a copy.
   Points<double, HostMemory> in_double() const {
     if (const auto* points = std::get_if<Points<double, HostMemory>>(&points_)) return *points;
-    const auto copy = allocate<Kokkos::View<double* [3], Kokkos::LayoutRight, HostMemory>>("GALE::points", count());
-    visit([&](const auto& points) {
-      parallel_for("GALE::points", HostExecutionSpace(), count(), [&](Offset i) {
-        for (int axis = 0; axis < 3; ++axis) copy(i, axis) = points(i, axis);
-      });
+    return visit([&](const auto& points) -> Points<double, HostMemory> {
+      return detail::tabulated_rows<double, 3>("GALE::points", count(),
+                                               [&](Offset i, int axis) { return points(i, axis); });
     });
-    return copy;
   }
 
  private:
@@ -93,10 +112,8 @@ Array<const GlobalId, HostMemory> global_ids(const View& view) {
   static_assert(View::rank == 1, "a global id for each");
   const auto here = on_host(view);
   if constexpr (Kokkos::is_always_assignable<Array<const GlobalId, HostMemory>, decltype(here)>::value) return here;
-  const auto ids = allocate<Array<GlobalId, HostMemory>>("GALE::global_ids", here.extent(0));
-  parallel_for("GALE::global_ids", HostExecutionSpace(), here.extent(0),
-               [&](Offset i) { ids(i) = static_cast<GlobalId>(here(i)); });
-  return ids;
+  return tabulated<GlobalId>("GALE::global_ids", here.extent(0),
+                             [&](Offset i) { return static_cast<GlobalId>(here(i)); });
 }
 
 }  // namespace detail

@@ -11,6 +11,7 @@
 
 #include <gale/base/error.hpp>
 #include <gale/io/atomic_file.hpp>
+#include <gale/io/bytes/descriptor.hpp>
 #include <gale/io/bytes/text.hpp>
 
 namespace gale::io {
@@ -36,11 +37,8 @@ std::string folder_of(const std::string& path) {
 bool cannot_sync(int failure) { return failure == EINVAL || failure == EROFS || failure == ENOTSUP; }
 
 int sync(const std::string& path, int flags) {
-  const int file = open(path.c_str(), flags | O_CLOEXEC);
-  if (file == -1) return errno;
-  const int failure = fsync(file) == 0 || cannot_sync(errno) ? 0 : errno;
-  close(file);
-  return failure;
+  const detail::Descriptor file(open(path.c_str(), flags | O_CLOEXEC));
+  return file >= 0 && (fsync(file) == 0 || cannot_sync(errno)) ? 0 : errno;
 }
 
 /// The file that has the name which another is to get.
@@ -72,57 +70,42 @@ struct Renaming {
   std::string to;
 };
 
-struct FailedRename {
-  std::size_t which = 0;
-  int reason = 0;  ///< errno, or 0 where all went well
-};
-
 /// Waits until what is in a file is on disk. A value of errno, or 0 where that went well.
 int sync_file(const std::string& path) { return sync(path, O_RDONLY); }
-
-/// Renames all files, syncs their folders, and calls confirm(). If one of that fails, what the names had before gets
-/// them again, unless the file system has no hard links. Throws what confirm() throws.
-FailedRename rename_together(const std::vector<Renaming>& renamings, const std::function<void()>& confirm) {
-  std::vector<Before> before;
-  std::vector<std::string> folders;
-  for (const Renaming& renaming : renamings) {
-    folders.push_back(folder_of(renaming.to));
-    before.push_back(keep(renaming.to));
-  }
-  FailedRename failed;
-  std::size_t done = 0;
-  const detail::Uninterrupted renaming_all;
-  for (; done < renamings.size() && failed.reason == 0; ++done) {
-    if (std::rename(renamings[done].from->path().c_str(), renamings[done].to.c_str()) != 0) {
-      failed = {done, errno};
-      break;
-    }
-    renamings[done].from->forget();
-  }
-  for (std::size_t i = 0; i < done && failed.reason == 0; ++i) {
-    if (i > 0 && folders[i] == folders[i - 1]) continue;
-    const int failure = sync(folders[i], O_RDONLY | O_DIRECTORY);
-    if (failure != 0 && failure != EACCES) failed = {i, failure};  // EACCES: a folder that only takes files
-  }
-  const auto undo_all = [&] {
-    for (std::size_t i = 0; i < done; ++i) undo(renamings[i].to, before[i]);
-  };
-  if (failed.reason != 0) {
-    undo_all();
-    return failed;
-  }
-  try {
-    confirm();
-  } catch (...) {
-    undo_all();
-    throw;
-  }
-  return failed;
-}
 
 /// Throws for a value of errno that isn't 0.
 void check(int failure) {
   if (failure != 0) throw Error(std::strerror(failure));
+}
+
+/// Renames all files, syncs their folders, and calls confirm(). If one of that fails, what the names had before gets
+/// them again, unless the file system has no hard links. Throws what confirm() throws, and what failed(i, errno) throws
+/// of the i-th file.
+template <class Failed>
+void rename_together(const std::vector<Renaming>& renamings, const Failed& failed,
+                     const std::function<void()>& confirm) {
+  std::vector<Before> before;
+  for (const Renaming& renaming : renamings) before.push_back(keep(renaming.to));
+  std::size_t done = 0;
+  const detail::Uninterrupted renaming_all;
+  try {
+    for (; done < renamings.size(); ++done) {
+      if (std::rename(renamings[done].from->path().c_str(), renamings[done].to.c_str()) != 0) failed(done, errno);
+      renamings[done].from->forget();
+    }
+    std::string synced;
+    for (std::size_t i = 0; i < renamings.size(); ++i) {
+      const std::string folder = folder_of(renamings[i].to);
+      if (folder == synced) continue;
+      const int failure = sync(folder, O_RDONLY | O_DIRECTORY);
+      if (failure != 0 && failure != EACCES) failed(i, failure);  // EACCES: a folder that only takes files
+      synced = folder;
+    }
+    confirm();
+  } catch (...) {
+    for (std::size_t i = 0; i < done; ++i) undo(renamings[i].to, before[i]);
+    throw;
+  }
 }
 
 /// Does what `use` does; names `path` in whatever goes wrong.
@@ -147,18 +130,18 @@ AtomicFile::AtomicFile(const std::string& path, Encoding encoding) : path_(path)
   const std::string name = hidden_name_beside(target_);
   const detail::Uninterrupted creating;
   temporary_ = detail::TemporaryName(name);
-  const int file = open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  const int failure = file == -1 ? errno : 0;
-  if (failure != 0) temporary_.forget();
+  if (detail::Descriptor(open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666)) >= 0) return;
+  const int failure = errno;
+  temporary_.forget();
   check(failure);
-  close(file);
 }
 
 void AtomicFile::sync() const { check(sync_file(temporary())); }
 
 void AtomicFile::commit() {
   check(sync_file(temporary()));
-  check(rename_together({{&temporary_, target_}}, [] {}).reason);
+  rename_together(
+      {{&temporary_, target_}}, [](std::size_t, int failure) { check(failure); }, [] {});
 }
 
 AtomicFile& AtomicFiles::add(const std::string& path) {
@@ -176,8 +159,10 @@ void AtomicFiles::commit(const std::function<void()>& confirm) {
     sync(*file);
     renamings.push_back({&file->temporary_, file->target_});
   }
-  const FailedRename failed = rename_together(renamings, confirm);
-  if (failed.reason != 0) refuse_to_write(files_[failed.which]->path(), std::strerror(failed.reason));
+  const auto failed = [this](std::size_t i, int failure) {
+    refuse_to_write(files_[i]->path(), std::strerror(failure));
+  };
+  rename_together(renamings, failed, confirm);
 }
 
 void refuse_to_write(const std::string& path, const std::string& reason) {

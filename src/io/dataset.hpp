@@ -46,7 +46,7 @@ struct PointArray {
     }
   };
 
-  std::string name;    ///< as in the file
+  std::string name;    ///< its name in the file
   int components = 1;  ///< values of each point, at least 1
   Values values;       ///< the values of point p begin at p * components
 };

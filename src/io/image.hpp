@@ -18,7 +18,7 @@ struct Image {
   /// Row d gives coordinate d of the voxel (i, j, k): row[0]*i + row[1]*j + row[2]*k + row[3].
   std::array<std::array<double, 4>, 3> index_to_physical{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
   std::vector<PointArray> arrays;    ///< the scalars first
-  std::vector<std::string> notices;  ///< as in `Dataset`
+  std::vector<std::string> notices;  ///< what `Dataset` has as such
 };
 
 /// Makes the array called `name` the image's first; an empty name means the one that is first already. `NAME_K` picks
@@ -44,6 +44,9 @@ GALE_EXPORT void rescale(Image& image, double slope, double intercept);
 GALE_EXPORT Dataset split_voxels(Image image, std::optional<double> above);
 
 namespace detail {
+
+/// Throws gale::Error if there are more of something than ids can number: "THESE 3000000000 VERTICES, more than ...".
+GALE_EXPORT void require_ids_for(const std::string& these, double count, const std::string& of_what);
 
 /// The six tetrahedra of a cube, along its main diagonal. Corners are numbered by their coordinates: bit 0 is x, bit 1
 /// y, bit 2 z. Each tetrahedron walks from corner 0 to corner 7 along the axes in one of the orders xyz, xzy, yxz, yzx,

@@ -6,7 +6,7 @@
 
 #include <gale/io/bytes/values.hpp>
 #include <gale/io/formats.hpp>
-#include <gale/io/formats/vtu.hpp>
+#include <gale/io/formats/xml_file.hpp>
 #include <gale/io/image.hpp>
 #include <gale/io/read.hpp>
 #include <gale/io/synthetic.hpp>

@@ -1,9 +1,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <iomanip>
-#include <limits>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -43,15 +40,6 @@ struct Layers {
   Offset first_tetrahedron() const { return first * (n - 1) * (n - 1) * detail::tetrahedra_per_cube; }
 };
 
-/// Throws gale::Error if `what` has more of something than ids can number.
-void require_ids(const std::string& what, double count, const std::string& of_what) {
-  if (count <= std::numeric_limits<Id>::max()) return;
-  std::ostringstream digits;
-  digits << std::fixed << std::setprecision(0) << count;
-  refuse(what, " has ", digits.str(), " ", of_what, ", more than the ", std::numeric_limits<Id>::max(),
-         " that 32-bit ids can number");
-}
-
 std::string name_of_grid(int n) { return "grid:" + std::to_string(n); }
 
 void require_cubes(int n) {
@@ -61,8 +49,8 @@ void require_cubes(int n) {
 void check_size(int n) {
   require_cubes(n);
   const double points = n, cubes = points - 1;
-  require_ids(name_of_grid(n), points * points * points, "vertices");
-  require_ids(name_of_grid(n), cubes * cubes * cubes * detail::tetrahedra_per_cube, "tetrahedra");
+  detail::require_ids_for(name_of_grid(n) + " has", points * points * points, "vertices");
+  detail::require_ids_for(name_of_grid(n) + " has", cubes * cubes * cubes * detail::tetrahedra_per_cube, "tetrahedra");
 }
 
 Dataset::Points<float> make_points(const Layers& layers) {
@@ -188,12 +176,12 @@ GridPartOf<Index> make_grid_part(int n, int part, int parts) {
   constexpr int most = 1625;  // its 2^32 numbers make the field's noise
   if (n > most) refuse(name_of_grid(n), " is too large: N is at most ", most);
   if (part < 0 || part >= parts) refuse("there is no part ", part, " of ", parts);
-  if (sizeof(Index) < sizeof(Offset)) require_ids(name_of_grid(n), std::pow(n, 3), "vertices");
+  if (sizeof(Index) < sizeof(Offset)) detail::require_ids_for(name_of_grid(n) + " has", std::pow(n, 3), "vertices");
   const Offset first = Offset(n - 1) * part / parts, last = Offset(n - 1) * (part + 1) / parts;
   const Layers layers{n, first, last - first};
   const std::string name = "part " + std::to_string(part) + " of " + name_of_grid(n);
-  require_ids(name, static_cast<double>(layers.vertices()), "vertices");
-  require_ids(name, static_cast<double>(layers.tetrahedra()), "tetrahedra");
+  detail::require_ids_for(name + " has", static_cast<double>(layers.vertices()), "vertices");
+  detail::require_ids_for(name + " has", static_cast<double>(layers.tetrahedra()), "tetrahedra");
   return {make_points(layers), make_field(layers), layers.first_vertex(), make_tetrahedra<Index>(layers),
           layers.first_tetrahedron()};
 }

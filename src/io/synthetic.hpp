@@ -37,7 +37,7 @@ GALE_EXPORT Dataset make_synthetic(const std::string& kind, int n);
 /// A slab of the mesh of make_grid: some layers of cubes, and the vertices at these.
 template <class Index>
 struct GridPartOf {
-  Dataset::Points<float> points;  ///< as in the whole mesh
+  Dataset::Points<float> points;  ///< where they are in the whole mesh
   std::vector<float> field;       ///< a value for each point
   std::int64_t first_vertex = 0;  ///< the others are numbered on from it, as in the whole mesh
 

@@ -64,34 +64,33 @@ void name_in_errors(const std::string& path, const Write& write) {
   }
 }
 
-/// Runs `write(file)` for a file that appears as `path` then, if its format is written with that.
+/// Runs `write(file)` for the file to write to, if its format is written with that; it appears then, unless the caller
+/// commits it.
 template <class Write>
-void write_as(const std::string& path, Written bit, const char* what, const Write& write) {
-  require_format(path, bit, what);
-  name_in_errors(path, [&] {
-    AtomicFile file(path);
+void write_as(const Target& to, Written bit, const char* what, const Write& write) {
+  require_format(to.path(), bit, what);
+  name_in_errors(to.path(), [&] {
+    if (to.file() != nullptr) return write(*to.file());
+    AtomicFile file(to.path());
     write(file);
     file.commit();
   });
 }
 
-/// Runs `write(file)` for a file that the caller commits.
-template <class Write>
-void write_as(const AtomicFile& file, Written bit, const char* what, const Write& write) {
-  require_format(file.path(), bit, what);
-  name_in_errors(file.path(), [&] { write(file); });
+void write_names(const AtomicFile& file, const std::vector<std::string>& pieces, const detail::XmlContent& like) {
+  name_in_errors(file.path(), [&] { detail::write_xml_pieces(file, pieces, like); });
 }
 
-template <class To>
-void write_points_to(const To& to, const PointSet& points) {
+}  // namespace
+
+void write_points(const Target& to, const PointSet& points) {
   write_as(to, written_points, "points", [&](const AtomicFile& file) {
     check_arrays(points_of(points.points), points.arrays);
     detail::write_xml(file, detail::content_of(points));
   });
 }
 
-template <class To>
-void write_surface_to(const To& to, const Surface& surface) {
+void write_surface(const Target& to, const Surface& surface) {
   write_as(to, written_surfaces, "a surface", [&](const AtomicFile& file) {
     const std::size_t points = points_of(surface.points);
     check_cells(points, surface.lines);
@@ -102,8 +101,17 @@ void write_surface_to(const To& to, const Surface& surface) {
   });
 }
 
-template <class To>
-void write_mesh_to(const To& to, const Dataset& mesh, const std::vector<PointArray>& more) {
+void write_lines(const Target& to, const Surface& lines) {
+  write_as(to, written_lines, "lines", [&](const AtomicFile& file) {
+    const std::size_t points = points_of(lines.points);
+    check_cells(points, lines.lines);
+    check_arrays(points, lines.point_arrays);
+    check_arrays(lines.lines.begin.size() - 1, lines.cell_arrays, "lines");
+    detail::write_xml(file, detail::content_of_lines(lines));
+  });
+}
+
+void write_mesh(const Target& to, const Dataset& mesh, const std::vector<PointArray>& more) {
   write_as(to, written_meshes, "a mesh", [&](const AtomicFile& file) {
     check_arrays(points_of(mesh.points), mesh.arrays);
     check_arrays(points_of(mesh.points), more);
@@ -115,40 +123,11 @@ void write_mesh_to(const To& to, const Dataset& mesh, const std::vector<PointArr
   });
 }
 
-void write_names(const AtomicFile& file, const std::vector<std::string>& pieces, const detail::XmlContent& like) {
-  name_in_errors(file.path(), [&] { detail::write_xml_pieces(file, pieces, like); });
-}
-
-}  // namespace
-
-void write_points(const std::string& path, const PointSet& points) { write_points_to(path, points); }
-void write_points(const AtomicFile& file, const PointSet& points) { write_points_to(file, points); }
-
-void write_surface(const std::string& path, const Surface& surface) { write_surface_to(path, surface); }
-void write_surface(const AtomicFile& file, const Surface& surface) { write_surface_to(file, surface); }
-
-void write_mesh(const std::string& path, const Dataset& mesh, const std::vector<PointArray>& more) {
-  write_mesh_to(path, mesh, more);
-}
-void write_mesh(const AtomicFile& file, const Dataset& mesh, const std::vector<PointArray>& more) {
-  write_mesh_to(file, mesh, more);
-}
-
-void write_lines(const AtomicFile& file, const Surface& lines) {
-  write_as(file, written_lines, "lines", [&](const AtomicFile& to) {
-    const std::size_t points = points_of(lines.points);
-    check_cells(points, lines.lines);
-    check_arrays(points, lines.point_arrays);
-    check_arrays(lines.lines.begin.size() - 1, lines.cell_arrays, "lines");
-    detail::write_xml(to, detail::content_of_lines(lines));
-  });
-}
-
-void write_piece(const AtomicFile& file, const MeshPiece& piece) {
-  write_as(file, written_pieces, "a piece of a mesh", [&](const AtomicFile& to) {
+void write_piece(const Target& to, const MeshPiece& piece) {
+  write_as(to, written_pieces, "a piece of a mesh", [&](const AtomicFile& file) {
     check_arrays(points_of(piece.mesh.points), piece.mesh.arrays);
     check_arrays(piece.mesh.tetrahedra.extent(0), piece.cell_arrays, "tetrahedra");
-    detail::write_xml(to, detail::content_of(piece.mesh, {}, piece.cell_arrays));
+    detail::write_xml(file, detail::content_of(piece.mesh, {}, piece.cell_arrays));
   });
 }
 

@@ -6,11 +6,10 @@
 #include <vector>
 
 #include <gale/export.hpp>
+#include <gale/io/atomic_file.hpp>
 #include <gale/io/dataset.hpp>
 
 namespace gale::io {
-
-class AtomicFile;
 
 /// Points by themselves, such as critical points, with their arrays.
 struct PointSet {
@@ -45,16 +44,46 @@ struct MeshPiece {
   std::vector<PointArray> cell_arrays;  ///< a value for each tetrahedron
 };
 
+/// Where something is written: a path, or the temporary file of an AtomicFile, whose path decides then, and which the
+/// caller commits: so several files appear together (`AtomicFiles`).
+class Target {
+ public:
+  Target(const std::string& path) : path_(path) {}  ///< a file that appears there
+  Target(const char* path) : path_(path) {}         ///< a file that appears there
+  Target(const AtomicFile& file)
+      : path_(file.path()), file_(&file) {}  ///< one that the caller commits, and outlives it
+
+  /// The path of the file, which names it in errors.
+  const std::string& path() const { return path_; }
+
+  /// The file that the caller commits, or nullptr.
+  const AtomicFile* file() const { return file_; }
+
+ private:
+  std::string path_;
+  const AtomicFile* file_ = nullptr;
+};
+
 /// Writes `points` to a `.vtp`, each as a vertex cell, in their order.
 ///
 /// Here and below: of two arrays of one name the later is written. The file appears complete or not at all
 /// (`AtomicFile`). Throws `Error` with one line that names `path` and the reason: an array of the wrong length, a
 /// directory that is missing or not writable, a full disk.
-GALE_EXPORT void write_points(const std::string& path, const PointSet& points);
+GALE_EXPORT void write_points(const Target& to, const PointSet& points);
 
-/// Writes to the temporary file of `file`, here and below, whose path decides, and leaves it to the caller to commit
-/// it: so several files appear together (`AtomicFiles`).
-GALE_EXPORT void write_points(const AtomicFile& file, const PointSet& points);
+/// Writes `surface` to a `.vtp`.
+GALE_EXPORT void write_surface(const Target& to, const Surface& surface);
+
+/// Writes the lines of `lines`, without its polygons, to a `.vtu`: for what others give as an unstructured grid of
+/// lines, such as persistence diagrams.
+GALE_EXPORT void write_lines(const Target& to, const Surface& lines);
+
+/// Writes points, tetrahedra and arrays of `mesh` in their order to a `.vtu` or (binary, legacy) `.vtk`, by the
+/// extension; then those of `more`, so that results need not be copied into the mesh first.
+GALE_EXPORT void write_mesh(const Target& to, const Dataset& mesh, const std::vector<PointArray>& more = {});
+
+/// Writes a piece, which may be empty, to a `.vtu`.
+GALE_EXPORT void write_piece(const Target& to, const MeshPiece& piece);
 
 /// Writes a `.pvtp`, or for meshes (below) a `.pvtu`, that names `pieces`, files in the same folder, to the temporary
 /// file of `file`. `like` has the types of coordinates and arrays that each of them has, the arrays in the same order;
@@ -66,25 +95,5 @@ GALE_EXPORT void write_pieces(const AtomicFile& file, const std::vector<std::str
 
 /// Writes the `.pvtu` of pieces that are meshes.
 GALE_EXPORT void write_pieces(const AtomicFile& file, const std::vector<std::string>& pieces, const MeshPiece& like);
-
-/// Writes a piece, which may be empty, to the temporary file of a `.vtu`.
-GALE_EXPORT void write_piece(const AtomicFile& file, const MeshPiece& piece);
-
-/// Writes `surface` to a `.vtp`.
-GALE_EXPORT void write_surface(const std::string& path, const Surface& surface);
-
-/// Writes `surface` to the temporary file of a `.vtp`.
-GALE_EXPORT void write_surface(const AtomicFile& file, const Surface& surface);
-
-/// Writes the lines of `lines`, without its polygons, to the temporary file of a `.vtu`: for what others give as an
-/// unstructured grid of lines, such as persistence diagrams.
-GALE_EXPORT void write_lines(const AtomicFile& file, const Surface& lines);
-
-/// Writes points, tetrahedra and arrays of `mesh` in their order to a `.vtu` or (binary, legacy) `.vtk`, by the
-/// extension; then those of `more`, so that results need not be copied into the mesh first.
-GALE_EXPORT void write_mesh(const std::string& path, const Dataset& mesh, const std::vector<PointArray>& more = {});
-
-/// Writes a mesh to the temporary file of a `.vtu` or `.vtk`.
-GALE_EXPORT void write_mesh(const AtomicFile& file, const Dataset& mesh, const std::vector<PointArray>& more = {});
 
 }  // namespace gale::io

@@ -18,11 +18,7 @@ void tell(const std::array<std::int64_t, 5>& counts, Session& session) {
                {CriticalType::saddle2, "2-saddles", "saddles2"},
                {CriticalType::maximum, "maxima", "maxima"},
                {CriticalType::degenerate, "degenerate", "degenerate"}};
-  for (const auto& kind : kinds) {
-    const std::int64_t count = counts[static_cast<int>(kind.type)];
-    session.console().say(kind.name, grouped(count));
-    session.report().result[kind.key] = count;
-  }
+  for (const auto& kind : kinds) session.tell(kind.name, kind.key, counts[static_cast<int>(kind.type)]);
 }
 
 class FindCriticalPoints final : public AnalysisCommand {

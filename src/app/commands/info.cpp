@@ -77,11 +77,7 @@ void tell_arrays(const io::Dataset& dataset, Session& session) {
 }
 
 void tell_surface(const Mesh& mesh, Session& session) {
-  Array<std::uint8_t, HostMemory> on_surface;
-  {
-    const Stopwatch watch(session.report().seconds.run);
-    on_surface = surface_vertices(mesh);
-  }
+  const auto on_surface = timed(session.report().seconds.run, [&] { return surface_vertices(mesh); });
   const auto count = std::accumulate(on_surface.data(), on_surface.data() + on_surface.extent(0), std::int64_t(0));
   session.console().say("on the boundary", grouped(count) + " vertices");
   session.report().result["boundary_vertices"] = count;

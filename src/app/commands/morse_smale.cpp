@@ -84,13 +84,6 @@ struct ComplexFiles {
   }
 };
 
-/// What `make` makes, whose time is added to `seconds`.
-template <class Make>
-auto timed(double& seconds, const Make& make) {
-  const Stopwatch watch(seconds);
-  return make();
-}
-
 class FindMorseSmale final : public AnalysisCommand {
  public:
   explicit FindMorseSmale(CLI::App& app) : AnalysisCommand(app, "morse-smale", Works::on_many_ranks) {
@@ -158,7 +151,7 @@ class FindMorseSmale final : public AnalysisCommand {
   void write(const FieldOnMesh& on, MorseSmaleComplex& complex, Session& session, Computed& computed) const {
     const ComplexFiles to = files();
     const io::Dataset& dataset = on.dataset;
-    const auto connectors = outputs::ends_of(complex.connectors);  // of all, wanted or not: they bound walls
+    const auto connectors = outputs::ends_of(complex.connectors);  // all of them, wanted or not, bound walls
     outputs::leave_out_unwanted(parts_, complex);
     double& seconds = session.report().seconds.write;
     const NamedSimplices named = timed(seconds, [&] { return outputs::named_simplices(complex); });

@@ -3,7 +3,6 @@
 #include <gale/algorithms/persistence.hpp>
 #include <gale/app/commands/command.hpp>
 #include <gale/app/drawing/picture.hpp>
-#include <gale/app/output_file.hpp>
 
 namespace gale::app {
 

@@ -5,7 +5,6 @@
 #include <CLI/CLI.hpp>
 
 #include <gale/app/commands/command.hpp>
-#include <gale/app/output_file.hpp>
 #include <gale/base/error.hpp>
 #include <gale/baselines/oracle.hpp>
 #include <gale/runtime/relation_of.hpp>
@@ -82,19 +81,15 @@ void write_rows(std::ostream& out, const Mesh& mesh, Relation relation) {
 void tell(const Sizes& sizes, Relation relation, Session& session) {
   const double run = session.report().seconds.run, entries = static_cast<double>(sizes.entries),
                rows = static_cast<double>(sizes.rows);
-  session.console().say("relation", name_of(relation));
-  session.console().say("rows", grouped(sizes.rows));
-  session.console().say("entries", grouped(sizes.entries));
-  session.console().say("longest row", grouped(sizes.longest));
+  session.tell("relation", "relation", name_of(relation));
+  session.tell("rows", "rows", sizes.rows);
+  session.tell("entries", "entries", sizes.entries);
+  session.tell("longest row", "longest_row", sizes.longest);
   const auto rate = [&](double amount, const char* unit) {
     return formatted("%.1f %s", run > 0 ? amount / run : 0, unit);
   };
   session.console().say("rates", rate(rows / 1e6, "M rows/s, ") + rate(entries / 1e6, "M entries/s, ") +
                                      rate((entries + rows) * sizeof(Id) / 1e9, "GB/s"));
-  session.report().result = {{"relation", name_of(relation)},
-                             {"rows", sizes.rows},
-                             {"entries", sizes.entries},
-                             {"longest_row", sizes.longest}};
 }
 
 /// Compares all rows with an oracle that shares no code with the structure.
@@ -135,11 +130,9 @@ class ComputeRelation final : public Command {
     io::Dataset dataset = session.read();
     const Mesh mesh = session.encode(dataset, segmentation_, Session::Keep::nothing);
     const auto structure = session.make_structure(structure_, mesh, relation);
-    Sizes sizes;
-    {
-      const Stopwatch watch(session.report().seconds.run);
-      sizes = measure(*structure, relation, session.sweep("sweeping " + name_of(relation)));
-    }
+    const Sizes sizes = timed(session.report().seconds.run, [&] {
+      return measure(*structure, relation, session.sweep("sweeping " + name_of(relation)));
+    });
     tell(sizes, relation, session);
     if (verify_) verify(*structure, relation, structure_.is_explicit(), sizes, session);
     session.write(dump_, [&](const io::AtomicFile& file) {

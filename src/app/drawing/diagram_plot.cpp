@@ -138,8 +138,8 @@ void add_curve(const std::vector<DiagramPoint>& diagram, Flat& flat) {
   const Axes axes({least, most, true, "Persistence"}, {1, pairs, true, "Pairs that persist"}, {690, 70}, {1130, 510});
   axes.add_to("Persistence curve", flat);
   for (int type = 0; type < 3; ++type) {
-    std::vector<Flat::Place>
-        steps;  // as many as at a persistence are there for all smaller ones down to the one before
+    // For all persistences down to the one before there are as many pairs as at one.
+    std::vector<Flat::Place> steps;
     for (std::size_t i = 0; i < curve.persistence.size() && curve.pairs[type][i] > 0; ++i) {
       const double count = curve.pairs[type][i];
       steps.push_back(axes.place(i == 0 ? least : curve.persistence[i - 1], count));

@@ -36,7 +36,7 @@ struct Flat {
   struct Text {
     enum class Anchor { left, middle, right };
     std::string text;
-    Place place;  ///< of the anchor, at half of the text's height
+    Place place;  ///< where the anchor is, at half of the text's height
     Anchor anchor = Anchor::middle;
     double size = 14;
     bool upright = false;  ///< written from below to above

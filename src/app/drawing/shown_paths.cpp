@@ -14,7 +14,7 @@ struct Path {
   std::size_t first, last;  ///< points; the last is the path's
   int type;
   Id destination;
-  double difference;  ///< of the field along it
+  double difference;  ///< how much the field changes along it
 };
 
 class Chooser {

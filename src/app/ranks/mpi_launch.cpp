@@ -66,7 +66,7 @@ void Launch::require_same_arguments(int argc, char** argv) {
   const auto other = static_cast<int>(ranks().least(std::int64_t(mine == first ? count : ranks().rank())));
   if (other == count) return;
   const std::string theirs = ranks().broadcast(mine, other);
-  std::size_t at = 0;  // of the first argument that differs
+  std::size_t at = 0;  // where the first argument that differs begins
   for (std::size_t i = 0; i < theirs.size() && i < first.size() && theirs[i] == first[i]; ++i) {
     if (first[i] == '\0') at = i + 1;
   }
@@ -87,7 +87,7 @@ bool Launch::all_fail_alike() {
     throw;
   } catch (const SharedError&) {
     return true;
-  } catch (const UsageError&) {  // of one command line
+  } catch (const UsageError&) {  // every rank has the same command line
     return true;
   } catch (...) {
     return false;

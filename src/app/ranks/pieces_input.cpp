@@ -26,9 +26,9 @@ io::PieceNames share_of(const io::PieceNames& all, const Ranks& ranks) {
 GlobalIds places_of(const Ranks& ranks, const std::vector<std::int64_t>& ids, bool all_differ) {
   Array<detail::SimplexKey, HostMemory> keys;
   detail::together(ranks, [&] {
-    keys = allocate<decltype(keys)>("GALE::keys_of_ids", ids.size());
-    for (std::size_t i = 0; i < ids.size(); ++i)
-      keys(i) = {ids[i], all_differ ? ranks.rank() : 0, all_differ ? static_cast<GlobalId>(i) : 0};
+    keys = detail::tabulated<detail::SimplexKey>("GALE::keys_of_ids", static_cast<Offset>(ids.size()), [&](Offset i) {
+      return detail::SimplexKey{ids[i], all_differ ? ranks.rank() : 0, all_differ ? i : 0};
+    });
   });
   return detail::places_of_keys(ranks, keys).places;
 }
@@ -155,12 +155,12 @@ SharedInput read_pieces(const Ranks& ranks, const InputOptions& input, const io:
   if (pieces.point_ids.empty()) {
     Array<detail::Point, HostMemory> points;
     detail::together(ranks, [&] {
-      points = allocate<decltype(points)>("GALE::piece_points", count);
-      std::visit(
-          [&](const auto& all) {
-            for (Offset i = 0; i < count; ++i) points(i) = {all(i, 0), all(i, 1), all(i, 2)};
-          },
-          mesh.points);
+      const auto copy = [&](const auto& all) {
+        return detail::tabulated<detail::Point>("GALE::piece_points", count, [&](Offset i) {
+          return detail::Point{all(i, 0), all(i, 1), all(i, 2)};
+        });
+      };
+      points = std::visit(copy, mesh.points);
     });
     ids = merged_ids(ranks, points);
     mesh.notices.push_back("its points have no global ids: those of equal coordinates are one");
@@ -170,18 +170,15 @@ SharedInput read_pieces(const Ranks& ranks, const InputOptions& input, const io:
   if (!pieces.cell_ids.empty()) tetrahedron_ids = places_of(ranks, some.tetrahedron_ids, true);
   keep_common(ranks, mesh, count);
   detail::together(ranks, [&] {
-    HeldPart<std::int64_t> held;
-    held.tetrahedra = decltype(held.tetrahedra)("GALE::input_tetrahedra", mesh.tetrahedra.extent(0));
-    parallel_for("GALE::input_tetrahedra", HostExecutionSpace(), held.tetrahedra.extent(0), [&](Offset t) {
-      for (int corner = 0; corner < 4; ++corner) held.tetrahedra(t, corner) = ids(mesh.tetrahedra(t, corner));
-    });
+    const auto tetrahedra =
+        detail::tabulated_rows<GlobalId, 4>("GALE::input_tetrahedra", mesh.tetrahedra.extent(0),
+                                            [&](Offset t, int corner) { return ids(mesh.tetrahedra(t, corner)); });
     std::visit(
-        [&](const auto& all) {
-          held.part = pieces.cell_ids.empty() ? make_part(ids, all, held.tetrahedra)
-                                              : make_part(ids, all, held.tetrahedra, tetrahedron_ids);
+        [&](const auto& points) {
+          shared.part = pieces.cell_ids.empty() ? part_of(ids, points, tetrahedra)
+                                                : part_of(ids, points, tetrahedra, tetrahedron_ids);
         },
         mesh.points);
-    shared.held = held;
     shared.field = outputs::select_field(mesh, input.read.array);
     shared.order = outputs::order_array(mesh, shared.field);
     shared.has_order = shared.order.name != shared.field.name;

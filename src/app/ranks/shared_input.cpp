@@ -13,32 +13,25 @@ namespace gale::app {
 namespace {
 
 Array<GlobalId, HostMemory> counted(GlobalId first, Offset count) {
-  const auto ids = allocate<Array<GlobalId, HostMemory>>("GALE::input_ids", count);
-  parallel_for("GALE::input_ids", HostExecutionSpace(), count, [&](Offset i) { ids(i) = first + i; });
-  return ids;
+  return detail::tabulated<GlobalId>("GALE::input_ids", count, [&](Offset i) { return first + i; });
 }
 
 template <class Index>
 void take_grid(int n, const Ranks& ranks, SharedInput& shared) {
   io::GridPartOf<Index> slab = io::make_grid_part<Index>(n, ranks.rank(), ranks.size());
   const auto ids = counted(slab.first_vertex, static_cast<Offset>(slab.field.size()));
-  // Tetrahedra are counted from rank to rank, as in the whole grid.
-  shared.held = HeldPart<Index>{slab.tetrahedra, make_part(ids, slab.points, slab.tetrahedra)};
+  shared.part = part_of(ids, slab.points, slab.tetrahedra);
   shared.arrays.push_back({"field", 1, std::move(slab.field)});
 }
 
 void take_file(const InputOptions& input, SharedInput& shared) {
   io::Dataset dataset = io::read(input.input, input.read);
-  std::visit(
-      [&](const auto& points) {
-        const auto ids = counted(0, points.extent(0));
-        shared.held = HeldPart<std::int32_t>{dataset.tetrahedra, make_part(ids, points, dataset.tetrahedra)};
-      },
-      dataset.points);
+  const auto vertices = std::visit([](const auto& points) { return points.extent(0); }, dataset.points);
+  const auto ids = counted(0, vertices);
+  std::visit([&](const auto& points) { shared.part = part_of(ids, points, dataset.tetrahedra); }, dataset.points);
   shared.is_in_float = dataset.points.index() == 0;
   shared.field = outputs::select_field(dataset, input.read.array);
-  shared.order = outputs::order_values(dataset, shared.field,
-                                       std::get<HeldPart<std::int32_t>>(shared.held).part.vertex_ids.extent(0));
+  shared.order = outputs::order_values(dataset, shared.field, vertices);
   shared.arrays = std::move(dataset.arrays);
   shared.notices = std::move(dataset.notices);
 }
@@ -135,11 +128,9 @@ io::Dataset held_dataset(const DistributedMesh& mesh, const SharedInput& shared)
   detail::together(mesh.exchange().ranks(), [&] {
     const auto fill = [&](auto coordinate) {
       using Coordinate = decltype(coordinate);
-      const auto points = allocate<io::Dataset::Points<Coordinate>>("GALE::local_points", mesh.points().extent(0));
-      parallel_for("GALE::local_points", HostExecutionSpace(), points.extent(0), [&](Offset i) {
-        for (int axis = 0; axis < 3; ++axis) points(i, axis) = static_cast<Coordinate>(mesh.points()(i, axis));
-      });
-      held.points = points;
+      const auto& points = mesh.points();
+      held.points = detail::tabulated_rows<Coordinate, 3>("GALE::local_points", points.extent(0),
+                                                          [&](Offset i, int axis) { return points(i, axis); });
     };
     shared.is_in_float ? fill(float()) : fill(double());
     const auto& corners = mesh.corners();
@@ -163,7 +154,7 @@ VertexOrder order_by(const Mesh& mesh, const io::PointArray& order) {
 
 FieldOnMesh read_on_ranks(const InputOptions& from, int capacity, const WantedOfInput& wanted,
                           const std::function<void(const std::vector<std::string>& notices)>& was_read) {
-  const auto& ranks = static_cast<const Communicator&>(Launch::ranks());  // as there are several
+  const auto& ranks = static_cast<const Communicator&>(Launch::ranks());  // what it is where there are several
   SharedInput input = read_shared(ranks, from);
   was_read(input.notices);
   begin_step("sharing the mesh");
@@ -172,8 +163,8 @@ FieldOnMesh read_on_ranks(const InputOptions& from, int capacity, const WantedOf
   options.keep_corners = wanted.tetrahedra;
   options.capacity = capacity;
   const DistributedMesh mesh =
-      std::visit([&](const auto& held) { return DistributedMesh(ranks, held.part, options); }, input.held);
-  input.held = {};
+      std::visit([&](const auto& part) { return DistributedMesh(ranks, part, options); }, input.part);
+  input.part = {};
   begin_step("ordering the vertices");
   if (input.has_order) require_permutation(mesh, held_values(mesh, input.order));
   const VertexOrder order = order_by(mesh, input.order);

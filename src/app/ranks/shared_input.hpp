@@ -11,23 +11,26 @@
 
 namespace gale::app {
 
-/// A part, and the tetrahedra to which it refers.
-template <class Index>
-struct HeldPart {
-  Kokkos::View<Index* [4], Kokkos::LayoutRight, HostMemory> tetrahedra;
-  MeshPart<Index> part;
-};
+/// A part that keeps its tetrahedra, which are counted from rank to rank unless they have ids.
+template <class Index, class PointView, class... Ids>
+MeshPart<Index> part_of(const Array<GlobalId, HostMemory>& vertex_ids, const PointView& points,
+                        const Kokkos::View<Index* [4], Kokkos::LayoutRight, HostMemory>& tetrahedra,
+                        const Ids&... tetrahedron_ids) {
+  MeshPart<Index> part = make_part(vertex_ids, points, tetrahedra, tetrahedron_ids...);
+  part.tetrahedra = tetrahedra;
+  return part;
+}
 
 /// What one rank has of an input before it is dealt out.
 struct SharedInput {
-  std::variant<HeldPart<std::int32_t>, HeldPart<std::int64_t>> held;  ///< by global ids that fit
+  std::variant<MeshPart<std::int32_t>, MeshPart<std::int64_t>> part;  ///< by global ids that fit; keeps its Views
   io::PointArray field;                                               ///< the one to analyse
   io::PointArray order;                                               ///< what orders the vertices of the part
-  std::vector<io::PointArray> arrays;                                 ///< of these; the same ones on all ranks
-  bool has_order = false;     ///< whether `order` is another array than the field; pieces alone say so
-  bool has_ids = false;       ///< whether GlobalPointIds of `arrays` are the points' in the input
-  bool is_in_float = true;    ///< the input's coordinates
-  bool is_dealt_out = false;  ///< the first rank has all
+  std::vector<io::PointArray> arrays;  ///< what these points have; the same arrays on all ranks
+  bool has_order = false;              ///< whether `order` is another array than the field; pieces alone say so
+  bool has_ids = false;                ///< whether GlobalPointIds of `arrays` are the points' in the input
+  bool is_in_float = true;             ///< the input's coordinates
+  bool is_dealt_out = false;           ///< the first rank has all
   std::vector<std::string> notices;
 };
 

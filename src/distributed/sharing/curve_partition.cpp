@@ -4,7 +4,7 @@
 #include <vector>
 
 #include <gale/base/parallel.hpp>
-#include <gale/distributed/sharing/curve_partition.hpp>
+#include <gale/distributed/sharing/vertex_directory.hpp>
 #include <gale/mesh/exchange/messages.hpp>
 #include <gale/mesh/octree.hpp>
 
@@ -73,12 +73,11 @@ Array<int, HostMemory> curve_partition(const Communicator& ranks, const Array<co
   Array<int, HostMemory> owners;
   together(ranks, [&] {
     std::sort(all.entries.data(), all.entries.data() + all.count());
-    std::vector<CurvePlace> last;  // of each rank but the last one
+    std::vector<CurvePlace> last;  // where each rank but the last one ends
     for (int rank = 1; rank < ranks.size() && all.count() > 0; ++rank)
       last.push_back(all.entries(part_begin(all.count(), ranks.size(), rank)));
-    owners = allocate<Array<int, HostMemory>>("GALE::curve_owners", points.count());
-    parallel_for("GALE::curve_owners", HostExecutionSpace(), points.count(), [&](Offset i) {
-      owners(i) = static_cast<int>(std::lower_bound(last.begin(), last.end(), stops[i]) - last.begin());
+    owners = tabulated<int>("GALE::curve_owners", points.count(), [&](Offset i) {
+      return static_cast<int>(std::lower_bound(last.begin(), last.end(), stops[i]) - last.begin());
     });
   });
   return owners;

@@ -29,7 +29,7 @@ inline IdInterval interval_of(const Array<const GlobalId, HostMemory>& ascending
 /// The vertices that a rank owns: an interval where their ids have no gaps, else the ids, ascending.
 struct OwnedIds {
   IdInterval interval;
-  Array<GlobalId, HostMemory> ids;  ///< none where there is an interval
+  Array<GlobalId, HostMemory> ids;  ///< empty where there is an interval
 
   OwnedIds() = default;
   explicit OwnedIds(const IdInterval& some) : interval(some) {}

@@ -58,11 +58,9 @@ Mirrored<Id> joined(const Space& space, const LocalVertices& vertices, const Mir
   parallel_for(
       "GALE::owned_input", space, vertices.owned_count(), KOKKOS_LAMBDA(Offset i) { all(i) = owned_ids(order(i)); });
   const Offset count = vertices.ghost_count(), before = vertices.owned_count();
-  const auto ghost_ids = allocate<Array<Id, HostMemory>>("GALE::ghost_input", count);
   const Array<const Id, HostMemory> ghost_order = ghosts.in<HostMemory>();
-  parallel_for("GALE::ghost_input", HostExecutionSpace(), count,
-               [&](Offset i) { ghost_ids(i) = vertices.ghost(ghost_order(i)); });
-  const auto here = in_memory<Here>(ghost_ids);
+  const auto here = in_memory<Here>(
+      tabulated<Id>("GALE::ghost_input", count, [&](Offset i) { return vertices.ghost(ghost_order(i)); }));
   parallel_for(
       "GALE::append_ghosts", space, count, KOKKOS_LAMBDA(Offset i) { all(before + i) = here(i); });
   space.fence();

@@ -64,14 +64,6 @@ Array<Id, HostMemory> all_but(const std::vector<Id>& dropped, Offset count) {
   return kept;
 }
 
-template <class Index>
-GlobalIds ids_of(const Dealt<SentTetrahedron<Index>>& some) {
-  const auto ids = allocate<GlobalIds>("GALE::received_ids", some.count());
-  parallel_for("GALE::received_ids", HostExecutionSpace(), some.count(),
-               [&](Offset i) { ids(i) = some.entries(i).id; });
-  return ids;
-}
-
 }  // namespace
 
 /// The ranks that own the vertices of some tetrahedra of a part.
@@ -107,7 +99,7 @@ class CornerOwners {
   const MeshPart<Index>& part_;
   const IdInterval own_;
   GlobalIndex given_;   ///< vertices that this rank hands over, where `own` is empty
-  GlobalIndex others_;  ///< those that the tetrahedra have beside these
+  GlobalIndex others_;  ///< vertices that the tetrahedra have beside these
   Array<VertexEntry, HostMemory> of_given_, of_others_;
 };
 
@@ -159,7 +151,10 @@ LocalTetrahedra<Index>::LocalTetrahedra(const Communicator& ranks, const MeshPar
   const KeptTetrahedra kept = choose(ranks, directory, outer, first_id, sent);
   received_ = exchange(ranks, "GALE::received_tetrahedra", sent);
   require_local(ranks, "tetrahedra", kept.count + received_.count(), most_local);
-  together(ranks, [&] { places_ = TetrahedronPlaces(kept, ids_of(received_)); });
+  together(ranks, [&] {
+    places_ = TetrahedronPlaces(kept, tabulated<GlobalId>("GALE::received_ids", received_.count(),
+                                                          [&](Offset i) { return received_.entries(i).id; }));
+  });
 }
 
 /// Says which tetrahedra with vertices outside `own` are kept, and which go to others.

@@ -53,7 +53,7 @@ class LocalTetrahedra {
 
   const MeshPart<Index>& part_;
   const IdInterval own_;
-  std::vector<Id> outer_;  ///< those of the part that are kept and have vertices outside `own`
+  std::vector<Id> outer_;  ///< tetrahedra of the part that are kept and have vertices outside `own`
   Dealt<SentTetrahedron<Index>> received_;
   TetrahedronPlaces places_;
 };

@@ -8,18 +8,11 @@ namespace {
 
 using Rows = Kokkos::View<double* [3], Kokkos::LayoutRight, HostMemory>;
 
-template <class To, class From>
-void copy_row(const To& to, Offset i, const From& from, Offset k) {
-  for (int axis = 0; axis < 3; ++axis) to(i, axis) = from(k, axis);
-}
-
 /// Some of the points.
 template <class Place>
 Points<double, HostMemory> gathered(const Rows& points, Offset count, const Place& place) {
-  const auto some = allocate<Rows>("GALE::some_points", count);
-  parallel_for("GALE::some_points", HostExecutionSpace(), count,
-               [&](Offset i) { copy_row(some, i, points, place(i)); });
-  return some;
+  return tabulated_rows<double, 3>("GALE::some_points", count,
+                                   [&](Offset i, int axis) { return points(place(i), axis); });
 }
 
 }  // namespace
@@ -62,8 +55,9 @@ Points<double, HostMemory> OwnAndGhosts::by_id(const LocalVertices& vertices) co
   const auto all = allocate<Rows>("GALE::local_points", vertices.count());
   const auto put = [&](const HostPoints& some, const auto& place) {
     some.visit([&](const auto& rows) {
-      parallel_for("GALE::local_points", HostExecutionSpace(), some.count(),
-                   [&](Offset i) { copy_row(all, place(i), rows, i); });
+      parallel_for("GALE::local_points", HostExecutionSpace(), some.count(), [&](Offset i) {
+        for (int axis = 0; axis < 3; ++axis) all(place(i), axis) = rows(i, axis);
+      });
     });
   };
   put(owned, [&](Offset i) { return vertices.owned(i); });

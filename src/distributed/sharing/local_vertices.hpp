@@ -63,7 +63,7 @@ class LocalVertices {
   IdInterval interval_;
   Offset owned_count_ = 0, lower_ghosts_ = 0;  ///< ghosts below the interval
   GlobalIds ghosts_;
-  GlobalIndex index_;                    ///< of the ghosts or, where there are gaps, of all
+  GlobalIndex index_;                    ///< finds ghosts or, where there are gaps, all
   GlobalIds all_;                        ///< where there are gaps, as the next ones
   Array<Id, HostMemory> owned_, ghost_;  ///< local input ids
 };

@@ -3,6 +3,7 @@
 
 #include <gale/base/error.hpp>
 #include <gale/base/sort.hpp>
+#include <gale/distributed/mesh_part.hpp>
 #include <gale/distributed/sharing/tetrahedron_places.hpp>
 
 namespace gale::detail {
@@ -60,9 +61,9 @@ void TetrahedronPlaces::merge() {
 }
 
 void TetrahedronPlaces::sort() {
-  const auto ids = allocate<GlobalIds>("GALE::tetrahedron_ids", count());
-  parallel_for("GALE::tetrahedron_ids", HostExecutionSpace(), count(),
-               [&](Offset i) { ids(i) = i < kept_.count ? kept_.id(i) : received_(i - kept_.count); });
+  const GlobalIds ids = tabulated<GlobalId>("GALE::tetrahedron_ids", count(), [&](Offset i) {
+    return i < kept_.count ? kept_.id(i) : received_(i - kept_.count);
+  });
   const DistinctIds sorted = distinct_ids(ids);
   if (static_cast<Offset>(sorted.ids.extent(0)) < count()) refuse_repeated(repeated(ids));
   sorted_ = sorted.ids;

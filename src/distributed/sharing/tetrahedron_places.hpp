@@ -10,8 +10,8 @@ namespace gale::detail {
 /// The tetrahedra that a rank keeps of its own part: their places in it, ascending, and their global ids.
 struct KeptTetrahedra {
   Offset count = 0;
-  Array<Id, HostMemory> places;           ///< none where all are kept
-  Array<const GlobalId, HostMemory> ids;  ///< of the whole part; none where they are counted
+  Array<Id, HostMemory> places;           ///< empty where all are kept
+  Array<const GlobalId, HostMemory> ids;  ///< the whole part's ids; empty where they are counted
   GlobalId first_id = 0;                  ///< the part's first one, where they are counted
 
   Offset place(Offset k) const { return places.extent(0) == 0 ? k : Offset(places(k)); }
@@ -73,7 +73,7 @@ class TetrahedronPlaces {
   void sort();
 
   KeptTetrahedra kept_;
-  GlobalIds received_;  ///< as they came
+  GlobalIds received_;  ///< in the order in which they came
   std::vector<Id> received_by_id_;
   std::vector<Offset> received_at_;  ///< their places among all, ascending
 

@@ -60,9 +60,8 @@ Array<VertexEntry, HostMemory> VertexDirectory::find(const Array<const GlobalId,
   if (!given_) return table_.find(ranks_, ids);
   Array<VertexEntry, HostMemory> found;
   together(ranks_, [&] {
-    found = allocate<Array<VertexEntry, HostMemory>>("GALE::found_entries", ids.extent(0));
-    parallel_for("GALE::found_entries", HostExecutionSpace(), ids.extent(0),
-                 [&](Offset i) { found(i) = entry_of(*given_, ids(i)); });
+    found = tabulated<VertexEntry>("GALE::found_entries", ids.extent(0),
+                                   [&](Offset i) { return entry_of(*given_, ids(i)); });
   });
   return found;
 }

@@ -88,7 +88,7 @@ void EncodedBytes::write(const void* bytes, std::size_t size) {
   if (encoding_ == Encoding::appended) return file_.write(bytes, size);
   const auto* const from = static_cast<const char*>(bytes);
   waiting_.insert(waiting_.end(), from, from + size);
-  write_first(waiting_.size() / 3 * 3);  // as whole groups of four characters
+  write_first(waiting_.size() / 3 * 3);  // that many make whole groups of four characters
 }
 
 void EncodedBytes::write_first(std::size_t bytes) {

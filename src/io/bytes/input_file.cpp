@@ -1,6 +1,5 @@
 #include <fcntl.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -15,40 +14,24 @@ namespace gale::io::detail {
 // Not blocking: a pipe would keep us waiting for somebody who writes to it.
 InputFile::InputFile(const std::string& path)
     : path_(path), descriptor_(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
-  if (descriptor_ == -1) refuse(std::strerror(errno));
   struct stat status;
-  std::string refusal;
-  if (fstat(descriptor_, &status) != 0) {
-    refusal = std::strerror(errno);
-  } else if (S_ISDIR(status.st_mode)) {
-    refusal = "it is a directory";
-  } else if (!S_ISREG(status.st_mode)) {
-    refusal = "it is not a regular file";
-  }
-  if (!refusal.empty()) {
-    close(descriptor_);
-    refuse(refusal);
-  }
+  if (descriptor_ < 0 || fstat(descriptor_, &status) != 0) refuse(std::strerror(errno));
+  if (S_ISDIR(status.st_mode)) refuse("it is a directory");
+  if (!S_ISREG(status.st_mode)) refuse("it is not a regular file");
   size_ = static_cast<std::uint64_t>(status.st_size);
   identity_ = {status.st_dev, status.st_ino};
 }
 
-InputFile::~InputFile() { close(descriptor_); }
-
 void InputFile::read(std::uint64_t at, char* to, std::size_t bytes) const {
   if (at > size_ || bytes > size_ - at)
     damaged("it ends after ", size_, " bytes, where ", bytes, " from byte ", at, " on were to come");
-  constexpr std::size_t most_at_once = 1 << 24;
-  while (bytes > 0) {
+  const auto read_some = [&](std::size_t done, std::size_t rest) {
     gale::detail::stop_if_asked();
-    const ssize_t got = pread(descriptor_, to, std::min(bytes, most_at_once), static_cast<off_t>(at));
-    if (got == -1 && errno == EINTR) continue;
-    if (got == -1) refuse(std::strerror(errno));
-    if (got == 0) damaged("it became shorter while it was read");
-    at += static_cast<std::uint64_t>(got);
-    to += got;
-    bytes -= static_cast<std::size_t>(got);
-  }
+    return pread(descriptor_, to + done, rest, static_cast<off_t>(at + done));
+  };
+  if (move_all(bytes, read_some, std::size_t(1) << 24)) return;
+  if (errno != 0) refuse(std::strerror(errno));
+  damaged("it became shorter while it was read");
 }
 
 bool InputFile::begins_with(const std::string& magic) const {

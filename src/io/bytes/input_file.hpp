@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include <gale/io/bytes/descriptor.hpp>
+
 /// Files that are read, and bytes that come one after the other, from these or elsewhere.
 namespace gale::io::detail {
 
@@ -16,9 +18,6 @@ class InputFile {
  public:
   /// Throws gale::Error, which doesn't name the path: no such file, a directory, no regular file, no permission.
   explicit InputFile(const std::string& path);
-  ~InputFile();
-  InputFile(const InputFile&) = delete;
-  InputFile& operator=(const InputFile&) = delete;
 
   const std::string& path() const { return path_; }
 
@@ -36,7 +35,7 @@ class InputFile {
 
  private:
   std::string path_;
-  int descriptor_;
+  Descriptor descriptor_;
   std::uint64_t size_;
   std::pair<std::uint64_t, std::uint64_t> identity_;
 };
@@ -97,7 +96,7 @@ class FileSequence : public ByteSource {
   std::vector<std::string> paths_;
   std::uint64_t begin_, bytes_;
   std::size_t current_ = 0;
-  std::uint64_t read_ = 0;  ///< of the current file
+  std::uint64_t read_ = 0;  ///< how much of the current file
   std::unique_ptr<InputFile> file_;
 };
 

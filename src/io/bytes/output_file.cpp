@@ -1,7 +1,5 @@
 #include <fcntl.h>
-#include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <cstring>
 
@@ -14,27 +12,18 @@ namespace {
 constexpr std::size_t buffer_size = 1 << 20;
 
 void write_at(int descriptor, std::uint64_t at, const char* bytes, std::size_t size) {
-  constexpr std::size_t most_at_once = 1 << 30;  // of a call: some systems take no more than 2 GiB
-  while (size > 0) {
-    const ssize_t taken = pwrite(descriptor, bytes, std::min(size, most_at_once), static_cast<off_t>(at));
-    if (taken == -1 && errno == EINTR) continue;
-    if (taken == -1) throw Error(std::strerror(errno));
-    if (taken == 0) throw Error(std::strerror(ENOSPC));
-    at += static_cast<std::uint64_t>(taken);
-    bytes += taken;
-    size -= static_cast<std::size_t>(taken);
-  }
+  const auto write_some = [&](std::size_t done, std::size_t rest) {
+    return pwrite(descriptor, bytes + done, rest, static_cast<off_t>(at + done));
+  };
+  if (!move_all(size, write_some)) throw Error(std::strerror(errno != 0 ? errno : ENOSPC));
 }
 
 }  // namespace
 
-OutputFile::OutputFile(const std::string& path) : descriptor_(-1) {
+OutputFile::OutputFile(const std::string& path) : descriptor_(open(path.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC)) {
+  if (descriptor_ < 0) throw Error(std::strerror(errno));
   buffered_.reserve(buffer_size);
-  descriptor_ = open(path.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC);
-  if (descriptor_ == -1) throw Error(std::strerror(errno));
 }
-
-OutputFile::~OutputFile() { close(descriptor_); }
 
 void OutputFile::write(const void* bytes, std::size_t size) {
   const char* const begin = static_cast<const char*>(bytes);

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include <gale/io/bytes/descriptor.hpp>
+
 namespace gale::io::detail {
 
 /// A file that is written from its beginning on, but for places that are filled in later. Each function throws
@@ -13,9 +15,6 @@ class OutputFile {
  public:
   /// Opens a file that is there, which loses what it has.
   explicit OutputFile(const std::string& path);
-  ~OutputFile();
-  OutputFile(const OutputFile&) = delete;
-  OutputFile& operator=(const OutputFile&) = delete;
 
   void write(const void* bytes, std::size_t size);
   void write(const std::string& text) { write(text.data(), text.size()); }
@@ -30,7 +29,7 @@ class OutputFile {
   void flush();
 
  private:
-  int descriptor_;
+  Descriptor descriptor_;
   std::uint64_t flushed_ = 0;
   std::vector<char> buffered_;
 };

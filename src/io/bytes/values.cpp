@@ -7,7 +7,7 @@
 namespace gale::io::detail {
 namespace {
 
-constexpr std::size_t bytes_at_once = 1 << 20;  // they stay in the cache between the steps
+constexpr std::size_t bytes_at_once = 1 << 20;  // so few stay in the cache between the steps
 
 [[noreturn]] void ends_early(std::uint64_t has, std::uint64_t count, ValueType type) {
   damaged("it ends after ", has, " of ", count, " values of type ", name_of(type));

@@ -107,19 +107,12 @@ class NetcdfHeader {
     const ValueType value_type = type(is_text);
     const std::uint64_t size = count();
     if (size > rest() / size_of(value_type)) damaged("an attribute in its header is longer than the file");
-    std::string raw = characters(size * size_of(value_type));
-    if (is_text) {
-      result.text = std::move(raw);
-    } else {
-      with_type(value_type, [&](auto example) {
-        for (std::uint64_t k = 0; k < size; ++k) {
-          auto value = example;
-          std::memcpy(&value, raw.data() + k * sizeof value, sizeof value);
-          to_machine_order(&value, 1, ByteOrder::big);
-          result.numbers.push_back(static_cast<double>(value));
-        }
-      });
-    }
+    const std::string raw = characters(size * size_of(value_type));
+    if (is_text) result.text = raw;
+    if (is_text) return result;
+    MemoryBytes bytes(raw);
+    std::visit([&](const auto& values) { result.numbers.assign(values.begin(), values.end()); },
+               read_values(bytes, value_type, size, ByteOrder::big));
     return result;
   }
 

@@ -10,8 +10,8 @@
 namespace gale::io::detail {
 
 struct ElementType {
-  int cell_type;                    ///< as `CellType::number`
-  std::size_t points;               ///< of the cell; an element may have more, which are left out
+  int cell_type;                    ///< a `CellType::number`
+  std::size_t points;               ///< how many the cell has; an element may have more, which are left out
   std::vector<std::uint8_t> order;  ///< which of the element's points each of the cell's is; empty if they are the same
 };
 

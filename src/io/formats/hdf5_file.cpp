@@ -34,7 +34,7 @@ void place_chunk(const char* values, const Places& chunk, const Places& first, c
   } while (reader::advance(inside, step, size));
 }
 
-constexpr std::uint64_t sum_bytes = 4;  // of fletcher32, behind the values
+constexpr std::uint64_t sum_bytes = 4;  // what fletcher32 has behind the values
 
 [[noreturn]] void wrong(const std::string& array, const char* why) { damaged("a chunk of its '", array, "' ", why); }
 

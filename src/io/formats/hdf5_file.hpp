@@ -5,30 +5,13 @@
 #include <cstdint>
 #include <map>
 #include <string>
-#include <utility>
 #include <vector>
 
+#include <gale/io/bytes/descriptor.hpp>
 #include <gale/io/formats/array_file.hpp>
 #include <gale/io/program/protocol.hpp>
 
 namespace gale::io::detail {
-
-/// A descriptor, which closes itself; none if it is below 0.
-class Descriptor {
- public:
-  explicit Descriptor(int number = -1) : number_(number) {}
-  Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
-  ~Descriptor() { close(); }
-  Descriptor& operator=(Descriptor&& other) noexcept {
-    std::swap(number_, other.number_);
-    return *this;
-  }
-  operator int() const { return number_; }
-  void close();
-
- private:
-  int number_;
-};
 
 /// gale-hdf5-reader with a file, and what passes between it and us.
 class Hdf5Program {

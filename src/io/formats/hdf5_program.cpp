@@ -103,11 +103,6 @@ std::string all_of(int pipe) {
 
 }  // namespace
 
-void Descriptor::close() {
-  if (number_ >= 0) ::close(number_);
-  number_ = -1;
-}
-
 Hdf5Program::Hdf5Program(const std::string& path) {
   Descriptor its_talk, its_message;
   connect(talk_, its_talk);
@@ -126,7 +121,7 @@ Hdf5Program::Hdf5Program(const std::string& path) {
 
 Hdf5Program::~Hdf5Program() {
   if (process_ < 0) return;
-  talk_.close();  // it ends then, or is of no use any more
+  talk_.close();  // so that it ends, or is of no use any more
   message_.close();
   kill(process_, SIGKILL);
   wait();
@@ -155,23 +150,18 @@ void Hdf5Program::ask(reader::Request request, const std::vector<std::string>& t
   for (const std::string& text : texts) all += text + '\0';
   const auto length = static_cast<std::uint32_t>(all.size());
   all.insert(0, reinterpret_cast<const char*>(&length), sizeof length);
-  for (std::size_t sent = 0; sent < all.size();) {
-    const ssize_t now = send(talk_, all.data() + sent, all.size() - sent, MSG_NOSIGNAL);
-    if (now < 0 && errno == EINTR) continue;
-    if (now < 0) throw_end();
-    sent += static_cast<std::size_t>(now);
-  }
+  const auto send_some = [&](std::size_t done, std::size_t rest) {
+    return send(talk_, all.data() + done, rest, MSG_NOSIGNAL);
+  };
+  if (!move_all(all.size(), send_some)) throw_end();
 }
 
 void Hdf5Program::receive(void* to, std::size_t bytes) {
-  for (char* at = static_cast<char*>(to); bytes > 0;) {
+  const auto receive_some = [&](std::size_t done, std::size_t rest) {
     wait_for(talk_);
-    const ssize_t got = recv(talk_, at, bytes, 0);
-    if (got < 0 && errno == EINTR) continue;
-    if (got <= 0) throw_end();
-    at += got;
-    bytes -= static_cast<std::size_t>(got);
-  }
+    return recv(talk_, static_cast<char*>(to) + done, rest, 0);
+  };
+  if (!move_all(bytes, receive_some)) throw_end();
 }
 
 std::string Hdf5Program::receive_text(std::uint32_t most) {

@@ -231,7 +231,7 @@ void read_field(LegacyFile& file, const std::uint64_t* count, LegacyAttributes& 
   if (arrays > most_arrays) damaged("a field has ", arrays, " arrays");
   for (std::int64_t k = 0; k < arrays; ++k) {
     std::string name = file.name("the name of an array");
-    if (name == "METADATA") {  // of the array before
+    if (name == "METADATA") {  // belongs to the array before
       file.skip_metadata();
       name = file.name("the name of an array");
     }

@@ -64,7 +64,7 @@ class LegacyFile {
 /// The numeric arrays of points or cells, the first scalars first.
 struct LegacyAttributes {
   std::vector<PointArray> arrays;
-  std::vector<std::string> names;     ///< of all
+  std::vector<std::string> names;     ///< the names of all
   std::vector<std::string> left_out;  ///< a notice about each whose values are no numbers
   bool has_scalars = false;
 };

@@ -63,12 +63,6 @@ std::uint64_t grid_points(const Sections& from) {
   return product({from.dimensions[0], from.dimensions[1], from.dimensions[2]}, "dimensions");
 }
 
-/// Reads one of a rectilinear grid's axes.
-void read_axis(LegacyFile& file, int axis, Sections& to) {
-  const std::int64_t count = file.count("the number of coordinates");
-  to.coordinates[axis] = file.array_of_numbers(static_cast<std::uint64_t>(count), "the coordinates");
-}
-
 /// Reads sections up to the end of the file. False for a keyword that begins none.
 bool read_section(LegacyFile& file, const std::string& kind, std::string& keyword, Sections& to) {
   if (keyword == "point_data" || keyword == "cell_data") {
@@ -93,7 +87,7 @@ bool read_section(LegacyFile& file, const std::string& kind, std::string& keywor
   } else if (keyword == "dimensions") {
     to.dimensions.clear();
     for (int d = 0; d < 3; ++d) to.dimensions.push_back(file.count("DIMENSIONS"));
-    to.points = static_cast<std::int64_t>(grid_points(to));  // those of a structured grid follow, and are counted then
+    to.points = static_cast<std::int64_t>(grid_points(to));  // a structured grid counts its own, which follow
   } else if (keyword == "points" && (kind == "unstructured_grid" || kind == "structured_grid")) {
     to.points = file.count("the number of points");
     to.mesh.points = file.array_of_numbers(product({to.points, 3}, "points"), "the points");
@@ -105,12 +99,9 @@ bool read_section(LegacyFile& file, const std::string& kind, std::string& keywor
     to.spacing = file.numbers(3, "SPACING");
   } else if (keyword == "origin" && kind == "structured_points") {
     to.origin = file.numbers(3, "ORIGIN");
-  } else if (keyword == "x_coordinates") {
-    read_axis(file, 0, to);
-  } else if (keyword == "y_coordinates") {
-    read_axis(file, 1, to);
-  } else if (keyword == "z_coordinates") {
-    read_axis(file, 2, to);
+  } else if (keyword.size() == 13 && keyword.substr(1) == "_coordinates" && keyword[0] >= 'x' && keyword[0] <= 'z') {
+    const std::int64_t count = file.count("the number of coordinates");
+    to.coordinates[keyword[0] - 'x'] = file.array_of_numbers(static_cast<std::uint64_t>(count), "the coordinates");
   } else {
     return false;
   }
@@ -120,15 +111,9 @@ bool read_section(LegacyFile& file, const std::string& kind, std::string& keywor
 
 Image to_image(Sections& from) {
   if (from.dimensions.empty()) damaged("it has no DIMENSIONS");
-  Image image;
-  for (int d = 0; d < 3; ++d) {
-    if (from.dimensions[d] < 1 || from.dimensions[d] > std::numeric_limits<int>::max())
-      damaged("one of its DIMENSIONS is ", from.dimensions[d]);
-    image.dimensions[d] = static_cast<int>(from.dimensions[d]);
-    image.index_to_physical[d][d] = from.spacing[d];
-    image.index_to_physical[d][3] = from.origin[d];
-  }
-  require_finite(image);
+  std::array<std::int64_t, 3> last{};
+  for (int d = 0; d < 3; ++d) last[d] = from.dimensions[d] - 1;
+  Image image = oriented_image({}, last, from.origin, from.spacing, {1, 0, 0, 0, 1, 0, 0, 0, 1});
   if (from.mesh.arrays.empty() && !from.cell_arrays.empty())
     throw Error("the image has values in its cells, none at its points");
   image.arrays = std::move(from.mesh.arrays);

@@ -92,7 +92,7 @@ Axes axes_of(const TextHeader& header) {
     if (axis < kinds.size() && kinds[axis] != "???" && kinds[axis] != "none")
       return kinds[axis] == "domain" || kinds[axis] == "space";
     if (axis < spacings.size() && lower_case(spacings[axis]) == "nan") return false;
-    return axis > 0 || dimension <= 3;  // of four without a word about them, the first is taken for components
+    return axis > 0 || dimension <= 3;  // the first of four without a word about them is taken for components
   };
   axes.first_in_space = is_space(0) ? 0 : 1;
   for (std::size_t axis = axes.first_in_space; axis < axes.sizes.size(); ++axis) {

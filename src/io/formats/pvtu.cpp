@@ -13,7 +13,7 @@
 #include <gale/io/dataset.hpp>
 #include <gale/io/formats.hpp>
 #include <gale/io/formats/volume.hpp>
-#include <gale/io/formats/vtu.hpp>
+#include <gale/io/formats/xml_file.hpp>
 
 namespace gale::io::detail {
 namespace {
@@ -51,7 +51,8 @@ Ids to_ids(const PointArray::Values& values, const std::string& name, const std:
         constexpr std::int64_t greatest = (std::int64_t(1) << 62) - 1;
         Ids ids(all.size());
         for (std::size_t i = 0; i < all.size(); ++i) {
-          ids[i] = static_cast<std::int64_t>(all[i]);  // of 64 bits without a sign, those beyond become negative
+          ids[i] =
+              static_cast<std::int64_t>(all[i]);  // those beyond, which have 64 bits without a sign, become negative
           if (ids[i] >= 0 && ids[i] <= greatest) continue;
           refuse("the array '", printable(name), "' gives ", of_what, " ", i, " the id ", all[i],
                  ", which is none: ids are 0 to ", greatest);
@@ -84,7 +85,7 @@ std::vector<Key> coordinates_of(const MeshParts& piece) {
 /// One of the pieces as its file has it.
 struct FilePiece {
   MeshParts parts;
-  std::optional<PointArray::Values> ghosts;  ///< of cells
+  std::optional<PointArray::Values> ghosts;  ///< the array that says which cells are ghosts
   Ids cell_ids;                              ///< empty without ids
 };
 
@@ -103,7 +104,7 @@ class SharedPieces {
     MeshParts& parts = piece.parts;
     drop_ghosts(parts.arrays);
     const std::size_t before = joined_.points();
-    Ids fresh;  // of its points, those that no piece before has
+    Ids fresh;  // the points that no piece before has
     const Ids places = place_points(parts, before, fresh);
     parts.cells = numbered_cells(parts.cells, places, piece);
     if (fresh.size() < places.size()) {
@@ -189,7 +190,7 @@ class SharedPieces {
   JoinedPieces joined_;
   std::unordered_map<Key, std::int64_t, HashOfKey> place_of_coordinates_;
   std::unordered_map<std::int64_t, std::int64_t> place_of_id_;
-  Ids point_ids_, cell_ids_;  ///< of the joined ones
+  Ids point_ids_, cell_ids_;  ///< the ids of the joined ones
 };
 
 /// The global ids of cells; empty if nothing names them.

@@ -4,7 +4,7 @@
 #include <gale/io/bytes/values.hpp>
 #include <gale/io/cells/join.hpp>
 #include <gale/io/formats.hpp>
-#include <gale/io/formats/vtu.hpp>
+#include <gale/io/formats/xml_file.hpp>
 
 namespace gale::io::detail {
 namespace {

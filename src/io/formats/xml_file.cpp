@@ -10,7 +10,6 @@
 #include <gale/io/bytes/compression.hpp>
 #include <gale/io/bytes/text.hpp>
 #include <gale/io/bytes/values.hpp>
-#include <gale/io/cells/cells.hpp>
 #include <gale/io/formats/xml_file.hpp>
 
 namespace gale::io::detail {
@@ -121,49 +120,40 @@ std::vector<T> uncompressed_values(Binary& binary, const Blocks& blocks, const X
   const Uncompress to_bytes = find_uncompress(file.compressor);
   std::vector<T> values;
   values.reserve(count);
-  const std::size_t wanted = count * sizeof(T);
-  std::vector<char> compressed, straddling;  // `straddling`: blocks that aren't of whole values, or very large
-  const bool in_place = blocks.block_bytes % sizeof(T) == 0 && blocks.block_bytes <= bytes_at_once;
+  std::vector<char> compressed;
   std::size_t done = 0;
-  for (std::size_t first = 0; first < blocks.compressed.size() && done < wanted;) {
+  for (std::size_t first = 0; first < blocks.compressed.size() && done < count * sizeof(T);) {
     std::size_t last = first, bytes = 0, compressed_bytes = 0;
     std::vector<std::size_t> from;
     do {
       from.push_back(compressed_bytes);
       compressed_bytes += static_cast<std::size_t>(blocks.compressed[last]);
       bytes += blocks.bytes_of(last++);
-    } while (last < blocks.compressed.size() && bytes + blocks.block_bytes <= bytes_at_once && in_place);
+    } while (last < blocks.compressed.size() && bytes + blocks.block_bytes <= bytes_at_once);
     compressed.resize(compressed_bytes);
     read_all(binary.bytes(), compressed.data(), compressed_bytes, "an array");
-    if (in_place) {
-      const std::size_t begin = values.size();
-      values.resize(begin + (bytes + sizeof(T) - 1) / sizeof(T));
-      char* const to = reinterpret_cast<char*>(values.data() + begin);
-      std::atomic<bool> whole{true};
-      const int threads = static_cast<int>(std::min<std::size_t>(host_threads(), last - first));
-      in_turns(threads, static_cast<std::int64_t>(last - first), [&](int, std::int64_t k) {
-        const std::size_t block = first + static_cast<std::size_t>(k);
-        if (!to_bytes(compressed.data() + from[k], blocks.compressed[block], to + k * blocks.block_bytes,
-                      blocks.bytes_of(block)))
-          whole = false;
-      });
-      if (!whole) damaged("an array's compressed block is wrong");
-      to_machine_order(values.data() + begin, values.size() - begin, file.order);
-    } else {
-      const std::unique_ptr<char[]> block(new char[bytes]);  // not touched where nothing is
-      if (!to_bytes(compressed.data(), compressed_bytes, block.get(), bytes))
-        damaged("an array's compressed block is wrong");
-      straddling.insert(straddling.end(), block.get(), block.get() + bytes);
-    }
+    const auto make_room = [&] {
+      values.resize((done + bytes + sizeof(T) - 1) / sizeof(T));
+      return reinterpret_cast<char*>(values.data()) + done;
+    };
+    // A very large block goes elsewhere first: what it doesn't stand for isn't touched there.
+    const std::unique_ptr<char[]> apart(bytes > bytes_at_once ? new char[bytes] : nullptr);
+    char* const to = apart ? apart.get() : make_room();
+    std::atomic<bool> whole{true};
+    const int threads = static_cast<int>(std::min<std::size_t>(host_threads(), last - first));
+    in_turns(threads, static_cast<std::int64_t>(last - first), [&](int, std::int64_t k) {
+      const std::size_t block = first + static_cast<std::size_t>(k);
+      if (!to_bytes(compressed.data() + from[k], blocks.compressed[block], to + k * blocks.block_bytes,
+                    blocks.bytes_of(block)))
+        whole = false;
+    });
+    if (!whole) damaged("an array's compressed block is wrong");
+    if (apart) std::memcpy(make_room(), apart.get(), bytes);
     done += bytes;
     first = last;
   }
-  if (!in_place) {
-    values.resize(std::min(count, straddling.size() / sizeof(T)));
-    std::memcpy(values.data(), straddling.data(), values.size() * sizeof(T));
-    to_machine_order(values.data(), values.size(), file.order);
-  }
   values.resize(count);
+  to_machine_order(values.data(), values.size(), file.order);
   return values;
 }
 

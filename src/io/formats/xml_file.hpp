@@ -8,7 +8,9 @@
 
 #include <gale/io/bytes/input_file.hpp>
 #include <gale/io/bytes/values.hpp>
+#include <gale/io/cells/cells.hpp>
 #include <gale/io/dataset.hpp>
+#include <gale/io/read.hpp>
 
 /// VTK's XML files: a tree of elements, whose arrays hold their values in themselves, as text or base64, or behind the
 /// tree, as base64 or raw.
@@ -22,7 +24,7 @@ struct XmlElement {
   std::string name;
   std::map<std::string, std::string> attributes;
   std::vector<XmlElement> children;
-  std::string text;  ///< of arrays of points and cells alone, of ghosts, and of what else read_xml() was told of
+  std::string text;  ///< what arrays of points and cells have, of ghosts, and what else read_xml() was told of
 
   /// The attribute's value, or `otherwise`.
   std::string attribute(const std::string& key, const std::string& otherwise = "") const;
@@ -51,7 +53,7 @@ struct XmlFile {
 
   // What the root says.
   ByteOrder order = byte_order_of_machine();
-  std::size_t header_bytes = 4;  ///< of the numbers that say how long an array is
+  std::size_t header_bytes = 4;  ///< the size of numbers that say how long an array is
   std::string compressor{};      ///< VTK's class, or empty
 
   /// Bytes so far: arrays that lie on each other would make them more than there are.
@@ -79,5 +81,21 @@ XmlArrays read_point_data(const XmlFile& file, const XmlElement& piece, std::uin
 
 /// The names of a piece's cell arrays.
 std::vector<std::string> names_of_cell_data(const XmlElement& piece);
+
+// Common parts of `.vtu` and of the `.pvtu` that names several of them.
+
+/// The pieces of a `.vtu`.
+std::vector<const XmlElement*> pieces_of(const XmlFile& file);
+
+/// Points, cells and point arrays of one of them. Throws gale::Error for what the file lacks.
+MeshParts read_piece(const XmlFile& file, const XmlElement& piece);
+
+/// The values of a cell array of one component, which read_xml() was told of. Nothing if there is no such array.
+std::optional<PointArray::Values> read_cell_array(const XmlFile& file, const XmlElement& piece,
+                                                  const std::string& name);
+
+/// The pieces that a `.pvtu` names, and some of these as one mesh, which may be empty.
+PieceNames names_of_pieces(const InputFile& input);
+SomePieces read_some_pieces(const InputFile& input, const PieceNames& some, const ReadOptions& options);
 
 }  // namespace gale::io::detail

@@ -87,11 +87,6 @@ herr_t keep_link(hid_t, const char* name, const H5L_info_t* link, void* to) {
   return 0;
 }
 
-struct Image {
-  const void* data;
-  std::size_t bytes;
-};
-
 }  // namespace
 
 void fail(const std::string& what) {

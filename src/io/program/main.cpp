@@ -17,12 +17,15 @@
 #include <fstream>
 #include <new>
 
+#include <gale/io/bytes/descriptor.hpp>
 #include <gale/io/program/confine.hpp>
 #include <gale/io/program/file.hpp>
 
 namespace {
 
 using namespace gale::reader;
+using gale::io::detail::Descriptor;
+using gale::io::detail::move_all;
 
 /// The bytes of a file.
 struct Image {
@@ -30,13 +33,12 @@ struct Image {
   std::size_t bytes = 0;
 
   explicit Image(const char* path) {
-    const int descriptor = open(path, O_RDONLY | O_CLOEXEC);
+    const Descriptor descriptor(open(path, O_RDONLY | O_CLOEXEC));
     struct stat status = {};
     if (descriptor < 0 || fstat(descriptor, &status) != 0) throw std::runtime_error(std::strerror(errno));
     bytes = static_cast<std::size_t>(status.st_size);
     data = mmap(nullptr, bytes, PROT_READ, MAP_PRIVATE, descriptor, 0);
     if (data == MAP_FAILED) throw std::runtime_error(std::strerror(errno));
-    close(descriptor);
   }
 };
 
@@ -77,13 +79,10 @@ void limit_to(std::size_t bytes) {
 }
 
 void put(const void* from, std::size_t bytes) {
-  for (const char* at = static_cast<const char*>(from); bytes > 0;) {
-    const ssize_t written = write(STDOUT_FILENO, at, bytes);
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) _exit(2);  // nobody asks any more
-    at += written;
-    bytes -= static_cast<std::size_t>(written);
-  }
+  const auto put_some = [&](std::size_t done, std::size_t rest) {
+    return write(STDOUT_FILENO, static_cast<const char*>(from) + done, rest);
+  };
+  if (!move_all(bytes, put_some)) _exit(2);  // nobody asks any more
 }
 
 template <class T>
@@ -103,14 +102,9 @@ void put_text(const std::string& text) {
 
 /// Reads from standard input; false at the end.
 bool get(void* to, std::size_t bytes) {
-  for (char* at = static_cast<char*>(to); bytes > 0;) {
-    const ssize_t got = read(STDIN_FILENO, at, bytes);
-    if (got < 0 && errno == EINTR) continue;
-    if (got <= 0) return false;
-    at += got;
-    bytes -= static_cast<std::size_t>(got);
-  }
-  return true;
+  return move_all(bytes, [&](std::size_t done, std::size_t rest) {
+    return read(STDIN_FILENO, static_cast<char*>(to) + done, rest);
+  });
 }
 
 void answer_group(const File& file, const std::string& path) {

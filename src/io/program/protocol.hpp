@@ -26,7 +26,7 @@ inline constexpr std::uint8_t no_type = 255;
 struct Dataset {
   std::uint64_t address = 0;    ///< in the file, if it is contiguous; all ones if there are no bytes
   std::uint64_t stored = 0;     ///< bytes, unless it is chunked
-  std::uint8_t type = no_type;  ///< as gale::io::detail::ValueType numbers them
+  std::uint8_t type = no_type;  ///< a number of gale::io::detail::ValueType
   std::uint8_t is_text = 0, is_big_endian = 0;
   Layout layout = Layout::contiguous;
   std::uint16_t dimensions = 0, filters = 0;
