@@ -11,8 +11,8 @@
 #include <gale/baselines/task_parallel_structure.hpp>
 #include <gale/runtime/batches/host_worker.hpp>
 #include <gale/runtime/defaults.hpp>
-#include <gale/runtime/inline/inline_structure.hpp>
 #include <gale/runtime/statistics.hpp>
+#include <gale/runtime/ways.hpp>
 
 namespace gale::baselines {
 

@@ -1,10 +1,8 @@
 #include <gale/base/error.hpp>
 #include <gale/runtime/defaults.hpp>
 #include <gale/runtime/explicit/explicit_structure.hpp>
-#include <gale/runtime/helpers/helped_structure.hpp>
-#include <gale/runtime/inline/inline_structure.hpp>
-#include <gale/runtime/leaders/leader_structure.hpp>
 #include <gale/runtime/make_structure.hpp>
+#include <gale/runtime/ways.hpp>
 
 namespace gale {
 
@@ -25,9 +23,9 @@ std::unique_ptr<Structure> make(const Mesh& mesh, RelationSet wanted, const Stru
     case Way::gale:
       return make(mesh, wanted, options, mesh.on_device() ? Way::leaders : Way::helpers);
     case Way::leaders:
-      return std::make_unique<detail::LeaderStructure>(mesh, wanted, options);
+      return detail::make_leader_structure(mesh, wanted, options);
     case Way::helpers:
-      return std::make_unique<detail::HelpedStructure>(mesh, wanted, options);
+      return detail::make_helped_structure(mesh, wanted, options);
     case Way::inline_:
       return std::make_unique<detail::InlineStructure>(mesh, wanted);
     case Way::explicit_:

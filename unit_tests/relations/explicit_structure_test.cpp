@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <gale/base/error.hpp>
+#include <gale/runtime/explicit/explicit_relations.hpp>
 #include <gale/runtime/explicit/explicit_structure.hpp>
-#include <gale/runtime/explicit/kokkos_kernels.hpp>
 
 #include "relations/star_subsets.hpp"
 #include "support/brute_force.hpp"

@@ -5,8 +5,6 @@
 #include <gale/base/parallel.hpp>
 #include <gale/base/transfer.hpp>
 #include <gale/runtime/explicit/explicit_relations.hpp>
-#include <gale/runtime/explicit/kokkos_kernels.hpp>
-#include <gale/runtime/explicit/sorted_simplices.hpp>
 
 namespace gale::detail {
 

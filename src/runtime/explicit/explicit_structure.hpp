@@ -14,9 +14,9 @@ namespace gale {
 /// relations are transposed graphs and adjacency relations products of graphs, by Kokkos-Kernels. Only where GALE was
 /// built with that (GALE_ENABLE_KOKKOS_KERNELS); elsewhere the constructor throws gale::Error that says so.
 ///
-/// Memory: 4 bytes an entry and a row of each relation, but none for TV's entries without a device: those are the mesh'
-/// own. Links take 3 bytes an entry of VT, 6 or 12 where a VV row is longer than 256 or 65536, and VT's offsets. All
-/// sixteen and the links take 560 bytes a tetrahedron of a grid.
+/// Memory: 4 bytes an entry and a row of each relation, but none for TV's entries without a device: those are the
+/// mesh's own. Links take 3 bytes an entry of VT, 6 or 12 where a VV row is longer than 256 or 65536, and VT's offsets.
+/// All sixteen and the links take 560 bytes a tetrahedron of a grid.
 class ExplicitStructure : public Structure {
  public:
   /// Computes the relations one after another and, before each, those that it is computed from: a coboundary relation

@@ -1,7 +1,7 @@
 #include <limits>
 
 #include <gale/base/error.hpp>
-#include <gale/runtime/explicit/kokkos_kernels.hpp>
+#include <gale/runtime/explicit/explicit_relations.hpp>
 
 // The one translation unit that includes Kokkos-Kernels: it takes long to compile.
 

@@ -2,8 +2,7 @@
 #include <gale/base/parallel.hpp>
 #include <gale/base/sort.hpp>
 #include <gale/base/transfer.hpp>
-#include <gale/runtime/explicit/kokkos_kernels.hpp>
-#include <gale/runtime/explicit/sorted_simplices.hpp>
+#include <gale/runtime/explicit/explicit_relations.hpp>
 
 namespace gale::detail {
 

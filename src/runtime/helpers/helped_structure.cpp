@@ -2,8 +2,8 @@
 #include <mutex>
 
 #include <gale/runtime/defaults.hpp>
-#include <gale/runtime/helpers/helped_structure.hpp>
 #include <gale/runtime/helpers/helped_sweep.hpp>
+#include <gale/runtime/ways.hpp>
 
 namespace gale::detail {
 
@@ -38,6 +38,25 @@ class IdleCores {
   inline static std::mutex mutex_;
   inline static int in_use_ = 0;
   int count_, claimed_;
+};
+
+/// Way::helpers: inline; and in a sweep, helpers on the cores that it leaves idle compute ahead of the consumers.
+class HelpedStructure : public InlineStructure {
+ public:
+  /// Throws gale::Error for a number of cores below 0.
+  HelpedStructure(const Mesh& mesh, RelationSet relations, const StructureOptions& options);
+
+ protected:
+  std::unique_ptr<Sweep> begin_sweep(RelationSet wanted, int consumers, const SegmentBody& body) override;
+  void add_statistics(StructureStatistics& all) const override;
+
+ private:
+  class HelpedTurns;
+
+  const StructureOptions options_;
+  mutable std::mutex mutex_;
+  HelperStatistics helpers_;
+  std::size_t host_bytes_ = 0;
 };
 
 /// A sweep with helpers: as many turns as segments; which one is read in a turn shows then.
@@ -88,6 +107,11 @@ void HelpedStructure::add_statistics(StructureStatistics& all) const {
   const std::lock_guard<std::mutex> lock(mutex_);
   all.helpers = helpers_;
   all.host_bytes = host_bytes_;
+}
+
+std::unique_ptr<Structure> make_helped_structure(const Mesh& mesh, RelationSet relations,
+                                                 const StructureOptions& options) {
+  return std::make_unique<HelpedStructure>(mesh, relations, options);
 }
 
 }  // namespace gale::detail

@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-#include <gale/runtime/inline/inline_structure.hpp>
+#include <gale/runtime/ways.hpp>
 
 namespace gale::detail {
 

@@ -4,7 +4,7 @@
 
 #include <gale/relations/face_reader.hpp>
 #include <gale/relations/kernels/segment_kernel.hpp>
-#include <gale/runtime/inline/inline_structure.hpp>
+#include <gale/runtime/ways.hpp>
 
 namespace gale::detail {
 

@@ -4,7 +4,7 @@
 
 #include <gale/mesh/mesh.hpp>
 #include <gale/relations/relation.hpp>
-#include <gale/runtime/batches/batch_plan.hpp>
+#include <gale/runtime/batches/batch_lane.hpp>
 #include <gale/runtime/leaders/block_store.hpp>
 
 namespace gale::detail {

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <atomic>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -8,7 +10,7 @@
 #include <gale/runtime/batches/host_worker.hpp>
 #include <gale/runtime/defaults.hpp>
 #include <gale/runtime/leaders/leader.hpp>
-#include <gale/runtime/leaders/leader_structure.hpp>
+#include <gale/runtime/ways.hpp>
 
 namespace gale::detail {
 
@@ -166,6 +168,28 @@ class RequestingConsumer : public Consumer {
 
 }  // namespace
 
+/// Way::leaders: consumers ask, leaders have batches computed, and run ahead of sweeps.
+class LeaderStructure : public Structure {
+ public:
+  /// Throws OutOfMemory where the device has no room for what the leaders need.
+  LeaderStructure(const Mesh& mesh, RelationSet relations, const StructureOptions& options);
+
+  /// Ends the leaders. A consumer that still waits gets a gale::Error.
+  ~LeaderStructure() override;
+
+  std::unique_ptr<Consumer> consumer() override;
+
+ protected:
+  std::unique_ptr<Sweep> begin_sweep(RelationSet wanted, int consumers, const SegmentBody& body) override;
+  void add_statistics(StructureStatistics& all) const override;
+
+ private:
+  class LeaderSweep;
+
+  const std::shared_ptr<Leaders> leaders_;
+  std::atomic<bool> sweeping_{false};
+};
+
 /// Has the leaders run ahead as long as it lives; a sweep inside or beside another asks for each segment instead.
 class LeaderStructure::LeaderSweep : public Sweep {
  public:
@@ -243,6 +267,11 @@ void LeaderStructure::add_statistics(StructureStatistics& all) const {
     all.notices.push_back(std::to_string(on_host) + " segments of " + name_of(leader->relations()) +
                           " didn't fit the device's memory: the host computed them");
   }
+}
+
+std::unique_ptr<Structure> make_leader_structure(const Mesh& mesh, RelationSet relations,
+                                                 const StructureOptions& options) {
+  return std::make_unique<LeaderStructure>(mesh, relations, options);
 }
 
 }  // namespace gale::detail

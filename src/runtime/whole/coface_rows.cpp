@@ -11,8 +11,8 @@
 #include <gale/base/parallel.hpp>
 #include <gale/base/threads.hpp>
 #include <gale/runtime/sweep.hpp>
-#include <gale/runtime/whole/coface_rows.hpp>
 #include <gale/runtime/whole/fresh_memory.hpp>
+#include <gale/runtime/whole/whole_rows.hpp>
 
 namespace gale::detail {
 

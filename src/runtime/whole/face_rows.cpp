@@ -1,8 +1,8 @@
 #include <gale/relations/faces.hpp>
 #include <gale/relations/preconditioning.hpp>
 #include <gale/runtime/sweep.hpp>
-#include <gale/runtime/whole/face_rows.hpp>
 #include <gale/runtime/whole/fresh_memory.hpp>
+#include <gale/runtime/whole/whole_rows.hpp>
 
 namespace gale::detail {
 

@@ -9,9 +9,7 @@
 #include <gale/mesh/input_numbers.hpp>
 #include <gale/runtime/make_structure.hpp>
 #include <gale/runtime/relation_of.hpp>
-#include <gale/runtime/whole/coface_rows.hpp>
-#include <gale/runtime/whole/face_rows.hpp>
-#include <gale/runtime/whole/swept_rows.hpp>
+#include <gale/runtime/whole/whole_rows.hpp>
 
 namespace gale {
 

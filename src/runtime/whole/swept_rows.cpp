@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <gale/runtime/whole/fresh_memory.hpp>
-#include <gale/runtime/whole/swept_rows.hpp>
+#include <gale/runtime/whole/whole_rows.hpp>
 
 namespace gale::detail {
 
