@@ -51,8 +51,7 @@ template <class Faces>
 class CellSweep {
  public:
   CellSweep(detail::GradientStore& store, int consumer, Faces faces)
-      : store_(store),
-        consumer_(consumer),
+      : sink_(store.sink(consumer)),
         keys_(store.order.keys()),
         tetrahedron_input_(store.mesh.tetrahedron_input().data()),
         faces_(std::move(faces)) {}
@@ -81,9 +80,9 @@ class CellSweep {
 
   /// Stores the vertex's pair; false if it has none.
   bool begin_row(Id vertex) {
-    row_ = store_.begin_edges(consumer_, vertex, ranks_.count());
+    row_ = sink_.begin_edges(vertex, ranks_.count());
     for (Id i = 0; i < ranks_.count(); ++i) row_.set_id(i, ranks_.lower(i));
-    store_.set_vertex(consumer_, vertex, ranks_.count() == 0 ? no_id : ranks_.id(0));
+    sink_.set_vertex(vertex, ranks_.count() == 0 ? no_id : ranks_.id(0));
     return ranks_.count() != 0;
   }
 
@@ -113,9 +112,9 @@ class CellSweep {
         row_.pair(ranks_.place(low[0]), ranks_.place(both[0] == low[0] ? both[1] : both[0]));
       } else {
         const Id tetrahedron = star_.tetrahedron(cell), across = star_.across(facet, tetrahedron, tetrahedron_input_);
-        store_.set_tetrahedron(tetrahedron, across == no_id ? leave(tetrahedron, odd_one(both, low)) : across);
+        sink_.set_tetrahedron(tetrahedron, across == no_id ? leave(tetrahedron, odd_one(both, low)) : across);
         star_.for_each_tetrahedron(facet, [&](Id other) {
-          if (other != tetrahedron && other != across) store_.add_successor(consumer_, tetrahedron, other);
+          if (other != tetrahedron && other != across) sink_.add_successor(tetrahedron, other);
         });
       }
     };
@@ -123,13 +122,13 @@ class CellSweep {
       const auto& corners = star_.corners(cell);
       switch (star_.dimension(cell)) {
         case 1:
-          return store_.add_critical_edge(consumer_, vertex, ranks_.id(corners[0]));
+          return sink_.add_critical_edge(vertex, ranks_.id(corners[0]));
         case 3:
-          return store_.add_critical_tetrahedron(consumer_, star_.tetrahedron(cell));
+          return sink_.add_critical_tetrahedron(star_.tetrahedron(cell));
       }
       const std::array<Id, 3> triangle = {vertex, ranks_.id(corners[0]), ranks_.id(corners[1])};
-      store_.add_critical_triangle(consumer_, triangle);
-      star_.for_each_tetrahedron(cell, [&](Id tetrahedron) { store_.add_to_star(consumer_, triangle, tetrahedron); });
+      sink_.add_critical_triangle(triangle);
+      star_.for_each_tetrahedron(cell, [&](Id tetrahedron) { sink_.add_to_star(triangle, tetrahedron); });
     };
     pair_cells(star_, pair, critical);
   }
@@ -158,8 +157,7 @@ class CellSweep {
     return detail::outside(corner);
   }
 
-  detail::GradientStore& store_;
-  int consumer_;
+  const detail::ConsumerSink sink_;
   const std::uint64_t* keys_;
   const Id* tetrahedron_input_;
   Faces faces_;

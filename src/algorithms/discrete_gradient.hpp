@@ -23,7 +23,7 @@ struct HostSuccessors {
 
 /// What a simplex is paired with: another of one dimension less or more, which has one vertex less or more.
 struct Partner {
-  int dimension;  ///< the other simplex' dimension; -1 if there is none: the simplex is critical
+  int dimension;  ///< the other simplex's dimension; -1 if there is none: the simplex is critical
   Id vertex;      ///< the vertex in which the two differ
 
   /// Whether there is no other: the simplex is critical, and `vertex` says nothing.

@@ -4,8 +4,7 @@
 
 #include <gale/algorithms/gradient/gradient_store.hpp>
 #include <gale/algorithms/morse_smale.hpp>
-#include <gale/algorithms/morse_smale/descending_surfaces.hpp>
-#include <gale/algorithms/morse_smale/device_connectors.hpp>
+#include <gale/algorithms/morse_smale/parts.hpp>
 #include <gale/base/error.hpp>
 #include <gale/baselines/discrete_gradient_from_cells.hpp>
 

@@ -1,7 +1,4 @@
-#include <algorithm>
-#include <vector>
-
-#include <gale/algorithms/critical_points/collect.hpp>
+#include <gale/algorithms/critical_points/vertex_types.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/base/transfer.hpp>
 #include <gale/mesh/exchange/exchange_plan.hpp>
@@ -10,64 +7,39 @@ namespace gale::detail {
 
 namespace {
 
-template <class T, class View>
-std::vector<T> to_host_vector(const View& view) {
-  const auto there = on_host(view);
-  std::vector<T> values(there.extent(0));
-  std::transform(there.data(), there.data() + there.extent(0), values.begin(),
-                 [](auto value) { return static_cast<T>(value); });
-  return values;
-}
-
-/// 1 for an input vertex that isn't regular, nor a ghost.
-struct IsCritical {
-  const Id* internal;
-  VertexTypes types;
-  Id owned;
-
-  KOKKOS_FUNCTION bool operator()(Offset i) const {
-    return internal[i] < owned && types.type(internal[i]) != CriticalType::regular;
-  }
-};
-
-/// Writes what is said of such a vertex to its place.
-template <class Memory>
-struct WriteCritical {
-  const Id* internal;
-  VertexTypes types;
-  Array<Id, Memory> place, vertices;
-  Array<std::uint8_t, Memory> their_types, on_surface;
-
-  KOKKOS_FUNCTION void operator()(Offset i) const {
-    const Id at = place(i);
-    if (place(i + 1) == at) return;
-    vertices(at) = static_cast<Id>(i);
-    their_types(at) = static_cast<std::uint8_t>(types.type(internal[i]));
-    on_surface(at) = types.on_surface(internal[i]);
-  }
+/// What is said of an owned vertex that isn't regular.
+struct CriticalVertex {
+  Id input;
+  CriticalType type;
+  bool on_surface;
 };
 
 /// The owned vertices that aren't regular, once all are set and told.
 template <class Space>
-CriticalPoints owned_points(const Space& space, const Mesh& mesh, const VertexTypes& types) {
-  using Bytes = Array<std::uint8_t, MemoryOf<Space>>;
-  using Ids = Array<Id, MemoryOf<Space>>;
+CriticalPoints owned_points(const Space& space, const Mesh& mesh, const VertexTypes<MemoryOf<Space>>& types) {
   const Offset count = mesh.vertices();
   const Id* const internal = mesh.vertex_internal<MemoryOf<Space>>().data();
   const Id owned = mesh.owned_vertices();
-  const auto place = allocate<Ids>("GALE::critical_place", count + 1);
-  const Id total = exclusive_scan("GALE::count_critical", space, count, place, IsCritical{internal, types, owned});
-  const auto vertices = allocate<Ids>("GALE::critical_vertices", total);
-  const auto their_types = allocate<Bytes>("GALE::critical_types", total),
-             on_surface = allocate<Bytes>("GALE::critical_on_surface", total);
-  parallel_for("GALE::collect_critical", space, count,
-               WriteCritical<MemoryOf<Space>>{internal, types, place, vertices, their_types, on_surface});
+  const auto place = allocate<Array<Id, MemoryOf<Space>>>("GALE::critical_place", count + 1);
+  const Id total = exclusive_scan(
+      "GALE::count_critical", space, count, place,
+      KOKKOS_LAMBDA(Offset i) { return Id(internal[i] < owned && types.type(internal[i]) != CriticalType::regular); });
+  const auto found = allocate<Array<CriticalVertex, MemoryOf<Space>>>("GALE::critical_vertices", total);
+  parallel_for(
+      "GALE::collect_critical", space, count, KOKKOS_LAMBDA(Offset i) {
+        const Id v = internal[i];
+        if (place(i + 1) != place(i)) found(place(i)) = {static_cast<Id>(i), types.type(v), types.on_surface(v)};
+      });
   space.fence();
+  const auto here = on_host(found);
   CriticalPoints points;
-  points.vertices = to_host_vector<Id>(vertices);
-  points.types = to_host_vector<CriticalType>(their_types);
-  points.on_surface = to_host_vector<std::uint8_t>(on_surface);
-  for (const CriticalType type : points.types) ++points.counts[static_cast<int>(type)];
+  for (Id i = 0; i < total; ++i) {
+    const CriticalVertex& vertex = here(i);
+    points.vertices.push_back(vertex.input);
+    points.types.push_back(vertex.type);
+    points.on_surface.push_back(vertex.on_surface);
+    ++points.counts[static_cast<int>(vertex.type)];
+  }
   return points;
 }
 
@@ -76,7 +48,7 @@ using Flags = Array<std::uint8_t, MemoryOf<Space>>;
 
 /// Which of the vertices that others have as ghosts are on the surface, in the order in which they are told.
 template <class Space>
-Flags<HostExecutionSpace> told_flags(const Space& space, const Mesh& mesh, const VertexTypes& types) {
+Flags<HostExecutionSpace> told_flags(const Space& space, const Mesh& mesh, const VertexTypes<MemoryOf<Space>>& types) {
   const Array<Id, MemoryOf<Space>> places = in_memory<MemoryOf<Space>>(mesh.exchange().from_owners().given_places());
   const auto flags = allocate<Flags<Space>>("GALE::surface_flags", places.extent(0));
   const Id* const internal = mesh.vertex_internal<MemoryOf<Space>>().data();
@@ -89,7 +61,7 @@ Flags<HostExecutionSpace> told_flags(const Space& space, const Mesh& mesh, const
 
 /// Which of this rank's ghosts are on the surface, as their owners say; from the first one on.
 template <class Space>
-Flags<Space> ghost_flags(const Space& space, const Mesh& mesh, const VertexTypes& types) {
+Flags<Space> ghost_flags(const Space& space, const Mesh& mesh, const VertexTypes<MemoryOf<Space>>& types) {
   Flags<HostExecutionSpace> told;
   together(mesh.exchange().ranks(), [&] { told = told_flags(space, mesh, types); });
   const auto fetched = mesh.exchange().from_owners().fetch(mesh.exchange().ranks(), told);
@@ -112,7 +84,7 @@ Flags<Space> ghost_flags(const Space& space, const Mesh& mesh, const VertexTypes
 /// Has ghosts on the surface tell their neighbours, as the sweep has owned vertices do.
 template <class Space>
 void tell_of_ghosts(const Space& space, const VertexOrder& order, const Flags<Space>& on_surface,
-                    const VertexTypes& types) {
+                    const VertexTypes<MemoryOf<Space>>& types) {
   using Memory = MemoryOf<Space>;
   const Mesh& mesh = order.mesh();
   const Id owned = mesh.owned_vertices();
@@ -125,8 +97,7 @@ void tell_of_ghosts(const Space& space, const VertexOrder& order, const Flags<Sp
         for (int i = 3; i > 0 && corners[i] >= owned; --i) {
           const Id ghost = corners[i];
           if (!on_surface(ghost - owned)) continue;
-          for (int k = 0; k < i && corners[k] < owned; ++k)
-            types.tell(corners[k], VertexTypes::seen_from(keys, corners[k], ghost));
+          for (int k = 0; k < i && corners[k] < owned; ++k) types.tell(keys, corners[k], ghost);
         }
       });
   space.fence();
@@ -135,7 +106,7 @@ void tell_of_ghosts(const Space& space, const VertexOrder& order, const Flags<Sp
 }  // namespace
 
 template <class Space>
-CriticalPoints collect(const Space& space, const VertexOrder& order, const VertexTypes& types) {
+CriticalPoints collect(const Space& space, const VertexOrder& order, const VertexTypes<MemoryOf<Space>>& types) {
   const Mesh& mesh = order.mesh();
   const Ranks& ranks = mesh.exchange().ranks();
   Flags<Space> flags;
@@ -150,7 +121,7 @@ CriticalPoints collect(const Space& space, const VertexOrder& order, const Verte
 }
 
 #define GALE_INSTANTIATE(Space) \
-  template CriticalPoints collect<Space>(const Space&, const VertexOrder&, const VertexTypes&)
+  template CriticalPoints collect<Space>(const Space&, const VertexOrder&, const VertexTypes<MemoryOf<Space>>&)
 GALE_IN_EACH_SPACE(GALE_INSTANTIATE);
 #undef GALE_INSTANTIATE
 

@@ -4,6 +4,7 @@
 
 #include <gale/algorithms/critical_points.hpp>
 #include <gale/algorithms/links/small_link.hpp>
+#include <gale/base/memory.hpp>
 
 namespace gale::detail {
 
@@ -27,50 +28,58 @@ KOKKOS_INLINE_FUNCTION CriticalType type_of(const LinkTopology& topology) {
 }
 
 /// The type of each vertex, while a sweep finds it by the vertex's own link. Vertices on the surface tell their
-/// neighbours that they are, as the type of a neighbour on the surface depends on that. A view of two bytes a vertex,
-/// wherever they lie.
+/// neighbours that they are, as the type of a neighbour on the surface depends on that. Two bytes a vertex, by GALE's
+/// id; what it has of ghosts says nothing. Copies share them.
+template <class Memory>
 class VertexTypes {
  public:
   VertexTypes() = default;
+  explicit VertexTypes(Id vertices)
+      : own_(allocate<Bytes>("GALE::vertex_types", vertices)),
+        told_("GALE::surface_neighbours", (vertices + 3) / 4 * 4) {}  // neighbours are told in words on a device
 
-  /// `told` begins with zeros.
-  KOKKOS_FUNCTION VertexTypes(std::uint8_t* own, std::uint8_t* told) : own_(own), told_(told) {}
-
-  KOKKOS_FUNCTION void set(Id v, const LinkTopology& topology) const {
-    own_[v] = static_cast<std::uint8_t>(static_cast<int>(type_of(topology)) | (topology.on_surface ? surface_bit : 0));
+  /// Sets what a vertex is by its own link, and tells its neighbours if it is on the surface.
+  KOKKOS_FORCEINLINE_FUNCTION void set(const std::uint64_t* keys, Id v, const Row& neighbours,
+                                       const LinkTopology& topology) const {
+    own_(v) = static_cast<std::uint8_t>(static_cast<int>(type_of(topology)) | (topology.on_surface ? surface_bit : 0));
+    if (!topology.on_surface) return;
+    for (const Id neighbour : neighbours) tell(keys, neighbour, v);
   }
 
-  /// What a vertex on the surface tells a neighbour: whether it is above it or below.
-  KOKKOS_FORCEINLINE_FUNCTION static std::uint8_t seen_from(const std::uint64_t* keys, Id neighbour, Id vertex) {
-    return keys[vertex] > keys[neighbour] ? upper_on_surface : lower_on_surface;
-  }
-  KOKKOS_FUNCTION void tell(Id neighbour, std::uint8_t what) const {
+  /// Tells a vertex that a neighbour of it is on the surface, and whether that is above it or below.
+  KOKKOS_FORCEINLINE_FUNCTION void tell(const std::uint64_t* keys, Id v, Id neighbour) const {
+    const std::uint8_t what = keys[neighbour] > keys[v] ? upper_on_surface : lower_on_surface;
+    std::uint8_t* const told = told_.data();
 #if defined(GALE_ON_DEVICE)
     // A word at a time, as atomics are: of four neighbours.
-    auto* const words = reinterpret_cast<unsigned*>(told_ - reinterpret_cast<std::uintptr_t>(told_) % 4);
-    const auto at = static_cast<std::size_t>(told_ + neighbour - reinterpret_cast<std::uint8_t*>(words));
+    auto* const words = reinterpret_cast<unsigned*>(told - reinterpret_cast<std::uintptr_t>(told) % 4);
+    const auto at = static_cast<std::size_t>(told + v - reinterpret_cast<std::uint8_t*>(words));
     atomicOr(words + at / 4, unsigned(what) << (8 * (at % 4)));
 #else
-    __atomic_fetch_or(told_ + neighbour, what, __ATOMIC_RELAXED);
+    __atomic_fetch_or(told + v, what, __ATOMIC_RELAXED);
 #endif
   }
 
   /// Once all are set and told.
   KOKKOS_FUNCTION CriticalType type(Id v) const {
-    const auto type = static_cast<CriticalType>(own_[v] & type_mask);
+    const auto type = static_cast<CriticalType>(own_(v) & type_mask);
     if (type != CriticalType::regular || !on_surface(v)) return type;
-    if (told_[v] == upper_on_surface) return CriticalType::saddle1;
-    if (told_[v] == lower_on_surface) return CriticalType::saddle2;
+    if (told_(v) == upper_on_surface) return CriticalType::saddle1;
+    if (told_(v) == lower_on_surface) return CriticalType::saddle2;
     return CriticalType::regular;
   }
-
-  KOKKOS_FUNCTION bool on_surface(Id v) const { return own_[v] & surface_bit; }
+  KOKKOS_FUNCTION bool on_surface(Id v) const { return own_(v) & surface_bit; }
 
  private:
+  using Bytes = Array<std::uint8_t, Memory>;
   static constexpr std::uint8_t type_mask = 7, surface_bit = 8, upper_on_surface = 1, lower_on_surface = 2;
 
-  std::uint8_t* own_ = nullptr;
-  std::uint8_t* told_ = nullptr;
+  Bytes own_, told_;
 };
+
+/// The owned vertices that aren't regular, from types that a sweep of these has left in the memory of `space`, and the
+/// counts of all ranks. Collective: ghosts on the surface tell their neighbours, too, as their owners say.
+template <class Space>
+CriticalPoints collect(const Space& space, const VertexOrder& order, const VertexTypes<MemoryOf<Space>>& types);
 
 }  // namespace gale::detail

@@ -5,7 +5,7 @@
 #include <gale/algorithms/discrete_gradient.hpp>
 #include <gale/algorithms/gradient/gradient_store.hpp>
 #include <gale/algorithms/gradient/gradient_sweep.hpp>
-#include <gale/algorithms/gradient/pairing_kernels.hpp>
+#include <gale/algorithms/gradient/pair_star.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/runtime/device/handed_stars.hpp>
 #include <gale/runtime/device_sweep.hpp>
@@ -15,24 +15,155 @@
 
 namespace gale {
 
+namespace detail {
+
+template <class T>
+KOKKOS_FORCEINLINE_FUNCTION void append(const DeviceList<T>& list, const T& item) {
+  list.add(item);
+}
+
+using LaneFound = const FoundSimplices<DeviceList>;
+
+/// Where lanes put what they find. Each has a row of edges in a place of its own.
+struct LaneSink {
+  Id *vertex_successor, *tetrahedron_successor;
+  FoundSimplices<DeviceList> found;
+
+  struct Lane : StarSink<LaneFound> {
+    Id* row;
+
+    KOKKOS_FORCEINLINE_FUNCTION EdgePairRow begin_edges(Id, Id count) const {
+      EdgePairRow edges(row);
+      edges.begin(count);
+      return edges;
+    }
+  };
+
+  /// Pairs a star of so many words of cells; false if it has more.
+  template <int Words>
+  KOKKOS_FUNCTION bool pair(const std::uint64_t* keys, const VertexStar& star, Id* row) const {
+    LowerNeighbours lower;
+    return lower.find(keys, star.vertex, star.neighbours) &&
+           pair_star_of_words<Words, have_device>(Lane{{vertex_successor, tetrahedron_successor, &found}, row}, star,
+                                                  lower);
+  }
+};
+
+/// Pairs the lower stars of a segment's vertices.
+struct PairStars {
+  const std::uint64_t* keys;
+  LaneSink sink;
+  Id* words;
+  Offset capacity;      ///< of words
+  Offset* used;         ///< words reserved; above `capacity` it says what there should have been
+  Offset* pairs_begin;  ///< of each vertex
+  HandedStars large;    ///< of more than one word of cells
+  int scratch_rows;     ///< that a team has scratch memory for
+
+  struct Shared {
+    Offset begin;
+  };
+
+  KOKKOS_FUNCTION static std::size_t scratch_bytes(int rows) {
+    return sizeof(Shared) + (2 * std::size_t(rows) + 1) * sizeof(Id);
+  }
+
+  template <class Team>
+  KOKKOS_FUNCTION void operator()(const Team& team, const SegmentRowsIn<MemoryOfSweep<WorkerSpace>>& segment) const {
+    char* const scratch = team::scratch<0>(team, scratch_bytes(scratch_rows));
+    Shared& shared = *reinterpret_cast<Shared*>(scratch);
+    Id* const begin = reinterpret_cast<Id*>(scratch + sizeof(Shared));
+    const Rows neighbours = segment[Relation::VV], tetrahedra = segment[Relation::VT];
+    const LinkRows links = segment.links();
+    for (Id from = 0; from < neighbours.count; from += scratch_rows) {
+      const Id rows = neighbours.count - from < scratch_rows ? neighbours.count - from : scratch_rows;
+      const Id first = neighbours.first + from;
+      const auto star_of = [&](Id v) { return VertexStar{v, neighbours[v], tetrahedra[v], links[v]}; };
+      team::for_all(team, rows, [&](int i) { begin[i] = words_for(neighbours[first + i], first + i); });
+      team::exclusive_scan(team, rows, begin);
+      team::once(team, [&] {
+        const Offset at = team::add(team, used, Offset(begin[rows]));
+        shared.begin = at + begin[rows] <= capacity ? at : -1;
+      });
+      team::barrier(team);
+      if (shared.begin >= 0) {
+        Id* const by_size = begin + scratch_rows + 1;
+        sort_by_size(team, rows, begin, by_size);
+        team::for_all(team, rows, [&](int k) {
+          const Id i = by_size[k];
+          const Offset at = shared.begin + begin[i];
+          const VertexStar star = star_of(first + i);
+          pairs_begin[first + i] = at;
+          if (!sink.pair<1>(keys, star, words + at)) large.add(star);
+        });
+      }
+      team::barrier(team);
+    }
+  }
+
+ private:
+  /// The rows by their lengths, the longest first, so that lanes of a warp have stars of about one size.
+  template <class Team>
+  KOKKOS_FORCEINLINE_FUNCTION static void sort_by_size(const Team& team, Id rows, const Id* begin, Id* by_size) {
+    team::for_all(team, rows, [&](int i) {
+      const Id size = begin[i + 1] - begin[i];
+      Id before = 0;
+      for (Id k = 0; k < rows; ++k) {
+        const Id other = begin[k + 1] - begin[k];
+        before += other > size || (other == size && k < i);
+      }
+      by_size[before] = i;
+    });
+    team::barrier(team);
+  }
+
+  /// What the row of a vertex takes.
+  KOKKOS_FORCEINLINE_FUNCTION Id words_for(const Row& neighbours, Id v) const {
+    const std::uint64_t key = keys[v];
+    Id lower = 0;
+    for (const Id neighbour : neighbours) lower += keys[neighbour] < key;
+    return static_cast<Id>(EdgePairRow::words_for(lower));
+  }
+};
+
+/// Pairs the stars that PairStars hands on; those of more than two words are handed on again.
+struct PairLargeStars {
+  const std::uint64_t* keys;
+  LaneSink sink;
+  Id* words;
+  const Offset* pairs_begin;
+  HandedStars large;
+  DeviceList<Offset> outgrown;  ///< places in `large`
+
+  KOKKOS_FUNCTION void operator()(Offset i) const {
+    const VertexStar star = large[i];
+    if (!sink.pair<2>(keys, star, words + pairs_begin[star.vertex])) outgrown.add(i);
+  }
+};
+
+}  // namespace detail
+
 namespace {
 
 using Memory = detail::MemoryOfSweep<WorkerSpace>;
 using detail::DeviceList;
 
+template <class>
+using Capacity = Offset;
+
 /// How much room a sweep has for what it finds.
 struct Room {
-  Offset words, vertices, edges, triangles, tetrahedra, stars, large, large_words;
+  Offset words, large, large_words;
+  detail::FoundSimplices<Capacity> critical;
 
   /// What a mesh that has few triangles on its surface takes, of a field that isn't noise.
   explicit Room(const Mesh& mesh) {
     const double all = mesh.vertices();
     const double lower_edges = 1.08 * (all + mesh.tetrahedra());
     words = static_cast<Offset>(1.25 * lower_edges + 1.75 * all) + 1024;
-    vertices = edges = triangles = tetrahedra = static_cast<Offset>(all / 16) + 1024;
-    stars = 2 * triangles;
     large = static_cast<Offset>(all / 16) + 1024;
     large_words = 64 * large;
+    critical = {large, large, large, large, 2 * large};
   }
 };
 
@@ -53,11 +184,11 @@ class Attempt {
         large_(room.large, room.large_words),
         sink_{vertex_successor_.data(),
               tetrahedron_successor_.data(),
-              {"GALE::critical_vertices", room.vertices},
-              {"GALE::critical_edges", room.edges},
-              {"GALE::critical_triangles", room.triangles},
-              {"GALE::critical_tetrahedra", room.tetrahedra},
-              {"GALE::critical_stars", room.stars}} {
+              {{"GALE::critical_vertices", room.critical.vertices},
+               {"GALE::critical_edges", room.critical.edges},
+               {"GALE::critical_triangles", room.critical.triangles},
+               {"GALE::critical_tetrahedra", room.critical.tetrahedra},
+               {"GALE::critical_stars", room.critical.stars}}} {
     detail::mark_ghosts(space, mesh_, vertex_successor_, tetrahedron_successor_);
     if (mesh_.owned_vertices() < mesh_.vertices()) Kokkos::deep_copy(space, pairs_begin_, Offset(0));
     const auto rows = static_cast<int>(std::min(1024.0, 1.3 * mesh_.vertices() / mesh_.segments() + 32));
@@ -86,21 +217,19 @@ class Attempt {
 
   /// Was there room for all? If not, `room` becomes what there must be.
   bool fitted(Room& room) const {
-    const Room had = room;
-    const auto raise = [](Offset& to, Offset count) { to = std::max(to, count); };
+    bool is_enough = !large_.overflowed(room.large, room.large_words);
+    const auto raise = [&](Offset& to, Offset count) {
+      if (count <= to) return;
+      to = count;
+      is_enough = false;
+    };
+    for_each_list(room.critical, sink_.found, [&](Offset& to, const auto& list) { raise(to, list.count()); });
+    if (words_used_ <= room.words) return is_enough;
     raise(room.words, words_used_);
-    raise(room.vertices, sink_.critical_vertices.count());
-    raise(room.edges, sink_.critical_edges.count());
-    raise(room.triangles, sink_.critical_triangles.count());
-    raise(room.tetrahedra, sink_.critical_tetrahedra.count());
-    raise(room.stars, sink_.stars.count());
-    const bool handed = !large_.overflowed(room.large, room.large_words);
     // Segments without room for their rows have found nothing: there may be more of everything.
-    if (room.words > had.words) {
-      for (Offset* const list : {&room.edges, &room.triangles, &room.tetrahedra}) raise(*list, mesh_.vertices());
-    }
-    return room.words == had.words && room.vertices == had.vertices && room.edges == had.edges &&
-           room.triangles == had.triangles && room.tetrahedra == had.tetrahedra && room.stars == had.stars && handed;
+    for (Offset* const list : {&room.critical.edges, &room.critical.triangles, &room.critical.tetrahedra})
+      raise(*list, mesh_.vertices());
+    return false;
   }
 
   detail::DeviceGradient found() const {
@@ -109,11 +238,7 @@ class Attempt {
     found.tetrahedron_successor = tetrahedron_successor_;
     found.pair_words = Kokkos::subview(words_, std::make_pair(Offset(0), words_used_));
     found.pairs_begin = pairs_begin_;
-    found.critical.vertices = sink_.critical_vertices.to_host();
-    found.critical.edges = sink_.critical_edges.to_host();
-    found.critical.triangles = sink_.critical_triangles.to_host();
-    found.critical.tetrahedra = sink_.critical_tetrahedra.to_host();
-    found.stars = sink_.stars.to_host();
+    for_each_list(found.critical, sink_.found, [](auto& there, const auto& list) { there = list.to_host(); });
     return found;
   }
 

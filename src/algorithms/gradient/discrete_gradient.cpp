@@ -76,7 +76,7 @@ Partner DiscreteGradient::pair_of_tetrahedron(Id tetrahedron) const {
   const Id successor = tetrahedron_successor(tetrahedron);
   if (successor == no_id) return {-1, no_id};
   const auto& vertices = store_->mesh.encoded().tetrahedra;
-  if (leaves(successor)) return {2, vertices(tetrahedron, detail::GradientStore::corner_outside(successor))};
+  if (leaves(successor)) return {2, vertices(tetrahedron, detail::corner_outside(successor))};
   return {2, odd_one(&vertices(tetrahedron, 0), &vertices(successor, 0))};
 }
 

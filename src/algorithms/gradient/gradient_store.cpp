@@ -1,8 +1,7 @@
 #include <algorithm>
 
 #include <gale/algorithms/gradient/gradient_store.hpp>
-#include <gale/algorithms/order/same_mesh.hpp>
-#include <gale/algorithms/order/written.hpp>
+#include <gale/algorithms/order/require_mesh.hpp>
 #include <gale/base/sort.hpp>
 
 namespace gale::detail {
@@ -10,14 +9,15 @@ namespace gale::detail {
 namespace {
 
 /// What all consumers found, sorted by `key`, which is unique.
-template <class T, class Part, class Member, class Key>
-std::vector<T> merged(const std::vector<Part>& parts, const Member& member, const Key& key) {
+template <class T, class Key>
+std::vector<T> merged(const std::vector<ConsumerFound>& parts, HostList<T> FoundSimplices<HostList>::*member,
+                      const Key& key) {
   std::size_t count = 0;
-  for (const auto& part : parts) count += member(part).size();
+  for (const auto& part : parts) count += (part.*member).size();
   std::vector<std::pair<decltype(key(T())), T>> keyed(count);
   Offset begin = 0;
   for (const auto& part : parts) {
-    const std::vector<T>& own = member(part);
+    const std::vector<T>& own = part.*member;
     parallel_for("GALE::critical_keys", HostExecutionSpace(), own.size(), [&](Offset i) {
       keyed[begin + i] = {key(own[i]), own[i]};
     });
@@ -40,9 +40,7 @@ GradientStore::GradientStore(const Mesh& mesh_, const VertexOrder& order_, int c
       vertex_successors_(consumed_vertices_),
       tetrahedron_successors_(consumed_tetrahedra_),
       pairs_(mesh.vertices(), consumers),
-      found_(consumers),
-      stars_(consumers),
-      further_(consumers) {
+      found_(consumers) {
   require_same_mesh("the vertex order", order.mesh(), mesh);
   mark_ghosts(HostExecutionSpace(), mesh, consumed_vertices_, consumed_tetrahedra_);
   pairs_are_here_([] {});
@@ -55,8 +53,7 @@ GradientStore::GradientStore(const VertexOrder& order_, const DeviceGradient& fo
       tetrahedron_successors_(found.tetrahedron_successor),
       pair_words_(found.pair_words),
       pairs_begin_(found.pairs_begin),
-      found_{found.critical},
-      stars_{found.stars} {
+      found_{found.critical} {
   finish();
 }
 
@@ -69,7 +66,6 @@ std::shared_ptr<GradientStore> GradientStore::on_host(const VertexOrder& order, 
   store->tetrahedron_successors_ = store->consumed_tetrahedra_;
   store->pairs_ = EdgePairs(gale::on_host(found.pair_words), gale::on_host(found.pairs_begin), consumers);
   store->found_[0] = found.critical;
-  store->stars_[0] = found.stars;
   return store;
 }
 
@@ -81,29 +77,20 @@ const EdgePairs& GradientStore::pairs() const {
 void GradientStore::finish() {
   const Id* const vertex_input = mesh.vertex_input().data();
   const Id* const tetrahedron_input = mesh.tetrahedron_input().data();
-  using Found = CriticalSimplices;
-  const auto stars = merged<InStar>(
-      stars_, [](const auto& found) -> const auto& { return found; },
-      [=](const InStar& in_star) {
-        return std::make_pair(written(vertex_input, in_star.triangle), tetrahedron_input[in_star.tetrahedron]);
-      });
-  critical.triangles = merged<std::array<Id, 3>>(
-      found_, [](const Found& found) -> const auto& { return found.triangles; },
-      [=](const auto& triangle) { return written(vertex_input, triangle); });
-  critical.edges = merged<std::array<Id, 2>>(
-      found_, [](const Found& found) -> const auto& { return found.edges; },
-      [=](const auto& edge) { return written(vertex_input, edge); });
-  critical.vertices = merged<Id>(
-      found_, [](const Found& found) -> const auto& { return found.vertices; },
-      [=](Id vertex) { return vertex_input[vertex]; });
-  critical.tetrahedra = merged<Id>(
-      found_, [](const Found& found) -> const auto& { return found.tetrahedra; },
-      [=](Id tetrahedron) { return tetrahedron_input[tetrahedron]; });
-  for (const auto& some : further_) further_successors.insert(further_successors.end(), some.begin(), some.end());
+  using Found = FoundSimplices<HostList>;
+  const auto by_input = [=](const auto& simplex) { return written(vertex_input, simplex); };
+  const auto stars = merged(found_, &Found::stars, [=](const InStar& in_star) {
+    return std::make_pair(written(vertex_input, in_star.triangle), tetrahedron_input[in_star.tetrahedron]);
+  });
+  critical.triangles = merged(found_, &Found::triangles, by_input);
+  critical.edges = merged(found_, &Found::edges, by_input);
+  critical.vertices = merged(found_, &Found::vertices, [=](Id vertex) { return vertex_input[vertex]; });
+  critical.tetrahedra =
+      merged(found_, &Found::tetrahedra, [=](Id tetrahedron) { return tetrahedron_input[tetrahedron]; });
+  for (const auto& some : found_)
+    further_successors.insert(further_successors.end(), some.further_successors.begin(), some.further_successors.end());
   std::sort(further_successors.begin(), further_successors.end());
   found_.clear();
-  stars_.clear();
-  further_.clear();
   auto next = stars.begin();
   for (const auto& triangle : critical.triangles) {
     for (; next != stars.end() && next->triangle == triangle; ++next) critical.star.push_back(next->tetrahedron);

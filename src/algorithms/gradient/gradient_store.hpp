@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -12,11 +14,13 @@
 
 namespace gale::detail {
 
-/// A tetrahedron of a critical triangle.
-struct InStar {
-  std::array<Id, 3> triangle;
-  Id tetrahedron;
-};
+/// A simplex as users write it: its input vertices, ascending. Of an array of GALE's ids.
+template <class Simplex>
+Simplex written(const Id* vertex_input, Simplex simplex) {
+  for (Id& vertex : simplex) vertex = vertex_input[vertex];
+  std::sort(simplex.begin(), simplex.end());
+  return simplex;
+}
 
 /// Before a sweep of a rank's part of a mesh: has all successors be elsewhere, so that they are for what it leaves out.
 template <class Space>
@@ -27,18 +31,109 @@ void mark_ghosts(const Space& space, const Mesh& mesh, const Array<Id, MemoryOf<
   fill("GALE::mark_ghosts", space, tetrahedron_successor, DiscreteGradient::elsewhere);
 }
 
+/// A tetrahedron of a critical triangle.
+struct InStar {
+  std::array<Id, 3> triangle;
+  Id tetrahedron;
+};
+
+/// Critical simplices as they are found, in no order; from the highest vertex to the lowest.
+template <template <class> class List>
+struct FoundSimplices {
+  List<Id> vertices;
+  List<std::array<Id, 2>> edges;
+  List<std::array<Id, 3>> triangles;
+  List<Id> tetrahedra;
+  List<InStar> stars;
+};
+
+/// Calls visit(list, other) for the lists of one and what another has for each.
+template <class One, class Other, class Visit>
+void for_each_list(One& one, Other& other, const Visit& visit) {
+  visit(one.vertices, other.vertices);
+  visit(one.edges, other.edges);
+  visit(one.triangles, other.triangles);
+  visit(one.tetrahedra, other.tetrahedra);
+  visit(one.stars, other.stars);
+}
+
+template <class T>
+using HostList = std::vector<T>;
+
+template <class T>
+void append(std::vector<T>& list, const T& item) {
+  list.push_back(item);
+}
+
+/// Where pair_star puts what it finds at a vertex, with which go all simplices that have it as their highest one.
+template <class Found>
+struct StarSink {
+  Id *vertex_successor, *tetrahedron_successor;
+  Found* found;
+
+  /// Pairs a vertex with the edge to `other`; no_id if the vertex is critical.
+  GALE_CALLS_ANY
+  KOKKOS_FORCEINLINE_FUNCTION void set_vertex(Id vertex, Id other) const {
+    vertex_successor[vertex] = other;
+    if (other == no_id) append(found->vertices, vertex);
+  }
+
+  /// Sets the tetrahedron across the triangle that a tetrahedron is paired with, or `outside`.
+  KOKKOS_FORCEINLINE_FUNCTION void set_tetrahedron(Id tetrahedron, Id successor) const {
+    tetrahedron_successor[tetrahedron] = successor;
+  }
+
+  GALE_CALLS_ANY
+  KOKKOS_FORCEINLINE_FUNCTION void add_critical_edge(Id high, Id low) const {
+    append(found->edges, std::array<Id, 2>{high, low});
+  }
+  GALE_CALLS_ANY
+  KOKKOS_FORCEINLINE_FUNCTION void add_critical_triangle(const std::array<Id, 3>& triangle) const {
+    append(found->triangles, triangle);
+  }
+  GALE_CALLS_ANY
+  KOKKOS_FORCEINLINE_FUNCTION void add_critical_tetrahedron(Id tetrahedron) const {
+    tetrahedron_successor[tetrahedron] = no_id;
+    append(found->tetrahedra, tetrahedron);
+  }
+
+  /// Adds a tetrahedron of a critical triangle.
+  GALE_CALLS_ANY
+  KOKKOS_FORCEINLINE_FUNCTION void add_to_star(const std::array<Id, 3>& triangle, Id tetrahedron) const {
+    append(found->stars, InStar{triangle, tetrahedron});
+  }
+};
+
+/// What one consumer on the host finds.
+struct ConsumerFound : FoundSimplices<HostList> {
+  std::vector<std::pair<Id, Id>> further_successors;  ///< see GradientStore
+};
+
+/// Where a consumer on the host puts it.
+struct ConsumerSink : StarSink<ConsumerFound> {
+  EdgePairs* pairs;
+  int consumer;
+
+  /// A row for the lower ends of a vertex's edges, to be filled in ascending order; no edge is paired yet.
+  EdgePairRow begin_edges(Id vertex, Id count) const { return pairs->begin(consumer, vertex, count); }
+
+  /// Says that the triangle that a tetrahedron is paired with has a third tetrahedron, or one more, beside its
+  /// successor.
+  void add_successor(Id tetrahedron, Id successor) const {
+    found->further_successors.push_back({tetrahedron, successor});
+  }
+};
+
 /// What kernels found.
 struct DeviceGradient {
   Array<Id, WorkerMemory> vertex_successor, tetrahedron_successor;
   Array<Id, WorkerMemory> pair_words;       ///< the words of EdgePairRows
   Array<Offset, WorkerMemory> pairs_begin;  ///< where each vertex's row begins among them
-  CriticalSimplices critical;               ///< in no order, without stars
-  std::vector<InStar> stars;
+  ConsumerFound critical;
 };
 
-/// What a DiscreteGradient is made of, and how the consumers of a sweep fill it: each vertex is one consumer's, and
-/// with it all simplices that have it as their highest vertex. One that kernels found stays on the device; each part
-/// comes to the host when somebody there first asks for it.
+/// What a DiscreteGradient is made of, and how the consumers of a sweep fill it. One that kernels found stays on the
+/// device; each part comes to the host when somebody there first asks for it.
 class GALE_EXPORT GradientStore {
  public:
   /// For consumers on the host. Throws gale::Error if the order is of another mesh.
@@ -50,39 +145,8 @@ class GALE_EXPORT GradientStore {
   /// Makes a store on the host from what kernels found, for consumers to add the vertices that kernels left out.
   static std::shared_ptr<GradientStore> on_host(const VertexOrder& order, const DeviceGradient& found, int consumers);
 
-  /// Pairs a vertex with the edge to `other`; no_id if the vertex is critical.
-  void set_vertex(int consumer, Id vertex, Id other) {
-    consumed_vertices_(vertex) = other;
-    if (other == no_id) found_[consumer].vertices.push_back(vertex);
-  }
-
-  /// A row for the lower ends of a vertex's edges, to be filled in ascending order; no edge is paired yet.
-  EdgePairRow begin_edges(int consumer, Id vertex, Id count) { return pairs_.begin(consumer, vertex, count); }
-
-  /// Sets the tetrahedron across the triangle that a tetrahedron is paired with, or `outside`.
-  void set_tetrahedron(Id tetrahedron, Id successor) { consumed_tetrahedra_(tetrahedron) = successor; }
-
-  /// Says that the triangle that a tetrahedron is paired with has a third tetrahedron, or one more, beside its
-  /// successor.
-  void add_successor(int consumer, Id tetrahedron, Id successor) {
-    further_[consumer].push_back({tetrahedron, successor});
-  }
-
-  /// The corner opposite the triangle through which a tetrahedron leaves by a successor that `leaves` is true of.
-  static int corner_outside(Id successor) { return no_id - 1 - successor; }
-
-  void add_critical_edge(int consumer, Id high, Id low) { found_[consumer].edges.push_back({high, low}); }
-  void add_critical_triangle(int consumer, const std::array<Id, 3>& from_high_to_low) {
-    found_[consumer].triangles.push_back(from_high_to_low);
-  }
-  void add_critical_tetrahedron(int consumer, Id tetrahedron) {
-    consumed_tetrahedra_(tetrahedron) = no_id;
-    found_[consumer].tetrahedra.push_back(tetrahedron);
-  }
-
-  /// Adds a tetrahedron of a critical triangle.
-  void add_to_star(int consumer, const std::array<Id, 3>& triangle, Id tetrahedron) {
-    stars_[consumer].push_back({triangle, tetrahedron});
+  ConsumerSink sink(int consumer) {
+    return {{consumed_vertices_.data(), consumed_tetrahedra_.data(), &found_[consumer]}, &pairs_, consumer};
   }
 
   /// After the sweep: gathers what the consumers found, in the order of input numbers, and counts it.
@@ -112,7 +176,6 @@ class GALE_EXPORT GradientStore {
 
   CriticalSimplices critical;
   std::array<GlobalId, 4> counts{};  ///< of critical simplices
-
   /// (tetrahedron, successor), ascending: where rising paths fork, at triangles of three tetrahedra or more, the
   /// successors that `tetrahedron_successor` hasn't.
   std::vector<std::pair<Id, Id>> further_successors;
@@ -124,30 +187,7 @@ class GALE_EXPORT GradientStore {
   Mirrored<Offset> pairs_begin_;
   mutable EdgePairs pairs_;
   mutable Once pairs_are_here_;
-
-  // What each consumer found.
-  std::vector<CriticalSimplices> found_;
-  std::vector<std::vector<InStar>> stars_;
-  std::vector<std::vector<std::pair<Id, Id>>> further_;
-};
-
-/// Where a consumer puts what it finds at a vertex: see pair_star.
-struct ConsumerSink {
-  GradientStore& store;
-  int consumer;
-
-  EdgePairRow begin_edges(Id vertex, Id count) const { return store.begin_edges(consumer, vertex, count); }
-  void set_vertex(Id vertex, Id other) const { store.set_vertex(consumer, vertex, other); }
-  void set_tetrahedron(Id tetrahedron, Id successor) const { store.set_tetrahedron(tetrahedron, successor); }
-  void add_successor(Id tetrahedron, Id successor) const { store.add_successor(consumer, tetrahedron, successor); }
-  void add_critical_edge(Id high, Id low) const { store.add_critical_edge(consumer, high, low); }
-  void add_critical_triangle(Id high, Id middle, Id low) const {
-    store.add_critical_triangle(consumer, {high, middle, low});
-  }
-  void add_critical_tetrahedron(Id tetrahedron) const { store.add_critical_tetrahedron(consumer, tetrahedron); }
-  void add_to_star(Id high, Id middle, Id low, Id tetrahedron) const {
-    store.add_to_star(consumer, {high, middle, low}, tetrahedron);
-  }
+  std::vector<ConsumerFound> found_;  ///< by each consumer
 };
 
 }  // namespace gale::detail

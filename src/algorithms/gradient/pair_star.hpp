@@ -1,6 +1,9 @@
 #pragma once
 
+#include <array>
+
 #include <gale/algorithms/gradient/edge_pairs.hpp>
+#include <gale/algorithms/gradient/lower_star.hpp>
 #include <gale/base/kokkos.hpp>
 #include <gale/relations/rows.hpp>
 
@@ -91,6 +94,9 @@ class BitQueues {
 /// The successor of a tetrahedron that leaves through the surface, by the triangle opposite its corner.
 KOKKOS_INLINE_FUNCTION Id outside(int corner) { return no_id - 1 - corner; }
 
+/// That corner.
+KOKKOS_INLINE_FUNCTION int corner_outside(Id successor) { return no_id - 1 - successor; }
+
 /// The successor of the tetrahedron at `place`, which is paired with its triangle (vertex, a, b) on the surface.
 KOKKOS_INLINE_FUNCTION Id surface_successor(const VertexStar& star, Id place, Id a, Id b) {
   for (int corner = 0; corner < 3; ++corner) {
@@ -136,13 +142,23 @@ KOKKOS_FORCEINLINE_FUNCTION void pair_star(const Sink& sink, const VertexStar& s
     } else if (dimension == 3) {
       sink.add_critical_tetrahedron(star.tetrahedra[cells.place(cell)]);
     } else {
-      const Id middle = id(corners[0]), low = id(corners[1]);
-      sink.add_critical_triangle(star.vertex, middle, low);
-      cells.for_each_tetrahedron(cell,
-                                 [&](Id place) { sink.add_to_star(star.vertex, middle, low, star.tetrahedra[place]); });
+      const std::array<Id, 3> triangle = {star.vertex, id(corners[0]), id(corners[1])};
+      sink.add_critical_triangle(triangle);
+      cells.for_each_tetrahedron(cell, [&](Id place) { sink.add_to_star(triangle, star.tetrahedra[place]); });
     }
   };
   pair_cells(queues, pair, critical);
+}
+
+/// Pairs a star by sets of so many words; false if it is too large.
+GALE_CALLS_ANY
+template <int Words, bool is_small, class Sink>
+KOKKOS_FUNCTION bool pair_star_of_words(const Sink& sink, const VertexStar& star, const LowerNeighbours& lower) {
+  using Star = LowerStar<Words, is_small>;
+  Star cells;
+  if (!cells.build(lower, star.link)) return false;
+  pair_star(sink, star, lower, cells, BitQueues<Star>(cells));
+  return true;
 }
 
 }  // namespace gale::detail

@@ -3,13 +3,11 @@
 #include <memory>
 #include <queue>
 
-#include <gale/algorithms/morse_smale/ascending_walls.hpp>
+#include <gale/algorithms/gradient/gradient_store.hpp>
 #include <gale/algorithms/morse_smale/edge_star.hpp>
 #include <gale/algorithms/morse_smale/gathered_separatrices.hpp>
-#include <gale/algorithms/morse_smale/space_order.hpp>
-#include <gale/algorithms/order/written.hpp>
+#include <gale/algorithms/morse_smale/parts.hpp>
 #include <gale/base/hash_table.hpp>
-#include <gale/base/threads.hpp>
 
 namespace gale::detail {
 
@@ -107,17 +105,10 @@ class WallTracer {
 
 AscendingWalls ascending_walls(Structure& structure, const DiscreteGradient& gradient, int threads) {
   const auto& edges = gradient.critical().edges;
-  std::vector<std::unique_ptr<WallTracer>> tracers(threads);
-  const std::vector<Id> order = space_order(edges);
-  in_turns(threads, static_cast<std::int64_t>(edges.size()), [&](int thread, std::int64_t i) {
-    if (!tracers[thread]) tracers[thread] = std::make_unique<WallTracer>(structure, gradient, thread);
-    tracers[thread]->follow(order[i], edges[order[i]]);
-  });
-  std::vector<Separatrices<Cell>> found;
-  for (auto& tracer : tracers) {
-    if (tracer) found.push_back(std::move(tracer->walls));
-  }
-  auto all = gathered(found, &Separatrices<Cell>::sources, static_cast<Id>(edges.size()));
+  const auto tracers = traced(
+      edges, threads, [&](int thread) { return std::make_unique<WallTracer>(structure, gradient, thread); },
+      [&](WallTracer& tracer, Id place) { tracer.follow(place, edges[place]); });
+  auto all = gathered(tracers, &WallTracer::walls, &Separatrices<Cell>::sources, static_cast<Id>(edges.size()));
   AscendingWalls walls;
   walls.walls.sources = std::move(all.sources);
   walls.walls.begin = std::move(all.begin);
@@ -126,7 +117,7 @@ AscendingWalls ascending_walls(Structure& structure, const DiscreteGradient& gra
   walls.star_begin.resize(count + 1);
   for (Offset i = 0; i < count; ++i) walls.star_begin[i + 1] = walls.star_begin[i] + all.cells[i].star_size;
   walls.star.resize(walls.star_begin[count]);
-  parallel_for("GALE::gather_stars", Kokkos::DefaultHostExecutionSpace(), count, [&](Offset i) {
+  parallel_for("GALE::gather_stars", HostExecutionSpace(), count, [&](Offset i) {
     const Cell& cell = all.cells[i];
     walls.walls.cells[i] = cell.edge;
     const Id* const star = tracers[cell.thread]->stars.data() + cell.star_begin;

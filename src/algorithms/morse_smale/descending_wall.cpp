@@ -1,5 +1,10 @@
+#include <algorithm>
+#include <memory>
+#include <utility>
+
 #include <gale/algorithms/morse_smale/descending_wall.hpp>
-#include <gale/algorithms/order/written.hpp>
+#include <gale/algorithms/morse_smale/gathered_separatrices.hpp>
+#include <gale/algorithms/morse_smale/parts.hpp>
 #include <gale/base/stop.hpp>
 
 namespace gale::detail {
@@ -98,34 +103,20 @@ Id DescendingWall::third_of(Id high, Id low) const {
   return third == no_id && vertex_successor_[high] == low ? TurnedEdges::with_vertex : third;
 }
 
-/// Calls visit(i) for the triangles on the path, by their places. True if it is the only path.
-template <class Visit>
-bool DescendingWall::visit_path(const Edge& from, const Visit& visit) const {
-  bool is_only = true;
-  Edge edge = from;
-  while (true) {
+DescendingWall::Appended DescendingWall::append_path(const Edge& from, std::vector<TriangleVertices>& path,
+                                                     Paths told) {
+  if (told == Paths::joined) passed_.resize(triangles_.size(), 0);
+  Appended appended{true, false};
+  for (Edge edge = from;;) {
     const Above& above = *above_.find(pair_key(edge.high, edge.low));
-    is_only = is_only && !above.are_several;
-    visit(above.least);
-    if (above.least == 0) return is_only;
-    edge = {triangles_[above.least][0], triangles_[above.least][1]};
+    appended.is_only = appended.is_only && !above.are_several;
+    const TriangleVertices& triangle = triangles_[above.least];
+    if (!appended.joins) path.push_back(triangle);
+    if (told == Paths::joined && above.least != 0)
+      appended.joins = appended.joins || std::exchange(passed_[above.least], 1) != 0;
+    if (above.least == 0) return appended;
+    edge = {triangle[0], triangle[1]};
   }
-}
-
-bool DescendingWall::append_path(const Edge& from, std::vector<TriangleVertices>& path) const {
-  return visit_path(from, [&](std::uint32_t i) { path.push_back(triangles_[i]); });
-}
-
-DescendingWall::Joined DescendingWall::append_joined_path(const Edge& from, std::vector<TriangleVertices>& path) {
-  passed_.resize(triangles_.size(), 0);
-  bool joins = false;
-  const bool is_only = visit_path(from, [&](std::uint32_t i) {
-    if (joins) return;
-    path.push_back(triangles_[i]);
-    joins = i != 0 && passed_[i] != 0;
-    passed_[i] = 1;
-  });
-  return {is_only, joins};
 }
 
 void DescendingWall::count_paths() {
@@ -142,6 +133,65 @@ int DescendingWall::paths_from(const Edge& edge) const {
 
 bool DescendingWall::is_less(const TriangleVertices& a, const TriangleVertices& b) const {
   return written(vertex_input_, a) < written(vertex_input_, b);
+}
+
+namespace {
+
+/// One thread's part.
+class SurfaceTracer {
+ public:
+  SurfaceTracer(const DiscreteGradient& gradient, const TurnedEdges* turned, Paths told)
+      : wall(gradient, turned), keys_(gradient.order().keys()), told_(told) {}
+
+  void add_wall(Id triangle) {
+    walls.sources.push_back(triangle);
+    walls.cells.insert(walls.cells.end(), wall.triangles().begin(), wall.triangles().end());
+    walls.begin.push_back(static_cast<Offset>(walls.cells.size()));
+  }
+
+  void add_connectors(const CriticalPlaces& places, Id triangle) {
+    rim_.clear();
+    const std::uint64_t highest = keys_[wall.triangles().front()[0]];
+    for (const auto& edge : wall.critical_edges()) {
+      if (keys_[edge.high] <= highest) rim_.push_back({places.of_edge(edge.high, edge.low), edge});
+    }
+    std::sort(rim_.begin(), rim_.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    for (const auto& [place, edge] : rim_) {
+      connectors.sources.push_back(place);
+      connectors.destinations.push_back(triangle);
+      const auto [is_only, joins] = wall.append_path(edge, connectors.cells, told_);
+      connectors.is_only.push_back(is_only);
+      if (told_ == Paths::joined) connectors.joins.push_back(joins);
+      connectors.begin.push_back(static_cast<Offset>(connectors.cells.size()));
+    }
+  }
+
+  DescendingWall wall;
+  Separatrices<TriangleVertices> walls, connectors;
+
+ private:
+  const std::uint64_t* keys_;
+  const Paths told_;
+  std::vector<std::pair<Id, DescendingWall::Edge>> rim_;  ///< the wall's critical edges by their places
+};
+
+}  // namespace
+
+DescendingSurfaces descending_surfaces(const DiscreteGradient& gradient, const CriticalSimplices& critical,
+                                       const CriticalPlaces& places, bool want_walls, bool want_connectors, int threads,
+                                       const TurnedEdges* turned, Paths told) {
+  const auto& triangles = critical.triangles;
+  const auto tracers = traced(
+      triangles, threads, [&](int) { return std::make_unique<SurfaceTracer>(gradient, turned, told); },
+      [&](SurfaceTracer& tracer, Id place) {
+        tracer.wall.follow(triangles[place]);
+        if (want_walls) tracer.add_wall(place);
+        if (want_connectors) tracer.add_connectors(places, place);
+      });
+  using Surfaces = Separatrices<TriangleVertices>;
+  const Id count = static_cast<Id>(triangles.size());
+  return {gathered(tracers, &SurfaceTracer::walls, &Surfaces::sources, count),
+          gathered(tracers, &SurfaceTracer::connectors, &Surfaces::destinations, count)};
 }
 
 }  // namespace gale::detail

@@ -48,14 +48,12 @@ class DescendingWall {
 
   /// Appends the path inside the wall that rises from one of its critical edges to the critical triangle: the
   /// triangles, the last one included. Where several triangles of the wall meet at an edge, it takes the one that is
-  /// least, written with its input vertices ascending. True if they never do: then it is the only path.
-  bool append_path(const Edge& from, std::vector<TriangleVertices>& path) const;
-
-  /// Appends that path as far as the first triangle of a path that this call has appended since `follow`.
-  struct Joined {
+  /// least, written with its input vertices ascending; if they never do, it is the only path. With Paths::joined it is
+  /// appended as far as the first triangle of a path that was so appended since `follow`, if it joins one.
+  struct Appended {
     bool is_only, joins;
   };
-  Joined append_joined_path(const Edge& from, std::vector<TriangleVertices>& path);
+  Appended append_path(const Edge& from, std::vector<TriangleVertices>& path, Paths told = Paths::whole);
 
  private:
   /// An edge of the wall: the least of the wall's triangles that it isn't paired with, by its place among them, and
@@ -71,8 +69,6 @@ class DescendingWall {
   void cross_in_order(Id a, Id b, std::uint32_t from);
   void cross(Id high, Id low, std::uint32_t from);
   Id third_of(Id high, Id low) const;
-  template <class Visit>
-  bool visit_path(const Edge& from, const Visit& visit) const;
   bool is_less(const TriangleVertices& a, const TriangleVertices& b) const;
 
   const EdgePairs& pairs_;

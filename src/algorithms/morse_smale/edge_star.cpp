@@ -77,20 +77,25 @@ void EdgeStar::find_thirds(Id high, Id low) {
   side_begin_.push_back(static_cast<int>(at_sides_.size()));
 }
 
-/// From wedge to wedge over the sides that they share; from a new first one when there is no further.
+/// Goes from ends first, then round what has none.
 void EdgeStar::go_around() {
   around_.clear();
-  next_end_ = next_any_ = 0;
-  while (around_.size() < wedges_.size()) {
-    int at = first();
-    take(at);
-    const auto& sides = wedges_[at].sides;
-    const int one = next(sides[0]), other = next(sides[1]);
-    const bool over_first = other < 0 || (one >= 0 && one <= other);
-    for (int side = sides[over_first ? 0 : 1]; (at = next(side)) >= 0;) {
-      take(at);
-      side = wedges_[at].sides[0] == side ? wedges_[at].sides[1] : wedges_[at].sides[0];
+  for (const bool from_ends : {true, false}) {
+    for (int i = 0; i < static_cast<int>(wedges_.size()); ++i) {
+      if (!wedges_[i].taken && (is_end(wedges_[i]) || !from_ends)) go_from(i);
     }
+  }
+}
+
+/// Goes from wedge to wedge over the sides that they share, until there is no further.
+void EdgeStar::go_from(int at) {
+  take(at);
+  const auto& sides = wedges_[at].sides;
+  const int one = next(sides[0]), other = next(sides[1]);
+  const bool over_first = other < 0 || (one >= 0 && one <= other);
+  for (int side = sides[over_first ? 0 : 1]; (at = next(side)) >= 0;) {
+    take(at);
+    side = wedges_[at].sides[0] == side ? wedges_[at].sides[1] : wedges_[at].sides[0];
   }
 }
 
@@ -103,15 +108,6 @@ void EdgeStar::take(int wedge) {
 bool EdgeStar::is_end(const Wedge& wedge) const {
   return std::any_of(wedge.sides, wedge.sides + 2,
                      [this](int side) { return side_begin_[side + 1] - side_begin_[side] == 1; });
-}
-
-/// The first end that isn't taken; else the first wedge that isn't. There is one.
-int EdgeStar::first() {
-  const int count = static_cast<int>(wedges_.size());
-  while (next_end_ < count && (wedges_[next_end_].taken || !is_end(wedges_[next_end_]))) ++next_end_;
-  if (next_end_ < count) return next_end_;
-  while (wedges_[next_any_].taken) ++next_any_;
-  return next_any_;
 }
 
 /// The first wedge beyond a side that isn't taken; -1 if there is none.

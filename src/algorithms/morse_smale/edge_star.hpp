@@ -42,9 +42,9 @@ class EdgeStar {
   void add_wedge(Id tetrahedron);
   void find_thirds(Id high, Id low);
   void go_around();
+  void go_from(int wedge);
   void take(int wedge);
   bool is_end(const Wedge& wedge) const;
-  int first();
   int next(int side);
 
   Mesh mesh_;
@@ -55,7 +55,6 @@ class EdgeStar {
   std::vector<std::uint64_t> at_sides_;  ///< pairs (third vertex, wedge), ascending
   std::vector<int> side_begin_;          ///< where each side's pairs begin
   std::vector<int> side_next_;           ///< the first pair of each side whose wedge may not be taken yet
-  int next_end_ = 0, next_any_ = 0;      ///< before these no end, and no wedge, is left
   std::vector<Id> thirds_, around_;
 };
 

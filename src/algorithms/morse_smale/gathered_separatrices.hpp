@@ -1,19 +1,45 @@
 #pragma once
 
 #include <algorithm>
+#include <memory>
+#include <numeric>
 #include <vector>
 
 #include <gale/algorithms/separatrices.hpp>
 #include <gale/base/parallel.hpp>
+#include <gale/base/threads.hpp>
+
+// Separatrices that several threads find, each with a tracer of its own.
 
 namespace gale::detail {
 
-/// Brings the separatrices that several threads found into the order of their `ends`, which are their sources or their
+/// Calls follow(tracer, place) for each of `simplices` on so many threads, each of which has a tracer made by
+/// make(thread). They come in the order of their highest vertices: GALE numbers vertices along a curve, so neighbours
+/// in this order are close to each other, and what a thread reads for one is still in its caches for the next.
+template <class Make, class Simplex, class Follow>
+auto traced(const std::vector<Simplex>& simplices, int threads, const Make& make, const Follow& follow) {
+  std::vector<Id> order(simplices.size());
+  std::iota(order.begin(), order.end(), Id(0));
+  std::sort(order.begin(), order.end(), [&](Id i, Id j) { return simplices[i] < simplices[j]; });
+  std::vector<decltype(make(0))> tracers(threads);
+  in_turns(threads, static_cast<std::int64_t>(order.size()), [&](int thread, std::int64_t i) {
+    auto& tracer = tracers[thread];
+    if (!tracer) tracer = make(thread);
+    follow(*tracer, order[i]);
+  });
+  return tracers;
+}
+
+/// Brings the separatrices that tracers `found` into the order of their `ends`, which are their sources or their
 /// destinations: places below `count`. One thread found all those with the same end, one after the other: they stay in
 /// their order.
-template <class Cell>
-Separatrices<Cell> gathered(std::vector<Separatrices<Cell>>& parts, std::vector<Id> Separatrices<Cell>::*ends,
-                            Id count) {
+template <class Tracer, class Cell>
+Separatrices<Cell> gathered(const std::vector<std::unique_ptr<Tracer>>& tracers, Separatrices<Cell> Tracer::*found,
+                            std::vector<Id> Separatrices<Cell>::*ends, Id count) {
+  std::vector<Separatrices<Cell>> parts;
+  for (const auto& tracer : tracers) {
+    if (tracer) parts.push_back(std::move((*tracer).*found));
+  }
   struct Group {
     int part = 0;
     Id first = 0, size = 0;
@@ -25,41 +51,36 @@ Separatrices<Cell> gathered(std::vector<Separatrices<Cell>>& parts, std::vector<
       if (group.size++ == 0) group = {part, i, 1};
     }
   }
-  Separatrices<Cell> all;
   std::vector<Id> place(count + 1, 0);
   std::vector<Offset> cell(count + 1, 0);
   for (Id g = 0; g < count; ++g) {
-    const Group& group = groups[g];
-    place[g + 1] = place[g] + group.size;
-    cell[g + 1] = cell[g] + (group.size == 0 ? 0
-                                             : parts[group.part].last(group.first + group.size - 1) -
-                                                   parts[group.part].first(group.first));
+    const auto& [part, first, size] = groups[g];
+    place[g + 1] = place[g] + size;
+    cell[g + 1] = cell[g] + (size == 0 ? 0 : parts[part].begin[first + size] - parts[part].begin[first]);
   }
-  const bool are_paths =
-      std::any_of(parts.begin(), parts.end(), [](const auto& part) { return !part.destinations.empty(); });
-  const bool say_only = std::any_of(parts.begin(), parts.end(), [](const auto& part) { return !part.is_only.empty(); });
-  const bool are_joined = std::any_of(parts.begin(), parts.end(), [](const auto& part) { return !part.joins.empty(); });
-  all.sources.resize(place[count]);
-  if (are_paths) all.destinations.resize(place[count]);
-  if (say_only) all.is_only.resize(place[count]);
-  if (are_joined) all.joins.resize(place[count]);
+  Separatrices<Cell> all;
+  const auto copy = [&](auto member) {
+    auto& to = all.*member;
+    if (std::all_of(parts.begin(), parts.end(), [&](const auto& part) { return (part.*member).empty(); })) return;
+    to.resize(place[count]);
+    parallel_for("GALE::gather_separatrices", HostExecutionSpace(), count, [&](Offset g) {
+      const Group& group = groups[g];
+      if (group.size > 0) std::copy_n(&(parts[group.part].*member)[group.first], group.size, &to[place[g]]);
+    });
+  };
+  copy(&Separatrices<Cell>::sources);
+  copy(&Separatrices<Cell>::destinations);
+  copy(&Separatrices<Cell>::is_only);
+  copy(&Separatrices<Cell>::joins);
   all.begin.resize(place[count] + 1);
   all.cells.resize(cell[count]);
-  parallel_for("GALE::gather_separatrices", Kokkos::DefaultHostExecutionSpace(), count, [&](Offset g) {
-    const Group& group = groups[g];
-    const auto& from = parts[group.part];
-    if (group.size == 0) return;
-    for (Id i = 0; i < group.size; ++i) {
-      const Id at = place[g] + i;
-      all.sources[at] = from.sources[group.first + i];
-      if (are_paths) all.destinations[at] = from.destinations[group.first + i];
-      if (say_only) all.is_only[at] = from.is_only[group.first + i];
-      if (are_joined) all.joins[at] = from.joins[group.first + i];
-      all.begin[at + 1] = cell[g] + (from.last(group.first + i) - from.first(group.first));
-    }
-    std::copy(from.first(group.first), from.last(group.first + group.size - 1), all.cells.data() + cell[g]);
+  parallel_for("GALE::gather_cells", HostExecutionSpace(), count, [&](Offset g) {
+    const auto& [part, first, size] = groups[g];
+    if (size == 0) return;
+    const auto& from = parts[part];
+    for (Id i = 0; i < size; ++i) all.begin[place[g] + i + 1] = cell[g] + from.begin[first + i + 1] - from.begin[first];
+    std::copy(from.first(first), from.last(first + size - 1), all.cells.data() + cell[g]);
   });
-  parts.clear();
   return all;
 }
 

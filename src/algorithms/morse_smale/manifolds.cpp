@@ -1,9 +1,10 @@
 #include <gale/algorithms/gradient/gradient_store.hpp>
-#include <gale/algorithms/morse_smale/first_tetrahedra.hpp>
 #include <gale/algorithms/morse_smale/jump.hpp>
-#include <gale/algorithms/morse_smale/manifolds.hpp>
+#include <gale/algorithms/morse_smale/parts.hpp>
 #include <gale/algorithms/morse_smale/paths_on_ranks.hpp>
+#include <gale/base/bits.hpp>
 #include <gale/base/error.hpp>
+#include <gale/base/parallel.hpp>
 #include <gale/base/sort.hpp>
 #include <gale/base/transfer.hpp>
 #include <gale/mesh/exchange/exchange_plan.hpp>
@@ -29,6 +30,32 @@ Mirrored<Id> descending_in(const Space& space, const DiscreteGradient& gradient)
       KOKKOS_LAMBDA(Offset v) { manifolds(input(v)) = place_of_end(next(v)); });
   space.fence();
   return manifolds;
+}
+
+constexpr std::uint64_t no_first = ~std::uint64_t(0);
+
+/// For each vertex (GALE's id) its tetrahedron of lowest input id, with that id in the upper half; `no_first` where it
+/// has no tetrahedron.
+template <class Space>
+Keys<Space> first_tetrahedra(const Space& space, const Mesh& mesh) {
+  const auto first = allocate<Keys<Space>>("GALE::first_tetrahedra", mesh.vertices());
+  const auto encoded = mesh.encoded<MemoryOf<Space>>();
+  const auto input = mesh.tetrahedron_input<MemoryOf<Space>>();
+  parallel_for(
+      "GALE::first_tetrahedra", space, mesh.segments(), KOKKOS_LAMBDA(Offset s) {
+        const Id begin = encoded.vertex_begin(s), end = encoded.vertex_begin(s + 1);
+        const auto offer = [&](Id t) {
+          const std::uint64_t key = pair_key(input(t), t);
+          for (int corner = 0; corner < 4; ++corner) {
+            const Id v = encoded.tetrahedra(t, corner);
+            if (v >= begin && v < end && key < first(v)) first(v) = key;
+          }
+        };
+        for (Id v = begin; v < end; ++v) first(v) = no_first;
+        for (Id t = encoded.internal_begin(s); t < encoded.internal_begin(s + 1); ++t) offer(t);
+        for (Offset i = encoded.external_begin(s); i < encoded.external_begin(s + 1); ++i) offer(encoded.external(i));
+      });
+  return first;
 }
 
 template <class Space>

@@ -4,14 +4,8 @@
 
 #include <gale/algorithms/gradient/gradient_store.hpp>
 #include <gale/algorithms/morse_smale.hpp>
-#include <gale/algorithms/morse_smale/ascending_walls.hpp>
-#include <gale/algorithms/morse_smale/descending_surfaces.hpp>
-#include <gale/algorithms/morse_smale/device_connectors.hpp>
-#include <gale/algorithms/morse_smale/manifolds.hpp>
-#include <gale/algorithms/morse_smale/separatrices1.hpp>
-#include <gale/algorithms/morse_smale/separatrices_on_ranks.hpp>
-#include <gale/algorithms/order/same_mesh.hpp>
-#include <gale/algorithms/order/whole_mesh.hpp>
+#include <gale/algorithms/morse_smale/parts.hpp>
+#include <gale/algorithms/order/require_mesh.hpp>
 #include <gale/base/error.hpp>
 
 namespace gale {

@@ -1,5 +1,4 @@
-#include <gale/algorithms/morse_smale/separatrices1.hpp>
-#include <gale/algorithms/morse_smale/separatrices_on_ranks.hpp>
+#include <gale/algorithms/morse_smale/parts.hpp>
 #include <gale/base/csr.hpp>
 #include <gale/base/hash_table.hpp>
 #include <gale/base/memory.hpp>

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <utility>
 
+#include <gale/algorithms/morse_smale/parts.hpp>
 #include <gale/algorithms/morse_smale/paths_on_ranks.hpp>
-#include <gale/algorithms/morse_smale/separatrices_on_ranks.hpp>
 #include <gale/base/error.hpp>
 #include <gale/base/hash_table.hpp>
 #include <gale/mesh/exchange/messages.hpp>
@@ -35,10 +35,11 @@ struct OpenEnd {
   Id exit;
 };
 
-/// The head of the cells that a rank sends for a piece.
-struct PieceHead {
+/// A cell on a piece of a path, sent to the rank where the path starts.
+struct PieceCell {
   Id path;
-  Offset position, cells;
+  Offset position;
+  PathCell cell;
 };
 
 /// The pieces of all paths that start on this rank.
@@ -50,29 +51,25 @@ class PathPieces {
   WholePaths gather(const std::vector<Id>& starts) {
     together(ranks_, [&] { begin(starts); });
     for (int round = paths_.rounds(); round > 0; --round) halve(round - 1);
-    send_pieces();
+    receive_pieces();
     WholePaths whole;
     together(ranks_, [&] { whole = joined(starts.size()); });
     return whole;
   }
 
  private:
-  /// The cells of a path from a simplex as far as this rank knows its successors.
-  void follow(Id simplex, std::vector<PathCell>& cells) const {
-    for (Id at = simplex; at != no_id && successors_(at) != DiscreteGradient::elsewhere;) {
-      cells.push_back(paths_.simplices().cell(at));
-      at = successors_(at);
-    }
+  /// Calls visit(cell) for the cells of a path from a simplex as far as this rank knows its successors.
+  template <class Visit>
+  void follow(Id simplex, const Visit& visit) const {
+    for (Id at = simplex; at != no_id && successors_(at) != DiscreteGradient::elsewhere; at = successors_(at))
+      visit(paths_.simplices().cell(at));
   }
 
   void begin(const std::vector<Id>& starts) {
     for (std::size_t i = 0; i < starts.size(); ++i) {
-      const Id end = paths_.end(starts[i]);
+      const Id end = paths_.end(starts[i]), path = static_cast<Id>(i);
       if (paths_.final_stop(end).rank == PathStop::outside) continue;
-      const auto from = static_cast<Offset>(received_cells_.size());
-      follow(starts[i], received_cells_);
-      const auto path = static_cast<Id>(i);
-      received_.push_back({{path, 0, static_cast<Offset>(received_cells_.size()) - from}, from});
+      follow(starts[i], [&](const PathCell& cell) { cells_.push_back({path, 0, cell}); });
       open(ranks_.rank(), path, 0, end);
     }
   }
@@ -84,22 +81,24 @@ class PathPieces {
   /// From open ends of 2^(round + 1) pieces to twice as many of 2^round: the second half begins where the path is that
   /// many pieces later.
   void halve(int round) {
+    const auto visits = visits_after(round);
+    together(ranks_, [&] {
+      for (Offset i = 0; i < visits.count(); ++i) {
+        const PieceVisit& visit = visits.entries(i);
+        open(visit.rank, visit.path, visit.position, paths_.end(paths_.simplices().local(visit.simplex)));
+      }
+    });
+  }
+
+  /// Tells the ranks where the open ends of all are 2^round pieces later, if they go on there, and returns what this
+  /// one is told.
+  Dealt<PieceVisit> visits_after(int round) const {
     std::vector<PieceVisit> visits;
     for (const OpenEnd& open : open_) {
       const PathStop& stop = paths_.stops(round)[open.exit];
       if (!stop.is_end())
         visits.push_back({open.rank, open.path, open.position + (Offset(1) << round), stop.rank, stop.id});
     }
-    const auto received = sent(visits);
-    together(ranks_, [&] {
-      for (Offset i = 0; i < received.count(); ++i) {
-        const PieceVisit& visit = received.entries(i);
-        open(visit.rank, visit.path, visit.position, paths_.end(paths_.simplices().local(visit.simplex)));
-      }
-    });
-  }
-
-  Dealt<PieceVisit> sent(const std::vector<PieceVisit>& visits) const {
     return exchange(ranks_, "GALE::visits",
                     deal<PieceVisit>(
                         ranks_, "GALE::sent_visits", static_cast<Offset>(visits.size()),
@@ -107,55 +106,40 @@ class PathPieces {
   }
 
   /// Each open end has one piece now. Has the ranks that have them send them to where their paths start.
-  void send_pieces() {
-    std::vector<PieceVisit> visits;
-    for (const OpenEnd& open : open_) {
-      const PathStop& stop = paths_.stops(0)[open.exit];
-      visits.push_back({open.rank, open.path, open.position + 1, stop.rank, stop.id});
-    }
-    const auto asked = sent(visits);
-    std::vector<PathCell> cells;
-    std::vector<std::int64_t> cells_to(ranks_.size(), 0);
-    Dealt<PieceHead> heads;
-    Dealt<PathCell> bodies;
+  void receive_pieces() {
+    const auto asked = visits_after(0);
+    std::vector<std::pair<int, PieceCell>> sent;
     together(ranks_, [&] {
-      const ByRank visits_by_rank =
-          by_rank(ranks_.size(), asked.count(), [&](Id i, const auto& visit) { visit(asked.entries(i).rank); });
-      heads = {allocate<Array<PieceHead, HostMemory>>("GALE::piece_heads", asked.count()), visits_by_rank.begin};
       for (Offset i = 0; i < asked.count(); ++i) {
-        const PieceVisit& visit = asked.entries(visits_by_rank.members(i));
-        const std::size_t before = cells.size();
-        follow(paths_.simplices().local(visit.simplex), cells);
-        heads.entries(i) = {visit.path, visit.position, static_cast<Offset>(cells.size() - before)};
-        cells_to[visit.rank] += heads.entries(i).cells;
+        const PieceVisit& visit = asked.entries(i);
+        follow(paths_.simplices().local(visit.simplex), [&](const PathCell& cell) {
+          sent.push_back({visit.rank, {visit.path, visit.position, cell}});
+        });
       }
-      bodies = dealt<PathCell>("GALE::piece_cells", cells_to);
-      std::copy(cells.begin(), cells.end(), bodies.entries.data());
+      require_ids("cells on the paths of a rank", sent.size());
     });
-    const auto received_heads = exchange(ranks_, "GALE::received_heads", heads);
-    const auto received_bodies = exchange(ranks_, "GALE::received_cells", bodies);
-    together(ranks_, [&] {
-      auto from = static_cast<Offset>(received_cells_.size());
-      received_cells_.insert(received_cells_.end(), received_bodies.entries.data(),
-                             received_bodies.entries.data() + received_bodies.count());
-      for (Offset i = 0; i < received_heads.count(); ++i) {
-        received_.push_back({received_heads.entries(i), from});
-        from += received_heads.entries(i).cells;
-      }
-    });
+    const auto received = exchange(ranks_, "GALE::received_cells",
+                                   deal<PieceCell>(
+                                       ranks_, "GALE::sent_cells", static_cast<Offset>(sent.size()),
+                                       [&](Id i) { return sent[i].first; }, [&](Id i) { return sent[i].second; }));
+    together(ranks_,
+             [&] { cells_.insert(cells_.end(), received.entries.data(), received.entries.data() + received.count()); });
   }
 
-  /// The pieces of each path, one after the other.
-  WholePaths joined(std::size_t count) {
-    std::sort(received_.begin(), received_.end(), [](const auto& a, const auto& b) {
-      return std::make_pair(a.first.path, a.first.position) < std::make_pair(b.first.path, b.first.position);
-    });
+  /// The pieces of each path, one after the other. The cells of a piece came together, in order.
+  WholePaths joined(std::size_t count) const {
+    const auto key = [&](std::size_t i) { return std::make_pair(cells_[i].path, cells_[i].position); };
+    std::vector<std::size_t> pieces;  // where each begins
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+      if (i == 0 || key(i) != key(i - 1)) pieces.push_back(i);
+    }
+    std::sort(pieces.begin(), pieces.end(), [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
     WholePaths whole;
-    auto next = received_.begin();
+    auto piece = pieces.begin();
     for (std::size_t path = 0; path < count; ++path) {
-      for (; next != received_.end() && next->first.path == static_cast<Id>(path); ++next) {
-        const auto from = received_cells_.begin() + next->second;
-        whole.cells.insert(whole.cells.end(), from, from + next->first.cells);
+      for (; piece != pieces.end() && cells_[*piece].path == static_cast<Id>(path); ++piece) {
+        for (std::size_t i = *piece; i < cells_.size() && key(i) == key(*piece); ++i)
+          whole.cells.push_back(cells_[i].cell);
       }
       whole.begin.push_back(static_cast<Offset>(whole.cells.size()));
     }
@@ -166,8 +150,7 @@ class PathPieces {
   const PathsOnRanks& paths_;
   const Array<const Id, HostMemory>& successors_;
   std::vector<OpenEnd> open_;
-  std::vector<std::pair<PieceHead, Offset>> received_;  ///< and where the cells begin among all
-  std::vector<PathCell> received_cells_;
+  std::vector<PieceCell> cells_;
 };
 
 /// Calls simplices by GALE's ids: those that this rank holds by its own, others after these.

@@ -14,14 +14,23 @@ class WallTable {
  public:
   WallTable() = default;
 
-  /// With so many places, a power of two; `edge_bits` suffice for the numbers of edges. Throws
-  /// OutOfMemory.
-  WallTable(const WorkerSpace& space, Offset places, int edge_bits);
+  /// With so many places, a power of two; `edge_bits` suffice for the numbers of edges. Throws OutOfMemory.
+  WallTable(const WorkerSpace& space, Offset places, int edge_bits)
+      : edges_(allocate<Array<std::uint64_t, WorkerMemory>>("GALE::wall_edges", places)),
+        above_(allocate<Array<std::uint32_t, WorkerMemory>>("GALE::triangles_above", places)),
+        edge_bits_(edge_bits) {
+    Kokkos::deep_copy(space, edges_, none);
+    Kokkos::deep_copy(space, above_, no_triangle);
+  }
 
   Offset places() const { return static_cast<Offset>(edges_.extent(0)); }
 
-  /// Moves to a table of twice the places.
-  void grow(const WorkerSpace& space);
+  /// Copies the edge at a place, if there is one, to a larger table.
+  KOKKOS_FUNCTION void copy_to(const WallTable& larger, Offset place) const {
+    if (edges_(place) == none) return;
+    bool is_new;
+    larger.above_(larger.insert(edges_(place), is_new)) = above_(place);
+  }
 
   /// An edge of a wall, by the number that it has among all edges.
   KOKKOS_FUNCTION std::uint64_t key(Id wall, Offset edge) const {

@@ -2,7 +2,6 @@
 #include <string>
 #include <type_traits>
 
-#include <gale/algorithms/order/each_value.hpp>
 #include <gale/algorithms/order/ordered_bits.hpp>
 #include <gale/algorithms/vertex_order.hpp>
 #include <gale/base/error.hpp>
@@ -150,7 +149,19 @@ Mirrored<std::uint64_t> order_keys(const Mesh& mesh, const FieldValues<Value, Me
 #else
 #define GALE_INSTANTIATE(Value) GALE_INSTANTIATE_FOR(Value, HostMemory)
 #endif
-GALE_FOR_EACH_VALUE(GALE_INSTANTIATE);
+GALE_INSTANTIATE(char);
+GALE_INSTANTIATE(signed char);
+GALE_INSTANTIATE(unsigned char);
+GALE_INSTANTIATE(short);
+GALE_INSTANTIATE(unsigned short);
+GALE_INSTANTIATE(int);
+GALE_INSTANTIATE(unsigned int);
+GALE_INSTANTIATE(long);
+GALE_INSTANTIATE(unsigned long);
+GALE_INSTANTIATE(long long);
+GALE_INSTANTIATE(unsigned long long);
+GALE_INSTANTIATE(float);
+GALE_INSTANTIATE(double);
 #undef GALE_INSTANTIATE
 #undef GALE_INSTANTIATE_FOR
 

@@ -4,9 +4,8 @@
 #include <tuple>
 
 #include <gale/algorithms/morse_smale/descending_wall.hpp>
-#include <gale/algorithms/persistence/cancel_saddles.hpp>
+#include <gale/algorithms/persistence/cancellations.hpp>
 #include <gale/algorithms/persistence/saddle_graph.hpp>
-#include <gale/algorithms/persistence/turned_gradient.hpp>
 #include <gale/base/threads.hpp>
 
 namespace gale::detail {

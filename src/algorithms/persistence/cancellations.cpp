@@ -1,9 +1,7 @@
 #include <functional>
 #include <vector>
 
-#include <gale/algorithms/persistence.hpp>
 #include <gale/algorithms/persistence/cancellations.hpp>
-#include <gale/algorithms/persistence/extremum_pairs.hpp>
 #include <gale/base/threads.hpp>
 
 namespace gale::detail {
@@ -94,13 +92,14 @@ Cancellations cancel_below(double threshold, const MorseSmaleComplex& complex, c
   const CriticalSimplices& critical = gradient.critical();
   const CriticalPlaces places(critical);
   const ExtremumEnds ends{ends_of_edges(gradient, places), ends_of_triangles(gradient, places)};
-  const PersistencePairs pairs = pairs_along_successors(gradient, places, ends, threads);
+  const PersistencePairs pairs = pairs_of(gradient, places, ends, false, threads);
   Cancellations all(gradient);
   const std::function<void()> extrema[] = {
       [&] { cancel_minima(pairs_below(threshold, 0, pairs.pairs[0], values), critical, ends.of_edges, all); },
       [&] { cancel_maxima(pairs_below(threshold, 2, pairs.pairs[2], values), critical, ends.of_triangles, all); }};
   in_turns(threads, 2, [&](int, std::int64_t i) { extrema[i](); });
   DoomedSaddles doomed{pairs_below(threshold, 1, pairs.pairs[1], values), values[1], values[2], {}, threshold};
+  if (want_joined) all.saddles.joined.resize(critical.edges.size());
   if (extrema_only) return all;
   doomed.minimum_below.resize(values[1].size());
   for (const PersistencePair& pair : pairs.pairs[0]) doomed.minimum_below[pair.upper] = values[0][pair.lower];
@@ -110,7 +109,6 @@ Cancellations cancel_below(double threshold, const MorseSmaleComplex& complex, c
     all.is_left[1][instead] = 1;
   }
   leave_out(all.saddles.pairs, 1, all);
-  all.kept_below = all.saddles.kept;
   return all;
 }
 

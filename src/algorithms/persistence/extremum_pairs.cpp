@@ -4,7 +4,7 @@
 #include <utility>
 
 #include <gale/algorithms/gradient/gradient_store.hpp>
-#include <gale/algorithms/persistence/extremum_pairs.hpp>
+#include <gale/algorithms/persistence/pairs.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/base/stop.hpp>
 
@@ -47,60 +47,13 @@ PathEnds ends_of_triangles(const DiscreteGradient& gradient, const CriticalPlace
   return ends;
 }
 
-bool forks(const DiscreteGradient& gradient) {
-  const auto& begin = gradient.critical().star_begin;
-  for (std::size_t i = 0; i + 1 < begin.size(); ++i) {
-    if (begin[i + 1] - begin[i] > 2) return true;
-  }
-  return !gradient.store().further_successors.empty();
-}
-
-namespace {
-
-/// Sets of extrema, by age; each is known by its oldest.
-class Sets {
- public:
-  explicit Sets(std::size_t count) : older_(count) {
-    for (std::size_t i = 0; i < count; ++i) older_[i] = static_cast<Id>(i);
-  }
-
-  Id oldest(Id of) {
-    while (older_[of] != of) of = older_[of] = older_[older_[of]];
-    return of;
-  }
-
-  void join(Id younger, Id older) { older_[younger] = older; }
-
- private:
-  std::vector<Id> older_;
-};
-
-}  // namespace
-
-std::vector<Id> join_ends(const std::vector<Id>& saddles, const PathEnds& ends, const std::vector<Id>& age) {
-  // The outside has age 0 here, and the extrema follow.
-  std::vector<Id> extremum(age.size() + 1, no_id), saddle_of(age.size(), no_id);
-  for (std::size_t i = 0; i < age.size(); ++i) extremum[age[i] + 1] = static_cast<Id>(i);
-  Sets sets(age.size() + 1);
-  const auto oldest = [&](Id end) { return sets.oldest(end == no_id ? 0 : age[end] + 1); };
-  for (const Id saddle : saddles) {
-    stop_if_asked_at(saddle);
-    Id one = oldest(ends[saddle][0]), other = oldest(ends[saddle][1]);
-    if (one == other) continue;
-    if (one < other) std::swap(one, other);
-    saddle_of[extremum[one]] = saddle;
-    sets.join(one, other);
-  }
-  return saddle_of;
-}
-
 namespace {
 
 /// Ranks of maxima, ascending.
-using Ranks = std::vector<Id>;
+using MaximumRanks = std::vector<Id>;
 
-void add(Ranks& to, const Ranks& more) {
-  Ranks sum;
+void add(MaximumRanks& to, const MaximumRanks& more) {
+  MaximumRanks sum;
   std::set_symmetric_difference(to.begin(), to.end(), more.begin(), more.end(), std::back_inserter(sum));
   to.swap(sum);
 }
@@ -114,7 +67,7 @@ class ForkedEnds {
         places_(places),
         rank_(rank) {}
 
-  const Ranks& of(Id tetrahedron) {
+  const MaximumRanks& of(Id tetrahedron) {
     std::vector<Id> path = {tetrahedron};
     while (!path.empty()) {
       stop_if_asked();
@@ -146,9 +99,9 @@ class ForkedEnds {
     return unknown;
   }
 
-  Ranks sum_at(Id tetrahedron) const {
+  MaximumRanks sum_at(Id tetrahedron) const {
     if (successors_[tetrahedron] == no_id) return {rank_[places_.of_tetrahedron(tetrahedron)]};
-    Ranks sum;
+    MaximumRanks sum;
     for_each_successor(tetrahedron, [&](Id next) { add(sum, ends_.at(next)); });
     return sum;
   }
@@ -157,7 +110,7 @@ class ForkedEnds {
   const std::vector<std::pair<Id, Id>>& further_;
   const CriticalPlaces& places_;
   const std::vector<Id>& rank_;
-  std::unordered_map<Id, Ranks> ends_;
+  std::unordered_map<Id, MaximumRanks> ends_;
 };
 
 }  // namespace
@@ -167,11 +120,11 @@ std::vector<Id> pair_forked_maxima(const DiscreteGradient& gradient, const Criti
   const CriticalSimplices& critical = gradient.critical();
   const auto& maxima = filtration.by_rank[3];
   ForkedEnds ends(gradient, places, filtration.rank[3]);
-  std::vector<Ranks> reduced(maxima.size());  // by the rank of the lowest maximum in each
+  std::vector<MaximumRanks> reduced(maxima.size());  // by the rank of the lowest maximum in each
   std::vector<Id> saddle_of(maxima.size(), no_id);
   const auto& saddles = filtration.by_rank[2];
   for (auto saddle = saddles.rbegin(); saddle != saddles.rend(); ++saddle) {
-    Ranks left;
+    MaximumRanks left;
     for (Id i = critical.star_begin[*saddle]; i < critical.star_begin[*saddle + 1]; ++i)
       add(left, ends.of(critical.star[i]));
     while (!left.empty() && !reduced[left[0]].empty()) {

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <string>
 
-#include <gale/algorithms/persistence/filtration.hpp>
+#include <gale/algorithms/persistence/pairs.hpp>
 #include <gale/base/error.hpp>
 #include <gale/base/sort.hpp>
 
@@ -39,8 +39,7 @@ void sort_places(const std::uint64_t* keys, std::size_t count, const VerticesOf&
   });
 }
 
-}  // namespace
-
+/// A tetrahedron's vertices from the highest to the lowest.
 std::array<Id, 4> from_highest(const DiscreteGradient& gradient, Id tetrahedron) {
   const auto& corners = gradient.mesh().encoded().tetrahedra;
   const std::uint64_t* const keys = gradient.order().keys();
@@ -49,6 +48,8 @@ std::array<Id, 4> from_highest(const DiscreteGradient& gradient, Id tetrahedron)
   std::sort(vertices.begin(), vertices.end(), [&](Id a, Id b) { return keys[a] > keys[b]; });
   return vertices;
 }
+
+}  // namespace
 
 Filtration filtration_of(const DiscreteGradient& gradient, int threads) {
   const ThreadLimit limit(threads);
@@ -85,7 +86,8 @@ CriticalValues critical_values(const DiscreteGradient& gradient, const std::func
 std::vector<PersistencePair> pairs_below(double threshold, int type, const std::vector<PersistencePair>& pairs,
                                          const CriticalValues& values) {
   const auto persistence = [&](const PersistencePair& pair) {
-    return persistence_of(values[type][pair.lower], values[type + 1][pair.upper]);
+    const double low = values[type][pair.lower], high = values[type + 1][pair.upper];
+    return low == high ? 0 : high - low;  // which may be infinite
   };
   std::vector<PersistencePair> below;
   std::copy_if(pairs.begin(), pairs.end(), std::back_inserter(below),

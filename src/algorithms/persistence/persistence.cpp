@@ -1,28 +1,60 @@
 #include <algorithm>
 #include <functional>
+#include <numeric>
+#include <utility>
 
-#include <gale/algorithms/order/whole_mesh.hpp>
-#include <gale/algorithms/persistence.hpp>
-#include <gale/algorithms/persistence/extremum_pairs.hpp>
-#include <gale/algorithms/persistence/filtration.hpp>
-#include <gale/algorithms/persistence/saddle_pairs.hpp>
+#include <gale/algorithms/gradient/gradient_store.hpp>
+#include <gale/algorithms/order/require_mesh.hpp>
+#include <gale/algorithms/persistence/pairs.hpp>
+#include <gale/base/stop.hpp>
 #include <gale/base/threads.hpp>
 
 namespace gale {
 
+namespace detail {
+
 namespace {
 
-using detail::CriticalPlaces;
-using detail::ExtremumEnds;
-using detail::Filtration;
-using detail::PathEnds;
+/// Pairs saddles with the extrema between which they are: goes through the saddles in the order of `saddles`, and joins
+/// the sets of its two ends. Of these two the one whose oldest extremum is younger ends there: that extremum is paired
+/// with the saddle. `age[extremum]` counts from 0, the oldest; the outside (no_id) is older than all. Returns for each
+/// extremum the saddle that it is paired with, no_id if it is with none. Sequential, nearly O(n).
+std::vector<Id> join_ends(const std::vector<Id>& saddles, const PathEnds& ends, const std::vector<Id>& age) {
+  // The outside has age 0 here, and the extrema follow. Sets are known by the ages of their oldest.
+  std::vector<Id> extremum(age.size() + 1, no_id), older(age.size() + 1), saddle_of(age.size(), no_id);
+  for (std::size_t i = 0; i < age.size(); ++i) extremum[age[i] + 1] = static_cast<Id>(i);
+  std::iota(older.begin(), older.end(), Id(0));
+  const auto oldest = [&](Id end) {
+    Id at = end == no_id ? 0 : age[end] + 1;
+    while (older[at] != at) at = older[at] = older[older[at]];
+    return at;
+  };
+  for (const Id saddle : saddles) {
+    stop_if_asked_at(saddle);
+    Id one = oldest(ends[saddle][0]), other = oldest(ends[saddle][1]);
+    if (one == other) continue;
+    if (one < other) std::swap(one, other);
+    saddle_of[extremum[one]] = saddle;
+    older[one] = other;
+  }
+  return saddle_of;
+}
 
-/// For each maximum the 2-saddle that it is paired with.
+/// For each maximum the 2-saddle that it is paired with, where paths don't fork.
 std::vector<Id> pair_maxima(const PathEnds& ends, const Filtration& filtration) {
   const std::vector<Id> falling(filtration.by_rank[2].rbegin(), filtration.by_rank[2].rend());
   std::vector<Id> age = filtration.rank[3];
   for (Id& rank : age) rank = static_cast<Id>(age.size()) - 1 - rank;
-  return detail::join_ends(falling, ends, age);
+  return join_ends(falling, ends, age);
+}
+
+/// Whether a rising path forks: at a triangle of three tetrahedra or more.
+bool has_forks(const DiscreteGradient& gradient) {
+  const auto& begin = gradient.critical().star_begin;
+  for (std::size_t i = 0; i + 1 < begin.size(); ++i) {
+    if (begin[i + 1] - begin[i] > 2) return true;
+  }
+  return !gradient.store().further_successors.empty();
 }
 
 /// What each simplex is paired with, by dimension and place.
@@ -66,15 +98,17 @@ class Partners {
   std::array<std::vector<char>, 4> is_paired_;
 };
 
+}  // namespace
+
 PersistencePairs pairs_of(const DiscreteGradient& gradient, const CriticalPlaces& places, const ExtremumEnds& ends,
                           bool forks, int threads) {
-  const Filtration filtration = detail::filtration_of(gradient, threads);
+  const Filtration filtration = filtration_of(gradient, threads);
   std::vector<Id> saddle_of_minimum, saddle_of_maximum;
   const std::function<void()> extrema[] = {
-      [&] { saddle_of_minimum = detail::join_ends(filtration.by_rank[1], ends.of_edges, filtration.rank[0]); },
+      [&] { saddle_of_minimum = join_ends(filtration.by_rank[1], ends.of_edges, filtration.rank[0]); },
       [&] {
-        saddle_of_maximum = forks ? detail::pair_forked_maxima(gradient, places, filtration)
-                                  : pair_maxima(ends.of_triangles, filtration);
+        saddle_of_maximum =
+            forks ? pair_forked_maxima(gradient, places, filtration) : pair_maxima(ends.of_triangles, filtration);
       }};
   in_turns(threads, 2, [&](int, std::int64_t i) { extrema[i](); });
   PersistencePairs found;
@@ -90,21 +124,16 @@ PersistencePairs pairs_of(const DiscreteGradient& gradient, const CriticalPlaces
   return found;
 }
 
-}  // namespace
+}  // namespace detail
 
 PersistencePairs find_persistence_pairs(const DiscreteGradient& gradient, const SweepOptions& options) {
   detail::require_whole_mesh("persistence pairs", gradient.mesh());
   const ThreadLimit limit(options.threads);
-  const CriticalPlaces places(gradient.critical());
-  const bool forks = detail::forks(gradient);
-  ExtremumEnds ends{ends_of_edges(gradient, places), {}};
+  const detail::CriticalPlaces places(gradient.critical());
+  const bool forks = detail::has_forks(gradient);
+  detail::ExtremumEnds ends{ends_of_edges(gradient, places), {}};
   if (!forks) ends.of_triangles = ends_of_triangles(gradient, places);
   return pairs_of(gradient, places, ends, forks, std::max(options.threads, 1));
-}
-
-PersistencePairs detail::pairs_along_successors(const DiscreteGradient& gradient, const CriticalPlaces& places,
-                                                const ExtremumEnds& ends, int threads) {
-  return pairs_of(gradient, places, ends, false, threads);
 }
 
 }  // namespace gale

@@ -5,9 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include <gale/algorithms/discrete_gradient.hpp>
 #include <gale/algorithms/gradient/gradient_store.hpp>
-#include <gale/algorithms/persistence/saddle_pairs.hpp>
+#include <gale/algorithms/persistence/pairs.hpp>
 #include <gale/base/stop.hpp>
 #include <gale/base/threads.hpp>
 

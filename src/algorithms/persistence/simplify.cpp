@@ -3,10 +3,8 @@
 #include <string>
 #include <tuple>
 
-#include <gale/algorithms/morse_smale/descending_surfaces.hpp>
-#include <gale/algorithms/morse_smale/manifolds.hpp>
-#include <gale/algorithms/morse_smale/separatrices1.hpp>
-#include <gale/algorithms/order/whole_mesh.hpp>
+#include <gale/algorithms/morse_smale/parts.hpp>
+#include <gale/algorithms/order/require_mesh.hpp>
 #include <gale/algorithms/persistence/cancellations.hpp>
 #include <gale/algorithms/simplify.hpp>
 #include <gale/base/error.hpp>
@@ -137,11 +135,9 @@ MorseSmaleComplex simplify(const MorseSmaleComplex& complex, const std::function
   }
   if (want_ascending_walls) {
     left.ascending_walls =
-        options.extrema_only
-            ? ascending_walls_left(complex.ascending_walls, std::vector<std::vector<Id>>(complex.critical.edges.size()),
-                                   cancelled.is_left[1])
-            : ascending_walls_left(complex.ascending_walls, cancelled.saddles.joined, cancelled.is_left[1]);
+        ascending_walls_left(complex.ascending_walls, cancelled.saddles.joined, cancelled.is_left[1]);
   }
+
   left.descending_manifold =
       manifold_left(complex.descending_manifold, cancelled.heir_of_minimum, cancelled.is_left[0]);
   left.ascending_manifold = manifold_left(complex.ascending_manifold, cancelled.heir_of_maximum, cancelled.is_left[3]);
@@ -149,7 +145,7 @@ MorseSmaleComplex simplify(const MorseSmaleComplex& complex, const std::function
     std::tie(left.morse_smale_manifold, left.morse_smale_manifolds) =
         detail::morse_smale_manifolds(gradient.mesh(), left.ascending_manifold, left.descending_manifold);
   }
-  left.kept_below = cancelled.kept_below;
+  left.kept_below = cancelled.saddles.kept;
   return left;
 }
 

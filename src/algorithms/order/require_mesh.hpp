@@ -16,4 +16,12 @@ inline void require_same_mesh(const std::string& what, const Mesh& mesh, const M
   throw Error(what + " is of a mesh of " + size(mesh) + ", the structure of another one of " + size(of_structure));
 }
 
+/// Throws gale::Error if a mesh is one rank's part of several, of which `what` can't be found.
+inline void require_whole_mesh(const std::string& what, const Mesh& mesh) {
+  const int ranks = mesh.exchange().ranks().size();
+  if (ranks == 1) return;
+  throw SharedError(what + " can't be found of one rank's part of a mesh: it lies on " + std::to_string(ranks) +
+                    " ranks");
+}
+
 }  // namespace gale::detail

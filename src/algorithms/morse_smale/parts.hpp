@@ -1,0 +1,78 @@
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include <gale/algorithms/morse_smale.hpp>
+#include <gale/algorithms/morse_smale/critical_places.hpp>
+#include <gale/base/mirrored.hpp>
+#include <gale/runtime/structure.hpp>
+
+// The parts of a Morse-Smale complex, each found by itself; MorseSmaleComplex says in which order they come.
+
+namespace gale::detail {
+
+class TurnedEdges;
+
+/// Where the 1-separatrices of a gradient's critical edges, or triangles, start, each with its source's place among
+/// these.
+struct PathStarts {
+  std::vector<Id> simplices, sources;
+};
+PathStarts descending_starts(const Mesh& mesh, const CriticalSimplices& critical);
+PathStarts ascending_starts(const CriticalSimplices& critical);
+
+/// Finds the paths from each critical edge down to minima along these successors, where they are.
+Separatrices<Id> descending_separatrices(const Mesh& mesh, const Mirrored<Id>& successors,
+                                         const CriticalSimplices& critical, const CriticalPlaces& places,
+                                         Paths told = Paths::whole);
+
+/// Finds the paths from each critical triangle up to maxima along these successors, where they are.
+Separatrices<Id> ascending_separatrices(const Mirrored<Id>& successors, const CriticalSimplices& critical,
+                                        const CriticalPlaces& places, Paths told = Paths::whole);
+
+/// Finds the separatrices that descend from this rank's critical edges, and those that ascend from its critical
+/// triangles, with the cells that other ranks hold: these are appended to `beyond`.
+///
+/// The ranks that a path visits are found by halves: each knows where the path is 2^k changes of ranks later. Then all
+/// of them send their pieces at once: two rounds of messages more than the ends of all paths take. Collective.
+Separatrices<Id> descending_separatrices_on_ranks(const DiscreteGradient& gradient, SimplicesBeyond& beyond);
+Separatrices<Id> ascending_separatrices_on_ranks(const DiscreteGradient& gradient, SimplicesBeyond& beyond);
+
+/// The descending walls of critical triangles, and the saddle connectors in them.
+struct DescendingSurfaces {
+  Separatrices<TriangleVertices> walls, connectors;
+};
+
+/// Finds those of `critical` on `threads` threads. With `turned` in the gradient that these edges make of it, and no
+/// connector of which the critical edge is higher than the triangle. `told` says how connectors are.
+DescendingSurfaces descending_surfaces(const DiscreteGradient& gradient, const CriticalSimplices& critical,
+                                       const CriticalPlaces& places, bool want_walls, bool want_connectors, int threads,
+                                       const TurnedEdges* turned = nullptr, Paths told = Paths::whole);
+
+/// Finds the saddle connectors of a gradient that kernels found, by kernels where it is: those that
+/// `descending_surfaces` finds, in its order. Walls are made together that have `most_together` triangles at most, a
+/// single one with any number: 2^26 take 4 GiB, beside the connectors. Throws OutOfMemory if one doesn't fit there.
+Separatrices<TriangleVertices> device_connectors(const DiscreteGradient& gradient, const CriticalSimplices& critical,
+                                                 const CriticalPlaces& places, Offset most_together = Offset(1) << 26);
+
+/// Finds the ascending walls of all critical edges. A wall goes on from an edge, through each of the edge's triangles,
+/// to the edge that the triangle is paired with. Reads VT of `structure`.
+AscendingWalls ascending_walls(Structure& structure, const DiscreteGradient& gradient, int threads);
+
+// Manifolds are where they were found: in the workers' memory, if there is room. Of a mesh on several ranks they are
+// on the host; finding them is collective. They are by input id, ghosts' too, and name extrema by their places among
+// those of all ranks.
+
+Mirrored<Id> descending_manifolds(const DiscreteGradient& gradient);
+Mirrored<Id> ascending_manifolds(const DiscreteGradient& gradient);
+
+/// Finds a number for each pair (ascending, descending) that occurs, in lexicographic order, dense from 0; no_id where
+/// the ascending one is missing. And how many pairs there are, of all ranks that the mesh lies on.
+std::pair<Mirrored<Id>, Id> morse_smale_manifolds(const Mesh& mesh, const Mirrored<Id>& ascending,
+                                                  const Mirrored<Id>& descending);
+
+/// The manifolds with names[p] for each place p; no_id stays.
+Mirrored<Id> renamed(const Mirrored<Id>& manifolds, const std::vector<Id>& names);
+
+}  // namespace gale::detail
