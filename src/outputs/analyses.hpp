@@ -49,7 +49,7 @@ struct AnalysisResult {
   std::string only_with;                    ///< the flag without which it isn't there; empty where it always is
 };
 
-/// What users say of an analysis' options.
+/// What users say of an analysis's options.
 struct Settings {
   std::map<std::string, bool> flags;              ///< by the option's name; defaults of those that aren't here
   std::map<std::string, Persistence> thresholds;  ///< by the option's name: the given ones

@@ -1,26 +1,12 @@
 #include <gale/io/dataset.hpp>
 #include <gale/outputs/critical_points.hpp>
-#include <gale/outputs/ids.hpp>
+#include <gale/outputs/values.hpp>
 
 namespace gale::outputs {
 
-namespace {
-
-/// The rows of `points` that `ids` names.
-template <class Coordinate>
-io::Dataset::Points<Coordinate> rows_of(const io::Dataset::Points<Coordinate>& points, const std::vector<Id>& ids) {
-  const io::Dataset::Points<Coordinate> rows("GALE::critical_points", ids.size());
-  for (std::size_t i = 0; i < ids.size(); ++i) {
-    for (int axis = 0; axis < 3; ++axis) rows(i, axis) = points(ids[i], axis);
-  }
-  return rows;
-}
-
-}  // namespace
-
 io::PointSet to_point_set(const io::Dataset& dataset, const CriticalPoints& points, const Exchange& exchange) {
   io::PointSet set;
-  std::visit([&](const auto& all) { set.points = rows_of(all, points.vertices); }, dataset.points);
+  std::visit([&](const auto& all) { set.points = detail::points_at(all, points.vertices); }, dataset.points);
   for (const auto& array : dataset.arrays) set.arrays.push_back(io::gather(array, points.vertices));
   std::vector<std::int8_t> types, on_surface(points.on_surface.begin(), points.on_surface.end());
   for (const CriticalType type : points.types) types.push_back(static_cast<std::int8_t>(type));

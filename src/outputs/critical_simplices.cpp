@@ -1,9 +1,8 @@
 #include <gale/base/stop.hpp>
 #include <gale/io/dataset.hpp>
 #include <gale/mesh/positions.hpp>
-#include <gale/outputs/corners.hpp>
 #include <gale/outputs/critical_simplices.hpp>
-#include <gale/outputs/ids.hpp>
+#include <gale/outputs/values.hpp>
 
 namespace gale::outputs {
 

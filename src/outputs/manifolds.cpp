@@ -1,8 +1,8 @@
 #include <algorithm>
 
 #include <gale/mesh/exchange/places.hpp>
-#include <gale/outputs/ids.hpp>
 #include <gale/outputs/manifolds.hpp>
+#include <gale/outputs/values.hpp>
 
 namespace gale::outputs {
 

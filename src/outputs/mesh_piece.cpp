@@ -2,6 +2,7 @@
 
 #include <gale/io/dataset.hpp>
 #include <gale/outputs/mesh_piece.hpp>
+#include <gale/outputs/values.hpp>
 
 namespace gale::outputs {
 
@@ -60,15 +61,7 @@ io::MeshPiece piece_of(const VertexOrder& order, const io::Dataset& dataset, con
   const std::vector<Id> tetrahedra = tetrahedra_of_piece(order);
   const VerticesOfPiece vertices = vertices_of_piece(mesh, dataset, tetrahedra);
   io::MeshPiece piece;
-  std::visit(
-      [&](const auto& all) {
-        const std::decay_t<decltype(all)> points("GALE::piece_points", vertices.all.size());
-        for (std::size_t i = 0; i < vertices.all.size(); ++i) {
-          for (int axis = 0; axis < 3; ++axis) points(i, axis) = all(vertices.all[i], axis);
-        }
-        piece.mesh.points = points;
-      },
-      dataset.points);
+  std::visit([&](const auto& all) { piece.mesh.points = detail::points_at(all, vertices.all); }, dataset.points);
   piece.mesh.tetrahedra = decltype(piece.mesh.tetrahedra)("GALE::piece_tetrahedra", tetrahedra.size());
   for (std::size_t i = 0; i < tetrahedra.size(); ++i) {
     for (int corner = 0; corner < 4; ++corner)

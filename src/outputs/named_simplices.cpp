@@ -1,6 +1,6 @@
 #include <gale/base/parallel.hpp>
-#include <gale/outputs/corners.hpp>
 #include <gale/outputs/named_simplices.hpp>
+#include <gale/outputs/values.hpp>
 
 namespace gale::outputs {
 

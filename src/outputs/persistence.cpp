@@ -5,9 +5,9 @@
 #include <type_traits>
 
 #include <gale/base/error.hpp>
-#include <gale/outputs/corners.hpp>
-#include <gale/outputs/heights.hpp>
+#include <gale/outputs/field.hpp>
 #include <gale/outputs/persistence.hpp>
+#include <gale/outputs/values.hpp>
 
 namespace gale::outputs {
 
@@ -39,46 +39,23 @@ double threshold_of(const Persistence& persistence, const io::PointArray& field)
 
 namespace {
 
-/// The highest vertices of critical simplices, by their input ids.
-class Highest {
- public:
-  explicit Highest(const DiscreteGradient& gradient)
-      : gradient_(gradient),
-        keys_(gradient.order().keys()),
-        input_(gradient.mesh().vertex_input().data()),
-        vertices_(gradient.mesh().vertices()) {}
+/// The input id of the highest vertex of a critical simplex.
+Id highest_of(const DiscreteGradient& gradient, int dimension, Id place) {
+  const CriticalSimplices& critical = gradient.critical();
+  const std::uint64_t* const keys = gradient.order().keys();
+  const auto& input = gradient.mesh().vertex_input();
+  if (dimension == 0) return input(critical.vertices[place]);
+  if (dimension == 1) return input(critical.edges[place][0]);
+  if (dimension == 2) return input(critical.triangles[place][0]);
+  const auto corners = detail::corners_of(gradient.mesh(), critical.tetrahedra[place]);
+  return input(*std::max_element(corners.begin(), corners.end(), [&](Id a, Id b) { return keys[a] < keys[b]; }));
+}
 
-  Id of(int dimension, Id place) const {
-    const CriticalSimplices& critical = gradient_.critical();
-    switch (dimension) {
-      case 0:
-        return input_[critical.vertices[place]];
-      case 1:
-        return input_[critical.edges[place][0]];
-      case 2:
-        return input_[critical.triangles[place][0]];
-    }
-    const auto corners = detail::corners_of(gradient_.mesh(), critical.tetrahedra[place]);
-    return input_[highest(corners.begin(), corners.end())];
-  }
-
-  Id of_all() const {
-    Id highest = 0;
-    for (Id v = 1; v < vertices_; ++v) highest = keys_[v] > keys_[highest] ? v : highest;
-    return input_[highest];
-  }
-
- private:
-  template <class Iterator>
-  Id highest(Iterator begin, Iterator end) const {
-    return *std::max_element(begin, end, [this](Id a, Id b) { return keys_[a] < keys_[b]; });
-  }
-
-  const DiscreteGradient& gradient_;
-  const std::uint64_t* keys_;
-  const Id* input_;
-  Id vertices_;
-};
+/// The input id of the highest vertex of all.
+Id highest_of_all(const DiscreteGradient& gradient) {
+  const std::uint64_t* const keys = gradient.order().keys();
+  return gradient.mesh().vertex_input()(std::max_element(keys, keys + gradient.mesh().vertices()) - keys);
+}
 
 bool is_float(const io::PointArray& array) { return std::holds_alternative<std::vector<float>>(array.values); }
 
@@ -122,20 +99,20 @@ void add_diagonal(const std::vector<DiagramPoint>& diagram, io::Surface& lines, 
 
 std::vector<DiagramPoint> persistence_diagram(const DiscreteGradient& gradient, const PersistencePairs& pairs,
                                               const io::PointArray& field, double least) {
-  const Highest highest(gradient);
+  const auto highest = [&](int dimension, Id place) { return highest_of(gradient, dimension, place); };
   const auto value = [&](Id vertex) { return value_at(field, vertex); };
   std::vector<DiagramPoint> diagram;
-  const Id last = highest.of_all();
+  const Id last = highest_of_all(gradient);
   for (int type = 0; type < 4; ++type) {
     const auto type8 = static_cast<std::int8_t>(type);
     for (std::size_t i = 0; type < 3 && i < pairs.pairs[type].size(); ++i) {
-      const Id begin = highest.of(type, pairs.pairs[type][i].lower);
-      const Id end = highest.of(type + 1, pairs.pairs[type][i].upper);
+      const Id begin = highest(type, pairs.pairs[type][i].lower);
+      const Id end = highest(type + 1, pairs.pairs[type][i].upper);
       const DiagramPoint point{type8, true, begin, end, value(begin), value(end), static_cast<std::int8_t>(type + 1)};
       if (point.persistence() >= least) diagram.push_back(point);
     }
     for (const Id place : pairs.essential[type]) {
-      const Id begin = highest.of(type, place);
+      const Id begin = highest(type, place);
       diagram.push_back({type8, false, begin, last, value(begin), value(last), 3});
     }
   }

@@ -1,18 +1,19 @@
 #include <algorithm>
 
+#include <gale/base/error.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/mesh/exchange/messages.hpp>
 #include <gale/mesh/positions.hpp>
-#include <gale/outputs/corners.hpp>
-#include <gale/outputs/line_arrays.hpp>
 #include <gale/outputs/separatrices1.hpp>
+#include <gale/outputs/separatrix_arrays.hpp>
 #include <gale/outputs/separatrix_ends.hpp>
+#include <gale/outputs/values.hpp>
 
 namespace gale::outputs {
 
 namespace {
 
-using detail::End, detail::Ends, detail::PathEnds;
+using detail::End, detail::PathEnds;
 using gale::detail::Point;
 using Triangle = TriangleVertices;
 
@@ -92,13 +93,23 @@ class Positions {
   Array<Point, HostMemory> beyond_;
 };
 
-/// Collects the separatrices of one kind after the other.
+/// What 1-separatrices are in a file: points, two for each cell of a path, and lines between those that follow one
+/// another on it. Collects those of one kind after the other. `Number` is Id, or GlobalId on several ranks.
 template <class Coordinate, class Number>
 class Lines {
  public:
-  /// Lines for that many cells on so many paths, of all kinds together.
+  /// Lines for that many cells on so many paths, of all kinds together. Throws gale::Error if ids can't number their
+  /// points.
   Lines(const Positions<Coordinate>& positions, Offset cells, Offset paths)
-      : positions_(positions), arrays_(cells, paths) {}
+      : positions_(positions), separatrices_(paths) {
+    require_ids("points of 1-separatrices", 2 * cells);
+    const Offset lines = 2 * cells - paths;
+    points_ = allocate<io::Dataset::Points<Coordinate>>("GALE::separatrices", 2 * cells);
+    for (auto* const array : {&mask_, &dimensions_}) array->resize(2 * cells);
+    ids_.resize(2 * cells);
+    lines_.begin.resize(lines + 1);
+    lines_.points.resize(2 * lines);
+  }
 
   /// Two points for each cell of the paths: the simplex that precedes it, and itself.
   template <class Cell, class Simplices>
@@ -109,35 +120,59 @@ class Lines {
         set_point(2 * k, along.between[k], along.between_ids[k], k == begin);
         set_point(2 * k + 1, along.cell_of(paths.cells[k]), along.id_of(k), k + 1 == end && paths.is_whole(i));
       }
-      set_lines(type, i, 2 * begin, 2 * end, first_number_ + ends.number(i), ends.source(i), ends.destination(i));
+      set_lines(first_path_ + i, first_point_ + 2 * begin, first_point_ + 2 * end);
+      const End &source = ends.source(i), &destination = ends.destination(i);
+      separatrices_[first_path_ + i] = {first_point_ + 2 * end - first_path_ - i - 1,
+                                        static_cast<Number>(source.cell),
+                                        static_cast<Number>(destination.cell),
+                                        static_cast<Number>(first_number_ + ends.number(i)),
+                                        type,
+                                        std::max(source.highest, destination.highest).value,
+                                        std::min(source.lowest, destination.lowest).value,
+                                        source.on_surface + destination.on_surface};
     });
     first_point_ += 2 * paths.cells.size();
     first_path_ += paths.count();
     first_number_ += ends.count();
   }
 
-  io::Surface take(const io::PointArray& field) { return arrays_.take(field); }
+  io::Surface take(const io::PointArray& field) {
+    io::Surface surface;
+    surface.points = points_;
+    surface.point_arrays = {{"ttkMaskScalarField", 1, std::move(mask_)},
+                            {"CellDimension", 1, std::move(dimensions_)},
+                            {"CellId", 1, std::move(ids_)}};
+    surface.lines = std::move(lines_);
+    surface.cell_arrays = detail::separatrix_arrays(separatrices_, field, true);
+    return surface;
+  }
 
  private:
   template <std::size_t N>
   void set_point(Offset place, const std::array<Id, N>& simplex, GlobalId id, bool is_end) {
-    arrays_.set_point(first_point_ + place, positions_(simplex), static_cast<Number>(id), N - 1, is_end);
+    const Offset point = first_point_ + place;
+    gale::detail::store(positions_(simplex), points_, point);
+    mask_[point] = is_end ? 0 : 1;
+    dimensions_[point] = N - 1;
+    ids_[point] = static_cast<Number>(id);
   }
 
-  /// Lines between consecutive points of [begin, end), those of the i-th path of the kind being added.
-  void set_lines(Type type, Offset i, Offset begin, Offset end, GlobalId number, const End& source,
-                 const End& destination) {
-    const Offset point = first_point_ + begin;
-    const double maximum = std::max(source.highest, destination.highest).value;
-    const double minimum = std::min(source.lowest, destination.lowest).value;
-    arrays_.set_lines(point - first_path_ - i, end - begin - 1, point,  // a path has a point more than lines
-                      static_cast<Number>(destination.cell),
-                      {static_cast<Number>(source.cell), static_cast<Number>(number), type, maximum, minimum,
-                       source.on_surface + destination.on_surface});
+  /// Lines between consecutive points of [begin, end), those of a path. Each path has a point more than lines.
+  void set_lines(Offset path, Offset begin, Offset end) {
+    for (Offset point = begin; point + 1 < end; ++point) {
+      const Offset line = point - path;
+      lines_.begin[line + 1] = 2 * (line + 1);
+      lines_.points[2 * line] = static_cast<Id>(point);
+      lines_.points[2 * line + 1] = static_cast<Id>(point + 1);
+    }
   }
 
   const Positions<Coordinate>& positions_;
-  detail::LineArrays<Coordinate, Number> arrays_;
+  io::Dataset::Points<Coordinate> points_;
+  std::vector<std::int8_t> mask_, dimensions_;
+  std::vector<Number> ids_;
+  io::Surface::Cells lines_;
+  std::vector<detail::SeparatrixValues<Number>> separatrices_;
   Offset first_point_ = 0, first_path_ = 0;
   GlobalId first_number_ = 0;
 };
@@ -165,8 +200,8 @@ io::Surface separatrices1(const io::Dataset& dataset, const io::PointArray& fiel
   const Ranks& ranks = complex.gradient.mesh().exchange().ranks();
   std::vector<End> ends[4];
   gale::detail::together(ranks, [&] {
-    const Ends ends_of(dataset, field, complex);
-    for (int dimension = 0; dimension < 4; ++dimension) ends[dimension] = ends_of(critical[dimension]);
+    for (int dimension = 0; dimension < 4; ++dimension)
+      ends[dimension] = detail::ends_of(critical[dimension], dataset, field, complex.gradient.order());
   });
   PathEnds<Id> falling_ends(falling, ends[1], ends[0]), rising_ends(rising, ends[2], ends[3]);
   const PathEnds<Triangle> connector_ends(connectors, ends[1], ends[2]);

@@ -1,9 +1,10 @@
 #include <gale/base/error.hpp>
 #include <gale/base/stop.hpp>
 #include <gale/mesh/positions.hpp>
-#include <gale/outputs/corners.hpp>
+#include <gale/outputs/field.hpp>
 #include <gale/outputs/separatrices2.hpp>
 #include <gale/outputs/separatrix_arrays.hpp>
+#include <gale/outputs/values.hpp>
 
 namespace gale::outputs {
 
@@ -60,7 +61,8 @@ class Walls {
         vertex_input_(mesh_.vertex_input().data()),
         tetrahedron_input_(mesh_.tetrahedron_input().data()),
         critical_(critical),
-        heights_(complex.gradient, field),
+        vertex_internal_(mesh_.vertex_internal().data()),
+        keys_(complex.gradient.order().keys()),
         vertices_(mesh_.vertices()),
         tetrahedra_(mesh_.tetrahedra()),
         field_(field) {}
@@ -70,13 +72,13 @@ class Walls {
     add_descending();
     add_ascending();
     require_ids("polygons of 2-separatrices", surface_.polygons.begin.size());
-    surface_.cell_arrays = arrays_.take(field_);
+    surface_.cell_arrays = detail::separatrix_arrays(walls_, field_, false);
     return std::move(surface_);
   }
 
  private:
   auto is_below() const {
-    return [this](Id a, Id b) { return heights_.is_below(a, b); };
+    return [this](Id a, Id b) { return keys_[vertex_internal_[a]] < keys_[vertex_internal_[b]]; };
   }
 
   /// Whether this cell of the ascending walls, an edge, has a polygon.
@@ -140,8 +142,8 @@ class Walls {
       const auto& saddles = met[walls.sources[i]];
       if (!saddles.empty()) low.clear();
       for (const Id saddle : saddles) low.push_back(critical_[1][saddle].lowest());
-      add_arrays(descending_wall, source, source.highest(), *std::min_element(low.begin(), low.end(), is_below()),
-                 critical_[1], saddles);
+      end_wall(descending_wall, source, source.highest(), *std::min_element(low.begin(), low.end(), is_below()),
+               critical_[1], saddles);
     }
   }
 
@@ -163,24 +165,22 @@ class Walls {
       const auto& saddles = met[walls.sources[i]];
       if (!saddles.empty()) high.clear();
       for (const Id saddle : saddles) high.push_back(critical_[2][saddle].highest());
-      add_arrays(ascending_wall, source, *std::max_element(high.begin(), high.end(), is_below()), source.lowest(),
-                 critical_[2], saddles);
+      end_wall(ascending_wall, source, *std::max_element(high.begin(), high.end(), is_below()), source.lowest(),
+               critical_[2], saddles);
     }
   }
 
   void end_polygon() { surface_.polygons.begin.push_back(static_cast<Offset>(surface_.polygons.points.size())); }
 
-  /// Gives the polygons that have no arrays yet, those of the wall added last, theirs. `met` are the places in
-  /// `critical` of the simplices that bound the wall.
-  void add_arrays(WallType type, const CriticalSimplex& source, Id highest, Id lowest,
-                  const std::vector<CriticalSimplex>& critical, const std::vector<Id>& met) {
+  /// Ends a wall, whose polygons are those that were added last. `met` are the places in `critical` of the simplices
+  /// that bound it.
+  void end_wall(WallType type, const CriticalSimplex& source, Id highest, Id lowest,
+                const std::vector<CriticalSimplex>& critical, const std::vector<Id>& met) {
     Id on_surface = source.on_surface;
     for (const Id saddle : met) on_surface += critical[saddle].on_surface;
-    const std::size_t begin = arrays_.cells(), end = surface_.polygons.begin.size() - 1;
-    arrays_.resize(end);
-    arrays_.set(
-        begin, end,
-        {static_cast<Id>(source.cell), next_id_++, type, heights_.value(highest), heights_.value(lowest), on_surface});
+    walls_.push_back({static_cast<Offset>(surface_.polygons.begin.size()) - 1, static_cast<Id>(source.cell), no_id,
+                      static_cast<Id>(walls_.size()), type, value_at(field_, highest), value_at(field_, lowest),
+                      on_surface});
   }
 
   const io::Dataset& dataset_;
@@ -190,12 +190,12 @@ class Walls {
   const Id* vertex_input_;
   const Id* tetrahedron_input_;
   const KnownSimplices& critical_;
-  const detail::Heights heights_;
+  const Id* vertex_internal_;
+  const std::uint64_t* keys_;
   Numbering vertices_, tetrahedra_;
   io::Surface surface_;
-  Id next_id_ = 0;
   const io::PointArray& field_;
-  detail::SeparatrixArrays<> arrays_;
+  std::vector<detail::SeparatrixValues<Id>> walls_;
 };
 
 }  // namespace

@@ -32,36 +32,22 @@ struct End {
   std::int8_t on_surface = 0;
 };
 
-/// Tells what separatrices say of this rank's critical simplices.
-class Ends {
- public:
-  Ends(const io::Dataset& dataset, const io::PointArray& field, const MorseSmaleComplex& complex)
-      : mesh_(complex.gradient.mesh()),
-        field_(field),
-        order_(order_array(dataset, field)),
-        internal_(mesh_.vertex_internal().data()),
-        keys_(complex.gradient.order().keys()) {}
-
-  std::vector<End> operator()(const std::vector<CriticalSimplex>& simplices) const {
-    std::vector<End> ends;
-    for (const CriticalSimplex& simplex : simplices)
-      ends.push_back({simplex.cell, height(simplex.highest()), height(simplex.lowest()), simplex.on_surface});
-    return ends;
-  }
-
- private:
-  /// Keys say nothing to other ranks: where there are several, values do.
-  Height height(Id vertex) const {
+/// What separatrices say of this rank's critical simplices.
+inline std::vector<End> ends_of(const std::vector<CriticalSimplex>& simplices, const io::Dataset& dataset,
+                                const io::PointArray& field, const VertexOrder& order) {
+  const Mesh& mesh = order.mesh();
+  const io::PointArray& ordered_by = order_array(dataset, field);
+  const auto height = [&](Id vertex) -> Height {
+    // Keys say nothing to other ranks: where there are several, values do.
     const auto bits = [&](const auto& values) { return std::uint64_t(gale::detail::ordered_bits(values[vertex])); };
-    return {mesh_.is_part() ? std::visit(bits, order_.values) : keys_[internal_[vertex]], mesh_.vertex_id(vertex),
-            value_at(field_, vertex)};
-  }
-
-  const Mesh& mesh_;
-  const io::PointArray &field_, &order_;
-  const Id* internal_;
-  const std::uint64_t* keys_;
-};
+    return {mesh.is_part() ? std::visit(bits, ordered_by.values) : order.keys()[mesh.vertex_internal()(vertex)],
+            mesh.vertex_id(vertex), value_at(field, vertex)};
+  };
+  std::vector<End> ends;
+  for (const CriticalSimplex& simplex : simplices)
+    ends.push_back({simplex.cell, height(simplex.highest()), height(simplex.lowest()), simplex.on_surface});
+  return ends;
+}
 
 /// The paths of one kind: what is known of their ends, and their numbers.
 template <class Cell>
