@@ -1,3 +1,8 @@
+#include <algorithm>
+#include <string>
+
+#include <gale/base/error.hpp>
+#include <gale/relations/preconditioning.hpp>
 #include <gale/relations/relation.hpp>
 
 namespace gale {
@@ -25,6 +30,37 @@ std::string name_of(RelationSet relations) {
   for (const Relation relation : members_of(relations)) add(name_of(relation));
   if (relations.has_links()) add("link");
   return names;
+}
+
+SimplexNeeds needs_of(RelationSet relations) {
+  SimplexNeeds needs;
+  needs.triangle_edge = false;
+  for (const Relation relation : members_of(relations)) {
+    const SimplexNeeds one = traits_of(relation).needs;
+    needs.upto = std::max(needs.upto, one.upto);
+    needs.lower_edges |= one.lower_edges;
+    needs.tetrahedra |= one.tetrahedra;
+    needs.triangle_edge |= row_dimension(relation) == 2;  // whose rows begin with the triangle's vertices
+  }
+  return needs;
+}
+
+void require_preconditioned(RelationSet preconditioned, RelationSet wanted) {
+  if (preconditioned.contains(wanted)) return;
+  throw Error("the structure was preconditioned for " +
+              (preconditioned.empty() ? "no relation" : name_of(preconditioned)) + ", not for " +
+              name_of(wanted - preconditioned) + ": name every relation that you read when you construct it");
+}
+
+void require_simplex(const Mesh& mesh, int dimension, Id simplex) {
+  require_simplex(mesh.interval_begin(dimension)(mesh.segments()), dimension, simplex);
+}
+
+void require_simplex(Id count, int dimension, Id simplex) {
+  static const char* const names[] = {"vertex", "edge", "triangle", "tetrahedron"};
+  if (simplex >= 0 && simplex < count) return;
+  throw Error("there is no " + std::string(names[dimension]) + ' ' + std::to_string(simplex) + ": the mesh has 0 to " +
+              std::to_string(count - 1));
 }
 
 }  // namespace gale

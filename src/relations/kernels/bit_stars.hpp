@@ -23,6 +23,10 @@ class BitStars {
   using Request = StarRequest<Memory>;
   using Segment = StarSegment<Memory>;
 
+  KOKKOS_FORCEINLINE_FUNCTION static std::size_t scratch_bytes(const StarSizes& sizes, int /*warps*/) {
+    return BitStarScratch(nullptr, sizes).bytes;
+  }
+
   /// Numbers must have room in 16 bits, those of tetrahedra with 2 bits for a corner.
   KOKKOS_FORCEINLINE_FUNCTION static bool is_for(const StarSizes& sizes) {
     return sizes.rows + Offset(sizes.outside) <= 0x10000 && sizes.tetrahedra <= 0x4000 && sizes.star <= 0x10000 &&

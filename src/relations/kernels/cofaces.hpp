@@ -21,7 +21,8 @@ KOKKOS_INLINE_FUNCTION void for_each_edge_at(const Simplices<Memory>& s, Id vert
 template <class Memory, class Wanted, class Visit>
 KOKKOS_INLINE_FUNCTION void for_each_tetrahedron_from(const Simplices<Memory>& s, Id first, const Wanted& wanted,
                                                       const Visit& visit) {
-  for (Id t = s.tetrahedron_begin(first); t < s.tetrahedron_begin(first + 1); ++t) {
+  const Id end = s.tetrahedron_begin(first + 1);
+  for (Id t = s.tetrahedron_begin(first); t < end; ++t) {
     if (wanted(s.tetrahedron(t))) visit(t);
   }
 }
@@ -75,20 +76,14 @@ KOKKOS_INLINE_FUNCTION void for_each_adjacent_edge(const Simplices<Memory>& s, I
 
 /// Finds cofaces by looking through lists: best where all are short, as in almost every mesh.
 struct LookThrough {
-  /// Calls visit(triangle) for each triangle of a vertex, ascending.
+  /// Calls visit(triangle) for each triangle (low, v, high) with v between these, ascending; those over (low, high)
+  /// begin at `end`.
   template <class Memory, class Visit>
-  KOKKOS_INLINE_FUNCTION static void for_each_triangle_of_vertex(const Simplices<Memory>& s, Id vertex,
-                                                                 const Visit& visit) {
-    for (Id i = s.lower_begin(vertex); i < s.lower_begin(vertex + 1); ++i) {
-      const Id edge = s.lower_edges(i);  // (low, vertex)
-      const Id begin = s.triangle_begin(edge), end = s.triangle_begin(edge + 1);
-      for (Id f = s.triangle_begin(s.edge_begin(s.edge_low(edge))); f < begin; ++f) {
-        if (s.triangle_apex(f) == vertex) visit(f);
-      }
-      for (Id f = begin; f < end; ++f) visit(f);
+  KOKKOS_INLINE_FUNCTION static void for_each_triangle_under(const Simplices<Memory>& s, Id low, Id high, Id end,
+                                                             const Visit& visit) {
+    for (Id f = s.triangle_begin(s.edge_begin(low)); f < end; ++f) {
+      if (s.triangle_apex(f) == high) visit(f);
     }
-    const Id end = s.triangle_begin(s.edge_begin(vertex + 1));
-    for (Id f = s.triangle_begin(s.edge_begin(vertex)); f < end; ++f) visit(f);
   }
 
   /// Calls visit(triangle) for each triangle of an edge, ascending.
@@ -149,6 +144,19 @@ struct LookThrough {
     });
   }
 };
+
+/// Calls visit(triangle) for each triangle of a vertex, ascending.
+template <class Search, class Memory, class Visit>
+KOKKOS_INLINE_FUNCTION void for_each_triangle_of_vertex(const Simplices<Memory>& s, Id vertex, const Visit& visit) {
+  for (Id i = s.lower_begin(vertex); i < s.lower_begin(vertex + 1); ++i) {
+    const Id edge = s.lower_edges(i);  // (low, vertex)
+    const Id begin = s.triangle_begin(edge), end = s.triangle_begin(edge + 1);
+    Search::for_each_triangle_under(s, s.edge_low(edge), vertex, begin, visit);
+    for (Id f = begin; f < end; ++f) visit(f);
+  }
+  const Id end = s.triangle_begin(s.edge_begin(vertex + 1));
+  for (Id f = s.triangle_begin(s.edge_begin(vertex)); f < end; ++f) visit(f);
+}
 
 /// Calls visit(triangle) for each triangle that shares an edge with `triangle`: edge by edge, each time ascending. Two
 /// distinct triangles share no more than one.

@@ -121,11 +121,8 @@ KOKKOS_INLINE_FUNCTION void for_each_tetrahedron_from(const Simplices<Memory>& s
                                                       const Visit& visit) {
   const Id begin = s.tetrahedron_begin(a), end = s.tetrahedron_begin(a + 1);
   if (end - begin <= few_entries) {
-    for (Id t = begin; t < end; ++t) {
-      const Quad q = s.tetrahedron(t);
-      if ((q.b == b || q.c == b) && (q.c == c || q.d == c)) visit(t);
-    }
-    return;
+    const auto has = [b, c](const Quad& q) { return (q.b == b || q.c == b) && (q.c == c || q.d == c); };
+    return for_each_tetrahedron_from(s, a, has, visit);
   }
   const Id known[] = {a, b, c};
   for_each_candidate(s, known, a, b, [&](Id v) { visit_tetrahedron(s, a, v, b, c, visit); });
@@ -137,11 +134,8 @@ template <class Memory, class Visit>
 KOKKOS_INLINE_FUNCTION void for_each_tetrahedron_from(const Simplices<Memory>& s, Id a, Id b, const Visit& visit) {
   const Id begin = s.tetrahedron_begin(a), end = s.tetrahedron_begin(a + 1);
   if (end - begin <= few_entries) {
-    for (Id t = begin; t < end; ++t) {
-      const Quad q = s.tetrahedron(t);
-      if (q.b == b || q.c == b || q.d == b) visit(t);
-    }
-    return;
+    return for_each_tetrahedron_from(
+        s, a, [b](const Quad& q) { return q.b == b || q.c == b || q.d == b; }, visit);
   }
   const Id known[] = {a, b};
   for_each_candidate(s, known, a, b, [&](Id v) { for_each_tetrahedron_over_edge(s, a, v, b, visit); });
@@ -150,25 +144,15 @@ KOKKOS_INLINE_FUNCTION void for_each_tetrahedron_from(const Simplices<Memory>& s
 
 /// Finds cofaces by bisection, in what time the shortest of the lists takes.
 struct Bisect {
-  /// Calls visit(triangle) for each triangle of a vertex, ascending.
+  /// Calls visit(triangle) for each triangle (low, v, high) with v between these, ascending; those over (low, high)
+  /// begin at `end`.
   template <class Memory, class Visit>
-  KOKKOS_INLINE_FUNCTION static void for_each_triangle_of_vertex(const Simplices<Memory>& s, Id vertex,
-                                                                 const Visit& visit) {
-    for (Id i = s.lower_begin(vertex); i < s.lower_begin(vertex + 1); ++i) {
-      const Id edge = s.lower_edges(i), low = s.edge_low(edge);
-      const Id first = s.triangle_begin(s.edge_begin(low)), begin = s.triangle_begin(edge);
-      if (begin - first <= few_entries) {
-        for (Id f = first; f < begin; ++f) {
-          if (s.triangle_apex(f) == vertex) visit(f);
-        }
-      } else {
-        const Id known[] = {low, vertex};
-        for_each_candidate(s, known, low, vertex, [&](Id v) { visit_triangle(s, low, v, vertex, visit); });
-      }
-      for (Id f = begin; f < s.triangle_begin(edge + 1); ++f) visit(f);
-    }
-    const Id end = s.triangle_begin(s.edge_begin(vertex + 1));
-    for (Id f = s.triangle_begin(s.edge_begin(vertex)); f < end; ++f) visit(f);
+  KOKKOS_INLINE_FUNCTION static void for_each_triangle_under(const Simplices<Memory>& s, Id low, Id high, Id end,
+                                                             const Visit& visit) {
+    if (end - s.triangle_begin(s.edge_begin(low)) <= few_entries)
+      return LookThrough::for_each_triangle_under(s, low, high, end, visit);
+    const Id known[] = {low, high};
+    for_each_candidate(s, known, low, high, [&](Id v) { visit_triangle(s, low, v, high, visit); });
   }
 
   /// Calls visit(triangle) for each triangle of an edge, ascending.

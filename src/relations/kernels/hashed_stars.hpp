@@ -20,6 +20,10 @@ class HashedStars {
   using Request = StarRequest<Memory>;
   using Segment = StarSegment<Memory>;
 
+  KOKKOS_FORCEINLINE_FUNCTION static std::size_t scratch_bytes(const StarSizes& sizes, int warps) {
+    return HashedStarScratch::bytes(sizes, warps);
+  }
+
   KOKKOS_FORCEINLINE_FUNCTION HashedStars(const Team& team, const Request& request, const Segment& segment,
                                           char* memory)
       : team_(team),

@@ -29,7 +29,7 @@ KOKKOS_INLINE_FUNCTION void for_each_entry(const Simplices<Memory>& s, Id simple
   } else if constexpr (relation == Relation::VE) {
     for_each_edge_at(s, simplex, visit);
   } else if constexpr (relation == Relation::VF) {
-    Search::for_each_triangle_of_vertex(s, simplex, visit);
+    for_each_triangle_of_vertex<Search>(s, simplex, visit);
   } else if constexpr (relation == Relation::EF) {
     Search::for_each_triangle_of_edge(s, simplex, visit);
   } else if constexpr (relation == Relation::ET) {

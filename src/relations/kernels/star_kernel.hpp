@@ -7,27 +7,16 @@ namespace gale {
 
 namespace detail {
 
-/// BitStars on Kokkos' teams, in scratch memory of a level.
-template <class Memory, int level>
-struct BitStarTeams {
+/// BitStars or HashedStars on Kokkos' teams, in scratch memory of a level.
+template <template <class, class> class Stars, class Memory, int level>
+struct StarTeams {
   StarRequest<Memory> request;
 
   template <class Team>
   KOKKOS_FUNCTION void operator()(const Team& team) const {
-    request.template compute<BitStars<Team, Memory>>(
-        team, team::scratch<level>(team, BitStarScratch(nullptr, request.sizes).bytes));
-  }
-};
-
-/// HashedStars, likewise.
-template <class Memory, int level>
-struct HashedStarTeams {
-  StarRequest<Memory> request;
-
-  template <class Team>
-  KOKKOS_FUNCTION void operator()(const Team& team) const {
-    request.template compute<HashedStars<Team, Memory>>(
-        team, team::scratch<level>(team, HashedStarScratch::bytes(request.sizes, team::warps(team))));
+    using OfTeam = Stars<Team, Memory>;
+    const std::size_t bytes = OfTeam::scratch_bytes(request.sizes, team::warps(team));
+    request.template compute<OfTeam>(team, team::scratch<level>(team, bytes));
   }
 };
 
@@ -71,9 +60,9 @@ class StarKernel : public detail::StarRequest<Memory> {
 
   /// The scratch memory of a team of so many warps.
   static std::size_t scratch_bytes(const StarSizes& sizes, int warps) {
-    const std::size_t hashed = detail::HashedStarScratch::bytes(sizes, warps);
+    const std::size_t hashed = detail::HashedStars<HostTeam, Memory>::scratch_bytes(sizes, warps);
     if (!is_small(sizes)) return hashed;
-    const std::size_t bits = detail::BitStarScratch(nullptr, sizes).bytes;
+    const std::size_t bits = detail::BitStars<HostTeam, Memory>::scratch_bytes(sizes, warps);
     return is_device_memory<Memory> || bits > hashed ? bits : hashed;  // a HostTeam takes the other way
   }
 
@@ -86,16 +75,17 @@ class StarKernel : public detail::StarRequest<Memory> {
   /// functor for all would take the registers of the greediest, and a third fewer teams would run at a time.
   template <class Use>
   friend void with_functor(const StarKernel& kernel, const Use& use) {
-    if (is_small(kernel.sizes)) {
-      kernel.scratch_level == 0 ? use(detail::BitStarTeams<Memory, 0>{kernel})
-                                : use(detail::BitStarTeams<Memory, 1>{kernel});
-    } else {
-      kernel.scratch_level == 0 ? use(detail::HashedStarTeams<Memory, 0>{kernel})
-                                : use(detail::HashedStarTeams<Memory, 1>{kernel});
-    }
+    is_small(kernel.sizes) ? kernel.template use_on_teams<detail::BitStars>(use)
+                           : kernel.template use_on_teams<detail::HashedStars>(use);
   }
 
  private:
+  template <template <class, class> class Stars, class Use>
+  void use_on_teams(const Use& use) const {
+    scratch_level == 0 ? use(detail::StarTeams<Stars, Memory, 0>{*this})
+                       : use(detail::StarTeams<Stars, Memory, 1>{*this});
+  }
+
   static bool is_small(const StarSizes& sizes) { return detail::BitStars<HostTeam, Memory>::is_for(sizes); }
 };
 
