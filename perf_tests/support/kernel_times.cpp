@@ -8,6 +8,8 @@
 
 #include <Kokkos_Core.hpp>
 
+#include "support/seconds.hpp"
+
 namespace gale::perf {
 
 namespace {
@@ -17,6 +19,7 @@ using Clock = std::chrono::steady_clock;
 struct Open {
   std::string label;
   Clock::time_point begin;
+  double processor_begin;
 };
 
 std::mutex mutex;
@@ -28,12 +31,13 @@ thread_local Open copy;
 void begin_kernel(const char* label, std::uint32_t, std::uint64_t* id) {
   const std::lock_guard<std::mutex> lock(mutex);
   *id = next_id++;
-  open[*id] = {label, Clock::now()};
+  open[*id] = {label, Clock::now(), processor_seconds()};
 }
 
 void add(const Open& one) {
   auto& entry = closed[one.label];
   entry.seconds += std::chrono::duration<double>(Clock::now() - one.begin).count();
+  entry.processor_seconds += processor_seconds() - one.processor_begin;
   ++entry.count;
 }
 
@@ -45,7 +49,8 @@ void end_kernel(std::uint64_t id) {
 
 void begin_copy(Kokkos::Tools::SpaceHandle to, const char* to_label, const void*, Kokkos::Tools::SpaceHandle from,
                 const char* from_label, const void*, std::uint64_t) {
-  copy = {std::string("copy ") + from.name + " " + from_label + " to " + to.name + " " + to_label, Clock::now()};
+  copy = {std::string("copy ") + from.name + " " + from_label + " to " + to.name + " " + to_label, Clock::now(),
+          processor_seconds()};
 }
 
 void end_copy() {
@@ -90,8 +95,11 @@ void KernelTimes::print() const {
   std::vector<std::pair<std::string, Entry>> sorted(all.begin(), all.end());
   std::sort(sorted.begin(), sorted.end(),
             [](const auto& a, const auto& b) { return a.second.seconds > b.second.seconds; });
-  for (const auto& one : sorted)
-    std::printf("%10.3f ms %7ld  %s\n", 1000 * one.second.seconds, one.second.count, one.first.c_str());
+  std::printf("   by clock   processors   count\n");
+  for (const auto& [label, entry] : sorted) {
+    std::printf("%8.3f ms  %8.3f ms %7ld  %s\n", 1000 * entry.seconds, 1000 * entry.processor_seconds, entry.count,
+                label.c_str());
+  }
 }
 
 }  // namespace gale::perf

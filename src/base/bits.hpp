@@ -58,6 +58,15 @@ KOKKOS_FORCEINLINE_FUNCTION int lowest_bit(std::uint64_t bits) {
 #endif
 }
 
+/// Place of the highest bit that is set; one is.
+KOKKOS_FORCEINLINE_FUNCTION int highest_bit(std::uint64_t bits) {
+#if defined(GALE_ON_DEVICE)
+  return 63 - __clzll(static_cast<long long>(bits));
+#else
+  return 63 - __builtin_clzll(bits);
+#endif
+}
+
 /// Calls visit(place) for the bits that are set in `words` words of 32, `stride` apart, ascending. One loop over words
 /// and bits, so that lanes which go through different sets wait for the longest set only, not for the longest word each
 /// time.

@@ -2,6 +2,7 @@
 
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <gale/base/atomic.hpp>
 #include <gale/base/csr.hpp>
@@ -48,6 +49,41 @@ struct FillGroups {
   }
 };
 
+/// How the host groups: each part of the items counts and places by itself, without atomics, after the parts before it,
+/// so that members ascend.
+template <class Index, class VisitKeys>
+Csr<Id, HostMemory, Index> group_by_parts(const std::string& label, Offset items, Offset keys, int parts,
+                                          const VisitKeys& visit_keys) {
+  const HostExecutionSpace space;
+  const auto next = allocate<Array<Index, HostMemory>>(label, parts * keys);
+  const auto next_of = [&](int part) { return next.data() + part * keys; };
+  const auto for_keys = [&](const char* step, const auto& visit) {
+    for_parts((label + step).c_str(), items, parts, [&](int part, Offset first, Offset last) {
+      Index* const mine = next_of(part);
+      for (Offset item = first; item < last;) {
+        for (const Offset end = piece_end(item, last); item < end; ++item)
+          visit_keys(static_cast<Id>(item), [&](Id key) { visit(mine[key], static_cast<Id>(item)); });
+      }
+    });
+  };
+  fill((label + "_clear").c_str(), space, next, Index(0));
+  for_keys("_count", [](Index& count, Id) { ++count; });
+  const auto begin = allocate<Array<Index, HostMemory>>(label, keys + 1);
+  const Index total = exclusive_scan((label + "_scan").c_str(), space, keys, begin, [&](Offset key) {
+    Index sum = 0;
+    for (int part = 0; part < parts; ++part) sum += next_of(part)[key];
+    return sum;
+  });
+  parallel_for((label + "_place").c_str(), space, keys, [&](Offset key) {
+    Index at = begin(key);
+    for (int part = 0; part < parts; ++part) at += std::exchange(next_of(part)[key], at);
+  });
+  const auto members = allocate<Array<Id, HostMemory>>(label, total);
+  Id* const all = members.data();
+  for_keys("_fill", [all](Index& at, Id item) { all[at++] = item; });
+  return {begin, members};
+}
+
 template <class KeyOf>
 struct SingleKey {
   KeyOf key_of;
@@ -66,13 +102,19 @@ struct SingleKey {
 /// the same keys both times. On a device it is a functor whose call operator is a template, as nvcc has no generic
 /// lambdas in kernels.
 ///
-/// `Index` counts the members: Id where there are at most 2^31 - 1. Time and memory O(items + keys + members).
+/// `Index` counts the members: Id where there are at most 2^31 - 1. Time and memory O(items + keys + members). On the
+/// host each thread counts by itself, unless that takes more memory than a number an item.
 template <class Index = Offset, class Space, class VisitKeys>
 Csr<Id, typename Space::memory_space, Index> group_by(const char* label, const Space& space, Offset items, Offset keys,
                                                       const VisitKeys& visit_keys) {
   using Memory = typename Space::memory_space;
   using Indices = Array<Index, Memory>;
   using Members = Array<Id, Memory>;
+  if constexpr (!is_device<Space>) {
+    const int parts = detail::threads_for(items);
+    if (parts == 1 || parts * keys <= items)
+      return detail::group_by_parts<Index>(label, items, keys, parts, visit_keys);
+  }
   // One entry ahead of `begin`: filling moves the start of each group to its end, which is the next group's start.
   const auto all = allocate<Indices>(label, keys + 2);
   Kokkos::deep_copy(all, Index(0));

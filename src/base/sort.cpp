@@ -1,8 +1,11 @@
 #include <algorithm>
 #include <array>
+#include <functional>
+#include <numeric>
 #include <utility>
 #include <vector>
 
+#include <gale/base/bits.hpp>
 #include <gale/base/device.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/base/sort.hpp>
@@ -14,56 +17,126 @@ namespace {
 using Keys = Array<std::uint64_t, HostMemory>;
 using Values = Array<Id, HostMemory>;
 
-constexpr int digit_bits = 11;
-constexpr int digits = 1 << digit_bits;
+constexpr int most_digit_bits = 11;
 
-using Histogram = std::array<Offset, digits>;
+using Histogram = std::array<Offset, 1 << most_digit_bits>;
 
-int digit_of(std::uint64_t key, int shift) { return static_cast<int>(key >> shift) & (digits - 1); }
+/// The bits of keys in which some differ, and what all have in the others.
+struct Bits {
+  int begin = 0, end = 0;  ///< the lowest one, and one past the highest
+  std::uint64_t common = 0;
 
-/// Where each part of the input writes its first key of each digit. False if all keys have the same digit.
-bool place_digits(const Keys& keys, int shift, std::vector<Histogram>& place) {
-  const Offset n = keys.extent(0);
-  detail::for_parts("GALE::sort_count", n, place.size(), [&](int part, Offset first, Offset last) {
+  explicit Bits(const Keys& keys) {
+    const Offset n = keys.extent(0);
+    const std::uint64_t* const all = keys.data();
+    std::vector<std::uint64_t> differ(detail::threads_for(n));
+    detail::for_parts("GALE::sort_bits", n, differ.size(), [&](int part, Offset first, Offset last) {
+      std::uint64_t mine = 0;
+      for (Offset i = first; i < last; ++i) mine |= all[i] ^ all[0];
+      differ[part] = mine;
+    });
+    const std::uint64_t any = std::accumulate(differ.begin(), differ.end(), std::uint64_t(0), std::bit_or<>());
+    if (any == 0) return;
+    begin = lowest_bit(any);
+    end = highest_bit(any) + 1;
+    common = all[0] & ~(~std::uint64_t(0) >> (64 - count()) << begin);
+  }
+
+  int count() const { return end - begin; }
+};
+
+/// Entries with keys and values in two arrays.
+struct Pairs {
+  std::uint64_t* keys;
+  Id* values;
+
+  std::uint64_t key(Offset i) const { return keys[i]; }
+  void take(Offset to, const Pairs& from, Offset i) const {
+    keys[to] = from.keys[i];
+    values[to] = from.values[i];
+  }
+};
+
+/// Entries with keys of 32 bits above their values.
+struct PackedPairs {
+  std::uint64_t* pairs;
+
+  std::uint64_t key(Offset i) const { return pairs[i] >> 32; }
+  void take(Offset to, const PackedPairs& from, Offset i) const { pairs[to] = from.pairs[i]; }
+};
+
+/// Where each part of the input writes its first key of each digit.
+template <class Entries, class DigitOf>
+void place_digits(const Entries& from, Offset n, int digits, const DigitOf& digit_of, std::vector<Histogram>& place) {
+  detail::for_parts("GALE::sort_count", n, place.size(), [&, from](int part, Offset first, Offset last) {
     Histogram& mine = place[part];
     mine.fill(0);
     for (Offset i = first; i < last;) {
-      for (const Offset end = detail::piece_end(i, last); i < end; ++i) ++mine[digit_of(keys(i), shift)];
+      for (const Offset end = detail::piece_end(i, last); i < end; ++i) ++mine[digit_of(from.key(i))];
     }
   });
   Offset sum = 0;
   for (int digit = 0; digit < digits; ++digit) {
-    const Offset before = sum;
     for (auto& mine : place) sum += std::exchange(mine[digit], sum);
-    if (sum - before == n) return false;
   }
-  return true;
 }
 
-void sort_on_host(const Keys& keys, const Values& values) {
-  const Offset n = keys.extent(0);
-  Keys from_keys = keys, to_keys = allocate<Keys>("GALE::sort_keys", n);
-  Values from_values = values, to_values = allocate<Values>("GALE::sort_values", n);
+/// Sorts by the bits [begin, end) of the keys, digit by digit, from one array to the other and back. Returns the one
+/// that they are in then.
+template <class Entries>
+Entries sort_by_digits(Entries from, Entries to, Offset n, int begin, int end) {
+  const int passes = (end - begin + most_digit_bits - 1) / most_digit_bits;
   std::vector<Histogram> place(detail::threads_for(n));
-  for (int shift = 0; shift < 64; shift += digit_bits) {
-    if (!place_digits(from_keys, shift, place)) continue;
-    detail::for_parts("GALE::sort_move", n, place.size(), [&](int part, Offset first, Offset last) {
+  for (int pass = 0; pass < passes; ++pass) {
+    const int bits = (end - begin + passes - pass - 1) / (passes - pass), shift = begin;
+    begin += bits;
+    const std::uint64_t mask = (std::uint64_t(1) << bits) - 1;
+    const auto digit_of = [=](std::uint64_t key) { return key >> shift & mask; };
+    place_digits(from, n, 1 << bits, digit_of, place);
+    detail::for_parts("GALE::sort_move", n, place.size(), [&, from, to](int part, Offset first, Offset last) {
+      Offset* const next = place[part].data();
       for (Offset i = first; i < last;) {
-        for (const Offset end = detail::piece_end(i, last); i < end; ++i) {
-          const Offset to = place[part][digit_of(from_keys(i), shift)]++;
-          to_keys(to) = from_keys(i);
-          to_values(to) = from_values(i);
-        }
+        for (const Offset piece = detail::piece_end(i, last); i < piece; ++i)
+          to.take(next[digit_of(from.key(i))]++, from, i);
       }
     });
-    std::swap(from_keys, to_keys);
-    std::swap(from_values, to_values);
+    std::swap(from, to);
   }
-  if (from_keys.data() != keys.data()) {
-    Kokkos::deep_copy(keys, from_keys);
-    Kokkos::deep_copy(values, from_values);
-  }
+  return from;
 }
+
+/// Sorts keys that differ in 32 bits at most, with values of which value_of(i) is the i-th.
+template <class ValueOf>
+void sort_packed(const Keys& all_keys, const Values& all_values, const Bits& bits, const ValueOf& value_of) {
+  const Offset n = all_keys.extent(0);
+  std::uint64_t* const keys = all_keys.data();
+  Id* const values = all_values.data();
+  parallel_for("GALE::sort_pack", HostExecutionSpace(), n, [=](Offset i) {
+    keys[i] = (keys[i] ^ bits.common) >> bits.begin << 32 | static_cast<std::uint32_t>(value_of(i));
+  });
+  const Keys other = allocate<Keys>("GALE::sort_keys", n);
+  const std::uint64_t* const sorted =
+      sort_by_digits(PackedPairs{keys}, PackedPairs{other.data()}, n, 0, bits.count()).pairs;
+  parallel_for("GALE::sort_unpack", HostExecutionSpace(), n, [=](Offset i) {
+    const std::uint64_t pair = sorted[i];
+    keys[i] = pair >> 32 << bits.begin | bits.common;
+    values[i] = pair_second(pair);
+  });
+}
+
+/// Sorts keys that differ in more.
+void sort_pairs(const Keys& keys, const Values& values, const Bits& bits) {
+  const Offset n = keys.extent(0);
+  const Keys other_keys = allocate<Keys>("GALE::sort_keys", n);
+  const Values other_values = allocate<Values>("GALE::sort_values", n);
+  const Pairs from{keys.data(), values.data()};
+  const Pairs sorted = sort_by_digits(from, Pairs{other_keys.data(), other_values.data()}, n, bits.begin, bits.end);
+  if (sorted.keys == from.keys) return;
+  Kokkos::deep_copy(keys, other_keys);
+  Kokkos::deep_copy(values, other_values);
+}
+
+constexpr int most_packed_bits = 32;
 
 }  // namespace
 
@@ -74,13 +147,40 @@ void stable_sort_by_key(const Space& space, const Array<std::uint64_t, MemoryOf<
   if constexpr (is_device<Space>) {
     detail::sort_by_key_on_device(space, keys, values);
   } else {
-    sort_on_host(keys, values);
+    const Bits bits(keys);
+    const Id* const all = values.data();
+    if (bits.count() > most_packed_bits) {
+      sort_pairs(keys, values, bits);
+    } else if (bits.count() > 0) {
+      sort_packed(keys, values, bits, [all](Offset i) { return all[i]; });
+    }
   }
+}
+
+template <class Space>
+Array<Id, MemoryOf<Space>> stable_sort_places(const Space& space, const std::string& label,
+                                              const Array<std::uint64_t, MemoryOf<Space>>& keys) {
+  const Offset n = keys.extent(0);
+  if constexpr (!is_device<Space>) {
+    if (n > 1) {
+      const Bits bits(keys);
+      if (bits.count() > 0 && bits.count() <= most_packed_bits) {
+        const auto places = allocate<Values>(label, n);
+        sort_packed(keys, places, bits, [](Offset i) { return i; });
+        return places;
+      }
+    }
+  }
+  const auto places = iota(label, space, n);
+  stable_sort_by_key(space, keys, places);
+  return places;
 }
 
 #define GALE_INSTANTIATE(Space)                                                                            \
   template GALE_EXPORT void stable_sort_by_key(const Space&, const Array<std::uint64_t, MemoryOf<Space>>&, \
-                                               const Array<Id, MemoryOf<Space>>&)
+                                               const Array<Id, MemoryOf<Space>>&);                         \
+  template GALE_EXPORT Array<Id, MemoryOf<Space>> stable_sort_places(const Space&, const std::string&,     \
+                                                                     const Array<std::uint64_t, MemoryOf<Space>>&)
 GALE_IN_EACH_SPACE(GALE_INSTANTIATE);
 #undef GALE_INSTANTIATE
 

@@ -4,8 +4,8 @@
 #include <gale/mesh/encoded_mesh.hpp>
 #include <gale/mesh/mesh.hpp>
 
-// The steps that encode a mesh, in either space, and in its memory. Each is enqueued on the instance of a device, as
-// loops are.
+// How a mesh's tetrahedra are encoded: by a device, or by the host's threads. Both give the same. What a device does
+// runs in either space, enqueued on its instance, as loops are.
 
 namespace gale::detail {
 
@@ -16,14 +16,30 @@ struct SortedTetrahedra {
   Array<Id, Memory> input;          ///< GALE's tetrahedron -> input tetrahedron
 };
 
-/// Renumbers and sorts (see Mesh). `vertex_internal` maps input vertices to GALE's.
+/// Renumbers and sorts (see Mesh) as a device does: groups them by their lowest vertices, and each thread sorts those
+/// of a vertex. `vertex_internal` maps input vertices to GALE's.
 template <class Space, class Index>
-SortedTetrahedra<MemoryOf<Space>> sort_tetrahedra(const Space& space, const Tetrahedra<Index, MemoryOf<Space>>& input,
-                                                  const Array<Id, MemoryOf<Space>>& vertex_internal);
+SortedTetrahedra<MemoryOf<Space>> sort_tetrahedra_by_vertices(const Space& space,
+                                                              const Tetrahedra<Index, MemoryOf<Space>>& input,
+                                                              const Array<Id, MemoryOf<Space>>& vertex_internal);
 
-/// Finds T_ex (see EncodedMesh), by segment, of a mesh of so many vertices, which has everything else.
+/// Finds T_ex (see EncodedMesh), by segment, as a device does. Segments begin at `vertex_begin`.
 template <class Space>
-Csr<Id, MemoryOf<Space>> find_external_tetrahedra(const Space& space, const EncodedMesh<MemoryOf<Space>>& mesh,
-                                                  Id vertices);
+Csr<Id, MemoryOf<Space>> find_external_tetrahedra(const Space& space,
+                                                  const Csr<Quad, MemoryOf<Space>, Id>& tetrahedra_of_lowest,
+                                                  const Borrowed<Id, MemoryOf<Space>>& vertex_begin);
+
+/// What the host finds at once.
+struct EncodedTetrahedra {
+  SortedTetrahedra<HostMemory> sorted;
+  Csr<Id, HostMemory> external;  ///< T_ex, by segment
+};
+
+/// Does both as the host does: threads deal the tetrahedra to groups of consecutive lowest vertices, each its part of
+/// the input, and then sort group by group and count T_ex meanwhile. So little is read or written in no order.
+template <class Index>
+EncodedTetrahedra encode_by_groups(const Tetrahedra<Index, HostMemory>& input,
+                                   const Array<Id, HostMemory>& vertex_internal,
+                                   const Borrowed<Id, HostMemory>& vertex_begin);
 
 }  // namespace gale::detail

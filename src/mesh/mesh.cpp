@@ -68,24 +68,25 @@ detail::PermutedMesh encode(const Space& space, const Tetrahedra<Index, Memory>&
                             const Segmentation& segmentation) {
   using Here = MemoryOf<Space>;
   const auto vertex_internal = inverse_of(space, segmentation.vertex_input.in<Here>());
+  const auto vertex_begin = segmentation.vertex_begin.in<Here>();
   detail::SortedTetrahedra<Here> sorted;
-  {
-    const Tetrahedra<Index, Here> input = in_memory<Here>(given);
-    sorted = detail::sort_tetrahedra<Space, Index>(space, input, vertex_internal);
+  Csr<Id, Here> external;
+  if constexpr (is_device<Space>) {
+    {
+      const Tetrahedra<Index, Here> input = in_memory<Here>(given);
+      sorted = detail::sort_tetrahedra_by_vertices<Space, Index>(space, input, vertex_internal);
+    }
+    external = detail::find_external_tetrahedra<Space>(space, sorted.of_lowest, vertex_begin);
+  } else {
+    const auto encoded = detail::encode_by_groups<Index>(in_memory<Here>(given), vertex_internal, vertex_begin);
+    sorted = encoded.sorted;
+    external = encoded.external;
   }
   detail::MeshArrays arrays;
   arrays.tetrahedra = sorted.of_lowest.entries;
   arrays.tetrahedron_begin = sorted.of_lowest.offsets;
   arrays.vertex_begin = segmentation.vertex_begin;
-  arrays.internal_begin = internal_begin_of(space, segmentation.vertex_begin.in<Here>(), sorted.of_lowest.offsets);
-  const auto external =
-      detail::find_external_tetrahedra(space,
-                                       EncodedMesh<Here>{detail::by_four<Here>(sorted.of_lowest.entries),
-                                                         arrays.vertex_begin.in<Here>(),
-                                                         arrays.internal_begin.in<Here>(),
-                                                         {},
-                                                         {}},
-                                       segmentation.vertices());
+  arrays.internal_begin = internal_begin_of<Space>(space, vertex_begin, sorted.of_lowest.offsets);
   arrays.external_begin = external.offsets;
   arrays.external = external.entries;
   space.fence();

@@ -2,7 +2,9 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
+#include <gale/base/bits.hpp>
 #include <gale/base/error.hpp>
 #include <gale/base/ordered.hpp>
 #include <gale/base/parallel.hpp>
@@ -47,15 +49,9 @@ struct CellWindow {
   }
 };
 
-/// Levels of the octree at which two different codes lie in the same cell.
+/// Levels of the octree at which two codes lie in the same cell.
 KOKKOS_FUNCTION int common_levels(std::uint64_t a, std::uint64_t b) {
-  int shift = 3 * (morton_levels - 1);
-  int levels = 0;
-  while (levels < morton_levels && (a >> shift) == (b >> shift)) {
-    ++levels;
-    shift -= 3;
-  }
-  return levels;
+  return a == b ? morton_levels : morton_levels - 1 - highest_bit(a ^ b) / 3;
 }
 
 template <class Memory>
@@ -76,6 +72,78 @@ KOKKOS_FUNCTION bool begins_leaf(const Codes<Memory>& codes, Id at, Id capacity)
   return cell.overflows(cell.begin());
 }
 
+/// Where the leaf ends that begins at `begin`: the largest cell that holds no code before it and at most `capacity`
+/// from it on.
+template <class Memory>
+KOKKOS_FUNCTION Id leaf_end(const Codes<Memory>& codes, Id begin, Id capacity) {
+  const auto count = static_cast<Id>(codes.extent(0));
+  const Id last = count - begin > capacity ? begin + capacity : count;
+  const int before = begin > 0 ? common_levels(codes(begin - 1), codes(begin)) + 1 : 0;
+  const int behind = last < count ? common_levels(codes(begin), codes(last)) + 1 : 0;
+  const int levels = before > behind ? before : behind;
+  const int shift = levels < morton_levels ? 3 * (morton_levels - levels) : 0;
+  return bisect(begin, last, [&](Id i) { return (codes(i) >> shift) == (codes(begin) >> shift); });
+}
+
+/// Goes from leaf to leaf.
+std::vector<Id> leaves_on_host(const Codes<HostMemory>& codes, Id capacity) {
+  const Offset count = codes.extent(0);
+  std::vector<std::vector<Id>> found(threads_for(count));
+  for_parts("GALE::octree_leaves", count, found.size(), [&](int part, Offset first, Offset last) {
+    std::vector<Id> mine;
+    Id at = static_cast<Id>(first);
+    while (at < last && !begins_leaf(codes, at, capacity)) ++at;
+    for (; at < last; at = leaf_end(codes, at, capacity)) {
+      stop_if_asked_at(static_cast<Offset>(mine.size()));
+      mine.push_back(at);
+    }
+    found[part] = std::move(mine);
+  });
+  std::vector<Id> leaves = std::move(found[0]);
+  for (std::size_t part = 1; part < found.size(); ++part)
+    leaves.insert(leaves.end(), found[part].begin(), found[part].end());
+  return leaves;
+}
+
+/// A box around nothing.
+Box empty_box() {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  return {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
+}
+
+/// Makes a box hold another one. What isn't a number becomes its lower end, and stays it.
+void extend(Box& box, const double (&low)[3], const double (&high)[3]) {
+  for (int axis = 0; axis < 3; ++axis) {
+    box.low[axis] = low[axis] < box.low[axis] || low[axis] != low[axis] ? low[axis] : box.low[axis];
+    box.high[axis] = high[axis] > box.high[axis] ? high[axis] : box.high[axis];
+  }
+}
+
+/// Reads the points once. Its ends are finite if all points are.
+template <class Coordinate>
+Box box_on_host(const Points<Coordinate, HostMemory>& points) {
+  const Offset count = points.extent(0);
+  std::vector<Box> boxes(threads_for(count), empty_box());
+  for_parts("GALE::bounding_box", count, boxes.size(), [&](int part, Offset first, Offset last) {
+    Box box = empty_box();
+    for (Offset i = first; i < last;) {
+      for (const Offset end = piece_end(i, last); i < end; ++i) {
+        const double point[3] = {points(i, 0), points(i, 1), points(i, 2)};
+        extend(box, point, point);
+      }
+    }
+    boxes[part] = box;
+  });
+  Box all = empty_box();
+  for (const Box& box : boxes) extend(all, box.low, box.high);
+  return all;
+}
+
+bool is_finite(const Box& box) {
+  return std::all_of(box.low, box.low + 3, [](double x) { return std::isfinite(x); }) &&
+         std::all_of(box.high, box.high + 3, [](double x) { return std::isfinite(x); });
+}
+
 }  // namespace
 
 template <class Coordinate, class Space>
@@ -91,6 +159,11 @@ void require_finite(const Space& space, const Points<Coordinate, MemoryOf<Space>
 
 template <class Coordinate, class Space>
 Box bounding_box(const Space& space, const Points<Coordinate, MemoryOf<Space>>& points) {
+  if constexpr (!is_device<Space>) {
+    const Box box = box_on_host(points);
+    if (!is_finite(box)) require_finite<Coordinate>(space, points);
+    return box;
+  }
   require_finite<Coordinate>(space, points);
   const Offset count = points.extent(0);
   Box box{};
@@ -128,7 +201,8 @@ Array<std::uint64_t, MemoryOf<Space>> morton_codes(const Space& space,
         for (int axis = 0; axis < 3; ++axis) {
           constexpr double last = (1 << morton_levels) - 1;
           const double cell = (double(points(i, axis)) - cube.origin[axis]) * cube.cells_per_unit;
-          code |= spread_bits(static_cast<std::uint64_t>(cell < last ? cell : last)) << (2 - axis);
+          code |= spread_bits(static_cast<std::uint64_t>(static_cast<std::int32_t>(cell < last ? cell : last)))
+                  << (2 - axis);
         }
         codes(i) = code;
       });
@@ -137,6 +211,7 @@ Array<std::uint64_t, MemoryOf<Space>> morton_codes(const Space& space,
 
 template <class Space>
 std::vector<Id> octree_leaves(const Space& space, const Array<std::uint64_t, MemoryOf<Space>>& codes, int capacity) {
+  if constexpr (!is_device<Space>) return leaves_on_host(codes, capacity);
   using Ids = Array<Id, MemoryOf<Space>>;
   const auto count = static_cast<Id>(codes.extent(0));
   const auto leaf_of = allocate<Ids>("GALE::leaf_of", count + Offset(1));

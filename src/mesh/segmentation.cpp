@@ -24,8 +24,7 @@ Segmentation octree_in(const Space& space, const Points<Coordinate, MemoryOf<Spa
   const auto count = static_cast<Id>(points.extent(0));
   const auto cube = detail::cube_around(detail::bounding_box<Coordinate>(space, points));
   const auto codes = detail::morton_codes<Coordinate>(space, points, cube);
-  const auto vertex_input = iota("GALE::vertex_input", space, count);
-  stable_sort_by_key(space, codes, vertex_input);
+  const auto vertex_input = stable_sort_places(space, "GALE::vertex_input", codes);
   const auto leaves = detail::octree_leaves(space, codes, capacity);
   space.fence();
   return {vertex_input, vertex_begin_of(detail::merge_leaves(leaves, count, capacity))};
@@ -35,8 +34,7 @@ Segmentation octree_in(const Space& space, const Points<Coordinate, MemoryOf<Spa
 template <class Space>
 Mirrored<Id> sort_labels(const Space& space, const Array<std::uint64_t, HostMemory>& keys) {
   const auto sorted = in_memory<MemoryOf<Space>>(keys);
-  const auto vertex_input = iota("GALE::vertex_input", space, keys.extent(0));
-  stable_sort_by_key(space, sorted, vertex_input);
+  const auto vertex_input = stable_sort_places(space, "GALE::vertex_input", sorted);
   const auto back = on_host(sorted);
   if (back.data() != keys.data()) Kokkos::deep_copy(keys, back);
   space.fence();

@@ -24,16 +24,33 @@ std::vector<Id> consecutive(Id first, Id count) {
   return ids;
 }
 
-/// Both ways to the edges of a mesh find those of its tables.
+void expect_same(const Mirrored<Id>& found, const Mirrored<Id>& expected) {
+  EXPECT_EQ(to_vector(found.in<HostMemory>()), to_vector(expected.in<HostMemory>()));
+}
+
+/// Both ways to the edges and triangles of a mesh find those of its tables.
 void expect_edges(const Mesh& mesh) {
-  const auto tables = mesh.simplices({Enumeration::edges, false, true});
+  const auto tables = mesh.simplices({Enumeration::triangles, false, true});
+  const auto& encoded = mesh.encoded();
   const HostExecutionSpace space;
+  detail::SimplexTables by_lanes, by_segments, edges_first;
   const auto stars = detail::find_middle_stars(space, tables);
-  const std::vector<Id> begin(tables.edge_begin.data(), tables.edge_begin.data() + mesh.vertices() + 1),
-      high(tables.edge_high.data(), tables.edge_high.data() + mesh.known_edges());
-  for (const auto& found : {detail::edges_by_lanes(space, tables, stars), detail::edges_by_threads(tables, stars)}) {
-    EXPECT_EQ(to_vector(found.offsets), begin);
-    EXPECT_EQ(to_vector(found.entries), high);
+  detail::enumerate_edges(space, tables, stars, by_lanes);
+  detail::enumerate_triangles(space, tables, stars, by_lanes);
+  detail::enumerate_by_segments(encoded, tables.tetrahedron_begin, true, by_segments);
+  detail::enumerate_by_segments(encoded, tables.tetrahedron_begin, false, edges_first);
+  EXPECT_EQ(edges_first.triangle_begin.size(), 0u);
+  detail::enumerate_by_segments(encoded, tables.tetrahedron_begin, true, edges_first);
+  EXPECT_EQ(to_vector(by_lanes.edge_high.in<HostMemory>()),
+            std::vector<Id>(tables.edge_high.data(), tables.edge_high.data() + mesh.known_edges()));
+  EXPECT_EQ(to_vector(by_lanes.triangle_apex.in<HostMemory>()),
+            std::vector<Id>(tables.triangle_apex.data(), tables.triangle_apex.data() + mesh.known_triangles()));
+  for (const detail::SimplexTables* found : {&by_segments, &edges_first}) {
+    expect_same(found->edge_begin, by_lanes.edge_begin);
+    expect_same(found->edge_low, by_lanes.edge_low);
+    expect_same(found->edge_high, by_lanes.edge_high);
+    expect_same(found->triangle_begin, by_lanes.triangle_begin);
+    expect_same(found->triangle_apex, by_lanes.triangle_apex);
   }
 }
 
@@ -69,16 +86,26 @@ TEST(FewDistinct, are_too_many_from_one_more_on) {
 
 class EdgesOf : public EveryMesh {};
 
-TEST_P(EdgesOf, every_mesh_are_found_by_lanes_and_by_threads) { expect_edges(encode(input(), segmentation())); }
+TEST_P(EdgesOf, every_mesh_are_found_by_lanes_and_by_segments) { expect_edges(encode(input(), segmentation())); }
 
 INSTANTIATE_TEST_SUITE_P(Tests, EdgesOf, every_mesh_and_segmentation(), mesh_and_segmentation);
 
 /// As many as a lane keeps by itself, or more, beside vertices of few.
 TEST(Edges, of_a_vertex_may_be_many) {
-  for (const Id degree : {38, 39, 40, 41, 42, 120}) {
+  for (const Id degree : {31, 32, 33, 38, 39, 40, 41, 42, 120}) {
     const InputMesh input = cone_over_caps(degree, 2);
     expect_edges(encode(input, segmentation_by(std::vector<std::int64_t>(input.points.size(), 0))));
   }
+}
+
+TEST(Edges, are_the_same_of_several_threads) {
+  const InputMesh input = holed_grid(24);
+  const int before = host_threads();
+  for (const int threads : {1, 3}) {
+    set_host_threads(threads);
+    expect_edges(encode(input, octree_of(input, 20)));
+  }
+  set_host_threads(before);
 }
 
 TEST(Edges, of_long_rows_lie_side_by_side) {

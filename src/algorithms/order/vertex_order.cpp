@@ -17,15 +17,10 @@ namespace {
 template <class Space>
 using Keys = Array<std::uint64_t, MemoryOf<Space>>;
 
-/// The least input id of a vertex without a value; their count if all have one.
-template <class Space, class Value>
-Offset find_nan(const Space& space, const FieldValues<Value, MemoryOf<Space>>& values) {
-  const auto count = static_cast<Offset>(values.extent(0));
-  if constexpr (std::is_floating_point_v<Value>) {
-    return reduce_min(
-        "GALE::find_nan", space, count, count, KOKKOS_LAMBDA(Offset i) { return values(i) != values(i) ? i : count; });
-  }
-  return count;
+/// A vertex's input id if it has no value; `none` if it has one.
+template <class Value>
+KOKKOS_FUNCTION Offset if_nan(Value value, Offset vertex, Offset none) {
+  return value == value ? none : vertex;
 }
 
 std::string without_value(GlobalId vertex) {
@@ -34,45 +29,56 @@ std::string without_value(GlobalId vertex) {
 
 /// Value and input id fit one key.
 template <class Space, class Value>
-void fill_keys(const Space& space, const Mesh& mesh, const FieldValues<Value, MemoryOf<Space>>& values,
-               const Keys<Space>& keys) {
+Offset fill_keys(const Space& space, const Mesh& mesh, const FieldValues<Value, MemoryOf<Space>>& values,
+                 const Keys<Space>& keys) {
+  const Offset count = mesh.vertices();
   const Id* const input = mesh.vertex_input<MemoryOf<Space>>().data();
-  parallel_for(
-      "GALE::order_keys", space, mesh.vertices(), KOKKOS_LAMBDA(Offset v) {
-        keys(v) = std::uint64_t(ordered_bits(values(input[v]))) << 32 | static_cast<std::uint32_t>(input[v]);
+  return reduce_min(
+      "GALE::order_keys", space, count, count, KOKKOS_LAMBDA(Offset v) {
+        const Id vertex = input[v];
+        const Value value = values(vertex);
+        keys(v) = std::uint64_t(ordered_bits(value)) << 32 | static_cast<std::uint32_t>(vertex);
+        return if_nan(value, vertex, count);
       });
 }
 
 /// The place of each value among all.
 template <class Space, class Value>
-void fill_ranks(const Space& space, const Mesh& mesh, const FieldValues<Value, MemoryOf<Space>>& values,
-                const Keys<Space>& keys) {
+Offset fill_ranks(const Space& space, const Mesh& mesh, const FieldValues<Value, MemoryOf<Space>>& values,
+                  const Keys<Space>& keys) {
   const Offset count = mesh.vertices();
-  const auto by_rank = allocate<Array<Id, MemoryOf<Space>>>("GALE::order_inputs", count);
-  parallel_for(
-      "GALE::order_bits", space, count, KOKKOS_LAMBDA(Offset i) {
+  const Offset bad = reduce_min(
+      "GALE::order_bits", space, count, count, KOKKOS_LAMBDA(Offset i) {
         keys(i) = ordered_bits(values(i));
-        by_rank(i) = static_cast<Id>(i);
+        return if_nan(values(i), i, count);
       });
-  stable_sort_by_key(space, keys, by_rank);
+  if (bad < count) return bad;
+  const auto by_rank = stable_sort_places(space, "GALE::order_inputs", keys);
   const Id* const internal = mesh.vertex_internal<MemoryOf<Space>>().data();
   parallel_for(
       "GALE::order_ranks", space, count,
       KOKKOS_LAMBDA(Offset rank) { keys(internal[by_rank(rank)]) = static_cast<std::uint64_t>(rank); });
+  return bad;
 }
+
+/// The keys of vertices, and the least input id of one without a value; their count if all have one.
+struct FoundKeys {
+  Mirrored<std::uint64_t> keys;
+  Offset bad;
+};
 
 /// Ends with a fence: others use the keys on instances of their own.
 template <class Space, class Value>
-Mirrored<std::uint64_t> make_keys(const Space& space, const Mesh& mesh,
-                                  const FieldValues<Value, MemoryOf<Space>>& values) {
+FoundKeys make_keys(const Space& space, const Mesh& mesh, const FieldValues<Value, MemoryOf<Space>>& values) {
   const auto keys = allocate<Keys<Space>>("GALE::order_keys", mesh.vertices());
+  Offset bad;
   if constexpr (sizeof(Value) == 8) {
-    fill_ranks<Space, Value>(space, mesh, values, keys);
+    bad = fill_ranks<Space, Value>(space, mesh, values, keys);
   } else {
-    fill_keys<Space, Value>(space, mesh, values, keys);
+    bad = fill_keys<Space, Value>(space, mesh, values, keys);
   }
   space.fence();
-  return keys;
+  return {keys, bad};
 }
 
 /// Makes keys of a value for each vertex of the mesh.
@@ -82,34 +88,26 @@ Mirrored<std::uint64_t> keys_of_all(const Mesh& mesh, const FieldValues<Value, M
     using Space = std::decay_t<decltype(space)>;
     const auto copy = in_memory<MemoryOf<Space>>(values);
     const FieldValues<Value, MemoryOf<Space>> here(copy);
-    const Offset bad = find_nan<Space, Value>(space, here);
-    if (bad < mesh.vertices()) throw Error(without_value(bad));
-    return make_keys<Space, Value>(space, mesh, here);
+    const FoundKeys found = make_keys<Space, Value>(space, mesh, here);
+    if (found.bad < mesh.vertices()) throw Error(without_value(found.bad));
+    return found.keys;
   });
 }
 
-/// The keys of a part's vertices, or the one without a value: its input id.
-struct PartKeys {
-  Mirrored<std::uint64_t> keys;
-  Offset bad;
-};
-
 template <class Space, class Value>
-PartKeys part_keys_in(const Space& space, const Mesh& mesh, const FieldValues<Value, HostMemory>& given,
-                      const Dealt<Value>& fetched) {
+FoundKeys part_keys_in(const Space& space, const Mesh& mesh, const FieldValues<Value, HostMemory>& given,
+                       const Dealt<Value>& fetched) {
   const auto values = allocate<Array<Value, MemoryOf<Space>>>("GALE::local_values", mesh.vertices());
   mesh.exchange().from_givers().fill(space, given.data(), fetched, values.data());
   const FieldValues<Value, MemoryOf<Space>> all(values.data(), values.extent(0));
-  const Offset bad = find_nan<Space, Value>(space, all);
-  if (bad < mesh.vertices()) return {{}, bad};
-  return {make_keys<Space, Value>(space, mesh, all), bad};
+  return make_keys<Space, Value>(space, mesh, all);
 }
 
 /// Makes keys of a value for each vertex that this rank has handed over. Collective.
 template <class Value>
 Mirrored<std::uint64_t> keys_of_part(const Mesh& mesh, const FieldValues<Value, HostMemory>& given) {
   const Exchange& exchange = mesh.exchange();
-  PartKeys found{{}, 0};
+  FoundKeys found{{}, 0};
   if (exchange.from_givers().keeps_all()) {
     together(exchange.ranks(), [&] { found.keys = keys_of_all(mesh, given); });
     return found.keys;

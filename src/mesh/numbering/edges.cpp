@@ -1,6 +1,4 @@
 #include <algorithm>
-#include <utility>
-#include <vector>
 
 #include <gale/base/error.hpp>
 #include <gale/base/group_by.hpp>
@@ -123,53 +121,10 @@ Csr<Id, MemoryOf<Space>, Id> edges_by_lanes(const Space& space, const Simplices<
   return ends;
 }
 
-Csr<Id, HostMemory, Id> edges_by_threads(const Simplices<HostMemory>& simplices, const MiddleStars<HostMemory>& stars) {
-  const Offset vertices = simplices.tetrahedron_begin.extent(0) - 1;
-  const HigherNeighbours<HostMemory> candidates(simplices, stars);
-  const auto count = allocate<Array<Id, HostMemory>>("GALE::edge_begin", vertices + 1);
-  std::vector<std::vector<Id>> found(host_threads());  // by the threads' parts of the vertices
-  const int parts = static_cast<int>(found.size());
-  for_parts("GALE::count_edges", vertices, parts, [&](int part, Offset first, Offset last) {
-    constexpr Offset usual = 8;
-    std::vector<Id> all, many;  // the ends of those in `found` share cache lines
-    all.reserve(usual * (last - first));
-    LastSeen seen;
-    for (Offset v = first; v < last; ++v) {
-      stop_if_asked_at(v);
-      FewDistinct few;
-      candidates(static_cast<Id>(v), [&](Id id) {
-        if (seen.is_new(v, id)) few.insert(id);
-      });
-      if (few.size() != FewDistinct::too_many) {
-        for (Id i = 0; i < few.size(); ++i) all.push_back(few[i]);
-        count(v) = few.size();
-        continue;
-      }
-      many.clear();
-      candidates(static_cast<Id>(v), [&](Id id) { many.push_back(id); });
-      std::sort(many.begin(), many.end());
-      many.erase(std::unique(many.begin(), many.end()), many.end());
-      all.insert(all.end(), many.begin(), many.end());
-      count(v) = static_cast<Id>(many.size());
-    }
-    found[part] = std::move(all);
-  });
-  const auto ends = edges_with(HostExecutionSpace(), count);
-  for_parts("GALE::write_edges", vertices, parts, [&](int part, Offset first, Offset) {
-    std::copy(found[part].begin(), found[part].end(), ends.entries.data() + ends.offsets(first));
-  });
-  return ends;
-}
-
 template <class Space>
 void enumerate_edges(const Space& space, const Simplices<MemoryOf<Space>>& simplices,
                      const MiddleStars<MemoryOf<Space>>& stars, SimplexTables& tables) {
-  Csr<Id, MemoryOf<Space>, Id> ends;
-  if constexpr (is_device<Space>) {
-    ends = edges_by_lanes(space, simplices, stars);
-  } else {
-    ends = edges_by_threads(simplices, stars);
-  }
+  const auto ends = edges_by_lanes(space, simplices, stars);
   const auto low = row_of_entries(space, "GALE::edge_low", ends.offsets, ends.entries.extent(0));
   tables.edge_begin = ends.offsets;
   tables.edge_low = low;

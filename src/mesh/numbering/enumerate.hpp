@@ -26,6 +26,11 @@ using MiddleStars = Csr<Id, Memory>;
 template <class Space>
 MiddleStars<MemoryOf<Space>> find_middle_stars(const Space& space, const Simplices<MemoryOf<Space>>& simplices);
 
+/// Makes the tables of edges, and those of triangles if these are wanted, as the host does: each thread finds those of
+/// its segments, in these segments' tetrahedra, and writes them down as it finds them. Edges that are there stay.
+void enumerate_by_segments(const EncodedMesh<HostMemory>& mesh, const Borrowed<Id, HostMemory>& tetrahedron_begin,
+                           bool triangles, SimplexTables& tables);
+
 /// The higher end of each edge, by the lower one, as a device finds them: lanes count those of a vertex in memory of
 /// their own and find them again to write them; where they are too many, they are sorted. `simplices` has the
 /// tetrahedra.
@@ -33,10 +38,7 @@ template <class Space>
 Csr<Id, MemoryOf<Space>, Id> edges_by_lanes(const Space& space, const Simplices<MemoryOf<Space>>& simplices,
                                             const MiddleStars<MemoryOf<Space>>& stars);
 
-/// Finds them as the host does: its threads write them down as they count them.
-Csr<Id, HostMemory, Id> edges_by_threads(const Simplices<HostMemory>& simplices, const MiddleStars<HostMemory>& stars);
-
-/// Makes edge_begin, edge_low and edge_high. `simplices` has the tetrahedra.
+/// Makes edge_begin, edge_low and edge_high as a device does. `simplices` has the tetrahedra.
 template <class Space>
 void enumerate_edges(const Space& space, const Simplices<MemoryOf<Space>>& simplices,
                      const MiddleStars<MemoryOf<Space>>& stars, SimplexTables& tables);
@@ -45,7 +47,7 @@ void enumerate_edges(const Space& space, const Simplices<MemoryOf<Space>>& simpl
 template <class Space>
 void sort_edges_by_higher(const Space& space, const Simplices<MemoryOf<Space>>& simplices, SimplexTables& tables);
 
-/// Makes triangle_begin and triangle_apex. `simplices` has the tetrahedra and edges.
+/// Makes triangle_begin and triangle_apex as a device does. `simplices` has the tetrahedra and edges.
 template <class Space>
 void enumerate_triangles(const Space& space, const Simplices<MemoryOf<Space>>& simplices,
                          const MiddleStars<MemoryOf<Space>>& stars, SimplexTables& tables);

@@ -100,16 +100,22 @@ void SimplexStore::enumerate(const SimplexNeeds& needs) {
   if (edges_too || triangles_too) {
     make(triangles_too ? "triangles" : "edges", mesh_.tetrahedra, [&](const auto& space) {
       using Memory = MemoryOf<std::decay_t<decltype(space)>>;
-      const auto stars = find_middle_stars(space, view_of<Memory>(mesh_, tables_, tetrahedra));
-      if (!has(tables_.edge_begin)) {
-        enumerate_edges(space, view_of<Memory>(mesh_, tables_, tetrahedra), stars, tables_);
+      const bool missing = !has(tables_.edge_begin) || (triangles_too && !has(tables_.triangle_begin));
+      if constexpr (!is_device_memory<Memory>) {
+        if (missing) {
+          enumerate_by_segments(mesh_.in<HostMemory>(), mesh_.tetrahedron_begin.in<HostMemory>(), triangles_too,
+                                tables_);
+        }
+      } else if (missing) {
+        const auto stars = find_middle_stars(space, view_of<Memory>(mesh_, tables_, tetrahedra));
+        if (!has(tables_.edge_begin)) {
+          enumerate_edges(space, view_of<Memory>(mesh_, tables_, tetrahedra), stars, tables_);
+        }
+        publish_intervals(space, 1);
+        if (triangles_too) enumerate_triangles(space, view_of<Memory>(mesh_, tables_, edges), stars, tables_);
       }
       publish_intervals(space, 1);
-      if (!triangles_too) return;
-      if (!has(tables_.triangle_begin)) {
-        enumerate_triangles(space, view_of<Memory>(mesh_, tables_, edges), stars, tables_);
-      }
-      publish_intervals(space, 2);
+      if (triangles_too) publish_intervals(space, 2);
     });
   }
   const bool triangle_edge_too = needs.upto >= Enumeration::triangles && needs.triangle_edge &&

@@ -1,0 +1,224 @@
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include <gale/base/bits.hpp>
+#include <gale/base/parallel.hpp>
+#include <gale/mesh/encode/tetrahedra.hpp>
+
+namespace gale::detail {
+
+namespace {
+
+/// Vertices in a group, as a power of two: a core's own cache holds the tetrahedra of which they are the lowest.
+constexpr int group_bits = 8;
+
+/// Sorts the tetrahedra of one group of lowest vertices after the other. For one thread.
+class GroupSorter {
+ public:
+  explicit GroupSorter(const SortedTetrahedra<HostMemory>& sorted)
+      : quads_(sorted.of_lowest.entries.data()),
+        input_(sorted.input.data()),
+        begin_(sorted.of_lowest.offsets.data()),
+        vertices_(static_cast<Id>(sorted.of_lowest.offsets.extent(0)) - 1) {}
+
+  /// Sorts those of a group, which are at [begin, end) in any order, and says where each vertex' begin. Returns whether
+  /// they are good.
+  bool sort(Id group, Id begin, Id end) {
+    const Id first = group << group_bits, last = std::min(vertices_ - first, 1 << group_bits) + first;
+    std::fill(next_.begin(), next_.end(), 0);
+    for (Id t = begin; t < end; ++t) ++next_[quads_[t].a - first];
+    for (Id v = first, at = 0; v < last; ++v) {
+      begin_[v] = begin + at;
+      at += std::exchange(next_[v - first], at);
+    }
+    if (keys_.size() < static_cast<std::size_t>(end - begin)) keys_.resize(end - begin);
+    for (Id t = begin; t < end; ++t) {
+      const Quad quad = quads_[t];
+      insert(key_of(quad, input_[t]), begin_[quad.a] - begin, next_[quad.a - first]++);
+    }
+    for (Id v = first; v < last; ++v) write(v, begin, begin_[v] - begin, next_[v - first]);
+    return are_good(quads_, begin, end);
+  }
+
+ private:
+  /// The other three vertices of a tetrahedron, and where it stood in the input.
+  __extension__ typedef unsigned __int128 Key;
+
+  /// Tetrahedra of a vertex that are sorted by insertion.
+  static constexpr Id few = 32;
+
+  static Key key_of(const Quad& quad, Id input) {
+    return Key(pair_key(quad.b, quad.c)) << 64 | pair_key(quad.d, input);
+  }
+
+  void insert(Key key, Id first, Id at) {
+    for (; at > first && at - first < few && key < keys_[at - 1]; --at) keys_[at] = keys_[at - 1];
+    keys_[at] = key;
+  }
+
+  void write(Id vertex, Id begin, Id first, Id last) {
+    if (last - first > few) std::sort(keys_.begin() + first, keys_.begin() + last);
+    for (Id i = first; i < last; ++i) {
+      const auto high = static_cast<std::uint64_t>(keys_[i] >> 64), low = static_cast<std::uint64_t>(keys_[i]);
+      quads_[begin + i] = {vertex, pair_first(high), pair_second(high), pair_first(low)};
+      input_[begin + i] = pair_second(low);
+    }
+  }
+
+  Quad* quads_;
+  Id *input_, *begin_;
+  Id vertices_;
+  std::array<Id, 1 << group_bits> next_;
+  std::vector<Key> keys_;
+};
+
+/// Where each part of the input writes its first tetrahedron of each group, and where groups begin.
+struct GroupPlaces {
+  std::vector<std::vector<Id>> of_parts;
+  std::vector<Id> begin;
+  bool are_all = true;  ///< whether all vertices of all tetrahedra are there
+};
+
+template <class Index>
+GroupPlaces places_of_groups(const Renumbered<Index>& input, Offset count, Offset groups) {
+  GroupPlaces places;
+  places.of_parts.resize(threads_for(count));
+  std::vector<char> bad(places.of_parts.size());
+  for_parts("GALE::count_tetrahedra", count, bad.size(), [&, input](int part, Offset first, Offset last) {
+    std::vector<Id> mine(groups, 0);
+    bool some_bad = false;
+    for (Offset t = first; t < last;) {
+      for (const Offset end = piece_end(t, last); t < end; ++t) {
+        const Id lowest = input.lowest(t);
+        some_bad |= lowest < 0;
+        ++mine[std::max(lowest, 0) >> group_bits];
+      }
+    }
+    bad[part] = some_bad;
+    places.of_parts[part] = std::move(mine);
+  });
+  places.are_all = std::find(bad.begin(), bad.end(), 1) == bad.end();
+  Id at = 0;
+  for (Offset group = 0; group < groups; ++group) {
+    places.begin.push_back(at);
+    for (auto& mine : places.of_parts) at += std::exchange(mine[group], at);
+  }
+  places.begin.push_back(at);
+  return places;
+}
+
+/// T_ex, in two steps: each part of the sorted tetrahedra counts and then places its own, by segment and after those of
+/// the parts before, so that rows ascend.
+class ExternalRows {
+ public:
+  ExternalRows(const SortedTetrahedra<HostMemory>& sorted, const Borrowed<Id, HostMemory>& vertex_begin, int parts)
+      : segments_(static_cast<Id>(vertex_begin.extent(0)) - 1),
+        blocks_(segments_of_blocks(HostExecutionSpace(), vertex_begin, sorted.of_lowest.rows())),
+        external_{sorted.of_lowest.entries.data(), {blocks_.data(), vertex_begin.data()}},
+        next_(parts) {}
+
+  void begin_part(int part) { next_[part].assign(segments_, 0); }
+
+  void count(int part, Id begin, Id end) {
+    Offset* const next = next_[part].data();
+    for (Id t = begin; t < end; ++t) external_(t, [next](Id segment) { ++next[segment]; });
+  }
+
+  /// When all parts have counted.
+  Csr<Id, HostMemory> allocate_rows() {
+    const auto begin = allocate<Array<Offset, HostMemory>>("GALE::external_begin", segments_ + Offset(1));
+    Offset at = 0;
+    for (Id segment = 0; segment < segments_; ++segment) {
+      begin(segment) = at;
+      for (auto& mine : next_) at += std::exchange(mine[segment], at);
+    }
+    begin(segments_) = at;
+    return {begin, allocate<Array<Id, HostMemory>>("GALE::external", at)};
+  }
+
+  void place(int part, Id begin, Id end, Id* to) {
+    Offset* const next = next_[part].data();
+    for (Id t = begin; t < end; ++t) external_(t, [=](Id segment) { to[next[segment]++] = t; });
+  }
+
+ private:
+  Id segments_;
+  Array<Id, HostMemory> blocks_;
+  ExternalSegments external_;
+  std::vector<std::vector<Offset>> next_;  ///< by part, by segment
+};
+
+/// Deals the tetrahedra to their groups.
+template <class Index>
+void deal(const Renumbered<Index>& input, Offset count, GroupPlaces& places,
+          const SortedTetrahedra<HostMemory>& sorted) {
+  Quad* const quads = sorted.of_lowest.entries.data();
+  Id* const from = sorted.input.data();
+  const int parts = static_cast<int>(places.of_parts.size());
+  for_parts("GALE::deal_tetrahedra", count, parts, [&, input, quads, from](int part, Offset first, Offset last) {
+    Id* const next = places.of_parts[part].data();
+    for (Offset t = first; t < last;) {
+      for (const Offset end = piece_end(t, last); t < end; ++t) {
+        const Quad quad = input[t];
+        const Id to = next[quad.a >> group_bits]++;
+        quads[to] = quad;
+        from[to] = static_cast<Id>(t);
+      }
+    }
+  });
+}
+
+}  // namespace
+
+template <class Index>
+EncodedTetrahedra encode_by_groups(const Tetrahedra<Index, HostMemory>& given,
+                                   const Array<Id, HostMemory>& vertex_internal,
+                                   const Borrowed<Id, HostMemory>& vertex_begin) {
+  const HostExecutionSpace space;
+  const Offset vertices = vertex_internal.extent(0), count = given.extent(0);
+  const Offset groups = (vertices >> group_bits) + 1;
+  const Renumbered<Index> input(given, vertex_internal);
+  GroupPlaces places = places_of_groups(input, count, groups);
+  if (!places.are_all) refuse_tetrahedra<HostExecutionSpace, Index>(space, given, {}, vertices);
+  const SortedTetrahedra<HostMemory> sorted{
+      {allocate<Array<Id, HostMemory>>("GALE::tetrahedra_of_lowest", vertices + 1),
+       allocate<Array<Quad, HostMemory>>("GALE::tetrahedra", count)},
+      allocate<Array<Id, HostMemory>>("GALE::tetrahedron_input", count)};
+  sorted.of_lowest.offsets(vertices) = static_cast<Id>(count);
+  deal(input, count, places, sorted);
+  const int parts = static_cast<int>(places.of_parts.size());
+  const std::vector<Id>& begin = places.begin;
+  ExternalRows rows(sorted, vertex_begin, parts);
+  std::vector<char> bad(parts);
+  for_parts("GALE::sort_tetrahedra", groups, parts, [&](int part, Offset first, Offset last) {
+    GroupSorter sorter(sorted);
+    rows.begin_part(part);
+    bool some_bad = false;
+    for (Offset group = first; group < last; ++group) {
+      stop_if_asked();
+      some_bad |= !sorter.sort(static_cast<Id>(group), begin[group], begin[group + 1]);
+      rows.count(part, begin[group], begin[group + 1]);
+    }
+    bad[part] = some_bad;
+  });
+  if (std::find(bad.begin(), bad.end(), 1) != bad.end())
+    refuse_tetrahedra<HostExecutionSpace, Index>(space, given, sorted, vertices);
+  const auto external = rows.allocate_rows();
+  for_parts("GALE::external", groups, parts, [&](int part, Offset first, Offset last) {
+    for (Offset group = first; group < last; ++group) {
+      stop_if_asked();
+      rows.place(part, begin[group], begin[group + 1], external.entries.data());
+    }
+  });
+  return {sorted, external};
+}
+
+template EncodedTetrahedra encode_by_groups(const Tetrahedra<std::int32_t, HostMemory>&, const Array<Id, HostMemory>&,
+                                            const Borrowed<Id, HostMemory>&);
+template EncodedTetrahedra encode_by_groups(const Tetrahedra<std::int64_t, HostMemory>&, const Array<Id, HostMemory>&,
+                                            const Borrowed<Id, HostMemory>&);
+
+}  // namespace gale::detail
