@@ -18,7 +18,7 @@ namespace gale::test {
 
 namespace {
 
-struct StructureKind {
+struct FormulatedStructure {
   const char* name;
   std::function<std::unique_ptr<Structure>(const Mesh&, RelationSet)> make;
 };
@@ -29,8 +29,8 @@ std::unique_ptr<Structure> make_runtime(const Mesh& mesh, RelationSet relations,
   return make_structure(mesh, relations, options);
 }
 
-std::vector<StructureKind> kinds_of_structures() {
-  std::vector<StructureKind> kinds = {
+std::vector<FormulatedStructure> kinds_of_structures() {
+  std::vector<FormulatedStructure> kinds = {
       {"consumers",
        [](const Mesh& mesh, RelationSet relations) { return make_runtime(mesh, relations, Way::inline_); }},
       {"leaders", [](const Mesh& mesh, RelationSet relations) { return make_runtime(mesh, relations, Way::leaders); }}};

@@ -14,7 +14,6 @@ namespace gale::test {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double tiny = 1e-6;
 
 using Counts = std::array<Id, 4>;
@@ -90,7 +89,7 @@ TEST_P(SlopeOn, a_shape_leaves_its_Betti_numbers) {
                           return x + 0.1 * y + 0.01 * z + noise(x, y, z, 0.9);
                         }));
   EXPECT_GT(noisy.all().counts()[1], shape.betti_numbers[1] + 3) << "there is noise";
-  EXPECT_EQ(noisy.simplified(infinity).counts(), shape.betti_numbers);
+  EXPECT_EQ(noisy.simplified(std::numeric_limits<double>::infinity()).counts(), shape.betti_numbers);
   const ComplexOf constant(input, std::vector<double>(input.points.size(), 7.0));
   EXPECT_EQ(constant.simplified(tiny).counts(), shape.betti_numbers);
 }

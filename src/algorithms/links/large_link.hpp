@@ -54,6 +54,14 @@ class LargeLink {
     return topology;
   }
 
+  /// Calls visit(i) for one neighbour of each component that topology() counted.
+  template <class Visit>
+  void for_each_component(Id neighbours, const Visit& visit) const {
+    for (Id i = 0; i < neighbours; ++i) {
+      if (parent_[i] == i) visit(i);
+    }
+  }
+
  private:
   Id root(Id i) {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];

@@ -46,19 +46,25 @@ class LinkBits {
   /// The neighbours that share an edge of the link with the i-th one.
   KOKKOS_FORCEINLINE_FUNCTION Word touching(Id i) const { return once_[i]; }
 
-  /// Connected components of a set of neighbours, by flooding.
-  KOKKOS_FORCEINLINE_FUNCTION int components(Word rest) const {
-    int count = 0;
+  /// Calls visit(i) for one neighbour of each connected component of a set of neighbours, which it finds by flooding.
+  template <class Visit>
+  KOKKOS_FORCEINLINE_FUNCTION void for_each_component(Word rest, const Visit& visit) const {
     while (rest != 0) {
       Word front = rest & (~rest + 1);
       rest &= ~front;
+      visit(lowest_bit(front));
       while (front != 0) {
         const Word met = once_[lowest_bit(front)] & rest;
         front = (front & (front - 1)) | met;
         rest &= ~met;
       }
-      ++count;
     }
+  }
+
+  /// Connected components of a set of neighbours.
+  KOKKOS_FORCEINLINE_FUNCTION int components(Word rest) const {
+    int count = 0;
+    for_each_component(rest, [&](int) { ++count; });
     return count;
   }
 
@@ -91,6 +97,11 @@ class SmallLink {
 
   KOKKOS_FUNCTION bool is_open() const { return bits_.is_open(); }
   KOKKOS_FORCEINLINE_FUNCTION std::uint64_t touching(Id i) const { return bits_.touching(i); }
+  KOKKOS_FORCEINLINE_FUNCTION int components(std::uint64_t of) const { return bits_.components(of); }
+  template <class Visit>
+  KOKKOS_FORCEINLINE_FUNCTION void for_each_component(std::uint64_t of, const Visit& visit) const {
+    bits_.for_each_component(of, visit);
+  }
   KOKKOS_FORCEINLINE_FUNCTION LinkTopology topology(Id neighbours, std::uint64_t lower) const {
     return bits_.topology(neighbours, lower);
   }

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <gale/algorithms/merge_tree/side_keys.hpp>
+#include <gale/base/memory.hpp>
+#include <gale/base/transfer.hpp>
+
+namespace gale::detail {
+
+/// A forest in which one climbs by powers of two: binary lifting.
+template <class Memory>
+struct LiftedTree {
+  Array<Id, Memory> up;               ///< level by level: of each node that 2^level parents above it; roots their own
+  Array<std::uint64_t, Memory> keys;  ///< of the nodes, as the side sees them
+  int levels = 0;
+
+  /// The last node from `node` on upwards whose key is at most this one.
+  KOKKOS_FORCEINLINE_FUNCTION Id climb(Id node, std::uint64_t key) const {
+    const auto count = static_cast<Id>(keys.extent(0));
+    for (int level = levels - 1; level >= 0; --level) {
+      const Id higher = up(level * count + node);
+      if (keys(higher) <= key) node = higher;
+    }
+    return node;
+  }
+};
+
+/// Of nodes that are GALE's `vertices`, with a parent or none (no_id) each.
+template <class Memory>
+LiftedTree<Memory> lifted_tree(const SideKeys& keys, const std::vector<Id>& vertices, const std::vector<Id>& parents) {
+  const auto count = static_cast<Id>(vertices.size());
+  std::vector<Id> up(count);
+  const auto keys_here = allocate<Array<std::uint64_t, HostMemory>>("GALE::node_keys", count);
+  for (Id node = 0; node < count; ++node) {
+    up[node] = parents[node] == no_id ? node : parents[node];
+    keys_here(node) = keys[vertices[node]];
+  }
+  int levels = 1;
+  for (bool goes_on = true; goes_on;) {
+    const std::size_t begin = up.size() - static_cast<std::size_t>(count);
+    goes_on = false;
+    for (Id node = 0; node < count; ++node) {
+      const Id half = up[begin + node];
+      up.push_back(up[begin + half]);
+      goes_on |= up.back() != half;
+    }
+    if (goes_on) ++levels;
+  }
+  const Array<const Id, HostMemory> up_here(up.data(), up.size());
+  const auto copy = allocate<Array<Id, HostMemory>>("GALE::nodes_above", up.size());
+  Kokkos::deep_copy(copy, up_here);
+  return {in_memory<Memory>(copy), in_memory<Memory>(keys_here), levels};
+}
+
+}  // namespace gale::detail

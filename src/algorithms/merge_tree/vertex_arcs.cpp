@@ -1,0 +1,100 @@
+#include <gale/algorithms/merge_tree/vertex_arcs.hpp>
+#include <gale/base/parallel.hpp>
+#include <gale/base/transfer.hpp>
+
+namespace gale::detail {
+
+namespace {
+
+/// The claims of a tree and what becomes of them, where code that runs on `Memory` reads and writes them.
+template <class Memory>
+struct ClaimsOfTree {
+  Array<const std::uint64_t, Memory> by_node[2];
+  Array<Id, Memory> arc_of;
+};
+
+/// Finds the arcs of a vertex.
+template <class Memory>
+struct FindArcs {
+  static constexpr int most_trees = 3;
+  const Id* input;
+  SideClimb<Memory> sides[2];
+  bool climbs[2] = {false, false};
+  ClaimsOfTree<Memory> trees[most_trees];
+  int count = 0;
+
+  KOKKOS_FUNCTION void operator()(Offset v) const {
+    const auto vertex = static_cast<Id>(v);
+    Id node[2] = {no_id, no_id};
+    for (const Side side : {below, above}) {
+      if (climbs[side]) node[side] = sides[side].node_of(vertex);
+    }
+    for (int tree = 0; tree < count; ++tree) {
+      std::uint64_t claim = no_claim;
+      for (const Side side : {below, above}) {
+        const auto& claims = trees[tree].by_node[side];
+        if (claims.extent(0) > 0 && claims(node[side]) < claim) claim = claims(node[side]);
+      }
+      trees[tree].arc_of(input[vertex]) = pair_second(claim);
+    }
+  }
+};
+
+template <class Memory, class T>
+Array<const T, Memory> there(const std::vector<T>& values) {
+  return in_memory<Memory>(Array<const T, HostMemory>(values.data(), values.size()));
+}
+
+}  // namespace
+
+template <class Space>
+std::vector<std::vector<Id>> arcs_of_vertices(const Space& space, const Mesh& mesh,
+                                              const std::array<SideClimb<MemoryOf<Space>>, 2>& sides,
+                                              const std::vector<ArcsOfNodes>& trees) {
+  using Memory = MemoryOf<Space>;
+  FindArcs<Memory> find;
+  find.input = mesh.vertex_input<Memory>().data();
+  find.count = static_cast<int>(trees.size());
+  std::vector<std::vector<Id>> found(trees.size(), std::vector<Id>(mesh.vertices()));
+  for (int tree = 0; tree < find.count; ++tree) {
+    for (const Side side : {below, above}) {
+      find.trees[tree].by_node[side] = there<Memory>(trees[tree][side]);
+      find.climbs[side] |= !trees[tree][side].empty();
+    }
+    if constexpr (is_device<Space>) {
+      find.trees[tree].arc_of = allocate<Array<Id, Memory>>("GALE::arc_of", mesh.vertices());
+    } else {
+      find.trees[tree].arc_of = Array<Id, Memory>(found[tree].data(), found[tree].size());
+    }
+  }
+  for (const Side side : {below, above}) find.sides[side] = sides[side];
+  parallel_for("GALE::find_arcs", space, mesh.vertices(), find);
+  space.fence();
+  if constexpr (is_device<Space>) {
+    for (int tree = 0; tree < find.count; ++tree)
+      copy_from_device(found[tree].data(), find.trees[tree].arc_of.data(), found[tree].size() * sizeof(Id));
+  }
+  return found;
+}
+
+template <class Space>
+std::vector<Id> nodes_of(const Space& space, const SideClimb<MemoryOf<Space>>& side, const std::vector<Id>& vertices) {
+  using Memory = MemoryOf<Space>;
+  const Array<const Id, Memory> of = there<Memory>(vertices);
+  const auto nodes = allocate<Array<Id, Memory>>("GALE::nodes_of", vertices.size());
+  parallel_for(
+      "GALE::nodes_of", space, static_cast<Offset>(vertices.size()),
+      KOKKOS_LAMBDA(Offset i) { nodes(i) = side.node_of(of(i)); });
+  space.fence();
+  const auto here = on_host(nodes);
+  return {here.data(), here.data() + here.extent(0)};
+}
+
+#define GALE_INSTANTIATE(Space)                                                                                      \
+  template std::vector<std::vector<Id>> arcs_of_vertices<Space>(                                                     \
+      const Space&, const Mesh&, const std::array<SideClimb<MemoryOf<Space>>, 2>&, const std::vector<ArcsOfNodes>&); \
+  template std::vector<Id> nodes_of<Space>(const Space&, const SideClimb<MemoryOf<Space>>&, const std::vector<Id>&)
+GALE_IN_EACH_SPACE(GALE_INSTANTIATE);
+#undef GALE_INSTANTIATE
+
+}  // namespace gale::detail

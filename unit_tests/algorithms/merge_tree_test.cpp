@@ -1,0 +1,158 @@
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include <gale/algorithms/merge_tree.hpp>
+#include <gale/base/error.hpp>
+#include <gale/io/synthetic.hpp>
+#include <gale/mesh/make_mesh.hpp>
+
+#include "algorithms/brute_force_trees.hpp"
+#include "algorithms/fields.hpp"
+#include "algorithms/structure_kinds.hpp"
+#include "support/every_mesh.hpp"
+#include "support/message_of.hpp"
+
+namespace gale::test {
+
+namespace {
+
+const std::vector<Tree> all_trees = {Tree::join, Tree::split, Tree::contour};
+
+const char* name_of(Tree tree) { return tree == Tree::join ? "join" : tree == Tree::split ? "split" : "contour"; }
+
+void expect_same(const MergeTree& tree, const MergeTree& expected) {
+  EXPECT_EQ(tree.vertices, expected.vertices);
+  EXPECT_EQ(tree.types, expected.types);
+  EXPECT_EQ(tree.arcs, expected.arcs);
+  EXPECT_EQ(tree.arc_of, expected.arc_of);
+}
+
+MergeTreeOptions options_of(const StructureKind& kind, int threads) {
+  MergeTreeOptions options;
+  options.threads = threads;
+  options.consumers = ConsumerPlace::host;
+  options.make_structure = kind.make;
+  return options;
+}
+
+}  // namespace
+
+class MergeTreesOf : public EveryMesh {};
+
+TEST_P(MergeTreesOf, every_mesh_are_those_of_brute_force_on_every_structure) {
+  const Mesh mesh = encode(input(), segmentation());
+  for (const Field& field : fields_on(input())) {
+    const VertexOrder order(mesh, field.values.data(), field.values.size());
+    std::vector<MergeTree> expected;
+    for (const Tree tree : all_trees)
+      expected.push_back(brute_force_tree(tree, brute_force_of(mesh_name()).vv, field.values));
+    for (const auto& kind : structure_kinds()) {
+      for (const int threads : {1, 3}) {
+        const auto all = find_merge_trees(order, options_of(kind, threads));
+        for (const Tree tree : all_trees) {
+          SCOPED_TRACE(kind.name + ", " + field.name + ", " + name_of(tree) + ", threads " + std::to_string(threads));
+          expect_same(all[static_cast<int>(tree)], expected[static_cast<int>(tree)]);
+        }
+      }
+    }
+    for (const Tree tree : all_trees) {
+      SCOPED_TRACE(std::string("alone: ") + field.name + ", " + name_of(tree));
+      expect_same(find_merge_tree(order, tree), expected[static_cast<int>(tree)]);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Tests, MergeTreesOf, every_mesh_and_segmentation(), mesh_and_segmentation);
+
+TEST(MergeTree, of_two_valleys_joins_them_at_the_pass) {
+  // A strip of tetrahedra along 0 1 2 3 4 5 6: valleys at the ends, and a pass at 3.
+  InputMesh input;
+  for (Id i = 0; i < 7; ++i) input.points.push_back({double(i), double(i % 2), double(i % 3)});
+  for (Id i = 0; i + 3 < 7; ++i) input.tetrahedra.push_back({i, i + 1, i + 2, i + 3});
+  const std::vector<double> field = {0, 4, 5, 6, 3, 2, 1};
+  const Mesh mesh = encode(input, 100);
+  const VertexOrder order(mesh, field.data(), field.size());
+  const MergeTree tree = find_merge_tree(order, Tree::join);
+  EXPECT_EQ(tree.vertices, (std::vector<Id>{0, 6, 1, 3}));
+  EXPECT_EQ(tree.types, (std::vector<CriticalType>{CriticalType::minimum, CriticalType::minimum, CriticalType::saddle1,
+                                                   CriticalType::maximum}));
+  EXPECT_EQ(tree.arcs, (std::vector<MergeArc>{{0, 2, 0}, {1, 2, 2}, {2, 3, 1}}));
+  EXPECT_EQ(tree.arc_of, (std::vector<Id>{0, 2, 2, 2, 1, 1, 1}));
+
+  MergeTreeOptions options;
+  options.value = [&](Id vertex) { return field[vertex]; };
+  options.threshold = 3;
+  EXPECT_EQ(find_merge_tree(order, Tree::join, options).arcs.size(), 3u) << "what is as persistent as that stays";
+  options.threshold = 3.5;
+  const MergeTree simplified = find_merge_tree(order, Tree::join, options);
+  EXPECT_EQ(simplified.vertices, (std::vector<Id>{0, 3}));
+  EXPECT_EQ(simplified.arcs, (std::vector<MergeArc>{{0, 1, 5}}));
+  EXPECT_EQ(simplified.arc_of, (std::vector<Id>(7, 0)));
+}
+
+class SimplifiedTreesOf : public EveryMesh {};
+
+TEST_P(SimplifiedTreesOf, every_mesh_have_the_extrema_that_are_persistent) {
+  const Mesh mesh = encode(input(), segmentation());
+  for (const Field& field : fields_on(input())) {
+    const VertexOrder order(mesh, field.values.data(), field.values.size());
+    for (const double threshold : {1e-9, 3.0, 40.0}) {
+      MergeTreeOptions options;
+      options.threshold = threshold;
+      options.value = [&](Id vertex) { return field.values[vertex]; };
+      for (const Tree tree : {Tree::join, Tree::split}) {
+        SCOPED_TRACE(field.name + ", " + name_of(tree) + ", threshold " + std::to_string(threshold));
+        const bool is_split = tree == Tree::split;
+        const auto whole = find_merge_tree(order, tree), simplified = find_merge_tree(order, tree, options);
+        std::vector<Id> leaves, arcs_at(simplified.vertices.size(), 0), ahead = arcs_at;
+        Id on_arcs = 0;
+        for (const MergeArc& arc : simplified.arcs) {
+          EXPECT_LT(arc.lower, arc.upper);
+          ++(is_split ? arcs_at[arc.lower] : arcs_at[arc.upper]);
+          ++(is_split ? ahead[arc.upper] : ahead[arc.lower]);
+          on_arcs += arc.size;
+        }
+        EXPECT_EQ(on_arcs + static_cast<Id>(simplified.vertices.size()), mesh.vertices());
+        for (std::size_t node = 0; node < arcs_at.size(); ++node) {
+          if (arcs_at[node] == 0) leaves.push_back(simplified.vertices[node]);
+          EXPECT_TRUE(arcs_at[node] != 1 || ahead[node] == 0) << "no node is regular";
+          EXPECT_LE(ahead[node], 1);
+          EXPECT_NE(std::count(whole.vertices.begin(), whole.vertices.end(), simplified.vertices[node]), 0);
+        }
+        std::sort(leaves.begin(), leaves.end());
+        EXPECT_EQ(leaves, brute_force_persistent(is_split, brute_force_of(mesh_name()).vv, field.values, threshold));
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Tests, SimplifiedTreesOf, every_mesh_and_segmentation(), mesh_and_segmentation);
+
+TEST(MergeTree, of_grid_48_has_as_many_nodes_as_others_find) {
+  const io::Dataset dataset = io::make_grid(48);
+  const auto& points = std::get<io::Dataset::Points<float>>(dataset.points);
+  const auto& field = std::get<std::vector<float>>(dataset.arrays.front().values);
+  const Mesh mesh(Tetrahedra<Id, HostMemory>(dataset.tetrahedra),
+                  octree_segmentation<float, HostMemory>(Points<float, HostMemory>(points), 100));
+  const auto trees = find_merge_trees(VertexOrder(mesh, field.data(), field.size()));
+  const std::size_t nodes[] = {122, 118, 238};
+  for (int tree = 0; tree < 3; ++tree) {
+    EXPECT_EQ(trees[tree].vertices.size(), nodes[tree]);
+    EXPECT_EQ(trees[tree].arcs.size(), nodes[tree] - 1);
+  }
+}
+
+TEST(MergeTree, asks_for_a_threshold_that_is_a_number_and_for_values) {
+  const Mesh mesh = encode(mesh_named("one_tetrahedron"), 100);
+  const std::vector<float> field = {7, 5, 6, 9};
+  const VertexOrder order(mesh, field.data(), field.size());
+  MergeTreeOptions options;
+  options.threshold = 1;
+  EXPECT_EQ(message_of([&] { find_merge_tree(order, Tree::join, options); }),
+            "a tree simplified by persistence needs the field's values");
+  options.threshold = std::nan("");
+  EXPECT_EQ(message_of([&] { find_merge_tree(order, Tree::join, options); }), "the threshold of a tree is no number");
+}
+
+}  // namespace gale::test
