@@ -70,15 +70,15 @@ struct MergeTreeOptions : ComputeOptions {
 /// result is the same whatever the structure, its segments, and the number of threads.
 ///
 /// With a `threshold`, join and split trees are without the extrema whose persistence (elder rule) is below it: a
-/// branch that ends with one merges into the arc that it hangs on. Contour trees can't be
-/// simplified.
+/// branch that ends with one merges into the arc that it hangs on. A contour tree is that of the simplified field
+/// (`simplify_field`).
 ///
 /// By threads of the host. Throws gale::Error on one rank's part of a mesh; for a threshold that is no number or
 /// without values; naming the vertex, if a value is NaN where it is asked for; and as make_structure and sweeps do.
 GALE_EXPORT MergeTree find_merge_tree(const VertexOrder& order, Tree tree, const MergeTreeOptions& options = {},
                                       Computed* computed = nullptr);
 
-/// Finds all three, by `Tree`, in one sweep.
+/// Finds all three, by `Tree`, in one sweep; with a threshold simplify_field's work and another sweep come on top.
 GALE_EXPORT std::array<MergeTree, 3> find_merge_trees(const VertexOrder& order, const MergeTreeOptions& options = {},
                                                       Computed* computed = nullptr);
 

@@ -160,11 +160,11 @@ std::vector<Id> brute_force_extrema(bool maxima, const Table& neighbours, const 
   return extrema;
 }
 
-std::vector<Id> brute_force_persistent(bool maxima, const Table& neighbours, const std::vector<double>& values,
-                                       double threshold) {
-  const auto all = brute_force_extrema(maxima, neighbours, values);
+std::vector<Id> brute_force_persistent(bool maxima, const Table& neighbours, const std::vector<double>& order,
+                                       const std::vector<double>& values, double threshold) {
+  const auto all = brute_force_extrema(maxima, neighbours, order);
   std::set<Id> left(all.begin(), all.end());
-  next_of_all(neighbours, sorted_vertices(values, maxima), [&](Id younger, Id, Id end) {
+  next_of_all(neighbours, sorted_vertices(order, maxima), [&](Id younger, Id, Id end) {
     if (values[younger] == values[end] ? 0 < threshold : std::abs(values[younger] - values[end]) < threshold)
       left.erase(younger);
   });

@@ -16,8 +16,10 @@ MergeTree brute_force_tree(Tree tree, const BruteForce::Table& neighbours, const
 std::vector<Id> brute_force_extrema(bool maxima, const BruteForce::Table& neighbours,
                                     const std::vector<double>& values);
 
-/// The minima (maxima) whose branches of the join (split) tree are at least so persistent, or don't end; ascending.
+/// The minima (maxima) of an order whose branches of the join (split) tree are at least so persistent by their values,
+/// or don't end; ascending.
 std::vector<Id> brute_force_persistent(bool maxima, const BruteForce::Table& neighbours,
-                                       const std::vector<double>& values, double threshold);
+                                       const std::vector<double>& order, const std::vector<double>& values,
+                                       double threshold);
 
 }  // namespace gale::test

@@ -121,7 +121,8 @@ TEST_P(SimplifiedTreesOf, every_mesh_have_the_extrema_that_are_persistent) {
           EXPECT_NE(std::count(whole.vertices.begin(), whole.vertices.end(), simplified.vertices[node]), 0);
         }
         std::sort(leaves.begin(), leaves.end());
-        EXPECT_EQ(leaves, brute_force_persistent(is_split, brute_force_of(mesh_name()).vv, field.values, threshold));
+        EXPECT_EQ(leaves, brute_force_persistent(is_split, brute_force_of(mesh_name()).vv, field.values, field.values,
+                                                 threshold));
       }
     }
   }

@@ -52,6 +52,15 @@ void append(std::vector<T>& to, const std::vector<T>& more) {
 
 }  // namespace
 
+void add_found(const std::vector<ExtremumFinder>& finders, ExtremumGraph<HostMemory>& graph) {
+  for (const auto& finder : finders) {
+    for (const Side side : {below, above}) {
+      append(graph[side].extrema, finder.extrema[side]);
+      append(graph[side].meetings, finder.meetings[side]);
+    }
+  }
+}
+
 ExtremumGraph<HostMemory> extremum_graph(Structure& structure, const std::uint64_t* keys, const SweepOptions& options) {
   using Ids = Array<Id, HostMemory>;
   const Id count = structure.mesh().vertices();
@@ -68,12 +77,7 @@ ExtremumGraph<HostMemory> extremum_graph(Structure& structure, const std::uint64
       next[above][v] = found[above];
     }
   });
-  for (const auto& finder : finders) {
-    for (const Side side : {below, above}) {
-      append(graph[side].extrema, finder.extrema[side]);
-      append(graph[side].meetings, finder.meetings[side]);
-    }
-  }
+  add_found(finders, graph);
   return graph;
 }
 

@@ -74,6 +74,9 @@ class ExtremumFinder {
   LargeLink large_;
 };
 
+/// Adds the extrema and meetings that they kept.
+void add_found(const std::vector<ExtremumFinder>& finders, ExtremumGraph<HostMemory>& graph);
+
 /// Finds it in a sweep of consumers on the host.
 ExtremumGraph<HostMemory> extremum_graph(Structure& structure, const std::uint64_t* keys, const SweepOptions& options);
 

@@ -12,6 +12,7 @@
 #include <gale/algorithms/merge_tree/merge_forest.hpp>
 #include <gale/algorithms/merge_tree/vertex_arcs.hpp>
 #include <gale/algorithms/order/whole_mesh.hpp>
+#include <gale/algorithms/simplify_field.hpp>
 #include <gale/base/error.hpp>
 
 namespace gale {
@@ -169,16 +170,32 @@ std::optional<ThresholdOfTree> threshold_of(const Mesh& mesh, const MergeTreeOpt
                          }};
 }
 
+/// Trees of an order as it is; but join and split trees as far as a threshold leaves them, and no contour trees then.
+std::vector<MergeTree> trees_of_order(const VertexOrder& order, std::vector<Tree> trees,
+                                      const ThresholdOfTree* threshold, const MergeTreeOptions& options,
+                                      Computed& computed) {
+  if (threshold != nullptr) trees.erase(std::remove(trees.begin(), trees.end(), Tree::contour), trees.end());
+  if (trees.empty()) return {};
+  Computing computing(order.mesh(), options, &computed);
+  Structure& structure = computing.structure(merge_tree_relations);
+  return TreeMaker<HostExecutionSpace>(HostExecutionSpace(), order, extremum_graph(structure, order.keys(), options),
+                                       trees)
+      .make(threshold);
+}
+
 std::vector<MergeTree> find_trees(const VertexOrder& order, const std::vector<Tree>& trees,
                                   const MergeTreeOptions& options, Computed* computed) {
   require_whole_mesh("a merge tree", order.mesh());
   const auto threshold = threshold_of(order.mesh(), options);
-  if (threshold && trees.back() == Tree::contour) throw Error("contour trees can't be simplified");
-  Computing computing(order.mesh(), options, computed);
-  Structure& structure = computing.structure(merge_tree_relations);
-  return TreeMaker<HostExecutionSpace>(HostExecutionSpace(), order, extremum_graph(structure, order.keys(), options),
-                                       trees)
-      .make(threshold ? &*threshold : nullptr);
+  Computed own;
+  Computed& shared = computed == nullptr ? own : *computed;  // one structure for all sweeps
+  std::vector<MergeTree> found = trees_of_order(order, trees, threshold ? &*threshold : nullptr, options, shared);
+  if (threshold && trees.back() == Tree::contour) {
+    const SimplifiedField field = simplify_field(order, options.value, options.threshold, options, &shared);
+    const VertexOrder simplified(order.mesh(), field.rank.data(), field.rank.size());
+    found.push_back(std::move(trees_of_order(simplified, {Tree::contour}, nullptr, options, shared).front()));
+  }
+  return found;
 }
 
 }  // namespace

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include <gale/algorithms/vertex_order.hpp>
+#include <gale/export.hpp>
+#include <gale/runtime/computation.hpp>
+
+namespace gale {
+
+/// A field without some of the extrema of another one: an order of the same vertices, and values that agree with it.
+struct SimplifiedField {
+  /// The place of each vertex in the new order, from 0, by input id: what a point array NAME_Order has.
+  std::vector<Id> rank;
+
+  /// The vertex whose value each vertex has now, by input id: itself, or the saddle up (down) to which its branch was
+  /// filled. With these values the new order never falls.
+  std::vector<Id> value_of;
+
+  Id minima = 0;  ///< how many minima are left
+  Id maxima = 0;  ///< how many maxima are left
+
+  /// How many of them should have gone, but could not: where a part of the mesh hangs on the rest by one vertex, it has
+  /// an extremum in any order. 0 on a mesh whose vertices' stars are balls or half balls.
+  Id kept_below = 0;
+};
+
+/// The extrema that are to stay, as input vertices in any order.
+struct StayingExtrema {
+  std::vector<Id> minima;  ///< minima of the field
+  std::vector<Id> maxima;  ///< maxima of the field
+};
+
+/// Removes the minima and maxima whose persistence is below `threshold`: those of the join and of the split tree, each
+/// paired with a saddle by the elder rule (`find_merge_tree`). The branch of a minimum is filled up to its saddle: its
+/// vertices take the saddle's value, and come right after it in the order, each with one of them, or the saddle, before
+/// it; maxima likewise, downwards. All else stays as it is. Minima and maxima in turns until none is left that should
+/// go: filling up one branch may make another extremum less persistent, and flat parts may have extrema in their order.
+/// So the persistence diagram of the result has no pairs of extrema below the threshold, and to simplify it again
+/// changes nothing (compare Lukasczyk, Garth, Maciejewski and Tierny, "Localized Topological Simplification of Scalar
+/// Data", 2020).
+///
+/// `value(v)` is the field at an input vertex. One sweep of VV and link, and these rows of what changes once more;
+/// branches in parallel. Memory beside the result: 40 bytes a vertex, and 80 for each that changes. The result is the
+/// same whatever the structure, its segments, and the number of threads.
+///
+/// By threads of the host. Throws gale::Error on one rank's part of a mesh; if the threshold or a value that is asked
+/// for is NaN, naming the vertex; and as make_structure and sweeps do.
+GALE_EXPORT SimplifiedField simplify_field(const VertexOrder& order, const std::function<double(Id)>& value,
+                                           double threshold, const ComputeOptions& options = {},
+                                           Computed* computed = nullptr);
+
+/// Removes all minima and maxima but these, likewise. Throws gale::Error for a vertex that isn't one of the mesh or no
+/// such extremum of the field, and where a component of the mesh would have no minimum or no maximum.
+GALE_EXPORT SimplifiedField simplify_field(const VertexOrder& order, const StayingExtrema& staying,
+                                           const ComputeOptions& options = {}, Computed* computed = nullptr);
+
+}  // namespace gale

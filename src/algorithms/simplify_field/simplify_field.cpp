@@ -1,0 +1,169 @@
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include <gale/algorithms/merge_tree.hpp>
+#include <gale/algorithms/order/whole_mesh.hpp>
+#include <gale/algorithms/simplify_field.hpp>
+#include <gale/algorithms/simplify_field/removed_branches.hpp>
+#include <gale/base/error.hpp>
+#include <gale/base/parallel.hpp>
+
+namespace gale {
+
+namespace detail {
+
+namespace {
+
+/// Removes minima and maxima in turns.
+class FieldSimplifier {
+ public:
+  FieldSimplifier(ChangingOrder& order, const ChooseExtrema& staying) : order_(order), staying_(staying) {}
+
+  void run() {
+    // A part that hangs on the rest by one vertex is turned around without end.
+    constexpr int most_in_vain = 16;
+    Id least = 0;
+    int in_vain = 0, clean = 0;
+    for (Side side = below; clean < 2 && in_vain < most_in_vain; side = opposite(side)) {
+      RemovedBranches removed = removed_branches(order_, side, staying_);
+      extrema[side] = removed.extrema;
+      unwanted[side] = removed.unwanted;
+      clean = removed.unwanted == 0 ? clean + 1 : 0;
+      if (removed.unwanted > 0 && (least == 0 || removed.unwanted < least)) {
+        least = removed.unwanted;
+        in_vain = 0;
+      } else {
+        ++in_vain;
+      }
+      if (removed.unwanted > 0) order_.fill(side, std::move(removed.branches));
+    }
+    if (clean == 2) return;
+    for (const Side side : {below, above}) {
+      const RemovedBranches left = removed_branches(order_, side, staying_);
+      extrema[side] = left.extrema;
+      unwanted[side] = left.unwanted;
+    }
+  }
+
+  Id extrema[2] = {0, 0}, unwanted[2] = {0, 0};
+
+ private:
+  ChangingOrder& order_;
+  const ChooseExtrema& staying_;
+};
+
+/// `choose(order)` says which extrema of the changing order stay.
+template <class Choose>
+SimplifiedField simplified(const VertexOrder& order, const ComputeOptions& options, Computed* computed,
+                           const Choose& choose) {
+  const Mesh& mesh = order.mesh();
+  require_whole_mesh("a simplified field", mesh);
+  Computing computing(mesh, options, computed);
+  ChangingOrder changing(computing.structure(merge_tree_relations), order, options);
+  const ChooseExtrema staying = choose(changing);
+  FieldSimplifier simplifier(changing, staying);
+  simplifier.run();
+  SimplifiedField field;
+  field.minima = simplifier.extrema[below];
+  field.maxima = simplifier.extrema[above];
+  field.kept_below = simplifier.unwanted[below] + simplifier.unwanted[above];
+  field.rank.resize(mesh.vertices());
+  field.value_of.resize(mesh.vertices());
+  const Id* const input = mesh.vertex_input().data();
+  parallel_for("GALE::simplified_field", HostExecutionSpace(), mesh.vertices(), [&](Offset v) {
+    field.rank[input[v]] = static_cast<Id>(changing.keys()[v]);
+    field.value_of[input[v]] = input[changing.value_of()[v]];
+  });
+  return field;
+}
+
+/// Says by which of its extrema a field is known, and that these are the given ones.
+class GivenExtrema {
+ public:
+  GivenExtrema(const VertexOrder& order, const StayingExtrema& staying) : mesh_(order.mesh()) {
+    for (const Side side : {below, above}) {
+      stays_[side].resize(mesh_.vertices(), false);
+      for (const Id vertex : side == below ? staying.minima : staying.maxima) {
+        if (vertex < 0 || vertex >= mesh_.vertices())
+          throw Error("vertex " + std::to_string(vertex) + ", which is to stay, is none of the mesh's " +
+                      std::to_string(mesh_.vertices()));
+        stays_[side][mesh_.vertex_internal()(vertex)] = true;
+      }
+    }
+  }
+
+  /// Throws gale::Error for one that is none.
+  void require_extrema(const ExtremumGraph<HostMemory>& graph) const {
+    for (const Side side : {below, above}) {
+      auto others = stays_[side];
+      for (const Id vertex : graph[side].extrema) others[vertex] = false;
+      const auto other = std::find(others.begin(), others.end(), true);
+      if (other != others.end())
+        throw Error("vertex " + std::to_string(mesh_.vertex_input()(other - others.begin())) +
+                    ", which is to stay, is no " + name_of(side) + " of the field");
+    }
+  }
+
+  std::vector<bool> operator()(Side side, const MergeForest& forest) {
+    std::vector<bool> stays;
+    for (const Id node : forest.leaf) stays.push_back(stays_[side][forest.vertices[node]]);
+    if (!std::exchange(is_checked_[side], true)) require_all_components(side, forest, stays);
+    return stays;
+  }
+
+ private:
+  static std::string name_of(Side side) { return side == below ? "minimum" : "maximum"; }
+
+  void require_all_components(Side side, const MergeForest& forest, const std::vector<bool>& stays) const {
+    std::vector<bool> has_one(forest.size(), false);
+    for (std::size_t place = 0; place < stays.size(); ++place) {
+      if (stays[place]) has_one[forest.leaf[place]] = true;
+    }
+    for (Id node = 0; node < forest.size(); ++node) {
+      if (forest.parent[node] != no_id) {
+        if (has_one[node]) has_one[forest.parent[node]] = true;
+      } else if (!has_one[node]) {
+        throw Error("no " + name_of(side) + " is to stay in the component of vertex " +
+                    std::to_string(mesh_.vertex_input()(forest.vertices[node])));
+      }
+    }
+  }
+
+  const Mesh mesh_;
+  std::vector<bool> stays_[2];  ///< by GALE's vertex
+  bool is_checked_[2] = {false, false};
+};
+
+}  // namespace
+
+}  // namespace detail
+
+SimplifiedField simplify_field(const VertexOrder& order, const std::function<double(Id)>& value, double threshold,
+                               const ComputeOptions& options, Computed* computed) {
+  if (std::isnan(threshold)) throw Error("the threshold of a simplified field is no number");
+  const Id* const input = order.mesh().vertex_input().data();
+  return detail::simplified(order, options, computed, [&](const detail::ChangingOrder& changing) {
+    return [&, input](detail::Side, const detail::MergeForest& forest) {
+      const auto value_at = [&](Id vertex) {
+        const Id from = input[changing.value_of()[vertex]];
+        const double known = value(from);
+        if (std::isnan(known)) throw Error("vertex " + std::to_string(from) + " has no field value: it is NaN");
+        return known;
+      };
+      return detail::persistent_extrema(forest, value_at, threshold);
+    };
+  });
+}
+
+SimplifiedField simplify_field(const VertexOrder& order, const StayingExtrema& staying, const ComputeOptions& options,
+                               Computed* computed) {
+  detail::GivenExtrema given(order, staying);
+  return detail::simplified(order, options, computed, [&](const detail::ChangingOrder& changing) {
+    given.require_extrema(changing.graph());
+    return std::ref(given);
+  });
+}
+
+}  // namespace gale
