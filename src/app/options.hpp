@@ -14,7 +14,7 @@
 namespace CLI {
 class App;
 class Option;
-}
+}  // namespace CLI
 
 // The groups of options that several commands have. Each adds its own to a command, which must outlive the parsing;
 // its members hold what the command line says once that has been parsed.
