@@ -36,7 +36,6 @@ class Renumbered {
 
   /// The lowest vertex of a tetrahedron; no_id if one of its vertices isn't there.
   KOKKOS_FUNCTION Id lowest(Offset t) const {
-    constexpr Id above_all = std::numeric_limits<Id>::max();
     Id lowest = above_all;
     for (int corner = 0; corner < 4; ++corner) {
       const auto vertex = static_cast<std::make_unsigned_t<Index>>(input_[4 * t + corner]);
@@ -48,6 +47,8 @@ class Renumbered {
   }
 
  private:
+  static constexpr Id above_all = std::numeric_limits<Id>::max();
+
   const Index* input_;
   const Id* internal_;
   std::make_unsigned_t<Index> vertices_;
