@@ -73,11 +73,10 @@ macro(gale_find_kokkos_kernels)
   gale_adopt(kokkoskernels KokkosKernels Kokkos::kokkoskernels KokkosKernels::all_libs)
 endmacro()
 
-# What gale::io splits cells with, and the libraries for XML and compression that VTK has with it. Gives the targets of
-# VTK_LIBRARIES.
+# What brings gale::io the libraries for XML and compression. Gives the targets of VTK_LIBRARIES.
 macro(gale_find_vtk)
   gale_find(VTK "install it, or set GALE_ENABLE_VTK=OFF (grid:N inputs alone then)"
-    COMPONENTS CommonCore CommonDataModel CommonExecutionModel FiltersGeneral expat lz4 lzma zlib)
+    COMPONENTS CommonCore CommonMisc expat lz4 lzma zlib)
 endmacro()
 
 # What gale::distributed and those who include its headers need. Gives MPI::MPI_CXX, without MPI's old C++ interface, and

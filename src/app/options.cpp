@@ -107,7 +107,11 @@ void InputOptions::add_to(CLI::App& command) {
   command.add_option(
       "-a,--array", read.array,
       "The point array to analyse, NAME or NAME_K for its component K; of volumes, also what --above is about");
-  command.add_flag("--tetrahedralize", read.tetrahedralize, "Meshes: split other 3D cells into tetrahedra");
+  command
+      .add_option_function<std::string>(
+          "--cells", [this](const std::string& cells) { read.tetrahedra_alone = cells == "tetrahedra"; },
+          "Meshes: tetrahedra refuses all other 3D cells; any (default) splits them into tetrahedra")
+      ->check(CLI::IsMember({"any", "tetrahedra"}));
   command.add_flag("--outside-files", read.outside_files,
                    "Volumes: let .mhd and .nrrd headers name data files outside of their own folder");
 }

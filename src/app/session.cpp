@@ -127,7 +127,10 @@ Mesh Session::encode(io::Dataset& dataset, const SegmentationOptions& segmentati
   const Stopwatch watch(report_.seconds.initialize);
   begin_step("encoding the mesh");
   Mesh mesh(Tetrahedra<Id, HostMemory>(dataset.tetrahedra), segments);
-  if (keep == Keep::nothing) dataset.tetrahedra = {};
+  if (keep == Keep::nothing) {
+    dataset.tetrahedra = {};
+    dataset.cell_arrays.clear();
+  }
   report_.segments = mesh.segments();
   if (!mesh.notice().empty()) note({mesh.notice()});
   console_.say("segments", grouped(mesh.segments()));

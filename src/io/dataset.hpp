@@ -67,7 +67,11 @@ struct Dataset {
   Kokkos::View<std::int32_t* [4], Kokkos::LayoutRight, Kokkos::HostSpace> tetrahedra;
 
   std::vector<PointArray> arrays;    ///< the file's point arrays, the active scalars first
-  std::vector<std::string> notices;  ///< one line each about what of the file was left out
+  std::vector<std::string> notices;  ///< one line each about what of the file was left out, or split
+
+  /// Arrays of the tetrahedra: `GlobalCellIds`, the cell of the file that each is or is a part of, counted from 0; none
+  /// where these are all of the file's cells, in their order.
+  std::vector<PointArray> cell_arrays;
 };
 
 /// How many points `array` has values for.

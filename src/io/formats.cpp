@@ -5,7 +5,8 @@ namespace gale::io {
 namespace detail {
 
 // Defined in formats/, a file each.
-Reader read_vtu, read_pvtu, read_legacy_vtk, read_vti, read_nifti, read_meta_image, read_nrrd, read_exodus, read_vtkhdf;
+Reader read_vtu, read_pvtu, read_legacy_vtk, read_vti, read_nifti, read_meta_image, read_nrrd, read_exodus, read_vtkhdf,
+    read_vts, read_vtr;
 
 }  // namespace detail
 
@@ -17,8 +18,11 @@ const std::vector<Format>& formats() {
       {"pieces of VTK XML meshes", ".pvtu", Input::mesh, written_pieces, true,
        "the `.vtu` that it names, in its folder or below, as one mesh", read_pvtu},
       {"legacy VTK", ".vtk", Input::mesh, written_meshes, false,
-       "an unstructured grid; a structured or rectilinear one with `--tetrahedralize`; structured points are a volume",
-       read_legacy_vtk},
+       "an unstructured, structured or rectilinear grid; structured points are a volume", read_legacy_vtk},
+      {"VTK XML structured grid", ".vts", Input::mesh, 0, false, "a mesh of hexahedra, in one piece or several",
+       read_vts},
+      {"VTK XML rectilinear grid", ".vtr", Input::mesh, 0, false, "a mesh of voxels, in one piece or several",
+       read_vtr},
       {"VTK XML image", ".vti", Input::volume, 0, false, "an image, in one piece or several", read_vti},
       {"NIfTI", ".nii .nii.gz", Input::volume, 0, false,
        "versions 1 and 2, the first time, placed by its sform, else its qform", read_nifti},

@@ -5,6 +5,7 @@
 #include <variant>
 
 #include <gale/io/bytes/values.hpp>
+#include <gale/io/cells/cells.hpp>
 #include <gale/io/formats.hpp>
 #include <gale/io/formats/xml_file.hpp>
 #include <gale/io/image.hpp>
@@ -83,6 +84,14 @@ SomePieces read_pieces(const std::string& input, const PieceNames& some, const R
   return naming(input, [&] {
     if (options.above) throw Error("a threshold was given, but it is a mesh, not an image");
     return detail::read_some_pieces(detail::InputFile(input), some, options);
+  });
+}
+
+void split_pieces(const std::string& input, SomePieces& some, const Array<const GlobalId, HostMemory>& ids,
+                  const ReadOptions& options) {
+  naming(input, [&] {
+    detail::Cells cells{std::move(some.types), std::move(some.ends), std::move(some.connectivity)};
+    detail::split_into(some.mesh, cells, ids, options);
   });
 }
 

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include <gale/base/memory.hpp>
+#include <gale/base/types.hpp>
 #include <gale/export.hpp>
 #include <gale/io/dataset.hpp>
 
@@ -14,8 +16,8 @@ namespace gale::io {
 struct ReadOptions {
   /// Images: only voxels with values above this become vertices; without it all with finite values do.
   std::optional<double> above;
-  /// Meshes: split cells of other shapes into tetrahedra instead of refusing them.
-  bool tetrahedralize = false;
+  /// Meshes: refuse other cells of dimension 3 instead of splitting them into tetrahedra.
+  bool tetrahedra_alone = false;
   /// Images: the array that `above` is about, as `select_scalars` takes it; empty means the file's scalars.
   std::string array;
   /// Headers such as `.mhd` may name data files that aren't in their own folder, nor below it.
@@ -31,8 +33,9 @@ GALE_EXPORT std::optional<int> grid_size(const std::string& input, const ReadOpt
 /// Reads what `input` names; extensions count in either case:
 /// - `grid:N`: see `make_grid`; `smooth:N`, `noisy:N`, `ball:N`, `shells:N`, `dense:N`: see `make_synthetic`.
 /// - `.vtu .vtk`: an unstructured grid. Its points and numeric point arrays travel as they are, the active scalars
-///   first, and its tetrahedra keep their order. Cells of lower dimension are left out with a notice. Other cells of
-///   dimension 3 are refused, unless `tetrahedralize`.
+///   first, and its tetrahedra keep their order. Other cells of dimension 3 are split (`split_cells`), with a notice,
+///   and those of lower dimension are left out, with another. `.vtk` of structured and rectilinear grids are meshes of
+///   hexahedra.
 /// - `.pvtu`: the pieces that it names, in its folder or below, as one mesh. Their points are the same where their
 ///   global ids are (`GlobalIds` of `PPointData`), or all coordinates if there are no such; ghost cells are left out.
 ///   Points are in the order of these ids, cells in that of theirs (`GlobalIds` of `PCellData`), else as they occur.
@@ -45,8 +48,7 @@ GALE_EXPORT std::optional<int> grid_size(const std::string& input, const ReadOpt
 /// Throws `Error` with one line that names `input` and what is wrong with it: no such file, damaged, another kind, no
 /// tetrahedra, too large for 32-bit ids. Whatever is in the file, nothing else happens: what it says of sizes is
 /// checked against what it has before memory is taken, so that reading takes memory in proportion to what a file holds;
-/// values that it lacks are an error. Nothing is printed. Any number of threads may read at the same time, but those
-/// that `tetrahedralize` wait for each other.
+/// values that it lacks are an error. Nothing is printed. Any number of threads may read at the same time.
 GALE_EXPORT Dataset read(const std::string& input, const ReadOptions& options = {});
 
 /// The pieces that a `.pvtu` names.
@@ -56,14 +58,19 @@ struct PieceNames {
   std::string cell_ids;              ///< the cell array that has global ids; empty where there is none
 };
 
-/// Some pieces as one mesh, which may have no tetrahedra and no points: points that several pieces have are there
-/// once, and ghost cells are left out.
+/// Some pieces as one mesh, which may have no cells and no points: points that several pieces have are there once, and
+/// ghost cells are left out.
 struct SomePieces {
-  Dataset mesh;  ///< points and tetrahedra in the order of their ids, or, without ids, in which they occur first
+  Dataset mesh;  ///< points in the order of their ids, or, without ids, in which they occur first; no tetrahedra yet
+
+  // Cells in the order of their ids, or in which they occur.
+  std::vector<std::int64_t> types;         ///< of each cell, VTK's number
+  std::vector<std::int64_t> ends;          ///< where each ends in `connectivity`
+  std::vector<std::int64_t> connectivity;  ///< the cells' points, by their places in the mesh
 
   // Ids in that order; empty without ids.
-  std::vector<std::int64_t> point_ids;        ///< the global ids of points, which differ
-  std::vector<std::int64_t> tetrahedron_ids;  ///< the global ids of tetrahedra
+  std::vector<std::int64_t> point_ids;  ///< the global ids of points, which differ
+  std::vector<std::int64_t> cell_ids;   ///< the global ids of cells
 };
 
 /// Reads which pieces `input` names if it is a `.pvtu`; nothing for another one. Throws Error, naming it.
@@ -71,5 +78,10 @@ GALE_EXPORT std::optional<PieceNames> piece_names(const std::string& input);
 
 /// Reads some of the pieces of a `.pvtu` as one mesh. Throws Error, naming the input.
 GALE_EXPORT SomePieces read_pieces(const std::string& input, const PieceNames& some, const ReadOptions& options);
+
+/// Splits the cells of such pieces into the tetrahedra of their mesh, by the global ids of its points, so that pieces
+/// that others read fit. Takes the cells. Throws Error, naming the input.
+GALE_EXPORT void split_pieces(const std::string& input, SomePieces& some, const Array<const GlobalId, HostMemory>& ids,
+                              const ReadOptions& options);
 
 }  // namespace gale::io

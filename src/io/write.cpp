@@ -115,8 +115,9 @@ void write_mesh(const Target& to, const Dataset& mesh, const std::vector<PointAr
   write_as(to, written_meshes, "a mesh", [&](const AtomicFile& file) {
     check_arrays(points_of(mesh.points), mesh.arrays);
     check_arrays(points_of(mesh.points), more);
+    check_arrays(mesh.tetrahedra.extent(0), mesh.cell_arrays, "tetrahedra");
     if (format_of(file.path())->takes(written_pieces)) {
-      detail::write_xml(file, detail::content_of(mesh, more));
+      detail::write_xml(file, detail::content_of(mesh, more, mesh.cell_arrays));
     } else {
       detail::write_legacy_vtk(file, mesh, more);
     }

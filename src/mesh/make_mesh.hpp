@@ -7,6 +7,8 @@
 
 #include <gale/base/error.hpp>
 #include <gale/base/parallel.hpp>
+#include <gale/base/transfer.hpp>
+#include <gale/mesh/cells/split_cells.hpp>
 #include <gale/mesh/mesh.hpp>
 
 namespace gale {
@@ -59,6 +61,30 @@ RowsOf<columns, TypeFor, View> rows_of(const char* name, const View& view) {
   return copy;
 }
 
+/// Copies an entry.
+template <class To, class From>
+struct CopyEntry {
+  To to;
+  From from;
+
+  KOKKOS_FUNCTION void operator()(Offset i) const { to(i) = static_cast<typename To::non_const_value_type>(from(i)); }
+};
+
+/// A caller's View of rank 1 as entries of T that follow each other in `Memory`: the same memory if they do already,
+/// else a copy.
+template <class T, class Memory, class View>
+Array<const T, Memory> entries_of(const View& view) {
+  static_assert(View::rank == 1, "a View of rank 1 is wanted");
+  const auto here = in_memory<Memory>(view);
+  if constexpr (std::is_same_v<T, typename View::non_const_value_type>) {
+    if (here.stride(0) == 1 || here.extent(0) < 2) return Array<const T, Memory>(here.data(), here.extent(0));
+  }
+  using Space = std::conditional_t<is_device_memory<Memory>, WorkerSpace, Kokkos::DefaultHostExecutionSpace>;
+  const auto copy = allocate<Array<T, Memory>>("GALE::caller_entries", here.extent(0));
+  parallel_for("GALE::caller_entries", Space(), here.extent(0), CopyEntry<decltype(copy), decltype(here)>{copy, here});
+  return copy;
+}
+
 /// A vector as an unmanaged View. Throws gale::Error if its length is no multiple of `columns`.
 template <int columns, class T>
 auto view_of(const char* name, const std::vector<T>& values) {
@@ -83,6 +109,36 @@ template <class PointView, class TetrahedronView>
 Mesh make_mesh(const PointView& points, const TetrahedronView& tetrahedra, int capacity = default_capacity) {
   return Mesh(detail::rows_of<4, detail::IndexFor>("tetrahedra", tetrahedra),
               octree_segmentation(detail::rows_of<3, detail::CoordinateFor>("points", points), capacity));
+}
+
+/// Takes what a caller has in Views of rank 1, as VTK numbers and orders cells: their points, where each cell begins
+/// among these (one more than cells), and the type of each. Of any integer types; all are read where `connectivity` is,
+/// in place if they are std::int32_t or std::int64_t, std::int64_t, and std::uint8_t, else copied first. To be kept no
+/// longer than these Views.
+template <class ConnectivityView, class OffsetView, class TypeView>
+auto cells_of(const ConnectivityView& connectivity, const OffsetView& offsets, const TypeView& types) {
+  using Memory =
+      std::conditional_t<is_device_memory<typename ConnectivityView::memory_space>, WorkerMemory, HostMemory>;
+  using Index = detail::IndexFor<typename ConnectivityView::non_const_value_type>;
+  return Cells<Index, Memory>{detail::entries_of<std::uint8_t, Memory>(types),
+                              detail::entries_of<Offset, Memory>(offsets),
+                              detail::entries_of<Index, Memory>(connectivity)};
+}
+
+/// Makes the mesh of cells of any kind (`split_cells`), which are read as cells_of() does. Tetrahedra aren't copied
+/// where all cells are. Which cell a tetrahedron is of says split_cells, whose tetrahedra are those of this mesh.
+/// Throws as split_cells, too.
+template <class PointView, class ConnectivityView, class OffsetView, class TypeView>
+Mesh make_mesh(const PointView& points, const ConnectivityView& connectivity, const OffsetView& offsets,
+               const TypeView& types, int capacity = default_capacity) {
+  const auto cells = cells_of(connectivity, offsets, types);
+  using Index = typename decltype(cells.connectivity)::non_const_value_type;
+  using Memory = typename decltype(cells.connectivity)::memory_space;
+  const auto segmentation = octree_segmentation(detail::rows_of<3, detail::CoordinateFor>("points", points), capacity);
+  if (are_tetrahedra(cells))
+    return Mesh(Tetrahedra<Index, Memory>(cells.connectivity.data(), cells.types.extent(0)), segmentation);
+  return Mesh(Tetrahedra<Id, Memory>(split_cells(cells, static_cast<Offset>(points.extent(0))).simplices),
+              segmentation);
 }
 
 /// Makes the mesh of vectors of 3 coordinates a point and 4 vertex ids a tetrahedron. Throws gale::Error, too, if the

@@ -76,8 +76,11 @@ io::MeshPiece piece_of(const VertexOrder& order, const io::Dataset& dataset, con
   if (!has_ids) {
     arrays.push_back(array_of_ids(io::global_point_ids, vertices.all, [&](Id v) { return mesh.vertex_id(v); }));
   }
-  piece.cell_arrays.push_back(
-      array_of_ids(io::global_cell_ids, tetrahedra, [&](Id t) { return mesh.tetrahedron_id(t); }));
+  for (const io::PointArray& array : dataset.cell_arrays) piece.cell_arrays.push_back(io::gather(array, tetrahedra));
+  if (piece.cell_arrays.empty()) {
+    piece.cell_arrays.push_back(
+        array_of_ids(io::global_cell_ids, tetrahedra, [&](Id t) { return mesh.tetrahedron_id(t); }));
+  }
   return piece;
 }
 

@@ -13,7 +13,8 @@ namespace gale::outputs {
 ///
 /// `dataset` has points, arrays and tetrahedra by input ids of the part, and `more` arrays beside its own; they come
 /// first. Then vtkGhostType (uint8), which is 1 (a duplicate) for vertices of other ranks, GlobalPointIds and
-/// GlobalCellIds (int64), the global ids of vertices and tetrahedra. `has_ids`: the dataset brings GlobalPointIds of
+/// GlobalCellIds (int64), the global ids of vertices and of tetrahedra, or of the cells that these are of, where
+/// `dataset` has those. `has_ids`: the dataset brings GlobalPointIds of
 /// its own.
 GALE_EXPORT io::MeshPiece piece_of(const VertexOrder& order, const io::Dataset& dataset,
                                    const std::vector<io::PointArray>& more, bool has_ids);

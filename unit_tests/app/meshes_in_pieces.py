@@ -1,4 +1,5 @@
 """Meshes in pieces by hand: .vtu with arrays as text, and the .pvtu that names them."""
+import itertools
 import random
 
 
@@ -8,14 +9,16 @@ def xml_array(kind, name, values, components=1):
 
 
 def vtu(points, cells, arrays="", cell_arrays="", coordinates="Float64", global_ids=""):
-    """Tetrahedra; `arrays` are text that xml_array made, `global_ids` the name of one of them."""
+    """Tetrahedra, or the cells that the numbers of their points say; `arrays` are text that xml_array made, `global_ids`
+    the name of one of them."""
     ids = f' GlobalIds="{global_ids}"' if global_ids else ""
     return ('<VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian" header_type="UInt64">\n<UnstructuredGrid>\n'
             f'<Piece NumberOfPoints="{len(points)}" NumberOfCells="{len(cells)}">\n<PointData{ids}>\n{arrays}</PointData>\n'
             f"<CellData>\n{cell_arrays}</CellData>\n<Points>\n" +
             xml_array(coordinates, "Points", [x for point in points for x in point], 3) + "</Points>\n<Cells>\n" +
             xml_array("Int64", "connectivity", [corner for cell in cells for corner in cell]) +
-            xml_array("Int64", "offsets", range(4, 4 * len(cells) + 1, 4)) + xml_array("UInt8", "types", [10] * len(cells)) +
+            xml_array("Int64", "offsets", itertools.accumulate(map(len, cells))) +
+            xml_array("UInt8", "types", [{4: 10, 5: 14, 6: 13, 8: 12}[len(cell)] for cell in cells]) +
             "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n")
 
 

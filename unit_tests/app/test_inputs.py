@@ -108,8 +108,8 @@ class Meshes(gale.CommandTest):
     def test_other_solids_are_refused_unless_split(self):
         cube = [(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1)]
         name = self.mesh(points=cube, cells=[[0, 1, 3, 2, 4, 5, 7, 6]], arrays={"height": ("float", range(8))})
-        self.refuse(1, "info", name, naming="tetrahedralize")
-        self.assertIn(self.report("info", name, "--tetrahedralize")["mesh"]["tetrahedra"], (5, 6))
+        self.refuse(1, "info", name, "--cells", "tetrahedra", naming="tetrahedra alone are wanted")
+        self.assertEqual(self.report("info", name)["mesh"]["tetrahedra"], 6)
 
     def test_bad_meshes(self):
         for what, naming, mesh in (("a vertex twice", "1", dict(cells=[[0, 1, 2, 3], [1, 2, 2, 4]])),

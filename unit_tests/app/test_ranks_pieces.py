@@ -66,6 +66,33 @@ class PiecesOnRanks(ranks.ComplexTest):
                 self.write("parts.pvtu", pvtu([f"part{k}.vtu" for k in range(pieces)], "ids", "cell ids"))
                 self.expect_complex_of_one_rank(count, "parts.pvtu")
 
+    def test_pieces_of_other_cells_fit(self):
+        """Hexahedra, some of them two wedges, with ids and without, and dealt out by the first rank."""
+        n = 6
+        points = [(x, y, z) for z in range(n) for y in range(n) for x in range(n)]
+        cells = []
+        for first in ((z * n + y) * n + x for z in range(n - 1) for y in range(n - 1) for x in range(n - 1)):
+            low = [first, first + 1, first + n + 1, first + n]
+            high = [v + n * n for v in low]
+            if first % n < 3:
+                cells.append(low + high)
+            else:
+                cells += [low[:3] + high[:3], [low[0], *low[2:], high[0], *high[2:]]]
+        mesh = MeshWithIds(points, cells)
+        for k, text in enumerate(mesh.pieces(5, 1)):
+            self.write(f"part{k}.vtu", text)
+        self.write("with_ids.pvtu", pvtu([f"part{k}.vtu" for k in range(5)], "ids", "cell ids"))
+        self.write("without.pvtu", pvtu([f"part{k}.vtu" for k in range(5)]))
+        self.write("one_file.vtu", vtu(points, cells, mesh.arrays(range(len(points)))))
+        for source in ("with_ids.pvtu", "without.pvtu", "one_file.vtu"):
+            for count in ranks.RANKS:
+                with self.subTest(source=source, ranks=count):
+                    self.expect_complex_of_one_rank(count, source)
+        notices = self.report("info", "with_ids.pvtu")["notices"]
+        self.assertTrue(notices[0].startswith("split 75 hexahedra and 100 wedges into 750 tetrahedra"), notices)
+        run = self.launch(2, "critical-points", "with_ids.pvtu", "--cells", "tetrahedra")
+        self.expect_one_line(run, 1, "and tetrahedra alone are wanted")
+
     def test_ids_of_one_file_are_no_order(self):
         """Points of a file have one, which counts on any number of ranks."""
         self.succeed("generate", "grid:7", "-o", "whole.vtu")
@@ -107,7 +134,6 @@ class PiecesOnRanks(ranks.ComplexTest):
         self.refuse(1, "critical-points", "small.pvtu", naming=line)
         self.expect_one_line(self.launch(2, "critical-points", "small.pvtu"), 1, line)
         self.write_pieces()
-        self.expect_one_line(self.launch(2, "critical-points", "small.pvtu", "--tetrahedralize"), 2, "--tetrahedralize")
         self.expect_one_line(self.launch(2, "critical-points", "small.pvtu", "--above", "1"), 1, "not an image")
         (self.folder / "small_2.vtu").unlink()
         self.expect_one_line(self.launch(3, "critical-points", "small.pvtu"), 1, "small_2.vtu")

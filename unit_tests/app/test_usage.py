@@ -17,7 +17,7 @@ class Usage(gale.CommandTest):
             text = self.succeed(command, "--help")
             for option in ("--above", "--array", "--output", "--threads", "--structure", "--capacity", "--segments",
                            "--blocks-per-request", "--threads-per-block", "--threads-per-segment", "--host-memory",
-                           "--device-memory", "--report", "--quiet", "--tetrahedralize"):
+                           "--device-memory", "--report", "--quiet", "--cells"):
                 self.assertIn(option, text)
         for option in ("--no-descending-separatrices", "--no-ascending-separatrices", "--no-saddle-connectors", "--separatrices2",
                        "--no-descending-segmentation", "--no-ascending-segmentation", "--persistence", "--render"):

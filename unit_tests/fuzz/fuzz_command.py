@@ -24,7 +24,7 @@ OPTIONS = {
     "--threads-per-block": ["1", "32"], "--threads-per-segment": ["1", "32"], "--report": OUTPUTS, "-o": OUTPUTS, "--output": OUTPUTS,
     "--relation": ["VV", "VT", "EF", "FF", "TT", "EE", "XX", "vv"], "--dump": OUTPUTS, "--arrows": OUTPUTS,
     "--persistence": ["1", "5%", "0", "-1", "nan", "101%"], "--formulation": ["stars", "cells"], "--cores": ["1", "2"]}
-FLAGS = ["--quiet", "--verify", "--tetrahedralize", "--separatrices2", "--no-saddle-connectors", "--no-descending-separatrices",
+FLAGS = ["--quiet", "--verify", "--cells=tetrahedra", "--separatrices2", "--no-saddle-connectors", "--no-descending-separatrices",
          "--no-ascending-segmentation", "--help", "--bogus"]
 
 

@@ -25,7 +25,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (size < 2) return 0;
   gale::fuzz::Case one;
   one.extension = extensions[data[0] % std::size(extensions)];
-  one.options.tetrahedralize = data[1] & 1;
+  one.options.tetrahedra_alone = data[1] & 1;
   if (data[1] & 2) one.options.above = 2;
   one.content.assign(reinterpret_cast<const char*>(data) + 2, size - 2);
   const std::size_t split = one.content.find("\n\n");

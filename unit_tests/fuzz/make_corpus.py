@@ -84,19 +84,24 @@ class Xml:
         return (start + "</VTKFile>\n").encode()
 
 
-def vtu(*encoding, kind="Float32", pieces=1, more_cells=False, **options):
+def vtu(*encoding, kind="Float32", pieces=1, more_cells=False, polyhedra=False, **options):
     xml = Xml("UnstructuredGrid", *encoding, **options)
     body = "<UnstructuredGrid>\n"
     for _ in range(pieces):
         cells, types = [TETRAHEDRA[i:i + 4] for i in range(0, 12, 4)], [10] * 3
         if more_cells:
             cells, types = cells + [[0, 1, 2], [0, 1, 2, 3, 4], [2]], types + [5, 14, 1]
+        faces = ""
+        if polyhedra:
+            cells, types = cells + [[0, 1, 2, 3, 4, 5], [2, 3, 4, 5]], types + [13, 42]
+            stream = [4, 3, 2, 3, 4, 3, 2, 3, 5, 3, 2, 4, 5, 3, 3, 4, 5]
+            faces = xml.array("faces", "Int64", stream) + xml.array("faceoffsets", "Int64", [-1] * 4 + [len(stream)])
         offsets = [sum(map(len, cells[:i + 1])) for i in range(len(cells))]
         body += (f'<Piece NumberOfPoints="6" NumberOfCells="{len(cells)}">\n<PointData Scalars="field">\n' +
                  xml.array("field", kind, list(map(int, FIELD)) if "Int" in kind else FIELD) + xml.array("pairs", "Int16", list(range(12)), 2) + "</PointData>\n<CellData>\n" +
                  xml.array("part", "UInt8", [1] * len(cells)) + "</CellData>\n<Points>\n" + xml.array("Points", kind, POINTS, 3) +
                  "</Points>\n<Cells>\n" + xml.array("connectivity", "Int64", sum(cells, [])) + xml.array("offsets", "Int64", offsets) +
-                 xml.array("types", "UInt8", types) + "</Cells>\n</Piece>\n")
+                 xml.array("types", "UInt8", types) + faces + "</Cells>\n</Piece>\n")
     return xml.file(body + "</UnstructuredGrid>\n")
 
 
@@ -110,6 +115,24 @@ def vti(*encoding, kind="Float32", pieces=1, **options):
         body += (f'<Piece Extent="0 {x - 1} 0 {y - 1} {low} {high}">\n<PointData Scalars="values">\n' +
                  xml.array("values", kind, values) + "</PointData>\n</Piece>\n")
     return xml.file(body + "</ImageData>\n")
+
+
+def xml_grid(kind, *encoding, pieces=1):
+    """A structured or rectilinear grid."""
+    xml = Xml(kind, *encoding)
+    x, y, z = SIZE
+    body = f'<{kind} WholeExtent="0 {x - 1} 0 {y - 1} 0 {z - 1}">\n'
+    for piece in range(pieces):
+        low, high = (0, z - 1) if pieces == 1 else ((0, 1), (1, 2))[piece]
+        axes = range(x), range(y), range(low, high + 1)
+        if kind == "RectilinearGrid":
+            places = "<Coordinates>" + "".join(xml.array("xyz"[d], "Float32", axes[d]) for d in range(3)) + "</Coordinates>\n"
+        else:
+            points = [c for k in axes[2] for j in axes[1] for i in axes[0] for c in (i, j, k)]
+            places = "<Points>" + xml.array("Points", "Float64", points, 3) + "</Points>\n"
+        body += (f'<Piece Extent="0 {x - 1} 0 {y - 1} {low} {high}">\n<PointData Scalars="values">\n' +
+                 xml.array("values", "UInt8", VOXELS[low * x * y:(high + 1) * x * y]) + f"</PointData>\n{places}</Piece>\n")
+    return xml.file(body + f"</{kind}>\n")
 
 
 def pvtu(**global_ids):
@@ -215,8 +238,12 @@ def seeds():
             "raw_zlib": vtu("appended raw", zlib_), "raw_zlib_64": vtu("appended raw", zlib_, "UInt64", kind="Float64"),
             "raw_lz4": vtu("appended raw", lz4), "raw_lzma": vtu("appended raw", xz), "big_endian": vtu("appended raw", order=">"),
             "base64": vtu("appended base64"), "base64_zlib": vtu("appended base64", zlib_), "pieces": vtu("ascii", pieces=2),
-            "more_cells": vtu("appended raw", zlib_, more_cells=True)}.items():
+            "more_cells": vtu("appended raw", zlib_, more_cells=True), "polyhedra": vtu("ascii", polyhedra=True),
+            "polyhedra_pieces": vtu("appended raw", polyhedra=True, pieces=2)}.items():
         yield f"{name}.vtu", content, None
+    for name, encoding, pieces in (("ascii", ["ascii"], 2), ("raw", ["appended raw", zlib_], 1)):
+        yield f"{name}.vts", xml_grid("StructuredGrid", *encoding, pieces=pieces), None
+        yield f"{name}.vtr", xml_grid("RectilinearGrid", *encoding, pieces=pieces), None
     yield "coordinates.pvtu", pvtu(), vtu("ascii", more_cells=True)
     yield "ids.pvtu", pvtu(GlobalIds="field"), vtu("appended raw", "", "UInt64", kind="Int32")
     for name, content in {

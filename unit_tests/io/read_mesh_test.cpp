@@ -126,17 +126,20 @@ TEST_F(ReadMesh, ReadsVtuInEitherCase) {
   EXPECT_EQ(mesh.notices, Notices{"left out the cell arrays 'quality'"});
 }
 
-TEST_F(ReadMesh, RefusesOtherCellsUnlessTold) {
+TEST_F(ReadMesh, SplitsOtherCellsUnlessTold) {
   const std::string path = folder.put("hexahedron.vtu", vtu(2, "0 1 3 4  0 1 2 3 4 5 6 7", "4 12", "10 12"));
-  EXPECT_EQ(
-      error_of([&] { read(path); }),
-      "cannot read '" + path + "': cell 1 is a vtkHexahedron, not a tetrahedron (tetrahedralize splits such cells)");
+  ReadOptions tetrahedra;
+  tetrahedra.tetrahedra_alone = true;
+  EXPECT_EQ(error_of([&] { read(path, tetrahedra); }),
+            "cannot read '" + path + "': it has 1 hexahedra, and tetrahedra alone are wanted");
+  const Dataset both = read(path);
+  ASSERT_EQ(names_of(both.cell_arrays), std::vector<std::string>{"GlobalCellIds"});
+  EXPECT_EQ(values_of<std::int32_t>(both.cell_arrays[0]), (std::vector<std::int32_t>{0, 1, 1, 1, 1, 1, 1}));
+  EXPECT_EQ(both.notices, (Notices{"split 1 hexahedra into 6 tetrahedra", "left out the cell arrays 'quality'"}));
 
-  ReadOptions options;
-  options.tetrahedralize = true;
   const std::string hexahedron = folder.put("one.vtu", vtu(1, "0 1 2 3 4 5 6 7", "8", "12"));
-  const Dataset mesh = read(hexahedron, options);
-  EXPECT_GE(mesh.tetrahedra.extent(0), 5u);
+  const Dataset mesh = read(hexahedron);
+  EXPECT_EQ(mesh.tetrahedra.extent(0), 6u);
   double total = 0;
   for (std::size_t t = 0; t < mesh.tetrahedra.extent(0); ++t) total += std::abs(test::volume(mesh, t));
   EXPECT_DOUBLE_EQ(total, 1);
@@ -144,7 +147,7 @@ TEST_F(ReadMesh, RefusesOtherCellsUnlessTold) {
   EXPECT_EQ(values_of<std::int64_t>(mesh.arrays[0])[7], 9007199254740993);
 }
 
-TEST_F(ReadMesh, TetrahedralizesOtherDataSets) {
+TEST_F(ReadMesh, SplitsOtherDataSets) {
   const std::string path = folder.put("rectilinear.vtk", R"(# vtk DataFile Version 3.0
 by hand
 ASCII
@@ -157,11 +160,7 @@ Y_COORDINATES 2 float
 Z_COORDINATES 2 float
 0 1
 )");
-  EXPECT_EQ(error_of([&] { read(path); }),
-            "cannot read '" + path + "': cell 0 is a vtkVoxel, not a tetrahedron (tetrahedralize splits such cells)");
-  ReadOptions options;
-  options.tetrahedralize = true;
-  const Dataset mesh = read(path, options);
+  const Dataset mesh = read(path);
   double total = 0;
   for (std::size_t t = 0; t < mesh.tetrahedra.extent(0); ++t) total += std::abs(test::volume(mesh, t));
   EXPECT_DOUBLE_EQ(total, 3);
@@ -198,7 +197,7 @@ TEST_F(ReadMesh, RefusesWhatIsNoSuchFile) {
   for (const std::string name : {"mesh.obj", "mesh.msh", "mesh", ".vtu", "points.vtp", ""}) {
     EXPECT_EQ(error_of([&] { read(name); }),
               "cannot read '" + name +
-                  "': its extension is none of .vtu .pvtu .vtk .vti .nii .nii.gz .mha .mhd "
+                  "': its extension is none of .vtu .pvtu .vtk .vts .vtr .vti .nii .nii.gz .mha .mhd "
                   ".nrrd .e .ex2 .exo .hdf .vtkhdf, nor is it grid:N; for other meshes: "
                   "meshio convert '" +
                   name + "' mesh.vtu");

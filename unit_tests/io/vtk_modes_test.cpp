@@ -2,21 +2,34 @@
 
 #ifdef GALE_ENABLE_VTK
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
 #include <gtest/gtest.h>
 #include <vtkCellArray.h>
 #include <vtkCellType.h>
 #include <vtkDataArray.h>
+#include <vtkFloatArray.h>
 #include <vtkIdList.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
+#include <vtkPointSet.h>
 #include <vtkPoints.h>
+#include <vtkRectilinearGrid.h>
+#include <vtkRectilinearGridWriter.h>
 #include <vtkSmartPointer.h>
+#include <vtkStructuredGrid.h>
+#include <vtkStructuredGridWriter.h>
 #include <vtkStructuredPointsWriter.h>
 #include <vtkTypeTraits.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkUnstructuredGridWriter.h>
 #include <vtkXMLImageDataWriter.h>
+#include <vtkXMLRectilinearGridWriter.h>
+#include <vtkXMLStructuredGridWriter.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
 #include <gale/io/read.hpp>
@@ -192,6 +205,99 @@ INSTANTIATE_TEST_SUITE_P(Tests, LegacyWays,
                                                           vtkDataWriter::VTK_LEGACY_READER_VERSION_5_1)));
 
 /// Every type of cell that VTK splits, as VTK's own cells have them: as many points as GALE's table says.
+/// Grids of the same points, as VTK writes them.
+class GridsOfVtk : public testing::Test {
+ protected:
+  static constexpr int n = 4;
+
+  void SetUp() override {
+    axis_->SetNumberOfTuples(n);
+    for (int k = 0; k < n; ++k) axis_->SetValue(k, static_cast<float>(k * k));
+    for (int k = 0; k < n * n * n; ++k) points_->InsertNextPoint(at(k % n), at(k / n % n), at(k / n / n));
+    values_->SetName("values");
+    for (int k = 0; k < n * n * n; ++k) values_->InsertNextValue(k % 5);
+  }
+
+  static double at(int k) { return k * k; }
+
+  void add_points(vtkPointSet* grid) {
+    grid->SetPoints(points_);
+    grid->GetPointData()->SetScalars(values_);
+  }
+
+  template <class Writer>
+  Dataset read_from(vtkDataObject* grid, const char* name) {
+    vtkNew<Writer> writer;
+    writer->SetFileName((folder_ / name).c_str());
+    writer->SetInputData(grid);
+    EXPECT_EQ(writer->Write(), 1);
+    return read(folder_ / name);
+  }
+
+  /// It has the tetrahedra that hexahedra of these points are split into.
+  void expect_hexahedra(const Dataset& mesh, const std::string& notice) {
+    ASSERT_EQ(mesh.notices, std::vector<std::string>{notice});
+    ASSERT_EQ(mesh.tetrahedra.extent(0), 6u * 27);
+    const auto& cells = test::values_of<std::int32_t>(mesh.cell_arrays.at(0));
+    double total = 0;
+    std::set<std::array<int, 4>> all;
+    for (std::size_t t = 0; t < mesh.tetrahedra.extent(0); ++t) {
+      EXPECT_EQ(cells[t], static_cast<int>(t / 6));
+      total += std::abs(test::volume(mesh, t));
+      std::array<int, 4> corners = {mesh.tetrahedra(t, 0), mesh.tetrahedra(t, 1), mesh.tetrahedra(t, 2),
+                                    mesh.tetrahedra(t, 3)};
+      std::sort(corners.begin(), corners.end());
+      all.insert(corners);
+    }
+    EXPECT_DOUBLE_EQ(total, 9 * 9 * 9);
+    if (tetrahedra_.empty()) tetrahedra_ = all;
+    EXPECT_EQ(all, tetrahedra_);
+    EXPECT_EQ(test::names_of(mesh.arrays), std::vector<std::string>{"values"});
+  }
+
+  test::Folder folder_;
+  vtkNew<vtkFloatArray> axis_, values_;
+  vtkNew<vtkPoints> points_;
+  std::set<std::array<int, 4>> tetrahedra_;
+};
+
+TEST_F(GridsOfVtk, of_polyhedra_and_of_points_along_axes) {
+  vtkNew<vtkUnstructuredGrid> mixed;
+  add_points(mixed);
+  for (int cell = 0; cell < 27; ++cell) {
+    const int first = (cell / 9 * n + cell / 3 % 3) * n + cell % 3;
+    const vtkIdType v[] = {first,         first + 1,         first + n + 1,         first + n,
+                           first + n * n, first + n * n + 1, first + n * n + n + 1, first + n * n + n};
+    if (cell % 3 != 0) {
+      mixed->InsertNextCell(VTK_HEXAHEDRON, 8, v);
+      continue;
+    }
+    const vtkIdType faces[] = {4, v[0], v[1], v[2], v[3], 4, v[4], v[5], v[6], v[7], 4, v[0], v[1], v[5], v[4],
+                               4, v[1], v[2], v[6], v[5], 4, v[2], v[3], v[7], v[6], 4, v[3], v[0], v[4], v[7]};
+    mixed->InsertNextCell(VTK_POLYHEDRON, 8, v, 6, faces);
+  }
+  const std::string both = "split 18 hexahedra and 9 polyhedra into 162 tetrahedra";
+  expect_hexahedra(read_from<vtkXMLUnstructuredGridWriter>(mixed, "a.vtu"), both);
+  expect_hexahedra(read_from<vtkUnstructuredGridWriter>(mixed, "a.vtk"), both);
+
+  vtkNew<vtkStructuredGrid> structured;
+  structured->SetDimensions(n, n, n);
+  add_points(structured);
+  const std::string hexahedra = "split 27 hexahedra into 162 tetrahedra";
+  expect_hexahedra(read_from<vtkXMLStructuredGridWriter>(structured, "a.vts"), hexahedra);
+  expect_hexahedra(read_from<vtkStructuredGridWriter>(structured, "b.vtk"), hexahedra);
+
+  vtkNew<vtkRectilinearGrid> rectilinear;
+  rectilinear->SetDimensions(n, n, n);
+  rectilinear->SetXCoordinates(axis_);
+  rectilinear->SetYCoordinates(axis_);
+  rectilinear->SetZCoordinates(axis_);
+  rectilinear->GetPointData()->SetScalars(values_);
+  const std::string voxels = "split 27 voxels into 162 tetrahedra";
+  expect_hexahedra(read_from<vtkXMLRectilinearGridWriter>(rectilinear, "a.vtr"), voxels);
+  expect_hexahedra(read_from<vtkRectilinearGridWriter>(rectilinear, "c.vtk"), voxels);
+}
+
 TEST(CellTypes, of_fixed_size_are_split_into_the_volume_that_they_have) {
   test::Folder folder;
   vtkNew<vtkUnstructuredGrid> grid;
@@ -206,9 +312,7 @@ TEST(CellTypes, of_fixed_size_are_split_into_the_volume_that_they_have) {
   writer->SetFileName((folder / "a.vtu").c_str());
   writer->SetInputData(grid);
   ASSERT_EQ(writer->Write(), 1);
-  ReadOptions options;
-  options.tetrahedralize = true;
-  const Dataset mesh = read(folder / "a.vtu", options);
+  const Dataset mesh = read(folder / "a.vtu");
   double total = 0;
   for (std::size_t t = 0; t < mesh.tetrahedra.extent(0); ++t) total += std::abs(test::volume(mesh, t));
   EXPECT_DOUBLE_EQ(total, 1 + 1.0 / 3);

@@ -102,6 +102,25 @@ def ids(array: Any) -> Any:
     return _converted(array, np.dtype(np.int32 if array.dtype == np.int32 else np.int64))
 
 
+def offsets(array: Any) -> Any:
+    """As int64, from any integers."""
+    array = _host_array(array)
+    if array.dtype.kind not in "iu":
+        raise Error(f"offsets of {array.dtype} are not integers: they say where each cell begins")
+    return _converted(array, np.dtype(np.int64))
+
+
+def types(array: Any) -> Any:
+    """As uint8, from any integers."""
+    array = _host_array(array)
+    if array.dtype.kind not in "iu":
+        raise Error(f"types of {array.dtype} are not integers: they are VTK's numbers")
+    if array.size > 0 and not 0 <= array.min() <= array.max() <= 255:
+        wrong = array[(array < 0) | (array > 255)][0]
+        raise Error(f"one of the types is {wrong}, which is none of VTK's")
+    return _converted(array, np.dtype(np.uint8))
+
+
 def field(values: Any) -> Any:
     """As one of the types that GALE has fields of."""
     on_device = _device_array(values)

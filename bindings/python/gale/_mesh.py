@@ -31,28 +31,81 @@ def _persistence(threshold: Optional[Persistence]) -> Dict[str, Tuple[float, boo
     return {"persistence": (value, is_percent)}
 
 
-def _cells_of(grid: Any) -> Tuple[np.ndarray, np.ndarray]:
-    """(points, tetrahedra) of an unstructured grid."""
+_POLYHEDRON = 42
+_VOXEL, _HEXAHEDRON = 11, 12
+
+
+def _cells_of(grid: Any) -> Tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """(connectivity, offsets, types) of an unstructured grid."""
     from vtkmodules.util.numpy_support import vtk_to_numpy
 
     if grid.GetNumberOfCells() == 0:
         raise Error("the grid has no cells")
-    has_distinct = hasattr(grid, "GetDistinctCellTypesArray")  # newer VTKs have no type for each cell where all agree
-    types = grid.GetDistinctCellTypesArray() if has_distinct else grid.GetCellTypesArray()
-    if not np.all(vtk_to_numpy(types) == 10):  # VTK_TETRA
-        raise Error("not all cells are tetrahedra: triangulate() makes such a grid")
-    offsets = vtk_to_numpy(grid.GetCells().GetOffsetsArray())
-    for begin in range(0, len(offsets), 1 << 20):
-        some = offsets[begin:begin + (1 << 20)]
-        if np.any(some != np.arange(4 * begin, 4 * (begin + len(some)), 4)):
-            raise Error("not all of the grid's tetrahedra have four points")
     connectivity = vtk_to_numpy(grid.GetCells().GetConnectivityArray())
-    return vtk_to_numpy(grid.GetPoints().GetData()), connectivity.reshape(-1, 4)
+    offsets = vtk_to_numpy(grid.GetCells().GetOffsetsArray())
+    has_distinct = hasattr(grid, "GetDistinctCellTypesArray")  # newer VTKs have no type for each cell where all agree
+    types = vtk_to_numpy(grid.GetDistinctCellTypesArray() if has_distinct else grid.GetCellTypesArray())
+    if has_distinct:
+        types = vtk_to_numpy(grid.GetCellTypesArray()) if len(types) > 1 else np.full(len(offsets) - 1, types[0], np.uint8)
+    if not np.any(types == _POLYHEDRON):
+        return connectivity, offsets, types
+    return (*_with_faces(grid, connectivity, offsets, types), types)
 
 
-def _joined(of: Any, points: List[Any], tetrahedra: List[Any], capacity: int) -> Any:
+def _with_faces(grid: Any, connectivity: np.ndarray, offsets: np.ndarray,
+                types: np.ndarray) -> Tuple[np.ndarray, np.ndarray]:
+    """(connectivity, offsets) with the faces of polyhedra in place of their points."""
+    from vtkmodules.vtkCommonCore import vtkIdList
+
+    faces, parts, begin = vtkIdList(), [], 0
+    sizes = np.diff(offsets)
+    for cell in np.flatnonzero(types == _POLYHEDRON):
+        grid.GetFaceStream(int(cell), faces)
+        parts.append(connectivity[begin:offsets[cell]])
+        parts.append(np.array([faces.GetId(k) for k in range(faces.GetNumberOfIds())], np.int64))
+        sizes[cell] = faces.GetNumberOfIds()
+        begin = offsets[cell + 1]
+    parts.append(connectivity[begin:])
+    return np.concatenate(parts), np.concatenate([[0], np.cumsum(sizes)])
+
+
+def _points_of(grid: Any) -> np.ndarray:
+    """The points of a grid of any kind."""
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+
+    if grid.IsA("vtkPointSet"):
+        return vtk_to_numpy(grid.GetPoints().GetData())
+    if grid.IsA("vtkRectilinearGrid"):
+        axes = [vtk_to_numpy(axis) for axis in (grid.GetXCoordinates(), grid.GetYCoordinates(), grid.GetZCoordinates())]
+    else:
+        first = grid.GetExtent()[::2]
+        axes = [np.arange(first[d], first[d] + grid.GetDimensions()[d], dtype=np.float64) for d in range(3)]
+    z, y, x = np.meshgrid(*axes[::-1], indexing="ij")
+    places = np.stack([x.ravel(), y.ravel(), z.ravel()], axis=1)
+    if grid.IsA("vtkRectilinearGrid"):
+        return places
+    matrix = grid.GetDirectionMatrix()
+    direction = np.array([[matrix.GetElement(row, column) for column in range(3)] for row in range(3)])
+    return places * grid.GetSpacing() @ direction.T + grid.GetOrigin()
+
+
+def _structured_cells(dimensions: Tuple[int, ...], cell_type: int) -> Tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """(connectivity, offsets, types) of a grid of so many points along each axis, x fastest."""
+    nx, ny, nz = dimensions
+    if min(dimensions) < 2:
+        raise Error(f"a grid of {nx} x {ny} x {nz} points has no cells of dimension 3")
+    first = np.arange(nx * ny * nz, dtype=np.int64).reshape(nz, ny, nx)[:-1, :-1, :-1].ravel()
+    corners = np.array([0, 1, nx, nx + 1] if cell_type == _VOXEL else [0, 1, nx + 1, nx])
+    corners = np.concatenate([corners, corners + nx * ny])
+    count = len(first)
+    return (first[:, None] + corners).ravel(), np.arange(0, 8 * count + 1, 8), np.full(count, cell_type, np.uint8)
+
+
+def _joined(of: Any, points: List[Any], tetrahedra: List[Any], capacity: int, cells: Optional[np.ndarray] = None) -> Any:
     """A mesh that was pickled."""
-    return of(_arrays.joined(points), _arrays.joined(tetrahedra), capacity)
+    mesh = of(_arrays.joined(points), _arrays.joined(tetrahedra), capacity)
+    mesh._cells = cells
+    return mesh
 
 
 class Mesh:
@@ -72,21 +125,44 @@ class Mesh:
     """
 
     _mesh: _gale.Mesh
+    _cells: Optional[np.ndarray] = None
 
     def __init__(self, points: Any, tetrahedra: Any, capacity: int = 64) -> None:
         self._mesh = _gale.Mesh(_arrays.points(points), _arrays.ids(tetrahedra), capacity)
 
     @classmethod
-    def from_pyvista(cls, grid: Any, capacity: int = 64) -> Mesh:
-        """The mesh of a pyvista.UnstructuredGrid, or a vtkUnstructuredGrid, all of whose cells are tetrahedra."""
-        if not hasattr(grid, "IsA") or not grid.IsA("vtkUnstructuredGrid"):
-            raise Error(f"what is of {type(grid).__name__} is no unstructured grid of tetrahedra")
-        return cls(*_cells_of(grid), capacity)
+    def from_cells(cls, points: Any, connectivity: Any, offsets: Any, types: Any, capacity: int = 64) -> Mesh:
+        """The mesh of cells of any kind, as VTK numbers and orders them: `connectivity` has their points, cell c those from
+        offsets[c] up to offsets[c + 1], and types[c] is what it is (12: a hexahedron). Tetrahedra stay as they are;
+        hexahedra, voxels, wedges, pyramids, pentagonal and hexagonal prisms, polyhedra and quadratic tetrahedra are split,
+        without new points and so that neighbours fit: `cells` says which one a tetrahedron is of. A polyhedron's entries
+        are its faces: how many, then of each how many corners, and these (VTK's face stream). Cells of lower dimension are
+        left out, with a UserWarning."""
+        split = _gale.from_cells(_arrays.points(points), _arrays.ids(connectivity), _arrays.offsets(offsets),
+                                 _arrays.types(types), capacity)
+        for notice in split[2]:
+            if not notice.startswith("split "):
+                warnings.warn(notice, stacklevel=2)
+        return cls._of(split[0], split[1])
 
     @classmethod
-    def _of(cls, inner: _gale.Mesh) -> Mesh:
+    def from_pyvista(cls, grid: Any, capacity: int = 64) -> Mesh:
+        """The mesh of a grid of PyVista or VTK: of the cells of an unstructured one (see from_cells), of the hexahedra of a
+        structured one, of the voxels of a rectilinear grid or an image, whatever their values."""
+        if not hasattr(grid, "IsA"):
+            raise Error(f"what is of {type(grid).__name__} is no grid")
+        if grid.IsA("vtkUnstructuredGrid"):
+            return cls.from_cells(_points_of(grid), *_cells_of(grid), capacity)
+        if not (grid.IsA("vtkStructuredGrid") or grid.IsA("vtkRectilinearGrid") or grid.IsA("vtkImageData")):
+            raise Error(f"what is of {type(grid).__name__} is no unstructured, structured or rectilinear grid, and no image")
+        cell_type = _HEXAHEDRON if grid.IsA("vtkStructuredGrid") else _VOXEL
+        return cls.from_cells(_points_of(grid), *_structured_cells(grid.GetDimensions(), cell_type), capacity)
+
+    @classmethod
+    def _of(cls, inner: _gale.Mesh, cells: Optional[np.ndarray] = None) -> Mesh:
         mesh = cls.__new__(cls)
         mesh._mesh = inner
+        mesh._cells = cells
         return mesh
 
     @property
@@ -109,9 +185,15 @@ class Mesh:
         """A copy of the points, (n, 3)."""
         return np.asarray(self._mesh.points())
 
+    @property
+    def cells(self) -> np.ndarray:
+        """A copy of which of the cells that the mesh was made of each tetrahedron is, or is of: (tetrahedra,) int32."""
+        return np.arange(self.tetrahedra, dtype=np.int32) if self._cells is None else np.array(self._cells)
+
     def __reduce__(self) -> Tuple[Any, ...]:
         tetrahedra = self.relation("TV")[1].reshape(-1, 4)
-        return _joined, (type(self), _arrays.pieces(self.points), _arrays.pieces(tetrahedra), self._mesh.capacity)
+        return _joined, (type(self), _arrays.pieces(self.points), _arrays.pieces(tetrahedra), self._mesh.capacity,
+                         self._cells)
 
     def __copy__(self) -> Mesh:
         return self
@@ -193,20 +275,23 @@ class Mesh:
             return self._mesh.analyse(analysis, _arrays.field(field), name, flags or {}, thresholds or {}, threads, tell)
 
 
-def read(path: Union[str, os.PathLike[str]], above: Optional[float] = None, array: str = "", tetrahedralize: bool = False,
+def read(path: Union[str, os.PathLike[str]], above: Optional[float] = None, array: str = "", cells: str = "any",
          outside_files: bool = False, capacity: int = 64) -> Tuple[Mesh, Dict[str, np.ndarray]]:
     """The mesh of a file, and its point arrays by name, each (n,) or (n, components): (Mesh, dict).
 
-    Meshes: .vtu, .pvtu, .vtk, .e, .ex2, .exo, .vtkhdf, .hdf; volumes, of which the voxels with values above `above` are split into tetrahedra: .vti, .nii,
+    Meshes: .vtu, .pvtu, .vtk, .vts, .vtr, .e, .ex2, .exo, .vtkhdf, .hdf; volumes, of which the voxels with values above `above` are split into tetrahedra: .vti, .nii,
     .nii.gz, .mha, .mhd, .nrrd, .vtk; and grid:N. `array` is the volume's array that `above` is about. What of the file
-    is left out, such as all but the first of several times, is a UserWarning."""
+    is left out, such as all but the first of several times, is a UserWarning, and so is that cells were split (see
+    Mesh.from_cells); with cells="tetrahedra" a file of other cells is refused instead."""
+    if cells not in ("any", "tetrahedra"):
+        raise Error(f"cells are {cells!r}, neither 'any' nor 'tetrahedra'")
     place = os.fsencode(path)
     if b"\0" in place:
         raise Error(f"the path {path!r} has a null character")
-    inner, arrays, notices = _gale.read(place, above, array, tetrahedralize, outside_files, capacity)
+    inner, arrays, cell_arrays, notices = _gale.read(place, above, array, cells == "tetrahedra", outside_files, capacity)
     name = os.fsdecode(path)
     if array and array not in arrays:
         raise Error(f"{name} has no point array '{array}': it has {', '.join(arrays) or 'none'}")
     for notice in notices:
         warnings.warn(f"{name}: {notice}", stacklevel=2)
-    return Mesh._of(inner), arrays
+    return Mesh._of(inner, cell_arrays.get("GlobalCellIds")), arrays

@@ -1,4 +1,4 @@
-"""`grid.gale` on PyVista's grids of tetrahedra: `grid.gale.critical_points("pressure")`. PyVista 0.48 and later find it by
+"""`grid.gale` on PyVista's grids: `grid.gale.critical_points("pressure")`. PyVista 0.48 and later find it by
 its entry point; with earlier ones, gale.Mesh.from_pyvista does the same."""
 from __future__ import annotations
 
@@ -11,6 +11,9 @@ from . import Diagram, Error, Mesh
 
 
 @pyvista.register_dataset_accessor("gale", pyvista.UnstructuredGrid)
+@pyvista.register_dataset_accessor("gale", pyvista.StructuredGrid)
+@pyvista.register_dataset_accessor("gale", pyvista.RectilinearGrid)
+@pyvista.register_dataset_accessor("gale", pyvista.ImageData)
 class GaleAccessor:
     """Analyses of a grid's point arrays, which are called by name. Their other arguments and results are gale.Mesh's,
     but that points and lines are PyVista's. The mesh is made at the first call, and again where the grid's points or cells
@@ -19,19 +22,26 @@ class GaleAccessor:
     def __init__(self, grid: Any) -> None:
         self._grid = grid
         self._mesh: Optional[Mesh] = None
-        self._made_from = (0, 0, 0)
+        self._made_from: Tuple[Any, ...] = ()
+        self._made_at = 0
 
     @property
     def mesh(self) -> Mesh:
         """The grid as a gale.Mesh."""
         if self._mesh is None or self._points_changed():
             self._mesh = Mesh.from_pyvista(self._grid)
-            self._made_from = (self._grid.GetMTime(), self._grid.n_points, self._grid.n_cells)
+            self._made_from, self._made_at = self._shape(), self._grid.GetMTime()
         return self._mesh
 
     def _points_changed(self) -> bool:
-        times = self._grid.GetPoints().GetMTime(), self._grid.GetCells().GetMTime()
-        return (self._grid.n_points, self._grid.n_cells) != self._made_from[1:] or max(times) > self._made_from[0]
+        parts = [self._grid.GetPoints()] if self._grid.IsA("vtkPointSet") else []
+        parts += [self._grid.GetCells()] if self._grid.IsA("vtkUnstructuredGrid") else []
+        return self._shape() != self._made_from or any(part.GetMTime() > self._made_at for part in parts)
+
+    def _shape(self) -> Tuple[Any, ...]:
+        grid = self._grid
+        is_regular = not grid.IsA("vtkUnstructuredGrid")
+        return (grid.n_points, grid.n_cells, *((*grid.GetDimensions(), *grid.bounds) if is_regular else ()))
 
     def _field(self, name: str) -> Any:
         names = self._grid.point_data.keys()

@@ -67,7 +67,70 @@ Mesh mesh_of(const Array1& tetrahedra, const Segmentation& segmentation) {
   });
 }
 
+/// A copy of an array of rank 1, likewise.
+template <class View>
+auto copy_of_entries(const View& view) {
+  const auto copy =
+      allocate<Array<typename View::non_const_value_type, typename View::memory_space>>("GALE::cells", view.extent(0));
+  if constexpr (is_device_memory<typename View::memory_space>) {
+    Kokkos::deep_copy(copy, view);
+  } else {
+    parallel_for("GALE::cells", HostExecutionSpace(), view.extent(0),
+                 detail::CopyEntry<std::decay_t<decltype(copy)>, View>{copy, view});
+  }
+  return copy;
+}
+
+struct MeshOfCells {
+  Mesh mesh;
+  std::optional<std::vector<Id>> cells;  ///< of tetrahedra
+  std::vector<std::string> notices;
+};
+
+MeshOfCells mesh_of(const Array1& connectivity, const Array1& offsets, const Array1& types,
+                    const Segmentation& segmentation) {
+  return with_type<std::int32_t, std::int64_t>(connectivity, "connectivity is neither int32 nor int64", [&](auto one) {
+    using Index = decltype(one);
+    return with_view<const Index*>(connectivity, "connectivity", [&](const auto& corners) -> MeshOfCells {
+      using Memory = typename std::decay_t<decltype(corners)>::memory_space;
+      const auto begin = with_view<const std::int64_t*>(offsets, "offsets", [](const auto& view) {
+        return Array<const Offset, Memory>(in_memory<Memory>(copy_of_entries(view)));
+      });
+      const auto numbers = with_view<const std::uint8_t*>(types, "types", [](const auto& view) {
+        return Array<const std::uint8_t, Memory>(in_memory<Memory>(copy_of_entries(view)));
+      });
+      const Cells<Index, Memory> all{numbers, begin, copy_of_entries(corners)};
+      const auto split = split_cells(all, segmentation.vertices());
+      const Mesh mesh(Tetrahedra<Id, Memory>(split.simplices), segmentation);
+      if (split.cells.extent(0) == 0) return {mesh, std::nullopt, split.notices};
+      const auto cells = on_host(split.cells);
+      return {mesh, vector_of<Id>(cells.data(), cells.extent(0)), split.notices};
+    });
+  });
+}
+
 }  // namespace
+
+nb::tuple from_cells(Array1 points, Array1 connectivity, Array1 offsets, Array1 types, int capacity) {
+  require_rows(points, 3, "points");
+  if (connectivity.ndim() != 1 || offsets.ndim() != 1 || types.ndim() != 1)
+    throw Error("connectivity, offsets and types have " + std::to_string(connectivity.ndim()) + ", " +
+                std::to_string(offsets.ndim()) + " and " + std::to_string(types.ndim()) + " dimensions, not 1 each");
+  std::optional<MeshOfCells> found;
+  auto mesh = Job().run([&] {
+    const SegmentedPoints in_segments = segmented(points, capacity);
+    found.emplace(mesh_of(connectivity, offsets, types, in_segments.segmentation));
+    return std::make_unique<PyMesh>(in_segments.points, found->mesh, capacity);
+  });
+  nb::list notices;
+  for (const std::string& notice : found->notices) notices.append(text_of(notice));
+  return nb::make_tuple(nb::cast(mesh.release(), nb::rv_policy::take_ownership),
+                        found->cells ? numpy_of(*std::move(found->cells)) : nb::none(), notices);
+}
+
+PyMesh::PyMesh(io::Dataset::Positions points, const Mesh& mesh, int capacity) : capacity_(capacity), mesh_(mesh) {
+  dataset_.points = std::move(points);
+}
 
 PyMesh::PyMesh(Array1 points, Array1 tetrahedra, int capacity) : capacity_(capacity) {
   require_rows(points, 3, "points");
@@ -107,13 +170,13 @@ io::Dataset PyMesh::with(const io::PointArray& field) const {
   return dataset;
 }
 
-nb::tuple read(const nb::bytes& path, std::optional<double> above, const std::string& array, bool tetrahedralize,
+nb::tuple read(const nb::bytes& path, std::optional<double> above, const std::string& array, bool tetrahedra_alone,
                bool outside_files, int capacity) {
   const std::string place(path.c_str(), path.size());
   io::ReadOptions options;
   options.above = above;
   options.array = array;
-  options.tetrahedralize = tetrahedralize;
+  options.tetrahedra_alone = tetrahedra_alone;
   options.outside_files = outside_files;
   io::Dataset dataset;
   auto mesh = Job().run([&] {
@@ -122,8 +185,9 @@ nb::tuple read(const nb::bytes& path, std::optional<double> above, const std::st
   });
   nb::list notices;
   for (const std::string& notice : dataset.notices) notices.append(text_of(notice));
+  nb::dict cell_arrays = numpy_of(std::move(dataset.cell_arrays));
   return nb::make_tuple(nb::cast(mesh.release(), nb::rv_policy::take_ownership), numpy_of(std::move(dataset.arrays)),
-                        notices);
+                        cell_arrays, notices);
 }
 
 }  // namespace gale::python

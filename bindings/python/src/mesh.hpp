@@ -21,6 +21,8 @@ class PyMesh : public Kept {
   /// Copies the arrays before it checks them.
   PyMesh(Array1 points, Array1 tetrahedra, int capacity);
 
+  PyMesh(io::Dataset::Positions points, const Mesh& mesh, int capacity);
+
   /// Makes the mesh that a file has; takes its points.
   PyMesh(io::Dataset& dataset, int capacity);
 
@@ -56,8 +58,12 @@ class PyMesh : public Kept {
   std::optional<Mesh> mesh_;
 };
 
-/// (the mesh that a file has, its point arrays, what of it was left out)
-nb::tuple read(const nb::bytes& path, std::optional<double> above, const std::string& array, bool tetrahedralize,
+/// (the mesh of cells of any types of VTK's, the cell of each tetrahedron or None where all are, what was split and
+/// left out)
+nb::tuple from_cells(Array1 points, Array1 connectivity, Array1 offsets, Array1 types, int capacity);
+
+/// (the mesh that a file has, its point arrays, arrays of tetrahedra, what of it was split and left out)
+nb::tuple read(const nb::bytes& path, std::optional<double> above, const std::string& array, bool tetrahedra_alone,
                bool outside_files, int capacity);
 
 }  // namespace gale::python

@@ -36,8 +36,10 @@ NB_MODULE(_gale, module) {
   module.def("finalize", &gale::python::finalize);
   module.def("after_fork", &gale::python::after_fork);
   module.def("device_array", &gale::python::device_array, "data"_a, "shape"_a, "type"_a, "bytes"_a, "owner"_a);
-  module.def("read", &gale::python::read, "path"_a, "above"_a.none(), "array"_a, "tetrahedralize"_a, "outside_files"_a,
+  module.def("from_cells", &gale::python::from_cells, "points"_a, "connectivity"_a, "offsets"_a, "types"_a,
              "capacity"_a);
+  module.def("read", &gale::python::read, "path"_a, "above"_a.none(), "array"_a, "tetrahedra_alone"_a,
+             "outside_files"_a, "capacity"_a);
 
   nb::class_<PyMesh>(module, "Mesh")
       .def(nb::init<gale::python::Array1, gale::python::Array1, int>(), "points"_a, "tetrahedra"_a, "capacity"_a)

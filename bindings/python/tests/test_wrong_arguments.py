@@ -46,7 +46,7 @@ WRONG = {
              b"missing.vtu", b"\xff.vtu", UNDECODABLE + ".vtu", os.devnull, tempfile.gettempdir(), "grid:" + 30 * "9"],
     "above": ["x", object(), [1], 0.5],  # a mesh has no threshold
     "array": [3, object(), "missing", UNDECODABLE],
-    "tetrahedralize": ["x", object()],
+    "cells": ["x", object()],
     "outside_files": ["x", object()],
 }
 NAMES = [3, None, b"x", UNDECODABLE]

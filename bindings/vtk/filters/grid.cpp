@@ -2,24 +2,24 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
-#include <vtkCell.h>
 #include <vtkCellArray.h>
+#include <vtkCellData.h>
 #include <vtkCellType.h>
 #include <vtkDataArray.h>
 #include <vtkDoubleArray.h>
 #include <vtkFloatArray.h>
-#include <vtkGenericCell.h>
+#include <vtkIdList.h>
 #include <vtkImageData.h>
 #include <vtkMatrix3x3.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkRectilinearGrid.h>
+#include <vtkStructuredGrid.h>
 #include <vtkTypeInt32Array.h>
-#include <vtkTypeInt64Array.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 
@@ -41,46 +41,28 @@ bool take(vtkDataArray* data, io::Dataset::Positions& to) {
   return true;
 }
 
+template <class T>
+Array<const T, HostMemory> view_of(const T* values, vtkIdType count) {
+  return Array<const T, HostMemory>(values, static_cast<std::size_t>(count));
+}
+
+/// The mesh of cells whose points are at `corners`.
 template <class Index>
-Mesh mesh_of(const io::Dataset::Positions& points, const Index* corners, vtkIdType count, int capacity) {
+Mesh mesh_of(const io::Dataset::Positions& points, const Index* corners, vtkIdType corner_count,
+             const std::vector<std::int64_t>& offsets, const std::vector<std::uint8_t>& types, int capacity) {
+  const auto count = [](const auto& values) { return static_cast<vtkIdType>(values.size()); };
+  return std::visit(
+      [&](const auto& xyz) {
+        return make_mesh(xyz, view_of(corners, corner_count), view_of(offsets.data(), count(offsets)),
+                         view_of(types.data(), count(types)), capacity);
+      },
+      points);
+}
+
+template <class Index>
+Mesh mesh_of_tetrahedra(const io::Dataset::Positions& points, const Index* corners, vtkIdType count, int capacity) {
   const Tetrahedra<Index, HostMemory> tetrahedra(corners, static_cast<std::size_t>(count));
   return std::visit([&](const auto& xyz) { return make_mesh(xyz, tetrahedra, capacity); }, points);
-}
-
-/// Whether a type of VTK's has dimension 3; so have those that VTK doesn't know, which are refused as well.
-bool may_be_solid(int type) {
-  const auto cell = vtkSmartPointer<vtkCell>::Take(vtkGenericCell::InstantiateCell(type));
-  return !cell || cell->GetCellDimension() == 3;
-}
-
-[[noreturn]] void refuse(vtkIdType cell, int type) {
-  const auto known = vtkSmartPointer<vtkCell>::Take(vtkGenericCell::InstantiateCell(type));
-  if (!known)
-    throw Error("cell " + std::to_string(cell) + " has type " + std::to_string(type) + ", which is none of VTK's");
-  throw Error("cell " + std::to_string(cell) + " is a " + known->GetClassName() +
-              ": vtkDataSetTriangleFilter makes tetrahedra of such");
-}
-
-/// The corners of the tetrahedra among cells of several types.
-std::vector<std::int64_t> corners_among(vtkUnstructuredGrid* grid) {
-  constexpr int types = std::numeric_limits<unsigned char>::max() + 1;  // of VTK's or not
-  bool is_solid[types] = {};
-  for (int type = 0; type < types; ++type) is_solid[type] = may_be_solid(type);
-  std::vector<std::int64_t> corners;
-  for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell) {
-    const int type = grid->GetCellType(cell);
-    if (type == VTK_TETRA) {
-      vtkIdType count;
-      const vtkIdType* points;
-      grid->GetCellPoints(cell, count, points);
-      if (count != 4)
-        throw Error("cell " + std::to_string(cell) + " is a tetrahedron of " + std::to_string(count) + " points");
-      corners.insert(corners.end(), points, points + count);
-    } else if (is_solid[type]) {
-      refuse(cell, type);
-    }
-  }
-  return corners;
 }
 
 bool has_tetrahedra_alone(vtkUnstructuredGrid* grid) {
@@ -89,6 +71,23 @@ bool has_tetrahedra_alone(vtkUnstructuredGrid* grid) {
   if (types == nullptr || count == 0 || grid->GetCells()->IsHomogeneous() != 4) return false;
   const unsigned char* const all = types->GetPointer(0);
   return std::all_of(all, all + count, [](unsigned char type) { return type == VTK_TETRA; });
+}
+
+/// The mesh of cells among which are polyhedra: VTK has their faces apart.
+Mesh mesh_with_polyhedra(vtkUnstructuredGrid* grid, const std::vector<std::uint8_t>& types,
+                         const io::Dataset::Positions& points, int capacity) {
+  std::vector<std::int64_t> corners, offsets = {0};
+  const auto ids = vtkSmartPointer<vtkIdList>::New();
+  for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell) {
+    if (types[static_cast<std::size_t>(cell)] == VTK_POLYHEDRON) {
+      grid->GetFaceStream(cell, ids);
+    } else {
+      grid->GetCellPoints(cell, ids);
+    }
+    for (vtkIdType k = 0; k < ids->GetNumberOfIds(); ++k) corners.push_back(ids->GetId(k));
+    offsets.push_back(static_cast<std::int64_t>(corners.size()));
+  }
+  return mesh_of(points, corners.data(), static_cast<vtkIdType>(corners.size()), offsets, types, capacity);
 }
 
 }  // namespace
@@ -104,15 +103,44 @@ io::Dataset::Positions positions_of(vtkUnstructuredGrid* grid) {
 }
 
 Mesh mesh_of(vtkUnstructuredGrid* grid, const io::Dataset::Positions& points, int capacity) {
-  if (!has_tetrahedra_alone(grid)) {
-    const std::vector<std::int64_t> corners = corners_among(grid);
-    return mesh_of(points, corners.data(), static_cast<vtkIdType>(corners.size() / 4), capacity);
-  }
   vtkCellArray* const cells = grid->GetCells();
-  const vtkIdType count = cells->GetNumberOfCells();
+  const vtkIdType count = cells->GetNumberOfCells(), corner_count = cells->GetConnectivityArray()->GetNumberOfTuples();
   const void* const corners = cells->GetConnectivityArray()->GetVoidPointer(0);
-  if (cells->IsStorage64Bit()) return mesh_of(points, static_cast<const std::int64_t*>(corners), count, capacity);
-  return mesh_of(points, static_cast<const std::int32_t*>(corners), count, capacity);
+  const auto read_in_place = [&](const auto& use) {
+    if (cells->IsStorage64Bit()) return use(static_cast<const std::int64_t*>(corners));
+    return use(static_cast<const std::int32_t*>(corners));
+  };
+  if (has_tetrahedra_alone(grid))
+    return read_in_place([&](const auto* ids) { return mesh_of_tetrahedra(points, ids, count, capacity); });
+  std::vector<std::uint8_t> types;
+  std::vector<std::int64_t> offsets = {0};
+  for (vtkIdType cell = 0; cell < count; ++cell) {
+    types.push_back(static_cast<std::uint8_t>(grid->GetCellType(cell)));
+    offsets.push_back(offsets.back() + cells->GetCellSize(cell));
+  }
+  if (std::find(types.begin(), types.end(), VTK_POLYHEDRON) != types.end())
+    return mesh_with_polyhedra(grid, types, points, capacity);
+  return read_in_place([&](const auto* ids) { return mesh_of(points, ids, corner_count, offsets, types, capacity); });
+}
+
+vtkSmartPointer<vtkUnstructuredGrid> unstructured(vtkPointSet* cells) {
+  auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  grid->SetPoints(cells->GetPoints());
+  grid->GetPointData()->ShallowCopy(cells->GetPointData());
+  auto* const structured = vtkStructuredGrid::SafeDownCast(cells);
+  const auto ids = vtkSmartPointer<vtkIdList>::New();
+  std::vector<vtkIdType> kept;
+  grid->AllocateEstimate(cells->GetNumberOfCells(), 8);
+  for (vtkIdType cell = 0; cell < cells->GetNumberOfCells(); ++cell) {
+    if (structured != nullptr && structured->IsCellVisible(cell) == 0) continue;
+    cells->GetCellPoints(cell, ids);
+    grid->InsertNextCell(cells->GetCellType(cell), ids);
+    kept.push_back(cell);
+  }
+  grid->GetCellData()->CopyAllocate(cells->GetCellData(), static_cast<vtkIdType>(kept.size()));
+  for (std::size_t k = 0; k < kept.size(); ++k)
+    grid->GetCellData()->CopyData(cells->GetCellData(), kept[k], static_cast<vtkIdType>(k));
+  return grid;
 }
 
 namespace {

@@ -10,15 +10,19 @@
 class vtkUnstructuredGrid;
 class vtkDataArray;
 class vtkDataSet;
+class vtkPointSet;
 
 namespace gale::vtk {
 
 /// The grid's points: where they are if they are float or double and lie point by point, else a copy in double.
 io::Dataset::Positions positions_of(vtkUnstructuredGrid* grid);
 
-/// The mesh of the grid's tetrahedra, which are read where they are if there are no other cells. Cells of lower
-/// dimension are left out. Throws gale::Error for other cells of dimension 3, and as make_mesh.
+/// The mesh of the grid's cells (`split_cells`), which are read where they are unless there are polyhedra. Throws
+/// gale::Error as make_mesh does.
 Mesh mesh_of(vtkUnstructuredGrid* grid, const io::Dataset::Positions& points, int capacity);
+
+/// The cells of another data set, such as a structured grid, that are visible, with its points and arrays.
+vtkSmartPointer<vtkUnstructuredGrid> unstructured(vtkPointSet* cells);
 
 /// The tetrahedra of the voxels of an image or a rectilinear grid whose values are above `above`, or are finite without
 /// it (`io::split_voxels`), with all point arrays of numbers. `field` is the array that `above` is about; one without a

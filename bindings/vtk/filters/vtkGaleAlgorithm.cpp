@@ -14,6 +14,7 @@
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
 #include <vtkPointData.h>
+#include <vtkPointSet.h>
 #include <vtkPolyData.h>
 #include <vtkRectilinearGrid.h>
 #include <vtkSmartPointer.h>
@@ -55,6 +56,8 @@ class Run {
         limit_(threads_),
         grid_(vtkUnstructuredGrid::SafeDownCast(input)),
         field_(field) {
+    auto* const points = vtkPointSet::SafeDownCast(input);
+    if (!grid_ && points) grid_ = gale::vtk::unstructured(points);
     if (!grid_) {
       tell(0, "Splitting voxels");
       grid_ = gale::vtk::split_voxels(input, field, options.above);
@@ -172,10 +175,10 @@ void require_whole(vtkInformation* output) {
 /// The input. Throws gale::Error if it is no mesh, or where an array hasn't one row a point.
 vtkDataSet* mesh_of(vtkInformationVector* inputs) {
   vtkDataObject* const input = vtkDataObject::GetData(inputs);
-  if (!vtkUnstructuredGrid::SafeDownCast(input) && !vtkImageData::SafeDownCast(input) &&
-      !vtkRectilinearGrid::SafeDownCast(input))
+  const bool is_mesh = vtkPointSet::SafeDownCast(input) && !vtkPolyData::SafeDownCast(input);
+  if (!is_mesh && !vtkImageData::SafeDownCast(input) && !vtkRectilinearGrid::SafeDownCast(input))
     throw gale::Error(std::string("the input is a ") + input->GetClassName() +
-                      ", not an unstructured grid, an image or a rectilinear grid");
+                      ", not an unstructured or structured grid, an image or a rectilinear grid");
   auto* const mesh = vtkDataSet::SafeDownCast(input);
   vtkPointData* const arrays = mesh->GetPointData();
   for (int k = 0; k < arrays->GetNumberOfArrays(); ++k) {
@@ -261,7 +264,9 @@ int vtkGaleAlgorithm::RequestData(vtkInformationVector** inputs, vtkInformationV
   try {
     require_whole(outputs->GetInformationObject(0));
     vtkDataSet* const mesh = mesh_of(inputs[0]);
-    if (mesh->GetNumberOfCells() == 0) return 1;  // as empty blocks are: the pipeline has emptied the outputs
+    const bool has_points = vtkUnstructuredGrid::SafeDownCast(mesh) || mesh->GetNumberOfPoints() > 0;
+    if (mesh->GetNumberOfCells() == 0 || !has_points)
+      return 1;  // as empty blocks are: the pipeline has emptied the outputs
     initialize_once();
     const Run run(*this, mesh, this->SelectField(inputs), options);
     this->Asked->settings = {};

@@ -10,33 +10,41 @@
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 
+#include <gale/mesh/cells/cell_types.hpp>
+
 #include "inputs.hpp"
 
 namespace gale::test {
 namespace {
 
 TEST_F(Inputs, CellsOfEveryType) {
-  int solid = 0;
+  int solid = 0, split = 0;
   for (int type = 0; type < VTK_NUMBER_OF_CELL_TYPES + 2; ++type) {
     SCOPED_TRACE(type);
     const auto cell = vtkSmartPointer<vtkCell>::Take(vtkGenericCell::InstantiateCell(type));
     std::vector<vtkIdType> points(cell && cell->GetNumberOfPoints() > 0 ? cell->GetNumberOfPoints() : 4);
-    for (std::size_t k = 0; k < points.size(); ++k) points[k] = static_cast<vtkIdType>(k);
+    for (std::size_t k = 0; k < points.size(); ++k) points[k] = static_cast<vtkIdType>(2 * k);
     if (type == VTK_TETRA) points = {0, 2, 50, 124};
     const auto mixed = grid_of(dataset_);
     if (type == VTK_POLYHEDRON) {
-      const vtkIdType faces[] = {3, 0, 1, 2, 3, 0, 1, 3, 3, 0, 2, 3, 3, 1, 2, 3};
+      const vtkIdType faces[] = {3, 0, 2, 4, 3, 0, 2, 6, 3, 0, 4, 6, 3, 2, 4, 6};
       mixed->InsertNextCell(type, 4, points.data(), 4, faces);
     } else {
       mixed->InsertNextCell(type, static_cast<vtkIdType>(points.size()), points.data());
     }
-    const bool is_solid = cell && cell->GetCellDimension() == 3 && type != VTK_TETRA;
+    const CellType* const known = find_cell_type(type);
+    const bool is_solid = known != nullptr && known->dimension == 3;
+    if (cell) EXPECT_TRUE(known != nullptr && known->dimension == cell->GetCellDimension());
+    const bool is_split = is_solid && known->plural != nullptr;
     solid += is_solid ? 1 : 0;
-    std::string said = "has type " + std::to_string(type) + ", which is none of VTK's";
-    if (cell) said = is_solid ? std::string(" is a ") + cell->GetClassName() : "";
+    split += is_split ? 1 : 0;
+    std::string said = "has the unknown type " + std::to_string(type);
+    if (known != nullptr) said = is_solid && !is_split ? std::string(" is a ") + known->name : "";
+    if (cell && is_solid && !is_split) EXPECT_STREQ(known->name, cell->GetClassName());
     expect_line(mixed, said);
   }
   EXPECT_GT(solid, 15);
+  EXPECT_EQ(split, 9);
 }
 
 TEST_F(Inputs, TetrahedraThatAreNone) {
@@ -45,8 +53,8 @@ TEST_F(Inputs, TetrahedraThatAreNone) {
     grid->InsertNextCell(VTK_TETRA, static_cast<vtkIdType>(points.size()), points.data());
     return grid;
   };
-  expect_line(with({0, 1, 2}), "is a tetrahedron of 3 points");
-  expect_line(with({0, 1, 2, 50, 60}), "is a tetrahedron of 5 points");
+  expect_line(with({0, 1, 2}), "is a vtkTetra of 3 points");
+  expect_line(with({0, 1, 2, 50, 60}), "is a vtkTetra of 5 points");
   expect_line(with({0, 1, 2, 999}), "has vertex 999");
   expect_line(with({0, 1, 2, -1}), "has vertex -1");
   expect_line(with({0, 1, 2, 2}), "has vertex 2 twice");

@@ -11,7 +11,7 @@
 #include <gale/algorithms/merge_tree/followed_paths.hpp>
 #include <gale/algorithms/merge_tree/merge_forest.hpp>
 #include <gale/algorithms/merge_tree/vertex_arcs.hpp>
-#include <gale/algorithms/order/whole_mesh.hpp>
+#include <gale/algorithms/order/require_mesh.hpp>
 #include <gale/algorithms/simplify_field.hpp>
 #include <gale/base/error.hpp>
 

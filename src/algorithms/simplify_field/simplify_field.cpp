@@ -4,7 +4,7 @@
 #include <utility>
 
 #include <gale/algorithms/merge_tree.hpp>
-#include <gale/algorithms/order/whole_mesh.hpp>
+#include <gale/algorithms/order/require_mesh.hpp>
 #include <gale/algorithms/simplify_field.hpp>
 #include <gale/algorithms/simplify_field/removed_branches.hpp>
 #include <gale/base/error.hpp>

@@ -141,14 +141,47 @@ void keep_common(const Ranks& ranks, io::Dataset& mesh, Offset points) {
   mesh.arrays = std::move(common);
 }
 
+/// Calls use(cell) with the cell of each of this rank's tetrahedra.
+template <class Use>
+void for_each_cell(const io::SomePieces& some, const Use& use) {
+  const auto& arrays = some.mesh.cell_arrays;
+  const std::vector<Id>* const cells = arrays.empty() ? nullptr : &std::get<std::vector<Id>>(arrays[0].values);
+  for (std::size_t t = 0; t < some.mesh.tetrahedra.extent(0); ++t) use(cells == nullptr ? t : (*cells)[t]);
+}
+
+/// The global ids of the cells that this rank's tetrahedra are of.
+std::vector<std::int64_t> ids_of_tetrahedra(const io::SomePieces& some) {
+  std::vector<std::int64_t> ids;
+  for_each_cell(some, [&](std::size_t cell) { ids.push_back(some.cell_ids[cell]); });
+  return ids;
+}
+
+/// For each of this rank's tetrahedra the place of its cell among those of all ranks, in the order of their ids, or of
+/// ranks; none where all cells are tetrahedra. Collective.
+GlobalIds cells_on_ranks(const Ranks& ranks, const io::PieceNames& pieces, const io::SomePieces& some, Offset count) {
+  if (ranks.least(std::int64_t(some.mesh.cell_arrays.empty())) == 1) return {};
+  const GlobalId before = ranks.sum_before(count);
+  GlobalIds places;
+  if (!pieces.cell_ids.empty()) places = places_of(ranks, some.cell_ids, true);
+  GlobalIds cells;
+  detail::together(ranks, [&] {
+    cells = allocate<GlobalIds>("GALE::cells_of_tetrahedra", some.mesh.tetrahedra.extent(0));
+    Offset t = 0;
+    for_each_cell(some, [&](std::size_t cell) {
+      cells(t++) = places.extent(0) > 0 ? places(cell) : before + static_cast<GlobalId>(cell);
+    });
+  });
+  return cells;
+}
+
 }  // namespace
 
 SharedInput read_pieces(const Ranks& ranks, const InputOptions& input, const io::PieceNames& pieces) {
-  if (input.read.tetrahedralize) throw UsageError("--tetrahedralize: not of pieces on several ranks");
   SharedInput shared;
   io::SomePieces some;
   detail::together(ranks, [&] { some = io::read_pieces(input.input, share_of(pieces, ranks), input.read); });
   io::Dataset& mesh = some.mesh;
+  const auto cells = static_cast<Offset>(some.types.size());
   const auto count = std::visit([](const auto& points) { return Offset(points.extent(0)); }, mesh.points);
   shared.is_in_float = ranks.least(std::int64_t(mesh.points.index() == 0)) == 1;
   GlobalIds ids, tetrahedron_ids;
@@ -167,7 +200,9 @@ SharedInput read_pieces(const Ranks& ranks, const InputOptions& input, const io:
   } else {
     ids = places_of(ranks, some.point_ids, false);
   }
-  if (!pieces.cell_ids.empty()) tetrahedron_ids = places_of(ranks, some.tetrahedron_ids, true);
+  detail::together(ranks, [&] { io::split_pieces(input.input, some, ids, input.read); });
+  shared.cells = cells_on_ranks(ranks, pieces, some, cells);
+  if (!pieces.cell_ids.empty()) tetrahedron_ids = places_of(ranks, ids_of_tetrahedra(some), true);
   keep_common(ranks, mesh, count);
   detail::together(ranks, [&] {
     const auto tetrahedra =

@@ -5,7 +5,9 @@
 #include <gale/io/bytes/values.hpp>
 #include <gale/io/read.hpp>
 #include <gale/io/synthetic.hpp>
+#include <gale/io/write.hpp>
 #include <gale/mesh/exchange/exchange_plan.hpp>
+#include <gale/mesh/exchange/home_table.hpp>
 #include <gale/outputs/field.hpp>
 
 namespace gale::app {
@@ -29,6 +31,11 @@ void take_file(const InputOptions& input, SharedInput& shared) {
   const auto vertices = std::visit([](const auto& points) { return points.extent(0); }, dataset.points);
   const auto ids = counted(0, vertices);
   std::visit([&](const auto& points) { shared.part = part_of(ids, points, dataset.tetrahedra); }, dataset.points);
+  if (!dataset.cell_arrays.empty()) {
+    const auto& cells = std::get<std::vector<Id>>(dataset.cell_arrays[0].values);
+    shared.cells = detail::tabulated<GlobalId>("GALE::cells_of_tetrahedra", static_cast<Offset>(cells.size()),
+                                               [&](Offset t) { return cells[t]; });
+  }
   shared.is_in_float = dataset.points.index() == 0;
   shared.field = outputs::select_field(dataset, input.read.array);
   shared.order = outputs::order_values(dataset, shared.field, vertices);
@@ -122,6 +129,17 @@ io::PointArray held_values(const Mesh& mesh, const io::PointArray& array) {
       array.values);
 }
 
+/// The numbers of the input's cells that the tetrahedra of this rank are of, by input id, from those that ranks handed
+/// over by `ids`. Collective.
+io::PointArray held_cells(const DistributedMesh& mesh, const Array<const GlobalId, HostMemory>& ids,
+                          const Array<GlobalId, HostMemory>& cells) {
+  const Ranks& ranks = mesh.exchange().ranks();
+  const detail::HomeTable<GlobalId> table(
+      ranks, ids, [&](Id i) { return cells(i); }, [](int, GlobalId cell) { return cell; });
+  const auto found = table.find(ranks, mesh.tetrahedron_ids(), -1);
+  return {io::global_cell_ids, 1, std::vector<GlobalId>(found.data(), found.data() + found.extent(0))};
+}
+
 /// Points, arrays and, if they were kept, tetrahedra of what this rank holds. Collective.
 io::Dataset held_dataset(const DistributedMesh& mesh, const SharedInput& shared) {
   io::Dataset held;
@@ -158,6 +176,16 @@ FieldOnMesh read_on_ranks(const InputOptions& from, int capacity, const WantedOf
   SharedInput input = read_shared(ranks, from);
   was_read(input.notices);
   begin_step("sharing the mesh");
+  // Tetrahedra without ids are counted from rank to rank.
+  Array<const GlobalId, HostMemory> given_ids;
+  const bool names_cells = wanted.tetrahedra && ranks.least(-std::int64_t(input.cells.extent(0))) < 0;
+  if (names_cells) {
+    given_ids = std::visit([](const auto& part) { return part.tetrahedron_ids; }, input.part);
+    const Offset count = std::visit([](const auto& part) { return Offset(part.tetrahedra.extent(0)); }, input.part);
+    const bool are_counted = ranks.least(-std::int64_t(given_ids.extent(0))) == 0;
+    const GlobalId first = ranks.sum_before(count);
+    if (are_counted) detail::together(ranks, [&] { given_ids = counted(first, count); });
+  }
   PartitionOptions options;
   options.repartition = input.is_dealt_out;
   options.keep_corners = wanted.tetrahedra;
@@ -173,6 +201,7 @@ FieldOnMesh read_on_ranks(const InputOptions& from, int capacity, const WantedOf
   if (wanted.arrays) {
     begin_step("sharing the arrays");
     dataset = held_dataset(mesh, input);
+    if (names_cells) dataset.cell_arrays.push_back(held_cells(mesh, given_ids, input.cells));
     field = held_values(mesh, input.field);
   }
   return {std::move(dataset), mesh, std::move(field), order, input.has_ids};

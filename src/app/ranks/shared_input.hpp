@@ -32,6 +32,9 @@ struct SharedInput {
   bool is_in_float = true;             ///< the input's coordinates
   bool is_dealt_out = false;           ///< the first rank has all
   std::vector<std::string> notices;
+
+  /// The number of the input's cell that each tetrahedron of the part is of; none where all ranks' are the cells.
+  Array<GlobalId, HostMemory> cells;
 };
 
 /// Types, components and names of arrays; and arrays without values, as they were described.

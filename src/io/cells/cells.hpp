@@ -5,27 +5,16 @@
 #include <vector>
 
 #include <gale/io/dataset.hpp>
+#include <gale/io/read.hpp>
+#include <gale/mesh/cells/cell_types.hpp>
 
 namespace gale::io::detail {
-
-/// A type of cell as VTK's files number them.
-struct CellType {
-  int number;
-  const char* name;  ///< as users of VTK know it
-  int dimension;
-  int points;  ///< that each has, or 0 if their numbers differ
-};
-
-/// nullptr for a number that stands for no type.
-const CellType* find_cell_type(int number);
-
-inline constexpr int tetrahedron_type = 10, voxel_type = 11, hexahedron_type = 12;
 
 /// The cells of a file, as it has them: nothing in them is checked yet.
 struct Cells {
   PointArray::Values types;         ///< of each, as `CellType::number`
   PointArray::Values ends;          ///< where each ends in `connectivity`; it begins where the one before ends
-  PointArray::Values connectivity;  ///< the cells' points
+  PointArray::Values connectivity;  ///< the cells' points; of polyhedra their faces, as gale::Cells has them
 };
 
 /// The parts of a mesh as a file has them.
@@ -36,14 +25,18 @@ struct MeshParts {
   std::vector<std::string> notices;
 };
 
-/// The mesh of the tetrahedra among the cells, in their order; those of lower dimension are left out with a notice.
-/// Checks all that it indexes by. Throws gale::Error: offsets that don't ascend or exceed the connectivity, points that
-/// there are not, a cell of dimension 3 that is no tetrahedron unless `tetrahedralize`, no tetrahedra unless it
-/// `may_be_empty`, too many for ids of 32 bits. Takes what is in `parts`.
-Dataset to_mesh(MeshParts& parts, bool tetrahedralize, bool may_be_empty = false);
+/// The mesh of the cells, in their order: tetrahedra, and what split_cells() makes of others. Checks all that it
+/// indexes by. Throws gale::Error as that does, for cells of dimension 3 that are no tetrahedra where these alone are
+/// wanted, for no tetrahedra, and for too many points for ids of 32 bits. Takes what is in `parts`.
+Dataset to_mesh(MeshParts& parts, const ReadOptions& options);
 
-/// Throws gale::Error about a cell of dimension 3 that is no tetrahedron.
-[[noreturn]] void refuse_solid(std::size_t cell, int type);
+/// Points and arrays of the mesh, without tetrahedra, and gives the cells back, as the other ones below are to be
+/// split later. Takes what is in `parts`.
+Dataset to_points_alone(MeshParts& parts);
+
+/// Splits cells into the tetrahedra of `to`, which may be none, by the ids of its points; of none, by their numbers.
+/// Gives it cell_arrays and notices. Takes the cells.
+void split_into(Dataset& to, Cells& cells, const Array<const GlobalId, HostMemory>& ids, const ReadOptions& options);
 
 /// The notice about a point array that is left out, and why.
 std::string note_array(const std::string& name, const std::string& why);
@@ -51,10 +44,8 @@ std::string note_array(const std::string& name, const std::string& why);
 /// The notice about cell arrays of these names, which aren't read.
 std::string note_cell_arrays(const std::vector<std::string>& names);
 
-/// The four points of each tetrahedron that the cells of dimension 3 are split into, so that cells which share a face
-/// split it alike. The cells are those of a checked mesh, and have types whose number of points is known. Through VTK.
-std::vector<std::int32_t> split_cells(const PointArray::Values& points, const std::vector<std::uint8_t>& types,
-                                      const std::vector<std::int64_t>& ends,
-                                      const std::vector<std::int64_t>& connectivity);
+/// The cells of a structured grid of so many points along each axis, hexahedra or, by their type, voxels; none where an
+/// axis has less than two. Precondition: 32 bits number its points.
+Cells cells_of_grid(const std::array<std::int64_t, 3>& dimensions, int type);
 
 }  // namespace gale::io::detail

@@ -64,9 +64,14 @@ void JoinedPieces::add(MeshParts piece, std::int64_t first_point) {
   const auto begin = static_cast<std::int64_t>(connectivity_.size());
   is_double_ |= std::holds_alternative<std::vector<double>>(piece.points);
   append(piece.points, 0.0, points_);
+  const std::size_t first_cell = std::min(types_.size(), ends_.size());
   append(piece.cells.types, std::int64_t(0), types_);
   append(piece.cells.ends, begin, ends_);
-  append(piece.cells.connectivity, first_point, connectivity_);
+  append(piece.cells.connectivity, std::int64_t(0), connectivity_);
+  if (first_point != 0) {
+    for_each_point(types_, ends_, first_cell, connectivity_,
+                   [&](std::size_t, std::int64_t& point) { point += first_point; });
+  }
   if (count_of(piece.points) > 0) add_arrays(piece.arrays);  // an empty piece may leave out arrays
   for (std::string& notice : piece.notices) {
     if (known_notices_.insert(notice).second) notices_.push_back(std::move(notice));
@@ -94,7 +99,9 @@ void number_points(Numbers& ids, MeshParts& parts) {
   for (PointArray& array : parts.arrays) array = gather(array, places);
   Numbers number(places.size());
   for (std::size_t i = 0; i < places.size(); ++i) number[places[i]] = static_cast<std::int64_t>(i);
-  for (std::int64_t& point : std::get<Numbers>(parts.cells.connectivity)) point = number[point];
+  for_each_point(std::get<Numbers>(parts.cells.types), std::get<Numbers>(parts.cells.ends), 0,
+                 std::get<Numbers>(parts.cells.connectivity),
+                 [&](std::size_t, std::int64_t& point) { point = number[point]; });
 }
 
 void number_cells(Numbers& ids, Cells& cells) {

@@ -31,6 +31,28 @@ using ArraysByKind = std::map<std::tuple<std::string, int, std::size_t>, PointAr
 ArraysByKind by_kind(std::vector<PointArray>& arrays);
 PointArray* find_alike(const ArraysByKind& arrays, const PointArray& array);
 
+/// Calls visit(cell, point) for each point that the cells from `first` on name: what polyhedra have besides are counts.
+/// Cells may be unchecked: it ends where one leaves the connectivity.
+template <class Visit>
+void for_each_point(const std::vector<std::int64_t>& types, const std::vector<std::int64_t>& ends, std::size_t first,
+                    std::vector<std::int64_t>& connectivity, const Visit& visit) {
+  const auto size = static_cast<std::int64_t>(connectivity.size());
+  std::int64_t at = first == 0 ? 0 : ends[first - 1];
+  for (std::size_t cell = first; cell < std::min(types.size(), ends.size()); ++cell) {
+    const std::int64_t end = ends[cell];
+    if (at < 0 || at > end || end > size) return;
+    if (types[cell] != cell_type::polyhedron) {
+      for (; at < end; ++at) visit(cell, connectivity[static_cast<std::size_t>(at)]);
+    } else if (at < end) {
+      for (++at; at < end;) {
+        const std::int64_t corners = connectivity[static_cast<std::size_t>(at++)];
+        for (std::int64_t k = 0; k < corners && at < end; ++k, ++at)
+          visit(cell, connectivity[static_cast<std::size_t>(at)]);
+      }
+    }
+  }
+}
+
 /// Pieces of a mesh, one behind the other. Of their arrays those stay that all pieces have which have points. Nothing
 /// of the cells is checked.
 class JoinedPieces {

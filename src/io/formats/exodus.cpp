@@ -38,11 +38,11 @@ struct Family {
 const Family families[] = {{"TET", 10, 24, 10},
                            {"TET", 11, 24, 10},
                            {"TET", 15, 71, 15},
-                           {"TET", any, tetrahedron_type, 4},
+                           {"TET", any, cell_type::tetrahedron, 4},
                            {"HEX", 20, 25, 20, &hexahedron_20},
                            {"HEX", 21, 25, 20, &hexahedron_20},
                            {"HEX", 27, 29, 27, &hexahedron_27},
-                           {"HEX", any, hexahedron_type, 8},
+                           {"HEX", any, cell_type::hexahedron, 8},
                            {"WED", 15, 26, 15, &wedge_15},
                            {"WED", 18, 32, 18, &wedge_18},
                            {"WED", 21, 73, 21},
@@ -317,7 +317,7 @@ Content read_exodus_from(ArrayFile& file, const ReadOptions& options) {
   for (const std::uint64_t block : ordered_blocks(file)) elements.add_block(std::to_string(block));
   parts.cells = elements.take();
   read_variables(file, points, parts);
-  return to_mesh(parts, options.tetrahedralize);
+  return to_mesh(parts, options);
 }
 
 }  // namespace

@@ -121,35 +121,14 @@ Image to_image(Sections& from) {
   return image;
 }
 
-/// Adds the hexahedra of the grid, as cells of `type`, a voxel or a hexahedron.
-void add_grid_cells(Sections& to, int type, bool tetrahedralize) {
-  const std::int64_t nx = to.dimensions[0], ny = to.dimensions[1], nz = to.dimensions[2];
-  if (nx < 2 || ny < 2 || nz < 2) return;
+/// Adds the cells of the grid, of `type`, a voxel or a hexahedron.
+void add_grid_cells(Sections& to, int type) {
   constexpr std::int64_t most_without_values = 100000;
   if (to.mesh.arrays.empty() && to.points > most_without_values)
     refuse("it has ", to.points, " points, and no values at them");
   if (to.points > std::numeric_limits<std::int32_t>::max())
     refuse("it has ", to.points, " points, more than 32-bit ids can number");
-  if (!tetrahedralize) refuse_solid(0, type);
-  const std::size_t cells = static_cast<std::size_t>((nx - 1) * (ny - 1) * (nz - 1));
-  std::vector<std::int32_t> connectivity;
-  connectivity.reserve(8 * cells);
-  std::vector<std::int64_t> ends(cells);
-  for (std::int64_t z = 0; z + 1 < nz; ++z) {
-    for (std::int64_t y = 0; y + 1 < ny; ++y) {
-      gale::detail::stop_if_asked();
-      for (std::int64_t x = 0; x + 1 < nx; ++x) {
-        static constexpr int corners[2][8] = {{0, 1, 2, 3, 4, 5, 6, 7}, {0, 1, 3, 2, 4, 5, 7, 6}};
-        for (const int corner : corners[type == hexahedron_type]) {
-          const std::int64_t cx = x + (corner & 1), cy = y + (corner >> 1 & 1), cz = z + (corner >> 2);
-          connectivity.push_back(static_cast<std::int32_t>((cz * ny + cy) * nx + cx));
-        }
-      }
-    }
-  }
-  for (std::size_t c = 0; c < cells; ++c) ends[c] = static_cast<std::int64_t>(8 * (c + 1));
-  to.mesh.cells = {std::vector<std::uint8_t>(cells, static_cast<std::uint8_t>(type)), std::move(ends),
-                   std::move(connectivity)};
+  to.mesh.cells = cells_of_grid({to.dimensions[0], to.dimensions[1], to.dimensions[2]}, type);
 }
 
 /// Throws gale::Error unless the file had the points that its DIMENSIONS say, of a rectilinear grid along the axes.
@@ -203,11 +182,11 @@ Content read_legacy_vtk(const InputFile& input, const ReadOptions& options) {
   if (kind != "unstructured_grid") {
     const bool rectilinear = kind == "rectilinear_grid";
     require_grid_points(sections, rectilinear);
-    add_grid_cells(sections, rectilinear ? voxel_type : hexahedron_type, options.tetrahedralize);
+    add_grid_cells(sections, rectilinear ? cell_type::voxel : cell_type::hexahedron);
     if (rectilinear && count_of(sections.mesh.cells.types) > 0) add_grid_points(sections);
   }
   if (!sections.cell_arrays.empty()) sections.mesh.notices.push_back(note_cell_arrays(sections.cell_arrays));
-  return to_mesh(sections.mesh, options.tetrahedralize);
+  return to_mesh(sections.mesh, options);
 }
 
 }  // namespace gale::io::detail

@@ -163,6 +163,8 @@ class SharedPieces {
     append(cells.ends, std::int64_t(0), ends);
     append(cells.connectivity, std::int64_t(0), connectivity);
     if (piece.ghosts) append(*piece.ghosts, std::int64_t(0), is_ghost);
+    for_each_point(types, ends, 0, connectivity,
+                   [&](std::size_t c, std::int64_t& point) { point = place(places, point, c); });
     Ids kept_types, kept_ends, kept_points;
     std::int64_t begin = 0;
     for (std::size_t c = 0; c < types.size(); ++c) {
@@ -171,7 +173,7 @@ class SharedPieces {
         damaged("cell ", c, " ends at ", ends[c], " in a connectivity of ", connectivity.size(),
                 ", and the one before it at ", begin);
       if (is_ghost.empty() || (is_ghost[c] & has_other_piece) == 0) {
-        for (std::int64_t k = begin; k < ends[c]; ++k) kept_points.push_back(place(places, connectivity[k], c));
+        kept_points.insert(kept_points.end(), connectivity.begin() + begin, connectivity.begin() + ends[c]);
         kept_types.push_back(types[c]);
         kept_ends.push_back(static_cast<std::int64_t>(kept_points.size()));
         if (!piece.cell_ids.empty()) cell_ids_.push_back(piece.cell_ids[c]);
@@ -265,17 +267,15 @@ PieceNames names_of_pieces(const InputFile& input) {
 
 Content read_pvtu(const InputFile& input, const ReadOptions& options) {
   MeshParts parts = join(input, names_of_pieces(input), options).parts;
-  return to_mesh(parts, options.tetrahedralize);
+  return to_mesh(parts, options);
 }
 
 SomePieces read_some_pieces(const InputFile& input, const PieceNames& some, const ReadOptions& options) {
   JoinedWithIds all = join(input, some, options);
-  Ids tetrahedra;
-  const auto& types = std::get<Ids>(all.parts.cells.types);
-  for (std::size_t c = 0; c < all.cell_ids.size(); ++c) {
-    if (types[c] == tetrahedron_type) tetrahedra.push_back(all.cell_ids[c]);
-  }
-  return {to_mesh(all.parts, options.tetrahedralize, true), std::move(all.point_ids), std::move(tetrahedra)};
+  const auto taken = [](PointArray::Values& values) { return std::get<Ids>(std::move(values)); };
+  Cells& cells = all.parts.cells;
+  return {to_points_alone(all.parts), taken(cells.types),       taken(cells.ends),
+          taken(cells.connectivity),  std::move(all.point_ids), std::move(all.cell_ids)};
 }
 
 }  // namespace gale::io::detail

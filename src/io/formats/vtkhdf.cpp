@@ -115,6 +115,16 @@ std::vector<std::int64_t> join_parts(const MeshCounts& counts, const std::vector
   return ends;
 }
 
+/// The first polyhedron, or how many cells there are. Its faces are in arrays that aren't read.
+std::size_t find_polyhedron(const PointArray::Values& types) {
+  return std::visit(
+      [](const auto& all) {
+        const auto is_it = [](auto type) { return type == static_cast<decltype(type)>(cell_type::polyhedron); };
+        return static_cast<std::size_t>(std::find_if(all.begin(), all.end(), is_it) - all.begin());
+      },
+      types);
+}
+
 Content read_mesh(Hdf5File& file, const ReadOptions& options) {
   const MeshCounts counts(file);
   const FileArray& xyz = file.require(root + "/Points");
@@ -126,8 +136,10 @@ Content read_mesh(Hdf5File& file, const ReadOptions& options) {
   parts.cells.ends = join_parts(counts, read_integers(file, "Offsets", offsets), connectivity);
   parts.cells.connectivity = std::move(connectivity);
   parts.cells.types = file.read(file.require(root + "/Types"), counts.cells.sum);
+  const std::size_t polyhedron = find_polyhedron(parts.cells.types);
+  if (polyhedron < counts.cells.sum) refuse("cell ", polyhedron, " is a vtkPolyhedron, which isn't read from VTKHDF");
   parts.arrays = read_arrays(file, {counts.points.sum}, parts.notices);
-  return to_mesh(parts, options.tetrahedralize);
+  return to_mesh(parts, options);
 }
 
 Content read_image(Hdf5File& file) {

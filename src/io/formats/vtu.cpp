@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <limits>
 
+#include <gale/base/stop.hpp>
 #include <gale/io/bytes/text.hpp>
 #include <gale/io/bytes/values.hpp>
 #include <gale/io/cells/join.hpp>
@@ -26,6 +28,37 @@ PointArray::Values read_cells(const XmlFile& file, const XmlElement& piece, cons
   return read_array(file, *array, count);
 }
 
+/// Gives polyhedra, whose points the connectivity has, the faces that the file has beside it: how many, and of each how
+/// many corners, and these.
+void take_faces(const XmlFile& file, const XmlElement& piece, Cells& cells) {
+  std::vector<std::int64_t> types, ends, connectivity, faces, face_ends;
+  append(cells.types, std::int64_t(0), types);
+  if (std::find(types.begin(), types.end(), cell_type::polyhedron) == types.end()) return;
+  append(cells.ends, std::int64_t(0), ends);
+  append(cells.connectivity, std::int64_t(0), connectivity);
+  append(read_cells(file, piece, "faces", std::nullopt), std::int64_t(0), faces);
+  append(read_cells(file, piece, "faceoffsets", types.size()), std::int64_t(0), face_ends);
+  std::vector<std::int64_t> all;
+  std::int64_t begin = 0, face_begin = 0;
+  for (std::size_t c = 0; c < types.size(); ++c) {
+    gale::detail::stop_if_asked_at(static_cast<std::int64_t>(c));
+    const bool has_faces = types[c] == cell_type::polyhedron;
+    const std::vector<std::int64_t>& from = has_faces ? faces : connectivity;
+    const std::int64_t first = has_faces ? face_begin : begin, end = has_faces ? face_ends[c] : ends[c];
+    if (ends[c] < begin || ends[c] > static_cast<std::int64_t>(connectivity.size()))
+      damaged("cell ", c, " ends at ", ends[c], " in a connectivity of ", connectivity.size(),
+              ", and the one before it at ", begin);
+    if (end < first || end > static_cast<std::int64_t>(from.size()))
+      damaged("cell ", c, " ends at ", end, " of ", from.size(), (has_faces ? " faces'" : ""),
+              " entries, and the one before it at ", first);
+    all.insert(all.end(), from.begin() + first, from.begin() + end);
+    (has_faces ? face_begin : begin) = end;
+    begin = ends[c];
+    ends[c] = static_cast<std::int64_t>(all.size());
+  }
+  cells = {std::move(types), std::move(ends), std::move(all)};
+}
+
 }  // namespace
 
 MeshParts read_piece(const XmlFile& file, const XmlElement& piece) {
@@ -41,6 +74,7 @@ MeshParts read_piece(const XmlFile& file, const XmlElement& piece) {
     parts.cells.types = read_cells(file, piece, "types", cells);
     parts.cells.ends = read_cells(file, piece, "offsets", cells);
     parts.cells.connectivity = read_cells(file, piece, "connectivity", std::nullopt);
+    take_faces(file, piece, parts.cells);
   }
   XmlArrays data = read_point_data(file, piece, points);
   parts.arrays = std::move(data.arrays);
@@ -72,7 +106,7 @@ Content read_vtu(const InputFile& input, const ReadOptions& options) {
   }
   const std::vector<std::string> cell_arrays = names_of_cell_data(*pieces.front());
   if (!cell_arrays.empty()) parts.notices.push_back(note_cell_arrays(cell_arrays));
-  return to_mesh(parts, options.tetrahedralize);
+  return to_mesh(parts, options);
 }
 
 }  // namespace gale::io::detail

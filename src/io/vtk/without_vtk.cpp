@@ -1,6 +1,5 @@
 #include <gale/base/error.hpp>
 #include <gale/io/bytes/compression.hpp>
-#include <gale/io/cells/cells.hpp>
 #include <gale/io/formats.hpp>
 #include <gale/io/formats/xml_file.hpp>
 
@@ -21,10 +20,5 @@ std::unique_ptr<ByteSource> inflated(std::unique_ptr<ByteSource>) { refuse_witho
 Uncompress find_uncompress(const std::string&) { refuse_without_vtk(); }
 
 void read_tree(XmlFile&, const std::string&) { refuse_without_vtk(); }
-
-std::vector<std::int32_t> split_cells(const PointArray::Values&, const std::vector<std::uint8_t>&,
-                                      const std::vector<std::int64_t>&, const std::vector<std::int64_t>&) {
-  refuse_without_vtk();
-}
 
 }  // namespace gale::io::detail

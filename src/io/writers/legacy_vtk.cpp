@@ -36,6 +36,17 @@ void write_values(OutputFile& file, const WrittenArray& array) {
   file.write("\n");
 }
 
+/// Writes the arrays of so many points or cells.
+void write_data(OutputFile& file, const std::string& keyword, const std::string& rows, const WrittenArrays& arrays) {
+  if (arrays.empty()) return;
+  file.write(keyword + rows + "\nFIELD FieldData " + std::to_string(arrays.size()) + "\n");
+  for (const WrittenArray& array : arrays) {
+    file.write(
+        text_of(as_word(array.name), " ", array.components, " ", rows, " ", name_in(legacy_types, array.type), "\n"));
+    write_values(file, array);
+  }
+}
+
 }  // namespace
 
 void write_legacy_vtk(const AtomicFile& to, const Dataset& mesh, const std::vector<PointArray>& more) {
@@ -54,15 +65,8 @@ void write_legacy_vtk(const AtomicFile& to, const Dataset& mesh, const std::vect
   file.write("CELL_TYPES " + cells + "\n");
   constexpr int tetrahedron = 10;
   write_values(file, made<std::int32_t>("", count, [](std::uint64_t) { return tetrahedron; }));
-  const auto arrays = written(mesh.arrays, more);
-  if (!arrays.empty()) {
-    file.write("POINT_DATA " + vertices + "\nFIELD FieldData " + std::to_string(arrays.size()) + "\n");
-    for (const WrittenArray& array : arrays) {
-      file.write(text_of(as_word(array.name), " ", array.components, " ", vertices, " ",
-                         name_in(legacy_types, array.type), "\n"));
-      write_values(file, array);
-    }
-  }
+  write_data(file, "CELL_DATA ", cells, written(mesh.cell_arrays));
+  write_data(file, "POINT_DATA ", vertices, written(mesh.arrays, more));
   file.flush();
 }
 

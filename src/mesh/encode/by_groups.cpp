@@ -110,6 +110,28 @@ GroupPlaces places_of_groups(const Renumbered<Index>& input, Offset count, Offse
   return places;
 }
 
+/// Deals the tetrahedra to their groups.
+template <class Index>
+void deal(const Renumbered<Index>& input, Offset count, GroupPlaces& places,
+          const SortedTetrahedra<HostMemory>& sorted) {
+  Quad* const quads = sorted.of_lowest.entries.data();
+  Id* const from = sorted.input.data();
+  const int parts = static_cast<int>(places.of_parts.size());
+  for_parts("GALE::deal_tetrahedra", count, parts, [&, input, quads, from](int part, Offset first, Offset last) {
+    Id* const next = places.of_parts[part].data();
+    for (Offset t = first; t < last;) {
+      for (const Offset end = piece_end(t, last); t < end; ++t) {
+        const Quad quad = input[t];
+        const Id to = next[quad.a >> group_bits]++;
+        quads[to] = quad;
+        from[to] = static_cast<Id>(t);
+      }
+    }
+  });
+}
+
+}  // namespace
+
 /// T_ex, in two steps: each part of the sorted tetrahedra counts and then places its own, by segment and after those of
 /// the parts before, so that rows ascend.
 class ExternalRows {
@@ -150,28 +172,6 @@ class ExternalRows {
   ExternalSegments external_;
   std::vector<std::vector<Offset>> next_;  ///< by part, by segment
 };
-
-/// Deals the tetrahedra to their groups.
-template <class Index>
-void deal(const Renumbered<Index>& input, Offset count, GroupPlaces& places,
-          const SortedTetrahedra<HostMemory>& sorted) {
-  Quad* const quads = sorted.of_lowest.entries.data();
-  Id* const from = sorted.input.data();
-  const int parts = static_cast<int>(places.of_parts.size());
-  for_parts("GALE::deal_tetrahedra", count, parts, [&, input, quads, from](int part, Offset first, Offset last) {
-    Id* const next = places.of_parts[part].data();
-    for (Offset t = first; t < last;) {
-      for (const Offset end = piece_end(t, last); t < end; ++t) {
-        const Quad quad = input[t];
-        const Id to = next[quad.a >> group_bits]++;
-        quads[to] = quad;
-        from[to] = static_cast<Id>(t);
-      }
-    }
-  });
-}
-
-}  // namespace
 
 template <class Index>
 EncodedTetrahedra encode_by_groups(const Tetrahedra<Index, HostMemory>& given,

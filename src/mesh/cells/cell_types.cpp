@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <iterator>
 
-#include <gale/io/cells/cells.hpp>
+#include <gale/mesh/cells/cell_types.hpp>
 
-namespace gale::io::detail {
+namespace gale {
 namespace {
 
 constexpr CellType all_types[] = {{0, "vtkEmptyCell", 0, 0},
@@ -11,22 +11,22 @@ constexpr CellType all_types[] = {{0, "vtkEmptyCell", 0, 0},
                                   {2, "vtkPolyVertex", 0, 0},
                                   {3, "vtkLine", 1, 2},
                                   {4, "vtkPolyLine", 1, 0},
-                                  {5, "vtkTriangle", 2, 3},
-                                  {6, "vtkTriangleStrip", 2, 0},
-                                  {7, "vtkPolygon", 2, 0},
-                                  {8, "vtkPixel", 2, 4},
-                                  {9, "vtkQuad", 2, 4},
-                                  {tetrahedron_type, "vtkTetra", 3, 4},
-                                  {voxel_type, "vtkVoxel", 3, 8},
-                                  {hexahedron_type, "vtkHexahedron", 3, 8},
-                                  {13, "vtkWedge", 3, 6},
-                                  {14, "vtkPyramid", 3, 5},
-                                  {15, "vtkPentagonalPrism", 3, 10},
-                                  {16, "vtkHexagonalPrism", 3, 12},
+                                  {5, "vtkTriangle", 2, 3, "triangles"},
+                                  {6, "vtkTriangleStrip", 2, 0, "triangle strips"},
+                                  {7, "vtkPolygon", 2, 0, "polygons"},
+                                  {8, "vtkPixel", 2, 4, "pixels"},
+                                  {9, "vtkQuad", 2, 4, "quads"},
+                                  {10, "vtkTetra", 3, 4, "tetrahedra"},
+                                  {11, "vtkVoxel", 3, 8, "voxels"},
+                                  {12, "vtkHexahedron", 3, 8, "hexahedra"},
+                                  {13, "vtkWedge", 3, 6, "wedges"},
+                                  {14, "vtkPyramid", 3, 5, "pyramids"},
+                                  {15, "vtkPentagonalPrism", 3, 10, "pentagonal prisms"},
+                                  {16, "vtkHexagonalPrism", 3, 12, "hexagonal prisms"},
                                   {21, "vtkQuadraticEdge", 1, 3},
-                                  {22, "vtkQuadraticTriangle", 2, 6},
+                                  {22, "vtkQuadraticTriangle", 2, 6, "quadratic triangles"},
                                   {23, "vtkQuadraticQuad", 2, 8},
-                                  {24, "vtkQuadraticTetra", 3, 10},
+                                  {24, "vtkQuadraticTetra", 3, 10, "quadratic tetrahedra"},
                                   {25, "vtkQuadraticHexahedron", 3, 20},
                                   {26, "vtkQuadraticWedge", 3, 15},
                                   {27, "vtkQuadraticPyramid", 3, 13},
@@ -41,7 +41,7 @@ constexpr CellType all_types[] = {{0, "vtkEmptyCell", 0, 0},
                                   {36, "vtkQuadraticPolygon", 2, 0},
                                   {37, "vtkTriQuadraticPyramid", 3, 19},
                                   {41, "vtkConvexPointSet", 3, 0},
-                                  {42, "vtkPolyhedron", 3, 0},
+                                  {42, "vtkPolyhedron", 3, 0, "polyhedra"},
                                   {68, "vtkLagrangeCurve", 1, 0},
                                   {69, "vtkLagrangeTriangle", 2, 0},
                                   {70, "vtkLagrangeQuadrilateral", 2, 0},
@@ -65,4 +65,4 @@ const CellType* find_cell_type(int number) {
   return found == std::end(all_types) ? nullptr : found;
 }
 
-}  // namespace gale::io::detail
+}  // namespace gale

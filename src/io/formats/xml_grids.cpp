@@ -1,0 +1,118 @@
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include <gale/base/stop.hpp>
+#include <gale/io/bytes/text.hpp>
+#include <gale/io/bytes/values.hpp>
+#include <gale/io/cells/cells.hpp>
+#include <gale/io/formats.hpp>
+#include <gale/io/formats/xml_pieces.hpp>
+
+// `.vts` and `.vtr`: meshes of hexahedra and of voxels whose points have places along three axes.
+namespace gale::io::detail {
+namespace {
+
+/// A grid's pieces, and where they are.
+struct Grid {
+  Grid(const InputFile& input, const char* type)
+      : file(read_xml(input, type)),
+        whole(extent_of(file.root.require(type), "WholeExtent")),
+        pieces(grid_pieces_of(file.root.require(type), whole)) {
+    if (whole.points() > std::uint64_t(std::numeric_limits<std::int32_t>::max()))
+      refuse("it has ", whole.points(), " points, more than 32-bit ids can number");
+  }
+
+  XmlFile file;
+  Extent whole;
+  std::vector<GridPiece> pieces;
+};
+
+/// The mesh of the grid's cells, but for its points.
+MeshParts parts_of(const Grid& grid, int type) {
+  MeshParts parts;
+  XmlArrays arrays = join_pieces(grid.pieces, grid.whole, [&](const XmlElement& piece, std::uint64_t points) {
+    return read_point_data(grid.file, piece, points);
+  });
+  parts.arrays = std::move(arrays.arrays);
+  parts.notices = std::move(arrays.notices);
+  const std::vector<std::string> cell_arrays = names_of_cell_data(*grid.pieces[0].element);
+  if (!cell_arrays.empty()) parts.notices.push_back(note_cell_arrays(cell_arrays));
+  constexpr std::uint64_t most_without_values = 100000;
+  if (parts.arrays.empty() && grid.whole.points() > most_without_values)
+    refuse("it has ", grid.whole.points(), " points, and no values at them");
+  parts.cells = cells_of_grid({grid.whole.size(0), grid.whole.size(1), grid.whole.size(2)}, type);
+  return parts;
+}
+
+/// The coordinates along an axis, of all pieces.
+std::vector<double> axis_of(const Grid& grid, int axis, bool& is_float) {
+  const std::int64_t low = grid.whole.low[axis];
+  std::vector<double> all(static_cast<std::size_t>(grid.whole.size(axis)));
+  std::vector<bool> is_there(all.size());
+  for (const GridPiece& piece : grid.pieces) {
+    const auto arrays = piece.element->require("Coordinates").all("DataArray");
+    if (arrays.size() != 3) damaged("its Coordinates have ", arrays.size(), " arrays, not 3");
+    const auto values = read_array(grid.file, *arrays[static_cast<std::size_t>(axis)],
+                                   static_cast<std::uint64_t>(piece.extent.size(axis)));
+    is_float &= std::holds_alternative<std::vector<float>>(values);
+    auto place = static_cast<std::size_t>(piece.extent.low[axis] - low);
+    std::visit(
+        [&](const auto& coordinates) {
+          for (const auto coordinate : coordinates) {
+            is_there[place] = true;
+            all[place++] = static_cast<double>(coordinate);
+          }
+        },
+        values);
+  }
+  if (std::find(is_there.begin(), is_there.end(), false) != is_there.end()) not_covered();
+  return all;
+}
+
+template <class T>
+std::vector<T> points_along(const std::array<std::vector<double>, 3>& axes) {
+  std::vector<T> points;
+  points.reserve(3 * axes[0].size() * axes[1].size() * axes[2].size());
+  for (const double z : axes[2]) {
+    gale::detail::stop_if_asked();
+    for (const double y : axes[1]) {
+      for (const double x : axes[0]) {
+        for (const double coordinate : {x, y, z}) points.push_back(static_cast<T>(coordinate));
+      }
+    }
+  }
+  return points;
+}
+
+}  // namespace
+
+Content read_vts(const InputFile& input, const ReadOptions& options) {
+  const Grid grid(input, "StructuredGrid");
+  const auto read = [&](const XmlElement& piece, std::uint64_t points) {
+    const XmlElement& array = piece.require("Points").require("DataArray");
+    if (array.attribute("NumberOfComponents", "3") != "3")
+      damaged("its points have ", array.attribute("NumberOfComponents"), " components");
+    return XmlArrays{{{"", 3, read_array(grid.file, array, 3 * points)}}, {}};
+  };
+  PointArray::Values points = join_pieces(grid.pieces, grid.whole, read).arrays[0].values;
+  MeshParts parts = parts_of(grid, cell_type::hexahedron);
+  parts.points = std::move(points);
+  return to_mesh(parts, options);
+}
+
+Content read_vtr(const InputFile& input, const ReadOptions& options) {
+  const Grid grid(input, "RectilinearGrid");
+  bool is_float = true;
+  const std::array<std::vector<double>, 3> axes = {axis_of(grid, 0, is_float), axis_of(grid, 1, is_float),
+                                                   axis_of(grid, 2, is_float)};
+  MeshParts parts = parts_of(grid, cell_type::voxel);
+  if (is_float) {
+    parts.points = points_along<float>(axes);
+  } else {
+    parts.points = points_along<double>(axes);
+  }
+  return to_mesh(parts, options);
+}
+
+}  // namespace gale::io::detail

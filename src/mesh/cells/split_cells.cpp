@@ -1,0 +1,359 @@
+#include <array>
+
+#include <gale/base/error.hpp>
+#include <gale/base/parallel.hpp>
+#include <gale/base/transfer.hpp>
+#include <gale/mesh/cells/split_cell.hpp>
+#include <gale/mesh/cells/split_cells.hpp>
+
+namespace gale {
+
+namespace detail {
+
+namespace {
+
+template <class Memory>
+using SpaceOf = std::conditional_t<is_device_memory<Memory>, WorkerSpace, HostExecutionSpace>;
+
+/// Entries of a cell: places among them are Ids.
+constexpr Offset most_entries = 0x7fffffff;
+
+/// Splits a cell into simplices of so many corners, wherever it is.
+template <int Corners, class Index, class Memory>
+struct CellSplitter {
+  Cells<Index, Memory> cells;
+  Array<const GlobalId, Memory> ids;
+  Offset points;
+  CellRules rules;
+
+  /// Whether the cell can't be split, or has what is not there.
+  KOKKOS_FUNCTION bool is_bad(Offset cell) const {
+    const Offset begin = cells.offsets(cell), end = cells.offsets(cell + 1);
+    if (begin < 0 || end < begin || end > static_cast<Offset>(cells.connectivity.extent(0))) return true;
+    const int type = cells.types(cell);
+    const CellRule rule = rules.rule[type];
+    if (rule == CellRule::skip) return false;
+    if (rule == CellRule::unknown || rule == CellRule::refuse) return true;
+    const Offset size = end - begin;
+    if (rule == CellRule::polyhedron) {
+      const Index* const entries = cells.connectivity.data() + begin;
+      return size > most_entries || fault_of_polyhedron(entries, size, points) != FaceFault::none;
+    }
+    if (rules.points[type] != 0 ? size != rules.points[type] : size < 3 || size > most_entries) return true;
+    bool is_outside = false;
+    for (Offset k = begin; k < end; ++k) {
+      const Offset point = cells.connectivity(k);
+      is_outside |= point < 0 || point >= points;
+    }
+    return is_outside;
+  }
+
+  /// Emits the simplices of a cell that isn't bad.
+  template <class Emit>
+  KOKKOS_FORCEINLINE_FUNCTION void split(Offset cell, const Emit& emit) const {
+    const int type = cells.types(cell);
+    const Index* const corners = cells.connectivity.data() + cells.offsets(cell);
+    const GlobalId* const given = ids.extent(0) == 0 ? nullptr : ids.data();  // of none it may not be null
+    const auto at = [corners](int k) { return static_cast<Id>(corners[k]); };
+    const auto key = [given](Id vertex) { return given == nullptr ? GlobalId(vertex) : given[vertex]; };
+    if constexpr (Corners == 4) {
+      switch (rules.rule[type]) {
+        case CellRule::simplex:
+          return emit(at(0), at(1), at(2), at(3));
+        case CellRule::cone:
+          return split_cone(rules.shapes[rules.shape[type]], key, at, emit);
+        case CellRule::quadratic_cone:
+          return split_quadratic_tetrahedron(rules.shapes[rules.shape[type]], key, at, emit);
+        case CellRule::polyhedron:
+          return split_polyhedron(key, at, emit);
+        default:
+          return;
+      }
+    } else {
+      const auto size = static_cast<int>(cells.offsets(cell + 1) - cells.offsets(cell));
+      split_flat(rules.rule[type], size, key, at, emit);
+    }
+  }
+};
+
+/// Counts the simplices of each cell; -1 for a bad one.
+template <class Splitter, class Counts>
+struct CountSimplices {
+  Splitter splitter;
+  Counts counts;
+
+  KOKKOS_FUNCTION void operator()(Offset cell) const {
+    Offset count = 0;
+    if (splitter.is_bad(cell)) {
+      count = -1;
+    } else {
+      splitter.split(cell, [&](auto...) { ++count; });
+    }
+    counts(cell) = count;
+  }
+};
+
+template <class Counts>
+struct CountOf {
+  Counts counts;
+  KOKKOS_FUNCTION Offset operator()(Offset cell) const { return counts(cell); }
+};
+
+template <class Counts>
+struct FirstBad {
+  Counts counts;
+  Offset none;
+  KOKKOS_FUNCTION Offset operator()(Offset cell) const { return counts(cell) < 0 ? cell : none; }
+};
+
+template <class Splitter, class Counts, class Simplices, class Ids>
+struct WriteSimplices {
+  Splitter splitter;
+  Counts begin;
+  Simplices simplices;
+  Ids cells;
+
+  KOKKOS_FUNCTION void operator()(Offset cell) const {
+    Offset place = begin(cell);
+    splitter.split(cell, [&](auto... vertices) {
+      const Id corners[] = {vertices...};
+      for (int k = 0; k < static_cast<int>(sizeof...(vertices)); ++k) simplices(place, k) = corners[k];
+      cells(place++) = static_cast<Id>(cell);
+    });
+  }
+};
+
+/// Whether a cell begins elsewhere than where simplices that follow each other do, or is another one.
+template <class Index, class Memory>
+struct FirstOther {
+  Cells<Index, Memory> cells;
+  int type, corners;
+  Offset none;
+
+  KOKKOS_FUNCTION Offset operator()(Offset cell) const {
+    return cells.types(cell) == type && cells.offsets(cell) == corners * cell ? none : cell;
+  }
+};
+
+template <class Index, class Memory>
+bool are_simplices(const Cells<Index, Memory>& cells, int type, int corners) {
+  const Offset count = cells.types.extent(0);
+  if (corners * count != static_cast<Offset>(cells.connectivity.extent(0)) ||
+      static_cast<Offset>(cells.offsets.extent(0)) != count + 1)
+    return false;
+  const Offset other = reduce_min("GALE::are_simplices", SpaceOf<Memory>(), count, count,
+                                  FirstOther<Index, Memory>{cells, type, corners, count});
+  if (other < count) return false;
+  Offset end = 0;
+  Kokkos::deep_copy(end, Kokkos::subview(cells.offsets, count));
+  return end == corners * count;
+}
+
+/// Copies simplices that follow each other; returns the place of one that has a vertex that there is not.
+template <int Corners, class Index, class Memory>
+struct CopySimplices {
+  Array<const Index, Memory> from;
+  Kokkos::View<Id* [Corners], Kokkos::LayoutRight, Memory> to;
+  Offset points, none;
+
+  KOKKOS_FUNCTION Offset operator()(Offset simplex) const {
+    bool is_outside = false;
+    for (int k = 0; k < Corners; ++k) {
+      const Offset point = from(Corners * simplex + k);
+      is_outside |= point < 0 || point >= points;
+      to(simplex, k) = static_cast<Id>(point);
+    }
+    return is_outside ? simplex : none;
+  }
+};
+
+using Census = std::array<Offset, 256>;
+
+template <class Types>
+Census census_of(const Types& types) {
+  Census census{};
+  const auto all = on_host(types);
+  for (std::size_t cell = 0; cell < all.extent(0); ++cell) ++census[all(cell)];
+  return census;
+}
+
+/// "970,299"
+std::string with_commas(Offset number) {
+  std::string digits = std::to_string(number);
+  for (auto at = static_cast<std::ptrdiff_t>(digits.size()) - 3; at > 0; at -= 3) digits.insert(at, ",");
+  return digits;
+}
+
+/// "12 hexahedra, 4 pyramids and 3 wedges", of the types that are wanted.
+template <class IsWanted>
+std::string list_of(const Census& census, const IsWanted& is_wanted) {
+  std::vector<std::string> all;
+  for (int number = 0; number < 256; ++number) {
+    const CellType* const type = find_cell_type(number);
+    if (census[number] == 0 || type == nullptr || !is_wanted(*type)) continue;
+    all.push_back(with_commas(census[number]) + ' ' + (type->plural != nullptr ? type->plural : type->name));
+  }
+  std::string list;
+  for (std::size_t k = 0; k < all.size(); ++k) list += (k == 0 ? "" : k + 1 == all.size() ? " and " : ", ") + all[k];
+  return list;
+}
+
+/// Says what is wrong with a cell that is bad. `entries` are its points, as far as there are any.
+[[noreturn]] void refuse_cell(Offset cell, int number, Offset begin, Offset end, Offset connectivity, Offset points,
+                              const CellRules& rules, const std::vector<std::int64_t>& entries) {
+  const std::string name = "cell " + std::to_string(cell);
+  const CellType* const type = find_cell_type(number);
+  if (type == nullptr) throw Error(name + " has the unknown type " + std::to_string(number));
+  if (begin < 0 || end < begin || end > connectivity) {
+    throw Error(name + " ends at " + std::to_string(end) + " in a connectivity of " + std::to_string(connectivity) +
+                ", and the one before it at " + std::to_string(begin));
+  }
+  const std::string what = name + " is a " + type->name;
+  if (rules.rule[number] == CellRule::refuse)
+    throw Error(what + ", which isn't split" + (type->plural == nullptr ? "" : " into triangles"));
+  const auto require_points = [&](std::int64_t point) {
+    if (point < 0 || point >= points)
+      throw Error(name + " names point " + std::to_string(point) + " of " + std::to_string(points));
+  };
+  if (rules.rule[number] == CellRule::polyhedron) {
+    const FaceFault fault = fault_of_polyhedron(entries.data(), static_cast<Offset>(entries.size()), points);
+    if (fault == FaceFault::open) throw Error(what + " whose faces don't close: one of its edges is in one face only");
+    if (fault == FaceFault::point) {
+      for (std::size_t face = 1; face < entries.size(); face += static_cast<std::size_t>(entries[face]) + 1) {
+        for (std::int64_t k = 1; k <= entries[face]; ++k) require_points(entries[face + static_cast<std::size_t>(k)]);
+      }
+    }
+    throw Error(what + " whose faces aren't " +
+                (entries.empty() ? "there"
+                                 : "what its " + std::to_string(entries.size()) +
+                                       " entries say: how many, and of each how many corners, and these"));
+  }
+  const std::string size = std::to_string(entries.size());
+  if (type->points != 0 && static_cast<std::size_t>(type->points) != entries.size())
+    throw Error(what + " of " + size + " points, not " + std::to_string(type->points));
+  if (type->points == 0 && entries.size() < 3) throw Error(what + " of " + size + " points");
+  for (const std::int64_t point : entries) require_points(point);
+  throw Error(what + " that is not valid");
+}
+
+template <class Index, class Memory>
+[[noreturn]] void refuse_cell(const Cells<Index, Memory>& cells, Offset cell, Offset points, const CellRules& rules) {
+  const auto some = [](const auto& array, Offset begin, Offset end) {
+    return Kokkos::create_mirror_view_and_copy(HostMemory(), Kokkos::subview(array, std::make_pair(begin, end)));
+  };
+  const auto ends = some(cells.offsets, cell, cell + 2);
+  const Offset begin = ends(0), end = ends(1), size = cells.connectivity.extent(0);
+  std::vector<std::int64_t> entries;
+  if (begin >= 0 && begin < end && end <= size) {
+    const auto found = some(cells.connectivity, begin, end);
+    entries.assign(found.data(), found.data() + found.extent(0));
+  }
+  refuse_cell(cell, some(cells.types, cell, cell + 1)(0), begin, end, size, points, rules, entries);
+}
+
+template <class Index, class Memory>
+void require_offsets(const Cells<Index, Memory>& cells) {
+  const Offset count = cells.types.extent(0), offsets = cells.offsets.extent(0);
+  require_ids("cells", count);
+  if (offsets != count + 1)
+    throw Error("there are " + std::to_string(offsets) + " offsets for " + std::to_string(count) +
+                " cells: one more than cells is wanted, the first 0");
+  Offset first = 0;
+  Kokkos::deep_copy(first, Kokkos::subview(cells.offsets, 0));
+  if (first != 0) throw Error("the first cell begins at " + std::to_string(first) + ", not at 0");
+}
+
+template <int Corners, class Index, class Memory>
+SplitCells<Corners, Memory> split_into(const Cells<Index, Memory>& cells, Offset points,
+                                       const Array<const GlobalId, Memory>& ids) {
+  using Simplices = Kokkos::View<Id* [Corners], Kokkos::LayoutRight, Memory>;
+  constexpr const char* name = Corners == 4 ? "tetrahedra" : "triangles";
+  const SpaceOf<Memory> space;
+  const CellRules& rules = cell_rules(Corners);
+  const Offset count = cells.types.extent(0);
+  SplitCells<Corners, Memory> result;
+  if (ids.extent(0) != 0 && static_cast<Offset>(ids.extent(0)) != points)
+    throw Error("there are " + std::to_string(ids.extent(0)) + " ids for " + std::to_string(points) + " points");
+  require_offsets(cells);
+  if (are_simplices(cells, Corners == 4 ? cell_type::tetrahedron : cell_type::triangle, Corners)) {
+    result.simplices = allocate<Simplices>("GALE::simplices", count);
+    const Offset bad =
+        reduce_min("GALE::copy_simplices", space, count, count,
+                   CopySimplices<Corners, Index, Memory>{cells.connectivity, result.simplices, points, count});
+    if (bad < count) refuse_cell(cells, bad, points, rules);
+    return result;
+  }
+  using Splitter = CellSplitter<Corners, Index, Memory>;
+  using Counts = Array<Offset, Memory>;
+  const Splitter splitter{cells, ids, points, rules};
+  const auto begin = allocate<Counts>("GALE::simplices_of_cells", count + 1);
+  parallel_for("GALE::count_simplices", space, count, CountSimplices<Splitter, Counts>{splitter, begin});
+  const Offset bad = reduce_min("GALE::bad_cells", space, count, count, FirstBad<Counts>{begin, count});
+  if (bad < count) refuse_cell(cells, bad, points, rules);
+  const Offset total = exclusive_scan("GALE::place_simplices", space, count, begin, CountOf<Counts>{begin});
+  require_ids(name, total);
+  result.simplices = allocate<Simplices>("GALE::simplices", total);
+  result.cells = allocate<Array<Id, Memory>>("GALE::cells_of_simplices", total);
+  parallel_for(
+      "GALE::write_simplices", space, count,
+      WriteSimplices<Splitter, Counts, Simplices, Array<Id, Memory>>{splitter, begin, result.simplices, result.cells});
+  const Census census = census_of(cells.types);
+  Offset lower = 0, as_they_are = 0;
+  for (int type = 0; type < 256; ++type) {
+    lower += rules.rule[type] == CellRule::skip ? census[type] : 0;
+    as_they_are += rules.rule[type] == CellRule::simplex ? census[type] : 0;
+  }
+  const std::string split = list_of(census, [&](const CellType& type) {
+    return rules.rule[type.number] != CellRule::skip && rules.rule[type.number] != CellRule::simplex;
+  });
+  if (!split.empty())
+    result.notices.push_back("split " + split + " into " + with_commas(total - as_they_are) + ' ' + name);
+  if (lower > 0)
+    result.notices.push_back("left out " + std::to_string(lower) + " cells of a dimension below " +
+                             std::to_string(Corners - 1));
+  wait_for(space, "GALE::split_cells");
+  return result;
+}
+
+}  // namespace
+
+}  // namespace detail
+
+template <class Index, class Memory>
+SplitCells<4, Memory> split_cells(const Cells<Index, Memory>& cells, Offset points,
+                                  const Array<const GlobalId, Memory>& ids) {
+  return detail::split_into<4>(cells, points, ids);
+}
+
+template <class Index, class Memory>
+SplitCells<3, Memory> split_polygons(const Cells<Index, Memory>& cells, Offset points,
+                                     const Array<const GlobalId, Memory>& ids) {
+  return detail::split_into<3>(cells, points, ids);
+}
+
+template <class Index, class Memory>
+bool are_tetrahedra(const Cells<Index, Memory>& cells) {
+  return detail::are_simplices(cells, cell_type::tetrahedron, 4);
+}
+
+std::string other_cells(const Array<const std::uint8_t, HostMemory>& types) {
+  return detail::list_of(detail::census_of(types), [](const CellType& type) {
+    return type.dimension == 3 && type.number != cell_type::tetrahedron;
+  });
+}
+
+#define GALE_INSTANTIATE(Index, Memory)                                                            \
+  template GALE_EXPORT SplitCells<4, Memory> split_cells(const Cells<Index, Memory>&, Offset,      \
+                                                         const Array<const GlobalId, Memory>&);    \
+  template GALE_EXPORT SplitCells<3, Memory> split_polygons(const Cells<Index, Memory>&, Offset,   \
+                                                            const Array<const GlobalId, Memory>&); \
+  template GALE_EXPORT bool are_tetrahedra(const Cells<Index, Memory>&)
+GALE_INSTANTIATE(std::int32_t, HostMemory);
+GALE_INSTANTIATE(std::int64_t, HostMemory);
+#if defined(GALE_HAS_DEVICE)
+GALE_INSTANTIATE(std::int32_t, WorkerMemory);
+GALE_INSTANTIATE(std::int64_t, WorkerMemory);
+#endif
+#undef GALE_INSTANTIATE
+
+}  // namespace gale
