@@ -80,7 +80,8 @@ GALE_EXPORT std::optional<PieceNames> piece_names(const std::string& input);
 GALE_EXPORT SomePieces read_pieces(const std::string& input, const PieceNames& some, const ReadOptions& options);
 
 /// Splits the cells of such pieces into the tetrahedra of their mesh, by the global ids of its points, so that pieces
-/// that others read fit. Takes the cells. Throws Error, naming the input.
+/// that others read fit. Takes the cells; the notices about them are `notices_of_split`, for all pieces. Throws Error,
+/// naming the input.
 GALE_EXPORT void split_pieces(const std::string& input, SomePieces& some, const Array<const GlobalId, HostMemory>& ids,
                               const ReadOptions& options);
 

@@ -75,14 +75,18 @@ struct CopyEntry {
 template <class T, class Memory, class View>
 Array<const T, Memory> entries_of(const View& view) {
   static_assert(View::rank == 1, "a View of rank 1 is wanted");
-  const auto here = in_memory<Memory>(view);
-  if constexpr (std::is_same_v<T, typename View::non_const_value_type>) {
-    if (here.stride(0) == 1 || here.extent(0) < 2) return Array<const T, Memory>(here.data(), here.extent(0));
+  constexpr bool on_device = is_device_memory<typename View::memory_space>;
+  if constexpr (on_device != is_device_memory<Memory>) {
+    return in_memory<Memory>(entries_of<T, std::conditional_t<on_device, WorkerMemory, HostMemory>>(view));
+  } else {
+    if constexpr (std::is_same_v<T, typename View::non_const_value_type>) {
+      if (view.stride(0) == 1 || view.extent(0) < 2) return Array<const T, Memory>(view.data(), view.extent(0));
+    }
+    using Space = std::conditional_t<on_device, WorkerSpace, Kokkos::DefaultHostExecutionSpace>;
+    const auto copy = allocate<Array<T, Memory>>("GALE::caller_entries", view.extent(0));
+    parallel_for("GALE::caller_entries", Space(), view.extent(0), CopyEntry<Array<T, Memory>, View>{copy, view});
+    return copy;
   }
-  using Space = std::conditional_t<is_device_memory<Memory>, WorkerSpace, Kokkos::DefaultHostExecutionSpace>;
-  const auto copy = allocate<Array<T, Memory>>("GALE::caller_entries", here.extent(0));
-  parallel_for("GALE::caller_entries", Space(), here.extent(0), CopyEntry<decltype(copy), decltype(here)>{copy, here});
-  return copy;
 }
 
 /// A vector as an unmanaged View. Throws gale::Error if its length is no multiple of `columns`.

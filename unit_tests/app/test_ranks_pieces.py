@@ -88,8 +88,8 @@ class PiecesOnRanks(ranks.ComplexTest):
             for count in ranks.RANKS:
                 with self.subTest(source=source, ranks=count):
                     self.expect_complex_of_one_rank(count, source)
-        notices = self.report("info", "with_ids.pvtu")["notices"]
-        self.assertTrue(notices[0].startswith("split 75 hexahedra and 100 wedges into 750 tetrahedra"), notices)
+        for report in (self.report("info", "with_ids.pvtu"), self.report_of(3, "critical-points", "with_ids.pvtu")):
+            self.assertEqual(report["notices"][0], "split 75 hexahedra and 100 wedges into 750 tetrahedra")
         run = self.launch(2, "critical-points", "with_ids.pvtu", "--cells", "tetrahedra")
         self.expect_one_line(run, 1, "and tetrahedra alone are wanted")
 

@@ -96,6 +96,11 @@ def vtu(*encoding, kind="Float32", pieces=1, more_cells=False, polyhedra=False, 
             cells, types = cells + [[0, 1, 2, 3, 4, 5], [2, 3, 4, 5]], types + [13, 42]
             stream = [4, 3, 2, 3, 4, 3, 2, 3, 5, 3, 2, 4, 5, 3, 3, 4, 5]
             faces = xml.array("faces", "Int64", stream) + xml.array("faceoffsets", "Int64", [-1] * 4 + [len(stream)])
+            if pieces == 2:  # as VTK 9.4 and later write them
+                corners = [2, 3, 4, 2, 3, 5, 2, 4, 5, 3, 4, 5]
+                faces = (xml.array("face_connectivity", "Int64", corners) + xml.array("face_offsets", "Int64", [3, 6, 9, 12]) +
+                         xml.array("polyhedron_to_faces", "Int64", [0, 1, 2, 3]) +
+                         xml.array("polyhedron_offsets", "Int64", [0] * 4 + [4]))
         offsets = [sum(map(len, cells[:i + 1])) for i in range(len(cells))]
         body += (f'<Piece NumberOfPoints="6" NumberOfCells="{len(cells)}">\n<PointData Scalars="field">\n' +
                  xml.array("field", kind, list(map(int, FIELD)) if "Int" in kind else FIELD) + xml.array("pairs", "Int16", list(range(12)), 2) + "</PointData>\n<CellData>\n" +

@@ -147,6 +147,39 @@ TEST_F(ReadMesh, SplitsOtherCellsUnlessTold) {
   EXPECT_EQ(values_of<std::int64_t>(mesh.arrays[0])[7], 9007199254740993);
 }
 
+TEST_F(ReadMesh, ReadsFacesInBothOfVtksWays) {
+  const std::string start = vtu(1, "0 1 2 3 4 5 6 7", "8", "42");
+  const auto with = [&](const std::string& arrays) {
+    std::string text = start;
+    return text.insert(text.find("</Cells>"), arrays);
+  };
+  const auto array = [](const std::string& name, const std::string& values) {
+    return "<DataArray type=\"Int64\" Name=\"" + name + "\" format=\"ascii\">" + values + "</DataArray>\n";
+  };
+  const std::string streams = array("faces", "6 4 0 4 7 3 4 1 2 6 5 4 0 1 5 4 4 3 7 6 2 4 0 3 2 1 4 4 5 6 7");
+  const Dataset expected = read(folder.put("old.vtu", with(streams + array("faceoffsets", "31"))));
+  ASSERT_EQ(expected.tetrahedra.extent(0), 6u);
+  const auto numbered = [&](const std::string& members, const std::string& ends) {
+    return with(array("face_connectivity", "0 3 2 1 4 5 6 7 0 4 7 3 1 2 6 5 0 1 5 4 3 7 6 2") +
+                array("face_offsets", "4 8 12 16 20 24") + array("polyhedron_to_faces", members) +
+                array("polyhedron_offsets", ends));
+  };
+  const Dataset mesh = read(folder.put("new.vtu", numbered("2 3 4 5 0 1", "6")));
+  EXPECT_EQ(tetrahedra_of(mesh), tetrahedra_of(expected));
+  const auto refuse = [&](const std::string& text, const std::string& naming) {
+    const std::string message = error_of([&] { read(folder.put("wrong.vtu", text)); });
+    EXPECT_NE(message.find(naming), std::string::npos) << message;
+  };
+  refuse(start, "its Cells have no faces");
+  refuse(with(streams + array("faceoffsets", "32")), "cell 0 ends at 32 of 31 faces' entries");
+  refuse(with(streams + array("faceoffsets", "30")), "faces aren't what its 30 entries say");
+  refuse(numbered("2 3 4 5 0 6", "6"), "cell 0 has face 6 of 6");
+  refuse(numbered("2 3 4 5 0 -1", "6"), "cell 0 has face -1 of 6");
+  refuse(numbered("2 3 4 5 0 1", "7"), "the faces of cell 0 end at 7 of 6");
+  refuse(numbered("2 3 4 5 0 0", "6"), "whose faces don't close");
+  refuse(numbered("0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0", "24"), "in more than two cells each");
+}
+
 TEST_F(ReadMesh, SplitsOtherDataSets) {
   const std::string path = folder.put("rectilinear.vtk", R"(# vtk DataFile Version 3.0
 by hand

@@ -89,16 +89,16 @@ def points(array: Any) -> Any:
     return _converted(array, np.dtype(np.float32 if array.dtype == np.float32 else np.float64))
 
 
-def ids(array: Any) -> Any:
+def ids(array: Any, name: str = "tetrahedra") -> Any:
     """As int32 or int64, from any integers."""
     on_device = _device_array(array)
     if on_device is not None:
         return on_device
     array = _host_array(array)
     if array.dtype.kind not in "iu":
-        raise Error(f"tetrahedra of {array.dtype} are not integers: they are ids of vertices, numbers of points from 0")
+        raise Error(f"{name} of {array.dtype} are not integers: they are ids of vertices, numbers of points from 0")
     if array.dtype.kind == "u" and array.dtype.itemsize == 8 and array.size > 0 and array.max() > np.iinfo(np.int64).max:
-        raise Error(f"tetrahedra have a vertex {array.max()}, which is too large for any mesh")
+        raise Error(f"{name} have a vertex {array.max()}, which is too large for any mesh")
     return _converted(array, np.dtype(np.int32 if array.dtype == np.int32 else np.int64))
 
 

@@ -138,7 +138,7 @@ class Mesh:
         without new points and so that neighbours fit: `cells` says which one a tetrahedron is of. A polyhedron's entries
         are its faces: how many, then of each how many corners, and these (VTK's face stream). Cells of lower dimension are
         left out, with a UserWarning."""
-        split = _gale.from_cells(_arrays.points(points), _arrays.ids(connectivity), _arrays.offsets(offsets),
+        split = _gale.from_cells(_arrays.points(points), _arrays.ids(connectivity, "cells"), _arrays.offsets(offsets),
                                  _arrays.types(types), capacity)
         for notice in split[2]:
             if not notice.startswith("split "):

@@ -1,8 +1,10 @@
 #include <algorithm>
+#include <array>
 #include <cstring>
 
 #include <gale/app/ranks/shared_input.hpp>
 #include <gale/io/write.hpp>
+#include <gale/mesh/cells/split_cells.hpp>
 #include <gale/mesh/exchange/messages.hpp>
 #include <gale/mesh/exchange/places.hpp>
 #include <gale/mesh/positions.hpp>
@@ -141,6 +143,16 @@ void keep_common(const Ranks& ranks, io::Dataset& mesh, Offset points) {
   mesh.arrays = std::move(common);
 }
 
+/// How many cells of each type all ranks have together. Collective.
+std::array<Offset, 256> cells_of_all(const Ranks& ranks, const io::SomePieces& some) {
+  std::array<Offset, 256> census{};
+  for (const std::int64_t type : some.types) {
+    if (type >= 0 && type < 256) ++census[static_cast<std::size_t>(type)];  // others are refused
+  }
+  ranks.sum(census.data(), static_cast<int>(census.size()));
+  return census;
+}
+
 /// Calls use(cell) with the cell of each of this rank's tetrahedra.
 template <class Use>
 void for_each_cell(const io::SomePieces& some, const Use& use) {
@@ -200,7 +212,10 @@ SharedInput read_pieces(const Ranks& ranks, const InputOptions& input, const io:
   } else {
     ids = places_of(ranks, some.point_ids, false);
   }
+  const std::array<Offset, 256> census = cells_of_all(ranks, some);
   detail::together(ranks, [&] { io::split_pieces(input.input, some, ids, input.read); });
+  const auto split = notices_of_split(census, ranks.sum(static_cast<std::int64_t>(mesh.tetrahedra.extent(0))), 4);
+  mesh.notices.insert(mesh.notices.begin(), split.begin(), split.end());
   shared.cells = cells_on_ranks(ranks, pieces, some, cells);
   if (!pieces.cell_ids.empty()) tetrahedron_ids = places_of(ranks, ids_of_tetrahedra(some), true);
   keep_common(ranks, mesh, count);

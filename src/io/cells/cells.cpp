@@ -85,7 +85,8 @@ std::string note_cell_arrays(const std::vector<std::string>& names) {
   return "left out the cell arrays " + list;
 }
 
-void split_into(Dataset& to, Cells& cells, const Array<const GlobalId, HostMemory>& ids, const ReadOptions& options) {
+std::vector<std::string> split_into(Dataset& to, Cells& cells, const Array<const GlobalId, HostMemory>& ids,
+                                    const ReadOptions& options) {
   const std::size_t points = point_count_of(to);
   const bool is_short = std::holds_alternative<std::vector<std::int32_t>>(cells.connectivity);
   const auto split = is_short ? split_by<std::int32_t>(cells, points, ids, options)
@@ -96,7 +97,7 @@ void split_into(Dataset& to, Cells& cells, const Array<const GlobalId, HostMemor
     const Id* const first = split.cells.data();
     to.cell_arrays.push_back({global_cell_ids, 1, std::vector<Id>(first, first + split.cells.extent(0))});
   }
-  to.notices.insert(to.notices.begin(), split.notices.begin(), split.notices.end());
+  return split.notices;
 }
 
 Dataset to_points_alone(MeshParts& parts) {
@@ -119,11 +120,12 @@ Dataset to_points_alone(MeshParts& parts) {
 Dataset to_mesh(MeshParts& parts, const ReadOptions& options) {
   Dataset mesh = to_points_alone(parts);
   const bool has_cells = count_of(parts.cells.types) > 0;
-  split_into(mesh, parts.cells, {}, options);
+  const std::vector<std::string> notices = split_into(mesh, parts.cells, {}, options);
   if (mesh.tetrahedra.extent(0) == 0) {
-    const bool has_split = has_cells && !mesh.notices.empty() && mesh.notices.front().rfind("split ", 0) == 0;
+    const bool has_split = has_cells && !notices.empty() && notices.front().rfind("split ", 0) == 0;
     throw Error(std::string("it has no tetrahedra") + (has_split ? ": its cells have no volume" : ""));
   }
+  mesh.notices.insert(mesh.notices.begin(), notices.begin(), notices.end());
   return mesh;
 }
 

@@ -35,8 +35,9 @@ Dataset to_mesh(MeshParts& parts, const ReadOptions& options);
 Dataset to_points_alone(MeshParts& parts);
 
 /// Splits cells into the tetrahedra of `to`, which may be none, by the ids of its points; of none, by their numbers.
-/// Gives it cell_arrays and notices. Takes the cells.
-void split_into(Dataset& to, Cells& cells, const Array<const GlobalId, HostMemory>& ids, const ReadOptions& options);
+/// Gives it cell_arrays, too, and returns notices. Takes the cells.
+std::vector<std::string> split_into(Dataset& to, Cells& cells, const Array<const GlobalId, HostMemory>& ids,
+                                    const ReadOptions& options);
 
 /// The notice about a point array that is left out, and why.
 std::string note_array(const std::string& name, const std::string& why);

@@ -28,23 +28,67 @@ PointArray::Values read_cells(const XmlFile& file, const XmlElement& piece, cons
   return read_array(file, *array, count);
 }
 
+/// The faces of polyhedra, and where those of each cell end.
+struct Faces {
+  std::vector<std::int64_t> entries, ends;
+};
+
+/// Reads faces as VTK has them from 9.4 on: each by itself, and of each cell which ones it has.
+Faces read_numbered_faces(const XmlFile& file, const XmlElement& piece, std::size_t cells) {
+  std::vector<std::int64_t> corners, corner_ends, members, member_ends;
+  append(read_cells(file, piece, "face_connectivity", std::nullopt), std::int64_t(0), corners);
+  append(read_cells(file, piece, "face_offsets", std::nullopt), std::int64_t(0), corner_ends);
+  append(read_cells(file, piece, "polyhedron_to_faces", std::nullopt), std::int64_t(0), members);
+  append(read_cells(file, piece, "polyhedron_offsets", cells), std::int64_t(0), member_ends);
+  Faces faces;
+  std::int64_t begin = 0;
+  for (std::size_t c = 0; c < cells; ++c) {
+    gale::detail::stop_if_asked_at(static_cast<std::int64_t>(c));
+    const std::int64_t end = member_ends[c];
+    if (end < begin || end > static_cast<std::int64_t>(members.size()))
+      damaged("the faces of cell ", c, " end at ", end, " of ", members.size(), ", and those before at ", begin);
+    if (end > begin) faces.entries.push_back(end - begin);
+    for (; begin < end; ++begin) {
+      const auto face = static_cast<std::size_t>(members[static_cast<std::size_t>(begin)]);  // below 0: a huge one
+      if (face >= corner_ends.size()) damaged("cell ", c, " has face ", members[begin], " of ", corner_ends.size());
+      const std::int64_t first = face == 0 ? 0 : corner_ends[face - 1], last = corner_ends[face];
+      if (first < 0 || last < first || last > static_cast<std::int64_t>(corners.size()))
+        damaged("face ", face, " ends at ", last, " of ", corners.size(), " corners, and the one before it at ", first);
+      faces.entries.push_back(last - first);
+      faces.entries.insert(faces.entries.end(), corners.begin() + first, corners.begin() + last);
+      // Two cells may share one, more make a small file large.
+      if (faces.entries.size() > 2 * (corners.size() + members.size()) + cells)
+        damaged("its faces are in more than two cells each");
+    }
+    faces.ends.push_back(static_cast<std::int64_t>(faces.entries.size()));
+  }
+  return faces;
+}
+
+Faces read_faces(const XmlFile& file, const XmlElement& piece, std::size_t cells) {
+  if (piece.array("Cells", "face_connectivity") != nullptr) return read_numbered_faces(file, piece, cells);
+  Faces faces;
+  append(read_cells(file, piece, "faces", std::nullopt), std::int64_t(0), faces.entries);
+  append(read_cells(file, piece, "faceoffsets", cells), std::int64_t(0), faces.ends);
+  return faces;
+}
+
 /// Gives polyhedra, whose points the connectivity has, the faces that the file has beside it: how many, and of each how
 /// many corners, and these.
 void take_faces(const XmlFile& file, const XmlElement& piece, Cells& cells) {
-  std::vector<std::int64_t> types, ends, connectivity, faces, face_ends;
+  std::vector<std::int64_t> types, ends, connectivity;
   append(cells.types, std::int64_t(0), types);
   if (std::find(types.begin(), types.end(), cell_type::polyhedron) == types.end()) return;
   append(cells.ends, std::int64_t(0), ends);
   append(cells.connectivity, std::int64_t(0), connectivity);
-  append(read_cells(file, piece, "faces", std::nullopt), std::int64_t(0), faces);
-  append(read_cells(file, piece, "faceoffsets", types.size()), std::int64_t(0), face_ends);
+  const Faces faces = read_faces(file, piece, types.size());
   std::vector<std::int64_t> all;
   std::int64_t begin = 0, face_begin = 0;
   for (std::size_t c = 0; c < types.size(); ++c) {
     gale::detail::stop_if_asked_at(static_cast<std::int64_t>(c));
     const bool has_faces = types[c] == cell_type::polyhedron;
-    const std::vector<std::int64_t>& from = has_faces ? faces : connectivity;
-    const std::int64_t first = has_faces ? face_begin : begin, end = has_faces ? face_ends[c] : ends[c];
+    const std::vector<std::int64_t>& from = has_faces ? faces.entries : connectivity;
+    const std::int64_t first = has_faces ? face_begin : begin, end = has_faces ? faces.ends[c] : ends[c];
     if (ends[c] < begin || ends[c] > static_cast<std::int64_t>(connectivity.size()))
       damaged("cell ", c, " ends at ", ends[c], " in a connectivity of ", connectivity.size(),
               ", and the one before it at ", begin);

@@ -297,20 +297,7 @@ SplitCells<Corners, Memory> split_into(const Cells<Index, Memory>& cells, Offset
   parallel_for(
       "GALE::write_simplices", space, count,
       WriteSimplices<Splitter, Counts, Simplices, Array<Id, Memory>>{splitter, begin, result.simplices, result.cells});
-  const Census census = census_of(cells.types);
-  Offset lower = 0, as_they_are = 0;
-  for (int type = 0; type < 256; ++type) {
-    lower += rules.rule[type] == CellRule::skip ? census[type] : 0;
-    as_they_are += rules.rule[type] == CellRule::simplex ? census[type] : 0;
-  }
-  const std::string split = list_of(census, [&](const CellType& type) {
-    return rules.rule[type.number] != CellRule::skip && rules.rule[type.number] != CellRule::simplex;
-  });
-  if (!split.empty())
-    result.notices.push_back("split " + split + " into " + with_commas(total - as_they_are) + ' ' + name);
-  if (lower > 0)
-    result.notices.push_back("left out " + std::to_string(lower) + " cells of a dimension below " +
-                             std::to_string(Corners - 1));
+  result.notices = notices_of_split(census_of(cells.types), total, Corners);
   wait_for(space, "GALE::split_cells");
   return result;
 }
@@ -334,6 +321,27 @@ SplitCells<3, Memory> split_polygons(const Cells<Index, Memory>& cells, Offset p
 template <class Index, class Memory>
 bool are_tetrahedra(const Cells<Index, Memory>& cells) {
   return detail::are_simplices(cells, cell_type::tetrahedron, 4);
+}
+
+std::vector<std::string> notices_of_split(const std::array<Offset, 256>& cells, Offset simplices, int corners) {
+  const auto& rule = detail::cell_rules(corners).rule;
+  Offset lower = 0, as_they_are = 0;
+  for (int type = 0; type < 256; ++type) {
+    lower += rule[type] == detail::CellRule::skip ? cells[type] : 0;
+    as_they_are += rule[type] == detail::CellRule::simplex ? cells[type] : 0;
+  }
+  const std::string split = detail::list_of(cells, [&](const CellType& type) {
+    return rule[type.number] != detail::CellRule::skip && rule[type.number] != detail::CellRule::simplex;
+  });
+  std::vector<std::string> notices;
+  if (!split.empty()) {
+    notices.push_back("split " + split + " into " + detail::with_commas(simplices - as_they_are) +
+                      (corners == 4 ? " tetrahedra" : " triangles"));
+  }
+  if (lower > 0)
+    notices.push_back("left out " + std::to_string(lower) + " cells of a dimension below " +
+                      std::to_string(corners - 1));
+  return notices;
 }
 
 std::string other_cells(const Array<const std::uint8_t, HostMemory>& types) {

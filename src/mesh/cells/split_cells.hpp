@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -56,6 +57,11 @@ GALE_EXPORT SplitCells<4, Memory> split_cells(const Cells<Index, Memory>& cells,
 template <class Index, class Memory>
 GALE_EXPORT SplitCells<3, Memory> split_polygons(const Cells<Index, Memory>& cells, Offset points,
                                                  const Array<const GlobalId, Memory>& ids = {});
+
+/// The notices about cells that were split into so many simplices of so many corners, and about those left out: `cells`
+/// are how many there are of each type, by VTK's number. What split_cells() says by itself; for several ranks together.
+GALE_EXPORT std::vector<std::string> notices_of_split(const std::array<Offset, 256>& cells, Offset simplices,
+                                                      int corners);
 
 /// Whether all cells are tetrahedra, whose corners follow each other in the connectivity.
 template <class Index, class Memory>

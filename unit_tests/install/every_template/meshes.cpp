@@ -72,6 +72,44 @@ void make_of_vectors() {
   expect(gale::make_mesh(p, t).tetrahedra() == tetrahedra, "a mesh of vectors");
 }
 
+template <class T, class Memory>
+Kokkos::View<T*, Memory> entries(const std::vector<int>& values) {
+  const Kokkos::View<T*, Memory> view("entries", values.size());
+  const auto host = Kokkos::create_mirror_view(view);
+  for (std::size_t k = 0; k < values.size(); ++k) host(k) = static_cast<T>(values[k]);
+  Kokkos::deep_copy(view, host);
+  return view;
+}
+
+/// Cells by VTK's numbers, from Views of such types in such memory.
+template <class Index, class Begin, class Type, class Memory>
+void make_of_cells() {
+  const Kokkos::View<double* [3], HostMemory> p("points", vertices);
+  fill(p, points);
+  std::vector<int> all;
+  for (const auto& cell : corners) all.insert(all.end(), cell, cell + 4);
+  std::vector<int> begin(tetrahedra + 1);
+  for (int t = 0; t <= tetrahedra; ++t) begin[t] = 4 * t;
+  const auto make_with = [&](int type) {
+    return gale::make_mesh(p, entries<Index, Memory>(all), entries<Begin, HostMemory>(begin),
+                           entries<Type, Memory>(std::vector<int>(tetrahedra, type)));
+  };
+  expect(make_with(gale::cell_type::tetrahedron).tetrahedra() == tetrahedra, "a mesh of cells");
+  const auto connectivity = entries<Index, Memory>(all);
+  const auto offsets = entries<Begin, Memory>(begin);
+  const auto types = entries<Type, Memory>(std::vector<int>(tetrahedra, gale::cell_type::quad));
+  const auto cells = gale::cells_of(connectivity, offsets, types);
+  using Held = std::decay_t<decltype(cells)>;
+  using Known = gale::Cells<typename decltype(Held::connectivity)::non_const_value_type,
+                            typename decltype(Held::connectivity)::memory_space>;
+  static_assert(std::is_same_v<Held, Known>, "cells in their memory");
+  expect(!gale::are_tetrahedra(cells), "no tetrahedra");
+  const gale::SplitCells<3, typename decltype(Held::connectivity)::memory_space> flat =
+      gale::split_polygons(cells, vertices);
+  expect(flat.simplices.extent(0) == 2 * tetrahedra, "triangles");
+  expect(gale::split_cells(cells, vertices).simplices.extent(0) == 0, "quads are no tetrahedra");
+}
+
 /// A mesh with a segmentation of the caller's, from arrays in such memory.
 template <class Coordinate, class Index, class Memory>
 void segment() {
@@ -129,6 +167,9 @@ void use_meshes() {
   make_of_vectors<float, int>();
   make_of_vectors<double, std::int64_t>();
   make_of_vectors<double, unsigned>();
+  make_of_cells<std::int32_t, int, int, HostMemory>();
+  make_of_cells<std::int64_t, std::int64_t, std::uint8_t, WorkerMemory>();
+  make_of_cells<unsigned, unsigned long, char, PinnedMemory>();
   segment<float, std::int32_t, HostMemory>();
   segment<double, std::int64_t, HostMemory>();
   segment<float, std::int64_t, WorkerMemory>();
