@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <gale/base/threads.hpp>
 #include <gale/mesh/encode.hpp>
 
 #include "support/arrays.hpp"
