@@ -45,18 +45,24 @@ MeshParts parts_of(const Grid& grid, int type) {
   return parts;
 }
 
-/// The coordinates along an axis, of all pieces.
+/// The coordinates along an axis, of all pieces. Takes memory for what these have.
 std::vector<double> axis_of(const Grid& grid, int axis, bool& is_float) {
-  const std::int64_t low = grid.whole.low[axis];
-  std::vector<double> all(static_cast<std::size_t>(grid.whole.size(axis)));
-  std::vector<bool> is_there(all.size());
+  std::vector<PointArray::Values> of_pieces;
+  std::size_t count = 0;
   for (const GridPiece& piece : grid.pieces) {
     const auto arrays = piece.element->require("Coordinates").all("DataArray");
     if (arrays.size() != 3) damaged("its Coordinates have ", arrays.size(), " arrays, not 3");
-    const auto values = read_array(grid.file, *arrays[static_cast<std::size_t>(axis)],
-                                   static_cast<std::uint64_t>(piece.extent.size(axis)));
-    is_float &= std::holds_alternative<std::vector<float>>(values);
-    auto place = static_cast<std::size_t>(piece.extent.low[axis] - low);
+    const auto size = static_cast<std::uint64_t>(piece.extent.size(axis));
+    of_pieces.push_back(read_array(grid.file, *arrays[static_cast<std::size_t>(axis)], size));
+    is_float &= std::holds_alternative<std::vector<float>>(of_pieces.back());
+    count += size;
+  }
+  const auto all_of_them = static_cast<std::size_t>(grid.whole.size(axis));
+  if (count < all_of_them) not_covered();
+  std::vector<double> all(all_of_them);
+  std::vector<bool> is_there(all.size());
+  for (std::size_t k = 0; k < of_pieces.size(); ++k) {
+    auto place = static_cast<std::size_t>(grid.pieces[k].extent.low[axis] - grid.whole.low[axis]);
     std::visit(
         [&](const auto& coordinates) {
           for (const auto coordinate : coordinates) {
@@ -64,7 +70,7 @@ std::vector<double> axis_of(const Grid& grid, int axis, bool& is_float) {
             all[place++] = static_cast<double>(coordinate);
           }
         },
-        values);
+        of_pieces[k]);
   }
   if (std::find(is_there.begin(), is_there.end(), false) != is_there.end()) not_covered();
   return all;
