@@ -6,7 +6,10 @@
 #include <gale/outputs/arrows.hpp>
 #include <gale/outputs/critical_points.hpp>
 #include <gale/outputs/critical_simplices.hpp>
+#include <gale/outputs/field.hpp>
+#include <gale/outputs/merge_tree.hpp>
 #include <gale/outputs/morse_smale.hpp>
+#include <gale/outputs/simplified_field.hpp>
 
 namespace gale::outputs {
 
@@ -86,6 +89,12 @@ Analysis discrete_gradient() {
   return analysis;
 }
 
+/// The threshold that is given; none: 0.
+double threshold_in(const AnalysisInput& input, const Settings& settings) {
+  const auto given = settings.thresholds.find("persistence");
+  return given == settings.thresholds.end() ? 0 : threshold_of(given->second, input.field);
+}
+
 Analysis persistence_diagrams() {
   Analysis analysis{"persistence-diagram",
                     "Pairs the critical simplices of a scalar field: which topological features it has, and how "
@@ -106,8 +115,7 @@ Analysis persistence_diagrams() {
                         {"IsFinite", "uint8"}},
                        {}}};
   analysis.find = [](const AnalysisInput& input, const Settings& settings, Computed& computed) -> Found {
-    const auto least = settings.thresholds.find("persistence");
-    const double threshold = least == settings.thresholds.end() ? 0 : threshold_of(least->second, input.field);
+    const double threshold = threshold_in(input, settings);
     const DiscreteGradient gradient =
         find_discrete_gradient(input.order, input.next("Pairing simplices", 0, 0.6), &computed);
     const PersistencePairs pairs = find_persistence_pairs(gradient, input.next("Finding pairs", 0.6, 1));
@@ -167,11 +175,84 @@ Analysis morse_smale_complexes() {
   return analysis;
 }
 
+std::vector<AnalysisResult> results_of_trees() {
+  const AnalysisArray size{"RegionSize", "int32"}, span{"RegionSpan", "points"}, scalar{"Scalar", "field"},
+      segment{"SegmentationId", "int32"};
+  return {
+      {"nodes",
+       Shape::points,
+       "the vertices where arcs begin, meet and end",
+       {{"NodeId", "int32"}, scalar, {"VertexId", "int32"}, {"CriticalType", "int8"}, size, span},
+       {},
+       {}},
+      {"arcs",
+       Shape::lines,
+       "the lines between them",
+       {scalar, {"RegularMask", "int8"}},
+       {segment, {"upNodeId", "int32"}, {"downNodeId", "int32"}, size, span},
+       {}},
+      {"segmentation", Shape::mesh, "the arc of each vertex", {segment, {"RegionType", "int8"}, size, span}, {}, {}}};
+}
+
+Analysis merge_trees() {
+  Analysis analysis{
+      "merge-tree",
+      "Finds the join, split or contour tree of a scalar field: how components of what is below, above or "
+      "at a value appear, meet and end",
+      {},
+      results_of_trees(),
+      {}};
+  analysis.options = {{"type",
+                       Kind::choice,
+                       false,
+                       "TreeType",
+                       "Which tree: of level sets (contour), of what is below a value (join) or above it (split)",
+                       false,
+                       {"contour", "join", "split"}},
+                      {"persistence", Kind::threshold, false, "Persistence",
+                       "Leave out branches whose values differ by less than this; with a % of the field's range"},
+                      {"arc_samples", Kind::number, false, "ArcSamples",
+                       "Draw arcs over at most so many points between their ends: barycentres of their vertices"}};
+  analysis.find = [](const AnalysisInput& input, const Settings& settings, Computed& computed) -> Found {
+    MergeTreeOptions options;
+    static_cast<ComputeOptions&>(options) = input.next("Finding the tree", 0, 1);
+    options.threshold = threshold_in(input, settings);
+    options.value = [&](Id vertex) { return value_at(input.field, vertex); };
+    const MergeTree tree = find_merge_tree(input.order, tree_named(settings.choices.at("type")), options, &computed);
+    return {{"nodes", tree_nodes(input.dataset, input.field, tree)},
+            {"arcs", tree_arcs(input.dataset, input.field, tree, settings.numbers.at("arc_samples"))},
+            {"segmentation", tree_segmentation(input.dataset, tree)}};
+  };
+  return analysis;
+}
+
+Analysis simplified_fields() {
+  Analysis analysis{
+      "simplify-field", "Removes the minima and maxima of a scalar field that are of little persistence", {}, {}, {}};
+  analysis.options = {{"persistence", Kind::threshold, false, "Persistence",
+                       "Remove minima and maxima of less persistence than this; with a % of the field's range"}};
+  analysis.results = {
+      {"field", Shape::mesh, "the field without them", {{"NAME", "field"}, {"NAME_Order", "int32"}}, {}, {}},
+      {"minima", Shape::count, "minima that are left", {}, {}, {}},
+      {"maxima", Shape::count, "maxima that are left", {}, {}, {}},
+      {"kept_below", Shape::count, "extrema below the threshold that could not be removed", {}, {}, {}}};
+  analysis.find = [](const AnalysisInput& input, const Settings& settings, Computed& computed) -> Found {
+    const SimplifiedField simplified = simplify_field(
+        input.order, [&](Id vertex) { return value_at(input.field, vertex); }, threshold_in(input, settings),
+        input.next("Simplifying the field", 0, 1), &computed);
+    return {{"field", simplified_arrays(input.field, simplified)},
+            {"minima", simplified.minima},
+            {"maxima", simplified.maxima},
+            {"kept_below", simplified.kept_below}};
+  };
+  return analysis;
+}
+
 }  // namespace
 
 const std::vector<Analysis>& analyses() {
-  static const std::vector<Analysis> all{critical_points(), discrete_gradient(), morse_smale_complexes(),
-                                         persistence_diagrams()};
+  static const std::vector<Analysis> all{critical_points(),      discrete_gradient(), morse_smale_complexes(),
+                                         persistence_diagrams(), merge_trees(),       simplified_fields()};
   return all;
 }
 
@@ -190,14 +271,29 @@ const AnalysisOption& Analysis::option(const std::string& option_name) const {
 }
 
 std::map<std::string, Outcome> Analysis::run(const AnalysisInput& input, Settings settings) const {
-  const auto require = [this](const std::string& given, Kind kind) {
-    if (option(given).kind != kind)
-      throw Error(name + "'s option '" + given + "' is " + (kind == Kind::flag ? "no switch" : "no threshold"));
+  const auto require = [this](const std::string& given, Kind kind) -> const AnalysisOption& {
+    static const char* const names[] = {"switch", "threshold", "choice", "number"};
+    const AnalysisOption& known = option(given);
+    if (known.kind != kind) throw Error(name + "'s option '" + given + "' is no " + names[static_cast<int>(kind)]);
+    return known;
   };
   for (const auto& [given, is_on] : settings.flags) require(given, Kind::flag);
   for (const auto& [given, threshold] : settings.thresholds) require(given, Kind::threshold);
+  for (const auto& [given, chosen] : settings.choices) {
+    const auto& choices = require(given, Kind::choice).choices;
+    if (std::find(choices.begin(), choices.end(), chosen) != choices.end()) continue;
+    std::string list;
+    for (const std::string& choice : choices) list += (list.empty() ? "" : ", ") + choice;
+    throw Error(name + "'s option '" + given + "' is one of " + list + ", not '" + chosen + "'");
+  }
+  for (const auto& [given, number] : settings.numbers) {
+    require(given, Kind::number);
+    if (number < 0) throw Error(name + "'s option '" + given + "' is at least 0, not " + std::to_string(number));
+  }
   for (const AnalysisOption& one : options) {
     if (one.kind == Kind::flag) settings.flags.emplace(one.name, one.is_on);
+    if (one.kind == Kind::choice) settings.choices.emplace(one.name, one.choices.front());
+    if (one.kind == Kind::number) settings.numbers.emplace(one.name, 0);
   }
   Computed computed;
   return find(input, settings, computed);

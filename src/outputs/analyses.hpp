@@ -18,8 +18,9 @@ namespace gale::outputs {
 
 /// What users may say of an analysis, beside what they may say of any: mesh, field, threads, where to compute.
 struct AnalysisOption {
-  /// A switch, or a persistence below which something happens, which isn't given by default.
-  enum class Kind { flag, threshold };
+  /// A switch; a persistence below which something happens, which isn't given by default; one of some words, the first
+  /// by default; or a whole number of at least 0, which is the default.
+  enum class Kind { flag, threshold, choice, number };
 
   std::string name;           ///< with underscores, as in Python; the command has --name, or --no-name to switch it off
   Kind kind = Kind::flag;     ///< what its values are
@@ -27,11 +28,12 @@ struct AnalysisOption {
   std::string property;       ///< its name among the properties of filters; empty where they haven't got it
   std::string help;           ///< what is done where it is on or given, without a full stop
   bool has_own_file = false;  ///< in the command it names the file that a result is written to
+  std::vector<std::string> choices = {};  ///< the words of a choice
 };
 
 /// An array of a result, beside those of the input that travel along.
 struct AnalysisArray {
-  std::string name;    ///< as users of TTK know it
+  std::string name;    ///< as users of TTK know it; NAME is the field's, also at the beginning
   std::string type;    ///< "int8", "uint8" or "int32"; or "field", "points": float where those are, else double
   int components = 1;  ///< numbers in each of its rows
 };
@@ -51,8 +53,10 @@ struct AnalysisResult {
 
 /// What users say of an analysis's options.
 struct Settings {
-  std::map<std::string, bool> flags;              ///< by the option's name; defaults of those that aren't here
-  std::map<std::string, Persistence> thresholds;  ///< by the option's name: the given ones
+  std::map<std::string, bool> flags;                ///< by the option's name; defaults of those that aren't here
+  std::map<std::string, Persistence> thresholds;    ///< by the option's name: the given ones
+  std::map<std::string, std::string> choices = {};  ///< by the option's name; defaults of those that aren't here
+  std::map<std::string, int> numbers = {};          ///< by the option's name; 0 for those that aren't here
 };
 
 /// What an analysis is run on.

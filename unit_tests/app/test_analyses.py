@@ -69,7 +69,8 @@ class Analyses(gale.CommandTest):
             options = {one["name"]: one for one in analysis["options"] if not one["is_on"] and not one["has_own_file"]}
             self.assertEqual(set(given) - OF_ALL, set(options))
             for name, option in options.items():
-                self.assertIn(given[name], [False] if option["kind"] == "flag" else [None, 0])
+                defaults = {"flag": [False], "threshold": [None, 0], "choice": option["choices"][:1], "number": [0]}
+                self.assertIn(given[name], defaults[option["kind"]])
                 self.assertIn(f"`{name}`", ast.get_docstring(method))
 
     def test_filters_have_their_options(self):
@@ -88,6 +89,10 @@ class Analyses(gale.CommandTest):
             for option in analysis["options"]:
                 if option["kind"] == "threshold":
                     expected.update(THRESHOLD)
+                elif option["kind"] != "flag":
+                    expected[option["property"]] = "0"  # the first of a choice
+                    self.assertEqual(properties[option["property"]].find("Documentation").text, option["help"] + ".")
+                    self.assertIn(f'Ask{option["kind"].title()}("{option["name"]}", ', header)
                 else:
                     expected[option["property"]] = "01"[option["is_on"]]
                     self.assertEqual(properties[option["property"]].find("Documentation").text, option["help"] + ".")

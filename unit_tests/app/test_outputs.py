@@ -29,10 +29,11 @@ class Outputs(gale.CommandTest):
     def test_all_files_in_base64_are_xml(self):
         for command, *options in (MANY, ["critical-points", "grid:12", "-o", "c.vtp"], ["segment", "grid:12", "-o", "s.vtu"],
                                   ["discrete-gradient", "grid:12", "-o", "g.vtp", "--arrows", "a.vtp"],
-                                  ["persistence-diagram", "grid:12", "-o", "d.vtu"], ["generate", "grid:12", "-o", "m.vtu"]):
+                                  ["persistence-diagram", "grid:12", "-o", "d.vtu"], ["merge-tree", "grid:12", "-o", "t"],
+                                  ["simplify-field", "grid:12", "-o", "f.vtu"], ["generate", "grid:12", "-o", "m.vtu"]):
             self.succeed(command, *options, "--encoding", "base64")
         names = [name for name in self.names() if name.endswith((".vtp", ".vtu"))]
-        self.assertEqual(len(names), 10)
+        self.assertEqual(len(names), 14)
         for name in names:
             arrays = xml.etree.ElementTree.parse(self.folder / name).getroot().iter("DataArray")
             self.assertEqual({array.get("format") for array in arrays}, {"binary"}, name)
@@ -99,6 +100,7 @@ class Outputs(gale.CommandTest):
         with open("/dev/full", "w") as full:
             for line in ("critical-points grid:6 -o c.vtp --report r.json", "discrete-gradient grid:6 -o g.vtp --arrows a.vtp",
                          "morse-smale grid:6 -o p", "persistence-diagram grid:6 -o d.vtu --curve c.csv", "segment grid:6 -o s.vtu",
+                         "merge-tree grid:6 -o t", "simplify-field grid:6 --persistence 9% -o f.vtu",
                          "relations grid:6 --relation VV --dump rows.txt", "generate grid:6 -o m.vtu", "info grid:6 --report r.json"):
                 for closed in (False, True):
                     with self.subTest(line=line, closed=closed):

@@ -91,6 +91,8 @@ class OnRanks(ranks.RanksTest):
                 (2, "--separatrices2: not on several ranks", ["morse-smale", "grid:8", "--no-saddle-connectors", "--separatrices2"]),
                 (2, "--persistence: not on several ranks", ["morse-smale", "grid:8", "--no-saddle-connectors", "--persistence", "1"]),
                 (2, "persistence-diagram works on one rank", ["persistence-diagram", "grid:8"]),
+                (2, "merge-tree works on one rank", ["merge-tree", "grid:8"]),
+                (2, "simplify-field works on one rank", ["simplify-field", "grid:8"]),
                 (2, "--nonsense", ["critical-points", "grid:8", "--nonsense"])):
             with self.subTest(arguments=arguments):
                 self.expect_one_line(self.launch(3, *arguments), code, naming)

@@ -1,4 +1,5 @@
-"""Scalar fields on tetrahedral meshes: critical points, discrete gradients, Morse-Smale complexes, persistence.
+"""Scalar fields on tetrahedral meshes: critical points, discrete gradients, Morse-Smale complexes, persistence,
+merge trees, simplified fields.
 
 >>> mesh = gale.Mesh(points, tetrahedra)        # arrays of (n, 3) coordinates and (m, 4) vertex ids
 >>> critical = mesh.critical_points(values)     # a value for each point
@@ -17,10 +18,11 @@ from . import _gale
 from ._gale import Error
 from ._gale import version as __version__
 from ._mesh import Mesh, read
-from .results import CriticalPoints, Diagram, DiscreteGradient, Lines, MorseSmaleComplex, Polygons
+from .results import (CriticalPoints, Diagram, DiscreteGradient, Lines, MergeTree, MorseSmaleComplex, Polygons,
+                      SimplifiedField)
 
-__all__ = ["CriticalPoints", "Diagram", "DiscreteGradient", "Error", "Lines", "Mesh", "MorseSmaleComplex", "Polygons",
-           "__version__", "read"]
+__all__ = ["CriticalPoints", "Diagram", "DiscreteGradient", "Error", "Lines", "MergeTree", "Mesh", "MorseSmaleComplex",
+           "Polygons", "SimplifiedField", "__version__", "read"]
 
 atexit.register(_gale.finalize)
 if hasattr(os, "register_at_fork"):

@@ -10,7 +10,8 @@ import numpy as np
 from . import _arrays, _gale
 from ._gale import Error
 from ._progress import Progress, told
-from .results import CriticalPoints, Diagram, DiscreteGradient, Lines, MorseSmaleComplex, Polygons
+from .results import (CriticalPoints, Diagram, DiscreteGradient, Lines, MergeTree, MorseSmaleComplex, Polygons,
+                      SimplifiedField)
 
 Persistence = Union[float, str]
 
@@ -267,12 +268,30 @@ class Mesh:
         return MorseSmaleComplex(CriticalPoints(*found["critical_points"]), Lines(*found["separatrices1"]),
                                  found["manifolds"], found["kept_below"], walls)
 
+    def merge_tree(self, field: Any, type: str = "contour", persistence: Optional[Persistence] = None,
+                   arc_samples: int = 0, name: str = "field", threads: int = 0, progress: Progress = None) -> MergeTree:
+        """The MergeTree of the field: of `type` "contour", "join" or "split"; without branches below `persistence` (as in
+        persistence_diagram) if that is given. Arcs are drawn over at most `arc_samples` points between their ends,
+        barycentres of their vertices."""
+        found = self._analyse("merge-tree", field, name, threads, progress, {}, _persistence(persistence),
+                              {"type": type}, {"arc_samples": arc_samples})
+        return MergeTree(CriticalPoints(*found["nodes"]), Lines(*found["arcs"]), found["segmentation"])
+
+    def simplify_field(self, field: Any, persistence: Optional[Persistence] = None, name: str = "field",
+                       threads: int = 0, progress: Progress = None) -> SimplifiedField:
+        """The field without the minima and maxima whose persistence is below `persistence` (as in persistence_diagram), as
+        a SimplifiedField."""
+        found = self._analyse("simplify-field", field, name, threads, progress, {}, _persistence(persistence))
+        values, order = found["field"].values()
+        return SimplifiedField(values, order, found["minima"], found["maxima"], found["kept_below"])
+
     def _analyse(self, analysis: str, field: Any, name: str, threads: int, progress: Progress,
-                 flags: Optional[Dict[str, bool]] = None,
-                 thresholds: Optional[Dict[str, Tuple[float, bool]]] = None) -> Dict[str, Any]:
+                 flags: Optional[Dict[str, bool]] = None, thresholds: Optional[Dict[str, Tuple[float, bool]]] = None,
+                 choices: Optional[Dict[str, str]] = None, numbers: Optional[Dict[str, int]] = None) -> Dict[str, Any]:
         """What an analysis finds, by the names of its results; with options that aren't given at their defaults."""
         with told(progress, analysis) as tell:
-            return self._mesh.analyse(analysis, _arrays.field(field), name, flags or {}, thresholds or {}, threads, tell)
+            return self._mesh.analyse(analysis, _arrays.field(field), name, flags or {}, thresholds or {}, choices or {},
+                                      numbers or {}, threads, tell)
 
 
 def read(path: Union[str, os.PathLike[str]], above: Optional[float] = None, array: str = "", cells: str = "any",

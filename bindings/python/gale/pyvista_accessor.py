@@ -70,6 +70,20 @@ class GaleAccessor:
         walls = () if found.separatrices2 is None else (found.separatrices2.to_pyvista(),)
         return (found.critical_points.to_pyvista(), found.separatrices1.to_pyvista(), grid, *walls)
 
+    def merge_tree(self, name: str, **options: Any) -> Tuple[Any, ...]:
+        """(nodes, arcs, grid): two pyvista.PolyData, and a copy of the grid with the arcs of its points as point arrays."""
+        found = self.mesh.merge_tree(self._field(name), name=name, **options)
+        grid = self._grid.copy(deep=False)
+        grid.point_data.update(found.segmentation)
+        return (*found.to_pyvista(), grid)
+
+    def simplify_field(self, name: str, **options: Any) -> Any:
+        """A copy of the grid with the simplified point array `name`, and the order of its points, NAME_Order."""
+        found = self.mesh.simplify_field(self._field(name), name=name, **options)
+        grid = self._grid.copy(deep=False)
+        grid.point_data.update({name: found.values, f"{name}_Order": found.order})
+        return grid
+
     def relation(self, name: str, **options: Any) -> Tuple[np.ndarray, np.ndarray]:
         """(indptr, indices) of a relation such as "VT"."""
         return self.mesh.relation(name, **options)

@@ -187,7 +187,7 @@ class Cells(_Table):
 
 
 class Lines(Cells):
-    """Lines between points, each of two."""
+    """Lines between points, each of two, or of more along arcs."""
 
     @property
     def line_arrays(self) -> Dict[str, np.ndarray]:
@@ -267,3 +267,47 @@ class MorseSmaleComplex(_Parts):
     manifolds: Dict[str, np.ndarray] = field(default_factory=dict)
     kept_below: int = 0
     separatrices2: Optional[Polygons] = None
+
+
+@dataclass(eq=False, repr=False)
+class MergeTree(_Parts):
+    """The nodes of a join, split or contour tree, from the lowest to the highest; its arcs; and the arc of each vertex.
+
+    nodes: with the arrays NodeId, VertexId (int32), CriticalType (int8), Scalar, RegionSize, RegionSpan. arcs: with
+    SegmentationId, downNodeId, upNodeId, RegionSize (int32), RegionSpan; their first points are the nodes'. segmentation:
+    SegmentationId, RegionType, RegionSize, RegionSpan, each (vertices,); an arc is -1 where there is none."""
+
+    nodes: CriticalPoints
+    arcs: Lines
+    segmentation: Dict[str, np.ndarray]
+
+    def to_pyvista(self) -> Any:
+        """(nodes, arcs): two pyvista.PolyData."""
+        return self.nodes.to_pyvista(), self.arcs.to_pyvista()
+
+    def to_networkx(self) -> Any:
+        """A networkx.Graph with the nodes' arrays at its nodes and the arcs' at its edges, as Python's numbers."""
+        import networkx
+
+        graph = networkx.Graph()
+        for node in range(len(self.nodes)):
+            graph.add_node(node, **{name: values[node].tolist() for name, values in self.nodes.arrays.items()})
+        for arc in range(len(self.arcs)):
+            of_arc = {name: values[arc].tolist() for name, values in self.arcs.cell_arrays.items()}
+            graph.add_edge(of_arc["downNodeId"], of_arc["upNodeId"], **of_arc)
+        return graph
+
+
+@dataclass(eq=False, repr=False)
+class SimplifiedField(_Parts):
+    """A field without extrema of little persistence.
+
+    values: (vertices,), of the field's type. order: (vertices,) int32, the place of each vertex in an order along which
+    they never fall; as the array NAME_Order it orders the vertices where GALE reads the field NAME from a file. minima,
+    maxima: how many are left. kept_below: how many below the threshold could not be removed."""
+
+    values: np.ndarray
+    order: np.ndarray
+    minima: int
+    maxima: int
+    kept_below: int

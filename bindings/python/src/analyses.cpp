@@ -38,11 +38,12 @@ nb::int_ numpy_of(Id count) { return nb::int_(count); }
 
 nb::dict PyMesh::analyse(const std::string& analysis, Array1 values, const std::string& name,
                          const std::map<std::string, bool>& flags,
-                         const std::map<std::string, std::pair<double, bool>>& thresholds, int threads,
-                         const nb::object& progress) const {
+                         const std::map<std::string, std::pair<double, bool>>& thresholds,
+                         const std::map<std::string, std::string>& choices, const std::map<std::string, int>& numbers,
+                         int threads, const nb::object& progress) const {
   Job job(progress);
   const ComputeOptions options = job.sweep_options(threads);
-  outputs::Settings settings{flags, {}};
+  outputs::Settings settings{flags, {}, choices, numbers};
   for (const auto& [option, given] : thresholds) settings.thresholds[option] = {given.first, given.second};
   auto found = job.run([&] {
     const ThreadLimit limit(options.threads);

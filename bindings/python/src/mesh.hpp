@@ -44,8 +44,9 @@ class PyMesh : public Kept {
   /// they are in percent of the field's range.
   nb::dict analyse(const std::string& analysis, Array1 field, const std::string& name,
                    const std::map<std::string, bool>& flags,
-                   const std::map<std::string, std::pair<double, bool>>& thresholds, int threads,
-                   const nb::object& progress) const;
+                   const std::map<std::string, std::pair<double, bool>>& thresholds,
+                   const std::map<std::string, std::string>& choices, const std::map<std::string, int>& numbers,
+                   int threads, const nb::object& progress) const;
 
  private:
   const Mesh& mesh() const;

@@ -49,6 +49,6 @@ NB_MODULE(_gale, module) {
       .def_prop_ro("capacity", &PyMesh::capacity)
       .def("points", &PyMesh::points)
       .def("relation", &PyMesh::relation, "name"_a, "threads"_a, "progress"_a.none())
-      .def("analyse", &PyMesh::analyse, "analysis"_a, "field"_a, "name"_a, "flags"_a, "thresholds"_a, "threads"_a,
-           "progress"_a.none());
+      .def("analyse", &PyMesh::analyse, "analysis"_a, "field"_a, "name"_a, "flags"_a, "thresholds"_a, "choices"_a,
+           "numbers"_a, "threads"_a, "progress"_a.none());
 }

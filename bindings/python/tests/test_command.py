@@ -94,6 +94,17 @@ class SameResults(unittest.TestCase):
         pairs = np.bincount(found.type[found.is_finite], minlength=3)
         self.assertEqual(pairs.tolist(), result["pairs"])
 
+    def test_merge_tree(self):
+        for kind in ("contour", "join", "split"):
+            result = self.report("merge-tree", "--type", kind, "--persistence", "2%")
+            found = self.mesh.merge_tree(self.field, type=kind, persistence="2%", arc_samples=3)
+            self.assertEqual((len(found.nodes), len(found.arcs)), (result["nodes"], result["arcs"]))
+
+    def test_simplify_field(self):
+        result = self.report("simplify-field", "--persistence", "2%")
+        found = self.mesh.simplify_field(self.field, persistence="2%")
+        self.assertEqual((found.minima, found.maxima, found.kept_below), (result["minima"], result["maxima"], result["kept_below"]))
+
 
 def read_points(test, file):
     """The point arrays of a .vtp, by VTK."""

@@ -145,6 +145,37 @@ class Analyses(unittest.TestCase):
         few = self.mesh.persistence_diagram(self.field, persistence="10%")
         self.assertEqual(len(few), np.count_nonzero(~finite | (diagram.persistence >= 0.1 * np.ptp(self.field))))
 
+    def test_trees(self):
+        critical = self.mesh.critical_points(self.field)
+        for kind, extremum in ("join", 0), ("split", 3):
+            tree = self.mesh.merge_tree(self.field, type=kind)
+            leaves = tree.nodes["VertexId"][tree.nodes["CriticalType"] == extremum]
+            self.assertTrue(np.all(np.isin(critical["ttkVertexScalarField"][critical["CriticalType"] == extremum], leaves)))
+        tree = self.mesh.merge_tree(self.field, arc_samples=2)
+        self.assertEqual(len(tree.arcs), len(tree.nodes) - 1)
+        np.testing.assert_array_equal(tree.nodes["Scalar"], self.field[tree.nodes["VertexId"]])
+        inside = np.bincount(np.delete(tree.segmentation["SegmentationId"], tree.nodes["VertexId"]), minlength=len(tree.arcs))
+        np.testing.assert_array_equal(inside, tree.arcs["RegionSize"])
+        with self.assertRaisesRegex(gale.Error, "oak"):
+            self.mesh.merge_tree(self.field, type="oak")
+
+    def test_trees_for_networkx(self):
+        try:
+            import networkx
+        except ImportError:
+            self.skipTest("needs networkx")
+        tree = self.mesh.merge_tree(self.field)
+        graph = tree.to_networkx()
+        self.assertTrue(networkx.is_tree(graph))
+        self.assertEqual(graph.number_of_nodes(), len(tree.nodes))
+
+    def test_simplified_field(self):
+        found = self.mesh.simplify_field(self.field, persistence="10%")
+        self.assertEqual(sorted(found.order), list(range(self.mesh.vertices)))
+        self.assertTrue(np.all(np.diff(found.values[np.argsort(found.order)]) >= 0))
+        left = self.mesh.merge_tree(found.order, type="join")
+        self.assertEqual(np.count_nonzero(left.nodes["CriticalType"] == 0), found.minima)
+
     def test_complex(self):
         whole = self.mesh.morse_smale(self.field)
         simple = self.mesh.morse_smale(self.field, persistence="10%")

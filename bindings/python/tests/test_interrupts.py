@@ -72,7 +72,7 @@ class Calls:
             calls["read an image"] = (nothing, lambda _: gale.read(self.image))
         for name in "VT", "TT", "VV", "EE", "FF", "TV", "FE", "ET":
             calls[name] = (self.new_mesh, lambda mesh, name=name: mesh.relation(name))
-        for name in "critical_points", "critical_simplices", "discrete_gradient", "persistence_diagram", "morse_smale":
+        for name in "critical_points", "critical_simplices", "discrete_gradient", "persistence_diagram", "morse_smale", "merge_tree":
             calls[name] = (self.new_mesh, lambda mesh, name=name: getattr(mesh, name)(self.field))
         calls["simplified"] = (self.new_mesh, lambda mesh: mesh.morse_smale(self.field, persistence="3%"))
         calls["walls"] = (self.new_mesh, lambda mesh: mesh.morse_smale(self.field, separatrices2=True))

@@ -12,7 +12,8 @@ from meshes import random_mesh
 def results(mesh, field):
     found = mesh.morse_smale(field, separatrices2=True)
     return [mesh.critical_points(field), mesh.critical_simplices(field), mesh.discrete_gradient(field),
-            mesh.persistence_diagram(field), found, found.separatrices1, found.separatrices2]
+            mesh.persistence_diagram(field), found, found.separatrices1, found.separatrices2,
+            mesh.merge_tree(field, arc_samples=2), mesh.simplify_field(field, "5%")]
 
 
 def types_in_child(mesh, field):

@@ -48,6 +48,7 @@ WRONG = {
     "array": [3, object(), "missing", UNDECODABLE],
     "cells": ["x", object()],
     "outside_files": ["x", object()],
+    "type": [3, None, "", "oak", UNDECODABLE], "arc_samples": [-1, None, "x", 1.5, 2 ** 40, object()],
 }
 NAMES = [3, None, b"x", UNDECODABLE]
 NOT_RELATIONS = [3, None, "", "V", "vt", "VX", "VVV", "VT\0", UNDECODABLE]
@@ -66,6 +67,8 @@ FUNCTIONS = {
     MESH.discrete_gradient: (OF_FIELDS, NAMES + ["CellDimension", "IsOnBoundary"]),
     MESH.persistence_diagram: (OF_FIELDS, NAMES),
     MESH.morse_smale: (OF_FIELDS, NAMES + ["CellId"]),
+    MESH.merge_tree: (OF_FIELDS, NAMES + ["NodeId", "VertexId"]),
+    MESH.simplify_field: (OF_FIELDS, NAMES),
 }
 
 
@@ -124,7 +127,7 @@ class WrongArguments(unittest.TestCase):
             grid["height"] = FIELD
             for wrong in ("width", 3, None, UNDECODABLE):
                 for function in (grid.gale.critical_points, grid.gale.critical_simplices, grid.gale.persistence_diagram,
-                                 grid.gale.morse_smale):
+                                 grid.gale.morse_smale, grid.gale.merge_tree, grid.gale.simplify_field):
                     self.refused(lambda: function(wrong), "it has height$")
 
     def test_unknown_names_say_which_there_are(self):

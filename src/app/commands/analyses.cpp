@@ -10,9 +10,11 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json to_json(const outputs::AnalysisOption& option) {
-  const bool is_flag = option.kind == outputs::AnalysisOption::Kind::flag;
-  return {{"name", option.name},         {"kind", is_flag ? "flag" : "threshold"}, {"is_on", option.is_on},
-          {"property", option.property}, {"has_own_file", option.has_own_file},    {"help", option.help}};
+  static const char* const kinds[] = {"flag", "threshold", "choice", "number"};
+  return {{"name", option.name},         {"kind", kinds[static_cast<int>(option.kind)]},
+          {"is_on", option.is_on},       {"choices", option.choices},
+          {"property", option.property}, {"has_own_file", option.has_own_file},
+          {"help", option.help}};
 }
 
 Json to_json(const std::vector<outputs::AnalysisArray>& arrays) {
