@@ -5,8 +5,8 @@
 #include <gale/base/error.hpp>
 #include <gale/mesh/positions.hpp>
 #include <gale/outputs/field.hpp>
-#include <gale/outputs/heights.hpp>
 #include <gale/outputs/merge_tree.hpp>
+#include <gale/outputs/values.hpp>
 
 namespace gale::outputs {
 

@@ -119,7 +119,8 @@ void to_poly_data(const io::PointSet& points, vtkDataSetAttributes* from, vtkPol
   to->SetVerts(cells_of(vertices));
   vtkPointData* const arrays = to->GetPointData();
   add(points.arrays, arrays);
-  vtkDataArray* const places = arrays->GetArray("ttkVertexScalarField");
+  vtkDataArray* places = arrays->GetArray("ttkVertexScalarField");
+  if (places == nullptr) places = arrays->GetArray("VertexId");  // as trees have it
   const auto ids = vtkSmartPointer<vtkIdList>::New();
   ids->SetNumberOfIds(count);
   for (vtkIdType k = 0; k < count; ++k) ids->SetId(k, static_cast<vtkIdType>(places->GetTuple1(k)));

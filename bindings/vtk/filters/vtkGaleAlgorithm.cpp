@@ -220,6 +220,13 @@ void vtkGaleAlgorithm::AskThreshold(const char* option, double value, bool isPer
   this->Asked->settings.thresholds[option] = {value, isPercent};
 }
 
+void vtkGaleAlgorithm::AskChoice(const char* option, int place) {
+  const auto& choices = gale::outputs::analysis_named(this->Asked->analysis).option(option).choices;
+  this->Asked->settings.choices[option] = choices.at(static_cast<std::size_t>(place));
+}
+
+void vtkGaleAlgorithm::AskNumber(const char* option, int number) { this->Asked->settings.numbers[option] = number; }
+
 int vtkGaleAlgorithm::FillInputPortInformation(int, vtkInformation* info) {
   // More than is taken: RequestData refuses the others. Where the pipeline does, outputs stay those of the input
   // before.

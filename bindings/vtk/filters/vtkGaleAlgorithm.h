@@ -73,11 +73,13 @@ class VTKFILTERSGALE_EXPORT vtkGaleAlgorithm : public vtkAlgorithm {
   ~vtkGaleAlgorithm() override;
 
   /**
-   * Says by the two functions below what the properties ask of the analysis.
+   * Says by the functions below what the properties ask of the analysis.
    */
   virtual void Ask() = 0;
   void AskFlag(const char* option, bool isOn);
   void AskThreshold(const char* option, double value, bool isPercent);
+  void AskChoice(const char* option, int place);  // in the order of the analysis
+  void AskNumber(const char* option, int number);
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;

@@ -5,7 +5,8 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from galevtk.vtkFiltersGale import vtkGaleCriticalPoints, vtkGaleMorseSmaleComplex, vtkGaleSegmentation
+from galevtk.vtkFiltersGale import (vtkGaleCriticalPoints, vtkGaleMergeTree, vtkGaleMorseSmaleComplex, vtkGaleSegmentation,
+                                    vtkGaleSimplifiedField)
 from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLUnstructuredGridReader
 
@@ -77,6 +78,30 @@ class SameAsTheCommand(unittest.TestCase):
         self.assertEqual(arrays_of(found.GetSegmentation().GetPointData()), arrays_of(expected.GetPointData()))
         self.assertEqual(found.GetOutputDataObject(3), found.GetSegmentation())
 
+    def test_trees(self):
+        for number, kind in enumerate(("contour", "join", "split")):
+            self.command("merge-tree", "grid.vtu", "--type", kind, "--persistence", "1%", "--arc-samples", "3", "-o", "tree")
+            found = vtkGaleMergeTree()
+            found.SetInputData(self.grid)
+            found.SetTreeType(number)
+            found.SimplifyOn()
+            found.SetArcSamples(3)
+            found.Update()
+            self.same(found.GetNodes(), "tree_nodes.vtp")
+            self.same(found.GetArcs(), "tree_arcs.vtp")
+            expected = read(vtkXMLUnstructuredGridReader(), self.folder / "tree_segmentation.vtu")
+            self.assertEqual(arrays_of(found.GetSegmentation().GetPointData()), arrays_of(expected.GetPointData()))
+
+    def test_simplified_field(self):
+        self.command("simplify-field", "grid.vtu", "--persistence", "5%", "-o", "simple.vtu")
+        found = vtkGaleSimplifiedField()
+        found.SetInputData(self.grid)
+        found.SimplifyOn()
+        found.SetPersistence(5)
+        found.Update()
+        expected = read(vtkXMLUnstructuredGridReader(), self.folder / "simple.vtu")
+        self.assertEqual(arrays_of(found.GetOutput().GetPointData()), arrays_of(expected.GetPointData()))
+
     def test_segments(self):
         self.command("segment", "grid.vtu", "--capacity", "30", "-o", "segments.vtu")
         segments = vtkGaleSegmentation()
@@ -88,7 +113,8 @@ class SameAsTheCommand(unittest.TestCase):
 
     def test_outputs_have_the_types_of_their_ports(self):
         types = {vtkGaleCriticalPoints: ["vtkPolyData"], vtkGaleMorseSmaleComplex: 3 * ["vtkPolyData"] + ["vtkUnstructuredGrid"],
-                 vtkGaleSegmentation: ["vtkUnstructuredGrid"]}
+                 vtkGaleMergeTree: 2 * ["vtkPolyData"] + ["vtkUnstructuredGrid"],
+                 vtkGaleSimplifiedField: ["vtkUnstructuredGrid"], vtkGaleSegmentation: ["vtkUnstructuredGrid"]}
         for made, names in types.items():
             found = made()
             found.SetInputData(self.grid)

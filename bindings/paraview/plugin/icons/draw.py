@@ -41,6 +41,12 @@ CRITICAL_POINTS = [disc(11, 37, 8, MINIMUM), disc(25, 24, 6, SADDLE), disc(37, 1
 MORSE_SMALE = [line(9, 39, 24, 24, 4, MINIMUM), line(39, 39, 24, 24, 4, MINIMUM), line(9, 9, 24, 24, 4, MAXIMUM),
                line(39, 9, 24, 24, 4, MAXIMUM), disc(9, 39, 7, MINIMUM), disc(39, 39, 7, MINIMUM), disc(9, 9, 7, MAXIMUM),
                disc(39, 9, 7, MAXIMUM), disc(24, 24, 6, SADDLE)]
+MERGE_TREE = [line(24, 8, 24, 20, 4, LINE), line(24, 20, 10, 40, 4, LINE), line(24, 20, 31, 29, 4, LINE),
+              line(31, 29, 25, 40, 4, LINE), line(31, 29, 40, 40, 4, LINE), disc(24, 8, 7, MAXIMUM), disc(24, 20, 5, SADDLE),
+              disc(31, 29, 5, SADDLE), disc(9, 40, 6, MINIMUM), disc(25, 40, 6, MINIMUM), disc(41, 40, 6, MINIMUM)]
+SIMPLIFIED_FIELD = [line(3, 16, 11, 38, 4, MINIMUM), line(11, 38, 20, 21, 4, MINIMUM), line(20, 21, 28, 21, 4, SADDLE),
+                    line(28, 21, 36, 8, 4, MAXIMUM), line(36, 8, 45, 30, 4, MAXIMUM), line(20, 21, 24, 30, 2, LINE),
+                    line(24, 30, 28, 21, 2, LINE)]
 SEGMENTATION = [square(4, 4, 20, (231, 179, 72)), square(24, 4, 10, (113, 170, 99)), square(34, 4, 10, (86, 142, 197)),
                 square(24, 14, 10, (199, 96, 84)), square(34, 14, 10, (150, 122, 181)), square(4, 24, 20, (86, 142, 197)),
                 square(24, 24, 20, (113, 170, 99))]
@@ -74,5 +80,6 @@ def png(layers):
 
 if __name__ == "__main__":
     folder = Path(sys.argv[1] if len(sys.argv) > 1 else Path(__file__).parent)
-    for name, layers in (("critical_points", CRITICAL_POINTS), ("morse_smale", MORSE_SMALE), ("segmentation", SEGMENTATION)):
+    for name, layers in (("critical_points", CRITICAL_POINTS), ("morse_smale", MORSE_SMALE), ("segmentation", SEGMENTATION),
+                         ("merge_tree", MERGE_TREE), ("simplified_field", SIMPLIFIED_FIELD)):
         (folder / f"{name}.png").write_bytes(png(layers))
