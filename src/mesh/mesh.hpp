@@ -88,7 +88,7 @@ class GALE_EXPORT Mesh {
   /// All simplices; at least what `needs` says. What is missing is enumerated by the first call that needs it (see
   /// SimplexNeeds), where the mesh is, or on the host if it doesn't fit the device's memory. Edges take 8 bytes each
   /// and 4 a vertex, triangles 4 each and 4 an edge, triangle_edge 4 a triangle, lower edges 4 an edge and a vertex.
-  /// Time O(n); O(n log n) for the triangles of vertices that have more than 64 higher neighbours. Throws gale::Error
+  /// Time O(n); O(n log n) for the triangles of vertices that have more than 32 higher neighbours. Throws gale::Error
   /// if there are more than 2^31 - 1 edges or triangles.
   template <class Memory = HostMemory>
   Simplices<Memory> simplices(const SimplexNeeds& needs) const;

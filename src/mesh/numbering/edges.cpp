@@ -17,6 +17,7 @@ template <class Memory>
 struct MiddleVertices {
   Simplices<Memory> simplices;
 
+  GALE_CALLS_ANY
   template <class Visit>
   KOKKOS_FUNCTION void operator()(Id t, const Visit& visit) const {
     for (int corner = 1; corner < 3; ++corner) visit(simplices.tetrahedra(t, corner));
