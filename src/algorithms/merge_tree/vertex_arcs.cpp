@@ -26,12 +26,12 @@ struct FindArcs {
   KOKKOS_FUNCTION void operator()(Offset v) const {
     const auto vertex = static_cast<Id>(v);
     Id node[2] = {no_id, no_id};
-    for (const Side side : {below, above}) {
+    for (int side = 0; side < 2; ++side) {
       if (climbs[side]) node[side] = sides[side].node_of(vertex);
     }
     for (int tree = 0; tree < count; ++tree) {
       std::uint64_t claim = no_claim;
-      for (const Side side : {below, above}) {
+      for (int side = 0; side < 2; ++side) {
         const auto& claims = trees[tree].by_node[side];
         if (claims.extent(0) > 0 && claims(node[side]) < claim) claim = claims(node[side]);
       }
