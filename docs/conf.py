@@ -13,7 +13,9 @@ compiled.Mesh = type("Mesh", (), {})
 compiled.version = compiled.finalize = compiled.after_fork = lambda: None
 sys.modules["gale._gale"] = compiled
 pyvista = types.ModuleType("pyvista")
-pyvista.UnstructuredGrid, pyvista.register_dataset_accessor = object, lambda *_: lambda accessor: accessor
+pyvista.register_dataset_accessor = lambda *_: lambda accessor: accessor
+for grid in ("UnstructuredGrid", "StructuredGrid", "RectilinearGrid", "ImageData"):
+    setattr(pyvista, grid, object)
 sys.modules["pyvista"] = pyvista
 
 project = "GALE"

@@ -64,7 +64,7 @@ struct SomePieces {
   Dataset mesh;  ///< points in the order of their ids, or, without ids, in which they occur first; no tetrahedra yet
 
   // Cells in the order of their ids, or in which they occur.
-  std::vector<std::int64_t> types;         ///< of each cell, VTK's number
+  std::vector<std::int64_t> types;         ///< VTK's number of each cell
   std::vector<std::int64_t> ends;          ///< where each ends in `connectivity`
   std::vector<std::int64_t> connectivity;  ///< the cells' points, by their places in the mesh
 

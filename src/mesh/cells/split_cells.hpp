@@ -17,7 +17,7 @@ namespace gale {
 /// Cells as VTK has them, in host memory or the workers'. `Index` is std::int32_t or std::int64_t.
 template <class Index, class Memory>
 struct Cells {
-  Array<const std::uint8_t, Memory> types;  ///< of each cell, VTK's number
+  Array<const std::uint8_t, Memory> types;  ///< VTK's number of each cell
   Array<const Offset, Memory> offsets;      ///< where each begins in `connectivity`, and the end of the last
 
   /// The cells' points, in VTK's order. A polyhedron has its faces there: how many they are, then of each how many
