@@ -107,6 +107,8 @@ class _Parts(_Result):
 
     @staticmethod
     def _shortest(part: Any) -> str:
+        if isinstance(part, np.ndarray):
+            return _count(len(part), "number")
         return ", ".join(part) if isinstance(part, dict) else str(part)
 
 

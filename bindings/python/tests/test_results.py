@@ -60,7 +60,7 @@ class Results(unittest.TestCase):
             self.assertEqual(list(one), list(one.keys()))
             for name in one.keys():
                 self.assertIn(name, one)
-                if isinstance(one, (gale.MorseSmaleComplex, gale.DiscreteGradient)):
+                if isinstance(one, (gale.MorseSmaleComplex, gale.DiscreteGradient, gale.MergeTree, gale.SimplifiedField)):
                     self.assertIs(one[name], getattr(one, name))
                 else:
                     self.assertEqual(len(one[name]), len(one))
