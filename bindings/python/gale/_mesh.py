@@ -153,11 +153,14 @@ class Mesh:
         if not hasattr(grid, "IsA"):
             raise Error(f"what is of {type(grid).__name__} is no grid")
         if grid.IsA("vtkUnstructuredGrid"):
-            return cls.from_cells(_points_of(grid), *_cells_of(grid), capacity)
+            cells = _cells_of(grid)
+            return cls.from_cells(_points_of(grid), *cells, capacity)
         if not (grid.IsA("vtkStructuredGrid") or grid.IsA("vtkRectilinearGrid") or grid.IsA("vtkImageData")):
             raise Error(f"what is of {type(grid).__name__} is no unstructured, structured or rectilinear grid, and no image")
         cell_type = _HEXAHEDRON if grid.IsA("vtkStructuredGrid") else _VOXEL
-        return cls.from_cells(_points_of(grid), *_structured_cells(grid.GetDimensions(), cell_type), capacity)
+        low_x, high_x, low_y, high_y, low_z, high_z = grid.GetExtent()
+        dimensions = high_x - low_x + 1, high_y - low_y + 1, high_z - low_z + 1
+        return cls.from_cells(_points_of(grid), *_structured_cells(dimensions, cell_type), capacity)
 
     @classmethod
     def _of(cls, inner: _gale.Mesh, cells: Optional[np.ndarray] = None) -> Mesh:

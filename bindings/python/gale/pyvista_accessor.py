@@ -41,7 +41,7 @@ class GaleAccessor:
     def _shape(self) -> Tuple[Any, ...]:
         grid = self._grid
         is_regular = not grid.IsA("vtkUnstructuredGrid")
-        return (grid.n_points, grid.n_cells, *((*grid.GetDimensions(), *grid.bounds) if is_regular else ()))
+        return (grid.n_points, grid.n_cells, *((*grid.GetExtent(), *grid.bounds) if is_regular else ()))
 
     def _field(self, name: str) -> Any:
         names = self._grid.point_data.keys()

@@ -113,15 +113,15 @@ class WrongArguments(unittest.TestCase):
             import pyvista
         except ImportError:
             self.skipTest("there is no pyvista")
-        sphere, image = pyvista.Sphere(), pyvista.ImageData(dimensions=(3, 3, 3))
-        hexahedra = image.cast_to_unstructured_grid()
+        sphere, flat = pyvista.Sphere(), pyvista.ImageData(dimensions=(3, 3, 1))
+        squares = flat.cast_to_unstructured_grid()
         five = pyvista.UnstructuredGrid()
         five.points = POINTS
         five.SetCells(10, pyvista.CellArray([5, 0, 1, 2, 3, 4, 3, 5, 6, 7]))
         pointless = pyvista.UnstructuredGrid()
-        for wrong in (sphere, image, hexahedra, five, pointless, pyvista.MultiBlock([hexahedra]), sphere.points):
+        for wrong in (sphere, flat, squares, five, pointless, pyvista.MultiBlock([squares]), sphere.points):
             with self.subTest(wrong=type(wrong)):
-                self.refused(lambda: gale.Mesh.from_pyvista(wrong), "grid|cells")
+                self.refused(lambda: gale.Mesh.from_pyvista(wrong), "grid|cell|has no tetrahedra")
         if hasattr(pyvista, "register_dataset_accessor"):
             grid = pyvista.UnstructuredGrid({10: TETRAHEDRA}, POINTS)
             grid["height"] = FIELD
