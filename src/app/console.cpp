@@ -76,14 +76,6 @@ void begin_step(const char* doing, const std::string& what) {
 
 const char* current_step() { return step; }
 
-std::string grouped(std::int64_t number) {
-  std::string digits = std::to_string(number);
-  for (int at = static_cast<int>(digits.size()) - 3; at > (number < 0 ? 1 : 0); at -= 3) {
-    digits.insert(static_cast<std::size_t>(at), ",");
-  }
-  return digits;
-}
-
 std::string formatted(const char* format, double value, const char* unit) {
   char text[64];
   std::snprintf(text, sizeof text, format, value, unit);

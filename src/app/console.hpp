@@ -4,6 +4,7 @@
 #include <functional>
 #include <string>
 
+#include <gale/base/error.hpp>
 #include <gale/base/types.hpp>
 
 namespace gale::app {
@@ -38,8 +39,7 @@ bool steps_ended();
 /// What was begun last: "reading 'mesh.vtu'".
 const char* current_step();
 
-/// "1,732,840"
-std::string grouped(std::int64_t number);
+using detail::grouped;
 
 /// "0.593 s"
 std::string seconds(double value);

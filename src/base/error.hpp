@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -33,5 +34,17 @@ inline void require_ids(const char* name, Offset count) {
   if (count <= std::numeric_limits<Id>::max()) return;
   throw Error(std::to_string(count) + ' ' + name + " are too many: ids have 32 bits, at most 2147483647 fit");
 }
+
+namespace detail {
+
+/// "1,732,840": a count as people read it.
+inline std::string grouped(std::int64_t number) {
+  std::string digits = std::to_string(number);
+  for (int at = static_cast<int>(digits.size()) - 3; at > (number < 0 ? 1 : 0); at -= 3)
+    digits.insert(static_cast<std::size_t>(at), ",");
+  return digits;
+}
+
+}  // namespace detail
 
 }  // namespace gale

@@ -18,7 +18,7 @@ Point position(const io::Dataset& dataset, Id vertex) {
   return std::visit([&](const auto& points) { return gale::detail::point_of(points, vertex); }, dataset.points);
 }
 
-/// Of the type of the dataset's points.
+/// Values in the type of the dataset's points.
 io::PointArray::Values values_as_points(const io::Dataset& dataset, std::vector<double> values) {
   if (std::holds_alternative<io::Dataset::Points<float>>(dataset.points))
     return std::vector<float>(values.begin(), values.end());

@@ -27,7 +27,7 @@ struct LiftedTree {
   }
 };
 
-/// Of nodes that are GALE's `vertices`, with a parent or none (no_id) each.
+/// Lifts a tree of nodes that are GALE's `vertices`, with a parent or none (no_id) each.
 template <class Memory>
 LiftedTree<Memory> lifted_tree(const SideKeys& keys, const std::vector<Id>& vertices, const std::vector<Id>& parents) {
   const auto count = static_cast<Id>(vertices.size());

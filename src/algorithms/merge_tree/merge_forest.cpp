@@ -106,7 +106,7 @@ MergeForest merge_forest(const SideKeys& keys, const std::vector<Id>& extrema, c
 
 PrunedForest pruned(const MergeForest& forest, const std::vector<bool>& stays) {
   const Id count = forest.size();
-  // Of each node: how many arcs come from below whose branches have something that stays, and the last of these. A
+  // Each node has so many arcs from below whose branches have something that stays; the last of these is kept. A
   // leaf that stays counts as two, as it is a node by itself.
   std::vector<Id> arcs(count, 0), last_arc(count, no_id), nearest(count), number(count, no_id);
   for (std::size_t place = 0; place < stays.size(); ++place) {

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <gale/algorithms/critical_points.hpp>
 #include <gale/app/commands/command.hpp>
 #include <gale/app/drawing/scene.hpp>
 #include <gale/app/ranks/ranks.hpp>
@@ -88,6 +89,18 @@ void AnalysisCommand::run() const {
   Computed computed;
   analyse(on, session, computed);
   session.finish(structure_, computed);
+}
+
+void tell_types(const std::array<std::int64_t, 5>& counts, Session& session) {
+  static const struct {
+    CriticalType type;
+    const char *name, *key;
+  } kinds[] = {{CriticalType::minimum, "minima", "minima"},
+               {CriticalType::saddle1, "1-saddles", "saddles1"},
+               {CriticalType::saddle2, "2-saddles", "saddles2"},
+               {CriticalType::maximum, "maxima", "maxima"},
+               {CriticalType::degenerate, "degenerate", "degenerate"}};
+  for (const auto& kind : kinds) session.tell(kind.name, kind.key, counts[static_cast<int>(kind.type)]);
 }
 
 void tell_simplices(const std::array<std::int64_t, 4>& counts, Session& session) {

@@ -8,19 +8,6 @@ namespace gale::app {
 
 namespace {
 
-/// Says and reports how many critical points there are, by CriticalType but `regular`.
-void tell(const std::array<std::int64_t, 5>& counts, Session& session) {
-  static const struct {
-    CriticalType type;
-    const char *name, *key;
-  } kinds[] = {{CriticalType::minimum, "minima", "minima"},
-               {CriticalType::saddle1, "1-saddles", "saddles1"},
-               {CriticalType::saddle2, "2-saddles", "saddles2"},
-               {CriticalType::maximum, "maxima", "maxima"},
-               {CriticalType::degenerate, "degenerate", "degenerate"}};
-  for (const auto& kind : kinds) session.tell(kind.name, kind.key, counts[static_cast<int>(kind.type)]);
-}
-
 class FindCriticalPoints final : public AnalysisCommand {
  public:
   explicit FindCriticalPoints(CLI::App& app) : AnalysisCommand(app, "critical-points", Works::on_many_ranks) {
@@ -33,7 +20,7 @@ class FindCriticalPoints final : public AnalysisCommand {
   void analyse(const FieldOnMesh& on, Session& session, Computed& computed) const override {
     const CriticalPoints points =
         find_critical_points(on.order, session.compute(structure_, "critical points"), &computed);
-    tell(points.counts, session);
+    tell_types(points.counts, session);
     session.write_result(output_, [&] { return outputs::to_point_set(on.dataset, points, on.mesh.exchange()); });
   }
 

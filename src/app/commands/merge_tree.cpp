@@ -1,4 +1,4 @@
-#include <algorithm>
+#include <array>
 
 #include <CLI/CLI.hpp>
 
@@ -12,22 +12,11 @@ namespace gale::app {
 namespace {
 
 void tell(const MergeTree& tree, Session& session) {
-  static const struct {
-    CriticalType type;
-    const char *name, *key;
-  } kinds[] = {{CriticalType::minimum, "minima", "minima"},
-               {CriticalType::saddle1, "1-saddles", "saddles1"},
-               {CriticalType::saddle2, "2-saddles", "saddles2"},
-               {CriticalType::maximum, "maxima", "maxima"},
-               {CriticalType::degenerate, "degenerate", "degenerate"}};
-  session.console().say("nodes", grouped(static_cast<std::int64_t>(tree.vertices.size())));
-  session.console().say("arcs", grouped(static_cast<std::int64_t>(tree.arcs.size())));
-  session.report().result = {{"nodes", tree.vertices.size()}, {"arcs", tree.arcs.size()}};
-  for (const auto& kind : kinds) {
-    const auto count = std::count(tree.types.begin(), tree.types.end(), kind.type);
-    session.console().say(kind.name, grouped(count));
-    session.report().result[kind.key] = count;
-  }
+  std::array<std::int64_t, 5> counts{};
+  for (const CriticalType type : tree.types) ++counts[static_cast<int>(type)];
+  session.tell("nodes", "nodes", static_cast<std::int64_t>(tree.vertices.size()));
+  session.tell("arcs", "arcs", static_cast<std::int64_t>(tree.arcs.size()));
+  tell_types(counts, session);
 }
 
 class FindMergeTree final : public Command {

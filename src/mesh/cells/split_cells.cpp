@@ -1,8 +1,7 @@
-#include <array>
-
 #include <gale/base/error.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/base/transfer.hpp>
+#include <gale/mesh/cells/cell_messages.hpp>
 #include <gale/mesh/cells/split_cell.hpp>
 #include <gale/mesh/cells/split_cells.hpp>
 
@@ -167,75 +166,6 @@ struct CopySimplices {
   }
 };
 
-using Census = std::array<Offset, 256>;
-
-template <class Types>
-Census census_of(const Types& types) {
-  Census census{};
-  const auto all = on_host(types);
-  for (std::size_t cell = 0; cell < all.extent(0); ++cell) ++census[all(cell)];
-  return census;
-}
-
-/// "970,299"
-std::string with_commas(Offset number) {
-  std::string digits = std::to_string(number);
-  for (auto at = static_cast<std::ptrdiff_t>(digits.size()) - 3; at > 0; at -= 3) digits.insert(at, ",");
-  return digits;
-}
-
-/// "12 hexahedra, 4 pyramids and 3 wedges", of the types that are wanted.
-template <class IsWanted>
-std::string list_of(const Census& census, const IsWanted& is_wanted) {
-  std::vector<std::string> all;
-  for (int number = 0; number < 256; ++number) {
-    const CellType* const type = find_cell_type(number);
-    if (census[number] == 0 || type == nullptr || !is_wanted(*type)) continue;
-    all.push_back(with_commas(census[number]) + ' ' + (type->plural != nullptr ? type->plural : type->name));
-  }
-  std::string list;
-  for (std::size_t k = 0; k < all.size(); ++k) list += (k == 0 ? "" : k + 1 == all.size() ? " and " : ", ") + all[k];
-  return list;
-}
-
-/// Says what is wrong with a cell that is bad. `entries` are its points, as far as there are any.
-[[noreturn]] void refuse_cell(Offset cell, int number, Offset begin, Offset end, Offset connectivity, Offset points,
-                              const CellRules& rules, const std::vector<std::int64_t>& entries) {
-  const std::string name = "cell " + std::to_string(cell);
-  const CellType* const type = find_cell_type(number);
-  if (type == nullptr) throw Error(name + " has the unknown type " + std::to_string(number));
-  if (begin < 0 || end < begin || end > connectivity) {
-    throw Error(name + " ends at " + std::to_string(end) + " in a connectivity of " + std::to_string(connectivity) +
-                ", and the one before it at " + std::to_string(begin));
-  }
-  const std::string what = name + " is a " + type->name;
-  if (rules.rule[number] == CellRule::refuse)
-    throw Error(what + ", which isn't split" + (type->plural == nullptr ? "" : " into triangles"));
-  const auto require_points = [&](std::int64_t point) {
-    if (point < 0 || point >= points)
-      throw Error(name + " names point " + std::to_string(point) + " of " + std::to_string(points));
-  };
-  if (rules.rule[number] == CellRule::polyhedron) {
-    const FaceFault fault = fault_of_polyhedron(entries.data(), static_cast<Offset>(entries.size()), points);
-    if (fault == FaceFault::open) throw Error(what + " whose faces don't close: one of its edges is in one face only");
-    if (fault == FaceFault::point) {
-      for (std::size_t face = 1; face < entries.size(); face += static_cast<std::size_t>(entries[face]) + 1) {
-        for (std::int64_t k = 1; k <= entries[face]; ++k) require_points(entries[face + static_cast<std::size_t>(k)]);
-      }
-    }
-    throw Error(what + " whose faces aren't " +
-                (entries.empty() ? "there"
-                                 : "what its " + std::to_string(entries.size()) +
-                                       " entries say: how many, and of each how many corners, and these"));
-  }
-  const std::string size = std::to_string(entries.size());
-  if (type->points != 0 && static_cast<std::size_t>(type->points) != entries.size())
-    throw Error(what + " of " + size + " points, not " + std::to_string(type->points));
-  if (type->points == 0 && entries.size() < 3) throw Error(what + " of " + size + " points");
-  for (const std::int64_t point : entries) require_points(point);
-  throw Error(what + " that is not valid");
-}
-
 template <class Index, class Memory>
 [[noreturn]] void refuse_cell(const Cells<Index, Memory>& cells, Offset cell, Offset points, const CellRules& rules) {
   const auto some = [](const auto& array, Offset begin, Offset end) {
@@ -297,7 +227,7 @@ SplitCells<Corners, Memory> split_into(const Cells<Index, Memory>& cells, Offset
   parallel_for(
       "GALE::write_simplices", space, count,
       WriteSimplices<Splitter, Counts, Simplices, Array<Id, Memory>>{splitter, begin, result.simplices, result.cells});
-  result.notices = notices_of_split(census_of(cells.types), total, Corners);
+  result.notices = notices_of_split(census_of(on_host(cells.types)), total, Corners);
   wait_for(space, "GALE::split_cells");
   return result;
 }
@@ -321,33 +251,6 @@ SplitCells<3, Memory> split_polygons(const Cells<Index, Memory>& cells, Offset p
 template <class Index, class Memory>
 bool are_tetrahedra(const Cells<Index, Memory>& cells) {
   return detail::are_simplices(cells, cell_type::tetrahedron, 4);
-}
-
-std::vector<std::string> notices_of_split(const std::array<Offset, 256>& cells, Offset simplices, int corners) {
-  const auto& rule = detail::cell_rules(corners).rule;
-  Offset lower = 0, as_they_are = 0;
-  for (int type = 0; type < 256; ++type) {
-    lower += rule[type] == detail::CellRule::skip ? cells[type] : 0;
-    as_they_are += rule[type] == detail::CellRule::simplex ? cells[type] : 0;
-  }
-  const std::string split = detail::list_of(cells, [&](const CellType& type) {
-    return rule[type.number] != detail::CellRule::skip && rule[type.number] != detail::CellRule::simplex;
-  });
-  std::vector<std::string> notices;
-  if (!split.empty()) {
-    notices.push_back("split " + split + " into " + detail::with_commas(simplices - as_they_are) +
-                      (corners == 4 ? " tetrahedra" : " triangles"));
-  }
-  if (lower > 0)
-    notices.push_back("left out " + std::to_string(lower) + " cells of a dimension below " +
-                      std::to_string(corners - 1));
-  return notices;
-}
-
-std::string other_cells(const Array<const std::uint8_t, HostMemory>& types) {
-  return detail::list_of(detail::census_of(types), [](const CellType& type) {
-    return type.dimension == 3 && type.number != cell_type::tetrahedron;
-  });
 }
 
 #define GALE_INSTANTIATE(Index, Memory)                                                            \

@@ -1,0 +1,133 @@
+#pragma once
+
+#include <cstdint>
+
+#include <gale/algorithms/gradient/gradient_store.hpp>
+#include <gale/algorithms/morse_smale/wall_table.hpp>
+#include <gale/base/atomic.hpp>
+#include <gale/base/memory.hpp>
+
+// Descending walls that grow side by side in kernels, and the ways up them.
+
+namespace gale::detail {
+
+template <class T>
+using InWorkers = Array<T, WorkerMemory>;
+
+/// A triangle of a wall; (high, low) is the edge that it is paired with, unless it is the critical one.
+struct WallTriangle {
+  Id high, low, third;
+  Id wall;
+};
+
+/// A critical edge that a wall ends at.
+struct WallRim {
+  Id wall;
+  Id high, low;
+};
+
+/// What kernels read of a discrete gradient that kernels found, to follow walls through it.
+struct GradientRows {
+  const Id* pair_words;
+  const Offset* pairs_begin;
+  const Id* vertex_successor;
+  const std::uint64_t* keys;
+  const Id* vertex_input;
+
+  explicit GradientRows(const DiscreteGradient& gradient)
+      : pair_words(gradient.store().pair_words().in<WorkerMemory>().data()),
+        pairs_begin(gradient.store().pairs_begin().in<WorkerMemory>().data()),
+        vertex_successor(gradient.store().vertex_successors().in<WorkerMemory>().data()),
+        keys(gradient.order().keys_in<WorkerMemory>().data()),
+        vertex_input(gradient.mesh().vertex_input<WorkerMemory>().data()) {}
+
+  /// The number of an edge among all edges: the place of its word.
+  KOKKOS_FUNCTION Offset number(Id high, Id place) const { return pairs_begin[high] + 1 + place; }
+
+  KOKKOS_FUNCTION EdgePairRow row(Id high) const {
+    return EdgePairRow(const_cast<Id*>(pair_words) + pairs_begin[high]);  // which it only reads
+  }
+
+  /// Is one triangle before another, both written with their input vertices ascending?
+  KOKKOS_FUNCTION bool is_less(const WallTriangle& a, const WallTriangle& b) const {
+    Id first[3], second[3];
+    write(a, first);
+    write(b, second);
+    for (int i = 0; i < 2; ++i) {
+      if (first[i] != second[i]) return first[i] < second[i];
+    }
+    return first[2] < second[2];
+  }
+
+ private:
+  KOKKOS_FUNCTION void write(const WallTriangle& triangle, Id (&written)[3]) const {
+    const Id ids[] = {vertex_input[triangle.high], vertex_input[triangle.low], vertex_input[triangle.third]};
+    for (int i = 0; i < 3; ++i) written[(ids[0] < ids[i]) + (ids[1] < ids[i]) + (ids[2] < ids[i])] = ids[i];
+  }
+};
+
+/// How many a kernel has found so far.
+struct WallCounts {
+  Offset triangles = 0, edges = 0, rims = 0;
+};
+
+/// Where the kernels that make walls grow put what they find. Copies share it.
+struct WallSink {
+  WallTable table;
+  InWorkers<WallTriangle> triangles;  ///< the critical ones first
+  InWorkers<WallRim> rims;
+  InWorkers<WallCounts> counts;  ///< one
+};
+
+/// Crosses the edges of one triangle.
+struct CrossSides {
+  GradientRows gradient;
+  WallSink sink;
+  Id walls;
+
+  KOKKOS_FUNCTION void operator()(Offset triangle) const {
+    const auto number = static_cast<std::uint32_t>(triangle);
+    const WallTriangle from = sink.triangles(triangle);
+    if (triangle < walls) cross(from.high, from.low, from.wall, number);
+    cross(from.high, from.third, from.wall, number);
+    const bool in_order = gradient.keys[from.low] > gradient.keys[from.third];
+    cross(in_order ? from.low : from.third, in_order ? from.third : from.low, from.wall, number);
+  }
+
+ private:
+  KOKKOS_FUNCTION void cross(Id high, Id low, Id wall, std::uint32_t from) const {
+    const EdgePairRow row = gradient.row(high);
+    const Id place = row.find(low);
+    bool is_new = false;
+    const std::uint64_t at = sink.table.insert(sink.table.key(wall, gradient.number(high, place)), is_new);
+    sink.table.put_above(at, from, [this](std::uint32_t a, std::uint32_t b) {
+      return gradient.is_less(sink.triangles(a), sink.triangles(b));
+    });
+    if (!is_new) return;
+    atomic_add(&sink.counts(0).edges, Offset(1));
+    const Id third = row.third(place);
+    if (third != no_id) {
+      sink.triangles(atomic_add(&sink.counts(0).triangles, Offset(1))) = {high, low, third, wall};
+    } else if (gradient.vertex_successor[high] != low) {
+      sink.rims(atomic_add(&sink.counts(0).rims, Offset(1))) = {wall, high, low};
+    }
+  }
+};
+
+/// Calls visit(triangle, are_several) with each triangle on the way up from a rim, by its number, and whether there are
+/// more where it was taken.
+template <class Visit>
+KOKKOS_FUNCTION void climb(const CrossSides& walls, const WallRim& rim, const Visit& visit) {
+  const GradientRows& gradient = walls.gradient;
+  const WallTable& table = walls.sink.table;
+  for (Id high = rim.high, low = rim.low;;) {
+    const std::uint64_t at = table.find(table.key(rim.wall, gradient.number(high, gradient.row(high).find(low))));
+    const std::uint32_t triangle = table.least_above(at);
+    visit(triangle, table.are_several_above(at));
+    if (triangle < static_cast<std::uint32_t>(walls.walls)) return;
+    high = walls.sink.triangles(triangle).high;
+    low = walls.sink.triangles(triangle).low;
+  }
+}
+
+}  // namespace gale::detail

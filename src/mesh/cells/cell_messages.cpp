@@ -1,0 +1,99 @@
+#include <gale/base/error.hpp>
+#include <gale/mesh/cells/cell_messages.hpp>
+#include <gale/mesh/cells/split_cell.hpp>
+
+namespace gale {
+
+namespace detail {
+
+namespace {
+
+/// "12 hexahedra, 4 pyramids and 3 wedges", of the types that are wanted.
+template <class IsWanted>
+std::string list_of(const Census& census, const IsWanted& is_wanted) {
+  std::vector<std::string> all;
+  for (int number = 0; number < 256; ++number) {
+    const CellType* const type = find_cell_type(number);
+    if (census[number] == 0 || type == nullptr || !is_wanted(*type)) continue;
+    all.push_back(grouped(census[number]) + ' ' + (type->plural != nullptr ? type->plural : type->name));
+  }
+  std::string list;
+  for (std::size_t k = 0; k < all.size(); ++k) list += (k == 0 ? "" : k + 1 == all.size() ? " and " : ", ") + all[k];
+  return list;
+}
+
+}  // namespace
+
+Census census_of(const Array<const std::uint8_t, HostMemory>& types) {
+  Census census{};
+  for (std::size_t cell = 0; cell < types.extent(0); ++cell) ++census[types(cell)];
+  return census;
+}
+
+void refuse_cell(Offset cell, int number, Offset begin, Offset end, Offset connectivity, Offset points,
+                 const CellRules& rules, const std::vector<std::int64_t>& entries) {
+  const std::string name = "cell " + std::to_string(cell);
+  const CellType* const type = find_cell_type(number);
+  if (type == nullptr) throw Error(name + " has the unknown type " + std::to_string(number));
+  if (begin < 0 || end < begin || end > connectivity) {
+    throw Error(name + " ends at " + std::to_string(end) + " in a connectivity of " + std::to_string(connectivity) +
+                ", and the one before it at " + std::to_string(begin));
+  }
+  const std::string what = name + " is a " + type->name;
+  if (rules.rule[number] == CellRule::refuse)
+    throw Error(what + ", which isn't split" + (type->plural == nullptr ? "" : " into triangles"));
+  const auto require_points = [&](std::int64_t point) {
+    if (point < 0 || point >= points)
+      throw Error(name + " names point " + std::to_string(point) + " of " + std::to_string(points));
+  };
+  if (rules.rule[number] == CellRule::polyhedron) {
+    const FaceFault fault = fault_of_polyhedron(entries.data(), static_cast<Offset>(entries.size()), points);
+    if (fault == FaceFault::open) throw Error(what + " whose faces don't close: one of its edges is in one face only");
+    if (fault == FaceFault::point) {
+      for (std::size_t face = 1; face < entries.size(); face += static_cast<std::size_t>(entries[face]) + 1) {
+        for (std::int64_t k = 1; k <= entries[face]; ++k) require_points(entries[face + static_cast<std::size_t>(k)]);
+      }
+    }
+    throw Error(what + " whose faces aren't " +
+                (entries.empty() ? "there"
+                                 : "what its " + std::to_string(entries.size()) +
+                                       " entries say: how many, and of each how many corners, and these"));
+  }
+  const std::string size = std::to_string(entries.size());
+  if (type->points != 0 && static_cast<std::size_t>(type->points) != entries.size())
+    throw Error(what + " of " + size + " points, not " + std::to_string(type->points));
+  if (type->points == 0 && entries.size() < 3) throw Error(what + " of " + size + " points");
+  for (const std::int64_t point : entries) require_points(point);
+  throw Error(what + " that is not valid");
+}
+
+}  // namespace detail
+
+std::vector<std::string> notices_of_split(const std::array<Offset, 256>& cells, Offset simplices, int corners) {
+  const auto& rule = detail::cell_rules(corners).rule;
+  Offset lower = 0, as_they_are = 0;
+  for (int type = 0; type < 256; ++type) {
+    lower += rule[type] == detail::CellRule::skip ? cells[type] : 0;
+    as_they_are += rule[type] == detail::CellRule::simplex ? cells[type] : 0;
+  }
+  const std::string split = detail::list_of(cells, [&](const CellType& type) {
+    return rule[type.number] != detail::CellRule::skip && rule[type.number] != detail::CellRule::simplex;
+  });
+  std::vector<std::string> notices;
+  if (!split.empty()) {
+    notices.push_back("split " + split + " into " + detail::grouped(simplices - as_they_are) +
+                      (corners == 4 ? " tetrahedra" : " triangles"));
+  }
+  if (lower > 0)
+    notices.push_back("left out " + std::to_string(lower) + " cells of a dimension below " +
+                      std::to_string(corners - 1));
+  return notices;
+}
+
+std::string other_cells(const Array<const std::uint8_t, HostMemory>& types) {
+  return detail::list_of(detail::census_of(types), [](const CellType& type) {
+    return type.dimension == 3 && type.number != cell_type::tetrahedron;
+  });
+}
+
+}  // namespace gale
