@@ -61,16 +61,16 @@ address() {
 
 all_but_algorithms() {
   local folder
-  for folder in base mesh runtime io ttk; do run_tests sanitize $folder; done
-  third sanitize relations
+  for folder in base mesh io ttk; do run_tests sanitize $folder; done
+  for folder in runtime relations; do third sanitize $folder; done
 }
 
-# Of the runtime, all but what takes minutes here to compare every mesh with brute force, or has one thread; of the algorithms, those whose
-# sweeps write what several threads read.
+# Of the runtime, a third of all but what takes minutes here to compare every mesh with brute force, or has one thread; of
+# the algorithms, those whose sweeps write what several threads read.
 thread() {
   build sanitize-thread gale_base gale_runtime gale_algorithms gale_ttk
   together "run_tests sanitize-thread base" "run_tests sanitize-thread ttk TtkBlockStore.*:TtkTriangulationOnThreads.*" \
-    "run_tests sanitize-thread runtime -MixedSweep.*:Tests/MixedSweepOf.*:Tests/DeviceSweepOf.*:*RelationOf*" \
+    "third sanitize-thread runtime -MixedSweep.*:Tests/MixedSweepOf.*:Tests/DeviceSweepOf.*:*RelationOf*" \
     "run_tests sanitize-thread algorithms CriticalPoints.*:DiscreteGradient.*:MorseSmaleComplex.*:Simplify.*"
 }
 
