@@ -53,7 +53,7 @@ class CellSweep {
   CellSweep(detail::GradientStore& store, int consumer, Faces faces)
       : sink_(store.sink(consumer)),
         keys_(store.order.keys()),
-        tetrahedron_input_(store.mesh.tetrahedron_input().data()),
+        cell_input_(store.mesh.cell_input().data()),
         faces_(std::move(faces)) {}
 
   void pair(const SegmentRows& rows) {
@@ -111,8 +111,8 @@ class CellSweep {
       if (star_.dimension(cell) == 2) {
         row_.pair(ranks_.place(low[0]), ranks_.place(both[0] == low[0] ? both[1] : both[0]));
       } else {
-        const Id tetrahedron = star_.tetrahedron(cell), across = star_.across(facet, tetrahedron, tetrahedron_input_);
-        sink_.set_tetrahedron(tetrahedron, across == no_id ? leave(tetrahedron, odd_one(both, low)) : across);
+        const Id tetrahedron = star_.tetrahedron(cell), across = star_.across(facet, tetrahedron, cell_input_);
+        sink_.set_cell(tetrahedron, across == no_id ? leave(tetrahedron, odd_one(both, low)) : across);
         star_.for_each_tetrahedron(facet, [&](Id other) {
           if (other != tetrahedron && other != across) sink_.add_successor(tetrahedron, other);
         });
@@ -124,7 +124,7 @@ class CellSweep {
         case 1:
           return sink_.add_critical_edge(vertex, ranks_.id(corners[0]));
         case 3:
-          return sink_.add_critical_tetrahedron(star_.tetrahedron(cell));
+          return sink_.add_critical_cell(star_.tetrahedron(cell));
       }
       const std::array<Id, 3> triangle = {vertex, ranks_.id(corners[0]), ranks_.id(corners[1])};
       sink_.add_critical_triangle(triangle);
@@ -159,7 +159,7 @@ class CellSweep {
 
   const detail::ConsumerSink sink_;
   const std::uint64_t* keys_;
-  const Id* tetrahedron_input_;
+  const Id* cell_input_;
   Faces faces_;
   std::vector<Id> neighbours_;
   detail::LowerNeighbourRanks ranks_;

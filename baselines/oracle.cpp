@@ -40,10 +40,9 @@ class BruteForceOracle : public Oracle {
 
  private:
   static std::vector<std::array<Id, 4>> tetrahedra_of(const Mesh& mesh) {
-    const auto& corners = mesh.encoded().tetrahedra;
-    std::vector<std::array<Id, 4>> tetrahedra(mesh.tetrahedra());
-    for (Id t = 0; t < mesh.tetrahedra(); ++t)
-      tetrahedra[t] = {corners(t, 0), corners(t, 1), corners(t, 2), corners(t, 3)};
+    const auto& corners = mesh.encoded().cells;
+    std::vector<std::array<Id, 4>> tetrahedra(mesh.cells());
+    for (Id t = 0; t < mesh.cells(); ++t) tetrahedra[t] = {corners(t, 0), corners(t, 1), corners(t, 2), corners(t, 3)};
     return tetrahedra;
   }
 

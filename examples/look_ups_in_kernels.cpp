@@ -15,7 +15,7 @@ int largest_star(const gale::Mesh& mesh) {
   const auto simplices = mesh.simplices<gale::WorkerMemory>(gale::needs_of(gale::Relation::TE));
   const Kokkos::View<int*, Space> count("tetrahedra of each edge", mesh.known_edges());
   Kokkos::parallel_for(
-      "count", Kokkos::RangePolicy<Space>(0, mesh.tetrahedra()), KOKKOS_LAMBDA(int t) {
+      "count", Kokkos::RangePolicy<Space>(0, mesh.cells()), KOKKOS_LAMBDA(int t) {
         for (const gale::Id edge : gale::face_row<gale::Relation::TE>(simplices, t))
           Kokkos::atomic_add(&count(edge), 1);
       });
@@ -36,6 +36,6 @@ int main(int argc, char** argv) {
   const gale::Mesh mesh = gale::make_mesh(points, tetrahedra);
   const int largest = largest_star(mesh);
   std::printf("%d vertices, %d edges, %d tetrahedra; at most %d tetrahedra at one edge\n", mesh.vertices(),
-              mesh.known_edges(), mesh.tetrahedra(), largest);
+              mesh.known_edges(), mesh.cells(), largest);
   return largest == 6 ? 0 : 1;
 }

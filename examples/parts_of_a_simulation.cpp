@@ -33,7 +33,7 @@ bool run() {
 
   if (ranks.rank() == 0) {
     std::printf("%lld tetrahedra on %d ranks: %lld minima, %lld maxima; Euler characteristic %lld\n",
-                static_cast<long long>(mesh.all_tetrahedra()), ranks.size(), static_cast<long long>(points.counts[0]),
+                static_cast<long long>(mesh.all_cells()), ranks.size(), static_cast<long long>(points.counts[0]),
                 static_cast<long long>(points.counts[3]), static_cast<long long>(gradient.euler()));
   }
   return points.counts[0] == 26 && points.counts[3] == 39 && gradient.euler() == 1;

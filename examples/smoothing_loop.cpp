@@ -26,14 +26,14 @@ using Values = Kokkos::View<double*, Space>;
 
 /// A quarter of the volume of each tetrahedron of a vertex (VT). Rows have GALE's ids; the arrays are the caller's.
 struct DualVolume {
-  gale::Array<const Id, Memory> vertex_input, tetrahedron_input;
+  gale::Array<const Id, Memory> vertex_input, cell_input;
   Points points;
   Tetrahedra tetrahedra;
   Values volume;
 
   KOKKOS_FUNCTION void operator()(Id vertex, const gale::Row& star) const {
     double sum = 0;
-    for (const Id t : star) sum += volume_of(tetrahedron_input(t)) / 4;
+    for (const Id t : star) sum += volume_of(cell_input(t)) / 4;
     volume(vertex_input(vertex)) = sum;
   }
 
@@ -105,7 +105,7 @@ int main(int argc, char** argv) {
   const auto& vertex_input = mesh.vertex_input<Memory>();
   // On a host whose Kokkos has Serial alone, Space() is one thread; gale::HostThreads() in its place takes all cores.
   gale::for_each_row(Space(), mesh, gale::Relation::VT,
-                     DualVolume{vertex_input, mesh.tetrahedron_input<Memory>(), points, tetrahedra, volume});
+                     DualVolume{vertex_input, mesh.cell_input<Memory>(), points, tetrahedra, volume});
   const double whole = sum_of(volume);
   std::printf("%d vertices, volume %g\n", mesh.vertices(), whole);
 #if defined(EXAMPLE_WITH_COLORING)

@@ -48,7 +48,7 @@ Steps run(const Points& points, const Tetrahedra& tetrahedra, const Field& field
   const auto structure = make_structure(*mesh, morse_smale_relations);
   took.complex = perf::seconds_of([&] { found += find_morse_smale_complex(*structure, *gradient).connectors.count(); });
   took.successors = perf::seconds_of(
-      [&] { found += gradient->vertex_successors().extent(0) + gradient->tetrahedron_successors().extent(0); });
+      [&] { found += gradient->vertex_successors().extent(0) + gradient->cell_successors().extent(0); });
   took.edges = perf::seconds_of([&] { gradient->for_each_edge_pair(0, [&](Id, Id) { ++found; }); });
   if (found == 0) std::printf("nothing was found\n");
   return took;

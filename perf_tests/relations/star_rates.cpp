@@ -30,7 +30,7 @@ struct WholeMesh {
   Array<Id, WorkerMemory> segments, words;
   Array<Offset, WorkerMemory> directory, used;
   Array<StarSizes, WorkerMemory> needed;
-  StarKernel<WorkerMemory> kernel;
+  StarKernel<WorkerMemory, 4> kernel;
 
   WholeMesh(const Mesh& mesh, RelationSet wanted)
       : segments(all_segments(mesh)),
@@ -60,8 +60,8 @@ struct WholeMesh {
     StarSizes sizes;
     for (Id s = 0; s < mesh.segments(); ++s) {
       const Id rows = mesh.vertex_begin()(s + 1) - mesh.vertex_begin()(s);
-      sizes = larger(sizes, StarKernel<WorkerMemory>::bound(rows, tetrahedra(s + 1) - tetrahedra(s),
-                                                            external(s + 1) - external(s), wanted));
+      sizes = larger(sizes, StarKernel<WorkerMemory, 4>::bound(rows, tetrahedra(s + 1) - tetrahedra(s),
+                                                               external(s + 1) - external(s), wanted));
     }
     return sizes;
   }
@@ -77,9 +77,9 @@ void measure(const Mesh& mesh, RelationSet wanted, double link) {
   const WholeMesh whole(mesh, wanted);
   for (const int warps : {1, 2, 4, 8, 16}) {
     if (!have_device && warps > 1) break;
-    if (scratch_bytes<StarKernel<WorkerMemory>>(whole.kernel.sizes, warps) > fast_scratch_bytes<WorkerSpace>()) {
+    if (scratch_bytes<StarKernel<WorkerMemory, 4>>(whole.kernel.sizes, warps) > fast_scratch_bytes<WorkerSpace>()) {
       std::printf("%-14s %4d threads a segment: its scratch memory of %zu bytes isn't there\n", name_of(wanted).c_str(),
-                  32 * warps, scratch_bytes<StarKernel<WorkerMemory>>(whole.kernel.sizes, warps));
+                  32 * warps, scratch_bytes<StarKernel<WorkerMemory, 4>>(whole.kernel.sizes, warps));
       continue;
     }
     const double seconds = perf::median_seconds_of(5, [&] { whole.run(warps); });

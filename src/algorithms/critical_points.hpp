@@ -24,7 +24,8 @@ enum class CriticalType : std::uint8_t {
 struct CriticalPoints {
   std::vector<Id> vertices;              ///< input ids
   std::vector<CriticalType> types;       ///< the type of each
-  std::vector<std::uint8_t> on_surface;  ///< 1 if it belongs to a triangle with exactly one tetrahedron
+  std::vector<std::uint8_t> on_surface;  ///< 1 if it belongs to a triangle with exactly one tetrahedron, or, on
+                                         ///< triangle meshes, to an edge with exactly one triangle
 
   /// How many there are of each type but `regular`, on all ranks.
   std::array<GlobalId, 5> counts{};
@@ -36,7 +37,9 @@ struct CriticalPoints {
 ///     L, U    0, 1 minimum    2, 1 1-saddle    1, 2 2-saddle    1, 0 maximum    1, 1 regular    else degenerate
 ///
 /// except that a vertex on the surface with L, U = 1, 1 is a 1-saddle if some upper neighbour is on the surface and no
-/// lower one, and a 2-saddle if some lower one is and no upper one, as TTK has it.
+/// lower one, and a 2-saddle if some lower one is and no upper one, as TTK has it. On triangle meshes neighbours are
+/// joined along the triangles; L, U = 2, 1 and 1, 2 and 2, 2 are saddles (saddle1), 1, 1 is regular on the boundary
+/// too.
 ///
 /// By kernels where the mesh is on a device and they find room there, else by threads of the host: `options` may say
 /// otherwise, and `computed` is told. The result is the same, and so it is for any number of ranks; collective where

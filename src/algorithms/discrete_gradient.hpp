@@ -17,7 +17,7 @@ class GradientStore;
 
 /// Where successors are on the host; null as long as nobody asked for them there.
 struct HostSuccessors {
-  std::atomic<const Id*> vertex{nullptr}, tetrahedron{nullptr};
+  std::atomic<const Id*> vertex{nullptr}, cell{nullptr};
 };
 }  // namespace detail
 
@@ -34,10 +34,13 @@ struct Partner {
 /// most; those in none are critical. Immutable, for any number of threads; copies share the arrays. Where kernels found
 /// it, it stays with them: each array comes to the host when somebody there first asks for it.
 ///
-/// What it stores is what paths along the gradient ask for. Each vertex and each tetrahedron has its successor, 4
-/// bytes. Each vertex has a row of its edges to lower vertices, with the third vertex of the triangle that each edge is
-/// paired with: 5 bytes an edge and 12 a vertex. Edges and triangles have no ids here: they are named by their vertices
-/// (GALE's ids).
+/// What it stores is what paths along the gradient ask for. Each vertex and each cell has its successor, 4 bytes. Each
+/// vertex of a mesh of tetrahedra has a row of its edges to lower vertices, with the third vertex of the triangle that
+/// each edge is paired with: 5 bytes an edge and 12 a vertex. Edges and triangles have no ids here: they are named by
+/// their vertices (GALE's ids).
+///
+/// On a triangle mesh cells are triangles, and their successors say what edges are paired with: an edge's pair is found
+/// among the triangles of a segment, in time O(capacity). To go through all pairs ask each vertex and each cell.
 class GALE_EXPORT DiscreteGradient {
  public:
   /// For GALE's own algorithms; users have gradients from find_discrete_gradient.
@@ -52,7 +55,8 @@ class GALE_EXPORT DiscreteGradient {
   /// The simplices that it pairs with no other; on one rank's part of a mesh those whose highest vertex it owns.
   const CriticalSimplices& critical() const;
 
-  /// How many critical simplices there are of each dimension, 0 to 3, on all ranks.
+  /// How many critical simplices there are of each dimension, 0 to 3, on all ranks; of a triangle mesh none of the
+  /// last.
   const std::array<GlobalId, 4>& counts() const;
 
   /// Alternating sum of these counts: the mesh's Euler characteristic.
@@ -64,17 +68,18 @@ class GALE_EXPORT DiscreteGradient {
     return (there != nullptr ? there : fetch_vertex_successors())[vertex];
   }
 
-  /// The next tetrahedron on the rising path: the one across the paired triangle; of several, that of the lowest input
-  /// id. no_id for a critical tetrahedron; below that if the path leaves through the mesh's surface (`leaves`).
-  Id tetrahedron_successor(Id tetrahedron) const {
-    const Id* const there = successors_->tetrahedron.load(std::memory_order_acquire);
-    return (there != nullptr ? there : fetch_tetrahedron_successors())[tetrahedron];
+  /// The next cell on the rising path: the tetrahedron across the paired triangle, or on a triangle mesh the triangle
+  /// across the paired edge; of several, that of the lowest input id. no_id for a critical cell; below that if the path
+  /// leaves through the mesh's boundary (`leaves`).
+  Id cell_successor(Id cell) const {
+    const Id* const there = successors_->cell.load(std::memory_order_acquire);
+    return (there != nullptr ? there : fetch_cell_successors())[cell];
   }
 
-  /// Whether a tetrahedron's successor says that the path leaves through the mesh's surface.
+  /// Whether a cell's successor says that the path leaves through the mesh's boundary.
   static bool leaves(Id successor) { return successor < no_id && successor != elsewhere; }
 
-  /// In one rank's part of a mesh, the successor of a ghost, and of a tetrahedron whose highest vertex is a ghost: what
+  /// In one rank's part of a mesh, the successor of a ghost, and of a cell whose highest vertex is a ghost: what
   /// it is the owner of that vertex knows. Edges and triangles with such a vertex have no pairs here.
   static constexpr Id elsewhere = std::numeric_limits<Id>::min();
 
@@ -95,19 +100,20 @@ class GALE_EXPORT DiscreteGradient {
   /// What the edge between two vertices, in any order, is paired with.
   Partner pair_of_edge(Id a, Id b) const;
 
-  /// What a tetrahedron is paired with.
-  Partner pair_of_tetrahedron(Id tetrahedron) const;
+  /// What a cell is paired with.
+  Partner pair_of_cell(Id cell) const;
 
   /// The pair of the triangle of a tetrahedron that is opposite the `corner`-th of its vertices (EncodedMesh's order).
-  /// `others` has the other tetrahedra of that triangle.
+  /// `others` has the other tetrahedra of that triangle. Throws gale::Error on a triangle mesh, where pair_of_cell says
+  /// it.
   Partner pair_of_triangle(Id tetrahedron, int corner, const Row& others) const;
 
   /// vertex_successor of all vertices, by GALE's id. Several threads may refer to the View; copies of it are for one
   /// thread, as Kokkos counts them without atomics where it has Serial alone.
   const Array<const Id, HostMemory>& vertex_successors() const;
 
-  /// tetrahedron_successor of all tetrahedra, by GALE's id. What is said of copies above holds.
-  const Array<const Id, HostMemory>& tetrahedron_successors() const;
+  /// cell_successor of all cells, by GALE's id. What is said of copies above holds.
+  const Array<const Id, HostMemory>& cell_successors() const;
 
   /// The memory that it takes, in bytes.
   std::size_t bytes() const;
@@ -117,7 +123,7 @@ class GALE_EXPORT DiscreteGradient {
 
  private:
   const Id* fetch_vertex_successors() const;
-  const Id* fetch_tetrahedron_successors() const;
+  const Id* fetch_cell_successors() const;
 
   std::shared_ptr<const detail::GradientStore> store_;
   detail::HostSuccessors* successors_;
@@ -134,20 +140,26 @@ class GALE_EXPORT DiscreteGradient {
 GALE_EXPORT DiscreteGradient find_discrete_gradient(const VertexOrder& order, const ComputeOptions& options = {},
                                                     Computed* computed = nullptr);
 
-/// Finds it by threads of the host, in a sweep of VV, VT and link. Throws gale::Error if `structure` isn't
-/// preconditioned for them, and if `order` is of another mesh than the structure's. No edge or triangle is enumerated:
-/// beside the blocks of the sweep there is only the gradient in memory.
+/// Finds it by threads of the host, in a sweep of VV, VT (VF on a triangle mesh) and link. Throws gale::Error if
+/// `structure` isn't preconditioned for them, and if `order` is of another mesh than the structure's. No edge or
+/// triangle is enumerated: beside the blocks of the sweep there is only the gradient in memory.
 GALE_EXPORT DiscreteGradient find_discrete_gradient(Structure& structure, const VertexOrder& order,
                                                     const SweepOptions& options = {});
 
 /// Finds it by kernels where the relations are made, where it stays; only the critical simplices come to
 /// the host. Stars of more than 64 lower edges, 128 cells, or with a triangle of three tetrahedra are paired on the
-/// host: if there are any, all comes there. What is said of sweeps (device_sweep.hpp) holds. 4 bytes a vertex beside
+/// host, and so are those of a triangle mesh with more than 64 edges, or with an edge of three triangles: if
+/// there are any, all comes there. What is said of sweeps (device_sweep.hpp) holds. 4 bytes a vertex beside
 /// the gradient and the blocks.
 GALE_EXPORT DiscreteGradient find_discrete_gradient(const WorkerSpace& space, const VertexOrder& order,
                                                     const DeviceSweepOptions& options = {});
 
-/// What the sweep reads.
-inline constexpr RelationSet discrete_gradient_relations = star_relations;
+/// What the sweep of a mesh whose cells have that dimension reads.
+KOKKOS_FUNCTION constexpr RelationSet discrete_gradient_relations_of(int dimension) {
+  return star_relations_of(dimension);
+}
+
+/// What the sweep of a mesh of tetrahedra reads.
+inline constexpr RelationSet discrete_gradient_relations = discrete_gradient_relations_of(3);
 
 }  // namespace gale

@@ -11,8 +11,8 @@ namespace gale {
 /// depend on them.
 struct MorseSmaleParts {
   bool descending_separatrices = true;  ///< paths from 1-saddles to minima
-  bool ascending_separatrices = true;   ///< paths from 2-saddles to maxima
-  bool saddle_connectors = true;        ///< paths from 1-saddles to 2-saddles
+  bool ascending_separatrices = true;   ///< paths from 2-saddles (saddles of a triangle mesh) to maxima
+  bool saddle_connectors = true;        ///< paths from 1-saddles to 2-saddles; a triangle mesh has none
   bool separatrices2 = false;           ///< walls: descending ones of 2-saddles, ascending ones of 1-saddles
   bool descending_manifolds = true;     ///< which minimum each vertex falls to
   bool ascending_manifolds = true;      ///< which maximum each vertex rises to
@@ -29,12 +29,12 @@ struct AscendingWalls {
   std::vector<Id> star;  ///< GALE's ids, see star_begin
 };
 
-/// Vertices and tetrahedra on the separatrices of one rank's part of a mesh which the part doesn't hold. They are
+/// Vertices and cells on the separatrices of one rank's part of a mesh which the part doesn't hold. They are
 /// called by numbers after GALE's ids of those that it has: the first vertex here is mesh.vertices().
 struct SimplicesBeyond {
   std::vector<GlobalId> vertices;          ///< global ids
-  std::vector<GlobalId> tetrahedra;        ///< global ids
-  std::vector<std::array<Id, 4>> corners;  ///< the vertices of each of these tetrahedra, here or in the part
+  std::vector<GlobalId> cells;             ///< global ids
+  std::vector<std::array<Id, 4>> corners;  ///< the vertices of each of these cells, here or in the part
 };
 
 /// Pairs of saddles that `simplify` could not cancel, although their persistence is below the threshold.
@@ -46,7 +46,9 @@ struct KeptBelow {
   Id count() const { return several_paths + no_path; }
 };
 
-/// The Morse-Smale complex of a discrete gradient. Sources, destinations and manifolds are places among the simplices
+/// The Morse-Smale complex of a discrete gradient. On a triangle mesh critical edges are all the saddles: where it says
+/// tetrahedra below these are triangles, and edges where it says critical triangles. There are no connectors, and no
+/// walls. Sources, destinations and manifolds are places among the simplices
 /// of `critical`; cells are in GALE's ids. What wasn't wanted is empty.
 ///
 /// On one rank's part of a mesh it has the separatrices from the saddles in `critical`, which are this rank's, and the
@@ -106,6 +108,8 @@ struct MorseSmaleComplex {
 /// The rest is collective there, in a number of rounds of messages that grows with the logarithm of how often a path
 /// changes ranks.
 ///
+/// Throws gale::Error where separatrices2 are wanted of a triangle mesh.
+///
 /// Only separatrices2 needs a structure, which `computed` has, or is given. Time and memory grow with what is found,
 /// and for manifolds with the mesh. Walls share cells: all together may have many times as many as the mesh. Throws
 /// gale::Error as require_consumers and make_structure do.
@@ -120,7 +124,7 @@ GALE_EXPORT MorseSmaleComplex find_morse_smale_complex(Structure& structure, con
                                                        const MorseSmaleParts& parts = {},
                                                        const SweepOptions& options = {});
 
-/// What the gradient and this read.
+/// What the gradient and this read, of a mesh of tetrahedra.
 inline constexpr RelationSet morse_smale_relations = discrete_gradient_relations;
 
 }  // namespace gale

@@ -22,8 +22,9 @@ struct PersistencePair {
 
 /// The persistent homology of a field, over Z2: each critical simplex is in one pair or essential.
 struct PersistencePairs {
-  /// By the dimension of the lower simplex: minimum and 1-saddle, 1-saddle and 2-saddle, 2-saddle and maximum. In the
-  /// order of the lower simplices.
+  /// By the dimension of the lower simplex: minimum and 1-saddle, 1-saddle and 2-saddle, 2-saddle and maximum. On a
+  /// triangle mesh: minimum and saddle, saddle and maximum, and none of the third kind. In the order of the lower
+  /// simplices.
   std::array<std::vector<PersistencePair>, 3> pairs;
 
   /// By dimension, the simplices whose classes never end, ascending: as many as the mesh's Betti number.
@@ -37,8 +38,9 @@ struct PersistencePairs {
 /// From the gradient alone: no edge or triangle is enumerated. The ends of 1-separatrices are joined from the lowest
 /// 1-saddle up, and from the highest 2-saddle down, where the outside of the mesh is older than any maximum. The rims
 /// of the other 2-saddles fall along the gradient until they meet a 1-saddle (Guillou, Vidal, Tierny, "Discrete Morse
-/// Sandwich", 2023). On options.threads threads; options.progress isn't called. Memory beside the result: 100 bytes a
-/// critical simplex, and 8 for each edge of a rim that met a 1-saddle.
+/// Sandwich", 2023). On a triangle mesh the ends of all saddles are joined so. On options.threads threads;
+/// options.progress isn't called. Memory beside the result: 100 bytes a critical simplex, and 8 for each edge of a rim
+/// that met a 1-saddle.
 GALE_EXPORT PersistencePairs find_persistence_pairs(const DiscreteGradient& gradient, const SweepOptions& options = {});
 
 }  // namespace gale

@@ -39,6 +39,8 @@ struct SimplexNumbers {
 /// gale::Error, with the input vertices, if the mesh has no such simplex, and if it has more than 2^31 - 1 edges or
 /// triangles; and as require_consumers, make_structure and sweeps do.
 ///
+/// On a triangle mesh triangles are cells, whose input ids are their numbers: throws gale::Error where some are named.
+///
 /// On one rank's part of a mesh these are places among those of all ranks, vertices have their global ids, and there
 /// may be more. Collective then: a few rounds of messages, of 16 bytes a vertex and 40 a simplex.
 GALE_EXPORT SimplexNumbers number_simplices(const Mesh& mesh, const NamedSimplices& named,

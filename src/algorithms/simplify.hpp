@@ -20,7 +20,8 @@ struct SimplifyOptions {
 /// 1998; Gyulassy, Natarajan, Pascucci, Hamann 2007).
 ///
 /// - Minima and maxima with their saddles: always possible. The manifold of the extremum becomes part of that of the
-///   one at the saddle's other end. If that is the outside of the mesh, the vertices have no maximum then.
+///   one at the saddle's other end. If that is the outside of the mesh, the vertices have no maximum then. A triangle
+///   mesh has no other pairs.
 /// - A 1-saddle and a 2-saddle: possible if one path leads from one to the other. Where several do, two others that are
 ///   to go and differ by less than `threshold` are cancelled instead, the least different first; and a 1-saddle may
 ///   change places with one that was cancelled with a minimum. So nearly all are cancelled. `kept_below` of the result
@@ -31,11 +32,11 @@ struct SimplifyOptions {
 /// consists of those of the 1-saddles that it leads past, each cell once. Where a triangle has three tetrahedra or
 /// more, rising paths take one way.
 ///
-/// The Euler characteristic stays as it is. `complex` isn't simplified, and has saddle connectors unless
-/// `extrema_only`: throws gale::Error otherwise. Parts that it was computed without aren't in the result. `value(v)` is
-/// the field at an input vertex: throws gale::Error, naming the vertex, if that is NaN where it is asked for. On
-/// options.threads threads, but for the cancelling itself. Memory grows with what is left, and with the gradient (4
-/// bytes a vertex and a tetrahedron).
+/// The Euler characteristic stays as it is. `complex` isn't simplified, and has saddle connectors, unless
+/// `extrema_only` or on a triangle mesh: throws gale::Error otherwise. Parts that it was computed without aren't in the
+/// result. `value(v)` is the field at an input vertex: throws gale::Error, naming the vertex, if that is NaN where it
+/// is asked for. On options.threads threads, but for the cancelling itself. Memory grows with what is left, and with
+/// the gradient (4 bytes a vertex and a tetrahedron).
 GALE_EXPORT MorseSmaleComplex simplify(const MorseSmaleComplex& complex, const std::function<double(Id)>& value,
                                        double threshold, const SimplifyOptions& options = {});
 

@@ -8,7 +8,8 @@
 namespace gale {
 
 /// Which vertices are on the surface: 1 for a vertex (GALE's id) of a triangle that exactly one tetrahedron has, else
-/// 0. Vertices without tetrahedra are not on the surface. Triangles with three or more tetrahedra aren't part of it.
+/// 0; on triangle meshes 1 for a vertex of an edge that exactly one triangle has. Vertices without cells are not on the
+/// surface. Triangles with three or more tetrahedra aren't part of it.
 /// Ghosts have 0.
 ///
 /// A sweep of link rows on all our threads.

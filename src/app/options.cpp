@@ -101,17 +101,24 @@ void InputOptions::add_to(CLI::App& command) {
       .add_option("INPUT", input,
                   "A mesh (" + io::extensions_of(io::Input::mesh) + "), a volume (" +
                       io::extensions_of(io::Input::volume) +
-                      ") or grid:N, smooth:N, noisy:N, ball:N, shells:N, dense:N")
+                      ") or grid:N, plane:N, smooth:N, noisy:N, ball:N, shells:N, dense:N")
       ->required();
   command.add_option("--above", read.above, "Volumes: keep the voxels with values above this");
-  command.add_option(
+  CLI::Option* const array = command.add_option(
       "-a,--array", read.array,
       "The point array to analyse, NAME or NAME_K for its component K; of volumes, also what --above is about");
   command
       .add_option_function<std::string>(
-          "--cells", [this](const std::string& cells) { read.tetrahedra_alone = cells == "tetrahedra"; },
-          "Meshes: tetrahedra refuses all other 3D cells; any (default) splits them into tetrahedra")
-      ->check(CLI::IsMember({"any", "tetrahedra"}));
+          "--height", [this](const std::string& axis) { height = static_cast<int>(axis[0] - 'x'); },
+          "Analyse this coordinate of the points, as the array Height")
+      ->check(CLI::IsMember({"x", "y", "z"}))
+      ->excludes(array);
+  command
+      .add_option_function<std::string>(
+          "--cells", [this](const std::string& cells) { read.simplices_alone = cells != "any"; },
+          "Meshes: simplices (or tetrahedra) refuses cells that are neither tetrahedra nor, where there are no 3D "
+          "cells, triangles; any (default) splits them into these")
+      ->check(CLI::IsMember({"any", "simplices", "tetrahedra"}));
   command.add_flag("--outside-files", read.outside_files,
                    "Volumes: let .mhd and .nrrd headers name data files outside of their own folder");
 }

@@ -30,7 +30,8 @@ class UsageError : public std::runtime_error {
 /// What to read, and which of its arrays the command is about.
 struct InputOptions {
   std::string input;
-  io::ReadOptions read;  ///< `read.array` is --array: the field's name, or empty
+  io::ReadOptions read;       ///< `read.array` is --array: the field's name, or empty
+  std::optional<int> height;  ///< --height: the coordinate that is the field, 0 to 2
 
   void add_to(CLI::App& command);
 };

@@ -95,12 +95,19 @@ void Session::warm_up(const StructureOption& option, std::function<void(const Ve
 io::Dataset Session::read_any() {
   begin_step("reading", input_.input);
   io::Dataset dataset = timed(report_.seconds.read, [&] { return io::read(input_.input, input_.read); });
+  if (input_.height) outputs::add_height(dataset, *input_.height);
   report_.vertices = std::visit([](const auto& points) { return std::int64_t(points.extent(0)); }, dataset.points);
-  report_.tetrahedra = static_cast<std::int64_t>(dataset.tetrahedra.extent(0));
+  const auto cells = static_cast<std::int64_t>(dataset.cells());
   console_.say("input", input_.input);
   note(dataset.notices);
   console_.say("vertices", grouped(*report_.vertices));
-  console_.say("tetrahedra", grouped(*report_.tetrahedra));
+  if (dataset.dimension() == 3) {
+    report_.tetrahedra = cells;
+    console_.say("tetrahedra", grouped(cells));
+  } else {
+    report_.triangles = cells;
+    console_.say("triangles", grouped(cells));
+  }
   return dataset;
 }
 
@@ -111,6 +118,8 @@ io::Dataset Session::read() {
 }
 
 io::PointArray Session::select_field(const io::Dataset& dataset) {
+  if (dataset.arrays.empty() && input_.read.array.empty())
+    throw Error("'" + input_.input + "' has no point array to analyse: --height x, y or z takes a coordinate");
   io::PointArray field = outputs::select_field(dataset, input_.read.array);
   console_.say("field", field.name);
   return field;
@@ -126,9 +135,10 @@ Mesh Session::encode(io::Dataset& dataset, const SegmentationOptions& segmentati
   note(notices);
   const Stopwatch watch(report_.seconds.initialize);
   begin_step("encoding the mesh");
-  Mesh mesh(Tetrahedra<Id, HostMemory>(dataset.tetrahedra), segments);
+  Mesh mesh = outputs::mesh_of(dataset, segments);
   if (keep == Keep::nothing) {
     dataset.tetrahedra = {};
+    dataset.triangles = {};
     dataset.cell_arrays.clear();
   }
   report_.segments = mesh.segments();
@@ -150,7 +160,7 @@ FieldOnMesh Session::read_part(const SegmentationOptions& segmentation, Keep kee
   FieldOnMesh on = read_on_ranks(input_, segmentation.capacity.value_or(default_capacity),
                                  {has_outputs_, has_outputs_ && keep == Keep::tetrahedra}, was_read);
   report_.vertices = on.mesh.all_vertices();
-  report_.tetrahedra = on.mesh.all_tetrahedra();
+  report_.tetrahedra = on.mesh.all_cells();
   report_.segments = ranks_.sum(on.mesh.owned_segments());
   console_.say("vertices", grouped(*report_.vertices));
   console_.say("tetrahedra", grouped(*report_.tetrahedra));
@@ -237,7 +247,7 @@ void Session::finish(const Structure* structure) {
     note(structure->statistics().notices);
   }
   if (report_.edges) console_.say("edges", grouped(*report_.edges));
-  if (report_.triangles) console_.say("triangles", grouped(*report_.triangles));
+  if (report_.triangles && report_.tetrahedra) console_.say("triangles", grouped(*report_.triangles));
   tell_costs();
   const std::size_t results = files_.all().size();
   detail::together(ranks_, [&] {
@@ -258,7 +268,7 @@ nlohmann::ordered_json Session::differences_of_ranks() const {
   const auto on_device = device_peak_bytes();
   return {{"count", ranks_.size()},
           {"owned_vertices", by_rank(part_->owned_vertices())},
-          {"tetrahedra", by_rank(part_->tetrahedra())},
+          {"tetrahedra", by_rank(part_->cells())},
           {"host_peak_bytes", by_rank(static_cast<double>(host_peak_bytes()))},
           {"device_peak_bytes", on_device ? by_rank(static_cast<double>(*on_device)) : nlohmann::ordered_json(nullptr)},
           {"sent_messages", by_rank(static_cast<double>(ranks_.sent().messages))},

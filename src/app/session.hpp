@@ -31,6 +31,9 @@ struct FieldOnMesh {
   bool has_ids = false;  ///< whether GlobalPointIds of the dataset are the points' in the input of all ranks
 };
 
+/// Throws gale::Error, naming the input, for a mesh whose cells are of dimension 2.
+void require_tetrahedra(const InputOptions& input, int dimension);
+
 /// Segments the dataset's vertices as the options say: by an array, at random, or by an octree. Without options by the
 /// array of segments that the input brings, else by an octree. Says which array was taken; adds a line to `notices`
 /// about each that was ignored. Throws gale::Error for an array that isn't there or holds no segments.

@@ -118,11 +118,11 @@ class DistributedMesh::Sharing final : public Exchange {
 
   const Ranks& ranks() const override { return ranks_; }
   GlobalId vertices() const override { return vertices_; }
-  GlobalId tetrahedra() const override { return tetrahedra_; }
+  GlobalId cells() const override { return tetrahedra_; }
   GlobalId vertex_id(Id vertex) const override { return held_.id(vertex); }
-  GlobalId tetrahedron_id(Id tetrahedron) const override { return places_.id(tetrahedron); }
+  GlobalId cell_id(Id tetrahedron) const override { return places_.id(tetrahedron); }
   Id vertex_of(GlobalId id) const override { return held_.find(id); }
-  Id tetrahedron_of(GlobalId id) const override { return tetrahedron_index_.get().find(id); }
+  Id cell_of(GlobalId id) const override { return tetrahedron_index_.get().find(id); }
   int owner(Id vertex) const override { return owners.get()(vertex); }
   Array<int, HostMemory> owners_of(const Array<const GlobalId, HostMemory>& ids) const override;
   Offset given_vertices() const override { return given_vertices_; }

@@ -51,8 +51,8 @@ struct PointArray {
   Values values;       ///< the values of point p begin at p * components
 };
 
-/// A tetrahedral mesh in input ids, as read from a file or generated: what goes into a `gale::Mesh`, and what outputs
-/// are made from.
+/// A mesh of tetrahedra or of triangles in input ids, as read from a file or generated: what goes into a `gale::Mesh`,
+/// and what outputs are made from.
 struct Dataset {
   /// Three coordinates a point.
   template <class Coordinate>
@@ -66,11 +66,20 @@ struct Dataset {
   /// The four vertices of each tetrahedron.
   Kokkos::View<std::int32_t* [4], Kokkos::LayoutRight, Kokkos::HostSpace> tetrahedra;
 
+  /// The three vertices of each triangle, of a mesh that has no tetrahedra.
+  Kokkos::View<std::int32_t* [3], Kokkos::LayoutRight, Kokkos::HostSpace> triangles;
+
+  /// The dimension of the cells: 3 where there are tetrahedra, else 2.
+  int dimension() const { return tetrahedra.extent(0) > 0 ? 3 : 2; }
+
+  /// How many cells there are, of either dimension.
+  std::size_t cells() const { return tetrahedra.extent(0) + triangles.extent(0); }
+
   std::vector<PointArray> arrays;    ///< the file's point arrays, the active scalars first
   std::vector<std::string> notices;  ///< one line each about what of the file was left out, or split
 
-  /// Arrays of the tetrahedra: `GlobalCellIds`, the cell of the file that each is or is a part of, counted from 0; none
-  /// where these are all of the file's cells, in their order.
+  /// Arrays of the tetrahedra or triangles: `GlobalCellIds`, the cell of the file that each is or is a part of, counted
+  /// from 0; none where these are all of the file's cells, in their order.
   std::vector<PointArray> cell_arrays;
 };
 

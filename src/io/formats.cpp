@@ -6,7 +6,7 @@ namespace detail {
 
 // Defined in formats/, a file each.
 Reader read_vtu, read_pvtu, read_legacy_vtk, read_vti, read_nifti, read_meta_image, read_nrrd, read_exodus, read_vtkhdf,
-    read_vts, read_vtr;
+    read_vts, read_vtr, read_vtp, read_stl, read_ply, read_obj, read_off;
 
 }  // namespace detail
 
@@ -18,10 +18,13 @@ const std::vector<Format>& formats() {
       {"pieces of VTK XML meshes", ".pvtu", Input::mesh, written_pieces, true,
        "the `.vtu` that it names, in its folder or below, as one mesh", read_pvtu},
       {"legacy VTK", ".vtk", Input::mesh, written_meshes, false,
-       "an unstructured, structured or rectilinear grid; structured points are a volume", read_legacy_vtk},
-      {"VTK XML structured grid", ".vts", Input::mesh, 0, false, "a mesh of hexahedra, in one piece or several",
-       read_vts},
-      {"VTK XML rectilinear grid", ".vtr", Input::mesh, 0, false, "a mesh of voxels, in one piece or several",
+       "an unstructured, structured or rectilinear grid, or a surface; structured points are a volume",
+       read_legacy_vtk},
+      {"VTK XML surface", ".vtp", Input::mesh, written_points | written_surfaces | written_triangles, false,
+       "polygons and strips, in one piece or several", read_vtp},
+      {"VTK XML structured grid", ".vts", Input::mesh, 0, false,
+       "a mesh of hexahedra or quads, in one piece or several", read_vts},
+      {"VTK XML rectilinear grid", ".vtr", Input::mesh, 0, false, "a mesh of voxels or pixels, in one piece or several",
        read_vtr},
       {"VTK XML image", ".vti", Input::volume, 0, false, "an image, in one piece or several", read_vti},
       {"NIfTI", ".nii .nii.gz", Input::volume, 0, false,
@@ -34,7 +37,12 @@ const std::vector<Format>& formats() {
        "NetCDF's classic forms and NetCDF-4: all blocks of elements, nodal variables at the first time", read_exodus},
       {"VTKHDF", ".hdf .vtkhdf", Input::mesh, 0, false, "versions 1 and 2, a mesh or an image, at one time",
        read_vtkhdf},
-      {"VTK XML surface", ".vtp", Input::none, written_points | written_surfaces, false, "", nullptr},
+      {"STL", ".stl", Input::mesh, 0, false, "facets, ASCII or binary; their corners are one where they are equal",
+       read_stl},
+      {"PLY", ".ply", Input::mesh, 0, false, "faces and strips, ASCII or binary, and the numbers that vertices have",
+       read_ply},
+      {"Wavefront OBJ", ".obj", Input::mesh, 0, false, "vertices and faces", read_obj},
+      {"OFF", ".off", Input::mesh, 0, false, "vertices and faces, as text", read_off},
       {"pieces of VTK XML surfaces", ".pvtp", Input::none, written_points | written_surfaces, true, "", nullptr}};
   return all;
 }

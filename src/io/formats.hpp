@@ -28,13 +28,14 @@ using Reader = Content(const InputFile& file, const ReadOptions& options);
 enum class Input { none, mesh, volume };
 
 /// The kinds of results that are written to files of a format, each a bit: points alone, lines and polygons, lines
-/// alone, meshes, and pieces of meshes with their global ids.
+/// alone, meshes, pieces of meshes with their global ids, and meshes of triangles alone.
 enum Written : unsigned {
   written_points = 1,
   written_surfaces = 2,
   written_lines = 4,
   written_meshes = 8,
-  written_pieces = 16
+  written_pieces = 16,
+  written_triangles = 32
 };
 
 /// A format of files that are read or written.
@@ -47,8 +48,8 @@ struct Format {
   const char* about;       ///< what of its files is read, or nothing, for the documentation
   detail::Reader* reader;  ///< nullptr where none are read
 
-  /// Whether that is written to its files, not to others that they name.
-  bool takes(Written what) const { return (written & what) != 0 && !of_pieces; }
+  /// Whether any of that, bits of `Written`, is written to its files, not to others that they name.
+  bool takes(unsigned what) const { return (written & what) != 0 && !of_pieces; }
 };
 
 /// All formats: what is read and written by its extension, what help and documentation say of it.

@@ -32,15 +32,17 @@ GALE_EXPORT void rescale(Image& image, double slope, double intercept);
 
 /// The tetrahedral mesh of the voxels whose value in the image's first array is above `above`; without it, of those
 /// whose value is finite. NaN is never above. A cube of eight such neighbouring voxels becomes six tetrahedra along its
-/// main diagonal (Freudenthal), so neighbours share faces.
+/// main diagonal (Freudenthal), so neighbours share faces. An image of one layer, along any axis, is a mesh of
+/// triangles: a square of four such neighbours becomes two along its diagonal, as in `make_plane`.
 ///
 /// Vertices are the voxels that some cube uses, x fastest; tetrahedra follow their cubes, x fastest, and within a cube
 /// `make_grid`'s order. (Every edge joins voxels that are ordered alike along all three axes, so where values tie
 /// it makes no difference to critical points which axis is numbered fastest.) Points are float unless that would move
 /// them by more than a hundredth of a voxel; all arrays travel, in their types.
 ///
-/// Runs on all host threads; besides image and result it takes two bytes a voxel. Throws `Error` if a dimension is
-/// below 2, if no cube is left, or if the vertices or tetrahedra do not fit 32-bit ids. Precondition: `select_scalars`.
+/// Runs on all host threads; besides image and result it takes two bytes a voxel. Throws `Error` if two
+/// dimensions are below 2, if no cube is left, or if the vertices or tetrahedra do not fit 32-bit ids. Precondition:
+/// `select_scalars`.
 GALE_EXPORT Dataset split_voxels(Image image, std::optional<double> above);
 
 namespace detail {

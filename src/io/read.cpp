@@ -63,13 +63,15 @@ std::optional<int> grid_size(const std::string& input, const ReadOptions& option
 Dataset read(const std::string& input, const ReadOptions& options) {
   if (const auto n = grid_size(input, options)) return make_grid(*n);
   const std::string kind = input.substr(0, input.find(':'));
+  if (kind.size() < input.size() && kind == "plane") return make_plane(size_in_name(input, options));
   if (kind.size() < input.size() && is_synthetic(kind)) return make_synthetic(kind, size_in_name(input, options));
-  if (!detail::has_vtk()) refuse("this gale was built without VTK: it reads grid:N alone, not '", input, "'");
+  if (!detail::has_vtk())
+    refuse("this gale was built without VTK: it reads grid:N, plane:N and the like alone, not '", input, "'");
   const Format* const format = format_of(input);
   if (format == nullptr || format->reader == nullptr) {
     refuse("cannot read '", input, "': its extension is none of ",
            extensions_of([](const Format& one) { return one.reader != nullptr; }),
-           ", nor is it grid:N; for other meshes: meshio convert '", input, "' mesh.vtu");
+           ", nor is it grid:N or plane:N; for other meshes: meshio convert '", input, "' mesh.vtu");
   }
   return naming(input, [&] { return read_file(input, *format, options); });
 }
@@ -88,10 +90,10 @@ SomePieces read_pieces(const std::string& input, const PieceNames& some, const R
 }
 
 void split_pieces(const std::string& input, SomePieces& some, const Array<const GlobalId, HostMemory>& ids,
-                  const ReadOptions& options) {
+                  const ReadOptions& options, int dimension) {
   naming(input, [&] {
     detail::Cells cells{std::move(some.types), std::move(some.ends), std::move(some.connectivity)};
-    detail::split_into(some.mesh, cells, ids, options);
+    detail::split_into(some.mesh, cells, ids, options, dimension);
   });
 }
 

@@ -16,8 +16,9 @@ namespace gale::io {
 struct ReadOptions {
   /// Images: only voxels with values above this become vertices; without it all with finite values do.
   std::optional<double> above;
-  /// Meshes: refuse other cells of dimension 3 instead of splitting them into tetrahedra.
-  bool tetrahedra_alone = false;
+  /// Meshes: refuse cells that are neither tetrahedra nor, where there are no 3D cells, triangles, instead of splitting
+  /// them into these.
+  bool simplices_alone = false;
   /// Images: the array that `above` is about, as `select_scalars` takes it; empty means the file's scalars.
   std::string array;
   /// Headers such as `.mhd` may name data files that aren't in their own folder, nor below it.
@@ -31,11 +32,18 @@ struct ReadOptions {
 GALE_EXPORT std::optional<int> grid_size(const std::string& input, const ReadOptions& options);
 
 /// Reads what `input` names; extensions count in either case:
-/// - `grid:N`: see `make_grid`; `smooth:N`, `noisy:N`, `ball:N`, `shells:N`, `dense:N`: see `make_synthetic`.
+/// - `grid:N`: see `make_grid`; `plane:N`: see `make_plane`; `smooth:N`, `noisy:N`, `ball:N`, `shells:N`, `dense:N`:
+/// see
+///   `make_synthetic`.
 /// - `.vtu .vtk`: an unstructured grid. Its points and numeric point arrays travel as they are, the active scalars
 ///   first, and its tetrahedra keep their order. Other cells of dimension 3 are split (`split_cells`), with a notice,
-///   and those of lower dimension are left out, with another. `.vtk` of structured and rectilinear grids are meshes of
-///   hexahedra.
+///   and those of lower dimension are left out, with another. Where there are no 3D cells, the mesh is one of
+///   triangles: 2D cells stay or are split likewise (`split_polygons`). `.vts .vtr`, and `.vtk` of structured and
+///   rectilinear grids are meshes of hexahedra or, of one layer, of quads.
+/// - `.vtp`, and `.vtk` of such: polygons and strips, as a mesh of triangles. `.stl`: facets, whose corners are merged
+///   where their coordinates are equal. `.ply`: faces and strips; numbers of vertices beside x, y and z are point
+///   arrays.
+///   `.obj .off`: vertices and faces.
 /// - `.pvtu`: the pieces that it names, in its folder or below, as one mesh. Their points are the same where their
 ///   global ids are (`GlobalIds` of `PPointData`), or all coordinates if there are no such; ghost cells are left out.
 ///   Points are in the order of these ids, cells in that of theirs (`GlobalIds` of `PCellData`), else as they occur.
@@ -45,10 +53,11 @@ GALE_EXPORT std::optional<int> grid_size(const std::string& input, const ReadOpt
 ///   rescaled where the file says so. A NIfTI image keeps the file's voxel order, in the coordinates of its sform, else
 ///   its qform.
 ///
-/// Throws `Error` with one line that names `input` and what is wrong with it: no such file, damaged, another kind, no
-/// tetrahedra, too large for 32-bit ids. Whatever is in the file, nothing else happens: what it says of sizes is
-/// checked against what it has before memory is taken, so that reading takes memory in proportion to what a file holds;
-/// values that it lacks are an error. Nothing is printed. Any number of threads may read at the same time.
+/// Throws `Error` with one line that names `input` and what is wrong with it: no such file, damaged, another kind,
+/// neither tetrahedra nor triangles, too large for 32-bit ids. Whatever is in the file, nothing else happens: what it
+/// says of sizes is checked against what it has before memory is taken, so that reading takes memory in proportion to
+/// what a file holds; values that it lacks are an error. Nothing is printed. Any number of threads may read at the same
+/// time.
 GALE_EXPORT Dataset read(const std::string& input, const ReadOptions& options = {});
 
 /// The pieces that a `.pvtu` names.
@@ -79,10 +88,11 @@ GALE_EXPORT std::optional<PieceNames> piece_names(const std::string& input);
 /// Reads some of the pieces of a `.pvtu` as one mesh. Throws Error, naming the input.
 GALE_EXPORT SomePieces read_pieces(const std::string& input, const PieceNames& some, const ReadOptions& options);
 
-/// Splits the cells of such pieces into the tetrahedra of their mesh, by the global ids of its points, so that pieces
-/// that others read fit. Takes the cells; the notices about them are `notices_of_split`, for all pieces. Throws Error,
-/// naming the input.
+/// Splits the cells of such pieces into the tetrahedra of their mesh or, of `dimension` 2, into its triangles, by the
+/// global ids of its points, so that pieces that others read fit. The dimension is the highest that cells of any piece
+/// have. Takes the cells; the notices about them are `notices_of_split`, for all pieces. Throws Error, naming the
+/// input.
 GALE_EXPORT void split_pieces(const std::string& input, SomePieces& some, const Array<const GlobalId, HostMemory>& ids,
-                              const ReadOptions& options);
+                              const ReadOptions& options, int dimension = 3);
 
 }  // namespace gale::io

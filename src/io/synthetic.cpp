@@ -29,6 +29,9 @@ std::uint32_t hashed(std::uint32_t x) {
   return x ^ (x >> 16);
 }
 
+/// What the field has of that at a vertex.
+double noise_of(Offset vertex) { return 0.05 * (hashed(static_cast<std::uint32_t>(vertex)) / 4294967296.0); }
+
 /// Layers of cubes along z, and the layers of vertices at them.
 struct Layers {
   int n;
@@ -103,8 +106,8 @@ std::vector<float> make_field(const Layers& layers) {
     const Offset y = row % n, z = layers.first + row / n;
     for (int x = 0; x < n; ++x) {
       const std::size_t i = std::size_t(row) * n + x;
-      const double noise = 0.05 * (hashed(static_cast<std::uint32_t>(layers.first_vertex() + i)) / 4294967296.0);
-      field[i] = static_cast<float>(sine_x[x] * cosine_y[y] + sine_zx[std::size_t(z) * n + x] + noise);
+      field[i] = static_cast<float>(sine_x[x] * cosine_y[y] + sine_zx[std::size_t(z) * n + x] +
+                                    noise_of(layers.first_vertex() + static_cast<Offset>(i)));
     }
   });
   return field;
@@ -167,6 +170,39 @@ Dataset make_grid(int n) {
   dataset.points = make_points(all);
   dataset.tetrahedra = make_tetrahedra<std::int32_t>(all);
   dataset.arrays.push_back({"field", 1, make_field(all)});
+  return dataset;
+}
+
+Dataset make_plane(int n) {
+  const std::string name = "plane:" + std::to_string(n);
+  if (n < 2) refuse(name, " has no triangles: N must be at least 2");
+  const double squares = n - 1.0;
+  detail::require_ids_for(name + " has", 2 * squares * squares, "triangles");
+  Dataset dataset;
+  const Offset count = Offset(n) * n, width = n - 1;
+  const auto points = allocate<Dataset::Points<float>>("GALE::points", count);
+  std::vector<float> field(static_cast<std::size_t>(count));
+  parallel_for("GALE::make_plane_points", Host(), n, [&](Offset y) {
+    const double cosine_y = std::cos(0.13 * static_cast<double>(y));
+    for (int x = 0; x < n; ++x) {
+      const Offset i = y * n + x;
+      points(i, 0) = static_cast<float>(x);
+      points(i, 1) = static_cast<float>(y);
+      points(i, 2) = 0;
+      field[static_cast<std::size_t>(i)] =
+          static_cast<float>(std::sin(0.11 * x) * cosine_y + std::sin(0.05 * x) + noise_of(i));
+    }
+  });
+  dataset.points = points;
+  dataset.arrays.push_back({"field", 1, std::move(field)});
+  dataset.triangles = allocate<decltype(Dataset::triangles)>("GALE::triangles", 2 * width * width);
+  parallel_for("GALE::make_plane", Host(), width * width, [&](Offset square) {
+    const Id a = static_cast<Id>(square / width * n + square % width);
+    const Id corners[2][3] = {{a, a + 1, a + n + 1}, {a, a + n, a + n + 1}};
+    for (int t = 0; t < 2; ++t) {
+      for (int k = 0; k < 3; ++k) dataset.triangles(2 * square + t, k) = corners[t][k];
+    }
+  });
   return dataset;
 }
 

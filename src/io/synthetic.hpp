@@ -20,6 +20,12 @@ namespace gale::io {
 /// Runs on all host threads. Throws `Error` if n < 2, or if the vertices or tetrahedra do not fit 32-bit ids (n > 711).
 GALE_EXPORT Dataset make_grid(int n);
 
+/// The triangle mesh of n^2 points at whole coordinates (x, y, 0), with one array `field` (float): the input `plane:n`
+/// of the command. Vertex i = y*n + x; the square at a = (x, y) holds the triangles (a, a+1, a+n+1) and (a, a+n,
+/// a+n+1), x fastest. The field is make_grid's at z = 0, with this i. Throws `Error` if n < 2, or if the triangles do
+/// not fit 32-bit ids (n > 32768).
+GALE_EXPORT Dataset make_plane(int n);
+
 /// Whether there is a synthetic mesh of that kind: meshes of other character than the grid's, for measurements, the
 /// inputs `smooth:N`, `noisy:N`, `ball:N`, `shells:N` and `dense:N` of the command. Each has points of a cube of n^3
 /// and one array `field`, above 0:

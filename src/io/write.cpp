@@ -29,6 +29,8 @@ std::size_t points_of(const Dataset::Positions& points) {
   return std::visit([](const auto& p) { return p.extent(0); }, points);
 }
 
+const char* cells_of(const Dataset& mesh) { return mesh.dimension() == 2 ? "triangles" : "tetrahedra"; }
+
 void check_cells(std::size_t points, const Surface::Cells& cells) {
   const auto end = static_cast<std::int64_t>(cells.points.size());
   if (cells.begin.empty() || cells.begin.front() != 0 || cells.begin.back() != end ||
@@ -40,13 +42,13 @@ void check_cells(std::size_t points, const Surface::Cells& cells) {
   }
 }
 
-/// Throws Error unless the file's extension is one that is written with that. `what` it is.
-void require_format(const std::string& path, Written bit, const char* what) {
+/// Throws Error unless the file's extension is one that is written with any of these bits. `what` it is.
+void require_format(const std::string& path, unsigned bits, const char* what) {
   const Format* const format = format_of(path);
-  if (format != nullptr && format->takes(bit)) return;
+  if (format != nullptr && format->takes(bits)) return;
   std::string rule;
   for (const Format& other : formats()) {
-    if (other.takes(bit)) rule += (rule.empty() ? "" : " nor ") + std::string(other.extensions);
+    if (other.takes(bits)) rule += (rule.empty() ? "" : " nor ") + std::string(other.extensions);
   }
   const bool several = rule.find(' ') != std::string::npos;
   refuse("cannot write ", what, " to '", path, "': its extension is ", several ? "neither " : "not ", rule);
@@ -64,11 +66,11 @@ void name_in_errors(const std::string& path, const Write& write) {
   }
 }
 
-/// Runs `write(file)` for the file to write to, if its format is written with that; it appears then, unless the caller
-/// commits it.
+/// Runs `write(file)` for the file to write to, if its format is written with any of that; it appears then, unless the
+/// caller commits it.
 template <class Write>
-void write_as(const Target& to, Written bit, const char* what, const Write& write) {
-  require_format(to.path(), bit, what);
+void write_as(const Target& to, unsigned bits, const char* what, const Write& write) {
+  require_format(to.path(), bits, what);
   name_in_errors(to.path(), [&] {
     if (to.file() != nullptr) return write(*to.file());
     AtomicFile file(to.path());
@@ -112,11 +114,15 @@ void write_lines(const Target& to, const Surface& lines) {
 }
 
 void write_mesh(const Target& to, const Dataset& mesh, const std::vector<PointArray>& more) {
-  write_as(to, written_meshes, "a mesh", [&](const AtomicFile& file) {
+  const bool is_flat = mesh.dimension() == 2;
+  const unsigned bits = is_flat ? written_meshes | written_triangles : written_meshes;
+  write_as(to, bits, "a mesh", [&](const AtomicFile& file) {
     check_arrays(points_of(mesh.points), mesh.arrays);
     check_arrays(points_of(mesh.points), more);
-    check_arrays(mesh.tetrahedra.extent(0), mesh.cell_arrays, "tetrahedra");
-    if (format_of(file.path())->takes(written_pieces)) {
+    check_arrays(mesh.cells(), mesh.cell_arrays, cells_of(mesh));
+    if (format_of(file.path())->takes(written_surfaces)) {
+      detail::write_xml(file, detail::content_of_triangles(mesh, more, mesh.cell_arrays));
+    } else if (format_of(file.path())->takes(written_pieces)) {
       detail::write_xml(file, detail::content_of(mesh, more, mesh.cell_arrays));
     } else {
       detail::write_legacy_vtk(file, mesh, more);
@@ -127,7 +133,7 @@ void write_mesh(const Target& to, const Dataset& mesh, const std::vector<PointAr
 void write_piece(const Target& to, const MeshPiece& piece) {
   write_as(to, written_pieces, "a piece of a mesh", [&](const AtomicFile& file) {
     check_arrays(points_of(piece.mesh.points), piece.mesh.arrays);
-    check_arrays(piece.mesh.tetrahedra.extent(0), piece.cell_arrays, "tetrahedra");
+    check_arrays(piece.mesh.cells(), piece.cell_arrays, cells_of(piece.mesh));
     detail::write_xml(file, detail::content_of(piece.mesh, {}, piece.cell_arrays));
   });
 }

@@ -40,8 +40,8 @@ inline constexpr const char* global_cell_ids = "GlobalCellIds";
 
 /// One rank's part of a mesh that lies on several. Its point arrays have GlobalPointIds, its cell arrays GlobalCellIds.
 struct MeshPiece {
-  Dataset mesh;                         ///< the rank's own tetrahedra, with all their vertices
-  std::vector<PointArray> cell_arrays;  ///< a value for each tetrahedron
+  Dataset mesh;                         ///< the rank's own tetrahedra or triangles, with all their vertices
+  std::vector<PointArray> cell_arrays;  ///< a value for each of these
 };
 
 /// Where something is written: a path, or the temporary file of an AtomicFile, whose path decides then, and which the
@@ -78,8 +78,9 @@ GALE_EXPORT void write_surface(const Target& to, const Surface& surface);
 /// lines, such as persistence diagrams.
 GALE_EXPORT void write_lines(const Target& to, const Surface& lines);
 
-/// Writes points, tetrahedra and arrays of `mesh` in their order to a `.vtu` or (binary, legacy) `.vtk`, by the
-/// extension; then those of `more`, so that results need not be copied into the mesh first.
+/// Writes points, tetrahedra or triangles, and arrays of `mesh` in their order to a `.vtu` or (binary, legacy) `.vtk`,
+/// or triangles to a `.vtp`, by the extension; then those of `more`, so that results need not be copied into the mesh
+/// first.
 GALE_EXPORT void write_mesh(const Target& to, const Dataset& mesh, const std::vector<PointArray>& more = {});
 
 /// Writes a piece, which may be empty, to a `.vtu`.

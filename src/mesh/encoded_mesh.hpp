@@ -5,7 +5,8 @@
 
 namespace gale {
 
-/// The four vertices of a tetrahedron, ascending unless it says otherwise.
+/// The vertices of a cell, ascending unless it says otherwise: four of a tetrahedron, three of a triangle, which has
+/// its third one at d again.
 struct alignas(16) Quad {
   Id a;  ///< the vertex at corner 0
   Id b;  ///< the vertex at corner 1
@@ -57,7 +58,7 @@ using Borrowed = Kokkos::View<const T*, Memory, Kokkos::MemoryUnmanaged>;
 }  // namespace detail
 
 /// The arrays of a mesh that relations are computed from, where code that runs on `Memory` can read them. All ids are
-/// GALE's own: vertices numbered segment after segment, tetrahedra sorted by their four ascending vertices.
+/// GALE's own: vertices numbered segment after segment, cells sorted by their ascending vertices.
 ///
 /// Owns nothing, so that threads and kernels may copy it (a managed View's count is no atomic where Kokkos has Serial
 /// alone): a `Mesh` keeps the arrays.
@@ -67,16 +68,16 @@ struct EncodedMesh {
   template <class T>
   using Unmanaged = detail::Borrowed<T, Memory>;
 
-  IdsByFour<Memory> tetrahedra;  ///< four vertices each, ascending
+  IdsByFour<Memory> cells;  ///< the vertices of each, ascending; of triangles the third one twice
 
   Unmanaged<Id> vertex_begin;        ///< I_V: segment s holds the vertices [vertex_begin[s], vertex_begin[s+1])
-  Unmanaged<Id> internal_begin;      ///< I_T: its internal tetrahedra, whose lowest vertex it holds, likewise
+  Unmanaged<Id> internal_begin;      ///< I_T: its internal cells, whose lowest vertex it holds, likewise
   Unmanaged<Offset> external_begin;  ///< its row of `external`
-  Unmanaged<Id>
-      external;  ///< T_ex: the tetrahedra that touch it and are internal to an earlier segment, ascending in a row
+  Unmanaged<Id> external;  ///< T_ex: the cells that touch it and are internal to an earlier segment, ascending in a row
+  int dimension = 3;       ///< the cells' dimension: 3 where they are tetrahedra, 2 where they are triangles
 
-  /// The four vertices of a tetrahedron, in one load.
-  KOKKOS_FORCEINLINE_FUNCTION Quad tetrahedron(Id t) const { return quad_at(tetrahedra.data(), t); }
+  /// The vertices of a cell, in one load.
+  KOKKOS_FORCEINLINE_FUNCTION Quad cell(Id t) const { return quad_at(cells.data(), t); }
 };
 
 namespace detail {
@@ -86,19 +87,20 @@ IdsByFour<Memory> by_four(const Array<const Quad, Memory>& quads) {
   return IdsByFour<Memory>(reinterpret_cast<const Id*>(quads.data()), quads.extent(0));
 }
 
-/// The arrays themselves, and vertex -> the first tetrahedron whose lowest vertex it is.
+/// The arrays themselves, and vertex -> the first cell whose lowest vertex it is.
 struct MeshArrays {
-  Mirrored<Quad> tetrahedra;
+  Mirrored<Quad> cells;
   Mirrored<Id> vertex_begin, internal_begin;
   Mirrored<Offset> external_begin;
   Mirrored<Id> external;
-  Mirrored<Id> tetrahedron_begin;
+  Mirrored<Id> cell_begin;
+  int dimension = 3;
 
   /// Copies to `Memory` what isn't there.
   template <class Memory>
   EncodedMesh<Memory> in() const {
-    return {by_four(tetrahedra.in<Memory>()), vertex_begin.in<Memory>(), internal_begin.in<Memory>(),
-            external_begin.in<Memory>(), external.in<Memory>()};
+    return {by_four(cells.in<Memory>()), vertex_begin.in<Memory>(), internal_begin.in<Memory>(),
+            external_begin.in<Memory>(), external.in<Memory>(),     dimension};
   }
 };
 

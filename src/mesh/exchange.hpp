@@ -15,7 +15,7 @@ class ExchangePlan;
 /// simplices, who owns them, and what others know of them. This class is that of a whole mesh, which asks nobody: ids
 /// are input ids. A DistributedMesh has one over MPI.
 ///
-/// Vertices and tetrahedra of the part are named by local input ids, which ascend with the global ones.
+/// Vertices and cells of the part are named by local input ids, which ascend with the global ones.
 class GALE_EXPORT Exchange {
  public:
   virtual ~Exchange() = default;
@@ -32,20 +32,20 @@ class GALE_EXPORT Exchange {
   /// How many vertices all ranks own together; -1 of a whole mesh, which knows by itself.
   virtual GlobalId vertices() const { return -1; }
 
-  /// How many tetrahedra there are on all ranks; -1 of a whole mesh.
-  virtual GlobalId tetrahedra() const { return -1; }
+  /// How many cells there are on all ranks; -1 of a whole mesh.
+  virtual GlobalId cells() const { return -1; }
 
   /// The global id of a vertex.
   virtual GlobalId vertex_id(Id vertex) const { return vertex; }
 
-  /// The global id of a tetrahedron.
-  virtual GlobalId tetrahedron_id(Id tetrahedron) const { return tetrahedron; }
+  /// The global id of a cell.
+  virtual GlobalId cell_id(Id cell) const { return cell; }
 
   /// The vertex that has a global id; no_id if this rank doesn't hold it.
   virtual Id vertex_of(GlobalId id) const { return static_cast<Id>(id); }
 
-  /// The tetrahedron that has a global id; no_id if this rank doesn't hold it.
-  virtual Id tetrahedron_of(GlobalId id) const { return static_cast<Id>(id); }
+  /// The cell that has a global id; no_id if this rank doesn't hold it.
+  virtual Id cell_of(GlobalId id) const { return static_cast<Id>(id); }
 
   /// The rank that owns a vertex of this part.
   virtual int owner(Id) const { return 0; }

@@ -121,10 +121,14 @@ InputNumbers numbers_of(const Mesh& mesh, bool edges, bool triangles) {
 
 Array<const Id, HostMemory> input_numbers(const Mesh& mesh, int dimension) {
   if (dimension == 0) return mesh.vertex_input();
-  if (dimension == 3) return mesh.tetrahedron_input();
+  if (dimension == mesh.dimension()) return mesh.cell_input();
   return dimension == 1 ? numbers_of(mesh, true, false).edges : numbers_of(mesh, false, true).triangles;
 }
 
-InputNumbers input_numbers(const Mesh& mesh) { return numbers_of(mesh, true, true); }
+InputNumbers input_numbers(const Mesh& mesh) {
+  InputNumbers numbers = numbers_of(mesh, true, mesh.dimension() == 3);
+  if (mesh.dimension() == 2) numbers.triangles = mesh.cell_input();
+  return numbers;
+}
 
 }  // namespace gale

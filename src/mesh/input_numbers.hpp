@@ -5,9 +5,9 @@
 
 namespace gale {
 
-/// What users call the simplices of a dimension 0 to 3, by GALE's id, on the host. Vertices and tetrahedra have their
-/// places in the input; an edge or a triangle has its place among all of the mesh, each written with its input vertices
-/// ascending, in lexicographic order. So the numbers depend on nothing but the input.
+/// What users call the simplices of a dimension 0 to 3, by GALE's id, on the host. Vertices and cells have their places
+/// in the input; an edge, and a triangle that is no cell, has its place among all of the mesh, each written with its
+/// input vertices ascending, in lexicographic order. So the numbers depend on nothing but the input.
 ///
 /// Edges and triangles are enumerated if they haven't been, and numbered: O(n), O(n log n) at vertices and edges of
 /// very many. On the host each vertex numbers those of which it has the least input id, in 16 bytes a vertex and 4 for

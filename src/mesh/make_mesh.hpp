@@ -102,17 +102,18 @@ auto view_of(const char* name, const std::vector<T>& values) {
 
 }  // namespace detail
 
-/// Makes the mesh of what a caller has in Views of its own: `points` are n x 3 coordinates, `tetrahedra` m x 4 vertex
-/// ids. Any layout, in host memory or the workers', managed or not; float or double, any integer type. They are read
-/// where they are if their rows are contiguous and their types are those of GALE (std::int32_t or std::int64_t), else
-/// copied first. Nothing keeps them.
+/// Makes the mesh of what a caller has in Views of its own: `points` are n x 3 coordinates, `cells` m x 4 vertex ids of
+/// tetrahedra or m x 3 of triangles. Any layout, in host memory or the workers', managed or not; float or double, any
+/// integer type. They are read where they are if their rows are contiguous and their types are those of GALE
+/// (std::int32_t or std::int64_t), else copied first. Nothing keeps them.
 ///
 /// Segmented by an octree of `capacity` vertices a segment. Throws as octree_segmentation and Mesh do, and if the
-/// second extents aren't 3 and 4.
-template <class PointView, class TetrahedronView>
-Mesh make_mesh(const PointView& points, const TetrahedronView& tetrahedra, int capacity = default_capacity) {
-  return Mesh(detail::rows_of<4, detail::IndexFor>("tetrahedra", tetrahedra),
-              octree_segmentation(detail::rows_of<3, detail::CoordinateFor>("points", points), capacity));
+/// second extents aren't 3, and 3 or 4.
+template <class PointView, class CellView>
+Mesh make_mesh(const PointView& points, const CellView& cells, int capacity = default_capacity) {
+  const auto segmentation = octree_segmentation(detail::rows_of<3, detail::CoordinateFor>("points", points), capacity);
+  return cells.extent(1) == 3 ? Mesh(detail::rows_of<3, detail::IndexFor>("triangles", cells), segmentation)
+                              : Mesh(detail::rows_of<4, detail::IndexFor>("tetrahedra", cells), segmentation);
 }
 
 /// Takes what a caller has in Views of rank 1, as VTK numbers and orders cells: their points, where each cell begins
@@ -129,9 +130,9 @@ auto cells_of(const ConnectivityView& connectivity, const OffsetView& offsets, c
                               detail::entries_of<Index, Memory>(connectivity)};
 }
 
-/// Makes the mesh of cells of any kind (`split_cells`), which are read as cells_of() does. Tetrahedra aren't copied
-/// where all cells are. Which cell a tetrahedron is of says split_cells, whose tetrahedra are those of this mesh.
-/// Throws as split_cells, too.
+/// Makes the mesh of cells of any kind, which are read as cells_of() does: of tetrahedra (`split_cells`), or, where no
+/// cell is of dimension 3, of triangles (`split_polygons`). Tetrahedra aren't copied where all cells are. Which cell a
+/// tetrahedron or triangle is of says the function that split them. Throws as that does, too.
 template <class PointView, class ConnectivityView, class OffsetView, class TypeView>
 Mesh make_mesh(const PointView& points, const ConnectivityView& connectivity, const OffsetView& offsets,
                const TypeView& types, int capacity = default_capacity) {
@@ -141,8 +142,10 @@ Mesh make_mesh(const PointView& points, const ConnectivityView& connectivity, co
   const auto segmentation = octree_segmentation(detail::rows_of<3, detail::CoordinateFor>("points", points), capacity);
   if (are_tetrahedra(cells))
     return Mesh(Tetrahedra<Index, Memory>(cells.connectivity.data(), cells.types.extent(0)), segmentation);
-  return Mesh(Tetrahedra<Id, Memory>(split_cells(cells, static_cast<Offset>(points.extent(0))).simplices),
-              segmentation);
+  const auto count = static_cast<Offset>(points.extent(0));
+  if (highest_dimension(on_host(cells.types)) == 2)
+    return Mesh(Triangles<Id, Memory>(split_polygons(cells, count).simplices), segmentation);
+  return Mesh(Tetrahedra<Id, Memory>(split_cells(cells, count).simplices), segmentation);
 }
 
 /// Makes the mesh of vectors of 3 coordinates a point and 4 vertex ids a tetrahedron. Throws gale::Error, too, if the

@@ -14,17 +14,26 @@
 
 namespace gale {
 
-/// Four vertices per tetrahedron, in input ids, as a caller has them, in host memory or the workers'.
-template <class Index, class Memory>
-using Tetrahedra = Kokkos::View<const Index* [4], Kokkos::LayoutRight, Memory>;
+/// The vertices of each cell, in input ids, as a caller has them, in host memory or the workers'.
+template <int corners, class Index, class Memory>
+using CellCorners = Kokkos::View<const Index* [corners], Kokkos::LayoutRight, Memory>;
 
-/// A tetrahedral mesh, encoded once so that the relations of any segment can be computed from it alone (the paper's
-/// §4.3).
+/// Four vertices per tetrahedron.
+template <class Index, class Memory>
+using Tetrahedra = CellCorners<4, Index, Memory>;
+
+/// Three vertices per triangle.
+template <class Index, class Memory>
+using Triangles = CellCorners<3, Index, Memory>;
+
+/// A mesh of tetrahedra, or of triangles, encoded once so that the relations of any segment can be computed from it
+/// alone (the paper's §4.3). These are its cells, and their dimension is its own.
 ///
 /// Any set of tetrahedra is a mesh: it may have several components, isolated vertices, parts that touch in an edge or a
-/// vertex only, and triangles with three and more tetrahedra. GALE numbers vertices and tetrahedra anew
-/// (`EncodedMesh`); the permutations lead back to input ids. Immutable after construction, so any number of threads may
-/// use it; copies share the arrays.
+/// vertex only, and triangles with three and more tetrahedra. Any set of triangles is one likewise: boundaries, edges
+/// with three triangles and more, vertices where fans meet. GALE numbers vertices and cells anew (`EncodedMesh`); the
+/// permutations lead back to input ids. Immutable after construction, so any number of threads may use it; copies share
+/// the arrays.
 ///
 /// Its arrays lie in the workers' memory, or in the host's where they don't fit that. Accessors that are templates give
 /// them to code that runs on `Memory`, which is HostMemory unless it is said, or WorkerMemory. The first call for a
@@ -33,22 +42,28 @@ using Tetrahedra = Kokkos::View<const Index* [4], Kokkos::LayoutRight, Memory>;
 class GALE_EXPORT Mesh {
  public:
   /// Encodes in the workers' space, in parallel, in time O(n); on the host if it doesn't fit the device's memory, and
-  /// says so in notice(). Peak memory beside the input: 20 bytes a tetrahedron and 4 an external one, and 16 a vertex.
+  /// says so in notice(). Peak memory beside the input: 20 bytes a cell and 4 an external one, and 16 a vertex.
   ///
-  /// `Index` is std::int32_t or std::int64_t. Throws gale::Error, naming the tetrahedron at fault, where there is none
-  /// (unless the mesh is a part), where one has a vertex outside 0..vertices-1 or the same twice, and where two have
-  /// the same four.
+  /// `Index` is std::int32_t or std::int64_t. Throws gale::Error, naming the cell at fault, where there is none (unless
+  /// the mesh is a part), where one has a vertex outside 0..vertices-1 or the same twice, and where two have the same
+  /// vertices.
   ///
   /// With an `exchange` the mesh is one rank's part of a larger one.
   template <class Index, class Memory>
   Mesh(const Tetrahedra<Index, Memory>& tetrahedra, const Segmentation& segmentation,
        std::shared_ptr<const Exchange> exchange = nullptr);
 
+  /// Encodes triangles likewise.
+  template <class Index, class Memory>
+  Mesh(const Triangles<Index, Memory>& triangles, const Segmentation& segmentation,
+       std::shared_ptr<const Exchange> exchange = nullptr);
+
   /// Is it the same mesh, or a copy of it? Another one of equal tetrahedra isn't.
   bool operator==(const Mesh& other) const { return data_ == other.data_; }
 
+  int dimension() const;  ///< that of its cells: 3 where these are tetrahedra, 2 where they are triangles
   Id vertices() const;    ///< how many vertices it has, ghosts included
-  Id tetrahedra() const;  ///< how many tetrahedra it has
+  Id cells() const;       ///< how many tetrahedra it has, or triangles if its dimension is 2
   Id segments() const;    ///< how many segments it has, those of ghosts included
 
   /// Sweeps go through the first so many segments, which hold the vertices 0 to owned_vertices() - 1: all of them,
@@ -66,14 +81,14 @@ class GALE_EXPORT Mesh {
   /// The global id of a vertex, by its input id: that itself unless the mesh is a part.
   GlobalId vertex_id(Id vertex) const { return exchange().vertex_id(vertex); }
 
-  /// The global id of a tetrahedron, by its input id: that itself unless the mesh is a part.
-  GlobalId tetrahedron_id(Id tetrahedron) const { return exchange().tetrahedron_id(tetrahedron); }
+  /// The global id of a cell, by its input id: that itself unless the mesh is a part.
+  GlobalId cell_id(Id cell) const { return exchange().cell_id(cell); }
 
   /// The input id of the vertex that has a global id; no_id if the mesh doesn't hold it.
   Id vertex_of(GlobalId id) const;
 
-  GlobalId all_vertices() const;    ///< how many vertices the parts of all ranks have together
-  GlobalId all_tetrahedra() const;  ///< how many tetrahedra the parts of all ranks have together
+  GlobalId all_vertices() const;  ///< how many vertices the parts of all ranks have together
+  GlobalId all_cells() const;     ///< how many cells the parts of all ranks have together
 
   /// Whether its arrays lie in a device's memory. Tables of simplices that are made later may lie in the host's.
   bool on_device() const;
@@ -99,9 +114,9 @@ class GALE_EXPORT Mesh {
   /// How many triangles there are; no_id as long as nobody needed them.
   Id known_triangles() const;
 
-  /// The intervals: where the simplices of a dimension 0 to 3 that are internal to each segment begin, and one past the
-  /// last (I_V, I_E, I_F and I_T). Edges and triangles are enumerated if they haven't been. The host always has those
-  /// that are there: no lock.
+  /// The intervals: where the simplices of a dimension, 0 to that of the mesh, that are internal to each segment begin,
+  /// and one past the last (I_V, I_E, I_F and I_T). Edges, and triangles that aren't the cells, are enumerated if they
+  /// haven't been. The host always has those that are there: no lock.
   template <class Memory = HostMemory>
   const Array<const Id, Memory>& interval_begin(int dimension) const;
 
@@ -122,11 +137,12 @@ class GALE_EXPORT Mesh {
   template <class Memory = HostMemory>
   const Array<const Id, Memory>& vertex_internal() const;
 
-  /// GALE's tetrahedron -> input tetrahedron.
+  /// GALE's cell -> input cell.
   template <class Memory = HostMemory>
-  const Array<const Id, Memory>& tetrahedron_input() const;
+  const Array<const Id, Memory>& cell_input() const;
 
-  /// The segment that a simplex of a dimension 0 to 3 (GALE's id) is internal to: a binary search among the segments.
+  /// The segment that a simplex of a dimension up to the mesh's (GALE's id) is internal to: a binary search among the
+  /// segments.
   Id segment_of(int dimension, Id simplex) const;
 
   /// What someone found out about the mesh, and keeps with it and its copies: what `make` returned when this was first

@@ -31,15 +31,15 @@ KOKKOS_INLINE_FUNCTION Id find_in(const Values& values, Id begin, Id end, Id val
 }  // namespace detail
 
 /// Which simplices are numbered. Triangles need the edges.
-enum class Enumeration { tetrahedra, edges, triangles };
+enum class Enumeration { cells, edges, triangles };
 
 /// What someone needs of the tables of `Simplices`.
 struct SimplexNeeds {
-  Enumeration upto = Enumeration::tetrahedra;  ///< what is numbered
-  bool lower_edges = false;                    ///< the edges by their higher vertex too; needs edges
-  bool tetrahedra = false;    ///< the tetrahedra themselves; on a device that has them they always come along
-  bool edge_low = true;       ///< that table, if edges are numbered
-  bool triangle_edge = true;  ///< that table, if triangles are numbered; made when someone needs it first
+  Enumeration upto = Enumeration::cells;  ///< what is numbered
+  bool lower_edges = false;               ///< the edges by their higher vertex too; needs edges
+  bool cells = false;                     ///< the cells themselves; on a device that has them they always come along
+  bool edge_low = true;                   ///< that table, if edges are numbered
+  bool triangle_edge = true;              ///< that table, if triangles are numbered; made when someone needs it first
 };
 
 /// All simplices of a mesh, each with its vertices ascending (a < b < c < d) and all of a dimension in lexicographic
@@ -53,9 +53,10 @@ struct Simplices {
   template <class T>
   using Unmanaged = detail::Borrowed<T, Memory>;
 
-  IdsByFour<Memory> tetrahedra;     ///< four vertices each, ascending
-  Unmanaged<Id> tetrahedron_begin;  ///< vertex a -> the first tetrahedron (a, ., ., .); one more at the end, as in all
-                                    ///< that follow
+  IdsByFour<Memory> cells;   ///< the vertices of each, see EncodedMesh
+  int dimension = 3;         ///< the cells' dimension: 2 where they are triangles
+  Unmanaged<Id> cell_begin;  ///< vertex a -> the first tetrahedron (a, ., ., .); one more at the end, as in all
+                             ///< that follow
 
   Unmanaged<Id> edge_begin;  ///< vertex a -> the first edge (a, .)
   Unmanaged<Id> edge_low;    ///< edge (a, b) -> a
@@ -70,8 +71,8 @@ struct Simplices {
   Id longest_list = 0;  ///< known with lower_edges: the most edges (a, .), edges (., a) or tetrahedra (a, ., ., .)
                         ///< that a vertex a has
 
-  /// The four vertices of a tetrahedron, in one load.
-  KOKKOS_FUNCTION Quad tetrahedron(Id t) const { return quad_at(tetrahedra.data(), t); }
+  /// The vertices of a cell, in one load.
+  KOKKOS_FUNCTION Quad cell(Id t) const { return quad_at(cells.data(), t); }
 
   /// The edge (a, b), a < b; no_id if there is none.
   KOKKOS_FUNCTION Id edge_of(Id a, Id b) const {

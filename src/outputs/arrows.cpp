@@ -1,5 +1,9 @@
+#include <functional>
+#include <limits>
+
 #include <gale/base/error.hpp>
 #include <gale/base/parallel.hpp>
+#include <gale/base/sort.hpp>
 #include <gale/mesh/positions.hpp>
 #include <gale/outputs/arrows.hpp>
 
@@ -26,16 +30,20 @@ class Arrows {
 
   io::PointSet draw() {
     const Id of_vertices = mesh_.vertices() - static_cast<Id>(gradient_.critical().vertices.size());
-    const Id of_triangles = mesh_.tetrahedra() - static_cast<Id>(gradient_.critical().tetrahedra.size());
-    const Id of_edges = place_edges();
-    const Offset count = Offset(of_vertices) + of_edges + of_triangles;
+    const Id of_cells = mesh_.cells() - static_cast<Id>(gradient_.critical().cells.size());
+    const Id of_edges = mesh_.dimension() == 3 ? place_edges() : 0;
+    const Offset count = Offset(of_vertices) + of_edges + of_cells;
     require_ids("arrows", count);
     tails_ = allocate<io::Dataset::Points<Coordinate>>("GALE::tails", count);
     vectors_.resize(3 * count);
     dimensions_.resize(count);
     draw_vertices();
-    draw_edges(of_vertices);
-    draw_triangles(of_vertices + of_edges);
+    if (mesh_.dimension() == 3) {
+      draw_edges(of_vertices);
+      draw_triangles(of_vertices + of_edges);
+    } else {
+      draw_edges_of_triangles(of_vertices);
+    }
     return {tails_, {{"CellDimension", 1, std::move(dimensions_)}, {"Vector", 3, std::move(vectors_)}}};
   }
 
@@ -72,19 +80,48 @@ class Arrows {
     });
   }
 
+  /// On a triangle mesh, where triangles know their edges.
+  void draw_edges_of_triangles(Id begin) {
+    struct Pair {
+      Id high, low, third;
+      bool operator<(const Pair& other) const { return high < other.high || (high == other.high && low < other.low); }
+    };
+    const std::uint64_t* const keys = gradient_.order().keys();
+    const auto& triangles = mesh_.encoded().cells;
+    std::vector<Pair> pairs(mesh_.cells());
+    parallel_for("GALE::arrows_of_edges", HostExecutionSpace(), mesh_.cells(), [&](Offset t) {
+      const Partner partner = gradient_.pair_of_cell(t);
+      if (partner.is_critical()) {
+        pairs[t] = {std::numeric_limits<Id>::max(), 0, 0};
+        return;
+      }
+      Id edge[2] = {};
+      for (int corner = 0, i = 0; corner < 3; ++corner) {
+        if (triangles(t, corner) != partner.vertex) edge[i++] = triangles(t, corner);
+      }
+      if (keys[edge[0]] < keys[edge[1]]) std::swap(edge[0], edge[1]);
+      pairs[t] = {input_[edge[0]], input_[edge[1]], input_[partner.vertex]};
+    });
+    parallel_sort("GALE::sort_arrows", pairs.begin(), pairs.end(), std::less<Pair>());
+    pairs.resize(pairs.size() - gradient_.critical().cells.size());
+    parallel_for("GALE::draw_arrows", HostExecutionSpace(), pairs.size(), [&](Offset i) {
+      draw(begin + static_cast<Id>(i), std::array<Id, 2>{pairs[i].high, pairs[i].low}, pairs[i].third);
+    });
+  }
+
   void draw_triangles(Id begin) {
-    const Id* const tetrahedron_input = mesh_.tetrahedron_input().data();
-    const auto& tetrahedra = mesh_.encoded().tetrahedra;
-    parallel_for("GALE::arrows_of_triangles", HostExecutionSpace(), mesh_.tetrahedra(), [&](Offset t) {
-      const Partner partner = gradient_.pair_of_tetrahedron(t);
+    const Id* const cell_input = mesh_.cell_input().data();
+    const auto& tetrahedra = mesh_.encoded().cells;
+    parallel_for("GALE::arrows_of_triangles", HostExecutionSpace(), mesh_.cells(), [&](Offset t) {
+      const Partner partner = gradient_.pair_of_cell(t);
       if (partner.is_critical()) return;
       std::array<Id, 3> triangle{};
       for (int corner = 0, i = 0; corner < 4; ++corner) {
         if (tetrahedra(t, corner) != partner.vertex) triangle[i++] = input_[tetrahedra(t, corner)];
       }
-      const Id tetrahedron = tetrahedron_input[t];
-      draw(begin + tetrahedron - count_before(gradient_.critical().tetrahedra, tetrahedron_input, tetrahedron),
-           triangle, input_[partner.vertex]);
+      const Id tetrahedron = cell_input[t];
+      draw(begin + tetrahedron - count_before(gradient_.critical().cells, cell_input, tetrahedron), triangle,
+           input_[partner.vertex]);
     });
   }
 

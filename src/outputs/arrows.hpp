@@ -10,7 +10,8 @@ namespace gale::outputs {
 /// (the tail), with the arrays CellDimension (int8, of the tail: 0, 1 or 2) and Vector (three components of the
 /// coordinates' type, from the tail to the barycentre of the other simplex). First the pairs of vertices, by input id;
 /// then those of edges, by the input ids of their higher and then of their lower vertex; then those of triangles, by
-/// the input id of the tetrahedron. In parallel. Throws gale::Error if there are more than 2^31 - 1.
+/// the input id of the tetrahedron (a triangle mesh has none of these). In parallel. Throws gale::Error if there are
+/// more than 2^31 - 1.
 GALE_EXPORT io::PointSet arrows_of(const io::Dataset& dataset, const DiscreteGradient& gradient);
 
 }  // namespace gale::outputs

@@ -23,8 +23,9 @@ class Namer {
     return named;
   }
 
-  /// The vertices of a tetrahedron may come in any order.
-  CriticalSimplex name_tetrahedron(std::array<Id, 4> simplex, GlobalId cell) const {
+  /// The vertices of a cell may come in any order.
+  template <std::size_t N>
+  CriticalSimplex name_cell(std::array<Id, N> simplex, GlobalId cell) const {
     std::sort(simplex.begin(), simplex.end(), [this](Id a, Id b) { return keys_[a] > keys_[b]; });
     return name(simplex, cell);
   }
@@ -65,8 +66,14 @@ KnownSimplices known_simplices(const DiscreteGradient& gradient, const CriticalS
   for (std::size_t i = 0; i < critical.edges.size(); ++i) add(1, namer.name(critical.edges[i], numbers.edges[i]));
   for (std::size_t i = 0; i < critical.triangles.size(); ++i)
     add(2, namer.name(critical.triangles[i], numbers.triangles[i]));
-  for (const Id t : critical.tetrahedra)
-    add(3, namer.name_tetrahedron(detail::corners_of(mesh, t), mesh.tetrahedron_id(mesh.tetrahedron_input()(t))));
+  for (const Id t : critical.cells) {
+    const GlobalId id = mesh.cell_id(mesh.cell_input()(t));
+    if (critical.dimension == 2) {
+      add(2, namer.name_cell(detail::corners_of<3>(mesh, t), id));
+    } else {
+      add(3, namer.name_cell(detail::corners_of<4>(mesh, t), id));
+    }
+  }
   return known;
 }
 

@@ -9,9 +9,9 @@ namespace gale::outputs {
 
 /// A critical simplex as users know it.
 struct CriticalSimplex {
-  GlobalId cell;               ///< its CellId: the global id of a vertex or tetrahedron, else as in `SimplexNumbers`
+  GlobalId cell;               ///< its CellId: the global id of a vertex or cell, else as in `SimplexNumbers`
   std::array<Id, 4> vertices;  ///< input ids, from the highest to the lowest; the first dimension + 1 count
-  std::int8_t dimension;       ///< 0 to 3
+  std::int8_t dimension;       ///< 0 to that of the mesh
   std::int8_t on_surface;      ///< 1 if its highest vertex is on the mesh's surface, else 0
 
   /// The input id of its highest vertex.

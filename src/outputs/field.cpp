@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <type_traits>
+
 #include <gale/base/error.hpp>
 #include <gale/io/dataset.hpp>
 #include <gale/outputs/field.hpp>
@@ -89,6 +92,20 @@ io::PointArray select_field(const io::Dataset& dataset, const std::string& name)
   return io::extract_component(*array, component);
 }
 
+void add_height(io::Dataset& dataset, int axis) {
+  const auto coordinates = [axis](const auto& points) -> io::PointArray::Values {
+    using Coordinate = typename std::decay_t<decltype(points)>::non_const_value_type;
+    std::vector<Coordinate> values(points.extent(0));
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = points(i, axis);
+    return values;
+  };
+  auto& arrays = dataset.arrays;
+  arrays.erase(std::remove_if(arrays.begin(), arrays.end(),
+                              [](const io::PointArray& array) { return array.name == height_name; }),
+               arrays.end());
+  arrays.insert(arrays.begin(), {height_name, 1, std::visit(coordinates, dataset.points)});
+}
+
 const io::PointArray& order_array(const io::Dataset& dataset, const io::PointArray& field) {
   const auto* const order = find_array(dataset, field.name + order_suffix);
   return order == nullptr || order->components != 1 ? field : *order;
@@ -98,6 +115,11 @@ const io::PointArray& order_values(const io::Dataset& dataset, const io::PointAr
   const io::PointArray& order = order_array(dataset, field);
   if (&order != &field) check_permutation(order, vertices);
   return order;
+}
+
+Mesh mesh_of(const io::Dataset& dataset, const Segmentation& segmentation) {
+  return dataset.dimension() == 3 ? Mesh(Tetrahedra<Id, HostMemory>(dataset.tetrahedra), segmentation)
+                                  : Mesh(Triangles<Id, HostMemory>(dataset.triangles), segmentation);
 }
 
 VertexOrder order_of(const Mesh& mesh, const io::Dataset& dataset, const io::PointArray& field) {

@@ -28,6 +28,16 @@ GALE_EXPORT bool may_be_field(const std::string& name, int components, bool is_w
 /// names that there are, if there is none, or if the array called `name` has several components.
 GALE_EXPORT io::PointArray select_field(const io::Dataset& dataset, const std::string& name);
 
+/// The name of the array that add_height() makes.
+inline constexpr const char* height_name = "Height";
+
+/// Gives a dataset the coordinate `axis` (0 to 2) of its points as its first array, `Height`, in the points' type: a
+/// field for surfaces that have none. An array of the input that has this name goes.
+GALE_EXPORT void add_height(io::Dataset& dataset, int axis);
+
+/// The mesh of a dataset's tetrahedra, or of its triangles where it has these. Throws gale::Error as Mesh does.
+GALE_EXPORT Mesh mesh_of(const io::Dataset& dataset, const Segmentation& segmentation);
+
 /// The value of a field at an input vertex, which must be there.
 inline double value_at(const io::PointArray& field, Id vertex) {
   return std::visit([vertex](const auto& values) { return static_cast<double>(values[vertex]); }, field.values);

@@ -49,10 +49,15 @@ Labels places_of_extrema(const Ranks& ranks, const std::vector<Id>& simplices, c
   return gale::detail::places_of_keys(ranks, keys).places;
 }
 
+std::size_t saddles_of(const MorseSmaleComplex& complex) {
+  return complex.critical.edges.size() + complex.critical.triangles.size();
+}
+
 std::vector<GlobalId> sizes_on_ranks(const MorseSmaleComplex& complex) {
   const Mesh& mesh = complex.gradient.mesh();
   const Ranks& ranks = mesh.exchange().ranks();
   const auto counts = complex.critical.counts();
+  const std::size_t saddles = saddles_of(complex);
   std::vector<GlobalId> sizes;
   if (complex.parts.descending_manifolds) {
     const auto minima = places_of_extrema(ranks, complex.critical.vertices,
@@ -60,13 +65,13 @@ std::vector<GlobalId> sizes_on_ranks(const MorseSmaleComplex& complex) {
     append_sizes(mesh, complex.descending_manifold, minima, sizes);
   }
   sizes.resize(counts[0], -1);
-  sizes.resize(sizes.size() + counts[1] + counts[2], 0);
+  sizes.resize(sizes.size() + saddles, 0);
   if (complex.parts.ascending_manifolds) {
-    const auto maxima = places_of_extrema(ranks, complex.critical.tetrahedra,
-                                          [&](Id t) { return mesh.tetrahedron_id(mesh.tetrahedron_input()(t)); });
+    const auto maxima =
+        places_of_extrema(ranks, complex.critical.cells, [&](Id t) { return mesh.cell_id(mesh.cell_input()(t)); });
     append_sizes(mesh, complex.ascending_manifold, maxima, sizes);
   }
-  sizes.resize(counts[0] + counts[1] + counts[2] + counts[3], -1);
+  sizes.resize(counts[0] + saddles + complex.critical.cells.size(), -1);
   return sizes;
 }
 
@@ -74,8 +79,8 @@ std::vector<GlobalId> sizes_of_all(const MorseSmaleComplex& complex) {
   const auto counts = complex.critical.counts();
   std::vector<GlobalId> sizes;
   append_sizes(complex.descending_manifold, counts[0], sizes);
-  sizes.resize(sizes.size() + counts[1] + counts[2], 0);
-  append_sizes(complex.ascending_manifold, counts[3], sizes);
+  sizes.resize(sizes.size() + saddles_of(complex), 0);
+  append_sizes(complex.ascending_manifold, static_cast<Id>(complex.critical.cells.size()), sizes);
   return sizes;
 }
 

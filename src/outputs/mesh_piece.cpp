@@ -11,15 +11,15 @@ namespace {
 /// The tetrahedra whose highest vertices this rank owns: input ids, ascending.
 std::vector<Id> tetrahedra_of_piece(const VertexOrder& order) {
   const Mesh& mesh = order.mesh();
-  const auto tetrahedra = mesh.encoded().tetrahedra;
+  const auto tetrahedra = mesh.encoded().cells;
   const std::uint64_t* const keys = order.keys();
   std::vector<Id> owned;
-  for (Id t = 0; t < mesh.tetrahedra(); ++t) {
+  for (Id t = 0; t < mesh.cells(); ++t) {
     Id highest = tetrahedra(t, 0);
     for (int corner = 1; corner < 4; ++corner) {
       if (keys[tetrahedra(t, corner)] > keys[highest]) highest = tetrahedra(t, corner);
     }
-    if (highest < mesh.owned_vertices()) owned.push_back(mesh.tetrahedron_input()(t));
+    if (highest < mesh.owned_vertices()) owned.push_back(mesh.cell_input()(t));
   }
   std::sort(owned.begin(), owned.end());
   return owned;
@@ -78,8 +78,7 @@ io::MeshPiece piece_of(const VertexOrder& order, const io::Dataset& dataset, con
   }
   for (const io::PointArray& array : dataset.cell_arrays) piece.cell_arrays.push_back(io::gather(array, tetrahedra));
   if (piece.cell_arrays.empty()) {
-    piece.cell_arrays.push_back(
-        array_of_ids(io::global_cell_ids, tetrahedra, [&](Id t) { return mesh.tetrahedron_id(t); }));
+    piece.cell_arrays.push_back(array_of_ids(io::global_cell_ids, tetrahedra, [&](Id t) { return mesh.cell_id(t); }));
   }
   return piece;
 }

@@ -42,6 +42,13 @@ NamedSimplices named_simplices(const MorseSmaleComplex& complex) {
   const auto edge_of = [](Id a, Id b) { return Edge{a, b}; };
   append_between(complex.descending, complex.critical.edges, edge_of, named.edges);
   append_between(complex.connectors, complex.critical.edges, common<2, Triangle>, named.edges);
+  if (complex.critical.dimension == 2) {
+    const auto shared_edge = [&](Id a, Id b) {
+      return common<2>(detail::corners_of<3>(complex, a), detail::corners_of<3>(complex, b));
+    };
+    append_between(complex.ascending, complex.critical.edges, shared_edge, named.edges);
+    return named;
+  }
   const auto shared = [&](Id a, Id b) {
     return common<3>(detail::corners_of(complex, a), detail::corners_of(complex, b));
   };

@@ -13,6 +13,9 @@ namespace gale::outputs {
 ///   then one for each cell of `connectors`, the edge that precedes that triangle.
 /// - Triangles: the critical ones; then one for each cell of `ascending`, the triangle that precedes that tetrahedron;
 ///   then the cells of `connectors` themselves.
+///
+/// On a triangle mesh there are edges alone: after those of `descending` one for each cell of `ascending`, the edge
+/// that precedes that triangle.
 GALE_EXPORT NamedSimplices named_simplices(const MorseSmaleComplex& complex);
 
 namespace detail {
@@ -22,10 +25,11 @@ struct NamedGroups {
   explicit NamedGroups(const MorseSmaleComplex& complex)
       : descending_edges(complex.critical.edges.size()),
         connector_edges(descending_edges + complex.descending.cells.size()),
+        ascending_edges(connector_edges + complex.connectors.cells.size()),
         ascending_triangles(complex.critical.triangles.size()),
         connector_triangles(ascending_triangles + complex.ascending.cells.size()) {}
 
-  std::size_t descending_edges, connector_edges;
+  std::size_t descending_edges, connector_edges, ascending_edges;  ///< the last on a triangle mesh
   std::size_t ascending_triangles, connector_triangles;
 };
 

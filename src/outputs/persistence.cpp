@@ -46,8 +46,8 @@ Id highest_of(const DiscreteGradient& gradient, int dimension, Id place) {
   const auto& input = gradient.mesh().vertex_input();
   if (dimension == 0) return input(critical.vertices[place]);
   if (dimension == 1) return input(critical.edges[place][0]);
-  if (dimension == 2) return input(critical.triangles[place][0]);
-  const auto corners = detail::corners_of(gradient.mesh(), critical.tetrahedra[place]);
+  if (dimension == 2 && critical.dimension == 3) return input(critical.triangles[place][0]);
+  const auto corners = detail::corners_of(gradient.mesh(), critical.cells[place]);
   return input(*std::max_element(corners.begin(), corners.end(), [&](Id a, Id b) { return keys[a] < keys[b]; }));
 }
 
@@ -103,17 +103,21 @@ std::vector<DiagramPoint> persistence_diagram(const DiscreteGradient& gradient, 
   const auto value = [&](Id vertex) { return value_at(field, vertex); };
   std::vector<DiagramPoint> diagram;
   const Id last = highest_of_all(gradient);
+  const bool is_surface = gradient.critical().dimension == 2;
+  const std::array<std::int8_t, 4> begin_types = {0, std::int8_t(is_surface ? 2 : 1), std::int8_t(is_surface ? 3 : 2),
+                                                  3};
+  const std::array<std::int8_t, 3> end_types = {1, std::int8_t(is_surface ? 3 : 2), 3};
   for (int type = 0; type < 4; ++type) {
     const auto type8 = static_cast<std::int8_t>(type);
     for (std::size_t i = 0; type < 3 && i < pairs.pairs[type].size(); ++i) {
       const Id begin = highest(type, pairs.pairs[type][i].lower);
       const Id end = highest(type + 1, pairs.pairs[type][i].upper);
-      const DiagramPoint point{type8, true, begin, end, value(begin), value(end), static_cast<std::int8_t>(type + 1)};
+      const DiagramPoint point{type8, true, begin, end, value(begin), value(end), end_types[type], begin_types[type]};
       if (point.persistence() >= least) diagram.push_back(point);
     }
     for (const Id place : pairs.essential[type]) {
       const Id begin = highest(type, place);
-      diagram.push_back({type8, false, begin, last, value(begin), value(last), 3});
+      diagram.push_back({type8, false, begin, last, value(begin), value(last), 3, begin_types[type]});
     }
   }
   return diagram;
@@ -139,7 +143,7 @@ io::Surface to_lines(const io::Dataset& dataset, const io::PointArray& field,
       vertices.push_back(vertex);
     }
     lines.lines.begin.push_back(static_cast<std::int64_t>(lines.lines.points.size()));
-    critical_types.insert(critical_types.end(), {point.type, point.end_type});
+    critical_types.insert(critical_types.end(), {point.begin_type, point.end_type});
     identifiers.push_back(static_cast<Id>(i));
     types.push_back(point.type);
     persistence.push_back(point.persistence());

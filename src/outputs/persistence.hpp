@@ -23,13 +23,14 @@ GALE_EXPORT double threshold_of(const Persistence& persistence, const io::PointA
 
 /// A class of homology: where it begins and where it ends.
 struct DiagramPoint {
-  std::int8_t type;      ///< the dimension of the class
-  bool is_finite;        ///< whether it ends; if not, its end is the field's highest vertex
-  Id begin;              ///< input id of the highest vertex of the simplex that begins it
-  Id end;                ///< input id of the highest vertex of the simplex that ends it
-  double birth;          ///< the field's value at `begin`
-  double death;          ///< the field's value at `end`
-  std::int8_t end_type;  ///< the dimension of the simplex that ends it, 3 if none does
+  std::int8_t type;            ///< the dimension of the class
+  bool is_finite;              ///< whether it ends; if not, its end is the field's highest vertex
+  Id begin;                    ///< input id of the highest vertex of the simplex that begins it
+  Id end;                      ///< input id of the highest vertex of the simplex that ends it
+  double birth;                ///< the field's value at `begin`
+  double death;                ///< the field's value at `end`
+  std::int8_t end_type;        ///< the CriticalType of the simplex that ends it, 3 if none does
+  std::int8_t begin_type = 0;  ///< the CriticalType of the simplex that begins it
 
   /// The difference of the two values; 0 where they are equal, infinities included.
   double persistence() const { return birth == death ? 0 : death - birth; }
@@ -53,7 +54,8 @@ GALE_EXPORT DiagramCounts counts_of(const std::vector<DiagramPoint>& diagram);
 /// The diagram as lines, one for each of its points, from (birth, birth, 0) to (birth, death, 0), then the diagonal,
 /// from the first birth to the last. In float if the field is, else in double.
 ///
-/// Point arrays: ttkVertexScalarField (int32, the input vertex), CriticalType (int8: the dimension of the simplex),
+/// Point arrays: ttkVertexScalarField (int32, the input vertex), CriticalType (int8: the dimension of the
+/// simplex; of a triangle mesh what TTK has: 1 saddles that end classes, 2 those that begin them, 3 maxima),
 /// Coordinates (of that vertex). Cell arrays: PairIdentifier (int32, from 0; the diagonal -1), PairType (int8; the
 /// diagonal -1), Persistence and Birth (float if the field is, else double; of the diagonal twice the greatest finite
 /// persistence, and the first birth), IsFinite (uint8; the diagonal 0).

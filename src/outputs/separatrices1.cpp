@@ -17,7 +17,7 @@ using detail::End, detail::PathEnds;
 using gale::detail::Point;
 using Triangle = TriangleVertices;
 
-enum Type : std::int8_t { descending = 0, connector = 1, ascending = 2 };
+enum Type : std::int8_t { descending = 0, connector = 1, ascending = 2, ascending_on_triangles = 1 };
 
 /// The simplices along the paths of one kind. On each path, every cell is preceded by a simplex of another dimension.
 template <class Simplex, class CellOf, class IdOf>
@@ -31,16 +31,15 @@ struct Along {
 template <class Simplex, class CellOf, class IdOf>
 Along(const Simplex*, const GlobalId*, CellOf, IdOf) -> Along<Simplex, CellOf, IdOf>;
 
-/// The global id of a vertex, or of a tetrahedron, that paths pass.
+/// The global id of a vertex, or of a cell, that paths pass.
 GlobalId vertex_id(const MorseSmaleComplex& complex, Id vertex) {
   const Mesh& mesh = complex.gradient.mesh();
   return vertex < mesh.vertices() ? mesh.vertex_id(mesh.vertex_input()(vertex))
                                   : complex.beyond.vertices[vertex - mesh.vertices()];
 }
-GlobalId tetrahedron_id(const MorseSmaleComplex& complex, Id tetrahedron) {
+GlobalId cell_id(const MorseSmaleComplex& complex, Id cell) {
   const Mesh& mesh = complex.gradient.mesh();
-  return tetrahedron < mesh.tetrahedra() ? mesh.tetrahedron_id(mesh.tetrahedron_input()(tetrahedron))
-                                         : complex.beyond.tetrahedra[tetrahedron - mesh.tetrahedra()];
+  return cell < mesh.cells() ? mesh.cell_id(mesh.cell_input()(cell)) : complex.beyond.cells[cell - mesh.cells()];
 }
 
 /// Where the simplices on paths are drawn, by GALE's ids of their vertices.
@@ -193,7 +192,11 @@ io::Surface separatrices1(const io::Dataset& dataset, const io::PointArray& fiel
   const Along ascending_along{named.triangles.data() + groups.ascending_triangles,
                               triangle_ids + groups.ascending_triangles,
                               [&](Id t) { return detail::corners_of(complex, t); },
-                              [&](Offset k) { return tetrahedron_id(complex, rising.cells[k]); }};
+                              [&](Offset k) { return cell_id(complex, rising.cells[k]); }};
+  const Along ascending_on_triangles_along{named.edges.data() + groups.ascending_edges,
+                                           edge_ids + groups.ascending_edges,
+                                           [&](Id t) { return detail::corners_of<3>(complex, t); },
+                                           [&](Offset k) { return cell_id(complex, rising.cells[k]); }};
   const Along connecting{named.edges.data() + groups.connector_edges, edge_ids + groups.connector_edges,
                          [](const Triangle& triangle) { return triangle; },
                          [&](Offset k) { return triangle_ids[groups.connector_triangles + k]; }};
@@ -203,7 +206,8 @@ io::Surface separatrices1(const io::Dataset& dataset, const io::PointArray& fiel
     for (int dimension = 0; dimension < 4; ++dimension)
       ends[dimension] = detail::ends_of(critical[dimension], dataset, field, complex.gradient.order());
   });
-  PathEnds<Id> falling_ends(falling, ends[1], ends[0]), rising_ends(rising, ends[2], ends[3]);
+  const int top = complex.critical.dimension;
+  PathEnds<Id> falling_ends(falling, ends[1], ends[0]), rising_ends(rising, ends[top - 1], ends[top]);
   const PathEnds<Triangle> connector_ends(connectors, ends[1], ends[2]);
   if (ranks.size() > 1) {
     falling_ends.ask(ranks, [&](Offset i) { return descending_along.id_of(falling.begin[i + 1] - 1); });
@@ -216,7 +220,11 @@ io::Surface separatrices1(const io::Dataset& dataset, const io::PointArray& fiel
         io::Surface surface;
         const auto fill = [&](auto lines) {
           lines.add(descending, falling, descending_along, falling_ends);
-          lines.add(ascending, rising, ascending_along, rising_ends);
+          if (top == 2) {
+            lines.add(ascending_on_triangles, rising, ascending_on_triangles_along, rising_ends);
+          } else {
+            lines.add(ascending, rising, ascending_along, rising_ends);
+          }
           lines.add(connector, connectors, connecting, connector_ends);
           surface = lines.take(field);
         };

@@ -59,12 +59,12 @@ class Walls {
         connectors_(connectors),
         mesh_(complex.gradient.mesh()),
         vertex_input_(mesh_.vertex_input().data()),
-        tetrahedron_input_(mesh_.tetrahedron_input().data()),
+        cell_input_(mesh_.cell_input().data()),
         critical_(critical),
         vertex_internal_(mesh_.vertex_internal().data()),
         keys_(complex.gradient.order().keys()),
         vertices_(mesh_.vertices()),
-        tetrahedra_(mesh_.tetrahedra()),
+        tetrahedra_(mesh_.cells()),
         field_(field) {}
 
   io::Surface collect() {
@@ -102,7 +102,7 @@ class Walls {
     }
     for (std::size_t edge = 0; edge < complex_.ascending_walls.walls.cells.size(); ++edge) {
       gale::detail::stop_if_asked_at(used++);
-      if (is_polygon(edge)) for_each_in_star(edge, [&](Id t) { tetrahedra_.use(tetrahedron_input_[t], t); });
+      if (is_polygon(edge)) for_each_in_star(edge, [&](Id t) { tetrahedra_.use(cell_input_[t], t); });
     }
     const std::vector<Id> vertices = vertices_.number(0);
     const std::vector<Id> tetrahedra = tetrahedra_.number(static_cast<Id>(vertices.size()));
@@ -159,7 +159,7 @@ class Walls {
       for (Offset edge = walls.begin[i]; edge < walls.begin[i + 1]; ++edge) {
         high.push_back(vertex_input_[walls.cells[edge][0]]);
         if (!is_polygon(edge)) continue;
-        for_each_in_star(edge, [&](Id t) { surface_.polygons.points.push_back(tetrahedra_[tetrahedron_input_[t]]); });
+        for_each_in_star(edge, [&](Id t) { surface_.polygons.points.push_back(tetrahedra_[cell_input_[t]]); });
         end_polygon();
       }
       const auto& saddles = met[walls.sources[i]];
@@ -188,7 +188,7 @@ class Walls {
   const Separatrices<TriangleVertices>& connectors_;
   const Mesh mesh_;
   const Id* vertex_input_;
-  const Id* tetrahedron_input_;
+  const Id* cell_input_;
   const KnownSimplices& critical_;
   const Id* vertex_internal_;
   const std::uint64_t* keys_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <variant>
 #include <vector>
@@ -33,17 +34,23 @@ Points points_at(const Points& points, const std::vector<Id>& ids) {
   return rows;
 }
 
-/// The vertices of a tetrahedron, all in GALE's ids.
-inline std::array<Id, 4> corners_of(const Mesh& mesh, Id tetrahedron) {
-  const auto& all = mesh.encoded().tetrahedra;
-  return {all(tetrahedron, 0), all(tetrahedron, 1), all(tetrahedron, 2), all(tetrahedron, 3)};
+/// The vertices of a cell, all in GALE's ids: of a tetrahedron, or the first three of a triangle.
+template <std::size_t N = 4>
+std::array<Id, N> corners_of(const Mesh& mesh, Id cell) {
+  const auto& all = mesh.encoded().cells;
+  std::array<Id, N> corners;
+  for (std::size_t k = 0; k < N; ++k) corners[k] = all(cell, k);
+  return corners;
 }
 
-/// The vertices of a tetrahedron on a complex's separatrices, which may be beyond the part that its mesh is.
-inline std::array<Id, 4> corners_of(const MorseSmaleComplex& complex, Id tetrahedron) {
+/// The vertices of a cell on a complex's separatrices, which may be beyond the part that its mesh is.
+template <std::size_t N = 4>
+std::array<Id, N> corners_of(const MorseSmaleComplex& complex, Id cell) {
   const Mesh& mesh = complex.gradient.mesh();
-  return tetrahedron < mesh.tetrahedra() ? corners_of(mesh, tetrahedron)
-                                         : complex.beyond.corners[tetrahedron - mesh.tetrahedra()];
+  if (cell < mesh.cells()) return corners_of<N>(mesh, cell);
+  std::array<Id, N> corners;
+  std::copy_n(complex.beyond.corners[cell - mesh.cells()].begin(), N, corners.begin());
+  return corners;
 }
 
 /// Input ids of vertices from GALE's. `input` is `mesh.vertex_input().data()`.

@@ -59,7 +59,7 @@ struct IntervalTables {
 template <class Memory = HostMemory>
 IntervalTables<Memory> interval_tables(const Mesh& mesh) {
   IntervalTables<Memory> tables;
-  for (int dimension = 0; dimension < 4; ++dimension) {
+  for (int dimension = 0; dimension <= mesh.dimension(); ++dimension) {
     const bool enumerated =
         (dimension != 1 || mesh.known_edges() != no_id) && (dimension != 2 || mesh.known_triangles() != no_id);
     if (enumerated) tables.begin[dimension] = mesh.interval_begin<Memory>(dimension).data();

@@ -23,7 +23,8 @@ Id write_face_row_if(Relation wanted, const Simplices<HostMemory>& simplices, Id
 class FaceReader {
  public:
   /// `relations`: some of face_relations, or none. Enumerates what they need, if it isn't there.
-  FaceReader(const Mesh& mesh, RelationSet relations) : simplices_(mesh.simplices(needs_of(relations))) {}
+  FaceReader(const Mesh& mesh, RelationSet relations)
+      : simplices_(mesh.simplices(needs_of(relations, mesh.dimension()))) {}
 
   /// The row of a simplex, which must be one; valid until the next call for the same relation.
   SegmentRows row(Relation relation, Id simplex);

@@ -38,13 +38,17 @@ KOKKOS_INLINE_FUNCTION FaceRow<face_count(relation)> face_row(const Simplices<Me
   if constexpr (relation == Relation::EV) {
     return {{s.edge_low(simplex), s.edge_high(simplex)}};
   } else if constexpr (relation == Relation::FV) {
+    if (s.dimension == 2) {
+      const Quad three = s.cell(simplex);
+      return {{three.a, three.b, three.c}};
+    }
     const Id edge = s.triangle_edge(simplex);
     return {{s.edge_low(edge), s.edge_high(edge), s.triangle_apex(simplex)}};
   } else if constexpr (relation == Relation::FE) {
     const Id edge = s.triangle_edge(simplex), apex = s.triangle_apex(simplex);
     return {{edge, s.edge_of(s.edge_low(edge), apex), s.edge_of(s.edge_high(edge), apex)}};
   } else {
-    const auto [a, b, c, d] = s.tetrahedron(simplex);
+    const auto [a, b, c, d] = s.cell(simplex);
     if constexpr (relation == Relation::TV) {
       return {{a, b, c, d}};
     } else if constexpr (relation == Relation::TE) {

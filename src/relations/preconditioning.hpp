@@ -6,8 +6,12 @@
 
 namespace gale {
 
-/// What of a mesh's simplices whoever looks up or computes rows of these relations reads.
-GALE_EXPORT SimplexNeeds needs_of(RelationSet relations);
+/// What of a mesh's simplices whoever looks up or computes rows of these relations reads, where cells have that
+/// dimension.
+GALE_EXPORT SimplexNeeds needs_of(RelationSet relations, int dimension = 3);
+
+/// Throws gale::Error, naming the first, if meshes of a dimension lack some of these relations.
+GALE_EXPORT void require_relations(RelationSet wanted, int dimension);
 
 /// Throws gale::Error, naming the relations and what to do, unless those that a structure was preconditioned for
 /// contain `wanted`.

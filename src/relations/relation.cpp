@@ -32,15 +32,19 @@ std::string name_of(RelationSet relations) {
   return names;
 }
 
-SimplexNeeds needs_of(RelationSet relations) {
+SimplexNeeds needs_of(RelationSet relations, int dimension) {
   SimplexNeeds needs;
   needs.triangle_edge = false;
   for (const Relation relation : members_of(relations)) {
-    const SimplexNeeds one = traits_of(relation).needs;
+    SimplexNeeds one = traits_of(relation).needs;
+    // Of triangles that are cells, these are all that is read.
+    const bool from_cells = dimension == 2 && (relation == Relation::VF || relation == Relation::FV);
+    if (from_cells) one = traits_of(relation == Relation::VF ? Relation::VT : Relation::TV).needs;
     needs.upto = std::max(needs.upto, one.upto);
     needs.lower_edges |= one.lower_edges;
-    needs.tetrahedra |= one.tetrahedra;
-    needs.triangle_edge |= row_dimension(relation) == 2;  // whose rows begin with the triangle's vertices
+    needs.cells |= one.cells;
+    needs.triangle_edge |=
+        row_dimension(relation) == 2 && !from_cells;  // whose rows begin with the triangle's vertices
   }
   return needs;
 }
@@ -50,6 +54,13 @@ void require_preconditioned(RelationSet preconditioned, RelationSet wanted) {
   throw Error("the structure was preconditioned for " +
               (preconditioned.empty() ? "no relation" : name_of(preconditioned)) + ", not for " +
               name_of(wanted - preconditioned) + ": name every relation that you read when you construct it");
+}
+
+void require_relations(RelationSet wanted, int dimension) {
+  const RelationSet missing = wanted - relations_of_dimension(dimension) - link_form;
+  if (missing.empty()) return;
+  throw Error("a mesh of triangles has no relation " + name_of(members_of(missing).front()) +
+              ": it has those among vertices, edges and triangles");
 }
 
 void require_simplex(const Mesh& mesh, int dimension, Id simplex) {

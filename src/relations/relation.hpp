@@ -32,10 +32,11 @@ struct RelationTraits {
   short words_of_vertex;        ///< what its blocks take for each vertex of a regular mesh, in words of an Id
 };
 
-/// What is particular about a relation.
+/// What is particular about a relation. On triangle meshes VF and FV are what VT and TV are elsewhere: see needs_of and
+/// star_relations_of.
 KOKKOS_FUNCTION constexpr RelationTraits traits_of(Relation relation) {
   using By = ComputedBy;
-  constexpr auto vertices = Enumeration::tetrahedra, edges = Enumeration::edges, triangles = Enumeration::triangles;
+  constexpr auto vertices = Enumeration::cells, edges = Enumeration::edges, triangles = Enumeration::triangles;
   // A vertex of a regular mesh has 14 neighbours, 36 triangles and 24 tetrahedra. The needs: what is numbered, whether
   // edges are sorted by their higher vertex too, and whether the host needs the tetrahedra.
   constexpr RelationTraits table[relation_count] = {
@@ -72,7 +73,7 @@ GALE_EXPORT std::string name_of(Relation relation);
 GALE_EXPORT std::optional<Relation> relation_named(const std::string& name);
 
 /// A set of relations, a value. Beside them it may have `link_form`: VT in the form that readers of links want, for
-/// each tetrahedron of a vertex the places of its other three vertices in the vertex's VV row.
+/// each cell of a vertex the places of its other vertices in the vertex's VV row.
 class RelationSet {
  public:
   /// No relations.
@@ -164,7 +165,22 @@ inline constexpr RelationSet adjacency_relations = Relation::VV | Relation::EE |
 /// The sixteen relations.
 inline constexpr RelationSet all_relations = face_relations | coboundary_relations | adjacency_relations;
 
-/// What one kernel can compute from the star of each of a segment's vertices.
-inline constexpr RelationSet star_relations = Relation::VV | Relation::VT | link_form;
+/// The relations of meshes of a dimension: sixteen among tetrahedra, nine among triangles.
+KOKKOS_FUNCTION constexpr RelationSet relations_of_dimension(int dimension) {
+  return dimension == 3 ? all_relations
+                        : all_relations - (Relation::TV | Relation::TE | Relation::TF | Relation::VT | Relation::ET |
+                                           Relation::FT | Relation::TT);
+}
+
+/// The relation from vertices to cells of a dimension: VT or VF.
+KOKKOS_FUNCTION constexpr Relation vertex_cells(int dimension) { return dimension == 3 ? Relation::VT : Relation::VF; }
+
+/// What one kernel can compute from the star of each of a segment's vertices, where cells have that dimension.
+KOKKOS_FUNCTION constexpr RelationSet star_relations_of(int dimension) {
+  return Relation::VV | vertex_cells(dimension) | link_form;
+}
+
+/// What it can among tetrahedra.
+inline constexpr RelationSet star_relations = star_relations_of(3);
 
 }  // namespace gale

@@ -44,47 +44,58 @@ struct Rows {
   }
 };
 
-/// The link of a vertex: for each tetrahedron of its star, the places of the other three vertices in its VV row, in 1,
-/// 2 or 4 bytes each.
+/// The link of a vertex: for each cell of its star, the places of the other vertices in its VV row, in 1, 2 or 4 bytes
+/// each.
 struct LinkRow {
-  const void* places = nullptr;  ///< three for each tetrahedron
-  Id count = 0;                  ///< tetrahedra
+  const void* places = nullptr;  ///< the cells', one after the other
+  Id count = 0;                  ///< cells
   int width = 1;                 ///< bytes of a place
+  int others = 3;                ///< places of a cell: three of a tetrahedron, two of a triangle
 
-  /// How many tetrahedra there are.
+  /// How many cells there are.
   KOKKOS_FUNCTION Id size() const { return count; }
 
-  /// Place of the corner 0..2 of the i-th tetrahedron. The three are in the order of the vertices' ids, hence ascend.
-  KOKKOS_FUNCTION Id operator()(Id i, int corner) const {
-    const Id at = 3 * i + corner;
+  /// Place of one of the i-th cell's other vertices, counted from 0. They are in the order of the vertices' ids, hence
+  /// ascend.
+  KOKKOS_FUNCTION Id operator()(Id i, int corner) const { return place(others * i + corner); }
+
+  /// What that is where a cell is known to have so many.
+  template <int known>
+  KOKKOS_FORCEINLINE_FUNCTION Id of(Id i, int corner) const {
+    return place(known * i + corner);
+  }
+
+ private:
+  KOKKOS_FORCEINLINE_FUNCTION Id place(Id at) const {
     if (width == 1) return static_cast<const std::uint8_t*>(places)[at];
     if (width == 2) return static_cast<const std::uint16_t*>(places)[at];
     return static_cast<const Id*>(places)[at];
   }
 };
 
-/// The link rows of `count` consecutive vertices. `offsets` count tetrahedra, as those of VT do.
+/// The link rows of `count` consecutive vertices. `offsets` count cells, as those of VT do.
 struct LinkRows {
   Id first = 0;                  ///< the first vertex
   Id count = 0;                  ///< how many rows there are
   const Id* offsets = nullptr;   ///< count + 1 of them
   const void* places = nullptr;  ///< the places of all rows
   int width = 1;                 ///< bytes of a place
+  int others = 3;                ///< places of a cell
 
   /// The link of a vertex, which must be one of these: an assertion where NDEBUG is not defined, undefined otherwise.
   KOKKOS_FUNCTION LinkRow operator[](Id vertex) const {
     const Id i = vertex - first;
     assert(i >= 0 && i < count && "these links are of other vertices");
     const auto* const bytes = static_cast<const std::uint8_t*>(places);
-    return {bytes + static_cast<Offset>(3) * width * offsets[i], offsets[i + 1] - offsets[i], width};
+    return {bytes + static_cast<Offset>(others) * width * offsets[i], offsets[i + 1] - offsets[i], width, others};
   }
 };
 
-/// A vertex and what touches it: its rows of VV and VT, and its link.
+/// A vertex and what touches it: its rows of VV and VT (VF on triangle meshes), and its link.
 struct VertexStar {
   Id vertex = no_id;  ///< the vertex itself
   Row neighbours;     ///< its row of VV
-  Row tetrahedra;     ///< its row of VT
+  Row cells;          ///< its row of VT or VF
   LinkRow link;       ///< its link
 };
 
@@ -92,7 +103,7 @@ struct VertexStar {
 KOKKOS_INLINE_FUNCTION int width_for(Id longest) { return longest <= 256 ? 1 : longest <= 65536 ? 2 : 4; }
 
 /// How blocks lie in memory, in words of an Id: the offsets of `rows` rows and one more, then the ids; in a block of
-/// links, the width of a place stands between, and the places follow it.
+/// links, what says how places lie (`link_head`) stands between, and the places follow it.
 struct BlockLayout {
   Id first = 0;  ///< the first simplex
   Id rows = 0;   ///< how many rows there are
@@ -100,17 +111,20 @@ struct BlockLayout {
   /// Words of a block of so many rows that have so many entries together.
   KOKKOS_FUNCTION static Offset words(Id rows, Offset entries) { return rows + 1 + entries; }
 
-  /// Words of a block of links of so many vertices that have so many tetrahedra together.
-  KOKKOS_FUNCTION static Offset link_words(Id rows, Offset tetrahedra, int width) {
-    return rows + 2 + (3 * tetrahedra * width + Offset(sizeof(Id)) - 1) / Offset(sizeof(Id));
+  /// Words of a block of links of so many vertices that have so many cells together, of so many other vertices each.
+  KOKKOS_FUNCTION static Offset link_words(Id rows, Offset cells, int width, int others = 3) {
+    return rows + 2 + (others * cells * width + Offset(sizeof(Id)) - 1) / Offset(sizeof(Id));
   }
+
+  /// The word that says how many bytes a place takes, and how many places a cell.
+  KOKKOS_FUNCTION static Id link_head(int width, int others) { return others << 8 | width; }
 
   /// The rows in a block.
   KOKKOS_FUNCTION Rows rows_in(const Id* block) const { return {first, rows, block, block + rows + 1}; }
 
   /// The links in a block of links.
   KOKKOS_FUNCTION LinkRows links_in(const Id* block) const {
-    return {first, rows, block, block + rows + 2, block[rows + 1]};
+    return {first, rows, block, block + rows + 2, block[rows + 1] & 255, block[rows + 1] >> 8};
   }
 };
 

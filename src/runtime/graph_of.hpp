@@ -37,7 +37,7 @@ Csr<const Id, detail::MemoryOfSweep<Space>> graph_of(const Space& space, const M
                                                      const DeviceSweepOptions& options = {}) {
   if constexpr (is_device<Space>) {
     using Memory = detail::MemoryOfSweep<Space>;
-    mesh.simplices<Memory>(needs_of(relation));
+    mesh.simplices<Memory>(needs_of(relation, mesh.dimension()));
     const Offset rows = mesh.interval_begin(row_dimension(relation))(mesh.segments());
     const auto offsets = allocate<Array<Offset, Memory>>("GALE::graph_offsets", rows + 1);
     if (mesh.owned_segments() < mesh.segments()) Kokkos::deep_copy(offsets, Offset(0));

@@ -52,6 +52,7 @@ std::optional<Way> way_named(const std::string& name) {
 
 std::unique_ptr<Structure> make_structure(const Mesh& mesh, RelationSet wanted, const StructureOptions& options) {
   detail::require_relations(wanted);
+  require_relations(wanted, mesh.dimension());
   try {
     return make(mesh, wanted, options, options.way);
   } catch (const OutOfMemory& error) {

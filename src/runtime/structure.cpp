@@ -20,7 +20,7 @@ Id Structure::count(int dimension) const {
     case 2:
       return mesh_.known_triangles();
     default:
-      return mesh_.tetrahedra();
+      return mesh_.dimension() == 3 ? mesh_.cells() : 0;
   }
 }
 

@@ -9,21 +9,18 @@ namespace {
 /// Follows V-paths up and down.
 class Paths {
  public:
-  Paths(const InputMesh& mesh, const BruteForceGradient& gradient) : gradient_(gradient) {
-    for (const auto& corners : mesh.tetrahedra) {
-      Simplex tetrahedron(corners.begin(), corners.end());
-      std::sort(tetrahedron.begin(), tetrahedron.end());
-      tetrahedra_.push_back(tetrahedron);
-      for (const Simplex& triangle : facets_of(tetrahedron)) {
-        tetrahedra_of_[triangle].push_back(tetrahedron);
-        for (const Simplex& edge : facets_of(triangle)) triangles_of_[edge].insert(triangle);
+  Paths(const CellsOf& mesh, const BruteForceGradient& gradient) : gradient_(gradient), cells_(mesh.cells) {
+    for (const Simplex& cell : mesh.cells) {
+      for (const Simplex& facet : facets_of(cell)) {
+        cells_of_[facet].push_back(cell);
+        for (const Simplex& edge : facets_of(facet)) triangles_of_[edge].insert(facet);
       }
     }
   }
 
-  /// All tetrahedra and those of a triangle, as the input has them.
-  const std::vector<Simplex>& tetrahedra() const { return tetrahedra_; }
-  const std::vector<Simplex>& tetrahedra_of(const Simplex& triangle) const { return tetrahedra_of_.at(triangle); }
+  /// All cells and those of a facet of cells, as the input has them.
+  const std::vector<Simplex>& cells() const { return cells_; }
+  const std::vector<Simplex>& cells_of(const Simplex& facet) const { return cells_of_.at(facet); }
 
   /// The partner if it has one of that many vertices, else nothing.
   Simplex partner(const Simplex& simplex, std::size_t size) const {
@@ -40,13 +37,13 @@ class Paths {
   }
 
   /// Empty if it leaves through the surface.
-  std::vector<Simplex> up_from(Simplex tetrahedron) const {
-    std::vector<Simplex> path = {tetrahedron};
-    for (Simplex triangle; !(triangle = partner(tetrahedron, 3)).empty(); path.push_back(tetrahedron)) {
-      const auto& sides = tetrahedra_of(triangle);
-      const auto next = std::find_if(sides.begin(), sides.end(), [&](const Simplex& t) { return t != tetrahedron; });
+  std::vector<Simplex> up_from(Simplex cell) const {
+    std::vector<Simplex> path = {cell};
+    for (Simplex facet; !(facet = partner(cell, cell.size() - 1)).empty(); path.push_back(cell)) {
+      const auto& sides = cells_of(facet);
+      const auto next = std::find_if(sides.begin(), sides.end(), [&](const Simplex& side) { return side != cell; });
       if (next == sides.end()) return {};
-      tetrahedron = *next;
+      cell = *next;
     }
     return path;
   }
@@ -92,8 +89,8 @@ class Paths {
 
  private:
   const BruteForceGradient& gradient_;
-  std::vector<Simplex> tetrahedra_;
-  std::map<Simplex, std::vector<Simplex>> tetrahedra_of_;
+  std::vector<Simplex> cells_;
+  std::map<Simplex, std::vector<Simplex>> cells_of_;
   std::map<Simplex, std::set<Simplex>> triangles_of_;
 };
 
@@ -146,7 +143,7 @@ void add_connectors(const Paths& paths, const Simplex& triangle, const std::set<
 /// The walls of all critical edges, and the tetrahedra around each edge of them.
 void add_ascending_walls(const Paths& paths, const BruteForceGradient& gradient, NamedComplex& all) {
   std::map<Simplex, std::vector<Simplex>> around;
-  for (const Simplex& tetrahedron : paths.tetrahedra()) {
+  for (const Simplex& tetrahedron : paths.cells()) {
     for (const Id a : tetrahedron) {
       for (const Id b : tetrahedron) {
         if (a < b) around[{a, b}].push_back(tetrahedron);
@@ -161,13 +158,13 @@ void add_ascending_walls(const Paths& paths, const BruteForceGradient& gradient,
   }
 }
 
-void add_manifolds(const InputMesh& mesh, const Paths& paths, NamedComplex& all) {
-  all.ascending_manifold.resize(mesh.vertices());
-  for (Id v = 0; v < mesh.vertices(); ++v) {
+void add_manifolds(const CellsOf& mesh, const Paths& paths, NamedComplex& all) {
+  all.ascending_manifold.resize(mesh.vertices);
+  for (Id v = 0; v < mesh.vertices; ++v) {
     all.descending_manifold.push_back(paths.down_from({v}).back());
-    for (const Simplex& tetrahedron : paths.tetrahedra()) {
-      if (std::find(tetrahedron.begin(), tetrahedron.end(), v) == tetrahedron.end()) continue;
-      const auto path = paths.up_from(tetrahedron);
+    for (const Simplex& cell : paths.cells()) {
+      if (std::find(cell.begin(), cell.end(), v) == cell.end()) continue;
+      const auto path = paths.up_from(cell);
       if (!path.empty()) all.ascending_manifold[v] = path.back();
       break;
     }
@@ -176,12 +173,14 @@ void add_manifolds(const InputMesh& mesh, const Paths& paths, NamedComplex& all)
 
 }  // namespace
 
-NamedComplex brute_force_complex(const InputMesh& mesh, const BruteForceGradient& gradient) {
+NamedComplex brute_force_complex(const CellsOf& mesh, const BruteForceGradient& gradient) {
   const Paths paths(mesh, gradient);
   NamedComplex all;
-  for (int d = 0; d < 3; ++d) all.critical[d].assign(gradient.critical[d].begin(), gradient.critical[d].end());
-  for (const Simplex& tetrahedron : paths.tetrahedra()) {
-    if (gradient.critical[3].count(tetrahedron) != 0) all.critical[3].push_back(tetrahedron);
+  const std::size_t top = mesh.dimension;
+  for (std::size_t d = 0; d < top; ++d)
+    all.critical[d].assign(gradient.critical[d].begin(), gradient.critical[d].end());
+  for (const Simplex& cell : paths.cells()) {
+    if (gradient.critical[top].count(cell) != 0) all.critical[top].push_back(cell);
   }
   for (const Simplex& edge : gradient.critical[1]) {
     for (const Id vertex : edge) {
@@ -189,17 +188,20 @@ NamedComplex brute_force_complex(const InputMesh& mesh, const BruteForceGradient
       all.descending.push_back({edge, path.back(), path, true});
     }
   }
-  for (const Simplex& triangle : gradient.critical[2]) {
-    for (const Simplex& tetrahedron : paths.tetrahedra_of(triangle)) {
-      const auto path = paths.up_from(tetrahedron);
-      if (!path.empty()) all.ascending.push_back({triangle, path.back(), path, true});
+  for (const Simplex& facet : gradient.critical[top - 1]) {
+    for (const Simplex& cell : paths.cells_of(facet)) {
+      const auto path = paths.up_from(cell);
+      if (!path.empty()) all.ascending.push_back({facet, path.back(), path, true});
     }
+  }
+  add_manifolds(mesh, paths, all);
+  if (mesh.dimension == 2) return all;
+  for (const Simplex& triangle : gradient.critical[2]) {
     const auto wall = paths.descending_wall(triangle);
     all.descending_walls.push_back({triangle, {wall.begin(), wall.end()}, {}});
     add_connectors(paths, triangle, wall, gradient.critical[1], all);
   }
   add_ascending_walls(paths, gradient, all);
-  add_manifolds(mesh, paths, all);
   return all;
 }
 

@@ -99,13 +99,13 @@ class Expansion {
   std::set<Cell> zero_, one_, done_;
 };
 
-/// All that is a face of a tetrahedron, but vertices.
-std::set<Cell> faces_of(const Cell& tetrahedron) {
+/// All that is a face of a cell, but vertices.
+std::set<Cell> faces_of(const Cell& cell) {
   std::set<Cell> faces;
-  for (unsigned members = 0; members < 16; ++members) {
+  for (unsigned members = 0; members < 1u << cell.size(); ++members) {
     Cell face;
-    for (int i = 0; i < 4; ++i) {
-      if (members >> i & 1) face.push_back(tetrahedron[i]);
+    for (std::size_t i = 0; i < cell.size(); ++i) {
+      if (members >> i & 1) face.push_back(cell[i]);
     }
     if (face.size() > 1) faces.insert(face);
   }
@@ -123,21 +123,40 @@ std::vector<Simplex> facets_of(const Simplex& simplex) {
   return facets;
 }
 
-BruteForceGradient::BruteForceGradient(const InputMesh& mesh, const std::vector<double>& field) {
-  std::vector<Id> by_rank(mesh.vertices()), rank(mesh.vertices());
+namespace {
+
+template <class Corners>
+std::vector<Simplex> ascending(const std::vector<Corners>& cells) {
+  std::vector<Simplex> all;
+  for (const Corners& corners : cells) {
+    all.emplace_back(corners.begin(), corners.end());
+    std::sort(all.back().begin(), all.back().end());
+  }
+  return all;
+}
+
+}  // namespace
+
+CellsOf::CellsOf(const InputMesh& mesh) : vertices(mesh.vertices()), dimension(3), cells(ascending(mesh.tetrahedra)) {}
+
+CellsOf::CellsOf(const InputSurface& surface)
+    : vertices(surface.vertices()), dimension(2), cells(ascending(surface.triangles)) {}
+
+BruteForceGradient::BruteForceGradient(const CellsOf& mesh, const std::vector<double>& field) {
+  std::vector<Id> by_rank(mesh.vertices), rank(mesh.vertices);
   std::iota(by_rank.begin(), by_rank.end(), 0);
   std::sort(by_rank.begin(), by_rank.end(),
             [&](Id a, Id b) { return std::make_pair(field[a], a) < std::make_pair(field[b], b); });
-  for (Id r = 0; r < mesh.vertices(); ++r) rank[by_rank[r]] = r;
+  for (Id r = 0; r < mesh.vertices; ++r) rank[by_rank[r]] = r;
   std::map<Id, LowerStar> stars;
-  for (const auto& tetrahedron : mesh.tetrahedra) {
+  for (const Simplex& corners : mesh.cells) {
     Cell cell;
-    for (const Id v : tetrahedron) cell.push_back(rank[v]);
+    for (const Id v : corners) cell.push_back(rank[v]);
     std::sort(cell.begin(), cell.end(), std::greater<Id>());
     for (const Cell& face : faces_of(cell)) stars[face[0]].insert(face);
   }
   Pairing all;
-  for (Id r = 0; r < mesh.vertices(); ++r) {
+  for (Id r = 0; r < mesh.vertices; ++r) {
     if (stars[r].empty()) {
       all.critical.push_back({r});
     } else {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "support/input_mesh.hpp"
+#include "support/surfaces.hpp"
 
 namespace gale::test {
 
@@ -16,10 +17,20 @@ using Simplex = std::vector<Id>;
 /// Each without one of its vertices, the first first; none of a vertex.
 std::vector<Simplex> facets_of(const Simplex& simplex);
 
+/// The cells of a mesh, tetrahedra or triangles, in the input's order.
+struct CellsOf {
+  CellsOf(const InputMesh& mesh);
+  CellsOf(const InputSurface& surface);
+
+  Id vertices;
+  std::size_t dimension;
+  std::vector<Simplex> cells;
+};
+
 /// The discrete gradient by the definition of Robins, Wood and Sheppard (2011), from the input alone, with sets and
 /// maps.
 struct BruteForceGradient {
-  BruteForceGradient(const InputMesh& mesh, const std::vector<double>& field);
+  BruteForceGradient(const CellsOf& mesh, const std::vector<double>& field);
 
   std::map<Simplex, Simplex> partner;         ///< of each simplex that has one
   std::array<std::set<Simplex>, 4> critical;  ///< those that have none, by dimension

@@ -5,6 +5,8 @@
 #include <map>
 #include <numeric>
 
+#include "algorithms/named_complex.hpp"
+
 namespace gale::test {
 
 namespace {
@@ -121,11 +123,24 @@ NamedPairs brute_force_pairs(const std::vector<double>& field, const BruteForceG
   return found;
 }
 
-VertexPairs brute_force_vertex_pairs(const InputMesh& mesh, const std::vector<double>& field) {
+NamedPairs named_pairs(const DiscreteGradient& gradient, const PersistencePairs& pairs) {
+  const auto critical = named(MorseSmaleComplex{gradient, {}, gradient.critical()}).critical;
+  NamedPairs all;
+  for (int d = 0; d < 3; ++d) {
+    for (const auto& pair : pairs.pairs[d])
+      all.pairs[d].insert({critical[d].at(pair.lower), critical[d + 1].at(pair.upper)});
+  }
+  for (int d = 0; d < 4; ++d) {
+    for (const Id place : pairs.essential[d]) all.essential[d].insert(critical[d].at(place));
+  }
+  return all;
+}
+
+VertexPairs brute_force_vertex_pairs(const CellsOf& mesh, const std::vector<double>& field) {
   const Ranks ranks(field);
   std::array<std::set<Cell>, 4> cells, unpaired;
-  for (Id r = 0; r < mesh.vertices(); ++r) cells[0].insert({r});
-  for (const auto& corners : mesh.tetrahedra) cells[3].insert(ranks.cell({corners.begin(), corners.end()}));
+  for (Id r = 0; r < mesh.vertices; ++r) cells[0].insert({r});
+  for (const Simplex& corners : mesh.cells) cells[mesh.dimension].insert(ranks.cell(corners));
   for (int d = 3; d > 1; --d) {
     for (const Cell& cell : cells[d]) {
       for (const Cell& facet : facets_of(cell)) cells[d - 1].insert(facet);

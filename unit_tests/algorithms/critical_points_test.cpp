@@ -112,8 +112,7 @@ TEST(CriticalPoints, refuse_the_order_of_another_mesh) {
   const auto runtime = make_structure(other, critical_points_relations);
   EXPECT_EQ(message_of([&] { find_critical_points(*runtime, order); }),
             "the vertex order is of a mesh of 4 vertices and 1 tetrahedra, the structure of another one of " +
-                std::to_string(other.vertices()) + " vertices and " + std::to_string(other.tetrahedra()) +
-                " tetrahedra");
+                std::to_string(other.vertices()) + " vertices and " + std::to_string(other.cells()) + " tetrahedra");
 }
 
 TEST(CriticalPoints, take_the_order_of_a_copy_of_the_mesh) {

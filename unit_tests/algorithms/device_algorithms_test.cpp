@@ -42,14 +42,13 @@ void expect_equal(const DiscreteGradient& found, const DiscreteGradient& expecte
   EXPECT_EQ(found.critical().vertices, expected.critical().vertices);
   EXPECT_EQ(found.critical().edges, expected.critical().edges);
   EXPECT_EQ(found.critical().triangles, expected.critical().triangles);
-  EXPECT_EQ(found.critical().tetrahedra, expected.critical().tetrahedra);
+  EXPECT_EQ(found.critical().cells, expected.critical().cells);
   EXPECT_EQ(found.critical().star, expected.critical().star);
   for (Id v = 0; v < mesh.vertices(); ++v) {
     ASSERT_EQ(found.vertex_successor(v), expected.vertex_successor(v)) << v;
     ASSERT_EQ(edge_pairs_of(found, v), edge_pairs_of(expected, v)) << v;
   }
-  for (Id t = 0; t < mesh.tetrahedra(); ++t)
-    ASSERT_EQ(found.tetrahedron_successor(t), expected.tetrahedron_successor(t)) << t;
+  for (Id t = 0; t < mesh.cells(); ++t) ASSERT_EQ(found.cell_successor(t), expected.cell_successor(t)) << t;
 }
 
 void expect_the_same_on_either_side(const InputMesh& input, unsigned seed) {

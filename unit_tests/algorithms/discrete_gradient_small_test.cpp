@@ -21,9 +21,9 @@ DiscreteGradient gradient_on(const Mesh& mesh, const std::vector<double>& field)
 }
 
 /// GALE's tetrahedron of an input id.
-Id tetrahedron_of(const Mesh& mesh, Id input) {
+Id cell_of(const Mesh& mesh, Id input) {
   Id t = 0;
-  while (mesh.tetrahedron_input()(t) != input) ++t;
+  while (mesh.cell_input()(t) != input) ++t;
   return t;
 }
 
@@ -66,12 +66,12 @@ TEST(DiscreteGradient, of_one_tetrahedron_leaves_through_its_highest_triangle) {
     EXPECT_EQ(gradient.triangle_of_edge(id(1), id(2)), id(0));
     EXPECT_EQ(gradient.triangle_of_edge(id(3), id(1)), id(0));
     EXPECT_EQ(gradient.triangle_of_edge(id(2), id(3)), id(0));
-    EXPECT_EQ(gradient.pair_of_tetrahedron(0).dimension, 2);
-    EXPECT_EQ(gradient.pair_of_tetrahedron(0).vertex, id(0));
-    EXPECT_TRUE(DiscreteGradient::leaves(gradient.tetrahedron_successor(0)));
+    EXPECT_EQ(gradient.pair_of_cell(0).dimension, 2);
+    EXPECT_EQ(gradient.pair_of_cell(0).vertex, id(0));
+    EXPECT_TRUE(DiscreteGradient::leaves(gradient.cell_successor(0)));
     for (int corner = 0; corner < 4; ++corner) {
       const Partner pair = gradient.pair_of_triangle(0, corner, {});
-      const bool is_321 = mesh.encoded().tetrahedra(0, corner) == id(0);
+      const bool is_321 = mesh.encoded().cells(0, corner) == id(0);
       EXPECT_EQ(pair.dimension, is_321 ? 3 : 1);
       if (is_321) EXPECT_EQ(pair.vertex, id(0));
     }
@@ -93,13 +93,13 @@ TEST(DiscreteGradient, goes_on_in_the_tetrahedron_of_lowest_input_id_across_a_tr
     const Mesh mesh = encode(input, segmentation_named(name, input));
     const auto gradient = gradient_on(mesh, {0, -1, -2, -3, -4, -5});
     const auto id = [&](Id vertex) { return mesh.vertex_internal()(vertex); };
-    const Id first = tetrahedron_of(mesh, 0), second = tetrahedron_of(mesh, 1), third = tetrahedron_of(mesh, 2);
-    EXPECT_EQ(gradient.tetrahedron_successor(third), first) << name;
-    EXPECT_EQ(gradient.pair_of_tetrahedron(third).vertex, id(5)) << name;
-    EXPECT_TRUE(DiscreteGradient::leaves(gradient.tetrahedron_successor(first))) << name;
-    EXPECT_TRUE(DiscreteGradient::leaves(gradient.tetrahedron_successor(second))) << name;
-    EXPECT_EQ(gradient.pair_of_tetrahedron(second).vertex, id(2)) << name;
-    EXPECT_EQ(gradient.pair_of_tetrahedron(first).vertex, id(2)) << name;
+    const Id first = cell_of(mesh, 0), second = cell_of(mesh, 1), third = cell_of(mesh, 2);
+    EXPECT_EQ(gradient.cell_successor(third), first) << name;
+    EXPECT_EQ(gradient.pair_of_cell(third).vertex, id(5)) << name;
+    EXPECT_TRUE(DiscreteGradient::leaves(gradient.cell_successor(first))) << name;
+    EXPECT_TRUE(DiscreteGradient::leaves(gradient.cell_successor(second))) << name;
+    EXPECT_EQ(gradient.pair_of_cell(second).vertex, id(2)) << name;
+    EXPECT_EQ(gradient.pair_of_cell(first).vertex, id(2)) << name;
     EXPECT_EQ(gradient.critical().counts(), (std::array<Id, 4>{3, 2, 0, 0})) << name;
   }
 }

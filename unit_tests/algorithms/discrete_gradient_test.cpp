@@ -90,12 +90,12 @@ TEST(DiscreteGradient, is_read_on_many_threads_without_counting_references) {
   const std::vector<float> field = {0, 1, 2, 3};
   const auto runtime = make_structure(mesh, discrete_gradient_relations);
   const auto gradient = find_discrete_gradient(*runtime, VertexOrder(mesh, field.data(), field.size()));
-  const auto mine = gradient.vertex_successors(), mine_too = gradient.tetrahedron_successors();
+  const auto mine = gradient.vertex_successors(), mine_too = gradient.cell_successors();
   const int before = mine.use_count(), before_too = mine_too.use_count();
   on_threads(8, [&](int) {
     for (int i = 0; i < 100000; ++i) {
       EXPECT_EQ(gradient.vertex_successors().data(), mine.data());
-      EXPECT_EQ(gradient.tetrahedron_successors().data(), mine_too.data());
+      EXPECT_EQ(gradient.cell_successors().data(), mine_too.data());
     }
   });
   EXPECT_EQ(mine.use_count(), before);

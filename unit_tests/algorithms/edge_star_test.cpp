@@ -75,11 +75,11 @@ class Around {
 /// By both ends, the higher id first.
 std::map<std::array<Id, 2>, std::vector<Around::Wedge>> wedges_by_edge(const Mesh& mesh) {
   std::map<std::array<Id, 2>, std::vector<Around::Wedge>> wedges;
-  for (Id t = 0; t < mesh.tetrahedra(); ++t) {
-    const Id* const v = &mesh.encoded().tetrahedra(t, 0);
+  for (Id t = 0; t < mesh.cells(); ++t) {
+    const Id* const v = &mesh.encoded().cells(t, 0);
     for (int i = 0; i < 4; ++i) {
       for (int j = 0; j < i; ++j) {
-        Around::Wedge wedge{mesh.tetrahedron_input()(t), t, {}};
+        Around::Wedge wedge{mesh.cell_input()(t), t, {}};
         std::copy_if(v, v + 4, wedge.sides.begin(), [&](Id other) { return other != v[i] && other != v[j]; });
         wedges[{v[i], v[j]}].push_back(wedge);
       }

@@ -70,11 +70,11 @@ void expect_same(const DiscreteGradient& gradient, const DiscreteGradient& expec
   EXPECT_EQ(gradient.critical().vertices, expected.critical().vertices);
   EXPECT_EQ(gradient.critical().edges, expected.critical().edges);
   EXPECT_EQ(gradient.critical().triangles, expected.critical().triangles);
-  EXPECT_EQ(gradient.critical().tetrahedra, expected.critical().tetrahedra);
+  EXPECT_EQ(gradient.critical().cells, expected.critical().cells);
   EXPECT_EQ(gradient.critical().star_begin, expected.critical().star_begin);
   EXPECT_EQ(gradient.critical().star, expected.critical().star);
   expect_equal(gradient.vertex_successors(), expected.vertex_successors(), "vertex");
-  expect_equal(gradient.tetrahedron_successors(), expected.tetrahedron_successors(), "tetrahedron");
+  expect_equal(gradient.cell_successors(), expected.cell_successors(), "tetrahedron");
   const auto simplices = expected.mesh().simplices({Enumeration::edges});
   for (std::size_t e = 0; e < simplices.edge_low.extent(0); ++e) {
     const Id a = simplices.edge_low(e), b = simplices.edge_high(e);

@@ -29,7 +29,7 @@ Id difference(const Simplex& a, const Simplex& b) {
 /// GALE's corner of a tetrahedron that is in none of the other simplex' vertices.
 int corner_beside(const Mesh& mesh, Id tetrahedron, const std::vector<Id>& triangle) {
   for (int corner = 0; corner < 4; ++corner) {
-    const Id vertex = mesh.encoded().tetrahedra(tetrahedron, corner);
+    const Id vertex = mesh.encoded().cells(tetrahedron, corner);
     if (std::find(triangle.begin(), triangle.end(), vertex) == triangle.end()) return corner;
   }
   return -1;
@@ -55,10 +55,10 @@ PairTable pairs_of(const BruteForceGradient& gradient, const BruteForce& simplic
 GradientReader::GradientReader(const BruteForce& simplices, const Mesh& mesh)
     : simplices_(simplices),
       mesh_(mesh),
-      tetrahedron_(mesh.tetrahedra()),
+      tetrahedron_(mesh.cells()),
       sides_(simplices.simplices(2).size()),
-      across_(mesh.tetrahedra()) {
-  for (Id t = 0; t < mesh.tetrahedra(); ++t) tetrahedron_[mesh.tetrahedron_input()(t)] = t;
+      across_(mesh.cells()) {
+  for (Id t = 0; t < mesh.cells(); ++t) tetrahedron_[mesh.cell_input()(t)] = t;
   for (int dimension = 0; dimension < 3; ++dimension) {
     gale_[dimension] = simplices.simplices(dimension);
     for (auto& simplex : gale_[dimension]) {
@@ -86,7 +86,7 @@ PairTable GradientReader::pairs(const DiscreteGradient& gradient) const {
   for (const auto& v : gale_[0]) table[0].push_back(in_input_ids(gradient.pair_of_vertex(v[0])));
   for (const auto& e : gale_[1]) table[1].push_back(in_input_ids(gradient.pair_of_edge(e[0], e[1])));
   for (const auto& sides : sides_) table[2].push_back(pair_of_triangle(gradient, sides[0]));
-  for (const Id t : tetrahedron_) table[3].push_back(in_input_ids(gradient.pair_of_tetrahedron(t)));
+  for (const Id t : tetrahedron_) table[3].push_back(in_input_ids(gradient.pair_of_cell(t)));
   return table;
 }
 
@@ -104,11 +104,11 @@ AssertionResult GradientReader::match(const DiscreteGradient& gradient, const Pa
 AssertionResult GradientReader::equal(const DiscreteGradient& a, const DiscreteGradient& b) const {
   const CriticalSimplices &one = a.critical(), &other = b.critical();
   if (one.vertices != other.vertices || one.edges != other.edges || one.triangles != other.triangles ||
-      one.tetrahedra != other.tetrahedra || one.star_begin != other.star_begin || one.star != other.star) {
+      one.cells != other.cells || one.star_begin != other.star_begin || one.star != other.star) {
     return AssertionFailure() << "other critical simplices";
   }
   if (to_vector(a.vertex_successors()) != to_vector(b.vertex_successors())) return AssertionFailure() << "vertices";
-  if (to_vector(a.tetrahedron_successors()) != to_vector(b.tetrahedron_successors())) {
+  if (to_vector(a.cell_successors()) != to_vector(b.cell_successors())) {
     return AssertionFailure() << "tetrahedra";
   }
   for (const auto& e : gale_[1]) {
@@ -172,8 +172,7 @@ AssertionResult GradientReader::match_triangles_of_edges(const DiscreteGradient&
 }
 
 AssertionResult GradientReader::match_successors(const DiscreteGradient& gradient, const PairTable& expected) const {
-  const auto vertex_successors = gradient.vertex_successors(),
-             tetrahedron_successors = gradient.tetrahedron_successors();
+  const auto vertex_successors = gradient.vertex_successors(), cell_successors = gradient.cell_successors();
   for (Id v = 0; v < mesh_.vertices(); ++v) {
     const Id inside = mesh_.vertex_internal()(v), other = expected[0][v].vertex;
     const Id successor = gradient.vertex_successor(inside);
@@ -183,8 +182,8 @@ AssertionResult GradientReader::match_successors(const DiscreteGradient& gradien
     return AssertionFailure() << "successor of vertex " << v;
   }
   for (std::size_t t = 0; t < tetrahedron_.size(); ++t) {
-    const Id successor = gradient.tetrahedron_successor(tetrahedron_[t]);
-    if (tetrahedron_successors(tetrahedron_[t]) != successor) return AssertionFailure() << "tetrahedron_successors";
+    const Id successor = gradient.cell_successor(tetrahedron_[t]);
+    if (cell_successors(tetrahedron_[t]) != successor) return AssertionFailure() << "cell_successors";
     const bool is_paired = expected[3][t].dimension == 2;
     const Id lowest = is_paired ? across_[t].at(expected[3][t].vertex) : no_id;
     const bool leaves = is_paired && lowest == no_id;
@@ -208,7 +207,7 @@ AssertionResult GradientReader::match_critical(const DiscreteGradient& gradient,
   for (const Id vertex : critical.vertices) add(0, std::array<Id, 1>{vertex});
   for (const auto& edge : critical.edges) add(1, edge);
   for (const auto& triangle : critical.triangles) add(2, triangle);
-  for (const Id tetrahedron : critical.tetrahedra) add(3, std::array<Id, 1>{tetrahedron});
+  for (const Id tetrahedron : critical.cells) add(3, std::array<Id, 1>{tetrahedron});
   const std::uint64_t* const keys = gradient.order().keys();
   for (int dimension = 0; dimension < 4; ++dimension) {
     for (std::size_t i = 0; i < expected[dimension].size(); ++i) {

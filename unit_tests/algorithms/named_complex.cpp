@@ -34,8 +34,9 @@ class Namer {
     return simplex;
   }
   Simplex vertex(Id v) const { return (*this)(std::array<Id, 1>{v}); }
-  Simplex tetrahedron(Id t) const {
-    const auto& corners = mesh_.encoded().tetrahedra;
+  Simplex cell(Id t) const {
+    const auto& corners = mesh_.encoded().cells;
+    if (mesh_.dimension() == 2) return (*this)(std::array<Id, 3>{corners(t, 0), corners(t, 1), corners(t, 2)});
     return (*this)(std::array<Id, 4>{corners(t, 0), corners(t, 1), corners(t, 2), corners(t, 3)});
   }
 
@@ -74,7 +75,7 @@ std::vector<NamedComplex::Wall> named_walls(const AscendingWalls& all, const std
     for (std::size_t i = 0; i < wall.cells.size(); ++i, ++cell) {
       wall.polygons.emplace_back();
       for (Offset at = all.star_begin.at(cell); at < all.star_begin.at(cell + 1); ++at) {
-        wall.polygons.back().push_back(name.tetrahedron(all.star.at(at)));
+        wall.polygons.back().push_back(name.cell(all.star.at(at)));
       }
     }
   }
@@ -106,22 +107,21 @@ std::array<Id, 4> NamedComplex::counts() const {
 NamedComplex named(const MorseSmaleComplex& complex) {
   const Namer name(complex.gradient.mesh());
   const auto vertex = [&](Id v) { return name.vertex(v); };
-  const auto tetrahedron = [&](Id t) { return name.tetrahedron(t); };
   NamedComplex all;
   auto& critical = all.critical;
   std::transform(complex.critical.vertices.begin(), complex.critical.vertices.end(), std::back_inserter(critical[0]),
                  vertex);
   for (const auto& edge : complex.critical.edges) critical[1].push_back(name(edge));
   for (const auto& triangle : complex.critical.triangles) critical[2].push_back(name(triangle));
-  std::transform(complex.critical.tetrahedra.begin(), complex.critical.tetrahedra.end(),
-                 std::back_inserter(critical[3]), tetrahedron);
+  const int top = complex.critical.dimension;
+  for (const Id t : complex.critical.cells) critical[top].push_back(name.cell(t));
   all.descending = named_paths(complex.descending, critical[1], critical[0], vertex);
-  all.ascending = named_paths(complex.ascending, critical[2], critical[3], tetrahedron);
+  all.ascending = named_paths(complex.ascending, critical[top - 1], critical[top], [&](Id t) { return name.cell(t); });
   all.connectors = named_paths(complex.connectors, critical[1], critical[2], name);
   all.descending_walls = named_walls(complex.descending_walls, critical[2], name);
   all.ascending_walls = named_walls(complex.ascending_walls, critical[1], name);
   all.descending_manifold = named_manifolds(complex.descending_manifold.in<HostMemory>(), critical[0]);
-  all.ascending_manifold = named_manifolds(complex.ascending_manifold.in<HostMemory>(), critical[3]);
+  all.ascending_manifold = named_manifolds(complex.ascending_manifold.in<HostMemory>(), critical[top]);
   all.morse_smale_manifold = to_vector(complex.morse_smale_manifold.in<HostMemory>());
   return all;
 }
@@ -151,7 +151,7 @@ AssertionResult equal(const NamedComplex& a, const NamedComplex& b) {
 
 AssertionResult equal(const MorseSmaleComplex& a, const MorseSmaleComplex& b) {
   if (a.critical.vertices != b.critical.vertices || a.critical.edges != b.critical.edges ||
-      a.critical.triangles != b.critical.triangles || a.critical.tetrahedra != b.critical.tetrahedra ||
+      a.critical.triangles != b.critical.triangles || a.critical.cells != b.critical.cells ||
       a.critical.star_begin != b.critical.star_begin || a.critical.star != b.critical.star) {
     return AssertionFailure() << "critical simplices differ";
   }

@@ -22,19 +22,6 @@ DiscreteGradient gradient_of(const Mesh& mesh, const std::vector<double>& field)
   return find_discrete_gradient(*structure, VertexOrder(mesh, field.data(), field.size()));
 }
 
-NamedPairs named_pairs(const DiscreteGradient& gradient, const PersistencePairs& pairs) {
-  const auto critical = named(MorseSmaleComplex{gradient, {}, gradient.critical()}).critical;
-  NamedPairs all;
-  for (int d = 0; d < 3; ++d) {
-    for (const auto& pair : pairs.pairs[d])
-      all.pairs[d].insert({critical[d].at(pair.lower), critical[d + 1].at(pair.upper)});
-  }
-  for (int d = 0; d < 4; ++d) {
-    for (const Id place : pairs.essential[d]) all.essential[d].insert(critical[d].at(place));
-  }
-  return all;
-}
-
 /// Each simplex is in one pair or essential, and lists are in order.
 void expect_partition(const CriticalSimplices& critical, const PersistencePairs& found) {
   std::array<std::multiset<Id>, 4> places;

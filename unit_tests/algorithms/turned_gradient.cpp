@@ -8,7 +8,7 @@
 
 namespace gale::test {
 
-TurnedGradient::TurnedGradient(const InputMesh& mesh, const std::vector<double>& field,
+TurnedGradient::TurnedGradient(const CellsOf& mesh, const std::vector<double>& field,
                                const BruteForceGradient& gradient)
     : gradient_(gradient), rank_(field.size()) {
   std::vector<Id> by_rank(field.size());
@@ -16,10 +16,8 @@ TurnedGradient::TurnedGradient(const InputMesh& mesh, const std::vector<double>&
   std::sort(by_rank.begin(), by_rank.end(),
             [&](Id a, Id b) { return std::make_pair(field[a], a) < std::make_pair(field[b], b); });
   for (std::size_t r = 0; r < by_rank.size(); ++r) rank_[by_rank[r]] = static_cast<Id>(r);
-  for (const auto& corners : mesh.tetrahedra) {
-    Simplex tetrahedron(corners.begin(), corners.end());
-    std::sort(tetrahedron.begin(), tetrahedron.end());
-    for (const Simplex& triangle : facets_of(tetrahedron)) tetrahedra_of_[triangle].push_back(tetrahedron);
+  for (const Simplex& cell : mesh.cells) {
+    for (const Simplex& facet : facets_of(cell)) cells_of_[facet].push_back(cell);
   }
 }
 
@@ -70,14 +68,14 @@ Simplex TurnedGradient::minimum_from(Id vertex) const {
 }
 
 /// Empty if the path leaves through the surface.
-Simplex TurnedGradient::maximum_from(Simplex tetrahedron) const {
-  for (Simplex triangle; !(triangle = partner(tetrahedron, 3)).empty();) {
-    const auto& sides = tetrahedra_of_.at(triangle);
-    const auto next = std::find_if(sides.begin(), sides.end(), [&](const Simplex& t) { return t != tetrahedron; });
+Simplex TurnedGradient::maximum_from(Simplex cell) const {
+  for (Simplex facet; !(facet = partner(cell, cell.size() - 1)).empty();) {
+    const auto& sides = cells_of_.at(facet);
+    const auto next = std::find_if(sides.begin(), sides.end(), [&](const Simplex& side) { return side != cell; });
     if (next == sides.end()) return {};
-    tetrahedron = *next;
+    cell = *next;
   }
-  return tetrahedron;
+  return cell;
 }
 
 void TurnedGradient::cancel_with_minima(std::vector<Simplex> saddles) {
@@ -92,7 +90,7 @@ void TurnedGradient::cancel_with_minima(std::vector<Simplex> saddles) {
 void TurnedGradient::cancel_with_maxima(std::vector<Simplex> saddles) {
   std::sort(saddles.begin(), saddles.end(), [this](const auto& a, const auto& b) { return is_below(b, a); });
   for (const Simplex& saddle : saddles) {
-    const auto& sides = tetrahedra_of_.at(saddle);
+    const auto& sides = cells_of_.at(saddle);
     const Simplex one = maximum_from(sides[0]), other = sides.size() > 1 ? maximum_from(sides[1]) : Simplex{};
     ASSERT_NE(one, other);
     cancel(saddle, one.empty() || (!other.empty() && is_below(other, one)) ? other : one);

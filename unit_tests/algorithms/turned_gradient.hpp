@@ -11,7 +11,7 @@ namespace gale::test {
 /// there isn't exactly one path fails.
 class TurnedGradient {
  public:
-  TurnedGradient(const InputMesh& mesh, const std::vector<double>& field, const BruteForceGradient& gradient);
+  TurnedGradient(const CellsOf& mesh, const std::vector<double>& field, const BruteForceGradient& gradient);
 
   const BruteForceGradient& gradient() const { return gradient_; }
 
@@ -22,7 +22,7 @@ class TurnedGradient {
   /// lead to.
   void cancel_with_minima(std::vector<Simplex> saddles);
 
-  /// Cancels from the highest 2-saddle down with the lower one of the two maxima; the outside is above all.
+  /// Cancels from the highest saddle below maxima down with the lower one of the two maxima; the outside is above all.
   void cancel_with_maxima(std::vector<Simplex> saddles);
 
  private:
@@ -30,11 +30,11 @@ class TurnedGradient {
   bool is_below(const Simplex& a, const Simplex& b) const { return key(a) < key(b); }
   Simplex partner(const Simplex& simplex, std::size_t size) const;
   Simplex minimum_from(Id vertex) const;
-  Simplex maximum_from(Simplex tetrahedron) const;
+  Simplex maximum_from(Simplex cell) const;
 
   BruteForceGradient gradient_;
   std::vector<Id> rank_;
-  std::map<Simplex, std::vector<Simplex>> tetrahedra_of_;  ///< of each triangle
+  std::map<Simplex, std::vector<Simplex>> cells_of_;  ///< of each facet of cells
 };
 
 }  // namespace gale::test

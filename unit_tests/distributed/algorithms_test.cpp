@@ -94,24 +94,23 @@ void OnRanks::expect_pairs(const DiscreteGradient& found, const DiscreteGradient
     EXPECT_EQ(thirds, expected);
   }
   const std::vector<bool> mine = owned();
-  for (Id t = 0; t < local.tetrahedra(); ++t) {
+  for (Id t = 0; t < local.cells(); ++t) {
     const auto& quad = input().tetrahedra[input_tetrahedron(t)];
     const Id highest = *std::max_element(quad.begin(), quad.end(), [&](Id a, Id b) { return rank_of(a) < rank_of(b); });
-    const Id successor = found.tetrahedron_successor(t);
+    const Id successor = found.cell_successor(t);
     if (!mine[highest]) {
       EXPECT_EQ(successor, DiscreteGradient::elsewhere);
       continue;
     }
     Id there = 0;
-    while (all.tetrahedron_input()(there) != input_tetrahedron(t)) ++there;
-    const Id expected = whole.tetrahedron_successor(there);
+    while (all.cell_input()(there) != input_tetrahedron(t)) ++there;
+    const Id expected = whole.cell_successor(there);
     EXPECT_EQ(DiscreteGradient::leaves(successor), DiscreteGradient::leaves(expected));
     if (DiscreteGradient::leaves(successor)) {
-      EXPECT_EQ(input_vertex(found.pair_of_tetrahedron(t).vertex),
-                all.vertex_input()(whole.pair_of_tetrahedron(there).vertex));
+      EXPECT_EQ(input_vertex(found.pair_of_cell(t).vertex), all.vertex_input()(whole.pair_of_cell(there).vertex));
     } else {
       EXPECT_EQ(input_successor(successor, [&](Id s) { return input_tetrahedron(s); }),
-                input_successor(expected, [&](Id s) { return all.tetrahedron_input()(s); }));
+                input_successor(expected, [&](Id s) { return all.cell_input()(s); }));
     }
   }
 }
@@ -132,24 +131,24 @@ void OnRanks::expect_critical(const DiscreteGradient& found, const DiscreteGradi
     if (!mine[vertex_input(high)]) continue;
     expected.triangles.push_back({vertex_input(high), vertex_input(middle), vertex_input(low)});
   }
-  for (const Id t : all.tetrahedra) {
-    Id highest = whole.mesh().encoded().tetrahedra(t, 0);
+  for (const Id t : all.cells) {
+    Id highest = whole.mesh().encoded().cells(t, 0);
     for (int corner = 1; corner < 4; ++corner) {
-      const Id v = whole.mesh().encoded().tetrahedra(t, corner);
+      const Id v = whole.mesh().encoded().cells(t, corner);
       if (whole.order().keys()[v] > whole.order().keys()[highest]) highest = v;
     }
-    if (mine[vertex_input(highest)]) expected.tetrahedra.push_back(whole.mesh().tetrahedron_input()(t));
+    if (mine[vertex_input(highest)]) expected.cells.push_back(whole.mesh().cell_input()(t));
   }
   CriticalSimplices critical = found.critical();
   for (Id& v : critical.vertices) v = input_vertex(v);
   for (auto& edge : critical.edges) edge = {input_vertex(edge[0]), input_vertex(edge[1])};
   for (auto& [high, middle, low] : critical.triangles)
     std::tie(high, middle, low) = std::make_tuple(input_vertex(high), input_vertex(middle), input_vertex(low));
-  for (Id& t : critical.tetrahedra) t = input_tetrahedron(t);
+  for (Id& t : critical.cells) t = input_tetrahedron(t);
   EXPECT_EQ(critical.vertices, expected.vertices);
   EXPECT_EQ(critical.edges, expected.edges);
   EXPECT_EQ(critical.triangles, expected.triangles);
-  EXPECT_EQ(critical.tetrahedra, expected.tetrahedra);
+  EXPECT_EQ(critical.cells, expected.cells);
   for (int dimension = 0; dimension < 4; ++dimension) EXPECT_EQ(found.counts()[dimension], all.counts()[dimension]);
   EXPECT_EQ(found.euler(), all.euler());
 }

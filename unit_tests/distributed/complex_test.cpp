@@ -48,9 +48,8 @@ class ComplexOnRanks : public EveryPartition {
     return vertex < n ? input_vertex(vertex) : vertex_named(found.beyond.vertices[vertex - n]);
   }
   Id tetrahedron_on_path(const MorseSmaleComplex& found, Id tetrahedron) const {
-    const Id n = mesh_.tetrahedra();
-    return tetrahedron < n ? input_tetrahedron(tetrahedron)
-                           : tetrahedron_named(found.beyond.tetrahedra[tetrahedron - n]);
+    const Id n = mesh_.cells();
+    return tetrahedron < n ? input_tetrahedron(tetrahedron) : tetrahedron_named(found.beyond.cells[tetrahedron - n]);
   }
 
   /// A path: the input's numbers of its source's vertices, where it ends, and those of the simplices on it.
@@ -100,13 +99,13 @@ TEST_P(ComplexOnRanks, separatrices_are_those_of_one_rank) {
     SCOPED_TRACE(field.name);
     const MorseSmaleComplex whole = complex_on_one(field.values), found = complex_of(field.values);
     const auto& vertex_input = whole.gradient.mesh().vertex_input();
-    const auto& tetrahedron_input = whole.gradient.mesh().tetrahedron_input();
+    const auto& cell_input = whole.gradient.mesh().cell_input();
     const auto vertex_here = [&](Id v) { return vertex_on_path(found, v); };
     const auto tetrahedron_here = [&](Id t) { return tetrahedron_on_path(found, t); };
     expect_paths(paths_of(found.descending, found.critical.edges, vertex_here, vertex_here),
                  paths_of(whole.descending, whole.critical.edges, vertex_input, vertex_input));
     expect_paths(paths_of(found.ascending, found.critical.triangles, vertex_here, tetrahedron_here),
-                 paths_of(whole.ascending, whole.critical.triangles, vertex_input, tetrahedron_input));
+                 paths_of(whole.ascending, whole.critical.triangles, vertex_input, cell_input));
   }
 }
 
@@ -117,12 +116,12 @@ TEST_P(ComplexOnRanks, simplices_beyond_a_part_are_those_that_it_does_not_hold) 
     EXPECT_EQ(mesh_.vertex_of(name), no_id);
     EXPECT_TRUE(names.insert(name).second);
   }
-  ASSERT_EQ(found.beyond.corners.size(), found.beyond.tetrahedra.size());
-  for (std::size_t i = 0; i < found.beyond.tetrahedra.size(); ++i) {
-    EXPECT_EQ(mesh_.exchange().tetrahedron_of(found.beyond.tetrahedra[i]), no_id);
+  ASSERT_EQ(found.beyond.corners.size(), found.beyond.cells.size());
+  for (std::size_t i = 0; i < found.beyond.cells.size(); ++i) {
+    EXPECT_EQ(mesh_.exchange().cell_of(found.beyond.cells[i]), no_id);
     std::set<Id> corners;
     for (const Id v : found.beyond.corners[i]) corners.insert(vertex_on_path(found, v));
-    const auto& quad = input().tetrahedra[tetrahedron_named(found.beyond.tetrahedra[i])];
+    const auto& quad = input().tetrahedra[tetrahedron_named(found.beyond.cells[i])];
     EXPECT_EQ(corners, std::set<Id>(quad.begin(), quad.end()));
   }
 }

@@ -15,7 +15,7 @@ TEST_P(DistributedMeshOf, every_partition_has_each_vertex_owned_once) {
   const std::vector<bool> mine = owned();
   for (Id v = 0; v < input().vertices(); ++v) EXPECT_EQ(ranks_.sum(mine[v] ? 1 : 0), 1) << "vertex " << v;
   EXPECT_EQ(mesh_.all_vertices(), input().vertices());
-  EXPECT_EQ(mesh_.all_tetrahedra(), static_cast<GlobalId>(input().tetrahedra.size()));
+  EXPECT_EQ(mesh_.all_cells(), static_cast<GlobalId>(input().tetrahedra.size()));
 }
 
 TEST_P(DistributedMeshOf, every_partition_holds_the_stars_of_owned_vertices_and_no_more) {
@@ -32,14 +32,14 @@ TEST_P(DistributedMeshOf, every_partition_holds_the_stars_of_owned_vertices_and_
   }
   const Mesh& local = mesh_;
   EXPECT_EQ(local.vertices(), static_cast<Id>(vertices.size()));
-  ASSERT_EQ(local.tetrahedra(), static_cast<Id>(tetrahedra.size()));
+  ASSERT_EQ(local.cells(), static_cast<Id>(tetrahedra.size()));
   std::set<Id> found_vertices, found_tetrahedra;
   for (Id v = 0; v < local.vertices(); ++v) found_vertices.insert(input_vertex(v));
-  for (Id t = 0; t < local.tetrahedra(); ++t) {
+  for (Id t = 0; t < local.cells(); ++t) {
     const Id there = input_tetrahedron(t);
     found_tetrahedra.insert(there);
     std::set<Id> corners;
-    for (int corner = 0; corner < 4; ++corner) corners.insert(input_vertex(local.encoded().tetrahedra(t, corner)));
+    for (int corner = 0; corner < 4; ++corner) corners.insert(input_vertex(local.encoded().cells(t, corner)));
     EXPECT_EQ(corners, std::set<Id>(input().tetrahedra[there].begin(), input().tetrahedra[there].end()));
   }
   EXPECT_EQ(found_vertices, vertices);
@@ -131,14 +131,14 @@ TEST(DistributedMesh, of_slabs_of_a_grid_has_the_tetrahedra_of_the_grid) {
     const DistributedMesh mesh(ranks, part);
     const Mesh& local = mesh;
     EXPECT_EQ(mesh.all_vertices(), 216);
-    EXPECT_EQ(mesh.all_tetrahedra(), 750);
+    EXPECT_EQ(mesh.all_cells(), 750);
     EXPECT_EQ(ranks.sum(local.owned_vertices()), 216);
-    EXPECT_GE(ranks.sum(local.tetrahedra()), 750);
-    for (Id t = 0; t < local.tetrahedra(); ++t) {
-      const GlobalId there = mesh.tetrahedron_ids()(local.tetrahedron_input()(t));
+    EXPECT_GE(ranks.sum(local.cells()), 750);
+    for (Id t = 0; t < local.cells(); ++t) {
+      const GlobalId there = mesh.tetrahedron_ids()(local.cell_input()(t));
       std::set<GlobalId> corners, expected;
       for (int corner = 0; corner < 4; ++corner) {
-        corners.insert(mesh.vertex_ids()(local.vertex_input()(local.encoded().tetrahedra(t, corner))));
+        corners.insert(mesh.vertex_ids()(local.vertex_input()(local.encoded().cells(t, corner))));
         expected.insert(whole.tetrahedra(there, corner));
       }
       EXPECT_EQ(corners, expected);
@@ -161,11 +161,11 @@ TEST(DistributedMesh, counts_tetrahedra_on_from_rank_to_rank) {
   for (std::size_t t = 0; t < input.tetrahedra.size(); ++t)
     number[std::set<Id>(input.tetrahedra[t].begin(), input.tetrahedra[t].end())] = static_cast<GlobalId>(t);
   const Mesh& local = mesh;
-  for (Id t = 0; t < local.tetrahedra(); ++t) {
+  for (Id t = 0; t < local.cells(); ++t) {
     std::set<Id> corners;
     for (int corner = 0; corner < 4; ++corner)
-      corners.insert(vertex_named(mesh.vertex_ids()(local.vertex_input()(local.encoded().tetrahedra(t, corner)))));
-    EXPECT_EQ(mesh.tetrahedron_ids()(local.tetrahedron_input()(t)), number.at(corners));
+      corners.insert(vertex_named(mesh.vertex_ids()(local.vertex_input()(local.encoded().cells(t, corner)))));
+    EXPECT_EQ(mesh.tetrahedron_ids()(local.cell_input()(t)), number.at(corners));
   }
 }
 

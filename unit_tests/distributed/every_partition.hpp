@@ -23,7 +23,7 @@ class EveryPartition : public testing::TestWithParam<std::tuple<std::string, std
   /// The input's number of a local vertex (GALE's id), of a tetrahedron.
   Id input_vertex(Id vertex) const { return vertex_named(mesh_.vertex_ids()(mesh_.vertex_input()(vertex))); }
   Id input_tetrahedron(Id tetrahedron) const {
-    return tetrahedron_named(mesh_.tetrahedron_ids()(mesh_.tetrahedron_input()(tetrahedron)));
+    return tetrahedron_named(mesh_.tetrahedron_ids()(mesh_.cell_input()(tetrahedron)));
   }
 
   /// For each vertex of the input whether this rank owns it.

@@ -54,9 +54,8 @@ Sums sums_on_ranks(const DistributedMesh& mesh, const WholeField& field) {
   const auto id = [&](Id v) {
     return v < mesh.vertices() ? mesh.vertex_id(mesh.vertex_input()(v)) : complex.beyond.vertices[v - mesh.vertices()];
   };
-  const auto tetrahedron_id = [&](Id t) {
-    return t < mesh.tetrahedra() ? mesh.tetrahedron_id(mesh.tetrahedron_input()(t))
-                                 : complex.beyond.tetrahedra[t - mesh.tetrahedra()];
+  const auto cell_id = [&](Id t) {
+    return t < mesh.cells() ? mesh.cell_id(mesh.cell_input()(t)) : complex.beyond.cells[t - mesh.cells()];
   };
   for (const auto& [high, low] : complex.critical.edges) simplices.add(id(high), id(low));
   for (const auto& [high, middle, low] : complex.critical.triangles) simplices.add(id(high), id(middle), id(low));
@@ -76,7 +75,7 @@ Sums sums_on_ranks(const DistributedMesh& mesh, const WholeField& field) {
     const auto& some = complex.ascending;
     for (const Id* cell = some.first(i); cell != some.last(i); ++cell)
       paths[1].add(id(complex.critical.triangles[some.sources[i]][0]), some.destinations[i], cell - some.first(i),
-                   tetrahedron_id(*cell));
+                   cell_id(*cell));
   }
   Sums sums{points.value(), simplices.value(), manifolds.value(), paths[0].value(), paths[1].value()};
   mesh.exchange().ranks().sum(sums.data(), static_cast<int>(sums.size()));
@@ -102,7 +101,7 @@ Sums sums_on_one(const io::Dataset& data, const WholeField& field) {
   for (Id v = 0; v < mesh.vertices(); ++v) manifolds.add(v, down[v], up[v], pairs[v]);
   for (int kind = 0; kind < 2; ++kind) {
     const auto& some = kind == 0 ? complex.descending : complex.ascending;
-    const auto& numbers = kind == 0 ? input : mesh.tetrahedron_input();
+    const auto& numbers = kind == 0 ? input : mesh.cell_input();
     for (Id i = 0; i < some.count(); ++i) {
       const Id highest =
           kind == 0 ? complex.critical.edges[some.sources[i]][0] : complex.critical.triangles[some.sources[i]][0];

@@ -69,13 +69,18 @@ std::string complaint_about_message(const std::string& message, const std::strin
 
 std::string complaint_about_dataset(const io::Dataset& dataset) {
   const std::size_t points = std::visit([](const auto& p) { return p.extent(0); }, dataset.points);
-  const auto& tetrahedra = dataset.tetrahedra;
-  if (tetrahedra.extent(0) == 0) return "no tetrahedra";
-  for (std::size_t t = 0; t < tetrahedra.extent(0); ++t) {
-    for (int k = 0; k < 4; ++k) {
-      if (tetrahedra(t, k) < 0 || static_cast<std::size_t>(tetrahedra(t, k)) >= points)
-        return "an id that no point has";
+  if (dataset.cells() == 0) return "no tetrahedra and no triangles";
+  if (dataset.tetrahedra.extent(0) > 0 && dataset.triangles.extent(0) > 0) return "tetrahedra and triangles";
+  const auto has_other_id = [points](const auto& cells) {
+    for (std::size_t k = 0; k < cells.size(); ++k) {
+      const std::int32_t id = cells.data()[k];
+      if (id < 0 || static_cast<std::size_t>(id) >= points) return true;
     }
+    return false;
+  };
+  if (has_other_id(dataset.tetrahedra) || has_other_id(dataset.triangles)) return "an id that no point has";
+  for (const auto& array : dataset.cell_arrays) {
+    if (io::point_count(array) != dataset.cells()) return "a cell array of another length";
   }
   for (const auto& array : dataset.arrays) {
     const std::size_t values = std::visit([](const auto& v) { return v.size(); }, array.values);
@@ -110,6 +115,8 @@ bool same(const io::Dataset& a, const io::Dataset& b) {
       a.points);
   if (!same_points || a.tetrahedra.extent(0) != b.tetrahedra.extent(0)) return false;
   if (!same_bytes(a.tetrahedra.data(), b.tetrahedra.data(), a.tetrahedra.extent(0) * 4)) return false;
+  if (a.triangles.extent(0) != b.triangles.extent(0)) return false;
+  if (!same_bytes(a.triangles.data(), b.triangles.data(), a.triangles.extent(0) * 3)) return false;
   for (std::size_t i = 0; i < a.arrays.size(); ++i) {
     if (!same(a.arrays[i], b.arrays[i])) return false;
   }

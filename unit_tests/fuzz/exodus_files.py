@@ -117,6 +117,18 @@ def exodus(version=2, real="d", times=2, names=("field", "other"), large=True):
     return NetCdf(version, dimensions, variables, times, 8 if real == "d" else 4, large)
 
 
+def exodus_shells():
+    """Two quads and a triangle of six points, in a block each."""
+    file = exodus()
+    file.dimensions["num_nod_per_el2"] = 3
+    blocks = {"connect1": ([1, 2, 5, 3, 2, 6, 5, 4], "SHELL4"), "connect2": ([6, 3, 1], "TRI3")}
+    for variable in file.variables:
+        if variable.name in blocks:
+            variable.values, element = blocks[variable.name]
+            variable.attributes = {"elem_type": element}
+    return file
+
+
 def change(file, choice):
     """One thing of it."""
     variable, other = choice.choice(file.variables), choice.choice(file.variables)
@@ -151,6 +163,7 @@ def main():
     count, folder = int(sys.argv[1]), Path(sys.argv[2])
     folder.mkdir(parents=True, exist_ok=True)
     kinds = [exodus(version, real, large=large) for version in (1, 2, 5) for real in "fd" for large in (True, False)]
+    kinds.append(exodus_shells())
     for number in range(count):
         choice = random.Random(number)
         file = copy.deepcopy(choice.choice(kinds))

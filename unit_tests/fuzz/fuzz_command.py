@@ -19,12 +19,12 @@ VALUES = ["0", "1", "-1", "2", "3", "1000", "2147483648", "99999999999999999999"
 OUTPUTS = ["out.vtp", "out.vtu", "out.vtk", "out", "missing/out.vtp", ".", "out.json", "/dev/null", "/dev/full", "input.vtu"]
 OPTIONS = {
     "--structure": ["gale", "inline", "explicit", "task-parallel", "fast"], "--threads": ["1", "2", "3", "0", "1025"],
-    "--capacity": VALUES, "--segments": ["field", "ids", "nothing"], "--above": VALUES, "--array": ["field", "pairs", "pairs_1", "no"],
+    "--capacity": VALUES, "--segments": ["field", "ids", "nothing"], "--above": VALUES, "--height": ["x", "y", "z", "w"], "--array": ["field", "pairs", "pairs_1", "no"],
     "--host-memory": ["1k", "64k", "1MiB", "0", "1GiB"], "--device-memory": ["1MiB"], "--blocks-per-request": VALUES,
     "--threads-per-block": ["1", "32"], "--threads-per-segment": ["1", "32"], "--report": OUTPUTS, "-o": OUTPUTS, "--output": OUTPUTS,
     "--relation": ["VV", "VT", "EF", "FF", "TT", "EE", "XX", "vv"], "--dump": OUTPUTS, "--arrows": OUTPUTS,
     "--persistence": ["1", "5%", "0", "-1", "nan", "101%"], "--formulation": ["stars", "cells"], "--type": ["join", "split", "contour", "oak"], "--arc-samples": VALUES, "--cores": ["1", "2"]}
-FLAGS = ["--quiet", "--verify", "--cells=tetrahedra", "--separatrices2", "--no-saddle-connectors", "--no-descending-separatrices",
+FLAGS = ["--quiet", "--verify", "--cells=tetrahedra", "--cells=simplices", "--separatrices2", "--no-saddle-connectors", "--no-descending-separatrices",
          "--no-ascending-segmentation", "--help", "--bogus"]
 
 
@@ -40,7 +40,7 @@ def mutated(content, choice):
 def command_line(seeds, folder, choice):
     line = [choice.choice(COMMANDS)]
     if choice.random() < 0.3:
-        line.append(choice.choice(["grid:4", "grid:9", "grid:1", "grid:x", "grid:99999", "missing.vtu"]))
+        line.append(choice.choice(["grid:4", "grid:9", "plane:7", "plane:x", "grid:1", "grid:x", "grid:99999", "missing.vtu"]))
     else:
         seed = choice.choice(seeds)
         name = "input" + ("." + seed.name.split(".", 1)[1] if seed.suffix != ".vtk" else ".vtk")

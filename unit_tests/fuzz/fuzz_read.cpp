@@ -74,7 +74,7 @@ class Cases {
     if (mutates_) return mutated(seeds_, names_, number);
     const std::size_t which = static_cast<std::size_t>(number / 4);
     Mutation same{seeds_[which], names_[which]};
-    same.result.options.tetrahedra_alone = number % 2 == 1;
+    same.result.options.simplices_alone = number % 2 == 1;
     if (number % 4 >= 2) same.result.options.above = 2;
     return same;
   }

@@ -21,11 +21,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     std::filesystem::create_directories(made);
     return made;
   }();
-  static const char* const extensions[] = {".vtu", ".vti", ".vtk", ".nii", ".nii.gz", ".mha", ".mhd", ".nrrd", ".e"};
+  static const char* const extensions[] = {".vtu",  ".vti", ".vtk", ".nii", ".nii.gz", ".mha", ".mhd",
+                                           ".nrrd", ".e",   ".vtp", ".stl", ".ply",    ".obj", ".off"};
   if (size < 2) return 0;
   gale::fuzz::Case one;
   one.extension = extensions[data[0] % std::size(extensions)];
-  one.options.tetrahedra_alone = data[1] & 1;
+  one.options.simplices_alone = data[1] & 1;
   if (data[1] & 2) one.options.above = 2;
   one.content.assign(reinterpret_cast<const char*>(data) + 2, size - 2);
   const std::size_t split = one.content.find("\n\n");

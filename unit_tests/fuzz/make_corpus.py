@@ -12,7 +12,7 @@ import sys
 import zlib
 from pathlib import Path
 
-from exodus_files import exodus
+from exodus_files import exodus, exodus_shells
 
 POINTS = [0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1, 2, 0, 1]
 TETRAHEDRA = [0, 1, 2, 3, 1, 2, 3, 4, 1, 4, 3, 5]
@@ -148,6 +148,80 @@ def pvtu(**global_ids):
             "</PUnstructuredGrid>\n</VTKFile>\n").encode()
 
 
+def vtp(*encoding, pieces=1, **options):
+    """A surface of a triangle, a quad, a pentagon and a strip, with a vertex and a line."""
+    xml = Xml("PolyData", *encoding, **options)
+    body = "<PolyData>\n"
+    for _ in range(pieces):
+        body += ('<Piece NumberOfPoints="6" NumberOfVerts="1" NumberOfLines="1" NumberOfStrips="1" NumberOfPolys="3">\n'
+                 '<PointData Scalars="field">\n' + xml.array("field", "Float32", FIELD) + "</PointData>\n<CellData>\n" +
+                 xml.array("part", "UInt8", [1] * 6) + "</CellData>\n<Points>\n" + xml.array("Points", "Float32", POINTS, 3) + "</Points>\n")
+        for section, cells in (("Verts", [[4]]), ("Lines", [[0, 5]]), ("Strips", [[0, 1, 2, 3, 5]]), ("Polys", [[0, 1, 2], [1, 2, 4, 5], [5, 4, 3, 2, 1]])):
+            ends = [sum(map(len, cells[:i + 1])) for i in range(len(cells))]
+            body += f"<{section}>\n" + xml.array("connectivity", "Int64", sum(cells, [])) + xml.array("offsets", "Int64", ends) + f"</{section}>\n"
+        body += "</Piece>\n"
+    return xml.file(body + "</PolyData>\n")
+
+
+def vtk_surface(version, binary):
+    file = Legacy(version, binary, "POLYDATA").put("POINTS 6 float", "Float32", POINTS)
+    kinds = {"VERTICES": [[4]], "LINES": [[0, 5]], "POLYGONS": [[0, 1, 2], [1, 2, 4, 5], [5, 4, 3, 2, 1]], "TRIANGLE_STRIPS": [[0, 1, 2, 3, 5]]}
+    for name, cells in kinds.items():
+        corners = sum(cells, [])
+        if version == "5.1":
+            ends = [sum(map(len, cells[:i])) for i in range(len(cells) + 1)]
+            file.line(f"{name} {len(ends)} {len(corners)}").put("OFFSETS vtktypeint64", "Int64", ends)
+            file.put("CONNECTIVITY vtktypeint64", "Int64", corners)
+        else:
+            file.put(f"{name} {len(cells)} {len(corners) + len(cells)}", "Int32", [number for cell in cells for number in (len(cell), *cell)])
+    return file.point_data(6).data
+
+
+FACETS = [[0, 1, 2], [1, 2, 4], [1, 4, 5]]
+
+
+def stl(binary):
+    corners = [[POINTS[3 * p:3 * p + 3] for p in facet] for facet in FACETS]
+    if binary:
+        return b"solid of bytes".ljust(80) + struct.pack("<I", 3) + b"".join(struct.pack("<12fH", 0, 0, 1, *sum(facet, []), 0) for facet in corners)
+    text = "solid seed\n"
+    for facet in corners:
+        text += "facet normal 0 0 1\n outer loop\n" + "".join(f"  vertex {x} {y} {z}\n" for x, y, z in facet) + " endloop\nendfacet\n"
+    return (text + "endsolid seed\n").encode()
+
+
+def ply(form, coordinate="float"):
+    header = (f"ply\nformat {form} 1.0\ncomment seed\nelement vertex 6\n" + "".join(f"property {coordinate} {axis}\n" for axis in "xyz") +
+              "property uchar red\nproperty short level\nelement face 2\nproperty list uchar int vertex_indices\nproperty uchar flag\n"
+              "element edge 1\nproperty int vertex1\nproperty list ushort double weights\nelement tristrips 1\n"
+              "property list int int vertex_indices\nend_header\n")
+    order = "<" if "little" in form else ">"
+    points = [(*POINTS[3 * p:3 * p + 3], 10 * p, -p) for p in range(6)]
+    faces, strip = [[0, 1, 2], [5, 4, 2, 1]], [0, 1, 2, -1, 2, 3, 4, 5]
+    if form == "ascii":
+        rows = [*points, *((len(face), *face, 1) for face in faces), (7, 2, 0.5, 1.5), (len(strip), *strip)]
+        return (header + "".join(" ".join(map(str, row)) + "\n" for row in rows)).encode()
+    code = "fff" if coordinate == "float" else "ddd"
+    data = b"".join(struct.pack(f"{order}{code}Bh", *point) for point in points)
+    data += b"".join(struct.pack(f"{order}B{len(face)}iB", len(face), *face, 1) for face in faces)
+    data += struct.pack(f"{order}iH2d", 7, 2, 0.5, 1.5) + struct.pack(f"{order}i{len(strip)}i", len(strip), *strip)
+    return header.encode() + data
+
+
+def lines_of(points, start=""):
+    return "".join(f"{start}{points[3 * p]} {points[3 * p + 1]} {points[3 * p + 2]}\n" for p in range(len(points) // 3))
+
+
+def obj():
+    return ("# seed\nmtllib none.mtl\no name\n" + lines_of(POINTS, "v ") + "vn 0 0 1\nvt 0 0\nusemtl none\ns off\n"
+            "f 1 2 3\nf 2/1 3/1 5/1 6/1\nf -6//1 -5//1 -3//1\nf 1/1/1 \\\n 2/1/1 4/1/1\nl 1 2\n").encode()
+
+
+def off(keyword="OFF"):
+    more = " 1 0 0 1\n" if keyword == "COFF" else "\n"
+    return (f"{keyword}\n# seed\n6 3 0\n" + lines_of(POINTS).replace("\n", more) + "3 0 1 2\n4 1 2 4 5 0.5 0.5 0.5\n5 5 4 3 2 1\n").encode()
+
+
 class Legacy:
     """A legacy VTK file, ASCII or BINARY."""
 
@@ -249,6 +323,18 @@ def seeds():
     for name, encoding, pieces in (("ascii", ["ascii"], 2), ("raw", ["appended raw", zlib_], 1)):
         yield f"{name}.vts", xml_grid("StructuredGrid", *encoding, pieces=pieces), None
         yield f"{name}.vtr", xml_grid("RectilinearGrid", *encoding, pieces=pieces), None
+    for name, content in {"ascii": vtp("ascii"), "pieces": vtp("ascii", pieces=2), "raw_zlib": vtp("appended raw", zlib_),
+                          "base64": vtp("binary", "", "UInt64"), "big_endian": vtp("appended raw", order=">")}.items():
+        yield f"{name}.vtp", content, None
+    for binary in (False, True):
+        yield f"{'binary' if binary else 'ascii'}.stl", stl(binary), None
+        for version in ("3.0", "5.1"):
+            yield f"surface_{version}_{'b' if binary else 'a'}.vtk", vtk_surface(version, binary), None
+    for name, content in {"ascii": ply("ascii"), "little": ply("binary_little_endian"), "big": ply("binary_big_endian", "double")}.items():
+        yield f"{name}.ply", content, None
+    yield "seed.obj", obj(), None
+    yield "plain.off", off(), None
+    yield "colours.off", off("COFF"), None
     yield "coordinates.pvtu", pvtu(), vtu("ascii", more_cells=True)
     yield "ids.pvtu", pvtu(GlobalIds="field"), vtu("appended raw", "", "UInt64", kind="Int32")
     for name, content in {
@@ -269,7 +355,7 @@ def seeds():
                           "doubles": nii("Float64", 64, ">"), "words": nii("UInt16", 512, ">")}.items():
         yield f"{name}.nii", content, None
         yield f"{name}.nii.gz", gzip.compress(content, mtime=0), None
-    for name, file in {"classic": exodus(1, "f"), "large": exodus(2, names=("v_x", "v_y", "v_z", "p")), "cdf5": exodus(5), "old": exodus(1, large=False),
+    for name, file in {"classic": exodus(1, "f"), "large": exodus(2, names=("v_x", "v_y", "v_z", "p")), "cdf5": exodus(5), "old": exodus(1, large=False), "shells": exodus_shells(),
                        "once": exodus(2, times=1, names=("field",))}.items():
         yield f"{name}.e", file.content(), None
     for mode in ("raw", "compressed", "ascii"):

@@ -9,7 +9,7 @@ Mutation mutated(const std::vector<Case>& seeds, const std::vector<std::string>&
   const std::size_t seed = random.below(seeds.size());
   Mutation mutation{seeds[seed], names[seed]};
   Case& one = mutation.result;
-  one.options.tetrahedra_alone = random.one_in(2);
+  one.options.simplices_alone = random.one_in(2);
   if (random.one_in(3)) one.options.above = 2;
   const Case& other = random.one_of(seeds);
   const int count = 1 + static_cast<int>(random.below(random.one_in(3) ? 6 : 2));

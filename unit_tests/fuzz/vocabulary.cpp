@@ -85,6 +85,16 @@ const std::vector<std::vector<std::string>> words = {
     {"num_dim", "num_nodes", "num_el_blk", "num_elem", "num_nod_var", "time_step", "len_name", "num_el_in_blk1",
      "num_el_in_blk2", "num_nod_per_el1"},
     {"Points", "Types", "Offsets", "Connectivity", "PointData", "NumberOfPoints", "NumberOfCells", "VTKHDF"},
+    {"Verts", "Lines", "Polys", "Strips", "NumberOfVerts", "NumberOfLines", "NumberOfPolys", "NumberOfStrips"},
+    {"VERTICES", "LINES", "POLYGONS", "TRIANGLE_STRIPS", "POINTS", "POLYDATA"},
+    {"element", "property", "list", "vertex", "face", "tristrips", "edge", "vertex_indices", "vertex_index",
+     "end_header", "comment", "format", "x", "y", "z"},
+    {"ascii", "binary_little_endian", "binary_big_endian"},
+    {"uchar", "uint8", "int8", "ushort", "int", "uint", "int32", "uint32", "int64", "uint64", "float", "float32",
+     "double", "float64", "list"},
+    {"solid", "facet", "normal", "outer", "loop", "vertex", "endloop", "endfacet", "endsolid"},
+    {"v", "f", "vn", "vt", "o", "#", "\\"},
+    {"OFF", "COFF", "NOFF", "STOFF", "4OFF", "OFF BINARY"},
     {"domain", "none", "vector", "3-vector", "list", "scalar", "RGB-color", "???"}};
 
 }  // namespace gale::fuzz

@@ -22,9 +22,10 @@ std::vector<std::string> words_of(const std::string& text) {
 }
 
 std::string written_with(const Format& format) {
-  static const char* const names[] = {"points", "surfaces", "lines", "meshes", "pieces of meshes"};
+  static const char* const names[] = {"points", "surfaces",         "lines",
+                                      "meshes", "pieces of meshes", "meshes of triangles"};
   std::string list;
-  for (unsigned bit = 0; bit < 5; ++bit) {
+  for (unsigned bit = 0; bit < 6; ++bit) {
     if ((format.written >> bit & 1) != 0) list += (list.empty() ? "" : ", ") + std::string(names[bit]);
   }
   return list;
@@ -64,7 +65,7 @@ TEST(Formats, AreFoundByTheirExtensionsInEitherCase) {
     for (const std::string& extension : words_of(format.extensions)) EXPECT_EQ(format_of("a" + extension), &format);
   }
   EXPECT_EQ(format_of("A.NII.GZ"), format_of("a.nii"));
-  EXPECT_EQ(format_of("a.stl"), nullptr);
+  EXPECT_EQ(format_of("a.msh"), nullptr);
   EXPECT_EQ(format_of(".vtu"), nullptr) << "this is a name without an extension";
 }
 

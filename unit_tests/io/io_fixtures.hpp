@@ -111,6 +111,14 @@ inline std::vector<int> tetrahedra_of(const Dataset& mesh) {
   return ids;
 }
 
+inline std::vector<int> triangles_of(const Dataset& mesh) {
+  std::vector<int> ids;
+  for (std::size_t t = 0; t < mesh.triangles.extent(0); ++t) {
+    for (int k = 0; k < 3; ++k) ids.push_back(mesh.triangles(t, k));
+  }
+  return ids;
+}
+
 /// The tetrahedron's volume, negative where its orientation is.
 inline double volume(const Dataset& mesh, std::size_t t) {
   const std::vector<double> xyz = points_of(mesh);
@@ -149,6 +157,7 @@ inline void expect_same(const Dataset& a, const Dataset& b) {
   EXPECT_EQ(a.points.index(), b.points.index());
   EXPECT_EQ(points_of(a), points_of(b));
   EXPECT_EQ(tetrahedra_of(a), tetrahedra_of(b));
+  EXPECT_EQ(triangles_of(a), triangles_of(b));
   expect_same(a.arrays, b.arrays);
 }
 

@@ -207,12 +207,12 @@ TEST_F(ReadImage, Nrrd) {
   EXPECT_EQ(values_of<float>(mesh.arrays[0]), voxels);
 }
 
-TEST_F(ReadImage, RefusesFlatImagesAndThresholdsThatNothingPasses) {
-  Nifti flat;
-  flat.dim = {2, 6, 2, 1, 1, 1, 1, 1};
-  std::string path = folder.put("flat.nii", flat.bytes());
+TEST_F(ReadImage, RefusesRowsOfVoxelsAndThresholdsThatNothingPasses) {
+  Nifti row;
+  row.dim = {2, 12, 1, 1, 1, 1, 1, 1};
+  std::string path = folder.put("row.nii", row.bytes());
   EXPECT_EQ(error_of([&] { read(path); }),
-            "cannot read '" + path + "': the image has 6 x 2 x 1 voxels: it needs at least 2 in each direction");
+            "cannot read '" + path + "': the image has 12 x 1 x 1 voxels: it needs at least 2 in two directions");
   path = folder.put("a.nii", Nifti().bytes());
   EXPECT_EQ(error_of([&] { read(path, above(300)); }),
             "cannot read '" + path + "': no eight neighbouring voxels of 'NIFTI' are all above 300");

@@ -33,7 +33,8 @@ TEST(ReadGrid, RefusesOtherNumbers) {
 
 TEST(ReadFile, NeedsVtk) {
   if (detail::has_vtk()) GTEST_SKIP() << "built with VTK";
-  EXPECT_EQ(error_of([] { read("x.vtu"); }), "this gale was built without VTK: it reads grid:N alone, not 'x.vtu'");
+  EXPECT_EQ(error_of([] { read("x.vtu"); }),
+            "this gale was built without VTK: it reads grid:N, plane:N and the like alone, not 'x.vtu'");
 }
 
 /// Points 0 to 4, two tetrahedra and, between them, a triangle and a line.
@@ -129,7 +130,7 @@ TEST_F(ReadMesh, ReadsVtuInEitherCase) {
 TEST_F(ReadMesh, SplitsOtherCellsUnlessTold) {
   const std::string path = folder.put("hexahedron.vtu", vtu(2, "0 1 3 4  0 1 2 3 4 5 6 7", "4 12", "10 12"));
   ReadOptions tetrahedra;
-  tetrahedra.tetrahedra_alone = true;
+  tetrahedra.simplices_alone = true;
   EXPECT_EQ(error_of([&] { read(path, tetrahedra); }),
             "cannot read '" + path + "': it has 1 hexahedra, and tetrahedra alone are wanted");
   const Dataset both = read(path);
@@ -199,11 +200,11 @@ Z_COORDINATES 2 float
   EXPECT_DOUBLE_EQ(total, 3);
 }
 
-TEST_F(ReadMesh, RefusesMeshesWithoutTetrahedra) {
-  const std::string triangle = folder.put("triangle.vtu", vtu(1, "0 1 2", "3", "5"));
-  EXPECT_EQ(error_of([&] { read(triangle); }), "cannot read '" + triangle + "': it has no tetrahedra");
+TEST_F(ReadMesh, RefusesMeshesOfNoCells) {
+  const std::string line = folder.put("line.vtu", vtu(1, "0 1", "2", "3"));
+  EXPECT_EQ(error_of([&] { read(line); }), "cannot read '" + line + "': it has no tetrahedra and no triangles");
   const std::string empty = folder.put("empty.vtu", vtu(0, "", "", ""));
-  EXPECT_EQ(error_of([&] { read(empty); }), "cannot read '" + empty + "': it has no tetrahedra");
+  EXPECT_EQ(error_of([&] { read(empty); }), "cannot read '" + empty + "': it has no tetrahedra and no triangles");
 }
 
 TEST_F(ReadMesh, RefusesIdsThatNoPointHas) {
@@ -227,11 +228,11 @@ TEST_F(ReadMesh, RefusesWhatIsNoSuchFile) {
   const std::string directory = folder / "directory.vtu";
   std::filesystem::create_directory(directory);
   EXPECT_EQ(error_of([&] { read(directory); }), "cannot read '" + directory + "': it is a directory");
-  for (const std::string name : {"mesh.obj", "mesh.msh", "mesh", ".vtu", "points.vtp", ""}) {
+  for (const std::string name : {"mesh.msh", "mesh", ".vtu", "points.pvtp", ""}) {
     EXPECT_EQ(error_of([&] { read(name); }),
               "cannot read '" + name +
-                  "': its extension is none of .vtu .pvtu .vtk .vts .vtr .vti .nii .nii.gz .mha .mhd "
-                  ".nrrd .e .ex2 .exo .hdf .vtkhdf, nor is it grid:N; for other meshes: "
+                  "': its extension is none of .vtu .pvtu .vtk .vtp .vts .vtr .vti .nii .nii.gz .mha .mhd "
+                  ".nrrd .e .ex2 .exo .hdf .vtkhdf .stl .ply .obj .off, nor is it grid:N or plane:N; for other meshes: "
                   "meshio convert '" +
                   name + "' mesh.vtu");
   }

@@ -134,9 +134,9 @@ TEST(SplitVoxels, ArraysOfEveryTypeTravel) {
   EXPECT_EQ(mesh.notices, image.notices);
 }
 
-TEST(SplitVoxels, RefusesFlatImagesAndEmptyResults) {
-  EXPECT_EQ(error_of([] { split_voxels(counting_image(4, 1, 5), 0); }),
-            "the image has 4 x 1 x 5 voxels: it needs at least 2 in each direction");
+TEST(SplitVoxels, RefusesRowsOfVoxelsAndEmptyResults) {
+  EXPECT_EQ(error_of([] { split_voxels(counting_image(4, 1, 1), 0); }),
+            "the image has 4 x 1 x 1 voxels: it needs at least 2 in two directions");
   EXPECT_EQ(error_of([] { split_voxels(counting_image(2, 2, 2), 8.5); }),
             "no eight neighbouring voxels of 'value' are all above 8.5");
   Image image = counting_image(2, 2, 2);

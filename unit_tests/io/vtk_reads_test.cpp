@@ -138,6 +138,57 @@ TEST_F(VtkReads, legacy_meshes) {
   expect_mesh(read_by<vtkUnstructuredGridReader>("mesh.vtk"), mesh);
 }
 
+/// Meshes of triangles: `found` has these as its cells.
+void expect_triangles(vtkPointSet* found, const Dataset& mesh) {
+  expect_points(found, mesh.points);
+  ASSERT_EQ(found->GetNumberOfCells(), static_cast<vtkIdType>(mesh.triangles.extent(0)));
+  for (std::size_t t = 0; t < mesh.triangles.extent(0); t += 97) {
+    const auto corner = [&](int k) { return mesh.triangles(t, k); };
+    expect_cell(found, static_cast<vtkIdType>(t), VTK_TRIANGLE, {corner(0), corner(1), corner(2)});
+  }
+  expect_array(found->GetPointData()->GetArray("field"), mesh.arrays[0]);
+  expect_array(found->GetCellData()->GetArray(global_cell_ids), mesh.cell_arrays[0]);
+}
+
+Dataset plane_with_cells() {
+  Dataset mesh = make_plane(120);
+  std::vector<std::int32_t> cells(mesh.triangles.extent(0));
+  for (std::size_t t = 0; t < cells.size(); ++t) cells[t] = static_cast<std::int32_t>(t / 2);
+  mesh.cell_arrays = {{global_cell_ids, 1, std::move(cells)}};
+  return mesh;
+}
+
+TEST_P(VtkReadsEncoded, meshes_of_triangles) {
+  const Dataset mesh = plane_with_cells();
+  for (const char* name : {"mesh.vtu", "mesh.vtp"}) {
+    write_to(name, [&](const AtomicFile& file) { write_mesh(file, mesh); });
+    test::expect_same(read(folder / name), mesh);
+  }
+  expect_triangles(read_by<vtkXMLUnstructuredGridReader>("mesh.vtu"), mesh);
+  expect_triangles(read_by<vtkXMLPolyDataReader>("mesh.vtp"), mesh);
+}
+
+TEST_F(VtkReads, legacy_meshes_of_triangles) {
+  const Dataset mesh = plane_with_cells();
+  write_mesh(folder / "mesh.vtk", mesh);
+  expect_triangles(read_by<vtkUnstructuredGridReader>("mesh.vtk"), mesh);
+  test::expect_same(read(folder / "mesh.vtk"), mesh);
+}
+
+TEST_F(VtkReads, pieces_of_triangles) {
+  MeshPiece piece{plane_with_cells(), {}};
+  piece.cell_arrays = std::move(piece.mesh.cell_arrays);
+  AtomicFiles files;
+  write_piece(files.add(folder / "all_0.vtu"), piece);
+  write_pieces(files.add(folder / "all.pvtu"), {"all_0.vtu"}, piece);
+  files.commit();
+  const auto found = read_by<vtkXMLPUnstructuredGridReader>("all.pvtu");
+  ASSERT_EQ(found->GetNumberOfCells(), static_cast<vtkIdType>(piece.mesh.triangles.extent(0)));
+  expect_cell(found, 0, VTK_TRIANGLE, {0, 1, 121});
+  const Dataset mesh = read(folder / "all.pvtu");
+  EXPECT_EQ(test::triangles_of(mesh), test::triangles_of(piece.mesh));
+}
+
 TEST_P(VtkReadsEncoded, empty_meshes) {
   Dataset mesh = make_grid(2);
   mesh.tetrahedra = {};

@@ -38,10 +38,10 @@ void expect_edges(const Mesh& mesh) {
   const auto stars = detail::find_middle_stars(space, tables);
   detail::enumerate_edges(space, tables, stars, by_lanes);
   detail::enumerate_triangles(space, tables, stars, by_lanes);
-  detail::enumerate_by_segments(encoded, tables.tetrahedron_begin, true, by_segments);
-  detail::enumerate_by_segments(encoded, tables.tetrahedron_begin, false, edges_first);
+  detail::enumerate_by_segments(encoded, tables.cell_begin, true, by_segments);
+  detail::enumerate_by_segments(encoded, tables.cell_begin, false, edges_first);
   EXPECT_EQ(edges_first.triangle_begin.size(), 0u);
-  detail::enumerate_by_segments(encoded, tables.tetrahedron_begin, true, edges_first);
+  detail::enumerate_by_segments(encoded, tables.cell_begin, true, edges_first);
   EXPECT_EQ(to_vector(by_lanes.edge_high.in<HostMemory>()),
             std::vector<Id>(tables.edge_high.data(), tables.edge_high.data() + mesh.known_edges()));
   EXPECT_EQ(to_vector(by_lanes.triangle_apex.in<HostMemory>()),

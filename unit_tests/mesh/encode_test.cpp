@@ -28,13 +28,13 @@ void expect_both_ways(const InputMesh& mesh, const Segmentation& segmentation) {
   const Array<Id, HostMemory> vertex_internal("vertex_internal", internal.extent(0));
   Kokkos::deep_copy(vertex_internal, internal);
   const HostExecutionSpace space;
-  const auto sorted = detail::sort_tetrahedra_by_vertices<HostExecutionSpace, Index>(space, input, vertex_internal);
+  const auto sorted = detail::sort_cells_by_vertices<4, HostExecutionSpace, Index>(space, input, vertex_internal);
   const auto external =
-      detail::find_external_tetrahedra<HostExecutionSpace>(space, sorted.of_lowest, encoded.vertex_begin());
+      detail::find_external_cells<HostExecutionSpace>(space, sorted.of_lowest, encoded.vertex_begin());
   const int before = host_threads();
   for (const int threads : {1, 3}) {
     set_host_threads(threads);
-    const auto found = detail::encode_by_groups<Index>(input, vertex_internal, encoded.vertex_begin());
+    const auto found = detail::encode_by_groups<4, Index>(input, vertex_internal, encoded.vertex_begin());
     EXPECT_EQ(quads_of(found.sorted.of_lowest.entries), quads_of(sorted.of_lowest.entries));
     EXPECT_EQ(to_vector(found.sorted.of_lowest.offsets), to_vector(sorted.of_lowest.offsets));
     EXPECT_EQ(to_vector(found.sorted.input), to_vector(sorted.input));

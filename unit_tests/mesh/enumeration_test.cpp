@@ -18,7 +18,7 @@ Mesh holed() {
 constexpr SimplexNeeds edges = {Enumeration::edges, false, false};
 constexpr SimplexNeeds lower_edges = {Enumeration::edges, true, false};
 constexpr SimplexNeeds triangles = {Enumeration::triangles, false, false};
-constexpr SimplexNeeds tetrahedra = {Enumeration::tetrahedra, false, true};
+constexpr SimplexNeeds tetrahedra = {Enumeration::cells, false, true};
 constexpr SimplexNeeds everything = {Enumeration::triangles, true, true};
 
 Id count_of(int dimension) { return static_cast<Id>(brute_force_of("holed_grid_9").simplices(dimension).size()); }
@@ -85,14 +85,14 @@ TEST(Enumeration, is_shared_by_copies_of_a_mesh) {
 TEST(Enumeration, gives_the_host_no_table_that_it_did_not_ask_for) {
   const Mesh mesh = holed();
   const auto nothing = mesh.simplices({});
-  EXPECT_EQ(nothing.tetrahedra.extent(0), 0u);
+  EXPECT_EQ(nothing.cells.extent(0), 0u);
   EXPECT_EQ(nothing.edge_begin.extent(0), 0u);
   const auto only_edges = mesh.simplices(edges);
   EXPECT_EQ(only_edges.edge_high.extent(0), static_cast<std::size_t>(count_of(1)));
   EXPECT_EQ(only_edges.triangle_begin.extent(0), 0u);
   EXPECT_EQ(only_edges.lower_begin.extent(0), 0u);
-  EXPECT_EQ(only_edges.tetrahedra.extent(0), 0u);
-  EXPECT_EQ(mesh.simplices(everything).tetrahedra.extent(0), static_cast<std::size_t>(mesh.tetrahedra()));
+  EXPECT_EQ(only_edges.cells.extent(0), 0u);
+  EXPECT_EQ(mesh.simplices(everything).cells.extent(0), static_cast<std::size_t>(mesh.cells()));
 }
 
 /// Tables that someone has stay as they are when more is enumerated.

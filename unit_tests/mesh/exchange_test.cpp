@@ -69,7 +69,7 @@ TEST(ExchangeOfWholeMesh, knows_input_ids_alone) {
   EXPECT_FALSE(exchange.is_of_part());
   EXPECT_TRUE(exchange.ranks().is_alone());
   EXPECT_EQ(mesh.all_vertices(), 5);
-  EXPECT_EQ(mesh.all_tetrahedra(), 2);
+  EXPECT_EQ(mesh.all_cells(), 2);
   for (Id v = 0; v < 5; ++v) {
     EXPECT_EQ(mesh.vertex_id(v), v);
     EXPECT_EQ(mesh.vertex_of(v), v);
@@ -77,7 +77,7 @@ TEST(ExchangeOfWholeMesh, knows_input_ids_alone) {
   }
   EXPECT_EQ(mesh.vertex_of(5), no_id);
   EXPECT_EQ(mesh.vertex_of(-1), no_id);
-  EXPECT_EQ(mesh.tetrahedron_id(1), 1);
+  EXPECT_EQ(mesh.cell_id(1), 1);
   EXPECT_EQ(exchange.owners_of(array_of({4, 2}))(1), 0);
   EXPECT_TRUE(exchange.from_owners().keeps_all());
 }

@@ -19,8 +19,8 @@ constexpr SimplexNeeds all_tables = {Enumeration::triangles, true, true};
 void expect_equal(const Mesh& mesh, const Mesh& expected) {
   const auto& one = mesh.encoded();
   const auto& other = expected.encoded();
-  ASSERT_EQ(mesh.tetrahedra(), expected.tetrahedra());
-  for (Id t = 0; t < mesh.tetrahedra(); ++t) ASSERT_TRUE(one.tetrahedron(t) == other.tetrahedron(t)) << t;
+  ASSERT_EQ(mesh.cells(), expected.cells());
+  for (Id t = 0; t < mesh.cells(); ++t) ASSERT_TRUE(one.cell(t) == other.cell(t)) << t;
   const auto values = [](const auto& view) {
     return std::vector<std::int64_t>(view.data(), view.data() + view.extent(0));
   };
@@ -29,7 +29,7 @@ void expect_equal(const Mesh& mesh, const Mesh& expected) {
   EXPECT_EQ(values(one.external_begin), values(other.external_begin));
   EXPECT_EQ(values(one.external), values(other.external));
   EXPECT_EQ(values(mesh.vertex_input()), values(expected.vertex_input()));
-  EXPECT_EQ(values(mesh.tetrahedron_input()), values(expected.tetrahedron_input()));
+  EXPECT_EQ(values(mesh.cell_input()), values(expected.cell_input()));
   const auto tables = mesh.simplices(all_tables), wanted = expected.simplices(all_tables);
   EXPECT_EQ(values(tables.edge_begin), values(wanted.edge_begin));
   EXPECT_EQ(values(tables.edge_low), values(wanted.edge_low));

@@ -68,7 +68,7 @@ INSTANTIATE_TEST_SUITE_P(Tests, InputNumbersOf, every_mesh_and_segmentation(), m
 TEST(InputNumbers, of_vertices_and_tetrahedra_are_the_inputs) {
   const Mesh mesh = encode(mesh_named("the_papers"), 2);
   EXPECT_EQ(input_numbers(mesh, 0).data(), mesh.vertex_input().data());
-  EXPECT_EQ(input_numbers(mesh, 3).data(), mesh.tetrahedron_input().data());
+  EXPECT_EQ(input_numbers(mesh, 3).data(), mesh.cell_input().data());
 }
 
 }  // namespace gale::test

@@ -37,8 +37,8 @@ View filled_tetrahedra() {
 }
 
 std::vector<Id> vertices_of_tetrahedra(const Mesh& mesh) {
-  const Id* const first = mesh.encoded().tetrahedra.data();
-  return {first, first + std::size_t(4) * mesh.tetrahedra()};
+  const Id* const first = mesh.encoded().cells.data();
+  return {first, first + std::size_t(4) * mesh.cells()};
 }
 
 /// Is it the mesh that Mesh itself makes of the same points and tetrahedra?

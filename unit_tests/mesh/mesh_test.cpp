@@ -13,9 +13,9 @@ namespace {
 using Quad = std::array<Id, 4>;
 
 std::vector<Quad> tetrahedra_in(const EncodedMesh<HostMemory>& mesh) {
-  std::vector<Quad> tetrahedra(mesh.tetrahedra.extent(0));
+  std::vector<Quad> tetrahedra(mesh.cells.extent(0));
   for (std::size_t t = 0; t < tetrahedra.size(); ++t) {
-    for (int corner = 0; corner < 4; ++corner) tetrahedra[t][corner] = mesh.tetrahedra(t, corner);
+    for (int corner = 0; corner < 4; ++corner) tetrahedra[t][corner] = mesh.cells(t, corner);
   }
   return tetrahedra;
 }
@@ -59,7 +59,7 @@ void expect_external_tetrahedra(const Mesh& mesh) {
 
 /// What GALE's tetrahedron `t` must be.
 Quad renumbered(const InputMesh& input, const Mesh& mesh, Id t) {
-  Quad quad = input.tetrahedra.at(mesh.tetrahedron_input()(t));
+  Quad quad = input.tetrahedra.at(mesh.cell_input()(t));
   for (Id& vertex : quad) vertex = mesh.vertex_internal()(vertex);
   std::sort(quad.begin(), quad.end());
   return quad;
@@ -76,7 +76,7 @@ class MeshOf : public EveryMesh {
 
 TEST_P(MeshOf, every_input_has_its_counts) {
   EXPECT_EQ(mesh.vertices(), input().vertices());
-  EXPECT_EQ(mesh.tetrahedra(), static_cast<Id>(input().tetrahedra.size()));
+  EXPECT_EQ(mesh.cells(), static_cast<Id>(input().tetrahedra.size()));
   EXPECT_EQ(mesh.segments(), segmentation().segments());
 }
 
@@ -91,8 +91,8 @@ TEST_P(MeshOf, every_input_numbers_vertices_by_the_segmentation) {
 TEST_P(MeshOf, every_input_has_the_same_tetrahedra_renumbered) {
   const auto tetrahedra = tetrahedra_in(mesh.encoded());
   std::set<Id> seen;
-  for (Id t = 0; t < mesh.tetrahedra(); ++t) {
-    const Id input_t = mesh.tetrahedron_input()(t);
+  for (Id t = 0; t < mesh.cells(); ++t) {
+    const Id input_t = mesh.cell_input()(t);
     ASSERT_TRUE(seen.insert(input_t).second) << "input tetrahedron " << input_t << " twice";
     ASSERT_EQ(tetrahedra[t], renumbered(input(), mesh, t)) << "tetrahedron " << t;
   }
@@ -104,7 +104,7 @@ TEST_P(MeshOf, every_input_has_its_tetrahedra_in_order_and_in_intervals) {
   EXPECT_TRUE(std::is_sorted(tetrahedra.begin(), tetrahedra.end()));
   ASSERT_EQ(host.internal_begin.extent(0), std::size_t(mesh.segments()) + 1);
   EXPECT_EQ(host.internal_begin(0), 0);
-  EXPECT_EQ(host.internal_begin(mesh.segments()), mesh.tetrahedra());
+  EXPECT_EQ(host.internal_begin(mesh.segments()), mesh.cells());
   const auto segment_of = segments_of_vertices(mesh);
   for (Id s = 0; s < mesh.segments(); ++s) {
     ASSERT_LE(host.internal_begin(s), host.internal_begin(s + 1));
@@ -124,7 +124,7 @@ TEST_P(MeshOf, every_input_finds_the_segment_of_a_vertex) {
 TEST_P(MeshOf, every_input_is_the_same_from_64_bit_ids) {
   const Mesh other(tetrahedra_of<std::int64_t>(input()), segmentation());
   EXPECT_EQ(tetrahedra_in(other.encoded()), tetrahedra_in(mesh.encoded()));
-  EXPECT_EQ(to_vector(other.tetrahedron_input()), to_vector(mesh.tetrahedron_input()));
+  EXPECT_EQ(to_vector(other.cell_input()), to_vector(mesh.cell_input()));
   EXPECT_EQ(external_in(other.encoded()), external_in(mesh.encoded()));
 }
 
@@ -146,7 +146,7 @@ TEST(Mesh, of_the_papers_example_with_its_segments_exchanged) {
   const Mesh mesh = encode(mesh_named("the_papers"), segmentation_by({2, 2, 2, 1, 1, 1}));
   EXPECT_EQ(to_vector(mesh.vertex_input()), (std::vector<Id>{3, 4, 5, 0, 1, 2}));
   EXPECT_EQ(tetrahedra_in(mesh.encoded()), (std::vector<Quad>{{0, 1, 2, 5}, {0, 1, 3, 5}, {0, 3, 4, 5}}));
-  EXPECT_EQ(to_vector(mesh.tetrahedron_input()), (std::vector<Id>{2, 1, 0}));
+  EXPECT_EQ(to_vector(mesh.cell_input()), (std::vector<Id>{2, 1, 0}));
 }
 
 /// Enough tetrahedra for several threads, which find them in any order.
@@ -155,7 +155,7 @@ TEST(Mesh, of_many_tetrahedra_is_in_the_same_order) {
   const Mesh mesh = encode(input, 100);
   const auto tetrahedra = tetrahedra_in(mesh.encoded());
   EXPECT_TRUE(std::is_sorted(tetrahedra.begin(), tetrahedra.end()));
-  for (Id t = 0; t < mesh.tetrahedra(); ++t) ASSERT_EQ(tetrahedra[t], renumbered(input, mesh, t));
+  for (Id t = 0; t < mesh.cells(); ++t) ASSERT_EQ(tetrahedra[t], renumbered(input, mesh, t));
   expect_external_tetrahedra(mesh);
 }
 
@@ -188,7 +188,7 @@ TEST(Mesh, keeps_what_was_found_out_once) {
 TEST(Mesh, copies_share_their_arrays) {
   const Mesh mesh = encode(mesh_named("one_tetrahedron"), segmentation_by({0, 0, 0, 0}));
   const Mesh copy = mesh;
-  EXPECT_EQ(copy.encoded().tetrahedra.data(), mesh.encoded().tetrahedra.data());
+  EXPECT_EQ(copy.encoded().cells.data(), mesh.encoded().cells.data());
 }
 
 }  // namespace gale::test

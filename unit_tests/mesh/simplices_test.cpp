@@ -15,13 +15,13 @@ constexpr SimplexNeeds everything = {Enumeration::triangles, true, true};
 
 /// The tables of `Simplices`, wherever they lie.
 struct Copied {
-  std::vector<Id> tetrahedron_begin, edge_begin, edge_low, edge_high, triangle_begin, triangle_edge, triangle_apex,
+  std::vector<Id> cell_begin, edge_begin, edge_low, edge_high, triangle_begin, triangle_edge, triangle_apex,
       lower_begin, lower_edges;
   Table tetrahedra;
 
   template <class Memory>
   explicit Copied(const Simplices<Memory>& s)
-      : tetrahedron_begin(copy(s.tetrahedron_begin)),
+      : cell_begin(copy(s.cell_begin)),
         edge_begin(copy(s.edge_begin)),
         edge_low(copy(s.edge_low)),
         edge_high(copy(s.edge_high)),
@@ -30,8 +30,8 @@ struct Copied {
         triangle_apex(copy(s.triangle_apex)),
         lower_begin(copy(s.lower_begin)),
         lower_edges(copy(s.lower_edges)) {
-    const Kokkos::View<Id* [4], Kokkos::LayoutRight, HostMemory> host("copy", s.tetrahedra.extent(0));
-    Kokkos::deep_copy(host, s.tetrahedra);
+    const Kokkos::View<Id* [4], Kokkos::LayoutRight, HostMemory> host("copy", s.cells.extent(0));
+    Kokkos::deep_copy(host, s.cells);
     for (std::size_t t = 0; t < host.extent(0); ++t)
       tetrahedra.push_back({host(t, 0), host(t, 1), host(t, 2), host(t, 3)});
   }
@@ -74,8 +74,8 @@ void expect_tables(const Copied& tables, const ExpectedSimplices& expected) {
   EXPECT_EQ(tables.tetrahedra, tetrahedra);
   EXPECT_EQ(tables.edge_begin,
             begins(vertices.size(), edges.size(), [&edges = edges](std::size_t e) { return edges[e][0]; }));
-  EXPECT_EQ(tables.tetrahedron_begin, begins(vertices.size(), tetrahedra.size(),
-                                             [&tetrahedra = tetrahedra](std::size_t t) { return tetrahedra[t][0]; }));
+  EXPECT_EQ(tables.cell_begin, begins(vertices.size(), tetrahedra.size(),
+                                      [&tetrahedra = tetrahedra](std::size_t t) { return tetrahedra[t][0]; }));
   EXPECT_EQ(tables.triangle_begin,
             begins(edges.size(), triangles.size(), [&](std::size_t f) { return tables.triangle_edge[f]; }));
   std::vector<Id> lower;

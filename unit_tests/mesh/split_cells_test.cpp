@@ -369,6 +369,30 @@ TEST(SplitPolygons, cover_what_they_are_made_of) {
   }
 }
 
+TEST(CellsOfTypes, have_a_highest_dimension_and_others_than_simplices) {
+  const auto of = [](const std::vector<std::uint8_t>& types) {
+    return Array<const std::uint8_t, HostMemory>(types.data(), types.size());
+  };
+  const std::vector<std::uint8_t> mixed = {1, 5, 9, 22, 12, 10, 14}, flat = {5, 3, 7, 7}, lines = {3, 1},
+                                  unknown = {200}, none;
+  EXPECT_EQ(highest_dimension(of(mixed)), 3);
+  EXPECT_EQ(highest_dimension(of(flat)), 2);
+  EXPECT_EQ(highest_dimension(of(lines)), 1);
+  EXPECT_EQ(highest_dimension(of(unknown)), 0);
+  EXPECT_EQ(highest_dimension(of(none)), 0);
+  std::array<Offset, 256> census{};
+  EXPECT_EQ(highest_dimension(census), 0);
+  census[200] = 4;
+  census[9] = 1;
+  EXPECT_EQ(highest_dimension(census), 2);
+  census[13] = 1;
+  EXPECT_EQ(highest_dimension(census), 3);
+  EXPECT_EQ(other_cells(of(mixed)), "1 hexahedra and 1 pyramids");
+  EXPECT_EQ(other_cells(of(mixed), 2), "1 quads and 1 quadratic triangles");
+  EXPECT_EQ(other_cells(of(flat), 2), "2 polygons");
+  EXPECT_EQ(other_cells(of(flat)), "");
+}
+
 TEST(SplitPolygons, refuse_what_is_none) {
   const auto message = [](int type, const Ids& points) {
     return message_of([&] {

@@ -47,6 +47,25 @@ TEST(SelectField, without_a_name_takes_the_first_that_is_neither_segments_nor_an
   EXPECT_EQ(message_of([] { select_field(with({}), ""); }), "no point array to analyse: the input has no point arrays");
 }
 
+TEST(AddHeight, puts_a_coordinate_first_in_the_points_type) {
+  const auto check = [](auto example) {
+    using Coordinate = decltype(example);
+    io::Dataset dataset = with({height, {height_name, 1, std::vector<int>{7, 7}}});
+    const io::Dataset::Points<Coordinate> points("points", 2);
+    for (int i = 0; i < 2; ++i) {
+      for (int axis = 0; axis < 3; ++axis) points(i, axis) = static_cast<Coordinate>(10 * i + axis);
+    }
+    dataset.points = points;
+    add_height(dataset, 2);
+    ASSERT_EQ(dataset.arrays.size(), 2u) << "the one of that name goes";
+    EXPECT_EQ(std::get<std::vector<Coordinate>>(dataset.arrays[0].values), (std::vector<Coordinate>{2, 12}));
+    EXPECT_EQ(select_field(dataset, "").name, "Height");
+    EXPECT_EQ(dataset.arrays[1].name, "height");
+  };
+  check(float());
+  check(double());
+}
+
 TEST(SelectField, without_a_name_takes_what_is_called_as_segments_but_holds_none) {
   EXPECT_EQ(select_field(with({{ttk_segments_name, 1, std::vector<float>{0.5f, 1}}, height}), "").name, "_index");
 }

@@ -45,7 +45,7 @@ TEST(NamedSimplices, precede_the_cells_of_paths) {
   const OutputsOf of = some_complex();
   const MorseSmaleComplex& complex = of.complex;
   const outputs::detail::NamedGroups groups(complex);
-  const auto& tetrahedra = complex.gradient.mesh().encoded().tetrahedra;
+  const auto& tetrahedra = complex.gradient.mesh().encoded().cells;
   const auto corners = [&](Id t) {
     return std::array<Id, 4>{tetrahedra(t, 0), tetrahedra(t, 1), tetrahedra(t, 2), tetrahedra(t, 3)};
   };

@@ -62,7 +62,7 @@ void expect_identities(const Mesh& mesh) {
 /// Vertices less edges plus triangles less tetrahedra.
 Id euler_characteristic(const Mesh& mesh) {
   mesh.interval_begin(2);
-  return mesh.vertices() - mesh.known_edges() + mesh.known_triangles() - mesh.tetrahedra();
+  return mesh.vertices() - mesh.known_edges() + mesh.known_triangles() - mesh.cells();
 }
 
 Mesh segmented(const InputMesh& input) { return encode(input, 100); }

@@ -15,7 +15,7 @@ void expect_needs(RelationSet relations, Enumeration upto, bool lower_edges, boo
   const SimplexNeeds needs = needs_of(relations);
   EXPECT_EQ(needs.upto, upto) << name_of(relations);
   EXPECT_EQ(needs.lower_edges, lower_edges) << name_of(relations);
-  EXPECT_EQ(needs.tetrahedra, tetrahedra) << name_of(relations);
+  EXPECT_EQ(needs.cells, tetrahedra) << name_of(relations);
 }
 
 }  // namespace
@@ -29,14 +29,14 @@ TEST(Preconditioning, finds_edges_of_triangles_for_rows_of_triangles_alone) {
 }
 
 TEST(Preconditioning, of_stars_needs_nothing_enumerated) {
-  expect_needs(star_relations, Enumeration::tetrahedra, false, false);
+  expect_needs(star_relations, Enumeration::cells, false, false);
 }
 
 TEST(Preconditioning, of_face_relations_needs_the_simplices_that_they_are_about) {
   expect_needs(Relation::EV, Enumeration::edges, false, false);
   expect_needs(Relation::FV, Enumeration::triangles, false, false);
   expect_needs(Relation::FE, Enumeration::triangles, false, false);
-  expect_needs(Relation::TV, Enumeration::tetrahedra, false, true);
+  expect_needs(Relation::TV, Enumeration::cells, false, true);
   expect_needs(Relation::TE, Enumeration::edges, false, true);
   expect_needs(Relation::TF, Enumeration::triangles, false, true);
 }
@@ -53,8 +53,8 @@ TEST(Preconditioning, of_coboundary_and_adjacency_needs_edges_by_their_higher_ve
 }
 
 TEST(Preconditioning, of_several_needs_what_any_of_them_needs) {
-  expect_needs(RelationSet(), Enumeration::tetrahedra, false, false);
-  expect_needs(Relation::VV | Relation::TV, Enumeration::tetrahedra, false, true);
+  expect_needs(RelationSet(), Enumeration::cells, false, false);
+  expect_needs(Relation::VV | Relation::TV, Enumeration::cells, false, true);
   expect_needs(Relation::FV | Relation::VE, Enumeration::triangles, true, false);
   expect_needs((all_relations | link_form), Enumeration::triangles, true, true);
 }

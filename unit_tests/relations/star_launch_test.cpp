@@ -32,7 +32,7 @@ class LaunchedStars {
     const auto words = allocate<Array<Id, WorkerMemory>>("words", capacity_);
     const Array<Offset, WorkerMemory> used("used", 1), directory("directory", Offset(segments) * wanted_.count());
     const auto needed = to_worker(std::vector<StarSizes>(1));
-    StarKernel<WorkerMemory> kernel;
+    StarKernel<WorkerMemory, 4> kernel;
     kernel.mesh = mesh_.encoded<WorkerMemory>();
     kernel.segments = segment_list.data();
     kernel.wanted = wanted_;
@@ -103,7 +103,7 @@ Id expect_rows(const LaunchedStars& batch, const Mesh& mesh, RelationSet wanted,
 /// Does a team of these sizes find room in the scratch memory that is fast?
 bool fits_level_0(const StarSizes& sizes) {
   constexpr std::size_t portion = 32 * 1024;
-  return StarKernel<WorkerMemory>::scratch_bytes(sizes, warps) < portion;
+  return StarKernel<WorkerMemory, 4>::scratch_bytes(sizes, warps) < portion;
 }
 
 /// What every segment of the mesh needs, found as a runtime does: by trying.
@@ -167,7 +167,7 @@ TEST(LaunchedStars, touch_no_pool_that_has_no_room) {
     Offset used = 0;
     std::vector<Offset> directory(wanted.count(), 0);
     StarSizes needed;
-    StarKernel<HostMemory> kernel;
+    StarKernel<HostMemory, 4> kernel;
     kernel.mesh = mesh.encoded();
     kernel.segments = &segment;
     kernel.wanted = wanted;
@@ -190,10 +190,10 @@ TEST(LaunchedStars, of_a_vertex_of_degree_70000) {
   EXPECT_EQ(expect_rows(batch, mesh, star_relations, expected), mesh.segments());
 }
 
-TEST(LaunchedStars, of_no_segments_are_nothing) { launch(WorkerSpace(), StarKernel<WorkerMemory>(), 0, warps); }
+TEST(LaunchedStars, of_no_segments_are_nothing) { launch(WorkerSpace(), StarKernel<WorkerMemory, 4>(), 0, warps); }
 
 TEST(LaunchedStars, refuse_more_scratch_memory_than_a_team_can_have) {
-  StarKernel<WorkerMemory> kernel;
+  StarKernel<WorkerMemory, 4> kernel;
   kernel.sizes = {1000, 600000000, 8, 8};
   try {
     launch(WorkerSpace(), kernel, 1, 1);

@@ -68,7 +68,7 @@ void ExpectedRows::find_links(const InputMesh& input, const BruteForce& brute_fo
     for (const Id neighbour : vv[v]) place.emplace(neighbour, static_cast<Id>(place.size()));
     for (const Id t : vt[v]) {
       std::set<Id> places;
-      for (const Id corner : brute_force.simplices(3)[mesh.tetrahedron_input()(t)]) {
+      for (const Id corner : brute_force.simplices(3)[mesh.cell_input()(t)]) {
         if (corner != input_vertex) places.insert(place.at(vertex_internal[corner]));
       }
       link[v].emplace_back();

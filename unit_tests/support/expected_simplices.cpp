@@ -26,7 +26,7 @@ std::vector<Id> ordered(std::size_t count) {
 ExpectedSimplices::ExpectedSimplices(const BruteForce& brute_force, const Mesh& mesh, int highest)
     : vertex_begin(to_vector(mesh.vertex_begin())) {
   number[0] = inverse_of(mesh.vertex_input());
-  number[3] = inverse_of(mesh.tetrahedron_input());
+  number[3] = inverse_of(mesh.cell_input());
   for (const int dimension : {0, 1, 2, 3}) {
     if (dimension > highest && dimension < 3) continue;
     auto simplices = brute_force.simplices(dimension);

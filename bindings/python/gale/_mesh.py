@@ -33,7 +33,7 @@ def _persistence(threshold: Optional[Persistence]) -> Dict[str, Tuple[float, boo
 
 
 _POLYHEDRON = 42
-_VOXEL, _HEXAHEDRON = 11, 12
+_STRIP, _POLYGON, _PIXEL, _QUAD, _VOXEL, _HEXAHEDRON = 6, 7, 8, 9, 11, 12
 
 
 def _cells_of(grid: Any) -> Tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -93,26 +93,64 @@ def _points_of(grid: Any) -> np.ndarray:
 def _structured_cells(dimensions: Tuple[int, ...], cell_type: int) -> Tuple[np.ndarray, np.ndarray, np.ndarray]:
     """(connectivity, offsets, types) of a grid of so many points along each axis, x fastest."""
     nx, ny, nz = dimensions
-    if min(dimensions) < 2:
-        raise Error(f"a grid of {nx} x {ny} x {nz} points has no cells of dimension 3")
-    first = np.arange(nx * ny * nz, dtype=np.int64).reshape(nz, ny, nx)[:-1, :-1, :-1].ravel()
-    corners = np.array([0, 1, nx, nx + 1] if cell_type == _VOXEL else [0, 1, nx + 1, nx])
-    corners = np.concatenate([corners, corners + nx * ny])
-    count = len(first)
-    return (first[:, None] + corners).ravel(), np.arange(0, 8 * count + 1, 8), np.full(count, cell_type, np.uint8)
+    steps = [step for step, count in zip((1, nx, nx * ny), dimensions) if count > 1]
+    if len(steps) < 2:
+        raise Error(f"a grid of {nx} x {ny} x {nz} points has no cells of dimension 2 or 3")
+    first = np.arange(nx * ny * nz, dtype=np.int64).reshape(nz, ny, nx)
+    first = first[tuple(slice(max(count - 1, 1)) for count in (nz, ny, nx))].ravel()
+    x, y = steps[:2]
+    corners = np.array([0, x, y, x + y] if cell_type == _VOXEL else [0, x, x + y, y])
+    if len(steps) == 3:
+        corners = np.concatenate([corners, corners + steps[2]])
+    else:
+        cell_type = _PIXEL if cell_type == _VOXEL else _QUAD
+    count, size = len(first), len(corners)
+    return (first[:, None] + corners).ravel(), np.arange(0, size * count + 1, size), np.full(count, cell_type, np.uint8)
 
 
-def _joined(of: Any, points: List[Any], tetrahedra: List[Any], capacity: int, cells: Optional[np.ndarray] = None) -> Any:
+def _surface_cells(surface: Any) -> Tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """(connectivity, offsets, types) of the polygons and strips of a surface; other cells of it are left out."""
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+
+    parts = [(surface.GetPolys(), _POLYGON), (surface.GetStrips(), _STRIP)]
+    if sum(cells.GetNumberOfCells() for cells, _ in parts) == 0:
+        raise Error("the surface has no polygons")
+    connectivity = [vtk_to_numpy(cells.GetConnectivityArray()) for cells, _ in parts]
+    offsets = [vtk_to_numpy(cells.GetOffsetsArray())[:cells.GetNumberOfCells() + 1] for cells, _ in parts]
+    types = np.repeat(np.array([_POLYGON, _STRIP], np.uint8), [cells.GetNumberOfCells() for cells, _ in parts])
+    return (np.concatenate(connectivity), np.concatenate([offsets[0], offsets[1][1:] + len(connectivity[0])]), types)
+
+
+# VTK's numbers of what meshio calls cells; it orders their points as VTK does.
+_MESHIO_TYPES = {"vertex": 1, "line": 3, "line3": 21, "triangle": 5, "polygon": 7, "quad": 9, "tetra": 10, "hexahedron": 12,
+                 "wedge": 13, "pyramid": 14, "triangle6": 22, "tetra10": 24}
+
+
+def _meshio_cells(mesh: Any) -> Tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """(connectivity, offsets, types) of all blocks of a mesh of meshio's."""
+    connectivity, sizes, types = [np.zeros(0, np.int64)], [np.zeros(0, np.int64)], [np.zeros(0, np.uint8)]
+    for block in mesh.cells:
+        if block.type not in _MESHIO_TYPES:
+            raise Error(f"cells of meshio's type {block.type!r} can't be split: it takes {', '.join(_MESHIO_TYPES)}")
+        corners = np.asarray(block.data)
+        connectivity.append(corners.ravel())
+        sizes.append(np.full(len(corners), corners.shape[1] if corners.ndim == 2 else 1, np.int64))
+        types.append(np.full(len(corners), _MESHIO_TYPES[block.type], np.uint8))
+    offsets = np.concatenate([[0], np.cumsum(np.concatenate(sizes))])
+    return np.concatenate(connectivity).astype(np.int64), offsets, np.concatenate(types)
+
+
+def _joined(of: Any, points: List[Any], corners: List[Any], capacity: int, cells: Optional[np.ndarray] = None) -> Any:
     """A mesh that was pickled."""
-    mesh = of(_arrays.joined(points), _arrays.joined(tetrahedra), capacity)
+    mesh = of(_arrays.joined(points), _arrays.joined(corners), capacity)
     mesh._cells = cells
     return mesh
 
 
 class Mesh:
-    """A tetrahedral mesh.
+    """A mesh of tetrahedra, or of triangles.
 
-    points: (n, 3) float32 or float64, tetrahedra: (m, 4) int32 or int64 vertex ids: numpy's, or by the array interface or
+    points: (n, 3) float32 or float64, cells: (m, 4) int32 or int64 vertex ids of tetrahedra, or (m, 3) of triangles: numpy's, or by the array interface or
     DLPack; on a GALE with CUDA also in a device's memory, by DLPack or `__cuda_array_interface__`. They are copied: what
     happens to them afterwards, the mesh doesn't see.
 
@@ -128,15 +166,16 @@ class Mesh:
     _mesh: _gale.Mesh
     _cells: Optional[np.ndarray] = None
 
-    def __init__(self, points: Any, tetrahedra: Any, capacity: int = 64) -> None:
-        self._mesh = _gale.Mesh(_arrays.points(points), _arrays.ids(tetrahedra), capacity)
+    def __init__(self, points: Any, cells: Any, capacity: int = 64) -> None:
+        self._mesh = _gale.Mesh(_arrays.points(points), _arrays.ids(cells), capacity)
 
     @classmethod
     def from_cells(cls, points: Any, connectivity: Any, offsets: Any, types: Any, capacity: int = 64) -> Mesh:
         """The mesh of cells of any kind, as VTK numbers and orders them: `connectivity` has their points, cell c those from
         offsets[c] up to offsets[c + 1], and types[c] is what it is (12: a hexahedron). Tetrahedra stay as they are;
         hexahedra, voxels, wedges, pyramids, pentagonal and hexagonal prisms, polyhedra and quadratic tetrahedra are split,
-        without new points and so that neighbours fit: `cells` says which one a tetrahedron is of. A polyhedron's entries
+        without new points and so that neighbours fit: `cells` says which one a tetrahedron is of. Where no cell is of dimension
+        3, triangles, quads, pixels, polygons, strips and quadratic triangles make a mesh of triangles likewise. A polyhedron's entries
         are its faces: how many, then of each how many corners, and these (VTK's face stream). Cells of lower dimension are
         left out, with a UserWarning."""
         split = _gale.from_cells(_arrays.points(points), _arrays.ids(connectivity, "cells"), _arrays.offsets(offsets),
@@ -148,19 +187,33 @@ class Mesh:
 
     @classmethod
     def from_pyvista(cls, grid: Any, capacity: int = 64) -> Mesh:
-        """The mesh of a grid of PyVista or VTK: of the cells of an unstructured one (see from_cells), of the hexahedra of a
-        structured one, of the voxels of a rectilinear grid or an image, whatever their values."""
+        """The mesh of a grid of PyVista or VTK: of the cells of an unstructured one (see from_cells), of the polygons and
+        strips of a surface, of the hexahedra (or quads) of a structured one, of the voxels (or pixels) of a rectilinear grid
+        or an image, whatever their values."""
         if not hasattr(grid, "IsA"):
             raise Error(f"what is of {type(grid).__name__} is no grid")
         if grid.IsA("vtkUnstructuredGrid"):
             cells = _cells_of(grid)
             return cls.from_cells(_points_of(grid), *cells, capacity)
+        if grid.IsA("vtkPolyData"):
+            return cls.from_cells(_points_of(grid), *_surface_cells(grid), capacity)
         if not (grid.IsA("vtkStructuredGrid") or grid.IsA("vtkRectilinearGrid") or grid.IsA("vtkImageData")):
-            raise Error(f"what is of {type(grid).__name__} is no unstructured, structured or rectilinear grid, and no image")
+            raise Error(f"what is of {type(grid).__name__} is no unstructured, structured or rectilinear grid, no surface, and no image")
         cell_type = _HEXAHEDRON if grid.IsA("vtkStructuredGrid") else _VOXEL
         low_x, high_x, low_y, high_y, low_z, high_z = grid.GetExtent()
         dimensions = high_x - low_x + 1, high_y - low_y + 1, high_z - low_z + 1
         return cls.from_cells(_points_of(grid), *_structured_cells(dimensions, cell_type), capacity)
+
+    @classmethod
+    def from_meshio(cls, mesh: Any, capacity: int = 64) -> Mesh:
+        """The mesh of what meshio has read, of all its blocks of cells (see from_cells); points of two coordinates are in
+        the plane z = 0."""
+        if not hasattr(mesh, "cells") or not hasattr(mesh, "points"):
+            raise Error(f"what is of {type(mesh).__name__} is no mesh of meshio's")
+        points = np.asarray(mesh.points)
+        if points.ndim == 2 and points.shape[1] == 2:
+            points = np.column_stack([points, np.zeros(len(points), points.dtype)])
+        return cls.from_cells(points, *_meshio_cells(mesh), capacity)
 
     @classmethod
     def _of(cls, inner: _gale.Mesh, cells: Optional[np.ndarray] = None) -> Mesh:
@@ -176,8 +229,18 @@ class Mesh:
 
     @property
     def tetrahedra(self) -> int:
-        """How many tetrahedra there are."""
-        return self._mesh.tetrahedra
+        """How many tetrahedra there are; 0 of a mesh of triangles."""
+        return self._mesh.cells if self._mesh.dimension == 3 else 0
+
+    @property
+    def triangles(self) -> int:
+        """How many triangles a mesh of triangles has; 0 of one of tetrahedra, whose faces aren't counted."""
+        return self._mesh.cells if self._mesh.dimension == 2 else 0
+
+    @property
+    def dimension(self) -> int:
+        """3 where the cells are tetrahedra, 2 where they are triangles."""
+        return self._mesh.dimension
 
     @property
     def segments(self) -> int:
@@ -191,12 +254,14 @@ class Mesh:
 
     @property
     def cells(self) -> np.ndarray:
-        """A copy of which of the cells that the mesh was made of each tetrahedron is, or is of: (tetrahedra,) int32."""
-        return np.arange(self.tetrahedra, dtype=np.int32) if self._cells is None else np.array(self._cells)
+        """A copy of which of the cells that the mesh was made of each tetrahedron (or triangle) is, or is of: (tetrahedra,)
+        int32."""
+        return np.arange(self._mesh.cells, dtype=np.int32) if self._cells is None else np.array(self._cells)
 
     def __reduce__(self) -> Tuple[Any, ...]:
-        tetrahedra = self.relation("TV")[1].reshape(-1, 4)
-        return _joined, (type(self), _arrays.pieces(self.points), _arrays.pieces(tetrahedra), self._mesh.capacity,
+        corners = self.dimension + 1
+        cells = self.relation("TV" if corners == 4 else "FV")[1].reshape(-1, corners)
+        return _joined, (type(self), _arrays.pieces(self.points), _arrays.pieces(cells), self._mesh.capacity,
                          self._cells)
 
     def __copy__(self) -> Mesh:
@@ -206,12 +271,13 @@ class Mesh:
         return self
 
     def __repr__(self) -> str:
-        return f"gale.Mesh({self.vertices} vertices, {self.tetrahedra} tetrahedra)"
+        cells = f"{self.tetrahedra} tetrahedra" if self.dimension == 3 else f"{self.triangles} triangles"
+        return f"gale.Mesh({self.vertices} vertices, {cells})"
 
     def relation(self, name: str, threads: int = 0, progress: Progress = None) -> Tuple[np.ndarray, np.ndarray]:
-        """Which simplices touch which, e.g. "VT": for each vertex its tetrahedra. As (indptr, indices), (rows + 1,) int64
-        and (entries,) int32: the i-th row is indices[indptr[i]:indptr[i + 1]], ascending. Vertices (V) and tetrahedra (T)
-        have their places in the input; edges (E) and triangles (F) are numbered in the order of their vertices, which
+        """Which simplices touch which, e.g. "VT": for each vertex its tetrahedra (of triangles "VF"). As (indptr, indices), (rows + 1,) int64
+        and (entries,) int32: the i-th row is indices[indptr[i]:indptr[i + 1]], ascending. Vertices (V) and cells (T, or
+        F of a mesh of triangles) have their places in the input; edges (E) and other triangles (F) are numbered in the order of their vertices, which
         "EV" and "FV" give."""
         return self._relation(name, threads, progress)[:2]
 
@@ -301,8 +367,8 @@ def read(path: Union[str, os.PathLike[str]], above: Optional[float] = None, arra
          outside_files: bool = False, capacity: int = 64) -> Tuple[Mesh, Dict[str, np.ndarray]]:
     """The mesh of a file, and its point arrays by name, each (n,) or (n, components): (Mesh, dict).
 
-    Meshes: .vtu, .pvtu, .vtk, .vts, .vtr, .e, .ex2, .exo, .vtkhdf, .hdf; volumes, of which the voxels with values above `above` are split into tetrahedra: .vti, .nii,
-    .nii.gz, .mha, .mhd, .nrrd, .vtk; and grid:N. `array` is the volume's array that `above` is about. What of the file
+    Meshes: .vtu, .pvtu, .vtk, .vts, .vtr, .e, .ex2, .exo, .vtkhdf, .hdf; surfaces: .vtp, .stl, .ply, .obj, .off, .vtk; volumes, of
+    which the voxels with values above `above` are split into tetrahedra: .vti, .nii, .nii.gz, .mha, .mhd, .nrrd, .vtk; and grid:N. `array` is the volume's array that `above` is about. What of the file
     is left out, such as all but the first of several times, is a UserWarning, and so is that cells were split (see
     Mesh.from_cells); with cells="tetrahedra" a file of other cells is refused instead."""
     if cells not in ("any", "tetrahedra"):

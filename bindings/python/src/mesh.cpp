@@ -56,12 +56,13 @@ SegmentedPoints segmented(const Array1& points, int capacity) {
   });
 }
 
-Mesh mesh_of(const Array1& tetrahedra, const Segmentation& segmentation) {
-  return with_type<std::int32_t, std::int64_t>(tetrahedra, "tetrahedra are neither int32 nor int64", [&](auto one) {
+template <int corners>
+Mesh mesh_of(const Array1& cells, const std::string& name, const Segmentation& segmentation) {
+  return with_type<std::int32_t, std::int64_t>(cells, (name + " are neither int32 nor int64").c_str(), [&](auto one) {
     using Index = decltype(one);
-    return with_view<const Index* [4]>(tetrahedra, "tetrahedra", [&](const auto& view) {
-      const Tetrahedra<Index, typename std::decay_t<decltype(view)>::memory_space> copy =
-          copy_of("GALE::tetrahedra", view);
+    return with_view<const Index* [corners]>(cells, name.c_str(), [&](const auto& view) {
+      const CellCorners<corners, Index, typename std::decay_t<decltype(view)>::memory_space> copy =
+          copy_of("GALE::cells", view);
       return Mesh(copy, segmentation);
     });
   });
@@ -83,9 +84,17 @@ auto copy_of_entries(const View& view) {
 
 struct MeshOfCells {
   Mesh mesh;
-  std::optional<std::vector<Id>> cells;  ///< of tetrahedra
+  std::optional<std::vector<Id>> cells;  ///< of tetrahedra or triangles
   std::vector<std::string> notices;
 };
+
+template <int corners, class Memory>
+MeshOfCells mesh_of(const SplitCells<corners, Memory>& split, const Segmentation& segmentation) {
+  const Mesh mesh(CellCorners<corners, Id, Memory>(split.simplices), segmentation);
+  if (split.cells.extent(0) == 0) return {mesh, std::nullopt, split.notices};
+  const auto cells = on_host(split.cells);
+  return {mesh, vector_of<Id>(cells.data(), cells.extent(0)), split.notices};
+}
 
 MeshOfCells mesh_of(const Array1& connectivity, const Array1& offsets, const Array1& types,
                     const Segmentation& segmentation) {
@@ -100,11 +109,9 @@ MeshOfCells mesh_of(const Array1& connectivity, const Array1& offsets, const Arr
         return Array<const std::uint8_t, Memory>(in_memory<Memory>(copy_of_entries(view)));
       });
       const Cells<Index, Memory> all{numbers, begin, copy_of_entries(corners)};
-      const auto split = split_cells(all, segmentation.vertices());
-      const Mesh mesh(Tetrahedra<Id, Memory>(split.simplices), segmentation);
-      if (split.cells.extent(0) == 0) return {mesh, std::nullopt, split.notices};
-      const auto cells = on_host(split.cells);
-      return {mesh, vector_of<Id>(cells.data(), cells.extent(0)), split.notices};
+      const Id vertices = segmentation.vertices();
+      return highest_dimension(on_host(numbers)) == 2 ? mesh_of(split_polygons(all, vertices), segmentation)
+                                                      : mesh_of(split_cells(all, vertices), segmentation);
     });
   });
 }
@@ -132,20 +139,26 @@ PyMesh::PyMesh(io::Dataset::Positions points, const Mesh& mesh, int capacity) : 
   dataset_.points = std::move(points);
 }
 
-PyMesh::PyMesh(Array1 points, Array1 tetrahedra, int capacity) : capacity_(capacity) {
+PyMesh::PyMesh(Array1 points, Array1 cells, int capacity) : capacity_(capacity) {
   require_rows(points, 3, "points");
-  require_rows(tetrahedra, 4, "tetrahedra");
+  const bool are_triangles = cells.ndim() == 2 && cells.shape(1) == 3;
+  if (!are_triangles) require_rows(cells, 4, "tetrahedra");
   mesh_ = Job().run([&] {
     const SegmentedPoints found = segmented(points, capacity);
     dataset_.points = found.points;
-    return mesh_of(tetrahedra, found.segmentation);
+    return are_triangles ? mesh_of<3>(cells, "triangles", found.segmentation)
+                         : mesh_of<4>(cells, "tetrahedra", found.segmentation);
   });
 }
 
 PyMesh::PyMesh(io::Dataset& dataset, int capacity) : capacity_(capacity) {
   dataset_.points = dataset.points;
-  mesh_ =
-      std::visit([&](const auto& points) { return make_mesh(points, dataset.tetrahedra, capacity); }, dataset.points);
+  mesh_ = std::visit(
+      [&](const auto& points) {
+        return dataset.dimension() == 3 ? make_mesh(points, dataset.tetrahedra, capacity)
+                                        : make_mesh(points, dataset.triangles, capacity);
+      },
+      dataset.points);
 }
 
 const Mesh& PyMesh::mesh() const {
@@ -176,7 +189,7 @@ nb::tuple read(const nb::bytes& path, std::optional<double> above, const std::st
   io::ReadOptions options;
   options.above = above;
   options.array = array;
-  options.tetrahedra_alone = tetrahedra_alone;
+  options.simplices_alone = tetrahedra_alone;
   options.outside_files = outside_files;
   io::Dataset dataset;
   auto mesh = Job().run([&] {

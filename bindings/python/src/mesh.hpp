@@ -19,7 +19,7 @@ namespace gale::python {
 class PyMesh : public Kept {
  public:
   /// Copies the arrays before it checks them.
-  PyMesh(Array1 points, Array1 tetrahedra, int capacity);
+  PyMesh(Array1 points, Array1 cells, int capacity);
 
   PyMesh(io::Dataset::Positions points, const Mesh& mesh, int capacity);
 
@@ -32,7 +32,8 @@ class PyMesh : public Kept {
   }
 
   Id vertices() const { return mesh().vertices(); }
-  Id tetrahedra() const { return mesh().tetrahedra(); }
+  int dimension() const { return mesh().dimension(); }
+  Id cells() const { return mesh().cells(); }
   Id segments() const { return mesh().segments(); }
   int capacity() const { return capacity_; }
   nb::object points() const;
@@ -59,11 +60,11 @@ class PyMesh : public Kept {
   std::optional<Mesh> mesh_;
 };
 
-/// (the mesh of cells of any types of VTK's, the cell of each tetrahedron or None where all are, what was split and
-/// left out)
+/// (the mesh of cells of any types of VTK's, the cell of each tetrahedron or triangle, or None where all are, what was
+/// split and left out)
 nb::tuple from_cells(Array1 points, Array1 connectivity, Array1 offsets, Array1 types, int capacity);
 
-/// (the mesh that a file has, its point arrays, arrays of tetrahedra, what of it was split and left out)
+/// (the mesh that a file has, its point arrays, arrays of its cells, what of it was split and left out)
 nb::tuple read(const nb::bytes& path, std::optional<double> above, const std::string& array, bool tetrahedra_alone,
                bool outside_files, int capacity);
 

@@ -42,9 +42,10 @@ NB_MODULE(_gale, module) {
              "outside_files"_a, "capacity"_a);
 
   nb::class_<PyMesh>(module, "Mesh")
-      .def(nb::init<gale::python::Array1, gale::python::Array1, int>(), "points"_a, "tetrahedra"_a, "capacity"_a)
+      .def(nb::init<gale::python::Array1, gale::python::Array1, int>(), "points"_a, "cells"_a, "capacity"_a)
       .def_prop_ro("vertices", &PyMesh::vertices)
-      .def_prop_ro("tetrahedra", &PyMesh::tetrahedra)
+      .def_prop_ro("dimension", &PyMesh::dimension)
+      .def_prop_ro("cells", &PyMesh::cells)
       .def_prop_ro("segments", &PyMesh::segments)
       .def_prop_ro("capacity", &PyMesh::capacity)
       .def("points", &PyMesh::points)

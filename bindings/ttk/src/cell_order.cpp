@@ -59,8 +59,8 @@ void number(CellOrder& order, Id count, const Cells& cells, const Each& each, co
 /// lie near each other in GALE's tables.
 template <class Parts, class Found>
 void find_parts(const Mesh& mesh, const Cells& cells, const Parts& parts, const Found& found) {
-  const Id *const input = mesh.tetrahedron_input().data(), *const vertex_internal = mesh.vertex_internal().data();
-  parallel_for("GALE::ttk_first_cells", HostExecutionSpace(), mesh.tetrahedra(), [&](Offset t) {
+  const Id *const input = mesh.cell_input().data(), *const vertex_internal = mesh.vertex_internal().data();
+  parallel_for("GALE::ttk_first_cells", HostExecutionSpace(), mesh.cells(), [&](Offset t) {
     for (const Id part : parts(SortedCorners(cells, input[t], vertex_internal))) found(part, input[t]);
   });
 }
@@ -73,7 +73,7 @@ CellOrder order_of_edges(const Mesh& mesh, const Cells& cells) {
   const Id* const input = mesh.vertex_input().data();
   CellOrder order;
   const auto first = allocate<Ids>("GALE::ttk_number", count);  // numbers take the cells' place
-  fill("GALE::ttk_clear_first", HostExecutionSpace(), first, mesh.tetrahedra());
+  fill("GALE::ttk_clear_first", HostExecutionSpace(), first, mesh.cells());
   find_parts(
       mesh, cells, [&](const SortedCorners& corners) { return corners.edges(simplices); },
       [&](Id edge, Id cell) { update(&first(edge), [&](Id there) { return cell < there ? cell : there; }); });

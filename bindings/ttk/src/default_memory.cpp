@@ -49,9 +49,8 @@ bool Connectivity::is_by_place(int dimension) const {
     };
     const auto in_vertices = [&](Id segment) { return segments_.vertices(segment); };
     const Id segments = segments_.count();
-    known =
-        (dimension == 0 ? kept_at_one_time(segments, counts_[0], in_vertices, vertex_input_)
-                        : kept_at_one_time(segments, counts_[3], in_cells, mesh_->tetrahedron_input().data())) < most;
+    known = (dimension == 0 ? kept_at_one_time(segments, counts_[0], in_vertices, vertex_input_)
+                            : kept_at_one_time(segments, counts_[3], in_cells, mesh_->cell_input().data())) < most;
   }
   return *known;
 }

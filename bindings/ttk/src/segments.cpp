@@ -19,7 +19,7 @@ Segments::Segments(const Mesh& mesh)
   find_segments();
   if (mesh.on_device()) return;
   encoded_ = mesh.encoded();
-  tetrahedron_input_ = mesh.tetrahedron_input().data();
+  cell_input_ = mesh.cell_input().data();
 }
 
 void Segments::find_segments() {
@@ -30,7 +30,7 @@ void Segments::find_segments() {
 }
 
 void Segments::group(const Cells& cells) {
-  if (tetrahedron_input_ != nullptr || grouped_.rows() > 0) return;
+  if (cell_input_ != nullptr || grouped_.rows() > 0) return;
   const Id* const segment_of = segment_of_.data();
   grouped_ = group_by("GALE::ttk_cells", HostExecutionSpace(), cells.count(), count(), [=](Id cell, const auto& visit) {
     Id met[4];
@@ -45,16 +45,16 @@ void Segments::group(const Cells& cells) {
 
 void Segments::gather(Id segment, std::vector<Id>& cells) const {
   cells.clear();
-  if (tetrahedron_input_ == nullptr) {
+  if (cell_input_ == nullptr) {
     const Span<Id> row = grouped_.row(segment);
     cells.assign(row.begin(), row.end());
     return;
   }
   for (Id t = encoded_.internal_begin(segment); t < encoded_.internal_begin(segment + 1); ++t) {
-    cells.push_back(tetrahedron_input_[t]);
+    cells.push_back(cell_input_[t]);
   }
   for (Offset i = encoded_.external_begin(segment); i < encoded_.external_begin(segment + 1); ++i) {
-    cells.push_back(tetrahedron_input_[encoded_.external(i)]);
+    cells.push_back(cell_input_[encoded_.external(i)]);
   }
 }
 

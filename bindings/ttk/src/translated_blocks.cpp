@@ -63,7 +63,7 @@ Block Connectivity::make_block(Reader& reader, Relation relation, Id segment) co
   switch (entry_dimension(relation)) {
     case 0:  // VV, in another order
       for (const Id i : rows) {
-        reader.star.sort(consumer.row(Relation::VT, i), mesh_->tetrahedron_input().data(), cells_);
+        reader.star.sort(consumer.row(Relation::VT, i), mesh_->cell_input().data(), cells_);
         reader.star.add_neighbours(reader.builder, consumer.row(Relation::VV, i), consumer.link(i), cells_,
                                    vertex_input_);
         reader.builder.end_row();
@@ -76,7 +76,7 @@ Block Connectivity::make_block(Reader& reader, Relation relation, Id segment) co
       add(triangles_.number);
       break;
     default:
-      add(mesh_->tetrahedron_input().data());
+      add(mesh_->cell_input().data());
   }
   return reader.builder.take();
 }

@@ -223,15 +223,18 @@ vtkSmartPointer<vtkUnstructuredGrid> split_voxels(vtkDataSet* voxels, vtkDataArr
   }
   add_arrays(voxels->GetPointData(), field, image);
   const io::Dataset dataset = io::split_voxels(std::move(image), above);
+  const bool are_triangles = dataset.dimension() == 2;
+  const Id* const simplices = are_triangles ? dataset.triangles.data() : dataset.tetrahedra.data();
+  const vtkIdType count = are_triangles ? 3 : 4, entries = count * static_cast<vtkIdType>(dataset.cells());
   const auto corners = vtkSmartPointer<vtkTypeInt32Array>::New();
-  corners->SetNumberOfValues(static_cast<vtkIdType>(4 * dataset.tetrahedra.extent(0)));
-  std::copy_n(dataset.tetrahedra.data(), 4 * dataset.tetrahedra.extent(0), corners->GetPointer(0));
+  corners->SetNumberOfValues(entries);
+  std::copy_n(simplices, entries, corners->GetPointer(0));
   const auto cells = vtkSmartPointer<vtkCellArray>::New();
-  cells->SetData(4, corners);
+  cells->SetData(count, corners);
   auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
   const auto points = points_of(dataset.points);
   grid->SetPoints(rectilinear != nullptr ? points_along(rectilinear, points) : points);
-  grid->SetCells(VTK_TETRA, cells);
+  grid->SetCells(are_triangles ? VTK_TRIANGLE : VTK_TETRA, cells);
   add(dataset.arrays, grid->GetPointData());
   return grid;
 }

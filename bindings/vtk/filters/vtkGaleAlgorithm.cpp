@@ -175,10 +175,9 @@ void require_whole(vtkInformation* output) {
 /// The input. Throws gale::Error if it is no mesh, or where an array hasn't one row a point.
 vtkDataSet* mesh_of(vtkInformationVector* inputs) {
   vtkDataObject* const input = vtkDataObject::GetData(inputs);
-  const bool is_mesh = vtkPointSet::SafeDownCast(input) && !vtkPolyData::SafeDownCast(input);
-  if (!is_mesh && !vtkImageData::SafeDownCast(input) && !vtkRectilinearGrid::SafeDownCast(input))
-    throw gale::Error(std::string("the input is a ") + input->GetClassName() +
-                      ", not an unstructured or structured grid, an image or a rectilinear grid");
+  if (!vtkPointSet::SafeDownCast(input) && !vtkImageData::SafeDownCast(input) &&
+      !vtkRectilinearGrid::SafeDownCast(input))
+    throw gale::Error(std::string("the input is a ") + input->GetClassName() + ", not a grid, a surface or an image");
   auto* const mesh = vtkDataSet::SafeDownCast(input);
   vtkPointData* const arrays = mesh->GetPointData();
   for (int k = 0; k < arrays->GetNumberOfArrays(); ++k) {

@@ -2,12 +2,14 @@
  * @class vtkGaleAlgorithm
  * @brief what GALE's filters have in common
  *
- * The input is a vtkUnstructuredGrid whose cells of dimension 3 are tetrahedra, or a vtkImageData or
- * vtkRectilinearGrid, of which the voxels (its points) with values above a threshold are split into tetrahedra: six for
- * each cube of eight. It is read where it is and never changed. Where it has no cells the outputs are empty. Each block
- * of a composite dataset is a mesh of its own. The field is the point array of one component that
- * SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, name) names, else the active scalars, else
- * the first such array. Where the input has an array NAME_Order beside it, the vertices are ordered by that.
+ * The input is a vtkUnstructuredGrid or vtkStructuredGrid, whose cells of the highest dimension are split into
+ * tetrahedra or triangles, a vtkPolyData, whose polygons and strips are split into triangles, or a vtkImageData or
+ * vtkRectilinearGrid, of which the voxels (its points) with values above a threshold are: into six tetrahedra for each
+ * cube of eight, or, where it is flat, two triangles for each square of four. It is read where it is and never changed.
+ * Where it has no cells the outputs are empty. Each block of a composite dataset is a mesh of its own. The field is the
+ * point array of one component that SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, name)
+ * names, else the active scalars, else the first such array. Where the input has an array NAME_Order beside it, the
+ * vertices are ordered by that.
  *
  * Kokkos is initialized by the first filter that runs, unless the program did that, and ended with the process.
  */

@@ -88,12 +88,12 @@ void tell_of_ghosts(const Space& space, const VertexOrder& order, const Flags<Sp
   using Memory = MemoryOf<Space>;
   const Mesh& mesh = order.mesh();
   const Id owned = mesh.owned_vertices();
-  if (owned == mesh.vertices()) return;
+  if (owned == mesh.vertices() || mesh.dimension() == 2) return;
   const auto encoded = mesh.encoded<Memory>();
   const std::uint64_t* const keys = order.keys_in<Memory>().data();
   parallel_for(
-      "GALE::tell_of_ghosts", space, mesh.tetrahedra(), KOKKOS_LAMBDA(Offset t) {
-        const Quad corners = encoded.tetrahedron(static_cast<Id>(t));
+      "GALE::tell_of_ghosts", space, mesh.cells(), KOKKOS_LAMBDA(Offset t) {
+        const Quad corners = encoded.cell(static_cast<Id>(t));
         for (int i = 3; i > 0 && corners[i] >= owned; --i) {
           const Id ghost = corners[i];
           if (!on_surface(ghost - owned)) continue;

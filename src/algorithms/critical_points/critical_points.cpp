@@ -21,7 +21,7 @@ VertexTypes<HostMemory> classify_vertices(Structure& structure, const VertexOrde
   detail::require_same_mesh("the vertex order", order.mesh(), structure.mesh());
   const ThreadLimit limit(options.threads);
   const std::uint64_t* const keys = order.keys();
-  const VertexTypes<HostMemory> types(structure.mesh().vertices());
+  const VertexTypes<HostMemory> types(structure.mesh());
   std::vector<detail::LargeLink> large(std::max(options.threads, 0));
   structure.for_each_segment(critical_points_relations, options, [&](int consumer, const SegmentRows& rows) {
     const Rows neighbours = rows[Relation::VV];
@@ -102,8 +102,8 @@ VertexTypes<Memory> classify_vertices(const WorkerSpace& space, const VertexOrde
   const Mesh& mesh = order.mesh();
   Offset stars = mesh.vertices() / 64 + 256, words = 96 * stars;
   while (true) {
-    const Classify sweep{order.keys_in<Memory>().data(), VertexTypes<Memory>(mesh.vertices()),
-                         detail::HandedStars(stars, words), usual_scratch_entries(mesh)};
+    const Classify sweep{order.keys_in<Memory>().data(), VertexTypes<Memory>(mesh), detail::HandedStars(stars, words),
+                         usual_scratch_entries(mesh)};
     DeviceSweepOptions with_scratch = options;
     with_scratch.team_scratch = 2 * sizeof(std::uint32_t) * static_cast<std::size_t>(sweep.scratch_entries) + 16;
     for_each_segment(space, mesh, critical_points_relations, sweep, with_scratch);

@@ -8,7 +8,19 @@
 
 namespace gale::detail {
 
-/// What a vertex is by its own link.
+/// What a vertex of a triangle mesh is.
+KOKKOS_INLINE_FUNCTION CriticalType type_on_triangles(const LinkTopology& topology) {
+  const int lower = topology.lower, upper = topology.upper;
+  if (lower == 0 || upper == 0) {
+    return lower == 0 && upper == 1   ? CriticalType::minimum
+           : lower == 1 && upper == 0 ? CriticalType::maximum
+                                      : CriticalType::degenerate;
+  }
+  if (lower > 2 || upper > 2) return CriticalType::degenerate;
+  return lower == 1 && upper == 1 ? CriticalType::regular : CriticalType::saddle1;
+}
+
+/// What a vertex among tetrahedra is by its own link.
 KOKKOS_INLINE_FUNCTION CriticalType type_of(const LinkTopology& topology) {
   const int code = 16 * (topology.lower < 3 ? topology.lower : 3) + (topology.upper < 3 ? topology.upper : 3);
   switch (code) {
@@ -28,21 +40,24 @@ KOKKOS_INLINE_FUNCTION CriticalType type_of(const LinkTopology& topology) {
 }
 
 /// The type of each vertex, while a sweep finds it by the vertex's own link. Vertices on the surface tell their
-/// neighbours that they are, as the type of a neighbour on the surface depends on that. Two bytes a vertex, by GALE's
-/// id; what it has of ghosts says nothing. Copies share them.
+/// neighbours that they are, as the type of a neighbour on the surface depends on that, unless cells are triangles. Two
+/// bytes a vertex, by GALE's id; what it has of ghosts says nothing. Copies share them.
 template <class Memory>
 class VertexTypes {
  public:
   VertexTypes() = default;
-  explicit VertexTypes(Id vertices)
-      : own_(allocate<Bytes>("GALE::vertex_types", vertices)),
+  explicit VertexTypes(const Mesh& mesh) : VertexTypes(mesh.vertices(), mesh.dimension()) {}
+  VertexTypes(Id vertices, int dimension)
+      : dimension_(dimension),
+        own_(allocate<Bytes>("GALE::vertex_types", vertices)),
         told_("GALE::surface_neighbours", (vertices + 3) / 4 * 4) {}  // neighbours are told in words on a device
 
   /// Sets what a vertex is by its own link, and tells its neighbours if it is on the surface.
   KOKKOS_FORCEINLINE_FUNCTION void set(const std::uint64_t* keys, Id v, const Row& neighbours,
                                        const LinkTopology& topology) const {
-    own_(v) = static_cast<std::uint8_t>(static_cast<int>(type_of(topology)) | (topology.on_surface ? surface_bit : 0));
-    if (!topology.on_surface) return;
+    const CriticalType type = dimension_ == 3 ? type_of(topology) : type_on_triangles(topology);
+    own_(v) = static_cast<std::uint8_t>(static_cast<int>(type) | (topology.on_surface ? surface_bit : 0));
+    if (!topology.on_surface || dimension_ == 2) return;
     for (const Id neighbour : neighbours) tell(keys, neighbour, v);
   }
 
@@ -63,7 +78,7 @@ class VertexTypes {
   /// Once all are set and told.
   KOKKOS_FUNCTION CriticalType type(Id v) const {
     const auto type = static_cast<CriticalType>(own_(v) & type_mask);
-    if (type != CriticalType::regular || !on_surface(v)) return type;
+    if (type != CriticalType::regular || dimension_ == 2 || !on_surface(v)) return type;
     if (told_(v) == upper_on_surface) return CriticalType::saddle1;
     if (told_(v) == lower_on_surface) return CriticalType::saddle2;
     return CriticalType::regular;
@@ -74,6 +89,7 @@ class VertexTypes {
   using Bytes = Array<std::uint8_t, Memory>;
   static constexpr std::uint8_t type_mask = 7, surface_bit = 8, upper_on_surface = 1, lower_on_surface = 2;
 
+  int dimension_ = 3;
   Bytes own_, told_;
 };
 

@@ -1,32 +1,29 @@
 #include <algorithm>
 #include <memory>
+#include <numeric>
 #include <vector>
 
 #include <gale/algorithms/discrete_gradient.hpp>
 #include <gale/algorithms/gradient/gradient_store.hpp>
 #include <gale/algorithms/gradient/gradient_sweep.hpp>
+#include <gale/algorithms/gradient/lane_found.hpp>
+#include <gale/algorithms/gradient/pair_fans.hpp>
 #include <gale/algorithms/gradient/pair_star.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/runtime/device/handed_stars.hpp>
 #include <gale/runtime/device_sweep.hpp>
 
-// A lane a vertex. Its row of edges lies in one stretch of memory of which each team reserves what its segment takes.
+// A lane a vertex. Its row of edges lies in one stretch of memory of which each team reserves what its segment takes;
+// on a triangle mesh there are no such rows (PairFans).
 // What a sweep finds is complete if no list was too short: else it is made again with lists that suffice.
 
 namespace gale {
 
 namespace detail {
 
-template <class T>
-KOKKOS_FORCEINLINE_FUNCTION void append(const DeviceList<T>& list, const T& item) {
-  list.add(item);
-}
-
-using LaneFound = const FoundSimplices<DeviceList>;
-
 /// Where lanes put what they find. Each has a row of edges in a place of its own.
 struct LaneSink {
-  Id *vertex_successor, *tetrahedron_successor;
+  Id *vertex_successor, *cell_successor;
   FoundSimplices<DeviceList> found;
 
   struct Lane : StarSink<LaneFound> {
@@ -44,8 +41,7 @@ struct LaneSink {
   KOKKOS_FUNCTION bool pair(const std::uint64_t* keys, const VertexStar& star, Id* row) const {
     LowerNeighbours lower;
     return lower.find(keys, star.vertex, star.neighbours) &&
-           pair_star_of_words<Words, have_device>(Lane{{vertex_successor, tetrahedron_successor, &found}, row}, star,
-                                                  lower);
+           pair_star_of_words<Words, have_device>(Lane{{vertex_successor, cell_successor, &found}, row}, star, lower);
   }
 };
 
@@ -159,11 +155,12 @@ struct Room {
   /// What a mesh that has few triangles on its surface takes, of a field that isn't noise.
   explicit Room(const Mesh& mesh) {
     const double all = mesh.vertices();
-    const double lower_edges = 1.08 * (all + mesh.tetrahedra());
-    words = static_cast<Offset>(1.25 * lower_edges + 1.75 * all) + 1024;
+    const double lower_edges = 1.08 * (all + mesh.cells());
+    const bool has_rows = mesh.dimension() == 3;
+    words = has_rows ? static_cast<Offset>(1.25 * lower_edges + 1.75 * all) + 1024 : 0;
     large = static_cast<Offset>(all / 16) + 1024;
     large_words = 64 * large;
-    critical = {large, large, large, large, 2 * large};
+    critical = {large, large, has_rows ? large : 0, large, 2 * large};
   }
 };
 
@@ -177,42 +174,28 @@ class Attempt {
   Attempt(const WorkerSpace& space, const VertexOrder& order, const Room& room, const DeviceSweepOptions& options)
       : mesh_(order.mesh()),
         vertex_successor_(allocate<Array<Id, Memory>>("GALE::vertex_successor", mesh_.vertices())),
-        tetrahedron_successor_(allocate<Array<Id, Memory>>("GALE::tetrahedron_successor", mesh_.tetrahedra())),
+        cell_successor_(allocate<Array<Id, Memory>>("GALE::cell_successor", mesh_.cells())),
         words_(allocate<Array<Id, Memory>>("GALE::edge_pairs", room.words)),
-        pairs_begin_(allocate<Array<Offset, Memory>>("GALE::edge_pairs_begin", mesh_.vertices())),
+        pairs_begin_(
+            allocate<Array<Offset, Memory>>("GALE::edge_pairs_begin", mesh_.dimension() == 3 ? mesh_.vertices() : 0)),
         used_("GALE::edge_pairs_used", 1),
         large_(room.large, room.large_words),
         sink_{vertex_successor_.data(),
-              tetrahedron_successor_.data(),
+              cell_successor_.data(),
               {{"GALE::critical_vertices", room.critical.vertices},
                {"GALE::critical_edges", room.critical.edges},
                {"GALE::critical_triangles", room.critical.triangles},
-               {"GALE::critical_tetrahedra", room.critical.tetrahedra},
+               {"GALE::critical_cells", room.critical.cells},
                {"GALE::critical_stars", room.critical.stars}}} {
-    detail::mark_ghosts(space, mesh_, vertex_successor_, tetrahedron_successor_);
-    if (mesh_.owned_vertices() < mesh_.vertices()) Kokkos::deep_copy(space, pairs_begin_, Offset(0));
-    const auto rows = static_cast<int>(std::min(1024.0, 1.3 * mesh_.vertices() / mesh_.segments() + 32));
-    const detail::PairStars pair{order.keys_in<Memory>().data(),
-                                 sink_,
-                                 words_.data(),
-                                 room.words,
-                                 used_.data(),
-                                 pairs_begin_.data(),
-                                 large_,
-                                 rows};
-    DeviceSweepOptions with_scratch = options;
-    if (have_device && options.memory == 0) with_scratch.memory = usual_memory;
-    if (have_device && options.batches == 0) with_scratch.batches = usual_batches;
-    with_scratch.team_scratch = detail::PairStars::scratch_bytes(rows) + 16;
-    for_each_segment(space, mesh_, discrete_gradient_relations, pair, with_scratch);
-    Kokkos::deep_copy(words_used_, Kokkos::subview(used_, 0));
-    const Offset count = std::min(large_.count(), room.large);
-    outgrown_ = {"GALE::outgrown", count};
-    if (words_used_ > room.words) return;
-    Kokkos::parallel_for(
-        "GALE::pair_large_stars", Kokkos::RangePolicy<WorkerSpace, Kokkos::IndexType<Offset>>(space, 0, count),
-        detail::PairLargeStars{pair.keys, sink_, words_.data(), pairs_begin_.data(), large_, outgrown_});
-    space.fence();
+    detail::mark_ghosts(space, mesh_, vertex_successor_, cell_successor_);
+    DeviceSweepOptions sized = options;
+    if (have_device && options.memory == 0) sized.memory = usual_memory;
+    if (have_device && options.batches == 0) sized.batches = usual_batches;
+    if (mesh_.dimension() == 3) {
+      pair_stars(space, order, room, sized);
+    } else {
+      pair_fans(space, order, sized);
+    }
   }
 
   /// Was there room for all? If not, `room` becomes what there must be.
@@ -227,7 +210,7 @@ class Attempt {
     if (words_used_ <= room.words) return is_enough;
     raise(room.words, words_used_);
     // Segments without room for their rows have found nothing: there may be more of everything.
-    for (Offset* const list : {&room.critical.edges, &room.critical.triangles, &room.critical.tetrahedra})
+    for (Offset* const list : {&room.critical.edges, &room.critical.triangles, &room.critical.cells})
       raise(*list, mesh_.vertices());
     return false;
   }
@@ -235,7 +218,7 @@ class Attempt {
   detail::DeviceGradient found() const {
     detail::DeviceGradient found;
     found.vertex_successor = vertex_successor_;
-    found.tetrahedron_successor = tetrahedron_successor_;
+    found.cell_successor = cell_successor_;
     found.pair_words = Kokkos::subview(words_, std::make_pair(Offset(0), words_used_));
     found.pairs_begin = pairs_begin_;
     for_each_list(found.critical, sink_.found, [](auto& there, const auto& list) { there = list.to_host(); });
@@ -243,12 +226,48 @@ class Attempt {
   }
 
   /// Stars that are still unpaired: places among the large ones.
-  std::vector<Offset> outgrown() const { return outgrown_.to_host(); }
+  std::vector<Offset> outgrown() const {
+    if (mesh_.dimension() == 3) return outgrown_.to_host();
+    std::vector<Offset> all(large_.count());
+    std::iota(all.begin(), all.end(), Offset(0));
+    return all;
+  }
   const detail::HandedStars& large() const { return large_; }
 
  private:
+  void pair_stars(const WorkerSpace& space, const VertexOrder& order, const Room& room,
+                  const DeviceSweepOptions& options) {
+    if (mesh_.owned_vertices() < mesh_.vertices()) Kokkos::deep_copy(space, pairs_begin_, Offset(0));
+    const auto rows = static_cast<int>(std::min(1024.0, 1.3 * mesh_.vertices() / mesh_.segments() + 32));
+    const detail::PairStars pair{order.keys_in<Memory>().data(),
+                                 sink_,
+                                 words_.data(),
+                                 room.words,
+                                 used_.data(),
+                                 pairs_begin_.data(),
+                                 large_,
+                                 rows};
+    DeviceSweepOptions with_scratch = options;
+    with_scratch.team_scratch = detail::PairStars::scratch_bytes(rows) + 16;
+    for_each_segment(space, mesh_, discrete_gradient_relations, pair, with_scratch);
+    Kokkos::deep_copy(words_used_, Kokkos::subview(used_, 0));
+    const Offset count = std::min(large_.count(), room.large);
+    outgrown_ = {"GALE::outgrown", count};
+    if (words_used_ > room.words) return;
+    Kokkos::parallel_for(
+        "GALE::pair_large_stars", Kokkos::RangePolicy<WorkerSpace, Kokkos::IndexType<Offset>>(space, 0, count),
+        detail::PairLargeStars{pair.keys, sink_, words_.data(), pairs_begin_.data(), large_, outgrown_});
+    space.fence();
+  }
+
+  void pair_fans(const WorkerSpace& space, const VertexOrder& order, const DeviceSweepOptions& options) {
+    const detail::PairFans pair{order.keys_in<Memory>().data(), vertex_successor_.data(), cell_successor_.data(),
+                                sink_.found, large_};
+    for_each_segment(space, mesh_, discrete_gradient_relations_of(2), pair, options);
+  }
+
   Mesh mesh_;
-  Array<Id, Memory> vertex_successor_, tetrahedron_successor_, words_;
+  Array<Id, Memory> vertex_successor_, cell_successor_, words_;
   Array<Offset, Memory> pairs_begin_, used_;
   detail::HandedStars large_;
   DeviceList<Offset> outgrown_;

@@ -3,6 +3,7 @@
 #include <gale/algorithms/discrete_gradient.hpp>
 #include <gale/algorithms/gradient/gradient_store.hpp>
 #include <gale/algorithms/gradient/gradient_sweep.hpp>
+#include <gale/base/error.hpp>
 
 namespace gale {
 
@@ -12,6 +13,44 @@ namespace {
 Id odd_one(const Id* vertices, const Id* others) {
   return *std::find_if(vertices, vertices + 4,
                        [others](Id vertex) { return std::find(others, others + 4, vertex) == others + 4; });
+}
+
+/// Calls visit(triangle) for the triangles of a segment that touch a vertex of it, until that returns true.
+template <class Visit>
+void find_triangle_at(const Mesh& mesh, Id vertex, const Visit& visit) {
+  const auto& encoded = mesh.encoded();
+  const Id segment = mesh.segment_of(0, vertex);
+  const auto found = [&](Id t) {
+    const Quad cell = encoded.cell(t);
+    return (cell.a == vertex || cell.b == vertex || cell.c == vertex) && visit(t);
+  };
+  for (Id t = encoded.internal_begin(segment); t < encoded.internal_begin(segment + 1); ++t) {
+    if (found(t)) return;
+  }
+  for (Offset i = encoded.external_begin(segment); i < encoded.external_begin(segment + 1); ++i) {
+    if (found(encoded.external(i))) return;
+  }
+}
+
+/// An edge of a triangle that is paired with it: its vertices, the higher one first, and the triangle's third one.
+struct EdgeOfTriangle {
+  Id high, low, third;
+};
+
+/// Calls visit(EdgeOfTriangle) for the edges at a vertex that are paired with triangles, until that returns true. On
+/// triangle meshes.
+template <class Visit>
+void find_paired_edge(const DiscreteGradient& gradient, Id vertex, const Visit& visit) {
+  const std::uint64_t* const keys = gradient.order().keys();
+  find_triangle_at(gradient.mesh(), vertex, [&](Id t) {
+    const Id successor = gradient.cell_successor(t);
+    if (successor == no_id || successor == DiscreteGradient::elsewhere) return false;
+    const Id third = gradient.pair_of_cell(t).vertex;
+    const Quad cell = gradient.mesh().encoded().cell(t);
+    const Id one = cell.a == third ? cell.b : cell.a, other = cell.c == third ? cell.b : cell.c;
+    const bool is_higher = keys[one] > keys[other];
+    return visit(EdgeOfTriangle{is_higher ? one : other, is_higher ? other : one, third});
+  });
 }
 
 }  // namespace
@@ -26,17 +65,17 @@ const std::array<GlobalId, 4>& DiscreteGradient::counts() const { return store_-
 const Array<const Id, HostMemory>& DiscreteGradient::vertex_successors() const {
   return store_->vertex_successors().in<HostMemory>();
 }
-const Array<const Id, HostMemory>& DiscreteGradient::tetrahedron_successors() const {
-  return store_->tetrahedron_successors().in<HostMemory>();
+const Array<const Id, HostMemory>& DiscreteGradient::cell_successors() const {
+  return store_->cell_successors().in<HostMemory>();
 }
 const Id* DiscreteGradient::fetch_vertex_successors() const {
   const Id* const data = vertex_successors().data();
   successors_->vertex.store(data, std::memory_order_release);
   return data;
 }
-const Id* DiscreteGradient::fetch_tetrahedron_successors() const {
-  const Id* const data = tetrahedron_successors().data();
-  successors_->tetrahedron.store(data, std::memory_order_release);
+const Id* DiscreteGradient::fetch_cell_successors() const {
+  const Id* const data = cell_successors().data();
+  successors_->cell.store(data, std::memory_order_release);
   return data;
 }
 std::size_t DiscreteGradient::bytes() const { return store_->bytes(); }
@@ -47,11 +86,26 @@ Id DiscreteGradient::triangle_of_edge(Id a, Id b) const {
 }
 
 Id DiscreteGradient::triangle_of_lower_edge(Id high, Id low) const {
+  if (mesh().dimension() == 2) {
+    Id third = no_id;
+    find_paired_edge(*this, high, [&](const EdgeOfTriangle& edge) {
+      if (edge.high != high || edge.low != low) return false;
+      third = edge.third;
+      return true;
+    });
+    return third;
+  }
   const detail::EdgePairRow row = store_->pairs()[high];
   return row.third(row.find(low));
 }
 
 void DiscreteGradient::for_each_edge_pair(Id high, const std::function<void(Id low, Id third)>& visit) const {
+  if (mesh().dimension() == 2) {
+    return find_paired_edge(*this, high, [&](const EdgeOfTriangle& edge) {
+      if (edge.high == high) visit(edge.low, edge.third);
+      return false;
+    });
+  }
   const detail::EdgePairRow row = store_->pairs()[high];
   for (Id i = 0; i < row.size(); ++i) {
     const Id third = row.third(i);
@@ -72,16 +126,18 @@ Partner DiscreteGradient::pair_of_edge(Id a, Id b) const {
   return {third == no_id ? -1 : 2, third};
 }
 
-Partner DiscreteGradient::pair_of_tetrahedron(Id tetrahedron) const {
-  const Id successor = tetrahedron_successor(tetrahedron);
+Partner DiscreteGradient::pair_of_cell(Id cell) const {
+  const Id successor = cell_successor(cell);
   if (successor == no_id) return {-1, no_id};
-  const auto& vertices = store_->mesh.encoded().tetrahedra;
-  if (leaves(successor)) return {2, vertices(tetrahedron, detail::corner_outside(successor))};
-  return {2, odd_one(&vertices(tetrahedron, 0), &vertices(successor, 0))};
+  const auto& vertices = store_->mesh.encoded().cells;
+  const int facet = store_->mesh.dimension() - 1;
+  if (leaves(successor)) return {facet, vertices(cell, detail::corner_outside(successor))};
+  return {facet, odd_one(&vertices(cell, 0), &vertices(successor, 0))};
 }
 
 Partner DiscreteGradient::pair_of_triangle(Id tetrahedron, int corner, const Row& others) const {
-  const auto& vertices = store_->mesh.encoded().tetrahedra;
+  if (mesh().dimension() == 2) throw Error("pair_of_triangle is for meshes of tetrahedra: triangles are cells here");
+  const auto& vertices = store_->mesh.encoded().cells;
   Id triangle[3];
   for (int i = 0, k = 0; i < 4; ++i) {
     if (i != corner) triangle[k++] = vertices(tetrahedron, i);
@@ -91,10 +147,10 @@ Partner DiscreteGradient::pair_of_triangle(Id tetrahedron, int corner, const Row
     if (triangle_of_edge(a, b) == triangle[i]) return {1, triangle[i]};
   }
   const Id opposite = vertices(tetrahedron, corner);
-  if (pair_of_tetrahedron(tetrahedron).vertex == opposite) return {3, opposite};
+  if (pair_of_cell(tetrahedron).vertex == opposite) return {3, opposite};
   for (const Id other : others) {
     const Id apex = odd_one(&vertices(other, 0), &vertices(tetrahedron, 0));
-    if (pair_of_tetrahedron(other).vertex == apex) return {3, apex};
+    if (pair_of_cell(other).vertex == apex) return {3, apex};
   }
   return {-1, no_id};
 }
@@ -102,7 +158,7 @@ Partner DiscreteGradient::pair_of_triangle(Id tetrahedron, int corner, const Row
 DiscreteGradient find_discrete_gradient(const VertexOrder& order, const ComputeOptions& options, Computed* computed) {
   return detail::Computing(order.mesh(), options, computed)
       .find(
-          discrete_gradient_relations,
+          discrete_gradient_relations_of(order.mesh().dimension()),
           [&](const DeviceSweepOptions& sweep) { return find_discrete_gradient(WorkerSpace(), order, sweep); },
           [&](Structure& structure) { return find_discrete_gradient(structure, order, options); });
 }
@@ -115,7 +171,7 @@ DiscreteGradient find_discrete_gradient(Structure& structure, const VertexOrder&
     store = std::make_shared<detail::GradientStore>(structure.mesh(), order, consumers);
     std::vector<std::unique_ptr<detail::GradientSweep>> sweeps;
     for (int i = 0; i < consumers; ++i) sweeps.push_back(std::make_unique<detail::GradientSweep>(*store, i));
-    structure.for_each_segment(discrete_gradient_relations, options,
+    structure.for_each_segment(discrete_gradient_relations_of(structure.mesh().dimension()), options,
                                [&](int consumer, const SegmentRows& rows) { sweeps[consumer]->pair(rows); });
     store->finish();
   });

@@ -30,19 +30,26 @@ std::vector<T> merged(const std::vector<ConsumerFound>& parts, HostList<T> Found
   return all;
 }
 
+/// A facet of cells as users write it: a triangle, or an edge, whose third vertex is no_id.
+std::array<Id, 3> written_facet(const Id* vertex_input, const std::array<Id, 3>& facet) {
+  if (facet[2] != no_id) return written(vertex_input, facet);
+  const auto edge = written(vertex_input, std::array<Id, 2>{facet[0], facet[1]});
+  return {edge[0], edge[1], no_id};
+}
+
 }  // namespace
 
 GradientStore::GradientStore(const Mesh& mesh_, const VertexOrder& order_, int consumers)
     : mesh(mesh_),
       order(order_),
       consumed_vertices_(allocate<Array<Id, HostMemory>>("GALE::vertex_successor", mesh.vertices())),
-      consumed_tetrahedra_(allocate<Array<Id, HostMemory>>("GALE::tetrahedron_successor", mesh.tetrahedra())),
+      consumed_cells_(allocate<Array<Id, HostMemory>>("GALE::cell_successor", mesh.cells())),
       vertex_successors_(consumed_vertices_),
-      tetrahedron_successors_(consumed_tetrahedra_),
-      pairs_(mesh.vertices(), consumers),
+      cell_successors_(consumed_cells_),
+      pairs_(mesh.dimension() == 3 ? mesh.vertices() : 0, consumers),
       found_(consumers) {
   require_same_mesh("the vertex order", order.mesh(), mesh);
-  mark_ghosts(HostExecutionSpace(), mesh, consumed_vertices_, consumed_tetrahedra_);
+  mark_ghosts(HostExecutionSpace(), mesh, consumed_vertices_, consumed_cells_);
   pairs_are_here_([] {});
 }
 
@@ -50,7 +57,7 @@ GradientStore::GradientStore(const VertexOrder& order_, const DeviceGradient& fo
     : mesh(order_.mesh()),
       order(order_),
       vertex_successors_(found.vertex_successor),
-      tetrahedron_successors_(found.tetrahedron_successor),
+      cell_successors_(found.cell_successor),
       pair_words_(found.pair_words),
       pairs_begin_(found.pairs_begin),
       found_{found.critical} {
@@ -61,10 +68,11 @@ std::shared_ptr<GradientStore> GradientStore::on_host(const VertexOrder& order, 
                                                       int consumers) {
   const auto store = std::make_shared<GradientStore>(order.mesh(), order, consumers);
   store->consumed_vertices_ = gale::on_host(found.vertex_successor);
-  store->consumed_tetrahedra_ = gale::on_host(found.tetrahedron_successor);
+  store->consumed_cells_ = gale::on_host(found.cell_successor);
   store->vertex_successors_ = store->consumed_vertices_;
-  store->tetrahedron_successors_ = store->consumed_tetrahedra_;
-  store->pairs_ = EdgePairs(gale::on_host(found.pair_words), gale::on_host(found.pairs_begin), consumers);
+  store->cell_successors_ = store->consumed_cells_;
+  if (order.mesh().dimension() == 3)
+    store->pairs_ = EdgePairs(gale::on_host(found.pair_words), gale::on_host(found.pairs_begin), consumers);
   store->found_[0] = found.critical;
   return store;
 }
@@ -76,25 +84,30 @@ const EdgePairs& GradientStore::pairs() const {
 
 void GradientStore::finish() {
   const Id* const vertex_input = mesh.vertex_input().data();
-  const Id* const tetrahedron_input = mesh.tetrahedron_input().data();
+  const Id* const cell_input = mesh.cell_input().data();
   using Found = FoundSimplices<HostList>;
   const auto by_input = [=](const auto& simplex) { return written(vertex_input, simplex); };
   const auto stars = merged(found_, &Found::stars, [=](const InStar& in_star) {
-    return std::make_pair(written(vertex_input, in_star.triangle), tetrahedron_input[in_star.tetrahedron]);
+    return std::make_pair(written_facet(vertex_input, in_star.simplex), cell_input[in_star.cell]);
   });
   critical.triangles = merged(found_, &Found::triangles, by_input);
   critical.edges = merged(found_, &Found::edges, by_input);
   critical.vertices = merged(found_, &Found::vertices, [=](Id vertex) { return vertex_input[vertex]; });
-  critical.tetrahedra =
-      merged(found_, &Found::tetrahedra, [=](Id tetrahedron) { return tetrahedron_input[tetrahedron]; });
+  critical.cells = merged(found_, &Found::cells, [=](Id cell) { return cell_input[cell]; });
   for (const auto& some : found_)
     further_successors.insert(further_successors.end(), some.further_successors.begin(), some.further_successors.end());
   std::sort(further_successors.begin(), further_successors.end());
   found_.clear();
+  critical.dimension = mesh.dimension();
   auto next = stars.begin();
-  for (const auto& triangle : critical.triangles) {
-    for (; next != stars.end() && next->triangle == triangle; ++next) critical.star.push_back(next->tetrahedron);
+  const auto add_star = [&](const std::array<Id, 3>& facet) {
+    for (; next != stars.end() && next->simplex == facet; ++next) critical.star.push_back(next->cell);
     critical.star_begin.push_back(static_cast<Id>(critical.star.size()));
+  };
+  if (mesh.dimension() == 3) {
+    for (const auto& triangle : critical.triangles) add_star(triangle);
+  } else {
+    for (const auto& [high, low] : critical.edges) add_star({high, low, no_id});
   }
   const auto found = critical.counts();
   std::copy(found.begin(), found.end(), counts.begin());
@@ -104,7 +117,7 @@ void GradientStore::share_counts() { mesh.exchange().ranks().sum(counts.data(), 
 
 std::size_t GradientStore::bytes() const {
   const std::size_t words =
-      vertex_successors_.size() + tetrahedron_successors_.size() + pair_words_.size() + 2 * pairs_begin_.size();
+      vertex_successors_.size() + cell_successors_.size() + pair_words_.size() + 2 * pairs_begin_.size();
   return words * sizeof(Id) + (pair_words_.size() == 0 ? pairs_.bytes() : 0);
 }
 

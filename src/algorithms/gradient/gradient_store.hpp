@@ -25,16 +25,16 @@ Simplex written(const Id* vertex_input, Simplex simplex) {
 /// Before a sweep of a rank's part of a mesh: has all successors be elsewhere, so that they are for what it leaves out.
 template <class Space>
 void mark_ghosts(const Space& space, const Mesh& mesh, const Array<Id, MemoryOf<Space>>& vertex_successor,
-                 const Array<Id, MemoryOf<Space>>& tetrahedron_successor) {
+                 const Array<Id, MemoryOf<Space>>& cell_successor) {
   if (mesh.owned_vertices() == mesh.vertices()) return;
   fill("GALE::mark_ghosts", space, vertex_successor, DiscreteGradient::elsewhere);
-  fill("GALE::mark_ghosts", space, tetrahedron_successor, DiscreteGradient::elsewhere);
+  fill("GALE::mark_ghosts", space, cell_successor, DiscreteGradient::elsewhere);
 }
 
-/// A tetrahedron of a critical triangle.
+/// A cell of a critical simplex of one dimension less: of a triangle, or of an edge, whose third vertex is no_id.
 struct InStar {
-  std::array<Id, 3> triangle;
-  Id tetrahedron;
+  std::array<Id, 3> simplex;
+  Id cell;
 };
 
 /// Critical simplices as they are found, in no order; from the highest vertex to the lowest.
@@ -43,7 +43,7 @@ struct FoundSimplices {
   List<Id> vertices;
   List<std::array<Id, 2>> edges;
   List<std::array<Id, 3>> triangles;
-  List<Id> tetrahedra;
+  List<Id> cells;
   List<InStar> stars;
 };
 
@@ -53,7 +53,7 @@ void for_each_list(One& one, Other& other, const Visit& visit) {
   visit(one.vertices, other.vertices);
   visit(one.edges, other.edges);
   visit(one.triangles, other.triangles);
-  visit(one.tetrahedra, other.tetrahedra);
+  visit(one.cells, other.cells);
   visit(one.stars, other.stars);
 }
 
@@ -68,7 +68,7 @@ void append(std::vector<T>& list, const T& item) {
 /// Where pair_star puts what it finds at a vertex, with which go all simplices that have it as their highest one.
 template <class Found>
 struct StarSink {
-  Id *vertex_successor, *tetrahedron_successor;
+  Id *vertex_successor, *cell_successor;
   Found* found;
 
   /// Pairs a vertex with the edge to `other`; no_id if the vertex is critical.
@@ -78,10 +78,8 @@ struct StarSink {
     if (other == no_id) append(found->vertices, vertex);
   }
 
-  /// Sets the tetrahedron across the triangle that a tetrahedron is paired with, or `outside`.
-  KOKKOS_FORCEINLINE_FUNCTION void set_tetrahedron(Id tetrahedron, Id successor) const {
-    tetrahedron_successor[tetrahedron] = successor;
-  }
+  /// Sets the cell across the facet that a cell is paired with, or `outside`.
+  KOKKOS_FORCEINLINE_FUNCTION void set_cell(Id cell, Id successor) const { cell_successor[cell] = successor; }
 
   GALE_CALLS_ANY
   KOKKOS_FORCEINLINE_FUNCTION void add_critical_edge(Id high, Id low) const {
@@ -92,15 +90,15 @@ struct StarSink {
     append(found->triangles, triangle);
   }
   GALE_CALLS_ANY
-  KOKKOS_FORCEINLINE_FUNCTION void add_critical_tetrahedron(Id tetrahedron) const {
-    tetrahedron_successor[tetrahedron] = no_id;
-    append(found->tetrahedra, tetrahedron);
+  KOKKOS_FORCEINLINE_FUNCTION void add_critical_cell(Id cell) const {
+    cell_successor[cell] = no_id;
+    append(found->cells, cell);
   }
 
-  /// Adds a tetrahedron of a critical triangle.
+  /// Adds a cell of a critical simplex of one dimension less, see InStar.
   GALE_CALLS_ANY
-  KOKKOS_FORCEINLINE_FUNCTION void add_to_star(const std::array<Id, 3>& triangle, Id tetrahedron) const {
-    append(found->stars, InStar{triangle, tetrahedron});
+  KOKKOS_FORCEINLINE_FUNCTION void add_to_star(const std::array<Id, 3>& simplex, Id cell) const {
+    append(found->stars, InStar{simplex, cell});
   }
 };
 
@@ -117,23 +115,21 @@ struct ConsumerSink : StarSink<ConsumerFound> {
   /// A row for the lower ends of a vertex's edges, to be filled in ascending order; no edge is paired yet.
   EdgePairRow begin_edges(Id vertex, Id count) const { return pairs->begin(consumer, vertex, count); }
 
-  /// Says that the triangle that a tetrahedron is paired with has a third tetrahedron, or one more, beside its
-  /// successor.
-  void add_successor(Id tetrahedron, Id successor) const {
-    found->further_successors.push_back({tetrahedron, successor});
-  }
+  /// Says that the simplex that a cell is paired with has a third cell, or one more, beside its successor.
+  void add_successor(Id cell, Id successor) const { found->further_successors.push_back({cell, successor}); }
 };
 
 /// What kernels found.
 struct DeviceGradient {
-  Array<Id, WorkerMemory> vertex_successor, tetrahedron_successor;
-  Array<Id, WorkerMemory> pair_words;       ///< the words of EdgePairRows
+  Array<Id, WorkerMemory> vertex_successor, cell_successor;
+  Array<Id, WorkerMemory> pair_words;       ///< the words of EdgePairRows; none of a triangle mesh
   Array<Offset, WorkerMemory> pairs_begin;  ///< where each vertex's row begins among them
   ConsumerFound critical;
 };
 
 /// What a DiscreteGradient is made of, and how the consumers of a sweep fill it. One that kernels found stays on the
-/// device; each part comes to the host when somebody there first asks for it.
+/// device; each part comes to the host when somebody there first asks for it. Of a triangle mesh the successors are all
+/// of it: an edge is paired with a vertex or a triangle, which has it as its own.
 class GALE_EXPORT GradientStore {
  public:
   /// For consumers on the host. Throws gale::Error if the order is of another mesh.
@@ -146,7 +142,7 @@ class GALE_EXPORT GradientStore {
   static std::shared_ptr<GradientStore> on_host(const VertexOrder& order, const DeviceGradient& found, int consumers);
 
   ConsumerSink sink(int consumer) {
-    return {{consumed_vertices_.data(), consumed_tetrahedra_.data(), &found_[consumer]}, &pairs_, consumer};
+    return {{consumed_vertices_.data(), consumed_cells_.data(), &found_[consumer]}, &pairs_, consumer};
   }
 
   /// After the sweep: gathers what the consumers found, in the order of input numbers, and counts it.
@@ -163,10 +159,11 @@ class GALE_EXPORT GradientStore {
   /// After `finish`, for readers, who may be on several threads: to refer to, not to copy. On the device, if kernels
   /// found them.
   const Mirrored<Id>& vertex_successors() const { return vertex_successors_; }
-  const Mirrored<Id>& tetrahedron_successors() const { return tetrahedron_successors_; }
+  const Mirrored<Id>& cell_successors() const { return cell_successors_; }
   const EdgePairs& pairs() const;
 
-  /// Whether kernels found it. Then these are the words of EdgePairRows, and where each vertex's row begins among them.
+  /// Whether kernels found it, of a mesh of tetrahedra. Then these are the words of EdgePairRows, and where each
+  /// vertex's row begins among them.
   bool is_from_kernels() const { return pairs_begin_.size() != 0; }
   const Mirrored<Id>& pair_words() const { return pair_words_; }
   const Mirrored<Offset>& pairs_begin() const { return pairs_begin_; }
@@ -176,13 +173,13 @@ class GALE_EXPORT GradientStore {
 
   CriticalSimplices critical;
   std::array<GlobalId, 4> counts{};  ///< of critical simplices
-  /// (tetrahedron, successor), ascending: where rising paths fork, at triangles of three tetrahedra or more, the
-  /// successors that `tetrahedron_successor` hasn't.
+  /// (cell, successor), ascending: where rising paths fork, at simplices of three cells or more, the successors that
+  /// `cell_successor` hasn't.
   std::vector<std::pair<Id, Id>> further_successors;
 
  private:
-  Array<Id, HostMemory> consumed_vertices_, consumed_tetrahedra_;  // successors, which consumers fill
-  Mirrored<Id> vertex_successors_, tetrahedron_successors_;
+  Array<Id, HostMemory> consumed_vertices_, consumed_cells_;  // successors, which consumers fill
+  Mirrored<Id> vertex_successors_, cell_successors_;
   Mirrored<Id> pair_words_;
   Mirrored<Offset> pairs_begin_;
   mutable EdgePairs pairs_;

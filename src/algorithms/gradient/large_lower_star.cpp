@@ -25,19 +25,16 @@ void LargeLowerStar::build(const std::vector<Id>& ranks, int edges, const LinkRo
   corners_.erase(std::unique(corners_.begin(), corners_.end()), corners_.end());
   place_.assign(corners_.size(), no_id);
   for (const auto& [corners, t] : tetrahedra) place_[cell_of(corners)] = t;
+  find_facets();
   connect();
-  settled_.assign(corners_.size(), 0);
-  ready_ = deferred_ = Queue();
 }
 
 int LargeLowerStar::cell_of(const Corners& corners) const {
   return static_cast<int>(std::lower_bound(corners_.begin(), corners_.end(), corners) - corners_.begin());
 }
 
-/// Facets that contain the vertex, and cofacets.
-void LargeLowerStar::connect() {
+void LargeLowerStar::find_facets() {
   facets_.assign(corners_.size(), {-1, -1, -1});
-  cofacet_begin_.assign(corners_.size() + 1, 0);
   for (std::size_t cell = 0; cell < corners_.size(); ++cell) {
     const auto& [a, b, c] = corners_[cell];
     if (b < 0) continue;
@@ -45,17 +42,6 @@ void LargeLowerStar::connect() {
       facets_[cell] = {cell_of({a, -1, -1}), cell_of({b, -1, -1}), -1};
     } else {
       facets_[cell] = {cell_of({a, b, -1}), cell_of({a, c, -1}), cell_of({b, c, -1})};
-    }
-    for (const int facet : facets_[cell]) {
-      if (facet >= 0) ++cofacet_begin_[facet + 1];
-    }
-  }
-  for (std::size_t cell = 0; cell < corners_.size(); ++cell) cofacet_begin_[cell + 1] += cofacet_begin_[cell];
-  cofacets_.resize(cofacet_begin_.back());
-  std::vector<int> next(cofacet_begin_.begin(), cofacet_begin_.end() - 1);
-  for (std::size_t cell = 0; cell < corners_.size(); ++cell) {
-    for (const int facet : facets_[cell]) {
-      if (facet >= 0) cofacets_[next[facet]++] = static_cast<int>(cell);
     }
   }
 }
@@ -70,31 +56,6 @@ Id LargeLowerStar::across(int triangle, Id place) const {
     if (other != place && (best == no_id || numbers_[other] < numbers_[best])) best = other;
   });
   return best;
-}
-
-void LargeLowerStar::push(int cell) {
-  for (int i = cofacet_begin_[cell]; i < cofacet_begin_[cell + 1]; ++i) {
-    const int cofacet = cofacets_[i];
-    int open = 0;
-    for (const int facet : facets_[cofacet]) open += facet >= 0 && !settled_[facet];
-    if (open == 1 && !settled_[cofacet]) ready_.push(cofacet);
-  }
-}
-
-int LargeLowerStar::facet(int cell) const {
-  for (const int facet : facets_[cell]) {
-    if (facet >= 0 && !settled_[facet]) return facet;
-  }
-  return -1;
-}
-
-bool LargeLowerStar::take(Queue& from, int& cell) {
-  while (!from.empty()) {
-    cell = from.top();
-    from.pop();
-    if (!settled_[cell]) return true;
-  }
-  return false;
 }
 
 }  // namespace gale::detail

@@ -1,17 +1,16 @@
 #pragma once
 
 #include <array>
-#include <functional>
-#include <queue>
 #include <vector>
 
+#include <gale/algorithms/gradient/heap_queues.hpp>
 #include <gale/relations/rows.hpp>
 
 namespace gale::detail {
 
 /// A LowerStar with its queues, for stars of any size, and triangles with any number of tetrahedra. Time O(n log n).
 /// One serves one thread, and keeps its memory.
-class LargeLowerStar {
+class LargeLowerStar : public HeapQueues {
  public:
   static constexpr Id no_place = no_id;
   static constexpr bool may_fork = true;  ///< whether a triangle may have more than two tetrahedra
@@ -42,21 +41,7 @@ class LargeLowerStar {
     for (auto side = first_side(triangle); is_side(side, triangle); ++side) visit((*side)[2]);
   }
 
-  // The queues, as `pair_cells` wants them.
-  void add_edges() {
-    for (int cell = 1; cell < static_cast<int>(corners_.size()); ++cell) {
-      if (dimension(cell) == 1) deferred_.push(cell);
-    }
-  }
-  void settle(int cell) { settled_[cell] = true; }
-  void push(int cell);
-  bool next(int& cell) { return take(ready_, cell); }
-  bool next_deferred(int& cell) { return take(deferred_, cell); }
-  void defer(int cell) { deferred_.push(cell); }
-  int facet(int cell) const;
-
  private:
-  using Queue = std::priority_queue<int, std::vector<int>, std::greater<int>>;
   using Corners = std::array<Id, 3>;
 
   void build(const std::vector<Id>& ranks, int edges, const LinkRow& link);
@@ -65,18 +50,12 @@ class LargeLowerStar {
   bool is_side(std::vector<Corners>::const_iterator side, int triangle) const {
     return side != sides_.end() && (*side)[0] == corners_[triangle][0] && (*side)[1] == corners_[triangle][1];
   }
-  void connect();
-  bool take(Queue& from, int& cell);
+  void find_facets();
 
   std::vector<Id> numbers_;       ///< of the star's tetrahedra
   std::vector<Corners> sides_;    ///< each triangle's two ranks and each of its tetrahedra's place, ascending
   std::vector<Corners> corners_;  ///< of each cell, ascending in lexicographic order; -1 where it has no more
   std::vector<Id> place_;
-  std::vector<std::array<int, 3>> facets_;  ///< -1 where there are no more
-  std::vector<int> cofacet_begin_;
-  std::vector<int> cofacets_;
-  std::vector<char> settled_;
-  Queue ready_, deferred_;
 };
 
 }  // namespace gale::detail

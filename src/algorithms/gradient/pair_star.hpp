@@ -124,12 +124,12 @@ KOKKOS_FORCEINLINE_FUNCTION void pair_star(const Sink& sink, const VertexStar& s
       edges.pair(lower.with_rank(low[0]), lower.with_rank(both[0] == low[0] ? both[1] : both[0]));
     } else {
       const Id place = cells.place(cell), across = cells.across(facet, place);
-      sink.set_tetrahedron(star.tetrahedra[place], across == Cells::no_place
-                                                       ? surface_successor(star, place, id(low[0]), id(low[1]))
-                                                       : star.tetrahedra[across]);
+      sink.set_cell(star.cells[place], across == Cells::no_place
+                                           ? surface_successor(star, place, id(low[0]), id(low[1]))
+                                           : star.cells[across]);
       if constexpr (Cells::may_fork) {
         cells.for_each_tetrahedron(facet, [&](Id other) {
-          if (other != place && other != across) sink.add_successor(star.tetrahedra[place], star.tetrahedra[other]);
+          if (other != place && other != across) sink.add_successor(star.cells[place], star.cells[other]);
         });
       }
     }
@@ -140,11 +140,11 @@ KOKKOS_FORCEINLINE_FUNCTION void pair_star(const Sink& sink, const VertexStar& s
     if (dimension == 1) {
       sink.add_critical_edge(star.vertex, id(corners[0]));
     } else if (dimension == 3) {
-      sink.add_critical_tetrahedron(star.tetrahedra[cells.place(cell)]);
+      sink.add_critical_cell(star.cells[cells.place(cell)]);
     } else {
       const std::array<Id, 3> triangle = {star.vertex, id(corners[0]), id(corners[1])};
       sink.add_critical_triangle(triangle);
-      cells.for_each_tetrahedron(cell, [&](Id place) { sink.add_to_star(triangle, star.tetrahedra[place]); });
+      cells.for_each_tetrahedron(cell, [&](Id place) { sink.add_to_star(triangle, star.cells[place]); });
     }
   };
   pair_cells(queues, pair, critical);

@@ -16,6 +16,7 @@ class LargeLink {
  public:
   void build(const LinkRow& link) {
     edges_.clear();
+    if (link.others == 2) return build_from_edges(link);
     for (Id t = 0; t < link.size(); ++t) {
       const Id a = link(t, 0), b = link(t, 1), c = link(t, 2);
       edges_.insert(edges_.end(), {pair_key(a, b), pair_key(a, c), pair_key(b, c)});
@@ -31,7 +32,7 @@ class LargeLink {
     edges_.resize(kept);
   }
 
-  /// Has the link an edge with one triangle only?
+  /// Has the link an edge with one triangle only, or, of triangles, a vertex with one edge only?
   bool is_open() const { return is_open_; }
 
   /// The link's edges, each once, as pairs of places in the VV row, the lower place first; ascending.
@@ -63,6 +64,23 @@ class LargeLink {
   }
 
  private:
+  void build_from_edges(const LinkRow& link) {
+    std::vector<Id>& ends = parent_;  // of all edges
+    ends.clear();
+    for (Id t = 0; t < link.size(); ++t) {
+      const Id a = link(t, 0), b = link(t, 1);
+      edges_.push_back(pair_key(a, b));
+      ends.insert(ends.end(), {a, b});
+    }
+    std::sort(edges_.begin(), edges_.end());
+    std::sort(ends.begin(), ends.end());
+    is_open_ = false;
+    for (std::size_t i = 0, next = 0; i < ends.size(); i = next) {
+      for (next = i + 1; next < ends.size() && ends[next] == ends[i];) ++next;
+      is_open_ |= next == i + 1;
+    }
+  }
+
   Id root(Id i) {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;

@@ -9,13 +9,14 @@ namespace gale::detail {
 
 // The link of a vertex has its neighbours as vertices. Two of them have an edge in it if they share a triangle with the
 // vertex, and each tetrahedron of the vertex is a triangle of it. So a triangle of the vertex that has one tetrahedron
-// only, one on the mesh's surface, is an edge of the link with one triangle only.
+// only, one on the mesh's surface, is an edge of the link with one triangle only. On a triangle mesh, an edge of the
+// vertex that has one triangle only, one on the boundary, is a vertex of the link with one edge only.
 
 /// What the link of a vertex says of it.
 struct LinkTopology {
   int lower = 0;            ///< connected components of the lower neighbours
   int upper = 0;            ///< connected components of the upper neighbours
-  bool on_surface = false;  ///< it belongs to a triangle with exactly one tetrahedron
+  bool on_surface = false;  ///< it belongs to a triangle with exactly one tetrahedron, or an edge with one triangle
 };
 
 /// The link of a vertex that has no more neighbours than a Word has bits: for each of them a word, with a bit for each
@@ -30,8 +31,12 @@ class LinkBits {
   KOKKOS_FORCEINLINE_FUNCTION LinkBits(Word* words, Id neighbours, const LinkRow& link)
       : once_(words), twice_(words + neighbours) {
     for (Id i = 0; i < neighbours; ++i) once_[i] = twice_[i] = 0;
+    if (link.others == 2) {
+      add_edges(neighbours, link);
+      return;
+    }
     for (Id t = 0; t < link.size(); ++t) {
-      const Id a = link(t, 0), b = link(t, 1), c = link(t, 2);
+      const Id a = link.template of<3>(t, 0), b = link.template of<3>(t, 1), c = link.template of<3>(t, 2);
       const Word bit_a = Word(1) << a, bit_b = Word(1) << b, bit_c = Word(1) << c;
       join(a, bit_b | bit_c);
       join(b, bit_a | bit_c);
@@ -40,7 +45,7 @@ class LinkBits {
     for (Id i = 0; i < neighbours; ++i) open_ |= once_[i] & ~twice_[i];
   }
 
-  /// Has the link an edge with one triangle only?
+  /// Has the link an edge with one triangle only, or, of triangles, a vertex with one edge only?
   KOKKOS_FORCEINLINE_FUNCTION bool is_open() const { return open_ != 0; }
 
   /// The neighbours that share an edge of the link with the i-th one.
@@ -75,6 +80,16 @@ class LinkBits {
   }
 
  private:
+  /// Takes the link of a vertex on a triangle mesh.
+  KOKKOS_FORCEINLINE_FUNCTION void add_edges(Id neighbours, const LinkRow& link) {
+    for (Id t = 0; t < link.size(); ++t) {
+      const Id a = link.template of<2>(t, 0), b = link.template of<2>(t, 1);
+      once_[a] |= Word(1) << b;
+      once_[b] |= Word(1) << a;
+    }
+    for (Id i = 0; i < neighbours; ++i) open_ |= Word(once_[i] != 0 && (once_[i] & (once_[i] - 1)) == 0);
+  }
+
   KOKKOS_FORCEINLINE_FUNCTION void join(Id to, Word others) {
     twice_[to] |= once_[to] & others;
     once_[to] |= others;

@@ -12,15 +12,15 @@ namespace gale::detail {
 class CriticalPlaces {
  public:
   explicit CriticalPlaces(const CriticalSimplices& critical)
-      : vertices_(critical.vertices.size()), edges_(critical.edges.size()), tetrahedra_(critical.tetrahedra.size()) {
+      : vertices_(critical.vertices.size()), edges_(critical.edges.size()), cells_(critical.cells.size()) {
     for (const Id vertex : critical.vertices) add(vertices_, vertex);
     for (const auto& [high, low] : critical.edges) add(edges_, pair_key(high, low));
-    for (const Id tetrahedron : critical.tetrahedra) add(tetrahedra_, tetrahedron);
+    for (const Id cell : critical.cells) add(cells_, cell);
   }
 
   Id of_vertex(Id vertex) const { return find(vertices_, vertex); }
   Id of_edge(Id high, Id low) const { return find(edges_, pair_key(high, low)); }
-  Id of_tetrahedron(Id tetrahedron) const { return find(tetrahedra_, tetrahedron); }
+  Id of_cell(Id cell) const { return find(cells_, cell); }
 
  private:
   static void add(HashTable<Id>& places, std::uint64_t key) {
@@ -34,7 +34,7 @@ class CriticalPlaces {
     return place == nullptr ? no_id : *place;
   }
 
-  HashTable<Id> vertices_, edges_, tetrahedra_;
+  HashTable<Id> vertices_, edges_, cells_;
 };
 
 }  // namespace gale::detail

@@ -12,14 +12,13 @@ constexpr Id short_row = 256;
 
 }  // namespace
 
-EdgeStar::EdgeStar(const Mesh& mesh)
-    : mesh_(mesh), encoded_(mesh.encoded()), tetrahedron_input_(mesh.tetrahedron_input().data()) {}
+EdgeStar::EdgeStar(const Mesh& mesh) : mesh_(mesh), encoded_(mesh.encoded()), cell_input_(mesh.cell_input().data()) {}
 
 void EdgeStar::find(Id high, Id low, const Row& tetrahedra) {
   wedges_.clear();
   if (tetrahedra.size() <= short_row) {
     for (const Id t : tetrahedra) {
-      const Id* const corners = &encoded_.tetrahedra(t, 0);
+      const Id* const corners = &encoded_.cells(t, 0);
       if (std::find(corners, corners + 4, low) != corners + 4) add_wedge(t);
     }
   } else {
@@ -40,7 +39,7 @@ const EdgeStar::VertexStar& EdgeStar::star_of(Id vertex, const Row& tetrahedra) 
   star.reserve(3 * static_cast<std::size_t>(tetrahedra.size()));
   for (const Id t : tetrahedra) {
     for (int corner = 0; corner < 4; ++corner) {
-      const Id other = encoded_.tetrahedra(t, corner);
+      const Id other = encoded_.cells(t, corner);
       if (other != vertex) star.push_back(pair_key(other, t));
     }
   }
@@ -49,7 +48,7 @@ const EdgeStar::VertexStar& EdgeStar::star_of(Id vertex, const Row& tetrahedra) 
 }
 
 void EdgeStar::add_wedge(Id tetrahedron) {
-  wedges_.push_back({tetrahedron_input_[tetrahedron], tetrahedron, {-1, -1}, false});
+  wedges_.push_back({cell_input_[tetrahedron], tetrahedron, {-1, -1}, false});
 }
 
 /// The edge's triangles, and the wedges at each of them.
@@ -57,7 +56,7 @@ void EdgeStar::find_thirds(Id high, Id low) {
   at_sides_.clear();
   for (int i = 0; i < static_cast<int>(wedges_.size()); ++i) {
     for (int corner = 0; corner < 4; ++corner) {
-      const Id vertex = encoded_.tetrahedra(wedges_[i].tetrahedron, corner);
+      const Id vertex = encoded_.cells(wedges_[i].tetrahedron, corner);
       if (vertex != high && vertex != low) at_sides_.push_back(pair_key(vertex, i));
     }
   }

@@ -49,7 +49,7 @@ class EdgeStar {
 
   Mesh mesh_;
   EncodedMesh<HostMemory> encoded_;
-  const Id* tetrahedron_input_;
+  const Id* cell_input_;
   std::unordered_map<Id, VertexStar> long_stars_;
   std::vector<Wedge> wedges_;            ///< by input id
   std::vector<std::uint64_t> at_sides_;  ///< pairs (third vertex, wedge), ascending

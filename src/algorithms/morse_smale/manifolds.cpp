@@ -34,20 +34,20 @@ Mirrored<Id> descending_in(const Space& space, const DiscreteGradient& gradient)
 
 constexpr std::uint64_t no_first = ~std::uint64_t(0);
 
-/// For each vertex (GALE's id) its tetrahedron of lowest input id, with that id in the upper half; `no_first` where it
-/// has no tetrahedron.
+/// For each vertex (GALE's id) its cell of lowest input id, with that id in the upper half; `no_first` where it has no
+/// cell.
 template <class Space>
-Keys<Space> first_tetrahedra(const Space& space, const Mesh& mesh) {
-  const auto first = allocate<Keys<Space>>("GALE::first_tetrahedra", mesh.vertices());
+Keys<Space> first_cells(const Space& space, const Mesh& mesh) {
+  const auto first = allocate<Keys<Space>>("GALE::first_cells", mesh.vertices());
   const auto encoded = mesh.encoded<MemoryOf<Space>>();
-  const auto input = mesh.tetrahedron_input<MemoryOf<Space>>();
+  const auto input = mesh.cell_input<MemoryOf<Space>>();
   parallel_for(
-      "GALE::first_tetrahedra", space, mesh.segments(), KOKKOS_LAMBDA(Offset s) {
+      "GALE::first_cells", space, mesh.segments(), KOKKOS_LAMBDA(Offset s) {
         const Id begin = encoded.vertex_begin(s), end = encoded.vertex_begin(s + 1);
         const auto offer = [&](Id t) {
           const std::uint64_t key = pair_key(input(t), t);
           for (int corner = 0; corner < 4; ++corner) {
-            const Id v = encoded.tetrahedra(t, corner);
+            const Id v = encoded.cells(t, corner);
             if (v >= begin && v < end && key < first(v)) first(v) = key;
           }
         };
@@ -60,16 +60,15 @@ Keys<Space> first_tetrahedra(const Space& space, const Mesh& mesh) {
 
 template <class Space>
 Mirrored<Id> ascending_in(const Space& space, const DiscreteGradient& gradient) {
-  const auto next = with_ends(space, gradient.store().tetrahedron_successors(), gradient.critical().tetrahedra);
+  const auto next = with_ends(space, gradient.store().cell_successors(), gradient.critical().cells);
   jump(space, next);
-  const auto first = first_tetrahedra(space, gradient.mesh());
+  const auto first = first_cells(space, gradient.mesh());
   const auto input = gradient.mesh().vertex_input<MemoryOf<Space>>();
   const auto manifolds = allocate<Ids<Space>>("GALE::ascending_manifolds", first.extent(0));
   parallel_for(
       "GALE::ascending_manifolds", space, first.extent(0), KOKKOS_LAMBDA(Offset v) {
-        const Id tetrahedron = pair_second(first(v));
-        manifolds(input(v)) =
-            first(v) == no_first || next(tetrahedron) == path_outside ? no_id : place_of_end(next(tetrahedron));
+        const Id cell = pair_second(first(v));
+        manifolds(input(v)) = first(v) == no_first || next(cell) == path_outside ? no_id : place_of_end(next(cell));
       });
   space.fence();
   return manifolds;
@@ -141,10 +140,9 @@ Mirrored<Id> descending_on_ranks(const DiscreteGradient& gradient) {
 }
 
 Mirrored<Id> ascending_on_ranks(const DiscreteGradient& gradient) {
-  const auto tetrahedra = PathSimplices::make(gradient, PathSimplices::Kind::rising_tetrahedra);
+  const auto tetrahedra = PathSimplices::make(gradient, PathSimplices::Kind::rising_cells);
   Array<std::uint64_t, HostMemory> first;
-  together(gradient.mesh().exchange().ranks(),
-           [&] { first = first_tetrahedra(HostExecutionSpace(), gradient.mesh()); });
+  together(gradient.mesh().exchange().ranks(), [&] { first = first_cells(HostExecutionSpace(), gradient.mesh()); });
   return manifolds_on_ranks(*tetrahedra,
                             [&](Id v) { return first(v) == no_first ? no_id : Id(pair_second(first(v))); });
 }

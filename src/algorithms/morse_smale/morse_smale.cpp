@@ -44,7 +44,10 @@ void find_manifolds(MorseSmaleComplex& complex) {
 template <class GetStructure>
 MorseSmaleComplex find_parts(const DiscreteGradient& gradient, const MorseSmaleParts& parts, int threads,
                              const GetStructure& structure) {
-  if (parts.saddle_connectors) detail::require_whole_mesh("saddle connectors", gradient.mesh());
+  const bool has_walls = gradient.mesh().dimension() == 3;
+  if (!has_walls && parts.separatrices2)
+    throw Error("a mesh of triangles has no 2-separatrices: those of a mesh of tetrahedra consist of triangles");
+  if (has_walls && parts.saddle_connectors) detail::require_whole_mesh("saddle connectors", gradient.mesh());
   if (parts.separatrices2) detail::require_whole_mesh("2-separatrices", gradient.mesh());
   MorseSmaleComplex complex{gradient, parts, gradient.critical()};
   if (gradient.mesh().exchange().ranks().size() > 1) {
@@ -60,9 +63,8 @@ MorseSmaleComplex find_parts(const DiscreteGradient& gradient, const MorseSmaleP
     complex.descending = detail::descending_separatrices(gradient.mesh(), gradient.store().vertex_successors(),
                                                          complex.critical, places);
   if (parts.ascending_separatrices)
-    complex.ascending =
-        detail::ascending_separatrices(gradient.store().tetrahedron_successors(), complex.critical, places);
-  if (parts.saddle_connectors || parts.separatrices2) find_surfaces(places, threads, complex);
+    complex.ascending = detail::ascending_separatrices(gradient.store().cell_successors(), complex.critical, places);
+  if (has_walls && (parts.saddle_connectors || parts.separatrices2)) find_surfaces(places, threads, complex);
   if (parts.separatrices2) complex.ascending_walls = detail::ascending_walls(structure(), gradient, threads);
   find_manifolds(complex);
   return complex;

@@ -14,8 +14,8 @@ namespace gale::detail {
 
 class TurnedEdges;
 
-/// Where the 1-separatrices of a gradient's critical edges, or triangles, start, each with its source's place among
-/// these.
+/// Where the 1-separatrices of a gradient's critical edges, or of its critical facets of cells (triangles; on a
+/// triangle mesh edges), start, each with its source's place among these.
 struct PathStarts {
   std::vector<Id> simplices, sources;
 };
@@ -27,12 +27,12 @@ Separatrices<Id> descending_separatrices(const Mesh& mesh, const Mirrored<Id>& s
                                          const CriticalSimplices& critical, const CriticalPlaces& places,
                                          Paths told = Paths::whole);
 
-/// Finds the paths from each critical triangle up to maxima along these successors, where they are.
+/// Finds the paths from each critical facet of cells up to maxima along these successors, where they are.
 Separatrices<Id> ascending_separatrices(const Mirrored<Id>& successors, const CriticalSimplices& critical,
                                         const CriticalPlaces& places, Paths told = Paths::whole);
 
-/// Finds the separatrices that descend from this rank's critical edges, and those that ascend from its critical
-/// triangles, with the cells that other ranks hold: these are appended to `beyond`.
+/// Finds the separatrices that descend from this rank's critical edges, and those that ascend from its critical facets
+/// of cells, with the cells that other ranks hold: these are appended to `beyond`.
 ///
 /// The ranks that a path visits are found by halves: each knows where the path is 2^k changes of ranks later. Then all
 /// of them send their pieces at once: two rounds of messages more than the ends of all paths take. Collective.

@@ -25,13 +25,13 @@ Array<const Id, HostMemory> ends_here(const Mirrored<Id>& successors, const std:
 PathSimplices::PathSimplices(const DiscreteGradient& gradient, Kind kind)
     : gradient_(gradient),
       are_vertices_(kind == Kind::falling_vertices),
-      input_(are_vertices_ ? mesh().vertex_input().data() : mesh().tetrahedron_input().data()),
+      input_(are_vertices_ ? mesh().vertex_input().data() : mesh().cell_input().data()),
       vertex_input_(mesh().vertex_input().data()),
       keys_(gradient.order().keys()),
-      corners_(mesh().encoded().tetrahedra) {
+      corners_(mesh().encoded().cells) {
   if (are_vertices_) return;
-  tetrahedron_internal_ = allocate<Array<Id, HostMemory>>("GALE::tetrahedron_internal", mesh().tetrahedra());
-  parallel_for("GALE::tetrahedron_internal", HostExecutionSpace(), mesh().tetrahedra(),
+  tetrahedron_internal_ = allocate<Array<Id, HostMemory>>("GALE::tetrahedron_internal", mesh().cells());
+  parallel_for("GALE::tetrahedron_internal", HostExecutionSpace(), mesh().cells(),
                [&](Offset t) { tetrahedron_internal_(input_[t]) = static_cast<Id>(t); });
 }
 
@@ -43,20 +43,20 @@ std::unique_ptr<const PathSimplices> PathSimplices::make(const DiscreteGradient&
 
 const Mirrored<Id>& PathSimplices::successors() const {
   const GradientStore& store = gradient_.store();
-  return are_vertices_ ? store.vertex_successors() : store.tetrahedron_successors();
+  return are_vertices_ ? store.vertex_successors() : store.cell_successors();
 }
 
 const std::vector<Id>& PathSimplices::critical() const {
-  return are_vertices_ ? gradient_.critical().vertices : gradient_.critical().tetrahedra;
+  return are_vertices_ ? gradient_.critical().vertices : gradient_.critical().cells;
 }
 
 GlobalId PathSimplices::global(Id simplex) const {
-  return are_vertices_ ? mesh().vertex_id(input_[simplex]) : mesh().tetrahedron_id(input_[simplex]);
+  return are_vertices_ ? mesh().vertex_id(input_[simplex]) : mesh().cell_id(input_[simplex]);
 }
 
 Id PathSimplices::local(GlobalId id) const {
   return are_vertices_ ? mesh().vertex_internal()(mesh().vertex_of(id))
-                       : tetrahedron_internal_(mesh().exchange().tetrahedron_of(id));
+                       : tetrahedron_internal_(mesh().exchange().cell_of(id));
 }
 
 int PathSimplices::owner(Id simplex) const {

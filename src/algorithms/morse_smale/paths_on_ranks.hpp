@@ -18,7 +18,7 @@ struct PathCell {
 /// The simplices of one kind that paths along a gradient lead through, as one rank has them. Refers to the gradient.
 class PathSimplices {
  public:
-  enum class Kind { falling_vertices, rising_tetrahedra };
+  enum class Kind { falling_vertices, rising_cells };
 
   PathSimplices(const DiscreteGradient& gradient, Kind kind);
 

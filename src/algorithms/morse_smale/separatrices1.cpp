@@ -131,7 +131,7 @@ PathStarts descending_starts(const Mesh& mesh, const CriticalSimplices& critical
 
 PathStarts ascending_starts(const CriticalSimplices& critical) {
   PathStarts starts{critical.star, {}};
-  for (std::size_t i = 0; i < critical.triangles.size(); ++i)
+  for (std::size_t i = 0; i + 1 < critical.star_begin.size(); ++i)
     starts.sources.insert(starts.sources.end(), critical.star_begin[i + 1] - critical.star_begin[i],
                           static_cast<Id>(i));
   return starts;
@@ -146,7 +146,7 @@ Separatrices<Id> descending_separatrices(const Mesh& mesh, const Mirrored<Id>& s
 Separatrices<Id> ascending_separatrices(const Mirrored<Id>& successors, const CriticalSimplices& critical,
                                         const CriticalPlaces& places, Paths told) {
   return paths_from(successors, ascending_starts(critical), told,
-                    [&](Id tetrahedron) { return places.of_tetrahedron(tetrahedron); });
+                    [&](Id tetrahedron) { return places.of_cell(tetrahedron); });
 }
 
 }  // namespace gale::detail

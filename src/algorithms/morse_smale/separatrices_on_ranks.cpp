@@ -173,11 +173,11 @@ class BeyondIds {
 
   /// `simplices` are those of the paths.
   Id tetrahedron(const PathSimplices& simplices, const PathCell& cell) {
-    if (mesh_.exchange().tetrahedron_of(cell.id) != no_id) return simplices.local(cell.id);
+    if (mesh_.exchange().cell_of(cell.id) != no_id) return simplices.local(cell.id);
     const auto [number, is_new] = tetrahedra_.insert(static_cast<std::uint64_t>(cell.id));
     if (is_new) {
-      number = mesh_.tetrahedra() + static_cast<Id>(beyond_.tetrahedra.size());
-      beyond_.tetrahedra.push_back(cell.id);
+      number = mesh_.cells() + static_cast<Id>(beyond_.cells.size());
+      beyond_.cells.push_back(cell.id);
       std::array<Id, 4> corners{};
       for (int corner = 0; corner < 4; ++corner) corners[corner] = vertex(cell.corners[corner]);
       beyond_.corners.push_back(corners);
@@ -189,8 +189,7 @@ class BeyondIds {
   void require() const {
     require_ids("vertices on the paths of a rank",
                 Offset(mesh_.vertices()) + static_cast<Offset>(beyond_.vertices.size()));
-    require_ids("tetrahedra on the paths of a rank",
-                Offset(mesh_.tetrahedra()) + static_cast<Offset>(beyond_.tetrahedra.size()));
+    require_ids("tetrahedra on the paths of a rank", Offset(mesh_.cells()) + static_cast<Offset>(beyond_.cells.size()));
   }
 
  private:
@@ -229,7 +228,7 @@ Separatrices<Id> descending_separatrices_on_ranks(const DiscreteGradient& gradie
 }
 
 Separatrices<Id> ascending_separatrices_on_ranks(const DiscreteGradient& gradient, SimplicesBeyond& beyond) {
-  const auto tetrahedra = PathSimplices::make(gradient, PathSimplices::Kind::rising_tetrahedra);
+  const auto tetrahedra = PathSimplices::make(gradient, PathSimplices::Kind::rising_cells);
   return separatrices_from(*tetrahedra, ascending_starts(gradient.critical()), beyond);
 }
 

@@ -163,6 +163,9 @@ SimplexNumbers number_simplices(const Mesh& mesh, const NamedSimplices& named, c
 }
 
 SimplexNumbers number_simplices(Structure& structure, const NamedSimplices& named, const SweepOptions& options) {
+  if (structure.mesh().dimension() == 2 && !named.triangles.empty())
+    throw Error(std::to_string(named.triangles.size()) +
+                " triangles of a mesh of triangles are to be numbered: these are its cells, and have their input ids");
   const ThreadLimit limit(options.threads);
   return structure.mesh().is_part() ? number_of_part(structure, named, options)
                                     : number_of_whole(structure, named, options);

@@ -11,7 +11,8 @@ namespace gale::detail {
 inline void require_same_mesh(const std::string& what, const Mesh& mesh, const Mesh& of_structure) {
   if (mesh == of_structure) return;
   const auto size = [](const Mesh& of) {
-    return std::to_string(of.vertices()) + " vertices and " + std::to_string(of.tetrahedra()) + " tetrahedra";
+    return std::to_string(of.vertices()) + " vertices and " + std::to_string(of.cells()) +
+           (of.dimension() == 3 ? " tetrahedra" : " triangles");
   };
   throw Error(what + " is of a mesh of " + size(mesh) + ", the structure of another one of " + size(of_structure));
 }

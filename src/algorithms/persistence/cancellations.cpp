@@ -7,9 +7,7 @@
 namespace gale::detail {
 
 Cancellations::Cancellations(const DiscreteGradient& gradient)
-    : minima(gradient.vertex_successors()),
-      maxima(gradient.tetrahedron_successors()),
-      edges(gradient.mesh().vertices()) {
+    : minima(gradient.vertex_successors()), maxima(gradient.cell_successors()), edges(gradient.mesh().vertices()) {
   for (int d = 0; d < 4; ++d) is_left[d].assign(gradient.critical().counts()[d], 1);
 }
 
@@ -52,9 +50,9 @@ std::vector<Id> cancel_extrema(const std::vector<PersistencePair>& pairs, Id Per
   return heirs;
 }
 
-/// The tetrahedra of each critical triangle; no_id for what is outside.
-std::vector<std::array<Id, 2>> sides_of_triangles(const CriticalSimplices& critical) {
-  std::vector<std::array<Id, 2>> sides(critical.triangles.size(), {no_id, no_id});
+/// The cells of each critical facet of cells; no_id for what is outside.
+std::vector<std::array<Id, 2>> sides_of_facets(const CriticalSimplices& critical) {
+  std::vector<std::array<Id, 2>> sides(critical.star_begin.size() - 1, {no_id, no_id});
   for (std::size_t i = 0; i < sides.size(); ++i) {
     const Id first = critical.star_begin[i], count = critical.star_begin[i + 1] - first;
     for (Id k = 0; k < count && k < 2; ++k) sides[i][k] = critical.star[first + k];
@@ -80,8 +78,8 @@ void cancel_minima(const std::vector<PersistencePair>& pairs, const CriticalSimp
 void cancel_maxima(const std::vector<PersistencePair>& pairs, const CriticalSimplices& critical, const PathEnds& ends,
                    Cancellations& all) {
   all.heir_of_maximum = cancel_extrema(pairs, &PersistencePair::upper, &PersistencePair::lower, ends,
-                                       sides_of_triangles(critical), critical.tetrahedra.size(), all.maxima);
-  leave_out(pairs, 2, all);
+                                       sides_of_facets(critical), critical.cells.size(), all.maxima);
+  leave_out(pairs, critical.dimension - 1, all);
 }
 
 }  // namespace
@@ -91,13 +89,18 @@ Cancellations cancel_below(double threshold, const MorseSmaleComplex& complex, c
   const DiscreteGradient& gradient = complex.gradient;
   const CriticalSimplices& critical = gradient.critical();
   const CriticalPlaces places(critical);
-  const ExtremumEnds ends{ends_of_edges(gradient, places), ends_of_triangles(gradient, places)};
+  const ExtremumEnds ends{ends_of_edges(gradient, places), ends_of_facets(gradient, places)};
+  const int with_maxima = critical.dimension - 1;
   const PersistencePairs pairs = pairs_of(gradient, places, ends, false, threads);
   Cancellations all(gradient);
   const std::function<void()> extrema[] = {
       [&] { cancel_minima(pairs_below(threshold, 0, pairs.pairs[0], values), critical, ends.of_edges, all); },
-      [&] { cancel_maxima(pairs_below(threshold, 2, pairs.pairs[2], values), critical, ends.of_triangles, all); }};
+      [&] {
+        cancel_maxima(pairs_below(threshold, with_maxima, pairs.pairs[with_maxima], values), critical, ends.of_facets,
+                      all);
+      }};
   in_turns(threads, 2, [&](int, std::int64_t i) { extrema[i](); });
+  if (critical.dimension == 2) return all;
   DoomedSaddles doomed{pairs_below(threshold, 1, pairs.pairs[1], values), values[1], values[2], {}, threshold};
   if (want_joined) all.saddles.joined.resize(critical.edges.size());
   if (extrema_only) return all;

@@ -33,15 +33,15 @@ PathEnds ends_of_edges(const DiscreteGradient& gradient, const CriticalPlaces& p
   return ends;
 }
 
-PathEnds ends_of_triangles(const DiscreteGradient& gradient, const CriticalPlaces& places) {
+PathEnds ends_of_facets(const DiscreteGradient& gradient, const CriticalPlaces& places) {
   const CriticalSimplices& critical = gradient.critical();
-  const Id* const successors = gradient.tetrahedron_successors().data();
-  PathEnds ends(critical.triangles.size(), {no_id, no_id});
-  parallel_for("GALE::ends_of_triangles", HostExecutionSpace(), ends.size(), [&](Offset i) {
+  const Id* const successors = gradient.cell_successors().data();
+  PathEnds ends(critical.star_begin.size() - 1, {no_id, no_id});
+  parallel_for("GALE::ends_of_facets", HostExecutionSpace(), ends.size(), [&](Offset i) {
     const Id first = critical.star_begin[i], count = critical.star_begin[i + 1] - first;
     for (Id k = 0; k < count && count <= 2; ++k) {
       const Id end = end_of(successors, critical.star[first + k]);
-      ends[i][k] = end < no_id ? no_id : places.of_tetrahedron(end);
+      ends[i][k] = end < no_id ? no_id : places.of_cell(end);
     }
   });
   return ends;
@@ -58,17 +58,17 @@ void add(MaximumRanks& to, const MaximumRanks& more) {
   to.swap(sum);
 }
 
-/// The maxima that an odd number of paths from a tetrahedron rises to.
+/// The maxima that an odd number of paths from a cell rises to.
 class ForkedEnds {
  public:
   ForkedEnds(const DiscreteGradient& gradient, const CriticalPlaces& places, const std::vector<Id>& rank)
-      : successors_(gradient.tetrahedron_successors().data()),
+      : successors_(gradient.cell_successors().data()),
         further_(gradient.store().further_successors),
         places_(places),
         rank_(rank) {}
 
-  const MaximumRanks& of(Id tetrahedron) {
-    std::vector<Id> path = {tetrahedron};
+  const MaximumRanks& of(Id cell) {
+    std::vector<Id> path = {cell};
     while (!path.empty()) {
       stop_if_asked();
       const Id at = path.back();
@@ -80,29 +80,29 @@ class ForkedEnds {
       ends_.try_emplace(at, sum_at(at));
       path.pop_back();
     }
-    return ends_.at(tetrahedron);
+    return ends_.at(cell);
   }
 
  private:
   template <class Visit>
-  void for_each_successor(Id tetrahedron, const Visit& visit) const {
-    if (successors_[tetrahedron] >= 0) visit(successors_[tetrahedron]);
-    auto at = std::lower_bound(further_.begin(), further_.end(), std::make_pair(tetrahedron, Id(0)));
-    for (; at != further_.end() && at->first == tetrahedron; ++at) visit(at->second);
+  void for_each_successor(Id cell, const Visit& visit) const {
+    if (successors_[cell] >= 0) visit(successors_[cell]);
+    auto at = std::lower_bound(further_.begin(), further_.end(), std::make_pair(cell, Id(0)));
+    for (; at != further_.end() && at->first == cell; ++at) visit(at->second);
   }
 
-  Id first_unknown(Id tetrahedron) const {
+  Id first_unknown(Id cell) const {
     Id unknown = no_id;
-    for_each_successor(tetrahedron, [&](Id next) {
+    for_each_successor(cell, [&](Id next) {
       if (unknown == no_id && ends_.count(next) == 0) unknown = next;
     });
     return unknown;
   }
 
-  MaximumRanks sum_at(Id tetrahedron) const {
-    if (successors_[tetrahedron] == no_id) return {rank_[places_.of_tetrahedron(tetrahedron)]};
+  MaximumRanks sum_at(Id cell) const {
+    if (successors_[cell] == no_id) return {rank_[places_.of_cell(cell)]};
     MaximumRanks sum;
-    for_each_successor(tetrahedron, [&](Id next) { add(sum, ends_.at(next)); });
+    for_each_successor(cell, [&](Id next) { add(sum, ends_.at(next)); });
     return sum;
   }
 
@@ -118,11 +118,11 @@ class ForkedEnds {
 std::vector<Id> pair_forked_maxima(const DiscreteGradient& gradient, const CriticalPlaces& places,
                                    const Filtration& filtration) {
   const CriticalSimplices& critical = gradient.critical();
-  const auto& maxima = filtration.by_rank[3];
-  ForkedEnds ends(gradient, places, filtration.rank[3]);
+  const auto& maxima = filtration.by_rank[critical.dimension];
+  ForkedEnds ends(gradient, places, filtration.rank[critical.dimension]);
   std::vector<MaximumRanks> reduced(maxima.size());  // by the rank of the lowest maximum in each
   std::vector<Id> saddle_of(maxima.size(), no_id);
-  const auto& saddles = filtration.by_rank[2];
+  const auto& saddles = filtration.by_rank[critical.dimension - 1];
   for (auto saddle = saddles.rbegin(); saddle != saddles.rend(); ++saddle) {
     MaximumRanks left;
     for (Id i = critical.star_begin[*saddle]; i < critical.star_begin[*saddle + 1]; ++i)

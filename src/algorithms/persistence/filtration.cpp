@@ -39,12 +39,13 @@ void sort_places(const std::uint64_t* keys, std::size_t count, const VerticesOf&
   });
 }
 
-/// A tetrahedron's vertices from the highest to the lowest.
-std::array<Id, 4> from_highest(const DiscreteGradient& gradient, Id tetrahedron) {
-  const auto& corners = gradient.mesh().encoded().tetrahedra;
+/// The vertices of a cell, which has so many, from the highest to the lowest.
+template <int count>
+std::array<Id, count> from_highest(const DiscreteGradient& gradient, Id cell) {
+  const auto& corners = gradient.mesh().encoded().cells;
   const std::uint64_t* const keys = gradient.order().keys();
-  std::array<Id, 4> vertices;
-  for (int i = 0; i < 4; ++i) vertices[i] = corners(tetrahedron, i);
+  std::array<Id, count> vertices;
+  for (int i = 0; i < count; ++i) vertices[i] = corners(cell, i);
   std::sort(vertices.begin(), vertices.end(), [&](Id a, Id b) { return keys[a] > keys[b]; });
   return vertices;
 }
@@ -62,8 +63,12 @@ Filtration filtration_of(const DiscreteGradient& gradient, int threads) {
   };
   sort(0, [&](Offset i) { return std::array<Id, 1>{critical.vertices[i]}; });
   sort(1, [&](Offset i) { return critical.edges[i]; });
-  sort(2, [&](Offset i) { return critical.triangles[i]; });
-  sort(3, [&](Offset i) { return from_highest(gradient, critical.tetrahedra[i]); });
+  if (critical.dimension == 2) {
+    sort(2, [&](Offset i) { return from_highest<3>(gradient, critical.cells[i]); });
+  } else {
+    sort(2, [&](Offset i) { return critical.triangles[i]; });
+    sort(3, [&](Offset i) { return from_highest<4>(gradient, critical.cells[i]); });
+  }
   return filtration;
 }
 
@@ -79,7 +84,7 @@ CriticalValues critical_values(const DiscreteGradient& gradient, const std::func
   for (const Id vertex : critical.vertices) add(0, vertex);
   for (const auto& edge : critical.edges) add(1, edge[0]);
   for (const auto& triangle : critical.triangles) add(2, triangle[0]);
-  for (const Id tetrahedron : critical.tetrahedra) add(3, from_highest(gradient, tetrahedron)[0]);
+  for (const Id cell : critical.cells) add(critical.dimension, from_highest<4>(gradient, cell)[0]);
   return values;
 }
 

@@ -11,7 +11,7 @@
 namespace gale::detail {
 
 /// The critical simplices of a gradient in the order in which the mesh is built up: each dimension by the keys of its
-/// simplices' vertices, from the highest to the lowest.
+/// simplices' vertices, from the highest to the lowest. Cells are of the mesh's dimension.
 struct Filtration {
   std::array<std::vector<Id>, 4> by_rank;  ///< places in CriticalSimplices
   std::array<std::vector<Id>, 4> rank;     ///< of each place
@@ -35,25 +35,26 @@ using PathEnds = std::vector<std::array<Id, 2>>;
 /// The minima that the paths from the two vertices of each critical edge fall to.
 PathEnds ends_of_edges(const DiscreteGradient& gradient, const CriticalPlaces& places);
 
-/// The maxima that the paths from the tetrahedra of each critical triangle rise to. A triangle of one tetrahedron has
-/// the outside on its other side; one of three or more has it on both. Paths don't fork here.
-PathEnds ends_of_triangles(const DiscreteGradient& gradient, const CriticalPlaces& places);
+/// The maxima that the paths from the cells of each critical facet of cells rise to: of each critical triangle, or on a
+/// triangle mesh of each critical edge. A facet of one cell has the outside on its other side; one of three or more has
+/// it on both. Paths don't fork here.
+PathEnds ends_of_facets(const DiscreteGradient& gradient, const CriticalPlaces& places);
 
 /// The ends of all saddles' paths.
 struct ExtremumEnds {
-  PathEnds of_edges, of_triangles;
+  PathEnds of_edges, of_facets;
 };
 
 /// Pairs the critical simplices of a gradient with such ends. With `forks` as `find_persistence_pairs` does, and then
-/// nothing asks for the ends of triangles. Without, rising paths don't fork: at a triangle of three tetrahedra or more
-/// they take the way that `tetrahedron_successor` has, and such a triangle is paired with no maximum. So each pair with
-/// a maximum can be cancelled. The same where no triangle has three.
+/// nothing asks for the ends of facets. Without, rising paths don't fork: at a facet of three cells or more they take
+/// the way that `cell_successor` has, and such a facet is paired with no maximum. So each pair with a maximum can be
+/// cancelled. The same where no facet has three.
 PersistencePairs pairs_of(const DiscreteGradient& gradient, const CriticalPlaces& places, const ExtremumEnds& ends,
                           bool forks, int threads);
 
-/// For each maximum the 2-saddle that it is paired with, no_id if it is with none, whatever rising paths do: where they
-/// fork, a 2-saddle has more ends than two, and sets of extrema can't tell. By elimination over Z2. For meshes with
-/// triangles of three tetrahedra and more, which are no part of space: sequential, and up to cubic.
+/// For each maximum the saddle that it is paired with, no_id if it is with none, whatever rising paths do: where they
+/// fork, a saddle has more ends than two, and sets of extrema can't tell. By elimination over Z2. For meshes with
+/// facets of three cells and more, which are no part of space, and no surfaces: sequential, and up to cubic.
 std::vector<Id> pair_forked_maxima(const DiscreteGradient& gradient, const CriticalPlaces& places,
                                    const Filtration& filtration);
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <functional>
+#include <iterator>
 #include <numeric>
 #include <utility>
 
@@ -40,15 +41,18 @@ std::vector<Id> join_ends(const std::vector<Id>& saddles, const PathEnds& ends, 
   return saddle_of;
 }
 
-/// For each maximum the 2-saddle that it is paired with, where paths don't fork.
-std::vector<Id> pair_maxima(const PathEnds& ends, const Filtration& filtration) {
-  const std::vector<Id> falling(filtration.by_rank[2].rbegin(), filtration.by_rank[2].rend());
-  std::vector<Id> age = filtration.rank[3];
+/// For each maximum the saddle that it is paired with, where paths don't fork: one for which is_free(saddle).
+template <class IsFree>
+std::vector<Id> pair_maxima(const PathEnds& ends, const Filtration& filtration, int dimension, const IsFree& is_free) {
+  const auto& rising = filtration.by_rank[dimension - 1];
+  std::vector<Id> falling;
+  std::copy_if(rising.rbegin(), rising.rend(), std::back_inserter(falling), is_free);
+  std::vector<Id> age = filtration.rank[dimension];
   for (Id& rank : age) rank = static_cast<Id>(age.size()) - 1 - rank;
   return join_ends(falling, ends, age);
 }
 
-/// Whether a rising path forks: at a triangle of three tetrahedra or more.
+/// Whether a rising path forks: at a triangle of three tetrahedra or more, or on a triangle mesh at such an edge.
 bool has_forks(const DiscreteGradient& gradient) {
   const auto& begin = gradient.critical().star_begin;
   for (std::size_t i = 0; i + 1 < begin.size(); ++i) {
@@ -98,17 +102,32 @@ class Partners {
   std::array<std::vector<char>, 4> is_paired_;
 };
 
+/// What pairs_of does on a triangle mesh, where a saddle is in a pair with a minimum, or with a maximum, or in none.
+/// That no saddle is in both has to be seen to where rising paths don't take all their ways.
+PersistencePairs pairs_on_triangles(const DiscreteGradient& gradient, const CriticalPlaces& places,
+                                    const Filtration& filtration, const ExtremumEnds& ends, bool forks) {
+  PersistencePairs found;
+  Partners partners(gradient.critical().counts());
+  found.pairs[0] = partners.from_lower(0, join_ends(filtration.by_rank[1], ends.of_edges, filtration.rank[0]));
+  const auto is_free = [&](Id saddle) { return !partners.is_paired(1, saddle); };
+  found.pairs[1] = partners.from_upper(1, forks ? pair_forked_maxima(gradient, places, filtration)
+                                                : pair_maxima(ends.of_facets, filtration, 2, is_free));
+  for (int d = 0; d < 3; ++d) found.essential[d] = partners.unpaired(d);
+  return found;
+}
+
 }  // namespace
 
 PersistencePairs pairs_of(const DiscreteGradient& gradient, const CriticalPlaces& places, const ExtremumEnds& ends,
                           bool forks, int threads) {
   const Filtration filtration = filtration_of(gradient, threads);
+  if (gradient.mesh().dimension() == 2) return pairs_on_triangles(gradient, places, filtration, ends, forks);
   std::vector<Id> saddle_of_minimum, saddle_of_maximum;
   const std::function<void()> extrema[] = {
       [&] { saddle_of_minimum = join_ends(filtration.by_rank[1], ends.of_edges, filtration.rank[0]); },
       [&] {
-        saddle_of_maximum =
-            forks ? pair_forked_maxima(gradient, places, filtration) : pair_maxima(ends.of_triangles, filtration);
+        saddle_of_maximum = forks ? pair_forked_maxima(gradient, places, filtration)
+                                  : pair_maxima(ends.of_facets, filtration, 3, [](Id) { return true; });
       }};
   in_turns(threads, 2, [&](int, std::int64_t i) { extrema[i](); });
   PersistencePairs found;
@@ -132,7 +151,7 @@ PersistencePairs find_persistence_pairs(const DiscreteGradient& gradient, const 
   const detail::CriticalPlaces places(gradient.critical());
   const bool forks = detail::has_forks(gradient);
   detail::ExtremumEnds ends{ends_of_edges(gradient, places), {}};
-  if (!forks) ends.of_triangles = ends_of_triangles(gradient, places);
+  if (!forks) ends.of_facets = ends_of_facets(gradient, places);
   return pairs_of(gradient, places, ends, forks, std::max(options.threads, 1));
 }
 

@@ -14,7 +14,7 @@ namespace gale {
 namespace {
 
 void require_whole(const MorseSmaleComplex& complex, bool extrema_only) {
-  if (!extrema_only && !complex.parts.saddle_connectors)
+  if (!extrema_only && complex.critical.dimension == 3 && !complex.parts.saddle_connectors)
     throw Error("simplify needs parts that the complex was computed without: saddle connectors");
   const auto all = complex.gradient.critical().counts(), there = complex.critical.counts();
   if (all == there) return;
@@ -38,12 +38,13 @@ std::vector<Simplex> left_of(const std::vector<Simplex>& simplices, const std::v
 
 CriticalSimplices critical_left(const CriticalSimplices& all, const std::array<std::vector<char>, 4>& is_left) {
   CriticalSimplices left;
+  left.dimension = all.dimension;
   left.vertices = left_of(all.vertices, is_left[0]);
   left.edges = left_of(all.edges, is_left[1]);
-  left.triangles = left_of(all.triangles, is_left[2]);
-  left.tetrahedra = left_of(all.tetrahedra, is_left[3]);
-  for (std::size_t i = 0; i < all.triangles.size(); ++i) {
-    if (!is_left[2][i]) continue;
+  if (all.dimension == 3) left.triangles = left_of(all.triangles, is_left[2]);
+  left.cells = left_of(all.cells, is_left[all.dimension]);
+  for (std::size_t i = 0; i + 1 < all.star_begin.size(); ++i) {
+    if (!is_left[all.dimension - 1][i]) continue;
     left.star.insert(left.star.end(), all.star.begin() + all.star_begin[i], all.star.begin() + all.star_begin[i + 1]);
     left.star_begin.push_back(static_cast<Id>(left.star.size()));
   }
@@ -127,7 +128,7 @@ MorseSmaleComplex simplify(const MorseSmaleComplex& complex, const std::function
   if (parts.ascending_separatrices)
     left.ascending =
         detail::ascending_separatrices(cancelled.maxima.successors(), left.critical, places, options.paths);
-  if (parts.saddle_connectors || parts.separatrices2) {
+  if (left.critical.dimension == 3 && (parts.saddle_connectors || parts.separatrices2)) {
     auto surfaces = detail::descending_surfaces(gradient, left.critical, places, parts.separatrices2,
                                                 parts.saddle_connectors, threads, &cancelled.edges, options.paths);
     left.connectors = std::move(surfaces.connectors);
@@ -140,7 +141,8 @@ MorseSmaleComplex simplify(const MorseSmaleComplex& complex, const std::function
 
   left.descending_manifold =
       manifold_left(complex.descending_manifold, cancelled.heir_of_minimum, cancelled.is_left[0]);
-  left.ascending_manifold = manifold_left(complex.ascending_manifold, cancelled.heir_of_maximum, cancelled.is_left[3]);
+  left.ascending_manifold =
+      manifold_left(complex.ascending_manifold, cancelled.heir_of_maximum, cancelled.is_left[left.critical.dimension]);
   if (complex.morse_smale_manifold.size() != 0) {
     std::tie(left.morse_smale_manifold, left.morse_smale_manifolds) =
         detail::morse_smale_manifolds(gradient.mesh(), left.ascending_manifold, left.descending_manifold);

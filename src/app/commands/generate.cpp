@@ -8,8 +8,8 @@ namespace {
 
 class Generate final : public Command {
  public:
-  explicit Generate(CLI::App& app) : Command(app, "generate", "Writes the tetrahedral mesh that an input stands for") {
-    add_file("-o,--output", output_, ".vtu or .vtk", {".vtu", ".vtk"})->required();
+  explicit Generate(CLI::App& app) : Command(app, "generate", "Writes the mesh that an input stands for") {
+    add_file("-o,--output", output_, ".vtu, .vtk or, of triangles, .vtp", {".vtu", ".vtk", ".vtp"})->required();
     add_encoding();
   }
 

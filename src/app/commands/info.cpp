@@ -92,7 +92,8 @@ class Info final : public Command {
     io::Dataset dataset = session.read();
     tell_extent(dataset, session);
     tell_arrays(dataset, session);
-    tell_surface(session.encode(dataset, SegmentationOptions(), Session::Keep::nothing), session);
+    if (dataset.dimension() == 3)
+      tell_surface(session.encode(dataset, SegmentationOptions(), Session::Keep::nothing), session);
     session.finish();
   }
 };

@@ -105,9 +105,9 @@ class Painter {
   /// Whether each tetrahedron is outside the octant; all of them where none is, because the mesh is too small to be
   /// cut.
   std::vector<char> left_tetrahedra() const {
-    const auto& tetrahedra = mesh_.encoded().tetrahedra;
-    std::vector<char> is_left(mesh_.tetrahedra());
-    for (Id t = 0; t < mesh_.tetrahedra(); ++t) {
+    const auto& tetrahedra = mesh_.encoded().cells;
+    std::vector<char> is_left(mesh_.cells());
+    for (Id t = 0; t < mesh_.cells(); ++t) {
       Point middle{};
       for (int i = 0; i < 4; ++i) {
         for (int axis = 0; axis < 3; ++axis) middle[axis] += point(tetrahedra(t, i))[axis] / 4;
@@ -121,13 +121,13 @@ class Painter {
   /// The triangles of tetrahedra that are left whose three vertices are each on the mesh's surface or on the cut,
   /// between tetrahedra that are left and others. All triangles of the skin are among them.
   std::vector<Triangle> skin_candidates(const std::vector<char>& is_left) const {
-    const auto& tetrahedra = mesh_.encoded().tetrahedra;
+    const auto& tetrahedra = mesh_.encoded().cells;
     std::vector<char> near_left(mesh_.vertices()), near_cut(mesh_.vertices());
-    for (Id t = 0; t < mesh_.tetrahedra(); ++t) {
+    for (Id t = 0; t < mesh_.cells(); ++t) {
       for (int i = 0; i < 4; ++i) (is_left[t] ? near_left : near_cut)[tetrahedra(t, i)] = 1;
     }
     std::vector<Triangle> candidates;
-    for (Id t = 0; t < mesh_.tetrahedra(); ++t) {
+    for (Id t = 0; t < mesh_.cells(); ++t) {
       if (!is_left[t]) continue;
       for (int corner = 0; corner < 4; ++corner) {
         Triangle triangle{};

@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include <gale/app/ranks/shared_input.hpp>
+#include <gale/app/session.hpp>
 #include <gale/io/write.hpp>
 #include <gale/mesh/cells/split_cells.hpp>
 #include <gale/mesh/exchange/messages.hpp>
@@ -143,6 +144,16 @@ void keep_common(const Ranks& ranks, io::Dataset& mesh, Offset points) {
   mesh.arrays = std::move(common);
 }
 
+/// Adds a coordinate in the type that points of all ranks have.
+void add_height(io::Dataset& mesh, int axis, bool is_in_float) {
+  outputs::add_height(mesh, axis);
+  io::PointArray::Values& values = mesh.arrays.front().values;
+  const auto* const floats = std::get_if<std::vector<float>>(&values);
+  if (is_in_float || floats == nullptr) return;
+  std::vector<double> doubles(floats->begin(), floats->end());
+  values = std::move(doubles);
+}
+
 /// How many cells of each type all ranks have together. Collective.
 std::array<Offset, 256> cells_of_all(const Ranks& ranks, const io::SomePieces& some) {
   std::array<Offset, 256> census{};
@@ -213,11 +224,14 @@ SharedInput read_pieces(const Ranks& ranks, const InputOptions& input, const io:
     ids = places_of(ranks, some.point_ids, false);
   }
   const std::array<Offset, 256> census = cells_of_all(ranks, some);
-  detail::together(ranks, [&] { io::split_pieces(input.input, some, ids, input.read); });
+  const int dimension = highest_dimension(census) == 2 ? 2 : 3;
+  detail::together(ranks, [&] { require_tetrahedra(input, dimension); });
+  detail::together(ranks, [&] { io::split_pieces(input.input, some, ids, input.read, dimension); });
   const auto split = notices_of_split(census, ranks.sum(static_cast<std::int64_t>(mesh.tetrahedra.extent(0))), 4);
   mesh.notices.insert(mesh.notices.begin(), split.begin(), split.end());
   shared.cells = cells_on_ranks(ranks, pieces, some, cells);
   if (!pieces.cell_ids.empty()) tetrahedron_ids = places_of(ranks, ids_of_tetrahedra(some), true);
+  if (input.height) detail::together(ranks, [&] { add_height(mesh, *input.height, shared.is_in_float); });
   keep_common(ranks, mesh, count);
   detail::together(ranks, [&] {
     const auto tetrahedra =

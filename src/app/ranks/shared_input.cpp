@@ -19,15 +19,21 @@ Array<GlobalId, HostMemory> counted(GlobalId first, Offset count) {
 }
 
 template <class Index>
-void take_grid(int n, const Ranks& ranks, SharedInput& shared) {
+void take_grid(int n, const Ranks& ranks, const InputOptions& input, SharedInput& shared) {
   io::GridPartOf<Index> slab = io::make_grid_part<Index>(n, ranks.rank(), ranks.size());
   const auto ids = counted(slab.first_vertex, static_cast<Offset>(slab.field.size()));
   shared.part = part_of(ids, slab.points, slab.tetrahedra);
-  shared.arrays.push_back({"field", 1, std::move(slab.field)});
+  io::Dataset grid;
+  grid.points = slab.points;
+  grid.arrays.push_back({"field", 1, std::move(slab.field)});
+  if (input.height) outputs::add_height(grid, *input.height);
+  shared.arrays = std::move(grid.arrays);
 }
 
 void take_file(const InputOptions& input, SharedInput& shared) {
   io::Dataset dataset = io::read(input.input, input.read);
+  require_tetrahedra(input, dataset.dimension());
+  if (input.height) outputs::add_height(dataset, *input.height);
   const auto vertices = std::visit([](const auto& points) { return points.extent(0); }, dataset.points);
   const auto ids = counted(0, vertices);
   std::visit([&](const auto& points) { shared.part = part_of(ids, points, dataset.tetrahedra); }, dataset.points);
@@ -95,7 +101,8 @@ SharedInput read_shared(const Ranks& ranks, const InputOptions& input) {
   detail::together(ranks, [&] {
     if (const auto n = io::grid_size(input.input, input.read)) {
       constexpr int most = 1290;  // whose vertices 32 bits number
-      *n <= most ? take_grid<std::int32_t>(*n, ranks, shared) : take_grid<std::int64_t>(*n, ranks, shared);
+      *n <= most ? take_grid<std::int32_t>(*n, ranks, input, shared)
+                 : take_grid<std::int64_t>(*n, ranks, input, shared);
       io::Dataset named;
       named.arrays = shared.arrays;
       shared.field = outputs::select_field(named, input.read.array);

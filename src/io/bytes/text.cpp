@@ -87,6 +87,16 @@ std::size_t TextReader::read(char* to, std::size_t bytes) {
   return held == bytes ? held : held + source_.read(to + held, bytes - held);
 }
 
+std::string_view Words::next() {
+  std::size_t begin = 0;
+  while (begin < rest_.size() && is_space(rest_[begin])) ++begin;
+  std::size_t end = begin;
+  while (end < rest_.size() && !is_space(rest_[end])) ++end;
+  const std::string_view word = rest_.substr(begin, end - begin);
+  rest_.remove_prefix(end);
+  return word;
+}
+
 std::vector<std::string> words_of(const std::string& line) {
   std::istringstream stream(line);
   std::vector<std::string> words;

@@ -97,6 +97,19 @@ T number(std::string_view word, const std::string& what) {
   return value;
 }
 
+/// The words of a line one after the other.
+class Words {
+ public:
+  /// Begins before the first word of a line, which must outlive this.
+  explicit Words(std::string_view line) : rest_(line) {}
+
+  /// The next word; empty at the end of the line.
+  std::string_view next();
+
+ private:
+  std::string_view rest_;
+};
+
 /// The words of a line.
 std::vector<std::string> words_of(const std::string& line);
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <limits>
 #include <string>
 #include <type_traits>
@@ -41,23 +42,61 @@ Array<const T, HostMemory> view_of(const std::vector<T>& values) {
   return Array<const T, HostMemory>(values.data(), values.size());
 }
 
-template <class Index>
-SplitCells<4, HostMemory> split_by(Cells& cells, std::size_t points, const Array<const GlobalId, HostMemory>& ids,
-                                   const ReadOptions& options) {
-  const auto types = taken_as<std::uint8_t>(cells.types, "types");
-  auto offsets = taken_as<Offset>(cells.ends, "offsets");
-  if (types.size() != offsets.size())
-    damaged("it has types of ", types.size(), " cells and offsets of ", offsets.size());
-  offsets.insert(offsets.begin(), 0);
-  const std::string others = options.tetrahedra_alone ? other_cells(view_of(types)) : "";
-  if (!others.empty()) refuse("it has ", others, ", and tetrahedra alone are wanted");
-  const auto connectivity = taken_as<Index>(cells.connectivity, "connectivities");
-  const gale::Cells<Index, HostMemory> all{view_of(types), view_of(offsets), view_of(connectivity)};
-  return gale::split_cells(all, static_cast<Offset>(points), ids);
+/// Cells whose types and offsets have the types that splitting takes, and which were counted.
+struct CountedCells {
+  std::vector<std::uint8_t> types;
+  std::vector<Offset> offsets;
+};
+
+CountedCells counted(Cells& cells) {
+  CountedCells counted{taken_as<std::uint8_t>(cells.types, "types"), taken_as<Offset>(cells.ends, "offsets")};
+  if (counted.types.size() != counted.offsets.size())
+    damaged("it has types of ", counted.types.size(), " cells and offsets of ", counted.offsets.size());
+  counted.offsets.insert(counted.offsets.begin(), 0);
+  return counted;
+}
+
+void refuse_other_cells(const CountedCells& cells, int dimension) {
+  const std::string others = other_cells(view_of(cells.types), dimension);
+  if (!others.empty())
+    refuse("it has ", others, ", and ", dimension == 3 ? "tetrahedra" : "triangles", " alone are wanted");
 }
 
 std::size_t point_count_of(const Dataset& mesh) {
   return std::visit([](const auto& points) { return points.extent(0); }, mesh.points);
+}
+
+/// What cells of one kind of index are split into. Takes the connectivity, and frees it.
+template <int Corners, class Index>
+SplitCells<Corners, HostMemory> split_by(const CountedCells& counted, PointArray::Values& connectivity,
+                                         std::size_t points, const Array<const GlobalId, HostMemory>& ids) {
+  const auto corners = taken_as<Index>(connectivity, "connectivities");
+  connectivity = {};
+  const gale::Cells<Index, HostMemory> all{view_of(counted.types), view_of(counted.offsets), view_of(corners)};
+  if constexpr (Corners == 4) {
+    return gale::split_cells(all, static_cast<Offset>(points), ids);
+  } else {
+    return gale::split_polygons(all, static_cast<Offset>(points), ids);
+  }
+}
+
+/// Gives the mesh the simplices that cells are split into, and returns the notices.
+template <int Corners, class Simplices>
+std::vector<std::string> split(const CountedCells& counted, PointArray::Values& connectivity,
+                               const Array<const GlobalId, HostMemory>& ids, Simplices& simplices, Dataset& to) {
+  const std::size_t points = point_count_of(to);
+  const bool is_long = std::holds_alternative<std::vector<std::uint32_t>>(connectivity) ||
+                       std::holds_alternative<std::vector<std::int64_t>>(connectivity) ||
+                       std::holds_alternative<std::vector<std::uint64_t>>(connectivity);
+  const SplitCells<Corners, HostMemory> split =
+      is_long ? split_by<Corners, std::int64_t>(counted, connectivity, points, ids)
+              : split_by<Corners, std::int32_t>(counted, connectivity, points, ids);
+  simplices = split.simplices;
+  if (split.cells.extent(0) > 0) {
+    const Id* const first = split.cells.data();
+    to.cell_arrays.push_back({global_cell_ids, 1, std::vector<Id>(first, first + split.cells.extent(0))});
+  }
+  return split.notices;
 }
 
 template <class Coordinate>
@@ -86,18 +125,14 @@ std::string note_cell_arrays(const std::vector<std::string>& names) {
 }
 
 std::vector<std::string> split_into(Dataset& to, Cells& cells, const Array<const GlobalId, HostMemory>& ids,
-                                    const ReadOptions& options) {
-  const std::size_t points = point_count_of(to);
-  const bool is_short = std::holds_alternative<std::vector<std::int32_t>>(cells.connectivity);
-  const auto split = is_short ? split_by<std::int32_t>(cells, points, ids, options)
-                              : split_by<std::int64_t>(cells, points, ids, options);
+                                    const ReadOptions& options, std::optional<int> dimension) {
+  const CountedCells counted_cells = counted(cells);
+  const bool is_flat = dimension.value_or(highest_dimension(view_of(counted_cells.types))) == 2;
+  if (options.simplices_alone) refuse_other_cells(counted_cells, is_flat ? 2 : 3);
+  std::vector<std::string> notices = is_flat ? split<3>(counted_cells, cells.connectivity, ids, to.triangles, to)
+                                             : split<4>(counted_cells, cells.connectivity, ids, to.tetrahedra, to);
   cells = {};
-  to.tetrahedra = split.simplices;
-  if (split.cells.extent(0) > 0) {
-    const Id* const first = split.cells.data();
-    to.cell_arrays.push_back({global_cell_ids, 1, std::vector<Id>(first, first + split.cells.extent(0))});
-  }
-  return split.notices;
+  return notices;
 }
 
 Dataset to_points_alone(MeshParts& parts) {
@@ -119,35 +154,58 @@ Dataset to_points_alone(MeshParts& parts) {
 
 Dataset to_mesh(MeshParts& parts, const ReadOptions& options) {
   Dataset mesh = to_points_alone(parts);
-  const bool has_cells = count_of(parts.cells.types) > 0;
   const std::vector<std::string> notices = split_into(mesh, parts.cells, {}, options);
-  if (mesh.tetrahedra.extent(0) == 0) {
-    const bool has_split = has_cells && !notices.empty() && notices.front().rfind("split ", 0) == 0;
-    throw Error(std::string("it has no tetrahedra") + (has_split ? ": its cells have no volume" : ""));
+  if (mesh.cells() == 0) {
+    const bool has_split = !notices.empty() && notices.front().rfind("split ", 0) == 0;
+    const bool has_volumes = has_split && notices.front().find(" tetrahedra") != std::string::npos;
+    throw Error(has_split ? has_volumes ? "it has no tetrahedra: its cells have no volume"
+                                        : "it has no triangles: its cells have no area"
+                          : "it has no tetrahedra and no triangles");
   }
   mesh.notices.insert(mesh.notices.begin(), notices.begin(), notices.end());
   return mesh;
 }
 
-Cells cells_of_grid(const std::array<std::int64_t, 3>& dimensions, int type) {
-  const auto [nx, ny, nz] = dimensions;
-  if (nx < 2 || ny < 2 || nz < 2) return MeshParts().cells;
-  static constexpr int places[2][8] = {{0, 1, 2, 3, 4, 5, 6, 7}, {0, 1, 3, 2, 4, 5, 7, 6}};
-  const int* const corners = places[type == cell_type::hexahedron];
-  const std::int64_t width = nx - 1, height = ny - 1, row = nx, layer = nx * ny, count = width * height * (nz - 1);
-  std::vector<std::int32_t> connectivity(8 * static_cast<std::size_t>(count));
+namespace {
+
+/// Cells of a grid, each of so many `corners`: steps to these from the lowest one, which is at place(cell).
+template <class Place>
+Cells tabulated_cells(std::int64_t count, int type, const std::vector<std::int64_t>& steps, const Place& place) {
+  const auto corners = static_cast<std::int64_t>(steps.size());
+  std::vector<std::int32_t> connectivity(steps.size() * static_cast<std::size_t>(count));
   std::vector<std::int64_t> ends(static_cast<std::size_t>(count));
   parallel_for("GALE::cells_of_grid", HostExecutionSpace(), count, [&](Offset cell) {
-    const std::int64_t first = cell / width / height * layer + cell / width % height * row + cell % width;
-    for (int k = 0; k < 8; ++k) {
-      const int corner = corners[k];
-      connectivity[8 * cell + k] =
-          static_cast<std::int32_t>(first + (corner & 1) + (corner >> 1 & 1) * row + (corner >> 2) * layer);
-    }
-    ends[cell] = 8 * (cell + 1);
+    const std::int64_t first = place(cell);
+    for (std::int64_t k = 0; k < corners; ++k)
+      connectivity[corners * cell + k] = static_cast<std::int32_t>(first + steps[k]);
+    ends[cell] = corners * (cell + 1);
   });
   return {std::vector<std::uint8_t>(ends.size(), static_cast<std::uint8_t>(type)), std::move(ends),
           std::move(connectivity)};
+}
+
+}  // namespace
+
+Cells cells_of_grid(const std::array<std::int64_t, 3>& dimensions, int type) {
+  const bool are_hexahedra = type == cell_type::hexahedron;
+  std::array<std::int64_t, 3> sizes = dimensions;
+  std::stable_partition(sizes.begin(), sizes.end(), [](std::int64_t size) { return size != 1; });
+  const auto [nx, ny, nz] = sizes;
+  if (nx < 2 || ny < 2 || nz < 1) return MeshParts().cells;
+  const std::int64_t width = nx - 1, height = ny - 1, row = nx, layer = nx * ny;
+  if (nz < 2) {
+    const auto steps =
+        are_hexahedra ? std::vector<std::int64_t>{0, 1, row + 1, row} : std::vector<std::int64_t>{0, 1, row, row + 1};
+    return tabulated_cells(width * height, are_hexahedra ? cell_type::quad : cell_type::pixel, steps,
+                           [=](std::int64_t cell) { return cell / width * row + cell % width; });
+  }
+  std::vector<std::int64_t> steps;
+  for (const int corner :
+       {0, 1, are_hexahedra ? 3 : 2, are_hexahedra ? 2 : 3, 4, 5, are_hexahedra ? 7 : 6, are_hexahedra ? 6 : 7})
+    steps.push_back((corner & 1) + (corner >> 1 & 1) * row + (corner >> 2) * layer);
+  return tabulated_cells(width * height * (nz - 1), type, steps, [=](std::int64_t cell) {
+    return cell / width / height * layer + cell / width % height * row + cell % width;
+  });
 }
 
 }  // namespace gale::io::detail

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,19 +26,21 @@ struct MeshParts {
   std::vector<std::string> notices;
 };
 
-/// The mesh of the cells, in their order: tetrahedra, and what split_cells() makes of others. Checks all that it
-/// indexes by. Throws gale::Error as that does, for cells of dimension 3 that are no tetrahedra where these alone are
-/// wanted, for no tetrahedra, and for too many points for ids of 32 bits. Takes what is in `parts`.
+/// The mesh of the cells, in their order: tetrahedra, and what split_cells() makes of other 3D cells; where there are
+/// none, triangles, and what split_polygons() makes of other 2D cells. Checks all that it indexes by. Throws
+/// gale::Error as these do, for cells that would be split where simplices alone are wanted, for neither tetrahedra nor
+/// triangles, and for too many points for ids of 32 bits. Takes what is in `parts`.
 Dataset to_mesh(MeshParts& parts, const ReadOptions& options);
 
-/// Points and arrays of the mesh, without tetrahedra, and gives the cells back, as the other ones below are to be
+/// Points and arrays of the mesh, without its cells, and gives the cells back, as the other ones below are to be
 /// split later. Takes what is in `parts`.
 Dataset to_points_alone(MeshParts& parts);
 
-/// Splits cells into the tetrahedra of `to`, which may be none, by the ids of its points; of none, by their numbers.
-/// Gives it cell_arrays, too, and returns notices. Takes the cells.
+/// Splits cells into the tetrahedra of `to`, or its triangles, which may be none, by the ids of its points; of none, by
+/// their numbers. Cells of `dimension` count, 2 or 3, or of the highest that there is. Gives it cell_arrays, too, and
+/// returns notices. Takes the cells.
 std::vector<std::string> split_into(Dataset& to, Cells& cells, const Array<const GlobalId, HostMemory>& ids,
-                                    const ReadOptions& options);
+                                    const ReadOptions& options, std::optional<int> dimension = std::nullopt);
 
 /// The notice about a point array that is left out, and why.
 std::string note_array(const std::string& name, const std::string& why);
@@ -45,8 +48,8 @@ std::string note_array(const std::string& name, const std::string& why);
 /// The notice about cell arrays of these names, which aren't read.
 std::string note_cell_arrays(const std::vector<std::string>& names);
 
-/// The cells of a structured grid of so many points along each axis, hexahedra or, by their type, voxels; none where an
-/// axis has less than two. Precondition: 32 bits number its points.
+/// The cells of a structured grid of so many points along each axis, hexahedra or voxels by their type; where one axis
+/// has a single point, quads or pixels, and none where two have. Precondition: 32 bits number its points.
 Cells cells_of_grid(const std::array<std::int64_t, 3>& dimensions, int type);
 
 }  // namespace gale::io::detail

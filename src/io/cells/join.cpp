@@ -3,6 +3,7 @@
 #include <utility>
 
 #include <gale/base/sort.hpp>
+#include <gale/io/bytes/text.hpp>
 #include <gale/io/bytes/values.hpp>
 #include <gale/io/cells/join.hpp>
 #include <gale/io/dataset.hpp>
@@ -60,17 +61,21 @@ void JoinedPieces::add_arrays(std::vector<PointArray>& from) {
   arrays_.erase(std::remove_if(arrays_.begin(), arrays_.end(), is_missing), arrays_.end());
 }
 
-void JoinedPieces::add(MeshParts piece, std::int64_t first_point) {
-  const auto begin = static_cast<std::int64_t>(connectivity_.size());
+void JoinedPieces::add(MeshParts piece, bool has_own_numbers) {
+  const auto begin = static_cast<std::int64_t>(connectivity_.size()), first_point = static_cast<std::int64_t>(points()),
+             own_points = static_cast<std::int64_t>(count_of(piece.points) / 3);
   is_double_ |= std::holds_alternative<std::vector<double>>(piece.points);
   append(piece.points, 0.0, points_);
   const std::size_t first_cell = std::min(types_.size(), ends_.size());
   append(piece.cells.types, std::int64_t(0), types_);
   append(piece.cells.ends, begin, ends_);
   append(piece.cells.connectivity, std::int64_t(0), connectivity_);
-  if (first_point != 0) {
-    for_each_point(types_, ends_, first_cell, connectivity_,
-                   [&](std::size_t, std::int64_t& point) { point += first_point; });
+  if (has_own_numbers) {
+    for_each_point(types_, ends_, first_cell, connectivity_, [&](std::size_t cell, std::int64_t& point) {
+      if (point < 0 || point >= own_points)
+        refuse("cell ", cell, " names point ", point, " of the ", own_points, " of its piece");
+      point += first_point;
+    });
   }
   if (count_of(piece.points) > 0) add_arrays(piece.arrays);  // an empty piece may leave out arrays
   for (std::string& notice : piece.notices) {

@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 #include <tuple>
+#include <type_traits>
 #include <vector>
 
 #include <gale/io/cells/cells.hpp>
@@ -20,7 +21,15 @@ void append(const PointArray::Values& from, To offset, std::vector<To>& to) {
       [&](const auto& values) {
         const std::size_t wanted = to.size() + values.size();
         if (wanted > to.capacity()) to.reserve(std::max(wanted, 2 * to.capacity()));  // pieces may be many and small
-        for (const auto value : values) to.push_back(static_cast<To>(value) + offset);
+        for (const auto value : values) {
+          if constexpr (std::is_integral_v<To>) {
+            // What is no such place may be any number: their sum goes around, as signed ones may not.
+            to.push_back(static_cast<To>(static_cast<std::uint64_t>(static_cast<To>(value)) +
+                                         static_cast<std::uint64_t>(offset)));
+          } else {
+            to.push_back(static_cast<To>(value) + offset);
+          }
+        }
       },
       from);
 }
@@ -54,21 +63,22 @@ void for_each_point(const std::vector<std::int64_t>& types, const std::vector<st
 }
 
 /// Pieces of a mesh, one behind the other. Of their arrays those stay that all pieces have which have points. Nothing
-/// of the cells is checked.
+/// else of the cells is checked.
 class JoinedPieces {
  public:
-  /// A piece whose points are numbered from 0 on, behind the points before.
-  void add(MeshParts piece) { add(std::move(piece), static_cast<std::int64_t>(points())); }
+  /// A piece whose points are numbered from 0 on, behind the points before. Throws gale::Error for a cell that names
+  /// another one: it could be the next piece's.
+  void add(MeshParts piece) { add(std::move(piece), true); }
 
   /// A piece whose cells name all points by their places among the joined ones.
-  void add_numbered(MeshParts piece) { add(std::move(piece), 0); }
+  void add_numbered(MeshParts piece) { add(std::move(piece), false); }
 
   std::size_t points() const { return points_.size() / 3; }
 
   MeshParts take();
 
  private:
-  void add(MeshParts piece, std::int64_t first_point);
+  void add(MeshParts piece, bool has_own_numbers);
   void add_arrays(std::vector<PointArray>& from);
 
   // One type for all that pieces may have in different ones.

@@ -4,6 +4,7 @@
 #include <gale/base/stop.hpp>
 #include <gale/io/bytes/text.hpp>
 #include <gale/io/cells/cells.hpp>
+#include <gale/io/cells/surface_cells.hpp>
 #include <gale/io/formats.hpp>
 #include <gale/io/formats/legacy_file.hpp>
 #include <gale/io/formats/volume.hpp>
@@ -17,13 +18,14 @@ struct Sections {
   std::vector<std::int64_t> dimensions;
   std::vector<double> origin{0, 0, 0}, spacing{1, 1, 1};
   std::array<PointArray::Values, 3> coordinates;
-  std::int64_t points = 0, cells = 0;
+  std::int64_t points = 0;
+  SurfaceCells surface;
   std::vector<std::string> cell_arrays;
 };
 
 /// Reads cells before version 5: for each how many points it has, and those.
-void read_old_cells(LegacyFile& file, Sections& to) {
-  to.cells = file.count("the number of cells");
+CellsOfKind read_old_cells(LegacyFile& file) {
+  const std::int64_t cells = file.count("the number of cells");
   const std::int64_t size = file.count("the size of the cells");
   std::vector<std::int32_t> all = file.integers(static_cast<std::uint64_t>(size));
   std::vector<std::int64_t> ends;
@@ -34,29 +36,45 @@ void read_old_cells(LegacyFile& file, Sections& to) {
     for (std::size_t k = 0; k < points; ++k) all[end++] = all[from++];
     ends.push_back(static_cast<std::int64_t>(end));
   }
-  if (ends.size() != static_cast<std::size_t>(to.cells)) damaged("it has ", ends.size(), " cells, not ", to.cells);
+  if (ends.size() != static_cast<std::size_t>(cells)) damaged("it has ", ends.size(), " cells, not ", cells);
   all.resize(end);
-  to.mesh.cells.connectivity = std::move(all);
-  to.mesh.cells.ends = std::move(ends);
+  return {std::move(all), std::move(ends)};
 }
 
 /// Reads cells from version 5 on: where each begins, and the end.
-void read_new_cells(LegacyFile& file, Sections& to) {
+CellsOfKind read_new_cells(LegacyFile& file) {
   const std::int64_t offsets = file.count("the number of offsets");
   const std::int64_t size = file.count("the size of the connectivity");
-  if (offsets < 1) return;
+  if (offsets < 1) return {};
   if (file.keyword() != "offsets") damaged("no OFFSETS follow CELLS");
   auto begins = file.array_of_numbers(static_cast<std::uint64_t>(offsets), "the offsets of its cells");
   if (file.keyword() != "connectivity") damaged("no CONNECTIVITY follows OFFSETS");
-  to.mesh.cells.connectivity = file.array_of_numbers(static_cast<std::uint64_t>(size), "the points of its cells");
+  auto connectivity = file.array_of_numbers(static_cast<std::uint64_t>(size), "the points of its cells");
   std::visit(
       [](auto& v) {
         if (v.front() != 0) damaged("the first offset of its cells is ", v.front());
         v.erase(v.begin());
       },
       begins);
-  to.mesh.cells.ends = std::move(begins);
-  to.cells = offsets - 1;
+  return {std::move(connectivity), std::move(begins)};
+}
+
+CellsOfKind read_cells(LegacyFile& file) {
+  return file.major_version() >= 5 ? read_new_cells(file) : read_old_cells(file);
+}
+
+/// Reads a section of the cells of a surface, whose keyword was read. False for a keyword that begins none.
+bool read_surface_cells(LegacyFile& file, const std::string& keyword, SurfaceCells& to) {
+  if (keyword == "vertices" || keyword == "lines") {
+    to.below += count_of(read_cells(file).ends);
+  } else if (keyword == "polygons") {
+    to.polygons = read_cells(file);
+  } else if (keyword == "triangle_strips") {
+    to.strips = read_cells(file);
+  } else {
+    return false;
+  }
+  return true;
 }
 
 std::uint64_t grid_points(const Sections& from) {
@@ -88,11 +106,13 @@ bool read_section(LegacyFile& file, const std::string& kind, std::string& keywor
     to.dimensions.clear();
     for (int d = 0; d < 3; ++d) to.dimensions.push_back(file.count("DIMENSIONS"));
     to.points = static_cast<std::int64_t>(grid_points(to));  // a structured grid counts its own, which follow
-  } else if (keyword == "points" && (kind == "unstructured_grid" || kind == "structured_grid")) {
+  } else if (keyword == "points" && (kind == "unstructured_grid" || kind == "structured_grid" || kind == "polydata")) {
     to.points = file.count("the number of points");
     to.mesh.points = file.array_of_numbers(product({to.points, 3}, "points"), "the points");
   } else if (keyword == "cells" && kind == "unstructured_grid") {
-    file.major_version() >= 5 ? read_new_cells(file, to) : read_old_cells(file, to);
+    CellsOfKind cells = read_cells(file);
+    to.mesh.cells.connectivity = std::move(cells.connectivity);
+    to.mesh.cells.ends = std::move(cells.ends);
   } else if (keyword == "cell_types" && kind == "unstructured_grid") {
     to.mesh.cells.types = file.integers(static_cast<std::uint64_t>(file.count("the number of cell types")));
   } else if ((keyword == "spacing" || keyword == "aspect_ratio") && kind == "structured_points") {
@@ -102,7 +122,7 @@ bool read_section(LegacyFile& file, const std::string& kind, std::string& keywor
   } else if (keyword.size() == 13 && keyword.substr(1) == "_coordinates" && keyword[0] >= 'x' && keyword[0] <= 'z') {
     const std::int64_t count = file.count("the number of coordinates");
     to.coordinates[keyword[0] - 'x'] = file.array_of_numbers(static_cast<std::uint64_t>(count), "the coordinates");
-  } else {
+  } else if (kind != "polydata" || !read_surface_cells(file, keyword, to.surface)) {
     return false;
   }
   keyword = file.keyword();
@@ -168,8 +188,7 @@ Content read_legacy_vtk(const InputFile& input, const ReadOptions& options) {
   std::string keyword = file.keyword();
   if (keyword != "dataset") damaged("it names no known kind of data set");
   const std::string kind = file.keyword();
-  if (kind == "polydata") throw Error("it has no tetrahedra");
-  if (kind != "unstructured_grid" && kind != "structured_points" && kind != "structured_grid" &&
+  if (kind != "unstructured_grid" && kind != "polydata" && kind != "structured_points" && kind != "structured_grid" &&
       kind != "rectilinear_grid")
     damaged("its kind of data set is '", kind, "'");
   Sections sections;
@@ -179,7 +198,9 @@ Content read_legacy_vtk(const InputFile& input, const ReadOptions& options) {
     if (!read_section(file, kind, keyword, sections)) damaged("it has the unknown keyword '", before, "'");
   }
   if (kind == "structured_points") return to_image(sections);
-  if (kind != "unstructured_grid") {
+  if (kind == "polydata") {
+    sections.mesh.cells = cells_of_surface(std::move(sections.surface));
+  } else if (kind != "unstructured_grid") {
     const bool rectilinear = kind == "rectilinear_grid";
     require_grid_points(sections, rectilinear);
     add_grid_cells(sections, rectilinear ? cell_type::voxel : cell_type::hexahedron);

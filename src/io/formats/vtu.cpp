@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include <gale/base/stop.hpp>
 #include <gale/io/bytes/text.hpp>
 #include <gale/io/bytes/values.hpp>
 #include <gale/io/cells/join.hpp>
+#include <gale/io/cells/surface_cells.hpp>
 #include <gale/io/formats.hpp>
 #include <gale/io/formats/xml_file.hpp>
 
@@ -19,13 +21,37 @@ std::uint64_t count_in(const XmlElement& piece, const char* of_what) {
   return count;
 }
 
-/// Reads one of the arrays that say what cells there are.
+/// Reads one of the arrays that say what cells there are, of that section.
 PointArray::Values read_cells(const XmlFile& file, const XmlElement& piece, const char* name,
-                              std::optional<std::uint64_t> count) {
-  piece.require("Cells");
-  const XmlElement* const array = piece.array("Cells", name);
-  if (array == nullptr) damaged("its Cells have no ", name);
+                              std::optional<std::uint64_t> count, const char* section = "Cells") {
+  piece.require(section);
+  const XmlElement* const array = piece.array(section, name);
+  if (array == nullptr) damaged("its ", section, " have no ", name);
   return read_array(file, *array, count);
+}
+
+/// Reads the cells of one kind that a piece of a surface has, which may be none.
+CellsOfKind read_kind(const XmlFile& file, const XmlElement& piece, const char* section, std::uint64_t count) {
+  if (count == 0) return {};
+  return {read_cells(file, piece, "connectivity", std::nullopt, section),
+          read_cells(file, piece, "offsets", count, section)};
+}
+
+/// The number of cells of a kind; none where the piece doesn't say.
+std::uint64_t count_of_kind(const XmlElement& piece, const char* of_what) {
+  return piece.attributes.count(of_what) == 0 ? 0 : count_in(piece, of_what);
+}
+
+/// Reads the cells of a piece of a surface. Of points and lines the file has to have as many as it says.
+Cells read_surface_cells(const XmlFile& file, const XmlElement& piece) {
+  SurfaceCells cells;
+  for (const auto& [section, of_what] : {std::pair("Verts", "NumberOfVerts"), std::pair("Lines", "NumberOfLines")}) {
+    const std::uint64_t count = count_of_kind(piece, of_what);
+    if (count > 0) cells.below += count_of(read_cells(file, piece, "offsets", count, section));
+  }
+  cells.polygons = read_kind(file, piece, "Polys", count_of_kind(piece, "NumberOfPolys"));
+  cells.strips = read_kind(file, piece, "Strips", count_of_kind(piece, "NumberOfStrips"));
+  return cells_of_surface(std::move(cells));
 }
 
 /// The faces of polyhedra, and where those of each cell end.
@@ -107,13 +133,16 @@ void take_faces(const XmlFile& file, const XmlElement& piece, Cells& cells) {
 
 MeshParts read_piece(const XmlFile& file, const XmlElement& piece) {
   MeshParts parts;
-  const std::uint64_t points = count_in(piece, "NumberOfPoints"), cells = count_in(piece, "NumberOfCells");
+  const bool is_surface = file.root.attribute("type") == "PolyData";
+  const std::uint64_t points = count_in(piece, "NumberOfPoints"),
+                      cells = is_surface ? 0 : count_in(piece, "NumberOfCells");
   if (points > 0) {
     const XmlElement& array = piece.require("Points").require("DataArray");
     if (array.attribute("NumberOfComponents", "3") != "3")
       damaged("its points have ", array.attribute("NumberOfComponents"), " components");
     parts.points = read_array(file, array, 3 * points);
   }
+  if (is_surface) parts.cells = read_surface_cells(file, piece);
   if (cells > 0) {
     parts.cells.types = read_cells(file, piece, "types", cells);
     parts.cells.ends = read_cells(file, piece, "offsets", cells);
@@ -134,13 +163,16 @@ std::optional<PointArray::Values> read_cell_array(const XmlFile& file, const Xml
 }
 
 std::vector<const XmlElement*> pieces_of(const XmlFile& file) {
-  return file.root.require("UnstructuredGrid").all("Piece");
+  return file.root.require(file.root.attribute("type")).all("Piece");
 }
 
-Content read_vtu(const InputFile& input, const ReadOptions& options) {
-  const XmlFile file = read_xml(input, "UnstructuredGrid");
+namespace {
+
+/// The mesh of all pieces, of that type of file.
+Content read_all_pieces(const InputFile& input, const char* type, const ReadOptions& options) {
+  const XmlFile file = read_xml(input, type);
   const std::vector<const XmlElement*> pieces = pieces_of(file);
-  if (pieces.empty()) throw Error("it has no tetrahedra");
+  if (pieces.empty()) throw Error("it has no tetrahedra and no triangles");
   MeshParts parts = read_piece(file, *pieces.front());
   if (pieces.size() > 1) {
     JoinedPieces joined;
@@ -151,6 +183,16 @@ Content read_vtu(const InputFile& input, const ReadOptions& options) {
   const std::vector<std::string> cell_arrays = names_of_cell_data(*pieces.front());
   if (!cell_arrays.empty()) parts.notices.push_back(note_cell_arrays(cell_arrays));
   return to_mesh(parts, options);
+}
+
+}  // namespace
+
+Content read_vtu(const InputFile& input, const ReadOptions& options) {
+  return read_all_pieces(input, "UnstructuredGrid", options);
+}
+
+Content read_vtp(const InputFile& input, const ReadOptions& options) {
+  return read_all_pieces(input, "PolyData", options);
 }
 
 }  // namespace gale::io::detail

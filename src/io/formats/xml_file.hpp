@@ -84,7 +84,7 @@ std::vector<std::string> names_of_cell_data(const XmlElement& piece);
 
 // Common parts of `.vtu` and of the `.pvtu` that names several of them.
 
-/// The pieces of a `.vtu`.
+/// The pieces of a `.vtu` or `.vtp`.
 std::vector<const XmlElement*> pieces_of(const XmlFile& file);
 
 /// Points, cells and point arrays of one of them. Throws gale::Error for what the file lacks.

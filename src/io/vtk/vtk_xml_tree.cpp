@@ -91,9 +91,11 @@ class Builder {
       return;
     }
     const std::string array = element.attribute("Name");
-    keeps_text_ = element.name == "DataArray" &&
-                  (parent == "PointData" || parent == "Points" || parent == "Cells" || parent == "Coordinates" ||
-                   array == ghost_array || (parent == "CellData" && array == cell_array_));
+    keeps_text_ =
+        element.name == "DataArray" &&
+        (parent == "PointData" || parent == "Points" || parent == "Cells" || parent == "Coordinates" ||
+         parent == "Polys" || parent == "Strips" || ((parent == "Verts" || parent == "Lines") && array == "offsets") ||
+         array == ghost_array || (parent == "CellData" && array == cell_array_));
     if (open_.empty()) {
       to_.root = std::move(element);
       open_.push_back(&to_.root);

@@ -5,7 +5,7 @@
 namespace gale::io::detail {
 namespace {
 
-enum VtkCell : std::uint8_t { vtk_line = 3, vtk_polyline = 4, vtk_tetrahedron = 10 };
+enum VtkCell : std::uint8_t { vtk_line = 3, vtk_polyline = 4 };
 
 template <class T>
 WrittenArray of_values(const std::string& name, int components, const T* values, std::uint64_t count) {
@@ -21,6 +21,15 @@ WrittenArrays cells_of(const Surface::Cells& cells) {
       made_integers("connectivity", size, size, [points = cells.points.data()](std::uint64_t k) { return points[k]; }),
       made_integers("offsets", cells.begin.size() - 1, size,
                     [begin = cells.begin.data()](std::uint64_t cell) { return begin[cell + 1]; })};
+}
+
+/// The vertices of simplices, and where each ends.
+WrittenArrays simplices_of(const WrittenCells& cells) {
+  const std::uint64_t size = cells.corners * cells.count;
+  return {
+      made_integers("connectivity", size, size, [vertices = cells.vertices](std::uint64_t k) { return vertices[k]; }),
+      made_integers("offsets", cells.count, size,
+                    [corners = cells.corners](std::uint64_t k) { return corners * (k + 1); })};
 }
 
 /// Makes each point a cell.
@@ -101,12 +110,16 @@ XmlContent content_of(const Surface& surface) {
 
 XmlContent content_of(const Dataset& mesh, const std::vector<PointArray>& more,
                       const std::vector<PointArray>& cell_arrays) {
-  const std::uint64_t count = mesh.tetrahedra.extent(0);
-  return unstructured_grid(mesh.points, written(mesh.arrays, more), written(cell_arrays),
-                           {made_integers("connectivity", 4 * count, 4 * count,
-                                          [corners = mesh.tetrahedra.data()](std::uint64_t k) { return corners[k]; }),
-                            made_integers("offsets", count, 4 * count, [](std::uint64_t k) { return 4 * (k + 1); }),
-                            made<std::uint8_t>("types", count, [](std::uint64_t) { return vtk_tetrahedron; })});
+  const WrittenCells cells(mesh);
+  WrittenArrays arrays = simplices_of(cells);
+  arrays.push_back(made<std::uint8_t>("types", cells.count, [type = cells.type](std::uint64_t) { return type; }));
+  return unstructured_grid(mesh.points, written(mesh.arrays, more), written(cell_arrays), std::move(arrays));
+}
+
+XmlContent content_of_triangles(const Dataset& mesh, const std::vector<PointArray>& more,
+                                const std::vector<PointArray>& cell_arrays) {
+  return poly_data(mesh.points, written(mesh.arrays, more), written(cell_arrays), vertices(0), vertices(0),
+                   simplices_of(WrittenCells(mesh)));
 }
 
 XmlContent content_of_lines(const Surface& lines) {

@@ -51,20 +51,21 @@ void write_data(OutputFile& file, const std::string& keyword, const std::string&
 
 void write_legacy_vtk(const AtomicFile& to, const Dataset& mesh, const std::vector<PointArray>& more) {
   const WrittenArray points = written(mesh.points);
-  const std::uint64_t count = mesh.tetrahedra.extent(0);
+  const WrittenCells simplices(mesh);
+  const std::uint64_t count = simplices.count, size = simplices.corners * count;
   const std::string vertices = std::to_string(points.count / 3), cells = std::to_string(count);
   OutputFile file(to.temporary());
   file.write("# vtk DataFile Version 5.1\nwritten by gale\nBINARY\nDATASET UNSTRUCTURED_GRID\n");
   file.write(text_of("POINTS ", vertices, " ", name_in(legacy_types, points.type), "\n"));
   write_values(file, points);
-  file.write("CELLS " + std::to_string(count + 1) + " " + std::to_string(4 * count) + "\nOFFSETS vtktypeint64\n");
-  write_values(file, made<std::int64_t>("", count + 1, [](std::uint64_t k) { return 4 * k; }));
+  file.write("CELLS " + std::to_string(count + 1) + " " + std::to_string(size) + "\nOFFSETS vtktypeint64\n");
+  write_values(
+      file, made<std::int64_t>("", count + 1, [corners = simplices.corners](std::uint64_t k) { return corners * k; }));
   file.write("CONNECTIVITY vtktypeint64\n");
-  write_values(file, made<std::int64_t>("", 4 * count,
-                                        [corners = mesh.tetrahedra.data()](std::uint64_t k) { return corners[k]; }));
+  write_values(file,
+               made<std::int64_t>("", size, [corners = simplices.vertices](std::uint64_t k) { return corners[k]; }));
   file.write("CELL_TYPES " + cells + "\n");
-  constexpr int tetrahedron = 10;
-  write_values(file, made<std::int32_t>("", count, [](std::uint64_t) { return tetrahedron; }));
+  write_values(file, made<std::int32_t>("", count, [type = simplices.type](std::uint64_t) { return type; }));
   write_data(file, "CELL_DATA ", cells, written(mesh.cell_arrays));
   write_data(file, "POINT_DATA ", vertices, written(mesh.arrays, more));
   file.flush();

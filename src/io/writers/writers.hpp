@@ -11,6 +11,7 @@
 #include <gale/io/atomic_file.hpp>
 #include <gale/io/bytes/values.hpp>
 #include <gale/io/write.hpp>
+#include <gale/mesh/cells/cell_types.hpp>
 
 /// How files are written: what stands in them first, of arrays that aren't copied, then that in VTK's XML or in its
 /// legacy form. All write to the temporary file of another, whatever its name, and throw gale::Error without the path.
@@ -67,13 +68,29 @@ struct XmlContent {
   std::vector<Section> sections;
 };
 
-/// The content of a file of points, of lines and polygons, of a mesh with the arrays `more` behind its own, of lines
-/// alone. What it is made of outlives it, and is consistent: io::write_mesh and the others see to that.
+/// The content of a file of points, of lines and polygons, of a mesh with the arrays `more` behind its own, of such a
+/// mesh of triangles as a surface, of lines alone. What it is made of outlives it, and is consistent: io::write_mesh
+/// and the others see to that.
 XmlContent content_of(const PointSet& points);
 XmlContent content_of(const Surface& surface);
 XmlContent content_of(const Dataset& mesh, const std::vector<PointArray>& more,
                       const std::vector<PointArray>& cell_arrays = {});
+XmlContent content_of_triangles(const Dataset& mesh, const std::vector<PointArray>& more,
+                                const std::vector<PointArray>& cell_arrays);
 XmlContent content_of_lines(const Surface& lines);
+
+/// The simplices of a mesh, wherever they come from: how many, of so many corners and that type of VTK's.
+struct WrittenCells {
+  explicit WrittenCells(const Dataset& mesh)
+      : count(mesh.cells()),
+        corners(mesh.dimension() == 3 ? 4 : 3),
+        type(mesh.dimension() == 3 ? cell_type::tetrahedron : cell_type::triangle),
+        vertices(mesh.dimension() == 3 ? mesh.tetrahedra.data() : mesh.triangles.data()) {}
+
+  std::uint64_t count, corners;
+  int type;
+  const std::int32_t* vertices;
+};
 
 /// Writes it, its arrays in the encoding of `to`, compressed where there is a zlib: block by block, so that it takes
 /// little memory, and on as many threads as loops take.

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <gale/base/error.hpp>
 #include <gale/mesh/cells/cell_messages.hpp>
 #include <gale/mesh/cells/split_cell.hpp>
@@ -90,10 +92,31 @@ std::vector<std::string> notices_of_split(const std::array<Offset, 256>& cells, 
   return notices;
 }
 
-std::string other_cells(const Array<const std::uint8_t, HostMemory>& types) {
-  return detail::list_of(detail::census_of(types), [](const CellType& type) {
-    return type.dimension == 3 && type.number != cell_type::tetrahedron;
-  });
+std::string other_cells(const Array<const std::uint8_t, HostMemory>& types, int dimension) {
+  const int simplex = dimension == 3 ? cell_type::tetrahedron : cell_type::triangle;
+  return detail::list_of(detail::census_of(types),
+                         [=](const CellType& type) { return type.dimension == dimension && type.number != simplex; });
+}
+
+int highest_dimension(const Array<const std::uint8_t, HostMemory>& types) {
+  std::array<int, 256> dimensions{};
+  for (int number = 0; number < 256; ++number) {
+    const CellType* const type = find_cell_type(number);
+    dimensions[static_cast<std::size_t>(number)] = type == nullptr ? 0 : type->dimension;
+  }
+  int highest = 0;
+  for (std::size_t cell = 0; cell < types.extent(0) && highest < 3; ++cell)
+    highest = std::max(highest, dimensions[types(cell)]);
+  return highest;
+}
+
+int highest_dimension(const std::array<Offset, 256>& cells) {
+  int highest = 0;
+  for (int number = 0; number < 256; ++number) {
+    const CellType* const type = find_cell_type(number);
+    if (cells[static_cast<std::size_t>(number)] > 0 && type != nullptr) highest = std::max(highest, type->dimension);
+  }
+  return highest;
 }
 
 }  // namespace gale

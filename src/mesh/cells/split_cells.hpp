@@ -67,7 +67,14 @@ GALE_EXPORT std::vector<std::string> notices_of_split(const std::array<Offset, 2
 template <class Index, class Memory>
 GALE_EXPORT bool are_tetrahedra(const Cells<Index, Memory>& cells);
 
-/// "12 hexahedra and 3 wedges": the cells of dimension 3 that aren't tetrahedra; empty where there are none.
-GALE_EXPORT std::string other_cells(const Array<const std::uint8_t, HostMemory>& types);
+/// "12 hexahedra and 3 wedges": the cells of dimension 3 that aren't tetrahedra, or those of dimension 2 that aren't
+/// triangles; empty where there are none.
+GALE_EXPORT std::string other_cells(const Array<const std::uint8_t, HostMemory>& types, int dimension = 3);
+
+/// The highest dimension of cells that have one of these types, by VTK's number; 0 where none is known.
+GALE_EXPORT int highest_dimension(const Array<const std::uint8_t, HostMemory>& types);
+
+/// The highest dimension of so many cells of each type; 0 where none is known.
+GALE_EXPORT int highest_dimension(const std::array<Offset, 256>& cells);
 
 }  // namespace gale

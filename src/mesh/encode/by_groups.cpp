@@ -6,19 +6,20 @@
 
 #include <gale/base/bits.hpp>
 #include <gale/base/parallel.hpp>
-#include <gale/mesh/encode/tetrahedra.hpp>
+#include <gale/mesh/encode/cells.hpp>
 
 namespace gale::detail {
 
 namespace {
 
-/// Vertices in a group, as a power of two: a core's own cache holds the tetrahedra of which they are the lowest.
+/// Vertices in a group, as a power of two: a core's own cache holds the cells of which they are the lowest.
 constexpr int group_bits = 8;
 
-/// Sorts the tetrahedra of one group of lowest vertices after the other. For one thread.
+/// Sorts the cells of one group of lowest vertices after the other. For one thread.
+template <int corners>
 class GroupSorter {
  public:
-  explicit GroupSorter(const SortedTetrahedra<HostMemory>& sorted)
+  explicit GroupSorter(const SortedCells<HostMemory>& sorted)
       : quads_(sorted.of_lowest.entries.data()),
         input_(sorted.input.data()),
         begin_(sorted.of_lowest.offsets.data()),
@@ -40,11 +41,11 @@ class GroupSorter {
       insert(key_of(quad, input_[t]), begin_[quad.a] - begin, next_[quad.a - first]++);
     }
     for (Id v = first; v < last; ++v) write(v, begin, begin_[v] - begin, next_[v - first]);
-    return are_good(quads_, begin, end);
+    return are_good<corners>(quads_, begin, end);
   }
 
  private:
-  /// The other three vertices of a tetrahedron, and where it stood in the input.
+  /// The other three vertices of a cell, and where it stood in the input.
   __extension__ typedef unsigned __int128 Key;
 
   /// Tetrahedra of a vertex that are sorted by insertion.
@@ -79,15 +80,15 @@ class GroupSorter {
 struct GroupPlaces {
   std::vector<std::vector<Id>> of_parts;
   std::vector<Id> begin;
-  bool are_all = true;  ///< whether all vertices of all tetrahedra are there
+  bool are_all = true;  ///< whether all vertices of all cells are there
 };
 
-template <class Index>
-GroupPlaces places_of_groups(const Renumbered<Index>& input, Offset count, Offset groups) {
+template <int corners, class Index>
+GroupPlaces places_of_groups(const Renumbered<corners, Index>& input, Offset count, Offset groups) {
   GroupPlaces places;
   places.of_parts.resize(threads_for(count));
   std::vector<char> bad(places.of_parts.size());
-  for_parts("GALE::count_tetrahedra", count, bad.size(), [&, input](int part, Offset first, Offset last) {
+  for_parts("GALE::count_cells", count, bad.size(), [&, input](int part, Offset first, Offset last) {
     std::vector<Id> mine(groups, 0);
     bool some_bad = false;
     for (Offset t = first; t < last;) {
@@ -110,14 +111,14 @@ GroupPlaces places_of_groups(const Renumbered<Index>& input, Offset count, Offse
   return places;
 }
 
-/// Deals the tetrahedra to their groups.
-template <class Index>
-void deal(const Renumbered<Index>& input, Offset count, GroupPlaces& places,
-          const SortedTetrahedra<HostMemory>& sorted) {
+/// Deals the cells to their groups.
+template <int corners, class Index>
+void deal(const Renumbered<corners, Index>& input, Offset count, GroupPlaces& places,
+          const SortedCells<HostMemory>& sorted) {
   Quad* const quads = sorted.of_lowest.entries.data();
   Id* const from = sorted.input.data();
   const int parts = static_cast<int>(places.of_parts.size());
-  for_parts("GALE::deal_tetrahedra", count, parts, [&, input, quads, from](int part, Offset first, Offset last) {
+  for_parts("GALE::deal_cells", count, parts, [&, input, quads, from](int part, Offset first, Offset last) {
     Id* const next = places.of_parts[part].data();
     for (Offset t = first; t < last;) {
       for (const Offset end = piece_end(t, last); t < end; ++t) {
@@ -132,11 +133,11 @@ void deal(const Renumbered<Index>& input, Offset count, GroupPlaces& places,
 
 }  // namespace
 
-/// T_ex, in two steps: each part of the sorted tetrahedra counts and then places its own, by segment and after those of
+/// T_ex, in two steps: each part of the sorted cells counts and then places its own, by segment and after those of
 /// the parts before, so that rows ascend.
 class ExternalRows {
  public:
-  ExternalRows(const SortedTetrahedra<HostMemory>& sorted, const Borrowed<Id, HostMemory>& vertex_begin, int parts)
+  ExternalRows(const SortedCells<HostMemory>& sorted, const Borrowed<Id, HostMemory>& vertex_begin, int parts)
       : segments_(static_cast<Id>(vertex_begin.extent(0)) - 1),
         blocks_(segments_of_blocks(HostExecutionSpace(), vertex_begin, sorted.of_lowest.rows())),
         external_{sorted.of_lowest.entries.data(), {blocks_.data(), vertex_begin.data()}},
@@ -173,28 +174,27 @@ class ExternalRows {
   std::vector<std::vector<Offset>> next_;  ///< by part, by segment
 };
 
-template <class Index>
-EncodedTetrahedra encode_by_groups(const Tetrahedra<Index, HostMemory>& given,
-                                   const Array<Id, HostMemory>& vertex_internal,
-                                   const Borrowed<Id, HostMemory>& vertex_begin) {
+template <int corners, class Index>
+EncodedCells encode_by_groups(const CellCorners<corners, Index, HostMemory>& given,
+                              const Array<Id, HostMemory>& vertex_internal,
+                              const Borrowed<Id, HostMemory>& vertex_begin) {
   const HostExecutionSpace space;
   const Offset vertices = vertex_internal.extent(0), count = given.extent(0);
   const Offset groups = (vertices >> group_bits) + 1;
-  const Renumbered<Index> input(given, vertex_internal);
+  const Renumbered<corners, Index> input(given, vertex_internal);
   GroupPlaces places = places_of_groups(input, count, groups);
-  if (!places.are_all) refuse_tetrahedra<HostExecutionSpace, Index>(space, given, {}, vertices);
-  const SortedTetrahedra<HostMemory> sorted{
-      {allocate<Array<Id, HostMemory>>("GALE::tetrahedra_of_lowest", vertices + 1),
-       allocate<Array<Quad, HostMemory>>("GALE::tetrahedra", count)},
-      allocate<Array<Id, HostMemory>>("GALE::tetrahedron_input", count)};
+  if (!places.are_all) refuse_cells<corners, HostExecutionSpace, Index>(space, given, {}, vertices);
+  const SortedCells<HostMemory> sorted{{allocate<Array<Id, HostMemory>>("GALE::cells_of_lowest", vertices + 1),
+                                        allocate<Array<Quad, HostMemory>>("GALE::cells", count)},
+                                       allocate<Array<Id, HostMemory>>("GALE::cell_input", count)};
   sorted.of_lowest.offsets(vertices) = static_cast<Id>(count);
   deal(input, count, places, sorted);
   const int parts = static_cast<int>(places.of_parts.size());
   const std::vector<Id>& begin = places.begin;
   ExternalRows rows(sorted, vertex_begin, parts);
   std::vector<char> bad(parts);
-  for_parts("GALE::sort_tetrahedra", groups, parts, [&](int part, Offset first, Offset last) {
-    GroupSorter sorter(sorted);
+  for_parts("GALE::sort_cells", groups, parts, [&](int part, Offset first, Offset last) {
+    GroupSorter<corners> sorter(sorted);
     rows.begin_part(part);
     bool some_bad = false;
     for (Offset group = first; group < last; ++group) {
@@ -205,7 +205,7 @@ EncodedTetrahedra encode_by_groups(const Tetrahedra<Index, HostMemory>& given,
     bad[part] = some_bad;
   });
   if (std::find(bad.begin(), bad.end(), 1) != bad.end())
-    refuse_tetrahedra<HostExecutionSpace, Index>(space, given, sorted, vertices);
+    refuse_cells<corners, HostExecutionSpace, Index>(space, given, sorted, vertices);
   const auto external = rows.allocate_rows();
   for_parts("GALE::external", groups, parts, [&](int part, Offset first, Offset last) {
     for (Offset group = first; group < last; ++group) {
@@ -216,9 +216,13 @@ EncodedTetrahedra encode_by_groups(const Tetrahedra<Index, HostMemory>& given,
   return {sorted, external};
 }
 
-template EncodedTetrahedra encode_by_groups(const Tetrahedra<std::int32_t, HostMemory>&, const Array<Id, HostMemory>&,
-                                            const Borrowed<Id, HostMemory>&);
-template EncodedTetrahedra encode_by_groups(const Tetrahedra<std::int64_t, HostMemory>&, const Array<Id, HostMemory>&,
-                                            const Borrowed<Id, HostMemory>&);
+#define GALE_INSTANTIATE(corners, Index)                                                          \
+  template EncodedCells encode_by_groups<corners>(const CellCorners<corners, Index, HostMemory>&, \
+                                                  const Array<Id, HostMemory>&, const Borrowed<Id, HostMemory>&)
+GALE_INSTANTIATE(4, std::int32_t);
+GALE_INSTANTIATE(4, std::int64_t);
+GALE_INSTANTIATE(3, std::int32_t);
+GALE_INSTANTIATE(3, std::int64_t);
+#undef GALE_INSTANTIATE
 
 }  // namespace gale::detail

@@ -2,16 +2,16 @@
 #include <gale/base/ordered.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/base/sort.hpp>
-#include <gale/mesh/encode/tetrahedra.hpp>
+#include <gale/mesh/encode/cells.hpp>
 
 namespace gale::detail {
 
 namespace {
 
-/// Visits the lowest vertex of a tetrahedron if all are there.
-template <class Index>
+/// Visits the lowest vertex of a cell if all are there.
+template <int corners, class Index>
 struct LowestVertex {
-  Renumbered<Index> input;
+  Renumbered<corners, Index> input;
 
   GALE_CALLS_ANY
   template <class Visit>
@@ -21,7 +21,7 @@ struct LowestVertex {
   }
 };
 
-/// A tetrahedron in GALE's ids, and where it stood in the input.
+/// A cell in GALE's ids, and where it stood in the input.
 struct Entry {
   Quad vertices;
   Id input;
@@ -32,21 +32,21 @@ struct Entry {
 };
 
 template <class Memory>
-KOKKOS_FUNCTION Entry load(const SortedTetrahedra<Memory>& sorted, Id t) {
+KOKKOS_FUNCTION Entry load(const SortedCells<Memory>& sorted, Id t) {
   return {sorted.of_lowest.entries(t), sorted.input(t)};
 }
 
 template <class Memory>
-KOKKOS_FUNCTION void store(const SortedTetrahedra<Memory>& sorted, Id t, const Entry& entry) {
+KOKKOS_FUNCTION void store(const SortedCells<Memory>& sorted, Id t, const Entry& entry) {
   sorted.of_lowest.entries(t) = entry.vertices;
   sorted.input(t) = entry.input;
 }
 
-/// Writes the tetrahedra of one lowest vertex in order; sorted.input has them in any. Some six of them, so by
+/// Writes the cells of one lowest vertex in order; sorted.input has them in any. Some six of them, so by
 /// insertion; a heap where they are many. Returns whether they are good.
-template <class Index, class Memory>
-KOKKOS_FUNCTION bool write_in_order(const SortedTetrahedra<Memory>& sorted, const Renumbered<Index>& input, Id begin,
-                                    Id end) {
+template <int corners, class Index, class Memory>
+KOKKOS_FUNCTION bool write_in_order(const SortedCells<Memory>& sorted, const Renumbered<corners, Index>& input,
+                                    Id begin, Id end) {
   constexpr Id many = 64;
   const bool by_insertion = end - begin <= many;
   for (Id t = begin; t < end; ++t) {
@@ -65,28 +65,28 @@ KOKKOS_FUNCTION bool write_in_order(const SortedTetrahedra<Memory>& sorted, cons
         end - begin, [&](Id i) { return load(sorted, begin + i); },
         [&](Id i, const Entry& entry) { store(sorted, begin + i, entry); });
   }
-  return are_good(sorted.of_lowest.entries.data(), begin, end);
+  return are_good<corners>(sorted.of_lowest.entries.data(), begin, end);
 }
 
 }  // namespace
 
-template <class Space, class Index>
-SortedTetrahedra<MemoryOf<Space>> sort_tetrahedra_by_vertices(const Space& space,
-                                                              const Tetrahedra<Index, MemoryOf<Space>>& given,
-                                                              const Array<Id, MemoryOf<Space>>& vertex_internal) {
+template <int corners, class Space, class Index>
+SortedCells<MemoryOf<Space>> sort_cells_by_vertices(const Space& space,
+                                                    const CellCorners<corners, Index, MemoryOf<Space>>& given,
+                                                    const Array<Id, MemoryOf<Space>>& vertex_internal) {
   using Memory = MemoryOf<Space>;
   const Offset vertices = vertex_internal.extent(0), count = given.extent(0);
-  const Renumbered<Index> input(given, vertex_internal);
-  const auto of_lowest = group_by<Id>("GALE::tetrahedra", space, count, vertices, LowestVertex<Index>{input});
+  const Renumbered<corners, Index> input(given, vertex_internal);
+  const auto of_lowest = group_by<Id>("GALE::cells", space, count, vertices, LowestVertex<corners, Index>{input});
   if (static_cast<Offset>(of_lowest.entries.extent(0)) < count)
-    refuse_tetrahedra<Space, Index>(space, given, {}, vertices);
-  const SortedTetrahedra<Memory> sorted{
-      {of_lowest.offsets, allocate<Array<Quad, Memory>>("GALE::sorted_tetrahedra", count)}, of_lowest.entries};
+    refuse_cells<corners, Space, Index>(space, given, {}, vertices);
+  const SortedCells<Memory> sorted{{of_lowest.offsets, allocate<Array<Quad, Memory>>("GALE::sorted_cells", count)},
+                                   of_lowest.entries};
   const auto begin = of_lowest.offsets;
   const int good = reduce_min(
-      "GALE::sort_tetrahedra", space, vertices, 1,
+      "GALE::sort_cells", space, vertices, 1,
       KOKKOS_LAMBDA(Offset v) { return write_in_order(sorted, input, begin(v), begin(v + 1)) ? 1 : 0; });
-  if (good == 0) refuse_tetrahedra<Space, Index>(space, given, sorted, vertices);
+  if (good == 0) refuse_cells<corners, Space, Index>(space, given, sorted, vertices);
   return sorted;
 }
 
@@ -104,26 +104,27 @@ Array<Id, MemoryOf<Space>> segments_of_blocks(const Space& space, const Borrowed
 }
 
 template <class Space>
-Csr<Id, MemoryOf<Space>> find_external_tetrahedra(const Space& space,
-                                                  const Csr<Quad, MemoryOf<Space>, Id>& tetrahedra_of_lowest,
-                                                  const Borrowed<Id, MemoryOf<Space>>& vertex_begin) {
-  const auto& tetrahedra = tetrahedra_of_lowest.entries;
-  const auto blocks = segments_of_blocks(space, vertex_begin, tetrahedra_of_lowest.rows());
-  const auto external = group_by("GALE::external", space, tetrahedra.extent(0), vertex_begin.extent(0) - 1,
-                                 ExternalSegments{tetrahedra.data(), {blocks.data(), vertex_begin.data()}});
+Csr<Id, MemoryOf<Space>> find_external_cells(const Space& space, const Csr<Quad, MemoryOf<Space>, Id>& cells_of_lowest,
+                                             const Borrowed<Id, MemoryOf<Space>>& vertex_begin) {
+  const auto& cells = cells_of_lowest.entries;
+  const auto blocks = segments_of_blocks(space, vertex_begin, cells_of_lowest.rows());
+  const auto external = group_by("GALE::external", space, cells.extent(0), vertex_begin.extent(0) - 1,
+                                 ExternalSegments{cells.data(), {blocks.data(), vertex_begin.data()}});
   sort_rows(space, "GALE::sort_external", external);
   return external;
 }
 
-#define GALE_INSTANTIATE_INDEX(Space, Index)                              \
-  template SortedTetrahedra<MemoryOf<Space>> sort_tetrahedra_by_vertices( \
-      const Space&, const Tetrahedra<Index, MemoryOf<Space>>&, const Array<Id, MemoryOf<Space>>&)
+#define GALE_INSTANTIATE_INDEX(Space, corners, Index)                    \
+  template SortedCells<MemoryOf<Space>> sort_cells_by_vertices<corners>( \
+      const Space&, const CellCorners<corners, Index, MemoryOf<Space>>&, const Array<Id, MemoryOf<Space>>&)
 #define GALE_INSTANTIATE(Space)                                                                                       \
   template Array<Id, MemoryOf<Space>> segments_of_blocks(const Space&, const Borrowed<Id, MemoryOf<Space>>&, Offset); \
-  GALE_INSTANTIATE_INDEX(Space, std::int32_t);                                                                        \
-  GALE_INSTANTIATE_INDEX(Space, std::int64_t);                                                                        \
-  template Csr<Id, MemoryOf<Space>> find_external_tetrahedra(const Space&, const Csr<Quad, MemoryOf<Space>, Id>&,     \
-                                                             const Borrowed<Id, MemoryOf<Space>>&)
+  GALE_INSTANTIATE_INDEX(Space, 4, std::int32_t);                                                                     \
+  GALE_INSTANTIATE_INDEX(Space, 4, std::int64_t);                                                                     \
+  GALE_INSTANTIATE_INDEX(Space, 3, std::int32_t);                                                                     \
+  GALE_INSTANTIATE_INDEX(Space, 3, std::int64_t);                                                                     \
+  template Csr<Id, MemoryOf<Space>> find_external_cells(const Space&, const Csr<Quad, MemoryOf<Space>, Id>&,          \
+                                                        const Borrowed<Id, MemoryOf<Space>>&)
 GALE_IN_EACH_SPACE(GALE_INSTANTIATE);
 #undef GALE_INSTANTIATE
 #undef GALE_INSTANTIATE_INDEX

@@ -49,9 +49,9 @@ class MiddleStarsOfSegment {
   template <class Visit>
   void for_each(Id segment, const Visit& visit) const {
     for (Id t = mesh_.internal_begin(segment); t < mesh_.internal_begin(segment + 1); ++t)
-      visit_middle(mesh_.tetrahedron(t), visit);
+      visit_middle(mesh_.cell(t), visit);
     for (Offset i = mesh_.external_begin(segment); i < mesh_.external_begin(segment + 1); ++i)
-      visit_middle(mesh_.tetrahedron(mesh_.external(i)), visit);
+      visit_middle(mesh_.cell(mesh_.external(i)), visit);
   }
 
   template <class Visit>
@@ -59,7 +59,7 @@ class MiddleStarsOfSegment {
     const auto second = static_cast<std::uint32_t>(quad.b - first_),
                third = static_cast<std::uint32_t>(quad.c - first_);
     if (second < count_) visit(second, Above{quad.c, quad.d});
-    if (third < count_) visit(third, Above{quad.d, quad.d});
+    if (third < count_ && mesh_.dimension == 3) visit(third, Above{quad.d, quad.d});
   }
 
   const EncodedMesh<HostMemory> mesh_;
@@ -190,7 +190,7 @@ void for_vertices(const EncodedMesh<HostMemory>& mesh, Offset first, Offset last
 }
 
 /// Finds what a part of the segments has, and writes where each vertex' edges begin, counted from the part's first.
-void find_simplices(const EncodedMesh<HostMemory>& mesh, const Id* tetrahedron_begin, Offset first, Offset last,
+void find_simplices(const EncodedMesh<HostMemory>& mesh, const Id* cell_begin, Offset first, Offset last,
                     bool triangles, Id* edge_begin, FoundSimplices& found) {
   constexpr Offset usual = 8;
   const Offset vertices = mesh.vertex_begin(last) - mesh.vertex_begin(first);
@@ -203,10 +203,10 @@ void find_simplices(const EncodedMesh<HostMemory>& mesh, const Id* tetrahedron_b
   Offset edges = 0;
   for_vertices(mesh, first, last, [&](Id segment, Id v) {
     if (std::exchange(gathered, segment) != segment) stars.gather(segment);
-    const Id begin = tetrahedron_begin[v];
+    const Id begin = cell_begin[v];
     edge_begin[v] = static_cast<Id>(edges);
-    edges += finder.find(v, reinterpret_cast<const Quad*>(mesh.tetrahedra.data()) + begin,
-                         tetrahedron_begin[v + 1] - begin, stars.of(v));
+    edges += finder.find(v, reinterpret_cast<const Quad*>(mesh.cells.data()) + begin, cell_begin[v + 1] - begin,
+                         stars.of(v));
   });
   found = std::move(mine);
 }
@@ -236,15 +236,15 @@ void write_triangles(const EncodedMesh<HostMemory>& mesh, const Id* edge_begin, 
 
 }  // namespace
 
-void enumerate_by_segments(const EncodedMesh<HostMemory>& mesh, const Borrowed<Id, HostMemory>& tetrahedron_begin,
+void enumerate_by_segments(const EncodedMesh<HostMemory>& mesh, const Borrowed<Id, HostMemory>& cell_begin,
                            bool triangles, SimplexTables& tables) {
   using Ids = Array<Id, HostMemory>;
-  const Offset vertices = tetrahedron_begin.extent(0) - 1, segments = mesh.vertex_begin.extent(0) - 1;
+  const Offset vertices = cell_begin.extent(0) - 1, segments = mesh.vertex_begin.extent(0) - 1;
   const auto edge_begin = allocate<Ids>("GALE::edge_begin", vertices + 1);
   std::vector<FoundSimplices> found(threads_for(vertices));
   const int parts = static_cast<int>(found.size());
   for_parts("GALE::find_simplices", segments, parts, [&](int part, Offset first, Offset last) {
-    find_simplices(mesh, tetrahedron_begin.data(), first, last, triangles, edge_begin.data(), found[part]);
+    find_simplices(mesh, cell_begin.data(), first, last, triangles, edge_begin.data(), found[part]);
   });
   std::vector<Offset> first_edge(1, 0), first_triangle(1, 0);
   for (const FoundSimplices& part : found) {

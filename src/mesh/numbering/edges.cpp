@@ -12,7 +12,7 @@ namespace gale::detail {
 
 namespace {
 
-/// The second and third vertex of a tetrahedron.
+/// The vertices of a cell between its lowest and its highest.
 template <class Memory>
 struct MiddleVertices {
   Simplices<Memory> simplices;
@@ -20,11 +20,11 @@ struct MiddleVertices {
   GALE_CALLS_ANY
   template <class Visit>
   KOKKOS_FUNCTION void operator()(Id t, const Visit& visit) const {
-    for (int corner = 1; corner < 3; ++corner) visit(simplices.tetrahedra(t, corner));
+    for (int corner = 1; corner < simplices.dimension; ++corner) visit(simplices.cells(t, corner));
   }
 };
 
-/// The higher neighbours of a vertex, once for each of its tetrahedra.
+/// The higher neighbours of a vertex, once for each of its cells.
 template <class Memory>
 struct HigherNeighbours {
   Simplices<Memory> simplices;
@@ -36,18 +36,18 @@ struct HigherNeighbours {
 
   template <class Visit>
   KOKKOS_FUNCTION void operator()(Id vertex, const Visit& visit) const {
-    for (Id t = simplices.tetrahedron_begin(vertex); t < simplices.tetrahedron_begin(vertex + 1); ++t) {
-      for (int corner = 1; corner < 4; ++corner) visit(simplices.tetrahedra(t, corner));
+    for (Id t = simplices.cell_begin(vertex); t < simplices.cell_begin(vertex + 1); ++t) {
+      for (int corner = 1; corner <= simplices.dimension; ++corner) visit(simplices.cells(t, corner));
     }
     for (Offset i = middle_begin(vertex); i < middle_begin(vertex + 1); ++i) {
       const Id t = middle(i);
-      if (simplices.tetrahedra(t, 1) == vertex) visit(simplices.tetrahedra(t, 2));
-      visit(simplices.tetrahedra(t, 3));
+      if (simplices.cells(t, 1) == vertex) visit(simplices.cells(t, 2));
+      visit(simplices.cells(t, 3));
     }
   }
 };
 
-/// The edges of a tetrahedron whose lower vertex has too many for a lane.
+/// The edges of a cell whose lower vertex has too many for a lane.
 template <class Memory>
 struct EdgesOfMany {
   Simplices<Memory> simplices;
@@ -55,10 +55,10 @@ struct EdgesOfMany {
 
   template <class Visit>
   KOKKOS_FUNCTION void operator()(Id t, const Visit& visit) const {
-    for (int low = 0; low < 3; ++low) {
-      const Id vertex = simplices.tetrahedra(t, low);
+    for (int low = 0; low < simplices.dimension; ++low) {
+      const Id vertex = simplices.cells(t, low);
       if (count(vertex) != FewDistinct::too_many) continue;
-      for (int high = low + 1; high < 4; ++high) visit(pair_key(vertex, simplices.tetrahedra(t, high)));
+      for (int high = low + 1; high <= simplices.dimension; ++high) visit(pair_key(vertex, simplices.cells(t, high)));
     }
   }
 };
@@ -87,15 +87,15 @@ Csr<Id, MemoryOf<Space>, Id> edges_with(const Space& space, const Array<Id, Memo
 
 template <class Space>
 MiddleStars<MemoryOf<Space>> find_middle_stars(const Space& space, const Simplices<MemoryOf<Space>>& simplices) {
-  const Offset vertices = simplices.tetrahedron_begin.extent(0) - 1, tetrahedra = simplices.tetrahedra.extent(0);
-  return group_by("GALE::middle_stars", space, tetrahedra, vertices, MiddleVertices<MemoryOf<Space>>{simplices});
+  const Offset vertices = simplices.cell_begin.extent(0) - 1, cells = simplices.cells.extent(0);
+  return group_by("GALE::middle_stars", space, cells, vertices, MiddleVertices<MemoryOf<Space>>{simplices});
 }
 
 template <class Space>
 Csr<Id, MemoryOf<Space>, Id> edges_by_lanes(const Space& space, const Simplices<MemoryOf<Space>>& simplices,
                                             const MiddleStars<MemoryOf<Space>>& stars) {
   using Memory = MemoryOf<Space>;
-  const Offset vertices = simplices.tetrahedron_begin.extent(0) - 1;
+  const Offset vertices = simplices.cell_begin.extent(0) - 1;
   const HigherNeighbours<Memory> candidates(simplices, stars);
   const auto count = allocate<Array<Id, Memory>>("GALE::edge_begin", vertices + 1);
   parallel_for(
@@ -107,9 +107,9 @@ Csr<Id, MemoryOf<Space>, Id> edges_by_lanes(const Space& space, const Simplices<
   const bool some_have_many = reduce_min(
                                   "GALE::find_many_edges", space, vertices, Id(0),
                                   KOKKOS_LAMBDA(Offset v) { return count(v); }) == FewDistinct::too_many;
-  const auto many =
-      some_have_many ? SortedPairs<Space>(space, simplices.tetrahedra.extent(0), EdgesOfMany<Memory>{simplices, count})
-                     : SortedPairs<Space>();
+  const auto many = some_have_many
+                        ? SortedPairs<Space>(space, simplices.cells.extent(0), EdgesOfMany<Memory>{simplices, count})
+                        : SortedPairs<Space>();
   many.write_counts(count);
   const auto ends = edges_with(space, count);
   parallel_for(
@@ -141,7 +141,7 @@ void sort_edges_by_higher(const Space& space, const Simplices<MemoryOf<Space>>& 
   tables.lower_begin = lower.offsets;
   tables.lower_edges = lower.entries;
   tables.longest_list = std::max({longest_row(space, lower.offsets), longest_row(space, simplices.edge_begin),
-                                  longest_row(space, simplices.tetrahedron_begin)});
+                                  longest_row(space, simplices.cell_begin)});
 }
 
 template <class Space>

@@ -4,7 +4,7 @@
 #include <gale/mesh/simplices.hpp>
 
 // Edges and triangles in lexicographic order, vertex by vertex: each finds its own, which are those to higher vertices,
-// in the tetrahedra that have them. Functions throw gale::Error if there are more than 2^31 - 1 simplices, naming their
+// in the cells that have them. Functions throw gale::Error if there are more than 2^31 - 1 simplices, naming their
 // number, and OutOfMemory; then the tables are as they were. The last steps are enqueued on the instance of a device,
 // as loops are.
 
@@ -18,8 +18,8 @@ struct SimplexTables {
   Id longest_list = 0;
 };
 
-/// For each vertex the tetrahedra of which it is the second or third, in no order: with those of which it is the
-/// lowest, all that its edges and triangles to higher vertices are in.
+/// For each vertex the cells of which it is neither the lowest nor the highest, in no order: with those of which it is
+/// the lowest, all that its edges and triangles to higher vertices are in.
 template <class Memory>
 using MiddleStars = Csr<Id, Memory>;
 
@@ -27,23 +27,23 @@ template <class Space>
 MiddleStars<MemoryOf<Space>> find_middle_stars(const Space& space, const Simplices<MemoryOf<Space>>& simplices);
 
 /// Makes the tables of edges, and those of triangles if these are wanted, as the host does: each thread finds those of
-/// its segments, in these segments' tetrahedra, and writes them down as it finds them. Edges that are there stay.
-void enumerate_by_segments(const EncodedMesh<HostMemory>& mesh, const Borrowed<Id, HostMemory>& tetrahedron_begin,
+/// its segments, in these segments' cells, and writes them down as it finds them. Edges that are there stay.
+void enumerate_by_segments(const EncodedMesh<HostMemory>& mesh, const Borrowed<Id, HostMemory>& cell_begin,
                            bool triangles, SimplexTables& tables);
 
 /// The higher end of each edge, by the lower one, as a device finds them: lanes count those of a vertex in memory of
 /// their own and find them again to write them; where they are too many, they are sorted. `simplices` has the
-/// tetrahedra.
+/// cells.
 template <class Space>
 Csr<Id, MemoryOf<Space>, Id> edges_by_lanes(const Space& space, const Simplices<MemoryOf<Space>>& simplices,
                                             const MiddleStars<MemoryOf<Space>>& stars);
 
-/// Makes edge_begin, edge_low and edge_high as a device does. `simplices` has the tetrahedra.
+/// Makes edge_begin, edge_low and edge_high as a device does. `simplices` has the cells.
 template <class Space>
 void enumerate_edges(const Space& space, const Simplices<MemoryOf<Space>>& simplices,
                      const MiddleStars<MemoryOf<Space>>& stars, SimplexTables& tables);
 
-/// Makes lower_begin, lower_edges and longest_list. `simplices` has the edges and tetrahedron_begin.
+/// Makes lower_begin, lower_edges and longest_list. `simplices` has the edges and cell_begin.
 template <class Space>
 void sort_edges_by_higher(const Space& space, const Simplices<MemoryOf<Space>>& simplices, SimplexTables& tables);
 
@@ -51,6 +51,10 @@ void sort_edges_by_higher(const Space& space, const Simplices<MemoryOf<Space>>& 
 template <class Space>
 void enumerate_triangles(const Space& space, const Simplices<MemoryOf<Space>>& simplices,
                          const MiddleStars<MemoryOf<Space>>& stars, SimplexTables& tables);
+
+/// Makes triangle_begin and triangle_apex of triangles that are the mesh's cells. `simplices` has these and the edges.
+template <class Space>
+void find_triangles_of_edges(const Space& space, const Simplices<MemoryOf<Space>>& simplices, SimplexTables& tables);
 
 /// The row of each entry, where rows begin at `begin`: e.g. edge_low from edge_begin.
 template <class Space>

@@ -15,9 +15,10 @@ bool has(const Mirrored<Id>& table) { return table.size() > 0; }
 template <class Memory>
 Simplices<Memory> view_of(const MeshArrays& mesh, const SimplexTables& tables, const SimplexNeeds& needs) {
   Simplices<Memory> view;
-  if (needs.tetrahedra || (is_device_memory<Memory> && mesh.tetrahedra.on_device())) {
-    view.tetrahedra = by_four(mesh.tetrahedra.in<Memory>());
-    view.tetrahedron_begin = mesh.tetrahedron_begin.in<Memory>();
+  view.dimension = mesh.dimension;
+  if (needs.cells || (is_device_memory<Memory> && mesh.cells.on_device())) {
+    view.cells = by_four(mesh.cells.in<Memory>());
+    view.cell_begin = mesh.cell_begin.in<Memory>();
   }
   if (needs.upto >= Enumeration::edges && has(tables.edge_begin)) {
     view.edge_begin = tables.edge_begin.in<Memory>();
@@ -38,7 +39,7 @@ Simplices<Memory> view_of(const MeshArrays& mesh, const SimplexTables& tables, c
 }
 
 /// The tables from which others are made.
-constexpr SimplexNeeds tetrahedra = {Enumeration::tetrahedra, false, true};
+constexpr SimplexNeeds cells = {Enumeration::cells, false, true};
 constexpr SimplexNeeds edges = {Enumeration::edges, false, true};
 constexpr SimplexNeeds triangles = {Enumeration::triangles, false, false, false, false};
 
@@ -98,24 +99,28 @@ void SimplexStore::enumerate(const SimplexNeeds& needs) {
   const bool edges_too = needs.upto >= Enumeration::edges && known(1) == no_id;
   const bool triangles_too = needs.upto >= Enumeration::triangles && known(2) == no_id;
   if (edges_too || triangles_too) {
-    make(triangles_too ? "triangles" : "edges", mesh_.tetrahedra, [&](const auto& space) {
+    make(triangles_too ? "triangles" : "edges", mesh_.cells, [&](const auto& space) {
       using Memory = MemoryOf<std::decay_t<decltype(space)>>;
+      const bool are_cells = mesh_.dimension == 2;  // the triangles
       const bool missing = !has(tables_.edge_begin) || (triangles_too && !has(tables_.triangle_begin));
       if constexpr (!is_device_memory<Memory>) {
         if (missing) {
-          enumerate_by_segments(mesh_.in<HostMemory>(), mesh_.tetrahedron_begin.in<HostMemory>(), triangles_too,
+          enumerate_by_segments(mesh_.in<HostMemory>(), mesh_.cell_begin.in<HostMemory>(), triangles_too && !are_cells,
                                 tables_);
         }
       } else if (missing) {
-        const auto stars = find_middle_stars(space, view_of<Memory>(mesh_, tables_, tetrahedra));
+        const auto stars = find_middle_stars(space, view_of<Memory>(mesh_, tables_, cells));
         if (!has(tables_.edge_begin)) {
-          enumerate_edges(space, view_of<Memory>(mesh_, tables_, tetrahedra), stars, tables_);
+          enumerate_edges(space, view_of<Memory>(mesh_, tables_, cells), stars, tables_);
         }
         publish_intervals(space, 1);
-        if (triangles_too) enumerate_triangles(space, view_of<Memory>(mesh_, tables_, edges), stars, tables_);
+        if (triangles_too && !are_cells)
+          enumerate_triangles(space, view_of<Memory>(mesh_, tables_, edges), stars, tables_);
       }
       publish_intervals(space, 1);
-      if (triangles_too) publish_intervals(space, 2);
+      if (!triangles_too) return;
+      if (are_cells) find_triangles_of_edges(space, view_of<Memory>(mesh_, tables_, edges), tables_);
+      publish_intervals(space, 2);
     });
   }
   const bool triangle_edge_too = needs.upto >= Enumeration::triangles && needs.triangle_edge &&

@@ -1,5 +1,6 @@
 #include <gale/base/bits.hpp>
 #include <gale/base/error.hpp>
+#include <gale/base/ordered.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/mesh/numbering/enumerate.hpp>
 #include <gale/mesh/numbering/sorted_pairs.hpp>
@@ -25,14 +26,14 @@ class UpperLink {
       : neighbours_(simplices.edge_high.data() + simplices.edge_begin(vertex)),
         count_(simplices.edge_begin(vertex + 1) - simplices.edge_begin(vertex)) {
     for (Id i = 0; i < count_; ++i) joined_[i] = 0;
-    for (Id t = simplices.tetrahedron_begin(vertex); t < simplices.tetrahedron_begin(vertex + 1); ++t) {
-      const Quad quad = simplices.tetrahedron(t);
+    for (Id t = simplices.cell_begin(vertex); t < simplices.cell_begin(vertex + 1); ++t) {
+      const Quad quad = simplices.cell(t);
       const Id b = place_of(quad.b, 0), c = place_of(quad.c, b), d = place_of(quad.d, c);
       joined_[b] |= bit(c) | bit(d);
       joined_[c] |= bit(d);
     }
     for (Offset i = stars.offsets(vertex); i < stars.offsets(vertex + 1); ++i) {
-      const Quad quad = simplices.tetrahedron(stars.entries(i));
+      const Quad quad = simplices.cell(stars.entries(i));
       if (quad.b != vertex) continue;
       const Id c = place_of(quad.c, 0);
       joined_[c] |= bit(place_of(quad.d, c));
@@ -76,7 +77,7 @@ struct TrianglesOfMany {
 
   template <class Visit>
   KOKKOS_FUNCTION void operator()(Id tetrahedron, const Visit& visit) const {
-    const Quad quad = s.tetrahedron(tetrahedron);
+    const Quad quad = s.cell(tetrahedron);
     if (!UpperLink::is_for(s, quad.a)) {
       const Id edge = s.edge_of(quad.a, quad.b);
       visit(pair_key(edge, quad.c));
@@ -107,7 +108,7 @@ void enumerate_triangles(const Space& space, const Simplices<MemoryOf<Space>>& s
       });
   const bool some_have_many = longest_row(space, simplices.edge_begin) > UpperLink::capacity;
   const auto many = some_have_many
-                        ? SortedPairs<Space>(space, simplices.tetrahedra.extent(0), TrianglesOfMany<Memory>{simplices})
+                        ? SortedPairs<Space>(space, simplices.cells.extent(0), TrianglesOfMany<Memory>{simplices})
                         : SortedPairs<Space>();
   many.write_counts(begin);
   const Offset total = reduce_sum(
@@ -128,9 +129,28 @@ void enumerate_triangles(const Space& space, const Simplices<MemoryOf<Space>>& s
   tables.triangle_apex = apex;
 }
 
-#define GALE_INSTANTIATE(Space)                                                      \
-  template void enumerate_triangles(const Space&, const Simplices<MemoryOf<Space>>&, \
-                                    const MiddleStars<MemoryOf<Space>>&, SimplexTables&)
+template <class Space>
+void find_triangles_of_edges(const Space& space, const Simplices<MemoryOf<Space>>& s, SimplexTables& tables) {
+  using Memory = MemoryOf<Space>;
+  const Offset edges = s.edge_low.extent(0), triangles = s.cells.extent(0);
+  const auto begin = allocate<Array<Id, Memory>>("GALE::triangle_begin", edges + 1),
+             apex = allocate<Array<Id, Memory>>("GALE::triangle_apex", triangles);
+  parallel_for(
+      "GALE::triangle_begin", space, edges + 1, KOKKOS_LAMBDA(Offset e) {
+        begin(e) = e == edges ? static_cast<Id>(triangles)
+                              : bisect(s.cell_begin(s.edge_low(e)), s.cell_begin(s.edge_low(e) + 1),
+                                       [&](Id f) { return s.cell(f).b < s.edge_high(e); });
+      });
+  parallel_for(
+      "GALE::triangle_apex", space, triangles, KOKKOS_LAMBDA(Offset f) { apex(f) = s.cell(static_cast<Id>(f)).c; });
+  tables.triangle_begin = begin;
+  tables.triangle_apex = apex;
+}
+
+#define GALE_INSTANTIATE(Space)                                                           \
+  template void enumerate_triangles(const Space&, const Simplices<MemoryOf<Space>>&,      \
+                                    const MiddleStars<MemoryOf<Space>>&, SimplexTables&); \
+  template void find_triangles_of_edges(const Space&, const Simplices<MemoryOf<Space>>&, SimplexTables&)
 GALE_IN_EACH_SPACE(GALE_INSTANTIATE);
 #undef GALE_INSTANTIATE
 

@@ -45,16 +45,16 @@ struct BitStarScratch {
     std::size_t end = 0;
     const auto place = [memory](std::size_t& at, std::size_t count, auto*& array) {
       using Entry = std::remove_reference_t<decltype(*array)>;
-      array = reinterpret_cast<Entry*>(memory + at);
+      if (memory != nullptr) array = reinterpret_cast<Entry*>(memory + at);
       at += (count * sizeof(Entry) + 15) / 16 * 16;
     };
-    const std::size_t rows = sizes.rows, outside = sizes.outside, tetrahedra = outside > 0 ? sizes.tetrahedra : 0;
+    const std::size_t rows = sizes.rows, outside = sizes.outside, tetrahedra = outside > 0 ? sizes.cells : 0;
     place(end, 1, shared);
     place(end, rows + 1, star_begin);
     place(end, rows + 1, degree);
 
     std::size_t end_of_bits = end, end_of_neighbours = end;
-    place(end_of_bits, words(sizes.tetrahedra) * rows, star_bits);
+    place(end_of_bits, words(sizes.cells) * rows, star_bits);
     place(end_of_neighbours, outside > 0 ? sizes.neighbours : 0, neighbours);
     end = end_of_bits > end_of_neighbours ? end_of_bits : end_of_neighbours;
 

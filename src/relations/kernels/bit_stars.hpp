@@ -6,31 +6,31 @@
 
 namespace gale::detail {
 
-/// The stars of a small segment, as matrices of bits in its own numbering of tetrahedra and vertices, which ascends as
+/// The stars of a small segment, as matrices of bits in its own numbering of cells and vertices, which ascends as
 /// their ids do: a set that is read bit after bit is in order, and bits counted give places. No warp works together;
 /// after the first step nothing is atomic.
 ///
-///     visit the segment's tetrahedra: set their bits in the stars of its vertices; number the vertices outside
+///     visit the segment's cells: set their bits in the stars of its vertices; number the vertices outside
 ///     count and scan the stars: star_begin
 ///     a lane a vertex: list its star, and set the bits of its neighbours
 ///     count and scan the neighbours; reserve the blocks; write VT and link
 ///     a lane a vertex: list its neighbours; write VV
 ///
 /// Matrices grow with the square of a segment: see `is_for`.
-template <class Team, class Memory>
+template <class Team, class Memory, int corners>
 class BitStars {
  public:
-  using Request = StarRequest<Memory>;
+  using Request = StarRequest<Memory, corners>;
   using Segment = StarSegment<Memory>;
 
   KOKKOS_FORCEINLINE_FUNCTION static std::size_t scratch_bytes(const StarSizes& sizes, int /*warps*/) {
     return BitStarScratch(nullptr, sizes).bytes;
   }
 
-  /// Numbers must have room in 16 bits, those of tetrahedra with 2 bits for a corner.
+  /// Numbers must have room in 16 bits, those of cells with 2 bits for a corner.
   KOKKOS_FORCEINLINE_FUNCTION static bool is_for(const StarSizes& sizes) {
-    return sizes.rows + Offset(sizes.outside) <= 0x10000 && sizes.tetrahedra <= 0x4000 && sizes.star <= 0x10000 &&
-           Offset(sizes.rows) * sizes.tetrahedra <= 0x80000;
+    return sizes.rows + Offset(sizes.outside) <= 0x10000 && sizes.cells <= 0x4000 && sizes.star <= 0x10000 &&
+           Offset(sizes.rows) * sizes.cells <= 0x80000;
   }
 
   KOKKOS_FORCEINLINE_FUNCTION BitStars(const Team& team, const Request& request, const Segment& segment, char* memory)
@@ -46,14 +46,14 @@ class BitStars {
     auto& shared = *scratch_.shared;
     if (!has_room()) {
       team::once(team_, [&] {
-        shared.found.tetrahedra = segment_.tetrahedra.count;
-        shared.found.outside = gathers_ ? usual_outside(segment_.tetrahedra.count) : 0;
+        shared.found.cells = segment_.cells.count;
+        shared.found.outside = gathers_ ? usual_outside(segment_.cells.count) : 0;
       });
       return;
     }
     clear();
     team::barrier(team_);
-    mark_tetrahedra();
+    mark_cells();
     team::barrier(team_);
     if (!fits()) return;
     count_stars();
@@ -76,24 +76,26 @@ class BitStars {
       team::once(team_, [&] { shared.found.neighbours = neighbours; });
       return;
     }
-    reserve_blocks(team_, request_, star_relations, shared, segment_.rows, scratch_.star_begin, neighbours);
+    reserve_blocks(team_, request_, star_relations_of(corners - 1), shared, segment_.rows, scratch_.star_begin,
+                   neighbours);
     if (shared.vt != BlockPool::missing) write_stars();
     if (shared.link != BlockPool::missing) write_links();
     if (request_.wanted.has(Relation::VV)) write_neighbours();
   }
 
  private:
+  static constexpr int others = corners - 1;
+
   KOKKOS_FORCEINLINE_FUNCTION bool fits() const { return request_.sizes.contains(scratch_.shared->found); }
 
   /// For what is known before the first step.
   KOKKOS_FORCEINLINE_FUNCTION bool has_room() const {
     const StarSizes& sizes = request_.sizes;
-    return sizes.rows >= segment_.rows && sizes.tetrahedra >= segment_.tetrahedra.count &&
-           (sizes.outside > 0 || !gathers_);
+    return sizes.rows >= segment_.rows && sizes.cells >= segment_.cells.count && (sizes.outside > 0 || !gathers_);
   }
 
   KOKKOS_FORCEINLINE_FUNCTION Id star_words() const {
-    return static_cast<Id>(BitStarScratch::words(segment_.tetrahedra.count));
+    return static_cast<Id>(BitStarScratch::words(segment_.cells.count));
   }
   KOKKOS_FORCEINLINE_FUNCTION Id neighbour_words() const {
     return static_cast<Id>(BitStarScratch::words(segment_.rows + scratch_.shared->found.outside));
@@ -104,14 +106,14 @@ class BitStars {
     if (gathers_) vertices_.clear(team_);
   }
 
-  KOKKOS_FORCEINLINE_FUNCTION void mark_tetrahedra() const {
+  KOKKOS_FORCEINLINE_FUNCTION void mark_cells() const {
     const Id rows = segment_.rows;
-    const auto load = [&](Id i) { return request_.mesh.tetrahedron(segment_.tetrahedra[i]); };
-    team::for_all_loaded(team_, segment_.tetrahedra.count, load, [&](Id i, const Quad& four) {
+    const auto load = [&](Id i) { return request_.mesh.cell(segment_.cells[i]); };
+    team::for_all_loaded(team_, segment_.cells.count, load, [&](Id i, const Quad& four) {
       std::uint32_t* const bits = scratch_.star_bits + (i / 32) * rows;
       std::uint64_t numbers = 0;
       std::uint32_t outside = 0;
-      for (int corner = 0; corner < 4; ++corner) {
+      for (int corner = 0; corner < corners; ++corner) {
         const Id row = segment_.row_of(four[corner]);
         if (segment_.has(row)) {
           team::set_bits(team_, bits + row, std::uint32_t(1) << (i % 32));
@@ -130,8 +132,9 @@ class BitStars {
         vertices_.insert(team_, four, outside,
                          [&](int corner, Id slot) { numbers |= std::uint64_t(rows + slot) << (16 * corner); });
       });
-      CornerNumbers of;
-      for (int corner = 0; corner < 4; ++corner) of.of[corner] = static_cast<std::uint16_t>(numbers >> (16 * corner));
+      CornerNumbers of{};
+      for (int corner = 0; corner < corners; ++corner)
+        of.of[corner] = static_cast<std::uint16_t>(numbers >> (16 * corner));
       scratch_.corners[i] = of;
     });
   }
@@ -149,9 +152,10 @@ class BitStars {
   /// From rows and slots to numbers.
   KOKKOS_FORCEINLINE_FUNCTION void number_corners() const {
     const Id rows = segment_.rows;
-    team::for_all(team_, segment_.tetrahedra.count, [&](Id i) {
+    team::for_all(team_, segment_.cells.count, [&](Id i) {
       CornerNumbers numbers = scratch_.corners[i];
-      for (auto& number : numbers.of) {
+      for (int corner = 0; corner < corners; ++corner) {
+        std::uint16_t& number = numbers.of[corner];
         number = static_cast<std::uint16_t>(number < rows ? vertices_.number_of_row(number)
                                                           : vertices_.number_of_slot(number - rows));
       }
@@ -169,7 +173,7 @@ class BitStars {
     });
   }
 
-  /// Sets the bits of all vertices of the tetrahedra around one, and takes its own away again. Several tetrahedra at a
+  /// Sets the bits of all vertices of the cells around one, and takes its own away again. Several cells at a
   /// time: it waits for each.
   KOKKOS_FORCEINLINE_FUNCTION void gather_neighbours(Id row) const {
     constexpr Id at_once = 4;
@@ -178,21 +182,22 @@ class BitStars {
     std::uint32_t* const column = scratch_.neighbour_bits + row;
     for (Id begin = scratch_.star_begin[row]; begin < end; begin += at_once) {
       CornerNumbers numbers[at_once];
-      Id tetrahedra[at_once];
+      Id cells[at_once];
       for (Id i = 0; i < at_once; ++i) {
-        tetrahedra[i] = scratch_.star[begin + i < end ? begin + i : begin];
-        numbers[i] = scratch_.corners[tetrahedra[i]];
+        cells[i] = scratch_.star[begin + i < end ? begin + i : begin];
+        numbers[i] = scratch_.corners[cells[i]];
       }
       for (Id i = 0; i < at_once; ++i) {
-        for (const std::uint32_t number : numbers[i].of) {
+        for (int corner = 0; corner < corners; ++corner) {
+          const std::uint32_t number = numbers[i].of[corner];
           team::set_bits(team_, column + (number / 32) * segment_.rows, std::uint32_t(1) << (number % 32));
         }
         if (links && begin + i < end) {
-          const Id corner = numbers[i].of[1] == self   ? 1
-                            : numbers[i].of[2] == self ? 2
-                            : numbers[i].of[3] == self ? 3
-                                                       : 0;
-          scratch_.star[begin + i] = static_cast<std::uint16_t>(4 * tetrahedra[i] + corner);
+          const Id corner = numbers[i].of[1] == self                   ? 1
+                            : numbers[i].of[2] == self                 ? 2
+                            : corners == 4 && numbers[i].of[3] == self ? 3
+                                                                       : 0;
+          scratch_.star[begin + i] = static_cast<std::uint16_t>(4 * cells[i] + corner);
         }
       }
     }
@@ -203,7 +208,7 @@ class BitStars {
     Id* const out = request_.pool.words + scratch_.shared->vt + segment_.rows + 1;
     const int shift = request_.wanted.has_links() ? 2 : 0;
     team::for_all(team_, scratch_.shared->found.star,
-                  [&](Id i) { out[i] = segment_.tetrahedra[scratch_.star[i] >> shift]; });
+                  [&](Id i) { out[i] = segment_.cells[scratch_.star[i] >> shift]; });
   }
 
   KOKKOS_FORCEINLINE_FUNCTION void count_neighbours() const {
@@ -218,19 +223,19 @@ class BitStars {
     });
   }
 
-  /// Four tetrahedra a lane: their places, of a byte each, are three words.
+  /// Four cells a lane: their places, of a byte each, are `others` words.
   KOKKOS_FORCEINLINE_FUNCTION void write_links() const {
     const Id stars = scratch_.shared->found.star;
     const LinkPlaces link(request_.pool.words + scratch_.shared->link, segment_.rows);
     if (link.width > 1) {
       team::for_all(team_, stars, [&](Id i) {
         std::uint32_t at = 0;
-        for_each_place(i, [&](Id place) { link.put(3 * Offset(i) + at++, place); });
+        for_each_place(i, [&](Id place) { link.put(others * Offset(i) + at++, place); });
       });
       return;
     }
     std::uint32_t* const out = static_cast<std::uint32_t*>(link.places);
-    const Id words = (3 * stars + 3) / 4;
+    const Id words = (others * stars + 3) / 4;
     team::for_all(team_, (stars + 3) / 4, [&](Id four) {
       std::uint64_t low = 0;
       std::uint32_t high = 0;
@@ -245,13 +250,13 @@ class BitStars {
           ++at;
         });
       }
-      out[3 * four] = static_cast<std::uint32_t>(low);
-      if (3 * four + 1 < words) out[3 * four + 1] = static_cast<std::uint32_t>(low >> 32);
-      if (3 * four + 2 < words) out[3 * four + 2] = high;
+      out[others * four] = static_cast<std::uint32_t>(low);
+      if (others * four + 1 < words) out[others * four + 1] = static_cast<std::uint32_t>(low >> 32);
+      if (others == 3 && others * four + 2 < words) out[others * four + 2] = high;
     });
   }
 
-  /// Calls visit(place) for the three vertices across from the corner that the entry `i` of all stars is, ascending.
+  /// Calls visit(place) for the vertices across from the corner that the entry `i` of all stars is, ascending.
   template <class Visit>
   KOKKOS_FORCEINLINE_FUNCTION void for_each_place(Id i, const Visit& visit) const {
     const Id entry = scratch_.star[i];
@@ -262,7 +267,7 @@ class BitStars {
                    : own_corner == 2 ? numbers.of[2]
                                      : numbers.of[3];
     const Id row = own - scratch_.shared->below;
-    for (int other = 0; other < 3; ++other) {
+    for (int other = 0; other < others; ++other) {
       const Id number = other < own_corner ? numbers.of[other] : numbers.of[other + 1];
       const Id cell = (number / 32) * segment_.rows + row;
       const std::uint32_t lower = (std::uint32_t(1) << (number % 32)) - 1;

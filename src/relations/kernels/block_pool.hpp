@@ -11,24 +11,20 @@ struct StarSizes {
   Id star = 0;        ///< entries of all its VT rows
   Id neighbours = 0;  ///< entries of all its VV rows
   Id slots = 0;  ///< hash slots for the neighbours of one vertex; a power of two, enough if three times its tetrahedra
-  Id tetrahedra = 0;  ///< that touch it
-  Id outside = 0;     ///< vertices of theirs that other segments hold
+  Id cells = 0;  ///< that touch it
+  Id outside = 0;  ///< vertices of theirs that other segments hold
 
   KOKKOS_FUNCTION bool contains(const StarSizes& other) const {
     return rows >= other.rows && star >= other.star && neighbours >= other.neighbours && slots >= other.slots &&
-           tetrahedra >= other.tetrahedra && outside >= other.outside;
+           cells >= other.cells && outside >= other.outside;
   }
 };
 
 /// The greater of each.
 inline StarSizes larger(const StarSizes& a, const StarSizes& b) {
   const auto greater = [](Id x, Id y) { return x < y ? y : x; };
-  return {greater(a.rows, b.rows),
-          greater(a.star, b.star),
-          greater(a.neighbours, b.neighbours),
-          greater(a.slots, b.slots),
-          greater(a.tetrahedra, b.tetrahedra),
-          greater(a.outside, b.outside)};
+  return {greater(a.rows, b.rows),   greater(a.star, b.star),   greater(a.neighbours, b.neighbours),
+          greater(a.slots, b.slots), greater(a.cells, b.cells), greater(a.outside, b.outside)};
 }
 
 /// Where a kernel leaves the blocks of a batch: one stretch of memory, in which a team reserves its exact space with an
@@ -63,7 +59,7 @@ struct BlockPool {
     team::raise(team, &needed->star, sizes.star);
     team::raise(team, &needed->neighbours, sizes.neighbours);
     team::raise(team, &needed->slots, sizes.slots);
-    team::raise(team, &needed->tetrahedra, sizes.tetrahedra);
+    team::raise(team, &needed->cells, sizes.cells);
     team::raise(team, &needed->outside, sizes.outside);
   }
 };

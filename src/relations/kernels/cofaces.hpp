@@ -21,9 +21,9 @@ KOKKOS_INLINE_FUNCTION void for_each_edge_at(const Simplices<Memory>& s, Id vert
 template <class Memory, class Wanted, class Visit>
 KOKKOS_INLINE_FUNCTION void for_each_tetrahedron_from(const Simplices<Memory>& s, Id first, const Wanted& wanted,
                                                       const Visit& visit) {
-  const Id end = s.tetrahedron_begin(first + 1);
-  for (Id t = s.tetrahedron_begin(first); t < end; ++t) {
-    if (wanted(s.tetrahedron(t))) visit(t);
+  const Id end = s.cell_begin(first + 1);
+  for (Id t = s.cell_begin(first); t < end; ++t) {
+    if (wanted(s.cell(t))) visit(t);
   }
 }
 
@@ -125,7 +125,7 @@ struct LookThrough {
   template <class Memory, class Visit>
   KOKKOS_INLINE_FUNCTION static void for_each_adjacent_tetrahedron(const Simplices<Memory>& s, Id tetrahedron,
                                                                    const Visit& visit) {
-    const Quad own = s.tetrahedron(tetrahedron);
+    const Quad own = s.cell(tetrahedron);
     const Id a = own.a;
     const auto shares_one_with_a = [own](const Quad& q) {
       const int common = (q.b == own.b || q.c == own.b || q.d == own.b) +

@@ -69,7 +69,7 @@ KOKKOS_INLINE_FUNCTION void visit_triangle(const Simplices<Memory>& s, Id a, Id 
 template <class Memory>
 KOKKOS_INLINE_FUNCTION Id first_tetrahedron(const Simplices<Memory>& s, Id begin, Id end, Id b, Id c, Id d) {
   return bisect(begin, end, [&](Id t) {
-    const Quad q = s.tetrahedron(t);
+    const Quad q = s.cell(t);
     return q.b < b || (q.b == b && (q.c < c || (q.c == c && q.d < d)));
   });
 }
@@ -77,10 +77,10 @@ KOKKOS_INLINE_FUNCTION Id first_tetrahedron(const Simplices<Memory>& s, Id begin
 /// Calls visit(t) for the tetrahedron (a, b, c, d), if there is one.
 template <class Memory, class Visit>
 KOKKOS_INLINE_FUNCTION void visit_tetrahedron(const Simplices<Memory>& s, Id a, Id b, Id c, Id d, const Visit& visit) {
-  const Id end = s.tetrahedron_begin(a + 1);
-  const Id t = first_tetrahedron(s, s.tetrahedron_begin(a), end, b, c, d);
+  const Id end = s.cell_begin(a + 1);
+  const Id t = first_tetrahedron(s, s.cell_begin(a), end, b, c, d);
   if (t == end) return;
-  const Quad q = s.tetrahedron(t);
+  const Quad q = s.cell(t);
   if (q.b == b && q.c == c && q.d == d) visit(t);
 }
 
@@ -88,9 +88,9 @@ KOKKOS_INLINE_FUNCTION void visit_tetrahedron(const Simplices<Memory>& s, Id a, 
 template <class Memory, class Visit>
 KOKKOS_INLINE_FUNCTION void for_each_tetrahedron_over(const Simplices<Memory>& s, Id a, Id b, Id c,
                                                       const Visit& visit) {
-  const Id end = s.tetrahedron_begin(a + 1);
-  for (Id t = first_tetrahedron(s, s.tetrahedron_begin(a), end, b, c, 0); t < end; ++t) {
-    const Quad q = s.tetrahedron(t);
+  const Id end = s.cell_begin(a + 1);
+  for (Id t = first_tetrahedron(s, s.cell_begin(a), end, b, c, 0); t < end; ++t) {
+    const Quad q = s.cell(t);
     if (q.b != b || q.c != c) return;
     visit(t);
   }
@@ -100,11 +100,11 @@ KOKKOS_INLINE_FUNCTION void for_each_tetrahedron_over(const Simplices<Memory>& s
 template <class Memory, class Visit>
 KOKKOS_INLINE_FUNCTION void for_each_tetrahedron_over_edge(const Simplices<Memory>& s, Id a, Id v, Id b,
                                                            const Visit& visit) {
-  const Id end = s.tetrahedron_begin(a + 1);
-  const Id begin = first_tetrahedron(s, s.tetrahedron_begin(a), end, v, 0, 0);
-  if (end - begin <= few_entries || s.tetrahedron(begin + few_entries).b != v) {
+  const Id end = s.cell_begin(a + 1);
+  const Id begin = first_tetrahedron(s, s.cell_begin(a), end, v, 0, 0);
+  if (end - begin <= few_entries || s.cell(begin + few_entries).b != v) {
     for (Id t = begin; t < end; ++t) {
-      const Quad q = s.tetrahedron(t);
+      const Quad q = s.cell(t);
       if (q.b != v) return;
       if (q.c == b || q.d == b) visit(t);
     }
@@ -119,7 +119,7 @@ KOKKOS_INLINE_FUNCTION void for_each_tetrahedron_over_edge(const Simplices<Memor
 template <class Memory, class Visit>
 KOKKOS_INLINE_FUNCTION void for_each_tetrahedron_from(const Simplices<Memory>& s, Id a, Id b, Id c,
                                                       const Visit& visit) {
-  const Id begin = s.tetrahedron_begin(a), end = s.tetrahedron_begin(a + 1);
+  const Id begin = s.cell_begin(a), end = s.cell_begin(a + 1);
   if (end - begin <= few_entries) {
     const auto has = [b, c](const Quad& q) { return (q.b == b || q.c == b) && (q.c == c || q.d == c); };
     return for_each_tetrahedron_from(s, a, has, visit);
@@ -132,14 +132,14 @@ KOKKOS_INLINE_FUNCTION void for_each_tetrahedron_from(const Simplices<Memory>& s
 /// Calls visit(t) for each tetrahedron (a, ., ., .) that has the vertices a < b, ascending.
 template <class Memory, class Visit>
 KOKKOS_INLINE_FUNCTION void for_each_tetrahedron_from(const Simplices<Memory>& s, Id a, Id b, const Visit& visit) {
-  const Id begin = s.tetrahedron_begin(a), end = s.tetrahedron_begin(a + 1);
+  const Id begin = s.cell_begin(a), end = s.cell_begin(a + 1);
   if (end - begin <= few_entries) {
     return for_each_tetrahedron_from(
         s, a, [b](const Quad& q) { return q.b == b || q.c == b || q.d == b; }, visit);
   }
   const Id known[] = {a, b};
   for_each_candidate(s, known, a, b, [&](Id v) { for_each_tetrahedron_over_edge(s, a, v, b, visit); });
-  for (Id t = first_tetrahedron(s, begin, end, b, 0, 0); t < end && s.tetrahedron(t).b == b; ++t) visit(t);
+  for (Id t = first_tetrahedron(s, begin, end, b, 0, 0); t < end && s.cell(t).b == b; ++t) visit(t);
 }
 
 /// Finds cofaces by bisection, in what time the shortest of the lists takes.

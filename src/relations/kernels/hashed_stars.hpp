@@ -9,15 +9,15 @@ namespace gale::detail {
 /// memory in proportion to the stars. What one host thread does, and what is left of a mesh for a device where segments
 /// are too large for BitStars.
 ///
-///     visit the segment's tetrahedra, count and scan: star_begin
+///     visit the segment's cells, count and scan: star_begin
 ///     reserve the blocks of VT and link, whose sizes are known now
-///     visit again, and place each tetrahedron in the stars of its vertices
+///     visit again, and place each cell in the stars of its vertices
 ///     a warp a vertex: rank its star (VT); gather its neighbours, rank them, and read their places back (link)
 ///     reserve the block of VV, and copy the rows there
-template <class Team, class Memory>
+template <class Team, class Memory, int corners>
 class HashedStars {
  public:
-  using Request = StarRequest<Memory>;
+  using Request = StarRequest<Memory, corners>;
   using Segment = StarSegment<Memory>;
 
   KOKKOS_FORCEINLINE_FUNCTION static std::size_t scratch_bytes(const StarSizes& sizes, int warps) {
@@ -36,22 +36,25 @@ class HashedStars {
     if (fits()) count_stars();
     team::barrier(team_);
     if (!fits()) return;
-    reserve_blocks(team_, request_, Relation::VT | link_form, *scratch_.shared, segment_.rows, scratch_.star_begin, 0);
+    reserve_blocks(team_, request_, vertex_cells(corners - 1) | link_form, *scratch_.shared, segment_.rows,
+                   scratch_.star_begin, 0);
     fill_stars();
     write_rows();
     if (request_.wanted.has(Relation::VV)) write_neighbours();
   }
 
  private:
+  static constexpr int others = corners - 1;
+
   KOKKOS_FORCEINLINE_FUNCTION bool fits() const { return request_.sizes.contains(scratch_.shared->found); }
 
-  /// Calls visit(row, t) for each vertex of the segment and each tetrahedron of its star.
+  /// Calls visit(row, t) for each vertex of the segment and each cell of its star.
   template <class Visit>
   KOKKOS_FORCEINLINE_FUNCTION void for_each_corner(const Visit& visit) const {
-    team::for_all(team_, segment_.tetrahedra.count, [&](Id i) {
-      const Id t = segment_.tetrahedra[i];
-      for (int corner = 0; corner < 4; ++corner) {
-        const Id row = segment_.row_of(request_.mesh.tetrahedra(t, corner));
+    team::for_all(team_, segment_.cells.count, [&](Id i) {
+      const Id t = segment_.cells[i];
+      for (int corner = 0; corner < corners; ++corner) {
+        const Id row = segment_.row_of(request_.mesh.cells(t, corner));
         if (segment_.has(row)) visit(row, t);
       }
     });
@@ -79,47 +82,47 @@ class HashedStars {
   KOKKOS_FORCEINLINE_FUNCTION void write_rows() const {
     team::for_warps(team_, segment_.rows, [&](Id row) {
       Id* const star = scratch_.star + scratch_.star_begin[row];
-      const Id tetrahedra = scratch_.star_begin[row + 1] - scratch_.star_begin[row];
-      write_star(row, star, tetrahedra);
-      if (request_.gathers_neighbours()) gather_neighbours(row, star, tetrahedra);
+      const Id cells = scratch_.star_begin[row + 1] - scratch_.star_begin[row];
+      write_star(row, star, cells);
+      if (request_.gathers_neighbours()) gather_neighbours(row, star, cells);
     });
   }
 
-  /// Calls visit(t, place) for the tetrahedra of a star, with their places in ascending order. A team of one thread
+  /// Calls visit(t, place) for the cells of a star, with their places in ascending order. A team of one thread
   /// placed them so.
   template <class Visit>
-  KOKKOS_FORCEINLINE_FUNCTION void for_each_ranked(Id* star, Id tetrahedra, const Visit& visit) const {
+  KOKKOS_FORCEINLINE_FUNCTION void for_each_ranked(Id* star, Id cells, const Visit& visit) const {
     if constexpr (is_sequential<Team>) {
-      for (Id i = 0; i < tetrahedra; ++i) visit(star[i], i);
+      for (Id i = 0; i < cells; ++i) visit(star[i], i);
     } else {
-      detail::rank(team_, star, tetrahedra, [&](Id, Id t, Id place) { visit(t, place); });
+      detail::rank(team_, star, cells, [&](Id, Id t, Id place) { visit(t, place); });
     }
   }
 
-  KOKKOS_FORCEINLINE_FUNCTION void write_star(Id row, Id* star, Id tetrahedra) const {
+  KOKKOS_FORCEINLINE_FUNCTION void write_star(Id row, Id* star, Id cells) const {
     if (scratch_.shared->vt == BlockPool::missing) return;
     Id* const out = request_.pool.words + scratch_.shared->vt + segment_.rows + 1 + scratch_.star_begin[row];
-    for_each_ranked(star, tetrahedra, [&](Id t, Id place) { out[place] = t; });
+    for_each_ranked(star, cells, [&](Id t, Id place) { out[place] = t; });
   }
 
-  /// Calls visit(vertex, place) for the three vertices of a tetrahedron that are not `vertex`, ascending.
+  /// Calls visit(vertex, place) for the vertices of a cell that are not `vertex`, ascending.
   template <class Visit>
   KOKKOS_FORCEINLINE_FUNCTION void for_each_other(Id t, Id vertex, const Visit& visit) const {
-    const Id* const corners = &request_.mesh.tetrahedra(t, 0);
-    for (int i = 0; i < 3; ++i) visit(corners[i + (corners[i] >= vertex ? 1 : 0)], i);  // they ascend: no branch
+    const Id* const all = &request_.mesh.cells(t, 0);
+    for (int i = 0; i < others; ++i) visit(all[i + (all[i] >= vertex ? 1 : 0)], i);  // they ascend: no branch
   }
 
-  KOKKOS_FORCEINLINE_FUNCTION void gather_neighbours(Id row, Id* star, Id tetrahedra) const {
+  KOKKOS_FORCEINLINE_FUNCTION void gather_neighbours(Id row, Id* star, Id cells) const {
     auto& shared = *scratch_.shared;
     const Id vertex = segment_.first + row;
-    const NeighbourSet<Team> neighbours(team_, scratch_, request_.sizes.slots, tetrahedra);
+    const NeighbourSet<Team> neighbours(team_, scratch_, request_.sizes.slots, cells);
     const bool wants_link = shared.link != BlockPool::missing;
     const LinkPlaces link = wants_link ? LinkPlaces(request_.pool.words + shared.link, segment_.rows) : LinkPlaces();
-    const Offset link_begin = 3 * Offset(scratch_.star_begin[row]);
-    team::for_lanes(team_, tetrahedra, [&](Id i) {
+    const Offset link_begin = others * Offset(scratch_.star_begin[row]);
+    team::for_lanes(team_, cells, [&](Id i) {
       for_each_other(star[i], vertex, [&](Id other, int corner) {
         const Id came = neighbours.insert(other);
-        if (is_sequential<Team> && wants_link) link.put(link_begin + 3 * i + corner, came);
+        if (is_sequential<Team> && wants_link) link.put(link_begin + others * i + corner, came);
       });
     });
     team::once_per_warp(team_, [&] {
@@ -135,20 +138,20 @@ class HashedStars {
     neighbours.write_ordered(out);
     if (!wants_link) return;
     if (is_sequential<Team> && neighbours.remembers_ranks()) {
-      for (Offset at = link_begin; at < link_begin + 3 * Offset(tetrahedra); ++at)
+      for (Offset at = link_begin; at < link_begin + others * Offset(cells); ++at)
         link.put(at, neighbours.rank_of(link.get(at)));
       return;
     }
-    for_each_ranked(star, tetrahedra, [&](Id t, Id place) {
+    for_each_ranked(star, cells, [&](Id t, Id place) {
       for_each_other(t, vertex, [&](Id other, int corner) {
-        link.put(link_begin + 3 * Offset(place) + corner, neighbours.place_of(other, out));
+        link.put(link_begin + others * Offset(place) + corner, neighbours.place_of(other, out));
       });
     });
   }
 
   KOKKOS_FORCEINLINE_FUNCTION static Id slots_for(Id longest_star) {
     Id slots = 8;
-    while (slots < 3 * Offset(longest_star)) slots *= 2;
+    while (slots < others * Offset(longest_star)) slots *= 2;
     return slots;
   }
 

@@ -182,8 +182,10 @@ class RowKernel {
     constexpr int dimension = row_dimension(relation);
     if constexpr (dimension == 0) return vertex;
     if constexpr (dimension == 1) return simplices.edge_begin(vertex);
-    if constexpr (dimension == 2) return simplices.triangle_begin(simplices.edge_begin(vertex));
-    if constexpr (dimension == 3) return simplices.tetrahedron_begin(vertex);
+    if constexpr (dimension == 2)
+      return simplices.dimension == 2 ? simplices.cell_begin(vertex)
+                                      : simplices.triangle_begin(simplices.edge_begin(vertex));
+    if constexpr (dimension == 3) return simplices.cell_begin(vertex);
   }
 
   template <class Search>

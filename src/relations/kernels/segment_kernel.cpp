@@ -12,7 +12,7 @@ namespace gale {
 
 namespace {
 
-/// The kernel of any relation: that of stars, or the row kernel of one that isn't a star's.
+/// The kernel of any relation: that of stars, of tetrahedra or triangles, or the row kernel of one that isn't a star's.
 template <class Memory, class Places>
 struct AnyKernel;
 
@@ -27,12 +27,12 @@ struct AnyKernel<Memory, std::index_sequence<places...>> {
   template <std::size_t place>
   using RowKernelAt = RowKernel<static_cast<Relation>(is_row(place) ? place : 0), Memory>;
 
-  using OrStar = std::variant<StarKernel<Memory>, RowKernelAt<places>...>;
+  using OrStar = std::variant<StarKernel<Memory, 4>, StarKernel<Memory, 3>, RowKernelAt<places>...>;
 
   /// Makes `kernel` the row kernel of a relation; set(kernel) is called with it.
   template <class Set>
   static void make_row(Relation relation, OrStar& kernel, const Set& set) {
-    ((static_cast<std::size_t>(relation) == places ? set(kernel.template emplace<places + 1>()) : void()), ...);
+    ((static_cast<std::size_t>(relation) == places ? set(kernel.template emplace<places + 2>()) : void()), ...);
   }
 };
 
@@ -41,10 +41,11 @@ using Kernels = AnyKernel<Memory, std::make_index_sequence<relation_count>>;
 
 }  // namespace
 
-std::vector<RelationSet> kernels_for(RelationSet relations) {
+std::vector<RelationSet> kernels_for(RelationSet relations, int dimension) {
+  const RelationSet stars = star_relations_of(dimension);
   std::vector<RelationSet> kernels;
-  for (const Relation relation : members_of(relations - star_relations)) kernels.push_back(relation);
-  if (!(relations & star_relations).empty()) kernels.push_back(relations & star_relations);
+  for (const Relation relation : members_of(relations - stars)) kernels.push_back(relation);
+  if (!(relations & stars).empty()) kernels.push_back(relations & stars);
   return kernels;
 }
 
@@ -68,19 +69,26 @@ struct SegmentKernel<Memory>::Any {
   typename Kernels<Memory>::OrStar kernel;
 
   Any(const Mesh& given, RelationSet relations) : mesh(given), wanted(relations) {
-    if (star_relations.contains(wanted)) {
-      StarKernel<Memory> star;
-      star.mesh = mesh.encoded<Memory>();
-      star.wanted = wanted;
-      kernel = star;
+    if (makes_stars()) {
+      mesh.dimension() == 3 ? make_star<4>() : make_star<3>();
     } else {
-      SimplexNeeds needs = needs_of(wanted);
-      needs.tetrahedra = true;
+      SimplexNeeds needs = needs_of(wanted, mesh.dimension());
+      needs.cells = true;
       Kernels<Memory>::make_row(members_of(wanted).front(), kernel, [this, needs](auto& row) {
         row.simplices = mesh.simplices<Memory>(needs);
         row.vertex_begin = mesh.interval_begin<Memory>(0);
       });
     }
+  }
+
+  bool makes_stars() const { return star_relations_of(mesh.dimension()).contains(wanted); }
+
+  template <int corners>
+  void make_star() {
+    StarKernel<Memory, corners> star;
+    star.mesh = mesh.encoded<Memory>();
+    star.wanted = wanted;
+    kernel = star;
   }
 
   /// Calls use(kernel) with what it is.
@@ -121,12 +129,14 @@ StarSizes SegmentKernel<Memory>::bound(Id segment) const {
     const auto& begin = any_->mesh.interval_begin(dimension);
     return begin(segment + 1) - begin(segment);
   };
-  if (star_relations.contains(any_->wanted)) {
+  if (any_->makes_stars()) {
+    const int dimension = any_->mesh.dimension();
     const auto& external = any_->mesh.external_begin();
     const Offset touching = external(segment + 1) - external(segment);
     // Its vertices have at most three neighbours for each corner of a tetrahedron there.
-    require_ids("neighbours in one segment", 3 * (4 * Offset(rows(3)) + 3 * touching) + 2 * Offset(rows(0)));
-    return StarKernel<Memory>::bound(rows(0), rows(3), touching, any_->wanted);
+    require_ids("neighbours in one segment", 3 * (4 * Offset(rows(dimension)) + 3 * touching) + 2 * Offset(rows(0)));
+    return dimension == 3 ? StarKernel<Memory, 4>::bound(rows(0), rows(3), touching, any_->wanted)
+                          : StarKernel<Memory, 3>::bound(rows(0), rows(2), touching, any_->wanted);
   }
   return {rows(row_dimension(members_of(any_->wanted).front())), 0, 0, 0};
 }

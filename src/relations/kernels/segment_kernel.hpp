@@ -14,7 +14,7 @@ namespace gale {
 
 /// The sets of relations that one kernel computes together: the members of star_relations, and each other one by
 /// itself. These first, in the order of `Relation`.
-std::vector<RelationSet> kernels_for(RelationSet relations);
+std::vector<RelationSet> kernels_for(RelationSet relations, int dimension = 3);
 
 /// Are all the blocks of a batch there? Throws gale::Error, naming the segment, if one has more entries than an Id
 /// counts.

@@ -81,7 +81,8 @@ class HostWorker::BlockMaker {
 };
 
 HostWorker::HostWorker(const Mesh& mesh, RelationSet wanted, int kept) : mesh_(mesh) {
-  for (const RelationSet one : kernels_for(wanted)) makers_.push_back(std::make_unique<BlockMaker>(mesh, one, kept));
+  for (const RelationSet one : kernels_for(wanted, mesh.dimension()))
+    makers_.push_back(std::make_unique<BlockMaker>(mesh, one, kept));
 }
 HostWorker::~HostWorker() = default;
 HostWorker::HostWorker(HostWorker&&) noexcept = default;

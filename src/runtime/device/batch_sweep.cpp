@@ -3,6 +3,7 @@
 #include <vector>
 
 #include <gale/base/error.hpp>
+#include <gale/relations/preconditioning.hpp>
 #include <gale/runtime/batches/batch_lane.hpp>
 #include <gale/runtime/defaults.hpp>
 #include <gale/runtime/device/batch_sweep.hpp>
@@ -67,9 +68,11 @@ template <class Memory>
 BatchSweep<Memory>::Batches::Batches(const Mesh& mesh, RelationSet relations, const DeviceSweepOptions& options)
     : mesh_(mesh), words_per_vertex_(margin * words_per_vertex(relations)) {
   require_sweep(relations, options);
+  gale::require_relations(relations, mesh.dimension());
   const Filled<Memory> filled(options);
   const auto kernels = std::make_shared<typename Lane::Kernels>();
-  for (const RelationSet one : kernels_for(relations)) kernels->emplace_back(mesh, one, filled.threads_per_segment);
+  for (const RelationSet one : kernels_for(relations, mesh.dimension()))
+    kernels->emplace_back(mesh, one, filled.threads_per_segment);
   words_ = std::max<Offset>(static_cast<Offset>(filled.memory / filled.batches / sizeof(Id)), 1024);
   const auto all = static_cast<Offset>(words_per_vertex_ * mesh.owned_vertices()) + 1024;
   room_ = std::min(words_, all);

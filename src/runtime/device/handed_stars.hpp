@@ -54,8 +54,8 @@ class HandedStars {
  public:
   /// Where the rows of one begin among the words, and how long they are.
   struct Place {
-    Id vertex, neighbours, tetrahedra, link;
-    int width;
+    Id vertex, neighbours, cells, link;
+    int width, others;
     Offset begin;
   };
 
@@ -66,8 +66,8 @@ class HandedStars {
         used_("GALE::handed_rows_used", 2) {}
 
   KOKKOS_FUNCTION void add(const VertexStar& star) const {
-    const Offset bytes = Offset(3) * star.link.size() * star.link.width;
-    const Offset size = Offset(star.neighbours.size()) + star.tetrahedra.size() + (bytes + 3) / 4;
+    const Offset bytes = Offset(star.link.others) * star.link.size() * star.link.width;
+    const Offset size = Offset(star.neighbours.size()) + star.cells.size() + (bytes + 3) / 4;
     const Offset begin = atomic_add(used_.data(), size);
     if (begin + size > static_cast<Offset>(words_.extent(0))) {
       atomic_add(used_.data() + 1, Offset(1));
@@ -75,12 +75,12 @@ class HandedStars {
     }
     Id* to = words_.data() + begin;
     for (const Id id : star.neighbours) *to++ = id;
-    for (const Id id : star.tetrahedra) *to++ = id;
+    for (const Id id : star.cells) *to++ = id;
     const auto* const from = static_cast<const std::uint8_t*>(star.link.places);
     auto* const places = reinterpret_cast<std::uint8_t*>(to);
     for (Offset i = 0; i < bytes; ++i) places[i] = from[i];
-    places_.add(
-        {star.vertex, star.neighbours.size(), star.tetrahedra.size(), star.link.size(), star.link.width, begin});
+    places_.add({star.vertex, star.neighbours.size(), star.cells.size(), star.link.size(), star.link.width,
+                 star.link.others, begin});
   }
 
   /// How many there are. Waits for all kernels.
@@ -122,11 +122,11 @@ class HandedStars {
  private:
   KOKKOS_FUNCTION static VertexStar star_at(const Place& place, const Id* words) {
     const Id* const neighbours = words + place.begin;
-    const Id* const tetrahedra = neighbours + place.neighbours;
+    const Id* const cells = neighbours + place.neighbours;
     return {place.vertex,
             {neighbours, place.neighbours},
-            {tetrahedra, place.tetrahedra},
-            {tetrahedra + place.tetrahedra, place.link, place.width}};
+            {cells, place.cells},
+            {cells + place.cells, place.link, place.width, place.others}};
   }
 
   DeviceList<Place> places_;

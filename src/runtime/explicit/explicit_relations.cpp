@@ -37,21 +37,42 @@ constexpr Recipe recipes[] = {
     {Relation::TT, Relation::TF | Relation::FT},
 };
 
+/// Those of triangle meshes.
+constexpr Recipe triangle_recipes[] = {
+    {Relation::FV, {}},
+    {Relation::VF, Relation::FV},
+    {Relation::VV, Relation::VF | Relation::FV},
+    {Relation::FE, Relation::FV},
+    {Relation::EV, Relation::FE | Relation::FV},
+    {Relation::VE, Relation::EV},
+    {Relation::EE, Relation::EV | Relation::VE},
+    {Relation::EF, Relation::FE},
+    {Relation::FF, Relation::FE | Relation::EF},
+};
+
+Span<const Recipe> recipes_for(int dimension) {
+  return dimension == 3 ? Span<const Recipe>{recipes, std::size(recipes)}
+                        : Span<const Recipe>{triangle_recipes, std::size(triangle_recipes)};
+}
+
 /// The relations wanted and all that they are computed from.
-RelationSet needed_for(RelationSet wanted) {
-  if (wanted.has_links()) wanted = wanted | Relation::VT | Relation::VV;
-  for (auto recipe = std::rbegin(recipes); recipe != std::rend(recipes); ++recipe) {
+RelationSet needed_for(RelationSet wanted, int dimension) {
+  if (wanted.has_links()) wanted = wanted | vertex_cells(dimension) | Relation::VV;
+  const auto all = recipes_for(dimension);
+  for (const Recipe* recipe = all.end(); recipe-- != all.begin();) {
     if (wanted.has(recipe->relation)) wanted = wanted | recipe->from;
   }
   return wanted;
 }
 
-/// Refuses those of whose entries a tetrahedron has so many.
-void refuse_too_many(RelationSet relations, Id tetrahedra) {
-  constexpr Offset faces[] = {4, 6, 4};
+/// Refuses those of whose entries a cell has so many.
+void refuse_too_many(RelationSet relations, const Mesh& mesh) {
+  constexpr Offset faces_of_tetrahedron[] = {4, 6, 4}, faces_of_triangle[] = {3, 3};
+  const int cell = mesh.dimension();
+  const Offset* const faces = cell == 3 ? faces_of_tetrahedron : faces_of_triangle;
   for (const Relation relation : members_of(relations & (face_relations | coboundary_relations))) {
     const int rows = row_dimension(relation), entries = entry_dimension(relation);
-    if (rows == 3 || entries == 3) require_countable(relation, faces[std::min(rows, entries)] * tetrahedra);
+    if (rows == cell || entries == cell) require_countable(relation, faces[std::min(rows, entries)] * mesh.cells());
   }
 }
 
@@ -77,16 +98,16 @@ Id longest_row(const Rows& rows) {
                      [&](Offset v) { return -rows[static_cast<Id>(v)].size(); });
 }
 
-/// Looks the vertices of each tetrahedron up in the VV rows of the others, on all our threads.
+/// Looks the vertices of each cell up in the VV rows of the others, on all our threads.
 template <class Place>
-void look_up_links(const EncodedMesh<HostMemory>& mesh, const Rows& vt, const Rows& vv, Place* places) {
-  parallel_for("GALE::link", HostExecutionSpace(), vt.count, [&](Offset i) {
+void look_up_links(const EncodedMesh<HostMemory>& mesh, const Rows& stars, const Rows& vv, Place* places) {
+  parallel_for("GALE::link", HostExecutionSpace(), stars.count, [&](Offset i) {
     const Id v = static_cast<Id>(i);
     const Row neighbours = vv[v];
-    Place* to = places + Offset(3) * vt.offsets[v];
-    for (const Id t : vt[v]) {
-      for (int corner = 0; corner < 4; ++corner) {
-        const Id other = mesh.tetrahedra(t, corner);
+    Place* to = places + Offset(mesh.dimension) * stars.offsets[v];
+    for (const Id t : stars[v]) {
+      for (int corner = 0; corner <= mesh.dimension; ++corner) {
+        const Id other = mesh.cells(t, corner);
         if (other == v) continue;
         *to++ = static_cast<Place>(std::lower_bound(neighbours.begin(), neighbours.end(), other) - neighbours.begin());
       }
@@ -96,14 +117,16 @@ void look_up_links(const EncodedMesh<HostMemory>& mesh, const Rows& vt, const Ro
 
 class ExplicitBuild {
  public:
-  ExplicitBuild(const Mesh& mesh, RelationSet wanted) : mesh_(mesh), wanted_(wanted), needed_(needed_for(wanted)) {
+  ExplicitBuild(const Mesh& mesh, RelationSet wanted)
+      : mesh_(mesh), wanted_(wanted), needed_(needed_for(wanted, mesh.dimension())) {
+    result_.dimension = mesh.dimension();
     result_.count[0] = mesh.vertices();
-    result_.count[3] = mesh.tetrahedra();
-    for (const int dimension : {0, 3}) result_.segment_begin[dimension] = mesh.interval_begin(dimension);
+    result_.count[mesh.dimension()] = mesh.cells();
+    for (const int dimension : {0, mesh.dimension()}) result_.segment_begin[dimension] = mesh.interval_begin(dimension);
   }
 
   ExplicitRelations run() {
-    for (const Recipe& recipe : recipes) {
+    for (const Recipe& recipe : recipes_for(mesh_.dimension())) {
       if (!needed_.has(recipe.relation)) continue;
       make(recipe);
       if (recipe.relation == Relation::VV && needed_.has_links()) make_links();
@@ -113,6 +136,7 @@ class ExplicitBuild {
   }
 
  private:
+  Relation stars() const { return vertex_cells(mesh_.dimension()); }
   EvenRows<WorkerMemory>& even(Relation relation) { return even_[static_cast<int>(relation)]; }
   WorkerRows& cofaces(Relation relation) { return cofaces_[static_cast<int>(relation)]; }
   HostRows& kept(Relation relation) { return result_.kept[static_cast<int>(relation)]; }
@@ -131,7 +155,7 @@ class ExplicitBuild {
 
   template <class All>
   void keep(Relation relation, const All& all) {
-    const bool for_links = needed_.has_links() && (Relation::VT | Relation::VV).has(relation);
+    const bool for_links = needed_.has_links() && (Relation::VV | stars()).has(relation);
     if (wanted_.has(relation) || for_links) kept(relation) = to_host(all);
   }
 
@@ -141,19 +165,22 @@ class ExplicitBuild {
   }
 
   EvenRows<WorkerMemory> faces_of(Relation relation) {
-    if (relation == Relation::TV) return tetrahedron_vertices(mesh_);
-    if (relation == Relation::TE) return of_tetrahedra(1, number_edges(even(Relation::TV)));
-    if (relation == Relation::TF) return of_tetrahedra(2, number_triangles(even(Relation::TV), even(Relation::TE)));
+    const bool tetrahedra = mesh_.dimension() == 3;
+    const Relation vertices = tetrahedra ? Relation::TV : Relation::FV,
+                   edges = tetrahedra ? Relation::TE : Relation::FE;
+    if (relation == vertices) return cell_vertices(mesh_);
+    if (relation == edges) return of_cells(1, number_edges(even(vertices)));
+    if (relation == Relation::TF) return of_cells(2, number_triangles(even(vertices), even(edges)));
     return faces(relation, simplices_[row_dimension(relation)],
-                 even(entry_dimension(relation) == 0 ? Relation::TV : Relation::TE));
+                 even(entry_dimension(relation) == 0 ? vertices : edges));
   }
 
   /// Keeps the simplices as long as others are from them.
-  EvenRows<WorkerMemory> of_tetrahedra(int dimension, const SortedSimplices& simplices) {
+  EvenRows<WorkerMemory> of_cells(int dimension, const SortedSimplices& simplices) {
     result_.count[dimension] = simplices.count();
     result_.segment_begin[dimension] = segment_begin(mesh_, dimension, simplices);
     simplices_[dimension] = simplices;
-    return simplices.of_tetrahedra;
+    return simplices.of_cells;
   }
 
   WorkerRows adjacency_of(const Recipe& recipe) {
@@ -163,24 +190,25 @@ class ExplicitBuild {
   }
 
   void make_links() {
-    const Rows vt = result_.rows(Relation::VT), vv = result_.rows(Relation::VV);
+    const Rows of_cells = result_.rows(stars()), vv = result_.rows(Relation::VV);
     result_.link_width = width_for(longest_row(vv));
-    const Offset entries = kept(Relation::VT).entries.extent(0);
-    result_.link_places = allocate<Array<std::uint8_t, HostMemory>>("GALE::link", 3 * entries * result_.link_width);
+    const Offset entries = kept(stars()).entries.extent(0);
+    result_.link_places =
+        allocate<Array<std::uint8_t, HostMemory>>("GALE::link", mesh_.dimension() * entries * result_.link_width);
     void* const places = result_.link_places.data();
     const auto& encoded = mesh_.encoded();
-    if (result_.link_width == 1) look_up_links(encoded, vt, vv, static_cast<std::uint8_t*>(places));
-    if (result_.link_width == 2) look_up_links(encoded, vt, vv, static_cast<std::uint16_t*>(places));
-    if (result_.link_width == 4) look_up_links(encoded, vt, vv, static_cast<Id*>(places));
+    if (result_.link_width == 1) look_up_links(encoded, of_cells, vv, static_cast<std::uint8_t*>(places));
+    if (result_.link_width == 2) look_up_links(encoded, of_cells, vv, static_cast<std::uint16_t*>(places));
+    if (result_.link_width == 4) look_up_links(encoded, of_cells, vv, static_cast<Id*>(places));
     if (!wanted_.has(Relation::VV)) kept(Relation::VV) = {};
-    if (!wanted_.has(Relation::VT)) kept(Relation::VT).entries = {};
+    if (!wanted_.has(stars())) kept(stars()).entries = {};
   }
 
   /// Lets go of what no later one is from.
   void release_after(const Recipe& done) {
     RelationSet sources;
     std::array<bool, 4> numbered{};
-    for (const Recipe* later = &done + 1; later != std::end(recipes); ++later) {
+    for (const Recipe* later = &done + 1; later != recipes_for(mesh_.dimension()).end(); ++later) {
       if (!needed_.has(later->relation)) continue;
       sources = sources | later->from;
       if (face_relations.has(later->relation)) numbered[row_dimension(later->relation)] = true;
@@ -206,8 +234,8 @@ class ExplicitBuild {
 
 ExplicitRelations explicit_relations(const Mesh& mesh, RelationSet wanted) {
   require_kokkos_kernels();
-  refuse_too_many(wanted, mesh.tetrahedra());  // first, so that it names what the caller knows
-  refuse_too_many(needed_for(wanted), mesh.tetrahedra());
+  refuse_too_many(wanted, mesh);  // first, so that it names what the caller knows
+  refuse_too_many(needed_for(wanted, mesh.dimension()), mesh);
   return ExplicitBuild(mesh, wanted).run();
 }
 

@@ -14,8 +14,9 @@ namespace gale::detail {
 /// Relations of a whole mesh, on the host, as the explicit structure keeps them.
 struct ExplicitRelations {
   std::array<Csr<const Id, HostMemory, Id>, relation_count>
-      kept;  ///< those wanted; of VT at least the offsets for links
+      kept;  ///< those wanted; of VT or VF at least the offsets for links
 
+  int dimension = 3;  ///< of the mesh
   Array<std::uint8_t, HostMemory> link_places;
   int link_width = 1;  ///< bytes of a place
 
@@ -32,8 +33,8 @@ struct ExplicitRelations {
 
   /// The links of all vertices.
   LinkRows links() const {
-    const Rows vt = rows(Relation::VT);
-    return {0, vt.count, vt.offsets, link_places.data(), link_width};
+    const Rows stars = rows(vertex_cells(dimension));
+    return {0, stars.count, stars.offsets, link_places.data(), link_width, dimension};
   }
 };
 
@@ -62,31 +63,31 @@ std::string label_of(Relation relation);
 /// Throws gale::Error, naming both, if a relation's entries are more than an Id counts.
 void require_countable(Relation relation, Offset entries);
 
-// The simplices of a whole mesh and what bounds them, by sorting what all tetrahedra have. It shares no code with the
+// The simplices of a whole mesh and what bounds them, by sorting what all cells have. It shares no code with the
 // enumeration of `Mesh`, which is tested against it.
 
-/// The edges or the triangles of a mesh. A tetrahedron's places are its six edges or its four triangles, in
-/// lexicographic order; those of tetrahedron t follow those of t - 1.
+/// The edges or the triangles of a mesh. A cell's places are its six edges or its four triangles (a triangle's three
+/// edges), in lexicographic order; those of cell t follow those of t - 1.
 struct SortedSimplices {
-  EvenRows<WorkerMemory> of_tetrahedra;     ///< TE or TF: the number of the simplex at each place
+  EvenRows<WorkerMemory> of_cells;          ///< TE or TF (FE): the number of the simplex at each place
   Array<const Id, WorkerMemory> any_place;  ///< simplex -> one of the places where it is
 
   Id count() const { return static_cast<Id>(any_place.extent(0)); }
 };
 
-/// TV: the mesh's own array.
-EvenRows<WorkerMemory> tetrahedron_vertices(const Mesh& mesh);
+/// TV, the mesh's own array, or FV on triangle meshes.
+EvenRows<WorkerMemory> cell_vertices(const Mesh& mesh);
 
 /// Numbers the simplices in the lexicographic order of their vertices, in the workers' space. O(n). For the edges it
 /// takes 144 bytes a tetrahedron while it works and leaves 24, and 4 an edge; for the triangles 96, 16 and 4. Throws
 /// gale::Error if TE, or TF, has more entries than an Id counts.
-SortedSimplices number_edges(const EvenRows<WorkerMemory>& tv);
+SortedSimplices number_edges(const EvenRows<WorkerMemory>& cell_vertices);
 SortedSimplices number_triangles(const EvenRows<WorkerMemory>& tv, const EvenRows<WorkerMemory>& te);
 
-/// EV, FV or FE: what bounds each simplex, from a tetrahedron that has it. Throws gale::Error if that has more entries
+/// EV, FV or FE: what bounds each simplex, from a cell that has it. Throws gale::Error if that has more entries
 /// than an Id counts.
 EvenRows<WorkerMemory> faces(Relation relation, const SortedSimplices& simplices,
-                             const EvenRows<WorkerMemory>& of_tetrahedra);
+                             const EvenRows<WorkerMemory>& of_cells);
 
 /// Where the edges, or triangles, that are internal to each segment begin, and one past the last; on the host.
 /// `dimension` is theirs.

@@ -20,9 +20,9 @@ namespace {
 
 /// Has what workers read on the host, before several ask for it.
 void precondition(const Mesh& mesh, RelationSet relations) {
-  if (!(relations & star_relations).empty()) mesh.encoded();
-  SimplexNeeds needs = needs_of(relations);
-  needs.tetrahedra |= needs.upto != Enumeration::tetrahedra;
+  if (!(relations & star_relations_of(mesh.dimension())).empty()) mesh.encoded();
+  SimplexNeeds needs = needs_of(relations, mesh.dimension());
+  needs.cells |= needs.upto != Enumeration::cells;
   mesh.simplices(needs);
 }
 
@@ -83,7 +83,8 @@ class InlineConsumer : public Consumer {
  public:
   InlineConsumer(const Mesh& mesh, RelationSet relations, std::shared_ptr<ConsumerLog> log)
       : mesh_(mesh), relations_(relations), faces_(mesh, relations & face_relations), log_(std::move(log)) {
-    for (const RelationSet kernel : kernels_for(relations - face_relations)) blocks_.emplace_back(mesh, kernel);
+    for (const RelationSet kernel : kernels_for(relations - face_relations, mesh.dimension()))
+      blocks_.emplace_back(mesh, kernel);
   }
   ~InlineConsumer() override { log_->add(statistics_); }
 

@@ -19,8 +19,8 @@ namespace {
 /// One computes, another's blocks are copied, and those of the third are published.
 constexpr int workers_per_leader = 3;
 
-std::vector<RelationSet> queues_for(RelationSet relations, Queues queues) {
-  if (queues == Queues::per_kernel) return kernels_for(relations);
+std::vector<RelationSet> queues_for(RelationSet relations, int dimension, Queues queues) {
+  if (queues == Queues::per_kernel) return kernels_for(relations, dimension);
   const auto members = members_of(relations);
   std::vector<RelationSet> each(members.begin(), members.end());
   if (relations.has_links()) each.push_back(link_form);
@@ -48,8 +48,8 @@ class Leaders {
   /// Where the mesh is on a device, its workers are there too.
   Leaders(const Mesh& mesh, RelationSet relations, const StructureOptions& options)
       : mesh_(mesh), relations_(relations) {
-    mesh.simplices(needs_of(relations & face_relations));
-    const auto queues = queues_for(relations - face_relations, options.queues);
+    mesh.simplices(needs_of(relations & face_relations, mesh.dimension()));
+    const auto queues = queues_for(relations - face_relations, mesh.dimension(), options.queues);
     const Sizes sizes = sizes_for(mesh, options, std::max(static_cast<int>(queues.size()), 1));
     for (const RelationSet members : queues) leaders_.push_back(make_leader(mesh, members, sizes));
   }

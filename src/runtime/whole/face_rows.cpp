@@ -68,8 +68,8 @@ void write_rows(const Mesh& mesh, const Simplices<HostMemory>& simplices, const 
 
 template <Relation relation>
 EvenRows<HostMemory> rows_of(const Mesh& mesh, const NamesOf& names_of, const SweepOptions& options) {
-  SimplexNeeds needs = needs_of(relation);
-  needs.triangle_edge = false;  // since edges are gone through
+  SimplexNeeds needs = needs_of(relation);  // triangles by their edges, also where they are cells
+  needs.triangle_edge = false;              // since edges are gone through
   const Simplices<HostMemory> simplices = mesh.simplices(needs);
   const RelationNames names = names_of(relation);
   constexpr int size = face_count(relation);

@@ -21,7 +21,7 @@ class KeptNumbers {
   std::array<const Id*, 2> of(const Mesh& mesh, int one, int other) {
     const auto lock = detail::lock_or_stop(mutex_);
     const auto missing = [&](int dimension) { return numbers_[dimension].data() == nullptr; };
-    if (std::min(one, other) == 1 && std::max(one, other) == 2 && missing(1) && missing(2)) {
+    if (std::min(one, other) == 1 && std::max(one, other) == 2 && missing(1) && missing(2) && mesh.dimension() == 3) {
       const InputNumbers both = input_numbers(mesh);
       numbers_[1] = both.edges;
       numbers_[2] = both.triangles;
@@ -59,6 +59,7 @@ Relation to_faces(int dimension, int face_dimension) {
 /// rows of each simplex's faces; VV and TT come from a sweep.
 Csr<const Id, HostMemory> relation_of(const Mesh& mesh, Relation relation, Ids ids, const SweepOptions& options) {
   if (options.threads < 1) throw Error("a relation takes at least 1 thread, not " + std::to_string(options.threads));
+  require_relations(relation, mesh.dimension());
   const detail::TrackedViews tracked;  // it lasts, also where a sweep's body asks for it
   const ThreadLimit limit(options.threads);
   const int rows = row_dimension(relation), entries = entry_dimension(relation);

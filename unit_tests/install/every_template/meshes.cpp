@@ -20,7 +20,7 @@ using gale::WorkerMemory;
 template <class PointView, class TetrahedronView>
 void make(const PointView& points_view, const TetrahedronView& tetrahedron_view) {
   const gale::Mesh mesh = gale::make_mesh(points_view, tetrahedron_view);
-  expect(mesh.vertices() == vertices && mesh.tetrahedra() == tetrahedra, "a mesh of Views");
+  expect(mesh.vertices() == vertices && mesh.cells() == tetrahedra, "a mesh of Views");
 }
 
 /// From Views of some layout and memory, of such types, and from their const and unmanaged kinds.
@@ -69,7 +69,7 @@ void make_of_vectors() {
   std::vector<Index> t;
   for (const auto& point : points) p.insert(p.end(), point, point + 3);
   for (const auto& cell : corners) t.insert(t.end(), cell, cell + 4);
-  expect(gale::make_mesh(p, t).tetrahedra() == tetrahedra, "a mesh of vectors");
+  expect(gale::make_mesh(p, t).cells() == tetrahedra, "a mesh of vectors");
 }
 
 template <class T, class Memory>
@@ -94,7 +94,7 @@ void make_of_cells() {
     return gale::make_mesh(p, entries<Index, Memory>(all), entries<Begin, HostMemory>(begin),
                            entries<Type, Memory>(std::vector<int>(tetrahedra, type)));
   };
-  expect(make_with(gale::cell_type::tetrahedron).tetrahedra() == tetrahedra, "a mesh of cells");
+  expect(make_with(gale::cell_type::tetrahedron).cells() == tetrahedra, "a mesh of cells");
   const auto connectivity = entries<Index, Memory>(all);
   const auto offsets = entries<Begin, Memory>(begin);
   const auto types = entries<Type, Memory>(std::vector<int>(tetrahedra, gale::cell_type::quad));
@@ -134,10 +134,10 @@ void look_up(const gale::Mesh& mesh) {
 template <class Memory>
 void read(const gale::Mesh& mesh) {
   const gale::EncodedMesh<Memory> encoded = mesh.encoded<Memory>();
-  expect(encoded.tetrahedra.extent(0) == tetrahedra, "encoded tetrahedra");
+  expect(encoded.cells.extent(0) == tetrahedra, "encoded tetrahedra");
   for (const auto* const permutation : {&mesh.vertex_input<Memory>(), &mesh.vertex_internal<Memory>()})
     expect(permutation->extent(0) == vertices, "permuted vertices");
-  expect(mesh.tetrahedron_input<Memory>().extent(0) == tetrahedra, "permuted tetrahedra");
+  expect(mesh.cell_input<Memory>().extent(0) == tetrahedra, "permuted tetrahedra");
   const gale::Simplices<Memory> simplices = mesh.simplices<Memory>({gale::Enumeration::triangles});
   expect(simplices.edge_high.extent(0) == edges && simplices.triangle_apex.extent(0) == triangles, "simplices");
   expect(gale::first_of(mesh.interval_begin<Memory>(1), 1).extent(0) == 1, "intervals");

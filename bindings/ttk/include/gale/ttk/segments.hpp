@@ -47,7 +47,7 @@ class GALE_EXPORT Segments {
   Array<Id, HostMemory> segment_of_;
   Csr<Id, HostMemory> grouped_;  ///< segment -> its cells
   EncodedMesh<HostMemory> encoded_;
-  const Id* tetrahedron_input_ = nullptr;  ///< where there is a mesh
+  const Id* cell_input_ = nullptr;  ///< where there is a mesh
 };
 
 }  // namespace gale::ttk

@@ -5,7 +5,7 @@
 
 #include <gale/mesh/encode.hpp>
 
-// What both ways to encode a mesh read tetrahedra through.
+// What both ways to encode a mesh read cells through.
 
 namespace gale::detail {
 
@@ -15,30 +15,36 @@ KOKKOS_INLINE_FUNCTION void put_in_order(Id& a, Id& b) {
   a = low;
 }
 
-/// The input's tetrahedra in GALE's ids. Owns nothing.
-template <class Index>
+/// The input's cells in GALE's ids. Owns nothing.
+template <int corners, class Index>
 class Renumbered {
  public:
   template <class Memory>
-  Renumbered(const Tetrahedra<Index, Memory>& input, const Array<Id, Memory>& vertex_internal)
+  Renumbered(const CellCorners<corners, Index, Memory>& input, const Array<Id, Memory>& vertex_internal)
       : input_(input.data()), internal_(vertex_internal.data()), vertices_(vertex_internal.extent(0)) {}
 
   KOKKOS_FUNCTION Quad operator[](Offset t) const {
-    const Index* const vertices = input_ + 4 * t;
-    Quad quad{internal_[vertices[0]], internal_[vertices[1]], internal_[vertices[2]], internal_[vertices[3]]};
+    const Index* const vertices = input_ + corners * t;
+    Quad quad{internal_[vertices[0]], internal_[vertices[1]], internal_[vertices[2]], internal_[vertices[corners - 1]]};
     put_in_order(quad.a, quad.b);
-    put_in_order(quad.c, quad.d);
-    put_in_order(quad.a, quad.c);
-    put_in_order(quad.b, quad.d);
-    put_in_order(quad.b, quad.c);
+    if constexpr (corners == 4) {
+      put_in_order(quad.c, quad.d);
+      put_in_order(quad.a, quad.c);
+      put_in_order(quad.b, quad.d);
+      put_in_order(quad.b, quad.c);
+    } else {
+      put_in_order(quad.b, quad.c);
+      put_in_order(quad.a, quad.b);
+      quad.d = quad.c;
+    }
     return quad;
   }
 
-  /// The lowest vertex of a tetrahedron; no_id if one of its vertices isn't there.
+  /// The lowest vertex of a cell; no_id if one of its vertices isn't there.
   KOKKOS_FUNCTION Id lowest(Offset t) const {
     Id lowest = above_all;
-    for (int corner = 0; corner < 4; ++corner) {
-      const auto vertex = static_cast<std::make_unsigned_t<Index>>(input_[4 * t + corner]);
+    for (int corner = 0; corner < corners; ++corner) {
+      const auto vertex = static_cast<std::make_unsigned_t<Index>>(input_[corners * t + corner]);
       if (vertex >= vertices_) return no_id;
       const Id here = internal_[vertex];
       lowest = here < lowest ? here : lowest;
@@ -74,40 +80,42 @@ template <class Space>
 Array<Id, MemoryOf<Space>> segments_of_blocks(const Space& space, const Borrowed<Id, MemoryOf<Space>>& vertex_begin,
                                               Offset vertices);
 
-/// The segments that a tetrahedron touches beside the one it is internal to. Its vertices ascend, and so do their
+/// The segments that a cell touches beside the one it is internal to. Its vertices ascend, and so do their
 /// segments. Owns nothing.
 struct ExternalSegments {
-  const Quad* tetrahedra;
+  const Quad* cells;
   SegmentOfVertex segment_of;
 
   GALE_CALLS_ANY
   template <class Visit>
   KOKKOS_FUNCTION void operator()(Id t, const Visit& visit) const {
-    const Quad quad = tetrahedra[t];
+    const Quad quad = cells[t];
     Id previous = segment_of(quad.a);
     if (quad.d < segment_of.vertex_begin[previous + 1]) return;
-    for (const Id vertex : {quad.b, quad.c, quad.d}) {
-      const Id here = segment_of(vertex);
+    for (int corner = 1; corner < 4; ++corner) {
+      const Id here = segment_of(quad[corner]);
       if (here != previous) visit(here);
       previous = here;
     }
   }
 };
 
-/// Whether each of some sorted tetrahedra has four vertices, and no two have the same.
+/// Whether each of some sorted cells has different vertices, and no two cells have the same.
+template <int corners>
 KOKKOS_INLINE_FUNCTION bool are_good(const Quad* sorted, Id begin, Id end) {
   bool good = true;
   for (Id t = begin; t < end; ++t) {
     const Quad here = sorted[t];
-    good &= here.a < here.b && here.b < here.c && here.c < here.d && !(t > begin && sorted[t - 1] == here);
+    good &= here.a < here.b && here.b < here.c && (corners == 3 || here.c < here.d) &&
+            !(t > begin && sorted[t - 1] == here);
   }
   return good;
 }
 
-/// Throws gale::Error, naming the tetrahedra at fault, since some aren't good. `sorted` has those of the input if they
-/// have vertices of the mesh alone.
-template <class Space, class Index>
-[[noreturn]] void refuse_tetrahedra(const Space& space, const Tetrahedra<Index, MemoryOf<Space>>& input,
-                                    const SortedTetrahedra<MemoryOf<Space>>& sorted, Offset vertices);
+/// Throws gale::Error, naming the cells at fault, since some aren't good. `sorted` has those of the input if they have
+/// vertices of the mesh alone.
+template <int corners, class Space, class Index>
+[[noreturn]] void refuse_cells(const Space& space, const CellCorners<corners, Index, MemoryOf<Space>>& input,
+                               const SortedCells<MemoryOf<Space>>& sorted, Offset vertices);
 
 }  // namespace gale::detail
