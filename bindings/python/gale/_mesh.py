@@ -150,9 +150,9 @@ def _joined(of: Any, points: List[Any], corners: List[Any], capacity: int, cells
 class Mesh:
     """A mesh of tetrahedra, or of triangles.
 
-    points: (n, 3) float32 or float64, cells: (m, 4) int32 or int64 vertex ids of tetrahedra, or (m, 3) of triangles: numpy's, or by the array interface or
-    DLPack; on a GALE with CUDA also in a device's memory, by DLPack or `__cuda_array_interface__`. They are copied: what
-    happens to them afterwards, the mesh doesn't see.
+    points: (n, 3) float32 or float64, cells: (m, 4) int32 or int64 vertex ids of tetrahedra, or (m, 3) of triangles:
+    numpy's, or by the array interface or DLPack; on a GALE with CUDA also in a device's memory, by DLPack or
+    `__cuda_array_interface__`. They are copied: what happens to them afterwards, the mesh doesn't see.
 
     capacity: how many vertices a segment has at most; no result depends on it.
 
@@ -174,10 +174,10 @@ class Mesh:
         """The mesh of cells of any kind, as VTK numbers and orders them: `connectivity` has their points, cell c those from
         offsets[c] up to offsets[c + 1], and types[c] is what it is (12: a hexahedron). Tetrahedra stay as they are;
         hexahedra, voxels, wedges, pyramids, pentagonal and hexagonal prisms, polyhedra and quadratic tetrahedra are split,
-        without new points and so that neighbours fit: `cells` says which one a tetrahedron is of. Where no cell is of dimension
-        3, triangles, quads, pixels, polygons, strips and quadratic triangles make a mesh of triangles likewise. A polyhedron's entries
-        are its faces: how many, then of each how many corners, and these (VTK's face stream). Cells of lower dimension are
-        left out, with a UserWarning."""
+        without new points and so that neighbours fit: `cells` says which one a tetrahedron is of. Where no cell is of
+        dimension 3, triangles, quads, pixels, polygons, strips and quadratic triangles make a mesh of triangles likewise. A
+        polyhedron's entries are its faces: how many, then of each how many corners, and these (VTK's face stream). Cells
+        of lower dimension are left out, with a UserWarning."""
         split = _gale.from_cells(_arrays.points(points), _arrays.ids(connectivity, "cells"), _arrays.offsets(offsets),
                                  _arrays.types(types), capacity)
         for notice in split[2]:
@@ -198,7 +198,8 @@ class Mesh:
         if grid.IsA("vtkPolyData"):
             return cls.from_cells(_points_of(grid), *_surface_cells(grid), capacity)
         if not (grid.IsA("vtkStructuredGrid") or grid.IsA("vtkRectilinearGrid") or grid.IsA("vtkImageData")):
-            raise Error(f"what is of {type(grid).__name__} is no unstructured, structured or rectilinear grid, no surface, and no image")
+            raise Error(f"what is of {type(grid).__name__} is no unstructured, structured or rectilinear grid, no surface, "
+                        "and no image")
         cell_type = _HEXAHEDRON if grid.IsA("vtkStructuredGrid") else _VOXEL
         low_x, high_x, low_y, high_y, low_z, high_z = grid.GetExtent()
         dimensions = high_x - low_x + 1, high_y - low_y + 1, high_z - low_z + 1
@@ -367,16 +368,17 @@ def read(path: Union[str, os.PathLike[str]], above: Optional[float] = None, arra
          outside_files: bool = False, capacity: int = 64) -> Tuple[Mesh, Dict[str, np.ndarray]]:
     """The mesh of a file, and its point arrays by name, each (n,) or (n, components): (Mesh, dict).
 
-    Meshes: .vtu, .pvtu, .vtk, .vts, .vtr, .e, .ex2, .exo, .vtkhdf, .hdf; surfaces: .vtp, .stl, .ply, .obj, .off, .vtk; volumes, of
-    which the voxels with values above `above` are split into tetrahedra: .vti, .nii, .nii.gz, .mha, .mhd, .nrrd, .vtk; and grid:N. `array` is the volume's array that `above` is about. What of the file
-    is left out, such as all but the first of several times, is a UserWarning, and so is that cells were split (see
-    Mesh.from_cells); with cells="tetrahedra" a file of other cells is refused instead."""
-    if cells not in ("any", "tetrahedra"):
-        raise Error(f"cells are {cells!r}, neither 'any' nor 'tetrahedra'")
+    Meshes: .vtu, .pvtu, .vtk, .vts, .vtr, .e, .ex2, .exo, .vtkhdf, .hdf; surfaces: .vtp, .stl, .ply, .obj, .off, .vtk;
+    volumes, of which the voxels with values above `above` are split into tetrahedra: .vti, .nii, .nii.gz, .mha, .mhd,
+    .nrrd, .vtk; and grid:N or plane:N. `array` is the volume's array that `above` is about. What of the file is left out,
+    such as all but the first of several times, is a UserWarning, and so is that cells were split (see Mesh.from_cells);
+    with cells="simplices" (or "tetrahedra") a file of other cells is refused instead."""
+    if not isinstance(cells, str) or cells not in ("any", "simplices", "tetrahedra"):
+        raise Error(f"cells are {cells!r}, neither 'any' nor 'simplices'")
     place = os.fsencode(path)
     if b"\0" in place:
         raise Error(f"the path {path!r} has a null character")
-    inner, arrays, cell_arrays, notices = _gale.read(place, above, array, cells == "tetrahedra", outside_files, capacity)
+    inner, arrays, cell_arrays, notices = _gale.read(place, above, array, cells != "any", outside_files, capacity)
     name = os.fsdecode(path)
     if array and array not in arrays:
         raise Error(f"{name} has no point array '{array}': it has {', '.join(arrays) or 'none'}")

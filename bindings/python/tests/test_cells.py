@@ -111,7 +111,7 @@ class Cells(unittest.TestCase):
                 mesh, _ = gale.read(path)
             with self.assertRaisesRegex(gale.Error, "it has 64 hexahedra, and tetrahedra alone are wanted"):
                 gale.read(path, cells="tetrahedra")
-            with self.assertRaisesRegex(gale.Error, "neither 'any' nor 'tetrahedra'"):
+            with self.assertRaisesRegex(gale.Error, "neither 'any' nor 'simplices'"):
                 gale.read(path, cells="hexahedra")
         expected = gale.Mesh.from_cells(self.points, *self.cells)
         np.testing.assert_array_equal(mesh.cells, expected.cells)
@@ -153,10 +153,12 @@ class Grids(unittest.TestCase):
             same = gale.Mesh.from_pyvista(grid)
             np.testing.assert_allclose(same.points, points)
             np.testing.assert_array_equal(same.relation("VT")[1], found.relation("VT")[1])
-        flat = self.vtk.vtkImageData()
-        flat.SetDimensions(3, 4, 1)
-        with self.assertRaisesRegex(gale.Error, "3 x 4 x 1 points has no cells of dimension 3"):
-            gale.Mesh.from_pyvista(flat)
+        image = self.vtk.vtkImageData()
+        image.SetDimensions(3, 4, 1)
+        self.assertEqual(gale.Mesh.from_pyvista(image).triangles, 12)
+        image.SetDimensions(3, 1, 1)
+        with self.assertRaisesRegex(gale.Error, "3 x 1 x 1 points has no cells of dimension 2 or 3"):
+            gale.Mesh.from_pyvista(image)
 
     def test_polyhedra(self):
         from vtkmodules.vtkCommonCore import vtkIdList, vtkPoints

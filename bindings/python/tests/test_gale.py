@@ -47,7 +47,7 @@ class Meshes(unittest.TestCase):
 
     def test_bad_input(self):
         for points, tetrahedra, words in ((self.points[:, :2], self.tetrahedra, r"points has the shape \(64, 2\)"),
-                                          (self.points, self.tetrahedra[:, :3], r"tetrahedra has the shape"),
+                                          (self.points, self.tetrahedra[:, :2], r"tetrahedra has the shape"),
                                           (self.points, self.tetrahedra + 64, "vertex"),
                                           (self.points, np.zeros((0, 4), int), "no tetrahedra|none"),
                                           (self.points * np.nan, self.tetrahedra, "nan|finite"),

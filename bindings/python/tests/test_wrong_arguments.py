@@ -27,7 +27,7 @@ WRONG = {
     "points": NO_ARRAYS + [[], POINTS[:, :2], POINTS.ravel(), POINTS * 1j, POINTS.astype(str), POINTS.astype(object),
                            changed(POINTS, (3, 1), np.nan), changed(POINTS, (3, 1), np.inf), POINTS > 0,
                            np.ma.masked_less(POINTS, 1), POINTS[:5]],
-    "tetrahedra": NO_ARRAYS + [[], TETRAHEDRA[:, :3], TETRAHEDRA.ravel(), TETRAHEDRA.astype(float), TETRAHEDRA * 1j,
+    "cells": NO_ARRAYS + [[], TETRAHEDRA[:, :2], TETRAHEDRA.ravel(), TETRAHEDRA.astype(float), TETRAHEDRA * 1j,
                                TETRAHEDRA.astype(object), TETRAHEDRA > 0, changed(TETRAHEDRA, (2, 3), -1),
                                changed(TETRAHEDRA, (2, 3), 64), changed(TETRAHEDRA, (2, 3), 2**40),
                                changed(TETRAHEDRA, 2, 7), changed(TETRAHEDRA, 5, TETRAHEDRA[4]), TETRAHEDRA[:0],
@@ -46,7 +46,6 @@ WRONG = {
              b"missing.vtu", b"\xff.vtu", UNDECODABLE + ".vtu", os.devnull, tempfile.gettempdir(), "grid:" + 30 * "9"],
     "above": ["x", object(), [1], 0.5],  # a mesh has no threshold
     "array": [3, object(), "missing", UNDECODABLE],
-    "cells": ["x", object()],
     "outside_files": ["x", object()],
     "type": [3, None, "", "oak", UNDECODABLE], "arc_samples": [-1, None, "x", 1.5, 2 ** 40, object()],
 }
@@ -58,7 +57,7 @@ MESH = gale.Mesh(POINTS, TETRAHEDRA)
 
 # By function: arguments that are right, and names that are wrong.
 FUNCTIONS = {
-    gale.Mesh: ({"points": POINTS, "tetrahedra": TETRAHEDRA}, []),
+    gale.Mesh: ({"points": POINTS, "cells": TETRAHEDRA}, []),
     gale.read: ({"path": "grid:4"}, []),
     MESH.relation: ({"name": "VT"}, NOT_RELATIONS),
     MESH.relation_matrix: ({"name": "VT"}, NOT_RELATIONS),
@@ -102,7 +101,8 @@ class WrongArguments(unittest.TestCase):
 
     def test_all_functions_are_here(self):
         public = {name for name, _ in inspect.getmembers(gale.Mesh, inspect.isroutine) if not name.startswith("_")}
-        self.assertEqual(public - {"from_cells", "from_pyvista"}, {function.__name__ for function in FUNCTIONS} - {"Mesh", "read"})
+        self.assertEqual(public - {"from_cells", "from_meshio", "from_pyvista"},
+                         {function.__name__ for function in FUNCTIONS} - {"Mesh", "read"})
 
     def test_grids_that_are_none(self):
         for wrong in (None, 3, "x", object(), POINTS, {}, MESH):
@@ -113,15 +113,15 @@ class WrongArguments(unittest.TestCase):
             import pyvista
         except ImportError:
             self.skipTest("there is no pyvista")
-        sphere, flat = pyvista.Sphere(), pyvista.ImageData(dimensions=(3, 3, 1))
-        squares = flat.cast_to_unstructured_grid()
+        line, row = pyvista.Line(), pyvista.ImageData(dimensions=(3, 1, 1))
+        lines = row.cast_to_unstructured_grid()
         five = pyvista.UnstructuredGrid()
         five.points = POINTS
         five.SetCells(10, pyvista.CellArray([5, 0, 1, 2, 3, 4, 3, 5, 6, 7]))
         pointless = pyvista.UnstructuredGrid()
-        for wrong in (sphere, flat, squares, five, pointless, pyvista.MultiBlock([squares]), sphere.points):
+        for wrong in (line, row, lines, five, pointless, pyvista.MultiBlock([lines]), line.points):
             with self.subTest(wrong=type(wrong)):
-                self.refused(lambda: gale.Mesh.from_pyvista(wrong), "grid|cell|has no tetrahedra")
+                self.refused(lambda: gale.Mesh.from_pyvista(wrong), "grid|cell|has no polygons|has no tetrahedra")
         if hasattr(pyvista, "register_dataset_accessor"):
             grid = pyvista.UnstructuredGrid({10: TETRAHEDRA}, POINTS)
             grid["height"] = FIELD
