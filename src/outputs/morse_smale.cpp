@@ -50,7 +50,7 @@ MorseSmaleOutputs morse_smale(const DiscreteGradient& gradient, const io::Datase
   MorseSmaleComplex complex = find_complex(gradient, field, request, options, computed);
   const auto connectors = ends_of(complex.connectors);  // of all, wanted or not: they bound walls
   leave_out_unwanted(request.parts, complex);
-  const NamedSimplices named = named_simplices(complex);
+  const NamedPaths named = named_simplices(complex);
   const SimplexNumbers numbers = number_simplices(gradient.mesh(), named, options, computed);
   const KnownSimplices critical = known_simplices(complex.gradient, complex.critical, numbers);
   MorseSmaleOutputs all;

@@ -20,16 +20,18 @@ std::array<Id, N> common(const Simplex& a, const Simplex& b) {
   return both;
 }
 
-/// Appends what precedes each cell of the paths: before the first the saddle where the path begins, before another
-/// what `between` says that it and the one before share.
+/// Appends what precedes cells of the paths: before the first of a path the saddle where it begins, before another what
+/// `between` says that it and the one before share.
 template <class Cell, class Simplex, class Between>
-void append_between(const Separatrices<Cell>& paths, const std::vector<Simplex>& saddles, const Between& between,
-                    std::vector<Simplex>& simplices) {
+void append_between(const Separatrices<Cell>& paths, const SharedPaths& shared, const std::vector<Simplex>& saddles,
+                    const Between& between, std::vector<Simplex>& simplices) {
   const std::size_t first = simplices.size();
-  simplices.resize(first + paths.cells.size());
+  simplices.resize(first + shared.first_between.extent(0));
   parallel_for("GALE::between_cells", HostExecutionSpace(), paths.count(), [&](Offset i) {
     for (Offset k = paths.begin[i]; k < paths.begin[i + 1]; ++k) {
-      simplices[first + k] =
+      const Id number = shared.between(k);
+      if (shared.first_between(number) != k) continue;
+      simplices[first + number] =
           k == paths.begin[i] ? saddles[paths.sources[i]] : between(paths.cells[k - 1], paths.cells[k]);
     }
   });
@@ -37,23 +39,29 @@ void append_between(const Separatrices<Cell>& paths, const std::vector<Simplex>&
 
 }  // namespace
 
-NamedSimplices named_simplices(const MorseSmaleComplex& complex) {
-  NamedSimplices named = {complex.critical.edges, complex.critical.triangles, complex.beyond.vertices};
+NamedPaths named_simplices(const MorseSmaleComplex& complex) {
+  const auto &falling = complex.descending, &rising = complex.ascending;
+  const auto& connectors = complex.connectors;
+  NamedPaths named = {{complex.critical.edges, complex.critical.triangles, complex.beyond.vertices},
+                      detail::share(falling),
+                      detail::share(rising),
+                      detail::share(connectors)};
   const auto edge_of = [](Id a, Id b) { return Edge{a, b}; };
-  append_between(complex.descending, complex.critical.edges, edge_of, named.edges);
-  append_between(complex.connectors, complex.critical.edges, common<2, Triangle>, named.edges);
+  append_between(falling, named.descending, complex.critical.edges, edge_of, named.edges);
+  append_between(connectors, named.connectors, complex.critical.edges, common<2, Triangle>, named.edges);
   if (complex.critical.dimension == 2) {
     const auto shared_edge = [&](Id a, Id b) {
       return common<2>(detail::corners_of<3>(complex, a), detail::corners_of<3>(complex, b));
     };
-    append_between(complex.ascending, complex.critical.edges, shared_edge, named.edges);
+    append_between(rising, named.ascending, complex.critical.edges, shared_edge, named.edges);
     return named;
   }
   const auto shared = [&](Id a, Id b) {
     return common<3>(detail::corners_of(complex, a), detail::corners_of(complex, b));
   };
-  append_between(complex.ascending, complex.critical.triangles, shared, named.triangles);
-  named.triangles.insert(named.triangles.end(), complex.connectors.cells.begin(), complex.connectors.cells.end());
+  append_between(rising, named.ascending, complex.critical.triangles, shared, named.triangles);
+  const auto& first = named.connectors.first_cell;
+  for (std::size_t i = 0; i < first.extent(0); ++i) named.triangles.push_back(connectors.cells[first(i)]);
   return named;
 }
 

@@ -3,31 +3,39 @@
 #include <gale/algorithms/morse_smale.hpp>
 #include <gale/algorithms/simplex_numbers.hpp>
 #include <gale/export.hpp>
+#include <gale/outputs/shared_paths.hpp>
 
 namespace gale::outputs {
 
-/// The edges and triangles that the outputs of a complex call by number: for `number_simplices`, whose answer the other
-/// functions take. An edge or a triangle that several paths pass is there as often. In parallel.
+/// The edges and triangles that the outputs of a complex call by number, for `number_simplices`, and what its paths
+/// have in common.
 ///
-/// - Edges: the critical ones; then one for each cell of `descending`, the edge that precedes that vertex on its path;
-///   then one for each cell of `connectors`, the edge that precedes that triangle.
-/// - Triangles: the critical ones; then one for each cell of `ascending`, the triangle that precedes that tetrahedron;
-///   then the cells of `connectors` themselves.
+/// - Edges: the critical ones; then those that precede vertices on `descending` paths; then those that precede
+///   triangles on `connectors`.
+/// - Triangles: the critical ones; then those that precede tetrahedra on `ascending` paths; then the cells of
+///   `connectors` themselves.
 ///
-/// On a triangle mesh there are edges alone: after those of `descending` one for each cell of `ascending`, the edge
-/// that precedes that triangle.
-GALE_EXPORT NamedSimplices named_simplices(const MorseSmaleComplex& complex);
+/// On a triangle mesh there are edges alone: after those of `descending` the ones that precede triangles on `ascending`
+/// paths. Those of each kind are in the order of their numbers in SharedPaths.
+struct NamedPaths : NamedSimplices {
+  SharedPaths descending;  ///< what the paths of `descending` have in common
+  SharedPaths ascending;   ///< what those of `ascending` have
+  SharedPaths connectors;  ///< what `connectors` have
+};
+
+/// Names what a complex's paths pass, in parallel. Throws gale::Error if there are more than 2^31 - 1 cells of a kind.
+GALE_EXPORT NamedPaths named_simplices(const MorseSmaleComplex& complex);
 
 namespace detail {
 
-/// Where the groups of `named_simplices` begin. The critical ones begin at 0.
+/// Where the groups of named simplices begin. The critical ones begin at 0.
 struct NamedGroups {
-  explicit NamedGroups(const MorseSmaleComplex& complex)
+  NamedGroups(const MorseSmaleComplex& complex, const NamedPaths& named)
       : descending_edges(complex.critical.edges.size()),
-        connector_edges(descending_edges + complex.descending.cells.size()),
-        ascending_edges(connector_edges + complex.connectors.cells.size()),
+        connector_edges(descending_edges + named.descending.first_between.extent(0)),
+        ascending_edges(connector_edges + named.connectors.first_between.extent(0)),
         ascending_triangles(complex.critical.triangles.size()),
-        connector_triangles(ascending_triangles + complex.ascending.cells.size()) {}
+        connector_triangles(ascending_triangles + named.ascending.first_between.extent(0)) {}
 
   std::size_t descending_edges, connector_edges, ascending_edges;  ///< the last on a triangle mesh
   std::size_t ascending_triangles, connector_triangles;

@@ -22,14 +22,15 @@ enum Type : std::int8_t { descending = 0, connector = 1, ascending = 2, ascendin
 /// The simplices along the paths of one kind. On each path, every cell is preceded by a simplex of another dimension.
 template <class Simplex, class CellOf, class IdOf>
 struct Along {
-  const Simplex* between;       ///< what precedes each cell (GALE's ids)
+  const SharedPaths& shared;
+  const Simplex* between;       ///< what precedes cells, by number (GALE's ids)
   const GlobalId* between_ids;  ///< and its CellId
   CellOf cell_of;               ///< cell_of(cell): the cell's vertices (GALE's ids)
   IdOf id_of;                   ///< id_of(k): the CellId of the k-th cell
 };
 
 template <class Simplex, class CellOf, class IdOf>
-Along(const Simplex*, const GlobalId*, CellOf, IdOf) -> Along<Simplex, CellOf, IdOf>;
+Along(const SharedPaths&, const Simplex*, const GlobalId*, CellOf, IdOf) -> Along<Simplex, CellOf, IdOf>;
 
 /// The global id of a vertex, or of a cell, that paths pass.
 GlobalId vertex_id(const MorseSmaleComplex& complex, Id vertex) {
@@ -92,36 +93,46 @@ class Positions {
   Array<Point, HostMemory> beyond_;
 };
 
-/// What 1-separatrices are in a file: points, two for each cell of a path, and lines between those that follow one
-/// another on it. Collects those of one kind after the other. `Number` is Id, or GlobalId on several ranks.
+/// What 1-separatrices are in a file: a point for each simplex that paths of one kind pass, and a line along each path.
+/// Collects those of one kind after the other. `Number` is Id, or GlobalId on several ranks.
 template <class Coordinate, class Number>
 class Lines {
  public:
-  /// Lines for that many cells on so many paths, of all kinds together. Throws gale::Error if ids can't number their
-  /// points.
-  Lines(const Positions<Coordinate>& positions, Offset cells, Offset paths)
-      : positions_(positions), separatrices_(paths) {
-    require_ids("points of 1-separatrices", 2 * cells);
-    const Offset lines = 2 * cells - paths;
-    points_ = allocate<io::Dataset::Points<Coordinate>>("GALE::separatrices", 2 * cells);
-    for (auto* const array : {&mask_, &dimensions_}) array->resize(2 * cells);
-    ids_.resize(2 * cells);
-    lines_.begin.resize(lines + 1);
-    lines_.points.resize(2 * lines);
+  /// Lines for that many points, cells on paths, and paths, of all kinds together. Throws gale::Error if ids can't
+  /// number the points.
+  Lines(const Positions<Coordinate>& positions, Offset points, Offset cells, Offset paths)
+      : positions_(positions), mask_(points, 1), dimensions_(points), ids_(points), separatrices_(paths) {
+    require_ids("points of 1-separatrices", points);
+    points_ = allocate<io::Dataset::Points<Coordinate>>("GALE::separatrices", points);
+    lines_.begin.resize(paths + 1);
+    lines_.points.resize(2 * cells);
   }
 
-  /// Two points for each cell of the paths: the simplex that precedes it, and itself.
+  /// The points of what precedes cells come first, then those of cells.
   template <class Cell, class Simplices>
   void add(Type type, const Separatrices<Cell>& paths, const Simplices& along, const PathEnds<Cell>& ends) {
+    const SharedPaths& shared = along.shared;
+    const auto before = static_cast<Offset>(shared.first_between.extent(0));
+    const auto cells = static_cast<Offset>(shared.first_cell.extent(0));
+    parallel_for("GALE::separatrices1", HostExecutionSpace(), before,
+                 [&](Offset i) { set_point(first_point_ + i, along.between[i], along.between_ids[i]); });
+    parallel_for("GALE::separatrices1", HostExecutionSpace(), cells, [&](Offset i) {
+      const Id k = shared.first_cell(i);
+      set_point(first_point_ + before + i, along.cell_of(paths.cells[k]), along.id_of(k));
+    });
     parallel_for("GALE::separatrices1", HostExecutionSpace(), paths.count(), [&](Offset i) {
       const Offset begin = paths.begin[i], end = paths.begin[i + 1];
+      Id* const line = lines_.points.data() + 2 * first_cell_;
       for (Offset k = begin; k < end; ++k) {
-        set_point(2 * k, along.between[k], along.between_ids[k], k == begin);
-        set_point(2 * k + 1, along.cell_of(paths.cells[k]), along.id_of(k), k + 1 == end && paths.is_whole(i));
+        line[2 * k] = static_cast<Id>(first_point_ + shared.between(k));
+        line[2 * k + 1] = static_cast<Id>(first_point_ + before + shared.cell(k));
       }
-      set_lines(first_path_ + i, first_point_ + 2 * begin, first_point_ + 2 * end);
+      lines_.begin[first_path_ + i + 1] = 2 * (first_cell_ + end);
+      // Whoever has a point first says whether paths end there: all that pass it do, or none.
+      if (shared.first_between(shared.between(begin)) == begin) mask_[line[2 * begin]] = 0;
+      if (shared.first_cell(shared.cell(end - 1)) == end - 1 && paths.is_whole(i)) mask_[line[2 * end - 1]] = 0;
       const End &source = ends.source(i), &destination = ends.destination(i);
-      separatrices_[first_path_ + i] = {first_point_ + 2 * end - first_path_ - i - 1,
+      separatrices_[first_path_ + i] = {first_path_ + i + 1,
                                         static_cast<Number>(source.cell),
                                         static_cast<Number>(destination.cell),
                                         static_cast<Number>(first_number_ + ends.number(i)),
@@ -130,7 +141,8 @@ class Lines {
                                         std::min(source.lowest, destination.lowest).value,
                                         source.on_surface + destination.on_surface};
     });
-    first_point_ += 2 * paths.cells.size();
+    first_point_ += before + cells;
+    first_cell_ += paths.cells.size();
     first_path_ += paths.count();
     first_number_ += ends.count();
   }
@@ -148,22 +160,10 @@ class Lines {
 
  private:
   template <std::size_t N>
-  void set_point(Offset place, const std::array<Id, N>& simplex, GlobalId id, bool is_end) {
-    const Offset point = first_point_ + place;
+  void set_point(Offset point, const std::array<Id, N>& simplex, GlobalId id) {
     gale::detail::store(positions_(simplex), points_, point);
-    mask_[point] = is_end ? 0 : 1;
     dimensions_[point] = N - 1;
     ids_[point] = static_cast<Number>(id);
-  }
-
-  /// Lines between consecutive points of [begin, end), those of a path. Each path has a point more than lines.
-  void set_lines(Offset path, Offset begin, Offset end) {
-    for (Offset point = begin; point + 1 < end; ++point) {
-      const Offset line = point - path;
-      lines_.begin[line + 1] = 2 * (line + 1);
-      lines_.points[2 * line] = static_cast<Id>(point);
-      lines_.points[2 * line + 1] = static_cast<Id>(point + 1);
-    }
   }
 
   const Positions<Coordinate>& positions_;
@@ -172,34 +172,37 @@ class Lines {
   std::vector<Number> ids_;
   io::Surface::Cells lines_;
   std::vector<detail::SeparatrixValues<Number>> separatrices_;
-  Offset first_point_ = 0, first_path_ = 0;
+  Offset first_point_ = 0, first_cell_ = 0, first_path_ = 0;
   GlobalId first_number_ = 0;
 };
 
 }  // namespace
 
 io::Surface separatrices1(const io::Dataset& dataset, const io::PointArray& field, const MorseSmaleComplex& complex,
-                          const NamedSimplices& named, const SimplexNumbers& numbers, const KnownSimplices& critical) {
+                          const NamedPaths& named, const SimplexNumbers& numbers, const KnownSimplices& critical) {
   const auto &falling = complex.descending, &rising = complex.ascending;
   const auto& connectors = complex.connectors;
-  const detail::NamedGroups groups(complex);
+  const detail::NamedGroups groups(complex, named);
+  Offset points = 0;
+  for (const SharedPaths* const shared : {&named.descending, &named.ascending, &named.connectors})
+    points += shared->first_between.extent(0) + shared->first_cell.extent(0);
   const Offset cells = falling.cells.size() + rising.cells.size() + connectors.cells.size();
   const Offset paths = Offset(falling.count()) + rising.count() + connectors.count();
   const GlobalId *edge_ids = numbers.edges.data(), *triangle_ids = numbers.triangles.data();
-  const Along descending_along{named.edges.data() + groups.descending_edges, edge_ids + groups.descending_edges,
-                               [](Id v) { return std::array<Id, 1>{v}; },
+  const Along descending_along{named.descending, named.edges.data() + groups.descending_edges,
+                               edge_ids + groups.descending_edges, [](Id v) { return std::array<Id, 1>{v}; },
                                [&](Offset k) { return vertex_id(complex, falling.cells[k]); }};
-  const Along ascending_along{named.triangles.data() + groups.ascending_triangles,
+  const Along ascending_along{named.ascending, named.triangles.data() + groups.ascending_triangles,
                               triangle_ids + groups.ascending_triangles,
                               [&](Id t) { return detail::corners_of(complex, t); },
                               [&](Offset k) { return cell_id(complex, rising.cells[k]); }};
-  const Along ascending_on_triangles_along{named.edges.data() + groups.ascending_edges,
+  const Along ascending_on_triangles_along{named.ascending, named.edges.data() + groups.ascending_edges,
                                            edge_ids + groups.ascending_edges,
                                            [&](Id t) { return detail::corners_of<3>(complex, t); },
                                            [&](Offset k) { return cell_id(complex, rising.cells[k]); }};
-  const Along connecting{named.edges.data() + groups.connector_edges, edge_ids + groups.connector_edges,
-                         [](const Triangle& triangle) { return triangle; },
-                         [&](Offset k) { return triangle_ids[groups.connector_triangles + k]; }};
+  const Along connecting{named.connectors, named.edges.data() + groups.connector_edges,
+                         edge_ids + groups.connector_edges, [](const Triangle& triangle) { return triangle; },
+                         [&](Offset k) { return triangle_ids[groups.connector_triangles + named.connectors.cell(k)]; }};
   const Ranks& ranks = complex.gradient.mesh().exchange().ranks();
   std::vector<End> ends[4];
   gale::detail::together(ranks, [&] {
@@ -214,9 +217,9 @@ io::Surface separatrices1(const io::Dataset& dataset, const io::PointArray& fiel
     rising_ends.ask(ranks, [&](Offset i) { return ascending_along.id_of(rising.begin[i + 1] - 1); });
   }
   return std::visit(
-      [&](const auto& points) {
-        using Coordinate = typename std::decay_t<decltype(points)>::non_const_value_type;
-        const Positions<Coordinate> positions(points, complex);
+      [&](const auto& at) {
+        using Coordinate = typename std::decay_t<decltype(at)>::non_const_value_type;
+        const Positions<Coordinate> positions(at, complex);
         io::Surface surface;
         const auto fill = [&](auto lines) {
           lines.add(descending, falling, descending_along, falling_ends);
@@ -229,8 +232,8 @@ io::Surface separatrices1(const io::Dataset& dataset, const io::PointArray& fiel
           surface = lines.take(field);
         };
         gale::detail::together(ranks, [&] {
-          complex.gradient.mesh().is_part() ? fill(Lines<Coordinate, GlobalId>(positions, cells, paths))
-                                            : fill(Lines<Coordinate, Id>(positions, cells, paths));
+          complex.gradient.mesh().is_part() ? fill(Lines<Coordinate, GlobalId>(positions, points, cells, paths))
+                                            : fill(Lines<Coordinate, Id>(positions, points, cells, paths));
         });
         return surface;
       },

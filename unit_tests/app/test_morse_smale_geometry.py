@@ -26,12 +26,9 @@ class Separatrices1(GeometryTest):
 
     def separatrices(self, file):
         """The points of each, by SeparatrixId, as far as they are told."""
-        points = defaultdict(list)
-        for (begin, end), separatrix in zip(file.cells("Lines"), file.cell_arrays["SeparatrixId"]):
-            self.assertEqual(points[separatrix][-1:] or [begin], [begin])
-            points[separatrix] = (points[separatrix] or [begin]) + [end]
-        self.assertEqual(list(points), list(range(len(points))))
-        return list(points.values())
+        points = file.cells("Lines")
+        self.assertEqual(list(file.cell_arrays["SeparatrixId"]), list(range(len(points))))
+        return [list(line) for line in points]
 
     def rest(self, told, kind, destination, simplex):
         """What follows a simplex on an earlier separatrix of the same kind and destination."""
@@ -49,13 +46,9 @@ class Separatrices1(GeometryTest):
         arrays = critical.point_arrays
         on_boundary = dict(zip(zip(arrays["CellDimension"], arrays["CellId"]), arrays["IsOnBoundary"]))
         dimensions, ids, mask = (lines.point_arrays[name] for name in ("CellDimension", "CellId", "ttkMaskScalarField"))
-        first_line = 0
         told = {}  # where else a separatrix goes on that is told as far as it meets an earlier one
-        for points in self.separatrices(lines):
-            of = {name: values[first_line] for name, values in lines.cell_arrays.items()}
-            for name, values in lines.cell_arrays.items():
-                self.assertEqual(len(set(values[first_line:first_line + len(points) - 1])), 1, name)
-            first_line += len(points) - 1
+        for separatrix, points in enumerate(self.separatrices(lines)):
+            of = {name: values[separatrix] for name, values in lines.cell_arrays.items()}
             kind, destination = of["SeparatrixType"], of["DestinationId"]
             if mask[points[-1]] != 0:
                 points[-1:] = self.rest(told, kind, destination, ids[points[-1]])
@@ -94,6 +87,16 @@ class Separatrices1(GeometryTest):
     def test_go_on_where_pairs_are_cancelled(self):
         self.assertGreater(len(list(self.check("--persistence", "1e-3"))), 0)
         self.assertGreater(len(list(self.check("--persistence", "10%", "--extrema-only"))), 0)
+
+    def test_have_points_in_common(self):
+        lines = self.files("grid:32")["separatrices1.vtp"]
+        dimensions, ids = (lines.point_arrays[name] for name in ("CellDimension", "CellId"))
+        by_kind = defaultdict(set)
+        for kind, points in zip(lines.cell_arrays["SeparatrixType"], self.separatrices(lines)):
+            by_kind[kind].update(points)
+        self.assertEqual(sum(map(len, by_kind.values())), len(lines.points), "a point is of one kind")
+        for points in by_kind.values():
+            self.assertEqual(len({(dimensions[p], ids[p]) for p in points}), len(points), "a simplex has one point")
 
     def test_are_told_once_where_pairs_are_cancelled(self):
         lines = self.files("grid:32", "--persistence", "10%", "--extrema-only")["separatrices1.vtp"]

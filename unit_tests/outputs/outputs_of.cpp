@@ -37,7 +37,7 @@ OutputsOf outputs_of(const InputMesh& input, const std::vector<double>& field, c
   const auto structure = make_structure(mesh, morse_smale_relations);
   const DiscreteGradient gradient = find_discrete_gradient(*structure, order);
   MorseSmaleComplex complex = find_morse_smale_complex(*structure, gradient, parts);
-  NamedSimplices named = outputs::named_simplices(complex);
+  outputs::NamedPaths named = outputs::named_simplices(complex);
   SimplexNumbers numbers = number_simplices(*structure, named);
   outputs::KnownSimplices critical = outputs::known_simplices(gradient, complex.critical, numbers);
   return {dataset, dataset.arrays.front(), complex, named, numbers, critical};

@@ -9,6 +9,7 @@
 #include <gale/algorithms/simplex_numbers.hpp>
 #include <gale/io/write.hpp>
 #include <gale/outputs/critical_simplices.hpp>
+#include <gale/outputs/named_simplices.hpp>
 
 #include "support/input_mesh.hpp"
 
@@ -31,7 +32,7 @@ struct OutputsOf {
   io::Dataset dataset;
   io::PointArray field;
   MorseSmaleComplex complex;
-  NamedSimplices named;
+  outputs::NamedPaths named;
   SimplexNumbers numbers;
   outputs::KnownSimplices critical;
 };

@@ -154,7 +154,7 @@ class FindMorseSmale final : public AnalysisCommand {
     const auto connectors = outputs::ends_of(complex.connectors);  // all of them, wanted or not, bound walls
     outputs::leave_out_unwanted(parts_, complex);
     double& seconds = session.report().seconds.write;
-    const NamedSimplices named = timed(seconds, [&] { return outputs::named_simplices(complex); });
+    const outputs::NamedPaths named = timed(seconds, [&] { return outputs::named_simplices(complex); });
     const SimplexNumbers numbers = number_simplices(on.mesh, named, session.compute(structure_, "numbers"), &computed);
     const outputs::KnownSimplices critical =
         timed(seconds, [&] { return outputs::known_simplices(complex.gradient, complex.critical, numbers); });

@@ -9,9 +9,9 @@ namespace gale::app {
 
 namespace {
 
-/// A path: consecutive points of the surface, and what its lines say.
+/// A path: where its points stand in the surface's lines, and what its line says.
 struct Path {
-  std::size_t first, last;  ///< points; the last is the path's
+  std::size_t first, last;  ///< the last is the path's, too
   int type;
   Id destination;
   double difference;  ///< how much the field changes along it
@@ -21,6 +21,7 @@ class Chooser {
  public:
   Chooser(const io::Surface& surface, const std::function<bool(const Point&)>& inside)
       : points_(to_points(surface.points)),
+        along_(surface.lines.points),
         mask_(values_of<std::int8_t>(surface.point_arrays, "ttkMaskScalarField")),
         dimensions_(values_of<std::int8_t>(surface.point_arrays, "CellDimension")),
         ids_(values_of<Id>(surface.point_arrays, "CellId")) {
@@ -49,23 +50,19 @@ class Chooser {
     const auto& types = values_of<std::int8_t>(surface.cell_arrays, "SeparatrixType");
     const auto& destinations = values_of<Id>(surface.cell_arrays, "DestinationId");
     const io::PointArray& differences = array_of(surface.cell_arrays, "SeparatrixFunctionDifference");
-    const auto& ends = surface.lines.points;  // two for each line
-    for (std::size_t line = 0; 2 * line < ends.size(); ++line) {
-      const std::size_t from = ends[2 * line], to = ends[2 * line + 1];
-      if (paths_.empty() || paths_.back().last != from) {
-        const double difference = outputs::value_at(differences, static_cast<Id>(line));
-        paths_.push_back({from, to, types[line], destinations[line], difference});
-      }
-      paths_.back().last = to;
+    const auto& begin = surface.lines.begin;
+    for (std::size_t i = 0; i + 1 < begin.size(); ++i) {
+      paths_.push_back({static_cast<std::size_t>(begin[i]), static_cast<std::size_t>(begin[i + 1]) - 1, types[i],
+                        destinations[i], outputs::value_at(differences, static_cast<Id>(i))});
     }
   }
 
-  /// What of a point paths of one type and destination have in common.
-  std::uint64_t key(const Path& path, std::size_t point) const {
-    return std::uint64_t(path.destination) << 33 | std::uint64_t(ids_[point]) << 2 | std::uint64_t(dimensions_[point]);
+  /// A point on paths to one destination, by its place on one of them.
+  std::uint64_t key(const Path& path, std::size_t place) const {
+    return std::uint64_t(path.destination) << 32 | static_cast<std::uint32_t>(along_[place]);
   }
 
-  bool is_joined(const Path& path) const { return mask_[path.last] != 0; }
+  bool is_joined(const Path& path) const { return mask_[along_[path.last]] != 0; }
 
   /// Finds where joined paths go on: the earliest path that has the point.
   void find_junctions() {
@@ -74,9 +71,9 @@ class Chooser {
       if (is_joined(path)) wanted[path.type].insert(key(path, path.last));
     }
     for (const Path& path : paths_) {
-      for (std::size_t point = path.first; point <= path.last; ++point) {
-        const std::uint64_t here = key(path, point);
-        if (wanted[path.type].count(here) != 0) junctions_[path.type].insert({here, {&path, point}});
+      for (std::size_t place = path.first; place <= path.last; ++place) {
+        const std::uint64_t here = key(path, place);
+        if (wanted[path.type].count(here) != 0) junctions_[path.type].insert({here, {&path, place}});
       }
     }
   }
@@ -94,7 +91,7 @@ class Chooser {
     std::vector<std::size_t> way;
     const Path* at = &path;
     for (std::size_t from = path.first;;) {
-      for (std::size_t point = from; point <= at->last; ++point) way.push_back(point);
+      way.insert(way.end(), along_.begin() + from, along_.begin() + at->last + 1);
       if (!is_joined(*at)) return way;
       const auto [next, place] = junctions_[at->type].at(key(*at, at->last));
       if (next == at) return way;
@@ -114,10 +111,8 @@ class Chooser {
     const std::vector<Point> smooth = smoothed(way);
     bool was_new = false;
     for (std::size_t k = 0; k + 1 < way.size(); ++k) {
-      // A line is known by the ids of its ends, that of the lower dimension first.
-      const auto [low, high] = std::minmax(
-          way[k], way[k + 1], [this](std::size_t a, std::size_t b) { return dimensions_[a] < dimensions_[b]; });
-      const auto line = std::uint64_t(ids_[low]) << 32 | static_cast<std::uint32_t>(ids_[high]);
+      const auto [low, high] = std::minmax(way[k], way[k + 1]);
+      const std::uint64_t line = std::uint64_t(low) << 32 | high;
       const bool is_new = is_inside_[way[k]] && is_inside_[way[k + 1]] && seen_[type].insert(line).second;
       if (is_new && !was_new) stretches.push_back({smooth[k]});
       if (is_new) stretches.back().push_back(smooth[k + 1]);
@@ -140,6 +135,7 @@ class Chooser {
   }
 
   const std::vector<Point> points_;
+  const std::vector<std::int32_t>& along_;
   const std::vector<std::int8_t>&mask_, &dimensions_;
   const std::vector<Id>& ids_;
   std::vector<char> is_inside_;

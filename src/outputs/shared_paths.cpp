@@ -1,0 +1,114 @@
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <vector>
+
+#include <gale/base/atomic.hpp>
+#include <gale/base/bits.hpp>
+#include <gale/base/error.hpp>
+#include <gale/base/parallel.hpp>
+#include <gale/outputs/shared_paths.hpp>
+
+namespace gale::outputs::detail {
+
+namespace {
+
+using Ids = Array<Id, HostMemory>;
+
+/// Neighbours in space have ids that are near, and so are their slots.
+std::uint64_t hash_of(Id cell) { return static_cast<std::uint64_t>(cell); }
+std::uint64_t hash_of(const TriangleVertices& triangle) {
+  return spread(spread(pair_key(triangle[0], triangle[1])) ^ static_cast<std::uint64_t>(triangle[2]));
+}
+
+/// Whether the simplex between a cell and one that follows it is also between the cell and another that does: on the
+/// way up from an edge, many triangles follow one over the same edge.
+bool is_between_both(Id, Id one, Id other) { return one == other; }
+bool is_between_both(const TriangleVertices& cell, const TriangleVertices& one, const TriangleVertices& other) {
+  const auto is_in = [](const TriangleVertices& triangle, Id vertex) {
+    return std::find(triangle.begin(), triangle.end(), vertex) != triangle.end();
+  };
+  return std::all_of(cell.begin(), cell.end(), [&](Id vertex) { return is_in(one, vertex) == is_in(other, vertex); });
+}
+
+/// For each cell the first place of one that equals it.
+template <class Cell>
+Ids first_places(const std::vector<Cell>& cells) {
+  constexpr Id none = std::numeric_limits<Id>::max();
+  const auto count = static_cast<Offset>(cells.size());
+  std::uint64_t size = 1024;
+  while (size < 2 * cells.size()) size *= 2;
+  const auto slots = allocate<Ids>("GALE::slots_of_cells", static_cast<Offset>(size));
+  parallel_for("GALE::clear_slots", HostExecutionSpace(), slots.extent(0), [&](Offset slot) { slots(slot) = none; });
+  const auto slot_of = allocate<Array<std::uint32_t, HostMemory>>("GALE::slots_of_cells", count);
+  parallel_for("GALE::slots_of_cells", HostExecutionSpace(), count, [&](Offset k) {
+    const auto here = static_cast<Id>(k);
+    for (std::uint64_t slot = hash_of(cells[k]) & (size - 1);; slot = (slot + 1) & (size - 1)) {
+      Id* const at = &slots(static_cast<Offset>(slot));
+      Id there = atomic_read(at);
+      while (there == none && !gale::detail::replaced(at, there, here)) {
+      }
+      if (there != none && cells[there] != cells[k]) continue;
+      atomic_min(at, here);
+      slot_of(k) = static_cast<std::uint32_t>(slot);
+      return;
+    }
+  });
+  const auto first = allocate<Ids>("GALE::first_places", count);
+  parallel_for("GALE::first_places", HostExecutionSpace(), count, [&](Offset k) { first(k) = slots(slot_of(k)); });
+  return first;
+}
+
+/// Numbers the places of which first_of(place) is the place itself, and the others as theirs.
+template <class FirstOf>
+void number(Offset count, const FirstOf& first_of, Array<const Id, HostMemory>& numbers,
+            Array<const Id, HostMemory>& firsts) {
+  const auto begin = allocate<Ids>("GALE::shared_numbers", count + 1);
+  const Id all = exclusive_scan("GALE::shared_numbers", HostExecutionSpace(), count, begin,
+                                [&](Offset k) { return Id(first_of(k) == k); });
+  const auto number_of = allocate<Ids>("GALE::shared_numbers", count);
+  const auto first_with = allocate<Ids>("GALE::first_with_number", all);
+  parallel_for("GALE::share_numbers", HostExecutionSpace(), count, [&](Offset k) {
+    const Id first = first_of(k);
+    number_of(k) = begin(first);
+    if (first == k) first_with(begin(k)) = first;
+  });
+  numbers = number_of;
+  firsts = first_with;
+}
+
+}  // namespace
+
+template <class Cell>
+SharedPaths share(const Separatrices<Cell>& paths) {
+  const auto count = static_cast<Offset>(paths.cells.size());
+  require_ids("cells of separatrices", count);
+  std::vector<Id> first_of_source(
+      paths.count() == 0 ? 0 : *std::max_element(paths.sources.begin(), paths.sources.end()) + 1, no_id);
+  constexpr Id inside = no_id;
+  std::vector<Id> before_start(paths.cells.size() + 1, inside);  // the first place behind the same source
+  for (Id i = 0; i < paths.count(); ++i) {
+    Id& first = first_of_source[paths.sources[i]];
+    if (first == no_id) first = static_cast<Id>(paths.begin[i]);
+    before_start[paths.begin[i]] = first;
+  }
+  before_start[paths.cells.size()] = 0;
+  const Ids first = first_places(paths.cells);
+  SharedPaths shared;
+  number(
+      count, [&](Offset k) { return first(k); }, shared.cell, shared.first_cell);
+  const auto first_behind_same = [&](Offset k) {
+    if (before_start[k] != inside) return before_start[k];
+    const Id behind = first(k - 1) + 1;
+    const bool is_same =
+        before_start[behind] == inside && is_between_both(paths.cells[k - 1], paths.cells[behind], paths.cells[k]);
+    return is_same ? behind : static_cast<Id>(k);
+  };
+  number(count, first_behind_same, shared.between, shared.first_between);
+  return shared;
+}
+
+template SharedPaths share(const Separatrices<Id>&);
+template SharedPaths share(const Separatrices<TriangleVertices>&);
+
+}  // namespace gale::outputs::detail
