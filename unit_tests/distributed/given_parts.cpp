@@ -92,7 +92,7 @@ MeshPart<GlobalId> GivenPart::views() const {
 const std::vector<std::string>& input_names() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> all = mesh_names();
-    all.insert(all.end(), {"torus", "any triangles", "hub of 600 triangles", "vertices without a triangle"});
+    all.insert(all.end(), {"torus", "any triangles", "vertices without a triangle"});
     return all;
   }();
   return names;

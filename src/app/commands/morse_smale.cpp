@@ -50,7 +50,7 @@ void tell(const MorseSmaleComplex& complex, const MorseSmaleParts& wanted, Sessi
         {"saddle connectors", "saddle_connectors", wanted.saddle_connectors, paths[2]}},
        session);
   tell("manifolds", "manifolds",
-       {{"ascending", "ascending", wanted.ascending_manifolds, critical[3]},
+       {{"ascending", "ascending", wanted.ascending_manifolds, critical[complex.critical.dimension]},
         {"descending", "descending", wanted.descending_manifolds, critical[0]},
         {"Morse-Smale", "morse_smale", wanted.ascending_manifolds && wanted.descending_manifolds,
          complex.morse_smale_manifolds}},
