@@ -284,8 +284,8 @@ Mesh DistributedMesh::Sharing::take(const MeshPart<Index>& part, const Partition
                                     const std::shared_ptr<const Exchange>& self) {
   const Mesh mesh = detail::mesh_of_rows(part.cells, detail::octree_of(part.points, options.capacity), self);
   if (options.keep_corners) {
-    const Kokkos::View<Id**, Kokkos::LayoutRight, HostMemory> rows("GALE::local_cells", part.cells.extent(0),
-                                                                   part.cells.extent(1));
+    const auto rows =
+        allocate<CellRows<Id>::non_const_type>("GALE::local_cells", part.cells.extent(0), part.cells.extent(1));
     Kokkos::deep_copy(rows, part.cells);
     corners = rows;
   }

@@ -83,7 +83,7 @@ class HostPoints {
   std::any owner_;
 };
 
-/// The vertices of each cell: of triangles or of tetrahedra, as it has three columns or four.
+/// The vertices of each cell, a row each: three of triangles, four of tetrahedra.
 template <class Index>
 using CellRows = Kokkos::View<const Index**, Kokkos::LayoutRight, HostMemory>;
 
@@ -96,7 +96,7 @@ struct MeshPart {
   Array<const GlobalId, HostMemory> vertex_ids;  ///< global ids, 0 to 2^62 - 1, in any order, also with gaps
   HostPoints points;                             ///< where each of these is; the mesh keeps them
 
-  /// Three or four global ids each, of vertices that any ranks hand over; on all ranks that have cells as many.
+  /// The global ids of each one's vertices, which any ranks hand over: triangles or tetrahedra, on all ranks alike.
   CellRows<Index> cells;
 
   /// 0 to 2^62 - 1, all different, which the mesh keeps; none: they are counted from rank to rank.

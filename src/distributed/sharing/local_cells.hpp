@@ -15,14 +15,13 @@ struct SentCell {
   Index vertices[4];  ///< the first three of a triangle
 };
 
-/// The cells that touch a vertex which this rank owns: those of its own part where they are, and those that it
-/// got.
+/// The cells that touch a vertex which this rank owns: those of its own part where they are, and those that it got.
 template <class Index>
 class LocalCells {
  public:
-  /// Sends each cell to the ranks that own a vertex of it. `own`: ids that this rank owns, as many as are known
-  /// without a search: cells of these alone concern no other rank. Collective. Throws gale::Error as
-  /// DistributedMesh says. Refers to `part`.
+  /// Sends each cell to the ranks that own a vertex of it. `own`: ids that this rank owns, as many as are known without
+  /// a search: cells of these alone concern no other rank. Collective. Throws gale::Error as DistributedMesh says.
+  /// Refers to `part`, whose cells have as many columns on all ranks.
   LocalCells(const Communicator& ranks, const MeshPart<Index>& part, const VertexDirectory& directory,
              const IdInterval& own, Offset most_local);
 
@@ -34,15 +33,13 @@ class LocalCells {
   /// Their global ids, ascending, and where they come from.
   const CellPlaces& places() const { return places_; }
 
-  /// The global ids of the vertices of cells first..last-1 of all, in order: calls visit(i, corners, count) for
-  /// some that follow one another, i to i + count - 1, of which `corners` are.
+  /// The global ids of the vertices of cells first..last-1 of all, in order: calls visit(i, corners, count) for some
+  /// that follow one another, i to i + count - 1, of which `corners` are.
   template <class Visit>
   void visit(Offset first, Offset last, const Visit& visit) const {
     places_.visit(
         first, last,
-        [&](Offset i, Offset place, Offset count) {
-          visit(i, part_.cells.data() + static_cast<Offset>(corners()) * place, count);
-        },
+        [&](Offset i, Offset place, Offset count) { visit(i, part_.cells.data() + corners() * place, count); },
         [&](Offset i, Offset r) { visit(i, received_.entries(r).vertices, Offset(1)); });
   }
 
@@ -63,8 +60,8 @@ class LocalCells {
   CellPlaces places_;
 };
 
-/// Throws gale::Error on all ranks if one would hold more than `most` of what `name` says, e.g. "cells": it says
-/// how many ranks it takes. Collective.
+/// Throws gale::Error on all ranks if one would hold more than `most` of what `name` says, e.g. "cells": it says how
+/// many ranks it takes. Collective.
 void require_local(const Communicator& ranks, const char* name, Offset count, Offset most);
 
 }  // namespace gale::detail

@@ -17,7 +17,7 @@ Segmentation local_segmentation(const LocalVertices& vertices, const Segmentatio
 template <class Index>
 CellRows<Id> local_corners(const LocalCells<Index>& cells, const LocalVertices& vertices);
 
-/// The mesh of cells of three or four vertices, as they have columns.
+/// The mesh of triangles or tetrahedra, as rows have three or four vertices.
 template <class Rows>
 Mesh mesh_of_rows(const Rows& cells, const Segmentation& segmentation,
                   const std::shared_ptr<const Exchange>& exchange) {
@@ -28,8 +28,7 @@ Mesh mesh_of_rows(const Rows& cells, const Segmentation& segmentation,
   return Mesh(Tetrahedra<Index, Memory>(cells.data(), cells.extent(0)), segmentation, exchange);
 }
 
-/// The mesh of what a rank holds, whose cells are written where the mesh is made. Errors name the global ids of
-/// cells.
+/// The mesh of what a rank holds, whose cells are written where the mesh is made. Errors name the global ids of cells.
 template <class Index>
 Mesh local_mesh(const LocalCells<Index>& cells, const LocalVertices& vertices, const Segmentation& segmentation,
                 const std::shared_ptr<const Exchange>& exchange);
