@@ -14,10 +14,10 @@ namespace {
 template <class Index>
 void require_cell(const Index* cell, Offset corners) {
   bool is_one = true;
-  std::string vertices;
   for (const Index* corner = cell; corner != cell + corners; ++corner)
     is_one &= *corner >= 0 && std::find(cell, corner, *corner) == corner;
   if (is_one) return;
+  std::string vertices;
   for (Offset k = 0; k < corners; ++k) vertices += ' ' + std::to_string(cell[k]);
   throw Error("the cell of vertices" + vertices + " is none: they must be different, and 0 or more");
 }
