@@ -14,11 +14,10 @@ namespace {
 /// Views of what this rank has; a simulation has its own. Global ids here are places in the whole grid.
 gale::DistributedMesh distribute(const gale::Communicator& ranks, const gale::io::GridPart& part) {
   const Kokkos::View<gale::GlobalId*, gale::HostMemory> ids("ids", part.field.size()),
-      tetrahedron_ids("tetrahedron_ids", part.tetrahedra.extent(0));
+      cell_ids("cell_ids", part.tetrahedra.extent(0));
   for (std::size_t i = 0; i < ids.extent(0); ++i) ids(i) = part.first_vertex + gale::GlobalId(i);
-  for (std::size_t t = 0; t < tetrahedron_ids.extent(0); ++t)
-    tetrahedron_ids(t) = part.first_tetrahedron + gale::GlobalId(t);
-  return gale::DistributedMesh(ranks, gale::make_part(ids, part.points, part.tetrahedra, tetrahedron_ids));
+  for (std::size_t t = 0; t < cell_ids.extent(0); ++t) cell_ids(t) = part.first_tetrahedron + gale::GlobalId(t);
+  return gale::DistributedMesh(ranks, gale::make_part(ids, part.points, part.tetrahedra, cell_ids));
 }
 
 bool run() {

@@ -32,9 +32,11 @@ struct AscendingWalls {
 /// Vertices and cells on the separatrices of one rank's part of a mesh which the part doesn't hold. They are
 /// called by numbers after GALE's ids of those that it has: the first vertex here is mesh.vertices().
 struct SimplicesBeyond {
-  std::vector<GlobalId> vertices;          ///< global ids
-  std::vector<GlobalId> cells;             ///< global ids
-  std::vector<std::array<Id, 4>> corners;  ///< the vertices of each of these cells, here or in the part
+  std::vector<GlobalId> vertices;  ///< global ids
+  std::vector<GlobalId> cells;     ///< global ids
+
+  /// The vertices of each of these cells, here or in the part; of a triangle the last one twice.
+  std::vector<std::array<Id, 4>> corners;
 };
 
 /// Pairs of saddles that `simplify` could not cancel, although their persistence is below the threshold.

@@ -42,11 +42,6 @@ const io::PointArray* given_segments(const io::Dataset& dataset, const Segmentat
 
 }  // namespace
 
-void require_tetrahedra(const InputOptions& input, int dimension) {
-  if (dimension == 3) return;
-  throw Error("'" + input.input + "' has triangles alone: several ranks compute on tetrahedra");
-}
-
 Segmentation make_segmentation(const io::Dataset& dataset, const SegmentationOptions& options, const Console& console,
                                std::vector<std::string>& notices) {
   if (options.random_count) {

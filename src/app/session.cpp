@@ -96,19 +96,18 @@ io::Dataset Session::read_any() {
   begin_step("reading", input_.input);
   io::Dataset dataset = timed(report_.seconds.read, [&] { return io::read(input_.input, input_.read); });
   if (input_.height) outputs::add_height(dataset, *input_.height);
-  report_.vertices = std::visit([](const auto& points) { return std::int64_t(points.extent(0)); }, dataset.points);
-  const auto cells = static_cast<std::int64_t>(dataset.cells());
   console_.say("input", input_.input);
   note(dataset.notices);
-  console_.say("vertices", grouped(*report_.vertices));
-  if (dataset.dimension() == 3) {
-    report_.tetrahedra = cells;
-    console_.say("tetrahedra", grouped(cells));
-  } else {
-    report_.triangles = cells;
-    console_.say("triangles", grouped(cells));
-  }
+  tell_size(std::visit([](const auto& points) { return std::int64_t(points.extent(0)); }, dataset.points),
+            static_cast<std::int64_t>(dataset.cells()), dataset.dimension());
   return dataset;
+}
+
+void Session::tell_size(std::int64_t vertices, std::int64_t cells, int dimension) {
+  (dimension == 3 ? report_.tetrahedra : report_.triangles) = cells;
+  report_.vertices = vertices;
+  console_.say("vertices", grouped(vertices));
+  console_.say(dimension == 3 ? "tetrahedra" : "triangles", grouped(cells));
 }
 
 io::Dataset Session::read() {
@@ -158,12 +157,9 @@ FieldOnMesh Session::read_part(const SegmentationOptions& segmentation, Keep kee
     note(notices);
   };
   FieldOnMesh on = read_on_ranks(input_, segmentation.capacity.value_or(default_capacity),
-                                 {has_outputs_, has_outputs_ && keep == Keep::tetrahedra}, was_read);
-  report_.vertices = on.mesh.all_vertices();
-  report_.tetrahedra = on.mesh.all_cells();
+                                 {has_outputs_, has_outputs_ && keep == Keep::cells}, was_read);
+  tell_size(on.mesh.all_vertices(), on.mesh.all_cells(), on.mesh.dimension());
   report_.segments = ranks_.sum(on.mesh.owned_segments());
-  console_.say("vertices", grouped(*report_.vertices));
-  console_.say("tetrahedra", grouped(*report_.tetrahedra));
   console_.say("field", on.field.name);
   part_ = on.mesh;
   return on;
@@ -268,7 +264,7 @@ nlohmann::ordered_json Session::differences_of_ranks() const {
   const auto on_device = device_peak_bytes();
   return {{"count", ranks_.size()},
           {"owned_vertices", by_rank(part_->owned_vertices())},
-          {"tetrahedra", by_rank(part_->cells())},
+          {part_->dimension() == 3 ? "tetrahedra" : "triangles", by_rank(part_->cells())},
           {"host_peak_bytes", by_rank(static_cast<double>(host_peak_bytes()))},
           {"device_peak_bytes", on_device ? by_rank(static_cast<double>(*on_device)) : nlohmann::ordered_json(nullptr)},
           {"sent_messages", by_rank(static_cast<double>(ranks_.sent().messages))},

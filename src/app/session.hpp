@@ -24,15 +24,12 @@ namespace gale::app {
 /// A scalar field on a mesh: where every analysis begins. On several ranks it is what this one has; the dataset, and
 /// the field's values, are empty then where no output takes them.
 struct FieldOnMesh {
-  io::Dataset dataset;  ///< by input ids of the mesh; without its tetrahedra, unless they are kept
+  io::Dataset dataset;  ///< by input ids of the mesh; without its cells, unless they are kept
   Mesh mesh;
   io::PointArray field;
   VertexOrder order;
   bool has_ids = false;  ///< whether GlobalPointIds of the dataset are the points' in the input of all ranks
 };
-
-/// Throws gale::Error, naming the input, for a mesh whose cells are of dimension 2.
-void require_tetrahedra(const InputOptions& input, int dimension);
 
 /// Segments the dataset's vertices as the options say: by an array, at random, or by an octree. Without options by the
 /// array of segments that the input brings, else by an octree. Says which array was taken; adds a line to `notices`
@@ -71,8 +68,8 @@ class Session {
   /// Reads the input. Throws gale::Error if it hasn't the array that --array names, if it names one.
   io::Dataset read();
 
-  /// Segments and encodes. The tetrahedra are taken out of `dataset` on the way unless they are kept.
-  enum class Keep { tetrahedra, nothing };
+  /// Segments and encodes. The cells are taken out of `dataset` on the way unless they are kept.
+  enum class Keep { cells, nothing };
   Mesh encode(io::Dataset& dataset, const SegmentationOptions& segmentation, Keep keep);
 
   /// All that comes before a structure: reads, selects the field that --array names, segments, encodes, and orders the
@@ -119,6 +116,7 @@ class Session {
 
  private:
   io::Dataset read_any();
+  void tell_size(std::int64_t vertices, std::int64_t cells, int dimension);
   FieldOnMesh read_part(const SegmentationOptions& segmentation, Keep keep);
 
   template <class Result>

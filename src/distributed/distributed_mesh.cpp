@@ -57,16 +57,35 @@ void require_global_ids(const Ids& ids) {
   throw Error("ids are " + bounds + ", not " + std::to_string(ids(bad)));
 }
 
-/// Throws gale::Error for what one rank can see is wrong with its part but for the tetrahedra's vertices.
+/// Throws gale::Error for what one rank can see is wrong with its part but for the cells' vertices.
 template <class Index>
 void validate(const MeshPart<Index>& part) {
   require_ids("vertices", static_cast<Offset>(part.vertex_ids.extent(0)));
-  require_ids("tetrahedra", static_cast<Offset>(part.tetrahedra.extent(0)));
+  require_ids("cells", static_cast<Offset>(part.cells.extent(0)));
+  const std::size_t corners = part.cells.extent(1);
+  if (part.cells.extent(0) > 0 && corners != 3 && corners != 4)
+    throw Error("cells have 3 vertices or 4, not " + std::to_string(corners));
   require_global_ids(part.vertex_ids);
-  require_global_ids(part.tetrahedron_ids);
+  require_global_ids(part.cell_ids);
   part.points.visit([](const auto& rows) {
     detail::require_finite<typename std::decay_t<decltype(rows)>::non_const_value_type>(HostExecutionSpace(), rows);
   });
+}
+
+/// How many vertices the cells of all ranks have. Collective; throws SharedError where they differ, and for no cells.
+template <class Index>
+int corners_of_all(const Communicator& ranks, const MeshPart<Index>& part) {
+  const auto first_with = [&](std::size_t corners) {
+    const bool has_these = part.cells.extent(0) > 0 && part.cells.extent(1) == corners;
+    return ranks.least(std::int64_t(has_these ? ranks.rank() : ranks.size()));
+  };
+  const std::int64_t none = ranks.size(), triangles = first_with(3), tetrahedra = first_with(4);
+  if (std::min(triangles, tetrahedra) == none) throw SharedError("the mesh has no cells");
+  if (std::max(triangles, tetrahedra) < none) {
+    throw SharedError("cells are of one dimension on all ranks: rank " + std::to_string(triangles) +
+                      " has triangles, rank " + std::to_string(tetrahedra) + " tetrahedra");
+  }
+  return triangles < none ? 3 : 4;
 }
 
 /// The octree of some points, which grows on a thread of its own, by a quarter of this one's threads.
@@ -96,12 +115,11 @@ detail::VertexDirectory directory_of(const Communicator& ranks, const MeshPart<I
 template <class Index>
 bool is_numbered_as_local(const MeshPart<Index>& part) {
   const auto& vertices = part.vertex_ids;
-  const auto& tetrahedra = part.tetrahedron_ids;
+  const auto& cells = part.cell_ids;
   const Offset gaps = reduce_sum("GALE::count_gaps", HostExecutionSpace(), vertices.extent(0),
                                  [&](Offset i) { return Offset(vertices(i) != i); });
-  const Offset descents = reduce_sum("GALE::count_descents", HostExecutionSpace(), tetrahedra.extent(0), [&](Offset i) {
-    return Offset(tetrahedra(i) <= (i == 0 ? -1 : tetrahedra(i - 1)));
-  });
+  const Offset descents = reduce_sum("GALE::count_descents", HostExecutionSpace(), cells.extent(0),
+                                     [&](Offset i) { return Offset(cells(i) <= (i == 0 ? -1 : cells(i - 1))); });
   return gaps == 0 && descents == 0;
 }
 
@@ -118,11 +136,11 @@ class DistributedMesh::Sharing final : public Exchange {
 
   const Ranks& ranks() const override { return ranks_; }
   GlobalId vertices() const override { return vertices_; }
-  GlobalId cells() const override { return tetrahedra_; }
+  GlobalId cells() const override { return cells_; }
   GlobalId vertex_id(Id vertex) const override { return held_.id(vertex); }
-  GlobalId cell_id(Id tetrahedron) const override { return places_.id(tetrahedron); }
+  GlobalId cell_id(Id cell) const override { return places_.id(cell); }
   Id vertex_of(GlobalId id) const override { return held_.find(id); }
-  Id cell_of(GlobalId id) const override { return tetrahedron_index_.get().find(id); }
+  Id cell_of(GlobalId id) const override { return cell_index_.get().find(id); }
   int owner(Id vertex) const override { return owners.get()(vertex); }
   Array<int, HostMemory> owners_of(const Array<const GlobalId, HostMemory>& ids) const override;
   Offset given_vertices() const override { return given_vertices_; }
@@ -130,28 +148,28 @@ class DistributedMesh::Sharing final : public Exchange {
   const detail::ExchangePlan& from_owners() const override { return from_owners_; }
 
   // What few ask for.
-  detail::OnDemand<Array<const GlobalId, HostMemory>> vertex_ids, tetrahedron_ids;
+  detail::OnDemand<Array<const GlobalId, HostMemory>> vertex_ids, cell_ids;
   detail::OnDemand<Array<const int, HostMemory>> owners;
   detail::OnDemand<Points<double, HostMemory>> points;
-  Tetrahedra<Id, HostMemory> corners;
+  CellRows<Id> corners;
 
  private:
   template <class Index>
-  Mesh deal(const MeshPart<Index>& part, const PartitionOptions& options, const std::shared_ptr<const Exchange>& self);
+  Mesh deal(MeshPart<Index> part, const PartitionOptions& options, const std::shared_ptr<const Exchange>& self);
   template <class Index>
   Mesh take(const MeshPart<Index>& part, const PartitionOptions& options, const std::shared_ptr<const Exchange>& self);
   detail::OwnAndGhosts share(const detail::VertexDirectory& directory, const HostPoints& given);
 
   Communicator ranks_;
-  GlobalId vertices_ = 0, tetrahedra_ = 0;
+  GlobalId vertices_ = 0, cells_ = 0;
   Offset given_vertices_ = 0;
   detail::LocalVertices held_;
-  detail::TetrahedronPlaces places_;
+  detail::CellPlaces places_;
   detail::OwnAndGhosts placed_;
   Array<int, HostMemory> ghost_owners_;
   std::optional<detail::GivenIntervals> given_;
   detail::ExchangePlan from_givers_, from_owners_;
-  detail::OnDemand<detail::GlobalIndex> tetrahedron_index_;
+  detail::OnDemand<detail::GlobalIndex> cell_index_;
 };
 
 DistributedMesh::Sharing::Sharing(const Communicator& all) : ranks_(all) {
@@ -159,8 +177,8 @@ DistributedMesh::Sharing::Sharing(const Communicator& all) : ranks_(all) {
     return detail::tabulated<GlobalId>("GALE::vertex_ids", held_.count(),
                                        [&](Offset i) { return held_.id(static_cast<Id>(i)); });
   });
-  tetrahedron_ids.made_by([this] { return places_.ids(); });
-  tetrahedron_index_.made_by([this] { return detail::GlobalIndex(tetrahedron_ids.get()); });
+  cell_ids.made_by([this] { return places_.ids(); });
+  cell_index_.made_by([this] { return detail::GlobalIndex(cell_ids.get()); });
   points.made_by([this] { return placed_.by_id(held_); });
   owners.made_by([this] {
     const auto known = detail::tabulated<int>("GALE::owners", held_.count(), [&](Offset) { return ranks_.rank(); });
@@ -227,34 +245,35 @@ detail::OwnAndGhosts DistributedMesh::Sharing::share(const detail::VertexDirecto
 
 /// Sends everything to where it belongs.
 template <class Index>
-Mesh DistributedMesh::Sharing::deal(const MeshPart<Index>& part, const PartitionOptions& options,
+Mesh DistributedMesh::Sharing::deal(MeshPart<Index> part, const PartitionOptions& options,
                                     const std::shared_ptr<const Exchange>& self) {
   detail::together(ranks_, [&] { validate(part); });
+  const int corners_of_each = corners_of_all(ranks_, part);
+  if (part.cells.extent(0) == 0) part.cells = CellRows<Index>(nullptr, 0, corners_of_each);
   const detail::VertexDirectory directory = directory_of(ranks_, part, options.repartition);
   const detail::OwnedIds owned = directory.owned();
-  // What a rank owns as it hands it over gets its segments on a device while tetrahedra travel.
+  // What a rank owns as it hands it over gets its segments on a device while cells travel.
   const bool in_place = directory.given() && !owned.interval.is_empty();
   std::future<Segmentation> segments;
   if (have_device && in_place) {
     const Offset place = owned.interval.begin - directory.given()->of(ranks_.rank()).begin;
     segments = octree_meanwhile(part.points.part(place, owned.count()), options.capacity);
   }
-  const detail::LocalTetrahedra<Index> held_tetrahedra(ranks_, part, directory, owned.interval, options.most_local);
-  detail::together(ranks_, [&] { held_ = detail::LocalVertices(owned, held_tetrahedra.vertices_beside(owned)); });
+  const detail::LocalCells<Index> held_cells(ranks_, part, directory, owned.interval, options.most_local);
+  detail::together(ranks_, [&] { held_ = detail::LocalVertices(owned, held_cells.vertices_beside(owned)); });
   detail::require_local(ranks_, "vertices", held_.count(), options.most_local);
   vertices_ = directory.vertices();
-  tetrahedra_ = ranks_.sum(part.tetrahedra.extent(0));
-  if (tetrahedra_ == 0) throw SharedError("the mesh has no tetrahedra");
+  cells_ = ranks_.sum(part.cells.extent(0));
   given_ = directory.given();
   placed_ = share(directory, part.points);
   std::optional<Mesh> mesh;
   detail::together(ranks_, [&] {
-    places_ = held_tetrahedra.places();
-    if (options.keep_corners) corners = detail::local_corners(held_tetrahedra, held_);
+    places_ = held_cells.places();
+    if (options.keep_corners) corners = detail::local_corners(held_cells, held_);
     const Segmentation own = segments.valid() ? segments.get() : detail::octree_of(placed_.owned, options.capacity);
     const Segmentation ghosts = detail::octree_of(placed_.ghosts, options.capacity);
     const Segmentation segmentation = detail::local_segmentation(held_, own, ghosts);
-    mesh = detail::local_mesh(held_tetrahedra, held_, segmentation, self);
+    mesh = detail::local_mesh(held_cells, held_, segmentation, self);
   });
   return *mesh;
 }
@@ -263,15 +282,17 @@ Mesh DistributedMesh::Sharing::deal(const MeshPart<Index>& part, const Partition
 template <class Index>
 Mesh DistributedMesh::Sharing::take(const MeshPart<Index>& part, const PartitionOptions& options,
                                     const std::shared_ptr<const Exchange>& self) {
-  const Mesh mesh(part.tetrahedra, detail::octree_of(part.points, options.capacity), self);
+  const Mesh mesh = detail::mesh_of_rows(part.cells, detail::octree_of(part.points, options.capacity), self);
   if (options.keep_corners) {
-    corners = detail::tabulated_rows<Id, 4>("GALE::local_tetrahedra", part.tetrahedra.extent(0),
-                                            [&](Offset t, int corner) { return part.tetrahedra(t, corner); });
+    const auto rows =
+        allocate<CellRows<Id>::non_const_type>("GALE::local_cells", part.cells.extent(0), part.cells.extent(1));
+    Kokkos::deep_copy(rows, part.cells);
+    corners = rows;
   }
   vertices_ = part.vertex_ids.extent(0);
-  tetrahedra_ = part.tetrahedra.extent(0);
+  cells_ = part.cells.extent(0);
   held_ = detail::LocalVertices(detail::OwnedIds(detail::IdInterval{0, vertices_}), {});
-  places_ = detail::TetrahedronPlaces({tetrahedra_, {}, part.tetrahedron_ids, 0}, {});
+  places_ = detail::CellPlaces({cells_, {}, part.cell_ids, 0}, {});
   placed_.owned = part.points;
   from_givers_ = detail::ExchangePlan::of_one_rank(vertices_);
   return mesh;
@@ -281,7 +302,7 @@ template <class Index>
 Mesh DistributedMesh::Sharing::make(const MeshPart<Index>& part, const PartitionOptions& options,
                                     const std::shared_ptr<const Exchange>& self) {
   given_vertices_ = part.vertex_ids.extent(0);
-  const Offset most = std::max(part.vertex_ids.extent(0), part.tetrahedra.extent(0));
+  const Offset most = std::max(part.vertex_ids.extent(0), part.cells.extent(0));
   if (ranks_.size() == 1 && most <= options.most_local && is_numbered_as_local(part)) {
     try {
       return take(part, options, self);
@@ -303,12 +324,10 @@ DistributedMesh::Shared DistributedMesh::shared(const Communicator& ranks, const
 }
 
 const Array<const GlobalId, HostMemory>& DistributedMesh::vertex_ids() const { return sharing_->vertex_ids.get(); }
-const Array<const GlobalId, HostMemory>& DistributedMesh::tetrahedron_ids() const {
-  return sharing_->tetrahedron_ids.get();
-}
+const Array<const GlobalId, HostMemory>& DistributedMesh::cell_ids() const { return sharing_->cell_ids.get(); }
 const Array<const int, HostMemory>& DistributedMesh::owners() const { return sharing_->owners.get(); }
 const Points<double, HostMemory>& DistributedMesh::points() const { return sharing_->points.get(); }
-const Tetrahedra<Id, HostMemory>& DistributedMesh::corners() const { return sharing_->corners; }
+const CellRows<Id>& DistributedMesh::corners() const { return sharing_->corners; }
 
 #define GALE_INSTANTIATE(Index)                                                                                     \
   template GALE_EXPORT DistributedMesh::Shared DistributedMesh::shared(const Communicator&, const MeshPart<Index>&, \

@@ -83,18 +83,24 @@ class HostPoints {
   std::any owner_;
 };
 
-/// What one rank hands over of a mesh, on the host: any part of it, which may be empty. A tetrahedron is handed over by
-/// one rank, a vertex by any number of them: what the lowest of them says of it counts.
+/// The vertices of each cell, a row each: three of triangles, four of tetrahedra.
+template <class Index>
+using CellRows = Kokkos::View<const Index**, Kokkos::LayoutRight, HostMemory>;
+
+/// What one rank hands over of a mesh, on the host: any part of it, which may be empty. A cell is handed over by one
+/// rank, a vertex by any number of them: what the lowest of them says of it counts.
 ///
 /// `Index` is std::int32_t or std::int64_t.
 template <class Index>
 struct MeshPart {
   Array<const GlobalId, HostMemory> vertex_ids;  ///< global ids, 0 to 2^62 - 1, in any order, also with gaps
   HostPoints points;                             ///< where each of these is; the mesh keeps them
-  Tetrahedra<Index, HostMemory> tetrahedra;      ///< four global ids each, of vertices that any ranks hand over
+
+  /// The global ids of each one's vertices, which any ranks hand over: triangles or tetrahedra, on all ranks alike.
+  CellRows<Index> cells;
 
   /// 0 to 2^62 - 1, all different, which the mesh keeps; none: they are counted from rank to rank.
-  Array<const GlobalId, HostMemory> tetrahedron_ids;
+  Array<const GlobalId, HostMemory> cell_ids;
 };
 
 namespace detail {
@@ -119,19 +125,21 @@ Array<const GlobalId, HostMemory> global_ids(const View& view) {
 }  // namespace detail
 
 /// The part that a caller has in Views: a global id and 3 coordinates for each vertex, 4 global ids for each
-/// tetrahedron. Of any integer and floating-point types, in host memory or a device's, in any layout. Host Views that
-/// are laid out as GALE reads them (64-bit ids, rows of float or double, of 32-bit or 64-bit integers) aren't copied:
-/// those of ids and tetrahedra must live as long as the part, those of points, and of tetrahedra's ids, as long as the
-/// mesh. Views that Kokkos manages do so by themselves. Throws gale::Error if extents don't fit.
-template <class IdView, class PointView, class TetrahedronView>
-auto make_part(const IdView& vertex_ids, const PointView& points, const TetrahedronView& tetrahedra) {
-  const auto rows = detail::rows_of<4, detail::IndexFor>("tetrahedra", tetrahedra);
-  using Index = typename decltype(rows)::non_const_value_type;
-  MeshPart<Index> part;
+/// tetrahedron or 3 for each triangle. Of any integer and floating-point types, in host memory or a device's, in any
+/// layout. Host Views that are laid out as GALE reads them (64-bit ids, rows of float or double, of 32-bit or 64-bit
+/// integers) aren't copied: those of ids and cells must live as long as the part, those of points, and of cells' ids,
+/// as long as the mesh. Views that Kokkos manages do so by themselves. Throws gale::Error if extents don't fit.
+template <class IdView, class PointView, class CellView>
+auto make_part(const IdView& vertex_ids, const PointView& points, const CellView& cells) {
+  MeshPart<detail::IndexFor<typename CellView::non_const_value_type>> part;
   part.vertex_ids = detail::global_ids(vertex_ids);
   const auto rows_of_points = on_host(detail::rows_of<3, detail::CoordinateFor>("points", points));
   part.points = detail::kept_points(rows_of_points, points);
-  part.tetrahedra = on_host(rows);
+  if (cells.extent(1) == 3) {
+    part.cells = on_host(detail::rows_of<3, detail::IndexFor>("triangles", cells));
+  } else if (cells.extent(0) > 0) {
+    part.cells = on_host(detail::rows_of<4, detail::IndexFor>("tetrahedra", cells));
+  }
   if (static_cast<Offset>(part.vertex_ids.extent(0)) != part.points.count()) {
     throw Error("there are " + std::to_string(part.vertex_ids.extent(0)) + " vertex ids, but " +
                 std::to_string(part.points.count()) + " points");
@@ -139,16 +147,14 @@ auto make_part(const IdView& vertex_ids, const PointView& points, const Tetrahed
   return part;
 }
 
-/// The part that a caller has in Views, with a global id for each tetrahedron: throws gale::Error if there aren't as
-/// many.
-template <class IdView, class PointView, class TetrahedronView, class TetrahedronIdView>
-auto make_part(const IdView& vertex_ids, const PointView& points, const TetrahedronView& tetrahedra,
-               const TetrahedronIdView& tetrahedron_ids) {
-  auto part = make_part(vertex_ids, points, tetrahedra);
-  part.tetrahedron_ids = detail::global_ids(tetrahedron_ids);
-  if (part.tetrahedron_ids.extent(0) != part.tetrahedra.extent(0)) {
-    throw Error("there are " + std::to_string(part.tetrahedron_ids.extent(0)) + " tetrahedron ids, but " +
-                std::to_string(part.tetrahedra.extent(0)) + " tetrahedra");
+/// The part that a caller has in Views, with a global id for each cell: throws gale::Error if there aren't as many.
+template <class IdView, class PointView, class CellView, class CellIdView>
+auto make_part(const IdView& vertex_ids, const PointView& points, const CellView& cells, const CellIdView& cell_ids) {
+  auto part = make_part(vertex_ids, points, cells);
+  part.cell_ids = detail::global_ids(cell_ids);
+  if (part.cell_ids.extent(0) != part.cells.extent(0)) {
+    throw Error("there are " + std::to_string(part.cell_ids.extent(0)) + " cell ids, but " +
+                std::to_string(part.cells.extent(0)) + " cells");
   }
   return part;
 }

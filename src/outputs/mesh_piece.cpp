@@ -8,42 +8,36 @@ namespace gale::outputs {
 
 namespace {
 
-/// The tetrahedra whose highest vertices this rank owns: input ids, ascending.
-std::vector<Id> tetrahedra_of_piece(const VertexOrder& order) {
-  const Mesh& mesh = order.mesh();
-  const auto tetrahedra = mesh.encoded().cells;
-  const std::uint64_t* const keys = order.keys();
-  std::vector<Id> owned;
-  for (Id t = 0; t < mesh.cells(); ++t) {
-    Id highest = tetrahedra(t, 0);
-    for (int corner = 1; corner < 4; ++corner) {
-      if (keys[tetrahedra(t, corner)] > keys[highest]) highest = tetrahedra(t, corner);
-    }
-    if (highest < mesh.owned_vertices()) owned.push_back(mesh.cell_input()(t));
-  }
-  std::sort(owned.begin(), owned.end());
-  return owned;
-}
-
-/// Which vertices are in the piece, and where there.
-struct VerticesOfPiece {
-  std::vector<Id> all;    ///< input ids, ascending
-  std::vector<Id> place;  ///< by input id; no_id for one that isn't
+/// Which cells and vertices are in the piece: input ids, ascending.
+struct SimplicesOfPiece {
+  std::vector<Id> cells;     ///< those whose highest vertices this rank owns
+  std::vector<Id> vertices;  ///< theirs, and all others that the rank owns
+  std::vector<Id> place;     ///< among these, by input id; no_id for one that isn't there
 };
 
-VerticesOfPiece vertices_of_piece(const Mesh& mesh, const io::Dataset& dataset, const std::vector<Id>& tetrahedra) {
-  VerticesOfPiece vertices{{}, std::vector<Id>(mesh.vertices(), no_id)};
+SimplicesOfPiece simplices_of_piece(const VertexOrder& order) {
+  const Mesh& mesh = order.mesh();
+  const auto cells = mesh.encoded().cells;
   const auto& input = mesh.vertex_input();
-  for (Id v = 0; v < mesh.owned_vertices(); ++v) vertices.place[input(v)] = 0;
-  for (const Id t : tetrahedra) {
-    for (int corner = 0; corner < 4; ++corner) vertices.place[dataset.tetrahedra(t, corner)] = 0;
+  const std::uint64_t* const keys = order.keys();
+  SimplicesOfPiece of_piece{{}, {}, std::vector<Id>(mesh.vertices(), no_id)};
+  for (Id v = 0; v < mesh.owned_vertices(); ++v) of_piece.place[input(v)] = 0;
+  for (Id t = 0; t < mesh.cells(); ++t) {
+    Id highest = cells(t, 0);
+    for (int corner = 1; corner < 4; ++corner) {
+      if (keys[cells(t, corner)] > keys[highest]) highest = cells(t, corner);
+    }
+    if (highest >= mesh.owned_vertices()) continue;
+    of_piece.cells.push_back(mesh.cell_input()(t));
+    for (int corner = 0; corner < 4; ++corner) of_piece.place[input(cells(t, corner))] = 0;
   }
+  std::sort(of_piece.cells.begin(), of_piece.cells.end());
   for (Id v = 0; v < mesh.vertices(); ++v) {
-    if (vertices.place[v] == no_id) continue;
-    vertices.place[v] = static_cast<Id>(vertices.all.size());
-    vertices.all.push_back(v);
+    if (of_piece.place[v] == no_id) continue;
+    of_piece.place[v] = static_cast<Id>(of_piece.vertices.size());
+    of_piece.vertices.push_back(v);
   }
-  return vertices;
+  return of_piece;
 }
 
 template <class IdOf>
@@ -58,27 +52,30 @@ io::PointArray array_of_ids(const char* name, const std::vector<Id>& some, const
 io::MeshPiece piece_of(const VertexOrder& order, const io::Dataset& dataset, const std::vector<io::PointArray>& more,
                        bool has_ids) {
   const Mesh& mesh = order.mesh();
-  const std::vector<Id> tetrahedra = tetrahedra_of_piece(order);
-  const VerticesOfPiece vertices = vertices_of_piece(mesh, dataset, tetrahedra);
+  const SimplicesOfPiece of_piece = simplices_of_piece(order);
+  const std::vector<Id>&cells = of_piece.cells, &vertices = of_piece.vertices;
   io::MeshPiece piece;
-  std::visit([&](const auto& all) { piece.mesh.points = detail::points_at(all, vertices.all); }, dataset.points);
-  piece.mesh.tetrahedra = decltype(piece.mesh.tetrahedra)("GALE::piece_tetrahedra", tetrahedra.size());
-  for (std::size_t i = 0; i < tetrahedra.size(); ++i) {
-    for (int corner = 0; corner < 4; ++corner)
-      piece.mesh.tetrahedra(i, corner) = vertices.place[dataset.tetrahedra(tetrahedra[i], corner)];
-  }
+  std::visit([&](const auto& all) { piece.mesh.points = detail::points_at(all, vertices); }, dataset.points);
+  const auto take_cells = [&](const auto& from, auto& to) {
+    to = std::decay_t<decltype(to)>("GALE::piece_cells", cells.size());
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      for (std::size_t k = 0; k < from.extent(1); ++k) to(i, k) = of_piece.place[from(cells[i], k)];
+    }
+  };
+  mesh.dimension() == 3 ? take_cells(dataset.tetrahedra, piece.mesh.tetrahedra)
+                        : take_cells(dataset.triangles, piece.mesh.triangles);
   auto& arrays = piece.mesh.arrays;
-  for (const io::PointArray& array : dataset.arrays) arrays.push_back(io::gather(array, vertices.all));
-  for (const io::PointArray& array : more) arrays.push_back(io::gather(array, vertices.all));
+  for (const io::PointArray& array : dataset.arrays) arrays.push_back(io::gather(array, vertices));
+  for (const io::PointArray& array : more) arrays.push_back(io::gather(array, vertices));
   std::vector<std::uint8_t> ghosts;
-  for (const Id v : vertices.all) ghosts.push_back(mesh.vertex_internal()(v) >= mesh.owned_vertices());
+  for (const Id v : vertices) ghosts.push_back(mesh.vertex_internal()(v) >= mesh.owned_vertices());
   arrays.push_back({"vtkGhostType", 1, std::move(ghosts)});
   if (!has_ids) {
-    arrays.push_back(array_of_ids(io::global_point_ids, vertices.all, [&](Id v) { return mesh.vertex_id(v); }));
+    arrays.push_back(array_of_ids(io::global_point_ids, vertices, [&](Id v) { return mesh.vertex_id(v); }));
   }
-  for (const io::PointArray& array : dataset.cell_arrays) piece.cell_arrays.push_back(io::gather(array, tetrahedra));
+  for (const io::PointArray& array : dataset.cell_arrays) piece.cell_arrays.push_back(io::gather(array, cells));
   if (piece.cell_arrays.empty()) {
-    piece.cell_arrays.push_back(array_of_ids(io::global_cell_ids, tetrahedra, [&](Id t) { return mesh.cell_id(t); }));
+    piece.cell_arrays.push_back(array_of_ids(io::global_cell_ids, cells, [&](Id t) { return mesh.cell_id(t); }));
   }
   return piece;
 }

@@ -8,9 +8,10 @@ def xml_array(kind, name, values, components=1):
             f'{" ".join(map(str, values))}</DataArray>\n')
 
 
-def vtu(points, cells, arrays="", cell_arrays="", coordinates="Float64", global_ids=""):
-    """Tetrahedra, or the cells that the numbers of their points say; `arrays` are text that xml_array made, `global_ids`
-    the name of one of them."""
+def vtu(points, cells, arrays="", cell_arrays="", coordinates="Float64", global_ids="", flat=False):
+    """Tetrahedra, or the cells that the numbers of their points say, `flat` ones of dimension 2; `arrays` are text that
+    xml_array made, `global_ids` the name of one of them."""
+    types = {3: 5, 4: 9, 5: 7} if flat else {4: 10, 5: 14, 6: 13, 8: 12}
     ids = f' GlobalIds="{global_ids}"' if global_ids else ""
     return ('<VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian" header_type="UInt64">\n<UnstructuredGrid>\n'
             f'<Piece NumberOfPoints="{len(points)}" NumberOfCells="{len(cells)}">\n<PointData{ids}>\n{arrays}</PointData>\n'
@@ -18,7 +19,7 @@ def vtu(points, cells, arrays="", cell_arrays="", coordinates="Float64", global_
             xml_array(coordinates, "Points", [x for point in points for x in point], 3) + "</Points>\n<Cells>\n" +
             xml_array("Int64", "connectivity", [corner for cell in cells for corner in cell]) +
             xml_array("Int64", "offsets", itertools.accumulate(map(len, cells))) +
-            xml_array("UInt8", "types", [{4: 10, 5: 14, 6: 13, 8: 12}[len(cell)] for cell in cells]) +
+            xml_array("UInt8", "types", [types[len(cell)] for cell in cells]) +
             "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n")
 
 
@@ -36,8 +37,8 @@ class MeshWithIds:
     """A mesh whose points and cells have ids in no order of the mesh, with gaps, and a field of few values, so that most
     neighbours have equal ones."""
 
-    def __init__(self, points, cells):
-        self.points, self.cells = points, cells
+    def __init__(self, points, cells, flat=False):
+        self.points, self.cells, self.flat = points, cells, flat
         shuffled = random.Random(5)
         self.point_ids = [3 * i + 1 for i in shuffled.sample(range(len(points)), len(points))]
         self.cell_ids = [2 * i + 9 for i in shuffled.sample(range(len(cells)), len(cells))]
@@ -69,4 +70,4 @@ class MeshWithIds:
             place = {v: i for i, v in enumerate(vertices)}
             yield vtu([self.points[v] for v in vertices], [[place[v] for v in self.cells[c]] for c in kept],
                       self.arrays(vertices, with_order), xml_array("UInt8", "vtkGhostType", [int(owners[c] != piece) for c in kept]) +
-                      xml_array("Int64", "cell ids", [self.cell_ids[c] for c in kept]))
+                      xml_array("Int64", "cell ids", [self.cell_ids[c] for c in kept]), flat=self.flat)

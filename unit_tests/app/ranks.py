@@ -85,8 +85,8 @@ class ComplexTest(RanksTest):
         return found
 
     def expect_segmentation(self, one, pieces):
-        """Each vertex is no ghost in one piece, each tetrahedron is in one; in all, vertices have the values of one rank."""
-        owned, tetrahedra = set(), []
+        """Each vertex is no ghost in one piece, each cell is in one; in all, vertices have the values of one rank."""
+        owned, simplices = set(), []
         for piece in pieces:
             arrays, ids = piece.point_arrays, piece.point_arrays["GlobalPointIds"]
             self.assertEqual(set(arrays), set(one.point_arrays) | {"vtkGhostType", "GlobalPointIds"})
@@ -98,10 +98,10 @@ class ComplexTest(RanksTest):
                     self.assertNotIn(vertex, owned)
                     owned.add(vertex)
             for cell, corners in zip(piece.cell_arrays["GlobalCellIds"], piece.cells("Cells")):
-                tetrahedra.append((cell, [ids[k] for k in corners]))
+                simplices.append((cell, [ids[k] for k in corners]))
         self.assertEqual(owned, set(range(len(one.points))))
-        cells = one.cell_arrays.get("GlobalCellIds", range(len(one.cells("Cells"))))  # several tetrahedra may be of one
-        self.assertEqual(sorted(tetrahedra), sorted(zip(cells, one.cells("Cells"))))
+        cells = one.cell_arrays.get("GlobalCellIds", range(len(one.cells("Cells"))))  # several simplices may be of one
+        self.assertEqual(sorted(simplices), sorted(zip(cells, one.cells("Cells"))))
 
     def expect_files(self, pieces_named, *options):
         read = {kind: gale.XmlFile(self.folder / f"one_{kind}") for kind in
@@ -111,9 +111,9 @@ class ComplexTest(RanksTest):
         self.assertEqual(self.lines(pieces["separatrices1.vtp"]), self.lines([read["separatrices1.vtp"]]))
         self.expect_segmentation(read["segmentation.vtu"], pieces["segmentation.vtu"])
 
-    def expect_complex_of_one_rank(self, count, source):
-        """The complex of an input on so many ranks, compared with that of one."""
-        arguments = ("morse-smale", source, "--no-saddle-connectors", "-o")
+    def expect_complex_of_one_rank(self, count, source, *options):
+        """The complex of an input on so many ranks, compared with that of one. `options` are those of the input, or switch off parts."""
+        arguments = ("morse-smale", source, *options, "-o")
         expected = self.report(*arguments, "one")["result"]
         self.assertGreater(expected["separatrices"]["ascending"], 0)
         self.assertEqual(self.report_of(count, *arguments, "all")["result"], expected)

@@ -64,7 +64,7 @@ class PiecesOnRanks(ranks.ComplexTest):
                 for k, text in enumerate(mesh.pieces(pieces, count, with_order)):
                     self.write(f"part{k}.vtu", text)
                 self.write("parts.pvtu", pvtu([f"part{k}.vtu" for k in range(pieces)], "ids", "cell ids"))
-                self.expect_complex_of_one_rank(count, "parts.pvtu")
+                self.expect_complex_of_one_rank(count, "parts.pvtu", "--no-saddle-connectors")
 
     def test_pieces_of_other_cells_fit(self):
         """Hexahedra, some of them two wedges, with ids and without, and dealt out by the first rank."""
@@ -87,7 +87,7 @@ class PiecesOnRanks(ranks.ComplexTest):
         for source in ("with_ids.pvtu", "without.pvtu", "one_file.vtu"):
             for count in ranks.RANKS:
                 with self.subTest(source=source, ranks=count):
-                    self.expect_complex_of_one_rank(count, source)
+                    self.expect_complex_of_one_rank(count, source, "--no-saddle-connectors")
         for report in (self.report("info", "with_ids.pvtu"), self.report_of(3, "critical-points", "with_ids.pvtu")):
             self.assertEqual(report["notices"][0], "split 75 hexahedra and 100 wedges into 750 tetrahedra")
         run = self.launch(2, "critical-points", "with_ids.pvtu", "--cells", "tetrahedra")
@@ -126,7 +126,7 @@ class PiecesOnRanks(ranks.ComplexTest):
                 report = self.report_of(count, "critical-points", "wrote_segmentation.pvtu", "-o", "all.pvtp")
                 self.assertEqual(report["result"], expected["result"])
                 self.assertEqual(self.points(self.pieces("all.pvtp")), expected_points)
-        self.expect_complex_of_one_rank(2, "wrote_segmentation.pvtu")
+        self.expect_complex_of_one_rank(2, "wrote_segmentation.pvtu", "--no-saddle-connectors")
 
     def test_what_is_wrong_is_said_in_one_line(self):
         self.write_pieces([0, 1, 2, 2**62, 4, 5])

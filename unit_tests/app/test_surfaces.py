@@ -91,6 +91,7 @@ class Surfaces(gale.CommandTest):
             self.assertEqual(report["result"]["euler"], 1)
         report = self.report("morse-smale", "plane:100", "-o", "complex")
         self.assertEqual(report["result"]["separatrices"]["saddle_connectors"], 0)
+        self.assertEqual([report["result"]["manifolds"][kind] for kind in ("ascending", "descending")], [42, 77])
         file = gale.XmlFile(self.folder / "complex_segmentation.vtu")
         self.assertEqual(set(file.point_arrays), {"field", "AscendingManifold", "DescendingManifold", "MorseSmaleManifold"})
         self.assertEqual(len(file.cells("Cells")), 2 * 99 * 99)

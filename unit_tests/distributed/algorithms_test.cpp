@@ -10,7 +10,6 @@
 #include "algorithms/fields.hpp"
 #include "algorithms/structure_kinds.hpp"
 #include "distributed/every_partition.hpp"
-#include "support/segmentations.hpp"
 
 namespace gale::test {
 
@@ -24,9 +23,30 @@ class OnRanks : public EveryPartition {
     return {all[at % all.size()], all[(at + 1) % all.size()]};
   }
 
+  /// What each vertex is, and whether it is on the surface.
+  struct Types {
+    std::vector<int> types;
+    std::vector<std::uint8_t> on_surface;
+  };
+
+  /// By brute force; of triangles as one rank finds them, which other tests compare with brute force.
+  Types expected_types(const Field& field) const {
+    if (!is_surface()) {
+      const BruteForce& brute_force = brute_force_of(mesh_name());
+      return {brute_force_types(input(), brute_force, field.values), brute_force.on_surface};
+    }
+    Types expected{std::vector<int>(input().vertices(), 5), std::vector<std::uint8_t>(input().vertices())};
+    const auto found = find_critical_points(VertexOrder(whole_mesh(), field.values.data(), field.values.size()));
+    for (std::size_t i = 0; i < found.vertices.size(); ++i) {
+      expected.types[found.vertices[i]] = static_cast<int>(found.types[i]);
+      expected.on_surface[found.vertices[i]] = found.on_surface[i];
+    }
+    return expected;
+  }
+
   /// Are these the vertices that aren't regular of those that this rank owns?
-  void expect_types(const CriticalPoints& found, const std::vector<int>& types) const {
-    const BruteForce& brute_force = brute_force_of(mesh_name());
+  void expect_types(const CriticalPoints& found, const Types& expected) const {
+    const std::vector<int>& types = expected.types;
     const std::vector<bool> mine = owned();
     std::array<GlobalId, 5> counts{};
     std::size_t at = 0;
@@ -37,7 +57,7 @@ class OnRanks : public EveryPartition {
       ASSERT_LT(at, found.vertices.size());
       EXPECT_EQ(mesh_.vertex_id(found.vertices[at]), vertex_name(v));
       EXPECT_EQ(static_cast<int>(found.types[at]), types[v]) << "vertex " << v;
-      EXPECT_EQ(found.on_surface[at], brute_force.on_surface[v]) << "vertex " << v;
+      EXPECT_EQ(found.on_surface[at], expected.on_surface[v]) << "vertex " << v;
       ++at;
     }
     EXPECT_EQ(found.vertices.size(), at);
@@ -46,8 +66,8 @@ class OnRanks : public EveryPartition {
 
   /// The gradient on this rank alone, of the whole mesh.
   DiscreteGradient gradient_on_one(const Field& field) const {
-    const Mesh whole = encode(input(), 100);
-    const auto structure = make_structure(whole, discrete_gradient_relations);
+    const Mesh whole = whole_mesh();
+    const auto structure = make_structure(whole, discrete_gradient_relations_of(whole.dimension()));
     return find_discrete_gradient(*structure, VertexOrder(whole, field.values.data(), field.values.size()));
   }
 
@@ -58,7 +78,7 @@ class OnRanks : public EveryPartition {
 
 TEST_P(OnRanks, critical_points_are_those_of_brute_force) {
   for (const Field& field : fields()) {
-    const auto types = brute_force_types(input(), brute_force_of(mesh_name()), field.values);
+    const Types types = expected_types(field);
     const VertexOrder order(mesh_, part_.values(field.values));
     for (const auto& kind : structure_kinds()) {
       SCOPED_TRACE(field.name + ", " + kind.name);
@@ -70,7 +90,7 @@ TEST_P(OnRanks, critical_points_are_those_of_brute_force) {
   }
 }
 
-/// What this rank knows of the pairs of vertices, tetrahedra and edges, against the gradient of the whole mesh.
+/// What this rank knows of the pairs of vertices, cells and edges, against the gradient of the whole mesh.
 void OnRanks::expect_pairs(const DiscreteGradient& found, const DiscreteGradient& whole,
                            const std::vector<double>& values) const {
   const Mesh& local = mesh_;
@@ -95,7 +115,7 @@ void OnRanks::expect_pairs(const DiscreteGradient& found, const DiscreteGradient
   }
   const std::vector<bool> mine = owned();
   for (Id t = 0; t < local.cells(); ++t) {
-    const auto& quad = input().tetrahedra[input_tetrahedron(t)];
+    const auto& quad = input().tetrahedra[input_cell(t)];
     const Id highest = *std::max_element(quad.begin(), quad.end(), [&](Id a, Id b) { return rank_of(a) < rank_of(b); });
     const Id successor = found.cell_successor(t);
     if (!mine[highest]) {
@@ -103,13 +123,13 @@ void OnRanks::expect_pairs(const DiscreteGradient& found, const DiscreteGradient
       continue;
     }
     Id there = 0;
-    while (all.cell_input()(there) != input_tetrahedron(t)) ++there;
+    while (all.cell_input()(there) != input_cell(t)) ++there;
     const Id expected = whole.cell_successor(there);
     EXPECT_EQ(DiscreteGradient::leaves(successor), DiscreteGradient::leaves(expected));
     if (DiscreteGradient::leaves(successor)) {
       EXPECT_EQ(input_vertex(found.pair_of_cell(t).vertex), all.vertex_input()(whole.pair_of_cell(there).vertex));
     } else {
-      EXPECT_EQ(input_successor(successor, [&](Id s) { return input_tetrahedron(s); }),
+      EXPECT_EQ(input_successor(successor, [&](Id s) { return input_cell(s); }),
                 input_successor(expected, [&](Id s) { return all.cell_input()(s); }));
     }
   }
@@ -144,7 +164,7 @@ void OnRanks::expect_critical(const DiscreteGradient& found, const DiscreteGradi
   for (auto& edge : critical.edges) edge = {input_vertex(edge[0]), input_vertex(edge[1])};
   for (auto& [high, middle, low] : critical.triangles)
     std::tie(high, middle, low) = std::make_tuple(input_vertex(high), input_vertex(middle), input_vertex(low));
-  for (Id& t : critical.cells) t = input_tetrahedron(t);
+  for (Id& t : critical.cells) t = input_cell(t);
   EXPECT_EQ(critical.vertices, expected.vertices);
   EXPECT_EQ(critical.edges, expected.edges);
   EXPECT_EQ(critical.triangles, expected.triangles);
@@ -157,7 +177,7 @@ TEST_P(OnRanks, gradients_are_those_of_one_rank) {
   for (const Field& field : fields()) {
     const DiscreteGradient whole = gradient_on_one(field);
     const VertexOrder order(mesh_, part_.values(field.values));
-    const auto structure = make_structure(mesh_, discrete_gradient_relations);
+    const auto structure = make_structure(mesh_, discrete_gradient_relations_of(mesh_.dimension()));
     for (const auto& found :
          {find_discrete_gradient(*structure, order, with_threads(2)), find_discrete_gradient(WorkerSpace(), order)}) {
       SCOPED_TRACE(field.name);

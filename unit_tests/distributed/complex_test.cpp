@@ -10,7 +10,6 @@
 #include "algorithms/fields.hpp"
 #include "distributed/every_partition.hpp"
 #include "support/arrays.hpp"
-#include "support/segmentations.hpp"
 #include "support/with_threads.hpp"
 
 namespace gale::test {
@@ -19,17 +18,17 @@ class ComplexOnRanks : public EveryPartition {
  protected:
   /// The complex of the whole mesh, on this rank alone.
   MorseSmaleComplex complex_on_one(const std::vector<double>& values) const {
-    const Mesh whole = encode(input(), 100);
-    const auto structure = make_structure(whole, discrete_gradient_relations);
+    const Mesh whole = whole_mesh();
+    const auto structure = make_structure(whole, discrete_gradient_relations_of(whole.dimension()));
     return find_morse_smale_complex(
         *structure, find_discrete_gradient(*structure, VertexOrder(whole, values.data(), values.size())));
   }
 
   MorseSmaleComplex complex_of(const std::vector<double>& values) const {
     const VertexOrder order(mesh_, part_.values(values));
-    const auto structure = make_structure(mesh_, discrete_gradient_relations);
+    const auto structure = make_structure(mesh_, discrete_gradient_relations_of(mesh_.dimension()));
     MorseSmaleParts parts;
-    parts.saddle_connectors = false;
+    parts.saddle_connectors = is_surface();  // which has none
     return find_morse_smale_complex(*structure, find_discrete_gradient(*structure, order), parts);
   }
 
@@ -42,14 +41,14 @@ class ComplexOnRanks : public EveryPartition {
     }
   }
 
-  /// The input's number of a vertex, or a tetrahedron, on a path.
+  /// The input's number of a vertex, or a cell, on a path.
   Id vertex_on_path(const MorseSmaleComplex& found, Id vertex) const {
     const Id n = mesh_.vertices();
     return vertex < n ? input_vertex(vertex) : vertex_named(found.beyond.vertices[vertex - n]);
   }
-  Id tetrahedron_on_path(const MorseSmaleComplex& found, Id tetrahedron) const {
+  Id cell_on_path(const MorseSmaleComplex& found, Id cell) const {
     const Id n = mesh_.cells();
-    return tetrahedron < n ? input_tetrahedron(tetrahedron) : tetrahedron_named(found.beyond.cells[tetrahedron - n]);
+    return cell < n ? input_cell(cell) : cell_named(found.beyond.cells[cell - n]);
   }
 
   /// A path: the input's numbers of its source's vertices, where it ends, and those of the simplices on it.
@@ -101,11 +100,15 @@ TEST_P(ComplexOnRanks, separatrices_are_those_of_one_rank) {
     const auto& vertex_input = whole.gradient.mesh().vertex_input();
     const auto& cell_input = whole.gradient.mesh().cell_input();
     const auto vertex_here = [&](Id v) { return vertex_on_path(found, v); };
-    const auto tetrahedron_here = [&](Id t) { return tetrahedron_on_path(found, t); };
+    const auto cell_here = [&](Id t) { return cell_on_path(found, t); };
     expect_paths(paths_of(found.descending, found.critical.edges, vertex_here, vertex_here),
                  paths_of(whole.descending, whole.critical.edges, vertex_input, vertex_input));
-    expect_paths(paths_of(found.ascending, found.critical.triangles, vertex_here, tetrahedron_here),
-                 paths_of(whole.ascending, whole.critical.triangles, vertex_input, cell_input));
+    const auto expect_ascending = [&](const auto& saddles, const auto& saddles_of_whole) {
+      expect_paths(paths_of(found.ascending, saddles, vertex_here, cell_here),
+                   paths_of(whole.ascending, saddles_of_whole, vertex_input, cell_input));
+    };
+    is_surface() ? expect_ascending(found.critical.edges, whole.critical.edges)
+                 : expect_ascending(found.critical.triangles, whole.critical.triangles);
   }
 }
 
@@ -121,7 +124,7 @@ TEST_P(ComplexOnRanks, simplices_beyond_a_part_are_those_that_it_does_not_hold) 
     EXPECT_EQ(mesh_.exchange().cell_of(found.beyond.cells[i]), no_id);
     std::set<Id> corners;
     for (const Id v : found.beyond.corners[i]) corners.insert(vertex_on_path(found, v));
-    const auto& quad = input().tetrahedra[tetrahedron_named(found.beyond.cells[i])];
+    const auto& quad = input().tetrahedra[cell_named(found.beyond.cells[i])];
     EXPECT_EQ(corners, std::set<Id>(quad.begin(), quad.end()));
   }
 }

@@ -20,37 +20,37 @@ TEST_P(DistributedMeshOf, every_partition_has_each_vertex_owned_once) {
 
 TEST_P(DistributedMeshOf, every_partition_holds_the_stars_of_owned_vertices_and_no_more) {
   const std::vector<bool> mine = owned();
-  std::set<Id> tetrahedra, vertices;
+  std::set<Id> cells, vertices;
   for (Id v = 0; v < input().vertices(); ++v) {
     if (mine[v]) vertices.insert(v);
   }
   for (Id t = 0; t < static_cast<Id>(input().tetrahedra.size()); ++t) {
     const auto& quad = input().tetrahedra[t];
     if (std::none_of(quad.begin(), quad.end(), [&](Id v) { return mine[v]; })) continue;
-    tetrahedra.insert(t);
+    cells.insert(t);
     vertices.insert(quad.begin(), quad.end());
   }
   const Mesh& local = mesh_;
   EXPECT_EQ(local.vertices(), static_cast<Id>(vertices.size()));
-  ASSERT_EQ(local.cells(), static_cast<Id>(tetrahedra.size()));
-  std::set<Id> found_vertices, found_tetrahedra;
+  ASSERT_EQ(local.cells(), static_cast<Id>(cells.size()));
+  std::set<Id> found_vertices, found_cells;
   for (Id v = 0; v < local.vertices(); ++v) found_vertices.insert(input_vertex(v));
   for (Id t = 0; t < local.cells(); ++t) {
-    const Id there = input_tetrahedron(t);
-    found_tetrahedra.insert(there);
+    const Id there = input_cell(t);
+    found_cells.insert(there);
     std::set<Id> corners;
     for (int corner = 0; corner < 4; ++corner) corners.insert(input_vertex(local.encoded().cells(t, corner)));
     EXPECT_EQ(corners, std::set<Id>(input().tetrahedra[there].begin(), input().tetrahedra[there].end()));
   }
   EXPECT_EQ(found_vertices, vertices);
-  EXPECT_EQ(found_tetrahedra, tetrahedra);
+  EXPECT_EQ(found_cells, cells);
 }
 
 TEST_P(DistributedMeshOf, every_partition_numbers_by_global_ids_and_owned_vertices_first) {
   const auto& ids = mesh_.vertex_ids();
   EXPECT_TRUE(std::is_sorted(ids.data(), ids.data() + ids.extent(0)));
-  const auto& tetrahedra = mesh_.tetrahedron_ids();
-  EXPECT_TRUE(std::is_sorted(tetrahedra.data(), tetrahedra.data() + tetrahedra.extent(0)));
+  const auto& cells = mesh_.cell_ids();
+  EXPECT_TRUE(std::is_sorted(cells.data(), cells.data() + cells.extent(0)));
   const Mesh& local = mesh_;
   for (Id v = 0; v < local.vertices(); ++v) {
     EXPECT_EQ(mesh_.owners()(local.vertex_input()(v)) == ranks_.rank(), v < local.owned_vertices());
@@ -121,12 +121,11 @@ TEST(DistributedMesh, of_slabs_of_a_grid_has_the_tetrahedra_of_the_grid) {
   const Communicator ranks(MPI_COMM_WORLD);
   const io::GridPart slab = io::make_grid_part(6, ranks.rank(), ranks.size());
   const io::Dataset whole = io::make_grid(6);
-  std::vector<GlobalId> ids, tetrahedron_ids;
+  std::vector<GlobalId> ids, cell_ids;
   for (std::size_t i = 0; i < slab.field.size(); ++i) ids.push_back(slab.first_vertex + GlobalId(i));
-  for (std::size_t t = 0; t < slab.tetrahedra.extent(0); ++t)
-    tetrahedron_ids.push_back(slab.first_tetrahedron + GlobalId(t));
+  for (std::size_t t = 0; t < slab.tetrahedra.extent(0); ++t) cell_ids.push_back(slab.first_tetrahedron + GlobalId(t));
   for (const bool with_ids : {false, true}) {
-    const auto part = with_ids ? make_part(view_of(ids), slab.points, slab.tetrahedra, view_of(tetrahedron_ids))
+    const auto part = with_ids ? make_part(view_of(ids), slab.points, slab.tetrahedra, view_of(cell_ids))
                                : make_part(view_of(ids), slab.points, slab.tetrahedra);
     const DistributedMesh mesh(ranks, part);
     const Mesh& local = mesh;
@@ -135,7 +134,7 @@ TEST(DistributedMesh, of_slabs_of_a_grid_has_the_tetrahedra_of_the_grid) {
     EXPECT_EQ(ranks.sum(local.owned_vertices()), 216);
     EXPECT_GE(ranks.sum(local.cells()), 750);
     for (Id t = 0; t < local.cells(); ++t) {
-      const GlobalId there = mesh.tetrahedron_ids()(local.cell_input()(t));
+      const GlobalId there = mesh.cell_ids()(local.cell_input()(t));
       std::set<GlobalId> corners, expected;
       for (int corner = 0; corner < 4; ++corner) {
         corners.insert(mesh.vertex_ids()(local.vertex_input()(local.encoded().cells(t, corner))));
@@ -155,7 +154,7 @@ TEST(DistributedMesh, counts_tetrahedra_on_from_rank_to_rank) {
   const InputMesh& input = mesh_named("holed_grid_9");
   GivenPart part = part_of(input, "blocks", ranks);
   auto views = part.views();
-  views.tetrahedron_ids = {};
+  views.cell_ids = {};
   const DistributedMesh mesh(ranks, views, options_of("blocks"));
   std::map<std::set<Id>, GlobalId> number;
   for (std::size_t t = 0; t < input.tetrahedra.size(); ++t)
@@ -165,7 +164,7 @@ TEST(DistributedMesh, counts_tetrahedra_on_from_rank_to_rank) {
     std::set<Id> corners;
     for (int corner = 0; corner < 4; ++corner)
       corners.insert(vertex_named(mesh.vertex_ids()(local.vertex_input()(local.encoded().cells(t, corner)))));
-    EXPECT_EQ(mesh.tetrahedron_ids()(local.cell_input()(t)), number.at(corners));
+    EXPECT_EQ(mesh.cell_ids()(local.cell_input()(t)), number.at(corners));
   }
 }
 

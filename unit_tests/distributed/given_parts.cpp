@@ -1,10 +1,12 @@
 #include "distributed/given_parts.hpp"
 
 #include <algorithm>
+#include <map>
 #include <random>
 #include <set>
 
 #include "support/arrays.hpp"
+#include "support/surfaces.hpp"
 
 namespace gale::test {
 
@@ -23,19 +25,19 @@ GivenPart random_part(const InputMesh& input, int rank, int ranks) {
   std::mt19937 random(31);
   GivenPart part;
   for (const Id v : random_share(input.vertices(), rank, ranks, random)) part.add_vertex(input, v);
-  std::vector<Id> tetrahedra = random_share(static_cast<Id>(input.tetrahedra.size()), rank, ranks, random);
-  std::shuffle(tetrahedra.begin(), tetrahedra.end(), random);
-  for (const Id t : tetrahedra) part.add_tetrahedron(input, t);
+  std::vector<Id> cells = random_share(static_cast<Id>(input.tetrahedra.size()), rank, ranks, random);
+  std::shuffle(cells.begin(), cells.end(), random);
+  for (const Id t : cells) part.add_cell(input, t);
   return part;
 }
 
-/// An interval of vertices, and tetrahedra anywhere, in order.
+/// An interval of vertices, and cells anywhere, in order.
 GivenPart interval_part(const InputMesh& input, std::pair<Id, Id> vertices, int rank, int ranks) {
   std::mt19937 random(37);
   GivenPart part;
   for (Id v = vertices.first; v < vertices.second; ++v) part.add_vertex(input, v);
   for (const Id t : random_share(static_cast<Id>(input.tetrahedra.size()), rank, ranks, random))
-    part.add_tetrahedron(input, t);
+    part.add_cell(input, t);
   return part;
 }
 
@@ -58,7 +60,7 @@ GivenPart block(const InputMesh& input, int rank, int ranks) {
   std::set<Id> touched, all_touched;
   for (const auto& quad : input.tetrahedra) all_touched.insert(quad.begin(), quad.end());
   for (Offset t = count * rank / ranks; t < count * (rank + 1) / ranks; ++t) {
-    part.add_tetrahedron(input, static_cast<Id>(t));
+    part.add_cell(input, static_cast<Id>(t));
     touched.insert(input.tetrahedra[t].begin(), input.tetrahedra[t].end());
   }
   for (Id v = 0; v < input.vertices(); ++v) {
@@ -75,14 +77,35 @@ void GivenPart::add_vertex(const InputMesh& input, Id vertex) {
   points.insert(points.end(), input.points[vertex].begin(), input.points[vertex].end());
 }
 
-void GivenPart::add_tetrahedron(const InputMesh& input, Id tetrahedron) {
-  tetrahedron_ids.push_back(tetrahedron_name(tetrahedron));
-  for (const Id vertex : input.tetrahedra[tetrahedron]) tetrahedra.push_back(vertex_name(vertex));
+void GivenPart::add_cell(const InputMesh& input, Id cell) {
+  const auto& vertices = input.tetrahedra[cell];
+  corners = vertices[2] == vertices[3] ? 3 : 4;
+  cell_ids.push_back(cell_name(cell));
+  for (int corner = 0; corner < corners; ++corner) cells.push_back(vertex_name(vertices[corner]));
 }
 
 MeshPart<GlobalId> GivenPart::views() const {
-  return make_part(view_of(vertex_ids), detail::view_of<3>("points", points),
-                   detail::view_of<4>("tetrahedra", tetrahedra), view_of(tetrahedron_ids));
+  const CellRows<GlobalId> rows(cells.data(), cells.size() / corners, corners);
+  return make_part(view_of(vertex_ids), detail::view_of<3>("points", points), rows, view_of(cell_ids));
+}
+
+const std::vector<std::string>& input_names() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all = mesh_names();
+    all.insert(all.end(), {"torus", "any triangles", "vertices without a triangle"});
+    return all;
+  }();
+  return names;
+}
+
+const InputMesh& input_named(const std::string& name) {
+  static std::map<std::string, InputMesh> made;
+  const auto surface = surfaces().find(name);
+  if (surface == surfaces().end()) return mesh_named(name);
+  const auto [mesh, is_new] = made.try_emplace(name, InputMesh{surface->second.points, {}});
+  for (const auto& [a, b, c] : is_new ? surface->second.triangles : std::vector<std::array<Id, 3>>())
+    mesh->second.tetrahedra.push_back({a, b, c, c});
+  return mesh->second;
 }
 
 const std::vector<std::string>& partition_names() {

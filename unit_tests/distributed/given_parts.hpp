@@ -21,20 +21,27 @@ inline constexpr VertexNames names_without_gaps{GlobalId(3) << 31, 1};
 inline VertexNames vertex_names = names_with_gaps;
 
 inline GlobalId vertex_name(Id vertex) { return vertex_names.first + vertex_names.stride * GlobalId(vertex); }
-inline GlobalId tetrahedron_name(Id tetrahedron) { return (GlobalId(1) << 33) + 2 * GlobalId(tetrahedron); }
+inline GlobalId cell_name(Id cell) { return (GlobalId(1) << 33) + 2 * GlobalId(cell); }
 inline Id vertex_named(GlobalId name) { return static_cast<Id>((name - vertex_names.first) / vertex_names.stride); }
-inline Id tetrahedron_named(GlobalId name) { return static_cast<Id>((name - (GlobalId(1) << 33)) / 2); }
+inline Id cell_named(GlobalId name) { return static_cast<Id>((name - (GlobalId(1) << 33)) / 2); }
+
+/// The names of the meshes that are cut into parts: `mesh_names()`, then some of `surfaces()`.
+const std::vector<std::string>& input_names();
+
+/// One of them. The cells of a surface are its triangles, with the last corner twice.
+const InputMesh& input_named(const std::string& name);
 
 /// What one rank hands over of a mesh.
 struct GivenPart {
   std::vector<Id> vertices;  ///< of the input, in the order in which they are handed over
   std::vector<GlobalId> vertex_ids;
   std::vector<double> points;
-  std::vector<GlobalId> tetrahedra;
-  std::vector<GlobalId> tetrahedron_ids;
+  int corners = 4;              ///< of each cell; 4 where there are none
+  std::vector<GlobalId> cells;  ///< their corners
+  std::vector<GlobalId> cell_ids;
 
   void add_vertex(const InputMesh& input, Id vertex);
-  void add_tetrahedron(const InputMesh& input, Id tetrahedron);
+  void add_cell(const InputMesh& input, Id cell);
 
   /// Of this, which must live as long.
   MeshPart<GlobalId> views() const;
@@ -48,8 +55,8 @@ struct GivenPart {
   }
 };
 
-/// The ways in which tests cut a mesh into parts: "random", each vertex and each tetrahedron anywhere; "blocks", equal
-/// numbers of tetrahedra, and all their vertices, so that ranks share some; "last", all on the last rank; "shared", all
+/// The ways in which tests cut a mesh into parts: "random", each vertex and each cell anywhere; "blocks", equal numbers
+/// of cells, and all their vertices, so that ranks share some; "last", all on the last rank; "shared", all
 /// vertices on all ranks; and "curve", "random" to be dealt out again. Without gaps between ids: "overlap", intervals
 /// of vertices that have some in common, and "island", those of the first rank amid those of the last.
 const std::vector<std::string>& partition_names();

@@ -8,9 +8,9 @@
 #include <gtest/gtest.h>
 
 #include <gale/base/error.hpp>
+#include <gale/distributed/sharing/cell_places.hpp>
 #include <gale/distributed/sharing/id_interval.hpp>
 #include <gale/distributed/sharing/local_vertices.hpp>
-#include <gale/distributed/sharing/tetrahedron_places.hpp>
 
 #include "support/arrays.hpp"
 
@@ -48,10 +48,10 @@ void expect_places(const detail::LocalVertices& found, const std::set<GlobalId>&
   EXPECT_EQ(found.ghost_count(), ghost);
 }
 
-/// A tetrahedron's id, and where it comes from: its place in the part, or -1 - its place among the received ones.
+/// A cell's id, and where it comes from: its place in the part, or -1 - its place among the received ones.
 using Sources = std::map<GlobalId, Offset>;
 
-void expect_sources(const detail::TetrahedronPlaces& places, const Sources& expected) {
+void expect_sources(const detail::CellPlaces& places, const Sources& expected) {
   ASSERT_EQ(places.count(), static_cast<Offset>(expected.size()));
   const auto ids = places.ids();
   std::vector<Offset> sources;
@@ -137,7 +137,7 @@ TEST(LocalVertices, of_ids_with_gaps) {
 
 /// Kept ones counted from an id or with ids of their own, that ascend or don't; all of the part or some; and received
 /// ones anywhere among them.
-TEST(TetrahedronPlaces, are_by_ascending_ids) {
+TEST(CellPlaces, are_by_ascending_ids) {
   std::mt19937_64 random(9);
   constexpr Offset count = 300;
   for (int turn = 0; turn < 12; ++turn) {
@@ -159,7 +159,7 @@ TEST(TetrahedronPlaces, are_by_ascending_ids) {
       expected[id] = -1 - static_cast<Offset>(received.size());
       received.push_back(id);
     }
-    detail::KeptTetrahedra mine;
+    detail::KeptCells mine;
     mine.count = static_cast<Offset>(kept.size());
     mine.first_id = 1000;
     if (!counted) mine.ids = array_of(of_part);
@@ -168,21 +168,21 @@ TEST(TetrahedronPlaces, are_by_ascending_ids) {
       std::copy(kept.begin(), kept.end(), places.data());
       mine.places = places;
     }
-    expect_sources(detail::TetrahedronPlaces(mine, array_of(received)), expected);
+    expect_sources(detail::CellPlaces(mine, array_of(received)), expected);
   }
 }
 
-TEST(TetrahedronPlaces, refuse_an_id_that_occurs_twice) {
-  detail::KeptTetrahedra kept;
+TEST(CellPlaces, refuse_an_id_that_occurs_twice) {
+  detail::KeptCells kept;
   kept.count = 5;
   kept.first_id = 10;
   for (const std::vector<GlobalId>& received : {std::vector<GlobalId>{12}, {40, 40}, {8, 14}}) {
     const GlobalId twice = received.back();
     try {
-      const detail::TetrahedronPlaces places(kept, array_of(received));
+      const detail::CellPlaces places(kept, array_of(received));
       FAIL() << twice;
     } catch (const Error& error) {
-      EXPECT_EQ(error.what(), "tetrahedron " + std::to_string(twice) + " is handed over twice");
+      EXPECT_EQ(error.what(), "cell " + std::to_string(twice) + " is handed over twice");
     }
   }
 }

@@ -4,6 +4,8 @@
 
 #include <gale/distributed/distributed_mesh.hpp>
 
+#include "support/message_of.hpp"
+
 namespace gale::test {
 
 namespace {
@@ -43,6 +45,19 @@ void expect_kept(bool is_copied) {
 }
 
 }  // namespace
+
+/// Those of a rank that has no cells have none of any dimension.
+TEST(MeshPart, has_cells_of_three_or_four_vertices) {
+  const Tetrahedron<Kokkos::View<double**, HostMemory>> given;
+  const auto cells_of = [&](std::size_t count, std::size_t corners) {
+    return make_part(given.ids, given.points,
+                     Kokkos::View<int**, Kokkos::LayoutLeft, HostMemory>("cells", count, corners))
+        .cells;
+  };
+  for (const std::size_t corners : {3, 4}) EXPECT_EQ(cells_of(2, corners).extent(1), corners);
+  EXPECT_EQ(cells_of(0, 0).extent(0), 0u);
+  EXPECT_EQ(message_of([&] { cells_of(1, 5); }), "tetrahedra have 5 columns, not 4");
+}
 
 /// Points that are laid out as GALE reads them are shared, others copied; either way they are there when asked for.
 TEST(MeshPart, keeps_points_that_their_caller_gives_up) {

@@ -24,7 +24,7 @@ class LastPart {
     vertex_names = names;
     if (is_last()) {
       for (Id v = 0; v < 4; ++v) part.add_vertex(mesh_named("one_tetrahedron"), v);
-      part.add_tetrahedron(mesh_named("one_tetrahedron"), 0);
+      part.add_cell(mesh_named("one_tetrahedron"), 0);
     }
   }
 
@@ -49,7 +49,7 @@ TEST(WrongParts, have_ids_below_0) {
   if (given.is_last()) given.part.vertex_ids[2] = -3;
   EXPECT_EQ(given.message(), "ids are 0 or more, not -3");
   LastPart other;
-  if (other.is_last()) other.part.tetrahedron_ids[0] = -7;
+  if (other.is_last()) other.part.cell_ids[0] = -7;
   EXPECT_EQ(other.message(), "ids are 0 or more, not -7");
 }
 
@@ -65,31 +65,31 @@ TEST(WrongParts, have_ids_whose_sums_are_none) {
 /// Where one rank has all, as it would number it, the same is said.
 TEST(WrongParts, that_are_numbered_from_0_are_refused_alike) {
   LastPart twice({0, 1});
-  if (twice.is_last()) twice.part.tetrahedra = {0, 1, 0, 3};
-  EXPECT_EQ(twice.message(), "the tetrahedron of vertices 0 1 0 3 is none: they must be different, and 0 or more");
+  if (twice.is_last()) twice.part.cells = {0, 1, 0, 3};
+  EXPECT_EQ(twice.message(), "the cell of vertices 0 1 0 3 is none: they must be different, and 0 or more");
   LastPart unknown({0, 1});
-  if (unknown.is_last()) unknown.part.tetrahedra = {0, 1, 77, 3};
-  EXPECT_EQ(unknown.message(), "a tetrahedron has vertex 77, which no rank hands over");
+  if (unknown.is_last()) unknown.part.cells = {0, 1, 77, 3};
+  EXPECT_EQ(unknown.message(), "a cell has vertex 77, which no rank hands over");
   LastPart twins({0, 1});
   if (twins.is_last()) {
-    twins.part.tetrahedra.insert(twins.part.tetrahedra.end(), {3, 2, 1, 0});
-    twins.part.tetrahedron_ids = {12, 99};
+    twins.part.cells.insert(twins.part.cells.end(), {3, 2, 1, 0});
+    twins.part.cell_ids = {12, 99};
   }
-  EXPECT_EQ(twins.message(), "tetrahedra 12 and 99 have the same four vertices");
+  EXPECT_EQ(twins.message(), "cells 12 and 99 have the same vertices");
 }
 
 TEST(WrongParts, have_tetrahedra_with_a_vertex_twice) {
   LastPart given;
-  if (given.is_last()) given.part.tetrahedra = {5, 8, 5, 14};
-  EXPECT_EQ(given.message(), "the tetrahedron of vertices 5 8 5 14 is none: they must be different, and 0 or more");
+  if (given.is_last()) given.part.cells = {5, 8, 5, 14};
+  EXPECT_EQ(given.message(), "the cell of vertices 5 8 5 14 is none: they must be different, and 0 or more");
 }
 
 TEST(WrongParts, have_tetrahedra_of_vertices_that_nobody_has) {
   LastPart given;
-  if (given.is_last()) given.part.tetrahedra = {5, 8, 77, 14};
-  EXPECT_EQ(given.message(), "a tetrahedron has vertex 77, which no rank hands over");
-  if (given.is_last()) given.part.tetrahedra = {0, 8, std::numeric_limits<GlobalId>::max(), 14};
-  EXPECT_EQ(given.message(), "a tetrahedron has vertex 0, which no rank hands over");
+  if (given.is_last()) given.part.cells = {5, 8, 77, 14};
+  EXPECT_EQ(given.message(), "a cell has vertex 77, which no rank hands over");
+  if (given.is_last()) given.part.cells = {0, 8, std::numeric_limits<GlobalId>::max(), 14};
+  EXPECT_EQ(given.message(), "a cell has vertex 0, which no rank hands over");
 }
 
 TEST(WrongParts, have_points_nowhere) {
@@ -104,19 +104,49 @@ TEST(WrongParts, have_points_nowhere) {
 TEST(WrongParts, have_a_tetrahedron_twice) {
   LastPart given;
   if (given.is_last()) {
-    given.part.tetrahedra.insert(given.part.tetrahedra.end(), {14, 11, 8, 5});
-    given.part.tetrahedron_ids = {12, 12};
+    given.part.cells.insert(given.part.cells.end(), {14, 11, 8, 5});
+    given.part.cell_ids = {12, 12};
   }
-  EXPECT_EQ(given.message(), "tetrahedron 12 is handed over twice");
-  if (given.is_last()) given.part.tetrahedron_ids = {12, 99};
-  EXPECT_EQ(given.message(), "tetrahedra 12 and 99 have the same four vertices");
+  EXPECT_EQ(given.message(), "cell 12 is handed over twice");
+  if (given.is_last()) given.part.cell_ids = {12, 99};
+  EXPECT_EQ(given.message(), "cells 12 and 99 have the same vertices");
 }
 
-TEST(WrongParts, have_no_tetrahedra) {
+TEST(WrongParts, have_no_cells) {
   LastPart given;
-  given.part.tetrahedra.clear();
-  given.part.tetrahedron_ids.clear();
-  EXPECT_EQ(given.message(), "the mesh has no tetrahedra");
+  given.part.cells.clear();
+  given.part.cell_ids.clear();
+  EXPECT_EQ(given.message(), "the mesh has no cells");
+}
+
+TEST(WrongParts, have_cells_of_two_dimensions) {
+  LastPart given;
+  if (given.ranks.size() == 1) return;
+  if (given.ranks.rank() == 0) given.part.add_cell(input_named("torus"), 0);
+  EXPECT_EQ(given.message(), "cells are of one dimension on all ranks: rank 0 has triangles, rank " +
+                                 std::to_string(given.ranks.size() - 1) + " tetrahedra");
+}
+
+TEST(WrongParts, have_cells_of_two_vertices) {
+  LastPart given;
+  auto views = given.part.views();
+  if (given.is_last()) views.cells = CellRows<GlobalId>(given.part.cells.data(), 1, 2);
+  const std::string message = message_of([&] { DistributedMesh(given.ranks, views); });
+  EXPECT_NE(message.find("cells have 3 vertices or 4, not 2"), std::string::npos) << message;
+}
+
+TEST(WrongParts, have_triangles_that_are_none) {
+  LastPart given;
+  if (given.is_last()) {
+    given.part.corners = 3;
+    given.part.cells = {5, 8, 5};
+  }
+  EXPECT_EQ(given.message(), "the cell of vertices 5 8 5 is none: they must be different, and 0 or more");
+  if (given.is_last()) {
+    given.part.cells = {5, 8, 11, 11, 5, 8};
+    given.part.cell_ids = {12, 99};
+  }
+  EXPECT_EQ(given.message(), "cells 12 and 99 have the same vertices");
 }
 
 TEST(WrongParts, have_a_capacity_of_0) {
@@ -134,7 +164,7 @@ TEST(WrongParts, do_not_fit_the_ranks) {
   PartitionOptions options;
   options.most_local = count / 2;
   EXPECT_EQ(message_of([&] { DistributedMesh(ranks, part.views(), options); }),
-            "a rank would hold " + std::to_string(count) + " tetrahedra, but at most " + std::to_string(count / 2) +
+            "a rank would hold " + std::to_string(count) + " cells, but at most " + std::to_string(count / 2) +
                 " fit: take at least " + std::to_string(count * ranks.size() / (count / 2) + 1) + " ranks");
 }
 

@@ -38,7 +38,7 @@ KOKKOS_FUNCTION void use(const Any&...) {}
 """
 GIVEN = """int argc, char** argv, int provided, const gale::WorkerSpace& space, const gale::Mesh& mesh, gale::Structure* structure,
     Kokkos::View<double* [3], Kokkos::HostSpace> points, Kokkos::View<std::int64_t* [4], Kokkos::HostSpace> tetrahedra,
-    Kokkos::View<std::int64_t*, Kokkos::HostSpace> vertex_ids, Kokkos::View<std::int64_t*, Kokkos::HostSpace> tetrahedron_ids,
+    Kokkos::View<std::int64_t*, Kokkos::HostSpace> vertex_ids, Kokkos::View<std::int64_t*, Kokkos::HostSpace> cell_ids,
     Kokkos::View<double*, Kokkos::HostSpace> values, Kokkos::View<double*> field, gale::NamedSimplices named, Functor functor,
     gale::Id vertex, gale::Id tetrahedron, double threshold"""
 

@@ -88,7 +88,7 @@ void tell_of_ghosts(const Space& space, const VertexOrder& order, const Flags<Sp
   using Memory = MemoryOf<Space>;
   const Mesh& mesh = order.mesh();
   const Id owned = mesh.owned_vertices();
-  if (owned == mesh.vertices() || mesh.dimension() == 2) return;
+  if (owned == mesh.vertices()) return;
   const auto encoded = mesh.encoded<Memory>();
   const std::uint64_t* const keys = order.keys_in<Memory>().data();
   parallel_for(
@@ -109,11 +109,12 @@ template <class Space>
 CriticalPoints collect(const Space& space, const VertexOrder& order, const VertexTypes<MemoryOf<Space>>& types) {
   const Mesh& mesh = order.mesh();
   const Ranks& ranks = mesh.exchange().ranks();
+  const bool ghosts_tell = ranks.size() > 1 && mesh.dimension() == 3;
   Flags<Space> flags;
-  if (ranks.size() > 1) flags = ghost_flags(space, mesh, types);
+  if (ghosts_tell) flags = ghost_flags(space, mesh, types);
   CriticalPoints points;
   together(ranks, [&] {
-    if (ranks.size() > 1) tell_of_ghosts(space, order, flags, types);
+    if (ghosts_tell) tell_of_ghosts(space, order, flags, types);
     points = owned_points(space, mesh, types);
   });
   ranks.sum(points.counts.data(), static_cast<int>(points.counts.size()));

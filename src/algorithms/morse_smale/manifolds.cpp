@@ -140,11 +140,10 @@ Mirrored<Id> descending_on_ranks(const DiscreteGradient& gradient) {
 }
 
 Mirrored<Id> ascending_on_ranks(const DiscreteGradient& gradient) {
-  const auto tetrahedra = PathSimplices::make(gradient, PathSimplices::Kind::rising_cells);
+  const auto cells = PathSimplices::make(gradient, PathSimplices::Kind::rising_cells);
   Array<std::uint64_t, HostMemory> first;
   together(gradient.mesh().exchange().ranks(), [&] { first = first_cells(HostExecutionSpace(), gradient.mesh()); });
-  return manifolds_on_ranks(*tetrahedra,
-                            [&](Id v) { return first(v) == no_first ? no_id : Id(pair_second(first(v))); });
+  return manifolds_on_ranks(*cells, [&](Id v) { return first(v) == no_first ? no_id : Id(pair_second(first(v))); });
 }
 
 /// The pairs that this rank has numbered among themselves get their places among those of all.

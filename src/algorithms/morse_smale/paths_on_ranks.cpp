@@ -30,9 +30,9 @@ PathSimplices::PathSimplices(const DiscreteGradient& gradient, Kind kind)
       keys_(gradient.order().keys()),
       corners_(mesh().encoded().cells) {
   if (are_vertices_) return;
-  tetrahedron_internal_ = allocate<Array<Id, HostMemory>>("GALE::tetrahedron_internal", mesh().cells());
-  parallel_for("GALE::tetrahedron_internal", HostExecutionSpace(), mesh().cells(),
-               [&](Offset t) { tetrahedron_internal_(input_[t]) = static_cast<Id>(t); });
+  cell_internal_ = allocate<Array<Id, HostMemory>>("GALE::cell_internal", mesh().cells());
+  parallel_for("GALE::cell_internal", HostExecutionSpace(), mesh().cells(),
+               [&](Offset t) { cell_internal_(input_[t]) = static_cast<Id>(t); });
 }
 
 std::unique_ptr<const PathSimplices> PathSimplices::make(const DiscreteGradient& gradient, Kind kind) {
@@ -55,8 +55,7 @@ GlobalId PathSimplices::global(Id simplex) const {
 }
 
 Id PathSimplices::local(GlobalId id) const {
-  return are_vertices_ ? mesh().vertex_internal()(mesh().vertex_of(id))
-                       : tetrahedron_internal_(mesh().exchange().cell_of(id));
+  return are_vertices_ ? mesh().vertex_internal()(mesh().vertex_of(id)) : cell_internal_(mesh().exchange().cell_of(id));
 }
 
 int PathSimplices::owner(Id simplex) const {

@@ -9,7 +9,7 @@
 
 namespace gale::detail {
 
-/// A simplex on a path: its global id and, of a tetrahedron, those of its vertices.
+/// A simplex on a path: its global id and, of a cell, those of its vertices: of a triangle the last one twice.
 struct PathCell {
   GlobalId id;
   std::array<GlobalId, 4> corners;
@@ -49,7 +49,7 @@ class PathSimplices {
   const Id *input_, *vertex_input_;
   const std::uint64_t* keys_;
   IdsByFour<HostMemory> corners_;
-  Array<Id, HostMemory> tetrahedron_internal_;  ///< input tetrahedron -> GALE's; of tetrahedra alone
+  Array<Id, HostMemory> cell_internal_;  ///< input cell -> GALE's; of cells alone
 };
 
 /// Where a path goes on or ends.

@@ -172,9 +172,9 @@ class BeyondIds {
   }
 
   /// `simplices` are those of the paths.
-  Id tetrahedron(const PathSimplices& simplices, const PathCell& cell) {
+  Id cell_of(const PathSimplices& simplices, const PathCell& cell) {
     if (mesh_.exchange().cell_of(cell.id) != no_id) return simplices.local(cell.id);
-    const auto [number, is_new] = tetrahedra_.insert(static_cast<std::uint64_t>(cell.id));
+    const auto [number, is_new] = cells_.insert(static_cast<std::uint64_t>(cell.id));
     if (is_new) {
       number = mesh_.cells() + static_cast<Id>(beyond_.cells.size());
       beyond_.cells.push_back(cell.id);
@@ -189,13 +189,13 @@ class BeyondIds {
   void require() const {
     require_ids("vertices on the paths of a rank",
                 Offset(mesh_.vertices()) + static_cast<Offset>(beyond_.vertices.size()));
-    require_ids("tetrahedra on the paths of a rank", Offset(mesh_.cells()) + static_cast<Offset>(beyond_.cells.size()));
+    require_ids("cells on the paths of a rank", Offset(mesh_.cells()) + static_cast<Offset>(beyond_.cells.size()));
   }
 
  private:
   const Mesh& mesh_;
   SimplicesBeyond& beyond_;
-  HashTable<Id> vertices_, tetrahedra_;
+  HashTable<Id> vertices_, cells_;
   Id next_vertex_ = mesh_.vertices();
 };
 
@@ -214,7 +214,7 @@ Separatrices<Id> separatrices_from(const PathSimplices& simplices, const PathSta
     }
     found.cells.reserve(whole.cells.size());
     for (const PathCell& cell : whole.cells)
-      found.cells.push_back(simplices.are_vertices() ? ids.vertex(cell.id) : ids.tetrahedron(simplices, cell));
+      found.cells.push_back(simplices.are_vertices() ? ids.vertex(cell.id) : ids.cell_of(simplices, cell));
     ids.require();
   });
   return found;
@@ -228,8 +228,8 @@ Separatrices<Id> descending_separatrices_on_ranks(const DiscreteGradient& gradie
 }
 
 Separatrices<Id> ascending_separatrices_on_ranks(const DiscreteGradient& gradient, SimplicesBeyond& beyond) {
-  const auto tetrahedra = PathSimplices::make(gradient, PathSimplices::Kind::rising_cells);
-  return separatrices_from(*tetrahedra, ascending_starts(gradient.critical()), beyond);
+  const auto cells = PathSimplices::make(gradient, PathSimplices::Kind::rising_cells);
+  return separatrices_from(*cells, ascending_starts(gradient.critical()), beyond);
 }
 
 }  // namespace gale::detail

@@ -104,8 +104,9 @@ void tell_types(const std::array<std::int64_t, 5>& counts, Session& session) {
 }
 
 void tell_simplices(const std::array<std::int64_t, 4>& counts, Session& session) {
-  static const char* const names[] = {"minima", "1-saddles", "2-saddles", "maxima"};
-  for (int dimension = 0; dimension < 4; ++dimension)
+  const auto names = session.report().tetrahedra ? std::vector{"minima", "1-saddles", "2-saddles", "maxima"}
+                                                 : std::vector{"minima", "saddles", "maxima"};
+  for (std::size_t dimension = 0; dimension < names.size(); ++dimension)
     session.console().say(names[dimension], grouped(counts[dimension]));
   const std::int64_t euler = counts[0] - counts[1] + counts[2] - counts[3];
   session.console().say("Euler number", grouped(euler));

@@ -87,7 +87,7 @@ class AnalysisCommand : public Command {
   /// The names of files beside those that options name, each empty where it isn't wanted.
   virtual std::vector<std::string> more_files() const { return {}; }
 
-  /// Whether the session keeps the dataset's tetrahedra.
+  /// Whether the session keeps the dataset's cells.
   virtual Session::Keep keep() const { return Session::Keep::nothing; }
 
   /// Has the device do on a tiny mesh what it will do on the input.

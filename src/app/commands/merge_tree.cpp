@@ -42,7 +42,7 @@ class FindMergeTree final : public Command {
     const std::string nodes = file("_nodes.vtp"), arcs = file("_arcs.vtp"), segmentation = file("_segmentation.vtu");
     Session session = begin({nodes, arcs, segmentation});
     const FieldOnMesh on =
-        session.read_field(segmentation_, output_.empty() ? Session::Keep::nothing : Session::Keep::tetrahedra);
+        session.read_field(segmentation_, output_.empty() ? Session::Keep::nothing : Session::Keep::cells);
     Computed computed;
     const MergeTree tree = find(on, session, computed);
     tell(tree, session);

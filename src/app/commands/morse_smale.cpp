@@ -50,7 +50,7 @@ void tell(const MorseSmaleComplex& complex, const MorseSmaleParts& wanted, Sessi
         {"saddle connectors", "saddle_connectors", wanted.saddle_connectors, paths[2]}},
        session);
   tell("manifolds", "manifolds",
-       {{"ascending", "ascending", wanted.ascending_manifolds, critical[3]},
+       {{"ascending", "ascending", wanted.ascending_manifolds, critical[complex.critical.dimension]},
         {"descending", "descending", wanted.descending_manifolds, critical[0]},
         {"Morse-Smale", "morse_smale", wanted.ascending_manifolds && wanted.descending_manifolds,
          complex.morse_smale_manifolds}},
@@ -111,18 +111,13 @@ class FindMorseSmale final : public AnalysisCommand {
   }
 
   Session::Keep keep() const override {
-    return files().segmentation.empty() ? Session::Keep::nothing : Session::Keep::tetrahedra;
+    return files().segmentation.empty() ? Session::Keep::nothing : Session::Keep::cells;
   }
 
   void warm_up(const VertexOrder& order) const override { find_morse_smale_complex(find_discrete_gradient(order)); }
 
   /// On several ranks, what follows walls or pairs is refused: both want the whole mesh.
   void require_usage() const override {
-    if (Launch::are_several() && parts_.saddle_connectors) {
-      throw UsageError(
-          "saddle connectors: not on several ranks, where walls can't be followed: switch them off by "
-          "--no-saddle-connectors");
-    }
     refuse_on_ranks({{"--separatrices2", parts_.separatrices2},
                      {"--persistence", bool(persistence_)},
                      {"--extrema-only", extrema_only_},
@@ -131,6 +126,11 @@ class FindMorseSmale final : public AnalysisCommand {
   }
 
   void analyse(const FieldOnMesh& on, Session& session, Computed& computed) const override {
+    if (Launch::are_several() && parts_.saddle_connectors && on.mesh.dimension() == 3) {
+      throw UsageError(
+          "saddle connectors: not on several ranks, where walls can't be followed: switch them off by "
+          "--no-saddle-connectors");
+    }
     const DiscreteGradient gradient =
         find_discrete_gradient(on.order, session.compute(structure_, "gradient"), &computed);
     MorseSmaleComplex complex = find(gradient, on, session, computed);

@@ -35,7 +35,7 @@ class Segment final : public Command {
   void run() const override {
     Session session = begin();
     io::Dataset dataset = session.read();
-    const Mesh mesh = session.encode(dataset, segmentation_, Session::Keep::tetrahedra);
+    const Mesh mesh = session.encode(dataset, segmentation_, Session::Keep::cells);
     tell(mesh, session);
     session.write(output_,
                   [&](const io::AtomicFile& file) { io::write_mesh(file, dataset, {outputs::segments_of(mesh)}); });

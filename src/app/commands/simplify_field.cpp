@@ -37,7 +37,7 @@ class SimplifyField final : public Command {
   void run() const override {
     Session session = begin();
     const FieldOnMesh on =
-        session.read_field(segmentation_, output_.empty() ? Session::Keep::nothing : Session::Keep::tetrahedra);
+        session.read_field(segmentation_, output_.empty() ? Session::Keep::nothing : Session::Keep::cells);
     Computed computed;
     const double threshold = persistence_ ? threshold_of_option(*persistence_, on.field) : 0;
     const SimplifiedField field = simplify_field(

@@ -164,23 +164,23 @@ std::array<Offset, 256> cells_of_all(const Ranks& ranks, const io::SomePieces& s
   return census;
 }
 
-/// Calls use(cell) with the cell of each of this rank's tetrahedra.
+/// Calls use(cell) with the cell that each of this rank's simplices is of.
 template <class Use>
 void for_each_cell(const io::SomePieces& some, const Use& use) {
   const auto& arrays = some.mesh.cell_arrays;
   const std::vector<Id>* const cells = arrays.empty() ? nullptr : &std::get<std::vector<Id>>(arrays[0].values);
-  for (std::size_t t = 0; t < some.mesh.tetrahedra.extent(0); ++t) use(cells == nullptr ? t : (*cells)[t]);
+  for (std::size_t t = 0; t < some.mesh.cells(); ++t) use(cells == nullptr ? t : (*cells)[t]);
 }
 
-/// The global ids of the cells that this rank's tetrahedra are of.
-std::vector<std::int64_t> ids_of_tetrahedra(const io::SomePieces& some) {
+/// The global ids of the cells that this rank's simplices are of.
+std::vector<std::int64_t> ids_of_simplices(const io::SomePieces& some) {
   std::vector<std::int64_t> ids;
   for_each_cell(some, [&](std::size_t cell) { ids.push_back(some.cell_ids[cell]); });
   return ids;
 }
 
-/// For each of this rank's tetrahedra the place of its cell among those of all ranks, in the order of their ids, or of
-/// ranks; none where all cells are tetrahedra. Collective.
+/// For each of this rank's simplices the place of its cell among those of all ranks, in the order of their ids, or of
+/// ranks; none where all cells are simplices. Collective.
 GlobalIds cells_on_ranks(const Ranks& ranks, const io::PieceNames& pieces, const io::SomePieces& some, Offset count) {
   if (ranks.least(std::int64_t(some.mesh.cell_arrays.empty())) == 1) return {};
   const GlobalId before = ranks.sum_before(count);
@@ -188,7 +188,7 @@ GlobalIds cells_on_ranks(const Ranks& ranks, const io::PieceNames& pieces, const
   if (!pieces.cell_ids.empty()) places = places_of(ranks, some.cell_ids, true);
   GlobalIds cells;
   detail::together(ranks, [&] {
-    cells = allocate<GlobalIds>("GALE::cells_of_tetrahedra", some.mesh.tetrahedra.extent(0));
+    cells = allocate<GlobalIds>("GALE::cells_of_simplices", some.mesh.cells());
     Offset t = 0;
     for_each_cell(some, [&](std::size_t cell) {
       cells(t++) = places.extent(0) > 0 ? places(cell) : before + static_cast<GlobalId>(cell);
@@ -207,7 +207,7 @@ SharedInput read_pieces(const Ranks& ranks, const InputOptions& input, const io:
   const auto cells = static_cast<Offset>(some.types.size());
   const auto count = std::visit([](const auto& points) { return Offset(points.extent(0)); }, mesh.points);
   shared.is_in_float = ranks.least(std::int64_t(mesh.points.index() == 0)) == 1;
-  GlobalIds ids, tetrahedron_ids;
+  GlobalIds ids, cell_ids;
   if (pieces.point_ids.empty()) {
     Array<detail::Point, HostMemory> points;
     detail::together(ranks, [&] {
@@ -225,22 +225,23 @@ SharedInput read_pieces(const Ranks& ranks, const InputOptions& input, const io:
   }
   const std::array<Offset, 256> census = cells_of_all(ranks, some);
   const int dimension = highest_dimension(census) == 2 ? 2 : 3;
-  detail::together(ranks, [&] { require_tetrahedra(input, dimension); });
   detail::together(ranks, [&] { io::split_pieces(input.input, some, ids, input.read, dimension); });
-  const auto split = notices_of_split(census, ranks.sum(static_cast<std::int64_t>(mesh.tetrahedra.extent(0))), 4);
+  const auto split = notices_of_split(census, ranks.sum(static_cast<std::int64_t>(mesh.cells())), dimension + 1);
   mesh.notices.insert(mesh.notices.begin(), split.begin(), split.end());
   shared.cells = cells_on_ranks(ranks, pieces, some, cells);
-  if (!pieces.cell_ids.empty()) tetrahedron_ids = places_of(ranks, ids_of_tetrahedra(some), true);
+  if (!pieces.cell_ids.empty()) cell_ids = places_of(ranks, ids_of_simplices(some), true);
   if (input.height) detail::together(ranks, [&] { add_height(mesh, *input.height, shared.is_in_float); });
   keep_common(ranks, mesh, count);
   detail::together(ranks, [&] {
-    const auto tetrahedra =
-        detail::tabulated_rows<GlobalId, 4>("GALE::input_tetrahedra", mesh.tetrahedra.extent(0),
-                                            [&](Offset t, int corner) { return ids(mesh.tetrahedra(t, corner)); });
+    const auto by_ids = [&](const auto& all) -> CellRows<GlobalId> {
+      return detail::tabulated_rows<GlobalId, std::decay_t<decltype(all)>::static_extent(1)>(
+          "GALE::input_cells", all.extent(0), [&](Offset t, int corner) { return ids(all(t, corner)); });
+    };
+    const CellRows<GlobalId> simplices = dimension == 3 ? by_ids(mesh.tetrahedra) : by_ids(mesh.triangles);
     std::visit(
         [&](const auto& points) {
-          shared.part = pieces.cell_ids.empty() ? part_of(ids, points, tetrahedra)
-                                                : part_of(ids, points, tetrahedra, tetrahedron_ids);
+          shared.part =
+              pieces.cell_ids.empty() ? part_of(ids, points, simplices) : part_of(ids, points, simplices, cell_ids);
         },
         mesh.points);
     shared.field = outputs::select_field(mesh, input.read.array);

@@ -58,7 +58,7 @@ inline int launched_ranks() {
 
 /// What of an input outputs take.
 struct WantedOfInput {
-  bool arrays, tetrahedra;
+  bool arrays, cells;
 };
 
 /// Reads an input on several ranks together: `grid:N` is made by each rank for itself, the pieces of a `.pvtu` are read

@@ -32,14 +32,18 @@ void take_grid(int n, const Ranks& ranks, const InputOptions& input, SharedInput
 
 void take_file(const InputOptions& input, SharedInput& shared) {
   io::Dataset dataset = io::read(input.input, input.read);
-  require_tetrahedra(input, dataset.dimension());
   if (input.height) outputs::add_height(dataset, *input.height);
   const auto vertices = std::visit([](const auto& points) { return points.extent(0); }, dataset.points);
   const auto ids = counted(0, vertices);
-  std::visit([&](const auto& points) { shared.part = part_of(ids, points, dataset.tetrahedra); }, dataset.points);
+  std::visit(
+      [&](const auto& points) {
+        shared.part = dataset.dimension() == 3 ? part_of(ids, points, dataset.tetrahedra)
+                                               : part_of(ids, points, dataset.triangles);
+      },
+      dataset.points);
   if (!dataset.cell_arrays.empty()) {
     const auto& cells = std::get<std::vector<Id>>(dataset.cell_arrays[0].values);
-    shared.cells = detail::tabulated<GlobalId>("GALE::cells_of_tetrahedra", static_cast<Offset>(cells.size()),
+    shared.cells = detail::tabulated<GlobalId>("GALE::cells_of_simplices", static_cast<Offset>(cells.size()),
                                                [&](Offset t) { return cells[t]; });
   }
   shared.is_in_float = dataset.points.index() == 0;
@@ -136,18 +140,18 @@ io::PointArray held_values(const Mesh& mesh, const io::PointArray& array) {
       array.values);
 }
 
-/// The numbers of the input's cells that the tetrahedra of this rank are of, by input id, from those that ranks handed
-/// over by `ids`. Collective.
+/// The numbers of the input's cells that those of this rank are of, by input id, from those that ranks handed over by
+/// `ids`. Collective.
 io::PointArray held_cells(const DistributedMesh& mesh, const Array<const GlobalId, HostMemory>& ids,
                           const Array<GlobalId, HostMemory>& cells) {
   const Ranks& ranks = mesh.exchange().ranks();
   const detail::HomeTable<GlobalId> table(
       ranks, ids, [&](Id i) { return cells(i); }, [](int, GlobalId cell) { return cell; });
-  const auto found = table.find(ranks, mesh.tetrahedron_ids(), -1);
+  const auto found = table.find(ranks, mesh.cell_ids(), -1);
   return {io::global_cell_ids, 1, std::vector<GlobalId>(found.data(), found.data() + found.extent(0))};
 }
 
-/// Points, arrays and, if they were kept, tetrahedra of what this rank holds. Collective.
+/// Points, arrays and, if they were kept, cells of what this rank holds. Collective.
 io::Dataset held_dataset(const DistributedMesh& mesh, const SharedInput& shared) {
   io::Dataset held;
   detail::together(mesh.exchange().ranks(), [&] {
@@ -158,9 +162,11 @@ io::Dataset held_dataset(const DistributedMesh& mesh, const SharedInput& shared)
                                                           [&](Offset i, int axis) { return points(i, axis); });
     };
     shared.is_in_float ? fill(float()) : fill(double());
-    const auto& corners = mesh.corners();
-    held.tetrahedra = decltype(held.tetrahedra)("GALE::local_tetrahedra", corners.extent(0));
-    if (corners.extent(0) > 0) Kokkos::deep_copy(held.tetrahedra, corners);
+    const auto take_corners = [&](auto& cells) {
+      cells = std::decay_t<decltype(cells)>("GALE::local_cells", mesh.corners().extent(0));
+      if (cells.extent(0) > 0) Kokkos::deep_copy(cells, mesh.corners());
+    };
+    mesh.dimension() == 3 ? take_corners(held.tetrahedra) : take_corners(held.triangles);
   });
   for (const io::PointArray& array : shared.arrays) held.arrays.push_back(held_values(mesh, array));
   return held;
@@ -183,19 +189,19 @@ FieldOnMesh read_on_ranks(const InputOptions& from, int capacity, const WantedOf
   SharedInput input = read_shared(ranks, from);
   was_read(input.notices);
   begin_step("sharing the mesh");
-  // Tetrahedra without ids are counted from rank to rank.
+  // Cells without ids are counted from rank to rank.
   Array<const GlobalId, HostMemory> given_ids;
-  const bool names_cells = wanted.tetrahedra && ranks.least(-std::int64_t(input.cells.extent(0))) < 0;
+  const bool names_cells = wanted.cells && ranks.least(-std::int64_t(input.cells.extent(0))) < 0;
   if (names_cells) {
-    given_ids = std::visit([](const auto& part) { return part.tetrahedron_ids; }, input.part);
-    const Offset count = std::visit([](const auto& part) { return Offset(part.tetrahedra.extent(0)); }, input.part);
+    given_ids = std::visit([](const auto& part) { return part.cell_ids; }, input.part);
+    const Offset count = std::visit([](const auto& part) { return Offset(part.cells.extent(0)); }, input.part);
     const bool are_counted = ranks.least(-std::int64_t(given_ids.extent(0))) == 0;
     const GlobalId first = ranks.sum_before(count);
     if (are_counted) detail::together(ranks, [&] { given_ids = counted(first, count); });
   }
   PartitionOptions options;
   options.repartition = input.is_dealt_out;
-  options.keep_corners = wanted.tetrahedra;
+  options.keep_corners = wanted.cells;
   options.capacity = capacity;
   const DistributedMesh mesh =
       std::visit([&](const auto& part) { return DistributedMesh(ranks, part, options); }, input.part);

@@ -11,13 +11,12 @@
 
 namespace gale::app {
 
-/// A part that keeps its tetrahedra, which are counted from rank to rank unless they have ids.
-template <class Index, class PointView, class... Ids>
-MeshPart<Index> part_of(const Array<GlobalId, HostMemory>& vertex_ids, const PointView& points,
-                        const Kokkos::View<Index* [4], Kokkos::LayoutRight, HostMemory>& tetrahedra,
-                        const Ids&... tetrahedron_ids) {
-  MeshPart<Index> part = make_part(vertex_ids, points, tetrahedra, tetrahedron_ids...);
-  part.tetrahedra = tetrahedra;
+/// A part that keeps its cells, which are counted from rank to rank unless they have ids.
+template <class PointView, class CellView, class... Ids>
+auto part_of(const Array<GlobalId, HostMemory>& vertex_ids, const PointView& points, const CellView& cells,
+             const Ids&... cell_ids) {
+  auto part = make_part(vertex_ids, points, cells, cell_ids...);
+  part.cells = cells;
   return part;
 }
 
@@ -33,7 +32,7 @@ struct SharedInput {
   bool is_dealt_out = false;           ///< the first rank has all
   std::vector<std::string> notices;
 
-  /// The number of the input's cell that each tetrahedron of the part is of; none where all ranks' are the cells.
+  /// The number of the input's cell that each cell of the part is of; none where all ranks' are the input's.
   Array<GlobalId, HostMemory> cells;
 };
 
@@ -42,8 +41,8 @@ std::string described(const std::vector<io::PointArray>& arrays);
 std::vector<io::PointArray> empty_arrays(const std::string& description);
 
 /// Has each rank read some of the pieces of a `.pvtu`, one behind the other, as many as the others. Vertices and
-/// tetrahedra are numbered as one rank numbers them: in the order of the file's global ids. Without those, tetrahedra
-/// are counted, and vertices, with a notice, where they occur first: points of equal coordinates are one. Collective;
+/// cells are numbered as one rank numbers them: in the order of the file's global ids. Without those, cells are
+/// counted, and vertices, with a notice, where they occur first: points of equal coordinates are one. Collective;
 /// throws SharedError.
 SharedInput read_pieces(const Ranks& ranks, const InputOptions& input, const io::PieceNames& pieces);
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <gale/base/memory.hpp>
+#include <gale/base/transfer.hpp>
 #include <gale/distributed/sharing/id_interval.hpp>
 #include <gale/distributed/sharing/local_mesh.hpp>
 
@@ -13,22 +14,22 @@ namespace gale::detail {
 namespace {
 
 template <class Memory>
-using CornersIn = Kokkos::View<Id* [4], Kokkos::LayoutRight, Memory>;
+using CornersIn = Kokkos::View<Id**, Kokkos::LayoutRight, Memory>;
 
-/// Throws if two tetrahedra have the same vertices, by their global ids.
-void refuse_twins(const Quads& tetrahedra, const TetrahedronPlaces& places) {
-  std::vector<std::pair<std::array<Id, 4>, GlobalId>> all(tetrahedra.extent(0));
+/// Throws if two cells have the same vertices, by their global ids.
+void refuse_twins(const CellRows<Id>& cells, const CellPlaces& places) {
+  std::vector<std::pair<std::array<Id, 4>, GlobalId>> all(cells.extent(0));
   for (std::size_t t = 0; t < all.size(); ++t) {
-    auto& [quad, id] = all[t];
-    for (int corner = 0; corner < 4; ++corner) quad[corner] = tetrahedra(t, corner);
-    std::sort(quad.begin(), quad.end());
+    auto& [corners, id] = all[t];
+    for (std::size_t k = 0; k < cells.extent(1); ++k) corners[k] = cells(t, k);
+    std::sort(corners.begin(), corners.end());
     id = places.id(static_cast<Offset>(t));
   }
   std::sort(all.begin(), all.end());
   for (std::size_t t = 1; t < all.size(); ++t) {
     if (all[t].first != all[t - 1].first) continue;
-    throw Error("tetrahedra " + std::to_string(all[t - 1].second) + " and " + std::to_string(all[t].second) +
-                " have the same four vertices");
+    throw Error("cells " + std::to_string(all[t - 1].second) + " and " + std::to_string(all[t].second) +
+                " have the same vertices");
   }
 }
 
@@ -67,16 +68,16 @@ Mirrored<Id> joined(const Space& space, const LocalVertices& vertices, const Mir
   return all;
 }
 
-/// Writes the local input ids of the vertices of tetrahedra first..last-1 from `to` on.
+/// Writes the local input ids of the vertices of cells first..last-1 from `to` on.
 template <class Index>
-void write_corners(const LocalTetrahedra<Index>& tetrahedra, const LocalVertices& vertices, Offset first, Offset last,
-                   Id* to) {
+void write_corners(const LocalCells<Index>& cells, const LocalVertices& vertices, Offset first, Offset last, Id* to) {
   constexpr Offset block = 256;
   const IndexInterval<Index> owned(vertices.interval());
   const GlobalId shift = vertices.interval().is_empty() ? 0 : vertices.owned(0) - vertices.interval().begin;
-  tetrahedra.visit(first, last, [&](Offset, const Index* corners, Offset count) {
-    for (Offset begin = 0; begin < 4 * count; begin += block) {
-      const Offset size = std::min(block, 4 * count - begin);
+  cells.visit(first, last, [&](Offset, const Index* corners, Offset count) {
+    const Offset entries = cells.corners() * count;
+    for (Offset begin = 0; begin < entries; begin += block) {
+      const Offset size = std::min(block, entries - begin);
       if (owned.contains(corners + begin, size)) {
         for (Offset k = 0; k < size; ++k) to[k] = static_cast<Id>(corners[begin + k] + shift);
       } else {
@@ -88,23 +89,24 @@ void write_corners(const LocalTetrahedra<Index>& tetrahedra, const LocalVertices
 }
 
 template <class Index, class Space>
-CornersIn<MemoryOf<Space>> corners_in(const Space&, const LocalTetrahedra<Index>& tetrahedra,
-                                      const LocalVertices& vertices) {
-  const Offset count = tetrahedra.count();
-  const auto corners = allocate<CornersIn<MemoryOf<Space>>>("GALE::local_tetrahedra", count);
-  if constexpr (is_device<Space>) {
+CornersIn<MemoryOf<Space>> corners_in(const Space&, const LocalCells<Index>& cells, const LocalVertices& vertices) {
+  const Offset count = cells.count(), corners = cells.corners();
+  const auto all = allocate<CornersIn<MemoryOf<Space>>>("GALE::local_cells", count, corners);
+  if constexpr (!is_device<Space>) {
+    for_parts("GALE::local_cells", count, threads_for(count), [&](int, Offset first, Offset last) {
+      write_corners(cells, vertices, first, last, all.data() + corners * first);
+    });
+  } else if (corners == 4) {
     constexpr std::size_t row = 4 * sizeof(Id);
-    write_to_device(corners.data(), static_cast<std::size_t>(count) * row,
+    write_to_device(all.data(), static_cast<std::size_t>(count) * row,
                     [&](char* to, std::size_t begin, std::size_t size) {
-                      write_corners(tetrahedra, vertices, static_cast<Offset>(begin / row),
+                      write_corners(cells, vertices, static_cast<Offset>(begin / row),
                                     static_cast<Offset>((begin + size) / row), reinterpret_cast<Id*>(to));
                     });
-  } else {
-    for_parts("GALE::local_tetrahedra", count, threads_for(count), [&](int, Offset first, Offset last) {
-      write_corners(tetrahedra, vertices, first, last, corners.data() + 4 * first);
-    });
+  } else {  // chunks would end within rows
+    copy_to_device(all.data(), corners_in(HostExecutionSpace(), cells, vertices).data(), all.size() * sizeof(Id));
   }
-  return corners;
+  return all;
 }
 
 }  // namespace
@@ -126,30 +128,29 @@ Segmentation local_segmentation(const LocalVertices& vertices, const Segmentatio
 }
 
 template <class Index>
-Quads local_corners(const LocalTetrahedra<Index>& tetrahedra, const LocalVertices& vertices) {
-  return corners_in<Index>(HostExecutionSpace(), tetrahedra, vertices);
+CellRows<Id> local_corners(const LocalCells<Index>& cells, const LocalVertices& vertices) {
+  return corners_in<Index>(HostExecutionSpace(), cells, vertices);
 }
 
 template <class Index>
-Mesh local_mesh(const LocalTetrahedra<Index>& tetrahedra, const LocalVertices& vertices,
-                const Segmentation& segmentation, const std::shared_ptr<const Exchange>& exchange) {
+Mesh local_mesh(const LocalCells<Index>& cells, const LocalVertices& vertices, const Segmentation& segmentation,
+                const std::shared_ptr<const Exchange>& exchange) {
   try {
     return in_worker_or_host_space(true, [&](const auto& space) {
-      using Here = MemoryOf<std::decay_t<decltype(space)>>;
-      return Mesh(Tetrahedra<Id, Here>(corners_in<Index>(space, tetrahedra, vertices)), segmentation, exchange);
+      return mesh_of_rows(corners_in<Index>(space, cells, vertices), segmentation, exchange);
     });
   } catch (const OutOfMemory&) {
     throw;
   } catch (const Error&) {
-    tetrahedra.require_tetrahedra();
-    refuse_twins(local_corners(tetrahedra, vertices), tetrahedra.places());
+    cells.require_cells();
+    refuse_twins(local_corners(cells, vertices), cells.places());
     throw;
   }
 }
 
-#define GALE_INSTANTIATE(Index)                                                                      \
-  template Quads local_corners(const LocalTetrahedra<Index>&, const LocalVertices&);                 \
-  template Mesh local_mesh(const LocalTetrahedra<Index>&, const LocalVertices&, const Segmentation&, \
+#define GALE_INSTANTIATE(Index)                                                                 \
+  template CellRows<Id> local_corners(const LocalCells<Index>&, const LocalVertices&);          \
+  template Mesh local_mesh(const LocalCells<Index>&, const LocalVertices&, const Segmentation&, \
                            const std::shared_ptr<const Exchange>&)
 GALE_INSTANTIATE(std::int32_t);
 GALE_INSTANTIATE(std::int64_t);

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include <gale/distributed/sharing/local_tetrahedra.hpp>
+#include <gale/distributed/sharing/local_cells.hpp>
 #include <gale/distributed/sharing/local_vertices.hpp>
 
 namespace gale::detail {
@@ -13,16 +13,24 @@ Segmentation octree_of(const HostPoints& points, int capacity);
 /// places among the owned ones, and among the ghosts.
 Segmentation local_segmentation(const LocalVertices& vertices, const Segmentation& owned, const Segmentation& ghosts);
 
-using Quads = Kokkos::View<Id* [4], Kokkos::LayoutRight, HostMemory>;
-
-/// The local input ids of the tetrahedra's vertices.
+/// The local input ids of the cells' vertices.
 template <class Index>
-Quads local_corners(const LocalTetrahedra<Index>& tetrahedra, const LocalVertices& vertices);
+CellRows<Id> local_corners(const LocalCells<Index>& cells, const LocalVertices& vertices);
 
-/// The mesh of what a rank holds, whose tetrahedra are written where the mesh is made. Errors name the global ids of
-/// tetrahedra.
+/// The mesh of triangles or tetrahedra, as rows have three or four vertices.
+template <class Rows>
+Mesh mesh_of_rows(const Rows& cells, const Segmentation& segmentation,
+                  const std::shared_ptr<const Exchange>& exchange) {
+  using Index = typename Rows::non_const_value_type;
+  using Memory = typename Rows::memory_space;
+  if (cells.extent(1) == 3)
+    return Mesh(Triangles<Index, Memory>(cells.data(), cells.extent(0)), segmentation, exchange);
+  return Mesh(Tetrahedra<Index, Memory>(cells.data(), cells.extent(0)), segmentation, exchange);
+}
+
+/// The mesh of what a rank holds, whose cells are written where the mesh is made. Errors name the global ids of cells.
 template <class Index>
-Mesh local_mesh(const LocalTetrahedra<Index>& tetrahedra, const LocalVertices& vertices,
-                const Segmentation& segmentation, const std::shared_ptr<const Exchange>& exchange);
+Mesh local_mesh(const LocalCells<Index>& cells, const LocalVertices& vertices, const Segmentation& segmentation,
+                const std::shared_ptr<const Exchange>& exchange);
 
 }  // namespace gale::detail

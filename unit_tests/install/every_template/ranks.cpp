@@ -11,19 +11,19 @@ namespace {
 /// A mesh on one rank of Views with such types, and the orders of fields on it.
 template <class Coordinate, class Index, class GlobalIndex, class Memory>
 void distribute(const gale::Communicator& ranks) {
-  const Kokkos::View<GlobalIndex**, Memory> ids("ids", vertices, 1), tetrahedron_ids("tetrahedron_ids", tetrahedra, 1);
+  const Kokkos::View<GlobalIndex**, Memory> ids("ids", vertices, 1), cell_ids("cell_ids", tetrahedra, 1);
   const Kokkos::View<Coordinate* [3], Memory> p("points", vertices);
   const Kokkos::View<Index* [4], Memory> t("tetrahedra", tetrahedra);
   const int numbers[vertices][1] = {{0}, {1}, {2}, {3}, {4}};
   fill(ids, numbers);
-  fill(tetrahedron_ids, numbers);
+  fill(cell_ids, numbers);
   fill(p, points);
   fill(t, corners);
   const auto vertex_ids = Kokkos::subview(ids, Kokkos::ALL(), 0);
   const auto part = gale::make_part(vertex_ids, p, t);
-  const auto with_ids = gale::make_part(vertex_ids, p, t, Kokkos::subview(tetrahedron_ids, Kokkos::ALL(), 0));
-  expect(with_ids.tetrahedron_ids.extent(0) == tetrahedra, "ids of tetrahedra");
-  const gale::MeshPart<typename decltype(part.tetrahedra)::non_const_value_type>& same = part;
+  const auto with_ids = gale::make_part(vertex_ids, p, t, Kokkos::subview(cell_ids, Kokkos::ALL(), 0));
+  expect(with_ids.cell_ids.extent(0) == tetrahedra, "ids of cells");
+  const gale::MeshPart<typename decltype(part.cells)::non_const_value_type>& same = part;
   const gale::DistributedMesh mesh(ranks, same);
   expect(mesh.all_vertices() == vertices, "a mesh on ranks");
   const gale::HostPoints& kept = same.points;

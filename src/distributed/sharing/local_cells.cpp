@@ -3,40 +3,42 @@
 #include <utility>
 #include <vector>
 
-#include <gale/distributed/sharing/local_tetrahedra.hpp>
+#include <gale/distributed/sharing/local_cells.hpp>
 #include <gale/mesh/exchange/messages.hpp>
 
 namespace gale::detail {
 
 namespace {
 
-/// Throws for a tetrahedron that is none.
+/// Throws for a cell that is none.
 template <class Index>
-void require_tetrahedron(const Index* quad) {
-  const Index a = quad[0], b = quad[1], c = quad[2], d = quad[3];
-  if (a != b && a != c && a != d && b != c && b != d && c != d && a >= 0 && b >= 0 && c >= 0 && d >= 0) return;
+void require_cell(const Index* cell, Offset corners) {
+  bool is_one = true;
+  for (const Index* corner = cell; corner != cell + corners; ++corner)
+    is_one &= *corner >= 0 && std::find(cell, corner, *corner) == corner;
+  if (is_one) return;
   std::string vertices;
-  for (int corner = 0; corner < 4; ++corner) vertices += ' ' + std::to_string(quad[corner]);
-  throw Error("the tetrahedron of vertices" + vertices + " is none: they must be different, and 0 or more");
+  for (Offset k = 0; k < corners; ++k) vertices += ' ' + std::to_string(cell[k]);
+  throw Error("the cell of vertices" + vertices + " is none: they must be different, and 0 or more");
 }
 
-/// The tetrahedra of a part with vertices outside `own`: their places in it, ascending. Throws gale::Error for one of
+/// The cells of a part with vertices outside `own`: their places in it, ascending. Throws gale::Error for one of
 /// these whose vertices are below 0 or not different.
 template <class Index>
-std::vector<Id> tetrahedra_beyond(const MeshPart<Index>& part, const IdInterval& own) {
+std::vector<Id> cells_beyond(const MeshPart<Index>& part, const IdInterval& own) {
   constexpr Offset block = 64;
-  const Offset count = part.tetrahedra.extent(0);
-  const Index* const corners = part.tetrahedra.data();
+  const Offset count = part.cells.extent(0), corners = part.cells.extent(1);
+  const Index* const ids = part.cells.data();
   const IndexInterval<Index> inner(own);
   const int parts = threads_for(count);
   std::vector<std::vector<Id>> of_parts(parts);
-  for_parts("GALE::outer_tetrahedra", count, parts, [&](int some, Offset first, Offset last) {
+  for_parts("GALE::outer_cells", count, parts, [&](int some, Offset first, Offset last) {
     for (Offset begin = first; begin < last; begin += block) {
       const Offset end = std::min(begin + block, last);
-      if (inner.contains(corners + 4 * begin, 4 * (end - begin))) continue;
+      if (inner.contains(ids + corners * begin, corners * (end - begin))) continue;
       for (Offset t = begin; t < end; ++t) {
-        if (inner.contains(corners + 4 * t, 4)) continue;
-        require_tetrahedron(corners + 4 * t);
+        if (inner.contains(ids + corners * t, corners)) continue;
+        require_cell(ids + corners * t, corners);
         of_parts[some].push_back(static_cast<Id>(t));
       }
     }
@@ -49,9 +51,8 @@ std::vector<Id> tetrahedra_beyond(const MeshPart<Index>& part, const IdInterval&
 /// The places 0..count-1 but for those that are dropped, which ascend; none if none is.
 Array<Id, HostMemory> all_but(const std::vector<Id>& dropped, Offset count) {
   if (dropped.empty()) return {};
-  const auto kept =
-      allocate<Array<Id, HostMemory>>("GALE::kept_tetrahedra", count - static_cast<Offset>(dropped.size()));
-  for_parts("GALE::kept_tetrahedra", count, threads_for(count), [&](int, Offset first, Offset last) {
+  const auto kept = allocate<Array<Id, HostMemory>>("GALE::kept_cells", count - static_cast<Offset>(dropped.size()));
+  for_parts("GALE::kept_cells", count, threads_for(count), [&](int, Offset first, Offset last) {
     auto next = std::lower_bound(dropped.begin(), dropped.end(), static_cast<Id>(first));
     for (Offset t = first; t < last; ++t) {
       if (next != dropped.end() && *next == t) {
@@ -66,7 +67,7 @@ Array<Id, HostMemory> all_but(const std::vector<Id>& dropped, Offset count) {
 
 }  // namespace
 
-/// The ranks that own the vertices of some tetrahedra of a part.
+/// The ranks that own the vertices of some cells of a part.
 template <class Index>
 class CornerOwners {
  public:
@@ -75,14 +76,14 @@ class CornerOwners {
   CornerOwners(const Communicator& ranks, const MeshPart<Index>& part, const VertexDirectory& directory,
                const IdInterval& own, const std::vector<Id>& outer);
 
-  /// Calls visit(rank) once for each rank that owns a vertex of a tetrahedron.
+  /// Calls visit(rank) once for each rank that owns a vertex of a cell.
   template <class Visit>
   void visit_ranks(Offset t, const Visit& visit) const {
     int ranks[4];
-    for (int corner = 0; corner < 4; ++corner) {
-      ranks[corner] = owner(part_.tetrahedra(t, corner));
+    for (std::size_t corner = 0; corner < part_.cells.extent(1); ++corner) {
+      ranks[corner] = owner(part_.cells(t, corner));
       bool is_new = true;
-      for (int other = 0; other < corner; ++other) is_new &= ranks[other] != ranks[corner];
+      for (std::size_t other = 0; other < corner; ++other) is_new &= ranks[other] != ranks[corner];
       if (is_new) visit(ranks[corner]);
     }
   }
@@ -99,7 +100,7 @@ class CornerOwners {
   const MeshPart<Index>& part_;
   const IdInterval own_;
   GlobalIndex given_;   ///< vertices that this rank hands over, where `own` is empty
-  GlobalIndex others_;  ///< vertices that the tetrahedra have beside these
+  GlobalIndex others_;  ///< vertices that the cells have beside these
   Array<VertexEntry, HostMemory> of_given_, of_others_;
 };
 
@@ -111,8 +112,8 @@ CornerOwners<Index>::CornerOwners(const Communicator& ranks, const MeshPart<Inde
   together(ranks, [&] {
     if (own.is_empty()) given_ = GlobalIndex(distinct_ids(part.vertex_ids).ids);
     others = missing_ids(given_, static_cast<Offset>(outer.size()), [&](Offset i, const auto& offer) {
-      for (int corner = 0; corner < 4; ++corner) {
-        const GlobalId vertex = part.tetrahedra(outer[i], corner);
+      for (std::size_t corner = 0; corner < part.cells.extent(1); ++corner) {
+        const GlobalId vertex = part.cells(outer[i], corner);
         if (!own.contains(vertex)) offer(vertex);
       }
     });
@@ -127,7 +128,7 @@ template <class Index>
 void CornerOwners<Index>::refuse_unknown() const {
   for (Offset i = 0; i < others_.count(); ++i) {
     if (of_others_(i).giver < 0)
-      throw Error("a tetrahedron has vertex " + std::to_string(others_[i]) + ", which no rank hands over");
+      throw Error("a cell has vertex " + std::to_string(others_[i]) + ", which no rank hands over");
   }
 }
 
@@ -141,29 +142,28 @@ void require_local(const Communicator& ranks, const char* name, Offset count, Of
 }
 
 template <class Index>
-LocalTetrahedra<Index>::LocalTetrahedra(const Communicator& ranks, const MeshPart<Index>& part,
-                                        const VertexDirectory& directory, const IdInterval& own, Offset most_local)
+LocalCells<Index>::LocalCells(const Communicator& ranks, const MeshPart<Index>& part, const VertexDirectory& directory,
+                              const IdInterval& own, Offset most_local)
     : part_(part), own_(own) {
-  const GlobalId first_id = ranks.sum_before(part.tetrahedra.extent(0));
+  const GlobalId first_id = ranks.sum_before(part.cells.extent(0));
   std::vector<Id> outer;
-  together(ranks, [&] { outer = tetrahedra_beyond(part, own); });
-  Dealt<SentTetrahedron<Index>> sent;
-  const KeptTetrahedra kept = choose(ranks, directory, outer, first_id, sent);
-  received_ = exchange(ranks, "GALE::received_tetrahedra", sent);
-  require_local(ranks, "tetrahedra", kept.count + received_.count(), most_local);
+  together(ranks, [&] { outer = cells_beyond(part, own); });
+  Dealt<SentCell<Index>> sent;
+  const KeptCells kept = choose(ranks, directory, outer, first_id, sent);
+  received_ = exchange(ranks, "GALE::received_cells", sent);
+  require_local(ranks, "cells", kept.count + received_.count(), most_local);
   together(ranks, [&] {
-    places_ = TetrahedronPlaces(kept, tabulated<GlobalId>("GALE::received_ids", received_.count(),
-                                                          [&](Offset i) { return received_.entries(i).id; }));
+    places_ = CellPlaces(kept, tabulated<GlobalId>("GALE::received_ids", received_.count(),
+                                                   [&](Offset i) { return received_.entries(i).id; }));
   });
 }
 
-/// Says which tetrahedra with vertices outside `own` are kept, and which go to others.
+/// Says which cells with vertices outside `own` are kept, and which go to others.
 template <class Index>
-KeptTetrahedra LocalTetrahedra<Index>::choose(const Communicator& ranks, const VertexDirectory& directory,
-                                              const std::vector<Id>& outer, GlobalId first_id,
-                                              Dealt<SentTetrahedron<Index>>& sent) {
+KeptCells LocalCells<Index>::choose(const Communicator& ranks, const VertexDirectory& directory,
+                                    const std::vector<Id>& outer, GlobalId first_id, Dealt<SentCell<Index>>& sent) {
   const CornerOwners<Index> owners(ranks, part_, directory, own_, outer);
-  KeptTetrahedra all_kept;
+  KeptCells all_kept;
   together(ranks, [&] {
     const int here = ranks.rank();
     const ByRank groups = by_rank(ranks.size(), static_cast<Offset>(outer.size()),
@@ -172,42 +172,44 @@ KeptTetrahedra LocalTetrahedra<Index>::choose(const Communicator& ranks, const V
     for (int rank = 0; rank < ranks.size(); ++rank) counts[rank] = groups.begin[rank + 1] - groups.begin[rank];
     const Offset kept = std::exchange(counts[here], 0), kept_from = groups.begin[here];
     outer_.resize(kept);
-    parallel_for("GALE::outer_tetrahedra", HostExecutionSpace(), kept,
+    parallel_for("GALE::outer_cells", HostExecutionSpace(), kept,
                  [&](Offset i) { outer_[i] = outer[groups.members(kept_from + i)]; });
     std::vector<Id> dropped;
     std::set_difference(outer.begin(), outer.end(), outer_.begin(), outer_.end(), std::back_inserter(dropped));
-    const Offset count = part_.tetrahedra.extent(0);
-    all_kept = {count - static_cast<Offset>(dropped.size()), all_but(dropped, count), part_.tetrahedron_ids, first_id};
-    sent = dealt<SentTetrahedron<Index>>("GALE::sent_tetrahedra", counts);
-    parallel_for("GALE::sent_tetrahedra", HostExecutionSpace(), sent.count(), [&](Offset i) {
+    const Offset count = part_.cells.extent(0);
+    all_kept = {count - static_cast<Offset>(dropped.size()), all_but(dropped, count), part_.cell_ids, first_id};
+    sent = dealt<SentCell<Index>>("GALE::sent_cells", counts);
+    parallel_for("GALE::sent_cells", HostExecutionSpace(), sent.count(), [&](Offset i) {
       const Id t = outer[groups.members(i < kept_from ? i : i + kept)];
-      SentTetrahedron<Index>& tetrahedron = sent.entries(i);
-      tetrahedron.id = all_kept.id_at(t);
-      for (int corner = 0; corner < 4; ++corner) tetrahedron.vertices[corner] = part_.tetrahedra(t, corner);
+      SentCell<Index>& cell = sent.entries(i);
+      cell.id = all_kept.id_at(t);
+      for (std::size_t corner = 0; corner < part_.cells.extent(1); ++corner)
+        cell.vertices[corner] = part_.cells(t, corner);
     });
   });
   return all_kept;
 }
 
 template <class Index>
-GlobalIds LocalTetrahedra<Index>::vertices_beside(const OwnedIds& owned) const {
+GlobalIds LocalCells<Index>::vertices_beside(const OwnedIds& owned) const {
   const GlobalIndex index(owned.ids);
   const auto outer = static_cast<Offset>(outer_.size());
   return missing_ids(index, outer + received_.count(), [&](Offset i, const auto& offer) {
-    for (int corner = 0; corner < 4; ++corner) {
+    for (std::size_t corner = 0; corner < part_.cells.extent(1); ++corner) {
       const GlobalId vertex =
-          i < outer ? part_.tetrahedra(outer_[i], corner) : received_.entries(i - outer).vertices[corner];
+          i < outer ? part_.cells(outer_[i], corner) : received_.entries(i - outer).vertices[corner];
       if (!own_.contains(vertex)) offer(vertex);
     }
   });
 }
 
 template <class Index>
-void LocalTetrahedra<Index>::require_tetrahedra() const {
-  for (std::size_t t = 0; t < part_.tetrahedra.extent(0); ++t) require_tetrahedron(part_.tetrahedra.data() + 4 * t);
+void LocalCells<Index>::require_cells() const {
+  const Offset corners = part_.cells.extent(1);
+  for (std::size_t t = 0; t < part_.cells.extent(0); ++t) require_cell(part_.cells.data() + corners * t, corners);
 }
 
-template class LocalTetrahedra<std::int32_t>;
-template class LocalTetrahedra<std::int64_t>;
+template class LocalCells<std::int32_t>;
+template class LocalCells<std::int64_t>;
 
 }  // namespace gale::detail

@@ -4,7 +4,7 @@
 #include <gale/base/error.hpp>
 #include <gale/base/sort.hpp>
 #include <gale/distributed/mesh_part.hpp>
-#include <gale/distributed/sharing/tetrahedron_places.hpp>
+#include <gale/distributed/sharing/cell_places.hpp>
 
 namespace gale::detail {
 
@@ -17,14 +17,11 @@ GlobalId repeated(const GlobalIds& ids) {
   return *std::adjacent_find(sorted.begin(), sorted.end());
 }
 
-[[noreturn]] void refuse_repeated(GlobalId id) {
-  throw Error("tetrahedron " + std::to_string(id) + " is handed over twice");
-}
+[[noreturn]] void refuse_repeated(GlobalId id) { throw Error("cell " + std::to_string(id) + " is handed over twice"); }
 
 }  // namespace
 
-TetrahedronPlaces::TetrahedronPlaces(const KeptTetrahedra& kept, const GlobalIds& received)
-    : kept_(kept), received_(received) {
+CellPlaces::CellPlaces(const KeptCells& kept, const GlobalIds& received) : kept_(kept), received_(received) {
   const bool ascend = kept.ids.extent(0) == 0;
   const Offset descents = ascend ? 0
                                  : reduce_sum("GALE::count_descents", HostExecutionSpace(), kept.count,
@@ -32,7 +29,7 @@ TetrahedronPlaces::TetrahedronPlaces(const KeptTetrahedra& kept, const GlobalIds
   descents > 0 ? sort() : merge();
 }
 
-void TetrahedronPlaces::merge() {
+void CellPlaces::merge() {
   const Offset received = received_.extent(0);
   received_by_id_.resize(received);
   received_at_.resize(received);
@@ -60,27 +57,26 @@ void TetrahedronPlaces::merge() {
   }
 }
 
-void TetrahedronPlaces::sort() {
-  const GlobalIds ids = tabulated<GlobalId>("GALE::tetrahedron_ids", count(), [&](Offset i) {
-    return i < kept_.count ? kept_.id(i) : received_(i - kept_.count);
-  });
+void CellPlaces::sort() {
+  const GlobalIds ids = tabulated<GlobalId>(
+      "GALE::cell_ids", count(), [&](Offset i) { return i < kept_.count ? kept_.id(i) : received_(i - kept_.count); });
   const DistinctIds sorted = distinct_ids(ids);
   if (static_cast<Offset>(sorted.ids.extent(0)) < count()) refuse_repeated(repeated(ids));
   sorted_ = sorted.ids;
   sources_ = sorted.places;
 }
 
-GlobalId TetrahedronPlaces::id(Offset i) const {
+GlobalId CellPlaces::id(Offset i) const {
   if (sources_.extent(0) != 0) return sorted_(i);
   const auto next = std::lower_bound(received_at_.begin(), received_at_.end(), i);
   const Offset before = next - received_at_.begin();
   return next != received_at_.end() && *next == i ? received_(received_by_id_[before]) : kept_.id(i - before);
 }
 
-GlobalIds TetrahedronPlaces::ids() const {
+GlobalIds CellPlaces::ids() const {
   if (sources_.extent(0) != 0) return sorted_;
-  const auto ids = allocate<GlobalIds>("GALE::tetrahedron_ids", count());
-  for_parts("GALE::tetrahedron_ids", count(), threads_for(count()), [&](int, Offset first, Offset last) {
+  const auto ids = allocate<GlobalIds>("GALE::cell_ids", count());
+  for_parts("GALE::cell_ids", count(), threads_for(count()), [&](int, Offset first, Offset last) {
     visit(
         first, last,
         [&](Offset i, Offset place, Offset count) {

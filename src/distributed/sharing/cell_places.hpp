@@ -7,8 +7,8 @@
 
 namespace gale::detail {
 
-/// The tetrahedra that a rank keeps of its own part: their places in it, ascending, and their global ids.
-struct KeptTetrahedra {
+/// The cells that a rank keeps of its own part: their places in it, ascending, and their global ids.
+struct KeptCells {
   Offset count = 0;
   Array<Id, HostMemory> places;           ///< empty where all are kept
   Array<const GlobalId, HostMemory> ids;  ///< the whole part's ids; empty where they are counted
@@ -28,14 +28,14 @@ struct KeptTetrahedra {
   GlobalId id(Offset k) const { return id_at(place(k)); }
 };
 
-/// Where the tetrahedra that a rank holds come from, by ascending global ids: local input ids are places among them.
-/// Tetrahedra that it keeps have that order mostly, and received ones are few: then it takes room for these alone.
-class TetrahedronPlaces {
+/// Where the cells that a rank holds come from, by ascending global ids: local input ids are places among them.
+/// Cells that it keeps have that order mostly, and received ones are few: then it takes room for these alone.
+class CellPlaces {
  public:
-  TetrahedronPlaces() = default;
+  CellPlaces() = default;
 
   /// Throws gale::Error for an id that occurs twice.
-  TetrahedronPlaces(const KeptTetrahedra& kept, const GlobalIds& received);
+  CellPlaces(const KeptCells& kept, const GlobalIds& received);
 
   Offset count() const { return kept_.count + static_cast<Offset>(received_.extent(0)); }
 
@@ -72,7 +72,7 @@ class TetrahedronPlaces {
   void merge();
   void sort();
 
-  KeptTetrahedra kept_;
+  KeptCells kept_;
   GlobalIds received_;  ///< in the order in which they came
   std::vector<Id> received_by_id_;
   std::vector<Offset> received_at_;  ///< their places among all, ascending

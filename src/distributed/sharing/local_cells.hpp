@@ -1,0 +1,67 @@
+#pragma once
+
+#include <vector>
+
+#include <gale/distributed/mesh_part.hpp>
+#include <gale/distributed/sharing/cell_places.hpp>
+#include <gale/distributed/sharing/vertex_directory.hpp>
+
+namespace gale::detail {
+
+/// A cell on its way to another rank.
+template <class Index>
+struct SentCell {
+  GlobalId id;
+  Index vertices[4];  ///< the first three of a triangle
+};
+
+/// The cells that touch a vertex which this rank owns: those of its own part where they are, and those that it got.
+template <class Index>
+class LocalCells {
+ public:
+  /// Sends each cell to the ranks that own a vertex of it. `own`: ids that this rank owns, as many as are known without
+  /// a search: cells of these alone concern no other rank. Collective. Throws gale::Error as DistributedMesh says.
+  /// Refers to `part`, whose cells have as many columns on all ranks.
+  LocalCells(const Communicator& ranks, const MeshPart<Index>& part, const VertexDirectory& directory,
+             const IdInterval& own, Offset most_local);
+
+  Offset count() const { return places_.count(); }
+
+  /// How many vertices each has.
+  int corners() const { return static_cast<int>(part_.cells.extent(1)); }
+
+  /// Their global ids, ascending, and where they come from.
+  const CellPlaces& places() const { return places_; }
+
+  /// The global ids of the vertices of cells first..last-1 of all, in order: calls visit(i, corners, count) for some
+  /// that follow one another, i to i + count - 1, of which `corners` are.
+  template <class Visit>
+  void visit(Offset first, Offset last, const Visit& visit) const {
+    places_.visit(
+        first, last,
+        [&](Offset i, Offset place, Offset count) { visit(i, part_.cells.data() + corners() * place, count); },
+        [&](Offset i, Offset r) { visit(i, received_.entries(r).vertices, Offset(1)); });
+  }
+
+  /// Throws gale::Error for one of the part that is none.
+  void require_cells() const;
+
+  /// The vertices that they have and that this rank doesn't own, ascending.
+  GlobalIds vertices_beside(const OwnedIds& owned) const;
+
+ private:
+  KeptCells choose(const Communicator& ranks, const VertexDirectory& directory, const std::vector<Id>& outer,
+                   GlobalId first_id, Dealt<SentCell<Index>>& sent);
+
+  const MeshPart<Index>& part_;
+  const IdInterval own_;
+  std::vector<Id> outer_;  ///< cells of the part that are kept and have vertices outside `own`
+  Dealt<SentCell<Index>> received_;
+  CellPlaces places_;
+};
+
+/// Throws gale::Error on all ranks if one would hold more than `most` of what `name` says, e.g. "cells": it says how
+/// many ranks it takes. Collective.
+void require_local(const Communicator& ranks, const char* name, Offset count, Offset most);
+
+}  // namespace gale::detail
