@@ -26,11 +26,10 @@ def paths_of(separatrices1, kind, steps):
     neighbours, since a path runs from simplex to simplex."""
     import pyvista
 
-    ends = separatrices1.connectivity.reshape(-1, 2)[separatrices1.cell_arrays["SeparatrixType"] == kind]
-    first = np.flatnonzero(np.append(True, ends[1:, 0] != ends[:-1, 1]))  # line of each path
     points, lines = [np.empty((0, 3))], []
-    for begin, end in zip(first, np.append(first[1:], len(ends))):
-        path = separatrices1.points[np.append(ends[begin, 0], ends[begin:end, 1])].astype(float)
+    for line in np.flatnonzero(separatrices1.cell_arrays["SeparatrixType"] == kind):
+        begin, end = separatrices1.offsets[line:line + 2]
+        path = separatrices1.points[separatrices1.connectivity[begin:end]].astype(float)
         for _ in range(steps):
             path[1:-1] = path[1:-1] / 2 + (path[:-2] + path[2:]) / 4
         lines.append(np.append(len(path), np.arange(len(path)) + sum(map(len, points))))

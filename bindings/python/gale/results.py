@@ -189,7 +189,7 @@ class Cells(_Table):
 
 
 class Lines(Cells):
-    """Lines between points, each of two, or of more along arcs."""
+    """Lines through two points or more, which they may have in common."""
 
     @property
     def line_arrays(self) -> Dict[str, np.ndarray]:
