@@ -3,9 +3,17 @@
 #include <gale/algorithms/morse_smale.hpp>
 #include <gale/algorithms/simplex_numbers.hpp>
 #include <gale/export.hpp>
-#include <gale/outputs/shared_paths.hpp>
 
 namespace gale::outputs {
+
+/// The simplices along paths of one kind, each with one number however many paths pass it. Between two cells, and
+/// before the first, is a simplex of another dimension, which has a number among those between cells.
+struct SharedPaths {
+  Array<const Id, HostMemory> between;        ///< for each cell of the paths: the number of the simplex before it
+  Array<const Id, HostMemory> cell;           ///< for each cell of the paths: its own number
+  Array<const Id, HostMemory> first_between;  ///< by number: the place of the first cell that it precedes
+  Array<const Id, HostMemory> first_cell;     ///< by number: the place of the first cell that it is
+};
 
 /// The edges and triangles that the outputs of a complex call by number, for `number_simplices`, and what its paths
 /// have in common.

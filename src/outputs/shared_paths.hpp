@@ -1,20 +1,8 @@
 #pragma once
 
-#include <gale/algorithms/separatrices.hpp>
-#include <gale/base/memory.hpp>
+#include <gale/outputs/named_simplices.hpp>
 
-namespace gale::outputs {
-
-/// The simplices along paths of one kind, each with one number however many paths pass it. Between two cells, and
-/// before the first, is a simplex of another dimension, which has a number among those between cells.
-struct SharedPaths {
-  Array<const Id, HostMemory> between;        ///< for each cell of the paths: the number of the simplex before it
-  Array<const Id, HostMemory> cell;           ///< for each cell of the paths: its own number
-  Array<const Id, HostMemory> first_between;  ///< by number: the place of the first cell that it precedes
-  Array<const Id, HostMemory> first_cell;     ///< by number: the place of the first cell that it is
-};
-
-namespace detail {
+namespace gale::outputs::detail {
 
 /// Finds what paths have in common. Simplices between cells are one where they are the same behind the same cell, those
 /// before first cells where the sources are: as along one gradient. Numbers are in the order in which paths pass the
@@ -22,6 +10,4 @@ namespace detail {
 template <class Cell>
 SharedPaths share(const Separatrices<Cell>& paths);
 
-}  // namespace detail
-
-}  // namespace gale::outputs
+}  // namespace gale::outputs::detail

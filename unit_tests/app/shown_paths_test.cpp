@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <gtest/gtest.h>
 
@@ -17,28 +18,29 @@ struct GivenPath {
   float difference;
 };
 
-/// A surface of descending separatrices to the same minimum.
+/// A surface of descending separatrices to the same minimum, which have points of the same cell in common.
 io::Surface surface_of(const std::vector<GivenPath>& paths) {
   io::Surface surface;
   std::vector<Point> points;
   std::vector<std::int8_t> mask, dimensions, types;
   std::vector<Id> ids, destinations;
   std::vector<float> differences;
+  std::map<std::pair<int, Id>, std::int32_t> known;
   for (const GivenPath& path : paths) {
     for (std::size_t k = 0; k < path.points.size(); ++k) {
-      if (k > 0) {
-        for (const std::size_t end : {points.size() - 1, points.size()})
-          surface.lines.points.push_back(static_cast<std::int32_t>(end));
-        surface.lines.begin.push_back(static_cast<std::int64_t>(surface.lines.points.size()));
-        types.push_back(0);
-        destinations.push_back(7);
-        differences.push_back(path.difference);
-      }
+      const auto dimension = static_cast<std::int8_t>(1 - k % 2);
+      const auto [at, is_new] = known.insert({{dimension, path.ids[k]}, static_cast<std::int32_t>(points.size())});
+      surface.lines.points.push_back(at->second);
+      if (!is_new) continue;
       points.push_back(path.points[k]);
-      dimensions.push_back(static_cast<std::int8_t>(1 - k % 2));
+      dimensions.push_back(dimension);
       ids.push_back(path.ids[k]);
       mask.push_back(k == 0 ? 0 : k + 1 < path.points.size() ? 1 : path.mask);
     }
+    surface.lines.begin.push_back(static_cast<std::int64_t>(surface.lines.points.size()));
+    types.push_back(0);
+    destinations.push_back(7);
+    differences.push_back(path.difference);
   }
   io::Dataset::Points<double> positions("points", points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
