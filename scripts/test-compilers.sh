@@ -1,10 +1,10 @@
 #!/bin/bash
 # What only other compilers and linkers see of all that GALE is: libraries, the command, all bindings, examples. Nothing is
 # optimized here.
-#   usage: scripts/test-compilers.sh [clang] [types]
+#   usage: scripts/test-compilers.sh [clang] [types] [alone]
 #     clang: clang has no warning; shared libraries with hidden symbols serve those who link what is installed.
-#     types: each source compiles alone; no name stands for two types or has two meanings in libraries that may meet in a
-#       program.
+#     types: no name stands for two types or has two meanings in libraries that may meet in a program.
+#     alone: as types, and each source compiles alone; not without being asked for, as it takes three times as long.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -43,13 +43,11 @@ clang() {
   "${check[@]}" --in "$prefix" --never "$PWD/src" "$build/lib" "$build/bin" "$build/src" "$build/bindings"
 }
 
-# Sources aren't joined here, as they are in other builds that are cheap. Objects for link-time optimization have all types
-# in them; putting these together compares them, and makes no code. What VTK generates for Python is left out, as it waits
-# for linked filters.
-types() {
+# Objects for link-time optimization have all types in them; putting these together compares them, and makes no code. What
+# VTK generates for Python is left out, as it waits for linked filters.
+types() { # CMAKE_OPTION...
   local build=$PWD/build-types objects
-  cmake -S . -B "$build" "${everything[@]}" -DCMAKE_CXX_COMPILER=g++ -DCMAKE_UNITY_BUILD=OFF \
-    -DCMAKE_CXX_FLAGS_DEBUG="-O0 -flto"
+  cmake -S . -B "$build" "${everything[@]}" -DCMAKE_CXX_COMPILER=g++ -DCMAKE_CXX_FLAGS_DEBUG="-O0 -flto" -UCMAKE_UNITY_BUILD "$@"
   objects=$(ninja -C "$build" -t targets all | sed -nE '/(nanobind-static|Python)\.dir/d; s/^((src|bindings)\/.*\.o): CXX_COMPILER.*/\1/p')
   # shellcheck disable=SC2086 # a list
   ninja -C "$build" $objects
@@ -57,10 +55,13 @@ types() {
   (cd "$build" && g++ -flto -r -flinker-output=rel -nostdlib -Wodr -Werror=odr -Werror=lto-type-mismatch -Wl,-z,muldefs -o types.o $objects)
 }
 
+# Without joining sources, as other builds that are cheap do.
+alone() { types -DCMAKE_UNITY_BUILD=OFF; }
+
 [ $# -gt 0 ] || set -- clang types
 for which in "$@"; do
   case "$which" in
-    clang | types) "$which" ;;
-    *) echo "usage: $0 [clang] [types]" >&2; exit 2 ;;
+    clang | types | alone) "$which" ;;
+    *) echo "usage: $0 [clang] [types] [alone]" >&2; exit 2 ;;
   esac
 done
