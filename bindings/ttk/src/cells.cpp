@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <string>
 
 #include <gale/base/error.hpp>
@@ -9,41 +8,49 @@ namespace gale::ttk {
 
 namespace {
 
-/// Which of some corners is the first that isn't one of the points, or that is there before; their count if none is.
-int first_wrong(const long long* corners, int count, Id points) {
-  int corner = 0;
-  while (corner < count && corners[corner] >= 0 && corners[corner] < points &&
-         std::find(corners, corners + corner, corners[corner]) == corners + corner) {
-    ++corner;
+/// Which of a cell's corners is the first that isn't one of the points, or that is there before; `corners` if none is.
+template <int corners>
+int first_wrong(const long long* vertices, Id points) {
+  for (int i = 0; i < corners; ++i) {
+    bool good = vertices[i] >= 0 && vertices[i] < points;
+    for (int before = 0; before < i; ++before) good = good && vertices[before] != vertices[i];
+    if (!good) return i;
   }
-  return corner;
+  return corners;
 }
 
-[[noreturn]] void refuse(const long long* corners, int count, Offset cell, Id points) {
-  const long long vertex = corners[first_wrong(corners, count, points)];
+/// take(cell, vertices) for each cell; throws for the first that isn't valid.
+template <int corners, class Take>
+void take_valid(const char* name, const long long* first, Offset stride, Id count, Id points, const Take& take) {
+  const Offset wrong = reduce_min(name, HostExecutionSpace(), count, Offset(count), [&](Offset c) {
+    const long long* const vertices = first + stride * c;
+    take(c, vertices);
+    return first_wrong<corners>(vertices, points) == corners ? Offset(count) : c;
+  });
+  if (wrong == count) return;
+  const long long vertex = first[stride * wrong + first_wrong<corners>(first + stride * wrong, points)];
   const bool is_point = vertex >= 0 && vertex < points;
-  throw Error("cell " + std::to_string(cell) + " has the vertex " + std::to_string(vertex) +
+  throw Error("cell " + std::to_string(wrong) + " has the vertex " + std::to_string(vertex) +
               (is_point ? " twice" : ", but there are " + std::to_string(points) + " points"));
 }
 
 }  // namespace
 
 void Cells::require_valid(Id points) const {
-  const Offset wrong = reduce_min(
-      "GALE::ttk_validate_cells", HostExecutionSpace(), count_, Offset(count_),
-      [&](Offset c) { return first_wrong(first_ + stride_ * c, corners_, points) == corners_ ? Offset(count_) : c; });
-  if (wrong != count_) refuse(first_ + stride_ * wrong, corners_, wrong, points);
+  const char* const name = "GALE::ttk_validate_cells";
+  const auto take = [](Offset, const long long*) {};
+  corners_ == 3 ? take_valid<3>(name, first_, stride_, count_, points, take)
+                : take_valid<4>(name, first_, stride_, count_, points, take);
 }
 
 template <int corners>
 Kokkos::View<Id* [corners], Kokkos::LayoutRight, HostMemory> Cells::copy(Id points) const {
   const auto copied = allocate<Kokkos::View<Id* [corners], Kokkos::LayoutRight, HostMemory>>("GALE::ttk_cells", count_);
-  const Offset wrong = reduce_min("GALE::ttk_copy_cells", HostExecutionSpace(), count_, Offset(count_), [&](Offset c) {
-    const long long* const from = first_ + stride_ * c;
-    for (int corner = 0; corner < corners; ++corner) copied(c, corner) = static_cast<Id>(from[corner]);
-    return first_wrong(from, corners, points) == corners ? Offset(count_) : c;
-  });
-  if (wrong != count_) refuse(first_ + stride_ * wrong, corners, wrong, points);
+  take_valid<corners>("GALE::ttk_copy_cells", first_, stride_, count_, points,
+                      [&](Offset c, const long long* vertices) {
+                        for (int corner = 0; corner < corners; ++corner)
+                          copied(c, corner) = static_cast<Id>(vertices[corner]);
+                      });
   return copied;
 }
 

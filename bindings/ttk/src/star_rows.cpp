@@ -105,7 +105,7 @@ Block StarRows::neighbours() {
   Id* end = begin;
   for (Id row = 0; row < rows_; ++row) {
     words_[row] = static_cast<Id>(end - begin);
-    end = add_neighbours(row, end);
+    end = cells_.corners() == 3 ? add_neighbours<3>(row, end) : add_neighbours<4>(row, end);
   }
   words_[rows_] = static_cast<Id>(end - begin);
   Block block(first_, rows_, end - begin);
@@ -114,9 +114,9 @@ Block StarRows::neighbours() {
 }
 
 /// Writes a row; returns its end.
+template <int corners>
 Id* StarRows::add_neighbours(Id row, Id* to) {
   const Id size = star_begin_[row + 1] - star_begin_[row];
-  const int corners = cells_.corners();
   places_.resize((corners - 1) * std::size_t(size));
   if (parity_.size() < places_.size()) parity_.resize(places_.size());
   const std::uint64_t mine = std::uint64_t(row + 1) << 32;
@@ -134,7 +134,7 @@ Id* StarRows::add_neighbours(Id row, Id* to) {
       }
       *place++ = static_cast<Id>(met & 0xffffffff);
     }
-    if (corners == 3) {
+    if constexpr (corners == 3) {
       parity_[place[-2]] ^= 1;
       parity_[place[-1]] ^= 1;
       continue;

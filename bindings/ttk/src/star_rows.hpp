@@ -38,6 +38,7 @@ class StarRows {
 
   void number_corners();
   void place_cells();
+  template <int corners>
   Id* add_neighbours(Id row, Id* to);
   bool is_on_surface(Id row, Id neighbours);
 
