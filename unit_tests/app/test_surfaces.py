@@ -91,6 +91,7 @@ class Surfaces(gale.CommandTest):
             self.assertEqual(report["result"]["euler"], 1)
         report = self.report("morse-smale", "plane:100", "-o", "complex")
         self.assertEqual(report["result"]["separatrices"]["saddle_connectors"], 0)
+        self.assertEqual(report["result"]["manifolds"]["ascending"], 42)
         file = gale.XmlFile(self.folder / "complex_segmentation.vtu")
         self.assertEqual(set(file.point_arrays), {"field", "AscendingManifold", "DescendingManifold", "MorseSmaleManifold"})
         self.assertEqual(len(file.cells("Cells")), 2 * 99 * 99)
@@ -100,6 +101,16 @@ class Surfaces(gale.CommandTest):
         self.assertEqual(self.report("relations", "plane:20", "--relation", "EF", "--verify")["mesh"]["triangles"], 722)
         self.refuse(1, "relations", "plane:20", "--relation", "ET", naming="a mesh of triangles has no relation ET")
         self.refuse(1, "morse-smale", "plane:20", "--separatrices2", "-o", "x", naming="2-separatrices")
+
+    def test_counts_are_named_as_on_surfaces(self):
+        """Critical triangles are maxima, and pairs of type 1 end there."""
+        for command in ("discrete-gradient", "morse-smale"):
+            said = [line.split()[:2] for line in self.succeed(command, "plane:100").splitlines()]
+            for count in (["minima", "77"], ["saddles", "118"], ["maxima", "42"]):
+                self.assertIn(count, said)
+        said = [line.split()[:2] for line in self.succeed("persistence-diagram", "plane:100").splitlines()]
+        self.assertIn(["saddle-maximum", "42"], said)
+        self.assertNotIn("saddle-saddle", [words[0] for words in said])
 
     def test_a_coordinate_is_the_field_where_there_is_none(self):
         name = self.write("mesh.obj", self.OBJ)

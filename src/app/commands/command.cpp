@@ -103,10 +103,11 @@ void tell_types(const std::array<std::int64_t, 5>& counts, Session& session) {
   for (const auto& kind : kinds) session.tell(kind.name, kind.key, counts[static_cast<int>(kind.type)]);
 }
 
-void tell_simplices(const std::array<std::int64_t, 4>& counts, Session& session) {
-  static const char* const names[] = {"minima", "1-saddles", "2-saddles", "maxima"};
-  for (int dimension = 0; dimension < 4; ++dimension)
-    session.console().say(names[dimension], grouped(counts[dimension]));
+void tell_simplices(const std::array<std::int64_t, 4>& counts, int top, Session& session) {
+  static const char *const names[] = {"minima", "1-saddles", "2-saddles", "maxima"}, *const on_triangles[] = {
+                                                                                         "minima", "saddles", "maxima"};
+  for (int dimension = 0; dimension <= top; ++dimension)
+    session.console().say((top == 2 ? on_triangles : names)[dimension], grouped(counts[dimension]));
   const std::int64_t euler = counts[0] - counts[1] + counts[2] - counts[3];
   session.console().say("Euler number", grouped(euler));
   session.report().result = {{"critical", counts}, {"euler", euler}};
