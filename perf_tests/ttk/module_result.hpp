@@ -1,7 +1,6 @@
 #pragma once
 
 #include <DataTypes.h>
-#include <sys/resource.h>
 
 #include <fstream>
 #include <string>
@@ -14,14 +13,6 @@
 // refuses may be compiled without it.
 
 namespace gale::perf {
-
-/// That this process has used of all processors: what others do on the machine counts less.
-inline double processor_seconds() {
-  rusage used;
-  getrusage(RUSAGE_SELF, &used);
-  const auto seconds = [](const timeval& time) { return double(time.tv_sec) + 1e-6 * double(time.tv_usec); };
-  return seconds(used.ru_utime) + seconds(used.ru_stime);
-}
 
 /// The greatest memory that this process has had.
 inline double peak_megabytes() {

@@ -30,7 +30,7 @@ template <class Triangulation>
 ModuleResult critical_points(const Fields& fields, Triangulation& mesh) {
   ::ttk::ScalarFieldCriticalPoints module;
   prepare(module, fields.threads);
-  module.setDomainDimension(3);
+  module.setDomainDimension(mesh.getDimensionality());
   std::vector<std::pair<::ttk::SimplexId, char>> found;
   module.setOutput(&found);
   ModuleResult result;

@@ -2,12 +2,12 @@
 //
 //     ttk_modules INPUT MODULE explicit|gale|both [THREADS [MEMORY_IN_MIB [WAY]]]
 //
-// INPUT is `grid:N`, a raw mesh (support/inputs.hpp), or, where unit tests are built, `test:NAME`, one of their meshes;
-// MODULE one of critical-points, discrete-gradient, morse-smale, morse-smale-walls, persistence, contour-tree,
-// smoother, jacobi-set and path-compression, or all of them. A line each of what it took, peak memory of the process
-// included, and of processors and peaks by setup, preconditioning and run; `both` also says whether all arrays are
-// equal, element by element, and exits with 1 if not. MEMORY_IN_MIB bounds GALE's translated blocks (0: as many as by
-// default), WAY is how GALE computes rows: gale, leaders, helpers or inline.
+// INPUT is `grid:N`, `plane:N` or the like, a raw mesh (support/inputs.hpp), or, where unit tests are built,
+// `test:NAME`, one of their meshes or surfaces; MODULE one of critical-points, discrete-gradient, morse-smale,
+// morse-smale-walls, persistence, contour-tree, smoother, jacobi-set and path-compression, or all of them. A line each
+// of what it took, peak memory of the process included, and of processors and peaks by setup, preconditioning and run;
+// `both` also says whether all arrays are equal, element by element, and exits with 1 if not. MEMORY_IN_MIB bounds
+// GALE's translated blocks (0: as many as by default), WAY is how GALE computes rows: gale, leaders, helpers or inline.
 
 #include <ExplicitTriangulation.h>
 #include <omp.h>
@@ -24,6 +24,7 @@
 #include "support/inputs.hpp"
 #ifdef GALE_TEST_MESHES
 #include "support/input_mesh.hpp"
+#include "support/surfaces.hpp"
 #endif
 
 namespace {
@@ -35,32 +36,50 @@ using gale::perf::ModuleResult;
 struct CallersMesh {
   std::vector<float> points;
   std::vector<::ttk::LongSimplexId> cells;
+  int count = 0;  ///< of cells
   Fields fields;
 };
 
-/// A mesh that unit tests loop over, with a field that has many equal values.
+#ifdef GALE_TEST_MESHES
+/// A mesh with a field that has many equal values.
+template <int corners>
+gale::io::Dataset with_field(const std::vector<std::array<double, 3>>& from,
+                             const std::vector<std::array<gale::Id, corners>>& cells) {
+  gale::io::Dataset data;
+  const gale::io::Dataset::Points<float> points("points", from.size());
+  std::vector<float> field;
+  for (std::size_t v = 0; v < from.size(); ++v) {
+    for (int axis = 0; axis < 3; ++axis) points(v, axis) = static_cast<float>(from[v][axis]);
+    field.push_back(static_cast<float>(v * 7919 % 31));
+  }
+  data.points = points;
+  const Kokkos::View<std::int32_t* [corners], Kokkos::LayoutRight, Kokkos::HostSpace> copy("cells", cells.size());
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    for (int corner = 0; corner < corners; ++corner) copy(c, corner) = cells[c][corner];
+  }
+  if constexpr (corners == 4) {
+    data.tetrahedra = copy;
+  } else {
+    data.triangles = copy;
+  }
+  data.arrays.push_back({"field", 1, std::move(field)});
+  return data;
+}
+#endif
+
+/// A mesh that unit tests loop over.
 gale::io::Dataset test_mesh(const std::string& name) {
 #ifdef GALE_TEST_MESHES
   const auto& names = gale::test::mesh_names();
+  const auto& surfaces = gale::test::surfaces();
   if (std::find(names.begin(), names.end(), name) != names.end()) {
     const gale::test::InputMesh& mesh = gale::test::mesh_named(name);
-    gale::io::Dataset data;
-    const gale::io::Dataset::Points<float> points("points", mesh.points.size());
-    std::vector<float> field;
-    for (std::size_t v = 0; v < mesh.points.size(); ++v) {
-      for (int axis = 0; axis < 3; ++axis) points(v, axis) = static_cast<float>(mesh.points[v][axis]);
-      field.push_back(static_cast<float>(v * 7919 % 31));
-    }
-    data.points = points;
-    data.tetrahedra = decltype(data.tetrahedra)("tetrahedra", mesh.tetrahedra.size());
-    for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
-      for (int corner = 0; corner < 4; ++corner) data.tetrahedra(t, corner) = mesh.tetrahedra[t][corner];
-    }
-    data.arrays.push_back({"field", 1, std::move(field)});
-    return data;
+    return with_field<4>(mesh.points, mesh.tetrahedra);
   }
+  if (surfaces.count(name) != 0) return with_field<3>(surfaces.at(name).points, surfaces.at(name).triangles);
   std::string there;
   for (const std::string& one : names) there += " test:" + one;
+  for (const auto& [one, surface] : surfaces) there += " 'test:" + one + "'";
   throw gale::Error("there is no mesh 'test:" + name + "', but" + there);
 #else
   throw gale::Error("'test:" + name + "' needs a build with GALE_ENABLE_TESTS");
@@ -73,11 +92,16 @@ CallersMesh callers_mesh(const std::string& input, int threads) {
   const auto& points = std::get<gale::io::Dataset::Points<float>>(data.points);
   CallersMesh mesh;
   mesh.points.assign(points.data(), points.data() + points.size());
-  mesh.cells.reserve(5 * data.tetrahedra.extent(0));
-  for (std::size_t c = 0; c < data.tetrahedra.extent(0); ++c) {
-    mesh.cells.push_back(4);
-    for (int corner = 0; corner < 4; ++corner) mesh.cells.push_back(data.tetrahedra(c, corner));
-  }
+  mesh.count = static_cast<int>(data.cells());
+  mesh.cells.reserve((data.dimension() + 2) * data.cells());
+  const auto add = [&](const auto& cells) {
+    for (std::size_t c = 0; c < cells.extent(0); ++c) {
+      mesh.cells.push_back(cells.extent(1));
+      for (std::size_t corner = 0; corner < cells.extent(1); ++corner) mesh.cells.push_back(cells(c, corner));
+    }
+  };
+  add(data.tetrahedra);
+  add(data.triangles);
   auto& values = mesh.fields.values;
   values = std::get<std::vector<float>>(data.arrays[0].values);
   std::vector<::ttk::SimplexId> sorted(values.size());
@@ -97,7 +121,7 @@ ModuleResult run(const char* kind, const std::string& module, const CallersMesh&
   gale::perf::Took setup;
   setup.time([&] {
     triangulation.setInputPoints(static_cast<int>(mesh.points.size() / 3), mesh.points.data());
-    triangulation.setInputCells(static_cast<int>(mesh.cells.size() / 5), mesh.cells.data());
+    triangulation.setInputCells(mesh.count, mesh.cells.data());
   });
   const auto result = gale::perf::run_module(module, mesh.fields, triangulation);
   const auto& [precondition, run] = std::tie(result.precondition, result.run);

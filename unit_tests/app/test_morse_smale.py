@@ -150,10 +150,11 @@ class Pictures(ComplexTest):
     @gale.needs_vtk
     @unittest.skipUnless(shutil.which("xvfb-run"), "there is no xvfb-run")
     def test_are_drawn_on_a_display_that_no_one_sees(self):
-        for arguments in (["--persistence", "1%"], ["--no-descending-segmentation", "--no-descending-separatrices"],
-                          ["--no-descending-segmentation", "--no-ascending-segmentation", "--no-descending-separatrices", "--no-ascending-separatrices", "--no-saddle-connectors"]):
+        for arguments in (["grid:24", "--persistence", "1%"], ["grid:24", "--no-descending-segmentation", "--no-descending-separatrices"],
+                          ["plane:24"],
+                          ["grid:24", "--no-descending-segmentation", "--no-ascending-segmentation", "--no-descending-separatrices", "--no-ascending-separatrices", "--no-saddle-connectors"]):
             with self.subTest(arguments=arguments):
-                run = self.draw(True, "grid:24", *arguments)
+                run = self.draw(True, *arguments)
                 if "rendering modules" in run.stderr:
                     self.skipTest("this VTK does not draw")
                 self.assertEqual((run.returncode, run.stderr), (0, ""))

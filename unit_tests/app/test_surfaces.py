@@ -102,6 +102,16 @@ class Surfaces(gale.CommandTest):
         self.refuse(1, "relations", "plane:20", "--relation", "ET", naming="a mesh of triangles has no relation ET")
         self.refuse(1, "morse-smale", "plane:20", "--separatrices2", "-o", "x", naming="2-separatrices")
 
+    def test_counts_are_named_as_on_surfaces(self):
+        """Critical triangles are maxima, and pairs of type 1 end there."""
+        for command in ("discrete-gradient", "morse-smale"):
+            said = [line.split()[:2] for line in self.succeed(command, "plane:100").splitlines()]
+            for count in (["minima", "77"], ["saddles", "118"], ["maxima", "42"]):
+                self.assertIn(count, said)
+        said = [line.split()[:2] for line in self.succeed("persistence-diagram", "plane:100").splitlines()]
+        self.assertIn(["saddle-maximum", "42"], said)
+        self.assertNotIn("saddle-saddle", [words[0] for words in said])
+
     def test_a_coordinate_is_the_field_where_there_is_none(self):
         name = self.write("mesh.obj", self.OBJ)
         for axis in range(3):

@@ -28,7 +28,7 @@ Connectivity::Connectivity(const CallersPoints& points, const Cells& cells, cons
       options_(with_defaults(options)),
       segmentation_(octree(points, options.capacity)),
       finds_stars_in_cells_(!have_device && options.structure.way == Way::gale),
-      counts_{points.count, no_id, no_id, cells.count()},
+      counts_{points.count, no_id, cells.dimension() == 2 ? cells.count() : no_id, cells.count()},
       store_(std::make_unique<BlockStore>(segmentation_.segments(), options_.memory)) {
   if (finds_stars_in_cells_) {
     cells.require_valid(points.count);
@@ -43,7 +43,11 @@ void Connectivity::need_mesh() {
   if (mesh_) return;
   segments_ = Segments();  // what cells touch a segment is found again, sooner than both would fit
   try {
-    mesh_.emplace(Tetrahedra<Id, HostMemory>(cells_.copy(counts_[0])), segmentation_);
+    if (dimension() == 2) {
+      mesh_.emplace(Triangles<Id, HostMemory>(cells_.copy<3>(counts_[0])), segmentation_);
+    } else {
+      mesh_.emplace(Tetrahedra<Id, HostMemory>(cells_.copy<4>(counts_[0])), segmentation_);
+    }
   } catch (...) {
     if (finds_stars_in_cells_) set_segments(Segments(segmentation_));
     throw;
@@ -60,47 +64,41 @@ void Connectivity::set_segments(const Segments& segments) {
 
 Connectivity::~Connectivity() = default;
 
-void Connectivity::need_edges() {
-  if (edges_.is_there()) return;
+void Connectivity::need(int dimension) {
+  CellOrder& order = dimension == 1 ? edges_ : triangles_;
+  if (order.is_there() || dimension == this->dimension()) return;
   need_mesh();
-  edges_ = order_of_edges(*mesh_, cells_);
-  set_numbers(1);
-}
-
-void Connectivity::need_triangles() {
-  if (triangles_.is_there()) return;
-  need_mesh();
-  triangles_ = order_of_triangles(*mesh_, cells_);
-  set_numbers(2);
-  if (surface_waits_) need_surface(0);
-}
-
-void Connectivity::set_numbers(int dimension) {
-  counts_[dimension] = (dimension == 1 ? edges_ : triangles_).count();
+  order = order_of(dimension, *mesh_, cells_);
+  counts_[dimension] = order.count();
   simplices_ = mesh_->simplices(triangles_.is_there() ? tables_of_triangles : tables_of_edges);
+  if (surface_waits_ && dimension == facet_dimension()) need_surface(0);
 }
 
 void Connectivity::need_rows(Relation relation) {
+  if (dimension() == 2) {
+    require_relations(in_mesh(relation), 2);
+    if (relation == Relation::VF) relation = Relation::VT;
+    if (relation == Relation::EF) relation = Relation::ET;
+  }
   for (const int dimension : {row_dimension(relation), entry_dimension(relation)}) {
-    if (dimension == 1) need_edges();
-    if (dimension == 2) need_triangles();
+    if (dimension == 1 || dimension == 2) need(dimension);
   }
   store_->add(relation);
   wanted_rows_ = wanted_rows_ | relation;
   if (options_.memory == 0) store_->set_budget(default_memory());
-  if (relation == Relation::FT && is_manifold()) return;  // the triangles have their stars
+  if (row_dimension(relation) == facet_dimension() && is_manifold()) return;  // facets have their stars
   if (finds_in_cells(relation)) return;
   need_mesh();
   Source& source = sources_[source_of(relation)];
-  if (source.wanted.contains(relation)) return;
-  source.wanted = relation == Relation::VV ? star_relations : source.wanted | relation;
+  if (source.wanted.contains(in_mesh(relation))) return;
+  source.wanted = relation == Relation::VV ? star_relations_of(dimension()) : source.wanted | in_mesh(relation);
   renew_readers();  // their consumers are of the old structure
   source.structure.reset();
 }
 
 std::size_t Connectivity::bytes() const {
   std::size_t bytes = store_->bytes() + segments_.bytes();
-  bytes += edges_.bytes() + triangles_.bytes() + triangles_.second.bytes();
+  bytes += edges_.bytes() + triangles_.bytes();
   for (const auto& flags : on_surface_) bytes += flags.span();
   return bytes;
 }

@@ -44,7 +44,7 @@ bool Connectivity::is_by_place(int dimension) const {
   auto& known = by_place_[dimension == 0 ? 0 : 1];
   if (!known) {
     const auto in_cells = [&](Id segment) {
-      const auto& begin = mesh_->interval_begin(3);
+      const auto& begin = mesh_->interval_begin(mesh_->dimension());
       return Interval{begin(segment), begin(segment + 1)};
     };
     const auto in_vertices = [&](Id segment) { return segments_.vertices(segment); };

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include <gale/base/bits.hpp>
 #include <gale/ttk/connectivity.hpp>
 
 namespace gale::ttk {
@@ -37,13 +38,18 @@ std::array<Id, 3> Connectivity::edges_of_triangle(Id triangle) const {
 }
 
 const std::array<Id, 3>& Connectivity::triangle_edges(Id triangle) const {
-  return reader().triangle_edges.of(triangle, [this](Id wanted) { return edges_of_triangle(wanted); });
+  return reader().triangle_edges.of(triangle, [this](Id wanted) {
+    if (dimension() == 3) return edges_of_triangle(wanted);
+    const auto& edges = cell_edges(wanted);
+    return std::array<Id, 3>{edges[0], edges[1], edges[2]};
+  });
 }
 
 const std::array<Id, 6>& Connectivity::cell_edges(Id cell) const {
   return reader().cell_edges.of(cell, [this](Id wanted) {
     auto edges = SortedCorners(cells_, wanted, vertex_internal_).edges(simplices_);
-    for (Id& edge : edges) edge = edges_.number[edge];
+    for (Id& edge : edges) edge = edge == no_id ? no_id : edges_.number[edge];
+    if (dimension() == 2) edges[2] = edges[3];  // which stays at its place, too
     return edges;
   });
 }
@@ -58,12 +64,14 @@ const std::array<Id, 4>& Connectivity::cell_triangles(Id cell) const {
 
 Row Connectivity::cell_neighbours(Id cell) const {
   const auto& found = reader().cell_neighbours.of(cell, [this](Id wanted) {
-    auto triangles = cell_triangles(wanted);
-    std::sort(triangles.begin(), triangles.end());
+    std::array<Id, 4> facets;
+    dimension() == 2 ? std::copy_n(cell_edges(wanted).begin(), 3, facets.begin())
+                     : std::copy_n(cell_triangles(wanted).begin(), 4, facets.begin());
+    std::sort(facets.begin(), facets.begin() + cells_.corners());
     std::array<Id, 5> neighbours;
     Id& count = neighbours[4] = 0;
-    for (const Id triangle : triangles) {
-      const Row star = row<Relation::FT>(triangle);
+    for (int i = 0; i < cells_.corners(); ++i) {
+      const Row star = dimension() == 2 ? row<Relation::ET>(facets[i]) : row<Relation::FT>(facets[i]);
       if (star.size() == 2) neighbours[count++] = star[star[0] == wanted];
     }
     return neighbours;
@@ -71,23 +79,16 @@ Row Connectivity::cell_neighbours(Id cell) const {
   return {found.data(), found[4]};
 }
 
-Id Connectivity::vertex_link(Id vertex, Id i) const {
-  const Id cell = row<Relation::VT>(vertex)[i];
-  const unsigned others = 15 ^ cells_.corners_of(cell, std::array<Id, 1>{vertex});
-  return cell_triangles(cell)[place_of_corners[others]];
-}
-
-Id Connectivity::edge_link(Id edge, Id i) const {
-  const Id cell = row<Relation::ET>(edge)[i];
-  return cell_edges(cell)[place_of_corners[15 ^ cells_.corners_of(cell, this->edge(edge))]];
-}
-
-Id Connectivity::triangle_link(Id triangle, Id i) const {
-  const Id cell = row<Relation::FT>(triangle)[i];
-  const unsigned others = 15 ^ cells_.corners_of(cell, this->triangle(triangle));
-  int corner = 0;
-  while ((others >> corner & 1) == 0) ++corner;
-  return cells_.vertex(cell, corner);
+/// The vertex, the edge or the triangle that a cell has at some of its corners, given as bits.
+Id Connectivity::simplex_at(Id cell, unsigned corners) const {
+  switch (count_bits(corners)) {
+    case 1:
+      return cells_.vertex(cell, lowest_bit(corners));
+    case 2:
+      return cell_edges(cell)[place_of_corners[corners]];
+    default:
+      return cell_triangles(cell)[place_of_corners[corners]];
+  }
 }
 
 }  // namespace gale::ttk

@@ -34,7 +34,7 @@ void Segments::group(const Cells& cells) {
   const Id* const segment_of = segment_of_.data();
   grouped_ = group_by("GALE::ttk_cells", HostExecutionSpace(), cells.count(), count(), [=](Id cell, const auto& visit) {
     Id met[4];
-    for (int corner = 0; corner < 4; ++corner) {
+    for (int corner = 0; corner < cells.corners(); ++corner) {
       const Id here = met[corner] = segment_of[cells.vertex(cell, corner)];
       bool fresh = true;
       for (int before = 0; before < corner; ++before) fresh = fresh && met[before] != here;

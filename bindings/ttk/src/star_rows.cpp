@@ -58,7 +58,7 @@ void StarRows::number_corners() {
   corners_.resize(near_.size());
   for (std::size_t i = 0; i < near_.size(); ++i) {
     if (i + ahead < near_.size()) cells_.prefetch(near_[i + ahead]);
-    for (int corner = 0; corner < 4; ++corner) {
+    for (int corner = 0; corner < cells_.corners(); ++corner) {
       const Id vertex = cells_.vertex(near_[i], corner);
       Id number = vertex_internal[vertex] - first_;
       if (number >= 0 && number < rows_) {
@@ -80,7 +80,8 @@ void StarRows::place_cells() {
   for (Id row = 0; row < rows_; ++row) star_begin_[row + 1] += star_begin_[row];
   star_.resize(star_begin_[rows_]);
   for (Id i = 0; i < static_cast<Id>(near_.size()); ++i) {
-    for (const Id number : corners_[i]) {
+    for (int corner = 0; corner < cells_.corners(); ++corner) {
+      const Id number = corners_[i][corner];
       if (number < rows_) star_[star_begin_[number]++] = i;
     }
   }
@@ -99,12 +100,12 @@ Block StarRows::stars() const {
 Block StarRows::neighbours() {
   met_.assign(vertices_.size(), 0);
   on_surface_.clear();
-  words_.resize(rows_ + 1 + 3 * star_.size());
+  words_.resize(rows_ + 1 + cells_.dimension() * star_.size());
   Id* const begin = words_.data() + rows_ + 1;
   Id* end = begin;
   for (Id row = 0; row < rows_; ++row) {
     words_[row] = static_cast<Id>(end - begin);
-    end = add_neighbours(row, end);
+    end = cells_.corners() == 3 ? add_neighbours<3>(row, end) : add_neighbours<4>(row, end);
   }
   words_[rows_] = static_cast<Id>(end - begin);
   Block block(first_, rows_, end - begin);
@@ -113,15 +114,17 @@ Block StarRows::neighbours() {
 }
 
 /// Writes a row; returns its end.
+template <int corners>
 Id* StarRows::add_neighbours(Id row, Id* to) {
   const Id size = star_begin_[row + 1] - star_begin_[row];
-  places_.resize(3 * std::size_t(size));
+  places_.resize((corners - 1) * std::size_t(size));
   if (parity_.size() < places_.size()) parity_.resize(places_.size());
   const std::uint64_t mine = std::uint64_t(row + 1) << 32;
   Id neighbours = 0;
   Id* place = places_.data();
   for (Id i = star_begin_[row]; i < star_begin_[row + 1]; ++i) {
-    for (const Id number : corners_[star_[i]]) {
+    for (int corner = 0; corner < corners; ++corner) {
+      const Id number = corners_[star_[i]][corner];
       if (number == row) continue;
       std::uint64_t& met = met_[number];
       if ((met >> 32) != (mine >> 32)) {
@@ -130,6 +133,11 @@ Id* StarRows::add_neighbours(Id row, Id* to) {
         *to++ = vertices_[number];
       }
       *place++ = static_cast<Id>(met & 0xffffffff);
+    }
+    if constexpr (corners == 3) {
+      parity_[place[-2]] ^= 1;
+      parity_[place[-1]] ^= 1;
+      continue;
     }
     const auto bit = [&](int corner) { return std::uint64_t(1) << (place[corner - 3] & 63); };
     parity_[place[-3]] ^= bit(1) | bit(2);
@@ -140,12 +148,14 @@ Id* StarRows::add_neighbours(Id row, Id* to) {
   return to;
 }
 
-/// An edge of the link with one triangle would leave a bit; so do some without, in meshes that are no manifolds.
+/// An edge of the link with one triangle, or a vertex with one edge, would leave a bit; so do some without, in meshes
+/// that are no manifolds.
 bool StarRows::is_on_surface(Id row, Id neighbours) {
   using gale::detail::SmallLink;
-  const LinkRow link{places_.data(), star_begin_[row + 1] - star_begin_[row], sizeof(Id)};
+  const int others = cells_.dimension();
+  const LinkRow link{places_.data(), star_begin_[row + 1] - star_begin_[row], sizeof(Id), others};
   if (neighbours > SmallLink::capacity) {
-    for (std::size_t i = 0; i < places_.size(); i += 3) std::sort(&places_[i], &places_[i] + 3);  // as links have them
+    for (auto i = places_.begin(); i != places_.end(); i += others) std::sort(i, i + others);  // as links have them
     large_.build(link);
     return large_.is_open();
   }

@@ -29,15 +29,16 @@ class StarRows {
   /// its star, and in each cell as the caller has its corners.
   Block neighbours();
 
-  /// The vertices that have a triangle with one cell only, in the caller's ids; after neighbours().
+  /// The vertices that have a facet with one cell only, in the caller's ids; after neighbours().
   const std::vector<Id>& on_surface() const { return on_surface_; }
 
  private:
   /// A cell's corners as the caller has them: rows of the segment, or numbers of other vertices.
-  using Corners = std::array<Id, 4>;
+  using Corners = std::array<Id, 4>;  // of a triangle three
 
   void number_corners();
   void place_cells();
+  template <int corners>
   Id* add_neighbours(Id row, Id* to);
   bool is_on_surface(Id row, Id neighbours);
 
@@ -54,8 +55,9 @@ class StarRows {
   /// Where the row that is made has each vertex (by number, with the row above, so that nothing is cleared between
   /// rows), and what link there is.
   std::vector<std::uint64_t> met_;
-  std::vector<Id> places_;             ///< in the row, of the three other vertices of each cell
-  std::vector<std::uint64_t> parity_;  ///< by place: bits of those with which it shares an odd number of link triangles
+  std::vector<Id> places_;             ///< in the row, of the other vertices of each cell
+  std::vector<std::uint64_t> parity_;  ///< by place: bits of those with which it shares an odd number of link
+                                       ///< triangles, or whether it has an odd number of link edges
   std::vector<Id> words_;
   std::vector<Id> on_surface_;
   gale::detail::LargeLink large_;

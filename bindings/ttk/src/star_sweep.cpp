@@ -63,7 +63,8 @@ void Connectivity::sweep_structure(const Flags& on_surface) {
   const Id* const cell_input = mesh_->cell_input().data();
   const bool keeps_cells = wanted_rows_.has(Relation::VT);
   Structure& stars = structure(source_of(Relation::VV));
-  stars.for_each_segment(star_relations, options, [&](int consumer, const SegmentRows& rows) {
+  const Relation vertex_cells = in_mesh(Relation::VT);
+  stars.for_each_segment(star_relations_of(dimension()), options, [&](int consumer, const SegmentRows& rows) {
     Worker& worker = workers[consumer];
     const Interval vertices = rows.interval(0);
     const bool keep = store_->bytes() < store_->budget();
@@ -72,7 +73,7 @@ void Connectivity::sweep_structure(const Flags& on_surface) {
     for (const Id v : vertices) {
       const Row neighbours = rows[Relation::VV][v];
       const LinkRow link = rows.links()[v];
-      if (keep) worker.star.sort(rows[Relation::VT][v], cell_input, cells_);
+      if (keep) worker.star.sort(rows[vertex_cells][v], cell_input, cells_);
       if (worker.is_on_surface(neighbours.size(), link)) set_flag(on_surface, vertex_input_[v]);
       if (!keep) continue;
       worker.star.add_neighbours(worker.neighbours, neighbours, link, cells_, vertex_input_);

@@ -8,11 +8,11 @@ namespace gale::ttk {
 void Connectivity::need_surface(int dimension) {
   if (on_surface_[dimension].data() != nullptr) return;
   if (dimension != 0) {
-    need_triangles();
-    if (dimension == 1) need_edges();
-    set_surface(dimension, surface_from_triangles(dimension));
-  } else if (triangles_.is_there()) {
-    set_surface(0, surface_from_triangles(0));
+    need(facet_dimension());
+    need(dimension);
+    set_surface(dimension, dimension == this->dimension() ? no_flags(dimension) : surface_from_facets(dimension));
+  } else if (facets().is_there()) {
+    set_surface(0, surface_from_facets(0));
   } else if (wanted_rows_.has(Relation::VV)) {
     set_surface(0, find_surface_in_sweep());
   } else {
@@ -50,19 +50,24 @@ const std::uint8_t* Connectivity::late_surface(int dimension) const {
   return on_surface_[0].data();
 }
 
-/// The triangles with one cell, or their vertices or edges.
-Connectivity::Flags Connectivity::surface_from_triangles(int dimension) const {
+/// The facets with one cell, or their vertices or edges.
+Connectivity::Flags Connectivity::surface_from_facets(int dimension) const {
   const auto flags = no_flags(dimension);
-  parallel_for("GALE::ttk_surface", HostExecutionSpace(), counts_[2], [&](Offset i) {
-    const Id triangle = static_cast<Id>(i);
-    if (triangles_.second[triangle] != no_id) return;
-    if (dimension == 2) {
-      set_flag(flags, triangle);
-      return;
-    }
-    const auto parts =
-        dimension == 1 ? edges_of_triangle(triangle) : part_of_cell(triangles_, triangle_corners, triangle);
+  const auto set_all = [&](const auto& parts) {
     for (const Id part : parts) set_flag(flags, part);
+  };
+  parallel_for("GALE::ttk_surface", HostExecutionSpace(), counts_[facet_dimension()], [&](Offset i) {
+    const Id facet = static_cast<Id>(i);
+    if (facets().second[facet] != no_id) return;
+    if (dimension == facet_dimension()) {
+      set_flag(flags, facet);
+    } else if (dimension == 1) {
+      set_all(edges_of_triangle(facet));
+    } else if (facet_dimension() == 1) {
+      set_all(part_of_cell(edges_, edge_corners, facet));
+    } else {
+      set_all(part_of_cell(triangles_, triangle_corners, facet));
+    }
   });
   return flags;
 }

@@ -15,8 +15,8 @@ Structure& Connectivity::structure(int source) const {
   return *structure;
 }
 
-void Connectivity::refuse(Relation relation) {
-  throw Error("rows of " + name_of(relation) + " were not preconditioned");
+void Connectivity::refuse(Relation relation) const {
+  throw Error("rows of " + name_of(in_mesh(relation)) + " were not preconditioned");
 }
 
 /// Has the block be `now` that has a simplex.
@@ -56,14 +56,14 @@ Block Connectivity::make_block(Reader& reader, Relation relation, Id segment) co
   reader.builder.begin(rows.first, rows.size());
   const auto add = [&](const auto& numbers) {
     for (const Id i : rows) {
-      reader.builder.add_sorted(consumer.row(relation, i), numbers);
+      reader.builder.add_sorted(consumer.row(in_mesh(relation), i), numbers);
       reader.builder.end_row();
     }
   };
   switch (entry_dimension(relation)) {
     case 0:  // VV, in another order
       for (const Id i : rows) {
-        reader.star.sort(consumer.row(Relation::VT, i), mesh_->cell_input().data(), cells_);
+        reader.star.sort(consumer.row(in_mesh(Relation::VT), i), mesh_->cell_input().data(), cells_);
         reader.star.add_neighbours(reader.builder, consumer.row(Relation::VV, i), consumer.link(i), cells_,
                                    vertex_input_);
         reader.builder.end_row();

@@ -50,7 +50,7 @@ class Read {
   explicit Read(const InputMesh& input)
       : callers(input),
         mesh({callers.points.data(), callers.vertices(), true},
-             ttk::Cells(callers.cells.data() + 1, 5, callers.count()), {}) {
+             ttk::Cells(callers.cells.data() + 1, 4, 5, callers.count()), {}) {
     for (const Relation relation : {Relation::VE, Relation::VF, Relation::VT, Relation::EF, Relation::ET}) {
       mesh.need_rows(relation);
     }

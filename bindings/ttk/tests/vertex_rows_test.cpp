@@ -43,7 +43,7 @@ int wrong_vertices(const ttk::Triangulation& mesh, const ExpectedTriangulation& 
 class TtkVertexRows : public testing::TestWithParam<std::string> {};
 
 TEST_P(TtkVertexRows, are_those_of_an_explicit_one_in_segments_of_any_size) {
-  const InputMesh& input = mesh_named(GetParam());
+  const AnyMesh input = any_mesh(GetParam());
   const CallersMesh callers(input);
   const ExpectedTriangulation expected(input);
   for (const Way way : {Way::gale, Way::inline_}) {
@@ -64,8 +64,7 @@ TEST_P(TtkVertexRows, are_those_of_an_explicit_one_in_segments_of_any_size) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Meshes, TtkVertexRows, testing::ValuesIn(mesh_names()),
-                         [](const auto& info) { return info.param; });
+INSTANTIATE_TEST_SUITE_P(Meshes, TtkVertexRows, testing::ValuesIn(all_names()), name_for_test);
 
 TEST(TtkTriangulationOnThreads, reads_rows_of_vertices_with_and_without_a_sweep) {
   const InputMesh input = ball(9);

@@ -103,9 +103,9 @@ void tell_types(const std::array<std::int64_t, 5>& counts, Session& session) {
   for (const auto& kind : kinds) session.tell(kind.name, kind.key, counts[static_cast<int>(kind.type)]);
 }
 
-void tell_simplices(const std::array<std::int64_t, 4>& counts, Session& session) {
-  const auto names = session.report().tetrahedra ? std::vector{"minima", "1-saddles", "2-saddles", "maxima"}
-                                                 : std::vector{"minima", "saddles", "maxima"};
+void tell_simplices(const std::array<std::int64_t, 4>& counts, int top, Session& session) {
+  const auto names =
+      top == 3 ? std::vector{"minima", "1-saddles", "2-saddles", "maxima"} : std::vector{"minima", "saddles", "maxima"};
   for (std::size_t dimension = 0; dimension < names.size(); ++dimension)
     session.console().say(names[dimension], grouped(counts[dimension]));
   const std::int64_t euler = counts[0] - counts[1] + counts[2] - counts[3];

@@ -104,8 +104,8 @@ class AnalysisCommand : public Command {
 /// Says and reports how many critical points there are, by CriticalType but `regular`.
 void tell_types(const std::array<std::int64_t, 5>& counts, Session& session);
 
-/// Says and reports how many critical simplices there are, by dimension.
-void tell_simplices(const std::array<std::int64_t, 4>& counts, Session& session);
+/// Says and reports how many critical simplices there are, by dimension, up to the cells' (`top`).
+void tell_simplices(const std::array<std::int64_t, 4>& counts, int top, Session& session);
 
 // Each adds its subcommand to the command line, which must outlive it.
 std::unique_ptr<Command> add_info(CLI::App& app);

@@ -33,7 +33,7 @@ class FindDiscreteGradient final : public AnalysisCommand {
 
   void analyse(const FieldOnMesh& on, Session& session, Computed& computed) const override {
     const DiscreteGradient gradient = find(on, session, computed);
-    tell_simplices(gradient.counts(), session);
+    tell_simplices(gradient.counts(), on.mesh.dimension(), session);
     if (!output_.empty()) write_critical(on, gradient, session, computed);
     session.write(
         arrows_, [&](const io::AtomicFile& file) { io::write_points(file, outputs::arrows_of(on.dataset, gradient)); });

@@ -43,14 +43,15 @@ void tell(const MorseSmaleComplex& complex, const MorseSmaleParts& wanted, Sessi
   std::int64_t paths[] = {complex.descending.count(), complex.ascending.count(), complex.connectors.count()};
   session.ranks().sum(critical.data(), 4);
   session.ranks().sum(paths, 3);
-  tell_simplices(critical, session);
+  const int top = complex.critical.dimension;
+  tell_simplices(critical, top, session);
   tell("1-separatrices", "separatrices",
        {{"descending", "descending", wanted.descending_separatrices, paths[0]},
         {"ascending", "ascending", wanted.ascending_separatrices, paths[1]},
         {"saddle connectors", "saddle_connectors", wanted.saddle_connectors, paths[2]}},
        session);
   tell("manifolds", "manifolds",
-       {{"ascending", "ascending", wanted.ascending_manifolds, critical[complex.critical.dimension]},
+       {{"ascending", "ascending", wanted.ascending_manifolds, critical[top]},
         {"descending", "descending", wanted.descending_manifolds, critical[0]},
         {"Morse-Smale", "morse_smale", wanted.ascending_manifolds && wanted.descending_manifolds,
          complex.morse_smale_manifolds}},

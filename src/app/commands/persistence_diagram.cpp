@@ -8,9 +8,10 @@ namespace gale::app {
 
 namespace {
 
-void tell(const outputs::DiagramCounts& counts, Session& session) {
+void tell(const outputs::DiagramCounts& counts, int dimension, Session& session) {
   static const char* const names[] = {"minimum-saddle", "saddle-saddle", "saddle-maximum"};
-  for (int type = 0; type < 3; ++type) session.console().say(names[type], grouped(counts.pairs[type]));
+  for (int type = 0; type < dimension; ++type)
+    session.console().say(names[type + 1 == dimension ? 2 : type], grouped(counts.pairs[type]));
   std::string essential;
   for (const Id count : counts.essential) essential += (essential.empty() ? "" : ", ") + grouped(count);
   session.console().say("essential", essential);
@@ -31,7 +32,7 @@ class FindPersistenceDiagram final : public AnalysisCommand {
     const DiscreteGradient gradient =
         find_discrete_gradient(on.order, session.compute(structure_, "gradient"), &computed);
     const auto diagram = find(gradient, on, session);
-    tell(outputs::counts_of(diagram), session);
+    tell(outputs::counts_of(diagram), on.mesh.dimension(), session);
     session.write(output_, [&](const io::AtomicFile& file) {
       io::write_lines(file, outputs::to_lines(on.dataset, on.field, diagram));
     });

@@ -42,6 +42,7 @@ class Painter {
       : points_(to_points(dataset.points)),
         complex_(complex),
         mesh_(complex.gradient.mesh()),
+        is_surface_(mesh_.dimension() == 2),
         numbers_(numbers),
         field_(field) {
     measure();
@@ -77,6 +78,7 @@ class Painter {
       size += (scene_.high[axis] - scene_.low[axis]) * (scene_.high[axis] - scene_.low[axis]);
     }
     size_ = std::sqrt(size);
+    if (is_surface_) octant_.corner = scene_.low;  // nothing hides what lies on it
   }
 
   /// The ends of the paths that are shown; all critical simplices where no path is left out.
@@ -88,7 +90,7 @@ class Painter {
     for (const Color& color : color_of_dimension) scene_.balls.push_back({color, {}});
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (!octant_.has(points[i]) || (!shown.are_all() && shown.ends.count({dimensions[i], ids[i]}) == 0)) continue;
-      scene_.balls[dimensions[i]].centres.push_back(points[i]);
+      scene_.balls[is_surface_ && dimensions[i] == 2 ? 3 : dimensions[i]].centres.push_back(points[i]);
       ++count;
     }
     scene_.ball_radius = size_ * std::clamp(0.03 / std::cbrt(count + 1.0), 0.005, 0.008);
@@ -97,8 +99,9 @@ class Painter {
   /// Draws connectors first and thinner than the others.
   void paint_tubes(ShownPaths shown) {
     for (const int type : {1, 0, 2}) {
-      const double radius = scene_.ball_radius * (type == 1 ? 0.13 : 0.24);
-      scene_.tubes.push_back({color_of_type[type], radius, std::move(shown.kinds[type].stretches)});
+      const int look = is_surface_ && type == 1 ? 2 : type;  // there those of type 1 ascend
+      const double radius = scene_.ball_radius * (look == 1 ? 0.13 : 0.24);
+      scene_.tubes.push_back({color_of_type[look], radius, std::move(shown.kinds[type].stretches)});
     }
   }
 
@@ -143,8 +146,15 @@ class Painter {
     return candidates;
   }
 
-  /// The skin: the triangles that exactly one of the tetrahedra that are left has.
+  /// The skin: the triangles that exactly one of the tetrahedra that are left has; of a surface all.
   void paint_skin() {
+    if (is_surface_) {
+      std::vector<Triangle> all(mesh_.cells());
+      for (Id t = 0; t < mesh_.cells(); ++t) {
+        for (int i = 0; i < 3; ++i) all[t][i] = mesh_.encoded().cells(t, i);
+      }
+      return add_skin(all);
+    }
     std::vector<Triangle> candidates = skin_candidates(left_tetrahedra());
     std::sort(candidates.begin(), candidates.end());
     std::vector<Triangle> skin;
@@ -213,6 +223,7 @@ class Painter {
   const std::vector<Point> points_;
   const MorseSmaleComplex& complex_;
   const Mesh mesh_;
+  const bool is_surface_;
   const SimplexNumbers& numbers_;
   const io::PointArray& field_;
   Octant octant_{};

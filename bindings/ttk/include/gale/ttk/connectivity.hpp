@@ -35,7 +35,8 @@ struct CallersPoints {
 
 /// What TTK asks of a triangulation, in TTK's ids and in the order of TTK's explicit triangulation: vertices and cells
 /// have the caller's numbers, edges and triangles those of `CellOrder`. Rows of edges, triangles and cells ascend;
-/// neighbours are in the order of the edges, or triangles, to them.
+/// neighbours are in the order of the edges, or triangles, to them. Where cells are triangles, these have the cells'
+/// numbers and corners, and what is said of T holds for F.
 ///
 /// One thread says first what will be read (need_...); then any threads read. What is returned stays valid until the
 /// same thread asks the same again. To read rows that nobody needed throws gale::Error; all else that nobody needed
@@ -51,56 +52,72 @@ class GALE_EXPORT Connectivity {
   /// How many simplices of a dimension there are: no_id for edges and triangles as long as nobody needed them.
   Id count(int dimension) const { return counts_[dimension]; }
 
-  void need_edges();
-  void need_triangles();
+  /// The dimension of the cells, and that of their facets.
+  int dimension() const { return cells_.dimension(); }
+  int facet_dimension() const { return dimension() - 1; }
 
-  /// One of VV, VT, VE, VF, ET, EF and FT.
+  /// The edges (1) or the triangles (2).
+  void need(int dimension);
+
+  /// One of VV, VT, VE, VF, ET, EF and FT. Throws gale::Error for FT where cells are triangles.
   void need_rows(Relation relation);
 
   /// on_surface() of vertices (0), edges (1) or triangles (2). Where VV is needed, too, say that first: the sweep that
-  /// finds the vertices keeps its rows then. Vertices without VV wait for the triangles, and are found in a sweep of
+  /// finds the vertices keeps its rows then. Vertices without VV wait for the facets, and are found in a sweep of
   /// their own if they are read before these are needed.
   void need_surface(int dimension);
 
   template <Relation relation>
   Row row(Id simplex) const {
-    if constexpr (relation == Relation::FT) {
-      if (!triangles_.is_there()) refuse(relation);
-      const Id second = triangles_.second[simplex];
-      if (second != TriangleOrder::crowded) {
-        const auto& star = reader().star_of_triangle.of(simplex, [this, second](Id wanted) {
-          return std::array<Id, 2>{triangles_.met[wanted].cell, second};
-        });
-        return {star.data(), second == no_id ? 1 : 2};
+    if constexpr (relation == Relation::VF || relation == Relation::EF) {
+      if (dimension() == 2) return row < relation == Relation::VF ? Relation::VT : Relation::ET > (simplex);
+    }
+    if constexpr (relation == Relation::FT || relation == Relation::ET) {
+      if (relation == Relation::FT || dimension() == 2) {
+        const CellOrder& facets = relation == Relation::FT ? triangles_ : edges_;
+        if (!facets.is_there()) refuse(relation);
+        const Id second = facets.second[simplex];
+        if (second != CellOrder::crowded) {
+          const auto& star = reader().star_of_facet.of(simplex, [&facets, second](Id wanted) {
+            return std::array<Id, 2>{facets.met[wanted].cell, second};
+          });
+          return {star.data(), second == no_id ? 1 : 2};
+        }
       }
     }
     const LastRow& last = last_row<relation>();
     return last.key == key_of(simplex) ? last.row : read<relation>(simplex);
   }
 
-  /// Vertices, ascending.
+  /// Vertices, ascending; of a triangle that is a cell as the caller has them.
   const std::array<Id, 2>& edge(Id edge) const {
     return reader().edge.of(edge, [this](Id wanted) { return part_of_cell(edges_, edge_corners, wanted); });
   }
   const std::array<Id, 3>& triangle(Id triangle) const {
-    return reader().triangle.of(triangle,
-                                [this](Id wanted) { return part_of_cell(triangles_, triangle_corners, wanted); });
+    return reader().triangle.of(triangle, [this](Id wanted) {
+      if (dimension() == 3) return part_of_cell(triangles_, triangle_corners, wanted);
+      return std::array<Id, 3>{cells_.vertex(wanted, 0), cells_.vertex(wanted, 1), cells_.vertex(wanted, 2)};
+    });
   }
 
-  /// Ascending.
+  /// Ascending; of a triangle that is a cell as TTK lists them.
   const std::array<Id, 3>& triangle_edges(Id triangle) const;
 
-  /// As TTK lists a cell's edges and triangles.
+  /// As TTK lists a cell's edges and triangles. A triangle has three edges, and no triangles.
   const std::array<Id, 6>& cell_edges(Id cell) const;
   const std::array<Id, 4>& cell_triangles(Id cell) const;
 
-  /// The cells behind those of a cell's triangles that have two. Reads FT.
+  /// The cells behind those of a cell's facets that have two. Reads FT, or ET of triangles.
   Row cell_neighbours(Id cell) const;
 
-  /// What is opposite to a simplex in the i-th cell of its star: a triangle, an edge, a vertex. Reads VT, ET, FT.
-  Id vertex_link(Id vertex, Id i) const;
-  Id edge_link(Id edge, Id i) const;
-  Id triangle_link(Id triangle, Id i) const;
+  /// What is opposite to a simplex in the i-th cell of its star: of vertices, edges and triangles the triangle, the
+  /// edge and the vertex in a tetrahedron, of vertices and edges the edge and the vertex in a triangle. Reads VT, ET,
+  /// FT.
+  template <Relation relation, std::size_t n>
+  Id link(Id simplex, const std::array<Id, n>& vertices, Id i) const {
+    const Id cell = row<relation>(simplex)[i];
+    return simplex_at(cell, cells_.others(cell, vertices));
+  }
 
   bool on_surface(int dimension, Id simplex) const {
     const std::uint8_t* flags = surface_flags_[dimension].load(std::memory_order_acquire);
@@ -108,8 +125,8 @@ class GALE_EXPORT Connectivity {
     return (flags[simplex / 8] >> simplex % 8 & 1) != 0;
   }
 
-  /// Whether all triangles have one or two tetrahedra; those must be needed.
-  bool is_manifold() const { return !triangles_.any_crowded; }
+  /// Whether all facets have one or two cells; those must be needed.
+  bool is_manifold() const { return !facets().any_crowded; }
 
   /// Blocks computed so far: those of the segments that were read, and again what was dropped meanwhile.
   std::size_t blocks_made() const { return blocks_made_.load(std::memory_order_relaxed); }
@@ -159,7 +176,15 @@ class GALE_EXPORT Connectivity {
     return internal_by_vertices(relation, simplex);
   }
 
-  [[noreturn]] static void refuse(Relation relation);
+  /// What the mesh calls a relation to cells.
+  Relation in_mesh(Relation relation) const {
+    if (dimension() == 3) return relation;
+    return relation == Relation::VT ? Relation::VF : relation == Relation::ET ? Relation::EF : relation;
+  }
+
+  const CellOrder& facets() const { return dimension() == 2 ? edges_ : triangles_; }
+
+  [[noreturn]] void refuse(Relation relation) const;
   Internal internal_by_vertices(Relation relation, Id simplex) const;
   void load(Reader& reader, Relation relation, Id id, Id lowest) const;
   void look_ahead(Reader& reader, Relation relation, Id vertex) const;
@@ -167,6 +192,7 @@ class GALE_EXPORT Connectivity {
   template <std::size_t n>
   std::array<Id, n> sorted_internal(std::array<Id, n> vertices) const;
   std::array<Id, 3> edges_of_triangle(Id triangle) const;
+  Id simplex_at(Id cell, unsigned corners) const;
 
   /// What computes VV, and what all other rows. Each is made when it is first read from.
   struct Source {
@@ -193,10 +219,9 @@ class GALE_EXPORT Connectivity {
   Flags find_surface_in_sweep();
   void sweep_cells(const Flags& on_surface, bool keep) const;
   void sweep_structure(const Flags& on_surface);
-  Flags surface_from_triangles(int dimension) const;
+  Flags surface_from_facets(int dimension) const;
   void set_surface(int dimension, const Flags& flags) const;
   const std::uint8_t* late_surface(int dimension) const;
-  void set_numbers(int dimension);
 
   const Cells cells_;
   const Options options_;
@@ -208,11 +233,10 @@ class GALE_EXPORT Connectivity {
   std::array<Id, 4> counts_;
   const Id* vertex_internal_;
   const Id* vertex_input_;
-  CellOrder edges_;
-  TriangleOrder triangles_;
+  CellOrder edges_, triangles_;
   mutable std::array<std::optional<bool>, 2> by_place_;  ///< the vertices, the cells; as soon as it is asked
   mutable std::atomic<std::size_t> blocks_made_{0};
-  bool surface_waits_ = false;               ///< that of vertices, for the triangles
+  bool surface_waits_ = false;               ///< that of vertices, for the facets
   mutable std::array<Flags, 3> on_surface_;  ///< by dimension, and the same for readers
   mutable std::array<std::atomic<const std::uint8_t*>, 3> surface_flags_{};
   Simplices<HostMemory> simplices_;

@@ -73,7 +73,7 @@ struct Reader {
   BlockStore& store;
   std::unique_ptr<Consumer> consumers[2];  ///< by source, made when the thread first makes a block of it
   std::array<Reading, relation_count> readings;
-  Found<2> edge, star_of_triangle;
+  Found<2> edge, star_of_facet;
   Found<3> triangle, triangle_edges;
   Found<6> cell_edges;
   Found<4> cell_triangles;

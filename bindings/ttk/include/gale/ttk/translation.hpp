@@ -74,7 +74,7 @@ class StarOrder {
     for (Id i = 0, left = neighbours.size(); left > 0 && i < size(); ++i) {
       Id fresh[3];
       int count = 0;
-      for (int corner = 0; corner < 3; ++corner) {
+      for (int corner = 0; corner < link.others; ++corner) {
         const Id place = link(this->place(i), corner);
         const std::uint64_t bit = std::uint64_t(1) << (place % 64);
         if ((met_[place / 64] & bit) != 0) continue;
@@ -85,7 +85,7 @@ class StarOrder {
       if (count == 1) {
         to.add(fresh[0]);
       } else if (count > 1) {
-        for (int corner = 0; corner < 4; ++corner) {
+        for (int corner = 0; corner < cells.corners(); ++corner) {
           const Id here = cells.vertex(cell(i), corner);
           if (std::find(fresh, fresh + count, here) != fresh + count) to.add(here);
         }

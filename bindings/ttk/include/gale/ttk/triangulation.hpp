@@ -15,10 +15,10 @@
 
 namespace gale::ttk {
 
-/// One of TTK's triangulations, of tetrahedra, that computes rows by segments as they are asked for. Any of TTK's base
-/// modules takes it as its template argument, and gives the same results as on ttk::ExplicitTriangulation, which has
-/// the same ids, and the same order of rows. As there: points and cells first, then the module's
-/// preconditionTriangulation(), then the module.
+/// One of TTK's triangulations, of tetrahedra or of triangles, that computes rows by segments as they are asked for.
+/// Any of TTK's base modules takes it as its template argument, and gives the same results as on
+/// ttk::ExplicitTriangulation, which has the same ids, and the same order of rows. As there: points and cells first,
+/// then the module's preconditionTriangulation(), then the module.
 ///
 /// Kokkos must be initialized, and stay so as long as this lives. The points and the cells must outlive it;
 /// clear() forgets them. Setting and preconditioning are for one thread at a time, queries for any. Where GALE
@@ -54,16 +54,17 @@ class Triangulation final : public ::ttk::AbstractTriangulation {
   }
 
 #ifdef TTK_CELL_ARRAY_NEW
-  /// In TTK's layout of two arrays. All cells must be tetrahedra.
+  /// In TTK's layout of two arrays. All cells must be tetrahedra, or all triangles.
   int setInputCells(const SimplexId& count, const ::ttk::LongSimplexId* connectivity,
                     const ::ttk::LongSimplexId* offset) {
-    return set_cells(count > 0 ? connectivity + offset[0] : connectivity, count, 4,
+    return set_cells(count > 0 ? connectivity + offset[0] : connectivity, count, 0,
                      [&](Offset c) { return offset[c + 1] - offset[c]; });
   }
 #else
-  /// In TTK's flat layout. All cells must be tetrahedra.
+  /// In TTK's flat layout. All cells must be tetrahedra, or all triangles.
   int setInputCells(const SimplexId& count, const ::ttk::LongSimplexId* cells) {
-    return set_cells(cells + 1, count, 5, [&](Offset c) { return cells[5 * c]; });
+    const Offset stride = count > 0 && cells[0] == 3 ? 4 : 5;
+    return set_cells(cells + 1, count, 1, [&](Offset c) { return cells[stride * c]; });
   }
 #endif
 
@@ -72,7 +73,7 @@ class Triangulation final : public ::ttk::AbstractTriangulation {
 
   // Queries. Each is what ttk::AbstractTriangulation says of the function of its name.
 
-  int TTK_TRIANGULATION_INTERNAL(getDimensionality)() const override { return 3; }
+  int TTK_TRIANGULATION_INTERNAL(getDimensionality)() const override { return cells_.dimension(); }
   bool isEmpty() const override { return points_.count == 0; }
   SimplexId TTK_TRIANGULATION_INTERNAL(getNumberOfVertices)() const override { return points_.count; }
   SimplexId TTK_TRIANGULATION_INTERNAL(getNumberOfEdges)() const override { return count(1); }
@@ -119,7 +120,9 @@ class Triangulation final : public ::ttk::AbstractTriangulation {
     vertex = cells_.vertex(cell, place);
     return 0;
   }
-  SimplexId TTK_TRIANGULATION_INTERNAL(getCellVertexNumber)(const SimplexId&) const override { return 4; }
+  SimplexId TTK_TRIANGULATION_INTERNAL(getCellVertexNumber)(const SimplexId&) const override {
+    return cells_.corners();
+  }
 
   const std::vector<std::array<SimplexId, 2>>* TTK_TRIANGULATION_INTERNAL(getEdges)() override {
     return detail::list(this->edgeList_, count(1), [&](Id i) { return connectivity_->edge(i); });
@@ -153,20 +156,23 @@ class Triangulation final : public ::ttk::AbstractTriangulation {
   GALE_TTK_ROWS(VertexStar, VertexStars, 0, connectivity_->row<Relation::VT>(simplex).size(),
                 connectivity_->row<Relation::VT>(simplex)[i])
   GALE_TTK_ROWS(VertexLink, VertexLinks, 0, connectivity_->row<Relation::VT>(simplex).size(),
-                connectivity_->vertex_link(simplex, i))
+                connectivity_->link<Relation::VT>(simplex, std::array<Id, 1>{simplex}, i))
   GALE_TTK_ROWS(EdgeTriangle, EdgeTriangles, 1, connectivity_->row<Relation::EF>(simplex).size(),
                 connectivity_->row<Relation::EF>(simplex)[i])
   GALE_TTK_ROWS(EdgeStar, EdgeStars, 1, connectivity_->row<Relation::ET>(simplex).size(),
                 connectivity_->row<Relation::ET>(simplex)[i])
   GALE_TTK_ROWS(EdgeLink, EdgeLinks, 1, connectivity_->row<Relation::ET>(simplex).size(),
-                connectivity_->edge_link(simplex, i))
+                connectivity_->link<Relation::ET>(simplex, connectivity_->edge(simplex), i))
   GALE_TTK_ROWS(TriangleEdge, TriangleEdges, 2, 3, connectivity_->triangle_edges(simplex)[i])
   GALE_TTK_ROWS(TriangleStar, TriangleStars, 2, connectivity_->row<Relation::FT>(simplex).size(),
                 connectivity_->row<Relation::FT>(simplex)[i])
   GALE_TTK_ROWS(TriangleLink, TriangleLinks, 2, connectivity_->row<Relation::FT>(simplex).size(),
-                connectivity_->triangle_link(simplex, i))
-  GALE_TTK_ROWS(CellEdge, CellEdges, 3, 6, connectivity_->cell_edges(simplex)[i])
-  GALE_TTK_ROWS(CellTriangle, CellTriangles, 3, 4, connectivity_->cell_triangles(simplex)[i])
+                connectivity_->link<Relation::FT>(simplex, connectivity_->triangle(simplex), i))
+  GALE_TTK_ROWS(CellEdge, CellEdges, 3, cells_.edges(), connectivity_->cell_edges(simplex)[i])
+  GALE_TTK_ROWS(CellTriangle, CellTriangles, 3,  // triangles that are cells have their neighbours there, as in TTK
+                cells_.corners() == 4 ? 4 : connectivity_->cell_neighbours(simplex).size(),
+                cells_.corners() == 4 ? connectivity_->cell_triangles(simplex)[i]
+                                      : connectivity_->cell_neighbours(simplex)[i])
   GALE_TTK_ROWS(CellNeighbor, CellNeighbors, 3, connectivity_->cell_neighbours(simplex).size(),
                 connectivity_->cell_neighbours(simplex)[i])
 #undef GALE_TTK_ROWS
@@ -180,7 +186,7 @@ class Triangulation final : public ::ttk::AbstractTriangulation {
   int preconditionVertexEdgesInternal() override { return need_rows(Relation::VE); }
   int preconditionVertexTrianglesInternal() override { return need_rows(Relation::VF); }
   int preconditionVertexStarsInternal() override { return need_rows(Relation::VT); }
-  int preconditionVertexLinksInternal() override { return need_rows(Relation::VT, 2); }
+  int preconditionVertexLinksInternal() override { return need_rows(Relation::VT, cells_.dimension() - 1); }
   int preconditionEdgesInternal() override { return need(1); }
   int preconditionEdgeTrianglesInternal() override { return need_rows(Relation::EF); }
   int preconditionEdgeStarsInternal() override { return need_rows(Relation::ET); }
@@ -191,9 +197,11 @@ class Triangulation final : public ::ttk::AbstractTriangulation {
   int preconditionTriangleLinksInternal() override { return need_rows(Relation::FT); }
   int preconditionCellEdgesInternal() override { return need(1); }
   int preconditionCellTrianglesInternal() override { return need(2); }
-  int preconditionCellNeighborsInternal() override { return need_rows(Relation::FT); }
+  int preconditionCellNeighborsInternal() override {
+    return need_rows(cells_.dimension() == 2 ? Relation::ET : Relation::FT);
+  }
   int preconditionManifoldInternal() override {
-    if (need(2) != 0) return -1;
+    if (need(cells_.dimension() - 1) != 0) return -1;
     this->isManifold_ = connectivity_->is_manifold();
     return 0;
   }
@@ -223,17 +231,19 @@ class Triangulation final : public ::ttk::AbstractTriangulation {
     throw Error(std::to_string(count) + " " + name + ": there may be 0 to 2147483647");
   }
 
+  /// `between`: numbers between two cells' corners.
   template <class CornersOf>
-  int set_cells(const ::ttk::LongSimplexId* first, const SimplexId& count, int stride, const CornersOf& corners_of) {
+  int set_cells(const ::ttk::LongSimplexId* first, const SimplexId& count, int between, const CornersOf& corners_of) {
     if (connectivity_) clear();
     return attempt([&] {
       const Id cells = id_of("cells", count);
+      const int corners = count > 0 && corners_of(0) == 3 ? 3 : 4;
       for (Offset c = 0; c < cells; ++c) {
-        if (corners_of(c) == 4) continue;
+        if (corners_of(c) == corners) continue;
         throw Error("cell " + std::to_string(c) + " has " + std::to_string(corners_of(c)) +
-                    " vertices: GALE takes tetrahedra only");
+                    " vertices: GALE takes tetrahedra alone, or triangles alone");
       }
-      cells_ = Cells(first, stride, cells);
+      cells_ = Cells(first, corners, corners + between, cells);
       encode();
     });
   }
@@ -252,7 +262,7 @@ class Triangulation final : public ::ttk::AbstractTriangulation {
     });
   }
   int need(int dimension) {
-    return say([&](Connectivity& all) { dimension == 1 ? all.need_edges() : all.need_triangles(); });
+    return say([&](Connectivity& all) { all.need(dimension); });
   }
   int need_surface(int dimension) {
     return say([&](Connectivity& all) { all.need_surface(dimension); });
