@@ -1,4 +1,5 @@
 """gale merge-tree and gale simplify-field: counts that other programs find too; their files against each other."""
+import math
 import unittest
 
 import gale
@@ -59,6 +60,19 @@ class MergeTree(gale.CommandTest):
                     inside[arc] += vertex not in of_nodes["VertexId"]
                     self.assertEqual(of_mesh["RegionSize"][vertex], of_arcs["RegionSize"][arc])
                 self.assertEqual(inside, of_arcs["RegionSize"])
+
+
+class Pictures(gale.DrawingTest):
+    @gale.needs_vtk
+    def test_are_drawn_on_a_display_that_no_one_sees(self):
+        self.write("mesh.vtk", gale.vtk_mesh([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], [[0, 1, 2, 3]], {"height": ("float", [0, 1, 2, math.inf])}))
+        self.write("alike.vtk", gale.vtk_mesh([(0, 0, 0), (1, 0, 0), (0, 1, 0), (9, 9, 0)], [[0, 1, 2]], {"height": ("float", [1, 1, 1, 1])}))
+        for arguments in (["grid:24"], ["plane:32", "--type", "join"], ["grid:24", "--type", "split", "--persistence", "20%"], ["mesh.vtk"], ["alike.vtk"]):
+            with self.subTest(arguments=arguments):
+                self.expect_drawn((1400, 800), "merge-tree", *arguments)
+
+    def test_are_refused_where_they_cannot_be(self):
+        self.expect_refused("merge-tree")
 
 
 class SimplifiedField(gale.CommandTest):

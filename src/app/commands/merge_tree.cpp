@@ -2,7 +2,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include <gale/algorithms/surface_vertices.hpp>
 #include <gale/app/commands/command.hpp>
+#include <gale/app/drawing/picture.hpp>
 #include <gale/io/write.hpp>
 #include <gale/outputs/field.hpp>
 #include <gale/outputs/merge_tree.hpp>
@@ -34,6 +36,8 @@ class FindMergeTree final : public Command {
     subcommand()
         .add_option("-o,--output", output_, "Write P_nodes.vtp, P_arcs.vtp and P_segmentation.vtu")
         ->type_name("P");
+    add_file("--render", render_, "Draw the tree, beside the mesh in the colours of its arcs, to this .png", {".png"})
+        ->type_name("FILE.png");
     add_encoding();
   }
 
@@ -50,6 +54,9 @@ class FindMergeTree final : public Command {
     session.write_result(arcs, [&] { return outputs::tree_arcs(on.dataset, on.field, tree, arc_samples_); });
     session.write(segmentation, [&](const io::AtomicFile& to) {
       io::write_mesh(to, on.dataset, outputs::tree_segmentation(on.dataset, tree));
+    });
+    session.write(render_, [&](const io::AtomicFile& file) {
+      draw(file, picture_of(on.dataset, on.field, on.mesh, tree, type_, surface_vertices(on.mesh)));
     });
     session.finish(structure_, computed);
   }
@@ -69,7 +76,7 @@ class FindMergeTree final : public Command {
   std::string type_;
   std::optional<outputs::Persistence> persistence_;
   int arc_samples_ = 0;
-  std::string output_;
+  std::string output_, render_;
 };
 
 }  // namespace
