@@ -57,7 +57,20 @@ KOKKOS_FORCEINLINE_FUNCTION Sides<Word> sides_of(const std::uint64_t* keys, Id v
   return sides;
 }
 
+/// Tells of a component of a vertex's neighbours, by one of these.
+template <class Found>
+struct AddMeeting {
+  Found& found;
+  Side side;
+  Id vertex;
+  const Row& neighbours;
+
+  GALE_CALLS_ANY
+  KOKKOS_FORCEINLINE_FUNCTION void operator()(int i) const { found.add_meeting(side, {vertex, neighbours[i]}); }
+};
+
 /// Visits a vertex whose link lies in bits: returns its sides, and tells `found` what else there is to say of it.
+GALE_CALLS_ANY
 template <class Link, class Found>
 KOKKOS_FORCEINLINE_FUNCTION Sides<typename Link::Word> visit_link(const std::uint64_t* keys, Id vertex,
                                                                   const Row& neighbours, const Link& link,
@@ -71,7 +84,7 @@ KOKKOS_FORCEINLINE_FUNCTION Sides<typename Link::Word> visit_link(const std::uin
     if (on_side == 0) {
       found.add_extremum(side, vertex);
     } else if (link.components(on_side) > 1) {
-      link.for_each_component(on_side, [&](int at) { found.add_meeting(side, {vertex, neighbours[at]}); });
+      link.for_each_component(on_side, AddMeeting<Found>{found, side, vertex, neighbours});
     }
   }
   return sides;
