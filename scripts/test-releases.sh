@@ -1,9 +1,9 @@
 #!/bin/bash
 # Builds and tests GALE in throw-away roots of Debian sid, with the Kokkos that it packages: twice, since there are two.
 # Needs root and debootstrap; says which release it skips and why. What it can set up must pass. Without --all, what
-# depends little on Kokkos is left out: files, headers by themselves, examples, fuzzers, faults, installations, and most of
-# the command; of each program's tests a third is run; and of the release in the middle only what computes relations, and
-# not the command, as the oldest, which Debian 12 has, and the newest are tested in all.
+# depends little on Kokkos is left out: files, outputs, the command, headers by themselves, examples, fuzzers, faults and
+# installations; of each program's tests a third is run; and of the release in the middle only what computes relations, as
+# the oldest, which Debian 12 has, and the newest are tested in all.
 #   usage: scripts/test-releases.sh [--with-vtk] [--all]
 set -euo pipefail
 source_dir=$(cd "$(dirname "$0")/.." && pwd)
@@ -36,20 +36,15 @@ set_up() { # PACKAGE...
     install_in "$root" "$@"
 }
 
-# Builds and tests in the root: all, or a part of the tests of these folders, app being the command.
+# Builds and tests in the root: all, or a part of the tests of these folders.
 build_and_test() { # FOLDERS CMAKE_OPTION...
-  local folders folder names=() targets=() tests=() part=()
+  local folders targets=() tests=() part=()
   read -ra folders <<<"$1"
   shift
   if [ -z "$all" ]; then
-    targets=(--target)
-    for folder in "${folders[@]}"; do
-      case "$folder" in
-        app) targets+=(gale_app); names+=('app\.(meshes|morse_smale_geometry|outputs|relations|usage)') ;;
-        *) targets+=("gale_${folder}_tests"); names+=("$folder") ;;
-      esac
-    done
-    tests=(--tests-regex "^($(IFS='|'; echo "${names[*]}"))\$")
+    targets=("${folders[@]/#/gale_}")
+    targets=(--target "${targets[@]/%/_tests}")
+    tests=(--tests-regex "^($(IFS='|'; echo "${folders[*]}"))\$")
     part=(GTEST_TOTAL_SHARDS=3 GTEST_SHARD_INDEX=1)
   fi
   copy_sources "$source_dir" "$root" &&
@@ -84,7 +79,7 @@ unable=$(why_no_root)
 # That package's CMake files name two archives that it doesn't hold; they are empty anyway.
 # shellcheck disable=SC2016
 test_release "sid with libkokkos-dev (Kokkos 5, OpenMP alone, C++20)" libkokkos-dev \
-  "base mesh relations runtime algorithms outputs app" -DGALE_ENABLE_KOKKOS_KERNELS=OFF '
+  "base mesh relations runtime algorithms" -DGALE_ENABLE_KOKKOS_KERNELS=OFF '
   for name in kokkosalgorithms kokkossimd; do
     archive=/usr/lib/$(gcc -dumpmachine)/lib$name.a
     [ -e "$archive" ] || ar cr "$archive"

@@ -1,7 +1,8 @@
 #!/bin/bash
 # Runs what manages memory and threads by itself under the sanitizers: address and undefined behaviour, then threads.
 # Without VTK, the command and the examples, whose libraries aren't built for that.
-#   usage: scripts/test-sanitizers.sh [address] [thread]
+#   usage: scripts/test-sanitizers.sh [address] [thread] [sweeps]
+#     sweeps: what algorithms' sweeps write and several threads read, under the thread sanitizer; only if asked for.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -50,13 +51,14 @@ together() {
   [ $failed = 0 ]
 }
 
-# Every third: they run each mesh by each structure, which is minutes here.
+# A part: they run each mesh by each structure, which is minutes here.
 third() { GTEST_TOTAL_SHARDS=3 GTEST_SHARD_INDEX=1 run_tests "$@"; }
+fifth() { GTEST_TOTAL_SHARDS=5 GTEST_SHARD_INDEX=2 run_tests "$@"; }
 
 address() {
   export LSAN_OPTIONS=suppressions=$PWD/unit_tests/leaks.supp:print_suppressions=0
   build sanitize gale_base gale_mesh gale_relations gale_runtime gale_algorithms gale_io gale_ttk
-  together "third sanitize algorithms" "all_but_algorithms"
+  together "fifth sanitize algorithms" "all_but_algorithms"
 }
 
 all_but_algorithms() {
@@ -65,19 +67,22 @@ all_but_algorithms() {
   for folder in runtime relations; do third sanitize $folder; done
 }
 
-# Of the runtime, a third of all but what takes minutes here to compare every mesh with brute force, or has one thread; of
-# the algorithms, those whose sweeps write what several threads read.
+# Of the runtime, a third of all but what takes minutes here to compare every mesh with brute force, or has one thread.
 thread() {
-  build sanitize-thread gale_base gale_runtime gale_algorithms gale_ttk
+  build sanitize-thread gale_base gale_runtime gale_ttk
   together "run_tests sanitize-thread base" "run_tests sanitize-thread ttk TtkBlockStore.*:TtkTriangulationOnThreads.*" \
-    "third sanitize-thread runtime -MixedSweep.*:Tests/MixedSweepOf.*:Tests/DeviceSweepOf.*:*RelationOf*" \
-    "run_tests sanitize-thread algorithms CriticalPoints.*:DiscreteGradient.*:MorseSmaleComplex.*:Simplify.*"
+    "third sanitize-thread runtime -MixedSweep.*:Tests/MixedSweepOf.*:Tests/DeviceSweepOf.*:*RelationOf*"
+}
+
+sweeps() {
+  build sanitize-thread gale_algorithms
+  run_tests sanitize-thread algorithms CriticalPoints.*:DiscreteGradient.*:MorseSmaleComplex.*:Simplify.*:MergeTree*
 }
 
 [ $# -gt 0 ] || set -- address thread
 for which in "$@"; do
   case "$which" in
-    address | thread) "$which" ;;
-    *) echo "usage: $0 [address] [thread]" >&2; exit 2 ;;
+    address | thread | sweeps) "$which" ;;
+    *) echo "usage: $0 [address] [thread] [sweeps]" >&2; exit 2 ;;
   esac
 done

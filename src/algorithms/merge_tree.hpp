@@ -62,7 +62,8 @@ struct MergeTreeOptions : ComputeOptions {
 /// component of the mesh. An arc stands for such a component while it grows from one node to the next, and has the
 /// vertices by which it grows. *Split tree*: the same of the reversed order. *Contour tree* (Carr, Snoeyink and Axen
 /// 2003): both in one; its nodes are theirs. Where several components meet in one vertex, that is one node. On a mesh
-/// that isn't simply connected the contour tree has no loops, either: it says of level sets what the two others know.
+/// that isn't simply connected the contour tree has no loops, either: it says of level sets what the two others know,
+/// and a vertex may have been put on another arc as well.
 ///
 /// From the components of each vertex's lower and upper neighbours: their steepest paths are followed to extrema, and
 /// the few vertices where several paths meet are joined from the lowest to the highest (extremum graphs: Lukasczyk et
@@ -73,14 +74,23 @@ struct MergeTreeOptions : ComputeOptions {
 /// branch that ends with one merges into the arc that it hangs on. A contour tree is that of the simplified field
 /// (`simplify_field`).
 ///
-/// By threads of the host. Throws gale::Error on one rank's part of a mesh; for a threshold that is no number or
-/// without values; naming the vertex, if a value is NaN where it is asked for; and as make_structure and sweeps do.
+/// By kernels where the mesh is on a device and they find room there, else by threads of the host: `options` may say
+/// otherwise, and `computed` is told; but what joins the few vertices where paths meet, and simplify_field, are on the
+/// host, and the order's keys come there. Throws gale::Error on one rank's part of a mesh; for a threshold that is no
+/// number or without values; naming the vertex, if a value is NaN where it is asked for; and as require_consumers,
+/// make_structure and sweeps do.
 GALE_EXPORT MergeTree find_merge_tree(const VertexOrder& order, Tree tree, const MergeTreeOptions& options = {},
                                       Computed* computed = nullptr);
 
 /// Finds all three, by `Tree`, in one sweep; with a threshold simplify_field's work and another sweep come on top.
 GALE_EXPORT std::array<MergeTree, 3> find_merge_trees(const VertexOrder& order, const MergeTreeOptions& options = {},
                                                       Computed* computed = nullptr);
+
+/// Finds them by kernels where the relations are made; of `options` the threshold and the values count. Vertices of
+/// more than 64 neighbours are visited on the host. What is said of sweeps (device_sweep.hpp) holds.
+GALE_EXPORT std::array<MergeTree, 3> find_merge_trees(const WorkerSpace& space, const VertexOrder& order,
+                                                      const MergeTreeOptions& options = {},
+                                                      const DeviceSweepOptions& sweep = {});
 
 /// What the sweep reads.
 inline constexpr RelationSet merge_tree_relations = Relation::VV | link_form;

@@ -4,6 +4,7 @@
 
 #include <gale/algorithms/critical_points.hpp>
 #include <gale/algorithms/discrete_gradient.hpp>
+#include <gale/algorithms/merge_tree.hpp>
 #include <gale/runtime/make_structure.hpp>
 
 #include "algorithms/fields.hpp"
@@ -63,6 +64,14 @@ void expect_the_same_on_either_side(const InputMesh& input, unsigned seed) {
   EXPECT_EQ(points.on_surface, expected.on_surface);
   const DiscreteGradient gradient = find_discrete_gradient(*structure, order);
   ASSERT_GT(gradient.critical().edges.size(), static_cast<std::size_t>(mesh.vertices() / 16 + 1024));
+  MergeTreeOptions by_threads;
+  by_threads.consumers = ConsumerPlace::host;
+  const auto trees = find_merge_trees(WorkerSpace(), order), on_host = find_merge_trees(order, by_threads);
+  for (int tree = 0; tree < 3; ++tree) {
+    EXPECT_EQ(trees[tree].vertices, on_host[tree].vertices);
+    EXPECT_EQ(trees[tree].arcs, on_host[tree].arcs);
+    EXPECT_EQ(trees[tree].arc_of, on_host[tree].arc_of);
+  }
   expect_equal(find_discrete_gradient(WorkerSpace(), order), gradient);
 }
 

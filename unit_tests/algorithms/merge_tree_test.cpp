@@ -10,6 +10,7 @@
 #include "algorithms/brute_force_trees.hpp"
 #include "algorithms/fields.hpp"
 #include "algorithms/structure_kinds.hpp"
+#include "algorithms/surface_cases.hpp"
 #include "support/every_mesh.hpp"
 #include "support/message_of.hpp"
 
@@ -36,34 +37,102 @@ MergeTreeOptions options_of(const StructureKind& kind, int threads) {
   return options;
 }
 
-}  // namespace
-
-class MergeTreesOf : public EveryMesh {};
-
-TEST_P(MergeTreesOf, every_mesh_are_those_of_brute_force_on_every_structure) {
-  const Mesh mesh = encode(input(), segmentation());
-  for (const Field& field : fields_on(input())) {
+/// All trees of a mesh, by every structure, by kernels and alone, are those of brute force.
+void expect_trees(const Mesh& mesh, const std::vector<Field>& fields, const BruteForce::Table& neighbours,
+                  const std::vector<Tree>& trees = all_trees) {
+  for (const Field& field : fields) {
     const VertexOrder order(mesh, field.values.data(), field.values.size());
     std::vector<MergeTree> expected;
-    for (const Tree tree : all_trees)
-      expected.push_back(brute_force_tree(tree, brute_force_of(mesh_name()).vv, field.values));
-    for (const auto& kind : structure_kinds()) {
-      for (const int threads : {1, 3}) {
-        const auto all = find_merge_trees(order, options_of(kind, threads));
-        for (const Tree tree : all_trees) {
-          SCOPED_TRACE(kind.name + ", " + field.name + ", " + name_of(tree) + ", threads " + std::to_string(threads));
-          expect_same(all[static_cast<int>(tree)], expected[static_cast<int>(tree)]);
-        }
+    for (const Tree tree : all_trees) expected.push_back(brute_force_tree(tree, neighbours, field.values));
+    const auto expect_all = [&](const std::array<MergeTree, 3>& found, const std::string& by) {
+      for (const Tree tree : trees) {
+        SCOPED_TRACE(by + ", " + field.name + ", " + name_of(tree));
+        expect_same(found[static_cast<int>(tree)], expected[static_cast<int>(tree)]);
       }
+    };
+    for (const auto& kind : structure_kinds()) {
+      for (const int threads : {1, 3})
+        expect_all(find_merge_trees(order, options_of(kind, threads)), kind.name + " on " + std::to_string(threads));
     }
-    for (const Tree tree : all_trees) {
-      SCOPED_TRACE(std::string("alone: ") + field.name + ", " + name_of(tree));
-      expect_same(find_merge_tree(order, tree), expected[static_cast<int>(tree)]);
+    expect_all(find_merge_trees(WorkerSpace(), order), "kernels");
+    expect_all({find_merge_tree(order, Tree::join), find_merge_tree(order, Tree::split),
+                find_merge_tree(order, Tree::contour)},
+               "each alone");
+  }
+}
+
+/// Join and split trees, simplified, have the extrema that brute force finds persistent, and no regular nodes.
+void expect_simplified_trees(const Mesh& mesh, const std::vector<Field>& fields, const BruteForce::Table& neighbours) {
+  for (const Field& field : fields) {
+    const VertexOrder order(mesh, field.values.data(), field.values.size());
+    for (const double threshold : {1e-9, 3.0, 40.0}) {
+      MergeTreeOptions options;
+      options.threshold = threshold;
+      options.value = [&](Id vertex) { return field.values[vertex]; };
+      for (const Tree tree : {Tree::join, Tree::split}) {
+        SCOPED_TRACE(field.name + ", " + name_of(tree) + ", threshold " + std::to_string(threshold));
+        const bool is_split = tree == Tree::split;
+        const auto whole = find_merge_tree(order, tree), simplified = find_merge_tree(order, tree, options);
+        std::vector<Id> leaves, arcs_at(simplified.vertices.size(), 0), ahead = arcs_at;
+        Id on_arcs = 0;
+        for (const MergeArc& arc : simplified.arcs) {
+          EXPECT_LT(arc.lower, arc.upper);
+          ++(is_split ? arcs_at[arc.lower] : arcs_at[arc.upper]);
+          ++(is_split ? ahead[arc.upper] : ahead[arc.lower]);
+          on_arcs += arc.size;
+        }
+        EXPECT_EQ(on_arcs + static_cast<Id>(simplified.vertices.size()), mesh.vertices());
+        for (std::size_t node = 0; node < arcs_at.size(); ++node) {
+          if (arcs_at[node] == 0) leaves.push_back(simplified.vertices[node]);
+          EXPECT_TRUE(arcs_at[node] != 1 || ahead[node] == 0) << "no node is regular";
+          EXPECT_LE(ahead[node], 1);
+          EXPECT_NE(std::count(whole.vertices.begin(), whole.vertices.end(), simplified.vertices[node]), 0);
+        }
+        std::sort(leaves.begin(), leaves.end());
+        EXPECT_EQ(leaves, brute_force_persistent(is_split, neighbours, field.values, field.values, threshold));
+      }
     }
   }
 }
 
+}  // namespace
+
+class MergeTreesOf : public EveryMesh {};
+
+TEST_P(MergeTreesOf, every_mesh_are_those_of_brute_force_however_computed) {
+  expect_trees(encode(input(), segmentation()), fields_on(input()), brute_force_of(mesh_name()).vv);
+}
+
+TEST_P(MergeTreesOf, every_mesh_have_the_extrema_that_are_persistent) {
+  expect_simplified_trees(encode(input(), segmentation()), fields_on(input()), brute_force_of(mesh_name()).vv);
+}
+
 INSTANTIATE_TEST_SUITE_P(Tests, MergeTreesOf, every_mesh_and_segmentation(), mesh_and_segmentation);
+
+class MergeTreesOnSurfaces : public SurfaceTest {};
+
+TEST_P(MergeTreesOnSurfaces, are_those_of_brute_force_however_computed) {
+  for (const int capacity : {5, 100})
+    expect_trees(encode(surface(), capacity), fields_on(points_of_surface(surface())),
+                 neighbours_on_surface(surface()));
+}
+
+TEST_P(MergeTreesOnSurfaces, have_the_extrema_that_are_persistent) {
+  expect_simplified_trees(encode(surface(), 50), fields_on(points_of_surface(surface())),
+                          neighbours_on_surface(surface()));
+}
+
+INSTANTIATE_TEST_SUITE_P(Tests, MergeTreesOnSurfaces, surface_names(), surface_name);
+
+/// Contour trees aren't compared: with holes, where a vertex belongs may depend on which leaf is pruned first.
+TEST(MergeTree, of_any_triangles_are_those_of_brute_force) {
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    SCOPED_TRACE(seed);
+    const InputSurface surface = random_surface(seed);
+    const Field field{"random", random_field(points_of_surface(surface), seed)};
+    expect_trees(encode(surface, 8), {field}, neighbours_on_surface(surface), {Tree::join, Tree::split});
+  }
+}
 
 TEST(MergeTree, of_two_valleys_joins_them_at_the_pass) {
   // A strip of tetrahedra along 0 1 2 3 4 5 6: valleys at the ends, and a pass at 3.
@@ -90,45 +159,6 @@ TEST(MergeTree, of_two_valleys_joins_them_at_the_pass) {
   EXPECT_EQ(simplified.arcs, (std::vector<MergeArc>{{0, 1, 5}}));
   EXPECT_EQ(simplified.arc_of, (std::vector<Id>(7, 0)));
 }
-
-class SimplifiedTreesOf : public EveryMesh {};
-
-TEST_P(SimplifiedTreesOf, every_mesh_have_the_extrema_that_are_persistent) {
-  const Mesh mesh = encode(input(), segmentation());
-  for (const Field& field : fields_on(input())) {
-    const VertexOrder order(mesh, field.values.data(), field.values.size());
-    for (const double threshold : {1e-9, 3.0, 40.0}) {
-      MergeTreeOptions options;
-      options.threshold = threshold;
-      options.value = [&](Id vertex) { return field.values[vertex]; };
-      for (const Tree tree : {Tree::join, Tree::split}) {
-        SCOPED_TRACE(field.name + ", " + name_of(tree) + ", threshold " + std::to_string(threshold));
-        const bool is_split = tree == Tree::split;
-        const auto whole = find_merge_tree(order, tree), simplified = find_merge_tree(order, tree, options);
-        std::vector<Id> leaves, arcs_at(simplified.vertices.size(), 0), ahead = arcs_at;
-        Id on_arcs = 0;
-        for (const MergeArc& arc : simplified.arcs) {
-          EXPECT_LT(arc.lower, arc.upper);
-          ++(is_split ? arcs_at[arc.lower] : arcs_at[arc.upper]);
-          ++(is_split ? ahead[arc.upper] : ahead[arc.lower]);
-          on_arcs += arc.size;
-        }
-        EXPECT_EQ(on_arcs + static_cast<Id>(simplified.vertices.size()), mesh.vertices());
-        for (std::size_t node = 0; node < arcs_at.size(); ++node) {
-          if (arcs_at[node] == 0) leaves.push_back(simplified.vertices[node]);
-          EXPECT_TRUE(arcs_at[node] != 1 || ahead[node] == 0) << "no node is regular";
-          EXPECT_LE(ahead[node], 1);
-          EXPECT_NE(std::count(whole.vertices.begin(), whole.vertices.end(), simplified.vertices[node]), 0);
-        }
-        std::sort(leaves.begin(), leaves.end());
-        EXPECT_EQ(leaves, brute_force_persistent(is_split, brute_force_of(mesh_name()).vv, field.values, field.values,
-                                                 threshold));
-      }
-    }
-  }
-}
-
-INSTANTIATE_TEST_SUITE_P(Tests, SimplifiedTreesOf, every_mesh_and_segmentation(), mesh_and_segmentation);
 
 TEST(MergeTree, of_grid_48_has_as_many_nodes_as_others_find) {
   const io::Dataset dataset = io::make_grid(48);

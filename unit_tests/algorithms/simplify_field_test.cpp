@@ -10,6 +10,7 @@
 #include "algorithms/brute_force_trees.hpp"
 #include "algorithms/fields.hpp"
 #include "algorithms/structure_kinds.hpp"
+#include "algorithms/surface_cases.hpp"
 #include "support/every_mesh.hpp"
 #include "support/message_of.hpp"
 
@@ -19,8 +20,9 @@ namespace {
 
 /// Meshes in which parts touch others in single vertices or edges: they may have extrema in any order.
 bool has_parts_that_hang(const std::string& mesh) {
-  static const std::set<std::string> some = {"two_sharing_an_edge", "two_sharing_a_vertex", "random_tetrahedra",
-                                             "random_hubs",         "holed_grid_9",         "cone_over_three_caps_100"};
+  static const std::set<std::string> some = {"two_sharing_an_edge",  "two_sharing_a_vertex", "random_tetrahedra",
+                                             "random_hubs",          "holed_grid_9",         "cone_over_three_caps_100",
+                                             "three fans that meet", "any triangles"};
   return some.count(mesh) > 0;
 }
 
@@ -57,14 +59,10 @@ ComputeOptions options_of(const StructureKind& kind, int threads) {
   return options;
 }
 
-}  // namespace
-
-class SimplifiedFieldOf : public EveryMesh {};
-
-TEST_P(SimplifiedFieldOf, every_mesh_has_persistent_extrema_alone) {
-  const Mesh mesh = encode(input(), segmentation());
-  const auto& neighbours = brute_force_of(mesh_name()).vv;
-  for (const Field& field : fields_on(input())) {
+/// Has what outlasts a threshold, and no more. Whether parts hang on others says whether all can be removed.
+void expect_persistent_extrema(const Mesh& mesh, const std::vector<Field>& fields, const BruteForce::Table& neighbours,
+                               bool hangs) {
+  for (const Field& field : fields) {
     const VertexOrder order(mesh, field.values.data(), field.values.size());
     for (const double threshold : {1e-9, 3.0, 0.3 * mesh.vertices()}) {
       SCOPED_TRACE(field.name + ", threshold " + std::to_string(threshold));
@@ -79,7 +77,7 @@ TEST_P(SimplifiedFieldOf, every_mesh_has_persistent_extrema_alone) {
       const auto low = brute_force_persistent(false, neighbours, ranks, values, threshold),
                  high = brute_force_persistent(true, neighbours, ranks, values, threshold);
       EXPECT_EQ(found.kept_below, static_cast<Id>(minima.size() - low.size() + maxima.size() - high.size()));
-      if (!has_parts_that_hang(mesh_name())) EXPECT_EQ(found.kept_below, 0);
+      if (!hangs) EXPECT_EQ(found.kept_below, 0);
       for (const auto& kind : structure_kinds()) {
         const SimplifiedField same = simplify_field(order, value, threshold, options_of(kind, 3));
         EXPECT_EQ(same.rank, found.rank) << kind.name;
@@ -94,11 +92,9 @@ TEST_P(SimplifiedFieldOf, every_mesh_has_persistent_extrema_alone) {
   }
 }
 
-TEST_P(SimplifiedFieldOf, every_mesh_has_the_given_extrema_alone) {
-  if (has_parts_that_hang(mesh_name())) GTEST_SKIP() << "some of their extrema can't be removed";
-  const Mesh mesh = encode(input(), segmentation());
-  const auto& neighbours = brute_force_of(mesh_name()).vv;
-  for (const Field& field : fields_on(input())) {
+/// Has the given extrema and no others.
+void expect_given_extrema(const Mesh& mesh, const std::vector<Field>& fields, const BruteForce::Table& neighbours) {
+  for (const Field& field : fields) {
     SCOPED_TRACE(field.name);
     const VertexOrder order(mesh, field.values.data(), field.values.size());
     StayingExtrema staying;  // the last of each component, and some others
@@ -118,7 +114,37 @@ TEST_P(SimplifiedFieldOf, every_mesh_has_the_given_extrema_alone) {
   }
 }
 
+}  // namespace
+
+class SimplifiedFieldOf : public EveryMesh {};
+
+TEST_P(SimplifiedFieldOf, every_mesh_has_persistent_extrema_alone) {
+  expect_persistent_extrema(encode(input(), segmentation()), fields_on(input()), brute_force_of(mesh_name()).vv,
+                            has_parts_that_hang(mesh_name()));
+}
+
+TEST_P(SimplifiedFieldOf, every_mesh_has_the_given_extrema_alone) {
+  if (has_parts_that_hang(mesh_name())) GTEST_SKIP() << "some of their extrema can't be removed";
+  expect_given_extrema(encode(input(), segmentation()), fields_on(input()), brute_force_of(mesh_name()).vv);
+}
+
 INSTANTIATE_TEST_SUITE_P(Tests, SimplifiedFieldOf, every_mesh_and_segmentation(), mesh_and_segmentation);
+
+class SimplifiedFieldOnSurface : public SurfaceTest {};
+
+TEST_P(SimplifiedFieldOnSurface, has_persistent_extrema_alone) {
+  for (const int capacity : {5, 100})
+    expect_persistent_extrema(encode(surface(), capacity), fields_on(points_of_surface(surface())),
+                              neighbours_on_surface(surface()), has_parts_that_hang(GetParam()));
+}
+
+TEST_P(SimplifiedFieldOnSurface, has_the_given_extrema_alone) {
+  if (has_parts_that_hang(GetParam())) GTEST_SKIP() << "some of their extrema can't be removed";
+  expect_given_extrema(encode(surface(), 20), fields_on(points_of_surface(surface())),
+                       neighbours_on_surface(surface()));
+}
+
+INSTANTIATE_TEST_SUITE_P(Tests, SimplifiedFieldOnSurface, surface_names(), surface_name);
 
 TEST(SimplifiedField, of_two_valleys_fills_the_lesser_one_up_to_the_pass) {
   InputMesh input;  // a strip of tetrahedra along 0 1 2 3 4 5 6: valleys at the ends, and a pass at 3

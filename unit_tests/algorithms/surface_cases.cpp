@@ -22,6 +22,20 @@ std::string surface_name(const testing::TestParamInfo<std::string>& info) {
 
 InputMesh points_of_surface(const InputSurface& surface) { return {surface.points, {}}; }
 
+std::vector<std::vector<Id>> neighbours_on_surface(const InputSurface& surface) {
+  std::vector<std::set<Id>> sets(surface.vertices());
+  for (const auto& triangle : surface.triangles) {
+    for (const Id a : triangle) {
+      for (const Id b : triangle) {
+        if (a != b) sets[a].insert(b);
+      }
+    }
+  }
+  std::vector<std::vector<Id>> neighbours;
+  for (const auto& set : sets) neighbours.emplace_back(set.begin(), set.end());
+  return neighbours;
+}
+
 DiscreteGradient gradient_on_surface(const Mesh& mesh, const std::vector<double>& field) {
   return find_discrete_gradient(VertexOrder(mesh, field.data(), field.size()));
 }

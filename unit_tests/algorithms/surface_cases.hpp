@@ -25,6 +25,9 @@ std::string surface_name(const testing::TestParamInfo<std::string>& info);
 /// Its points, for those that make fields.
 InputMesh points_of_surface(const InputSurface& surface);
 
+/// The vertices that share an edge with each, ascending.
+std::vector<std::vector<Id>> neighbours_on_surface(const InputSurface& surface);
+
 /// Finds the gradient as users do.
 DiscreteGradient gradient_on_surface(const Mesh& mesh, const std::vector<double>& field);
 

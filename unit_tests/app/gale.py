@@ -3,6 +3,7 @@ import json
 import math
 import os
 import re
+import shutil
 import struct
 import subprocess
 import tempfile
@@ -80,6 +81,37 @@ class CommandTest(unittest.TestCase):
 
     def names(self):
         return sorted(path.name for path in self.folder.iterdir())
+
+
+class DrawingTest(CommandTest):
+    """A test of pictures."""
+
+    def draw(self, display, *arguments):
+        """Runs the command with --render, with or without a display."""
+        environment = {name: value for name, value in os.environ.items() if name != "DISPLAY"}
+        return subprocess.run([*(["xvfb-run", "--auto-servernum"] if display else []), GALE, *arguments, "--render", "picture.png"],
+                              cwd=self.folder, env=environment, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=300)
+
+    def expect_drawn(self, size, *arguments):
+        """Has a picture of this size drawn, on a display that no one sees; skips the test where nothing is drawn."""
+        if not shutil.which("xvfb-run"):
+            self.skipTest("there is no xvfb-run")
+        run = self.draw(True, *arguments)
+        if "rendering modules" in run.stderr:
+            self.skipTest("this VTK does not draw")
+        self.assertEqual((run.returncode, run.stderr), (0, ""))
+        content = (self.folder / "picture.png").read_bytes()
+        self.assertEqual((content[:8], struct.unpack(">II", content[16:24])), (b"\x89PNG\r\n\x1a\n", size))
+        self.assertGreater(len(content), 20000)  # a white one takes less
+
+    def expect_refused(self, command):
+        """Has pictures refused that can't be drawn, before anything is read, and those of another extension."""
+        run = self.draw(False, command, "missing.vtu")
+        if "missing.vtu" not in run.stderr:  # this VTK draws without a display
+            self.assertEqual(run.returncode, 1)
+            self.assertRegex(run.stderr, r"\Agale: [^\n]*--render[^\n]*\n\Z")
+        self.refuse(2, command, "grid:4", "--render", "picture.jpg", naming="picture.jpg")
+        self.assertEqual(self.names(), [])
 
 
 class Volume:

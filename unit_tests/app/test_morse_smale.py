@@ -1,9 +1,5 @@
 """gale morse-smale: the same complex whatever computed it; its switches; what it draws; what it refuses."""
 import math
-import os
-import shutil
-import struct
-import subprocess
 import unittest
 
 import gale
@@ -140,45 +136,21 @@ class Files(ComplexTest):
         self.assertEqual(self.names(), ["out_segmentation.vtu"])
 
 
-class Pictures(ComplexTest):
-    def draw(self, display, *arguments):
-        """Runs the command with --render, with or without a display."""
-        environment = {name: value for name, value in os.environ.items() if name != "DISPLAY"}
-        return subprocess.run([*(["xvfb-run", "--auto-servernum"] if display else []), gale.GALE, "morse-smale", *arguments, "--render", "picture.png"],
-                              cwd=self.folder, env=environment, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=300)
-
+class Pictures(gale.DrawingTest):
     @gale.needs_vtk
-    @unittest.skipUnless(shutil.which("xvfb-run"), "there is no xvfb-run")
     def test_are_drawn_on_a_display_that_no_one_sees(self):
-        for arguments in (["grid:24", "--persistence", "1%"], ["grid:24", "--no-descending-segmentation", "--no-descending-separatrices"],
-                          ["plane:24"],
+        for arguments in (["grid:24", "--persistence", "1%"], ["plane:24"], ["grid:24", "--no-descending-segmentation", "--no-descending-separatrices"],
                           ["grid:24", "--no-descending-segmentation", "--no-ascending-segmentation", "--no-descending-separatrices", "--no-ascending-separatrices", "--no-saddle-connectors"]):
             with self.subTest(arguments=arguments):
-                run = self.draw(True, *arguments)
-                if "rendering modules" in run.stderr:
-                    self.skipTest("this VTK does not draw")
-                self.assertEqual((run.returncode, run.stderr), (0, ""))
-                self.assertEqual(self.names(), ["picture.png"])
-                content = (self.folder / "picture.png").read_bytes()
-                self.assertEqual((content[:8], struct.unpack(">II", content[16:24])), (b"\x89PNG\r\n\x1a\n", (1200, 800)))
-                self.assertGreater(len(content), 20000)  # a white one takes less
+                self.expect_drawn((1200, 800), "morse-smale", *arguments)
 
     @gale.needs_vtk
-    @unittest.skipUnless(shutil.which("xvfb-run"), "there is no xvfb-run")
     def test_of_a_mesh_too_small_to_be_cut(self):
         self.write("mesh.vtk", gale.vtk_mesh([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], [[0, 1, 2, 3]], {"height": ("float", [0, 1, 2, math.inf])}))
-        run = self.draw(True, "mesh.vtk")
-        if "rendering modules" in run.stderr:
-            self.skipTest("this VTK does not draw")
-        self.assertEqual((run.returncode, run.stderr), (0, ""))
+        self.expect_drawn((1200, 800), "morse-smale", "mesh.vtk")
 
     def test_are_refused_where_they_cannot_be(self):
-        run = self.draw(False, "missing.vtu")
-        if "missing.vtu" not in run.stderr:  # this VTK draws without a display
-            self.assertEqual(run.returncode, 1)
-            self.assertRegex(run.stderr, r"\Agale: [^\n]*--render[^\n]*\n\Z")
-        self.refuse(2, "morse-smale", "grid:4", "--render", "picture.jpg", naming="picture.jpg")
-        self.assertEqual(self.names(), [])
+        self.expect_refused("morse-smale")
 
 
 if __name__ == "__main__":

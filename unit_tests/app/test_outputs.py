@@ -146,8 +146,9 @@ class Outputs(gale.CommandTest):
         lines += ["segment parts.pvtu -o part.vtu", "critical-points parts.pvtu -o link.vtp", "discrete-gradient parts.pvtu -o link.vtp",
                   "discrete-gradient parts.pvtu --arrows link.vtp", "morse-smale parts.pvtu -o p",
                   "persistence-diagram parts.pvtu -o link.vtu", "persistence-diagram parts.pvtu --curve link.csv",
+                  "merge-tree parts.pvtu -o p", "simplify-field parts.pvtu -o part.vtu",
                   "relations parts.pvtu --relation VV --dump link.txt"]
-        for command in ("info", "segment", "critical-points", "discrete-gradient", "morse-smale", "persistence-diagram"):
+        for command in ("info", "segment", "critical-points", "discrete-gradient", "morse-smale", "persistence-diagram", "merge-tree", "simplify-field"):
             lines.append(f"{command} parts.pvtu --report part.vtu")
         lines += ["info volume.mhd --report part.raw", "info volume.nhdr.nrrd --report part.raw"]
         for line in lines:

@@ -1,7 +1,6 @@
 """gale persistence-diagram: counts that other programs find too; its files against each other; what it refuses."""
 import csv
 import os
-import shutil
 import unittest
 
 import gale
@@ -82,21 +81,20 @@ class Files(DiagramTest):
             pairs, _ = self.result("grid:32", "--persistence", row["Persistence"])
             self.assertEqual([int(row[name]) for name in ("MinimumSaddle", "SaddleSaddle", "SaddleMaximum", "All")], pairs + [sum(pairs)])
 
-    @unittest.skipUnless(os.environ.get("DISPLAY") or shutil.which("xvfb-run"), "needs a display to draw")
-    def test_are_drawn(self):
-        run = self.gale("persistence-diagram", "grid:16", "--render", "diagram.png")
-        if run.returncode == 0:
-            self.assertEqual((self.folder / "diagram.png").read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
-        else:
-            self.assertEqual(run.returncode, 1)
-            self.assertIn("--render", run.stderr)
+
+class Pictures(gale.DrawingTest):
+    @gale.needs_vtk
+    def test_are_drawn_on_a_display_that_no_one_sees(self):
+        self.expect_drawn((1200, 560), "persistence-diagram", "grid:16")
+
+    def test_are_refused_where_they_cannot_be(self):
+        self.expect_refused("persistence-diagram")
 
 
 class Refusals(DiagramTest):
     def test_of_other_extensions(self):
         self.refuse(2, "persistence-diagram", "grid:4", "-o", "diagram.vtp", naming=".vtu")
         self.refuse(2, "persistence-diagram", "grid:4", "--curve", "curve.txt", naming=".csv")
-        self.refuse(2, "persistence-diagram", "grid:4", "--render", "diagram.jpg", naming=".png")
 
     def test_of_what_is_no_persistence(self):
         for value in ("-1", "x", "1%%", "nan"):

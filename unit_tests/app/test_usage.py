@@ -13,7 +13,7 @@ class Usage(gale.CommandTest):
         text = self.succeed("--help")
         for command in ("info", "segment", "critical-points", "discrete-gradient", "morse-smale", "generate"):
             self.assertIn(command, text)
-        for command in ("critical-points", "discrete-gradient", "morse-smale"):
+        for command in ("critical-points", "discrete-gradient", "merge-tree", "simplify-field", "morse-smale"):
             text = self.succeed(command, "--help")
             for option in ("--above", "--array", "--output", "--threads", "--structure", "--capacity", "--segments",
                            "--blocks-per-request", "--threads-per-block", "--threads-per-segment", "--host-memory",
@@ -55,7 +55,7 @@ class Usage(gale.CommandTest):
                 self.succeed("critical-points", "grid:4", "--host-memory", size)
 
     def test_output_of_another_kind(self):
-        for command, name in (("critical-points", "points.vtu"), ("discrete-gradient", "points.vtu"), ("segment", "mesh.vtp"), ("generate", "mesh.stl")):
+        for command, name in (("critical-points", "points.vtu"), ("discrete-gradient", "points.vtu"), ("simplify-field", "mesh.vtp"), ("segment", "mesh.vtp"), ("generate", "mesh.stl")):
             with self.subTest(command=command):
                 self.refuse(2, command, "grid:4", "-o", name, naming=name)
         self.assertEqual(self.names(), [])
@@ -71,7 +71,7 @@ class Usage(gale.CommandTest):
                 self.refuse(1, "info", name, naming=name)
 
     def test_quiet_prints_nothing(self):
-        for command in ("info", "segment", "critical-points", "discrete-gradient", "morse-smale"):
+        for command in ("info", "segment", "critical-points", "discrete-gradient", "morse-smale", "merge-tree", "simplify-field"):
             self.assertEqual(self.succeed(command, "grid:4", "--quiet"), "")
 
     def test_report_where_there_is_no_place(self):
@@ -85,7 +85,7 @@ class Usage(gale.CommandTest):
             self.assertEqual(self.report("info", os.fsdecode(name))["input"], "\ufffd.vtu")
 
     def test_output_where_there_is_no_place(self):
-        for command, name in (("critical-points", "missing/points.vtp"), ("segment", "missing/mesh.vtu"),
+        for command, name in (("critical-points", "missing/points.vtp"), ("segment", "missing/mesh.vtu"), ("simplify-field", "missing/mesh.vtk"),
                               ("generate", "missing/mesh.vtk")):
             with self.subTest(command=command):
                 self.refuse(1, command, "grid:4", "-o", name, naming=name)

@@ -28,6 +28,7 @@ class Memory(unittest.TestCase):
     def test_limits(self):
         for line in (["critical-points", "grid:30", "--structure", "inline"], ["relations", "grid:20", "--relation", "FF"],
                      ["morse-smale", "grid:20", "--separatrices2", "-o", "out"],
+                     ["merge-tree", "grid:30", "-o", "out"], ["simplify-field", "plane:150", "--persistence", "5%", "-o", "out.vtk"],
                      ["generate", "grid:20", "-o", "out.vtk"]):
             with self.subTest(line=line), tempfile.TemporaryDirectory() as folder:
                 limit = self.least(line, folder)

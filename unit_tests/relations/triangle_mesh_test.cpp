@@ -102,8 +102,10 @@ TEST_P(TriangleMesh, has_its_relations_in_each_structure) {
   for (const int capacity : {5, 64}) {
     const Case of(input(), capacity);
     auto all = ways();
+#ifdef GALE_ENABLE_KOKKOS_KERNELS
     all.push_back({"explicit", {}});
     all.back().options.way = Way::explicit_;
+#endif
     for (const NamedWay& way : all) {
       if (way.is_task_parallel) continue;
       SCOPED_TRACE(way.name);

@@ -9,7 +9,8 @@ import numpy as np
 
 GALLERY = Path(__file__).parents[3] / "docs" / "gallery"
 SCRIPTS = {"brain_critical_points": ["grid:16", "0"], "brain_complex": ["grid:16", "0", "5%"],
-           "persistence_diagram": ["grid:16", "0"], "simulation_loop": ["12"], "gmsh_mesh": ["0.3"]}
+           "persistence_diagram": ["grid:16", "0"], "simulation_loop": ["12"], "gmsh_mesh": ["0.3"],
+           "terrain_tree": ["40%"]}
 
 
 class Gallery(unittest.TestCase):

@@ -1,24 +1,17 @@
 #include <algorithm>
+#include <utility>
 
+#include <gale/algorithms/links/link_sweep.hpp>
 #include <gale/algorithms/merge_tree.hpp>
 #include <gale/algorithms/merge_tree/extremum_graph.hpp>
+#include <gale/base/parallel.hpp>
+#include <gale/base/transfer.hpp>
 
 namespace gale::detail {
 
 std::array<Id, 2> ExtremumFinder::visit(Id vertex, const Row& neighbours, const LinkRow& link) {
   if (neighbours.size() > SmallLink::capacity) return visit_large(vertex, neighbours, link);
-  const auto sides = sides_of<std::uint64_t>(keys_, vertex, neighbours);
-  const SmallLink bits(neighbours.size(), link);
-  const std::uint64_t all =
-      neighbours.size() == SmallLink::capacity ? ~std::uint64_t(0) : (std::uint64_t(1) << neighbours.size()) - 1;
-  const std::uint64_t on_side[2] = {sides.lower, all & ~sides.lower};
-  for (const Side side : {below, above}) {
-    if (on_side[side] == 0) {
-      extrema[side].push_back(vertex);
-    } else if (bits.components(on_side[side]) > 1) {
-      bits.for_each_component(on_side[side], [&](int i) { meetings[side].push_back({vertex, neighbours[i]}); });
-    }
-  }
+  const auto sides = visit_link(keys_, vertex, neighbours, SmallLink(neighbours.size(), link), *this);
   return {sides.next[below], sides.next[above]};
 }
 
@@ -43,24 +36,6 @@ std::array<Id, 2> ExtremumFinder::visit_large(Id vertex, const Row& neighbours, 
   return next;
 }
 
-namespace {
-
-template <class T>
-void append(std::vector<T>& to, const std::vector<T>& more) {
-  to.insert(to.end(), more.begin(), more.end());
-}
-
-}  // namespace
-
-void add_found(const std::vector<ExtremumFinder>& finders, ExtremumGraph<HostMemory>& graph) {
-  for (const auto& finder : finders) {
-    for (const Side side : {below, above}) {
-      append(graph[side].extrema, finder.extrema[side]);
-      append(graph[side].meetings, finder.meetings[side]);
-    }
-  }
-}
-
 ExtremumGraph<HostMemory> extremum_graph(Structure& structure, const std::uint64_t* keys, const SweepOptions& options) {
   using Ids = Array<Id, HostMemory>;
   const Id count = structure.mesh().vertices();
@@ -79,6 +54,79 @@ ExtremumGraph<HostMemory> extremum_graph(Structure& structure, const std::uint64
   });
   add_found(finders, graph);
   return graph;
+}
+
+namespace {
+
+/// What a lane does with a vertex.
+struct FindExtrema {
+  const std::uint64_t* keys;
+  Id* next[2];
+  DeviceList<Id> extrema[2];
+  DeviceList<Meeting> meetings[2];
+
+  template <class Link>
+  KOKKOS_FORCEINLINE_FUNCTION void operator()(Id v, const Row& row, const Link& link) const {
+    const auto sides = visit_link(keys, v, row, link, *this);
+    next[below][v] = sides.next[below];
+    next[above][v] = sides.next[above];
+  }
+
+  KOKKOS_FORCEINLINE_FUNCTION void add_extremum(Side side, Id vertex) const { extrema[side].add(vertex); }
+  KOKKOS_FORCEINLINE_FUNCTION void add_meeting(Side side, const Meeting& meeting) const { meetings[side].add(meeting); }
+};
+
+/// Has the host visit what lanes handed on.
+void add_outgrown(const WorkerSpace& space, const VertexOrder& order, const HandedStars& outgrown,
+                  ExtremumGraph<MemoryOf<WorkerSpace>>& graph) {
+  const HandedStars::OnHost stars = outgrown.to_host();
+  const auto found = allocate<Array<Id, HostMemory>>("GALE::outgrown_next", 2 * stars.size());
+  std::vector<ExtremumFinder> finders(host_threads(), ExtremumFinder(order.keys()));
+  in_turns(static_cast<int>(finders.size()), stars.size(), [&](int thread, std::int64_t i) {
+    const VertexStar star = stars[i];
+    const auto next = finders[thread].visit(star.vertex, star.neighbours, star.link);
+    found(2 * i) = next[below];
+    found(2 * i + 1) = next[above];
+  });
+  add_found(finders, graph);
+  const auto there = on_worker(found);
+  Id *const lower = graph[below].next.data(), *const upper = graph[above].next.data();
+  parallel_for(
+      "GALE::add_outgrown_next", space, stars.size(), KOKKOS_LAMBDA(Offset i) {
+        lower[outgrown[i].vertex] = there(2 * i);
+        upper[outgrown[i].vertex] = there(2 * i + 1);
+      });
+  space.fence();
+}
+
+}  // namespace
+
+ExtremumGraph<MemoryOf<WorkerSpace>> extremum_graph(const WorkerSpace& space, const VertexOrder& order,
+                                                    const DeviceSweepOptions& options) {
+  using Memory = MemoryOf<WorkerSpace>;
+  const Mesh& mesh = order.mesh();
+  ExtremumGraph<Memory> graph;
+  for (auto& side : graph) side.next = allocate<Array<Id, Memory>>("GALE::next_of_vertices", mesh.vertices());
+  for (Offset room = mesh.vertices() / 16 + 1024;;) {
+    const auto sweep = sweep_links(space, mesh, options, [&] {
+      const auto extrema = [&] { return DeviceList<Id>("GALE::extrema", room); };
+      const auto meetings = [&] { return DeviceList<Meeting>("GALE::meetings", room); };
+      return FindExtrema{order.keys_in<Memory>().data(),
+                         {graph[below].next.data(), graph[above].next.data()},
+                         {extrema(), extrema()},
+                         {meetings(), meetings()}};
+    });
+    Offset most = 0;
+    for (const Side side : {below, above})
+      most = std::max({most, sweep.visit.extrema[side].count(), sweep.visit.meetings[side].count()});
+    if (most > std::exchange(room, most)) continue;
+    for (const Side side : {below, above}) {
+      graph[side].extrema = sweep.visit.extrema[side].to_host();
+      graph[side].meetings = sweep.visit.meetings[side].to_host();
+    }
+    if (sweep.outgrown.count() > 0) add_outgrown(space, order, sweep.outgrown, graph);
+    return graph;
+  }
 }
 
 }  // namespace gale::detail

@@ -5,6 +5,7 @@
 
 #include <gale/algorithms/links/large_link.hpp>
 #include <gale/algorithms/merge_tree/side_keys.hpp>
+#include <gale/algorithms/vertex_order.hpp>
 #include <gale/base/memory.hpp>
 #include <gale/runtime/device_sweep.hpp>
 #include <gale/runtime/structure.hpp>
@@ -56,6 +57,39 @@ KOKKOS_FORCEINLINE_FUNCTION Sides<Word> sides_of(const std::uint64_t* keys, Id v
   return sides;
 }
 
+/// Tells of a component of a vertex's neighbours, by one of these.
+template <class Found>
+struct AddMeeting {
+  Found& found;
+  Side side;
+  Id vertex;
+  const Row& neighbours;
+
+  GALE_CALLS_ANY
+  KOKKOS_FORCEINLINE_FUNCTION void operator()(int i) const { found.add_meeting(side, {vertex, neighbours[i]}); }
+};
+
+/// Visits a vertex whose link lies in bits: returns its sides, and tells `found` what else there is to say of it.
+GALE_CALLS_ANY
+template <class Link, class Found>
+KOKKOS_FORCEINLINE_FUNCTION Sides<typename Link::Word> visit_link(const std::uint64_t* keys, Id vertex,
+                                                                  const Row& neighbours, const Link& link,
+                                                                  Found& found) {
+  using Word = typename Link::Word;
+  const Sides<Word> sides = sides_of<Word>(keys, vertex, neighbours);
+  const Word all = neighbours.size() == Link::capacity ? ~Word(0) : (Word(1) << neighbours.size()) - 1;
+  for (int i = below; i <= above; ++i) {
+    const auto side = static_cast<Side>(i);
+    const Word on_side = side == below ? sides.lower : all & ~sides.lower;
+    if (on_side == 0) {
+      found.add_extremum(side, vertex);
+    } else if (link.components(on_side) > 1) {
+      link.for_each_component(on_side, AddMeeting<Found>{found, side, vertex, neighbours});
+    }
+  }
+  return sides;
+}
+
 /// Finds the graph of single vertices, one after the other. One serves one thread.
 class ExtremumFinder {
  public:
@@ -63,6 +97,9 @@ class ExtremumFinder {
 
   /// Visits a vertex: returns its next vertices, and keeps what else there is to say of it.
   std::array<Id, 2> visit(Id vertex, const Row& neighbours, const LinkRow& link);
+
+  void add_extremum(Side side, Id vertex) { extrema[side].push_back(vertex); }
+  void add_meeting(Side side, const Meeting& meeting) { meetings[side].push_back(meeting); }
 
   std::array<std::vector<Id>, 2> extrema;
   std::array<std::vector<Meeting>, 2> meetings;
@@ -75,9 +112,22 @@ class ExtremumFinder {
 };
 
 /// Adds the extrema and meetings that they kept.
-void add_found(const std::vector<ExtremumFinder>& finders, ExtremumGraph<HostMemory>& graph);
+template <class Memory>
+void add_found(const std::vector<ExtremumFinder>& finders, ExtremumGraph<Memory>& graph) {
+  const auto append = [](auto& to, const auto& more) { to.insert(to.end(), more.begin(), more.end()); };
+  for (const auto& finder : finders) {
+    for (const Side side : {below, above}) {
+      append(graph[side].extrema, finder.extrema[side]);
+      append(graph[side].meetings, finder.meetings[side]);
+    }
+  }
+}
 
 /// Finds it in a sweep of consumers on the host.
 ExtremumGraph<HostMemory> extremum_graph(Structure& structure, const std::uint64_t* keys, const SweepOptions& options);
+
+/// Finds it by kernels where the relations are made; vertices of more than 64 neighbours on the host.
+ExtremumGraph<MemoryOf<WorkerSpace>> extremum_graph(const WorkerSpace& space, const VertexOrder& order,
+                                                    const DeviceSweepOptions& options);
 
 }  // namespace gale::detail

@@ -170,32 +170,55 @@ std::optional<ThresholdOfTree> threshold_of(const Mesh& mesh, const MergeTreeOpt
                          }};
 }
 
-/// Trees of an order as it is; but join and split trees as far as a threshold leaves them, and no contour trees then.
-std::vector<MergeTree> trees_of_order(const VertexOrder& order, std::vector<Tree> trees,
-                                      const ThresholdOfTree* threshold, const MergeTreeOptions& options,
-                                      Computed& computed) {
-  if (threshold != nullptr) trees.erase(std::remove(trees.begin(), trees.end(), Tree::contour), trees.end());
-  if (trees.empty()) return {};
-  Computing computing(order.mesh(), options, &computed);
-  Structure& structure = computing.structure(merge_tree_relations);
-  return TreeMaker<HostExecutionSpace>(HostExecutionSpace(), order, extremum_graph(structure, order.keys(), options),
-                                       trees)
-      .make(threshold);
+/// Makes trees of an order as it is; but join and split trees as far as a threshold leaves them.
+template <class Space>
+std::vector<MergeTree> trees_of(const Space& space, const VertexOrder& order, ExtremumGraph<MemoryOf<Space>> graph,
+                                const std::vector<Tree>& trees, const ThresholdOfTree* threshold) {
+  return TreeMaker<Space>(space, order, std::move(graph), trees).make(threshold);
 }
 
-std::vector<MergeTree> find_trees(const VertexOrder& order, const std::vector<Tree>& trees,
-                                  const MergeTreeOptions& options, Computed* computed) {
+/// `make(order, trees, threshold)` makes trees as trees_of does.
+template <class Make>
+std::vector<MergeTree> find_trees(const VertexOrder& order, std::vector<Tree> trees, const MergeTreeOptions& options,
+                                  Computed* computed, const Make& make) {
   require_whole_mesh("a merge tree", order.mesh());
   const auto threshold = threshold_of(order.mesh(), options);
-  Computed own;
-  Computed& shared = computed == nullptr ? own : *computed;  // one structure for all sweeps
-  std::vector<MergeTree> found = trees_of_order(order, trees, threshold ? &*threshold : nullptr, options, shared);
-  if (threshold && trees.back() == Tree::contour) {
-    const SimplifiedField field = simplify_field(order, options.value, options.threshold, options, &shared);
+  const bool simplifies = threshold && trees.back() == Tree::contour;
+  if (simplifies) trees.pop_back();
+  std::vector<MergeTree> found;
+  if (!trees.empty()) found = make(order, trees, threshold ? &*threshold : nullptr);
+  if (simplifies) {
+    const SimplifiedField field = simplify_field(order, options.value, options.threshold, options, computed);
     const VertexOrder simplified(order.mesh(), field.rank.data(), field.rank.size());
-    found.push_back(std::move(trees_of_order(simplified, {Tree::contour}, nullptr, options, shared).front()));
+    found.push_back(std::move(make(simplified, {Tree::contour}, nullptr).front()));
   }
   return found;
+}
+
+/// Finds trees where there is room.
+std::vector<MergeTree> find_trees(const VertexOrder& order, const std::vector<Tree>& trees,
+                                  const MergeTreeOptions& options, Computed* computed) {
+  Computed own;
+  Computed& shared = computed == nullptr ? own : *computed;  // one structure for all sweeps
+  const auto make = [&](const VertexOrder& of, const std::vector<Tree>& some, const ThresholdOfTree* threshold) {
+    return Computing(of.mesh(), options, &shared)
+        .find(
+            merge_tree_relations,
+            [&](const DeviceSweepOptions& sweep) {
+              const WorkerSpace space;
+              return trees_of(space, of, extremum_graph(space, of, sweep), some, threshold);
+            },
+            [&](Structure& structure) {
+              return trees_of(HostExecutionSpace(), of, extremum_graph(structure, of.keys(), options), some, threshold);
+            });
+  };
+  return find_trees(order, trees, options, &shared, make);
+}
+
+const std::vector<Tree> all_trees = {Tree::join, Tree::split, Tree::contour};
+
+std::array<MergeTree, 3> as_array(std::vector<MergeTree> found) {
+  return {std::move(found[0]), std::move(found[1]), std::move(found[2])};
 }
 
 }  // namespace
@@ -208,8 +231,16 @@ MergeTree find_merge_tree(const VertexOrder& order, Tree tree, const MergeTreeOp
 
 std::array<MergeTree, 3> find_merge_trees(const VertexOrder& order, const MergeTreeOptions& options,
                                           Computed* computed) {
-  auto found = detail::find_trees(order, {Tree::join, Tree::split, Tree::contour}, options, computed);
-  return {std::move(found[0]), std::move(found[1]), std::move(found[2])};
+  return detail::as_array(detail::find_trees(order, detail::all_trees, options, computed));
+}
+
+std::array<MergeTree, 3> find_merge_trees(const WorkerSpace& space, const VertexOrder& order,
+                                          const MergeTreeOptions& options, const DeviceSweepOptions& sweep) {
+  return detail::as_array(detail::find_trees(
+      order, detail::all_trees, options, nullptr,
+      [&](const VertexOrder& of, const std::vector<Tree>& trees, const detail::ThresholdOfTree* threshold) {
+        return detail::trees_of(space, of, detail::extremum_graph(space, of, sweep), trees, threshold);
+      }));
 }
 
 }  // namespace gale

@@ -2,7 +2,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include <gale/algorithms/surface_vertices.hpp>
 #include <gale/app/commands/command.hpp>
+#include <gale/app/drawing/picture.hpp>
 #include <gale/io/write.hpp>
 #include <gale/outputs/field.hpp>
 #include <gale/outputs/merge_tree.hpp>
@@ -19,11 +21,9 @@ void tell(const MergeTree& tree, Session& session) {
   tell_types(counts, session);
 }
 
-class FindMergeTree final : public Command {
+class FindMergeTree final : public AnalysisCommand {
  public:
-  explicit FindMergeTree(CLI::App& app) : Command(app, "merge-tree", outputs::analysis_named("merge-tree").help) {
-    segmentation_.add_to(subcommand());
-    structure_.add_to(subcommand());
+  explicit FindMergeTree(CLI::App& app) : AnalysisCommand(app, "merge-tree") {
     const outputs::AnalysisOption& type = analysis_.option("type");
     type_ = type.choices.front();
     subcommand().add_option("--type", type_, type.help)->check(CLI::IsMember(type.choices));
@@ -34,27 +34,34 @@ class FindMergeTree final : public Command {
     subcommand()
         .add_option("-o,--output", output_, "Write P_nodes.vtp, P_arcs.vtp and P_segmentation.vtu")
         ->type_name("P");
-    add_encoding();
-  }
-
-  void run() const override {
-    const auto file = [&](const char* end) { return output_.empty() ? output_ : output_ + end; };
-    const std::string nodes = file("_nodes.vtp"), arcs = file("_arcs.vtp"), segmentation = file("_segmentation.vtu");
-    Session session = begin({nodes, arcs, segmentation});
-    const FieldOnMesh on =
-        session.read_field(segmentation_, output_.empty() ? Session::Keep::nothing : Session::Keep::cells);
-    Computed computed;
-    const MergeTree tree = find(on, session, computed);
-    tell(tree, session);
-    session.write_result(nodes, [&] { return outputs::tree_nodes(on.dataset, on.field, tree); });
-    session.write_result(arcs, [&] { return outputs::tree_arcs(on.dataset, on.field, tree, arc_samples_); });
-    session.write(segmentation, [&](const io::AtomicFile& to) {
-      io::write_mesh(to, on.dataset, outputs::tree_segmentation(on.dataset, tree));
-    });
-    session.finish(structure_, computed);
+    add_file("--render", render_, "Draw the tree, beside the mesh in the colours of its arcs, to this .png", {".png"})
+        ->type_name("FILE.png");
   }
 
  private:
+  std::vector<std::string> more_files() const override {
+    if (output_.empty()) return {"", "", ""};
+    return {output_ + "_nodes.vtp", output_ + "_arcs.vtp", output_ + "_segmentation.vtu"};
+  }
+
+  Session::Keep keep() const override { return output_.empty() ? Session::Keep::nothing : Session::Keep::cells; }
+
+  void warm_up(const VertexOrder& order) const override { find_merge_tree(order, outputs::tree_named(type_)); }
+
+  void analyse(const FieldOnMesh& on, Session& session, Computed& computed) const override {
+    const MergeTree tree = find(on, session, computed);
+    tell(tree, session);
+    const std::vector<std::string> files = more_files();
+    session.write_result(files[0], [&] { return outputs::tree_nodes(on.dataset, on.field, tree); });
+    session.write_result(files[1], [&] { return outputs::tree_arcs(on.dataset, on.field, tree, arc_samples_); });
+    session.write(files[2], [&](const io::AtomicFile& to) {
+      io::write_mesh(to, on.dataset, outputs::tree_segmentation(on.dataset, tree));
+    });
+    session.write(render_, [&](const io::AtomicFile& file) {
+      draw(file, picture_of(on.dataset, on.field, on.mesh, tree, type_, surface_vertices(on.mesh)));
+    });
+  }
+
   MergeTree find(const FieldOnMesh& on, const Session& session, Computed& computed) const {
     MergeTreeOptions options;
     static_cast<ComputeOptions&>(options) = session.compute(structure_, "merge tree");
@@ -63,13 +70,10 @@ class FindMergeTree final : public Command {
     return find_merge_tree(on.order, outputs::tree_named(type_), options, &computed);
   }
 
-  const outputs::Analysis& analysis_ = outputs::analysis_named("merge-tree");
-  SegmentationOptions segmentation_;
-  StructureOption structure_;
   std::string type_;
   std::optional<outputs::Persistence> persistence_;
   int arc_samples_ = 0;
-  std::string output_;
+  std::string output_, render_;
 };
 
 }  // namespace

@@ -51,22 +51,22 @@ class Legend {
 Flat legend_of(const MorseSmaleComplex& complex, const ShownPaths& shown, const std::vector<Color>& skin) {
   static constexpr const char* names[4][2] = {
       {"minimum", "minima"}, {"1-saddle", "1-saddles"}, {"2-saddle", "2-saddles"}, {"maximum", "maxima"}};
-  static constexpr const char* saddles[2] = {"saddle", "saddles"};  // on a surface
-  const int top = complex.critical.dimension;
+  static constexpr const char* saddles[2] = {"saddle", "saddles"};
   const auto counts = complex.critical.counts();
   const MorseSmaleParts& parts = complex.parts;
+  const Mesh& mesh = complex.gradient.mesh();
+  const bool is_cut = mesh.dimension() == 3;
   Legend legend(10);
-  for (int dimension = 0; dimension <= top; ++dimension) {
-    const int kind = dimension == top ? 3 : dimension;
-    const auto& name = top == 2 && kind == 1 ? saddles : names[kind];
-    legend.add_dots({color_of_dimension[kind]}, counted(counts[dimension], name[0], name[1]));
+  for (int dimension = 0; dimension <= mesh.dimension(); ++dimension) {
+    const auto& name = is_cut ? names[dimension] : dimension == 1 ? saddles : names[dimension == 2 ? 3 : 0];
+    legend.add_dots({color_of_simplices(mesh, dimension)}, counted(counts[dimension], name[0], name[1]));
   }
   legend.skip();
   if (parts.descending_separatrices)
     legend.add_line(color_of_type[0], 5, counted(complex.descending.count(), "line to a minimum", "lines to minima"));
   if (parts.ascending_separatrices)
     legend.add_line(color_of_type[2], 5, counted(complex.ascending.count(), "line to a maximum", "lines to maxima"));
-  if (parts.saddle_connectors && top == 3)
+  if (is_cut && parts.saddle_connectors)
     legend.add_line(color_of_type[1], 2.5,
                     counted(complex.connectors.count(), "saddle connector", "saddle connectors"));
   if (!skin.empty() && (parts.descending_manifolds || parts.ascending_manifolds)) {
@@ -74,7 +74,7 @@ Flat legend_of(const MorseSmaleComplex& complex, const ShownPaths& shown, const 
     legend.add_dots(skin, skin.size() == 1 ? "one manifold" : "a colour a manifold");
   }
   legend.skip();
-  if (top == 3) {
+  if (is_cut) {
     legend.add_text("Lines and points: in the", 14);
     legend.add_text("part that is cut away.", 14);
   }

@@ -74,21 +74,24 @@ struct Scene {
     std::vector<Point> points;
     std::vector<Color> colors;
     std::vector<std::array<Id, 3>> triangles;
+    bool has_steps = true;  ///< as voxels have: it is drawn smooth, and shining
   };
 
   std::vector<Balls> balls;
   double ball_radius = 1;
   std::vector<Tubes> tubes;
   Skin skin;
-  Flat legend;          ///< drawn over it, as wide and high as the picture
-  Point low{}, high{};  ///< corners of the whole mesh, whatever of it is drawn
+  Flat legend;              ///< drawn over it, as wide and high as the picture
+  double part_of_mesh = 1;  ///< of the width, from the left; the rest is the legend's
+  Point low{}, high{};      ///< corners of the whole mesh, whatever of it is drawn
 };
 
 /// Throws gale::Error if this gale can't draw here: it was built without VTK's rendering, or there is no display where
 /// VTK needs one.
 void require_drawing();
 
-/// Draws a scene, seen from its high corner, to the temporary of `file`, a PNG. Throws gale::Error, naming the file.
+/// Draws a scene, seen from its high corner, or from above if it is flat, to the temporary of `file`, a PNG. Throws
+/// gale::Error, naming the file.
 void draw(const io::AtomicFile& file, const Scene& scene);
 
 /// Points of either type, as doubles.

@@ -51,9 +51,9 @@ void add_skin(vtkRenderer* renderer, const Scene::Skin& skin) {
   colors->SetNumberOfComponents(3);
   for (const Color& color : skin.colors) colors->InsertNextTypedTuple(color.data());
   data->GetPointData()->SetScalars(colors);
-  vtkNew<vtkWindowedSincPolyDataFilter> smooth;  // because the surface of voxels has steps
+  vtkNew<vtkWindowedSincPolyDataFilter> smooth;
   smooth->SetInputData(data);
-  smooth->SetNumberOfIterations(15);
+  smooth->SetNumberOfIterations(skin.has_steps ? 15 : 0);
   smooth->SetPassBand(0.08);
   smooth->FeatureEdgeSmoothingOff();
   smooth->NonManifoldSmoothingOn();
@@ -64,7 +64,8 @@ void add_skin(vtkRenderer* renderer, const Scene::Skin& skin) {
   normals->SplittingOn();
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputConnection(normals->GetOutputPort());
-  shade(add_actor(renderer, mapper, {255, 255, 255}), 0.38, 0.8, 0.08, 20);
+  vtkProperty* const look = add_actor(renderer, mapper, {255, 255, 255});
+  skin.has_steps ? shade(look, 0.38, 0.8, 0.08, 20) : shade(look, 0.3, 0.7, 0, 1);
 }
 
 void add_tubes(vtkRenderer* renderer, const Scene::Tubes& tubes) {
@@ -94,11 +95,16 @@ void add_balls(vtkRenderer* renderer, const Scene::Balls& balls, double radius) 
   shade(add_actor(renderer, mapper, balls.color), 0.25, 0.8, 0.35, 30);
 }
 
-/// Looks from the high corner, without perspective. The mesh is as large as there is room for left of the legend.
+/// Looks from the high corner, or along an axis along which the mesh has no extent, without perspective. The mesh is as
+/// large as there is room for left of the legend.
 void aim(vtkRenderer* renderer, const Scene& scene) {
-  const double aspect = double(scene.legend.width) / scene.legend.height, left_part = part_left_of_legend,
-               margin = 0.96;
-  const Point towards = {0.664, 0.544, 0.513}, right = {-0.634, 0.773, 0}, up = {-0.397, -0.325, 0.858};
+  const double aspect = double(scene.legend.width) / scene.legend.height, left_part = scene.part_of_mesh, margin = 0.96;
+  Point towards = {0.664, 0.544, 0.513}, right = {-0.634, 0.773, 0}, up = {-0.397, -0.325, 0.858};
+  for (int axis = 0; axis < 3; ++axis) {
+    if (scene.low[axis] < scene.high[axis]) continue;
+    towards = right = up = {};
+    towards[axis] = right[(axis + 1) % 3] = up[(axis + 2) % 3] = 1;
+  }
   const auto along = [](const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
   double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL};
   for (const Point& point : scene.skin.points) {
@@ -124,7 +130,7 @@ void aim(vtkRenderer* renderer, const Scene& scene) {
   camera->ParallelProjectionOn();
   camera->SetFocalPoint(focus);
   camera->SetPosition(position);
-  camera->SetViewUp(0, 0, 1);
+  camera->SetViewUp(up.data());
   camera->SetParallelScale(scale);
   renderer->ResetCameraClippingRange();
 }
