@@ -108,6 +108,9 @@ class Surfaces(gale.CommandTest):
             said = [line.split()[:2] for line in self.succeed(command, "plane:100").splitlines()]
             for count in (["minima", "77"], ["saddles", "118"], ["maxima", "42"]):
                 self.assertIn(count, said)
+        said = [line.split()[:2] for line in self.succeed("critical-points", "plane:100").splitlines()]
+        self.assertIn(["saddles", "132"], said)
+        self.assertNotIn("2-saddles", [words[0] for words in said])
         said = [line.split()[:2] for line in self.succeed("persistence-diagram", "plane:100").splitlines()]
         self.assertIn(["saddle-maximum", "42"], said)
         self.assertNotIn("saddle-saddle", [words[0] for words in said])

@@ -91,16 +91,20 @@ void AnalysisCommand::run() const {
   session.finish(structure_, computed);
 }
 
-void tell_types(const std::array<std::int64_t, 5>& counts, Session& session) {
-  static const struct {
+void tell_types(const std::array<std::int64_t, 5>& counts, int top, Session& session) {
+  const struct {
     CriticalType type;
     const char *name, *key;
   } kinds[] = {{CriticalType::minimum, "minima", "minima"},
-               {CriticalType::saddle1, "1-saddles", "saddles1"},
+               {CriticalType::saddle1, top == 3 ? "1-saddles" : "saddles", "saddles1"},
                {CriticalType::saddle2, "2-saddles", "saddles2"},
                {CriticalType::maximum, "maxima", "maxima"},
                {CriticalType::degenerate, "degenerate", "degenerate"}};
-  for (const auto& kind : kinds) session.tell(kind.name, kind.key, counts[static_cast<int>(kind.type)]);
+  for (const auto& kind : kinds) {
+    const std::int64_t count = counts[static_cast<int>(kind.type)];
+    session.report().result[kind.key] = count;
+    if (top == 3 || kind.type != CriticalType::saddle2) session.console().say(kind.name, grouped(count));
+  }
 }
 
 void tell_simplices(const std::array<std::int64_t, 4>& counts, int top, Session& session) {

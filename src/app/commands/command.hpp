@@ -101,8 +101,9 @@ class AnalysisCommand : public Command {
   StructureOption structure_;
 };
 
-/// Says and reports how many critical points there are, by CriticalType but `regular`.
-void tell_types(const std::array<std::int64_t, 5>& counts, Session& session);
+/// Says and reports how many critical points there are, by CriticalType but `regular`. Where cells are of dimension 2,
+/// `top`, there are saddles of one kind.
+void tell_types(const std::array<std::int64_t, 5>& counts, int top, Session& session);
 
 /// Says and reports how many critical simplices there are, by dimension, up to the cells' (`top`).
 void tell_simplices(const std::array<std::int64_t, 4>& counts, int top, Session& session);

@@ -20,7 +20,7 @@ class FindCriticalPoints final : public AnalysisCommand {
   void analyse(const FieldOnMesh& on, Session& session, Computed& computed) const override {
     const CriticalPoints points =
         find_critical_points(on.order, session.compute(structure_, "critical points"), &computed);
-    tell_types(points.counts, session);
+    tell_types(points.counts, on.mesh.dimension(), session);
     session.write_result(output_, [&] { return outputs::to_point_set(on.dataset, points, on.mesh.exchange()); });
   }
 

@@ -13,12 +13,12 @@ namespace gale::app {
 
 namespace {
 
-void tell(const MergeTree& tree, Session& session) {
+void tell(const MergeTree& tree, int top, Session& session) {
   std::array<std::int64_t, 5> counts{};
   for (const CriticalType type : tree.types) ++counts[static_cast<int>(type)];
   session.tell("nodes", "nodes", static_cast<std::int64_t>(tree.vertices.size()));
   session.tell("arcs", "arcs", static_cast<std::int64_t>(tree.arcs.size()));
-  tell_types(counts, session);
+  tell_types(counts, top, session);
 }
 
 class FindMergeTree final : public AnalysisCommand {
@@ -50,7 +50,7 @@ class FindMergeTree final : public AnalysisCommand {
 
   void analyse(const FieldOnMesh& on, Session& session, Computed& computed) const override {
     const MergeTree tree = find(on, session, computed);
-    tell(tree, session);
+    tell(tree, on.mesh.dimension(), session);
     const std::vector<std::string> files = more_files();
     session.write_result(files[0], [&] { return outputs::tree_nodes(on.dataset, on.field, tree); });
     session.write_result(files[1], [&] { return outputs::tree_arcs(on.dataset, on.field, tree, arc_samples_); });
