@@ -25,7 +25,7 @@ void compress_by_zlib(Pattern pattern, const char* bytes, std::size_t size, std:
 void compress_by_vtk(const char* bytes, std::size_t size, std::vector<char>& compressed);
 
 /// The content of a file's bytes from `begin` on, compressed by gzip or zlib, whichever it is; gzip's members may
-/// follow each other. Where it is `bytes` in all, which may be any number, and these aren't too many, libdeflate makes
+/// follow each other. Where it is `bytes` in all (0: not known), and these aren't too many, libdeflate makes
 /// them at once. Reading throws gale::Error for bytes that are neither, or damaged.
 std::unique_ptr<ByteSource> inflated(const InputFile& file, std::uint64_t begin, std::uint64_t bytes);
 
@@ -36,7 +36,7 @@ bool inflate_at_once(ByteSource& compressed, char* to, std::size_t bytes);
 /// Writes the `bytes` that `compressed` stands for to `to`. False if it doesn't stand for so many.
 using Uncompress = bool (*)(const char* compressed, std::size_t compressed_bytes, char* to, std::size_t bytes);
 
-/// The one of zlib.
+/// Uncompresses a stream of zlib's.
 bool uncompress_zlib(const char* compressed, std::size_t compressed_bytes, char* to, std::size_t bytes);
 
 /// The one of `compressor`, one of VTK's classes; throws gale::Error for another one.

@@ -116,9 +116,10 @@ void compress_by_vtk(const char* bytes, std::size_t size, std::vector<char>& com
 std::unique_ptr<ByteSource> inflated(const InputFile& file, std::uint64_t begin, std::uint64_t bytes) {
   auto stream = std::make_unique<InflatedBytes>(std::make_unique<FileBytes>(file, begin));
   FileBytes compressed(file, begin);
-  constexpr std::uint64_t most = 1 << 29;  // takes half a second, in which nobody can stop it
+  constexpr std::uint64_t most = 1 << 28;  // takes up to half a second, in which nobody can stop it
   // A stream that can stand for so many, and isn't much longer: else a file's claim takes memory that it can't fill.
-  if (bytes > most || bytes > stream->at_most() || compressed.at_most() / 2 > bytes + (1 << 16)) return stream;
+  if (bytes == 0 || bytes > most || bytes > stream->at_most() || compressed.at_most() / 2 > bytes + (1 << 16))
+    return stream;
   std::unique_ptr<char[]> whole(new (std::nothrow) char[bytes]);
   if (!whole || !inflate_at_once(compressed, whole.get(), bytes)) return stream;  // which tells what is wrong
   return std::make_unique<WholeBytes>(std::move(whole), bytes);
