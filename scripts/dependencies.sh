@@ -6,7 +6,7 @@
 set -euo pipefail
 
 packages=(cmake g++ ninja-build python3 libtrilinos-kokkos-dev libtrilinos-kokkos-kernels-dev libvtk9-dev
-  libcli11-dev nlohmann-json3-dev libgtest-dev)
+  libcli11-dev nlohmann-json3-dev libgtest-dev libdeflate-dev)
 for more in "$@"; do
   case "$more" in
     data) packages+=(mricron-data) ;;

@@ -15,7 +15,7 @@ vtk=OFF
 all=
 for option in "$@"; do
   case "$option" in
-    --with-vtk) vtk=ON; packages+=(libvtk9-dev) ;;
+    --with-vtk) vtk=ON; packages+=(libvtk9-dev libdeflate-dev) ;;
     --all) all=1 ;;
     *) echo "usage: $0 [--with-vtk] [--all]" >&2; exit 2 ;;
   esac

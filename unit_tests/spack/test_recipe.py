@@ -231,7 +231,7 @@ class Recipe(unittest.TestCase):
         self.assertEqual(self.directives.calls["version"], [(("main",), {"branch": "main"})])
 
     def test_variants(self):
-        self.assertEqual(set(self.variants), {"serial", "openmp", "app", "kokkos_kernels", "mpi", "python", "vtk", "shared"})
+        self.assertEqual(set(self.variants), {"serial", "openmp", "app", "kokkos_kernels", "libdeflate", "mpi", "python", "vtk", "shared"})
         self.assertEqual({base.__name__ for base in self.recipe.__bases__}, {"CMakePackage", "CudaPackage", "PythonExtension"})
 
     def test_other_backends_of_kokkos_conflict(self):
@@ -348,6 +348,7 @@ class Recipe(unittest.TestCase):
         text = self.cmake + (SOURCE / "cmake" / "gale-dependencies.cmake").read_text()
         wanted = set(re.findall(r"gale_find\((\w+) ", text)) - {"Threads", "OpenMP", "ParaView"}  # no variant has the plugin
         packages = {re.match(r"[\w-]+", spec).group(0) for spec, _ in self.directives.dependencies()}
+        self.assertLessEqual({f"lib{name}" for name in re.findall(r"find_library\(\w+ (\w+)", text)}, packages)
         self.assertEqual({PACKAGES[name] for name in wanted} - packages, set())
         for name in ("googletest", "python"):
             kinds = [kw.get("type") for args, kw in self.directives.calls["depends_on"] if args[0].startswith(name)]

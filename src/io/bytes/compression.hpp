@@ -7,19 +7,37 @@
 
 #include <gale/io/bytes/input_file.hpp>
 
-/// The libraries of compression, which come with VTK: vtk/vtk_compression.cpp, or without it vtk/without_vtk.cpp. (Some
-/// zlibs have macros for the names of their functions.)
+/// The libraries of compression. What is zlib's is in deflate/: by libdeflate, else by the zlib that comes with VTK, as
+/// the others do: vtk/vtk_compression.cpp, or without it vtk/without_vtk.cpp. (Some zlibs have macros for the names of
+/// their functions.)
 namespace gale::io::detail {
 
-/// `compressed` becomes the zlib stream of `size` bytes.
-void compress_by_zlib(const char* bytes, std::size_t size, std::vector<char>& compressed);
+/// Whether there is one of these for zlib's streams.
+bool can_compress();
 
-/// The content of compressed bytes, of gzip or zlib, whichever it is; gzip's members may follow each other. Reading
-/// throws gale::Error for bytes that are neither, or damaged.
-std::unique_ptr<ByteSource> inflated(std::unique_ptr<ByteSource> compressed);
+/// What bytes are that are compressed: some libraries are told how to.
+enum class Pattern { any, integers, steps };  ///< steps: integers, each so much above the last
+
+/// `compressed` becomes the zlib stream of `size` bytes.
+void compress_by_zlib(Pattern pattern, const char* bytes, std::size_t size, std::vector<char>& compressed);
+
+/// By VTK's zlib, whatever the above takes.
+void compress_by_vtk(const char* bytes, std::size_t size, std::vector<char>& compressed);
+
+/// The content of a file's bytes from `begin` on, compressed by gzip or zlib, whichever it is; gzip's members may
+/// follow each other. Where it is `bytes` in all (0: not known), and these aren't too many, libdeflate makes
+/// them at once. Reading throws gale::Error for bytes that are neither, or damaged.
+std::unique_ptr<ByteSource> inflated(const InputFile& file, std::uint64_t begin, std::uint64_t bytes);
+
+/// Writes all that compressed bytes stand for, as above, to `to`. False if that isn't `bytes`, if they are damaged, or
+/// without libdeflate.
+bool inflate_at_once(ByteSource& compressed, char* to, std::size_t bytes);
 
 /// Writes the `bytes` that `compressed` stands for to `to`. False if it doesn't stand for so many.
 using Uncompress = bool (*)(const char* compressed, std::size_t compressed_bytes, char* to, std::size_t bytes);
+
+/// Uncompresses a stream of zlib's.
+bool uncompress_zlib(const char* compressed, std::size_t compressed_bytes, char* to, std::size_t bytes);
 
 /// The one of `compressor`, one of VTK's classes; throws gale::Error for another one.
 Uncompress find_uncompress(const std::string& compressor);

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -103,12 +104,12 @@ class FileSequence : public ByteSource {
 /// Bytes in memory, which must outlive it.
 class MemoryBytes : public ByteSource {
  public:
-  explicit MemoryBytes(const std::string& bytes) : bytes_(bytes) {}
+  explicit MemoryBytes(std::string_view bytes) : bytes_(bytes) {}
   std::size_t read(char* to, std::size_t bytes) override;
   std::uint64_t at_most() const override { return bytes_.size() - at_; }
 
  private:
-  const std::string& bytes_;
+  std::string_view bytes_;
   std::size_t at_ = 0;
 };
 

@@ -174,8 +174,11 @@ PointArray::Values read_planes(ByteSource& source, const Volume& whole, std::int
 }  // namespace
 
 Content read_nifti(const InputFile& file, const ReadOptions&) {
-  std::unique_ptr<ByteSource> source = std::make_unique<FileBytes>(file, 0);
-  if (file.begins_with("\x1f\x8b")) source = inflated(std::move(source));  // gzip's
+  const bool is_gzip = file.begins_with("\x1f\x8b");
+  const auto content = [&](std::uint64_t bytes) {
+    return is_gzip ? inflated(file, 0, bytes) : std::make_unique<FileBytes>(file, 0);
+  };
+  std::unique_ptr<ByteSource> source = content(0);
   const NiftiHeader header = read_nifti_header(*source);
   const std::int64_t axes = header.dim[0];
   if (axes < 1 || axes > 7) damaged("it has ", axes, " dimensions");
@@ -195,7 +198,12 @@ Content read_nifti(const InputFile& file, const ReadOptions&) {
   const double begin = header.vox_offset == 0 ? static_cast<double>(header.bytes + 4) : header.vox_offset;
   if (!(begin >= static_cast<double>(header.bytes)) || begin > 1e15 || begin != std::floor(begin))
     damaged("its voxels begin at byte ", begin);
-  skip(*source, static_cast<std::uint64_t>(begin) - header.bytes);
+  const std::uint64_t behind_header = static_cast<std::uint64_t>(begin) - header.bytes;
+  if (times == 1) {  // then all of it is wanted
+    source = content(header.bytes + behind_header + volume.bytes());
+    skip_all(*source, header.bytes, "its header");
+  }
+  skip(*source, behind_header);
   Image image = volume.image("NIFTI", planes > 1 ? read_planes(*source, volume, planes, times) : volume.read(*source));
   check_sum(*source);
   place(header, image);

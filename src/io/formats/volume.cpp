@@ -25,13 +25,13 @@ std::uint64_t Volume::bytes() const { return count() * size_of(type); }
 PointArray::Values Volume::read(ByteSource& source) const { return read_values(source, type, count(), order); }
 
 PointArray::Values Volume::read(const InputFile& file, std::uint64_t begin, Packing packing) const {
-  auto bytes = std::make_unique<FileBytes>(file, begin);
-  if (packing == Packing::raw) return read(*bytes);
+  FileBytes content(file, begin);
+  if (packing == Packing::raw) return read(content);
   if (packing == Packing::text) {
-    TextReader text(*bytes);
+    TextReader text(content);
     return read_text_values(text, type, count());
   }
-  const auto whole = inflated(std::move(bytes));
+  const auto whole = inflated(file, begin, bytes());
   PointArray::Values values = read(*whole);
   check_sum(*whole);
   return values;

@@ -13,9 +13,9 @@ namespace {
 
 bool has_vtk() { return false; }
 
-void compress_by_zlib(const char*, std::size_t, std::vector<char>&) { refuse_without_vtk(); }
+void compress_by_vtk(const char*, std::size_t, std::vector<char>&) { refuse_without_vtk(); }
 
-std::unique_ptr<ByteSource> inflated(std::unique_ptr<ByteSource>) { refuse_without_vtk(); }
+std::unique_ptr<ByteSource> inflated(const InputFile&, std::uint64_t, std::uint64_t) { refuse_without_vtk(); }
 
 Uncompress find_uncompress(const std::string&) { refuse_without_vtk(); }
 

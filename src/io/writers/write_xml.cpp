@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cstddef>
+#include <map>
+#include <mutex>
 #include <string_view>
 
 #include <gale/base/threads.hpp>
@@ -83,17 +85,20 @@ class CompressedBlocks {
     write_header([&](const char* bytes, std::size_t size) { file.write(bytes, size); });
     EncodedBytes blocks(file, encoding);
     const auto threads = static_cast<int>(std::min<std::uint64_t>(host_threads(), blocks_));
-    const auto at_once = static_cast<std::size_t>(4 * threads);
-    std::vector<std::vector<char>> plain(threads), compressed(at_once);
-    for (std::uint64_t first = 0; first < blocks_; first += at_once) {
-      const std::uint64_t count = std::min<std::uint64_t>(at_once, blocks_ - first);
-      in_turns(threads, static_cast<std::int64_t>(count),
-               [&](int thread, std::int64_t i) { compress(first + i, plain[thread], compressed[i]); });
-      for (std::uint64_t i = 0; i < count; ++i) {
-        header[sizes + first + i] = compressed[i].size();
-        blocks.write(compressed[i].data(), compressed[i].size());
+    std::vector<std::vector<char>> plain(threads), compressed(threads);
+    std::map<std::int64_t, std::vector<char>> waiting;  // blocks behind one that isn't ready
+    std::int64_t next = 0;
+    std::mutex mutex;
+    in_turns(threads, static_cast<std::int64_t>(blocks_), [&](int thread, std::int64_t i) {
+      compress(i, plain[thread], compressed[thread]);
+      header[sizes + i] = compressed[thread].size();
+      const std::lock_guard<std::mutex> lock(mutex);
+      waiting.emplace(i, compressed[thread]);
+      for (auto first = waiting.begin(); first != waiting.end() && first->first == next; ++next) {
+        blocks.write(first->second.data(), first->second.size());
+        first = waiting.erase(first);
       }
-    }
+    });
     blocks.end();
     write_header([&](const char* bytes, std::size_t size) { file.rewrite(at, bytes, size); });
   }
@@ -103,7 +108,7 @@ class CompressedBlocks {
     const std::uint64_t begin = block * block_, end = std::min(begin + block_, array_.count);
     plain.resize((end - begin) * size_of(array_.type));
     array_.copy(begin, end, plain.data());
-    compress_by_zlib(plain.data(), plain.size(), compressed);
+    compress_by_zlib(array_.pattern, plain.data(), plain.size(), compressed);
   }
 
   const WrittenArray& array_;
@@ -124,7 +129,7 @@ void write_plain(OutputFile& file, const WrittenArray& array, Encoding encoding)
 }
 
 void write_values(OutputFile& file, const WrittenArray& array, Encoding encoding) {
-  if (has_vtk()) {
+  if (can_compress()) {
     CompressedBlocks(array).write(file, encoding);
   } else {
     write_plain(file, array, encoding);
@@ -188,9 +193,10 @@ void write_in_place(OutputFile& file, const WrittenArray& array) {
 
 void write_xml(const AtomicFile& to, const XmlContent& content) {
   OutputFile file(to.temporary());
-  file.write(begin_of_file(content.type, xml_attribute("header_type", "UInt64") +
-                                             (has_vtk() ? xml_attribute("compressor", "vtkZLibDataCompressor") : "")) +
-             ">\n    <Piece");
+  file.write(
+      begin_of_file(content.type, xml_attribute("header_type", "UInt64") +
+                                      (can_compress() ? xml_attribute("compressor", "vtkZLibDataCompressor") : "")) +
+      ">\n    <Piece");
   for (const auto& [name, size] : content.sizes) file.write(xml_attribute(name, std::to_string(size)));
   file.write(">\n");
   const bool appended = to.encoding() == Encoding::appended;

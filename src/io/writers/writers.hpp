@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <gale/io/atomic_file.hpp>
+#include <gale/io/bytes/compression.hpp>
 #include <gale/io/bytes/values.hpp>
 #include <gale/io/write.hpp>
 #include <gale/mesh/cells/cell_types.hpp>
@@ -26,6 +27,8 @@ struct WrittenArray {
 
   /// Puts the values [begin, end) to `to`, in this machine's order of bytes. Any number of threads may call it.
   std::function<void(std::uint64_t begin, std::uint64_t end, char* to)> copy;
+
+  Pattern pattern = type < ValueType::float32 ? Pattern::integers : Pattern::any;
 };
 
 using WrittenArrays = std::vector<WrittenArray>;
@@ -92,7 +95,7 @@ struct WrittenCells {
   const std::int32_t* vertices;
 };
 
-/// Writes it, its arrays in the encoding of `to`, compressed where there is a zlib: block by block, so that it takes
+/// Writes it, its arrays in the encoding of `to`, compressed where can_compress(): block by block, so that it takes
 /// little memory, and on as many threads as loops take.
 void write_xml(const AtomicFile& to, const XmlContent& content);
 

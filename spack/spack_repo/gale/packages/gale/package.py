@@ -49,10 +49,11 @@ class Gale(CMakePackage, CudaPackage, PythonExtension):
     variant("serial", default=True, description="Kokkos' Serial backend")
     variant("openmp", default=False, description="Kokkos' OpenMP backend")
     variant("app", default=True, description="The gale command")
+    variant("libdeflate", default=True, description="Compress in half of zlib's time")
     variant("kokkos_kernels", default=True, description="The explicit structure")
     variant("mpi", default=False, description="Meshes that lie on several MPI ranks")
     variant("python", default=False, description="The Python module gale")
-    variant("vtk", default=True, description="Read and compress with what VTK brings")
+    variant("vtk", default=True, description="Read files with what VTK brings")
     variant("shared", default=True, description="Build shared libraries")
 
     depends_on("c", type="build", when="+vtk")  # VTK finds HDF5 with it
@@ -62,6 +63,7 @@ class Gale(CMakePackage, CudaPackage, PythonExtension):
     depends_on("kokkos@4.4:")
     depends_on("kokkos-kernels@4.4:", when="+kokkos_kernels")
     depends_on("vtk@9.1:", when="+vtk")
+    depends_on("libdeflate", when="+libdeflate")
     depends_on("mpi", when="+mpi")
     depends_on("cli11", when="+app")
     depends_on("nlohmann-json", when="+app")
@@ -106,6 +108,7 @@ class Gale(CMakePackage, CudaPackage, PythonExtension):
             self.define_from_variant("BUILD_SHARED_LIBS", "shared"),
             self.define_from_variant("GALE_ENABLE_APP", "app"),
             self.define_from_variant("GALE_ENABLE_KOKKOS_KERNELS", "kokkos_kernels"),
+            self.define_from_variant("GALE_ENABLE_LIBDEFLATE", "libdeflate"),
             self.define_from_variant("GALE_ENABLE_MPI", "mpi"),
             self.define_from_variant("GALE_ENABLE_PYTHON", "python"),
             self.define_from_variant("GALE_ENABLE_VTK", "vtk"),

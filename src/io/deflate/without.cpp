@@ -1,0 +1,13 @@
+#include <gale/base/error.hpp>
+#include <gale/io/bytes/compression.hpp>
+
+// Stands for libdeflate.cpp and zlib.cpp, where GALE is built without these libraries.
+namespace gale::io::detail {
+
+bool can_compress() { return false; }
+
+void compress_by_zlib(Pattern, const char*, std::size_t, std::vector<char>&) {
+  throw Error("this gale was built without libdeflate and VTK");
+}
+
+}  // namespace gale::io::detail
