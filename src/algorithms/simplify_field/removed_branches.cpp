@@ -9,9 +9,10 @@ namespace gale::detail {
 
 namespace {
 
-FollowedPaths<HostMemory> follow(const SideKeys& keys, const ExtremumGraphSide<HostMemory>& graph) {
+FollowedPaths<HostMemory> follow(const SideKeys& keys, const ExtremumGraphSide<HostMemory>& graph,
+                                 const ChangingRoom& room) {
   ExtremumGraphSide<HostMemory> copy = graph;
-  copy.next = allocate<Array<Id, HostMemory>>("GALE::next_of_vertices", graph.next.extent(0));
+  copy.next = Kokkos::subview(room.places, std::make_pair(std::size_t(0), graph.next.extent(0)));
   parallel_for("GALE::copy_next", HostExecutionSpace(), static_cast<Offset>(graph.next.extent(0)),
                [&](Offset i) { copy.next(i) = graph.next(i); });
   return follow_paths(HostExecutionSpace(), keys, std::move(copy));
@@ -64,9 +65,10 @@ std::vector<Id> number_branches(const MergeForest& forest, const std::vector<boo
 
 }  // namespace
 
-RemovedBranches removed_branches(const ChangingOrder& order, Side side, const ChooseExtrema& staying) {
+RemovedBranches removed_branches(const ChangingOrder& order, Side side, const ChooseExtrema& staying,
+                                 const ChangingRoom& room) {
   const SideKeys keys(order.keys(), side);
-  const auto paths = follow(keys, order.graph()[side]);
+  const auto paths = follow(keys, order.graph()[side], room);
   const MergeForest forest = forest_of(keys, paths, order.graph()[opposite(side)].extrema);
   std::vector<bool> stays = staying(side, forest);
   keep_one_of_each(forest, stays);

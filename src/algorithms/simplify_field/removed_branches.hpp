@@ -19,7 +19,8 @@ struct RemovedBranches {
 };
 
 /// The branches of the extrema that don't stay: the parts of what is below (above) a saddle that have none that stays.
-/// Each component of the mesh keeps its oldest one at least.
-RemovedBranches removed_branches(const ChangingOrder& order, Side side, const ChooseExtrema& staying);
+/// Each component of the mesh keeps its oldest one at least. `room.places` are overwritten.
+RemovedBranches removed_branches(const ChangingOrder& order, Side side, const ChooseExtrema& staying,
+                                 const ChangingRoom& room);
 
 }  // namespace gale::detail

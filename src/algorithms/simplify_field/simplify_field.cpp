@@ -19,7 +19,8 @@ namespace {
 /// Removes minima and maxima in turns.
 class FieldSimplifier {
  public:
-  FieldSimplifier(ChangingOrder& order, const ChooseExtrema& staying) : order_(order), staying_(staying) {}
+  FieldSimplifier(ChangingOrder& order, const ChooseExtrema& staying)
+      : order_(order), staying_(staying), room_(static_cast<Id>(order.value_of().size())) {}
 
   void run() {
     // A part that hangs on the rest by one vertex is turned around without end.
@@ -27,7 +28,7 @@ class FieldSimplifier {
     Id least = 0;
     int in_vain = 0, clean = 0;
     for (Side side = below; clean < 2 && in_vain < most_in_vain; side = opposite(side)) {
-      RemovedBranches removed = removed_branches(order_, side, staying_);
+      RemovedBranches removed = removed_branches(order_, side, staying_, room_);
       extrema[side] = removed.extrema;
       unwanted[side] = removed.unwanted;
       clean = removed.unwanted == 0 ? clean + 1 : 0;
@@ -37,11 +38,11 @@ class FieldSimplifier {
       } else {
         ++in_vain;
       }
-      if (removed.unwanted > 0) order_.fill(side, std::move(removed.branches));
+      if (removed.unwanted > 0) order_.fill(side, std::move(removed.branches), room_);
     }
     if (clean == 2) return;
     for (const Side side : {below, above}) {
-      const RemovedBranches left = removed_branches(order_, side, staying_);
+      const RemovedBranches left = removed_branches(order_, side, staying_, room_);
       extrema[side] = left.extrema;
       unwanted[side] = left.unwanted;
     }
@@ -52,6 +53,7 @@ class FieldSimplifier {
  private:
   ChangingOrder& order_;
   const ChooseExtrema& staying_;
+  ChangingRoom room_;
 };
 
 /// `choose(order)` says which extrema of the changing order stay.
@@ -63,12 +65,14 @@ SimplifiedField simplified(const VertexOrder& order, const ComputeOptions& optio
   Computing computing(mesh, options, computed);
   ChangingOrder changing(computing.structure(merge_tree_relations), order, options);
   const ChooseExtrema staying = choose(changing);
-  FieldSimplifier simplifier(changing, staying);
-  simplifier.run();
   SimplifiedField field;
-  field.minima = simplifier.extrema[below];
-  field.maxima = simplifier.extrema[above];
-  field.kept_below = simplifier.unwanted[below] + simplifier.unwanted[above];
+  {
+    FieldSimplifier simplifier(changing, staying);
+    simplifier.run();
+    field.minima = simplifier.extrema[below];
+    field.maxima = simplifier.extrema[above];
+    field.kept_below = simplifier.unwanted[below] + simplifier.unwanted[above];
+  }
   field.rank.resize(mesh.vertices());
   field.value_of.resize(mesh.vertices());
   const Id* const input = mesh.vertex_input().data();
