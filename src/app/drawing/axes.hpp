@@ -14,7 +14,7 @@ namespace gale::app {
 struct Axis {
   double low, high;  ///< low < high, both finite; above 0 on a logarithmic axis
   bool is_logarithmic = false;
-  std::string title;  ///< an axis without one has no marks
+  std::string title{};  ///< an axis without one has no marks
 
   /// From 0 at `low` to 1 at `high`; what lies outside is brought to the nearer end.
   double along(double value) const {
