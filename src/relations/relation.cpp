@@ -37,7 +37,7 @@ SimplexNeeds needs_of(RelationSet relations, int dimension) {
   needs.triangle_edge = false;
   for (const Relation relation : members_of(relations)) {
     SimplexNeeds one = traits_of(relation).needs;
-    // Of triangles that are cells, these are all that is read.
+    // Where triangles are cells, nothing but these is read.
     const bool from_cells = dimension == 2 && (relation == Relation::VF || relation == Relation::FV);
     if (from_cells) one = traits_of(relation == Relation::VF ? Relation::VT : Relation::TV).needs;
     needs.upto = std::max(needs.upto, one.upto);

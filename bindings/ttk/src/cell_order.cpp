@@ -26,7 +26,7 @@ constexpr Star with_cell(Star star, Id cell) {
   return star_of(least, cell < first ? first : cell);
 }
 
-/// Of other simplices the least alone.
+/// Keep the least cell alone, for other simplices.
 constexpr Id first_of(Id least) { return least; }
 constexpr Id with_cell(Id least, Id cell) { return cell < least ? cell : least; }
 

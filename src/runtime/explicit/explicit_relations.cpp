@@ -37,7 +37,7 @@ constexpr Recipe recipes[] = {
     {Relation::TT, Relation::TF | Relation::FT},
 };
 
-/// Those of triangle meshes.
+/// Recipes for triangle meshes.
 constexpr Recipe triangle_recipes[] = {
     {Relation::FV, {}},
     {Relation::VF, Relation::FV},

@@ -18,8 +18,8 @@ struct CellOrder {
   PackedIds number;  ///< GALE's id -> TTK's
   FirstMet met;      ///< TTK's id -> its first cell, and which of that cell's edges or triangles it is
 
-  /// Of facets (triangles of tetrahedra, edges of triangles) TTK's id -> the second of its cells, ascending; no_id if
-  /// there is one only, `crowded` if there are three or more.
+  /// TTK's id of a facet (triangle of a tetrahedron, edge of a triangle) -> the second of its cells, ascending; no_id
+  /// if there is one only, `crowded` if there are three or more.
   PackedIds second;
   bool any_crowded = false;
 
