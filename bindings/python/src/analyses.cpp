@@ -47,9 +47,9 @@ nb::dict PyMesh::analyse(const std::string& analysis, Array1 values, const std::
   for (const auto& [option, given] : thresholds) settings.thresholds[option] = {given.first, given.second};
   auto found = job.run([&] {
     const ThreadLimit limit(options.threads);
-    const io::PointArray field = field_of(values, name);
+    const io::Dataset dataset = with(field_of(values, name));
+    const io::PointArray& field = dataset.arrays.front();
     const VertexOrder order = order_of(mesh(), field);
-    const io::Dataset dataset = with(field);
     return outputs::analysis_named(analysis).run(
         {dataset, field, order, [&](const char*, double, double) { return options; }}, settings);
   });

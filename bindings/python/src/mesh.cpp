@@ -176,10 +176,10 @@ nb::object PyMesh::points() const {
       dataset_.points);
 }
 
-io::Dataset PyMesh::with(const io::PointArray& field) const {
+io::Dataset PyMesh::with(io::PointArray field) const {
   io::Dataset dataset;
   dataset.points = dataset_.points;
-  dataset.arrays = {field};
+  dataset.arrays.push_back(std::move(field));
   return dataset;
 }
 

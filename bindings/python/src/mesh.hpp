@@ -53,7 +53,7 @@ class PyMesh : public Kept {
   const Mesh& mesh() const;
 
   /// The points with the field as their array.
-  io::Dataset with(const io::PointArray& field) const;
+  io::Dataset with(io::PointArray field) const;
 
   int capacity_;
   io::Dataset dataset_;  ///< the points alone
