@@ -70,12 +70,14 @@ class MergeTree(gale.CommandTest):
         if self.report("merge-tree", "grid:4")["device"] is None:
             self.refuse(2, "merge-tree", "grid:4", "--consumers", "device", naming="has no device")
 
+    @gale.needs_vtk
     def test_refuses_values_that_are_no_numbers_where_it_needs_them(self):
         self.write("mesh.vtk", gale.vtk_mesh([(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0)], [[0, 1, 2], [1, 2, 3]],
                                              {"height": ("float", [0, math.nan, 2, 1])}))
         for command in (["merge-tree"], ["merge-tree", "--type", "split"], ["simplify-field"]):
             self.refuse(1, *command, "mesh.vtk", "--persistence", "0.1", naming="vertex 1 has no field value: it is NaN")
 
+    @gale.needs_vtk
     def test_refuses_what_it_cannot_write(self):
         self.refuse(1, "merge-tree", "missing.vtu", "-o", "nowhere/out", naming="nowhere/out_nodes.vtp")  # before the input is looked at
         self.refuse(2, "merge-tree", "out_segmentation.vtu", "-o", "out", naming="out_segmentation.vtu")
