@@ -50,7 +50,8 @@ int main(int argc, char** argv) {
   for (int r = -1; r < runs; ++r) {
     Cells<std::int32_t, Memory> cells;
     const double uploaded = perf::seconds_of([&] {
-      cells = {Kokkos::create_mirror_view_and_copy(Memory(), types), Kokkos::create_mirror_view_and_copy(Memory(), offsets),
+      cells = {Kokkos::create_mirror_view_and_copy(Memory(), types),
+               Kokkos::create_mirror_view_and_copy(Memory(), offsets),
                Kokkos::create_mirror_view_and_copy(Memory(), corners)};
     });
     const double took = perf::seconds_of([&] {

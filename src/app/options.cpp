@@ -77,6 +77,21 @@ std::optional<std::int64_t> parse_random(const std::string& text) {
   return count;
 }
 
+/// "all", "first", "last", or "I:J" with 0 <= I <= J.
+Times parse_times(const std::string& text) {
+  if (text == "all") return {};
+  if (text == "first") return {0, 0, text};
+  if (text == "last") return {-1, -1, text};
+  Times times{0, 0, text};
+  const char *const begin = text.data(), *const end = begin + text.size();
+  const auto first = std::from_chars(begin, end, times.first);
+  if (first.ec == std::errc() && first.ptr != end && *first.ptr == ':') {
+    const auto last = std::from_chars(first.ptr + 1, end, times.last);
+    if (last.ec == std::errc() && last.ptr == end && 0 <= times.first && times.first <= times.last) return times;
+  }
+  throw UsageError("--times: '" + text + "' is not all, first, last or I:J with 0 <= I <= J");
+}
+
 void add_size(CLI::App& command, std::size_t& size, const std::string& name, const std::string& what) {
   const auto set = [&size, name](const std::string& text) { size = parse_size(name, text); };
   command.add_option_function<std::string>(name, set, what)->type_name("SIZE");
@@ -98,11 +113,14 @@ void add_choice(CLI::App& command, Value& chosen, const std::string& name,
 
 void InputOptions::add_to(CLI::App& command) {
   command
-      .add_option("INPUT", input,
+      .add_option("INPUT", inputs,
                   "A mesh (" + io::extensions_of(io::Input::mesh) + "), a volume (" +
-                      io::extensions_of(io::Input::volume) +
+                      io::extensions_of(io::Input::volume) + "), a series of these (" +
+                      io::extensions_of(io::Input::series) +
                       ") or grid:N, plane:N, smooth:N, noisy:N, ball:N, shells:N, dense:N")
-      ->required();
+      ->required()
+      ->expected(1)
+      ->type_name("TEXT");
   command.add_option("--above", read.above, "Volumes: keep the voxels with values above this");
   CLI::Option* const array = command.add_option(
       "-a,--array", read.array,
@@ -121,6 +139,34 @@ void InputOptions::add_to(CLI::App& command) {
       ->check(CLI::IsMember({"any", "simplices", "tetrahedra"}));
   command.add_flag("--outside-files", read.outside_files,
                    "Volumes: let .mhd and .nrrd headers name data files outside of their own folder");
+}
+
+void InputOptions::add_times_to(CLI::App& command) {
+  times = Times();
+  CLI::Option* const input = command.get_option("INPUT");
+  input->expected(1, -1);
+  input->description(input->get_description() + "; several are the steps of a series");
+  command.add_option_function<std::string>(
+      "--times", [this](const std::string& text) { times = parse_times(text); },
+      "Of a series these steps: all (default), first, last, or I:J, those from I to J, counted from 0");
+}
+
+bool InputOptions::is_series() const {
+  const io::Format* const format = io::format_of(inputs.front());
+  return times && (inputs.size() > 1 || (format != nullptr && format->input == io::Input::series));
+}
+
+std::vector<io::Step> InputOptions::steps() const {
+  if (!is_series()) {
+    if (times && times->text != "all") throw UsageError("--times: '" + inputs.front() + "' is no series");
+    return {{0, inputs.front()}};
+  }
+  const std::vector<io::Step> steps = io::steps_of(inputs, read);
+  const auto count = static_cast<std::int64_t>(steps.size());
+  const auto at = [&](std::int64_t step) { return step < 0 ? step + count : step; };
+  if (at(times->last) >= count)
+    throw UsageError("--times " + times->text + ": there are " + std::to_string(count) + " steps, counted from 0");
+  return {steps.begin() + at(times->first), steps.begin() + at(times->last) + 1};
 }
 
 void CommonOptions::add_to(CLI::App& command) {

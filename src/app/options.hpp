@@ -5,6 +5,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include <gale/io/atomic_file.hpp>
 #include <gale/io/read.hpp>
@@ -27,13 +28,32 @@ class UsageError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Which steps of a series, counted from 0: those from `first` to `last`, which counts from the end where it is below
+/// 0.
+struct Times {
+  std::int64_t first = 0, last = -1;
+  std::string text = "all";  ///< as --times has it
+};
+
 /// What to read, and which of its arrays the command is about.
 struct InputOptions {
-  std::string input;
-  io::ReadOptions read;       ///< `read.array` is --array: the field's name, or empty
-  std::optional<int> height;  ///< --height: the coordinate that is the field, 0 to 2
+  std::vector<std::string> inputs;  ///< one, or several that are the steps of a series
+  std::string input;                ///< the one of these, or of what a series names, that is read
+  std::optional<Times> times;       ///< which steps of a series; nothing where a command takes the first alone
+  io::ReadOptions read;             ///< `read.array` is --array: the field's name, or empty
+  std::optional<int> height;        ///< --height: the coordinate that is the field, 0 to 2
 
   void add_to(CLI::App& command);
+
+  /// For commands that go through the steps of a series.
+  void add_times_to(CLI::App& command);
+
+  /// Whether the inputs are a series, of one step or more, which the command goes through.
+  bool is_series() const;
+
+  /// What to go through: of a series those steps that --times says, else the input. Throws gale::Error for a series
+  /// that can't be read, UsageError where it hasn't such a step.
+  std::vector<io::Step> steps() const;
 };
 
 /// What every command has.

@@ -20,6 +20,11 @@ Json or_null(const std::optional<T>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
 
+Json to_json(const Seconds& seconds) {
+  return {{"read", seconds.read}, {"segment", seconds.segment}, {"initialize", seconds.initialize},
+          {"run", seconds.run},   {"write", seconds.write},     {"total", seconds.total()}};
+}
+
 Json to_json(const WaitingTimes& waiting) {
   return {{"push", waiting.push},
           {"queue", waiting.queue},
@@ -75,7 +80,6 @@ Json to_json(const StructureStatistics& statistics) {
 }  // namespace
 
 Json to_json(const Report& report) {
-  const Seconds& seconds = report.seconds;
   return {{"gale", gale::version},
           {"kokkos", kokkos_version()},
           {"backend", WorkerSpace::name()},
@@ -92,17 +96,17 @@ Json to_json(const Report& report) {
             {"triangles", or_null(report.triangles)},
             {"tetrahedra", or_null(report.tetrahedra)},
             {"segments", or_null(report.segments)}}},
-          {"seconds",
-           {{"read", seconds.read},
-            {"segment", seconds.segment},
-            {"initialize", seconds.initialize},
-            {"run", seconds.run},
-            {"write", seconds.write},
-            {"total", seconds.total()}}},
+          {"seconds", to_json(report.seconds)},
           {"memory", {{"host_peak_bytes", host_peak_bytes()}, {"device_peak_bytes", or_null(device_peak_bytes())}}},
           {"ranks", report.ranks},
           {"waiting", report.statistics ? to_json(*report.statistics) : Json(nullptr)},
-          {"result", report.result}};
+          {"result", report.result},
+          {"steps", report.steps}};
+}
+
+void Report::add_step(const io::Step& step, const Seconds& took) {
+  steps.push_back({{"time", step.time}, {"input", step.file}, {"seconds", to_json(took)}, {"result", result}});
+  result = Json::object();
 }
 
 void report_structure(const Structure& structure, Report& report) {

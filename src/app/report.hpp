@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <gale/io/atomic_file.hpp>
+#include <gale/io/read.hpp>
 #include <gale/runtime/structure.hpp>
 
 namespace gale::app {
@@ -18,6 +19,12 @@ struct Seconds {
   double read = 0, segment = 0, initialize = 0, run = 0, write = 0;
   double total() const { return segment + initialize + run; }
 };
+
+/// What lies between the two.
+inline Seconds operator-(const Seconds& now, const Seconds& before) {
+  return {now.read - before.read, now.segment - before.segment, now.initialize - before.initialize,
+          now.run - before.run, now.write - before.write};
+}
 
 using gale::detail::Stopwatch;
 
@@ -39,6 +46,10 @@ struct Report {
   std::optional<StructureStatistics> statistics;
   nlohmann::ordered_json ranks;  ///< what differs between ranks; null on one
   nlohmann::ordered_json result = nlohmann::ordered_json::object();
+  nlohmann::ordered_json steps;  ///< of a series: time, input, seconds and result of each; null for another input
+
+  /// Takes the result for that of a step, which took so long.
+  void add_step(const io::Step& step, const Seconds& took);
 };
 
 nlohmann::ordered_json to_json(const Report& report);

@@ -8,6 +8,7 @@
 #include <gale/app/ranks/ranks.hpp>
 #include <gale/app/session.hpp>
 #include <gale/base/error.hpp>
+#include <gale/io/formats.hpp>
 #include <gale/io/read.hpp>
 #include <gale/io/write.hpp>
 #include <gale/outputs/field.hpp>
@@ -25,14 +26,31 @@ fs::path real_path(const std::string& path) {
   return failure ? absolute.lexically_normal() : real;
 }
 
-/// Throws UsageError if two of the files are the same, or if one is the input.
-void require_distinct(const std::vector<std::string>& files, const std::string& input) {
-  std::set<fs::path> all{real_path(input)};
+/// Throws UsageError if two of the files are the same, or if one is an input.
+void require_distinct(const std::vector<std::string>& files, const std::vector<std::string>& inputs) {
+  std::set<fs::path> all;
+  for (const std::string& input : inputs) all.insert(real_path(input));
   std::error_code unknown;
   for (const std::string& file : files) {
-    if (!all.insert(real_path(file)).second || fs::equivalent(file, input, unknown))
-      throw UsageError("'" + file + "' is named for two files");
+    const bool is_input = std::any_of(inputs.begin(), inputs.end(),
+                                      [&](const auto& input) { return fs::equivalent(file, input, unknown); });
+    if (!all.insert(real_path(file)).second || is_input) throw UsageError("'" + file + "' is named for two files");
   }
+}
+
+/// NAME_0012.vtp for the step 12 of NAME.vtp.
+std::string name_of_step(const std::string& path, std::size_t step) {
+  const fs::path all(path);
+  const std::string number = std::to_string(step);
+  return fs::path(all).replace_extension().string() + '_' +
+         std::string(4 - std::min<std::size_t>(4, number.size()), '0') + number + all.extension().string();
+}
+
+/// NAME.pvd for NAME.vtp and its like, which names the files of all steps; empty for other formats.
+std::string name_of_series(const std::string& path) {
+  const io::Format* const format = io::format_of(path);
+  constexpr unsigned xml = io::written_points | io::written_lines | io::written_pieces;
+  return format != nullptr && (format->written & xml) != 0 ? fs::path(path).replace_extension(".pvd").string() : "";
 }
 
 /// Whether it is a .pvtu.
@@ -63,26 +81,52 @@ Session::Session(const InputOptions& input, const CommonOptions& common, std::ve
       common_(common),
       ranks_(Launch::ranks()),
       has_outputs_(std::any_of(files.begin(), files.end(), [](const auto& file) { return !file.empty(); })),
+      is_series_(input.is_series()),
       console_(common.quiet || !Launch::is_first()),
       files_(common.encoding) {
-  report_.input = input.input;
+  report_.input = input.inputs.front();
   report_.threads = host_threads();
   files.erase(std::remove(files.begin(), files.end(), ""), files.end());
   detail::together(ranks_, [&] {
-    std::vector<std::string> all, mine;
+    steps_ = input.steps();
+    std::vector<std::string> all, mine, inputs = input.inputs;
     const auto add = [&](const std::string& file, int writer) {
       all.push_back(file);
       if (writer == ranks_.rank()) mine.push_back(file);
     };
+    for (const io::Step& step : steps_) inputs.push_back(step.file);
     for (const std::string& file : files) {
-      add(file, 0);
-      for (int rank = 0; rank < ranks_.size() && Launch::are_several(); ++rank) add(piece_of(file, rank), rank);
+      for (std::size_t step = 0; step < steps_.size(); ++step) {
+        const std::string here = is_series_ ? name_of_step(file, step) : file;
+        add(here, 0);
+        for (int rank = 0; rank < ranks_.size() && Launch::are_several(); ++rank) add(piece_of(here, rank), rank);
+      }
+      if (is_series_ && !name_of_series(file).empty()) add(name_of_series(file), 0);
     }
     if (!common.report.empty()) add(common.report, 0);
-    if (Launch::is_first()) require_distinct(all, input.input);
+    if (Launch::is_first()) require_distinct(all, inputs);
     for (const std::string& file : mine) io::AtomicFiles().add(file);  // throws if it can't be made there now
     input_.read.outputs = std::move(all);
   });
+  input_.input = steps_.front().file;
+}
+
+void Session::say_input() {
+  if (!is_series_) return console_.say("input", input_.input);
+  console_.say("step", std::to_string(step_ + 1) + " of " + std::to_string(steps_.size()) + ", time " +
+                           nlohmann::json(steps_[step_].time).dump() + ": " + input_.input);
+}
+
+bool Session::next_step(const Computed& computed) {
+  if (!is_series_) return false;
+  Seconds now = report_.seconds;
+  now.initialize += computed.seconds_preparing;
+  now.run += computed.seconds_running;
+  report_.add_step(steps_[step_], now - seconds_before_);
+  seconds_before_ = now;
+  if (++step_ == steps_.size()) return false;
+  input_.input = steps_[step_].file;
+  return true;
 }
 
 void Session::warm_up(const StructureOption& option, std::function<void(const VertexOrder&)> run) {
@@ -96,7 +140,7 @@ io::Dataset Session::read_any() {
   begin_step("reading", input_.input);
   io::Dataset dataset = timed(report_.seconds.read, [&] { return io::read(input_.input, input_.read); });
   if (input_.height) outputs::add_height(dataset, *input_.height);
-  console_.say("input", input_.input);
+  say_input();
   note(dataset.notices);
   tell_size(std::visit([](const auto& points) { return std::int64_t(points.extent(0)); }, dataset.points),
             static_cast<std::int64_t>(dataset.cells()), dataset.dimension());
@@ -104,7 +148,9 @@ io::Dataset Session::read_any() {
 }
 
 void Session::tell_size(std::int64_t vertices, std::int64_t cells, int dimension) {
-  (dimension == 3 ? report_.tetrahedra : report_.triangles) = cells;
+  std::optional<std::int64_t>& told = dimension == 3 ? report_.tetrahedra : report_.triangles;
+  if (report_.vertices == vertices && told == cells) return;
+  told = cells;
   report_.vertices = vertices;
   console_.say("vertices", grouped(vertices));
   console_.say(dimension == 3 ? "tetrahedra" : "triangles", grouped(cells));
@@ -120,11 +166,26 @@ io::PointArray Session::select_field(const io::Dataset& dataset) {
   if (dataset.arrays.empty() && input_.read.array.empty())
     throw Error("'" + input_.input + "' has no point array to analyse: --height x, y or z takes a coordinate");
   io::PointArray field = outputs::select_field(dataset, input_.read.array);
-  console_.say("field", field.name);
+  if (step_ == 0) console_.say("field", field.name);
   return field;
 }
 
 Mesh Session::encode(io::Dataset& dataset, const SegmentationOptions& segmentation, Keep keep) {
+  const bool is_there =
+      mesh_ && timed(report_.seconds.initialize, [&] { return outputs::is_mesh_of(*mesh_, dataset); });
+  if (!is_there) {
+    mesh_.reset();
+    mesh_ = encode_anew(dataset, segmentation);
+  }
+  if (keep == Keep::nothing) {
+    dataset.tetrahedra = {};
+    dataset.triangles = {};
+    dataset.cell_arrays.clear();
+  }
+  return *mesh_;
+}
+
+Mesh Session::encode_anew(const io::Dataset& dataset, const SegmentationOptions& segmentation) {
   std::vector<std::string> notices;
   begin_step("dividing the mesh into segments");
   const Segmentation segments = timed(report_.seconds.segment, [&] {
@@ -135,11 +196,6 @@ Mesh Session::encode(io::Dataset& dataset, const SegmentationOptions& segmentati
   const Stopwatch watch(report_.seconds.initialize);
   begin_step("encoding the mesh");
   Mesh mesh = outputs::mesh_of(dataset, segments);
-  if (keep == Keep::nothing) {
-    dataset.tetrahedra = {};
-    dataset.triangles = {};
-    dataset.cell_arrays.clear();
-  }
   report_.segments = mesh.segments();
   if (!mesh.notice().empty()) note({mesh.notice()});
   console_.say("segments", grouped(mesh.segments()));
@@ -152,15 +208,16 @@ FieldOnMesh Session::read_part(const SegmentationOptions& segmentation, Keep kee
   std::optional<Stopwatch> watch(std::in_place, report_.seconds.read);
   const auto was_read = [&](const std::vector<std::string>& notices) {
     watch.emplace(report_.seconds.initialize);
-    console_.say("input", input_.input);
-    console_.say("ranks", std::to_string(ranks_.size()) + " of " + std::to_string(report_.threads) + " threads");
+    say_input();
+    if (step_ == 0)
+      console_.say("ranks", std::to_string(ranks_.size()) + " of " + std::to_string(report_.threads) + " threads");
     note(notices);
   };
   FieldOnMesh on = read_on_ranks(input_, segmentation.capacity.value_or(default_capacity),
                                  {has_outputs_, has_outputs_ && keep == Keep::cells}, was_read);
   tell_size(on.mesh.all_vertices(), on.mesh.all_cells(), on.mesh.dimension());
   report_.segments = ranks_.sum(on.mesh.owned_segments());
-  console_.say("field", on.field.name);
+  if (step_ == 0) console_.say("field", on.field.name);
   part_ = on.mesh;
   return on;
 }
@@ -215,6 +272,21 @@ void Session::finish(const StructureOption& option, const Computed& computed) {
   finish(computed.structure.get());
 }
 
+std::string Session::named(const std::string& path) {
+  if (!is_series_) return path;
+  const std::string name = name_of_step(path, step_), series = name_of_series(path);
+  if (!series.empty()) series_[series].push_back({steps_[step_].time, fs::path(name).filename().string()});
+  return name;
+}
+
+void Session::write_series() {
+  for (const auto& [name, steps] : series_) {
+    const io::AtomicFile& file = files_.add(name);
+    io::write_series(file, steps);
+    io::AtomicFiles::sync(file);
+  }
+}
+
 template <class Result>
 void Session::write_one(const std::string& path, const Result& result) {
   detail::together(ranks_, [&] {
@@ -245,6 +317,9 @@ void Session::finish(const Structure* structure) {
   if (report_.edges) console_.say("edges", grouped(*report_.edges));
   if (report_.triangles && report_.tetrahedra) console_.say("triangles", grouped(*report_.triangles));
   tell_costs();
+  detail::together(ranks_, [&] {
+    if (Launch::is_first()) write_series();
+  });
   const std::size_t results = files_.all().size();
   detail::together(ranks_, [&] {
     if (!common_.report.empty() && Launch::is_first()) write_report(files_.add(common_.report), report_);
@@ -291,7 +366,10 @@ void Session::appear(std::size_t results) {
     are_there = true;
     detail::together(ranks_, [] {});  // the files of others are there, too
     detail::together(ranks_, [&] {
-      for (std::size_t i = 0; i < results; ++i) console_.say("wrote", files_.all()[i]->path());
+      for (std::size_t i = 0; i < results; ++i) {
+        const std::string& name = files_.all()[i]->path();
+        if (!is_series_ || name_of_series(name).empty()) console_.say("wrote", name);
+      }
     });
   };
   try {

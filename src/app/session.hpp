@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -68,7 +69,8 @@ class Session {
   /// Reads the input. Throws gale::Error if it hasn't the array that --array names, if it names one.
   io::Dataset read();
 
-  /// Segments and encodes. The cells are taken out of `dataset` on the way unless they are kept.
+  /// Segments and encodes, unless the mesh of the step before is the same. The cells are taken out of `dataset` unless
+  /// they are kept.
   enum class Keep { cells, nothing };
   Mesh encode(io::Dataset& dataset, const SegmentationOptions& segmentation, Keep keep);
 
@@ -85,14 +87,20 @@ class Session {
   /// How to sweep: on the threads that --threads says, with a progress bar of this title.
   SweepOptions sweep(const std::string& title) const;
 
+  /// To be called when a step of the input is done. If the input is a series, reports the step's time, seconds and
+  /// result, which is none from here on, and begins the next one, if there is one: what is read and written then is its
+  /// own. Returns whether there is.
+  bool next_step(const Computed& computed);
+
   /// Writes make(), points, lines or a piece of a mesh, unless the path is empty: on several ranks a piece of each, and
   /// the file that names these. All files appear when the session finishes.
   template <class Make>
   void write_result(const std::string& path, const Make& make) {
     if (path.empty()) return;
     const Stopwatch watch(report_.seconds.write);
-    begin_step("writing", path);
-    write_one(path, make());
+    const std::string file = named(path);
+    begin_step("writing", file);
+    write_one(file, make());
   }
 
   /// Calls write_to(file) unless the path is empty, with a file that appears when the session finishes, together with
@@ -101,8 +109,9 @@ class Session {
   void write(const std::string& path, const Write& write_to) {
     if (path.empty()) return;
     const Stopwatch watch(report_.seconds.write);
-    begin_step("writing", path);
-    const io::AtomicFile& file = files_.add(path);
+    const std::string name = named(path);
+    begin_step("writing", name);
+    const io::AtomicFile& file = files_.add(name);
     write_to(file);
     io::AtomicFiles::sync(file);
   }
@@ -116,6 +125,17 @@ class Session {
 
  private:
   io::Dataset read_any();
+  Mesh encode_anew(const io::Dataset& dataset, const SegmentationOptions& segmentation);
+
+  /// Says what was read.
+  void say_input();
+
+  /// The file that `path` stands for in this step; of a series, a .pvd is to name it.
+  std::string named(const std::string& path);
+
+  /// Writes the .pvd files.
+  void write_series();
+
   void tell_size(std::int64_t vertices, std::int64_t cells, int dimension);
   FieldOnMesh read_part(const SegmentationOptions& segmentation, Keep keep);
 
@@ -139,10 +159,18 @@ class Session {
   const CommonOptions& common_;
   const Ranks& ranks_;
   const bool has_outputs_;  ///< beside the report
+  const bool is_series_;
+  std::vector<io::Step> steps_;
+  std::size_t step_ = 0;
   Console console_;
   Report report_;
   io::AtomicFiles files_;
+  std::optional<Mesh> mesh_;  ///< of this step
   std::optional<Mesh> part_;  ///< on several ranks
+  Seconds seconds_before_;    ///< what all steps before took
+
+  /// The .pvd files by their names, each with what it is to name.
+  std::map<std::string, std::vector<io::Step>> series_;
   WarmUp warm_up_;
 };
 

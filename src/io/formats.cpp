@@ -6,7 +6,7 @@ namespace detail {
 
 // Defined in formats/, a file each.
 Reader read_vtu, read_pvtu, read_legacy_vtk, read_vti, read_nifti, read_meta_image, read_nrrd, read_exodus, read_vtkhdf,
-    read_vts, read_vtr, read_vtp, read_stl, read_ply, read_obj, read_off;
+    read_vts, read_vtr, read_vtp, read_stl, read_ply, read_obj, read_off, read_pvd, read_file_series;
 
 }  // namespace detail
 
@@ -43,6 +43,10 @@ const std::vector<Format>& formats() {
        read_ply},
       {"Wavefront OBJ", ".obj", Input::mesh, 0, false, "vertices and faces", read_obj},
       {"OFF", ".off", Input::mesh, 0, false, "vertices and faces, as text", read_off},
+      {"ParaView's data", ".pvd", Input::series, written_series, true,
+       "the files that it names, in its folder or below, a time each", read_pvd},
+      {"series of files", ".series", Input::series, 0, true, "likewise: `.vtu.series` and its like, which are JSON",
+       read_file_series},
       {"pieces of VTK XML surfaces", ".pvtp", Input::none, written_points | written_surfaces, true, "", nullptr}};
   return all;
 }

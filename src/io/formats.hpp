@@ -25,17 +25,18 @@ using Reader = Content(const InputFile& file, const ReadOptions& options);
 }  // namespace detail
 
 /// The kinds of inputs that files of a format are read as.
-enum class Input { none, mesh, volume };
+enum class Input { none, mesh, volume, series };
 
 /// The kinds of results that are written to files of a format, each a bit: points alone, lines and polygons, lines
-/// alone, meshes, pieces of meshes with their global ids, and meshes of triangles alone.
+/// alone, meshes, pieces of meshes with their global ids, meshes of triangles alone, and results of several times.
 enum Written : unsigned {
   written_points = 1,
   written_surfaces = 2,
   written_lines = 4,
   written_meshes = 8,
   written_pieces = 16,
-  written_triangles = 32
+  written_triangles = 32,
+  written_series = 64
 };
 
 /// A format of files that are read or written.
@@ -65,6 +66,9 @@ GALE_EXPORT std::string extensions_of(const std::function<bool(const Format& for
 GALE_EXPORT std::string extensions_of(Input input);
 
 namespace detail {
+
+/// The steps that a file of a series names, its first at the least time.
+std::vector<Step> steps_in(const InputFile& input, const ReadOptions& options);
 
 /// Whether files can be read: GALE was built with VTK, which brings what that takes. vtk/without_vtk.cpp stands for
 /// vtk/vtk_*.cpp where it wasn't.

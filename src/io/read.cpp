@@ -76,9 +76,25 @@ Dataset read(const std::string& input, const ReadOptions& options) {
   return naming(input, [&] { return read_file(input, *format, options); });
 }
 
+std::vector<Step> steps_of(const std::vector<std::string>& inputs, const ReadOptions& options) {
+  std::vector<Step> steps;
+  for (const std::string& input : inputs) {
+    const Format* const format = format_of(input);
+    if (format == nullptr || format->input != Input::series) {
+      steps.push_back({static_cast<double>(steps.size()), input});
+      continue;
+    }
+    if (inputs.size() > 1) refuse("'", input, "' is a series of its own, and can't be one of several inputs");
+    if (!detail::has_vtk()) refuse("this gale was built without VTK: it reads no series, such as '", input, "'");
+    return naming(input, [&] { return detail::steps_in(detail::InputFile(input), options); });
+  }
+  return steps;
+}
+
 std::optional<PieceNames> piece_names(const std::string& input) {
   const Format* const format = format_of(input);
-  if (!detail::has_vtk() || format == nullptr || !format->of_pieces || format->reader == nullptr) return std::nullopt;
+  const bool names_pieces = format != nullptr && format->of_pieces && format->input == Input::mesh;
+  if (!detail::has_vtk() || !names_pieces) return std::nullopt;
   return naming(input, [&] { return detail::names_of_pieces(detail::InputFile(input)); });
 }
 

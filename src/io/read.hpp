@@ -52,6 +52,7 @@ GALE_EXPORT std::optional<int> grid_size(const std::string& input, const ReadOpt
 /// - `.vti .nii .nii.gz .mha .mhd .nrrd`, and `.vtk` of structured points: an image, see `split_voxels`. Values are
 ///   rescaled where the file says so. A NIfTI image keeps the file's voxel order, in the coordinates of its sform, else
 ///   its qform.
+/// - `.pvd .series`: the first of the steps that it names, see `steps_of`.
 ///
 /// Throws `Error` with one line that names `input` and what is wrong with it: no such file, damaged, another kind,
 /// neither tetrahedra nor triangles, too large for 32-bit ids. Whatever is in the file, nothing else happens: what it
@@ -59,6 +60,18 @@ GALE_EXPORT std::optional<int> grid_size(const std::string& input, const ReadOpt
 /// what a file holds; values that it lacks are an error. Nothing is printed. Any number of threads may read at the same
 /// time.
 GALE_EXPORT Dataset read(const std::string& input, const ReadOptions& options = {});
+
+/// One step of a series: what read() reads at a time.
+struct Step {
+  double time;       ///< its time, finite
+  std::string file;  ///< the input
+};
+
+/// The steps that inputs are, by ascending time. One `.pvd` or `.series` is what it names. Else each input is a step,
+/// and its time is its place among them, from 0 on. Nothing but a series is opened. Throws `Error` with one line that
+/// names the input: a series that can't be read, names no file, one outside its folder (unless `outside_files`) or two
+/// at one time; and a series among several inputs.
+GALE_EXPORT std::vector<Step> steps_of(const std::vector<std::string>& inputs, const ReadOptions& options = {});
 
 /// The pieces that a `.pvtu` names.
 struct PieceNames {

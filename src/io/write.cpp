@@ -150,4 +150,8 @@ void write_pieces(const AtomicFile& file, const std::vector<std::string>& pieces
   write_names(file, pieces, detail::content_of(like.mesh, {}, like.cell_arrays));
 }
 
+void write_series(const AtomicFile& file, const std::vector<Step>& steps) {
+  name_in_errors(file.path(), [&] { detail::write_xml_series(file, steps); });
+}
+
 }  // namespace gale::io

@@ -8,6 +8,7 @@
 #include <gale/export.hpp>
 #include <gale/io/atomic_file.hpp>
 #include <gale/io/dataset.hpp>
+#include <gale/io/read.hpp>
 
 namespace gale::io {
 
@@ -96,5 +97,8 @@ GALE_EXPORT void write_pieces(const AtomicFile& file, const std::vector<std::str
 
 /// Writes the `.pvtu` of pieces that are meshes.
 GALE_EXPORT void write_pieces(const AtomicFile& file, const std::vector<std::string>& pieces, const MeshPiece& like);
+
+/// Writes a `.pvd` that names files in the same folder, each with its time, to the temporary file of `file`.
+GALE_EXPORT void write_series(const AtomicFile& file, const std::vector<Step>& steps);
 
 }  // namespace gale::io

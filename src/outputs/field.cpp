@@ -2,6 +2,7 @@
 #include <type_traits>
 
 #include <gale/base/error.hpp>
+#include <gale/base/parallel.hpp>
 #include <gale/io/dataset.hpp>
 #include <gale/outputs/field.hpp>
 #include <gale/outputs/segmentation.hpp>
@@ -70,6 +71,24 @@ void check_permutation(const io::PointArray& order, std::size_t count) {
       order.values);
 }
 
+/// Whether the cells of a mesh are these, whose corners are all different.
+template <class Corners>
+bool has_cells(const Mesh& mesh, const Corners& cells) {
+  constexpr int corners = Corners::static_extent(1);
+  if (cells.extent(0) != static_cast<std::size_t>(mesh.cells())) return false;
+  const Id *const vertex_input = mesh.vertex_input().data(), *const cell_input = mesh.cell_input().data();
+  const EncodedMesh<HostMemory>& encoded = mesh.encoded();
+  const auto differs = [&](Offset t) -> Offset {
+    const Quad quad = encoded.cell(static_cast<Id>(t));
+    const Id* const begin = &cells(cell_input[t], 0);
+    for (int k = 0; k < corners; ++k) {
+      if (std::find(begin, begin + corners, vertex_input[quad[k]]) == begin + corners) return 1;
+    }
+    return 0;
+  };
+  return reduce_sum("GALE::other_cells", HostExecutionSpace(), mesh.cells(), differs) == 0;
+}
+
 }  // namespace
 
 bool may_be_field(const std::string& name, int components, bool is_whole) {
@@ -120,6 +139,12 @@ const io::PointArray& order_values(const io::Dataset& dataset, const io::PointAr
 Mesh mesh_of(const io::Dataset& dataset, const Segmentation& segmentation) {
   return dataset.dimension() == 3 ? Mesh(Tetrahedra<Id, HostMemory>(dataset.tetrahedra), segmentation)
                                   : Mesh(Triangles<Id, HostMemory>(dataset.triangles), segmentation);
+}
+
+bool is_mesh_of(const Mesh& mesh, const io::Dataset& dataset) {
+  const auto vertices = std::visit([](const auto& points) { return points.extent(0); }, dataset.points);
+  if (mesh.dimension() != dataset.dimension() || static_cast<std::size_t>(mesh.vertices()) != vertices) return false;
+  return dataset.dimension() == 3 ? has_cells(mesh, dataset.tetrahedra) : has_cells(mesh, dataset.triangles);
 }
 
 VertexOrder order_of(const Mesh& mesh, const io::Dataset& dataset, const io::PointArray& field) {

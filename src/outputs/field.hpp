@@ -38,6 +38,10 @@ GALE_EXPORT void add_height(io::Dataset& dataset, int axis);
 /// The mesh of a dataset's tetrahedra, or of its triangles where it has these. Throws gale::Error as Mesh does.
 GALE_EXPORT Mesh mesh_of(const io::Dataset& dataset, const Segmentation& segmentation);
 
+/// Whether a mesh is that of a dataset, whose points may be elsewhere: it has as many vertices, and its cells are the
+/// same, each with its corners in any order. In parallel on the host, O(cells).
+GALE_EXPORT bool is_mesh_of(const Mesh& mesh, const io::Dataset& dataset);
+
 /// The value of a field at an input vertex, which must be there.
 inline double value_at(const io::PointArray& field, Id vertex) {
   return std::visit([vertex](const auto& values) { return static_cast<double>(values[vertex]); }, field.values);

@@ -22,10 +22,10 @@ std::vector<std::string> words_of(const std::string& text) {
 }
 
 std::string written_with(const Format& format) {
-  static const char* const names[] = {"points", "surfaces",         "lines",
-                                      "meshes", "pieces of meshes", "meshes of triangles"};
+  static const char* const names[] = {
+      "points", "surfaces", "lines", "meshes", "pieces of meshes", "meshes of triangles", "series"};
   std::string list;
-  for (unsigned bit = 0; bit < 6; ++bit) {
+  for (unsigned bit = 0; bit < 7; ++bit) {
     if ((format.written >> bit & 1) != 0) list += (list.empty() ? "" : ", ") + std::string(names[bit]);
   }
   return list;
@@ -33,7 +33,7 @@ std::string written_with(const Format& format) {
 
 /// A row of the table in docs/formats.md.
 std::string row_of(const Format& format) {
-  const char* const inputs[] = {"", "a mesh", "a volume"};
+  const char* const inputs[] = {"", "a mesh", "a volume", "a series"};
   std::string row = "|";
   for (const std::string& cell :
        {std::string(format.name), "`" + std::string(format.extensions) + "`",

@@ -17,12 +17,12 @@ _interpreter.require_main()  # before anything else, since what is loaded by a s
 from . import _gale
 from ._gale import Error
 from ._gale import version as __version__
-from ._mesh import Mesh, read
+from ._mesh import Mesh, read, read_steps
 from .results import (CriticalPoints, Diagram, DiscreteGradient, Lines, MergeTree, MorseSmaleComplex, Polygons,
                       SimplifiedField)
 
 __all__ = ["CriticalPoints", "Diagram", "DiscreteGradient", "Error", "Lines", "MergeTree", "Mesh", "MorseSmaleComplex",
-           "Polygons", "SimplifiedField", "__version__", "read"]
+           "Polygons", "SimplifiedField", "__version__", "read", "read_steps"]
 
 atexit.register(_gale.finalize)
 if hasattr(os, "register_at_fork"):

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import os
 import warnings
-from typing import Any, Dict, List, Optional, Tuple, Union
+from typing import Any, Dict, Iterator, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
@@ -14,6 +14,7 @@ from .results import (CriticalPoints, Diagram, DiscreteGradient, Lines, MergeTre
                       SimplifiedField)
 
 Persistence = Union[float, str]
+Path = Union[str, "os.PathLike[str]"]
 
 
 def _persistence(threshold: Optional[Persistence]) -> Dict[str, Tuple[float, bool]]:
@@ -364,24 +365,53 @@ class Mesh:
                                       numbers or {}, threads, tell)
 
 
-def read(path: Union[str, os.PathLike[str]], above: Optional[float] = None, array: str = "", cells: str = "any",
+def read(path: Path, above: Optional[float] = None, array: str = "", cells: str = "any",
          outside_files: bool = False, capacity: int = 64) -> Tuple[Mesh, Dict[str, np.ndarray]]:
     """The mesh of a file, and its point arrays by name, each (n,) or (n, components): (Mesh, dict).
 
     Meshes: .vtu, .pvtu, .vtk, .vts, .vtr, .e, .ex2, .exo, .vtkhdf, .hdf; surfaces: .vtp, .stl, .ply, .obj, .off, .vtk;
     volumes, of which the voxels with values above `above` are split into tetrahedra: .vti, .nii, .nii.gz, .mha, .mhd,
-    .nrrd, .vtk; and grid:N or plane:N. `array` is the volume's array that `above` is about. What of the file is left out,
+    .nrrd, .vtk; grid:N or plane:N; and of a .pvd or .series the first step (see read_steps). `array` is the volume's array that `above` is about. What of the file is left out,
     such as all but the first of several times, is a UserWarning, and so is that cells were split (see Mesh.from_cells);
     with cells="simplices" (or "tetrahedra") a file of other cells is refused instead."""
-    if not isinstance(cells, str) or cells not in ("any", "simplices", "tetrahedra"):
-        raise Error(f"cells are {cells!r}, neither 'any' nor 'simplices'")
+    inner, arrays, cell_ids = _read(path, above, array, cells, outside_files, capacity, None)
+    return Mesh._of(inner, cell_ids), arrays
+
+
+def read_steps(inputs: Union[Path, Sequence[Path]], above: Optional[float] = None, array: str = "", cells: str = "any",
+               outside_files: bool = False, capacity: int = 64) -> Iterator[Tuple[float, Mesh, Dict[str, np.ndarray]]]:
+    """The steps of a series, each read when it is asked for: (time, Mesh, point arrays) as of `read`, whose other
+    arguments these are. `inputs` is a .pvd or .series, or several files, whose times are 0, 1, 2 and so on.
+
+    A mesh that has the same cells as the step before is not made again, but shares what that one has:
+
+    >>> for time, mesh, arrays in gale.read_steps("run.pvd"):
+    ...     print(time, mesh.critical_points(arrays["pressure"]).counts())"""
+    paths = [inputs] if isinstance(inputs, (str, os.PathLike)) else list(inputs)
+    before = None
+    for time, place in _gale.steps_of([_place(path) for path in paths], outside_files):
+        before, arrays, cell_ids = _read(os.fsdecode(place), above, array, cells, outside_files, capacity, before)
+        yield time, Mesh._of(before, cell_ids), arrays
+
+
+def _place(path: Path) -> bytes:
+    """A path as the system has it."""
     place = os.fsencode(path)
     if b"\0" in place:
         raise Error(f"the path {path!r} has a null character")
-    inner, arrays, cell_arrays, notices = _gale.read(place, above, array, cells != "any", outside_files, capacity)
+    return place
+
+
+def _read(path: Path, above: Optional[float], array: str, cells: str, outside_files: bool, capacity: int,
+          like: Optional[_gale.Mesh]) -> Tuple[_gale.Mesh, Dict[str, np.ndarray], Optional[np.ndarray]]:
+    """A file's mesh, its point arrays and its cells' global ids."""
+    if not isinstance(cells, str) or cells not in ("any", "simplices", "tetrahedra"):
+        raise Error(f"cells are {cells!r}, neither 'any' nor 'simplices'")
+    inner, arrays, cell_arrays, notices = _gale.read(_place(path), above, array, cells != "any", outside_files, capacity,
+                                                     like)
     name = os.fsdecode(path)
     if array and array not in arrays:
         raise Error(f"{name} has no point array '{array}': it has {', '.join(arrays) or 'none'}")
     for notice in notices:
-        warnings.warn(f"{name}: {notice}", stacklevel=2)
-    return Mesh._of(inner, cell_arrays.get("GlobalCellIds")), arrays
+        warnings.warn(f"{name}: {notice}", stacklevel=3)
+    return inner, arrays, cell_arrays.get("GlobalCellIds")

@@ -4,6 +4,7 @@
 
 #include <gale/base/error.hpp>
 #include <gale/mesh/make_mesh.hpp>
+#include <gale/outputs/field.hpp>
 
 #include "job.hpp"
 
@@ -151,8 +152,12 @@ PyMesh::PyMesh(Array1 points, Array1 cells, int capacity) : capacity_(capacity) 
   });
 }
 
-PyMesh::PyMesh(io::Dataset& dataset, int capacity) : capacity_(capacity) {
+PyMesh::PyMesh(const io::Dataset& dataset, int capacity, const PyMesh* like) : capacity_(capacity) {
   dataset_.points = dataset.points;
+  if (like != nullptr && outputs::is_mesh_of(like->mesh(), dataset)) {
+    mesh_ = like->mesh();
+    return;
+  }
   mesh_ = std::visit(
       [&](const auto& points) {
         return dataset.dimension() == 3 ? make_mesh(points, dataset.tetrahedra, capacity)
@@ -183,8 +188,20 @@ io::Dataset PyMesh::with(io::PointArray field) const {
   return dataset;
 }
 
+nb::list steps_of(const std::vector<nb::bytes>& inputs, bool outside_files) {
+  io::ReadOptions options;
+  options.outside_files = outside_files;
+  std::vector<std::string> paths;
+  for (const nb::bytes& input : inputs) paths.emplace_back(input.c_str(), input.size());
+  const std::vector<io::Step> steps = Job().run([&] { return io::steps_of(paths, options); });
+  nb::list all;
+  for (const io::Step& step : steps)
+    all.append(nb::make_tuple(step.time, nb::bytes(step.file.data(), step.file.size())));
+  return all;
+}
+
 nb::tuple read(const nb::bytes& path, std::optional<double> above, const std::string& array, bool tetrahedra_alone,
-               bool outside_files, int capacity) {
+               bool outside_files, int capacity, const PyMesh* like) {
   const std::string place(path.c_str(), path.size());
   io::ReadOptions options;
   options.above = above;
@@ -194,7 +211,7 @@ nb::tuple read(const nb::bytes& path, std::optional<double> above, const std::st
   io::Dataset dataset;
   auto mesh = Job().run([&] {
     dataset = io::read(place, options);
-    return std::make_unique<PyMesh>(dataset, capacity);
+    return std::make_unique<PyMesh>(dataset, capacity, like);
   });
   nb::list notices;
   for (const std::string& notice : dataset.notices) notices.append(text_of(notice));

@@ -23,8 +23,8 @@ class PyMesh : public Kept {
 
   PyMesh(io::Dataset::Positions points, const Mesh& mesh, int capacity);
 
-  /// Makes the mesh that a file has; takes its points.
-  PyMesh(io::Dataset& dataset, int capacity);
+  /// Makes the mesh that a file has, unless `like`, which may be null, has it already; shares its points.
+  PyMesh(const io::Dataset& dataset, int capacity, const PyMesh* like);
 
   void end() override {
     mesh_.reset();
@@ -64,8 +64,12 @@ class PyMesh : public Kept {
 /// split and left out)
 nb::tuple from_cells(Array1 points, Array1 connectivity, Array1 offsets, Array1 types, int capacity);
 
-/// (the mesh that a file has, its point arrays, arrays of its cells, what of it was split and left out)
+/// (time, path) of each step that inputs are
+nb::list steps_of(const std::vector<nb::bytes>& inputs, bool outside_files);
+
+/// (the mesh that a file has, or shares with `like`, its point arrays, arrays of its cells, what of it was split and
+/// left out)
 nb::tuple read(const nb::bytes& path, std::optional<double> above, const std::string& array, bool tetrahedra_alone,
-               bool outside_files, int capacity);
+               bool outside_files, int capacity, const PyMesh* like);
 
 }  // namespace gale::python

@@ -60,12 +60,17 @@ Session Command::begin(const std::vector<std::string>& more) const {
   return Session(input_, common_, files);
 }
 
-AnalysisCommand::AnalysisCommand(CLI::App& app, const std::string& name, Works works)
+AnalysisCommand::AnalysisCommand(CLI::App& app, const std::string& name, Works works, Consumers consumers)
     : Command(app, name, outputs::analysis_named(name).help, works), analysis_(outputs::analysis_named(name)) {
   segmentation_.add_to(subcommand());
   structure_.add_to(subcommand());
-  structure_.add_consumers_to(subcommand());
+  if (consumers == Consumers::anywhere) {
+    structure_.add_consumers_to(subcommand());
+  } else {
+    structure_.options.consumers = ConsumerPlace::host;
+  }
   add_encoding();
+  add_times();
 }
 
 void AnalysisCommand::add_flag(const std::string& name, bool& is_on) {
@@ -85,9 +90,11 @@ void AnalysisCommand::run() const {
   require_usage();
   Session session = begin(more_files());
   session.warm_up(structure_, [this](const VertexOrder& order) { warm_up(order); });
-  const FieldOnMesh on = session.read_field(segmentation_, keep());
   Computed computed;
-  analyse(on, session, computed);
+  do {
+    const FieldOnMesh on = session.read_field(segmentation_, keep());
+    analyse(on, session, computed);
+  } while (session.next_step(computed));
   session.finish(structure_, computed);
 }
 

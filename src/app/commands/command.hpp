@@ -45,6 +45,9 @@ class Command {
   /// Adds --encoding, if it writes VTK's XML files.
   void add_encoding() { common_.add_encoding_to(subcommand_); }
 
+  /// Has it take a series, and --times, if it goes through its steps.
+  void add_times() { input_.add_times_to(subcommand_); }
+
   const InputOptions& input() const { return input_; }
 
   /// The session of a run, which writes the files that options name, and `more`. Throws UsageError for a file of
@@ -76,7 +79,10 @@ class AnalysisCommand : public Command {
   void run() const final;
 
  protected:
-  explicit AnalysisCommand(CLI::App& app, const std::string& name, Works works = Works::on_one_rank);
+  /// Where rows may be read: --consumers says, or by threads of the host alone.
+  enum class Consumers { anywhere, on_host };
+  explicit AnalysisCommand(CLI::App& app, const std::string& name, Works works = Works::on_one_rank,
+                           Consumers consumers = Consumers::anywhere);
 
   /// Adds a switch of the analysis: --name; where it is on by default, --no-name, which sets `is_on` to false.
   void add_flag(const std::string& name, bool& is_on);

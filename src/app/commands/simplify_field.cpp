@@ -21,24 +21,20 @@ void tell(const SimplifiedField& field, Session& session) {
       {"minima", field.minima}, {"maxima", field.maxima}, {"moved", moved}, {"kept_below", field.kept_below}};
 }
 
-class SimplifyField final : public Command {
+class SimplifyField final : public AnalysisCommand {
  public:
   explicit SimplifyField(CLI::App& app)
-      : Command(app, "simplify-field", outputs::analysis_named("simplify-field").help) {
-    segmentation_.add_to(subcommand());
-    structure_.add_to(subcommand());
-    add_persistence(subcommand(), persistence_, outputs::analysis_named("simplify-field").option("persistence").help);
+      : AnalysisCommand(app, "simplify-field", Works::on_one_rank, Consumers::on_host) {
+    add_persistence(subcommand(), persistence_, analysis_.option("persistence").help);
     add_file("-o,--output", output_,
              "The mesh with the simplified field and the order of its vertices, NAME_Order: .vtu or .vtk",
              {".vtu", ".vtk"});
-    add_encoding();
   }
 
-  void run() const override {
-    Session session = begin();
-    const FieldOnMesh on =
-        session.read_field(segmentation_, output_.empty() ? Session::Keep::nothing : Session::Keep::cells);
-    Computed computed;
+ private:
+  Session::Keep keep() const override { return output_.empty() ? Session::Keep::nothing : Session::Keep::cells; }
+
+  void analyse(const FieldOnMesh& on, Session& session, Computed& computed) const override {
     const double threshold = persistence_ ? threshold_of_option(*persistence_, on.field) : 0;
     const SimplifiedField field = simplify_field(
         on.order, [&](Id vertex) { return outputs::value_at(on.field, vertex); }, threshold,
@@ -47,12 +43,8 @@ class SimplifyField final : public Command {
     session.write(output_, [&](const io::AtomicFile& file) {
       io::write_mesh(file, on.dataset, outputs::simplified_arrays(on.field, field));
     });
-    session.finish(structure_, computed);
   }
 
- private:
-  SegmentationOptions segmentation_;
-  StructureOption structure_;
   std::optional<outputs::Persistence> persistence_;
   std::string output_;
 };

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <charconv>
 #include <cstddef>
 #include <map>
 #include <mutex>
@@ -232,6 +233,19 @@ void write_xml_pieces(const AtomicFile& to, const std::vector<std::string>& piec
   }
   for (const std::string& piece : pieces) file.write("    <Piece" + xml_attribute("Source", piece) + "/>\n");
   file.write("  </" + type + ">\n</VTKFile>\n");
+  file.flush();
+}
+
+void write_xml_series(const AtomicFile& to, const std::vector<Step>& steps) {
+  OutputFile file(to.temporary());
+  file.write(begin_of_file("Collection", "") + ">\n");
+  for (const Step& step : steps) {
+    char time[32];
+    const auto end = std::to_chars(time, time + sizeof time, step.time).ptr;
+    file.write("    <DataSet" + xml_attribute("timestep", std::string(time, end)) + xml_attribute("part", "0") +
+               xml_attribute("file", step.file) + "/>\n");
+  }
+  file.write("  </Collection>\n</VTKFile>\n");
   file.flush();
 }
 
