@@ -58,7 +58,7 @@ debian() {
   local began=$SECONDS
   make_builder bookworm build-essential ca-certificates fakeroot lintian
   echo "deb $(archive) trixie main" >"$builder/etc/apt/sources.list.d/trixie.list"
-  printf 'Package: *\nPin: release n=trixie\nPin-Priority: 50\n\nPackage: nanobind-dev python3-nanobind\nPin: release n=trixie\nPin-Priority: 600\n' \
+  printf 'Package: *\nPin: release n=trixie\nPin-Priority: 50\n\nPackage: nanobind-dev python3-nanobind robin-map-dev\nPin: release n=trixie\nPin-Priority: 600\n' \
     >"$builder/etc/apt/preferences.d/trixie"
   cp "$tarball" "$builder/build/gale_$version.orig.tar.gz"
   tar -C "$builder/build" -xf "$tarball"

@@ -66,9 +66,9 @@ GALE_EXPORT std::string extensions_of(Input input);
 
 namespace detail {
 
-/// Whether files can be read: GALE was built with VTK, which brings what that takes. vtk/without_vtk.cpp stands for
-/// vtk/vtk_*.cpp where it wasn't.
-GALE_EXPORT bool has_vtk();
+/// Whether files can be read: GALE was built with the libraries that this takes, VTK's or the system's. Where it
+/// wasn't, libraries/without.cpp stands for the other sources of that folder.
+GALE_EXPORT bool reads_files();
 
 }  // namespace detail
 }  // namespace gale::io

@@ -65,7 +65,7 @@ Dataset read(const std::string& input, const ReadOptions& options) {
   const std::string kind = input.substr(0, input.find(':'));
   if (kind.size() < input.size() && kind == "plane") return make_plane(size_in_name(input, options));
   if (kind.size() < input.size() && is_synthetic(kind)) return make_synthetic(kind, size_in_name(input, options));
-  if (!detail::has_vtk())
+  if (!detail::reads_files())
     refuse("this gale was built without VTK: it reads grid:N, plane:N and the like alone, not '", input, "'");
   const Format* const format = format_of(input);
   if (format == nullptr || format->reader == nullptr) {
@@ -78,7 +78,8 @@ Dataset read(const std::string& input, const ReadOptions& options) {
 
 std::optional<PieceNames> piece_names(const std::string& input) {
   const Format* const format = format_of(input);
-  if (!detail::has_vtk() || format == nullptr || !format->of_pieces || format->reader == nullptr) return std::nullopt;
+  if (!detail::reads_files() || format == nullptr || !format->of_pieces || format->reader == nullptr)
+    return std::nullopt;
   return naming(input, [&] { return detail::names_of_pieces(detail::InputFile(input)); });
 }
 

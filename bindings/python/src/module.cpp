@@ -42,7 +42,7 @@ NB_MODULE(_gale, module) {
     named["compiler"] = is.compiler;
     return named;
   });
-  module.attr("has_vtk") = gale::io::detail::has_vtk();
+  module.attr("reads_files") = gale::io::detail::reads_files();
   module.attr("default_capacity") = gale::default_capacity;
   module.attr("has_cuda") = gale::device_is_cuda;
   module.def("finalize", &gale::python::finalize);

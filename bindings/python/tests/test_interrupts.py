@@ -68,7 +68,7 @@ class Calls:
             "pickle": (self.new_mesh, pickle.dumps),
             "unpickle": (nothing, lambda _: pickle.loads(self.bytes)),
         }
-        if gale._gale.has_vtk:
+        if gale._gale.reads_files:
             calls["read an image"] = (nothing, lambda _: gale.read(self.image))
         for name in "VT", "TT", "VV", "EE", "FF", "TV", "FE", "ET":
             calls[name] = (self.new_mesh, lambda mesh, name=name: mesh.relation(name))
