@@ -28,3 +28,32 @@ listed=$(tar -xOf "$tarball" "gale-$version/cmake/commit.txt")
 [ "$listed" = "$(git rev-parse HEAD)" ] || { echo "$tarball says that its commit is $listed" >&2; exit 1; }
 echo "made $tarball of $listed"
 sha256sum "$tarball"
+
+# The recipe as Spack's own repository takes it: its header and imports, and this version in place of a checkout.
+mkdir -p build/spack
+python3 - "$version" "$(sha256sum "$tarball" | cut -d' ' -f1)" <<'END' >build/spack/package.py
+import re
+import sys
+
+version, checksum = sys.argv[1:]
+text = open("spack/spack_repo/gale/packages/gale/package.py").read()
+
+
+def replace(pattern, by):
+    global text
+    text, count = re.subn(pattern, by, text, flags=re.MULTILINE | re.DOTALL)
+    assert count == 1, pattern
+
+
+replace(r"\A# SPDX[^\n]*\n", "# Copyright Spack Project Developers. See COPYRIGHT file for details.\n#\n"
+                             "# SPDX-License-Identifier: (Apache-2.0 OR MIT)\n")
+replace(r"from spack.package import \([^)]*\)", "from spack.package import *")
+replace(r"^CHECKOUT = [^\n]*\n\n\n", "")
+replace(r"^    # To be filled in[^\n]*\n(    homepage[^\n]*\n).*?    license\(",
+        rf"\1    url = \"https://example.org/gale/gale-{version}.tar.gz\"\n\n"
+        "    # FIXME: homepage, url, and maintainers(\"...\")\n\n    license(")
+replace(r"^    version\(\"main\"[^\n]*\n", f'    version("{version}", sha256="{checksum}")\n')
+print(text, end="")
+END
+python3 -c 'compile(open("build/spack/package.py").read(), "package.py", "exec")'
+echo "made build/spack/package.py"
