@@ -50,9 +50,9 @@ replace(r"\A# SPDX[^\n]*\n", "# Copyright Spack Project Developers. See COPYRIGH
 replace(r"from spack.package import \([^)]*\)", "from spack.package import *")
 replace(r"^CHECKOUT = [^\n]*\n\n\n", "")
 replace(r"^    # To be filled in[^\n]*\n(    homepage[^\n]*\n).*?    license\(",
-        rf"\1    url = \"https://example.org/gale/gale-{version}.tar.gz\"\n\n"
-        "    # FIXME: homepage, url, and maintainers(\"...\")\n\n    license(")
-replace(r"^    version\(\"main\"[^\n]*\n", f'    version("{version}", sha256="{checksum}")\n')
+        rf'\1    url = "https://example.org/gale/gale-{version}.tar.gz"\n\n'
+        '    # FIXME: homepage, url, and maintainers("...")\n\n    license(')
+replace(r'^    version\("main"[^\n]*\n', f'    version("{version}", sha256="{checksum}")\n')
 print(text, end="")
 END
 python3 -c 'compile(open("build/spack/package.py").read(), "package.py", "exec")'
