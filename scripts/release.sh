@@ -48,7 +48,7 @@ def replace(pattern, by):
 replace(r"\A# SPDX[^\n]*\n", "# Copyright Spack Project Developers. See COPYRIGHT file for details.\n#\n"
                              "# SPDX-License-Identifier: (Apache-2.0 OR MIT)\n")
 replace(r"from spack.package import \([^)]*\)", "from spack.package import *")
-replace(r"^CHECKOUT = [^\n]*\n\n\n", "")
+replace(r"^CHECKOUT = [^\n]*\n\n\n", "\n")
 replace(r"^    # To be filled in[^\n]*\n(    homepage[^\n]*\n).*?    license\(",
         rf'\1    url = "https://example.org/gale/gale-{version}.tar.gz"\n\n'
         '    # FIXME: homepage, url, and maintainers("...")\n\n    license(')

@@ -393,8 +393,10 @@ class Mesh:
         flags = {"extrema_only": extrema_only, "separatrices2": separatrices2}
         found = self._analyse("morse-smale", field, name, threads, progress, flags, _persistence(persistence))
         walls = Polygons(*found["separatrices2"]) if separatrices2 else None
-        return MorseSmaleComplex(CriticalPoints(*found["critical_points"]), Lines(*found["separatrices1"]),
-                                 found["manifolds"], found["kept_below"], walls)
+        complex = MorseSmaleComplex(CriticalPoints(*found["critical_points"]), Lines(*found["separatrices1"]),
+                                    found["manifolds"], found["kept_below"], walls)
+        complex._dimension = self.dimension
+        return complex
 
     @_documented()
     def merge_tree(self, field: Any, type: str = "contour", persistence: Optional[Persistence] = None,

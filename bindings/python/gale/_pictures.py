@@ -9,8 +9,18 @@ import numpy as np
 from ._gale import Error
 
 COLORS = ["#325ac8", "#3cb478", "#f0aa3c", "#d23232", "#8c8c8c"]  # of minima, saddles, maxima, degenerate points
-_KINDS = ["minima", "1-saddles", "2-saddles", "maxima", "degenerate"]
-_PATHS = {0: ("paths down to minima", COLORS[0]), 1: ("paths between saddles", COLORS[1]), 2: ("paths up to maxima", COLORS[3])}
+_KINDS = [("minimum", "minima"), ("1-saddle", "1-saddles"), ("2-saddle", "2-saddles"), ("maximum", "maxima"),
+          ("degenerate point", "degenerate points")]
+_SADDLE = ("saddle", "saddles")  # of a surface, which has one kind
+_PATHS = {0: (("path down to a minimum", "paths down to minima"), COLORS[0]),
+          1: (("path between saddles", "paths between saddles"), COLORS[1]),
+          2: (("path up to a maximum", "paths up to maxima"), COLORS[3])}
+Names = Tuple[str, str]  # of one, and of several
+
+
+def counted(count: int, names: Names) -> str:
+    """Says how many there are."""
+    return f"{count} {names[count != 1]}"
 
 
 class Picture:
@@ -39,17 +49,17 @@ class Picture:
         if not self._is_plotter and not hasattr(on, "add_collection3d"):
             raise Error(f"pictures in space are drawn on a pyvista.Plotter or on 3D axes, not on what is of {type(on).__name__}")
 
-    def add_points(self, points: np.ndarray, color: str, name: str, large: bool = False) -> None:
-        """Adds balls of a color, and `name` to the legend."""
+    def add_points(self, points: np.ndarray, color: str, names: Names, large: bool = False) -> None:
+        """Adds balls of a color, and how many there are to the legend."""
         if len(points) == 0:
             return
         if self._is_plotter:
             self.target.add_points(np.asarray(points, float), color=color, point_size=14 if large else 9,
-                                   render_points_as_spheres=True, label=f" {len(points)} {name}")
+                                   render_points_as_spheres=True, label=" " + counted(len(points), names))
         else:
-            self.target.scatter(*points.T, color=color, s=24 if large else 10, label=f"{len(points)} {name}", depthshade=False)
+            self.target.scatter(*points.T, color=color, s=24 if large else 10, label=counted(len(points), names), depthshade=False)
 
-    def add_lines(self, points: np.ndarray, cells: Iterator[np.ndarray], color: str, name: str) -> None:
+    def add_lines(self, points: np.ndarray, cells: Iterator[np.ndarray], color: str, names: Names) -> None:
         """Adds lines: each cell names its points."""
         paths = [points[cell] for cell in cells]
         if len(paths) == 0:
@@ -62,14 +72,14 @@ class Picture:
                                     for path, begin in zip(paths, ends)])
             polydata: Any = pyvista.PolyData
             data = polydata(np.concatenate(paths).astype(float), lines=lines)
-            self.target.add_mesh(data, color=color, line_width=3, label=f" {len(paths)} {name}")
+            self.target.add_mesh(data, color=color, line_width=3, label=" " + counted(len(paths), names))
         else:
             from mpl_toolkits.mplot3d.art3d import Line3DCollection
 
             self._include(np.concatenate(paths))
-            self.target.add_collection3d(Line3DCollection(paths, colors=color, linewidths=1, label=f"{len(paths)} {name}"))
+            self.target.add_collection3d(Line3DCollection(paths, colors=color, linewidths=1, label=counted(len(paths), names)))
 
-    def add_polygons(self, points: np.ndarray, cells: Iterator[np.ndarray], color: str, name: str) -> None:
+    def add_polygons(self, points: np.ndarray, cells: Iterator[np.ndarray], color: str, names: Names) -> None:
         """Adds polygons, through which others can be seen."""
         paths = [points[cell] for cell in cells]
         if len(paths) == 0:
@@ -82,7 +92,7 @@ class Picture:
                                     for path, begin in zip(paths, ends)])
             polydata: Any = pyvista.PolyData
             data = polydata(np.concatenate(paths).astype(float), faces=faces)
-            self.target.add_mesh(data, color=color, opacity=0.4, label=f" {len(paths)} {name}")
+            self.target.add_mesh(data, color=color, opacity=0.4, label=" " + counted(len(paths), names))
         else:
             from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
@@ -93,14 +103,14 @@ class Picture:
         """Adds the legend, writes the file if there is to be one, and returns what was drawn on."""
         if self._is_plotter:
             if self.target.renderer._labels:
-                self.target.add_legend(bcolor=None, size=(0.28, 0.2), loc="lower right")
+                self.target.add_legend(bcolor=None, size=(0.38, 0.22), loc="lower right", face="circle")
             if self._file:
                 self.target.screenshot(self._file)
             return self.target
         if self.target.get_legend_handles_labels()[0]:
             self.target.legend(loc="upper left", fontsize="small")
         low, high = np.array([self.target.get_xlim(), self.target.get_ylim(), self.target.get_zlim()]).T
-        self.target.set_box_aspect(np.where(high > low, high - low, 1))
+        self.target.set_box_aspect(np.maximum(high - low, 0.3 * np.max(high - low)))
         return saved(self.target, self._file)
 
     def _include(self, points: np.ndarray) -> None:
@@ -136,20 +146,19 @@ def saved(axes: Any, file: Optional[Any]) -> Any:
 def add_critical(picture: Picture, points: np.ndarray, kinds: Optional[np.ndarray], top: int = 3) -> None:
     """Adds critical points in the colors of their kinds, extrema larger than saddles. `top` is the kind of maxima."""
     if kinds is None:
-        picture.add_points(points, COLORS[4], "points")
+        picture.add_points(points, COLORS[4], ("point", "points"))
         return
     for kind in range(5):
         looks = 3 if kind == top else kind
-        picture.add_points(points[kinds == kind], COLORS[looks], _KINDS[looks] if top == 3 or kind != 1 else "saddles",
-                           looks in (0, 3))
+        names = _SADDLE if top == 2 and kind == 1 else _KINDS[looks]
+        picture.add_points(points[kinds == kind], COLORS[looks], names, looks in (0, 3))
 
 
 def add_separatrices(picture: Picture, points: np.ndarray, cells: List[np.ndarray], types: np.ndarray, top: int = 3) -> None:
     """Adds lines from saddles in the colors of where they lead to."""
-    for kind, (name, color) in _PATHS.items():
-        if top == 2 and kind == 1:
-            name, color = _PATHS[2]
-        picture.add_lines(points, iter([cells[i] for i in np.flatnonzero(types == kind)]), color, name)
+    for kind, path in _PATHS.items():
+        names, color = _PATHS[2] if top == 2 and kind == 1 else path
+        picture.add_lines(points, iter([cells[i] for i in np.flatnonzero(types == kind)]), color, names)
 
 
 def tree_columns(lower: np.ndarray, upper: np.ndarray, heights: np.ndarray) -> np.ndarray:

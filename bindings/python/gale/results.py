@@ -268,7 +268,7 @@ class Lines(Cells):
         if "SeparatrixType" in self.cell_arrays:
             _pictures.add_separatrices(picture, self.points, self._cells(), self.cell_arrays["SeparatrixType"], top)
         else:
-            picture.add_lines(self.points, iter(self._cells()), _pictures.COLORS[4], "lines")
+            picture.add_lines(self.points, iter(self._cells()), _pictures.COLORS[4], ("line", "lines"))
 
 
 class Polygons(Cells):
@@ -285,7 +285,7 @@ class Polygons(Cells):
         return picture.finish()
 
     def _add_to(self, picture: Any) -> None:
-        picture.add_polygons(self.points, iter(self._cells()), _pictures.COLORS[4], "polygons")
+        picture.add_polygons(self.points, iter(self._cells()), _pictures.COLORS[4], ("polygon", "polygons"))
 
 
 @dataclass(eq=False, repr=False)
@@ -389,16 +389,15 @@ class MorseSmaleComplex(_Parts):
     manifolds: Dict[str, np.ndarray] = field(default_factory=dict)
     kept_below: int = 0
     separatrices2: Optional[Polygons] = None
+    _dimension = 3  # the mesh's, for pictures
 
     def plot(self, on: Any = None, file: Any = None) -> Any:
         """Draws critical simplices, the lines between them, and the walls of saddles if these are there."""
         picture = _pictures.Picture(on, file)
-        top = 3 if (self.separatrices1.cell_arrays["SeparatrixType"] == 2).any() or \
-            (self.critical_points["CellDimension"] == 3).any() else 2
         if self.separatrices2 is not None:
             self.separatrices2._add_to(picture)
-        self.separatrices1._add_to(picture, top)
-        _pictures.add_critical(picture, self.critical_points.points, self.critical_points["CellDimension"], top)
+        self.separatrices1._add_to(picture, self._dimension)
+        _pictures.add_critical(picture, self.critical_points.points, self.critical_points["CellDimension"], self._dimension)
         return picture.finish()
 
 
@@ -425,11 +424,12 @@ class MergeTree(_Parts):
         values, kinds = self.nodes["Scalar"].astype(float), self.nodes["CriticalType"]
         columns = _pictures.tree_columns(lower, upper, values)
         axes.plot(columns[[lower, upper]], values[[lower, upper]], color=_pictures.COLORS[4], linewidth=1, zorder=0)
-        for kind, name in enumerate(("minima", "joins", "splits", "maxima", "others")):
+        names = [("minimum", "minima"), ("join", "joins"), ("split", "splits"), ("maximum", "maxima"), ("other", "others")]
+        for kind, name in enumerate(names):
             shown = kinds == kind
             if shown.any():
-                axes.scatter(columns[shown], values[shown], s=12, color=_pictures.COLORS[kind],
-                             label=f"{np.count_nonzero(shown)} {name}")
+                label = _pictures.counted(int(np.count_nonzero(shown)), name)
+                axes.scatter(columns[shown], values[shown], s=12, color=_pictures.COLORS[kind], label=label)
         axes.set(xticks=[], ylabel="value")
         axes.legend(loc="best", fontsize="small")
         return _pictures.saved(axes, file)
