@@ -87,10 +87,19 @@ def _cells_of(grid: Any) -> Tuple[np.ndarray, np.ndarray, np.ndarray]:
     has_distinct = hasattr(grid, "GetDistinctCellTypesArray")  # newer VTKs have no type for each cell where all agree
     types = vtk_to_numpy(grid.GetDistinctCellTypesArray() if has_distinct else grid.GetCellTypesArray())
     if has_distinct:
-        types = vtk_to_numpy(grid.GetCellTypesArray()) if len(types) > 1 else np.full(len(offsets) - 1, types[0], np.uint8)
+        types = _type_of_each(grid) if len(types) > 1 else np.full(len(offsets) - 1, types[0], np.uint8)
     if not np.any(types == _POLYHEDRON):
         return connectivity, offsets, types
     return (*_with_faces(grid, connectivity, offsets, types), types)
+
+
+def _type_of_each(grid: Any) -> np.ndarray:
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkCommonCore import vtkVersion
+
+    has_new_name = (vtkVersion.GetVTKMajorVersion(), vtkVersion.GetVTKMinorVersion()) >= (9, 6)
+    types: np.ndarray = vtk_to_numpy(grid.GetCellTypes() if has_new_name else grid.GetCellTypesArray())
+    return types
 
 
 def _with_faces(grid: Any, connectivity: np.ndarray, offsets: np.ndarray,

@@ -1,4 +1,5 @@
 """Pictures, frames and PyVista's objects of results."""
+import ctypes.util
 import sys
 import tempfile
 import unittest
@@ -156,6 +157,7 @@ class ByPyvista(Results):
         with self.assertRaisesRegex(gale.Error, "takes the mesh"):
             self.simplified.to_pyvista()
 
+    @unittest.skipUnless(ctypes.util.find_library("X11"), "VTK ends the process where there is no X11")
     def test_draws(self):
         with tempfile.TemporaryDirectory() as folder:
             for one in (self.critical, self.complex, self.lines, self.walls):
