@@ -1,5 +1,6 @@
 #!/bin/bash
-# Makes build/gale-VERSION.tar.gz of what is committed: a release, which builds without git. Says its checksum.
+# Makes build/gale-VERSION.tar.gz of what is committed: a release, which builds without git. Says its checksum,
+# and writes it to recipes for Spack and conda in build/.
 # With --check, only whether all places that name the version name the same.
 #   usage: scripts/release.sh [--check]
 set -euo pipefail
@@ -14,6 +15,7 @@ require() { # FILE REGEX
 require CITATION.cff "^version: ${version//./\\.}$"
 require CHANGELOG.md "^## ${version//./\\.}, (2[0-9]{3}-[01][0-9]-[0-3][0-9]|not yet released)$"
 require debian/changelog "^gale \\(${version//./\\.}-[0-9]+\\) "
+require conda/recipe.yaml "^  version: \"${version//./\\.}\"$"
 require debian/control "^Package: libgale${version%.*}$"
 [ "${1:-}" != --check ] || exit 0
 [ $# = 0 ] || { echo "usage: $0 [--check]" >&2; exit 2; }
@@ -55,5 +57,7 @@ replace(r"^    # To be filled in[^\n]*\n(    homepage[^\n]*\n).*?    license\(",
 replace(r'^    version\("main"[^\n]*\n', f'    version("{version}", sha256="{checksum}")\n')
 print(text, end="")
 END
+mkdir -p build/conda
+sed "s/^  sha256: \"0*\"$/  sha256: \"$(sha256sum "$tarball" | cut -d' ' -f1)\"/" conda/recipe.yaml >build/conda/recipe.yaml
 python3 -c 'compile(open("build/spack/package.py").read(), "package.py", "exec")'
-echo "made build/spack/package.py"
+echo "made build/spack/package.py and build/conda/recipe.yaml"
