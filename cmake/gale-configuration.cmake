@@ -1,4 +1,5 @@
-# What gale::configuration() says that the compiler doesn't know: gale/built_with.hpp, made again after each commit.
+# What gale::configuration() says that the compiler doesn't know: gale/built_with.hpp, made again after each commit but where there are tests:
+# linking all of them again would take longer than what they say is worth.
 
 # gale_find_commit(<variable>): that of a checkout or, in what `git archive` made of one, cmake/commit.txt.
 function(gale_find_commit variable)
@@ -15,7 +16,7 @@ function(gale_find_commit variable)
     if(said MATCHES "^([0-9a-f]+)\n(.+)$")
       set(commit ${CMAKE_MATCH_1})
       get_filename_component(log ${CMAKE_MATCH_2} ABSOLUTE BASE_DIR ${PROJECT_SOURCE_DIR})
-      if(EXISTS ${log})
+      if(EXISTS ${log} AND NOT GALE_ENABLE_TESTS)
         set_property(DIRECTORY ${PROJECT_SOURCE_DIR} APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${log})
       endif()
     endif()

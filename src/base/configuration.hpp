@@ -11,7 +11,7 @@ namespace gale {
 /// headers that they were compiled with.
 struct Configuration {
   std::string version;                ///< the library's, "0.1.0"; that of the headers is gale::version
-  std::string commit;                 ///< names the sources, in hexadecimal; empty where these have come without a history
+  std::string commit;                 ///< names the sources, in hexadecimal; empty where they have no history
   std::string kokkos;                 ///< the version of Kokkos, "4.6.1"
   std::vector<std::string> backends;  ///< Kokkos' execution spaces, such as "Serial", "OpenMP", "Cuda"
   std::vector<std::string> options;   ///< libraries that it has, with their versions, and how it was built
