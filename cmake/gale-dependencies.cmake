@@ -79,6 +79,29 @@ macro(gale_find_vtk)
     COMPONENTS CommonCore CommonMisc expat lz4 lzma zlib)
 endmacro()
 
+# What stands for VTK there (GALE_ENABLE_SYSTEM_LIBRARIES): gale_file_libraries, by their files, and gale_file_include_dirs.
+# Asked for by our own build alone.
+macro(gale_find_file_libraries)
+  set(gale_file_libraries "")
+  set(gale_file_include_dirs "")
+  if(GALE_ENABLE_VTK)
+    list(APPEND gale_missing "GALE_ENABLE_SYSTEM_LIBRARIES stands for VTK: set GALE_ENABLE_VTK=OFF, or do without it")
+  endif()
+  foreach(library expat lz4 lzma z)
+    string(REGEX REPLACE "^z$" "zlib" gale_header ${library})
+    string(TOUPPER ${library} gale_name)
+    find_path(GALE_${gale_name}_INCLUDE_DIR ${gale_header}.h DOC "Where the header of ${library} is")
+    find_library(GALE_${gale_name}_LIBRARY ${library} DOC "The library ${library}, which files are read with")
+    mark_as_advanced(GALE_${gale_name}_INCLUDE_DIR GALE_${gale_name}_LIBRARY)
+    if(GALE_${gale_name}_INCLUDE_DIR AND GALE_${gale_name}_LIBRARY)
+      list(APPEND gale_file_libraries ${GALE_${gale_name}_LIBRARY})
+      list(APPEND gale_file_include_dirs ${GALE_${gale_name}_INCLUDE_DIR})
+    else()
+      list(APPEND gale_missing "GALE needs the library ${library} and its header ${gale_header}.h: install them, or set GALE_ENABLE_SYSTEM_LIBRARIES=OFF (grid:N inputs alone then)")
+    endif()
+  endforeach()
+endmacro()
+
 # What gale::distributed and those who include its headers need. Gives MPI::MPI_CXX, without MPI's old C++ interface, and
 # gale_mpi, whose it is: others have types of other sizes.
 macro(gale_find_mpi)

@@ -13,7 +13,7 @@ function(gale_public folder)
   set(gale_public_headers ${gale_public_headers} ${ARGN} PARENT_SCOPE)
 endfunction()
 
-gale_public(base atomic csr error kokkos memory stop team threads types)
+gale_public(base atomic configuration csr error kokkos memory stop team threads types)
 gale_public(mesh cells/cell_types cells/split_cells encoded_mesh exchange input_numbers intervals make_mesh mesh ranks segmentation simplices)
 gale_public(relations batch faces preconditioning relation rows segment_rows)
 gale_public(runtime computation consumer device_sweep graph_of make_structure relation_of statistics structure structure_options sweep_options)

@@ -61,15 +61,19 @@ install(FILES ${PROJECT_BINARY_DIR}/gale-config.cmake ${PROJECT_BINARY_DIR}/gale
 
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
-# The manual page is what the command says about itself, where help2man is there to ask it.
-if(GALE_ENABLE_APP)
-  find_program(GALE_HELP2MAN help2man DOC "Makes the manual page; without it there is none")
-  mark_as_advanced(GALE_HELP2MAN)
-  if(GALE_HELP2MAN)
-    set(gale_man_page ${PROJECT_BINARY_DIR}/gale.1)
-    add_custom_command(OUTPUT ${gale_man_page} DEPENDS gale_app VERBATIM
-      COMMAND ${GALE_HELP2MAN} --no-info --name=${PROJECT_DESCRIPTION} --output=${gale_man_page} $<TARGET_FILE:gale_app>)
-    add_custom_target(gale_man ALL DEPENDS ${gale_man_page})
-    install(FILES ${gale_man_page} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
-  endif()
+# The manual page and what completes arguments in shells: the command says them itself.
+if(GALE_ENABLE_APP AND NOT CMAKE_CROSSCOMPILING)
+  # gale_app_prints(<file> <folder> <option>...)
+  function(gale_app_prints file folder)
+    set(path ${PROJECT_BINARY_DIR}/printed/${file})
+    add_custom_command(OUTPUT ${path} DEPENDS gale_app VERBATIM COMMAND gale_app ${ARGN} > ${path})
+    install(FILES ${path} DESTINATION ${folder})
+    set(gale_printed ${gale_printed} ${path} PARENT_SCOPE)
+  endfunction()
+  file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/printed)
+  set(gale_printed "")
+  gale_app_prints(gale.1 ${CMAKE_INSTALL_MANDIR}/man1 --manual)
+  gale_app_prints(gale ${CMAKE_INSTALL_DATADIR}/bash-completion/completions --completions bash)
+  gale_app_prints(_gale ${CMAKE_INSTALL_DATADIR}/zsh/site-functions --completions zsh)
+  add_custom_target(gale_printed ALL DEPENDS ${gale_printed})
 endif()

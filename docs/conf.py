@@ -10,7 +10,7 @@ sys.path.insert(0, str(ROOT / "bindings" / "python"))
 compiled = types.ModuleType("gale._gale")
 compiled.Error = type("Error", (ValueError,), {"__doc__": "What GALE refuses, and why.", "__module__": "gale"})
 compiled.Mesh = type("Mesh", (), {})
-compiled.version = compiled.finalize = compiled.after_fork = lambda: None
+compiled.version = compiled.configuration = compiled.finalize = compiled.after_fork = lambda: None
 sys.modules["gale._gale"] = compiled
 pyvista = types.ModuleType("pyvista")
 pyvista.register_dataset_accessor = lambda *_: lambda accessor: accessor

@@ -11,7 +11,7 @@ export CMAKE_GENERATOR=${CMAKE_GENERATOR:-Ninja} CMAKE_BUILD_PARALLEL_LEVEL=${CM
 export OMP_WAIT_POLICY=passive # the tests' threads would keep each other from the cores
 python3 -m venv "$environment"
 python3 -m venv "$environment/everything"
-"$environment/everything/bin/pip" install --quiet numpy gmsh matplotlib meshio mypy pyvista scipy tqdm & # while the module compiles
+"$environment/everything/bin/pip" install --quiet numpy gmsh ipykernel matplotlib meshio mypy nbclient pandas pyvista scipy tqdm & # while the module compiles
 more=$!
 "$environment/bin/pip" wheel --quiet --no-deps --wheel-dir "$environment" -C build-dir=build-python \
   -C cmake.define.CMAKE_CXX_FLAGS_RELEASE="-O1 -DNDEBUG" .

@@ -17,12 +17,13 @@
 
 #include <gale/app/commands/command.hpp>
 #include <gale/app/console.hpp>
+#include <gale/app/described.hpp>
 #include <gale/app/machine.hpp>
 #include <gale/app/ranks/ranks.hpp>
+#include <gale/base/configuration.hpp>
 #include <gale/base/memory.hpp>
 #include <gale/base/threads.hpp>
 #include <gale/io/atomic_file.hpp>
-#include <gale/version.hpp>
 
 namespace {
 
@@ -103,6 +104,18 @@ void prepare_for_the_end() {
   std::set_terminate(end_by_exception);
 }
 
+/// The answer to --version.
+std::string what_this_is() {
+  const gale::Configuration is = gale::configuration();
+  const auto list = [](const std::vector<std::string>& names) {
+    std::string text;
+    for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+    return text;
+  };
+  return "gale " + is.version + "\ncommit " + (is.commit.empty() ? "unknown" : is.commit) + "\nKokkos " + is.kokkos +
+         ": " + list(is.backends) + "\nwith " + list(is.options) + "\nby " + is.compiler;
+}
+
 std::string commands_of(const CLI::App& app) {
   std::string names;
   for (const CLI::App* const command : app.get_subcommands([](const CLI::App*) { return true; }))
@@ -128,7 +141,9 @@ bool parse(CLI::App& app, int argc, char** argv) {
     if (gale::app::Launch::is_first()) app.exit(success);
     return false;
   } catch (const CLI::ParseError& error) {
-    throw UsageError(app.get_subcommands().empty() ? without_command(app, argc, argv) : error.what());
+    const bool is_about_option = argc > 1 && app.get_option_no_throw(argv[1]) != nullptr;
+    throw UsageError(app.get_subcommands().empty() && !is_about_option ? without_command(app, argc, argv)
+                                                                       : error.what());
   }
 }
 
@@ -152,12 +167,22 @@ void run(const Command& command) {
 
 void run(int argc, char** argv) {
   CLI::App app("Topological analysis of large tetrahedral meshes", "gale");
-  app.set_version_flag("--version", std::string("gale ") + gale::version);
-  const auto describe = [] {
-    if (gale::app::Launch::is_first()) std::printf("%s\n", gale::app::analyses_as_json().c_str());
+  app.set_version_flag("--version", what_this_is, "Print the version and what it was built with, and exit");
+  const auto print = [](const std::string& text) {
+    if (gale::app::Launch::is_first()) std::fputs(text.c_str(), stdout);
     throw CLI::Success();
   };
-  app.add_flag_callback("--analyses", describe, "Print what the analyses are, their options and results, as JSON")
+  app.add_flag_callback(
+         "--analyses", [&] { print(gale::app::analyses_as_json() + '\n'); },
+         "Print what the analyses are, their options and results, as JSON")
+      ->trigger_on_parse();
+  app.add_flag_callback(
+         "--manual", [&] { print(gale::app::manual_page(app)); }, "Print the manual page, for man --local-file -")
+      ->trigger_on_parse();
+  app.add_option_function<std::string>(
+         "--completions", [&](const std::string& shell) { print(gale::app::completions(app, shell)); },
+         "Print a script that completes arguments in this shell")
+      ->check(CLI::IsMember({"bash", "zsh"}))
       ->trigger_on_parse();
   app.require_subcommand(1);
   std::vector<std::unique_ptr<Command>> commands;

@@ -171,7 +171,7 @@ std::vector<io::Step> InputOptions::steps() const {
 
 void CommonOptions::add_to(CLI::App& command) {
   command.add_option("-t,--threads", threads, "Threads (default: all cores)")->check(CLI::Range(1, 1024));
-  command.add_option("--report", report, "Write times, memory and results to this JSON file");
+  command.add_option("--report", report, "Write times, memory and results to this JSON file")->type_name("FILE");
   command.add_flag("--quiet", quiet, "Print nothing but errors");
 }
 

@@ -70,9 +70,9 @@ namespace detail {
 /// The steps that a file of a series names, its first at the least time.
 std::vector<Step> steps_in(const InputFile& input, const ReadOptions& options);
 
-/// Whether files can be read: GALE was built with VTK, which brings what that takes. vtk/without_vtk.cpp stands for
-/// vtk/vtk_*.cpp where it wasn't.
-GALE_EXPORT bool has_vtk();
+/// Whether files can be read: GALE was built with the libraries that this takes, VTK's or the system's. Where it
+/// wasn't, libraries/without.cpp stands for the other sources of that folder.
+GALE_EXPORT bool reads_files();
 
 }  // namespace detail
 }  // namespace gale::io

@@ -65,7 +65,7 @@ Dataset read(const std::string& input, const ReadOptions& options) {
   const std::string kind = input.substr(0, input.find(':'));
   if (kind.size() < input.size() && kind == "plane") return make_plane(size_in_name(input, options));
   if (kind.size() < input.size() && is_synthetic(kind)) return make_synthetic(kind, size_in_name(input, options));
-  if (!detail::has_vtk())
+  if (!detail::reads_files())
     refuse("this gale was built without VTK: it reads grid:N, plane:N and the like alone, not '", input, "'");
   const Format* const format = format_of(input);
   if (format == nullptr || format->reader == nullptr) {
@@ -85,7 +85,7 @@ std::vector<Step> steps_of(const std::vector<std::string>& inputs, const ReadOpt
       continue;
     }
     if (inputs.size() > 1) refuse("'", input, "' is a series of its own, and can't be one of several inputs");
-    if (!detail::has_vtk()) refuse("this gale was built without VTK: it reads no series, such as '", input, "'");
+    if (!detail::reads_files()) refuse("this gale was built without what reads files: not '", input, "' either");
     return naming(input, [&] { return detail::steps_in(detail::InputFile(input), options); });
   }
   return steps;
@@ -94,7 +94,7 @@ std::vector<Step> steps_of(const std::vector<std::string>& inputs, const ReadOpt
 std::optional<PieceNames> piece_names(const std::string& input) {
   const Format* const format = format_of(input);
   const bool names_pieces = format != nullptr && format->of_pieces && format->input == Input::mesh;
-  if (!detail::has_vtk() || !names_pieces) return std::nullopt;
+  if (!detail::reads_files() || !names_pieces) return std::nullopt;
   return naming(input, [&] { return detail::names_of_pieces(detail::InputFile(input)); });
 }
 

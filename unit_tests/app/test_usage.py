@@ -1,13 +1,68 @@
 """How the command takes its arguments and how it ends."""
 import os
+import re
+import shlex
+import shutil
+import subprocess
 import unittest
 
 import gale
 
+COMMANDS = ("info", "segment", "critical-points", "discrete-gradient", "morse-smale", "persistence-diagram", "merge-tree",
+            "simplify-field", "relations", "generate")
+
 
 class Usage(gale.CommandTest):
     def test_version(self):
-        self.assertEqual(self.succeed("--version"), f"gale {gale.VERSION}\n")
+        version, commit, kokkos, parts, compiler = self.succeed("--version").splitlines()
+        self.assertEqual(version, f"gale {gale.VERSION}")
+        self.assertRegex(commit, "^commit ([0-9a-f]{40}|unknown)$")
+        self.assertRegex(kokkos, r"^Kokkos \d+\.\d+\.\d+: (Cuda|HIP|OpenMP|Threads|Serial)")
+        self.assertEqual("VTK" in parts, gale.HAVE_VTK)
+        self.assertRegex(compiler, r"^by \w+ \d+\.")
+
+    def options_of(self, *command):
+        """The long options that a help text lists."""
+        return set(re.findall(r"^  (?:-\w,)?(--[a-z0-9-]+)", self.succeed(*command, "--help"), re.MULTILINE))
+
+    def test_the_manual_has_all_commands_and_options(self):
+        manual = self.succeed("--manual")
+        self.assertTrue(manual.startswith(".TH GALE 1"))
+        sections = dict(re.findall(r"^\.SH GALE (.*)\n((?:(?!\.SH).*\n)*)", manual.replace("\\-", "-"), re.MULTILINE))
+        self.assertEqual({name.lower() for name in sections}, set(COMMANDS))
+        for name, text in sections.items():
+            self.assertEqual(set(re.findall(r"^\.TP\n\\fB.*?(--[a-z0-9-]+)", text, re.MULTILINE)), self.options_of(name.lower()))
+
+    def complete(self, *words):
+        """What bash offers for the last of these words."""
+        script = self.succeed("--completions", "bash") + f"""
+            COMP_WORDS=({" ".join(shlex.quote(word) for word in words)}) COMP_CWORD={len(words) - 1}
+            _gale
+            printf '%s\\n' "${{COMPREPLY[@]}}"
+            """
+        done = subprocess.run(["bash", "-c", script], capture_output=True, text=True, cwd=os.path.dirname(__file__))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return set(done.stdout.split())
+
+    @unittest.skipUnless(shutil.which("bash"), "there is no bash")
+    def test_bash_completes_what_there_is(self):
+        self.assertEqual(self.complete("gale", ""), {*COMMANDS, *self.options_of(), "-h"})
+        self.assertEqual(self.complete("gale", "mo"), {"morse-smale"})
+        for name in COMMANDS:
+            offered = self.complete("gale", name, "--")
+            self.assertEqual(offered, self.options_of(name))
+        self.assertEqual(self.complete("gale", "merge-tree", "grid:8", "--type", ""), {"contour", "join", "split"})
+        self.assertEqual(self.complete("gale", "info", "test_us"), {"test_usage.py"})
+        self.assertEqual(self.complete("gale", "segment", "-o", "test_us"), {"test_usage.py"})
+        self.assertEqual(self.complete("gale", "info", "grid:8", "--threads", "t"), set())
+
+    @unittest.skipUnless(shutil.which("zsh"), "there is no zsh")
+    def test_zsh_takes_its_completions(self):
+        done = subprocess.run(["zsh", "-n"], input=self.succeed("--completions", "zsh"), capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+    def test_other_shells_are_refused(self):
+        self.refuse(2, "--completions", "fish", naming="fish not in {bash,zsh}")
 
     def test_help_names_all_commands_and_options(self):
         text = self.succeed("--help")

@@ -84,7 +84,7 @@ class FileTest : public testing::Test {
 class VtkTest : public FileTest {
  protected:
   void SetUp() override {
-    if (!detail::has_vtk()) GTEST_SKIP() << "built without VTK";
+    if (!detail::reads_files()) GTEST_SKIP() << "built without VTK";
   }
 };
 

@@ -257,6 +257,10 @@ class Recipe(unittest.TestCase):
             self.assertLessEqual(len(line), 99, f"line {number}")
             self.assertFalse(line.startswith("from spack.package import *"), "spack style takes such names as undefined")
 
+    def test_each_dependency_says_what_it_is_for(self):
+        for (spec,), keywords in self.directives.calls["depends_on"]:
+            self.assertIn("type", keywords, spec)
+
     def test_no_condition_is_about_what_it_adds(self):
         for spec, condition in self.directives.dependencies():
             added = re.match(r"[\w-]+", spec).group(0)

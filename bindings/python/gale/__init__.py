@@ -9,6 +9,7 @@ merge trees, simplified fields.
 """
 import atexit
 import os
+from typing import Any, Dict
 
 from . import _interpreter
 
@@ -22,7 +23,14 @@ from .results import (CriticalPoints, Diagram, DiscreteGradient, Lines, MergeTre
                       SimplifiedField)
 
 __all__ = ["CriticalPoints", "Diagram", "DiscreteGradient", "Error", "Lines", "MergeTree", "Mesh", "MorseSmaleComplex",
-           "Polygons", "SimplifiedField", "__version__", "read", "read_steps"]
+           "Polygons", "SimplifiedField", "__version__", "configuration", "read", "read_steps"]
+
+
+def configuration() -> Dict[str, Any]:
+    """What this GALE is and was built with, for reports of defects: `version`, `commit` (empty where the sources came without
+    a history), `kokkos`, its `backends`, `options` (libraries that it has), `compiler`."""
+    return dict(_gale.configuration())
+
 
 atexit.register(_gale.finalize)
 if hasattr(os, "register_at_fork"):

@@ -1,9 +1,10 @@
 """gale.Mesh and gale.read."""
 from __future__ import annotations
 
+import inspect
 import os
 import warnings
-from typing import Any, Dict, Iterator, List, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Dict, Iterator, List, Optional, Sequence, Tuple, TypeVar, Union
 
 import numpy as np
 
@@ -15,6 +16,45 @@ from .results import (CriticalPoints, Diagram, DiscreteGradient, Lines, MergeTre
 
 Persistence = Union[float, str]
 Path = Union[str, "os.PathLike[str]"]
+
+# What the parameters of Mesh's methods and of read() are, each said once.
+_PARAMETERS = {
+    "above": "volumes: the voxels with values above this, in the units of the volume, become vertices; all with finite values where "
+             "it isn't given",
+    "arc_samples": "points between the ends of an arc, at most; arcs are straight with 0",
+    "array": "volumes of several arrays: which one `above` is about; the first where it isn't given",
+    "capacity": "vertices of a segment, at most; no result depends on it",
+    "cells": '"any": cells that are neither tetrahedra nor triangles are split into these; "simplices" or "tetrahedra": they are refused',
+    "connectivity": "(entries,) integers: the points of each cell, one cell after the other",
+    "extrema_only": "whether minima and maxima alone are cancelled, and pairs of saddles stay",
+    "field": "(vertices,) numbers of up to 8 bytes, none of them nan: the value at each point of the mesh, in its order",
+    "grid": "a pyvista or vtk dataset: unstructured, structured or rectilinear grid, image, or surface",
+    "mesh": "a meshio.Mesh",
+    "name": "what the field is called among the arrays of the result",
+    "offsets": "(cells + 1,) integers: where each cell begins in `connectivity`, and the end",
+    "outside_files": "whether headers may name data files outside of their own folder",
+    "path": "a file, by its extension, or a synthetic mesh: grid:N, plane:N",
+    "persistence": 'a difference of values, in the units of the field, of at least 0; or a part of its range, such as "3%"',
+    "points": "(vertices, 3) float32 or float64 coordinates",
+    "progress": "called as progress(done, all) now and then, and may raise to end the run; True shows a bar where tqdm is installed",
+    "separatrices2": "whether the walls of saddles are found, too; they are large",
+    "threads": "threads to use; 0: as many as there are cores",
+    "type": '"contour": of level sets; "join": of what is below a value; "split": of what is above',
+    "types": "(cells,) VTK's numbers of what each cell is, such as 10 (tetrahedron) or 12 (hexahedron)",
+}
+
+Function = TypeVar("Function", bound=Callable[..., Any])
+
+
+def _documented(**parameters: str) -> Callable[[Function], Function]:
+    """Adds to a docstring what each parameter is: as `parameters` say, or else the table above."""
+    def add(function: Function) -> Function:
+        names = [name for name in inspect.signature(function).parameters if name not in ("self", "cls")]
+        said = [f":param {name}: {parameters.get(name, _PARAMETERS.get(name))}." for name in names]
+        function.__doc__ = inspect.cleandoc(function.__doc__ or "") + "\n\n" + "\n".join(said)
+        return function
+
+    return add
 
 
 def _persistence(threshold: Optional[Persistence]) -> Dict[str, Tuple[float, bool]]:
@@ -48,10 +88,19 @@ def _cells_of(grid: Any) -> Tuple[np.ndarray, np.ndarray, np.ndarray]:
     has_distinct = hasattr(grid, "GetDistinctCellTypesArray")  # newer VTKs have no type for each cell where all agree
     types = vtk_to_numpy(grid.GetDistinctCellTypesArray() if has_distinct else grid.GetCellTypesArray())
     if has_distinct:
-        types = vtk_to_numpy(grid.GetCellTypesArray()) if len(types) > 1 else np.full(len(offsets) - 1, types[0], np.uint8)
+        types = _type_of_each(grid) if len(types) > 1 else np.full(len(offsets) - 1, types[0], np.uint8)
     if not np.any(types == _POLYHEDRON):
         return connectivity, offsets, types
     return (*_with_faces(grid, connectivity, offsets, types), types)
+
+
+def _type_of_each(grid: Any) -> np.ndarray:
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkCommonCore import vtkVersion
+
+    has_new_name = (vtkVersion.GetVTKMajorVersion(), vtkVersion.GetVTKMinorVersion()) >= (9, 6)
+    types: np.ndarray = vtk_to_numpy(grid.GetCellTypes() if has_new_name else grid.GetCellTypesArray())
+    return types
 
 
 def _with_faces(grid: Any, connectivity: np.ndarray, offsets: np.ndarray,
@@ -171,6 +220,7 @@ class Mesh:
         self._mesh = _gale.Mesh(_arrays.points(points), _arrays.ids(cells), capacity)
 
     @classmethod
+    @_documented()
     def from_cells(cls, points: Any, connectivity: Any, offsets: Any, types: Any, capacity: int = 64) -> Mesh:
         """The mesh of cells of any kind, as VTK numbers and orders them: `connectivity` has their points, cell c those from
         offsets[c] up to offsets[c + 1], and types[c] is what it is (12: a hexahedron). Tetrahedra stay as they are;
@@ -187,6 +237,7 @@ class Mesh:
         return cls._of(split[0], split[1])
 
     @classmethod
+    @_documented()
     def from_pyvista(cls, grid: Any, capacity: int = 64) -> Mesh:
         """The mesh of a grid of PyVista or VTK: of the cells of an unstructured one (see from_cells), of the polygons and
         strips of a surface, of the hexahedra (or quads) of a structured one, of the voxels (or pixels) of a rectilinear grid
@@ -207,6 +258,7 @@ class Mesh:
         return cls.from_cells(_points_of(grid), *_structured_cells(dimensions, cell_type), capacity)
 
     @classmethod
+    @_documented()
     def from_meshio(cls, mesh: Any, capacity: int = 64) -> Mesh:
         """The mesh of what meshio has read, of all its blocks of cells (see from_cells); points of two coordinates are in
         the plane z = 0."""
@@ -260,6 +312,14 @@ class Mesh:
         int32."""
         return np.arange(self._mesh.cells, dtype=np.int32) if self._cells is None else np.array(self._cells)
 
+    def to_pyvista(self) -> Any:
+        """A pyvista.UnstructuredGrid of the tetrahedra or triangles."""
+        import pyvista
+
+        corners = self.dimension + 1
+        cells = self.relation("TV" if corners == 4 else "FV")[1].reshape(-1, corners)
+        return pyvista.UnstructuredGrid({10 if corners == 4 else 5: cells.astype(np.int64)}, self.points)
+
     def __reduce__(self) -> Tuple[Any, ...]:
         corners = self.dimension + 1
         cells = self.relation("TV" if corners == 4 else "FV")[1].reshape(-1, corners)
@@ -276,6 +336,7 @@ class Mesh:
         cells = f"{self.tetrahedra} tetrahedra" if self.dimension == 3 else f"{self.triangles} triangles"
         return f"gale.Mesh({self.vertices} vertices, {cells})"
 
+    @_documented(name='two of "V", "E", "F", "T" (of triangles the first three): for each simplex of the first kind those of the second')
     def relation(self, name: str, threads: int = 0, progress: Progress = None) -> Tuple[np.ndarray, np.ndarray]:
         """Which simplices touch which, e.g. "VT": for each vertex its tetrahedra (of triangles "VF"). As (indptr, indices), (rows + 1,) int64
         and (entries,) int32: the i-th row is indices[indptr[i]:indptr[i + 1]], ascending. Vertices (V) and cells (T, or
@@ -283,6 +344,7 @@ class Mesh:
         "EV" and "FV" give."""
         return self._relation(name, threads, progress)[:2]
 
+    @_documented(name='two of "V", "E", "F", "T" (of triangles the first three): for each simplex of the first kind those of the second')
     def relation_matrix(self, name: str, threads: int = 0, progress: Progress = None) -> Any:
         """The relation as a scipy.sparse.csr_array of ones (int32), with a row and a column for each simplex: `relation`'s
         arrays, where scipy takes them as they are. Needs scipy."""
@@ -298,6 +360,7 @@ class Mesh:
         with told(progress, name) as tell:
             return self._mesh.relation(name, threads, tell)
 
+    @_documented()
     def critical_points(self, field: Any, name: str = "field", threads: int = 0,
                         progress: Progress = None) -> CriticalPoints:
         """The critical points of the piecewise linear field, by ascending vertex: CriticalPoints with the arrays `name`,
@@ -306,6 +369,7 @@ class Mesh:
         found = self._analyse("critical-points", field, name, threads, progress)
         return CriticalPoints(*found["critical_points"])
 
+    @_documented()
     def critical_simplices(self, field: Any, name: str = "field", threads: int = 0,
                            progress: Progress = None) -> CriticalPoints:
         """The simplices that the discrete gradient pairs with no other: CriticalPoints with the arrays `name`,
@@ -314,6 +378,7 @@ class Mesh:
         found = self._analyse("discrete-gradient", field, name, threads, progress)
         return CriticalPoints(*found["critical_simplices"])
 
+    @_documented()
     def discrete_gradient(self, field: Any, name: str = "field", threads: int = 0,
                           progress: Progress = None) -> DiscreteGradient:
         """The discrete gradient: its critical simplices, as `critical_simplices` has them, and its arrows. Large: some 13
@@ -321,6 +386,7 @@ class Mesh:
         found = self._analyse("discrete-gradient", field, name, threads, progress, {"arrows": True})
         return DiscreteGradient(CriticalPoints(*found["critical_simplices"]), CriticalPoints(*found["arrows"]))
 
+    @_documented()
     def persistence_diagram(self, field: Any, persistence: Persistence = 0, name: str = "field", threads: int = 0,
                             progress: Progress = None) -> Diagram:
         """The persistent homology of the field, as a Diagram: pairs whose persistence is at least `persistence`, a
@@ -328,6 +394,7 @@ class Mesh:
         thresholds = _persistence(persistence)
         return Diagram(**self._analyse("persistence-diagram", field, name, threads, progress, {}, thresholds)["diagram"])
 
+    @_documented()
     def morse_smale(self, field: Any, persistence: Optional[Persistence] = None, extrema_only: bool = False,
                     name: str = "field", threads: int = 0, progress: Progress = None,
                     separatrices2: bool = False) -> MorseSmaleComplex:
@@ -336,9 +403,12 @@ class Mesh:
         flags = {"extrema_only": extrema_only, "separatrices2": separatrices2}
         found = self._analyse("morse-smale", field, name, threads, progress, flags, _persistence(persistence))
         walls = Polygons(*found["separatrices2"]) if separatrices2 else None
-        return MorseSmaleComplex(CriticalPoints(*found["critical_points"]), Lines(*found["separatrices1"]),
-                                 found["manifolds"], found["kept_below"], walls)
+        complex = MorseSmaleComplex(CriticalPoints(*found["critical_points"]), Lines(*found["separatrices1"]),
+                                    found["manifolds"], found["kept_below"], walls)
+        complex._dimension = self.dimension
+        return complex
 
+    @_documented()
     def merge_tree(self, field: Any, type: str = "contour", persistence: Optional[Persistence] = None,
                    arc_samples: int = 0, name: str = "field", threads: int = 0, progress: Progress = None) -> MergeTree:
         """The MergeTree of the field: of `type` "contour", "join" or "split"; without branches below `persistence` (as in
@@ -348,6 +418,7 @@ class Mesh:
                               {"type": type}, {"arc_samples": arc_samples})
         return MergeTree(CriticalPoints(*found["nodes"]), Lines(*found["arcs"]), found["segmentation"])
 
+    @_documented()
     def simplify_field(self, field: Any, persistence: Optional[Persistence] = None, name: str = "field",
                        threads: int = 0, progress: Progress = None) -> SimplifiedField:
         """The field without the minima and maxima whose persistence is below `persistence` (as in persistence_diagram), as
@@ -365,6 +436,7 @@ class Mesh:
                                       numbers or {}, threads, tell)
 
 
+@_documented()
 def read(path: Path, above: Optional[float] = None, array: str = "", cells: str = "any",
          outside_files: bool = False, capacity: int = 64) -> Tuple[Mesh, Dict[str, np.ndarray]]:
     """The mesh of a file, and its point arrays by name, each (n,) or (n, components): (Mesh, dict).
@@ -378,6 +450,7 @@ def read(path: Path, above: Optional[float] = None, array: str = "", cells: str 
     return Mesh._of(inner, cell_ids), arrays
 
 
+@_documented(inputs="a series, or several files that are its steps")
 def read_steps(inputs: Union[Path, Sequence[Path]], above: Optional[float] = None, array: str = "", cells: str = "any",
                outside_files: bool = False, capacity: int = 64) -> Iterator[Tuple[float, Mesh, Dict[str, np.ndarray]]]:
     """The steps of a series, each read when it is asked for: (time, Mesh, point arrays) as of `read`, whose other

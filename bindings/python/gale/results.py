@@ -1,14 +1,20 @@
-"""What analyses give: numpy arrays with the names that GALE's files have, and PyVista's objects of them.
+"""What analyses give: numpy arrays with the names that GALE's files have; PyVista's objects, pandas' frames and pictures of
+them.
 
-Results are equal (`==`) where all their arrays are. Notebooks show them as tables."""
+Results are equal (`==`) where all their arrays are. Notebooks show them as tables.
+
+`plot` draws on what `on` says: axes of matplotlib's or a pyvista.Plotter; "matplotlib" or "pyvista", to have that make one;
+else on a new one of PyVista's for pictures in space, where that is installed, and of matplotlib's. It returns what it drew
+on, whose `show()` shows it; with `file` the picture is written there, too."""
 from __future__ import annotations
 
 from dataclasses import dataclass, field, fields
 from html import escape
-from typing import Any, Dict, Iterator, KeysView, Optional
+from typing import Any, Dict, Iterator, KeysView, List, Optional
 
 import numpy as np
 
+from . import _pictures
 from ._gale import Error
 
 
@@ -86,6 +92,24 @@ class _Table(_Result):
     def _columns(self) -> Dict[str, np.ndarray]:
         raise NotImplementedError
 
+    def to_dataframe(self) -> Any:
+        """A pandas.DataFrame with a row for each, and a column for each number that it has."""
+        return _frame(self._columns())
+
+
+def _frame(columns: Dict[str, np.ndarray]) -> Any:
+    """A pandas.DataFrame; arrays of several components have several columns."""
+    import pandas
+
+    flat: Dict[str, np.ndarray] = {}
+    for name, values in columns.items():
+        if values.ndim == 1:
+            flat[name] = values
+        else:
+            names = name.split(", ") if ", " in name else [f"{name}_{k}" for k in range(values.shape[1])]
+            flat.update(zip(names, values.T))
+    return pandas.DataFrame(flat)
+
 
 class _Parts(_Result):
     """Results together: `len` is how many, and [...] gives them by their names."""
@@ -104,6 +128,23 @@ class _Parts(_Result):
     def _tables(self) -> str:
         return "".join(f"<details><summary>{name}</summary>{part._tables()}</details>"
                        for name, part in self._named().items() if isinstance(part, _Result))
+
+    def to_dataframe(self) -> Any:
+        """A pandas.DataFrame for each part, by its name; of arrays of the mesh's vertices one with a row for each vertex."""
+        frames = {}
+        for name, part in self._named().items():
+            if isinstance(part, _Table):
+                frames[name] = part.to_dataframe()
+            elif isinstance(part, dict):
+                frames[name] = _frame(part)
+        return frames
+
+    def to_pyvista(self) -> Any:
+        """A pyvista.MultiBlock of the parts that have points, by their names."""
+        import pyvista
+
+        blocks = {name: part.to_pyvista() for name, part in self._named().items() if isinstance(part, (CriticalPoints, Cells))}
+        return pyvista.MultiBlock(blocks)
 
     @staticmethod
     def _shortest(part: Any) -> str:
@@ -145,6 +186,19 @@ class CriticalPoints(_Table):
         data.point_data.update(self.arrays)
         return data
 
+    def _kinds(self) -> Optional[np.ndarray]:
+        """0 to 4: minima, saddles, maxima, degenerate ones; nothing for points of which that isn't known."""
+        for name in ("CriticalType", "CellDimension"):
+            if name in self.arrays and "Vector" not in self.arrays:
+                return self.arrays[name]
+        return None
+
+    def plot(self, on: Any = None, file: Any = None) -> Any:
+        """Draws the points, in a colour for each kind."""
+        picture = _pictures.Picture(on, file)
+        _pictures.add_critical(picture, self.points, self._kinds())
+        return picture.finish()
+
 
 @dataclass(eq=False, repr=False)
 class Cells(_Table):
@@ -177,6 +231,10 @@ class Cells(_Table):
     def _columns(self) -> Dict[str, np.ndarray]:
         return {"points": np.diff(self.offsets), **self.cell_arrays}
 
+    def _cells(self) -> List[np.ndarray]:
+        """The points of each."""
+        return np.split(self.connectivity, self.offsets[1:-1]) if len(self) > 0 else []
+
     def _to_pyvista(self, kind: str) -> Any:
         import pyvista
 
@@ -200,6 +258,18 @@ class Lines(Cells):
         """A pyvista.PolyData with these lines."""
         return self._to_pyvista("lines")
 
+    def plot(self, on: Any = None, file: Any = None) -> Any:
+        """Draws the lines; separatrices in the colours of what they lead to."""
+        picture = _pictures.Picture(on, file)
+        self._add_to(picture)
+        return picture.finish()
+
+    def _add_to(self, picture: Any, top: int = 3) -> None:
+        if "SeparatrixType" in self.cell_arrays:
+            _pictures.add_separatrices(picture, self.points, self._cells(), self.cell_arrays["SeparatrixType"], top)
+        else:
+            picture.add_lines(self.points, iter(self._cells()), _pictures.COLORS[4], ("line", "lines"))
+
 
 class Polygons(Cells):
     """Polygons between points."""
@@ -207,6 +277,15 @@ class Polygons(Cells):
     def to_pyvista(self) -> Any:
         """A pyvista.PolyData with these polygons."""
         return self._to_pyvista("faces")
+
+    def plot(self, on: Any = None, file: Any = None) -> Any:
+        """Draws the polygons."""
+        picture = _pictures.Picture(on, file)
+        self._add_to(picture)
+        return picture.finish()
+
+    def _add_to(self, picture: Any) -> None:
+        picture.add_polygons(self.points, iter(self._cells()), _pictures.COLORS[4], ("polygon", "polygons"))
 
 
 @dataclass(eq=False, repr=False)
@@ -217,6 +296,10 @@ class DiscreteGradient(_Parts):
 
     critical_simplices: CriticalPoints
     arrows: CriticalPoints
+
+    def plot(self, on: Any = None, file: Any = None) -> Any:
+        """Draws the critical simplices; arrows are too many."""
+        return self.critical_simplices.plot(on, file)
 
 
 @dataclass(eq=False, repr=False)
@@ -255,6 +338,43 @@ class Diagram(_Table):
     def _columns(self) -> Dict[str, np.ndarray]:
         return self._named()
 
+    def to_dataframe(self) -> Any:
+        """A pandas.DataFrame with a row for each pair: the arrays, and `persistence`."""
+        return _frame({**self._columns(), "persistence": self.persistence})
+
+    def to_pyvista(self) -> Any:
+        """A pyvista.PolyData with a line for each pair, from (birth, birth, 0) to (birth, death, 0), and the arrays at the
+        lines."""
+        import pyvista
+
+        zeros = np.zeros(len(self))
+        ends = np.stack([np.stack([self.birth, self.birth, zeros], axis=1), np.stack([self.birth, self.death, zeros], axis=1)], axis=1)
+        lines = np.insert(np.arange(2 * len(self)).reshape(-1, 2), 0, 2, axis=1)
+        polydata: Any = pyvista.PolyData
+        data = polydata(ends.reshape(-1, 3), lines=lines.ravel()) if len(self) > 0 else polydata()
+        data.cell_data.update({**self._named(), "persistence": self.persistence})
+        return data
+
+    def plot(self, on: Any = None, file: Any = None) -> Any:
+        """Draws birth and death of each pair, in a colour for each type, on axes of matplotlib's. Classes that never end are
+        triangles."""
+        axes = _pictures.plane_axes(on)
+        top = int(self.type.max(initial=0)) + 1  # the dimension of what ends the last type
+        for kind in range(top):
+            for ends, marker in ((True, "o"), (False, "^")):
+                shown = (self.type == kind) & (self.is_finite == ends)
+                if shown.any():
+                    color = _pictures.COLORS[3 if kind == top - 1 and kind > 0 else kind]
+                    name = f"type {kind}" if ends else f"type {kind}, without end"
+                    axes.scatter(self.birth[shown], self.death[shown], s=8 if ends else 30, marker=marker, color=color,
+                                 label=f"{np.count_nonzero(shown)} of {name}")
+        if len(self) > 0:
+            ends_at = [min(self.birth.min(), self.death.min()), max(self.birth.max(), self.death.max())]
+            axes.plot(ends_at, ends_at, color="gray", linewidth=1, zorder=0)
+            axes.legend(loc="lower right")
+        axes.set(xlabel="birth", ylabel="death")
+        return _pictures.saved(axes, file)
+
 
 @dataclass(eq=False, repr=False)
 class MorseSmaleComplex(_Parts):
@@ -269,6 +389,16 @@ class MorseSmaleComplex(_Parts):
     manifolds: Dict[str, np.ndarray] = field(default_factory=dict)
     kept_below: int = 0
     separatrices2: Optional[Polygons] = None
+    _dimension = 3  # the mesh's, for pictures
+
+    def plot(self, on: Any = None, file: Any = None) -> Any:
+        """Draws critical simplices, the lines between them, and the walls of saddles if these are there."""
+        picture = _pictures.Picture(on, file)
+        if self.separatrices2 is not None:
+            self.separatrices2._add_to(picture)
+        self.separatrices1._add_to(picture, self._dimension)
+        _pictures.add_critical(picture, self.critical_points.points, self.critical_points["CellDimension"], self._dimension)
+        return picture.finish()
 
 
 @dataclass(eq=False, repr=False)
@@ -286,6 +416,23 @@ class MergeTree(_Parts):
     def to_pyvista(self) -> Any:
         """(nodes, arcs): two pyvista.PolyData."""
         return self.nodes.to_pyvista(), self.arcs.to_pyvista()
+
+    def plot(self, on: Any = None, file: Any = None) -> Any:
+        """Draws the tree on axes of matplotlib's: nodes at their values, with their arcs."""
+        axes = _pictures.plane_axes(on)
+        lower, upper = self.arcs["downNodeId"], self.arcs["upNodeId"]
+        values, kinds = self.nodes["Scalar"].astype(float), self.nodes["CriticalType"]
+        columns = _pictures.tree_columns(lower, upper, values)
+        axes.plot(columns[[lower, upper]], values[[lower, upper]], color=_pictures.COLORS[4], linewidth=1, zorder=0)
+        names = [("minimum", "minima"), ("join", "joins"), ("split", "splits"), ("maximum", "maxima"), ("other", "others")]
+        for kind, name in enumerate(names):
+            shown = kinds == kind
+            if shown.any():
+                label = _pictures.counted(int(np.count_nonzero(shown)), name)
+                axes.scatter(columns[shown], values[shown], s=12, color=_pictures.COLORS[kind], label=label)
+        axes.set(xticks=[], ylabel="value")
+        axes.legend(loc="best", fontsize="small")
+        return _pictures.saved(axes, file)
 
     def to_networkx(self) -> Any:
         """A networkx.Graph with the nodes' arrays at its nodes and the arcs' at its edges, as Python's numbers."""
@@ -313,3 +460,25 @@ class SimplifiedField(_Parts):
     minima: int
     maxima: int
     kept_below: int
+
+    def to_dataframe(self) -> Any:
+        """A pandas.DataFrame with a row for each vertex: `values` and `order`."""
+        return _frame({"values": self.values, "order": self.order})
+
+    def to_pyvista(self, mesh: Any = None) -> Any:
+        """A pyvista.UnstructuredGrid of the mesh, a gale.Mesh, with `values` and `order` at its points. Needs the mesh, which
+        the result doesn't hold."""
+        if mesh is None:
+            raise Error("a simplified field has no points: to_pyvista(mesh) takes the mesh that it is of")
+        grid = mesh.to_pyvista()
+        if grid.n_points != len(self.values):
+            raise Error(f"the mesh has {grid.n_points} points, and the field {len(self.values)} values")
+        grid.point_data.update({"values": self.values, "order": self.order})
+        return grid
+
+    def plot(self, on: Any = None, file: Any = None) -> Any:
+        """Draws how many vertices have which values, on axes of matplotlib's."""
+        axes = _pictures.plane_axes(on)
+        axes.hist(self.values, bins=50, color=_pictures.COLORS[4])
+        axes.set(xlabel="value", ylabel="vertices", title=f"{self.minima} minima, {self.maxima} maxima")
+        return _pictures.saved(axes, file)

@@ -5,6 +5,7 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
+#include <gale/base/configuration.hpp>
 #include <gale/base/error.hpp>
 #include <gale/io/formats.hpp>
 #include <gale/mesh/segmentation.hpp>
@@ -30,7 +31,18 @@ NB_MODULE(_gale, module) {
     }
   });
   module.attr("version") = gale::version;
-  module.attr("has_vtk") = gale::io::detail::has_vtk();
+  module.def("configuration", [] {
+    const gale::Configuration is = gale::configuration();
+    nb::dict named;
+    named["version"] = is.version;
+    named["commit"] = is.commit;
+    named["kokkos"] = is.kokkos;
+    named["backends"] = is.backends;
+    named["options"] = is.options;
+    named["compiler"] = is.compiler;
+    return named;
+  });
+  module.attr("reads_files") = gale::io::detail::reads_files();
   module.attr("default_capacity") = gale::default_capacity;
   module.attr("has_cuda") = gale::device_is_cuda;
   module.def("finalize", &gale::python::finalize);

@@ -1,5 +1,6 @@
 """What docs/first_hour.md says to type into Python does what it says."""
 import contextlib
+import inspect
 import io
 import re
 import unittest
@@ -28,6 +29,15 @@ class FirstHour(unittest.TestCase):
         with contextlib.redirect_stderr(io.StringIO()):
             exec(files, names)
         self.assertIsInstance(names["complex"], gale.MorseSmaleComplex)
+
+
+class Parameters(unittest.TestCase):
+    def test_help_says_of_each_what_it_is(self):
+        methods = [getattr(gale.Mesh, name) for name in vars(gale.Mesh) if not name.startswith("_")]
+        for function in [gale.read, *filter(callable, methods)]:
+            for name in inspect.signature(function).parameters:
+                if name != "self":
+                    self.assertRegex(function.__doc__, rf"(?m)^:param {name}: (?!None\.)", function.__name__)
 
 
 if __name__ == "__main__":

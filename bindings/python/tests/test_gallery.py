@@ -42,6 +42,22 @@ class Gallery(unittest.TestCase):
                     self.assertEqual(done.returncode, 1)
                     self.assertIn(f"usage: {name}.py", done.stderr)
 
+    def test_the_notebook_runs(self):
+        try:
+            import ipykernel
+            import matplotlib
+            import nbclient
+            import nbformat
+            import pandas
+        except ImportError as missing:
+            self.skipTest(str(missing))
+        notebook = nbformat.read(GALLERY / "first_steps.ipynb", as_version=4)
+        self.assertFalse(any(cell.get("outputs") for cell in notebook.cells), "it is kept without what it shows")
+        nbclient.NotebookClient(notebook, timeout=300, kernel_name="python3").execute()
+        shown = [output.get("data", {}) for cell in notebook.cells for output in cell.get("outputs", [])]
+        self.assertEqual(sum("image/png" in data for data in shown), 3)
+        self.assertGreaterEqual(sum("<b>CriticalPoints</b>" in data.get("text/html", "") for data in shown), 1)
+
     def test_every_script_has_its_picture(self):
         index = (GALLERY / "README.md").read_text()
         self.assertEqual({file.stem for file in GALLERY.glob("*.py")} - {"pictures"}, set(SCRIPTS))

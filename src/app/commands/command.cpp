@@ -20,7 +20,7 @@ Command::Command(CLI::App& app, const std::string& name, const std::string& what
 CLI::Option* Command::add_file(const std::string& option, std::string& file, const std::string& what,
                                const std::vector<std::string>& extensions) {
   files_.push_back({option.substr(option.find("--")), file, extensions});
-  return subcommand_.add_option(option, file, what);
+  return subcommand_.add_option(option, file, what)->type_name("FILE");
 }
 
 bool Command::is_chosen() const { return subcommand_.parsed(); }

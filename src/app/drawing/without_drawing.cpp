@@ -4,7 +4,9 @@
 namespace gale::app {
 
 void require_drawing() {
-  throw Error("this gale was built without VTK's rendering modules: it cannot draw (--render)");
+  throw Error(
+      "this gale was built without VTK's rendering modules, and cannot draw (--render): in Python the results' plot() "
+      "draws by matplotlib or PyVista");
 }
 
 void draw(const io::AtomicFile&, const Scene&) { require_drawing(); }

@@ -7,9 +7,9 @@
 
 #include <gale/io/bytes/input_file.hpp>
 
-/// The libraries of compression. What is zlib's is in deflate/: by libdeflate, else by the zlib that comes with VTK, as
-/// the others do: vtk/vtk_compression.cpp, or without it vtk/without_vtk.cpp. (Some zlibs have macros for the names of
-/// their functions.)
+/// The libraries of compression. What is zlib's is in deflate/: by libdeflate, else by zlib itself, in libraries/ as
+/// the others are: libraries/compression.cpp, or without these libraries libraries/without.cpp. (Some zlibs have macros
+/// for the names of their functions.)
 namespace gale::io::detail {
 
 /// Whether there is one of these for zlib's streams.
@@ -22,7 +22,7 @@ enum class Pattern { any, integers, steps };  ///< steps: integers, each so much
 void compress_by_zlib(Pattern pattern, const char* bytes, std::size_t size, std::vector<char>& compressed);
 
 /// By VTK's zlib, whatever the above takes.
-void compress_by_vtk(const char* bytes, std::size_t size, std::vector<char>& compressed);
+void compress_at_level_1(const char* bytes, std::size_t size, std::vector<char>& compressed);
 
 /// The content of a file's bytes from `begin` on, compressed by gzip or zlib, whichever it is; gzip's members may
 /// follow each other. Where it is `bytes` in all (0: not known), and these aren't too many, libdeflate makes

@@ -32,7 +32,7 @@ bool can_compress() { return true; }
 void compress_by_zlib(Pattern pattern, const char* bytes, std::size_t size, std::vector<char>& compressed) {
   // Where only three bytes in a row are found again, level 1 makes half as much again of them, and in steps any level
   // twice as much as zlib, in the same time.
-  if (pattern == Pattern::steps && has_vtk()) return compress_by_vtk(bytes, size, compressed);
+  if (pattern == Pattern::steps && reads_files()) return compress_at_level_1(bytes, size, compressed);
   libdeflate_compressor* const compressor =
       pattern == Pattern::any ? kept<libdeflate_compressor>([] { return libdeflate_alloc_compressor(1); })
                               : kept<libdeflate_compressor>([] { return libdeflate_alloc_compressor(2); });

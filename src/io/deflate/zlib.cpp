@@ -1,14 +1,13 @@
-#include <vtk_zlib.h>
-
 #include <gale/io/bytes/compression.hpp>
+#include <gale/io/libraries/headers.hpp>
 
-// Stands for libdeflate.cpp, where that library isn't there and VTK is.
+// Stands for libdeflate.cpp, where that library isn't there and zlib is.
 namespace gale::io::detail {
 
 bool can_compress() { return true; }
 
 void compress_by_zlib(Pattern, const char* bytes, std::size_t size, std::vector<char>& compressed) {
-  compress_by_vtk(bytes, size, compressed);
+  compress_at_level_1(bytes, size, compressed);
 }
 
 bool uncompress_zlib(const char* compressed, std::size_t compressed_bytes, char* to, std::size_t bytes) {

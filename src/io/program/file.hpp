@@ -5,7 +5,11 @@
 #include <string>
 #include <vector>
 
+#ifdef GALE_TAKES_SYSTEM_LIBRARIES
+#include <hdf5.h>
+#else
 #include <vtk_hdf5.h>
+#endif
 
 #include <gale/io/program/protocol.hpp>
 

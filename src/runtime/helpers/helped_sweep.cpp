@@ -20,7 +20,7 @@ constexpr std::chrono::microseconds nap(20);
 void give_way() {
 #ifdef __linux__  // where it is for the thread alone
   constexpr int much = 10;
-  static_cast<void>(nice(much));  // may fail: then it competes
+  [[maybe_unused]] const int is_now = nice(much);  // may fail: then it competes
 #endif
 }
 

@@ -30,7 +30,11 @@ class Gale(CMakePackage, CudaPackage, PythonExtension):
     need, on CPUs and GPUs; critical points, Morse-Smale complexes and persistent homology of
     scalar fields on them."""
 
-    # The sources are those of the checkout that this recipe lies in. There are no releases yet.
+    # To be filled in by who hands this in, as are maintainers("..."), by their names on GitHub.
+    homepage = "https://example.org/gale"
+
+    # The sources are those of the checkout that this recipe lies in. scripts/release.sh makes the
+    # recipe of a release of this one: build/spack/package.py.
     if os.path.exists(os.path.join(CHECKOUT, ".git")):
         git = f"file://{CHECKOUT}"
 
@@ -59,14 +63,14 @@ class Gale(CMakePackage, CudaPackage, PythonExtension):
     depends_on("c", type="build", when="+vtk")  # VTK finds HDF5 with it
     depends_on("cxx", type="build")
     depends_on("cmake@3.22:", type="build")
-    depends_on("llvm-openmp", when="%apple-clang")
-    depends_on("kokkos@4.4:")
-    depends_on("kokkos-kernels@4.4:", when="+kokkos_kernels")
-    depends_on("vtk@9.1:", when="+vtk")
-    depends_on("libdeflate", when="+libdeflate")
-    depends_on("mpi", when="+mpi")
-    depends_on("cli11", when="+app")
-    depends_on("nlohmann-json", when="+app")
+    depends_on("llvm-openmp", when="%apple-clang", type=("build", "link"))
+    depends_on("kokkos@4.4:", type=("build", "link"))
+    depends_on("kokkos-kernels@4.4:", when="+kokkos_kernels", type=("build", "link"))
+    depends_on("vtk@9.1:", when="+vtk", type=("build", "link"))
+    depends_on("libdeflate", when="+libdeflate", type=("build", "link"))
+    depends_on("mpi", when="+mpi", type=("build", "link"))
+    depends_on("cli11", when="+app", type=("build", "link"))
+    depends_on("nlohmann-json", when="+app", type=("build", "link"))
     depends_on("googletest", type="test")
     depends_on("python@3.9:", type="test")
 
@@ -75,20 +79,28 @@ class Gale(CMakePackage, CudaPackage, PythonExtension):
         depends_on("py-nanobind@2:", type="build")
         depends_on("py-typing-extensions", type="build", when="^python@:3.10")  # nanobind's stubs
         depends_on("py-numpy", type=("build", "run"))
-        depends_on("kokkos+pic", when="~shared")
+        depends_on("kokkos+pic", when="~shared", type=("build", "link"))
 
-    depends_on("kokkos+shared", when="+shared")
+    depends_on("kokkos+shared", when="+shared", type=("build", "link"))
     for backend in ("serial", "openmp"):
-        depends_on(f"kokkos+{backend}", when=f"+{backend}")
-        depends_on(f"kokkos-kernels+{backend}", when=f"+kokkos_kernels+{backend}")
-    depends_on("kokkos-kernels+shared", when="+kokkos_kernels+shared")
+        depends_on(f"kokkos+{backend}", when=f"+{backend}", type=("build", "link"))
+        depends_on(
+            f"kokkos-kernels+{backend}",
+            when=f"+kokkos_kernels+{backend}",
+            type=("build", "link"),
+        )
+    depends_on("kokkos-kernels+shared", when="+kokkos_kernels+shared", type=("build", "link"))
 
     # Kokkos is built for one architecture.
     for arch in CudaPackage.cuda_arch_values:
         this_gpu = f"+cuda cuda_arch={arch}"
-        depends_on(f"kokkos{this_gpu}", when=this_gpu)
-        depends_on(f"kokkos-kernels{this_gpu}", when=f"+kokkos_kernels{this_gpu}")
-    depends_on("kokkos+wrapper", when="+cuda %gcc")
+        depends_on(f"kokkos{this_gpu}", when=this_gpu, type=("build", "link"))
+        depends_on(
+            f"kokkos-kernels{this_gpu}",
+            when=f"+kokkos_kernels{this_gpu}",
+            type=("build", "link"),
+        )
+    depends_on("kokkos+wrapper", when="+cuda %gcc", type=("build", "link"))
 
     conflicts("cuda_arch=none", when="+cuda", msg="name the GPU: cuda_arch=90, for example")
     conflicts("^kokkos@:4~cuda_lambda", when="+cuda", msg="GALE's kernels on a GPU are lambdas")

@@ -3,14 +3,11 @@
 #include <limits>
 #include <new>
 
-#include <vtk_lz4.h>
-#include <vtk_lzma.h>
-#include <vtk_zlib.h>
-
 #include <gale/base/stop.hpp>
 #include <gale/io/bytes/compression.hpp>
 #include <gale/io/bytes/text.hpp>
 #include <gale/io/formats.hpp>
+#include <gale/io/libraries/headers.hpp>
 
 namespace gale::io::detail {
 namespace {
@@ -101,9 +98,9 @@ bool uncompress_lzma(const char* compressed, std::size_t compressed_bytes, char*
 
 }  // namespace
 
-bool has_vtk() { return true; }
+bool reads_files() { return true; }
 
-void compress_by_vtk(const char* bytes, std::size_t size, std::vector<char>& compressed) {
+void compress_at_level_1(const char* bytes, std::size_t size, std::vector<char>& compressed) {
   constexpr int fastest = 1;  // the usual 6 takes several times as long for a few percent less
   uLongf needed = compressBound(static_cast<uLong>(size));
   compressed.resize(needed);

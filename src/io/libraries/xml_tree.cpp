@@ -1,9 +1,8 @@
 #include <cstring>
 
-#include <vtk_expat.h>
-
 #include <gale/io/bytes/text.hpp>
 #include <gale/io/formats/xml_file.hpp>
+#include <gale/io/libraries/headers.hpp>
 
 namespace gale::io::detail {
 namespace {
