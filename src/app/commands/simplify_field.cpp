@@ -39,7 +39,7 @@ class SimplifyField final : public Command {
     const FieldOnMesh on =
         session.read_field(segmentation_, output_.empty() ? Session::Keep::nothing : Session::Keep::cells);
     Computed computed;
-    const double threshold = persistence_ ? threshold_of_option(*persistence_, on.field) : 0;
+    const double threshold = persistence_ ? threshold_of_option(*persistence_, on.field, session.ranks()) : 0;
     const SimplifiedField field = simplify_field(
         on.order, [&](Id vertex) { return outputs::value_at(on.field, vertex); }, threshold,
         session.compute(structure_, "simplified field"), &computed);
