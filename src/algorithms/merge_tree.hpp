@@ -2,6 +2,7 @@
 
 #include <array>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include <gale/algorithms/critical_points.hpp>
@@ -45,6 +46,10 @@ struct MergeTree {
   /// The arc of each vertex, by input id. A node belongs to the last of its arcs; no_id where it has none, which is a
   /// component of one vertex.
   std::vector<Id> arc_of;
+
+  /// On one rank's part of several what `vertices` are named in: a mesh without cells that has these and a few others,
+  /// with their global ids. Empty where they are the mesh's own.
+  std::optional<Mesh> excerpt{};
 };
 
 /// How to find a tree.
@@ -74,11 +79,15 @@ struct MergeTreeOptions : ComputeOptions {
 /// branch that ends with one merges into the arc that it hangs on. A contour tree is that of the simplified field
 /// (`simplify_field`).
 ///
+/// On one rank's part of several it is collective: extrema, and vertices where the paths of several meet, as far as
+/// they join what the rank's others don't, are gathered on all ranks, which make the same tree of them; the arcs of
+/// vertices are those of all that the rank holds. Contour trees with a threshold, as simplify_field, want the whole
+/// mesh.
+///
 /// By kernels where the mesh is on a device and they find room there, else by threads of the host: `options` may say
 /// otherwise, and `computed` is told; but what joins the few vertices where paths meet, and simplify_field, are on the
-/// host, and the order's keys come there. Throws gale::Error on one rank's part of a mesh; for a threshold that is no
-/// number or without values; naming the vertex, if a value is NaN where it is asked for; and as require_consumers,
-/// make_structure and sweeps do.
+/// host, and the order's keys come there. Throws gale::Error for a threshold that is no number or without values;
+/// naming the vertex, if a value is NaN where it is asked for; and as require_consumers, make_structure and sweeps do.
 GALE_EXPORT MergeTree find_merge_tree(const VertexOrder& order, Tree tree, const MergeTreeOptions& options = {},
                                       Computed* computed = nullptr);
 

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <vector>
+
 #include <gale/algorithms/discrete_gradient.hpp>
 #include <gale/algorithms/separatrices.hpp>
 #include <gale/base/mirrored.hpp>
@@ -29,16 +32,6 @@ struct AscendingWalls {
   std::vector<Id> star;  ///< GALE's ids, see star_begin
 };
 
-/// Vertices and cells on the separatrices of one rank's part of a mesh which the part doesn't hold. They are
-/// called by numbers after GALE's ids of those that it has: the first vertex here is mesh.vertices().
-struct SimplicesBeyond {
-  std::vector<GlobalId> vertices;  ///< global ids
-  std::vector<GlobalId> cells;     ///< global ids
-
-  /// The vertices of each of these cells, here or in the part; of a triangle the last one twice.
-  std::vector<std::array<Id, 4>> corners;
-};
-
 /// Pairs of saddles that `simplify` could not cancel, although their persistence is below the threshold.
 struct KeptBelow {
   Id several_paths = 0;  ///< several paths lead from the 1-saddle to the 2-saddle
@@ -53,10 +46,10 @@ struct KeptBelow {
 /// walls. Sources, destinations and manifolds are places among the simplices
 /// of `critical`; cells are in GALE's ids. What wasn't wanted is empty.
 ///
-/// On one rank's part of a mesh it has the separatrices from the saddles in `critical`, which are this rank's, and the
-/// manifolds of all vertices that it holds. Destinations and manifolds are places among the minima, or maxima, of all
-/// ranks then, by ascending global ids.
-struct MorseSmaleComplex {
+/// On one rank's part of a mesh it has the separatrices of this rank's saddles (saddle connectors are their
+/// 2-saddles'), in GALE's ids of an `excerpt`, and the manifolds of all vertices that the rank holds: places among the
+/// minima, or maxima, of all ranks, by ascending global ids.
+struct GALE_EXPORT MorseSmaleComplex {
   DiscreteGradient gradient;  ///< what it is the complex of
   MorseSmaleParts parts;      ///< which were computed
 
@@ -96,9 +89,22 @@ struct MorseSmaleComplex {
   Mirrored<Id> morse_smale_manifold{};
   Id morse_smale_manifolds = 0;  ///< how many pairs there are
 
-  SimplicesBeyond beyond{};  ///< on separatrices; none of a whole mesh
-
   KeptBelow kept_below{};  ///< what `simplify` had to leave
+
+  /// What `critical` and the separatrices are of: `gradient`, or on one rank of several an excerpt of it, which is of a
+  /// small mesh of its own. That one has the simplices that separatrices lead through, whose global ids its vertex_id()
+  /// and cell_id() say, and all else of the gradient is missing there.
+  DiscreteGradient excerpt{gradient};
+
+  /// Of each of `critical`, by dimension, whether it is this rank's: the others are another rank's, and separatrices
+  /// end there. Empty: all are.
+  std::array<std::vector<char>, 4> is_own{};
+
+  /// Whether a critical simplex of a dimension is this rank's.
+  bool owns(int dimension, Id place) const { return is_own[dimension].empty() || is_own[dimension][place] != 0; }
+
+  /// How many of `critical` are this rank's, by dimension.
+  std::array<Id, 4> own_counts() const;
 };
 
 /// Traces the complex of a gradient: connectors and walls on options.threads threads, other separatrices on the host's,
@@ -106,9 +112,9 @@ struct MorseSmaleComplex {
 /// wanted, connectors are found where it is, if there is room. options.progress isn't called. The result is the same
 /// whatever found the gradient, and for any number of threads.
 ///
-/// Saddle connectors and separatrices2 want the whole mesh: throws gale::Error for them on one rank's part of several.
-/// The rest is collective there, in a number of rounds of messages that grows with the logarithm of how often a path
-/// changes ranks.
+/// Collective on one rank's part of several. Ranks follow separatrices together, in as many rounds of messages as one
+/// changes ranks, and each is sent what its own reach: throws gale::Error on all ranks before that if one hasn't the
+/// memory for it. Manifolds take a number of rounds that grows with the logarithm of how often a path changes ranks.
 ///
 /// Throws gale::Error where separatrices2 are wanted of a triangle mesh.
 ///

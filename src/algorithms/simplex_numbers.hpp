@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <gale/base/memory.hpp>
@@ -11,14 +12,14 @@
 namespace gale {
 
 /// Some edges and triangles of a mesh, named by their vertices: GALE's ids, in any order. The same simplex may occur
-/// more than once. On one rank's part of a mesh any simplex of the whole may be named.
+/// more than once.
 struct NamedSimplices {
   std::vector<std::array<Id, 2>> edges;      ///< two vertices each
   std::vector<std::array<Id, 3>> triangles;  ///< three vertices each
 
-  /// The global ids of vertices that the part doesn't hold: the i-th of these is called by the number of its vertices
-  /// plus i.
-  std::vector<GlobalId> beyond{};
+  /// On one rank's part of a mesh: what they are named in, if it isn't the part itself; any vertices, with their global
+  /// ids, as MorseSmaleComplex::excerpt has them. So any simplex of the whole may be named.
+  std::optional<Mesh> excerpt{};
 };
 
 /// The numbers by which users know these simplices.
@@ -26,8 +27,8 @@ struct SimplexNumbers {
   std::vector<GlobalId> edges;      ///< in the order in which they were asked for
   std::vector<GlobalId> triangles;  ///< in the order in which they were asked for
 
-  /// For each vertex of the mesh (GALE's id) 1 if it belongs to a triangle with exactly one tetrahedron, else 0; of
-  /// ghosts it says nothing.
+  /// For each vertex of the mesh, or of the excerpt (GALE's id), 1 if it belongs to a triangle with exactly one
+  /// tetrahedron, else 0; of a part's ghosts it says nothing.
   Array<const std::uint8_t, HostMemory> on_surface;
 };
 

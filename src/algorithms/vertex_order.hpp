@@ -14,9 +14,18 @@ namespace detail {
 template <class Value, class Memory>
 using FieldValues = Kokkos::View<const Value*, Kokkos::LayoutRight, Memory, Kokkos::MemoryUnmanaged>;
 
-/// The keys of a VertexOrder.
+/// What a VertexOrder has of each vertex, by GALE's id.
+struct OrderKeys {
+  Mirrored<std::uint64_t> keys;  ///< compare on this rank
+
+  /// Compare on all ranks, where there are several and values have 64 bits: keys are but ranks then. Else a key has its
+  /// value in its upper half.
+  Array<const std::uint64_t, HostMemory> values{};
+};
+
+/// Makes what a VertexOrder has.
 template <class Value, class Memory>
-GALE_EXPORT Mirrored<std::uint64_t> order_keys(const Mesh& mesh, const FieldValues<Value, Memory>& values);
+GALE_EXPORT OrderKeys order_keys(const Mesh& mesh, const FieldValues<Value, Memory>& values);
 
 }  // namespace detail
 
@@ -35,27 +44,33 @@ class GALE_EXPORT VertexOrder {
   /// naming the first such vertex, and if there aren't as many values as vertices: of a part on all ranks.
   template <class Value>
   VertexOrder(const Mesh& mesh, const Value* values, std::size_t count)
-      : mesh_(mesh), keys_(detail::order_keys(mesh, detail::FieldValues<Value, HostMemory>(values, count))) {}
+      : mesh_(mesh), all_(detail::order_keys(mesh, detail::FieldValues<Value, HostMemory>(values, count))) {}
 
   /// From a caller's View of rank 1, in host memory or the device's, as from an array. What wrote it must be done.
   template <class View, class = std::enable_if_t<Kokkos::is_view<View>::value>>
-  VertexOrder(const Mesh& mesh, const View& values) : mesh_(mesh), keys_(keys_of_view(mesh, values)) {}
+  VertexOrder(const Mesh& mesh, const View& values) : mesh_(mesh), all_(keys_of_view(mesh, values)) {}
 
   /// The mesh whose vertices it orders.
   const Mesh& mesh() const { return mesh_; }
 
   /// The key of each vertex, by GALE's id, on the host. Throws OutOfMemory if they don't fit there.
-  const std::uint64_t* keys() const { return keys_.in<HostMemory>().data(); }
+  const std::uint64_t* keys() const { return all_.keys.in<HostMemory>().data(); }
 
   /// The keys where code that runs on `Memory` reads them. Throws OutOfMemory if they don't fit there.
   template <class Memory>
   const Array<const std::uint64_t, Memory>& keys_in() const {
-    return keys_.in<Memory>();
+    return all_.keys.in<Memory>();
+  }
+
+  /// A number for each vertex, by GALE's id, that compares as the field's values do on all ranks that the mesh lies on.
+  /// For GALE's own algorithms.
+  std::uint64_t value_key(Id vertex) const {
+    return all_.values.extent(0) == 0 ? keys()[vertex] >> 32 : all_.values(vertex);
   }
 
  private:
   template <class View>
-  static Mirrored<std::uint64_t> keys_of_view(const Mesh& mesh, const View& view) {
+  static detail::OrderKeys keys_of_view(const Mesh& mesh, const View& view) {
     static_assert(View::rank == 1, "a value for each vertex");
     using Value = typename View::non_const_value_type;
     using Memory = std::conditional_t<is_device_memory<typename View::memory_space>, WorkerMemory, HostMemory>;
@@ -67,7 +82,7 @@ class GALE_EXPORT VertexOrder {
   }
 
   Mesh mesh_;
-  Mirrored<std::uint64_t> keys_;
+  detail::OrderKeys all_;
 };
 
 }  // namespace gale

@@ -8,9 +8,11 @@
 #include <gale/app/ranks/ranks.hpp>
 #include <gale/app/session.hpp>
 #include <gale/base/error.hpp>
+#include <gale/io/bytes/text.hpp>
 #include <gale/io/formats.hpp>
 #include <gale/io/read.hpp>
 #include <gale/io/write.hpp>
+#include <gale/outputs/excerpt.hpp>
 #include <gale/outputs/field.hpp>
 
 namespace gale::app {
@@ -56,6 +58,12 @@ std::string name_of_series(const std::string& path) {
 /// Whether it is a .pvtu.
 bool is_mesh(const std::string& path) { return !path.empty() && (path.back() == 'u' || path.back() == 'U'); }
 
+/// Whether it is a file that names pieces, one of each rank; others the first rank writes.
+bool has_pieces(const std::string& path) {
+  const std::string extension = io::detail::lower_case(fs::path(path).extension().string());
+  return Launch::are_several() && (extension == ".pvtp" || extension == ".pvtu");
+}
+
 /// NAME_RANK.vtp for NAME.pvtp, NAME_RANK.vtu for NAME.pvtu.
 std::string piece_of(const std::string& path, int rank) {
   return fs::path(path).replace_extension().string() + '_' + std::to_string(rank) + (is_mesh(path) ? ".vtu" : ".vtp");
@@ -75,6 +83,12 @@ nlohmann::ordered_json spread_of(std::vector<std::int64_t> by_rank, double unit)
 }
 
 }  // namespace
+
+OnExcerpt::OnExcerpt(const Mesh& excerpt, const FieldOnMesh& on) : on_(on), is_excerpt_(!(excerpt == on.mesh)) {
+  if (!is_excerpt_) return;
+  dataset_ = outputs::dataset_of(excerpt, on.mesh, on.dataset);
+  field_ = outputs::array_of(excerpt, on.mesh, on.field);
+}
 
 Session::Session(const InputOptions& input, const CommonOptions& common, std::vector<std::string> files)
     : input_(input),
@@ -99,7 +113,7 @@ Session::Session(const InputOptions& input, const CommonOptions& common, std::ve
       for (std::size_t step = 0; step < steps_.size(); ++step) {
         const std::string here = is_series_ ? name_of_step(file, step) : file;
         add(here, 0);
-        for (int rank = 0; rank < ranks_.size() && Launch::are_several(); ++rank) add(piece_of(here, rank), rank);
+        for (int rank = 0; rank < ranks_.size() && has_pieces(here); ++rank) add(piece_of(here, rank), rank);
       }
       if (is_series_ && !name_of_series(file).empty()) add(name_of_series(file), 0);
     }
@@ -177,7 +191,7 @@ Mesh Session::encode(io::Dataset& dataset, const SegmentationOptions& segmentati
     mesh_.reset();
     mesh_ = encode_anew(dataset, segmentation);
   }
-  if (keep == Keep::nothing) {
+  if (keep != Keep::cells) {
     dataset.tetrahedra = {};
     dataset.triangles = {};
     dataset.cell_arrays.clear();
@@ -214,7 +228,7 @@ FieldOnMesh Session::read_part(const SegmentationOptions& segmentation, Keep kee
     note(notices);
   };
   FieldOnMesh on = read_on_ranks(input_, segmentation.capacity.value_or(default_capacity),
-                                 {has_outputs_, has_outputs_ && keep == Keep::cells}, was_read);
+                                 {has_outputs_ || keep == Keep::values, has_outputs_ && keep == Keep::cells}, was_read);
   tell_size(on.mesh.all_vertices(), on.mesh.all_cells(), on.mesh.dimension());
   report_.segments = ranks_.sum(on.mesh.owned_segments());
   if (step_ == 0) console_.say("field", on.field.name);
@@ -344,6 +358,7 @@ nlohmann::ordered_json Session::differences_of_ranks() const {
           {"device_peak_bytes", on_device ? by_rank(static_cast<double>(*on_device)) : nlohmann::ordered_json(nullptr)},
           {"sent_messages", by_rank(static_cast<double>(ranks_.sent().messages))},
           {"sent_bytes", by_rank(static_cast<double>(ranks_.sent().bytes))},
+          {"gathered_bytes", by_rank(static_cast<double>(ranks_.sent().gathered))},
           {"reading", by_rank(seconds.read, microsecond)},
           {"initializing", by_rank(seconds.initialize, microsecond)},
           {"running", by_rank(seconds.run, microsecond)},

@@ -18,6 +18,7 @@
 #include <gale/mesh/mesh.hpp>
 #include <gale/mesh/ranks.hpp>
 #include <gale/mesh/segmentation.hpp>
+#include <gale/outputs/mesh_piece.hpp>
 #include <gale/runtime/structure.hpp>
 
 namespace gale::app {
@@ -30,6 +31,23 @@ struct FieldOnMesh {
   io::PointArray field;
   VertexOrder order;
   bool has_ids = false;  ///< whether GlobalPointIds of the dataset are the points' in the input of all ranks
+};
+
+/// What outputs take of a field on a mesh at the vertices that results are named in: where that is an excerpt of the
+/// mesh, as on several ranks, what the owners of its vertices have, else that itself. Refers to the field.
+class OnExcerpt {
+ public:
+  /// Collective.
+  OnExcerpt(const Mesh& excerpt, const FieldOnMesh& on);
+
+  const io::Dataset& dataset() const { return is_excerpt_ ? dataset_ : on_.dataset; }
+  const io::PointArray& field() const { return is_excerpt_ ? field_ : on_.field; }
+
+ private:
+  const FieldOnMesh& on_;
+  const bool is_excerpt_;
+  io::Dataset dataset_;
+  io::PointArray field_;
 };
 
 /// Segments the dataset's vertices as the options say: by an array, at random, or by an octree. Without options by the
@@ -70,8 +88,9 @@ class Session {
   io::Dataset read();
 
   /// Segments and encodes, unless the mesh of the step before is the same. The cells are taken out of `dataset` unless
-  /// they are kept.
-  enum class Keep { cells, nothing };
+  /// they are kept. On several ranks points and arrays are there where cells are, or `values`, are kept, or anything is
+  /// to be written.
+  enum class Keep { cells, values, nothing };
   Mesh encode(io::Dataset& dataset, const SegmentationOptions& segmentation, Keep keep);
 
   /// All that comes before a structure: reads, selects the field that --array names, segments, encodes, and orders the
@@ -103,17 +122,34 @@ class Session {
     write_one(file, make());
   }
 
+  /// Writes the mesh with make(), arrays of its vertices, unless the path is empty: on several ranks a piece of each.
+  template <class Make>
+  void write_mesh(const std::string& path, const FieldOnMesh& on, const Make& make) {
+    if (on.mesh.is_part()) {
+      write_result(path, [&] {
+        io::MeshPiece piece;
+        detail::together(ranks_, [&] { piece = outputs::piece_of(on.order, on.dataset, make(), on.has_ids); });
+        return piece;
+      });
+    } else {
+      write(path, [&](const io::AtomicFile& file) { io::write_mesh(file, on.dataset, make()); });
+    }
+  }
+
   /// Calls write_to(file) unless the path is empty, with a file that appears when the session finishes, together with
-  /// all others. On one rank.
+  /// all others. On the first rank alone, while the others wait.
   template <class Write>
   void write(const std::string& path, const Write& write_to) {
     if (path.empty()) return;
     const Stopwatch watch(report_.seconds.write);
     const std::string name = named(path);
     begin_step("writing", name);
-    const io::AtomicFile& file = files_.add(name);
-    write_to(file);
-    io::AtomicFiles::sync(file);
+    detail::together(ranks_, [&] {
+      if (ranks_.rank() != 0) return;
+      const io::AtomicFile& file = files_.add(name);
+      write_to(file);
+      io::AtomicFiles::sync(file);
+    });
   }
 
   /// Writes the report, with what is to say of the structure, if there was one; makes all files appear, or none, and

@@ -81,6 +81,7 @@ Communicator::Communicator(MPI_Comm comm, std::size_t largest_message) {
 
 int Communicator::rank() const { return data_->rank; }
 int Communicator::size() const { return data_->size; }
+void Communicator::note_gathered(std::int64_t bytes) const { data_->sent.gathered += bytes; }
 const SentMessages& Communicator::sent() const { return data_->sent; }
 
 void Communicator::sum(std::int64_t* values, int count) const {

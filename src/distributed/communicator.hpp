@@ -38,6 +38,7 @@ class GALE_EXPORT Communicator final : public Ranks {
   void exchange_bytes(const char* from, const std::vector<std::int64_t>& send_begin, char* to,
                       const std::vector<std::int64_t>& receive_begin) const override;
   const SentMessages& sent() const override;
+  void note_gathered(std::int64_t bytes) const override;
 
  private:
   struct Data;

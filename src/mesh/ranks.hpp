@@ -21,12 +21,14 @@ class GALE_EXPORT SharedError : public Error {
 struct SentMessages {
   std::int64_t messages = 0;   ///< to other ranks
   std::int64_t bytes = 0;      ///< all of these together
+  std::int64_t gathered = 0;   ///< bytes of what was gathered here, to be computed with on one rank
   double seconds_waiting = 0;  ///< for messages, of itself and of others, from when it had nothing else to do
 };
 
 /// The ranks that a mesh lies on, which send one another messages: a Communicator of MPI's, or a process alone.
 ///
-/// All functions but rank(), size(), is_alone() and sent() are collective: every rank calls them, in the same order.
+/// All functions but rank(), size(), is_alone(), sent() and note_gathered() are collective: every rank calls them, in
+/// the same order.
 class GALE_EXPORT Ranks {
  public:
   virtual ~Ranks() = default;
@@ -75,6 +77,9 @@ class GALE_EXPORT Ranks {
 
   /// What this rank has sent through exchange_bytes so far, and how long it has waited in all these functions.
   virtual const SentMessages& sent() const = 0;
+
+  /// Adds to what sent() says was gathered. Not collective.
+  virtual void note_gathered(std::int64_t) const {}
 };
 
 namespace detail {

@@ -77,6 +77,16 @@ KnownSimplices known_simplices(const DiscreteGradient& gradient, const CriticalS
   return known;
 }
 
+KnownSimplices own_simplices(const MorseSmaleComplex& complex, const KnownSimplices& all) {
+  KnownSimplices own;
+  for (int dimension = 0; dimension < 4; ++dimension) {
+    for (std::size_t i = 0; i < all[dimension].size(); ++i) {
+      if (complex.owns(dimension, static_cast<Id>(i))) own[dimension].push_back(all[dimension][i]);
+    }
+  }
+  return own;
+}
+
 io::PointSet to_point_set(const io::Dataset& dataset, const KnownSimplices& simplices, const Exchange& exchange) {
   io::PointSet set;
   std::vector<CriticalSimplex> all;

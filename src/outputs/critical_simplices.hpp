@@ -1,6 +1,7 @@
 #pragma once
 
 #include <gale/algorithms/discrete_gradient.hpp>
+#include <gale/algorithms/morse_smale.hpp>
 #include <gale/algorithms/simplex_numbers.hpp>
 #include <gale/export.hpp>
 #include <gale/io/write.hpp>
@@ -30,6 +31,9 @@ using KnownSimplices = std::array<std::vector<CriticalSimplex>, 4>;
 /// (`named_simplices`).
 GALE_EXPORT KnownSimplices known_simplices(const DiscreteGradient& gradient, const CriticalSimplices& critical,
                                            const SimplexNumbers& numbers);
+
+/// Those of a complex's critical simplices that are this rank's.
+GALE_EXPORT KnownSimplices own_simplices(const MorseSmaleComplex& complex, const KnownSimplices& all);
 
 /// Makes points of critical simplices, dimension by dimension. They are at vertices, the middles of edges, the
 /// incentres of triangles and the barycentres of tetrahedra, rounded to the type of the input's coordinates. Each has

@@ -49,29 +49,41 @@ Labels places_of_extrema(const Ranks& ranks, const std::vector<Id>& simplices, c
   return gale::detail::places_of_keys(ranks, keys).places;
 }
 
+/// How many saddles of this rank's there are.
 std::size_t saddles_of(const MorseSmaleComplex& complex) {
-  return complex.critical.edges.size() + complex.critical.triangles.size();
+  const auto counts = complex.own_counts();
+  return complex.critical.dimension == 2 ? counts[1] : counts[1] + counts[2];
+}
+
+/// Those of a complex's critical vertices, or cells, that are this rank's.
+std::vector<Id> own_of(const MorseSmaleComplex& complex, int dimension, const std::vector<Id>& all) {
+  std::vector<Id> own;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (complex.owns(dimension, static_cast<Id>(i))) own.push_back(all[i]);
+  }
+  return own;
 }
 
 std::vector<GlobalId> sizes_on_ranks(const MorseSmaleComplex& complex) {
-  const Mesh& mesh = complex.gradient.mesh();
+  const Mesh &mesh = complex.gradient.mesh(), &named_in = complex.excerpt.mesh();
   const Ranks& ranks = mesh.exchange().ranks();
-  const auto counts = complex.critical.counts();
+  const int top = complex.critical.dimension;
+  const auto counts = complex.own_counts();
   const std::size_t saddles = saddles_of(complex);
   std::vector<GlobalId> sizes;
   if (complex.parts.descending_manifolds) {
-    const auto minima = places_of_extrema(ranks, complex.critical.vertices,
-                                          [&](Id v) { return mesh.vertex_id(mesh.vertex_input()(v)); });
+    const auto minima = places_of_extrema(ranks, own_of(complex, 0, complex.critical.vertices),
+                                          [&](Id v) { return named_in.vertex_id(named_in.vertex_input()(v)); });
     append_sizes(mesh, complex.descending_manifold, minima, sizes);
   }
   sizes.resize(counts[0], -1);
   sizes.resize(sizes.size() + saddles, 0);
   if (complex.parts.ascending_manifolds) {
-    const auto maxima =
-        places_of_extrema(ranks, complex.critical.cells, [&](Id t) { return mesh.cell_id(mesh.cell_input()(t)); });
+    const auto maxima = places_of_extrema(ranks, own_of(complex, top, complex.critical.cells),
+                                          [&](Id t) { return named_in.cell_id(named_in.cell_input()(t)); });
     append_sizes(mesh, complex.ascending_manifold, maxima, sizes);
   }
-  sizes.resize(counts[0] + saddles + complex.critical.cells.size(), -1);
+  sizes.resize(counts[0] + saddles + counts[top], -1);
   return sizes;
 }
 

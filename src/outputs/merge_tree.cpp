@@ -55,6 +55,14 @@ std::int8_t region_type(const MergeTree& tree, const MergeArc& arc) {
   return both_are(CriticalType::saddle1) ? 2 : both_are(CriticalType::saddle2) ? 3 : 4;
 }
 
+/// The last arc of each node; no_id where it has none.
+std::vector<Id> arcs_of_nodes(const MergeTree& tree) {
+  std::vector<Id> arc_of(tree.vertices.size(), no_id);
+  for (std::size_t i = 0; i < tree.arcs.size(); ++i)
+    arc_of[tree.arcs[i].lower] = arc_of[tree.arcs[i].upper] = static_cast<Id>(i);
+  return arc_of;
+}
+
 /// Sums over the vertices of equally high parts of arcs.
 class ArcSamples {
  public:
@@ -113,12 +121,16 @@ Tree tree_named(const std::string& name) {
 
 io::PointSet tree_nodes(const io::Dataset& dataset, const io::PointArray& field, const MergeTree& tree) {
   const std::vector<double> all_spans = spans_of(dataset, tree);
+  const std::vector<Id> arc_of = arcs_of_nodes(tree);
+  const Exchange& exchange = tree.excerpt ? tree.excerpt->exchange() : Exchange::of_whole_mesh();
+  std::vector<GlobalId> ids;
+  for (const Id vertex : tree.vertices) ids.push_back(exchange.vertex_id(vertex));
   std::vector<Point> points;
   std::vector<Id> numbers, sizes;
   std::vector<double> values, spans;
   std::vector<std::int8_t> types;
   for (std::size_t i = 0; i < tree.vertices.size(); ++i) {
-    const Id vertex = tree.vertices[i], arc = tree.arc_of[vertex];
+    const Id vertex = tree.vertices[i], arc = arc_of[i];
     points.push_back(position(dataset, vertex));
     numbers.push_back(static_cast<Id>(i));
     values.push_back(value_at(field, vertex));
@@ -131,7 +143,7 @@ io::PointSet tree_nodes(const io::Dataset& dataset, const io::PointArray& field,
   for (const auto& array : dataset.arrays) set.arrays.push_back(io::gather(array, tree.vertices));
   set.arrays.push_back({"NodeId", 1, std::move(numbers)});
   set.arrays.push_back({"Scalar", 1, detail::values_as(field, std::move(values))});
-  set.arrays.push_back({"VertexId", 1, tree.vertices});
+  set.arrays.push_back({"VertexId", 1, detail::ids_as(exchange, std::move(ids))});
   set.arrays.push_back({"CriticalType", 1, std::move(types)});
   set.arrays.push_back({"RegionSize", 1, std::move(sizes)});
   set.arrays.push_back({"RegionSpan", 1, values_as_points(dataset, std::move(spans))});

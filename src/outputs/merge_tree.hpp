@@ -18,7 +18,8 @@ GALE_EXPORT Tree tree_named(const std::string& name);
 /// The nodes of a tree as points where their vertices are, in their order. Each has the input's point arrays at its
 /// vertex, then NodeId (int32, from 0), Scalar (the field; float if that is, else double), VertexId (int32, the input
 /// id), CriticalType (int8, the codes of `CriticalType`), and of the node's arc (`MergeTree::arc_of`) RegionSize and
-/// RegionSpan, as `tree_segmentation` has them.
+/// RegionSpan, as `tree_segmentation` has them. On several ranks `dataset` and `field` are those of the tree's excerpt
+/// (`dataset_of`), here and below, and VertexId is int64, the global id.
 GALE_EXPORT io::PointSet tree_nodes(const io::Dataset& dataset, const io::PointArray& field, const MergeTree& tree);
 
 /// The arcs of a tree as lines, in their order: from the lower node, over at most `samples` points between, to the
@@ -28,6 +29,8 @@ GALE_EXPORT io::PointSet tree_nodes(const io::Dataset& dataset, const io::PointA
 /// Point arrays: Scalar (the field, of barycentres its mean; float if the field is, else double), RegularMask (int8: 0
 /// at nodes, 1 between). Arrays of lines: SegmentationId (int32, from 0), upNodeId, downNodeId, RegionSize (int32),
 /// RegionSpan.
+///
+/// On several ranks there are no points between: `samples` must be 0.
 GALE_EXPORT io::Surface tree_arcs(const io::Dataset& dataset, const io::PointArray& field, const MergeTree& tree,
                                   int samples = 0);
 

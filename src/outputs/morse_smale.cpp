@@ -32,15 +32,20 @@ MorseSmaleComplex find_complex(const DiscreteGradient& gradient, const io::Point
                                const MorseSmaleRequest& request, const ComputeOptions& options, Computed* computed) {
   Computed own;
   if (computed == nullptr) computed = &own;
-  MorseSmaleComplex complex = find_morse_smale_complex(gradient, request.needed_parts(), options, computed);
+  MorseSmaleParts parts = request.needed_parts();
+  const Ranks& ranks = gradient.mesh().exchange().ranks();
+  if (ranks.size() > 1 && request.persistence)  // which gathers the others
+    parts.descending_separatrices = parts.ascending_separatrices = parts.saddle_connectors = false;
+  MorseSmaleComplex complex = find_morse_smale_complex(gradient, parts, options, computed);
   if (!request.persistence) return complex;
+  complex.parts = request.needed_parts();
   const gale::detail::Stopwatch running(computed->seconds_running);
   SimplifyOptions how;
   how.extrema_only = request.extrema_only;
   how.paths = Paths::joined;
   how.threads = options.threads;
   const auto value = [&](Id vertex) { return value_at(field, vertex); };
-  return simplify(complex, value, threshold_of(*request.persistence, field), how);
+  return simplify(complex, value, threshold_of(*request.persistence, field, ranks), how);
 }
 
 MorseSmaleOutputs morse_smale(const DiscreteGradient& gradient, const io::Dataset& dataset, const io::PointArray& field,
@@ -52,7 +57,7 @@ MorseSmaleOutputs morse_smale(const DiscreteGradient& gradient, const io::Datase
   leave_out_unwanted(request.parts, complex);
   const NamedPaths named = named_simplices(complex);
   const SimplexNumbers numbers = number_simplices(gradient.mesh(), named, options, computed);
-  const KnownSimplices critical = known_simplices(complex.gradient, complex.critical, numbers);
+  const KnownSimplices critical = known_simplices(complex.excerpt, complex.critical, numbers);
   MorseSmaleOutputs all;
   all.critical_points = to_point_set(dataset, critical);
   all.critical_points.arrays.push_back(manifold_sizes(complex));

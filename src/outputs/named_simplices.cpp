@@ -43,23 +43,24 @@ void append_between(const Separatrices<Cell>& paths, const SharedPaths& shared, 
 NamedPaths named_simplices(const MorseSmaleComplex& complex) {
   const auto &falling = complex.descending, &rising = complex.ascending;
   const auto& connectors = complex.connectors;
-  NamedPaths named = {{complex.critical.edges, complex.critical.triangles, complex.beyond.vertices},
-                      detail::share(falling),
-                      detail::share(rising),
-                      detail::share(connectors)};
+  const Mesh& mesh = complex.excerpt.mesh();
+  const bool is_excerpt = mesh.is_part();
+  NamedPaths named = {
+      {complex.critical.edges, complex.critical.triangles, is_excerpt ? std::optional(mesh) : std::nullopt},
+      detail::share(falling),
+      detail::share(rising),
+      detail::share(connectors)};
   const auto edge_of = [](Id a, Id b) { return Edge{a, b}; };
   append_between(falling, named.descending, complex.critical.edges, edge_of, named.edges);
   append_between(connectors, named.connectors, complex.critical.edges, common<2, Triangle>, named.edges);
   if (complex.critical.dimension == 2) {
     const auto shared_edge = [&](Id a, Id b) {
-      return common<2>(detail::corners_of<3>(complex, a), detail::corners_of<3>(complex, b));
+      return common<2>(detail::corners_of<3>(mesh, a), detail::corners_of<3>(mesh, b));
     };
     append_between(rising, named.ascending, complex.critical.edges, shared_edge, named.edges);
     return named;
   }
-  const auto shared = [&](Id a, Id b) {
-    return common<3>(detail::corners_of(complex, a), detail::corners_of(complex, b));
-  };
+  const auto shared = [&](Id a, Id b) { return common<3>(detail::corners_of(mesh, a), detail::corners_of(mesh, b)); };
   append_between(rising, named.ascending, complex.critical.triangles, shared, named.triangles);
   const auto& first = named.connectors.first_cell;
   for (std::size_t i = 0; i < first.extent(0); ++i) named.triangles.push_back(connectors.cells[first(i)]);

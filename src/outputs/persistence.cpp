@@ -13,25 +13,27 @@ namespace gale::outputs {
 
 namespace {
 
-/// Largest less smallest value.
-double range_of(const io::PointArray& field) {
-  return std::visit(
-      [](const auto& values) {
-        double least = HUGE_VAL, most = -HUGE_VAL;
+/// Largest less smallest value of all ranks.
+double range_of(const io::PointArray& field, const Ranks& ranks) {
+  double least = HUGE_VAL, most = -HUGE_VAL;
+  std::visit(
+      [&](const auto& values) {
         for (const auto value : values) {
           least = std::min(least, static_cast<double>(value));  // skips NaN: no comparison with it holds
           most = std::max(most, static_cast<double>(value));
         }
-        return most - least;
       },
       field.values);
+  if (ranks.size() == 1) return most - least;
+  least = ranks.least(least);
+  return -ranks.least(-most) - least;
 }
 
 }  // namespace
 
-double threshold_of(const Persistence& persistence, const io::PointArray& field) {
+double threshold_of(const Persistence& persistence, const io::PointArray& field, const Ranks& ranks) {
   if (!persistence.is_percent) return persistence.value;
-  const double range = range_of(field);
+  const double range = range_of(field, ranks);
   if (!std::isfinite(range))
     throw Error("there are no percents of the range of '" + field.name + "', which isn't finite");
   return persistence.value / 100 * range;
@@ -129,8 +131,8 @@ DiagramCounts counts_of(const std::vector<DiagramPoint>& diagram) {
   return counts;
 }
 
-io::Surface to_lines(const io::Dataset& dataset, const io::PointArray& field,
-                     const std::vector<DiagramPoint>& diagram) {
+io::Surface to_lines(const io::Dataset& dataset, const io::PointArray& field, const std::vector<DiagramPoint>& diagram,
+                     const Exchange& exchange) {
   std::vector<Id> vertices, identifiers;
   std::vector<std::int8_t> critical_types, types;
   std::vector<double> persistence, births;
@@ -160,7 +162,9 @@ io::Surface to_lines(const io::Dataset& dataset, const io::PointArray& field,
     lines.points = points_of<double>(diagram);
   }
   lines.point_arrays.push_back({"Coordinates", 3, positions_of(dataset, vertices)});
-  lines.point_arrays.push_back({"ttkVertexScalarField", 1, std::move(vertices)});
+  std::vector<GlobalId> ids;
+  for (const Id vertex : vertices) ids.push_back(exchange.vertex_id(vertex));
+  lines.point_arrays.push_back({"ttkVertexScalarField", 1, detail::ids_as(exchange, std::move(ids))});
   lines.point_arrays.push_back({"CriticalType", 1, std::move(critical_types)});
   lines.cell_arrays.push_back({"PairIdentifier", 1, std::move(identifiers)});
   lines.cell_arrays.push_back({"PairType", 1, std::move(types)});

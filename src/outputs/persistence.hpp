@@ -17,9 +17,11 @@ struct Persistence {
   bool is_percent = false;  ///< whether `value` is in percent of the range
 };
 
-/// The threshold as a difference of values: what `simplify` takes. NaN is no part of the range. Throws gale::Error,
-/// with the field's name, for percents of a range that isn't finite.
-GALE_EXPORT double threshold_of(const Persistence& persistence, const io::PointArray& field);
+/// The threshold as a difference of values: what `simplify` takes. NaN is no part of the range, which is that of the
+/// values on all `ranks`: collective where there are several. Throws gale::Error, with the field's name, for percents
+/// of a range that isn't finite.
+GALE_EXPORT double threshold_of(const Persistence& persistence, const io::PointArray& field,
+                                const Ranks& ranks = Ranks::alone());
 
 /// A class of homology: where it begins and where it ends.
 struct DiagramPoint {
@@ -59,8 +61,11 @@ GALE_EXPORT DiagramCounts counts_of(const std::vector<DiagramPoint>& diagram);
 /// Coordinates (of that vertex). Cell arrays: PairIdentifier (int32, from 0; the diagonal -1), PairType (int8; the
 /// diagonal -1), Persistence and Birth (float if the field is, else double; of the diagonal twice the greatest finite
 /// persistence, and the first birth), IsFinite (uint8; the diagonal 0).
+///
+/// Of a gathered gradient, whose mesh's `exchange` it is, vertices have their global ids, in int64.
 GALE_EXPORT io::Surface to_lines(const io::Dataset& dataset, const io::PointArray& field,
-                                 const std::vector<DiagramPoint>& diagram);
+                                 const std::vector<DiagramPoint>& diagram,
+                                 const Exchange& exchange = Exchange::of_whole_mesh());
 
 /// How many pairs persist: for each persistence that a pair has, ascending, the number of pairs of each type of that
 /// persistence or more. What never ends doesn't count.

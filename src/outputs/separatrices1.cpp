@@ -2,7 +2,6 @@
 
 #include <gale/base/error.hpp>
 #include <gale/base/parallel.hpp>
-#include <gale/mesh/exchange/messages.hpp>
 #include <gale/mesh/positions.hpp>
 #include <gale/outputs/separatrices1.hpp>
 #include <gale/outputs/separatrix_arrays.hpp>
@@ -13,7 +12,7 @@ namespace gale::outputs {
 
 namespace {
 
-using detail::End, detail::PathEnds;
+using detail::End, detail::NumbersOfAll;
 using gale::detail::Point;
 using Triangle = TriangleVertices;
 
@@ -32,65 +31,22 @@ struct Along {
 template <class Simplex, class CellOf, class IdOf>
 Along(const SharedPaths&, const Simplex*, const GlobalId*, CellOf, IdOf) -> Along<Simplex, CellOf, IdOf>;
 
-/// The global id of a vertex, or of a cell, that paths pass.
-GlobalId vertex_id(const MorseSmaleComplex& complex, Id vertex) {
-  const Mesh& mesh = complex.gradient.mesh();
-  return vertex < mesh.vertices() ? mesh.vertex_id(mesh.vertex_input()(vertex))
-                                  : complex.beyond.vertices[vertex - mesh.vertices()];
-}
-GlobalId cell_id(const MorseSmaleComplex& complex, Id cell) {
-  const Mesh& mesh = complex.gradient.mesh();
-  return cell < mesh.cells() ? mesh.cell_id(mesh.cell_input()(cell)) : complex.beyond.cells[cell - mesh.cells()];
-}
-
 /// Where the simplices on paths are drawn, by GALE's ids of their vertices.
 template <class Coordinate>
-class Positions {
- public:
-  /// Asks the owners where vertices beyond this rank's part are: collective.
-  Positions(const io::Dataset::Points<Coordinate>& points, const MorseSmaleComplex& complex)
-      : points_(points), complex_(complex), input_(mesh().vertex_input().data()) {
-    if (mesh().exchange().ranks().size() > 1) ask_owners();
-  }
+struct Positions {
+  const io::Dataset::Points<Coordinate>& points;
+  const Id* input;
 
   template <std::size_t N>
   Point operator()(const std::array<Id, N>& simplex) const {
-    const bool is_here = std::all_of(simplex.begin(), simplex.end(), [&](Id v) { return v < mesh().vertices(); });
-    return is_here ? gale::detail::position_of(points_, detail::to_input(input_, simplex)) : position_beyond(simplex);
+    return gale::detail::position_of(points, detail::to_input(input, simplex));
   }
+};
 
- private:
-  const Mesh& mesh() const { return complex_.gradient.mesh(); }
-
-  void ask_owners() {
-    const Exchange& exchange = mesh().exchange();
-    const auto& vertices = complex_.beyond.vertices;
-    const auto owners = exchange.owners_of(Array<const GlobalId, HostMemory>(vertices.data(), vertices.size()));
-    beyond_ = gale::detail::ask<Point>(
-        exchange.ranks(), "GALE::points_beyond", static_cast<Offset>(vertices.size()), [&](Id i) { return owners(i); },
-        [&](Id i) { return vertices[i]; },
-        [&](GlobalId id) { return gale::detail::point_of(points_, exchange.vertex_of(id)); });
-  }
-
-  /// The position does not depend on who asks: vertices come in the order of their global ids.
-  template <std::size_t N>
-  Point position_beyond(std::array<Id, N> simplex) const {
-    std::sort(simplex.begin(), simplex.end(),
-              [&](Id a, Id b) { return vertex_id(complex_, a) < vertex_id(complex_, b); });
-    std::array<Point, N> points{};
-    std::array<Id, N> all{};
-    for (std::size_t k = 0; k < N; ++k) {
-      const Id v = simplex[k], n = mesh().vertices();
-      points[k] = v < n ? gale::detail::point_of(points_, input_[v]) : beyond_(v - n);
-      all[k] = static_cast<Id>(k);
-    }
-    return gale::detail::position_of([&](Id k, int axis) { return points[k][axis]; }, all);
-  }
-
-  const io::Dataset::Points<Coordinate>& points_;
-  const MorseSmaleComplex& complex_;
-  const Id* input_;
-  Array<Point, HostMemory> beyond_;
+/// The ends of the paths of one kind, and their numbers.
+struct PathEnds {
+  const std::vector<End>&sources, &destinations;
+  NumbersOfAll numbers;
 };
 
 /// What 1-separatrices are in a file: a point for each simplex that paths of one kind pass, and a line along each path.
@@ -110,7 +66,7 @@ class Lines {
 
   /// The points of what precedes cells come first, then those of cells.
   template <class Cell, class Simplices>
-  void add(Type type, const Separatrices<Cell>& paths, const Simplices& along, const PathEnds<Cell>& ends) {
+  void add(Type type, const Separatrices<Cell>& paths, const Simplices& along, const PathEnds& ends) {
     const SharedPaths& shared = along.shared;
     const auto before = static_cast<Offset>(shared.first_between.extent(0));
     const auto cells = static_cast<Offset>(shared.first_cell.extent(0));
@@ -131,11 +87,11 @@ class Lines {
       // Whoever has a point first says whether paths end there: all that pass it do, or none.
       if (shared.first_between(shared.between(begin)) == begin) mask_[line[2 * begin]] = 0;
       if (shared.first_cell(shared.cell(end - 1)) == end - 1 && paths.is_whole(i)) mask_[line[2 * end - 1]] = 0;
-      const End &source = ends.source(i), &destination = ends.destination(i);
+      const End &source = ends.sources[paths.sources[i]], &destination = ends.destinations[paths.destinations[i]];
       separatrices_[first_path_ + i] = {first_path_ + i + 1,
                                         static_cast<Number>(source.cell),
                                         static_cast<Number>(destination.cell),
-                                        static_cast<Number>(first_number_ + ends.number(i)),
+                                        static_cast<Number>(first_number_ + ends.numbers[i]),
                                         type,
                                         std::max(source.highest, destination.highest).value,
                                         std::min(source.lowest, destination.lowest).value,
@@ -144,7 +100,7 @@ class Lines {
     first_point_ += before + cells;
     first_cell_ += paths.cells.size();
     first_path_ += paths.count();
-    first_number_ += ends.count();
+    first_number_ += ends.numbers.count();
   }
 
   io::Surface take(const io::PointArray& field) {
@@ -182,6 +138,7 @@ io::Surface separatrices1(const io::Dataset& dataset, const io::PointArray& fiel
                           const NamedPaths& named, const SimplexNumbers& numbers, const KnownSimplices& critical) {
   const auto &falling = complex.descending, &rising = complex.ascending;
   const auto& connectors = complex.connectors;
+  const Mesh& mesh = complex.excerpt.mesh();
   const detail::NamedGroups groups(complex, named);
   Offset points = 0;
   for (const SharedPaths* const shared : {&named.descending, &named.ascending, &named.connectors})
@@ -191,15 +148,15 @@ io::Surface separatrices1(const io::Dataset& dataset, const io::PointArray& fiel
   const GlobalId *edge_ids = numbers.edges.data(), *triangle_ids = numbers.triangles.data();
   const Along descending_along{named.descending, named.edges.data() + groups.descending_edges,
                                edge_ids + groups.descending_edges, [](Id v) { return std::array<Id, 1>{v}; },
-                               [&](Offset k) { return vertex_id(complex, falling.cells[k]); }};
+                               [&](Offset k) { return mesh.vertex_id(mesh.vertex_input()(falling.cells[k])); }};
   const Along ascending_along{named.ascending, named.triangles.data() + groups.ascending_triangles,
                               triangle_ids + groups.ascending_triangles,
-                              [&](Id t) { return detail::corners_of(complex, t); },
-                              [&](Offset k) { return cell_id(complex, rising.cells[k]); }};
+                              [&](Id t) { return detail::corners_of(mesh, t); },
+                              [&](Offset k) { return mesh.cell_id(mesh.cell_input()(rising.cells[k])); }};
   const Along ascending_on_triangles_along{named.ascending, named.edges.data() + groups.ascending_edges,
                                            edge_ids + groups.ascending_edges,
-                                           [&](Id t) { return detail::corners_of<3>(complex, t); },
-                                           [&](Offset k) { return cell_id(complex, rising.cells[k]); }};
+                                           [&](Id t) { return detail::corners_of<3>(mesh, t); },
+                                           [&](Offset k) { return mesh.cell_id(mesh.cell_input()(rising.cells[k])); }};
   const Along connecting{named.connectors, named.edges.data() + groups.connector_edges,
                          edge_ids + groups.connector_edges, [](const Triangle& triangle) { return triangle; },
                          [&](Offset k) { return triangle_ids[groups.connector_triangles + named.connectors.cell(k)]; }};
@@ -207,19 +164,16 @@ io::Surface separatrices1(const io::Dataset& dataset, const io::PointArray& fiel
   std::vector<End> ends[4];
   gale::detail::together(ranks, [&] {
     for (int dimension = 0; dimension < 4; ++dimension)
-      ends[dimension] = detail::ends_of(critical[dimension], dataset, field, complex.gradient.order());
+      ends[dimension] = detail::ends_of(critical[dimension], field, complex.excerpt.order());
   });
   const int top = complex.critical.dimension;
-  PathEnds<Id> falling_ends(falling, ends[1], ends[0]), rising_ends(rising, ends[top - 1], ends[top]);
-  const PathEnds<Triangle> connector_ends(connectors, ends[1], ends[2]);
-  if (ranks.size() > 1) {
-    falling_ends.ask(ranks, [&](Offset i) { return descending_along.id_of(falling.begin[i + 1] - 1); });
-    rising_ends.ask(ranks, [&](Offset i) { return ascending_along.id_of(rising.begin[i + 1] - 1); });
-  }
+  const PathEnds falling_ends{ends[1], ends[0], NumbersOfAll(ranks, falling.sources, ends[1])};
+  const PathEnds rising_ends{ends[top - 1], ends[top], NumbersOfAll(ranks, rising.sources, ends[top - 1])};
+  const PathEnds connector_ends{ends[1], ends[2], NumbersOfAll(ranks, connectors.destinations, ends[2])};
   return std::visit(
       [&](const auto& at) {
         using Coordinate = typename std::decay_t<decltype(at)>::non_const_value_type;
-        const Positions<Coordinate> positions(at, complex);
+        const Positions<Coordinate> positions{at, mesh.vertex_input().data()};
         io::Surface surface;
         const auto fill = [&](auto lines) {
           lines.add(descending, falling, descending_along, falling_ends);
@@ -232,8 +186,8 @@ io::Surface separatrices1(const io::Dataset& dataset, const io::PointArray& fiel
           surface = lines.take(field);
         };
         gale::detail::together(ranks, [&] {
-          complex.gradient.mesh().is_part() ? fill(Lines<Coordinate, GlobalId>(positions, points, cells, paths))
-                                            : fill(Lines<Coordinate, Id>(positions, points, cells, paths));
+          mesh.is_part() ? fill(Lines<Coordinate, GlobalId>(positions, points, cells, paths))
+                         : fill(Lines<Coordinate, Id>(positions, points, cells, paths));
         });
         return surface;
       },

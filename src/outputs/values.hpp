@@ -43,16 +43,6 @@ std::array<Id, N> corners_of(const Mesh& mesh, Id cell) {
   return corners;
 }
 
-/// The vertices of a cell on a complex's separatrices, which may be beyond the part that its mesh is.
-template <std::size_t N = 4>
-std::array<Id, N> corners_of(const MorseSmaleComplex& complex, Id cell) {
-  const Mesh& mesh = complex.gradient.mesh();
-  if (cell < mesh.cells()) return corners_of<N>(mesh, cell);
-  std::array<Id, N> corners;
-  std::copy_n(complex.beyond.corners[cell - mesh.cells()].begin(), N, corners.begin());
-  return corners;
-}
-
 /// Input ids of vertices from GALE's. `input` is `mesh.vertex_input().data()`.
 template <std::size_t N>
 std::array<Id, N> to_input(const Id* input, std::array<Id, N> simplex) {

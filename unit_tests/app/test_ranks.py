@@ -68,7 +68,7 @@ class OnRanks(ranks.RanksTest):
         self.assertEqual(report["count"], 3)
         self.assertLessEqual(report["owned_vertices"]["least"], 16 ** 3 / 3)
         self.assertGreaterEqual(report["owned_vertices"]["most"], 16 ** 3 / 3)
-        for key in ("tetrahedra", "host_peak_bytes", "sent_messages", "sent_bytes", "reading", "initializing", "running", "writing",
+        for key in ("tetrahedra", "host_peak_bytes", "sent_messages", "sent_bytes", "gathered_bytes", "reading", "initializing", "running", "writing",
                     "waiting"):
             with self.subTest(key=key):
                 spread = report[key]
@@ -87,11 +87,12 @@ class OnRanks(ranks.RanksTest):
                 (2, "--segments", ["critical-points", "grid:8", "--segments", "field"]),
                 (2, ".pvtp", ["discrete-gradient", "grid:8", "-o", "all.vtp"]),
                 (2, "--arrows: not on several ranks", ["discrete-gradient", "grid:8", "--arrows", "all.vtp"]),
-                (2, "--no-saddle-connectors", ["morse-smale", "grid:8"]),
-                (2, "--separatrices2: not on several ranks", ["morse-smale", "grid:8", "--no-saddle-connectors", "--separatrices2"]),
-                (2, "--persistence: not on several ranks", ["morse-smale", "grid:8", "--no-saddle-connectors", "--persistence", "1"]),
-                (2, "persistence-diagram works on one rank", ["persistence-diagram", "grid:8"]),
-                (2, "merge-tree works on one rank", ["merge-tree", "grid:8"]),
+                (2, "--separatrices2: not on several ranks", ["morse-smale", "grid:8", "--separatrices2"]),
+                (2, "--render: not on several ranks", ["morse-smale", "grid:8", "--render", "all.png"]),
+                (2, "--extrema-only: it goes with --persistence", ["morse-smale", "grid:8", "--extrema-only"]),
+                (2, "--persistence with --type contour: not on several ranks",
+                 ["merge-tree", "grid:8", "--type", "contour", "--persistence", "1"]),
+                (2, "--arc-samples: not on several ranks", ["merge-tree", "grid:8", "--arc-samples", "3"]),
                 (2, "simplify-field works on one rank", ["simplify-field", "grid:8"]),
                 (2, "--nonsense", ["critical-points", "grid:8", "--nonsense"])):
             with self.subTest(arguments=arguments):

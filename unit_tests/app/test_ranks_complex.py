@@ -13,7 +13,7 @@ class ComplexOnRanks(ranks.ComplexTest):
         for source in ("grid:14", "ties.vtk"):
             for count in ranks.RANKS:
                 with self.subTest(source=source, ranks=count):
-                    self.expect_complex_of_one_rank(count, source, "--no-saddle-connectors")
+                    self.expect_complex_of_one_rank(count, source)
 
     def test_what_is_switched_off_is_not_there(self):
         parts = ("--no-saddle-connectors", "--no-descending-separatrices", "--no-ascending-segmentation")

@@ -17,18 +17,16 @@ namespace gale::test {
 class ComplexOnRanks : public EveryPartition {
  protected:
   /// The complex of the whole mesh, on this rank alone.
-  MorseSmaleComplex complex_on_one(const std::vector<double>& values) const {
+  MorseSmaleComplex complex_on_one(const std::vector<double>& values, const MorseSmaleParts& parts = {}) const {
     const Mesh whole = whole_mesh();
     const auto structure = make_structure(whole, discrete_gradient_relations_of(whole.dimension()));
     return find_morse_smale_complex(
-        *structure, find_discrete_gradient(*structure, VertexOrder(whole, values.data(), values.size())));
+        *structure, find_discrete_gradient(*structure, VertexOrder(whole, values.data(), values.size())), parts);
   }
 
-  MorseSmaleComplex complex_of(const std::vector<double>& values) const {
+  MorseSmaleComplex complex_of(const std::vector<double>& values, const MorseSmaleParts& parts = {}) const {
     const VertexOrder order(mesh_, part_.values(values));
     const auto structure = make_structure(mesh_, discrete_gradient_relations_of(mesh_.dimension()));
-    MorseSmaleParts parts;
-    parts.saddle_connectors = is_surface();  // which has none
     return find_morse_smale_complex(*structure, find_discrete_gradient(*structure, order), parts);
   }
 
@@ -41,31 +39,71 @@ class ComplexOnRanks : public EveryPartition {
     }
   }
 
-  /// The input's number of a vertex, or a cell, on a path.
-  Id vertex_on_path(const MorseSmaleComplex& found, Id vertex) const {
-    const Id n = mesh_.vertices();
-    return vertex < n ? input_vertex(vertex) : vertex_named(found.beyond.vertices[vertex - n]);
+  /// The input's number of a vertex, or a cell, that a complex names.
+  static Id vertex_on_path(const MorseSmaleComplex& found, Id vertex) {
+    const Mesh& mesh = found.excerpt.mesh();
+    const Id input = mesh.vertex_input()(vertex);
+    return mesh.is_part() ? vertex_named(mesh.vertex_id(input)) : input;
   }
-  Id cell_on_path(const MorseSmaleComplex& found, Id cell) const {
-    const Id n = mesh_.cells();
-    return cell < n ? input_cell(cell) : cell_named(found.beyond.cells[cell - n]);
+  static Id cell_on_path(const MorseSmaleComplex& found, Id cell) {
+    const Mesh& mesh = found.excerpt.mesh();
+    const Id input = mesh.cell_input()(cell);
+    return mesh.is_part() ? cell_named(mesh.cell_id(input)) : input;
   }
 
-  /// A path: the input's numbers of its source's vertices, where it ends, and those of the simplices on it.
-  using Path = std::tuple<std::vector<Id>, Id, std::vector<Id>>;
+  /// Those of all vertices of a simplex, in its order, or ascending.
+  template <std::size_t N>
+  static std::vector<Id> names_of(const MorseSmaleComplex& found, const std::array<Id, N>& simplex) {
+    std::vector<Id> names;
+    for (const Id v : simplex) names.push_back(vertex_on_path(found, v));
+    return names;
+  }
+  static std::vector<Id> names_of(const MorseSmaleComplex& found, Id vertex) { return {vertex_on_path(found, vertex)}; }
+
+  /// A path, or a surface: the vertices of its source, of where it ends, and what it leads through.
+  using Path = std::tuple<std::vector<Id>, std::vector<Id>, std::vector<std::vector<Id>>>;
   using Paths = std::map<Path, std::int64_t>;
 
-  template <class Source, class VertexOf, class CellOf>
-  static Paths paths_of(const Separatrices<Id>& some, const std::vector<Source>& sources, const VertexOf& vertex_of,
-                        const CellOf& cell_of) {
+  template <class Cell, class Sources, class Ends, class NamesOfCell>
+  static Paths paths_of(const MorseSmaleComplex& found, const Separatrices<Cell>& some, const Sources& sources,
+                        const Ends& ends, const NamesOfCell& names_of_cell) {
     Paths paths;
     for (Id i = 0; i < some.count(); ++i) {
-      std::vector<Id> source, cells;
-      for (const Id v : sources[some.sources[i]]) source.push_back(vertex_of(v));
-      for (const Id* cell = some.first(i); cell != some.last(i); ++cell) cells.push_back(cell_of(*cell));
-      ++paths[{source, some.destinations[i], cells}];
+      Path path{names_of(found, sources[some.sources[i]]), {}, {}};
+      if (!some.destinations.empty()) std::get<1>(path) = ends(some.destinations[i]);
+      for (Offset k = some.begin[i]; k < some.begin[i + 1]; ++k) std::get<2>(path).push_back(names_of_cell(k));
+      ++paths[path];
     }
     return paths;
+  }
+
+  /// All that a complex leads through, by kind: descending and ascending paths, connectors, walls.
+  static std::array<Paths, 5> all_paths_of(const MorseSmaleComplex& found) {
+    const auto& critical = found.critical;
+    const auto vertex = [&](Id place) { return names_of(found, critical.vertices[place]); };
+    const auto cell = [&](Id place) { return std::vector<Id>{cell_on_path(found, critical.cells[place])}; };
+    const auto triangle = [&](Id place) { return names_of(found, critical.triangles[place]); };
+    const auto nothing = [](Id) { return std::vector<Id>(); };
+    std::array<Paths, 5> all;
+    all[0] = paths_of(found, found.descending, critical.edges, vertex,
+                      [&](Offset k) { return names_of(found, found.descending.cells[k]); });
+    const auto rising = [&](const auto& saddles) {
+      return paths_of(found, found.ascending, saddles, cell,
+                      [&](Offset k) { return std::vector<Id>{cell_on_path(found, found.ascending.cells[k])}; });
+    };
+    all[1] = critical.dimension == 2 ? rising(critical.edges) : rising(critical.triangles);
+    all[2] = paths_of(found, found.connectors, critical.edges, triangle,
+                      [&](Offset k) { return names_of(found, found.connectors.cells[k]); });
+    all[3] = paths_of(found, found.descending_walls, critical.triangles, nothing,
+                      [&](Offset k) { return names_of(found, found.descending_walls.cells[k]); });
+    const auto& walls = found.ascending_walls;
+    all[4] = paths_of(found, walls.walls, critical.edges, nothing, [&](Offset k) {
+      auto names = names_of(found, walls.walls.cells[k]);
+      for (Offset t = walls.star_begin[k]; t < walls.star_begin[k + 1]; ++t)
+        names.push_back(cell_on_path(found, walls.star[t]));
+      return names;
+    });
+    return all;
   }
 
   /// The sum over all ranks of how often each of the paths is there must be how often it is in the whole mesh.
@@ -85,48 +123,36 @@ TEST_P(ComplexOnRanks, manifolds_are_those_of_one_rank) {
 }
 
 void ComplexOnRanks::expect_paths(const Paths& here, const Paths& expected) const {
-  for (const auto& [path, times] : here) EXPECT_EQ(expected.count(path), 1u) << "to " << std::get<1>(path);
+  for (const auto& [path, times] : here)
+    EXPECT_EQ(expected.count(path), 1u) << "from " << testing::PrintToString(std::get<0>(path));
   std::vector<std::int64_t> counts;
   for (const auto& [path, times] : expected) counts.push_back(here.count(path) == 0 ? 0 : here.at(path));
   ranks_.sum(counts.data(), static_cast<int>(counts.size()));
   std::size_t at = 0;
-  for (const auto& [path, times] : expected) EXPECT_EQ(counts[at++], times) << "to " << std::get<1>(path);
+  for (const auto& [path, times] : expected)
+    EXPECT_EQ(counts[at++], times) << "from " << testing::PrintToString(std::get<0>(path));
 }
 
 TEST_P(ComplexOnRanks, separatrices_are_those_of_one_rank) {
   for (const Field& field : {fields_on(input())[0], fields_on(input())[4]}) {
     SCOPED_TRACE(field.name);
-    const MorseSmaleComplex whole = complex_on_one(field.values), found = complex_of(field.values);
-    const auto& vertex_input = whole.gradient.mesh().vertex_input();
-    const auto& cell_input = whole.gradient.mesh().cell_input();
-    const auto vertex_here = [&](Id v) { return vertex_on_path(found, v); };
-    const auto cell_here = [&](Id t) { return cell_on_path(found, t); };
-    expect_paths(paths_of(found.descending, found.critical.edges, vertex_here, vertex_here),
-                 paths_of(whole.descending, whole.critical.edges, vertex_input, vertex_input));
-    const auto expect_ascending = [&](const auto& saddles, const auto& saddles_of_whole) {
-      expect_paths(paths_of(found.ascending, saddles, vertex_here, cell_here),
-                   paths_of(whole.ascending, saddles_of_whole, vertex_input, cell_input));
-    };
-    is_surface() ? expect_ascending(found.critical.edges, whole.critical.edges)
-                 : expect_ascending(found.critical.triangles, whole.critical.triangles);
+    MorseSmaleParts parts;
+    parts.separatrices2 = !is_surface() && field.name == "permutation";
+    const auto expected = all_paths_of(complex_on_one(field.values, parts));
+    const auto found = all_paths_of(complex_of(field.values, parts));
+    for (std::size_t kind = 0; kind < expected.size(); ++kind) {
+      SCOPED_TRACE(kind);
+      expect_paths(found[kind], expected[kind]);
+    }
   }
 }
 
-TEST_P(ComplexOnRanks, simplices_beyond_a_part_are_those_that_it_does_not_hold) {
+TEST_P(ComplexOnRanks, critical_simplices_are_those_of_the_gradient_and_those_that_separatrices_reach) {
   const MorseSmaleComplex found = complex_of(fields_on(input())[0].values);
-  std::set<GlobalId> names;
-  for (const GlobalId name : found.beyond.vertices) {
-    EXPECT_EQ(mesh_.vertex_of(name), no_id);
-    EXPECT_TRUE(names.insert(name).second);
-  }
-  ASSERT_EQ(found.beyond.corners.size(), found.beyond.cells.size());
-  for (std::size_t i = 0; i < found.beyond.cells.size(); ++i) {
-    EXPECT_EQ(mesh_.exchange().cell_of(found.beyond.cells[i]), no_id);
-    std::set<Id> corners;
-    for (const Id v : found.beyond.corners[i]) corners.insert(vertex_on_path(found, v));
-    const auto& quad = input().tetrahedra[cell_named(found.beyond.cells[i])];
-    EXPECT_EQ(corners, std::set<Id>(quad.begin(), quad.end()));
-  }
+  const auto own = found.own_counts(), all = found.gradient.critical().counts();
+  EXPECT_EQ(own, all);
+  for (std::size_t i = 0; i < found.critical.vertices.size(); ++i)
+    EXPECT_EQ(found.owns(0, static_cast<Id>(i)), owned()[vertex_on_path(found, found.critical.vertices[i])]);
 }
 
 INSTANTIATE_TEST_SUITE_P(Tests, ComplexOnRanks, every_mesh_and_partition(), mesh_and_partition);

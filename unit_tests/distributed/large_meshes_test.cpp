@@ -48,16 +48,14 @@ Sums sums_on_ranks(const DistributedMesh& mesh, const WholeField& field) {
   const auto critical = find_critical_points(*structure, order);
   for (std::size_t i = 0; i < critical.vertices.size(); ++i)
     points.add(mesh.vertex_id(critical.vertices[i]), static_cast<int>(critical.types[i]), critical.on_surface[i]);
-  MorseSmaleParts parts;
-  parts.saddle_connectors = false;
-  const auto complex = find_morse_smale_complex(*structure, find_discrete_gradient(*structure, order), parts);
-  const auto id = [&](Id v) {
-    return v < mesh.vertices() ? mesh.vertex_id(mesh.vertex_input()(v)) : complex.beyond.vertices[v - mesh.vertices()];
-  };
-  const auto cell_id = [&](Id t) {
-    return t < mesh.cells() ? mesh.cell_id(mesh.cell_input()(t)) : complex.beyond.cells[t - mesh.cells()];
-  };
-  for (const auto& [high, low] : complex.critical.edges) simplices.add(id(high), id(low));
+  const auto complex = find_morse_smale_complex(*structure, find_discrete_gradient(*structure, order));
+  const Mesh& named_in = complex.excerpt.mesh();
+  const auto id = [&](Id v) { return named_in.vertex_id(named_in.vertex_input()(v)); };
+  const auto cell_id = [&](Id t) { return named_in.cell_id(named_in.cell_input()(t)); };
+  for (std::size_t i = 0; i < complex.critical.edges.size(); ++i) {
+    if (complex.owns(1, static_cast<Id>(i)))
+      simplices.add(id(complex.critical.edges[i][0]), id(complex.critical.edges[i][1]));
+  }
   for (const auto& [high, middle, low] : complex.critical.triangles) simplices.add(id(high), id(middle), id(low));
   const auto down = to_vector(complex.descending_manifold), up = to_vector(complex.ascending_manifold),
              pairs = to_vector(complex.morse_smale_manifold);

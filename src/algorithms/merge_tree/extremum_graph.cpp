@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <utility>
 
+#include <gale/algorithms/discrete_gradient.hpp>
 #include <gale/algorithms/links/link_sweep.hpp>
 #include <gale/algorithms/merge_tree.hpp>
 #include <gale/algorithms/merge_tree/extremum_graph.hpp>
@@ -41,6 +42,9 @@ ExtremumGraph<HostMemory> extremum_graph(Structure& structure, const std::uint64
   const Id count = structure.mesh().vertices();
   ExtremumGraph<HostMemory> graph;
   for (auto& side : graph) side.next = allocate<Ids>("GALE::next_of_vertices", count);
+  if (structure.mesh().owned_vertices() < count) {
+    for (auto& side : graph) fill("GALE::next_of_ghosts", HostExecutionSpace(), side.next, DiscreteGradient::elsewhere);
+  }
   Id* const next[2] = {graph[below].next.data(), graph[above].next.data()};
   std::vector<ExtremumFinder> finders(std::max(options.threads, 0), ExtremumFinder(keys));
   structure.for_each_segment(merge_tree_relations, options, [&](int consumer, const SegmentRows& rows) {

@@ -103,14 +103,16 @@ class WallTracer {
 
 }  // namespace
 
-AscendingWalls ascending_walls(Structure& structure, const DiscreteGradient& gradient, int threads) {
-  const auto& edges = gradient.critical().edges;
+AscendingWalls ascending_walls(Structure& structure, const DiscreteGradient& gradient, const std::vector<Id>& sources,
+                               int threads) {
+  std::vector<Edge> edges;
+  for (const Id place : sources) edges.push_back(gradient.critical().edges[place]);
   const auto tracers = traced(
       edges, threads, [&](int thread) { return std::make_unique<WallTracer>(structure, gradient, thread); },
       [&](WallTracer& tracer, Id place) { tracer.follow(place, edges[place]); });
   auto all = gathered(tracers, &WallTracer::walls, &Separatrices<Cell>::sources, static_cast<Id>(edges.size()));
   AscendingWalls walls;
-  walls.walls.sources = std::move(all.sources);
+  for (const Id i : all.sources) walls.walls.sources.push_back(sources[i]);
   walls.walls.begin = std::move(all.begin);
   const Offset count = static_cast<Offset>(all.cells.size());
   walls.walls.cells.resize(count);

@@ -2,11 +2,13 @@
 #include <tuple>
 #include <utility>
 
+#include <gale/algorithms/excerpt/gradient_excerpt.hpp>
 #include <gale/algorithms/gradient/gradient_store.hpp>
 #include <gale/algorithms/morse_smale.hpp>
 #include <gale/algorithms/morse_smale/parts.hpp>
 #include <gale/algorithms/order/require_mesh.hpp>
 #include <gale/base/error.hpp>
+#include <gale/runtime/make_structure.hpp>
 
 namespace gale {
 
@@ -15,18 +17,103 @@ namespace {
 /// Connectors and descending walls, of those parts that the complex is to have.
 void find_surfaces(const detail::CriticalPlaces& places, int threads, MorseSmaleComplex& complex) {
   const MorseSmaleParts& parts = complex.parts;
-  if (!parts.separatrices2 && complex.gradient.store().is_from_kernels()) {
+  if (!parts.separatrices2 && complex.excerpt.store().is_from_kernels()) {
     try {
-      complex.connectors = detail::device_connectors(complex.gradient, complex.critical, places);
+      complex.connectors = detail::device_connectors(complex.excerpt, complex.critical, places);
       return;
     } catch (const OutOfMemory&) {
       // The host takes one wall after the other.
     }
   }
-  auto surfaces = detail::descending_surfaces(complex.gradient, complex.critical, places, parts.separatrices2,
+  auto surfaces = detail::descending_surfaces(complex.excerpt, complex.critical, places, parts.separatrices2,
                                               parts.saddle_connectors, threads);
   complex.connectors = std::move(surfaces.connectors);
   complex.descending_walls = std::move(surfaces.walls);
+}
+
+/// Leaves those that begin at a saddle that isn't this rank's out.
+Separatrices<Id> from_own(Separatrices<Id> all, const std::vector<char>& is_own) {
+  if (is_own.empty()) return all;
+  Separatrices<Id> own;
+  for (Id i = 0; i < all.count(); ++i) {
+    if (is_own[all.sources[i]] == 0) continue;
+    own.sources.push_back(all.sources[i]);
+    own.destinations.push_back(all.destinations[i]);
+    own.cells.insert(own.cells.end(), all.first(i), all.last(i));
+    own.begin.push_back(static_cast<Offset>(own.cells.size()));
+  }
+  return own;
+}
+
+/// Finds the separatrices that the complex is to have, in its excerpt. Calls structure() if it needs one.
+template <class GetStructure>
+void find_separatrices(int threads, const GetStructure& structure, MorseSmaleComplex& complex) {
+  const MorseSmaleParts& parts = complex.parts;
+  const DiscreteGradient& gradient = complex.excerpt;
+  const detail::CriticalPlaces places(complex.critical);
+  if (parts.descending_separatrices)
+    complex.descending = from_own(detail::descending_separatrices(gradient.mesh(), gradient.store().vertex_successors(),
+                                                                  complex.critical, places),
+                                  complex.is_own[1]);
+  if (parts.ascending_separatrices)
+    complex.ascending = detail::ascending_separatrices(gradient.store().cell_successors(), complex.critical, places);
+  if (gradient.mesh().dimension() == 3 && (parts.saddle_connectors || parts.separatrices2))
+    find_surfaces(places, threads, complex);
+  if (!parts.separatrices2) return;
+  std::vector<Id> sources;
+  for (std::size_t i = 0; i < complex.critical.edges.size(); ++i) {
+    if (complex.owns(1, static_cast<Id>(i))) sources.push_back(static_cast<Id>(i));
+  }
+  complex.ascending_walls = detail::ascending_walls(structure(), gradient, sources, threads);
+}
+
+/// Which of an excerpt's critical simplices are this rank's: the highest vertices are.
+std::array<std::vector<char>, 4> own_simplices(const DiscreteGradient& excerpt, const Mesh& mesh) {
+  const CriticalSimplices& critical = excerpt.critical();
+  const std::uint64_t* const keys = excerpt.order().keys();
+  const auto& corners = excerpt.mesh().encoded().cells;
+  std::array<std::vector<char>, 4> own;
+  const auto add = [&](int dimension, Id vertex) {
+    const Id here = mesh.vertex_of(excerpt.mesh().vertex_id(excerpt.mesh().vertex_input()(vertex)));
+    own[dimension].push_back(here != no_id && mesh.vertex_internal()(here) < mesh.owned_vertices());
+  };
+  for (const Id vertex : critical.vertices) add(0, vertex);
+  for (const auto& edge : critical.edges) add(1, edge[0]);
+  for (const auto& triangle : critical.triangles) add(2, triangle[0]);
+  for (const Id cell : critical.cells) {
+    const Id* const all = &corners(cell, 0);
+    add(critical.dimension, *std::max_element(all, all + 4, [&](Id a, Id b) { return keys[a] < keys[b]; }));
+  }
+  return own;
+}
+
+/// Finds the separatrices of this rank's saddles on several ranks, of which each follows those of all. Collective.
+template <class GetStructure>
+void find_on_ranks(int threads, const GetStructure& structure, MorseSmaleComplex& complex) {
+  const MorseSmaleParts& parts = complex.parts;
+  const Mesh& mesh = complex.gradient.mesh();
+  detail::WantedWays ways;
+  ways.falling_paths = parts.descending_separatrices;
+  ways.rising_paths = parts.ascending_separatrices;
+  ways.falling_walls = mesh.dimension() == 3 && (parts.saddle_connectors || parts.separatrices2);
+  ways.rising_walls = parts.separatrices2;
+  Structure* rows = nullptr;
+  if (ways.rising_walls) detail::together(mesh.exchange().ranks(), [&] { rows = &structure(); });
+  complex.excerpt = detail::excerpt_of(complex.gradient, ways, rows);
+  detail::together(mesh.exchange().ranks(), [&] {
+    complex.critical = complex.excerpt.critical();
+    complex.is_own = own_simplices(complex.excerpt, mesh);
+    StructureOptions by_itself;
+    by_itself.way = Way::inline_;
+    std::unique_ptr<Structure> around;
+    find_separatrices(
+        threads,
+        [&]() -> Structure& {
+          around = make_structure(complex.excerpt.mesh(), morse_smale_relations, by_itself);
+          return *around;
+        },
+        complex);
+  });
 }
 
 /// Finds the manifolds that the complex is to have.
@@ -47,30 +134,26 @@ MorseSmaleComplex find_parts(const DiscreteGradient& gradient, const MorseSmaleP
   const bool has_walls = gradient.mesh().dimension() == 3;
   if (!has_walls && parts.separatrices2)
     throw Error("a mesh of triangles has no 2-separatrices: those of a mesh of tetrahedra consist of triangles");
-  if (has_walls && parts.saddle_connectors) detail::require_whole_mesh("saddle connectors", gradient.mesh());
-  if (parts.separatrices2) detail::require_whole_mesh("2-separatrices", gradient.mesh());
   MorseSmaleComplex complex{gradient, parts, gradient.critical()};
   if (gradient.mesh().exchange().ranks().size() > 1) {
-    if (parts.descending_separatrices)
-      complex.descending = detail::descending_separatrices_on_ranks(gradient, complex.beyond);
-    if (parts.ascending_separatrices)
-      complex.ascending = detail::ascending_separatrices_on_ranks(gradient, complex.beyond);
-    find_manifolds(complex);
-    return complex;
+    find_on_ranks(threads, structure, complex);
+  } else {
+    find_separatrices(threads, structure, complex);
   }
-  const detail::CriticalPlaces places(gradient.critical());
-  if (parts.descending_separatrices)
-    complex.descending = detail::descending_separatrices(gradient.mesh(), gradient.store().vertex_successors(),
-                                                         complex.critical, places);
-  if (parts.ascending_separatrices)
-    complex.ascending = detail::ascending_separatrices(gradient.store().cell_successors(), complex.critical, places);
-  if (has_walls && (parts.saddle_connectors || parts.separatrices2)) find_surfaces(places, threads, complex);
-  if (parts.separatrices2) complex.ascending_walls = detail::ascending_walls(structure(), gradient, threads);
   find_manifolds(complex);
   return complex;
 }
 
 }  // namespace
+
+std::array<Id, 4> MorseSmaleComplex::own_counts() const {
+  std::array<Id, 4> counts = critical.counts();
+  for (int dimension = 0; dimension < 4; ++dimension) {
+    const std::vector<char>& own = is_own[dimension];
+    if (!own.empty()) counts[dimension] = static_cast<Id>(std::count(own.begin(), own.end(), 1));
+  }
+  return counts;
+}
 
 MorseSmaleComplex find_morse_smale_complex(const DiscreteGradient& gradient, const MorseSmaleParts& parts,
                                            const ComputeOptions& options, Computed* computed) {

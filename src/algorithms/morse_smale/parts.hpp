@@ -31,14 +31,6 @@ Separatrices<Id> descending_separatrices(const Mesh& mesh, const Mirrored<Id>& s
 Separatrices<Id> ascending_separatrices(const Mirrored<Id>& successors, const CriticalSimplices& critical,
                                         const CriticalPlaces& places, Paths told = Paths::whole);
 
-/// Finds the separatrices that descend from this rank's critical edges, and those that ascend from its critical facets
-/// of cells, with the cells that other ranks hold: these are appended to `beyond`.
-///
-/// The ranks that a path visits are found by halves: each knows where the path is 2^k changes of ranks later. Then all
-/// of them send their pieces at once: two rounds of messages more than the ends of all paths take. Collective.
-Separatrices<Id> descending_separatrices_on_ranks(const DiscreteGradient& gradient, SimplicesBeyond& beyond);
-Separatrices<Id> ascending_separatrices_on_ranks(const DiscreteGradient& gradient, SimplicesBeyond& beyond);
-
 /// The descending walls of critical triangles, and the saddle connectors in them.
 struct DescendingSurfaces {
   Separatrices<TriangleVertices> walls, connectors;
@@ -56,9 +48,10 @@ DescendingSurfaces descending_surfaces(const DiscreteGradient& gradient, const C
 Separatrices<TriangleVertices> device_connectors(const DiscreteGradient& gradient, const CriticalSimplices& critical,
                                                  const CriticalPlaces& places, Offset most_together = Offset(1) << 26);
 
-/// Finds the ascending walls of all critical edges. A wall goes on from an edge, through each of the edge's triangles,
-/// to the edge that the triangle is paired with. Reads VT of `structure`.
-AscendingWalls ascending_walls(Structure& structure, const DiscreteGradient& gradient, int threads);
+/// Finds the ascending walls of some critical edges, by their places, ascending. A wall goes on from an edge, through
+/// each of the edge's triangles, to the edge that the triangle is paired with. Reads VT of `structure`.
+AscendingWalls ascending_walls(Structure& structure, const DiscreteGradient& gradient, const std::vector<Id>& sources,
+                               int threads);
 
 // Manifolds are where they were found: in the workers' memory, if there is room. Of a mesh on several ranks they are
 // on the host; finding them is collective. They are by input id, ghosts' too, and name extrema by their places among

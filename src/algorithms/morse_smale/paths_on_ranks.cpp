@@ -23,8 +23,10 @@ Array<const Id, HostMemory> ends_here(const Mirrored<Id>& successors, const std:
 }  // namespace
 
 PathSimplices::PathSimplices(const DiscreteGradient& gradient, Kind kind)
-    : gradient_(gradient),
+    : mesh_(gradient.mesh()),
       are_vertices_(kind == Kind::falling_vertices),
+      successors_(are_vertices_ ? gradient.store().vertex_successors() : gradient.store().cell_successors()),
+      critical_(are_vertices_ ? gradient.critical().vertices : gradient.critical().cells),
       input_(are_vertices_ ? mesh().vertex_input().data() : mesh().cell_input().data()),
       vertex_input_(mesh().vertex_input().data()),
       keys_(gradient.order().keys()),
@@ -35,19 +37,20 @@ PathSimplices::PathSimplices(const DiscreteGradient& gradient, Kind kind)
                [&](Offset t) { cell_internal_(input_[t]) = static_cast<Id>(t); });
 }
 
+PathSimplices::PathSimplices(const VertexOrder& order, const Mirrored<Id>& successors, const std::vector<Id>& ends)
+    : mesh_(order.mesh()),
+      are_vertices_(true),
+      successors_(successors),
+      critical_(ends),
+      input_(mesh_.vertex_input().data()),
+      vertex_input_(input_),
+      keys_(order.keys()),
+      corners_(mesh_.encoded().cells) {}
+
 std::unique_ptr<const PathSimplices> PathSimplices::make(const DiscreteGradient& gradient, Kind kind) {
   std::unique_ptr<const PathSimplices> made;
   together(gradient.mesh().exchange().ranks(), [&] { made = std::make_unique<const PathSimplices>(gradient, kind); });
   return made;
-}
-
-const Mirrored<Id>& PathSimplices::successors() const {
-  const GradientStore& store = gradient_.store();
-  return are_vertices_ ? store.vertex_successors() : store.cell_successors();
-}
-
-const std::vector<Id>& PathSimplices::critical() const {
-  return are_vertices_ ? gradient_.critical().vertices : gradient_.critical().cells;
 }
 
 GlobalId PathSimplices::global(Id simplex) const {
@@ -69,13 +72,6 @@ int PathSimplices::owner(Id simplex) const {
   return mesh().exchange().owner(vertex_input_[highest]);
 }
 
-PathCell PathSimplices::cell(Id simplex) const {
-  PathCell cell{global(simplex), {}};
-  for (int corner = 0; corner < 4 && !are_vertices_; ++corner)
-    cell.corners[corner] = mesh().vertex_id(vertex_input_[corners_(simplex, corner)]);
-  return cell;
-}
-
 PathsOnRanks::PathsOnRanks(const PathSimplices& simplices)
     : simplices_(simplices), criticals_(static_cast<Id>(simplices.critical().size())) {
   together(ranks(), [&] { find_exits(); });
@@ -92,10 +88,7 @@ void PathsOnRanks::find_exits() {
   std::vector<Id> ends = simplices_.critical();
   ends.insert(ends.end(), exits_.begin(), exits_.end());
   ends_ = ends_here(simplices_.successors(), ends);
-  std::vector<PathStop> first(exits_.size());
-  for (std::size_t i = 0; i < exits_.size(); ++i)
-    first[i] = {simplices_.owner(exits_[i]), simplices_.global(exits_[i])};
-  stops_.push_back(std::move(first));
+  for (const Id exit : exits_) stops_.push_back({simplices_.owner(exit), simplices_.global(exit)});
 }
 
 Id PathsOnRanks::end(Id simplex) const {
@@ -105,7 +98,7 @@ Id PathsOnRanks::end(Id simplex) const {
 
 PathStop PathsOnRanks::final_stop(Id end) const {
   if (end == no_id) return {};
-  if (is_exit(end)) return stops_.back()[exit_of(end)];
+  if (is_exit(end)) return stops_[end - criticals_];
   return {PathStop::critical, simplices_.global(simplices_.critical()[end])};
 }
 
@@ -136,18 +129,16 @@ Array<const Id, HostMemory> PathsOnRanks::places_of_ends() const {
 /// One round: each exit whose path goes on elsewhere learns from the rank where it is how it ends there. False, and
 /// nothing done, if all have ended on all ranks.
 bool PathsOnRanks::jump() {
-  const std::vector<PathStop>& stops = stops_.back();
   std::vector<Id> open;
-  for (std::size_t i = 0; i < stops.size(); ++i) {
-    if (!stops[i].is_end()) open.push_back(static_cast<Id>(i));
+  for (std::size_t i = 0; i < stops_.size(); ++i) {
+    if (!stops_[i].is_end()) open.push_back(static_cast<Id>(i));
   }
   if (ranks().sum(static_cast<std::int64_t>(open.size())) == 0) return false;
   const auto next = ask<PathStop>(
-      ranks(), "GALE::next_stops", static_cast<Offset>(open.size()), [&](Id i) { return stops[open[i]].rank; },
-      [&](Id i) { return stops[open[i]].id; }, [&](GlobalId id) { return final_stop(end(simplices_.local(id))); });
-  std::vector<PathStop> further = stops;
-  for (std::size_t i = 0; i < open.size(); ++i) further[open[i]] = next(i);
-  stops_.push_back(std::move(further));
+      ranks(), "GALE::next_stops", static_cast<Offset>(open.size()), [&](Id i) { return stops_[open[i]].rank; },
+      [&](Id i) { return stops_[open[i]].id; }, [&](GlobalId id) { return final_stop(end(simplices_.local(id))); });
+  for (std::size_t i = 0; i < open.size(); ++i) stops_[open[i]] = next(i);
+  ++rounds_;
   return true;
 }
 

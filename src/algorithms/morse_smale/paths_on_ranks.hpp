@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <memory>
 #include <vector>
 
@@ -9,30 +8,28 @@
 
 namespace gale::detail {
 
-/// A simplex on a path: its global id and, of a cell, those of its vertices: of a triangle the last one twice.
-struct PathCell {
-  GlobalId id;
-  std::array<GlobalId, 4> corners;
-};
-
-/// The simplices of one kind that paths along a gradient lead through, as one rank has them. Refers to the gradient.
+/// The simplices of one kind that paths along a gradient, or another field, lead through, as one rank has them. Refers
+/// to what it is made from.
 class PathSimplices {
  public:
   enum class Kind { falling_vertices, rising_cells };
 
   PathSimplices(const DiscreteGradient& gradient, Kind kind);
 
+  /// Of paths from vertex to vertex: `successors` are elsewhere at ghosts, and `ends` are those that have none.
+  PathSimplices(const VertexOrder& order, const Mirrored<Id>& successors, const std::vector<Id>& ends);
+
   /// Makes them on all ranks. Collective; throws gale::Error on all.
   static std::unique_ptr<const PathSimplices> make(const DiscreteGradient& gradient, Kind kind);
 
-  const Mesh& mesh() const { return gradient_.mesh(); }
+  const Mesh& mesh() const { return mesh_; }
   bool are_vertices() const { return are_vertices_; }
 
   /// The next simplex on the path from each, by GALE's id; those that another rank knows are elsewhere.
-  const Mirrored<Id>& successors() const;
+  const Mirrored<Id>& successors() const { return successors_; }
 
   /// Where paths end: GALE's ids.
-  const std::vector<Id>& critical() const;
+  const std::vector<Id>& critical() const { return critical_; }
 
   /// GALE's id -> global id, and back for those that this rank holds.
   GlobalId global(Id simplex) const;
@@ -41,11 +38,11 @@ class PathSimplices {
   /// The rank that knows the successor.
   int owner(Id simplex) const;
 
-  PathCell cell(Id simplex) const;
-
  private:
-  const DiscreteGradient& gradient_;
-  bool are_vertices_;
+  const Mesh mesh_;
+  const bool are_vertices_;
+  const Mirrored<Id>& successors_;
+  const std::vector<Id>& critical_;
   const Id *input_, *vertex_input_;
   const std::uint64_t* keys_;
   IdsByFour<HostMemory> corners_;
@@ -87,11 +84,7 @@ class PathsOnRanks {
   Array<const Id, HostMemory> places_of_ends() const;
 
   /// How many rounds of messages it took.
-  int rounds() const { return static_cast<int>(stops_.size()) - 1; }
-
-  /// stops(round)[i]: where the path from the i-th exit is after 2^round changes of ranks, or ends before.
-  const std::vector<PathStop>& stops(int round) const { return stops_[round]; }
-  Id exit_of(Id end) const { return end - criticals_; }
+  int rounds() const { return rounds_; }
 
   const PathSimplices& simplices() const { return simplices_; }
   const Ranks& ranks() const { return simplices_.mesh().exchange().ranks(); }
@@ -104,7 +97,8 @@ class PathsOnRanks {
   Id criticals_;
   std::vector<Id> exits_;
   Array<const Id, HostMemory> ends_;  ///< by simplex: end_at(number), or path_outside
-  std::vector<std::vector<PathStop>> stops_;
+  std::vector<PathStop> stops_;  ///< of each exit, where its path is after 2^rounds changes of ranks, or ends before
+  int rounds_ = 0;
 };
 
 }  // namespace gale::detail

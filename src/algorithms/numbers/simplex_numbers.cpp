@@ -3,6 +3,7 @@
 
 #include <gale/algorithms/numbers/numbering_sweep.hpp>
 #include <gale/algorithms/simplex_numbers.hpp>
+#include <gale/mesh/exchange/exchange_plan.hpp>
 #include <gale/mesh/exchange/messages.hpp>
 #include <gale/mesh/exchange/places.hpp>
 
@@ -29,15 +30,13 @@ using NumbersOfRanks = Array<GlobalId, HostMemory>;
 
 /// The global ids of a simplex's vertices, ascending.
 template <std::size_t N>
-std::array<GlobalId, N> global_ids(const Mesh& mesh, const std::vector<GlobalId>& beyond,
-                                   const std::array<Id, N>& simplex) {
+std::array<GlobalId, N> global_ids(const Mesh& mesh, const std::array<Id, N>& simplex) {
   const Id* const input = mesh.vertex_input().data();
   std::array<GlobalId, N> ids;
   for (std::size_t k = 0; k < N; ++k) {
     const Id v = simplex[k];
-    if (v < 0 || v - mesh.vertices() >= static_cast<Offset>(beyond.size()))
-      throw Error("no vertex " + std::to_string(v) + " to number a simplex of");
-    ids[k] = v < mesh.vertices() ? mesh.vertex_id(input[v]) : beyond[v - mesh.vertices()];
+    if (v < 0 || v >= mesh.vertices()) throw Error("no vertex " + std::to_string(v) + " to number a simplex of");
+    ids[k] = mesh.vertex_id(input[v]);
   }
   std::sort(ids.begin(), ids.end());
   return ids;
@@ -49,15 +48,15 @@ class AskedSimplices {
  public:
   using Simplex = std::array<GlobalId, N>;
 
-  AskedSimplices(const Mesh& mesh, const std::vector<std::array<Id, N>>& named, const std::vector<GlobalId>& beyond)
-      : mesh_(mesh) {
+  /// `named_in` has their vertices.
+  AskedSimplices(const Mesh& mesh, const std::vector<std::array<Id, N>>& named, const Mesh& named_in) : mesh_(mesh) {
     const Ranks& ranks = mesh.exchange().ranks();
     std::vector<Simplex> simplices(named.size());
     NumbersOfRanks first;
     detail::together(ranks, [&] {
       first = allocate<NumbersOfRanks>("GALE::first_vertices", simplices.size());
       parallel_for("GALE::first_vertices", HostExecutionSpace(), simplices.size(), [&](Offset i) {
-        simplices[i] = global_ids(mesh, beyond, named[i]);
+        simplices[i] = global_ids(named_in, named[i]);
         first(i) = simplices[i][0];
       });
     });
@@ -131,14 +130,31 @@ NumbersOfRanks first_numbers(const Mesh& mesh, const Array<Id, HostMemory>& coun
   return detail::sums_before(ranks, owned, of_owned);
 }
 
+/// What owners know of their vertices, by GALE's id, for the vertices of an excerpt. Collective.
+Array<std::uint8_t, HostMemory> values_in(const Mesh& excerpt, const Mesh& mesh,
+                                          const Array<const std::uint8_t, HostMemory>& values) {
+  const Ranks& ranks = mesh.exchange().ranks();
+  Array<std::uint8_t, HostMemory> by_input, found, in_order;
+  detail::together(ranks, [&] {
+    by_input = allocate<decltype(by_input)>("GALE::by_input", mesh.vertices());
+    for (Id v = 0; v < mesh.vertices(); ++v) by_input(mesh.vertex_input()(v)) = values(v);
+    found = allocate<decltype(found)>("GALE::values_in_excerpt", excerpt.vertices());
+    in_order = allocate<decltype(found)>("GALE::values_in_excerpt", excerpt.vertices());
+  });
+  detail::plan_to(excerpt, mesh)(ranks, by_input.data(), found.data());
+  for (Id v = 0; v < excerpt.vertices(); ++v) in_order(v) = found(excerpt.vertex_input()(v));
+  return in_order;
+}
+
 SimplexNumbers number_of_part(Structure& structure, const NamedSimplices& named, const SweepOptions& options) {
   const Mesh& mesh = structure.mesh();
-  const AskedSimplices<2> edges(mesh, named.edges, named.beyond);
-  const AskedSimplices<3> triangles(mesh, named.triangles, named.beyond);
+  const Mesh& named_in = named.excerpt ? *named.excerpt : mesh;
+  const AskedSimplices<2> edges(mesh, named.edges, named_in);
+  const AskedSimplices<3> triangles(mesh, named.triangles, named_in);
   NamedSimplices local;
   std::unique_ptr<detail::NumberingSweep> found;
   detail::together(mesh.exchange().ranks(), [&] {
-    local = {edges.local(), triangles.local(), {}};
+    local = {edges.local(), triangles.local()};
     found = std::make_unique<detail::NumberingSweep>(structure, local, options);
   });
   const NumbersOfRanks first_edges = first_numbers(mesh, found->edge_counts());
@@ -150,7 +166,7 @@ SimplexNumbers number_of_part(Structure& structure, const NamedSimplices& named,
       edges.answers([&](Offset i) { return first_edges(at(edges.first_vertex(i))) + found->edges().place(i); });
   numbers.triangles = triangles.answers(
       [&](Offset i) { return first_triangles(at(triangles.first_vertex(i))) + found->triangles().place(i); });
-  numbers.on_surface = found->on_surface();
+  numbers.on_surface = named.excerpt ? values_in(*named.excerpt, mesh, found->on_surface()) : found->on_surface();
   return numbers;
 }
 

@@ -22,7 +22,7 @@ inline void require_whole_mesh(const std::string& what, const Mesh& mesh) {
   const int ranks = mesh.exchange().ranks().size();
   if (ranks == 1) return;
   throw SharedError(what + " can't be found of one rank's part of a mesh: it lies on " + std::to_string(ranks) +
-                    " ranks");
+                    " ranks, which gather_gradient() brings together");
 }
 
 }  // namespace gale::detail

@@ -63,7 +63,7 @@ Offset fill_ranks(const Space& space, const Mesh& mesh, const FieldValues<Value,
 
 /// The keys of vertices, and the least input id of one without a value; their count if all have one.
 struct FoundKeys {
-  Mirrored<std::uint64_t> keys;
+  OrderKeys order;
   Offset bad;
 };
 
@@ -78,19 +78,33 @@ FoundKeys make_keys(const Space& space, const Mesh& mesh, const FieldValues<Valu
     bad = fill_keys<Space, Value>(space, mesh, values, keys);
   }
   space.fence();
-  return {keys, bad};
+  return {{keys}, bad};
+}
+
+/// Keys that compare on all ranks, where those of this rank don't.
+template <class Space, class Value>
+Array<const std::uint64_t, HostMemory> shared_keys(const Space& space, const Mesh& mesh,
+                                                   const FieldValues<Value, MemoryOf<Space>>& values) {
+  if (sizeof(Value) < 8 || mesh.exchange().ranks().size() == 1) return {};
+  const auto keys = allocate<Keys<Space>>("GALE::shared_keys", mesh.vertices());
+  const Id* const input = mesh.vertex_input<MemoryOf<Space>>().data();
+  parallel_for(
+      "GALE::shared_keys", space, mesh.vertices(),
+      KOKKOS_LAMBDA(Offset v) { keys(v) = ordered_bits(values(input[v])); });
+  space.fence();
+  return on_host(keys);
 }
 
 /// Makes keys of a value for each vertex of the mesh.
 template <class Value, class Memory>
-Mirrored<std::uint64_t> keys_of_all(const Mesh& mesh, const FieldValues<Value, Memory>& values) {
+OrderKeys keys_of_all(const Mesh& mesh, const FieldValues<Value, Memory>& values) {
   return in_worker_or_host_space(mesh, [&](const auto& space) {
     using Space = std::decay_t<decltype(space)>;
     const auto copy = in_memory<MemoryOf<Space>>(values);
     const FieldValues<Value, MemoryOf<Space>> here(copy);
     const FoundKeys found = make_keys<Space, Value>(space, mesh, here);
     if (found.bad < mesh.vertices()) throw Error(without_value(found.bad));
-    return found.keys;
+    return found.order;
   });
 }
 
@@ -100,17 +114,19 @@ FoundKeys part_keys_in(const Space& space, const Mesh& mesh, const FieldValues<V
   const auto values = allocate<Array<Value, MemoryOf<Space>>>("GALE::local_values", mesh.vertices());
   mesh.exchange().from_givers().fill(space, given.data(), fetched, values.data());
   const FieldValues<Value, MemoryOf<Space>> all(values.data(), values.extent(0));
-  return make_keys<Space, Value>(space, mesh, all);
+  FoundKeys found = make_keys<Space, Value>(space, mesh, all);
+  found.order.values = shared_keys<Space, Value>(space, mesh, all);
+  return found;
 }
 
 /// Makes keys of a value for each vertex that this rank has handed over. Collective.
 template <class Value>
-Mirrored<std::uint64_t> keys_of_part(const Mesh& mesh, const FieldValues<Value, HostMemory>& given) {
+OrderKeys keys_of_part(const Mesh& mesh, const FieldValues<Value, HostMemory>& given) {
   const Exchange& exchange = mesh.exchange();
   FoundKeys found{{}, 0};
   if (exchange.from_givers().keeps_all()) {
-    together(exchange.ranks(), [&] { found.keys = keys_of_all(mesh, given); });
-    return found.keys;
+    together(exchange.ranks(), [&] { found.order = keys_of_all(mesh, given); });
+    return found.order;
   }
   const auto fetched = exchange.from_givers().fetch<Value>(exchange.ranks(), [&](Id place) { return given(place); });
   together(exchange.ranks(), [&] {
@@ -120,13 +136,13 @@ Mirrored<std::uint64_t> keys_of_part(const Mesh& mesh, const FieldValues<Value, 
   const bool is_bad = found.bad < mesh.vertices();
   const GlobalId bad = exchange.ranks().least(is_bad ? mesh.vertex_id(static_cast<Id>(found.bad)) : none);
   if (bad < none) throw SharedError(without_value(bad));
-  return found.keys;
+  return found.order;
 }
 
 }  // namespace
 
 template <class Value, class Memory>
-Mirrored<std::uint64_t> order_keys(const Mesh& mesh, const FieldValues<Value, Memory>& values) {
+OrderKeys order_keys(const Mesh& mesh, const FieldValues<Value, Memory>& values) {
   const Offset given = mesh.exchange().given_vertices(), count = given < 0 ? Offset(mesh.vertices()) : given;
   together(mesh.exchange().ranks(), [&] {
     if (static_cast<Offset>(values.extent(0)) == count) return;
@@ -139,7 +155,7 @@ Mirrored<std::uint64_t> order_keys(const Mesh& mesh, const FieldValues<Value, Me
 }
 
 #define GALE_INSTANTIATE_FOR(Value, Memory) \
-  template GALE_EXPORT Mirrored<std::uint64_t> order_keys(const Mesh&, const FieldValues<Value, Memory>&)
+  template GALE_EXPORT OrderKeys order_keys(const Mesh&, const FieldValues<Value, Memory>&)
 #if defined(GALE_HAS_DEVICE)
 #define GALE_INSTANTIATE(Value)            \
   GALE_INSTANTIATE_FOR(Value, HostMemory); \

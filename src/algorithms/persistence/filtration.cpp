@@ -79,7 +79,8 @@ CriticalValues critical_values(const DiscreteGradient& gradient, const std::func
   const auto add = [&](int dimension, Id vertex) {
     values[dimension].push_back(value(input[vertex]));
     if (std::isnan(values[dimension].back()))
-      throw Error("vertex " + std::to_string(input[vertex]) + " has no field value: it is NaN");
+      throw Error("vertex " + std::to_string(gradient.mesh().vertex_id(input[vertex])) +
+                  " has no field value: it is NaN");
   };
   for (const Id vertex : critical.vertices) add(0, vertex);
   for (const auto& edge : critical.edges) add(1, edge[0]);

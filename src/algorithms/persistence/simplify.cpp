@@ -1,13 +1,15 @@
 #include <algorithm>
+#include <cstring>
 #include <set>
 #include <string>
 #include <tuple>
 
+#include <gale/algorithms/gathered_gradient.hpp>
 #include <gale/algorithms/morse_smale/parts.hpp>
-#include <gale/algorithms/order/require_mesh.hpp>
 #include <gale/algorithms/persistence/cancellations.hpp>
 #include <gale/algorithms/simplify.hpp>
 #include <gale/base/error.hpp>
+#include <gale/mesh/exchange/exchange_plan.hpp>
 
 namespace gale {
 
@@ -108,9 +110,76 @@ AscendingWalls ascending_walls_left(const AscendingWalls& all, const std::vector
 
 }  // namespace
 
+namespace {
+
+/// A table of the first rank, on all. Collective.
+std::vector<Id> broadcast(const Ranks& ranks, const Mirrored<Id>& table) {
+  std::string bytes;
+  detail::together(ranks, [&] {
+    const auto& here = table.in<HostMemory>();
+    bytes.assign(reinterpret_cast<const char*>(here.data()), here.extent(0) * sizeof(Id));
+  });
+  bytes = ranks.broadcast(bytes, 0);
+  std::vector<Id> all(bytes.size() / sizeof(Id));
+  std::memcpy(all.data(), bytes.data(), bytes.size());
+  return all;
+}
+
+/// The places 0 to count - 1: each extremum is its own manifold, and becomes that of the one that takes it over.
+Mirrored<Id> places_of(std::size_t count) { return iota("GALE::places", HostExecutionSpace(), count); }
+
+/// Simplifies on the first rank what is gathered there, and manifolds on all. Collective.
+MorseSmaleComplex simplify_on_ranks(const MorseSmaleComplex& complex, const std::function<double(Id)>& value,
+                                    double threshold, const SimplifyOptions& options) {
+  const Mesh& mesh = complex.gradient.mesh();
+  const Ranks& ranks = mesh.exchange().ranks();
+  if (complex.parts.separatrices2) throw SharedError("2-separatrices can't be simplified on several ranks");
+  const DiscreteGradient gathered = gather_gradient(complex.gradient);
+  const std::vector<double> values = detail::values_at(gathered.mesh(), mesh, value);
+  MorseSmaleComplex left{complex.gradient, complex.parts, {}};
+  detail::together(ranks, [&] {
+    MorseSmaleComplex whole{gathered, complex.parts, gathered.critical()};
+    if (ranks.rank() == 0) {
+      MorseSmaleParts parts = complex.parts;
+      parts.descending_manifolds = parts.ascending_manifolds = false;
+      parts.saddle_connectors = mesh.dimension() == 3 && (parts.saddle_connectors || !options.extrema_only);
+      ComputeOptions how;
+      how.threads = options.threads;
+      whole = find_morse_smale_complex(gathered, parts, how);
+      whole.descending_manifold = places_of(whole.critical.vertices.size());
+      whole.ascending_manifold = places_of(whole.critical.cells.size());
+      whole = simplify(
+          whole, [&](Id vertex) { return values[vertex]; }, threshold, options);
+    }
+    whole.gradient = complex.gradient;
+    whole.excerpt = gathered;
+    whole.parts = complex.parts;
+    left = std::move(whole);
+  });
+  left.kept_below.several_paths = static_cast<Id>(ranks.sum(left.kept_below.several_paths));
+  left.kept_below.no_path = static_cast<Id>(ranks.sum(left.kept_below.no_path));
+  const std::vector<Id> down = broadcast(ranks, left.descending_manifold),
+                        up = broadcast(ranks, left.ascending_manifold);
+  detail::together(ranks, [&] {
+    left.descending_manifold = left.ascending_manifold = {};
+    if (complex.descending_manifold.size() > 0)
+      left.descending_manifold = detail::renamed(complex.descending_manifold, down);
+    if (complex.ascending_manifold.size() > 0)
+      left.ascending_manifold = detail::renamed(complex.ascending_manifold, up);
+  });
+  if (complex.parts.descending_manifolds && complex.parts.ascending_manifolds) {
+    std::tie(left.morse_smale_manifold, left.morse_smale_manifolds) =
+        detail::morse_smale_manifolds(mesh, left.ascending_manifold, left.descending_manifold);
+  }
+  return left;
+}
+
+}  // namespace
+
 MorseSmaleComplex simplify(const MorseSmaleComplex& complex, const std::function<double(Id)>& value, double threshold,
                            const SimplifyOptions& options) {
-  detail::require_whole_mesh("a simplified complex", complex.gradient.mesh());
+  if (complex.gradient.mesh().exchange().ranks().size() > 1)
+    return simplify_on_ranks(complex, value, threshold, options);
   require_whole(complex, options.extrema_only);
   const ThreadLimit limit(options.threads);
   const int threads = std::max(options.threads, 1);

@@ -5,6 +5,7 @@
 #include <gale/algorithms/surface_vertices.hpp>
 #include <gale/app/commands/command.hpp>
 #include <gale/app/drawing/picture.hpp>
+#include <gale/app/ranks/ranks.hpp>
 #include <gale/io/write.hpp>
 #include <gale/outputs/field.hpp>
 #include <gale/outputs/merge_tree.hpp>
@@ -23,7 +24,7 @@ void tell(const MergeTree& tree, int top, Session& session) {
 
 class FindMergeTree final : public AnalysisCommand {
  public:
-  explicit FindMergeTree(CLI::App& app) : AnalysisCommand(app, "merge-tree") {
+  explicit FindMergeTree(CLI::App& app) : AnalysisCommand(app, "merge-tree", Works::on_many_ranks) {
     const outputs::AnalysisOption& type = analysis_.option("type");
     type_ = type.choices.front();
     subcommand().add_option("--type", type_, type.help)->check(CLI::IsMember(type.choices));
@@ -41,32 +42,48 @@ class FindMergeTree final : public AnalysisCommand {
  private:
   std::vector<std::string> more_files() const override {
     if (output_.empty()) return {"", "", ""};
-    return {output_ + "_nodes.vtp", output_ + "_arcs.vtp", output_ + "_segmentation.vtu"};
+    return {output_ + "_nodes.vtp", output_ + "_arcs.vtp",
+            output_ + "_segmentation" + (Launch::are_several() ? ".pvtu" : ".vtu")};
   }
 
-  Session::Keep keep() const override { return output_.empty() ? Session::Keep::nothing : Session::Keep::cells; }
+  void require_usage() const override {
+    refuse_on_ranks({{"--render", !render_.empty()}, {"--arc-samples", arc_samples_ > 0}});
+    if (type_ == "contour") refuse_on_ranks({{"--persistence with --type contour", bool(persistence_)}});
+  }
+
+  Session::Keep keep() const override {
+    if (!output_.empty()) return Session::Keep::cells;
+    return persistence_ ? Session::Keep::values : Session::Keep::nothing;
+  }
 
   void warm_up(const VertexOrder& order) const override { find_merge_tree(order, outputs::tree_named(type_)); }
 
   void analyse(const FieldOnMesh& on, Session& session, Computed& computed) const override {
     const MergeTree tree = find(on, session, computed);
     tell(tree, on.mesh.dimension(), session);
-    const std::vector<std::string> files = more_files();
-    session.write_result(files[0], [&] { return outputs::tree_nodes(on.dataset, on.field, tree); });
-    session.write_result(files[1], [&] { return outputs::tree_arcs(on.dataset, on.field, tree, arc_samples_); });
-    session.write(files[2], [&](const io::AtomicFile& to) {
-      io::write_mesh(to, on.dataset, outputs::tree_segmentation(on.dataset, tree));
-    });
+    if (!output_.empty()) write(on, tree, session);
     session.write(render_, [&](const io::AtomicFile& file) {
       draw(file, picture_of(on.dataset, on.field, on.mesh, tree, type_, surface_vertices(on.mesh)));
     });
+  }
+
+  void write(const FieldOnMesh& on, const MergeTree& tree, Session& session) const {
+    const std::vector<std::string> files = more_files();
+    const OnExcerpt at(tree.excerpt ? *tree.excerpt : on.mesh, on);
+    session.write(files[0], [&](const io::AtomicFile& to) {
+      io::write_points(to, outputs::tree_nodes(at.dataset(), at.field(), tree));
+    });
+    session.write(files[1], [&](const io::AtomicFile& to) {
+      io::write_surface(to, outputs::tree_arcs(at.dataset(), at.field(), tree, arc_samples_));
+    });
+    session.write_mesh(files[2], on, [&] { return outputs::tree_segmentation(at.dataset(), tree); });
   }
 
   MergeTree find(const FieldOnMesh& on, const Session& session, Computed& computed) const {
     MergeTreeOptions options;
     static_cast<ComputeOptions&>(options) = session.compute(structure_, "merge tree");
     options.value = [&](Id vertex) { return outputs::value_at(on.field, vertex); };
-    if (persistence_) options.threshold = threshold_of_option(*persistence_, on.field);
+    if (persistence_) options.threshold = threshold_of_option(*persistence_, on.field, session.ranks());
     return find_merge_tree(on.order, outputs::tree_named(type_), options, &computed);
   }
 

@@ -6,7 +6,6 @@
 #include <gale/app/ranks/ranks.hpp>
 #include <gale/outputs/critical_simplices.hpp>
 #include <gale/outputs/manifolds.hpp>
-#include <gale/outputs/mesh_piece.hpp>
 #include <gale/outputs/morse_smale.hpp>
 #include <gale/outputs/named_simplices.hpp>
 #include <gale/outputs/separatrices1.hpp>
@@ -38,7 +37,7 @@ void tell(const std::string& title, const char* key, const std::vector<Count>& c
 }
 
 void tell(const MorseSmaleComplex& complex, const MorseSmaleParts& wanted, Session& session) {
-  const auto here = complex.critical.counts();
+  const auto here = complex.own_counts();
   std::array<std::int64_t, 4> critical{here[0], here[1], here[2], here[3]};
   std::int64_t paths[] = {complex.descending.count(), complex.ascending.count(), complex.connectors.count()};
   session.ranks().sum(critical.data(), 4);
@@ -112,26 +111,18 @@ class FindMorseSmale final : public AnalysisCommand {
   }
 
   Session::Keep keep() const override {
-    return files().segmentation.empty() ? Session::Keep::nothing : Session::Keep::cells;
+    if (!files().segmentation.empty()) return Session::Keep::cells;
+    return persistence_ ? Session::Keep::values : Session::Keep::nothing;
   }
 
   void warm_up(const VertexOrder& order) const override { find_morse_smale_complex(find_discrete_gradient(order)); }
 
-  /// On several ranks, what follows walls or pairs is refused: both want the whole mesh.
   void require_usage() const override {
-    refuse_on_ranks({{"--separatrices2", parts_.separatrices2},
-                     {"--persistence", bool(persistence_)},
-                     {"--extrema-only", extrema_only_},
-                     {"--render", !render_.empty()}});
+    refuse_on_ranks({{"--separatrices2", parts_.separatrices2}, {"--render", !render_.empty()}});
     if (extrema_only_ && !persistence_) throw UsageError("--extrema-only: it goes with --persistence");
   }
 
   void analyse(const FieldOnMesh& on, Session& session, Computed& computed) const override {
-    if (Launch::are_several() && parts_.saddle_connectors && on.mesh.dimension() == 3) {
-      throw UsageError(
-          "saddle connectors: not on several ranks, where walls can't be followed: switch them off by "
-          "--no-saddle-connectors");
-    }
     const DiscreteGradient gradient =
         find_discrete_gradient(on.order, session.compute(structure_, "gradient"), &computed);
     MorseSmaleComplex complex = find(gradient, on, session, computed);
@@ -144,45 +135,37 @@ class FindMorseSmale final : public AnalysisCommand {
   MorseSmaleComplex find(const DiscreteGradient& gradient, const FieldOnMesh& on, Session& session,
                          Computed& computed) const {
     outputs::MorseSmaleRequest request{parts_, persistence_, extrema_only_};
-    if (persistence_) request.persistence = outputs::Persistence{threshold_of_option(*persistence_, on.field), false};
+    if (persistence_)
+      request.persistence = outputs::Persistence{threshold_of_option(*persistence_, on.field, session.ranks()), false};
     return outputs::find_complex(gradient, on.field, request, session.compute(structure_, "complex"), &computed);
   }
 
   /// Writes the files. `complex` may have more than is wanted: the rest is taken out of it first.
   void write(const FieldOnMesh& on, MorseSmaleComplex& complex, Session& session, Computed& computed) const {
     const ComplexFiles to = files();
-    const io::Dataset& dataset = on.dataset;
     const auto connectors = outputs::ends_of(complex.connectors);  // all of them, wanted or not, bound walls
     outputs::leave_out_unwanted(parts_, complex);
     double& seconds = session.report().seconds.write;
+    const Mesh& excerpt = complex.excerpt.mesh();
+    const OnExcerpt at = timed(seconds, [&] { return OnExcerpt(excerpt, on); });
+    const io::Dataset& dataset = at.dataset();
+    const io::PointArray& field = at.field();
     const outputs::NamedPaths named = timed(seconds, [&] { return outputs::named_simplices(complex); });
     const SimplexNumbers numbers = number_simplices(on.mesh, named, session.compute(structure_, "numbers"), &computed);
     const outputs::KnownSimplices critical =
-        timed(seconds, [&] { return outputs::known_simplices(complex.gradient, complex.critical, numbers); });
+        timed(seconds, [&] { return outputs::known_simplices(complex.excerpt, complex.critical, numbers); });
     const io::PointSet points = timed(seconds, [&] {
-      io::PointSet set = outputs::to_point_set(dataset, critical, on.mesh.exchange());
+      io::PointSet set = outputs::to_point_set(dataset, outputs::own_simplices(complex, critical), excerpt.exchange());
       set.arrays.push_back(outputs::manifold_sizes(complex));
       return set;
     });
     const io::Surface lines =
-        timed(seconds, [&] { return outputs::separatrices1(dataset, on.field, complex, named, numbers, critical); });
+        timed(seconds, [&] { return outputs::separatrices1(dataset, field, complex, named, numbers, critical); });
     session.write_result(to.critical_points, [&]() -> const io::PointSet& { return points; });
     session.write_result(to.separatrices1, [&]() -> const io::Surface& { return lines; });
     session.write_result(to.separatrices2,
-                         [&] { return outputs::separatrices2(dataset, on.field, complex, connectors, critical); });
-    if (on.mesh.is_part()) {
-      session.write_result(to.segmentation, [&] {
-        io::MeshPiece piece;
-        detail::together(session.ranks(), [&] {
-          piece = outputs::piece_of(on.order, dataset, outputs::manifold_arrays(complex), on.has_ids);
-        });
-        return piece;
-      });
-      return;
-    }
-    session.write(to.segmentation, [&](const io::AtomicFile& file) {
-      io::write_mesh(file, dataset, outputs::manifold_arrays(complex));
-    });
+                         [&] { return outputs::separatrices2(dataset, field, complex, connectors, critical); });
+    session.write_mesh(to.segmentation, on, [&] { return outputs::manifold_arrays(complex); });
     session.write(render_, [&](const io::AtomicFile& file) {
       draw(file, picture_of(dataset, on.field, complex, numbers, points, lines));
     });

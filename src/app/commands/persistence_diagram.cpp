@@ -1,8 +1,10 @@
 #include <CLI/CLI.hpp>
 
+#include <gale/algorithms/gathered_gradient.hpp>
 #include <gale/algorithms/persistence.hpp>
 #include <gale/app/commands/command.hpp>
 #include <gale/app/drawing/picture.hpp>
+#include <gale/app/ranks/ranks.hpp>
 
 namespace gale::app {
 
@@ -20,7 +22,7 @@ void tell(const outputs::DiagramCounts& counts, int dimension, Session& session)
 
 class FindPersistenceDiagram final : public AnalysisCommand {
  public:
-  explicit FindPersistenceDiagram(CLI::App& app) : AnalysisCommand(app, "persistence-diagram") {
+  explicit FindPersistenceDiagram(CLI::App& app) : AnalysisCommand(app, "persistence-diagram", Works::on_many_ranks) {
     add_file("-o,--output", output_, "The diagram, a line a pair: .vtu", {".vtu"});
     add_file("--curve", curve_, "How many pairs have at least a persistence, for each that occurs: .csv", {".csv"});
     add_persistence(subcommand(), persistence_, analysis_.option("persistence").help);
@@ -28,26 +30,28 @@ class FindPersistenceDiagram final : public AnalysisCommand {
   }
 
  private:
+  Session::Keep keep() const override { return Session::Keep::values; }
+
   void analyse(const FieldOnMesh& on, Session& session, Computed& computed) const override {
-    const DiscreteGradient gradient =
-        find_discrete_gradient(on.order, session.compute(structure_, "gradient"), &computed);
-    const auto diagram = find(gradient, on, session);
+    const double least = persistence_ ? threshold_of_option(*persistence_, on.field, session.ranks()) : 0;
+    const DiscreteGradient found = find_discrete_gradient(on.order, session.compute(structure_, "gradient"), &computed);
+    const SweepOptions sweep = session.sweep("pairs");
+    const DiscreteGradient gradient = timed(session.report().seconds.run, [&] { return gather_gradient(found); });
+    const OnExcerpt at(gradient.mesh(), on);
+    std::vector<outputs::DiagramPoint> diagram;
+    detail::together(session.ranks(), [&] {
+      if (!Launch::is_first()) return;
+      const Stopwatch watch(session.report().seconds.run);
+      diagram = outputs::persistence_diagram(gradient, find_persistence_pairs(gradient, sweep), at.field(), least);
+    });
     tell(outputs::counts_of(diagram), on.mesh.dimension(), session);
     session.write(output_, [&](const io::AtomicFile& file) {
-      io::write_lines(file, outputs::to_lines(on.dataset, on.field, diagram));
+      io::write_lines(file, outputs::to_lines(at.dataset(), at.field(), diagram, gradient.mesh().exchange()));
     });
     session.write(curve_, [&](const io::AtomicFile& file) {
       write_text(file, [&](std::ostream& out) { out << outputs::to_csv(outputs::persistence_curve(diagram)); });
     });
     session.write(render_, [&](const io::AtomicFile& file) { draw(file, plot_of(diagram, on.field.name)); });
-  }
-
-  std::vector<outputs::DiagramPoint> find(const DiscreteGradient& gradient, const FieldOnMesh& on,
-                                          Session& session) const {
-    const Stopwatch watch(session.report().seconds.run);
-    const double least = persistence_ ? threshold_of_option(*persistence_, on.field) : 0;
-    const PersistencePairs pairs = find_persistence_pairs(gradient, session.sweep("pairs"));
-    return outputs::persistence_diagram(gradient, pairs, on.field, least);
   }
 
   std::optional<outputs::Persistence> persistence_;

@@ -35,7 +35,7 @@ class SimplifyField final : public AnalysisCommand {
   Session::Keep keep() const override { return output_.empty() ? Session::Keep::nothing : Session::Keep::cells; }
 
   void analyse(const FieldOnMesh& on, Session& session, Computed& computed) const override {
-    const double threshold = persistence_ ? threshold_of_option(*persistence_, on.field) : 0;
+    const double threshold = persistence_ ? threshold_of_option(*persistence_, on.field, session.ranks()) : 0;
     const SimplifiedField field = simplify_field(
         on.order, [&](Id vertex) { return outputs::value_at(on.field, vertex); }, threshold,
         session.compute(structure_, "simplified field"), &computed);

@@ -8,6 +8,7 @@
 #include <gale/io/write.hpp>
 #include <gale/mesh/exchange/exchange_plan.hpp>
 #include <gale/mesh/exchange/home_table.hpp>
+#include <gale/outputs/brought.hpp>
 #include <gale/outputs/field.hpp>
 
 namespace gale::app {
@@ -122,22 +123,7 @@ SharedInput read_shared(const Ranks& ranks, const InputOptions& input) {
 
 /// The values of an array of the part's vertices at all vertices that this rank holds, by input id. Collective.
 io::PointArray held_values(const Mesh& mesh, const io::PointArray& array) {
-  const Exchange& exchange = mesh.exchange();
-  return std::visit(
-      [&](const auto& values) -> io::PointArray {
-        using Values = std::decay_t<decltype(values)>;
-        using Value = typename Values::value_type;
-        const std::size_t count = mesh.vertices(), width = array.components;
-        Values all(count * width);
-        std::vector<Value> from(exchange.given_vertices()), to(count);
-        for (std::size_t component = 0; component < width; ++component) {
-          for (std::size_t i = 0; i < from.size(); ++i) from[i] = values[i * width + component];
-          exchange.from_givers()(exchange.ranks(), from.data(), to.data());
-          for (std::size_t i = 0; i < count; ++i) all[i * width + component] = to[i];
-        }
-        return {array.name, array.components, std::move(all)};
-      },
-      array.values);
+  return outputs::detail::brought(mesh.exchange().from_givers(), mesh.exchange().ranks(), array, mesh.vertices());
 }
 
 /// The numbers of the input's cells that those of this rank are of, by input id, from those that ranks handed over by

@@ -4,6 +4,7 @@
 #include <gale/base/transfer.hpp>
 #include <gale/base/types.hpp>
 #include <gale/mesh/exchange/messages.hpp>
+#include <gale/mesh/mesh.hpp>
 
 namespace gale::detail {
 
@@ -157,6 +158,41 @@ ExchangePlan::ExchangePlan(const Ranks& ranks, const Run& run, const Array<const
     parallel_for("GALE::given_places", HostExecutionSpace(), keys.count(),
                  [&](Offset i) { given_.entries(i) = place(keys.entries(i)); });
   });
+}
+
+/// Brings what owners know of vertices of `mesh`, by input id, to the vertices of `some`, another mesh that calls them
+/// by the same global ids: an excerpt of each rank's own. Collective.
+inline ExchangePlan plan_to(const Mesh& some, const Mesh& mesh) {
+  const Ranks& ranks = mesh.exchange().ranks();
+  Array<GlobalId, HostMemory> ids;
+  Array<Id, HostMemory> slots;
+  together(ranks, [&] {
+    slots = iota("GALE::excerpt_slots", HostExecutionSpace(), some.vertices());
+    ids = allocate<Array<GlobalId, HostMemory>>("GALE::excerpt_ids", some.vertices());
+    for (Id v = 0; v < some.vertices(); ++v) ids(v) = some.vertex_id(v);
+  });
+  const auto owners = mesh.exchange().owners_of(ids);
+  together(ranks, [&] {
+    for (std::size_t v = 0; v < ids.extent(0); ++v) {
+      if (owners(v) < 0) throw Error("no rank has a vertex " + std::to_string(ids(v)));
+    }
+  });
+  return ExchangePlan(
+      ranks, {}, slots, [&](Id i) { return owners(i); }, [&](Id i) { return ids(i); },
+      [&](GlobalId id) { return mesh.vertex_of(id); });
+}
+
+/// What value(v) is of vertices of `mesh`, by input id, at those of `some`, by the ranks that own them. Collective.
+template <class Value>
+std::vector<double> values_at(const Mesh& some, const Mesh& mesh, const Value& value) {
+  std::vector<double> here, there;
+  together(mesh.exchange().ranks(), [&] {
+    here.reserve(mesh.vertices());
+    for (Id v = 0; v < mesh.vertices(); ++v) here.push_back(value(v));
+    there.resize(some.vertices());
+  });
+  plan_to(some, mesh)(mesh.exchange().ranks(), here.data(), there.data());
+  return there;
 }
 
 }  // namespace gale::detail

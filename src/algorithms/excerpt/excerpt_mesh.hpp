@@ -1,0 +1,59 @@
+#pragma once
+
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+#include <gale/algorithms/vertex_order.hpp>
+#include <gale/base/sort.hpp>
+#include <gale/mesh/exchange/global_index.hpp>
+
+// Small meshes, on one rank, of some simplices of a mesh that lies on several.
+
+namespace gale::detail {
+
+/// An excerpt's mesh knows its simplices by the ids that all ranks have for them, and asks nobody.
+class ExcerptExchange final : public Exchange {
+ public:
+  ExcerptExchange(const GlobalIds& vertices, const GlobalIds& cells) : vertices_(vertices), cells_(cells) {}
+
+  GlobalId vertices() const override { return vertices_.count(); }
+  GlobalId cells() const override { return cells_.count(); }
+  GlobalId vertex_id(Id vertex) const override { return vertices_[vertex]; }
+  GlobalId cell_id(Id cell) const override { return cells_[cell]; }
+  Id vertex_of(GlobalId id) const override { return vertices_.find(id); }
+  Id cell_of(GlobalId id) const override { return cells_.find(id); }
+
+ private:
+  GlobalIndex vertices_, cells_;
+};
+
+/// A mesh of vertices with these ids, ascending, and of cells of these, whose corners are places among the vertices.
+/// GALE's ids of vertices are these places, too.
+template <int corners>
+Mesh excerpt_mesh(const GlobalIds& vertex_ids, const GlobalIds& cell_ids,
+                  const CellCorners<corners, Id, HostMemory>& cells) {
+  const Id vertices = static_cast<Id>(vertex_ids.extent(0));
+  const Id segments = (vertices + default_capacity - 1) / default_capacity;
+  Segmentation segmentation;
+  segmentation.vertex_input = iota("GALE::excerpt_vertices", HostExecutionSpace(), vertices);
+  const auto begin = allocate<Array<Id, HostMemory>>("GALE::excerpt_segments", segments + Offset(1));
+  for (Id s = 0; s <= segments; ++s) begin(s) = std::min(vertices, s * default_capacity);
+  segmentation.vertex_begin = begin;
+  segmentation.owned_segments = segments;
+  return Mesh(cells, segmentation, std::make_shared<ExcerptExchange>(vertex_ids, cell_ids));
+}
+
+/// The order of its vertices by value(vertex), an unsigned number, then by id.
+template <class Value>
+VertexOrder excerpt_order(const Mesh& mesh, const Value& value) {
+  const Id count = mesh.vertices();
+  std::vector<Id> sorted(count), rank(count);
+  for (Id i = 0; i < count; ++i) sorted[i] = i;
+  parallel_sort("GALE::sort_excerpt", sorted.begin(), sorted.end(),
+                [&](Id a, Id b) { return value(a) != value(b) ? value(a) < value(b) : a < b; });
+  for (Id i = 0; i < count; ++i) rank[sorted[i]] = i;
+  return VertexOrder(mesh, rank.data(), rank.size());
+}
+
+}  // namespace gale::detail

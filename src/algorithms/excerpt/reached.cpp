@@ -1,0 +1,381 @@
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include <gale/algorithms/excerpt/gathering.hpp>
+#include <gale/algorithms/excerpt/reached.hpp>
+#include <gale/algorithms/gradient/gradient_store.hpp>
+#include <gale/algorithms/gradient/pair_star.hpp>
+#include <gale/algorithms/morse_smale/edge_star.hpp>
+#include <gale/algorithms/morse_smale/paths_on_ranks.hpp>
+#include <gale/base/error.hpp>
+#include <gale/base/hash_table.hpp>
+
+namespace gale::detail {
+
+namespace {
+
+enum class StepKind : std::int32_t { falling_vertex, falling_edge, rising_cell, rising_edge, rising_triangle };
+
+/// A simplex (GALE's ids) from which a way goes on that a rank has asked for.
+struct Step {
+  StepKind kind;
+  int asker;
+  std::array<Id, 3> simplex;
+};
+
+/// One that another rank follows, by global ids.
+struct SentStep {
+  StepKind kind;
+  int asker;
+  std::array<GlobalId, 3> simplex;
+};
+
+struct Mark {};
+using Seen = HashTable<Mark>;
+
+template <class T>
+using ByAsker = std::vector<T>;
+
+/// What this rank has found for one that asks, and where it has been for it.
+struct FoundFor : ReachedLists<ByAsker> {
+  HashTable<Id> vertex_places, cell_places;
+  Seen fallen_vertices, fallen_edges, told_edges, risen_cells, risen_edges;
+};
+
+/// Calls visit(list) for each.
+template <class Lists, class Visit>
+void for_each_list_of(Lists& lists, const Visit& visit) {
+  visit(lists.vertices);
+  visit(lists.cells);
+  visit(lists.vertex_steps);
+  visit(lists.edges);
+  visit(lists.cell_steps);
+  visit(lists.cell_forks);
+  visit(lists.critical_triangles);
+  visit(lists.critical_stars);
+}
+
+class Reacher {
+ public:
+  Reacher(const DiscreteGradient& gradient, const WantedWays& ways, Structure* rows)
+      : gradient_(gradient),
+        ways_(ways),
+        mesh_(gradient.mesh()),
+        ranks_(mesh_.exchange().ranks()),
+        cells_(gradient, PathSimplices::Kind::rising_cells),
+        corners_(mesh_.encoded().cells),
+        input_(mesh_.vertex_input().data()),
+        internal_(mesh_.vertex_internal().data()),
+        keys_(gradient.order().keys()),
+        vertex_successor_(gradient.vertex_successors().data()),
+        cell_successor_(gradient.cell_successors().data()),
+        further_(gradient.store().further_successors),
+        found_(ranks_.size()) {
+    if (!ways.rising_walls) return;
+    consumer_ = rows->consumer();
+    star_.emplace(mesh_);
+  }
+
+  /// From this rank's critical simplices.
+  void begin() {
+    const int asker = ways_.all_for_first ? 0 : ranks_.rank();
+    FoundFor& found = found_of(asker);
+    const CriticalSimplices& critical = gradient_.critical();
+    for (const Id vertex : critical.vertices) go({StepKind::falling_vertex, asker, {vertex}});
+    for (const Id cell : critical.cells) go({StepKind::rising_cell, asker, {cell}});
+    for (const auto& [high, low] : critical.edges) {
+      tell_edge(found, high, low);
+      if (ways_.falling_paths) {
+        for (const Id vertex : {high, low}) go({StepKind::falling_vertex, asker, {vertex}});
+      }
+      if (ways_.rising_walls) go({StepKind::rising_edge, asker, {high, low}});
+    }
+    for (const auto& triangle : critical.triangles) {
+      found.critical_triangles.push_back(places(found, triangle));
+      if (!ways_.falling_walls) continue;
+      for (int i = 0; i < 3; ++i) fall(asker, triangle[i], triangle[(i + 1) % 3]);
+    }
+    begin_stars(asker, found);
+    if (ways_.all_for_first && mesh_.owned_vertices() > 0)  // the highest one of all is where classes end that never do
+      vertex_place(found, static_cast<Id>(std::max_element(keys_, keys_ + mesh_.owned_vertices()) - keys_));
+  }
+
+  /// Takes all steps that this rank can.
+  void follow() {
+    for (std::int64_t i = 0; !here_.empty(); ++i) {
+      stop_if_asked_at(i);
+      const Step step = here_.back();
+      here_.pop_back();
+      take(step);
+    }
+  }
+
+  /// Hands over what other ranks have to follow, and takes what they hand over. False if nobody had anything.
+  /// Collective.
+  bool hand_over() {
+    if (ranks_.sum(static_cast<std::int64_t>(elsewhere_.size())) == 0) return false;
+    const auto received =
+        exchange(ranks_, "GALE::steps",
+                 deal<SentStep>(
+                     ranks_, "GALE::sent_steps", static_cast<Offset>(elsewhere_.size()),
+                     [&](Id i) { return elsewhere_[i].first; }, [&](Id i) { return elsewhere_[i].second; }));
+    elsewhere_.clear();
+    together(ranks_, [&] {
+      for (Offset i = 0; i < received.count(); ++i) go(here(received.entries(i)));
+    });
+    return true;
+  }
+
+  /// How many bytes were found for each rank.
+  std::vector<std::int64_t> bytes() {
+    std::vector<std::int64_t> bytes;
+    for (FoundFor& found : found_) {
+      std::int64_t all = 0;
+      for_each_list_of(found, [&](auto& list) { all += static_cast<std::int64_t>(list.size() * sizeof(list[0])); });
+      bytes.push_back(all);
+    }
+    return bytes;
+  }
+
+  /// Sends what was found to those who have asked. Collective.
+  Reached send() {
+    Reached reached;
+    const auto send_list = [&](auto from, auto& to) {
+      using T = typename std::decay_t<decltype(found_[0].*from)>::value_type;
+      Dealt<T> sent;
+      together(ranks_, [&] {
+        std::vector<std::int64_t> counts;
+        for (const FoundFor& found : found_) counts.push_back(static_cast<std::int64_t>((found.*from).size()));
+        sent = dealt<T>("GALE::reached", counts);
+        for (std::size_t r = 0; r < found_.size(); ++r) {
+          std::copy((found_[r].*from).begin(), (found_[r].*from).end(), sent.entries.data() + sent.begin[r]);
+          found_[r].*from = {};
+        }
+      });
+      to = exchange(ranks_, "GALE::received_reached", sent);
+    };
+    send_list(&FoundFor::vertices, reached.vertices);
+    send_list(&FoundFor::cells, reached.cells);
+    send_list(&FoundFor::vertex_steps, reached.vertex_steps);
+    send_list(&FoundFor::edges, reached.edges);
+    send_list(&FoundFor::cell_steps, reached.cell_steps);
+    send_list(&FoundFor::cell_forks, reached.cell_forks);
+    send_list(&FoundFor::critical_triangles, reached.critical_triangles);
+    send_list(&FoundFor::critical_stars, reached.critical_stars);
+    return reached;
+  }
+
+ private:
+  FoundFor& found_of(int asker) { return found_[asker]; }
+
+  bool is_owned(Id vertex) const { return vertex < mesh_.owned_vertices(); }
+  Id higher(Id a, Id b) const { return keys_[a] > keys_[b] ? a : b; }
+
+  void begin_stars(int asker, FoundFor& found) {
+    const CriticalSimplices& critical = gradient_.critical();
+    for (std::size_t i = 0; i + 1 < critical.star_begin.size(); ++i) {
+      std::array<Id, 4> in_star{0, 0, no_id, 0};
+      if (critical.dimension == 3) {
+        const auto facet = places(found, critical.triangles[i]);
+        std::copy(facet.begin(), facet.end(), in_star.begin());
+      } else {
+        const auto facet = places(found, critical.edges[i]);
+        std::copy(facet.begin(), facet.end(), in_star.begin());
+      }
+      for (Id k = critical.star_begin[i]; k < critical.star_begin[i + 1]; ++k) {
+        in_star[3] = cell_place(found, critical.star[k]);
+        found.critical_stars.push_back(in_star);
+        if (ways_.rising_paths) go({StepKind::rising_cell, asker, {critical.star[k]}});
+      }
+    }
+  }
+
+  /// Goes on from a simplex, unless that was done: here, or where the rank is that knows how.
+  void go(const Step& step) {
+    FoundFor& found = found_of(step.asker);
+    const auto [a, b, c] = step.simplex;
+    Id highest = a;
+    switch (step.kind) {
+      case StepKind::falling_vertex:
+        if (!found.fallen_vertices.insert(static_cast<std::uint64_t>(a)).second) return;
+        break;
+      case StepKind::falling_edge:
+        if (!found.fallen_edges.insert(pair_key(a, b)).second) return;
+        break;
+      case StepKind::rising_cell:
+        if (!found.risen_cells.insert(static_cast<std::uint64_t>(a)).second) return;
+        highest = no_id;
+        break;
+      case StepKind::rising_edge:
+        if (!found.risen_edges.insert(pair_key(a, b)).second) return;
+        break;
+      case StepKind::rising_triangle:
+        highest = higher(a, higher(b, c));
+        break;
+    }
+    const bool is_here = highest == no_id ? cells_.owner(a) == ranks_.rank() : is_owned(highest);
+    if (is_here) {
+      here_.push_back(step);
+    } else {
+      elsewhere_.push_back(
+          {highest == no_id ? cells_.owner(a) : mesh_.exchange().owner(input_[highest]), global(step)});
+    }
+  }
+
+  static int vertices_of(StepKind kind) {
+    return kind == StepKind::falling_vertex    ? 1
+           : kind == StepKind::rising_cell     ? 0
+           : kind == StepKind::rising_triangle ? 3
+                                               : 2;
+  }
+
+  SentStep global(const Step& step) const {
+    SentStep sent{step.kind, step.asker, {}};
+    for (int i = 0; i < vertices_of(step.kind); ++i) sent.simplex[i] = mesh_.vertex_id(input_[step.simplex[i]]);
+    if (step.kind == StepKind::rising_cell) sent.simplex[0] = cells_.global(step.simplex[0]);
+    return sent;
+  }
+
+  Step here(const SentStep& sent) const {
+    Step step{sent.kind, sent.asker, {}};
+    for (int i = 0; i < vertices_of(sent.kind); ++i) step.simplex[i] = internal_[mesh_.vertex_of(sent.simplex[i])];
+    if (sent.kind == StepKind::rising_cell) step.simplex[0] = cells_.local(sent.simplex[0]);
+    return step;
+  }
+
+  void take(const Step& step) {
+    FoundFor& found = found_of(step.asker);
+    const auto [a, b, c] = step.simplex;
+    switch (step.kind) {
+      case StepKind::falling_vertex:
+        return take_vertex(step.asker, found, a);
+      case StepKind::falling_edge: {
+        const Id third = tell_edge(found, a, b);
+        if (third < 0) return;
+        fall(step.asker, a, third);
+        return fall(step.asker, b, third);
+      }
+      case StepKind::rising_cell:
+        return take_cell(step.asker, found, a);
+      case StepKind::rising_edge:
+        star_->find(a, b, consumer_->row(Relation::VT, a));
+        for (const Id cell : star_->around()) cell_place(found, cell);
+        for (const Id third : star_->thirds()) go({StepKind::rising_triangle, step.asker, {a, b, third}});
+        return;
+      case StepKind::rising_triangle:
+        return cross(step.asker, found, step.simplex);
+    }
+  }
+
+  void fall(int asker, Id a, Id b) {
+    const Id high = higher(a, b);
+    go({StepKind::falling_edge, asker, {high, high == a ? b : a}});
+  }
+
+  void take_vertex(int asker, FoundFor& found, Id vertex) {
+    const Id next = vertex_successor_[vertex];
+    found.vertex_steps.push_back({vertex_place(found, vertex), next == no_id ? no_id : vertex_place(found, next)});
+    if (next != no_id) go({StepKind::falling_vertex, asker, {next}});
+  }
+
+  void take_cell(int asker, FoundFor& found, Id cell) {
+    const Id next = cell_successor_[cell], place = cell_place(found, cell);
+    if (next >= 0) {
+      found.cell_steps.push_back({place, cell_place(found, next)});
+      go({StepKind::rising_cell, asker, {next}});
+    } else {
+      found.cell_steps.push_back({place, next == no_id ? no_id : step_outside(corner_outside(next))});
+    }
+    auto at = std::lower_bound(further_.begin(), further_.end(), std::make_pair(cell, Id(0)));
+    for (; at != further_.end() && at->first == cell; ++at) {
+      found.cell_forks.push_back({place, cell_place(found, at->second)});
+      go({StepKind::rising_cell, asker, {at->second}});
+    }
+  }
+
+  /// From a triangle to the edge that it is paired with, if there is one.
+  void cross(int asker, FoundFor& found, std::array<Id, 3> triangle) {
+    std::sort(triangle.begin(), triangle.end(), [this](Id a, Id b) { return keys_[a] > keys_[b]; });
+    for (int i = 1; i < 3; ++i) {
+      if (tell_edge(found, triangle[0], triangle[i]) == triangle[3 - i])
+        go({StepKind::rising_edge, asker, {triangle[0], triangle[i]}});
+    }
+  }
+
+  /// Tells what an edge is paired with, whose higher end this rank owns: the third vertex of that triangle, or why
+  /// there is none.
+  Id tell_edge(FoundFor& found, Id high, Id low) {
+    Id third = no_id;
+    if (mesh_.dimension() == 3) {
+      const EdgePairRow row = gradient_.store().pairs()[high];
+      third = row.third(row.find(low));
+    }
+    if (third == no_id) third = vertex_successor_[high] == low ? edge_has_vertex : edge_is_critical;
+    if (found.told_edges.insert(pair_key(high, low)).second) {
+      found.edges.push_back(
+          {vertex_place(found, high), vertex_place(found, low), third < 0 ? third : vertex_place(found, third)});
+    }
+    return third;
+  }
+
+  Id vertex_place(FoundFor& found, Id vertex) const {
+    const auto [place, is_new] = found.vertex_places.insert(static_cast<std::uint64_t>(vertex));
+    if (is_new) {
+      place = static_cast<Id>(found.vertices.size());
+      found.vertices.push_back({mesh_.vertex_id(input_[vertex]), gradient_.order().value_key(vertex)});
+    }
+    return place;
+  }
+
+  Id cell_place(FoundFor& found, Id cell) const {
+    const auto [place, is_new] = found.cell_places.insert(static_cast<std::uint64_t>(cell));
+    if (is_new) {
+      place = static_cast<Id>(found.cells.size());
+      ReachedCell reached{cells_.global(cell), {}};
+      for (int k = 0; k < 4; ++k) reached.corners[k] = vertex_place(found, corners_(cell, k));
+      found.cells.push_back(reached);
+    }
+    return place;
+  }
+
+  template <std::size_t N>
+  std::array<Id, N> places(FoundFor& found, std::array<Id, N> simplex) const {
+    for (Id& vertex : simplex) vertex = vertex_place(found, vertex);
+    return simplex;
+  }
+
+  const DiscreteGradient& gradient_;
+  const WantedWays ways_;
+  const Mesh mesh_;
+  const Ranks& ranks_;
+  const PathSimplices cells_;
+  IdsByFour<HostMemory> corners_;
+  const Id *input_, *internal_;
+  const std::uint64_t* keys_;
+  const Id *vertex_successor_, *cell_successor_;
+  const std::vector<std::pair<Id, Id>>& further_;
+  std::unique_ptr<Consumer> consumer_;  // of rising walls
+  std::optional<EdgeStar> star_;
+  std::vector<FoundFor> found_;  // by the rank that asks
+  std::vector<Step> here_;
+  std::vector<std::pair<int, SentStep>> elsewhere_;
+};
+
+}  // namespace
+
+Reached reach(const DiscreteGradient& gradient, const WantedWays& ways, Structure* rows, std::size_t most_bytes) {
+  const Ranks& ranks = gradient.mesh().exchange().ranks();
+  std::unique_ptr<Reacher> reacher;
+  together(ranks, [&] {
+    reacher = std::make_unique<Reacher>(gradient, ways, rows);
+    reacher->begin();
+  });
+  do {
+    together(ranks, [&] { reacher->follow(); });
+  } while (reacher->hand_over());
+  require_room(ranks, "what critical simplices reach", reacher->bytes(), most_bytes);
+  return reacher->send();
+}
+
+}  // namespace gale::detail

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include <gale/algorithms/discrete_gradient.hpp>
+#include <gale/mesh/exchange/messages.hpp>
+#include <gale/runtime/structure.hpp>
+
+// What critical simplices of a gradient reach that lies on several ranks, found by all of them for those who ask.
+
+namespace gale::detail {
+
+/// Which ways along a gradient to follow from critical simplices, and for whom.
+struct WantedWays {
+  bool all_for_first = false;  ///< from those of all ranks, for the first one; else for each rank from its own
+  bool falling_paths = false;  ///< down from critical edges
+  bool rising_paths = false;   ///< up from critical facets of cells
+  bool falling_walls = false;  ///< down from critical triangles
+  bool rising_walls = false;   ///< up from critical edges, with all cells around
+};
+
+/// A vertex that was reached: its global id, and a number that compares on all ranks as the field's value does.
+struct ReachedVertex {
+  GlobalId id;
+  std::uint64_t value;
+};
+
+/// A cell that was reached: its global id and its corners, places among vertices; of a triangle the last one twice.
+struct ReachedCell {
+  GlobalId id;
+  std::array<Id, 4> corners;
+};
+
+/// What stands for the third vertex of an edge that is paired with no triangle.
+inline constexpr Id edge_is_critical = -1, edge_has_vertex = -2;
+
+/// What stands for a cell's successor that is outside: behind the corner opposite the facet that it is paired with.
+constexpr Id step_outside(int corner) { return -2 - corner; }
+constexpr int corner_of_step(Id step) { return -2 - step; }
+
+/// What was reached, as `List<T>`s: simplices are called by places in the lists of vertices and cells.
+template <template <class> class List>
+struct ReachedLists {
+  List<ReachedVertex> vertices;
+  List<ReachedCell> cells;
+  List<std::array<Id, 2>> vertex_steps;        ///< a vertex, and the next one; no_id: it is critical
+  List<std::array<Id, 3>> edges;               ///< an edge, the higher end first, and what it is paired with
+  List<std::array<Id, 2>> cell_steps;          ///< a cell, and the next one; no_id: it is critical
+  List<std::array<Id, 2>> cell_forks;          ///< a cell, and one more that follows it
+  List<std::array<Id, 3>> critical_triangles;  ///< from the highest vertex to the lowest
+  List<std::array<Id, 4>> critical_stars;      ///< a critical facet of cells, an edge with no_id behind it, and a cell
+};
+
+/// What one rank has received, by the rank that found it: places are those among what that one sent.
+using Reached = ReachedLists<Dealt>;
+
+/// Follows ways, from rank to rank in rounds of messages, as many as a way changes ranks: a step is taken by the rank
+/// that owns the highest vertex of a simplex. Each is taken once for each rank that asks. `rows` has VT, for rising
+/// walls alone. Collective. Throws gale::Error on all ranks, before anything is sent, if one would receive more than
+/// `most_bytes`; 0 stands for its share of what its machine has left.
+Reached reach(const DiscreteGradient& gradient, const WantedWays& ways, Structure* rows, std::size_t most_bytes);
+
+}  // namespace gale::detail

@@ -1,0 +1,162 @@
+#pragma once
+
+#include <algorithm>
+#include <functional>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include <gale/algorithms/merge_tree/assemble.hpp>
+#include <gale/algorithms/merge_tree/contour_arcs.hpp>
+#include <gale/algorithms/merge_tree/followed_paths.hpp>
+#include <gale/algorithms/merge_tree/merge_forest.hpp>
+#include <gale/algorithms/merge_tree/vertex_arcs.hpp>
+
+namespace gale::detail {
+
+/// The field at one of GALE's vertices, where extrema are to be left out.
+struct ThresholdOfTree {
+  double least;
+  std::function<double(Id)> value;
+};
+
+/// Makes trees of an extremum graph.
+template <class Space>
+class TreeMaker {
+  using Memory = MemoryOf<Space>;
+
+ public:
+  TreeMaker(const Space& space, const VertexOrder& order, ExtremumGraph<Memory> graph, const std::vector<Tree>& trees)
+      : space_(space), order_(order), trees_(trees) {
+    const auto uses = [&](Tree one) {
+      return std::any_of(trees.begin(), trees.end(), [&](Tree tree) { return tree == one || tree == Tree::contour; });
+    };
+    uses_ = {uses(Tree::join), uses(Tree::split)};
+    std::array<std::vector<Id>, 2> extrema = {graph[below].extrema, graph[above].extrema};
+    for (const Side side : {below, above}) {
+      if (uses_[side]) grow(side, std::move(graph[side]), extrema[opposite(side)]);
+    }
+    choose_nodes();
+  }
+
+  std::vector<MergeTree> make(const ThresholdOfTree* threshold) const {
+    std::vector<ArcsOfNodes> claims;
+    std::vector<MergeTree> made = make_nodes(threshold, claims);
+    auto arcs = arcs_of_vertices(space_, order_.mesh(), climbs_, claims);
+    for (std::size_t i = 0; i < made.size(); ++i) set_arcs(made[i], std::move(arcs[i]));
+    return made;
+  }
+
+  /// The trees without the arcs of vertices, which `claims` and climbs() lead to.
+  std::vector<MergeTree> make_nodes(const ThresholdOfTree* threshold, std::vector<ArcsOfNodes>& claims) const {
+    std::vector<MergeTree> made;
+    claims.assign(trees_.size(), {});
+    for (std::size_t i = 0; i < trees_.size(); ++i)
+      made.push_back(trees_[i] == Tree::contour
+                         ? contour(claims[i])
+                         : one_sided(trees_[i] == Tree::join ? below : above, threshold, claims[i]));
+    return made;
+  }
+
+  const std::array<SideClimb<Memory>, 2>& climbs() const { return climbs_; }
+  bool uses(Side side) const { return uses_[side]; }
+
+ private:
+  SideKeys keys(Side side) const { return {order_.keys(), side}; }
+  SideKeys keys_there(Side side) const { return {order_.keys_in<Memory>().data(), side}; }
+
+  void grow(Side side, ExtremumGraphSide<Memory> graph, const std::vector<Id>& others) {
+    const auto paths = follow_paths(space_, keys(side), std::move(graph));
+    const std::vector<Id> ends = extrema_of(space_, paths.ends, others);
+    std::vector<Meeting> lasts;
+    for (std::size_t i = 0; i < others.size(); ++i) lasts.push_back({others[i], ends[i]});
+    forests_[side] = merge_forest(keys(side), paths.extrema, paths.meetings, std::move(lasts));
+    ends_[side] = paths.ends;
+  }
+
+  SideClimb<Memory> climb(Side side, const std::vector<Id>& leaf, const std::vector<Id>& vertices,
+                          const std::vector<Id>& parents) const {
+    const auto copy = allocate<Array<Id, HostMemory>>("GALE::leaves", leaf.size());
+    std::copy(leaf.begin(), leaf.end(), copy.data());
+    return {keys_there(side), ends_[side], in_memory<Memory>(copy), lifted_tree<Memory>(keys(side), vertices, parents)};
+  }
+
+  /// The nodes of all that is made, those of both sides together, and the way of vertices to them.
+  void choose_nodes() {
+    for (const Side side : {below, above})
+      nodes_.insert(nodes_.end(), forests_[side].vertices.begin(), forests_[side].vertices.end());
+    std::sort(nodes_.begin(), nodes_.end(), keys(below));
+    nodes_.erase(std::unique(nodes_.begin(), nodes_.end()), nodes_.end());
+    for (const Side side : {below, above}) {
+      if (!uses_[side]) continue;
+      const MergeForest& forest = forests_[side];
+      if (uses_[opposite(side)]) {
+        base_[side] = nodes_of(space_, climb(side, forest.leaf, forest.vertices, forest.parent), nodes_);
+      } else {
+        base_[side].resize(nodes_.size());
+        std::iota(base_[side].begin(), base_[side].end(), Id(0));
+        if (side == above) std::reverse(base_[side].begin(), base_[side].end());
+      }
+      parents_[side] = parents_among(side, forest, base_[side]);
+      std::vector<Id> number(forest.vertices.size()), leaf;
+      for (std::size_t i = 0; i < nodes_.size(); ++i) {
+        if (forest.vertices[base_[side][i]] == nodes_[i]) number[base_[side][i]] = static_cast<Id>(i);
+      }
+      for (const Id node : forest.leaf) leaf.push_back(number[node]);
+      climbs_[side] = climb(side, leaf, nodes_, parents_[side]);
+    }
+  }
+
+  MergeTree one_sided(Side side, const ThresholdOfTree* threshold, ArcsOfNodes& claims) const {
+    const MergeForest& forest = forests_[side];
+    const PrunedForest kept =
+        pruned(forest, threshold == nullptr ? std::vector<bool>(forest.leaf.size(), true)
+                                            : persistent_extrema(forest, threshold->value, threshold->least));
+    const auto count = static_cast<Id>(kept.nodes.size());
+    const auto number = [&](Id place) { return side == below ? place : count - 1 - place; };
+    std::vector<Id> vertices(count), arc_of(count, no_id), place;
+    std::vector<std::pair<Id, Id>> ends;
+    for (Id i = 0; i < count; ++i) {
+      vertices[number(i)] = forest.vertices[kept.nodes[i]];
+      if (kept.parent[i] == no_id) continue;
+      arc_of[i] = static_cast<Id>(ends.size());
+      const Id one = number(i), other = number(kept.parent[i]);
+      ends.emplace_back(std::min(one, other), std::max(one, other));
+    }
+    MergeTree tree = tree_of(order_.mesh(), vertices, ends, place);
+    for (Id i = 0; i < count; ++i) {
+      if (arc_of[i] != no_id) arc_of[i] = place[arc_of[i]];
+      // What hangs on a root belongs to an arc that ends there.
+      if (kept.parent[i] != no_id && kept.parent[kept.parent[i]] == no_id) arc_of[kept.parent[i]] = arc_of[i];
+    }
+    for (const Id base : base_[side]) {
+      const Id arc = arc_of[kept.place[base]];
+      claims[side].push_back(arc == no_id ? no_claim : pair_key(0, arc));
+    }
+    return tree;
+  }
+
+  MergeTree contour(ArcsOfNodes& claims) const {
+    const ContourArcs arcs = contour_arcs(parents_);
+    std::vector<Id> place;
+    MergeTree tree = tree_of(order_.mesh(), nodes_, arcs.ends, place);
+    for (const Side side : {below, above}) {
+      for (const Id by : arcs.taken_by[side])
+        claims[side].push_back(by == ContourArcs::nobody ? no_claim : pair_key(by, place[by]));
+    }
+    return tree;
+  }
+
+  Space space_;
+  const VertexOrder& order_;
+  const std::vector<Tree> trees_;
+  std::array<bool, 2> uses_;
+  std::array<MergeForest, 2> forests_;
+  std::array<Array<Id, Memory>, 2> ends_;
+  std::vector<Id> nodes_;                ///< as they come in the order
+  std::array<std::vector<Id>, 2> base_;  ///< of each, by side, the forest's node whose arc it begins or lies on
+  std::array<std::vector<Id>, 2> parents_;
+  std::array<SideClimb<Memory>, 2> climbs_;
+};
+
+}  // namespace gale::detail

@@ -1,0 +1,61 @@
+#include <array>
+#include <utility>
+
+#include <gale/outputs/brought.hpp>
+#include <gale/outputs/excerpt.hpp>
+
+namespace gale::outputs {
+
+namespace detail {
+
+io::PointArray brought(const gale::detail::ExchangePlan& plan, const Ranks& ranks, const io::PointArray& array,
+                       std::size_t count) {
+  return std::visit(
+      [&](const auto& values) -> io::PointArray {
+        using Values = std::decay_t<decltype(values)>;
+        using Value = typename Values::value_type;
+        const std::size_t width = array.components;
+        Values all;
+        std::vector<Value> from, to;
+        gale::detail::together(ranks, [&] {
+          all.resize(count * width);
+          from.resize(values.size() / width);
+          to.resize(count);
+        });
+        for (std::size_t component = 0; component < width; ++component) {
+          for (std::size_t i = 0; i < from.size(); ++i) from[i] = values[i * width + component];
+          plan(ranks, from.data(), to.data());
+          for (std::size_t i = 0; i < count; ++i) all[i * width + component] = to[i];
+        }
+        return {array.name, array.components, std::move(all)};
+      },
+      array.values);
+}
+
+}  // namespace detail
+
+io::Dataset dataset_of(const Mesh& excerpt, const Mesh& mesh, const io::Dataset& dataset) {
+  const Ranks& ranks = mesh.exchange().ranks();
+  const auto plan = gale::detail::plan_to(excerpt, mesh);
+  io::Dataset found;
+  std::visit(
+      [&](const auto& points) {
+        using Coordinate = typename std::decay_t<decltype(points)>::non_const_value_type;
+        using Row = std::array<Coordinate, 3>;
+        io::Dataset::Points<Coordinate> rows;
+        gale::detail::together(ranks,
+                               [&] { rows = allocate<decltype(rows)>("GALE::points_of_excerpt", excerpt.vertices()); });
+        plan(ranks, reinterpret_cast<const Row*>(points.data()), reinterpret_cast<Row*>(rows.data()));
+        found.points = rows;
+      },
+      dataset.points);
+  for (const io::PointArray& array : dataset.arrays)
+    found.arrays.push_back(detail::brought(plan, ranks, array, excerpt.vertices()));
+  return found;
+}
+
+io::PointArray array_of(const Mesh& excerpt, const Mesh& mesh, const io::PointArray& array) {
+  return detail::brought(gale::detail::plan_to(excerpt, mesh), mesh.exchange().ranks(), array, excerpt.vertices());
+}
+
+}  // namespace gale::outputs

@@ -1,0 +1,56 @@
+"""gale's analyses that gather what they need on the first rank, under mpirun: their files are those of one rank."""
+import unittest
+
+import gale
+import ranks
+
+
+@ranks.needs_mpi
+@gale.needs_vtk
+class GatheredOnRanks(ranks.ComplexTest):
+    def expect_file(self, kind, one, all_):
+        """Two files have the same points and cells, and arrays of the same values."""
+        expected, found = gale.XmlFile(self.folder / one), gale.XmlFile(self.folder / all_)
+        self.assertEqual(list(found.points), list(expected.points))
+        self.assertEqual(found.cells(kind), expected.cells(kind))
+        for arrays in ("point_arrays", "cell_arrays"):
+            there, here = getattr(expected, arrays), getattr(found, arrays)
+            self.assertEqual({name: list(values) for name, values in here.items()},
+                             {name: list(values) for name, values in there.items()})
+
+    def test_a_diagram_is_that_of_one_rank(self):
+        self.write_ties("grid:10")
+        for source, *options in (("grid:14",), ("ties.vtk",), ("grid:14", "--persistence", "5%"), ("plane:40",)):
+            expected = self.report("persistence-diagram", source, *options, "-o", "one.vtu", "--curve", "one.csv")["result"]
+            for count in ranks.RANKS:
+                with self.subTest(source=source, options=options, ranks=count):
+                    report = self.report_of(count, "persistence-diagram", source, *options, "-o", "all.vtu", "--curve", "all.csv")
+                    self.assertEqual(report["result"], expected)
+                    self.expect_file("Cells", "one.vtu", "all.vtu")
+                    self.assertEqual((self.folder / "one.csv").read_text(), (self.folder / "all.csv").read_text())
+                    self.assertGreater(report["ranks"]["gathered_bytes"]["most"], 0)
+
+    def test_a_simplified_complex_is_that_of_one_rank(self):
+        self.write_ties("grid:8", 12)
+        self.write_ties("grid:9", 1000, "noise.vtk")
+        for source, *options in (("noise.vtk", "--persistence", "5%"), ("ties.vtk", "--persistence", "0.5"),
+                                 ("noise.vtk", "--persistence", "100", "--extrema-only")):
+            for count in ranks.RANKS:
+                with self.subTest(source=source, options=options, ranks=count):
+                    self.expect_complex_of_one_rank(count, source, *options)
+
+    def test_a_tree_is_that_of_one_rank(self):
+        self.write_ties("grid:10")
+        for source, *options in (("grid:14", "--type", "join"), ("ties.vtk", "--type", "split"), ("grid:14", "--type", "contour"),
+                                 ("grid:14", "--type", "split", "--persistence", "10%"), ("plane:40", "--type", "contour")):
+            expected = self.report("merge-tree", source, *options, "-o", "one")["result"]
+            for count in ranks.RANKS:
+                with self.subTest(source=source, options=options, ranks=count):
+                    self.assertEqual(self.report_of(count, "merge-tree", source, *options, "-o", "all")["result"], expected)
+                    self.expect_file("Verts", "one_nodes.vtp", "all_nodes.vtp")
+                    self.expect_file("Lines", "one_arcs.vtp", "all_arcs.vtp")
+                    self.expect_segmentation(gale.XmlFile(self.folder / "one_segmentation.vtu"), self.pieces("all_segmentation.pvtu"))
+
+
+if __name__ == "__main__":
+    unittest.main()
