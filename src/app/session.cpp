@@ -124,20 +124,31 @@ io::PointArray Session::select_field(const io::Dataset& dataset) {
   return field;
 }
 
-Mesh Session::encode(io::Dataset& dataset, const SegmentationOptions& segmentation, Keep keep) {
+Mesh Session::make_mesh(io::Dataset& dataset, const SegmentationOptions& segmentation) {
   std::vector<std::string> notices;
   begin_step("dividing the mesh into segments");
-  const Segmentation segments = timed(report_.seconds.segment, [&] {
+  std::optional<Segmentation> segments = timed(report_.seconds.segment, [&] {
     warm_up_.wait();
-    return make_segmentation(dataset, segmentation, console_, notices);
+    auto given = segmentation_given(dataset, segmentation, console_, notices);
+    if (!given && !dataset.grid) given = make_octree(dataset, segmentation);
+    return given;
   });
   note(notices);
   const Stopwatch watch(report_.seconds.initialize);
   begin_step("encoding the mesh");
-  Mesh mesh = outputs::mesh_of(dataset, segments);
+  if (!segments) return Mesh(*dataset.grid, segmentation.capacity.value_or(default_capacity));
+  io::write_out_cells(dataset);
+  return outputs::mesh_of(dataset, *segments);
+}
+
+Mesh Session::encode(io::Dataset& dataset, const SegmentationOptions& segmentation, Keep keep) {
+  Mesh mesh = make_mesh(dataset, segmentation);
+  const Stopwatch watch(report_.seconds.initialize);
+  if (keep == Keep::cells) io::write_out_cells(dataset);
   if (keep == Keep::nothing) {
     dataset.tetrahedra = {};
     dataset.triangles = {};
+    dataset.grid.reset();
     dataset.cell_arrays.clear();
   }
   report_.segments = mesh.segments();

@@ -31,11 +31,14 @@ struct FieldOnMesh {
   bool has_ids = false;  ///< whether GlobalPointIds of the dataset are the points' in the input of all ranks
 };
 
-/// Segments the dataset's vertices as the options say: by an array, at random, or by an octree. Without options by the
-/// array of segments that the input brings, else by an octree. Says which array was taken; adds a line to `notices`
-/// about each that was ignored. Throws gale::Error for an array that isn't there or holds no segments.
-Segmentation make_segmentation(const io::Dataset& dataset, const SegmentationOptions& options, const Console& console,
-                               std::vector<std::string>& notices);
+/// The segments that the options give the dataset's vertices: by an array, or at random. Without options those of the
+/// array of segments that the input brings; nothing where there is none. Says which array was taken; adds a line to
+/// `notices` about each that was ignored. Throws gale::Error for an array that isn't there or holds no segments.
+std::optional<Segmentation> segmentation_given(const io::Dataset& dataset, const SegmentationOptions& options,
+                                               const Console& console, std::vector<std::string>& notices);
+
+/// Segments them by an octree.
+Segmentation make_octree(const io::Dataset& dataset, const SegmentationOptions& options);
 
 /// One run of a command: the steps that several commands take, each timed and said. On several ranks all take them
 /// together: the first one speaks, and writes the report, and each writes a piece of every output. What fails on one
@@ -68,7 +71,8 @@ class Session {
   /// Reads the input. Throws gale::Error if it hasn't the array that --array names, if it names one.
   io::Dataset read();
 
-  /// Segments and encodes. The cells are taken out of `dataset` on the way unless they are kept.
+  /// Segments and encodes; a grid whose segments are its own stays one. The cells are taken out of `dataset` on the way
+  /// unless they are kept: then it has them written out.
   enum class Keep { cells, nothing };
   Mesh encode(io::Dataset& dataset, const SegmentationOptions& segmentation, Keep keep);
 
@@ -115,6 +119,7 @@ class Session {
   void finish(const StructureOption& option, const Computed& computed);
 
  private:
+  Mesh make_mesh(io::Dataset& dataset, const SegmentationOptions& segmentation);
   io::Dataset read_any();
   void tell_size(std::int64_t vertices, std::int64_t cells, int dimension);
   FieldOnMesh read_part(const SegmentationOptions& segmentation, Keep keep);

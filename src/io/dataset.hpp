@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <variant>
@@ -10,6 +11,7 @@
 #include <Kokkos_Core.hpp>
 
 #include <gale/export.hpp>
+#include <gale/mesh/grid.hpp>
 
 namespace gale::io {
 namespace detail {
@@ -69,11 +71,16 @@ struct Dataset {
   /// The three vertices of each triangle, of a mesh that has no tetrahedra.
   Kokkos::View<std::int32_t* [3], Kokkos::LayoutRight, Kokkos::HostSpace> triangles;
 
+  /// The grid that the cells are those of, where none are written out.
+  std::optional<Grid> grid;
+
   /// The dimension of the cells: 3 where there are tetrahedra, else 2.
-  int dimension() const { return tetrahedra.extent(0) > 0 ? 3 : 2; }
+  int dimension() const { return grid ? grid->dimension() : tetrahedra.extent(0) > 0 ? 3 : 2; }
 
   /// How many cells there are, of either dimension.
-  std::size_t cells() const { return tetrahedra.extent(0) + triangles.extent(0); }
+  std::size_t cells() const {
+    return grid ? static_cast<std::size_t>(grid->cells()) : tetrahedra.extent(0) + triangles.extent(0);
+  }
 
   std::vector<PointArray> arrays;    ///< the file's point arrays, the active scalars first
   std::vector<std::string> notices;  ///< one line each about what of the file was left out, or split
@@ -82,6 +89,9 @@ struct Dataset {
   /// from 0; none where these are all of the file's cells, in their order.
   std::vector<PointArray> cell_arrays;
 };
+
+/// Writes out the cells of a dataset that has a grid instead; of another one does nothing.
+GALE_EXPORT void write_out_cells(Dataset& dataset);
 
 /// How many points `array` has values for.
 GALE_EXPORT std::size_t point_count(const PointArray& array);

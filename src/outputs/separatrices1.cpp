@@ -35,12 +35,12 @@ Along(const SharedPaths&, const Simplex*, const GlobalId*, CellOf, IdOf) -> Alon
 /// The global id of a vertex, or of a cell, that paths pass.
 GlobalId vertex_id(const MorseSmaleComplex& complex, Id vertex) {
   const Mesh& mesh = complex.gradient.mesh();
-  return vertex < mesh.vertices() ? mesh.vertex_id(mesh.vertex_input()(vertex))
+  return vertex < mesh.vertices() ? mesh.vertex_id(mesh.vertices_in_input()[vertex])
                                   : complex.beyond.vertices[vertex - mesh.vertices()];
 }
 GlobalId cell_id(const MorseSmaleComplex& complex, Id cell) {
   const Mesh& mesh = complex.gradient.mesh();
-  return cell < mesh.cells() ? mesh.cell_id(mesh.cell_input()(cell)) : complex.beyond.cells[cell - mesh.cells()];
+  return cell < mesh.cells() ? mesh.cell_id(mesh.cells_in_input()[cell]) : complex.beyond.cells[cell - mesh.cells()];
 }
 
 /// Where the simplices on paths are drawn, by GALE's ids of their vertices.
@@ -49,7 +49,7 @@ class Positions {
  public:
   /// Asks the owners where vertices beyond this rank's part are: collective.
   Positions(const io::Dataset::Points<Coordinate>& points, const MorseSmaleComplex& complex)
-      : points_(points), complex_(complex), input_(mesh().vertex_input().data()) {
+      : points_(points), complex_(complex), input_(mesh().vertices_in_input()) {
     if (mesh().exchange().ranks().size() > 1) ask_owners();
   }
 
@@ -89,7 +89,7 @@ class Positions {
 
   const io::Dataset::Points<Coordinate>& points_;
   const MorseSmaleComplex& complex_;
-  const Id* input_;
+  OtherIds input_;
   Array<Point, HostMemory> beyond_;
 };
 

@@ -40,7 +40,7 @@ inline std::vector<End> ends_of(const std::vector<CriticalSimplex>& simplices, c
   const auto height = [&](Id vertex) -> Height {
     // Keys say nothing to other ranks: where there are several, values do.
     const auto bits = [&](const auto& values) { return std::uint64_t(gale::detail::ordered_bits(values[vertex])); };
-    return {mesh.is_part() ? std::visit(bits, ordered_by.values) : order.keys()[mesh.vertex_internal()(vertex)],
+    return {mesh.is_part() ? std::visit(bits, ordered_by.values) : order.keys()[mesh.vertices_of_input()[vertex]],
             mesh.vertex_id(vertex), value_at(field, vertex)};
   };
   std::vector<End> ends;

@@ -153,6 +153,10 @@ PyMesh::PyMesh(Array1 points, Array1 cells, int capacity) : capacity_(capacity) 
 
 PyMesh::PyMesh(io::Dataset& dataset, int capacity) : capacity_(capacity) {
   dataset_.points = dataset.points;
+  if (dataset.grid) {
+    mesh_ = Mesh(*dataset.grid, capacity);
+    return;
+  }
   mesh_ = std::visit(
       [&](const auto& points) {
         return dataset.dimension() == 3 ? make_mesh(points, dataset.tetrahedra, capacity)
@@ -191,6 +195,7 @@ nb::tuple read(const nb::bytes& path, std::optional<double> above, const std::st
   options.array = array;
   options.simplices_alone = tetrahedra_alone;
   options.outside_files = outside_files;
+  options.grids = true;
   io::Dataset dataset;
   auto mesh = Job().run([&] {
     dataset = io::read(place, options);
