@@ -44,10 +44,7 @@ const io::PointArray* given_segments(const io::Dataset& dataset, const Segmentat
 
 std::optional<Segmentation> segmentation_given(const io::Dataset& dataset, const SegmentationOptions& options,
                                                const Console& console, std::vector<std::string>& notices) {
-  if (options.random_count) {
-    const std::size_t vertices = std::visit([](const auto& points) { return points.extent(0); }, dataset.points);
-    return scattered(vertices, *options.random_count);
-  }
+  if (options.random_count) return scattered(dataset.vertices(), *options.random_count);
   const io::PointArray* const given = given_segments(dataset, options, notices);
   if (given == nullptr) return std::nullopt;
   const auto labels = outputs::labels_of(*given);

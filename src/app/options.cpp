@@ -97,7 +97,7 @@ void add_choice(CLI::App& command, Value& chosen, const std::string& name,
 }  // namespace
 
 void InputOptions::add_to(CLI::App& command) {
-  read.grids = true;
+  read.grids = io::GridCells::computed;
   command
       .add_option("INPUT", input,
                   "A mesh (" + io::extensions_of(io::Input::mesh) + "), a volume (" +
@@ -122,7 +122,10 @@ void InputOptions::add_to(CLI::App& command) {
       ->check(CLI::IsMember({"any", "simplices", "tetrahedra"}));
   command
       .add_option_function<std::string>(
-          "--mesh", [this](const std::string& mesh) { read.grids = mesh == "computed"; },
+          "--mesh",
+          [this](const std::string& mesh) {
+            read.grids = mesh == "computed" ? io::GridCells::computed : io::GridCells::written;
+          },
           "Volumes and grids: computed (default) stays a grid; written writes out its tetrahedra or triangles first")
       ->check(CLI::IsMember({"computed", "written"}));
   command.add_flag("--outside-files", read.outside_files,

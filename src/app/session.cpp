@@ -98,8 +98,8 @@ io::Dataset Session::read_any() {
   if (input_.height) outputs::add_height(dataset, *input_.height);
   console_.say("input", input_.input);
   note(dataset.notices);
-  tell_size(std::visit([](const auto& points) { return std::int64_t(points.extent(0)); }, dataset.points),
-            static_cast<std::int64_t>(dataset.cells()), dataset.dimension());
+  tell_size(static_cast<std::int64_t>(dataset.vertices()), static_cast<std::int64_t>(dataset.cells()),
+            dataset.dimension());
   return dataset;
 }
 
@@ -178,6 +178,9 @@ FieldOnMesh Session::read_part(const SegmentationOptions& segmentation, Keep kee
 
 FieldOnMesh Session::read_field(const SegmentationOptions& segmentation, Keep keep) {
   if (Launch::are_several()) return read_part(segmentation, keep);
+  const bool has_use_for_points = has_outputs_ || input_.height;
+  if (input_.read.grids == io::GridCells::computed && !has_use_for_points)
+    input_.read.grids = io::GridCells::computed_alone;
   io::Dataset dataset = read_any();
   io::PointArray field = select_field(dataset);
   const Mesh mesh = encode(dataset, segmentation, keep);

@@ -53,6 +53,13 @@ struct PointArray {
   Values values;       ///< the values of point p begin at p * components
 };
 
+/// How a dataset has the cells of an image, or of a synthetic grid.
+enum class GridCells {
+  written,        ///< a tetrahedron or triangle each
+  computed,       ///< as a grid
+  computed_alone  ///< as a grid, and no points
+};
+
 /// A mesh of tetrahedra or of triangles in input ids, as read from a file or generated: what goes into a `gale::Mesh`,
 /// and what outputs are made from.
 struct Dataset {
@@ -63,7 +70,7 @@ struct Dataset {
   /// Points of either precision, as the file has them.
   using Positions = std::variant<Points<float>, Points<double>>;
 
-  Positions points;  ///< where the vertices are
+  Positions points;  ///< where the vertices are; none of GridCells::computed_alone
 
   /// The four vertices of each tetrahedron.
   Kokkos::View<std::int32_t* [4], Kokkos::LayoutRight, Kokkos::HostSpace> tetrahedra;
@@ -73,6 +80,12 @@ struct Dataset {
 
   /// The grid that the cells are those of, where none are written out.
   std::optional<Grid> grid;
+
+  /// How many vertices there are.
+  std::size_t vertices() const {
+    return grid ? static_cast<std::size_t>(grid->vertices())
+                : std::visit([](const auto& all) { return all.extent(0); }, points);
+  }
 
   /// The dimension of the cells: 3 where there are tetrahedra, else 2.
   int dimension() const { return grid ? grid->dimension() : tetrahedra.extent(0) > 0 ? 3 : 2; }

@@ -11,12 +11,6 @@
 
 namespace gale::io {
 
-/// Whether the cells of an image, or of a synthetic grid, are written out.
-enum class GridCells {
-  written,  ///< a tetrahedron or triangle each
-  computed  ///< the dataset has a grid
-};
-
 /// A regular image: dimensions[0] * dimensions[1] * dimensions[2] voxels, x fastest, each with a value of every array.
 struct Image {
   std::array<int, 3> dimensions{};  ///< voxels along x, y and z
@@ -46,7 +40,7 @@ GALE_EXPORT void rescale(Image& image, double slope, double intercept);
 /// it makes no difference to critical points which axis is numbered fastest.) Points are float unless that would move
 /// them by more than a hundredth of a voxel; all arrays travel, in their types.
 ///
-/// `cells` says whether these are written out, or the dataset has a grid.
+/// `cells` says whether these are written out, or the dataset has a grid, with points or without.
 ///
 /// Runs on all host threads; besides image and result it takes three bits a voxel. Throws `Error` if two
 /// dimensions are below 2, if no cube is left, or if the vertices or tetrahedra do not fit 32-bit ids. Precondition:

@@ -162,6 +162,7 @@ Dataset split_voxels(Image image, std::optional<double> above, GridCells cells) 
   if (grid.cubes() == 0) refuse_none(rows, image.arrays.front(), above);
   dataset.notices = std::move(image.notices);
   for (PointArray& array : image.arrays) dataset.arrays.push_back(array_at_vertices(grid, std::move(array)));
+  if (cells == GridCells::computed_alone) return dataset;
   if (needs_double(image)) {
     dataset.points = make_points<double>(grid, image);
   } else {

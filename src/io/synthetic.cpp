@@ -167,7 +167,7 @@ Dataset make_grid(int n, GridCells cells) {
   check_size(n);
   const Layers all{n, 0, n - 1};
   Dataset dataset;
-  dataset.points = make_points(all);
+  if (cells != GridCells::computed_alone) dataset.points = make_points(all);
   dataset.grid = Grid({n, n, n});
   if (cells == GridCells::written) write_out_cells(dataset);
   dataset.arrays.push_back({"field", 1, make_field(all)});
@@ -181,17 +181,19 @@ Dataset make_plane(int n, GridCells cells) {
   detail::require_ids_for(name + " has", 2 * squares * squares, "triangles");
   Dataset dataset;
   const Offset count = Offset(n) * n;
-  const auto points = allocate<Dataset::Points<float>>("GALE::points", count);
+  const bool has_points = cells != GridCells::computed_alone;
+  const auto points = allocate<Dataset::Points<float>>("GALE::points", has_points ? count : 0);
   std::vector<float> field(static_cast<std::size_t>(count));
   parallel_for("GALE::make_plane_points", Host(), n, [&](Offset y) {
     const double cosine_y = std::cos(0.13 * static_cast<double>(y));
     for (int x = 0; x < n; ++x) {
       const Offset i = y * n + x;
+      field[static_cast<std::size_t>(i)] =
+          static_cast<float>(std::sin(0.11 * x) * cosine_y + std::sin(0.05 * x) + noise_of(i));
+      if (!has_points) continue;
       points(i, 0) = static_cast<float>(x);
       points(i, 1) = static_cast<float>(y);
       points(i, 2) = 0;
-      field[static_cast<std::size_t>(i)] =
-          static_cast<float>(std::sin(0.11 * x) * cosine_y + std::sin(0.05 * x) + noise_of(i));
     }
   });
   dataset.points = points;
@@ -242,7 +244,7 @@ Dataset make_synthetic(const std::string& kind, int n, GridCells cells) {
   });
   image.arrays.push_back({"field", 1, std::move(values)});
   Dataset dataset = split_voxels(std::move(image), 0, cells);
-  if (kind == "dense") gather_points(dataset, n);
+  if (kind == "dense" && cells != GridCells::computed_alone) gather_points(dataset, n);
   return dataset;
 }
 

@@ -6,7 +6,6 @@
 
 #include <gale/export.hpp>
 #include <gale/io/dataset.hpp>
-#include <gale/io/image.hpp>
 
 namespace gale::io {
 

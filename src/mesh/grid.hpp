@@ -32,7 +32,7 @@ class GALE_EXPORT Grid {
   /// How many words of 64 bits so many points take.
   static std::size_t words_of_row(Id points) { return (static_cast<std::size_t>(points) + 63) / 64; }
 
-  int dimension() const { return points_[2] == 1 ? 2 : 3; }         ///< of the cells
+  int dimension() const { return points_[2] == 1 ? 2 : 3; }         ///< 2 where cells are triangles
   const std::array<Id, 3>& points() const { return points_; }       ///< along x, y and z, used or not
   Id vertices() const { return vertices_; }                         ///< points that a cube uses
   Id cubes() const { return cubes_; }                               ///< or squares

@@ -195,7 +195,7 @@ nb::tuple read(const nb::bytes& path, std::optional<double> above, const std::st
   options.array = array;
   options.simplices_alone = tetrahedra_alone;
   options.outside_files = outside_files;
-  options.grids = true;
+  options.grids = io::GridCells::computed;
   io::Dataset dataset;
   auto mesh = Job().run([&] {
     dataset = io::read(place, options);

@@ -85,7 +85,9 @@ class GridCursor {
   }
 
   KOKKOS_INLINE_FUNCTION void seek_in_whole(const GridPlace& at) {
-    const Id row = grid_.nx, layer = row * grid_.ny, cubes = row - 1, cube_layer = cubes * (grid_.ny - 1);
+    const bool is_plane = grid_.dimension == 2;
+    const Id row = grid_.nx, layer = is_plane ? 0 : row * grid_.ny;
+    const Id cubes = row - 1, cube_layer = is_plane ? 0 : cubes * (grid_.ny - 1);
     rows_[0] = vertex_ - layer - row;
     rows_[1] = vertex_ - layer;
     rows_[2] = vertex_ - row;
@@ -96,7 +98,6 @@ class GridCursor {
     cubes_[2] = cubes_[3] - cubes;
     cubes_[1] = cubes_[3] - cube_layer;
     cubes_[0] = cubes_[1] - cubes;
-    const bool is_plane = grid_.dimension == 2;
     const int lower_y = at.y > 0 ? 0x33 : 0, own_y = at.y < grid_.ny - 1 ? 0xcc : 0;
     const int lower_z = at.z > 0 ? 0x0f : 0, own_z = is_plane || at.z < grid_.nz - 1 ? 0xf0 : 0;
     in_rows_ = (lower_y | own_y) & (lower_z | own_z);

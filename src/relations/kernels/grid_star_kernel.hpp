@@ -128,7 +128,7 @@ class GridStarKernel {
       if (link != nullptr) link[row] = cells[row];
     });
     const int others = grid_.dimension;
-    auto* const places = reinterpret_cast<std::uint8_t*>(link + rows + 2);
+    auto* const places = link == nullptr ? nullptr : reinterpret_cast<std::uint8_t*>(link + rows + 2);
     detail::GridCursor at(grid_);
     team::for_all(team, rows, [&](Id row) {
       at.go_to(first + row);
