@@ -53,7 +53,7 @@ class CellSweep {
   CellSweep(detail::GradientStore& store, int consumer, Faces faces)
       : sink_(store.sink(consumer)),
         keys_(store.order.keys()),
-        cell_input_(store.mesh.cell_input().data()),
+        cell_input_(store.mesh.cells_in_input()),
         faces_(std::move(faces)) {}
 
   void pair(const SegmentRows& rows) {
@@ -159,7 +159,7 @@ class CellSweep {
 
   const detail::ConsumerSink sink_;
   const std::uint64_t* keys_;
-  const Id* cell_input_;
+  OtherIds cell_input_;
   Faces faces_;
   std::vector<Id> neighbours_;
   detail::LowerNeighbourRanks ranks_;

@@ -109,7 +109,7 @@ void QueuedLowerStar::connect() {
   }
 }
 
-Id QueuedLowerStar::across(int triangle, Id tetrahedron, const Id* numbers) const {
+Id QueuedLowerStar::across(int triangle, Id tetrahedron, const OtherIds& numbers) const {
   Id best = no_id;
   for_each_tetrahedron(triangle, [&](Id other) {
     if (other != tetrahedron && (best == no_id || numbers[other] < numbers[best])) best = other;

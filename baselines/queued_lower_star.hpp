@@ -94,7 +94,7 @@ class QueuedLowerStar {
   Id tetrahedron(int cell) const { return inner_[cells_[cell].place].id; }
 
   /// The other tetrahedron of a triangle; of several that of the lowest number, no_id if there is none.
-  Id across(int triangle, Id tetrahedron, const Id* numbers) const;
+  Id across(int triangle, Id tetrahedron, const OtherIds& numbers) const;
 
   /// Calls visit(tetrahedron) for each that a triangle has, in the lower star or not.
   template <class Visit>

@@ -14,7 +14,7 @@ function(gale_public folder)
 endfunction()
 
 gale_public(base atomic configuration csr error kokkos memory stop team threads types)
-gale_public(mesh cells/cell_types cells/split_cells encoded_mesh exchange input_numbers intervals make_mesh mesh ranks segmentation simplices)
+gale_public(mesh cells/cell_types cells/split_cells encoded_mesh exchange grid input_numbers intervals make_mesh mesh ranks segmentation simplices)
 gale_public(relations batch faces preconditioning relation rows segment_rows)
 gale_public(runtime computation consumer device_sweep graph_of make_structure relation_of statistics structure structure_options sweep_options)
 gale_public(algorithms critical_points critical_simplices discrete_gradient gathered_gradient merge_tree morse_smale persistence separatrices
@@ -27,9 +27,12 @@ if(GALE_ENABLE_MPI)
 endif()
 
 set(gale_included_headers
+  base/bits.hpp
   base/mirrored.hpp
   base/parallel.hpp
   base/transfer.hpp
+  mesh/grid/grid_stars.hpp
+  mesh/grid/grid_view.hpp
   runtime/device/batch_sweep.hpp
   runtime/batches/segment_batches.hpp)
 

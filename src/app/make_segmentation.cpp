@@ -42,17 +42,18 @@ const io::PointArray* given_segments(const io::Dataset& dataset, const Segmentat
 
 }  // namespace
 
-Segmentation make_segmentation(const io::Dataset& dataset, const SegmentationOptions& options, const Console& console,
-                               std::vector<std::string>& notices) {
-  if (options.random_count) {
-    const std::size_t vertices = std::visit([](const auto& points) { return points.extent(0); }, dataset.points);
-    return scattered(vertices, *options.random_count);
-  }
+std::optional<Segmentation> segmentation_given(const io::Dataset& dataset, const SegmentationOptions& options,
+                                               const Console& console, std::vector<std::string>& notices) {
+  if (options.random_count) return scattered(dataset.vertices(), *options.random_count);
   const io::PointArray* const given = given_segments(dataset, options, notices);
-  if (given == nullptr) return octree(dataset, options.capacity.value_or(default_capacity));
+  if (given == nullptr) return std::nullopt;
   const auto labels = outputs::labels_of(*given);
   console.say("segments from", "array " + given->name);
   return by_labels(labels);
+}
+
+Segmentation make_octree(const io::Dataset& dataset, const SegmentationOptions& options) {
+  return octree(dataset, options.capacity.value_or(default_capacity));
 }
 
 }  // namespace gale::app

@@ -112,6 +112,7 @@ void add_choice(CLI::App& command, Value& chosen, const std::string& name,
 }  // namespace
 
 void InputOptions::add_to(CLI::App& command) {
+  read.grids = io::GridCells::computed;
   command
       .add_option("INPUT", inputs,
                   "A mesh (" + io::extensions_of(io::Input::mesh) + "), a volume (" +
@@ -137,6 +138,14 @@ void InputOptions::add_to(CLI::App& command) {
           "Meshes: simplices (or tetrahedra) refuses cells that are neither tetrahedra nor, where there are no 3D "
           "cells, triangles; any (default) splits them into these")
       ->check(CLI::IsMember({"any", "simplices", "tetrahedra"}));
+  command
+      .add_option_function<std::string>(
+          "--mesh",
+          [this](const std::string& mesh) {
+            read.grids = mesh == "computed" ? io::GridCells::computed : io::GridCells::written;
+          },
+          "Volumes and grids: computed (default) stays a grid; written writes out its tetrahedra or triangles first")
+      ->check(CLI::IsMember({"computed", "written"}));
   command.add_flag("--outside-files", read.outside_files,
                    "Volumes: let .mhd and .nrrd headers name data files outside of their own folder");
 }

@@ -156,8 +156,8 @@ io::Dataset Session::read_any() {
   if (input_.height) outputs::add_height(dataset, *input_.height);
   say_input();
   note(dataset.notices);
-  tell_size(std::visit([](const auto& points) { return std::int64_t(points.extent(0)); }, dataset.points),
-            static_cast<std::int64_t>(dataset.cells()), dataset.dimension());
+  tell_size(static_cast<std::int64_t>(dataset.vertices()), static_cast<std::int64_t>(dataset.cells()),
+            dataset.dimension());
   return dataset;
 }
 
@@ -191,25 +191,36 @@ Mesh Session::encode(io::Dataset& dataset, const SegmentationOptions& segmentati
     mesh_.reset();
     mesh_ = encode_anew(dataset, segmentation);
   }
-  if (keep != Keep::cells) {
+  const Stopwatch watch(report_.seconds.initialize);
+  if (keep == Keep::cells) {
+    io::write_out_cells(dataset);
+  } else {
     dataset.tetrahedra = {};
     dataset.triangles = {};
+    dataset.grid.reset();
     dataset.cell_arrays.clear();
   }
   return *mesh_;
 }
 
-Mesh Session::encode_anew(const io::Dataset& dataset, const SegmentationOptions& segmentation) {
+Mesh Session::encode_anew(io::Dataset& dataset, const SegmentationOptions& segmentation) {
   std::vector<std::string> notices;
   begin_step("dividing the mesh into segments");
-  const Segmentation segments = timed(report_.seconds.segment, [&] {
+  std::optional<Segmentation> segments = timed(report_.seconds.segment, [&] {
     warm_up_.wait();
-    return make_segmentation(dataset, segmentation, console_, notices);
+    auto given = segmentation_given(dataset, segmentation, console_, notices);
+    if (!given && !dataset.grid) given = make_octree(dataset, segmentation);
+    return given;
   });
   note(notices);
   const Stopwatch watch(report_.seconds.initialize);
   begin_step("encoding the mesh");
-  Mesh mesh = outputs::mesh_of(dataset, segments);
+  const auto encode = [&] {
+    if (!segments) return Mesh(*dataset.grid, segmentation.capacity.value_or(default_capacity));
+    io::write_out_cells(dataset);
+    return outputs::mesh_of(dataset, *segments);
+  };
+  Mesh mesh = encode();
   report_.segments = mesh.segments();
   if (!mesh.notice().empty()) note({mesh.notice()});
   console_.say("segments", grouped(mesh.segments()));
@@ -238,6 +249,9 @@ FieldOnMesh Session::read_part(const SegmentationOptions& segmentation, Keep kee
 
 FieldOnMesh Session::read_field(const SegmentationOptions& segmentation, Keep keep) {
   if (Launch::are_several()) return read_part(segmentation, keep);
+  const bool has_use_for_points = has_outputs_ || input_.height;
+  if (input_.read.grids == io::GridCells::computed && !has_use_for_points)
+    input_.read.grids = io::GridCells::computed_alone;
   io::Dataset dataset = read_any();
   io::PointArray field = select_field(dataset);
   const Mesh mesh = encode(dataset, segmentation, keep);

@@ -50,11 +50,14 @@ class OnExcerpt {
   io::PointArray field_;
 };
 
-/// Segments the dataset's vertices as the options say: by an array, at random, or by an octree. Without options by the
-/// array of segments that the input brings, else by an octree. Says which array was taken; adds a line to `notices`
-/// about each that was ignored. Throws gale::Error for an array that isn't there or holds no segments.
-Segmentation make_segmentation(const io::Dataset& dataset, const SegmentationOptions& options, const Console& console,
-                               std::vector<std::string>& notices);
+/// The segments that the options give the dataset's vertices: by an array, or at random. Without options those of the
+/// array of segments that the input brings; nothing where there is none. Says which array was taken; adds a line to
+/// `notices` about each that was ignored. Throws gale::Error for an array that isn't there or holds no segments.
+std::optional<Segmentation> segmentation_given(const io::Dataset& dataset, const SegmentationOptions& options,
+                                               const Console& console, std::vector<std::string>& notices);
+
+/// Segments them by an octree.
+Segmentation make_octree(const io::Dataset& dataset, const SegmentationOptions& options);
 
 /// One run of a command: the steps that several commands take, each timed and said. On several ranks all take them
 /// together: the first one speaks, and writes the report, and each writes a piece of every output. What fails on one
@@ -87,9 +90,9 @@ class Session {
   /// Reads the input. Throws gale::Error if it hasn't the array that --array names, if it names one.
   io::Dataset read();
 
-  /// Segments and encodes, unless the mesh of the step before is the same. The cells are taken out of `dataset` unless
-  /// they are kept. On several ranks points and arrays are there where cells are, or `values`, are kept, or anything is
-  /// to be written.
+  /// Segments and encodes, unless the mesh of the step before is the same; a grid whose segments are its own stays one.
+  /// The cells are taken out of `dataset` unless they are kept: then it has them written out. On several ranks points
+  /// and arrays are there where cells are, or `values`, are kept, or anything is to be written.
   enum class Keep { cells, values, nothing };
   Mesh encode(io::Dataset& dataset, const SegmentationOptions& segmentation, Keep keep);
 
@@ -161,7 +164,7 @@ class Session {
 
  private:
   io::Dataset read_any();
-  Mesh encode_anew(const io::Dataset& dataset, const SegmentationOptions& segmentation);
+  Mesh encode_anew(io::Dataset& dataset, const SegmentationOptions& segmentation);
 
   /// Says what was read.
   void say_input();

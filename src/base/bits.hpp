@@ -58,6 +58,19 @@ KOKKOS_FORCEINLINE_FUNCTION int lowest_bit(std::uint64_t bits) {
 #endif
 }
 
+/// Place of the n-th bit that is set, counted from 0 and the lowest; so many are.
+KOKKOS_INLINE_FUNCTION int nth_bit(std::uint64_t bits, int n) {
+  int place = 0;
+  for (int half = 32; half > 0; half /= 2) {
+    const int below = count_bits(bits & ((std::uint64_t(1) << half) - 1));
+    if (n < below) continue;
+    n -= below;
+    place += half;
+    bits >>= half;
+  }
+  return place;
+}
+
 /// Place of the highest bit that is set; one is.
 KOKKOS_FORCEINLINE_FUNCTION int highest_bit(std::uint64_t bits) {
 #if defined(GALE_ON_DEVICE)

@@ -1,9 +1,41 @@
+#include <gale/base/memory.hpp>
+#include <gale/base/parallel.hpp>
 #include <gale/io/bytes/text.hpp>
 #include <gale/io/dataset.hpp>
 
 namespace gale::io {
 
 using detail::refuse;
+
+namespace {
+
+/// All cells of a grid, in their order.
+template <class Cells>
+Cells cells_of_grid(const char* label, const Grid& grid) {
+  const auto cells = allocate<Cells>(label, grid.cells());
+  const GridView view = grid.in<HostMemory>();
+  parallel_for("GALE::write_out_cells", HostExecutionSpace(), grid.cubes(), [&](Offset cube) {
+    const Quad corners = view.corners_of_cube(static_cast<Id>(cube));
+    for (int i = 0; i < view.cells_per_cube(); ++i) {
+      const Quad cell = view.cell_of_cube(corners, i);
+      for (std::size_t k = 0; k < cells.extent(1); ++k) cells(cube * view.cells_per_cube() + i, k) = cell[int(k)];
+    }
+  });
+  return cells;
+}
+
+}  // namespace
+
+void write_out_cells(Dataset& dataset) {
+  if (!dataset.grid) return;
+  const Grid& grid = *dataset.grid;
+  if (grid.dimension() == 3) {
+    dataset.tetrahedra = cells_of_grid<decltype(Dataset::tetrahedra)>("GALE::tetrahedra", grid);
+  } else {
+    dataset.triangles = cells_of_grid<decltype(Dataset::triangles)>("GALE::triangles", grid);
+  }
+  dataset.grid.reset();
+}
 
 std::size_t point_count(const PointArray& array) {
   const std::size_t values = std::visit([](const auto& v) { return v.size(); }, array.values);

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <variant>
@@ -10,6 +11,7 @@
 #include <Kokkos_Core.hpp>
 
 #include <gale/export.hpp>
+#include <gale/mesh/grid.hpp>
 
 namespace gale::io {
 namespace detail {
@@ -51,6 +53,13 @@ struct PointArray {
   Values values;       ///< the values of point p begin at p * components
 };
 
+/// How a dataset has the cells of an image, or of a synthetic grid.
+enum class GridCells {
+  written,        ///< a tetrahedron or triangle each
+  computed,       ///< as a grid
+  computed_alone  ///< as a grid, and no points
+};
+
 /// A mesh of tetrahedra or of triangles in input ids, as read from a file or generated: what goes into a `gale::Mesh`,
 /// and what outputs are made from.
 struct Dataset {
@@ -61,7 +70,7 @@ struct Dataset {
   /// Points of either precision, as the file has them.
   using Positions = std::variant<Points<float>, Points<double>>;
 
-  Positions points;  ///< where the vertices are
+  Positions points;  ///< where the vertices are; none of GridCells::computed_alone
 
   /// The four vertices of each tetrahedron.
   Kokkos::View<std::int32_t* [4], Kokkos::LayoutRight, Kokkos::HostSpace> tetrahedra;
@@ -69,11 +78,22 @@ struct Dataset {
   /// The three vertices of each triangle, of a mesh that has no tetrahedra.
   Kokkos::View<std::int32_t* [3], Kokkos::LayoutRight, Kokkos::HostSpace> triangles;
 
+  /// The grid that the cells are those of, where none are written out.
+  std::optional<Grid> grid;
+
+  /// How many vertices there are.
+  std::size_t vertices() const {
+    return grid ? static_cast<std::size_t>(grid->vertices())
+                : std::visit([](const auto& all) { return all.extent(0); }, points);
+  }
+
   /// The dimension of the cells: 3 where there are tetrahedra, else 2.
-  int dimension() const { return tetrahedra.extent(0) > 0 ? 3 : 2; }
+  int dimension() const { return grid ? grid->dimension() : tetrahedra.extent(0) > 0 ? 3 : 2; }
 
   /// How many cells there are, of either dimension.
-  std::size_t cells() const { return tetrahedra.extent(0) + triangles.extent(0); }
+  std::size_t cells() const {
+    return grid ? static_cast<std::size_t>(grid->cells()) : tetrahedra.extent(0) + triangles.extent(0);
+  }
 
   std::vector<PointArray> arrays;    ///< the file's point arrays, the active scalars first
   std::vector<std::string> notices;  ///< one line each about what of the file was left out, or split
@@ -82,6 +102,9 @@ struct Dataset {
   /// from 0; none where these are all of the file's cells, in their order.
   std::vector<PointArray> cell_arrays;
 };
+
+/// Writes out the cells of a dataset that has a grid instead; of another one does nothing.
+GALE_EXPORT void write_out_cells(Dataset& dataset);
 
 /// How many points `array` has values for.
 GALE_EXPORT std::size_t point_count(const PointArray& array);

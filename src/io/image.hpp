@@ -40,22 +40,17 @@ GALE_EXPORT void rescale(Image& image, double slope, double intercept);
 /// it makes no difference to critical points which axis is numbered fastest.) Points are float unless that would move
 /// them by more than a hundredth of a voxel; all arrays travel, in their types.
 ///
-/// Runs on all host threads; besides image and result it takes two bytes a voxel. Throws `Error` if two
+/// `cells` says whether these are written out, or the dataset has a grid, with points or without.
+///
+/// Runs on all host threads; besides image and result it takes three bits a voxel. Throws `Error` if two
 /// dimensions are below 2, if no cube is left, or if the vertices or tetrahedra do not fit 32-bit ids. Precondition:
 /// `select_scalars`.
-GALE_EXPORT Dataset split_voxels(Image image, std::optional<double> above);
+GALE_EXPORT Dataset split_voxels(Image image, std::optional<double> above, GridCells cells = GridCells::written);
 
 namespace detail {
 
 /// Throws gale::Error if there are more of something than ids can number: "THESE 3000000000 VERTICES, more than ...".
 GALE_EXPORT void require_ids_for(const std::string& these, double count, const std::string& of_what);
-
-/// The six tetrahedra of a cube, along its main diagonal. Corners are numbered by their coordinates: bit 0 is x, bit 1
-/// y, bit 2 z. Each tetrahedron walks from corner 0 to corner 7 along the axes in one of the orders xyz, xzy, yxz, yzx,
-/// zxy, zyx.
-inline constexpr int tetrahedra_per_cube = 6;
-inline constexpr std::uint8_t freudenthal[tetrahedra_per_cube][4] = {{0, 1, 3, 7}, {0, 1, 5, 7}, {0, 2, 3, 7},
-                                                                     {0, 2, 6, 7}, {0, 4, 5, 7}, {0, 4, 6, 7}};
 
 }  // namespace detail
 }  // namespace gale::io

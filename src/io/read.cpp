@@ -25,7 +25,7 @@ Dataset read_file(const std::string& path, const Format& format, const ReadOptio
     const auto& [nx, ny, nz] = image->dimensions;
     for (const PointArray& array : image->arrays) detail::require_size(array, std::uint64_t(nx) * ny * nz);
     select_scalars(*image, options.array);
-    return split_voxels(std::move(*image), options.above);
+    return split_voxels(std::move(*image), options.above, options.grids);
   }
   if (options.above) throw Error("a threshold was given, but it is a mesh, not an image");
   return std::get<Dataset>(std::move(content));
@@ -61,10 +61,11 @@ std::optional<int> grid_size(const std::string& input, const ReadOptions& option
 }
 
 Dataset read(const std::string& input, const ReadOptions& options) {
-  if (const auto n = grid_size(input, options)) return make_grid(*n);
+  if (const auto n = grid_size(input, options)) return make_grid(*n, options.grids);
   const std::string kind = input.substr(0, input.find(':'));
-  if (kind.size() < input.size() && kind == "plane") return make_plane(size_in_name(input, options));
-  if (kind.size() < input.size() && is_synthetic(kind)) return make_synthetic(kind, size_in_name(input, options));
+  if (kind.size() < input.size() && kind == "plane") return make_plane(size_in_name(input, options), options.grids);
+  if (kind.size() < input.size() && is_synthetic(kind))
+    return make_synthetic(kind, size_in_name(input, options), options.grids);
   if (!detail::reads_files())
     refuse("this gale was built without VTK: it reads grid:N, plane:N and the like alone, not '", input, "'");
   const Format* const format = format_of(input);

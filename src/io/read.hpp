@@ -21,6 +21,8 @@ struct ReadOptions {
   bool simplices_alone = false;
   /// Images: the array that `above` is about, as `select_scalars` takes it; empty means the file's scalars.
   std::string array;
+  /// How images, and grid:N and the like, have their cells.
+  GridCells grids = GridCells::written;
   /// Headers such as `.mhd` may name data files that aren't in their own folder, nor below it.
   bool outside_files = false;
   /// Files that will be written: those that a header or a `.pvtu` names can't be any of them.

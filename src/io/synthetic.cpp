@@ -38,9 +38,9 @@ struct Layers {
   Offset first, cubes;
 
   Offset vertices() const { return cubes == 0 ? 0 : (cubes + 1) * n * n; }
-  Offset tetrahedra() const { return cubes * (n - 1) * (n - 1) * detail::tetrahedra_per_cube; }
+  Offset tetrahedra() const { return cubes * (n - 1) * (n - 1) * tetrahedra_per_cube; }
   Offset first_vertex() const { return first * n * n; }
-  Offset first_tetrahedron() const { return first * (n - 1) * (n - 1) * detail::tetrahedra_per_cube; }
+  Offset first_tetrahedron() const { return first * (n - 1) * (n - 1) * tetrahedra_per_cube; }
 };
 
 std::string name_of_grid(int n) { return "grid:" + std::to_string(n); }
@@ -53,7 +53,7 @@ void check_size(int n) {
   require_cubes(n);
   const double points = n, cubes = points - 1;
   detail::require_ids_for(name_of_grid(n) + " has", points * points * points, "vertices");
-  detail::require_ids_for(name_of_grid(n) + " has", cubes * cubes * cubes * detail::tetrahedra_per_cube, "tetrahedra");
+  detail::require_ids_for(name_of_grid(n) + " has", cubes * cubes * cubes * tetrahedra_per_cube, "tetrahedra");
 }
 
 Dataset::Points<float> make_points(const Layers& layers) {
@@ -80,10 +80,10 @@ auto make_tetrahedra(const Layers& layers) {
   parallel_for("GALE::make_tetrahedra", Host(), layers.cubes * c, [&](Offset row) {
     for (int x = 0; x < c; ++x) {
       const Index lowest = static_cast<Index>(((layers.first + row / c) * n + row % c) * n + x);
-      const std::size_t first = (std::size_t(row) * c + x) * detail::tetrahedra_per_cube;
-      for (int p = 0; p < detail::tetrahedra_per_cube; ++p) {
+      const std::size_t first = (std::size_t(row) * c + x) * tetrahedra_per_cube;
+      for (int p = 0; p < tetrahedra_per_cube; ++p) {
         for (int k = 0; k < 4; ++k) {
-          const int corner = detail::freudenthal[p][k];
+          const int corner = freudenthal[p][k];
           tetrahedra(first + p, k) =
               lowest + (corner & 1) * step[0] + (corner >> 1 & 1) * step[1] + (corner >> 2) * step[2];
         }
@@ -163,46 +163,43 @@ void gather_points(Dataset& dataset, int n) {
 
 }  // namespace
 
-Dataset make_grid(int n) {
+Dataset make_grid(int n, GridCells cells) {
   check_size(n);
   const Layers all{n, 0, n - 1};
   Dataset dataset;
-  dataset.points = make_points(all);
-  dataset.tetrahedra = make_tetrahedra<std::int32_t>(all);
+  if (cells != GridCells::computed_alone) dataset.points = make_points(all);
+  dataset.grid = Grid({n, n, n});
+  if (cells == GridCells::written) write_out_cells(dataset);
   dataset.arrays.push_back({"field", 1, make_field(all)});
   return dataset;
 }
 
-Dataset make_plane(int n) {
+Dataset make_plane(int n, GridCells cells) {
   const std::string name = "plane:" + std::to_string(n);
   if (n < 2) refuse(name, " has no triangles: N must be at least 2");
   const double squares = n - 1.0;
   detail::require_ids_for(name + " has", 2 * squares * squares, "triangles");
   Dataset dataset;
-  const Offset count = Offset(n) * n, width = n - 1;
-  const auto points = allocate<Dataset::Points<float>>("GALE::points", count);
+  const Offset count = Offset(n) * n;
+  const bool has_points = cells != GridCells::computed_alone;
+  const auto points = allocate<Dataset::Points<float>>("GALE::points", has_points ? count : 0);
   std::vector<float> field(static_cast<std::size_t>(count));
   parallel_for("GALE::make_plane_points", Host(), n, [&](Offset y) {
     const double cosine_y = std::cos(0.13 * static_cast<double>(y));
     for (int x = 0; x < n; ++x) {
       const Offset i = y * n + x;
+      field[static_cast<std::size_t>(i)] =
+          static_cast<float>(std::sin(0.11 * x) * cosine_y + std::sin(0.05 * x) + noise_of(i));
+      if (!has_points) continue;
       points(i, 0) = static_cast<float>(x);
       points(i, 1) = static_cast<float>(y);
       points(i, 2) = 0;
-      field[static_cast<std::size_t>(i)] =
-          static_cast<float>(std::sin(0.11 * x) * cosine_y + std::sin(0.05 * x) + noise_of(i));
     }
   });
   dataset.points = points;
   dataset.arrays.push_back({"field", 1, std::move(field)});
-  dataset.triangles = allocate<decltype(Dataset::triangles)>("GALE::triangles", 2 * width * width);
-  parallel_for("GALE::make_plane", Host(), width * width, [&](Offset square) {
-    const Id a = static_cast<Id>(square / width * n + square % width);
-    const Id corners[2][3] = {{a, a + 1, a + n + 1}, {a, a + n, a + n + 1}};
-    for (int t = 0; t < 2; ++t) {
-      for (int k = 0; k < 3; ++k) dataset.triangles(2 * square + t, k) = corners[t][k];
-    }
-  });
+  dataset.grid = Grid({n, n, 1});
+  if (cells == GridCells::written) write_out_cells(dataset);
   return dataset;
 }
 
@@ -227,7 +224,7 @@ template GALE_EXPORT GridPartOf<std::int64_t> make_grid_part(int, int, int);
 
 bool is_synthetic(const std::string& kind) { return kind_named(kind) != nullptr; }
 
-Dataset make_synthetic(const std::string& kind, int n) {
+Dataset make_synthetic(const std::string& kind, int n, GridCells cells) {
   const SyntheticKind* const made = kind_named(kind);
   if (made == nullptr) refuse("there is no synthetic mesh '", kind, "'");
   const std::string name = kind + ":" + std::to_string(n);
@@ -246,8 +243,8 @@ Dataset make_synthetic(const std::string& kind, int n) {
     }
   });
   image.arrays.push_back({"field", 1, std::move(values)});
-  Dataset dataset = split_voxels(std::move(image), 0);
-  if (kind == "dense") gather_points(dataset, n);
+  Dataset dataset = split_voxels(std::move(image), 0, cells);
+  if (kind == "dense" && cells != GridCells::computed_alone) gather_points(dataset, n);
   return dataset;
 }
 

@@ -18,13 +18,13 @@ namespace gale::io {
 /// 0.05*h(i)/2^32), computed in double, with h a hash of 32 bits.
 ///
 /// Runs on all host threads. Throws `Error` if n < 2, or if the vertices or tetrahedra do not fit 32-bit ids (n > 711).
-GALE_EXPORT Dataset make_grid(int n);
+GALE_EXPORT Dataset make_grid(int n, GridCells cells = GridCells::written);
 
 /// The triangle mesh of n^2 points at whole coordinates (x, y, 0), with one array `field` (float): the input `plane:n`
 /// of the command. Vertex i = y*n + x; the square at a = (x, y) holds the triangles (a, a+1, a+n+1) and (a, a+n,
 /// a+n+1), x fastest. The field is make_grid's at z = 0, with this i. Throws `Error` if n < 2, or if the triangles do
 /// not fit 32-bit ids (n > 32768).
-GALE_EXPORT Dataset make_plane(int n);
+GALE_EXPORT Dataset make_plane(int n, GridCells cells = GridCells::written);
 
 /// Whether there is a synthetic mesh of that kind: meshes of other character than the grid's, for measurements, the
 /// inputs `smooth:N`, `noisy:N`, `ball:N`, `shells:N` and `dense:N` of the command. Each has points of a cube of n^3
@@ -38,7 +38,7 @@ GALE_EXPORT bool is_synthetic(const std::string& kind);
 
 /// Makes a mesh of a kind (`is_synthetic`), with n^3 points or those of them that it keeps. Throws `Error` if there is
 /// no such kind, and as make_grid does.
-GALE_EXPORT Dataset make_synthetic(const std::string& kind, int n);
+GALE_EXPORT Dataset make_synthetic(const std::string& kind, int n, GridCells cells = GridCells::written);
 
 /// A slab of the mesh of make_grid: some layers of cubes, and the vertices at these.
 template <class Index>

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -14,10 +15,15 @@ namespace gale {
 
 namespace detail {
 
+/// GALE's ids and the input's.
+struct Permutations {
+  Mirrored<Id> vertex_input, vertex_internal, cell_input;
+};
+
 /// A mesh and its permutations.
 struct PermutedMesh {
   MeshArrays arrays;
-  Mirrored<Id> vertex_input, vertex_internal, cell_input;
+  Permutations permutations;
   Id owned_segments;
 };
 
@@ -92,34 +98,143 @@ detail::PermutedMesh encode(const Space& space, const CellCorners<corners, Index
   arrays.external_begin = external.offsets;
   arrays.external = external.entries;
   space.fence();
-  return {arrays, segmentation.vertex_input, vertex_internal, sorted.input,
+  return {arrays,
+          {segmentation.vertex_input, vertex_internal, sorted.input},
           segmentation.is_part() ? segmentation.owned_segments : segmentation.segments()};
+}
+
+/// Where segments of `capacity` consecutive vertices begin, and their internal cells.
+template <class Space>
+detail::MeshArrays divide(const Space& space, const Grid& grid, int capacity) {
+  const GridView view = grid.in<MemoryOf<Space>>();
+  const Id vertices = grid.vertices(), cells = grid.cells(), segments = vertices / capacity + (vertices % capacity > 0);
+  const auto vertex_begin = allocate<IdsIn<Space>>("GALE::vertex_begin", segments + 1),
+             internal_begin = allocate<IdsIn<Space>>("GALE::internal_begin", segments + 1);
+  parallel_for(
+      "GALE::divide_grid", space, segments + 1, KOKKOS_LAMBDA(Offset s) {
+        const Id first = s < segments ? static_cast<Id>(s * capacity) : vertices;
+        vertex_begin(s) = first;
+        internal_begin(s) = s < segments ? view.first_cell(first) : cells;
+      });
+  space.fence();
+  detail::MeshArrays arrays;
+  arrays.dimension = grid.dimension();
+  arrays.vertex_begin = vertex_begin;
+  arrays.internal_begin = internal_begin;
+  return arrays;
+}
+
+/// Writes what a grid computes, for those who want arrays. `divided` says where segments begin.
+template <class Space>
+detail::MeshArrays write_out(const Space& space, const Grid& grid, const detail::MeshArrays& divided) {
+  using Here = MemoryOf<Space>;
+  const GridView view = grid.in<Here>();
+  const Id vertices = grid.vertices(), cells = grid.cells();
+  const auto quads = allocate<Array<Quad, Here>>("GALE::grid_cells", cells);
+  parallel_for(
+      "GALE::grid_cells", space, grid.cubes(), KOKKOS_LAMBDA(Offset cube) {
+        const Quad corners = view.corners_of_cube(static_cast<Id>(cube));
+        const int of_cube = view.cells_per_cube();
+        for (int i = 0; i < of_cube; ++i) quads(cube * of_cube + i) = view.cell_of_cube(corners, i);
+      });
+  const auto begin = allocate<IdsIn<Space>>("GALE::cell_begin", vertices + 1);
+  parallel_for(
+      "GALE::cell_begin", space, vertices + 1,
+      KOKKOS_LAMBDA(Offset v) { begin(v) = v < vertices ? view.first_cell(static_cast<Id>(v)) : cells; });
+  const Csr<Id, Here> external =
+      detail::find_external_cells<Space>(space, {begin, quads}, divided.vertex_begin.in<Here>());
+  detail::MeshArrays arrays = divided;
+  arrays.cells = quads;
+  arrays.cell_begin = begin;
+  arrays.external_begin = external.offsets;
+  arrays.external = external.entries;
+  space.fence();
+  return arrays;
 }
 
 }  // namespace
 
-struct Mesh::Data {
+class Mesh::Data {
+ public:
   template <int corners, class Index, class Memory>
   static std::shared_ptr<const Data> made_of(const CellCorners<corners, Index, Memory>& given,
                                              const Segmentation& segmentation,
                                              std::shared_ptr<const Exchange> exchange);
 
-  const detail::PermutedMesh encoded;
+  Data(const detail::PermutedMesh& mesh, std::string what_did_not_fit, std::shared_ptr<const Exchange> others)
+      : notice(std::move(what_did_not_fit)),
+        exchange(std::move(others)),
+        vertices(static_cast<Id>(mesh.permutations.vertex_input.size())),
+        cells(static_cast<Id>(mesh.permutations.cell_input.size())),
+        owned_segments(mesh.owned_segments),
+        simplices(mesh.arrays.dimension, [this]() -> const detail::MeshArrays& { return arrays(); }),
+        divided_(mesh.arrays),
+        arrays_(mesh.arrays),
+        permutations_(mesh.permutations) {
+    arrays_.external_begin.in<HostMemory>();
+    publish();
+  }
+
+  Data(const Grid& given, const detail::MeshArrays& divided)
+      : grid(given),
+        vertices(given.vertices()),
+        cells(given.cells()),
+        owned_segments(static_cast<Id>(divided.vertex_begin.size()) - 1),
+        simplices(divided.dimension, [this]() -> const detail::MeshArrays& { return arrays(); }),
+        divided_(divided) {
+    publish();
+  }
+
+  /// Those that a grid has, too.
+  const detail::MeshArrays& divided() const { return divided_; }
+
+  const detail::MeshArrays& arrays() const {
+    if (grid) {
+      written_([this] {
+        arrays_ = in_worker_or_host_space(on_device(),
+                                          [this](const auto& space) { return write_out(space, *grid, divided_); });
+      });
+    }
+    return arrays_;
+  }
+
+  const detail::Permutations& permutations() const {
+    if (grid) {
+      permuted_([this] {
+        permutations_ = in_worker_or_host_space(on_device(), [this](const auto& space) {
+          const Mirrored<Id> of_vertices = iota("GALE::grid_vertices", space, vertices),
+                             of_cells = iota("GALE::grid_cell_ids", space, cells);
+          space.fence();
+          return detail::Permutations{of_vertices, of_vertices, of_cells};
+        });
+      });
+    }
+    return permutations_;
+  }
+
+  bool on_device() const { return divided_.vertex_begin.on_device(); }
+
   const std::string notice;
   const std::shared_ptr<const Exchange> exchange;  ///< of a part
+  const std::optional<Grid> grid;
+  const Id vertices, cells, owned_segments;
   mutable detail::EncodedOnce<WorkerMemory> worker;
   mutable detail::EncodedOnce<HostMemory> host;
   mutable detail::SimplexStore simplices;
   mutable std::mutex kept_mutex;
   mutable std::map<std::string, std::shared_ptr<const void>> kept;
 
+ private:
   /// What consumers read again and again is copied to the host now.
-  Data(const detail::PermutedMesh& mesh, const std::string& what_did_not_fit, std::shared_ptr<const Exchange> others)
-      : encoded(mesh), notice(what_did_not_fit), exchange(std::move(others)), simplices(mesh.arrays) {
-    encoded.arrays.vertex_begin.in<HostMemory>();
-    encoded.arrays.internal_begin.in<HostMemory>();
-    encoded.arrays.external_begin.in<HostMemory>();
+  void publish() const {
+    divided_.vertex_begin.in<HostMemory>();
+    divided_.internal_begin.in<HostMemory>();
   }
+
+  const detail::MeshArrays divided_;
+  mutable detail::Once written_, permuted_;
+  mutable detail::MeshArrays arrays_;
+  mutable detail::Permutations permutations_;
 };
 
 template <int corners, class Index, class Memory>
@@ -147,12 +262,22 @@ Mesh::Mesh(const Triangles<Index, Memory>& triangles, const Segmentation& segmen
            std::shared_ptr<const Exchange> exchange)
     : data_(Data::made_of<3, Index>(triangles, segmentation, std::move(exchange))) {}
 
-int Mesh::dimension() const { return data_->encoded.arrays.dimension; }
+Mesh::Mesh(const Grid& grid, int capacity) {
+  if (capacity < 1) throw Error("segments of at most " + std::to_string(capacity) + " vertices hold none");
+  if (grid.cells() == 0)
+    throw Error(grid.dimension() == 3 ? "the mesh has no tetrahedra" : "the mesh has no triangles");
+  const auto divided = in_worker_or_host_space(true, [&](const auto& space) { return divide(space, grid, capacity); });
+  data_ = std::make_shared<Data>(grid, divided);
+}
 
-Id Mesh::vertices() const { return static_cast<Id>(data_->encoded.vertex_input.size()); }
-Id Mesh::cells() const { return static_cast<Id>(data_->encoded.cell_input.size()); }
-Id Mesh::segments() const { return static_cast<Id>(data_->encoded.arrays.vertex_begin.size()) - 1; }
-Id Mesh::owned_segments() const { return data_->encoded.owned_segments; }
+const Grid* Mesh::grid() const { return data_->grid ? &*data_->grid : nullptr; }
+
+int Mesh::dimension() const { return data_->divided().dimension; }
+
+Id Mesh::vertices() const { return data_->vertices; }
+Id Mesh::cells() const { return data_->cells; }
+Id Mesh::segments() const { return static_cast<Id>(data_->divided().vertex_begin.size()) - 1; }
+Id Mesh::owned_segments() const { return data_->owned_segments; }
 Id Mesh::owned_vertices() const { return vertex_begin()(owned_segments()); }
 
 bool Mesh::is_part() const { return data_->exchange != nullptr; }
@@ -164,36 +289,54 @@ Id Mesh::vertex_of(GlobalId id) const {
 GlobalId Mesh::all_vertices() const { return is_part() ? exchange().vertices() : vertices(); }
 GlobalId Mesh::all_cells() const { return is_part() ? exchange().cells() : cells(); }
 
-bool Mesh::on_device() const { return data_->encoded.arrays.cells.on_device(); }
+bool Mesh::on_device() const { return data_->on_device(); }
 
 std::string Mesh::notice() const { return data_->notice.empty() ? data_->simplices.notice() : data_->notice; }
 
 template <class Memory>
 const EncodedMesh<Memory>& Mesh::encoded() const {
   if constexpr (is_device_memory<Memory>) {
-    return data_->worker.of(data_->encoded.arrays);
+    return data_->worker.of(data_->arrays());
   } else {
-    return data_->host.of(data_->encoded.arrays);
+    return data_->host.of(data_->arrays());
   }
 }
 
 const Array<const Id, HostMemory>& Mesh::vertex_begin() const { return interval_begin(0); }
 
 const Array<const Offset, HostMemory>& Mesh::external_begin() const {
-  return data_->encoded.arrays.external_begin.in<HostMemory>();
+  return data_->arrays().external_begin.in<HostMemory>();
 }
 
 template <class Memory>
 const Array<const Id, Memory>& Mesh::vertex_input() const {
-  return data_->encoded.vertex_input.in<Memory>();
+  return data_->permutations().vertex_input.in<Memory>();
 }
 template <class Memory>
 const Array<const Id, Memory>& Mesh::vertex_internal() const {
-  return data_->encoded.vertex_internal.in<Memory>();
+  return data_->permutations().vertex_internal.in<Memory>();
 }
 template <class Memory>
 const Array<const Id, Memory>& Mesh::cell_input() const {
-  return data_->encoded.cell_input.in<Memory>();
+  return data_->permutations().cell_input.in<Memory>();
+}
+
+template <class Memory>
+OtherIds Mesh::vertices_in_input() const {
+  return {grid() != nullptr ? nullptr : vertex_input<Memory>().data()};
+}
+template <class Memory>
+OtherIds Mesh::vertices_of_input() const {
+  return {grid() != nullptr ? nullptr : vertex_internal<Memory>().data()};
+}
+template <class Memory>
+OtherIds Mesh::cells_in_input() const {
+  return {grid() != nullptr ? nullptr : cell_input<Memory>().data()};
+}
+template <class Memory>
+CellReader Mesh::cell_reader() const {
+  if (grid() != nullptr) return {nullptr, grid()->in<Memory>()};
+  return {encoded<Memory>().cells.data(), {}};
 }
 
 template <class Memory>
@@ -206,8 +349,8 @@ Id Mesh::known_triangles() const { return dimension() == 2 ? cells() : data_->si
 template <class Memory>
 const Array<const Id, Memory>& Mesh::interval_begin(int dimension) const {
   const int most = this->dimension();
-  if (dimension == 0) return data_->encoded.arrays.vertex_begin.in<Memory>();
-  if (dimension == most) return data_->encoded.arrays.internal_begin.in<Memory>();
+  if (dimension == 0) return data_->divided().vertex_begin.in<Memory>();
+  if (dimension == most) return data_->divided().internal_begin.in<Memory>();
   if (dimension > most) throw Error("a mesh of triangles has no simplices of dimension " + std::to_string(dimension));
   return data_->simplices.interval_begin<Memory>(dimension);
 }
@@ -254,6 +397,10 @@ GALE_INSTANTIATE(std::int64_t, WorkerMemory);
   template GALE_EXPORT const Array<const Id, MemoryOf<Space>>& Mesh::vertex_input<MemoryOf<Space>>() const;    \
   template GALE_EXPORT const Array<const Id, MemoryOf<Space>>& Mesh::vertex_internal<MemoryOf<Space>>() const; \
   template GALE_EXPORT const Array<const Id, MemoryOf<Space>>& Mesh::cell_input<MemoryOf<Space>>() const;      \
+  template GALE_EXPORT OtherIds Mesh::vertices_in_input<MemoryOf<Space>>() const;                              \
+  template GALE_EXPORT OtherIds Mesh::vertices_of_input<MemoryOf<Space>>() const;                              \
+  template GALE_EXPORT OtherIds Mesh::cells_in_input<MemoryOf<Space>>() const;                                 \
+  template GALE_EXPORT CellReader Mesh::cell_reader<MemoryOf<Space>>() const;                                  \
   template GALE_EXPORT Simplices<MemoryOf<Space>> Mesh::simplices<MemoryOf<Space>>(const SimplexNeeds&) const; \
   template GALE_EXPORT const Array<const Id, MemoryOf<Space>>& Mesh::interval_begin<MemoryOf<Space>>(int) const
 GALE_IN_EACH_SPACE(GALE_INSTANTIATE);

@@ -8,6 +8,7 @@
 #include <gale/export.hpp>
 #include <gale/mesh/encoded_mesh.hpp>
 #include <gale/mesh/exchange.hpp>
+#include <gale/mesh/grid.hpp>
 #include <gale/mesh/intervals.hpp>
 #include <gale/mesh/segmentation.hpp>
 #include <gale/mesh/simplices.hpp>
@@ -25,6 +26,27 @@ using Tetrahedra = CellCorners<4, Index, Memory>;
 /// Three vertices per triangle.
 template <class Index, class Memory>
 using Triangles = CellCorners<3, Index, Memory>;
+
+/// What ids in GALE's numbering are in the input's, or the other way: a permutation, or, of a grid, the same. Owns
+/// nothing.
+struct OtherIds {
+  const Id* table = nullptr;  ///< null where all ids stay
+
+  /// The other id of a vertex or cell.
+  KOKKOS_FORCEINLINE_FUNCTION Id operator[](Id id) const { return table == nullptr ? id : table[id]; }
+  KOKKOS_FORCEINLINE_FUNCTION Id operator()(Id id) const { return (*this)[id]; }  ///< what [] says, as of a View
+};
+
+/// A mesh's cells, by their vertices, loaded or computed. Owns nothing.
+struct CellReader {
+  const Id* vertices = nullptr;  ///< four of each cell; null where `grid` computes them
+  GridView grid;                 ///< what it is then
+
+  /// The vertices of a cell, ascending; of a triangle the third one twice.
+  KOKKOS_FORCEINLINE_FUNCTION Quad operator()(Id cell) const {
+    return vertices == nullptr ? grid.cell(cell) : quad_at(vertices, cell);
+  }
+};
 
 /// A mesh of tetrahedra, or of triangles, encoded once so that the relations of any segment can be computed from it
 /// alone (the paper's §4.3). These are its cells, and their dimension is its own.
@@ -57,6 +79,14 @@ class GALE_EXPORT Mesh {
   template <class Index, class Memory>
   Mesh(const Triangles<Index, Memory>& triangles, const Segmentation& segmentation,
        std::shared_ptr<const Exchange> exchange = nullptr);
+
+  /// A grid, with `capacity` vertices a segment, consecutive ones. Nothing is encoded: what kernels read is computed,
+  /// and its ids are those of the input. Whatever else asks for arrays (encoded(), simplices(), permutations) has them
+  /// made then, where the mesh is. Throws gale::Error for a capacity below 1, and where there is no cell.
+  explicit Mesh(const Grid& grid, int capacity = default_capacity);
+
+  /// The grid that it is; null if it is none.
+  const Grid* grid() const;
 
   /// Is it the same mesh, or a copy of it? Another one of equal tetrahedra isn't.
   bool operator==(const Mesh& other) const { return data_ == other.data_; }
@@ -141,6 +171,22 @@ class GALE_EXPORT Mesh {
   template <class Memory = HostMemory>
   const Array<const Id, Memory>& cell_input() const;
 
+  /// What vertex_input() says, without a table where that says nothing: of a grid.
+  template <class Memory = HostMemory>
+  OtherIds vertices_in_input() const;
+
+  /// What vertex_internal() says, likewise.
+  template <class Memory = HostMemory>
+  OtherIds vertices_of_input() const;
+
+  /// What cell_input() says, likewise.
+  template <class Memory = HostMemory>
+  OtherIds cells_in_input() const;
+
+  /// The vertices of cells. Valid as long as the mesh or a copy of it.
+  template <class Memory = HostMemory>
+  CellReader cell_reader() const;
+
   /// The segment that a simplex of a dimension up to the mesh's (GALE's id) is internal to: a binary search among the
   /// segments.
   Id segment_of(int dimension, Id simplex) const;
@@ -151,7 +197,7 @@ class GALE_EXPORT Mesh {
                                    const std::function<std::shared_ptr<const void>()>& make) const;
 
  private:
-  struct Data;
+  class Data;
   std::shared_ptr<const Data> data_;
 };
 

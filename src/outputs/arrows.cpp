@@ -12,7 +12,7 @@ namespace gale::outputs {
 namespace {
 
 /// How many simplices of `sorted`, which are by ascending input id, have a lower one than `id`.
-Id count_before(const std::vector<Id>& sorted, const Id* input, Id id) {
+Id count_before(const std::vector<Id>& sorted, const OtherIds& input, Id id) {
   const auto at = std::lower_bound(sorted.begin(), sorted.end(), id,
                                    [input](Id simplex, Id other) { return input[simplex] < other; });
   return static_cast<Id>(at - sorted.begin());
@@ -25,7 +25,7 @@ class Arrows {
       : points_(points),
         gradient_(gradient),
         mesh_(gradient.mesh()),
-        input_(mesh_.vertex_input().data()),
+        input_(mesh_.vertices_in_input()),
         edge_begin_(allocate<Array<Id, HostMemory>>("GALE::arrows_of_edges", mesh_.vertices() + 1)) {}
 
   io::PointSet draw() {
@@ -51,7 +51,7 @@ class Arrows {
   /// Finds where the arrows of each vertex's lower edges begin among those of all edges, by input id. Returns how many
   /// arrows edges have.
   Id place_edges() {
-    const Id* const internal = mesh_.vertex_internal().data();
+    const OtherIds internal = mesh_.vertices_of_input();
     const auto count = [&](Offset i) {
       Id pairs = 0;
       gradient_.for_each_edge_pair(internal[i], [&](Id, Id) { ++pairs; });
@@ -87,7 +87,7 @@ class Arrows {
       bool operator<(const Pair& other) const { return high < other.high || (high == other.high && low < other.low); }
     };
     const std::uint64_t* const keys = gradient_.order().keys();
-    const auto& triangles = mesh_.encoded().cells;
+    const CellReader cell = mesh_.cell_reader();
     std::vector<Pair> pairs(mesh_.cells());
     parallel_for("GALE::arrows_of_edges", HostExecutionSpace(), mesh_.cells(), [&](Offset t) {
       const Partner partner = gradient_.pair_of_cell(t);
@@ -95,9 +95,10 @@ class Arrows {
         pairs[t] = {std::numeric_limits<Id>::max(), 0, 0};
         return;
       }
+      const Quad corners = cell(static_cast<Id>(t));
       Id edge[2] = {};
       for (int corner = 0, i = 0; corner < 3; ++corner) {
-        if (triangles(t, corner) != partner.vertex) edge[i++] = triangles(t, corner);
+        if (corners[corner] != partner.vertex) edge[i++] = corners[corner];
       }
       if (keys[edge[0]] < keys[edge[1]]) std::swap(edge[0], edge[1]);
       pairs[t] = {input_[edge[0]], input_[edge[1]], input_[partner.vertex]};
@@ -110,14 +111,15 @@ class Arrows {
   }
 
   void draw_triangles(Id begin) {
-    const Id* const cell_input = mesh_.cell_input().data();
-    const auto& tetrahedra = mesh_.encoded().cells;
+    const OtherIds cell_input = mesh_.cells_in_input();
+    const CellReader cell = mesh_.cell_reader();
     parallel_for("GALE::arrows_of_triangles", HostExecutionSpace(), mesh_.cells(), [&](Offset t) {
       const Partner partner = gradient_.pair_of_cell(t);
       if (partner.is_critical()) return;
+      const Quad corners = cell(static_cast<Id>(t));
       std::array<Id, 3> triangle{};
       for (int corner = 0, i = 0; corner < 4; ++corner) {
-        if (tetrahedra(t, corner) != partner.vertex) triangle[i++] = input_[tetrahedra(t, corner)];
+        if (corners[corner] != partner.vertex) triangle[i++] = input_[corners[corner]];
       }
       const Id tetrahedron = cell_input[t];
       draw(begin + tetrahedron - count_before(gradient_.critical().cells, cell_input, tetrahedron), triangle,
@@ -143,7 +145,7 @@ class Arrows {
   const io::Dataset::Points<Coordinate>& points_;
   const DiscreteGradient& gradient_;
   const Mesh& mesh_;
-  const Id* input_;
+  OtherIds input_;
   Array<Id, HostMemory> edge_begin_;
   io::Dataset::Points<Coordinate> tails_;
   std::vector<Coordinate> vectors_;

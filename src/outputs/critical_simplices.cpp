@@ -12,7 +12,7 @@ namespace {
 class Namer {
  public:
   Namer(const DiscreteGradient& gradient, const SimplexNumbers& numbers)
-      : input_(gradient.mesh().vertex_input().data()), keys_(gradient.order().keys()), numbers_(numbers) {}
+      : input_(gradient.mesh().vertices_in_input()), keys_(gradient.order().keys()), numbers_(numbers) {}
 
   /// `simplex` are its vertices (GALE's ids) from the highest to the lowest; `cell` is its CellId.
   template <std::size_t N>
@@ -31,7 +31,7 @@ class Namer {
   }
 
  private:
-  const Id* input_;
+  OtherIds input_;
   const std::uint64_t* keys_;
   const SimplexNumbers& numbers_;
 };
@@ -62,12 +62,13 @@ KnownSimplices known_simplices(const DiscreteGradient& gradient, const CriticalS
     gale::detail::stop_if_asked_at(static_cast<Offset>(known[dimension].size()));
     known[dimension].push_back(simplex);
   };
-  for (const Id v : critical.vertices) add(0, namer.name(std::array<Id, 1>{v}, mesh.vertex_id(mesh.vertex_input()(v))));
+  for (const Id v : critical.vertices)
+    add(0, namer.name(std::array<Id, 1>{v}, mesh.vertex_id(mesh.vertices_in_input()[v])));
   for (std::size_t i = 0; i < critical.edges.size(); ++i) add(1, namer.name(critical.edges[i], numbers.edges[i]));
   for (std::size_t i = 0; i < critical.triangles.size(); ++i)
     add(2, namer.name(critical.triangles[i], numbers.triangles[i]));
   for (const Id t : critical.cells) {
-    const GlobalId id = mesh.cell_id(mesh.cell_input()(t));
+    const GlobalId id = mesh.cell_id(mesh.cells_in_input()[t]);
     if (critical.dimension == 2) {
       add(2, namer.name_cell(detail::corners_of<3>(mesh, t), id));
     } else {

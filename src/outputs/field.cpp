@@ -71,22 +71,29 @@ void check_permutation(const io::PointArray& order, std::size_t count) {
       order.values);
 }
 
-/// Whether the cells of a mesh are these, whose corners are all different.
-template <class Corners>
-bool has_cells(const Mesh& mesh, const Corners& cells) {
-  constexpr int corners = Corners::static_extent(1);
-  if (cells.extent(0) != static_cast<std::size_t>(mesh.cells())) return false;
-  const Id *const vertex_input = mesh.vertex_input().data(), *const cell_input = mesh.cell_input().data();
-  const EncodedMesh<HostMemory>& encoded = mesh.encoded();
+/// Whether the input cells of a mesh are these: corners_of(cell) are the vertices of each, as many as it has corners.
+template <int corners, class CornersOf>
+bool has_cells(const Mesh& mesh, const CornersOf& corners_of) {
+  const OtherIds vertices = mesh.vertices_in_input(), cells = mesh.cells_in_input();
+  const CellReader cell = mesh.cell_reader();
   const auto differs = [&](Offset t) -> Offset {
-    const Quad quad = encoded.cell(static_cast<Id>(t));
-    const Id* const begin = &cells(cell_input[t], 0);
+    const Quad quad = cell(static_cast<Id>(t));
+    const auto& others = corners_of(cells[static_cast<Id>(t)]);
     for (int k = 0; k < corners; ++k) {
-      if (std::find(begin, begin + corners, vertex_input[quad[k]]) == begin + corners) return 1;
+      bool is_there = false;
+      for (int i = 0; i < corners; ++i) is_there |= others[i] == vertices[quad[k]];
+      if (!is_there) return 1;
     }
     return 0;
   };
   return reduce_sum("GALE::other_cells", HostExecutionSpace(), mesh.cells(), differs) == 0;
+}
+
+template <int corners>
+bool has_cells(const Mesh& mesh, const io::Dataset& dataset, const Id* rows) {
+  if (rows != nullptr) return has_cells<corners>(mesh, [&](Id t) { return rows + Offset(corners) * t; });
+  const GridView grid = dataset.grid->in<HostMemory>();
+  return has_cells<corners>(mesh, [&](Id t) { return grid.cell(t); });
 }
 
 }  // namespace
@@ -142,9 +149,12 @@ Mesh mesh_of(const io::Dataset& dataset, const Segmentation& segmentation) {
 }
 
 bool is_mesh_of(const Mesh& mesh, const io::Dataset& dataset) {
-  const auto vertices = std::visit([](const auto& points) { return points.extent(0); }, dataset.points);
-  if (mesh.dimension() != dataset.dimension() || static_cast<std::size_t>(mesh.vertices()) != vertices) return false;
-  return dataset.dimension() == 3 ? has_cells(mesh, dataset.tetrahedra) : has_cells(mesh, dataset.triangles);
+  const bool is_as_large = mesh.dimension() == dataset.dimension() &&
+                           static_cast<std::size_t>(mesh.vertices()) == dataset.vertices() &&
+                           static_cast<std::size_t>(mesh.cells()) == dataset.cells();
+  if (!is_as_large || (mesh.grid() != nullptr && dataset.grid && *mesh.grid() == *dataset.grid)) return is_as_large;
+  return mesh.dimension() == 3 ? has_cells<4>(mesh, dataset, dataset.tetrahedra.data())
+                               : has_cells<3>(mesh, dataset, dataset.triangles.data());
 }
 
 VertexOrder order_of(const Mesh& mesh, const io::Dataset& dataset, const io::PointArray& field) {

@@ -28,7 +28,7 @@ void append_sizes(const Mesh& mesh, const Mirrored<Id>& found, const Labels& ask
     const auto& manifold = found.in<HostMemory>();
     std::vector<GlobalId> all;
     for (Id v = 0; v < mesh.owned_vertices(); ++v) {
-      const Id label = manifold(mesh.vertex_input()(v));
+      const Id label = manifold(mesh.vertices_in_input()[v]);
       if (label != no_id) all.push_back(label);
     }
     owned = allocate<Labels>("GALE::owned_labels", all.size());
@@ -73,14 +73,14 @@ std::vector<GlobalId> sizes_on_ranks(const MorseSmaleComplex& complex) {
   std::vector<GlobalId> sizes;
   if (complex.parts.descending_manifolds) {
     const auto minima = places_of_extrema(ranks, own_of(complex, 0, complex.critical.vertices),
-                                          [&](Id v) { return named_in.vertex_id(named_in.vertex_input()(v)); });
+                                          [&](Id v) { return named_in.vertex_id(named_in.vertices_in_input()[v]); });
     append_sizes(mesh, complex.descending_manifold, minima, sizes);
   }
   sizes.resize(counts[0], -1);
   sizes.resize(sizes.size() + saddles, 0);
   if (complex.parts.ascending_manifolds) {
     const auto maxima = places_of_extrema(ranks, own_of(complex, top, complex.critical.cells),
-                                          [&](Id t) { return named_in.cell_id(named_in.cell_input()(t)); });
+                                          [&](Id t) { return named_in.cell_id(named_in.cells_in_input()[t]); });
     append_sizes(mesh, complex.ascending_manifold, maxima, sizes);
   }
   sizes.resize(counts[0] + saddles + counts[top], -1);

@@ -45,7 +45,7 @@ namespace {
 Id highest_of(const DiscreteGradient& gradient, int dimension, Id place) {
   const CriticalSimplices& critical = gradient.critical();
   const std::uint64_t* const keys = gradient.order().keys();
-  const auto& input = gradient.mesh().vertex_input();
+  const OtherIds input = gradient.mesh().vertices_in_input();
   if (dimension == 0) return input(critical.vertices[place]);
   if (dimension == 1) return input(critical.edges[place][0]);
   if (dimension == 2 && critical.dimension == 3) return input(critical.triangles[place][0]);
@@ -56,7 +56,8 @@ Id highest_of(const DiscreteGradient& gradient, int dimension, Id place) {
 /// The input id of the highest vertex of all.
 Id highest_of_all(const DiscreteGradient& gradient) {
   const std::uint64_t* const keys = gradient.order().keys();
-  return gradient.mesh().vertex_input()(std::max_element(keys, keys + gradient.mesh().vertices()) - keys);
+  return gradient.mesh()
+      .vertices_in_input()[static_cast<Id>(std::max_element(keys, keys + gradient.mesh().vertices()) - keys)];
 }
 
 bool is_float(const io::PointArray& array) { return std::holds_alternative<std::vector<float>>(array.values); }

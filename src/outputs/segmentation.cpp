@@ -7,7 +7,7 @@ namespace gale::outputs {
 io::PointArray segments_of(const Mesh& mesh) {
   std::vector<std::int32_t> segments(mesh.vertices());
   const auto& begin = mesh.vertex_begin();
-  const auto& input = mesh.vertex_input();
+  const OtherIds input = mesh.vertices_in_input();
   for (Id s = 0; s < mesh.segments(); ++s) {
     for (Id v = begin(s); v < begin(s + 1); ++v) segments[input(v)] = s;
   }

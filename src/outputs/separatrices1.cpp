@@ -35,7 +35,7 @@ Along(const SharedPaths&, const Simplex*, const GlobalId*, CellOf, IdOf) -> Alon
 template <class Coordinate>
 struct Positions {
   const io::Dataset::Points<Coordinate>& points;
-  const Id* input;
+  OtherIds input;
 
   template <std::size_t N>
   Point operator()(const std::array<Id, N>& simplex) const {
@@ -173,7 +173,7 @@ io::Surface separatrices1(const io::Dataset& dataset, const io::PointArray& fiel
   return std::visit(
       [&](const auto& at) {
         using Coordinate = typename std::decay_t<decltype(at)>::non_const_value_type;
-        const Positions<Coordinate> positions{at, mesh.vertex_input().data()};
+        const Positions<Coordinate> positions{at, mesh.vertices_in_input()};
         io::Surface surface;
         const auto fill = [&](auto lines) {
           lines.add(descending, falling, descending_along, falling_ends);

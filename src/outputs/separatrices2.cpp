@@ -58,10 +58,10 @@ class Walls {
         complex_(complex),
         connectors_(connectors),
         mesh_(complex.excerpt.mesh()),
-        vertex_input_(mesh_.vertex_input().data()),
-        cell_input_(mesh_.cell_input().data()),
+        vertex_input_(mesh_.vertices_in_input()),
+        cell_input_(mesh_.cells_in_input()),
         critical_(critical),
-        vertex_internal_(mesh_.vertex_internal().data()),
+        vertex_internal_(mesh_.vertices_of_input()),
         keys_(complex.excerpt.order().keys()),
         vertices_(mesh_.vertices()),
         tetrahedra_(mesh_.cells()),
@@ -187,10 +187,10 @@ class Walls {
   const MorseSmaleComplex& complex_;
   const Separatrices<TriangleVertices>& connectors_;
   const Mesh mesh_;
-  const Id* vertex_input_;
-  const Id* cell_input_;
+  OtherIds vertex_input_;
+  OtherIds cell_input_;
   const KnownSimplices& critical_;
-  const Id* vertex_internal_;
+  OtherIds vertex_internal_;
   const std::uint64_t* keys_;
   Numbering vertices_, tetrahedra_;
   io::Surface surface_;

@@ -28,7 +28,7 @@ struct End {
 /// What separatrices say of critical simplices.
 inline std::vector<End> ends_of(const std::vector<CriticalSimplex>& simplices, const io::PointArray& field,
                                 const VertexOrder& order) {
-  const Id* const internal = order.mesh().vertex_internal().data();
+  const OtherIds internal = order.mesh().vertices_of_input();
   const auto height = [&](Id vertex) -> Height { return {order.keys()[internal[vertex]], value_at(field, vertex)}; };
   std::vector<End> ends;
   for (const CriticalSimplex& simplex : simplices)

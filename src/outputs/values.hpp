@@ -37,15 +37,15 @@ Points points_at(const Points& points, const std::vector<Id>& ids) {
 /// The vertices of a cell, all in GALE's ids: of a tetrahedron, or the first three of a triangle.
 template <std::size_t N = 4>
 std::array<Id, N> corners_of(const Mesh& mesh, Id cell) {
-  const auto& all = mesh.encoded().cells;
+  const Quad all = mesh.cell_reader()(cell);
   std::array<Id, N> corners;
-  for (std::size_t k = 0; k < N; ++k) corners[k] = all(cell, k);
+  for (std::size_t k = 0; k < N; ++k) corners[k] = all[static_cast<int>(k)];
   return corners;
 }
 
-/// Input ids of vertices from GALE's. `input` is `mesh.vertex_input().data()`.
+/// Input ids of vertices from GALE's. `input` is `mesh.vertices_in_input()`.
 template <std::size_t N>
-std::array<Id, N> to_input(const Id* input, std::array<Id, N> simplex) {
+std::array<Id, N> to_input(const OtherIds& input, std::array<Id, N> simplex) {
   for (Id& vertex : simplex) vertex = input[vertex];
   return simplex;
 }

@@ -76,6 +76,26 @@ class GALE_EXPORT Computing {
   /// find(), where it is known whether kernels are to try.
   template <class ByKernels, class ByThreads>
   auto find_on(bool device, RelationSet relations, const ByKernels& by_kernels, const ByThreads& by_threads) {
+    return find_alone_on(device, by_kernels, [&] { return by_threads(structure(relations)); });
+  }
+
+  /// Whether the mesh is a grid of which everything is computed, as nobody says which structure is to be read.
+  bool is_of_grid() const {
+    return mesh_.grid() != nullptr && options_.structure.way == Way::gale && !options_.make_structure;
+  }
+
+  /// find() without a structure: by_threads() needs none.
+  template <class ByKernels, class ByThreads>
+  auto find_alone(const ByKernels& by_kernels, const ByThreads& by_threads) {
+    return find_alone_on(kernels_read(mesh_, options_), by_kernels, by_threads);
+  }
+
+  /// A structure that has the relations: the one that is there, or a new one.
+  Structure& structure(RelationSet relations);
+
+ private:
+  template <class ByKernels, class ByThreads>
+  auto find_alone_on(bool device, const ByKernels& by_kernels, const ByThreads& by_threads) {
     computed_.on_device = device;
     if (device) {
       try {
@@ -85,13 +105,9 @@ class GALE_EXPORT Computing {
         fall_back(error);
       }
     }
-    return by_threads(structure(relations));
+    return by_threads();
   }
 
-  /// A structure that has the relations: the one that is there, or a new one.
-  Structure& structure(RelationSet relations);
-
- private:
   void fall_back(const OutOfMemory& error);
 
   const Mesh mesh_;

@@ -177,7 +177,7 @@ class Outputs(gale.CommandTest):
     def test_a_limit_of_memory_says_where(self):
         if self.report("critical-points", "grid:4")["device"] is not None:
             self.skipTest("the device's driver takes more of the address space")
-        run = self.start("critical-points", "grid:200", "--quiet", "--threads", "1",
+        run = self.start("critical-points", "grid:200", "--mesh", "written", "--quiet", "--threads", "1",
                          preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (700 << 20, 700 << 20)))
         output = run.communicate(timeout=300)
         self.assertEqual((run.returncode, output[0]), (1, ""))

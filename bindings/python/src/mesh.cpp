@@ -158,6 +158,10 @@ PyMesh::PyMesh(const io::Dataset& dataset, int capacity, const PyMesh* like) : c
     mesh_ = like->mesh();
     return;
   }
+  if (dataset.grid) {
+    mesh_ = Mesh(*dataset.grid, capacity);
+    return;
+  }
   mesh_ = std::visit(
       [&](const auto& points) {
         return dataset.dimension() == 3 ? make_mesh(points, dataset.tetrahedra, capacity)
@@ -208,6 +212,7 @@ nb::tuple read(const nb::bytes& path, std::optional<double> above, const std::st
   options.array = array;
   options.simplices_alone = tetrahedra_alone;
   options.outside_files = outside_files;
+  options.grids = io::GridCells::computed;
   io::Dataset dataset;
   auto mesh = Job().run([&] {
     dataset = io::read(place, options);

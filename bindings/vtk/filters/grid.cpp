@@ -206,8 +206,7 @@ void require_axes(vtkRectilinearGrid* grid) {
 
 }  // namespace
 
-vtkSmartPointer<vtkUnstructuredGrid> split_voxels(vtkDataSet* voxels, vtkDataArray* field,
-                                                  std::optional<double> above) {
+Voxels voxels_of(vtkDataSet* voxels, vtkDataArray* field, std::optional<double> above) {
   io::Image image;
   auto* const rectilinear = vtkRectilinearGrid::SafeDownCast(voxels);
   if (rectilinear != nullptr) {
@@ -222,7 +221,18 @@ vtkSmartPointer<vtkUnstructuredGrid> split_voxels(vtkDataSet* voxels, vtkDataArr
                 std::to_string(field->GetNumberOfComponents()) + " components, not 1");
   }
   add_arrays(voxels->GetPointData(), field, image);
-  const io::Dataset dataset = io::split_voxels(std::move(image), above);
+  const io::Dataset dataset = io::split_voxels(std::move(image), above, io::GridCells::computed);
+  auto mesh = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  const auto points = points_of(dataset.points);
+  mesh->SetPoints(rectilinear != nullptr ? points_along(rectilinear, points) : points);
+  add(dataset.arrays, mesh->GetPointData());
+  return {*dataset.grid, mesh};
+}
+
+void write_cells(const Grid& grid, vtkUnstructuredGrid* mesh) {
+  io::Dataset dataset;
+  dataset.grid = grid;
+  io::write_out_cells(dataset);
   const bool are_triangles = dataset.dimension() == 2;
   const Id* const simplices = are_triangles ? dataset.triangles.data() : dataset.tetrahedra.data();
   const vtkIdType count = are_triangles ? 3 : 4, entries = count * static_cast<vtkIdType>(dataset.cells());
@@ -231,12 +241,7 @@ vtkSmartPointer<vtkUnstructuredGrid> split_voxels(vtkDataSet* voxels, vtkDataArr
   std::copy_n(simplices, entries, corners->GetPointer(0));
   const auto cells = vtkSmartPointer<vtkCellArray>::New();
   cells->SetData(count, corners);
-  auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
-  const auto points = points_of(dataset.points);
-  grid->SetPoints(rectilinear != nullptr ? points_along(rectilinear, points) : points);
-  grid->SetCells(are_triangles ? VTK_TRIANGLE : VTK_TETRA, cells);
-  add(dataset.arrays, grid->GetPointData());
-  return grid;
+  mesh->SetCells(are_triangles ? VTK_TRIANGLE : VTK_TETRA, cells);
 }
 
 }  // namespace gale::vtk

@@ -24,10 +24,19 @@ Mesh mesh_of(vtkUnstructuredGrid* grid, const io::Dataset::Positions& points, in
 /// The cells of another data set, such as a structured grid or a surface, that are visible, with its points and arrays.
 vtkSmartPointer<vtkUnstructuredGrid> unstructured(vtkPointSet* cells);
 
-/// The tetrahedra, or triangles, of the voxels of an image or a rectilinear grid whose values are above `above`, or are
-/// finite without it (`io::split_voxels`), with all point arrays of numbers. `field` is the array that `above` is
-/// about; one without a name is called "field". Throws gale::Error for no field, for axes that aren't as long as their
-/// dimensions, and as io::split_voxels does. Precondition: each array has a row for each point.
-vtkSmartPointer<vtkUnstructuredGrid> split_voxels(vtkDataSet* voxels, vtkDataArray* field, std::optional<double> above);
+/// Voxels as a mesh.
+struct Voxels {
+  Grid grid;                                     ///< what its cells are
+  vtkSmartPointer<vtkUnstructuredGrid> without;  ///< its points, with their arrays; no cells
+};
+
+/// The mesh of the voxels of an image or a rectilinear grid whose values are above `above`, or are finite without it
+/// (`io::split_voxels`), with all point arrays of numbers. `field` is the array that `above` is about; one without a
+/// name is called "field". Throws gale::Error for no field, for axes that aren't as long as their dimensions, and as
+/// io::split_voxels does. Precondition: each array has a row for each point.
+Voxels voxels_of(vtkDataSet* voxels, vtkDataArray* field, std::optional<double> above);
+
+/// Gives a mesh the tetrahedra, or triangles, of a grid.
+void write_cells(const Grid& grid, vtkUnstructuredGrid* mesh);
 
 }  // namespace gale::vtk

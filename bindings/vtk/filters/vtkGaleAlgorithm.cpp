@@ -41,7 +41,8 @@ struct Aborted {};
 struct InputOptions {
   int threads;  ///< 0: as many as there are cores
   int capacity;
-  std::optional<double> above;  ///< of voxels
+  std::optional<double> above;    ///< of voxels
+  bool is_octree_wanted = false;  ///< its segments are the result
 };
 
 /// One execution of a filter: its input as GALE has it, and how it tells how far it is. To be used by the thread that
@@ -60,12 +61,16 @@ class Run {
     if (!grid_ && points) grid_ = gale::vtk::unstructured(points);
     if (!grid_) {
       tell(0, "Splitting voxels");
-      grid_ = gale::vtk::split_voxels(input, field, options.above);
+      gale::vtk::Voxels voxels = gale::vtk::voxels_of(input, field, options.above);
+      voxels_ = std::move(voxels.grid);
+      grid_ = voxels.without;
       field_ = grid_->GetPointData()->GetArray(0);
+      if (options.is_octree_wanted) write_cells();
     }
     tell(0, "Dividing the mesh into segments");
     dataset_.points = gale::vtk::positions_of(grid_);
-    mesh_ = gale::vtk::mesh_of(grid_, dataset_.points, options.capacity);
+    mesh_ =
+        voxels_ ? gale::Mesh(*voxels_, options.capacity) : gale::vtk::mesh_of(grid_, dataset_.points, options.capacity);
   }
 
   const gale::Mesh& mesh() const { return *mesh_; }
@@ -74,7 +79,7 @@ class Run {
   /// results to the outputs in their order. Sweeps tell the filter's progress, with a text of what is done, and throw
   /// Aborted once the filter is to abort. Throws gale::Error if there is no field, or if it isn't of one number a
   /// point.
-  void analyse(const char* analysis, const gale::outputs::Settings& settings, vtkInformationVector* outputs) const {
+  void analyse(const char* analysis, const gale::outputs::Settings& settings, vtkInformationVector* outputs) {
     const PointArray values = field();
     const gale::VertexOrder order = order_of(values);
     const gale::outputs::Analysis& described = gale::outputs::analysis_named(analysis);
@@ -93,13 +98,20 @@ class Run {
   }
 
   /// Gives the mesh, with these arrays at its points, to an output.
-  void give(const std::vector<PointArray>& arrays, vtkInformationVector* outputs, int port) const {
+  void give(const std::vector<PointArray>& arrays, vtkInformationVector* outputs, int port) {
+    write_cells();
     vtkUnstructuredGrid* const mesh = vtkUnstructuredGrid::GetData(outputs, port);
     mesh->ShallowCopy(grid_);
     gale::vtk::add(arrays, mesh->GetPointData());
   }
 
  private:
+  /// Writes out the cells of voxels, once somebody wants them.
+  void write_cells() {
+    if (voxels_) gale::vtk::write_cells(*voxels_, grid_);
+    voxels_.reset();
+  }
+
   PointArray field() const {
     if (!field_)
       throw gale::Error("no point array to analyse: set the array to process, or make one the active scalars");
@@ -137,6 +149,7 @@ class Run {
   int threads_;
   gale::ThreadLimit limit_;
   vtkSmartPointer<vtkUnstructuredGrid> grid_;
+  std::optional<gale::Grid> voxels_;  ///< whose cells `grid_` hasn't got
   vtkSmartPointer<vtkDataArray> field_;
   gale::io::Dataset dataset_;
   std::optional<gale::Mesh> mesh_;
@@ -267,6 +280,7 @@ int vtkGaleAlgorithm::RequestData(vtkInformationVector** inputs, vtkInformationV
   options.threads = this->NumberOfThreads;
   options.capacity = this->Capacity;
   if (this->UseThreshold) options.above = this->Threshold;
+  options.is_octree_wanted = this->Asked->analysis == nullptr;
   try {
     require_whole(outputs->GetInformationObject(0));
     vtkDataSet* const mesh = mesh_of(inputs[0]);
@@ -274,7 +288,7 @@ int vtkGaleAlgorithm::RequestData(vtkInformationVector** inputs, vtkInformationV
     if (mesh->GetNumberOfCells() == 0 || !has_points)
       return 1;  // as empty blocks are: the pipeline has emptied the outputs
     initialize_once();
-    const Run run(*this, mesh, this->SelectField(inputs), options);
+    Run run(*this, mesh, this->SelectField(inputs), options);
     this->Asked->settings = {};
     this->Ask();
     if (this->Asked->analysis) {

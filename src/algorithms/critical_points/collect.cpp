@@ -18,7 +18,7 @@ struct CriticalVertex {
 template <class Space>
 CriticalPoints owned_points(const Space& space, const Mesh& mesh, const VertexTypes<MemoryOf<Space>>& types) {
   const Offset count = mesh.vertices();
-  const Id* const internal = mesh.vertex_internal<MemoryOf<Space>>().data();
+  const OtherIds internal = mesh.vertices_of_input<MemoryOf<Space>>();
   const Id owned = mesh.owned_vertices();
   const auto place = allocate<Array<Id, MemoryOf<Space>>>("GALE::critical_place", count + 1);
   const Id total = exclusive_scan(
@@ -51,7 +51,7 @@ template <class Space>
 Flags<HostExecutionSpace> told_flags(const Space& space, const Mesh& mesh, const VertexTypes<MemoryOf<Space>>& types) {
   const Array<Id, MemoryOf<Space>> places = in_memory<MemoryOf<Space>>(mesh.exchange().from_owners().given_places());
   const auto flags = allocate<Flags<Space>>("GALE::surface_flags", places.extent(0));
-  const Id* const internal = mesh.vertex_internal<MemoryOf<Space>>().data();
+  const OtherIds internal = mesh.vertices_of_input<MemoryOf<Space>>();
   parallel_for(
       "GALE::surface_flags", space, places.extent(0),
       KOKKOS_LAMBDA(Offset i) { flags(i) = types.on_surface(internal[places(i)]); });
@@ -69,7 +69,7 @@ Flags<Space> ghost_flags(const Space& space, const Mesh& mesh, const VertexTypes
   together(mesh.exchange().ranks(), [&] {
     const Id owned = mesh.owned_vertices();
     flags = allocate<Flags<Space>>("GALE::ghost_flags", mesh.vertices() - owned);
-    const Id* const internal = mesh.vertex_internal<MemoryOf<Space>>().data();
+    const OtherIds internal = mesh.vertices_of_input<MemoryOf<Space>>();
     const Array<Id, MemoryOf<Space>> slots = in_memory<MemoryOf<Space>>(mesh.exchange().from_owners().slots());
     const Flags<Space> values = in_memory<MemoryOf<Space>>(fetched.entries);
     const Flags<Space> to = flags;

@@ -75,11 +75,16 @@ VertexTypes<Memory> classify_vertices(const WorkerSpace& space, const VertexOrde
 }  // namespace
 
 CriticalPoints find_critical_points(const VertexOrder& order, const ComputeOptions& options, Computed* computed) {
-  return detail::Computing(order.mesh(), options, computed)
-      .find(
-          critical_points_relations,
-          [&](const DeviceSweepOptions& sweep) { return find_critical_points(WorkerSpace(), order, sweep); },
-          [&](Structure& structure) { return find_critical_points(structure, order, options); });
+  detail::Computing computing(order.mesh(), options, computed);
+  if (computing.is_of_grid()) {
+    return computing.find_alone(
+        [&](const DeviceSweepOptions&) { return detail::critical_points_of_grid(WorkerSpace(), order, options); },
+        [&] { return detail::critical_points_of_grid(HostExecutionSpace(), order, options); });
+  }
+  return computing.find(
+      critical_points_relations,
+      [&](const DeviceSweepOptions& sweep) { return find_critical_points(WorkerSpace(), order, sweep); },
+      [&](Structure& structure) { return find_critical_points(structure, order, options); });
 }
 
 CriticalPoints find_critical_points(Structure& structure, const VertexOrder& order, const SweepOptions& options) {

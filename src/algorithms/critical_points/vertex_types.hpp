@@ -98,4 +98,9 @@ class VertexTypes {
 template <class Space>
 CriticalPoints collect(const Space& space, const VertexOrder& order, const VertexTypes<MemoryOf<Space>>& types);
 
+/// The critical points of a grid's field: what is below each vertex is a word of bits, of which a table says the rest
+/// where all eight cubes around the vertex are there. Reads nothing but keys, which a device may have.
+template <class Space>
+CriticalPoints critical_points_of_grid(const Space& space, const VertexOrder& order, const SweepOptions& options);
+
 }  // namespace gale::detail

@@ -10,14 +10,28 @@ namespace gale {
 namespace {
 
 /// The one of `vertices` that isn't among `others`.
-Id odd_one(const Id* vertices, const Id* others) {
-  return *std::find_if(vertices, vertices + 4,
-                       [others](Id vertex) { return std::find(others, others + 4, vertex) == others + 4; });
+Id odd_one(const Quad& vertices, const Quad& others) {
+  int corner = 0;
+  const auto is_other = [&](Id vertex) {
+    return vertex == others.a || vertex == others.b || vertex == others.c || vertex == others.d;
+  };
+  while (is_other(vertices[corner])) ++corner;
+  return vertices[corner];
 }
 
-/// Calls visit(triangle) for the triangles of a segment that touch a vertex of it, until that returns true.
+/// Calls visit(triangle) for the triangles that touch a vertex, until that returns true: of a grid they are known, else
+/// they are those of the vertex's segment that do.
 template <class Visit>
 void find_triangle_at(const Mesh& mesh, Id vertex, const Visit& visit) {
+  if (const Grid* const grid = mesh.grid()) {
+    detail::GridCursor at(grid->in<HostMemory>());
+    at.go_to(vertex);
+    const detail::StarKind& kind = grid->kinds_in<HostMemory>()[at.kind()];
+    for (int i = 0; i < kind.cells; ++i) {
+      if (visit(at.cell(kind.cell[i]))) return;
+    }
+    return;
+  }
   const auto& encoded = mesh.encoded();
   const Id segment = mesh.segment_of(0, vertex);
   const auto found = [&](Id t) {
@@ -46,7 +60,7 @@ void find_paired_edge(const DiscreteGradient& gradient, Id vertex, const Visit& 
     const Id successor = gradient.cell_successor(t);
     if (successor == no_id || successor == DiscreteGradient::elsewhere) return false;
     const Id third = gradient.pair_of_cell(t).vertex;
-    const Quad cell = gradient.mesh().encoded().cell(t);
+    const Quad cell = gradient.mesh().cell_reader()(t);
     const Id one = cell.a == third ? cell.b : cell.a, other = cell.c == third ? cell.b : cell.c;
     const bool is_higher = keys[one] > keys[other];
     return visit(EdgeOfTriangle{is_higher ? one : other, is_higher ? other : one, third});
@@ -129,27 +143,28 @@ Partner DiscreteGradient::pair_of_edge(Id a, Id b) const {
 Partner DiscreteGradient::pair_of_cell(Id cell) const {
   const Id successor = cell_successor(cell);
   if (successor == no_id) return {-1, no_id};
-  const auto& vertices = store_->mesh.encoded().cells;
+  const CellReader cells = store_->mesh.cell_reader();
   const int facet = store_->mesh.dimension() - 1;
-  if (leaves(successor)) return {facet, vertices(cell, detail::corner_outside(successor))};
-  return {facet, odd_one(&vertices(cell, 0), &vertices(successor, 0))};
+  if (leaves(successor)) return {facet, cells(cell)[detail::corner_outside(successor)]};
+  return {facet, odd_one(cells(cell), cells(successor))};
 }
 
 Partner DiscreteGradient::pair_of_triangle(Id tetrahedron, int corner, const Row& others) const {
   if (mesh().dimension() == 2) throw Error("pair_of_triangle is for meshes of tetrahedra: triangles are cells here");
-  const auto& vertices = store_->mesh.encoded().cells;
+  const CellReader cells = store_->mesh.cell_reader();
+  const Quad vertices = cells(tetrahedron);
   Id triangle[3];
   for (int i = 0, k = 0; i < 4; ++i) {
-    if (i != corner) triangle[k++] = vertices(tetrahedron, i);
+    if (i != corner) triangle[k++] = vertices[i];
   }
   for (int i = 0; i < 3; ++i) {
     const Id a = triangle[(i + 1) % 3], b = triangle[(i + 2) % 3];
     if (triangle_of_edge(a, b) == triangle[i]) return {1, triangle[i]};
   }
-  const Id opposite = vertices(tetrahedron, corner);
+  const Id opposite = vertices[corner];
   if (pair_of_cell(tetrahedron).vertex == opposite) return {3, opposite};
   for (const Id other : others) {
-    const Id apex = odd_one(&vertices(other, 0), &vertices(tetrahedron, 0));
+    const Id apex = odd_one(cells(other), vertices);
     if (pair_of_cell(other).vertex == apex) return {3, apex};
   }
   return {-1, no_id};

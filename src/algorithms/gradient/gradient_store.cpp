@@ -31,7 +31,7 @@ std::vector<T> merged(const std::vector<ConsumerFound>& parts, HostList<T> Found
 }
 
 /// A facet of cells as users write it: a triangle, or an edge, whose third vertex is no_id.
-std::array<Id, 3> written_facet(const Id* vertex_input, const std::array<Id, 3>& facet) {
+std::array<Id, 3> written_facet(const OtherIds& vertex_input, const std::array<Id, 3>& facet) {
   if (facet[2] != no_id) return written(vertex_input, facet);
   const auto edge = written(vertex_input, std::array<Id, 2>{facet[0], facet[1]});
   return {edge[0], edge[1], no_id};
@@ -83,8 +83,8 @@ const EdgePairs& GradientStore::pairs() const {
 }
 
 void GradientStore::finish() {
-  const Id* const vertex_input = mesh.vertex_input().data();
-  const Id* const cell_input = mesh.cell_input().data();
+  const OtherIds vertex_input = mesh.vertices_in_input();
+  const OtherIds cell_input = mesh.cells_in_input();
   using Found = FoundSimplices<HostList>;
   const auto by_input = [=](const auto& simplex) { return written(vertex_input, simplex); };
   const auto stars = merged(found_, &Found::stars, [=](const InStar& in_star) {

@@ -14,9 +14,9 @@
 
 namespace gale::detail {
 
-/// A simplex as users write it: its input vertices, ascending. Of an array of GALE's ids.
+/// A simplex as users write it: its input vertices, ascending. From GALE's ids.
 template <class Simplex>
-Simplex written(const Id* vertex_input, Simplex simplex) {
+Simplex written(const OtherIds& vertex_input, Simplex simplex) {
   for (Id& vertex : simplex) vertex = vertex_input[vertex];
   std::sort(simplex.begin(), simplex.end());
   return simplex;

@@ -16,7 +16,7 @@ class GradientSweep {
   GradientSweep(GradientStore& store, int consumer)
       : sink_(store.sink(consumer)),
         keys_(store.order.keys()),
-        cell_input_(store.mesh.cell_input().data()),
+        cell_input_(store.mesh.cells_in_input()),
         dimension_(store.mesh.dimension()) {}
 
   /// Pairs the stars of a segment's vertices.
@@ -64,7 +64,7 @@ class GradientSweep {
 
   const ConsumerSink sink_;
   const std::uint64_t* keys_;
-  const Id* cell_input_;
+  const OtherIds cell_input_;
   const int dimension_;
   LowerNeighbours lower_;
   ManyLowerNeighbours many_lower_;

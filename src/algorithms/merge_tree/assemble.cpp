@@ -36,7 +36,7 @@ std::vector<Id> sizes_of(std::size_t arcs, const std::vector<Id>& arc_of) {
 MergeTree tree_of(const Mesh& mesh, const std::vector<Id>& nodes, const std::vector<std::pair<Id, Id>>& ends,
                   std::vector<Id>& place) {
   MergeTree tree;
-  for (const Id vertex : nodes) tree.vertices.push_back(mesh.vertex_input()(vertex));
+  for (const Id vertex : nodes) tree.vertices.push_back(mesh.vertices_in_input()[vertex]);
   std::vector<Id> sorted(ends.size());
   std::iota(sorted.begin(), sorted.end(), Id(0));
   std::sort(sorted.begin(), sorted.end(), [&](Id a, Id b) { return ends[a] < ends[b]; });

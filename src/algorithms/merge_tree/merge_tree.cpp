@@ -23,7 +23,7 @@ std::optional<ThresholdOfTree> threshold_of(const Mesh& mesh, const MergeTreeOpt
   if (options.threshold == 0) return std::nullopt;
   if (std::isnan(options.threshold)) throw Error("the threshold of a tree is no number");
   if (!options.value) throw Error("a tree simplified by persistence needs the field's values");
-  const Id* const input = mesh.vertex_input().data();
+  const OtherIds input = mesh.vertices_in_input();
   return ThresholdOfTree{options.threshold, [input, &options](Id vertex) {
                            const double value = options.value(input[vertex]);
                            if (std::isnan(value))

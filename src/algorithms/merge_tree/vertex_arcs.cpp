@@ -17,7 +17,7 @@ struct ClaimsOfTree {
 template <class Memory>
 struct FindArcs {
   static constexpr int most_trees = 3;
-  const Id* input;
+  OtherIds input;
   SideClimb<Memory> sides[2];
   bool climbs[2] = {false, false};
   ClaimsOfTree<Memory> trees[most_trees];
@@ -53,7 +53,7 @@ std::vector<std::vector<Id>> arcs_of_vertices(const Space& space, const Mesh& me
                                               const std::vector<ArcsOfNodes>& trees) {
   using Memory = MemoryOf<Space>;
   FindArcs<Memory> find;
-  find.input = mesh.vertex_input<Memory>().data();
+  find.input = mesh.vertices_in_input<Memory>();
   find.count = static_cast<int>(trees.size());
   std::vector<std::vector<Id>> found(trees.size(), std::vector<Id>(mesh.vertices()));
   for (int tree = 0; tree < find.count; ++tree) {

@@ -52,7 +52,7 @@ class WallTracer {
       : thread_(thread),
         gradient_(gradient),
         keys_(gradient.order().keys()),
-        vertex_input_(structure.mesh().vertex_input().data()),
+        vertex_input_(structure.mesh().vertices_in_input()),
         consumer_(structure.consumer()),
         star_(structure.mesh()) {}
 
@@ -94,7 +94,7 @@ class WallTracer {
   int thread_;
   const DiscreteGradient& gradient_;
   const std::uint64_t* keys_;
-  const Id* vertex_input_;
+  OtherIds vertex_input_;
   std::unique_ptr<Consumer> consumer_;
   EdgeStar star_;
   HashTable<Nothing> seen_;

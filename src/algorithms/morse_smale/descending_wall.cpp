@@ -13,7 +13,7 @@ DescendingWall::DescendingWall(const DiscreteGradient& gradient, const TurnedEdg
     : pairs_(gradient.store().pairs()),
       vertex_successor_(gradient.vertex_successors().data()),
       keys_(gradient.order().keys()),
-      vertex_input_(gradient.mesh().vertex_input().data()),
+      vertex_input_(gradient.mesh().vertices_in_input()),
       turned_(turned) {}
 
 void DescendingWall::follow(const TriangleVertices& critical) {

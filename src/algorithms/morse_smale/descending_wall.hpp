@@ -74,7 +74,7 @@ class DescendingWall {
   const EdgePairs& pairs_;
   const Id* vertex_successor_;
   const std::uint64_t* keys_;
-  const Id* vertex_input_;
+  OtherIds vertex_input_;
   const TurnedEdges* turned_;
   std::uint64_t floor_ = 0;  ///< edges with a lower higher end are left out
   std::vector<TriangleVertices> triangles_;

@@ -12,14 +12,14 @@ constexpr Id short_row = 256;
 
 }  // namespace
 
-EdgeStar::EdgeStar(const Mesh& mesh) : mesh_(mesh), encoded_(mesh.encoded()), cell_input_(mesh.cell_input().data()) {}
+EdgeStar::EdgeStar(const Mesh& mesh) : mesh_(mesh), cell_(mesh.cell_reader()), cell_input_(mesh.cells_in_input()) {}
 
 void EdgeStar::find(Id high, Id low, const Row& tetrahedra) {
   wedges_.clear();
   if (tetrahedra.size() <= short_row) {
     for (const Id t : tetrahedra) {
-      const Id* const corners = &encoded_.cells(t, 0);
-      if (std::find(corners, corners + 4, low) != corners + 4) add_wedge(t);
+      const Quad corners = cell_(t);
+      if (corners.a == low || corners.b == low || corners.c == low || corners.d == low) add_wedge(t);
     }
   } else {
     const VertexStar& star = star_of(high, tetrahedra);
@@ -38,8 +38,9 @@ const EdgeStar::VertexStar& EdgeStar::star_of(Id vertex, const Row& tetrahedra) 
   if (!is_new) return star;
   star.reserve(3 * static_cast<std::size_t>(tetrahedra.size()));
   for (const Id t : tetrahedra) {
+    const Quad corners = cell_(t);
     for (int corner = 0; corner < 4; ++corner) {
-      const Id other = encoded_.cells(t, corner);
+      const Id other = corners[corner];
       if (other != vertex) star.push_back(pair_key(other, t));
     }
   }
@@ -55,8 +56,9 @@ void EdgeStar::add_wedge(Id tetrahedron) {
 void EdgeStar::find_thirds(Id high, Id low) {
   at_sides_.clear();
   for (int i = 0; i < static_cast<int>(wedges_.size()); ++i) {
+    const Quad corners = cell_(wedges_[i].tetrahedron);
     for (int corner = 0; corner < 4; ++corner) {
-      const Id vertex = encoded_.cells(wedges_[i].tetrahedron, corner);
+      const Id vertex = corners[corner];
       if (vertex != high && vertex != low) at_sides_.push_back(pair_key(vertex, i));
     }
   }

@@ -48,8 +48,8 @@ class EdgeStar {
   int next(int side);
 
   Mesh mesh_;
-  EncodedMesh<HostMemory> encoded_;
-  const Id* cell_input_;
+  CellReader cell_;
+  OtherIds cell_input_;
   std::unordered_map<Id, VertexStar> long_stars_;
   std::vector<Wedge> wedges_;            ///< by input id
   std::vector<std::uint64_t> at_sides_;  ///< pairs (third vertex, wedge), ascending

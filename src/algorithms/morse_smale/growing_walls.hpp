@@ -32,14 +32,14 @@ struct GradientRows {
   const Offset* pairs_begin;
   const Id* vertex_successor;
   const std::uint64_t* keys;
-  const Id* vertex_input;
+  OtherIds vertex_input;
 
   explicit GradientRows(const DiscreteGradient& gradient)
       : pair_words(gradient.store().pair_words().in<WorkerMemory>().data()),
         pairs_begin(gradient.store().pairs_begin().in<WorkerMemory>().data()),
         vertex_successor(gradient.store().vertex_successors().in<WorkerMemory>().data()),
         keys(gradient.order().keys_in<WorkerMemory>().data()),
-        vertex_input(gradient.mesh().vertex_input<WorkerMemory>().data()) {}
+        vertex_input(gradient.mesh().vertices_in_input<WorkerMemory>()) {}
 
   /// The number of an edge among all edges: the place of its word.
   KOKKOS_FUNCTION Offset number(Id high, Id place) const { return pairs_begin[high] + 1 + place; }

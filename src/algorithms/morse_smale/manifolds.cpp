@@ -23,22 +23,43 @@ template <class Space>
 Mirrored<Id> descending_in(const Space& space, const DiscreteGradient& gradient) {
   const auto next = with_ends(space, gradient.store().vertex_successors(), gradient.critical().vertices);
   jump(space, next);
-  const auto input = gradient.mesh().vertex_input<MemoryOf<Space>>();
+  const OtherIds input = gradient.mesh().vertices_in_input<MemoryOf<Space>>();
   const auto manifolds = allocate<Ids<Space>>("GALE::descending_manifolds", next.extent(0));
   parallel_for(
       "GALE::descending_manifolds", space, next.extent(0),
-      KOKKOS_LAMBDA(Offset v) { manifolds(input(v)) = place_of_end(next(v)); });
+      KOKKOS_LAMBDA(Offset v) { manifolds(input[v]) = place_of_end(next(v)); });
   space.fence();
   return manifolds;
 }
 
 constexpr std::uint64_t no_first = ~std::uint64_t(0);
 
+/// What first_cells does of a grid, where each vertex knows its cells.
+template <class Space>
+void first_cells_of_grid(const Space& space, const Mesh& mesh, const Keys<Space>& first) {
+  const GridView grid = mesh.grid()->in<MemoryOf<Space>>();
+  const StarKind* const kinds = mesh.grid()->kinds_in<MemoryOf<Space>>();
+  const Id* const begin = mesh.interval_begin<MemoryOf<Space>>(0).data();
+  parallel_for(
+      "GALE::first_cells", space, mesh.segments(), KOKKOS_LAMBDA(Offset s) {
+        GridCursor at(grid);
+        for (Id v = begin[s]; v < begin[s + 1]; ++v) {
+          at.go_to(v);
+          const Id cell = at.cell(kinds[at.kind()].cell[0]);
+          first(v) = pair_key(cell, cell);
+        }
+      });
+}
+
 /// For each vertex (GALE's id) its cell of lowest input id, with that id in the upper half; `no_first` where it has no
 /// cell.
 template <class Space>
 Keys<Space> first_cells(const Space& space, const Mesh& mesh) {
   const auto first = allocate<Keys<Space>>("GALE::first_cells", mesh.vertices());
+  if (mesh.grid() != nullptr) {
+    first_cells_of_grid(space, mesh, first);
+    return first;
+  }
   const auto encoded = mesh.encoded<MemoryOf<Space>>();
   const auto input = mesh.cell_input<MemoryOf<Space>>();
   parallel_for(
@@ -63,12 +84,12 @@ Mirrored<Id> ascending_in(const Space& space, const DiscreteGradient& gradient) 
   const auto next = with_ends(space, gradient.store().cell_successors(), gradient.critical().cells);
   jump(space, next);
   const auto first = first_cells(space, gradient.mesh());
-  const auto input = gradient.mesh().vertex_input<MemoryOf<Space>>();
+  const OtherIds input = gradient.mesh().vertices_in_input<MemoryOf<Space>>();
   const auto manifolds = allocate<Ids<Space>>("GALE::ascending_manifolds", first.extent(0));
   parallel_for(
       "GALE::ascending_manifolds", space, first.extent(0), KOKKOS_LAMBDA(Offset v) {
         const Id cell = pair_second(first(v));
-        manifolds(input(v)) = first(v) == no_first || next(cell) == path_outside ? no_id : place_of_end(next(cell));
+        manifolds(input[v]) = first(v) == no_first || next(cell) == path_outside ? no_id : place_of_end(next(cell));
       });
   space.fence();
   return manifolds;
@@ -122,7 +143,7 @@ Mirrored<Id> manifolds_on_ranks(const PathSimplices& simplices, const StartOf& s
   const auto places = paths.places_of_ends();
   Array<Id, HostMemory> manifolds;
   together(paths.ranks(), [&] {
-    const Id* const input = mesh.vertex_input().data();
+    const OtherIds input = mesh.vertices_in_input();
     manifolds = allocate<Array<Id, HostMemory>>("GALE::manifolds", mesh.vertices());
     parallel_for("GALE::manifolds", HostExecutionSpace(), mesh.vertices(), [&](Offset v) {
       const Id start = v < mesh.owned_vertices() ? start_of(static_cast<Id>(v)) : no_id;

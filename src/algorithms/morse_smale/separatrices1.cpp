@@ -118,7 +118,7 @@ Separatrices<Id> paths_from(const Mirrored<Id>& successors, const PathStarts& st
 }  // namespace
 
 PathStarts descending_starts(const Mesh& mesh, const CriticalSimplices& critical) {
-  const Id* const input = mesh.vertex_input().data();
+  const OtherIds input = mesh.vertices_in_input();
   PathStarts starts;
   for (std::size_t i = 0; i < critical.edges.size(); ++i) {
     const auto [a, b] = critical.edges[i];

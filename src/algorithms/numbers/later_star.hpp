@@ -18,7 +18,7 @@ namespace gale::detail {
 class SmallLaterStar {
  public:
   /// `input`: GALE's vertex -> input vertex.
-  SmallLaterStar(const Id* input, Id vertex, const Row& neighbours, const LinkRow& link)
+  SmallLaterStar(const OtherIds& input, Id vertex, const Row& neighbours, const LinkRow& link)
       : input_(input), neighbours_(neighbours), link_(neighbours.size(), link) {
     for (Id i = 0; i < neighbours.size(); ++i) later_ |= std::uint64_t(input[neighbours[i]] > input[vertex]) << i;
   }
@@ -63,7 +63,7 @@ class SmallLaterStar {
 
   std::uint64_t touching(Id neighbour) const { return link_.touching(lowest_bit(bit_of(neighbour))); }
 
-  const Id* input_;
+  OtherIds input_;
   Row neighbours_;
   SmallLink link_;
   std::uint64_t later_ = 0;
@@ -72,7 +72,7 @@ class SmallLaterStar {
 /// The later star of a vertex with any number of neighbours, by sorting. One serves one thread, and keeps its memory.
 class LargeLaterStar {
  public:
-  void build(const Id* input, Id vertex, const Row& neighbours, const LinkRow& link) {
+  void build(const OtherIds& input, Id vertex, const Row& neighbours, const LinkRow& link) {
     input_ = input;
     edges_.clear();
     for (const Id neighbour : neighbours) {
@@ -107,7 +107,7 @@ class LargeLaterStar {
     return at != keys.end() && *at == key ? static_cast<Id>(at - keys.begin()) : no_id;
   }
 
-  const Id* input_ = nullptr;
+  OtherIds input_;
   LargeLink link_;
   std::vector<Id> edges_;
   std::vector<std::uint64_t> triangles_;

@@ -30,7 +30,7 @@ class NumberQueries {
 
   /// `simplices` must outlive it. Throws gale::Error for a vertex that the mesh doesn't have.
   NumberQueries(const Mesh& mesh, const std::vector<Simplex>& simplices)
-      : simplices_(simplices), input_(mesh.vertex_input().data()), numbers_(simplices.size()) {
+      : simplices_(simplices), input_(mesh.vertices_in_input()), numbers_(simplices.size()) {
     require_ids("simplices to number", simplices.size());
     const auto count = static_cast<Offset>(simplices.size());
     const Kokkos::DefaultHostExecutionSpace host;
@@ -88,7 +88,7 @@ class NumberQueries {
   }
 
   const std::vector<Simplex>& simplices_;
-  const Id* input_;
+  OtherIds input_;
   Csr<Query, HostMemory, Id> queries_;  ///< by segment
   std::vector<GlobalId> numbers_;
 };
@@ -102,7 +102,7 @@ class NumberingSweep {
   /// `named` must outlive it; the first vertices of all are owned.
   NumberingSweep(Structure& structure, const NamedSimplices& named, const SweepOptions& options)
       : vertices_(structure.mesh().vertices()),
-        input_(structure.mesh().vertex_input().data()),
+        input_(structure.mesh().vertices_in_input()),
         edges_(structure.mesh(), named.edges),
         triangles_(structure.mesh(), named.triangles),
         edge_counts_(allocate<Counts>("GALE::first_edges", vertices_ + 1)),
@@ -170,7 +170,7 @@ class NumberingSweep {
   }
 
   Id vertices_;
-  const Id* input_;
+  OtherIds input_;
   NumberQueries<2> edges_;
   NumberQueries<3> triangles_;
   Counts edge_counts_, triangle_counts_;

@@ -31,7 +31,7 @@ using NumbersOfRanks = Array<GlobalId, HostMemory>;
 /// The global ids of a simplex's vertices, ascending.
 template <std::size_t N>
 std::array<GlobalId, N> global_ids(const Mesh& mesh, const std::array<Id, N>& simplex) {
-  const Id* const input = mesh.vertex_input().data();
+  const OtherIds input = mesh.vertices_in_input();
   std::array<GlobalId, N> ids;
   for (std::size_t k = 0; k < N; ++k) {
     const Id v = simplex[k];
@@ -74,7 +74,7 @@ class AskedSimplices {
 
   /// What others ask of this rank, in GALE's ids of its local mesh.
   std::vector<std::array<Id, N>> local() const {
-    const Id* const internal = mesh_.vertex_internal().data();
+    const OtherIds internal = mesh_.vertices_of_input();
     std::vector<std::array<Id, N>> simplices(received_.count());
     for (Offset i = 0; i < received_.count(); ++i) {
       for (std::size_t k = 0; k < N; ++k) {
@@ -119,7 +119,7 @@ NumbersOfRanks first_numbers(const Mesh& mesh, const Array<Id, HostMemory>& coun
   const Ranks& ranks = mesh.exchange().ranks();
   NumbersOfRanks owned, of_owned;
   detail::together(ranks, [&] {
-    const Id* const input = mesh.vertex_input().data();
+    const OtherIds input = mesh.vertices_in_input();
     owned = allocate<NumbersOfRanks>("GALE::owned_ids", mesh.owned_vertices());
     of_owned = allocate<NumbersOfRanks>("GALE::owned_counts", mesh.owned_vertices());
     parallel_for("GALE::owned_counts", HostExecutionSpace(), owned.extent(0), [&](Offset v) {
@@ -159,7 +159,7 @@ SimplexNumbers number_of_part(Structure& structure, const NamedSimplices& named,
   });
   const NumbersOfRanks first_edges = first_numbers(mesh, found->edge_counts());
   const NumbersOfRanks first_triangles = first_numbers(mesh, found->triangle_counts());
-  const Id* const internal = mesh.vertex_internal().data();
+  const OtherIds internal = mesh.vertices_of_input();
   const auto at = [&](GlobalId vertex) { return internal[mesh.vertex_of(vertex)]; };
   SimplexNumbers numbers;
   numbers.edges =

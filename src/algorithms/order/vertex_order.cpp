@@ -32,7 +32,7 @@ template <class Space, class Value>
 Offset fill_keys(const Space& space, const Mesh& mesh, const FieldValues<Value, MemoryOf<Space>>& values,
                  const Keys<Space>& keys) {
   const Offset count = mesh.vertices();
-  const Id* const input = mesh.vertex_input<MemoryOf<Space>>().data();
+  const OtherIds input = mesh.vertices_in_input<MemoryOf<Space>>();
   return reduce_min(
       "GALE::order_keys", space, count, count, KOKKOS_LAMBDA(Offset v) {
         const Id vertex = input[v];
@@ -54,7 +54,7 @@ Offset fill_ranks(const Space& space, const Mesh& mesh, const FieldValues<Value,
       });
   if (bad < count) return bad;
   const auto by_rank = stable_sort_places(space, "GALE::order_inputs", keys);
-  const Id* const internal = mesh.vertex_internal<MemoryOf<Space>>().data();
+  const OtherIds internal = mesh.vertices_of_input<MemoryOf<Space>>();
   parallel_for(
       "GALE::order_ranks", space, count,
       KOKKOS_LAMBDA(Offset rank) { keys(internal[by_rank(rank)]) = static_cast<std::uint64_t>(rank); });

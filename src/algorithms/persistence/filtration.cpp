@@ -42,10 +42,10 @@ void sort_places(const std::uint64_t* keys, std::size_t count, const VerticesOf&
 /// The vertices of a cell, which has so many, from the highest to the lowest.
 template <int count>
 std::array<Id, count> from_highest(const DiscreteGradient& gradient, Id cell) {
-  const auto& corners = gradient.mesh().encoded().cells;
+  const Quad corners = gradient.mesh().cell_reader()(cell);
   const std::uint64_t* const keys = gradient.order().keys();
   std::array<Id, count> vertices;
-  for (int i = 0; i < count; ++i) vertices[i] = corners(cell, i);
+  for (int i = 0; i < count; ++i) vertices[i] = corners[i];
   std::sort(vertices.begin(), vertices.end(), [&](Id a, Id b) { return keys[a] > keys[b]; });
   return vertices;
 }
@@ -73,7 +73,7 @@ Filtration filtration_of(const DiscreteGradient& gradient, int threads) {
 }
 
 CriticalValues critical_values(const DiscreteGradient& gradient, const std::function<double(Id)>& value) {
-  const Id* const input = gradient.mesh().vertex_input().data();
+  const OtherIds input = gradient.mesh().vertices_in_input();
   const CriticalSimplices& critical = gradient.critical();
   CriticalValues values;
   const auto add = [&](int dimension, Id vertex) {

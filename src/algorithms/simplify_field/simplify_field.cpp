@@ -75,7 +75,7 @@ SimplifiedField simplified(const VertexOrder& order, const ComputeOptions& optio
   }
   field.rank.resize(mesh.vertices());
   field.value_of.resize(mesh.vertices());
-  const Id* const input = mesh.vertex_input().data();
+  const OtherIds input = mesh.vertices_in_input();
   parallel_for("GALE::simplified_field", HostExecutionSpace(), mesh.vertices(), [&](Offset v) {
     field.rank[input[v]] = static_cast<Id>(changing.keys()[v]);
     field.value_of[input[v]] = input[changing.value_of()[v]];
@@ -93,7 +93,7 @@ class GivenExtrema {
         if (vertex < 0 || vertex >= mesh_.vertices())
           throw Error("vertex " + std::to_string(vertex) + ", which is to stay, is none of the mesh's " +
                       std::to_string(mesh_.vertices()));
-        stays_[side][mesh_.vertex_internal()(vertex)] = true;
+        stays_[side][mesh_.vertices_of_input()[vertex]] = true;
       }
     }
   }
@@ -105,7 +105,7 @@ class GivenExtrema {
       for (const Id vertex : graph[side].extrema) others[vertex] = false;
       const auto other = std::find(others.begin(), others.end(), true);
       if (other != others.end())
-        throw Error("vertex " + std::to_string(mesh_.vertex_input()(other - others.begin())) +
+        throw Error("vertex " + std::to_string(mesh_.vertices_in_input()[other - others.begin()]) +
                     ", which is to stay, is no " + name_of(side) + " of the field");
     }
   }
@@ -130,7 +130,7 @@ class GivenExtrema {
         if (has_one[node]) has_one[forest.parent[node]] = true;
       } else if (!has_one[node]) {
         throw Error("no " + name_of(side) + " is to stay in the component of vertex " +
-                    std::to_string(mesh_.vertex_input()(forest.vertices[node])));
+                    std::to_string(mesh_.vertices_in_input()[forest.vertices[node]]));
       }
     }
   }
@@ -147,7 +147,7 @@ class GivenExtrema {
 SimplifiedField simplify_field(const VertexOrder& order, const std::function<double(Id)>& value, double threshold,
                                const ComputeOptions& options, Computed* computed) {
   if (std::isnan(threshold)) throw Error("the threshold of a simplified field is no number");
-  const Id* const input = order.mesh().vertex_input().data();
+  const OtherIds input = order.mesh().vertices_in_input();
   return detail::simplified(order, options, computed, [&](const detail::ChangingOrder& changing) {
     return [&, input](detail::Side, const detail::MergeForest& forest) {
       const auto value_at = [&](Id vertex) {

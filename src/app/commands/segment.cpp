@@ -35,6 +35,7 @@ class Segment final : public Command {
   void run() const override {
     Session session = begin();
     io::Dataset dataset = session.read();
+    io::write_out_cells(dataset);  // the segments of a grid are its own alone: others want those of an octree
     const Mesh mesh = session.encode(dataset, segmentation_, Session::Keep::cells);
     tell(mesh, session);
     session.write(output_,

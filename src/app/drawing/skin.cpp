@@ -23,7 +23,7 @@ Skin::Skin(const io::Dataset& dataset, const Mesh& mesh, const Array<const std::
     return;
   }
   for (Id t = 0; t < mesh.cells(); ++t) {
-    const Quad corners = mesh.encoded().cell(t);
+    const Quad corners = mesh.cell_reader()(t);
     triangles_.push_back({corners[0], corners[1], corners[2]});
   }
 }
@@ -59,7 +59,7 @@ bool Skin::shows(const Point& point) const {
 std::vector<char> Skin::left_tetrahedra() {
   std::vector<char> is_left(mesh_.cells());
   for (Id t = 0; t < mesh_.cells(); ++t) {
-    const Quad corners = mesh_.encoded().cell(t);
+    const Quad corners = mesh_.cell_reader()(t);
     Point middle{};
     for (int i = 0; i < 4; ++i) {
       for (int axis = 0; axis < 3; ++axis) middle[axis] += point(corners[i])[axis] / 4;
@@ -76,13 +76,13 @@ std::vector<char> Skin::left_tetrahedra() {
 std::vector<Skin::Triangle> Skin::candidates(const std::vector<char>& is_left) const {
   std::vector<char> near_left(mesh_.vertices()), near_cut(mesh_.vertices());
   for (Id t = 0; t < mesh_.cells(); ++t) {
-    const Quad corners = mesh_.encoded().cell(t);
+    const Quad corners = mesh_.cell_reader()(t);
     for (int i = 0; i < 4; ++i) (is_left[t] ? near_left : near_cut)[corners[i]] = 1;
   }
   std::vector<Triangle> candidates;
   for (Id t = 0; t < mesh_.cells(); ++t) {
     if (!is_left[t]) continue;
-    const Quad corners = mesh_.encoded().cell(t);
+    const Quad corners = mesh_.cell_reader()(t);
     for (int corner = 0; corner < 4; ++corner) {
       Triangle triangle{};
       bool may_be = true;
@@ -123,7 +123,7 @@ void Skin::paint(const io::PointArray& field, const ColorOf& color_of, std::size
       if (places[v] == no_id) {
         places[v] = static_cast<Id>(scene.skin.points.size());
         scene.skin.points.push_back(point(v));
-        const Id vertex = mesh_.vertex_input()(v);
+        const Id vertex = mesh_.vertices_in_input()[v];
         const double part = bright > dark && std::isfinite(bright - dark)
                                 ? std::clamp((outputs::value_at(field, vertex) - dark) / (bright - dark), 0.0, 1.0)
                                 : 1;

@@ -33,7 +33,7 @@ class Skin {
   void cut_tetrahedra();
   std::vector<char> left_tetrahedra();
   std::vector<Triangle> candidates(const std::vector<char>& is_left) const;
-  const Point& point(Id v) const { return points_[mesh_.vertex_input()(v)]; }
+  const Point& point(Id v) const { return points_[mesh_.vertices_in_input()[v]]; }
 
   const Mesh mesh_;
   const Array<const std::uint8_t, HostMemory> on_surface_;

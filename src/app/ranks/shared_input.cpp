@@ -33,6 +33,7 @@ void take_grid(int n, const Ranks& ranks, const InputOptions& input, SharedInput
 
 void take_file(const InputOptions& input, SharedInput& shared) {
   io::Dataset dataset = io::read(input.input, input.read);
+  io::write_out_cells(dataset);
   if (input.height) outputs::add_height(dataset, *input.height);
   const auto vertices = std::visit([](const auto& points) { return points.extent(0); }, dataset.points);
   const auto ids = counted(0, vertices);

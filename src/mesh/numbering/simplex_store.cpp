@@ -63,9 +63,14 @@ Mirrored<Id> interval_begin_of(const Space& space, const MeshArrays& mesh, const
 
 template <class Memory>
 Simplices<Memory> SimplexStore::in(const SimplexNeeds& needs) {
+  if (needs.upto == Enumeration::cells && !needs.cells && !is_device_memory<Memory>) {
+    Simplices<Memory> none;
+    none.dimension = dimension_;
+    return none;
+  }
   const auto lock = lock_or_stop(mutex_);
   enumerate(needs);
-  return view_of<Memory>(mesh_, tables_, needs);
+  return view_of<Memory>(mesh_(), tables_, needs);
 }
 
 template <class Memory>
@@ -99,27 +104,27 @@ void SimplexStore::enumerate(const SimplexNeeds& needs) {
   const bool edges_too = needs.upto >= Enumeration::edges && known(1) == no_id;
   const bool triangles_too = needs.upto >= Enumeration::triangles && known(2) == no_id;
   if (edges_too || triangles_too) {
-    make(triangles_too ? "triangles" : "edges", mesh_.cells, [&](const auto& space) {
+    make(triangles_too ? "triangles" : "edges", mesh_().cells, [&](const auto& space) {
       using Memory = MemoryOf<std::decay_t<decltype(space)>>;
-      const bool are_cells = mesh_.dimension == 2;  // the triangles
+      const bool are_cells = mesh_().dimension == 2;  // the triangles
       const bool missing = !has(tables_.edge_begin) || (triangles_too && !has(tables_.triangle_begin));
       if constexpr (!is_device_memory<Memory>) {
         if (missing) {
-          enumerate_by_segments(mesh_.in<HostMemory>(), mesh_.cell_begin.in<HostMemory>(), triangles_too && !are_cells,
-                                tables_);
+          enumerate_by_segments(mesh_().in<HostMemory>(), mesh_().cell_begin.in<HostMemory>(),
+                                triangles_too && !are_cells, tables_);
         }
       } else if (missing) {
-        const auto stars = find_middle_stars(space, view_of<Memory>(mesh_, tables_, cells));
+        const auto stars = find_middle_stars(space, view_of<Memory>(mesh_(), tables_, cells));
         if (!has(tables_.edge_begin)) {
-          enumerate_edges(space, view_of<Memory>(mesh_, tables_, cells), stars, tables_);
+          enumerate_edges(space, view_of<Memory>(mesh_(), tables_, cells), stars, tables_);
         }
         publish_intervals(space, 1);
         if (triangles_too && !are_cells)
-          enumerate_triangles(space, view_of<Memory>(mesh_, tables_, edges), stars, tables_);
+          enumerate_triangles(space, view_of<Memory>(mesh_(), tables_, edges), stars, tables_);
       }
       publish_intervals(space, 1);
       if (!triangles_too) return;
-      if (are_cells) find_triangles_of_edges(space, view_of<Memory>(mesh_, tables_, edges), tables_);
+      if (are_cells) find_triangles_of_edges(space, view_of<Memory>(mesh_(), tables_, edges), tables_);
       publish_intervals(space, 2);
     });
   }
@@ -128,7 +133,7 @@ void SimplexStore::enumerate(const SimplexNeeds& needs) {
   if (triangle_edge_too) {
     make("edges that its triangles lie over", tables_.triangle_apex, [&](const auto& space) {
       using Memory = MemoryOf<std::decay_t<decltype(space)>>;
-      const auto all = view_of<Memory>(mesh_, tables_, triangles);
+      const auto all = view_of<Memory>(mesh_(), tables_, triangles);
       tables_.triangle_edge =
           row_of_entries(space, "GALE::triangle_edge", all.triangle_begin, all.triangle_apex.extent(0));
       space.fence();
@@ -137,7 +142,7 @@ void SimplexStore::enumerate(const SimplexNeeds& needs) {
   if (needs.lower_edges && !has(tables_.lower_begin)) {
     make("edges by their higher vertices", tables_.edge_high, [&](const auto& space) {
       using Memory = MemoryOf<std::decay_t<decltype(space)>>;
-      sort_edges_by_higher(space, view_of<Memory>(mesh_, tables_, edges), tables_);
+      sort_edges_by_higher(space, view_of<Memory>(mesh_(), tables_, edges), tables_);
       space.fence();
     });
   }
@@ -159,7 +164,7 @@ void SimplexStore::publish_intervals(const Space& space, int dimension) {
   auto& published = published_intervals_[dimension - 1];
   if (published != nullptr) return;
   auto& intervals = intervals_[dimension - 1];
-  intervals = interval_begin_of(space, mesh_, tables_, dimension);
+  intervals = interval_begin_of(space, mesh_(), tables_, dimension);
   intervals.in<HostMemory>();
   published.store(&intervals, std::memory_order_release);
 }

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <mutex>
 #include <string>
+#include <utility>
 
 #include <gale/mesh/encoded_mesh.hpp>
 #include <gale/mesh/numbering/enumerate.hpp>
@@ -13,7 +15,9 @@ namespace gale::detail {
 /// on the host if it doesn't fit the device's memory. By any thread.
 class SimplexStore {
  public:
-  explicit SimplexStore(const MeshArrays& mesh) : mesh_(mesh) {}
+  /// From arrays that are asked for when they are needed first.
+  SimplexStore(int dimension, std::function<const MeshArrays&()> mesh)
+      : dimension_(dimension), mesh_(std::move(mesh)) {}
 
   template <class Memory>
   Simplices<Memory> in(const SimplexNeeds& needs);
@@ -37,7 +41,8 @@ class SimplexStore {
   void publish_intervals(const Space& space, int dimension);
 
   mutable std::mutex mutex_;
-  const MeshArrays mesh_;
+  const int dimension_;
+  const std::function<const MeshArrays&()> mesh_;
   SimplexTables tables_;
   Mirrored<Id> intervals_[2];
   std::atomic<const Mirrored<Id>*> published_intervals_[2] = {};

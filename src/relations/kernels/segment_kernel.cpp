@@ -2,6 +2,7 @@
 #include <variant>
 
 #include <gale/base/error.hpp>
+#include <gale/relations/kernels/grid_star_kernel.hpp>
 #include <gale/relations/kernels/launch.hpp>
 #include <gale/relations/kernels/row_kernel.hpp>
 #include <gale/relations/kernels/segment_kernel.hpp>
@@ -12,7 +13,8 @@ namespace gale {
 
 namespace {
 
-/// The kernel of any relation: that of stars, of tetrahedra or triangles, or the row kernel of one that isn't a star's.
+/// The kernel of any relation: that of stars, of tetrahedra, triangles or a grid, or the row kernel of one that isn't a
+/// star's.
 template <class Memory, class Places>
 struct AnyKernel;
 
@@ -27,12 +29,13 @@ struct AnyKernel<Memory, std::index_sequence<places...>> {
   template <std::size_t place>
   using RowKernelAt = RowKernel<static_cast<Relation>(is_row(place) ? place : 0), Memory>;
 
-  using OrStar = std::variant<StarKernel<Memory, 4>, StarKernel<Memory, 3>, RowKernelAt<places>...>;
+  using OrStar =
+      std::variant<StarKernel<Memory, 4>, StarKernel<Memory, 3>, GridStarKernel<Memory>, RowKernelAt<places>...>;
 
   /// Makes `kernel` the row kernel of a relation; set(kernel) is called with it.
   template <class Set>
   static void make_row(Relation relation, OrStar& kernel, const Set& set) {
-    ((static_cast<std::size_t>(relation) == places ? set(kernel.template emplace<places + 2>()) : void()), ...);
+    ((static_cast<std::size_t>(relation) == places ? set(kernel.template emplace<places + 3>()) : void()), ...);
   }
 };
 
@@ -69,7 +72,9 @@ struct SegmentKernel<Memory>::Any {
   typename Kernels<Memory>::OrStar kernel;
 
   Any(const Mesh& given, RelationSet relations) : mesh(given), wanted(relations) {
-    if (makes_stars()) {
+    if (makes_stars() && mesh.grid() != nullptr) {
+      kernel = GridStarKernel<Memory>(mesh, wanted);
+    } else if (makes_stars()) {
       mesh.dimension() == 3 ? make_star<4>() : make_star<3>();
     } else {
       SimplexNeeds needs = needs_of(wanted, mesh.dimension());
@@ -129,7 +134,7 @@ StarSizes SegmentKernel<Memory>::bound(Id segment) const {
     const auto& begin = any_->mesh.interval_begin(dimension);
     return begin(segment + 1) - begin(segment);
   };
-  if (any_->makes_stars()) {
+  if (any_->makes_stars() && any_->mesh.grid() == nullptr) {
     const int dimension = any_->mesh.dimension();
     const auto& external = any_->mesh.external_begin();
     const Offset touching = external(segment + 1) - external(segment);
@@ -138,7 +143,7 @@ StarSizes SegmentKernel<Memory>::bound(Id segment) const {
     return dimension == 3 ? StarKernel<Memory, 4>::bound(rows(0), rows(3), touching, any_->wanted)
                           : StarKernel<Memory, 3>::bound(rows(0), rows(2), touching, any_->wanted);
   }
-  return {rows(row_dimension(members_of(any_->wanted).front())), 0, 0, 0};
+  return {rows(any_->makes_stars() ? 0 : row_dimension(members_of(any_->wanted).front())), 0, 0, 0};
 }
 
 template <class Memory>

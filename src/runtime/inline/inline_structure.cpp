@@ -20,7 +20,7 @@ namespace {
 
 /// Has what workers read on the host, before several ask for it.
 void precondition(const Mesh& mesh, RelationSet relations) {
-  if (!(relations & star_relations_of(mesh.dimension())).empty()) mesh.encoded();
+  if (mesh.grid() == nullptr && !(relations & star_relations_of(mesh.dimension())).empty()) mesh.encoded();
   SimplexNeeds needs = needs_of(relations, mesh.dimension());
   needs.cells |= needs.upto != Enumeration::cells;
   mesh.simplices(needs);

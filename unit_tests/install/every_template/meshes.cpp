@@ -138,6 +138,11 @@ void read(const gale::Mesh& mesh) {
   for (const auto* const permutation : {&mesh.vertex_input<Memory>(), &mesh.vertex_internal<Memory>()})
     expect(permutation->extent(0) == vertices, "permuted vertices");
   expect(mesh.cell_input<Memory>().extent(0) == tetrahedra, "permuted tetrahedra");
+  expect(mesh.vertices_in_input<Memory>().table != nullptr && mesh.vertices_of_input<Memory>().table != nullptr &&
+             mesh.cells_in_input<Memory>().table != nullptr && mesh.cell_reader<Memory>().vertices != nullptr,
+         "tables that aren't those of a grid");
+  const gale::Grid grid({2, 3, 4});
+  expect(grid.in<Memory>().is_whole() && gale::Mesh(grid).cells() == 36, "a grid");
   const gale::Simplices<Memory> simplices = mesh.simplices<Memory>({gale::Enumeration::triangles});
   expect(simplices.edge_high.extent(0) == edges && simplices.triangle_apex.extent(0) == triangles, "simplices");
   expect(gale::first_of(mesh.interval_begin<Memory>(1), 1).extent(0) == 1, "intervals");
