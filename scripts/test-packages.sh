@@ -49,6 +49,14 @@ in_builder() { # FOLDER COMMAND...
     sh -c 'cd "$0" && exec "$@"' "$folder" "$@"
 }
 
+# Has pip in a root reach what it reaches here.
+let_pip_out() { # ROOT
+  local file
+  for file in /etc/resolv.conf /etc/pip.conf /etc/ssl/certs/ca-certificates.crt; do
+    [ ! -e "$file" ] || cp "$file" "$1$file"
+  done
+}
+
 said_seconds() { # WHAT SINCE
   echo "=== $1: $((SECONDS - $2)) s"
 }
@@ -92,7 +100,7 @@ wheel() {
   local began=$SECONDS
   make_builder bookworm build-essential ca-certificates cmake git libcli11-dev libdeflate-dev libexpat1-dev liblz4-dev liblzma-dev \
     libtrilinos-kokkos-dev ninja-build nlohmann-json3-dev patchelf python3-dev python3-venv zlib1g-dev
-  cp /etc/resolv.conf "$builder/etc/"
+  let_pip_out "$builder"
   echo "deb-src $(archive) trixie main" >"$builder/etc/apt/sources.list.d/trixie.list"
   chroot "$builder" apt-get -o Acquire::Check-Valid-Until=false --quiet update
   in_builder /build apt-get --quiet source --download-only hdf5 >"$work/log" 2>&1 || { tail -n 20 "$work/log" >&2; return 1; }
@@ -120,7 +128,7 @@ wheel() {
   [ "$bytes" -le 15000000 ] || { echo "the wheel is larger than 15 MB" >&2; return 1; }
 
   make_root "$user" bookworm ca-certificates python3 python3-venv >"$work/log" 2>&1
-  cp /etc/resolv.conf "$user/etc/"
+  let_pip_out "$user"
   mkdir "$user/tests"
   tar -C "$user/tests" --strip-components=1 -xf "$tarball"
   cp "${wheels[0]}" "$user/tests/"
