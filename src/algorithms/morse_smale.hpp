@@ -96,7 +96,7 @@ struct GALE_EXPORT MorseSmaleComplex {
   /// and cell_id() say, and all else of the gradient is missing there.
   DiscreteGradient excerpt{gradient};
 
-  /// Of each of `critical`, by dimension, whether it is this rank's: the others are another rank's, and separatrices
+  /// Whether each of `critical`, by dimension, is this rank's: the others are another rank's, and separatrices
   /// end there. Empty: all are.
   std::array<std::vector<char>, 4> is_own{};
 

@@ -32,7 +32,7 @@ using KnownSimplices = std::array<std::vector<CriticalSimplex>, 4>;
 GALE_EXPORT KnownSimplices known_simplices(const DiscreteGradient& gradient, const CriticalSimplices& critical,
                                            const SimplexNumbers& numbers);
 
-/// Those of a complex's critical simplices that are this rank's.
+/// Leaves out the critical simplices of a complex that aren't this rank's.
 GALE_EXPORT KnownSimplices own_simplices(const MorseSmaleComplex& complex, const KnownSimplices& all);
 
 /// Makes points of critical simplices, dimension by dimension. They are at vertices, the middles of edges, the

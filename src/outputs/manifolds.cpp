@@ -55,7 +55,7 @@ std::size_t saddles_of(const MorseSmaleComplex& complex) {
   return complex.critical.dimension == 2 ? counts[1] : counts[1] + counts[2];
 }
 
-/// Those of a complex's critical vertices, or cells, that are this rank's.
+/// Leaves out critical vertices, or cells, that aren't this rank's.
 std::vector<Id> own_of(const MorseSmaleComplex& complex, int dimension, const std::vector<Id>& all) {
   std::vector<Id> own;
   for (std::size_t i = 0; i < all.size(); ++i) {

@@ -62,7 +62,7 @@ GALE_EXPORT DiagramCounts counts_of(const std::vector<DiagramPoint>& diagram);
 /// diagonal -1), Persistence and Birth (float if the field is, else double; of the diagonal twice the greatest finite
 /// persistence, and the first birth), IsFinite (uint8; the diagonal 0).
 ///
-/// Of a gathered gradient, whose mesh's `exchange` it is, vertices have their global ids, in int64.
+/// Vertices have their global ids, in int64, where the gradient was gathered, whose mesh's `exchange` it is.
 GALE_EXPORT io::Surface to_lines(const io::Dataset& dataset, const io::PointArray& field,
                                  const std::vector<DiagramPoint>& diagram,
                                  const Exchange& exchange = Exchange::of_whole_mesh());

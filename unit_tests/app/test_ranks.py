@@ -150,22 +150,42 @@ class OnRanks(ranks.RanksTest):
         self.expect_one_line(self.launch(3, "critical-points", "grid:8", "-o", "all.pvtp"), 1, "all_1.vtp")
         self.assertEqual(self.names(), ["all_1.vtp"])
 
-    def test_a_rank_that_is_killed_ends_all(self):
-        run = subprocess.Popen([*self.launcher, "-n", "2", gale.GALE, "critical-points", "grid:200", "-o", "all.pvtp"], cwd=self.folder,
-                               stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    def kill_one(self, delay, *arguments):
+        """Starts two ranks, kills the second some seconds after both are there, and returns how the launcher ended: None if all was done by then."""
+        run = subprocess.Popen([*self.launcher, "-n", "2", gale.GALE, *arguments], cwd=self.folder, stdin=subprocess.DEVNULL,
+                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         self.addCleanup(run.communicate)
         self.addCleanup(run.kill)
         children, deadline = [], time.monotonic() + 60
-        while len(children) < 2 and time.monotonic() < deadline:
+        while len(children) < 2 and time.monotonic() < deadline and run.poll() is None:
             time.sleep(0.1)
             children = Path(f"/proc/{run.pid}/task/{run.pid}/children").read_text().split()
+        time.sleep(delay)
+        if run.poll() is not None or len(children) < 2:
+            return None
         os.kill(int(children[-1]), signal.SIGKILL)
         begin = time.monotonic()
         _, error = run.communicate(timeout=60)
-        self.assertNotEqual(run.returncode, 0)
         self.assertLess(time.monotonic() - begin, 30)
+        return run.returncode, error
+
+    def test_a_rank_that_is_killed_ends_all(self):
+        code, error = self.kill_one(0, "critical-points", "grid:200", "-o", "all.pvtp")
+        self.assertNotEqual(code, 0)
         self.assertIn("signal 9", error)
         self.assertNotIn("all.pvtp", self.names())
+
+    def test_a_rank_that_is_killed_in_any_phase_leaves_no_results(self):
+        for command, *outputs in (("morse-smale", "-o", "all"), ("morse-smale", "-o", "all", "--persistence", "1%"),
+                                  ("persistence-diagram", "-o", "all.vtu"), ("merge-tree", "-o", "all")):
+            for delay in (0.2, 0.6, 1.2):
+                with self.subTest(command=command, outputs=outputs, delay=delay):
+                    ended = self.kill_one(delay, command, "grid:128", *outputs)
+                    if ended is not None:
+                        self.assertNotEqual(ended[0], 0)
+                        self.assertEqual([name for name in self.names() if name.endswith((".pvtp", ".pvtu", "all.vtu", "nodes.vtp"))], [])
+                    for name in self.names():
+                        (self.folder / name).unlink()
 
 
 @unittest.skipIf(ranks.MPIEXEC, "this gale was built with MPI")

@@ -51,7 +51,7 @@ class ComplexOnRanks : public EveryPartition {
     return mesh.is_part() ? cell_named(mesh.cell_id(input)) : input;
   }
 
-  /// Those of all vertices of a simplex, in its order, or ascending.
+  /// Names all vertices of a simplex, in its order.
   template <std::size_t N>
   static std::vector<Id> names_of(const MorseSmaleComplex& found, const std::array<Id, N>& simplex) {
     std::vector<Id> names;

@@ -66,21 +66,21 @@ Sums sums_on_ranks(const DistributedMesh& mesh, const WholeField& field) {
   for (Id i = 0; i < complex.descending.count(); ++i) {
     const auto& some = complex.descending;
     for (const Id* cell = some.first(i); cell != some.last(i); ++cell)
-      paths[0].add(id(complex.critical.edges[some.sources[i]][0]), some.destinations[i], cell - some.first(i),
-                   id(*cell));
+      paths[0].add(id(complex.critical.edges[some.sources[i]][0]), id(complex.critical.vertices[some.destinations[i]]),
+                   cell - some.first(i), id(*cell));
   }
   for (Id i = 0; i < complex.ascending.count(); ++i) {
     const auto& some = complex.ascending;
     for (const Id* cell = some.first(i); cell != some.last(i); ++cell)
-      paths[1].add(id(complex.critical.triangles[some.sources[i]][0]), some.destinations[i], cell - some.first(i),
-                   cell_id(*cell));
+      paths[1].add(id(complex.critical.triangles[some.sources[i]][0]),
+                   cell_id(complex.critical.cells[some.destinations[i]]), cell - some.first(i), cell_id(*cell));
   }
   Sums sums{points.value(), simplices.value(), manifolds.value(), paths[0].value(), paths[1].value()};
   mesh.exchange().ranks().sum(sums.data(), static_cast<int>(sums.size()));
   return sums;
 }
 
-/// The same on this rank alone, of input ids.
+/// Sums on this rank alone, of input ids.
 Sums sums_on_one(const io::Dataset& data, const WholeField& field) {
   const Mesh mesh = std::visit([&](const auto& points) { return make_mesh(points, data.tetrahedra); }, data.points);
   const VertexOrder order(mesh, field);
@@ -100,11 +100,12 @@ Sums sums_on_one(const io::Dataset& data, const WholeField& field) {
   for (int kind = 0; kind < 2; ++kind) {
     const auto& some = kind == 0 ? complex.descending : complex.ascending;
     const auto& numbers = kind == 0 ? input : mesh.cell_input();
+    const auto& extrema = kind == 0 ? complex.critical.vertices : complex.critical.cells;
     for (Id i = 0; i < some.count(); ++i) {
       const Id highest =
           kind == 0 ? complex.critical.edges[some.sources[i]][0] : complex.critical.triangles[some.sources[i]][0];
       for (const Id* cell = some.first(i); cell != some.last(i); ++cell)
-        paths[kind].add(input(highest), some.destinations[i], cell - some.first(i), numbers(*cell));
+        paths[kind].add(input(highest), numbers(extrema[some.destinations[i]]), cell - some.first(i), numbers(*cell));
     }
   }
   return {points.value(), simplices.value(), manifolds.value(), paths[0].value(), paths[1].value()};

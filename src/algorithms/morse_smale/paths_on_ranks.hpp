@@ -16,7 +16,7 @@ class PathSimplices {
 
   PathSimplices(const DiscreteGradient& gradient, Kind kind);
 
-  /// Of paths from vertex to vertex: `successors` are elsewhere at ghosts, and `ends` are those that have none.
+  /// Vertices alone: `successors` are elsewhere at ghosts, and `ends` are those that have none.
   PathSimplices(const VertexOrder& order, const Mirrored<Id>& successors, const std::vector<Id>& ends);
 
   /// Makes them on all ranks. Collective; throws gale::Error on all.
