@@ -98,20 +98,27 @@ std::vector<int> axes_of(const Image& image) {
   return axes;
 }
 
-/// Whether float would round coordinates by more than some hundredth of the shortest step between voxels.
-bool needs_double(const Image& image) {
-  double farthest = 0, shortest = std::numeric_limits<double>::infinity();
+/// How far out the voxels may lie along any axis. Throws `Error` where that is no number.
+double reach_of(const Image& image) {
+  double farthest = 0;
   for (const auto& row : image.index_to_physical) {
     double reach = std::abs(row[3]);
     for (int d = 0; d < 3; ++d) reach += std::abs(row[d]) * image.dimensions[d];
+    if (!std::isfinite(reach)) refuse("the image has voxels whose coordinates are not finite");
     farthest = std::max(farthest, reach);
   }
+  return farthest;
+}
+
+/// Whether float would round coordinates by more than some hundredth of the shortest step between voxels.
+bool needs_double(const Image& image, double farthest) {
+  double shortest = std::numeric_limits<double>::infinity();
   for (int d = 0; d < 3; ++d) {
     double square = 0;
     for (const auto& row : image.index_to_physical) square += row[d] * row[d];
     if (image.dimensions[d] > 1) shortest = std::min(shortest, std::sqrt(square));
   }
-  return farthest > shortest * 131072;  // 2^17 of float's 2^24
+  return farthest > shortest * 131072 || farthest > std::numeric_limits<float>::max();  // 2^17 of float's 2^24
 }
 
 template <class Coordinate>
@@ -156,6 +163,7 @@ Dataset split_voxels(Image image, std::optional<double> above, GridCells cells) 
     refuse("the image has ", nx, " x ", ny, " x ", nz, " voxels: it needs at least 2 in two directions");
   const Rows rows{image.dimensions[axes[0]], image.dimensions[axes[1]],
                   axes.size() == 3 ? image.dimensions[axes[2]] : 1};
+  const double farthest = reach_of(image);
   Dataset dataset;
   dataset.grid = grid_of(rows, image.arrays.front(), above);
   const Grid& grid = *dataset.grid;
@@ -163,7 +171,7 @@ Dataset split_voxels(Image image, std::optional<double> above, GridCells cells) 
   dataset.notices = std::move(image.notices);
   for (PointArray& array : image.arrays) dataset.arrays.push_back(array_at_vertices(grid, std::move(array)));
   if (cells == GridCells::computed_alone) return dataset;
-  if (needs_double(image)) {
+  if (needs_double(image, farthest)) {
     dataset.points = make_points<double>(grid, image);
   } else {
     dataset.points = make_points<float>(grid, image);

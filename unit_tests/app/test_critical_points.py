@@ -105,7 +105,8 @@ class Report(gale.CommandTest):
 
     def test_waiting_tells_who_computed(self):
         for structure in ("gale", "inline"):
-            report = self.report("critical-points", "grid:16", "--structure", structure, "--consumers", "host")
+            report = self.report("critical-points", "grid:16", "--mesh", "written", "--structure", structure,
+                                 "--consumers", "host")
             batches = sum(leader["batches"] for leader in report["waiting"]["leaders"])
             with self.subTest(structure=structure):
                 self.assertEqual(batches > 0, structure == "gale" and report["device"] is not None)

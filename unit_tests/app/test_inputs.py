@@ -54,6 +54,12 @@ class Volumes(gale.CommandTest):
         bump = gale.Volume((5, 5, 5), lambda x, y, z: -((x - 2) ** 2 + 1.1 * (y - 2) ** 2 + 1.3 * (z - 2) ** 2 + 0.01 * x * y))
         self.assertEqual(self.counts(self.write("bump.mha", bump.mha()))[3], 1)
 
+    def test_voxels_that_lie_nowhere_are_refused(self):
+        for spacing in ("nan 1 1", "1 inf 1", "1e308 1 1"):
+            self.write("nowhere.mha", self.SLOPE.mha().replace(b"Spacing = 1 1 1", f"Spacing = {spacing}".encode()))
+            for mesh in ("computed", "written"):
+                self.refuse(1, "critical-points", "nowhere.mha", "--mesh", mesh, naming="nowhere.mha")
+
     def test_one_component_of_several(self):
         vectors = self.SLOPE.vti().decode().replace('Name="values"', 'Name="values" NumberOfComponents="2"')
         values = " ".join(map(str, self.SLOPE.values))

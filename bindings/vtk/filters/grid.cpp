@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -198,9 +199,13 @@ void require_axes(vtkRectilinearGrid* grid) {
   const auto axes = axes_of(grid);
   for (int d = 0; d < 3; ++d) {
     const vtkIdType count = axes[d] != nullptr ? axes[d]->GetNumberOfTuples() : 0;
-    if (count == grid->GetDimensions()[d]) continue;
-    throw Error("the grid has " + std::to_string(count) + " coordinates along axis " + "xyz"[d] + ", not " +
-                std::to_string(grid->GetDimensions()[d]));
+    if (count != grid->GetDimensions()[d])
+      throw Error("the grid has " + std::to_string(count) + " coordinates along axis " + "xyz"[d] + ", not " +
+                  std::to_string(grid->GetDimensions()[d]));
+    for (vtkIdType k = 0; k < count; ++k) {
+      if (!std::isfinite(axes[d]->GetTuple1(k)))
+        throw Error("coordinate " + std::to_string(k) + " along axis " + "xyz"[d] + " is not finite");
+    }
   }
 }
 

@@ -97,8 +97,8 @@ class LargeLaterStar {
  private:
   /// Input ids, the lower one in the upper half.
   std::uint64_t key(Id a, Id b) const {
-    const auto [low, high] = std::minmax(input_[a], input_[b]);
-    return pair_key(low, high);
+    const Id one = input_[a], other = input_[b];
+    return one < other ? pair_key(one, other) : pair_key(other, one);
   }
 
   template <class Key>
