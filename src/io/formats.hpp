@@ -68,7 +68,7 @@ GALE_EXPORT std::string extensions_of(Input input);
 namespace detail {
 
 /// The steps that a file of a series names, its first at the least time.
-std::vector<Step> steps_in(const InputFile& input, const ReadOptions& options);
+GALE_EXPORT std::vector<Step> steps_in(const InputFile& input, const ReadOptions& options);
 
 /// Whether files can be read: GALE was built with the libraries that this takes, VTK's or the system's. Where it
 /// wasn't, libraries/without.cpp stands for the other sources of that folder.

@@ -81,7 +81,7 @@ class Usage(gale.CommandTest):
 
     def test_wrong_usage(self):
         for arguments in (["critical-points"], ["critical-points", "grid:4", "--nonsense"],
-                          ["critical-points", "grid:4", "grid:5"],
+                          ["info", "grid:4", "grid:5"],
                           ["segment", "grid:4", "--capacity", "5", "--segments", "part"]):
             with self.subTest(arguments=arguments):
                 self.refuse(2, *arguments)

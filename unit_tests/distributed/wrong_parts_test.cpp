@@ -4,8 +4,8 @@
 
 #include <gale/algorithms/critical_points.hpp>
 #include <gale/algorithms/discrete_gradient.hpp>
-#include <gale/algorithms/morse_smale.hpp>
-#include <gale/algorithms/simplify.hpp>
+#include <gale/algorithms/persistence.hpp>
+#include <gale/algorithms/simplify_field.hpp>
 #include <gale/runtime/make_structure.hpp>
 
 #include "distributed/given_parts.hpp"
@@ -177,17 +177,10 @@ TEST(PartsOfMeshes, are_refused_by_what_needs_the_whole) {
   const std::string which =
       " can't be found of one rank's part of a mesh: it lies on " + std::to_string(ranks.size()) + " ranks";
   const VertexOrder order(mesh, part.values(std::vector<float>(input.vertices(), 1.0f)));
-  const auto structure = make_structure(mesh, discrete_gradient_relations);
-  const DiscreteGradient gradient = find_discrete_gradient(*structure, order);
-  MorseSmaleParts parts;
-  EXPECT_EQ(message_of([&] { find_morse_smale_complex(*structure, gradient, parts); }), "saddle connectors" + which);
-  parts.saddle_connectors = false;
-  parts.separatrices2 = true;
-  EXPECT_EQ(message_of([&] { find_morse_smale_complex(*structure, gradient, parts); }), "2-separatrices" + which);
-  parts.separatrices2 = false;
+  const DiscreteGradient gradient = find_discrete_gradient(order);
   const auto value = [](Id) { return 1.0; };
-  const auto complex = find_morse_smale_complex(*structure, gradient, parts);
-  EXPECT_EQ(message_of([&] { simplify(complex, value, 1, {}); }), "a simplified complex" + which);
+  EXPECT_EQ(message_of([&] { find_persistence_pairs(gradient); }), "persistence pairs" + which);
+  EXPECT_EQ(message_of([&] { simplify_field(order, value, 1); }), "a simplified field" + which);
 }
 
 TEST(DistributedAlgorithms, fail_on_all_ranks_where_one_lacks_what_it_reads) {

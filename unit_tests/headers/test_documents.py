@@ -18,6 +18,8 @@ options = parser.parse_args()
 
 FRAME = """
 #include <gale/algorithms/critical_points.hpp>
+#include <gale/algorithms/gathered_gradient.hpp>
+#include <gale/algorithms/merge_tree.hpp>
 #include <gale/algorithms/persistence.hpp>
 #include <gale/algorithms/simplex_numbers.hpp>
 #include <gale/algorithms/simplify.hpp>

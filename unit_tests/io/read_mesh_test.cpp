@@ -232,7 +232,8 @@ TEST_F(ReadMesh, RefusesWhatIsNoSuchFile) {
     EXPECT_EQ(error_of([&] { read(name); }),
               "cannot read '" + name +
                   "': its extension is none of .vtu .pvtu .vtk .vtp .vts .vtr .vti .nii .nii.gz .mha .mhd "
-                  ".nrrd .e .ex2 .exo .hdf .vtkhdf .stl .ply .obj .off, nor is it grid:N or plane:N; for other meshes: "
+                  ".nrrd .e .ex2 .exo .hdf .vtkhdf .stl .ply .obj .off .pvd .series, nor is it grid:N or plane:N; for "
+                  "other meshes: "
                   "meshio convert '" +
                   name + "' mesh.vtu");
   }

@@ -51,8 +51,19 @@ void make_of_strided() {
        Kokkos::subview(t, Kokkos::ALL(), std::make_pair(0, 4)));
 }
 
+/// A grid, whose cells are computed.
+template <class Memory>
+void make_grid() {
+  const gale::Grid grid({3, 3, 3});
+  gale::Id seen = 0;
+  grid.for_each_vertex(0, 9, [&](gale::Id, gale::Id, gale::Id vertex) { seen += vertex == seen; });
+  expect(seen == 27 && grid.in<Memory>().nx == 3 && grid.kinds_in<Memory>() != nullptr, "a grid");
+  expect(gale::Mesh(grid).cells() == 48, "the mesh of a grid");
+}
+
 template <class Memory>
 void make_in() {
+  make_grid<Memory>();
   make_of<double, std::int64_t, Kokkos::LayoutRight, Memory>();
   make_of<float, std::int32_t, Kokkos::LayoutRight, Memory>();
   make_of<double, long long, Kokkos::LayoutLeft, Memory>();
