@@ -179,7 +179,8 @@ TEST(PartsOfMeshes, are_refused_by_what_needs_the_whole) {
   const VertexOrder order(mesh, part.values(std::vector<float>(input.vertices(), 1.0f)));
   const DiscreteGradient gradient = find_discrete_gradient(order);
   const auto value = [](Id) { return 1.0; };
-  EXPECT_EQ(message_of([&] { find_persistence_pairs(gradient); }), "persistence pairs" + which);
+  EXPECT_EQ(message_of([&] { find_persistence_pairs(gradient); }),
+            "persistence pairs" + which + ", which gather_gradient() brings together");
   EXPECT_EQ(message_of([&] { simplify_field(order, value, 1); }), "a simplified field" + which);
 }
 

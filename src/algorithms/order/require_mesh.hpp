@@ -17,12 +17,13 @@ inline void require_same_mesh(const std::string& what, const Mesh& mesh, const M
   throw Error(what + " is of a mesh of " + size(mesh) + ", the structure of another one of " + size(of_structure));
 }
 
-/// Throws gale::Error if a mesh is one rank's part of several, of which `what` can't be found.
-inline void require_whole_mesh(const std::string& what, const Mesh& mesh) {
+/// Throws gale::Error if a mesh is one rank's part of several, of which `what` can't be found; `instead` says
+/// how else.
+inline void require_whole_mesh(const std::string& what, const Mesh& mesh, const std::string& instead = "") {
   const int ranks = mesh.exchange().ranks().size();
   if (ranks == 1) return;
   throw SharedError(what + " can't be found of one rank's part of a mesh: it lies on " + std::to_string(ranks) +
-                    " ranks, which gather_gradient() brings together");
+                    " ranks" + instead);
 }
 
 }  // namespace gale::detail

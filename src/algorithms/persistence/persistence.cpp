@@ -146,7 +146,7 @@ PersistencePairs pairs_of(const DiscreteGradient& gradient, const CriticalPlaces
 }  // namespace detail
 
 PersistencePairs find_persistence_pairs(const DiscreteGradient& gradient, const SweepOptions& options) {
-  detail::require_whole_mesh("persistence pairs", gradient.mesh());
+  detail::require_whole_mesh("persistence pairs", gradient.mesh(), ", which gather_gradient() brings together");
   const ThreadLimit limit(options.threads);
   const detail::CriticalPlaces places(gradient.critical());
   const bool forks = detail::has_forks(gradient);
