@@ -176,16 +176,16 @@ class OnRanks(ranks.RanksTest):
         self.assertNotIn("all.pvtp", self.names())
 
     def test_a_rank_that_is_killed_in_any_phase_leaves_no_results(self):
-        for command, *outputs in (("morse-smale", "-o", "all"), ("morse-smale", "-o", "all", "--persistence", "1%"),
-                                  ("persistence-diagram", "-o", "all.vtu"), ("merge-tree", "-o", "all")):
-            for delay in (0.2, 0.6, 1.2):
-                with self.subTest(command=command, outputs=outputs, delay=delay):
-                    ended = self.kill_one(delay, command, "grid:128", *outputs)
-                    if ended is not None:
-                        self.assertNotEqual(ended[0], 0)
-                        self.assertEqual([name for name in self.names() if name.endswith((".pvtp", ".pvtu", "all.vtu", "nodes.vtp"))], [])
-                    for name in self.names():
-                        (self.folder / name).unlink()
+        for delay, command, *outputs in ((0.2, "merge-tree", "-o", "all"), (0.6, "morse-smale", "-o", "all"),
+                                         (1, "morse-smale", "-o", "all", "--persistence", "1%"),
+                                         (1.2, "persistence-diagram", "-o", "all.vtu")):
+            with self.subTest(command=command, outputs=outputs, delay=delay):
+                ended = self.kill_one(delay, command, "grid:128", *outputs)
+                if ended is not None:
+                    self.assertNotEqual(ended[0], 0)
+                    self.assertEqual([name for name in self.names() if name.endswith((".pvtp", ".pvtu", "all.vtu", "nodes.vtp"))], [])
+                for name in self.names():
+                    (self.folder / name).unlink()
 
 
 @unittest.skipIf(ranks.MPIEXEC, "this gale was built with MPI")

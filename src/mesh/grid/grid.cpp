@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include <gale/base/error.hpp>
 #include <gale/base/parallel.hpp>
@@ -24,14 +23,27 @@ int direction_of(int from, int to) {
   return up > 0 ? upward[along] : grid_directions - 1 - upward[along];
 }
 
+/// At most so many of something, without memory of their own.
+template <class T, int most>
+struct Few {
+  T all[most];
+  int count = 0;
+
+  void push_back(const T& one) { all[count++] = one; }
+  const T* begin() const { return all; }
+  const T* end() const { return all + count; }
+};
+
 /// A cell of a star: the directions of its other vertices, ascending.
 struct StarCell {
   int of_kind;
-  std::vector<int> directions;
+  Few<int, 3> directions;
 };
 
-std::vector<StarCell> cells_of_kind(int kind, int dimension) {
-  std::vector<StarCell> cells;
+using StarCells = Few<StarCell, 24>;
+
+StarCells cells_of_kind(int kind, int dimension) {
+  StarCells cells;
   for (int cube = 0; cube < 8; ++cube) {
     if ((kind >> cube & 1) == 0) continue;
     const int own = 7 - cube;  // the corner of the cube that the vertex is
@@ -42,20 +54,19 @@ std::vector<StarCell> cells_of_kind(int kind, int dimension) {
       for (int k = 0; k <= dimension; ++k) {
         if (walk[k] != own) cell.directions.push_back(direction_of(own, walk[k]));
       }
-      cells.push_back(std::move(cell));
+      cells.push_back(cell);
     }
   }
   return cells;
 }
 
 /// Whether a facet at the vertex has one cell alone.
-bool is_open(const std::vector<StarCell>& cells, int dimension) {
+bool is_open(const StarCells& cells, int dimension) {
   int count[grid_directions][grid_directions] = {};
   for (const StarCell& cell : cells) {
-    const auto& d = cell.directions;
-    for (std::size_t i = 0; i < d.size(); ++i) {
-      if (dimension == 2) ++count[d[i]][d[i]];
-      for (std::size_t k = i + 1; k < d.size() && dimension == 3; ++k) ++count[d[i]][d[k]];
+    for (const int* i = cell.directions.begin(); i != cell.directions.end(); ++i) {
+      if (dimension == 2) ++count[*i][*i];
+      for (const int* k = i + 1; k != cell.directions.end() && dimension == 3; ++k) ++count[*i][*k];
     }
   }
   return std::any_of(&count[0][0], &count[0][0] + grid_directions * grid_directions, [](int n) { return n == 1; });
@@ -63,7 +74,7 @@ bool is_open(const std::vector<StarCell>& cells, int dimension) {
 
 StarKind make_kind(int kind, int dimension) {
   StarKind made{};
-  const std::vector<StarCell> cells = cells_of_kind(kind, dimension);
+  const StarCells cells = cells_of_kind(kind, dimension);
   for (const StarCell& cell : cells) {
     for (const int d : cell.directions) {
       made.directions = static_cast<std::uint16_t>(made.directions | 1 << d);
@@ -79,7 +90,7 @@ StarKind make_kind(int kind, int dimension) {
     made.direction[made.neighbours++] = static_cast<std::uint8_t>(d);
   }
   for (const StarCell& cell : cells) {
-    for (int k = 0; k < dimension; ++k) made.link[dimension * made.cells + k] = place[cell.directions[k]];
+    for (int k = 0; k < dimension; ++k) made.link[dimension * made.cells + k] = place[cell.directions.all[k]];
     made.cell[made.cells++] = static_cast<std::uint8_t>(cell.of_kind);
   }
   made.is_open = is_open(cells, dimension);
