@@ -9,7 +9,7 @@ import gale
 from gale import _gale
 
 
-@unittest.skipUnless(_gale.has_vtk, "this gale reads no files")
+@unittest.skipUnless(_gale.reads_files, "this gale reads no files")
 class Steps(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
