@@ -27,7 +27,7 @@ clang() {
   cmake --install "$build" >"$build/installed"
 
   # What is installed works, and is found by other projects.
-  "$prefix/bin/gale" critical-points grid:4 >"$build/printed"
+  "$prefix/bin/gale" critical-points grid:4 >"$build/said"
   PYTHONPATH=$prefix/$packages "$python" -c 'import gale; print(gale.__version__)'
   PYTHONPATH=$prefix/$packages "$python" -m gale --version
   local project
