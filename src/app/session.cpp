@@ -1,15 +1,12 @@
 #include <algorithm>
 #include <filesystem>
 #include <optional>
-#include <set>
-#include <system_error>
 #include <utility>
 
+#include <gale/app/output_names.hpp>
 #include <gale/app/ranks/ranks.hpp>
 #include <gale/app/session.hpp>
 #include <gale/base/error.hpp>
-#include <gale/io/bytes/text.hpp>
-#include <gale/io/formats.hpp>
 #include <gale/io/read.hpp>
 #include <gale/io/write.hpp>
 #include <gale/outputs/excerpt.hpp>
@@ -20,54 +17,6 @@ namespace gale::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Where a path leads, as far as links can be followed.
-fs::path real_path(const std::string& path) {
-  std::error_code failure;
-  const fs::path absolute = fs::absolute(path, failure), real = fs::weakly_canonical(absolute, failure);
-  return failure ? absolute.lexically_normal() : real;
-}
-
-/// Throws UsageError if two of the files are the same, or if one is an input.
-void require_distinct(const std::vector<std::string>& files, const std::vector<std::string>& inputs) {
-  std::set<fs::path> all;
-  for (const std::string& input : inputs) all.insert(real_path(input));
-  std::error_code unknown;
-  for (const std::string& file : files) {
-    const bool is_input = std::any_of(inputs.begin(), inputs.end(),
-                                      [&](const auto& input) { return fs::equivalent(file, input, unknown); });
-    if (!all.insert(real_path(file)).second || is_input) throw UsageError("'" + file + "' is named for two files");
-  }
-}
-
-/// NAME_0012.vtp for the step 12 of NAME.vtp.
-std::string name_of_step(const std::string& path, std::size_t step) {
-  const fs::path all(path);
-  const std::string number = std::to_string(step);
-  return fs::path(all).replace_extension().string() + '_' +
-         std::string(4 - std::min<std::size_t>(4, number.size()), '0') + number + all.extension().string();
-}
-
-/// NAME.pvd for NAME.vtp and its like, which names the files of all steps; empty for other formats.
-std::string name_of_series(const std::string& path) {
-  const io::Format* const format = io::format_of(path);
-  constexpr unsigned xml = io::written_points | io::written_lines | io::written_pieces;
-  return format != nullptr && (format->written & xml) != 0 ? fs::path(path).replace_extension(".pvd").string() : "";
-}
-
-/// Whether it is a .pvtu.
-bool is_mesh(const std::string& path) { return !path.empty() && (path.back() == 'u' || path.back() == 'U'); }
-
-/// Whether it is a file that names pieces, one of each rank; others the first rank writes.
-bool has_pieces(const std::string& path) {
-  const std::string extension = io::detail::lower_case(fs::path(path).extension().string());
-  return Launch::are_several() && (extension == ".pvtp" || extension == ".pvtu");
-}
-
-/// NAME_RANK.vtp for NAME.pvtp, NAME_RANK.vtu for NAME.pvtu.
-std::string piece_of(const std::string& path, int rank) {
-  return fs::path(path).replace_extension().string() + '_' + std::to_string(rank) + (is_mesh(path) ? ".vtu" : ".vtp");
-}
 
 void write_to(const io::AtomicFile& file, const io::PointSet& points) { io::write_points(file, points); }
 void write_to(const io::AtomicFile& file, const io::Surface& surface) { io::write_surface(file, surface); }

@@ -185,7 +185,7 @@ class Mesh::Data {
     publish();
   }
 
-  /// Those that a grid has, too.
+  /// The arrays that a grid has, too: the division into segments.
   const detail::MeshArrays& divided() const { return divided_; }
 
   const detail::MeshArrays& arrays() const {

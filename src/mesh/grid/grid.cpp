@@ -144,7 +144,7 @@ std::uint64_t from_next(BitRow row, std::size_t w, std::size_t words) {
   return row[w] >> 1 | (w + 1 < words ? row[w + 1] << 63 : 0);
 }
 
-/// Likewise from x - 1 to x.
+/// The word of a row with each bit moved to the one after it: from x - 1 to x.
 std::uint64_t from_last(BitRow row, std::size_t w) { return row[w] << 1 | (w > 0 ? row[w - 1] >> 63 : 0); }
 
 }  // namespace

@@ -1,0 +1,75 @@
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+#include <system_error>
+#include <utility>
+
+#include <gale/app/options.hpp>
+#include <gale/app/output_names.hpp>
+#include <gale/app/ranks/ranks.hpp>
+#include <gale/io/bytes/text.hpp>
+#include <gale/io/formats.hpp>
+
+namespace gale::app {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Where a path leads, as far as links can be followed.
+fs::path real_path(const std::string& path) {
+  std::error_code failure;
+  const fs::path absolute = fs::absolute(path, failure), real = fs::weakly_canonical(absolute, failure);
+  return failure ? absolute.lexically_normal() : real;
+}
+
+/// Which file a path leads to, by whatever link: its device and its number there; zeros if there is none.
+std::pair<dev_t, ino_t> identity_of(const std::string& path) {
+  struct stat status;
+  return stat(path.c_str(), &status) == 0 ? std::pair(status.st_dev, status.st_ino) : std::pair(dev_t(0), ino_t(0));
+}
+
+/// Whether it is a .pvtu.
+bool is_mesh(const std::string& path) { return !path.empty() && (path.back() == 'u' || path.back() == 'U'); }
+
+}  // namespace
+
+void require_distinct(const std::vector<std::string>& files, const std::vector<std::string>& inputs) {
+  std::set<fs::path> all;
+  std::set<std::pair<dev_t, ino_t>> read;
+  for (const std::string& input : inputs) {
+    all.insert(real_path(input));
+    read.insert(identity_of(input));
+  }
+  read.erase({0, 0});
+  for (const std::string& file : files) {
+    if (!all.insert(real_path(file)).second || read.count(identity_of(file)) > 0)
+      throw UsageError("'" + file + "' is named for two files");
+  }
+}
+
+std::string name_of_step(const std::string& path, std::size_t step) {
+  const fs::path all(path);
+  const std::string number = std::to_string(step);
+  return fs::path(all).replace_extension().string() + '_' +
+         std::string(4 - std::min<std::size_t>(4, number.size()), '0') + number + all.extension().string();
+}
+
+std::string name_of_series(const std::string& path) {
+  const io::Format* const format = io::format_of(path);
+  constexpr unsigned xml = io::written_points | io::written_lines | io::written_pieces;
+  return format != nullptr && (format->written & xml) != 0 ? fs::path(path).replace_extension(".pvd").string() : "";
+}
+
+bool has_pieces(const std::string& path) {
+  const std::string extension = io::detail::lower_case(fs::path(path).extension().string());
+  return Launch::are_several() && (extension == ".pvtp" || extension == ".pvtu");
+}
+
+std::string piece_of(const std::string& path, int rank) {
+  return fs::path(path).replace_extension().string() + '_' + std::to_string(rank) + (is_mesh(path) ? ".vtu" : ".vtp");
+}
+
+}  // namespace gale::app

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+// What files are called that stand for one that the command line names: of a step, of a rank, and what names these.
+
+namespace gale::app {
+
+/// Throws UsageError if two of the files are the same, or if one is an input, by whatever link or spelling.
+void require_distinct(const std::vector<std::string>& files, const std::vector<std::string>& inputs);
+
+/// NAME_0012.vtp for the step 12 of NAME.vtp.
+std::string name_of_step(const std::string& path, std::size_t step);
+
+/// NAME.pvd for NAME.vtp and its like, which names the files of all steps; empty for other formats.
+std::string name_of_series(const std::string& path);
+
+/// Whether it is a file that names pieces, one of each rank; others the first rank writes.
+bool has_pieces(const std::string& path);
+
+/// NAME_RANK.vtp for NAME.pvtp, NAME_RANK.vtu for NAME.pvtu.
+std::string piece_of(const std::string& path, int rank);
+
+}  // namespace gale::app
