@@ -6,6 +6,7 @@
 
 #include <gale/base/bits.hpp>
 #include <gale/baselines/lower_triangles.hpp>
+#include <gale/mesh/mesh.hpp>
 
 namespace gale::detail {
 

@@ -212,7 +212,7 @@ class Mesh::Data {
     return permutations_;
   }
 
-  bool on_device() const { return divided_.vertex_begin.on_device(); }
+  bool on_device() const { return divided_.internal_begin.on_device(); }
 
   const std::string notice;
   const std::shared_ptr<const Exchange> exchange;  ///< of a part

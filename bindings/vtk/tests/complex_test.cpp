@@ -18,11 +18,11 @@
 namespace gale::test {
 namespace {
 
-constexpr int n = 11;
+constexpr int side = 11;  // vertices of the grid along each axis
 
 class ComplexFilter : public testing::Test {
  protected:
-  ComplexFilter() : dataset_(synthetic(n)), grid_(grid_of(dataset_)), mesh_(mesh_of(dataset_)) {}
+  ComplexFilter() : dataset_(synthetic(side)), grid_(grid_of(dataset_)), mesh_(mesh_of(dataset_)) {}
 
   static Mesh mesh_of(const io::Dataset& dataset) {
     return make_mesh(std::get<io::Dataset::Points<float>>(dataset.points), dataset.tetrahedra);
@@ -120,7 +120,7 @@ TEST_F(ComplexFilter, SegmentsOfTheMesh) {
   double range[2];
   segments->GetOutput()->GetPointData()->GetArray(outputs::segments_name)->GetRange(range);
   EXPECT_GE((range[1] + 1) * 20, grid_->GetNumberOfPoints());
-  segments->SetInputDataObject(image_of(dataset_, n));
+  segments->SetInputDataObject(image_of(dataset_, side));
   segments->Update();
   EXPECT_EQ(segments->GetOutput()->GetNumberOfCells(), grid_->GetNumberOfCells());
 }

@@ -7,6 +7,7 @@
 #include <gale/algorithms/links/large_link.hpp>
 #include <gale/algorithms/links/small_link.hpp>
 #include <gale/base/bits.hpp>
+#include <gale/mesh/mesh.hpp>
 
 namespace gale::detail {
 
