@@ -97,6 +97,29 @@ struct SingleKey {
 
 }  // namespace detail
 
+/// Groups whose members have been counted, and are yet to be placed.
+template <class Index, class Memory>
+struct CountedGroups {
+  Array<Index, Memory> begin;  ///< where each group begins, and the end of the last, once all its members are placed
+  Array<Index, Memory> next;   ///< the place of each group's next member: adding to it takes that
+  Index members;               ///< how many there are in all
+};
+
+/// Counts the members of groups (see group_by) with atomics.
+template <class Index, class Space, class VisitKeys>
+CountedGroups<Index, typename Space::memory_space> count_groups(const std::string& label, const Space& space,
+                                                                Offset items, Offset keys,
+                                                                const VisitKeys& visit_keys) {
+  using Indices = Array<Index, typename Space::memory_space>;
+  // One entry ahead of `begin`: placing moves the start of each group to its end, which is the next group's start.
+  const auto all = allocate<Indices>(label, keys + 2);
+  Kokkos::deep_copy(all, Index(0));
+  const Indices next = Kokkos::subview(all, std::make_pair(Offset(1), keys + 2));
+  parallel_for((label + "_count").c_str(), space, items, detail::CountMembers<Indices, VisitKeys>{visit_keys, next});
+  const Index total = exclusive_scan((label + "_scan").c_str(), space, keys, next, detail::MemberCount<Indices>{next});
+  return {Kokkos::subview(all, std::make_pair(Offset(0), keys + 1)), next, total};
+}
+
 /// Groups the items 0..items-1 by keys 0..keys-1: row k has the items of key k, in no order. `visit_keys(item, visit)`
 /// calls visit(key) for each key of an item, of which there may be any number; it is called twice for each item, with
 /// the same keys both times. On a device it is a functor whose call operator is a template, as nvcc has no generic
@@ -115,18 +138,11 @@ Csr<Id, typename Space::memory_space, Index> group_by(const char* label, const S
     if (parts == 1 || parts * keys <= items)
       return detail::group_by_parts<Index>(label, items, keys, parts, visit_keys);
   }
-  // One entry ahead of `begin`: filling moves the start of each group to its end, which is the next group's start.
-  const auto all = allocate<Indices>(label, keys + 2);
-  Kokkos::deep_copy(all, Index(0));
-  const Indices next = Kokkos::subview(all, std::make_pair(Offset(1), keys + 2));
-  parallel_for((std::string(label) + "_count").c_str(), space, items,
-               detail::CountMembers<Indices, VisitKeys>{visit_keys, next});
-  const Index total =
-      exclusive_scan((std::string(label) + "_scan").c_str(), space, keys, next, detail::MemberCount<Indices>{next});
-  const auto members = allocate<Members>(label, total);
+  const auto counted = count_groups<Index>(label, space, items, keys, visit_keys);
+  const auto members = allocate<Members>(label, counted.members);
   parallel_for((std::string(label) + "_fill").c_str(), space, items,
-               detail::FillGroups<Indices, Members, VisitKeys>{visit_keys, next, members});
-  return {Kokkos::subview(all, std::make_pair(Offset(0), keys + 1)), members};
+               detail::FillGroups<Indices, Members, VisitKeys>{visit_keys, counted.next, members});
+  return {counted.begin, members};
 }
 
 /// Groups items that have one key each: `key_of(item)`.

@@ -76,6 +76,10 @@ struct HostThreads {
 template <class Memory>
 inline constexpr bool is_device_memory = !Kokkos::SpaceAccessibility<Kokkos::HostSpace, Memory>::accessible;
 
+/// The space of GALE's that works in `Memory`.
+template <class Memory>
+using SpaceOf = std::conditional_t<is_device_memory<Memory>, WorkerSpace, HostExecutionSpace>;
+
 /// Whether `Space` runs somewhere else than on the host's threads.
 template <class Space>
 inline constexpr bool is_device = is_device_memory<typename Space::memory_space>;

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <gale/base/rank_rows.hpp>
 #include <gale/base/sort.hpp>
 
 #include "support/arrays.hpp"
@@ -89,6 +90,44 @@ TEST(StableSortByKey, of_one_digit_anywhere) {
 
 TEST(StableSortByKey, treats_keys_as_unsigned) {
   expect_stable_sort({~std::uint64_t(0), 0, std::uint64_t(1) << 63, 1});
+}
+
+/// Keys of rows, and what stands beside them.
+struct KeyedEntries {
+  struct Entry {
+    int key, place;
+    bool operator<(const Entry& other) const { return key < other.key; }
+  };
+  Entry* all;
+
+  Entry load(Offset i) const { return all[i]; }
+  void store(Offset i, const Entry& entry) const { all[i] = entry; }
+};
+
+TEST(RankRows, puts_rows_in_order_together_one_by_one_or_by_a_thread) {
+  std::mt19937 random(5);
+  constexpr int capacity = 40;
+  std::vector<Offset> begin = {0};
+  std::vector<KeyedEntries::Entry> entries;
+  for (const int length : {3, 0, 7, 1, 12, 20, 39, 40, 41, 2, 300, 5, 0, 17, 40, 40, 0})
+    begin.push_back(begin.back() + length);
+  for (int i = 0; i < begin.back(); ++i) entries.push_back({static_cast<int>(random() % 50), i});
+  const auto rows = static_cast<Offset>(begin.size()) - 1;
+  for (const int rows_of_team : {1, 4, 100}) {
+    auto ranked = entries, expected = entries;
+    detail::rank_rows(
+        "test_rank", HostExecutionSpace(),
+        detail::RankRows<Offset, KeyedEntries>{{ranked.data()}, begin.data(), rows, rows_of_team, capacity});
+    for (Offset row = 0; row < rows; ++row) {
+      const auto first = expected.begin() + begin[row], last = expected.begin() + begin[row + 1];
+      std::stable_sort(first, last);
+      const bool stands_alone = begin[row + 1] - begin[row] > capacity;
+      for (Offset i = begin[row]; i < begin[row + 1]; ++i) {
+        EXPECT_EQ(ranked[i].key, expected[i].key) << "row " << row;
+        if (!stands_alone) EXPECT_EQ(ranked[i].place, expected[i].place) << "row " << row;
+      }
+    }
+  }
 }
 
 TEST(SortRows, of_nothing) {

@@ -80,6 +80,8 @@ TEST_P(MeshOf, every_input_has_its_counts) {
   EXPECT_EQ(mesh.segments(), segmentation().segments());
 }
 
+TEST_P(MeshOf, every_input_lies_where_the_workers_are) { EXPECT_EQ(mesh.on_device(), have_device); }
+
 TEST_P(MeshOf, every_input_numbers_vertices_by_the_segmentation) {
   const auto vertex_input = to_vector(mesh.vertex_input());
   EXPECT_EQ(vertex_input, to_vector(segmentation().vertex_input));

@@ -1,6 +1,8 @@
 #include <algorithm>
 
+#include <gale/base/atomic.hpp>
 #include <gale/base/error.hpp>
+#include <gale/base/parallel.hpp>
 #include <gale/mesh/cells/cell_messages.hpp>
 #include <gale/mesh/cells/split_cell.hpp>
 
@@ -24,13 +26,43 @@ std::string list_of(const Census& census, const IsWanted& is_wanted) {
   return list;
 }
 
+/// Counts the types of a piece of the cells, those of one type that follow each other at once.
+template <class Memory>
+struct CountTypes {
+  Array<const std::uint8_t, Memory> types;
+  Array<Offset, Memory> counts;
+  Offset cells_of_piece;
+
+  KOKKOS_FUNCTION void operator()(Offset piece) const {
+    const Offset cells = types.extent(0),
+                 end = (piece + 1) * cells_of_piece < cells ? (piece + 1) * cells_of_piece : cells;
+    for (Offset cell = piece * cells_of_piece; cell < end;) {
+      const int type = types(cell);
+      const Offset first = cell;
+      while (cell < end && types(cell) == type) ++cell;
+      atomic_add(&counts(type), cell - first);
+    }
+  }
+};
+
 }  // namespace
 
-Census census_of(const Array<const std::uint8_t, HostMemory>& types) {
-  Census census{};
-  for (std::size_t cell = 0; cell < types.extent(0); ++cell) ++census[types(cell)];
+template <class Memory>
+Census census_of(const Array<const std::uint8_t, Memory>& types) {
+  constexpr Offset cells_of_piece = 256;
+  const Offset pieces = (static_cast<Offset>(types.extent(0)) + cells_of_piece - 1) / cells_of_piece;
+  const Array<Offset, Memory> counts("GALE::census", std::tuple_size_v<Census>);
+  parallel_for("GALE::census", SpaceOf<Memory>(), pieces, CountTypes<Memory>{types, counts, cells_of_piece});
+  const auto counted = Kokkos::create_mirror_view_and_copy(HostMemory(), counts);
+  Census census;
+  std::copy_n(counted.data(), census.size(), census.begin());
   return census;
 }
+
+template Census census_of(const Array<const std::uint8_t, HostMemory>&);
+#if defined(GALE_HAS_DEVICE)
+template Census census_of(const Array<const std::uint8_t, WorkerMemory>&);
+#endif
 
 void refuse_cell(Offset cell, int number, Offset begin, Offset end, Offset connectivity, Offset points,
                  const CellRules& rules, const std::vector<std::int64_t>& entries) {

@@ -16,8 +16,9 @@ namespace gale::detail {
 /// How many cells there are of each type, by VTK's number.
 using Census = std::array<Offset, 256>;
 
-/// Counts cells by their types.
-Census census_of(const Array<const std::uint8_t, HostMemory>& types);
+/// Counts cells by their types, where these are.
+template <class Memory>
+Census census_of(const Array<const std::uint8_t, Memory>& types);
 
 /// Says what is wrong with a cell that is bad: it is of that type, from `begin` to `end` in a connectivity of so many
 /// entries. `entries` are its own, as far as there are any.

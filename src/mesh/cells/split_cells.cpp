@@ -11,9 +11,6 @@ namespace detail {
 
 namespace {
 
-template <class Memory>
-using SpaceOf = std::conditional_t<is_device_memory<Memory>, WorkerSpace, HostExecutionSpace>;
-
 /// Entries of a cell: places among them are Ids.
 constexpr Offset most_entries = 0x7fffffff;
 
@@ -227,7 +224,7 @@ SplitCells<Corners, Memory> split_into(const Cells<Index, Memory>& cells, Offset
   parallel_for(
       "GALE::write_simplices", space, count,
       WriteSimplices<Splitter, Counts, Simplices, Array<Id, Memory>>{splitter, begin, result.simplices, result.cells});
-  result.notices = notices_of_split(census_of(on_host(cells.types)), total, Corners);
+  result.notices = notices_of_split(census_of(cells.types), total, Corners);
   wait_for(space, "GALE::split_cells");
   return result;
 }

@@ -1,6 +1,7 @@
 #include <gale/base/group_by.hpp>
 #include <gale/base/ordered.hpp>
 #include <gale/base/parallel.hpp>
+#include <gale/base/rank_rows.hpp>
 #include <gale/base/sort.hpp>
 #include <gale/mesh/encode/cells.hpp>
 
@@ -31,42 +32,17 @@ struct Entry {
   }
 };
 
-template <class Memory>
-KOKKOS_FUNCTION Entry load(const SortedCells<Memory>& sorted, Id t) {
-  return {sorted.of_lowest.entries(t), sorted.input(t)};
-}
+/// The cells that are sorted, as RankRows reads and writes them.
+struct CellEntries {
+  Quad* vertices;
+  Id* input;
 
-template <class Memory>
-KOKKOS_FUNCTION void store(const SortedCells<Memory>& sorted, Id t, const Entry& entry) {
-  sorted.of_lowest.entries(t) = entry.vertices;
-  sorted.input(t) = entry.input;
-}
-
-/// Writes the cells of one lowest vertex in order; sorted.input has them in any. Some six of them, so by
-/// insertion; a heap where they are many. Returns whether they are good.
-template <int corners, class Index, class Memory>
-KOKKOS_FUNCTION bool write_in_order(const SortedCells<Memory>& sorted, const Renumbered<corners, Index>& input,
-                                    Id begin, Id end) {
-  constexpr Id many = 64;
-  const bool by_insertion = end - begin <= many;
-  for (Id t = begin; t < end; ++t) {
-    const Id from = sorted.input(t);
-    const Entry entry{input[from], from};
-    Id to = t;
-    for (; by_insertion && to > begin; --to) {
-      const Entry before = load(sorted, to - 1);
-      if (!(entry < before)) break;
-      store(sorted, to, before);
-    }
-    store(sorted, to, entry);
+  KOKKOS_FUNCTION Entry load(Offset t) const { return {vertices[t], input[t]}; }
+  KOKKOS_FUNCTION void store(Offset t, const Entry& entry) const {
+    vertices[t] = entry.vertices;
+    input[t] = entry.input;
   }
-  if (!by_insertion) {
-    heap_sort(
-        end - begin, [&](Id i) { return load(sorted, begin + i); },
-        [&](Id i, const Entry& entry) { store(sorted, begin + i, entry); });
-  }
-  return are_good<corners>(sorted.of_lowest.entries.data(), begin, end);
-}
+};
 
 }  // namespace
 
@@ -77,15 +53,25 @@ SortedCells<MemoryOf<Space>> sort_cells_by_vertices(const Space& space,
   using Memory = MemoryOf<Space>;
   const Offset vertices = vertex_internal.extent(0), count = given.extent(0);
   const Renumbered<corners, Index> input(given, vertex_internal);
-  const auto of_lowest = group_by<Id>("GALE::cells", space, count, vertices, LowestVertex<corners, Index>{input});
-  if (static_cast<Offset>(of_lowest.entries.extent(0)) < count)
-    refuse_cells<corners, Space, Index>(space, given, {}, vertices);
-  const SortedCells<Memory> sorted{{of_lowest.offsets, allocate<Array<Quad, Memory>>("GALE::sorted_cells", count)},
-                                   of_lowest.entries};
-  const auto begin = of_lowest.offsets;
+  const auto counted = count_groups<Id>("GALE::cells", space, count, vertices, LowestVertex<corners, Index>{input});
+  if (counted.members < count) refuse_cells<corners, Space, Index>(space, given, {}, vertices);
+  const SortedCells<Memory> sorted{{counted.begin, allocate<Array<Quad, Memory>>("GALE::sorted_cells", count)},
+                                   allocate<Array<Id, Memory>>("GALE::cell_input", count)};
+  const CellEntries cells{sorted.of_lowest.entries.data(), sorted.input.data()};
+  const auto next = counted.next;
+  parallel_for(
+      "GALE::cells_fill", space, count, KOKKOS_LAMBDA(Offset t) {
+        const Quad quad = input[t];
+        cells.store(atomic_add(&next(quad.a), Id(1)), {quad, static_cast<Id>(t)});
+      });
+  // Some six cells a vertex: twice as many as come to that have room together.
+  constexpr int vertices_of_team = 16, cells_of_team = 256;
+  const auto begin = counted.begin;
+  rank_rows("GALE::sort_cells", space,
+            RankRows<Id, CellEntries>{cells, begin.data(), vertices, vertices_of_team, cells_of_team});
   const int good = reduce_min(
-      "GALE::sort_cells", space, vertices, 1,
-      KOKKOS_LAMBDA(Offset v) { return write_in_order(sorted, input, begin(v), begin(v + 1)) ? 1 : 0; });
+      "GALE::check_cells", space, vertices, 1,
+      KOKKOS_LAMBDA(Offset v) { return are_good<corners>(cells.vertices, begin(v), begin(v + 1)) ? 1 : 0; });
   if (good == 0) refuse_cells<corners, Space, Index>(space, given, sorted, vertices);
   return sorted;
 }

@@ -48,7 +48,7 @@ class SegmentKernel {
   std::size_t scratch_bytes(const StarSizes& sizes, int warps) const;
 
   /// The space that works in `Memory`.
-  using Space = std::conditional_t<is_device_memory<Memory>, WorkerSpace, HostExecutionSpace>;
+  using Space = SpaceOf<Memory>;
 
   /// On `teams` teams (see `gale::launch`).
   void launch(const Space& instance, const KernelTask& task, int teams, TeamShape shape);

@@ -18,7 +18,7 @@ GALE_EXPORT void require_sweep(RelationSet relations, const DeviceSweepOptions& 
 template <class Memory>
 class GALE_EXPORT BatchSweep {
  public:
-  using Space = std::conditional_t<is_device_memory<Memory>, WorkerSpace, HostExecutionSpace>;
+  using Space = SpaceOf<Memory>;
 
   /// A batch that was launched: what reads its blocks is to be enqueued on `instance`, and leaves out segments that
   /// aren't there; they come again in a later batch.
