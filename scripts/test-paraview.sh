@@ -1,24 +1,36 @@
 #!/bin/bash
-# Builds the plugin in a throw-away root with Debian 12's ParaView, which brings a VTK of its own, and runs its tests there
-# in pvbatch. Needs root and debootstrap; says why where it skips. What it can set up must pass.
-#   usage: scripts/test-paraview.sh [--keep ROOT]   with --keep: make the root there, or take the one that is there, and leave it
+# Builds the plugin in a throw-away root with Debian's ParaView, and runs its tests there in pvbatch: with that of Debian 12,
+# which brings a VTK of its own, or with sid's, on sid's VTK, where the filters' own tests are run as well. Needs root and
+# debootstrap; says why where it skips. What it can set up must pass.
+#   usage: scripts/test-paraview.sh [--sid] [--keep ROOT]   with --keep: make the root there, or take the one that is there,
+#                                                           and leave it
 set -euo pipefail
 source_dir=$(cd "$(dirname "$0")/.." && pwd)
 . "$source_dir/scripts/throw_away_root.sh"
 export DEBIAN_FRONTEND=noninteractive LC_ALL=C
 
 keep=
-if [ $# = 2 ] && [ "$1" = --keep ]; then
-  keep=$2
-elif [ $# != 0 ]; then
-  echo "usage: $0 [--keep ROOT]" >&2
-  exit 2
-fi
+release=bookworm
+while [ $# != 0 ]; do
+  case "$1" in
+    --sid) release=sid ;;
+    --keep) keep=${2:?$1 wants a folder} && shift ;;
+    *) echo "usage: $0 [--sid] [--keep ROOT]" >&2; exit 2 ;;
+  esac
+  shift
+done
 
 # paraview-dev leaves out what its own CMake files look for: from libdouble-conversion-dev on.
 packages=(paraview-dev python3-paraview xvfb xauth libgl1-mesa-dri cmake g++ ninja-build libtrilinos-kokkos-dev libcli11-dev
   nlohmann-json3-dev libgtest-dev python3-dev libdouble-conversion-dev libexpat1-dev libfreetype-dev libgl-dev libglew-dev
-  liblz4-dev liblzma-dev libopenmpi-dev qtbase5-dev zlib1g-dev)
+  liblz4-dev liblzma-dev libopenmpi-dev zlib1g-dev)
+filters=()
+if [ "$release" = sid ]; then
+  packages+=(libvtk9-dev qt6-base-dev)
+  filters=(-DGALE_ENABLE_VTK_FILTERS=ON)
+else
+  packages+=(qtbase5-dev)
+fi
 
 unable=$(why_no_root)
 [ -z "$unable" ] || { echo "SKIPPED ParaView: $unable"; exit 0; }
@@ -37,7 +49,7 @@ trap clean_up EXIT
 
 if [ -e "$root/usr/bin/pvbatch" ]; then
   mount -t proc proc "$root/proc"
-elif ! make_root "$root" bookworm "${packages[@]}" >"$work/log" 2>&1; then
+elif ! make_root "$root" "$release" "${packages[@]}" >"$work/log" 2>&1; then
   echo "SKIPPED ParaView: a root cannot be set up: $(tail -n 1 "$work/log")"
   exit 0
 fi

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <gale/base/error.hpp>
 #include <gale/base/kokkos.hpp>
@@ -22,6 +23,14 @@ namespace detail {
 GALE_EXPORT void advise_huge_pages(void* data, std::size_t bytes);
 
 }  // namespace detail
+
+/// Makes room for so many entries, in huge pages where those of `allocate` are: to fault in small ones costs some
+/// systems more than to write what is in them.
+template <class T>
+void reserve(std::vector<T>& entries, std::size_t count) {
+  entries.reserve(count);
+  if constexpr (have_device) detail::advise_huge_pages(entries.data(), count * sizeof(T));
+}
 
 /// The first entries of an array.
 template <class View>

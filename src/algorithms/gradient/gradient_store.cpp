@@ -14,7 +14,9 @@ std::vector<T> merged(const std::vector<ConsumerFound>& parts, HostList<T> Found
                       const Key& key) {
   std::size_t count = 0;
   for (const auto& part : parts) count += (part.*member).size();
-  std::vector<std::pair<decltype(key(T())), T>> keyed(count);
+  std::vector<std::pair<decltype(key(T())), T>> keyed;
+  reserve(keyed, count);
+  keyed.resize(count);
   Offset begin = 0;
   for (const auto& part : parts) {
     const std::vector<T>& own = part.*member;
@@ -25,7 +27,9 @@ std::vector<T> merged(const std::vector<ConsumerFound>& parts, HostList<T> Found
   }
   parallel_sort("GALE::sort_critical", keyed.begin(), keyed.end(),
                 [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::vector<T> all(count);
+  std::vector<T> all;
+  reserve(all, count);
+  all.resize(count);
   parallel_for("GALE::critical", HostExecutionSpace(), count, [&](Offset i) { all[i] = keyed[i].second; });
   return all;
 }
@@ -99,6 +103,8 @@ void GradientStore::finish() {
   std::sort(further_successors.begin(), further_successors.end());
   found_.clear();
   critical.dimension = mesh.dimension();
+  reserve(critical.star, stars.size());
+  reserve(critical.star_begin, 1 + (mesh.dimension() == 3 ? critical.triangles.size() : critical.edges.size()));
   auto next = stars.begin();
   const auto add_star = [&](const std::array<Id, 3>& facet) {
     for (; next != stars.end() && next->simplex == facet; ++next) critical.star.push_back(next->cell);

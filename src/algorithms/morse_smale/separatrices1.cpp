@@ -62,6 +62,7 @@ Separatrices<Id> paths_of(const Followed& followed, const std::vector<Id>& sourc
   paths.sources.resize(paths_there);
   paths.destinations.resize(paths_there);
   paths.begin.resize(paths_there + 1);
+  reserve(paths.cells, followed.entries.extent(0));
   paths.cells.assign(followed.entries.data(), followed.entries.data() + followed.entries.extent(0));
   parallel_for("GALE::name_paths", HostExecutionSpace(), count, [&](Offset i) {
     if (!is_there(i)) return;
@@ -120,6 +121,8 @@ Separatrices<Id> paths_from(const Mirrored<Id>& successors, const PathStarts& st
 PathStarts descending_starts(const Mesh& mesh, const CriticalSimplices& critical) {
   const OtherIds input = mesh.vertices_in_input();
   PathStarts starts;
+  reserve(starts.simplices, 2 * critical.edges.size());
+  reserve(starts.sources, 2 * critical.edges.size());
   for (std::size_t i = 0; i < critical.edges.size(); ++i) {
     const auto [a, b] = critical.edges[i];
     const bool in_order = input[a] < input[b];
@@ -131,6 +134,7 @@ PathStarts descending_starts(const Mesh& mesh, const CriticalSimplices& critical
 
 PathStarts ascending_starts(const CriticalSimplices& critical) {
   PathStarts starts{critical.star, {}};
+  reserve(starts.sources, critical.star.size());
   for (std::size_t i = 0; i + 1 < critical.star_begin.size(); ++i)
     starts.sources.insert(starts.sources.end(), critical.star_begin[i + 1] - critical.star_begin[i],
                           static_cast<Id>(i));

@@ -40,7 +40,10 @@ class DeviceList {
   std::vector<T> to_host() const {
     const auto size = std::min(static_cast<std::size_t>(count()), items_.extent(0));
     const auto there = on_host(first_of(items_, size));
-    return {there.data(), there.data() + size};
+    std::vector<T> items;
+    reserve(items, size);
+    items.assign(there.data(), there.data() + size);
+    return items;
   }
 
  private:
