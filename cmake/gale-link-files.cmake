@@ -91,3 +91,18 @@ function(gale_file_of variable target)
     endif()
   endforeach()
 endfunction()
+
+# gale_define_for_all_languages(<target>): gives what a target and all that it links define for C++ alone to all languages:
+# Kokkos has such a definition, and newer VTKs write a module's definitions to one file for all.
+function(gale_define_for_all_languages target)
+  gale_closure(targets ${target})
+  foreach(one IN LISTS targets)
+    if(TARGET ${one})
+      get_target_property(definitions ${one} INTERFACE_COMPILE_DEFINITIONS)
+      if(definitions)
+        string(REGEX REPLACE "\\$<\\$<COMPILE_LANGUAGE:CXX>:([A-Za-z0-9_]+)>" "\\1" definitions "${definitions}")
+        set_property(TARGET ${one} PROPERTY INTERFACE_COMPILE_DEFINITIONS ${definitions})
+      endif()
+    endif()
+  endforeach()
+endfunction()
