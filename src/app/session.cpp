@@ -39,12 +39,14 @@ OnExcerpt::OnExcerpt(const Mesh& excerpt, const FieldOnMesh& on) : on_(on), is_e
   field_ = outputs::array_of(excerpt, on.mesh, on.field);
 }
 
-Session::Session(const InputOptions& input, const CommonOptions& common, std::vector<std::string> files)
+Session::Session(const InputOptions& input, const CommonOptions& common, std::vector<std::string> files,
+                 Outputs outputs)
     : input_(input),
       common_(common),
       ranks_(Launch::ranks()),
       has_outputs_(std::any_of(files.begin(), files.end(), [](const auto& file) { return !file.empty(); })),
       is_series_(input.is_series()),
+      numbers_files_(is_series_ && outputs == Outputs::of_each_step),
       console_(common.quiet || !Launch::is_first()),
       files_(common.encoding) {
   report_.input = input.inputs.front();
@@ -59,12 +61,12 @@ Session::Session(const InputOptions& input, const CommonOptions& common, std::ve
     };
     for (const io::Step& step : steps_) inputs.push_back(step.file);
     for (const std::string& file : files) {
-      for (std::size_t step = 0; step < steps_.size(); ++step) {
-        const std::string here = is_series_ ? name_of_step(file, step) : file;
+      for (std::size_t step = 0; step < (numbers_files_ ? steps_.size() : 1); ++step) {
+        const std::string here = numbers_files_ ? name_of_step(file, step) : file;
         add(here, 0);
         for (int rank = 0; rank < ranks_.size() && has_pieces(here); ++rank) add(piece_of(here, rank), rank);
       }
-      if (is_series_ && !name_of_series(file).empty()) add(name_of_series(file), 0);
+      if (numbers_files_ && !name_of_series(file).empty()) add(name_of_series(file), 0);
     }
     if (!common.report.empty()) add(common.report, 0);
     if (Launch::is_first()) require_distinct(all, inputs);
@@ -250,7 +252,7 @@ void Session::finish(const StructureOption& option, const Computed& computed) {
 }
 
 std::string Session::named(const std::string& path) {
-  if (!is_series_) return path;
+  if (!numbers_files_) return path;
   const std::string name = name_of_step(path, step_), series = name_of_series(path);
   if (!series.empty()) series_[series].push_back({steps_[step_].time, fs::path(name).filename().string()});
   return name;
@@ -346,7 +348,7 @@ void Session::appear(std::size_t results) {
     detail::together(ranks_, [&] {
       for (std::size_t i = 0; i < results; ++i) {
         const std::string& name = files_.all()[i]->path();
-        if (!is_series_ || name_of_series(name).empty()) console_.say("wrote", name);
+        if (!numbers_files_ || name_of_series(name).empty()) console_.say("wrote", name);
       }
     });
   };

@@ -66,8 +66,11 @@ class Session {
  public:
   /// Finds out before the work whether its `files` and the report, each if it isn't empty, can be written. Throws
   /// gale::Error for one that can't; UsageError if two of them, or one and the input, are the same file. On several
-  /// ranks `files` are those that name the pieces. `common` must outlive the session.
-  Session(const InputOptions& input, const CommonOptions& common, std::vector<std::string> files = {});
+  /// ranks `files` are those that name the pieces. Of a series there is one of each for each step, or for all.
+  /// `common` must outlive the session.
+  enum class Outputs { of_each_step, of_all_steps };
+  Session(const InputOptions& input, const CommonOptions& common, std::vector<std::string> files = {},
+          Outputs outputs = Outputs::of_each_step);
 
   const Ranks& ranks() const { return ranks_; }
   const Console& console() const { return console_; }
@@ -113,6 +116,9 @@ class Session {
   /// result, which is none from here on, and begins the next one, if there is one: what is read and written then is its
   /// own. Returns whether there is.
   bool next_step(const Computed& computed);
+
+  /// The time of this step.
+  double time() const { return steps_[step_].time; }
 
   /// Writes make(), points, lines or a piece of a mesh, unless the path is empty: on several ranks a piece of each, and
   /// the file that names these. All files appear when the session finishes.
@@ -199,6 +205,7 @@ class Session {
   const Ranks& ranks_;
   const bool has_outputs_;  ///< beside the report
   const bool is_series_;
+  const bool numbers_files_;  ///< each step has its own
   std::vector<io::Step> steps_;
   std::size_t step_ = 0;
   Console console_;

@@ -130,7 +130,7 @@ Fates brute_fates(const InputMesh& mesh, const std::vector<Values>& fields, doub
       const double level = fields[t][vertex] + persistence - threshold;
       bool stands = false;
       for (Id v = 0; v < mesh.vertices(); ++v)
-        stands |= steps[t].minimum_of[v] == vertex && std::max(fields[t][v], fields[t + 1][v]) <= level;
+        stands |= steps[t].minimum_of[v] == vertex && std::max(fields[t][v], fields[t + 1][v]) < level;
       if (steps[t].minimum_of[next] == vertex) {
         fate.vertex = next;
       } else {

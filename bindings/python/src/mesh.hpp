@@ -49,12 +49,12 @@ class PyMesh : public Kept {
                    const std::map<std::string, std::string>& choices, const std::map<std::string, int>& numbers,
                    int threads, const nb::object& progress) const;
 
- private:
   const Mesh& mesh() const;
 
   /// The points with the field as their array.
   io::Dataset with(io::PointArray field) const;
 
+ private:
   int capacity_;
   io::Dataset dataset_;  ///< the points alone
   std::optional<Mesh> mesh_;

@@ -13,11 +13,13 @@
 
 #include "mesh.hpp"
 #include "process.hpp"
+#include "tracker.hpp"
 
 NB_MODULE(_gale, module) {
   namespace nb = nanobind;
   using namespace nb::literals;
   using gale::python::PyMesh;
+  using gale::python::PyTracker;
 
   nb::set_leak_warnings(false);  // what users keep until the end is no fault of theirs
   static nb::exception<gale::Error> error(module, "Error", PyExc_ValueError);
@@ -65,4 +67,10 @@ NB_MODULE(_gale, module) {
       .def("relation", &PyMesh::relation, "name"_a, "threads"_a, "progress"_a.none())
       .def("analyse", &PyMesh::analyse, "analysis"_a, "field"_a, "name"_a, "flags"_a, "thresholds"_a, "choices"_a,
            "numbers"_a, "threads"_a, "progress"_a.none());
+
+  nb::class_<PyTracker>(module, "Tracker")
+      .def(nb::init<>())
+      .def("add", &PyTracker::add, "time"_a, "mesh"_a, "field"_a, "name"_a, "threshold"_a, "threads"_a,
+           "progress"_a.none())
+      .def("found", &PyTracker::found);
 }

@@ -43,7 +43,7 @@ struct ExtremumTracker::Step {
         if (place == no_id || asked[place] == 0) continue;
         const double side = is_maximum ? 1 : -1;
         const double level = side * extrema[place].value - extrema[place].persistence + threshold;
-        if (side * value(vertex) >= level && side * other.value(vertex) >= level) atomic_write(&stand[place], 1);
+        if (side * value(vertex) > level && side * other.value(vertex) > level) atomic_write(&stand[place], 1);
       }
     });
     return stand;
