@@ -45,15 +45,16 @@ Session::Session(const InputOptions& input, const CommonOptions& common, std::ve
       common_(common),
       ranks_(Launch::ranks()),
       has_outputs_(std::any_of(files.begin(), files.end(), [](const auto& file) { return !file.empty(); })),
-      is_series_(input.is_series()),
-      numbers_files_(is_series_ && outputs == Outputs::of_each_step),
       console_(common.quiet || !Launch::is_first()),
       files_(common.encoding) {
   report_.input = input.inputs.front();
   report_.threads = host_threads();
   files.erase(std::remove(files.begin(), files.end(), ""), files.end());
   detail::together(ranks_, [&] {
-    steps_ = input.steps();
+    InputOptions::Steps steps = input.steps();
+    is_series_ = steps.are_series;
+    numbers_files_ = is_series_ && outputs == Outputs::of_each_step;
+    steps_ = std::move(steps.all);
     std::vector<std::string> all, mine, inputs = input.inputs;
     const auto add = [&](const std::string& file, int writer) {
       all.push_back(file);
@@ -73,7 +74,7 @@ Session::Session(const InputOptions& input, const CommonOptions& common, std::ve
     for (const std::string& file : mine) io::AtomicFiles().add(file);  // throws if it can't be made there now
     input_.read.outputs = std::move(all);
   });
-  input_.input = steps_.front().file;
+  begin_reading();
 }
 
 void Session::say_input() {
@@ -90,8 +91,13 @@ bool Session::next_step(const Computed& computed) {
   report_.add_step(steps_[step_], now - seconds_before_);
   seconds_before_ = now;
   if (++step_ == steps_.size()) return false;
-  input_.input = steps_[step_].file;
+  begin_reading();
   return true;
+}
+
+void Session::begin_reading() {
+  input_.input = steps_[step_].file;
+  input_.read.time = steps_[step_].at;
 }
 
 void Session::warm_up(const StructureOption& option, std::function<void(const VertexOrder&)> run) {

@@ -120,6 +120,9 @@ class Session {
   /// The time of this step.
   double time() const { return steps_[step_].time; }
 
+  /// Whether the input is a series.
+  bool is_series() const { return is_series_; }
+
   /// Writes make(), points, lines or a piece of a mesh, unless the path is empty: on several ranks a piece of each, and
   /// the file that names these. All files appear when the session finishes.
   template <class Make>
@@ -172,6 +175,9 @@ class Session {
   io::Dataset read_any();
   Mesh encode_anew(io::Dataset& dataset, const SegmentationOptions& segmentation);
 
+  /// Chooses what this step reads.
+  void begin_reading();
+
   /// Says what was read.
   void say_input();
 
@@ -204,8 +210,8 @@ class Session {
   const CommonOptions& common_;
   const Ranks& ranks_;
   const bool has_outputs_;  ///< beside the report
-  const bool is_series_;
-  const bool numbers_files_;  ///< each step has its own
+  bool is_series_ = false;
+  bool numbers_files_ = false;  ///< each step has its own
   std::vector<io::Step> steps_;
   std::size_t step_ = 0;
   Console console_;

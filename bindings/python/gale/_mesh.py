@@ -455,7 +455,8 @@ def read(path: Path, above: Optional[float] = None, array: str = "", cells: str 
 def read_steps(inputs: Union[Path, Sequence[Path]], above: Optional[float] = None, array: str = "", cells: str = "any",
                outside_files: bool = False, capacity: int = 64) -> Iterator[Tuple[float, Mesh, Dict[str, np.ndarray]]]:
     """The steps of a series, each read when it is asked for: (time, Mesh, point arrays) as of `read`, whose other
-    arguments these are. `inputs` is a .pvd or .series, or several files, whose times are 0, 1, 2 and so on.
+    arguments these are. `inputs` is a .pvd or .series, an Exodus or VTKHDF file, whose times are the steps, or several
+    files, whose times are 0, 1, 2 and so on.
 
     A mesh that has the same cells as the step before is not made again, but shares what that one has:
 
@@ -463,8 +464,8 @@ def read_steps(inputs: Union[Path, Sequence[Path]], above: Optional[float] = Non
     ...     print(time, mesh.critical_points(arrays["pressure"]).counts())"""
     paths = [inputs] if isinstance(inputs, (str, os.PathLike)) else list(inputs)
     before = None
-    for time, place in _gale.steps_of([_place(path) for path in paths], outside_files):
-        before, arrays, cell_ids = _read(os.fsdecode(place), above, array, cells, outside_files, capacity, before)
+    for time, place, at in _gale.steps_of([_place(path) for path in paths], outside_files):
+        before, arrays, cell_ids = _read(os.fsdecode(place), above, array, cells, outside_files, capacity, before, at)
         yield time, Mesh._of(before, cell_ids), arrays
 
 
@@ -496,12 +497,12 @@ def _place(path: Path) -> bytes:
 
 
 def _read(path: Path, above: Optional[float], array: str, cells: str, outside_files: bool, capacity: int,
-          like: Optional[_gale.Mesh]) -> Tuple[_gale.Mesh, Dict[str, np.ndarray], Optional[np.ndarray]]:
+          like: Optional[_gale.Mesh], time: Optional[int] = None) -> Tuple[_gale.Mesh, Dict[str, np.ndarray], Optional[np.ndarray]]:
     """A file's mesh, its point arrays and its cells' global ids."""
     if not isinstance(cells, str) or cells not in ("any", "simplices", "tetrahedra"):
         raise Error(f"cells are {cells!r}, neither 'any' nor 'simplices'")
     inner, arrays, cell_arrays, notices = _gale.read(_place(path), above, array, cells != "any", outside_files, capacity,
-                                                     like)
+                                                     like, time)
     name = os.fsdecode(path)
     if array and array not in arrays:
         raise Error(f"{name} has no point array '{array}': it has {', '.join(arrays) or 'none'}")

@@ -64,15 +64,12 @@ class TrackExtrema final : public AnalysisCommand {
   }
 
  private:
-  void require_usage() const override {
-    if (!input().is_series())
-      throw UsageError("'" + input().inputs.front() + "' is no series: gale track follows extrema from step to step");
-  }
-
   Session::Outputs outputs() const override { return Session::Outputs::of_all_steps; }
   Session::Keep keep() const override { return Session::Keep::values; }
 
   void go_through_steps(Session& session, Computed& computed) const override {
+    if (!session.is_series())
+      throw UsageError("'" + input().inputs.front() + "' is no series: gale track follows extrema from step to step");
     ExtremumTracker tracker;
     outputs::TrackLines lines;
     bool goes_on = true;
