@@ -149,9 +149,7 @@ Mesh Session::encode(io::Dataset& dataset, const SegmentationOptions& segmentati
     mesh_ = encode_anew(dataset, segmentation);
   }
   const Stopwatch watch(report_.seconds.initialize);
-  if (keep == Keep::cells) {
-    io::write_out_cells(dataset);
-  } else {
+  if (keep != Keep::cells) {
     dataset.tetrahedra = {};
     dataset.triangles = {};
     dataset.grid.reset();

@@ -94,7 +94,7 @@ class Session {
   io::Dataset read();
 
   /// Segments and encodes, unless the mesh of the step before is the same; a grid whose segments are its own stays one.
-  /// The cells are taken out of `dataset` unless they are kept: then it has them written out. On several ranks points
+  /// The cells are taken out of `dataset` unless they are kept. On several ranks points
   /// and arrays are there where cells are, or `values`, are kept, or anything is to be written.
   enum class Keep { cells, values, nothing };
   Mesh encode(io::Dataset& dataset, const SegmentationOptions& segmentation, Keep keep);
