@@ -49,6 +49,7 @@ Session::Session(const InputOptions& input, const CommonOptions& common, std::ve
       files_(common.encoding) {
   report_.input = input.inputs.front();
   report_.threads = host_threads();
+  report_.wall.start = process_age();
   files.erase(std::remove(files.begin(), files.end(), ""), files.end());
   detail::together(ranks_, [&] {
     InputOptions::Steps steps = input.steps();
@@ -264,25 +265,20 @@ std::string Session::named(const std::string& path) {
 
 void Session::write_series() {
   for (const auto& [name, steps] : series_) {
-    const io::AtomicFile& file = files_.add(name);
-    io::write_series(file, steps);
-    io::AtomicFiles::sync(file);
+    store(name, [&, &of = steps](const io::AtomicFile& file) { io::write_series(file, of); });
   }
 }
 
 template <class Result>
 void Session::write_one(const std::string& path, const Result& result) {
   detail::together(ranks_, [&] {
-    const io::AtomicFile& mine = files_.add(Launch::are_several() ? piece_of(path, ranks_.rank()) : path);
-    write_to(mine, result);
-    io::AtomicFiles::sync(mine);
+    store(Launch::are_several() ? piece_of(path, ranks_.rank()) : path,
+          [&](const io::AtomicFile& mine) { write_to(mine, result); });
     if (!Launch::are_several() || !Launch::is_first()) return;
     std::vector<std::string> pieces;
     for (int rank = 0; rank < ranks_.size(); ++rank)
       pieces.push_back(fs::path(piece_of(path, rank)).filename().string());
-    const io::AtomicFile& all = files_.add(path);
-    io::write_pieces(all, pieces, result);
-    io::AtomicFiles::sync(all);
+    store(path, [&](const io::AtomicFile& all) { io::write_pieces(all, pieces, result); });
   });
 }
 

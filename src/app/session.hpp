@@ -158,9 +158,7 @@ class Session {
     begin_step("writing", name);
     detail::together(ranks_, [&] {
       if (ranks_.rank() != 0) return;
-      const io::AtomicFile& file = files_.add(name);
-      write_to(file);
-      io::AtomicFiles::sync(file);
+      store(name, write_to);
     });
   }
 
@@ -192,6 +190,14 @@ class Session {
 
   template <class Result>
   void write_one(const std::string& path, const Result& result);
+
+  /// Adds a file, has write_to(file) write it, and waits until it is on disk.
+  template <class Write>
+  void store(const std::string& path, const Write& write_to) {
+    const io::AtomicFile& file = files_.add(path);
+    timed(report_.wall.compress, [&] { return write_to(file), 0; });
+    timed(report_.wall.store, [&] { return io::AtomicFiles::sync(file), 0; });
+  }
 
   /// Says how long it took, and how much memory.
   void tell_costs();
