@@ -29,16 +29,16 @@ struct TrackedExtremum {
 struct Track {
   std::vector<Id> extrema;                    ///< at least one: places in Tracks::extrema, a step after the other
   TrackBegin begin = TrackBegin::first_step;  ///< how it begins
-  Id begin_at = no_id;                        ///< of a split: the extremum of the step before that it was part of
+  Id begin_at = no_id;                        ///< the extremum of the step before that a split was part of
   TrackEnd end = TrackEnd::last_step;         ///< how it ends
-  Id end_at = no_id;                          ///< of a merge: the extremum of the step after that it is part of
+  Id end_at = no_id;                          ///< the extremum of the step after that a merge makes it part of
 };
 
 /// What ExtremumTracker has found.
 struct Tracks {
-  std::vector<double> times;             ///< of each step
+  std::vector<double> times;             ///< the steps' times
   std::vector<TrackedExtremum> extrema;  ///< step after step; of each the minima, then the maxima, by input vertex
-  std::vector<Id> step_begin{0};         ///< those of step s are step_begin[s] to step_begin[s + 1] - 1
+  std::vector<Id> step_begin{0};         ///< step s has the extrema step_begin[s] to step_begin[s + 1] - 1
   std::vector<Track> tracks;             ///< in the order of their first extrema
 };
 

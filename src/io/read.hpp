@@ -69,7 +69,7 @@ GALE_EXPORT Dataset read(const std::string& input, const ReadOptions& options = 
 struct Step {
   double time;                        ///< its time, finite
   std::string file;                   ///< the input
-  std::optional<std::uint64_t> at{};  ///< of a file that has several times the place of this one: ReadOptions::time
+  std::optional<std::uint64_t> at{};  ///< its place among the times of a file that has several: ReadOptions::time
 };
 
 /// The steps that inputs are. One `.pvd` or `.series` is what it names, by ascending time; one Exodus or VTKHDF file of
