@@ -1,5 +1,7 @@
 #include "mesh.hpp"
 
+#include <nanobind/stl/optional.h>
+
 #include <algorithm>
 
 #include <gale/base/error.hpp>
