@@ -18,9 +18,9 @@ gale_public(mesh cells/cell_types cells/split_cells encoded_mesh exchange grid i
 gale_public(relations batch faces preconditioning relation rows segment_rows)
 gale_public(runtime computation consumer device_sweep graph_of make_structure relation_of statistics structure structure_options sweep_options)
 gale_public(algorithms critical_points critical_simplices discrete_gradient gathered_gradient merge_tree morse_smale persistence separatrices
-  simplex_numbers simplify simplify_field surface_vertices vertex_order)
+  simplex_numbers simplify simplify_field surface_vertices tracking vertex_order)
 gale_public(outputs analyses arrows critical_points critical_simplices excerpt field manifolds merge_tree mesh_piece morse_smale named_simplices persistence
-  segmentation separatrices1 separatrices2 simplified_field)
+  segmentation separatrices1 separatrices2 simplified_field table tracks)
 gale_public(io atomic_file dataset formats image read synthetic write)
 if(GALE_ENABLE_MPI)
   gale_public(distributed communicator distributed_mesh mesh_part)

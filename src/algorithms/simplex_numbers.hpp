@@ -35,10 +35,10 @@ struct SimplexNumbers {
 /// The place of each named edge (triangle) among all of the mesh, each written with its input vertices ascending, in
 /// lexicographic order: what `input_numbers` has for all of them, without enumerating any.
 ///
-/// By threads of the host, with a structure that `computed` has, or is given. The work of a sweep of critical points,
-/// and 0.1 us a named simplex, in parallel; 9 bytes a vertex and 16 a named simplex, the result among them. Throws
-/// gale::Error, with the input vertices, if the mesh has no such simplex, and if it has more than 2^31 - 1 edges or
-/// triangles; and as require_consumers, make_structure and sweeps do.
+/// By threads of the host; of a grid by arithmetic, else with a structure that `computed` has, or is given: the work of
+/// a sweep of critical points, and 0.1 us a named simplex, in parallel; 9 bytes a vertex and 16 a named simplex, the
+/// result among them. Throws gale::Error, with the input vertices, if the mesh has no such simplex, and if it has more
+/// than 2^31 - 1 edges or triangles; and as require_consumers, make_structure and sweeps do.
 ///
 /// On a triangle mesh triangles are cells, whose input ids are their numbers: throws gale::Error where some are named.
 ///

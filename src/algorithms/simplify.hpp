@@ -9,7 +9,7 @@ namespace gale {
 
 /// How to simplify a Morse-Smale complex.
 struct SimplifyOptions {
-  bool extrema_only = false;     ///< cancel no 1-saddle with a 2-saddle: nearly as fast as to find the pairs
+  bool extrema_only = false;     ///< cancel no 1-saddle with a 2-saddle: a small part of the time
   Paths paths = Paths::whole;    ///< `joined`: memory in proportion to what is left, however often paths meet
   int threads = host_threads();  ///< at least 1
 };

@@ -12,6 +12,12 @@ namespace gale::app {
 /// The most memory that this process has had resident so far, in bytes.
 std::int64_t host_peak_bytes();
 
+/// How long ago the system started this process, in seconds, by the clock; 0 where it doesn't say.
+double process_age();
+
+/// The processor seconds that this process has taken so far, on all threads, its own and the system's for it.
+double processor_seconds();
+
 /// The most memory that Kokkos has had allocated on the device since watch_device_memory(), in bytes; nothing without a
 /// device.
 std::optional<std::int64_t> device_peak_bytes();

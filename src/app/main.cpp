@@ -187,6 +187,10 @@ void run(int argc, char** argv) {
   app.require_subcommand(1);
   std::vector<std::unique_ptr<Command>> commands;
   for (const gale::app::AddCommand add : gale::app::all_commands) commands.push_back(add(app));
+  app.footer(
+      "What makes it fast: write only what you look at (--no-ascending-segmentation, --no-saddle-connectors and their "
+      "like), give all steps of a series to one command, keep --mesh computed and --encoding appended. --report FILE "
+      "says where the time went.");
   if (!parse(app, argc, argv)) return;
   for (const auto& command : commands) {
     if (command->is_chosen()) run(*command);

@@ -160,22 +160,20 @@ void InputOptions::add_times_to(CLI::App& command) {
       "Of a series these steps: all (default), first, last, or I:J, those from I to J, counted from 0");
 }
 
-bool InputOptions::is_series() const {
-  const io::Format* const format = io::format_of(inputs.front());
-  return times && (inputs.size() > 1 || (format != nullptr && format->input == io::Input::series));
-}
-
-std::vector<io::Step> InputOptions::steps() const {
-  if (!is_series()) {
-    if (times && times->text != "all") throw UsageError("--times: '" + inputs.front() + "' is no series");
-    return {{0, inputs.front()}};
-  }
+InputOptions::Steps InputOptions::steps() const {
+  if (!times) return {false, {{0, inputs.front()}}};
   const std::vector<io::Step> steps = io::steps_of(inputs, read);
+  const io::Format* const format = io::format_of(inputs.front());
+  const bool names_steps = format != nullptr && format->input == io::Input::series;
+  if (!names_steps && steps.size() == 1) {
+    if (times->text != "all") throw UsageError("--times: '" + inputs.front() + "' is no series");
+    return {false, {{0, inputs.front()}}};
+  }
   const auto count = static_cast<std::int64_t>(steps.size());
   const auto at = [&](std::int64_t step) { return step < 0 ? step + count : step; };
   if (at(times->last) >= count)
     throw UsageError("--times " + times->text + ": there are " + std::to_string(count) + " steps, counted from 0");
-  return {steps.begin() + at(times->first), steps.begin() + at(times->last) + 1};
+  return {true, {steps.begin() + at(times->first), steps.begin() + at(times->last) + 1}};
 }
 
 void CommonOptions::add_to(CLI::App& command) {

@@ -48,12 +48,15 @@ struct InputOptions {
   /// For commands that go through the steps of a series.
   void add_times_to(CLI::App& command);
 
-  /// Whether the inputs are a series, of one step or more, which the command goes through.
-  bool is_series() const;
+  /// What to go through.
+  struct Steps {
+    bool are_series = false;  ///< whether the inputs are a series, of one step or more
+    std::vector<io::Step> all;
+  };
 
-  /// What to go through: of a series those steps that --times says, else the input. Throws gale::Error for a series
-  /// that can't be read, UsageError where it hasn't such a step.
-  std::vector<io::Step> steps() const;
+  /// Of a series those steps that --times says, else the input. Throws gale::Error for a series that can't be read,
+  /// UsageError where it hasn't such a step.
+  Steps steps() const;
 };
 
 /// What every command has.

@@ -25,6 +25,21 @@ Json to_json(const Seconds& seconds) {
           {"run", seconds.run},   {"write", seconds.write},     {"total", seconds.total()}};
 }
 
+/// Parts that add up to the age of the process.
+Json to_json(const WallClock& wall, const Seconds& seconds) {
+  const double all = std::max(process_age(), wall.start), make = seconds.write - wall.compress - wall.store;
+  const double other = all - wall.start - seconds.read - seconds.total() - seconds.write;
+  return {{"start", wall.start},
+          {"read", seconds.read},
+          {"compute", seconds.total()},
+          {"make", make},
+          {"compress", wall.compress},
+          {"store", wall.store},
+          {"other", std::max(other, 0.0)},
+          {"total", all},
+          {"processor", processor_seconds()}};
+}
+
 Json to_json(const WaitingTimes& waiting) {
   return {{"push", waiting.push},
           {"queue", waiting.queue},
@@ -97,6 +112,7 @@ Json to_json(const Report& report) {
             {"tetrahedra", or_null(report.tetrahedra)},
             {"segments", or_null(report.segments)}}},
           {"seconds", to_json(report.seconds)},
+          {"wall", to_json(report.wall, report.seconds)},
           {"memory", {{"host_peak_bytes", host_peak_bytes()}, {"device_peak_bytes", or_null(device_peak_bytes())}}},
           {"ranks", report.ranks},
           {"waiting", report.statistics ? to_json(*report.statistics) : Json(nullptr)},

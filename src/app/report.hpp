@@ -26,6 +26,12 @@ inline Seconds operator-(const Seconds& now, const Seconds& before) {
           now.run - before.run, now.write - before.write};
 }
 
+/// What the clock says of a command beside these: `start` from the process's start until it began with its input, and
+/// of `Seconds::write` what went into bytes, compressed and handed to the system, and what waited for them on disk.
+struct WallClock {
+  double start = 0, compress = 0, store = 0;
+};
+
 using gale::detail::Stopwatch;
 
 /// What `make` makes, whose time is added to `seconds`.
@@ -43,6 +49,7 @@ struct Report {
   std::optional<std::int64_t> vertices, edges, triangles, tetrahedra, segments;
   std::vector<std::string> notices;  ///< one line each about what was left out or done differently, and why
   Seconds seconds;
+  WallClock wall;
   std::optional<StructureStatistics> statistics;
   nlohmann::ordered_json ranks;  ///< what differs between ranks; null on one
   nlohmann::ordered_json result = nlohmann::ordered_json::object();

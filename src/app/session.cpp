@@ -39,19 +39,23 @@ OnExcerpt::OnExcerpt(const Mesh& excerpt, const FieldOnMesh& on) : on_(on), is_e
   field_ = outputs::array_of(excerpt, on.mesh, on.field);
 }
 
-Session::Session(const InputOptions& input, const CommonOptions& common, std::vector<std::string> files)
+Session::Session(const InputOptions& input, const CommonOptions& common, std::vector<std::string> files,
+                 Outputs outputs)
     : input_(input),
       common_(common),
       ranks_(Launch::ranks()),
       has_outputs_(std::any_of(files.begin(), files.end(), [](const auto& file) { return !file.empty(); })),
-      is_series_(input.is_series()),
       console_(common.quiet || !Launch::is_first()),
       files_(common.encoding) {
   report_.input = input.inputs.front();
   report_.threads = host_threads();
+  report_.wall.start = process_age();
   files.erase(std::remove(files.begin(), files.end(), ""), files.end());
   detail::together(ranks_, [&] {
-    steps_ = input.steps();
+    InputOptions::Steps steps = input.steps();
+    is_series_ = steps.are_series;
+    numbers_files_ = is_series_ && outputs == Outputs::of_each_step;
+    steps_ = std::move(steps.all);
     std::vector<std::string> all, mine, inputs = input.inputs;
     const auto add = [&](const std::string& file, int writer) {
       all.push_back(file);
@@ -59,19 +63,19 @@ Session::Session(const InputOptions& input, const CommonOptions& common, std::ve
     };
     for (const io::Step& step : steps_) inputs.push_back(step.file);
     for (const std::string& file : files) {
-      for (std::size_t step = 0; step < steps_.size(); ++step) {
-        const std::string here = is_series_ ? name_of_step(file, step) : file;
+      for (std::size_t step = 0; step < (numbers_files_ ? steps_.size() : 1); ++step) {
+        const std::string here = numbers_files_ ? name_of_step(file, step) : file;
         add(here, 0);
         for (int rank = 0; rank < ranks_.size() && has_pieces(here); ++rank) add(piece_of(here, rank), rank);
       }
-      if (is_series_ && !name_of_series(file).empty()) add(name_of_series(file), 0);
+      if (numbers_files_ && !name_of_series(file).empty()) add(name_of_series(file), 0);
     }
     if (!common.report.empty()) add(common.report, 0);
     if (Launch::is_first()) require_distinct(all, inputs);
     for (const std::string& file : mine) io::AtomicFiles().add(file);  // throws if it can't be made there now
     input_.read.outputs = std::move(all);
   });
-  input_.input = steps_.front().file;
+  begin_reading();
 }
 
 void Session::say_input() {
@@ -88,8 +92,13 @@ bool Session::next_step(const Computed& computed) {
   report_.add_step(steps_[step_], now - seconds_before_);
   seconds_before_ = now;
   if (++step_ == steps_.size()) return false;
-  input_.input = steps_[step_].file;
+  begin_reading();
   return true;
+}
+
+void Session::begin_reading() {
+  input_.input = steps_[step_].file;
+  input_.read.time = steps_[step_].at;
 }
 
 void Session::warm_up(const StructureOption& option, std::function<void(const VertexOrder&)> run) {
@@ -141,9 +150,7 @@ Mesh Session::encode(io::Dataset& dataset, const SegmentationOptions& segmentati
     mesh_ = encode_anew(dataset, segmentation);
   }
   const Stopwatch watch(report_.seconds.initialize);
-  if (keep == Keep::cells) {
-    io::write_out_cells(dataset);
-  } else {
+  if (keep != Keep::cells) {
     dataset.tetrahedra = {};
     dataset.triangles = {};
     dataset.grid.reset();
@@ -250,7 +257,7 @@ void Session::finish(const StructureOption& option, const Computed& computed) {
 }
 
 std::string Session::named(const std::string& path) {
-  if (!is_series_) return path;
+  if (!numbers_files_) return path;
   const std::string name = name_of_step(path, step_), series = name_of_series(path);
   if (!series.empty()) series_[series].push_back({steps_[step_].time, fs::path(name).filename().string()});
   return name;
@@ -258,25 +265,20 @@ std::string Session::named(const std::string& path) {
 
 void Session::write_series() {
   for (const auto& [name, steps] : series_) {
-    const io::AtomicFile& file = files_.add(name);
-    io::write_series(file, steps);
-    io::AtomicFiles::sync(file);
+    store(name, [&, &of = steps](const io::AtomicFile& file) { io::write_series(file, of); });
   }
 }
 
 template <class Result>
 void Session::write_one(const std::string& path, const Result& result) {
   detail::together(ranks_, [&] {
-    const io::AtomicFile& mine = files_.add(Launch::are_several() ? piece_of(path, ranks_.rank()) : path);
-    write_to(mine, result);
-    io::AtomicFiles::sync(mine);
+    store(Launch::are_several() ? piece_of(path, ranks_.rank()) : path,
+          [&](const io::AtomicFile& mine) { write_to(mine, result); });
     if (!Launch::are_several() || !Launch::is_first()) return;
     std::vector<std::string> pieces;
     for (int rank = 0; rank < ranks_.size(); ++rank)
       pieces.push_back(fs::path(piece_of(path, rank)).filename().string());
-    const io::AtomicFile& all = files_.add(path);
-    io::write_pieces(all, pieces, result);
-    io::AtomicFiles::sync(all);
+    store(path, [&](const io::AtomicFile& all) { io::write_pieces(all, pieces, result); });
   });
 }
 
@@ -346,7 +348,7 @@ void Session::appear(std::size_t results) {
     detail::together(ranks_, [&] {
       for (std::size_t i = 0; i < results; ++i) {
         const std::string& name = files_.all()[i]->path();
-        if (!is_series_ || name_of_series(name).empty()) console_.say("wrote", name);
+        if (!numbers_files_ || name_of_series(name).empty()) console_.say("wrote", name);
       }
     });
   };

@@ -66,8 +66,11 @@ class Session {
  public:
   /// Finds out before the work whether its `files` and the report, each if it isn't empty, can be written. Throws
   /// gale::Error for one that can't; UsageError if two of them, or one and the input, are the same file. On several
-  /// ranks `files` are those that name the pieces. `common` must outlive the session.
-  Session(const InputOptions& input, const CommonOptions& common, std::vector<std::string> files = {});
+  /// ranks `files` are those that name the pieces. Of a series there is one of each for each step, or for all.
+  /// `common` must outlive the session.
+  enum class Outputs { of_each_step, of_all_steps };
+  Session(const InputOptions& input, const CommonOptions& common, std::vector<std::string> files = {},
+          Outputs outputs = Outputs::of_each_step);
 
   const Ranks& ranks() const { return ranks_; }
   const Console& console() const { return console_; }
@@ -91,7 +94,7 @@ class Session {
   io::Dataset read();
 
   /// Segments and encodes, unless the mesh of the step before is the same; a grid whose segments are its own stays one.
-  /// The cells are taken out of `dataset` unless they are kept: then it has them written out. On several ranks points
+  /// The cells are taken out of `dataset` unless they are kept. On several ranks points
   /// and arrays are there where cells are, or `values`, are kept, or anything is to be written.
   enum class Keep { cells, values, nothing };
   Mesh encode(io::Dataset& dataset, const SegmentationOptions& segmentation, Keep keep);
@@ -113,6 +116,12 @@ class Session {
   /// result, which is none from here on, and begins the next one, if there is one: what is read and written then is its
   /// own. Returns whether there is.
   bool next_step(const Computed& computed);
+
+  /// The time of this step.
+  double time() const { return steps_[step_].time; }
+
+  /// Whether the input is a series.
+  bool is_series() const { return is_series_; }
 
   /// Writes make(), points, lines or a piece of a mesh, unless the path is empty: on several ranks a piece of each, and
   /// the file that names these. All files appear when the session finishes.
@@ -149,9 +158,7 @@ class Session {
     begin_step("writing", name);
     detail::together(ranks_, [&] {
       if (ranks_.rank() != 0) return;
-      const io::AtomicFile& file = files_.add(name);
-      write_to(file);
-      io::AtomicFiles::sync(file);
+      store(name, write_to);
     });
   }
 
@@ -165,6 +172,9 @@ class Session {
  private:
   io::Dataset read_any();
   Mesh encode_anew(io::Dataset& dataset, const SegmentationOptions& segmentation);
+
+  /// Chooses what this step reads.
+  void begin_reading();
 
   /// Says what was read.
   void say_input();
@@ -180,6 +190,14 @@ class Session {
 
   template <class Result>
   void write_one(const std::string& path, const Result& result);
+
+  /// Adds a file, has write_to(file) write it, and waits until it is on disk.
+  template <class Write>
+  void store(const std::string& path, const Write& write_to) {
+    const io::AtomicFile& file = files_.add(path);
+    timed(report_.wall.compress, [&] { return write_to(file), 0; });
+    timed(report_.wall.store, [&] { return io::AtomicFiles::sync(file), 0; });
+  }
 
   /// Says how long it took, and how much memory.
   void tell_costs();
@@ -198,7 +216,8 @@ class Session {
   const CommonOptions& common_;
   const Ranks& ranks_;
   const bool has_outputs_;  ///< beside the report
-  const bool is_series_;
+  bool is_series_ = false;
+  bool numbers_files_ = false;  ///< each step has its own
   std::vector<io::Step> steps_;
   std::size_t step_ = 0;
   Console console_;

@@ -7,6 +7,7 @@ namespace detail {
 // Defined in formats/, a file each.
 Reader read_vtu, read_pvtu, read_legacy_vtk, read_vti, read_nifti, read_meta_image, read_nrrd, read_exodus, read_vtkhdf,
     read_vts, read_vtr, read_vtp, read_stl, read_ply, read_obj, read_off, read_pvd, read_file_series;
+StepsReader steps_of_exodus, steps_of_vtkhdf, steps_of_pvd, steps_of_file_series;
 
 }  // namespace detail
 
@@ -34,9 +35,10 @@ const std::vector<Format>& formats() {
       {"NRRD", ".nrrd", Input::volume, 0, false,
        "values in the file or in others, raw, gzip or text; the first of several volumes", read_nrrd},
       {"Exodus II", ".e .ex2 .exo", Input::mesh, 0, false,
-       "NetCDF's classic forms and NetCDF-4: all blocks of elements, nodal variables at the first time", read_exodus},
-      {"VTKHDF", ".hdf .vtkhdf", Input::mesh, 0, false, "versions 1 and 2, a mesh or an image, at one time",
-       read_vtkhdf},
+       "NetCDF's classic forms and NetCDF-4: all blocks of elements, nodal variables; its times are a series",
+       read_exodus, steps_of_exodus},
+      {"VTKHDF", ".hdf .vtkhdf", Input::mesh, 0, false, "versions 1 and 2, a mesh or an image; its times are a series",
+       read_vtkhdf, steps_of_vtkhdf},
       {"STL", ".stl", Input::mesh, 0, false, "facets, ASCII or binary; their corners are one where they are equal",
        read_stl},
       {"PLY", ".ply", Input::mesh, 0, false, "faces and strips, ASCII or binary, and the numbers that vertices have",
@@ -44,9 +46,9 @@ const std::vector<Format>& formats() {
       {"Wavefront OBJ", ".obj", Input::mesh, 0, false, "vertices and faces", read_obj},
       {"OFF", ".off", Input::mesh, 0, false, "vertices and faces, as text", read_off},
       {"ParaView's data", ".pvd", Input::series, written_series, true,
-       "the files that it names, in its folder or below, a time each", read_pvd},
+       "the files that it names, in its folder or below, a time each", read_pvd, steps_of_pvd},
       {"series of files", ".series", Input::series, 0, true, "likewise: `.vtu.series` and its like, which are JSON",
-       read_file_series},
+       read_file_series, steps_of_file_series},
       {"pieces of VTK XML surfaces", ".pvtp", Input::none, written_points | written_surfaces, true, "", nullptr}};
   return all;
 }

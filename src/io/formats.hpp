@@ -22,6 +22,9 @@ using Content = std::variant<Dataset, Image>;
 /// taken, and values against their ranges before they index anything. Throws gale::Error without naming the file.
 using Reader = Content(const InputFile& file, const ReadOptions& options);
 
+/// Finds the steps that a file is: one for each of its times, or each file that it names. Trusts and throws likewise.
+using StepsReader = std::vector<Step>(const InputFile& file, const ReadOptions& options);
+
 }  // namespace detail
 
 /// The kinds of inputs that files of a format are read as.
@@ -49,6 +52,8 @@ struct Format {
   const char* about;       ///< what of its files is read, or nothing, for the documentation
   detail::Reader* reader;  ///< nullptr where none are read
 
+  detail::StepsReader* steps = nullptr;  ///< nullptr where a file is one step
+
   /// Whether any of that, bits of `Written`, is written to its files, not to others that they name.
   bool takes(unsigned what) const { return (written & what) != 0 && !of_pieces; }
 };
@@ -66,9 +71,6 @@ GALE_EXPORT std::string extensions_of(const std::function<bool(const Format& for
 GALE_EXPORT std::string extensions_of(Input input);
 
 namespace detail {
-
-/// The steps that a file of a series names, its first at the least time.
-GALE_EXPORT std::vector<Step> steps_in(const InputFile& input, const ReadOptions& options);
 
 /// Whether files can be read: GALE was built with the libraries that this takes, VTK's or the system's. Where it
 /// wasn't, libraries/without.cpp stands for the other sources of that folder.

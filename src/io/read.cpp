@@ -81,13 +81,14 @@ std::vector<Step> steps_of(const std::vector<std::string>& inputs, const ReadOpt
   std::vector<Step> steps;
   for (const std::string& input : inputs) {
     const Format* const format = format_of(input);
-    if (format == nullptr || format->input != Input::series) {
-      steps.push_back({static_cast<double>(steps.size()), input});
-      continue;
-    }
-    if (inputs.size() > 1) refuse("'", input, "' is a series of its own, and can't be one of several inputs");
-    if (!detail::reads_files()) refuse("this gale was built without what reads files: not '", input, "' either");
-    return naming(input, [&] { return detail::steps_in(detail::InputFile(input), options); });
+    const bool is_series = format != nullptr && format->input == Input::series;
+    if (is_series && inputs.size() > 1)
+      refuse("'", input, "' is a series of its own, and can't be one of several inputs");
+    if (is_series && !detail::reads_files())
+      refuse("this gale was built without what reads files: not '", input, "' either");
+    if (inputs.size() == 1 && format != nullptr && format->steps != nullptr && detail::reads_files())
+      return naming(input, [&] { return format->steps(detail::InputFile(input), options); });
+    steps.push_back({static_cast<double>(steps.size()), input});
   }
   return steps;
 }

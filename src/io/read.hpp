@@ -21,6 +21,8 @@ struct ReadOptions {
   bool simplices_alone = false;
   /// Images: the array that `above` is about, as `select_scalars` takes it; empty means the file's scalars.
   std::string array;
+  /// Files that have several times: the place of the one to read, from 0; without it the first, with a notice.
+  std::optional<std::uint64_t> time;
   /// How images, and grid:N and the like, have their cells.
   GridCells grids = GridCells::written;
   /// Headers such as `.mhd` may name data files that aren't in their own folder, nor below it.
@@ -49,8 +51,8 @@ GALE_EXPORT std::optional<int> grid_size(const std::string& input, const ReadOpt
 /// - `.pvtu`: the pieces that it names, in its folder or below, as one mesh. Their points are the same where their
 ///   global ids are (`GlobalIds` of `PPointData`), or all coordinates if there are no such; ghost cells are left out.
 ///   Points are in the order of these ids, cells in that of theirs (`GlobalIds` of `PCellData`), else as they occur.
-/// - `.e .ex2 .exo` (Exodus II): the blocks of elements, and nodal variables at its first time. `.hdf .vtkhdf`: VTKHDF,
-///   a mesh, or an image. These, and Exodus of NetCDF-4, are HDF5, which the program gale-hdf5-reader reads.
+/// - `.e .ex2 .exo` (Exodus II): the blocks of elements, and nodal variables at a time. `.hdf .vtkhdf`: VTKHDF, a mesh,
+///   or an image, at a time. These, and Exodus of NetCDF-4, are HDF5, which the program gale-hdf5-reader reads.
 /// - `.vti .nii .nii.gz .mha .mhd .nrrd`, and `.vtk` of structured points: an image, see `split_voxels`. Values are
 ///   rescaled where the file says so. A NIfTI image keeps the file's voxel order, in the coordinates of its sform, else
 ///   its qform.
@@ -65,12 +67,14 @@ GALE_EXPORT Dataset read(const std::string& input, const ReadOptions& options = 
 
 /// One step of a series: what read() reads at a time.
 struct Step {
-  double time;       ///< its time, finite
-  std::string file;  ///< the input
+  double time;                        ///< its time, finite
+  std::string file;                   ///< the input
+  std::optional<std::uint64_t> at{};  ///< its place among the times of a file that has several: ReadOptions::time
 };
 
-/// The steps that inputs are, by ascending time. One `.pvd` or `.series` is what it names. Else each input is a step,
-/// and its time is its place among them, from 0 on. Nothing but a series is opened. Throws `Error` with one line that
+/// The steps that inputs are. One `.pvd` or `.series` is what it names, by ascending time; one Exodus or VTKHDF file of
+/// several times is these, in its order. Else each input is a step, and its time is its place among them, from 0 on.
+/// Several inputs aren't opened. Throws `Error` with one line that
 /// names the input: a series that can't be read, names no file, one outside its folder (unless `outside_files`) or two
 /// at one time; and a series among several inputs.
 GALE_EXPORT std::vector<Step> steps_of(const std::vector<std::string>& inputs, const ReadOptions& options = {});

@@ -79,9 +79,9 @@ GALE_EXPORT void write_surface(const Target& to, const Surface& surface);
 /// lines, such as persistence diagrams.
 GALE_EXPORT void write_lines(const Target& to, const Surface& lines);
 
-/// Writes points, tetrahedra or triangles, and arrays of `mesh` in their order to a `.vtu` or (binary, legacy) `.vtk`,
-/// or triangles to a `.vtp`, by the extension; then those of `more`, so that results need not be copied into the mesh
-/// first.
+/// Writes points, tetrahedra or triangles (a grid's, too), and arrays of `mesh` in their order to a `.vtu` or (binary,
+/// legacy) `.vtk`, or triangles to a `.vtp`, by the extension; then those of `more`, so that results need not be copied
+/// into the mesh first.
 GALE_EXPORT void write_mesh(const Target& to, const Dataset& mesh, const std::vector<PointArray>& more = {});
 
 /// Writes a piece, which may be empty, to a `.vtu`.

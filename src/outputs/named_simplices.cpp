@@ -16,24 +16,34 @@ std::array<Id, N> common(const Simplex& a, const Simplex& b) {
   std::array<Id, N> both{};
   std::size_t found = 0;
   for (const Id vertex : a) {
-    if (found < N && std::find(b.begin(), b.end(), vertex) != b.end()) both[found++] = vertex;
+    if (found < N && detail::has(b, vertex)) both[found++] = vertex;
   }
   return both;
 }
 
 /// Appends what precedes cells of the paths: before the first of a path the saddle where it begins, before another what
-/// `between` says that it and the one before share.
-template <class Cell, class Simplex, class Between>
+/// `between` says that it and the one before share, of what `look` says of each.
+template <class Cell, class Simplex, class Look, class Between>
 void append_between(const Separatrices<Cell>& paths, const SharedPaths& shared, const std::vector<Simplex>& saddles,
-                    const Between& between, std::vector<Simplex>& simplices) {
+                    const Look& look, const Between& between, std::vector<Simplex>& simplices) {
   const std::size_t first = simplices.size();
   simplices.resize(first + shared.first_between.extent(0));
   parallel_for("GALE::between_cells", HostExecutionSpace(), paths.count(), [&](Offset i) {
-    for (Offset k = paths.begin[i]; k < paths.begin[i + 1]; ++k) {
+    const Offset begin = paths.begin[i];
+    if (begin == paths.begin[i + 1]) return;
+    Offset looked_at = begin;
+    auto seen = look(paths.cells[begin]);
+    for (Offset k = begin; k < paths.begin[i + 1]; ++k) {
       const Id number = shared.between(k);
       if (shared.first_between(number) != k) continue;
-      simplices[first + number] =
-          k == paths.begin[i] ? saddles[paths.sources[i]] : between(paths.cells[k - 1], paths.cells[k]);
+      if (k == begin) {
+        simplices[first + number] = saddles[paths.sources[i]];
+        continue;
+      }
+      const auto before = looked_at == k - 1 ? seen : look(paths.cells[k - 1]);
+      seen = look(paths.cells[k]);
+      looked_at = k;
+      simplices[first + number] = between(before, seen);
     }
   });
 }
@@ -50,18 +60,18 @@ NamedPaths named_simplices(const MorseSmaleComplex& complex) {
       detail::share(falling),
       detail::share(rising),
       detail::share(connectors)};
+  const auto itself = [](const auto& cell) { return cell; };
   const auto edge_of = [](Id a, Id b) { return Edge{a, b}; };
-  append_between(falling, named.descending, complex.critical.edges, edge_of, named.edges);
-  append_between(connectors, named.connectors, complex.critical.edges, common<2, Triangle>, named.edges);
+  append_between(falling, named.descending, complex.critical.edges, itself, edge_of, named.edges);
+  append_between(connectors, named.connectors, complex.critical.edges, itself, common<2, Triangle>, named.edges);
   if (complex.critical.dimension == 2) {
-    const auto shared_edge = [&](Id a, Id b) {
-      return common<2>(detail::corners_of<3>(mesh, a), detail::corners_of<3>(mesh, b));
-    };
-    append_between(rising, named.ascending, complex.critical.edges, shared_edge, named.edges);
+    const auto corners = [&](Id cell) { return detail::corners_of<3>(mesh, cell); };
+    append_between(rising, named.ascending, complex.critical.edges, corners, common<2, Triangle>, named.edges);
     return named;
   }
-  const auto shared = [&](Id a, Id b) { return common<3>(detail::corners_of(mesh, a), detail::corners_of(mesh, b)); };
-  append_between(rising, named.ascending, complex.critical.triangles, shared, named.triangles);
+  const auto corners = [&](Id cell) { return detail::corners_of(mesh, cell); };
+  append_between(rising, named.ascending, complex.critical.triangles, corners, common<3, std::array<Id, 4>>,
+                 named.triangles);
   const auto& first = named.connectors.first_cell;
   for (std::size_t i = 0; i < first.extent(0); ++i) named.triangles.push_back(connectors.cells[first(i)]);
   return named;

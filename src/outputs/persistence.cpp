@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <type_traits>
 
 #include <gale/base/error.hpp>
 #include <gale/outputs/field.hpp>
 #include <gale/outputs/persistence.hpp>
+#include <gale/outputs/table.hpp>
 #include <gale/outputs/values.hpp>
 
 namespace gale::outputs {
@@ -199,19 +199,15 @@ PersistenceCurve persistence_curve(const std::vector<DiagramPoint>& diagram) {
 }
 
 std::string to_csv(const PersistenceCurve& curve) {
-  std::string csv = "Persistence,MinimumSaddle,SaddleSaddle,SaddleMaximum,All\n";
-  for (std::size_t i = 0; i < curve.persistence.size(); ++i) {
-    char number[32];
-    std::snprintf(number, sizeof(number), "%.17g", curve.persistence[i]);
-    csv += number;
-    std::int64_t all = 0;
-    for (const auto& pairs : curve.pairs) {
-      csv += ',' + std::to_string(pairs[i]);
-      all += pairs[i];
-    }
-    csv += ',' + std::to_string(all) + '\n';
+  std::vector<Id> all(curve.persistence.size(), 0);
+  for (const auto& pairs : curve.pairs) {
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] += pairs[i];
   }
-  return csv;
+  return to_csv(std::vector<io::PointArray>{{"Persistence", 1, curve.persistence},
+                                            {"MinimumSaddle", 1, curve.pairs[0]},
+                                            {"SaddleSaddle", 1, curve.pairs[1]},
+                                            {"SaddleMaximum", 1, curve.pairs[2]},
+                                            {"All", 1, all}});
 }
 
 }  // namespace gale::outputs

@@ -8,6 +8,7 @@
 #include <gale/base/error.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/outputs/shared_paths.hpp>
+#include <gale/outputs/values.hpp>
 
 namespace gale::outputs::detail {
 
@@ -25,10 +26,9 @@ std::uint64_t hash_of(const TriangleVertices& triangle) {
 /// way up from an edge, many triangles follow one over the same edge.
 bool is_between_both(Id, Id one, Id other) { return one == other; }
 bool is_between_both(const TriangleVertices& cell, const TriangleVertices& one, const TriangleVertices& other) {
-  const auto is_in = [](const TriangleVertices& triangle, Id vertex) {
-    return std::find(triangle.begin(), triangle.end(), vertex) != triangle.end();
-  };
-  return std::all_of(cell.begin(), cell.end(), [&](Id vertex) { return is_in(one, vertex) == is_in(other, vertex); });
+  bool are_alike = true;
+  for (const Id vertex : cell) are_alike &= detail::has(one, vertex) == detail::has(other, vertex);
+  return are_alike;
 }
 
 /// For each cell the first place of one that equals it.

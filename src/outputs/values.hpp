@@ -43,6 +43,14 @@ std::array<Id, N> corners_of(const Mesh& mesh, Id cell) {
   return corners;
 }
 
+/// Whether a simplex has a vertex: compares all, which is faster than to stop at the first.
+template <std::size_t N>
+bool has(const std::array<Id, N>& simplex, Id vertex) {
+  bool found = false;
+  for (const Id one : simplex) found |= one == vertex;
+  return found;
+}
+
 /// Input ids of vertices from GALE's. `input` is `mesh.vertices_in_input()`.
 template <std::size_t N>
 std::array<Id, N> to_input(const OtherIds& input, std::array<Id, N> simplex) {

@@ -83,7 +83,7 @@ class Consumers(gale.CommandTest):
 class Report(gale.CommandTest):
     def test_has_what_the_design_says(self):
         report = self.report("critical-points", "grid:16", "--capacity", "50", "--threads", "2")
-        for key in ("gale", "kokkos", "backend", "device", "threads", "input", "mesh", "seconds", "memory", "waiting", "result"):
+        for key in ("gale", "kokkos", "backend", "device", "threads", "input", "mesh", "seconds", "wall", "memory", "waiting", "result"):
             self.assertIn(key, report)
         self.assertEqual((report["gale"], report["threads"], report["input"]), (gale.VERSION, 2, "grid:16"))
         self.assertRegex(report["kokkos"], r"\A\d+\.\d+\.\d+\Z")
@@ -97,6 +97,14 @@ class Report(gale.CommandTest):
         self.assertEqual(list(seconds), ["read", "segment", "initialize", "run", "write", "total"])
         self.assertAlmostEqual(seconds["total"], seconds["segment"] + seconds["initialize"] + seconds["run"])
         self.assertGreater(min(seconds["read"], seconds["initialize"], seconds["run"]), 0)
+
+    def test_parts_of_the_wall_clock_add_up(self):
+        wall = self.report("critical-points", "grid:24", "-o", "points.vtp")["wall"]
+        parts = ["start", "read", "compute", "make", "compress", "store", "other"]
+        self.assertEqual(list(wall), parts + ["total", "processor"])
+        self.assertGreaterEqual(min(wall.values()), 0)
+        self.assertAlmostEqual(sum(wall[part] for part in parts), wall["total"])
+        self.assertGreater(min(wall["compress"], wall["store"], wall["processor"]), 0)
 
     def test_memory(self):
         report = self.report("critical-points", "grid:16")

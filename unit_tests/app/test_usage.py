@@ -9,7 +9,7 @@ import unittest
 import gale
 
 COMMANDS = ("info", "segment", "critical-points", "discrete-gradient", "morse-smale", "persistence-diagram", "merge-tree",
-            "simplify-field", "relations", "generate")
+            "simplify-field", "track", "relations", "generate")
 
 
 class Usage(gale.CommandTest):
@@ -91,7 +91,7 @@ class Usage(gale.CommandTest):
                                   (["--bogus"], "--bogus")):
             with self.subTest(arguments=arguments):
                 self.refuse(2, *arguments, naming=naming)
-                self.refuse(2, *arguments, naming="the commands are info, segment, critical-points, discrete-gradient, morse-smale, persistence-diagram, merge-tree, simplify-field, relations, generate")
+                self.refuse(2, *arguments, naming="the commands are info, segment, critical-points, discrete-gradient, morse-smale, persistence-diagram, merge-tree, simplify-field, track, relations, generate")
 
     def test_values_that_options_do_not_take(self):
         for option, value in (("--structure", "fast"), ("--capacity", "0"), ("--capacity", "many"), ("--threads", "0"), ("--threads", "1025"),

@@ -42,6 +42,7 @@ COMMANDS = [(line.split() + ONE, needs) for line, needs in [
     ("merge-tree grid:4 -o p --arc-samples 2 --report report.json", None),
     ("merge-tree plane:5 --type split --persistence 2% --report report.json", None),
     ("simplify-field grid:4 --persistence 9% -o field.vtu --report report.json", None),
+    ("track grid:4 grid:4 -o tracks.vtp --table tracks.csv --persistence 2% --report report.json", None),
     ("relations grid:4 --relation VV --verify --dump rows.txt --report report.json", None),
     ("relations grid:4 --relation FF --structure gale", None),
     ("segment grid:4 --capacity 8 -o segments.vtu", None),

@@ -112,6 +112,13 @@ void write_random_mesh(const std::string& path, std::mt19937& random) {
   group.put_numbers("Types", H5T_STD_U8LE, {3}, {10, 10, 10});
   arrays.put_numbers("field", H5T_IEEE_F32LE, {6}, field);
   arrays.put_numbers("pairs", H5T_IEEE_F64LE, {6, 2}, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11});
+  if (group.one_in(2)) return;
+  const hid_t steps = H5Gcreate(to.root, "Steps", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+  RandomGroup times(steps, random);
+  times.put_numbers("Values", H5T_IEEE_F64LE, {2}, {0, 1});
+  for (const char* name : {"PartOffsets", "PointOffsets", "CellOffsets", "ConnectivityIdOffsets"})
+    times.put_numbers(name, H5T_STD_I64LE, {2}, {double(random() % 8 == 0), 0});
+  H5Gclose(steps);
 }
 
 /// An Exodus file as NetCDF-4 has it: dimensions are datasets of their lengths.

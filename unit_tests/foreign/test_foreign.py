@@ -29,13 +29,33 @@ class Foreign(gale.CommandTest):
                 self.succeed("critical-points", self.convert("mesh.vtu", name), "-o", "found.vtp")
                 self.assertEqual(gale.read_vtp(self.folder / "found.vtp"), expected)
 
-    def test_of_several_times_the_first_is_read_and_the_others_noted(self):
-        self.mesh(12, "once.e")
+    def expect_steps(self, name, files, times):
+        """Has an input of several times be those files, one after the other."""
+        steps = self.report("critical-points", name, "-o", "all.vtp")["steps"]
+        self.assertEqual([step["time"] for step in steps], times)
+        for k, file in enumerate(files):
+            self.succeed("critical-points", file, "-o", "alone.vtp")
+            self.assertEqual(gale.read_vtp(self.folder / f"all_{k:04}.vtp"), gale.read_vtp(self.folder / "alone.vtp"))
+        last = self.report("critical-points", name, "--times", "last", "-o", "last.vtp")
+        self.assertEqual([step["time"] for step in last["steps"]], times[-1:])
+        self.assertEqual((self.folder / "last_0000.vtp").read_bytes(), (self.folder / f"all_{len(files) - 1:04}.vtp").read_bytes())
+
+    def test_several_times_are_steps(self):
+        self.mesh(6, "mesh.e")
         self.convert("mesh.vtu", "often.e", "3")
-        for name, notices in (("once.e", []), ("often.e", ["left out all but the first of 3 time steps"])):
-            report = self.report("critical-points", name, "-o", f"{name}.vtp")
-            self.assertEqual(report["notices"], notices)
-        self.assertEqual(gale.read_vtp(self.folder / "often.e.vtp"), gale.read_vtp(self.folder / "once.e.vtp"))
+        self.convert("mesh.vtu", "often.vtkhdf", "3")
+        for k in range(3):
+            self.convert("mesh.vtu", f"alone{k}.vtkhdf", "3", str(k))
+            self.convert("mesh.vtu", f"alone{k}.e", "3", str(k))
+        self.expect_steps("often.e", [f"alone{k}.e" for k in range(3)], [0, 1, 2])
+        self.expect_steps("often.vtkhdf", [f"alone{k}.vtkhdf" for k in range(3)], [0, 1, 2])
+        self.convert("5", "often_image.vtkhdf", "3")
+        for k in range(3):
+            self.convert("5", f"image{k}.vtkhdf", "3", str(k))
+        self.expect_steps("often_image.vtkhdf", [f"image{k}.vtkhdf" for k in range(3)], [0, 1, 2])
+        for name in ("often.e", "often.vtkhdf", "often_image.vtkhdf"):
+            self.assertEqual(self.report("info", name)["notices"], ["left out all but the first of 3 time steps"])
+        self.assertIsNone(self.report("critical-points", "mesh.e", "-o", "mesh.vtp")["steps"])
 
     def test_image_is_split(self):
         self.convert("5", "image.vtkhdf")

@@ -14,7 +14,7 @@ import tempfile
 from pathlib import Path
 
 GALE = os.environ["GALE"]
-COMMANDS = ["info", "segment", "critical-points", "discrete-gradient", "morse-smale", "persistence-diagram", "merge-tree", "simplify-field", "relations", "generate"]
+COMMANDS = ["info", "segment", "critical-points", "discrete-gradient", "morse-smale", "persistence-diagram", "merge-tree", "simplify-field", "track", "relations", "generate"]
 VALUES = ["0", "1", "-1", "2", "3", "1000", "2147483648", "99999999999999999999", "nan", "inf", "", "x", "1e3", "5%", "0.5", "1k"]
 OUTPUTS = ["out.vtp", "out.vtu", "out.vtk", "out", "missing/out.vtp", ".", "out.json", "/dev/null", "/dev/full", "input.vtu"]
 OPTIONS = {
@@ -22,7 +22,7 @@ OPTIONS = {
     "--capacity": VALUES, "--segments": ["field", "ids", "nothing"], "--above": VALUES, "--height": ["x", "y", "z", "w"], "--array": ["field", "pairs", "pairs_1", "no"],
     "--host-memory": ["1k", "64k", "1MiB", "0", "1GiB"], "--device-memory": ["1MiB"], "--blocks-per-request": VALUES,
     "--threads-per-block": ["1", "32"], "--threads-per-segment": ["1", "32"], "--report": OUTPUTS, "-o": OUTPUTS, "--output": OUTPUTS,
-    "--relation": ["VV", "VT", "EF", "FF", "TT", "EE", "XX", "vv"], "--dump": OUTPUTS, "--arrows": OUTPUTS,
+    "--relation": ["VV", "VT", "EF", "FF", "TT", "EE", "XX", "vv"], "--dump": OUTPUTS, "--arrows": OUTPUTS, "--table": OUTPUTS, "--lift": ["x", "z:2", "w", "z:"],
     "--persistence": ["1", "5%", "0", "-1", "nan", "101%"], "--formulation": ["stars", "cells"], "--type": ["join", "split", "contour", "oak"], "--arc-samples": VALUES, "--cores": ["1", "2"]}
 FLAGS = ["--quiet", "--verify", "--cells=tetrahedra", "--cells=simplices", "--separatrices2", "--no-saddle-connectors", "--no-descending-separatrices",
          "--no-ascending-segmentation", "--help", "--bogus"]

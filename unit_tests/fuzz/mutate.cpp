@@ -11,6 +11,7 @@ Mutation mutated(const std::vector<Case>& seeds, const std::vector<std::string>&
   Case& one = mutation.result;
   one.options.simplices_alone = random.one_in(2);
   if (random.one_in(3)) one.options.above = 2;
+  if (random.one_in(4)) one.options.time = 1;
   const Case& other = random.one_of(seeds);
   const int count = 1 + static_cast<int>(random.below(random.one_in(3) ? 6 : 2));
   const bool inside = one.extension == ".nii.gz" && !random.one_in(3);

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <gale/algorithms/simplex_numbers.hpp>
+#include <gale/algorithms/surface_vertices.hpp>
 #include <gale/outputs/analyses.hpp>
 #include <gale/runtime/make_structure.hpp>
 #include <gale/runtime/relation_of.hpp>
@@ -282,6 +284,36 @@ TEST(Grids, have_the_relations_of_what_is_written_out) {
       EXPECT_EQ(to_vector(rows.offsets), to_vector(others.offsets));
       EXPECT_EQ(to_vector(rows.entries), to_vector(others.entries));
     }
+  }
+}
+
+TEST(Grids, number_edges_and_triangles_in_the_order_of_all) {
+  for (const GridCase& one : cases()) {
+    SCOPED_TRACE(one.name);
+    if (write_out(one).cells.empty()) continue;
+    const Mesh mesh(Grid(one.points, inside(one)), 11);
+    NamedSimplices named;
+    const auto edges = relation_of(mesh, Relation::EV, Ids::input),
+               triangles = relation_of(mesh, Relation::FV, Ids::input);
+    for (Offset e = 0; e + 1 < Offset(edges.offsets.extent(0)); ++e)
+      named.edges.push_back({edges.row(e)[e % 2], edges.row(e)[1 - e % 2]});
+    for (Offset f = 0; mesh.dimension() == 3 && f + 1 < Offset(triangles.offsets.extent(0)); ++f)
+      named.triangles.push_back(
+          {triangles.row(f)[f % 3], triangles.row(f)[(f + 1) % 3], triangles.row(f)[(f + 2) % 3]});
+    const SimplexNumbers numbers = number_simplices(mesh, named);
+    for (std::size_t e = 0; e < named.edges.size(); ++e) ASSERT_EQ(numbers.edges[e], GlobalId(e));
+    for (std::size_t f = 0; f < named.triangles.size(); ++f) ASSERT_EQ(numbers.triangles[f], GlobalId(f));
+    const auto on_surface = surface_vertices(mesh);
+    for (Id v = 0; v < mesh.vertices(); ++v) ASSERT_EQ(numbers.on_surface(v), on_surface(v)) << v;
+    const auto refusal = [&](const NamedSimplices& wrong) {
+      return message_of([&] { number_simplices(mesh, wrong); });
+    };
+    EXPECT_EQ(refusal({{{1, 1}}, {}}), "no simplex of the mesh has just the input vertices 1 1");
+    EXPECT_EQ(refusal({{{0, mesh.vertices()}}, {}}), "no vertex " + std::to_string(mesh.vertices()) +
+                                                         " to number a simplex of: there are " +
+                                                         std::to_string(mesh.vertices()));
+    if (mesh.dimension() == 3)
+      EXPECT_EQ(refusal({{}, {{2, 0, 2}}}), "no simplex of the mesh has just the input vertices 0 2 2");
   }
 }
 

@@ -18,12 +18,12 @@ _interpreter.require_main()  # before anything else, since what is loaded by a s
 from . import _gale
 from ._gale import Error
 from ._gale import version as __version__
-from ._mesh import Mesh, read, read_steps
+from ._mesh import Mesh, read, read_steps, track
 from .results import (CriticalPoints, Diagram, DiscreteGradient, Lines, MergeTree, MorseSmaleComplex, Polygons,
-                      SimplifiedField)
+                      SimplifiedField, Tracks)
 
 __all__ = ["CriticalPoints", "Diagram", "DiscreteGradient", "Error", "Lines", "MergeTree", "Mesh", "MorseSmaleComplex",
-           "Polygons", "SimplifiedField", "__version__", "configuration", "read", "read_steps"]
+           "Polygons", "SimplifiedField", "Tracks", "__version__", "configuration", "read", "read_steps", "track"]
 
 
 def configuration() -> Dict[str, Any]:

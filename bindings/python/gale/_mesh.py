@@ -4,7 +4,7 @@ from __future__ import annotations
 import inspect
 import os
 import warnings
-from typing import Any, Callable, Dict, Iterator, List, Optional, Sequence, Tuple, TypeVar, Union
+from typing import Any, Callable, Dict, Iterable, Iterator, List, Optional, Sequence, Tuple, TypeVar, Union
 
 import numpy as np
 
@@ -12,7 +12,7 @@ from . import _arrays, _gale
 from ._gale import Error
 from ._progress import Progress, told
 from .results import (CriticalPoints, Diagram, DiscreteGradient, Lines, MergeTree, MorseSmaleComplex, Polygons,
-                      SimplifiedField)
+                      SimplifiedField, Tracks)
 
 Persistence = Union[float, str]
 Path = Union[str, "os.PathLike[str]"]
@@ -33,6 +33,7 @@ _PARAMETERS = {
     "name": "what the field is called among the arrays of the result",
     "offsets": "(cells + 1,) integers: where each cell begins in `connectivity`, and the end",
     "outside_files": "whether headers may name data files outside of their own folder",
+    "steps": "(time, Mesh, field) of each step, in the order of time; of one Mesh",
     "path": "a file, by its extension, or a synthetic mesh: grid:N, plane:N",
     "persistence": 'a difference of values, in the units of the field, of at least 0; or a part of its range, such as "3%"',
     "points": "(vertices, 3) float32 or float64 coordinates",
@@ -454,7 +455,8 @@ def read(path: Path, above: Optional[float] = None, array: str = "", cells: str 
 def read_steps(inputs: Union[Path, Sequence[Path]], above: Optional[float] = None, array: str = "", cells: str = "any",
                outside_files: bool = False, capacity: int = 64) -> Iterator[Tuple[float, Mesh, Dict[str, np.ndarray]]]:
     """The steps of a series, each read when it is asked for: (time, Mesh, point arrays) as of `read`, whose other
-    arguments these are. `inputs` is a .pvd or .series, or several files, whose times are 0, 1, 2 and so on.
+    arguments these are. `inputs` is a .pvd or .series, an Exodus or VTKHDF file, whose times are the steps, or several
+    files, whose times are 0, 1, 2 and so on.
 
     A mesh that has the same cells as the step before is not made again, but shares what that one has:
 
@@ -462,9 +464,28 @@ def read_steps(inputs: Union[Path, Sequence[Path]], above: Optional[float] = Non
     ...     print(time, mesh.critical_points(arrays["pressure"]).counts())"""
     paths = [inputs] if isinstance(inputs, (str, os.PathLike)) else list(inputs)
     before = None
-    for time, place in _gale.steps_of([_place(path) for path in paths], outside_files):
-        before, arrays, cell_ids = _read(os.fsdecode(place), above, array, cells, outside_files, capacity, before)
+    for time, place, at in _gale.steps_of([_place(path) for path in paths], outside_files):
+        before, arrays, cell_ids = _read(os.fsdecode(place), above, array, cells, outside_files, capacity, before, at)
         yield time, Mesh._of(before, cell_ids), arrays
+
+
+@_documented()
+def track(steps: Iterable[Tuple[float, Mesh, Any]], persistence: Optional[Persistence] = None, name: str = "field",
+          threads: int = 0, progress: Progress = None) -> Tracks:
+    """Follows the minima and maxima of a field through its steps: Tracks. An extremum goes on in the extremum of the next
+    step whose manifold holds its vertex, if that is so backward, too, of each step's complex simplified below
+    `persistence` (as in Mesh.persistence_diagram). Steps are asked for one after the other, and none is kept:
+
+    >>> run = gale.read_steps("run.pvd")
+    >>> tracks = gale.track(((time, mesh, arrays["pressure"]) for time, mesh, arrays in run), "3%")
+    >>> tracks.table["End"]                        # 0 at the last step, 1 merged with EndTrack, 2 dead"""
+    tracker = _gale.Tracker()
+    threshold = _persistence(0 if persistence is None else persistence)["persistence"]
+    for time, mesh, field in steps:
+        with told(progress, f"step at {time}") as tell:
+            tracker.add(float(time), mesh._mesh, _arrays.field(field), name, threshold, threads, tell)
+    lines, table = tracker.found()
+    return Tracks(Lines(*lines), table)
 
 
 def _place(path: Path) -> bytes:
@@ -476,12 +497,12 @@ def _place(path: Path) -> bytes:
 
 
 def _read(path: Path, above: Optional[float], array: str, cells: str, outside_files: bool, capacity: int,
-          like: Optional[_gale.Mesh]) -> Tuple[_gale.Mesh, Dict[str, np.ndarray], Optional[np.ndarray]]:
+          like: Optional[_gale.Mesh], time: Optional[int] = None) -> Tuple[_gale.Mesh, Dict[str, np.ndarray], Optional[np.ndarray]]:
     """A file's mesh, its point arrays and its cells' global ids."""
     if not isinstance(cells, str) or cells not in ("any", "simplices", "tetrahedra"):
         raise Error(f"cells are {cells!r}, neither 'any' nor 'simplices'")
     inner, arrays, cell_arrays, notices = _gale.read(_place(path), above, array, cells != "any", outside_files, capacity,
-                                                     like)
+                                                     like, time)
     name = os.fsdecode(path)
     if array and array not in arrays:
         raise Error(f"{name} has no point array '{array}': it has {', '.join(arrays) or 'none'}")

@@ -482,3 +482,22 @@ class SimplifiedField(_Parts):
         axes.hist(self.values, bins=50, color=_pictures.COLORS[4])
         axes.set(xlabel="value", ylabel="vertices", title=f"{self.minima} minima, {self.maxima} maxima")
         return _pictures.saved(axes, file)
+
+
+@dataclass(eq=False, repr=False)
+class Tracks(_Parts):
+    """Minima and maxima through the steps of a field.
+
+    lines: through time, with the arrays TrackId, CriticalType (0 minima, 3 maxima) and LinkType (0 a track, 1 a merge, 2 a
+    split); at points, which are the extrema of all steps, TrackId, Step, Time, CriticalType, ttkVertexScalarField, the
+    field and Persistence. To have them rise through time: lines.points[:, 2] += lines.arrays["Time"].
+    table: a row for each track, by column: TrackId, CriticalType, FirstStep, LastStep, FirstTime, LastTime, Begin (0 at the
+    first step, 1 as a split, 2 as a birth), BeginTrack (what it splits from), End (0 at the last step, 1 by a merge, 2 by
+    death), EndTrack (what it merges with), FirstVertex, LastVertex, Persistence (the greatest of its steps)."""
+
+    lines: Lines
+    table: Dict[str, np.ndarray]
+
+    def plot(self, on: Any = None, file: Any = None) -> Any:
+        """Draws the lines."""
+        return self.lines.plot(on, file)

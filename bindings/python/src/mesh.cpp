@@ -1,5 +1,7 @@
 #include "mesh.hpp"
 
+#include <nanobind/stl/optional.h>
+
 #include <algorithm>
 
 #include <gale/base/error.hpp>
@@ -200,18 +202,19 @@ nb::list steps_of(const std::vector<nb::bytes>& inputs, bool outside_files) {
   const std::vector<io::Step> steps = Job().run([&] { return io::steps_of(paths, options); });
   nb::list all;
   for (const io::Step& step : steps)
-    all.append(nb::make_tuple(step.time, nb::bytes(step.file.data(), step.file.size())));
+    all.append(nb::make_tuple(step.time, nb::bytes(step.file.data(), step.file.size()), step.at));
   return all;
 }
 
 nb::tuple read(const nb::bytes& path, std::optional<double> above, const std::string& array, bool tetrahedra_alone,
-               bool outside_files, int capacity, const PyMesh* like) {
+               bool outside_files, int capacity, const PyMesh* like, std::optional<std::uint64_t> time) {
   const std::string place(path.c_str(), path.size());
   io::ReadOptions options;
   options.above = above;
   options.array = array;
   options.simplices_alone = tetrahedra_alone;
   options.outside_files = outside_files;
+  options.time = time;
   options.grids = io::GridCells::computed;
   io::Dataset dataset;
   auto mesh = Job().run([&] {

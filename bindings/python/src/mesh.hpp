@@ -49,12 +49,12 @@ class PyMesh : public Kept {
                    const std::map<std::string, std::string>& choices, const std::map<std::string, int>& numbers,
                    int threads, const nb::object& progress) const;
 
- private:
   const Mesh& mesh() const;
 
   /// The points with the field as their array.
   io::Dataset with(io::PointArray field) const;
 
+ private:
   int capacity_;
   io::Dataset dataset_;  ///< the points alone
   std::optional<Mesh> mesh_;
@@ -64,12 +64,12 @@ class PyMesh : public Kept {
 /// split and left out)
 nb::tuple from_cells(Array1 points, Array1 connectivity, Array1 offsets, Array1 types, int capacity);
 
-/// (time, path) of each step that inputs are
+/// (time, path, its place among the times of that file or None) of each step that inputs are
 nb::list steps_of(const std::vector<nb::bytes>& inputs, bool outside_files);
 
 /// (the mesh that a file has, or shares with `like`, its point arrays, arrays of its cells, what of it was split and
 /// left out)
 nb::tuple read(const nb::bytes& path, std::optional<double> above, const std::string& array, bool tetrahedra_alone,
-               bool outside_files, int capacity, const PyMesh* like);
+               bool outside_files, int capacity, const PyMesh* like, std::optional<std::uint64_t> time);
 
 }  // namespace gale::python

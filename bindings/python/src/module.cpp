@@ -13,11 +13,13 @@
 
 #include "mesh.hpp"
 #include "process.hpp"
+#include "tracker.hpp"
 
 NB_MODULE(_gale, module) {
   namespace nb = nanobind;
   using namespace nb::literals;
   using gale::python::PyMesh;
+  using gale::python::PyTracker;
 
   nb::set_leak_warnings(false);  // what users keep until the end is no fault of theirs
   static nb::exception<gale::Error> error(module, "Error", PyExc_ValueError);
@@ -51,7 +53,7 @@ NB_MODULE(_gale, module) {
   module.def("from_cells", &gale::python::from_cells, "points"_a, "connectivity"_a, "offsets"_a, "types"_a,
              "capacity"_a);
   module.def("read", &gale::python::read, "path"_a, "above"_a.none(), "array"_a, "tetrahedra_alone"_a,
-             "outside_files"_a, "capacity"_a, "like"_a.none());
+             "outside_files"_a, "capacity"_a, "like"_a.none(), "time"_a.none());
   module.def("steps_of", &gale::python::steps_of, "inputs"_a, "outside_files"_a);
 
   nb::class_<PyMesh>(module, "Mesh")
@@ -65,4 +67,10 @@ NB_MODULE(_gale, module) {
       .def("relation", &PyMesh::relation, "name"_a, "threads"_a, "progress"_a.none())
       .def("analyse", &PyMesh::analyse, "analysis"_a, "field"_a, "name"_a, "flags"_a, "thresholds"_a, "choices"_a,
            "numbers"_a, "threads"_a, "progress"_a.none());
+
+  nb::class_<PyTracker>(module, "Tracker")
+      .def(nb::init<>())
+      .def("add", &PyTracker::add, "time"_a, "mesh"_a, "field"_a, "name"_a, "threshold"_a, "threads"_a,
+           "progress"_a.none())
+      .def("found", &PyTracker::found);
 }

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <memory>
 
+#include <gale/algorithms/numbers/grid_numbers.hpp>
 #include <gale/algorithms/numbers/numbering_sweep.hpp>
 #include <gale/algorithms/simplex_numbers.hpp>
 #include <gale/mesh/exchange/exchange_plan.hpp>
@@ -170,18 +171,24 @@ SimplexNumbers number_of_part(Structure& structure, const NamedSimplices& named,
   return numbers;
 }
 
+void require_no_cells(const Mesh& mesh, const NamedSimplices& named) {
+  if (mesh.dimension() == 2 && !named.triangles.empty())
+    throw Error(std::to_string(named.triangles.size()) +
+                " triangles of a mesh of triangles are to be numbered: these are its cells, and have their input ids");
+}
+
 }  // namespace
 
 SimplexNumbers number_simplices(const Mesh& mesh, const NamedSimplices& named, const ComputeOptions& options,
                                 Computed* computed) {
   detail::Computing computing(mesh, options, computed);
+  require_no_cells(mesh, named);
+  if (mesh.grid() != nullptr && !mesh.is_part()) return detail::number_on_grid(mesh, named);
   return number_simplices(computing.structure(simplex_numbers_relations), named, options);
 }
 
 SimplexNumbers number_simplices(Structure& structure, const NamedSimplices& named, const SweepOptions& options) {
-  if (structure.mesh().dimension() == 2 && !named.triangles.empty())
-    throw Error(std::to_string(named.triangles.size()) +
-                " triangles of a mesh of triangles are to be numbered: these are its cells, and have their input ids");
+  require_no_cells(structure.mesh(), named);
   const ThreadLimit limit(options.threads);
   return structure.mesh().is_part() ? number_of_part(structure, named, options)
                                     : number_of_whole(structure, named, options);

@@ -91,21 +91,22 @@ Cancellations cancel_below(double threshold, const MorseSmaleComplex& complex, c
   const CriticalPlaces places(critical);
   const ExtremumEnds ends{ends_of_edges(gradient, places), ends_of_facets(gradient, places)};
   const int with_maxima = critical.dimension - 1;
-  const PersistencePairs pairs = pairs_of(gradient, places, ends, false, threads);
   Cancellations all(gradient);
+  all.pairs =
+      pairs_of(gradient, places, ends, false, extrema_only ? WantedPairs::of_extrema : WantedPairs::all, threads);
+  const auto& pairs = all.pairs.pairs;
   const std::function<void()> extrema[] = {
-      [&] { cancel_minima(pairs_below(threshold, 0, pairs.pairs[0], values), critical, ends.of_edges, all); },
+      [&] { cancel_minima(pairs_below(threshold, 0, pairs[0], values), critical, ends.of_edges, all); },
       [&] {
-        cancel_maxima(pairs_below(threshold, with_maxima, pairs.pairs[with_maxima], values), critical, ends.of_facets,
-                      all);
+        cancel_maxima(pairs_below(threshold, with_maxima, pairs[with_maxima], values), critical, ends.of_facets, all);
       }};
   in_turns(threads, 2, [&](int, std::int64_t i) { extrema[i](); });
   if (critical.dimension == 2) return all;
-  DoomedSaddles doomed{pairs_below(threshold, 1, pairs.pairs[1], values), values[1], values[2], {}, threshold};
   if (want_joined) all.saddles.joined.resize(critical.edges.size());
   if (extrema_only) return all;
+  DoomedSaddles doomed{pairs_below(threshold, 1, pairs[1], values), values[1], values[2], {}, threshold};
   doomed.minimum_below.resize(values[1].size());
-  for (const PersistencePair& pair : pairs.pairs[0]) doomed.minimum_below[pair.upper] = values[0][pair.lower];
+  for (const PersistencePair& pair : pairs[0]) doomed.minimum_below[pair.upper] = values[0][pair.lower];
   all.saddles = cancel_saddles(complex, places, doomed, want_joined, all.minima, all.edges);
   for (const auto& [lower, instead] : all.saddles.exchanged) {
     all.is_left[1][lower] = 0;

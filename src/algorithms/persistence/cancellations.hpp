@@ -48,6 +48,7 @@ CancelledSaddles cancel_saddles(const MorseSmaleComplex& complex, const Critical
 struct Cancellations {
   explicit Cancellations(const DiscreteGradient& gradient);
 
+  PersistencePairs pairs;                    ///< that there are; with `extrema_only` those of extrema
   std::array<std::vector<char>, 4> is_left;  ///< of each critical simplex, by dimension
   TurnedForest minima, maxima;
   std::vector<Id> heir_of_minimum, heir_of_maximum;  ///< the extremum whose manifold its own is part of; no_id for none

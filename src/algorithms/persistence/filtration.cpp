@@ -72,6 +72,8 @@ Filtration filtration_of(const DiscreteGradient& gradient, int threads) {
   return filtration;
 }
 
+Id highest_corner(const DiscreteGradient& gradient, Id cell) { return from_highest<4>(gradient, cell)[0]; }
+
 CriticalValues critical_values(const DiscreteGradient& gradient, const std::function<double(Id)>& value) {
   const OtherIds input = gradient.mesh().vertices_in_input();
   const CriticalSimplices& critical = gradient.critical();
@@ -85,7 +87,7 @@ CriticalValues critical_values(const DiscreteGradient& gradient, const std::func
   for (const Id vertex : critical.vertices) add(0, vertex);
   for (const auto& edge : critical.edges) add(1, edge[0]);
   for (const auto& triangle : critical.triangles) add(2, triangle[0]);
-  for (const Id cell : critical.cells) add(critical.dimension, from_highest<4>(gradient, cell)[0]);
+  for (const Id cell : critical.cells) add(critical.dimension, highest_corner(gradient, cell));
   return values;
 }
 

@@ -18,6 +18,9 @@ struct Filtration {
 };
 Filtration filtration_of(const DiscreteGradient& gradient, int threads);
 
+/// The highest vertex of a cell, in GALE's ids.
+Id highest_corner(const DiscreteGradient& gradient, Id cell);
+
 /// The value of each critical simplex of a gradient, which is that of its highest vertex, by dimension.
 using CriticalValues = std::array<std::vector<double>, 4>;
 
@@ -45,12 +48,15 @@ struct ExtremumEnds {
   PathEnds of_edges, of_facets;
 };
 
+/// Which pairs are wanted: those of minima and maxima take little, those of saddles with one another the most.
+enum class WantedPairs { of_extrema, all };
+
 /// Pairs the critical simplices of a gradient with such ends. With `forks` as `find_persistence_pairs` does, and then
 /// nothing asks for the ends of facets. Without, rising paths don't fork: at a facet of three cells or more they take
 /// the way that `cell_successor` has, and such a facet is paired with no maximum. So each pair with a maximum can be
-/// cancelled. The same where no facet has three.
+/// cancelled. The same where no facet has three. What isn't wanted is in no pair.
 PersistencePairs pairs_of(const DiscreteGradient& gradient, const CriticalPlaces& places, const ExtremumEnds& ends,
-                          bool forks, int threads);
+                          bool forks, WantedPairs wanted, int threads);
 
 /// For each maximum the saddle that it is paired with, no_id if it is with none, whatever rising paths do: where they
 /// fork, a saddle has more ends than two, and sets of extrema can't tell. By elimination over Z2. For meshes with

@@ -119,7 +119,7 @@ PersistencePairs pairs_on_triangles(const DiscreteGradient& gradient, const Crit
 }  // namespace
 
 PersistencePairs pairs_of(const DiscreteGradient& gradient, const CriticalPlaces& places, const ExtremumEnds& ends,
-                          bool forks, int threads) {
+                          bool forks, WantedPairs wanted, int threads) {
   const Filtration filtration = filtration_of(gradient, threads);
   if (gradient.mesh().dimension() == 2) return pairs_on_triangles(gradient, places, filtration, ends, forks);
   std::vector<Id> saddle_of_minimum, saddle_of_maximum;
@@ -134,11 +134,13 @@ PersistencePairs pairs_of(const DiscreteGradient& gradient, const CriticalPlaces
   Partners partners(gradient.critical().counts());
   found.pairs[0] = partners.from_lower(0, saddle_of_minimum);
   found.pairs[2] = partners.from_upper(2, saddle_of_maximum);
-  std::vector<Id> columns;
-  for (const Id triangle : filtration.by_rank[2]) {
-    if (!partners.is_paired(2, triangle)) columns.push_back(triangle);
+  if (wanted == WantedPairs::all) {
+    std::vector<Id> columns;
+    for (const Id triangle : filtration.by_rank[2]) {
+      if (!partners.is_paired(2, triangle)) columns.push_back(triangle);
+    }
+    found.pairs[1] = partners.from_lower(1, pair_saddles(gradient, places, filtration, columns, threads));
   }
-  found.pairs[1] = partners.from_lower(1, pair_saddles(gradient, places, filtration, columns, threads));
   for (int d = 0; d < 4; ++d) found.essential[d] = partners.unpaired(d);
   return found;
 }
@@ -152,7 +154,7 @@ PersistencePairs find_persistence_pairs(const DiscreteGradient& gradient, const 
   const bool forks = detail::has_forks(gradient);
   detail::ExtremumEnds ends{ends_of_edges(gradient, places), {}};
   if (!forks) ends.of_facets = ends_of_facets(gradient, places);
-  return pairs_of(gradient, places, ends, forks, std::max(options.threads, 1));
+  return pairs_of(gradient, places, ends, forks, detail::WantedPairs::all, std::max(options.threads, 1));
 }
 
 }  // namespace gale

@@ -50,18 +50,18 @@ void Command::require_extension(const File& file) const {
   throw UsageError(file.option + ' ' + file.name + ": gale " + subcommand_.get_name() + " writes " + list);
 }
 
-Session Command::begin(const std::vector<std::string>& more) const {
+Session Command::begin(const std::vector<std::string>& more, Session::Outputs outputs) const {
   std::vector<std::string> files = more;
   for (const File& file : files_) {
     require_extension(file);
     if (!file.name.empty() && file.extensions == std::vector<std::string>{".png"}) require_drawing();
     files.push_back(file.name);
   }
-  return Session(input_, common_, files);
+  return Session(input_, common_, files, outputs);
 }
 
-AnalysisCommand::AnalysisCommand(CLI::App& app, const std::string& name, Works works, Consumers consumers)
-    : Command(app, name, outputs::analysis_named(name).help, works), analysis_(outputs::analysis_named(name)) {
+AnalysisCommand::AnalysisCommand(CLI::App& app, const outputs::Analysis& analysis, Works works, Consumers consumers)
+    : Command(app, analysis.name, analysis.help, works), analysis_(analysis) {
   segmentation_.add_to(subcommand());
   structure_.add_to(subcommand());
   if (consumers == Consumers::anywhere) {
@@ -88,14 +88,18 @@ void AnalysisCommand::add_flag(const std::string& name, bool& is_on) {
 void AnalysisCommand::run() const {
   structure_.require_consumers();
   require_usage();
-  Session session = begin(more_files());
+  Session session = begin(more_files(), outputs());
   session.warm_up(structure_, [this](const VertexOrder& order) { warm_up(order); });
   Computed computed;
+  go_through_steps(session, computed);
+  session.finish(structure_, computed);
+}
+
+void AnalysisCommand::go_through_steps(Session& session, Computed& computed) const {
   do {
     const FieldOnMesh on = session.read_field(segmentation_, keep());
     analyse(on, session, computed);
   } while (session.next_step(computed));
-  session.finish(structure_, computed);
 }
 
 void tell_types(const std::array<std::int64_t, 5>& counts, int top, Session& session) {

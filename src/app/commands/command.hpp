@@ -52,7 +52,8 @@ class Command {
 
   /// The session of a run, which writes the files that options name, and `more`. Throws UsageError for a file of
   /// another extension, gale::Error for a .png that can't be drawn here, and as Session does.
-  Session begin(const std::vector<std::string>& more = {}) const;
+  Session begin(const std::vector<std::string>& more = {},
+                Session::Outputs outputs = Session::Outputs::of_each_step) const;
 
   /// Throws UsageError, with its name, for an option that is given although there are several ranks: each pair says
   /// whether it is.
@@ -82,6 +83,11 @@ class AnalysisCommand : public Command {
   /// Where rows may be read: --consumers says, or by threads of the host alone.
   enum class Consumers { anywhere, on_host };
   explicit AnalysisCommand(CLI::App& app, const std::string& name, Works works = Works::on_one_rank,
+                           Consumers consumers = Consumers::anywhere)
+      : AnalysisCommand(app, outputs::analysis_named(name), works, consumers) {}
+
+  /// The command of this description, which must outlive it.
+  explicit AnalysisCommand(CLI::App& app, const outputs::Analysis& analysis, Works works = Works::on_one_rank,
                            Consumers consumers = Consumers::anywhere);
 
   /// Adds a switch of the analysis: --name; where it is on by default, --no-name, which sets `is_on` to false.
@@ -99,8 +105,14 @@ class AnalysisCommand : public Command {
   /// Has the device do on a tiny mesh what it will do on the input.
   virtual void warm_up(const VertexOrder& order) const { find_discrete_gradient(order); }
 
-  /// Finds, says and writes what the analysis is about.
-  virtual void analyse(const FieldOnMesh& on, Session& session, Computed& computed) const = 0;
+  /// Finds, says and writes what the analysis is about, in a step.
+  virtual void analyse(const FieldOnMesh& /*on*/, Session& /*session*/, Computed& /*computed*/) const {}
+
+  /// What the files are of that it writes.
+  virtual Session::Outputs outputs() const { return Session::Outputs::of_each_step; }
+
+  /// Reads and analyses each step by itself.
+  virtual void go_through_steps(Session& session, Computed& computed) const;
 
   const outputs::Analysis& analysis_;
   SegmentationOptions segmentation_;
@@ -123,6 +135,7 @@ std::unique_ptr<Command> add_morse_smale(CLI::App& app);
 std::unique_ptr<Command> add_persistence_diagram(CLI::App& app);
 std::unique_ptr<Command> add_merge_tree(CLI::App& app);
 std::unique_ptr<Command> add_simplify_field(CLI::App& app);
+std::unique_ptr<Command> add_track(CLI::App& app);
 std::unique_ptr<Command> add_relations(CLI::App& app);
 std::unique_ptr<Command> add_generate(CLI::App& app);
 
@@ -139,6 +152,7 @@ inline constexpr AddCommand all_commands[] = {add_info,
                                               add_persistence_diagram,
                                               add_merge_tree,
                                               add_simplify_field,
+                                              add_track,
                                               add_relations,
                                               add_generate};
 

@@ -16,7 +16,6 @@ class Generate final : public Command {
   void run() const override {
     Session session = begin();
     io::Dataset dataset = session.read();
-    io::write_out_cells(dataset);
     session.write(output_, [&](const io::AtomicFile& file) { io::write_mesh(file, dataset); });
     session.finish();
   }

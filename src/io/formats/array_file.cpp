@@ -22,11 +22,12 @@ const FileArray& ArrayFile::require(const std::string& name) const {
   return *array;
 }
 
-PointArray::Values ArrayFile::read(const FileArray& array, std::uint64_t rows) {
-  if (rows > array.rows()) damaged("its '", array.name, "' has ", array.rows(), " rows, not ", rows);
+PointArray::Values ArrayFile::read(const FileArray& array, Rows rows) {
+  if (rows.count > array.rows() || rows.first > array.rows() - rows.count)
+    damaged("its '", array.name, "' has ", array.rows(), " rows, not ", rows.count, " from ", rows.first, " on");
   return with_type(array.type.value(), [&](auto example) -> PointArray::Values {
     using T = decltype(example);
-    const std::uint64_t count = array.count(rows), bytes = product(count, sizeof(T));
+    const std::uint64_t count = array.count(rows.count), bytes = product(count, sizeof(T));
     if (count == 0) return std::vector<T>();
     const std::uint64_t stored = stored_bytes(array, rows, bytes);
     if (stored > file_.size() - read_bytes_)
@@ -176,19 +177,22 @@ class NetcdfFile : public ArrayFile {
   }
 
  protected:
-  std::uint64_t stored_bytes(const FileArray& array, std::uint64_t rows, std::uint64_t bytes) override {
+  std::uint64_t stored_bytes(const FileArray& array, Rows rows, std::uint64_t bytes) override {
     const Variable& variable = variables_.at(array.name);
-    const std::uint64_t last = variable.is_in_records ? product(rows - 1, record_bytes_) + variable.row_bytes() : bytes;
+    const std::uint64_t last =
+        sum(product(rows.first + rows.count - 1, variable.is_in_records ? record_bytes_ : variable.row_bytes()),
+            variable.row_bytes());
     if (variable.begin > file_.size() || last > file_.size() - variable.begin)
       damaged("its '", array.name, "' ends at byte ", sum(variable.begin, last), " of ", file_.size());
     return bytes;
   }
 
-  void copy(const FileArray& array, std::uint64_t rows, char* to, std::uint64_t bytes) override {
+  void copy(const FileArray& array, Rows rows, char* to, std::uint64_t bytes) override {
     const Variable& variable = variables_.at(array.name);
-    if (!variable.is_in_records) return file_.read(variable.begin, to, bytes);
     const std::uint64_t row = variable.row_bytes();
-    for (std::uint64_t k = 0; k < rows; ++k) file_.read(variable.begin + k * record_bytes_, to + k * row, row);
+    if (!variable.is_in_records) return file_.read(variable.begin + rows.first * row, to, bytes);
+    for (std::uint64_t k = 0; k < rows.count; ++k)
+      file_.read(variable.begin + (rows.first + k) * record_bytes_, to + k * row, row);
   }
 
  private:

@@ -52,18 +52,23 @@ class ArrayFile {
   /// An attribute of an array; nothing if it has none of that name.
   virtual std::optional<FileAttribute> attribute(const std::string& array, const std::string& name) = 0;
 
-  /// The first `rows` rows. Throws gale::Error if the array or the file has less, or if more is read altogether than
-  /// the file has bytes: arrays may not lie on each other, or a small file would stand for a large mesh.
-  PointArray::Values read(const FileArray& array, std::uint64_t rows);
-  PointArray::Values read(const FileArray& array) { return read(array, array.rows()); }
+  /// Some rows, which follow each other.
+  struct Rows {
+    std::uint64_t count, first = 0;
+  };
+
+  /// These rows. Throws gale::Error if the array or the file hasn't got them, or if more is read altogether than the
+  /// file has bytes: arrays may not lie on each other, or a small file would stand for a large mesh.
+  PointArray::Values read(const FileArray& array, Rows rows);
+  PointArray::Values read(const FileArray& array) { return read(array, {array.rows()}); }
 
  protected:
-  /// Throws gale::Error unless the file has the first `rows` rows, which are of `bytes` bytes: memory is taken then.
-  /// Returns how many bytes they are as they are stored.
-  virtual std::uint64_t stored_bytes(const FileArray& array, std::uint64_t rows, std::uint64_t bytes) = 0;
+  /// Throws gale::Error unless the file has these rows, one at least, which are of `bytes` bytes: memory is taken then.
+  /// Returns how many bytes they are as they are stored, or more.
+  virtual std::uint64_t stored_bytes(const FileArray& array, Rows rows, std::uint64_t bytes) = 0;
 
   /// Copies them to `to`, in the file's order of bytes, all of them.
-  virtual void copy(const FileArray& array, std::uint64_t rows, char* to, std::uint64_t bytes) = 0;
+  virtual void copy(const FileArray& array, Rows rows, char* to, std::uint64_t bytes) = 0;
 
   const InputFile& file_;
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstring>
+#include <memory>
 #include <numeric>
 
 #include <gale/io/bytes/text.hpp>
@@ -267,18 +268,23 @@ std::vector<std::string> read_names(ArrayFile& file, const std::string& name, st
   return names;
 }
 
-/// Nodal variables at the first time.
-void read_variables(ArrayFile& file, std::uint64_t points, MeshParts& parts) {
+/// How many times there are: NetCDF-4 doesn't say how long an unlimited dimension is.
+std::uint64_t count_times(const ArrayFile& file) {
+  const FileArray* const time = file.find("time_whole");
+  return time != nullptr ? time->rows() : file.dimension("time_step").value_or(0);
+}
+
+/// Nodal variables at the time that is wanted.
+void read_variables(ArrayFile& file, std::uint64_t points, const ReadOptions& options, MeshParts& parts) {
   const std::uint64_t count = file.dimension("num_nod_var").value_or(0);
   if (count == 0 || points == 0) return;
-  // NetCDF-4 doesn't say how long an unlimited dimension is.
-  const FileArray* const time = file.find("time_whole");
-  const std::uint64_t times = time != nullptr ? time->rows() : file.dimension("time_step").value_or(0);
+  const std::uint64_t times = count_times(file);
   const std::vector<std::string> names = read_names(file, "name_nod_var", count);
   if (times == 0) {
     parts.notices.push_back("left out its nodal variables: it has no time yet");
     return;
   }
+  const std::uint64_t time = chosen_time(options, times, parts.notices);
   std::vector<PointArray> variables;
   const auto add = [&](PointArray::Values values) {
     variables.push_back({names[variables.size()], 1, std::move(values)});
@@ -292,7 +298,7 @@ void read_variables(ArrayFile& file, std::uint64_t points, MeshParts& parts) {
           const auto step = static_cast<std::ptrdiff_t>(points);
           for (auto at = values.begin(); at != values.end(); at += step) add(Vector(at, at + step));
         },
-        file.read(*all, 1));
+        file.read(*all, {1, time}));
   } else {
     for (std::uint64_t k = 0; k < count; ++k) {
       const std::string name = "vals_nod_var" + std::to_string(k + 1);
@@ -301,11 +307,10 @@ void read_variables(ArrayFile& file, std::uint64_t points, MeshParts& parts) {
       const FileArray& array = file.require(name);
       require_numbers(array, false);
       require_shape(array, {array.rows(), points});
-      add(file.read(array, 1));
+      add(file.read(array, {1, time}));
     }
   }
   parts.arrays = with_vectors(std::move(variables), require_dimension(file, "num_dim"));
-  if (times > 1) parts.notices.push_back("left out all but the first of " + std::to_string(times) + " time steps");
 }
 
 Content read_exodus_from(ArrayFile& file, const ReadOptions& options) {
@@ -316,18 +321,39 @@ Content read_exodus_from(ArrayFile& file, const ReadOptions& options) {
   Elements elements(file);
   for (const std::uint64_t block : ordered_blocks(file)) elements.add_block(std::to_string(block));
   parts.cells = elements.take();
-  read_variables(file, points, parts);
+  read_variables(file, points, options, parts);
   return to_mesh(parts, options);
+}
+
+std::vector<double> times_of(ArrayFile& file) {
+  const std::uint64_t count = count_times(file);
+  if (count > most_files) damaged("it has ", count, " times, more than ", most_files);
+  std::vector<double> times(count);
+  std::iota(times.begin(), times.end(), 0);
+  if (count == 0 || file.find("time_whole") == nullptr) return times;
+  const FileArray& array = file.require("time_whole");
+  require_numbers(array, false);
+  require_shape(array, {count});
+  std::visit([&](const auto& values) { times.assign(values.begin(), values.end()); }, file.read(array));
+  return times;
+}
+
+std::unique_ptr<ArrayFile> open_exodus(const InputFile& input) {
+  if (input.begins_with(netcdf_magic)) return open_netcdf(input);
+  if (!input.begins_with(hdf5_magic)) throw Error("it is no Exodus II file");
+  auto file = std::make_unique<Hdf5File>(input);
+  file->open_group("");
+  return file;
 }
 
 }  // namespace
 
 Content read_exodus(const InputFile& input, const ReadOptions& options) {
-  if (input.begins_with(netcdf_magic)) return read_exodus_from(*open_netcdf(input), options);
-  if (!input.begins_with(hdf5_magic)) throw Error("it is no Exodus II file");
-  Hdf5File file(input);
-  file.open_group("");
-  return read_exodus_from(file, options);
+  return read_exodus_from(*open_exodus(input), options);
+}
+
+std::vector<Step> steps_of_exodus(const InputFile& input, const ReadOptions&) {
+  return steps_at(input, times_of(*open_exodus(input)));
 }
 
 }  // namespace gale::io::detail

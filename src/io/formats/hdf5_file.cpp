@@ -17,20 +17,23 @@ std::string joined(const std::string& group, const std::string& name) {
 
 using Places = std::vector<std::uint64_t>;
 
-/// Copies those values of a chunk which the array has, which ends at `ends`; `first` is its first one's place there.
-void place_chunk(const char* values, const Places& chunk, const Places& first, const Places& ends,
-                 std::size_t value_bytes, char* to) {
+/// Copies those values of a chunk which are wanted: the rows from `first_row` on that end at `ends`. `first` is the
+/// place of the chunk's first value in the array.
+void place_chunk(const char* values, const Places& chunk, const Places& first, std::uint64_t first_row,
+                 const Places& ends, std::size_t value_bytes, char* to) {
   const std::size_t last = chunk.size() - 1;
   Places inside(chunk.size()), step(chunk.size(), 1), size(chunk.size());
   for (std::size_t d = 0; d <= last; ++d) size[d] = std::min(chunk[d], ends[d] - first[d]);
+  inside[0] = std::max(first[0], first_row) - first[0];
+  const std::uint64_t run = size[last] - inside[last];
   step[last] = size[last];  // a run at a time
   do {
     std::uint64_t from = 0, place = 0;
     for (std::size_t d = 0; d <= last; ++d) {
       from = from * chunk[d] + inside[d];
-      place = place * ends[d] + first[d] + inside[d];
+      place = place * ends[d] + first[d] + inside[d] - (d == 0 ? first_row : 0);
     }
-    std::memcpy(to + place * value_bytes, values + from * value_bytes, size[last] * value_bytes);
+    std::memcpy(to + place * value_bytes, values + from * value_bytes, run * value_bytes);
   } while (reader::advance(inside, step, size));
 }
 
@@ -181,7 +184,7 @@ std::optional<FileAttribute> Hdf5File::attribute(const std::string& path, const 
   return std::nullopt;
 }
 
-std::uint64_t Hdf5File::stored_bytes(const FileArray& array, std::uint64_t rows, std::uint64_t bytes) {
+std::uint64_t Hdf5File::stored_bytes(const FileArray& array, Rows rows, std::uint64_t bytes) {
   const Dataset& dataset = datasets_.at(array.name);
   const std::uint64_t all = product(dataset.count(dataset.rows()), size_of(*dataset.type));
   if (dataset.at.layout != reader::Layout::chunked) {
@@ -191,7 +194,8 @@ std::uint64_t Hdf5File::stored_bytes(const FileArray& array, std::uint64_t rows,
     return bytes;
   }
   require_known_filters(dataset.filters, array.name);
-  program_.ask(reader::Request::chunks, {array.name, std::to_string(rows)});
+  program_.ask(reader::Request::chunks,
+               {array.name, std::to_string(rows.first), std::to_string(rows.first + rows.count)});
   const auto stored = program_.receive<std::uint64_t>();
   const std::uint64_t ratio = dataset.filters.empty() ? 1 : best_deflate_ratio;
   if (all / ratio > stored)
@@ -199,25 +203,27 @@ std::uint64_t Hdf5File::stored_bytes(const FileArray& array, std::uint64_t rows,
   return stored;
 }
 
-void Hdf5File::copy(const FileArray& array, std::uint64_t rows, char* to, std::uint64_t bytes) {
+void Hdf5File::copy(const FileArray& array, Rows rows, char* to, std::uint64_t bytes) {
   const Dataset& dataset = datasets_.at(array.name);
   if (dataset.at.layout == reader::Layout::chunked) return copy_chunks(dataset, rows, to);
-  if (dataset.at.layout == reader::Layout::contiguous) return file_.read(dataset.at.address, to, bytes);
+  const std::uint64_t before = bytes / rows.count * rows.first;
+  if (dataset.at.layout == reader::Layout::contiguous) return file_.read(dataset.at.address + before, to, bytes);
   program_.ask(reader::Request::bytes, {array.name});
   std::vector<char> all(static_cast<std::size_t>(dataset.at.stored));
   program_.receive(all.data(), all.size());
-  std::memcpy(to, all.data(), bytes);
+  std::memcpy(to, all.data() + before, bytes);
 }
 
-void Hdf5File::copy_chunks(const Dataset& dataset, std::uint64_t rows, char* to) {
+void Hdf5File::copy_chunks(const Dataset& dataset, Rows rows, char* to) {
   const std::size_t rank = dataset.shape.size(), value_bytes = size_of(*dataset.type);
   std::vector<std::uint64_t> ends = dataset.shape, first(rank);
-  ends[0] = rows;
+  ends[0] = rows.first + rows.count;
   std::uint64_t chunk_bytes = value_bytes, unread = file_.size();
   for (const std::uint64_t length : dataset.chunk) {
     if (length == 0) damaged("the chunks of its '", dataset.name, "' are empty");
     chunk_bytes = product(chunk_bytes, length);
   }
+  first[0] = rows.first - rows.first % dataset.chunk[0];
   do {
     const auto chunk = program_.receive<reader::Chunk>();
     if (chunk.bytes > unread) damaged("the chunks of its '", dataset.name, "' are longer than the file");
@@ -226,7 +232,7 @@ void Hdf5File::copy_chunks(const Dataset& dataset, std::uint64_t rows, char* to)
     program_.receive(stored.data(), stored.size());
     const std::vector<char> values =
         decoded_chunk(std::move(stored), dataset.filters, chunk.left_out, chunk_bytes, value_bytes, dataset.name);
-    place_chunk(values.data(), dataset.chunk, first, ends, value_bytes, to);
+    place_chunk(values.data(), dataset.chunk, first, rows.first, ends, value_bytes, to);
   } while (reader::advance(first, dataset.chunk, ends));
 }
 

@@ -63,8 +63,8 @@ class Hdf5File : public ArrayFile {
   std::optional<FileAttribute> attribute(const std::string& path, const std::string& name) override;
 
  protected:
-  std::uint64_t stored_bytes(const FileArray& array, std::uint64_t rows, std::uint64_t bytes) override;
-  void copy(const FileArray& array, std::uint64_t rows, char* to, std::uint64_t bytes) override;
+  std::uint64_t stored_bytes(const FileArray& array, Rows rows, std::uint64_t bytes) override;
+  void copy(const FileArray& array, Rows rows, char* to, std::uint64_t bytes) override;
 
  private:
   struct Dataset : FileArray {
@@ -74,7 +74,7 @@ class Hdf5File : public ArrayFile {
   };
 
   Dataset receive_dataset();
-  void copy_chunks(const Dataset& dataset, std::uint64_t rows, char* to);
+  void copy_chunks(const Dataset& dataset, Rows rows, char* to);
 
   Hdf5Program program_;
   std::map<std::string, Dataset> datasets_;

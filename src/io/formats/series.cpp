@@ -46,6 +46,8 @@ class Steps {
   std::vector<Step> steps_;
 };
 
+}  // namespace
+
 std::vector<Step> steps_of_pvd(const InputFile& input, const ReadOptions& options) {
   const XmlFile file = read_xml(input, "Collection");
   Steps steps(input, options);
@@ -61,7 +63,7 @@ std::vector<Step> steps_of_pvd(const InputFile& input, const ReadOptions& option
 
 #if defined(GALE_HAS_JSON)
 
-std::vector<Step> steps_of_json(const InputFile& input, const ReadOptions& options) {
+std::vector<Step> steps_of_file_series(const InputFile& input, const ReadOptions& options) {
   constexpr std::uint64_t most_bytes = 1 << 26;
   if (input.size() > most_bytes) damaged("it has ", input.size(), " bytes");
   std::string text(static_cast<std::size_t>(input.size()), '\0');
@@ -81,11 +83,13 @@ std::vector<Step> steps_of_json(const InputFile& input, const ReadOptions& optio
 
 #else
 
-std::vector<Step> steps_of_json(const InputFile&, const ReadOptions&) {
+std::vector<Step> steps_of_file_series(const InputFile&, const ReadOptions&) {
   throw Error("this gale was built without nlohmann_json, which reads it; a .pvd says the same");
 }
 
 #endif
+
+namespace {
 
 Content first_of(const std::vector<Step>& steps, const ReadOptions& options) {
   Content content = format_of(steps[0].file)->reader(InputFile(steps[0].file), options);
@@ -103,11 +107,7 @@ Content read_pvd(const InputFile& input, const ReadOptions& options) {
 }
 
 Content read_file_series(const InputFile& input, const ReadOptions& options) {
-  return first_of(steps_of_json(input, options), options);
-}
-
-std::vector<Step> steps_in(const InputFile& input, const ReadOptions& options) {
-  return format_of(input.path())->reader == read_pvd ? steps_of_pvd(input, options) : steps_of_json(input, options);
+  return first_of(steps_of_file_series(input, options), options);
 }
 
 }  // namespace gale::io::detail

@@ -137,4 +137,23 @@ void TextHeader::read_list(TextReader& text, bool empty_line_ends_it) {
   }
 }
 
+std::vector<Step> steps_at(const InputFile& input, const std::vector<double>& times) {
+  if (times.size() > most_files) damaged("it has ", times.size(), " times, more than ", most_files);
+  if (times.size() < 2) return {{times.empty() || !std::isfinite(times[0]) ? 0 : times[0], input.path()}};
+  std::vector<Step> steps;
+  for (const double time : times) {
+    if (!std::isfinite(time)) damaged("its time ", steps.size(), " is ", time);
+    steps.push_back({time, input.path(), steps.size()});
+  }
+  return steps;
+}
+
+std::uint64_t chosen_time(const ReadOptions& options, std::uint64_t times, std::vector<std::string>& notices) {
+  const std::uint64_t time = options.time.value_or(0);
+  if (time > 0 && time >= times) damaged("it has ", times, " times, and the one at ", time, " is wanted");
+  if (times > 1 && !options.time)
+    notices.push_back("left out all but the first of " + std::to_string(times) + " time steps");
+  return time;
+}
+
 }  // namespace gale::io::detail

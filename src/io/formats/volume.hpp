@@ -56,6 +56,14 @@ std::string path_of_data(const std::string& header, const std::string& name, con
 /// The most data files that a header may name.
 inline constexpr std::size_t most_files = 100000;
 
+/// The steps that a file is which has these times. Throws gale::Error for more than `most_files`, and for a time that
+/// isn't finite. One time, or none, is one step, and no series.
+std::vector<Step> steps_at(const InputFile& input, const std::vector<double>& times);
+
+/// The place of the time to read, of so many, and a notice where it is the first of several that nobody chose. Throws
+/// gale::Error if there is none of that place.
+std::uint64_t chosen_time(const ReadOptions& options, std::uint64_t times, std::vector<std::string>& notices);
+
 /// The names that a pattern such as `slice%03d.raw` makes for first, first + step, ... up to last. Throws gale::Error
 /// for a pattern of another form, or for more than `most` names.
 std::vector<std::string> names_of_pattern(const std::string& pattern, std::int64_t first, std::int64_t last,

@@ -15,7 +15,8 @@
 namespace gale::io::detail {
 namespace {
 
-const std::string root = "VTKHDF", point_data = root + "/PointData", cell_data = root + "/CellData";
+const std::string root = "VTKHDF", point_data = root + "/PointData", cell_data = root + "/CellData",
+                  steps = root + "/Steps";
 
 /// The numbers of an attribute of the image. Throws gale::Error if there aren't so many.
 std::vector<double> numbers(Hdf5File& file, const char* name, std::size_t count, const std::vector<double>& otherwise) {
@@ -26,9 +27,52 @@ std::vector<double> numbers(Hdf5File& file, const char* name, std::size_t count,
   return found->numbers;
 }
 
-/// The point arrays of that shape, with components behind it or not; active scalars first.
-std::vector<PointArray> read_arrays(Hdf5File& file, const std::vector<std::uint64_t>& shape,
-                                    std::vector<std::string>& notices) {
+/// Where what belongs to a time begins in the arrays that have all times, one after the other.
+class AtTime {
+ public:
+  /// Of a file without times all begins at 0.
+  AtTime(Hdf5File& file, const ReadOptions& options, std::vector<std::string>& notices) : file_(file) {
+    has_times_ = file.open_group(steps);
+    if (has_times_) time_ = chosen_time(options, count(), notices);
+    has_arrays_ = has_times_ && file.open_group(steps + "/PointDataOffsets");
+  }
+
+  bool has_times() const { return has_times_; }
+  std::uint64_t time() const { return time_; }
+
+  /// How many times there are.
+  std::uint64_t count() const { return file_.require(steps + "/Values").rows(); }
+
+  /// What an array of a number for each time says of this one; `otherwise` where there is none.
+  std::uint64_t at(const std::string& name, std::uint64_t otherwise) const {
+    const std::string path = steps + "/" + name;
+    if (!has_times_ || file_.find(path) == nullptr) return otherwise;
+    const FileArray& array = file_.require(path);
+    if (array.is_text || *array.type >= ValueType::float32 || array.count(1) != 1)
+      damaged("its '", path, "' is no list of whole numbers");
+    const double value =
+        std::visit([](const auto& values) { return static_cast<double>(values[0]); }, file_.read(array, {1, time_}));
+    if (!(value >= 0 && value <= 9e15)) damaged("its '", path, "' says ", value);
+    return static_cast<std::uint64_t>(value);
+  }
+
+  /// Where a point array begins.
+  std::uint64_t of_array(const std::string& name, std::uint64_t otherwise) const {
+    return has_arrays_ ? at("PointDataOffsets/" + name, otherwise) : otherwise;
+  }
+
+ private:
+  Hdf5File& file_;
+  std::uint64_t time_ = 0;
+  bool has_times_ = false, has_arrays_ = false;
+};
+
+/// The point arrays of that shape, with components behind it or not; active scalars first. Those of several times are
+/// `shape` for each, in one more dimension if `in_rows`, else one after the other; `first` is where this time's begin
+/// that don't say it.
+std::vector<PointArray> read_arrays(Hdf5File& file, std::vector<std::uint64_t> shape, const AtTime& time,
+                                    std::uint64_t first, bool in_rows, std::vector<std::string>& notices) {
+  if (in_rows) shape.insert(shape.begin(), 1);
   std::vector<PointArray> arrays;
   std::vector<std::string> names, cell_names;
   if (!file.open_group(point_data, &names)) names.clear();
@@ -46,26 +90,40 @@ std::vector<PointArray> read_arrays(Hdf5File& file, const std::vector<std::uint6
         components > (1u << 20))
       damaged("its point array '", name, "' has another shape than the points");
     const bool is_active = active && active->text.c_str() == name;
-    arrays.insert(is_active ? arrays.begin() : arrays.end(),
-                  PointArray{name, static_cast<int>(components), file.read(array, shape[0])});
+    arrays.insert(
+        is_active ? arrays.begin() : arrays.end(),
+        PointArray{name, static_cast<int>(components), file.read(array, {shape[0], time.of_array(name, first)})});
   }
   if (file.open_group(cell_data, &cell_names) && !cell_names.empty()) notices.push_back(note_cell_arrays(cell_names));
   return arrays;
 }
 
-/// The whole numbers of a list, all or the first `count`.
-std::vector<std::int64_t> read_integers(Hdf5File& file, const char* name, std::optional<std::uint64_t> count = {}) {
+/// The whole numbers of a list, some of them.
+std::vector<std::int64_t> read_integers(Hdf5File& file, const char* name, std::uint64_t count, std::uint64_t first) {
   const FileArray& array = file.require(root + "/" + name);
   if (array.shape.size() != 1 || *array.type >= ValueType::float32 || array.is_text)
     damaged("its ", name, " is no list of whole numbers");
-  PointArray::Values values = file.read(array, count.value_or(array.rows()));
+  PointArray::Values values = file.read(array, {count, first});
   if (auto* const same = std::get_if<std::vector<std::int64_t>>(&values)) return std::move(*same);
   return std::visit([](const auto& from) { return std::vector<std::int64_t>(from.begin(), from.end()); }, values);
 }
 
+/// The parts of a mesh at a time.
+struct Parts {
+  Parts(const Hdf5File& file, const AtTime& time) {
+    const std::uint64_t all = file.require(root + "/NumberOfPoints").rows();
+    first = time.at("PartOffsets", 0);
+    count = time.at("NumberOfParts", time.has_times() ? all / std::max<std::uint64_t>(time.count(), 1) : all);
+    if (time.has_times() && count == 0) count = all > 0 ? 1 : 0;  // one that doesn't change
+  }
+
+  std::uint64_t first, count;
+};
+
 /// How many of something each part has, and all together.
 struct Counts {
-  Counts(Hdf5File& file, const char* name) : of_part(read_integers(file, name)) {
+  Counts(Hdf5File& file, const char* name, const Parts& parts)
+      : of_part(read_integers(file, name, parts.count, parts.first)) {
     constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max() / 64;
     for (const std::int64_t count : of_part) {
       if (count < 0 || count > most || sum > std::uint64_t(most)) damaged("its ", name, " says ", count);
@@ -78,12 +136,16 @@ struct Counts {
 };
 
 struct MeshCounts {
-  explicit MeshCounts(Hdf5File& file)
-      : points(file, "NumberOfPoints"), cells(file, "NumberOfCells"), corners(file, "NumberOfConnectivityIds") {
-    const std::size_t parts = points.of_part.size();
-    if (cells.of_part.size() != parts || corners.of_part.size() != parts)
-      damaged("its numbers of points, cells and corners are of ", parts, ", ", cells.of_part.size(), " and ",
-              corners.of_part.size(), " parts");
+  MeshCounts(Hdf5File& file, const Parts& parts)
+      : points(file, "NumberOfPoints", parts),
+        cells(file, "NumberOfCells", parts),
+        corners(file, "NumberOfConnectivityIds", parts) {
+    const auto rows = [&](const char* name) { return file.require(root + "/" + name).rows(); };
+    const std::uint64_t of_points = rows("NumberOfPoints"), of_cells = rows("NumberOfCells"),
+                        of_corners = rows("NumberOfConnectivityIds");
+    if (of_cells != of_points || of_corners != of_points)
+      damaged("its numbers of points, cells and corners are of ", of_points, ", ", of_cells, " and ", of_corners,
+              " parts");
   }
 
   Counts points, cells, corners;
@@ -126,23 +188,28 @@ std::size_t find_polyhedron(const PointArray::Values& types) {
 }
 
 Content read_mesh(Hdf5File& file, const ReadOptions& options) {
-  const MeshCounts counts(file);
+  MeshParts parts;
+  const AtTime time(file, options, parts.notices);
+  const Parts of_mesh(file, time);
+  const MeshCounts counts(file, of_mesh);
+  const std::uint64_t first_point = time.at("PointOffsets", 0), first_cell = time.at("CellOffsets", 0);
   const FileArray& xyz = file.require(root + "/Points");
   if (xyz.shape.size() != 2 || xyz.shape[1] != 3) damaged("its Points have no three coordinates each");
-  MeshParts parts;
-  parts.points = file.read(xyz, counts.points.sum);
-  std::vector<std::int64_t> connectivity = read_integers(file, "Connectivity", counts.corners.sum);
+  parts.points = file.read(xyz, {counts.points.sum, first_point});
+  std::vector<std::int64_t> connectivity =
+      read_integers(file, "Connectivity", counts.corners.sum, time.at("ConnectivityIdOffsets", 0));
   const std::uint64_t offsets = counts.cells.sum + counts.points.of_part.size();
-  parts.cells.ends = join_parts(counts, read_integers(file, "Offsets", offsets), connectivity);
+  parts.cells.ends =
+      join_parts(counts, read_integers(file, "Offsets", offsets, first_cell + of_mesh.first), connectivity);
   parts.cells.connectivity = std::move(connectivity);
-  parts.cells.types = file.read(file.require(root + "/Types"), counts.cells.sum);
+  parts.cells.types = file.read(file.require(root + "/Types"), {counts.cells.sum, first_cell});
   const std::size_t polyhedron = find_polyhedron(parts.cells.types);
   if (polyhedron < counts.cells.sum) refuse("cell ", polyhedron, " is a vtkPolyhedron, which isn't read from VTKHDF");
-  parts.arrays = read_arrays(file, {counts.points.sum}, parts.notices);
+  parts.arrays = read_arrays(file, {counts.points.sum}, time, first_point, false, parts.notices);
   return to_mesh(parts, options);
 }
 
-Content read_image(Hdf5File& file) {
+Content read_image(Hdf5File& file, const ReadOptions& options) {
   const std::vector<double> extent = numbers(file, "WholeExtent", 6, {});
   std::array<std::int64_t, 3> low{}, high{};
   for (int d = 0; d < 3; ++d) {
@@ -159,26 +226,57 @@ Content read_image(Hdf5File& file) {
   Image image = oriented_image(low, high, origin, spacing, direction);
   std::vector<std::uint64_t> shape;
   for (int d = 3; d-- > 0;) shape.push_back(static_cast<std::uint64_t>(image.dimensions[d]));
-  image.arrays = read_arrays(file, shape, image.notices);
+  const AtTime time(file, options, image.notices);
+  image.arrays = read_arrays(file, shape, time, time.time(), time.has_times(), image.notices);
   return image;
 }
+
+/// A file, with the arrays of its group VTKHDF known.
+class VtkHdfFile {
+ public:
+  explicit VtkHdfFile(const InputFile& input) : file_(require_hdf5(input)) {
+    if (!file_.open_group(root)) throw Error(other);
+    const std::optional<FileAttribute> version = file_.attribute(root, "Version"), type = file_.attribute(root, "Type");
+    if (!version || version->numbers.size() != 2 || !type) throw Error(other);
+    if (version->numbers[0] != 1 && version->numbers[0] != 2)
+      refuse("its version of VTKHDF is ", version->numbers[0], ", and 1 and 2 are read");
+    kind_ = type->text.c_str();
+  }
+
+  Hdf5File& arrays() { return file_; }
+  const std::string& kind() const { return kind_; }
+
+ private:
+  static constexpr char other[] = "it is no VTKHDF file of a mesh or an image";
+
+  static const InputFile& require_hdf5(const InputFile& input) {
+    if (!input.begins_with(hdf5_magic)) throw Error(other);
+    return input;
+  }
+
+  Hdf5File file_;
+  std::string kind_;
+};
 
 }  // namespace
 
 Content read_vtkhdf(const InputFile& input, const ReadOptions& options) {
-  constexpr char other[] = "it is no VTKHDF file of a mesh or an image";
-  if (!input.begins_with(hdf5_magic)) throw Error(other);
-  Hdf5File file(input);
-  if (!file.open_group(root)) throw Error(other);
-  const std::optional<FileAttribute> version = file.attribute(root, "Version"), type = file.attribute(root, "Type");
-  if (!version || version->numbers.size() != 2 || !type) throw Error(other);
-  if (version->numbers[0] != 1 && version->numbers[0] != 2)
-    refuse("its version of VTKHDF is ", version->numbers[0], ", and 1 and 2 are read");
-  if (file.open_group(root + "/Steps")) throw Error("it has several times, which are not read");
-  const std::string kind = type->text.c_str();
-  if (kind == "UnstructuredGrid") return read_mesh(file, options);
-  if (kind == "ImageData") return read_image(file);
-  refuse("it holds a ", printable(kind), ", neither a mesh nor an image");
+  VtkHdfFile file(input);
+  if (file.kind() == "UnstructuredGrid") return read_mesh(file.arrays(), options);
+  if (file.kind() == "ImageData") return read_image(file.arrays(), options);
+  refuse("it holds a ", printable(file.kind()), ", neither a mesh nor an image");
+}
+
+std::vector<Step> steps_of_vtkhdf(const InputFile& input, const ReadOptions&) {
+  VtkHdfFile file(input);
+  std::vector<double> times;
+  if (file.arrays().open_group(steps)) {
+    const FileArray& values = file.arrays().require(steps + "/Values");
+    if (values.is_text || values.shape.size() != 1) damaged("its '", values.name, "' is no list of times");
+    if (values.rows() > most_files) damaged("it has ", values.rows(), " times, more than ", most_files);
+    std::visit([&](const auto& all) { times.assign(all.begin(), all.end()); }, file.arrays().read(values));
+  }
+  return steps_at(input, times);
 }
 
 }  // namespace gale::io::detail

@@ -143,14 +143,16 @@ void answer_bytes(const File& file, const std::string& path) {
   put_all(values);
 }
 
-void answer_chunks(const File& file, const std::string& path, std::uint64_t rows, std::size_t file_bytes) {
+void answer_chunks(const File& file, const std::string& path, std::uint64_t first, std::uint64_t end,
+                   std::size_t file_bytes) {
   const Handle dataset = file.open(path);
   const auto description = file.describe(path);
   const auto& chunk = description.chunk;
   auto ends = description.shape;
-  ends[0] = rows;
+  ends[0] = end;
   put(static_cast<std::uint64_t>(H5Dget_storage_size(dataset)));
   std::vector<hsize_t> at(chunk.size());
+  at[0] = first - first % chunk[0];
   std::vector<char> bytes;
   do {
     hsize_t stored = 0;
@@ -174,7 +176,7 @@ void answer(const File& file, std::size_t file_bytes, const std::vector<char>& r
     texts.emplace_back(&request[begin]);  // ends by a zero
     begin += texts.back().size() + 1;
   }
-  texts.resize(2);
+  texts.resize(3);
   switch (static_cast<Request>(request[0])) {
     case Request::group:
       return answer_group(file, texts[0]);
@@ -183,7 +185,7 @@ void answer(const File& file, std::size_t file_bytes, const std::vector<char>& r
     case Request::bytes:
       return answer_bytes(file, texts[0]);
     case Request::chunks:
-      return answer_chunks(file, texts[0], std::stoull(texts[1]), file_bytes);
+      return answer_chunks(file, texts[0], std::stoull(texts[1]), std::stoull(texts[2]), file_bytes);
   }
 }
 

@@ -10,8 +10,8 @@
 ///   64 bits for each dimension and, if it is chunked, for each of a chunk; 32 bits for each filter.
 /// - attribute PATH NAME: an AttributeKind; for text a text, for numbers their number, 32 bits, and doubles.
 /// - bytes PATH: those of a compact dataset, as many as its Dataset says.
-/// - chunks PATH ROWS: how many bytes all chunks of the dataset have, 64 bits; of each chunk that has some of the first
-///   ROWS, a number, rows, the last dimension running fastest: a Chunk and its bytes.
+/// - chunks PATH FIRST END: how many bytes all chunks of the dataset have, 64 bits; of each chunk that has some of the
+///   rows from FIRST up to END, two numbers, the last dimension running fastest: a Chunk and its bytes.
 /// Where something is wrong, it writes a line to its standard error, and ends.
 namespace gale::reader {
 

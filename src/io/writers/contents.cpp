@@ -26,10 +26,12 @@ WrittenArrays cells_of(const Surface::Cells& cells) {
 /// The vertices of simplices, and where each ends.
 WrittenArrays simplices_of(const WrittenCells& cells) {
   const std::uint64_t size = cells.corners * cells.count;
-  WrittenArrays arrays = {
-      made_integers("connectivity", size, size, [vertices = cells.vertices](std::uint64_t k) { return vertices[k]; }),
-      made_integers("offsets", cells.count, size,
-                    [corners = cells.corners](std::uint64_t k) { return corners * (k + 1); })};
+  constexpr std::uint64_t most = std::numeric_limits<std::int32_t>::max();
+  WrittenArrays arrays = {size <= most ? cells.connectivity<std::int32_t>("connectivity")
+                                       : cells.connectivity<std::int64_t>("connectivity"),
+                          made_integers("offsets", cells.count, size,
+                                        [corners = cells.corners](std::uint64_t k) { return corners * (k + 1); })};
+  arrays[0].pattern = Pattern::any;  // simplices that follow each other have vertices in common
   arrays[1].pattern = Pattern::steps;
   return arrays;
 }

@@ -62,8 +62,7 @@ void write_legacy_vtk(const AtomicFile& to, const Dataset& mesh, const std::vect
   write_values(
       file, made<std::int64_t>("", count + 1, [corners = simplices.corners](std::uint64_t k) { return corners * k; }));
   file.write("CONNECTIVITY vtktypeint64\n");
-  write_values(file,
-               made<std::int64_t>("", size, [corners = simplices.vertices](std::uint64_t k) { return corners[k]; }));
+  write_values(file, simplices.connectivity<std::int64_t>(""));
   file.write("CELL_TYPES " + cells + "\n");
   write_values(file, made<std::int32_t>("", count, [type = simplices.type](std::uint64_t) { return type; }));
   write_data(file, "CELL_DATA ", cells, written(mesh.cell_arrays));

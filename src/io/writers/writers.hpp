@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <functional>
@@ -40,15 +41,24 @@ WrittenArray written(const Dataset::Positions& points);
 /// called "unnamed", as VTK reads no other.
 WrittenArrays written(const std::vector<PointArray>& arrays, const std::vector<PointArray>& more = {});
 
+/// An array whose values [begin, end) are put one after the other by each(begin, end, put).
+template <class T, class Each>
+WrittenArray made_in_order(const std::string& name, std::uint64_t count, const Each& each) {
+  return {name, 1, value_type_of<T>(), count, [each](std::uint64_t begin, std::uint64_t end, char* to) {
+            each(begin, end, [&](auto value) {
+              const T made = static_cast<T>(value);
+              std::memcpy(to, &made, sizeof(T));
+              to += sizeof(T);
+            });
+          }};
+}
+
 /// An array whose k-th value is value(k).
 template <class T, class Value>
 WrittenArray made(const std::string& name, std::uint64_t count, const Value& value) {
-  return {name, 1, value_type_of<T>(), count, [value](std::uint64_t begin, std::uint64_t end, char* to) {
-            for (std::uint64_t k = begin; k < end; ++k, to += sizeof(T)) {
-              const T made = static_cast<T>(value(k));
-              std::memcpy(to, &made, sizeof(T));
-            }
-          }};
+  return made_in_order<T>(name, count, [value](std::uint64_t begin, std::uint64_t end, const auto& put) {
+    for (std::uint64_t k = begin; k < end; ++k) put(value(k));
+  });
 }
 
 /// An array of integers, in the narrower of two types that holds values of up to `most`.
@@ -82,17 +92,50 @@ XmlContent content_of_triangles(const Dataset& mesh, const std::vector<PointArra
                                 const std::vector<PointArray>& cell_arrays);
 XmlContent content_of_lines(const Surface& lines);
 
-/// The simplices of a mesh, wherever they come from: how many, of so many corners and that type of VTK's.
+/// The simplices of a mesh, which outlives it, wherever they come from: how many, of so many corners and that type of
+/// VTK's.
 struct WrittenCells {
   explicit WrittenCells(const Dataset& mesh)
       : count(mesh.cells()),
         corners(mesh.dimension() == 3 ? 4 : 3),
         type(mesh.dimension() == 3 ? cell_type::tetrahedron : cell_type::triangle),
-        vertices(mesh.dimension() == 3 ? mesh.tetrahedra.data() : mesh.triangles.data()) {}
+        grid_(mesh.grid ? mesh.grid->in<HostMemory>() : GridView()),
+        vertices_(mesh.grid               ? nullptr
+                  : mesh.dimension() == 3 ? mesh.tetrahedra.data()
+                                          : mesh.triangles.data()) {}
 
   std::uint64_t count, corners;
   int type;
-  const std::int32_t* vertices;
+
+  /// Their vertices, those of a grid's as they are asked for.
+  template <class T>
+  WrittenArray connectivity(const std::string& name) const {
+    return made_in_order<T>(name, corners * count,
+                            [cells = *this](std::uint64_t begin, std::uint64_t end, const auto& put) {
+                              cells.each_corner(begin, end, put);
+                            });
+  }
+
+ private:
+  template <class Put>
+  void each_corner(std::uint64_t begin, std::uint64_t end, const Put& put) const {
+    if (vertices_ != nullptr) {
+      for (std::uint64_t k = begin; k < end; ++k) put(vertices_[k]);
+      return;
+    }
+    const auto in_cube = static_cast<std::uint64_t>(grid_.cells_per_cube());
+    for (std::uint64_t at = begin; at < end;) {
+      const std::uint64_t cube = at / corners / in_cube;
+      const Quad of_cube = grid_.corners_of_cube(static_cast<Id>(cube));
+      for (const std::uint64_t last = std::min(end, (cube + 1) * in_cube * corners); at < last;) {
+        const Quad cell = grid_.cell_of_cube(of_cube, static_cast<int>(at / corners % in_cube));
+        for (auto k = at % corners; k < corners && at < last; ++k, ++at) put(cell[static_cast<int>(k)]);
+      }
+    }
+  }
+
+  GridView grid_;
+  const std::int32_t* vertices_;  ///< null where they are a grid's
 };
 
 /// Writes it, its arrays in the encoding of `to`, compressed where can_compress(): block by block, so that it takes

@@ -1,0 +1,152 @@
+#include <algorithm>
+#include <array>
+#include <string>
+
+#include <gale/algorithms/numbers/grid_numbers.hpp>
+#include <gale/base/bits.hpp>
+#include <gale/base/error.hpp>
+#include <gale/base/parallel.hpp>
+#include <gale/mesh/grid.hpp>
+
+namespace gale::detail {
+
+namespace {
+
+constexpr int later_directions = grid_directions / 2;  ///< the others lead to vertices with lower ids
+
+/// The edges and triangles that a vertex is the first one of, where its star is of a kind.
+struct LaterKind {
+  static constexpr std::uint8_t none = 255;
+
+  std::uint8_t edges = 0, triangles = 0;  ///< how many there are
+  std::uint8_t is_open = 0;
+
+  /// The place of the edge in a later direction, and of the triangle between two, the first one lower; none where there
+  /// isn't any.
+  std::array<std::uint8_t, later_directions> edge{};
+  std::array<std::array<std::uint8_t, later_directions>, later_directions> triangle{};
+
+  LaterKind() = default;
+  explicit LaterKind(const StarKind& kind) : is_open(kind.is_open) {
+    edge.fill(none);
+    for (auto& row : triangle) row.fill(none);
+    const auto leads = [](std::uint32_t directions, int later) {
+      return (directions >> (later_directions + later) & 1) != 0;
+    };
+    for (int one = 0; one < later_directions; ++one) {
+      if (!leads(kind.directions, one)) continue;
+      edge[one] = edges++;
+      for (int other = one + 1; other < later_directions; ++other) {
+        if (leads(kind.touching[later_directions + one], other)) triangle[one][other] = triangles++;
+      }
+    }
+  }
+};
+
+/// Where the vertices of a grid are, and which later direction leads from one to another.
+class Directions {
+ public:
+  Directions(const GridView& grid, Id vertices) : grid_(grid) {
+    const std::uint32_t y = grid.nx, z = y * grid.ny;
+    steps_ = {1, y, y + 1, z, z + 1, z + y, z + y + 1};
+    if (!grid.is_whole()) places_ = allocate<Array<std::uint32_t, HostMemory>>("GALE::places_of_vertices", vertices);
+  }
+
+  /// To be called once for each vertex.
+  void find_place(Id vertex) const {
+    if (grid_.is_whole()) return;
+    const GridPlace at = grid_.place_of_vertex(vertex);
+    places_(vertex) = at.x + std::uint32_t(grid_.nx) * (at.y + std::uint32_t(grid_.ny) * at.z);
+  }
+
+  /// `later_directions` if none does.
+  int between(Id from, Id to) const {
+    const std::uint32_t step = grid_.is_whole() ? to - from : places_(to) - places_(from);
+    int direction = 0;
+    while (direction < later_directions && steps_[direction] != step) ++direction;
+    return direction;
+  }
+
+ private:
+  const GridView grid_;
+  std::array<std::uint32_t, later_directions> steps_;
+  Array<std::uint32_t, HostMemory> places_;  ///< x fastest; of a whole grid they are the ids
+};
+
+template <std::size_t N>
+[[noreturn]] void refuse(const std::array<Id, N>& simplex) {
+  std::string vertices;
+  for (const Id vertex : simplex) vertices += ' ' + std::to_string(vertex);
+  throw Error("no simplex of the mesh has just the input vertices" + vertices);
+}
+
+/// A simplex's vertices, ascending. Throws gale::Error for a vertex that the mesh doesn't have.
+template <std::size_t N>
+std::array<Id, N> ascending(const Mesh& mesh, std::array<Id, N> simplex) {
+  for (const Id vertex : simplex) {
+    if (vertex < 0 || vertex >= mesh.vertices())
+      throw Error("no vertex " + std::to_string(vertex) + " to number a simplex of: there are " +
+                  std::to_string(mesh.vertices()));
+  }
+  std::sort(simplex.begin(), simplex.end());
+  return simplex;
+}
+
+using Counts = Array<Id, HostMemory>;
+
+/// Turns the counts of simplices by vertex into the numbers of their first ones.
+void scan(const char* name, const Counts& counts) {
+  const Offset vertices = counts.extent(0) - 1;
+  const auto count = [&](Offset i) { return counts(i); };
+  require_ids(name, reduce_sum("GALE::sum_simplices", HostExecutionSpace(), vertices, count));
+  exclusive_scan("GALE::number_first_simplices", HostExecutionSpace(), vertices, counts, count);
+}
+
+}  // namespace
+
+SimplexNumbers number_on_grid(const Mesh& mesh, const NamedSimplices& named) {
+  const GridView grid = mesh.grid()->in<HostMemory>();
+  std::array<LaterKind, grid_kinds> kinds;
+  for (int kind = 0; kind < grid_kinds; ++kind) kinds[kind] = LaterKind(mesh.grid()->kinds_in<HostMemory>()[kind]);
+  const auto first_edge = allocate<Counts>("GALE::first_edges", mesh.vertices() + 1),
+             first_triangle = allocate<Counts>("GALE::first_triangles", mesh.vertices() + 1);
+  const auto kind_of = allocate<Array<std::uint8_t, HostMemory>>("GALE::star_kinds", mesh.vertices()),
+             on_surface = allocate<Array<std::uint8_t, HostMemory>>("GALE::on_surface", mesh.vertices());
+  const Directions directions(grid, mesh.vertices());
+  const Id* const begin = mesh.vertex_begin().data();
+  parallel_for("GALE::count_simplices", HostExecutionSpace(), mesh.segments(), [&](Offset segment) {
+    GridCursor at(grid);
+    for (Id v = begin[segment]; v < begin[segment + 1]; ++v) {
+      at.go_to(v);
+      directions.find_place(v);
+      const LaterKind& kind = kinds[at.kind()];
+      kind_of(v) = static_cast<std::uint8_t>(at.kind());
+      on_surface(v) = kind.is_open;
+      first_edge(v) = kind.edges;
+      first_triangle(v) = kind.triangles;
+    }
+  });
+  scan("edges", first_edge);
+  scan("triangles", first_triangle);
+
+  SimplexNumbers numbers{std::vector<GlobalId>(named.edges.size()), std::vector<GlobalId>(named.triangles.size()),
+                         on_surface};
+  parallel_for("GALE::number_edges", HostExecutionSpace(), named.edges.size(), [&](Offset i) {
+    const auto edge = ascending(mesh, named.edges[i]);
+    const int direction = directions.between(edge[0], edge[1]);
+    const LaterKind& kind = kinds[kind_of(edge[0])];
+    if (direction == later_directions || kind.edge[direction] == LaterKind::none) refuse(edge);
+    numbers.edges[i] = first_edge(edge[0]) + kind.edge[direction];
+  });
+  parallel_for("GALE::number_triangles", HostExecutionSpace(), named.triangles.size(), [&](Offset i) {
+    const auto triangle = ascending(mesh, named.triangles[i]);
+    const int one = directions.between(triangle[0], triangle[1]), other = directions.between(triangle[0], triangle[2]);
+    const LaterKind& kind = kinds[kind_of(triangle[0])];
+    if (one == later_directions || other == later_directions || kind.triangle[one][other] == LaterKind::none)
+      refuse(triangle);
+    numbers.triangles[i] = first_triangle(triangle[0]) + kind.triangle[one][other];
+  });
+  return numbers;
+}
+
+}  // namespace gale::detail

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <gale/export.hpp>
+#include <gale/io/dataset.hpp>
+
+namespace gale::outputs {
+
+/// Columns of one number a row as comma-separated values, behind a line of their names. Numbers are written such that
+/// they are read back as they are.
+GALE_EXPORT std::string to_csv(const std::vector<io::PointArray>& columns);
+
+}  // namespace gale::outputs
