@@ -237,7 +237,7 @@ class Attempt {
  private:
   void pair_stars(const WorkerSpace& space, const VertexOrder& order, const Room& room,
                   const DeviceSweepOptions& options) {
-    if (mesh_.owned_vertices() < mesh_.vertices()) Kokkos::deep_copy(space, pairs_begin_, Offset(0));
+    if (mesh_.owned_vertices().size() < mesh_.vertices()) Kokkos::deep_copy(space, pairs_begin_, Offset(0));
     const auto rows = static_cast<int>(std::min(1024.0, 1.3 * mesh_.vertices() / mesh_.segments() + 32));
     const detail::PairStars pair{order.keys_in<Memory>().data(),
                                  sink_,
