@@ -6,6 +6,7 @@
 #include <gale/algorithms/discrete_gradient.hpp>
 #include <gale/algorithms/gradient/gradient_store.hpp>
 #include <gale/algorithms/gradient/gradient_sweep.hpp>
+#include <gale/algorithms/gradient/grid_pairs.hpp>
 #include <gale/algorithms/gradient/lane_found.hpp>
 #include <gale/algorithms/gradient/pair_fans.hpp>
 #include <gale/algorithms/gradient/pair_star.hpp>
@@ -137,6 +138,59 @@ struct PairLargeStars {
   }
 };
 
+/// Pairs the lower stars of a grid of tetrahedra, a lane a vertex: those of vertices that have all their cubes.
+struct PairGridStars {
+  GridView grid;
+  const StarKind* kinds;
+  const WholeStar* whole;
+  const std::uint64_t* keys;
+  Interval owned;
+  LaneSink sink;
+  Id* words;
+  const Offset* pairs_begin;
+  DeviceList<Id> left;  ///< the other vertices
+
+  KOKKOS_FUNCTION void operator()(Offset i) const {
+    GridCursor at(grid);
+    const Id vertex = owned.first + static_cast<Id>(i);
+    at.go_to(vertex);
+    const LaneSink::Lane lane{{sink.vertex_successor, sink.cell_successor, &sink.found}, words + pairs_begin[vertex]};
+    if (at.kind() != grid_kinds - 1 || !pair_on_grid<have_device>(lane, *whole, keys, at)) left.add(vertex);
+  }
+
+  /// What the row of a vertex takes.
+  KOKKOS_FUNCTION Offset words_for(Offset vertex) const {
+    if (!owned.has(static_cast<Id>(vertex))) return 0;
+    GridCursor at(grid);
+    at.go_to(static_cast<Id>(vertex));
+    const StarKind& kind = kinds[at.kind()];
+    Id lower = 0;
+    for (int k = 0; k < kind.neighbours; ++k) lower += keys[at.neighbour(kind.direction[k])] < keys[vertex];
+    return EdgePairRow::words_for(lower);
+  }
+};
+
+/// What the rows take that PairGridStars fills.
+struct CountGridWords {
+  PairGridStars pair;
+
+  KOKKOS_FUNCTION Offset operator()(Offset vertex) const { return pair.words_for(vertex); }
+};
+
+/// Pairs the stars that PairGridStars has left.
+struct PairOtherGridStars {
+  PairGridStars all;
+
+  KOKKOS_FUNCTION void operator()(Offset i) const {
+    GridCursor at(all.grid);
+    GridStarRows rows;
+    at.go_to(all.left[i]);
+    const VertexStar star = rows.at(at, all.kinds[at.kind()], 3);
+    Id* const row = all.words + all.pairs_begin[star.vertex];
+    if (!all.sink.pair<1>(all.keys, star, row)) all.sink.pair<2>(all.keys, star, row);
+  }
+};
+
 }  // namespace detail
 
 namespace {
@@ -144,12 +198,14 @@ namespace {
 using Memory = detail::MemoryOfSweep<WorkerSpace>;
 using detail::DeviceList;
 
+bool is_grid_of_tetrahedra(const Mesh& mesh) { return mesh.grid() != nullptr && mesh.dimension() == 3; }
+
 template <class>
 using Capacity = Offset;
 
 /// How much room a sweep has for what it finds.
 struct Room {
-  Offset words, large, large_words;
+  Offset words, large, large_words, left;  ///< the last of grids, the others of other meshes
   detail::FoundSimplices<Capacity> critical;
 
   /// What a mesh that has few triangles on its surface takes, of a field that isn't noise.
@@ -161,6 +217,10 @@ struct Room {
     large = static_cast<Offset>(all / 16) + 1024;
     large_words = 64 * large;
     critical = {large, large, has_rows ? large : 0, large, 2 * large};
+    left = 0;
+    if (!is_grid_of_tetrahedra(mesh)) return;
+    words = large = large_words = 0;
+    left = mesh.vertices() / 8 + 4096;
   }
 };
 
@@ -180,6 +240,8 @@ class Attempt {
             allocate<Array<Offset, Memory>>("GALE::edge_pairs_begin", mesh_.dimension() == 3 ? mesh_.vertices() : 0)),
         used_("GALE::edge_pairs_used", 1),
         large_(room.large, room.large_words),
+        outgrown_("GALE::outgrown", 0),
+        left_("GALE::left_stars", room.left),
         sink_{vertex_successor_.data(),
               cell_successor_.data(),
               {{"GALE::critical_vertices", room.critical.vertices},
@@ -191,7 +253,9 @@ class Attempt {
     DeviceSweepOptions sized = options;
     if (have_device && options.memory == 0) sized.memory = usual_memory;
     if (have_device && options.batches == 0) sized.batches = usual_batches;
-    if (mesh_.dimension() == 3) {
+    if (is_grid_of_tetrahedra(mesh_)) {
+      pair_grid(space, order);
+    } else if (mesh_.dimension() == 3) {
       pair_stars(space, order, room, sized);
     } else {
       pair_fans(space, order, sized);
@@ -207,7 +271,8 @@ class Attempt {
       is_enough = false;
     };
     for_each_list(room.critical, sink_.found, [&](Offset& to, const auto& list) { raise(to, list.count()); });
-    if (words_used_ <= room.words) return is_enough;
+    raise(room.left, left_.count());
+    if (words_used_ <= room.words || is_grid_of_tetrahedra(mesh_)) return is_enough;
     raise(room.words, words_used_);
     // Segments without room for their rows have found nothing: there may be more of everything.
     for (Offset* const list : {&room.critical.edges, &room.critical.triangles, &room.critical.cells})
@@ -260,6 +325,36 @@ class Attempt {
     space.fence();
   }
 
+  /// Finds where rows begin first: then they take what they need.
+  void pair_grid(const WorkerSpace& space, const VertexOrder& order) {
+    const detail::StarKind* const kinds = mesh_.grid()->kinds_in<HostMemory>();
+    const auto whole = allocate<Array<detail::WholeStar, HostMemory>>("GALE::whole_star", 1);
+    whole(0) = detail::WholeStar(kinds[detail::grid_kinds - 1]);
+    const Array<const detail::WholeStar, Memory> whole_here =
+        in_memory<Memory>(Array<const detail::WholeStar, HostMemory>(whole));
+    detail::PairGridStars pair{mesh_.grid()->in<Memory>(),
+                               mesh_.grid()->kinds_in<Memory>(),
+                               whole_here.data(),
+                               order.keys_in<Memory>().data(),
+                               mesh_.owned_vertices(),
+                               sink_,
+                               nullptr,
+                               nullptr,
+                               left_};
+    pairs_begin_ = allocate<Array<Offset, Memory>>("GALE::edge_pairs_begin", mesh_.vertices() + Offset(1));
+    words_used_ =
+        exclusive_scan("GALE::count_edge_pairs", space, mesh_.vertices(), pairs_begin_, detail::CountGridWords{pair});
+    words_ = allocate<Array<Id, Memory>>("GALE::edge_pairs", words_used_);
+    pairs_begin_ = Kokkos::subview(pairs_begin_, std::make_pair(Offset(0), Offset(mesh_.vertices())));
+    pair.words = words_.data();
+    pair.pairs_begin = pairs_begin_.data();
+    parallel_for("GALE::pair_on_grid", space, pair.owned.size(), pair);
+    if (!left_.overflowed()) {
+      parallel_for("GALE::pair_rest_of_grid", space, left_.count(), detail::PairOtherGridStars{pair});
+      space.fence();
+    }
+  }
+
   void pair_fans(const WorkerSpace& space, const VertexOrder& order, const DeviceSweepOptions& options) {
     const detail::PairFans pair{order.keys_in<Memory>().data(), vertex_successor_.data(), cell_successor_.data(),
                                 sink_.found, large_};
@@ -271,6 +366,7 @@ class Attempt {
   Array<Offset, Memory> pairs_begin_, used_;
   detail::HandedStars large_;
   DeviceList<Offset> outgrown_;
+  DeviceList<Id> left_;
   detail::LaneSink sink_;
   Offset words_used_ = 0;
 };
