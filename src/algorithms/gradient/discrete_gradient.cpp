@@ -3,7 +3,7 @@
 #include <gale/algorithms/discrete_gradient.hpp>
 #include <gale/algorithms/gradient/gradient_store.hpp>
 #include <gale/algorithms/gradient/gradient_sweep.hpp>
-#include <gale/algorithms/gradient/grid_gradient.hpp>
+#include <gale/algorithms/gradient/grid_pairs.hpp>
 #include <gale/algorithms/order/require_mesh.hpp>
 #include <gale/base/error.hpp>
 
@@ -199,7 +199,7 @@ DiscreteGradient find_discrete_gradient(const VertexOrder& order, const ComputeO
   if (computing.is_of_grid()) {
     return computing.find_alone(by_kernels, [&] {
       return found_by(order, options, [&](detail::GradientStore& store, int consumers) {
-        detail::pair_on_grid(store, consumers, options);
+        detail::pair_all_on_grid(store, consumers, options);
       });
     });
   }

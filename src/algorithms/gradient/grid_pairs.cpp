@@ -1,7 +1,6 @@
 #include <algorithm>
 
 #include <gale/algorithms/gradient/gradient_sweep.hpp>
-#include <gale/algorithms/gradient/grid_gradient.hpp>
 #include <gale/algorithms/gradient/grid_pairs.hpp>
 #include <gale/mesh/grid.hpp>
 #include <gale/runtime/sweep.hpp>
@@ -28,7 +27,7 @@ WholeStar::WholeStar(const StarKind& kind) {
   }
 }
 
-void pair_on_grid(GradientStore& store, int consumers, const SweepOptions& options) {
+void pair_all_on_grid(GradientStore& store, int consumers, const SweepOptions& options) {
   const Mesh& mesh = store.mesh;
   const Grid& grid = *mesh.grid();
   const StarKind* const kinds = grid.kinds_in<HostMemory>();

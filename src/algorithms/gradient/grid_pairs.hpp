@@ -3,11 +3,13 @@
 #include <cstdint>
 #include <type_traits>
 
+#include <gale/algorithms/gradient/gradient_store.hpp>
 #include <gale/algorithms/gradient/incidences.hpp>
 #include <gale/algorithms/gradient/lower_neighbours.hpp>
 #include <gale/algorithms/gradient/pair_star.hpp>
 #include <gale/base/bits.hpp>
 #include <gale/mesh/grid/grid_stars.hpp>
+#include <gale/runtime/sweep_options.hpp>
 
 // Lower stars in grids of tetrahedra. All vertices whose eight cubes are there have the same star: what touches what is
 // a table, and which of it is lower follows from the ranks of 14 neighbours.
@@ -59,16 +61,7 @@ class GridLowerNeighbours {
       direction_[count_] = static_cast<std::uint8_t>(d);
       count_ += other < key;
     }
-    std::uint64_t ranks = 0;  // by place, four bits each
-    for (int i = 1; i < count_; ++i) {
-      std::uint64_t below = 0;
-      for (int j = 0; j < i; ++j) {
-        const bool is_below = lower[j] < lower[i];
-        below += is_below;
-        ranks += std::uint64_t(!is_below) << 4 * j;
-      }
-      ranks += below << 4 * i;
-    }
+    const std::uint64_t ranks = ranks_of_few(lower, count_);
     for (int i = 0; i < count_; ++i) {
       const std::uint64_t rank = ranks >> 4 * i & 15;
       by_rank_[rank] = static_cast<std::uint8_t>(i);
@@ -198,5 +191,8 @@ struct GridStarRows {
     return {at.vertex(), {neighbours, kind.neighbours}, {cells, kind.cells}, {kind.link, kind.cells, 1, dimension}};
   }
 };
+
+/// Pairs all lower stars of a grid by threads of the host, without a structure.
+void pair_all_on_grid(GradientStore& store, int consumers, const SweepOptions& options);
 
 }  // namespace gale::detail
