@@ -6,8 +6,7 @@
 #include <gale/algorithms/discrete_gradient.hpp>
 #include <gale/algorithms/gradient/gradient_store.hpp>
 #include <gale/algorithms/gradient/gradient_sweep.hpp>
-#include <gale/algorithms/gradient/grid_pairs.hpp>
-#include <gale/algorithms/gradient/lane_found.hpp>
+#include <gale/algorithms/gradient/grid_lanes.hpp>
 #include <gale/algorithms/gradient/pair_fans.hpp>
 #include <gale/algorithms/gradient/pair_star.hpp>
 #include <gale/base/parallel.hpp>
@@ -21,30 +20,6 @@
 namespace gale {
 
 namespace detail {
-
-/// Where lanes put what they find. Each has a row of edges in a place of its own.
-struct LaneSink {
-  Id *vertex_successor, *cell_successor;
-  FoundSimplices<DeviceList> found;
-
-  struct Lane : StarSink<LaneFound> {
-    Id* row;
-
-    KOKKOS_FORCEINLINE_FUNCTION EdgePairRow begin_edges(Id, Id count) const {
-      EdgePairRow edges(row);
-      edges.begin(count);
-      return edges;
-    }
-  };
-
-  /// Pairs a star of so many words of cells; false if it has more.
-  template <int Words>
-  KOKKOS_FUNCTION bool pair(const std::uint64_t* keys, const VertexStar& star, Id* row) const {
-    LowerNeighbours lower;
-    return lower.find(keys, star.vertex, star.neighbours) &&
-           pair_star_of_words<Words, have_device>(Lane{{vertex_successor, cell_successor, &found}, row}, star, lower);
-  }
-};
 
 /// Pairs the lower stars of a segment's vertices.
 struct PairStars {
@@ -135,59 +110,6 @@ struct PairLargeStars {
   KOKKOS_FUNCTION void operator()(Offset i) const {
     const VertexStar star = large[i];
     if (!sink.pair<2>(keys, star, words + pairs_begin[star.vertex])) outgrown.add(i);
-  }
-};
-
-/// Pairs the lower stars of a grid of tetrahedra, a lane a vertex: those of vertices that have all their cubes.
-struct PairGridStars {
-  GridView grid;
-  const StarKind* kinds;
-  const WholeStar* whole;
-  const std::uint64_t* keys;
-  Interval owned;
-  LaneSink sink;
-  Id* words;
-  const Offset* pairs_begin;
-  DeviceList<Id> left;  ///< the other vertices
-
-  KOKKOS_FUNCTION void operator()(Offset i) const {
-    GridCursor at(grid);
-    const Id vertex = owned.first + static_cast<Id>(i);
-    at.go_to(vertex);
-    const LaneSink::Lane lane{{sink.vertex_successor, sink.cell_successor, &sink.found}, words + pairs_begin[vertex]};
-    if (at.kind() != grid_kinds - 1 || !pair_on_grid<have_device>(lane, *whole, keys, at)) left.add(vertex);
-  }
-
-  /// What the row of a vertex takes.
-  KOKKOS_FUNCTION Offset words_for(Offset vertex) const {
-    if (!owned.has(static_cast<Id>(vertex))) return 0;
-    GridCursor at(grid);
-    at.go_to(static_cast<Id>(vertex));
-    const StarKind& kind = kinds[at.kind()];
-    Id lower = 0;
-    for (int k = 0; k < kind.neighbours; ++k) lower += keys[at.neighbour(kind.direction[k])] < keys[vertex];
-    return EdgePairRow::words_for(lower);
-  }
-};
-
-/// What the rows take that PairGridStars fills.
-struct CountGridWords {
-  PairGridStars pair;
-
-  KOKKOS_FUNCTION Offset operator()(Offset vertex) const { return pair.words_for(vertex); }
-};
-
-/// Pairs the stars that PairGridStars has left.
-struct PairOtherGridStars {
-  PairGridStars all;
-
-  KOKKOS_FUNCTION void operator()(Offset i) const {
-    GridCursor at(all.grid);
-    GridStarRows rows;
-    at.go_to(all.left[i]);
-    const VertexStar star = rows.at(at, all.kinds[at.kind()], 3);
-    Id* const row = all.words + all.pairs_begin[star.vertex];
-    if (!all.sink.pair<1>(all.keys, star, row)) all.sink.pair<2>(all.keys, star, row);
   }
 };
 
