@@ -23,7 +23,7 @@ gale_public(outputs analyses arrows critical_points critical_simplices excerpt f
   segmentation separatrices1 separatrices2 simplified_field table tracks)
 gale_public(io atomic_file dataset formats image read synthetic write)
 if(GALE_ENABLE_MPI)
-  gale_public(distributed communicator distributed_mesh mesh_part)
+  gale_public(distributed communicator distributed_mesh grid_layers mesh_part)
 endif()
 
 set(gale_included_headers

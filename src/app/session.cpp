@@ -197,7 +197,7 @@ FieldOnMesh Session::read_part(const SegmentationOptions& segmentation, Keep kee
   FieldOnMesh on = read_on_ranks(input_, segmentation.capacity.value_or(default_capacity),
                                  {has_outputs_ || keep == Keep::values, has_outputs_ && keep == Keep::cells}, was_read);
   tell_size(on.mesh.all_vertices(), on.mesh.all_cells(), on.mesh.dimension());
-  report_.segments = ranks_.sum(on.mesh.owned_segments());
+  report_.segments = ranks_.sum(on.mesh.owned_segments().size());
   if (step_ == 0) console_.say("field", on.field.name);
   part_ = on.mesh;
   return on;
@@ -317,7 +317,7 @@ nlohmann::ordered_json Session::differences_of_ranks() const {
   const double waited = ranks_.sent().seconds_waiting;
   const auto on_device = device_peak_bytes();
   return {{"count", ranks_.size()},
-          {"owned_vertices", by_rank(part_->owned_vertices())},
+          {"owned_vertices", by_rank(part_->owned_vertices().size())},
           {part_->dimension() == 3 ? "tetrahedra" : "triangles", by_rank(part_->cells())},
           {"host_peak_bytes", by_rank(static_cast<double>(host_peak_bytes()))},
           {"device_peak_bytes", on_device ? by_rank(static_cast<double>(*on_device)) : nlohmann::ordered_json(nullptr)},

@@ -9,6 +9,7 @@
 #include <gale/base/error.hpp>
 #include <gale/base/mirrored.hpp>
 #include <gale/distributed/distributed_mesh.hpp>
+#include <gale/distributed/sharing/local_grid.hpp>
 #include <gale/distributed/sharing/local_mesh.hpp>
 #include <gale/distributed/sharing/local_vertices.hpp>
 #include <gale/distributed/sharing/vertex_directory.hpp>
@@ -133,6 +134,7 @@ class DistributedMesh::Sharing final : public Exchange {
   /// Makes this rank's part, with `self` for what it asks of others.
   template <class Index>
   Mesh make(const MeshPart<Index>& part, const PartitionOptions& options, const std::shared_ptr<const Exchange>& self);
+  Mesh make(const GridLayers& part, const PartitionOptions& options, const std::shared_ptr<const Exchange>& self);
 
   const Ranks& ranks() const override { return ranks_; }
   GlobalId vertices() const override { return vertices_; }
@@ -158,7 +160,8 @@ class DistributedMesh::Sharing final : public Exchange {
   Mesh deal(MeshPart<Index> part, const PartitionOptions& options, const std::shared_ptr<const Exchange>& self);
   template <class Index>
   Mesh take(const MeshPart<Index>& part, const PartitionOptions& options, const std::shared_ptr<const Exchange>& self);
-  detail::OwnAndGhosts share(const detail::VertexDirectory& directory, const HostPoints& given);
+  detail::ExchangePlan::Run share(const detail::VertexDirectory& directory);
+  detail::OwnAndGhosts share_points(const HostPoints& given, const detail::ExchangePlan::Run& run) const;
 
   Communicator ranks_;
   GlobalId vertices_ = 0, cells_ = 0;
@@ -207,10 +210,9 @@ Array<int, HostMemory> DistributedMesh::Sharing::owners_of(const Array<const Glo
   return table.find(ranks_, ids, -1);
 }
 
-/// How values come to this rank: each local vertex's from who handed it over, each ghost's from its owner; points
-/// first. A rank that hands over what it owns, one after the other, wants the ghosts' alone.
-detail::OwnAndGhosts DistributedMesh::Sharing::share(const detail::VertexDirectory& directory,
-                                                     const HostPoints& given) {
+/// Plans how values come to this rank: each local vertex's from who handed it over, each ghost's from its owner. A rank
+/// that hands over what it owns, one after the other, wants the ghosts' alone: then the run isn't empty.
+detail::ExchangePlan::Run DistributedMesh::Sharing::share(const detail::VertexDirectory& directory) {
   const bool in_place = directory.given() && !held_.interval().is_empty();
   detail::ExchangePlan::Run run;
   Array<Id, HostMemory> ghosts, slots;
@@ -233,6 +235,12 @@ detail::OwnAndGhosts DistributedMesh::Sharing::share(const detail::VertexDirecto
   from_owners_ = detail::ExchangePlan(
       ranks_, {}, ghosts, [&](Id i) { return ghost_owners_(i); }, [&](Id i) { return held_.ghosts()(i); },
       [&](GlobalId id) { return held_.find(id); });
+  return run;
+}
+
+/// Brings points to those who hold them.
+detail::OwnAndGhosts DistributedMesh::Sharing::share_points(const HostPoints& given,
+                                                            const detail::ExchangePlan::Run& run) const {
   const auto fetched = given.visit([&](const auto& rows) {
     return from_givers_.fetch<detail::SentPoint>(ranks_, [&](Id at) {
       return detail::SentPoint{{rows(at, 0), rows(at, 1), rows(at, 2)}};
@@ -265,7 +273,7 @@ Mesh DistributedMesh::Sharing::deal(MeshPart<Index> part, const PartitionOptions
   vertices_ = directory.vertices();
   cells_ = ranks_.sum(part.cells.extent(0));
   given_ = directory.given();
-  placed_ = share(directory, part.points);
+  placed_ = share_points(part.points, share(directory));
   std::optional<Mesh> mesh;
   detail::together(ranks_, [&] {
     places_ = held_cells.places();
@@ -313,6 +321,43 @@ Mesh DistributedMesh::Sharing::make(const MeshPart<Index>& part, const Partition
     }
   }
   return deal(part, options, self);
+}
+
+Mesh DistributedMesh::Sharing::make(const GridLayers& part, const PartitionOptions& options,
+                                    const std::shared_ptr<const Exchange>& self) {
+  const detail::LocalGrid local = detail::local_grid(ranks_, part, options.most_local);
+  vertices_ = local.all_vertices;
+  cells_ = local.all_cells;
+  given_vertices_ = local.owned.size();
+  given_ = detail::GivenIntervals::of(ranks_, local.owned_ids);
+  detail::together(ranks_, [&] {
+    held_ = detail::LocalVertices(detail::OwnedIds(local.owned_ids), local.ghosts);
+    places_ = detail::CellPlaces({local.grid->cells(), {}, {}, local.first_cell}, {});
+  });
+  const auto run = share(detail::VertexDirectory(ranks_, *given_));
+  if (ranks_.size() == 1) from_givers_ = detail::ExchangePlan::of_one_rank(given_vertices_);
+  const bool has_points = ranks_.least(std::int64_t(part.positions.count() == given_vertices_)) == 1;
+  const bool has_none = ranks_.least(std::int64_t(part.positions.count() == 0)) == 1;
+  if (!has_points && !has_none) throw SharedError("some ranks hand over other points than those of their layers");
+  if (has_points) placed_ = share_points(part.positions, run);
+  if (!has_points) points.made_by({});
+  std::optional<Mesh> mesh;
+  detail::together(ranks_, [&] {
+    const int cell_corners = part.points[2] == 1 ? 3 : 4;
+    const auto cells = allocate<CellRows<Id>::non_const_type>(
+        "GALE::local_cells", options.keep_corners ? local.grid->cells() : 0, cell_corners);
+    if (cells.extent(0) > 0) local.grid->write_cells(cells);
+    corners = cells;
+    mesh = Mesh(*local.grid, options.capacity, local.owned, self);
+  });
+  return *mesh;
+}
+
+DistributedMesh::Shared DistributedMesh::shared(const Communicator& ranks, const GridLayers& part,
+                                                const PartitionOptions& options) {
+  const auto sharing = std::make_shared<Sharing>(ranks);
+  const Mesh mesh = sharing->make(part, options, sharing);
+  return {mesh, sharing};
 }
 
 template <class Index>

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <gale/distributed/communicator.hpp>
+#include <gale/distributed/grid_layers.hpp>
 #include <gale/distributed/mesh_part.hpp>
 #include <gale/export.hpp>
 #include <gale/mesh/mesh.hpp>
@@ -47,6 +48,12 @@ class GALE_EXPORT DistributedMesh : public Mesh {
   DistributedMesh(const Communicator& ranks, const MeshPart<Index>& part, const PartitionOptions& options = {})
       : DistributedMesh(shared(ranks, part, options)) {}
 
+  /// From the layers of a grid that each rank has, which it owns: local meshes are grids, and no cells are written out.
+  /// Collective. Nothing is dealt out again, whatever `repartition` says. Throws gale::Error on all ranks where layers
+  /// don't fit together, a vertex has no cube, there is no cube, and if a rank would hold more than `most_local`.
+  DistributedMesh(const Communicator& ranks, const GridLayers& part, const PartitionOptions& options = {})
+      : DistributedMesh(shared(ranks, part, options)) {}
+
   /// The global ids of the vertices that this rank holds, by input id: ascending. This array and the next three are
   /// made by the first call, on any thread; it throws OutOfMemory where they don't fit.
   const Array<const GlobalId, HostMemory>& vertex_ids() const;
@@ -57,7 +64,7 @@ class GALE_EXPORT DistributedMesh : public Mesh {
   /// The rank that owns each of these vertices, by input id.
   const Array<const int, HostMemory>& owners() const;
 
-  /// Where each of these vertices is, by input id.
+  /// Where each of these vertices is, by input id; empty where layers of a grid were handed over without.
   const Points<double, HostMemory>& points() const;
 
   /// The input ids of each cell's vertices, by its input id, in the order in which they were handed over. Empty unless
@@ -72,6 +79,7 @@ class GALE_EXPORT DistributedMesh : public Mesh {
 
   template <class Index>
   static Shared shared(const Communicator& ranks, const MeshPart<Index>& part, const PartitionOptions& options);
+  static Shared shared(const Communicator& ranks, const GridLayers& part, const PartitionOptions& options);
 
   std::shared_ptr<const Sharing> sharing_;
 };

@@ -1,5 +1,4 @@
 #include <gale/base/memory.hpp>
-#include <gale/base/parallel.hpp>
 #include <gale/io/bytes/text.hpp>
 #include <gale/io/dataset.hpp>
 
@@ -13,14 +12,7 @@ namespace {
 template <class Cells>
 Cells cells_of_grid(const char* label, const Grid& grid) {
   const auto cells = allocate<Cells>(label, grid.cells());
-  const GridView view = grid.in<HostMemory>();
-  parallel_for("GALE::write_out_cells", HostExecutionSpace(), grid.cubes(), [&](Offset cube) {
-    const Quad corners = view.corners_of_cube(static_cast<Id>(cube));
-    for (int i = 0; i < view.cells_per_cube(); ++i) {
-      const Quad cell = view.cell_of_cube(corners, i);
-      for (std::size_t k = 0; k < cells.extent(1); ++k) cells(cube * view.cells_per_cube() + i, k) = cell[int(k)];
-    }
-  });
+  grid.write_cells(cells);
   return cells;
 }
 

@@ -17,8 +17,6 @@ namespace {
 
 using detail::refuse;
 
-const std::string grid_prefix = "grid:";
-
 Dataset read_file(const std::string& path, const Format& format, const ReadOptions& options) {
   detail::Content content = format.reader(detail::InputFile(path), options);
   if (auto* image = std::get_if<Image>(&content)) {
@@ -55,15 +53,20 @@ int size_in_name(const std::string& input, const ReadOptions& options) {
 
 }  // namespace
 
-std::optional<int> grid_size(const std::string& input, const ReadOptions& options) {
-  if (input.compare(0, grid_prefix.size(), grid_prefix) != 0) return std::nullopt;
-  return size_in_name(input, options);
+std::optional<std::array<Id, 3>> grid_points(const std::string& input, const ReadOptions& options) {
+  const std::string kind = input.substr(0, input.find(':') + 1);
+  if (kind != "grid:" && kind != "plane:") return std::nullopt;
+  const Id n = size_in_name(input, options);
+  if (n < 2) refuse(input, kind == "grid:" ? " has no tetrahedra" : " has no triangles", ": N must be at least 2");
+  return std::array<Id, 3>{n, n, kind == "grid:" ? n : 1};
 }
 
 Dataset read(const std::string& input, const ReadOptions& options) {
-  if (const auto n = grid_size(input, options)) return make_grid(*n, options.grids);
+  if (const auto points = grid_points(input, options)) {
+    const Id n = (*points)[0];
+    return (*points)[2] == 1 ? make_plane(n, options.grids) : make_grid(n, options.grids);
+  }
   const std::string kind = input.substr(0, input.find(':'));
-  if (kind.size() < input.size() && kind == "plane") return make_plane(size_in_name(input, options), options.grids);
   if (kind.size() < input.size() && is_synthetic(kind))
     return make_synthetic(kind, size_in_name(input, options), options.grids);
   if (!detail::reads_files())

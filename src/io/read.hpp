@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -31,9 +32,9 @@ struct ReadOptions {
   std::vector<std::string> outputs;
 };
 
-/// The N of an input `grid:N`; nothing for another one. Throws `Error` if N isn't a number, or where a threshold is
-/// given.
-GALE_EXPORT std::optional<int> grid_size(const std::string& input, const ReadOptions& options);
+/// The points along x, y and z of an input `grid:N` or `plane:N`; nothing for another one. Throws `Error` if N isn't a
+/// number, or where a threshold is given.
+GALE_EXPORT std::optional<std::array<Id, 3>> grid_points(const std::string& input, const ReadOptions& options);
 
 /// Reads what `input` names; extensions count in either case:
 /// - `grid:N`: see `make_grid`; `plane:N`: see `make_plane`; `smooth:N`, `noisy:N`, `ball:N`, `shells:N`, `dense:N`:

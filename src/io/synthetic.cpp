@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -32,13 +34,14 @@ std::uint32_t hashed(std::uint32_t x) {
 /// What the field has of that at a vertex.
 double noise_of(Offset vertex) { return 0.05 * (hashed(static_cast<std::uint32_t>(vertex)) / 4294967296.0); }
 
-/// Layers of cubes along z, and the layers of vertices at them.
+/// Layers of vertices along z, and the layers of cubes between them.
 struct Layers {
   int n;
-  Offset first, cubes;
+  Offset first, count;
 
-  Offset vertices() const { return cubes == 0 ? 0 : (cubes + 1) * n * n; }
-  Offset tetrahedra() const { return cubes * (n - 1) * (n - 1) * tetrahedra_per_cube; }
+  Offset cubes() const { return std::max(count - 1, Offset(0)); }
+  Offset vertices() const { return count * n * n; }
+  Offset tetrahedra() const { return cubes() * (n - 1) * (n - 1) * tetrahedra_per_cube; }
   Offset first_vertex() const { return first * n * n; }
   Offset first_tetrahedron() const { return first * (n - 1) * (n - 1) * tetrahedra_per_cube; }
 };
@@ -77,7 +80,7 @@ auto make_tetrahedra(const Layers& layers) {
   const auto tetrahedra = allocate<Kokkos::View<Index* [4], Kokkos::LayoutRight, Kokkos::HostSpace>>(
       "GALE::tetrahedra", layers.tetrahedra());
   const Index step[3] = {1, Index(n), Index(n) * n};
-  parallel_for("GALE::make_tetrahedra", Host(), layers.cubes * c, [&](Offset row) {
+  parallel_for("GALE::make_tetrahedra", Host(), layers.cubes() * c, [&](Offset row) {
     for (int x = 0; x < c; ++x) {
       const Index lowest = static_cast<Index>(((layers.first + row / c) * n + row % c) * n + x);
       const std::size_t first = (std::size_t(row) * c + x) * tetrahedra_per_cube;
@@ -165,7 +168,7 @@ void gather_points(Dataset& dataset, int n) {
 
 Dataset make_grid(int n, GridCells cells) {
   check_size(n);
-  const Layers all{n, 0, n - 1};
+  const Layers all{n, 0, n};
   Dataset dataset;
   if (cells != GridCells::computed_alone) dataset.points = make_points(all);
   dataset.grid = Grid({n, n, n});
@@ -174,22 +177,21 @@ Dataset make_grid(int n, GridCells cells) {
   return dataset;
 }
 
-Dataset make_plane(int n, GridCells cells) {
-  const std::string name = "plane:" + std::to_string(n);
-  if (n < 2) refuse(name, " has no triangles: N must be at least 2");
-  const double squares = n - 1.0;
-  detail::require_ids_for(name + " has", 2 * squares * squares, "triangles");
+namespace {
+
+/// Some rows of a plane: points, if they are wanted, and the field.
+Dataset make_rows(int n, const Interval& rows, bool has_points) {
   Dataset dataset;
-  const Offset count = Offset(n) * n;
-  const bool has_points = cells != GridCells::computed_alone;
+  const Offset count = Offset(n) * rows.size();
   const auto points = allocate<Dataset::Points<float>>("GALE::points", has_points ? count : 0);
   std::vector<float> field(static_cast<std::size_t>(count));
-  parallel_for("GALE::make_plane_points", Host(), n, [&](Offset y) {
+  parallel_for("GALE::make_plane_points", Host(), rows.size(), [&](Offset row) {
+    const Offset y = rows.first + row;
     const double cosine_y = std::cos(0.13 * static_cast<double>(y));
     for (int x = 0; x < n; ++x) {
-      const Offset i = y * n + x;
+      const Offset i = row * n + x;
       field[static_cast<std::size_t>(i)] =
-          static_cast<float>(std::sin(0.11 * x) * cosine_y + std::sin(0.05 * x) + noise_of(i));
+          static_cast<float>(std::sin(0.11 * x) * cosine_y + std::sin(0.05 * x) + noise_of(y * n + x));
       if (!has_points) continue;
       points(i, 0) = static_cast<float>(x);
       points(i, 1) = static_cast<float>(y);
@@ -198,20 +200,60 @@ Dataset make_plane(int n, GridCells cells) {
   });
   dataset.points = points;
   dataset.arrays.push_back({"field", 1, std::move(field)});
+  return dataset;
+}
+
+std::string name_of_plane(int n) { return "plane:" + std::to_string(n); }
+
+void require_squares(int n) {
+  if (n < 2) refuse(name_of_plane(n), " has no triangles: N must be at least 2");
+}
+
+}  // namespace
+
+Dataset make_plane(int n, GridCells cells) {
+  require_squares(n);
+  const double squares = n - 1.0;
+  detail::require_ids_for(name_of_plane(n) + " has", 2 * squares * squares, "triangles");
+  Dataset dataset = make_rows(n, {0, n}, cells != GridCells::computed_alone);
   dataset.grid = Grid({n, n, 1});
   if (cells == GridCells::written) write_out_cells(dataset);
   return dataset;
 }
 
-template <class Index>
-GridPartOf<Index> make_grid_part(int n, int part, int parts) {
+namespace {
+
+void require_numbers(int n) {
   require_cubes(n);
   constexpr int most = 1625;  // its 2^32 numbers make the field's noise
   if (n > most) refuse(name_of_grid(n), " is too large: N is at most ", most);
+}
+
+}  // namespace
+
+Dataset make_layers(const std::array<Id, 3>& of, const Interval& layers, bool has_points) {
+  const int n = of[0];
+  if (of[2] == 1) {
+    require_squares(n);
+    constexpr int most = 65535;  // likewise
+    if (n > most) refuse(name_of_plane(n), " is too large: N is at most ", most);
+    return make_rows(n, layers, has_points);
+  }
+  require_numbers(n);
+  const Layers some{n, layers.first, layers.size()};
+  Dataset dataset;
+  if (has_points) dataset.points = make_points(some);
+  dataset.arrays.push_back({"field", 1, make_field(some)});
+  return dataset;
+}
+
+template <class Index>
+GridPartOf<Index> make_grid_part(int n, int part, int parts) {
+  require_numbers(n);
   if (part < 0 || part >= parts) refuse("there is no part ", part, " of ", parts);
   if (sizeof(Index) < sizeof(Offset)) detail::require_ids_for(name_of_grid(n) + " has", std::pow(n, 3), "vertices");
   const Offset first = Offset(n - 1) * part / parts, last = Offset(n - 1) * (part + 1) / parts;
-  const Layers layers{n, first, last - first};
+  const Layers layers{n, first, last > first ? last - first + 1 : 0};
   const std::string name = "part " + std::to_string(part) + " of " + name_of_grid(n);
   detail::require_ids_for(name + " has", static_cast<double>(layers.vertices()), "vertices");
   detail::require_ids_for(name + " has", static_cast<double>(layers.tetrahedra()), "tetrahedra");

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 #include <gale/export.hpp>
 #include <gale/io/dataset.hpp>
+#include <gale/mesh/intervals.hpp>
 
 namespace gale::io {
 
@@ -39,6 +41,11 @@ GALE_EXPORT bool is_synthetic(const std::string& kind);
 /// Makes a mesh of a kind (`is_synthetic`), with n^3 points or those of them that it keeps. Throws `Error` if there is
 /// no such kind, and as make_grid does.
 GALE_EXPORT Dataset make_synthetic(const std::string& kind, int n, GridCells cells = GridCells::written);
+
+/// The vertices of some layers along z of make_grid's mesh, or along y of make_plane's, whichever of both has so many
+/// points along x, y and z: their field and, if they are wanted, their points. No cells. Throws `Error` for no such
+/// mesh, and where the whole has more than 2^32 vertices (n > 1625, 65535).
+GALE_EXPORT Dataset make_layers(const std::array<Id, 3>& of, const Interval& layers, bool has_points);
 
 /// A slab of the mesh of make_grid: some layers of cubes, and the vertices at these.
 template <class Index>

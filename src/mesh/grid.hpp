@@ -6,6 +6,7 @@
 #include <string>
 
 #include <gale/base/mirrored.hpp>
+#include <gale/base/parallel.hpp>
 #include <gale/export.hpp>
 #include <gale/mesh/grid/grid_stars.hpp>
 #include <gale/mesh/grid/grid_view.hpp>
@@ -58,6 +59,20 @@ class GALE_EXPORT Grid {
   /// For code that runs on `Memory`. Valid as long as the grid or a copy of it.
   template <class Memory>
   GridView in() const;
+
+  /// Writes the vertices of each cell, ascending, to the rows of a View on the host.
+  template <class Cells>
+  void write_cells(const Cells& to) const {
+    const GridView view = in<HostMemory>();
+    const Id of_cube = view.cells_per_cube();
+    parallel_for("GALE::write_cells", HostExecutionSpace(), cubes(), [&](Offset cube) {
+      const Quad corners = view.corners_of_cube(static_cast<Id>(cube));
+      for (Id i = 0; i < of_cube; ++i) {
+        const Quad cell = view.cell_of_cube(corners, i);
+        for (int k = 0; k <= view.dimension; ++k) to(cube * of_cube + i, k) = cell[k];
+      }
+    });
+  }
 
   /// What the kinds of stars have in common, by kind, where code that runs on `Memory` reads it.
   template <class Memory>

@@ -24,7 +24,7 @@ struct Permutations {
 struct PermutedMesh {
   MeshArrays arrays;
   Permutations permutations;
-  Id owned_segments;
+  Interval owned_segments;
 };
 
 /// The arrays of a mesh for code that runs on `Memory`, once someone has asked for them.
@@ -100,19 +100,32 @@ detail::PermutedMesh encode(const Space& space, const CellCorners<corners, Index
   space.fence();
   return {arrays,
           {segmentation.vertex_input, vertex_internal, sorted.input},
-          segmentation.is_part() ? segmentation.owned_segments : segmentation.segments()};
+          {0, segmentation.is_part() ? segmentation.owned_segments : segmentation.segments()}};
 }
 
-/// Where segments of `capacity` consecutive vertices begin, and their internal cells.
+Id segments_of(Id vertices, int capacity) { return vertices / capacity + (vertices % capacity > 0); }
+
+/// How a grid is cut into segments of `capacity` consecutive vertices: those before the owned ones, these, and others.
+struct GridDivision {
+  detail::MeshArrays arrays;
+  Interval owned_segments;
+};
+
+/// Where segments begin, and their internal cells.
 template <class Space>
-detail::MeshArrays divide(const Space& space, const Grid& grid, int capacity) {
+GridDivision divide(const Space& space, const Grid& grid, int capacity, const Interval& owned) {
   const GridView view = grid.in<MemoryOf<Space>>();
-  const Id vertices = grid.vertices(), cells = grid.cells(), segments = vertices / capacity + (vertices % capacity > 0);
+  const Id vertices = grid.vertices(), cells = grid.cells();
+  const Id lower = segments_of(owned.first, capacity), upper = lower + segments_of(owned.size(), capacity);
+  const Id segments = upper + segments_of(vertices - owned.last, capacity);
   const auto vertex_begin = allocate<IdsIn<Space>>("GALE::vertex_begin", segments + 1),
              internal_begin = allocate<IdsIn<Space>>("GALE::internal_begin", segments + 1);
   parallel_for(
       "GALE::divide_grid", space, segments + 1, KOKKOS_LAMBDA(Offset s) {
-        const Id first = s < segments ? static_cast<Id>(s * capacity) : vertices;
+        const Id first = s == segments ? vertices
+                         : s < lower   ? static_cast<Id>(s * capacity)
+                         : s < upper   ? static_cast<Id>(owned.first + (s - lower) * capacity)
+                                       : static_cast<Id>(owned.last + (s - upper) * capacity);
         vertex_begin(s) = first;
         internal_begin(s) = s < segments ? view.first_cell(first) : cells;
       });
@@ -121,7 +134,7 @@ detail::MeshArrays divide(const Space& space, const Grid& grid, int capacity) {
   arrays.dimension = grid.dimension();
   arrays.vertex_begin = vertex_begin;
   arrays.internal_begin = internal_begin;
-  return arrays;
+  return {arrays, {lower, upper}};
 }
 
 /// Writes what a grid computes, for those who want arrays. `divided` says where segments begin.
@@ -175,13 +188,14 @@ class Mesh::Data {
     publish();
   }
 
-  Data(const Grid& given, const detail::MeshArrays& divided)
-      : grid(given),
+  Data(const Grid& given, const GridDivision& division, std::shared_ptr<const Exchange> others)
+      : exchange(std::move(others)),
+        grid(given),
         vertices(given.vertices()),
         cells(given.cells()),
-        owned_segments(static_cast<Id>(divided.vertex_begin.size()) - 1),
-        simplices(divided.dimension, [this]() -> const detail::MeshArrays& { return arrays(); }),
-        divided_(divided) {
+        owned_segments(division.owned_segments),
+        simplices(given.dimension(), [this]() -> const detail::MeshArrays& { return arrays(); }),
+        divided_(division.arrays) {
     publish();
   }
 
@@ -217,7 +231,8 @@ class Mesh::Data {
   const std::string notice;
   const std::shared_ptr<const Exchange> exchange;  ///< of a part
   const std::optional<Grid> grid;
-  const Id vertices, cells, owned_segments;
+  const Id vertices, cells;
+  const Interval owned_segments;
   mutable detail::EncodedOnce<WorkerMemory> worker;
   mutable detail::EncodedOnce<HostMemory> host;
   mutable detail::SimplexStore simplices;
@@ -262,12 +277,15 @@ Mesh::Mesh(const Triangles<Index, Memory>& triangles, const Segmentation& segmen
            std::shared_ptr<const Exchange> exchange)
     : data_(Data::made_of<3, Index>(triangles, segmentation, std::move(exchange))) {}
 
-Mesh::Mesh(const Grid& grid, int capacity) {
+Mesh::Mesh(const Grid& grid, int capacity) : Mesh(grid, capacity, {0, grid.vertices()}, nullptr) {}
+
+Mesh::Mesh(const Grid& grid, int capacity, const Interval& owned, std::shared_ptr<const Exchange> exchange) {
   if (capacity < 1) throw Error("segments of at most " + std::to_string(capacity) + " vertices hold none");
-  if (grid.cells() == 0)
+  if (grid.cells() == 0 && exchange == nullptr)
     throw Error(grid.dimension() == 3 ? "the mesh has no tetrahedra" : "the mesh has no triangles");
-  const auto divided = in_worker_or_host_space(true, [&](const auto& space) { return divide(space, grid, capacity); });
-  data_ = std::make_shared<Data>(grid, divided);
+  const auto divided =
+      in_worker_or_host_space(true, [&](const auto& space) { return divide(space, grid, capacity, owned); });
+  data_ = std::make_shared<Data>(grid, divided, std::move(exchange));
 }
 
 const Grid* Mesh::grid() const { return data_->grid ? &*data_->grid : nullptr; }
@@ -277,8 +295,10 @@ int Mesh::dimension() const { return data_->divided().dimension; }
 Id Mesh::vertices() const { return data_->vertices; }
 Id Mesh::cells() const { return data_->cells; }
 Id Mesh::segments() const { return static_cast<Id>(data_->divided().vertex_begin.size()) - 1; }
-Id Mesh::owned_segments() const { return data_->owned_segments; }
-Id Mesh::owned_vertices() const { return vertex_begin()(owned_segments()); }
+Interval Mesh::owned_segments() const { return data_->owned_segments; }
+Interval Mesh::owned_vertices() const {
+  return {vertex_begin()(owned_segments().first), vertex_begin()(owned_segments().last)};
+}
 
 bool Mesh::is_part() const { return data_->exchange != nullptr; }
 const Exchange& Mesh::exchange() const { return is_part() ? *data_->exchange : Exchange::of_whole_mesh(); }

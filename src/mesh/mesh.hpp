@@ -85,6 +85,9 @@ class GALE_EXPORT Mesh {
   /// made then, where the mesh is. Throws gale::Error for a capacity below 1, and where there is no cell.
   explicit Mesh(const Grid& grid, int capacity = default_capacity);
 
+  /// One rank's part of a grid: the vertices `owned`, which have segments of their own, and ghosts before and after.
+  Mesh(const Grid& grid, int capacity, const Interval& owned, std::shared_ptr<const Exchange> exchange);
+
   /// The grid that it is; null if it is none.
   const Grid* grid() const;
 
@@ -96,11 +99,11 @@ class GALE_EXPORT Mesh {
   Id cells() const;       ///< how many tetrahedra it has, or triangles if its dimension is 2
   Id segments() const;    ///< how many segments it has, those of ghosts included
 
-  /// Sweeps go through the first so many segments, which hold the vertices 0 to owned_vertices() - 1: all of them,
-  /// unless this is one rank's part of a mesh. Then the others hold ghosts: vertices that other ranks own, which are
-  /// there for tetrahedra that touch owned ones. Rows of ghosts lack what the rank doesn't have.
-  Id owned_segments() const;
-  Id owned_vertices() const;  ///< how many vertices these segments hold
+  /// Sweeps go through these segments: all of them, unless this is one rank's part of a mesh. Then the others hold
+  /// ghosts: vertices that other ranks own, which are there for cells that touch owned ones. Rows of ghosts lack what
+  /// the rank doesn't have.
+  Interval owned_segments() const;
+  Interval owned_vertices() const;  ///< what these segments hold
 
   /// What this part of a mesh asks of other ranks; a whole mesh asks nobody.
   const Exchange& exchange() const;

@@ -27,7 +27,7 @@ void append_sizes(const Mesh& mesh, const Mirrored<Id>& found, const Labels& ask
   gale::detail::together(mesh.exchange().ranks(), [&] {
     const auto& manifold = found.in<HostMemory>();
     std::vector<GlobalId> all;
-    for (Id v = 0; v < mesh.owned_vertices(); ++v) {
+    for (const Id v : mesh.owned_vertices()) {
       const Id label = manifold(mesh.vertices_in_input()[v]);
       if (label != no_id) all.push_back(label);
     }

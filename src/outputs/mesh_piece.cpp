@@ -21,14 +21,14 @@ SimplicesOfPiece simplices_of_piece(const VertexOrder& order) {
   const OtherIds input = mesh.vertices_in_input();
   const std::uint64_t* const keys = order.keys();
   SimplicesOfPiece of_piece{{}, {}, std::vector<Id>(mesh.vertices(), no_id)};
-  for (Id v = 0; v < mesh.owned_vertices(); ++v) of_piece.place[input(v)] = 0;
+  for (const Id v : mesh.owned_vertices()) of_piece.place[input(v)] = 0;
   for (Id t = 0; t < mesh.cells(); ++t) {
     const Quad corners = cell(t);
     Id highest = corners.a;
     for (int corner = 1; corner < 4; ++corner) {
       if (keys[corners[corner]] > keys[highest]) highest = corners[corner];
     }
-    if (highest >= mesh.owned_vertices()) continue;
+    if (!mesh.owned_vertices().has(highest)) continue;
     of_piece.cells.push_back(mesh.cells_in_input()[t]);
     for (int corner = 0; corner < 4; ++corner) of_piece.place[input[corners[corner]]] = 0;
   }
@@ -69,7 +69,7 @@ io::MeshPiece piece_of(const VertexOrder& order, const io::Dataset& dataset, con
   for (const io::PointArray& array : dataset.arrays) arrays.push_back(io::gather(array, vertices));
   for (const io::PointArray& array : more) arrays.push_back(io::gather(array, vertices));
   std::vector<std::uint8_t> ghosts;
-  for (const Id v : vertices) ghosts.push_back(mesh.vertices_of_input()[v] >= mesh.owned_vertices());
+  for (const Id v : vertices) ghosts.push_back(!mesh.owned_vertices().has(mesh.vertices_of_input()[v]));
   arrays.push_back({"vtkGhostType", 1, std::move(ghosts)});
   if (!has_ids) {
     arrays.push_back(array_of_ids(io::global_point_ids, vertices, [&](Id v) { return mesh.vertex_id(v); }));

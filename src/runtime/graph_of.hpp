@@ -40,7 +40,7 @@ Csr<const Id, detail::MemoryOfSweep<Space>> graph_of(const Space& space, const M
     mesh.simplices<Memory>(needs_of(relation, mesh.dimension()));
     const Offset rows = mesh.interval_begin(row_dimension(relation))(mesh.segments());
     const auto offsets = allocate<Array<Offset, Memory>>("GALE::graph_offsets", rows + 1);
-    if (mesh.owned_segments() < mesh.segments()) Kokkos::deep_copy(offsets, Offset(0));
+    if (mesh.owned_segments().size() < mesh.segments()) Kokkos::deep_copy(offsets, Offset(0));
     const detail::CountEntries<Memory> count{offsets};
     for_each_row(space, mesh, relation, count, options);
     const Offset total = exclusive_scan("GALE::graph_offsets", space, rows, offsets, count);

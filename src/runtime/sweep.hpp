@@ -7,6 +7,7 @@
 #include <gale/base/error.hpp>
 #include <gale/base/threads.hpp>
 #include <gale/base/types.hpp>
+#include <gale/mesh/intervals.hpp>
 #include <gale/runtime/sweep_options.hpp>
 
 namespace gale::detail {
@@ -14,8 +15,10 @@ namespace gale::detail {
 /// Deals the segments of a sweep out to its consumers, ascending, a few at a time: whoever is done takes the next ones.
 class SegmentCursor {
  public:
-  SegmentCursor(Id segments, int consumers)
-      : segments_(segments), at_once_(std::clamp(segments / (64 * consumers), Id(1), Id(16))) {}
+  SegmentCursor(const Interval& segments, int consumers)
+      : end_(segments.last),
+        at_once_(std::clamp(segments.size() / (64 * consumers), Id(1), Id(16))),
+        next_(segments.first) {}
 
   struct Range {
     Id begin, end;
@@ -23,9 +26,8 @@ class SegmentCursor {
 
   /// The next segments for one consumer; none, ever, when all are dealt out or someone called stop().
   Range take() {
-    const Offset begin = stopped_ ? segments_ : next_.fetch_add(at_once_);
-    return {static_cast<Id>(std::min<Offset>(begin, segments_)),
-            static_cast<Id>(std::min<Offset>(begin + at_once_, segments_))};
+    const Offset begin = stopped_ ? end_ : next_.fetch_add(at_once_);
+    return {static_cast<Id>(std::min<Offset>(begin, end_)), static_cast<Id>(std::min<Offset>(begin + at_once_, end_))};
   }
 
   void stop() { stopped_ = true; }
@@ -35,9 +37,9 @@ class SegmentCursor {
   Id finish(Id count) { return done_ += count; }
 
  private:
-  const Id segments_;
+  const Id end_;
   const Id at_once_;
-  std::atomic<Offset> next_{0};
+  std::atomic<Offset> next_;
   std::atomic<Id> done_{0};
   std::atomic<bool> stopped_{false};
 };
@@ -59,16 +61,16 @@ class ProgressReport {
   Id told_ = 0;
 };
 
-/// The loop of every sweep: calls `body(consumer, segment)` once for each segment 0..segments-1 on `options.threads`
+/// The loop of every sweep: calls `body(consumer, segment)` once for each of the segments on `options.threads`
 /// threads, each with a consumer's number of its own. Each consumer's segments ascend. Progress is told on the calling
 /// thread, which is consumer 0, and at the end. The first exception that a body or the progress callback throws is
 /// thrown again here, when the segments under way are done; no other is begun, nor when it is asked to stop. Throws
 /// gale::Error for less than one thread.
 template <class Body>
-void sweep(Id segments, const SweepOptions& options, const Body& body) {
+void sweep(const Interval& segments, const SweepOptions& options, const Body& body) {
   if (options.threads < 1) throw Error("a sweep takes at least 1 thread, not " + std::to_string(options.threads));
   SegmentCursor cursor(segments, options.threads);
-  ProgressReport report(segments, options);
+  ProgressReport report(segments.size(), options);
   on_threads(options.threads, [&](int consumer) {
     try {
       for (auto range = cursor.take(); range.begin < range.end; range = cursor.take()) {
@@ -85,7 +87,13 @@ void sweep(Id segments, const SweepOptions& options, const Body& body) {
       throw;
     }
   });
-  report(segments);
+  report(segments.size());
+}
+
+/// Sweeps over segments from 0 on.
+template <class Body>
+void sweep(Id segments, const SweepOptions& options, const Body& body) {
+  sweep(Interval{0, segments}, options, body);
 }
 
 }  // namespace gale::detail

@@ -115,12 +115,12 @@ class DrawingTest(CommandTest):
 
 
 class Volume:
-    """Values of nx * ny * nz voxels, x fastest, that can be written in every volume format."""
+    """Values of nx * ny * nz voxels, x fastest, that can be written in every volume format; those of another kind than float as .mha."""
 
-    def __init__(self, size, value):
-        self.size = size
+    def __init__(self, size, value, kind="float"):
+        self.size, self.kind = size, kind
         self.values = [value(x, y, z) for z in range(size[2]) for y in range(size[1]) for x in range(size[0])]
-        self.data = struct.pack(f"<{len(self.values)}f", *self.values)
+        self.data = struct.pack(f"<{len(self.values)}{dict(float='f', double='d', uchar='B', short='h')[kind]}", *self.values)
 
     def nrrd(self):
         sizes = " ".join(map(str, self.size))
@@ -129,7 +129,7 @@ class Volume:
 
     def mha(self, data_file="LOCAL"):
         sizes = " ".join(map(str, self.size))
-        header = (f"ObjectType = Image\nNDims = 3\nDimSize = {sizes}\nElementSpacing = 1 1 1\nElementType = MET_FLOAT\n"
+        header = (f"ObjectType = Image\nNDims = 3\nDimSize = {sizes}\nElementSpacing = 1 1 1\nElementType = MET_{self.kind.upper()}\n"
                   f"ElementByteOrderMSB = False\nElementDataFile = {data_file}\n").encode()
         return header + self.data if data_file == "LOCAL" else header
 

@@ -101,7 +101,7 @@ void OnRanks::expect_pairs(const DiscreteGradient& found, const DiscreteGradient
   };
   for (Id v = 0; v < local.vertices(); ++v) {
     const Id there = all.vertex_internal()(input_vertex(v));
-    if (v >= local.owned_vertices()) {
+    if (!local.owned_vertices().has(v)) {
       EXPECT_EQ(found.vertex_successor(v), DiscreteGradient::elsewhere);
       continue;
     }

@@ -170,7 +170,7 @@ TEST(PathsOnRanks, take_few_rounds_to_their_ends) {
   const detail::PathsOnRanks paths(vertices);
   EXPECT_LE(paths.rounds(), 6);  // 2^6 steps are more than any path has
   if (ranks.size() == 1) EXPECT_EQ(paths.rounds(), 0);
-  for (Id v = 0; v < mesh.owned_vertices(); ++v) {
+  for (const Id v : mesh.owned_vertices()) {
     const detail::PathStop stop = paths.final_stop(paths.end(v));
     EXPECT_EQ(stop.rank, detail::PathStop::critical);
     EXPECT_EQ(stop.id, vertex_name(0));

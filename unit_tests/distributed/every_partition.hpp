@@ -34,7 +34,7 @@ class EveryPartition : public testing::TestWithParam<std::tuple<std::string, std
   /// For each vertex of the input whether this rank owns it.
   std::vector<bool> owned() const {
     std::vector<bool> owned(input().vertices(), false);
-    for (Id v = 0; v < mesh_.owned_vertices(); ++v) owned[input_vertex(v)] = true;
+    for (const Id v : mesh_.owned_vertices()) owned[input_vertex(v)] = true;
     return owned;
   }
 };

@@ -59,7 +59,7 @@ Sums sums_on_ranks(const DistributedMesh& mesh, const WholeField& field) {
   for (const auto& [high, middle, low] : complex.critical.triangles) simplices.add(id(high), id(middle), id(low));
   const auto down = to_vector(complex.descending_manifold), up = to_vector(complex.ascending_manifold),
              pairs = to_vector(complex.morse_smale_manifold);
-  for (Id v = 0; v < mesh.owned_vertices(); ++v) {
+  for (const Id v : mesh.owned_vertices()) {
     const Id at = mesh.vertex_input()(v);
     manifolds.add(mesh.vertex_ids()(at), down[at], up[at], pairs[at]);
   }

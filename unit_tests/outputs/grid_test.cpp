@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <gale/algorithms/discrete_gradient.hpp>
 #include <gale/algorithms/simplex_numbers.hpp>
 #include <gale/algorithms/surface_vertices.hpp>
 #include <gale/outputs/analyses.hpp>
@@ -373,6 +374,40 @@ TEST(Grids, give_the_results_of_what_is_written_out) {
           }
         }
       }
+    }
+  }
+}
+
+/// By bits where all cubes are there, by rows elsewhere; as kernels do it, and as it is done with any mesh's rows.
+TEST(Grids, have_the_gradient_that_rows_give) {
+  for (const GridCase& one : cases()) {
+    SCOPED_TRACE(one.name);
+    const Grid grid(one.points, inside(one));
+    if (grid.cells() == 0) continue;
+    const Mesh mesh(grid, 10);
+    const Written written = write_out(one);
+    const auto& field = std::get<std::vector<float>>(written.dataset.arrays.front().values);
+    const VertexOrder order(mesh, field.data(), field.size());
+    StructureOptions rows;
+    rows.way = Way::inline_;
+    const auto structure = make_structure(mesh, discrete_gradient_relations_of(mesh.dimension()), rows);
+    const DiscreteGradient expected = find_discrete_gradient(*structure, order);
+    const auto pairs_of = [&](const DiscreteGradient& gradient) {
+      std::map<std::pair<Id, Id>, Id> pairs;
+      for (Id v = 0; v < mesh.vertices(); ++v)
+        gradient.for_each_edge_pair(v, [&](Id low, Id third) { pairs[{v, low}] = third; });
+      return pairs;
+    };
+    for (const DiscreteGradient& found :
+         {find_discrete_gradient(order), find_discrete_gradient(WorkerSpace(), order, DeviceSweepOptions())}) {
+      EXPECT_EQ(to_vector(found.vertex_successors()), to_vector(expected.vertex_successors()));
+      EXPECT_EQ(to_vector(found.cell_successors()), to_vector(expected.cell_successors()));
+      EXPECT_EQ(pairs_of(found), pairs_of(expected));
+      EXPECT_EQ(found.critical().vertices, expected.critical().vertices);
+      EXPECT_EQ(found.critical().edges, expected.critical().edges);
+      EXPECT_EQ(found.critical().triangles, expected.critical().triangles);
+      EXPECT_EQ(found.critical().cells, expected.critical().cells);
+      EXPECT_EQ(found.critical().star, expected.critical().star);
     }
   }
 }

@@ -80,8 +80,8 @@ std::int64_t hits(const detail::HelpedSweep& helped) {
 TEST(HelpedSweep, runs_ahead_of_a_consumer_until_the_ring_is_full) {
   const HelpedMesh fixture;
   std::atomic<int> made{0};
-  detail::HelpedSweep helped(fixture.mesh.segments(), 1, fixture.hooked({}), 1, fixture.hooked([&](Id) { ++made; }),
-                             much);
+  detail::HelpedSweep helped({0, fixture.mesh.segments()}, 1, fixture.hooked({}), 1,
+                             fixture.hooked([&](Id) { ++made; }), much);
   bool first = true;
   fixture.sweep(helped, 1, [&](Id) {
     if (std::exchange(first, false)) wait_until([&] { return made >= ring; });
@@ -100,7 +100,7 @@ TEST(HelpedSweep, keeps_no_more_blocks_than_the_ring_has) {
     by_helper[segment] = true;
     most = std::max<int>(most, ++unread);
   });
-  detail::HelpedSweep helped(fixture.mesh.segments(), consumers, fixture.hooked({}), 1, make, much);
+  detail::HelpedSweep helped({0, fixture.mesh.segments()}, consumers, fixture.hooked({}), 1, make, much);
   fixture.sweep(helped, consumers, [&](Id segment) { unread -= by_helper[segment]; });
   EXPECT_LE(most, ring) << "those that are being read not counted";
 }
@@ -115,7 +115,7 @@ TEST(HelpedSweep, waits_for_no_helper_that_is_put_aside) {
       ++aside;
       wait_until([&] { return read[segment].load(); });
     });
-    detail::HelpedSweep helped(fixture.mesh.segments(), consumers, fixture.hooked({}), helpers, make, much);
+    detail::HelpedSweep helped({0, fixture.mesh.segments()}, consumers, fixture.hooked({}), helpers, make, much);
     fixture.sweep(helped, consumers, [&](Id segment) {
       wait_until([&] { return aside == helpers; });
       read[segment] = true;
@@ -138,7 +138,7 @@ TEST(HelpedSweep, goes_on_without_helpers_that_fail) {
   };
   for (const auto& make : {fixture.hooked(fail), cannot_make}) {
     failed = 0;
-    detail::HelpedSweep helped(fixture.mesh.segments(), 2, fixture.hooked({}), 5, make, much);
+    detail::HelpedSweep helped({0, fixture.mesh.segments()}, 2, fixture.hooked({}), 5, make, much);
     fixture.sweep(helped, 2, [&](Id) { wait_until([&] { return failed == 5; }); });
     EXPECT_EQ(hits(helped), 0);
   }
@@ -151,14 +151,14 @@ TEST(HelpedSweep, hands_a_failure_that_consumers_have_as_well_to_the_caller) {
     if (segment == bad) throw Error("segment " + std::to_string(segment) + " is bad");
   });
   for (const int helpers : {1, 5}) {
-    detail::HelpedSweep helped(fixture.mesh.segments(), 2, make, helpers, make, much);
+    detail::HelpedSweep helped({0, fixture.mesh.segments()}, 2, make, helpers, make, much);
     EXPECT_EQ(message_of([&] { fixture.sweep(helped, 2); }), "segment " + std::to_string(bad) + " is bad");
   }
 }
 
 TEST(HelpedSweep, has_no_help_from_those_that_the_budget_is_too_small_for) {
   const HelpedMesh fixture;
-  detail::HelpedSweep helped(fixture.mesh.segments(), 1, fixture.hooked({}), 3, fixture.hooked({}), 1000);
+  detail::HelpedSweep helped({0, fixture.mesh.segments()}, 1, fixture.hooked({}), 3, fixture.hooked({}), 1000);
   fixture.sweep(helped, 1);
   EXPECT_EQ(helped.of_helpers().segments_computed, 0);
 }

@@ -75,7 +75,7 @@ def _persistence(threshold: Optional[Persistence]) -> Dict[str, Tuple[float, boo
 
 
 _POLYHEDRON = 42
-_STRIP, _POLYGON, _PIXEL, _QUAD, _VOXEL, _HEXAHEDRON = 6, 7, 8, 9, 11, 12
+_STRIP, _POLYGON = 6, 7
 
 
 def _cells_of(grid: Any) -> Tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -141,24 +141,6 @@ def _points_of(grid: Any) -> np.ndarray:
     return places * grid.GetSpacing() @ direction.T + grid.GetOrigin()
 
 
-def _structured_cells(dimensions: Tuple[int, ...], cell_type: int) -> Tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """(connectivity, offsets, types) of a grid of so many points along each axis, x fastest."""
-    nx, ny, nz = dimensions
-    steps = [step for step, count in zip((1, nx, nx * ny), dimensions) if count > 1]
-    if len(steps) < 2:
-        raise Error(f"a grid of {nx} x {ny} x {nz} points has no cells of dimension 2 or 3")
-    first = np.arange(nx * ny * nz, dtype=np.int64).reshape(nz, ny, nx)
-    first = first[tuple(slice(max(count - 1, 1)) for count in (nz, ny, nx))].ravel()
-    x, y = steps[:2]
-    corners = np.array([0, x, y, x + y] if cell_type == _VOXEL else [0, x, x + y, y])
-    if len(steps) == 3:
-        corners = np.concatenate([corners, corners + steps[2]])
-    else:
-        cell_type = _PIXEL if cell_type == _VOXEL else _QUAD
-    count, size = len(first), len(corners)
-    return (first[:, None] + corners).ravel(), np.arange(0, size * count + 1, size), np.full(count, cell_type, np.uint8)
-
-
 def _surface_cells(surface: Any) -> Tuple[np.ndarray, np.ndarray, np.ndarray]:
     """(connectivity, offsets, types) of the polygons and strips of a surface; other cells of it are left out."""
     from vtkmodules.util.numpy_support import vtk_to_numpy
@@ -216,6 +198,7 @@ class Mesh:
 
     _mesh: _gale.Mesh
     _cells: Optional[np.ndarray] = None
+    _of_each_cell: int = 1
 
     def __init__(self, points: Any, cells: Any, capacity: int = 64) -> None:
         self._mesh = _gale.Mesh(_arrays.points(points), _arrays.ids(cells), capacity)
@@ -242,7 +225,8 @@ class Mesh:
     def from_pyvista(cls, grid: Any, capacity: int = 64) -> Mesh:
         """The mesh of a grid of PyVista or VTK: of the cells of an unstructured one (see from_cells), of the polygons and
         strips of a surface, of the hexahedra (or quads) of a structured one, of the voxels (or pixels) of a rectilinear grid
-        or an image, whatever their values."""
+        or an image, whatever their values. Those of the last three are split as gale.read splits the voxels of a file, six
+        tetrahedra (or two triangles) each, which are computed and take no memory."""
         if not hasattr(grid, "IsA"):
             raise Error(f"what is of {type(grid).__name__} is no grid")
         if grid.IsA("vtkUnstructuredGrid"):
@@ -253,10 +237,14 @@ class Mesh:
         if not (grid.IsA("vtkStructuredGrid") or grid.IsA("vtkRectilinearGrid") or grid.IsA("vtkImageData")):
             raise Error(f"what is of {type(grid).__name__} is no unstructured, structured or rectilinear grid, no surface, "
                         "and no image")
-        cell_type = _HEXAHEDRON if grid.IsA("vtkStructuredGrid") else _VOXEL
         low_x, high_x, low_y, high_y, low_z, high_z = grid.GetExtent()
         dimensions = high_x - low_x + 1, high_y - low_y + 1, high_z - low_z + 1
-        return cls.from_cells(_points_of(grid), *_structured_cells(dimensions, cell_type), capacity)
+        along = [count for count in dimensions if count > 1]
+        if len(along) < 2:
+            raise Error("a grid of {} x {} x {} points has no cells of dimension 2 or 3".format(*dimensions))
+        mesh = cls._of(_gale.from_grid(_arrays.points(_points_of(grid)), *along, *[1] * (3 - len(along)), capacity))
+        mesh._of_each_cell = 6 if len(along) == 3 else 2
+        return mesh
 
     @classmethod
     @_documented()
@@ -311,7 +299,9 @@ class Mesh:
     def cells(self) -> np.ndarray:
         """A copy of which of the cells that the mesh was made of each tetrahedron (or triangle) is, or is of: (tetrahedra,)
         int32."""
-        return np.arange(self._mesh.cells, dtype=np.int32) if self._cells is None else np.array(self._cells)
+        if self._cells is not None:
+            return np.array(self._cells)
+        return np.arange(self._mesh.cells, dtype=np.int32) // self._of_each_cell
 
     def to_pyvista(self) -> Any:
         """A pyvista.UnstructuredGrid of the tetrahedra or triangles."""
@@ -325,7 +315,7 @@ class Mesh:
         corners = self.dimension + 1
         cells = self.relation("TV" if corners == 4 else "FV")[1].reshape(-1, corners)
         return _joined, (type(self), _arrays.pieces(self.points), _arrays.pieces(cells), self._mesh.capacity,
-                         self._cells)
+                         self._cells if self._of_each_cell == 1 else self.cells)
 
     def __copy__(self) -> Mesh:
         return self

@@ -6,6 +6,7 @@
 
 #include <gale/base/error.hpp>
 #include <gale/mesh/make_mesh.hpp>
+#include <gale/mesh/octree.hpp>
 #include <gale/outputs/field.hpp>
 
 #include "job.hpp"
@@ -42,20 +43,28 @@ auto copy_of(const char* label, const View& view) {
   return copy;
 }
 
+/// What use(points, points on the host) makes of a copy of an array of points.
+template <class Use>
+auto with_points(const Array1& points, const Use& use) {
+  return with_type<float, double>(points, "points are neither float32 nor float64", [&](auto one) {
+    using Coordinate = decltype(one);
+    return with_view<const Coordinate* [3]>(points, "points", [&](const auto& view) {
+      const auto copy = copy_of("GALE::points", view);
+      const Points<Coordinate, typename std::decay_t<decltype(copy)>::memory_space> read_only = copy;
+      const io::Dataset::Points<Coordinate> on_host = Kokkos::create_mirror_view_and_copy(HostMemory(), copy);
+      return use(read_only, on_host);
+    });
+  });
+}
+
 struct SegmentedPoints {
   io::Dataset::Positions points;
   Segmentation segmentation;
 };
 
 SegmentedPoints segmented(const Array1& points, int capacity) {
-  return with_type<float, double>(points, "points are neither float32 nor float64", [&](auto one) {
-    using Coordinate = decltype(one);
-    return with_view<const Coordinate* [3]>(points, "points", [&](const auto& view) -> SegmentedPoints {
-      const auto copy = copy_of("GALE::points", view);
-      const Points<Coordinate, typename std::decay_t<decltype(copy)>::memory_space> read_only = copy;
-      const io::Dataset::Points<Coordinate> on_host = Kokkos::create_mirror_view_and_copy(HostMemory(), copy);
-      return {on_host, octree_segmentation(read_only, capacity)};
-    });
+  return with_points(points, [&](const auto& there, const auto& on_host) -> SegmentedPoints {
+    return {on_host, octree_segmentation(there, capacity)};
   });
 }
 
@@ -136,6 +145,22 @@ nb::tuple from_cells(Array1 points, Array1 connectivity, Array1 offsets, Array1 
   for (const std::string& notice : found->notices) notices.append(text_of(notice));
   return nb::make_tuple(nb::cast(mesh.release(), nb::rv_policy::take_ownership),
                         found->cells ? numpy_of(*std::move(found->cells)) : nb::none(), notices);
+}
+
+nb::object from_grid(Array1 points, Id nx, Id ny, Id nz, int capacity) {
+  require_rows(points, 3, "points");
+  auto found = Job().run([&] {
+    const Mesh mesh(Grid({nx, ny, nz}), capacity);
+    if (static_cast<std::size_t>(mesh.vertices()) != points.shape(0))
+      throw Error("there are " + std::to_string(points.shape(0)) + " points of a grid of " +
+                  std::to_string(mesh.vertices()));
+    return with_points(points, [&](const auto&, const auto& on_host) {
+      using Coordinate = typename std::decay_t<decltype(on_host)>::value_type;
+      detail::require_finite<Coordinate>(HostExecutionSpace(), Points<Coordinate, HostMemory>(on_host));
+      return std::make_unique<PyMesh>(on_host, mesh, capacity);
+    });
+  });
+  return nb::cast(found.release(), nb::rv_policy::take_ownership);
 }
 
 PyMesh::PyMesh(io::Dataset::Positions points, const Mesh& mesh, int capacity) : capacity_(capacity), mesh_(mesh) {

@@ -64,6 +64,9 @@ class PyMesh : public Kept {
 /// split and left out)
 nb::tuple from_cells(Array1 points, Array1 connectivity, Array1 offsets, Array1 types, int capacity);
 
+/// The grid of so many points along each axis, which are these, x fastest.
+nb::object from_grid(Array1 points, Id nx, Id ny, Id nz, int capacity);
+
 /// (time, path, its place among the times of that file or None) of each step that inputs are
 nb::list steps_of(const std::vector<nb::bytes>& inputs, bool outside_files);
 

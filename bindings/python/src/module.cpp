@@ -52,6 +52,7 @@ NB_MODULE(_gale, module) {
   module.def("device_array", &gale::python::device_array, "data"_a, "shape"_a, "type"_a, "bytes"_a, "owner"_a);
   module.def("from_cells", &gale::python::from_cells, "points"_a, "connectivity"_a, "offsets"_a, "types"_a,
              "capacity"_a);
+  module.def("from_grid", &gale::python::from_grid, "points"_a, "nx"_a, "ny"_a, "nz"_a, "capacity"_a);
   module.def("read", &gale::python::read, "path"_a, "above"_a.none(), "array"_a, "tetrahedra_alone"_a,
              "outside_files"_a, "capacity"_a, "like"_a.none(), "time"_a.none());
   module.def("steps_of", &gale::python::steps_of, "inputs"_a, "outside_files"_a);

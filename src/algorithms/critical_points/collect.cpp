@@ -19,11 +19,12 @@ template <class Space>
 CriticalPoints owned_points(const Space& space, const Mesh& mesh, const VertexTypes<MemoryOf<Space>>& types) {
   const Offset count = mesh.vertices();
   const OtherIds internal = mesh.vertices_of_input<MemoryOf<Space>>();
-  const Id owned = mesh.owned_vertices();
+  const Interval owned = mesh.owned_vertices();
   const auto place = allocate<Array<Id, MemoryOf<Space>>>("GALE::critical_place", count + 1);
   const Id total = exclusive_scan(
-      "GALE::count_critical", space, count, place,
-      KOKKOS_LAMBDA(Offset i) { return Id(internal[i] < owned && types.type(internal[i]) != CriticalType::regular); });
+      "GALE::count_critical", space, count, place, KOKKOS_LAMBDA(Offset i) {
+        return Id(owned.has(internal[i]) && types.type(internal[i]) != CriticalType::regular);
+      });
   const auto found = allocate<Array<CriticalVertex, MemoryOf<Space>>>("GALE::critical_vertices", total);
   parallel_for(
       "GALE::collect_critical", space, count, KOKKOS_LAMBDA(Offset i) {
@@ -59,7 +60,7 @@ Flags<HostExecutionSpace> told_flags(const Space& space, const Mesh& mesh, const
   return on_host(flags);
 }
 
-/// Which of this rank's ghosts are on the surface, as their owners say; from the first one on.
+/// Which of this rank's ghosts are on the surface, as their owners say: by GALE's id, 0 of owned ones.
 template <class Space>
 Flags<Space> ghost_flags(const Space& space, const Mesh& mesh, const VertexTypes<MemoryOf<Space>>& types) {
   Flags<HostExecutionSpace> told;
@@ -67,15 +68,14 @@ Flags<Space> ghost_flags(const Space& space, const Mesh& mesh, const VertexTypes
   const auto fetched = mesh.exchange().from_owners().fetch(mesh.exchange().ranks(), told);
   Flags<Space> flags;
   together(mesh.exchange().ranks(), [&] {
-    const Id owned = mesh.owned_vertices();
-    flags = allocate<Flags<Space>>("GALE::ghost_flags", mesh.vertices() - owned);
+    flags = allocate<Flags<Space>>("GALE::ghost_flags", mesh.vertices());
+    fill("GALE::ghost_flags", space, flags, std::uint8_t(0));
     const OtherIds internal = mesh.vertices_of_input<MemoryOf<Space>>();
     const Array<Id, MemoryOf<Space>> slots = in_memory<MemoryOf<Space>>(mesh.exchange().from_owners().slots());
     const Flags<Space> values = in_memory<MemoryOf<Space>>(fetched.entries);
     const Flags<Space> to = flags;
     parallel_for(
-        "GALE::ghost_flags", space, slots.extent(0),
-        KOKKOS_LAMBDA(Offset i) { to(internal[slots(i)] - owned) = values(i); });
+        "GALE::ghost_flags", space, slots.extent(0), KOKKOS_LAMBDA(Offset i) { to(internal[slots(i)]) = values(i); });
     space.fence();
   });
   return flags;
@@ -87,17 +87,37 @@ void tell_of_ghosts(const Space& space, const VertexOrder& order, const Flags<Sp
                     const VertexTypes<MemoryOf<Space>>& types) {
   using Memory = MemoryOf<Space>;
   const Mesh& mesh = order.mesh();
-  const Id owned = mesh.owned_vertices();
-  if (owned == mesh.vertices()) return;
-  const auto encoded = mesh.encoded<Memory>();
+  const Interval owned = mesh.owned_vertices();
+  if (owned.size() == mesh.vertices()) return;
   const std::uint64_t* const keys = order.keys_in<Memory>().data();
+  if (mesh.grid() != nullptr) {
+    const GridView grid = mesh.grid()->in<Memory>();
+    const StarKind* const kinds = mesh.grid()->kinds_in<Memory>();
+    parallel_for(
+        "GALE::tell_of_ghosts", space, mesh.vertices() - owned.size(), KOKKOS_LAMBDA(Offset i) {
+          const Id ghost = static_cast<Id>(i < owned.first ? i : i + owned.size());
+          if (!on_surface(ghost)) return;
+          GridCursor at(grid);
+          at.go_to(ghost);
+          const StarKind& kind = kinds[at.kind()];
+          for (int k = 0; k < kind.neighbours; ++k) {
+            const Id neighbour = at.neighbour(kind.direction[k]);
+            if (owned.has(neighbour)) types.tell(keys, neighbour, ghost);
+          }
+        });
+    space.fence();
+    return;
+  }
+  const CellReader cell = mesh.cell_reader<Memory>();
   parallel_for(
       "GALE::tell_of_ghosts", space, mesh.cells(), KOKKOS_LAMBDA(Offset t) {
-        const Quad corners = encoded.cell(static_cast<Id>(t));
-        for (int i = 3; i > 0 && corners[i] >= owned; --i) {
-          const Id ghost = corners[i];
-          if (!on_surface(ghost - owned)) continue;
-          for (int k = 0; k < i && corners[k] < owned; ++k) types.tell(keys, corners[k], ghost);
+        const Quad corners = cell(static_cast<Id>(t));
+        if (owned.has(corners.a) && owned.has(corners.d)) return;
+        for (int i = 0; i < 4; ++i) {
+          if (!on_surface(corners[i])) continue;
+          for (int k = 0; k < 4; ++k) {
+            if (owned.has(corners[k])) types.tell(keys, corners[k], corners[i]);
+          }
         }
       });
   space.fence();

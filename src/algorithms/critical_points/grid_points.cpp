@@ -65,12 +65,14 @@ struct ClassifyOnGrid {
   }
 };
 
+namespace {
+
 template <class Space>
-CriticalPoints critical_points_of_grid(const Space& space, const VertexOrder& order, const SweepOptions& options) {
+VertexTypes<MemoryOf<Space>> classify(const Space& space, const VertexOrder& order, const SweepOptions& options) {
   using Memory = MemoryOf<Space>;
   const Mesh& mesh = order.mesh();
   const Grid& grid = *mesh.grid();
-  const ThreadLimit limit(options.threads);
+  [[maybe_unused]] const Interval owned = mesh.owned_vertices();
   const int whole_kind = mesh.dimension() == 3 ? grid_kinds - 1 : (grid_kinds - 1) & 0xf0;
   const StarKind* const kinds = grid.kinds_in<Memory>();
   const auto table = topologies(space, kinds, whole_kind);
@@ -78,19 +80,29 @@ CriticalPoints critical_points_of_grid(const Space& space, const VertexOrder& or
       grid.in<Memory>(), kinds, table.data(), whole_kind, order.keys_in<Memory>().data(), VertexTypes<Memory>(mesh)};
   if constexpr (is_device<Space>) {
     parallel_for(
-        "GALE::classify_on_grid", space, mesh.vertices(), KOKKOS_LAMBDA(Offset v) {
+        "GALE::classify_on_grid", space, owned.size(), KOKKOS_LAMBDA(Offset i) {
           GridCursor at(classify.grid);
-          classify(at, static_cast<Id>(v));
+          classify(at, owned.first + static_cast<Id>(i));
         });
     space.fence();
   } else {
     const Id* const begin = mesh.vertex_begin().data();
-    sweep(mesh.segments(), options, [&](int, Id segment) {
+    sweep(mesh.owned_segments(), options, [&](int, Id segment) {
       GridCursor at(classify.grid);
       for (Id v = begin[segment]; v < begin[segment + 1]; ++v) classify(at, v);
     });
   }
-  return collect(space, order, classify.types);
+  return classify.types;
+}
+
+}  // namespace
+
+template <class Space>
+CriticalPoints critical_points_of_grid(const Space& space, const VertexOrder& order, const SweepOptions& options) {
+  const ThreadLimit limit(options.threads);
+  VertexTypes<MemoryOf<Space>> types;
+  together(order.mesh().exchange().ranks(), [&] { types = classify(space, order, options); });
+  return collect(space, order, types);
 }
 
 #define GALE_INSTANTIATE(Space) \

@@ -97,8 +97,9 @@ class Reacher {
       for (int i = 0; i < 3; ++i) fall(asker, triangle[i], triangle[(i + 1) % 3]);
     }
     begin_stars(asker, found);
-    if (ways_.all_for_first && mesh_.owned_vertices() > 0)  // the highest one of all is where classes end that never do
-      vertex_place(found, static_cast<Id>(std::max_element(keys_, keys_ + mesh_.owned_vertices()) - keys_));
+    if (ways_.all_for_first &&
+        mesh_.owned_vertices().size() > 0)  // the highest one of all is where classes end that never do
+      vertex_place(found, highest_owned());
   }
 
   /// Takes all steps that this rank can.
@@ -169,7 +170,11 @@ class Reacher {
  private:
   FoundFor& found_of(int asker) { return found_[asker]; }
 
-  bool is_owned(Id vertex) const { return vertex < mesh_.owned_vertices(); }
+  bool is_owned(Id vertex) const { return mesh_.owned_vertices().has(vertex); }
+  Id highest_owned() const {
+    const Interval owned = mesh_.owned_vertices();
+    return static_cast<Id>(std::max_element(keys_ + owned.first, keys_ + owned.last) - keys_);
+  }
   Id higher(Id a, Id b) const { return keys_[a] > keys_[b] ? a : b; }
 
   void begin_stars(int asker, FoundFor& found) {

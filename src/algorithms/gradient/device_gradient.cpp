@@ -6,7 +6,7 @@
 #include <gale/algorithms/discrete_gradient.hpp>
 #include <gale/algorithms/gradient/gradient_store.hpp>
 #include <gale/algorithms/gradient/gradient_sweep.hpp>
-#include <gale/algorithms/gradient/lane_found.hpp>
+#include <gale/algorithms/gradient/grid_lanes.hpp>
 #include <gale/algorithms/gradient/pair_fans.hpp>
 #include <gale/algorithms/gradient/pair_star.hpp>
 #include <gale/base/parallel.hpp>
@@ -20,30 +20,6 @@
 namespace gale {
 
 namespace detail {
-
-/// Where lanes put what they find. Each has a row of edges in a place of its own.
-struct LaneSink {
-  Id *vertex_successor, *cell_successor;
-  FoundSimplices<DeviceList> found;
-
-  struct Lane : StarSink<LaneFound> {
-    Id* row;
-
-    KOKKOS_FORCEINLINE_FUNCTION EdgePairRow begin_edges(Id, Id count) const {
-      EdgePairRow edges(row);
-      edges.begin(count);
-      return edges;
-    }
-  };
-
-  /// Pairs a star of so many words of cells; false if it has more.
-  template <int Words>
-  KOKKOS_FUNCTION bool pair(const std::uint64_t* keys, const VertexStar& star, Id* row) const {
-    LowerNeighbours lower;
-    return lower.find(keys, star.vertex, star.neighbours) &&
-           pair_star_of_words<Words, have_device>(Lane{{vertex_successor, cell_successor, &found}, row}, star, lower);
-  }
-};
 
 /// Pairs the lower stars of a segment's vertices.
 struct PairStars {
@@ -144,12 +120,14 @@ namespace {
 using Memory = detail::MemoryOfSweep<WorkerSpace>;
 using detail::DeviceList;
 
+bool is_grid_of_tetrahedra(const Mesh& mesh) { return mesh.grid() != nullptr && mesh.dimension() == 3; }
+
 template <class>
 using Capacity = Offset;
 
 /// How much room a sweep has for what it finds.
 struct Room {
-  Offset words, large, large_words;
+  Offset words, large, large_words, left;  ///< the last of grids, the others of other meshes
   detail::FoundSimplices<Capacity> critical;
 
   /// What a mesh that has few triangles on its surface takes, of a field that isn't noise.
@@ -161,6 +139,10 @@ struct Room {
     large = static_cast<Offset>(all / 16) + 1024;
     large_words = 64 * large;
     critical = {large, large, has_rows ? large : 0, large, 2 * large};
+    left = 0;
+    if (!is_grid_of_tetrahedra(mesh)) return;
+    words = large = large_words = 0;
+    left = mesh.vertices() / 8 + 4096;
   }
 };
 
@@ -180,6 +162,8 @@ class Attempt {
             allocate<Array<Offset, Memory>>("GALE::edge_pairs_begin", mesh_.dimension() == 3 ? mesh_.vertices() : 0)),
         used_("GALE::edge_pairs_used", 1),
         large_(room.large, room.large_words),
+        outgrown_("GALE::outgrown", 0),
+        left_("GALE::left_stars", room.left),
         sink_{vertex_successor_.data(),
               cell_successor_.data(),
               {{"GALE::critical_vertices", room.critical.vertices},
@@ -191,7 +175,9 @@ class Attempt {
     DeviceSweepOptions sized = options;
     if (have_device && options.memory == 0) sized.memory = usual_memory;
     if (have_device && options.batches == 0) sized.batches = usual_batches;
-    if (mesh_.dimension() == 3) {
+    if (is_grid_of_tetrahedra(mesh_)) {
+      pair_grid(space, order);
+    } else if (mesh_.dimension() == 3) {
       pair_stars(space, order, room, sized);
     } else {
       pair_fans(space, order, sized);
@@ -207,7 +193,8 @@ class Attempt {
       is_enough = false;
     };
     for_each_list(room.critical, sink_.found, [&](Offset& to, const auto& list) { raise(to, list.count()); });
-    if (words_used_ <= room.words) return is_enough;
+    raise(room.left, left_.count());
+    if (words_used_ <= room.words || is_grid_of_tetrahedra(mesh_)) return is_enough;
     raise(room.words, words_used_);
     // Segments without room for their rows have found nothing: there may be more of everything.
     for (Offset* const list : {&room.critical.edges, &room.critical.triangles, &room.critical.cells})
@@ -237,7 +224,7 @@ class Attempt {
  private:
   void pair_stars(const WorkerSpace& space, const VertexOrder& order, const Room& room,
                   const DeviceSweepOptions& options) {
-    if (mesh_.owned_vertices() < mesh_.vertices()) Kokkos::deep_copy(space, pairs_begin_, Offset(0));
+    if (mesh_.owned_vertices().size() < mesh_.vertices()) Kokkos::deep_copy(space, pairs_begin_, Offset(0));
     const auto rows = static_cast<int>(std::min(1024.0, 1.3 * mesh_.vertices() / mesh_.segments() + 32));
     const detail::PairStars pair{order.keys_in<Memory>().data(),
                                  sink_,
@@ -260,6 +247,36 @@ class Attempt {
     space.fence();
   }
 
+  /// Finds where rows begin first: then they take what they need.
+  void pair_grid(const WorkerSpace& space, const VertexOrder& order) {
+    const detail::StarKind* const kinds = mesh_.grid()->kinds_in<HostMemory>();
+    const auto whole = allocate<Array<detail::WholeStar, HostMemory>>("GALE::whole_star", 1);
+    whole(0) = detail::WholeStar(kinds[detail::grid_kinds - 1]);
+    const Array<const detail::WholeStar, Memory> whole_here =
+        in_memory<Memory>(Array<const detail::WholeStar, HostMemory>(whole));
+    detail::PairGridStars pair{mesh_.grid()->in<Memory>(),
+                               mesh_.grid()->kinds_in<Memory>(),
+                               whole_here.data(),
+                               order.keys_in<Memory>().data(),
+                               mesh_.owned_vertices(),
+                               sink_,
+                               nullptr,
+                               nullptr,
+                               left_};
+    pairs_begin_ = allocate<Array<Offset, Memory>>("GALE::edge_pairs_begin", mesh_.vertices() + Offset(1));
+    words_used_ =
+        exclusive_scan("GALE::count_edge_pairs", space, mesh_.vertices(), pairs_begin_, detail::CountGridWords{pair});
+    words_ = allocate<Array<Id, Memory>>("GALE::edge_pairs", words_used_);
+    pairs_begin_ = Kokkos::subview(pairs_begin_, std::make_pair(Offset(0), Offset(mesh_.vertices())));
+    pair.words = words_.data();
+    pair.pairs_begin = pairs_begin_.data();
+    parallel_for("GALE::pair_on_grid", space, pair.owned.size(), pair);
+    if (!left_.overflowed()) {
+      parallel_for("GALE::pair_rest_of_grid", space, left_.count(), detail::PairOtherGridStars{pair});
+      space.fence();
+    }
+  }
+
   void pair_fans(const WorkerSpace& space, const VertexOrder& order, const DeviceSweepOptions& options) {
     const detail::PairFans pair{order.keys_in<Memory>().data(), vertex_successor_.data(), cell_successor_.data(),
                                 sink_.found, large_};
@@ -271,6 +288,7 @@ class Attempt {
   Array<Offset, Memory> pairs_begin_, used_;
   detail::HandedStars large_;
   DeviceList<Offset> outgrown_;
+  DeviceList<Id> left_;
   detail::LaneSink sink_;
   Offset words_used_ = 0;
 };

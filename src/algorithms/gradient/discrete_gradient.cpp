@@ -3,6 +3,8 @@
 #include <gale/algorithms/discrete_gradient.hpp>
 #include <gale/algorithms/gradient/gradient_store.hpp>
 #include <gale/algorithms/gradient/gradient_sweep.hpp>
+#include <gale/algorithms/gradient/grid_pairs.hpp>
+#include <gale/algorithms/order/require_mesh.hpp>
 #include <gale/base/error.hpp>
 
 namespace gale {
@@ -170,28 +172,49 @@ Partner DiscreteGradient::pair_of_triangle(Id tetrahedron, int corner, const Row
   return {-1, no_id};
 }
 
-DiscreteGradient find_discrete_gradient(const VertexOrder& order, const ComputeOptions& options, Computed* computed) {
-  return detail::Computing(order.mesh(), options, computed)
-      .find(
-          discrete_gradient_relations_of(order.mesh().dimension()),
-          [&](const DeviceSweepOptions& sweep) { return find_discrete_gradient(WorkerSpace(), order, sweep); },
-          [&](Structure& structure) { return find_discrete_gradient(structure, order, options); });
-}
+namespace {
 
-DiscreteGradient find_discrete_gradient(Structure& structure, const VertexOrder& order, const SweepOptions& options) {
+/// What threads of the host find: pair(store, consumers) has as many of these fill a store. Collective.
+template <class Pair>
+DiscreteGradient found_by(const VertexOrder& order, const SweepOptions& options, const Pair& pair) {
   const ThreadLimit limit(options.threads);
   const int consumers = std::max(options.threads, 1);
   std::shared_ptr<detail::GradientStore> store;
   detail::together(order.mesh().exchange().ranks(), [&] {
-    store = std::make_shared<detail::GradientStore>(structure.mesh(), order, consumers);
-    std::vector<std::unique_ptr<detail::GradientSweep>> sweeps;
-    for (int i = 0; i < consumers; ++i) sweeps.push_back(std::make_unique<detail::GradientSweep>(*store, i));
-    structure.for_each_segment(discrete_gradient_relations_of(structure.mesh().dimension()), options,
-                               [&](int consumer, const SegmentRows& rows) { sweeps[consumer]->pair(rows); });
+    store = std::make_shared<detail::GradientStore>(order.mesh(), order, consumers);
+    pair(*store, consumers);
     store->finish();
   });
   store->share_counts();
   return DiscreteGradient(store);
+}
+
+}  // namespace
+
+DiscreteGradient find_discrete_gradient(const VertexOrder& order, const ComputeOptions& options, Computed* computed) {
+  detail::Computing computing(order.mesh(), options, computed);
+  const auto by_kernels = [&](const DeviceSweepOptions& sweep) {
+    return find_discrete_gradient(WorkerSpace(), order, sweep);
+  };
+  if (computing.is_of_grid()) {
+    return computing.find_alone(by_kernels, [&] {
+      return found_by(order, options, [&](detail::GradientStore& store, int consumers) {
+        detail::pair_all_on_grid(store, consumers, options);
+      });
+    });
+  }
+  return computing.find(discrete_gradient_relations_of(order.mesh().dimension()), by_kernels,
+                        [&](Structure& structure) { return find_discrete_gradient(structure, order, options); });
+}
+
+DiscreteGradient find_discrete_gradient(Structure& structure, const VertexOrder& order, const SweepOptions& options) {
+  detail::require_same_mesh("the vertex order", order.mesh(), structure.mesh());
+  return found_by(order, options, [&](detail::GradientStore& store, int consumers) {
+    std::vector<std::unique_ptr<detail::GradientSweep>> sweeps;
+    for (int i = 0; i < consumers; ++i) sweeps.push_back(std::make_unique<detail::GradientSweep>(store, i));
+    structure.for_each_segment(discrete_gradient_relations_of(structure.mesh().dimension()), options,
+                               [&](int consumer, const SegmentRows& rows) { sweeps[consumer]->pair(rows); });
+  });
 }
 
 }  // namespace gale

@@ -26,7 +26,7 @@ Simplex written(const OtherIds& vertex_input, Simplex simplex) {
 template <class Space>
 void mark_ghosts(const Space& space, const Mesh& mesh, const Array<Id, MemoryOf<Space>>& vertex_successor,
                  const Array<Id, MemoryOf<Space>>& cell_successor) {
-  if (mesh.owned_vertices() == mesh.vertices()) return;
+  if (mesh.owned_vertices().size() == mesh.vertices()) return;
   fill("GALE::mark_ghosts", space, vertex_successor, DiscreteGradient::elsewhere);
   fill("GALE::mark_ghosts", space, cell_successor, DiscreteGradient::elsewhere);
 }

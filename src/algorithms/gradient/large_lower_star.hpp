@@ -13,7 +13,8 @@ namespace gale::detail {
 class LargeLowerStar : public HeapQueues {
  public:
   static constexpr Id no_place = no_id;
-  static constexpr bool may_fork = true;  ///< whether a triangle may have more than two tetrahedra
+  static constexpr bool may_fork = true;   ///< whether a triangle may have more than two tetrahedra
+  static constexpr bool may_leave = true;  ///< or only one
 
   /// `ranks`: of all neighbours, no_id for an upper one; `numbers(place)`: the number of each tetrahedron of the star.
   template <class Numbers>

@@ -8,6 +8,21 @@
 
 namespace gale::detail {
 
+/// For each of at most 16 keys how many are less, in four bits each, which stay in a register.
+KOKKOS_FORCEINLINE_FUNCTION std::uint64_t ranks_of_few(const std::uint64_t* keys, int count) {
+  std::uint64_t ranks = 0;
+  for (int i = 1; i < count; ++i) {
+    std::uint64_t below = 0;
+    for (int j = 0; j < i; ++j) {
+      const bool is_below = keys[j] < keys[i];
+      below += is_below;
+      ranks += std::uint64_t(!is_below) << 4 * j;
+    }
+    ranks += below << 4 * i;
+  }
+  return ranks;
+}
+
 /// Which neighbours of a vertex are lower than it, and their ranks among each other: 0 is the lowest.
 class LowerNeighbours {
  public:
@@ -30,7 +45,8 @@ class LowerNeighbours {
       if (count_ > max_lower) return false;
     }
     if (count_ <= 16) {
-      rank_few(lower);
+      const std::uint64_t ranks = ranks_of_few(lower, count_);
+      for (int i = 0; i < count_; ++i) rank_[i] = static_cast<std::uint8_t>(ranks >> 4 * i & 15);
     } else {
       rank_many(lower);
     }
@@ -54,21 +70,6 @@ class LowerNeighbours {
   KOKKOS_FORCEINLINE_FUNCTION int with_rank(int rank) const { return by_rank_[rank]; }
 
  private:
-  /// By ranks of four bits each, which stay in a register.
-  KOKKOS_FORCEINLINE_FUNCTION void rank_few(const std::uint64_t* lower) {
-    std::uint64_t ranks = 0;
-    for (int i = 1; i < count_; ++i) {
-      std::uint64_t below = 0;
-      for (int j = 0; j < i; ++j) {
-        const bool is_below = lower[j] < lower[i];
-        below += is_below;
-        ranks += std::uint64_t(!is_below) << 4 * j;
-      }
-      ranks += below << 4 * i;
-    }
-    for (int i = 0; i < count_; ++i) rank_[i] = static_cast<std::uint8_t>(ranks >> 4 * i & 15);
-  }
-
   KOKKOS_FORCEINLINE_FUNCTION void rank_many(const std::uint64_t* lower) {
     for (int i = 0; i < count_; ++i) rank_[i] = 0;
     for (int i = 1; i < count_; ++i) {

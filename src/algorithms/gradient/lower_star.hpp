@@ -29,6 +29,7 @@ class LowerStar {
   static constexpr std::uint8_t none = LowerNeighbours::none;
   static constexpr int no_place = -1;
   static constexpr bool may_fork = false;  ///< whether a triangle may have more than two tetrahedra
+  static constexpr bool may_leave = true;  ///< or only one
 
   /// False if the star is too large or too irregular.
   KOKKOS_INLINE_FUNCTION bool build(const LowerNeighbours& lower, const LinkRow& link) {

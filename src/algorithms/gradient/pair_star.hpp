@@ -106,12 +106,12 @@ KOKKOS_INLINE_FUNCTION Id surface_successor(const VertexStar& star, Id place, Id
   return no_id;
 }
 
-/// Pairs the lower star of a vertex and puts what it finds into `sink`. `lower` are its lower neighbours, `cells` the
-/// star, `queues` are for pair_cells. For the host alone where these are.
+/// Pairs the lower star of a vertex, a VertexStar or what says the same, and puts what it finds into `sink`. `lower`
+/// are its lower neighbours, `cells` the lower star, `queues` are for pair_cells. For the host alone where these are.
 GALE_CALLS_ANY
-template <class Sink, class Lower, class Cells, class Queues>
-KOKKOS_FORCEINLINE_FUNCTION void pair_star(const Sink& sink, const VertexStar& star, const Lower& lower,
-                                           const Cells& cells, Queues&& queues) {
+template <class Sink, class Star, class Lower, class Cells, class Queues>
+KOKKOS_FORCEINLINE_FUNCTION void pair_star(const Sink& sink, const Star& star, const Lower& lower, const Cells& cells,
+                                           Queues&& queues) {
   const auto id = [&](int rank) { return star.neighbours[lower.place(lower.with_rank(rank))]; };
   EdgePairRow edges = sink.begin_edges(star.vertex, lower.count());
   for (int i = 0; i < lower.count(); ++i) edges.set_id(i, star.neighbours[lower.place(i)]);
@@ -124,9 +124,13 @@ KOKKOS_FORCEINLINE_FUNCTION void pair_star(const Sink& sink, const VertexStar& s
       edges.pair(lower.with_rank(low[0]), lower.with_rank(both[0] == low[0] ? both[1] : both[0]));
     } else {
       const Id place = cells.place(cell), across = cells.across(facet, place);
-      sink.set_cell(star.cells[place], across == Cells::no_place
-                                           ? surface_successor(star, place, id(low[0]), id(low[1]))
-                                           : star.cells[across]);
+      if constexpr (Cells::may_leave) {
+        sink.set_cell(star.cells[place], across == Cells::no_place
+                                             ? surface_successor(star, place, id(low[0]), id(low[1]))
+                                             : star.cells[across]);
+      } else {
+        sink.set_cell(star.cells[place], star.cells[across]);
+      }
       if constexpr (Cells::may_fork) {
         cells.for_each_tetrahedron(facet, [&](Id other) {
           if (other != place && other != across) sink.add_successor(star.cells[place], star.cells[other]);

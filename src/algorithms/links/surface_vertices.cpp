@@ -32,8 +32,8 @@ Array<std::uint8_t, HostMemory> surface_vertices(const Mesh& mesh) {
   const auto on_surface = allocate<Array<std::uint8_t, HostMemory>>("GALE::on_surface", mesh.vertices());
   const SweepOptions options;
   std::vector<std::unique_ptr<Worker>> workers(options.threads);
-  parallel_for("GALE::ghosts_on_surface", HostExecutionSpace(), mesh.vertices() - mesh.owned_vertices(),
-               [&](Offset i) { on_surface(mesh.owned_vertices() + i) = 0; });
+  if (mesh.owned_vertices().size() < mesh.vertices())
+    fill("GALE::ghosts_on_surface", HostExecutionSpace(), on_surface, std::uint8_t(0));
   detail::sweep(mesh.owned_segments(), options, [&](int consumer, Id segment) {
     auto& worker = workers[consumer];
     if (!worker) worker = std::make_unique<Worker>(mesh);

@@ -42,7 +42,7 @@ ExtremumGraph<HostMemory> extremum_graph(Structure& structure, const std::uint64
   const Id count = structure.mesh().vertices();
   ExtremumGraph<HostMemory> graph;
   for (auto& side : graph) side.next = allocate<Ids>("GALE::next_of_vertices", count);
-  if (structure.mesh().owned_vertices() < count) {
+  if (structure.mesh().owned_vertices().size() < count) {
     for (auto& side : graph) fill("GALE::next_of_ghosts", HostExecutionSpace(), side.next, DiscreteGradient::elsewhere);
   }
   Id* const next[2] = {graph[below].next.data(), graph[above].next.data()};

@@ -201,7 +201,7 @@ class VertexClimbs {
       mesh.exchange().from_owners()(ranks, by_input_.data(), by_input_.data());
       together(ranks, [&] {
         const auto ends = allocate<Array<Id, HostMemory>>("GALE::ends_of_paths", mesh.vertices());
-        for (Id v = 0; v < mesh.vertices(); ++v) ends(v) = by_input_[mesh.vertex_input()(v)];
+        for (Id v = 0; v < mesh.vertices(); ++v) ends(v) = by_input_[mesh.vertices_in_input()[v]];
         climbs[side] = maker.climbs()[side];
         climbs[side].ends = ends;
         find_keys(order, gathered, side);
@@ -217,8 +217,8 @@ class VertexClimbs {
     std::vector<Id> place_of_end;
     for (Id end = 0; end < side.paths.ends(); ++end) place_of_end.push_back(places.at(side.paths.final_stop(end).id));
     by_input_.assign(mesh.vertices(), no_id);
-    for (Id v = 0; v < mesh.owned_vertices(); ++v)
-      by_input_[mesh.vertex_input()(v)] = end_at(place_of_end[side.paths.end(v)]);
+    for (const Id v : mesh.owned_vertices())
+      by_input_[mesh.vertices_in_input()[v]] = end_at(place_of_end[side.paths.end(v)]);
   }
 
   /// Keys of all that this rank holds that compare with those of what was gathered: the place of the last of these that
@@ -232,7 +232,7 @@ class VertexClimbs {
     std::sort(sorted.begin(), sorted.end());
     keys_[side].resize(mesh.vertices());
     parallel_for("GALE::keys_among_gathered", HostExecutionSpace(), mesh.vertices(), [&](Offset v) {
-      const TreeVertex here{mesh.vertex_id(mesh.vertex_input()(v)), order.value_key(static_cast<Id>(v)), {}};
+      const TreeVertex here{mesh.vertex_id(mesh.vertices_in_input()[v]), order.value_key(static_cast<Id>(v)), {}};
       const auto first = std::lower_bound(all.begin(), all.end(), here) - all.begin();
       const bool is_one = first < static_cast<std::ptrdiff_t>(all.size()) && all[first].id == here.id;
       const std::ptrdiff_t place = is_one || side == above ? first : first - 1;
@@ -257,8 +257,8 @@ void set_arcs_on_ranks(const Mesh& mesh, const Mesh& excerpt, MergeTree& tree, s
       const Id here = node(static_cast<Id>(i));
       if (here != no_id) arc_of[here] = no_id;
     }
-    for (Id v = 0; v < mesh.owned_vertices(); ++v) {
-      const Id arc = arc_of[mesh.vertex_input()(v)];
+    for (const Id v : mesh.owned_vertices()) {
+      const Id arc = arc_of[mesh.vertices_in_input()[v]];
       if (arc != no_id) ++sizes[arc];
     }
     require_ids("arcs of trees", static_cast<Offset>(sizes.size()));

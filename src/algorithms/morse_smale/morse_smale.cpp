@@ -75,7 +75,7 @@ std::array<std::vector<char>, 4> own_simplices(const DiscreteGradient& excerpt, 
   std::array<std::vector<char>, 4> own;
   const auto add = [&](int dimension, Id vertex) {
     const Id here = mesh.vertex_of(excerpt.mesh().vertex_id(excerpt.mesh().vertex_input()(vertex)));
-    own[dimension].push_back(here != no_id && mesh.vertex_internal()(here) < mesh.owned_vertices());
+    own[dimension].push_back(here != no_id && mesh.owned_vertices().has(mesh.vertices_of_input()[here]));
   };
   for (const Id vertex : critical.vertices) add(0, vertex);
   for (const auto& edge : critical.edges) add(1, edge[0]);

@@ -114,18 +114,20 @@ class AskedSimplices {
   Array<Id, HostMemory> members_;
 };
 
-/// For each vertex that this rank owns, by GALE's id, the number of the first simplex whose first vertex it is, of the
-/// simplices that `counts` counts by input id. Collective.
+/// For each vertex that this rank owns, from the first one on, the number of the first simplex whose first vertex it
+/// is, of the simplices that `counts` counts by input id. Collective.
 NumbersOfRanks first_numbers(const Mesh& mesh, const Array<Id, HostMemory>& counts) {
   const Ranks& ranks = mesh.exchange().ranks();
   NumbersOfRanks owned, of_owned;
   detail::together(ranks, [&] {
     const OtherIds input = mesh.vertices_in_input();
-    owned = allocate<NumbersOfRanks>("GALE::owned_ids", mesh.owned_vertices());
-    of_owned = allocate<NumbersOfRanks>("GALE::owned_counts", mesh.owned_vertices());
+    owned = allocate<NumbersOfRanks>("GALE::owned_ids", mesh.owned_vertices().size());
+    of_owned = allocate<NumbersOfRanks>("GALE::owned_counts", mesh.owned_vertices().size());
+    const Id first = mesh.owned_vertices().first;
     parallel_for("GALE::owned_counts", HostExecutionSpace(), owned.extent(0), [&](Offset v) {
-      owned(v) = mesh.vertex_id(input[v]);
-      of_owned(v) = counts(input[v]);
+      const Id vertex = input[first + static_cast<Id>(v)];
+      owned(v) = mesh.vertex_id(vertex);
+      of_owned(v) = counts(vertex);
     });
   });
   return detail::sums_before(ranks, owned, of_owned);
@@ -138,7 +140,7 @@ Array<std::uint8_t, HostMemory> values_in(const Mesh& excerpt, const Mesh& mesh,
   Array<std::uint8_t, HostMemory> by_input, found, in_order;
   detail::together(ranks, [&] {
     by_input = allocate<decltype(by_input)>("GALE::by_input", mesh.vertices());
-    for (Id v = 0; v < mesh.vertices(); ++v) by_input(mesh.vertex_input()(v)) = values(v);
+    for (Id v = 0; v < mesh.vertices(); ++v) by_input(mesh.vertices_in_input()[v]) = values(v);
     found = allocate<decltype(found)>("GALE::values_in_excerpt", excerpt.vertices());
     in_order = allocate<decltype(found)>("GALE::values_in_excerpt", excerpt.vertices());
   });
@@ -161,7 +163,7 @@ SimplexNumbers number_of_part(Structure& structure, const NamedSimplices& named,
   const NumbersOfRanks first_edges = first_numbers(mesh, found->edge_counts());
   const NumbersOfRanks first_triangles = first_numbers(mesh, found->triangle_counts());
   const OtherIds internal = mesh.vertices_of_input();
-  const auto at = [&](GlobalId vertex) { return internal[mesh.vertex_of(vertex)]; };
+  const auto at = [&](GlobalId vertex) { return internal[mesh.vertex_of(vertex)] - mesh.owned_vertices().first; };
   SimplexNumbers numbers;
   numbers.edges =
       edges.answers([&](Offset i) { return first_edges(at(edges.first_vertex(i))) + found->edges().place(i); });

@@ -87,7 +87,7 @@ Array<const std::uint64_t, HostMemory> shared_keys(const Space& space, const Mes
                                                    const FieldValues<Value, MemoryOf<Space>>& values) {
   if (sizeof(Value) < 8 || mesh.exchange().ranks().size() == 1) return {};
   const auto keys = allocate<Keys<Space>>("GALE::shared_keys", mesh.vertices());
-  const Id* const input = mesh.vertex_input<MemoryOf<Space>>().data();
+  const OtherIds input = mesh.vertices_in_input<MemoryOf<Space>>();
   parallel_for(
       "GALE::shared_keys", space, mesh.vertices(),
       KOKKOS_LAMBDA(Offset v) { keys(v) = ordered_bits(values(input[v])); });

@@ -265,12 +265,12 @@ void require_permutation(const Mesh& mesh, const io::PointArray& order) {
                 ": vertex " + std::to_string(vertex) + " has " + std::to_string(value));
   };
   detail::together(mesh.exchange().ranks(), [&] {
-    keys = allocate<decltype(keys)>("GALE::order_keys", mesh.owned_vertices());
-    for (std::size_t v = 0; v < keys.extent(0); ++v) {
+    keys = allocate<decltype(keys)>("GALE::order_keys", mesh.owned_vertices().size());
+    for (const Id v : mesh.owned_vertices()) {
       const double value = outputs::value_at(order, input[v]);
       if (!(value >= 0 && value < count) || value != static_cast<double>(static_cast<GlobalId>(value)))
         refuse(mesh.vertex_id(input[v]), value);
-      keys(v) = {static_cast<GlobalId>(value), 0, 0};
+      keys(v - mesh.owned_vertices().first) = {static_cast<GlobalId>(value), 0, 0};
     }
   });
   const auto found = detail::places_of_keys(mesh.exchange().ranks(), keys);

@@ -61,9 +61,9 @@ struct WantedOfInput {
   bool arrays, cells;
 };
 
-/// Reads an input on several ranks together: `grid:N` is made by each rank for itself, the pieces of a `.pvtu` are read
-/// by all ranks; else the first rank reads all. Calls was_read() with what is to be said of it, then shares it: returns
-/// this rank's part of the mesh, and the field on it. Collective; throws SharedError.
+/// Reads an input on several ranks together: `grid:N` and `plane:N` are made by each rank for itself, the pieces of a
+/// `.pvtu` are read by all ranks; else the first rank reads all. Calls was_read() with what is to be said of it, then
+/// shares it: returns this rank's part of the mesh, and the field on it. Collective; throws SharedError.
 FieldOnMesh read_on_ranks(const InputOptions& from, int capacity, const WantedOfInput& wanted,
                           const std::function<void(const std::vector<std::string>& notices)>& was_read);
 

@@ -31,18 +31,22 @@ void take_grid(int n, const Ranks& ranks, const InputOptions& input, SharedInput
   shared.arrays = std::move(grid.arrays);
 }
 
-void take_file(const InputOptions& input, SharedInput& shared) {
+/// Reads all; a grid's layers aren't dealt out yet.
+void take_file(const InputOptions& input, SharedInput& shared, std::optional<Grid>& grid,
+               io::Dataset::Positions& grid_points) {
   io::Dataset dataset = io::read(input.input, input.read);
-  io::write_out_cells(dataset);
   if (input.height) outputs::add_height(dataset, *input.height);
-  const auto vertices = std::visit([](const auto& points) { return points.extent(0); }, dataset.points);
-  const auto ids = counted(0, vertices);
+  const std::size_t vertices = dataset.vertices();
+  const auto ids = counted(0, dataset.grid ? 0 : static_cast<Offset>(vertices));
   std::visit(
       [&](const auto& points) {
+        if (dataset.grid) return;
         shared.part = dataset.dimension() == 3 ? part_of(ids, points, dataset.tetrahedra)
                                                : part_of(ids, points, dataset.triangles);
       },
       dataset.points);
+  grid = dataset.grid;
+  if (grid) grid_points = dataset.points;
   if (!dataset.cell_arrays.empty()) {
     const auto& cells = std::get<std::vector<Id>>(dataset.cell_arrays[0].values);
     shared.cells = detail::tabulated<GlobalId>("GALE::cells_of_simplices", static_cast<Offset>(cells.size()),
@@ -98,17 +102,26 @@ std::vector<io::PointArray> empty_arrays(const std::string& description) {
 
 namespace {
 
-SharedInput read_shared(const Ranks& ranks, const InputOptions& input) {
+SharedInput read_shared(const Ranks& ranks, InputOptions input, const WantedOfInput& wanted) {
   SharedInput shared;
+  if (input.read.grids == io::GridCells::computed && !wanted.arrays && !input.height)
+    input.read.grids = io::GridCells::computed_alone;
   begin_step("reading", input.input);
   std::optional<io::PieceNames> pieces;
   detail::together(ranks, [&] { pieces = io::piece_names(input.input); });
   if (pieces) return read_pieces(ranks, input, *pieces);
+  std::optional<Grid> grid;
+  io::Dataset::Positions points;
   detail::together(ranks, [&] {
-    if (const auto n = io::grid_size(input.input, input.read)) {
+    const auto of = io::grid_points(input.input, input.read);
+    if (of && input.read.grids != io::GridCells::written) {
+      shared = make_layers(ranks, input, *of, wanted);
+      return;
+    }
+    if (of && (*of)[2] > 1) {
+      const int n = (*of)[0];
       constexpr int most = 1290;  // whose vertices 32 bits number
-      *n <= most ? take_grid<std::int32_t>(*n, ranks, input, shared)
-                 : take_grid<std::int64_t>(*n, ranks, input, shared);
+      n <= most ? take_grid<std::int32_t>(n, ranks, input, shared) : take_grid<std::int64_t>(n, ranks, input, shared);
       io::Dataset named;
       named.arrays = shared.arrays;
       shared.field = outputs::select_field(named, input.read.array);
@@ -116,9 +129,11 @@ SharedInput read_shared(const Ranks& ranks, const InputOptions& input) {
       return;
     }
     shared.is_dealt_out = true;
-    if (ranks.rank() == 0) take_file(input, shared);
+    if (ranks.rank() == 0) take_file(input, shared, grid, points);
   });
-  if (shared.is_dealt_out) share_names(ranks, shared);
+  if (!shared.is_dealt_out) return shared;
+  share_names(ranks, shared);
+  if (ranks.least(std::int64_t(ranks.rank() > 0 || grid)) == 1) deal_layers(ranks, grid, points, wanted, shared);
   return shared;
 }
 
@@ -173,21 +188,28 @@ VertexOrder order_by(const Mesh& mesh, const io::PointArray& order) {
 FieldOnMesh read_on_ranks(const InputOptions& from, int capacity, const WantedOfInput& wanted,
                           const std::function<void(const std::vector<std::string>& notices)>& was_read) {
   const auto& ranks = static_cast<const Communicator&>(Launch::ranks());  // what it is where there are several
-  SharedInput input = read_shared(ranks, from);
+  SharedInput input = read_shared(ranks, from, wanted);
   was_read(input.notices);
   begin_step("sharing the mesh");
   // Cells without ids are counted from rank to rank.
   Array<const GlobalId, HostMemory> given_ids;
   const bool names_cells = wanted.cells && ranks.least(-std::int64_t(input.cells.extent(0))) < 0;
   if (names_cells) {
-    given_ids = std::visit([](const auto& part) { return part.cell_ids; }, input.part);
-    const Offset count = std::visit([](const auto& part) { return Offset(part.cells.extent(0)); }, input.part);
+    Offset count = 0;
+    std::visit(
+        [&](const auto& part) {
+          if constexpr (!std::is_same_v<std::decay_t<decltype(part)>, GridLayers>) {
+            given_ids = part.cell_ids;
+            count = static_cast<Offset>(part.cells.extent(0));
+          }
+        },
+        input.part);
     const bool are_counted = ranks.least(-std::int64_t(given_ids.extent(0))) == 0;
     const GlobalId first = ranks.sum_before(count);
     if (are_counted) detail::together(ranks, [&] { given_ids = counted(first, count); });
   }
   PartitionOptions options;
-  options.repartition = input.is_dealt_out;
+  options.repartition = input.is_dealt_out;  // but for layers of a grid
   options.keep_corners = wanted.cells;
   options.capacity = capacity;
   const DistributedMesh mesh =

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <array>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include <gale/app/options.hpp>
+#include <gale/app/ranks/ranks.hpp>
 #include <gale/distributed/distributed_mesh.hpp>
 #include <gale/io/dataset.hpp>
 #include <gale/io/read.hpp>
@@ -22,9 +25,10 @@ auto part_of(const Array<GlobalId, HostMemory>& vertex_ids, const PointView& poi
 
 /// What one rank has of an input before it is dealt out.
 struct SharedInput {
-  std::variant<MeshPart<std::int32_t>, MeshPart<std::int64_t>> part;  ///< by global ids that fit; keeps its Views
-  io::PointArray field;                                               ///< the one to analyse
-  io::PointArray order;                                               ///< what orders the vertices of the part
+  /// By global ids that fit, or as layers of a grid; keeps its Views.
+  std::variant<MeshPart<std::int32_t>, MeshPart<std::int64_t>, GridLayers> part;
+  io::PointArray field;                ///< the one to analyse
+  io::PointArray order;                ///< what orders the vertices of the part
   std::vector<io::PointArray> arrays;  ///< what these points have; the same arrays on all ranks
   bool has_order = false;              ///< whether `order` is another array than the field; pieces alone say so
   bool has_ids = false;                ///< whether GlobalPointIds of `arrays` are the points' in the input
@@ -39,6 +43,15 @@ struct SharedInput {
 /// Types, components and names of arrays; and arrays without values, as they were described.
 std::string described(const std::vector<io::PointArray>& arrays);
 std::vector<io::PointArray> empty_arrays(const std::string& description);
+
+/// Makes this rank's layers of the grid or plane of so many points, for outputs with points and arrays.
+SharedInput make_layers(const Ranks& ranks, const InputOptions& input, const std::array<Id, 3>& points,
+                        const WantedOfInput& wanted);
+
+/// Deals out the layers of a grid that the first rank has, with the values that `shared` has there and, for outputs,
+/// its points; other ranks have no values, but arrays of these types. Collective; throws SharedError.
+void deal_layers(const Ranks& ranks, const std::optional<Grid>& grid, const io::Dataset::Positions& points,
+                 const WantedOfInput& wanted, SharedInput& shared);
 
 /// Has each rank read some of the pieces of a `.pvtu`, one behind the other, as many as the others. Vertices and
 /// cells are numbered as one rank numbers them: in the order of the file's global ids. Without those, cells are

@@ -51,8 +51,13 @@ class GivenIntervals {
     const Offset others = reduce_sum("GALE::count_gaps", HostExecutionSpace(), count,
                                      [&](Offset i) { return Offset(ids(i) != first + i); });
     if (ranks.sum(others) > 0) return std::nullopt;
+    return of(ranks, IdInterval{first, first + count});
+  }
+
+  /// Where each rank knows that it hands over an interval. Collective.
+  static GivenIntervals of(const Communicator& ranks, const IdInterval& ids) {
     GivenIntervals given;
-    const auto begin = ranks.all(first), end = ranks.all(first + count);
+    const auto begin = ranks.all(ids.begin), end = ranks.all(ids.end);
     for (int rank = 0; rank < ranks.size(); ++rank) given.by_rank_.push_back({begin[rank], end[rank]});
     return given;
   }

@@ -48,7 +48,7 @@ class BatchSweep<Memory>::Batches {
   Lane* next();
 
  private:
-  bool has_plans() const { return !again_.empty() || ahead_ < mesh_.owned_segments(); }
+  bool has_plans() const { return !again_.empty() || ahead_ < mesh_.owned_segments().last; }
   BatchPlan next_plan();
   void launch(Lane& lane, BatchPlan plan);
   void finish(Lane& lane);
@@ -60,13 +60,13 @@ class BatchSweep<Memory>::Batches {
   Offset room_ = 0;          ///< words that one has, unless one segment needs more; fewer where the mesh takes fewer
   std::vector<std::unique_ptr<Lane>> lanes_;
   std::size_t turn_ = 0;         ///< the lane that is next
-  Id ahead_ = 0;                 ///< the first segment that no batch had yet
+  Id ahead_;                     ///< the first segment that no batch had yet
   std::deque<BatchPlan> again_;  ///< plans of segments that lacked room
 };
 
 template <class Memory>
 BatchSweep<Memory>::Batches::Batches(const Mesh& mesh, RelationSet relations, const DeviceSweepOptions& options)
-    : mesh_(mesh), words_per_vertex_(margin * words_per_vertex(relations)) {
+    : mesh_(mesh), words_per_vertex_(margin * words_per_vertex(relations)), ahead_(mesh.owned_segments().first) {
   require_sweep(relations, options);
   gale::require_relations(relations, mesh.dimension());
   const Filled<Memory> filled(options);
@@ -74,7 +74,7 @@ BatchSweep<Memory>::Batches::Batches(const Mesh& mesh, RelationSet relations, co
   for (const RelationSet one : kernels_for(relations, mesh.dimension()))
     kernels->emplace_back(mesh, one, filled.threads_per_segment);
   words_ = std::max<Offset>(static_cast<Offset>(filled.memory / filled.batches / sizeof(Id)), 1024);
-  const auto all = static_cast<Offset>(words_per_vertex_ * mesh.owned_vertices()) + 1024;
+  const auto all = static_cast<Offset>(words_per_vertex_ * mesh.owned_vertices().size()) + 1024;
   room_ = std::min(words_, all);
   const auto batches = static_cast<int>(std::min<Offset>(filled.batches, (all + words_ - 1) / words_));
   for (int i = 0; i < batches; ++i) {
@@ -118,7 +118,8 @@ BatchPlan BatchSweep<Memory>::Batches::next_plan() {
   plan.words = room_;
   plan.begin = ahead_;
   plan.end = ahead_ + 1;
-  while (plan.end < mesh_.owned_segments() && vertex_begin(plan.end + 1) - vertex_begin(plan.begin) <= most) ++plan.end;
+  while (plan.end < mesh_.owned_segments().last && vertex_begin(plan.end + 1) - vertex_begin(plan.begin) <= most)
+    ++plan.end;
   ahead_ = plan.end;
   return plan;
 }

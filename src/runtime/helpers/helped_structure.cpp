@@ -95,7 +95,7 @@ HelpedStructure::HelpedStructure(const Mesh& mesh, RelationSet relations, const 
 std::unique_ptr<Structure::Sweep> HelpedStructure::begin_sweep(RelationSet wanted, int consumers,
                                                                const SegmentBody& body) {
   const int all = cores(options_);
-  auto idle = std::make_unique<IdleCores>(all, consumers, mesh().owned_segments() / worth_a_thread);
+  auto idle = std::make_unique<IdleCores>(all, consumers, mesh().owned_segments().size() / worth_a_thread);
   if (idle->count() == 0) return InlineStructure::begin_sweep(wanted, consumers, body);
   const MakeWorker make = [this, wanted](ConsumerStatistics& statistics, int kept) {
     return std::make_unique<SegmentWorker>(mesh(), wanted, statistics, kept);

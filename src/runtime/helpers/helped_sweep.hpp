@@ -38,17 +38,17 @@ using MakeWorker = std::function<std::unique_ptr<SegmentWorker>(ConsumerStatisti
 /// The segments of a sweep that nobody has begun: dealt out one by one, ascending, to whoever computes them.
 class UnbegunSegments {
  public:
-  explicit UnbegunSegments(Id segments) : segments_(segments) {}
+  explicit UnbegunSegments(const Interval& segments) : end_(segments.last), next_(segments.first) {}
 
   /// no_id when there are none any more.
   Id take() {
     const Offset next = next_.fetch_add(1);
-    return next < segments_ ? static_cast<Id>(next) : no_id;
+    return next < end_ ? static_cast<Id>(next) : no_id;
   }
 
  private:
-  const Id segments_;
-  std::atomic<Offset> next_{0};
+  const Id end_;
+  std::atomic<Offset> next_;
 };
 
 /// A thread that computes segments of a sweep ahead of the consumers, into a ring of blocks. While the ring is full it
@@ -114,8 +114,8 @@ class HelpedSweep {
  public:
   /// Begins with fewer helpers if there are no more threads to be had. Consumers compute with what `make` makes,
   /// helpers with what `make_for_helper` does.
-  HelpedSweep(Id segments, int consumers, const MakeWorker& make, int helpers, const MakeWorker& make_for_helper,
-              std::size_t budget_of_each)
+  HelpedSweep(const Interval& segments, int consumers, const MakeWorker& make, int helpers,
+              const MakeWorker& make_for_helper, std::size_t budget_of_each)
       : make_(make), unbegun_(segments), consumers_(consumers) {
     try {
       while (helpers-- > 0) helpers_.push_back(std::make_unique<Helper>(make_for_helper, unbegun_, budget_of_each));

@@ -126,7 +126,8 @@ void Leader::listen(bool wait) {
   if (news.sweep_began) {
     prepare_arenas();
     sweeping_ = true;
-    ahead_ = must_reach_ = 0;
+    ahead_ = mesh_.owned_segments().first;
+    must_reach_ = 0;
     ahead_batch_ = first_batch;
   }
   // First all of them where a failure finds them; after that, a ticket may be fulfilled with another's.

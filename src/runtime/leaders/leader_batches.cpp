@@ -71,8 +71,8 @@ Leader::Plan Leader::next_requests() {
 
 /// The next batch of the sweep, unless the budget doesn't allow it yet.
 bool Leader::launch_ahead() {
-  while (ahead_ < mesh_.owned_segments() && !is_wanted(ahead_)) ++ahead_;
-  if (ahead_ == mesh_.owned_segments()) return false;
+  while (ahead_ < mesh_.owned_segments().last && !is_wanted(ahead_)) ++ahead_;
+  if (ahead_ == mesh_.owned_segments().last) return false;
   const auto need = must_reach_ > ahead_ ? BlockStore::Need::must_have : BlockStore::Need::can_wait;
   Arena* const arena = store_.take(need, words_for(std::min(ahead_batch_, segments_that_fit())));
   if (arena == nullptr) return false;
@@ -84,12 +84,12 @@ Leader::Plan Leader::plan_ahead() {
   Plan plan;
   plan.ahead = true;
   const auto count = static_cast<std::size_t>(std::min(ahead_batch_, segments_that_fit()));
-  for (; ahead_ < mesh_.owned_segments() && plan.segments.size() < count; ++ahead_) {
+  for (; ahead_ < mesh_.owned_segments().last && plan.segments.size() < count; ++ahead_) {
     if (!is_wanted(ahead_)) continue;
     under_way_[ahead_] = true;
     plan.segments.push_back(ahead_);
   }
-  ahead_batch_ = static_cast<Id>(std::min<Offset>(Offset(ahead_batch_) * 2, mesh_.owned_segments()));
+  ahead_batch_ = static_cast<Id>(std::min<Offset>(Offset(ahead_batch_) * 2, mesh_.owned_segments().size()));
   return plan;
 }
 

@@ -74,7 +74,7 @@ Csr<const Id, HostMemory> relation_of(const Mesh& mesh, Relation relation, Ids i
     if (ids == Ids::input) return names_in_input(mesh, one);
     return detail::RelationNames{own_ids(row_dimension(one)), own_ids(entry_dimension(one))};
   };
-  const bool has_ghosts = mesh.owned_segments() < mesh.segments();
+  const bool has_ghosts = mesh.owned_segments().size() < mesh.segments();
   if (mesh.on_device() || has_ghosts || relation == Relation::VV || relation == Relation::TT) {
     const auto structure = make_structure(mesh, relation);
     return detail::swept_rows(*structure, relation, names_of(relation), options);

@@ -12,12 +12,13 @@ namespace gale::detail {
 namespace {
 
 /// Sizes of some rows from all over the mesh, ascending.
-std::vector<Id> sizes_of_some_rows(Structure& structure, Relation relation, Id rows) {
+std::vector<Id> sizes_of_some_rows(Structure& structure, Relation relation, const Interval& rows) {
   constexpr Offset places = 16, at_each = 64;
   const auto consumer = structure.consumer();
   std::vector<Id> sizes;
   for (Offset place = 0; place < places; ++place) {
-    const Offset first = rows * place / places, end = std::min(first + at_each, rows * (place + 1) / places);
+    const Offset first = rows.first + rows.size() * place / places;
+    const Offset end = std::min(first + at_each, rows.first + rows.size() * (place + 1) / places);
     for (Offset row = first; row < end; ++row) sizes.push_back(consumer->row(relation, static_cast<Id>(row)).size());
   }
   std::sort(sizes.begin(), sizes.end());
@@ -176,9 +177,11 @@ Csr<const Id, HostMemory> swept_rows(Structure& structure, Relation relation, co
                                      const SweepOptions& options) {
   const Mesh& mesh = structure.mesh();
   const int dimension = row_dimension(relation);
-  const Id rows = count_of(mesh, dimension), owned = mesh.interval_begin(dimension)(mesh.owned_segments());
+  const Id rows = count_of(mesh, dimension);
+  const auto& begin_of = mesh.interval_begin(dimension);
+  const Interval owned{begin_of(mesh.owned_segments().first), begin_of(mesh.owned_segments().last)};
   const auto begin = array_to_write<Offset>("GALE::relation_offsets", rows + std::size_t(1), options.threads);
-  if (owned < rows) fill("GALE::relation_offsets", HostExecutionSpace(), begin, 0);
+  if (owned.size() < rows) fill("GALE::relation_offsets", HostExecutionSpace(), begin, 0);
   const auto sizes = sizes_of_some_rows(structure, relation, owned);
   Slots slots;
   slots.size = best_slot_size(sizes);

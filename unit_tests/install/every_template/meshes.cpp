@@ -59,6 +59,9 @@ void make_grid() {
   grid.for_each_vertex(0, 9, [&](gale::Id, gale::Id, gale::Id vertex) { seen += vertex == seen; });
   expect(seen == 27 && grid.in<Memory>().nx == 3 && grid.kinds_in<Memory>() != nullptr, "a grid");
   expect(gale::Mesh(grid).cells() == 48, "the mesh of a grid");
+  const Kokkos::View<gale::Id* [4], gale::HostMemory> cells("cells", 48);
+  grid.write_cells(cells);
+  expect(cells(0, 3) == 13, "the cells of a grid");
 }
 
 template <class Memory>

@@ -1,0 +1,171 @@
+#include <random>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <gale/algorithms/critical_points.hpp>
+#include <gale/algorithms/discrete_gradient.hpp>
+#include <gale/algorithms/vertex_order.hpp>
+#include <gale/distributed/distributed_mesh.hpp>
+
+#include "support/message_of.hpp"
+
+namespace gale::test {
+
+namespace {
+
+/// A grid of which so many of a hundred points are there at random, none in layers `gap`.
+Grid grid_with_holes(const std::array<Id, 3>& points, int percent, const Interval& gap) {
+  std::mt19937 random(static_cast<unsigned>(percent + points[0]));
+  const std::size_t words = Grid::words_of_row(points[0]);
+  const Array<std::uint64_t, HostMemory> inside("test", words * points[1] * points[2]);
+  for (Id row = 0; row < points[1] * points[2]; ++row) {
+    if (gap.has(points[2] == 1 ? row : row / points[1])) continue;
+    for (Id x = 0; x < points[0]; ++x) {
+      if (static_cast<int>(random() % 100) < percent) inside(row * words + x / 64) |= std::uint64_t(1) << (x % 64);
+    }
+  }
+  return Grid(points, inside);
+}
+
+std::vector<Grid> grids() {
+  return {Grid({6, 5, 9}),
+          Grid({70, 3, 2}),
+          Grid({13, 11, 1}),
+          grid_with_holes({9, 8, 12}, 93, {}),
+          grid_with_holes({70, 4, 7}, 96, {}),
+          grid_with_holes({6, 5, 9}, 97, {3, 5}),
+          grid_with_holes({14, 15, 1}, 88, {4, 6})};
+}
+
+Id layers_of(const Grid& grid) { return grid.points()[grid.dimension() - 1]; }
+
+/// The first vertex in a layer, or behind the last.
+Id first_vertex(const Grid& grid, Id layer) {
+  if (layer == layers_of(grid)) return grid.vertices();
+  const GridView view = grid.in<HostMemory>();
+  return grid.dimension() == 3 ? view.vertex_at(0, 0, layer) : view.vertex_at(0, layer, 0);
+}
+
+/// What a rank hands over of a whole grid.
+GridLayers layers_of_rank(const Grid& grid, const Ranks& ranks) {
+  const auto begin =
+      detail::shared_layers(layers_of(grid), ranks.size(), [&](Id at) { return first_vertex(grid, at); });
+  GridLayers part{grid.points(), {begin[ranks.rank()], begin[ranks.rank() + 1]}, {}, {}};
+  if (grid.is_whole() || part.layers.size() == 0) return part;
+  const Id rows = grid.dimension() == 3 ? grid.points()[1] : 1;
+  const std::size_t words = Grid::words_of_row(grid.points()[0]) * rows;
+  const Id first = std::max(part.layers.first - 1, 0), last = std::min(part.layers.last + 1, layers_of(grid));
+  const Array<std::uint64_t, HostMemory> inside("test", words * (last - first));
+  for (std::size_t w = 0; w < inside.extent(0); ++w)
+    inside(w) = grid.in<HostMemory>().vertices.words[words * first + w];
+  part.inside = inside;
+  return part;
+}
+
+/// Few values: most neighbours have equal ones.
+std::vector<float> ties(Id count) {
+  std::mt19937 random(7);
+  std::vector<float> values(count);
+  for (float& value : values) value = static_cast<float>(random() % 4);
+  return values;
+}
+
+}  // namespace
+
+TEST(GridLayersOfRanks, have_the_ids_of_the_whole_grid) {
+  const Communicator ranks(MPI_COMM_WORLD, 1000);
+  for (const Grid& grid : grids()) {
+    const GridLayers part = layers_of_rank(grid, ranks);
+    const DistributedMesh mesh(ranks, part);
+    EXPECT_EQ(mesh.all_vertices(), grid.vertices());
+    EXPECT_EQ(mesh.all_cells(), grid.cells());
+    const Interval owned = mesh.owned_vertices();
+    const Id first = first_vertex(grid, part.layers.first), last = first_vertex(grid, part.layers.last);
+    EXPECT_EQ(owned.size(), last - first);
+    const GridView whole = grid.in<HostMemory>();
+    int wrong = 0;
+    for (Id v = 0; v < mesh.vertices(); ++v) {
+      const auto id = static_cast<Id>(mesh.vertex_id(v));
+      wrong += owned.has(v) != (id >= first && id < last) || mesh.vertex_of(id) != v ||
+               (v > 0 && mesh.vertex_id(v - 1) >= id);
+      wrong += mesh.exchange().owner(v) != ranks.rank() && owned.has(v);
+    }
+    std::vector<bool> held(grid.cells(), false);
+    for (Id t = 0; t < mesh.cells(); ++t) {
+      const auto id = static_cast<Id>(mesh.cell_id(t));
+      const Quad here = mesh.cell_reader()(t), there = whole.cell(id);
+      for (int k = 0; k <= grid.dimension(); ++k) wrong += mesh.vertex_id(here[k]) != there[k];
+      wrong += mesh.exchange().cell_of(id) != t;
+      held[id] = true;
+    }
+    for (Id t = 0; t < grid.cells(); ++t) {
+      bool is_wanted = false;
+      for (int k = 0; k <= grid.dimension(); ++k)
+        is_wanted = is_wanted || (whole.cell(t)[k] >= first && whole.cell(t)[k] < last);
+      wrong += held[t] != is_wanted;
+    }
+    EXPECT_EQ(wrong, 0);
+  }
+}
+
+TEST(GridLayersOfRanks, have_the_critical_simplices_of_the_whole_grid) {
+  const Communicator ranks(MPI_COMM_WORLD, 1000);
+  for (const Grid& grid : grids()) {
+    const std::vector<float> all = ties(grid.vertices());
+    const GridLayers part = layers_of_rank(grid, ranks);
+    const DistributedMesh mesh(ranks, part);
+    const Id first = first_vertex(grid, part.layers.first);
+    const VertexOrder order(mesh, all.data() + first, mesh.owned_vertices().size());
+    const Mesh whole(grid);
+    const VertexOrder order_of_all(whole, all.data(), all.size());
+    const CriticalPoints found = find_critical_points(order), expected = find_critical_points(order_of_all);
+    EXPECT_EQ(found.counts, expected.counts);
+    std::size_t at =
+        std::lower_bound(expected.vertices.begin(), expected.vertices.end(), first) - expected.vertices.begin();
+    for (std::size_t i = 0; i < found.vertices.size(); ++i, ++at) {
+      ASSERT_LT(at, expected.vertices.size());
+      EXPECT_EQ(mesh.vertex_id(found.vertices[i]), expected.vertices[at]);
+      EXPECT_EQ(found.types[i], expected.types[at]);
+      EXPECT_EQ(found.on_surface[i], expected.on_surface[at]);
+    }
+    EXPECT_EQ(find_discrete_gradient(order).counts(), find_discrete_gradient(order_of_all).counts());
+  }
+}
+
+TEST(GridLayersOfRanks, are_refused_where_they_do_not_fit) {
+  const Communicator ranks(MPI_COMM_WORLD);
+  const auto error = [&](const GridLayers& part) { return message_of([&] { DistributedMesh mesh(ranks, part); }); };
+  GridLayers part = layers_of_rank(Grid({3, 3, 5}), ranks);
+  part.layers.first = part.layers.last = 0;
+  EXPECT_EQ(error(part), "ranks hand over 0 layers of a grid of 5");
+  part.layers.last = 5;
+  if (ranks.size() > 1) {
+    EXPECT_EQ(error(part), "rank 1 hands over the layers from 0 to before 5, where those from 5 on are next");
+  }
+  part.points = {1, 3, 5};
+  EXPECT_EQ(error(part), "a grid of 1 x 3 x 5 points has no cells");
+  if (ranks.size() > 1) {
+    part.points = {3 + ranks.rank(), 3, 5};
+    EXPECT_EQ(error(part), "ranks hand over layers of grids of different extents");
+  }
+  part = layers_of_rank(Grid({3, 3, 5}), ranks);
+  const Id held = std::min(part.layers.last + 1, 5) - std::max(part.layers.first - 1, 0);
+  part.inside = Array<std::uint64_t, HostMemory>("test", part.layers.size() == 0 ? 0 : 3 * held);
+  if (ranks.size() < 6) EXPECT_EQ(error(part), "the mesh has no cells");
+  if (part.layers.has(0)) {
+    const Array<std::uint64_t, HostMemory> one("test", 3 * held);
+    one(0) = 1;
+    part.inside = one;
+  }
+  EXPECT_NE(error(part).find("layer 0 has 1 vertices, of which cubes of vertices use 0"), std::string::npos);
+  PartitionOptions options;
+  options.most_local = 20;
+  EXPECT_NE(message_of([&] {
+              DistributedMesh mesh(ranks, layers_of_rank(Grid({3, 3, 40}), ranks), options);
+            }).find("vertices"),
+            std::string::npos);
+}
+
+}  // namespace gale::test
