@@ -37,8 +37,8 @@ struct FieldOnMesh {
 /// mesh, as on several ranks, what the owners of its vertices have, else that itself. Refers to the field.
 class OnExcerpt {
  public:
-  /// Collective.
-  OnExcerpt(const Mesh& excerpt, const FieldOnMesh& on);
+  /// Collective. With the field alone there is nothing of an excerpt in dataset().
+  OnExcerpt(const Mesh& excerpt, const FieldOnMesh& on, bool field_alone = false);
 
   const io::Dataset& dataset() const { return is_excerpt_ ? dataset_ : on_.dataset; }
   const io::PointArray& field() const { return is_excerpt_ ? field_ : on_.field; }

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <gale/algorithms/gradient/gradient_store.hpp>
 #include <gale/algorithms/morse_smale/jump.hpp>
 #include <gale/algorithms/morse_smale/paths_on_ranks.hpp>
@@ -32,9 +34,12 @@ PathSimplices::PathSimplices(const DiscreteGradient& gradient, Kind kind)
       keys_(gradient.order().keys()),
       corners_(mesh().encoded().cells) {
   if (are_vertices_) return;
-  cell_internal_ = allocate<Array<Id, HostMemory>>("GALE::cell_internal", mesh().cells());
-  parallel_for("GALE::cell_internal", HostExecutionSpace(), mesh().cells(),
-               [&](Offset t) { cell_internal_(input_[t]) = static_cast<Id>(t); });
+  const Id cells = mesh().cells(), owned = mesh().owned_vertices();
+  for (Id t = 0; t < cells; ++t) {
+    const Id* const corners = &corners_(t, 0);
+    if (*std::max_element(corners, corners + 4) >= owned)
+      shared_cells_.insert(static_cast<std::uint64_t>(input_[t])).first = t;
+  }
 }
 
 PathSimplices::PathSimplices(const VertexOrder& order, const Mirrored<Id>& successors, const std::vector<Id>& ends)
@@ -58,7 +63,8 @@ GlobalId PathSimplices::global(Id simplex) const {
 }
 
 Id PathSimplices::local(GlobalId id) const {
-  return are_vertices_ ? mesh().vertex_internal()(mesh().vertex_of(id)) : cell_internal_(mesh().exchange().cell_of(id));
+  return are_vertices_ ? mesh().vertex_internal()(mesh().vertex_of(id))
+                       : *shared_cells_.find(static_cast<std::uint64_t>(mesh().exchange().cell_of(id)));
 }
 
 int PathSimplices::owner(Id simplex) const {

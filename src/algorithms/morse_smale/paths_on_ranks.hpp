@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <gale/algorithms/discrete_gradient.hpp>
+#include <gale/base/hash_table.hpp>
 #include <gale/mesh/exchange/global_index.hpp>
 
 namespace gale::detail {
@@ -31,7 +32,7 @@ class PathSimplices {
   /// Where paths end: GALE's ids.
   const std::vector<Id>& critical() const { return critical_; }
 
-  /// GALE's id -> global id, and back for those that this rank holds.
+  /// GALE's id -> global id, and back for those that this rank shares with others.
   GlobalId global(Id simplex) const;
   Id local(GlobalId id) const;
 
@@ -46,7 +47,7 @@ class PathSimplices {
   const Id *input_, *vertex_input_;
   const std::uint64_t* keys_;
   IdsByFour<HostMemory> corners_;
-  Array<Id, HostMemory> cell_internal_;  ///< input cell -> GALE's; of cells alone
+  HashTable<Id> shared_cells_;  ///< of cells alone: input cell -> GALE's, of those that have a ghost
 };
 
 /// Where a path goes on or ends.
