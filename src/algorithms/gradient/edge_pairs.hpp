@@ -82,6 +82,10 @@ class GALE_EXPORT EdgePairs {
   /// Takes rows that were made elsewhere: their words, and where among them each vertex's row begins.
   EdgePairs(const Array<const Id, HostMemory>& words, const Array<const Offset, HostMemory>& begin, int consumers);
 
+  /// The rows of `some`, and rows for vertices that follow; those of the vertices from `owned` on are to be begun, by
+  /// one consumer, and have no edges before that. `some` must live as long.
+  EdgePairs(const EdgePairs& some, Id owned, Id vertices);
+
   /// A row for a vertex, to be filled. A consumer may begin rows while others do; each vertex once.
   EdgePairRow begin(int consumer, Id vertex, Id count);
 

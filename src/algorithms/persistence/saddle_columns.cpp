@@ -62,4 +62,6 @@ SaddleColumns::SaddleColumns(const DiscreteGradient& gradient, const CriticalPla
   }
 }
 
+SaddleColumns::~SaddleColumns() = default;
+
 }  // namespace gale::detail

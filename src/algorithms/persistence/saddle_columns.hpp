@@ -27,6 +27,8 @@ class SaddleColumns {
   SaddleColumns(const DiscreteGradient& gradient, const CriticalPlaces& places, const Filtration& filtration,
                 const std::vector<Id>& columns, int threads);
 
+  ~SaddleColumns();
+
   /// How many 1-saddles there are.
   std::size_t saddles() const { return owners_.size(); }
 
