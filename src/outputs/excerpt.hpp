@@ -22,7 +22,10 @@ class GALE_EXPORT AtExcerpt {
   AtExcerpt(const Mesh& excerpt, const Mesh& mesh, const io::Dataset& dataset, const io::PointArray& field,
             bool field_alone = false);
 
+  /// Points and arrays, by input ids of the excerpt, or of the mesh.
   const io::Dataset& dataset() const { return is_excerpt_ ? own_dataset_ : dataset_; }
+
+  /// The field likewise.
   const io::PointArray& field() const { return is_excerpt_ ? own_field_ : field_; }
 
  private:
