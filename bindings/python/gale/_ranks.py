@@ -37,7 +37,8 @@ class DistributedMesh(Mesh):
 
     def __init__(self, comm: Any, ids: Any, points: Any, cells: Any, cell_ids: Any = None, repartition: bool = False,
                  capacity: int = 64) -> None:
-        if not hasattr(_gale, "DistributedMesh"):
+        inner = getattr(_gale, "DistributedMesh", None)
+        if inner is None:
             raise Error("this gale is built without MPI: GALE_ENABLE_MPI")
         from mpi4py import MPI
 
@@ -45,7 +46,7 @@ class DistributedMesh(Mesh):
             raise Error(f"what is of {type(comm).__name__} is no communicator of mpi4py's")
         rows = np.asarray(cells)
         corners = np.zeros((0, 4), np.int64) if rows.size == 0 else _ids(rows, "cells")
-        self._mesh: Any = _gale.DistributedMesh(MPI._addressof(comm), _ids(ids, "ids"), _arrays.points(points), corners,
+        self._mesh: Any = inner(MPI._addressof(comm), _ids(ids, "ids"), _arrays.points(points), corners,
                                                 None if cell_ids is None else _ids(cell_ids, "cell ids"), repartition,
                                                 capacity)
 
