@@ -93,7 +93,7 @@ struct GALE_EXPORT MorseSmaleComplex {
 
   /// What `critical` and the separatrices are of: `gradient`, or on one rank of several an excerpt of it, which is of a
   /// small mesh of its own. That one has the simplices that separatrices lead through, whose global ids its vertex_id()
-  /// and cell_id() say, and all else of the gradient is missing there.
+  /// and cell_id() say, the order of its vertices, and the critical simplices; pairs alone where walls were wanted.
   DiscreteGradient excerpt{gradient};
 
   /// Whether each of `critical`, by dimension, is this rank's: the others are another rank's, and separatrices

@@ -47,8 +47,7 @@ class DistributedMesh(Mesh):
         rows = np.asarray(cells)
         corners = np.zeros((0, 4), np.int64) if rows.size == 0 else _ids(rows, "cells")
         self._mesh: Any = inner(MPI._addressof(comm), _ids(ids, "ids"), _arrays.points(points), corners,
-                                                None if cell_ids is None else _ids(cell_ids, "cell ids"), repartition,
-                                                capacity)
+                                None if cell_ids is None else _ids(cell_ids, "cell ids"), repartition, capacity)
 
     @property
     def vertex_ids(self) -> np.ndarray:
