@@ -93,7 +93,7 @@ struct GALE_EXPORT MorseSmaleComplex {
 
   /// What `critical` and the separatrices are of: `gradient`, or on one rank of several an excerpt of it, which is of a
   /// small mesh of its own. That one has the simplices that separatrices lead through, whose global ids its vertex_id()
-  /// and cell_id() say, and all else of the gradient is missing there.
+  /// and cell_id() say, the order of its vertices, and the critical simplices; pairs alone where walls were wanted.
   DiscreteGradient excerpt{gradient};
 
   /// Whether each of `critical`, by dimension, is this rank's: the others are another rank's, and separatrices
@@ -112,9 +112,10 @@ struct GALE_EXPORT MorseSmaleComplex {
 /// wanted, connectors are found where it is, if there is room. options.progress isn't called. The result is the same
 /// whatever found the gradient, and for any number of threads.
 ///
-/// Collective on one rank's part of several. Ranks follow separatrices together, in as many rounds of messages as one
-/// changes ranks, and each is sent what its own reach: throws gale::Error on all ranks before that if one hasn't the
-/// memory for it. Manifolds take a number of rounds that grows with the logarithm of how often a path changes ranks.
+/// Collective on one rank's part of several. Each follows the separatrices of its own saddles in its part, and others
+/// where they leave it, in as many rounds of messages as one changes ranks; each is sent what its own reach elsewhere,
+/// with walls all that they reach: throws gale::Error on all ranks before that if one hasn't the memory for it.
+/// Manifolds take a number of rounds that grows with the logarithm of how often a path changes ranks.
 ///
 /// Throws gale::Error where separatrices2 are wanted of a triangle mesh.
 ///

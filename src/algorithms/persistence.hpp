@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <vector>
 
 #include <gale/algorithms/discrete_gradient.hpp>
@@ -42,5 +43,32 @@ struct PersistencePairs {
 /// options.progress isn't called. Memory beside the result: 100 bytes a critical simplex, and 8 for each edge of a rim
 /// that met a 1-saddle.
 GALE_EXPORT PersistencePairs find_persistence_pairs(const DiscreteGradient& gradient, const SweepOptions& options = {});
+
+/// The highest vertices of critical simplices, which have their values: input ids of a mesh.
+struct HighestVertices {
+  int dimension = 3;                           ///< the mesh's
+  std::array<std::vector<Id>, 4> of_critical;  ///< by dimension, and place in CriticalSimplices
+  Id of_all = no_id;                           ///< the mesh's highest vertex, no_id if it has none
+};
+
+/// The highest vertices of a gradient's critical simplices.
+GALE_EXPORT HighestVertices highest_vertices(const DiscreteGradient& gradient);
+
+/// Persistence pairs of a field that lies on several ranks: on the first of them; on the others there are none.
+struct GatheredPairs {
+  Mesh mesh;                ///< vertices alone, with their global ids (`vertex_id`); on one rank the gradient's mesh
+  HighestVertices highest;  ///< vertices of `mesh`; places are those among the critical simplices of all ranks
+  PersistencePairs pairs;   ///< places likewise, in the order of CriticalSimplices by global ids
+};
+
+/// What `find_persistence_pairs` finds, of a gradient that may lie on several ranks. Each follows what is in its part:
+/// paths to extrema, and the rims of its own 2-saddles until they meet one of its own 1-saddles. Gathered on the first
+/// rank are critical simplices, with the extrema at which the paths of saddles end, and the critical edges of those
+/// rims that leave a part: some 50 bytes a critical simplex. Where rising paths fork, `gather_gradient`'s gradient is.
+///
+/// Collective. Throws gale::Error on all ranks if that would be more than `most_bytes`; 0 stands for the first rank's
+/// share of what its machine has left.
+GALE_EXPORT GatheredPairs gather_persistence_pairs(const DiscreteGradient& gradient, const SweepOptions& options = {},
+                                                   std::size_t most_bytes = 0);
 
 }  // namespace gale

@@ -62,6 +62,9 @@ class GALE_EXPORT VertexOrder {
     return all_.keys.in<Memory>();
   }
 
+  /// Whether values have 32 bits at most, so that keys have them in their upper halves. For GALE's own algorithms.
+  bool has_short_values() const { return all_.values.extent(0) == 0; }
+
   /// A number for each vertex, by GALE's id, that compares as the field's values do on all ranks that the mesh lies on.
   /// For GALE's own algorithms.
   std::uint64_t value_key(Id vertex) const {

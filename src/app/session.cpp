@@ -33,12 +33,6 @@ nlohmann::ordered_json spread_of(std::vector<std::int64_t> by_rank, double unit)
 
 }  // namespace
 
-OnExcerpt::OnExcerpt(const Mesh& excerpt, const FieldOnMesh& on) : on_(on), is_excerpt_(!(excerpt == on.mesh)) {
-  if (!is_excerpt_) return;
-  dataset_ = outputs::dataset_of(excerpt, on.mesh, on.dataset);
-  field_ = outputs::array_of(excerpt, on.mesh, on.field);
-}
-
 Session::Session(const InputOptions& input, const CommonOptions& common, std::vector<std::string> files,
                  Outputs outputs)
     : input_(input),

@@ -18,6 +18,7 @@
 #include <gale/mesh/mesh.hpp>
 #include <gale/mesh/ranks.hpp>
 #include <gale/mesh/segmentation.hpp>
+#include <gale/outputs/excerpt.hpp>
 #include <gale/outputs/mesh_piece.hpp>
 #include <gale/runtime/structure.hpp>
 
@@ -35,19 +36,11 @@ struct FieldOnMesh {
 
 /// What outputs take of a field on a mesh at the vertices that results are named in: where that is an excerpt of the
 /// mesh, as on several ranks, what the owners of its vertices have, else that itself. Refers to the field.
-class OnExcerpt {
+class OnExcerpt : public outputs::AtExcerpt {
  public:
-  /// Collective.
-  OnExcerpt(const Mesh& excerpt, const FieldOnMesh& on);
-
-  const io::Dataset& dataset() const { return is_excerpt_ ? dataset_ : on_.dataset; }
-  const io::PointArray& field() const { return is_excerpt_ ? field_ : on_.field; }
-
- private:
-  const FieldOnMesh& on_;
-  const bool is_excerpt_;
-  io::Dataset dataset_;
-  io::PointArray field_;
+  /// Collective, see AtExcerpt.
+  OnExcerpt(const Mesh& excerpt, const FieldOnMesh& on, bool field_alone = false)
+      : AtExcerpt(excerpt, on.mesh, on.dataset, on.field, field_alone) {}
 };
 
 /// The segments that the options give the dataset's vertices: by an array, or at random. Without options those of the

@@ -6,6 +6,7 @@
 #include <gale/outputs/arrows.hpp>
 #include <gale/outputs/critical_points.hpp>
 #include <gale/outputs/critical_simplices.hpp>
+#include <gale/outputs/excerpt.hpp>
 #include <gale/outputs/field.hpp>
 #include <gale/outputs/merge_tree.hpp>
 #include <gale/outputs/morse_smale.hpp>
@@ -48,7 +49,8 @@ Analysis critical_points() {
                        {}}};
   analysis.find = [](const AnalysisInput& input, const Settings&, Computed& computed) -> Found {
     const ComputeOptions options = input.next("Finding critical points", 0, 1);
-    return {{"critical_points", to_point_set(input.dataset, find_critical_points(input.order, options, &computed))}};
+    return {{"critical_points", to_point_set(input.dataset, find_critical_points(input.order, options, &computed),
+                                             input.order.mesh().exchange())}};
   };
   return analysis;
 }
@@ -82,7 +84,8 @@ Analysis discrete_gradient() {
     const SimplexNumbers numbers = number_simplices(gradient.mesh(), {critical.edges, critical.triangles},
                                                     input.next("Numbering simplices", 0.7, 1), &computed);
     Found found;
-    found["critical_simplices"] = to_point_set(input.dataset, known_simplices(gradient, critical, numbers));
+    found["critical_simplices"] =
+        to_point_set(input.dataset, known_simplices(gradient, critical, numbers), gradient.mesh().exchange());
     if (settings.flags.at("arrows")) found["arrows"] = arrows_of(input.dataset, gradient);
     return found;
   };
@@ -92,7 +95,9 @@ Analysis discrete_gradient() {
 /// The threshold that is given; none: 0.
 double threshold_in(const AnalysisInput& input, const Settings& settings) {
   const auto given = settings.thresholds.find("persistence");
-  return given == settings.thresholds.end() ? 0 : threshold_of(given->second, input.field);
+  return given == settings.thresholds.end()
+             ? 0
+             : threshold_of(given->second, input.field, input.order.mesh().exchange().ranks());
 }
 
 Analysis persistence_diagrams() {
@@ -219,9 +224,11 @@ Analysis merge_trees() {
     options.threshold = threshold_in(input, settings);
     options.value = [&](Id vertex) { return value_at(input.field, vertex); };
     const MergeTree tree = find_merge_tree(input.order, tree_named(settings.choices.at("type")), options, &computed);
-    return {{"nodes", tree_nodes(input.dataset, input.field, tree)},
-            {"arcs", tree_arcs(input.dataset, input.field, tree, settings.numbers.at("arc_samples"))},
-            {"segmentation", tree_segmentation(input.dataset, tree)}};
+    const Mesh& mesh = input.order.mesh();
+    const AtExcerpt at(tree.excerpt ? *tree.excerpt : mesh, mesh, input.dataset, input.field);
+    return {{"nodes", tree_nodes(at.dataset(), at.field(), tree)},
+            {"arcs", tree_arcs(at.dataset(), at.field(), tree, settings.numbers.at("arc_samples"))},
+            {"segmentation", tree_segmentation(at.dataset(), tree)}};
   };
   return analysis;
 }

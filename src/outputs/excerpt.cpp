@@ -58,4 +58,12 @@ io::PointArray array_of(const Mesh& excerpt, const Mesh& mesh, const io::PointAr
   return detail::brought(gale::detail::plan_to(excerpt, mesh), mesh.exchange().ranks(), array, excerpt.vertices());
 }
 
+AtExcerpt::AtExcerpt(const Mesh& excerpt, const Mesh& mesh, const io::Dataset& dataset, const io::PointArray& field,
+                     bool field_alone)
+    : dataset_(dataset), field_(field), is_excerpt_(!(excerpt == mesh)) {
+  if (!is_excerpt_) return;
+  if (!field_alone) own_dataset_ = dataset_of(excerpt, mesh, dataset);
+  own_field_ = array_of(excerpt, mesh, field);
+}
+
 }  // namespace gale::outputs

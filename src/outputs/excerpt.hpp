@@ -14,4 +14,26 @@ GALE_EXPORT io::Dataset dataset_of(const Mesh& excerpt, const Mesh& mesh, const 
 /// The values of one array likewise. Collective.
 GALE_EXPORT io::PointArray array_of(const Mesh& excerpt, const Mesh& mesh, const io::PointArray& array);
 
+/// Points and field of what an analysis has found in an excerpt, or where there is none, in the mesh itself.
+class GALE_EXPORT AtExcerpt {
+ public:
+  /// Collective. Refers to the dataset and the field of the mesh. With the field alone there is nothing of an excerpt
+  /// in dataset().
+  AtExcerpt(const Mesh& excerpt, const Mesh& mesh, const io::Dataset& dataset, const io::PointArray& field,
+            bool field_alone = false);
+
+  /// Points and arrays, by input ids of the excerpt, or of the mesh.
+  const io::Dataset& dataset() const { return is_excerpt_ ? own_dataset_ : dataset_; }
+
+  /// The field likewise.
+  const io::PointArray& field() const { return is_excerpt_ ? own_field_ : field_; }
+
+ private:
+  const io::Dataset& dataset_;
+  const io::PointArray& field_;
+  const bool is_excerpt_;
+  io::Dataset own_dataset_;
+  io::PointArray own_field_;
+};
+
 }  // namespace gale::outputs

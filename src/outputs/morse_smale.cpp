@@ -1,5 +1,6 @@
 #include <gale/algorithms/simplify.hpp>
 #include <gale/outputs/critical_simplices.hpp>
+#include <gale/outputs/excerpt.hpp>
 #include <gale/outputs/field.hpp>
 #include <gale/outputs/manifolds.hpp>
 #include <gale/outputs/morse_smale.hpp>
@@ -59,10 +60,13 @@ MorseSmaleOutputs morse_smale(const DiscreteGradient& gradient, const io::Datase
   const SimplexNumbers numbers = number_simplices(gradient.mesh(), named, options, computed);
   const KnownSimplices critical = known_simplices(complex.excerpt, complex.critical, numbers);
   MorseSmaleOutputs all;
-  all.critical_points = to_point_set(dataset, critical);
+  const Mesh& excerpt = complex.excerpt.mesh();
+  const AtExcerpt at(excerpt, gradient.mesh(), dataset, field);
+  all.critical_points = to_point_set(at.dataset(), own_simplices(complex, critical), excerpt.exchange());
   all.critical_points.arrays.push_back(manifold_sizes(complex));
-  all.separatrices1 = separatrices1(dataset, field, complex, named, numbers, critical);
-  if (request.parts.separatrices2) all.separatrices2 = separatrices2(dataset, field, complex, connectors, critical);
+  all.separatrices1 = separatrices1(at.dataset(), at.field(), complex, named, numbers, critical);
+  if (request.parts.separatrices2)
+    all.separatrices2 = separatrices2(at.dataset(), at.field(), complex, connectors, critical);
   all.manifolds = manifold_arrays(complex);
   all.kept_below = complex.kept_below;
   return all;

@@ -41,25 +41,6 @@ double threshold_of(const Persistence& persistence, const io::PointArray& field,
 
 namespace {
 
-/// The input id of the highest vertex of a critical simplex.
-Id highest_of(const DiscreteGradient& gradient, int dimension, Id place) {
-  const CriticalSimplices& critical = gradient.critical();
-  const std::uint64_t* const keys = gradient.order().keys();
-  const OtherIds input = gradient.mesh().vertices_in_input();
-  if (dimension == 0) return input(critical.vertices[place]);
-  if (dimension == 1) return input(critical.edges[place][0]);
-  if (dimension == 2 && critical.dimension == 3) return input(critical.triangles[place][0]);
-  const auto corners = detail::corners_of(gradient.mesh(), critical.cells[place]);
-  return input(*std::max_element(corners.begin(), corners.end(), [&](Id a, Id b) { return keys[a] < keys[b]; }));
-}
-
-/// The input id of the highest vertex of all.
-Id highest_of_all(const DiscreteGradient& gradient) {
-  const std::uint64_t* const keys = gradient.order().keys();
-  return gradient.mesh()
-      .vertices_in_input()[static_cast<Id>(std::max_element(keys, keys + gradient.mesh().vertices()) - keys)];
-}
-
 bool is_float(const io::PointArray& array) { return std::holds_alternative<std::vector<float>>(array.values); }
 
 io::PointArray::Values positions_of(const io::Dataset& dataset, const std::vector<Id>& vertices) {
@@ -102,11 +83,16 @@ void add_diagonal(const std::vector<DiagramPoint>& diagram, io::Surface& lines, 
 
 std::vector<DiagramPoint> persistence_diagram(const DiscreteGradient& gradient, const PersistencePairs& pairs,
                                               const io::PointArray& field, double least) {
-  const auto highest = [&](int dimension, Id place) { return highest_of(gradient, dimension, place); };
+  return persistence_diagram(highest_vertices(gradient), pairs, field, least);
+}
+
+std::vector<DiagramPoint> persistence_diagram(const HighestVertices& vertices, const PersistencePairs& pairs,
+                                              const io::PointArray& field, double least) {
+  const auto highest = [&](int dimension, Id place) { return vertices.of_critical[dimension][place]; };
   const auto value = [&](Id vertex) { return value_at(field, vertex); };
   std::vector<DiagramPoint> diagram;
-  const Id last = highest_of_all(gradient);
-  const bool is_surface = gradient.critical().dimension == 2;
+  const Id last = vertices.of_all;
+  const bool is_surface = vertices.dimension == 2;
   const std::array<std::int8_t, 4> begin_types = {0, std::int8_t(is_surface ? 2 : 1), std::int8_t(is_surface ? 3 : 2),
                                                   3};
   const std::array<std::int8_t, 3> end_types = {1, std::int8_t(is_surface ? 3 : 2), 3};

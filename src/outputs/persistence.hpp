@@ -44,6 +44,10 @@ GALE_EXPORT std::vector<DiagramPoint> persistence_diagram(const DiscreteGradient
                                                           const PersistencePairs& pairs, const io::PointArray& field,
                                                           double least = 0);
 
+/// All pairs and essential classes that were gathered, with the values of the mesh that has these vertices.
+GALE_EXPORT std::vector<DiagramPoint> persistence_diagram(const HighestVertices& highest, const PersistencePairs& pairs,
+                                                          const io::PointArray& field, double least = 0);
+
 /// How many pairs and essential classes a diagram has.
 struct DiagramCounts {
   Id pairs[3] = {};      ///< by the dimension of the class, 0 to 2

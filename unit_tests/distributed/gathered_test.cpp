@@ -88,14 +88,22 @@ TEST_P(GatheredOnRanks, pairs_are_those_of_one_rank) {
   for (const Field& field : fields()) {
     SCOPED_TRACE(field.name);
     const auto expected = find_persistence_pairs(find_discrete_gradient(order_of(whole_, field.values)));
-    const DiscreteGradient gathered = gather_gradient(find_discrete_gradient(order_here(field)));
+    const GatheredPairs found = gather_persistence_pairs(find_discrete_gradient(order_here(field)));
     if (ranks_.rank() != 0) {
-      EXPECT_EQ(gathered.critical().counts(), (std::array<Id, 4>{0, 0, 0, 0}));
+      EXPECT_EQ(found.highest.of_critical, decltype(found.highest.of_critical)());
       continue;
     }
-    const auto found = find_persistence_pairs(gathered);
-    EXPECT_EQ(found.pairs, expected.pairs);
-    EXPECT_EQ(found.essential, expected.essential);
+    EXPECT_EQ(found.pairs.pairs, expected.pairs);
+    EXPECT_EQ(found.pairs.essential, expected.essential);
+    const HighestVertices highest = highest_vertices(find_discrete_gradient(order_of(whole_, field.values)));
+    const auto input_of_all = [&](const std::vector<Id>& vertices) {
+      std::vector<Id> input;
+      for (const Id v : vertices)
+        input.push_back(ranks_.size() == 1 ? vertex_named(mesh_.vertex_id(v)) : vertex_named(found.mesh.vertex_id(v)));
+      return input;
+    };
+    for (int d = 0; d < 4; ++d) EXPECT_EQ(input_of_all(found.highest.of_critical[d]), highest.of_critical[d]);
+    EXPECT_EQ(input_of_all({found.highest.of_all}), std::vector<Id>{highest.of_all});
   }
 }
 

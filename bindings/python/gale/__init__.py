@@ -19,10 +19,11 @@ from . import _gale
 from ._gale import Error
 from ._gale import version as __version__
 from ._mesh import Mesh, read, read_steps, track
+from ._ranks import DistributedMesh
 from .results import (CriticalPoints, Diagram, DiscreteGradient, Lines, MergeTree, MorseSmaleComplex, Polygons,
                       SimplifiedField, Tracks)
 
-__all__ = ["CriticalPoints", "Diagram", "DiscreteGradient", "Error", "Lines", "MergeTree", "Mesh", "MorseSmaleComplex",
+__all__ = ["CriticalPoints", "Diagram", "DiscreteGradient", "DistributedMesh", "Error", "Lines", "MergeTree", "Mesh", "MorseSmaleComplex",
            "Polygons", "SimplifiedField", "Tracks", "__version__", "configuration", "read", "read_steps", "track"]
 
 

@@ -1,6 +1,6 @@
-#include <utility>
+#include "analyses.hpp"
 
-#include <gale/outputs/analyses.hpp>
+#include <utility>
 
 #include "job.hpp"
 #include "mesh.hpp"
@@ -17,7 +17,8 @@ nb::object column(const std::vector<outputs::DiagramPoint>& diagram, const Membe
   return numpy_of(std::move(values));
 }
 
-/// A persistence diagram in columns.
+}  // namespace
+
 nb::dict numpy_of(const std::vector<outputs::DiagramPoint>& diagram) {
   using Point = outputs::DiagramPoint;
   nb::dict columns;
@@ -32,9 +33,18 @@ nb::dict numpy_of(const std::vector<outputs::DiagramPoint>& diagram) {
   return columns;
 }
 
+namespace {
+
 nb::int_ numpy_of(Id count) { return nb::int_(count); }
 
 }  // namespace
+
+nb::dict results_of(std::map<std::string, outputs::Outcome> found) {
+  nb::dict results;
+  for (auto& [result, outcome] : found)
+    results[result.c_str()] = std::visit([](auto& one) -> nb::object { return numpy_of(std::move(one)); }, outcome);
+  return results;
+}
 
 nb::dict PyMesh::analyse(const std::string& analysis, Array1 values, const std::string& name,
                          const std::map<std::string, bool>& flags,
@@ -53,10 +63,7 @@ nb::dict PyMesh::analyse(const std::string& analysis, Array1 values, const std::
     return outputs::analysis_named(analysis).run(
         {dataset, field, order, [&](const char*, double, double) { return options; }}, settings);
   });
-  nb::dict results;
-  for (auto& [result, outcome] : found)
-    results[result.c_str()] = std::visit([](auto& one) -> nb::object { return numpy_of(std::move(one)); }, outcome);
-  return results;
+  return results_of(std::move(found));
 }
 
 }  // namespace gale::python

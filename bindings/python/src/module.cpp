@@ -13,6 +13,7 @@
 
 #include "mesh.hpp"
 #include "process.hpp"
+#include "ranks.hpp"
 #include "tracker.hpp"
 
 NB_MODULE(_gale, module) {
@@ -56,6 +57,8 @@ NB_MODULE(_gale, module) {
   module.def("read", &gale::python::read, "path"_a, "above"_a.none(), "array"_a, "tetrahedra_alone"_a,
              "outside_files"_a, "capacity"_a, "like"_a.none(), "time"_a.none());
   module.def("steps_of", &gale::python::steps_of, "inputs"_a, "outside_files"_a);
+
+  gale::python::add_ranks(module);
 
   nb::class_<PyMesh>(module, "Mesh")
       .def(nb::init<gale::python::Array1, gale::python::Array1, int>(), "points"_a, "cells"_a, "capacity"_a)

@@ -172,12 +172,16 @@ class ExcerptMaker {
 
 }  // namespace
 
+DiscreteGradient excerpt_of(Reached reached, int dimension) {
+  return ExcerptMaker(std::move(reached), dimension).make();
+}
+
 DiscreteGradient excerpt_of(const DiscreteGradient& gradient, const WantedWays& ways, Structure* rows,
                             std::size_t most_bytes) {
   Reached reached = reach(gradient, ways, rows, most_bytes);
   std::optional<DiscreteGradient> excerpt;
   together(gradient.mesh().exchange().ranks(),
-           [&] { excerpt = ExcerptMaker(std::move(reached), gradient.mesh().dimension()).make(); });
+           [&] { excerpt = excerpt_of(std::move(reached), gradient.mesh().dimension()); });
   return *excerpt;
 }
 

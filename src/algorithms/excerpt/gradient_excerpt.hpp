@@ -15,4 +15,7 @@ namespace gale::detail {
 DiscreteGradient excerpt_of(const DiscreteGradient& gradient, const WantedWays& ways, Structure* rows = nullptr,
                             std::size_t most_bytes = 0);
 
+/// Makes one of what was received, on this rank alone.
+DiscreteGradient excerpt_of(Reached reached, int dimension);
+
 }  // namespace gale::detail

@@ -64,9 +64,9 @@ class Reacher {
         mesh_(gradient.mesh()),
         ranks_(mesh_.exchange().ranks()),
         cells_(gradient, PathSimplices::Kind::rising_cells),
-        corners_(mesh_.encoded().cells),
-        input_(mesh_.vertex_input().data()),
-        internal_(mesh_.vertex_internal().data()),
+        corners_(mesh_.cell_reader()),
+        input_(mesh_.vertices_in_input()),
+        internal_(mesh_.vertices_of_input()),
         keys_(gradient.order().keys()),
         vertex_successor_(gradient.vertex_successors().data()),
         cell_successor_(gradient.cell_successors().data()),
@@ -102,6 +102,15 @@ class Reacher {
       vertex_place(found, highest_owned());
   }
 
+  /// From these, for this rank, which knows by itself what is in its part.
+  void begin(const WayExits& exits) {
+    is_beyond_ = true;
+    const int asker = ranks_.rank();
+    for (const Id vertex : exits.vertices) go({StepKind::falling_vertex, asker, {vertex}});
+    for (const Id cell : exits.cells) go({StepKind::rising_cell, asker, {cell}});
+    for (const auto& [high, low] : exits.edges) go({StepKind::falling_edge, asker, {high, low}});
+  }
+
   /// Takes all steps that this rank can.
   void follow() {
     for (std::int64_t i = 0; !here_.empty(); ++i) {
@@ -131,6 +140,7 @@ class Reacher {
   /// How many bytes were found for each rank.
   std::vector<std::int64_t> bytes() {
     std::vector<std::int64_t> bytes;
+    if (is_beyond_) for_each_list_of(found_[ranks_.rank()], [](auto& list) { list = {}; });
     for (FoundFor& found : found_) {
       std::int64_t all = 0;
       for_each_list_of(found, [&](auto& list) { all += static_cast<std::int64_t>(list.size() * sizeof(list[0])); });
@@ -317,6 +327,7 @@ class Reacher {
       third = row.third(row.find(low));
     }
     if (third == no_id) third = vertex_successor_[high] == low ? edge_has_vertex : edge_is_critical;
+    if (is_beyond_ && third == edge_has_vertex) return third;
     if (found.told_edges.insert(pair_key(high, low)).second) {
       found.edges.push_back(
           {vertex_place(found, high), vertex_place(found, low), third < 0 ? third : vertex_place(found, third)});
@@ -338,7 +349,8 @@ class Reacher {
     if (is_new) {
       place = static_cast<Id>(found.cells.size());
       ReachedCell reached{cells_.global(cell), {}};
-      for (int k = 0; k < 4; ++k) reached.corners[k] = vertex_place(found, corners_(cell, k));
+      const Quad corners = corners_(cell);
+      for (int k = 0; k < 4; ++k) reached.corners[k] = vertex_place(found, corners[k]);
       found.cells.push_back(reached);
     }
     return place;
@@ -355,32 +367,48 @@ class Reacher {
   const Mesh mesh_;
   const Ranks& ranks_;
   const PathSimplices cells_;
-  IdsByFour<HostMemory> corners_;
-  const Id *input_, *internal_;
+  const CellReader corners_;
+  const OtherIds input_, internal_;
   const std::uint64_t* keys_;
   const Id *vertex_successor_, *cell_successor_;
   const std::vector<std::pair<Id, Id>>& further_;
   std::unique_ptr<Consumer> consumer_;  // of rising walls
   std::optional<EdgeStar> star_;
   std::vector<FoundFor> found_;  // by the rank that asks
+  bool is_beyond_ = false;
   std::vector<Step> here_;
   std::vector<std::pair<int, SentStep>> elsewhere_;
 };
 
 }  // namespace
 
-Reached reach(const DiscreteGradient& gradient, const WantedWays& ways, Structure* rows, std::size_t most_bytes) {
+namespace {
+
+/// Follows what begin(reacher) begins. Collective.
+template <class Begin>
+Reached followed(const DiscreteGradient& gradient, const WantedWays& ways, Structure* rows, std::size_t most_bytes,
+                 const Begin& begin) {
   const Ranks& ranks = gradient.mesh().exchange().ranks();
   std::unique_ptr<Reacher> reacher;
   together(ranks, [&] {
     reacher = std::make_unique<Reacher>(gradient, ways, rows);
-    reacher->begin();
+    begin(*reacher);
   });
   do {
     together(ranks, [&] { reacher->follow(); });
   } while (reacher->hand_over());
   require_room(ranks, "what critical simplices reach", reacher->bytes(), most_bytes);
   return reacher->send();
+}
+
+}  // namespace
+
+Reached reach(const DiscreteGradient& gradient, const WantedWays& ways, Structure* rows, std::size_t most_bytes) {
+  return followed(gradient, ways, rows, most_bytes, [](Reacher& reacher) { reacher.begin(); });
+}
+
+Reached reach_beyond(const DiscreteGradient& gradient, const WayExits& exits) {
+  return followed(gradient, {}, nullptr, 0, [&](Reacher& reacher) { reacher.begin(exits); });
 }
 
 }  // namespace gale::detail

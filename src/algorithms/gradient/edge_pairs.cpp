@@ -18,6 +18,12 @@ EdgePairs::EdgePairs(const Array<const Id, HostMemory>& words, const Array<const
                [&](Offset v) { rows_(v) = EdgePairRow(first + begin(v)); });
 }
 
+EdgePairs::EdgePairs(const EdgePairs& some, Interval owned, Id vertices) : EdgePairs(vertices, 1) {
+  static Id no_edges = 0;
+  parallel_for("GALE::edge_pair_rows", HostExecutionSpace(), vertices,
+               [&](Offset v) { rows_(v) = owned.has(static_cast<Id>(v)) ? some.rows_(v) : EdgePairRow(&no_edges); });
+}
+
 EdgePairRow EdgePairs::begin(int consumer, Id vertex, Id count) {
   // In words. Small meshes need little memory, large chunks get large pages.
   constexpr Offset least = Offset(1) << 16, most = Offset(1) << 23;

@@ -9,12 +9,15 @@
 
 namespace gale::detail {
 
-DescendingWall::DescendingWall(const DiscreteGradient& gradient, const TurnedEdges* turned)
-    : pairs_(gradient.store().pairs()),
-      vertex_successor_(gradient.vertex_successors().data()),
-      keys_(gradient.order().keys()),
-      vertex_input_(gradient.mesh().vertices_in_input()),
-      turned_(turned) {}
+WallGround::WallGround(const DiscreteGradient& gradient)
+    : pairs(gradient.store().pairs()),
+      vertex_successor(gradient.vertex_successors().data()),
+      keys(gradient.order().keys()),
+      vertex_input(gradient.mesh().vertices_in_input()),
+      owned(gradient.mesh().owned_vertices()) {}
+
+DescendingWall::DescendingWall(const WallGround& ground, const TurnedEdges* turned)
+    : ground_(ground), turned_(turned) {}
 
 void DescendingWall::follow(const TriangleVertices& critical) {
   floor_ = 0;
@@ -29,11 +32,11 @@ void DescendingWall::follow(const TriangleVertices& critical) {
 /// Has what the crossing of a triangle's sides will read brought near.
 void DescendingWall::prefetch(std::size_t triangle) const {
   if (triangle >= triangles_.size()) return;
-  for (const Id vertex : triangles_[triangle]) pairs_.prefetch(vertex);
+  for (const Id vertex : triangles_[triangle]) ground_.pairs.prefetch(vertex);
 }
 
 bool DescendingWall::follow_to(const TriangleVertices& critical, const Edge& edge, bool above_it) {
-  floor_ = above_it ? keys_[edge.high] : 0;
+  floor_ = above_it ? ground_.keys[edge.high] : 0;
   begin(critical);
   for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
     stop_if_asked_at(i);
@@ -51,6 +54,7 @@ void DescendingWall::begin(const TriangleVertices& critical) {
   triangles_.assign(1, critical);
   critical_edges_.clear();
   cancelled_edges_.clear();
+  exits_.clear();
   passed_.clear();
   above_.clear();
   cross(critical[0], critical[1], 0);
@@ -68,12 +72,12 @@ void DescendingWall::cross_sides(std::uint32_t triangle) {
 }
 
 void DescendingWall::cross_in_order(Id a, Id b, std::uint32_t from) {
-  const bool in_order = keys_[a] > keys_[b];
+  const bool in_order = ground_.keys[a] > ground_.keys[b];
   cross(in_order ? a : b, in_order ? b : a, from);
 }
 
 void DescendingWall::cross(Id high, Id low, std::uint32_t from) {
-  if (floor_ != 0 && keys_[high] < floor_) return;
+  if (floor_ != 0 && ground_.keys[high] < floor_) return;
   const auto [above, is_new] = above_.insert(pair_key(high, low));
   if (!is_new) {
     above.are_several = true;
@@ -81,10 +85,11 @@ void DescendingWall::cross(Id high, Id low, std::uint32_t from) {
     return;
   }
   above = {from, false};
+  if (!ground_.owned.has(high)) return exits_.push_back({high, low});
   const Id third = third_of(high, low);
   if (third >= 0) {
     triangles_.push_back({high, low, third});
-    pairs_.prefetch_place(third);
+    ground_.pairs.prefetch_place(third);
   } else if (third == no_id) {
     critical_edges_.push_back({high, low});
   } else if (turned_ != nullptr && turned_->find(high, low) != nullptr) {
@@ -98,9 +103,11 @@ Id DescendingWall::third_of(Id high, Id low) const {
     const Id* const turned = turned_->find(high, low);
     if (turned != nullptr) return *turned;
   }
-  const EdgePairRow row = pairs_[high];
-  const Id third = row.third(row.find(low));
-  return third == no_id && vertex_successor_[high] == low ? TurnedEdges::with_vertex : third;
+  const EdgePairRow row = ground_.pairs[high];
+  const Id place = row.find(low);
+  if (place == no_id) return TurnedEdges::with_vertex;  // of an edge of another rank, which tells no such edges
+  const Id third = row.third(place);
+  return third == no_id && ground_.vertex_successor[high] == low ? TurnedEdges::with_vertex : third;
 }
 
 DescendingWall::Appended DescendingWall::append_path(const Edge& from, std::vector<TriangleVertices>& path,
@@ -132,16 +139,14 @@ int DescendingWall::paths_from(const Edge& edge) const {
 }
 
 bool DescendingWall::is_less(const TriangleVertices& a, const TriangleVertices& b) const {
-  return written(vertex_input_, a) < written(vertex_input_, b);
+  return written(ground_.vertex_input, a) < written(ground_.vertex_input, b);
 }
-
-namespace {
 
 /// One thread's part.
 class SurfaceTracer {
  public:
-  SurfaceTracer(const DiscreteGradient& gradient, const TurnedEdges* turned, Paths told)
-      : wall(gradient, turned), keys_(gradient.order().keys()), told_(told) {}
+  SurfaceTracer(const WallGround& ground, const TurnedEdges* turned, Paths told)
+      : wall(ground, turned), keys_(ground.keys), told_(told) {}
 
   void add_wall(Id triangle) {
     walls.sources.push_back(triangle);
@@ -166,14 +171,35 @@ class SurfaceTracer {
     }
   }
 
+  void add_exits(Id triangle) {
+    unfinished.push_back(triangle);
+    for (const auto& edge : wall.exits()) {
+      if (exit_keys_.insert(pair_key(edge.high, edge.low)).second) exits.push_back({edge.high, edge.low});
+    }
+  }
+
   DescendingWall wall;
   Separatrices<TriangleVertices> walls, connectors;
+  std::vector<Id> unfinished;            ///< critical triangles whose walls other ranks follow on
+  std::vector<std::array<Id, 2>> exits;  ///< from these edges
 
  private:
+  struct Mark {};
+
   const std::uint64_t* keys_;
   const Paths told_;
   std::vector<std::pair<Id, DescendingWall::Edge>> rim_;  ///< the wall's critical edges by their places
+  HashTable<Mark> exit_keys_;
 };
+
+namespace {
+
+using Tracers = std::vector<std::unique_ptr<SurfaceTracer>>;
+
+Separatrices<TriangleVertices> gathered_connectors(const Tracers& tracers, std::size_t triangles) {
+  return gathered(tracers, &SurfaceTracer::connectors, &Separatrices<TriangleVertices>::destinations,
+                  static_cast<Id>(triangles));
+}
 
 }  // namespace
 
@@ -181,8 +207,9 @@ DescendingSurfaces descending_surfaces(const DiscreteGradient& gradient, const C
                                        const CriticalPlaces& places, bool want_walls, bool want_connectors, int threads,
                                        const TurnedEdges* turned, Paths told) {
   const auto& triangles = critical.triangles;
+  const WallGround ground(gradient);
   const auto tracers = traced(
-      triangles, threads, [&](int) { return std::make_unique<SurfaceTracer>(gradient, turned, told); },
+      triangles, threads, [&](int) { return std::make_unique<SurfaceTracer>(ground, turned, told); },
       [&](SurfaceTracer& tracer, Id place) {
         tracer.wall.follow(triangles[place]);
         if (want_walls) tracer.add_wall(place);
@@ -191,7 +218,49 @@ DescendingSurfaces descending_surfaces(const DiscreteGradient& gradient, const C
   using Surfaces = Separatrices<TriangleVertices>;
   const Id count = static_cast<Id>(triangles.size());
   return {gathered(tracers, &SurfaceTracer::walls, &Surfaces::sources, count),
-          gathered(tracers, &SurfaceTracer::connectors, &Surfaces::destinations, count)};
+          gathered_connectors(tracers, triangles.size())};
+}
+
+/// What the threads have found so far.
+struct ConnectorsHere::Found {
+  std::vector<std::unique_ptr<SurfaceTracer>> tracers;
+};
+
+ConnectorsHere::ConnectorsHere(const DiscreteGradient& gradient, const CriticalPlaces& places, int threads)
+    : triangles_(gradient.critical().triangles), threads_(threads), found_(std::make_unique<Found>()) {
+  const WallGround ground(gradient);
+  found_->tracers = traced(
+      triangles_, threads, [&](int) { return std::make_unique<SurfaceTracer>(ground, nullptr, Paths::whole); },
+      [&](SurfaceTracer& tracer, Id place) {
+        tracer.wall.follow(triangles_[place]);
+        if (tracer.wall.exits().empty()) return tracer.add_connectors(places, place);
+        tracer.add_exits(place);
+      });
+  for (const auto& tracer : found_->tracers) {
+    if (tracer) exits_.insert(exits_.end(), tracer->exits.begin(), tracer->exits.end());
+  }
+}
+
+ConnectorsHere::~ConnectorsHere() = default;
+
+Separatrices<TriangleVertices> ConnectorsHere::finish(const WallGround& wider, const CriticalPlaces& places,
+                                                      const std::vector<Id>& edge_places) {
+  std::vector<Id> unfinished;
+  for (const auto& tracer : found_->tracers) {
+    if (!tracer) continue;
+    unfinished.insert(unfinished.end(), tracer->unfinished.begin(), tracer->unfinished.end());
+    for (Id& source : tracer->connectors.sources) source = edge_places[source];
+  }
+  std::vector<TriangleVertices> triangles;
+  for (const Id place : unfinished) triangles.push_back(triangles_[place]);
+  auto tracers = traced(
+      triangles, threads_, [&](int) { return std::make_unique<SurfaceTracer>(wider, nullptr, Paths::whole); },
+      [&](SurfaceTracer& tracer, Id i) {
+        tracer.wall.follow(triangles[i]);
+        tracer.add_connectors(places, unfinished[i]);
+      });
+  for (auto& tracer : tracers) found_->tracers.push_back(std::move(tracer));
+  return gathered_connectors(found_->tracers, triangles_.size());
 }
 
 }  // namespace gale::detail

@@ -10,6 +10,20 @@
 
 namespace gale::detail {
 
+/// What walls read of a gradient. Refers to it.
+struct WallGround {
+  const EdgePairs& pairs;
+  const Id* vertex_successor;
+  const std::uint64_t* keys;
+  OtherIds vertex_input;  ///< numbers that compare as input ids do
+  Interval owned;         ///< edges whose higher end isn't one of these have no pairs here: they are where walls leave
+
+  explicit WallGround(const DiscreteGradient& gradient);
+  WallGround(const EdgePairs& all_pairs, const Id* successors, const std::uint64_t* all_keys, OtherIds input,
+             Interval vertices)
+      : pairs(all_pairs), vertex_successor(successors), keys(all_keys), vertex_input(input), owned(vertices) {}
+};
+
 /// The surface that a critical triangle's falling paths sweep: from a triangle across each of its edges to the triangle
 /// that the edge is paired with. One serves one thread, for one wall after the other, and keeps its memory.
 class DescendingWall {
@@ -19,7 +33,7 @@ class DescendingWall {
   };
 
   /// With `turned` in the gradient that these edges make of it; it may change between walls.
-  explicit DescendingWall(const DiscreteGradient& gradient, const TurnedEdges* turned = nullptr);
+  explicit DescendingWall(const WallGround& ground, const TurnedEdges* turned = nullptr);
 
   /// Finds the wall of a critical triangle, which is given by its vertices from the highest to the lowest. Time and
   /// memory grow with the wall.
@@ -38,6 +52,9 @@ class DescendingWall {
 
   /// The edges of its rim that `turned` pairs with vertices.
   const std::vector<Edge>& cancelled_edges() const { return cancelled_edges_; }
+
+  /// The edges of its rim that other ranks follow on.
+  const std::vector<Edge>& exits() const { return exits_; }
 
   /// Finds out which triangles one path alone leads to, for `paths_from`.
   void count_paths();
@@ -71,16 +88,13 @@ class DescendingWall {
   Id third_of(Id high, Id low) const;
   bool is_less(const TriangleVertices& a, const TriangleVertices& b) const;
 
-  const EdgePairs& pairs_;
-  const Id* vertex_successor_;
-  const std::uint64_t* keys_;
-  OtherIds vertex_input_;
+  const WallGround ground_;
   const TurnedEdges* turned_;
   std::uint64_t floor_ = 0;  ///< edges with a lower higher end are left out
   std::vector<TriangleVertices> triangles_;
   std::vector<char> has_one_path_;  ///< of each triangle
   std::vector<char> passed_;        ///< of each: an appended path is there
-  std::vector<Edge> critical_edges_, cancelled_edges_;
+  std::vector<Edge> critical_edges_, cancelled_edges_, exits_;
   HashTable<Above> above_;
 };
 

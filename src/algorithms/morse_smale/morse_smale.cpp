@@ -87,18 +87,23 @@ std::array<std::vector<char>, 4> own_simplices(const DiscreteGradient& excerpt, 
   return own;
 }
 
-/// Finds the separatrices of this rank's saddles on several ranks, of which each follows those of all. Collective.
+/// Finds the separatrices of this rank's saddles on several ranks. With walls each rank is sent all that these pass.
+/// Collective.
 template <class GetStructure>
 void find_on_ranks(int threads, const GetStructure& structure, MorseSmaleComplex& complex) {
   const MorseSmaleParts& parts = complex.parts;
   const Mesh& mesh = complex.gradient.mesh();
+  if (!parts.separatrices2) {
+    detail::separatrices_on_ranks(threads, complex);
+    detail::together(mesh.exchange().ranks(), [&] { complex.is_own = own_simplices(complex.excerpt, mesh); });
+    return;
+  }
   detail::WantedWays ways;
   ways.falling_paths = parts.descending_separatrices;
   ways.rising_paths = parts.ascending_separatrices;
-  ways.falling_walls = mesh.dimension() == 3 && (parts.saddle_connectors || parts.separatrices2);
-  ways.rising_walls = parts.separatrices2;
+  ways.falling_walls = ways.rising_walls = true;
   Structure* rows = nullptr;
-  if (ways.rising_walls) detail::together(mesh.exchange().ranks(), [&] { rows = &structure(); });
+  detail::together(mesh.exchange().ranks(), [&] { rows = &structure(); });
   complex.excerpt = detail::excerpt_of(complex.gradient, ways, rows);
   detail::together(mesh.exchange().ranks(), [&] {
     complex.critical = complex.excerpt.critical();

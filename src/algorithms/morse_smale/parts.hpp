@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <functional>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -22,6 +25,11 @@ struct PathStarts {
 PathStarts descending_starts(const Mesh& mesh, const CriticalSimplices& critical);
 PathStarts ascending_starts(const CriticalSimplices& critical);
 
+/// Finds the paths from some simplices along these successors, where they are, but those that leave through the
+/// surface. Their destinations are place(last simplex).
+Separatrices<Id> paths_along(const Mirrored<Id>& successors, const PathStarts& starts,
+                             const std::function<Id(Id)>& place);
+
 /// Finds the paths from each critical edge down to minima along these successors, where they are.
 Separatrices<Id> descending_separatrices(const Mesh& mesh, const Mirrored<Id>& successors,
                                          const CriticalSimplices& critical, const CriticalPlaces& places,
@@ -41,6 +49,37 @@ struct DescendingSurfaces {
 DescendingSurfaces descending_surfaces(const DiscreteGradient& gradient, const CriticalSimplices& critical,
                                        const CriticalPlaces& places, bool want_walls, bool want_connectors, int threads,
                                        const TurnedEdges* turned = nullptr, Paths told = Paths::whole);
+
+struct WallGround;
+
+/// The saddle connectors of one rank's 2-saddles: first those of walls inside its part, then the others, when what
+/// these reach elsewhere is known.
+class ConnectorsHere {
+ public:
+  /// `places` has those of the rank's critical simplices. Refers to the gradient.
+  ConnectorsHere(const DiscreteGradient& gradient, const CriticalPlaces& places, int threads);
+  ~ConnectorsHere();
+
+  /// The edges, the higher end first, at which walls leave the part.
+  const std::vector<std::array<Id, 2>>& exits() const { return exits_; }
+
+  /// All connectors, once. `wider` has all that is reached from the exits; `places` are those of critical simplices
+  /// there, and edge_places[i] is that of the rank's i-th critical edge.
+  Separatrices<TriangleVertices> finish(const WallGround& wider, const CriticalPlaces& places,
+                                        const std::vector<Id>& edge_places);
+
+ private:
+  struct Found;
+
+  const std::vector<TriangleVertices>& triangles_;
+  const int threads_;
+  std::unique_ptr<Found> found_;
+  std::vector<std::array<Id, 2>> exits_;
+};
+
+/// Finds the separatrices of this rank's saddles on several ranks, and the excerpt that these are in. What leaves a
+/// part is followed on by the others, who tell what they pass. Collective.
+void separatrices_on_ranks(int threads, MorseSmaleComplex& complex);
 
 /// Finds the saddle connectors of a gradient that kernels found, by kernels where it is: those that
 /// `descending_surfaces` finds, in its order. Walls are made together that have `most_together` triangles at most, a

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <gale/algorithms/gradient/gradient_store.hpp>
 #include <gale/algorithms/morse_smale/jump.hpp>
 #include <gale/algorithms/morse_smale/paths_on_ranks.hpp>
@@ -27,14 +29,18 @@ PathSimplices::PathSimplices(const DiscreteGradient& gradient, Kind kind)
       are_vertices_(kind == Kind::falling_vertices),
       successors_(are_vertices_ ? gradient.store().vertex_successors() : gradient.store().cell_successors()),
       critical_(are_vertices_ ? gradient.critical().vertices : gradient.critical().cells),
-      input_(are_vertices_ ? mesh().vertex_input().data() : mesh().cell_input().data()),
-      vertex_input_(mesh().vertex_input().data()),
+      input_(are_vertices_ ? mesh().vertices_in_input() : mesh().cells_in_input()),
+      vertex_input_(mesh().vertices_in_input()),
       keys_(gradient.order().keys()),
-      corners_(mesh().encoded().cells) {
-  if (are_vertices_) return;
-  cell_internal_ = allocate<Array<Id, HostMemory>>("GALE::cell_internal", mesh().cells());
-  parallel_for("GALE::cell_internal", HostExecutionSpace(), mesh().cells(),
-               [&](Offset t) { cell_internal_(input_[t]) = static_cast<Id>(t); });
+      corners_(mesh().cell_reader()) {
+  if (are_vertices_ || mesh().grid() != nullptr) return;
+  const Id cells = mesh().cells();
+  const Interval owned = mesh().owned_vertices();
+  for (Id t = 0; t < cells; ++t) {
+    const Quad corners = corners_(t);
+    if (!owned.has(corners.a) || !owned.has(corners.d))  // they ascend
+      shared_cells_.insert(static_cast<std::uint64_t>(input_[t])).first = t;
+  }
 }
 
 PathSimplices::PathSimplices(const VertexOrder& order, const Mirrored<Id>& successors, const std::vector<Id>& ends)
@@ -42,10 +48,10 @@ PathSimplices::PathSimplices(const VertexOrder& order, const Mirrored<Id>& succe
       are_vertices_(true),
       successors_(successors),
       critical_(ends),
-      input_(mesh_.vertex_input().data()),
+      input_(mesh_.vertices_in_input()),
       vertex_input_(input_),
       keys_(order.keys()),
-      corners_(mesh_.encoded().cells) {}
+      corners_(mesh_.cell_reader()) {}
 
 std::unique_ptr<const PathSimplices> PathSimplices::make(const DiscreteGradient& gradient, Kind kind) {
   std::unique_ptr<const PathSimplices> made;
@@ -58,15 +64,18 @@ GlobalId PathSimplices::global(Id simplex) const {
 }
 
 Id PathSimplices::local(GlobalId id) const {
-  return are_vertices_ ? mesh().vertex_internal()(mesh().vertex_of(id)) : cell_internal_(mesh().exchange().cell_of(id));
+  if (are_vertices_) return mesh().vertices_of_input()[mesh().vertex_of(id)];
+  const Id cell = mesh().exchange().cell_of(id);
+  return mesh().grid() != nullptr ? cell : *shared_cells_.find(static_cast<std::uint64_t>(cell));
 }
 
 int PathSimplices::owner(Id simplex) const {
   Id highest = simplex;
   if (!are_vertices_) {
-    highest = corners_(simplex, 0);
-    for (int corner = 1; corner < 4; ++corner) {
-      if (keys_[corners_(simplex, corner)] > keys_[highest]) highest = corners_(simplex, corner);
+    const Quad corners = corners_(simplex);
+    highest = corners.a;
+    for (const Id vertex : {corners.b, corners.c, corners.d}) {
+      if (keys_[vertex] > keys_[highest]) highest = vertex;
     }
   }
   return mesh().exchange().owner(vertex_input_[highest]);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <gale/algorithms/discrete_gradient.hpp>
+#include <gale/base/hash_table.hpp>
 #include <gale/mesh/exchange/global_index.hpp>
 
 namespace gale::detail {
@@ -31,7 +32,7 @@ class PathSimplices {
   /// Where paths end: GALE's ids.
   const std::vector<Id>& critical() const { return critical_; }
 
-  /// GALE's id -> global id, and back for those that this rank holds.
+  /// GALE's id -> global id, and back for those that this rank shares with others.
   GlobalId global(Id simplex) const;
   Id local(GlobalId id) const;
 
@@ -43,10 +44,10 @@ class PathSimplices {
   const bool are_vertices_;
   const Mirrored<Id>& successors_;
   const std::vector<Id>& critical_;
-  const Id *input_, *vertex_input_;
+  const OtherIds input_, vertex_input_;
   const std::uint64_t* keys_;
-  IdsByFour<HostMemory> corners_;
-  Array<Id, HostMemory> cell_internal_;  ///< input cell -> GALE's; of cells alone
+  const CellReader corners_;
+  HashTable<Id> shared_cells_;  ///< of cells that aren't a grid's: input cell -> GALE's, of those that have a ghost
 };
 
 /// Where a path goes on or ends.

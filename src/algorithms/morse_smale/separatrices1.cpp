@@ -141,6 +141,11 @@ PathStarts ascending_starts(const CriticalSimplices& critical) {
   return starts;
 }
 
+Separatrices<Id> paths_along(const Mirrored<Id>& successors, const PathStarts& starts,
+                             const std::function<Id(Id)>& place) {
+  return paths_from(successors, starts, Paths::whole, place);
+}
+
 Separatrices<Id> descending_separatrices(const Mesh& mesh, const Mirrored<Id>& successors,
                                          const CriticalSimplices& critical, const CriticalPlaces& places, Paths told) {
   return paths_from(successors, descending_starts(mesh, critical), told,

@@ -52,6 +52,10 @@ std::array<Id, count> from_highest(const DiscreteGradient& gradient, Id cell) {
 
 }  // namespace
 
+Id highest_corner(const DiscreteGradient& gradient, Id cell) {
+  return gradient.mesh().dimension() == 3 ? from_highest<4>(gradient, cell)[0] : from_highest<3>(gradient, cell)[0];
+}
+
 Filtration filtration_of(const DiscreteGradient& gradient, int threads) {
   const ThreadLimit limit(threads);
   const CriticalSimplices& critical = gradient.critical();
@@ -71,8 +75,6 @@ Filtration filtration_of(const DiscreteGradient& gradient, int threads) {
   }
   return filtration;
 }
-
-Id highest_corner(const DiscreteGradient& gradient, Id cell) { return from_highest<4>(gradient, cell)[0]; }
 
 CriticalValues critical_values(const DiscreteGradient& gradient, const std::function<double(Id)>& value) {
   const OtherIds input = gradient.mesh().vertices_in_input();
@@ -106,3 +108,23 @@ std::vector<PersistencePair> pairs_below(double threshold, int type, const std::
 }
 
 }  // namespace gale::detail
+
+namespace gale {
+
+HighestVertices highest_vertices(const DiscreteGradient& gradient) {
+  const OtherIds input = gradient.mesh().vertices_in_input();
+  const CriticalSimplices& critical = gradient.critical();
+  HighestVertices highest;
+  highest.dimension = critical.dimension;
+  auto& of = highest.of_critical;
+  for (const Id vertex : critical.vertices) of[0].push_back(input[vertex]);
+  for (const auto& edge : critical.edges) of[1].push_back(input[edge[0]]);
+  for (const auto& triangle : critical.triangles) of[2].push_back(input[triangle[0]]);
+  for (const Id cell : critical.cells) of[critical.dimension].push_back(input[detail::highest_corner(gradient, cell)]);
+  const std::uint64_t* const keys = gradient.order().keys();
+  const Id count = gradient.mesh().vertices();
+  if (count > 0) highest.of_all = input[static_cast<Id>(std::max_element(keys, keys + count) - keys)];
+  return highest;
+}
+
+}  // namespace gale

@@ -58,20 +58,37 @@ enum class WantedPairs { of_extrema, all };
 PersistencePairs pairs_of(const DiscreteGradient& gradient, const CriticalPlaces& places, const ExtremumEnds& ends,
                           bool forks, WantedPairs wanted, int threads);
 
+/// Whether a rising path forks: at a triangle of three tetrahedra or more, or on a triangle mesh at such an edge.
+bool has_forks(const DiscreteGradient& gradient);
+
+/// The pairs of saddles with extrema, from which those of saddles with saddles follow.
+class PairsOfExtrema {
+ public:
+  /// Of a mesh of that dimension: saddles whose paths have these ends. `forked_maxima` finds for each maximum the
+  /// saddle that it is paired with, where paths fork; empty where they don't.
+  PairsOfExtrema(const Filtration& filtration, const ExtremumEnds& ends, int dimension, int threads,
+                 const std::function<std::vector<Id>()>& forked_maxima = {});
+
+  /// The 2-saddles that no maximum is paired with, in the order of the filtration; none on a triangle mesh.
+  const std::vector<Id>& columns() const { return columns_; }
+
+  /// All pairs, given for each 1-saddle the 2-saddle that it is paired with, no_id if it is with none.
+  PersistencePairs with_saddles(const std::vector<Id>& upper_of_lower);
+
+ private:
+  std::vector<PersistencePair> from_lower(int dimension, const std::vector<Id>& upper);
+  std::vector<PersistencePair> from_upper(int dimension, const std::vector<Id>& lower);
+
+  const int dimension_;
+  std::array<std::vector<char>, 4> is_paired_;
+  PersistencePairs found_;
+  std::vector<Id> columns_;
+};
+
 /// For each maximum the saddle that it is paired with, no_id if it is with none, whatever rising paths do: where they
 /// fork, a saddle has more ends than two, and sets of extrema can't tell. By elimination over Z2. For meshes with
 /// facets of three cells and more, which are no part of space, and no surfaces: sequential, and up to cubic.
 std::vector<Id> pair_forked_maxima(const DiscreteGradient& gradient, const CriticalPlaces& places,
                                    const Filtration& filtration);
-
-/// Pairs 1-saddles with 2-saddles: for each 1-saddle the 2-saddle that it is paired with, no_id if it is with none.
-/// `columns` are the 2-saddles to pair, in the order of the filtration: those that no maximum is paired with.
-///
-/// Elimination by columns. Each 2-saddle's rim falls until its highest edge is a 1-saddle (EdgeChain). If an earlier
-/// 2-saddle has met that one, its rim is added, and both fall on; if a later one has, that one goes on instead, with
-/// both rims (Morozov, Nigmetov, "Towards lockfree persistent homology", 2020). So threads needn't wait for each other,
-/// and the pairs are the same whatever their number.
-std::vector<Id> pair_saddles(const DiscreteGradient& gradient, const CriticalPlaces& places,
-                             const Filtration& filtration, const std::vector<Id>& columns, int threads);
 
 }  // namespace gale::detail

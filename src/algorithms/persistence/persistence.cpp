@@ -7,6 +7,7 @@
 #include <gale/algorithms/gradient/gradient_store.hpp>
 #include <gale/algorithms/order/require_mesh.hpp>
 #include <gale/algorithms/persistence/pairs.hpp>
+#include <gale/algorithms/persistence/saddle_columns.hpp>
 #include <gale/base/stop.hpp>
 #include <gale/base/threads.hpp>
 
@@ -52,7 +53,8 @@ std::vector<Id> pair_maxima(const PathEnds& ends, const Filtration& filtration, 
   return join_ends(falling, ends, age);
 }
 
-/// Whether a rising path forks: at a triangle of three tetrahedra or more, or on a triangle mesh at such an edge.
+}  // namespace
+
 bool has_forks(const DiscreteGradient& gradient) {
   const auto& begin = gradient.critical().star_begin;
   for (std::size_t i = 0; i + 1 < begin.size(); ++i) {
@@ -61,88 +63,76 @@ bool has_forks(const DiscreteGradient& gradient) {
   return !gradient.store().further_successors.empty();
 }
 
-/// What each simplex is paired with, by dimension and place.
-class Partners {
- public:
-  explicit Partners(const std::array<Id, 4>& counts) {
-    for (int d = 0; d < 4; ++d) is_paired_[d].assign(counts[d], 0);
+PairsOfExtrema::PairsOfExtrema(const Filtration& filtration, const ExtremumEnds& ends, int dimension, int threads,
+                               const std::function<std::vector<Id>()>& forked_maxima)
+    : dimension_(dimension) {
+  for (int d = 0; d < 4; ++d) is_paired_[d].assign(filtration.rank[d].size(), 0);
+  const auto with_minima = [&] { return join_ends(filtration.by_rank[1], ends.of_edges, filtration.rank[0]); };
+  const auto with_maxima = [&](const auto& is_free) {
+    return forked_maxima ? forked_maxima() : pair_maxima(ends.of_facets, filtration, dimension, is_free);
+  };
+  if (dimension == 2) {
+    // A saddle is in a pair with a minimum, or with a maximum, or in none. That none is in both has to be seen to where
+    // rising paths don't take all their ways.
+    found_.pairs[0] = from_lower(0, with_minima());
+    found_.pairs[1] = from_upper(1, with_maxima([&](Id saddle) { return is_paired_[1][saddle] == 0; }));
+    return;
   }
-
-  /// `upper[i]`: what the i-th simplex of `dimension` is paired with, no_id if with nothing.
-  std::vector<PersistencePair> from_lower(int dimension, const std::vector<Id>& upper) {
-    std::vector<PersistencePair> pairs;
-    for (std::size_t i = 0; i < upper.size(); ++i) {
-      if (upper[i] == no_id) continue;
-      pairs.push_back({static_cast<Id>(i), upper[i]});
-      is_paired_[dimension][i] = is_paired_[dimension + 1][upper[i]] = 1;
-    }
-    return pairs;
-  }
-
-  /// The pairs, from what the simplices of `dimension` + 1 are paired with.
-  std::vector<PersistencePair> from_upper(int dimension, const std::vector<Id>& lower) {
-    std::vector<Id> upper(is_paired_[dimension].size(), no_id);
-    for (std::size_t i = 0; i < lower.size(); ++i) {
-      if (lower[i] != no_id) upper[lower[i]] = static_cast<Id>(i);
-    }
-    return from_lower(dimension, upper);
-  }
-
-  bool is_paired(int dimension, Id place) const { return is_paired_[dimension][place] != 0; }
-
-  std::vector<Id> unpaired(int dimension) const {
-    std::vector<Id> unpaired;
-    for (std::size_t i = 0; i < is_paired_[dimension].size(); ++i) {
-      if (!is_paired(dimension, static_cast<Id>(i))) unpaired.push_back(static_cast<Id>(i));
-    }
-    return unpaired;
-  }
-
- private:
-  std::array<std::vector<char>, 4> is_paired_;
-};
-
-/// What pairs_of does on a triangle mesh, where a saddle is in a pair with a minimum, or with a maximum, or in none.
-/// That no saddle is in both has to be seen to where rising paths don't take all their ways.
-PersistencePairs pairs_on_triangles(const DiscreteGradient& gradient, const CriticalPlaces& places,
-                                    const Filtration& filtration, const ExtremumEnds& ends, bool forks) {
-  PersistencePairs found;
-  Partners partners(gradient.critical().counts());
-  found.pairs[0] = partners.from_lower(0, join_ends(filtration.by_rank[1], ends.of_edges, filtration.rank[0]));
-  const auto is_free = [&](Id saddle) { return !partners.is_paired(1, saddle); };
-  found.pairs[1] = partners.from_upper(1, forks ? pair_forked_maxima(gradient, places, filtration)
-                                                : pair_maxima(ends.of_facets, filtration, 2, is_free));
-  for (int d = 0; d < 3; ++d) found.essential[d] = partners.unpaired(d);
-  return found;
+  std::vector<Id> saddle_of_minimum, saddle_of_maximum;
+  const std::function<void()> extrema[] = {[&] { saddle_of_minimum = with_minima(); },
+                                           [&] { saddle_of_maximum = with_maxima([](Id) { return true; }); }};
+  in_turns(threads, 2, [&](int, std::int64_t i) { extrema[i](); });
+  found_.pairs[0] = from_lower(0, saddle_of_minimum);
+  found_.pairs[2] = from_upper(2, saddle_of_maximum);
+  std::copy_if(filtration.by_rank[2].begin(), filtration.by_rank[2].end(), std::back_inserter(columns_),
+               [&](Id triangle) { return is_paired_[2][triangle] == 0; });
 }
 
-}  // namespace
+/// `upper[i]`: what the i-th simplex of `dimension` is paired with, no_id if with nothing.
+std::vector<PersistencePair> PairsOfExtrema::from_lower(int dimension, const std::vector<Id>& upper) {
+  std::vector<PersistencePair> pairs;
+  for (std::size_t i = 0; i < upper.size(); ++i) {
+    if (upper[i] == no_id) continue;
+    pairs.push_back({static_cast<Id>(i), upper[i]});
+    is_paired_[dimension][i] = is_paired_[dimension + 1][upper[i]] = 1;
+  }
+  return pairs;
+}
+
+/// The pairs, from what the simplices of `dimension` + 1 are paired with.
+std::vector<PersistencePair> PairsOfExtrema::from_upper(int dimension, const std::vector<Id>& lower) {
+  std::vector<Id> upper(is_paired_[dimension].size(), no_id);
+  for (std::size_t i = 0; i < lower.size(); ++i) {
+    if (lower[i] != no_id) upper[lower[i]] = static_cast<Id>(i);
+  }
+  return from_lower(dimension, upper);
+}
+
+PersistencePairs PairsOfExtrema::with_saddles(const std::vector<Id>& upper_of_lower) {
+  if (dimension_ == 3) found_.pairs[1] = from_lower(1, upper_of_lower);
+  for (int d = 0; d <= dimension_; ++d) {
+    for (std::size_t i = 0; i < is_paired_[d].size(); ++i) {
+      if (is_paired_[d][i] == 0) found_.essential[d].push_back(static_cast<Id>(i));
+    }
+  }
+  return std::move(found_);
+}
 
 PersistencePairs pairs_of(const DiscreteGradient& gradient, const CriticalPlaces& places, const ExtremumEnds& ends,
                           bool forks, WantedPairs wanted, int threads) {
   const Filtration filtration = filtration_of(gradient, threads);
-  if (gradient.mesh().dimension() == 2) return pairs_on_triangles(gradient, places, filtration, ends, forks);
-  std::vector<Id> saddle_of_minimum, saddle_of_maximum;
-  const std::function<void()> extrema[] = {
-      [&] { saddle_of_minimum = join_ends(filtration.by_rank[1], ends.of_edges, filtration.rank[0]); },
-      [&] {
-        saddle_of_maximum = forks ? pair_forked_maxima(gradient, places, filtration)
-                                  : pair_maxima(ends.of_facets, filtration, 3, [](Id) { return true; });
-      }};
-  in_turns(threads, 2, [&](int, std::int64_t i) { extrema[i](); });
-  PersistencePairs found;
-  Partners partners(gradient.critical().counts());
-  found.pairs[0] = partners.from_lower(0, saddle_of_minimum);
-  found.pairs[2] = partners.from_upper(2, saddle_of_maximum);
+  std::function<std::vector<Id>()> forked_maxima;
+  if (forks) forked_maxima = [&] { return pair_forked_maxima(gradient, places, filtration); };
+  PairsOfExtrema pairs(filtration, ends, gradient.mesh().dimension(), threads, forked_maxima);
+  std::vector<Id> upper_of_lower(gradient.critical().edges.size(), no_id);
   if (wanted == WantedPairs::all) {
-    std::vector<Id> columns;
-    for (const Id triangle : filtration.by_rank[2]) {
-      if (!partners.is_paired(2, triangle)) columns.push_back(triangle);
+    const SaddleColumns columns(gradient, places, filtration, pairs.columns(), threads);
+    for (std::size_t i = 0; i < upper_of_lower.size(); ++i) {
+      const Column* const column = columns.owner(static_cast<Id>(i));
+      if (column != nullptr) upper_of_lower[i] = filtration.by_rank[2][column->rank];
     }
-    found.pairs[1] = partners.from_lower(1, pair_saddles(gradient, places, filtration, columns, threads));
   }
-  for (int d = 0; d < 4; ++d) found.essential[d] = partners.unpaired(d);
-  return found;
+  return pairs.with_saddles(upper_of_lower);
 }
 
 }  // namespace detail

@@ -1,6 +1,5 @@
 #include <CLI/CLI.hpp>
 
-#include <gale/algorithms/gathered_gradient.hpp>
 #include <gale/algorithms/persistence.hpp>
 #include <gale/app/commands/command.hpp>
 #include <gale/app/drawing/picture.hpp>
@@ -36,17 +35,18 @@ class FindPersistenceDiagram final : public AnalysisCommand {
     const double least = persistence_ ? threshold_of_option(*persistence_, on.field, session.ranks()) : 0;
     const DiscreteGradient found = find_discrete_gradient(on.order, session.compute(structure_, "gradient"), &computed);
     const SweepOptions sweep = session.sweep("pairs");
-    const DiscreteGradient gradient = timed(session.report().seconds.run, [&] { return gather_gradient(found); });
-    const OnExcerpt at(gradient.mesh(), on);
+    const GatheredPairs gathered =
+        timed(session.report().seconds.run, [&] { return gather_persistence_pairs(found, sweep); });
+    const OnExcerpt at(gathered.mesh, on, output_.empty());
     std::vector<outputs::DiagramPoint> diagram;
     detail::together(session.ranks(), [&] {
       if (!Launch::is_first()) return;
       const Stopwatch watch(session.report().seconds.run);
-      diagram = outputs::persistence_diagram(gradient, find_persistence_pairs(gradient, sweep), at.field(), least);
+      diagram = outputs::persistence_diagram(gathered.highest, gathered.pairs, at.field(), least);
     });
     tell(outputs::counts_of(diagram), on.mesh.dimension(), session);
     session.write(output_, [&](const io::AtomicFile& file) {
-      io::write_lines(file, outputs::to_lines(at.dataset(), at.field(), diagram, gradient.mesh().exchange()));
+      io::write_lines(file, outputs::to_lines(at.dataset(), at.field(), diagram, gathered.mesh.exchange()));
     });
     session.write(curve_, [&](const io::AtomicFile& file) {
       write_text(file, [&](std::ostream& out) { out << outputs::to_csv(outputs::persistence_curve(diagram)); });

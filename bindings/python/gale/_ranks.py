@@ -1,0 +1,96 @@
+"""gale.DistributedMesh, of what lies on the ranks of MPI."""
+from __future__ import annotations
+
+from typing import Any, NoReturn, Optional, Tuple
+
+import numpy as np
+
+from . import _arrays, _gale
+from ._gale import Error
+from ._mesh import Mesh
+
+
+def _ids(values: Any, name: str) -> Any:
+    """As int64, read where they are if they are so."""
+    ids = np.asarray(values)
+    if ids.dtype.kind not in "iu" and ids.size > 0:
+        raise Error(f"{name} are {ids.dtype}, not integers")
+    return np.ascontiguousarray(ids, np.int64)
+
+
+class DistributedMesh(Mesh):
+    """One rank's part of a mesh of tetrahedra, or of triangles, that lies on the ranks of an mpi4py communicator.
+
+    comm: the communicator. ids: (n,) global ids of the vertices that this rank hands over; points: (n, 3) float32 or
+    float64, where they are; cells: (m, 4) or (m, 3) global ids of the corners of its cells; cell_ids: (m,)
+    global ids of these, which are counted from rank to rank where they aren't given. int64 ids and cells, and
+    float64 points, are read where they are: the points as long as the mesh lives, so don't change them. A cell is handed
+    over by one rank, a vertex by any number of them, of which the lowest owns it; a rank may have none. With
+    `repartition` vertices are dealt out anew, as many to each rank.
+
+    Its methods are those of a Mesh but `relation`, `relation_matrix`, `simplify_field` and walls of saddles. All ranks call
+    them, in the same order, with a field that has a value for each vertex that was handed over. Each rank gets what it owns
+    of a result, by global ids; a diagram, the nodes and arcs of a tree and simplified separatrices are on the first rank,
+    and arrays of the mesh's points are in the order of `vertex_ids`. What fails on one rank raises gale.Error on all.
+
+    Jobs call MPI on a thread of their own, as mpi4py has it by default (MPI.THREAD_MULTIPLE)."""
+
+    def __init__(self, comm: Any, ids: Any, points: Any, cells: Any, cell_ids: Any = None, repartition: bool = False,
+                 capacity: int = 64) -> None:
+        inner = getattr(_gale, "DistributedMesh", None)
+        if inner is None:
+            raise Error("this gale is built without MPI: GALE_ENABLE_MPI")
+        from mpi4py import MPI
+
+        if not isinstance(comm, MPI.Comm):
+            raise Error(f"what is of {type(comm).__name__} is no communicator of mpi4py's")
+        rows = np.asarray(cells)
+        corners = np.zeros((0, 4), np.int64) if rows.size == 0 else _ids(rows, "cells")
+        self._mesh: Any = inner(MPI._addressof(comm), _ids(ids, "ids"), _arrays.points(points), corners,
+                                None if cell_ids is None else _ids(cell_ids, "cell ids"), repartition, capacity)
+
+    @property
+    def vertex_ids(self) -> np.ndarray:
+        """The global ids of the vertices that this rank holds, ascending: its own, and others that its cells touch."""
+        return np.asarray(self._mesh.vertex_ids)
+
+    @property
+    def owners(self) -> np.ndarray:
+        """The rank that owns each of `vertex_ids`."""
+        return np.asarray(self._mesh.owners)
+
+    @property
+    def points(self) -> np.ndarray:
+        """A copy of the points of `vertex_ids`, (n, 3)."""
+        return np.array(self._mesh.points())
+
+    @property
+    def cells(self) -> np.ndarray:
+        """Not there: the cells of a part are those that it was made of."""
+        self._refuse("cells")
+
+    def __repr__(self) -> str:
+        kind = "tetrahedra" if self.dimension == 3 else "triangles"
+        return f"gale.DistributedMesh({self.vertices} vertices, {self._mesh.cells} {kind} on all ranks)"
+
+    def _refuse(self, what: str) -> NoReturn:
+        raise Error(f"a mesh on several ranks has no {what}")
+
+    def _relation(self, name: str, threads: int, progress: Any) -> Tuple[np.ndarray, np.ndarray, int]:
+        self._refuse("relations")
+
+    def simplify_field(self, field: Any, persistence: Any = None, name: str = "field", threads: int = 0,
+                       progress: Any = None) -> Any:
+        self._refuse("simplified fields")
+
+    def morse_smale(self, field: Any, persistence: Any = None, extrema_only: bool = False, name: str = "field",
+                    threads: int = 0, progress: Any = None, separatrices2: bool = False) -> Any:
+        if separatrices2:
+            self._refuse("walls of saddles")
+        return super().morse_smale(field, persistence, extrema_only, name, threads, progress)
+
+    def to_pyvista(self) -> Any:
+        self._refuse("grid of PyVista's")
+
+    def __reduce__(self) -> Tuple[Any, ...]:
+        self._refuse("copy in other processes")

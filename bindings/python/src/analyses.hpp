@@ -1,0 +1,19 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include <gale/outputs/analyses.hpp>
+
+#include "arrays.hpp"
+
+namespace gale::python {
+
+/// A persistence diagram in columns.
+nb::dict numpy_of(const std::vector<outputs::DiagramPoint>& diagram);
+
+/// What an analysis has found, by the names of its results.
+nb::dict results_of(std::map<std::string, outputs::Outcome> found);
+
+}  // namespace gale::python

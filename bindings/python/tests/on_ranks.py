@@ -1,0 +1,90 @@
+"""What test_ranks.py runs under mpirun: what a gale.DistributedMesh finds is what a gale.Mesh finds of the whole."""
+import sys
+
+import gale
+import numpy as np
+from meshes import random_mesh
+from mpi4py import MPI
+
+COMM = MPI.COMM_WORLD
+
+
+def fail(why):
+    """Ends all ranks: one that ends by itself would wait for the others."""
+    print(why, file=sys.stderr, flush=True)
+    COMM.Abort(1)
+
+
+def check(holds, why):
+    if not holds:
+        fail(why)
+
+
+def rows(*columns):
+    """Their entries side by side, from all ranks, sorted."""
+    parts = COMM.gather(np.column_stack([np.asarray(column, np.float64) for column in columns]))
+    if parts is None:
+        return None
+    whole = np.concatenate(parts)
+    return whole[np.lexsort(whole.T[::-1])]
+
+
+def same(name, found, expected):
+    if COMM.rank == 0 and not np.array_equal(found, expected):
+        fail(f"{name}: {found} is not {expected}")
+
+
+def sorted_rows(*columns):
+    whole = np.column_stack([np.asarray(column, np.float64) for column in columns])
+    return whole[np.lexsort(whole.T[::-1])]
+
+
+points, tetrahedra, field = random_mesh(3, 6)
+for values, repartition in ((field, False), (np.round(field), True), (field.astype(np.float32), False)):
+    cells = np.flatnonzero(np.random.default_rng(7).integers(0, COMM.size, len(tetrahedra)) == COMM.rank)
+    own = tetrahedra[cells]
+    ids = np.unique(own)
+    part = gale.DistributedMesh(COMM, ids, points[ids], own, cells, repartition)
+    whole = gale.Mesh(points, tetrahedra)
+    check((part.vertices, part.tetrahedra, part.dimension) == (len(points), len(tetrahedra), 3), "sizes")
+    check(np.array_equal(part.points, points[part.vertex_ids]), "points")
+
+    found, expected = part.critical_points(values[ids]), whole.critical_points(values)
+    named = ["ttkVertexScalarField", "CriticalType", "IsOnBoundary"]
+    same("critical points", rows(found.points, *[found[name] for name in named]),
+         sorted_rows(expected.points, *[expected[name] for name in named]))
+    found, expected = part.critical_simplices(values[ids]), whole.critical_simplices(values)
+    named = ["CellId", "CellDimension", "ttkVertexScalarField"]
+    same("critical simplices", rows(*[found[name] for name in named]), sorted_rows(*[expected[name] for name in named]))
+
+    found, expected = part.persistence_diagram(values[ids], "2%"), whole.persistence_diagram(values, "2%")
+    check(found == expected if COMM.rank == 0 else len(found.birth) == 0, "diagrams differ")
+
+    found, expected = part.morse_smale(values[ids]), whole.morse_smale(values)
+    named = ["SourceId", "DestinationId", "SeparatrixType"]
+    lines, all_lines = found.separatrices1.cell_arrays, expected.separatrices1.cell_arrays
+    same("separatrices", rows(*[lines[name] for name in named]), sorted_rows(*[all_lines[name] for name in named]))
+    own_vertices = part.owners == COMM.rank
+    for name in ("AscendingManifold", "DescendingManifold", "MorseSmaleManifold"):
+        same(name, rows(part.vertex_ids[own_vertices], found.manifolds[name][own_vertices]),
+             sorted_rows(np.arange(len(points)), expected.manifolds[name]))
+
+    found, expected = part.merge_tree(values[ids]), whole.merge_tree(values)
+    check(COMM.rank != 0 or np.array_equal(found.nodes.points, expected.nodes.points), "nodes")
+    same("arcs", rows(part.vertex_ids[own_vertices], found.segmentation["SegmentationId"][own_vertices]),
+         sorted_rows(np.arange(len(points)), expected.segmentation["SegmentationId"]))
+
+for wrong in (lambda: part.relation("VV"), lambda: part.simplify_field(values), lambda: gale.DistributedMesh(1, [], [], []),
+              lambda: part.morse_smale(values[ids], separatrices2=True), lambda: part.critical_points(values[ids][1:])):
+    try:
+        wrong()
+    except gale.Error:
+        continue
+    fail("no error")
+nobody = values[ids] if COMM.rank else values[ids].astype(np.float64)
+try:
+    part.critical_points(nobody)
+    check(COMM.size == 1, "fields of two types")
+except gale.Error as error:
+    check("another type on other ranks" in str(error), error)
+print("equal", flush=True)

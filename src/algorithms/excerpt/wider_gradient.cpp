@@ -1,0 +1,226 @@
+#include <algorithm>
+#include <numeric>
+#include <unordered_map>
+#include <utility>
+
+#include <gale/algorithms/excerpt/wider_gradient.hpp>
+#include <gale/base/memory.hpp>
+#include <gale/base/parallel.hpp>
+
+namespace gale::detail {
+
+namespace {
+
+/// A copy with room for more, which are elsewhere.
+Array<Id, HostMemory> widened(const Mirrored<Id>& successors, Id count) {
+  const auto& here = successors.in<HostMemory>();
+  const auto wider = allocate<Array<Id, HostMemory>>("GALE::wider_successors", count);
+  parallel_for("GALE::wider_successors", HostExecutionSpace(), count, [&](Offset i) {
+    wider(i) = i < static_cast<Offset>(here.extent(0)) ? here(i) : DiscreteGradient::elsewhere;
+  });
+  return wider;
+}
+
+/// Own simplices, ascending by `key`, and others: in that order. `places` becomes those of the own ones.
+template <class T, class Key>
+std::vector<T> merged(const std::vector<T>& own, std::vector<T> others, const Key& key, std::vector<Id>& places) {
+  const auto is_less = [&](const T& a, const T& b) { return key(a) < key(b); };
+  std::sort(others.begin(), others.end(), is_less);
+  std::vector<T> all;
+  auto other = others.begin();
+  for (const T& simplex : own) {
+    for (; other != others.end() && is_less(*other, simplex); ++other) all.push_back(*other);
+    places.push_back(static_cast<Id>(all.size()));
+    all.push_back(simplex);
+  }
+  all.insert(all.end(), other, others.end());
+  return all;
+}
+
+}  // namespace
+
+WiderGradient::WiderGradient(const DiscreteGradient& gradient, const PathSimplices& cells, Reached reached)
+    : gradient_(gradient),
+      mesh_(gradient.mesh()),
+      rank_(mesh_.exchange().ranks().rank()),
+      own_vertices_(mesh_.vertices()),
+      own_cells_(mesh_.cells()) {
+  number(reached, cells);
+  name_vertices();
+  fill_keys();
+  fill_successors(reached);
+  add_critical(reached);
+}
+
+WallGround WiderGradient::ground() const {
+  return {pairs_, vertex_successors_.in<HostMemory>().data(), keys_.data(), {names_.data()}, {0, vertices()}};
+}
+
+GlobalId WiderGradient::vertex_id(Id vertex) const {
+  return vertex < own_vertices_ ? mesh_.vertex_id(mesh_.vertices_in_input()[vertex])
+                                : beyond_[vertex - own_vertices_].id;
+}
+
+GlobalId WiderGradient::cell_id(Id cell) const {
+  return cell < own_cells_ ? mesh_.cell_id(mesh_.cells_in_input()[cell]) : cell_ids_[cell - own_cells_];
+}
+
+std::uint64_t WiderGradient::value(Id vertex) const {
+  return vertex < own_vertices_ ? gradient_.order().value_key(vertex) : beyond_[vertex - own_vertices_].value;
+}
+
+std::array<Id, 4> WiderGradient::corners(Id cell) const {
+  if (cell >= own_cells_) return cell_corners_[cell - own_cells_];
+  const Quad quad = mesh_.cell_reader()(cell);
+  return {quad[0], quad[1], quad[2], quad[3]};
+}
+
+template <class T, class Visit>
+void WiderGradient::for_each(const Dealt<T>& received, const Visit& visit) const {
+  for (int rank = 0; rank + 1 < static_cast<int>(received.begin.size()); ++rank) {
+    for (Offset i = received.begin[rank]; i < received.begin[rank + 1]; ++i) visit(rank, received.entries(i));
+  }
+}
+
+/// Finds what of that which was received this rank has, and numbers the rest.
+void WiderGradient::number(const Reached& reached, const PathSimplices& cells) {
+  vertex_begin_ = reached.vertices.begin;
+  cell_begin_ = reached.cells.begin;
+  for_each(reached.vertices, [&](int, const ReachedVertex& vertex) {
+    if (mesh_.vertex_of(vertex.id) == no_id) beyond_.push_back(vertex);
+  });
+  const auto by_id = [](const auto& a, const auto& b) { return a.id < b.id; };
+  std::sort(beyond_.begin(), beyond_.end(), by_id);
+  beyond_.erase(std::unique(beyond_.begin(), beyond_.end(), [](const auto& a, const auto& b) { return a.id == b.id; }),
+                beyond_.end());
+  for_each(reached.vertices, [&](int, const ReachedVertex& vertex) {
+    const Id here = mesh_.vertex_of(vertex.id);
+    const auto at = std::lower_bound(beyond_.begin(), beyond_.end(), vertex, by_id);
+    vertex_of_.push_back(here == no_id ? own_vertices_ + static_cast<Id>(at - beyond_.begin())
+                                       : mesh_.vertices_of_input()[here]);
+  });
+  std::unordered_map<GlobalId, Id> others;
+  for_each(reached.cells, [&](int rank, const ReachedCell& cell) {
+    if (mesh_.exchange().cell_of(cell.id) != no_id) {
+      cell_of_.push_back(cells.local(cell.id));
+      return;
+    }
+    const auto [at, is_new] = others.try_emplace(cell.id, own_cells_ + static_cast<Id>(cell_ids_.size()));
+    cell_of_.push_back(at->second);
+    if (!is_new) return;
+    cell_ids_.push_back(cell.id);
+    std::array<Id, 4> corners = cell.corners;
+    for (Id& corner : corners) corner = vertex(rank, corner);
+    cell_corners_.push_back(corners);
+  });
+}
+
+/// Input ids ascend with global ones.
+void WiderGradient::name_vertices() {
+  names_.resize(own_vertices_ + beyond_.size());
+  Id next = 0, other = 0;
+  const Id others = static_cast<Id>(beyond_.size());
+  const OtherIds internal = mesh_.vertices_of_input();
+  for (Id input = 0; input < own_vertices_; ++input) {
+    for (; other < others && beyond_[other].id < mesh_.vertex_id(input); ++other)
+      names_[own_vertices_ + other] = next++;
+    names_[internal[input]] = next++;
+  }
+  for (; other < others; ++other) names_[own_vertices_ + other] = next++;
+}
+
+void WiderGradient::fill_keys() {
+  const VertexOrder& order = gradient_.order();
+  keys_.resize(names_.size());
+  if (order.has_short_values()) {
+    parallel_for("GALE::wider_keys", HostExecutionSpace(), keys_.size(),
+                 [&](Offset v) { keys_[v] = value(static_cast<Id>(v)) << 32 | static_cast<std::uint32_t>(names_[v]); });
+    return;
+  }
+  // Keys are ranks: those of others come between.
+  std::vector<Id> by_rank(own_vertices_), others(beyond_.size());
+  for (Id v = 0; v < own_vertices_; ++v) by_rank[order.keys()[v]] = v;
+  std::iota(others.begin(), others.end(), own_vertices_);
+  const auto is_less = [&](Id a, Id b) {
+    const std::uint64_t value_a = value(a), value_b = value(b);
+    return value_a != value_b ? value_a < value_b : names_[a] < names_[b];
+  };
+  std::sort(others.begin(), others.end(), is_less);
+  std::vector<Id> all(names_.size());
+  std::merge(by_rank.begin(), by_rank.end(), others.begin(), others.end(), all.begin(), is_less);
+  for (std::size_t i = 0; i < all.size(); ++i) keys_[all[i]] = i;
+}
+
+void WiderGradient::fill_successors(const Reached& reached) {
+  const auto of_vertices = widened(gradient_.store().vertex_successors(), vertices());
+  const auto of_cells = widened(gradient_.store().cell_successors(), cells());
+  for_each(reached.vertex_steps, [&](int rank, const auto& step) {
+    of_vertices(vertex(rank, step[0])) = step[1] == no_id ? no_id : vertex(rank, step[1]);
+  });
+  for_each(reached.cell_steps, [&](int rank, const auto& step) {
+    of_cells(cell(rank, step[0])) = step[1] < 0 ? step[1] : cell(rank, step[1]);
+  });
+  if (mesh_.dimension() == 3) fill_rows(reached, of_vertices);
+  vertex_successors_ = of_vertices;
+  cell_successors_ = of_cells;
+}
+
+/// Others' vertices, ghosts among them, get rows of those edges that were reached. One that is neither critical nor
+/// paired with a triangle is paired with its higher end.
+void WiderGradient::fill_rows(const Reached& reached, const Array<Id, HostMemory>& vertex_successors) {
+  pairs_ = EdgePairs(gradient_.store().pairs(), mesh_.owned_vertices(), vertices());
+  std::vector<std::uint64_t> in_rows, told;
+  std::vector<std::pair<std::uint64_t, Id>> paired;
+  for_each(reached.edges, [&](int rank, const auto& edge) {
+    const Id high = vertex(rank, edge[0]), low = vertex(rank, edge[1]);
+    in_rows.push_back(pair_key(high, low));
+    told.push_back(in_rows.back());
+    if (edge[2] < 0) return;
+    const Id third = vertex(rank, edge[2]);
+    in_rows.push_back(pair_key(high, third));
+    paired.push_back({pair_key(high, low), third});
+  });
+  std::sort(in_rows.begin(), in_rows.end());
+  in_rows.erase(std::unique(in_rows.begin(), in_rows.end()), in_rows.end());
+  std::sort(told.begin(), told.end());
+  for (const std::uint64_t edge : in_rows) {
+    if (!std::binary_search(told.begin(), told.end(), edge)) vertex_successors(pair_first(edge)) = pair_second(edge);
+  }
+  for (std::size_t first = 0; first < in_rows.size();) {
+    const Id high = pair_first(in_rows[first]);
+    std::size_t end = first;
+    while (end < in_rows.size() && pair_first(in_rows[end]) == high) ++end;
+    EdgePairRow row = pairs_.begin(0, high, static_cast<Id>(end - first));
+    for (std::size_t i = first; i < end; ++i) row.set_id(static_cast<Id>(i - first), pair_second(in_rows[i]));
+    first = end;
+  }
+  for (const auto& [edge, third] : paired) {
+    EdgePairRow row = pairs_[pair_first(edge)];
+    row.pair(row.find(pair_second(edge)), row.find(third));
+  }
+}
+
+void WiderGradient::add_critical(const Reached& reached) {
+  const CriticalSimplices& own = gradient_.critical();
+  CriticalSimplices others;
+  for_each(reached.vertex_steps, [&](int rank, const auto& step) {
+    if (step[1] == no_id) others.vertices.push_back(vertex(rank, step[0]));
+  });
+  for_each(reached.cell_steps, [&](int rank, const auto& step) {
+    if (step[1] == no_id) others.cells.push_back(cell(rank, step[0]));
+  });
+  for_each(reached.edges, [&](int rank, const auto& edge) {
+    if (edge[2] == edge_is_critical) others.edges.push_back({vertex(rank, edge[0]), vertex(rank, edge[1])});
+  });
+  critical_ = own;
+  std::vector<Id> places;
+  const OtherIds names{names_.data()};
+  critical_.vertices = merged(
+      own.vertices, others.vertices, [&](Id v) { return names_[v]; }, places);
+  critical_.edges = merged(
+      own.edges, others.edges, [&](const auto& e) { return written(names, e); }, own_edges_);
+  critical_.cells = merged(
+      own.cells, others.cells, [&](Id t) { return cell_id(t); }, places);
+}
+
+}  // namespace gale::detail

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include <gale/algorithms/excerpt/reached.hpp>
+#include <gale/algorithms/gradient/gradient_store.hpp>
+#include <gale/algorithms/morse_smale/descending_wall.hpp>
+#include <gale/algorithms/morse_smale/paths_on_ranks.hpp>
+
+namespace gale::detail {
+
+/// A gradient of one rank's part, and what ways from there reach on other ranks (`reach_beyond`): what follows them
+/// finds what it would find in the whole. Vertices and cells of others come after GALE's own. Some 28 bytes a vertex
+/// and 4 a cell beside the part's. Refers to the gradient.
+class WiderGradient {
+ public:
+  WiderGradient(const DiscreteGradient& gradient, const PathSimplices& cells, Reached reached);
+
+  WallGround ground() const;
+  const Mirrored<Id>& vertex_successors() const { return vertex_successors_; }
+  const Mirrored<Id>& cell_successors() const { return cell_successors_; }
+
+  /// The rank's critical simplices and those that were reached, in the order of CriticalSimplices by global ids.
+  const CriticalSimplices& critical() const { return critical_; }
+
+  /// The places there of the rank's own edges.
+  const std::vector<Id>& own_edges() const { return own_edges_; }
+
+  Id vertices() const { return static_cast<Id>(names_.size()); }
+  Id cells() const { return own_cells_ + static_cast<Id>(cell_corners_.size()); }
+
+  /// A number for each vertex, dense from 0: they compare as global ids do.
+  Id name(Id vertex) const { return names_[vertex]; }
+  GlobalId vertex_id(Id vertex) const;
+  GlobalId cell_id(Id cell) const;
+  std::uint64_t value(Id vertex) const;
+  std::array<Id, 4> corners(Id cell) const;
+
+ private:
+  void name_vertices();
+  void number(const Reached& reached, const PathSimplices& cells);
+  void fill_keys();
+  void fill_successors(const Reached& reached);
+  void fill_rows(const Reached& reached, const Array<Id, HostMemory>& vertex_successors);
+  void add_critical(const Reached& reached);
+
+  /// Calls visit(rank, entry) for all that other ranks have found.
+  template <class T, class Visit>
+  void for_each(const Dealt<T>& received, const Visit& visit) const;
+  Id vertex(int rank, Id place) const { return vertex_of_[vertex_begin_[rank] + place]; }
+  Id cell(int rank, Id place) const { return cell_of_[cell_begin_[rank] + place]; }
+
+  const DiscreteGradient& gradient_;
+  const Mesh mesh_;
+  const int rank_;
+  const Id own_vertices_, own_cells_;
+  std::vector<Offset> vertex_begin_, cell_begin_;
+  std::vector<Id> vertex_of_, cell_of_;          ///< of what was received
+  std::vector<ReachedVertex> beyond_;            ///< by global id
+  std::vector<GlobalId> cell_ids_;               ///< of others' cells
+  std::vector<std::array<Id, 4>> cell_corners_;  ///< of these
+  std::vector<Id> names_;
+  std::vector<std::uint64_t> keys_;
+  Mirrored<Id> vertex_successors_, cell_successors_;
+  EdgePairs pairs_;
+  CriticalSimplices critical_;
+  std::vector<Id> own_edges_;
+};
+
+}  // namespace gale::detail

@@ -1,0 +1,273 @@
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include <gale/algorithms/persistence/columns_on_ranks.hpp>
+#include <gale/base/sort.hpp>
+
+namespace gale::detail {
+
+namespace {
+
+/// An edge of a column, by its place among the critical ones of the rank that has it.
+struct FallenEdge {
+  Id column, edge;
+
+  friend bool operator==(const FallenEdge& a, const FallenEdge& b) { return a.column == b.column && a.edge == b.edge; }
+  friend bool operator<(const FallenEdge& a, const FallenEdge& b) {
+    return a.column != b.column ? a.column < b.column : a.edge < b.edge;
+  }
+};
+
+/// An edge of a column that another rank lets fall, by global ids.
+struct SentEdge {
+  GlobalId high, low;
+  Id column;
+};
+
+/// A column and the 1-saddle that it has met, by places on a rank.
+struct Met {
+  Id triangle, edge;
+};
+
+/// Leaves of sorted items those that are there an odd number of times, once.
+template <class T>
+void keep_odd(std::vector<T>& items) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < items.size();) {
+    std::size_t end = i;
+    while (end < items.size() && items[end] == items[i]) ++end;
+    if ((end - i) % 2 != 0) items[kept++] = items[i];
+    i = end;
+  }
+  items.resize(kept);
+}
+
+/// Sends entries to the first rank, and notes there how much it was. Collective.
+template <class T>
+Dealt<T> to_first(const Ranks& ranks, const char* label, const std::vector<T>& entries) {
+  auto received = exchange(
+      ranks, label,
+      deal<T>(
+          ranks, label, static_cast<Offset>(entries.size()), [](Id) { return 0; }, [&](Id i) { return entries[i]; }));
+  ranks.note_gathered(received.count() * static_cast<std::int64_t>(sizeof(T)));
+  return received;
+}
+
+/// Lets columns fall to their ends on all ranks.
+class FallOnRanks {
+ public:
+  FallOnRanks(const DiscreteGradient& gradient, const CriticalPlaces& places, const SaddleColumns& columns)
+      : mesh_(gradient.mesh()),
+        ranks_(mesh_.exchange().ranks()),
+        places_(places),
+        columns_(columns),
+        chain_(gradient) {}
+
+  /// The critical edges of the columns that have stopped, of all that have met one of these edges, and so on: on the
+  /// first rank. This rank's are numbered from these two on, in the order of the edges that they have met. Collective.
+  Dealt<FallenEdge> operator()(Id first_stopped, Id first_met) {
+    together(ranks_, [&] {
+      number_.assign(columns_.saddles(), no_id);
+      for (std::size_t i = 0; i < number_.size(); ++i) {
+        if (columns_.owner(static_cast<Id>(i)) != nullptr) number_[i] = first_met++;
+      }
+      for (const Column& column : columns_.stopped()) {
+        chain_.add(column.rim);
+        fall(first_stopped++);
+      }
+      fall_met();
+    });
+    while (ranks_.sum(static_cast<std::int64_t>(exits_.size())) != 0) hand_over();
+    together(ranks_, [&] {
+      std::sort(fallen_.begin(), fallen_.end());
+      keep_odd(fallen_);
+    });
+    auto all = to_first(ranks_, "GALE::fallen_edges", fallen_);
+    fallen_.clear();
+    return all;
+  }
+
+ private:
+  void fall(Id column) {
+    const OtherIds input = mesh_.vertices_in_input();
+    chain_.fall_to_end(
+        [&](Id high, Id low) {
+          const Id edge = places_.of_edge(high, low);
+          fallen_.push_back({column, edge});
+          if (number_[edge] == no_id) return;
+          met_.push_back({std::exchange(number_[edge], no_id), edge});
+        },
+        [&](Id high, Id low) {
+          owners_.push_back(mesh_.exchange().owner(input[high]));
+          exits_.push_back({mesh_.vertex_id(input[high]), mesh_.vertex_id(input[low]), column});
+        });
+  }
+
+  /// Lets the columns fall that have met edges of others.
+  void fall_met() {
+    while (!met_.empty()) {
+      const FallenEdge at = met_.back();
+      met_.pop_back();
+      chain_.add(columns_.owner(at.edge)->rim);
+      fall(at.column);
+    }
+  }
+
+  void hand_over() {
+    const auto sent = deal<SentEdge>(
+        ranks_, "GALE::sent_edges", static_cast<Offset>(exits_.size()), [&](Id i) { return owners_[i]; },
+        [&](Id i) { return exits_[i]; });
+    const auto received = exchange(ranks_, "GALE::received_edges", sent);
+    exits_.clear();
+    owners_.clear();
+    together(ranks_, [&] {
+      std::vector<SentEdge> edges(received.entries.data(), received.entries.data() + received.count());
+      std::stable_sort(edges.begin(), edges.end(),
+                       [](const SentEdge& a, const SentEdge& b) { return a.column < b.column; });
+      for (std::size_t i = 0; i < edges.size(); ++i) {
+        chain_.add(here(edges[i].high), here(edges[i].low));
+        if (i + 1 == edges.size() || edges[i + 1].column != edges[i].column) fall(edges[i].column);
+      }
+      fall_met();
+    });
+  }
+
+  Id here(GlobalId vertex) const { return mesh_.vertex_internal()(mesh_.vertex_of(vertex)); }
+
+  const Mesh mesh_;
+  const Ranks& ranks_;
+  const CriticalPlaces& places_;
+  const SaddleColumns& columns_;
+  std::vector<Id> number_;  ///< of the column that has met each critical edge, until it falls
+  EdgeChain chain_;
+  std::vector<FallenEdge> met_;  ///< columns that are to fall, and the edges that they have met
+  std::vector<FallenEdge> fallen_;
+  std::vector<SentEdge> exits_;
+  std::vector<int> owners_;  ///< who has to follow each of these
+};
+
+/// Columns on the first rank: those that stopped, by rank, then those that have met a 1-saddle on their ranks. It knows
+/// the edges of the former, and of all of the latter that these come to.
+class ColumnsOfAll {
+ public:
+  ColumnsOfAll(const GatheredSaddles& all, const Dealt<Id>& stopped, const Dealt<Met>& met,
+               const Dealt<FallenEdge>& fallen)
+      : filtration_(all.filtration),
+        stopped_(static_cast<Id>(stopped.count())),
+        columns_(stopped.count() + met.count()),
+        owner_(filtration_.by_rank[1].size(), no_id) {
+    const auto edge = [&](int rank, Id place) {
+      return filtration_.rank[1][all.edges.entries(all.edges.begin[rank] + place)];
+    };
+    const auto triangle = [&](int rank, Id place) {
+      return filtration_.rank[2][all.triangles.entries(all.triangles.begin[rank] + place)];
+    };
+    for_each(stopped, [&](int rank, Offset i) { columns_[i].rank = triangle(rank, stopped.entries(i)); });
+    for_each(met, [&](int rank, Offset i) {
+      const Id column = static_cast<Id>(stopped.count() + i);
+      columns_[column].rank = triangle(rank, met.entries(i).triangle);
+      owner_[edge(rank, met.entries(i).edge)] = column;
+    });
+    for_each(fallen, [&](int rank, Offset i) {
+      columns_[fallen.entries(i).column].edges.push_back(edge(rank, fallen.entries(i).edge));
+    });
+  }
+
+  /// Goes on with the columns that stopped. Returns for each 1-saddle, by place, the 2-saddle that it is paired with.
+  std::vector<Id> finish() {
+    for (Id column = 0; column < stopped_; ++column) reduce(column);
+    std::vector<Id> uppers(owner_.size(), no_id);
+    for (std::size_t i = 0; i < owner_.size(); ++i) {
+      if (owner_[i] != no_id) uppers[filtration_.by_rank[1][i]] = filtration_.by_rank[2][columns_[owner_[i]].rank];
+    }
+    return uppers;
+  }
+
+ private:
+  struct OneColumn {
+    Id rank = 0;            ///< of the 2-saddle, in the filtration
+    std::vector<Id> edges;  ///< ranks of critical edges in the filtration; an even number of times is none
+  };
+
+  /// Calls visit(rank, i) for each entry.
+  template <class T, class Visit>
+  static void for_each(const Dealt<T>& dealt, const Visit& visit) {
+    for (int rank = 0; rank + 1 < static_cast<int>(dealt.begin.size()); ++rank) {
+      for (Offset i = dealt.begin[rank]; i < dealt.begin[rank + 1]; ++i) visit(rank, i);
+    }
+  }
+
+  void put(Id edge) {
+    heap_.push_back(edge);
+    std::push_heap(heap_.begin(), heap_.end());
+  }
+
+  /// Sets `highest` to the highest edge of the column at hand; false if nothing is left of it.
+  bool find_highest(Id& highest) {
+    while (!heap_.empty()) {
+      highest = heap_.front();
+      bool is_odd = false;
+      while (!heap_.empty() && heap_.front() == highest) {
+        std::pop_heap(heap_.begin(), heap_.end());
+        heap_.pop_back();
+        is_odd = !is_odd;
+      }
+      if (!is_odd) continue;
+      put(highest);
+      return true;
+    }
+    return false;
+  }
+
+  void reduce(Id column) {
+    heap_ = columns_[column].edges;
+    std::make_heap(heap_.begin(), heap_.end());
+    for (Id highest = 0; find_highest(highest);) {
+      stop_if_asked();
+      const Id other = owner_[highest];
+      if (other == no_id || columns_[other].rank > columns_[column].rank) {
+        columns_[column].edges = heap_;
+        owner_[highest] = column;
+        if (other == no_id) return;
+        column = other;
+      }
+      for (const Id edge : columns_[other].edges) put(edge);
+    }
+  }
+
+  const Filtration& filtration_;
+  const Id stopped_;  ///< how many there are of these
+  std::vector<OneColumn> columns_;
+  std::vector<Id> owner_;  ///< the column that has met each 1-saddle, by its rank in the filtration; no_id: none has
+  std::vector<Id> heap_;
+};
+
+}  // namespace
+
+std::vector<Id> finish_on_ranks(const DiscreteGradient& gradient, const CriticalPlaces& places,
+                                const SaddleColumns& columns, const Filtration& own, const GatheredSaddles& all) {
+  const Ranks& ranks = gradient.mesh().exchange().ranks();
+  std::vector<Id> stopped;
+  std::vector<Met> met;
+  together(ranks, [&] {
+    for (const Column& column : columns.stopped()) stopped.push_back(own.by_rank[2][column.rank]);
+    for (std::size_t i = 0; i < gradient.critical().edges.size(); ++i) {
+      const Column* const column = columns.owner(static_cast<Id>(i));
+      if (column != nullptr) met.push_back({own.by_rank[2][column->rank], static_cast<Id>(i)});
+    }
+  });
+  const auto count = [](const auto& some) { return static_cast<std::int64_t>(some.size()); };
+  const Id first_stopped = static_cast<Id>(ranks.sum_before(count(stopped)));
+  const Id first_met = static_cast<Id>(ranks.sum(count(stopped)) + ranks.sum_before(count(met)));
+  const auto all_stopped = to_first(ranks, "GALE::stopped_columns", stopped);
+  const auto all_met = to_first(ranks, "GALE::met_saddles", met);
+  const auto fallen = FallOnRanks(gradient, places, columns)(first_stopped, first_met);
+  std::vector<Id> uppers;
+  together(ranks, [&] {
+    if (ranks.rank() == 0) uppers = ColumnsOfAll(all, all_stopped, all_met, fallen).finish();
+  });
+  return uppers;
+}
+
+}  // namespace gale::detail
