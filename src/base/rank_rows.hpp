@@ -27,7 +27,7 @@ struct RankRows {
   int rows_of_team;
   int capacity;  ///< entries that a team's scratch memory has room for
 
-  std::size_t scratch_bytes() const { return static_cast<std::size_t>(capacity) * sizeof(Entry); }
+  KOKKOS_FUNCTION std::size_t scratch_bytes() const { return static_cast<std::size_t>(capacity) * sizeof(Entry); }
 
   template <class Team>
   KOKKOS_FUNCTION void operator()(const Team& team) const {

@@ -76,7 +76,7 @@ TEST(Sweep, of_several_threads_ends_soon_after_one_has_thrown) {
 }
 
 TEST(SegmentCursor, deals_nothing_out_after_it_was_stopped) {
-  detail::SegmentCursor cursor(100000, 2);
+  detail::SegmentCursor cursor({0, 100000}, 2);
   EXPECT_EQ(cursor.take().begin, 0);
   EXPECT_GT(cursor.take().begin, 0);
   cursor.stop();

@@ -15,6 +15,7 @@
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkTypeInt64Array.h>
+#include <vtkUnsignedCharArray.h>
 
 #include <gale/io/synthetic.hpp>
 
@@ -49,7 +50,10 @@ vtkSmartPointer<vtkUnstructuredGrid> grid_of(const io::Dataset& dataset) {
   }
   auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
   grid->SetPoints(points);
-  grid->SetCells(VTK_TETRA, cells);
+  const auto types = vtkSmartPointer<vtkUnsignedCharArray>::New();  // VTK 9.6 adds no other cells to those of one type
+  types->SetNumberOfValues(cells->GetNumberOfCells());
+  types->FillValue(VTK_TETRA);
+  grid->SetCells(types, cells);
   grid->GetPointData()->SetScalars(field_of(dataset));
   return grid;
 }

@@ -148,9 +148,12 @@ TEST_F(Filters, CanBeAborted) {
     filter->SetNumberOfThreads(1);  // others tell nothing
     filter->SetInputData(grid_);
     EXPECT_EQ(error_of(*filter), "no error") << filter->GetClassName();
-    EXPECT_LT(watch.told.back(), 0.4) << filter->GetClassName();
+    for (const double told : watch.told)
+      EXPECT_TRUE(told < 0.4 || told == 1)
+          << told << ' ' << filter->GetClassName();  // newer VTKs tell the end themselves
     EXPECT_EQ(vtkPolyData::SafeDownCast(filter->GetOutputDataObject(0))->GetNumberOfPoints(), 0);
     watch.abort_at = 2;
+    filter->SetAbortExecute(0);
     filter->Modified();
     filter->Update();
     EXPECT_GT(vtkPolyData::SafeDownCast(filter->GetOutputDataObject(0))->GetNumberOfPoints(), 0);

@@ -83,8 +83,8 @@ class GALE_EXPORT EdgePairs {
   /// Takes rows that were made elsewhere: their words, and where among them each vertex's row begins.
   EdgePairs(const Array<const Id, HostMemory>& words, const Array<const Offset, HostMemory>& begin, int consumers);
 
-  /// Rows for so many vertices: of those that are owned the rows of `some`, which must live as long. Those of others are
-  /// to be begun, by one consumer, and have no edges before that.
+  /// Rows for so many vertices: of those that are owned the rows of `some`, which must live as long. Those of others
+  /// are to be begun, by one consumer, and have no edges before that.
   EdgePairs(const EdgePairs& some, Interval owned, Id vertices);
 
   /// A row for a vertex, to be filled. A consumer may begin rows while others do; each vertex once.

@@ -66,7 +66,6 @@ void make_grid() {
 
 template <class Memory>
 void make_in() {
-  make_grid<Memory>();
   make_of<double, std::int64_t, Kokkos::LayoutRight, Memory>();
   make_of<float, std::int32_t, Kokkos::LayoutRight, Memory>();
   make_of<double, long long, Kokkos::LayoutLeft, Memory>();
@@ -180,6 +179,8 @@ gale::Mesh two_tetrahedra() {
 }
 
 void use_meshes() {
+  make_grid<HostMemory>();
+  make_grid<WorkerMemory>();
   make_in<HostMemory>();
   make_in<WorkerMemory>();
   make_in<PinnedMemory>();
