@@ -179,6 +179,9 @@ gale::Mesh two_tetrahedra() {
 }
 
 void use_meshes() {
+  std::vector<int> room;
+  gale::reserve(room, vertices);
+  expect(room.capacity() >= vertices, "room");
   make_grid<HostMemory>();
   make_grid<WorkerMemory>();
   make_in<HostMemory>();
