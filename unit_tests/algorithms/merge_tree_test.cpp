@@ -107,7 +107,7 @@ TEST_P(MergeTreesOf, every_mesh_have_the_extrema_that_are_persistent) {
   expect_simplified_trees(encode(input(), segmentation()), fields_on(input()), brute_force_of(mesh_name()).vv);
 }
 
-INSTANTIATE_TEST_SUITE_P(Tests, MergeTreesOf, every_mesh_and_segmentation(), mesh_and_segmentation);
+INSTANTIATE_TEST_SUITE_P(Tests, MergeTreesOf, every_mesh_and_segmentations_in_turn(), mesh_and_segmentation);
 
 class MergeTreesOnSurfaces : public SurfaceTest {};
 

@@ -74,7 +74,7 @@ TEST_P(MorseSmaleComplexOf, every_mesh_is_that_of_brute_force_whatever_the_struc
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Tests, MorseSmaleComplexOf, every_mesh_and_segmentation(), mesh_and_segmentation);
+INSTANTIATE_TEST_SUITE_P(Tests, MorseSmaleComplexOf, every_mesh_and_segmentations_in_turn(), mesh_and_segmentation);
 
 TEST(MorseSmaleComplex, of_some_parts_has_them_as_the_whole_has_them) {
   const InputMesh& input = mesh_named("holed_grid_9");

@@ -66,7 +66,7 @@ TEST_P(PersistencePairsOf, every_mesh_are_those_of_brute_force_whatever_segments
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Tests, PersistencePairsOf, every_mesh_and_segmentation(), mesh_and_segmentation);
+INSTANTIATE_TEST_SUITE_P(Tests, PersistencePairsOf, every_mesh_and_segmentations_in_turn(), mesh_and_segmentation);
 
 class PersistencePairsWithoutGradient : public testing::TestWithParam<std::string> {};
 

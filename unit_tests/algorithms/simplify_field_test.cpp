@@ -129,7 +129,7 @@ TEST_P(SimplifiedFieldOf, every_mesh_has_the_given_extrema_alone) {
   expect_given_extrema(encode(input(), segmentation()), fields_on(input()), brute_force_of(mesh_name()).vv);
 }
 
-INSTANTIATE_TEST_SUITE_P(Tests, SimplifiedFieldOf, every_mesh_and_segmentation(), mesh_and_segmentation);
+INSTANTIATE_TEST_SUITE_P(Tests, SimplifiedFieldOf, every_mesh_and_segmentations_in_turn(), mesh_and_segmentation);
 
 class SimplifiedFieldOnSurface : public SurfaceTest {};
 

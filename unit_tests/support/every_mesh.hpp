@@ -2,6 +2,7 @@
 
 #include <string>
 #include <tuple>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -19,6 +20,18 @@ class EveryMesh : public testing::TestWithParam<std::tuple<std::string, std::str
 
 inline auto every_mesh_and_segmentation() {
   return testing::Combine(testing::ValuesIn(mesh_names()), testing::ValuesIn(segmentation_names()));
+}
+
+/// Each mesh with every second segmentation, each of these with every second mesh: for analyses that read what others
+/// compute, segment by segment.
+inline auto every_mesh_and_segmentations_in_turn() {
+  std::vector<EveryMesh::ParamType> all;
+  std::size_t turn = 0;
+  for (const std::string& mesh : mesh_names()) {
+    const auto& segmentations = segmentation_names();
+    for (std::size_t i = turn++ % 2; i < segmentations.size(); i += 2) all.emplace_back(mesh, segmentations[i]);
+  }
+  return testing::ValuesIn(all);
 }
 
 inline std::string mesh_and_segmentation(const testing::TestParamInfo<EveryMesh::ParamType>& info) {
