@@ -54,7 +54,7 @@ struct InputOptions {
     std::vector<io::Step> all;
   };
 
-  /// Of a series those steps that --times says, else the input. Throws gale::Error for a series that can't be read,
+  /// The steps of a series that --times says, else the input. Throws gale::Error for a series that can't be read,
   /// UsageError where it hasn't such a step.
   Steps steps() const;
 };

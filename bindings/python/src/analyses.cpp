@@ -46,6 +46,15 @@ nb::dict results_of(std::map<std::string, outputs::Outcome> found) {
   return results;
 }
 
+outputs::Settings settings_of(const std::map<std::string, bool>& flags,
+                              const std::map<std::string, std::pair<double, bool>>& thresholds,
+                              const std::map<std::string, std::string>& choices,
+                              const std::map<std::string, int>& numbers) {
+  outputs::Settings settings{flags, {}, choices, numbers};
+  for (const auto& [option, given] : thresholds) settings.thresholds[option] = {given.first, given.second};
+  return settings;
+}
+
 nb::dict PyMesh::analyse(const std::string& analysis, Array1 values, const std::string& name,
                          const std::map<std::string, bool>& flags,
                          const std::map<std::string, std::pair<double, bool>>& thresholds,
@@ -53,8 +62,7 @@ nb::dict PyMesh::analyse(const std::string& analysis, Array1 values, const std::
                          int threads, const nb::object& progress) const {
   Job job(progress);
   const ComputeOptions options = job.sweep_options(threads);
-  outputs::Settings settings{flags, {}, choices, numbers};
-  for (const auto& [option, given] : thresholds) settings.thresholds[option] = {given.first, given.second};
+  const outputs::Settings settings = settings_of(flags, thresholds, choices, numbers);
   auto found = job.run([&] {
     const ThreadLimit limit(options.threads);
     const io::Dataset dataset = with(field_of(values, name));

@@ -67,8 +67,7 @@ class PyDistributedMesh : public Kept {
                    int threads, const nb::object& progress) const {
     Job job(progress);
     const ComputeOptions options = job.sweep_options(threads);
-    outputs::Settings settings{flags, {}, choices, numbers};
-    for (const auto& [option, given] : thresholds) settings.thresholds[option] = {given.first, given.second};
+    const outputs::Settings settings = settings_of(flags, thresholds, choices, numbers);
     if (analysis == "persistence-diagram") return diagram(job, values, name, settings, options);
     auto found = job.run([&] {
       const ThreadLimit limit(options.threads);

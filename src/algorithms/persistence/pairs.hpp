@@ -64,8 +64,8 @@ bool has_forks(const DiscreteGradient& gradient);
 /// The pairs of saddles with extrema, from which those of saddles with saddles follow.
 class PairsOfExtrema {
  public:
-  /// Of a mesh of that dimension: saddles whose paths have these ends. `forked_maxima` finds for each maximum the
-  /// saddle that it is paired with, where paths fork; empty where they don't.
+  /// Pairs the saddles of a mesh of that dimension, whose paths have these ends. `forked_maxima` finds for each maximum
+  /// the saddle that it is paired with, where paths fork; empty where they don't.
   PairsOfExtrema(const Filtration& filtration, const ExtremumEnds& ends, int dimension, int threads,
                  const std::function<std::vector<Id>()>& forked_maxima = {});
 

@@ -35,7 +35,7 @@ class SaddleColumns {
   /// The column that has met a 1-saddle, by its place; nullptr if none has.
   const Column* owner(Id saddle) const { return owners_[saddle].load(std::memory_order_relaxed); }
 
-  /// Those that ended at an edge of another rank.
+  /// The columns that ended at an edge of another rank.
   const std::vector<Column>& stopped() const { return stopped_; }
 
  private:

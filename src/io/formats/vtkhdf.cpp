@@ -30,7 +30,7 @@ std::vector<double> numbers(Hdf5File& file, const char* name, std::size_t count,
 /// Where what belongs to a time begins in the arrays that have all times, one after the other.
 class AtTime {
  public:
-  /// Of a file without times all begins at 0.
+  /// Finds the time that is wanted; in a file without times all begins at 0.
   AtTime(Hdf5File& file, const ReadOptions& options, std::vector<std::string>& notices) : file_(file) {
     has_times_ = file.open_group(steps);
     if (has_times_) time_ = chosen_time(options, count(), notices);
