@@ -41,11 +41,13 @@ struct StayingExtrema {
 /// changes nothing (compare Lukasczyk, Garth, Maciejewski and Tierny, "Localized Topological Simplification of Scalar
 /// Data", 2020).
 ///
-/// `value(v)` is the field at an input vertex. One sweep of VV and link, and these rows of what changes once more;
-/// branches in parallel. Memory beside the result: 40 bytes a vertex, and 80 for each that changes. The result is the
-/// same whatever the structure, its segments, and the number of threads.
+/// `value(v)` is the field at an input vertex. One sweep of VV and link (of a grid that computes, of its keys alone),
+/// and these rows of what changes once more; branches in parallel. Memory beside the result: 40 bytes a vertex, and 80
+/// for each that changes. The result is the same whatever the structure, its segments, and the number of threads.
 ///
-/// By threads of the host. Throws gale::Error on one rank's part of a mesh; if the threshold or a value that is asked
+/// By kernels where the mesh is on a device and they find room there, else by threads of the host: `options` may say
+/// otherwise, and `computed` is told; but the few vertices where paths meet are joined, and branches are filled, on the
+/// host. Throws gale::Error on one rank's part of a mesh; if the threshold or a value that is asked
 /// for is NaN, naming the vertex; and as make_structure and sweeps do.
 GALE_EXPORT SimplifiedField simplify_field(const VertexOrder& order, const std::function<double(Id)>& value,
                                            double threshold, const ComputeOptions& options = {},

@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <gale/base/memory.hpp>
 #include <gale/export.hpp>
@@ -102,6 +103,12 @@ auto in_memory(const Kokkos::View<T, Properties...>& view) {
   } else {
     return on_host(view);
   }
+}
+
+/// The entries of a vector in `Memory`: themselves, as long as they are there, or a copy.
+template <class Memory, class T>
+Array<const T, Memory> in_memory(const std::vector<T>& entries) {
+  return in_memory<Memory>(Array<const T, HostMemory>(entries.data(), entries.size()));
 }
 
 }  // namespace gale

@@ -130,4 +130,9 @@ ExtremumGraph<HostMemory> extremum_graph(Structure& structure, const std::uint64
 ExtremumGraph<MemoryOf<WorkerSpace>> extremum_graph(const WorkerSpace& space, const VertexOrder& order,
                                                     const DeviceSweepOptions& options);
 
+/// Finds that of a whole grid from the keys alone: no rows are made.
+template <class Space>
+ExtremumGraph<MemoryOf<Space>> extremum_graph_of_grid(const Space& space, const VertexOrder& order,
+                                                      const SweepOptions& options);
+
 }  // namespace gale::detail

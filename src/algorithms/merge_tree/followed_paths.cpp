@@ -30,7 +30,7 @@ template <class Space>
 std::vector<Id> extrema_of(const Space& space, const Array<Id, MemoryOf<Space>>& ends,
                            const std::vector<Id>& vertices) {
   using Ids = Array<Id, MemoryOf<Space>>;
-  const auto of = in_memory<MemoryOf<Space>>(Array<const Id, HostMemory>(vertices.data(), vertices.size()));
+  const auto of = in_memory<MemoryOf<Space>>(vertices);
   const auto found = allocate<Ids>("GALE::extrema_of", vertices.size());
   parallel_for(
       "GALE::extrema_of", space, static_cast<Offset>(vertices.size()),
@@ -45,8 +45,7 @@ FollowedPaths<MemoryOf<Space>> follow_paths(const Space& space, const SideKeys& 
                                             ExtremumGraphSide<MemoryOf<Space>> side) {
   FollowedPaths<MemoryOf<Space>> paths{std::move(side.extrema), std::move(side.meetings), side.next};
   parallel_sort("GALE::sort_extrema", paths.extrema.begin(), paths.extrema.end(), keys);
-  const auto places =
-      in_memory<MemoryOf<Space>>(Array<const Id, HostMemory>(paths.extrema.data(), paths.extrema.size()));
+  const auto places = in_memory<MemoryOf<Space>>(paths.extrema);
   parallel_for("GALE::end_paths", space, places.extent(0),
                EndPath<MemoryOf<Space>, std::decay_t<decltype(places)>>{places, paths.ends});
   jump(space, paths.ends);

@@ -69,16 +69,21 @@ std::vector<MergeTree> find_trees(const VertexOrder& order, const std::vector<Tr
                [&] { graph = extremum_graph(computing.structure(merge_tree_relations), of.keys(), options); });
       return trees_on_ranks(of, std::move(graph), some, options);
     }
-    return Computing(of.mesh(), options, &shared)
-        .find(
-            merge_tree_relations,
-            [&](const DeviceSweepOptions& sweep) {
-              const WorkerSpace space;
-              return trees_of(space, of, extremum_graph(space, of, sweep), some, threshold);
-            },
-            [&](Structure& structure) {
-              return trees_of(HostExecutionSpace(), of, extremum_graph(structure, of.keys(), options), some, threshold);
-            });
+    Computing computing(of.mesh(), options, &shared);
+    const auto make_in = [&](const auto& space, auto graph) {
+      return trees_of(space, of, std::move(graph), some, threshold);
+    };
+    const WorkerSpace worker;
+    const HostExecutionSpace host;
+    if (computing.is_of_grid()) {
+      return computing.find_alone(
+          [&](const DeviceSweepOptions&) { return make_in(worker, extremum_graph_of_grid(worker, of, options)); },
+          [&] { return make_in(host, extremum_graph_of_grid(host, of, options)); });
+    }
+    return computing.find(
+        merge_tree_relations,
+        [&](const DeviceSweepOptions& sweep) { return make_in(worker, extremum_graph(worker, of, sweep)); },
+        [&](Structure& structure) { return make_in(host, extremum_graph(structure, of.keys(), options)); });
   };
   return find_trees(order, trees, options, &shared, make);
 }

@@ -40,11 +40,6 @@ struct FindArcs {
   }
 };
 
-template <class Memory, class T>
-Array<const T, Memory> there(const std::vector<T>& values) {
-  return in_memory<Memory>(Array<const T, HostMemory>(values.data(), values.size()));
-}
-
 }  // namespace
 
 template <class Space>
@@ -58,7 +53,7 @@ std::vector<std::vector<Id>> arcs_of_vertices(const Space& space, const Mesh& me
   std::vector<std::vector<Id>> found(trees.size(), std::vector<Id>(mesh.vertices()));
   for (int tree = 0; tree < find.count; ++tree) {
     for (const Side side : {below, above}) {
-      find.trees[tree].by_node[side] = there<Memory>(trees[tree][side]);
+      find.trees[tree].by_node[side] = in_memory<Memory>(trees[tree][side]);
       find.climbs[side] |= !trees[tree][side].empty();
     }
     if constexpr (is_device<Space>) {
@@ -80,7 +75,7 @@ std::vector<std::vector<Id>> arcs_of_vertices(const Space& space, const Mesh& me
 template <class Space>
 std::vector<Id> nodes_of(const Space& space, const SideClimb<MemoryOf<Space>>& side, const std::vector<Id>& vertices) {
   using Memory = MemoryOf<Space>;
-  const Array<const Id, Memory> of = there<Memory>(vertices);
+  const Array<const Id, Memory> of = in_memory<Memory>(vertices);
   const auto nodes = allocate<Array<Id, Memory>>("GALE::nodes_of", vertices.size());
   parallel_for(
       "GALE::nodes_of", space, static_cast<Offset>(vertices.size()),

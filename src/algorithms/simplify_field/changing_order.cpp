@@ -1,7 +1,5 @@
 #include <algorithm>
-#include <cstring>
 #include <functional>
-#include <numeric>
 #include <queue>
 #include <utility>
 
@@ -9,97 +7,178 @@
 #include <gale/base/parallel.hpp>
 #include <gale/base/sort.hpp>
 #include <gale/base/stop.hpp>
+#include <gale/base/transfer.hpp>
 
 namespace gale::detail {
 
 namespace {
 
-/// Turns lengths into where rows begin, and puts the parts of all threads one after the other.
-void join(std::vector<std::vector<Id>>& parts, std::vector<Offset>& begin, std::vector<Id>& all) {
-  std::partial_sum(begin.begin(), begin.end(), begin.begin());
-  all.clear();
-  all.reserve(begin.back());
-  for (auto& part : parts) {
-    all.insert(all.end(), part.begin(), part.end());
-    part = {};
+/// Places in an order as a side counts them.
+struct TurnedPlaces {
+  Id count;
+  Side side;
+
+  KOKKOS_FORCEINLINE_FUNCTION Offset operator()(Offset rank) const { return side == below ? rank : count - 1 - rank; }
+};
+
+/// The keys of some vertices.
+template <class Space>
+Array<std::uint64_t, HostMemory> keys_of(const Space& space, const Array<std::uint64_t, MemoryOf<Space>>& rank,
+                                         const std::vector<Id>& vertices) {
+  const auto of = in_memory<MemoryOf<Space>>(vertices);
+  const auto keys = allocate<Array<std::uint64_t, MemoryOf<Space>>>("GALE::some_keys", vertices.size());
+  parallel_for(
+      "GALE::some_keys", space, static_cast<Offset>(vertices.size()),
+      KOKKOS_LAMBDA(Offset i) { keys(i) = rank(of(i)); });
+  space.fence();
+  return on_host(keys);
+}
+
+/// What becomes filled: for each vertex the saddle that it follows, and as the how manyth.
+struct FilledVertices {
+  std::vector<Id> vertices, saddles, places;
+  std::vector<Id> all_saddles, lengths;  ///< each saddle once, and how many follow it with itself
+
+  explicit FilledVertices(const std::vector<FilledBranch>& branches) {
+    std::vector<Id> sorted(branches.size());
+    for (std::size_t i = 0; i < sorted.size(); ++i) sorted[i] = static_cast<Id>(i);
+    std::stable_sort(sorted.begin(), sorted.end(), [&](Id a, Id b) { return branches[a].saddle < branches[b].saddle; });
+    for (const Id number : sorted) {
+      const FilledBranch& branch = branches[number];
+      if (all_saddles.empty() || all_saddles.back() != branch.saddle) {
+        all_saddles.push_back(branch.saddle);
+        lengths.push_back(1);
+      }
+      for (const Id vertex : branch.vertices) {
+        vertices.push_back(vertex);
+        saddles.push_back(branch.saddle);
+        places.push_back(lengths.back()++);
+      }
+    }
   }
+};
+
+/// Puts filled vertices where they belong. `by_rank` has changed places with `before`, which has the order as it was.
+template <class Space>
+void put_filled(const Space& space, const TurnedPlaces& turned, const FilledVertices& filled,
+                const Array<std::uint64_t, MemoryOf<Space>>& rank, const Array<Id, MemoryOf<Space>>& by_rank,
+                const Array<Id, MemoryOf<Space>>& before, const Array<Id, MemoryOf<Space>>& new_place) {
+  using Memory = MemoryOf<Space>;
+  const auto vertices = in_memory<Memory>(filled.vertices), saddles = in_memory<Memory>(filled.saddles),
+             places = in_memory<Memory>(filled.places), all_saddles = in_memory<Memory>(filled.all_saddles),
+             lengths = in_memory<Memory>(filled.lengths);
+  const auto count = static_cast<Offset>(filled.vertices.size());
+  const auto saddle_place = allocate<Array<Id, Memory>>("GALE::places_of_saddles", count);
+  fill("GALE::clear_places", space, new_place, 1);
+  parallel_for(
+      "GALE::leave_places", space, count, KOKKOS_LAMBDA(Offset i) {
+        saddle_place(i) = static_cast<Id>(turned(static_cast<Offset>(rank(saddles(i)))));
+        new_place(turned(static_cast<Offset>(rank(vertices(i))))) = 0;
+      });
+  parallel_for(
+      "GALE::lengthen_places", space, static_cast<Offset>(all_saddles.extent(0)),
+      KOKKOS_LAMBDA(Offset i) { new_place(turned(static_cast<Offset>(rank(all_saddles(i))))) = lengths(i); });
+  exclusive_scan(
+      "GALE::new_places", space, Offset(turned.count), new_place, KOKKOS_LAMBDA(Offset i) { return new_place(i); });
+  parallel_for(
+      "GALE::new_ranks", space, Offset(turned.count), KOKKOS_LAMBDA(Offset i) {
+        if (new_place(i + 1) == new_place(i)) return;
+        const Id vertex = before(turned(i));
+        const Offset to = turned(new_place(i));
+        by_rank(to) = vertex;
+        rank(vertex) = static_cast<std::uint64_t>(to);
+      });
+  parallel_for(
+      "GALE::ranks_of_filled", space, count, KOKKOS_LAMBDA(Offset i) {
+        const Offset to = turned(new_place(saddle_place(i)) + places(i));
+        by_rank(to) = vertices(i);
+        rank(vertices(i)) = static_cast<std::uint64_t>(to);
+      });
+  space.fence();
+}
+
+/// Writes the ranks that follow from an order.
+template <class Space>
+void write_ranks(const Space& space, Offset count, const Array<Id, MemoryOf<Space>>& by_rank,
+                 const Array<std::uint64_t, MemoryOf<Space>>& rank) {
+  parallel_for(
+      "GALE::ranks", space, count, KOKKOS_LAMBDA(Offset i) { rank(by_rank(i)) = static_cast<std::uint64_t>(i); });
+  space.fence();
+}
+
+/// Sets some entries.
+template <class Space>
+void set_some(const Space& space, const std::vector<Id>& places, const std::vector<Id>& values,
+              const Array<Id, MemoryOf<Space>>& entries) {
+  const auto to = in_memory<MemoryOf<Space>>(places), from = in_memory<MemoryOf<Space>>(values);
+  parallel_for(
+      "GALE::set_some", space, static_cast<Offset>(places.size()),
+      KOKKOS_LAMBDA(Offset i) { entries(to(i)) = from(i); });
+  space.fence();
 }
 
 }  // namespace
 
-ChangingOrder::ChangingOrder(Structure& structure, const VertexOrder& order, const SweepOptions& options)
-    : structure_(structure), threads_(options.threads), place_(order.mesh().vertices(), no_id) {
+template <class Space>
+ChangingOrder<Space>::ChangingOrder(const Space& space, const VertexOrder& order, ExtremumGraph<Memory> graph,
+                                    ChangedStars stars, int threads)
+    : space_(space), threads_(threads), graph_(std::move(graph)), stars_(std::move(stars)) {
   const Id count = order.mesh().vertices();
-  const HostExecutionSpace space;
-  const auto keys = allocate<Array<std::uint64_t, HostMemory>>("GALE::sorted_keys", count);
-  Kokkos::deep_copy(keys, order.keys_in<HostMemory>());
-  by_rank_ = iota("GALE::vertices_by_rank", space, count);
-  stable_sort_by_key(space, keys, by_rank_);
+  const auto keys = allocate<Array<std::uint64_t, Memory>>("GALE::sorted_keys", count);
+  Kokkos::deep_copy(keys, order.template keys_in<Memory>());
+  by_rank_ = allocate<Array<Id, Memory>>("GALE::vertices_by_rank", count + Offset(1));
+  parallel_for("GALE::iota", space, count + Offset(1), WritePlace<Array<Id, Memory>>{by_rank_});
+  stable_sort_by_key(space, keys, Array<Id, Memory>(first_of(by_rank_, count)));
   rank_ = keys;
-  parallel_for("GALE::ranks", space, count, [&](Offset i) { rank_(by_rank_[i]) = static_cast<std::uint64_t>(i); });
-  value_of_.resize(count);
-  std::iota(value_of_.begin(), value_of_.end(), Id(0));
-  graph_ = extremum_graph(structure, rank_.data(), options);
+  write_ranks(space, count, by_rank_, rank_);
+  value_of_ = iota("GALE::value_of", HostExecutionSpace(), count);
+  if constexpr (is_device<Space>) known_ = ZeroedRoom<std::uint64_t>(count);
 }
 
-void ChangingOrder::fill(Side side, std::vector<FilledBranch> branches, ChangingRoom& room) {
-  gather_rows(branches);
+template <class Space>
+const std::uint64_t* ChangingOrder<Space>::keys_on_host(const std::vector<Id>& of) {
+  if constexpr (is_device<Space>) {
+    const auto keys = keys_of(space_, rank_, of);
+    for (std::size_t i = 0; i < of.size(); ++i) known_[of[i]] = keys(i);
+    return known_.data();
+  } else {
+    return rank_.data();
+  }
+}
+
+template <class Space>
+void ChangingOrder<Space>::fill(Side side, std::vector<FilledBranch> branches, ChangingRoom<Memory>& room) {
+  std::vector<Id> changed;
+  for (const FilledBranch& branch : branches) {
+    changed.push_back(branch.saddle);
+    changed.insert(changed.end(), branch.vertices.begin(), branch.vertices.end());
+  }
+  parallel_sort("GALE::sort_changed", changed.begin(), changed.end());
+  changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+  stars_.gather(std::move(changed), threads_);
+  branch_.assign(stars_.vertices().size(), no_id);
+  for (std::size_t number = 0; number < branches.size(); ++number) {
+    for (const Id vertex : branches[number].vertices) branch_[stars_.place(vertex)] = static_cast<Id>(number);
+  }
+  const SideKeys keys(keys_on_host(stars_.vertices()), side);
   in_turns(threads_, static_cast<std::int64_t>(branches.size()),
-           [&](int, std::int64_t i) { flood(side, branches[i], static_cast<Id>(i)); });
+           [&](int, std::int64_t i) { flood(keys, branches[i], static_cast<Id>(i)); });
   reorder(side, branches, room);
   update_graph();
-  for (const Id vertex : changed_) place_[vertex] = no_id;
-}
-
-void ChangingOrder::gather_rows(const std::vector<FilledBranch>& branches) {
-  changed_.clear();
-  for (const FilledBranch& branch : branches) {
-    changed_.push_back(branch.saddle);
-    changed_.insert(changed_.end(), branch.vertices.begin(), branch.vertices.end());
-  }
-  parallel_sort("GALE::sort_changed", changed_.begin(), changed_.end());
-  changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
-  const auto count = static_cast<Offset>(changed_.size());
-  for (Offset i = 0; i < count; ++i) place_[changed_[i]] = static_cast<Id>(i);
-  branch_.assign(count, no_id);
-  for (std::size_t number = 0; number < branches.size(); ++number) {
-    for (const Id vertex : branches[number].vertices) branch_[place_[vertex]] = static_cast<Id>(number);
-  }
-  // Each thread has its own rows and links first.
-  std::vector<std::vector<Id>> parts(threads_), links(threads_);
-  for (auto* const begin : {&row_begin_, &link_begin_}) begin->assign(count + 1, 0);
-  shapes_.resize(count);
-  for_parts("GALE::rows_of_changed", count, threads_, [&](int part, Offset begin, Offset end) {
-    const auto consumer = structure_.consumer();
-    for (Offset i = begin; i < end; ++i) {
-      stop_if_asked_at(i);
-      const Row row = consumer->row(Relation::VV, changed_[i]);
-      parts[part].insert(parts[part].end(), row.begin(), row.end());
-      row_begin_[i + 1] = row.size();
-      shapes_[i] = consumer->link(changed_[i]);
-      const std::size_t bytes = std::size_t(shapes_[i].others) * shapes_[i].count * shapes_[i].width;
-      link_begin_[i + 1] = static_cast<Offset>((bytes + sizeof(Id) - 1) / sizeof(Id));
-      auto& words = links[part];
-      words.resize(words.size() + link_begin_[i + 1]);
-      if (bytes > 0) std::memcpy(words.data() + words.size() - link_begin_[i + 1], shapes_[i].places, bytes);
-    }
-  });
-  join(parts, row_begin_, rows_);
-  join(links, link_begin_, links_);
 }
 
 /// From the saddle on, what the side comes to first among all that touches what was flooded: so what rises goes on
 /// rising, and few vertices become extrema of the other side.
-void ChangingOrder::flood(Side side, FilledBranch& branch, Id number) {
-  const SideKeys keys(rank_.data(), side);
+template <class Space>
+void ChangingOrder<Space>::flood(const SideKeys& keys, FilledBranch& branch, Id number) {
   using Entry = std::pair<std::uint64_t, Id>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> next;
   const auto reach = [&](Id from) {
-    for (Offset i = row_begin_[place_[from]]; i < row_begin_[place_[from] + 1]; ++i) {
-      const Id place = place_[rows_[i]];
+    for (const Id neighbour : stars_.neighbours(stars_.place(from))) {
+      const Id place = stars_.place(neighbour);
       if (place == no_id || branch_[place] != number) continue;
       branch_[place] = no_id;
-      next.emplace(keys[rows_[i]], rows_[i]);
+      next.emplace(keys[neighbour], neighbour);
     }
   };
   std::size_t flooded = 0;
@@ -112,65 +191,44 @@ void ChangingOrder::flood(Side side, FilledBranch& branch, Id number) {
   }
 }
 
-void ChangingOrder::reorder(Side side, const std::vector<FilledBranch>& branches, ChangingRoom& room) {
-  const auto& new_place = room.places;
-  const HostExecutionSpace space;
-  const auto count = static_cast<Id>(by_rank_.extent(0));
-  const auto turned = [&](Offset rank) { return side == below ? rank : count - 1 - rank; };
-  const auto place_before = [&](Id vertex) { return turned(static_cast<Offset>(rank_(vertex))); };
-  parallel_for("GALE::clear_places", space, count, [&](Offset i) { new_place(i) = 1; });
-  std::vector<std::pair<Id, Id>> of_saddles;  // of each saddle, by its place among what changes, its branches
-  for (std::size_t number = 0; number < branches.size(); ++number) {
-    const auto& [saddle, vertices] = branches[number];
-    of_saddles.emplace_back(place_[saddle], static_cast<Id>(number));
-    for (const Id vertex : vertices) {
-      new_place(place_before(vertex)) = 0;
-      value_of_[vertex] = value_of_[saddle];
-    }
+template <class Space>
+void ChangingOrder<Space>::reorder(Side side, const std::vector<FilledBranch>& branches, ChangingRoom<Memory>& room) {
+  for (const auto& [saddle, vertices] : branches) {
+    for (const Id vertex : vertices) value_of_(vertex) = value_of_(saddle);
   }
-  for (const auto& [saddle, vertices] : branches) new_place(place_before(saddle)) += static_cast<Id>(vertices.size());
-  std::sort(of_saddles.begin(), of_saddles.end());
-  exclusive_scan("GALE::new_places", space, count, new_place, [&](Offset i) { return new_place(i); });
   std::swap(by_rank_, room.vertices_before);
-  parallel_for("GALE::new_ranks", space, count, [&](Offset i) {
-    const Id vertex = room.vertices_before(turned(i)), together = new_place(i + 1) - new_place(i);
-    if (together == 0) return;
-    Id place = new_place(i);
-    const auto put = [&](Id one) {
-      const auto rank = turned(place++);
-      by_rank_(rank) = one;
-      rank_(one) = static_cast<std::uint64_t>(rank);
-    };
-    put(vertex);
-    if (together == 1) return;
-    for (auto at = std::lower_bound(of_saddles.begin(), of_saddles.end(), std::make_pair(place_[vertex], Id(0)));
-         at != of_saddles.end() && at->first == place_[vertex]; ++at) {
-      for (const Id filled : branches[at->second].vertices) put(filled);
-    }
-  });
+  const TurnedPlaces turned{static_cast<Id>(rank_.extent(0)), side};
+  put_filled(space_, turned, FilledVertices(branches), rank_, by_rank_, room.vertices_before, room.places);
 }
 
-void ChangingOrder::update_graph() {
-  const auto changes = [&](Id vertex) { return place_[vertex] != no_id; };
+template <class Space>
+void ChangingOrder<Space>::update_graph() {
+  const auto changes = [&](Id vertex) { return stars_.place(vertex) != no_id; };
   for (auto& side : graph_) {
     side.extrema.erase(std::remove_if(side.extrema.begin(), side.extrema.end(), changes), side.extrema.end());
     side.meetings.erase(std::remove_if(side.meetings.begin(), side.meetings.end(),
                                        [&](const Meeting& meeting) { return changes(meeting.vertex); }),
                         side.meetings.end());
   }
-  std::vector<ExtremumFinder> finders(threads_, ExtremumFinder(rank_.data()));
-  for_parts("GALE::graph_of_changed", static_cast<Offset>(changed_.size()), threads_,
+  const std::vector<Id>& vertices = stars_.vertices();
+  keys_on_host(stars_.all_neighbours());
+  std::vector<ExtremumFinder> finders(threads_, ExtremumFinder(keys_on_host(vertices)));
+  std::vector<Id> next[2];
+  for (auto& side : next) side.resize(vertices.size());
+  for_parts("GALE::graph_of_changed", static_cast<Offset>(vertices.size()), threads_,
             [&](int part, Offset begin, Offset end) {
               for (Offset i = begin; i < end; ++i) {
                 stop_if_asked_at(i);
-                const Row neighbours{rows_.data() + row_begin_[i], static_cast<Id>(row_begin_[i + 1] - row_begin_[i])};
-                LinkRow link = shapes_[i];
-                link.places = links_.data() + link_begin_[i];
-                const auto next = finders[part].visit(changed_[i], neighbours, link);
-                for (const Side side : {below, above}) graph_[side].next(changed_[i]) = next[side];
+                const auto found = finders[part].visit(vertices[i], stars_.neighbours(i), stars_.link(i));
+                for (const Side side : {below, above}) next[side][i] = found[side];
               }
             });
+  for (const Side side : {below, above}) set_some(space_, vertices, next[side], graph_[side].next);
   add_found(finders, graph_);
 }
+
+#define GALE_INSTANTIATE(Space) template class ChangingOrder<Space>
+GALE_IN_EACH_SPACE(GALE_INSTANTIATE);
+#undef GALE_INSTANTIATE
 
 }  // namespace gale::detail

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <utility>
 #include <vector>
 
 #include <gale/algorithms/merge_tree/extremum_graph.hpp>
+#include <gale/algorithms/simplify_field/changed_stars.hpp>
 #include <gale/algorithms/vertex_order.hpp>
-#include <gale/base/csr.hpp>
 
 namespace gale::detail {
 
@@ -15,53 +17,58 @@ struct FilledBranch {
   std::vector<Id> vertices;  ///< the branch's own, as the side comes to them that ends with the saddle
 };
 
-/// Memory that changing an order takes again and again.
+/// Memory that changing an order takes again and again: two arrays of one more entry than there are vertices.
+template <class Memory>
 struct ChangingRoom {
   explicit ChangingRoom(Id vertices)
-      : vertices_before(allocate<Array<Id, HostMemory>>("GALE::vertices_before", vertices)),
-        places(allocate<Array<Id, HostMemory>>("GALE::new_places", vertices + Offset(1))) {}
+      : vertices_before(allocate<Array<Id, Memory>>("GALE::vertices_before", vertices + Offset(1))),
+        places(allocate<Array<Id, Memory>>("GALE::new_places", vertices + Offset(1))) {}
 
-  Array<Id, HostMemory> vertices_before;  ///< by rank
-  Array<Id, HostMemory> places;           ///< one more than there are vertices
+  Array<Id, Memory> vertices_before;  ///< by rank
+  Array<Id, Memory> places;
 };
 
-/// An order of a mesh's vertices that changes, and its extremum graph. All vertices are GALE's.
+/// An order of a mesh's vertices that changes, and its extremum graph. All vertices are GALE's. What all vertices have
+/// lies where `Space` runs; the few that change are flooded on the host.
+template <class Space>
 class ChangingOrder {
  public:
-  /// By a sweep.
-  ChangingOrder(Structure& structure, const VertexOrder& order, const SweepOptions& options);
+  using Memory = MemoryOf<Space>;
 
+  /// From the order's graph. `stars` reads what changes.
+  ChangingOrder(const Space& space, const VertexOrder& order, ExtremumGraph<Memory> graph, ChangedStars stars,
+                int threads);
+
+  const Space& space() const { return space_; }
+  const ExtremumGraph<Memory>& graph() const { return graph_; }
+
+  /// The keys where `Space` runs.
   const std::uint64_t* keys() const { return rank_.data(); }
-  const ExtremumGraph<HostMemory>& graph() const { return graph_; }
+
+  /// The keys on the host, those of these vertices at least.
+  const std::uint64_t* keys_on_host(const std::vector<Id>& of);
 
   /// The vertex whose value each has.
-  const std::vector<Id>& value_of() const { return value_of_; }
+  const Array<Id, HostMemory>& value_of() const { return value_of_; }
 
   /// Fills branches of one side: gives each vertex the value of its saddle and a new place, and finds the graph of what
   /// has changed. Branches of one saddle are filled one after the other.
-  void fill(Side side, std::vector<FilledBranch> branches, ChangingRoom& room);
+  void fill(Side side, std::vector<FilledBranch> branches, ChangingRoom<Memory>& room);
 
  private:
-  void gather_rows(const std::vector<FilledBranch>& branches);
-  void flood(Side side, FilledBranch& branch, Id number);
-  void reorder(Side side, const std::vector<FilledBranch>& branches, ChangingRoom& room);
+  void flood(const SideKeys& keys, FilledBranch& branch, Id number);
+  void reorder(Side side, const std::vector<FilledBranch>& branches, ChangingRoom<Memory>& room);
   void update_graph();
 
-  Structure& structure_;
+  const Space space_;
   const int threads_;
-  Array<std::uint64_t, HostMemory> rank_;  ///< of each vertex
-  Array<Id, HostMemory> by_rank_;
-  std::vector<Id> value_of_;
-  ExtremumGraph<HostMemory> graph_;
+  Array<std::uint64_t, Memory> rank_;  ///< of each vertex
+  Array<Id, Memory> by_rank_;          ///< one more than there are vertices
+  Array<Id, HostMemory> value_of_;
+  ExtremumGraph<Memory> graph_;
+  ZeroedRoom<std::uint64_t> known_;  ///< what the host was told of `rank_`, where it can't read that
 
-  // While branches are filled: the vertices that change, ascending, and their neighbours.
-  std::vector<Id> changed_;
-  std::vector<Offset> row_begin_;
-  std::vector<Id> rows_;
-  std::vector<Offset> link_begin_;  ///< words
-  std::vector<Id> links_;           ///< the places of each link, from a new word on
-  std::vector<LinkRow> shapes_;     ///< of links, without their places
-  std::vector<Id> place_;           ///< of each vertex among them; no_id
+  ChangedStars stars_;
   std::vector<Id> branch_;  ///< of each that changes the number of its branch; no_id for saddles and what was flooded
 };
 

@@ -4,23 +4,40 @@
 #include <gale/algorithms/merge_tree/vertex_arcs.hpp>
 #include <gale/algorithms/simplify_field/removed_branches.hpp>
 #include <gale/base/parallel.hpp>
+#include <gale/base/transfer.hpp>
 
 namespace gale::detail {
 
 namespace {
 
-FollowedPaths<HostMemory> follow(const SideKeys& keys, const ExtremumGraphSide<HostMemory>& graph,
-                                 const ChangingRoom& room) {
-  ExtremumGraphSide<HostMemory> copy = graph;
-  copy.next = Kokkos::subview(room.places, std::make_pair(std::size_t(0), graph.next.extent(0)));
-  parallel_for("GALE::copy_next", HostExecutionSpace(), static_cast<Offset>(graph.next.extent(0)),
-               [&](Offset i) { copy.next(i) = graph.next(i); });
-  return follow_paths(HostExecutionSpace(), keys, std::move(copy));
+/// A vertex that goes with a branch.
+struct VertexInBranch {
+  Id vertex, branch;
+};
+
+template <class Memory>
+ExtremumGraphSide<Memory> copy_in(const ExtremumGraphSide<Memory>& graph, const ChangingRoom<Memory>& room) {
+  ExtremumGraphSide<Memory> copy = graph;
+  copy.next = first_of(room.places, graph.next.extent(0));
+  Kokkos::deep_copy(copy.next, graph.next);
+  return copy;
 }
 
-MergeForest forest_of(const SideKeys& keys, const FollowedPaths<HostMemory>& paths, const std::vector<Id>& others) {
+/// All vertices of a side's graph that are compared.
+template <class Memory>
+std::vector<Id> compared(const ExtremumGraph<Memory>& graph, Side side) {
+  std::vector<Id> all = graph[side].extrema;
+  all.insert(all.end(), graph[opposite(side)].extrema.begin(), graph[opposite(side)].extrema.end());
+  for (const Meeting& meeting : graph[side].meetings) all.push_back(meeting.vertex);
+  return all;
+}
+
+template <class Space>
+MergeForest forest_of(const Space& space, const SideKeys& keys, const FollowedPaths<MemoryOf<Space>>& paths,
+                      const std::vector<Id>& others) {
+  const std::vector<Id> ends = extrema_of(space, paths.ends, others);
   std::vector<Meeting> lasts;
-  for (const Id vertex : others) lasts.push_back({vertex, place_of_end(paths.ends(vertex))});
+  for (std::size_t i = 0; i < others.size(); ++i) lasts.push_back({others[i], ends[i]});
   return merge_forest(keys, paths.extrema, paths.meetings, std::move(lasts));
 }
 
@@ -63,13 +80,43 @@ std::vector<Id> number_branches(const MergeForest& forest, const std::vector<boo
   return number;
 }
 
+/// Finds the vertices of branches. `leaf` is of each extremum that goes, by place, its node; `branch` has the ends of
+/// paths, and the number of each vertex's branch then.
+template <class Space>
+void find_vertices(const Space& space, const SideKeys& keys, const LiftedTree<MemoryOf<Space>>& tree,
+                   const std::vector<Id>& leaves, const std::vector<Id>& numbers,
+                   const Array<Id, MemoryOf<Space>>& branch, const Array<Id, MemoryOf<Space>>& place,
+                   std::vector<FilledBranch>& branches) {
+  using Memory = MemoryOf<Space>;
+  const auto leaf = in_memory<Memory>(leaves), number = in_memory<Memory>(numbers);
+  const auto count = static_cast<Offset>(branch.extent(0));
+  parallel_for(
+      "GALE::branches_of_vertices", space, count, KOKKOS_LAMBDA(Offset v) {
+        const Id from = leaf(place_of_end(branch(v)));
+        branch(v) = from == no_id ? no_id : number(tree.climb(from, keys[static_cast<Id>(v)]));
+      });
+  const Id total = exclusive_scan(
+      "GALE::count_in_branches", space, count, place, KOKKOS_LAMBDA(Offset v) { return Id(branch(v) != no_id); });
+  const auto found = allocate<Array<VertexInBranch, Memory>>("GALE::vertices_in_branches", total);
+  parallel_for(
+      "GALE::collect_in_branches", space, count, KOKKOS_LAMBDA(Offset v) {
+        if (branch(v) != no_id) found(place(v)) = {static_cast<Id>(v), branch(v)};
+      });
+  space.fence();
+  const auto here = on_host(found);
+  for (Id i = 0; i < total; ++i) branches[here(i).branch].vertices.push_back(here(i).vertex);
+}
+
 }  // namespace
 
-RemovedBranches removed_branches(const ChangingOrder& order, Side side, const ChooseExtrema& staying,
-                                 const ChangingRoom& room) {
-  const SideKeys keys(order.keys(), side);
-  const auto paths = follow(keys, order.graph()[side], room);
-  const MergeForest forest = forest_of(keys, paths, order.graph()[opposite(side)].extrema);
+template <class Space>
+RemovedBranches removed_branches(ChangingOrder<Space>& order, Side side, const ChooseExtrema& staying,
+                                 const ChangingRoom<MemoryOf<Space>>& room) {
+  using Memory = MemoryOf<Space>;
+  const auto& graph = order.graph();
+  const SideKeys keys(order.keys_on_host(compared(graph, side)), side);
+  const auto paths = follow_paths(order.space(), keys, copy_in(graph[side], room));
+  const MergeForest forest = forest_of(order.space(), keys, paths, graph[opposite(side)].extrema);
   std::vector<bool> stays = staying(side, forest);
   keep_one_of_each(forest, stays);
   RemovedBranches removed;
@@ -77,17 +124,19 @@ RemovedBranches removed_branches(const ChangingOrder& order, Side side, const Ch
   removed.unwanted = static_cast<Id>(std::count(stays.begin(), stays.end(), false));
   if (removed.unwanted == 0) return removed;
   const std::vector<Id> number = number_branches(forest, stays, removed.branches);
-  const auto tree = lifted_tree<HostMemory>(keys, forest.vertices, forest.parent);
-  const auto count = static_cast<Offset>(paths.ends.extent(0));
-  const auto& branch = paths.ends;  // in place
-  parallel_for("GALE::branches_of_vertices", HostExecutionSpace(), count, [&](Offset v) {
-    const Id place = place_of_end(paths.ends(v));
-    branch(v) = stays[place] ? no_id : number[tree.climb(forest.leaf[place], keys[static_cast<Id>(v)])];
-  });
-  for (Offset v = 0; v < count; ++v) {
-    if (branch(v) != no_id) removed.branches[branch(v)].vertices.push_back(static_cast<Id>(v));
+  std::vector<Id> leaf = forest.leaf;
+  for (std::size_t place = 0; place < leaf.size(); ++place) {
+    if (stays[place]) leaf[place] = no_id;
   }
+  find_vertices(order.space(), SideKeys(order.keys(), side), lifted_tree<Memory>(keys, forest.vertices, forest.parent),
+                leaf, number, paths.ends, room.vertices_before, removed.branches);
   return removed;
 }
+
+#define GALE_INSTANTIATE(Space)                                                                       \
+  template RemovedBranches removed_branches<Space>(ChangingOrder<Space>&, Side, const ChooseExtrema&, \
+                                                   const ChangingRoom<MemoryOf<Space>>&)
+GALE_IN_EACH_SPACE(GALE_INSTANTIATE);
+#undef GALE_INSTANTIATE
 
 }  // namespace gale::detail

@@ -19,8 +19,9 @@ struct RemovedBranches {
 };
 
 /// The branches of the extrema that don't stay: the parts of what is below (above) a saddle that have none that stays.
-/// Each component of the mesh keeps its oldest one at least. `room.places` are overwritten.
-RemovedBranches removed_branches(const ChangingOrder& order, Side side, const ChooseExtrema& staying,
-                                 const ChangingRoom& room);
+/// Each component of the mesh keeps its oldest one at least. What is in the room is overwritten.
+template <class Space>
+RemovedBranches removed_branches(ChangingOrder<Space>& order, Side side, const ChooseExtrema& staying,
+                                 const ChangingRoom<MemoryOf<Space>>& room);
 
 }  // namespace gale::detail

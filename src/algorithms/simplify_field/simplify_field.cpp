@@ -9,6 +9,7 @@
 #include <gale/algorithms/simplify_field/removed_branches.hpp>
 #include <gale/base/error.hpp>
 #include <gale/base/parallel.hpp>
+#include <gale/base/transfer.hpp>
 
 namespace gale {
 
@@ -17,10 +18,11 @@ namespace detail {
 namespace {
 
 /// Removes minima and maxima in turns.
+template <class Space>
 class FieldSimplifier {
  public:
-  FieldSimplifier(ChangingOrder& order, const ChooseExtrema& staying)
-      : order_(order), staying_(staying), room_(static_cast<Id>(order.value_of().size())) {}
+  FieldSimplifier(ChangingOrder<Space>& order, const ChooseExtrema& staying)
+      : order_(order), staying_(staying), room_(static_cast<Id>(order.value_of().extent(0))) {}
 
   void run() {
     // A part that hangs on the rest by one vertex is turned around without end.
@@ -51,36 +53,83 @@ class FieldSimplifier {
   Id extrema[2] = {0, 0}, unwanted[2] = {0, 0};
 
  private:
-  ChangingOrder& order_;
+  ChangingOrder<Space>& order_;
   const ChooseExtrema& staying_;
-  ChangingRoom room_;
+  ChangingRoom<MemoryOf<Space>> room_;
 };
 
-/// `choose(order)` says which extrema of the changing order stay.
-template <class Choose>
-SimplifiedField simplified(const VertexOrder& order, const ComputeOptions& options, Computed* computed,
-                           const Choose& choose) {
+/// The places of vertices by their input ids.
+template <class Space>
+void write_ranks(const Space& space, const Mesh& mesh, const std::uint64_t* keys, std::vector<Id>& to) {
+  using Memory = MemoryOf<Space>;
+  reserve(to, mesh.vertices());
+  to.resize(mesh.vertices());
+  Array<Id, Memory> rank;
+  if constexpr (is_device<Space>) {
+    rank = allocate<Array<Id, Memory>>("GALE::simplified_ranks", mesh.vertices());
+  } else {
+    rank = Array<Id, Memory>(to.data(), to.size());
+  }
+  const OtherIds input = mesh.vertices_in_input<Memory>();
+  parallel_for(
+      "GALE::simplified_ranks", space, mesh.vertices(),
+      KOKKOS_LAMBDA(Offset v) { rank(input[static_cast<Id>(v)]) = static_cast<Id>(keys[v]); });
+  space.fence();
+  if constexpr (is_device<Space>) copy_from_device(to.data(), rank.data(), to.size() * sizeof(Id));
+}
+
+/// `choose(order)` says which extrema of the changing order stay. `structure()` has the rows of what changes.
+template <class Space, class Choose>
+SimplifiedField simplified_in(const Space& space, const VertexOrder& order, ExtremumGraph<MemoryOf<Space>> graph,
+                              std::function<Structure&()> structure, int threads, const Choose& choose) {
   const Mesh& mesh = order.mesh();
-  require_whole_mesh("a simplified field", mesh);
-  Computing computing(mesh, options, computed);
-  ChangingOrder changing(computing.structure(merge_tree_relations), order, options);
+  ChangingOrder<Space> changing(space, order, std::move(graph), ChangedStars(mesh, std::move(structure)), threads);
   const ChooseExtrema staying = choose(changing);
   SimplifiedField field;
   {
-    FieldSimplifier simplifier(changing, staying);
+    FieldSimplifier<Space> simplifier(changing, staying);
     simplifier.run();
     field.minima = simplifier.extrema[below];
     field.maxima = simplifier.extrema[above];
     field.kept_below = simplifier.unwanted[below] + simplifier.unwanted[above];
   }
-  field.rank.resize(mesh.vertices());
+  write_ranks(space, mesh, changing.keys(), field.rank);
+  reserve(field.value_of, mesh.vertices());
   field.value_of.resize(mesh.vertices());
   const OtherIds input = mesh.vertices_in_input();
-  parallel_for("GALE::simplified_field", HostExecutionSpace(), mesh.vertices(), [&](Offset v) {
-    field.rank[input[v]] = static_cast<Id>(changing.keys()[v]);
-    field.value_of[input[v]] = input[changing.value_of()[v]];
-  });
+  parallel_for("GALE::simplified_field", HostExecutionSpace(), mesh.vertices(),
+               [&](Offset v) { field.value_of[input[v]] = input[changing.value_of()(v)]; });
   return field;
+}
+
+/// The field simplified where there is room.
+template <class Choose>
+SimplifiedField simplified(const VertexOrder& order, const ComputeOptions& options, Computed* computed,
+                           const Choose& choose) {
+  require_whole_mesh("a simplified field", order.mesh());
+  Computing computing(order.mesh(), options, computed);
+  const auto simplify_in = [&](const auto& space, auto graph, std::function<Structure&()> structure) {
+    return simplified_in(space, order, std::move(graph), std::move(structure), options.threads, choose);
+  };
+  const WorkerSpace worker;
+  const HostExecutionSpace host;
+  if (computing.is_of_grid()) {
+    return computing.find_alone(
+        [&](const DeviceSweepOptions&) {
+          return simplify_in(worker, extremum_graph_of_grid(worker, order, options), {});
+        },
+        [&] { return simplify_in(host, extremum_graph_of_grid(host, order, options), {}); });
+  }
+  return computing.find(
+      merge_tree_relations,
+      [&](const DeviceSweepOptions& sweep) {
+        return simplify_in(worker, extremum_graph(worker, order, sweep),
+                           [&]() -> Structure& { return computing.structure(merge_tree_relations); });
+      },
+      [&](Structure& structure) {
+        return simplify_in(host, extremum_graph(structure, order.keys(), options),
+                           [&]() -> Structure& { return structure; });
+      });
 }
 
 /// Says by which of its extrema a field is known, and that these are the given ones.
@@ -99,7 +148,8 @@ class GivenExtrema {
   }
 
   /// Throws gale::Error for one that is none.
-  void require_extrema(const ExtremumGraph<HostMemory>& graph) const {
+  template <class Memory>
+  void require_extrema(const ExtremumGraph<Memory>& graph) const {
     for (const Side side : {below, above}) {
       auto others = stays_[side];
       for (const Id vertex : graph[side].extrema) others[vertex] = false;
@@ -148,10 +198,10 @@ SimplifiedField simplify_field(const VertexOrder& order, const std::function<dou
                                const ComputeOptions& options, Computed* computed) {
   if (std::isnan(threshold)) throw Error("the threshold of a simplified field is no number");
   const OtherIds input = order.mesh().vertices_in_input();
-  return detail::simplified(order, options, computed, [&](const detail::ChangingOrder& changing) {
+  return detail::simplified(order, options, computed, [&](const auto& changing) {
     return [&, input](detail::Side, const detail::MergeForest& forest) {
       const auto value_at = [&](Id vertex) {
-        const Id from = input[changing.value_of()[vertex]];
+        const Id from = input[changing.value_of()(vertex)];
         const double known = value(from);
         if (std::isnan(known)) throw Error("vertex " + std::to_string(from) + " has no field value: it is NaN");
         return known;
@@ -164,7 +214,7 @@ SimplifiedField simplify_field(const VertexOrder& order, const std::function<dou
 SimplifiedField simplify_field(const VertexOrder& order, const StayingExtrema& staying, const ComputeOptions& options,
                                Computed* computed) {
   detail::GivenExtrema given(order, staying);
-  return detail::simplified(order, options, computed, [&](const detail::ChangingOrder& changing) {
+  return detail::simplified(order, options, computed, [&](const auto& changing) {
     given.require_extrema(changing.graph());
     return std::ref(given);
   });

@@ -60,15 +60,11 @@ Session Command::begin(const std::vector<std::string>& more, Session::Outputs ou
   return Session(input_, common_, files, outputs);
 }
 
-AnalysisCommand::AnalysisCommand(CLI::App& app, const outputs::Analysis& analysis, Works works, Consumers consumers)
+AnalysisCommand::AnalysisCommand(CLI::App& app, const outputs::Analysis& analysis, Works works)
     : Command(app, analysis.name, analysis.help, works), analysis_(analysis) {
   segmentation_.add_to(subcommand());
   structure_.add_to(subcommand());
-  if (consumers == Consumers::anywhere) {
-    structure_.add_consumers_to(subcommand());
-  } else {
-    structure_.options.consumers = ConsumerPlace::host;
-  }
+  structure_.add_consumers_to(subcommand());
   add_encoding();
   add_times();
 }

@@ -80,15 +80,11 @@ class AnalysisCommand : public Command {
   void run() const final;
 
  protected:
-  /// Where rows may be read: --consumers says, or by threads of the host alone.
-  enum class Consumers { anywhere, on_host };
-  explicit AnalysisCommand(CLI::App& app, const std::string& name, Works works = Works::on_one_rank,
-                           Consumers consumers = Consumers::anywhere)
-      : AnalysisCommand(app, outputs::analysis_named(name), works, consumers) {}
+  explicit AnalysisCommand(CLI::App& app, const std::string& name, Works works = Works::on_one_rank)
+      : AnalysisCommand(app, outputs::analysis_named(name), works) {}
 
   /// The command of this description, which must outlive it.
-  explicit AnalysisCommand(CLI::App& app, const outputs::Analysis& analysis, Works works = Works::on_one_rank,
-                           Consumers consumers = Consumers::anywhere);
+  explicit AnalysisCommand(CLI::App& app, const outputs::Analysis& analysis, Works works = Works::on_one_rank);
 
   /// Adds a switch of the analysis: --name; where it is on by default, --no-name, which sets `is_on` to false.
   void add_flag(const std::string& name, bool& is_on);

@@ -23,8 +23,7 @@ void tell(const SimplifiedField& field, Session& session) {
 
 class SimplifyField final : public AnalysisCommand {
  public:
-  explicit SimplifyField(CLI::App& app)
-      : AnalysisCommand(app, "simplify-field", Works::on_one_rank, Consumers::on_host) {
+  explicit SimplifyField(CLI::App& app) : AnalysisCommand(app, "simplify-field") {
     add_persistence(subcommand(), persistence_, analysis_.option("persistence").help);
     add_file("-o,--output", output_,
              "The mesh with the simplified field and the order of its vertices, NAME_Order: .vtu or .vtk",
@@ -33,6 +32,11 @@ class SimplifyField final : public AnalysisCommand {
 
  private:
   Session::Keep keep() const override { return output_.empty() ? Session::Keep::nothing : Session::Keep::cells; }
+
+  void warm_up(const VertexOrder& order) const override {
+    simplify_field(
+        order, [](Id vertex) { return vertex; }, order.mesh().vertices());
+  }
 
   void analyse(const FieldOnMesh& on, Session& session, Computed& computed) const override {
     const double threshold = persistence_ ? threshold_of_option(*persistence_, on.field, session.ranks()) : 0;
