@@ -82,6 +82,7 @@ for wrong in (lambda: part.relation("VV"), lambda: part.simplify_field(values), 
         continue
     fail("no error")
 
+
 def expect(call, naming):
     """What is wrong on the last rank alone ends all of them alike."""
     try:

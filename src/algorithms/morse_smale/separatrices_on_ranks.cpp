@@ -77,7 +77,7 @@ class Telling {
     for (const Id cell : critical.star) mark_cell(cell);
   }
 
-  /// In the order of global ids, as an excerpt has them.
+  /// Numbers vertices by global id, as an excerpt has them.
   void place_vertices() {
     std::vector<Id> by_name(wider_.vertices(), no_id);
     for (Id v = 0; v < wider_.vertices(); ++v) {
@@ -90,7 +90,7 @@ class Telling {
     }
   }
 
-  /// In the order of global ids, too.
+  /// Numbers cells by global id as well, so that a cell's place is its number in the excerpt.
   void place_cells() {
     const auto count = static_cast<Offset>(cells_.size());
     const auto ids = allocate<Array<std::uint64_t, HostMemory>>("GALE::told_cells", count);
