@@ -2,7 +2,6 @@
 #include <numeric>
 
 #include <gale/algorithms/merge_tree/assemble.hpp>
-#include <gale/base/parallel.hpp>
 
 namespace gale::detail {
 
@@ -14,21 +13,6 @@ CriticalType type_of_node(int lower_arcs, int upper_arcs) {
   if (lower_arcs == 2 && upper_arcs == 1) return CriticalType::saddle1;
   if (lower_arcs == 1 && upper_arcs == 2) return CriticalType::saddle2;
   return CriticalType::degenerate;
-}
-
-/// How many vertices each arc has.
-std::vector<Id> sizes_of(std::size_t arcs, const std::vector<Id>& arc_of) {
-  const auto count = static_cast<Offset>(arc_of.size());
-  const int parts = threads_for(count);
-  std::vector<std::vector<Id>> sizes(parts, std::vector<Id>(arcs, 0));
-  for_parts("GALE::count_on_arcs", count, parts, [&](int part, Offset begin, Offset end) {
-    for (Offset i = begin; i < end; ++i) {
-      if (arc_of[i] != no_id) ++sizes[part][arc_of[i]];
-    }
-  });
-  for (int part = 1; part < parts; ++part)
-    std::transform(sizes[0].begin(), sizes[0].end(), sizes[part].begin(), sizes[0].begin(), std::plus<>());
-  return std::move(sizes[0]);
 }
 
 }  // namespace
@@ -54,7 +38,8 @@ MergeTree tree_of(const Mesh& mesh, const std::vector<Id>& nodes, const std::vec
 
 void set_arcs(MergeTree& tree, std::vector<Id> arc_of) {
   for (const Id vertex : tree.vertices) arc_of[vertex] = no_id;
-  const std::vector<Id> sizes = sizes_of(tree.arcs.size(), arc_of);
+  const std::vector<Id> sizes =
+      sizes_of(tree.arcs.size(), static_cast<Offset>(arc_of.size()), [&](Offset i) { return arc_of[i]; });
   for (std::size_t i = 0; i < tree.arcs.size(); ++i) {
     tree.arcs[i].size = sizes[i];
     arc_of[tree.vertices[tree.arcs[i].lower]] = arc_of[tree.vertices[tree.arcs[i].upper]] = static_cast<Id>(i);

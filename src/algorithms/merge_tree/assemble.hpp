@@ -1,9 +1,12 @@
 #pragma once
 
+#include <algorithm>
+#include <functional>
 #include <utility>
 #include <vector>
 
 #include <gale/algorithms/merge_tree.hpp>
+#include <gale/base/parallel.hpp>
 
 namespace gale::detail {
 
@@ -11,6 +14,22 @@ namespace gale::detail {
 /// a lower and an upper one each. `place` is told where each of the arcs has gone.
 MergeTree tree_of(const Mesh& mesh, const std::vector<Id>& nodes, const std::vector<std::pair<Id, Id>>& ends,
                   std::vector<Id>& place);
+
+/// How many of so many vertices each arc has; arc_of(i) is that of the i-th, or no_id.
+template <class ArcOf>
+std::vector<Id> sizes_of(std::size_t arcs, Offset vertices, const ArcOf& arc_of) {
+  const int parts = threads_for(vertices);
+  std::vector<std::vector<Id>> sizes(parts, std::vector<Id>(arcs, 0));
+  for_parts("GALE::count_on_arcs", vertices, parts, [&](int part, Offset begin, Offset end) {
+    for (Offset i = begin; i < end; ++i) {
+      const Id arc = arc_of(i);
+      if (arc != no_id) ++sizes[part][arc];
+    }
+  });
+  for (int part = 1; part < parts; ++part)
+    std::transform(sizes[0].begin(), sizes[0].end(), sizes[part].begin(), sizes[0].begin(), std::plus<>());
+  return std::move(sizes[0]);
+}
 
 /// Gives a tree the arcs of its vertices: those of nodes may be any, and are set here. Counts the vertices on each.
 void set_arcs(MergeTree& tree, std::vector<Id> arc_of);

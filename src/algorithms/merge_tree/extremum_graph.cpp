@@ -1,11 +1,9 @@
 #include <algorithm>
 #include <utility>
 
-#include <gale/algorithms/discrete_gradient.hpp>
 #include <gale/algorithms/links/link_sweep.hpp>
 #include <gale/algorithms/merge_tree.hpp>
 #include <gale/algorithms/merge_tree/extremum_graph.hpp>
-#include <gale/base/parallel.hpp>
 #include <gale/base/transfer.hpp>
 
 namespace gale::detail {
@@ -38,13 +36,7 @@ std::array<Id, 2> ExtremumFinder::visit_large(Id vertex, const Row& neighbours, 
 }
 
 ExtremumGraph<HostMemory> extremum_graph(Structure& structure, const std::uint64_t* keys, const SweepOptions& options) {
-  using Ids = Array<Id, HostMemory>;
-  const Id count = structure.mesh().vertices();
-  ExtremumGraph<HostMemory> graph;
-  for (auto& side : graph) side.next = allocate<Ids>("GALE::next_of_vertices", count);
-  if (structure.mesh().owned_vertices().size() < count) {
-    for (auto& side : graph) fill("GALE::next_of_ghosts", HostExecutionSpace(), side.next, DiscreteGradient::elsewhere);
-  }
+  ExtremumGraph<HostMemory> graph = unknown_graph(HostExecutionSpace(), structure.mesh());
   Id* const next[2] = {graph[below].next.data(), graph[above].next.data()};
   std::vector<ExtremumFinder> finders(std::max(options.threads, 0), ExtremumFinder(keys));
   structure.for_each_segment(merge_tree_relations, options, [&](int consumer, const SegmentRows& rows) {
@@ -109,8 +101,7 @@ ExtremumGraph<MemoryOf<WorkerSpace>> extremum_graph(const WorkerSpace& space, co
                                                     const DeviceSweepOptions& options) {
   using Memory = MemoryOf<WorkerSpace>;
   const Mesh& mesh = order.mesh();
-  ExtremumGraph<Memory> graph;
-  for (auto& side : graph) side.next = allocate<Array<Id, Memory>>("GALE::next_of_vertices", mesh.vertices());
+  ExtremumGraph<Memory> graph = unknown_graph(space, mesh);
   for (Offset room = mesh.vertices() / 16 + 1024;;) {
     const auto sweep = sweep_links(space, mesh, options, [&] {
       const auto extrema = [&] { return DeviceList<Id>("GALE::extrema", room); };

@@ -3,10 +3,12 @@
 #include <array>
 #include <vector>
 
+#include <gale/algorithms/discrete_gradient.hpp>
 #include <gale/algorithms/links/large_link.hpp>
 #include <gale/algorithms/merge_tree/side_keys.hpp>
 #include <gale/algorithms/vertex_order.hpp>
 #include <gale/base/memory.hpp>
+#include <gale/base/parallel.hpp>
 #include <gale/runtime/device_sweep.hpp>
 #include <gale/runtime/structure.hpp>
 
@@ -121,6 +123,18 @@ void add_found(const std::vector<ExtremumFinder>& finders, ExtremumGraph<Memory>
       append(graph[side].meetings, finder.meetings[side]);
     }
   }
+}
+
+/// One of which nothing is known yet; the next vertices of those that a rank doesn't own are elsewhere.
+template <class Space>
+ExtremumGraph<MemoryOf<Space>> unknown_graph(const Space& space, const Mesh& mesh) {
+  ExtremumGraph<MemoryOf<Space>> graph;
+  for (auto& side : graph) {
+    side.next = allocate<Array<Id, MemoryOf<Space>>>("GALE::next_of_vertices", mesh.vertices());
+    if (mesh.owned_vertices().size() < mesh.vertices())
+      fill("GALE::next_of_ghosts", space, side.next, DiscreteGradient::elsewhere);
+  }
+  return graph;
 }
 
 /// Finds it in a sweep of consumers on the host.

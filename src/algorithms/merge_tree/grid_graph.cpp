@@ -107,16 +107,16 @@ ExtremumGraph<MemoryOf<Space>> extremum_graph_of_grid(const Space& space, const 
   using Memory = MemoryOf<Space>;
   const Mesh& mesh = order.mesh();
   const Grid& grid = *mesh.grid();
-  ExtremumGraph<Memory> graph;
-  for (auto& side : graph) side.next = allocate<Array<Id, Memory>>("GALE::next_of_vertices", mesh.vertices());
+  ExtremumGraph<Memory> graph = unknown_graph(space, mesh);
   const ExtremaOnGrid find{grid.in<Memory>(),
                            grid.kinds_in<Memory>(),
                            order.keys_in<Memory>().data(),
                            {graph[below].next.data(), graph[above].next.data()}};
   if constexpr (is_device<Space>) {
-    for (Offset room = mesh.vertices() / 16 + 1024;;) {
-      const FindOnGrid all{find, ListsOnGrid(room), 0};
-      parallel_for("GALE::extrema_on_grid", space, mesh.vertices(), all);
+    const Interval owned = mesh.owned_vertices();
+    for (Offset room = owned.size() / 16 + 1024;;) {
+      const FindOnGrid all{find, ListsOnGrid(room), owned.first};
+      parallel_for("GALE::extrema_on_grid", space, owned.size(), all);
       space.fence();
       const Offset most = all.lists.longest();
       if (most > std::exchange(room, most)) continue;

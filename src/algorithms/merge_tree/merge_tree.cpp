@@ -62,28 +62,31 @@ std::vector<MergeTree> find_trees(const VertexOrder& order, const std::vector<Tr
   Computed own;
   Computed& shared = computed == nullptr ? own : *computed;  // one structure for all sweeps
   const auto make = [&](const VertexOrder& of, const std::vector<Tree>& some, const ThresholdOfTree* threshold) {
-    if (of.mesh().exchange().ranks().size() > 1) {
-      Computing computing(of.mesh(), options, &shared);
-      ExtremumGraph<HostMemory> graph;
-      together(of.mesh().exchange().ranks(),
-               [&] { graph = extremum_graph(computing.structure(merge_tree_relations), of.keys(), options); });
-      return trees_on_ranks(of, std::move(graph), some, options);
-    }
     Computing computing(of.mesh(), options, &shared);
-    const auto make_in = [&](const auto& space, auto graph) {
-      return trees_of(space, of, std::move(graph), some, threshold);
+    const auto with_graph = [&](const auto& use) {
+      const WorkerSpace worker;
+      const HostExecutionSpace host;
+      if (computing.is_of_grid()) {
+        return computing.find_alone(
+            [&](const DeviceSweepOptions&) { return use(worker, extremum_graph_of_grid(worker, of, options)); },
+            [&] { return use(host, extremum_graph_of_grid(host, of, options)); });
+      }
+      return computing.find(
+          merge_tree_relations,
+          [&](const DeviceSweepOptions& sweep) { return use(worker, extremum_graph(worker, of, sweep)); },
+          [&](Structure& structure) { return use(host, extremum_graph(structure, of.keys(), options)); });
     };
-    const WorkerSpace worker;
-    const HostExecutionSpace host;
-    if (computing.is_of_grid()) {
-      return computing.find_alone(
-          [&](const DeviceSweepOptions&) { return make_in(worker, extremum_graph_of_grid(worker, of, options)); },
-          [&] { return make_in(host, extremum_graph_of_grid(host, of, options)); });
-    }
-    return computing.find(
-        merge_tree_relations,
-        [&](const DeviceSweepOptions& sweep) { return make_in(worker, extremum_graph(worker, of, sweep)); },
-        [&](Structure& structure) { return make_in(host, extremum_graph(structure, of.keys(), options)); });
+    const Ranks& ranks = of.mesh().exchange().ranks();
+    if (ranks.size() == 1)
+      return with_graph(
+          [&](const auto& space, auto graph) { return trees_of(space, of, std::move(graph), some, threshold); });
+    MirroredGraph graph;
+    together(ranks, [&] {
+      graph = with_graph([](const auto&, auto found) {
+        return MirroredGraph{MirroredGraphSide(std::move(found[below])), MirroredGraphSide(std::move(found[above]))};
+      });
+    });
+    return trees_on_ranks(of, std::move(graph), some, options);
   };
   return find_trees(order, trees, options, &shared, make);
 }

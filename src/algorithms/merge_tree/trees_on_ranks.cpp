@@ -8,10 +8,12 @@
 
 #include <gale/algorithms/excerpt/excerpt_mesh.hpp>
 #include <gale/algorithms/excerpt/gathering.hpp>
+#include <gale/algorithms/merge_tree/assemble.hpp>
 #include <gale/algorithms/merge_tree/tree_maker.hpp>
 #include <gale/algorithms/merge_tree/trees_on_ranks.hpp>
 #include <gale/algorithms/morse_smale/paths_on_ranks.hpp>
 #include <gale/base/error.hpp>
+#include <gale/base/parallel.hpp>
 #include <gale/mesh/exchange/exchange_plan.hpp>
 
 namespace gale::detail {
@@ -77,13 +79,18 @@ void keep_joining(const SideKeys& keys, std::vector<std::pair<Id, GlobalId>>& me
 
 /// The paths of one side as this rank has them.
 struct SideOnRanks {
-  SideOnRanks(const VertexOrder& order, const ExtremumGraphSide<HostMemory>& side)
-      : next(side.next), extrema(side.extrema), simplices(order, next, extrema), paths(simplices) {}
+  SideOnRanks(const VertexOrder& order, MirroredGraphSide side)
+      : next(std::move(side.next)),
+        extrema(std::move(side.extrema)),
+        meetings(std::move(side.meetings)),
+        simplices(order, next, extrema),
+        paths(simplices) {}
 
   GlobalId end_of(Id vertex) const { return paths.final_stop(paths.end(vertex)).id; }
 
   const Mirrored<Id> next;
   const std::vector<Id> extrema;
+  const std::vector<Meeting> meetings;
   const PathSimplices simplices;
   const PathsOnRanks paths;
 };
@@ -91,12 +98,11 @@ struct SideOnRanks {
 /// What is gathered, as a graph on a small mesh.
 class GatheredGraph {
  public:
-  GatheredGraph(const VertexOrder& order, const ExtremumGraph<HostMemory>& graph,
-                const std::array<std::unique_ptr<SideOnRanks>, 2>& sides)
+  GatheredGraph(const VertexOrder& order, const std::array<std::unique_ptr<SideOnRanks>, 2>& sides)
       : ranks_(order.mesh().exchange().ranks()) {
     std::vector<TreeVertex> own;
     std::array<std::vector<TreeMeeting>, 2> meetings;
-    together(ranks_, [&] { begin(order, graph, sides, own, meetings); });
+    together(ranks_, [&] { begin(order, sides, own, meetings); });
     std::size_t bytes = own.size() * sizeof(TreeVertex);
     for (const auto& some : meetings) bytes += some.size() * sizeof(TreeMeeting);
     require_room(ranks_, "extrema and where they meet", std::vector<std::int64_t>(ranks_.size(), std::int64_t(bytes)),
@@ -143,16 +149,15 @@ class GatheredGraph {
   std::vector<TreeVertex> vertices;  ///< in the order
 
  private:
-  static void begin(const VertexOrder& order, const ExtremumGraph<HostMemory>& graph,
-                    const std::array<std::unique_ptr<SideOnRanks>, 2>& sides, std::vector<TreeVertex>& own,
-                    std::array<std::vector<TreeMeeting>, 2>& told) {
+  static void begin(const VertexOrder& order, const std::array<std::unique_ptr<SideOnRanks>, 2>& sides,
+                    std::vector<TreeVertex>& own, std::array<std::vector<TreeMeeting>, 2>& told) {
     const Mesh& mesh = order.mesh();
     const auto id_of = [&](Id vertex) { return mesh.vertex_id(mesh.vertex_input()(vertex)); };
     std::vector<Id> all;
     for (const Side side : {below, above}) {
-      all.insert(all.end(), graph[side].extrema.begin(), graph[side].extrema.end());
+      all.insert(all.end(), sides[side]->extrema.begin(), sides[side]->extrema.end());
       std::vector<std::pair<Id, GlobalId>> meetings;
-      for (const Meeting& meeting : graph[side].meetings)
+      for (const Meeting& meeting : sides[side]->meetings)
         meetings.emplace_back(meeting.vertex, sides[side]->end_of(meeting.other));
       keep_joining(SideKeys(order.keys(), side), meetings);
       for (const auto& [vertex, extremum] : meetings) {
@@ -201,7 +206,9 @@ class VertexClimbs {
       mesh.exchange().from_owners()(ranks, by_input_.data(), by_input_.data());
       together(ranks, [&] {
         const auto ends = allocate<Array<Id, HostMemory>>("GALE::ends_of_paths", mesh.vertices());
-        for (Id v = 0; v < mesh.vertices(); ++v) ends(v) = by_input_[mesh.vertices_in_input()[v]];
+        const OtherIds input = mesh.vertices_in_input();
+        parallel_for("GALE::ends_of_paths", HostExecutionSpace(), mesh.vertices(),
+                     [&](Offset v) { ends(v) = by_input_(input[static_cast<Id>(v)]); });
         climbs[side] = maker.climbs()[side];
         climbs[side].ends = ends;
         find_keys(order, gathered, side);
@@ -216,9 +223,13 @@ class VertexClimbs {
   void find_ends(const Mesh& mesh, const SideOnRanks& side, const std::unordered_map<GlobalId, Id>& places) {
     std::vector<Id> place_of_end;
     for (Id end = 0; end < side.paths.ends(); ++end) place_of_end.push_back(places.at(side.paths.final_stop(end).id));
-    by_input_.assign(mesh.vertices(), no_id);
-    for (const Id v : mesh.owned_vertices())
-      by_input_[mesh.vertices_in_input()[v]] = end_at(place_of_end[side.paths.end(v)]);
+    if (by_input_.extent(0) == 0) by_input_ = allocate<Array<Id, HostMemory>>("GALE::ends_by_input", mesh.vertices());
+    const OtherIds input = mesh.vertices_in_input();
+    const Interval owned = mesh.owned_vertices();
+    parallel_for("GALE::ends_by_input", HostExecutionSpace(), owned.size(), [&](Offset i) {
+      const Id v = owned.first + static_cast<Id>(i);
+      by_input_(input[v]) = end_at(place_of_end[side.paths.end(v)]);
+    });
   }
 
   /// Keys of all that this rank holds that compare with those of what was gathered: the place of the last of these that
@@ -242,7 +253,7 @@ class VertexClimbs {
     });
   }
 
-  std::vector<Id> by_input_;
+  Array<Id, HostMemory> by_input_;
   std::array<std::vector<std::uint64_t>, 2> keys_;
 };
 
@@ -252,15 +263,15 @@ void set_arcs_on_ranks(const Mesh& mesh, const Mesh& excerpt, MergeTree& tree, s
   const auto node = [&](Id i) { return mesh.vertex_of(excerpt.vertex_id(tree.vertices[i])); };
   std::vector<std::int64_t> sizes;
   together(ranks, [&] {
-    sizes.assign(tree.arcs.size(), 0);
     for (std::size_t i = 0; i < tree.vertices.size(); ++i) {
       const Id here = node(static_cast<Id>(i));
       if (here != no_id) arc_of[here] = no_id;
     }
-    for (const Id v : mesh.owned_vertices()) {
-      const Id arc = arc_of[mesh.vertices_in_input()[v]];
-      if (arc != no_id) ++sizes[arc];
-    }
+    const OtherIds input = mesh.vertices_in_input();
+    const Id first = mesh.owned_vertices().first;
+    const std::vector<Id> mine = sizes_of(tree.arcs.size(), mesh.owned_vertices().size(),
+                                          [&](Offset i) { return arc_of[input[first + static_cast<Id>(i)]]; });
+    sizes.assign(mine.begin(), mine.end());
     require_ids("arcs of trees", static_cast<Offset>(sizes.size()));
   });
   ranks.sum(sizes.data(), static_cast<int>(sizes.size()));
@@ -280,14 +291,13 @@ void set_arcs_on_ranks(const Mesh& mesh, const Mesh& excerpt, MergeTree& tree, s
 
 }  // namespace
 
-std::vector<MergeTree> trees_on_ranks(const VertexOrder& order, ExtremumGraph<HostMemory> graph,
-                                      const std::vector<Tree>& trees, const MergeTreeOptions& options) {
+std::vector<MergeTree> trees_on_ranks(const VertexOrder& order, MirroredGraph graph, const std::vector<Tree>& trees,
+                                      const MergeTreeOptions& options) {
   const Mesh& mesh = order.mesh();
   const Ranks& ranks = mesh.exchange().ranks();
   std::array<std::unique_ptr<SideOnRanks>, 2> sides;
-  for (const Side side : {below, above}) sides[side] = std::make_unique<SideOnRanks>(order, graph[side]);
-  const GatheredGraph gathered(order, graph, sides);
-  graph = {};
+  for (const Side side : {below, above}) sides[side] = std::make_unique<SideOnRanks>(order, std::move(graph[side]));
+  const GatheredGraph gathered(order, sides);
   std::vector<double> values;
   if (options.threshold != 0) values = values_at(gathered.mesh(), mesh, options.value);
   const ThresholdOfTree threshold{

@@ -143,8 +143,8 @@ void deal_layers(const Ranks& ranks, const std::optional<Grid>& grid, const io::
     layers.positions =
         shared.is_in_float ? deal_points<float>(ranks, dealt, points) : deal_points<double>(ranks, dealt, points);
     for (io::PointArray& array : shared.arrays) deal_array(ranks, dealt, array);
-    deal_array(ranks, dealt, shared.field);
   }
+  if (wanted.values) deal_array(ranks, dealt, shared.field);
   deal_array(ranks, dealt, shared.order);
   shared.part = layers;
 }

@@ -56,9 +56,10 @@ inline int launched_ranks() {
   return most;
 }
 
-/// What of an input outputs take.
+/// What of an input is wanted beside the mesh and the order: the field's values; points and all arrays, for outputs;
+/// the cells' corners.
 struct WantedOfInput {
-  bool arrays, cells;
+  bool values, arrays, cells;
 };
 
 /// Reads an input on several ranks together: `grid:N` and `plane:N` are made by each rank for itself, the pieces of a

@@ -224,8 +224,8 @@ FieldOnMesh read_on_ranks(const InputOptions& from, int capacity, const WantedOf
     begin_step("sharing the arrays");
     dataset = held_dataset(mesh, input);
     if (names_cells) dataset.cell_arrays.push_back(held_cells(mesh, given_ids, input.cells));
-    field = held_values(mesh, input.field);
   }
+  if (wanted.values) field = held_values(mesh, input.field);
   return {std::move(dataset), mesh, std::move(field), order, input.has_ids};
 }
 
