@@ -99,7 +99,7 @@ void Session::warm_up(const StructureOption& option, std::function<void(const Ve
   const ComputeOptions& options = option.options;
   const bool on_device =
       options.consumers != ConsumerPlace::host && !options.make_structure && options.structure.way == Way::gale;
-  if (on_device && !Launch::are_several()) warm_up_.begin(std::move(run));
+  if (on_device) warm_up_.begin(std::move(run));
 }
 
 io::Dataset Session::read_any() {
@@ -183,6 +183,7 @@ FieldOnMesh Session::read_part(const SegmentationOptions& segmentation, Keep kee
   std::optional<Stopwatch> watch(std::in_place, report_.seconds.read);
   const auto was_read = [&](const std::vector<std::string>& notices) {
     watch.emplace(report_.seconds.initialize);
+    warm_up_.wait();
     say_input();
     if (step_ == 0)
       console_.say("ranks", std::to_string(ranks_.size()) + " of " + std::to_string(report_.threads) + " threads");
