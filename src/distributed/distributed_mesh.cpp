@@ -142,7 +142,9 @@ class DistributedMesh::Sharing final : public Exchange {
   GlobalId vertex_id(Id vertex) const override { return held_.id(vertex); }
   GlobalId cell_id(Id cell) const override { return places_.id(cell); }
   Id vertex_of(GlobalId id) const override { return held_.find(id); }
-  Id cell_of(GlobalId id) const override { return cell_index_.get().find(id); }
+  Id cell_of(GlobalId id) const override {
+    return places_.are_counted() ? places_.counted(id) : cell_index_.get().find(id);
+  }
   int owner(Id vertex) const override { return owners.get()(vertex); }
   Array<int, HostMemory> owners_of(const Array<const GlobalId, HostMemory>& ids) const override;
   Offset given_vertices() const override { return given_vertices_; }

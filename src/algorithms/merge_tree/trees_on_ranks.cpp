@@ -14,6 +14,7 @@
 #include <gale/algorithms/morse_smale/paths_on_ranks.hpp>
 #include <gale/base/error.hpp>
 #include <gale/base/parallel.hpp>
+#include <gale/base/sorted_keys.hpp>
 #include <gale/mesh/exchange/exchange_plan.hpp>
 
 namespace gale::detail {
@@ -152,7 +153,8 @@ class GatheredGraph {
   static void begin(const VertexOrder& order, const std::array<std::unique_ptr<SideOnRanks>, 2>& sides,
                     std::vector<TreeVertex>& own, std::array<std::vector<TreeMeeting>, 2>& told) {
     const Mesh& mesh = order.mesh();
-    const auto id_of = [&](Id vertex) { return mesh.vertex_id(mesh.vertex_input()(vertex)); };
+    const OtherIds input = mesh.vertices_in_input();
+    const auto id_of = [&](Id vertex) { return mesh.vertex_id(input[vertex]); };
     std::vector<Id> all;
     for (const Side side : {below, above}) {
       all.insert(all.end(), sides[side]->extrema.begin(), sides[side]->extrema.end());
@@ -241,20 +243,25 @@ class VertexClimbs {
     // Keys of an excerpt's order ascend with its vertices: those of places are what trees compare.
     std::vector<std::uint64_t> sorted(small, small + gathered.mesh().vertices());
     std::sort(sorted.begin(), sorted.end());
-    keys_[side].resize(mesh.vertices());
+    std::vector<std::uint64_t> values;
+    for (const TreeVertex& vertex : all) values.push_back(vertex.value);
+    const SortedKeys near(std::move(values));
+    const OtherIds input = mesh.vertices_in_input();
+    keys_[side] = allocate<Array<std::uint64_t, HostMemory>>("GALE::keys_among_gathered", mesh.vertices());
     parallel_for("GALE::keys_among_gathered", HostExecutionSpace(), mesh.vertices(), [&](Offset v) {
-      const TreeVertex here{mesh.vertex_id(mesh.vertices_in_input()[v]), order.value_key(static_cast<Id>(v)), {}};
-      const auto first = std::lower_bound(all.begin(), all.end(), here) - all.begin();
+      const TreeVertex here{mesh.vertex_id(input[static_cast<Id>(v)]), order.value_key(static_cast<Id>(v)), {}};
+      const auto range = near.around(here.value);
+      const auto first = std::lower_bound(all.begin() + range.first, all.begin() + range.last, here) - all.begin();
       const bool is_one = first < static_cast<std::ptrdiff_t>(all.size()) && all[first].id == here.id;
       const std::ptrdiff_t place = is_one || side == above ? first : first - 1;
-      keys_[side][v] = place < 0                                         ? 0
+      keys_[side](v) = place < 0                                         ? 0
                        : place < static_cast<std::ptrdiff_t>(all.size()) ? sorted[place]
                                                                          : ~std::uint64_t(0);
     });
   }
 
   Array<Id, HostMemory> by_input_;
-  std::array<std::vector<std::uint64_t>, 2> keys_;
+  std::array<Array<std::uint64_t, HostMemory>, 2> keys_;
 };
 
 /// Gives a tree the arcs of what this rank holds, and counts those of all. Collective.

@@ -39,6 +39,17 @@ class CellPlaces {
 
   Offset count() const { return kept_.count + static_cast<Offset>(received_.extent(0)); }
 
+  /// Whether their ids follow one another.
+  bool are_counted() const {
+    return kept_.ids.extent(0) == 0 && kept_.places.extent(0) == 0 && received_.extent(0) == 0;
+  }
+
+  /// Which of counted ones has a global id, or no_id.
+  Id counted(GlobalId id) const {
+    const GlobalId place = id - kept_.first_id;
+    return place >= 0 && place < kept_.count ? static_cast<Id>(place) : no_id;
+  }
+
   /// The global id of the i-th, and those of all.
   GlobalId id(Offset i) const;
   GlobalIds ids() const;
