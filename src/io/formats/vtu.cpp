@@ -102,9 +102,12 @@ Faces read_faces(const XmlFile& file, const XmlElement& piece, std::size_t cells
 /// Gives polyhedra, whose points the connectivity has, the faces that the file has beside it: how many, and of each how
 /// many corners, and these.
 void take_faces(const XmlFile& file, const XmlElement& piece, Cells& cells) {
+  const auto has_polyhedron = [](const auto& types) {
+    return std::find(types.begin(), types.end(), cell_type::polyhedron) != types.end();
+  };
+  if (!std::visit(has_polyhedron, cells.types)) return;
   std::vector<std::int64_t> types, ends, connectivity;
   append(cells.types, std::int64_t(0), types);
-  if (std::find(types.begin(), types.end(), cell_type::polyhedron) == types.end()) return;
   append(cells.ends, std::int64_t(0), ends);
   append(cells.connectivity, std::int64_t(0), connectivity);
   const Faces faces = read_faces(file, piece, types.size());
