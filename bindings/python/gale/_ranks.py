@@ -1,13 +1,14 @@
 """gale.DistributedMesh, of what lies on the ranks of MPI."""
 from __future__ import annotations
 
-from typing import Any, NoReturn, Optional, Tuple
+import functools
+from typing import Any, Callable, Dict, NoReturn, Optional, Tuple
 
 import numpy as np
 
 from . import _arrays, _gale
 from ._gale import Error
-from ._mesh import Mesh
+from ._mesh import Mesh, told
 
 
 def _ids(values: Any, name: str) -> Any:
@@ -16,6 +17,34 @@ def _ids(values: Any, name: str) -> Any:
     if ids.dtype.kind not in "iu" and ids.size > 0:
         raise Error(f"{name} are {ids.dtype}, not integers")
     return np.ascontiguousarray(ids, np.int64)
+
+
+def _agree(comm: Any, failure: Optional[Exception], call: str = "") -> None:
+    """Raises on all ranks what the lowest of them says that has failed; or which ones differ in what they call. Collective."""
+    known = isinstance(failure, Error)
+    said = comm.allgather((None if failure is None else str(failure) if known else f"{type(failure).__name__}: {failure}", call))
+    if failure is not None and comm.size == 1:
+        raise failure
+    for rank, (text, _) in enumerate(said):
+        if text is not None:
+            raise Error(f"rank {rank}: {text}") from failure
+    for rank, (_, other) in enumerate(said):
+        if other != said[0][1]:
+            raise Error(f"ranks 0 and {rank} ask for different things: {said[0][1]} and {other}")
+
+
+def _collective(method: Callable[..., Any]) -> Callable[..., Any]:
+    """The method, which raises on all ranks what it raises on one before it begins."""
+    @functools.wraps(method)
+    def call(self: DistributedMesh, *arguments: Any, **named: Any) -> Any:
+        self._has_begun = False
+        try:
+            return method(self, *arguments, **named)
+        except Exception as error:
+            if not self._has_begun:
+                _agree(self._comm, error)
+            raise
+    return call
 
 
 class DistributedMesh(Mesh):
@@ -31,7 +60,8 @@ class DistributedMesh(Mesh):
     Its methods are those of a Mesh but `relation`, `relation_matrix`, `simplify_field` and walls of saddles. All ranks call
     them, in the same order, with a field that has a value for each vertex that was handed over. Each rank gets what it owns
     of a result, by global ids; a diagram, the nodes and arcs of a tree and simplified separatrices are on the first rank,
-    and arrays of the mesh's points are in the order of `vertex_ids`. What fails on one rank raises gale.Error on all.
+    and arrays of the mesh's points are in the order of `vertex_ids`. What fails on one rank raises gale.Error on all, wrong
+    arguments too, and so do calls that differ from rank to rank; but `comm` itself.
 
     Jobs call MPI on a thread of their own, as mpi4py has it by default (MPI.THREAD_MULTIPLE)."""
 
@@ -44,10 +74,19 @@ class DistributedMesh(Mesh):
 
         if not isinstance(comm, MPI.Comm):
             raise Error(f"what is of {type(comm).__name__} is no communicator of mpi4py's")
-        rows = np.asarray(cells)
-        corners = np.zeros((0, 4), np.int64) if rows.size == 0 else _ids(rows, "cells")
-        self._mesh: Any = inner(MPI._addressof(comm), _ids(ids, "ids"), _arrays.points(points), corners,
-                                None if cell_ids is None else _ids(cell_ids, "cell ids"), repartition, capacity)
+        self._comm = comm
+        part, failure = None, None
+        try:
+            rows = np.asarray(cells)
+            corners = np.zeros((0, 4), np.int64) if rows.size == 0 else _ids(rows, "cells")
+            part = (_ids(ids, "ids"), _arrays.points(points), corners,
+                    None if cell_ids is None else _ids(cell_ids, "cell ids"), repartition, capacity)
+            inner.check_part(*part)
+        except Exception as error:
+            failure = error
+        _agree(comm, failure, f"repartition={repartition}")
+        assert part is not None
+        self._mesh: Any = inner(MPI._addressof(comm), *part)
 
     @property
     def vertex_ids(self) -> np.ndarray:
@@ -89,8 +128,23 @@ class DistributedMesh(Mesh):
             self._refuse("walls of saddles")
         return super().morse_smale(field, persistence, extrema_only, name, threads, progress)
 
+    def _analyse(self, analysis: str, field: Any, name: str, threads: int, progress: Any,
+                 flags: Optional[Dict[str, bool]] = None, thresholds: Optional[Dict[str, Tuple[float, bool]]] = None,
+                 choices: Optional[Dict[str, str]] = None, numbers: Optional[Dict[str, int]] = None) -> Dict[str, Any]:
+        options = (name, flags or {}, thresholds or {}, choices or {}, numbers or {})
+        with told(progress, analysis) as tell:
+            values = _arrays.field(field)
+            self._mesh.check(analysis, values, *options, threads, tell)
+            self._has_begun = True
+            _agree(self._comm, None, f"{analysis} of {options}")
+            return self._mesh.analyse(analysis, values, *options, threads, tell)
+
     def to_pyvista(self) -> Any:
         self._refuse("grid of PyVista's")
 
     def __reduce__(self) -> Tuple[Any, ...]:
         self._refuse("copy in other processes")
+
+
+for _name in ("critical_points", "critical_simplices", "discrete_gradient", "persistence_diagram", "morse_smale", "merge_tree"):
+    setattr(DistributedMesh, _name, _collective(getattr(DistributedMesh, _name)))

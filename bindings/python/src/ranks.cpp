@@ -60,6 +60,19 @@ class PyDistributedMesh : public Kept {
     return numpy_of(owner->data(), 3 * owner->extent(0), 3, owner);
   }
 
+  /// Throws what `analyse` would for arguments that are wrong by themselves, on this rank alone: others wait for none
+  /// that fails before it sends anything.
+  void check(const std::string& analysis, const Array1& values, const std::string& name,
+             const std::map<std::string, bool>& flags, const std::map<std::string, std::pair<double, bool>>& thresholds,
+             const std::map<std::string, std::string>& choices, const std::map<std::string, int>& numbers, int threads,
+             const nb::object& progress) const {
+    mesh();
+    outputs::analysis_named(analysis);
+    field_of(values, name);
+    settings_of(flags, thresholds, choices, numbers);
+    Job(progress).sweep_options(threads);
+  }
+
   nb::dict analyse(const std::string& analysis, Array1 values, const std::string& name,
                    const std::map<std::string, bool>& flags,
                    const std::map<std::string, std::pair<double, bool>>& thresholds,
@@ -206,6 +219,11 @@ void add_ranks(nb::module_& module) {
       .def_prop_ro("vertex_ids", &PyDistributedMesh::vertex_ids)
       .def_prop_ro("owners", &PyDistributedMesh::owners)
       .def("points", &PyDistributedMesh::points)
+      .def("check", &PyDistributedMesh::check, "analysis"_a, "field"_a, "name"_a, "flags"_a, "thresholds"_a,
+           "choices"_a, "numbers"_a, "threads"_a, "progress"_a.none())
+      .def_static(
+          "check_part", [](const Array1&, const Array1&, const Array1&, const std::optional<Array1>&, bool, int) {},
+          "ids"_a, "points"_a, "cells"_a, "cell_ids"_a.none(), "repartition"_a, "capacity"_a)
       .def("analyse", &PyDistributedMesh::analyse, "analysis"_a, "field"_a, "name"_a, "flags"_a, "thresholds"_a,
            "choices"_a, "numbers"_a, "threads"_a, "progress"_a.none());
 }

@@ -81,6 +81,35 @@ for wrong in (lambda: part.relation("VV"), lambda: part.simplify_field(values), 
     except gale.Error:
         continue
     fail("no error")
+
+
+def expect(call, naming):
+    """What is wrong on the last rank alone ends all of them alike."""
+    try:
+        call()
+    except (gale.Error if COMM.size > 1 else Exception) as error:
+        text = str(error)
+        check(naming in text and COMM.allgather(text) == [text] * COMM.size, text)
+        return
+    fail(f"no error that has {naming}")
+
+
+is_last = COMM.rank == COMM.size - 1
+own = values[ids]
+for call, naming in (
+        (lambda: part.critical_points(np.array(["no"] * len(ids)) if is_last else own), ""),
+        (lambda: part.critical_points(np.ma.masked_all(len(ids)) if is_last else own), "masked"),
+        (lambda: part.critical_points(own, threads=-1 if is_last else 1), "-1"),
+        (lambda: part.critical_points(own, threads="two" if is_last else 1), ""),
+        (lambda: part.persistence_diagram(own, "much" if is_last else "2%"), "much"),
+        (lambda: part.morse_smale(own, separatrices2=is_last), "walls"),
+        (lambda: part.critical_points(*[own][is_last:]), "field"),
+        (lambda: gale.DistributedMesh(COMM, ids / 2 if is_last else ids, points[ids], []), "integers"),
+        (lambda: gale.DistributedMesh(COMM, ids, points[ids], [], capacity="no" if is_last else 64), "")):
+    expect(call, naming)
+if COMM.size > 1:
+    expect(lambda: part.merge_tree(own, "join" if is_last else "split"), "different things")
+    expect(lambda: part.merge_tree(own) if is_last else part.critical_points(own), "different things")
 nobody = values[ids] if COMM.rank else values[ids].astype(np.float64)
 try:
     part.critical_points(nobody)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -44,15 +45,17 @@ Mesh excerpt_mesh(const GlobalIds& vertex_ids, const GlobalIds& cell_ids,
   return Mesh(cells, segmentation, std::make_shared<ExcerptExchange>(vertex_ids, cell_ids));
 }
 
-/// The order of its vertices by value(vertex), an unsigned number, then by id.
+/// The order of its vertices by value(vertex), a number of 64 bits without sign, then by id.
 template <class Value>
 VertexOrder excerpt_order(const Mesh& mesh, const Value& value) {
   const Id count = mesh.vertices();
-  std::vector<Id> sorted(count), rank(count);
-  for (Id i = 0; i < count; ++i) sorted[i] = i;
-  parallel_sort("GALE::sort_excerpt", sorted.begin(), sorted.end(),
-                [&](Id a, Id b) { return value(a) != value(b) ? value(a) < value(b) : a < b; });
-  for (Id i = 0; i < count; ++i) rank[sorted[i]] = i;
+  const auto keys = allocate<Array<std::uint64_t, HostMemory>>("GALE::excerpt_keys", count);
+  parallel_for("GALE::excerpt_keys", HostExecutionSpace(), count,
+               [&](Offset v) { keys(v) = value(static_cast<Id>(v)); });
+  const auto sorted = stable_sort_places(HostExecutionSpace(), "GALE::excerpt_order", keys);
+  std::vector<Id> rank(count);
+  parallel_for("GALE::excerpt_ranks", HostExecutionSpace(), count,
+               [&](Offset i) { rank[sorted(i)] = static_cast<Id>(i); });
   return VertexOrder(mesh, rank.data(), rank.size());
 }
 

@@ -7,6 +7,7 @@
 #include <gale/algorithms/excerpt/wider_gradient.hpp>
 #include <gale/algorithms/morse_smale/parts.hpp>
 #include <gale/base/hash_table.hpp>
+#include <gale/base/sort.hpp>
 
 namespace gale::detail {
 
@@ -29,12 +30,14 @@ std::vector<Id> exits_of(const Mirrored<Id>& successors, const std::vector<Id>& 
 /// Names what separatrices in a wider gradient lead through: makes an excerpt of that alone.
 class Telling {
  public:
-  explicit Telling(const WiderGradient& wider) : wider_(wider), place_(wider.vertices(), no_id) {}
+  explicit Telling(const WiderGradient& wider)
+      : wider_(wider), place_(wider.vertices(), no_id), cell_place_(wider.cells(), no_id) {}
 
   /// Makes the excerpt, in whose ids the separatrices of the complex come to be.
   void tell(MorseSmaleComplex& complex) {
     mark(complex);
     place_vertices();
+    place_cells();
     complex.excerpt = excerpt_of(told(), complex.critical.dimension);
     complex.critical = complex.excerpt.critical();
     for (Id& vertex : complex.descending.cells) vertex = place_[vertex];
@@ -42,7 +45,7 @@ class Telling {
     const Mesh& mesh = complex.excerpt.mesh();
     std::vector<Id> internal(mesh.cells());
     for (Id t = 0; t < mesh.cells(); ++t) internal[mesh.cells_in_input()[t]] = t;
-    for (Id& cell : complex.ascending.cells) cell = internal[mesh.exchange().cell_of(wider_.cell_id(cell))];
+    for (Id& cell : complex.ascending.cells) cell = internal[cell_place_[cell]];
   }
 
  private:
@@ -56,11 +59,10 @@ class Telling {
   }
 
   void mark_cell(Id cell) {
-    const auto [place, is_new] = cell_places_.insert(static_cast<std::uint64_t>(cell));
-    if (!is_new) return;
-    place = static_cast<Id>(cells_.size());
-    cells_.push_back(cell);
-    for (const Id corner : wider_.corners(cell)) mark_vertex(corner);
+    if (cell_place_[cell] != no_id) return;
+    cell_place_[cell] = static_cast<Id>(cells_.size());
+    cells_.push_back({wider_.cell_id(cell), wider_.corners(cell)});
+    for (const Id corner : cells_.back().corners) mark_vertex(corner);
   }
 
   void mark(const MorseSmaleComplex& complex) {
@@ -75,7 +77,7 @@ class Telling {
     for (const Id cell : critical.star) mark_cell(cell);
   }
 
-  /// In the order of global ids, as an excerpt has them.
+  /// Numbers vertices by global id, as an excerpt has them.
   void place_vertices() {
     std::vector<Id> by_name(wider_.vertices(), no_id);
     for (Id v = 0; v < wider_.vertices(); ++v) {
@@ -88,13 +90,30 @@ class Telling {
     }
   }
 
+  /// Numbers cells by global id as well, so that a cell's place is its number in the excerpt.
+  void place_cells() {
+    const auto count = static_cast<Offset>(cells_.size());
+    const auto ids = allocate<Array<std::uint64_t, HostMemory>>("GALE::told_cells", count);
+    parallel_for("GALE::told_cells", HostExecutionSpace(), count,
+                 [&](Offset i) { ids(i) = static_cast<std::uint64_t>(cells_[i].id); });
+    const auto sorted = stable_sort_places(HostExecutionSpace(), "GALE::told_cells", ids);
+    std::vector<ReachedCell> cells(cells_.size());
+    std::vector<Id> place(cells_.size());
+    parallel_for("GALE::told_cells", HostExecutionSpace(), count, [&](Offset i) {
+      place[sorted(i)] = static_cast<Id>(i);
+      cells[i] = {cells_[sorted(i)].id, places(cells_[sorted(i)].corners)};
+    });
+    cells_ = std::move(cells);
+    for (Id& cell : cell_place_) {
+      if (cell != no_id) cell = place[cell];
+    }
+  }
+
   template <std::size_t N>
   std::array<Id, N> places(std::array<Id, N> simplex) const {
     for (Id& vertex : simplex) vertex = place_[vertex];
     return simplex;
   }
-
-  Id cell_place(Id cell) const { return *cell_places_.find(static_cast<std::uint64_t>(cell)); }
 
   template <class T>
   static Dealt<T> listed(std::size_t count) {
@@ -115,14 +134,12 @@ class Telling {
     told.vertices = listed<ReachedVertex>(vertices_, [&](Id v) {
       return ReachedVertex{wider_.vertex_id(v), wider_.value(v)};
     });
-    told.cells = listed<ReachedCell>(cells_, [&](Id t) {
-      return ReachedCell{wider_.cell_id(t), places(wider_.corners(t))};
-    });
+    told.cells = listed<ReachedCell>(cells_, [](const ReachedCell& cell) { return cell; });
     told.vertex_steps = listed<std::array<Id, 2>>(critical.vertices, [&](Id v) {
       return std::array<Id, 2>{place_[v], no_id};
     });
     told.cell_steps = listed<std::array<Id, 2>>(critical.cells, [&](Id t) {
-      return std::array<Id, 2>{cell_place(t), no_id};
+      return std::array<Id, 2>{cell_place_[t], no_id};
     });
     told.edges = listed<std::array<Id, 3>>(critical.edges, [&](const auto& edge) {
       return std::array<Id, 3>{place_[edge[0]], place_[edge[1]], edge_is_critical};
@@ -141,7 +158,7 @@ class Telling {
         std::copy(facet.begin(), facet.end(), in_star.begin());
       }
       for (Id k = critical.star_begin[i]; k < critical.star_begin[i + 1]; ++k) {
-        in_star[3] = cell_place(critical.star[k]);
+        in_star[3] = cell_place_[critical.star[k]];
         told.critical_stars.entries(k) = in_star;
       }
     }
@@ -149,9 +166,9 @@ class Telling {
   }
 
   const WiderGradient& wider_;
-  std::vector<Id> place_;  ///< of each vertex, no_id if it isn't told
-  std::vector<Id> vertices_, cells_;
-  HashTable<Id> cell_places_;
+  std::vector<Id> place_, cell_place_;  ///< of each vertex and cell, no_id if it isn't told
+  std::vector<Id> vertices_;
+  std::vector<ReachedCell> cells_;
 };
 
 }  // namespace
