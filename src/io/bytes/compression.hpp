@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -15,14 +16,13 @@ namespace gale::io::detail {
 /// Whether there is one of these for zlib's streams.
 bool can_compress();
 
-/// What bytes are that are compressed: some libraries are told how to.
-enum class Pattern { any, integers, steps };  ///< steps: integers, each so much above the last
+/// `compressed` becomes the zlib stream of `size` bytes, which are values of so many bytes each: by compress_words
+/// those of four and eight, else by the library.
+void compress_by_zlib(std::size_t value_bytes, const char* bytes, std::size_t size, std::vector<char>& compressed);
 
-/// `compressed` becomes the zlib stream of `size` bytes.
-void compress_by_zlib(Pattern pattern, const char* bytes, std::size_t size, std::vector<char>& compressed);
-
-/// By VTK's zlib, whatever the above takes.
-void compress_at_level_1(const char* bytes, std::size_t size, std::vector<char>& compressed);
+/// `compressed` becomes the zlib stream of `size` bytes (below 2^32), numbers of four or eight bytes, whose checksum
+/// (Adler-32) a library makes: in half of libdeflate's time, to much the same size.
+void compress_words(const char* bytes, std::size_t size, std::uint32_t checksum, std::vector<char>& compressed);
 
 /// The content of a file's bytes from `begin` on, compressed by gzip or zlib, whichever it is; gzip's members may
 /// follow each other. Where it is `bytes` in all (0: not known), and these aren't too many, libdeflate makes

@@ -4,7 +4,6 @@
 #include <new>
 
 #include <gale/io/bytes/compression.hpp>
-#include <gale/io/formats.hpp>
 
 namespace gale::io::detail {
 namespace {
@@ -29,13 +28,9 @@ libdeflate_decompressor* decompressor() { return kept<libdeflate_decompressor>(l
 
 bool can_compress() { return true; }
 
-void compress_by_zlib(Pattern pattern, const char* bytes, std::size_t size, std::vector<char>& compressed) {
-  // Where only three bytes in a row are found again, level 1 makes half as much again of them, and in steps any level
-  // twice as much as zlib, in the same time.
-  if (pattern == Pattern::steps && reads_files()) return compress_at_level_1(bytes, size, compressed);
-  libdeflate_compressor* const compressor =
-      pattern == Pattern::any ? kept<libdeflate_compressor>([] { return libdeflate_alloc_compressor(1); })
-                              : kept<libdeflate_compressor>([] { return libdeflate_alloc_compressor(2); });
+void compress_by_zlib(std::size_t value_bytes, const char* bytes, std::size_t size, std::vector<char>& compressed) {
+  if (value_bytes >= 4) return compress_words(bytes, size, libdeflate_adler32(1, bytes, size), compressed);
+  libdeflate_compressor* const compressor = kept<libdeflate_compressor>([] { return libdeflate_alloc_compressor(2); });
   compressed.resize(libdeflate_zlib_compress_bound(compressor, size));
   compressed.resize(libdeflate_zlib_compress(compressor, bytes, size, compressed.data(), compressed.size()));
 }

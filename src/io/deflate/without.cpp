@@ -6,7 +6,7 @@ namespace gale::io::detail {
 
 bool can_compress() { return false; }
 
-void compress_by_zlib(Pattern, const char*, std::size_t, std::vector<char>&) {
+void compress_by_zlib(std::size_t, const char*, std::size_t, std::vector<char>&) {
   throw Error("this gale was built without libdeflate and VTK");
 }
 

@@ -100,16 +100,6 @@ bool uncompress_lzma(const char* compressed, std::size_t compressed_bytes, char*
 
 bool reads_files() { return true; }
 
-void compress_at_level_1(const char* bytes, std::size_t size, std::vector<char>& compressed) {
-  constexpr int fastest = 1;  // the usual 6 takes several times as long for a few percent less
-  uLongf needed = compressBound(static_cast<uLong>(size));
-  compressed.resize(needed);
-  if (compress2(reinterpret_cast<Bytef*>(compressed.data()), &needed, reinterpret_cast<const Bytef*>(bytes),
-                static_cast<uLong>(size), fastest) != Z_OK)
-    throw std::bad_alloc();
-  compressed.resize(needed);
-}
-
 std::unique_ptr<ByteSource> inflated(const InputFile& file, std::uint64_t begin, std::uint64_t bytes) {
   auto stream = std::make_unique<InflatedBytes>(std::make_unique<FileBytes>(file, begin));
   FileBytes compressed(file, begin);

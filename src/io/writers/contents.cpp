@@ -27,13 +27,10 @@ WrittenArrays cells_of(const Surface::Cells& cells) {
 WrittenArrays simplices_of(const WrittenCells& cells) {
   const std::uint64_t size = cells.corners * cells.count;
   constexpr std::uint64_t most = std::numeric_limits<std::int32_t>::max();
-  WrittenArrays arrays = {size <= most ? cells.connectivity<std::int32_t>("connectivity")
-                                       : cells.connectivity<std::int64_t>("connectivity"),
-                          made_integers("offsets", cells.count, size,
-                                        [corners = cells.corners](std::uint64_t k) { return corners * (k + 1); })};
-  arrays[0].pattern = Pattern::any;  // simplices that follow each other have vertices in common
-  arrays[1].pattern = Pattern::steps;
-  return arrays;
+  return {size <= most ? cells.connectivity<std::int32_t>("connectivity")
+                       : cells.connectivity<std::int64_t>("connectivity"),
+          made_integers("offsets", cells.count, size,
+                        [corners = cells.corners](std::uint64_t k) { return corners * (k + 1); })};
 }
 
 /// Makes each point a cell.

@@ -109,7 +109,7 @@ class CompressedBlocks {
     const std::uint64_t begin = block * block_, end = std::min(begin + block_, array_.count);
     plain.resize((end - begin) * size_of(array_.type));
     array_.copy(begin, end, plain.data());
-    compress_by_zlib(array_.pattern, plain.data(), plain.size(), compressed);
+    compress_by_zlib(size_of(array_.type), plain.data(), plain.size(), compressed);
   }
 
   const WrittenArray& array_;

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include <gale/io/atomic_file.hpp>
-#include <gale/io/bytes/compression.hpp>
 #include <gale/io/bytes/values.hpp>
 #include <gale/io/write.hpp>
 #include <gale/mesh/cells/cell_types.hpp>
@@ -28,8 +27,6 @@ struct WrittenArray {
 
   /// Puts the values [begin, end) to `to`, in this machine's order of bytes. Any number of threads may call it.
   std::function<void(std::uint64_t begin, std::uint64_t end, char* to)> copy;
-
-  Pattern pattern = type < ValueType::float32 ? Pattern::integers : Pattern::any;
 };
 
 using WrittenArrays = std::vector<WrittenArray>;
