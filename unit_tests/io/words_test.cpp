@@ -35,7 +35,7 @@ class Words : public test::FileTest {
     EXPECT_TRUE(detail::uncompress_zlib(stream.data(), stream.size(), whole.data(), whole.size()));
     EXPECT_TRUE(whole == content);
     const detail::InputFile file(folder.put("file", {stream.begin(), stream.end()}));
-    const auto by_zlib = detail::inflated(file, 0, 0);
+    const auto by_zlib = detail::inflated(file, 0);
     whole.assign(content.size() + 1, '?');
     EXPECT_EQ(by_zlib->read(whole.data(), whole.size()), content.size());
     EXPECT_TRUE(whole.compare(0, content.size(), content) == 0);

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -25,13 +26,14 @@ void compress_by_zlib(std::size_t value_bytes, const char* bytes, std::size_t si
 void compress_words(const char* bytes, std::size_t size, std::uint32_t checksum, std::vector<char>& compressed);
 
 /// The content of a file's bytes from `begin` on, compressed by gzip or zlib, whichever it is; gzip's members may
-/// follow each other. Where it is `bytes` in all (0: not known), and these aren't too many, libdeflate makes
-/// them at once. Reading throws gale::Error for bytes that are neither, or damaged.
-std::unique_ptr<ByteSource> inflated(const InputFile& file, std::uint64_t begin, std::uint64_t bytes);
+/// follow each other. Reading throws gale::Error for bytes that are neither, or damaged.
+std::unique_ptr<ByteSource> inflated(const InputFile& file, std::uint64_t begin);
 
-/// Writes all that compressed bytes stand for, as above, to `to`. False if that isn't `bytes`, if they are damaged, or
-/// without libdeflate.
-bool inflate_at_once(ByteSource& compressed, char* to, std::size_t bytes);
+/// Uncompresses that content at once to where room() says, which another thread may be asked for while this one reads.
+/// False if it isn't `bytes`, is damaged, or without libdeflate; before room() is asked if these are too many to stop,
+/// or so many that a small file which claims them takes memory that it can't fill.
+bool inflate_at_once(const InputFile& file, std::uint64_t begin, std::uint64_t bytes,
+                     const std::function<char*()>& room);
 
 /// Writes the `bytes` that `compressed` stands for to `to`. False if it doesn't stand for so many.
 using Uncompress = bool (*)(const char* compressed, std::size_t compressed_bytes, char* to, std::size_t bytes);

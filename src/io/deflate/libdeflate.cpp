@@ -1,8 +1,10 @@
 #include <libdeflate.h>
 
+#include <algorithm>
 #include <memory>
 #include <new>
 
+#include <gale/base/threads.hpp>
 #include <gale/io/bytes/compression.hpp>
 
 namespace gale::io::detail {
@@ -40,14 +42,26 @@ bool uncompress_zlib(const char* compressed, std::size_t compressed_bytes, char*
          LIBDEFLATE_SUCCESS;
 }
 
-bool inflate_at_once(ByteSource& compressed, char* to, std::size_t bytes) {
-  std::vector<char> from(static_cast<std::size_t>(compressed.at_most()));
-  read_all(compressed, from.data(), from.size(), "its compressed data");
+bool inflate_at_once(const InputFile& file, std::uint64_t begin, std::uint64_t bytes,
+                     const std::function<char*()>& room) {
+  constexpr std::uint64_t most = 1 << 28;  // takes up to half a second, in which nobody can stop it
+  FileBytes compressed(file, begin);
+  const auto size = static_cast<std::size_t>(compressed.at_most());
+  if (bytes > most || bytes > 8 * size + (1 << 25) || size / 2 > bytes + (1 << 16)) return false;
+  const std::unique_ptr<char[]> from(new char[size]);
+  char* to = nullptr;
+  in_turns(std::min(2, host_threads()), 2, [&](int, std::int64_t part) {
+    if (part == 0) {
+      to = room();
+    } else {
+      read_all(compressed, from.get(), size, "its compressed data");
+    }
+  });
   constexpr char gzip = 0x1f;
-  for (std::size_t at = 0; at < from.size() && (at == 0 || from[at] == gzip);) {
+  for (std::size_t at = 0; at < size && (at == 0 || from[at] == gzip);) {
     const auto decompress = from[at] == gzip ? libdeflate_gzip_decompress_ex : libdeflate_zlib_decompress_ex;
     std::size_t read = 0, written = 0;
-    if (decompress(decompressor(), &from[at], from.size() - at, to, bytes, &read, &written) != LIBDEFLATE_SUCCESS)
+    if (decompress(decompressor(), &from[at], size - at, to, bytes, &read, &written) != LIBDEFLATE_SUCCESS)
       return false;
     at += read;
     to += written;

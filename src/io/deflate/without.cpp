@@ -10,4 +10,6 @@ void compress_by_zlib(std::size_t, const char*, std::size_t, std::vector<char>&)
   throw Error("this gale was built without libdeflate and VTK");
 }
 
+bool inflate_at_once(const InputFile&, std::uint64_t, std::uint64_t, const std::function<char*()>&) { return false; }
+
 }  // namespace gale::io::detail

@@ -29,6 +29,6 @@ bool uncompress_zlib(const char* compressed, std::size_t compressed_bytes, char*
   return status == Z_OK && written == bytes;
 }
 
-bool inflate_at_once(ByteSource&, char*, std::size_t) { return false; }
+bool inflate_at_once(const InputFile&, std::uint64_t, std::uint64_t, const std::function<char*()>&) { return false; }
 
 }  // namespace gale::io::detail

@@ -14,7 +14,7 @@ namespace {
 
 bool reads_files() { return false; }
 
-std::unique_ptr<ByteSource> inflated(const InputFile&, std::uint64_t, std::uint64_t) { refuse_without(); }
+std::unique_ptr<ByteSource> inflated(const InputFile&, std::uint64_t) { refuse_without(); }
 
 Uncompress find_uncompress(const std::string&) { refuse_without(); }
 
