@@ -145,18 +145,20 @@ io::Surface separatrices1(const io::Dataset& dataset, const io::PointArray& fiel
     points += shared->first_between.extent(0) + shared->first_cell.extent(0);
   const Offset cells = falling.cells.size() + rising.cells.size() + connectors.cells.size();
   const Offset paths = Offset(falling.count()) + rising.count() + connectors.count();
+  const CellReader cell_at = mesh.cell_reader();
+  const OtherIds vertex_input = mesh.vertices_in_input(), cell_input = mesh.cells_in_input();
   const GlobalId *edge_ids = numbers.edges.data(), *triangle_ids = numbers.triangles.data();
   const Along descending_along{named.descending, named.edges.data() + groups.descending_edges,
                                edge_ids + groups.descending_edges, [](Id v) { return std::array<Id, 1>{v}; },
-                               [&](Offset k) { return mesh.vertex_id(mesh.vertex_input()(falling.cells[k])); }};
+                               [&](Offset k) { return mesh.vertex_id(vertex_input[falling.cells[k]]); }};
   const Along ascending_along{named.ascending, named.triangles.data() + groups.ascending_triangles,
                               triangle_ids + groups.ascending_triangles,
-                              [&](Id t) { return detail::corners_of(mesh, t); },
-                              [&](Offset k) { return mesh.cell_id(mesh.cell_input()(rising.cells[k])); }};
+                              [&](Id t) { return detail::corners_of(cell_at, t); },
+                              [&](Offset k) { return mesh.cell_id(cell_input[rising.cells[k]]); }};
   const Along ascending_on_triangles_along{named.ascending, named.edges.data() + groups.ascending_edges,
                                            edge_ids + groups.ascending_edges,
-                                           [&](Id t) { return detail::corners_of<3>(mesh, t); },
-                                           [&](Offset k) { return mesh.cell_id(mesh.cell_input()(rising.cells[k])); }};
+                                           [&](Id t) { return detail::corners_of<3>(cell_at, t); },
+                                           [&](Offset k) { return mesh.cell_id(cell_input[rising.cells[k]]); }};
   const Along connecting{named.connectors, named.edges.data() + groups.connector_edges,
                          edge_ids + groups.connector_edges, [](const Triangle& triangle) { return triangle; },
                          [&](Offset k) { return triangle_ids[groups.connector_triangles + named.connectors.cell(k)]; }};

@@ -117,7 +117,8 @@ class Walls {
           };
           for (const Id vertex : vertices) add(gale::detail::point_of(points, vertex));
           for (const Id t : tetrahedra)
-            add(gale::detail::barycentre(points, detail::to_input(vertex_input_, detail::corners_of(mesh_, t))));
+            add(gale::detail::barycentre(points,
+                                         detail::to_input(vertex_input_, detail::corners_of(mesh_.cell_reader(), t))));
           surface_.points = positions;
         },
         dataset_.points);

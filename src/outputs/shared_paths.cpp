@@ -41,7 +41,7 @@ Ids first_places(const std::vector<Cell>& cells) {
   constexpr Id none = std::numeric_limits<Id>::max();
   const auto count = static_cast<Offset>(cells.size());
   std::uint64_t size = 1024;
-  while (size < 2 * cells.size()) size *= 2;
+  while (size < cells.size() + cells.size() / 4) size *= 2;
   const auto slots = allocate<Ids>("GALE::slots_of_cells", static_cast<Offset>(size));
   parallel_for("GALE::clear_slots", HostExecutionSpace(), slots.extent(0), [&](Offset slot) { slots(slot) = none; });
   const auto first = allocate<Ids>("GALE::first_places", count);  // its slot until all have one

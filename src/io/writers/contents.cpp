@@ -9,9 +9,14 @@ enum VtkCell : std::uint8_t { vtk_line = 3, vtk_polyline = 4 };
 
 template <class T>
 WrittenArray of_values(const std::string& name, int components, const T* values, std::uint64_t count) {
-  return {name, components, value_type_of<T>(), count, [values](std::uint64_t begin, std::uint64_t end, char* to) {
+  return {name,
+          components,
+          value_type_of<T>(),
+          count,
+          [values](std::uint64_t begin, std::uint64_t end, char* to) {
             if (end > begin) std::memcpy(to, values + begin, (end - begin) * sizeof(T));
-          }};
+          },
+          reinterpret_cast<const char*>(values)};
 }
 
 /// The points of cells, and where each cell ends.
