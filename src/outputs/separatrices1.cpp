@@ -88,14 +88,12 @@ class Lines {
       if (shared.first_between(shared.between(begin)) == begin) mask_[line[2 * begin]] = 0;
       if (shared.first_cell(shared.cell(end - 1)) == end - 1 && paths.is_whole(i)) mask_[line[2 * end - 1]] = 0;
       const End &source = ends.sources[paths.sources[i]], &destination = ends.destinations[paths.destinations[i]];
-      separatrices_[first_path_ + i] = {first_path_ + i + 1,
-                                        static_cast<Number>(source.cell),
-                                        static_cast<Number>(destination.cell),
-                                        static_cast<Number>(first_number_ + ends.numbers[i]),
-                                        type,
-                                        std::max(source.highest, destination.highest).value,
-                                        std::min(source.lowest, destination.lowest).value,
-                                        source.on_surface + destination.on_surface};
+      separatrices_.set(
+          first_path_ + i,
+          {first_path_ + i + 1, static_cast<Number>(source.cell), static_cast<Number>(destination.cell),
+           static_cast<Number>(first_number_ + ends.numbers[i]), type,
+           std::max(source.highest, destination.highest).value, std::min(source.lowest, destination.lowest).value,
+           source.on_surface + destination.on_surface});
     });
     first_point_ += before + cells;
     first_cell_ += paths.cells.size();
@@ -110,7 +108,7 @@ class Lines {
                             {"CellDimension", 1, std::move(dimensions_)},
                             {"CellId", 1, std::move(ids_)}};
     surface.lines = std::move(lines_);
-    surface.cell_arrays = detail::separatrix_arrays(separatrices_, field, true);
+    surface.cell_arrays = separatrices_.take(field, true);
     return surface;
   }
 
@@ -127,7 +125,7 @@ class Lines {
   std::vector<std::int8_t> mask_, dimensions_;
   std::vector<Number> ids_;
   io::Surface::Cells lines_;
-  std::vector<detail::SeparatrixValues<Number>> separatrices_;
+  detail::SeparatrixArrays<Number> separatrices_;
   Offset first_point_ = 0, first_cell_ = 0, first_path_ = 0;
   GlobalId first_number_ = 0;
 };
