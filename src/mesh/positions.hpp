@@ -29,6 +29,16 @@ Point barycentre(const View& points, std::array<Id, N> simplex) {
   return sum;
 }
 
+/// std::hypot(x, y, z), to the last bit; in a grid, where those that aren't 0 are as long as one another, without
+/// dividing.
+inline double length_of(double x, double y, double z) {
+  x = std::abs(x), y = std::abs(y), z = std::abs(z);
+  const double longest = std::max({x, y, z});
+  const int equal = (x == longest) + (y == longest) + (z == longest), zero = (x == 0) + (y == 0) + (z == 0);
+  static const double roots[] = {0, 1, std::sqrt(2.0), std::sqrt(3.0)};
+  return equal + zero == 3 ? longest * roots[equal] : std::hypot(x, y, z);
+}
+
 /// The centre of the circle that touches a triangle's sides; the first corner where all three are one point.
 template <class View>
 Point incentre(const View& points, std::array<Id, 3> triangle) {
@@ -38,7 +48,7 @@ Point incentre(const View& points, std::array<Id, 3> triangle) {
   for (int i = 0; i < 3; ++i) corners[i] = point_of(points, triangle[i]);
   for (int i = 0; i < 3; ++i) {
     const Point &a = corners[(i + 1) % 3], &b = corners[(i + 2) % 3];
-    all += weights[i] = std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+    all += weights[i] = length_of(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
   }
   if (!(all > 0)) return corners[0];
   for (int axis = 0; axis < 3; ++axis) {

@@ -56,6 +56,7 @@ gale::detail::Point middle_of(const io::Dataset::Points<Coordinate>& points, con
 KnownSimplices known_simplices(const DiscreteGradient& gradient, const CriticalSimplices& critical,
                                const SimplexNumbers& numbers) {
   const Mesh& mesh = gradient.mesh();
+  const CellReader cells = mesh.cell_reader();
   const Namer namer(gradient, numbers);
   KnownSimplices known;
   const auto add = [&](int dimension, const CriticalSimplex& simplex) {
@@ -70,9 +71,9 @@ KnownSimplices known_simplices(const DiscreteGradient& gradient, const CriticalS
   for (const Id t : critical.cells) {
     const GlobalId id = mesh.cell_id(mesh.cells_in_input()[t]);
     if (critical.dimension == 2) {
-      add(2, namer.name_cell(detail::corners_of<3>(mesh, t), id));
+      add(2, namer.name_cell(detail::corners_of<3>(cells, t), id));
     } else {
-      add(3, namer.name_cell(detail::corners_of<4>(mesh, t), id));
+      add(3, namer.name_cell(detail::corners_of<4>(cells, t), id));
     }
   }
   return known;

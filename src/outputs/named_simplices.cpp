@@ -54,26 +54,32 @@ NamedPaths named_simplices(const MorseSmaleComplex& complex) {
   const auto &falling = complex.descending, &rising = complex.ascending;
   const auto& connectors = complex.connectors;
   const Mesh& mesh = complex.excerpt.mesh();
+  const CellReader cells = mesh.cell_reader();
   const bool is_excerpt = mesh.is_part();
   NamedPaths named = {
       {complex.critical.edges, complex.critical.triangles, is_excerpt ? std::optional(mesh) : std::nullopt},
       detail::share(falling),
       detail::share(rising),
       detail::share(connectors)};
+  const detail::NamedGroups groups(complex, named);
+  named.edges.reserve(groups.ascending_edges + named.ascending.first_between.extent(0));
+  const auto& first = named.connectors.first_cell;
+  named.triangles.reserve(groups.connector_triangles + first.extent(0));
   const auto itself = [](const auto& cell) { return cell; };
   const auto edge_of = [](Id a, Id b) { return Edge{a, b}; };
   append_between(falling, named.descending, complex.critical.edges, itself, edge_of, named.edges);
   append_between(connectors, named.connectors, complex.critical.edges, itself, common<2, Triangle>, named.edges);
   if (complex.critical.dimension == 2) {
-    const auto corners = [&](Id cell) { return detail::corners_of<3>(mesh, cell); };
+    const auto corners = [&](Id cell) { return detail::corners_of<3>(cells, cell); };
     append_between(rising, named.ascending, complex.critical.edges, corners, common<2, Triangle>, named.edges);
     return named;
   }
-  const auto corners = [&](Id cell) { return detail::corners_of(mesh, cell); };
+  const auto corners = [&](Id cell) { return detail::corners_of(cells, cell); };
   append_between(rising, named.ascending, complex.critical.triangles, corners, common<3, std::array<Id, 4>>,
                  named.triangles);
-  const auto& first = named.connectors.first_cell;
-  for (std::size_t i = 0; i < first.extent(0); ++i) named.triangles.push_back(connectors.cells[first(i)]);
+  named.triangles.resize(groups.connector_triangles + first.extent(0));
+  parallel_for("GALE::triangles_of_connectors", HostExecutionSpace(), first.extent(0),
+               [&](Offset i) { named.triangles[groups.connector_triangles + i] = connectors.cells[first(i)]; });
   return named;
 }
 

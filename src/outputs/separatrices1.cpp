@@ -88,14 +88,12 @@ class Lines {
       if (shared.first_between(shared.between(begin)) == begin) mask_[line[2 * begin]] = 0;
       if (shared.first_cell(shared.cell(end - 1)) == end - 1 && paths.is_whole(i)) mask_[line[2 * end - 1]] = 0;
       const End &source = ends.sources[paths.sources[i]], &destination = ends.destinations[paths.destinations[i]];
-      separatrices_[first_path_ + i] = {first_path_ + i + 1,
-                                        static_cast<Number>(source.cell),
-                                        static_cast<Number>(destination.cell),
-                                        static_cast<Number>(first_number_ + ends.numbers[i]),
-                                        type,
-                                        std::max(source.highest, destination.highest).value,
-                                        std::min(source.lowest, destination.lowest).value,
-                                        source.on_surface + destination.on_surface};
+      separatrices_.set(
+          first_path_ + i,
+          {first_path_ + i + 1, static_cast<Number>(source.cell), static_cast<Number>(destination.cell),
+           static_cast<Number>(first_number_ + ends.numbers[i]), type,
+           std::max(source.highest, destination.highest).value, std::min(source.lowest, destination.lowest).value,
+           source.on_surface + destination.on_surface});
     });
     first_point_ += before + cells;
     first_cell_ += paths.cells.size();
@@ -110,7 +108,7 @@ class Lines {
                             {"CellDimension", 1, std::move(dimensions_)},
                             {"CellId", 1, std::move(ids_)}};
     surface.lines = std::move(lines_);
-    surface.cell_arrays = detail::separatrix_arrays(separatrices_, field, true);
+    surface.cell_arrays = separatrices_.take(field, true);
     return surface;
   }
 
@@ -127,7 +125,7 @@ class Lines {
   std::vector<std::int8_t> mask_, dimensions_;
   std::vector<Number> ids_;
   io::Surface::Cells lines_;
-  std::vector<detail::SeparatrixValues<Number>> separatrices_;
+  detail::SeparatrixArrays<Number> separatrices_;
   Offset first_point_ = 0, first_cell_ = 0, first_path_ = 0;
   GlobalId first_number_ = 0;
 };
@@ -145,18 +143,20 @@ io::Surface separatrices1(const io::Dataset& dataset, const io::PointArray& fiel
     points += shared->first_between.extent(0) + shared->first_cell.extent(0);
   const Offset cells = falling.cells.size() + rising.cells.size() + connectors.cells.size();
   const Offset paths = Offset(falling.count()) + rising.count() + connectors.count();
+  const CellReader cell_at = mesh.cell_reader();
+  const OtherIds vertex_input = mesh.vertices_in_input(), cell_input = mesh.cells_in_input();
   const GlobalId *edge_ids = numbers.edges.data(), *triangle_ids = numbers.triangles.data();
   const Along descending_along{named.descending, named.edges.data() + groups.descending_edges,
                                edge_ids + groups.descending_edges, [](Id v) { return std::array<Id, 1>{v}; },
-                               [&](Offset k) { return mesh.vertex_id(mesh.vertex_input()(falling.cells[k])); }};
+                               [&](Offset k) { return mesh.vertex_id(vertex_input[falling.cells[k]]); }};
   const Along ascending_along{named.ascending, named.triangles.data() + groups.ascending_triangles,
                               triangle_ids + groups.ascending_triangles,
-                              [&](Id t) { return detail::corners_of(mesh, t); },
-                              [&](Offset k) { return mesh.cell_id(mesh.cell_input()(rising.cells[k])); }};
+                              [&](Id t) { return detail::corners_of(cell_at, t); },
+                              [&](Offset k) { return mesh.cell_id(cell_input[rising.cells[k]]); }};
   const Along ascending_on_triangles_along{named.ascending, named.edges.data() + groups.ascending_edges,
                                            edge_ids + groups.ascending_edges,
-                                           [&](Id t) { return detail::corners_of<3>(mesh, t); },
-                                           [&](Offset k) { return mesh.cell_id(mesh.cell_input()(rising.cells[k])); }};
+                                           [&](Id t) { return detail::corners_of<3>(cell_at, t); },
+                                           [&](Offset k) { return mesh.cell_id(cell_input[rising.cells[k]]); }};
   const Along connecting{named.connectors, named.edges.data() + groups.connector_edges,
                          edge_ids + groups.connector_edges, [](const Triangle& triangle) { return triangle; },
                          [&](Offset k) { return triangle_ids[groups.connector_triangles + named.connectors.cell(k)]; }};

@@ -72,7 +72,12 @@ class Walls {
     add_descending();
     add_ascending();
     require_ids("polygons of 2-separatrices", surface_.polygons.begin.size());
-    surface_.cell_arrays = detail::separatrix_arrays(walls_, field_, false);
+    detail::SeparatrixArrays<Id> arrays(walls_.empty() ? 0 : walls_.back().end);
+    for (std::size_t i = 0; i < walls_.size(); ++i) {
+      gale::detail::stop_if_asked_at(static_cast<Offset>(i));
+      arrays.set(i == 0 ? 0 : walls_[i - 1].end, walls_[i]);
+    }
+    surface_.cell_arrays = arrays.take(field_, false);
     return std::move(surface_);
   }
 
@@ -117,7 +122,8 @@ class Walls {
           };
           for (const Id vertex : vertices) add(gale::detail::point_of(points, vertex));
           for (const Id t : tetrahedra)
-            add(gale::detail::barycentre(points, detail::to_input(vertex_input_, detail::corners_of(mesh_, t))));
+            add(gale::detail::barycentre(points,
+                                         detail::to_input(vertex_input_, detail::corners_of(mesh_.cell_reader(), t))));
           surface_.points = positions;
         },
         dataset_.points);

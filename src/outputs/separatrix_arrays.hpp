@@ -1,11 +1,9 @@
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
-#include <type_traits>
+#include <utility>
 #include <vector>
 
-#include <gale/base/parallel.hpp>
 #include <gale/outputs/values.hpp>
 
 namespace gale::outputs::detail {
@@ -26,33 +24,52 @@ struct SeparatrixValues {
 /// The cell arrays that TTK gives separatrices, by name, in TTK's order; values of a float field in float, of all
 /// others in double.
 template <class Number>
-std::vector<io::PointArray> separatrix_arrays(const std::vector<SeparatrixValues<Number>>& all,
-                                              const io::PointArray& field, bool have_destinations) {
-  const auto cells = [&all](const auto& value_of) {
-    std::vector<std::decay_t<decltype(value_of(all[0]))>> values(all.empty() ? 0 : all.back().end);
-    parallel_for("GALE::separatrix_arrays", HostExecutionSpace(), all.size(), [&](Offset i) {
-      std::fill(values.begin() + (i == 0 ? 0 : all[i - 1].end), values.begin() + all[i].end, value_of(all[i]));
-    });
-    return values;
-  };
-  using Values = SeparatrixValues<Number>;
-  std::vector<io::PointArray> arrays;
-  arrays.push_back({"SourceId", 1, cells([](const Values& one) { return one.source; })});
-  if (have_destinations)
-    arrays.push_back({"DestinationId", 1, cells([](const Values& one) { return one.destination; })});
-  arrays.push_back({"SeparatrixId", 1, cells([](const Values& one) { return one.id; })});
-  arrays.push_back({"SeparatrixType", 1, cells([](const Values& one) { return one.type; })});
-  const auto add_field = [&](const char* name, const auto& value_of) {
-    arrays.push_back({name, 1, values_as(field, cells(value_of))});
-  };
-  add_field("SeparatrixFunctionMaximum", [](const Values& one) { return one.maximum; });
-  add_field("SeparatrixFunctionMinimum", [](const Values& one) { return one.minimum; });
-  add_field("SeparatrixFunctionDifference", [](const Values& one) {
-    return one.maximum == one.minimum ? 0 : one.maximum - one.minimum;  // both may be one infinity
-  });
-  arrays.push_back(
-      {"NumberOfCriticalPointsOnBoundary", 1, cells([](const Values& one) { return one.critical_on_surface; })});
-  return arrays;
-}
+class SeparatrixArrays {
+ public:
+  /// Arrays of so many cells.
+  explicit SeparatrixArrays(std::size_t cells)
+      : source_(cells),
+        destination_(cells),
+        id_(cells),
+        type_(cells),
+        maximum_(cells),
+        minimum_(cells),
+        difference_(cells),
+        critical_on_surface_(cells) {}
+
+  /// Sets what the cells of one have, from `begin` on. Any number of threads may.
+  void set(Offset begin, const SeparatrixValues<Number>& one) {
+    for (Offset cell = begin; cell < one.end; ++cell) {
+      source_[cell] = one.source;
+      destination_[cell] = one.destination;
+      id_[cell] = one.id;
+      type_[cell] = one.type;
+      maximum_[cell] = one.maximum;
+      minimum_[cell] = one.minimum;
+      difference_[cell] = one.maximum == one.minimum ? 0 : one.maximum - one.minimum;  // both may be one infinity
+      critical_on_surface_[cell] = one.critical_on_surface;
+    }
+  }
+
+  std::vector<io::PointArray> take(const io::PointArray& field, bool have_destinations) {
+    std::vector<io::PointArray> arrays;
+    const auto add = [&](const char* name, auto&& values) { arrays.push_back({name, 1, std::move(values)}); };
+    add("SourceId", source_);
+    if (have_destinations) add("DestinationId", destination_);
+    add("SeparatrixId", id_);
+    add("SeparatrixType", type_);
+    add("SeparatrixFunctionMaximum", values_as(field, std::move(maximum_)));
+    add("SeparatrixFunctionMinimum", values_as(field, std::move(minimum_)));
+    add("SeparatrixFunctionDifference", values_as(field, std::move(difference_)));
+    add("NumberOfCriticalPointsOnBoundary", critical_on_surface_);
+    return arrays;
+  }
+
+ private:
+  std::vector<Number> source_, destination_, id_;
+  std::vector<std::int8_t> type_;
+  std::vector<double> maximum_, minimum_, difference_;
+  std::vector<Id> critical_on_surface_;
+};
 
 }  // namespace gale::outputs::detail

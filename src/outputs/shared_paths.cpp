@@ -4,7 +4,6 @@
 #include <vector>
 
 #include <gale/base/atomic.hpp>
-#include <gale/base/bits.hpp>
 #include <gale/base/error.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/outputs/shared_paths.hpp>
@@ -19,7 +18,12 @@ using Ids = Array<Id, HostMemory>;
 /// Neighbours in space have ids that are near, and so are their slots.
 std::uint64_t hash_of(Id cell) { return static_cast<std::uint64_t>(cell); }
 std::uint64_t hash_of(const TriangleVertices& triangle) {
-  return spread(spread(pair_key(triangle[0], triangle[1])) ^ static_cast<std::uint64_t>(triangle[2]));
+  return 4 * std::uint64_t(triangle[0]) + 5 * std::uint64_t(triangle[1]) + 7 * std::uint64_t(triangle[2]);
+}
+
+bool are_same(Id one, Id other) { return one == other; }
+bool are_same(const TriangleVertices& one, const TriangleVertices& other) {  // faster than to call memcmp
+  return ((one[0] ^ other[0]) | (one[1] ^ other[1]) | (one[2] ^ other[2])) == 0;
 }
 
 /// Whether the simplex between a cell and one that follows it is also between the cell and another that does: on the
@@ -37,10 +41,10 @@ Ids first_places(const std::vector<Cell>& cells) {
   constexpr Id none = std::numeric_limits<Id>::max();
   const auto count = static_cast<Offset>(cells.size());
   std::uint64_t size = 1024;
-  while (size < 2 * cells.size()) size *= 2;
+  while (size < cells.size() + cells.size() / 4) size *= 2;
   const auto slots = allocate<Ids>("GALE::slots_of_cells", static_cast<Offset>(size));
   parallel_for("GALE::clear_slots", HostExecutionSpace(), slots.extent(0), [&](Offset slot) { slots(slot) = none; });
-  const auto slot_of = allocate<Array<std::uint32_t, HostMemory>>("GALE::slots_of_cells", count);
+  const auto first = allocate<Ids>("GALE::first_places", count);  // its slot until all have one
   parallel_for("GALE::slots_of_cells", HostExecutionSpace(), count, [&](Offset k) {
     const auto here = static_cast<Id>(k);
     for (std::uint64_t slot = hash_of(cells[k]) & (size - 1);; slot = (slot + 1) & (size - 1)) {
@@ -48,14 +52,14 @@ Ids first_places(const std::vector<Cell>& cells) {
       Id there = atomic_read(at);
       while (there == none && !gale::detail::replaced(at, there, here)) {
       }
-      if (there != none && cells[there] != cells[k]) continue;
+      if (there != none && !are_same(cells[there], cells[k])) continue;
       atomic_min(at, here);
-      slot_of(k) = static_cast<std::uint32_t>(slot);
+      first(k) = static_cast<Id>(static_cast<std::uint32_t>(slot));
       return;
     }
   });
-  const auto first = allocate<Ids>("GALE::first_places", count);
-  parallel_for("GALE::first_places", HostExecutionSpace(), count, [&](Offset k) { first(k) = slots(slot_of(k)); });
+  parallel_for("GALE::first_places", HostExecutionSpace(), count,
+               [&](Offset k) { first(k) = slots(static_cast<std::uint32_t>(first(k))); });
   return first;
 }
 
@@ -63,15 +67,17 @@ Ids first_places(const std::vector<Cell>& cells) {
 template <class FirstOf>
 void number(Offset count, const FirstOf& first_of, Array<const Id, HostMemory>& numbers,
             Array<const Id, HostMemory>& firsts) {
-  const auto begin = allocate<Ids>("GALE::shared_numbers", count + 1);
-  const Id all = exclusive_scan("GALE::shared_numbers", HostExecutionSpace(), count, begin,
+  const auto number_of = allocate<Ids>("GALE::shared_numbers", count + 1);
+  const Id all = exclusive_scan("GALE::shared_numbers", HostExecutionSpace(), count, number_of,
                                 [&](Offset k) { return Id(first_of(k) == k); });
-  const auto number_of = allocate<Ids>("GALE::shared_numbers", count);
   const auto first_with = allocate<Ids>("GALE::first_with_number", all);
   parallel_for("GALE::share_numbers", HostExecutionSpace(), count, [&](Offset k) {
     const Id first = first_of(k);
-    number_of(k) = begin(first);
-    if (first == k) first_with(begin(k)) = first;
+    if (first == k) {
+      first_with(number_of(k)) = first;
+    } else {
+      number_of(k) = number_of(first);  // which is its own
+    }
   });
   numbers = number_of;
   firsts = first_with;

@@ -36,8 +36,8 @@ Points points_at(const Points& points, const std::vector<Id>& ids) {
 
 /// The vertices of a cell, all in GALE's ids: of a tetrahedron, or the first three of a triangle.
 template <std::size_t N = 4>
-std::array<Id, N> corners_of(const Mesh& mesh, Id cell) {
-  const Quad all = mesh.cell_reader()(cell);
+std::array<Id, N> corners_of(const CellReader& cells, Id cell) {
+  const Quad all = cells(cell);
   std::array<Id, N> corners;
   for (std::size_t k = 0; k < N; ++k) corners[k] = all[static_cast<int>(k)];
   return corners;

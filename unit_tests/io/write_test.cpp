@@ -153,6 +153,30 @@ TEST_F(WriteMesh, LeavesNoHalfFileOnAFullDisk) {
   expect_all_or_nothing(folder, "mesh.vtu", [&] { write_mesh(folder / "mesh.vtu", mesh); });
 }
 
+/// What is appended in several blocks is read from these to where it stays, and base64 as all other files are.
+TEST_F(WriteAndRead, ManyBlocksComeBackAsBase64Does) {
+  const auto both = [&](const Dataset& mesh, const auto& use) {
+    for (const Encoding encoding : {Encoding::appended, Encoding::base64}) {
+      AtomicFile file(folder / "mesh.vtu", encoding);
+      write_mesh(file, mesh);
+      file.commit();
+      use(encoding, folder / "mesh.vtu");
+    }
+  };
+  for (const Dataset& mesh : {make_grid(20), with_double_points(make_grid(20)), make_plane(160)}) {
+    both(mesh, [&](Encoding, const std::string& path) { test::expect_same(read(path), mesh); });
+    std::int32_t& corner = (mesh.dimension() == 3 ? mesh.tetrahedra.data() : mesh.triangles.data())[100000];
+    const int wrong = mesh.dimension() == 3 ? static_cast<int>(test::point_count_of(mesh)) : -1;
+    corner = wrong;
+    std::string messages[2];
+    both(mesh, [&](Encoding encoding, const std::string& path) {
+      messages[encoding == Encoding::base64] = error_of([&] { read(path); });
+    });
+    EXPECT_EQ(messages[0], messages[1]);
+    EXPECT_NE(messages[0].find(std::to_string(wrong)), std::string::npos) << messages[0];
+  }
+}
+
 /// Holds without VTK's compression, too.
 TEST_F(WriteMesh, InBase64IsXmlThatComesBackAsItWas) {
   const Dataset mesh = grid_with_every_type(5);

@@ -9,7 +9,7 @@
 namespace gale::io::detail {
 namespace {
 
-constexpr std::size_t buffer_size = 1 << 20;
+constexpr std::size_t buffer_size = 1 << 16;
 
 void write_at(int descriptor, std::uint64_t at, const char* bytes, std::size_t size) {
   const auto write_some = [&](std::size_t done, std::size_t rest) {

@@ -68,13 +68,6 @@ void require_size(const PointArray& array, std::uint64_t points) {
     damaged("the array '", array.name, "' has ", tuples, " tuples for ", points, " points");
 }
 
-ByteOrder byte_order_of_machine() {
-  const std::uint16_t one = 1;
-  unsigned char first;
-  std::memcpy(&first, &one, 1);
-  return first == 1 ? ByteOrder::little : ByteOrder::big;
-}
-
 PointArray::Values read_values(ByteSource& source, ValueType type, std::uint64_t count, ByteOrder order) {
   return with_type(type, [&](auto example) -> PointArray::Values {
     using T = decltype(example);

@@ -76,7 +76,9 @@ void require_size(const PointArray& array, std::uint64_t points);
 
 enum class ByteOrder { little, big };
 
-ByteOrder byte_order_of_machine();
+constexpr ByteOrder byte_order_of_machine() {
+  return __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__ ? ByteOrder::little : ByteOrder::big;
+}
 
 inline std::uint16_t reversed(std::uint16_t bits) { return __builtin_bswap16(bits); }
 inline std::uint32_t reversed(std::uint32_t bits) { return __builtin_bswap32(bits); }

@@ -1,10 +1,11 @@
 #include <libdeflate.h>
 
+#include <algorithm>
 #include <memory>
 #include <new>
 
+#include <gale/base/threads.hpp>
 #include <gale/io/bytes/compression.hpp>
-#include <gale/io/formats.hpp>
 
 namespace gale::io::detail {
 namespace {
@@ -29,13 +30,9 @@ libdeflate_decompressor* decompressor() { return kept<libdeflate_decompressor>(l
 
 bool can_compress() { return true; }
 
-void compress_by_zlib(Pattern pattern, const char* bytes, std::size_t size, std::vector<char>& compressed) {
-  // Where only three bytes in a row are found again, level 1 makes half as much again of them, and in steps any level
-  // twice as much as zlib, in the same time.
-  if (pattern == Pattern::steps && reads_files()) return compress_at_level_1(bytes, size, compressed);
-  libdeflate_compressor* const compressor =
-      pattern == Pattern::any ? kept<libdeflate_compressor>([] { return libdeflate_alloc_compressor(1); })
-                              : kept<libdeflate_compressor>([] { return libdeflate_alloc_compressor(2); });
+void compress_by_zlib(std::size_t value_bytes, const char* bytes, std::size_t size, std::vector<char>& compressed) {
+  if (value_bytes >= 4) return compress_words(bytes, size, libdeflate_adler32(1, bytes, size), compressed);
+  libdeflate_compressor* const compressor = kept<libdeflate_compressor>([] { return libdeflate_alloc_compressor(2); });
   compressed.resize(libdeflate_zlib_compress_bound(compressor, size));
   compressed.resize(libdeflate_zlib_compress(compressor, bytes, size, compressed.data(), compressed.size()));
 }
@@ -45,14 +42,26 @@ bool uncompress_zlib(const char* compressed, std::size_t compressed_bytes, char*
          LIBDEFLATE_SUCCESS;
 }
 
-bool inflate_at_once(ByteSource& compressed, char* to, std::size_t bytes) {
-  std::vector<char> from(static_cast<std::size_t>(compressed.at_most()));
-  read_all(compressed, from.data(), from.size(), "its compressed data");
+bool inflate_at_once(const InputFile& file, std::uint64_t begin, std::uint64_t bytes,
+                     const std::function<char*()>& room) {
+  constexpr std::uint64_t most = 1 << 28;  // takes up to half a second, in which nobody can stop it
+  FileBytes compressed(file, begin);
+  const auto size = static_cast<std::size_t>(compressed.at_most());
+  if (bytes > most || bytes > 8 * size + (1 << 25) || size / 2 > bytes + (1 << 16)) return false;
+  const std::unique_ptr<char[]> from(new char[size]);
+  char* to = nullptr;
+  in_turns(std::min(2, host_threads()), 2, [&](int, std::int64_t part) {
+    if (part == 0) {
+      to = room();
+    } else {
+      read_all(compressed, from.get(), size, "its compressed data");
+    }
+  });
   constexpr char gzip = 0x1f;
-  for (std::size_t at = 0; at < from.size() && (at == 0 || from[at] == gzip);) {
+  for (std::size_t at = 0; at < size && (at == 0 || from[at] == gzip);) {
     const auto decompress = from[at] == gzip ? libdeflate_gzip_decompress_ex : libdeflate_zlib_decompress_ex;
     std::size_t read = 0, written = 0;
-    if (decompress(decompressor(), &from[at], from.size() - at, to, bytes, &read, &written) != LIBDEFLATE_SUCCESS)
+    if (decompress(decompressor(), &from[at], size - at, to, bytes, &read, &written) != LIBDEFLATE_SUCCESS)
       return false;
     at += read;
     to += written;

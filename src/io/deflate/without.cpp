@@ -6,8 +6,10 @@ namespace gale::io::detail {
 
 bool can_compress() { return false; }
 
-void compress_by_zlib(Pattern, const char*, std::size_t, std::vector<char>&) {
+void compress_by_zlib(std::size_t, const char*, std::size_t, std::vector<char>&) {
   throw Error("this gale was built without libdeflate and VTK");
 }
+
+bool inflate_at_once(const InputFile&, std::uint64_t, std::uint64_t, const std::function<char*()>&) { return false; }
 
 }  // namespace gale::io::detail

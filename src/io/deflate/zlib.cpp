@@ -1,3 +1,5 @@
+#include <new>
+
 #include <gale/io/bytes/compression.hpp>
 #include <gale/io/libraries/headers.hpp>
 
@@ -6,8 +8,18 @@ namespace gale::io::detail {
 
 bool can_compress() { return true; }
 
-void compress_by_zlib(Pattern, const char* bytes, std::size_t size, std::vector<char>& compressed) {
-  compress_at_level_1(bytes, size, compressed);
+void compress_by_zlib(std::size_t value_bytes, const char* bytes, std::size_t size, std::vector<char>& compressed) {
+  if (value_bytes >= 4) {
+    const auto sum = ::adler32(1, reinterpret_cast<const Bytef*>(bytes), static_cast<uInt>(size));
+    return compress_words(bytes, size, static_cast<std::uint32_t>(sum), compressed);
+  }
+  constexpr int fastest = 1;  // the usual 6 takes several times as long for a few percent less
+  uLongf needed = compressBound(static_cast<uLong>(size));
+  compressed.resize(needed);
+  if (compress2(reinterpret_cast<Bytef*>(compressed.data()), &needed, reinterpret_cast<const Bytef*>(bytes),
+                static_cast<uLong>(size), fastest) != Z_OK)
+    throw std::bad_alloc();
+  compressed.resize(needed);
 }
 
 bool uncompress_zlib(const char* compressed, std::size_t compressed_bytes, char* to, std::size_t bytes) {
@@ -17,6 +29,6 @@ bool uncompress_zlib(const char* compressed, std::size_t compressed_bytes, char*
   return status == Z_OK && written == bytes;
 }
 
-bool inflate_at_once(ByteSource&, char*, std::size_t) { return false; }
+bool inflate_at_once(const InputFile&, std::uint64_t, std::uint64_t, const std::function<char*()>&) { return false; }
 
 }  // namespace gale::io::detail

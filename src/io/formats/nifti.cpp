@@ -175,10 +175,7 @@ PointArray::Values read_planes(ByteSource& source, const Volume& whole, std::int
 
 Content read_nifti(const InputFile& file, const ReadOptions&) {
   const bool is_gzip = file.begins_with("\x1f\x8b");
-  const auto content = [&](std::uint64_t bytes) {
-    return is_gzip ? inflated(file, 0, bytes) : std::make_unique<FileBytes>(file, 0);
-  };
-  std::unique_ptr<ByteSource> source = content(0);
+  const std::unique_ptr<ByteSource> source = is_gzip ? inflated(file, 0) : std::make_unique<FileBytes>(file, 0);
   const NiftiHeader header = read_nifti_header(*source);
   const std::int64_t axes = header.dim[0];
   if (axes < 1 || axes > 7) damaged("it has ", axes, " dimensions");
@@ -199,13 +196,15 @@ Content read_nifti(const InputFile& file, const ReadOptions&) {
   if (!(begin >= static_cast<double>(header.bytes)) || begin > 1e15 || begin != std::floor(begin))
     damaged("its voxels begin at byte ", begin);
   const std::uint64_t behind_header = static_cast<std::uint64_t>(begin) - header.bytes;
-  if (times == 1) {  // then all of it is wanted
-    source = content(header.bytes + behind_header + volume.bytes());
-    skip_all(*source, header.bytes, "its header");
+  std::optional<PointArray::Values> values;
+  if (is_gzip && times == 1 && planes == 1)  // then all of it is wanted, as it is
+    values = volume.read_at_once(file, 0, header.bytes + behind_header);
+  if (!values) {
+    skip(*source, behind_header);
+    values = planes > 1 ? read_planes(*source, volume, planes, times) : volume.read(*source);
+    check_sum(*source);
   }
-  skip(*source, behind_header);
-  Image image = volume.image("NIFTI", planes > 1 ? read_planes(*source, volume, planes, times) : volume.read(*source));
-  check_sum(*source);
+  Image image = volume.image("NIFTI", std::move(*values));
   place(header, image);
   require_finite(image);
   rescale(image, header.scl_slope, header.scl_inter);

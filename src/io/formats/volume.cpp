@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <limits>
 #include <sstream>
@@ -31,10 +32,30 @@ PointArray::Values Volume::read(const InputFile& file, std::uint64_t begin, Pack
     TextReader text(content);
     return read_text_values(text, type, count());
   }
-  const auto whole = inflated(file, begin, bytes());
+  if (auto values = read_at_once(file, begin, 0)) return std::move(*values);
+  const auto whole = inflated(file, begin);  // which tells what is wrong
   PointArray::Values values = read(*whole);
   check_sum(*whole);
   return values;
+}
+
+std::optional<PointArray::Values> Volume::read_at_once(const InputFile& file, std::uint64_t begin,
+                                                       std::uint64_t behind) const {
+  const std::uint64_t all = behind + bytes();
+  return with_type(type, [&](auto example) -> std::optional<PointArray::Values> {
+    using T = decltype(example);
+    std::vector<T> values;
+    const auto content = [&] { return reinterpret_cast<char*>(values.data()); };
+    const auto room = [&] {
+      values.resize((all + sizeof(T) - 1) / sizeof(T));
+      return content();
+    };
+    if (!inflate_at_once(file, begin, all, room)) return std::nullopt;
+    std::memmove(content(), content() + behind, bytes());
+    values.resize(count());
+    to_machine_order(values.data(), values.size(), order);
+    return values;
+  });
 }
 
 Image Volume::image(const std::string& name, PointArray::Values values) const {

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,11 @@ struct Volume {
 
   /// Throws gale::Error unless the source has them all.
   PointArray::Values read(ByteSource& source) const;
+
+  /// The values behind so many bytes of what a file's bytes from `begin` on stand for, which ends with them, where all
+  /// of that is uncompressed at once; nothing where it isn't.
+  std::optional<PointArray::Values> read_at_once(const InputFile& file, std::uint64_t begin,
+                                                 std::uint64_t behind) const;
 
   /// Throws gale::Error unless the file has them all from that byte on.
   PointArray::Values read(const InputFile& file, std::uint64_t begin, Packing packing) const;

@@ -1,7 +1,12 @@
 #include <algorithm>
+#include <atomic>
+#include <cstring>
 #include <limits>
+#include <optional>
+#include <type_traits>
 #include <utility>
 
+#include <gale/base/memory.hpp>
 #include <gale/base/stop.hpp>
 #include <gale/io/bytes/text.hpp>
 #include <gale/io/bytes/values.hpp>
@@ -102,9 +107,12 @@ Faces read_faces(const XmlFile& file, const XmlElement& piece, std::size_t cells
 /// Gives polyhedra, whose points the connectivity has, the faces that the file has beside it: how many, and of each how
 /// many corners, and these.
 void take_faces(const XmlFile& file, const XmlElement& piece, Cells& cells) {
+  const auto has_polyhedron = [](const auto& types) {
+    return std::find(types.begin(), types.end(), cell_type::polyhedron) != types.end();
+  };
+  if (!std::visit(has_polyhedron, cells.types)) return;
   std::vector<std::int64_t> types, ends, connectivity;
   append(cells.types, std::int64_t(0), types);
-  if (std::find(types.begin(), types.end(), cell_type::polyhedron) == types.end()) return;
   append(cells.ends, std::int64_t(0), ends);
   append(cells.connectivity, std::int64_t(0), connectivity);
   const Faces faces = read_faces(file, piece, types.size());
@@ -168,11 +176,86 @@ std::vector<const XmlElement*> pieces_of(const XmlFile& file) {
 
 namespace {
 
+/// Whether use(value, place) holds for all values of an array, which are `count` integers in blocks.
+template <class Use>
+bool all_of_blocks(const XmlFile& file, const XmlElement* array, std::uint64_t count, const Use& use) {
+  std::atomic<bool> all{true};
+  const auto look = [&](ValueType type, std::uint64_t first, const char* values, std::size_t some) {
+    with_type(type, [&](auto example) {
+      const auto* const at = reinterpret_cast<const decltype(example)*>(values);
+      bool is = std::is_integral_v<decltype(example)>;
+      for (std::size_t k = 0; k < some; ++k) is &= use(static_cast<std::int64_t>(at[k]), first + k);
+      if (!is) all = false;
+    });
+  };
+  return array != nullptr && use_blocks(file, *array, count, look) && all;
+}
+
+template <class Coordinate>
+bool read_points(const XmlFile& file, const XmlElement& array, std::uint64_t count, Dataset& mesh) {
+  const auto points = allocate<Dataset::Points<Coordinate>>("GALE::points", count);
+  mesh.points = points;
+  return use_blocks(file, array, 3 * count, [&](ValueType, std::uint64_t first, const char* values, std::size_t some) {
+    std::memcpy(points.data() + first, values, some * sizeof(Coordinate));
+  });
+}
+
+/// Reads tetrahedra, or triangles, whose vertices follow each other, straight to where they stay. False for all else.
+template <int Corners, class Simplices>
+bool read_simplices(const XmlFile& file, const XmlElement& piece, int type, Simplices& simplices, Dataset& mesh) {
+  const std::uint64_t points = count_in(piece, "NumberOfPoints"), cells = count_in(piece, "NumberOfCells");
+  constexpr std::uint64_t most_ids = std::numeric_limits<Id>::max();
+  const XmlElement* const section = piece.child("Points");
+  const XmlElement* const at = section == nullptr ? nullptr : section->child("DataArray");
+  if (at == nullptr || cells == 0 || at->attribute("NumberOfComponents", "3") != "3" || points > most_ids ||
+      cells > most_ids)
+    return false;
+  const auto array = [&](const char* name) { return piece.array("Cells", name); };
+  if (!all_of_blocks(file, array("types"), cells, [&](std::int64_t one, std::uint64_t) { return one == type; }) ||
+      !all_of_blocks(file, array("offsets"), cells,
+                     [](std::int64_t end, std::uint64_t k) { return end == std::int64_t(Corners * (k + 1)); }))
+    return false;
+  simplices = allocate<Simplices>("GALE::simplices", cells);
+  const auto keep = [&, to = simplices.data()](std::int64_t point, std::uint64_t k) {
+    to[k] = static_cast<Id>(point);
+    return std::uint64_t(point) < points;
+  };
+  if (!all_of_blocks(file, array("connectivity"), Corners * cells, keep)) return false;
+  return at->attribute("type") == "Float64"
+             ? read_points<double>(file, *at, points, mesh)
+             : at->attribute("type") == "Float32" && read_points<float>(file, *at, points, mesh);
+}
+
+/// Reads the mesh of a piece of tetrahedra alone, or of triangles alone; nothing for any other piece.
+std::optional<Dataset> read_plain(const XmlFile& file, const XmlElement& piece) {
+  if (file.root.attribute("type") != "UnstructuredGrid") return std::nullopt;
+  const std::uint64_t read_before = file.appended_read;
+  Dataset mesh;
+  if (!read_simplices<4>(file, piece, cell_type::tetrahedron, mesh.tetrahedra, mesh)) {
+    file.appended_read = read_before;
+    if (!read_simplices<3>(file, piece, cell_type::triangle, mesh.triangles, mesh)) {
+      file.appended_read = read_before;
+      return std::nullopt;
+    }
+  }
+  XmlArrays data = read_point_data(file, piece, count_in(piece, "NumberOfPoints"));
+  mesh.arrays = std::move(data.arrays);
+  mesh.notices = std::move(data.notices);
+  return mesh;
+}
+
 /// The mesh of all pieces, of that type of file.
 Content read_all_pieces(const InputFile& input, const char* type, const ReadOptions& options) {
   const XmlFile file = read_xml(input, type);
   const std::vector<const XmlElement*> pieces = pieces_of(file);
   if (pieces.empty()) throw Error("it has no tetrahedra and no triangles");
+  const std::vector<std::string> cell_arrays = names_of_cell_data(*pieces.front());
+  if (pieces.size() == 1) {
+    if (std::optional<Dataset> mesh = read_plain(file, *pieces.front())) {
+      if (!cell_arrays.empty()) mesh->notices.push_back(note_cell_arrays(cell_arrays));
+      return std::move(*mesh);
+    }
+  }
   MeshParts parts = read_piece(file, *pieces.front());
   if (pieces.size() > 1) {
     JoinedPieces joined;
@@ -180,7 +263,6 @@ Content read_all_pieces(const InputFile& input, const char* type, const ReadOpti
     for (std::size_t k = 1; k < pieces.size(); ++k) joined.add(read_piece(file, *pieces[k]));
     parts = joined.take();
   }
-  const std::vector<std::string> cell_arrays = names_of_cell_data(*pieces.front());
   if (!cell_arrays.empty()) parts.notices.push_back(note_cell_arrays(cell_arrays));
   return to_mesh(parts, options);
 }

@@ -183,6 +183,38 @@ PointArray::Values read_binary(const XmlFile& file, const XmlElement& array, Val
 
 }  // namespace
 
+bool use_blocks(const XmlFile& file, const XmlElement& array, std::uint64_t count, const UseBlock& use) {
+  const std::optional<ValueType> type = type_of(array);
+  if (!type || array.attribute("format") != "appended" || !file.appended_is_raw || file.compressor.empty())
+    return false;
+  const std::size_t size = size_of(*type);
+  Binary binary(file, array);
+  const Blocks blocks = read_blocks(binary, file);
+  constexpr std::uint64_t most_bytes = 1 << 24;
+  const bool are_many = blocks.block_bytes <= most_bytes && blocks.block_bytes % size == 0;
+  if (!are_many || blocks.bytes() != product(count, size)) return false;
+  std::vector<std::uint64_t> begin = {file.file.size() - binary.bytes().at_most()};
+  for (const std::uint64_t bytes : blocks.compressed) begin.push_back(begin.back() + bytes);
+  binary.claim(begin.back() - begin.front(), array);
+  const Uncompress to_bytes = find_uncompress(file.compressor);
+  const auto all = static_cast<std::int64_t>(blocks.compressed.size());
+  const auto threads = static_cast<int>(std::min<std::int64_t>(host_threads(), all));
+  std::vector<std::vector<char>> compressed(threads), plain(threads);
+  in_turns(threads, all, [&](int thread, std::int64_t k) {
+    const std::size_t from_bytes = blocks.compressed[k], bytes = blocks.bytes_of(k);
+    std::vector<char>&from = compressed[thread], &to = plain[thread];
+    if (from.size() < from_bytes) from.resize(from_bytes);
+    if (to.size() < bytes) to.resize(bytes);
+    file.file.read(begin[k], from.data(), from_bytes);
+    if (!to_bytes(from.data(), from_bytes, to.data(), bytes)) damaged("an array's compressed block is wrong");
+    with_type(*type, [&](auto example) {
+      to_machine_order(reinterpret_cast<decltype(example)*>(to.data()), bytes / size, file.order);
+    });
+    use(*type, k * blocks.block_bytes / size, to.data(), bytes / size);
+  });
+  return true;
+}
+
 std::string XmlElement::attribute(const std::string& key, const std::string& otherwise) const {
   const auto found = attributes.find(key);
   return found == attributes.end() ? otherwise : found->second;

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -70,6 +72,14 @@ void read_tree(XmlFile& to, const std::string& cell_array);
 
 /// The values of an array: `count` of them, or all that it has. Throws gale::Error if it has less, or they are damaged.
 PointArray::Values read_array(const XmlFile& file, const XmlElement& array, std::optional<std::uint64_t> count);
+
+/// Takes values of an array: so many, from the place `first` on.
+using UseBlock = std::function<void(ValueType type, std::uint64_t first, const char* values, std::size_t count)>;
+
+/// Gives all `count` values of an array to use(), which any number of threads may call, in any order: nothing keeps
+/// them. False, and nothing is done, for an array that isn't in many compressed blocks behind the tree, or has another
+/// number of values. Throws gale::Error if one is damaged, and what use() throws.
+bool use_blocks(const XmlFile& file, const XmlElement& array, std::uint64_t count, const UseBlock& use);
 
 /// The arrays of a PointData element, of `points` points each, the active scalars first; a notice about each whose
 /// values are no numbers.

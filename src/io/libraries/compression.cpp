@@ -71,16 +71,6 @@ class InflatedBytes : public ByteSource {
   bool ended_ = false;  ///< a member has, and no other one has begun
 };
 
-/// What has been uncompressed at once.
-class WholeBytes : public MemoryBytes {
- public:
-  WholeBytes(std::unique_ptr<char[]> bytes, std::size_t size)
-      : MemoryBytes({bytes.get(), size}), bytes_(std::move(bytes)) {}
-
- private:
-  std::unique_ptr<char[]> bytes_;
-};
-
 bool uncompress_lz4(const char* compressed, std::size_t compressed_bytes, char* to, std::size_t bytes) {
   constexpr std::size_t most_bytes = std::numeric_limits<int>::max();
   if (compressed_bytes > most_bytes || bytes > most_bytes) return false;
@@ -100,26 +90,8 @@ bool uncompress_lzma(const char* compressed, std::size_t compressed_bytes, char*
 
 bool reads_files() { return true; }
 
-void compress_at_level_1(const char* bytes, std::size_t size, std::vector<char>& compressed) {
-  constexpr int fastest = 1;  // the usual 6 takes several times as long for a few percent less
-  uLongf needed = compressBound(static_cast<uLong>(size));
-  compressed.resize(needed);
-  if (compress2(reinterpret_cast<Bytef*>(compressed.data()), &needed, reinterpret_cast<const Bytef*>(bytes),
-                static_cast<uLong>(size), fastest) != Z_OK)
-    throw std::bad_alloc();
-  compressed.resize(needed);
-}
-
-std::unique_ptr<ByteSource> inflated(const InputFile& file, std::uint64_t begin, std::uint64_t bytes) {
-  auto stream = std::make_unique<InflatedBytes>(std::make_unique<FileBytes>(file, begin));
-  FileBytes compressed(file, begin);
-  constexpr std::uint64_t most = 1 << 28;  // takes up to half a second, in which nobody can stop it
-  // A stream that can stand for so many, and isn't much longer: else a file's claim takes memory that it can't fill.
-  if (bytes == 0 || bytes > most || bytes > stream->at_most() || compressed.at_most() / 2 > bytes + (1 << 16))
-    return stream;
-  std::unique_ptr<char[]> whole(new (std::nothrow) char[bytes]);
-  if (!whole || !inflate_at_once(compressed, whole.get(), bytes)) return stream;  // which tells what is wrong
-  return std::make_unique<WholeBytes>(std::move(whole), bytes);
+std::unique_ptr<ByteSource> inflated(const InputFile& file, std::uint64_t begin) {
+  return std::make_unique<InflatedBytes>(std::make_unique<FileBytes>(file, begin));
 }
 
 Uncompress find_uncompress(const std::string& compressor) {

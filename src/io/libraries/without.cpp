@@ -14,9 +14,7 @@ namespace {
 
 bool reads_files() { return false; }
 
-void compress_at_level_1(const char*, std::size_t, std::vector<char>&) { refuse_without(); }
-
-std::unique_ptr<ByteSource> inflated(const InputFile&, std::uint64_t, std::uint64_t) { refuse_without(); }
+std::unique_ptr<ByteSource> inflated(const InputFile&, std::uint64_t) { refuse_without(); }
 
 Uncompress find_uncompress(const std::string&) { refuse_without(); }
 

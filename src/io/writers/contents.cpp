@@ -9,9 +9,14 @@ enum VtkCell : std::uint8_t { vtk_line = 3, vtk_polyline = 4 };
 
 template <class T>
 WrittenArray of_values(const std::string& name, int components, const T* values, std::uint64_t count) {
-  return {name, components, value_type_of<T>(), count, [values](std::uint64_t begin, std::uint64_t end, char* to) {
+  return {name,
+          components,
+          value_type_of<T>(),
+          count,
+          [values](std::uint64_t begin, std::uint64_t end, char* to) {
             if (end > begin) std::memcpy(to, values + begin, (end - begin) * sizeof(T));
-          }};
+          },
+          reinterpret_cast<const char*>(values)};
 }
 
 /// The points of cells, and where each cell ends.
@@ -27,13 +32,10 @@ WrittenArrays cells_of(const Surface::Cells& cells) {
 WrittenArrays simplices_of(const WrittenCells& cells) {
   const std::uint64_t size = cells.corners * cells.count;
   constexpr std::uint64_t most = std::numeric_limits<std::int32_t>::max();
-  WrittenArrays arrays = {size <= most ? cells.connectivity<std::int32_t>("connectivity")
-                                       : cells.connectivity<std::int64_t>("connectivity"),
-                          made_integers("offsets", cells.count, size,
-                                        [corners = cells.corners](std::uint64_t k) { return corners * (k + 1); })};
-  arrays[0].pattern = Pattern::any;  // simplices that follow each other have vertices in common
-  arrays[1].pattern = Pattern::steps;
-  return arrays;
+  return {size <= most ? cells.connectivity<std::int32_t>("connectivity")
+                       : cells.connectivity<std::int64_t>("connectivity"),
+          made_integers("offsets", cells.count, size,
+                        [corners = cells.corners](std::uint64_t k) { return corners * (k + 1); })};
 }
 
 /// Makes each point a cell.

@@ -94,7 +94,12 @@ class CompressedBlocks {
       compress(i, plain[thread], compressed[thread]);
       header[sizes + i] = compressed[thread].size();
       const std::lock_guard<std::mutex> lock(mutex);
-      waiting.emplace(i, compressed[thread]);
+      if (i != next) {
+        waiting.emplace(i, compressed[thread]);
+        return;
+      }
+      blocks.write(compressed[thread].data(), compressed[thread].size());
+      ++next;
       for (auto first = waiting.begin(); first != waiting.end() && first->first == next; ++next) {
         blocks.write(first->second.data(), first->second.size());
         first = waiting.erase(first);
@@ -107,9 +112,11 @@ class CompressedBlocks {
  private:
   void compress(std::uint64_t block, std::vector<char>& plain, std::vector<char>& compressed) const {
     const std::uint64_t begin = block * block_, end = std::min(begin + block_, array_.count);
-    plain.resize((end - begin) * size_of(array_.type));
+    const std::size_t size = size_of(array_.type), bytes = (end - begin) * size;
+    if (array_.values != nullptr) return compress_by_zlib(size, array_.values + begin * size, bytes, compressed);
+    plain.resize(bytes);
     array_.copy(begin, end, plain.data());
-    compress_by_zlib(array_.pattern, plain.data(), plain.size(), compressed);
+    compress_by_zlib(size, plain.data(), bytes, compressed);
   }
 
   const WrittenArray& array_;
