@@ -50,7 +50,7 @@ std::vector<MergeTree> find_trees(const VertexOrder& order, std::vector<Tree> tr
   if (!trees.empty()) found = make(order, trees, threshold ? &*threshold : nullptr);
   if (simplifies) {
     const SimplifiedField field = simplify_field(order, options.value, options.threshold, options, computed);
-    const VertexOrder simplified(order.mesh(), field.rank.data(), field.rank.size());
+    const VertexOrder simplified = VertexOrder::of_places(order.mesh(), field.rank);
     found.push_back(std::move(make(simplified, {Tree::contour}, nullptr).front()));
   }
   return found;
@@ -67,7 +67,9 @@ std::vector<MergeTree> find_trees(const VertexOrder& order, const std::vector<Tr
       ExtremumGraph<HostMemory> graph;
       together(of.mesh().exchange().ranks(),
                [&] { graph = extremum_graph(computing.structure(merge_tree_relations), of.keys(), options); });
-      return trees_on_ranks(of, std::move(graph), some, options);
+      MergeTreeOptions left = options;
+      if (threshold == nullptr) left.threshold = 0;
+      return trees_on_ranks(of, std::move(graph), some, left);
     }
     return Computing(of.mesh(), options, &shared)
         .find(

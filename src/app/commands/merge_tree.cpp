@@ -48,7 +48,6 @@ class FindMergeTree final : public AnalysisCommand {
 
   void require_usage() const override {
     refuse_on_ranks({{"--render", !render_.empty()}, {"--arc-samples", arc_samples_ > 0}});
-    if (type_ == "contour") refuse_on_ranks({{"--persistence with --type contour", bool(persistence_)}});
   }
 
   Session::Keep keep() const override {
