@@ -24,26 +24,34 @@ DistributedMesh with_written_cells(const Communicator& ranks, const DistributedM
                                    const PartitionOptions& options) {
   MeshPart<GlobalId> part;
   detail::together(ranks, [&] {
-    const CellReader cell = grid.cell_reader();
     const Interval owned = grid.owned_vertices();
-    // Cells follow their lowest vertices' layers, as ids of vertices do.
-    const auto cells_before = [&](Id vertex) {
-      Id begin = 0, end = grid.cells();
+    const GridView view = grid.grid()->in<HostMemory>();
+    const Id cubes = grid.grid()->cubes(), of_cube = view.cells_per_cube();
+    // Cubes follow their lowest vertices.
+    const auto cubes_before = [&](Id vertex) {
+      Id begin = 0, end = cubes;
       while (begin < end) {
         const Id middle = begin + (end - begin) / 2;
-        cell(middle).a < vertex ? begin = middle + 1 : end = middle;
+        view.corners_of_cube(middle).a < vertex ? begin = middle + 1 : end = middle;
       }
       return begin;
     };
-    const Id first = cells_before(owned.first), count = cells_before(owned.last) - first;
+    const Id first_cube = cubes_before(owned.first), last_cube = cubes_before(owned.last);
+    const Id first = of_cube * first_cube, count = of_cube * (last_cube - first_cube);
     if (owned.size() > 0) part.vertex_ids = counted(grid.vertex_id(owned.first), owned.size());
     part.points = positions;
-    const auto write = [&](auto corners) -> CellRows<GlobalId> {
-      return detail::tabulated_rows<GlobalId, decltype(corners)::value>(
-          "GALE::written_cells", count, [&](Offset t, int k) { return grid.vertex_id(cell(first + t)[k]); });
-    };
-    part.cells =
-        grid.dimension() == 3 ? write(std::integral_constant<int, 4>()) : write(std::integral_constant<int, 3>());
+    const GlobalId before = owned.size() > 0 ? grid.vertex_id(owned.first) - owned.first : 0;
+    const int corners = grid.dimension() + 1;
+    const CellRows<GlobalId>::non_const_type cells("GALE::written_cells", count, corners);
+    parallel_for("GALE::written_cells", HostExecutionSpace(), last_cube - first_cube, [&](Offset i) {
+      const Quad of = view.corners_of_cube(first_cube + static_cast<Id>(i));
+      for (Id t = 0; t < of_cube; ++t) {
+        const Quad cell = view.cell_of_cube(of, t);
+        for (int k = 0; k < corners; ++k)
+          cells(of_cube * i + t, k) = owned.has(cell[k]) ? before + cell[k] : grid.vertex_id(cell[k]);
+      }
+    });
+    part.cells = cells;
     if (count > 0) part.cell_ids = counted(grid.cell_id(first), count);
   });
   return DistributedMesh(ranks, part, options);
