@@ -75,5 +75,17 @@ class GatheredOnRanks(ranks.ComplexTest):
             self.assertEqual(arrows(self.pieces("all.pvtp")), arrows([gale.XmlFile(self.folder / "one.vtp")]))
 
 
+@ranks.needs_mpi
+class DrawnOnRanks(ranks.RanksTest, gale.DrawingTest):
+    def test_pictures_are_those_of_one_rank(self):
+        for width, *arguments in ((1200, "morse-smale", "plane:16", "--persistence", "5%"), (1400, "merge-tree", "grid:8")):
+            with self.subTest(arguments=arguments):
+                self.expect_drawn((width, 800), *arguments)
+                one = (self.folder / "picture.png").read_bytes()
+                self.launcher = ["xvfb-run", "--auto-servernum", *ranks.RanksTest.launcher]
+                self.assertEqual(self.launch(2, *arguments, "--render", "picture.png").returncode, 0)
+                self.assertEqual((self.folder / "picture.png").read_bytes(), one)
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -6,7 +6,6 @@
 #include <gale/algorithms/excerpt/gradient_excerpt.hpp>
 #include <gale/algorithms/excerpt/wider_gradient.hpp>
 #include <gale/algorithms/morse_smale/parts.hpp>
-#include <gale/base/hash_table.hpp>
 #include <gale/base/sort.hpp>
 
 namespace gale::detail {
@@ -16,13 +15,16 @@ namespace {
 /// Where paths from some simplices leave the part.
 std::vector<Id> exits_of(const Mirrored<Id>& successors, const std::vector<Id>& starts) {
   const Id* const next = successors.in<HostMemory>().data();
-  struct Mark {};
-  HashTable<Mark> seen;
+  std::vector<bool> is_passed(successors.size(), false);
   std::vector<Id> exits;
   for (Id at : starts) {
-    while (next[at] >= 0) at = next[at];
-    if (next[at] == DiscreteGradient::elsewhere && seen.insert(static_cast<std::uint64_t>(at)).second)
-      exits.push_back(at);
+    while (next[at] >= 0 && !is_passed[at]) {
+      is_passed[at] = true;
+      at = next[at];
+    }
+    if (is_passed[at]) continue;
+    is_passed[at] = true;
+    if (next[at] == DiscreteGradient::elsewhere) exits.push_back(at);
   }
   return exits;
 }
