@@ -59,7 +59,9 @@ class Heat {
   }
 
   /// A value for each point of the slab.
-  Kokkos::View<const float*, gale::HostMemory> values() const { return {now_.data() + layer, now_.size() - 2 * layer}; }
+  Kokkos::View<const float*, gale::HostMemory> values() const {
+    return Kokkos::View<const float*, gale::HostMemory>(now_.data() + layer, now_.size() - 2 * layer);
+  }
 
  private:
   float* at(int z) { return now_.data() + (z + 1) * layer; }
@@ -91,12 +93,13 @@ bool run() {
   const gale::io::GridPart part = gale::io::make_grid_part(n, ranks.rank(), ranks.size());
   const gale::DistributedMesh mesh = distribute(ranks, part);  // once: it stays
   Heat heat(MPI_COMM_WORLD, part.first_vertex, part.field.size());
-  long long maxima = 0;
+  long long maxima = n * layer;
   for (int step = 0; step <= 40; ++step) {
     if (step % 10 == 0) {
       const gale::VertexOrder order(mesh, heat.values());
       const auto points = gale::find_critical_points(order);
       const auto gradient = gale::find_discrete_gradient(order);
+      if (points.counts[3] >= maxima) return false;  // heat evens out
       maxima = points.counts[3];
       if (ranks.rank() == 0) {
         std::printf("step %d on %d ranks: %lld minima, %lld maxima; Euler characteristic %lld\n", step, ranks.size(),
@@ -106,7 +109,7 @@ bool run() {
     }
     heat.step();
   }
-  return maxima == 0;
+  return maxima > 0;
 }
 
 }  // namespace
