@@ -81,8 +81,7 @@ struct MergeTreeOptions : ComputeOptions {
 ///
 /// On one rank's part of several it is collective: extrema, and vertices where the paths of several meet, as far as
 /// they join what the rank's others don't, are gathered on all ranks, which make the same tree of them; the arcs of
-/// vertices are those of all that the rank holds. Contour trees with a threshold, as simplify_field, want the whole
-/// mesh.
+/// vertices are those of all that the rank holds. Contour trees with a threshold gather the mesh, as simplify_field.
 ///
 /// By kernels where the mesh is on a device and they find room there, else by threads of the host: `options` may say
 /// otherwise, and `computed` is told; but what joins the few vertices where paths meet is on the host, and the order's

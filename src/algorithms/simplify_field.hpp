@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include <gale/algorithms/vertex_order.hpp>
@@ -17,6 +18,10 @@ struct SimplifiedField {
   /// The vertex whose value each vertex has now, by input id: itself, or the saddle up (down) to which its branch was
   /// filled. With these values the new order never falls.
   std::vector<Id> value_of;
+
+  /// On one rank's part of several what `value_of` names: a mesh without cells that has these vertices, with their
+  /// global ids, as other ranks may hold them. Empty where they are the mesh's own.
+  std::optional<Mesh> excerpt{};
 
   Id minima = 0;  ///< how many minima are left
   Id maxima = 0;  ///< how many maxima are left
@@ -45,16 +50,22 @@ struct StayingExtrema {
 /// and these rows of what changes once more; branches in parallel. Memory beside the result: 40 bytes a vertex, and 80
 /// for each that changes. The result is the same whatever the structure, its segments, and the number of threads.
 ///
+/// On one rank's part of several it is collective: the mesh is gathered and simplified on the first one, and each gets
+/// what it holds. Some 16 bytes are gathered a vertex and 24 a cell, of a grid with all its cubes 16 a vertex alone;
+/// SentMessages::gathered counts them. Throws gale::Error on all ranks, before anything is sent, if that is more than
+/// the first rank's share of what its machine has left.
+///
 /// By kernels where the mesh is on a device and they find room there, else by threads of the host: `options` may say
 /// otherwise, and `computed` is told; but the few vertices where paths meet are joined, and branches are filled, on the
-/// host. Throws gale::Error on one rank's part of a mesh; if the threshold or a value that is asked
-/// for is NaN, naming the vertex; and as make_structure and sweeps do.
+/// host. Throws gale::Error if the threshold or a value that is asked for is NaN (on ranks any that a rank holds),
+/// naming the vertex; and as make_structure and sweeps do.
 GALE_EXPORT SimplifiedField simplify_field(const VertexOrder& order, const std::function<double(Id)>& value,
                                            double threshold, const ComputeOptions& options = {},
                                            Computed* computed = nullptr);
 
-/// Removes all minima and maxima but these, likewise. Throws gale::Error for a vertex that isn't one of the mesh or no
-/// such extremum of the field, and where a component of the mesh would have no minimum or no maximum.
+/// Removes all minima and maxima but these, likewise; on several ranks each names some that it holds. Throws
+/// gale::Error for a vertex that isn't one of the mesh or no such extremum of the field, and where a component of the
+/// mesh would have no minimum or no maximum.
 GALE_EXPORT SimplifiedField simplify_field(const VertexOrder& order, const StayingExtrema& staying,
                                            const ComputeOptions& options = {}, Computed* computed = nullptr);
 

@@ -2,6 +2,8 @@
 
 #include <cstdint>
 #include <type_traits>
+#include <utility>
+#include <vector>
 
 #include <gale/export.hpp>
 #include <gale/mesh/mesh.hpp>
@@ -27,6 +29,9 @@ struct OrderKeys {
 template <class Value, class Memory>
 GALE_EXPORT OrderKeys order_keys(const Mesh& mesh, const FieldValues<Value, Memory>& values);
 
+/// Makes it of the places that vertices of a part have among those of all ranks, by input id.
+GALE_EXPORT OrderKeys keys_of_places(const Mesh& mesh, const FieldValues<Id, HostMemory>& places);
+
 }  // namespace detail
 
 /// A total order of a mesh's vertices: by field value, then by input vertex id. Keys compare as the vertices do, under
@@ -50,6 +55,13 @@ class GALE_EXPORT VertexOrder {
   template <class View, class = std::enable_if_t<Kokkos::is_view<View>::value>>
   VertexOrder(const Mesh& mesh, const View& values) : mesh_(mesh), all_(keys_of_view(mesh, values)) {}
 
+  /// From the place of each vertex that this rank holds among those of all ranks, by input id: that is in no need of
+  /// messages.
+  static VertexOrder of_places(const Mesh& mesh, const std::vector<Id>& places) {
+    return VertexOrder(mesh,
+                       detail::keys_of_places(mesh, detail::FieldValues<Id, HostMemory>(places.data(), places.size())));
+  }
+
   /// The mesh whose vertices it orders.
   const Mesh& mesh() const { return mesh_; }
 
@@ -72,6 +84,8 @@ class GALE_EXPORT VertexOrder {
   }
 
  private:
+  VertexOrder(const Mesh& mesh, detail::OrderKeys keys) : mesh_(mesh), all_(std::move(keys)) {}
+
   template <class View>
   static detail::OrderKeys keys_of_view(const Mesh& mesh, const View& view) {
     static_assert(View::rank == 1, "a value for each vertex");

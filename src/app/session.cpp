@@ -3,6 +3,7 @@
 #include <optional>
 #include <utility>
 
+#include <gale/algorithms/excerpt/whole_mesh.hpp>
 #include <gale/app/output_names.hpp>
 #include <gale/app/ranks/ranks.hpp>
 #include <gale/app/session.hpp>
@@ -211,6 +212,14 @@ FieldOnMesh Session::read_field(const SegmentationOptions& segmentation, Keep ke
   begin_step("ordering the vertices");
   const VertexOrder order = outputs::order_of(mesh, dataset, field);
   return {std::move(dataset), mesh, std::move(field), order};
+}
+
+FieldOnMesh Session::whole(const FieldOnMesh& on) const {
+  if (!Launch::are_several()) return on;
+  const detail::WholeMesh gathered(on.order, "the mesh of a picture");
+  const Mesh& mesh = gathered.mesh();
+  return {outputs::dataset_of(mesh, on.mesh, on.dataset), mesh, outputs::array_of(mesh, on.mesh, on.field),
+          gathered.order()};
 }
 
 std::unique_ptr<Structure> Session::make_structure(const StructureOption& option, const Mesh& mesh,

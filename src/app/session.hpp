@@ -96,6 +96,10 @@ class Session {
   /// vertices by the field.
   FieldOnMesh read_field(const SegmentationOptions& segmentation, Keep keep = Keep::nothing);
 
+  /// The whole of a field that lies on several ranks, gathered on the first one, for pictures; nothing on the others.
+  /// On one rank the same. Collective; throws SharedError where there is no room.
+  FieldOnMesh whole(const FieldOnMesh& on) const;
+
   /// The structure that --structure names, preconditioned for `relations`.
   std::unique_ptr<Structure> make_structure(const StructureOption& option, const Mesh& mesh, RelationSet relations);
 

@@ -247,7 +247,9 @@ Analysis simplified_fields() {
     const SimplifiedField simplified = simplify_field(
         input.order, [&](Id vertex) { return value_at(input.field, vertex); }, threshold_in(input, settings),
         input.next("Simplifying the field", 0, 1), &computed);
-    return {{"field", simplified_arrays(input.field, simplified)},
+    const Mesh& mesh = input.order.mesh();
+    const AtExcerpt at(simplified.excerpt ? *simplified.excerpt : mesh, mesh, input.dataset, input.field, true);
+    return {{"field", simplified_arrays(at.field(), simplified)},
             {"minima", simplified.minima},
             {"maxima", simplified.maxima},
             {"kept_below", simplified.kept_below}};

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <functional>
 #include <limits>
 
@@ -11,71 +12,76 @@ namespace gale::outputs {
 
 namespace {
 
-/// How many simplices of `sorted`, which are by ascending input id, have a lower one than `id`.
-Id count_before(const std::vector<Id>& sorted, const OtherIds& input, Id id) {
-  const auto at = std::lower_bound(sorted.begin(), sorted.end(), id,
-                                   [input](Id simplex, Id other) { return input[simplex] < other; });
-  return static_cast<Id>(at - sorted.begin());
-}
-
 template <class Coordinate>
 class Arrows {
  public:
   Arrows(const io::Dataset::Points<Coordinate>& points, const DiscreteGradient& gradient)
-      : points_(points),
-        gradient_(gradient),
-        mesh_(gradient.mesh()),
-        input_(mesh_.vertices_in_input()),
-        edge_begin_(allocate<Array<Id, HostMemory>>("GALE::arrows_of_edges", mesh_.vertices() + 1)) {}
+      : points_(points), gradient_(gradient), mesh_(gradient.mesh()), input_(mesh_.vertices_in_input()) {}
 
   io::PointSet draw() {
-    const Id of_vertices = mesh_.vertices() - static_cast<Id>(gradient_.critical().vertices.size());
-    const Id of_cells = mesh_.cells() - static_cast<Id>(gradient_.critical().cells.size());
-    const Id of_edges = mesh_.dimension() == 3 ? place_edges() : 0;
-    const Offset count = Offset(of_vertices) + of_edges + of_cells;
-    require_ids("arrows", count);
-    tails_ = allocate<io::Dataset::Points<Coordinate>>("GALE::tails", count);
-    vectors_.resize(3 * count);
-    dimensions_.resize(count);
-    draw_vertices();
-    if (mesh_.dimension() == 3) {
-      draw_edges(of_vertices);
-      draw_triangles(of_vertices + of_edges);
-    } else {
-      draw_edges_of_triangles(of_vertices);
-    }
+    const OtherIds vertex = mesh_.vertices_of_input();
+    const auto places_of_vertices =
+        begin_at(0, mesh_.vertices(), [&](Offset i) { return gradient_.vertex_successor(vertex[i]) >= 0; });
+    const Id edges = places_of_vertices(mesh_.vertices());
+    mesh_.dimension() == 3 ? draw_of_tetrahedra(edges) : draw_edges_of_triangles(edges);
+    parallel_for("GALE::arrows_of_vertices", HostExecutionSpace(), mesh_.vertices(), [&](Offset v) {
+      const Id other = gradient_.vertex_successor(v), tail = input_[v];
+      if (other >= 0) draw(places_of_vertices(tail), std::array<Id, 1>{tail}, input_[other]);
+    });
     return {tails_, {{"CellDimension", 1, std::move(dimensions_)}, {"Vector", 3, std::move(vectors_)}}};
   }
 
  private:
-  /// Finds where the arrows of each vertex's lower edges begin among those of all edges, by input id. Returns how many
-  /// arrows edges have.
-  Id place_edges() {
-    const OtherIds internal = mesh_.vertices_of_input();
-    const auto count = [&](Offset i) {
+  /// Where the arrows of each of `items` begin that has as many of them, and where those of all end; the first ones at
+  /// `begin`.
+  template <class Count>
+  static Array<Id, HostMemory> begin_at(Id begin, Offset items, const Count& count) {
+    const auto count_of = [&](Offset i) { return static_cast<Id>(count(i)); };
+    require_ids("arrows", begin + reduce_sum("GALE::count_arrows", HostExecutionSpace(), items, count_of));
+    const auto places = allocate<Array<Id, HostMemory>>("GALE::arrow_places", items + 1);
+    exclusive_scan("GALE::place_arrows", HostExecutionSpace(), items, places, count_of);
+    parallel_for("GALE::place_arrows", HostExecutionSpace(), items + 1, [&](Offset i) { places(i) += begin; });
+    return places;
+  }
+
+  void make_room(Id count) {
+    tails_ = allocate<io::Dataset::Points<Coordinate>>("GALE::tails", count);
+    vectors_.resize(3 * std::size_t(count));
+    dimensions_.resize(count);
+  }
+
+  /// Whether a cell is paired with one of its facets, as far as this rank knows.
+  bool has_facet(Id cell) const {
+    const Id next = gradient_.cell_successor(cell);
+    return next != no_id && next != DiscreteGradient::elsewhere;
+  }
+
+  void draw_of_tetrahedra(Id begin) {
+    const OtherIds vertex = mesh_.vertices_of_input();
+    const Interval owned = mesh_.owned_vertices();
+    const auto of_edges = begin_at(begin, mesh_.vertices(), [&](Offset i) {
       Id pairs = 0;
-      gradient_.for_each_edge_pair(internal[i], [&](Id, Id) { ++pairs; });
+      if (owned.has(vertex[i])) gradient_.for_each_edge_pair(vertex[i], [&](Id, Id) { ++pairs; });
       return pairs;
-    };
-    require_ids("arrows", reduce_sum("GALE::count_arrows", HostExecutionSpace(), mesh_.vertices(), count));
-    return exclusive_scan("GALE::place_arrows", HostExecutionSpace(), mesh_.vertices(), edge_begin_, count);
-  }
-
-  void draw_vertices() {
-    parallel_for("GALE::arrows_of_vertices", HostExecutionSpace(), mesh_.vertices(), [&](Offset v) {
-      const Id other = gradient_.vertex_successor(v);
-      if (other == no_id) return;
-      const Id tail = input_[v];
-      draw(tail - count_before(gradient_.critical().vertices, input_, tail), std::array<Id, 1>{tail}, input_[other]);
     });
+    const auto internal = allocate<Array<Id, HostMemory>>("GALE::cells_of_input", mesh_.cells());
+    parallel_for("GALE::cells_of_input", HostExecutionSpace(), mesh_.cells(),
+                 [&](Offset t) { internal(mesh_.cells_in_input()[t]) = static_cast<Id>(t); });
+    const auto of_cells =
+        begin_at(of_edges(mesh_.vertices()), mesh_.cells(), [&](Offset i) { return has_facet(internal(i)); });
+    make_room(of_cells(mesh_.cells()));
+    draw_edges(of_edges);
+    draw_triangles(of_cells);
   }
 
-  void draw_edges(Id begin) {
-    parallel_for("GALE::arrows_of_edges", HostExecutionSpace(), mesh_.vertices(), [&](Offset high) {
+  void draw_edges(const Array<Id, HostMemory>& places) {
+    const Interval owned = mesh_.owned_vertices();
+    parallel_for("GALE::arrows_of_edges", HostExecutionSpace(), owned.size(), [&](Offset i) {
+      const Id high = owned.first + static_cast<Id>(i);
       std::vector<std::array<Id, 2>> pairs;
       gradient_.for_each_edge_pair(high, [&](Id low, Id third) { pairs.push_back({input_[low], input_[third]}); });
       std::sort(pairs.begin(), pairs.end());
-      Id place = begin + edge_begin_(input_[high]);
+      Id place = places(input_[high]);
       for (const auto& [low, third] : pairs) draw(place++, std::array<Id, 2>{input_[high], low}, third);
     });
   }
@@ -90,11 +96,11 @@ class Arrows {
     const CellReader cell = mesh_.cell_reader();
     std::vector<Pair> pairs(mesh_.cells());
     parallel_for("GALE::arrows_of_edges", HostExecutionSpace(), mesh_.cells(), [&](Offset t) {
-      const Partner partner = gradient_.pair_of_cell(t);
-      if (partner.is_critical()) {
+      if (!has_facet(static_cast<Id>(t))) {
         pairs[t] = {std::numeric_limits<Id>::max(), 0, 0};
         return;
       }
+      const Partner partner = gradient_.pair_of_cell(t);
       const Quad corners = cell(static_cast<Id>(t));
       Id edge[2] = {};
       for (int corner = 0, i = 0; corner < 3; ++corner) {
@@ -104,35 +110,38 @@ class Arrows {
       pairs[t] = {input_[edge[0]], input_[edge[1]], input_[partner.vertex]};
     });
     parallel_sort("GALE::sort_arrows", pairs.begin(), pairs.end(), std::less<Pair>());
-    pairs.resize(pairs.size() - gradient_.critical().cells.size());
+    while (!pairs.empty() && pairs.back().high == std::numeric_limits<Id>::max()) pairs.pop_back();
+    require_ids("arrows", begin + static_cast<Offset>(pairs.size()));
+    make_room(begin + static_cast<Id>(pairs.size()));
     parallel_for("GALE::draw_arrows", HostExecutionSpace(), pairs.size(), [&](Offset i) {
       draw(begin + static_cast<Id>(i), std::array<Id, 2>{pairs[i].high, pairs[i].low}, pairs[i].third);
     });
   }
 
-  void draw_triangles(Id begin) {
+  void draw_triangles(const Array<Id, HostMemory>& places) {
     const OtherIds cell_input = mesh_.cells_in_input();
     const CellReader cell = mesh_.cell_reader();
     parallel_for("GALE::arrows_of_triangles", HostExecutionSpace(), mesh_.cells(), [&](Offset t) {
+      if (!has_facet(static_cast<Id>(t))) return;
       const Partner partner = gradient_.pair_of_cell(t);
-      if (partner.is_critical()) return;
       const Quad corners = cell(static_cast<Id>(t));
       std::array<Id, 3> triangle{};
       for (int corner = 0, i = 0; corner < 4; ++corner) {
         if (corners[corner] != partner.vertex) triangle[i++] = input_[corners[corner]];
       }
-      const Id tetrahedron = cell_input[t];
-      draw(begin + tetrahedron - count_before(gradient_.critical().cells, cell_input, tetrahedron), triangle,
-           input_[partner.vertex]);
+      draw(places(cell_input[t]), triangle, input_[partner.vertex]);
     });
   }
 
-  /// An arrow from a simplex to its partner, which has the vertex `more` besides.
+  /// An arrow from a simplex to its partner, which has the vertex `more` besides. Sums go by input ids, so that they
+  /// don't depend on segments and ranks.
   template <std::size_t N>
-  void draw(Id place, const std::array<Id, N>& simplex, Id more) {
+  void draw(Id place, std::array<Id, N> simplex, Id more) {
     std::array<Id, N + 1> partner;
     std::copy(simplex.begin(), simplex.end(), partner.begin());
     partner[N] = more;
+    std::sort(simplex.begin(), simplex.end());
+    std::sort(partner.begin(), partner.end());
     const gale::detail::Point tail = gale::detail::barycentre(points_, simplex),
                               head = gale::detail::barycentre(points_, partner);
     for (int axis = 0; axis < 3; ++axis) {
@@ -146,7 +155,6 @@ class Arrows {
   const DiscreteGradient& gradient_;
   const Mesh& mesh_;
   OtherIds input_;
-  Array<Id, HostMemory> edge_begin_;
   io::Dataset::Points<Coordinate> tails_;
   std::vector<Coordinate> vectors_;
   std::vector<std::int8_t> dimensions_;

@@ -42,7 +42,7 @@ class GatheredOnRanks(ranks.ComplexTest):
     def test_a_tree_is_that_of_one_rank(self):
         self.write_ties("grid:10")
         for source, *options in (("grid:14", "--type", "join"), ("ties.vtk", "--type", "split"), ("grid:14", "--type", "contour"),
-                                 ("grid:14", "--type", "split", "--persistence", "10%"), ("plane:40", "--type", "contour")):
+                                 ("grid:14", "--type", "split", "--persistence", "10%"), ("plane:40", "--type", "contour", "--persistence", "10%")):
             expected = self.report("merge-tree", source, *options, "-o", "one")["result"]
             for count in ranks.RANKS:
                 with self.subTest(source=source, options=options, ranks=count):
@@ -50,6 +50,41 @@ class GatheredOnRanks(ranks.ComplexTest):
                     self.expect_file("Verts", "one_nodes.vtp", "all_nodes.vtp")
                     self.expect_file("Lines", "one_arcs.vtp", "all_arcs.vtp")
                     self.expect_segmentation(gale.XmlFile(self.folder / "one_segmentation.vtu"), self.pieces("all_segmentation.pvtu"))
+
+    def test_a_simplified_field_is_that_of_one_rank(self):
+        self.write_ties("grid:9", 40)
+        for source, counts in (("grid:14", (3,)), ("ties.vtk", ranks.RANKS), ("plane:40", (2,))):
+            options = ("simplify-field", source, "--persistence", "20%", "-o")
+            expected = self.report(*options, "one.vtu")["result"]
+            self.assertGreater(expected["moved"], 0)
+            for count in counts:
+                with self.subTest(source=source, ranks=count):
+                    report = self.report_of(count, *options, "all.pvtu")
+                    self.assertEqual(report["result"], expected)
+                    self.expect_segmentation(gale.XmlFile(self.folder / "one.vtu"), self.pieces("all.pvtu"))
+                    self.assertGreater(report["ranks"]["gathered_bytes"]["most"], 0)
+
+    def test_arrows_are_those_of_one_rank(self):
+        for source in ("grid:7", "plane:9"):
+            self.succeed("discrete-gradient", source, "--arrows", "one.vtp")
+            self.report_of(3, "discrete-gradient", source, "--arrows", "all.pvtp")
+
+            def arrows(files):
+                return sorted(arrow for file in files for arrow in zip(file.points, file.point_arrays["CellDimension"],
+                                                                       file.point_arrays["Vector"]))
+            self.assertEqual(arrows(self.pieces("all.pvtp")), arrows([gale.XmlFile(self.folder / "one.vtp")]))
+
+
+@ranks.needs_mpi
+class DrawnOnRanks(ranks.RanksTest, gale.DrawingTest):
+    def test_pictures_are_those_of_one_rank(self):
+        for width, *arguments in ((1200, "morse-smale", "plane:16", "--persistence", "5%"), (1400, "merge-tree", "grid:8")):
+            with self.subTest(arguments=arguments):
+                self.expect_drawn((width, 800), *arguments)
+                one = (self.folder / "picture.png").read_bytes()
+                self.launcher = ["xvfb-run", "--auto-servernum", *ranks.RanksTest.launcher]
+                self.assertEqual(self.launch(2, *arguments, "--render", "picture.png").returncode, 0)
+                self.assertEqual((self.folder / "picture.png").read_bytes(), one)
 
 
 if __name__ == "__main__":

@@ -1,7 +1,10 @@
+#include <gale/algorithms/critical_points.hpp>
+#include <gale/algorithms/excerpt/whole_mesh.hpp>
 #include <gale/algorithms/gathered_gradient.hpp>
 #include <gale/algorithms/merge_tree.hpp>
 #include <gale/algorithms/persistence.hpp>
 #include <gale/algorithms/simplify.hpp>
+#include <gale/algorithms/simplify_field.hpp>
 #include <gale/base/error.hpp>
 
 #include "algorithms/fields.hpp"
@@ -154,12 +157,54 @@ TEST_P(GatheredOnRanks, trees_without_branches_are_those_of_one_rank) {
   whole.threshold = here.threshold = 0.2 * input().vertices();
   whole.value = [&](Id v) { return field.values[v]; };
   here.value = [&](Id v) { return field.values[vertex_named(mesh_.vertex_ids()(v))]; };
-  for (const Tree tree : {Tree::join, Tree::split}) {
+  for (const Tree tree : {Tree::join, Tree::split, Tree::contour}) {
     const auto expected = find_merge_tree(order_of(whole_, field.values), tree, whole);
     const auto found = find_merge_tree(order_here(field), tree, here);
     EXPECT_EQ(found.types, expected.types);
     EXPECT_EQ(found.arcs, expected.arcs);
     expect_numbers(found.arc_of, expected.arc_of);
+  }
+}
+
+TEST_P(GatheredOnRanks, simplified_fields_are_those_of_one_rank) {
+  for (const Field& field : fields()) {
+    SCOPED_TRACE(field.name);
+    const auto expect = [&](const SimplifiedField& found, const SimplifiedField& expected) {
+      expect_numbers(found.rank, expected.rank);
+      std::vector<Id> value_of;
+      for (const Id v : found.value_of)
+        value_of.push_back(vertex_named(found.excerpt ? found.excerpt->vertex_id(v) : mesh_.vertex_id(v)));
+      expect_numbers(value_of, expected.value_of);
+      EXPECT_EQ(std::make_tuple(found.minima, found.maxima, found.kept_below),
+                std::make_tuple(expected.minima, expected.maxima, expected.kept_below));
+    };
+    const VertexOrder order = order_here(field), whole_order = order_of(whole_, field.values);
+    const double threshold = field.name == "permutation" ? 0.3 * input().vertices() : 3;
+    const auto value_here = [&](Id v) { return field.values[vertex_named(mesh_.vertex_ids()(v))]; };
+    const auto expected = simplify_field(
+        whole_order, [&](Id v) { return field.values[v]; }, threshold);
+    expect(simplify_field(order, value_here, threshold), expected);
+    // By what is left of it, of which each rank names its own.
+    const auto left = find_critical_points(VertexOrder::of_places(whole_, expected.rank));
+    const auto extrema = find_critical_points(whole_order);
+    if (left.counts[4] > 0 || expected.kept_below > 0) continue;
+    StayingExtrema staying, staying_here;
+    for (std::size_t i = 0; i < left.vertices.size(); ++i) {
+      const bool is_minimum = left.types[i] == CriticalType::minimum;
+      if (!is_minimum && left.types[i] != CriticalType::maximum) continue;
+      const auto at = std::find(extrema.vertices.begin(), extrema.vertices.end(), left.vertices[i]);
+      if (at == extrema.vertices.end() || extrema.types[at - extrema.vertices.begin()] != left.types[i]) continue;
+      (is_minimum ? staying.minima : staying.maxima).push_back(left.vertices[i]);
+    }
+    for (const Id v : mesh_.owned_vertices()) {
+      const Id here = mesh_.vertex_input()(v), named = vertex_named(mesh_.vertex_id(here));
+      for (const bool is_minimum : {true, false}) {
+        const auto& all = is_minimum ? staying.minima : staying.maxima;
+        if (std::find(all.begin(), all.end(), named) != all.end())
+          (is_minimum ? staying_here.minima : staying_here.maxima).push_back(here);
+      }
+    }
+    expect(simplify_field(order, staying_here), simplify_field(whole_order, staying));
   }
 }
 
@@ -180,6 +225,7 @@ TEST(GatheredGradient, a_rank_without_room_says_so_on_all) {
     EXPECT_NE(std::string(error.what()).find("rank 0"), std::string::npos) << error.what();
   }
   EXPECT_GT(gather_gradient(gradient).mesh().vertices() + ranks.rank(), 0);
+  EXPECT_THROW(detail::WholeMesh(gradient.order(), "all of it", 10), SharedError);
 }
 
 }  // namespace gale::test

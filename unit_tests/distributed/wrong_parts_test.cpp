@@ -1,4 +1,6 @@
+#include <cmath>
 #include <limits>
+#include <numeric>
 
 #include <gtest/gtest.h>
 
@@ -178,10 +180,30 @@ TEST(PartsOfMeshes, are_refused_by_what_needs_the_whole) {
       " can't be found of one rank's part of a mesh: it lies on " + std::to_string(ranks.size()) + " ranks";
   const VertexOrder order(mesh, part.values(std::vector<float>(input.vertices(), 1.0f)));
   const DiscreteGradient gradient = find_discrete_gradient(order);
-  const auto value = [](Id) { return 1.0; };
   EXPECT_EQ(message_of([&] { find_persistence_pairs(gradient); }),
             "persistence pairs" + which + ", which gather_gradient() brings together");
-  EXPECT_EQ(message_of([&] { simplify_field(order, value, 1); }), "a simplified field" + which);
+}
+
+TEST(PartsOfMeshes, say_what_is_wrong_with_fields_to_simplify) {
+  const Communicator ranks(MPI_COMM_WORLD);
+  const InputMesh& input = mesh_named("holed_grid_9");
+  const GivenPart part = part_of(input, "random", ranks);
+  const DistributedMesh mesh = distribute(ranks, part, "random");
+  std::vector<float> heights(input.vertices());
+  std::iota(heights.begin(), heights.end(), 0.0f);
+  const VertexOrder order(mesh, part.values(heights));
+  if (ranks.size() == 1) return;
+  const auto nan = [](Id) { return std::nan(""); };
+  EXPECT_NE(message_of([&] { simplify_field(order, nan, 1); }).find("has no field value"), std::string::npos);
+  StayingExtrema outside, regular;
+  if (ranks.rank() == 1) outside.minima = {mesh.vertices()};
+  EXPECT_NE(message_of([&] { simplify_field(order, outside); }).find("rank 1: vertex"), std::string::npos);
+  // The highest is no minimum; its global id is said.
+  const GlobalId top = vertex_name(input.vertices() - 1);
+  const Id here = mesh.vertex_of(top);
+  if (here != no_id) regular.minima = {here};
+  EXPECT_EQ(message_of([&] { simplify_field(order, regular); }),
+            "rank 0: vertex " + std::to_string(top) + ", which is to stay, is no minimum of the field");
 }
 
 TEST(DistributedAlgorithms, fail_on_all_ranks_where_one_lacks_what_it_reads) {

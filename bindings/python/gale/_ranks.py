@@ -57,7 +57,7 @@ class DistributedMesh(Mesh):
     over by one rank, a vertex by any number of them, of which the lowest owns it; a rank may have none. With
     `repartition` vertices are dealt out anew, as many to each rank.
 
-    Its methods are those of a Mesh but `relation`, `relation_matrix`, `simplify_field` and walls of saddles. All ranks call
+    Its methods are those of a Mesh but `relation`, `relation_matrix` and walls of saddles. All ranks call
     them, in the same order, with a field that has a value for each vertex that was handed over. Each rank gets what it owns
     of a result, by global ids; a diagram, the nodes and arcs of a tree and simplified separatrices are on the first rank,
     and arrays of the mesh's points are in the order of `vertex_ids`. What fails on one rank raises gale.Error on all, wrong
@@ -118,10 +118,6 @@ class DistributedMesh(Mesh):
     def _relation(self, name: str, threads: int, progress: Any) -> Tuple[np.ndarray, np.ndarray, int]:
         self._refuse("relations")
 
-    def simplify_field(self, field: Any, persistence: Any = None, name: str = "field", threads: int = 0,
-                       progress: Any = None) -> Any:
-        self._refuse("simplified fields")
-
     def morse_smale(self, field: Any, persistence: Any = None, extrema_only: bool = False, name: str = "field",
                     threads: int = 0, progress: Any = None, separatrices2: bool = False) -> Any:
         if separatrices2:
@@ -146,5 +142,6 @@ class DistributedMesh(Mesh):
         self._refuse("copy in other processes")
 
 
-for _name in ("critical_points", "critical_simplices", "discrete_gradient", "persistence_diagram", "morse_smale", "merge_tree"):
+for _name in ("critical_points", "critical_simplices", "discrete_gradient", "persistence_diagram", "morse_smale", "merge_tree",
+              "simplify_field"):
     setattr(DistributedMesh, _name, _collective(getattr(DistributedMesh, _name)))

@@ -74,7 +74,14 @@ for values, repartition in ((field, False), (np.round(field), True), (field.asty
     same("arcs", rows(part.vertex_ids[own_vertices], found.segmentation["SegmentationId"][own_vertices]),
          sorted_rows(np.arange(len(points)), expected.segmentation["SegmentationId"]))
 
-for wrong in (lambda: part.relation("VV"), lambda: part.simplify_field(values), lambda: gale.DistributedMesh(1, [], [], []),
+    found, expected = part.simplify_field(values[ids], "20%"), whole.simplify_field(values, "20%")
+    check((found.minima, found.maxima) == (expected.minima, expected.maxima), "simplified extrema")
+    for name in ("field", "order"):
+        check(np.array_equal(getattr(found, name), getattr(expected, name)[part.vertex_ids]), f"simplified {name}")
+    found, expected = part.merge_tree(values[ids], persistence="20%"), whole.merge_tree(values, persistence="20%")
+    check(COMM.rank != 0 or np.array_equal(found.nodes.points, expected.nodes.points), "nodes of a simplified field")
+
+for wrong in (lambda: part.relation("VV"), lambda: gale.DistributedMesh(1, [], [], []),
               lambda: part.morse_smale(values[ids], separatrices2=True), lambda: part.critical_points(values[ids][1:])):
     try:
         wrong()

@@ -5,6 +5,7 @@
 
 #include <gale/algorithms/excerpt/excerpt_mesh.hpp>
 #include <gale/algorithms/excerpt/gradient_excerpt.hpp>
+#include <gale/algorithms/excerpt/received_numbers.hpp>
 #include <gale/algorithms/gathered_gradient.hpp>
 #include <gale/algorithms/gradient/gradient_store.hpp>
 #include <gale/algorithms/gradient/pair_star.hpp>
@@ -15,40 +16,6 @@
 namespace gale::detail {
 
 namespace {
-
-/// What ranks have sent has a number each by its global id, which may have come from several.
-template <class T>
-class Numbers {
- public:
-  explicit Numbers(const Dealt<T>& received) : begin_(received.begin), number_(received.count()) {
-    const auto all = allocate<GlobalIds>("GALE::received_ids", received.count());
-    parallel_for("GALE::received_ids", HostExecutionSpace(), received.count(),
-                 [&](Offset i) { all(i) = received.entries(i).id; });
-    const DistinctIds distinct = distinct_ids(all);
-    ids = distinct.ids;
-    first = distinct.places;
-    if (count() == received.count()) {  // none came twice: each has its place
-      parallel_for("GALE::number_received", HostExecutionSpace(), count(),
-                   [&](Offset i) { number_[first(i)] = static_cast<Id>(i); });
-      return;
-    }
-    const GlobalIndex index(ids);
-    parallel_for("GALE::number_received", HostExecutionSpace(), received.count(),
-                 [&](Offset i) { number_[i] = index.find(all(i)); });
-  }
-
-  Id count() const { return static_cast<Id>(ids.extent(0)); }
-
-  /// The number of what a rank has sent at a place.
-  Id of(int rank, Id place) const { return number_[begin_[rank] + place]; }
-
-  GlobalIds ids;                ///< by number
-  Array<Id, HostMemory> first;  ///< where among what was received each is first
-
- private:
-  std::vector<Offset> begin_;
-  std::vector<Id> number_;
-};
 
 /// Makes an excerpt of what was received.
 class ExcerptMaker {
@@ -170,8 +137,8 @@ class ExcerptMaker {
 
   const Reached reached_;
   const int dimension_;
-  const Numbers<ReachedVertex> vertices_;
-  const Numbers<ReachedCell> cells_;
+  const ReceivedNumbers<ReachedVertex> vertices_;
+  const ReceivedNumbers<ReachedCell> cells_;
   std::vector<Id> internal_cell_;
 };
 

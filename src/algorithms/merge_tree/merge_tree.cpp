@@ -50,7 +50,7 @@ std::vector<MergeTree> find_trees(const VertexOrder& order, std::vector<Tree> tr
   if (!trees.empty()) found = make(order, trees, threshold ? &*threshold : nullptr);
   if (simplifies) {
     const SimplifiedField field = simplify_field(order, options.value, options.threshold, options, computed);
-    const VertexOrder simplified(order.mesh(), field.rank.data(), field.rank.size());
+    const VertexOrder simplified = VertexOrder::of_places(order.mesh(), field.rank);
     found.push_back(std::move(make(simplified, {Tree::contour}, nullptr).front()));
   }
   return found;
@@ -86,7 +86,9 @@ std::vector<MergeTree> find_trees(const VertexOrder& order, const std::vector<Tr
         return MirroredGraph{MirroredGraphSide(std::move(found[below])), MirroredGraphSide(std::move(found[above]))};
       });
     });
-    return trees_on_ranks(of, std::move(graph), some, options);
+    MergeTreeOptions left = options;
+    if (threshold == nullptr) left.threshold = 0;
+    return trees_on_ranks(of, std::move(graph), some, left);
   };
   return find_trees(order, trees, options, &shared, make);
 }

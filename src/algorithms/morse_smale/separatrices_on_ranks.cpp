@@ -6,7 +6,6 @@
 #include <gale/algorithms/excerpt/gradient_excerpt.hpp>
 #include <gale/algorithms/excerpt/wider_gradient.hpp>
 #include <gale/algorithms/morse_smale/parts.hpp>
-#include <gale/base/hash_table.hpp>
 #include <gale/base/sort.hpp>
 
 namespace gale::detail {
@@ -16,13 +15,16 @@ namespace {
 /// Where paths from some simplices leave the part.
 std::vector<Id> exits_of(const Mirrored<Id>& successors, const std::vector<Id>& starts) {
   const Id* const next = successors.in<HostMemory>().data();
-  struct Mark {};
-  HashTable<Mark> seen;
+  std::vector<bool> is_passed(successors.size(), false);
   std::vector<Id> exits;
   for (Id at : starts) {
-    while (next[at] >= 0) at = next[at];
-    if (next[at] == DiscreteGradient::elsewhere && seen.insert(static_cast<std::uint64_t>(at)).second)
-      exits.push_back(at);
+    while (next[at] >= 0 && !is_passed[at]) {
+      is_passed[at] = true;
+      at = next[at];
+    }
+    if (is_passed[at]) continue;
+    is_passed[at] = true;
+    if (next[at] == DiscreteGradient::elsewhere) exits.push_back(at);
   }
   return exits;
 }
@@ -36,8 +38,8 @@ class Telling {
   /// Makes the excerpt, in whose ids the separatrices of the complex come to be.
   void tell(MorseSmaleComplex& complex) {
     mark(complex);
-    place_vertices();
     place_cells();
+    place_vertices();
     complex.excerpt = excerpt_of(told(), complex.critical.dimension);
     complex.critical = complex.excerpt.critical();
     for (Id& vertex : complex.descending.cells) vertex = place_[vertex];
@@ -58,12 +60,7 @@ class Telling {
     }
   }
 
-  void mark_cell(Id cell) {
-    if (cell_place_[cell] != no_id) return;
-    cell_place_[cell] = static_cast<Id>(cells_.size());
-    cells_.push_back({wider_.cell_id(cell), wider_.corners(cell)});
-    for (const Id corner : cells_.back().corners) mark_vertex(corner);
-  }
+  void mark_cell(Id cell) { cell_place_[cell] = 0; }
 
   void mark(const MorseSmaleComplex& complex) {
     const CriticalSimplices& critical = wider_.critical();
@@ -77,7 +74,32 @@ class Telling {
     for (const Id cell : critical.star) mark_cell(cell);
   }
 
-  /// Numbers vertices by global id, as an excerpt has them.
+  /// Numbers cells by global id, so that a cell's place is its number in the excerpt, and marks their vertices.
+  void place_cells() {
+    std::vector<Id> told;
+    for (Id t = 0; t < wider_.cells(); ++t) {
+      if (cell_place_[t] != no_id) told.push_back(t);
+    }
+    const auto count = static_cast<Offset>(told.size());
+    const auto ids = allocate<Array<std::uint64_t, HostMemory>>("GALE::told_cells", count);
+    parallel_for("GALE::told_cells", HostExecutionSpace(), count,
+                 [&](Offset i) { ids(i) = static_cast<std::uint64_t>(wider_.cell_id(told[i])); });
+    if (!std::is_sorted(ids.data(), ids.data() + count)) {
+      const auto sorted = stable_sort_places(HostExecutionSpace(), "GALE::told_cells", ids);
+      const std::vector<Id> before = told;
+      parallel_for("GALE::told_cells", HostExecutionSpace(), count, [&](Offset i) { told[i] = before[sorted(i)]; });
+    }
+    cells_.resize(told.size());
+    parallel_for("GALE::told_cells", HostExecutionSpace(), count, [&](Offset i) {
+      cells_[i] = {wider_.cell_id(told[i]), wider_.corners(told[i])};
+      cell_place_[told[i]] = static_cast<Id>(i);
+    });
+    for (const ReachedCell& cell : cells_) {
+      for (const Id corner : cell.corners) mark_vertex(corner);
+    }
+  }
+
+  /// Numbers vertices by global id as well, and has cells name them so.
   void place_vertices() {
     std::vector<Id> by_name(wider_.vertices(), no_id);
     for (Id v = 0; v < wider_.vertices(); ++v) {
@@ -88,25 +110,8 @@ class Telling {
       place_[v] = static_cast<Id>(vertices_.size());
       vertices_.push_back(v);
     }
-  }
-
-  /// Numbers cells by global id as well, so that a cell's place is its number in the excerpt.
-  void place_cells() {
-    const auto count = static_cast<Offset>(cells_.size());
-    const auto ids = allocate<Array<std::uint64_t, HostMemory>>("GALE::told_cells", count);
-    parallel_for("GALE::told_cells", HostExecutionSpace(), count,
-                 [&](Offset i) { ids(i) = static_cast<std::uint64_t>(cells_[i].id); });
-    const auto sorted = stable_sort_places(HostExecutionSpace(), "GALE::told_cells", ids);
-    std::vector<ReachedCell> cells(cells_.size());
-    std::vector<Id> place(cells_.size());
-    parallel_for("GALE::told_cells", HostExecutionSpace(), count, [&](Offset i) {
-      place[sorted(i)] = static_cast<Id>(i);
-      cells[i] = {cells_[sorted(i)].id, places(cells_[sorted(i)].corners)};
-    });
-    cells_ = std::move(cells);
-    for (Id& cell : cell_place_) {
-      if (cell != no_id) cell = place[cell];
-    }
+    parallel_for("GALE::told_corners", HostExecutionSpace(), cells_.size(),
+                 [&](Offset i) { cells_[i].corners = places(cells_[i].corners); });
   }
 
   template <std::size_t N>

@@ -154,6 +154,10 @@ OrderKeys order_keys(const Mesh& mesh, const FieldValues<Value, Memory>& values)
   return keys_of_part(mesh, FieldValues<Value, HostMemory>(here.data(), here.extent(0)));
 }
 
+OrderKeys keys_of_places(const Mesh& mesh, const FieldValues<Id, HostMemory>& places) {
+  return keys_of_all(mesh, places);
+}
+
 #define GALE_INSTANTIATE_FOR(Value, Memory) \
   template GALE_EXPORT OrderKeys order_keys(const Mesh&, const FieldValues<Value, Memory>&)
 #if defined(GALE_HAS_DEVICE)

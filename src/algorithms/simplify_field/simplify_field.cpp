@@ -4,8 +4,8 @@
 #include <utility>
 
 #include <gale/algorithms/merge_tree.hpp>
-#include <gale/algorithms/order/require_mesh.hpp>
 #include <gale/algorithms/simplify_field.hpp>
+#include <gale/algorithms/simplify_field/field_on_ranks.hpp>
 #include <gale/algorithms/simplify_field/removed_branches.hpp>
 #include <gale/base/error.hpp>
 #include <gale/base/parallel.hpp>
@@ -106,7 +106,6 @@ SimplifiedField simplified_in(const Space& space, const VertexOrder& order, Extr
 template <class Choose>
 SimplifiedField simplified(const VertexOrder& order, const ComputeOptions& options, Computed* computed,
                            const Choose& choose) {
-  require_whole_mesh("a simplified field", order.mesh());
   Computing computing(order.mesh(), options, computed);
   const auto simplify_in = [&](const auto& space, auto graph, std::function<Structure&()> structure) {
     return simplified_in(space, order, std::move(graph), std::move(structure), options.threads, choose);
@@ -155,7 +154,7 @@ class GivenExtrema {
       for (const Id vertex : graph[side].extrema) others[vertex] = false;
       const auto other = std::find(others.begin(), others.end(), true);
       if (other != others.end())
-        throw Error("vertex " + std::to_string(mesh_.vertices_in_input()[other - others.begin()]) +
+        throw Error("vertex " + std::to_string(id_of(static_cast<Id>(other - others.begin()))) +
                     ", which is to stay, is no " + name_of(side) + " of the field");
     }
   }
@@ -168,6 +167,7 @@ class GivenExtrema {
   }
 
  private:
+  GlobalId id_of(Id vertex) const { return mesh_.vertex_id(mesh_.vertices_in_input()[vertex]); }
   static std::string name_of(Side side) { return side == below ? "minimum" : "maximum"; }
 
   void require_all_components(Side side, const MergeForest& forest, const std::vector<bool>& stays) const {
@@ -180,7 +180,7 @@ class GivenExtrema {
         if (has_one[node]) has_one[forest.parent[node]] = true;
       } else if (!has_one[node]) {
         throw Error("no " + name_of(side) + " is to stay in the component of vertex " +
-                    std::to_string(mesh_.vertices_in_input()[forest.vertices[node]]));
+                    std::to_string(id_of(forest.vertices[node])));
       }
     }
   }
@@ -197,6 +197,8 @@ class GivenExtrema {
 SimplifiedField simplify_field(const VertexOrder& order, const std::function<double(Id)>& value, double threshold,
                                const ComputeOptions& options, Computed* computed) {
   if (std::isnan(threshold)) throw Error("the threshold of a simplified field is no number");
+  if (order.mesh().exchange().ranks().size() > 1)
+    return detail::simplified_on_ranks(order, value, threshold, options, computed);
   const OtherIds input = order.mesh().vertices_in_input();
   return detail::simplified(order, options, computed, [&](const auto& changing) {
     return [&, input](detail::Side, const detail::MergeForest& forest) {
@@ -213,6 +215,7 @@ SimplifiedField simplify_field(const VertexOrder& order, const std::function<dou
 
 SimplifiedField simplify_field(const VertexOrder& order, const StayingExtrema& staying, const ComputeOptions& options,
                                Computed* computed) {
+  if (order.mesh().exchange().ranks().size() > 1) return detail::simplified_on_ranks(order, staying, options, computed);
   detail::GivenExtrema given(order, staying);
   return detail::simplified(order, options, computed, [&](const auto& changing) {
     given.require_extrema(changing.graph());

@@ -54,7 +54,11 @@ Session Command::begin(const std::vector<std::string>& more, Session::Outputs ou
   std::vector<std::string> files = more;
   for (const File& file : files_) {
     require_extension(file);
-    if (!file.name.empty() && file.extensions == std::vector<std::string>{".png"}) require_drawing();
+    if (!file.name.empty() && file.extensions == std::vector<std::string>{".png"}) {
+      detail::together(Launch::ranks(), [] {
+        if (Launch::is_first()) require_drawing();  // which draws for all
+      });
+    }
     files.push_back(file.name);
   }
   return Session(input_, common_, files, outputs);

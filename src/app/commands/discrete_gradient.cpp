@@ -26,7 +26,7 @@ class FindDiscreteGradient final : public AnalysisCommand {
   bool is_from_cells() const { return formulation_ == "cells"; }
 
   void require_usage() const override {
-    refuse_on_ranks({{"--arrows", !arrows_.empty()}, {"--formulation cells", is_from_cells()}});
+    refuse_on_ranks({{"--formulation cells", is_from_cells()}});
     if (is_from_cells() && structure_.options.consumers == ConsumerPlace::device)
       throw UsageError("--consumers device: not with --formulation cells");
   }
@@ -35,8 +35,11 @@ class FindDiscreteGradient final : public AnalysisCommand {
     const DiscreteGradient gradient = find(on, session, computed);
     tell_simplices(gradient.counts(), on.mesh.dimension(), session);
     if (!output_.empty()) write_critical(on, gradient, session, computed);
-    session.write(
-        arrows_, [&](const io::AtomicFile& file) { io::write_points(file, outputs::arrows_of(on.dataset, gradient)); });
+    session.write_result(arrows_, [&] {
+      io::PointSet arrows;
+      gale::detail::together(session.ranks(), [&] { arrows = outputs::arrows_of(on.dataset, gradient); });
+      return arrows;
+    });
   }
 
   DiscreteGradient find(const FieldOnMesh& on, Session& session, Computed& computed) const {

@@ -46,10 +46,7 @@ class FindMergeTree final : public AnalysisCommand {
             output_ + "_segmentation" + (Launch::are_several() ? ".pvtu" : ".vtu")};
   }
 
-  void require_usage() const override {
-    refuse_on_ranks({{"--render", !render_.empty()}, {"--arc-samples", arc_samples_ > 0}});
-    if (type_ == "contour") refuse_on_ranks({{"--persistence with --type contour", bool(persistence_)}});
-  }
+  void require_usage() const override { refuse_on_ranks({{"--arc-samples", arc_samples_ > 0}}); }
 
   Session::Keep keep() const override {
     if (!output_.empty()) return Session::Keep::cells;
@@ -59,11 +56,18 @@ class FindMergeTree final : public AnalysisCommand {
   void warm_up(const VertexOrder& order) const override { find_merge_tree(order, outputs::tree_named(type_)); }
 
   void analyse(const FieldOnMesh& on, Session& session, Computed& computed) const override {
-    const MergeTree tree = find(on, session, computed);
+    MergeTreeOptions options;
+    static_cast<ComputeOptions&>(options) = session.compute(structure_, "merge tree");
+    if (persistence_) options.threshold = threshold_of_option(*persistence_, on.field, session.ranks());
+    const MergeTree tree = find(on, options, computed);
     tell(tree, on.mesh.dimension(), session);
     if (!output_.empty()) write(on, tree, session);
+    if (render_.empty()) return;
+    const FieldOnMesh whole = session.whole(on);
     session.write(render_, [&](const io::AtomicFile& file) {
-      draw(file, picture_of(on.dataset, on.field, on.mesh, tree, type_, surface_vertices(on.mesh)));
+      Computed again;
+      const MergeTree drawn = Launch::are_several() ? find(whole, options, again) : tree;
+      draw(file, picture_of(whole.dataset, whole.field, whole.mesh, drawn, type_, surface_vertices(whole.mesh)));
     });
   }
 
@@ -79,11 +83,8 @@ class FindMergeTree final : public AnalysisCommand {
     session.write_mesh(files[2], on, [&] { return outputs::tree_segmentation(at.dataset(), tree); });
   }
 
-  MergeTree find(const FieldOnMesh& on, const Session& session, Computed& computed) const {
-    MergeTreeOptions options;
-    static_cast<ComputeOptions&>(options) = session.compute(structure_, "merge tree");
+  MergeTree find(const FieldOnMesh& on, MergeTreeOptions options, Computed& computed) const {
     options.value = [&](Id vertex) { return outputs::value_at(on.field, vertex); };
-    if (persistence_) options.threshold = threshold_of_option(*persistence_, on.field, session.ranks());
     return find_merge_tree(on.order, outputs::tree_named(type_), options, &computed);
   }
 

@@ -118,57 +118,89 @@ class FindMorseSmale final : public AnalysisCommand {
   void warm_up(const VertexOrder& order) const override { find_morse_smale_complex(find_discrete_gradient(order)); }
 
   void require_usage() const override {
-    refuse_on_ranks({{"--separatrices2", parts_.separatrices2}, {"--render", !render_.empty()}});
+    refuse_on_ranks({{"--separatrices2", parts_.separatrices2}});
     if (extrema_only_ && !persistence_) throw UsageError("--extrema-only: it goes with --persistence");
   }
 
   void analyse(const FieldOnMesh& on, Session& session, Computed& computed) const override {
-    const DiscreteGradient gradient =
-        find_discrete_gradient(on.order, session.compute(structure_, "gradient"), &computed);
-    MorseSmaleComplex complex = find(gradient, on, session, computed);
-    tell(complex, parts_, session);
-    if (persistence_) tell(complex.kept_below, session);
-    if (!output_.empty() || !render_.empty()) write(on, complex, session, computed);
-  }
-
-  /// The complex, simplified if that is wanted, with the needed parts.
-  MorseSmaleComplex find(const DiscreteGradient& gradient, const FieldOnMesh& on, Session& session,
-                         Computed& computed) const {
+    const ComputeOptions options = session.compute(structure_, "complex");
     outputs::MorseSmaleRequest request{parts_, persistence_, extrema_only_};
     if (persistence_)
       request.persistence = outputs::Persistence{threshold_of_option(*persistence_, on.field, session.ranks()), false};
-    return outputs::find_complex(gradient, on.field, request, session.compute(structure_, "complex"), &computed);
+    MorseSmaleComplex complex = find(on, request, options, computed);
+    tell(complex, parts_, session);
+    if (persistence_) tell(complex.kept_below, session);
+    if (output_.empty() && (render_.empty() || Launch::are_several())) return draw_whole(on, request, options, session);
+    double& seconds = session.report().seconds.write;
+    const Shown shown(on, complex, parts_, options, computed, seconds);
+    write(on, complex, shown, session);
+    if (Launch::are_several()) return draw_whole(on, request, options, session);
+    session.write(render_, [&](const io::AtomicFile& file) { draw(file, shown.picture(on, complex)); });
   }
 
-  /// Writes the files. `complex` may have more than is wanted: the rest is taken out of it first.
-  void write(const FieldOnMesh& on, MorseSmaleComplex& complex, Session& session, Computed& computed) const {
-    const ComplexFiles to = files();
-    const auto connectors = outputs::ends_of(complex.connectors);  // all of them, wanted or not, bound walls
-    outputs::leave_out_unwanted(parts_, complex);
-    double& seconds = session.report().seconds.write;
-    const Mesh& excerpt = complex.excerpt.mesh();
-    const OnExcerpt at = timed(seconds, [&] { return OnExcerpt(excerpt, on); });
-    const io::Dataset& dataset = at.dataset();
-    const io::PointArray& field = at.field();
-    const outputs::NamedPaths named = timed(seconds, [&] { return outputs::named_simplices(complex); });
-    const SimplexNumbers numbers = number_simplices(on.mesh, named, session.compute(structure_, "numbers"), &computed);
-    const outputs::KnownSimplices critical =
-        timed(seconds, [&] { return outputs::known_simplices(complex.excerpt, complex.critical, numbers); });
-    const io::PointSet points = timed(seconds, [&] {
-      io::PointSet set = outputs::to_point_set(dataset, outputs::own_simplices(complex, critical), excerpt.exchange());
-      set.arrays.push_back(outputs::manifold_sizes(complex));
-      return set;
-    });
-    const io::Surface lines =
-        timed(seconds, [&] { return outputs::separatrices1(dataset, field, complex, named, numbers, critical); });
-    session.write_result(to.critical_points, [&]() -> const io::PointSet& { return points; });
-    session.write_result(to.separatrices1, [&]() -> const io::Surface& { return lines; });
-    session.write_result(to.separatrices2,
-                         [&] { return outputs::separatrices2(dataset, field, complex, connectors, critical); });
-    session.write_mesh(to.segmentation, on, [&] { return outputs::manifold_arrays(complex); });
+  /// Draws on the first rank of several, where all is gathered and found again.
+  void draw_whole(const FieldOnMesh& on, const outputs::MorseSmaleRequest& request, const ComputeOptions& options,
+                  Session& session) const {
+    if (render_.empty()) return;
+    const FieldOnMesh whole = session.whole(on);
     session.write(render_, [&](const io::AtomicFile& file) {
-      draw(file, picture_of(dataset, on.field, complex, numbers, points, lines));
+      Computed computed;
+      double seconds = 0;
+      MorseSmaleComplex complex = find(whole, request, options, computed);
+      const Shown shown(whole, complex, parts_, options, computed, seconds);
+      draw(file, shown.picture(whole, complex));
     });
+  }
+
+  /// The complex, simplified if that is wanted, with the needed parts.
+  static MorseSmaleComplex find(const FieldOnMesh& on, const outputs::MorseSmaleRequest& request,
+                                const ComputeOptions& options, Computed& computed) {
+    return outputs::find_complex(find_discrete_gradient(on.order, options, &computed), on.field, request, options,
+                                 &computed);
+  }
+
+  /// What files and pictures show of a complex. It may have more than is wanted: the rest is taken out of it first.
+  /// Adds the time that this takes to `seconds`, but for what numbers take. Collective.
+  struct Shown {
+    Shown(const FieldOnMesh& on, MorseSmaleComplex& complex, const MorseSmaleParts& wanted,
+          const ComputeOptions& options, Computed& computed, double& seconds)
+        : connectors(outputs::ends_of(complex.connectors)),
+          at(timed(seconds,
+                   [&] {
+                     outputs::leave_out_unwanted(wanted, complex);
+                     return OnExcerpt(complex.excerpt.mesh(), on);
+                   })),
+          named(timed(seconds, [&] { return outputs::named_simplices(complex); })),
+          numbers(number_simplices(on.mesh, named, options, &computed)) {
+      const Stopwatch watch(seconds);
+      critical = outputs::known_simplices(complex.excerpt, complex.critical, numbers);
+      points = outputs::to_point_set(at.dataset(), outputs::own_simplices(complex, critical),
+                                     complex.excerpt.mesh().exchange());
+      points.arrays.push_back(outputs::manifold_sizes(complex));
+      lines = outputs::separatrices1(at.dataset(), at.field(), complex, named, numbers, critical);
+    }
+
+    Scene picture(const FieldOnMesh& on, const MorseSmaleComplex& complex) const {
+      return picture_of(at.dataset(), on.field, complex, numbers, points, lines);
+    }
+
+    const Separatrices<TriangleVertices> connectors;  ///< all of them, wanted or not, bound walls
+    const OnExcerpt at;
+    const outputs::NamedPaths named;
+    const SimplexNumbers numbers;
+    outputs::KnownSimplices critical;
+    io::PointSet points;
+    io::Surface lines;
+  };
+
+  void write(const FieldOnMesh& on, const MorseSmaleComplex& complex, const Shown& shown, Session& session) const {
+    const ComplexFiles to = files();
+    session.write_result(to.critical_points, [&]() -> const io::PointSet& { return shown.points; });
+    session.write_result(to.separatrices1, [&]() -> const io::Surface& { return shown.lines; });
+    session.write_result(to.separatrices2, [&] {
+      return outputs::separatrices2(shown.at.dataset(), shown.at.field(), complex, shown.connectors, shown.critical);
+    });
+    session.write_mesh(to.segmentation, on, [&] { return outputs::manifold_arrays(complex); });
   }
 
   MorseSmaleParts parts_;  ///< that are wanted

@@ -1,7 +1,7 @@
 #include <CLI/CLI.hpp>
 
 #include <gale/app/commands/command.hpp>
-#include <gale/io/write.hpp>
+#include <gale/app/ranks/ranks.hpp>
 #include <gale/outputs/field.hpp>
 #include <gale/outputs/simplified_field.hpp>
 
@@ -9,9 +9,14 @@ namespace gale::app {
 
 namespace {
 
-void tell(const SimplifiedField& field, Session& session) {
-  Id moved = 0;
-  for (std::size_t v = 0; v < field.value_of.size(); ++v) moved += field.value_of[v] != static_cast<Id>(v);
+void tell(const SimplifiedField& field, const Mesh& mesh, Session& session) {
+  const Mesh& named_in = field.excerpt ? *field.excerpt : mesh;
+  std::int64_t moved = 0;
+  for (const Id v : mesh.owned_vertices()) {
+    const Id input = mesh.vertices_in_input()[v];
+    moved += named_in.vertex_id(field.value_of[input]) != mesh.vertex_id(input);
+  }
+  moved = session.ranks().sum(moved);
   session.console().say("minima", grouped(field.minima));
   session.console().say("maxima", grouped(field.maxima));
   session.console().say("moved", grouped(moved) + " vertices");
@@ -26,12 +31,13 @@ class SimplifyField final : public AnalysisCommand {
   explicit SimplifyField(CLI::App& app) : AnalysisCommand(app, "simplify-field") {
     add_persistence(subcommand(), persistence_, analysis_.option("persistence").help);
     add_file("-o,--output", output_,
-             "The mesh with the simplified field and the order of its vertices, NAME_Order: .vtu or .vtk",
-             {".vtu", ".vtk"});
+             "The mesh with the simplified field and the order of its vertices, NAME_Order: .vtu or .vtk; on several "
+             "ranks .pvtu, with a .vtu a rank",
+             Launch::are_several() ? std::vector<std::string>{".pvtu"} : std::vector<std::string>{".vtu", ".vtk"});
   }
 
  private:
-  Session::Keep keep() const override { return output_.empty() ? Session::Keep::nothing : Session::Keep::cells; }
+  Session::Keep keep() const override { return output_.empty() ? Session::Keep::values : Session::Keep::cells; }
 
   void warm_up(const VertexOrder& order) const override {
     simplify_field(
@@ -43,10 +49,10 @@ class SimplifyField final : public AnalysisCommand {
     const SimplifiedField field = simplify_field(
         on.order, [&](Id vertex) { return outputs::value_at(on.field, vertex); }, threshold,
         session.compute(structure_, "simplified field"), &computed);
-    tell(field, session);
-    session.write(output_, [&](const io::AtomicFile& file) {
-      io::write_mesh(file, on.dataset, outputs::simplified_arrays(on.field, field));
-    });
+    tell(field, on.mesh, session);
+    if (output_.empty()) return;
+    const OnExcerpt at(field.excerpt ? *field.excerpt : on.mesh, on, true);
+    session.write_mesh(output_, on, [&] { return outputs::simplified_arrays(at.field(), field); });
   }
 
   std::optional<outputs::Persistence> persistence_;

@@ -19,16 +19,42 @@ Array<GlobalId, HostMemory> counted(GlobalId first, Offset count) {
   return detail::tabulated<GlobalId>("GALE::input_ids", count, [&](Offset i) { return first + i; });
 }
 
-template <class Index>
-void take_grid(int n, const Ranks& ranks, const InputOptions& input, SharedInput& shared) {
-  io::GridPartOf<Index> slab = io::make_grid_part<Index>(n, ranks.rank(), ranks.size());
-  const auto ids = counted(slab.first_vertex, static_cast<Offset>(slab.field.size()));
-  shared.part = part_of(ids, slab.points, slab.tetrahedra);
-  io::Dataset grid;
-  grid.points = slab.points;
-  grid.arrays.push_back({"field", 1, std::move(slab.field)});
-  if (input.height) outputs::add_height(grid, *input.height);
-  shared.arrays = std::move(grid.arrays);
+/// The layers of a grid with their cells written out, which each rank makes by itself. Collective.
+DistributedMesh with_written_cells(const Communicator& ranks, const DistributedMesh& grid, const HostPoints& positions,
+                                   const PartitionOptions& options) {
+  MeshPart<GlobalId> part;
+  detail::together(ranks, [&] {
+    const Interval owned = grid.owned_vertices();
+    const GridView view = grid.grid()->in<HostMemory>();
+    const Id cubes = grid.grid()->cubes(), of_cube = view.cells_per_cube();
+    // Cubes follow their lowest vertices.
+    const auto cubes_before = [&](Id vertex) {
+      Id begin = 0, end = cubes;
+      while (begin < end) {
+        const Id middle = begin + (end - begin) / 2;
+        view.corners_of_cube(middle).a < vertex ? begin = middle + 1 : end = middle;
+      }
+      return begin;
+    };
+    const Id first_cube = cubes_before(owned.first), last_cube = cubes_before(owned.last);
+    const Id first = of_cube * first_cube, count = of_cube * (last_cube - first_cube);
+    if (owned.size() > 0) part.vertex_ids = counted(grid.vertex_id(owned.first), owned.size());
+    part.points = positions;
+    const GlobalId before = owned.size() > 0 ? grid.vertex_id(owned.first) - owned.first : 0;
+    const int corners = grid.dimension() + 1;
+    const CellRows<GlobalId>::non_const_type cells("GALE::written_cells", count, corners);
+    parallel_for("GALE::written_cells", HostExecutionSpace(), last_cube - first_cube, [&](Offset i) {
+      const Quad of = view.corners_of_cube(first_cube + static_cast<Id>(i));
+      for (Id t = 0; t < of_cube; ++t) {
+        const Quad cell = view.cell_of_cube(of, t);
+        for (int k = 0; k < corners; ++k)
+          cells(of_cube * i + t, k) = owned.has(cell[k]) ? before + cell[k] : grid.vertex_id(cell[k]);
+      }
+    });
+    part.cells = cells;
+    if (count > 0) part.cell_ids = counted(grid.cell_id(first), count);
+  });
+  return DistributedMesh(ranks, part, options);
 }
 
 /// Reads all; a grid's layers aren't dealt out yet.
@@ -104,6 +130,7 @@ namespace {
 
 SharedInput read_shared(const Ranks& ranks, InputOptions input, const WantedOfInput& wanted) {
   SharedInput shared;
+  if (input.read.grids == io::GridCells::written) input.read.grids = io::GridCells::computed;
   if (input.read.grids == io::GridCells::computed && !wanted.arrays && !input.height)
     input.read.grids = io::GridCells::computed_alone;
   begin_step("reading", input.input);
@@ -114,18 +141,8 @@ SharedInput read_shared(const Ranks& ranks, InputOptions input, const WantedOfIn
   io::Dataset::Positions points;
   detail::together(ranks, [&] {
     const auto of = io::grid_points(input.input, input.read);
-    if (of && input.read.grids != io::GridCells::written) {
+    if (of) {
       shared = make_layers(ranks, input, *of, wanted);
-      return;
-    }
-    if (of && (*of)[2] > 1) {
-      const int n = (*of)[0];
-      constexpr int most = 1290;  // whose vertices 32 bits number
-      n <= most ? take_grid<std::int32_t>(n, ranks, input, shared) : take_grid<std::int64_t>(n, ranks, input, shared);
-      io::Dataset named;
-      named.arrays = shared.arrays;
-      shared.field = outputs::select_field(named, input.read.array);
-      shared.order = shared.field;
       return;
     }
     shared.is_dealt_out = true;
@@ -188,7 +205,8 @@ VertexOrder order_by(const Mesh& mesh, const io::PointArray& order) {
 FieldOnMesh read_on_ranks(const InputOptions& from, int capacity, const WantedOfInput& wanted,
                           const std::function<void(const std::vector<std::string>& notices)>& was_read) {
   const auto& ranks = static_cast<const Communicator&>(Launch::ranks());  // what it is where there are several
-  SharedInput input = read_shared(ranks, from, wanted);
+  const bool writes_cells = from.read.grids == io::GridCells::written;    // whose segments need points
+  SharedInput input = read_shared(ranks, from, {wanted.arrays || writes_cells, wanted.cells});
   was_read(input.notices);
   begin_step("sharing the mesh");
   // Cells without ids are counted from rank to rank.
@@ -212,8 +230,13 @@ FieldOnMesh read_on_ranks(const InputOptions& from, int capacity, const WantedOf
   options.repartition = input.is_dealt_out;  // but for layers of a grid
   options.keep_corners = wanted.cells;
   options.capacity = capacity;
-  const DistributedMesh mesh =
+  DistributedMesh mesh =
       std::visit([&](const auto& part) { return DistributedMesh(ranks, part, options); }, input.part);
+  const auto* const layers = std::get_if<GridLayers>(&input.part);
+  if (layers != nullptr && writes_cells) {
+    options.repartition = false;
+    mesh = with_written_cells(ranks, mesh, layers->positions, options);
+  }
   input.part = {};
   begin_step("ordering the vertices");
   if (input.has_order) require_permutation(mesh, held_values(mesh, input.order));
