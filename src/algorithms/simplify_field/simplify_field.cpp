@@ -108,7 +108,7 @@ SimplifiedField simplified(const VertexOrder& order, const ComputeOptions& optio
                            const Choose& choose) {
   Computing computing(order.mesh(), options, computed);
   const auto simplify_in = [&](const auto& space, auto graph, std::function<Structure&()> structure) {
-    return simplified_in(space, order, std::move(graph), std::move(structure), options.threads, choose);
+    return simplified_in(space, order, std::move(graph), std::move(structure), std::max(options.threads, 1), choose);
   };
   const WorkerSpace worker;
   const HostExecutionSpace host;
