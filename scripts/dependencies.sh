@@ -16,7 +16,7 @@ for more in "$@"; do
     python) packages+=(python3-dev python3-venv) ;;
     docs) packages+=(doxygen python3-venv) ;;
     mpi) packages+=(libopenmpi-dev) ;;
-    clang) packages+=(clang-14 libomp-14-dev) ;;
+    clang) packages+=(clang-14 libomp-14-dev libclang-rt-14-dev llvm-14) ;;
     plots) packages+=(python3-matplotlib) ;;
     *) echo "usage: $0 [data] [format] [rendering] [releases] [python] [docs] [mpi] [clang] [plots]" >&2; exit 2 ;;
   esac
