@@ -28,7 +28,7 @@ void tell(const SimplifiedField& field, const Mesh& mesh, Session& session) {
 
 class SimplifyField final : public AnalysisCommand {
  public:
-  explicit SimplifyField(CLI::App& app) : AnalysisCommand(app, "simplify-field") {
+  explicit SimplifyField(CLI::App& app) : AnalysisCommand(app, "simplify-field", Works::on_many_ranks) {
     add_persistence(subcommand(), persistence_, analysis_.option("persistence").help);
     add_file("-o,--output", output_,
              "The mesh with the simplified field and the order of its vertices, NAME_Order: .vtu or .vtk; on several "
