@@ -76,7 +76,7 @@ for values, repartition in ((field, False), (np.round(field), True), (field.asty
 
     found, expected = part.simplify_field(values[ids], "20%"), whole.simplify_field(values, "20%")
     check((found.minima, found.maxima) == (expected.minima, expected.maxima), "simplified extrema")
-    for name in ("field", "order"):
+    for name in ("values", "order"):
         check(np.array_equal(getattr(found, name), getattr(expected, name)[part.vertex_ids]), f"simplified {name}")
     found, expected = part.merge_tree(values[ids], persistence="20%"), whole.merge_tree(values, persistence="20%")
     check(COMM.rank != 0 or np.array_equal(found.nodes.points, expected.nodes.points), "nodes of a simplified field")
