@@ -14,7 +14,7 @@
 #include <gale/runtime/device_sweep.hpp>
 
 // A lane a vertex. Its row of edges lies in one stretch of memory of which each team reserves what its segment takes;
-// on a triangle mesh there are no such rows (PairFans).
+// on a triangle mesh there are no such rows (PairFans). Grids need no teams (grid_lanes.hpp).
 // What a sweep finds is complete if no list was too short: else it is made again with lists that suffice.
 
 namespace gale {
@@ -140,9 +140,9 @@ struct Room {
     large_words = 64 * large;
     critical = {large, large, has_rows ? large : 0, large, 2 * large};
     left = 0;
-    if (!is_grid_of_tetrahedra(mesh)) return;
+    if (mesh.grid() == nullptr) return;
     words = large = large_words = 0;
-    left = mesh.vertices() / 8 + 4096;
+    if (has_rows) left = mesh.vertices() / 8 + 4096;
   }
 };
 
@@ -177,6 +177,8 @@ class Attempt {
     if (have_device && options.batches == 0) sized.batches = usual_batches;
     if (is_grid_of_tetrahedra(mesh_)) {
       pair_grid(space, order);
+    } else if (mesh_.grid() != nullptr) {
+      pair_grid_fans(space, order);
     } else if (mesh_.dimension() == 3) {
       pair_stars(space, order, room, sized);
     } else {
@@ -275,6 +277,13 @@ class Attempt {
       parallel_for("GALE::pair_rest_of_grid", space, left_.count(), detail::PairOtherGridStars{pair});
       space.fence();
     }
+  }
+
+  void pair_grid_fans(const WorkerSpace& space, const VertexOrder& order) {
+    const detail::PairGridFans pair{mesh_.grid()->in<Memory>(), mesh_.grid()->kinds_in<Memory>(),
+                                    order.keys_in<Memory>().data(), mesh_.owned_vertices(), sink_};
+    parallel_for("GALE::pair_on_grid", space, pair.owned.size(), pair);
+    space.fence();
   }
 
   void pair_fans(const WorkerSpace& space, const VertexOrder& order, const DeviceSweepOptions& options) {

@@ -2,6 +2,7 @@
 
 #include <gale/algorithms/gradient/grid_pairs.hpp>
 #include <gale/algorithms/gradient/lane_sink.hpp>
+#include <gale/algorithms/gradient/pair_fan.hpp>
 #include <gale/mesh/intervals.hpp>
 
 // Gradients of grids by kernels. Where each row of edges begins is known before, so that a lane needs no others.
@@ -58,6 +59,23 @@ struct PairOtherGridStars {
     const VertexStar star = rows.at(at, all.kinds[at.kind()], 3);
     Id* const row = all.words + all.pairs_begin[star.vertex];
     if (!all.sink.pair<1>(all.keys, star, row)) all.sink.pair<2>(all.keys, star, row);
+  }
+};
+
+/// Pairs the lower stars of a grid of triangles, a lane a vertex.
+struct PairGridFans {
+  GridView grid;
+  const StarKind* kinds;
+  const std::uint64_t* keys;
+  Interval owned;
+  LaneSink sink;
+
+  KOKKOS_FUNCTION void operator()(Offset i) const {
+    GridCursor at(grid);
+    GridStarRows rows;
+    at.go_to(owned.first + static_cast<Id>(i));
+    pair_small_fan<8>(StarSink<LaneFound>{sink.vertex_successor, sink.cell_successor, &sink.found}, keys,
+                      rows.at(at, kinds[at.kind()], 2));
   }
 };
 

@@ -7,9 +7,9 @@
 
 namespace gale::detail {
 
-/// The star of a vertex of a triangle mesh, of at most 64 neighbours, in which no edge has more than two triangles. So
-/// its triangles make paths and rings of neighbours, and those of its lower star make paths of lower neighbours, and
-/// rings where all of a ring are lower.
+/// The star of a vertex of a triangle mesh, of at most so many neighbours, in which no edge has more than two
+/// triangles. So its triangles make paths and rings of neighbours, and those of its lower star make paths of lower
+/// neighbours, and rings where all of a ring are lower.
 ///
 /// Pairs the cells of the lower star as `pair_cells` does, whose queues a path needs none of: its lowest edge comes
 /// first, and from there each triangle is paired with the edge behind it, whichever comes next. The lowest of all edges
@@ -17,10 +17,11 @@ namespace gale::detail {
 /// greatest key, since the lesser one of two goes on each time: that triangle is critical.
 ///
 /// Vertices are named by their places in the VV row, triangles by theirs in the VF row.
+template <Id max_neighbours>
 class LowerFan {
- public:
-  static constexpr Id max_neighbours = 64;
+  static_assert(max_neighbours <= 64, "which of them are lower is said in one word");
 
+ public:
   /// False if the star is too large or too irregular.
   KOKKOS_INLINE_FUNCTION bool build(const std::uint64_t* keys, const VertexStar& star) {
     const Id neighbours = star.neighbours.size(), triangles = star.link.size();

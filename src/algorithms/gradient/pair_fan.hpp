@@ -40,11 +40,12 @@ void pair_large_fan(const Sink& sink, const VertexStar& star, const ManyLowerNei
   pair_cells(cells, pair, critical);
 }
 
-/// Pairs the lower star of a vertex whose triangles make paths and rings; false if it is too large, or too irregular.
+/// Pairs the lower star of a vertex of at most so many neighbours, whose triangles make paths and rings; false if it
+/// has more, or is irregular.
 GALE_CALLS_ANY
-template <class Sink>
+template <Id max_neighbours = 64, class Sink>
 KOKKOS_FUNCTION bool pair_small_fan(const Sink& sink, const std::uint64_t* keys, const VertexStar& star) {
-  LowerFan fan;
+  LowerFan<max_neighbours> fan;
   if (!fan.build(keys, star)) return false;
   fan.pair_all([&](int lowest) { sink.set_vertex(star.vertex, lowest < 0 ? no_id : star.neighbours[lowest]); },
                [&](int triangle, int edge, int across) {
