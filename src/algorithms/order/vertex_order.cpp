@@ -17,40 +17,47 @@ namespace {
 template <class Space>
 using Keys = Array<std::uint64_t, MemoryOf<Space>>;
 
-/// A vertex's input id if it has no value; `none` if it has one.
-template <class Value>
-KOKKOS_FUNCTION Offset if_nan(Value value, Offset vertex, Offset none) {
-  return value == value ? none : vertex;
-}
+/// A field's values by their bits: all types of a width are one for what is compiled here.
+template <class Raw, class Memory>
+struct RawValues {
+  FieldValues<Raw, Memory> bits;
+  NumberKind kind;
+
+  KOKKOS_FUNCTION BitsOf<Raw> ordered(Offset i) const { return ordered_bits(bits(i), kind); }
+
+  /// A vertex's input id if it has no value; `none` if it has one.
+  KOKKOS_FUNCTION Offset if_nan(Offset i, Offset vertex, Offset none) const {
+    return is_nan(bits(i), kind) ? vertex : none;
+  }
+};
 
 std::string without_value(GlobalId vertex) {
   return "vertex " + std::to_string(vertex) + " has no field value: it is NaN";
 }
 
 /// Value and input id fit one key.
-template <class Space, class Value>
-Offset fill_keys(const Space& space, const Mesh& mesh, const FieldValues<Value, MemoryOf<Space>>& values,
+template <class Space, class Raw>
+Offset fill_keys(const Space& space, const Mesh& mesh, const RawValues<Raw, MemoryOf<Space>>& values,
                  const Keys<Space>& keys) {
   const Offset count = mesh.vertices();
   const OtherIds input = mesh.vertices_in_input<MemoryOf<Space>>();
   return reduce_min(
       "GALE::order_keys", space, count, count, KOKKOS_LAMBDA(Offset v) {
         const Id vertex = input[v];
-        const Value value = values(vertex);
-        keys(v) = std::uint64_t(ordered_bits(value)) << 32 | static_cast<std::uint32_t>(vertex);
-        return if_nan(value, vertex, count);
+        keys(v) = std::uint64_t(values.ordered(vertex)) << 32 | static_cast<std::uint32_t>(vertex);
+        return values.if_nan(vertex, vertex, count);
       });
 }
 
 /// The place of each value among all.
-template <class Space, class Value>
-Offset fill_ranks(const Space& space, const Mesh& mesh, const FieldValues<Value, MemoryOf<Space>>& values,
+template <class Space, class Raw>
+Offset fill_ranks(const Space& space, const Mesh& mesh, const RawValues<Raw, MemoryOf<Space>>& values,
                   const Keys<Space>& keys) {
   const Offset count = mesh.vertices();
   const Offset bad = reduce_min(
       "GALE::order_bits", space, count, count, KOKKOS_LAMBDA(Offset i) {
-        keys(i) = ordered_bits(values(i));
-        return if_nan(values(i), i, count);
+        keys(i) = values.ordered(i);
+        return values.if_nan(i, i, count);
       });
   if (bad < count) return bad;
   const auto by_rank = stable_sort_places(space, "GALE::order_inputs", keys);
@@ -68,67 +75,66 @@ struct FoundKeys {
 };
 
 /// Ends with a fence: others use the keys on instances of their own.
-template <class Space, class Value>
-FoundKeys make_keys(const Space& space, const Mesh& mesh, const FieldValues<Value, MemoryOf<Space>>& values) {
+template <class Space, class Raw>
+FoundKeys make_keys(const Space& space, const Mesh& mesh, const RawValues<Raw, MemoryOf<Space>>& values) {
   const auto keys = allocate<Keys<Space>>("GALE::order_keys", mesh.vertices());
   Offset bad;
-  if constexpr (sizeof(Value) == 8) {
-    bad = fill_ranks<Space, Value>(space, mesh, values, keys);
+  if constexpr (sizeof(Raw) == 8) {
+    bad = fill_ranks(space, mesh, values, keys);
   } else {
-    bad = fill_keys<Space, Value>(space, mesh, values, keys);
+    bad = fill_keys(space, mesh, values, keys);
   }
   space.fence();
   return {{keys}, bad};
 }
 
 /// Keys that compare on all ranks, where those of this rank don't.
-template <class Space, class Value>
+template <class Space, class Raw>
 Array<const std::uint64_t, HostMemory> shared_keys(const Space& space, const Mesh& mesh,
-                                                   const FieldValues<Value, MemoryOf<Space>>& values) {
-  if (sizeof(Value) < 8 || mesh.exchange().ranks().size() == 1) return {};
+                                                   const RawValues<Raw, MemoryOf<Space>>& values) {
+  if (sizeof(Raw) < 8 || mesh.exchange().ranks().size() == 1) return {};
   const auto keys = allocate<Keys<Space>>("GALE::shared_keys", mesh.vertices());
   const OtherIds input = mesh.vertices_in_input<MemoryOf<Space>>();
   parallel_for(
-      "GALE::shared_keys", space, mesh.vertices(),
-      KOKKOS_LAMBDA(Offset v) { keys(v) = ordered_bits(values(input[v])); });
+      "GALE::shared_keys", space, mesh.vertices(), KOKKOS_LAMBDA(Offset v) { keys(v) = values.ordered(input[v]); });
   space.fence();
   return on_host(keys);
 }
 
 /// Makes keys of a value for each vertex of the mesh.
-template <class Value, class Memory>
-OrderKeys keys_of_all(const Mesh& mesh, const FieldValues<Value, Memory>& values) {
+template <class Raw, class Memory>
+OrderKeys keys_of_all(const Mesh& mesh, const RawValues<Raw, Memory>& values) {
   return in_worker_or_host_space(mesh, [&](const auto& space) {
     using Space = std::decay_t<decltype(space)>;
-    const auto copy = in_memory<MemoryOf<Space>>(values);
-    const FieldValues<Value, MemoryOf<Space>> here(copy);
-    const FoundKeys found = make_keys<Space, Value>(space, mesh, here);
+    const auto copy = in_memory<MemoryOf<Space>>(values.bits);
+    const FoundKeys found = make_keys(space, mesh, RawValues<Raw, MemoryOf<Space>>{copy, values.kind});
     if (found.bad < mesh.vertices()) throw Error(without_value(found.bad));
     return found.order;
   });
 }
 
-template <class Space, class Value>
-FoundKeys part_keys_in(const Space& space, const Mesh& mesh, const FieldValues<Value, HostMemory>& given,
-                       const Dealt<Value>& fetched) {
-  const auto values = allocate<Array<Value, MemoryOf<Space>>>("GALE::local_values", mesh.vertices());
-  mesh.exchange().from_givers().fill(space, given.data(), fetched, values.data());
-  const FieldValues<Value, MemoryOf<Space>> all(values.data(), values.extent(0));
-  FoundKeys found = make_keys<Space, Value>(space, mesh, all);
-  found.order.values = shared_keys<Space, Value>(space, mesh, all);
+template <class Space, class Raw>
+FoundKeys part_keys_in(const Space& space, const Mesh& mesh, const RawValues<Raw, HostMemory>& given,
+                       const Dealt<Raw>& fetched) {
+  const auto values = allocate<Array<Raw, MemoryOf<Space>>>("GALE::local_values", mesh.vertices());
+  mesh.exchange().from_givers().fill(space, given.bits.data(), fetched, values.data());
+  const RawValues<Raw, MemoryOf<Space>> all{FieldValues<Raw, MemoryOf<Space>>(values.data(), values.extent(0)),
+                                            given.kind};
+  FoundKeys found = make_keys(space, mesh, all);
+  found.order.values = shared_keys(space, mesh, all);
   return found;
 }
 
 /// Makes keys of a value for each vertex that this rank has handed over. Collective.
-template <class Value>
-OrderKeys keys_of_part(const Mesh& mesh, const FieldValues<Value, HostMemory>& given) {
+template <class Raw>
+OrderKeys keys_of_part(const Mesh& mesh, const RawValues<Raw, HostMemory>& given) {
   const Exchange& exchange = mesh.exchange();
   FoundKeys found{{}, 0};
   if (exchange.from_givers().keeps_all()) {
     together(exchange.ranks(), [&] { found.order = keys_of_all(mesh, given); });
     return found.order;
   }
-  const auto fetched = exchange.from_givers().fetch<Value>(exchange.ranks(), [&](Id place) { return given(place); });
+  const auto fetched = exchange.from_givers().fetch<Raw>(exchange.ranks(), [&](Id place) { return given.bits(place); });
   together(exchange.ranks(), [&] {
     found = in_worker_or_host_space(mesh, [&](const auto& space) { return part_keys_in(space, mesh, given, fetched); });
   });
@@ -139,19 +145,27 @@ OrderKeys keys_of_part(const Mesh& mesh, const FieldValues<Value, HostMemory>& g
   return found.order;
 }
 
+template <class Raw, class Memory>
+OrderKeys keys_of(const Mesh& mesh, const RawValues<Raw, Memory>& values) {
+  const Offset given = mesh.exchange().given_vertices(), count = given < 0 ? Offset(mesh.vertices()) : given;
+  together(mesh.exchange().ranks(), [&] {
+    if (static_cast<Offset>(values.bits.extent(0)) == count) return;
+    throw Error("the field has " + std::to_string(values.bits.extent(0)) + " values, " +
+                (mesh.is_part() ? "this part of the mesh " : "the mesh ") + std::to_string(count) + " vertices");
+  });
+  if (!mesh.is_part()) return keys_of_all(mesh, values);
+  const auto here = on_host(values.bits);
+  return keys_of_part(
+      mesh, RawValues<Raw, HostMemory>{FieldValues<Raw, HostMemory>(here.data(), here.extent(0)), values.kind});
+}
+
 }  // namespace
 
 template <class Value, class Memory>
 OrderKeys order_keys(const Mesh& mesh, const FieldValues<Value, Memory>& values) {
-  const Offset given = mesh.exchange().given_vertices(), count = given < 0 ? Offset(mesh.vertices()) : given;
-  together(mesh.exchange().ranks(), [&] {
-    if (static_cast<Offset>(values.extent(0)) == count) return;
-    throw Error("the field has " + std::to_string(values.extent(0)) + " values, " +
-                (mesh.is_part() ? "this part of the mesh " : "the mesh ") + std::to_string(count) + " vertices");
-  });
-  if (!mesh.is_part()) return keys_of_all(mesh, values);
-  const auto here = on_host(values);
-  return keys_of_part(mesh, FieldValues<Value, HostMemory>(here.data(), here.extent(0)));
+  using Raw = RawOf<sizeof(Value)>;
+  const FieldValues<Raw, Memory> bits(reinterpret_cast<const Raw*>(values.data()), values.extent(0));
+  return keys_of(mesh, RawValues<Raw, Memory>{bits, kind_of<Value>});
 }
 
 OrderKeys keys_of_places(const Mesh& mesh, const FieldValues<Id, HostMemory>& places) {
