@@ -145,6 +145,14 @@ OrderKeys keys_of_part(const Mesh& mesh, const RawValues<Raw, HostMemory>& given
   return found.order;
 }
 
+/// Values as make_keys reads them.
+template <class Value, class Memory>
+auto raw(const FieldValues<Value, Memory>& values) {
+  using Raw = RawOf<sizeof(Value)>;
+  const FieldValues<Raw, Memory> bits(reinterpret_cast<const Raw*>(values.data()), values.extent(0));
+  return RawValues<Raw, Memory>{bits, kind_of<Value>};
+}
+
 template <class Raw, class Memory>
 OrderKeys keys_of(const Mesh& mesh, const RawValues<Raw, Memory>& values) {
   const Offset given = mesh.exchange().given_vertices(), count = given < 0 ? Offset(mesh.vertices()) : given;
@@ -163,13 +171,11 @@ OrderKeys keys_of(const Mesh& mesh, const RawValues<Raw, Memory>& values) {
 
 template <class Value, class Memory>
 OrderKeys order_keys(const Mesh& mesh, const FieldValues<Value, Memory>& values) {
-  using Raw = RawOf<sizeof(Value)>;
-  const FieldValues<Raw, Memory> bits(reinterpret_cast<const Raw*>(values.data()), values.extent(0));
-  return keys_of(mesh, RawValues<Raw, Memory>{bits, kind_of<Value>});
+  return keys_of(mesh, raw(values));
 }
 
 OrderKeys keys_of_places(const Mesh& mesh, const FieldValues<Id, HostMemory>& places) {
-  return keys_of_all(mesh, places);
+  return keys_of_all(mesh, raw(places));
 }
 
 #define GALE_INSTANTIATE_FOR(Value, Memory) \
