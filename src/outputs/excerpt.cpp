@@ -1,6 +1,7 @@
 #include <array>
 #include <utility>
 
+#include <gale/base/memory.hpp>
 #include <gale/outputs/brought.hpp>
 #include <gale/outputs/excerpt.hpp>
 
@@ -18,11 +19,14 @@ io::PointArray brought(const gale::detail::ExchangePlan& plan, const Ranks& rank
         Values all;
         std::vector<Value> from, to;
         gale::detail::together(ranks, [&] {
+          reserve(all, count * width);
           all.resize(count * width);
+          if (width == 1) return;
           from.resize(values.size() / width);
           to.resize(count);
         });
-        for (std::size_t component = 0; component < width; ++component) {
+        if (width == 1) plan(ranks, values.data(), all.data());
+        for (std::size_t component = 0; width > 1 && component < width; ++component) {
           for (std::size_t i = 0; i < from.size(); ++i) from[i] = values[i * width + component];
           plan(ranks, from.data(), to.data());
           for (std::size_t i = 0; i < count; ++i) all[i * width + component] = to[i];

@@ -122,9 +122,12 @@ SharedInput make_layers(const Ranks& ranks, const InputOptions& input, const std
   if (wanted.arrays) layers.positions = Points<float, HostMemory>(std::get<io::Dataset::Points<float>>(made.points));
   SharedInput shared;
   shared.part = layers;
-  shared.field = outputs::select_field(made, input.read.array);
-  shared.order = shared.field;
-  shared.arrays = std::move(made.arrays);
+  const bool is_only_one =
+      made.arrays.size() == 1 && (input.read.array.empty() || input.read.array == made.arrays[0].name);
+  shared.order =
+      is_only_one && !wanted.arrays ? std::move(made.arrays[0]) : outputs::select_field(made, input.read.array);
+  if (wanted.arrays) shared.arrays = std::move(made.arrays);
+  shared.field = wanted.values ? shared.order : io::PointArray{shared.order.name, 1, {}};
   return shared;
 }
 

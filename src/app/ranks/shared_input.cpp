@@ -206,7 +206,7 @@ FieldOnMesh read_on_ranks(const InputOptions& from, int capacity, const WantedOf
                           const std::function<void(const std::vector<std::string>& notices)>& was_read) {
   const auto& ranks = static_cast<const Communicator&>(Launch::ranks());  // what it is where there are several
   const bool writes_cells = from.read.grids == io::GridCells::written;    // whose segments need points
-  SharedInput input = read_shared(ranks, from, {wanted.arrays || writes_cells, wanted.cells});
+  SharedInput input = read_shared(ranks, from, {wanted.values, wanted.arrays || writes_cells, wanted.cells});
   was_read(input.notices);
   begin_step("sharing the mesh");
   // Cells without ids are counted from rank to rank.
