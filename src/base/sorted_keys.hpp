@@ -24,7 +24,7 @@ class SortedKeys {
     std::int64_t first, last;
   };
 
-  /// Those before `first` are less than a key, those from `last` on greater.
+  /// Says where a key's neighbours are: all before `first` are less than it, all from `last` on greater.
   Range around(std::uint64_t key) const {
     const auto count = static_cast<std::int64_t>(keys_.size());
     if (count == 0 || key < keys_.front()) return {0, 0};

@@ -12,7 +12,7 @@ namespace gale::detail {
 SimplifiedField simplified_on_ranks(const VertexOrder& order, const std::function<double(Id)>& value, double threshold,
                                     const ComputeOptions& options, Computed* computed);
 
-/// Likewise; each rank names extrema that it holds, by its input ids.
+/// simplify_field by the extrema that stay, of which each rank names some that it holds, by its input ids.
 SimplifiedField simplified_on_ranks(const VertexOrder& order, const StayingExtrema& staying,
                                     const ComputeOptions& options, Computed* computed);
 
