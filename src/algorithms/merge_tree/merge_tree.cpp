@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <gale/algorithms/merge_tree.hpp>
+#include <gale/algorithms/merge_tree/computed_graph.hpp>
 #include <gale/algorithms/merge_tree/tree_maker.hpp>
 #include <gale/algorithms/merge_tree/trees_on_ranks.hpp>
 #include <gale/algorithms/order/require_mesh.hpp>
@@ -63,26 +64,14 @@ std::vector<MergeTree> find_trees(const VertexOrder& order, const std::vector<Tr
   Computed& shared = computed == nullptr ? own : *computed;  // one structure for all sweeps
   const auto make = [&](const VertexOrder& of, const std::vector<Tree>& some, const ThresholdOfTree* threshold) {
     Computing computing(of.mesh(), options, &shared);
-    const auto with_graph = [&](const auto& use) {
-      const WorkerSpace worker;
-      const HostExecutionSpace host;
-      if (computing.is_of_grid()) {
-        return computing.find_alone(
-            [&](const DeviceSweepOptions&) { return use(worker, extremum_graph_of_grid(worker, of, options)); },
-            [&] { return use(host, extremum_graph_of_grid(host, of, options)); });
-      }
-      return computing.find(
-          merge_tree_relations,
-          [&](const DeviceSweepOptions& sweep) { return use(worker, extremum_graph(worker, of, sweep)); },
-          [&](Structure& structure) { return use(host, extremum_graph(structure, of.keys(), options)); });
-    };
     const Ranks& ranks = of.mesh().exchange().ranks();
     if (ranks.size() == 1)
-      return with_graph(
-          [&](const auto& space, auto graph) { return trees_of(space, of, std::move(graph), some, threshold); });
+      return with_extremum_graph(computing, of, options, [&](const auto& space, auto graph, const auto&) {
+        return trees_of(space, of, std::move(graph), some, threshold);
+      });
     MirroredGraph graph;
     together(ranks, [&] {
-      graph = with_graph([](const auto&, auto found) {
+      graph = with_extremum_graph(computing, of, options, [](const auto&, auto found, const auto&) {
         return MirroredGraph{MirroredGraphSide(std::move(found[below])), MirroredGraphSide(std::move(found[above]))};
       });
     });

@@ -3,7 +3,7 @@
 #include <string>
 #include <utility>
 
-#include <gale/algorithms/merge_tree.hpp>
+#include <gale/algorithms/merge_tree/computed_graph.hpp>
 #include <gale/algorithms/simplify_field.hpp>
 #include <gale/algorithms/simplify_field/field_on_ranks.hpp>
 #include <gale/algorithms/simplify_field/removed_branches.hpp>
@@ -107,28 +107,9 @@ template <class Choose>
 SimplifiedField simplified(const VertexOrder& order, const ComputeOptions& options, Computed* computed,
                            const Choose& choose) {
   Computing computing(order.mesh(), options, computed);
-  const auto simplify_in = [&](const auto& space, auto graph, std::function<Structure&()> structure) {
-    return simplified_in(space, order, std::move(graph), std::move(structure), std::max(options.threads, 1), choose);
-  };
-  const WorkerSpace worker;
-  const HostExecutionSpace host;
-  if (computing.is_of_grid()) {
-    return computing.find_alone(
-        [&](const DeviceSweepOptions&) {
-          return simplify_in(worker, extremum_graph_of_grid(worker, order, options), {});
-        },
-        [&] { return simplify_in(host, extremum_graph_of_grid(host, order, options), {}); });
-  }
-  return computing.find(
-      merge_tree_relations,
-      [&](const DeviceSweepOptions& sweep) {
-        return simplify_in(worker, extremum_graph(worker, order, sweep),
-                           [&]() -> Structure& { return computing.structure(merge_tree_relations); });
-      },
-      [&](Structure& structure) {
-        return simplify_in(host, extremum_graph(structure, order.keys(), options),
-                           [&]() -> Structure& { return structure; });
-      });
+  return with_extremum_graph(computing, order, options, [&](const auto& space, auto graph, const auto& structure) {
+    return simplified_in(space, order, std::move(graph), structure, std::max(options.threads, 1), choose);
+  });
 }
 
 /// Says by which of its extrema a field is known, and that these are the given ones.
