@@ -2,6 +2,7 @@
 #include <utility>
 #include <vector>
 
+#include <gale/base/bits.hpp>
 #include <gale/base/device.hpp>
 #include <gale/base/error.hpp>
 
@@ -18,6 +19,15 @@ namespace {
 
 void require_success(cudaError_t status, const std::string& what) {
   if (status != cudaSuccess) throw Error(what + " failed: " + cudaGetErrorString(status));
+}
+
+/// The bits in which some of the keys differ: each eight of them take a pass.
+std::uint64_t differing_bits(const WorkerSpace& space, const Array<std::uint64_t, WorkerMemory>& keys) {
+  std::uint64_t all = 0;
+  Kokkos::parallel_reduce(
+      "GALE::sort_bits", Kokkos::RangePolicy<WorkerSpace, Kokkos::IndexType<Offset>>(space, 0, keys.extent(0)),
+      KOKKOS_LAMBDA(Offset i, std::uint64_t & bits) { bits |= keys(i) ^ keys(0); }, Kokkos::BOr<std::uint64_t>(all));
+  return all;
 }
 
 /// `algorithm(workspace, bytes, stream)` calls one of CUB's, as they all want to be called: once for the size of the
@@ -76,12 +86,15 @@ void detail::CopyStream::copy(void* to, const void* from, std::size_t bytes) con
 void detail::sort_by_key_on_device(const WorkerSpace& space, const Array<std::uint64_t, WorkerMemory>& keys,
                                    const Array<Id, WorkerMemory>& values) {
   const auto n = static_cast<std::int64_t>(keys.extent(0));
+  const std::uint64_t bits = differing_bits(space, keys);
+  if (bits == 0) return;
+  const int first_bit = lowest_bit(bits), end_bit = highest_bit(bits) + 1;
   const auto other_keys = allocate<Array<std::uint64_t, WorkerMemory>>("GALE::sort_keys", n);
   const auto other_values = allocate<Array<Id, WorkerMemory>>("GALE::sort_values", n);
   cub::DoubleBuffer<std::uint64_t> key_buffer(keys.data(), other_keys.data());
   cub::DoubleBuffer<Id> value_buffer(values.data(), other_values.data());
   run_cub(space, "GALE::sort_by_key", [&](void* workspace, std::size_t& bytes, cudaStream_t stream) {
-    return cub::DeviceRadixSort::SortPairs(workspace, bytes, key_buffer, value_buffer, n, 0, 64, stream);
+    return cub::DeviceRadixSort::SortPairs(workspace, bytes, key_buffer, value_buffer, n, first_bit, end_bit, stream);
   });
   if (key_buffer.Current() != keys.data()) Kokkos::deep_copy(space, keys, other_keys);
   if (value_buffer.Current() != values.data()) Kokkos::deep_copy(space, values, other_values);

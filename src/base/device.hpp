@@ -47,7 +47,7 @@ class CopyStream {
 };
 
 /// The device's stable_sort_by_key and sort_rows (sort.hpp). Enqueued on the instance, but for
-/// giving back their workspace, which waits. Not without a device.
+/// giving back their workspace, and looking for the bits in which keys differ, which wait. Not without a device.
 void sort_by_key_on_device(const WorkerSpace& space, const Array<std::uint64_t, WorkerMemory>& keys,
                            const Array<Id, WorkerMemory>& values);
 template <class Index>

@@ -1,11 +1,9 @@
 #pragma once
 
-#include <algorithm>
-#include <vector>
+#include <utility>
 
+#include <gale/base/for_teams.hpp>
 #include <gale/base/ordered.hpp>
-#include <gale/base/parallel.hpp>
-#include <gale/base/team.hpp>
 
 // Short rows put in order by the teams of a device.
 
@@ -67,24 +65,11 @@ struct RankRows {
   }
 };
 
-/// Has teams put all rows in order, so many rows a team; on the host each thread is one. Enqueued on the instance of a
-/// device, as loops are.
+/// Has teams put all rows in order, so many rows a team. Enqueued on the instance of a device, as loops are.
 template <class Space, class Index, class Entries>
 void rank_rows(const char* label, const Space& space, const RankRows<Index, Entries>& kernel) {
-  const Offset teams = (kernel.rows + kernel.rows_of_team - 1) / kernel.rows_of_team;
-  if constexpr (is_device<Space>) {
-    constexpr int warps = 4;
-    Kokkos::TeamPolicy<Space> policy(space, static_cast<int>(teams), warps, lanes_per_warp);
-    policy.set_scratch_size(kernel.scratch_level, Kokkos::PerTeam(static_cast<int>(kernel.scratch_bytes() + 16)));
-    Kokkos::parallel_for(label, policy, kernel);
-  } else {
-    for_parts(label, teams, threads_for(kernel.rows), [&](int, Offset first, Offset last) {
-      using Entry = typename RankRows<Index, Entries>::Entry;
-      std::vector<Entry> scratch(static_cast<std::size_t>(kernel.capacity));
-      for (Offset team = first; team < last; ++team)
-        kernel(HostTeam(static_cast<int>(team), reinterpret_cast<char*>(scratch.data())));
-    });
-  }
+  constexpr int warps = 4;
+  for_teams(label, space, (kernel.rows + kernel.rows_of_team - 1) / kernel.rows_of_team, warps, kernel.rows, kernel);
 }
 
 }  // namespace gale::detail

@@ -14,7 +14,7 @@
 namespace gale {
 
 /// Sorts `keys` ascending and carries `values` along; equal keys keep their order. Both arrays are overwritten.
-/// O(n) a pass of 11 bits of the key; on the host only of those between the lowest and the highest bit in which some
+/// O(n) a pass of 11 bits of the key, on a device of 8: those between the lowest and the highest bit in which some
 /// keys differ. Uses as much memory again, on the host 8 bytes a key where these are 32 bits at most. Enqueued on the
 /// instance of a device, as loops are.
 template <class Space>

@@ -79,18 +79,18 @@ SpaceIds<Space> sort_triangles(const Space& space, const Simplices<MemoryOf<Spac
 }  // namespace
 
 template <class Space>
-InputNumbers number_by_sorting(const Space& space, const Simplices<MemoryOf<Space>>& simplices,
-                               const Borrowed<Id, MemoryOf<Space>>& vertex_input, bool edges, bool triangles) {
-  InputNumbers numbers;
+MadeNumbers number_by_sorting(const Space& space, const Simplices<MemoryOf<Space>>& simplices,
+                              const Borrowed<Id, MemoryOf<Space>>& vertex_input, bool edges, bool triangles) {
+  MadeNumbers numbers;
   const auto edge_numbers = sort_edges(space, simplices, vertex_input);
-  if (edges) numbers.edges = on_host(edge_numbers);
-  if (triangles) numbers.triangles = on_host(sort_triangles(space, simplices, vertex_input, edge_numbers));
+  if (edges) numbers.edges = edge_numbers;
+  if (triangles) numbers.triangles = sort_triangles(space, simplices, vertex_input, edge_numbers);
   return numbers;
 }
 
-#define GALE_INSTANTIATE(Space)                                                            \
-  template InputNumbers number_by_sorting(const Space&, const Simplices<MemoryOf<Space>>&, \
-                                          const Borrowed<Id, MemoryOf<Space>>&, bool, bool)
+#define GALE_INSTANTIATE(Space)                                                           \
+  template MadeNumbers number_by_sorting(const Space&, const Simplices<MemoryOf<Space>>&, \
+                                         const Borrowed<Id, MemoryOf<Space>>&, bool, bool)
 GALE_IN_EACH_SPACE(GALE_INSTANTIATE);
 #undef GALE_INSTANTIATE
 
@@ -99,7 +99,7 @@ GALE_IN_EACH_SPACE(GALE_INSTANTIATE);
 namespace {
 
 template <class Space>
-InputNumbers numbers_in(const Space& space, const Mesh& mesh, bool edges, bool triangles) {
+detail::MadeNumbers numbers_in(const Space& space, const Mesh& mesh, bool edges, bool triangles) {
   using Memory = MemoryOf<Space>;
   SimplexNeeds needs;
   needs.upto = triangles ? Enumeration::triangles : Enumeration::edges;
@@ -107,28 +107,31 @@ InputNumbers numbers_in(const Space& space, const Mesh& mesh, bool edges, bool t
   const auto simplices = mesh.simplices<Memory>(needs);
   const detail::Borrowed<Id, Memory> input = mesh.vertex_input<Memory>();
   if constexpr (is_device<Space>) {
-    return detail::number_by_sorting(space, simplices, input, edges, triangles);
+    const auto numbers = detail::number_by_sorting(space, simplices, input, edges, triangles);
+    space.fence();
+    return numbers;
   } else {
     return detail::number_by_vertex(simplices, input, edges, triangles);
   }
 }
 
-InputNumbers numbers_of(const Mesh& mesh, bool edges, bool triangles) {
+}  // namespace
+
+detail::MadeNumbers detail::make_numbers(const Mesh& mesh, bool edges, bool triangles) {
   return in_worker_or_host_space(mesh, [&](const auto& space) { return numbers_in(space, mesh, edges, triangles); });
 }
-
-}  // namespace
 
 Array<const Id, HostMemory> input_numbers(const Mesh& mesh, int dimension) {
   if (dimension == 0) return mesh.vertex_input();
   if (dimension == mesh.dimension()) return mesh.cell_input();
-  return dimension == 1 ? numbers_of(mesh, true, false).edges : numbers_of(mesh, false, true).triangles;
+  const auto numbers = detail::make_numbers(mesh, dimension == 1, dimension == 2);
+  return (dimension == 1 ? numbers.edges : numbers.triangles).in<HostMemory>();
 }
 
 InputNumbers input_numbers(const Mesh& mesh) {
-  InputNumbers numbers = numbers_of(mesh, true, mesh.dimension() == 3);
-  if (mesh.dimension() == 2) numbers.triangles = mesh.cell_input();
-  return numbers;
+  const bool has_triangles = mesh.dimension() == 3;
+  const auto numbers = detail::make_numbers(mesh, true, has_triangles);
+  return {numbers.edges.in<HostMemory>(), has_triangles ? numbers.triangles.in<HostMemory>() : mesh.cell_input()};
 }
 
 }  // namespace gale

@@ -20,6 +20,18 @@ struct InputNumbers {
   Array<const Id, HostMemory> triangles;  ///< GALE's id of a triangle -> its number
 };
 
+namespace detail {
+
+/// The numbers of edges and triangles, where they were made; empty of what wasn't wanted.
+struct MadeNumbers {
+  Mirrored<Id> edges, triangles;
+};
+
+/// Numbers the edges, the triangles (of a mesh of tetrahedra), or both.
+MadeNumbers make_numbers(const Mesh& mesh, bool edges, bool triangles);
+
+}  // namespace detail
+
 /// Numbers all edges and all triangles, which takes less time than one after the other.
 GALE_EXPORT InputNumbers input_numbers(const Mesh& mesh);
 

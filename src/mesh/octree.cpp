@@ -43,6 +43,14 @@ struct CellWindow {
     return bisect(at > capacity ? at - capacity : 0, at, [this](Id i) { return !inside(i); });
   }
 
+  /// Does the cell go as far as half of that, to either side? One that holds more does: others are told by two
+  /// readings.
+  KOKKOS_FUNCTION bool may_overflow() const {
+    const Id below = capacity / 2, above = capacity - below;
+    return (at >= below && inside(at - below)) ||
+           (static_cast<Offset>(at) + above < static_cast<Offset>(codes.extent(0)) && inside(at + above));
+  }
+
   /// Does the cell hold more than `capacity` codes? If `first` is where it begins, as `begin()` says.
   KOKKOS_FUNCTION bool overflows(Id first) const {
     return static_cast<Offset>(first) + capacity < static_cast<Offset>(codes.extent(0)) && inside(first + capacity);
@@ -69,7 +77,7 @@ KOKKOS_FUNCTION bool begins_leaf(const Codes<Memory>& codes, Id at, Id capacity)
   }
   const int levels = common_levels(codes(at - 1), codes(at));
   const CellWindow<Memory> cell{codes, 3 * (morton_levels - levels), at, capacity};
-  return cell.overflows(cell.begin());
+  return cell.may_overflow() && cell.overflows(cell.begin());
 }
 
 /// Where the leaf ends that begins at `begin`: the largest cell that holds no code before it and at most `capacity`
@@ -106,13 +114,13 @@ std::vector<Id> leaves_on_host(const Codes<HostMemory>& codes, Id capacity) {
 }
 
 /// A box around nothing.
-Box empty_box() {
+KOKKOS_FUNCTION Box empty_box() {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   return {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
 }
 
 /// Makes a box hold another one. What isn't a number becomes its lower end, and stays it.
-void extend(Box& box, const double (&low)[3], const double (&high)[3]) {
+KOKKOS_FUNCTION void extend(Box& box, const double (&low)[3], const double (&high)[3]) {
   for (int axis = 0; axis < 3; ++axis) {
     box.low[axis] = low[axis] < box.low[axis] || low[axis] != low[axis] ? low[axis] : box.low[axis];
     box.high[axis] = high[axis] > box.high[axis] ? high[axis] : box.high[axis];
@@ -139,6 +147,30 @@ Box box_on_host(const Points<Coordinate, HostMemory>& points) {
   return all;
 }
 
+/// Reads the points once, too.
+template <class Coordinate>
+struct BoxOfPoints {
+  using value_type = Box;
+
+  Points<Coordinate, WorkerMemory> points;
+
+  KOKKOS_FUNCTION void init(Box& box) const { box = empty_box(); }
+  KOKKOS_FUNCTION void join(Box& box, const Box& other) const { extend(box, other.low, other.high); }
+  KOKKOS_FUNCTION void operator()(Offset i, Box& box) const {
+    const double point[3] = {points(i, 0), points(i, 1), points(i, 2)};
+    extend(box, point, point);
+  }
+};
+
+template <class Coordinate>
+Box box_on_device(const WorkerSpace& space, const Points<Coordinate, WorkerMemory>& points) {
+  Box box = empty_box();
+  Kokkos::parallel_reduce("GALE::bounding_box",
+                          Kokkos::RangePolicy<WorkerSpace, Kokkos::IndexType<Offset>>(space, 0, points.extent(0)),
+                          BoxOfPoints<Coordinate>{points}, box);
+  return box;
+}
+
 bool is_finite(const Box& box) {
   return std::all_of(box.low, box.low + 3, [](double x) { return std::isfinite(x); }) &&
          std::all_of(box.high, box.high + 3, [](double x) { return std::isfinite(x); });
@@ -159,21 +191,14 @@ void require_finite(const Space& space, const Points<Coordinate, MemoryOf<Space>
 
 template <class Coordinate, class Space>
 Box bounding_box(const Space& space, const Points<Coordinate, MemoryOf<Space>>& points) {
-  if constexpr (!is_device<Space>) {
-    const Box box = box_on_host(points);
-    if (!is_finite(box)) require_finite<Coordinate>(space, points);
-    return box;
-  }
-  require_finite<Coordinate>(space, points);
-  const Offset count = points.extent(0);
-  Box box{};
-  for (int axis = 0; axis < 3; ++axis) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    box.low[axis] = reduce_min(
-        "GALE::lowest_point", space, count, infinity, KOKKOS_LAMBDA(Offset i) { return double(points(i, axis)); });
-    box.high[axis] = -reduce_min(
-        "GALE::highest_point", space, count, infinity, KOKKOS_LAMBDA(Offset i) { return -double(points(i, axis)); });
-  }
+  const Box box = [&] {
+    if constexpr (is_device<Space>) {
+      return box_on_device<Coordinate>(space, points);
+    } else {
+      return box_on_host<Coordinate>(points);
+    }
+  }();
+  if (!is_finite(box)) require_finite<Coordinate>(space, points);
   return box;
 }
 
@@ -216,9 +241,11 @@ std::vector<Id> octree_leaves(const Space& space, const Array<std::uint64_t, Mem
   const auto count = static_cast<Id>(codes.extent(0));
   const auto leaf_of = allocate<Ids>("GALE::leaf_of", count + Offset(1));
   const Id limit = capacity;
+  parallel_for(
+      "GALE::octree_leaves", space, count,
+      KOKKOS_LAMBDA(Offset i) { leaf_of(i) = begins_leaf(codes, static_cast<Id>(i), limit) ? 1 : 0; });
   const Id leaves = exclusive_scan(
-      "GALE::octree_leaves", space, count, leaf_of,
-      KOKKOS_LAMBDA(Offset i) { return begins_leaf(codes, static_cast<Id>(i), limit) ? 1 : 0; });
+      "GALE::count_leaves", space, count, leaf_of, KOKKOS_LAMBDA(Offset i) { return leaf_of(i); });
   const auto begin = allocate<Ids>("GALE::leaf_begin", leaves);
   parallel_for(
       "GALE::leaf_begin", space, count, KOKKOS_LAMBDA(Offset i) {

@@ -62,6 +62,11 @@ TEST(Encoding, of_more_vertices_than_a_group_has) {
   }
 }
 
+TEST(Encoding, of_cells_that_touch_more_segments_than_a_team_tells_apart) {
+  const InputMesh mesh = holed_grid(12);
+  expect_both_ways<std::int32_t>(mesh, octree_of(mesh, 1));
+}
+
 TEST(Encoding, of_a_vertex_that_is_lowest_of_many) {
   const InputMesh mesh = cone_over_caps(120, 50);
   expect_both_ways<std::int32_t>(mesh, octree_of(mesh, 20));

@@ -59,8 +59,8 @@ TEST_P(InputNumbersOf, every_mesh_are_those_that_sorting_gives) {
   const auto all = mesh.simplices(needs);
   const auto numbers = detail::number_by_vertex(all, mesh.vertex_input(), true, true);
   const auto sorted = detail::number_by_sorting(HostExecutionSpace(), all, mesh.vertex_input(), true, true);
-  EXPECT_EQ(to_vector(numbers.edges), to_vector(sorted.edges));
-  EXPECT_EQ(to_vector(numbers.triangles), to_vector(sorted.triangles));
+  EXPECT_EQ(to_vector(numbers.edges.in<HostMemory>()), to_vector(sorted.edges.in<HostMemory>()));
+  EXPECT_EQ(to_vector(numbers.triangles.in<HostMemory>()), to_vector(sorted.triangles.in<HostMemory>()));
 }
 
 INSTANTIATE_TEST_SUITE_P(Tests, InputNumbersOf, every_mesh_and_segmentation(), mesh_and_segmentation);

@@ -5,6 +5,7 @@
 #include <gale/base/stop.hpp>
 #include <gale/mesh/input_numbers.hpp>
 #include <gale/runtime/relation_of.hpp>
+#include <gale/runtime/whole/whole_rows.hpp>
 
 #include "support/brute_force.hpp"
 #include "support/every_mesh.hpp"
@@ -36,6 +37,13 @@ Table in_input(const Mesh& mesh, Relation relation, const Table& rows) {
   return table;
 }
 
+Relation the_other_way(Relation relation) {
+  const auto all = members_of(all_relations);
+  return *std::find_if(all.begin(), all.end(), [&](Relation one) {
+    return row_dimension(one) == entry_dimension(relation) && entry_dimension(one) == row_dimension(relation);
+  });
+}
+
 }  // namespace
 
 class RelationOf : public EveryMesh {};
@@ -51,6 +59,13 @@ TEST_P(RelationOf, every_mesh_has_the_rows_of_brute_force) {
     EXPECT_EQ(to_table(relation_of(mesh, relation, Ids::input, with_threads(threads))),
               in_input(mesh, relation, expected[relation]))
         << name_of(relation);
+    if (row_dimension(relation) > entry_dimension(relation)) {
+      EXPECT_EQ(to_table(detail::kernel_rows(HostExecutionSpace(), mesh, relation, false, {})), expected[relation])
+          << name_of(relation);
+      EXPECT_EQ(to_table(detail::kernel_rows(HostExecutionSpace(), mesh, relation, true, {})),
+                expected[the_other_way(relation)])
+          << name_of(relation);
+    }
   }
 }
 

@@ -1,8 +1,8 @@
+#include <gale/base/atomic.hpp>
+#include <gale/base/for_teams.hpp>
 #include <gale/base/group_by.hpp>
 #include <gale/base/ordered.hpp>
-#include <gale/base/parallel.hpp>
-#include <gale/base/rank_rows.hpp>
-#include <gale/base/sort.hpp>
+#include <gale/base/transfer.hpp>
 #include <gale/mesh/encode/cells.hpp>
 
 namespace gale::detail {
@@ -22,25 +22,92 @@ struct LowestVertex {
   }
 };
 
-/// A cell in GALE's ids, and where it stood in the input.
-struct Entry {
-  Quad vertices;
-  Id input;
+/// A team's work: puts the cells of each of some consecutive lowest vertices in order, and says whether they are good.
+/// Each goes where as many of its vertex' stand as come before it. Those of a vertex that has more than there is room
+/// for are sorted by one thread.
+template <int corners>
+struct SortCells {
+  static constexpr int scratch_level = 0, vertices_of_team = 64, room = 768;  ///< some six cells a vertex
 
-  KOKKOS_FUNCTION bool operator<(const Entry& other) const {
-    return vertices == other.vertices ? input < other.input : vertices < other.vertices;
-  }
-};
+  /// What a team keeps of them.
+  struct Cells {
+    Quad vertices[room];
+    Id input[room];
+  };
 
-/// The cells that are sorted, as RankRows reads and writes them.
-struct CellEntries {
   Quad* vertices;
   Id* input;
+  const Id* begin;  ///< of each vertex' cells
+  Offset count;     ///< of vertices
+  int* bad;         ///< is given 1 if some aren't good
 
-  KOKKOS_FUNCTION Entry load(Offset t) const { return {vertices[t], input[t]}; }
-  KOKKOS_FUNCTION void store(Offset t, const Entry& entry) const {
-    vertices[t] = entry.vertices;
-    input[t] = entry.input;
+  KOKKOS_FUNCTION std::size_t scratch_bytes() const { return sizeof(Cells); }
+
+  template <class Team>
+  KOKKOS_FUNCTION void operator()(const Team& team) const {
+    Cells& cells = *reinterpret_cast<Cells*>(team::scratch<scratch_level>(team, scratch_bytes()));
+    const Offset first = static_cast<Offset>(team.league_rank()) * vertices_of_team,
+                 last = first + vertices_of_team < count ? first + vertices_of_team : count;
+    if (begin[last] - begin[first] <= room) return sort(team, cells, first, last);
+    for (Offset vertex = first; vertex < last; ++vertex) {
+      if (begin[vertex + 1] - begin[vertex] <= room) {
+        team::barrier(team);  // for what others still read of the vertex before
+        sort(team, cells, vertex, vertex + 1);
+      } else {
+        team::once(team, [&] { sort_by_thread(begin[vertex], begin[vertex + 1]); });
+      }
+    }
+  }
+
+ private:
+  template <class Team>
+  KOKKOS_FUNCTION void sort(const Team& team, Cells& cells, Offset first, Offset last) const {
+    const Id from = begin[first];
+    const int here = begin[last] - from;
+    team::for_all(team, here, [&](int i) {
+      cells.vertices[i] = vertices[from + i];
+      cells.input[i] = input[from + i];
+    });
+    team::barrier(team);
+    team::for_all(team, here, [&](int i) {
+      const Quad cell = cells.vertices[i];
+      const Id number = cells.input[i];
+      const int end = begin[cell.a + 1] - from;
+      int place = begin[cell.a] - from;
+      bool good = has_different_vertices<corners>(cell);
+      for (int k = place; k < end; ++k) {
+        const Quad other = cells.vertices[k];
+        const bool is_twin = k != i && other == cell;
+        good &= !is_twin;
+        place += other < cell || (is_twin && cells.input[k] < number) ? 1 : 0;
+      }
+      vertices[from + place] = cell;
+      input[from + place] = number;
+      if (!good) atomic_max(bad, 1);
+    });
+  }
+
+  /// A cell and where it stood.
+  struct Entry {
+    Quad vertices;
+    Id input;
+
+    KOKKOS_FUNCTION bool operator<(const Entry& other) const {
+      return vertices == other.vertices ? input < other.input : vertices < other.vertices;
+    }
+  };
+
+  KOKKOS_FUNCTION void sort_by_thread(Id first, Id last) const {
+    heap_sort(
+        last - first,
+        [&](Id i) {
+          return Entry{vertices[first + i], input[first + i]};
+        },
+        [&](Id i, const Entry& entry) {
+          vertices[first + i] = entry.vertices;
+          input[first + i] = entry.input;
+        });
+    if (!are_good<corners>(vertices, first, last)) atomic_max(bad, 1);
   }
 };
 
@@ -57,60 +124,34 @@ SortedCells<MemoryOf<Space>> sort_cells_by_vertices(const Space& space,
   if (counted.members < count) refuse_cells<corners, Space, Index>(space, given, {}, vertices);
   const SortedCells<Memory> sorted{{counted.begin, allocate<Array<Quad, Memory>>("GALE::sorted_cells", count)},
                                    allocate<Array<Id, Memory>>("GALE::cell_input", count)};
-  const CellEntries cells{sorted.of_lowest.entries.data(), sorted.input.data()};
+  Quad* const quads = sorted.of_lowest.entries.data();
+  Id* const from = sorted.input.data();
   const auto next = counted.next;
   parallel_for(
       "GALE::cells_fill", space, count, KOKKOS_LAMBDA(Offset t) {
         const Quad quad = input[t];
-        cells.store(atomic_add(&next(quad.a), Id(1)), {quad, static_cast<Id>(t)});
+        const Id to = atomic_add(&next(quad.a), Id(1));
+        quads[to] = quad;
+        from[to] = static_cast<Id>(t);
       });
-  // Some six cells a vertex: twice as many as come to that have room together.
-  constexpr int vertices_of_team = 16, cells_of_team = 256;
-  const auto begin = counted.begin;
-  rank_rows("GALE::sort_cells", space,
-            RankRows<Id, CellEntries>{cells, begin.data(), vertices, vertices_of_team, cells_of_team});
-  const int good = reduce_min(
-      "GALE::check_cells", space, vertices, 1,
-      KOKKOS_LAMBDA(Offset v) { return are_good<corners>(cells.vertices, begin(v), begin(v + 1)) ? 1 : 0; });
-  if (good == 0) refuse_cells<corners, Space, Index>(space, given, sorted, vertices);
+  const auto bad = allocate<Array<int, Memory>>("GALE::bad_cells", 1);
+  fill("GALE::bad_cells", space, bad, 0);
+  using Sort = SortCells<corners>;
+  constexpr int warps = 8;
+  for_teams("GALE::sort_cells", space, (vertices + Sort::vertices_of_team - 1) / Sort::vertices_of_team, warps, count,
+            Sort{quads, from, counted.begin.data(), vertices, bad.data()});
+  if (on_host(bad)(0) != 0) refuse_cells<corners, Space, Index>(space, given, sorted, vertices);
   return sorted;
-}
-
-template <class Space>
-Array<Id, MemoryOf<Space>> segments_of_blocks(const Space& space, const Borrowed<Id, MemoryOf<Space>>& vertex_begin,
-                                              Offset vertices) {
-  constexpr int bits = SegmentOfVertex::block_bits;
-  const auto blocks = allocate<Array<Id, MemoryOf<Space>>>("GALE::segment_of", (vertices >> bits) + 1);
-  const auto segments = static_cast<Id>(vertex_begin.extent(0)) - 1;
-  parallel_for(
-      "GALE::segment_of", space, blocks.extent(0), KOKKOS_LAMBDA(Offset block) {
-        blocks(block) = bisect(Id(0), segments, [&](Id segment) { return vertex_begin(segment + 1) <= block << bits; });
-      });
-  return blocks;
-}
-
-template <class Space>
-Csr<Id, MemoryOf<Space>> find_external_cells(const Space& space, const Csr<Quad, MemoryOf<Space>, Id>& cells_of_lowest,
-                                             const Borrowed<Id, MemoryOf<Space>>& vertex_begin) {
-  const auto& cells = cells_of_lowest.entries;
-  const auto blocks = segments_of_blocks(space, vertex_begin, cells_of_lowest.rows());
-  const auto external = group_by("GALE::external", space, cells.extent(0), vertex_begin.extent(0) - 1,
-                                 ExternalSegments{cells.data(), {blocks.data(), vertex_begin.data()}});
-  sort_rows(space, "GALE::sort_external", external);
-  return external;
 }
 
 #define GALE_INSTANTIATE_INDEX(Space, corners, Index)                    \
   template SortedCells<MemoryOf<Space>> sort_cells_by_vertices<corners>( \
       const Space&, const CellCorners<corners, Index, MemoryOf<Space>>&, const Array<Id, MemoryOf<Space>>&)
-#define GALE_INSTANTIATE(Space)                                                                                       \
-  template Array<Id, MemoryOf<Space>> segments_of_blocks(const Space&, const Borrowed<Id, MemoryOf<Space>>&, Offset); \
-  GALE_INSTANTIATE_INDEX(Space, 4, std::int32_t);                                                                     \
-  GALE_INSTANTIATE_INDEX(Space, 4, std::int64_t);                                                                     \
-  GALE_INSTANTIATE_INDEX(Space, 3, std::int32_t);                                                                     \
-  GALE_INSTANTIATE_INDEX(Space, 3, std::int64_t);                                                                     \
-  template Csr<Id, MemoryOf<Space>> find_external_cells(const Space&, const Csr<Quad, MemoryOf<Space>, Id>&,          \
-                                                        const Borrowed<Id, MemoryOf<Space>>&)
+#define GALE_INSTANTIATE(Space)                   \
+  GALE_INSTANTIATE_INDEX(Space, 4, std::int32_t); \
+  GALE_INSTANTIATE_INDEX(Space, 4, std::int64_t); \
+  GALE_INSTANTIATE_INDEX(Space, 3, std::int32_t); \
+  GALE_INSTANTIATE_INDEX(Space, 3, std::int64_t)
 GALE_IN_EACH_SPACE(GALE_INSTANTIATE);
 #undef GALE_INSTANTIATE
 #undef GALE_INSTANTIATE_INDEX

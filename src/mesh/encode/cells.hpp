@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <type_traits>
 
@@ -21,11 +22,15 @@ class Renumbered {
  public:
   template <class Memory>
   Renumbered(const CellCorners<corners, Index, Memory>& input, const Array<Id, Memory>& vertex_internal)
-      : input_(input.data()), internal_(vertex_internal.data()), vertices_(vertex_internal.extent(0)) {}
+      : input_(input.data()),
+        internal_(vertex_internal.data()),
+        vertices_(vertex_internal.extent(0)),
+        are_aligned_(corners == 4 && reinterpret_cast<std::uintptr_t>(input_) % alignof(Corners) == 0) {}
 
   KOKKOS_FUNCTION Quad operator[](Offset t) const {
-    const Index* const vertices = input_ + corners * t;
-    Quad quad{internal_[vertices[0]], internal_[vertices[1]], internal_[vertices[2]], internal_[vertices[corners - 1]]};
+    const Corners of = corners_of(t);
+    Quad quad{internal_[of.vertices[0]], internal_[of.vertices[1]], internal_[of.vertices[2]],
+              internal_[of.vertices[corners - 1]]};
     put_in_order(quad.a, quad.b);
     if constexpr (corners == 4) {
       put_in_order(quad.c, quad.d);
@@ -42,9 +47,10 @@ class Renumbered {
 
   /// The lowest vertex of a cell; no_id if one of its vertices isn't there.
   KOKKOS_FUNCTION Id lowest(Offset t) const {
+    const Corners of = corners_of(t);
     Id lowest = above_all;
     for (int corner = 0; corner < corners; ++corner) {
-      const auto vertex = static_cast<std::make_unsigned_t<Index>>(input_[corners * t + corner]);
+      const auto vertex = static_cast<std::make_unsigned_t<Index>>(of.vertices[corner]);
       if (vertex >= vertices_) return no_id;
       const Id here = internal_[vertex];
       lowest = here < lowest ? here : lowest;
@@ -55,9 +61,24 @@ class Renumbered {
  private:
   static constexpr Id above_all = std::numeric_limits<Id>::max();
 
+  struct alignas(corners == 4 ? 16 : alignof(Index)) Corners {
+    Index vertices[corners];
+  };
+
+  /// A device loads 16 bytes at a time where it may: a caller's array can begin anywhere.
+  KOKKOS_FORCEINLINE_FUNCTION Corners corners_of(Offset t) const {
+#if defined(GALE_ON_DEVICE)
+    if (are_aligned_) return reinterpret_cast<const Corners*>(input_)[t];
+#endif
+    Corners of;
+    for (int corner = 0; corner < corners; ++corner) of.vertices[corner] = input_[corners * t + corner];
+    return of;
+  }
+
   const Index* input_;
   const Id* internal_;
   std::make_unsigned_t<Index> vertices_;
+  bool are_aligned_;
 };
 
 /// The segment of each vertex: that of its block's first vertex, or one soon behind it. Takes a sixteenth of the memory
@@ -100,14 +121,18 @@ struct ExternalSegments {
   }
 };
 
+/// Whether a cell, whose vertices ascend, has no vertex twice.
+template <int corners>
+KOKKOS_INLINE_FUNCTION bool has_different_vertices(const Quad& cell) {
+  return cell.a < cell.b && cell.b < cell.c && (corners == 3 || cell.c < cell.d);
+}
+
 /// Whether each of some sorted cells has different vertices, and no two cells have the same.
 template <int corners>
 KOKKOS_INLINE_FUNCTION bool are_good(const Quad* sorted, Id begin, Id end) {
   bool good = true;
   for (Id t = begin; t < end; ++t) {
-    const Quad here = sorted[t];
-    good &= here.a < here.b && here.b < here.c && (corners == 3 || here.c < here.d) &&
-            !(t > begin && sorted[t - 1] == here);
+    good &= has_different_vertices<corners>(sorted[t]) && !(t > begin && sorted[t - 1] == sorted[t]);
   }
   return good;
 }

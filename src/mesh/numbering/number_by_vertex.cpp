@@ -221,8 +221,8 @@ class OwnNumberer {
 
 }  // namespace
 
-InputNumbers number_by_vertex(const HostTables& simplices, const Borrowed<Id, HostMemory>& input, bool edges,
-                              bool triangles) {
+MadeNumbers number_by_vertex(const HostTables& simplices, const Borrowed<Id, HostMemory>& input, bool edges,
+                             bool triangles) {
   const Id vertices = static_cast<Id>(simplices.edge_begin.extent(0)) - 1;
   const Elsewhere elsewhere = find_elsewhere(simplices, input.data(), triangles);
   const OwnSimplices own(simplices, input.data(), elsewhere);

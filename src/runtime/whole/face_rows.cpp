@@ -1,4 +1,3 @@
-#include <gale/relations/faces.hpp>
 #include <gale/relations/preconditioning.hpp>
 #include <gale/runtime/sweep.hpp>
 #include <gale/runtime/whole/fresh_memory.hpp>
@@ -7,17 +6,6 @@
 namespace gale::detail {
 
 namespace {
-
-/// Writes a row's ids, no two of them alike, in ascending order: each where as many are smaller. No step waits for a
-/// branch, nor for ids that were put into memory one by one and are read several at once.
-template <int size>
-void write_ascending(const FaceRow<size>& row, Id* to) {
-  for (int i = 0; i < size; ++i) {
-    int smaller = 0;
-    for (int k = 0; k < size; ++k) smaller += row.ids[k] < row.ids[i] ? 1 : 0;
-    to[smaller] = row.ids[i];
-  }
-}
 
 /// Calls visit(triangle, its row of FV or FE) for each triangle over an edge. Their apexes ascend, and so do the edges
 /// to them.

@@ -5,11 +5,12 @@
 #include <gale/base/csr.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/mesh/mesh.hpp>
+#include <gale/relations/faces.hpp>
 #include <gale/relations/relation.hpp>
 #include <gale/runtime/structure.hpp>
 #include <gale/runtime/sweep_options.hpp>
 
-// Relations of a whole mesh, on the host, each found in the way that is fastest for it.
+// Relations of a whole mesh, for the host, each found in the way that is fastest for it.
 
 namespace gale::detail {
 
@@ -44,7 +45,7 @@ Csr<const Id, Memory, Index> with_offsets(const Space& space, const EvenRows<Mem
 
 /// What a relation's rows and its entries are called, by GALE's ids.
 struct RelationNames {
-  const Id *rows, *entries;
+  const Id *rows = nullptr, *entries = nullptr;
 };
 
 /// Gives the names of a relation's simplices, when these have been enumerated.
@@ -52,6 +53,24 @@ using NamesOf = std::function<RelationNames(Relation)>;
 
 /// How many simplices of a dimension the mesh has.
 inline Id count_of(const Mesh& mesh, int dimension) { return mesh.interval_begin(dimension)(mesh.segments()); }
+
+/// Writes a row's ids, no two of them alike, in ascending order: each where as many are smaller. No step waits for a
+/// branch, nor for ids that were put into memory one by one and are read several at once.
+template <int size>
+KOKKOS_INLINE_FUNCTION void write_ascending(const FaceRow<size>& row, Id* to) {
+  for (int i = 0; i < size; ++i) {
+    int smaller = 0;
+    for (int k = 0; k < size; ++k) smaller += row.ids[k] < row.ids[i] ? 1 : 0;
+    to[smaller] = row.ids[i];
+  }
+}
+
+/// A whole relation to faces, or the one the other way round, by kernels of `space`: what a device does. `names` are in
+/// its memory; null where GALE's ids stay. Beside the mesh's tables it takes 4 bytes an entry there, for the other way
+/// round 8, and 8 a row. No rows are left out.
+template <class Space>
+Csr<const Id, HostMemory> kernel_rows(const Space& space, const Mesh& mesh, Relation to_faces, bool transposed,
+                                      const RelationNames& names);
 
 /// A whole relation to faces: looked up in the tables of the mesh's simplices, which it enumerates as far as that
 /// takes, and written where it stays.
