@@ -89,13 +89,25 @@ void detail::sort_by_key_on_device(const WorkerSpace& space, const Array<std::ui
   const std::uint64_t bits = differing_bits(space, keys);
   if (bits == 0) return;
   const int first_bit = lowest_bit(bits), end_bit = highest_bit(bits) + 1;
-  const auto other_keys = allocate<Array<std::uint64_t, WorkerMemory>>("GALE::sort_keys", n);
-  const auto other_values = allocate<Array<Id, WorkerMemory>>("GALE::sort_values", n);
-  cub::DoubleBuffer<std::uint64_t> key_buffer(keys.data(), other_keys.data());
-  cub::DoubleBuffer<Id> value_buffer(values.data(), other_values.data());
-  run_cub(space, "GALE::sort_by_key", [&](void* workspace, std::size_t& bytes, cudaStream_t stream) {
-    return cub::DeviceRadixSort::SortPairs(workspace, bytes, key_buffer, value_buffer, n, first_bit, end_bit, stream);
-  });
+  cub::DoubleBuffer<std::uint64_t> key_buffer(keys.data(), nullptr);
+  cub::DoubleBuffer<Id> value_buffer(values.data(), nullptr);
+  const auto sort = [&](void* workspace, std::size_t& bytes) {
+    require_success(cub::DeviceRadixSort::SortPairs(workspace, bytes, key_buffer, value_buffer, n, first_bit, end_bit,
+                                                    space.cuda_stream()),
+                    "GALE::sort_by_key on the device");
+  };
+  std::size_t bytes = 0;
+  sort(nullptr, bytes);
+  // One piece of memory for all: to take one and give it back costs as much as a pass or two.
+  constexpr std::size_t alignment = 256;
+  const auto aligned = [](std::size_t size) { return (size + alignment - 1) / alignment * alignment; };
+  const std::size_t key_bytes = aligned(n * sizeof(std::uint64_t)), value_bytes = aligned(n * sizeof(Id));
+  const auto memory = allocate<Array<char, WorkerMemory>>("GALE::sort_by_key", key_bytes + value_bytes + bytes);
+  const Array<std::uint64_t, WorkerMemory> other_keys(reinterpret_cast<std::uint64_t*>(memory.data()), n);
+  const Array<Id, WorkerMemory> other_values(reinterpret_cast<Id*>(memory.data() + key_bytes), n);
+  key_buffer.d_buffers[1] = other_keys.data();
+  value_buffer.d_buffers[1] = other_values.data();
+  sort(memory.data() + key_bytes + value_bytes, bytes);
   if (key_buffer.Current() != keys.data()) Kokkos::deep_copy(space, keys, other_keys);
   if (value_buffer.Current() != values.data()) Kokkos::deep_copy(space, values, other_values);
 }

@@ -15,9 +15,9 @@ namespace {
 
 constexpr int cells_of_chunk = 512, words_of_chunk = cells_of_chunk / 32;
 
-/// Segments that a team tells apart. Where a chunk touches more, its teams go through it piece by piece: the cells of
-/// one word, which touch three each at most.
-constexpr int most_marked = 128, cells_of_piece = 32;
+/// Segments that a team tells apart: some twenty are usual. Where a chunk touches more, its team goes through it piece
+/// by piece, whose cells touch three each at most.
+constexpr int most_marked = 64, cells_of_piece = 16;
 static_assert(3 * cells_of_piece < most_marked);
 
 /// Which cells of chunks touch which segments: a run for each pair of these. In no order.
@@ -39,8 +39,8 @@ struct Runs {
 struct Marks {
   std::uint32_t bits[words_of_chunk * most_marked];  ///< word by word, in each by place of the segment
   Id segment[most_marked];                           ///< by place; no_id where there is none
-  int number[most_marked];                           ///< of the segment's run among the team's
-  int begin[most_marked + 1];                        ///< of its cells among the team's
+  int place[most_marked];                            ///< of each segment that is there, as they came
+  int begin[most_marked + 1];                        ///< of its cells among the team's, likewise
   int segments;
   bool are_too_many;
   Offset first_run, first_cell;  ///< the team's own among all
@@ -104,7 +104,7 @@ struct FindRuns {
     for (int tried = 0; tried < most_marked; ++tried) {
       const Id there = marks.segment[place] == no_id ? team::exchange_if(team, &marks.segment[place], no_id, segment)
                                                      : marks.segment[place];
-      if (there == no_id) marks.number[place] = team::add(team, &marks.segments, 1);
+      if (there == no_id) marks.place[team::add(team, &marks.segments, 1)] = place;
       if (there == no_id || there == segment) return place;
       place = (place + 1) % most_marked;
     }
@@ -113,35 +113,37 @@ struct FindRuns {
 
   template <class Team>
   KOKKOS_FUNCTION void write(const Team& team, Marks& marks, Id first) const {
-    team::for_all(team, most_marked, [&](int place) {
-      int sum = 0;
-      for (int word = 0; word < words_of_chunk; ++word) sum += count_bits(marks.bits[word * most_marked + place]);
-      marks.begin[place] = sum;
-    });
-    team::exclusive_scan(team, most_marked, marks.begin);
+    const int segments = marks.segments;
+    team::for_all(team, segments, [&](int i) { marks.begin[i] = cells_before(marks, words_of_chunk, marks.place[i]); });
+    team::exclusive_scan(team, segments, marks.begin);
     team::once(team, [&] {
-      marks.first_run = atomic_add(&found[0], Offset(marks.segments));
-      marks.first_cell = atomic_add(&found[1], Offset(marks.begin[most_marked]));
+      marks.first_run = atomic_add(&found[0], Offset(segments));
+      marks.first_cell = atomic_add(&found[1], Offset(marks.begin[segments]));
     });
     team::barrier(team);
-    if (marks.first_run + marks.segments > static_cast<Offset>(runs.keys.extent(0)) ||
-        marks.first_cell + marks.begin[most_marked] > static_cast<Offset>(runs.cells.extent(0)))
+    if (marks.first_run + segments > static_cast<Offset>(runs.keys.extent(0)) ||
+        marks.first_cell + marks.begin[segments] > static_cast<Offset>(runs.cells.extent(0)))
       return;
-    team::for_all(team, most_marked, [&](int place) {
-      if (marks.segment[place] == no_id) return;
-      const Offset run = marks.first_run + marks.number[place];
-      runs.keys(run) = pair_key(marks.segment[place], first);
-      runs.begin(run) = marks.first_cell + marks.begin[place];
-      runs.count(run) = marks.begin[place + 1] - marks.begin[place];
-    });
-    team::for_all(team, words_of_chunk * most_marked, [&](int i) {
-      std::uint32_t bits = marks.bits[i];
+    team::for_all(team, segments * words_of_chunk, [&](int item) {
+      const int i = item / words_of_chunk, word = item % words_of_chunk, place = marks.place[i];
+      if (word == 0) {
+        const Offset run = marks.first_run + i;
+        runs.keys(run) = pair_key(marks.segment[place], first);
+        runs.begin(run) = marks.first_cell + marks.begin[i];
+        runs.count(run) = marks.begin[i + 1] - marks.begin[i];
+      }
+      std::uint32_t bits = marks.bits[word * most_marked + place];
       if (bits == 0) return;
-      Offset to = marks.first_cell + marks.begin[i % most_marked];
-      for (int before = i - most_marked; before >= 0; before -= most_marked) to += count_bits(marks.bits[before]);
-      const Id first_of_word = first + i / most_marked * 32;
-      for (; bits != 0; bits &= bits - 1) runs.cells(to++) = first_of_word + lowest_bit(bits);
+      Id* to = runs.cells.data() + marks.first_cell + marks.begin[i] + cells_before(marks, word, place);
+      for (; bits != 0; bits &= bits - 1) *to++ = first + 32 * word + lowest_bit(bits);
     });
+  }
+
+  /// How many of the cells in the first so many words touch the segment at a place.
+  static KOKKOS_FUNCTION int cells_before(const Marks& marks, int words, int place) {
+    int sum = 0;
+    for (int word = 0; word < words; ++word) sum += count_bits(marks.bits[word * most_marked + place]);
+    return sum;
   }
 };
 
