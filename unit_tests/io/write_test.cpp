@@ -94,9 +94,9 @@ TEST_F(WriteMesh, RefusesArraysOfAnotherLength) {
 
 TEST_F(WriteMesh, RefusesOtherExtensions) {
   EXPECT_EQ(error_of([] { write_mesh("mesh.vtp", make_grid(2)); }),
-            "cannot write a mesh to 'mesh.vtp': its extension is neither .vtu nor .vtk");
+            "cannot write a mesh to 'mesh.vtp': its extension is neither .vtu nor .vtk nor .hdf nor .vtkhdf");
   EXPECT_EQ(error_of([] { write_points("points.vtu", three_points()); }),
-            "cannot write points to 'points.vtu': its extension is not .vtp");
+            "cannot write points to 'points.vtu': its extension is neither .vtp nor .hdf nor .vtkhdf");
 }
 
 TEST_F(WriteMesh, RefusesPlacesWhereNoFileCanBe) {
