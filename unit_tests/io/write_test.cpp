@@ -99,6 +99,14 @@ TEST_F(WriteMesh, RefusesOtherExtensions) {
             "cannot write points to 'points.vtu': its extension is neither .vtp nor .hdf nor .vtkhdf");
 }
 
+TEST_F(WriteMesh, RefusesNamesThatHdf5HasNot) {
+  PointSet points = three_points();
+  points.arrays.front().name = "of/all";
+  EXPECT_EQ(error_of([&] { write_points(folder / "points.vtkhdf", points); }),
+            "cannot write '" + (folder / "points.vtkhdf") + "': HDF5 has no array that is called 'of/all'");
+  EXPECT_EQ(folder.names(), Names{});
+}
+
 TEST_F(WriteMesh, RefusesPlacesWhereNoFileCanBe) {
   const std::string path = folder / "none/mesh.vtu";
   EXPECT_EQ(error_of([&] { write_mesh(path, make_grid(2)); }),
