@@ -189,6 +189,11 @@ void CommonOptions::add_encoding_to(CLI::App& command) {
       "as ParaView 5.11 in Debian 12");
 }
 
+void CommonOptions::add_format_to(CLI::App& command) {
+  add_choice(command, is_vtkhdf, "--format", {{"xml", false}, {"vtkhdf", true}},
+             "Write .vtp and .vtu (xml, default), or each as .vtkhdf, whose surfaces VTK 9.3 or later reads");
+}
+
 void SegmentationOptions::add_to(CLI::App& command) {
   CLI::Option* const largest = command.add_option(
       "--capacity", capacity, "Most vertices of a segment (default: " + std::to_string(default_capacity) + ")");

@@ -65,11 +65,15 @@ struct CommonOptions {
   std::string report;          ///< a file's name, or empty
   bool quiet = false;
   io::Encoding encoding = io::Encoding::appended;  ///< --encoding
+  bool is_vtkhdf = false;                          ///< --format
 
   void add_to(CLI::App& command);
 
   /// For commands that write VTK's XML files.
   void add_encoding_to(CLI::App& command);
+
+  /// For commands that name their files themselves.
+  void add_format_to(CLI::App& command);
 };
 
 /// How to divide the mesh's vertices into segments.

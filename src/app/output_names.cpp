@@ -59,8 +59,9 @@ std::string name_of_step(const std::string& path, std::size_t step) {
 
 std::string name_of_series(const std::string& path) {
   const io::Format* const format = io::format_of(path);
-  constexpr unsigned xml = io::written_points | io::written_lines | io::written_pieces;
-  return format != nullptr && (format->written & xml) != 0 ? fs::path(path).replace_extension(".pvd").string() : "";
+  return format != nullptr && (format->written & io::written_steps) != 0
+             ? fs::path(path).replace_extension(".pvd").string()
+             : "";
 }
 
 bool has_pieces(const std::string& path) {

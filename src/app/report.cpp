@@ -7,6 +7,8 @@
 #include <gale/app/report.hpp>
 #include <gale/base/device.hpp>
 #include <gale/base/kokkos.hpp>
+#include <gale/io/bytes/text.hpp>
+#include <gale/outputs/table.hpp>
 #include <gale/version.hpp>
 
 namespace gale::app {
@@ -144,6 +146,13 @@ void write_text(const io::AtomicFile& file, const std::function<void(std::ostrea
   } catch (const std::ios::failure&) {
     io::refuse_to_write(file.path(), errno != 0 ? std::strerror(errno) : "not all of it could be written");
   }
+}
+
+void write_table(const io::AtomicFile& file, const std::vector<io::PointArray>& columns) {
+  const std::string path = io::detail::lower_case(file.path()), binary = ".npz";
+  const bool is_binary = path.size() > binary.size() && path.compare(path.size() - binary.size(), 4, binary) == 0;
+  write_text(file,
+             [&](std::ostream& out) { out << (is_binary ? outputs::to_npz(columns) : outputs::to_csv(columns)); });
 }
 
 void write_report(const io::AtomicFile& file, const Report& report) {

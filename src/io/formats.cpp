@@ -14,15 +14,15 @@ StepsReader steps_of_exodus, steps_of_vtkhdf, steps_of_pvd, steps_of_file_series
 const std::vector<Format>& formats() {
   using namespace detail;
   static const std::vector<Format> all = {
-      {"VTK XML mesh", ".vtu", Input::mesh, written_meshes | written_lines | written_pieces, false,
+      {"VTK XML mesh", ".vtu", Input::mesh, written_meshes | written_lines | written_pieces | written_steps, false,
        "an unstructured grid, in one piece or several", read_vtu},
-      {"pieces of VTK XML meshes", ".pvtu", Input::mesh, written_pieces, true,
+      {"pieces of VTK XML meshes", ".pvtu", Input::mesh, written_pieces | written_steps, true,
        "the `.vtu` that it names, in its folder or below, as one mesh", read_pvtu},
       {"legacy VTK", ".vtk", Input::mesh, written_meshes, false,
        "an unstructured, structured or rectilinear grid, or a surface; structured points are a volume",
        read_legacy_vtk},
-      {"VTK XML surface", ".vtp", Input::mesh, written_points | written_surfaces | written_triangles, false,
-       "polygons and strips, in one piece or several", read_vtp},
+      {"VTK XML surface", ".vtp", Input::mesh, written_points | written_surfaces | written_triangles | written_steps,
+       false, "polygons and strips, in one piece or several", read_vtp},
       {"VTK XML structured grid", ".vts", Input::mesh, 0, false,
        "a mesh of hexahedra or quads, in one piece or several", read_vts},
       {"VTK XML rectilinear grid", ".vtr", Input::mesh, 0, false, "a mesh of voxels or pixels, in one piece or several",
@@ -37,8 +37,9 @@ const std::vector<Format>& formats() {
       {"Exodus II", ".e .ex2 .exo", Input::mesh, 0, false,
        "NetCDF's classic forms and NetCDF-4: all blocks of elements, nodal variables; its times are a series",
        read_exodus, steps_of_exodus},
-      {"VTKHDF", ".hdf .vtkhdf", Input::mesh, 0, false, "versions 1 and 2, a mesh or an image; its times are a series",
-       read_vtkhdf, steps_of_vtkhdf},
+      {"VTKHDF", ".hdf .vtkhdf", Input::mesh,
+       written_points | written_surfaces | written_lines | written_meshes | written_triangles, false,
+       "versions 1 and 2, a mesh or an image; its times are a series", read_vtkhdf, steps_of_vtkhdf},
       {"STL", ".stl", Input::mesh, 0, false, "facets, ASCII or binary; their corners are one where they are equal",
        read_stl},
       {"PLY", ".ply", Input::mesh, 0, false, "faces and strips, ASCII or binary, and the numbers that vertices have",
@@ -49,7 +50,8 @@ const std::vector<Format>& formats() {
        "the files that it names, in its folder or below, a time each", read_pvd, steps_of_pvd},
       {"series of files", ".series", Input::series, 0, true, "likewise: `.vtu.series` and its like, which are JSON",
        read_file_series, steps_of_file_series},
-      {"pieces of VTK XML surfaces", ".pvtp", Input::none, written_points | written_surfaces, true, "", nullptr}};
+      {"pieces of VTK XML surfaces", ".pvtp", Input::none, written_points | written_surfaces | written_steps, true, "",
+       nullptr}};
   return all;
 }
 

@@ -31,7 +31,8 @@ using StepsReader = std::vector<Step>(const InputFile& file, const ReadOptions& 
 enum class Input { none, mesh, volume, series };
 
 /// The kinds of results that are written to files of a format, each a bit: points alone, lines and polygons, lines
-/// alone, meshes, pieces of meshes with their global ids, meshes of triangles alone, and results of several times.
+/// alone, meshes, pieces of meshes with their global ids, meshes of triangles alone, and results of several times, of
+/// which each may be such a file or not.
 enum Written : unsigned {
   written_points = 1,
   written_surfaces = 2,
@@ -39,7 +40,8 @@ enum Written : unsigned {
   written_meshes = 8,
   written_pieces = 16,
   written_triangles = 32,
-  written_series = 64
+  written_series = 64,
+  written_steps = 128
 };
 
 /// A format of files that are read or written.

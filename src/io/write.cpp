@@ -48,7 +48,9 @@ void require_format(const std::string& path, unsigned bits, const char* what) {
   if (format != nullptr && format->takes(bits)) return;
   std::string rule;
   for (const Format& other : formats()) {
-    if (other.takes(bits)) rule += (rule.empty() ? "" : " nor ") + std::string(other.extensions);
+    if (!other.takes(bits)) continue;
+    for (const std::string& extension : detail::words_of(other.extensions))
+      rule += (rule.empty() ? "" : " nor ") + extension;
   }
   const bool several = rule.find(' ') != std::string::npos;
   refuse("cannot write ", what, " to '", path, "': its extension is ", several ? "neither " : "not ", rule);
@@ -79,6 +81,11 @@ void write_as(const Target& to, unsigned bits, const char* what, const Write& wr
   });
 }
 
+/// Writes it in the form that the file's extension says.
+void write_content(const AtomicFile& file, const detail::XmlContent& content) {
+  format_of(file.path())->takes(written_steps) ? detail::write_xml(file, content) : detail::write_vtkhdf(file, content);
+}
+
 void write_names(const AtomicFile& file, const std::vector<std::string>& pieces, const detail::XmlContent& like) {
   name_in_errors(file.path(), [&] { detail::write_xml_pieces(file, pieces, like); });
 }
@@ -88,7 +95,7 @@ void write_names(const AtomicFile& file, const std::vector<std::string>& pieces,
 void write_points(const Target& to, const PointSet& points) {
   write_as(to, written_points, "points", [&](const AtomicFile& file) {
     check_arrays(points_of(points.points), points.arrays);
-    detail::write_xml(file, detail::content_of(points));
+    write_content(file, detail::content_of(points));
   });
 }
 
@@ -99,7 +106,7 @@ void write_surface(const Target& to, const Surface& surface) {
     check_cells(points, surface.polygons);
     check_arrays(points, surface.point_arrays);
     check_arrays(surface.lines.begin.size() + surface.polygons.begin.size() - 2, surface.cell_arrays, "cells");
-    detail::write_xml(file, detail::content_of(surface));
+    write_content(file, detail::content_of(surface));
   });
 }
 
@@ -109,7 +116,7 @@ void write_lines(const Target& to, const Surface& lines) {
     check_cells(points, lines.lines);
     check_arrays(points, lines.point_arrays);
     check_arrays(lines.lines.begin.size() - 1, lines.cell_arrays, "lines");
-    detail::write_xml(file, detail::content_of_lines(lines));
+    write_content(file, detail::content_of_lines(lines));
   });
 }
 
@@ -120,10 +127,11 @@ void write_mesh(const Target& to, const Dataset& mesh, const std::vector<PointAr
     check_arrays(points_of(mesh.points), mesh.arrays);
     check_arrays(points_of(mesh.points), more);
     check_arrays(mesh.cells(), mesh.cell_arrays, cells_of(mesh));
-    if (format_of(file.path())->takes(written_surfaces)) {
-      detail::write_xml(file, detail::content_of_triangles(mesh, more, mesh.cell_arrays));
-    } else if (format_of(file.path())->takes(written_pieces)) {
-      detail::write_xml(file, detail::content_of(mesh, more, mesh.cell_arrays));
+    const Format& format = *format_of(file.path());
+    if (!format.takes(written_meshes)) {
+      write_content(file, detail::content_of_triangles(mesh, more, mesh.cell_arrays));
+    } else if (format.takes(written_lines)) {
+      write_content(file, detail::content_of(mesh, more, mesh.cell_arrays));
     } else {
       detail::write_legacy_vtk(file, mesh, more);
     }
@@ -134,7 +142,7 @@ void write_piece(const Target& to, const MeshPiece& piece) {
   write_as(to, written_pieces, "a piece of a mesh", [&](const AtomicFile& file) {
     check_arrays(points_of(piece.mesh.points), piece.mesh.arrays);
     check_arrays(piece.mesh.cells(), piece.cell_arrays, cells_of(piece.mesh));
-    detail::write_xml(file, detail::content_of(piece.mesh, {}, piece.cell_arrays));
+    write_content(file, detail::content_of(piece.mesh, {}, piece.cell_arrays));
   });
 }
 

@@ -184,16 +184,18 @@ PersistenceCurve persistence_curve(const std::vector<DiagramPoint>& diagram) {
   return curve;
 }
 
-std::string to_csv(const PersistenceCurve& curve) {
+std::vector<io::PointArray> curve_table(const PersistenceCurve& curve) {
   std::vector<Id> all(curve.persistence.size(), 0);
   for (const auto& pairs : curve.pairs) {
     for (std::size_t i = 0; i < all.size(); ++i) all[i] += pairs[i];
   }
-  return to_csv(std::vector<io::PointArray>{{"Persistence", 1, curve.persistence},
-                                            {"MinimumSaddle", 1, curve.pairs[0]},
-                                            {"SaddleSaddle", 1, curve.pairs[1]},
-                                            {"SaddleMaximum", 1, curve.pairs[2]},
-                                            {"All", 1, all}});
+  return {{"Persistence", 1, curve.persistence},
+          {"MinimumSaddle", 1, curve.pairs[0]},
+          {"SaddleSaddle", 1, curve.pairs[1]},
+          {"SaddleMaximum", 1, curve.pairs[2]},
+          {"All", 1, all}};
 }
+
+std::string to_csv(const PersistenceCurve& curve) { return to_csv(curve_table(curve)); }
 
 }  // namespace gale::outputs

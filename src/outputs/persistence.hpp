@@ -81,8 +81,11 @@ struct PersistenceCurve {
 /// Makes the curve of a diagram.
 GALE_EXPORT PersistenceCurve persistence_curve(const std::vector<DiagramPoint>& diagram);
 
-/// The curve as comma-separated values, with a line of titles: Persistence, MinimumSaddle, SaddleSaddle, SaddleMaximum,
-/// All. Numbers are written such that they are read back as they are.
+/// The curve's columns: Persistence, MinimumSaddle, SaddleSaddle, SaddleMaximum, All.
+GALE_EXPORT std::vector<io::PointArray> curve_table(const PersistenceCurve& curve);
+
+/// These as comma-separated values, with a line of titles. Numbers are written such that they are read back as they
+/// are.
 GALE_EXPORT std::string to_csv(const PersistenceCurve& curve);
 
 }  // namespace gale::outputs

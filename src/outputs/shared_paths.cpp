@@ -63,20 +63,18 @@ Ids first_places(const std::vector<Cell>& cells) {
   return first;
 }
 
-/// Numbers the places of which first_of(place) is the place itself, and the others as theirs.
-template <class FirstOf>
-void number(Offset count, const FirstOf& first_of, Array<const Id, HostMemory>& numbers,
-            Array<const Id, HostMemory>& firsts) {
+/// Numbers the places whose `first` is the place itself, and the others as theirs.
+void number(const Ids& first, Array<const Id, HostMemory>& numbers, Array<const Id, HostMemory>& firsts) {
+  const auto count = static_cast<Offset>(first.extent(0));
   const auto number_of = allocate<Ids>("GALE::shared_numbers", count + 1);
   const Id all = exclusive_scan("GALE::shared_numbers", HostExecutionSpace(), count, number_of,
-                                [&](Offset k) { return Id(first_of(k) == k); });
+                                [&](Offset k) { return Id(first(k) == k); });
   const auto first_with = allocate<Ids>("GALE::first_with_number", all);
   parallel_for("GALE::share_numbers", HostExecutionSpace(), count, [&](Offset k) {
-    const Id first = first_of(k);
-    if (first == k) {
-      first_with(number_of(k)) = first;
+    if (first(k) == k) {
+      first_with(number_of(k)) = first(k);
     } else {
-      number_of(k) = number_of(first);  // which is its own
+      number_of(k) = number_of(first(k));  // which is its own
     }
   });
   numbers = number_of;
@@ -101,16 +99,19 @@ SharedPaths share(const Separatrices<Cell>& paths) {
   before_start[paths.cells.size()] = 0;
   const Ids first = first_places(paths.cells);
   SharedPaths shared;
-  number(
-      count, [&](Offset k) { return first(k); }, shared.cell, shared.first_cell);
-  const auto first_behind_same = [&](Offset k) {
-    if (before_start[k] != inside) return before_start[k];
+  number(first, shared.cell, shared.first_cell);
+  const auto first_behind_same = allocate<Ids>("GALE::first_behind_same", count);
+  parallel_for("GALE::first_behind_same", HostExecutionSpace(), count, [&](Offset k) {
+    if (before_start[k] != inside) {
+      first_behind_same(k) = before_start[k];
+      return;
+    }
     const Id behind = first(k - 1) + 1;
     const bool is_same =
         before_start[behind] == inside && is_between_both(paths.cells[k - 1], paths.cells[behind], paths.cells[k]);
-    return is_same ? behind : static_cast<Id>(k);
-  };
-  number(count, first_behind_same, shared.between, shared.first_between);
+    first_behind_same(k) = is_same ? behind : static_cast<Id>(k);
+  });
+  number(first_behind_same, shared.between, shared.first_between);
   return shared;
 }
 

@@ -1,9 +1,52 @@
+#include <cstdint>
 #include <cstdio>
 
+#include <gale/base/error.hpp>
+#include <gale/io/bytes/values.hpp>
 #include <gale/outputs/field.hpp>
 #include <gale/outputs/table.hpp>
 
 namespace gale::outputs {
+
+namespace {
+
+/// The integer's bytes, the least significant first.
+std::string bytes_of(std::uint64_t value, int count) {
+  std::string bytes;
+  for (int k = 0; k < count; ++k) bytes += static_cast<char>(value >> 8 * k & 0xff);
+  return bytes;
+}
+
+/// The checksum that ZIP has, CRC-32.
+std::uint32_t checksum_of(const std::string& bytes) {
+  std::uint32_t of_byte[256], sum = ~0u;
+  for (std::uint32_t byte = 0; byte < 256; ++byte) {
+    std::uint32_t rest = byte;
+    for (int bit = 0; bit < 8; ++bit) rest = rest >> 1 ^ ((rest & 1) != 0 ? 0xedb88320 : 0);
+    of_byte[byte] = rest;
+  }
+  for (const char c : bytes) sum = sum >> 8 ^ of_byte[(sum ^ static_cast<unsigned char>(c)) & 0xff];
+  return ~sum;
+}
+
+/// A column as an array of NumPy's: format 1.0.
+std::string to_npy(const io::PointArray& column) {
+  static const char* const types[] = {"i1", "u1", "i2", "u2", "i4", "u4", "i8", "u8", "f4", "f8"};
+  const bool is_little = io::detail::byte_order_of_machine() == io::detail::ByteOrder::little;
+  std::string header = std::string("{'descr': '") + (is_little ? '<' : '>') + types[column.values.index()] +
+                       "', 'fortran_order': False, 'shape': (" + std::to_string(io::point_count(column)) + ",)}";
+  constexpr std::size_t before = 10, aligned = 64;
+  header.append(aligned - 1 - (before + header.size()) % aligned, ' ');
+  header += '\n';
+  return std::visit(
+      [&](const auto& values) {
+        return "\x93NUMPY" + bytes_of(1, 2) + bytes_of(header.size(), 2) + header +
+               std::string(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(values[0]));
+      },
+      column.values);
+}
+
+}  // namespace
 
 std::string to_csv(const std::vector<io::PointArray>& columns) {
   std::string csv;
@@ -16,6 +59,23 @@ std::string to_csv(const std::vector<io::PointArray>& columns) {
     }
   }
   return csv + '\n';
+}
+
+std::string to_npz(const std::vector<io::PointArray>& columns) {
+  std::string all, directory;
+  for (const io::PointArray& column : columns) {
+    const std::string name = column.name + ".npy", array = to_npy(column);
+    constexpr std::uint32_t version = 20, of_1980 = 0x21;  // as ZIP's dates begin
+    const std::string alike = bytes_of(version, 2) + bytes_of(0, 6) + bytes_of(of_1980, 2) +
+                              bytes_of(checksum_of(array), 4) + bytes_of(array.size(), 4) + bytes_of(array.size(), 4) +
+                              bytes_of(name.size(), 2) + bytes_of(0, 2);
+    directory += "PK\1\2" + bytes_of(version, 2) + alike + bytes_of(0, 10) + bytes_of(all.size(), 4) + name;
+    all += "PK\3\4" + alike + name + array;
+    if (all.size() >> 32 != 0) throw Error("a table of 4 GiB is too large for .npz: take .csv");
+  }
+  const std::string end = "PK\5\6" + bytes_of(0, 4) + bytes_of(columns.size(), 2) + bytes_of(columns.size(), 2) +
+                          bytes_of(directory.size(), 4) + bytes_of(all.size(), 4) + bytes_of(0, 2);
+  return all + directory + end;
 }
 
 }  // namespace gale::outputs

@@ -12,4 +12,8 @@ namespace gale::outputs {
 /// they are read back as they are.
 GALE_EXPORT std::string to_csv(const std::vector<io::PointArray>& columns);
 
+/// The content of an .npz, which numpy.load reads: an array for each column, of its name and type. Throws Error where
+/// that is 4 GiB or more.
+GALE_EXPORT std::string to_npz(const std::vector<io::PointArray>& columns);
+
 }  // namespace gale::outputs

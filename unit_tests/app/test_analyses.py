@@ -45,7 +45,7 @@ class Analyses(gale.CommandTest):
 
     def test_the_command_has_their_options(self):
         common = set(re.findall(r"--[\w-]+", self.succeed("segment", "--help") + self.succeed("relations", "--help")))
-        common |= {"--consumers", "--times", "--render", "--curve", "--formulation"}  # where rows are read; of the command alone
+        common |= {"--consumers", "--times", "--render", "--curve", "--format", "--formulation"}  # where rows are read; of the command alone
         for analysis in self.each():
             help_text = self.succeed(analysis["name"], "--help")
             words = " ".join(help_text.split())

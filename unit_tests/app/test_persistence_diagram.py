@@ -1,7 +1,10 @@
 """gale persistence-diagram: counts that other programs find too; its files against each other; what it refuses."""
+import ast
 import csv
 import os
+import struct
 import unittest
+import zipfile
 
 import gale
 
@@ -73,10 +76,24 @@ class Files(DiagramTest):
         for vertex, place in zip(points["ttkVertexScalarField"], points["Coordinates"]):
             self.assertEqual(place, (vertex % 32, vertex // 32 % 32, vertex // 32 ** 2))
 
+    def column(self, npy):
+        """The numbers in a file of NumPy's."""
+        size = struct.unpack("<H", npy[8:10])[0]
+        header = ast.literal_eval(npy[10:10 + size].decode())
+        self.assertEqual((npy[:8], (10 + size) % 64, npy[9 + size:10 + size]), (b"\x93NUMPY\1\0", 0, b"\n"))
+        values = struct.unpack(f"<{header['shape'][0]}{ {'<i4': 'i', '<f8': 'd'}[header['descr']] }", npy[10 + size:])
+        return [float(value) for value in values]
+
     def test_agree_on_what_persists(self):
         self.succeed("persistence-diagram", "grid:32", "--curve", "curve.csv")
         with open(self.folder / "curve.csv", newline="") as file:
             rows = list(csv.DictReader(file))
+        self.succeed("persistence-diagram", "grid:32", "--curve", "curve.npz")
+        with zipfile.ZipFile(self.folder / "curve.npz") as archive:
+            self.assertIsNone(archive.testzip())
+            for name in archive.namelist():
+                self.assertEqual(self.column(archive.read(name)), [float(row[name[:-4]]) for row in rows])
+        self.assertEqual(archive.namelist(), [f"{name}.npy" for name in rows[0]])
         for row in rows[:: max(1, len(rows) // 7)]:
             pairs, _ = self.result("grid:32", "--persistence", row["Persistence"])
             self.assertEqual([int(row[name]) for name in ("MinimumSaddle", "SaddleSaddle", "SaddleMaximum", "All")], pairs + [sum(pairs)])

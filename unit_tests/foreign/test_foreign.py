@@ -29,6 +29,21 @@ class Foreign(gale.CommandTest):
                 self.succeed("critical-points", self.convert("mesh.vtu", name), "-o", "found.vtp")
                 self.assertEqual(gale.read_vtp(self.folder / "found.vtp"), expected)
 
+    def test_what_is_written_is_read(self):
+        """By the HDF5 library: compressed chunks and, of the small ones, arrays in one piece."""
+        for size in ("3", "48"):
+            self.succeed("generate", f"grid:{size}", "-o", "mesh.vtu")
+            self.succeed("generate", f"grid:{size}", "-o", "mesh.vtkhdf")
+            for name in ("mesh.vtu", "mesh.vtkhdf"):
+                self.succeed("critical-points", name, "-o", f"{name}.vtp")
+            self.assertEqual(gale.read_vtp(self.folder / "mesh.vtkhdf.vtp"), gale.read_vtp(self.folder / "mesh.vtu.vtp"))
+        self.succeed("morse-smale", "grid:12", "-o", "p")
+        self.succeed("morse-smale", "grid:12", "-o", "p", "--format", "vtkhdf")
+        self.assertTrue(all((self.folder / f"p_{name}.vtkhdf").exists() for name in ("critical_points", "separatrices1", "segmentation")))
+        found, expected = (self.report("critical-points", f"p_segmentation.{kind}", "--array", "MorseSmaleManifold")["result"]
+                           for kind in ("vtkhdf", "vtu"))
+        self.assertEqual(found, expected)
+
     def expect_steps(self, name, files, times):
         """Has an input of several times be those files, one after the other."""
         steps = self.report("critical-points", name, "-o", "all.vtp")["steps"]

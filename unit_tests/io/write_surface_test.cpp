@@ -41,7 +41,7 @@ TEST_F(WriteSurface, RefusesWhatDoesNotFit) {
   EXPECT_EQ(error_with([](Surface& surface) { surface.point_arrays[0].values = std::vector<std::int8_t>(4); }),
             start + "the array 'CellDimension' has 4 values for 5 points of 1 components");
   EXPECT_EQ(error_of([] { write_surface("surface.vtk", two_lines_and_a_triangle()); }),
-            "cannot write a surface to 'surface.vtk': its extension is not .vtp");
+            "cannot write a surface to 'surface.vtk': its extension is neither .vtp nor .hdf nor .vtkhdf");
   EXPECT_EQ(folder.names(), Names{});
 }
 

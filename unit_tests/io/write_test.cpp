@@ -94,9 +94,17 @@ TEST_F(WriteMesh, RefusesArraysOfAnotherLength) {
 
 TEST_F(WriteMesh, RefusesOtherExtensions) {
   EXPECT_EQ(error_of([] { write_mesh("mesh.vtp", make_grid(2)); }),
-            "cannot write a mesh to 'mesh.vtp': its extension is neither .vtu nor .vtk");
+            "cannot write a mesh to 'mesh.vtp': its extension is neither .vtu nor .vtk nor .hdf nor .vtkhdf");
   EXPECT_EQ(error_of([] { write_points("points.vtu", three_points()); }),
-            "cannot write points to 'points.vtu': its extension is not .vtp");
+            "cannot write points to 'points.vtu': its extension is neither .vtp nor .hdf nor .vtkhdf");
+}
+
+TEST_F(WriteMesh, RefusesNamesThatHdf5HasNot) {
+  PointSet points = three_points();
+  points.arrays.front().name = "of/all";
+  EXPECT_EQ(error_of([&] { write_points(folder / "points.vtkhdf", points); }),
+            "cannot write '" + (folder / "points.vtkhdf") + "': HDF5 has no array that is called 'of/all'");
+  EXPECT_EQ(folder.names(), Names{});
 }
 
 TEST_F(WriteMesh, RefusesPlacesWhereNoFileCanBe) {

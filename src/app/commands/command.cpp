@@ -41,13 +41,21 @@ void Command::require_extension(const File& file) const {
   const std::string name = io::detail::lower_case(file.name);
   std::string list;
   for (std::string extension : file.extensions) {
-    if (extension == ".vtp" && Launch::are_several()) extension = ".pvtp";
+    if (Launch::are_several() && file.extensions.front() == ".vtp") {
+      if (extension == ".vtkhdf") continue;  // it has no pieces
+      extension = ".pvtp";
+    }
     const bool ends_so = name.size() > extension.size() &&
                          name.compare(name.size() - extension.size(), extension.size(), extension) == 0;
     if (ends_so) return;
     list += (list.empty() ? "" : " or ") + extension;
   }
   throw UsageError(file.option + ' ' + file.name + ": gale " + subcommand_.get_name() + " writes " + list);
+}
+
+std::string Command::with_extension(const std::string& name, const char* extension, bool has_pieces) const {
+  if (common_.is_vtkhdf) return name + ".vtkhdf";
+  return name + (has_pieces && Launch::are_several() ? ".p" : ".") + extension;
 }
 
 Session Command::begin(const std::vector<std::string>& more, Session::Outputs outputs) const {

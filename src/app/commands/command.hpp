@@ -45,6 +45,16 @@ class Command {
   /// Adds --encoding, if it writes VTK's XML files.
   void add_encoding() { common_.add_encoding_to(subcommand_); }
 
+  /// Adds --format, if it gives its files their extensions itself.
+  void add_format() { common_.add_format_to(subcommand_); }
+
+  /// What a file is called whose extension is "vtp" or "vtu", of pieces on several ranks if it `has_pieces`, unless
+  /// --format says otherwise.
+  std::string with_extension(const std::string& name, const char* extension, bool has_pieces = true) const;
+
+  /// Throws UsageError for a --format that isn't written by several ranks.
+  void require_format() const { refuse_on_ranks({{"--format vtkhdf", common_.is_vtkhdf}}); }
+
   /// Has it take a series, and --times, if it goes through its steps.
   void add_times() { input_.add_times_to(subcommand_); }
 

@@ -11,7 +11,8 @@ namespace {
 class FindCriticalPoints final : public AnalysisCommand {
  public:
   explicit FindCriticalPoints(CLI::App& app) : AnalysisCommand(app, "critical-points", Works::on_many_ranks) {
-    add_file("-o,--output", output_, "The critical points: .vtp; on several ranks .pvtp, with a .vtp a rank", {".vtp"});
+    add_file("-o,--output", output_, "The critical points: .vtp or .vtkhdf; on several ranks .pvtp, with a .vtp a rank",
+             {".vtp", ".vtkhdf"});
   }
 
  private:

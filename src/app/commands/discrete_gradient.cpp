@@ -12,8 +12,9 @@ namespace {
 class FindDiscreteGradient final : public AnalysisCommand {
  public:
   explicit FindDiscreteGradient(CLI::App& app) : AnalysisCommand(app, "discrete-gradient", Works::on_many_ranks) {
-    add_file("-o,--output", output_, "The critical simplices: .vtp; on several ranks .pvtp, with a .vtp a rank",
-             {".vtp"});
+    add_file("-o,--output", output_,
+             "The critical simplices: .vtp or .vtkhdf; on several ranks .pvtp, with a .vtp a rank",
+             {".vtp", ".vtkhdf"});
     subcommand()
         .add_option("--formulation", formulation_,
                     "stars (from VV, VT and link) or cells (from VE, VF and VT, as other programs do; slower): the "

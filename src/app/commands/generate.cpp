@@ -9,7 +9,8 @@ namespace {
 class Generate final : public Command {
  public:
   explicit Generate(CLI::App& app) : Command(app, "generate", "Writes the mesh that an input stands for") {
-    add_file("-o,--output", output_, ".vtu, .vtk or, of triangles, .vtp", {".vtu", ".vtk", ".vtp"})->required();
+    add_file("-o,--output", output_, ".vtu, .vtk, .vtkhdf or, of triangles, .vtp", {".vtu", ".vtk", ".vtkhdf", ".vtp"})
+        ->required();
     add_encoding();
   }
 

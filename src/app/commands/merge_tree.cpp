@@ -35,6 +35,7 @@ class FindMergeTree final : public AnalysisCommand {
     subcommand()
         .add_option("-o,--output", output_, "Write P_nodes.vtp, P_arcs.vtp and P_segmentation.vtu")
         ->type_name("P");
+    add_format();
     add_file("--render", render_, "Draw the tree, beside the mesh in the colours of its arcs, to this .png", {".png"})
         ->type_name("FILE.png");
   }
@@ -42,11 +43,14 @@ class FindMergeTree final : public AnalysisCommand {
  private:
   std::vector<std::string> more_files() const override {
     if (output_.empty()) return {"", "", ""};
-    return {output_ + "_nodes.vtp", output_ + "_arcs.vtp",
-            output_ + "_segmentation" + (Launch::are_several() ? ".pvtu" : ".vtu")};
+    return {with_extension(output_ + "_nodes", "vtp", false), with_extension(output_ + "_arcs", "vtp", false),
+            with_extension(output_ + "_segmentation", "vtu")};
   }
 
-  void require_usage() const override { refuse_on_ranks({{"--arc-samples", arc_samples_ > 0}}); }
+  void require_usage() const override {
+    require_format();
+    refuse_on_ranks({{"--arc-samples", arc_samples_ > 0}});
+  }
 
   Session::Keep keep() const override {
     if (!output_.empty()) return Session::Keep::cells;

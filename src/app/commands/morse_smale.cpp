@@ -70,18 +70,6 @@ void tell(const KeptBelow& kept, Session& session) {
 /// The files of the command but for the picture. A name is empty where the file isn't wanted or nothing would be in it.
 struct ComplexFiles {
   std::string critical_points, separatrices1, separatrices2, segmentation;
-
-  /// Names the files that begin with `prefix`, none if that is empty, for the parts that are wanted.
-  ComplexFiles(const std::string& prefix, const MorseSmaleParts& wanted) {
-    if (prefix.empty()) return;
-    const std::string parallel = Launch::are_several() ? ".p" : ".";
-    critical_points = prefix + "_critical_points" + parallel + "vtp";
-    if (wanted.descending_separatrices || wanted.ascending_separatrices || wanted.saddle_connectors)
-      separatrices1 = prefix + "_separatrices1" + parallel + "vtp";
-    if (wanted.separatrices2) separatrices2 = prefix + "_separatrices2" + parallel + "vtp";
-    if (wanted.descending_manifolds || wanted.ascending_manifolds)
-      segmentation = prefix + "_segmentation" + parallel + "vtu";
-  }
 };
 
 class FindMorseSmale final : public AnalysisCommand {
@@ -92,6 +80,7 @@ class FindMorseSmale final : public AnalysisCommand {
                     "Write P_critical_points.vtp, P_separatrices1.vtp, P_segmentation.vtu and, if wanted, "
                     "P_separatrices2.vtp; on several ranks .pvtp and .pvtu, with a piece a rank")
         ->type_name("P");
+    add_format();
     for (const outputs::PartOfComplex& part : outputs::parts_of_complexes)
       add_flag(part.option, parts_.*part.is_wanted);
     add_persistence(subcommand(), persistence_, analysis_.option("persistence").help);
@@ -103,7 +92,18 @@ class FindMorseSmale final : public AnalysisCommand {
   }
 
  private:
-  ComplexFiles files() const { return {output_, parts_}; }
+  /// Names the files for the parts that are wanted, none without -o.
+  ComplexFiles files() const {
+    if (output_.empty()) return {};
+    const auto name = [&](bool is_wanted, const char* what, const char* extension) {
+      return is_wanted ? with_extension(output_ + what, extension) : "";
+    };
+    return {name(true, "_critical_points", "vtp"),
+            name(parts_.descending_separatrices || parts_.ascending_separatrices || parts_.saddle_connectors,
+                 "_separatrices1", "vtp"),
+            name(parts_.separatrices2, "_separatrices2", "vtp"),
+            name(parts_.descending_manifolds || parts_.ascending_manifolds, "_segmentation", "vtu")};
+  }
 
   std::vector<std::string> more_files() const override {
     const ComplexFiles all = files();
@@ -118,6 +118,7 @@ class FindMorseSmale final : public AnalysisCommand {
   void warm_up(const VertexOrder& order) const override { find_morse_smale_complex(find_discrete_gradient(order)); }
 
   void require_usage() const override {
+    require_format();
     refuse_on_ranks({{"--separatrices2", parts_.separatrices2}});
     if (extrema_only_ && !persistence_) throw UsageError("--extrema-only: it goes with --persistence");
   }

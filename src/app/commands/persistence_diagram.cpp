@@ -22,8 +22,9 @@ void tell(const outputs::DiagramCounts& counts, int dimension, Session& session)
 class FindPersistenceDiagram final : public AnalysisCommand {
  public:
   explicit FindPersistenceDiagram(CLI::App& app) : AnalysisCommand(app, "persistence-diagram", Works::on_many_ranks) {
-    add_file("-o,--output", output_, "The diagram, a line a pair: .vtu", {".vtu"});
-    add_file("--curve", curve_, "How many pairs have at least a persistence, for each that occurs: .csv", {".csv"});
+    add_file("-o,--output", output_, "The diagram, a line a pair: .vtu or .vtkhdf", {".vtu", ".vtkhdf"});
+    add_file("--curve", curve_, "How many pairs have at least a persistence, for each that occurs: .csv or .npz",
+             {".csv", ".npz"});
     add_persistence(subcommand(), persistence_, analysis_.option("persistence").help);
     add_file("--render", render_, "Draw diagram and curve to this .png", {".png"})->type_name("FILE.png");
   }
@@ -49,7 +50,7 @@ class FindPersistenceDiagram final : public AnalysisCommand {
       io::write_lines(file, outputs::to_lines(at.dataset(), at.field(), diagram, gathered.mesh.exchange()));
     });
     session.write(curve_, [&](const io::AtomicFile& file) {
-      write_text(file, [&](std::ostream& out) { out << outputs::to_csv(outputs::persistence_curve(diagram)); });
+      write_table(file, outputs::curve_table(outputs::persistence_curve(diagram)));
     });
     session.write(render_, [&](const io::AtomicFile& file) { draw(file, plot_of(diagram, on.field.name)); });
   }

@@ -31,9 +31,11 @@ class SimplifyField final : public AnalysisCommand {
   explicit SimplifyField(CLI::App& app) : AnalysisCommand(app, "simplify-field", Works::on_many_ranks) {
     add_persistence(subcommand(), persistence_, analysis_.option("persistence").help);
     add_file("-o,--output", output_,
-             "The mesh with the simplified field and the order of its vertices, NAME_Order: .vtu or .vtk; on several "
+             "The mesh with the simplified field and the order of its vertices, NAME_Order: .vtu, .vtk or .vtkhdf; on "
+             "several "
              "ranks .pvtu, with a .vtu a rank",
-             Launch::are_several() ? std::vector<std::string>{".pvtu"} : std::vector<std::string>{".vtu", ".vtk"});
+             Launch::are_several() ? std::vector<std::string>{".pvtu"}
+                                   : std::vector<std::string>{".vtu", ".vtk", ".vtkhdf"});
   }
 
  private:

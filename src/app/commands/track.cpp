@@ -6,7 +6,6 @@
 
 #include <gale/app/commands/command.hpp>
 #include <gale/outputs/field.hpp>
-#include <gale/outputs/table.hpp>
 #include <gale/outputs/tracks.hpp>
 
 namespace gale::app {
@@ -53,8 +52,9 @@ void tell(const Tracks& tracks, Session& session) {
 class TrackExtrema final : public AnalysisCommand {
  public:
   explicit TrackExtrema(CLI::App& app) : AnalysisCommand(app, description()) {
-    add_file("-o,--output", output_, "Write a line through time for each track, merge and split: .vtp", {".vtp"});
-    add_file("--table", table_, "Write how each track begins and ends: .csv", {".csv"});
+    add_file("-o,--output", output_, "Write a line through time for each track, merge and split: .vtp or .vtkhdf",
+             {".vtp", ".vtkhdf"});
+    add_file("--table", table_, "Write how each track begins and ends: .csv or .npz", {".csv", ".npz"});
     add_persistence(subcommand(), persistence_, description().option("persistence").help);
     subcommand()
         .add_option_function<std::string>(
@@ -91,9 +91,8 @@ class TrackExtrema final : public AnalysisCommand {
     tell(tracker.tracks(), session);
     session.write(output_,
                   [&](const io::AtomicFile& file) { io::write_surface(file, lines.lines(tracker.tracks(), lift_)); });
-    session.write(table_, [&](const io::AtomicFile& file) {
-      write_text(file, [&](std::ostream& out) { out << outputs::to_csv(outputs::track_table(tracker.tracks())); });
-    });
+    session.write(table_,
+                  [&](const io::AtomicFile& file) { write_table(file, outputs::track_table(tracker.tracks())); });
   }
 
   static void tell_step(const Tracks& tracks, Session& session) {

@@ -1,16 +1,12 @@
 #include <algorithm>
 #include <charconv>
 #include <cstddef>
-#include <map>
-#include <mutex>
 #include <string_view>
 
-#include <gale/base/threads.hpp>
 #include <gale/io/bytes/base64.hpp>
-#include <gale/io/bytes/compression.hpp>
 #include <gale/io/bytes/output_file.hpp>
 #include <gale/io/formats.hpp>
-#include <gale/io/writers/writers.hpp>
+#include <gale/io/writers/compress_blocks.hpp>
 
 namespace gale::io::detail {
 namespace {
@@ -65,8 +61,6 @@ std::string xml_attribute(std::string_view name, std::string_view value) {
   return text_of(" ", name, "=\"", xml_text(std::string(value)), "\"");
 }
 
-constexpr std::uint64_t block_bytes = 1 << 18;
-
 /// Compressed values as VTK has them: how many blocks, the bytes of a block, and of the last where that is another
 /// number, and the bytes of each when it is compressed; then the blocks.
 class CompressedBlocks {
@@ -85,40 +79,15 @@ class CompressedBlocks {
     const std::uint64_t at = file.size();
     write_header([&](const char* bytes, std::size_t size) { file.write(bytes, size); });
     EncodedBytes blocks(file, encoding);
-    const auto threads = static_cast<int>(std::min<std::uint64_t>(host_threads(), blocks_));
-    std::vector<std::vector<char>> plain(threads), compressed(threads);
-    std::map<std::int64_t, std::vector<char>> waiting;  // blocks behind one that isn't ready
-    std::int64_t next = 0;
-    std::mutex mutex;
-    in_turns(threads, static_cast<std::int64_t>(blocks_), [&](int thread, std::int64_t i) {
-      compress(i, plain[thread], compressed[thread]);
-      header[sizes + i] = compressed[thread].size();
-      const std::lock_guard<std::mutex> lock(mutex);
-      if (i != next) {
-        waiting.emplace(i, compressed[thread]);
-        return;
-      }
-      blocks.write(compressed[thread].data(), compressed[thread].size());
-      ++next;
-      for (auto first = waiting.begin(); first != waiting.end() && first->first == next; ++next) {
-        blocks.write(first->second.data(), first->second.size());
-        first = waiting.erase(first);
-      }
+    compress_blocks(array_, block_, false, [&](std::int64_t i, const std::vector<char>& compressed) {
+      header[sizes + i] = compressed.size();
+      blocks.write(compressed.data(), compressed.size());
     });
     blocks.end();
     write_header([&](const char* bytes, std::size_t size) { file.rewrite(at, bytes, size); });
   }
 
  private:
-  void compress(std::uint64_t block, std::vector<char>& plain, std::vector<char>& compressed) const {
-    const std::uint64_t begin = block * block_, end = std::min(begin + block_, array_.count);
-    const std::size_t size = size_of(array_.type), bytes = (end - begin) * size;
-    if (array_.values != nullptr) return compress_by_zlib(size, array_.values + begin * size, bytes, compressed);
-    plain.resize(bytes);
-    array_.copy(begin, end, plain.data());
-    compress_by_zlib(size, plain.data(), bytes, compressed);
-  }
-
   const WrittenArray& array_;
   const std::uint64_t block_, blocks_;  ///< values of a block, blocks of the array
 };

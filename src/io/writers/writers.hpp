@@ -150,6 +150,10 @@ struct WrittenCells {
 /// little memory, and on as many threads as loops take.
 void write_xml(const AtomicFile& to, const XmlContent& content);
 
+/// Writes it as VTKHDF, likewise compressed in chunks: by no library, as a file that is written once needs little of
+/// HDF5. Throws gale::Error for an array whose name has a '/', which HDF5 hasn't.
+void write_vtkhdf(const AtomicFile& to, const XmlContent& content);
+
 /// Writes the names of files, each of which has what `like` has, with other values.
 void write_xml_pieces(const AtomicFile& to, const std::vector<std::string>& pieces, const XmlContent& like);
 
