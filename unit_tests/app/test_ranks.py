@@ -87,7 +87,6 @@ class OnRanks(ranks.RanksTest):
                 (2, "--segments", ["critical-points", "grid:8", "--segments", "field"]),
                 (2, ".pvtp", ["discrete-gradient", "grid:8", "-o", "all.vtp"]),
                 (2, "--formulation cells: not on several ranks", ["discrete-gradient", "grid:8", "--formulation", "cells"]),
-                (2, "--separatrices2: not on several ranks", ["morse-smale", "grid:8", "--separatrices2"]),
                 (1, "--render", ["morse-smale", "grid:8", "--render", "all.png"]),  # without a display
                 (2, "--extrema-only: it goes with --persistence", ["morse-smale", "grid:8", "--extrema-only"]),
                 (2, "--arc-samples: not on several ranks", ["merge-tree", "grid:8", "--arc-samples", "3"]),

@@ -33,7 +33,7 @@ class GatheredOnRanks(ranks.ComplexTest):
     def test_a_simplified_complex_is_that_of_one_rank(self):
         self.write_ties("grid:8", 12)
         self.write_ties("grid:9", 1000, "noise.vtk")
-        for source, *options in (("noise.vtk", "--persistence", "5%"), ("ties.vtk", "--persistence", "0.5"),
+        for source, *options in (("noise.vtk", "--persistence", "5%"), ("ties.vtk", "--persistence", "0.5", "--separatrices2"),
                                  ("noise.vtk", "--persistence", "100", "--extrema-only")):
             for count in ranks.RANKS:
                 with self.subTest(source=source, options=options, ranks=count):

@@ -118,7 +118,6 @@ class FindMorseSmale final : public AnalysisCommand {
   void warm_up(const VertexOrder& order) const override { find_morse_smale_complex(find_discrete_gradient(order)); }
 
   void require_usage() const override {
-    refuse_on_ranks({{"--separatrices2", parts_.separatrices2}});
     if (extrema_only_ && !persistence_) throw UsageError("--extrema-only: it goes with --persistence");
   }
 
