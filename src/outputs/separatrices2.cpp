@@ -1,6 +1,6 @@
 #include <gale/base/error.hpp>
 #include <gale/base/stop.hpp>
-#include <gale/mesh/exchange/messages.hpp>
+#include <gale/mesh/exchange/exchange_plan.hpp>
 #include <gale/mesh/positions.hpp>
 #include <gale/outputs/field.hpp>
 #include <gale/outputs/separatrices2.hpp>
@@ -45,7 +45,7 @@ class Numbering {
 /// A critical triangle that bounds the ascending wall of a critical edge, perhaps another rank's.
 struct MetTriangle {
   GlobalId edge;  ///< its CellId
-  End triangle;
+  End triangle;   ///< its height as all ranks compare it
 };
 
 /// What bounds walls, and their numbers. Collective.
@@ -67,7 +67,8 @@ struct Bounds {
         highest(i) = ends[1][connectors.sources[i]].highest.vertex;
       }
     });
-    // The triangles of an edge are known where their walls are.
+    // Who owns an edge has its wall, and is told its triangles.
+    const std::vector<std::uint64_t> heights = heights_on_ranks(ranks, complex);
     const auto owners = complex.gradient.mesh().exchange().owners_of(highest);
     const auto received = gale::detail::exchange(
         ranks, "GALE::met_triangles",
@@ -75,7 +76,10 @@ struct Bounds {
             ranks, "GALE::told_triangles", count,
             [&](Id i) { return complex.owns(1, connectors.sources[i]) ? ranks.rank() : owners(i); },
             [&](Id i) {
-              return MetTriangle{ends[1][connectors.sources[i]].cell, ends[2][connectors.destinations[i]]};
+              const Id triangle = connectors.destinations[i];
+              MetTriangle met{ends[1][connectors.sources[i]].cell, ends[2][triangle]};
+              if (!heights.empty()) met.triangle.highest.key = heights[critical[2][triangle].highest()];
+              return met;
             }));
     gale::detail::together(ranks, [&] {
       const auto is_before = [](const End& edge, GlobalId cell) { return edge.cell < cell; };
@@ -101,6 +105,20 @@ struct Bounds {
         all[dimension] = detail::ends_of(critical[dimension], field, complex.excerpt.order());
     });
     return all;
+  }
+
+  /// Keys of the excerpt's vertices that compare on all ranks, but for ties; nothing on one rank.
+  static std::vector<std::uint64_t> heights_on_ranks(const Ranks& ranks, const MorseSmaleComplex& complex) {
+    std::vector<std::uint64_t> here, there;
+    if (ranks.size() == 1) return there;
+    const Mesh& mesh = complex.gradient.mesh();
+    gale::detail::together(ranks, [&] {
+      const OtherIds internal = mesh.vertices_of_input();
+      for (Id v = 0; v < mesh.vertices(); ++v) here.push_back(complex.gradient.order().value_key(internal[v]));
+      there.resize(complex.excerpt.mesh().vertices());
+    });
+    gale::detail::plan_to(complex.excerpt.mesh(), mesh)(ranks, here.data(), there.data());
+    return there;
   }
 };
 

@@ -10,9 +10,9 @@
 
 namespace gale::outputs::detail {
 
-/// A vertex in the order of all ranks, and the field's value there.
+/// A vertex in the order, and the field's value there.
 struct Height {
-  std::uint64_t key = 0;  ///< VertexOrder::value_key
+  std::uint64_t key = 0;
   GlobalId vertex = 0;
   double value = 0;
 
@@ -28,7 +28,7 @@ struct End {
 
 /// The height of a vertex, by its input id.
 inline Height height_of(const VertexOrder& order, const io::PointArray& field, Id vertex) {
-  return {order.value_key(order.mesh().vertices_of_input()[vertex]), order.mesh().vertex_id(vertex),
+  return {order.keys()[order.mesh().vertices_of_input()[vertex]], order.mesh().vertex_id(vertex),
           value_at(field, vertex)};
 }
 
