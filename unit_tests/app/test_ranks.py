@@ -89,7 +89,6 @@ class OnRanks(ranks.RanksTest):
                 (2, "--formulation cells: not on several ranks", ["discrete-gradient", "grid:8", "--formulation", "cells"]),
                 (1, "--render", ["morse-smale", "grid:8", "--render", "all.png"]),  # without a display
                 (2, "--extrema-only: it goes with --persistence", ["morse-smale", "grid:8", "--extrema-only"]),
-                (2, "--arc-samples: not on several ranks", ["merge-tree", "grid:8", "--arc-samples", "3"]),
                 (2, ".pvtu", ["simplify-field", "grid:8", "-o", "all.vtu"]),
                 (2, "info works on one rank", ["info", "grid:8"]),
                 (2, "--nonsense", ["critical-points", "grid:8", "--nonsense"])):

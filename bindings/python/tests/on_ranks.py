@@ -72,8 +72,9 @@ for values, repartition in ((field, False), (np.round(field), True), (field.asty
         same(name, rows(part.vertex_ids[own_vertices], found.manifolds[name][own_vertices]),
              sorted_rows(np.arange(len(points)), expected.manifolds[name]))
 
-    found, expected = part.merge_tree(values[ids]), whole.merge_tree(values)
+    found, expected = part.merge_tree(values[ids], arc_samples=2), whole.merge_tree(values, arc_samples=2)
     check(COMM.rank != 0 or np.array_equal(found.nodes.points, expected.nodes.points), "nodes")
+    check(COMM.rank != 0 or np.array_equal(found.arcs.points, expected.arcs.points), "points of arcs")
     same("arcs", rows(part.vertex_ids[own_vertices], found.segmentation["SegmentationId"][own_vertices]),
          sorted_rows(np.arange(len(points)), expected.segmentation["SegmentationId"]))
 
