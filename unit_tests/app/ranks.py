@@ -15,7 +15,8 @@ needs_mpi = unittest.skipUnless(MPIEXEC, "this gale was built without MPI")
 
 
 class RanksTest(gale.CommandTest):
-    launcher = [MPIEXEC, "--allow-run-as-root", "--oversubscribe", "--bind-to", "none", "--mca", "mpi_yield_when_idle", "1"]
+    launcher = [MPIEXEC, "--allow-run-as-root", "--oversubscribe", "--bind-to", "none", "--mca", "mpi_yield_when_idle", "1", "--mca",
+                "odls_base_sigkill_timeout", "0"]
 
     def start(self, *command):
         return subprocess.run([*self.launcher, *map(str, command)], cwd=self.folder, stdin=subprocess.DEVNULL, capture_output=True,
