@@ -33,9 +33,9 @@ struct SimplifyOptions {
 /// more, rising paths take one way.
 ///
 /// On one rank's part of several it is collective: all that critical simplices reach is gathered on the first rank
-/// (`gather_gradient`), whose result has what is left of all ranks' critical simplices and their separatrices, the
-/// others' none; manifolds are on all. So nothing of `complex` but its gradient, manifolds and parts is read there.
-/// Walls are none of these parts.
+/// (`gather_gradient`; with ascending walls where 2-separatrices are among its parts), whose result has what is left of
+/// all ranks' critical simplices and their separatrices, the others' none; manifolds are on all. So nothing of
+/// `complex` but its gradient, manifolds and parts is read there.
 ///
 /// The Euler characteristic stays as it is. `complex` isn't simplified, and has saddle connectors, unless
 /// `extrema_only` or on a triangle mesh: throws gale::Error otherwise. Parts that it was computed without aren't in the

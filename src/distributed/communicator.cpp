@@ -41,16 +41,17 @@ struct Communicator::Data {
   }
 
   /// Waits for all. MPI's own functions would hold the core for as long as it takes: ranks that share a machine, and
-  /// threads that compute, need it.
-  void wait(std::vector<MPI_Request>& requests) {
+  /// threads that compute, need it. So it looks again after an eighth of the time that it has waited, and `longest` at
+  /// most: messages in pieces go on only then.
+  void wait(std::vector<MPI_Request>& requests, std::chrono::microseconds longest) {
     using Clock = std::chrono::steady_clock;
-    constexpr std::chrono::milliseconds patience(1);
-    constexpr std::chrono::microseconds nap(50);
+    constexpr std::chrono::microseconds patience(200);
     const auto begin = Clock::now();
     for (int done = 0;;) {
       MPI_Testall(static_cast<int>(requests.size()), requests.data(), &done, MPI_STATUSES_IGNORE);
       if (done) break;
-      if (Clock::now() - begin > patience) std::this_thread::sleep_for(nap);
+      const auto waited = Clock::now() - begin;
+      if (waited > patience) std::this_thread::sleep_for(std::min<Clock::duration>(waited / 8, longest));
     }
     sent.seconds_waiting += std::chrono::duration<double>(Clock::now() - begin).count();
   }
@@ -60,7 +61,7 @@ struct Communicator::Data {
   void complete(const Begin& begin) {
     std::vector<MPI_Request> one(1);
     begin(&one[0]);
-    wait(one);
+    wait(one, std::chrono::milliseconds(2));
   }
 
   /// Calls act(first byte, bytes) for each message that the bytes [begin, end) are cut into.
@@ -159,7 +160,8 @@ void Communicator::exchange_bytes(const char* from, const std::vector<std::int64
   }
   const std::int64_t own = send_begin[rank() + 1] - send_begin[rank()];
   if (own > 0) std::memcpy(to + receive_begin[rank()], from + send_begin[rank()], static_cast<std::size_t>(own));
-  data_->wait(requests);
+  const std::int64_t bytes = send_begin.back() + receive_begin.back();
+  data_->wait(requests, std::chrono::microseconds(bytes < 1 << 20 ? 2000 : 200));
 }
 
 }  // namespace gale

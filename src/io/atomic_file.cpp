@@ -1,4 +1,5 @@
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -8,6 +9,7 @@
 #include <random>
 #include <sstream>
 #include <system_error>
+#include <utility>
 
 #include <gale/base/error.hpp>
 #include <gale/io/atomic_file.hpp>
@@ -32,6 +34,9 @@ std::string folder_of(const std::string& path) {
   const std::string folder = std::filesystem::path(path).parent_path().string();
   return folder.empty() ? "." : folder;
 }
+
+/// The path of an open file, in this process.
+std::string path_of(int descriptor) { return "/proc/self/fd/" + std::to_string(descriptor); }
 
 /// Whether fsync() failed since the file system syncs no folders, or nothing.
 bool cannot_sync(int failure) { return failure == EINVAL || failure == EROFS || failure == ENOTSUP; }
@@ -63,6 +68,19 @@ void undo(const std::string& path, Before& before) {
   } else if (before.is_kept && std::rename(before.name.path().c_str(), path.c_str()) == 0) {
     before.name.forget();
   }
+}
+
+/// A new file without a name in a folder, which ends with the process. -1 where the file system has none, or where
+/// descriptors are short: many files may be open at once.
+int make_unnamed(const std::string& folder) {
+#ifdef O_TMPFILE
+  struct rlimit limit {};
+  detail::Descriptor file(open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666));
+  if (file < 0 || getrlimit(RLIMIT_NOFILE, &limit) != 0 || static_cast<rlim_t>(file) > limit.rlim_cur / 2) return -1;
+  return access(path_of(file).c_str(), W_OK) == 0 ? file.release() : -1;
+#else
+  return -1;
+#endif
 }
 
 struct Renaming {
@@ -127,6 +145,11 @@ AtomicFile::AtomicFile(const std::string& path, Encoding encoding) : path_(path)
   const fs::file_status there = fs::status(target_, unknown);
   if (fs::is_directory(there)) throw Error("it is a directory");
   if (fs::exists(there) && !fs::is_regular_file(there)) throw Error("it is not a regular file");
+  unnamed_ = make_unnamed(folder_of(target_));
+  if (unnamed_ >= 0) {
+    unnamed_path_ = path_of(unnamed_);
+    return;
+  }
   const std::string name = hidden_name_beside(target_);
   const detail::Uninterrupted creating;
   temporary_ = detail::TemporaryName(name);
@@ -136,10 +159,27 @@ AtomicFile::AtomicFile(const std::string& path, Encoding encoding) : path_(path)
   check(failure);
 }
 
+AtomicFile::~AtomicFile() { const detail::Descriptor unnamed(unnamed_); }
+
+void AtomicFile::name() {
+  if (unnamed_ < 0) return;
+  const std::string name = hidden_name_beside(target_);
+  const detail::Uninterrupted naming;
+  detail::TemporaryName hidden(name);
+  if (linkat(AT_FDCWD, unnamed_path_.c_str(), AT_FDCWD, hidden.path().c_str(), AT_SYMLINK_FOLLOW) != 0) {
+    const int failure = errno;
+    hidden.forget();
+    check(failure);
+  }
+  temporary_ = std::move(hidden);
+  const detail::Descriptor unnamed(std::exchange(unnamed_, -1));
+}
+
 void AtomicFile::sync() const { check(sync_file(temporary())); }
 
 void AtomicFile::commit() {
   check(sync_file(temporary()));
+  name();
   rename_together(
       {{&temporary_, target_}}, [](std::size_t, int failure) { check(failure); }, [] {});
 }
@@ -154,9 +194,10 @@ void AtomicFiles::sync(const AtomicFile& file) {
 }
 
 void AtomicFiles::commit(const std::function<void()>& confirm) {
+  for (const auto& file : files_) sync(*file);
   std::vector<Renaming> renamings;
   for (const auto& file : files_) {
-    sync(*file);
+    named(file->path(), [&] { file->name(); });
     renamings.push_back({&file->temporary_, file->target_});
   }
   const auto failed = [this](std::size_t i, int failure) {

@@ -62,19 +62,21 @@ enum class Encoding { appended, base64 };
 ///
 /// Write to `temporary()`, a new, empty file in the same directory, and close it; `commit` then gives it its name,
 /// replacing what had it before. Without `commit` the destructor removes it, and what had the name before stays as it
-/// was. A link is followed.
+/// was. A link is followed. Until `commit` the file has no name where the file system can do that (O_TMPFILE), so that
+/// nothing is left of it however the process ends; else a hidden one.
 class GALE_EXPORT AtomicFile {
  public:
   /// Throws `Error` if the directory takes no new file, or if `path` exists and is no regular file.
   explicit AtomicFile(const std::string& path, Encoding encoding = Encoding::appended);
+  ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
   /// The path, as it was given.
   const std::string& path() const { return path_; }
 
-  /// The path of the file to write to.
-  const std::string& temporary() const { return temporary_.path(); }
+  /// The path of the file to write to, in this process.
+  const std::string& temporary() const { return unnamed_ < 0 ? temporary_.path() : unnamed_path_; }
 
   /// The encoding of its arrays, if it is to be one of VTK's XML files.
   Encoding encoding() const { return encoding_; }
@@ -88,8 +90,13 @@ class GALE_EXPORT AtomicFile {
  private:
   friend class AtomicFiles;
 
+  /// Gives the file a hidden name, if it has none.
+  void name();
+
   std::string path_, target_;  ///< `target_`: where links lead
   Encoding encoding_;
+  int unnamed_ = -1;  ///< the descriptor of a file that has no name yet
+  std::string unnamed_path_;
   detail::TemporaryName temporary_;
 };
 

@@ -2,7 +2,10 @@
 #include <cmath>
 #include <utility>
 
+#include <gale/algorithms/excerpt/gathering.hpp>
 #include <gale/base/error.hpp>
+#include <gale/base/sort.hpp>
+#include <gale/mesh/exchange/messages.hpp>
 #include <gale/mesh/positions.hpp>
 #include <gale/outputs/field.hpp>
 #include <gale/outputs/merge_tree.hpp>
@@ -66,14 +69,17 @@ std::vector<Id> arcs_of_nodes(const MergeTree& tree) {
 /// Sums over the vertices of equally high parts of arcs.
 class ArcSamples {
  public:
-  ArcSamples(const io::Dataset& dataset, const io::PointArray& field, const MergeTree& tree, int samples)
+  ArcSamples(const io::Dataset& dataset, const io::PointArray& field, const MergeTree& tree, int samples,
+             const std::vector<ArcVertex>& gathered)
       : samples_(samples), sums_(samples > 0 ? tree.arcs.size() * samples : 0) {
-    std::vector<bool> is_node(sums_.empty() ? 0 : tree.arc_of.size(), false);
-    if (!sums_.empty()) {
-      for (const Id vertex : tree.vertices) is_node[vertex] = true;
-    }
+    if (sums_.empty()) return;
+    for (const ArcVertex& vertex : gathered) add(field, tree, vertex);
+    if (tree.excerpt) return;
+    std::vector<bool> is_node(tree.arc_of.size(), false);
+    for (const Id vertex : tree.vertices) is_node[vertex] = true;
     for (std::size_t v = 0; v < is_node.size(); ++v) {
-      if (!is_node[v]) add(dataset, field, tree, static_cast<Id>(v));
+      const Id vertex = static_cast<Id>(v);
+      if (!is_node[v]) add(field, tree, {vertex, tree.arc_of[v], value_at(field, vertex), position(dataset, vertex)});
     }
   }
 
@@ -94,16 +100,14 @@ class ArcSamples {
     Id count = 0;
   };
 
-  void add(const io::Dataset& dataset, const io::PointArray& field, const MergeTree& tree, Id vertex) {
-    const Id arc = tree.arc_of[vertex];
-    const double low = value_at(field, tree.vertices[tree.arcs[arc].lower]),
-                 high = value_at(field, tree.vertices[tree.arcs[arc].upper]), value = value_at(field, vertex);
-    const double part = (value - low) / (high - low) * samples_;  // NaN where nothing has a height
-    Sum& sum = sums_[static_cast<std::size_t>(arc) * samples_ +
+  void add(const io::PointArray& field, const MergeTree& tree, const ArcVertex& vertex) {
+    const MergeArc& arc = tree.arcs[vertex.arc];
+    const double low = value_at(field, tree.vertices[arc.lower]), high = value_at(field, tree.vertices[arc.upper]);
+    const double part = (vertex.value - low) / (high - low) * samples_;  // NaN where nothing has a height
+    Sum& sum = sums_[static_cast<std::size_t>(vertex.arc) * samples_ +
                      (part > 0 ? static_cast<int>(std::min(part, samples_ - 1.0)) : 0)];
-    const Point at = position(dataset, vertex);
-    for (int axis = 0; axis < 3; ++axis) sum.at[axis] += at[axis];
-    sum.value += value;
+    for (int axis = 0; axis < 3; ++axis) sum.at[axis] += vertex.at[axis];
+    sum.value += vertex.value;
     ++sum.count;
   }
 
@@ -150,8 +154,45 @@ io::PointSet tree_nodes(const io::Dataset& dataset, const io::PointArray& field,
   return set;
 }
 
-io::Surface tree_arcs(const io::Dataset& dataset, const io::PointArray& field, const MergeTree& tree, int samples) {
-  const ArcSamples between(dataset, field, tree, samples);
+std::vector<ArcVertex> gather_arc_vertices(const Mesh& mesh, const io::Dataset& dataset, const io::PointArray& field,
+                                           const MergeTree& tree) {
+  const Ranks& ranks = mesh.exchange().ranks();
+  std::vector<ArcVertex> mine;
+  if (!tree.excerpt) return mine;
+  gale::detail::Dealt<ArcVertex> sent;
+  gale::detail::together(ranks, [&] {
+    std::vector<bool> is_node(mesh.vertices(), false);
+    for (const Id vertex : tree.vertices) {
+      const Id here = mesh.vertex_of(tree.excerpt->vertex_id(vertex));
+      if (here != no_id) is_node[here] = true;
+    }
+    const OtherIds input = mesh.vertices_in_input();
+    for (const Id v : mesh.owned_vertices()) {
+      const Id vertex = input[v];
+      if (!is_node[vertex])
+        mine.push_back(
+            {mesh.vertex_id(vertex), tree.arc_of[vertex], value_at(field, vertex), position(dataset, vertex)});
+    }
+    std::vector<std::int64_t> counts(ranks.size(), 0);
+    counts[0] = static_cast<std::int64_t>(mine.size());
+    sent = gale::detail::dealt<ArcVertex>("GALE::arc_vertices", counts);
+    std::copy(mine.begin(), mine.end(), sent.entries.data());
+  });
+  std::vector<std::int64_t> bytes(ranks.size(), 0);
+  bytes[0] = static_cast<std::int64_t>(mine.size() * sizeof(ArcVertex));
+  gale::detail::require_room(ranks, "what arcs are sampled at", bytes, 0);
+  const auto received = gale::detail::exchange(ranks, "GALE::arc_vertices_of_all", sent);
+  gale::detail::together(ranks, [&] {
+    mine.assign(received.entries.data(), received.entries.data() + received.count());
+    parallel_sort("GALE::sort_arc_vertices", mine.begin(), mine.end(),
+                  [](const ArcVertex& a, const ArcVertex& b) { return a.id < b.id; });
+  });
+  return mine;
+}
+
+io::Surface tree_arcs(const io::Dataset& dataset, const io::PointArray& field, const MergeTree& tree, int samples,
+                      const std::vector<ArcVertex>& gathered) {
+  const ArcSamples between(dataset, field, tree, samples, gathered);
   std::vector<Point> points;
   std::vector<double> values;
   for (const Id vertex : tree.vertices) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,20 @@ GALE_EXPORT Tree tree_named(const std::string& name);
 /// (`dataset_of`), here and below, and VertexId is int64, the global id.
 GALE_EXPORT io::PointSet tree_nodes(const io::Dataset& dataset, const io::PointArray& field, const MergeTree& tree);
 
+/// A vertex on an arc, but none of its ends.
+struct ArcVertex {
+  GlobalId id;
+  Id arc;
+  double value;
+  std::array<double, 3> at;
+};
+
+/// Gathers all vertices on the arcs of a tree that lies on several ranks, on the first one, by ascending id: 48 bytes
+/// each. `mesh`, `dataset` and `field` are what the tree is of. Nothing on one rank. Collective; throws gale::Error on
+/// all ranks, before anything is sent, if the first one hasn't the memory.
+GALE_EXPORT std::vector<ArcVertex> gather_arc_vertices(const Mesh& mesh, const io::Dataset& dataset,
+                                                       const io::PointArray& field, const MergeTree& tree);
+
 /// The arcs of a tree as lines, in their order: from the lower node, over at most `samples` points between, to the
 /// upper one. The points between are the barycentres of the arc's vertices, by parts of equal height; empty parts have
 /// none. The nodes' points come first, in their order.
@@ -30,9 +45,9 @@ GALE_EXPORT io::PointSet tree_nodes(const io::Dataset& dataset, const io::PointA
 /// at nodes, 1 between). Arrays of lines: SegmentationId (int32, from 0), upNodeId, downNodeId, RegionSize (int32),
 /// RegionSpan.
 ///
-/// On several ranks there are no points between: `samples` must be 0.
+/// On several ranks the points between are those of `gathered` (`gather_arc_vertices`).
 GALE_EXPORT io::Surface tree_arcs(const io::Dataset& dataset, const io::PointArray& field, const MergeTree& tree,
-                                  int samples = 0);
+                                  int samples = 0, const std::vector<ArcVertex>& gathered = {});
 
 /// What each vertex of the mesh belongs to, as point arrays in input order: SegmentationId (int32, its arc; -1 if it
 /// has none), RegionType (int8: 0 an arc that ends in a minimum, 1 in a maximum, 2 between 1-saddles, 3 between

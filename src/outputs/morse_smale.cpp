@@ -35,8 +35,10 @@ MorseSmaleComplex find_complex(const DiscreteGradient& gradient, const io::Point
   if (computed == nullptr) computed = &own;
   MorseSmaleParts parts = request.needed_parts();
   const Ranks& ranks = gradient.mesh().exchange().ranks();
-  if (ranks.size() > 1 && request.persistence)  // which gathers the others
+  if (ranks.size() > 1 && request.persistence) {  // which gathers the others
     parts.descending_separatrices = parts.ascending_separatrices = parts.saddle_connectors = false;
+    parts.separatrices2 = parts.separatrices2 && gradient.mesh().dimension() == 2;  // that is refused
+  }
   MorseSmaleComplex complex = find_morse_smale_complex(gradient, parts, options, computed);
   if (!request.persistence) return complex;
   complex.parts = request.needed_parts();

@@ -1,14 +1,18 @@
 #include <gale/base/error.hpp>
 #include <gale/base/stop.hpp>
+#include <gale/mesh/exchange/exchange_plan.hpp>
 #include <gale/mesh/positions.hpp>
 #include <gale/outputs/field.hpp>
 #include <gale/outputs/separatrices2.hpp>
 #include <gale/outputs/separatrix_arrays.hpp>
+#include <gale/outputs/separatrix_ends.hpp>
 #include <gale/outputs/values.hpp>
 
 namespace gale::outputs {
 
 namespace {
+
+using detail::End, detail::Height, detail::NumbersOfAll;
 
 enum WallType : std::int8_t { ascending_wall = 1, descending_wall = 2 };
 
@@ -38,31 +42,96 @@ class Numbering {
   std::vector<Id> numbers_;
 };
 
-/// For each of `count` critical simplices those that connectors join it to, once each, ascending. The i-th connector
-/// joins `of[i]` to `to[i]`.
-std::vector<std::vector<Id>> neighbours(const std::vector<Id>& of, const std::vector<Id>& to, std::size_t count) {
-  std::vector<std::vector<Id>> all(count);
-  for (std::size_t i = 0; i < of.size(); ++i) all[of[i]].push_back(to[i]);
-  for (auto& some : all) {
-    std::sort(some.begin(), some.end());
-    some.erase(std::unique(some.begin(), some.end()), some.end());
-  }
-  return all;
-}
+/// A critical triangle that bounds the ascending wall of a critical edge, perhaps another rank's.
+struct MetTriangle {
+  GlobalId edge;  ///< its CellId
+  End triangle;   ///< its height as all ranks compare it
+};
 
+/// What bounds walls, and their numbers. Collective.
+struct Bounds {
+  Bounds(const MorseSmaleComplex& complex, const io::PointArray& field,
+         const Separatrices<TriangleVertices>& connectors, const KnownSimplices& critical)
+      : ranks(complex.gradient.mesh().exchange().ranks()),
+        ends(ends_of_all(ranks, complex, field, critical)),
+        falling(ranks, complex.descending_walls.sources, ends[2]),
+        rising(ranks, complex.ascending_walls.walls.sources, ends[1]) {
+    const auto count = static_cast<Offset>(connectors.sources.size());
+    Array<GlobalId, HostMemory> highest;  // of the edges
+    gale::detail::together(ranks, [&] {
+      of_triangles.resize(ends[2].size());
+      of_edges.resize(ends[1].size());
+      highest = allocate<Array<GlobalId, HostMemory>>("GALE::bounded_edges", count);
+      for (Offset i = 0; i < count; ++i) {
+        of_triangles[connectors.destinations[i]].push_back(ends[1][connectors.sources[i]]);
+        highest(i) = ends[1][connectors.sources[i]].highest.vertex;
+      }
+    });
+    // Who owns an edge has its wall, and is told its triangles.
+    const std::vector<std::uint64_t> heights = heights_on_ranks(ranks, complex);
+    const auto owners = complex.gradient.mesh().exchange().owners_of(highest);
+    const auto received = gale::detail::exchange(
+        ranks, "GALE::met_triangles",
+        gale::detail::deal<MetTriangle>(
+            ranks, "GALE::told_triangles", count,
+            [&](Id i) { return complex.owns(1, connectors.sources[i]) ? ranks.rank() : owners(i); },
+            [&](Id i) {
+              const Id triangle = connectors.destinations[i];
+              MetTriangle met{ends[1][connectors.sources[i]].cell, ends[2][triangle]};
+              if (!heights.empty()) met.triangle.highest.key = heights[critical[2][triangle].highest()];
+              return met;
+            }));
+    gale::detail::together(ranks, [&] {
+      const auto is_before = [](const End& edge, GlobalId cell) { return edge.cell < cell; };
+      for (Offset i = 0; i < received.count(); ++i) {
+        const MetTriangle& met = received.entries(i);
+        const auto edge = std::lower_bound(ends[1].begin(), ends[1].end(), met.edge, is_before);
+        of_edges[edge - ends[1].begin()].push_back(met.triangle);
+      }
+    });
+  }
+
+  const Ranks& ranks;
+  const std::array<std::vector<End>, 3> ends;
+  const NumbersOfAll falling, rising;
+  std::vector<std::vector<End>> of_triangles, of_edges;  ///< by place: the critical simplices that bound the wall
+
+ private:
+  static std::array<std::vector<End>, 3> ends_of_all(const Ranks& ranks, const MorseSmaleComplex& complex,
+                                                     const io::PointArray& field, const KnownSimplices& critical) {
+    std::array<std::vector<End>, 3> all;
+    gale::detail::together(ranks, [&] {
+      for (const int dimension : {1, 2})
+        all[dimension] = detail::ends_of(critical[dimension], field, complex.excerpt.order());
+    });
+    return all;
+  }
+
+  /// Keys of the excerpt's vertices that compare on all ranks, but for ties; nothing on one rank.
+  static std::vector<std::uint64_t> heights_on_ranks(const Ranks& ranks, const MorseSmaleComplex& complex) {
+    std::vector<std::uint64_t> here, there;
+    if (ranks.size() == 1) return there;
+    const Mesh& mesh = complex.gradient.mesh();
+    gale::detail::together(ranks, [&] {
+      const OtherIds internal = mesh.vertices_of_input();
+      for (Id v = 0; v < mesh.vertices(); ++v) here.push_back(complex.gradient.order().value_key(internal[v]));
+      there.resize(complex.excerpt.mesh().vertices());
+    });
+    gale::detail::plan_to(complex.excerpt.mesh(), mesh)(ranks, here.data(), there.data());
+    return there;
+  }
+};
+
+template <class Number>
 class Walls {
  public:
-  Walls(const io::Dataset& dataset, const io::PointArray& field, const MorseSmaleComplex& complex,
-        const Separatrices<TriangleVertices>& connectors, const KnownSimplices& critical)
+  Walls(const io::Dataset& dataset, const io::PointArray& field, const MorseSmaleComplex& complex, const Bounds& bounds)
       : dataset_(dataset),
         complex_(complex),
-        connectors_(connectors),
+        bounds_(bounds),
         mesh_(complex.excerpt.mesh()),
         vertex_input_(mesh_.vertices_in_input()),
         cell_input_(mesh_.cells_in_input()),
-        critical_(critical),
-        vertex_internal_(mesh_.vertices_of_input()),
-        keys_(complex.excerpt.order().keys()),
         vertices_(mesh_.vertices()),
         tetrahedra_(mesh_.cells()),
         field_(field) {}
@@ -72,7 +141,7 @@ class Walls {
     add_descending();
     add_ascending();
     require_ids("polygons of 2-separatrices", surface_.polygons.begin.size());
-    detail::SeparatrixArrays<Id> arrays(walls_.empty() ? 0 : walls_.back().end);
+    detail::SeparatrixArrays<Number> arrays(walls_.empty() ? 0 : walls_.back().end);
     for (std::size_t i = 0; i < walls_.size(); ++i) {
       gale::detail::stop_if_asked_at(static_cast<Offset>(i));
       arrays.set(i == 0 ? 0 : walls_[i - 1].end, walls_[i]);
@@ -82,9 +151,7 @@ class Walls {
   }
 
  private:
-  auto is_below() const {
-    return [this](Id a, Id b) { return keys_[vertex_internal_[a]] < keys_[vertex_internal_[b]]; };
-  }
+  Height height(Id vertex) const { return detail::height_of(complex_.excerpt.order(), field_, vertex_input_[vertex]); }
 
   /// Whether this cell of the ascending walls, an edge, has a polygon.
   bool is_polygon(Offset edge) const {
@@ -133,23 +200,20 @@ class Walls {
   /// it, or of its own vertices where none does.
   void add_descending() {
     const auto& walls = complex_.descending_walls;
-    const auto met = neighbours(connectors_.destinations, connectors_.sources, critical_[2].size());
     for (Id i = 0; i < walls.count(); ++i) {
-      const CriticalSimplex& source = critical_[2][walls.sources[i]];
+      const End& source = bounds_.ends[2][walls.sources[i]];
+      const std::vector<End>& met = bounds_.of_triangles[walls.sources[i]];
       gale::detail::stop_if_asked();
-      std::vector<Id> low;
+      Height low = met.empty() ? source.lowest : met.front().lowest;
       for (auto triangle = walls.first(i); triangle != walls.last(i); ++triangle) {
         for (const Id vertex : *triangle) {
-          low.push_back(vertex_input_[vertex]);
+          if (met.empty()) low = std::min(low, height(vertex));
           surface_.polygons.points.push_back(vertices_[vertex_input_[vertex]]);
         }
         end_polygon();
       }
-      const auto& saddles = met[walls.sources[i]];
-      if (!saddles.empty()) low.clear();
-      for (const Id saddle : saddles) low.push_back(critical_[1][saddle].lowest());
-      end_wall(descending_wall, source, source.highest(), *std::min_element(low.begin(), low.end(), is_below()),
-               critical_[1], saddles);
+      for (const End& edge : met) low = std::min(low, edge.lowest);
+      end_wall(descending_wall, source, bounds_.falling[i], source.highest, low, met);
     }
   }
 
@@ -157,58 +221,56 @@ class Walls {
   /// bound it, or of its own edges where none does.
   void add_ascending() {
     const auto& walls = complex_.ascending_walls.walls;
-    const auto met = neighbours(connectors_.sources, connectors_.destinations, critical_[1].size());
     for (Id i = 0; i < walls.count(); ++i) {
-      const CriticalSimplex& source = critical_[1][walls.sources[i]];
+      const End& source = bounds_.ends[1][walls.sources[i]];
+      const std::vector<End>& met = bounds_.of_edges[walls.sources[i]];
       gale::detail::stop_if_asked();
-      std::vector<Id> high;
+      Height high = met.empty() ? source.highest : met.front().highest;
       for (Offset edge = walls.begin[i]; edge < walls.begin[i + 1]; ++edge) {
-        high.push_back(vertex_input_[walls.cells[edge][0]]);
+        if (met.empty()) high = std::max(high, height(walls.cells[edge][0]));
         if (!is_polygon(edge)) continue;
         for_each_in_star(edge, [&](Id t) { surface_.polygons.points.push_back(tetrahedra_[cell_input_[t]]); });
         end_polygon();
       }
-      const auto& saddles = met[walls.sources[i]];
-      if (!saddles.empty()) high.clear();
-      for (const Id saddle : saddles) high.push_back(critical_[2][saddle].highest());
-      end_wall(ascending_wall, source, *std::max_element(high.begin(), high.end(), is_below()), source.lowest(),
-               critical_[2], saddles);
+      for (const End& triangle : met) high = std::max(high, triangle.highest);
+      end_wall(ascending_wall, source, bounds_.falling.count() + bounds_.rising[i], high, source.lowest, met);
     }
   }
 
   void end_polygon() { surface_.polygons.begin.push_back(static_cast<Offset>(surface_.polygons.points.size())); }
 
-  /// Ends a wall, whose polygons are those that were added last. `met` are the places in `critical` of the simplices
-  /// that bound it.
-  void end_wall(WallType type, const CriticalSimplex& source, Id highest, Id lowest,
-                const std::vector<CriticalSimplex>& critical, const std::vector<Id>& met) {
+  /// Ends a wall, whose polygons are those that were added last; `met` bound it.
+  void end_wall(WallType type, const End& source, GlobalId number, const Height& highest, const Height& lowest,
+                const std::vector<End>& met) {
     Id on_surface = source.on_surface;
-    for (const Id saddle : met) on_surface += critical[saddle].on_surface;
-    walls_.push_back({static_cast<Offset>(surface_.polygons.begin.size()) - 1, static_cast<Id>(source.cell), no_id,
-                      static_cast<Id>(walls_.size()), type, value_at(field_, highest), value_at(field_, lowest),
-                      on_surface});
+    for (const End& saddle : met) on_surface += saddle.on_surface;
+    walls_.push_back({static_cast<Offset>(surface_.polygons.begin.size()) - 1, static_cast<Number>(source.cell), no_id,
+                      static_cast<Number>(number), type, highest.value, lowest.value, on_surface});
   }
 
   const io::Dataset& dataset_;
   const MorseSmaleComplex& complex_;
-  const Separatrices<TriangleVertices>& connectors_;
+  const Bounds& bounds_;
   const Mesh mesh_;
   OtherIds vertex_input_;
   OtherIds cell_input_;
-  const KnownSimplices& critical_;
-  OtherIds vertex_internal_;
-  const std::uint64_t* keys_;
   Numbering vertices_, tetrahedra_;
   io::Surface surface_;
   const io::PointArray& field_;
-  std::vector<detail::SeparatrixValues<Id>> walls_;
+  std::vector<detail::SeparatrixValues<Number>> walls_;
 };
 
 }  // namespace
 
 io::Surface separatrices2(const io::Dataset& dataset, const io::PointArray& field, const MorseSmaleComplex& complex,
                           const Separatrices<TriangleVertices>& connectors, const KnownSimplices& critical) {
-  return Walls(dataset, field, complex, connectors, critical).collect();
+  const Bounds bounds(complex, field, connectors, critical);
+  io::Surface surface;
+  gale::detail::together(bounds.ranks, [&] {
+    surface = complex.excerpt.mesh().is_part() ? Walls<GlobalId>(dataset, field, complex, bounds).collect()
+                                               : Walls<Id>(dataset, field, complex, bounds).collect();
+  });
+  return surface;
 }
 
 }  // namespace gale::outputs

@@ -22,6 +22,9 @@ namespace gale::outputs {
 /// `field` is that of the complex and `critical` its critical simplices. `connectors` say which critical simplices
 /// bound a wall: all that the complex has, of which only the ends are read. Throws gale::Error if there are more than
 /// 2^31 - 1 points or polygons.
+///
+/// On one rank's part of a mesh these are the walls of its own critical simplices, with the numbers that they have
+/// among those of all ranks; ids are int64. Collective then.
 GALE_EXPORT io::Surface separatrices2(const io::Dataset& dataset, const io::PointArray& field,
                                       const MorseSmaleComplex& complex,
                                       const Separatrices<TriangleVertices>& connectors, const KnownSimplices& critical);

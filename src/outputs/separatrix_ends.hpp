@@ -13,9 +13,10 @@ namespace gale::outputs::detail {
 /// A vertex in the order, and the field's value there.
 struct Height {
   std::uint64_t key = 0;
+  GlobalId vertex = 0;
   double value = 0;
 
-  bool operator<(const Height& other) const { return key < other.key; }
+  bool operator<(const Height& other) const { return key != other.key ? key < other.key : vertex < other.vertex; }
 };
 
 /// What separatrices say of a critical simplex at one of their ends.
@@ -25,11 +26,16 @@ struct End {
   std::int8_t on_surface = 0;
 };
 
+/// The height of a vertex, by its input id.
+inline Height height_of(const VertexOrder& order, const io::PointArray& field, Id vertex) {
+  return {order.keys()[order.mesh().vertices_of_input()[vertex]], order.mesh().vertex_id(vertex),
+          value_at(field, vertex)};
+}
+
 /// What separatrices say of critical simplices.
 inline std::vector<End> ends_of(const std::vector<CriticalSimplex>& simplices, const io::PointArray& field,
                                 const VertexOrder& order) {
-  const OtherIds internal = order.mesh().vertices_of_input();
-  const auto height = [&](Id vertex) -> Height { return {order.keys()[internal[vertex]], value_at(field, vertex)}; };
+  const auto height = [&](Id vertex) { return height_of(order, field, vertex); };
   std::vector<End> ends;
   for (const CriticalSimplex& simplex : simplices)
     ends.push_back({simplex.cell, height(simplex.highest()), height(simplex.lowest()), simplex.on_surface});

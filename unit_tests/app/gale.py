@@ -82,6 +82,14 @@ class CommandTest(unittest.TestCase):
     def names(self):
         return sorted(path.name for path in self.folder.iterdir())
 
+    def has_unnamed_files(self):
+        """Whether the file system can have a file without a name, of which nothing is left however its process ends."""
+        try:
+            os.close(os.open(self.folder, os.O_TMPFILE | os.O_WRONLY))
+        except OSError:
+            return False
+        return True
+
 
 class DrawingTest(CommandTest):
     """A test of pictures."""

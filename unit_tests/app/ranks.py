@@ -15,7 +15,8 @@ needs_mpi = unittest.skipUnless(MPIEXEC, "this gale was built without MPI")
 
 
 class RanksTest(gale.CommandTest):
-    launcher = [MPIEXEC, "--allow-run-as-root", "--oversubscribe", "--bind-to", "none", "--mca", "mpi_yield_when_idle", "1"]
+    launcher = [MPIEXEC, "--allow-run-as-root", "--oversubscribe", "--bind-to", "none", "--mca", "mpi_yield_when_idle", "1", "--mca",
+                "odls_base_sigkill_timeout", "0"]
 
     def start(self, *command):
         return subprocess.run([*self.launcher, *map(str, command)], cwd=self.folder, stdin=subprocess.DEVNULL, capture_output=True,
@@ -71,11 +72,11 @@ class ComplexTest(RanksTest):
                 found[key] = (file.points[i], {name: values[i] for name, values in arrays.items()})
         return found
 
-    def lines(self, files):
-        """{SeparatrixId: its points with their arrays, and the arrays of each of its lines}."""
+    def cells(self, kind, files):
+        """{SeparatrixId: its points with their arrays, and the arrays of each of its lines or polygons}."""
         found = {}
         for file in files:
-            arrays, cells = file.cell_arrays, file.cells("Lines")
+            arrays, cells = file.cell_arrays, file.cells(kind)
             here = set(arrays["SeparatrixId"])
             self.assertFalse(here & set(found), "a separatrix in two pieces")
             for i, ends in enumerate(cells):
@@ -103,12 +104,13 @@ class ComplexTest(RanksTest):
         cells = one.cell_arrays.get("GlobalCellIds", range(len(one.cells("Cells"))))  # several simplices may be of one
         self.assertEqual(sorted(simplices), sorted(zip(cells, one.cells("Cells"))))
 
-    def expect_files(self, pieces_named, *options):
-        read = {kind: gale.XmlFile(self.folder / f"one_{kind}") for kind in
-                ("critical_points.vtp", "separatrices1.vtp", "segmentation.vtu")}
+    def expect_files(self, pieces_named, walls=False):
+        kinds = ["critical_points.vtp", "separatrices1.vtp", "segmentation.vtu"] + ["separatrices2.vtp"] * walls
+        read = {kind: gale.XmlFile(self.folder / f"one_{kind}") for kind in kinds}
         pieces = {kind: self.pieces(f"{pieces_named}_{kind.replace('.', '.p')}") for kind in read}
         self.assertEqual(self.simplices(pieces["critical_points.vtp"]), self.simplices([read["critical_points.vtp"]]))
-        self.assertEqual(self.lines(pieces["separatrices1.vtp"]), self.lines([read["separatrices1.vtp"]]))
+        for name, kind in (("separatrices1.vtp", "Lines"), ("separatrices2.vtp", "Polys"))[:1 + walls]:
+            self.assertEqual(self.cells(kind, pieces[name]), self.cells(kind, [read[name]]))
         self.expect_segmentation(read["segmentation.vtu"], pieces["segmentation.vtu"])
 
     def expect_complex_of_one_rank(self, count, source, *options):
@@ -117,4 +119,4 @@ class ComplexTest(RanksTest):
         expected = self.report(*arguments, "one")["result"]
         self.assertGreater(expected["separatrices"]["ascending"], 0)
         self.assertEqual(self.report_of(count, *arguments, "all")["result"], expected)
-        self.expect_files("all")
+        self.expect_files("all", "--separatrices2" in options)

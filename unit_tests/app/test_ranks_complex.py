@@ -10,10 +10,10 @@ import ranks
 class ComplexOnRanks(ranks.ComplexTest):
     def test_the_pieces_of_a_complex_are_the_files_of_one_rank(self):
         self.write_ties("grid:10")
-        for source in ("grid:14", "ties.vtk"):
+        for source, *walls in (("grid:14",), ("ties.vtk", "--separatrices2")):
             for count in ranks.RANKS:
                 with self.subTest(source=source, ranks=count):
-                    self.expect_complex_of_one_rank(count, source)
+                    self.expect_complex_of_one_rank(count, source, *walls)
 
     def test_what_is_switched_off_is_not_there(self):
         parts = ("--no-saddle-connectors", "--no-descending-separatrices", "--no-ascending-segmentation")

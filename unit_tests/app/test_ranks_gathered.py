@@ -33,7 +33,7 @@ class GatheredOnRanks(ranks.ComplexTest):
     def test_a_simplified_complex_is_that_of_one_rank(self):
         self.write_ties("grid:8", 12)
         self.write_ties("grid:9", 1000, "noise.vtk")
-        for source, *options in (("noise.vtk", "--persistence", "5%"), ("ties.vtk", "--persistence", "0.5"),
+        for source, *options in (("noise.vtk", "--persistence", "5%"), ("ties.vtk", "--persistence", "0.5", "--separatrices2"),
                                  ("noise.vtk", "--persistence", "100", "--extrema-only")):
             for count in ranks.RANKS:
                 with self.subTest(source=source, options=options, ranks=count):
@@ -41,7 +41,7 @@ class GatheredOnRanks(ranks.ComplexTest):
 
     def test_a_tree_is_that_of_one_rank(self):
         self.write_ties("grid:10")
-        for source, *options in (("grid:14", "--type", "join"), ("ties.vtk", "--type", "split"), ("grid:14", "--type", "contour"),
+        for source, *options in (("grid:14", "--type", "join"), ("ties.vtk", "--type", "split", "--arc-samples", "3"), ("grid:14", "--type", "contour", "--arc-samples", "3"),
                                  ("grid:14", "--type", "split", "--persistence", "10%"), ("plane:40", "--type", "contour", "--persistence", "10%")):
             expected = self.report("merge-tree", source, *options, "-o", "one")["result"]
             for count in ranks.RANKS:

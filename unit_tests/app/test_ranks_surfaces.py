@@ -65,7 +65,7 @@ class SurfacesOnRanks(ranks.ComplexTest):
         self.expect_one_line(self.launch(2, "critical-points", "with_ids.pvtu", "--cells", "simplices"), 1, "and triangles alone are wanted")
 
     def test_what_tetrahedra_have_is_refused(self):
-        self.expect_one_line(self.launch(2, "morse-smale", "plane:8", "--separatrices2"), 2, "--separatrices2: not on several ranks")
+        self.expect_one_line(self.launch(2, "morse-smale", "plane:8", "--separatrices2", "--persistence", "1%"), 1, "triangles has no 2-separatrices")
 
 
 if __name__ == "__main__":

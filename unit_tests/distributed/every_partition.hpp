@@ -1,8 +1,11 @@
 #pragma once
 
 #include <algorithm>
+#include <map>
 #include <string>
 #include <tuple>
+#include <type_traits>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -26,6 +29,18 @@ class EveryPartition : public testing::TestWithParam<std::tuple<std::string, std
   const Communicator ranks_{MPI_COMM_WORLD, 1000};  // so that messages are cut
   const GivenPart part_ = part_of(input(), partition(), ranks_);
   const DistributedMesh mesh_ = distribute(ranks_, part_, partition());
+
+  /// What make() finds of the whole mesh with the field `name`: once for all partitions of it, which follow one
+  /// another.
+  template <class Make>
+  const auto& once(const std::string& name, const Make& make) const {
+    using Found = std::map<std::string, std::decay_t<decltype(make())>>;
+    static auto& found = *new Found;  // which outlives Kokkos
+    static std::string of_mesh;
+    if (std::exchange(of_mesh, mesh_name()) != mesh_name()) found.clear();
+    const auto at = found.find(name);
+    return at != found.end() ? at->second : found.emplace(name, make()).first->second;
+  }
 
   /// The input's number of a local vertex (GALE's id), of a cell.
   Id input_vertex(Id vertex) const { return vertex_named(mesh_.vertex_ids()(mesh_.vertex_input()(vertex))); }

@@ -90,7 +90,10 @@ class GatheredOnRanks : public EveryPartition {
 TEST_P(GatheredOnRanks, pairs_are_those_of_one_rank) {
   for (const Field& field : fields()) {
     SCOPED_TRACE(field.name);
-    const auto expected = find_persistence_pairs(find_discrete_gradient(order_of(whole_, field.values)));
+    const auto& [expected, highest] = once(field.name, [&] {
+      const DiscreteGradient gradient = find_discrete_gradient(order_of(whole_, field.values));
+      return std::make_pair(find_persistence_pairs(gradient), highest_vertices(gradient));
+    });
     const GatheredPairs found = gather_persistence_pairs(find_discrete_gradient(order_here(field)));
     if (ranks_.rank() != 0) {
       EXPECT_EQ(found.highest.of_critical, decltype(found.highest.of_critical)());
@@ -98,7 +101,6 @@ TEST_P(GatheredOnRanks, pairs_are_those_of_one_rank) {
     }
     EXPECT_EQ(found.pairs.pairs, expected.pairs);
     EXPECT_EQ(found.pairs.essential, expected.essential);
-    const HighestVertices highest = highest_vertices(find_discrete_gradient(order_of(whole_, field.values)));
     const auto input_of_all = [&](const std::vector<Id>& vertices) {
       std::vector<Id> input;
       for (const Id v : vertices)
@@ -114,9 +116,11 @@ TEST_P(GatheredOnRanks, simplified_complexes_are_those_of_one_rank) {
   for (const Field& field : fields()) {
     SCOPED_TRACE(field.name);
     const double threshold = field.name == "permutation" ? 0.1 * input().vertices() : 4;
-    const auto expected = simplify(
-        find_morse_smale_complex(find_discrete_gradient(order_of(whole_, field.values))),
-        [&](Id v) { return field.values[v]; }, threshold);
+    const auto& expected = once(field.name, [&] {
+      return simplify(
+          find_morse_smale_complex(find_discrete_gradient(order_of(whole_, field.values))),
+          [&](Id v) { return field.values[v]; }, threshold);
+    });
     MorseSmaleParts manifolds;  // the rest is found again where it is gathered
     manifolds.descending_separatrices = manifolds.ascending_separatrices = manifolds.saddle_connectors = false;
     auto complex = find_morse_smale_complex(find_discrete_gradient(order_here(field)),
@@ -135,7 +139,7 @@ TEST_P(GatheredOnRanks, simplified_complexes_are_those_of_one_rank) {
 TEST_P(GatheredOnRanks, trees_are_those_of_one_rank) {
   for (const Field& field : fields()) {
     SCOPED_TRACE(field.name);
-    const auto expected = find_merge_trees(order_of(whole_, field.values));
+    const auto& expected = once(field.name, [&] { return find_merge_trees(order_of(whole_, field.values)); });
     const auto found = find_merge_trees(order_here(field));
     for (int tree = 0; tree < 3; ++tree) {
       SCOPED_TRACE(tree);
@@ -181,8 +185,10 @@ TEST_P(GatheredOnRanks, simplified_fields_are_those_of_one_rank) {
     const VertexOrder order = order_here(field), whole_order = order_of(whole_, field.values);
     const double threshold = field.name == "permutation" ? 0.3 * input().vertices() : 3;
     const auto value_here = [&](Id v) { return field.values[vertex_named(mesh_.vertex_ids()(v))]; };
-    const auto expected = simplify_field(
-        whole_order, [&](Id v) { return field.values[v]; }, threshold);
+    const auto& expected = once(field.name, [&] {
+      return simplify_field(
+          whole_order, [&](Id v) { return field.values[v]; }, threshold);
+    });
     expect(simplify_field(order, value_here, threshold), expected);
     // By what is left of it, of which each rank names its own.
     const auto left = find_critical_points(VertexOrder::of_places(whole_, expected.rank));

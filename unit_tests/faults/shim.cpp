@@ -131,6 +131,11 @@ int link(const char* from, const char* to) noexcept {
   return file_fails() ? -1 : real(from, to);
 }
 
+int linkat(int from_folder, const char* from, int to_folder, const char* to, int flags) noexcept {
+  static auto* const real = next<decltype(linkat)>("linkat");
+  return file_fails() ? -1 : real(from_folder, from, to_folder, to, flags);
+}
+
 /// Like the system's, it closes the file whatever it says.
 int close(int file) {
   static auto* const real = next<decltype(close)>("close");

@@ -1,3 +1,4 @@
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -116,6 +117,21 @@ TEST(TemporaryFiles, GoWithAProcessThatASignalEnds) {
     EXPECT_EQ(WTERMSIG(status), signal);
     EXPECT_EQ(folder.names(), Names{});
   }
+}
+
+/// Many files may be open at once: no more have no name than descriptors allow.
+TEST(TemporaryFiles, HaveHiddenNamesWhereDescriptorsAreShort) {
+  const Folder folder;
+  const int status = status_of_child([&] {
+    const rlimit few{8, 8};
+    setrlimit(RLIMIT_NOFILE, &few);
+    AtomicFiles files;
+    for (int i = 0; i < 20; ++i) add(files, folder / std::to_string(i), std::to_string(i));
+    files.commit();
+  });
+  EXPECT_EQ(status, 0);
+  EXPECT_EQ(folder.names().size(), 20u);
+  EXPECT_EQ(content_of(folder / "0") + content_of(folder / "19"), "019");
 }
 
 TEST(TemporaryFiles, GoWithAProcessThatExits) {

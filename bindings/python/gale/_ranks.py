@@ -57,8 +57,7 @@ class DistributedMesh(Mesh):
     over by one rank, a vertex by any number of them, of which the lowest owns it; a rank may have none. With
     `repartition` vertices are dealt out anew, as many to each rank.
 
-    Its methods are those of a Mesh but `relation`, `relation_matrix` and walls of saddles. All ranks call
-    them, in the same order, with a field that has a value for each vertex that was handed over. Each rank gets what it owns
+    Its methods are those of a Mesh but `relation` and `relation_matrix`. All ranks call them, in the same order, with a field that has a value for each vertex that was handed over. Each rank gets what it owns
     of a result, by global ids; a diagram, the nodes and arcs of a tree and simplified separatrices are on the first rank,
     and arrays of the mesh's points are in the order of `vertex_ids`. What fails on one rank raises gale.Error on all, wrong
     arguments too, and so do calls that differ from rank to rank; but `comm` itself.
@@ -117,12 +116,6 @@ class DistributedMesh(Mesh):
 
     def _relation(self, name: str, threads: int, progress: Any) -> Tuple[np.ndarray, np.ndarray, int]:
         self._refuse("relations")
-
-    def morse_smale(self, field: Any, persistence: Any = None, extrema_only: bool = False, name: str = "field",
-                    threads: int = 0, progress: Any = None, separatrices2: bool = False) -> Any:
-        if separatrices2:
-            self._refuse("walls of saddles")
-        return super().morse_smale(field, persistence, extrema_only, name, threads, progress)
 
     def _analyse(self, analysis: str, field: Any, name: str, threads: int, progress: Any,
                  flags: Optional[Dict[str, bool]] = None, thresholds: Optional[Dict[str, Tuple[float, bool]]] = None,

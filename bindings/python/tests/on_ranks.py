@@ -60,7 +60,10 @@ for values, repartition in ((field, False), (np.round(field), True), (field.asty
     found, expected = part.persistence_diagram(values[ids], "2%"), whole.persistence_diagram(values, "2%")
     check(found == expected if COMM.rank == 0 else len(found.birth) == 0, "diagrams differ")
 
-    found, expected = part.morse_smale(values[ids]), whole.morse_smale(values)
+    found, expected = part.morse_smale(values[ids], separatrices2=True), whole.morse_smale(values, separatrices2=True)
+    named = ["SourceId", "SeparatrixId", "SeparatrixFunctionMaximum", "SeparatrixFunctionMinimum", "NumberOfCriticalPointsOnBoundary"]
+    walls, all_walls = found.separatrices2.cell_arrays, expected.separatrices2.cell_arrays
+    same("walls", rows(*[walls[name] for name in named]), sorted_rows(*[all_walls[name] for name in named]))
     named = ["SourceId", "DestinationId", "SeparatrixType"]
     lines, all_lines = found.separatrices1.cell_arrays, expected.separatrices1.cell_arrays
     same("separatrices", rows(*[lines[name] for name in named]), sorted_rows(*[all_lines[name] for name in named]))
@@ -69,8 +72,9 @@ for values, repartition in ((field, False), (np.round(field), True), (field.asty
         same(name, rows(part.vertex_ids[own_vertices], found.manifolds[name][own_vertices]),
              sorted_rows(np.arange(len(points)), expected.manifolds[name]))
 
-    found, expected = part.merge_tree(values[ids]), whole.merge_tree(values)
+    found, expected = part.merge_tree(values[ids], arc_samples=2), whole.merge_tree(values, arc_samples=2)
     check(COMM.rank != 0 or np.array_equal(found.nodes.points, expected.nodes.points), "nodes")
+    check(COMM.rank != 0 or np.array_equal(found.arcs.points, expected.arcs.points), "points of arcs")
     same("arcs", rows(part.vertex_ids[own_vertices], found.segmentation["SegmentationId"][own_vertices]),
          sorted_rows(np.arange(len(points)), expected.segmentation["SegmentationId"]))
 
@@ -82,7 +86,7 @@ for values, repartition in ((field, False), (np.round(field), True), (field.asty
     check(COMM.rank != 0 or np.array_equal(found.nodes.points, expected.nodes.points), "nodes of a simplified field")
 
 for wrong in (lambda: part.relation("VV"), lambda: gale.DistributedMesh(1, [], [], []),
-              lambda: part.morse_smale(values[ids], separatrices2=True), lambda: part.critical_points(values[ids][1:])):
+              lambda: part.critical_points(values[ids][1:])):
     try:
         wrong()
     except gale.Error:
@@ -109,12 +113,12 @@ for call, naming in (
         (lambda: part.critical_points(own, threads=-1 if is_last else 1), "-1"),
         (lambda: part.critical_points(own, threads="two" if is_last else 1), ""),
         (lambda: part.persistence_diagram(own, "much" if is_last else "2%"), "much"),
-        (lambda: part.morse_smale(own, separatrices2=is_last), "walls"),
         (lambda: part.critical_points(*[own][is_last:]), "field"),
         (lambda: gale.DistributedMesh(COMM, ids / 2 if is_last else ids, points[ids], []), "integers"),
         (lambda: gale.DistributedMesh(COMM, ids, points[ids], [], capacity="no" if is_last else 64), "")):
     expect(call, naming)
 if COMM.size > 1:
+    expect(lambda: part.morse_smale(own, separatrices2=is_last), "different things")
     expect(lambda: part.merge_tree(own, "join" if is_last else "split"), "different things")
     expect(lambda: part.merge_tree(own) if is_last else part.critical_points(own), "different things")
 nobody = values[ids] if COMM.rank else values[ids].astype(np.float64)

@@ -12,6 +12,7 @@
 #include <gale/base/error.hpp>
 #include <gale/base/sort.hpp>
 #include <gale/mesh/exchange/global_index.hpp>
+#include <gale/runtime/ways.hpp>
 
 namespace gale::detail {
 
@@ -148,6 +149,19 @@ DiscreteGradient excerpt_of(Reached reached, int dimension) {
   return ExcerptMaker(std::move(reached), dimension).make();
 }
 
+DiscreteGradient gathered_with_walls(const DiscreteGradient& gradient, bool rising_walls, std::size_t most_bytes) {
+  const Mesh& mesh = gradient.mesh();
+  WantedWays ways;
+  ways.all_for_first = ways.falling_paths = ways.rising_paths = true;
+  ways.falling_walls = mesh.dimension() == 3;
+  ways.rising_walls = rising_walls;
+  std::unique_ptr<Structure> rows;
+  together(mesh.exchange().ranks(), [&] {
+    if (rising_walls) rows = std::make_unique<InlineStructure>(mesh, discrete_gradient_relations);
+  });
+  return excerpt_of(gradient, ways, rows.get(), most_bytes);
+}
+
 DiscreteGradient excerpt_of(const DiscreteGradient& gradient, const WantedWays& ways, Structure* rows,
                             std::size_t most_bytes) {
   Reached reached = reach(gradient, ways, rows, most_bytes);
@@ -163,10 +177,7 @@ namespace gale {
 
 DiscreteGradient gather_gradient(const DiscreteGradient& gradient, std::size_t most_bytes) {
   if (gradient.mesh().exchange().ranks().size() == 1) return gradient;
-  detail::WantedWays ways;
-  ways.all_for_first = ways.falling_paths = ways.rising_paths = true;
-  ways.falling_walls = gradient.mesh().dimension() == 3;
-  return detail::excerpt_of(gradient, ways, nullptr, most_bytes);
+  return detail::gathered_with_walls(gradient, false, most_bytes);
 }
 
 }  // namespace gale

@@ -15,6 +15,10 @@ namespace gale::detail {
 DiscreteGradient excerpt_of(const DiscreteGradient& gradient, const WantedWays& ways, Structure* rows = nullptr,
                             std::size_t most_bytes = 0);
 
+/// Makes one of all that critical simplices reach on the first rank, as `gather_gradient` does; with rising walls, too,
+/// where these are wanted. Collective.
+DiscreteGradient gathered_with_walls(const DiscreteGradient& gradient, bool rising_walls, std::size_t most_bytes = 0);
+
 /// Makes one of what was received, on this rank alone.
 DiscreteGradient excerpt_of(Reached reached, int dimension);
 

@@ -42,6 +42,7 @@ std::vector<T> merged(const std::vector<T>& own, std::vector<T> others, const Ke
 WiderGradient::WiderGradient(const DiscreteGradient& gradient, const PathSimplices& cells, Reached reached)
     : gradient_(gradient),
       mesh_(gradient.mesh()),
+      corners_(mesh_.cell_reader()),
       rank_(mesh_.exchange().ranks().rank()),
       own_vertices_(mesh_.vertices()),
       own_cells_(mesh_.cells()) {
@@ -71,7 +72,7 @@ std::uint64_t WiderGradient::value(Id vertex) const {
 
 std::array<Id, 4> WiderGradient::corners(Id cell) const {
   if (cell >= own_cells_) return cell_corners_[cell - own_cells_];
-  const Quad quad = mesh_.cell_reader()(cell);
+  const Quad quad = corners_(cell);
   return {quad[0], quad[1], quad[2], quad[3]};
 }
 

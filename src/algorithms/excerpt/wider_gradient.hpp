@@ -53,6 +53,7 @@ class WiderGradient {
 
   const DiscreteGradient& gradient_;
   const Mesh mesh_;
+  const CellReader corners_;
   const int rank_;
   const Id own_vertices_, own_cells_;
   std::vector<Offset> vertex_begin_, cell_begin_;

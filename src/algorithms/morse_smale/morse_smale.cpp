@@ -8,7 +8,7 @@
 #include <gale/algorithms/morse_smale/parts.hpp>
 #include <gale/algorithms/order/require_mesh.hpp>
 #include <gale/base/error.hpp>
-#include <gale/runtime/make_structure.hpp>
+#include <gale/runtime/ways.hpp>
 
 namespace gale {
 
@@ -108,16 +108,9 @@ void find_on_ranks(int threads, const GetStructure& structure, MorseSmaleComplex
   detail::together(mesh.exchange().ranks(), [&] {
     complex.critical = complex.excerpt.critical();
     complex.is_own = own_simplices(complex.excerpt, mesh);
-    StructureOptions by_itself;
-    by_itself.way = Way::inline_;
-    std::unique_ptr<Structure> around;
+    detail::InlineStructure around(complex.excerpt.mesh(), morse_smale_relations);
     find_separatrices(
-        threads,
-        [&]() -> Structure& {
-          around = make_structure(complex.excerpt.mesh(), morse_smale_relations, by_itself);
-          return *around;
-        },
-        complex);
+        threads, [&]() -> Structure& { return around; }, complex);
   });
 }
 
@@ -138,7 +131,7 @@ MorseSmaleComplex find_parts(const DiscreteGradient& gradient, const MorseSmaleP
                              const GetStructure& structure) {
   const bool has_walls = gradient.mesh().dimension() == 3;
   if (!has_walls && parts.separatrices2)
-    throw Error("a mesh of triangles has no 2-separatrices: those of a mesh of tetrahedra consist of triangles");
+    throw SharedError("a mesh of triangles has no 2-separatrices: those of a mesh of tetrahedra consist of triangles");
   MorseSmaleComplex complex{gradient, parts, gradient.critical()};
   if (gradient.mesh().exchange().ranks().size() > 1) {
     find_on_ranks(threads, structure, complex);

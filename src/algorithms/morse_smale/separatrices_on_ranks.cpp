@@ -51,7 +51,22 @@ class Telling {
   }
 
  private:
-  void mark_vertex(Id vertex) { place_[vertex] = 0; }
+  /// False where it was marked before.
+  bool mark_vertex(Id vertex) { return std::exchange(place_[vertex], 0) == no_id; }
+  bool mark_cell(Id cell) {
+    if (std::exchange(cell_place_[cell], 0) != no_id) return false;
+    told_cells_.push_back(cell);
+    return true;
+  }
+
+  /// Marks what is on paths, before anything else is: where one comes to what is marked, so is the rest of it.
+  template <class Mark>
+  static void mark_paths(const Separatrices<Id>& paths, const Mark& mark) {
+    for (Id i = 0; i < paths.count(); ++i) {
+      for (const Id* at = paths.first(i); at != paths.last(i) && mark(*at); ++at) {
+      }
+    }
+  }
 
   template <class Simplices>
   void mark_vertices_of(const Simplices& simplices) {
@@ -60,12 +75,10 @@ class Telling {
     }
   }
 
-  void mark_cell(Id cell) { cell_place_[cell] = 0; }
-
   void mark(const MorseSmaleComplex& complex) {
     const CriticalSimplices& critical = wider_.critical();
-    for (const Id vertex : complex.descending.cells) mark_vertex(vertex);
-    for (const Id cell : complex.ascending.cells) mark_cell(cell);
+    mark_paths(complex.descending, [&](Id vertex) { return mark_vertex(vertex); });
+    mark_paths(complex.ascending, [&](Id cell) { return mark_cell(cell); });
     mark_vertices_of(complex.connectors.cells);
     for (const Id vertex : critical.vertices) mark_vertex(vertex);
     mark_vertices_of(critical.edges);
@@ -76,10 +89,7 @@ class Telling {
 
   /// Numbers cells by global id, so that a cell's place is its number in the excerpt, and marks their vertices.
   void place_cells() {
-    std::vector<Id> told;
-    for (Id t = 0; t < wider_.cells(); ++t) {
-      if (cell_place_[t] != no_id) told.push_back(t);
-    }
+    std::vector<Id>& told = told_cells_;
     const auto count = static_cast<Offset>(told.size());
     const auto ids = allocate<Array<std::uint64_t, HostMemory>>("GALE::told_cells", count);
     parallel_for("GALE::told_cells", HostExecutionSpace(), count,
@@ -172,7 +182,7 @@ class Telling {
 
   const WiderGradient& wider_;
   std::vector<Id> place_, cell_place_;  ///< of each vertex and cell, no_id if it isn't told
-  std::vector<Id> vertices_;
+  std::vector<Id> told_cells_, vertices_;
   std::vector<ReachedCell> cells_;
 };
 

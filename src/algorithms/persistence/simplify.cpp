@@ -4,7 +4,7 @@
 #include <string>
 #include <tuple>
 
-#include <gale/algorithms/gathered_gradient.hpp>
+#include <gale/algorithms/excerpt/gradient_excerpt.hpp>
 #include <gale/algorithms/morse_smale/parts.hpp>
 #include <gale/algorithms/persistence/cancellations.hpp>
 #include <gale/algorithms/simplify.hpp>
@@ -133,8 +133,7 @@ MorseSmaleComplex simplify_on_ranks(const MorseSmaleComplex& complex, const std:
                                     double threshold, const SimplifyOptions& options) {
   const Mesh& mesh = complex.gradient.mesh();
   const Ranks& ranks = mesh.exchange().ranks();
-  if (complex.parts.separatrices2) throw SharedError("2-separatrices can't be simplified on several ranks");
-  const DiscreteGradient gathered = gather_gradient(complex.gradient);
+  const DiscreteGradient gathered = detail::gathered_with_walls(complex.gradient, complex.parts.separatrices2);
   const std::vector<double> values = detail::values_at(gathered.mesh(), mesh, value);
   MorseSmaleComplex left{complex.gradient, complex.parts, {}};
   detail::together(ranks, [&] {

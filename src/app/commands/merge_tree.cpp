@@ -47,10 +47,7 @@ class FindMergeTree final : public AnalysisCommand {
             with_extension(output_ + "_segmentation", "vtu")};
   }
 
-  void require_usage() const override {
-    require_format();
-    refuse_on_ranks({{"--arc-samples", arc_samples_ > 0}});
-  }
+  void require_usage() const override { require_format(); }
 
   Session::Keep keep() const override {
     if (!output_.empty()) return Session::Keep::cells;
@@ -81,8 +78,10 @@ class FindMergeTree final : public AnalysisCommand {
     session.write(files[0], [&](const io::AtomicFile& to) {
       io::write_points(to, outputs::tree_nodes(at.dataset(), at.field(), tree));
     });
+    std::vector<outputs::ArcVertex> gathered;
+    if (arc_samples_ > 0) gathered = outputs::gather_arc_vertices(on.mesh, on.dataset, on.field, tree);
     session.write(files[1], [&](const io::AtomicFile& to) {
-      io::write_surface(to, outputs::tree_arcs(at.dataset(), at.field(), tree, arc_samples_));
+      io::write_surface(to, outputs::tree_arcs(at.dataset(), at.field(), tree, arc_samples_, gathered));
     });
     session.write_mesh(files[2], on, [&] { return outputs::tree_segmentation(at.dataset(), tree); });
   }

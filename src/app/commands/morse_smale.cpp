@@ -119,7 +119,6 @@ class FindMorseSmale final : public AnalysisCommand {
 
   void require_usage() const override {
     require_format();
-    refuse_on_ranks({{"--separatrices2", parts_.separatrices2}});
     if (extrema_only_ && !persistence_) throw UsageError("--extrema-only: it goes with --persistence");
   }
 

@@ -23,6 +23,9 @@ class Descriptor {
   ~Descriptor() { close(); }
   operator int() const { return number_; }
 
+  /// Hands it over: whoever takes it closes it.
+  int release() { return std::exchange(number_, -1); }
+
   void close() {
     if (number_ >= 0) ::close(number_);
     number_ = -1;

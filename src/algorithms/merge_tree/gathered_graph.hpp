@@ -1,0 +1,195 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include <gale/algorithms/excerpt/excerpt_mesh.hpp>
+#include <gale/algorithms/excerpt/gathering.hpp>
+#include <gale/algorithms/merge_tree/trees_on_ranks.hpp>
+#include <gale/algorithms/morse_smale/paths_on_ranks.hpp>
+#include <gale/base/error.hpp>
+#include <gale/mesh/exchange/messages.hpp>
+
+namespace gale::detail {
+
+/// A vertex that trees are made of, and the extrema at which its paths end, by side; itself if it is one.
+struct TreeVertex {
+  GlobalId id;
+  std::uint64_t value;
+  std::array<GlobalId, 2> ends;
+
+  bool operator<(const TreeVertex& other) const { return value != other.value ? value < other.value : id < other.id; }
+};
+
+/// A vertex and an extremum of one side, of which a path ends there.
+struct TreeMeeting {
+  GlobalId vertex, extremum;
+};
+
+/// What all ranks have, one after the other. Collective.
+template <class T>
+std::vector<T> of_all(const Ranks& ranks, const std::vector<T>& mine) {
+  Dealt<T> sent;
+  together(ranks, [&] {
+    sent =
+        dealt<T>("GALE::told_to_all", std::vector<std::int64_t>(ranks.size(), static_cast<std::int64_t>(mine.size())));
+    for (int rank = 0; rank < ranks.size(); ++rank)
+      std::copy(mine.begin(), mine.end(), sent.entries.data() + sent.begin[rank]);
+  });
+  const Dealt<T> received = exchange(ranks, "GALE::told_by_all", sent);
+  return {received.entries.data(), received.entries.data() + received.count()};
+}
+
+/// Keeps the meetings that join paths to extrema which lower ones of this rank (as the side comes to them) don't: what
+/// joins extrema that are joined already makes no node, wherever the others are.
+inline void keep_joining(const SideKeys& keys, std::vector<std::pair<Id, GlobalId>>& meetings) {
+  std::sort(meetings.begin(), meetings.end(), [&](const auto& a, const auto& b) {
+    return a.first == b.first ? a.second < b.second : keys(a.first, b.first);
+  });
+  std::unordered_map<GlobalId, GlobalId> joined;
+  const auto find = [&](GlobalId extremum) {
+    auto at = joined.try_emplace(extremum, extremum).first;
+    while (at->second != at->first) at = joined.find(at->second);
+    joined[extremum] = at->first;
+    return at->first;
+  };
+  std::vector<std::pair<Id, GlobalId>> kept;
+  for (std::size_t i = 0, next = 0; i < meetings.size(); i = next) {
+    const std::size_t before = kept.size();
+    kept.push_back(meetings[i]);
+    const GlobalId first = find(meetings[i].second);
+    for (next = i + 1; next < meetings.size() && meetings[next].first == meetings[i].first; ++next) {
+      const GlobalId other = find(meetings[next].second), all = find(first);
+      if (other == all) continue;
+      joined[other] = all;
+      kept.push_back(meetings[next]);
+    }
+    if (kept.size() == before + 1) kept.pop_back();
+  }
+  meetings = std::move(kept);
+}
+
+/// The paths of one side as this rank has them.
+struct SideOnRanks {
+  SideOnRanks(const VertexOrder& order, MirroredGraphSide side)
+      : next(std::move(side.next)),
+        extrema(std::move(side.extrema)),
+        meetings(std::move(side.meetings)),
+        simplices(order, next, extrema),
+        paths(simplices) {}
+
+  GlobalId end_of(Id vertex) const { return paths.final_stop(paths.end(vertex)).id; }
+
+  const Mirrored<Id> next;
+  const std::vector<Id> extrema;
+  const std::vector<Meeting> meetings;
+  const PathSimplices simplices;
+  const PathsOnRanks paths;
+};
+
+/// What is gathered, as a graph on a small mesh.
+class GatheredGraph {
+ public:
+  GatheredGraph(const VertexOrder& order, const std::array<std::unique_ptr<SideOnRanks>, 2>& sides)
+      : ranks_(order.mesh().exchange().ranks()) {
+    std::vector<TreeVertex> own;
+    std::array<std::vector<TreeMeeting>, 2> meetings;
+    together(ranks_, [&] { begin(order, sides, own, meetings); });
+    std::size_t bytes = own.size() * sizeof(TreeVertex);
+    for (const auto& some : meetings) bytes += some.size() * sizeof(TreeMeeting);
+    require_room(ranks_, "extrema and where they meet", std::vector<std::int64_t>(ranks_.size(), std::int64_t(bytes)),
+                 0);
+    vertices = of_all(ranks_, own);
+    for (const Side side : {below, above}) meetings_[side] = of_all(ranks_, meetings[side]);
+    together(ranks_, [&] { finish(); });
+  }
+
+  /// The graph, whose vertices are places by ascending id.
+  ExtremumGraph<HostMemory> graph() const {
+    ExtremumGraph<HostMemory> small;
+    const auto count = static_cast<Id>(ids_.extent(0));
+    for (const Side side : {below, above}) {
+      small[side].next = allocate<Array<Id, HostMemory>>("GALE::next_of_gathered", count);
+      for (const TreeVertex& vertex : vertices) {
+        const Id at = index_.find(vertex.id), end = index_.find(vertex.ends[side]);
+        small[side].next(at) = end == at ? no_id : end;
+        if (end == at) small[side].extrema.push_back(at);
+      }
+      for (const TreeMeeting& meeting : meetings_[side])
+        small[side].meetings.push_back({index_.find(meeting.vertex), index_.find(meeting.extremum)});
+    }
+    return small;
+  }
+
+  const Mesh& mesh() const { return *mesh_; }
+  const VertexOrder& order() const { return *order_; }
+
+  /// The places of extrema as a side comes to them, by id.
+  std::unordered_map<GlobalId, Id> places_of_extrema(Side side) const {
+    std::unordered_map<GlobalId, Id> places;
+    const auto add = [&](const TreeVertex& vertex) {
+      if (vertex.ends[side] == vertex.id) places.try_emplace(vertex.id, static_cast<Id>(places.size()));
+    };
+    if (side == below) {
+      std::for_each(vertices.begin(), vertices.end(), add);
+    } else {
+      std::for_each(vertices.rbegin(), vertices.rend(), add);
+    }
+    return places;
+  }
+
+  std::vector<TreeVertex> vertices;  ///< in the order
+
+ private:
+  static void begin(const VertexOrder& order, const std::array<std::unique_ptr<SideOnRanks>, 2>& sides,
+                    std::vector<TreeVertex>& own, std::array<std::vector<TreeMeeting>, 2>& told) {
+    const Mesh& mesh = order.mesh();
+    const OtherIds input = mesh.vertices_in_input();
+    const auto id_of = [&](Id vertex) { return mesh.vertex_id(input[vertex]); };
+    std::vector<Id> all;
+    for (const Side side : {below, above}) {
+      all.insert(all.end(), sides[side]->extrema.begin(), sides[side]->extrema.end());
+      std::vector<std::pair<Id, GlobalId>> meetings;
+      for (const Meeting& meeting : sides[side]->meetings)
+        meetings.emplace_back(meeting.vertex, sides[side]->end_of(meeting.other));
+      keep_joining(SideKeys(order.keys(), side), meetings);
+      for (const auto& [vertex, extremum] : meetings) {
+        told[side].push_back({id_of(vertex), extremum});
+        all.push_back(vertex);
+      }
+    }
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    for (const Id vertex : all) {
+      own.push_back(
+          {id_of(vertex), order.value_key(vertex), {sides[below]->end_of(vertex), sides[above]->end_of(vertex)}});
+    }
+  }
+
+  void finish() {
+    std::sort(vertices.begin(), vertices.end());
+    ids_ = allocate<GlobalIds>("GALE::gathered_ids", vertices.size());
+    for (std::size_t i = 0; i < vertices.size(); ++i) ids_(i) = vertices[i].id;
+    std::sort(ids_.data(), ids_.data() + ids_.extent(0));
+    index_ = GlobalIndex(ids_);
+    mesh_ = excerpt_mesh<4>(ids_, GlobalIds(), CellCorners<4, Id, HostMemory>());
+    std::vector<std::uint64_t> values(vertices.size());
+    for (const TreeVertex& vertex : vertices) values[index_.find(vertex.id)] = vertex.value;
+    order_ = excerpt_order(*mesh_, [&](Id v) { return values[v]; });
+  }
+
+  const Ranks& ranks_;
+  std::array<std::vector<TreeMeeting>, 2> meetings_;
+  GlobalIds ids_;
+  GlobalIndex index_;
+  std::optional<Mesh> mesh_;
+  std::optional<VertexOrder> order_;
+};
+
+}  // namespace gale::detail

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <gale/algorithms/merge_tree/gathered_graph.hpp>
+#include <gale/algorithms/merge_tree/tree_maker.hpp>
+#include <gale/base/parallel.hpp>
+#include <gale/base/sorted_keys.hpp>
+#include <gale/mesh/exchange/exchange_plan.hpp>
+
+namespace gale::detail {
+
+/// The way of this rank's vertices to their nodes.
+class VertexClimbs {
+ public:
+  VertexClimbs(const VertexOrder& order, const GatheredGraph& gathered,
+               const std::array<std::unique_ptr<SideOnRanks>, 2>& sides, const TreeMaker<HostExecutionSpace>& maker) {
+    const Mesh& mesh = order.mesh();
+    const Ranks& ranks = mesh.exchange().ranks();
+    for (const Side side : {below, above}) {
+      if (!maker.uses(side)) continue;
+      together(ranks, [&] { find_ends(mesh, *sides[side], gathered.places_of_extrema(side)); });
+      mesh.exchange().from_owners()(ranks, by_input_.data(), by_input_.data());
+      together(ranks, [&] {
+        const auto ends = allocate<Array<Id, HostMemory>>("GALE::ends_of_paths", mesh.vertices());
+        const OtherIds input = mesh.vertices_in_input();
+        parallel_for("GALE::ends_of_paths", HostExecutionSpace(), mesh.vertices(),
+                     [&](Offset v) { ends(v) = by_input_(input[static_cast<Id>(v)]); });
+        climbs[side] = maker.climbs()[side];
+        climbs[side].ends = ends;
+        find_keys(order, gathered, side);
+        climbs[side].keys = SideKeys(keys_[side].data(), side);
+      });
+    }
+  }
+
+  std::array<SideClimb<HostMemory>, 2> climbs;
+
+ private:
+  void find_ends(const Mesh& mesh, const SideOnRanks& side, const std::unordered_map<GlobalId, Id>& places) {
+    std::vector<Id> place_of_end;
+    for (Id end = 0; end < side.paths.ends(); ++end) place_of_end.push_back(places.at(side.paths.final_stop(end).id));
+    if (by_input_.extent(0) == 0) by_input_ = allocate<Array<Id, HostMemory>>("GALE::ends_by_input", mesh.vertices());
+    const OtherIds input = mesh.vertices_in_input();
+    const Interval owned = mesh.owned_vertices();
+    parallel_for("GALE::ends_by_input", HostExecutionSpace(), owned.size(), [&](Offset i) {
+      const Id v = owned.first + static_cast<Id>(i);
+      by_input_(input[v]) = end_at(place_of_end[side.paths.end(v)]);
+    });
+  }
+
+  /// Keys of all that this rank holds that compare with those of what was gathered: the place of the last of these that
+  /// isn't above, or of the first that isn't below.
+  void find_keys(const VertexOrder& order, const GatheredGraph& gathered, Side side) {
+    const Mesh& mesh = order.mesh();
+    const auto& all = gathered.vertices;
+    const std::uint64_t* const small = gathered.order().keys();
+    // Keys of an excerpt's order ascend with its vertices: those of places are what trees compare.
+    std::vector<std::uint64_t> sorted(small, small + gathered.mesh().vertices());
+    std::sort(sorted.begin(), sorted.end());
+    std::vector<std::uint64_t> values;
+    for (const TreeVertex& vertex : all) values.push_back(vertex.value);
+    const SortedKeys near(std::move(values));
+    const OtherIds input = mesh.vertices_in_input();
+    keys_[side] = allocate<Array<std::uint64_t, HostMemory>>("GALE::keys_among_gathered", mesh.vertices());
+    parallel_for("GALE::keys_among_gathered", HostExecutionSpace(), mesh.vertices(), [&](Offset v) {
+      const TreeVertex here{mesh.vertex_id(input[static_cast<Id>(v)]), order.value_key(static_cast<Id>(v)), {}};
+      const auto range = near.around(here.value);
+      const auto first = std::lower_bound(all.begin() + range.first, all.begin() + range.last, here) - all.begin();
+      const bool is_one = first < static_cast<std::ptrdiff_t>(all.size()) && all[first].id == here.id;
+      const std::ptrdiff_t place = is_one || side == above ? first : first - 1;
+      keys_[side](v) = place < 0                                         ? 0
+                       : place < static_cast<std::ptrdiff_t>(all.size()) ? sorted[place]
+                                                                         : ~std::uint64_t(0);
+    });
+  }
+
+  Array<Id, HostMemory> by_input_;
+  std::array<Array<std::uint64_t, HostMemory>, 2> keys_;
+};
+
+}  // namespace gale::detail
