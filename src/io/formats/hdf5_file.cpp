@@ -39,7 +39,9 @@ void place_chunk(const char* values, const Places& chunk, const Places& first, s
 
 constexpr std::uint64_t sum_bytes = 4;  // what fletcher32 has behind the values
 
-[[noreturn]] void wrong(const std::string& array, const char* why) { damaged("a chunk of its '", array, "' ", why); }
+[[noreturn]] void wrong_chunk(const std::string& array, const char* why) {
+  damaged("a chunk of its '", array, "' ", why);
+}
 
 /// The first bytes of all values come first, then their second ones ...
 void unshuffle(std::vector<char>& bytes, std::size_t value_bytes) {
@@ -71,12 +73,12 @@ bool same_sum(std::uint32_t a, std::uint32_t b) {
 }
 
 void take_sum(std::vector<char>& bytes, const std::string& array) {
-  if (bytes.size() < sum_bytes) wrong(array, "has no room for its sum");
+  if (bytes.size() < sum_bytes) wrong_chunk(array, "has no room for its sum");
   const std::size_t rest = bytes.size() - sum_bytes;
   std::uint32_t said = 0;
   for (std::size_t k = sum_bytes; k-- > 0;) said = said << 8 | static_cast<unsigned char>(bytes[rest + k]);
   bytes.resize(rest);
-  if (!same_sum(said, fletcher_sum(bytes.data(), rest))) wrong(array, "has another sum");
+  if (!same_sum(said, fletcher_sum(bytes.data(), rest))) wrong_chunk(array, "has another sum");
 }
 
 /// No stream of zlib's stands for more than that many times its bytes.
@@ -107,14 +109,14 @@ std::vector<char> decoded_chunk(std::vector<char> stored, const std::vector<std:
     if (filters[k] != reader::deflate) continue;
     std::uint64_t before = bytes;
     for (std::size_t j = 0; j < k; ++j) before += applied(j) && filters[j] == reader::fletcher32 ? sum_bytes : 0;
-    if (before / best_deflate_ratio > stored.size()) wrong(array, "stands for less than it should");
+    if (before / best_deflate_ratio > stored.size()) wrong_chunk(array, "stands for less than it should");
     std::vector<char> inflated(static_cast<std::size_t>(before));
     static const Uncompress inflate = find_uncompress("vtkZLibDataCompressor");
     if (!inflate(stored.data(), stored.size(), inflated.data(), inflated.size()))
-      wrong(array, "isn't what deflate makes");
+      wrong_chunk(array, "isn't what deflate makes");
     stored = std::move(inflated);
   }
-  if (stored.size() != bytes) wrong(array, "has another size");
+  if (stored.size() != bytes) wrong_chunk(array, "has another size");
   return stored;
 }
 

@@ -4,6 +4,7 @@
 #include <gale/mesh/mesh.hpp>
 #include <gale/relations/batch.hpp>
 #include <gale/relations/kernels/block_pool.hpp>
+#include <gale/relations/kernels/launch.hpp>
 #include <gale/relations/relation.hpp>
 #include <gale/relations/rows.hpp>
 
@@ -43,7 +44,7 @@ class GridStarKernel {
   /// Calls use(functor) with what Kokkos is to run on its teams: one for each level of scratch memory.
   template <class Use>
   friend void with_functor(const GridStarKernel& kernel, const Use& use) {
-    kernel.scratch_level == 0 ? use(OnTeams<0>{kernel}) : use(OnTeams<1>{kernel});
+    at_scratch_level<Memory>(kernel.scratch_level, [&](auto level) { use(OnTeams<level>{kernel}); });
   }
 
   template <int level>

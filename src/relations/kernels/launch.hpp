@@ -2,6 +2,7 @@
 
 #include <limits>
 #include <string>
+#include <type_traits>
 
 #include <gale/base/error.hpp>
 #include <gale/base/kokkos.hpp>
@@ -38,6 +39,16 @@ std::size_t fast_scratch_bytes() {
   return static_cast<std::size_t>(Kokkos::TeamPolicy<Space>::scratch_size_max(0));
 }
 
+/// Calls use(level) with the level of scratch memory, as a constant, that a kernel in `Memory` is launched for: on the
+/// host always 1, where both are the same memory and each kernel needs compiling once.
+template <class Memory, class Use>
+void at_scratch_level(int level, const Use& use) {
+  if constexpr (is_device_memory<Memory>) {
+    if (level == 0) return use(std::integral_constant<int, 0>());
+  }
+  use(std::integral_constant<int, 1>());
+}
+
 /// Calls use(functor) with what Kokkos is to run: the kernel itself, unless it knows better.
 template <class Kernel, class Use>
 void with_functor(const Kernel& kernel, const Use& use) {
@@ -58,7 +69,9 @@ void launch(const Space& instance, const Kernel& kernel, int teams, TeamShape sh
                 " bytes of scratch memory, more than a team can have: use smaller segments");
   }
   Kokkos::TeamPolicy<Space> policy(instance, teams, team_size, is_device<Space> ? shape.lanes : 1);
-  policy.set_scratch_size(kernel.scratch_level, Kokkos::PerTeam(static_cast<int>(bytes)));
+  at_scratch_level<MemoryOf<Space>>(kernel.scratch_level, [&](auto level) {
+    policy.set_scratch_size(level, Kokkos::PerTeam(static_cast<int>(bytes)));
+  });
   with_functor(kernel,
                [&](const auto& functor) { Kokkos::parallel_for(kernel.label(), overlapping(policy), functor); });
 }

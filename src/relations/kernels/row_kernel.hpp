@@ -8,6 +8,7 @@
 #include <gale/mesh/simplices.hpp>
 #include <gale/relations/batch.hpp>
 #include <gale/relations/kernels/block_pool.hpp>
+#include <gale/relations/kernels/launch.hpp>
 #include <gale/relations/kernels/row_entries.hpp>
 #include <gale/relations/rows.hpp>
 
@@ -165,7 +166,7 @@ class RowKernel {
 
   template <class Search, class Use>
   void use_at_level(const Use& use) const {
-    scratch_level == 0 ? use(OnTeams<0, Search>{*this}) : use(OnTeams<1, Search>{*this});
+    at_scratch_level<Memory>(scratch_level, [&](auto level) { use(OnTeams<level, Search>{*this}); });
   }
 
   static constexpr std::uint32_t most_entries = 2147483647;  ///< that an Id counts

@@ -2,6 +2,7 @@
 
 #include <gale/relations/kernels/bit_stars.hpp>
 #include <gale/relations/kernels/hashed_stars.hpp>
+#include <gale/relations/kernels/launch.hpp>
 
 namespace gale {
 
@@ -86,8 +87,8 @@ class StarKernel : public detail::StarRequest<Memory, cell_corners> {
  private:
   template <template <class, class, int> class Stars, class Use>
   void use_on_teams(const Use& use) const {
-    scratch_level == 0 ? use(detail::StarTeams<Stars, Memory, corners, 0>{*this})
-                       : use(detail::StarTeams<Stars, Memory, corners, 1>{*this});
+    at_scratch_level<Memory>(scratch_level,
+                             [&](auto level) { use(detail::StarTeams<Stars, Memory, corners, level>{*this}); });
   }
 
   static bool is_small(const StarSizes& sizes) { return detail::BitStars<HostTeam, Memory, corners>::is_for(sizes); }
