@@ -14,7 +14,7 @@ python3 -m venv "$environment/everything"
 "$environment/everything/bin/pip" install --quiet numpy gmsh ipykernel matplotlib meshio mypy nbclient pandas pyvista scipy tqdm & # while the module compiles
 more=$!
 options=(-C build-dir=build-python -C cmake.define.CMAKE_CXX_FLAGS_RELEASE="-O1 -DNDEBUG")
-if grep -qs '^GALE_ENABLE_TESTS:.*=ON' build/CMakeCache.txt && grep -qs '^GALE_OUTER_OPTIONS:.*=-O1$' build/CMakeCache.txt; then
+if grep -qs '^GALE_ENABLE_TESTS:.*=ON' build/CMakeCache.txt && grep -qs '^CMAKE_CXX_FLAGS_RELEASE:.*=-O1 -DNDEBUG$' build/CMakeCache.txt; then
   options=(-C build-dir=build -C cmake.define.GALE_ENABLE_TESTS=ON -C cmake.define.GALE_ENABLE_VTK_FILTERS=OFF)
   build=$PWD/build
   cp build/CMakeCache.txt "$environment"
