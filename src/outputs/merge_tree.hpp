@@ -25,10 +25,10 @@ GALE_EXPORT io::PointSet tree_nodes(const io::Dataset& dataset, const io::PointA
 
 /// A vertex on an arc, but none of its ends.
 struct ArcVertex {
-  GlobalId id;
-  Id arc;
-  double value;
-  std::array<double, 3> at;
+  GlobalId id;               ///< the vertex's own
+  Id arc;                    ///< that it lies on, of the tree
+  double value;              ///< the field there
+  std::array<double, 3> at;  ///< its point
 };
 
 /// Gathers all vertices on the arcs of a tree that lies on several ranks, on the first one, by ascending id: 48 bytes
