@@ -51,7 +51,7 @@ void expect_orderly(const SimplifiedField& field, const std::vector<double>& bef
   }
 }
 
-ComputeOptions options_of(const StructureKind& kind, int threads) {
+ComputeOptions compute_options_of(const StructureKind& kind, int threads) {
   ComputeOptions options;
   options.threads = threads;
   options.consumers = ConsumerPlace::host;
@@ -81,7 +81,7 @@ void expect_persistent_extrema(const Mesh& mesh, const std::vector<Field>& field
       EXPECT_EQ(found.kept_below, static_cast<Id>(minima.size() - low.size() + maxima.size() - high.size()));
       if (!hangs) EXPECT_EQ(found.kept_below, 0);
       const StructureKind& kind = kinds[turn++ % kinds.size()];
-      const SimplifiedField same = simplify_field(order, value, threshold, options_of(kind, 3));
+      const SimplifiedField same = simplify_field(order, value, threshold, compute_options_of(kind, 3));
       EXPECT_EQ(same.rank, found.rank) << kind.name;
       EXPECT_EQ(same.value_of, found.value_of) << kind.name;
       if (found.kept_below > 0) continue;

@@ -23,7 +23,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 Id euler(const std::array<Id, 4>& counts) { return counts[0] - counts[1] + counts[2] - counts[3]; }
 
 /// Tetrahedra i, i+1, i+2, i+3, one after the other: a vertex has an edge with those at most three further.
-InputMesh strip(Id vertices) {
+InputMesh strip_of(Id vertices) {
   InputMesh mesh;
   for (Id v = 0; v < vertices; ++v) mesh.points.push_back({0.3 * v, double(v % 2), double(v % 3)});
   for (Id v = 0; v + 3 < vertices; ++v) mesh.tetrahedra.push_back({v + 1, v, v + 3, v + 2});
@@ -39,7 +39,7 @@ std::vector<Simplex> all_equal(std::size_t count, const Simplex& simplex) {
 TEST(Simplify, of_two_minima_keeps_the_lower) {
   // 1 falls to 0. 4 falls to 5, its lowest neighbour, and (1, 4) is in no triangle with either: the saddle. 2 and 3 are
   // above all of their neighbours but one another.
-  const ComplexOf found(strip(6), {0, 2, 4, 5, 3, 1});
+  const ComplexOf found(strip_of(6), {0, 2, 4, 5, 3, 1});
   EXPECT_EQ(found.all().critical, (std::array<std::vector<Simplex>, 4>{{{{0}, {5}}, {{1, 4}}, {}, {}}}));
   ASSERT_EQ(found.all().descending.size(), 2u);
   EXPECT_EQ(found.all().descending[0].cells, (std::vector<Simplex>{{1}, {0}}));
@@ -54,7 +54,7 @@ TEST(Simplify, of_two_minima_keeps_the_lower) {
 
 TEST(Simplify, joins_paths_over_the_minimum_that_goes) {
   // Minima 0 (value 0), 5 (value 2) and 10 (value 1); saddles (1, 4) of value 4 and (6, 9) of value 6.
-  const ComplexOf found(strip(11), {0, 3, 7, 8, 4, 2, 5, 9, 10, 6, 1});
+  const ComplexOf found(strip_of(11), {0, 3, 7, 8, 4, 2, 5, 9, 10, 6, 1});
   EXPECT_EQ(found.all().critical, (std::array<std::vector<Simplex>, 4>{{{{0}, {5}, {10}}, {{1, 4}, {6, 9}}, {}, {}}}));
   EXPECT_TRUE(equal(found.simplified(2), found.all()));
   const NamedComplex left = found.simplified(5);  // 5 with (1, 4), 4 - 2; but not 10 with (6, 9), 6 - 1
@@ -256,7 +256,7 @@ TEST(Simplify, is_the_same_with_any_number_of_threads) {
 }
 
 TEST(Simplify, refuses_a_simplified_complex) {
-  const ComplexOf found(strip(6), {0, 2, 4, 5, 3, 1});
+  const ComplexOf found(strip_of(6), {0, 2, 4, 5, 3, 1});
   const auto value = [&](Id v) { return found.field().at(v); };
   const MorseSmaleComplex left = simplify(found.complex(), value, 3);
   EXPECT_EQ(message_of([&] { simplify(left, value, 3); }),
@@ -264,7 +264,7 @@ TEST(Simplify, refuses_a_simplified_complex) {
 }
 
 TEST(Simplify, refuses_a_complex_without_the_parts_that_it_needs) {
-  const InputMesh input = strip(6);
+  const InputMesh input = strip_of(6);
   const Mesh mesh = encode(input, 50);
   const auto runtime = make_structure(mesh, morse_smale_relations);
   const std::vector<double> field = {0, 2, 4, 5, 3, 1};

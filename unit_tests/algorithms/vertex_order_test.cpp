@@ -48,10 +48,10 @@ std::vector<Value> values_of() {
 
 template <class Value>
 class VertexOrderOf : public testing::Test {};
-using Values =
+using ValueTypes =
     testing::Types<std::int8_t, std::uint8_t, std::int16_t, std::uint16_t, std::int32_t, std::uint32_t, std::int64_t,
                    std::uint64_t, float, double, char, long, unsigned long, long long, unsigned long long>;
-TYPED_TEST_SUITE(VertexOrderOf, Values);
+TYPED_TEST_SUITE(VertexOrderOf, ValueTypes);
 
 TYPED_TEST(VertexOrderOf, each_type_is_by_value_then_by_input_id) {
   expect_order(mesh_of_input(), values_of<TypeParam>());

@@ -106,16 +106,16 @@ std::string piece(const std::string& extent, const std::string& array_attributes
          array_attributes + ">" + values + "</DataArray></PointData></Piece>";
 }
 
-const std::string ascii = R"(format="ascii")";
+const std::string as_text = R"(format="ascii")";
 
 TEST_F(HostileFiles, ImagesWhosePiecesLeaveGaps) {
-  const std::string low = piece("0 1 0 1 0 0", ascii, "1 2 3 4"), high = piece("0 1 0 1 1 1", ascii, "5 6 7 8");
+  const std::string low = piece("0 1 0 1 0 0", as_text, "1 2 3 4"), high = piece("0 1 0 1 1 1", as_text, "5 6 7 8");
   const Dataset whole = read(folder.put("whole.vti", hostile_vti("", low + high)));
   EXPECT_EQ(values_of<std::uint8_t>(whole.arrays[0]), (std::vector<std::uint8_t>{1, 2, 3, 4, 5, 6, 7, 8}));
   refuse("a.vti", hostile_vti("", low), "cover");
   refuse("b.vti", hostile_vti("", low + low), "cover");
-  refuse("c.vti", hostile_vti("", piece("0 1 0 1 0 2", ascii, "1 2 3 4 5 6 7 8 9 10 11 12")), "WholeExtent");
-  refuse("d.vti", hostile_vti("", piece("0 1 0 1 0 1", ascii, "1 2 3 4 5 6 7")), "7 of 8 values");
+  refuse("c.vti", hostile_vti("", piece("0 1 0 1 0 2", as_text, "1 2 3 4 5 6 7 8 9 10 11 12")), "WholeExtent");
+  refuse("d.vti", hostile_vti("", piece("0 1 0 1 0 1", as_text, "1 2 3 4 5 6 7")), "7 of 8 values");
   refuse("e.vti", hostile_vti("", piece("0 1 0 1 0 1", R"(format="ascii" NumberOfComponents="2147483647")", "1 2 3")),
          "2147483647");
 }

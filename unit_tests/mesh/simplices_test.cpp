@@ -11,7 +11,7 @@ namespace {
 
 using Table = std::vector<std::vector<Id>>;
 
-constexpr SimplexNeeds everything = {Enumeration::triangles, true, true};
+constexpr SimplexNeeds of_each_table = {Enumeration::triangles, true, true};
 
 /// The tables of `Simplices`, wherever they lie.
 struct Copied {
@@ -118,11 +118,11 @@ class SimplicesOf : public EveryMesh {
 TEST_P(SimplicesOf, every_mesh_are_those_of_brute_force_on_worker_and_host) {
   {
     SCOPED_TRACE("on the worker");
-    expect_tables(Copied(mesh.simplices<WorkerMemory>(everything)), expected);
+    expect_tables(Copied(mesh.simplices<WorkerMemory>(of_each_table)), expected);
   }
   {
     SCOPED_TRACE("on the host");
-    expect_tables(Copied(mesh.simplices(everything)), expected);
+    expect_tables(Copied(mesh.simplices(of_each_table)), expected);
   }
   EXPECT_EQ(mesh.known_edges(), static_cast<Id>(expected.vertices[1].size()));
   EXPECT_EQ(mesh.known_triangles(), static_cast<Id>(expected.vertices[2].size()));
@@ -139,8 +139,8 @@ INSTANTIATE_TEST_SUITE_P(Tests, SimplicesOf, every_mesh_and_segmentation(), mesh
 TEST(Simplices, say_how_long_their_longest_list_is) {
   const auto longest_of = [](const InputMesh& input) {
     const Mesh mesh = encode(input, segmentation_by(std::vector<std::int64_t>(input.points.size(), 0)));
-    EXPECT_EQ(mesh.simplices(everything).longest_list, mesh.simplices<WorkerMemory>(everything).longest_list);
-    return mesh.simplices(everything).longest_list;
+    EXPECT_EQ(mesh.simplices(of_each_table).longest_list, mesh.simplices<WorkerMemory>(of_each_table).longest_list);
+    return mesh.simplices(of_each_table).longest_list;
   };
   EXPECT_EQ(longest_of(mesh_named("the_papers")), 4);
   EXPECT_EQ(longest_of(cone_over_caps(100, 2)), 2 * 98);
@@ -150,7 +150,7 @@ TEST(Simplices, say_how_long_their_longest_list_is) {
 /// Edges 01 02 03 04 12 13 23 24 25 34 35 45.
 TEST(Simplices, of_the_papers_example) {
   const Mesh mesh = encode(mesh_named("the_papers"), segmentation_by({1, 1, 1, 2, 2, 2}));
-  const Copied tables(mesh.simplices(everything));
+  const Copied tables(mesh.simplices(of_each_table));
   EXPECT_EQ(tables.edges(),
             (Table{{0, 1}, {0, 2}, {0, 3}, {0, 4}, {1, 2}, {1, 3}, {2, 3}, {2, 4}, {2, 5}, {3, 4}, {3, 5}, {4, 5}}));
   EXPECT_EQ(tables.triangles(), (Table{{0, 1, 2},
