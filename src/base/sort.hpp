@@ -16,7 +16,7 @@ namespace gale {
 /// Sorts `keys` ascending and carries `values` along; equal keys keep their order. Both arrays are overwritten.
 /// O(n) a pass of 11 bits of the key, on a device of 8: those between the lowest and the highest bit in which some
 /// keys differ. Uses as much memory again, on the host 8 bytes a key where these are 32 bits at most. Enqueued on the
-/// instance of a device, as loops are.
+/// instance of a device, but for looking for these bits, which waits.
 template <class Space>
 GALE_EXPORT void stable_sort_by_key(const Space& space, const Array<std::uint64_t, MemoryOf<Space>>& keys,
                                     const Array<Id, MemoryOf<Space>>& values);

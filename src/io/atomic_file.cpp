@@ -167,9 +167,10 @@ void AtomicFile::name() {
   const detail::Uninterrupted naming;
   detail::TemporaryName hidden(name);
   if (linkat(AT_FDCWD, unnamed_path_.c_str(), AT_FDCWD, hidden.path().c_str(), AT_SYMLINK_FOLLOW) != 0) {
-    const int failure = errno;
-    hidden.forget();
-    check(failure);
+    // What makes files without a name may refuse to give them one: then a copy has it.
+    std::error_code failure;
+    if (!std::filesystem::copy_file(unnamed_path_, hidden.path(), failure)) throw Error(failure.message());
+    check(sync_file(hidden.path()));
   }
   temporary_ = std::move(hidden);
   const detail::Descriptor unnamed(std::exchange(unnamed_, -1));

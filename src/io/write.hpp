@@ -65,23 +65,24 @@ class Target {
   const AtomicFile* file_ = nullptr;
 };
 
-/// Writes `points` to a `.vtp`, each as a vertex cell, in their order.
+/// Writes `points` to a `.vtp` or `.vtkhdf`, each as a vertex cell, in their order.
 ///
 /// Here and below: of two arrays of one name the later is written. The file appears complete or not at all
 /// (`AtomicFile`). Throws `Error` with one line that names `path` and the reason: an array of the wrong length, a
-/// directory that is missing or not writable, a full disk.
+/// directory that is missing or not writable, a full disk; for a `.vtkhdf` an array whose name HDF5 hasn't: with a '/',
+/// '.', or of more than 60,000 bytes.
 GALE_EXPORT void write_points(const Target& to, const PointSet& points);
 
-/// Writes `surface` to a `.vtp`.
+/// Writes `surface` to a `.vtp` or `.vtkhdf`.
 GALE_EXPORT void write_surface(const Target& to, const Surface& surface);
 
-/// Writes the lines of `lines`, without its polygons, to a `.vtu`: for what others give as an unstructured grid of
-/// lines, such as persistence diagrams.
+/// Writes the lines of `lines`, without its polygons, to a `.vtu` or `.vtkhdf`: for what others give as an unstructured
+/// grid of lines, such as persistence diagrams.
 GALE_EXPORT void write_lines(const Target& to, const Surface& lines);
 
-/// Writes points, tetrahedra or triangles (a grid's, too), and arrays of `mesh` in their order to a `.vtu` or (binary,
-/// legacy) `.vtk`, or triangles to a `.vtp`, by the extension; then those of `more`, so that results need not be copied
-/// into the mesh first.
+/// Writes points, tetrahedra or triangles (a grid's, too), and arrays of `mesh` in their order to a `.vtu`, `.vtkhdf`
+/// or (binary, legacy) `.vtk`, or triangles to a `.vtp`, by the extension; then those of `more`, so that results need
+/// not be copied into the mesh first.
 GALE_EXPORT void write_mesh(const Target& to, const Dataset& mesh, const std::vector<PointArray>& more = {});
 
 /// Writes a piece, which may be empty, to a `.vtu`.

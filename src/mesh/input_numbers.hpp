@@ -28,7 +28,7 @@ struct MadeNumbers {
 };
 
 /// Numbers the edges, the triangles (of a mesh of tetrahedra), or both.
-MadeNumbers make_numbers(const Mesh& mesh, bool edges, bool triangles);
+GALE_EXPORT MadeNumbers make_numbers(const Mesh& mesh, bool edges, bool triangles);
 
 }  // namespace detail
 

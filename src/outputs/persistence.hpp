@@ -84,8 +84,8 @@ GALE_EXPORT PersistenceCurve persistence_curve(const std::vector<DiagramPoint>& 
 /// The curve's columns: Persistence, MinimumSaddle, SaddleSaddle, SaddleMaximum, All.
 GALE_EXPORT std::vector<io::PointArray> curve_table(const PersistenceCurve& curve);
 
-/// These as comma-separated values, with a line of titles. Numbers are written such that they are read back as they
-/// are.
+/// Writes a curve as comma-separated values, with a line of titles. Numbers are written such that they are read back as
+/// they are.
 GALE_EXPORT std::string to_csv(const PersistenceCurve& curve);
 
 }  // namespace gale::outputs

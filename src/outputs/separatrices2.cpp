@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <string>
+
 #include <gale/base/error.hpp>
 #include <gale/base/stop.hpp>
 #include <gale/mesh/exchange/exchange_plan.hpp>
@@ -70,6 +73,10 @@ struct Bounds {
     // Who owns an edge has its wall, and is told its triangles.
     const std::vector<std::uint64_t> heights = heights_on_ranks(ranks, complex);
     const auto owners = complex.gradient.mesh().exchange().owners_of(highest);
+    gale::detail::together(ranks, [&] {
+      for (Offset i = 0; i < count; ++i)
+        if (owners(i) < 0) throw Error("no rank has vertex " + std::to_string(highest(i)));
+    });
     const auto received = gale::detail::exchange(
         ranks, "GALE::met_triangles",
         gale::detail::deal<MetTriangle>(
@@ -86,6 +93,8 @@ struct Bounds {
       for (Offset i = 0; i < received.count(); ++i) {
         const MetTriangle& met = received.entries(i);
         const auto edge = std::lower_bound(ends[1].begin(), ends[1].end(), met.edge, is_before);
+        if (edge == ends[1].end() || edge->cell != met.edge)
+          throw Error("the wall of edge " + std::to_string(met.edge) + " isn't this rank's");
         of_edges[edge - ends[1].begin()].push_back(met.triangle);
       }
     });

@@ -34,7 +34,8 @@ std::string to_npy(const io::PointArray& column) {
   static const char* const types[] = {"i1", "u1", "i2", "u2", "i4", "u4", "i8", "u8", "f4", "f8"};
   const bool is_little = io::detail::byte_order_of_machine() == io::detail::ByteOrder::little;
   std::string header = std::string("{'descr': '") + (is_little ? '<' : '>') + types[column.values.index()] +
-                       "', 'fortran_order': False, 'shape': (" + std::to_string(io::point_count(column)) + ",)}";
+                       "', 'fortran_order': False, 'shape': (" + std::to_string(io::point_count(column)) + "," +
+                       (column.components > 1 ? std::to_string(column.components) : "") + ")}";
   constexpr std::size_t before = 10, aligned = 64;
   header.append(aligned - 1 - (before + header.size()) % aligned, ' ');
   header += '\n';

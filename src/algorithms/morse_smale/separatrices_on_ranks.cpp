@@ -51,7 +51,7 @@ class Telling {
   }
 
  private:
-  /// False where it was marked before.
+  /// Marks it; returns false where it was marked before.
   bool mark_vertex(Id vertex) { return std::exchange(place_[vertex], 0) == no_id; }
   bool mark_cell(Id cell) {
     if (std::exchange(cell_place_[cell], 0) != no_id) return false;

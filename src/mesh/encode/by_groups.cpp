@@ -25,8 +25,8 @@ class GroupSorter {
         begin_(sorted.of_lowest.offsets.data()),
         vertices_(static_cast<Id>(sorted.of_lowest.offsets.extent(0)) - 1) {}
 
-  /// Sorts those of a group, which are at [begin, end) in any order, and says where each vertex' begin. Returns whether
-  /// they are good.
+  /// Sorts those of a group, which are at [begin, end) in any order, and says where each vertex's begin. Returns
+  /// whether they are good.
   bool sort(Id group, Id begin, Id end) {
     const Id first = group << group_bits, last = std::min(vertices_ - first, 1 << group_bits) + first;
     std::fill(next_.begin(), next_.end(), 0);

@@ -23,7 +23,7 @@ struct LowestVertex {
 };
 
 /// A team's work: puts the cells of each of some consecutive lowest vertices in order, and says whether they are good.
-/// Each goes where as many of its vertex' stand as come before it. Those of a vertex that has more than there is room
+/// Puts each where as many of its vertex's stand as come before it. Those of a vertex that has more than there is room
 /// for are sorted by one thread.
 template <int corners>
 struct SortCells {
@@ -37,7 +37,7 @@ struct SortCells {
 
   Quad* vertices;
   Id* input;
-  const Id* begin;  ///< of each vertex' cells
+  const Id* begin;  ///< of each vertex's cells
   Offset count;     ///< of vertices
   int* bad;         ///< is given 1 if some aren't good
 

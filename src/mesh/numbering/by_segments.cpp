@@ -86,7 +86,7 @@ class SimplexFinder {
  public:
   SimplexFinder(bool triangles, FoundSimplices& found) : triangles_(triangles), found_(found) {}
 
-  /// Takes the vertex' own tetrahedra and those of which it is in the middle. Returns how many edges it has.
+  /// Takes the vertex's own tetrahedra and those of which it is in the middle. Returns how many edges it has.
   Id find(Id vertex, const Quad* own, Id count, const Span<const Above>& middle) {
     collect(own, count, middle);
     find_ends(vertex);
@@ -127,7 +127,7 @@ class SimplexFinder {
     }
   }
 
-  /// `own` corners are of the vertex' own tetrahedra.
+  /// `own` corners are of the vertex's own tetrahedra.
   void find_triangles(Id own) {
     const auto edges = static_cast<Id>(ends_.size());
     ranks_.begin(edges);
@@ -189,7 +189,7 @@ void for_vertices(const EncodedMesh<HostMemory>& mesh, Offset first, Offset last
   }
 }
 
-/// Finds what a part of the segments has, and writes where each vertex' edges begin, counted from the part's first.
+/// Finds what a part of the segments has, and writes where each vertex's edges begin, counted from the part's first.
 void find_simplices(const EncodedMesh<HostMemory>& mesh, const Id* cell_begin, Offset first, Offset last,
                     bool triangles, Id* edge_begin, FoundSimplices& found) {
   constexpr Offset usual = 8;

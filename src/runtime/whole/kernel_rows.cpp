@@ -29,7 +29,7 @@ template <Relation relation, class Space>
 EvenRows<MemoryOf<Space>> faces_in(const Space& space, const Mesh& mesh, const RelationNames& names) {
   using Memory = MemoryOf<Space>;
   constexpr int size = face_count(relation);
-  const auto simplices = mesh.simplices<Memory>(needs_of(relation));
+  const auto simplices = mesh.simplices<Memory>(needs_of(relation, mesh.dimension()));
   const Offset rows = count_of(mesh, row_dimension(relation));
   const auto faces = allocate<Array<Id, Memory>>("GALE::face_rows", size * rows);
   parallel_for("GALE::face_rows", space, rows,

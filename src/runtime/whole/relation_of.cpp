@@ -20,7 +20,7 @@ namespace {
 /// The input's numbers of a mesh's simplices, each made once, where the mesh is. From any thread.
 class KeptNumbers {
  public:
-  /// Those of a relation's simplices, for code that runs on `Memory`.
+  /// Gives the names of a relation's simplices, for code that runs on `Memory`.
   template <class Memory>
   detail::RelationNames of(const Mesh& mesh, Relation relation) {
     const auto lock = detail::lock_or_stop(mutex_);
@@ -100,7 +100,7 @@ Csr<const Id, HostMemory> relation_of(const Mesh& mesh, Relation relation, Ids i
     return in_worker_or_host_space(mesh, [&](const auto& space) {
       using Space = std::decay_t<decltype(space)>;
       if constexpr (is_device<Space>) {
-        static std::mutex one_at_a_time;  // of those that work on the space's own instance
+        static std::mutex one_at_a_time;  // where the space's own instance works
         const auto lock = detail::lock_or_stop(one_at_a_time);
         const auto names = ids == Ids::input ? names_in_input<MemoryOf<Space>>(mesh, down) : detail::RelationNames{};
         const auto all = detail::kernel_rows(space, mesh, down, down != relation, names);
