@@ -45,7 +45,7 @@ struct Communicator::Data {
   /// most: messages in pieces go on only then.
   void wait(std::vector<MPI_Request>& requests, std::chrono::microseconds longest) {
     using Clock = std::chrono::steady_clock;
-    constexpr std::chrono::microseconds patience(200);
+    constexpr std::chrono::milliseconds patience(1);
     const auto begin = Clock::now();
     for (int done = 0;;) {
       MPI_Testall(static_cast<int>(requests.size()), requests.data(), &done, MPI_STATUSES_IGNORE);
