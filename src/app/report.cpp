@@ -149,8 +149,7 @@ void write_text(const io::AtomicFile& file, const std::function<void(std::ostrea
 }
 
 void write_table(const io::AtomicFile& file, const std::vector<io::PointArray>& columns) {
-  const std::string path = io::detail::lower_case(file.path()), binary = ".npz";
-  const bool is_binary = path.size() > binary.size() && path.compare(path.size() - binary.size(), 4, binary) == 0;
+  const bool is_binary = io::detail::has_extension(file.path(), ".npz");
   write_text(file,
              [&](std::ostream& out) { out << (is_binary ? outputs::to_npz(columns) : outputs::to_csv(columns)); });
 }

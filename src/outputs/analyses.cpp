@@ -227,8 +227,7 @@ Analysis merge_trees() {
     const Mesh& mesh = input.order.mesh();
     const AtExcerpt at(tree.excerpt ? *tree.excerpt : mesh, mesh, input.dataset, input.field);
     const int samples = settings.numbers.at("arc_samples");
-    std::vector<ArcVertex> gathered;
-    if (samples > 0) gathered = gather_arc_vertices(mesh, input.dataset, input.field, tree);
+    const auto gathered = gather_arc_vertices(mesh, input.dataset, input.field, tree, samples);
     return {{"nodes", tree_nodes(at.dataset(), at.field(), tree)},
             {"arcs", tree_arcs(at.dataset(), at.field(), tree, samples, gathered)},
             {"segmentation", tree_segmentation(at.dataset(), tree)}};

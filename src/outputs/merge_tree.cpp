@@ -155,39 +155,38 @@ io::PointSet tree_nodes(const io::Dataset& dataset, const io::PointArray& field,
 }
 
 std::vector<ArcVertex> gather_arc_vertices(const Mesh& mesh, const io::Dataset& dataset, const io::PointArray& field,
-                                           const MergeTree& tree) {
+                                           const MergeTree& tree, int samples) {
+  if (!tree.excerpt || samples == 0) return {};
   const Ranks& ranks = mesh.exchange().ranks();
-  std::vector<ArcVertex> mine;
-  if (!tree.excerpt) return mine;
-  gale::detail::Dealt<ArcVertex> sent;
+  std::vector<Id> inner;  // of the vertices, those that are no nodes
+  const OtherIds input = mesh.vertices_in_input();
   gale::detail::together(ranks, [&] {
     std::vector<bool> is_node(mesh.vertices(), false);
     for (const Id vertex : tree.vertices) {
       const Id here = mesh.vertex_of(tree.excerpt->vertex_id(vertex));
       if (here != no_id) is_node[here] = true;
     }
-    const OtherIds input = mesh.vertices_in_input();
-    for (const Id v : mesh.owned_vertices()) {
-      const Id vertex = input[v];
-      if (!is_node[vertex])
-        mine.push_back(
-            {mesh.vertex_id(vertex), tree.arc_of[vertex], value_at(field, vertex), position(dataset, vertex)});
-    }
-    std::vector<std::int64_t> counts(ranks.size(), 0);
-    counts[0] = static_cast<std::int64_t>(mine.size());
-    sent = gale::detail::dealt<ArcVertex>("GALE::arc_vertices", counts);
-    std::copy(mine.begin(), mine.end(), sent.entries.data());
+    for (const Id v : mesh.owned_vertices())
+      if (!is_node[input[v]]) inner.push_back(input[v]);
   });
   std::vector<std::int64_t> bytes(ranks.size(), 0);
-  bytes[0] = static_cast<std::int64_t>(mine.size() * sizeof(ArcVertex));
+  bytes[0] = static_cast<std::int64_t>(inner.size() * sizeof(ArcVertex));
   gale::detail::require_room(ranks, "what arcs are sampled at", bytes, 0);
-  const auto received = gale::detail::exchange(ranks, "GALE::arc_vertices_of_all", sent);
+  const auto received = gale::detail::exchange(
+      ranks, "GALE::arc_vertices_of_all",
+      gale::detail::deal<ArcVertex>(
+          ranks, "GALE::arc_vertices", static_cast<Offset>(inner.size()), [](Id) { return 0; },
+          [&](Id i) -> ArcVertex {
+            const Id vertex = inner[i];
+            return {mesh.vertex_id(vertex), tree.arc_of[vertex], value_at(field, vertex), position(dataset, vertex)};
+          }));
+  std::vector<ArcVertex> all;
   gale::detail::together(ranks, [&] {
-    mine.assign(received.entries.data(), received.entries.data() + received.count());
-    parallel_sort("GALE::sort_arc_vertices", mine.begin(), mine.end(),
+    all.assign(received.entries.data(), received.entries.data() + received.count());
+    parallel_sort("GALE::sort_arc_vertices", all.begin(), all.end(),
                   [](const ArcVertex& a, const ArcVertex& b) { return a.id < b.id; });
   });
-  return mine;
+  return all;
 }
 
 io::Surface tree_arcs(const io::Dataset& dataset, const io::PointArray& field, const MergeTree& tree, int samples,

@@ -31,11 +31,12 @@ struct ArcVertex {
   std::array<double, 3> at;  ///< its point
 };
 
-/// Gathers all vertices on the arcs of a tree that lies on several ranks, on the first one, by ascending id: 48 bytes
-/// each. `mesh`, `dataset` and `field` are what the tree is of. Nothing on one rank. Collective; throws gale::Error on
-/// all ranks, before anything is sent, if the first one hasn't the memory.
+/// Gathers what `tree_arcs` samples of a tree that lies on several ranks: all vertices on its arcs, on the first one,
+/// by ascending id, 48 bytes each. `mesh`, `dataset` and `field` are what the tree is of. Nothing on one rank, or where
+/// there are no samples. Collective; throws gale::Error on all ranks, before anything is sent, if the first one hasn't
+/// the memory.
 GALE_EXPORT std::vector<ArcVertex> gather_arc_vertices(const Mesh& mesh, const io::Dataset& dataset,
-                                                       const io::PointArray& field, const MergeTree& tree);
+                                                       const io::PointArray& field, const MergeTree& tree, int samples);
 
 /// The arcs of a tree as lines, in their order: from the lower node, over at most `samples` points between, to the
 /// upper one. The points between are the barycentres of the arc's vertices, by parts of equal height; empty parts have

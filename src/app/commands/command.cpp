@@ -38,16 +38,13 @@ void Command::refuse_on_ranks(std::initializer_list<std::pair<const char*, bool>
 
 void Command::require_extension(const File& file) const {
   if (file.name.empty() || file.extensions.empty()) return;
-  const std::string name = io::detail::lower_case(file.name);
   std::string list;
   for (std::string extension : file.extensions) {
     if (Launch::are_several() && file.extensions.front() == ".vtp") {
       if (extension == ".vtkhdf") continue;  // it has no pieces
       extension = ".pvtp";
     }
-    const bool ends_so = name.size() > extension.size() &&
-                         name.compare(name.size() - extension.size(), extension.size(), extension) == 0;
-    if (ends_so) return;
+    if (io::detail::has_extension(file.name, extension)) return;
     list += (list.empty() ? "" : " or ") + extension;
   }
   throw UsageError(file.option + ' ' + file.name + ": gale " + subcommand_.get_name() + " writes " + list);

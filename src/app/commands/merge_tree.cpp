@@ -78,8 +78,7 @@ class FindMergeTree final : public AnalysisCommand {
     session.write(files[0], [&](const io::AtomicFile& to) {
       io::write_points(to, outputs::tree_nodes(at.dataset(), at.field(), tree));
     });
-    std::vector<outputs::ArcVertex> gathered;
-    if (arc_samples_ > 0) gathered = outputs::gather_arc_vertices(on.mesh, on.dataset, on.field, tree);
+    const auto gathered = outputs::gather_arc_vertices(on.mesh, on.dataset, on.field, tree, arc_samples_);
     session.write(files[1], [&](const io::AtomicFile& to) {
       io::write_surface(to, outputs::tree_arcs(at.dataset(), at.field(), tree, arc_samples_, gathered));
     });

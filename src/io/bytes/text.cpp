@@ -115,4 +115,8 @@ std::string lower_case(std::string text) {
   return text;
 }
 
+bool has_extension(const std::string& name, const std::string& extension) {
+  return name.size() > extension.size() && lower_case(name.substr(name.size() - extension.size())) == extension;
+}
+
 }  // namespace gale::io::detail

@@ -127,4 +127,7 @@ std::string trimmed(const std::string& text);
 /// The text with small letters for those of ASCII.
 GALE_EXPORT std::string lower_case(std::string text);
 
+/// Whether a name of more than that ends with an extension, which is in lower case, dot and all; in either case.
+GALE_EXPORT bool has_extension(const std::string& name, const std::string& extension);
+
 }  // namespace gale::io::detail

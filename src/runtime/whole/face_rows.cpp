@@ -71,20 +71,7 @@ EvenRows<HostMemory> rows_of(const Mesh& mesh, const NamesOf& names_of, const Sw
 
 EvenRows<HostMemory> face_rows(const Mesh& mesh, Relation relation, const NamesOf& names_of,
                                const SweepOptions& options) {
-  switch (relation) {
-    case Relation::EV:
-      return rows_of<Relation::EV>(mesh, names_of, options);
-    case Relation::FV:
-      return rows_of<Relation::FV>(mesh, names_of, options);
-    case Relation::FE:
-      return rows_of<Relation::FE>(mesh, names_of, options);
-    case Relation::TV:
-      return rows_of<Relation::TV>(mesh, names_of, options);
-    case Relation::TE:
-      return rows_of<Relation::TE>(mesh, names_of, options);
-    default:
-      return rows_of<Relation::TF>(mesh, names_of, options);
-  }
+  return with_faces_of(relation, [&](auto known) { return rows_of<decltype(known)::value>(mesh, names_of, options); });
 }
 
 }  // namespace gale::detail

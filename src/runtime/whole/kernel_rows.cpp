@@ -37,25 +37,6 @@ EvenRows<MemoryOf<Space>> faces_in(const Space& space, const Mesh& mesh, const R
   return {size, faces};
 }
 
-template <class Space>
-EvenRows<MemoryOf<Space>> faces_in(const Space& space, const Mesh& mesh, Relation relation,
-                                   const RelationNames& names) {
-  switch (relation) {
-    case Relation::EV:
-      return faces_in<Relation::EV>(space, mesh, names);
-    case Relation::FV:
-      return faces_in<Relation::FV>(space, mesh, names);
-    case Relation::FE:
-      return faces_in<Relation::FE>(space, mesh, names);
-    case Relation::TV:
-      return faces_in<Relation::TV>(space, mesh, names);
-    case Relation::TE:
-      return faces_in<Relation::TE>(space, mesh, names);
-    default:
-      return faces_in<Relation::TF>(space, mesh, names);
-  }
-}
-
 /// Visits the entries of an even row.
 struct EvenKeys {
   const Id* entries;
@@ -74,7 +55,7 @@ template <class Space>
 Csr<const Id, HostMemory> kernel_rows(const Space& space, const Mesh& mesh, Relation down, bool transposed,
                                       const RelationNames& names) {
   stop_if_asked();
-  EvenRows<MemoryOf<Space>> faces = faces_in(space, mesh, down, names);
+  auto faces = with_faces_of(down, [&](auto known) { return faces_in<decltype(known)::value>(space, mesh, names); });
   if (!transposed)
     return with_offsets(HostExecutionSpace(), EvenRows<HostMemory>{faces.length, on_host(faces.entries)});
   const auto cofaces = group_by("GALE::coface_rows", space, faces.rows(), count_of(mesh, entry_dimension(down)),
