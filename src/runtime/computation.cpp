@@ -51,6 +51,12 @@ void Computing::fall_back(const OutOfMemory& error) {
                               "): consumers are on the host");
 }
 
+void Computing::tell_end() const {
+  together(mesh_.exchange().ranks(), [&] {
+    if (options_.progress) options_.progress(mesh_.segments(), mesh_.segments());
+  });
+}
+
 Structure& Computing::structure(RelationSet relations) {
   auto& there = computed_.structure;
   if (there == nullptr || !(there->mesh() == mesh_) || !there->relations().contains(relations)) {

@@ -99,7 +99,9 @@ class GALE_EXPORT Computing {
     computed_.on_device = device;
     if (device) {
       try {
-        return by_kernels(sweep_of_kernels(options_.structure));
+        auto found = by_kernels(sweep_of_kernels(options_.structure));
+        tell_end();
+        return found;
       } catch (const OutOfMemory& error) {
         if (options_.consumers == ConsumerPlace::device) throw;
         fall_back(error);
@@ -109,6 +111,9 @@ class GALE_EXPORT Computing {
   }
 
   void fall_back(const OutOfMemory& error);
+
+  /// Tells options.progress that all is done, after kernels, which tell nothing meanwhile.
+  void tell_end() const;
 
   const Mesh mesh_;
   const ComputeOptions& options_;

@@ -12,7 +12,7 @@ namespace gale {
 struct SweepOptions {
   int threads = host_threads();  ///< consumers; at least 1
 
-  /// Told now and then, by one of the consumers, how many segments are done.
+  /// Told now and then, by one of the consumers, how many segments are done; where kernels compute, at their end alone.
   std::function<void(Id done, Id segments)> progress;
 };
 
