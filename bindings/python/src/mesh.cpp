@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include <gale/base/error.hpp>
+#include <gale/base/transfer.hpp>
 #include <gale/mesh/make_mesh.hpp>
 #include <gale/mesh/octree.hpp>
 #include <gale/outputs/field.hpp>
@@ -51,8 +52,7 @@ auto with_points(const Array1& points, const Use& use) {
     return with_view<const Coordinate* [3]>(points, "points", [&](const auto& view) {
       const auto copy = copy_of("GALE::points", view);
       const Points<Coordinate, typename std::decay_t<decltype(copy)>::memory_space> read_only = copy;
-      const io::Dataset::Points<Coordinate> on_host = Kokkos::create_mirror_view_and_copy(HostMemory(), copy);
-      return use(read_only, on_host);
+      return use(read_only, io::Dataset::Points<Coordinate>(on_host(copy)));
     });
   });
 }
@@ -68,14 +68,28 @@ SegmentedPoints segmented(const Array1& points, int capacity) {
   });
 }
 
+/// The mesh of a caller's cells. They are copied, from the host straight to the device if that has room: a copy on the
+/// host would take longer than all that follows.
+template <int corners, class Index, class Memory>
+Mesh mesh_of(const CellCorners<corners, Index, Memory>& cells, const Segmentation& segmentation) {
+  if constexpr (have_device && !is_device_memory<Memory>) {
+    try {
+      const CellCorners<corners, Index, WorkerMemory> there = on_worker(cells);
+      const Mesh mesh(there, segmentation);
+      if (mesh.on_device()) return mesh;
+    } catch (const OutOfMemory&) {  // without the caller's cells beside it, the mesh may fit
+    }
+  }
+  const CellCorners<corners, Index, Memory> copy = copy_of("GALE::cells", cells);
+  return Mesh(copy, segmentation);
+}
+
 template <int corners>
 Mesh mesh_of(const Array1& cells, const std::string& name, const Segmentation& segmentation) {
   return with_type<std::int32_t, std::int64_t>(cells, (name + " are neither int32 nor int64").c_str(), [&](auto one) {
     using Index = decltype(one);
     return with_view<const Index* [corners]>(cells, name.c_str(), [&](const auto& view) {
-      const CellCorners<corners, Index, typename std::decay_t<decltype(view)>::memory_space> copy =
-          copy_of("GALE::cells", view);
-      return Mesh(copy, segmentation);
+      return mesh_of<corners, Index, typename std::decay_t<decltype(view)>::memory_space>(view, segmentation);
     });
   });
 }
