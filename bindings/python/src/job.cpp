@@ -74,11 +74,16 @@ Shared& shared() {
   return *all;
 }
 
-/// A job under way, and its worker.
+/// A job under way, and its worker. None begins once all are stopped: threads that would begin one then wait for the
+/// end.
 class UnderWay {
  public:
   explicit UnderWay(Job* job) : job_(job) {
-    const std::lock_guard<std::mutex> lock(shared().mutex);
+    std::unique_lock<std::mutex> lock(shared().mutex);
+    if (shared().are_stopped) {  // what it would compute with may be gone
+      lock.unlock();
+      end_call();
+    }
     shared().idle.reserve(shared().jobs.size() + shared().idle.size() + 1);
     if (shared().idle.empty()) {
       worker = std::make_unique<Worker>();
@@ -87,7 +92,6 @@ class UnderWay {
       shared().idle.pop_back();
     }
     shared().jobs.insert(job);
-    if (shared().are_stopped) job->stop();
   }
   ~UnderWay() {
     const std::lock_guard<std::mutex> lock(shared().mutex);

@@ -63,7 +63,7 @@ class Job {
   std::exception_ptr raised_;   ///< by Python
 };
 
-/// Stops all that are under way, and waits for that; false if one doesn't end in time. Others that begin stop too.
+/// Stops all that are under way, and waits for that; false if one doesn't end in time. No other begins.
 bool stop_jobs(std::chrono::milliseconds time);
 
 /// Ends the threads that jobs have run on.
