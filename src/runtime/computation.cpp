@@ -2,6 +2,7 @@
 
 #include <gale/runtime/computation.hpp>
 #include <gale/runtime/make_structure.hpp>
+#include <gale/runtime/sweep.hpp>
 
 namespace gale {
 
@@ -52,9 +53,7 @@ void Computing::fall_back(const OutOfMemory& error) {
 }
 
 void Computing::tell_end() const {
-  together(mesh_.exchange().ranks(), [&] {
-    if (options_.progress) options_.progress(mesh_.segments(), mesh_.segments());
-  });
+  together(mesh_.exchange().ranks(), [&] { ProgressReport(mesh_.segments(), options_)(mesh_.segments()); });
 }
 
 Structure& Computing::structure(RelationSet relations) {

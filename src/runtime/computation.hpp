@@ -112,7 +112,7 @@ class GALE_EXPORT Computing {
 
   void fall_back(const OutOfMemory& error);
 
-  /// Tells options.progress that all is done, after kernels, which tell nothing meanwhile.
+  /// Tells options.progress that all is done, after kernels, which tell nothing meanwhile. Collective.
   void tell_end() const;
 
   const Mesh mesh_;

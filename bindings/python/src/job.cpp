@@ -80,9 +80,9 @@ class UnderWay {
  public:
   explicit UnderWay(Job* job) : job_(job) {
     std::unique_lock<std::mutex> lock(shared().mutex);
-    if (shared().are_stopped) {  // what it would compute with may be gone
+    if (shared().are_stopped) {
       lock.unlock();
-      end_call();
+      end_call();  // which keeps this thread: what it would compute with may be gone
     }
     shared().idle.reserve(shared().jobs.size() + shared().idle.size() + 1);
     if (shared().idle.empty()) {
