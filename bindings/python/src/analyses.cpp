@@ -65,9 +65,10 @@ nb::dict PyMesh::analyse(const std::string& analysis, Array1 values, const std::
   const outputs::Settings settings = settings_of(flags, thresholds, choices, numbers);
   auto found = job.run([&] {
     const ThreadLimit limit(options.threads);
-    const io::Dataset dataset = with(field_of(values, name));
+    auto copy = in_background([&] { return field_of(values, name); });
+    const VertexOrder order = order_of(mesh(), values);
+    const io::Dataset dataset = with(copy.get());
     const io::PointArray& field = dataset.arrays.front();
-    const VertexOrder order = order_of(mesh(), field);
     return outputs::analysis_named(analysis).run(
         {dataset, field, order, [&](const char*, double, double) { return options; }}, settings);
   });

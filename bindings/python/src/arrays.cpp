@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include <gale/base/error.hpp>
+#include <gale/base/transfer.hpp>
 
 namespace gale::python {
 
@@ -95,8 +96,10 @@ template <class T>
 std::vector<T> copy_of(const Array1& values) {
   return with_view<const T*>(values, "the field", [](const auto& view) {
     if constexpr (is_device_memory<typename std::decay_t<decltype(view)>::memory_space>) {
-      std::vector<T> copy(view.extent(0));
-      Kokkos::deep_copy(Kokkos::View<T*, Kokkos::LayoutRight, HostMemory>(copy.data(), copy.size()), view);
+      std::vector<T> copy;
+      reserve(copy, view.extent(0));
+      copy.resize(view.extent(0));
+      copy_from_device(copy.data(), view.data(), copy.size() * sizeof(T));
       return copy;
     } else {
       return vector_of<T>(view.data(), view.extent(0));
@@ -104,20 +107,26 @@ std::vector<T> copy_of(const Array1& values) {
   });
 }
 
-template <class... T>
-bool take(const Array1& values, io::PointArray::Values& to) {
-  return ((is<T>(values) && (to = copy_of<T>(values), true)) || ...);
+/// What `use(one)` returns, where `one` is of the type of the field's values.
+template <class Use>
+auto with_type_of_field(const Array1& values, const Use& use) {
+  if (values.ndim() != 1) throw Error("the field has " + std::to_string(values.ndim()) + " dimensions, not 1");
+  return with_type<std::int8_t, std::uint8_t, std::int16_t, std::uint16_t, std::int32_t, std::uint32_t, std::int64_t,
+                   std::uint64_t, float, double>(values, "the field has values of a type that isn't read", use);
 }
 
 }  // namespace
 
 io::PointArray field_of(const Array1& values, const std::string& name) {
-  if (values.ndim() != 1) throw Error("the field has " + std::to_string(values.ndim()) + " dimensions, not 1");
-  io::PointArray field{name, 1, {}};
-  if (!take<std::int8_t, std::uint8_t, std::int16_t, std::uint16_t, std::int32_t, std::uint32_t, std::int64_t,
-            std::uint64_t, float, double>(values, field.values))
-    throw Error("the field has values of a type that isn't read");
-  return field;
+  return {name, 1,
+          with_type_of_field(values, [&](auto one) { return io::PointArray::Values(copy_of<decltype(one)>(values)); })};
+}
+
+VertexOrder order_of(const Mesh& mesh, const Array1& values) {
+  return with_type_of_field(values, [&](auto one) {
+    return with_view<const decltype(one)*>(values, "the field",
+                                           [&](const auto& view) { return VertexOrder(mesh, view); });
+  });
 }
 
 VertexOrder order_of(const Mesh& mesh, const io::PointArray& field) {

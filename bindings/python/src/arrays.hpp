@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -16,6 +18,7 @@
 #include <gale/algorithms/vertex_order.hpp>
 #include <gale/base/error.hpp>
 #include <gale/base/kokkos.hpp>
+#include <gale/base/memory.hpp>
 #include <gale/base/stop.hpp>
 #include <gale/io/dataset.hpp>
 #include <gale/io/write.hpp>
@@ -54,6 +57,20 @@ auto with_view(const Array1& array, const char* name, const Use& use) {
   const auto* const data = static_cast<typename InHost::const_value_type*>(array.data());
   if (is_on_device(array, name)) return use(InWorker(data, array.shape(0)));
   return use(InHost(data, array.shape(0)));
+}
+
+/// What `use(one)` returns, where `one` is of the array's type: one of T.
+template <class... T, class Use>
+auto with_type(const Array1& array, const char* refusal, const Use& use) {
+  using Result = std::common_type_t<decltype(use(T()))...>;
+  std::optional<Result> result;
+  const auto try_one = [&](auto one) {
+    if (!is<decltype(one)>(array)) return false;
+    result = use(one);
+    return true;
+  };
+  if (!(try_one(T()) || ...)) throw Error(refusal);
+  return *std::move(result);
 }
 
 /// Any bytes as a text: files don't promise UTF-8.
@@ -101,7 +118,7 @@ nb::tuple numpy_of(io::Surface surface);
 template <class T>
 std::vector<T> vector_of(const T* values, std::size_t count) {
   std::vector<T> copy;
-  copy.reserve(count);
+  reserve(copy, count);
   for (std::size_t done = 0; done < count;) {
     constexpr std::size_t at_once = 1 << 20;
     gale::detail::stop_if_asked();
@@ -116,6 +133,8 @@ std::vector<T> vector_of(const T* values, std::size_t count) {
 /// of up to 8 bytes. To be called within a `Job`, since it may be on a device.
 io::PointArray field_of(const Array1& values, const std::string& name);
 
+/// The order by the field, from where its values are, which must be as above; or from such a copy.
+VertexOrder order_of(const Mesh& mesh, const Array1& values);
 VertexOrder order_of(const Mesh& mesh, const io::PointArray& field);
 
 }  // namespace gale::python

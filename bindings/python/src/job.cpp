@@ -107,6 +107,39 @@ class UnderWay {
   Job* const job_;
 };
 
+/// Whose turn it is on the device: jobs of several threads take it one after another. They share Kokkos' default
+/// instance there, which is for one thread at a time, and the memory that is free. No lock of a thread's, since each
+/// thread of a computation may tell how far it is.
+class DeviceTurn {
+ public:
+  void take() {
+    constexpr std::chrono::milliseconds between(1);
+    std::unique_lock<std::mutex> lock(mutex_);
+    while (is_taken_) {
+      gale::detail::stop_if_asked();
+      changed_.wait_for(lock, between);
+    }
+    is_taken_ = true;
+  }
+  void give_back() {
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      is_taken_ = false;
+    }
+    changed_.notify_one();
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool is_taken_ = false;
+};
+
+DeviceTurn& device_turn() {
+  static auto* const turn = new DeviceTurn;  // never destroyed, as what is shared
+  return *turn;
+}
+
 /// As many threads as OpenMP would give the caller, whose choice is its thread's own.
 int openmp_threads() {
 #ifdef GALE_ENABLE_STD_THREADS
@@ -149,10 +182,12 @@ void Job::compute_on_worker(const std::function<void()>& compute) {
     std::exception_ptr failure;
     try {
       const StopScope stoppable(&request_);
+      take_turn();
       compute();
     } catch (...) {
       failure = std::current_exception();
     }
+    give_turn_back();
     const std::lock_guard<std::mutex> lock(mutex_);
     failure_ = std::move(failure);
     is_done_ = true;
@@ -191,14 +226,28 @@ void Job::look_at_python(const std::optional<Told>& told) {
   }
 }
 
-/// Has the caller's thread call `progress`, and waits for that.
+void Job::take_turn() {
+  if constexpr (!have_device) return;
+  device_turn().take();
+  has_turn_ = true;
+}
+
+void Job::give_turn_back() {
+  if (!has_turn_) return;
+  has_turn_ = false;
+  device_turn().give_back();
+}
+
+/// Has the caller's thread call `progress`, which may compute something else, and waits for that.
 void Job::tell(Id done, Id all) {
+  give_turn_back();
   std::unique_lock<std::mutex> lock(mutex_);
   told_ = Told{done, all};
   changed_.notify_all();
   changed_.wait(lock, [this] { return !told_; });
   lock.unlock();
   gale::detail::stop_if_asked();
+  take_turn();
 }
 
 bool stop_jobs(std::chrono::milliseconds time) {

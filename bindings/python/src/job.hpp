@@ -6,10 +6,12 @@
 #include <condition_variable>
 #include <exception>
 #include <functional>
+#include <future>
 #include <mutex>
 #include <optional>
 #include <utility>
 
+#include <gale/base/device.hpp>
 #include <gale/base/stop.hpp>
 #include <gale/runtime/computation.hpp>
 
@@ -52,16 +54,30 @@ class Job {
   void watch(std::unique_lock<std::mutex>& lock);
   void look_at_python(const std::optional<Told>& told);
   void tell(Id done, Id all);
+  void take_turn();
+  void give_turn_back();
 
   const nanobind::handle progress_;  ///< the caller holds it
   StopRequest request_;
   std::mutex mutex_;
   std::condition_variable changed_;
   bool is_done_ = false;
+  bool has_turn_ = false;       ///< on the device; by the computation alone, which tells one step after the other
   std::optional<Told> told_;    ///< what `progress` hasn't heard yet
   std::exception_ptr failure_;  ///< of the computation
   std::exception_ptr raised_;   ///< by Python
 };
+
+/// What `compute()` will return, which is called meanwhile on a thread of its own, where the system starts one, and is
+/// stopped when this thread is. Before a job ends it is to be waited for.
+template <class Compute>
+auto in_background(Compute compute) {
+  return std::async([compute = std::move(compute), request = gale::detail::stop_request()] {
+    const StopScope stoppable(request);
+    use_device();
+    return compute();
+  });
+}
 
 /// Stops all that are under way, and waits for that; false if one doesn't end in time. No other begins.
 bool stop_jobs(std::chrono::milliseconds time);

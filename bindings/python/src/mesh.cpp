@@ -3,6 +3,7 @@
 #include <nanobind/stl/optional.h>
 
 #include <algorithm>
+#include <future>
 
 #include <gale/base/error.hpp>
 #include <gale/base/transfer.hpp>
@@ -15,20 +16,6 @@
 namespace gale::python {
 
 namespace {
-
-/// What `use(one)` returns, where `one` is of the array's type: one of T.
-template <class... T, class Use>
-auto with_type(const Array1& array, const char* refusal, const Use& use) {
-  using Result = std::common_type_t<decltype(use(T()))...>;
-  std::optional<Result> result;
-  const auto try_one = [&](auto one) {
-    if (!is<decltype(one)>(array)) return false;
-    result = use(one);
-    return true;
-  };
-  if (!(try_one(T()) || ...)) throw Error(refusal);
-  return *std::move(result);
-}
 
 /// A copy in the same memory: what is checked is what is used, whatever other threads of Python write meanwhile.
 template <class View>
@@ -44,27 +31,38 @@ auto copy_of(const char* label, const View& view) {
   return copy;
 }
 
-/// What use(points, points on the host) makes of a copy of an array of points.
+/// What use(points) makes of an array of points, a View where they lie.
 template <class Use>
 auto with_points(const Array1& points, const Use& use) {
-  return with_type<float, double>(points, "points are neither float32 nor float64", [&](auto one) {
-    using Coordinate = decltype(one);
-    return with_view<const Coordinate* [3]>(points, "points", [&](const auto& view) {
-      const auto copy = copy_of("GALE::points", view);
-      const Points<Coordinate, typename std::decay_t<decltype(copy)>::memory_space> read_only = copy;
-      return use(read_only, io::Dataset::Points<Coordinate>(on_host(copy)));
-    });
-  });
+  return with_type<float, double>(points, "points are neither float32 nor float64",
+                                  [&](auto one) { return with_view<const decltype(one)* [3]>(points, "points", use); });
 }
 
 struct SegmentedPoints {
-  io::Dataset::Positions points;
+  std::future<io::Dataset::Positions> points;  ///< a copy on the host, which is made meanwhile
   Segmentation segmentation;
 };
 
 SegmentedPoints segmented(const Array1& points, int capacity) {
-  return with_points(points, [&](const auto& there, const auto& on_host) -> SegmentedPoints {
-    return {on_host, octree_segmentation(there, capacity)};
+  return with_points(points, [&](const auto& view) -> SegmentedPoints {
+    using View = std::decay_t<decltype(view)>;
+    using Coordinate = typename View::non_const_value_type;
+    if constexpr (have_device && !is_device_memory<typename View::memory_space>) {
+      try {
+        const Points<Coordinate, WorkerMemory> there = on_worker(view);
+        auto copy = in_background([view] {
+          const ThreadLimit alone(1);  // the others copy cells to the device
+          return io::Dataset::Positions(io::Dataset::Points<Coordinate>(copy_of("GALE::points", view)));
+        });
+        return {std::move(copy), octree_segmentation(there, capacity)};
+      } catch (const OutOfMemory&) {  // the device has no room for them
+      }
+    }
+    const auto copy = copy_of("GALE::points", view);
+    const Points<Coordinate, typename std::decay_t<decltype(copy)>::memory_space> there = copy;
+    std::promise<io::Dataset::Positions> made;
+    made.set_value(io::Dataset::Points<Coordinate>(on_host(copy)));
+    return {made.get_future(), octree_segmentation(there, capacity)};
   });
 }
 
@@ -151,9 +149,9 @@ nb::tuple from_cells(Array1 points, Array1 connectivity, Array1 offsets, Array1 
                 std::to_string(offsets.ndim()) + " and " + std::to_string(types.ndim()) + " dimensions, not 1 each");
   std::optional<MeshOfCells> found;
   auto mesh = Job().run([&] {
-    const SegmentedPoints in_segments = segmented(points, capacity);
+    SegmentedPoints in_segments = segmented(points, capacity);
     found.emplace(mesh_of(connectivity, offsets, types, in_segments.segmentation));
-    return std::make_unique<PyMesh>(in_segments.points, found->mesh, capacity);
+    return std::make_unique<PyMesh>(in_segments.points.get(), found->mesh, capacity);
   });
   nb::list notices;
   for (const std::string& notice : found->notices) notices.append(text_of(notice));
@@ -168,10 +166,11 @@ nb::object from_grid(Array1 points, Id nx, Id ny, Id nz, int capacity) {
     if (static_cast<std::size_t>(mesh.vertices()) != points.shape(0))
       throw Error("there are " + std::to_string(points.shape(0)) + " points of a grid of " +
                   std::to_string(mesh.vertices()));
-    return with_points(points, [&](const auto&, const auto& on_host) {
-      using Coordinate = typename std::decay_t<decltype(on_host)>::value_type;
-      detail::require_finite<Coordinate>(HostExecutionSpace(), Points<Coordinate, HostMemory>(on_host));
-      return std::make_unique<PyMesh>(on_host, mesh, capacity);
+    return with_points(points, [&](const auto& view) {
+      using Coordinate = typename std::decay_t<decltype(view)>::non_const_value_type;
+      const io::Dataset::Points<Coordinate> copy = on_host(copy_of("GALE::points", view));
+      detail::require_finite<Coordinate>(HostExecutionSpace(), Points<Coordinate, HostMemory>(copy));
+      return std::make_unique<PyMesh>(copy, mesh, capacity);
     });
   });
   return nb::cast(found.release(), nb::rv_policy::take_ownership);
@@ -186,10 +185,11 @@ PyMesh::PyMesh(Array1 points, Array1 cells, int capacity) : capacity_(capacity) 
   const bool are_triangles = cells.ndim() == 2 && cells.shape(1) == 3;
   if (!are_triangles) require_rows(cells, 4, "tetrahedra");
   mesh_ = Job().run([&] {
-    const SegmentedPoints found = segmented(points, capacity);
-    dataset_.points = found.points;
-    return are_triangles ? mesh_of<3>(cells, "triangles", found.segmentation)
-                         : mesh_of<4>(cells, "tetrahedra", found.segmentation);
+    SegmentedPoints found = segmented(points, capacity);
+    const Mesh mesh = are_triangles ? mesh_of<3>(cells, "triangles", found.segmentation)
+                                    : mesh_of<4>(cells, "tetrahedra", found.segmentation);
+    dataset_.points = found.points.get();
+    return mesh;
   });
 }
 

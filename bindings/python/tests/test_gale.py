@@ -227,7 +227,9 @@ class Analyses(unittest.TestCase):
         results = {}
 
         def work(k):
-            results[k] = self.mesh.critical_points(self.field)["CriticalType"]
+            mesh = gale.Mesh(self.mesh.points, self.mesh.relation("TV")[1].reshape(-1, 4)) if k % 2 else self.mesh
+            for _ in range(3):
+                results[k] = mesh.morse_smale(self.field).critical_points.points
 
         threads = [threading.Thread(target=work, args=(k,)) for k in range(4)]
         for thread in threads:
@@ -236,6 +238,15 @@ class Analyses(unittest.TestCase):
             thread.join()
         for k in range(4):
             np.testing.assert_array_equal(results[k], results[0])
+
+    def test_progress_may_compute(self):
+        kinds = self.mesh.critical_points(self.field)["CriticalType"]
+        found = []
+        outer = self.mesh.critical_points(
+            self.field, progress=lambda done, of: found.append(self.mesh.critical_points(self.field)["CriticalType"]))
+        self.assertTrue(found)
+        for inner in (*found, outer["CriticalType"]):
+            np.testing.assert_array_equal(inner, kinds)
 
     def test_errors_in_progress_come_through(self):
         def fail(done, of):
@@ -338,6 +349,21 @@ class Process(unittest.TestCase):
             "ended = True\nthread.join()\nprint(kinds <= {len(gale.Mesh(points, tetrahedra).critical_points(field)),"
             " 'tetrahedron'})", cwd=os.path.dirname(__file__))
         self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "True\n", ""))
+
+    def test_what_others_write_to_a_field_meanwhile_ends_no_process(self):
+        done = self.run_python(
+            "import gale, threading, time\nimport numpy as np\nfrom meshes import random_mesh\n"
+            "points, tetrahedra, field = random_mesh(1, 24)\nmesh, right, ended = gale.Mesh(points, tetrahedra), field.copy(), False\n"
+            "def write():\n"
+            " while not ended:\n  field[::7] = np.nan; time.sleep(1e-4); field[::7] = -right[::7]; field[::3] = right[::3]\n"
+            "thread = threading.Thread(target=write)\nthread.start()\n"
+            "for _ in range(25):\n"
+            " for find in (lambda: mesh.morse_smale(field, persistence=0.2), lambda: mesh.persistence_diagram(field, persistence=0.1),\n"
+            "              lambda: mesh.merge_tree(field, persistence=0.1), lambda: mesh.simplify_field(field, persistence=0.1)):\n"
+            "  try: find()\n"
+            "  except gale.Error: pass\n"
+            "ended = True\nthread.join()", cwd=os.path.dirname(__file__))
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
 
     def test_refuses_a_forked_process(self):
         gale.read("grid:4")
