@@ -39,6 +39,10 @@ std::vector<AnalysisArray> separatrix_arrays(bool has_destination) {
   return arrays;
 }
 
+void await_values(const AnalysisInput& input) {
+  if (input.await) input.await();
+}
+
 Analysis critical_points() {
   Analysis analysis{"critical-points", "Finds the critical points of a scalar field", {}, {}, {}};
   analysis.results = {{"critical_points",
@@ -49,8 +53,9 @@ Analysis critical_points() {
                        {}}};
   analysis.find = [](const AnalysisInput& input, const Settings&, Computed& computed) -> Found {
     const ComputeOptions options = input.next("Finding critical points", 0, 1);
-    return {{"critical_points", to_point_set(input.dataset, find_critical_points(input.order, options, &computed),
-                                             input.order.mesh().exchange())}};
+    const CriticalPoints points = find_critical_points(input.order, options, &computed);
+    await_values(input);
+    return {{"critical_points", to_point_set(input.dataset, points, input.order.mesh().exchange())}};
   };
   return analysis;
 }
@@ -83,6 +88,7 @@ Analysis discrete_gradient() {
     const CriticalSimplices& critical = gradient.critical();
     const SimplexNumbers numbers = number_simplices(gradient.mesh(), {critical.edges, critical.triangles},
                                                     input.next("Numbering simplices", 0.7, 1), &computed);
+    await_values(input);
     Found found;
     found["critical_simplices"] =
         to_point_set(input.dataset, known_simplices(gradient, critical, numbers), gradient.mesh().exchange());
@@ -95,9 +101,9 @@ Analysis discrete_gradient() {
 /// The threshold that is given; none: 0.
 double threshold_in(const AnalysisInput& input, const Settings& settings) {
   const auto given = settings.thresholds.find("persistence");
-  return given == settings.thresholds.end()
-             ? 0
-             : threshold_of(given->second, input.field, input.order.mesh().exchange().ranks());
+  if (given == settings.thresholds.end()) return 0;
+  await_values(input);
+  return threshold_of(given->second, input.field, input.order.mesh().exchange().ranks());
 }
 
 Analysis persistence_diagrams() {
@@ -124,6 +130,7 @@ Analysis persistence_diagrams() {
     const DiscreteGradient gradient =
         find_discrete_gradient(input.order, input.next("Pairing simplices", 0, 0.6), &computed);
     const PersistencePairs pairs = find_persistence_pairs(gradient, input.next("Finding pairs", 0.6, 1));
+    await_values(input);
     return {{"diagram", persistence_diagram(gradient, pairs, input.field, threshold)}};
   };
   return analysis;
@@ -167,6 +174,7 @@ Analysis morse_smale_complexes() {
     if (threshold != settings.thresholds.end()) request.persistence = threshold->second;
     const DiscreteGradient gradient =
         find_discrete_gradient(input.order, input.next("Pairing simplices", 0, 0.6), &computed);
+    await_values(input);
     MorseSmaleOutputs all = morse_smale(gradient, input.dataset, input.field, request,
                                         input.next("Tracing the complex", 0.6, 1), &computed);
     Found found;
@@ -219,6 +227,7 @@ Analysis merge_trees() {
                       {"arc_samples", Kind::number, false, "ArcSamples",
                        "Draw arcs over at most so many points between their ends: barycentres of their vertices"}};
   analysis.find = [](const AnalysisInput& input, const Settings& settings, Computed& computed) -> Found {
+    await_values(input);
     MergeTreeOptions options;
     static_cast<ComputeOptions&>(options) = input.next("Finding the tree", 0, 1);
     options.threshold = threshold_in(input, settings);
@@ -246,6 +255,7 @@ Analysis simplified_fields() {
       {"maxima", Shape::count, "maxima that are left", {}, {}, {}},
       {"kept_below", Shape::count, "extrema below the threshold that could not be removed", {}, {}, {}}};
   analysis.find = [](const AnalysisInput& input, const Settings& settings, Computed& computed) -> Found {
+    await_values(input);
     const SimplifiedField simplified = simplify_field(
         input.order, [&](Id vertex) { return value_at(input.field, vertex); }, threshold_in(input, settings),
         input.next("Simplifying the field", 0, 1), &computed);

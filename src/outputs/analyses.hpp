@@ -67,6 +67,10 @@ struct AnalysisInput {
 
   /// How to compute what comes next, which takes the progress of all from `begin` to `end`, in 0 to 1.
   std::function<ComputeOptions(const char* what, double begin, double end)> next;
+
+  /// Called before a value of `dataset` or `field` is read, if it is there: who brings them while it is computed waits
+  /// here.
+  std::function<void()> await = nullptr;
 };
 
 /// A result: points, lines or polygons, a diagram, arrays of the mesh's points in input order, or how many there are.

@@ -67,10 +67,13 @@ nb::dict PyMesh::analyse(const std::string& analysis, Array1 values, const std::
     const ThreadLimit limit(options.threads);
     auto copy = in_background([&] { return field_of(values, name); });
     const VertexOrder order = order_of(mesh(), values);
-    const io::Dataset dataset = with(copy.get());
-    const io::PointArray& field = dataset.arrays.front();
+    io::Dataset dataset = with({name, 1, {}});
+    io::PointArray& field = dataset.arrays.front();
+    const auto await = [&] {
+      if (copy.valid()) field = copy.get();
+    };
     return outputs::analysis_named(analysis).run(
-        {dataset, field, order, [&](const char*, double, double) { return options; }}, settings);
+        {dataset, field, order, [&](const char*, double, double) { return options; }, await}, settings);
   });
   return results_of(std::move(found));
 }
