@@ -69,7 +69,7 @@ TEST_P(CriticalPointsOf, the_workers_space_are_those_of_consumers) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Tests, CriticalPointsOf, every_mesh_and_segmentation(), mesh_and_segmentation);
+INSTANTIATE_TEST_SUITE_P(Tests, CriticalPointsOf, every_mesh_and_segmentations_in_turn(), mesh_and_segmentation);
 
 TEST(CriticalPoints, of_one_tetrahedron_are_its_lowest_and_its_highest_vertex) {
   const Mesh mesh = encode(mesh_named("one_tetrahedron"), 100);

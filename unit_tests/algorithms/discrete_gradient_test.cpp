@@ -75,7 +75,7 @@ TEST_P(DiscreteGradientOf, the_workers_space_is_that_of_consumers) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Tests, DiscreteGradientOf, every_mesh_and_segmentation(), mesh_and_segmentation);
+INSTANTIATE_TEST_SUITE_P(Tests, DiscreteGradientOf, every_mesh_and_segmentations_in_turn(), mesh_and_segmentation);
 
 TEST(DiscreteGradient, needs_the_relations_that_it_reads) {
   const Mesh mesh = encode(mesh_named("one_tetrahedron"), 100);

@@ -102,7 +102,7 @@ TEST_P(GradientFormulationsOn, every_mesh_agree_pair_by_pair_on_every_structure)
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Tests, GradientFormulationsOn, every_mesh_and_segmentation(), mesh_and_segmentation);
+INSTANTIATE_TEST_SUITE_P(Tests, GradientFormulationsOn, every_mesh_and_segmentations_in_turn(), mesh_and_segmentation);
 
 /// The counts of the synthetic meshes that other programs find too.
 TEST(GradientFromCells, has_the_known_counts_on_a_grid) {

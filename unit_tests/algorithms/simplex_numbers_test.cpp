@@ -62,7 +62,7 @@ TEST_P(SimplexNumbersOf, every_mesh_are_those_of_the_enumeration_on_every_struct
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Tests, SimplexNumbersOf, every_mesh_and_segmentation(), mesh_and_segmentation);
+INSTANTIATE_TEST_SUITE_P(Tests, SimplexNumbersOf, every_mesh_and_segmentations_in_turn(), mesh_and_segmentation);
 
 /// GALE's vertices of two tetrahedra 4 1 3 2 and 0 3 1 2, by input id.
 class SimplexNumbersOfTwo : public testing::Test {

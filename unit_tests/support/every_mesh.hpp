@@ -22,8 +22,8 @@ inline auto every_mesh_and_segmentation() {
   return testing::Combine(testing::ValuesIn(mesh_names()), testing::ValuesIn(segmentation_names()));
 }
 
-/// Each mesh with every second segmentation, each of these with every second mesh: for analyses that read what others
-/// compute, segment by segment.
+/// Each mesh with every second segmentation, each of these with every second mesh: for analyses, whose rows have been
+/// compared on every mesh with every segmentation.
 inline auto every_mesh_and_segmentations_in_turn() {
   std::vector<EveryMesh::ParamType> all;
   std::size_t turn = 0;
