@@ -39,7 +39,9 @@ trap 'remove_all; rm -rf "$work"' EXIT
 make_builder() { # RELEASE PACKAGE...
   make_root "$builder" "$@" ccache >"$work/log" 2>&1 || { tail -n 20 "$work/log" >&2; return 1; }
   mkdir -p "$builder/ccache" "$builder/build"
-  [ -z "${CCACHE_DIR:-}" ] || mount --bind "$CCACHE_DIR" "$builder/ccache"
+  [ -n "${CCACHE_DIR:-}" ] || return 0
+  mkdir -p "$CCACHE_DIR"
+  mount --bind "$CCACHE_DIR" "$builder/ccache"
 }
 
 in_builder() { # FOLDER COMMAND...
