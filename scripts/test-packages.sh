@@ -148,9 +148,9 @@ mesh.morse_smale(arrays[\"field\"], persistence=\"10%\").plot(file=\"picture.png
 grid = pyvista.ImageData(dimensions=(12, 12, 12))
 grid[\"height\"] = grid.points[:, 2] * grid.points[:, 0]
 found = gale.Mesh.from_pyvista(grid).critical_points(grid[\"height\"]).to_pyvista()
-print(pyvista.vtk_version_info, found.n_points)
 found.clip().save(\"/found.vtp\")
-gale.Mesh.from_pyvista(pyvista.read(\"/found.vtp\").delaunay_3d())" || exit 1; done
+grid.cast_to_unstructured_grid().save(\"/grid.vtu\")
+print(pyvista.vtk_version_info, pyvista.read(\"/found.vtp\").n_points, gale.Mesh.from_pyvista(pyvista.read(\"/grid.vtu\")))" || exit 1; done
     /env/bin/python -B -m unittest discover -s /tests/bindings/python/tests -p "test_cells.py"'
   remove_all
 }
