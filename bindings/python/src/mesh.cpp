@@ -3,6 +3,7 @@
 #include <nanobind/stl/optional.h>
 
 #include <algorithm>
+#include <functional>
 #include <future>
 
 #include <gale/base/error.hpp>
@@ -38,8 +39,26 @@ auto with_points(const Array1& points, const Use& use) {
                                   [&](auto one) { return with_view<const decltype(one)* [3]>(points, "points", use); });
 }
 
+/// Points on the host, of which a copy is made where they are a caller's: beside what the device does, if it is begun.
+class HostPoints {
+ public:
+  explicit HostPoints(std::function<io::Dataset::Positions()> copy) : copy_(std::move(copy)) {}
+
+  void begin() {
+    if (!points_.valid()) points_ = in_background(copy_);
+  }
+  io::Dataset::Positions get() {
+    begin();
+    return points_.get();
+  }
+
+ private:
+  std::function<io::Dataset::Positions()> copy_;
+  std::future<io::Dataset::Positions> points_;
+};
+
 struct SegmentedPoints {
-  std::future<io::Dataset::Positions> points;  ///< a copy on the host, which is made meanwhile
+  HostPoints points;
   Segmentation segmentation;
 };
 
@@ -50,44 +69,42 @@ SegmentedPoints segmented(const Array1& points, int capacity) {
     if constexpr (have_device && !is_device_memory<typename View::memory_space>) {
       try {
         const Points<Coordinate, WorkerMemory> there = on_worker(view);
-        auto copy = in_background([view] {
-          const ThreadLimit alone(1);  // the others copy cells to the device
-          return io::Dataset::Positions(io::Dataset::Points<Coordinate>(copy_of("GALE::points", view)));
-        });
-        return {std::move(copy), octree_segmentation(there, capacity)};
+        HostPoints here([view] { return io::Dataset::Points<Coordinate>(copy_of("GALE::points", view)); });
+        return {std::move(here), octree_segmentation(there, capacity)};
       } catch (const OutOfMemory&) {  // the device has no room for them
       }
     }
     const auto copy = copy_of("GALE::points", view);
     const Points<Coordinate, typename std::decay_t<decltype(copy)>::memory_space> there = copy;
-    std::promise<io::Dataset::Positions> made;
-    made.set_value(io::Dataset::Points<Coordinate>(on_host(copy)));
-    return {made.get_future(), octree_segmentation(there, capacity)};
+    const io::Dataset::Points<Coordinate> here = on_host(copy);
+    return {HostPoints([here] { return here; }), octree_segmentation(there, capacity)};
   });
 }
 
 /// The mesh of a caller's cells. They are copied, from the host straight to the device if that has room: a copy on the
-/// host would take longer than all that follows.
+/// host would take longer than all that follows. The copy of the points is begun when theirs is done, which takes all
+/// threads.
 template <int corners, class Index, class Memory>
-Mesh mesh_of(const CellCorners<corners, Index, Memory>& cells, const Segmentation& segmentation) {
+Mesh mesh_of(const CellCorners<corners, Index, Memory>& cells, SegmentedPoints& points) {
   if constexpr (have_device && !is_device_memory<Memory>) {
     try {
       const CellCorners<corners, Index, WorkerMemory> there = on_worker(cells);
-      const Mesh mesh(there, segmentation);
+      points.points.begin();
+      const Mesh mesh(there, points.segmentation);
       if (mesh.on_device()) return mesh;
     } catch (const OutOfMemory&) {  // without the caller's cells beside it, the mesh may fit
     }
   }
   const CellCorners<corners, Index, Memory> copy = copy_of("GALE::cells", cells);
-  return Mesh(copy, segmentation);
+  return Mesh(copy, points.segmentation);
 }
 
 template <int corners>
-Mesh mesh_of(const Array1& cells, const std::string& name, const Segmentation& segmentation) {
+Mesh mesh_of(const Array1& cells, const std::string& name, SegmentedPoints& points) {
   return with_type<std::int32_t, std::int64_t>(cells, (name + " are neither int32 nor int64").c_str(), [&](auto one) {
     using Index = decltype(one);
     return with_view<const Index* [corners]>(cells, name.c_str(), [&](const auto& view) {
-      return mesh_of<corners, Index, typename std::decay_t<decltype(view)>::memory_space>(view, segmentation);
+      return mesh_of<corners, Index, typename std::decay_t<decltype(view)>::memory_space>(view, points);
     });
   });
 }
@@ -186,8 +203,7 @@ PyMesh::PyMesh(Array1 points, Array1 cells, int capacity) : capacity_(capacity) 
   if (!are_triangles) require_rows(cells, 4, "tetrahedra");
   mesh_ = Job().run([&] {
     SegmentedPoints found = segmented(points, capacity);
-    const Mesh mesh = are_triangles ? mesh_of<3>(cells, "triangles", found.segmentation)
-                                    : mesh_of<4>(cells, "tetrahedra", found.segmentation);
+    const Mesh mesh = are_triangles ? mesh_of<3>(cells, "triangles", found) : mesh_of<4>(cells, "tetrahedra", found);
     dataset_.points = found.points.get();
     return mesh;
   });
