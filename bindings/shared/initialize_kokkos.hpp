@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 
+#include <gale/base/error.hpp>
 #include <gale/base/kokkos.hpp>
 #include <gale/base/threads.hpp>
 #include <gale/base/transfer.hpp>
@@ -15,7 +16,12 @@ inline bool initialize_kokkos() {
   if (Kokkos::is_initialized()) return false;
   setenv("KOKKOS_DISABLE_WARNINGS", "1", 0);  // such as on thread binding, which are not what standard error is for
   Kokkos::initialize(initialization_arguments(host_threads()));
-  if constexpr (have_device) prepare_copies(host_threads());
+  if constexpr (have_device) {
+    try {
+      prepare_copies(host_threads());
+    } catch (const Error&) {  // the first copy tries again, and may do without
+    }
+  }
   return true;
 }
 

@@ -108,8 +108,8 @@ class UnderWay {
 };
 
 /// Whose turn it is on the device: jobs of several threads take it one after another. They share Kokkos' default
-/// instance there, which is for one thread at a time, and the memory that is free. No lock of a thread's, since each
-/// thread of a computation may tell how far it is.
+/// instance there, which is for one thread at a time, and the memory that is free. A job whose progress is told gives
+/// its turn back meanwhile; what it goes on with then works on instances of its own.
 class DeviceTurn {
  public:
   void take() {

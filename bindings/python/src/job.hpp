@@ -13,6 +13,7 @@
 
 #include <gale/base/device.hpp>
 #include <gale/base/stop.hpp>
+#include <gale/base/threads.hpp>
 #include <gale/runtime/computation.hpp>
 
 // How GALE computes for Python: on a thread of its own, while the caller's waits and looks every 50 ms whether Python
@@ -68,12 +69,14 @@ class Job {
   std::exception_ptr raised_;   ///< by Python
 };
 
-/// What `compute()` will return, which is called meanwhile on a thread of its own, where the system starts one, and is
-/// stopped when this thread is. Before a job ends it is to be waited for.
+/// What `compute()` will return, which is called meanwhile on a thread of its own, where the system starts one. It is
+/// stopped when this thread is, and its loops take as many threads as this one's. Before a job ends it is to be waited
+/// for.
 template <class Compute>
 auto in_background(Compute compute) {
-  return std::async([compute = std::move(compute), request = gale::detail::stop_request()] {
+  return std::async([compute = std::move(compute), request = gale::detail::stop_request(), threads = host_threads()] {
     const StopScope stoppable(request);
+    const ThreadLimit limit(threads);
     use_device();
     return compute();
   });

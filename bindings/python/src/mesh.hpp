@@ -18,7 +18,7 @@ namespace gale::python {
 /// A mesh and its points.
 class PyMesh : public Kept {
  public:
-  /// Copies the arrays before it checks them.
+  /// Copies the arrays; cells before it checks them.
   PyMesh(Array1 points, Array1 cells, int capacity);
 
   PyMesh(io::Dataset::Positions points, const Mesh& mesh, int capacity);

@@ -247,6 +247,11 @@ class Analyses(unittest.TestCase):
         self.assertTrue(found)
         for inner in (*found, outer["CriticalType"]):
             np.testing.assert_array_equal(inner, kinds)
+        for relation in ("TF", "FT", "VV", "EE"):
+            expected, rows = self.mesh.relation(relation), []
+            self.mesh.relation(relation, progress=lambda done, of: rows.append(self.mesh.relation(relation)))
+            for inner in rows:
+                np.testing.assert_array_equal(inner[1], expected[1])
 
     def test_errors_in_progress_come_through(self):
         def fail(done, of):
