@@ -25,7 +25,7 @@ scripts/release.sh
 version=$(sed -n 's/^project(gale VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
 tarball=$PWD/build/gale-$version.tar.gz
 work=$(mktemp -d "${TMPDIR:-/tmp}/gale-packages.XXXXXX")
-unset TMPDIR # of this machine, not of the roots
+unset TMPDIR CMAKE_GENERATOR CMAKE_CXX_COMPILER_LAUNCHER # of this machine, not of the roots
 builder=$work/builder user=$work/user
 mkdir -p "$results"
 remove_all() {
