@@ -244,7 +244,12 @@ nb::object PyMesh::points() const {
 
 io::Dataset PyMesh::with(io::PointArray field) const {
   io::Dataset dataset;
-  dataset.points = dataset_.points;
+  dataset.points = std::visit(
+      [](const auto& points) -> io::Dataset::Positions {
+        return std::decay_t<decltype(points)>(points.data(),
+                                              points.extent(0));  // no count, which several jobs may change
+      },
+      dataset_.points);
   dataset.arrays.push_back(std::move(field));
   return dataset;
 }

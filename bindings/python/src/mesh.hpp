@@ -51,7 +51,7 @@ class PyMesh : public Kept {
 
   const Mesh& mesh() const;
 
-  /// The points with the field as their array.
+  /// The points, which this mesh goes on owning, with the field as their array.
   io::Dataset with(io::PointArray field) const;
 
  private:
