@@ -19,15 +19,6 @@ import time
 HERE = os.path.dirname(os.path.abspath(__file__))
 
 
-def make_input(n, file):
-    import gale
-    import numpy
-
-    mesh, arrays = gale.read(f"grid:{n}")
-    _, tetrahedra = mesh.relation("TV")
-    numpy.savez(file, points=mesh.points, tetrahedra=tetrahedra.reshape(-1, 4), field=arrays["field"])
-
-
 def one_run(where, file):
     """Prints the seconds that the mesh takes, and those of its critical points."""
     import gale
@@ -89,17 +80,15 @@ def main():
     parser.add_argument("-n", type=int, default=128)
     parser.add_argument("--turns", type=int, default=5)
     parser.add_argument("--device", action="store_true")
-    parser.add_argument("--make", action="store_true", help=argparse.SUPPRESS)
     parser.add_argument("--one", help=argparse.SUPPRESS)
     parser.add_argument("--file", help=argparse.SUPPRESS)
     options = parser.parse_args()
-    if options.make:
-        return make_input(options.n, options.file)
     if options.one:
         return one_run(options.one, options.file)
     with tempfile.TemporaryDirectory() as folder:
         file = os.path.join(folder, "input.npz")
-        subprocess.run([sys.executable, __file__, "--make", "-n", str(options.n), "--file", file], check=True)
+        make = [sys.executable, os.path.join(HERE, "relation_times.py"), "--make", "-n", str(options.n), "--file", file]
+        subprocess.run(make, check=True)
         measure(options, file)
 
 

@@ -30,12 +30,13 @@ def spent(who):
 
 
 def make_input(n, file):
+    """Writes the points, tetrahedra and field of grid:N as numpy has them."""
     import gale
     import numpy
 
-    mesh, _ = gale.read(f"grid:{n}")
+    mesh, arrays = gale.read(f"grid:{n}")
     _, tetrahedra = mesh.relation("TV")
-    numpy.savez(file, points=mesh.points, tetrahedra=tetrahedra.reshape(-1, 4))
+    numpy.savez(file, points=mesh.points, tetrahedra=tetrahedra.reshape(-1, 4), field=arrays["field"])
 
 
 def one_relation(name, threads, file):
