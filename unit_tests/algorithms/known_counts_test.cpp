@@ -14,7 +14,7 @@ struct KnownCounts {
   int n;
   std::array<GlobalId, 5> points;  ///< by CriticalType
   std::array<Id, 4> simplices;     ///< by dimension
-  std::vector<int> threads;
+  std::vector<int> threads, capacities;
 };
 
 class KnownCountsOfGrid : public testing::TestWithParam<KnownCounts> {};
@@ -24,7 +24,7 @@ TEST_P(KnownCountsOfGrid, are_found_on_every_structure) {
   const io::Dataset dataset = io::make_grid(known.n);
   const auto& points = std::get<io::Dataset::Points<float>>(dataset.points);
   const auto& field = std::get<std::vector<float>>(dataset.arrays.front().values);
-  for (const int capacity : {7, 100, 1000000}) {
+  for (const int capacity : known.capacities) {
     const Mesh mesh(Tetrahedra<Id, HostMemory>(dataset.tetrahedra),
                     octree_segmentation<float, HostMemory>(Points<float, HostMemory>(points), capacity));
     const VertexOrder order(mesh, field.data(), field.size());
@@ -42,8 +42,8 @@ TEST_P(KnownCountsOfGrid, are_found_on_every_structure) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Tests, KnownCountsOfGrid,
-                         testing::Values(KnownCounts{32, {26, 76, 88, 39, 6}, {26, 59, 37, 3}, {1, 8}},
-                                         KnownCounts{64, {134, 383, 387, 127, 22}, {134, 356, 263, 40}, {8}}),
+                         testing::Values(KnownCounts{32, {26, 76, 88, 39, 6}, {26, 59, 37, 3}, {1, 8}, {7, 100, 1000000}},
+                                         KnownCounts{64, {134, 383, 387, 127, 22}, {134, 356, 263, 40}, {8}, {100}}),
                          [](const auto& info) { return std::to_string(info.param.n); });
 
 }  // namespace gale::test

@@ -15,12 +15,12 @@ namespace gale::test {
 
 class OnRanks : public EveryPartition {
  protected:
-  /// Two of the fields; others with each partition, so that each mesh has all.
+  /// Others with each partition, so that each mesh has all.
   std::vector<Field> fields() const {
-    const auto all = fields_on(input());
+    const std::size_t all = fields_on(input()).size();
     const auto& names = partition_names();
     const std::size_t at = std::find(names.begin(), names.end(), partition()) - names.begin();
-    return {all[at % all.size()], all[(at + 1) % all.size()]};
+    return fields_of_turn(static_cast<int>(at % all), static_cast<int>((at + 1) % all));
   }
 
   /// What each vertex is, and whether it is on the surface.

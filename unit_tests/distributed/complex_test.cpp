@@ -111,7 +111,7 @@ class ComplexOnRanks : public EveryPartition {
 };
 
 TEST_P(ComplexOnRanks, manifolds_are_those_of_one_rank) {
-  for (const Field& field : {fields_on(input())[0], fields_on(input())[2]}) {
+  for (const Field& field : fields_of_turn(0, 2)) {
     SCOPED_TRACE(field.name);
     const MorseSmaleComplex& whole = once(field.name, [&] { return complex_on_one(field.values); });
     const MorseSmaleComplex found = complex_of(field.values);
@@ -134,7 +134,7 @@ void ComplexOnRanks::expect_paths(const Paths& here, const Paths& expected) cons
 }
 
 TEST_P(ComplexOnRanks, separatrices_are_those_of_one_rank) {
-  for (const Field& field : {fields_on(input())[0], fields_on(input())[4]}) {
+  for (const Field& field : fields_of_turn(0, 4)) {
     SCOPED_TRACE(field.name);
     MorseSmaleParts parts;
     parts.separatrices2 = !is_surface() && field.name == "permutation";

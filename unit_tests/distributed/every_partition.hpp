@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdlib>
 #include <map>
 #include <string>
 #include <tuple>
@@ -9,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include "algorithms/fields.hpp"
 #include "distributed/given_parts.hpp"
 #include "support/segmentations.hpp"
 #include "support/surfaces.hpp"
@@ -40,6 +42,16 @@ class EveryPartition : public testing::TestWithParam<std::tuple<std::string, std
     if (std::exchange(of_mesh, mesh_name()) != mesh_name()) found.clear();
     const auto at = found.find(name);
     return at != found.end() ? at->second : found.emplace(name, make()).first->second;
+  }
+
+  /// Two of `fields_on(input())`. On three ranks and more, each of which finds again what is expected, one of these: other
+  /// numbers of ranks take the other one.
+  std::vector<Field> fields_of_turn(int one, int other) const {
+    const auto all = fields_on(input());
+    if (ranks_.size() <= 2 || std::getenv("GALE_WHOLE_BRAINS") != nullptr) return {all[one], all[other]};
+    const auto& names = input_names();
+    const auto place = std::find(names.begin(), names.end(), mesh_name()) - names.begin();
+    return {all[(place + ranks_.size() / 2) % 2 == 0 ? one : other]};
   }
 
   /// The input's number of a local vertex (GALE's id), of a cell.

@@ -19,7 +19,7 @@ class GatheredOnRanks : public EveryPartition {
   const Mesh whole_ = whole_mesh();
 
   /// Few values, so that ties matter, and a permutation.
-  std::vector<Field> fields() const { return {fields_on(input())[0], fields_on(input())[4]}; }
+  std::vector<Field> fields() const { return fields_of_turn(0, 4); }
 
   static VertexOrder order_of(const Mesh& mesh, const std::vector<double>& values) {
     return VertexOrder(mesh, values.data(), values.size());
@@ -156,7 +156,7 @@ TEST_P(GatheredOnRanks, trees_are_those_of_one_rank) {
 }
 
 TEST_P(GatheredOnRanks, trees_without_branches_are_those_of_one_rank) {
-  const Field field = fields()[1];
+  const Field field = fields_on(input())[4];
   MergeTreeOptions whole, here;
   whole.threshold = here.threshold = 0.2 * input().vertices();
   whole.value = [&](Id v) { return field.values[v]; };

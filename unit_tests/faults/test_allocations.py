@@ -9,10 +9,10 @@ import check
 
 class Allocations(check.FaultTest):
     def test_one_fails(self):
-        self.try_all("allocation", 101)
+        self.try_all("allocation", 149)
 
     def test_all_fail_from_one_on(self):
-        self.try_all("allocation", 151, more=10**9)
+        self.try_all("allocation", 223, more=10**9)
 
     def test_a_thread_does_not_start(self):
         self.try_all("thread", 1)

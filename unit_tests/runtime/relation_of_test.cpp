@@ -69,7 +69,7 @@ TEST_P(RelationOf, every_mesh_has_the_rows_of_brute_force) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Tests, RelationOf, every_mesh_and_segmentation(), mesh_and_segmentation);
+INSTANTIATE_TEST_SUITE_P(Tests, RelationOf, every_mesh_and_segmentations_in_turn(), mesh_and_segmentation);
 
 TEST(RelationOfPart, has_no_rows_of_ghosts) {
   const InputMesh& input = mesh_named("holed_grid_9");
