@@ -212,8 +212,9 @@ class XmlFile:
         begins = [0, *arrays["offsets"]]
         return [arrays["connectivity"][begin:end] for begin, end in zip(begins, begins[1:])]
 
+    CODES = {"Int8": "b", "UInt8": "B", "Int32": "i", "Int64": "q", "Float32": "f", "Float64": "d"}
+
     def values(self, array):
-        codes = {"Int8": "b", "UInt8": "B", "Int32": "i", "Int64": "q", "Float32": "f", "Float64": "d"}
         at = int(array.get("offset"))
         blocks, = struct.unpack_from("<Q", self.data, at)
         sizes = struct.unpack_from(f"<{blocks}Q", self.data, at + 24)
@@ -222,7 +223,7 @@ class XmlFile:
         for size in sizes:
             content += zlib.decompress(self.data[at:at + size])
             at += size
-        code = codes[array.get("type")]
+        code = self.CODES[array.get("type")]
         flat = list(struct.unpack(f"<{len(content) // struct.calcsize(code)}{code}", content))
         width = int(array.get("NumberOfComponents") or 1)
         return flat if width == 1 else [tuple(flat[i:i + width]) for i in range(0, len(flat), width)]

@@ -44,6 +44,54 @@ class Foreign(gale.CommandTest):
                            for kind in ("vtkhdf", "vtu"))
         self.assertEqual(found, expected)
 
+    def datasets(self, name):
+        """Type, rows and values of each dataset, as HDF5's library reads them; rows of several values are tuples."""
+        run = subprocess.run([os.environ["GALE_PRINT_HDF5"], name], cwd=self.folder, check=True, capture_output=True, text=True, timeout=60)
+        sets = {}
+        for line in run.stdout.splitlines():
+            words = line.split()
+            at = next(k for k, word in enumerate(words) if word in gale.XmlFile.CODES)
+            parse = float.fromhex if words[at].startswith("Float") else int
+            values, shape = list(map(parse, words[at + 2:])), list(map(int, words[at + 1].split("x")))
+            if len(shape) == 2:
+                values = [tuple(values[i:i + shape[1]]) for i in range(0, len(values), shape[1])]
+            self.assertEqual(len(values), shape[0], line[:200])
+            sets[" ".join(words[:at])] = (words[at], values)
+        return sets
+
+    def expect_written_alike(self, xml, hdf, kinds):
+        """That a .vtkhdf has what a .vtu or .vtp has: `kinds` of cells, their names in both."""
+        file, sets = gale.XmlFile(self.folder / xml), self.datasets(hdf)
+        expected = {"/Points": (file.piece.find("Points/DataArray").get("type"), file.points)}
+        for kind in ("PointData", "CellData"):
+            for name, values in file.arrays(kind).items():
+                expected[f"/{kind}/{name}"] = (file.types(kind)[name], values)
+        for kind, group in kinds.items():
+            types, arrays = file.types(kind), file.arrays(kind)
+            expected[f"{group}/Connectivity"] = (types["connectivity"], arrays["connectivity"])
+            expected[f"{group}/Offsets"] = (types["offsets"], [0, *arrays["offsets"]])
+            if "types" in arrays:
+                expected[f"{group}/Types"] = (types["types"], arrays["types"])
+            expected[f"{group}/NumberOfCells"] = ("Int64", [len(arrays["offsets"])])
+            expected[f"{group}/NumberOfConnectivityIds"] = ("Int64", [len(arrays["connectivity"])])
+        expected["/NumberOfPoints"] = ("Int64", [len(file.points)])
+        self.assertEqual(set(sets), set(expected))
+        for path, values in expected.items():
+            self.assertEqual(sets[path], values, path)
+
+    def test_surfaces_and_lines_are_those_of_the_xml(self):
+        surface = {"Verts": "/Vertices", "Lines": "/Lines", "Strips": "/Strips", "Polys": "/Polygons"}
+        for size in ("4", "24"):  # the larger in compressed chunks
+            self.succeed("morse-smale", f"grid:{size}", "--separatrices2", "-o", "p")
+            self.succeed("morse-smale", f"grid:{size}", "--separatrices2", "-o", "p", "--format", "vtkhdf")
+            for name in ("critical_points", "separatrices1", "separatrices2"):
+                with self.subTest(name=name, size=size):
+                    self.expect_written_alike(f"p_{name}.vtp", f"p_{name}.vtkhdf", surface)
+            self.expect_written_alike("p_segmentation.vtu", "p_segmentation.vtkhdf", {"Cells": ""})
+        self.succeed("persistence-diagram", "grid:24", "-o", "diagram.vtu")
+        self.succeed("persistence-diagram", "grid:24", "-o", "diagram.vtkhdf")
+        self.expect_written_alike("diagram.vtu", "diagram.vtkhdf", {"Cells": ""})
+
     def expect_steps(self, name, files, times):
         """Has an input of several times be those files, one after the other."""
         steps = self.report("critical-points", name, "-o", "all.vtp")["steps"]
