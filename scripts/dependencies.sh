@@ -1,14 +1,16 @@
 #!/bin/bash
 # Installs what GALE is built from on Debian 12 with apt; does nothing when all is there.
-#   usage: scripts/dependencies.sh [data] [format] [rendering] [releases] [python] [docs] [mpi] [clang] [plots]
+#   usage: scripts/dependencies.sh library | --are-there | [data] [format] [rendering] [releases] [python] [docs] [mpi] [clang] [plots]
+#     library: for this alone    --are-there: installs nothing, and says whether what all builds need is there
 #     data: brain volumes    format: clang-format    rendering: without a screen    releases: what scripts/test-releases.sh needs    python: to build the module
 #     docs: the site    mpi: for several ranks    clang: the other compiler    plots: pictures of measurements
 set -euo pipefail
 
-packages=(cmake g++ ninja-build python3 libtrilinos-kokkos-dev libtrilinos-kokkos-kernels-dev libvtk9-dev
-  libcli11-dev nlohmann-json3-dev libgtest-dev libdeflate-dev)
+packages=(cmake g++ ninja-build python3 libtrilinos-kokkos-dev libtrilinos-kokkos-kernels-dev)
+[ "${1:-}" = library ] || packages+=(libvtk9-dev libcli11-dev nlohmann-json3-dev libgtest-dev libdeflate-dev)
 for more in "$@"; do
   case "$more" in
+    library | --are-there) ;;
     data) packages+=(mricron-data) ;;
     format) packages+=(clang-format) ;;
     rendering) packages+=(libgl1-mesa-dri xvfb xauth) ;;
@@ -18,7 +20,7 @@ for more in "$@"; do
     mpi) packages+=(libopenmpi-dev) ;;
     clang) packages+=(clang-14 libomp-14-dev libclang-rt-14-dev llvm-14) ;;
     plots) packages+=(python3-matplotlib) ;;
-    *) echo "usage: $0 [data] [format] [rendering] [releases] [python] [docs] [mpi] [clang] [plots]" >&2; exit 2 ;;
+    *) echo "usage: $0 library | --are-there | [data] [format] [rendering] [releases] [python] [docs] [mpi] [clang] [plots]" >&2; exit 2 ;;
   esac
 done
 
@@ -27,6 +29,7 @@ for package in "${packages[@]}"; do
   [ "$(dpkg-query --show --showformat='${db:Status-Status}' "$package" 2>/dev/null)" = installed ] || missing+=("$package")
 done
 [ ${#missing[@]} -gt 0 ] || exit 0
+[ "${1:-}" != --are-there ] || exit 1
 
 as_root=(env DEBIAN_FRONTEND=noninteractive)
 [ "$(id -u)" = 0 ] || as_root=(sudo "${as_root[@]}")

@@ -3,9 +3,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-scripts/dependencies.sh data mpi
-export CMAKE_GENERATOR=${CMAKE_GENERATOR:-Ninja} # of a new build folder; one that is there keeps its own
-cmake --preset ci -DGALE_ENABLE_VTK_FILTERS=ON -DGALE_ENABLE_MPI=ON -DGALE_ENABLE_TTK=ON \
+scripts/configure.sh ci build "data mpi" -DGALE_ENABLE_VTK_FILTERS=ON -DGALE_ENABLE_MPI=ON -DGALE_ENABLE_TTK=ON \
   -DGALE_ENABLE_EXAMPLES=OFF # the tests build them against an install
 cmake --build --preset ci --parallel "$(nproc)"
 ctest --preset ci --parallel 3 # those on ranks wait more than they compute

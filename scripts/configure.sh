@@ -1,0 +1,28 @@
+#!/bin/bash
+# Installs what a build needs, and configures it; enough alone on a bare Debian 12. Where nothing is there yet, the library,
+# which needs a compiler and Kokkos alone, is compiled while the rest is installed.
+#   usage: scripts/configure.sh PRESET FOLDER "PACKAGES" [CMAKE_OPTION...]
+#     PRESET: of CMakePresets.json    FOLDER: its build folder    PACKAGES: what scripts/dependencies.sh is asked for
+set -euo pipefail
+cd "$(dirname "$0")/.."
+preset=$1 folder=$2
+read -ra packages <<<"$3"
+shift 3
+export CMAKE_GENERATOR=${CMAKE_GENERATOR:-Ninja} # of a new build folder; one that is there keeps its own
+
+if [ ! -e "$folder" ] && ! scripts/dependencies.sh --are-there; then
+  scripts/dependencies.sh library
+  without=() with=()
+  for part in VTK LIBDEFLATE APP TESTS EXAMPLES INSTALL; do
+    without+=(-DGALE_ENABLE_$part=OFF) with+=(-UGALE_ENABLE_$part)
+  done
+  cmake --preset "$preset" "${without[@]}"
+  nice cmake --build "$folder" --target gale --parallel "$(nproc)" &
+  library=$!
+  scripts/dependencies.sh "${packages[@]}"
+  wait "$library"
+  set -- "${with[@]}" "$@"
+else
+  scripts/dependencies.sh "${packages[@]}"
+fi
+cmake --preset "$preset" "$@"
