@@ -12,16 +12,14 @@ export CMAKE_GENERATOR=${CMAKE_GENERATOR:-Ninja} # of a new build folder; one th
 
 if [ ! -e "$folder" ] && ! scripts/dependencies.sh --are-there; then
   scripts/dependencies.sh library
-  without=() with=()
-  for part in VTK LIBDEFLATE APP TESTS EXAMPLES INSTALL; do
-    without+=(-DGALE_ENABLE_$part=OFF) with+=(-UGALE_ENABLE_$part)
-  done
-  cmake --preset "$preset" "${without[@]}"
+  trap 'rm -f "$folder/CMakeCache.txt"' EXIT # what is left out first is looked for again
+  cmake --preset "$preset" -DGALE_ENABLE_{VTK,LIBDEFLATE,APP,TESTS,EXAMPLES}=OFF
   nice cmake --build "$folder" --target gale --parallel "$(nproc)" &
   library=$!
-  scripts/dependencies.sh "${packages[@]}"
+  scripts/dependencies.sh "${packages[@]}" || { wait "$library" || :; exit 1; }
   wait "$library"
-  set -- "${with[@]}" "$@"
+  rm "$folder/CMakeCache.txt"
+  trap - EXIT
 else
   scripts/dependencies.sh "${packages[@]}"
 fi

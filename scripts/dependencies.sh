@@ -7,10 +7,14 @@
 set -euo pipefail
 
 packages=(cmake g++ ninja-build python3 libtrilinos-kokkos-dev libtrilinos-kokkos-kernels-dev)
-[ "${1:-}" = library ] || packages+=(libvtk9-dev libcli11-dev nlohmann-json3-dev libgtest-dev libdeflate-dev)
+only=
+if [ $# = 1 ] && [[ $1 = library || $1 = --are-there ]]; then
+  only=$1
+  shift
+fi
+[ "$only" = library ] || packages+=(libvtk9-dev libcli11-dev nlohmann-json3-dev libgtest-dev libdeflate-dev)
 for more in "$@"; do
   case "$more" in
-    library | --are-there) ;;
     data) packages+=(mricron-data) ;;
     format) packages+=(clang-format) ;;
     rendering) packages+=(libgl1-mesa-dri xvfb xauth) ;;
@@ -29,7 +33,7 @@ for package in "${packages[@]}"; do
   [ "$(dpkg-query --show --showformat='${db:Status-Status}' "$package" 2>/dev/null)" = installed ] || missing+=("$package")
 done
 [ ${#missing[@]} -gt 0 ] || exit 0
-[ "${1:-}" != --are-there ] || exit 1
+[ "$only" != --are-there ] || exit 1
 
 as_root=(env DEBIAN_FRONTEND=noninteractive)
 [ "$(id -u)" = 0 ] || as_root=(sudo "${as_root[@]}")

@@ -92,12 +92,12 @@ void expect_that_of_brute_force(const InputMesh& input, const std::vector<double
 }  // namespace
 
 TEST(HighDegree, of_an_edge_is_fast) {
-  const InputMesh input = fan(100000);
+  const InputMesh input = fan(200000);
   expect_fast(input, wave_with_hubs(input, 2, true));
 }
 
 TEST(HighDegree, of_a_vertex_is_fast) {
-  const InputMesh input = cone_over_torus(320);
+  const InputMesh input = cone_over_torus(450);
   expect_fast(input, wave_with_hubs(input, 1, true));
 }
 
@@ -121,7 +121,7 @@ TEST(HighDegree, gives_the_complex_of_brute_force) {
 /// The star of the vertex of `cone_over_torus`, as if all others were lower. The link's Euler characteristic is 0, and
 /// the edge that is paired with the vertex is left out.
 TEST(HighDegree, of_a_vertex_is_fast_from_cells) {
-  const Id side = 320, count = side * side;
+  const Id side = 450, count = side * side;
   std::vector<Id> rank(count);
   std::iota(rank.begin(), rank.end(), 0);
   std::shuffle(rank.begin(), rank.end(), std::mt19937(3));

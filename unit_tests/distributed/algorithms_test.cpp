@@ -15,7 +15,7 @@ namespace gale::test {
 
 class OnRanks : public EveryPartition {
  protected:
-  /// Others with each partition, so that each mesh has all.
+  /// Others with each partition, so that each mesh has all on two ranks.
   std::vector<Field> fields() const {
     const std::size_t all = fields_on(input()).size();
     const auto& names = partition_names();

@@ -44,8 +44,8 @@ class EveryPartition : public testing::TestWithParam<std::tuple<std::string, std
     return at != found.end() ? at->second : found.emplace(name, make()).first->second;
   }
 
-  /// Two of `fields_on(input())`. On three ranks and more, each of which finds again what is expected, one of these: other
-  /// numbers of ranks take the other one.
+  /// Two of `fields_on(input())`; on three ranks and more, each of which finds again what is expected, one of them, the
+  /// other with the next mesh. All where GALE_WHOLE_BRAINS asks for what takes long.
   std::vector<Field> fields_of_turn(int one, int other) const {
     const auto all = fields_on(input());
     if (ranks_.size() <= 2 || std::getenv("GALE_WHOLE_BRAINS") != nullptr) return {all[one], all[other]};

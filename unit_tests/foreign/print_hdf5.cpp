@@ -2,6 +2,7 @@
 // it, the shape as 5x3, and the values, floats in hexadecimal.
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -27,12 +28,21 @@ void print(hid_t set, const std::string& path, const char* type, hid_t native, c
 void print_dataset(hid_t set, const std::string& path) {
   const hid_t type = H5Dget_type(set);
   const auto is = [&](hid_t native) { return H5Tequal(type, native) > 0; };
-  if (is(H5T_NATIVE_INT8)) print<std::int8_t>(set, path, "Int8", H5T_NATIVE_INT8, " %hhd");
-  if (is(H5T_NATIVE_UINT8)) print<std::uint8_t>(set, path, "UInt8", H5T_NATIVE_UINT8, " %hhu");
-  if (is(H5T_NATIVE_INT32)) print<std::int32_t>(set, path, "Int32", H5T_NATIVE_INT32, " %d");
-  if (is(H5T_NATIVE_INT64)) print<long long>(set, path, "Int64", H5T_NATIVE_LLONG, " %lld");
-  if (is(H5T_NATIVE_FLOAT)) print<float>(set, path, "Float32", H5T_NATIVE_FLOAT, " %a");
-  if (is(H5T_NATIVE_DOUBLE)) print<double>(set, path, "Float64", H5T_NATIVE_DOUBLE, " %a");
+  if (is(H5T_NATIVE_INT8)) {
+    print<std::int8_t>(set, path, "Int8", H5T_NATIVE_INT8, " %hhd");
+  } else if (is(H5T_NATIVE_UINT8)) {
+    print<std::uint8_t>(set, path, "UInt8", H5T_NATIVE_UINT8, " %hhu");
+  } else if (is(H5T_NATIVE_INT32)) {
+    print<std::int32_t>(set, path, "Int32", H5T_NATIVE_INT32, " %d");
+  } else if (is(H5T_NATIVE_INT64)) {
+    print<long long>(set, path, "Int64", H5T_NATIVE_LLONG, " %lld");
+  } else if (is(H5T_NATIVE_FLOAT)) {
+    print<float>(set, path, "Float32", H5T_NATIVE_FLOAT, " %a");
+  } else if (is(H5T_NATIVE_DOUBLE)) {
+    print<double>(set, path, "Float64", H5T_NATIVE_DOUBLE, " %a");
+  } else {
+    std::exit(1);
+  }
   H5Tclose(type);
 }
 

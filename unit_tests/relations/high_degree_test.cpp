@@ -7,14 +7,14 @@
 #include "support/input_mesh.hpp"
 #include "support/segmentations.hpp"
 
-// Meshes with a vertex or an edge of 100000 tetrahedra: whatever takes the square of that doesn't end. Some rows do by
+// Meshes with a vertex or an edge of 200000 tetrahedra: whatever takes the square of that doesn't end. Some rows do by
 // themselves: all edges at a vertex are adjacent to each other (EE), and all triangles at an edge (FF).
 
 namespace gale::test {
 
 namespace {
 
-constexpr Id degree = 100000;
+constexpr Id degree = 200000;
 constexpr RelationSet linear = all_relations - Relation::EE - Relation::FF;
 constexpr RelationSet searched = Relation::VF | Relation::EF | Relation::ET | Relation::FT | Relation::TT;
 
