@@ -1,7 +1,6 @@
 #!/bin/bash
 # Finds the critical points of a brain and the Morse-Smale complex of another, and draws them: build-demo/brain.vtp,
-# brain.png and complex.png. Enough alone on a bare Debian 12. Not optimized: the preset `default` computes several times as
-# fast.
+# brain.png and complex.png. Enough alone on a bare Debian 12.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
