@@ -1,5 +1,5 @@
 # The public headers, by folder: what a user of the library includes. They are installed, and each compiles alone
-# (unit_tests/install/headers). To publish a header, name it here.
+# (unit_tests/install/headers, built by scripts/test-compilers.sh). To publish a header, name it here.
 #
 # Public headers include others of ours, which are installed too, but which nobody should include by themselves: these
 # are in gale_included_headers. unit_tests/headers tells when that list is too long or too short.
