@@ -41,9 +41,10 @@ TEST_P(KnownCountsOfGrid, are_found_on_every_structure) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Tests, KnownCountsOfGrid,
-                         testing::Values(KnownCounts{32, {26, 76, 88, 39, 6}, {26, 59, 37, 3}, {1, 8}, {7, 100, 1000000}},
-                                         KnownCounts{64, {134, 383, 387, 127, 22}, {134, 356, 263, 40}, {8}, {100}}),
-                         [](const auto& info) { return std::to_string(info.param.n); });
+INSTANTIATE_TEST_SUITE_P(
+    Tests, KnownCountsOfGrid,
+    testing::Values(KnownCounts{32, {26, 76, 88, 39, 6}, {26, 59, 37, 3}, {1, 8}, {7, 100, 1000000}},
+                    KnownCounts{64, {134, 383, 387, 127, 22}, {134, 356, 263, 40}, {8}, {100}}),
+    [](const auto& info) { return std::to_string(info.param.n); });
 
 }  // namespace gale::test
