@@ -1,8 +1,7 @@
 #!/bin/bash
 # Builds and tests GALE in throw-away roots of Debian sid, with the Kokkos that it packages: twice, since there are two.
 # Needs root and debootstrap; says which release it skips and why. What it can set up must pass. Without --all, what
-# depends little on Kokkos is left out: files, outputs, the command, examples, fuzzers, faults and
-# installations; of each program's tests a third is run; and of the release in the middle only what computes relations, as
+# depends little on Kokkos is left out: files, outputs, the command, examples, fuzzers, faults and installations; of each program's tests a third is run; and of the release in the middle only what computes relations, as
 # the oldest, which Debian 12 has, and the newest are tested in all.
 #   usage: scripts/test-releases.sh [--with-vtk] [--all]
 set -euo pipefail

@@ -189,6 +189,8 @@ def vtk_xml_header(path):
 class XmlFile:
     """What is in a .vtp or .vtu as the command writes it. Arrays of several components are lists of tuples."""
 
+    CODES = {"Int8": "b", "UInt8": "B", "Int32": "i", "Int64": "q", "Float32": "f", "Float64": "d"}
+
     def __init__(self, path):
         header, data = path.read_bytes().split(b'<AppendedData encoding="raw">', 1)
         self.data = data[data.index(b"_") + 1:]
@@ -211,8 +213,6 @@ class XmlFile:
         arrays = self.arrays(kind)
         begins = [0, *arrays["offsets"]]
         return [arrays["connectivity"][begin:end] for begin, end in zip(begins, begins[1:])]
-
-    CODES = {"Int8": "b", "UInt8": "B", "Int32": "i", "Int64": "q", "Float32": "f", "Float64": "d"}
 
     def values(self, array):
         at = int(array.get("offset"))
