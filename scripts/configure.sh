@@ -10,10 +10,10 @@ read -ra packages <<<"$3"
 shift 3
 export CMAKE_GENERATOR=${CMAKE_GENERATOR:-Ninja} # of a new build folder; one that is there keeps its own
 
-if [ ! -e "$folder" ] && ! scripts/dependencies.sh --are-there; then
+if [ ! -e "$folder" ] && ! scripts/dependencies.sh --are-there "${packages[@]}"; then
   scripts/dependencies.sh library
   trap 'rm -f "$folder/CMakeCache.txt"' EXIT # what is left out first is looked for again
-  cmake --preset "$preset" -DGALE_ENABLE_{VTK,LIBDEFLATE,APP,TESTS,EXAMPLES}=OFF
+  cmake --preset "$preset" -DGALE_ENABLE_{VTK,SYSTEM_LIBRARIES,LIBDEFLATE,APP,TESTS,EXAMPLES}=OFF
   nice cmake --build "$folder" --target gale --parallel "$(nproc)" &
   library=$!
   scripts/dependencies.sh "${packages[@]}" || { wait "$library" || :; exit 1; }

@@ -1,17 +1,18 @@
 #!/bin/bash
 # Finds the critical points of a brain and the Morse-Smale complex of another, and draws them: build-demo/brain.vtp,
-# brain.png and complex.png. Enough alone on a bare Debian 12.
+# brain.png, complex_critical_points.vtp, complex_separatrices1.vtp and complex.png. Enough alone on a bare Debian 12.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-scripts/configure.sh demo build-demo "data rendering"
+scripts/configure.sh demo build-demo "command data drawing"
 cmake --build --preset demo --target gale_app --parallel "$(nproc)"
-cmake -S examples/render_critical_points -B build-demo/render_critical_points
-cmake --build build-demo/render_critical_points
 
 cd build-demo
 volumes=/usr/share/mricron/templates
+draw() { xvfb-run --auto-servernum /usr/bin/python3 ../examples/draw_volume.py "$@"; }
 bin/gale critical-points $volumes/ch2bet.nii.gz --above 0 -o brain.vtp --report brain.json
-xvfb-run --auto-servernum render_critical_points/render_critical_points $volumes/ch2bet.nii.gz brain.vtp brain.png
-xvfb-run --auto-servernum bin/gale morse-smale $volumes/inia19-t1-brain.nii.gz --above 0 --persistence 10% --render complex.png
-echo "wrote build-demo/brain.vtp, brain.json, brain.png and complex.png"
+bin/gale morse-smale $volumes/inia19-t1-brain.nii.gz --above 0 --persistence 10% -o complex --no-{de,a}scending-segmentation
+draw $volumes/ch2bet.nii.gz brain.png brain.vtp &
+draw $volumes/inia19-t1-brain.nii.gz complex.png complex_critical_points.vtp complex_separatrices1.vtp
+wait $!
+echo "wrote brain.vtp, brain.json, brain.png, complex_critical_points.vtp, complex_separatrices1.vtp and complex.png in build-demo"

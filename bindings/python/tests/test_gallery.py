@@ -1,4 +1,4 @@
-"""The scripts of docs/gallery, on small inputs: they run, and draw."""
+"""The scripts of docs/gallery and examples, on small inputs: they run, and draw."""
 import subprocess
 import sys
 import tempfile
@@ -7,7 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
-GALLERY = Path(__file__).parents[3] / "docs" / "gallery"
+ROOT = Path(__file__).parents[3]
+GALLERY = ROOT / "docs" / "gallery"
 SCRIPTS = {"brain_critical_points": ["grid:16", "0"], "brain_complex": ["grid:16", "0", "5%"],
            "persistence_diagram": ["grid:16", "0"], "simulation_loop": ["12"], "gmsh_mesh": ["0.3"],
            "terrain_tree": ["40%"]}
@@ -42,6 +43,38 @@ class Gallery(unittest.TestCase):
                     done = subprocess.run(command[:3], capture_output=True, text=True, timeout=300)
                     self.assertEqual(done.returncode, 1)
                     self.assertIn(f"usage: {name}.py", done.stderr)
+
+    def test_what_the_command_found_in_a_volume_is_drawn(self):
+        try:
+            import pyvista
+            from vtkmodules.vtkIOImage import vtkNIFTIImageWriter
+        except ImportError as missing:
+            self.skipTest(str(missing))
+        from_middle = np.linalg.norm(np.moveaxis(np.indices((24, 24, 24)), 0, -1) - 11.5, axis=-1).ravel()
+        volume = pyvista.ImageData(dimensions=(24, 24, 24))
+        volume["values"] = np.clip(150 - 10 * from_middle + 5 * np.sin(2 * from_middle), 0, None).astype(np.float32)
+        draw = str(ROOT / "examples" / "draw_volume.py")
+        with tempfile.TemporaryDirectory() as folder:
+            def run(*command, code=0):
+                done = subprocess.run([sys.executable, "-B", *command], capture_output=True, text=True, timeout=300, cwd=folder)
+                self.assertEqual(done.returncode, code, done.stderr)
+                return done.stderr
+
+            writer = vtkNIFTIImageWriter()
+            writer.SetFileName(str(Path(folder) / "ball.nii.gz"))
+            writer.SetInputData(volume)
+            writer.Write()
+            run("-m", "gale", "critical-points", "ball.nii.gz", "--above", "0", "-o", "ball.vtp")
+            run("-m", "gale", "morse-smale", "ball.nii.gz", "--above", "0", "-o", "ball")
+            run(draw, "ball.nii.gz", "points.png", "ball.vtp")
+            run(draw, "ball.nii.gz", "lines.png", "ball_critical_points.vtp", "ball_separatrices1.vtp")
+            for picture in ("points.png", "lines.png"):
+                self.assertGreater(self.colors_of(Path(folder) / picture), 1000, picture)
+            self.assertIn("usage: draw_volume.py", run(draw, code=2))
+            for wrong, *files in (("no.nii.gz", "no.nii.gz", "x.png", "ball.vtp"), ("no.vtp", "ball.nii.gz", "x.png", "no.vtp"),
+                                  ("ball.vtp", "ball.nii.gz", "x.png", "ball.vtp", "ball.vtp"),
+                                  ("no/x.png", "ball.nii.gz", "no/x.png", "ball.vtp")):
+                self.assertRegex(run(draw, *files, code=1), f"^{wrong}: [^\n]*\n$")
 
     def test_the_notebook_runs(self):
         try:
