@@ -13,7 +13,7 @@ from vtkmodules.vtkCommonCore import vtkLookupTable, vtkObject, vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkBox, vtkPolyData
 from vtkmodules.vtkCommonTransforms import vtkTransform
 from vtkmodules.vtkFiltersCore import vtkClipPolyData, vtkFlyingEdges3D, vtkSmoothPolyDataFilter, vtkThreshold, vtkTubeFilter
-from vtkmodules.vtkFiltersGeneral import vtkTransformPolyDataFilter
+from vtkmodules.vtkFiltersGeneral import vtkTransformFilter
 from vtkmodules.vtkFiltersGeometry import vtkGeometryFilter
 from vtkmodules.vtkFiltersSources import vtkRegularPolygonSource, vtkSphereSource
 from vtkmodules.vtkImagingCore import vtkImageResize
@@ -113,7 +113,7 @@ def in_volume(path, to_volume):
     """What a .vtp file holds, where the volume's own coordinates have it."""
     reader = vtkXMLPolyDataReader()
     reader.SetFileName(path)
-    moved = vtkTransformPolyDataFilter()
+    moved = vtkTransformFilter()
     moved.SetInputConnection(reader.GetOutputPort())
     moved.SetTransform(to_volume)
     moved.Update()

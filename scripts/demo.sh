@@ -4,8 +4,13 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-scripts/configure.sh demo build-demo "command data drawing"
-cmake --build --preset demo --target gale_app --parallel "$(nproc)"
+scripts/dependencies.sh command
+export CMAKE_GENERATOR=${CMAKE_GENERATOR:-Ninja} # of a new build folder; one that is there keeps its own
+cmake --preset demo
+nice cmake --build --preset demo --target gale_app --parallel "$(nproc)" &
+build=$!
+scripts/dependencies.sh command data drawing || { wait $build || :; exit 1; } # while it compiles
+wait $build
 
 cd build-demo
 volumes=/usr/share/mricron/templates
