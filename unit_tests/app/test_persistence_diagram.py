@@ -2,7 +2,9 @@
 import ast
 import csv
 import os
+import shutil
 import struct
+import subprocess
 import unittest
 import zipfile
 
@@ -106,6 +108,20 @@ class Pictures(gale.DrawingTest):
 
     def test_are_refused_where_they_cannot_be(self):
         self.expect_refused("persistence-diagram")
+
+    def test_are_drawn_by_a_module_beside_the_command(self):
+        alone = shutil.copy(gale.GALE, self.folder)
+        run = subprocess.run([alone, "persistence-diagram", "grid:4", "--render", "picture.png"], cwd=self.folder, capture_output=True,
+                             text=True, timeout=60)
+        self.assertEqual(run.returncode, 1)
+        self.assertRegex(run.stderr, r"\Agale: pictures \(--render\) are drawn by gale-drawing.so, which isn't beside [^\n]+\n\Z")
+        module = self.folder / "gale-drawing.so"
+        module.write_text("no library")
+        run = subprocess.run([alone, "persistence-diagram", "grid:4", "--render", "picture.png"], cwd=self.folder, capture_output=True,
+                             text=True, timeout=60)
+        self.assertEqual(run.returncode, 1)
+        self.assertRegex(run.stderr, r"\Agale: cannot draw \(--render\): [^\n]*gale-drawing.so: [^\n]+\n\Z")
+        self.assertEqual(self.names(), ["gale", "gale-drawing.so"])
 
 
 class Refusals(DiagramTest):

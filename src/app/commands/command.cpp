@@ -5,7 +5,7 @@
 
 #include <gale/algorithms/critical_points.hpp>
 #include <gale/app/commands/command.hpp>
-#include <gale/app/drawing/scene.hpp>
+#include <gale/app/drawing/drawer.hpp>
 #include <gale/app/ranks/ranks.hpp>
 #include <gale/io/bytes/text.hpp>
 

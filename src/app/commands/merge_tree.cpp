@@ -4,6 +4,7 @@
 
 #include <gale/algorithms/surface_vertices.hpp>
 #include <gale/app/commands/command.hpp>
+#include <gale/app/drawing/drawer.hpp>
 #include <gale/app/drawing/picture.hpp>
 #include <gale/app/ranks/ranks.hpp>
 #include <gale/io/write.hpp>

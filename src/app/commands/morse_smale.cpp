@@ -2,6 +2,7 @@
 
 #include <gale/algorithms/morse_smale.hpp>
 #include <gale/app/commands/command.hpp>
+#include <gale/app/drawing/drawer.hpp>
 #include <gale/app/drawing/picture.hpp>
 #include <gale/app/ranks/ranks.hpp>
 #include <gale/outputs/critical_simplices.hpp>

@@ -2,6 +2,7 @@
 
 #include <gale/algorithms/persistence.hpp>
 #include <gale/app/commands/command.hpp>
+#include <gale/app/drawing/drawer.hpp>
 #include <gale/app/drawing/picture.hpp>
 #include <gale/app/ranks/ranks.hpp>
 

@@ -1,14 +1,11 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 #include <gale/base/types.hpp>
-#include <gale/io/atomic_file.hpp>
-#include <gale/io/dataset.hpp>
 
 // What is drawn: flat drawings and scenes, which know nothing of what draws them.
 
@@ -49,9 +46,6 @@ struct Flat {
   std::vector<Text> texts;
 };
 
-/// Draws to a PNG file, the temporary of `file`. Throws gale::Error, naming the file.
-void draw(const io::AtomicFile& file, const Flat& flat);
-
 using Point = std::array<double, 3>;
 
 /// What a picture shows.
@@ -85,36 +79,5 @@ struct Scene {
   double part_of_mesh = 1;  ///< of the width, from the left; the rest is the legend's
   Point low{}, high{};      ///< corners of the whole mesh, whatever of it is drawn
 };
-
-/// Throws gale::Error if this gale can't draw here: it was built without VTK's rendering, or there is no display where
-/// VTK needs one.
-void require_drawing();
-
-/// Draws a scene, seen from its high corner, or from above if it is flat, to the temporary of `file`, a PNG. Throws
-/// gale::Error, naming the file.
-void draw(const io::AtomicFile& file, const Scene& scene);
-
-/// Points of either type, as doubles.
-inline std::vector<Point> to_points(const io::Dataset::Positions& points) {
-  std::vector<Point> all;
-  std::visit(
-      [&](const auto& rows) {
-        all.resize(rows.extent(0));
-        for (std::size_t i = 0; i < all.size(); ++i) all[i] = {rows(i, 0), rows(i, 1), rows(i, 2)};
-      },
-      points);
-  return all;
-}
-
-/// The array of that name, which must be there.
-inline const io::PointArray& array_of(const std::vector<io::PointArray>& arrays, const std::string& name) {
-  return *std::find_if(arrays.begin(), arrays.end(), [&](const io::PointArray& array) { return array.name == name; });
-}
-
-/// The values of the array of that name and type, which must be there.
-template <class T>
-const std::vector<T>& values_of(const std::vector<io::PointArray>& arrays, const std::string& name) {
-  return std::get<std::vector<T>>(array_of(arrays, name).values);
-}
 
 }  // namespace gale::app

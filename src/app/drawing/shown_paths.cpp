@@ -2,6 +2,7 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include <gale/app/drawing/arrays.hpp>
 #include <gale/app/drawing/picture.hpp>
 #include <gale/outputs/field.hpp>
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <gale/app/drawing/arrays.hpp>
 #include <gale/app/drawing/skin.hpp>
 #include <gale/outputs/field.hpp>
 

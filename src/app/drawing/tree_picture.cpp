@@ -2,6 +2,7 @@
 #include <cctype>
 #include <cmath>
 
+#include <gale/app/drawing/arrays.hpp>
 #include <gale/app/drawing/axes.hpp>
 #include <gale/app/drawing/picture.hpp>
 #include <gale/app/drawing/planar_tree.hpp>

@@ -38,7 +38,7 @@ template <class... Parts>
 }
 
 /// `text` from a file as one short line that can be printed.
-std::string printable(const std::string& text);
+GALE_EXPORT std::string printable(const std::string& text);
 
 /// Throws gale::Error about a file whose content isn't what its format says. The parts are the reason, which names the
 /// value at fault; bytes of the file that it quotes become printable, and it is cut where it is long.

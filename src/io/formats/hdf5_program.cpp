@@ -1,4 +1,3 @@
-#include <dlfcn.h>
 #include <fcntl.h>
 #include <poll.h>
 #include <spawn.h>
@@ -14,6 +13,7 @@
 #include <gale/base/stop.hpp>
 #include <gale/io/bytes/text.hpp>
 #include <gale/io/formats/hdf5_file.hpp>
+#include <gale/io/installed.hpp>
 
 extern char** environ;
 
@@ -21,29 +21,6 @@ namespace gale::io::detail {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr char program_name[] = "gale-hdf5-reader";
-
-/// The folder of the program, or of the library or module, that holds this code.
-fs::path own_folder() {
-  static const int here = 0;
-  std::error_code unknown;
-  Dl_info info;
-  const bool is_known = dladdr(&here, &info) != 0 && std::strchr(info.dli_fname, '/') != nullptr;
-  const fs::path own = is_known ? fs::canonical(info.dli_fname, unknown) : fs::path();
-  return (own.empty() ? fs::read_symlink("/proc/self/exe", unknown) : own).parent_path();
-}
-
-/// Finds the program beside that, where the Python module has it, or where GALE was installed.
-std::string find_program() {
-  const fs::path own = own_folder();
-  for (const fs::path& folder : {own, own / "bin", own / GALE_LIBEXEC_FROM_BIN, fs::path(GALE_LIBEXEC)}) {
-    const fs::path program = folder / program_name;
-    if (access(program.c_str(), X_OK) == 0) return program.string();
-  }
-  refuse("such files are read by ", program_name, ", which isn't beside ", own.string(), " nor in ", GALE_LIBEXEC,
-         ": it is built where VTK has HDF5, on Linux");
-}
 
 [[noreturn]] void throw_errno(const char* what) { refuse(what, ": ", std::strerror(errno)); }
 
@@ -107,7 +84,7 @@ Hdf5Program::Hdf5Program(const std::string& path) {
   Descriptor its_talk, its_message;
   connect(talk_, its_talk);
   connect(message_, its_message);
-  const std::string program = find_program();
+  const std::string program = find_installed("gale-hdf5-reader", "such files are read", "where VTK has HDF5, on Linux");
   const Spawning spawning(its_talk, its_message);
   const std::string absolute = fs::absolute(path).string();
   char* const arguments[] = {const_cast<char*>(program.c_str()), const_cast<char*>(absolute.c_str()), nullptr};
@@ -142,7 +119,7 @@ void Hdf5Program::throw_end() {
   if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL))
     damaged("HDF5 takes longer than a file of its size may");
   if (WIFSIGNALED(status)) damaged("HDF5 ended by a signal: ", strsignal(WTERMSIG(status)));
-  throw Error(message.empty() ? std::string(program_name) + " ended without a word" : printable(message));
+  throw Error(message.empty() ? "gale-hdf5-reader ended without a word" : printable(message));
 }
 
 void Hdf5Program::ask(reader::Request request, const std::vector<std::string>& texts) {

@@ -1,6 +1,7 @@
 #include <dlfcn.h>
 
 #include <cmath>
+#include <stdexcept>
 
 #include <vtkAutoInit.h>
 #include <vtkCamera.h>
@@ -14,9 +15,9 @@
 #include <vtkUnsignedCharArray.h>
 #include <vtkWindowedSincPolyDataFilter.h>
 
-#include <gale/app/drawing/picture.hpp>
-#include <gale/app/drawing/vtk_png.hpp>
-#include <gale/base/error.hpp>
+#include <gale/app/drawing/drawer.hpp>
+#include <gale/app/drawing/module/png.hpp>
+#include <gale/version.hpp>
 
 VTK_MODULE_INIT(vtkRenderingOpenGL2)
 VTK_MODULE_INIT(vtkRenderingFreeType)
@@ -135,10 +136,8 @@ void aim(vtkRenderer* renderer, const Scene& scene) {
   renderer->ResetCameraClippingRange();
 }
 
-}  // namespace
-
-void require_drawing() {
-  const auto window = make_window(picture_width, picture_height);
+void require_display() {
+  const auto window = make_window(100, 100);
   if (!window->IsA("vtkXOpenGLRenderWindow")) return;
   // This kind of window ends the process if there is no display. So ask first, through the X library that it loaded.
   const auto open = reinterpret_cast<void* (*)(const char*)>(dlsym(RTLD_DEFAULT, "XOpenDisplay"));
@@ -146,11 +145,11 @@ void require_drawing() {
   if (open == nullptr || close == nullptr) return;
   void* const display = open(nullptr);
   if (display == nullptr)
-    throw Error("there is no X display, which VTK needs to draw (--render): start gale with xvfb-run");
+    throw std::runtime_error("there is no X display, which VTK needs to draw (--render): start gale with xvfb-run");
   close(display);
 }
 
-void draw(const io::AtomicFile& file, const Scene& scene) {
+void draw_scene(const std::string& file, const Scene& scene) {
   const Fill fill_scene = [&](vtkRenderer* renderer) {
     add_skin(renderer, scene.skin);
     for (const auto& tubes : scene.tubes) add_tubes(renderer, tubes);
@@ -161,4 +160,11 @@ void draw(const io::AtomicFile& file, const Scene& scene) {
   write_png(file, scene.legend.width, scene.legend.height, {fill_scene, fill_legend});
 }
 
+}  // namespace
 }  // namespace gale::app
+
+const gale::app::Drawer* gale_drawer() {
+  static constexpr gale::app::Drawer drawer = {gale::version, gale::app::require_display, gale::app::draw_flat,
+                                               gale::app::draw_scene};
+  return &drawer;
+}

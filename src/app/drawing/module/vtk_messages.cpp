@@ -2,22 +2,16 @@
 #include <cerrno>
 #include <cstring>
 #include <iterator>
-#include <mutex>
+#include <stdexcept>
+#include <string>
 
 #include <vtkErrorCode.h>
-#include <vtkLogger.h>
 #include <vtkObjectFactory.h>
-#include <vtkOutputWindow.h>
-#include <vtkSmartPointer.h>
 
-#include <gale/base/error.hpp>
-#include <gale/io/bytes/text.hpp>
-#include <gale/io/vtk/vtk_messages.hpp>
+#include <gale/app/drawing/module/vtk_messages.hpp>
 
-namespace gale::io::detail {
+namespace gale::app {
 namespace {
-
-std::mutex one_at_a_time;
 
 /// VTK's "ERROR: In FILE, line N\nvtkClass (0x...): the message\n\n" without all that comes before the message.
 std::string message_of(const std::string& text) {
@@ -25,13 +19,6 @@ std::string message_of(const std::string& text) {
   const std::size_t object = message.find("): ");
   if (message.compare(0, 3, "vtk") == 0 && object != std::string::npos) message.erase(0, object + 3);
   return message;
-}
-
-/// The text as one short line that can be printed, without a full stop.
-std::string one_line(const std::string& text) {
-  std::string line = printable(text);
-  if (!line.empty() && line.back() == '.') line.pop_back();
-  return line;
 }
 
 /// VTK names its objects by their addresses too, as in "vtkPNGWriter(0x55e6)": these say nothing to a user.
@@ -78,40 +65,29 @@ class SilentWindow : public vtkOutputWindow {
 
 vtkStandardNewMacro(SilentWindow);
 
-struct VtkMessages::State {
-  std::string verdict;
-  std::lock_guard<std::mutex> lock{one_at_a_time};
-  vtkSmartPointer<vtkOutputWindow> before = vtkOutputWindow::GetInstance();
-  vtkSmartPointer<SilentWindow> window = vtkSmartPointer<SilentWindow>::New();
-  vtkLogger::Verbosity verbosity = vtkLogger::GetCurrentVerbosityCutoff();
-};
-
-VtkMessages::VtkMessages(const std::string& verdict) : state_(std::make_unique<State>()) {
-  state_->verdict = verdict;
-  vtkOutputWindow::SetInstance(state_->window);
+VtkMessages::VtkMessages() : window_(vtkSmartPointer<SilentWindow>::New()) {
+  vtkOutputWindow::SetInstance(window_);
   vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
 }
 
 VtkMessages::~VtkMessages() {
-  vtkLogger::SetStderrVerbosity(state_->verbosity);
-  vtkOutputWindow::SetInstance(state_->before);
+  vtkLogger::SetStderrVerbosity(verbosity_);
+  vtkOutputWindow::SetInstance(before_);
 }
 
-void VtkMessages::check(unsigned long code) const {
-  if (!state_->window->first_error.empty()) fail(state_->window->first_error);
-  if (code != vtkErrorCode::NoError) fail(vtkErrorCode::GetStringFromErrorCode(code));
+void VtkMessages::check() const {
+  if (!window_->first_error.empty()) throw std::runtime_error("VTK gave up (" + window_->first_error + ')');
 }
 
 void VtkMessages::check_written(unsigned long code) const {
   const int last = errno;
-  if (code == vtkErrorCode::NoError && state_->window->first_error.empty()) return;
+  const std::string& error = window_->first_error;
+  if (code == vtkErrorCode::NoError && error.empty()) return;
   for (const unsigned long reason : {code, static_cast<unsigned long>(last)}) {  // VTK's code may be the system's
-    if (says_why_not_written(reason)) throw Error(std::strerror(static_cast<int>(reason)));
+    if (says_why_not_written(reason)) throw std::runtime_error(std::strerror(static_cast<int>(reason)));
   }
-  const std::string said = one_line(without_addresses(state_->window->first_error));
-  refuse("not all of it could be written", (said.empty() ? "" : " (VTK: " + said + ")"));
+  throw std::runtime_error("not all of it could be written" +
+                           (error.empty() ? "" : " (VTK: " + without_addresses(error) + ')'));
 }
 
-void VtkMessages::fail(const std::string& reason) const { refuse(state_->verdict, " (", one_line(reason), ")"); }
-
-}  // namespace gale::io::detail
+}  // namespace gale::app

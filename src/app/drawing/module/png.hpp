@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 #include <vector>
 
 #include <vtkActor.h>
@@ -30,8 +31,11 @@ using Fill = std::function<void(vtkRenderer*)>;
 /// Adds a flat drawing.
 void fill(vtkRenderer* renderer, const Flat& flat);
 
-/// Draws on white what each of `layers` adds, one over the other, and writes it as a PNG. Throws gale::Error.
-void write_png(const io::AtomicFile& file, int width, int height, const std::vector<Fill>& layers);
+/// Draws on white what each of `layers` adds, one over the other, and writes it as a PNG. Throws std::runtime_error.
+void write_png(const std::string& file, int width, int height, const std::vector<Fill>& layers);
+
+/// What the module draws (drawer.hpp).
+void draw_flat(const std::string& file, const Flat& flat);
 
 /// Adds what a mapper draws in a colour, unless that has colours of its own; returns how it looks.
 inline vtkProperty* add_actor(vtkRenderer* renderer, vtkMapper* mapper, const Color& color) {

@@ -1,7 +1,6 @@
 #include <cerrno>
 
 #include <vtkCamera.h>
-#include <vtkErrorCode.h>
 #include <vtkImageResize.h>
 #include <vtkPNGWriter.h>
 #include <vtkPolyDataMapper.h>
@@ -9,9 +8,8 @@
 #include <vtkTextProperty.h>
 #include <vtkWindowToImageFilter.h>
 
-#include <gale/app/drawing/vtk_png.hpp>
-#include <gale/base/error.hpp>
-#include <gale/io/vtk/vtk_messages.hpp>
+#include <gale/app/drawing/module/png.hpp>
+#include <gale/app/drawing/module/vtk_messages.hpp>
 
 namespace gale::app {
 
@@ -23,36 +21,32 @@ vtkSmartPointer<vtkRenderWindow> make_window(int width, int height) {
   return window;
 }
 
-void write_png(const io::AtomicFile& file, int width, int height, const std::vector<Fill>& layers) {
-  try {
-    const io::detail::VtkMessages messages("VTK gave up");
-    const auto window = make_window(width, height);
-    window->SetNumberOfLayers(static_cast<int>(layers.size()));
-    for (std::size_t i = 0; i < layers.size(); ++i) {
-      vtkNew<vtkRenderer> renderer;
-      renderer->SetBackground(1, 1, 1);
-      renderer->SetLayer(static_cast<int>(i));
-      layers[i](renderer);
-      window->AddRenderer(renderer);
-    }
-    window->Render();
-    vtkNew<vtkWindowToImageFilter> drawn;
-    drawn->SetInput(window);
-    drawn->ReadFrontBufferOff();
-    vtkNew<vtkImageResize> picture;
-    picture->SetInputConnection(drawn->GetOutputPort());
-    picture->SetOutputDimensions(width, height, 1);
-    vtkNew<vtkPNGWriter> writer;
-    writer->SetFileName(file.temporary().c_str());
-    writer->SetCompressionLevel(9);
-    writer->SetInputConnection(picture->GetOutputPort());
-    messages.check(vtkErrorCode::NoError);
-    errno = 0;
-    writer->Write();
-    messages.check_written(writer->GetErrorCode());
-  } catch (const std::exception& error) {
-    throw Error("cannot draw '" + file.path() + "': " + error.what());
+void write_png(const std::string& file, int width, int height, const std::vector<Fill>& layers) {
+  const VtkMessages messages;
+  const auto window = make_window(width, height);
+  window->SetNumberOfLayers(static_cast<int>(layers.size()));
+  for (std::size_t i = 0; i < layers.size(); ++i) {
+    vtkNew<vtkRenderer> renderer;
+    renderer->SetBackground(1, 1, 1);
+    renderer->SetLayer(static_cast<int>(i));
+    layers[i](renderer);
+    window->AddRenderer(renderer);
   }
+  window->Render();
+  vtkNew<vtkWindowToImageFilter> drawn;
+  drawn->SetInput(window);
+  drawn->ReadFrontBufferOff();
+  vtkNew<vtkImageResize> picture;
+  picture->SetInputConnection(drawn->GetOutputPort());
+  picture->SetOutputDimensions(width, height, 1);
+  vtkNew<vtkPNGWriter> writer;
+  writer->SetFileName(file.c_str());
+  writer->SetCompressionLevel(9);
+  writer->SetInputConnection(picture->GetOutputPort());
+  messages.check();
+  errno = 0;
+  writer->Write();
+  messages.check_written(writer->GetErrorCode());
 }
 
 namespace {
@@ -126,7 +120,7 @@ void fill(vtkRenderer* renderer, const Flat& flat) {
   aim(renderer, flat);
 }
 
-void draw(const io::AtomicFile& file, const Flat& flat) {
+void draw_flat(const std::string& file, const Flat& flat) {
   write_png(file, flat.width, flat.height, {[&](vtkRenderer* renderer) { fill(renderer, flat); }});
 }
 

@@ -1,0 +1,37 @@
+#include <dlfcn.h>
+#include <unistd.h>
+
+#include <cstring>
+#include <filesystem>
+
+#include <gale/io/bytes/text.hpp>
+#include <gale/io/installed.hpp>
+
+namespace gale::io::detail {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The folder of the program, or of the library or module, that holds this code.
+fs::path own_folder() {
+  static const int here = 0;
+  std::error_code unknown;
+  Dl_info info;
+  const bool is_known = dladdr(&here, &info) != 0 && std::strchr(info.dli_fname, '/') != nullptr;
+  const fs::path own = is_known ? fs::canonical(info.dli_fname, unknown) : fs::path();
+  return (own.empty() ? fs::read_symlink("/proc/self/exe", unknown) : own).parent_path();
+}
+
+}  // namespace
+
+std::string find_installed(const std::string& name, const char* use, const char* origin) {
+  const fs::path own = own_folder();
+  // Beside it, where the Python module has it, or where GALE was installed.
+  for (const fs::path& folder : {own, own / "bin", own / GALE_LIBEXEC_FROM_BIN, fs::path(GALE_LIBEXEC)}) {
+    const fs::path file = folder / name;
+    if (access(file.c_str(), R_OK) == 0) return file.string();
+  }
+  refuse(use, " by ", name, ", which isn't beside ", own.string(), " nor in ", GALE_LIBEXEC, ": it is built ", origin);
+}
+
+}  // namespace gale::io::detail
