@@ -58,10 +58,9 @@ std::string name_of_step(const std::string& path, std::size_t step) {
 }
 
 std::string name_of_series(const std::string& path) {
+  if (io::detail::lower_case(fs::path(path).extension().string()) == ".vtkhdf") return path + ".series";
   const io::Format* const format = io::format_of(path);
-  return format != nullptr && (format->written & io::written_steps) != 0
-             ? fs::path(path).replace_extension(".pvd").string()
-             : "";
+  return format != nullptr && format->takes(io::written_steps) ? fs::path(path).replace_extension(".pvd").string() : "";
 }
 
 bool has_pieces(const std::string& path) {

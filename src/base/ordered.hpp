@@ -1,5 +1,9 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
 #include <gale/base/kokkos.hpp>
 #include <gale/base/types.hpp>
 
@@ -20,6 +24,19 @@ KOKKOS_FORCEINLINE_FUNCTION Place bisect(Place begin, Place end, const IsBefore&
     }
   }
   return begin;
+}
+
+/// A few entries, such as a simplex's vertices, ascending: without branches, which nobody could foretell. On the host.
+template <class T, std::size_t N>
+std::array<T, N> ascending(std::array<T, N> few) {
+  for (std::size_t end = N; end > 1; --end) {
+    for (std::size_t i = 0; i + 1 < end; ++i) {
+      const T one = few[i], other = few[i + 1];
+      few[i] = std::min(one, other);
+      few[i + 1] = std::max(one, other);
+    }
+  }
+  return few;
 }
 
 /// Sorts entries ascending, in place and in n log n time: load(i) is the i-th, store(i, entry) replaces it.

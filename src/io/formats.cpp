@@ -48,8 +48,8 @@ const std::vector<Format>& formats() {
       {"OFF", ".off", Input::mesh, 0, false, "vertices and faces, as text", read_off},
       {"ParaView's data", ".pvd", Input::series, written_series, true,
        "the files that it names, in its folder or below, a time each", read_pvd, steps_of_pvd},
-      {"series of files", ".series", Input::series, 0, true, "likewise: `.vtu.series` and its like, which are JSON",
-       read_file_series, steps_of_file_series},
+      {"series of files", ".series", Input::series, written_series, true,
+       "likewise: `.vtu.series` and its like, which are JSON", read_file_series, steps_of_file_series},
       {"pieces of VTK XML surfaces", ".pvtp", Input::none, written_points | written_surfaces | written_steps, true, "",
        nullptr}};
   return all;

@@ -159,7 +159,9 @@ void write_pieces(const AtomicFile& file, const std::vector<std::string>& pieces
 }
 
 void write_series(const AtomicFile& file, const std::vector<Step>& steps) {
-  name_in_errors(file.path(), [&] { detail::write_xml_series(file, steps); });
+  const bool is_xml = format_of(file.path())->extensions == std::string(".pvd");
+  name_in_errors(file.path(),
+                 [&] { is_xml ? detail::write_xml_series(file, steps) : detail::write_file_series(file, steps); });
 }
 
 }  // namespace gale::io

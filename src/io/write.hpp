@@ -99,7 +99,8 @@ GALE_EXPORT void write_pieces(const AtomicFile& file, const std::vector<std::str
 /// Writes the `.pvtu` of pieces that are meshes.
 GALE_EXPORT void write_pieces(const AtomicFile& file, const std::vector<std::string>& pieces, const MeshPiece& like);
 
-/// Writes a `.pvd` that names files in the same folder, each with its time, to the temporary file of `file`.
+/// Writes a `.pvd` or a `.series` that names files in the same folder, each with its time, to the temporary file of
+/// `file`. ParaView reads files of XML through a `.pvd`, VTKHDF through a `.vtkhdf.series`.
 GALE_EXPORT void write_series(const AtomicFile& file, const std::vector<Step>& steps);
 
 }  // namespace gale::io

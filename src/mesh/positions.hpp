@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include <gale/base/ordered.hpp>
 #include <gale/base/types.hpp>
 
 // Where simplices are drawn. A simplex is given by its input vertices, in any order: the position is the same, to the
@@ -19,10 +20,9 @@ Point point_of(const View& points, Id vertex) {
 }
 
 template <class View, std::size_t N>
-Point barycentre(const View& points, std::array<Id, N> simplex) {
-  std::sort(simplex.begin(), simplex.end());
+Point barycentre(const View& points, const std::array<Id, N>& simplex) {
   Point sum{};
-  for (const Id vertex : simplex) {
+  for (const Id vertex : ascending(simplex)) {
     for (int axis = 0; axis < 3; ++axis) sum[axis] += points(vertex, axis);
   }
   for (double& coordinate : sum) coordinate /= N;
@@ -41,18 +41,19 @@ inline double length_of(double x, double y, double z) {
 
 /// The centre of the circle that touches a triangle's sides; the first corner where all three are one point.
 template <class View>
-Point incentre(const View& points, std::array<Id, 3> triangle) {
-  std::sort(triangle.begin(), triangle.end());
+Point incentre(const View& points, const std::array<Id, 3>& triangle) {
+  const std::array<Id, 3> vertices = ascending(triangle);
   Point corners[3], sum{};
   double weights[3], all = 0;
-  for (int i = 0; i < 3; ++i) corners[i] = point_of(points, triangle[i]);
+  for (int i = 0; i < 3; ++i) corners[i] = point_of(points, vertices[i]);
   for (int i = 0; i < 3; ++i) {
     const Point &a = corners[(i + 1) % 3], &b = corners[(i + 2) % 3];
     all += weights[i] = length_of(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
   }
   if (!(all > 0)) return corners[0];
-  for (int axis = 0; axis < 3; ++axis) {
-    for (int i = 0; i < 3; ++i) sum[axis] += weights[i] / all * corners[i][axis];
+  for (int i = 0; i < 3; ++i) {
+    const double part = weights[i] / all;
+    for (int axis = 0; axis < 3; ++axis) sum[axis] += part * corners[i][axis];
   }
   return sum;
 }

@@ -44,6 +44,19 @@ class Series(gale.CommandTest):
                     self.assertEqual([file for _, file in self.named_by(f"all{name}.pvd")],
                                      [f"all{name}_{k:04}.{extension}" for k in range(len(files))])
 
+    def test_as_vtkhdf_is_named_by_a_series_of_files(self):
+        self.write("f.pvd", pvd((3, "f2.vtu"), (-1e-3, "f1.vtu"), (0.25, "f0.vtu")))
+        self.succeed("critical-points", "f.pvd", "-o", "all.vtkhdf")
+        self.succeed("morse-smale", "f.pvd", "-o", "all", "--format", "vtkhdf")
+        for name in ("all", "all_critical_points", "all_separatrices1", "all_segmentation"):
+            files = json.loads((self.folder / f"{name}.vtkhdf.series").read_text())["files"]
+            self.assertEqual(files, [{"name": f"{name}_{k:04}.vtkhdf", "time": time} for k, time in enumerate((-1e-3, 0.25, 3))])
+            self.assertFalse((self.folder / f"{name}.pvd").exists())
+        again = self.report("critical-points", "all_segmentation.vtkhdf.series", "--array", "field")
+        once = self.report("critical-points", "f.pvd")
+        for one, other in zip(again["steps"], once["steps"]):
+            self.assertEqual((one["time"], one["result"]), (other["time"], other["result"]))
+
     def test_of_several_files(self):
         self.expect_steps(["f0.vtu", "f1.vtu", "f2.vtu"], ["f0.vtu", "f1.vtu", "f2.vtu"])
 

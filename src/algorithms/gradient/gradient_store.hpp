@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <memory>
 #include <utility>
@@ -9,6 +8,7 @@
 #include <gale/algorithms/discrete_gradient.hpp>
 #include <gale/algorithms/gradient/edge_pairs.hpp>
 #include <gale/algorithms/vertex_order.hpp>
+#include <gale/base/ordered.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/export.hpp>
 
@@ -18,8 +18,7 @@ namespace gale::detail {
 template <class Simplex>
 Simplex written(const OtherIds& vertex_input, Simplex simplex) {
   for (Id& vertex : simplex) vertex = vertex_input[vertex];
-  std::sort(simplex.begin(), simplex.end());
-  return simplex;
+  return ascending(simplex);
 }
 
 /// Before a sweep of a rank's part of a mesh: has all successors be elsewhere, so that they are for what it leaves out.

@@ -1,10 +1,10 @@
-#include <algorithm>
 #include <array>
 #include <string>
 
 #include <gale/algorithms/numbers/grid_numbers.hpp>
 #include <gale/base/bits.hpp>
 #include <gale/base/error.hpp>
+#include <gale/base/ordered.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/mesh/grid.hpp>
 
@@ -62,9 +62,10 @@ class Directions {
   /// `later_directions` if none does.
   int between(Id from, Id to) const {
     const std::uint32_t step = grid_.is_whole() ? to - from : places_(to) - places_(from);
-    int direction = 0;
-    while (direction < later_directions && steps_[direction] != step) ++direction;
-    return direction;
+    int found = later_directions;
+    for (int direction = later_directions - 1; direction >= 0; --direction)
+      found = steps_[direction] == step ? direction : found;
+    return found;
   }
 
  private:
@@ -82,14 +83,13 @@ template <std::size_t N>
 
 /// A simplex's vertices, ascending. Throws gale::Error for a vertex that the mesh doesn't have.
 template <std::size_t N>
-std::array<Id, N> ascending(const Mesh& mesh, std::array<Id, N> simplex) {
+std::array<Id, N> vertices_of(const Mesh& mesh, const std::array<Id, N>& simplex) {
   for (const Id vertex : simplex) {
     if (vertex < 0 || vertex >= mesh.vertices())
       throw Error("no vertex " + std::to_string(vertex) + " to number a simplex of: there are " +
                   std::to_string(mesh.vertices()));
   }
-  std::sort(simplex.begin(), simplex.end());
-  return simplex;
+  return ascending(simplex);
 }
 
 using Counts = Array<Id, HostMemory>;
@@ -132,14 +132,14 @@ SimplexNumbers number_on_grid(const Mesh& mesh, const NamedSimplices& named) {
   SimplexNumbers numbers{std::vector<GlobalId>(named.edges.size()), std::vector<GlobalId>(named.triangles.size()),
                          on_surface};
   parallel_for("GALE::number_edges", HostExecutionSpace(), named.edges.size(), [&](Offset i) {
-    const auto edge = ascending(mesh, named.edges[i]);
+    const auto edge = vertices_of(mesh, named.edges[i]);
     const int direction = directions.between(edge[0], edge[1]);
     const LaterKind& kind = kinds[kind_of(edge[0])];
     if (direction == later_directions || kind.edge[direction] == LaterKind::none) refuse(edge);
     numbers.edges[i] = first_edge(edge[0]) + kind.edge[direction];
   });
   parallel_for("GALE::number_triangles", HostExecutionSpace(), named.triangles.size(), [&](Offset i) {
-    const auto triangle = ascending(mesh, named.triangles[i]);
+    const auto triangle = vertices_of(mesh, named.triangles[i]);
     const int one = directions.between(triangle[0], triangle[1]), other = directions.between(triangle[0], triangle[2]);
     const LaterKind& kind = kinds[kind_of(triangle[0])];
     if (one == later_directions || other == later_directions || kind.triangle[one][other] == LaterKind::none)

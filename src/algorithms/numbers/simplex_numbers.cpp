@@ -4,6 +4,7 @@
 #include <gale/algorithms/numbers/grid_numbers.hpp>
 #include <gale/algorithms/numbers/numbering_sweep.hpp>
 #include <gale/algorithms/simplex_numbers.hpp>
+#include <gale/base/ordered.hpp>
 #include <gale/mesh/exchange/exchange_plan.hpp>
 #include <gale/mesh/exchange/messages.hpp>
 #include <gale/mesh/exchange/places.hpp>
@@ -39,8 +40,7 @@ std::array<GlobalId, N> global_ids(const Mesh& mesh, const std::array<Id, N>& si
     if (v < 0 || v >= mesh.vertices()) throw Error("no vertex " + std::to_string(v) + " to number a simplex of");
     ids[k] = mesh.vertex_id(input[v]);
   }
-  std::sort(ids.begin(), ids.end());
-  return ids;
+  return ascending(ids);
 }
 
 /// Simplices of N vertices on their way to the owners of their first vertices, and back with numbers.

@@ -21,7 +21,7 @@ bool can_compress();
 /// those of four and eight, else by the library.
 void compress_by_zlib(std::size_t value_bytes, const char* bytes, std::size_t size, std::vector<char>& compressed);
 
-/// `compressed` becomes the zlib stream of `size` bytes (below 2^32), numbers of four or eight bytes, whose checksum
+/// `compressed` becomes the zlib stream of `size` bytes (below 2^31), numbers of four or eight bytes, whose checksum
 /// (Adler-32) a library makes: in half of libdeflate's time, to much the same size.
 void compress_words(const char* bytes, std::size_t size, std::uint32_t checksum, std::vector<char>& compressed);
 

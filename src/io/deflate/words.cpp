@@ -2,6 +2,8 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <functional>
+#include <memory>
 
 #include <gale/io/bytes/compression.hpp>
 #include <gale/io/bytes/values.hpp>
@@ -14,6 +16,8 @@ namespace {
 
 constexpr unsigned end_symbol = 256, length_symbols = 286, distance_symbols = 30;
 constexpr std::size_t word_bytes = 4, farthest = 1 << 15, longest = 256;  // as many words as a match may have
+constexpr unsigned near = 256;                                            // distances whose codes are kept
+constexpr unsigned most_bits_of_distance = 15 + 13;
 
 /// Bytes as they are, then so many that came that far before.
 struct Sequence {
@@ -136,6 +140,11 @@ class BitWriter {
     count_ %= 8;
   }
 
+  /// Makes sure that so many bits can be put.
+  void make_room(unsigned bits) {
+    if (count_ + bits > 56) flush();
+  }
+
   /// Fills up the last byte, and says where the next one goes.
   char* end() {
     count_ = (count_ + 7) / 8 * 8;
@@ -165,17 +174,22 @@ std::size_t alike(const char* one, const char* other, std::size_t most) {
 /// Finds what a block is made of.
 class SequenceFinder {
  public:
-  SequenceFinder(const char* bytes, std::size_t size) : bytes_(bytes), size_(size) {
-    sequences.reserve(size / word_bytes);
+  SequenceFinder(const char* bytes, std::size_t size)
+      : bytes_(bytes), size_(size), sequences_(new Sequence[size / word_bytes]), end_(sequences_.get()) {
     const std::size_t first = std::min(size, 4 * word_bytes);
     add_literals(0, first);
     std::size_t at = first;
     while (at + word_bytes <= size) at += add_at(at);
     add_literals(at, size - at);
     ++lengths.count[end_symbol];
+    for (const auto& of_byte : of_byte_)
+      std::transform(of_byte.begin(), of_byte.end(), lengths.count.begin(), lengths.count.begin(), std::plus<>());
+    for (unsigned length = 3; length <= longest; ++length) count(lengths, symbol_of_length(length), of_length_[length]);
   }
 
-  std::vector<Sequence> sequences;
+  const Sequence* begin() const { return sequences_.get(); }
+  const Sequence* end() const { return end_; }
+
   std::uint32_t literals = 0;          ///< that come last
   std::size_t bits_behind = 0;         ///< that symbols have behind them
   PrefixCode<length_symbols> lengths;  ///< and bytes
@@ -185,10 +199,11 @@ class SequenceFinder {
   /// Adds what begins there, and says how many bytes that are.
   std::size_t add_at(std::size_t at) {
     const std::uint32_t word = word_at(bytes_ + at);
-    std::uint32_t& last = last_[word * 0x9e3779b1u >> (32 - 12)];
-    const std::size_t before = last, most = std::min(longest, size_ - at) - word_bytes;
-    last = static_cast<std::uint32_t>(at);
-    if (at - before <= farthest && word_at(bytes_ + before) == word) {
+    Last& last = last_[word * 0x9e3779b1u >> (32 - 12)];
+    const std::size_t before = last.at, most = std::min(longest, size_ - at) - word_bytes;
+    const bool is_same = last.word == word;
+    last = {word, static_cast<std::uint32_t>(at)};
+    if (is_same && at - before <= farthest) {
       const std::size_t length = word_bytes + alike(bytes_ + at + word_bytes, bytes_ + before + word_bytes, most);
       add_match(length, at - before);
       return length;
@@ -206,24 +221,37 @@ class SequenceFinder {
   }
 
   void add_literals(std::size_t at, std::size_t count) {
-    for (std::size_t k = 0; k < count; ++k) ++lengths.count[static_cast<unsigned char>(bytes_[at + k])];
+    for (std::size_t k = 0; k < count; ++k) ++of_byte_[k % word_bytes][static_cast<unsigned char>(bytes_[at + k])];
     literals += static_cast<std::uint32_t>(count);
   }
 
   void add_match(std::size_t length, std::size_t distance) {
-    const Symbol of_length = symbol_of_length(static_cast<unsigned>(length));
-    const Symbol of_distance = symbol_of_distance(static_cast<unsigned>(distance));
-    ++lengths.count[of_length.symbol];
-    ++distances.count[of_distance.symbol];
-    bits_behind += of_length.bits + of_distance.bits;
-    sequences.push_back({literals, static_cast<std::uint16_t>(length), static_cast<std::uint16_t>(distance)});
+    ++of_length_[length];
+    count(distances, symbol_of_distance(static_cast<unsigned>(distance)), 1);
+    *end_++ = {literals, static_cast<std::uint16_t>(length), static_cast<std::uint16_t>(distance)};
     literals = 0;
   }
+
+  template <unsigned Symbols>
+  void count(PrefixCode<Symbols>& code, const Symbol& symbol, std::uint32_t times) {
+    code.count[symbol.symbol] += times;
+    bits_behind += std::size_t(times) * symbol.bits;
+  }
+
+  /// The word of a hash that came last, and where.
+  struct Last {
+    std::uint32_t word = 0, at = ~std::uint32_t(0) / 2;  // farther than any
+  };
 
   const char* const bytes_;
   const std::size_t size_;
   const std::uint32_t upper_ = ~word_at("\xff\0\0\0");  ///< all of a word but its first byte
-  std::array<std::uint32_t, 1 << 12> last_ = {};        ///< where words of that hash were last
+  std::array<Last, 1 << 12> last_;
+  const std::unique_ptr<Sequence[]> sequences_;  // each has a word at least
+  Sequence* end_;
+  /// How many literals each byte is, four counters in turn: one that is added to again has to wait for itself.
+  std::array<std::array<std::uint32_t, 256>, word_bytes> of_byte_ = {};
+  std::array<std::uint32_t, longest + 1> of_length_ = {};  ///< how many matches have it
 };
 
 /// Writes the lengths of both codes, each by itself in four bits.
@@ -249,27 +277,36 @@ void put_codes(BitWriter& to, const SequenceFinder& found) {
 
 /// Writes the bytes' sequences, and where they end.
 char* put_sequences(BitWriter& to, const SequenceFinder& found, const char* bytes) {
-  struct {
+  struct Bits {
     std::uint32_t code, bits;
-  } lengths[longest + 1];
+  };
+  Bits literals[256], lengths[longest + 1], distances[near + 1];
+  for (unsigned byte = 0; byte < 256; ++byte) literals[byte] = {found.lengths.code[byte], found.lengths.bits[byte]};
   for (unsigned length = 3; length <= longest; ++length) {
     const Symbol symbol = symbol_of_length(length);
     const unsigned bits = found.lengths.bits[symbol.symbol];
     lengths[length] = {found.lengths.code[symbol.symbol] | symbol.rest << bits, bits + symbol.bits};
   }
-  const auto put_literals = [&](std::uint32_t count) {
-    for (; count > 0; --count, ++bytes) {
-      to.put(found.lengths, static_cast<unsigned char>(*bytes));
-      if (count % 2 == 0) to.flush();
-    }
+  const auto bits_of_distance = [&](unsigned distance) {
+    const Symbol symbol = symbol_of_distance(distance);
+    const unsigned bits = found.distances.bits[symbol.symbol];
+    return Bits{found.distances.code[symbol.symbol] | symbol.rest << bits, bits + symbol.bits};
   };
-  for (const Sequence& sequence : found.sequences) {
+  for (unsigned distance = 1; distance <= near; ++distance) distances[distance] = bits_of_distance(distance);
+  const auto put = [&](const Bits& some) { to.put(some.code, some.bits); };
+  const auto put_literals = [&](std::uint32_t count) {
+    for (; count > 1; count -= 2, bytes += 2) {
+      put(literals[static_cast<unsigned char>(bytes[0])]);
+      put(literals[static_cast<unsigned char>(bytes[1])]);
+      to.flush();
+    }
+    if (count > 0) put(literals[static_cast<unsigned char>(*bytes++)]);
+  };
+  for (const Sequence& sequence : found) {
     put_literals(sequence.literals);
-    to.put(lengths[sequence.length].code, lengths[sequence.length].bits);
-    to.flush();
-    const Symbol distance = symbol_of_distance(sequence.distance);
-    to.put(found.distances, distance.symbol);
-    to.put(distance.rest, distance.bits);
+    put(lengths[sequence.length]);
+    to.make_room(most_bits_of_distance);
+    put(sequence.distance <= near ? distances[sequence.distance] : bits_of_distance(sequence.distance));
     to.flush();
     bytes += sequence.length;
   }

@@ -157,8 +157,9 @@ void write_vtkhdf(const AtomicFile& to, const XmlContent& content);
 /// Writes the names of files, each of which has what `like` has, with other values.
 void write_xml_pieces(const AtomicFile& to, const std::vector<std::string>& pieces, const XmlContent& like);
 
-/// Writes the names of files, each with its time.
+/// Writes the names of files, each with its time, as XML or as JSON.
 void write_xml_series(const AtomicFile& to, const std::vector<Step>& steps);
+void write_file_series(const AtomicFile& to, const std::vector<Step>& steps);
 
 /// Writes a legacy file, binary, of the version 5.1.
 void write_legacy_vtk(const AtomicFile& to, const Dataset& mesh, const std::vector<PointArray>& more);
