@@ -97,6 +97,8 @@ def cut_face(volume, axis, cut, grey):
 def greys(volume, begin):
     """From black to white over the volume's values, but for the largest, and nothing where they are below a value."""
     values = vtk_to_numpy(volume.GetPointData().GetScalars())
+    if values.max() <= max(values.min(), begin):
+        raise SystemExit(f"no value of the volume is above {begin:g}, half of --surface")
     low, high = float(values.min()), float(np.percentile(values[values >= begin], 99))
     table = vtkLookupTable()
     table.SetTableRange(low, high)

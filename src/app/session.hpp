@@ -176,10 +176,10 @@ class Session {
   /// Says what was read.
   void say_input();
 
-  /// The file that `path` stands for in this step; of a series, a .pvd is to name it.
+  /// The file that `path` stands for in this step; of a series, the file of name_of_series is to name it.
   std::string named(const std::string& path);
 
-  /// Writes the .pvd files.
+  /// Writes the files that name those of all steps.
   void write_series();
 
   void tell_size(std::int64_t vertices, std::int64_t cells, int dimension);
@@ -224,7 +224,7 @@ class Session {
   std::optional<Mesh> part_;  ///< on several ranks
   Seconds seconds_before_;    ///< what all steps before took
 
-  /// The .pvd files by their names, each with what it is to name.
+  /// The files of name_of_series by their names, each with what it is to name.
   std::map<std::string, std::vector<io::Step>> series_;
   WarmUp warm_up_;
 };

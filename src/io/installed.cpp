@@ -24,12 +24,12 @@ fs::path own_folder() {
 
 }  // namespace
 
-std::string find_installed(const std::string& name, const char* use, const char* origin) {
+std::string find_installed(const std::string& name, int access, const char* use, const char* origin) {
   const fs::path own = own_folder();
-  // Beside it, where the Python module has it, or where GALE was installed.
+  // Looks beside it, where the Python module has it, and where GALE was installed.
   for (const fs::path& folder : {own, own / "bin", own / GALE_LIBEXEC_FROM_BIN, fs::path(GALE_LIBEXEC)}) {
     const fs::path file = folder / name;
-    if (access(file.c_str(), R_OK) == 0) return file.string();
+    if (::access(file.c_str(), access) == 0) return file.string();
   }
   refuse(use, " by ", name, ", which isn't beside ", own.string(), " nor in ", GALE_LIBEXEC, ": it is built ", origin);
 }

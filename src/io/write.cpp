@@ -159,9 +159,12 @@ void write_pieces(const AtomicFile& file, const std::vector<std::string>& pieces
 }
 
 void write_series(const AtomicFile& file, const std::vector<Step>& steps) {
-  const bool is_xml = format_of(file.path())->extensions == std::string(".pvd");
-  name_in_errors(file.path(),
-                 [&] { is_xml ? detail::write_xml_series(file, steps) : detail::write_file_series(file, steps); });
+  name_in_errors(file.path(), [&] {
+    const Format* const format = format_of(file.path());
+    if (format == nullptr || (format->written & written_series) == 0) throw Error("a series ends with .pvd or .series");
+    format->extensions == std::string(".pvd") ? detail::write_xml_series(file, steps)
+                                              : detail::write_file_series(file, steps);
+  });
 }
 
 }  // namespace gale::io

@@ -101,6 +101,7 @@ GALE_EXPORT void write_pieces(const AtomicFile& file, const std::vector<std::str
 
 /// Writes a `.pvd` or a `.series` that names files in the same folder, each with its time, to the temporary file of
 /// `file`. ParaView reads files of XML through a `.pvd`, VTKHDF through a `.vtkhdf.series`.
+/// Throws gale::Error for other names.
 GALE_EXPORT void write_series(const AtomicFile& file, const std::vector<Step>& steps);
 
 }  // namespace gale::io

@@ -90,6 +90,13 @@ class CommandTest(unittest.TestCase):
             return False
         return True
 
+    def copy_of_command(self):
+        """The command alone in the test's folder; skips the test where it needs libraries beside it."""
+        copy = shutil.copy(GALE, self.folder)
+        if subprocess.run([copy, "--version"], capture_output=True, timeout=60).returncode != 0:
+            self.skipTest("the command doesn't run without what is beside it")
+        return copy
+
 
 class DrawingTest(CommandTest):
     """A test of pictures."""
@@ -104,9 +111,9 @@ class DrawingTest(CommandTest):
         """Has a picture of this size drawn, on a display that no one sees; skips the test where nothing is drawn."""
         if not shutil.which("xvfb-run"):
             self.skipTest("there is no xvfb-run")
-        run = self.draw(True, *arguments)
-        if "rendering modules" in run.stderr:
+        if os.environ["GALE_DRAWS"] == "0":
             self.skipTest("this VTK does not draw")
+        run = self.draw(True, *arguments)
         self.assertEqual((run.returncode, run.stderr), (0, ""))
         content = (self.folder / "picture.png").read_bytes()
         self.assertEqual((content[:8], struct.unpack(">II", content[16:24])), (b"\x89PNG\r\n\x1a\n", size))

@@ -2,7 +2,6 @@
 import ast
 import csv
 import os
-import shutil
 import struct
 import subprocess
 import unittest
@@ -110,7 +109,7 @@ class Pictures(gale.DrawingTest):
         self.expect_refused("persistence-diagram")
 
     def test_are_drawn_by_a_module_beside_the_command(self):
-        alone = shutil.copy(gale.GALE, self.folder)
+        alone = self.copy_of_command()
         run = subprocess.run([alone, "persistence-diagram", "grid:4", "--render", "picture.png"], cwd=self.folder, capture_output=True,
                              text=True, timeout=60)
         self.assertEqual(run.returncode, 1)

@@ -162,11 +162,11 @@ class Foreign(gale.CommandTest):
         self.assertEqual(outcomes, {0, 1})
 
     def test_program_is_looked_for_beside_the_command(self):
-        alone = shutil.copy(gale.GALE, self.folder)
+        alone = self.copy_of_command()
         self.mesh(4, "mesh.vtkhdf")
         run = subprocess.run([alone, "info", "mesh.vtkhdf"], cwd=self.folder, capture_output=True, text=True, timeout=60)
         self.assertRegex(run.stderr, r"\Agale: cannot read 'mesh.vtkhdf': such files are read by gale-hdf5-reader, which isn't [^\n]+\n\Z")
-        shutil.copy(Path(gale.GALE).parent / "gale-hdf5-reader", self.folder)
+        shutil.copy(os.environ["GALE_HDF5_READER"], self.folder)
         subprocess.run([alone, "info", "mesh.vtkhdf"], cwd=self.folder, check=True, stdout=subprocess.DEVNULL, timeout=60)
 
     def strange(self):
@@ -229,6 +229,11 @@ class Foreign(gale.CommandTest):
                 after = resource.getrusage(resource.RUSAGE_CHILDREN)
                 self.assertLess(after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, 5)  # 55, before
                 self.assertLess(after.ru_maxrss, 160 << 10)  # KiB of the largest so far; 2.8 GiB, before
+
+    def test_written_arrays_of_more_than_1024_chunks_are_read(self):
+        """The last test: others ask how much memory all before it took."""
+        self.succeed("generate", "plane:3400", "-o", "large.vtkhdf")  # 277 MB of connectivity, 256 KiB a chunk
+        self.assertEqual(self.report("critical-points", "large.vtkhdf")["result"], self.report("critical-points", "plane:3400")["result"])
 
 
 if __name__ == "__main__":

@@ -99,6 +99,25 @@ TEST_F(WriteMesh, RefusesOtherExtensions) {
             "cannot write points to 'points.vtu': its extension is neither .vtp nor .hdf nor .vtkhdf");
 }
 
+TEST_F(WriteMesh, NamesStepsInTwoFormats) {
+  const std::vector<Step> steps = {{-0.5, "a \"0\".vtu"}, {1e30, "b.vtu"}};
+  for (const char* const name : {"run.pvd", "run.vtu.series"}) {
+    AtomicFile file(folder / name);
+    write_series(file, steps);
+    file.commit();
+  }
+  EXPECT_EQ(content_of(folder / "run.vtu.series"),
+            "{\n  \"file-series-version\" : \"1.0\",\n  \"files\" : [\n"
+            "    { \"name\" : \"a \\\"0\\\".vtu\", \"time\" : -0.5 },\n"
+            "    { \"name\" : \"b.vtu\", \"time\" : 1e+30 }\n  ]\n}\n");
+  EXPECT_NE(content_of(folder / "run.pvd").find("timestep=\"1e+30\" part=\"0\" file=\"b.vtu\""), std::string::npos);
+  for (const char* const name : {"run.vtp", "run", "run.xml"}) {
+    const AtomicFile file(folder / name);
+    EXPECT_EQ(error_of([&] { write_series(file, steps); }),
+              "cannot write '" + (folder / name) + "': a series ends with .pvd or .series");
+  }
+}
+
 TEST_F(WriteMesh, RefusesNamesThatHdf5HasNot) {
   PointSet points = three_points();
   points.arrays.front().name = "of/all";

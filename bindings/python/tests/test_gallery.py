@@ -71,6 +71,7 @@ class Gallery(unittest.TestCase):
             for picture in ("points.png", "lines.png"):
                 self.assertGreater(self.colors_of(Path(folder) / picture), 1000, picture)
             self.assertIn("usage: draw_volume.py", run(draw, code=2))
+            self.assertIn("above 1000, half of --surface", run(draw, "ball.nii.gz", "x.png", "ball.vtp", "--surface", "2000", code=1))
             for wrong, *files in (("no.nii.gz", "no.nii.gz", "x.png", "ball.vtp"), ("no.vtp", "ball.nii.gz", "x.png", "no.vtp"),
                                   ("ball.vtp", "ball.nii.gz", "x.png", "ball.vtp", "ball.vtp"),
                                   ("no/x.png", "ball.nii.gz", "no/x.png", "ball.vtp")):

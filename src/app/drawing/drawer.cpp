@@ -1,4 +1,5 @@
 #include <dlfcn.h>
+#include <unistd.h>
 
 #include <exception>
 
@@ -16,16 +17,17 @@ namespace {
 const Drawer& loaded_drawer() {
   static const Drawer& drawer = []() -> const Drawer& {
     const std::string path = io::detail::find_installed(
-        "gale-drawing.so", "pictures (--render) are drawn",
+        "gale-drawing.so", R_OK, "pictures (--render) are drawn",
         "where VTK has its rendering modules; in Python the results' plot() draws by matplotlib or PyVista");
     void* const module = dlopen(path.c_str(), RTLD_NOW);
     if (module == nullptr) io::detail::refuse("cannot draw (--render): ", dlerror());
     const auto get = reinterpret_cast<decltype(&gale_drawer)>(dlsym(module, "gale_drawer"));
     if (get == nullptr) io::detail::refuse("cannot draw (--render): ", dlerror());
     const Drawer* const found = get();
-    if (std::string(found->version) != version)
-      io::detail::refuse("cannot draw (--render): ", path, " is of version ", found->version, ", and this gale of ",
-                         version);
+    const bool is_ours = found->version == std::string(version) && found->flat_bytes == sizeof(Flat) &&
+                         found->scene_bytes == sizeof(Scene);
+    if (!is_ours)
+      io::detail::refuse("cannot draw (--render): ", path, " is of another build of GALE, version ", found->version);
     return *found;
   }();
   return drawer;

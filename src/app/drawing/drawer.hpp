@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include <gale/app/drawing/scene.hpp>
@@ -15,8 +16,9 @@ namespace gale::app {
 
 /// What that module has. Each function throws std::exception; files are named by their paths.
 struct Drawer {
-  const char* version;        ///< of GALE
-  void (*require_display)();  ///< throws where VTK needs a display and there is none
+  const char* version;                  ///< of GALE
+  std::size_t flat_bytes, scene_bytes;  ///< of a Flat and a Scene: who has others was compiled from other sources
+  void (*require_display)();            ///< throws where VTK needs a display and there is none
   void (*draw_flat)(const std::string& file, const Flat& flat);
   void (*draw_scene)(const std::string& file, const Scene& scene);
 };

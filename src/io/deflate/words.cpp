@@ -140,7 +140,7 @@ class BitWriter {
     count_ %= 8;
   }
 
-  /// Makes sure that so many bits can be put.
+  /// Flushes if so many bits, 49 at most, have no room.
   void make_room(unsigned bits) {
     if (count_ + bits > 56) flush();
   }
@@ -247,9 +247,9 @@ class SequenceFinder {
   const std::size_t size_;
   const std::uint32_t upper_ = ~word_at("\xff\0\0\0");  ///< all of a word but its first byte
   std::array<Last, 1 << 12> last_;
-  const std::unique_ptr<Sequence[]> sequences_;  // each has a word at least
+  const std::unique_ptr<Sequence[]> sequences_;  // room for one a word, which each has at least
   Sequence* end_;
-  /// How many literals each byte is, four counters in turn: one that is added to again has to wait for itself.
+  /// Counts of literals by byte, in four tables in turn: adding to one twice in a row waits for the first sum.
   std::array<std::array<std::uint32_t, 256>, word_bytes> of_byte_ = {};
   std::array<std::uint32_t, longest + 1> of_length_ = {};  ///< how many matches have it
 };

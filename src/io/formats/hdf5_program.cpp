@@ -84,7 +84,8 @@ Hdf5Program::Hdf5Program(const std::string& path) {
   Descriptor its_talk, its_message;
   connect(talk_, its_talk);
   connect(message_, its_message);
-  const std::string program = find_installed("gale-hdf5-reader", "such files are read", "where VTK has HDF5, on Linux");
+  const std::string program =
+      find_installed("gale-hdf5-reader", X_OK, "such files are read", "where VTK has HDF5, on Linux");
   const Spawning spawning(its_talk, its_message);
   const std::string absolute = fs::absolute(path).string();
   char* const arguments[] = {const_cast<char*>(program.c_str()), const_cast<char*>(absolute.c_str()), nullptr};

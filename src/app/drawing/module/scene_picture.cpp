@@ -164,7 +164,8 @@ void draw_scene(const std::string& file, const Scene& scene) {
 }  // namespace gale::app
 
 const gale::app::Drawer* gale_drawer() {
-  static constexpr gale::app::Drawer drawer = {gale::version, gale::app::require_display, gale::app::draw_flat,
-                                               gale::app::draw_scene};
+  static constexpr gale::app::Drawer drawer = {
+      gale::version,        sizeof(gale::app::Flat), sizeof(gale::app::Scene), gale::app::require_display,
+      gale::app::draw_flat, gale::app::draw_scene};
   return &drawer;
 }

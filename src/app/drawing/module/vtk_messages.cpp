@@ -18,6 +18,7 @@ std::string message_of(const std::string& text) {
   std::string message = text.substr(std::min(text.find('\n') + 1, text.size()));
   const std::size_t object = message.find("): ");
   if (message.compare(0, 3, "vtk") == 0 && object != std::string::npos) message.erase(0, object + 3);
+  message.erase(message.find_last_not_of(" \n.") + 1);
   return message;
 }
 
