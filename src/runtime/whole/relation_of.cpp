@@ -100,12 +100,8 @@ Csr<const Id, HostMemory> relation_of(const Mesh& mesh, Relation relation, Ids i
     return in_worker_or_host_space(mesh, [&](const auto& space) {
       using Space = std::decay_t<decltype(space)>;
       if constexpr (is_device<Space>) {
-        const auto all = [&] {
-          static std::mutex one_at_a_time;  // where the space's own instance works; not while progress is told
-          const auto lock = detail::lock_or_stop(one_at_a_time);
-          const auto names = ids == Ids::input ? names_in_input<MemoryOf<Space>>(mesh, down) : detail::RelationNames{};
-          return detail::kernel_rows(space, mesh, down, down != relation, names);
-        }();
+        const auto names = ids == Ids::input ? names_in_input<MemoryOf<Space>>(mesh, down) : detail::RelationNames{};
+        const auto all = detail::kernel_rows(space, mesh, down, down != relation, names);
         detail::ProgressReport(mesh.segments(), options)(mesh.segments());
         return all;
       } else {
