@@ -136,12 +136,10 @@ class Arrows {
   /// An arrow from a simplex to its partner, which has the vertex `more` besides. Sums go by input ids, so that they
   /// don't depend on segments and ranks.
   template <std::size_t N>
-  void draw(Id place, std::array<Id, N> simplex, Id more) {
+  void draw(Id place, const std::array<Id, N>& simplex, Id more) {
     std::array<Id, N + 1> partner;
     std::copy(simplex.begin(), simplex.end(), partner.begin());
     partner[N] = more;
-    std::sort(simplex.begin(), simplex.end());
-    std::sort(partner.begin(), partner.end());
     const gale::detail::Point tail = gale::detail::barycentre(points_, simplex),
                               head = gale::detail::barycentre(points_, partner);
     for (int axis = 0; axis < 3; ++axis) {
