@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cstdint>
 #include <exception>
+#include <functional>
 #include <mutex>
 #include <string>
 #include <system_error>
@@ -102,6 +103,13 @@ void in_turns(int count, std::int64_t n, const Body& body) {
 }
 
 namespace detail {
+
+/// Runs what takes no arguments side by side, on the host's threads, as `in_turns` does: the longest first.
+template <class... Work>
+void side_by_side(const Work&... work) {
+  const std::function<void()> all[] = {work...};
+  in_turns(host_threads(), sizeof...(work), [&](int, std::int64_t i) { all[i](); });
+}
 
 /// A new thread that runs `body`. Throws Error where the system starts no more.
 template <class Body>

@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include <gale/base/error.hpp>
+#include <gale/base/parallel.hpp>
 #include <gale/io/atomic_file.hpp>
 #include <gale/io/bytes/text.hpp>
 #include <gale/io/formats.hpp>
@@ -37,9 +38,10 @@ void check_cells(std::size_t points, const Surface::Cells& cells) {
       !std::is_sorted(cells.begin.begin(), cells.begin.end())) {
     throw Error("its cells don't begin one after the other");
   }
-  for (const std::int32_t point : cells.points) {
-    if (point < 0 || static_cast<std::size_t>(point) >= points) refuse("there is no point ", point, " among ", points);
-  }
+  const std::int64_t wrong = reduce_min("GALE::check_cells", HostExecutionSpace(), end, end, [&](std::int64_t k) {
+    return static_cast<std::uint32_t>(cells.points[k]) < points ? end : k;  // one below 0 becomes a huge one
+  });
+  if (wrong != end) refuse("there is no point ", cells.points[wrong], " among ", points);
 }
 
 /// Throws Error unless the file's extension is one that is written with any of these bits. `what` it is.

@@ -1,4 +1,4 @@
-#include <gale/base/stop.hpp>
+#include <gale/base/parallel.hpp>
 #include <gale/io/dataset.hpp>
 #include <gale/mesh/positions.hpp>
 #include <gale/outputs/critical_simplices.hpp>
@@ -59,29 +59,36 @@ KnownSimplices known_simplices(const DiscreteGradient& gradient, const CriticalS
   const CellReader cells = mesh.cell_reader();
   const Namer namer(gradient, numbers);
   KnownSimplices known;
-  const auto add = [&](int dimension, const CriticalSimplex& simplex) {
-    gale::detail::stop_if_asked_at(static_cast<Offset>(known[dimension].size()));
-    known[dimension].push_back(simplex);
+  const auto name_all = [&](int dimension, const auto& simplices, const auto& name) {
+    known[dimension].resize(simplices.size());
+    parallel_for("GALE::critical_simplices", HostExecutionSpace(), simplices.size(),
+                 [&](Offset i) { known[dimension][i] = name(simplices[i], i); });
   };
-  for (const Id v : critical.vertices)
-    add(0, namer.name(std::array<Id, 1>{v}, mesh.vertex_id(mesh.vertices_in_input()[v])));
-  for (std::size_t i = 0; i < critical.edges.size(); ++i) add(1, namer.name(critical.edges[i], numbers.edges[i]));
-  for (std::size_t i = 0; i < critical.triangles.size(); ++i)
-    add(2, namer.name(critical.triangles[i], numbers.triangles[i]));
-  for (const Id t : critical.cells) {
-    const GlobalId id = mesh.cell_id(mesh.cells_in_input()[t]);
-    if (critical.dimension == 2) {
-      add(2, namer.name_cell(detail::corners_of<3>(cells, t), id));
-    } else {
-      add(3, namer.name_cell(detail::corners_of<4>(cells, t), id));
-    }
+  const OtherIds vertex_input = mesh.vertices_in_input(), cell_input = mesh.cells_in_input();
+  name_all(0, critical.vertices,
+           [&](Id v, Offset) { return namer.name(std::array<Id, 1>{v}, mesh.vertex_id(vertex_input[v])); });
+  name_all(1, critical.edges, [&](const auto& edge, Offset i) { return namer.name(edge, numbers.edges[i]); });
+  if (critical.dimension == 2) {
+    name_all(2, critical.cells, [&](Id cell, Offset) {
+      return namer.name_cell(detail::corners_of<3>(cells, cell), mesh.cell_id(cell_input[cell]));
+    });
+    return known;
   }
+  name_all(2, critical.triangles,
+           [&](const auto& triangle, Offset i) { return namer.name(triangle, numbers.triangles[i]); });
+  name_all(3, critical.cells, [&](Id cell, Offset) {
+    return namer.name_cell(detail::corners_of<4>(cells, cell), mesh.cell_id(cell_input[cell]));
+  });
   return known;
 }
 
 KnownSimplices own_simplices(const MorseSmaleComplex& complex, const KnownSimplices& all) {
   KnownSimplices own;
   for (int dimension = 0; dimension < 4; ++dimension) {
+    if (complex.is_own[dimension].empty()) {
+      own[dimension] = all[dimension];
+      continue;
+    }
     for (std::size_t i = 0; i < all[dimension].size(); ++i) {
       if (complex.owns(dimension, static_cast<Id>(i))) own[dimension].push_back(all[dimension][i]);
     }
@@ -93,27 +100,27 @@ io::PointSet to_point_set(const io::Dataset& dataset, const KnownSimplices& simp
   io::PointSet set;
   std::vector<CriticalSimplex> all;
   for (const auto& some : simplices) all.insert(all.end(), some.begin(), some.end());
+  const auto for_all = [&](const auto& body) {
+    parallel_for("GALE::points_of_simplices", HostExecutionSpace(), all.size(), body);
+  };
   std::visit(
       [&](const auto& points) {
-        std::decay_t<decltype(points)> positions("GALE::critical_simplices", all.size());
-        for (std::size_t i = 0; i < all.size(); ++i) {
-          gale::detail::stop_if_asked_at(static_cast<Offset>(i));
-          gale::detail::store(middle_of(points, all[i]), positions, i);
-        }
+        const auto positions = allocate<std::decay_t<decltype(points)>>("GALE::critical_simplices", all.size());
+        for_all([&](Offset i) { gale::detail::store(middle_of(points, all[i]), positions, i); });
         set.points = positions;
       },
       dataset.points);
-  std::vector<std::int8_t> dimensions, on_surface;
-  std::vector<Id> highest;
-  std::vector<GlobalId> cells, highest_ids;
-  for (const CriticalSimplex& simplex : all) {
-    gale::detail::stop_if_asked_at(static_cast<Offset>(cells.size()));
-    dimensions.push_back(simplex.dimension);
-    on_surface.push_back(simplex.on_surface);
-    cells.push_back(simplex.cell);
-    highest.push_back(simplex.highest());
-    highest_ids.push_back(exchange.vertex_id(simplex.highest()));
-  }
+  std::vector<std::int8_t> dimensions(all.size()), on_surface(all.size());
+  std::vector<Id> highest(all.size());
+  std::vector<GlobalId> cells(all.size()), highest_ids(all.size());
+  for_all([&](Offset i) {
+    const CriticalSimplex& simplex = all[i];
+    dimensions[i] = simplex.dimension;
+    on_surface[i] = simplex.on_surface;
+    cells[i] = simplex.cell;
+    highest[i] = simplex.highest();
+    highest_ids[i] = exchange.vertex_id(simplex.highest());
+  });
   for (const auto& array : dataset.arrays) set.arrays.push_back(io::gather(array, highest));
   set.arrays.push_back({"CellDimension", 1, std::move(dimensions)});
   set.arrays.push_back({"CellId", 1, detail::ids_as(exchange, std::move(cells))});

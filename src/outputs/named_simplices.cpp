@@ -10,24 +10,25 @@ namespace {
 using Edge = std::array<Id, 2>;
 using Triangle = TriangleVertices;
 
-/// The N vertices that are in both.
+/// The first N vertices that are in both, found without branches, which nobody could foretell.
 template <std::size_t N, class Simplex>
 std::array<Id, N> common(const Simplex& a, const Simplex& b) {
-  std::array<Id, N> both{};
+  Simplex both;
   std::size_t found = 0;
   for (const Id vertex : a) {
-    if (found < N && detail::has(b, vertex)) both[found++] = vertex;
+    both[found] = vertex;
+    found += detail::has(b, vertex);
   }
-  return both;
+  std::array<Id, N> first;
+  for (std::size_t k = 0; k < N; ++k) first[k] = both[k];
+  return first;
 }
 
-/// Appends what precedes cells of the paths: before the first of a path the saddle where it begins, before another what
-/// `between` says that it and the one before share, of what `look` says of each.
+/// Finds what precedes cells of the paths, by its number: before the first of a path the saddle where it begins, before
+/// another what `between` says that it and the one before share, of what `look` says of each.
 template <class Cell, class Simplex, class Look, class Between>
-void append_between(const Separatrices<Cell>& paths, const SharedPaths& shared, const std::vector<Simplex>& saddles,
-                    const Look& look, const Between& between, std::vector<Simplex>& simplices) {
-  const std::size_t first = simplices.size();
-  simplices.resize(first + shared.first_between.extent(0));
+void find_between(const Separatrices<Cell>& paths, const SharedPaths& shared, const std::vector<Simplex>& saddles,
+                  const Look& look, const Between& between, Simplex* simplices) {
   parallel_for("GALE::between_cells", HostExecutionSpace(), paths.count(), [&](Offset i) {
     const Offset begin = paths.begin[i];
     if (begin == paths.begin[i + 1]) return;
@@ -37,13 +38,13 @@ void append_between(const Separatrices<Cell>& paths, const SharedPaths& shared, 
       const Id number = shared.between(k);
       if (shared.first_between(number) != k) continue;
       if (k == begin) {
-        simplices[first + number] = saddles[paths.sources[i]];
+        simplices[number] = saddles[paths.sources[i]];
         continue;
       }
       const auto before = looked_at == k - 1 ? seen : look(paths.cells[k - 1]);
       seen = look(paths.cells[k]);
       looked_at = k;
-      simplices[first + number] = between(before, seen);
+      simplices[number] = between(before, seen);
     }
   });
 }
@@ -62,22 +63,28 @@ NamedPaths named_simplices(const MorseSmaleComplex& complex) {
       detail::share(rising),
       detail::share(connectors)};
   const detail::NamedGroups groups(complex, named);
-  named.edges.reserve(groups.ascending_edges + named.ascending.first_between.extent(0));
-  const auto& first = named.connectors.first_cell;
-  named.triangles.reserve(groups.connector_triangles + first.extent(0));
+  const bool is_flat = complex.critical.dimension == 2;
+  gale::detail::side_by_side(
+      [&] {
+        if (!is_flat) named.triangles.resize(groups.connector_triangles + named.connectors.first_cell.extent(0));
+      },
+      [&] { named.edges.resize(groups.ascending_edges + (is_flat ? named.ascending.first_between.extent(0) : 0)); });
   const auto itself = [](const auto& cell) { return cell; };
   const auto edge_of = [](Id a, Id b) { return Edge{a, b}; };
-  append_between(falling, named.descending, complex.critical.edges, itself, edge_of, named.edges);
-  append_between(connectors, named.connectors, complex.critical.edges, itself, common<2, Triangle>, named.edges);
-  if (complex.critical.dimension == 2) {
+  Edge* const edges = named.edges.data();
+  find_between(falling, named.descending, complex.critical.edges, itself, edge_of, edges + groups.descending_edges);
+  find_between(connectors, named.connectors, complex.critical.edges, itself, common<2, Triangle>,
+               edges + groups.connector_edges);
+  if (is_flat) {
     const auto corners = [&](Id cell) { return detail::corners_of<3>(cells, cell); };
-    append_between(rising, named.ascending, complex.critical.edges, corners, common<2, Triangle>, named.edges);
+    find_between(rising, named.ascending, complex.critical.edges, corners, common<2, Triangle>,
+                 edges + groups.ascending_edges);
     return named;
   }
   const auto corners = [&](Id cell) { return detail::corners_of(cells, cell); };
-  append_between(rising, named.ascending, complex.critical.triangles, corners, common<3, std::array<Id, 4>>,
-                 named.triangles);
-  named.triangles.resize(groups.connector_triangles + first.extent(0));
+  find_between(rising, named.ascending, complex.critical.triangles, corners, common<3, std::array<Id, 4>>,
+               named.triangles.data() + groups.ascending_triangles);
+  const auto& first = named.connectors.first_cell;
   parallel_for("GALE::triangles_of_connectors", HostExecutionSpace(), first.extent(0),
                [&](Offset i) { named.triangles[groups.connector_triangles + i] = connectors.cells[first(i)]; });
   return named;

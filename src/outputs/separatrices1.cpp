@@ -37,9 +37,25 @@ struct Positions {
   const io::Dataset::Points<Coordinate>& points;
   OtherIds input;
 
-  template <std::size_t N>
-  Point operator()(const std::array<Id, N>& simplex) const {
-    return gale::detail::position_of(points, detail::to_input(input, simplex));
+  /// Calls put(i, position) for each simplex_of(i) of `count`, in parallel. What is read of many comes to the caches
+  /// together: paths cross the mesh's arrays.
+  template <class SimplexOf, class Put>
+  void each(Offset count, const SimplexOf& simplex_of, const Put& put) const {
+    constexpr Offset many = 32;
+    parallel_for("GALE::separatrices1", HostExecutionSpace(), (count + many - 1) / many, [&](Offset part) {
+      const Offset first = many * part, size = std::min(many, count - first);
+      std::array<std::decay_t<decltype(simplex_of(first))>, many> simplices;
+      for (Offset i = 0; i < size; ++i) {
+        simplices[i] = simplex_of(first + i);
+        if (input.table == nullptr) continue;
+        for (const Id vertex : simplices[i]) __builtin_prefetch(input.table + vertex);
+      }
+      for (Offset i = 0; i < size; ++i) {
+        simplices[i] = detail::to_input(input, simplices[i]);
+        for (const Id vertex : simplices[i]) __builtin_prefetch(&points(vertex, 0));
+      }
+      for (Offset i = 0; i < size; ++i) put(first + i, gale::detail::position_of(points, simplices[i]));
+    });
   }
 };
 
@@ -56,32 +72,33 @@ class Lines {
  public:
   /// Lines for that many points, cells on paths, and paths, of all kinds together. Throws gale::Error if ids can't
   /// number the points.
-  Lines(const Positions<Coordinate>& positions, Offset points, Offset cells, Offset paths)
-      : positions_(positions), mask_(points, 1), dimensions_(points), ids_(points), separatrices_(paths) {
+  Lines(const Positions<Coordinate>& positions, Offset points, Offset cells, Offset paths) : positions_(positions) {
     require_ids("points of 1-separatrices", points);
     points_ = allocate<io::Dataset::Points<Coordinate>>("GALE::separatrices", points);
-    lines_.begin.resize(paths + 1);
-    lines_.points.resize(2 * cells);
+    gale::detail::side_by_side([&] { lines_.points.resize(2 * cells); },
+                               [&] { separatrices_ = detail::SeparatrixArrays<Number>(paths); },
+                               [&] { ids_.resize(points); }, [&] { lines_.begin.resize(paths + 1); },
+                               [&] { mask_.assign(points, 1); }, [&] { dimensions_.resize(points); });
   }
 
   /// The points of what precedes cells come first, then those of cells.
   template <class Cell, class Simplices>
   void add(Type type, const Separatrices<Cell>& paths, const Simplices& along, const PathEnds& ends) {
     const SharedPaths& shared = along.shared;
+    const Offset first_between = first_point_;
     const auto before = static_cast<Offset>(shared.first_between.extent(0));
     const auto cells = static_cast<Offset>(shared.first_cell.extent(0));
-    parallel_for("GALE::separatrices1", HostExecutionSpace(), before,
-                 [&](Offset i) { set_point(first_point_ + i, along.between[i], along.between_ids[i]); });
-    parallel_for("GALE::separatrices1", HostExecutionSpace(), cells, [&](Offset i) {
-      const Id k = shared.first_cell(i);
-      set_point(first_point_ + before + i, along.cell_of(paths.cells[k]), along.id_of(k));
-    });
+    add_points(
+        before, [&](Offset i) { return along.between[i]; }, [&](Offset i) { return along.between_ids[i]; });
+    add_points(
+        cells, [&](Offset i) { return along.cell_of(paths.cells[shared.first_cell(i)]); },
+        [&](Offset i) { return along.id_of(shared.first_cell(i)); });
     parallel_for("GALE::separatrices1", HostExecutionSpace(), paths.count(), [&](Offset i) {
       const Offset begin = paths.begin[i], end = paths.begin[i + 1];
       Id* const line = lines_.points.data() + 2 * first_cell_;
       for (Offset k = begin; k < end; ++k) {
-        line[2 * k] = static_cast<Id>(first_point_ + shared.between(k));
-        line[2 * k + 1] = static_cast<Id>(first_point_ + before + shared.cell(k));
+        line[2 * k] = static_cast<Id>(first_between + shared.between(k));
+        line[2 * k + 1] = static_cast<Id>(first_between + before + shared.cell(k));
       }
       lines_.begin[first_path_ + i + 1] = 2 * (first_cell_ + end);
       // Whoever has a point first says whether paths end there: all that pass it do, or none.
@@ -95,7 +112,6 @@ class Lines {
            std::max(source.highest, destination.highest).value, std::min(source.lowest, destination.lowest).value,
            source.on_surface + destination.on_surface});
     });
-    first_point_ += before + cells;
     first_cell_ += paths.cells.size();
     first_path_ += paths.count();
     first_number_ += ends.numbers.count();
@@ -104,20 +120,28 @@ class Lines {
   io::Surface take(const io::PointArray& field) {
     io::Surface surface;
     surface.points = points_;
-    surface.point_arrays = {{"ttkMaskScalarField", 1, std::move(mask_)},
-                            {"CellDimension", 1, std::move(dimensions_)},
-                            {"CellId", 1, std::move(ids_)}};
+    const auto add = [&](const char* name, auto&& values) {
+      surface.point_arrays.push_back({name, 1, std::move(values)});  // a list of them would be copied
+    };
+    add("ttkMaskScalarField", mask_);
+    add("CellDimension", dimensions_);
+    add("CellId", ids_);
     surface.lines = std::move(lines_);
     surface.cell_arrays = separatrices_.take(field, true);
     return surface;
   }
 
  private:
-  template <std::size_t N>
-  void set_point(Offset point, const std::array<Id, N>& simplex, GlobalId id) {
-    gale::detail::store(positions_(simplex), points_, point);
-    dimensions_[point] = N - 1;
-    ids_[point] = static_cast<Number>(id);
+  /// Adds the points of so many simplices of a dimension, and their CellIds.
+  template <class SimplexOf, class IdOf>
+  void add_points(Offset count, const SimplexOf& simplex_of, const IdOf& id_of) {
+    using Simplex = std::decay_t<decltype(simplex_of(Offset()))>;
+    positions_.each(count, simplex_of, [&](Offset i, const Point& position) {
+      gale::detail::store(position, points_, first_point_ + i);
+      dimensions_[first_point_ + i] = static_cast<std::int8_t>(std::tuple_size_v<Simplex> - 1);
+      ids_[first_point_ + i] = static_cast<Number>(id_of(i));
+    });
+    first_point_ += count;
   }
 
   const Positions<Coordinate>& positions_;
@@ -125,7 +149,7 @@ class Lines {
   std::vector<std::int8_t> mask_, dimensions_;
   std::vector<Number> ids_;
   io::Surface::Cells lines_;
-  detail::SeparatrixArrays<Number> separatrices_;
+  detail::SeparatrixArrays<Number> separatrices_{0};
   Offset first_point_ = 0, first_cell_ = 0, first_path_ = 0;
   GlobalId first_number_ = 0;
 };

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <gale/algorithms/morse_smale.hpp>
+#include <gale/base/parallel.hpp>
 #include <gale/mesh/exchange/places.hpp>
 #include <gale/outputs/critical_simplices.hpp>
 #include <gale/outputs/field.hpp>
@@ -36,9 +37,11 @@ inline Height height_of(const VertexOrder& order, const io::PointArray& field, I
 inline std::vector<End> ends_of(const std::vector<CriticalSimplex>& simplices, const io::PointArray& field,
                                 const VertexOrder& order) {
   const auto height = [&](Id vertex) { return height_of(order, field, vertex); };
-  std::vector<End> ends;
-  for (const CriticalSimplex& simplex : simplices)
-    ends.push_back({simplex.cell, height(simplex.highest()), height(simplex.lowest()), simplex.on_surface});
+  std::vector<End> ends(simplices.size());
+  parallel_for("GALE::ends_of_separatrices", HostExecutionSpace(), simplices.size(), [&](Offset i) {
+    const CriticalSimplex& simplex = simplices[i];
+    ends[i] = {simplex.cell, height(simplex.highest()), height(simplex.lowest()), simplex.on_surface};
+  });
   return ends;
 }
 

@@ -45,7 +45,9 @@ Ids first_places(const std::vector<Cell>& cells) {
   const auto slots = allocate<Ids>("GALE::slots_of_cells", static_cast<Offset>(size));
   parallel_for("GALE::clear_slots", HostExecutionSpace(), slots.extent(0), [&](Offset slot) { slots(slot) = none; });
   const auto first = allocate<Ids>("GALE::first_places", count);  // its slot until all have one
+  constexpr Offset ahead = 16;
   parallel_for("GALE::slots_of_cells", HostExecutionSpace(), count, [&](Offset k) {
+    if (count - k > ahead) __builtin_prefetch(&slots(hash_of(cells[k + ahead]) & (size - 1)), 1);
     const auto here = static_cast<Id>(k);
     for (std::uint64_t slot = hash_of(cells[k]) & (size - 1);; slot = (slot + 1) & (size - 1)) {
       Id* const at = &slots(static_cast<Offset>(slot));
@@ -63,22 +65,30 @@ Ids first_places(const std::vector<Cell>& cells) {
   return first;
 }
 
-/// Numbers the places whose `first` is the place itself, and the others as theirs.
-void number(const Ids& first, Array<const Id, HostMemory>& numbers, Array<const Id, HostMemory>& firsts) {
+/// Numbers the places whose `first` is the place itself, in their order, and the others as theirs: `first` becomes the
+/// numbers. Returns the place by number.
+Ids number(const Ids& first) {
   const auto count = static_cast<Offset>(first.extent(0));
-  const auto number_of = allocate<Ids>("GALE::shared_numbers", count + 1);
-  const Id all = exclusive_scan("GALE::shared_numbers", HostExecutionSpace(), count, number_of,
-                                [&](Offset k) { return Id(first(k) == k); });
-  const auto first_with = allocate<Ids>("GALE::first_with_number", all);
-  parallel_for("GALE::share_numbers", HostExecutionSpace(), count, [&](Offset k) {
-    if (first(k) == k) {
-      first_with(number_of(k)) = first(k);
-    } else {
-      number_of(k) = number_of(first(k));  // which is its own
+  const int parts = gale::detail::threads_for(count);
+  std::vector<Id> begin(parts + 1, 0);
+  gale::detail::for_parts("GALE::count_first", count, parts, [&](int part, Offset k, Offset end) {
+    for (; k < end; ++k) begin[part + 1] += first(k) == k;
+  });
+  for (int part = 0; part < parts; ++part) begin[part + 1] += begin[part];
+  const auto places = allocate<Ids>("GALE::first_with_number", begin[parts]);
+  gale::detail::for_parts("GALE::number_first", count, parts, [&](int part, Offset k, Offset end) {
+    for (Id next = begin[part]; k < end; ++k) {
+      if (first(k) != k) continue;
+      places(next) = static_cast<Id>(k);
+      first(k) = ~next++;  // which is below 0, until the others have read it
     }
   });
-  numbers = number_of;
-  firsts = first_with;
+  parallel_for("GALE::share_numbers", HostExecutionSpace(), count, [&](Offset k) {
+    if (first(k) >= 0) first(k) = ~first(first(k));
+  });
+  parallel_for("GALE::number_first", HostExecutionSpace(), places.extent(0),
+               [&](Offset i) { first(places(i)) = static_cast<Id>(i); });
+  return places;
 }
 
 }  // namespace
@@ -89,29 +99,29 @@ SharedPaths share(const Separatrices<Cell>& paths) {
   require_ids("cells of separatrices", count);
   std::vector<Id> first_of_source(
       paths.count() == 0 ? 0 : *std::max_element(paths.sources.begin(), paths.sources.end()) + 1, no_id);
-  constexpr Id inside = no_id;
-  std::vector<Id> before_start(paths.cells.size() + 1, inside);  // the first place behind the same source
+  std::vector<std::uint8_t> begins(count, 0);  // whether a path does
   for (Id i = 0; i < paths.count(); ++i) {
+    if (paths.begin[i] == paths.begin[i + 1]) continue;
     Id& first = first_of_source[paths.sources[i]];
     if (first == no_id) first = static_cast<Id>(paths.begin[i]);
-    before_start[paths.begin[i]] = first;
+    begins[paths.begin[i]] = 1;
   }
-  before_start[paths.cells.size()] = 0;
-  const Ids first = first_places(paths.cells);
-  SharedPaths shared;
-  number(first, shared.cell, shared.first_cell);
-  const auto first_behind_same = allocate<Ids>("GALE::first_behind_same", count);
-  parallel_for("GALE::first_behind_same", HostExecutionSpace(), count, [&](Offset k) {
-    if (before_start[k] != inside) {
-      first_behind_same(k) = before_start[k];
-      return;
+  const Ids first = first_places(paths.cells), first_behind_same = allocate<Ids>("GALE::first_behind_same", count);
+  parallel_for("GALE::first_behind_same", HostExecutionSpace(), paths.count(), [&](Offset i) {
+    Offset k = paths.begin[i];
+    if (k < paths.begin[i + 1]) first_behind_same(k) = first_of_source[paths.sources[i]];
+    for (++k; k < paths.begin[i + 1]; ++k) {
+      const Id behind = first(k - 1) + 1;
+      const bool is_same =
+          begins[behind] == 0 && is_between_both(paths.cells[k - 1], paths.cells[behind], paths.cells[k]);
+      first_behind_same(k) = is_same ? behind : static_cast<Id>(k);
     }
-    const Id behind = first(k - 1) + 1;
-    const bool is_same =
-        before_start[behind] == inside && is_between_both(paths.cells[k - 1], paths.cells[behind], paths.cells[k]);
-    first_behind_same(k) = is_same ? behind : static_cast<Id>(k);
   });
-  number(first_behind_same, shared.between, shared.first_between);
+  SharedPaths shared;
+  shared.first_cell = number(first);
+  shared.cell = first;
+  shared.first_between = number(first_behind_same);
+  shared.between = first_behind_same;
   return shared;
 }
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <string>
 
@@ -48,7 +49,7 @@ class Directions {
  public:
   Directions(const GridView& grid, Id vertices) : grid_(grid) {
     const std::uint32_t y = grid.nx, z = y * grid.ny;
-    steps_ = {1, y, y + 1, z, z + 1, z + y, z + y + 1};
+    find_slots({1, y, y + 1, z, z + 1, z + y, z + y + 1});
     if (!grid.is_whole()) places_ = allocate<Array<std::uint32_t, HostMemory>>("GALE::places_of_vertices", vertices);
   }
 
@@ -59,18 +60,46 @@ class Directions {
     places_(vertex) = at.x + std::uint32_t(grid_.nx) * (at.y + std::uint32_t(grid_.ny) * at.z);
   }
 
+  /// Has what `between` reads of a vertex brought to the caches.
+  void prefetch(Id vertex) const {
+    if (!grid_.is_whole()) __builtin_prefetch(places_.data() + vertex);
+  }
+
   /// `later_directions` if none does.
   int between(Id from, Id to) const {
     const std::uint32_t step = grid_.is_whole() ? to - from : places_(to) - places_(from);
-    int found = later_directions;
-    for (int direction = later_directions - 1; direction >= 0; --direction)
-      found = steps_[direction] == step ? direction : found;
-    return found;
+    const Step& found = slots_[slot_of(step)];
+    return found.length == step ? found.direction : later_directions;
   }
 
  private:
+  static constexpr int slot_bits = 4;
+
+  /// How much further on the vertex in a direction is.
+  struct Step {
+    std::uint32_t length = 0;
+    int direction = later_directions;
+  };
+
+  std::uint32_t slot_of(std::uint32_t step) const { return step * factor_ >> (32 - slot_bits); }
+
+  /// Finds a factor that gives each step a slot of its own; of two directions with one step the first has it.
+  void find_slots(const std::array<std::uint32_t, later_directions>& steps) {
+    for (bool are_apart = false; !are_apart;) {
+      factor_ = factor_ * 0x9e3779b1u + 2;
+      slots_.fill({});
+      are_apart = true;
+      for (int direction = 0; direction < later_directions; ++direction) {
+        Step& slot = slots_[slot_of(steps[direction])];
+        are_apart = are_apart && (slot.length == 0 || slot.length == steps[direction]);
+        if (slot.length == 0) slot = {steps[direction], direction};
+      }
+    }
+  }
+
   const GridView grid_;
-  std::array<std::uint32_t, later_directions> steps_;
+  std::uint32_t factor_ = 1;
+  std::array<Step, 1 << slot_bits> slots_;
   Array<std::uint32_t, HostMemory> places_;  ///< x fastest; of a whole grid they are the ids
 };
 
@@ -129,9 +158,20 @@ SimplexNumbers number_on_grid(const Mesh& mesh, const NamedSimplices& named) {
   scan("edges", first_edge);
   scan("triangles", first_triangle);
 
-  SimplexNumbers numbers{std::vector<GlobalId>(named.edges.size()), std::vector<GlobalId>(named.triangles.size()),
-                         on_surface};
+  SimplexNumbers numbers{{}, {}, on_surface};
+  side_by_side([&] { numbers.triangles.resize(named.triangles.size()); },
+               [&] { numbers.edges.resize(named.edges.size()); });
+  const auto prefetch = [&](const auto& simplices, const Counts& first, Offset i) {
+    constexpr Offset ahead = 16;
+    if (static_cast<Offset>(simplices.size()) - i <= ahead) return;
+    const auto& later = simplices[i + ahead];
+    const Id lowest = *std::min_element(later.begin(), later.end());
+    __builtin_prefetch(kind_of.data() + lowest);
+    __builtin_prefetch(first.data() + lowest);
+    for (const Id vertex : later) directions.prefetch(vertex);
+  };
   parallel_for("GALE::number_edges", HostExecutionSpace(), named.edges.size(), [&](Offset i) {
+    prefetch(named.edges, first_edge, i);
     const auto edge = vertices_of(mesh, named.edges[i]);
     const int direction = directions.between(edge[0], edge[1]);
     const LaterKind& kind = kinds[kind_of(edge[0])];
@@ -139,6 +179,7 @@ SimplexNumbers number_on_grid(const Mesh& mesh, const NamedSimplices& named) {
     numbers.edges[i] = first_edge(edge[0]) + kind.edge[direction];
   });
   parallel_for("GALE::number_triangles", HostExecutionSpace(), named.triangles.size(), [&](Offset i) {
+    prefetch(named.triangles, first_triangle, i);
     const auto triangle = vertices_of(mesh, named.triangles[i]);
     const int one = directions.between(triangle[0], triangle[1]), other = directions.between(triangle[0], triangle[2]);
     const LaterKind& kind = kinds[kind_of(triangle[0])];
