@@ -11,12 +11,26 @@ namespace gale {
 
 namespace detail {
 
-/// For processors of which the compiler doesn't know that they count bits: its own way is a call, and looks up tables.
-KOKKOS_FORCEINLINE_FUNCTION int add_up_bits(std::uint64_t bits) {
+constexpr std::uint64_t one_a_byte = 0x0101010101010101U;
+
+/// How many bits are set in each byte and those below it, in that byte.
+KOKKOS_FORCEINLINE_FUNCTION std::uint64_t bits_up_to_bytes(std::uint64_t bits) {
   bits -= bits >> 1 & 0x5555555555555555U;
   bits = (bits & 0x3333333333333333U) + (bits >> 2 & 0x3333333333333333U);
   bits = (bits + (bits >> 4)) & 0x0f0f0f0f0f0f0f0fU;
-  return static_cast<int>(bits * 0x0101010101010101U >> 56);
+  return bits * one_a_byte;
+}
+
+/// How many bytes are n at most; none is above 127, nor n.
+KOKKOS_FORCEINLINE_FUNCTION int bytes_up_to(std::uint64_t bytes, int n) {
+  constexpr std::uint64_t high = one_a_byte << 7;
+  const std::uint64_t at_most = ((std::uint64_t(n) * one_a_byte | high) - bytes) & high;
+  return static_cast<int>((at_most >> 7) * one_a_byte >> 56);
+}
+
+/// For processors of which the compiler doesn't know that they count bits: its own way is a call, and looks up tables.
+KOKKOS_FORCEINLINE_FUNCTION int add_up_bits(std::uint64_t bits) {
+  return static_cast<int>(bits_up_to_bytes(bits) >> 56);
 }
 
 }  // namespace detail
@@ -58,17 +72,16 @@ KOKKOS_FORCEINLINE_FUNCTION int lowest_bit(std::uint64_t bits) {
 #endif
 }
 
-/// Place of the n-th bit that is set, counted from 0 and the lowest; so many are.
+/// Place of the n-th bit that is set, counted from 0 and the lowest; so many are. Without branches, which nobody could
+/// foretell.
 KOKKOS_INLINE_FUNCTION int nth_bit(std::uint64_t bits, int n) {
-  int place = 0;
-  for (int half = 32; half > 0; half /= 2) {
-    const int below = count_bits(bits & ((std::uint64_t(1) << half) - 1));
-    if (n < below) continue;
-    n -= below;
-    place += half;
-    bits >>= half;
-  }
-  return place;
+  using namespace detail;
+  const std::uint64_t up_to = bits_up_to_bytes(bits);
+  const int byte = 8 * bytes_up_to(up_to, n);
+  const int before = static_cast<int>(up_to << 8 >> byte & 0xff);
+  const std::uint64_t bit_a_byte = (bits >> byte & 0xff) * one_a_byte & 0x8040201008040201U;
+  const std::uint64_t is_set = (bit_a_byte + 127 * one_a_byte) >> 7 & one_a_byte;
+  return byte + bytes_up_to(is_set * one_a_byte, n - before);
 }
 
 /// Place of the highest bit that is set; one is.

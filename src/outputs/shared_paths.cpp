@@ -15,6 +15,8 @@ namespace {
 
 using Ids = Array<Id, HostMemory>;
 
+constexpr Offset ahead = 16;  ///< what so many cells later is read by is brought to the caches
+
 /// Neighbours in space have ids that are near, and so are their slots.
 std::uint64_t hash_of(Id cell) { return static_cast<std::uint64_t>(cell); }
 std::uint64_t hash_of(const TriangleVertices& triangle) {
@@ -45,7 +47,6 @@ Ids first_places(const std::vector<Cell>& cells) {
   const auto slots = allocate<Ids>("GALE::slots_of_cells", static_cast<Offset>(size));
   parallel_for("GALE::clear_slots", HostExecutionSpace(), slots.extent(0), [&](Offset slot) { slots(slot) = none; });
   const auto first = allocate<Ids>("GALE::first_places", count);  // its slot until all have one
-  constexpr Offset ahead = 16;
   parallel_for("GALE::slots_of_cells", HostExecutionSpace(), count, [&](Offset k) {
     if (count - k > ahead) __builtin_prefetch(&slots(hash_of(cells[k + ahead]) & (size - 1)), 1);
     const auto here = static_cast<Id>(k);
@@ -72,7 +73,9 @@ Ids number(const Ids& first) {
   const int parts = gale::detail::threads_for(count);
   std::vector<Id> begin(parts + 1, 0);
   gale::detail::for_parts("GALE::count_first", count, parts, [&](int part, Offset k, Offset end) {
-    for (; k < end; ++k) begin[part + 1] += first(k) == k;
+    Id here = 0;
+    for (; k < end; ++k) here += first(k) == k;
+    begin[part + 1] = here;
   });
   for (int part = 0; part < parts; ++part) begin[part + 1] += begin[part];
   const auto places = allocate<Ids>("GALE::first_with_number", begin[parts]);
@@ -111,6 +114,7 @@ SharedPaths share(const Separatrices<Cell>& paths) {
     Offset k = paths.begin[i];
     if (k < paths.begin[i + 1]) first_behind_same(k) = first_of_source[paths.sources[i]];
     for (++k; k < paths.begin[i + 1]; ++k) {
+      if (count - k > ahead) __builtin_prefetch(&paths.cells[first(k + ahead - 1) + 1]);
       const Id behind = first(k - 1) + 1;
       const bool is_same =
           begins[behind] == 0 && is_between_both(paths.cells[k - 1], paths.cells[behind], paths.cells[k]);

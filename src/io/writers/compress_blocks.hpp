@@ -22,6 +22,7 @@ void compress_blocks(const WrittenArray& array, std::uint64_t block, bool is_who
   const auto threads = static_cast<int>(std::min<std::int64_t>(host_threads(), blocks));
   std::vector<std::vector<char>> plain(threads), compressed(threads);
   std::map<std::int64_t, std::vector<char>> waiting;  // blocks behind one that isn't ready
+  std::vector<std::vector<char>> spare;               // that waited
   std::int64_t next = 0;
   std::mutex mutex;
   in_turns(threads, blocks, [&](int thread, std::int64_t i) {
@@ -37,12 +38,17 @@ void compress_blocks(const WrittenArray& array, std::uint64_t block, bool is_who
     }
     const std::lock_guard<std::mutex> lock(mutex);
     if (i != next) {
-      waiting.emplace(i, compressed[thread]);
-      return;
+      waiting.emplace(i, std::move(compressed[thread]));
+      compressed[thread].clear();
+      if (spare.empty()) return;
+      compressed[thread].swap(spare.back());
+      return spare.pop_back();
     }
     write(next++, compressed[thread]);
-    for (auto first = waiting.begin(); first != waiting.end() && first->first == next; first = waiting.erase(first))
+    for (auto first = waiting.begin(); first != waiting.end() && first->first == next; first = waiting.erase(first)) {
       write(next++, first->second);
+      spare.push_back(std::move(first->second));
+    }
   });
 }
 

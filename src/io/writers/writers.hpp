@@ -40,22 +40,30 @@ WrittenArray written(const Dataset::Positions& points);
 /// called "unnamed", as VTK reads no other.
 WrittenArrays written(const std::vector<PointArray>& arrays, const std::vector<PointArray>& more = {});
 
+/// Puts values one after the other, as T. To be passed on by value: a pointer elsewhere would be read again for each.
+template <class T>
+struct PutInOrder {
+  char* to;
+
+  template <class Value>
+  void operator()(Value value) {
+    const T made = static_cast<T>(value);
+    std::memcpy(to, &made, sizeof(T));
+    to += sizeof(T);
+  }
+};
+
 /// An array whose values [begin, end) are put one after the other by each(begin, end, put).
 template <class T, class Each>
 WrittenArray made_in_order(const std::string& name, std::uint64_t count, const Each& each) {
-  return {name, 1, value_type_of<T>(), count, [each](std::uint64_t begin, std::uint64_t end, char* to) {
-            each(begin, end, [&](auto value) {
-              const T made = static_cast<T>(value);
-              std::memcpy(to, &made, sizeof(T));
-              to += sizeof(T);
-            });
-          }};
+  return {name, 1, value_type_of<T>(), count,
+          [each](std::uint64_t begin, std::uint64_t end, char* to) { each(begin, end, PutInOrder<T>{to}); }};
 }
 
 /// An array whose k-th value is value(k).
 template <class T, class Value>
 WrittenArray made(const std::string& name, std::uint64_t count, const Value& value) {
-  return made_in_order<T>(name, count, [value](std::uint64_t begin, std::uint64_t end, const auto& put) {
+  return made_in_order<T>(name, count, [value](std::uint64_t begin, std::uint64_t end, auto put) {
     for (std::uint64_t k = begin; k < end; ++k) put(value(k));
   });
 }
@@ -109,15 +117,14 @@ struct WrittenCells {
   /// Their vertices, those of a grid's as they are asked for.
   template <class T>
   WrittenArray connectivity(const std::string& name) const {
-    return made_in_order<T>(name, corners * count,
-                            [cells = *this](std::uint64_t begin, std::uint64_t end, const auto& put) {
-                              cells.each_corner(begin, end, put);
-                            });
+    return made_in_order<T>(name, corners * count, [cells = *this](std::uint64_t begin, std::uint64_t end, auto put) {
+      cells.each_corner(begin, end, put);
+    });
   }
 
  private:
   template <class Put>
-  void each_corner(std::uint64_t begin, std::uint64_t end, const Put& put) const {
+  void each_corner(std::uint64_t begin, std::uint64_t end, Put put) const {
     if (vertices_ != nullptr) {
       for (std::uint64_t k = begin; k < end; ++k) put(vertices_[k]);
       return;

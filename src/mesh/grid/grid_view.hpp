@@ -110,6 +110,10 @@ struct GridView {
 
   /// The corners of a cube that have the lower x, by y and z.
   KOKKOS_INLINE_FUNCTION Quad corners_of_cube(Id cube) const {
+    if (!is_whole() && dimension == 3) {
+      const Offset place = cubes.place(cube), above = place + row * ny;
+      return {vertices.rank(place), vertices.rank(place + row), vertices.rank(above), vertices.rank(above + row)};
+    }
     const detail::GridPlace at = place_of_cube(cube);
     const Id lowest = vertex_at(at.x, at.y, at.z), beside = vertex_at(at.x, at.y + 1, at.z);
     if (dimension == 2) return {lowest, beside, no_id, no_id};
