@@ -11,7 +11,7 @@ namespace gale {
 
 namespace detail {
 
-constexpr std::uint64_t one_a_byte = 0x0101010101010101U;
+inline constexpr std::uint64_t one_a_byte = 0x0101010101010101U;
 
 /// How many bits are set in each byte and those below it, in that byte.
 KOKKOS_FORCEINLINE_FUNCTION std::uint64_t bits_up_to_bytes(std::uint64_t bits) {
@@ -72,8 +72,8 @@ KOKKOS_FORCEINLINE_FUNCTION int lowest_bit(std::uint64_t bits) {
 #endif
 }
 
-/// Place of the n-th bit that is set, counted from 0 and the lowest; so many are. Without branches, which nobody could
-/// foretell.
+/// Place of the n-th bit that is set, counted from 0 and the lowest; n is less than their number. Without branches,
+/// which nobody could foretell.
 KOKKOS_INLINE_FUNCTION int nth_bit(std::uint64_t bits, int n) {
   using namespace detail;
   const std::uint64_t up_to = bits_up_to_bytes(bits);

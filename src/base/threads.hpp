@@ -104,7 +104,7 @@ void in_turns(int count, std::int64_t n, const Body& body) {
 
 namespace detail {
 
-/// Runs what takes no arguments side by side, on the host's threads, as `in_turns` does: the longest first.
+/// Calls each of these functions, on the host's threads, as `in_turns` does. Pass the longest first.
 template <class... Work>
 void side_by_side(const Work&... work) {
   const std::function<void()> all[] = {work...};

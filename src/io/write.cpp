@@ -39,7 +39,7 @@ void check_cells(std::size_t points, const Surface::Cells& cells) {
     throw Error("its cells don't begin one after the other");
   }
   const std::int64_t wrong = reduce_min("GALE::check_cells", HostExecutionSpace(), end, end, [&](std::int64_t k) {
-    return static_cast<std::uint32_t>(cells.points[k]) < points ? end : k;  // one below 0 becomes a huge one
+    return static_cast<std::size_t>(cells.points[k]) < points ? end : k;  // one below 0 becomes a huge one
   });
   if (wrong != end) refuse("there is no point ", cells.points[wrong], " among ", points);
 }

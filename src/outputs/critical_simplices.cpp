@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <gale/base/parallel.hpp>
 #include <gale/io/dataset.hpp>
 #include <gale/mesh/positions.hpp>

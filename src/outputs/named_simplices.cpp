@@ -10,10 +10,10 @@ namespace {
 using Edge = std::array<Id, 2>;
 using Triangle = TriangleVertices;
 
-/// The first N vertices that are in both, found without branches, which nobody could foretell.
+/// The first N vertices that both have. Takes no branches, which nobody could foretell.
 template <std::size_t N, class Simplex>
 std::array<Id, N> common(const Simplex& a, const Simplex& b) {
-  Simplex both;
+  Simplex both{};
   std::size_t found = 0;
   for (const Id vertex : a) {
     both[found] = vertex;

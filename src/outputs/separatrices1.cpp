@@ -1,4 +1,8 @@
 #include <algorithm>
+#include <array>
+#include <tuple>
+#include <type_traits>
+#include <variant>
 
 #include <gale/base/error.hpp>
 #include <gale/base/parallel.hpp>
@@ -37,13 +41,12 @@ struct Positions {
   const io::Dataset::Points<Coordinate>& points;
   OtherIds input;
 
-  /// Calls put(i, position) for each simplex_of(i) of `count`, in parallel. What is read of many comes to the caches
-  /// together: paths cross the mesh's arrays.
+  /// Calls put(i, position) for each simplex_of(i) of `count`, in parallel. Prefetches what is read of many at a time,
+  /// as paths cross the mesh's arrays.
   template <class SimplexOf, class Put>
   void each(Offset count, const SimplexOf& simplex_of, const Put& put) const {
     constexpr Offset many = 32;
-    parallel_for("GALE::separatrices1", HostExecutionSpace(), (count + many - 1) / many, [&](Offset part) {
-      const Offset first = many * part, size = std::min(many, count - first);
+    const auto place = [&](Offset first, Offset size) {
       std::array<std::decay_t<decltype(simplex_of(first))>, many> simplices;
       for (Offset i = 0; i < size; ++i) {
         simplices[i] = simplex_of(first + i);
@@ -55,6 +58,13 @@ struct Positions {
         for (const Id vertex : simplices[i]) __builtin_prefetch(&points(vertex, 0));
       }
       for (Offset i = 0; i < size; ++i) put(first + i, gale::detail::position_of(points, simplices[i]));
+    };
+    const int parts = gale::detail::threads_for(count);
+    gale::detail::for_parts("GALE::separatrices1", count, parts, [&](int, Offset first, Offset end) {
+      for (; first < end; first += many) {
+        gale::detail::stop_if_asked();
+        place(first, std::min(many, end - first));
+      }
     });
   }
 };

@@ -15,7 +15,7 @@ namespace {
 
 using Ids = Array<Id, HostMemory>;
 
-constexpr Offset ahead = 16;  ///< what so many cells later is read by is brought to the caches
+constexpr Offset ahead = 16;  ///< how many cells ahead loops prefetch
 
 /// Neighbours in space have ids that are near, and so are their slots.
 std::uint64_t hash_of(Id cell) { return static_cast<std::uint64_t>(cell); }
@@ -74,13 +74,17 @@ Ids number(const Ids& first) {
   std::vector<Id> begin(parts + 1, 0);
   gale::detail::for_parts("GALE::count_first", count, parts, [&](int part, Offset k, Offset end) {
     Id here = 0;
-    for (; k < end; ++k) here += first(k) == k;
+    for (; k < end; ++k) {
+      gale::detail::stop_if_asked_at(k);
+      here += first(k) == k;
+    }
     begin[part + 1] = here;
   });
   for (int part = 0; part < parts; ++part) begin[part + 1] += begin[part];
   const auto places = allocate<Ids>("GALE::first_with_number", begin[parts]);
   gale::detail::for_parts("GALE::number_first", count, parts, [&](int part, Offset k, Offset end) {
     for (Id next = begin[part]; k < end; ++k) {
+      gale::detail::stop_if_asked_at(k);
       if (first(k) != k) continue;
       places(next) = static_cast<Id>(k);
       first(k) = ~next++;  // which is below 0, until the others have read it
@@ -103,23 +107,22 @@ SharedPaths share(const Separatrices<Cell>& paths) {
   std::vector<Id> first_of_source(
       paths.count() == 0 ? 0 : *std::max_element(paths.sources.begin(), paths.sources.end()) + 1, no_id);
   std::vector<std::uint8_t> begins(count, 0);  // whether a path does
+  const auto first_behind_same = allocate<Ids>("GALE::first_behind_same", count);
   for (Id i = 0; i < paths.count(); ++i) {
     if (paths.begin[i] == paths.begin[i + 1]) continue;
     Id& first = first_of_source[paths.sources[i]];
     if (first == no_id) first = static_cast<Id>(paths.begin[i]);
     begins[paths.begin[i]] = 1;
+    first_behind_same(paths.begin[i]) = first;
   }
-  const Ids first = first_places(paths.cells), first_behind_same = allocate<Ids>("GALE::first_behind_same", count);
-  parallel_for("GALE::first_behind_same", HostExecutionSpace(), paths.count(), [&](Offset i) {
-    Offset k = paths.begin[i];
-    if (k < paths.begin[i + 1]) first_behind_same(k) = first_of_source[paths.sources[i]];
-    for (++k; k < paths.begin[i + 1]; ++k) {
-      if (count - k > ahead) __builtin_prefetch(&paths.cells[first(k + ahead - 1) + 1]);
-      const Id behind = first(k - 1) + 1;
-      const bool is_same =
-          begins[behind] == 0 && is_between_both(paths.cells[k - 1], paths.cells[behind], paths.cells[k]);
-      first_behind_same(k) = is_same ? behind : static_cast<Id>(k);
-    }
+  const Ids first = first_places(paths.cells);
+  parallel_for("GALE::first_behind_same", HostExecutionSpace(), count, [&](Offset k) {
+    if (begins[k] != 0) return;
+    if (count - k > ahead) __builtin_prefetch(&paths.cells[first(k + ahead - 1) + 1]);
+    const Id behind = first(k - 1) + 1;
+    const bool is_same =
+        begins[behind] == 0 && is_between_both(paths.cells[k - 1], paths.cells[behind], paths.cells[k]);
+    first_behind_same(k) = is_same ? behind : static_cast<Id>(k);
   });
   SharedPaths shared;
   shared.first_cell = number(first);

@@ -1,3 +1,4 @@
+#include <cstdint>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -8,12 +9,16 @@ namespace gale::test {
 
 namespace {
 
-/// Random words in which one bit in `one_in` is set, and the two that have all or none.
+/// Calls body(word) for words with no bit, one, all but one, and all of them, and for random ones with few to many.
 template <class Body>
 void for_words(const Body& body) {
   std::mt19937_64 random(7);
   body(std::uint64_t(0));
   body(~std::uint64_t(0));
+  for (int bit = 0; bit < 64; ++bit) {
+    body(std::uint64_t(1) << bit);
+    body(~(std::uint64_t(1) << bit));
+  }
   for (const unsigned one_in : {2, 3, 10, 40}) {
     for (int i = 0; i < 200; ++i) {
       std::uint64_t word = 0;

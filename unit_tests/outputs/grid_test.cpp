@@ -313,6 +313,10 @@ TEST(Grids, number_edges_and_triangles_in_the_order_of_all) {
     EXPECT_EQ(refusal({{{0, mesh.vertices()}}, {}}), "no vertex " + std::to_string(mesh.vertices()) +
                                                          " to number a simplex of: there are " +
                                                          std::to_string(mesh.vertices()));
+    NamedSimplices last_is_wrong{std::vector<std::array<Id, 2>>(40, named.edges.front()), {}};
+    last_is_wrong.edges.push_back({named.edges.front()[0], -1});
+    EXPECT_EQ(refusal(last_is_wrong),
+              "no vertex -1 to number a simplex of: there are " + std::to_string(mesh.vertices()));
     if (mesh.dimension() == 3)
       EXPECT_EQ(refusal({{}, {{2, 0, 2}}}), "no simplex of the mesh has just the input vertices 0 2 2");
   }

@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <limits>
 #include <string>
 
 #include <gale/algorithms/numbers/grid_numbers.hpp>
@@ -48,6 +50,10 @@ struct LaterKind {
 class Directions {
  public:
   Directions(const GridView& grid, Id vertices) : grid_(grid) {
+    constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
+    if (std::uint64_t(grid.nx) * std::uint64_t(grid.ny) > most)
+      throw Error("a layer of " + std::to_string(grid.nx) + " x " + std::to_string(grid.ny) +
+                  " points is too large to number a grid's simplices: " + std::to_string(most) + " is the most");
     const std::uint32_t y = grid.nx, z = y * grid.ny;
     find_slots({1, y, y + 1, z, z + 1, z + y, z + y + 1});
     if (!grid.is_whole()) places_ = allocate<Array<std::uint32_t, HostMemory>>("GALE::places_of_vertices", vertices);
@@ -60,12 +66,12 @@ class Directions {
     places_(vertex) = at.x + std::uint32_t(grid_.nx) * (at.y + std::uint32_t(grid_.ny) * at.z);
   }
 
-  /// Has what `between` reads of a vertex brought to the caches.
+  /// Prefetches what `between` reads of a vertex.
   void prefetch(Id vertex) const {
     if (!grid_.is_whole()) __builtin_prefetch(places_.data() + vertex);
   }
 
-  /// `later_directions` if none does.
+  /// The direction that leads from one vertex to a later one; `later_directions` if none does.
   int between(Id from, Id to) const {
     const std::uint32_t step = grid_.is_whole() ? to - from : places_(to) - places_(from);
     const Step& found = slots_[slot_of(step)];
@@ -83,7 +89,8 @@ class Directions {
 
   std::uint32_t slot_of(std::uint32_t step) const { return step * factor_ >> (32 - slot_bits); }
 
-  /// Finds a factor that gives each step a slot of its own; of two directions with one step the first has it.
+  /// Finds a factor that gives each step a slot of its own; of two directions with one step the first has it. Tries all
+  /// odd factors: a few will do.
   void find_slots(const std::array<std::uint32_t, later_directions>& steps) {
     for (bool are_apart = false; !are_apart;) {
       factor_ = factor_ * 0x9e3779b1u + 2;
@@ -91,8 +98,9 @@ class Directions {
       are_apart = true;
       for (int direction = 0; direction < later_directions; ++direction) {
         Step& slot = slots_[slot_of(steps[direction])];
-        are_apart = are_apart && (slot.length == 0 || slot.length == steps[direction]);
-        if (slot.length == 0) slot = {steps[direction], direction};
+        const bool is_free = slot.direction == later_directions;
+        are_apart = are_apart && (is_free || slot.length == steps[direction]);
+        if (is_free) slot = {steps[direction], direction};
       }
     }
   }
@@ -165,9 +173,10 @@ SimplexNumbers number_on_grid(const Mesh& mesh, const NamedSimplices& named) {
     constexpr Offset ahead = 16;
     if (static_cast<Offset>(simplices.size()) - i <= ahead) return;
     const auto& later = simplices[i + ahead];
-    const Id lowest = *std::min_element(later.begin(), later.end());
-    __builtin_prefetch(kind_of.data() + lowest);
-    __builtin_prefetch(first.data() + lowest);
+    const auto [lowest, highest] = std::minmax_element(later.begin(), later.end());
+    if (*lowest < 0 || *highest >= mesh.vertices()) return;  // to be refused in its turn
+    __builtin_prefetch(kind_of.data() + *lowest);
+    __builtin_prefetch(first.data() + *lowest);
     for (const Id vertex : later) directions.prefetch(vertex);
   };
   parallel_for("GALE::number_edges", HostExecutionSpace(), named.edges.size(), [&](Offset i) {

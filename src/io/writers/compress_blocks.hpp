@@ -47,7 +47,7 @@ void compress_blocks(const WrittenArray& array, std::uint64_t block, bool is_who
     write(next++, compressed[thread]);
     for (auto first = waiting.begin(); first != waiting.end() && first->first == next; first = waiting.erase(first)) {
       write(next++, first->second);
-      spare.push_back(std::move(first->second));
+      if (spare.size() < compressed.size()) spare.push_back(std::move(first->second));
     }
   });
 }
