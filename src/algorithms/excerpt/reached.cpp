@@ -126,10 +126,10 @@ class Reacher {
   bool hand_over() {
     if (ranks_.sum(static_cast<std::int64_t>(elsewhere_.size())) == 0) return false;
     const auto received =
-        exchange(ranks_, "GALE::steps",
-                 deal<SentStep>(
-                     ranks_, "GALE::sent_steps", static_cast<Offset>(elsewhere_.size()),
-                     [&](Id i) { return elsewhere_[i].first; }, [&](Id i) { return elsewhere_[i].second; }));
+        exchange_packed(ranks_, "GALE::steps",
+                        deal<SentStep>(
+                            ranks_, "GALE::sent_steps", static_cast<Offset>(elsewhere_.size()),
+                            [&](Id i) { return elsewhere_[i].first; }, [&](Id i) { return elsewhere_[i].second; }));
     elsewhere_.clear();
     together(ranks_, [&] {
       for (Offset i = 0; i < received.count(); ++i) go(here(received.entries(i)));
@@ -164,7 +164,7 @@ class Reacher {
           found_[r].*from = {};
         }
       });
-      to = exchange(ranks_, "GALE::received_reached", sent);
+      to = exchange_packed(ranks_, "GALE::received_reached", sent);
     };
     send_list(&FoundFor::vertices, reached.vertices);
     send_list(&FoundFor::cells, reached.cells);

@@ -18,7 +18,8 @@
 
 namespace gale::detail {
 
-/// A vertex that trees are made of, and the extrema at which its paths end, by side; itself if it is one.
+/// A vertex that trees are made of, and the extrema at which its paths end, by side; itself if it is one. -1 stands for
+/// any other of a side that no tree is made of.
 struct TreeVertex {
   GlobalId id;
   std::uint64_t value;
@@ -42,7 +43,7 @@ std::vector<T> of_all(const Ranks& ranks, const std::vector<T>& mine) {
     for (int rank = 0; rank < ranks.size(); ++rank)
       std::copy(mine.begin(), mine.end(), sent.entries.data() + sent.begin[rank]);
   });
-  const Dealt<T> received = exchange(ranks, "GALE::told_by_all", sent);
+  const Dealt<T> received = exchange_packed(ranks, "GALE::told_by_all", sent);
   return {received.entries.data(), received.entries.data() + received.count()};
 }
 
@@ -77,20 +78,30 @@ inline void keep_joining(const SideKeys& keys, std::vector<std::pair<Id, GlobalI
 
 /// The paths of one side as this rank has them.
 struct SideOnRanks {
-  SideOnRanks(const VertexOrder& order, MirroredGraphSide side)
+  /// Follows them where `is_wanted`; else there are extrema alone. Collective.
+  SideOnRanks(const VertexOrder& order, MirroredGraphSide side, bool is_wanted)
       : next(std::move(side.next)),
         extrema(std::move(side.extrema)),
-        meetings(std::move(side.meetings)),
-        simplices(order, next, extrema),
-        paths(simplices) {}
+        meetings(is_wanted ? std::move(side.meetings) : std::vector<Meeting>()),
+        simplices(order, next, extrema) {
+    if (!is_wanted) return;
+    std::vector<Id> others;
+    for (const Meeting& meeting : meetings) {
+      if (!order.mesh().owned_vertices().has(meeting.other)) others.push_back(meeting.other);
+    }
+    paths.emplace(simplices, others);
+  }
 
-  GlobalId end_of(Id vertex) const { return paths.final_stop(paths.end(vertex)).id; }
+  GlobalId end_of(Id vertex) const {
+    if (paths) return paths->final_stop(paths->end(vertex)).id;
+    return next.in<HostMemory>()(vertex) == no_id ? simplices.global(vertex) : -1;
+  }
 
   const Mirrored<Id> next;
   const std::vector<Id> extrema;
   const std::vector<Meeting> meetings;
   const PathSimplices simplices;
-  const PathsOnRanks paths;
+  std::optional<PathsOnRanks> paths;
 };
 
 /// What is gathered, as a graph on a small mesh.

@@ -20,6 +20,12 @@ struct ThresholdOfTree {
   std::function<double(Id)> value;
 };
 
+/// Whether some of the trees are made of the paths of a side.
+inline bool are_made_of(Side side, const std::vector<Tree>& trees) {
+  const Tree of_side = side == below ? Tree::join : Tree::split;
+  return std::any_of(trees.begin(), trees.end(), [&](Tree tree) { return tree == of_side || tree == Tree::contour; });
+}
+
 /// Makes trees of an extremum graph.
 template <class Space>
 class TreeMaker {
@@ -28,10 +34,7 @@ class TreeMaker {
  public:
   TreeMaker(const Space& space, const VertexOrder& order, ExtremumGraph<Memory> graph, const std::vector<Tree>& trees)
       : space_(space), order_(order), trees_(trees) {
-    const auto uses = [&](Tree one) {
-      return std::any_of(trees.begin(), trees.end(), [&](Tree tree) { return tree == one || tree == Tree::contour; });
-    };
-    uses_ = {uses(Tree::join), uses(Tree::split)};
+    uses_ = {are_made_of(below, trees), are_made_of(above, trees)};
     std::array<std::vector<Id>, 2> extrema = {graph[below].extrema, graph[above].extrema};
     for (const Side side : {below, above}) {
       if (uses_[side]) grow(side, std::move(graph[side]), extrema[opposite(side)]);

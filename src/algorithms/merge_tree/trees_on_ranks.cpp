@@ -50,7 +50,8 @@ std::vector<MergeTree> trees_on_ranks(const VertexOrder& order, MirroredGraph gr
   const Mesh& mesh = order.mesh();
   const Ranks& ranks = mesh.exchange().ranks();
   std::array<std::unique_ptr<SideOnRanks>, 2> sides;
-  for (const Side side : {below, above}) sides[side] = std::make_unique<SideOnRanks>(order, std::move(graph[side]));
+  for (const Side side : {below, above})
+    sides[side] = std::make_unique<SideOnRanks>(order, std::move(graph[side]), are_made_of(side, trees));
   const GatheredGraph gathered(order, sides);
   std::vector<double> values;
   if (options.threshold != 0) values = values_at(gathered.mesh(), mesh, options.value);

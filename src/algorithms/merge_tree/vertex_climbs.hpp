@@ -37,13 +37,17 @@ class VertexClimbs {
  private:
   void find_ends(const Mesh& mesh, const SideOnRanks& side, const std::unordered_map<GlobalId, Id>& places) {
     std::vector<Id> place_of_end;
-    for (Id end = 0; end < side.paths.ends(); ++end) place_of_end.push_back(places.at(side.paths.final_stop(end).id));
+    const PathsOnRanks& paths = *side.paths;
+    for (Id end = 0; end < paths.ends(); ++end) {
+      const auto at = places.find(paths.final_stop(end).id);
+      place_of_end.push_back(at == places.end() ? no_id : at->second);  // no path of this rank comes to some exits
+    }
     if (by_input_.extent(0) == 0) by_input_ = allocate<Array<Id, HostMemory>>("GALE::ends_by_input", mesh.vertices());
     const OtherIds input = mesh.vertices_in_input();
     const Interval owned = mesh.owned_vertices();
     parallel_for("GALE::ends_by_input", HostExecutionSpace(), owned.size(), [&](Offset i) {
       const Id v = owned.first + static_cast<Id>(i);
-      by_input_(input[v]) = end_at(place_of_end[side.paths.end(v)]);
+      by_input_(input[v]) = end_at(place_of_end[paths.end(v)]);
     });
   }
 

@@ -139,7 +139,15 @@ Mirrored<Id> renamed_in(const Space& space, const Mirrored<Id>& manifolds, const
 template <class StartOf>
 Mirrored<Id> manifolds_on_ranks(const PathSimplices& simplices, const StartOf& start_of) {
   const Mesh& mesh = simplices.mesh();
-  const PathsOnRanks paths(simplices);
+  const auto& successors = simplices.successors().in<HostMemory>();
+  std::vector<Id> elsewhere;
+  together(mesh.exchange().ranks(), [&] {
+    for (const Id v : mesh.owned_vertices()) {
+      const Id start = start_of(v);
+      if (start != no_id && successors(start) == DiscreteGradient::elsewhere) elsewhere.push_back(start);
+    }
+  });
+  const PathsOnRanks paths(simplices, elsewhere);
   const auto places = paths.places_of_ends();
   Array<Id, HostMemory> manifolds;
   together(paths.ranks(), [&] {

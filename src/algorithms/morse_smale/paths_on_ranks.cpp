@@ -3,8 +3,10 @@
 #include <gale/algorithms/gradient/gradient_store.hpp>
 #include <gale/algorithms/morse_smale/jump.hpp>
 #include <gale/algorithms/morse_smale/paths_on_ranks.hpp>
+#include <gale/base/atomic.hpp>
 #include <gale/base/error.hpp>
 #include <gale/base/memory.hpp>
+#include <gale/base/sort.hpp>
 #include <gale/mesh/exchange/messages.hpp>
 #include <gale/mesh/exchange/places.hpp>
 
@@ -81,23 +83,43 @@ int PathSimplices::owner(Id simplex) const {
   return mesh().exchange().owner(vertex_input_[highest]);
 }
 
-PathsOnRanks::PathsOnRanks(const PathSimplices& simplices)
+PathsOnRanks::PathsOnRanks(const PathSimplices& simplices, const std::vector<Id>& others)
     : simplices_(simplices), criticals_(static_cast<Id>(simplices.critical().size())) {
-  together(ranks(), [&] { find_exits(); });
+  together(ranks(), [&] { find_exits(others); });
   while (jump()) {
   }
 }
 
-void PathsOnRanks::find_exits() {
+void PathsOnRanks::find_exits(const std::vector<Id>& others) {
   const auto& successors = simplices_.successors().in<HostMemory>();
-  const auto elsewhere = by_rank(1, successors.extent(0), [&](Id i, const auto& visit) {
-    if (successors(i) == DiscreteGradient::elsewhere) visit(0);
-  });
-  exits_.assign(elsewhere.members.data(), elsewhere.members.data() + elsewhere.members.extent(0));
+  const auto is_elsewhere = [&](Id simplex) { return successors(simplex) == DiscreteGradient::elsewhere; };
+  const Array<Id, HostMemory> elsewhere = by_rank(1, successors.extent(0), [&](Id i, const auto& visit) {
+                                            if (is_elsewhere(i)) visit(0);
+                                          }).members;
+  const auto ids = allocate<Array<std::uint64_t, HostMemory>>("GALE::exit_ids", elsewhere.extent(0));
+  parallel_for("GALE::exit_ids", HostExecutionSpace(), ids.extent(0),
+               [&](Offset i) { ids(i) = static_cast<std::uint64_t>(simplices_.global(elsewhere(i))); });
+  stable_sort_by_key(HostExecutionSpace(), ids, elsewhere);
+  exits_.assign(elsewhere.data(), elsewhere.data() + elsewhere.extent(0));
   std::vector<Id> ends = simplices_.critical();
   ends.insert(ends.end(), exits_.begin(), exits_.end());
   ends_ = ends_here(simplices_.successors(), ends);
-  for (const Id exit : exits_) stops_.push_back({simplices_.owner(exit), simplices_.global(exit)});
+  stops_.resize(exits_.size());
+  parallel_for("GALE::first_stops", HostExecutionSpace(), exits_.size(), [&](Offset i) {
+    stops_[i] = {simplices_.owner(exits_[i]), static_cast<GlobalId>(ids(i))};
+  });
+  std::vector<char> is_reached(exits_.size(), 0);
+  const auto reach = [&](Id simplex) {
+    const Id at = end(simplex);
+    if (at >= criticals_) atomic_write(&is_reached[at - criticals_], char(1));
+  };
+  parallel_for("GALE::reached_exits", HostExecutionSpace(), successors.extent(0), [&](Offset i) {
+    if (!is_elsewhere(static_cast<Id>(i))) reach(static_cast<Id>(i));
+  });
+  for (const Id simplex : others) reach(simplex);
+  for (std::size_t i = 0; i < exits_.size(); ++i) {
+    if (is_reached[i] != 0) open_.push_back(static_cast<Id>(i));
+  }
 }
 
 Id PathsOnRanks::end(Id simplex) const {
@@ -112,25 +134,29 @@ PathStop PathsOnRanks::final_stop(Id end) const {
 }
 
 Array<const Id, HostMemory> PathsOnRanks::places_of_ends() const {
+  GlobalIndex different;  // critical simplices where paths end
   Array<SimplexKey, HostMemory> keys;
-  Array<Id, HostMemory> critical_ends;  // those that end at a critical simplex
+  const auto is_critical = [&](Id end) { return final_stop(end).rank == PathStop::critical; };
   together(ranks(), [&] {
-    critical_ends = by_rank(1, ends(), [&](Id end, const auto& visit) {
-                      if (final_stop(end).rank == PathStop::critical) visit(0);
-                    }).members;
-    keys = allocate<decltype(keys)>("GALE::end_keys", critical_ends.extent(0));
-    parallel_for("GALE::end_keys", HostExecutionSpace(), critical_ends.extent(0), [&](Offset i) {
-      keys(i) = {final_stop(critical_ends(i)).id, 0, 0};
-    });
+    const auto all = by_rank(1, ends(), [&](Id end, const auto& visit) {
+                       if (is_critical(end)) visit(0);
+                     }).members;
+    const auto ids = allocate<GlobalIds>("GALE::ids_of_ends", all.extent(0));
+    parallel_for("GALE::ids_of_ends", HostExecutionSpace(), ids.extent(0),
+                 [&](Offset i) { ids(i) = final_stop(all(i)).id; });
+    different = GlobalIndex(distinct_ids(ids).ids);
+    keys = allocate<decltype(keys)>("GALE::end_keys", different.count());
+    for (Offset i = 0; i < different.count(); ++i) keys(i) = {different[i], 0, 0};
   });
   const KeyPlaces found = places_of_keys(ranks(), keys);
   Array<Id, HostMemory> places;
   together(ranks(), [&] {
     require_ids("minima or maxima of all ranks", found.count);
     places = allocate<Array<Id, HostMemory>>("GALE::places_of_ends", ends());
-    fill("GALE::no_places", HostExecutionSpace(), places, no_id);
-    parallel_for("GALE::places_of_ends", HostExecutionSpace(), critical_ends.extent(0),
-                 [&](Offset i) { places(critical_ends(i)) = static_cast<Id>(found.places(i)); });
+    parallel_for("GALE::places_of_ends", HostExecutionSpace(), ends(), [&](Offset i) {
+      const Id end = static_cast<Id>(i);
+      places(end) = is_critical(end) ? static_cast<Id>(found.places(different.find(final_stop(end).id))) : no_id;
+    });
   });
   return places;
 }
@@ -138,15 +164,16 @@ Array<const Id, HostMemory> PathsOnRanks::places_of_ends() const {
 /// One round: each exit whose path goes on elsewhere learns from the rank where it is how it ends there. False, and
 /// nothing done, if all have ended on all ranks.
 bool PathsOnRanks::jump() {
-  std::vector<Id> open;
-  for (std::size_t i = 0; i < stops_.size(); ++i) {
-    if (!stops_[i].is_end()) open.push_back(static_cast<Id>(i));
-  }
-  if (ranks().sum(static_cast<std::int64_t>(open.size())) == 0) return false;
+  if (ranks().sum(static_cast<std::int64_t>(open_.size())) == 0) return false;
   const auto next = ask<PathStop>(
-      ranks(), "GALE::next_stops", static_cast<Offset>(open.size()), [&](Id i) { return stops_[open[i]].rank; },
-      [&](Id i) { return stops_[open[i]].id; }, [&](GlobalId id) { return final_stop(end(simplices_.local(id))); });
-  for (std::size_t i = 0; i < open.size(); ++i) stops_[open[i]] = next(i);
+      ranks(), "GALE::next_stops", static_cast<Offset>(open_.size()), [&](Id i) { return stops_[open_[i]].rank; },
+      [&](Id i) { return stops_[open_[i]].id; }, [&](GlobalId id) { return final_stop(end(simplices_.local(id))); });
+  std::vector<Id> still;
+  for (std::size_t i = 0; i < open_.size(); ++i) {
+    stops_[open_[i]] = next(i);
+    if (!next(i).is_end()) still.push_back(open_[i]);
+  }
+  open_.swap(still);
   ++rounds_;
   return true;
 }

@@ -54,21 +54,22 @@ class PathSimplices {
 struct PathStop {
   static constexpr int critical = -1, outside = -2;
 
-  int rank = outside;  ///< that has to follow the path on; or how it ends
-  GlobalId id = -1;    ///< of the simplex where it goes on, or of the critical one where it ends
+  std::int64_t rank = outside;  ///< that has to follow the path on; or how it ends
+  GlobalId id = -1;             ///< of the simplex where it goes on, or of the critical one where it ends
 
   bool is_end() const { return rank < 0; }
 };
 
-/// The ends of all paths along the successors of a mesh on several ranks, by pointer jumping: first on each rank, then
-/// from rank to rank, in a number of rounds that grows with the logarithm of how often a path changes ranks.
+/// The ends of paths along the successors of a mesh on several ranks, by pointer jumping: first on each rank, then from
+/// rank to rank, in a number of rounds that grows with the logarithm of how often a path changes ranks.
 class PathsOnRanks {
  public:
-  /// Collective; throws gale::Error on all ranks. Refers to `simplices`.
-  explicit PathsOnRanks(const PathSimplices& simplices);
+  /// Finds those of paths from all simplices whose successors this rank knows, and from `others` (GALE's ids), whose
+  /// successors are elsewhere. Collective; throws gale::Error on all ranks. Refers to `simplices`.
+  explicit PathsOnRanks(const PathSimplices& simplices, const std::vector<Id>& others = {});
 
-  /// How the path from each local simplex (GALE's id) ends on this rank: the number of that end, below; no_id if it
-  /// leaves through the surface.
+  /// How the path from a local simplex (GALE's id) ends on this rank: the number of that end, below; no_id if it leaves
+  /// through the surface.
   Id end(Id simplex) const;
 
   /// Exits: simplices of this rank that another one follows the paths of. Ends are numbered: first the critical ones,
@@ -76,7 +77,7 @@ class PathsOnRanks {
   Id ends() const { return criticals_ + static_cast<Id>(exits_.size()); }
   bool is_exit(Id end) const { return end >= criticals_; }
 
-  /// Where the paths that end here so end finally.
+  /// Where the paths that end here so end finally; where they go on if no path that was asked for does.
   PathStop final_stop(Id end) const;
 
   /// For each end that paths have on this rank the place of the critical simplex where they end finally among those of
@@ -91,14 +92,15 @@ class PathsOnRanks {
   const Ranks& ranks() const { return simplices_.mesh().exchange().ranks(); }
 
  private:
-  void find_exits();
+  void find_exits(const std::vector<Id>& others);
   bool jump();
 
   const PathSimplices& simplices_;
   Id criticals_;
-  std::vector<Id> exits_;
+  std::vector<Id> exits_;             ///< by ascending global id
   Array<const Id, HostMemory> ends_;  ///< by simplex: end_at(number), or path_outside
   std::vector<PathStop> stops_;  ///< of each exit, where its path is after 2^rounds changes of ranks, or ends before
+  std::vector<Id> open_;         ///< places of exits that paths come to that haven't ended yet
   int rounds_ = 0;
 };
 

@@ -70,7 +70,7 @@ class AskedSimplices {
     sent_ = detail::deal<Simplex>(
         ranks, "GALE::named_simplices", static_cast<Offset>(simplices.size()), [&](Id i) { return owner(i); },
         [&](Id i) { return simplices[i]; }, &members_);
-    received_ = detail::exchange(ranks, "GALE::simplices_to_number", sent_);
+    received_ = detail::exchange_packed(ranks, "GALE::simplices_to_number", sent_);
   }
 
   /// What others ask of this rank, in GALE's ids of its local mesh.
@@ -92,16 +92,15 @@ class AskedSimplices {
   /// Tells number_of(i) of the i-th of these to who asked, and returns what others tell. Collective.
   template <class NumberOf>
   std::vector<GlobalId> answers(const NumberOf& number_of) const {
-    detail::Dealt<GlobalId> told, found;
+    detail::Dealt<GlobalId> told;
     std::vector<GlobalId> numbers;
     detail::together(mesh_.exchange().ranks(), [&] {
       told = detail::dealt<GlobalId>("GALE::told_numbers", detail::counts_of(received_));
       parallel_for("GALE::told_numbers", HostExecutionSpace(), told.count(),
                    [&](Offset i) { told.entries(i) = number_of(i); });
-      found = detail::dealt<GlobalId>("GALE::found_numbers", detail::counts_of(sent_));
       numbers.resize(sent_.count());
     });
-    detail::exchange(mesh_.exchange().ranks(), told, found);
+    const auto found = detail::exchange_packed(mesh_.exchange().ranks(), "GALE::found_numbers", told);
     for (Offset i = 0; i < found.count(); ++i) numbers[members_(i)] = found.entries(i);
     return numbers;
   }

@@ -21,8 +21,7 @@ struct FallenEdge {
 
 /// An edge of a column that another rank lets fall, by global ids.
 struct SentEdge {
-  GlobalId high, low;
-  Id column;
+  GlobalId high, low, column;
 };
 
 /// A column and the 1-saddle that it has met, by places on a rank.
@@ -46,7 +45,7 @@ void keep_odd(std::vector<T>& items) {
 /// Sends entries to the first rank, and notes there how much it was. Collective.
 template <class T>
 Dealt<T> to_first(const Ranks& ranks, const char* label, const std::vector<T>& entries) {
-  auto received = exchange(
+  auto received = exchange_packed(
       ranks, label,
       deal<T>(
           ranks, label, static_cast<Offset>(entries.size()), [](Id) { return 0; }, [&](Id i) { return entries[i]; }));
@@ -118,7 +117,7 @@ class FallOnRanks {
     const auto sent = deal<SentEdge>(
         ranks_, "GALE::sent_edges", static_cast<Offset>(exits_.size()), [&](Id i) { return owners_[i]; },
         [&](Id i) { return exits_[i]; });
-    const auto received = exchange(ranks_, "GALE::received_edges", sent);
+    const auto received = exchange_packed(ranks_, "GALE::received_edges", sent);
     exits_.clear();
     owners_.clear();
     together(ranks_, [&] {

@@ -22,7 +22,7 @@ struct SentSimplex {
   std::array<GlobalId, 3> name;  ///< what CriticalSimplices are sorted by: its vertices, ascending, or the cell
   std::uint64_t value;           ///< of its highest vertex, as VertexOrder::value_key
   GlobalId highest;              ///< that vertex
-  Id rank;                       ///< in its own rank's filtration
+  GlobalId rank;                 ///< in its own rank's filtration
 };
 
 /// Entries of all ranks, which ascend by `is_less` on each, in that order.
@@ -181,10 +181,10 @@ class PairsOnRanks {
 
   template <class T>
   Dealt<T> to_first(const char* label, const std::vector<T>& entries) {
-    return exchange(ranks_, label,
-                    deal<T>(
-                        ranks_, label, static_cast<Offset>(entries.size()), [](Id) { return 0; },
-                        [&](Id i) { return entries[i]; }));
+    return exchange_packed(ranks_, label,
+                           deal<T>(
+                               ranks_, label, static_cast<Offset>(entries.size()), [](Id) { return 0; },
+                               [&](Id i) { return entries[i]; }));
   }
 
   std::vector<SentEnds> edge_ends() {

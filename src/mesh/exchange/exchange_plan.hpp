@@ -152,7 +152,7 @@ ExchangePlan::ExchangePlan(const Ranks& ranks, const Run& run, const Array<const
   parallel_for("GALE::wanted_slots", HostExecutionSpace(), slots_.extent(0),
                [&](Offset i) { slots_(i) = slots(others(slots_(i))); });
   taken_counts_ = counts_of(asked);
-  const auto keys = exchange(ranks, "GALE::wanted_keys", asked);
+  const auto keys = exchange_packed(ranks, "GALE::wanted_keys", asked);
   together(ranks, [&] {
     given_ = dealt<Id>("GALE::given_places", counts_of(keys));
     parallel_for("GALE::given_places", HostExecutionSpace(), keys.count(),

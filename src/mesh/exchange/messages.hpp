@@ -10,6 +10,7 @@
 #include <gale/base/memory.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/base/types.hpp>
+#include <gale/mesh/exchange/packed_rows.hpp>
 #include <gale/mesh/ranks.hpp>
 
 // Messages of which each rank decides by itself what it sends to whom.
@@ -63,6 +64,38 @@ Dealt<T> exchange(const Ranks& ranks, const char* label, const Dealt<T>& sent) {
   together(ranks, [&] { received = dealt<T>(label, counts); });
   exchange(ranks, sent, received);
   return received;
+}
+
+/// What exchange does, by messages of as few bytes as pack_rows makes of entries: for ids, places and the like that
+/// ascend or lie near one another. Collective.
+template <class T>
+Dealt<T> exchange_packed(const Ranks& ranks, const char* label, const Dealt<T>& sent) {
+  static_assert(std::has_unique_object_representations_v<T> && sizeof(T) % sizeof(std::uint32_t) == 0,
+                "integers alone, without gaps between them");
+  constexpr int width = sizeof(T) / sizeof(std::uint32_t);
+  const auto words = [](T* entries) { return reinterpret_cast<std::uint32_t*>(entries); };
+  Dealt<char> packed;
+  together(ranks, [&] {
+    std::vector<char> bytes;
+    std::vector<Offset> begin = {0};
+    for (int rank = 0; rank < ranks.size(); ++rank) {
+      pack_rows(words(sent.entries.data() + sent.begin[rank]), sent.count(rank), width, bytes);
+      begin.push_back(static_cast<Offset>(bytes.size()));
+    }
+    packed = {allocate<Array<char, HostMemory>>(label, bytes.size()), std::move(begin)};
+    std::copy(bytes.begin(), bytes.end(), packed.entries.data());
+  });
+  const Dealt<char> received = exchange(ranks, label, packed);
+  Dealt<T> unpacked;
+  together(ranks, [&] {
+    const auto from = [&](int rank) { return received.entries.data() + received.begin[rank]; };
+    std::vector<std::int64_t> counts;
+    for (int rank = 0; rank < ranks.size(); ++rank) counts.push_back(packed_rows(from(rank), received.count(rank)));
+    unpacked = dealt<T>(label, counts);
+    for (int rank = 0; rank < ranks.size(); ++rank)
+      unpack_rows(from(rank), received.count(rank), width, words(unpacked.entries.data() + unpacked.begin[rank]));
+  });
+  return unpacked;
 }
 
 /// Items by rank: those of rank r are members(begin[r]) to members(begin[r + 1] - 1), ascending.
@@ -122,15 +155,14 @@ Array<Answer, HostMemory> ask(const Ranks& ranks, const char* label, Offset item
   using Question = std::decay_t<decltype(question_of(Id()))>;
   Array<Id, HostMemory> members;
   const Dealt<Question> asked = deal<Question>(ranks, "GALE::asked", items, rank_of, question_of, &members);
-  const Dealt<Question> questions = exchange(ranks, "GALE::questions", asked);
-  Dealt<Answer> given, received;
+  const Dealt<Question> questions = exchange_packed(ranks, "GALE::questions", asked);
+  Dealt<Answer> given;
   together(ranks, [&] {
     given = dealt<Answer>("GALE::answers", counts_of(questions));
     parallel_for("GALE::answers", HostExecutionSpace(), questions.count(),
                  [&](Offset i) { given.entries(i) = answer_of(questions.entries(i)); });
-    received = dealt<Answer>("GALE::answered", counts_of(asked));
   });
-  exchange(ranks, given, received);
+  const Dealt<Answer> received = exchange_packed(ranks, "GALE::answered", given);
   Array<Answer, HostMemory> answers;
   together(ranks, [&] {
     answers = allocate<Array<Answer, HostMemory>>(label, items);

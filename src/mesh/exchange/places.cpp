@@ -36,7 +36,7 @@ KeyPlaces places_of_keys(const Ranks& ranks, const Array<const SimplexKey, HostM
   const auto sent = deal<SimplexKey>(
       ranks, "GALE::sent_keys", count, [&](Id i) { return keys(i)[0] / keys_a_home; }, [&](Id i) { return keys(i); },
       &members);
-  const auto received = exchange(ranks, "GALE::received_keys", sent);
+  const auto received = exchange_packed(ranks, "GALE::received_keys", sent);
   std::vector<SimplexKey> distinct;
   together(ranks, [&] {
     distinct.assign(received.entries.data(), received.entries.data() + received.count());
@@ -47,17 +47,16 @@ KeyPlaces places_of_keys(const Ranks& ranks, const Array<const SimplexKey, HostM
   const GlobalId first = ranks.sum_before(here);
   KeyPlaces found;
   found.count = ranks.sum(here);
-  Dealt<GlobalId> told, answers;
+  Dealt<GlobalId> told;
   together(ranks, [&] {
     told = dealt<GlobalId>("GALE::told_places", counts_of(received));
     parallel_for("GALE::told_places", HostExecutionSpace(), told.count(), [&](Offset i) {
       told.entries(i) =
           first + (std::lower_bound(distinct.begin(), distinct.end(), received.entries(i)) - distinct.begin());
     });
-    answers = dealt<GlobalId>("GALE::answered_places", counts_of(sent));
     found.places = allocate<Array<GlobalId, HostMemory>>("GALE::key_places", count);
   });
-  exchange(ranks, told, answers);
+  const auto answers = exchange_packed(ranks, "GALE::answered_places", told);
   parallel_for("GALE::key_places", HostExecutionSpace(), count,
                [&](Offset i) { found.places(members(i)) = answers.entries(i); });
   return found;
@@ -74,8 +73,8 @@ Array<GlobalId, HostMemory> sums_before(const Ranks& ranks, const Array<const Gl
         return IdCount{ids(i), counts(i)};
       },
       &members);
-  const auto received = exchange(ranks, "GALE::received_counts", sent);
-  Dealt<GlobalId> told, answers;
+  const auto received = exchange_packed(ranks, "GALE::received_counts", sent);
+  Dealt<GlobalId> told;
   Array<GlobalId, HostMemory> sums;
   GlobalId sum = 0;
   together(ranks, [&] {
@@ -88,12 +87,11 @@ Array<GlobalId, HostMemory> sums_before(const Ranks& ranks, const Array<const Gl
       told.entries(places(i)) = sum;
       sum += received.entries(places(i)).count;
     }
-    answers = dealt<GlobalId>("GALE::answered_sums", counts_of(sent));
     sums = allocate<Array<GlobalId, HostMemory>>("GALE::sums_before", here + 1);
   });
   const GlobalId before = ranks.sum_before(sum);
   parallel_for("GALE::told_sums", HostExecutionSpace(), told.count(), [&](Offset i) { told.entries(i) += before; });
-  exchange(ranks, told, answers);
+  const auto answers = exchange_packed(ranks, "GALE::answered_sums", told);
   parallel_for("GALE::sums_before", HostExecutionSpace(), here,
                [&](Offset i) { sums(members(i)) = answers.entries(i); });
   sums(here) = ranks.sum(sum);
@@ -112,10 +110,11 @@ Array<GlobalId, HostMemory> occurrences(const Ranks& ranks, const Array<const Gl
     stable_sort_by_key(HostExecutionSpace(), sorted, places);
     counts = counts_of_each(sorted);
   });
-  const auto received = exchange(ranks, "GALE::received_occurrences",
-                                 deal<IdCount>(
-                                     ranks, "GALE::sent_occurrences", static_cast<Offset>(counts.size()),
-                                     [&](Id i) { return homes.of(counts[i].id); }, [&](Id i) { return counts[i]; }));
+  const auto received =
+      exchange_packed(ranks, "GALE::received_occurrences",
+                      deal<IdCount>(
+                          ranks, "GALE::sent_occurrences", static_cast<Offset>(counts.size()),
+                          [&](Id i) { return homes.of(counts[i].id); }, [&](Id i) { return counts[i]; }));
   GlobalIndex index;
   Array<GlobalId, HostMemory> sums;
   together(ranks, [&] {

@@ -1,0 +1,66 @@
+#include <cstdint>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <gale/mesh/exchange/packed_rows.hpp>
+
+namespace gale::test {
+
+namespace {
+
+using Words = std::vector<std::uint32_t>;
+
+/// Packs rows, expects to find the same again, and returns how many bytes they took.
+std::size_t packed_and_back(const Words& words, int width) {
+  const auto rows = static_cast<std::int64_t>(words.size()) / width;
+  std::vector<char> bytes = {'x'};  // what is there already stays
+  detail::pack_rows(words.data(), rows, width, bytes);
+  EXPECT_EQ(bytes[0], 'x');
+  const auto count = static_cast<std::int64_t>(bytes.size()) - 1;
+  EXPECT_EQ(detail::packed_rows(bytes.data() + 1, count), rows);
+  Words back(words.size(), 77);
+  detail::unpack_rows(bytes.data() + 1, count, width, back.data());
+  EXPECT_EQ(back, words);
+  return static_cast<std::size_t>(count);
+}
+
+}  // namespace
+
+TEST(PackedRows, come_back_whatever_they_are) {
+  std::mt19937 random(5);
+  for (const int width : {1, 2, 3, 4, 8}) {
+    for (const int rows : {1, 2, 3, 200, 5000}) {
+      for (const std::uint32_t range : {1u, 2u, 3u, 100u, 1u << 20, ~0u}) {
+        Words words(static_cast<std::size_t>(width * rows));
+        for (auto& word : words) word = random() % range;
+        EXPECT_LE(packed_and_back(words, width), words.size() * 5 + 9);
+      }
+    }
+  }
+  packed_and_back({0, ~0u, 0, ~0u, 1u << 31, (1u << 31) - 1, 0}, 1);
+}
+
+TEST(PackedRows, take_no_bytes_if_there_are_none) {
+  std::vector<char> bytes;
+  detail::pack_rows(nullptr, 0, 3, bytes);
+  EXPECT_TRUE(bytes.empty());
+  EXPECT_EQ(detail::packed_rows(nullptr, 0), 0);
+  detail::unpack_rows(nullptr, 0, 3, nullptr);
+}
+
+TEST(PackedRows, take_few_bytes_where_they_ascend_or_repeat) {
+  Words ids, pairs;
+  for (std::uint32_t i = 0; i < 100000; ++i) {
+    ids.push_back(4000000000u + i);
+    pairs.insert(pairs.end(), {i * 3, 0});
+  }
+  EXPECT_LE(packed_and_back(ids, 1), 16u);
+  EXPECT_LE(packed_and_back(pairs, 2), 24u);
+  Words near;
+  for (std::uint32_t i = 0; i < 100000; ++i) near.push_back(i + i % 7);
+  EXPECT_LE(packed_and_back(near, 1), near.size() * 2);
+}
+
+}  // namespace gale::test
