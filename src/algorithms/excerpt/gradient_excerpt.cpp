@@ -145,10 +145,6 @@ class ExcerptMaker {
 
 }  // namespace
 
-DiscreteGradient excerpt_of(Reached reached, int dimension) {
-  return ExcerptMaker(std::move(reached), dimension).make();
-}
-
 DiscreteGradient gathered_with_walls(const DiscreteGradient& gradient, bool rising_walls, std::size_t most_bytes) {
   const Mesh& mesh = gradient.mesh();
   WantedWays ways;
@@ -167,7 +163,7 @@ DiscreteGradient excerpt_of(const DiscreteGradient& gradient, const WantedWays& 
   Reached reached = reach(gradient, ways, rows, most_bytes);
   std::optional<DiscreteGradient> excerpt;
   together(gradient.mesh().exchange().ranks(),
-           [&] { excerpt = excerpt_of(std::move(reached), gradient.mesh().dimension()); });
+           [&] { excerpt = ExcerptMaker(std::move(reached), gradient.mesh().dimension()).make(); });
   return *excerpt;
 }
 

@@ -19,7 +19,4 @@ DiscreteGradient excerpt_of(const DiscreteGradient& gradient, const WantedWays& 
 /// where these are wanted. Collective.
 DiscreteGradient gathered_with_walls(const DiscreteGradient& gradient, bool rising_walls, std::size_t most_bytes = 0);
 
-/// Makes one of what was received, on this rank alone.
-DiscreteGradient excerpt_of(Reached reached, int dimension);
-
 }  // namespace gale::detail

@@ -43,6 +43,7 @@ WiderGradient::WiderGradient(const DiscreteGradient& gradient, const PathSimplic
     : gradient_(gradient),
       mesh_(gradient.mesh()),
       corners_(mesh_.cell_reader()),
+      cell_input_(mesh_.cells_in_input()),
       rank_(mesh_.exchange().ranks().rank()),
       own_vertices_(mesh_.vertices()),
       own_cells_(mesh_.cells()) {
@@ -63,7 +64,7 @@ GlobalId WiderGradient::vertex_id(Id vertex) const {
 }
 
 GlobalId WiderGradient::cell_id(Id cell) const {
-  return cell < own_cells_ ? mesh_.cell_id(mesh_.cells_in_input()[cell]) : cell_ids_[cell - own_cells_];
+  return is_own_cell(cell) ? mesh_.cell_id(cell_input_[cell]) : cell_ids_[cell - own_cells_];
 }
 
 std::uint64_t WiderGradient::value(Id vertex) const {

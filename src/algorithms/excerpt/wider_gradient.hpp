@@ -32,6 +32,11 @@ class WiderGradient {
 
   /// A number for each vertex, dense from 0: they compare as global ids do.
   Id name(Id vertex) const { return names_[vertex]; }
+
+  /// A number for each cell, dense from 0. Those of the rank's own compare as global ids do; others' come after these.
+  Id cell_name(Id cell) const { return is_own_cell(cell) ? cell_input_[cell] : cell; }
+  bool is_own_cell(Id cell) const { return cell < own_cells_; }
+
   GlobalId vertex_id(Id vertex) const;
   GlobalId cell_id(Id cell) const;
   std::uint64_t value(Id vertex) const;
@@ -54,6 +59,7 @@ class WiderGradient {
   const DiscreteGradient& gradient_;
   const Mesh mesh_;
   const CellReader corners_;
+  const OtherIds cell_input_;
   const int rank_;
   const Id own_vertices_, own_cells_;
   std::vector<Offset> vertex_begin_, cell_begin_;

@@ -119,6 +119,15 @@ void GradientStore::finish() {
   std::copy(found.begin(), found.end(), counts.begin());
 }
 
+void GradientStore::finish_with(CriticalSimplices known) {
+  fill("GALE::no_successors", HostExecutionSpace(), consumed_vertices_, DiscreteGradient::elsewhere);
+  fill("GALE::no_successors", HostExecutionSpace(), consumed_cells_, DiscreteGradient::elsewhere);
+  if (mesh.dimension() == 3) pairs_ = EdgePairs(pairs_, {}, mesh.vertices());
+  critical = std::move(known);
+  const auto found = critical.counts();
+  std::copy(found.begin(), found.end(), counts.begin());
+}
+
 void GradientStore::share_counts() { mesh.exchange().ranks().sum(counts.data(), static_cast<int>(counts.size())); }
 
 std::size_t GradientStore::bytes() const {

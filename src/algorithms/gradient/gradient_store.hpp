@@ -147,6 +147,10 @@ class GALE_EXPORT GradientStore {
   /// After the sweep: gathers what the consumers found, in the order of input numbers, and counts it.
   void finish();
 
+  /// Instead of a sweep, where nothing is known but which simplices are critical, in the order of input numbers: all
+  /// successors are elsewhere, and vertices have no edges.
+  void finish_with(CriticalSimplices known);
+
   /// When it is finished on all ranks: the counts become those of all. Collective.
   void share_counts();
 

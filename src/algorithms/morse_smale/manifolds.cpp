@@ -137,7 +137,7 @@ Mirrored<Id> renamed_in(const Space& space, const Mirrored<Id>& manifolds, const
 /// The places among those of all ranks where the paths from vertices end that start at start_of(vertex), which is a
 /// simplex or no_id, by GALE's ids. Collective.
 template <class StartOf>
-Mirrored<Id> manifolds_on_ranks(const PathSimplices& simplices, const StartOf& start_of) {
+Mirrored<Id> manifolds_on_ranks(const PathSimplices& simplices, PathExits* exits, const StartOf& start_of) {
   const Mesh& mesh = simplices.mesh();
   const auto& successors = simplices.successors().in<HostMemory>();
   std::vector<Id> elsewhere;
@@ -151,6 +151,7 @@ Mirrored<Id> manifolds_on_ranks(const PathSimplices& simplices, const StartOf& s
   const auto places = paths.places_of_ends();
   Array<Id, HostMemory> manifolds;
   together(paths.ranks(), [&] {
+    if (exits != nullptr) *exits = {exits->starts, paths.exits_from(exits->starts.simplices), true};
     const OtherIds input = mesh.vertices_in_input();
     manifolds = allocate<Array<Id, HostMemory>>("GALE::manifolds", mesh.vertices());
     parallel_for("GALE::manifolds", HostExecutionSpace(), mesh.vertices(), [&](Offset v) {
@@ -163,16 +164,17 @@ Mirrored<Id> manifolds_on_ranks(const PathSimplices& simplices, const StartOf& s
   return manifolds;
 }
 
-Mirrored<Id> descending_on_ranks(const DiscreteGradient& gradient) {
+Mirrored<Id> descending_on_ranks(const DiscreteGradient& gradient, PathExits* exits) {
   const auto vertices = PathSimplices::make(gradient, PathSimplices::Kind::falling_vertices);
-  return manifolds_on_ranks(*vertices, [](Id v) { return v; });
+  return manifolds_on_ranks(*vertices, exits, [](Id v) { return v; });
 }
 
-Mirrored<Id> ascending_on_ranks(const DiscreteGradient& gradient) {
+Mirrored<Id> ascending_on_ranks(const DiscreteGradient& gradient, PathExits* exits) {
   const auto cells = PathSimplices::make(gradient, PathSimplices::Kind::rising_cells);
   Array<std::uint64_t, HostMemory> first;
   together(gradient.mesh().exchange().ranks(), [&] { first = first_cells(HostExecutionSpace(), gradient.mesh()); });
-  return manifolds_on_ranks(*cells, [&](Id v) { return first(v) == no_first ? no_id : Id(pair_second(first(v))); });
+  return manifolds_on_ranks(*cells, exits,
+                            [&](Id v) { return first(v) == no_first ? no_id : Id(pair_second(first(v))); });
 }
 
 /// The pairs that this rank has numbered among themselves get their places among those of all.
@@ -198,13 +200,13 @@ std::pair<Mirrored<Id>, Id> pairs_on_ranks(const Ranks& ranks, const Mirrored<Id
 
 }  // namespace
 
-Mirrored<Id> descending_manifolds(const DiscreteGradient& gradient) {
-  if (gradient.mesh().exchange().ranks().size() > 1) return descending_on_ranks(gradient);
+Mirrored<Id> descending_manifolds(const DiscreteGradient& gradient, PathExits* exits) {
+  if (gradient.mesh().exchange().ranks().size() > 1) return descending_on_ranks(gradient, exits);
   return in_worker_or_host_space(gradient.mesh(), [&](const auto& space) { return descending_in(space, gradient); });
 }
 
-Mirrored<Id> ascending_manifolds(const DiscreteGradient& gradient) {
-  if (gradient.mesh().exchange().ranks().size() > 1) return ascending_on_ranks(gradient);
+Mirrored<Id> ascending_manifolds(const DiscreteGradient& gradient, PathExits* exits) {
+  if (gradient.mesh().exchange().ranks().size() > 1) return ascending_on_ranks(gradient, exits);
   return in_worker_or_host_space(gradient.mesh(), [&](const auto& space) { return ascending_in(space, gradient); });
 }
 

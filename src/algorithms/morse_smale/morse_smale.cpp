@@ -87,14 +87,32 @@ std::array<std::vector<char>, 4> own_simplices(const DiscreteGradient& excerpt, 
   return own;
 }
 
-/// Finds the separatrices of this rank's saddles on several ranks. With walls each rank is sent all that these pass.
-/// Collective.
+/// Finds the manifolds that the complex is to have, and on the way there the exits of paths on several ranks.
+void find_manifolds(MorseSmaleComplex& complex, detail::PathExits* down = nullptr, detail::PathExits* up = nullptr) {
+  const MorseSmaleParts& parts = complex.parts;
+  if (parts.descending_manifolds) complex.descending_manifold = detail::descending_manifolds(complex.gradient, down);
+  if (parts.ascending_manifolds) complex.ascending_manifold = detail::ascending_manifolds(complex.gradient, up);
+  if (parts.descending_manifolds && parts.ascending_manifolds) {
+    std::tie(complex.morse_smale_manifold, complex.morse_smale_manifolds) =
+        detail::morse_smale_manifolds(complex.gradient.mesh(), complex.ascending_manifold, complex.descending_manifold);
+  }
+}
+
+/// Finds all parts on several ranks: the separatrices of this rank's saddles. With walls each rank is sent all that
+/// these pass. Collective.
 template <class GetStructure>
 void find_on_ranks(int threads, const GetStructure& structure, MorseSmaleComplex& complex) {
   const MorseSmaleParts& parts = complex.parts;
   const Mesh& mesh = complex.gradient.mesh();
+  detail::PathExits down, up;
+  detail::together(mesh.exchange().ranks(), [&] {
+    const CriticalSimplices& own = complex.gradient.critical();
+    if (parts.descending_separatrices) down.starts = detail::descending_starts(mesh, own);
+    if (parts.ascending_separatrices) up.starts = detail::ascending_starts(own);
+  });
+  find_manifolds(complex, &down, &up);
   if (!parts.separatrices2) {
-    detail::separatrices_on_ranks(threads, complex);
+    detail::separatrices_on_ranks(threads, std::move(down), std::move(up), complex);
     detail::together(mesh.exchange().ranks(), [&] { complex.is_own = own_simplices(complex.excerpt, mesh); });
     return;
   }
@@ -114,17 +132,6 @@ void find_on_ranks(int threads, const GetStructure& structure, MorseSmaleComplex
   });
 }
 
-/// Finds the manifolds that the complex is to have.
-void find_manifolds(MorseSmaleComplex& complex) {
-  const MorseSmaleParts& parts = complex.parts;
-  if (parts.descending_manifolds) complex.descending_manifold = detail::descending_manifolds(complex.gradient);
-  if (parts.ascending_manifolds) complex.ascending_manifold = detail::ascending_manifolds(complex.gradient);
-  if (parts.descending_manifolds && parts.ascending_manifolds) {
-    std::tie(complex.morse_smale_manifold, complex.morse_smale_manifolds) =
-        detail::morse_smale_manifolds(complex.gradient.mesh(), complex.ascending_manifold, complex.descending_manifold);
-  }
-}
-
 /// Calls structure() if it needs one.
 template <class GetStructure>
 MorseSmaleComplex find_parts(const DiscreteGradient& gradient, const MorseSmaleParts& parts, int threads,
@@ -137,8 +144,8 @@ MorseSmaleComplex find_parts(const DiscreteGradient& gradient, const MorseSmaleP
     find_on_ranks(threads, structure, complex);
   } else {
     find_separatrices(threads, structure, complex);
+    find_manifolds(complex);
   }
-  find_manifolds(complex);
   return complex;
 }
 

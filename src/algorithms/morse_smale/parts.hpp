@@ -77,9 +77,17 @@ class ConnectorsHere {
   std::vector<std::array<Id, 2>> exits_;
 };
 
+/// Where this rank's 1-separatrices leave its part, from these starts: GALE's ids of simplices that are elsewhere, once
+/// each. Where paths have been followed for manifolds, these have told.
+struct PathExits {
+  PathStarts starts;
+  std::vector<Id> exits;
+  bool are_known = false;
+};
+
 /// Finds the separatrices of this rank's saddles on several ranks, and the excerpt that these are in. What leaves a
 /// part is followed on by the others, who tell what they pass. Collective.
-void separatrices_on_ranks(int threads, MorseSmaleComplex& complex);
+void separatrices_on_ranks(int threads, PathExits down, PathExits up, MorseSmaleComplex& complex);
 
 /// Finds the saddle connectors of a gradient that kernels found, by kernels where it is: those that
 /// `descending_surfaces` finds, in its order. Walls are made together that have `most_together` triangles at most, a
@@ -94,10 +102,10 @@ AscendingWalls ascending_walls(Structure& structure, const DiscreteGradient& gra
 
 // Manifolds are where they were found: in the workers' memory, if there is room. Of a mesh on several ranks they are
 // on the host; finding them is collective. They are by input id, ghosts' too, and name extrema by their places among
-// those of all ranks.
+// those of all ranks. On the way there the exits of separatrices can be found, if there are several.
 
-Mirrored<Id> descending_manifolds(const DiscreteGradient& gradient);
-Mirrored<Id> ascending_manifolds(const DiscreteGradient& gradient);
+Mirrored<Id> descending_manifolds(const DiscreteGradient& gradient, PathExits* exits = nullptr);
+Mirrored<Id> ascending_manifolds(const DiscreteGradient& gradient, PathExits* exits = nullptr);
 
 /// Finds a number for each pair (ascending, descending) that occurs, in lexicographic order, dense from 0; no_id where
 /// the ascending one is missing. And how many pairs there are, of all ranks that the mesh lies on.

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <utility>
 
 #include <gale/algorithms/gradient/gradient_store.hpp>
 #include <gale/algorithms/morse_smale/jump.hpp>
@@ -96,30 +97,32 @@ void PathsOnRanks::find_exits(const std::vector<Id>& others) {
   const Array<Id, HostMemory> elsewhere = by_rank(1, successors.extent(0), [&](Id i, const auto& visit) {
                                             if (is_elsewhere(i)) visit(0);
                                           }).members;
-  const auto ids = allocate<Array<std::uint64_t, HostMemory>>("GALE::exit_ids", elsewhere.extent(0));
-  parallel_for("GALE::exit_ids", HostExecutionSpace(), ids.extent(0),
-               [&](Offset i) { ids(i) = static_cast<std::uint64_t>(simplices_.global(elsewhere(i))); });
-  stable_sort_by_key(HostExecutionSpace(), ids, elsewhere);
   exits_.assign(elsewhere.data(), elsewhere.data() + elsewhere.extent(0));
   std::vector<Id> ends = simplices_.critical();
   ends.insert(ends.end(), exits_.begin(), exits_.end());
   ends_ = ends_here(simplices_.successors(), ends);
-  stops_.resize(exits_.size());
-  parallel_for("GALE::first_stops", HostExecutionSpace(), exits_.size(), [&](Offset i) {
-    stops_[i] = {simplices_.owner(exits_[i]), static_cast<GlobalId>(ids(i))};
-  });
-  std::vector<char> is_reached(exits_.size(), 0);
+  is_reached_.assign(exits_.size(), 0);
   const auto reach = [&](Id simplex) {
     const Id at = end(simplex);
-    if (at >= criticals_) atomic_write(&is_reached[at - criticals_], char(1));
+    if (at >= criticals_) atomic_write(&is_reached_[at - criticals_], char(1));
   };
   parallel_for("GALE::reached_exits", HostExecutionSpace(), successors.extent(0), [&](Offset i) {
     if (!is_elsewhere(static_cast<Id>(i))) reach(static_cast<Id>(i));
   });
   for (const Id simplex : others) reach(simplex);
+  stops_.resize(exits_.size());
   for (std::size_t i = 0; i < exits_.size(); ++i) {
-    if (is_reached[i] != 0) open_.push_back(static_cast<Id>(i));
+    if (is_reached_[i] != 0) open_.push_back(static_cast<Id>(i));
   }
+  parallel_for("GALE::first_stops", HostExecutionSpace(), open_.size(),
+               [&](Offset i) { stops_[open_[i]] = next_stop(open_[i]); });
+  parallel_sort("GALE::sort_exits", open_.begin(), open_.end(),
+                [&](Id a, Id b) { return stops_[a].id < stops_[b].id; });
+}
+
+/// Where the path goes on that leaves through an exit.
+PathStop PathsOnRanks::next_stop(Id exit) const {
+  return {simplices_.owner(exits_[exit]), simplices_.global(exits_[exit])};
 }
 
 Id PathsOnRanks::end(Id simplex) const {
@@ -127,9 +130,22 @@ Id PathsOnRanks::end(Id simplex) const {
   return end == path_outside ? no_id : place_of_end(end);
 }
 
+std::vector<Id> PathsOnRanks::exits_from(const std::vector<Id>& simplices) const {
+  std::vector<char> is_found(exits_.size(), 0);
+  std::vector<Id> found;
+  for (const Id simplex : simplices) {
+    const Id at = end(simplex);
+    if (at >= criticals_ && std::exchange(is_found[at - criticals_], 1) == 0) found.push_back(exits_[at - criticals_]);
+  }
+  return found;
+}
+
 PathStop PathsOnRanks::final_stop(Id end) const {
   if (end == no_id) return {};
-  if (is_exit(end)) return stops_[end - criticals_];
+  if (end >= criticals_) {
+    const Id exit = end - criticals_;
+    return is_reached_[exit] != 0 ? stops_[exit] : next_stop(exit);
+  }
   return {PathStop::critical, simplices_.global(simplices_.critical()[end])};
 }
 

@@ -72,10 +72,12 @@ class PathsOnRanks {
   /// through the surface.
   Id end(Id simplex) const;
 
+  /// The exits that paths from some simplices (GALE's ids) come to, once each. Not collective.
+  std::vector<Id> exits_from(const std::vector<Id>& simplices) const;
+
   /// Exits: simplices of this rank that another one follows the paths of. Ends are numbered: first the critical ones,
   /// then the exits.
   Id ends() const { return criticals_ + static_cast<Id>(exits_.size()); }
-  bool is_exit(Id end) const { return end >= criticals_; }
 
   /// Where the paths that end here so end finally; where they go on if no path that was asked for does.
   PathStop final_stop(Id end) const;
@@ -93,14 +95,16 @@ class PathsOnRanks {
 
  private:
   void find_exits(const std::vector<Id>& others);
+  PathStop next_stop(Id exit) const;
   bool jump();
 
   const PathSimplices& simplices_;
   Id criticals_;
-  std::vector<Id> exits_;             ///< by ascending global id
+  std::vector<Id> exits_;
   Array<const Id, HostMemory> ends_;  ///< by simplex: end_at(number), or path_outside
-  std::vector<PathStop> stops_;  ///< of each exit, where its path is after 2^rounds changes of ranks, or ends before
-  std::vector<Id> open_;         ///< places of exits that paths come to that haven't ended yet
+  std::vector<char> is_reached_;      ///< of each exit: the ends of paths are wanted that come there
+  std::vector<PathStop> stops_;       ///< of these, where the path is after 2^rounds changes of ranks, or ends before
+  std::vector<Id> open_;              ///< the places of those whose paths haven't ended yet, by global id at first
   int rounds_ = 0;
 };
 

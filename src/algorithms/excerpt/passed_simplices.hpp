@@ -1,0 +1,13 @@
+#pragma once
+
+#include <gale/algorithms/excerpt/wider_gradient.hpp>
+#include <gale/algorithms/morse_smale.hpp>
+
+namespace gale::detail {
+
+/// Makes the excerpt of a complex: of the simplices that its separatrices pass, which are those of a wider gradient,
+/// and of all critical ones there. From then on the complex names them as the excerpt does. The excerpt knows which
+/// simplices are critical, and nothing else of the gradient.
+void name_in_excerpt(const WiderGradient& wider, MorseSmaleComplex& complex);
+
+}  // namespace gale::detail
