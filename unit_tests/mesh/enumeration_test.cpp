@@ -1,7 +1,11 @@
+#include <algorithm>
 #include <atomic>
 #include <thread>
 
 #include <gtest/gtest.h>
+
+#include <gale/base/threads.hpp>
+#include <gale/mesh/grid.hpp>
 
 #include "support/brute_force.hpp"
 #include "support/segmentations.hpp"
@@ -153,6 +157,53 @@ TEST(Enumeration, of_long_rows_is_that_of_brute_force) {
       }
     }
   }
+}
+
+/// Each has as many simplices as tetrahedra ever have, for which there is no room at first.
+TEST(Enumeration, of_tetrahedra_that_share_nothing) {
+  constexpr Id count = 5000;
+  InputMesh input;
+  for (Id t = 0; t < count; ++t) {
+    for (int k = 0; k < 4; ++k) input.points.push_back({1. * t, k == 1 ? 1. : 0., k > 1 ? k - 1. : 0.});
+    input.tetrahedra.push_back({4 * t, 4 * t + 1, 4 * t + 2, 4 * t + 3});
+  }
+  const Mesh mesh = encode(input, 100);
+  const auto simplices = mesh.simplices(everything);
+  ASSERT_EQ(mesh.known_edges(), 6 * count);
+  ASSERT_EQ(mesh.known_triangles(), 4 * count);
+  for (Id t = 0; t < count; ++t) {
+    const Quad quad = mesh.cell_reader()(t);
+    EXPECT_EQ(simplices.triangle_of(quad.b, quad.c, quad.d) - simplices.triangle_of(quad.a, quad.b, quad.c), 3);
+  }
+}
+
+/// Parts of a mesh that are far apart, and close, when their tables are joined.
+TEST(Enumeration, is_the_same_on_any_number_of_threads) {
+  const int before = host_threads();
+  for (const Id side : {24, 48}) {
+    const auto found_on = [&](int threads) {
+      set_host_threads(threads);
+      const Mesh mesh{Grid({side, side, side})};
+      mesh.simplices(everything);
+      return mesh;
+    };
+    const Mesh alone = found_on(1);
+    const auto one = alone.simplices(everything);
+    for (const int threads : {2, 5}) {
+      const Mesh mesh = found_on(threads);
+      const auto some = mesh.simplices(everything);
+      const auto expect_equal = [&](const char* what, const auto& a, const auto& b) {
+        ASSERT_EQ(a.extent(0), b.extent(0)) << what;
+        EXPECT_TRUE(std::equal(a.data(), a.data() + a.extent(0), b.data())) << what << " on " << threads;
+      };
+      expect_equal("edge_begin", some.edge_begin, one.edge_begin);
+      expect_equal("edge_low", some.edge_low, one.edge_low);
+      expect_equal("edge_high", some.edge_high, one.edge_high);
+      expect_equal("triangle_begin", some.triangle_begin, one.triangle_begin);
+      expect_equal("triangle_apex", some.triangle_apex, one.triangle_apex);
+    }
+  }
+  set_host_threads(before);
 }
 
 }  // namespace gale::test

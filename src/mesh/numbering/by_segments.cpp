@@ -1,11 +1,13 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include <gale/base/bits.hpp>
 #include <gale/base/error.hpp>
+#include <gale/base/memory.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/mesh/numbering/candidates.hpp>
 #include <gale/mesh/numbering/enumerate.hpp>
@@ -69,33 +71,45 @@ class MiddleStarsOfSegment {
   std::vector<Above> above_;
 };
 
-/// What one thread finds, vertex after vertex.
-struct FoundSimplices {
+/// How many edges and triangles a part of the segments has.
+struct SimplexCounts {
+  Offset edges = 0, triangles = 0;
+
+  SimplexCounts operator+(const SimplexCounts& other) const {
+    return {edges + other.edges, triangles + other.triangles};
+  }
+  bool fits(const SimplexCounts& room) const { return edges <= room.edges && triangles <= room.triangles; }
+};
+
+/// Where one part writes. Tables that aren't wanted are null.
+struct SimplexPlaces {
+  Id *edge_low = nullptr, *edge_high = nullptr;            ///< of its first edge
+  Id *triangle_begin = nullptr, *triangle_apex = nullptr;  ///< of its first edge and triangle; counted from that
+  SimplexCounts room;
+};
+
+/// Finds the edges and triangles of vertices to higher ones, and writes them one vertex after the other, as long as
+/// there is room. For one thread.
+class SimplexFinder {
+ public:
+  explicit SimplexFinder(const SimplexPlaces& places) : to_(places) {}
+
+  /// Takes the vertex's own tetrahedra and those of which it is in the middle.
+  void find(Id vertex, const Quad* own, Id count, const Span<const Above>& middle) {
+    collect(own, count, middle);
+    find_ends(vertex);
+    SimplexCounts all = found + SimplexCounts{static_cast<Offset>(ends_.size()), 0};
+    if (to_.triangle_apex != nullptr) all.triangles += find_triangles(3 * count);
+    if (all.fits(to_.room)) write(vertex);
+    found = all;
+  }
+
+  SimplexCounts found;
+
+ private:
   /// Edges of a vertex whose triangles are told by bits.
   static constexpr Id most_bits = 32;
 
-  std::vector<Id> ends;               ///< of edges
-  std::vector<std::uint32_t> joined;  ///< of each edge, which edges of its vertex it makes a triangle with, of those
-                                      ///< behind it; where these are more than `most_bits`, how many
-  std::vector<Id> apexes;             ///< of the triangles of such vertices
-  Offset triangles = 0;
-};
-
-/// Finds the edges and triangles of vertices to higher ones. For one thread.
-class SimplexFinder {
- public:
-  SimplexFinder(bool triangles, FoundSimplices& found) : triangles_(triangles), found_(found) {}
-
-  /// Takes the vertex's own tetrahedra and those of which it is in the middle. Returns how many edges it has.
-  Id find(Id vertex, const Quad* own, Id count, const Span<const Above>& middle) {
-    collect(own, count, middle);
-    find_ends(vertex);
-    if (triangles_) find_triangles(3 * count);
-    found_.ends.insert(found_.ends.end(), ends_.begin(), ends_.end());
-    return static_cast<Id>(ends_.size());
-  }
-
- private:
   /// The higher vertices of each tetrahedron: three of own ones, then two of the others.
   void collect(const Quad* own, Id count, const Span<const Above>& middle) {
     count_ = 3 * count + static_cast<Id>(2 * middle.size());
@@ -127,29 +141,29 @@ class SimplexFinder {
     }
   }
 
-  /// `own` corners are of the vertex's own tetrahedra.
-  void find_triangles(Id own) {
+  /// `own` corners are of the vertex's own tetrahedra. Returns how many there are.
+  Offset find_triangles(Id own) {
     const auto edges = static_cast<Id>(ends_.size());
     ranks_.begin(edges);
     std::copy(ends_.begin(), ends_.end(), ranks_.ids());
     ranks_.replace_by_ranks(corners_, count_);
-    if (edges > FoundSimplices::most_bits) return find_many(own);
-    std::array<std::uint32_t, FoundSimplices::most_bits> joined;
-    std::fill(joined.begin(), joined.begin() + edges, 0);
+    if (edges > most_bits) return find_many(own);
+    std::fill(joined_.begin(), joined_.begin() + edges, 0);
     const auto bit = [](Id i) { return std::uint32_t(1) << i; };
     for (const Id *corner = corners_.data(), *const end = corner + own; corner < end; corner += 3) {
-      joined[corner[0]] |= bit(corner[1]) | bit(corner[2]);
-      joined[corner[1]] |= bit(corner[2]);
+      joined_[corner[0]] |= bit(corner[1]) | bit(corner[2]);
+      joined_[corner[1]] |= bit(corner[2]);
     }
-    for (Id i = own; i < count_; i += 2) joined[corners_[i]] |= bit(corners_[i + 1]);
+    for (Id i = own; i < count_; i += 2) joined_[corners_[i]] |= bit(corners_[i + 1]);
+    Offset triangles = 0;
     for (Id i = 0; i < edges; ++i) {
-      joined[i] &= ~bit(i);
-      found_.triangles += count_bits(joined[i]);
+      joined_[i] &= ~bit(i);
+      triangles += count_bits(joined_[i]);
     }
-    found_.joined.insert(found_.joined.end(), joined.begin(), joined.begin() + edges);
+    return triangles;
   }
 
-  void find_many(Id own) {
+  Offset find_many(Id own) {
     pairs_.clear();
     const auto add = [&](Id low, Id high) {
       if (low != high) pairs_.push_back(pair_key(low, high));
@@ -162,20 +176,38 @@ class SimplexFinder {
     for (Id i = own; i < count_; i += 2) add(corners_[i], corners_[i + 1]);
     std::sort(pairs_.begin(), pairs_.end());
     pairs_.erase(std::unique(pairs_.begin(), pairs_.end()), pairs_.end());
-    const std::size_t first = found_.joined.size();
-    found_.joined.resize(first + ends_.size(), 0);
-    for (const std::uint64_t pair : pairs_) {
-      ++found_.joined[first + pair_first(pair)];
-      found_.apexes.push_back(ends_[pair_second(pair)]);
-    }
-    found_.triangles += static_cast<Offset>(pairs_.size());
+    return static_cast<Offset>(pairs_.size());
   }
 
-  const bool triangles_;
-  FoundSimplices& found_;
+  void write(Id vertex) const {
+    const auto edges = static_cast<Id>(ends_.size());
+    if (to_.edge_high != nullptr) {
+      std::copy(ends_.begin(), ends_.end(), to_.edge_high + found.edges);
+      std::fill_n(to_.edge_low + found.edges, edges, vertex);
+    }
+    if (to_.triangle_apex == nullptr) return;
+    Id* const begin = to_.triangle_begin + found.edges;
+    Id* apex = to_.triangle_apex + found.triangles;
+    const auto here = [&] { return static_cast<Id>(apex - to_.triangle_apex); };
+    if (edges <= most_bits) {
+      for (Id i = 0; i < edges; ++i) {
+        begin[i] = here();
+        for (std::uint32_t rest = joined_[i]; rest != 0; rest &= rest - 1) *apex++ = ends_[lowest_bit(rest)];
+      }
+    } else {
+      auto pair = pairs_.begin();
+      for (Id i = 0; i < edges; ++i) {
+        begin[i] = here();
+        for (; pair != pairs_.end() && pair_first(*pair) == i; ++pair) *apex++ = ends_[pair_second(*pair)];
+      }
+    }
+  }
+
+  const SimplexPlaces to_;
   Id count_ = 0;
   std::vector<Id> corners_, ends_;
-  std::vector<std::uint64_t> pairs_;
+  std::array<std::uint32_t, most_bits> joined_;  ///< of each edge, which of those behind it it makes a triangle with
+  std::vector<std::uint64_t> pairs_;             ///< of too many edges for bits: those that make triangles
   LastSeen seen_;
   InputIdRanks ranks_;
 };
@@ -190,102 +222,153 @@ void for_vertices(const EncodedMesh<HostMemory>& mesh, Offset first, Offset last
 }
 
 /// Finds what a part of the segments has, and writes where each vertex's edges begin, counted from the part's first.
-void find_simplices(const EncodedMesh<HostMemory>& mesh, const Id* cell_begin, Offset first, Offset last,
-                    bool triangles, Id* edge_begin, FoundSimplices& found) {
-  constexpr Offset usual = 8;
-  const Offset vertices = mesh.vertex_begin(last) - mesh.vertex_begin(first);
-  FoundSimplices mine;  // the ends of those of all parts share cache lines
-  mine.ends.reserve(usual * vertices);
-  if (triangles) mine.joined.reserve(usual * vertices);
+SimplexCounts find_simplices(const EncodedMesh<HostMemory>& mesh, const Id* cell_begin, Offset first, Offset last,
+                             Id* edge_begin, const SimplexPlaces& places) {
   MiddleStarsOfSegment stars(mesh);
-  SimplexFinder finder(triangles, mine);
+  SimplexFinder finder(places);
   Id gathered = no_id;
-  Offset edges = 0;
   for_vertices(mesh, first, last, [&](Id segment, Id v) {
     if (std::exchange(gathered, segment) != segment) stars.gather(segment);
     const Id begin = cell_begin[v];
-    edge_begin[v] = static_cast<Id>(edges);
-    edges += finder.find(v, reinterpret_cast<const Quad*>(mesh.cells.data()) + begin, cell_begin[v + 1] - begin,
-                         stars.of(v));
+    edge_begin[v] = static_cast<Id>(finder.found.edges);
+    finder.find(v, reinterpret_cast<const Quad*>(mesh.cells.data()) + begin, cell_begin[v + 1] - begin, stars.of(v));
   });
-  found = std::move(mine);
+  return finder.found;
 }
 
-/// Writes a part's triangles: the first has the number `at`, its first edge the number `edge`.
-void write_triangles(const EncodedMesh<HostMemory>& mesh, const Id* edge_begin, Offset first, Offset last,
-                     const FoundSimplices& found, Id at, Id* triangle_begin, Id* apex) {
-  const std::uint32_t* joined = found.joined.data();
-  const Id *ends = found.ends.data(), *of_many = found.apexes.data();
-  for_vertices(mesh, first, last, [&](Id, Id v) {
-    const Id edges = edge_begin[v + 1] - edge_begin[v];
-    for (Id i = 0; i < edges; ++i) {
-      triangle_begin[edge_begin[v] + i] = at;
-      if (edges > FoundSimplices::most_bits) {
-        const auto count = static_cast<Id>(joined[i]);
-        std::copy(of_many, of_many + count, apex + at);
-        of_many += count;
-        at += count;
-      } else {
-        for (std::uint32_t rest = joined[i]; rest != 0; rest &= rest - 1) apex[at++] = ends[lowest_bit(rest)];
-      }
+/// Moves entries down to where an array has room before them, each with `shift` added to it: on all threads, as many at
+/// a time as don't overlap with their places.
+void move_down(Id* to, const Id* from, Offset count, Id shift) {
+  constexpr Offset few = Offset(1) << 16;
+  for (Offset moved = 0, apart = from - to; moved < count;) {
+    const Offset now = apart < few ? count - moved : std::min(apart, count - moved);
+    const auto move = [&](Offset i) { to[moved + i] = from[moved + i] + shift; };
+    if (apart < few) {
+      for (Offset i = 0; i < now; ++i) move(i);
+    } else {
+      parallel_for("GALE::close_gaps", HostExecutionSpace(), now, move);
     }
-    joined += edges;
-    ends += edges;
-  });
+    moved += now;
+  }
+}
+
+/// The tables as parts write them, each with room of its own, until the gaps between these are closed.
+class TablesInParts {
+ public:
+  using Ids = Array<Id, HostMemory>;
+
+  TablesInParts(std::vector<SimplexCounts> rooms, bool edges_too, bool triangles) : rooms_(std::move(rooms)) {
+    first_.resize(1);
+    for (const SimplexCounts& room : rooms_) first_.push_back(first_.back() + room);
+    const SimplexCounts all = first_.back();
+    if (edges_too) {
+      low = allocate<Ids>("GALE::edge_low", all.edges);
+      high = allocate<Ids>("GALE::edge_high", all.edges);
+    }
+    if (!triangles) return;
+    triangle_begin = allocate<Ids>("GALE::triangle_begin", all.edges + 1);
+    apex = allocate<Ids>("GALE::triangle_apex", all.triangles);
+  }
+
+  SimplexPlaces places(int part) const {
+    const auto at = [](const Ids& ids, Offset first) { return ids.data() == nullptr ? nullptr : ids.data() + first; };
+    const SimplexCounts& first = first_[part];
+    return {at(low, first.edges), at(high, first.edges), at(triangle_begin, first.edges), at(apex, first.triangles),
+            rooms_[part]};
+  }
+
+  /// Whether each part had room for what it has.
+  bool hold(const std::vector<SimplexCounts>& found) const {
+    for (std::size_t part = 0; part < found.size(); ++part) {
+      if (!found[part].fits(rooms_[part])) return false;
+    }
+    return true;
+  }
+
+  /// Has each part follow the one before, of which all have so many.
+  void close_gaps(const std::vector<SimplexCounts>& found) {
+    SimplexCounts at;
+    for (std::size_t part = 0; part < found.size(); ++part) {
+      const auto move = [&](const Ids& ids, Offset to, Offset from, Offset count, Offset shift) {
+        if (ids.data() != nullptr && (to != from || shift != 0))
+          move_down(ids.data() + to, ids.data() + from, count, static_cast<Id>(shift));
+      };
+      const auto [edges, triangles] = found[part];
+      const SimplexCounts& from = first_[part];
+      move(low, at.edges, from.edges, edges, 0);
+      move(high, at.edges, from.edges, edges, 0);
+      move(triangle_begin, at.edges, from.edges, edges, at.triangles);
+      move(apex, at.triangles, from.triangles, triangles, 0);
+      at = at + found[part];
+    }
+    const auto cut = [](Ids& ids, Offset count) {
+      if (ids.data() != nullptr) ids = first_of(ids, static_cast<std::size_t>(count));
+    };
+    cut(low, at.edges);
+    cut(high, at.edges);
+    cut(triangle_begin, at.edges + 1);
+    cut(apex, at.triangles);
+    if (triangle_begin.data() != nullptr) triangle_begin(at.edges) = static_cast<Id>(at.triangles);
+  }
+
+  Ids low, high, triangle_begin, apex;
+
+ private:
+  std::vector<SimplexCounts> rooms_, first_;
+};
+
+/// How many simplices a part is expected to have at most. A manifold with V vertices, T tetrahedra, B triangles in its
+/// surface and the Euler characteristic X has V + T + B / 2 - X edges and 2 T + B / 2 triangles. What isn't written
+/// takes no memory but addresses.
+SimplexCounts expected(Offset vertices, Offset cells) {
+  constexpr Offset few = 4096;
+  return {few + (vertices + cells) * 5 / 4, few + 2 * cells * 5 / 4};
 }
 
 }  // namespace
 
 void enumerate_by_segments(const EncodedMesh<HostMemory>& mesh, const Borrowed<Id, HostMemory>& cell_begin,
                            bool triangles, SimplexTables& tables) {
-  using Ids = Array<Id, HostMemory>;
   const Offset vertices = cell_begin.extent(0) - 1, segments = mesh.vertex_begin.extent(0) - 1;
-  const auto edge_begin = allocate<Ids>("GALE::edge_begin", vertices + 1);
-  std::vector<FoundSimplices> found(threads_for(vertices));
-  const int parts = static_cast<int>(found.size());
-  for_parts("GALE::find_simplices", segments, parts, [&](int part, Offset first, Offset last) {
-    find_simplices(mesh, cell_begin.data(), first, last, triangles, edge_begin.data(), found[part]);
-  });
-  std::vector<Offset> first_edge(1, 0), first_triangle(1, 0);
-  for (const FoundSimplices& part : found) {
-    first_edge.push_back(first_edge.back() + static_cast<Offset>(part.ends.size()));
-    first_triangle.push_back(first_triangle.back() + part.triangles);
+  const int parts = threads_for(vertices);
+  const auto edge_begin = allocate<Array<Id, HostMemory>>("GALE::edge_begin", vertices + 1);
+  const auto first_vertex = [&](int part) { return mesh.vertex_begin(part_begin(segments, parts, part)); };
+  std::vector<SimplexCounts> rooms, found(parts);
+  for (int part = 0; part < parts; ++part) {
+    const Id first = first_vertex(part), last = first_vertex(part + 1);
+    rooms.push_back(expected(last - first, cell_begin(last) - cell_begin(first)));
   }
-  require_ids("edges", first_edge[parts]);
-  require_ids("triangles", first_triangle[parts]);
   const bool edges_too = tables.edge_begin.size() == 0;
-  Ids low, high;
-  if (edges_too) {
-    low = allocate<Ids>("GALE::edge_low", first_edge[parts]);
-    high = allocate<Ids>("GALE::edge_high", first_edge[parts]);
-  }
-  edge_begin(vertices) = static_cast<Id>(first_edge[parts]);
-  for_parts("GALE::write_edges", segments, parts, [&](int part, Offset first, Offset last) {
-    const auto shift = static_cast<Id>(first_edge[part]);
-    if (edges_too) std::copy(found[part].ends.begin(), found[part].ends.end(), high.data() + shift);
-    const Id last_vertex = mesh.vertex_begin(last) - 1;
-    for_vertices(mesh, first, last, [&](Id, Id v) {
-      const Id begin = edge_begin(v) += shift;
-      const Id end = v < last_vertex ? edge_begin(v + 1) + shift : static_cast<Id>(first_edge[part + 1]);
-      if (edges_too) std::fill(low.data() + begin, low.data() + end, v);
+  std::optional<TablesInParts> made;
+  do {
+    made.reset();
+    made.emplace(std::move(rooms), edges_too, triangles);
+    for_parts("GALE::find_simplices", segments, parts, [&](int part, Offset first, Offset last) {
+      found[part] = find_simplices(mesh, cell_begin.data(), first, last, edge_begin.data(), made->places(part));
     });
-  });
-  Ids triangle_begin, apex;
+    rooms = found;
+  } while (!made->hold(found));
+  SimplexCounts all;
+  for (const SimplexCounts& part : found) all = all + part;
+  require_ids("edges", all.edges);
+  require_ids("triangles", all.triangles);
+  made->close_gaps(found);
   if (triangles) {
-    triangle_begin = allocate<Ids>("GALE::triangle_begin", first_edge[parts] + 1);
-    apex = allocate<Ids>("GALE::triangle_apex", first_triangle[parts]);
-    triangle_begin(first_edge[parts]) = static_cast<Id>(first_triangle[parts]);
-    for_parts("GALE::write_triangles", segments, parts, [&](int part, Offset first, Offset last) {
-      write_triangles(mesh, edge_begin.data(), first, last, found[part], static_cast<Id>(first_triangle[part]),
-                      triangle_begin.data(), apex.data());
-    });
-    tables.triangle_begin = triangle_begin;
-    tables.triangle_apex = apex;
+    tables.triangle_begin = made->triangle_begin;
+    tables.triangle_apex = made->apex;
   }
   if (!edges_too) return;
+  SimplexCounts before = found[0];
+  for (int part = 1; part < parts; ++part) {
+    const Id first = first_vertex(part), last = first_vertex(part + 1);
+    parallel_for("GALE::edge_begin", HostExecutionSpace(), last - first,
+                 [&](Offset v) { edge_begin(first + v) += static_cast<Id>(before.edges); });
+    before = before + found[part];
+  }
+  edge_begin(vertices) = static_cast<Id>(all.edges);
   tables.edge_begin = edge_begin;
-  tables.edge_low = low;
-  tables.edge_high = high;
+  tables.edge_low = made->low;
+  tables.edge_high = made->high;
 }
 
 }  // namespace gale::detail
