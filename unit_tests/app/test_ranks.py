@@ -78,6 +78,14 @@ class OnRanks(ranks.RanksTest):
         self.assertGreater(report["waiting"]["most"], 0)
         self.assertIsNone(self.report("critical-points", "grid:4")["ranks"])
 
+    def test_what_ranks_send_is_small_beside_the_mesh(self):
+        mesh = 12 * 48 ** 3 + 16 * 6 * 47 ** 3  # bytes of points and tetrahedra; what is sent grows with a side's square
+        for most, arguments in ((0.003, ["critical-points"]), (0.018, ["morse-smale"]), (0.005, ["persistence-diagram"]),
+                                (0.007, ["merge-tree"]), (0.005, ["merge-tree", "--type", "split"])):
+            with self.subTest(arguments=arguments):
+                sent = self.report_of(4, *arguments, "grid:48")["ranks"]["sent_bytes"]
+                self.assertLess(sent["most"], most * mesh)
+
     def test_errors_are_one_line_and_leave_nothing(self):
         for code, naming, arguments in (
                 (1, "nothing.vtu", ["critical-points", "nothing.vtu", "-o", "all.pvtp"]),

@@ -8,10 +8,10 @@
 
 namespace gale::detail {
 
-/// A set of places, a bit each, that numbers its members in their order.
+/// A set of places, a bit each. Once all members are there it numbers them in their order.
 class NumberedSet {
  public:
-  /// None of the places 0 to places - 1.
+  /// Makes an empty set of the places 0 to places - 1.
   explicit NumberedSet(Id places) : words_((static_cast<std::size_t>(places) >> 6) + 1, 0) {}
 
   /// Adds a place; false where it was a member before.
@@ -25,7 +25,7 @@ class NumberedSet {
 
   bool has(Id place) const { return (words_[static_cast<std::size_t>(place) >> 6] >> (place & 63) & 1) != 0; }
 
-  /// Numbers the members, when all are there.
+  /// Numbers the members. Once; none is added afterwards.
   void number() {
     before_.reserve(words_.size());
     for (const std::uint64_t word : words_) {

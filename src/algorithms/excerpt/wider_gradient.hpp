@@ -33,7 +33,7 @@ class WiderGradient {
   /// A number for each vertex, dense from 0: they compare as global ids do.
   Id name(Id vertex) const { return names_[vertex]; }
 
-  /// A number for each cell, dense from 0. Those of the rank's own compare as global ids do; others' come after these.
+  /// A number for each cell, dense from 0. Own cells' numbers compare as global ids do; others' come after these.
   Id cell_name(Id cell) const { return is_own_cell(cell) ? cell_input_[cell] : cell; }
   bool is_own_cell(Id cell) const { return cell < own_cells_; }
 

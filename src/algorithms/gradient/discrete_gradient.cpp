@@ -112,7 +112,8 @@ Id DiscreteGradient::triangle_of_lower_edge(Id high, Id low) const {
     return third;
   }
   const detail::EdgePairRow row = store_->pairs()[high];
-  return row.third(row.find(low));
+  const Id place = row.find(low);
+  return place == no_id ? no_id : row.third(place);  // excerpts have rows without edges
 }
 
 void DiscreteGradient::for_each_edge_pair(Id high, const std::function<void(Id low, Id third)>& visit) const {

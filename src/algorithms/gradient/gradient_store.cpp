@@ -123,6 +123,8 @@ void GradientStore::finish_with(CriticalSimplices known) {
   fill("GALE::no_successors", HostExecutionSpace(), consumed_vertices_, DiscreteGradient::elsewhere);
   fill("GALE::no_successors", HostExecutionSpace(), consumed_cells_, DiscreteGradient::elsewhere);
   if (mesh.dimension() == 3) pairs_ = EdgePairs(pairs_, {}, mesh.vertices());
+  for (const Id vertex : known.vertices) consumed_vertices_(vertex) = no_id;
+  for (const Id cell : known.cells) consumed_cells_(cell) = no_id;
   critical = std::move(known);
   const auto found = critical.counts();
   std::copy(found.begin(), found.end(), counts.begin());

@@ -147,8 +147,8 @@ class GALE_EXPORT GradientStore {
   /// After the sweep: gathers what the consumers found, in the order of input numbers, and counts it.
   void finish();
 
-  /// Instead of a sweep, where nothing is known but which simplices are critical, in the order of input numbers: all
-  /// successors are elsewhere, and vertices have no edges.
+  /// Finishes it without a sweep, where nothing is known but which simplices are critical, in the order of input
+  /// numbers: the successors of all others are elsewhere, and vertices have no edges in their rows.
   void finish_with(CriticalSimplices known);
 
   /// When it is finished on all ranks: the counts become those of all. Collective.

@@ -18,8 +18,8 @@
 
 namespace gale::detail {
 
-/// A vertex that trees are made of, and the extrema at which its paths end, by side; itself if it is one. -1 stands for
-/// any other of a side that no tree is made of.
+/// A vertex that trees are made of, and the extrema at which its paths end, by side; itself if it is one. On a side
+/// that no tree is made of -1, unless it is one.
 struct TreeVertex {
   GlobalId id;
   std::uint64_t value;
@@ -86,9 +86,11 @@ struct SideOnRanks {
         simplices(order, next, extrema) {
     if (!is_wanted) return;
     std::vector<Id> others;
-    for (const Meeting& meeting : meetings) {
-      if (!order.mesh().owned_vertices().has(meeting.other)) others.push_back(meeting.other);
-    }
+    together(order.mesh().exchange().ranks(), [&] {
+      for (const Meeting& meeting : meetings) {
+        if (!order.mesh().owned_vertices().has(meeting.other)) others.push_back(meeting.other);
+      }
+    });
     paths.emplace(simplices, others);
   }
 

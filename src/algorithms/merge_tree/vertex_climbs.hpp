@@ -39,8 +39,8 @@ class VertexClimbs {
     std::vector<Id> place_of_end;
     const PathsOnRanks& paths = *side.paths;
     for (Id end = 0; end < paths.ends(); ++end) {
-      const auto at = places.find(paths.final_stop(end).id);
-      place_of_end.push_back(at == places.end() ? no_id : at->second);  // no path of this rank comes to some exits
+      const PathStop stop = paths.final_stop(end);  // nobody asks for some: no path of this rank's comes there
+      place_of_end.push_back(stop.rank == PathStop::critical ? places.at(stop.id) : no_id);
     }
     if (by_input_.extent(0) == 0) by_input_ = allocate<Array<Id, HostMemory>>("GALE::ends_by_input", mesh.vertices());
     const OtherIds input = mesh.vertices_in_input();

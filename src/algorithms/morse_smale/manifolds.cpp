@@ -139,9 +139,9 @@ Mirrored<Id> renamed_in(const Space& space, const Mirrored<Id>& manifolds, const
 template <class StartOf>
 Mirrored<Id> manifolds_on_ranks(const PathSimplices& simplices, PathExits* exits, const StartOf& start_of) {
   const Mesh& mesh = simplices.mesh();
-  const auto& successors = simplices.successors().in<HostMemory>();
   std::vector<Id> elsewhere;
   together(mesh.exchange().ranks(), [&] {
+    const auto& successors = simplices.successors().in<HostMemory>();
     for (const Id v : mesh.owned_vertices()) {
       const Id start = start_of(v);
       if (start != no_id && successors(start) == DiscreteGradient::elsewhere) elsewhere.push_back(start);
@@ -151,7 +151,10 @@ Mirrored<Id> manifolds_on_ranks(const PathSimplices& simplices, PathExits* exits
   const auto places = paths.places_of_ends();
   Array<Id, HostMemory> manifolds;
   together(paths.ranks(), [&] {
-    if (exits != nullptr) *exits = {exits->starts, paths.exits_from(exits->starts.simplices), true};
+    if (exits != nullptr) {
+      exits->exits = paths.exits_from(exits->starts.simplices);
+      exits->are_known = true;
+    }
     const OtherIds input = mesh.vertices_in_input();
     manifolds = allocate<Array<Id, HostMemory>>("GALE::manifolds", mesh.vertices());
     parallel_for("GALE::manifolds", HostExecutionSpace(), mesh.vertices(), [&](Offset v) {

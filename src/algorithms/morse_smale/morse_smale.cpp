@@ -104,18 +104,19 @@ template <class GetStructure>
 void find_on_ranks(int threads, const GetStructure& structure, MorseSmaleComplex& complex) {
   const MorseSmaleParts& parts = complex.parts;
   const Mesh& mesh = complex.gradient.mesh();
-  detail::PathExits down, up;
-  detail::together(mesh.exchange().ranks(), [&] {
-    const CriticalSimplices& own = complex.gradient.critical();
-    if (parts.descending_separatrices) down.starts = detail::descending_starts(mesh, own);
-    if (parts.ascending_separatrices) up.starts = detail::ascending_starts(own);
-  });
-  find_manifolds(complex, &down, &up);
   if (!parts.separatrices2) {
+    detail::PathExits down, up;
+    detail::together(mesh.exchange().ranks(), [&] {
+      const CriticalSimplices& own = complex.gradient.critical();
+      if (parts.descending_separatrices) down.starts = detail::descending_starts(mesh, own);
+      if (parts.ascending_separatrices) up.starts = detail::ascending_starts(own);
+    });
+    find_manifolds(complex, &down, &up);
     detail::separatrices_on_ranks(threads, std::move(down), std::move(up), complex);
     detail::together(mesh.exchange().ranks(), [&] { complex.is_own = own_simplices(complex.excerpt, mesh); });
     return;
   }
+  find_manifolds(complex);
   detail::WantedWays ways;
   ways.falling_paths = parts.descending_separatrices;
   ways.rising_paths = parts.ascending_separatrices;

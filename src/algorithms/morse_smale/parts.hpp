@@ -77,12 +77,11 @@ class ConnectorsHere {
   std::vector<std::array<Id, 2>> exits_;
 };
 
-/// Where this rank's 1-separatrices leave its part, from these starts: GALE's ids of simplices that are elsewhere, once
-/// each. Where paths have been followed for manifolds, these have told.
+/// Where this rank's 1-separatrices leave its part.
 struct PathExits {
   PathStarts starts;
-  std::vector<Id> exits;
-  bool are_known = false;
+  std::vector<Id> exits;   ///< GALE's ids of simplices that are elsewhere, once each
+  bool are_known = false;  ///< whether `exits` were found already, on the way to manifolds
 };
 
 /// Finds the separatrices of this rank's saddles on several ranks, and the excerpt that these are in. What leaves a

@@ -101,28 +101,25 @@ void PathsOnRanks::find_exits(const std::vector<Id>& others) {
   std::vector<Id> ends = simplices_.critical();
   ends.insert(ends.end(), exits_.begin(), exits_.end());
   ends_ = ends_here(simplices_.successors(), ends);
-  is_reached_.assign(exits_.size(), 0);
+  std::vector<char> is_reached(exits_.size(), 0);
   const auto reach = [&](Id simplex) {
     const Id at = end(simplex);
-    if (at >= criticals_) atomic_write(&is_reached_[at - criticals_], char(1));
+    if (at >= criticals_) atomic_write(&is_reached[at - criticals_], char(1));
   };
   parallel_for("GALE::reached_exits", HostExecutionSpace(), successors.extent(0), [&](Offset i) {
     if (!is_elsewhere(static_cast<Id>(i))) reach(static_cast<Id>(i));
   });
   for (const Id simplex : others) reach(simplex);
-  stops_.resize(exits_.size());
   for (std::size_t i = 0; i < exits_.size(); ++i) {
-    if (is_reached_[i] != 0) open_.push_back(static_cast<Id>(i));
+    if (is_reached[i] != 0) open_.push_back(static_cast<Id>(i));
   }
-  parallel_for("GALE::first_stops", HostExecutionSpace(), open_.size(),
-               [&](Offset i) { stops_[open_[i]] = next_stop(open_[i]); });
+  stops_.resize(exits_.size());
+  parallel_for("GALE::first_stops", HostExecutionSpace(), open_.size(), [&](Offset i) {
+    const Id exit = exits_[open_[i]];
+    stops_[open_[i]] = {simplices_.owner(exit), simplices_.global(exit)};
+  });
   parallel_sort("GALE::sort_exits", open_.begin(), open_.end(),
                 [&](Id a, Id b) { return stops_[a].id < stops_[b].id; });
-}
-
-/// Where the path goes on that leaves through an exit.
-PathStop PathsOnRanks::next_stop(Id exit) const {
-  return {simplices_.owner(exits_[exit]), simplices_.global(exits_[exit])};
 }
 
 Id PathsOnRanks::end(Id simplex) const {
@@ -142,10 +139,7 @@ std::vector<Id> PathsOnRanks::exits_from(const std::vector<Id>& simplices) const
 
 PathStop PathsOnRanks::final_stop(Id end) const {
   if (end == no_id) return {};
-  if (end >= criticals_) {
-    const Id exit = end - criticals_;
-    return is_reached_[exit] != 0 ? stops_[exit] : next_stop(exit);
-  }
+  if (end >= criticals_) return stops_[end - criticals_];
   return {PathStop::critical, simplices_.global(simplices_.critical()[end])};
 }
 

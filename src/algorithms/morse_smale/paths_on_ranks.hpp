@@ -54,7 +54,7 @@ class PathSimplices {
 struct PathStop {
   static constexpr int critical = -1, outside = -2;
 
-  std::int64_t rank = outside;  ///< that has to follow the path on; or how it ends
+  std::int64_t rank = outside;  ///< that follows the path on, or how it ends; in 64 bits to be packed without gaps
   GlobalId id = -1;             ///< of the simplex where it goes on, or of the critical one where it ends
 
   bool is_end() const { return rank < 0; }
@@ -79,11 +79,11 @@ class PathsOnRanks {
   /// then the exits.
   Id ends() const { return criticals_ + static_cast<Id>(exits_.size()); }
 
-  /// Where the paths that end here so end finally; where they go on if no path that was asked for does.
+  /// Where the paths that end here so end finally. Outside, too, of an exit that no path comes to that was asked for.
   PathStop final_stop(Id end) const;
 
   /// For each end that paths have on this rank the place of the critical simplex where they end finally among those of
-  /// all ranks, by global id; no_id if they leave through the surface. Collective. Throws gale::Error on all ranks if
+  /// all ranks, by global id; no_id if final_stop says outside. Collective. Throws gale::Error on all ranks if
   /// there are more than ids can number.
   Array<const Id, HostMemory> places_of_ends() const;
 
@@ -95,16 +95,14 @@ class PathsOnRanks {
 
  private:
   void find_exits(const std::vector<Id>& others);
-  PathStop next_stop(Id exit) const;
   bool jump();
 
   const PathSimplices& simplices_;
   Id criticals_;
   std::vector<Id> exits_;
   Array<const Id, HostMemory> ends_;  ///< by simplex: end_at(number), or path_outside
-  std::vector<char> is_reached_;      ///< of each exit: the ends of paths are wanted that come there
-  std::vector<PathStop> stops_;       ///< of these, where the path is after 2^rounds changes of ranks, or ends before
-  std::vector<Id> open_;              ///< the places of those whose paths haven't ended yet, by global id at first
+  std::vector<PathStop> stops_;  ///< of each exit that paths come to: where these are after 2^rounds changes of ranks
+  std::vector<Id> open_;         ///< the places of those that haven't ended yet, by global id at first
   int rounds_ = 0;
 };
 

@@ -1,20 +1,17 @@
-#include <algorithm>
 #include <memory>
-#include <optional>
 #include <utility>
 
 #include <gale/algorithms/excerpt/passed_simplices.hpp>
 #include <gale/algorithms/excerpt/wider_gradient.hpp>
 #include <gale/algorithms/morse_smale/parts.hpp>
-#include <gale/base/sort.hpp>
 
 namespace gale::detail {
 
 namespace {
 
 /// Finds where paths leave the part, unless that is known.
-std::vector<Id> exits_of(const Mirrored<Id>& successors, PathExits paths) {
-  if (paths.are_known) return std::move(paths.exits);
+std::vector<Id> exits_of(const Mirrored<Id>& successors, const PathExits& paths) {
+  if (paths.are_known) return paths.exits;
   const Id* const next = successors.in<HostMemory>().data();
   std::vector<bool> is_passed(successors.size(), false);
   std::vector<Id> exits;

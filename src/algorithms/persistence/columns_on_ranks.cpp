@@ -19,7 +19,8 @@ struct FallenEdge {
   }
 };
 
-/// An edge of a column that another rank lets fall, by global ids.
+/// An edge that another rank lets fall, by global ids, and the place of its column, in 64 bits to be packed without
+/// gaps.
 struct SentEdge {
   GlobalId high, low, column;
 };
@@ -126,7 +127,7 @@ class FallOnRanks {
                        [](const SentEdge& a, const SentEdge& b) { return a.column < b.column; });
       for (std::size_t i = 0; i < edges.size(); ++i) {
         chain_.add(here(edges[i].high), here(edges[i].low));
-        if (i + 1 == edges.size() || edges[i + 1].column != edges[i].column) fall(edges[i].column);
+        if (i + 1 == edges.size() || edges[i + 1].column != edges[i].column) fall(static_cast<Id>(edges[i].column));
       }
       fall_met();
     });

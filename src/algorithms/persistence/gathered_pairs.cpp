@@ -22,7 +22,7 @@ struct SentSimplex {
   std::array<GlobalId, 3> name;  ///< what CriticalSimplices are sorted by: its vertices, ascending, or the cell
   std::uint64_t value;           ///< of its highest vertex, as VertexOrder::value_key
   GlobalId highest;              ///< that vertex
-  GlobalId rank;                 ///< in its own rank's filtration
+  GlobalId rank;                 ///< in its own rank's filtration; in 64 bits to be packed without gaps
 };
 
 /// Entries of all ranks, which ascend by `is_less` on each, in that order.

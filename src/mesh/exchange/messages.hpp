@@ -9,6 +9,7 @@
 
 #include <gale/base/memory.hpp>
 #include <gale/base/parallel.hpp>
+#include <gale/base/threads.hpp>
 #include <gale/base/types.hpp>
 #include <gale/mesh/exchange/packed_rows.hpp>
 #include <gale/mesh/ranks.hpp>
@@ -66,24 +67,27 @@ Dealt<T> exchange(const Ranks& ranks, const char* label, const Dealt<T>& sent) {
   return received;
 }
 
-/// What exchange does, by messages of as few bytes as pack_rows makes of entries: for ids, places and the like that
-/// ascend or lie near one another. Collective.
+/// Exchanges entries in as few bytes as pack_rows makes of them: ids, places and the like that ascend or lie near one
+/// another. Collective.
 template <class T>
 Dealt<T> exchange_packed(const Ranks& ranks, const char* label, const Dealt<T>& sent) {
   static_assert(std::has_unique_object_representations_v<T> && sizeof(T) % sizeof(std::uint32_t) == 0,
                 "integers alone, without gaps between them");
   constexpr int width = sizeof(T) / sizeof(std::uint32_t);
-  const auto words = [](T* entries) { return reinterpret_cast<std::uint32_t*>(entries); };
+  const auto for_each_rank = [&](Offset entries, const auto& body) {
+    in_turns(threads_for(entries), ranks.size(), [&](int, std::int64_t rank) { body(static_cast<int>(rank)); });
+  };
   Dealt<char> packed;
   together(ranks, [&] {
-    std::vector<char> bytes;
-    std::vector<Offset> begin = {0};
-    for (int rank = 0; rank < ranks.size(); ++rank) {
-      pack_rows(words(sent.entries.data() + sent.begin[rank]), sent.count(rank), width, bytes);
-      begin.push_back(static_cast<Offset>(bytes.size()));
-    }
-    packed = {allocate<Array<char, HostMemory>>(label, bytes.size()), std::move(begin)};
-    std::copy(bytes.begin(), bytes.end(), packed.entries.data());
+    std::vector<std::vector<char>> bytes(ranks.size());
+    for_each_rank(sent.count(), [&](int rank) {
+      bytes[rank] = pack_rows(sent.entries.data() + sent.begin[rank], sent.count(rank), width);
+    });
+    std::vector<std::int64_t> counts;
+    for (const auto& some : bytes) counts.push_back(static_cast<std::int64_t>(some.size()));
+    packed = dealt<char>(label, counts);
+    for (int rank = 0; rank < ranks.size(); ++rank)
+      std::copy(bytes[rank].begin(), bytes[rank].end(), packed.entries.data() + packed.begin[rank]);
   });
   const Dealt<char> received = exchange(ranks, label, packed);
   Dealt<T> unpacked;
@@ -92,8 +96,9 @@ Dealt<T> exchange_packed(const Ranks& ranks, const char* label, const Dealt<T>& 
     std::vector<std::int64_t> counts;
     for (int rank = 0; rank < ranks.size(); ++rank) counts.push_back(packed_rows(from(rank), received.count(rank)));
     unpacked = dealt<T>(label, counts);
-    for (int rank = 0; rank < ranks.size(); ++rank)
-      unpack_rows(from(rank), received.count(rank), width, words(unpacked.entries.data() + unpacked.begin[rank]));
+    for_each_rank(unpacked.count(), [&](int rank) {
+      unpack_rows(from(rank), received.count(rank), width, unpacked.entries.data() + unpacked.begin[rank]);
+    });
   });
   return unpacked;
 }

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cstddef>
+#include <cstring>
 
 #include <gale/mesh/exchange/packed_rows.hpp>
 
@@ -6,9 +8,13 @@ namespace gale::detail {
 
 namespace {
 
-/// The most bytes that the number of rows takes, and that a word does: a difference that repeats, with its count, no
-/// more than its rows.
-constexpr std::int64_t most_of_rows = 9, most_of_word = 5;
+constexpr std::int64_t word_bytes = sizeof(std::uint32_t);
+
+std::uint32_t word_at(const char* bytes) {
+  std::uint32_t word;
+  std::memcpy(&word, bytes, word_bytes);
+  return word;
+}
 
 /// Writes a number, the lowest 7 bits first; all bytes but the last have their highest bit set.
 char* write_number(std::uint64_t number, char* to) {
@@ -38,47 +44,57 @@ char* write_difference(std::uint32_t difference, std::int64_t more, char* to) {
 
 }  // namespace
 
-void pack_rows(const std::uint32_t* words, std::int64_t rows, int width, std::vector<char>& bytes) {
-  if (rows == 0) return;
-  const std::size_t before = bytes.size();
-  bytes.resize(before + static_cast<std::size_t>(most_of_rows + most_of_word * rows * width));
-  char* to = write_number(static_cast<std::uint64_t>(rows), bytes.data() + before);
+std::vector<char> pack_rows(const void* words, std::int64_t rows, int width) {
+  // A difference takes 5 bytes at most, and with the count of its repetitions no more than its rows would.
+  constexpr std::int64_t rows_at_once = 4096, most_of_word = 5, most_of_number = 9;
+  if (rows == 0) return {};
+  std::vector<char> bytes(most_of_number);
+  char* to = write_number(static_cast<std::uint64_t>(rows), bytes.data());
   for (int column = 0; column < width; ++column) {
-    const std::uint32_t* at = words + column;
-    std::uint32_t last = *at, difference = last;
-    std::int64_t more = 0;
-    for (std::int64_t row = 1; row < rows; ++row) {
-      at += width;
-      const std::uint32_t next = *at - last;
-      last = *at;
-      if (next == difference) {
-        ++more;
-        continue;
+    const char* at = static_cast<const char*>(words) + column * word_bytes;
+    std::uint32_t last = 0, difference = 0;
+    std::int64_t more = -1;  // none yet
+    for (std::int64_t row = 0; row < rows;) {
+      const auto used = static_cast<std::size_t>(to - bytes.data());
+      const std::int64_t end = std::min(row + rows_at_once, rows);
+      bytes.resize(used + static_cast<std::size_t>(most_of_word * (end - row) + 2 * (most_of_word + most_of_number)));
+      to = bytes.data() + used;
+      for (; row < end; ++row, at += width * word_bytes) {
+        const std::uint32_t word = word_at(at), next = word - last;
+        last = word;
+        if (more >= 0 && next == difference) {
+          ++more;
+          continue;
+        }
+        if (more >= 0) to = write_difference(difference, more, to);
+        difference = next;
+        more = 0;
       }
-      to = write_difference(difference, more, to);
-      difference = next;
-      more = 0;
     }
     to = write_difference(difference, more, to);
   }
   bytes.resize(static_cast<std::size_t>(to - bytes.data()));
+  return bytes;
 }
 
 std::int64_t packed_rows(const char* bytes, std::int64_t count) {
   return count == 0 ? 0 : static_cast<std::int64_t>(read_number(bytes));
 }
 
-void unpack_rows(const char* bytes, std::int64_t count, int width, std::uint32_t* words) {
+void unpack_rows(const char* bytes, std::int64_t count, int width, void* words) {
   if (count == 0) return;
   const auto rows = static_cast<std::int64_t>(read_number(bytes));
   for (int column = 0; column < width; ++column) {
-    std::uint32_t* to = words + column;
+    char* to = static_cast<char*>(words) + column * word_bytes;
     std::uint32_t last = 0;
     for (std::int64_t row = 0; row < rows;) {
       const std::uint64_t number = read_number(bytes);
       const std::uint32_t difference = unfolded(static_cast<std::uint32_t>(number >> 1));
       const std::int64_t same = 1 + ((number & 1) != 0 ? static_cast<std::int64_t>(read_number(bytes)) : 0);
-      for (std::int64_t i = 0; i < same; ++i, to += width) *to = last += difference;
+      for (std::int64_t i = 0; i < same; ++i, to += width * word_bytes) {
+        last += difference;
+        std::memcpy(to, &last, word_bytes);
+      }
       row += same;
     }
   }

@@ -9,15 +9,16 @@
 
 namespace gale::detail {
 
-/// Appends `rows` rows of `width` 32-bit words each, packed. Each column by itself is written as differences from row
-/// to row, modulo 2^32, the first from 0: a difference and how many more rows have the same, as numbers of 7 bits a
-/// byte. Ids one after the other, or all the same, take a few bytes; rows of chance up to 1.25 times what they took.
-GALE_EXPORT void pack_rows(const std::uint32_t* words, std::int64_t rows, int width, std::vector<char>& bytes);
+/// Packs `rows` rows of `width` 32-bit words each, which may be parts of larger numbers. Each column by itself is
+/// written as differences from row to row, modulo 2^32, the first from 0: a difference and how many more rows have the
+/// same, as numbers of 7 bits a byte. Ids one after the other, or all the same, take a few bytes; random words 1.25
+/// times what they took.
+GALE_EXPORT std::vector<char> pack_rows(const void* words, std::int64_t rows, int width);
 
 /// How many rows were packed into these bytes, which may be none.
 GALE_EXPORT std::int64_t packed_rows(const char* bytes, std::int64_t count);
 
 /// Unpacks all rows of what pack_rows has made of rows as wide.
-GALE_EXPORT void unpack_rows(const char* bytes, std::int64_t count, int width, std::uint32_t* words);
+GALE_EXPORT void unpack_rows(const char* bytes, std::int64_t count, int width, void* words);
 
 }  // namespace gale::detail

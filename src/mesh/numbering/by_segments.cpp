@@ -7,6 +7,7 @@
 
 #include <gale/base/bits.hpp>
 #include <gale/base/error.hpp>
+#include <gale/base/fresh_memory.hpp>
 #include <gale/base/memory.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/mesh/numbering/candidates.hpp>
@@ -236,14 +237,15 @@ SimplexCounts find_simplices(const EncodedMesh<HostMemory>& mesh, const Id* cell
   return finder.found;
 }
 
-/// Moves entries down to where an array has room before them, each with `shift` added to it: on all threads, as many at
-/// a time as don't overlap with their places.
+/// Moves entries down to where an array has room before them, or leaves them there, each with `shift` added to it: on
+/// all threads, as many at a time as don't overlap with their places.
 void move_down(Id* to, const Id* from, Offset count, Id shift) {
   constexpr Offset few = Offset(1) << 16;
-  for (Offset moved = 0, apart = from - to; moved < count;) {
-    const Offset now = apart < few ? count - moved : std::min(apart, count - moved);
+  const Offset apart = from - to, at_once = apart == 0 ? count : apart;
+  for (Offset moved = 0; moved < count;) {
+    const Offset now = at_once < few ? count - moved : std::min(at_once, count - moved);
     const auto move = [&](Offset i) { to[moved + i] = from[moved + i] + shift; };
-    if (apart < few) {
+    if (at_once < few) {
       for (Offset i = 0; i < now; ++i) move(i);
     } else {
       parallel_for("GALE::close_gaps", HostExecutionSpace(), now, move);
@@ -285,7 +287,7 @@ class TablesInParts {
     return true;
   }
 
-  /// Has each part follow the one before, of which all have so many.
+  /// Moves parts together, which have found so many, and gives the memory behind them back.
   void close_gaps(const std::vector<SimplexCounts>& found) {
     SimplexCounts at;
     for (std::size_t part = 0; part < found.size(); ++part) {
@@ -302,7 +304,9 @@ class TablesInParts {
       at = at + found[part];
     }
     const auto cut = [](Ids& ids, Offset count) {
-      if (ids.data() != nullptr) ids = first_of(ids, static_cast<std::size_t>(count));
+      if (ids.data() == nullptr) return;
+      give_back(ids.data() + count, (ids.extent(0) - static_cast<std::size_t>(count)) * sizeof(Id));
+      ids = first_of(ids, static_cast<std::size_t>(count));
     };
     cut(low, at.edges);
     cut(high, at.edges);
@@ -318,11 +322,10 @@ class TablesInParts {
 };
 
 /// How many simplices a part is expected to have at most. A manifold with V vertices, T tetrahedra, B triangles in its
-/// surface and the Euler characteristic X has V + T + B / 2 - X edges and 2 T + B / 2 triangles. What isn't written
-/// takes no memory but addresses.
+/// surface and the Euler characteristic X has V + T + B / 2 - X edges and 2 T + B / 2 triangles.
 SimplexCounts expected(Offset vertices, Offset cells) {
   constexpr Offset few = 4096;
-  return {few + (vertices + cells) * 5 / 4, few + 2 * cells * 5 / 4};
+  return {few + (vertices + cells) * 17 / 16, few + 2 * cells * 17 / 16};
 }
 
 }  // namespace
@@ -360,9 +363,8 @@ void enumerate_by_segments(const EncodedMesh<HostMemory>& mesh, const Borrowed<I
   if (!edges_too) return;
   SimplexCounts before = found[0];
   for (int part = 1; part < parts; ++part) {
-    const Id first = first_vertex(part), last = first_vertex(part + 1);
-    parallel_for("GALE::edge_begin", HostExecutionSpace(), last - first,
-                 [&](Offset v) { edge_begin(first + v) += static_cast<Id>(before.edges); });
+    Id* const first = edge_begin.data() + first_vertex(part);
+    move_down(first, first, first_vertex(part + 1) - first_vertex(part), static_cast<Id>(before.edges));
     before = before + found[part];
   }
   edge_begin(vertices) = static_cast<Id>(all.edges);

@@ -27,7 +27,8 @@ template <class Space>
 MiddleStars<MemoryOf<Space>> find_middle_stars(const Space& space, const Simplices<MemoryOf<Space>>& simplices);
 
 /// Makes the tables of edges, and those of triangles if these are wanted, as the host does: each thread finds those of
-/// its segments, in these segments' cells, and writes them down as it finds them. Edges that are there stay.
+/// its segments, in these segments' cells, and writes them down as it finds them, into arrays with room for what a
+/// manifold has; where that isn't enough, all are found once more. Edges that are there stay.
 void enumerate_by_segments(const EncodedMesh<HostMemory>& mesh, const Borrowed<Id, HostMemory>& cell_begin,
                            bool triangles, SimplexTables& tables);
 

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include <gale/base/error.hpp>
+#include <gale/base/fresh_memory.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/base/threads.hpp>
 #include <gale/runtime/sweep.hpp>
-#include <gale/runtime/whole/fresh_memory.hpp>
 #include <gale/runtime/whole/whole_rows.hpp>
 
 namespace gale::detail {

@@ -1,6 +1,6 @@
+#include <gale/base/fresh_memory.hpp>
 #include <gale/relations/preconditioning.hpp>
 #include <gale/runtime/sweep.hpp>
-#include <gale/runtime/whole/fresh_memory.hpp>
 #include <gale/runtime/whole/whole_rows.hpp>
 
 namespace gale::detail {

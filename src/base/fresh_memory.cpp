@@ -5,8 +5,8 @@
 #include <sys/mman.h>
 #endif
 
+#include <gale/base/fresh_memory.hpp>
 #include <gale/base/threads.hpp>
-#include <gale/runtime/whole/fresh_memory.hpp>
 
 namespace gale::detail {
 

@@ -9,10 +9,10 @@ namespace gale::detail {
 
 /// Has the system give the pages of memory that will be written, many at a time, on so many threads: a page among many
 /// takes half of the time that it takes alone. A hint: nothing depends on it.
-void expect_writes(void* data, std::size_t bytes, int threads);
+GALE_EXPORT void expect_writes(void* data, std::size_t bytes, int threads);
 
 /// Lets the system have back the pages of memory that nobody will read. A hint, too.
-void give_back(void* data, std::size_t bytes);
+GALE_EXPORT void give_back(void* data, std::size_t bytes);
 
 /// An array of the host's that will be written from end to end.
 template <class T>
