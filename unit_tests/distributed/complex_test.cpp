@@ -153,6 +153,10 @@ TEST_P(ComplexOnRanks, critical_simplices_are_those_of_the_gradient_and_those_th
   EXPECT_EQ(own, all);
   for (std::size_t i = 0; i < found.critical.vertices.size(); ++i)
     EXPECT_EQ(found.owns(0, static_cast<Id>(i)), owned()[vertex_on_path(found, found.critical.vertices[i])]);
+  const DiscreteGradient& excerpt = found.excerpt;
+  for (const Id vertex : found.critical.vertices) EXPECT_TRUE(excerpt.pair_of_vertex(vertex).is_critical());
+  for (const auto& [high, low] : found.critical.edges) EXPECT_TRUE(excerpt.pair_of_edge(high, low).is_critical());
+  for (const Id one : found.critical.cells) EXPECT_TRUE(excerpt.pair_of_cell(one).is_critical());
 }
 
 INSTANTIATE_TEST_SUITE_P(Tests, ComplexOnRanks, every_mesh_and_partition(), mesh_and_partition);
