@@ -140,16 +140,11 @@ class PassedSimplices {
   std::vector<std::array<Id, 4>> corners_;  ///< by number
 };
 
-/// The critical simplices of a wider gradient as its excerpt names them, in the same order; cells by cell(number).
-template <class CellOf>
-CriticalSimplices renamed(const CriticalSimplices& critical, const PassedSimplices& passed, const CellOf& cell) {
-  CriticalSimplices renamed = critical;
-  for (Id& vertex : renamed.vertices) vertex = passed.number(vertex);
-  for (auto& edge : renamed.edges) edge = passed.numbers(edge);
-  for (auto& triangle : renamed.triangles) triangle = passed.numbers(triangle);
-  for (Id& one : renamed.cells) one = cell(one);
-  for (Id& one : renamed.star) one = cell(one);
-  return renamed;
+/// Has each of a list be what rename(it) says.
+template <class T, class Rename>
+void rename_all(std::vector<T>& list, const Rename& rename) {
+  parallel_for("GALE::name_in_excerpt", HostExecutionSpace(), list.size(),
+               [&](Offset i) { list[i] = rename(list[i]); });
 }
 
 }  // namespace
@@ -161,23 +156,22 @@ void name_in_excerpt(const WiderGradient& wider, MorseSmaleComplex& complex) {
   const OtherIds input = mesh.cells_in_input();
   parallel_for("GALE::cells_of_excerpt", HostExecutionSpace(), mesh.cells(),
                [&](Offset t) { internal[input[static_cast<Id>(t)]] = static_cast<Id>(t); });
+  const auto vertex = [&](Id one) { return passed.number(one); };
   const auto cell = [&](Id one) { return internal[passed.cell_number(one)]; };
+  const auto simplex = [&](const auto& one) { return passed.numbers(one); };
+  CriticalSimplices critical = wider.critical();
+  rename_all(critical.vertices, vertex);
+  rename_all(critical.edges, simplex);
+  rename_all(critical.triangles, simplex);
+  rename_all(critical.cells, cell);
+  rename_all(critical.star, cell);
   const auto store = std::make_shared<GradientStore>(mesh, passed.order_of(mesh), 1);
-  store->finish_with(renamed(wider.critical(), passed, cell));
+  store->finish_with(std::move(critical));
   complex.excerpt = DiscreteGradient(store);
   complex.critical = complex.excerpt.critical();
-  parallel_for("GALE::name_descending", HostExecutionSpace(), complex.descending.cells.size(), [&](Offset i) {
-    Id& vertex = complex.descending.cells[i];
-    vertex = passed.number(vertex);
-  });
-  parallel_for("GALE::name_connectors", HostExecutionSpace(), complex.connectors.cells.size(), [&](Offset i) {
-    TriangleVertices& triangle = complex.connectors.cells[i];
-    triangle = passed.numbers(triangle);
-  });
-  parallel_for("GALE::name_ascending", HostExecutionSpace(), complex.ascending.cells.size(), [&](Offset i) {
-    Id& one = complex.ascending.cells[i];
-    one = cell(one);
-  });
+  rename_all(complex.descending.cells, vertex);
+  rename_all(complex.connectors.cells, simplex);
+  rename_all(complex.ascending.cells, cell);
 }
 
 }  // namespace gale::detail

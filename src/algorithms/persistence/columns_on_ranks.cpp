@@ -45,11 +45,8 @@ void keep_odd(std::vector<T>& items) {
 
 /// Sends entries to the first rank, and notes there how much it was. Collective.
 template <class T>
-Dealt<T> to_first(const Ranks& ranks, const char* label, const std::vector<T>& entries) {
-  auto received = exchange_packed(
-      ranks, label,
-      deal<T>(
-          ranks, label, static_cast<Offset>(entries.size()), [](Id) { return 0; }, [&](Id i) { return entries[i]; }));
+Dealt<T> noted_to_first(const Ranks& ranks, const char* label, const std::vector<T>& entries) {
+  auto received = to_first(ranks, label, entries);
   ranks.note_gathered(received.count() * static_cast<std::int64_t>(sizeof(T)));
   return received;
 }
@@ -83,7 +80,7 @@ class FallOnRanks {
       std::sort(fallen_.begin(), fallen_.end());
       keep_odd(fallen_);
     });
-    auto all = to_first(ranks_, "GALE::fallen_edges", fallen_);
+    auto all = noted_to_first(ranks_, "GALE::fallen_edges", fallen_);
     fallen_.clear();
     return all;
   }
@@ -260,8 +257,8 @@ std::vector<Id> finish_on_ranks(const DiscreteGradient& gradient, const Critical
   const auto count = [](const auto& some) { return static_cast<std::int64_t>(some.size()); };
   const Id first_stopped = static_cast<Id>(ranks.sum_before(count(stopped)));
   const Id first_met = static_cast<Id>(ranks.sum(count(stopped)) + ranks.sum_before(count(met)));
-  const auto all_stopped = to_first(ranks, "GALE::stopped_columns", stopped);
-  const auto all_met = to_first(ranks, "GALE::met_saddles", met);
+  const auto all_stopped = noted_to_first(ranks, "GALE::stopped_columns", stopped);
+  const auto all_met = noted_to_first(ranks, "GALE::met_saddles", met);
   const auto fallen = FallOnRanks(gradient, places, columns)(first_stopped, first_met);
   std::vector<Id> uppers;
   together(ranks, [&] {

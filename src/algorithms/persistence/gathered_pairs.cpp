@@ -149,8 +149,8 @@ class PairsOnRanks {
   GatheredPairs find() {
     const auto of_edges = edge_ends(), of_facets = facet_ends();
     gather();
-    const auto edge_ends_of_all = to_first("GALE::ends_of_edges", of_edges);
-    const auto facet_ends_of_all = to_first("GALE::ends_of_facets", of_facets);
+    const auto edge_ends_of_all = to_first(ranks_, "GALE::ends_of_edges", of_edges);
+    const auto facet_ends_of_all = to_first(ranks_, "GALE::ends_of_facets", of_facets);
     std::optional<PairsOfExtrema> pairs;
     GatheredPairs found{mesh_, {}, {}};
     together(ranks_, [&] {
@@ -178,14 +178,6 @@ class PairsOnRanks {
 
  private:
   using All = std::optional<AllOfDimension>;
-
-  template <class T>
-  Dealt<T> to_first(const char* label, const std::vector<T>& entries) {
-    return exchange_packed(ranks_, label,
-                           deal<T>(
-                               ranks_, label, static_cast<Offset>(entries.size()), [](Id) { return 0; },
-                               [&](Id i) { return entries[i]; }));
-  }
 
   std::vector<SentEnds> edge_ends() {
     std::vector<Id> starts;
@@ -260,7 +252,7 @@ class PairsOnRanks {
     });
     require_room(ranks_, "critical simplices", bytes, most_bytes_);
     for (int d = 0; d <= mesh_.dimension(); ++d) {
-      auto received = to_first("GALE::critical_of_all", own[d]);
+      auto received = to_first(ranks_, "GALE::critical_of_all", own[d]);
       together(ranks_, [&] {
         all_[d].emplace(std::move(received));
         for (const Id entry : all_[d]->from_rank) filtration_.by_rank[d].push_back(all_[d]->place.entries(entry));
@@ -269,7 +261,7 @@ class PairsOnRanks {
           filtration_.rank[d][filtration_.by_rank[d][i]] = static_cast<Id>(i);
       });
     }
-    highest_ = to_first("GALE::highest_of_all", highest);
+    highest_ = to_first(ranks_, "GALE::highest_of_all", highest);
   }
 
   /// Makes a mesh of the vertices that are the highest of critical simplices.

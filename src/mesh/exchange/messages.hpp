@@ -152,6 +152,15 @@ Dealt<T> deal(const Ranks& ranks, const char* label, Offset items, const RankOf&
   return sent;
 }
 
+/// What all ranks have, on the first one; nothing on the others. Collective.
+template <class T>
+Dealt<T> to_first(const Ranks& ranks, const char* label, const std::vector<T>& entries) {
+  return exchange_packed(
+      ranks, label,
+      deal<T>(
+          ranks, label, static_cast<Offset>(entries.size()), [](Id) { return 0; }, [&](Id i) { return entries[i]; }));
+}
+
 /// What the ranks answer to a question about each of the items 0..items-1, by item: answer_of(question_of(i)), found by
 /// the rank rank_of(i). Collective; no answer_of sends anything.
 template <class Answer, class RankOf, class QuestionOf, class AnswerOf>
