@@ -30,16 +30,17 @@ class ExcerptExchange final : public Exchange {
 };
 
 /// A mesh of vertices with these ids, ascending, and of cells of these, whose corners are places among the vertices.
-/// GALE's ids of vertices are these places, too.
+/// GALE's ids of vertices are these places, too. Segments have so many vertices: where nobody asks for relations, one
+/// for all is made soonest.
 template <int corners>
 Mesh excerpt_mesh(const GlobalIds& vertex_ids, const GlobalIds& cell_ids,
-                  const CellCorners<corners, Id, HostMemory>& cells) {
+                  const CellCorners<corners, Id, HostMemory>& cells, Id capacity = default_capacity) {
   const Id vertices = static_cast<Id>(vertex_ids.extent(0));
-  const Id segments = (vertices + default_capacity - 1) / default_capacity;
+  const Id segments = vertices / capacity + (vertices % capacity > 0);
   Segmentation segmentation;
   segmentation.vertex_input = iota("GALE::excerpt_vertices", HostExecutionSpace(), vertices);
   const auto begin = allocate<Array<Id, HostMemory>>("GALE::excerpt_segments", segments + Offset(1));
-  for (Id s = 0; s <= segments; ++s) begin(s) = std::min(vertices, s * default_capacity);
+  for (Id s = 0; s <= segments; ++s) begin(s) = s < segments ? s * capacity : vertices;
   segmentation.vertex_begin = begin;
   segmentation.owned_segments = segments;
   return Mesh(cells, segmentation, std::make_shared<ExcerptExchange>(vertex_ids, cell_ids));

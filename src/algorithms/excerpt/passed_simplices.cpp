@@ -12,14 +12,17 @@ namespace gale::detail {
 
 namespace {
 
-/// The simplices of a wider gradient that are passed, and their numbers in the excerpt: both kinds by global id.
+/// The simplices of a wider gradient that are passed, and their numbers in the excerpt: both kinds by global id. Where
+/// cells have as many corners as there are vertices, or more, these are all taken: it isn't worth to leave some out.
 class PassedSimplices {
  public:
-  PassedSimplices(const WiderGradient& wider, const MorseSmaleComplex& complex)
-      : wider_(wider), is_passed_(wider.vertices()), cells_(wider.cells()) {
-    mark(complex);
+  PassedSimplices(const WiderGradient& wider, const MorseSmaleComplex& complex) : wider_(wider), cells_(wider.cells()) {
+    mark_cells(complex);
     number_cells();
-    number_vertices();
+    const bool are_all = 4 * static_cast<Offset>(cell_of_.size()) >= wider.vertices();
+    if (!are_all) number_vertices(complex);
+    number_ = are_all ? wider.names().data() : some_numbers_.data();
+    vertex_count_ = are_all ? wider.vertices() : vertex_count_;
   }
 
   Id number(Id vertex) const { return number_[vertex]; }
@@ -31,8 +34,9 @@ class PassedSimplices {
     return simplex;
   }
 
+  /// Makes the mesh; from then on cells have GALE's ids there as numbers.
   template <int corners>
-  Mesh make_mesh() const {
+  Mesh make_mesh() {
     const auto vertex_ids = allocate<GlobalIds>("GALE::passed_vertices", vertex_count_);
     const auto cell_ids = allocate<GlobalIds>("GALE::passed_cells", cell_of_.size());
     const auto rows = allocate<typename CellCorners<corners, Id, HostMemory>::non_const_type>("GALE::passed_corners",
@@ -40,25 +44,29 @@ class PassedSimplices {
     for_each_vertex([&](Id vertex, Id number) { vertex_ids(number) = wider_.vertex_id(vertex); });
     parallel_for("GALE::passed_cells", HostExecutionSpace(), cell_of_.size(), [&](Offset i) {
       cell_ids(i) = wider_.cell_id(cell_of_[i]);
-      for (int k = 0; k < corners; ++k) rows(i, k) = number(corners_[i][k]);
+      const std::array<Id, 4> of = wider_.corners(cell_of_[i]);
+      for (int k = 0; k < corners; ++k) rows(i, k) = number(of[k]);
     });
-    return excerpt_mesh<corners>(vertex_ids, cell_ids, rows);
+    const Mesh mesh = excerpt_mesh<corners>(vertex_ids, cell_ids, rows, std::max(vertex_count_, 1));
+    std::vector<Id> internal(mesh.cells());
+    const OtherIds input = mesh.cells_in_input();
+    parallel_for("GALE::cells_of_excerpt", HostExecutionSpace(), mesh.cells(),
+                 [&](Offset t) { internal[input[static_cast<Id>(t)]] = static_cast<Id>(t); });
+    parallel_for("GALE::cells_of_excerpt", HostExecutionSpace(), number_of_cell_.size(),
+                 [&](Offset i) { number_of_cell_[i] = internal[number_of_cell_[i]]; });
+    return mesh;
   }
 
   VertexOrder order_of(const Mesh& mesh) const {
-    std::vector<std::uint64_t> values(vertex_count_);
-    for_each_vertex([&](Id vertex, Id number) { values[number] = wider_.value(vertex); });
+    if (wider_.has_short_values()) {
+      const std::vector<std::uint32_t> values = values_as<std::uint32_t>();
+      return VertexOrder(mesh, values.data(), values.size());
+    }
+    const std::vector<std::uint64_t> values = values_as<std::uint64_t>();
     return excerpt_order(mesh, [&](Id v) { return values[v]; });
   }
 
  private:
-  bool mark_vertex(Id vertex) { return is_passed_.insert(vertex); }
-  bool mark_cell(Id cell) {
-    if (!cells_.insert(wider_.cell_name(cell))) return false;
-    marked_cells_.push_back(cell);
-    return true;
-  }
-
   /// Marks what is on paths, before anything else is: where one comes to what is marked, so is the rest of it.
   template <class Mark>
   static void mark_paths(const Separatrices<Id>& paths, const Mark& mark) {
@@ -68,76 +76,84 @@ class PassedSimplices {
     }
   }
 
-  template <class Simplices>
-  void mark_vertices_of(const Simplices& simplices) {
-    for (const auto& simplex : simplices) {
-      for (const Id vertex : simplex) mark_vertex(vertex);
-    }
+  bool mark_cell(Id cell) {
+    if (!cells_.insert(wider_.cell_name(cell))) return false;
+    marked_cells_.push_back(cell);
+    return true;
   }
 
-  void mark(const MorseSmaleComplex& complex) {
-    const CriticalSimplices& critical = wider_.critical();
-    mark_paths(complex.descending, [&](Id vertex) { return mark_vertex(vertex); });
+  void mark_cells(const MorseSmaleComplex& complex) {
     mark_paths(complex.ascending, [&](Id cell) { return mark_cell(cell); });
-    mark_vertices_of(complex.connectors.cells);
-    for (const Id vertex : critical.vertices) mark_vertex(vertex);
-    mark_vertices_of(critical.edges);
-    mark_vertices_of(critical.triangles);
-    for (const Id cell : critical.cells) mark_cell(cell);
-    for (const Id cell : critical.star) mark_cell(cell);
+    for (const Id cell : wider_.critical().cells) mark_cell(cell);
+    for (const Id cell : wider_.critical().star) mark_cell(cell);
   }
 
-  /// Numbers cells, and marks their vertices. Names of the rank's own cells ascend with global ids; others' come after
-  /// all of these, and have to be put between them.
+  /// Names of the rank's own cells ascend with global ids; others' come after all of these, and have to be put between
+  /// them.
   void number_cells() {
     cells_.number();
     const Id count = cells_.count();
-    std::vector<Id> by_name(count);
+    cell_of_.resize(count);
     parallel_for("GALE::cells_by_name", HostExecutionSpace(), count,
-                 [&](Offset i) { by_name[cells_[wider_.cell_name(marked_cells_[i])]] = marked_cells_[i]; });
+                 [&](Offset i) { cell_of_[cells_[wider_.cell_name(marked_cells_[i])]] = marked_cells_[i]; });
     const auto is_less = [&](Id a, Id b) { return wider_.cell_id(a) < wider_.cell_id(b); };
     const auto others =
-        std::find_if(by_name.begin(), by_name.end(), [&](Id cell) { return !wider_.is_own_cell(cell); });
-    std::sort(others, by_name.end(), is_less);
-    cell_of_.resize(count);
-    std::merge(by_name.begin(), others, others, by_name.end(), cell_of_.begin(), is_less);
+        std::find_if(cell_of_.begin(), cell_of_.end(), [&](Id cell) { return !wider_.is_own_cell(cell); });
+    std::sort(others, cell_of_.end(), is_less);
+    std::inplace_merge(cell_of_.begin(), others, cell_of_.end(), is_less);
     number_of_cell_.resize(count);
-    corners_.resize(count);
-    parallel_for("GALE::corners_of_passed", HostExecutionSpace(), count, [&](Offset i) {
-      number_of_cell_[cells_[wider_.cell_name(cell_of_[i])]] = static_cast<Id>(i);
-      corners_[i] = wider_.corners(cell_of_[i]);
-    });
-    mark_vertices_of(corners_);
+    parallel_for("GALE::number_cells", HostExecutionSpace(), count,
+                 [&](Offset i) { number_of_cell_[cells_[wider_.cell_name(cell_of_[i])]] = static_cast<Id>(i); });
   }
 
-  void number_vertices() {
-    NumberedSet names(wider_.vertices());
-    for (Id v = 0; v < wider_.vertices(); ++v) {
-      if (is_passed_.has(v)) names.insert(wider_.name(v));
+  /// The vertices of what is passed alone.
+  void number_vertices(const MorseSmaleComplex& complex) {
+    const CriticalSimplices& critical = wider_.critical();
+    NumberedSet passed(wider_.vertices());
+    const auto mark = [&](Id vertex) { return passed.insert(wider_.name(vertex)); };
+    const auto mark_all_of = [&](const auto& simplices) {
+      for (const auto& simplex : simplices) {
+        for (const Id vertex : simplex) mark(vertex);
+      }
+    };
+    mark_paths(complex.descending, mark);
+    mark_all_of(complex.connectors.cells);
+    for (const Id vertex : critical.vertices) mark(vertex);
+    mark_all_of(critical.edges);
+    mark_all_of(critical.triangles);
+    for (const Id cell : cell_of_) {
+      for (const Id vertex : wider_.corners(cell)) mark(vertex);
     }
-    names.number();
-    vertex_count_ = names.count();
-    number_.resize(wider_.vertices());
-    parallel_for("GALE::number_passed", HostExecutionSpace(), number_.size(), [&](Offset v) {
-      number_[v] = is_passed_.has(static_cast<Id>(v)) ? names[wider_.name(static_cast<Id>(v))] : no_id;
+    passed.number();
+    vertex_count_ = passed.count();
+    some_numbers_.resize(wider_.vertices());
+    parallel_for("GALE::number_passed", HostExecutionSpace(), some_numbers_.size(), [&](Offset v) {
+      const Id name = wider_.name(static_cast<Id>(v));
+      some_numbers_[v] = passed.has(name) ? passed[name] : no_id;
     });
   }
 
-  /// Calls visit(vertex, number) for each that is passed.
+  /// Calls visit(vertex, number) for each that is in the excerpt.
   template <class Visit>
   void for_each_vertex(const Visit& visit) const {
-    parallel_for("GALE::passed_vertices", HostExecutionSpace(), number_.size(), [&](Offset v) {
+    parallel_for("GALE::passed_vertices", HostExecutionSpace(), wider_.vertices(), [&](Offset v) {
       if (number_[v] != no_id) visit(static_cast<Id>(v), number_[v]);
     });
   }
 
+  template <class Value>
+  std::vector<Value> values_as() const {
+    std::vector<Value> values(vertex_count_);
+    for_each_vertex([&](Id vertex, Id number) { values[number] = static_cast<Value>(wider_.value(vertex)); });
+    return values;
+  }
+
   const WiderGradient& wider_;
-  NumberedSet is_passed_;  ///< by vertex
-  NumberedSet cells_;      ///< by name
+  NumberedSet cells_;  ///< by name
   Id vertex_count_ = 0;
-  std::vector<Id> number_;  ///< of each vertex; no_id of those that aren't passed
+  const Id* number_;              ///< of each vertex; no_id of those that aren't in the excerpt
+  std::vector<Id> some_numbers_;  ///< these, where some aren't
   std::vector<Id> marked_cells_, cell_of_, number_of_cell_;
-  std::vector<std::array<Id, 4>> corners_;  ///< by number
 };
 
 /// Has each of a list be what rename(it) says.
@@ -150,14 +166,10 @@ void rename_all(std::vector<T>& list, const Rename& rename) {
 }  // namespace
 
 void name_in_excerpt(const WiderGradient& wider, MorseSmaleComplex& complex) {
-  const PassedSimplices passed(wider, complex);
+  PassedSimplices passed(wider, complex);
   const Mesh mesh = complex.critical.dimension == 3 ? passed.make_mesh<4>() : passed.make_mesh<3>();
-  std::vector<Id> internal(mesh.cells());
-  const OtherIds input = mesh.cells_in_input();
-  parallel_for("GALE::cells_of_excerpt", HostExecutionSpace(), mesh.cells(),
-               [&](Offset t) { internal[input[static_cast<Id>(t)]] = static_cast<Id>(t); });
   const auto vertex = [&](Id one) { return passed.number(one); };
-  const auto cell = [&](Id one) { return internal[passed.cell_number(one)]; };
+  const auto cell = [&](Id one) { return passed.cell_number(one); };
   const auto simplex = [&](const auto& one) { return passed.numbers(one); };
   CriticalSimplices critical = wider.critical();
   rename_all(critical.vertices, vertex);

@@ -215,14 +215,18 @@ void WiderGradient::add_critical(const Reached& reached) {
     if (edge[2] == edge_is_critical) others.edges.push_back({vertex(rank, edge[0]), vertex(rank, edge[1])});
   });
   critical_ = own;
-  std::vector<Id> places;
   const OtherIds names{names_.data()};
-  critical_.vertices = merged(
-      own.vertices, others.vertices, [&](Id v) { return names_[v]; }, places);
-  critical_.edges = merged(
-      own.edges, others.edges, [&](const auto& e) { return written(names, e); }, own_edges_);
-  critical_.cells = merged(
-      own.cells, others.cells, [&](Id t) { return cell_id(t); }, places);
+  const auto merge = [&](int dimension, auto member, const auto& key) {
+    std::vector<Id> places;
+    critical_.*member = merged(own.*member, others.*member, key, places);
+    is_own_[dimension].assign((critical_.*member).size(), 0);
+    for (const Id place : places) is_own_[dimension][place] = 1;
+    return places;
+  };
+  merge(0, &CriticalSimplices::vertices, [&](Id v) { return names_[v]; });
+  own_edges_ = merge(1, &CriticalSimplices::edges, [&](const auto& e) { return written(names, e); });
+  is_own_[2].assign(own.triangles.size(), 1);
+  merge(own.dimension, &CriticalSimplices::cells, [&](Id t) { return cell_id(t); });
 }
 
 }  // namespace gale::detail

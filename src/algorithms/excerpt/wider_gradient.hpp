@@ -24,6 +24,9 @@ class WiderGradient {
   /// The rank's critical simplices and those that were reached, in the order of CriticalSimplices by global ids.
   const CriticalSimplices& critical() const { return critical_; }
 
+  /// Whether each of them is the rank's own, by dimension.
+  const std::array<std::vector<char>, 4>& is_own() const { return is_own_; }
+
   /// The places there of the rank's own edges.
   const std::vector<Id>& own_edges() const { return own_edges_; }
 
@@ -32,6 +35,7 @@ class WiderGradient {
 
   /// A number for each vertex, dense from 0: they compare as global ids do.
   Id name(Id vertex) const { return names_[vertex]; }
+  const std::vector<Id>& names() const { return names_; }
 
   /// A number for each cell, dense from 0. Own cells' numbers compare as global ids do; others' come after these.
   Id cell_name(Id cell) const { return is_own_cell(cell) ? cell_input_[cell] : cell; }
@@ -40,6 +44,7 @@ class WiderGradient {
   GlobalId vertex_id(Id vertex) const;
   GlobalId cell_id(Id cell) const;
   std::uint64_t value(Id vertex) const;
+  bool has_short_values() const { return gradient_.order().has_short_values(); }
   std::array<Id, 4> corners(Id cell) const;
 
  private:
@@ -72,6 +77,7 @@ class WiderGradient {
   Mirrored<Id> vertex_successors_, cell_successors_;
   EdgePairs pairs_;
   CriticalSimplices critical_;
+  std::array<std::vector<char>, 4> is_own_;
   std::vector<Id> own_edges_;
 };
 

@@ -113,7 +113,6 @@ void find_on_ranks(int threads, const GetStructure& structure, MorseSmaleComplex
     });
     find_manifolds(complex, &down, &up);
     detail::separatrices_on_ranks(threads, std::move(down), std::move(up), complex);
-    detail::together(mesh.exchange().ranks(), [&] { complex.is_own = own_simplices(complex.excerpt, mesh); });
     return;
   }
   find_manifolds(complex);

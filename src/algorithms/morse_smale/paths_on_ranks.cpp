@@ -25,6 +25,20 @@ Array<const Id, HostMemory> ends_here(const Mirrored<Id>& successors, const std:
   });
 }
 
+/// Those whose successors another rank knows, ascending.
+std::vector<Id> simplices_elsewhere(const Array<const Id, HostMemory>& successors) {
+  const auto count = static_cast<Offset>(successors.extent(0));
+  std::vector<std::vector<Id>> of_parts(threads_for(count));
+  for_parts("GALE::find_elsewhere", count, of_parts.size(), [&](int part, Offset first, Offset last) {
+    for (Offset i = first; i < last; ++i) {
+      if (successors(i) == DiscreteGradient::elsewhere) of_parts[part].push_back(static_cast<Id>(i));
+    }
+  });
+  std::vector<Id> all;
+  for (const auto& some : of_parts) all.insert(all.end(), some.begin(), some.end());
+  return all;
+}
+
 }  // namespace
 
 PathSimplices::PathSimplices(const DiscreteGradient& gradient, Kind kind)
@@ -92,24 +106,16 @@ PathsOnRanks::PathsOnRanks(const PathSimplices& simplices, const std::vector<Id>
 }
 
 void PathsOnRanks::find_exits(const std::vector<Id>& others) {
-  const auto& successors = simplices_.successors().in<HostMemory>();
-  const auto is_elsewhere = [&](Id simplex) { return successors(simplex) == DiscreteGradient::elsewhere; };
-  const Array<Id, HostMemory> elsewhere = by_rank(1, successors.extent(0), [&](Id i, const auto& visit) {
-                                            if (is_elsewhere(i)) visit(0);
-                                          }).members;
-  exits_.assign(elsewhere.data(), elsewhere.data() + elsewhere.extent(0));
+  exits_ = simplices_elsewhere(simplices_.successors().in<HostMemory>());
   std::vector<Id> ends = simplices_.critical();
   ends.insert(ends.end(), exits_.begin(), exits_.end());
   ends_ = ends_here(simplices_.successors(), ends);
   std::vector<char> is_reached(exits_.size(), 0);
-  const auto reach = [&](Id simplex) {
-    const Id at = end(simplex);
-    if (at >= criticals_) atomic_write(&is_reached[at - criticals_], char(1));
-  };
-  parallel_for("GALE::reached_exits", HostExecutionSpace(), successors.extent(0), [&](Offset i) {
-    if (!is_elsewhere(static_cast<Id>(i))) reach(static_cast<Id>(i));
+  parallel_for("GALE::reached_exits", HostExecutionSpace(), ends_.extent(0), [&](Offset i) {
+    const Id at = end(static_cast<Id>(i)) - criticals_;
+    if (at >= 0 && exits_[at] != i) atomic_write(&is_reached[at], char(1));
   });
-  for (const Id simplex : others) reach(simplex);
+  for (const Id exit : others) is_reached[end(exit) - criticals_] = 1;
   for (std::size_t i = 0; i < exits_.size(); ++i) {
     if (is_reached[i] != 0) open_.push_back(static_cast<Id>(i));
   }

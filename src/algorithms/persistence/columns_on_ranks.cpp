@@ -130,7 +130,7 @@ class FallOnRanks {
     });
   }
 
-  Id here(GlobalId vertex) const { return mesh_.vertex_internal()(mesh_.vertex_of(vertex)); }
+  Id here(GlobalId vertex) const { return mesh_.vertices_of_input()[mesh_.vertex_of(vertex)]; }
 
   const Mesh mesh_;
   const Ranks& ranks_;

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <vector>
 
+#include <gale/base/bits.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/export.hpp>
 
@@ -22,8 +24,8 @@ GALE_EXPORT DistinctIds distinct_ids(const Array<const GlobalId, HostMemory>& id
 /// Sorts ids, and drops those that repeat others. O(n) where they lie densely.
 GALE_EXPORT void keep_distinct(std::vector<GlobalId>& ids);
 
-/// Finds the places of global ids among some that ascend: by a table where they lie so densely that it takes no more
-/// than 16 bytes an id, else by bisection.
+/// Finds the places of global ids among some that ascend: by bits, one for each id between the least and the greatest,
+/// where these take no more than 16 bytes an id, else by bisection.
 class GALE_EXPORT GlobalIndex {
  public:
   GlobalIndex() = default;
@@ -33,9 +35,12 @@ class GALE_EXPORT GlobalIndex {
 
   /// no_id if it isn't there. By any thread.
   Id find(GlobalId id) const {
-    if (table_.extent(0) == 0) return bisect(id);
-    const GlobalId at = id - ids_(0);
-    return at < 0 || at >= static_cast<GlobalId>(table_.extent(0)) ? no_id : table_(at);
+    if (words_.extent(0) == 0) return bisect(id);
+    const auto at = static_cast<std::uint64_t>(id) - static_cast<std::uint64_t>(ids_(0));
+    if (at >> 6 >= words_.extent(0)) return no_id;
+    const Word& word = words_(at >> 6);
+    const std::uint64_t bit = std::uint64_t(1) << (at & 63);
+    return (word.bits & bit) == 0 ? no_id : word.before + count_bits(word.bits & (bit - 1));
   }
 
   Offset count() const { return ids_.extent(0); }
@@ -43,10 +48,16 @@ class GALE_EXPORT GlobalIndex {
   const Array<const GlobalId, HostMemory>& ids() const { return ids_; }
 
  private:
+  /// Which of 64 ids are there, and how many of those before them.
+  struct Word {
+    std::uint64_t bits;
+    Id before;
+  };
+
   Id bisect(GlobalId id) const;
 
   Array<const GlobalId, HostMemory> ids_;
-  Array<Id, HostMemory> table_;  ///< id - ids_(0) -> place
+  Array<Word, HostMemory> words_;
 };
 
 /// The ids that `index` lacks among those that visit(i, offer) offers for i in 0..n-1: ascending, none twice.
