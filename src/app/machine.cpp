@@ -1,5 +1,8 @@
 #include <sys/resource.h>
 #include <unistd.h>
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
 
 #include <algorithm>
 #include <atomic>
@@ -98,6 +101,14 @@ void watch_device_memory() {
   if (!have_device || Kokkos::Tools::profileLibraryLoaded()) return;
   Kokkos::Tools::Experimental::set_allocate_data_callback(on_allocation);
   Kokkos::Tools::Experimental::set_deallocate_data_callback(on_deallocation);
+}
+
+void keep_freed_memory() {
+#if defined(__GLIBC__)
+  constexpr int most = 1 << 30;
+  mallopt(M_MMAP_THRESHOLD, most);
+  mallopt(M_TRIM_THRESHOLD, most);
+#endif
 }
 
 void require_threads(int count) {

@@ -25,6 +25,10 @@ std::optional<std::int64_t> device_peak_bytes();
 /// Begins to count what Kokkos allocates on the device. To be called right after Kokkos is initialized.
 void watch_device_memory();
 
+/// Has memory that is freed stay with this process for what it allocates next, where the system's allocator can be told
+/// so: else large arrays are given back at once, and each page of the next ones is cleared anew.
+void keep_freed_memory();
+
 /// Throws gale::Error unless the system starts so many threads: OpenMP would end the process.
 void require_threads(int count);
 

@@ -31,7 +31,9 @@ std::string find_installed(const std::string& name, int access, const char* use,
     const fs::path file = folder / name;
     if (::access(file.c_str(), access) == 0) return file.string();
   }
-  refuse(use, " by ", name, ", which isn't beside ", own.string(), " nor in ", GALE_LIBEXEC, ": it is built ", origin);
+  std::error_code none;  // a wheel's users don't have the folder that it was to be installed to
+  const std::string elsewhere = fs::exists(GALE_LIBEXEC, none) ? " nor in " GALE_LIBEXEC : "";
+  refuse(use, " by ", name, ", which isn't beside ", own.string(), elsewhere, ": it is built ", origin);
 }
 
 }  // namespace gale::io::detail
