@@ -11,16 +11,6 @@ namespace gale::detail {
 
 namespace {
 
-/// A copy with room for more, which are elsewhere.
-Array<Id, HostMemory> widened(const Mirrored<Id>& successors, Id count) {
-  const auto& here = successors.in<HostMemory>();
-  const auto wider = allocate<Array<Id, HostMemory>>("GALE::wider_successors", count);
-  parallel_for("GALE::wider_successors", HostExecutionSpace(), count, [&](Offset i) {
-    wider(i) = i < static_cast<Offset>(here.extent(0)) ? here(i) : DiscreteGradient::elsewhere;
-  });
-  return wider;
-}
-
 /// Own simplices, ascending by `key`, and others: in that order. `places` becomes those of the own ones.
 template <class T, class Key>
 std::vector<T> merged(const std::vector<T>& own, std::vector<T> others, const Key& key, std::vector<Id>& places) {
@@ -55,7 +45,12 @@ WiderGradient::WiderGradient(const DiscreteGradient& gradient, const PathSimplic
 }
 
 WallGround WiderGradient::ground() const {
-  return {pairs_, vertex_successors_.in<HostMemory>().data(), keys_.data(), {names_.data()}, {0, vertices()}};
+  return {pairs_, vertex_successors_.data(), keys_.data(), {names_.data()}, {0, vertices()}};
+}
+
+WiderSuccessors WiderGradient::cell_successors() const {
+  return {gradient_.cell_successors().data(), own_cells_, steps_beyond_.data(), steps_of_exits_.data(),
+          static_cast<Id>(steps_of_exits_.size())};
 }
 
 GlobalId WiderGradient::vertex_id(Id vertex) const {
@@ -154,17 +149,25 @@ void WiderGradient::fill_keys() {
 }
 
 void WiderGradient::fill_successors(const Reached& reached) {
-  const auto of_vertices = widened(gradient_.store().vertex_successors(), vertices());
-  const auto of_cells = widened(gradient_.store().cell_successors(), cells());
+  const auto& own = gradient_.vertex_successors();
+  const auto of_vertices = allocate<Array<Id, HostMemory>>("GALE::wider_successors", vertices());
+  parallel_for("GALE::wider_successors", HostExecutionSpace(), vertices(),
+               [&](Offset v) { of_vertices(v) = v < own_vertices_ ? own(v) : DiscreteGradient::elsewhere; });
+  steps_beyond_.assign(cell_corners_.size(), DiscreteGradient::elsewhere);
   for_each(reached.vertex_steps, [&](int rank, const auto& step) {
     of_vertices(vertex(rank, step[0])) = step[1] == no_id ? no_id : vertex(rank, step[1]);
   });
   for_each(reached.cell_steps, [&](int rank, const auto& step) {
-    of_cells(cell(rank, step[0])) = step[1] < 0 ? step[1] : cell(rank, step[1]);
+    const Id from = cell(rank, step[0]), to = step[1] < 0 ? step[1] : cell(rank, step[1]);
+    if (is_own_cell(from)) {
+      steps_of_exits_.emplace_back(from, to);
+    } else {
+      steps_beyond_[from - own_cells_] = to;
+    }
   });
+  std::sort(steps_of_exits_.begin(), steps_of_exits_.end());
   if (mesh_.dimension() == 3) fill_rows(reached, of_vertices);
   vertex_successors_ = of_vertices;
-  cell_successors_ = of_cells;
 }
 
 /// Others' vertices, ghosts among them, get rows of those edges that were reached. One that is neither critical nor

@@ -1,25 +1,27 @@
 #pragma once
 
 #include <array>
+#include <utility>
 #include <vector>
 
 #include <gale/algorithms/excerpt/reached.hpp>
 #include <gale/algorithms/gradient/gradient_store.hpp>
 #include <gale/algorithms/morse_smale/descending_wall.hpp>
+#include <gale/algorithms/morse_smale/parts.hpp>
 #include <gale/algorithms/morse_smale/paths_on_ranks.hpp>
 
 namespace gale::detail {
 
 /// A gradient of one rank's part, and what ways from there reach on other ranks (`reach_beyond`): what follows them
 /// finds what it would find in the whole. Vertices and cells of others come after GALE's own. Some 28 bytes a vertex
-/// and 4 a cell beside the part's. Refers to the gradient.
+/// beside the part's. Refers to the gradient.
 class WiderGradient {
  public:
   WiderGradient(const DiscreteGradient& gradient, const PathSimplices& cells, Reached reached);
 
   WallGround ground() const;
-  const Mirrored<Id>& vertex_successors() const { return vertex_successors_; }
-  const Mirrored<Id>& cell_successors() const { return cell_successors_; }
+  const Array<const Id, HostMemory>& vertex_successors() const { return vertex_successors_; }
+  WiderSuccessors cell_successors() const;
 
   /// The rank's critical simplices and those that were reached, in the order of CriticalSimplices by global ids.
   const CriticalSimplices& critical() const { return critical_; }
@@ -74,7 +76,9 @@ class WiderGradient {
   std::vector<std::array<Id, 4>> cell_corners_;  ///< of these
   std::vector<Id> names_;
   std::vector<std::uint64_t> keys_;
-  Mirrored<Id> vertex_successors_, cell_successors_;
+  Array<const Id, HostMemory> vertex_successors_;
+  std::vector<std::pair<Id, Id>> steps_of_exits_;  ///< own cells whose successors the part lacks, and these; ascending
+  std::vector<Id> steps_beyond_;                   ///< successors of others' cells
   EdgePairs pairs_;
   CriticalSimplices critical_;
   std::array<std::vector<char>, 4> is_own_;

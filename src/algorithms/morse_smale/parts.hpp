@@ -8,6 +8,7 @@
 
 #include <gale/algorithms/morse_smale.hpp>
 #include <gale/algorithms/morse_smale/critical_places.hpp>
+#include <gale/algorithms/morse_smale/wider_successors.hpp>
 #include <gale/base/mirrored.hpp>
 #include <gale/runtime/structure.hpp>
 
@@ -25,9 +26,9 @@ struct PathStarts {
 PathStarts descending_starts(const Mesh& mesh, const CriticalSimplices& critical);
 PathStarts ascending_starts(const CriticalSimplices& critical);
 
-/// Finds the paths from some simplices along these successors, where they are, but those that leave through the
-/// surface. Their destinations are place(last simplex).
-Separatrices<Id> paths_along(const Mirrored<Id>& successors, const PathStarts& starts,
+/// Finds the paths from some simplices along these successors, but those that leave through the surface. Their
+/// destinations are place(last simplex).
+Separatrices<Id> paths_along(const WiderSuccessors& successors, const PathStarts& starts,
                              const std::function<Id(Id)>& place);
 
 /// Finds the paths from each critical edge down to minima along these successors, where they are.

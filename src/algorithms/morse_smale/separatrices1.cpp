@@ -13,7 +13,8 @@ namespace {
 using Followed = Csr<const Id, HostMemory>;
 
 /// How many simplices a path of successors has; 0 if it leaves through the surface.
-KOKKOS_INLINE_FUNCTION Offset length_of(const Id* successors, Id from) {
+template <class Successors>
+KOKKOS_INLINE_FUNCTION Offset length_of(const Successors& successors, Id from) {
   Offset length = 1;
   for (Id next = successors[from]; next != no_id; next = successors[next], ++length) {
     if (next < no_id) return 0;
@@ -21,8 +22,8 @@ KOKKOS_INLINE_FUNCTION Offset length_of(const Id* successors, Id from) {
   return length;
 }
 
-template <class Space>
-Followed follow_in(const Space& space, const Id* successors, const std::vector<Id>& starts) {
+template <class Space, class Successors>
+Followed follow_in(const Space& space, const Successors& successors, const std::vector<Id>& starts) {
   using Memory = MemoryOf<Space>;
   const Offset count = static_cast<Offset>(starts.size());
   const auto from =
@@ -141,9 +142,9 @@ PathStarts ascending_starts(const CriticalSimplices& critical) {
   return starts;
 }
 
-Separatrices<Id> paths_along(const Mirrored<Id>& successors, const PathStarts& starts,
+Separatrices<Id> paths_along(const WiderSuccessors& successors, const PathStarts& starts,
                              const std::function<Id(Id)>& place) {
-  return paths_from(successors, starts, Paths::whole, place);
+  return paths_of(follow_in(HostExecutionSpace(), successors, starts.simplices), starts.sources, place);
 }
 
 Separatrices<Id> descending_separatrices(const Mesh& mesh, const Mirrored<Id>& successors,

@@ -65,20 +65,20 @@ void keep_distinct(std::vector<GlobalId>& ids) {
 }
 
 GlobalIndex::GlobalIndex(const Array<const GlobalId, HostMemory>& ascending) : ids_(ascending) {
-  constexpr std::uint64_t bits_an_id = 16 / sizeof(Word) * 64;
+  constexpr std::uint64_t bits_an_id = 16 / sizeof(CountedWord) * 64;
   const Offset count = ids_.extent(0);
   if (count == 0) return;
   const GlobalId least = ids_(0);
   const std::uint64_t span = span_of(least, ids_(count - 1));
   if (span > bits_an_id * static_cast<std::uint64_t>(count)) return;
-  words_ = allocate<Array<Word, HostMemory>>("GALE::global_index", (span + 63) / 64);
+  words_ = allocate<Array<CountedWord, HostMemory>>("GALE::global_index", (span + 63) / 64);
   const Offset size = words_.extent(0);
   for_parts("GALE::global_index", size, threads_for(size), [&](int, Offset first, Offset last) {
     const GlobalId* const ids = ids_.data();
     auto at = static_cast<Id>(std::lower_bound(ids, ids + count, least + 64 * first) - ids);
     for (Offset w = first; w < last; ++w) {
-      Word word{0, at};
-      for (; at < count && (ids[at] - least) >> 6 == w; ++at) word.bits |= std::uint64_t(1) << ((ids[at] - least) & 63);
+      CountedWord word{0, at};
+      for (; at < count && (ids[at] - least) >> 6 == w; ++at) word.insert(static_cast<int>((ids[at] - least) & 63));
       words_(w) = word;
     }
   });

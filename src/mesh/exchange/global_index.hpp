@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <gale/base/bits.hpp>
+#include <gale/base/counted_word.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/export.hpp>
 
@@ -38,9 +38,9 @@ class GALE_EXPORT GlobalIndex {
     if (words_.extent(0) == 0) return bisect(id);
     const auto at = static_cast<std::uint64_t>(id) - static_cast<std::uint64_t>(ids_(0));
     if (at >> 6 >= words_.extent(0)) return no_id;
-    const Word& word = words_(at >> 6);
-    const std::uint64_t bit = std::uint64_t(1) << (at & 63);
-    return (word.bits & bit) == 0 ? no_id : word.before + count_bits(word.bits & (bit - 1));
+    const CountedWord& word = words_(at >> 6);
+    const int place = static_cast<int>(at & 63);
+    return word.has(place) ? word.rank(place) : no_id;
   }
 
   Offset count() const { return ids_.extent(0); }
@@ -48,16 +48,10 @@ class GALE_EXPORT GlobalIndex {
   const Array<const GlobalId, HostMemory>& ids() const { return ids_; }
 
  private:
-  /// Which of 64 ids are there, and how many of those before them.
-  struct Word {
-    std::uint64_t bits;
-    Id before;
-  };
-
   Id bisect(GlobalId id) const;
 
   Array<const GlobalId, HostMemory> ids_;
-  Array<Word, HostMemory> words_;
+  Array<CountedWord, HostMemory> words_;
 };
 
 /// The ids that `index` lacks among those that visit(i, offer) offers for i in 0..n-1: ascending, none twice.
