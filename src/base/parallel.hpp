@@ -185,4 +185,22 @@ Offset reduce_sum(const char* label, const Space& space, Offset n, const Value& 
   }
 }
 
+/// What visit(i, add) adds for i in 0..n-1, in that order. On all host threads.
+template <class T, class Visit>
+std::vector<T> collected(const char* label, Offset n, const Visit& visit) {
+  std::vector<std::vector<T>> of_parts(detail::threads_for(n));
+  detail::for_parts(label, n, static_cast<int>(of_parts.size()), [&](int part, Offset first, Offset last) {
+    std::vector<T> mine;
+    for (Offset i = first; i < last;) {
+      for (const Offset end = detail::piece_end(i, last); i < end; ++i)
+        visit(i, [&](const T& one) { mine.push_back(one); });
+    }
+    of_parts[part] = std::move(mine);
+  });
+  std::vector<T> all = std::move(of_parts.front());
+  for (std::size_t part = 1; part < of_parts.size(); ++part)
+    all.insert(all.end(), of_parts[part].begin(), of_parts[part].end());
+  return all;
+}
+
 }  // namespace gale

@@ -145,7 +145,9 @@ class DistributedMesh::Sharing final : public Exchange {
   Id cell_of(GlobalId id) const override {
     return places_.are_counted() ? places_.counted(id) : cell_index_.get().find(id);
   }
-  int owner(Id vertex) const override { return owners.get()(vertex); }
+  int owner(Id vertex) const override {
+    return held_.is_ghost(vertex) ? ghost_owners_(held_.ghost_number(vertex)) : ranks_.rank();
+  }
   Array<int, HostMemory> owners_of(const Array<const GlobalId, HostMemory>& ids) const override;
   Offset given_vertices() const override { return given_vertices_; }
   const detail::ExchangePlan& from_givers() const override { return from_givers_; }

@@ -19,13 +19,15 @@ class PassedSimplices {
   PassedSimplices(const WiderGradient& wider, const MorseSmaleComplex& complex) : wider_(wider), cells_(wider.cells()) {
     mark_cells(complex);
     number_cells();
-    const bool are_all = 4 * static_cast<Offset>(cell_of_.size()) >= wider.vertices();
-    if (!are_all) number_vertices(complex);
-    number_ = are_all ? wider.names().data() : some_numbers_.data();
-    vertex_count_ = are_all ? wider.vertices() : vertex_count_;
+    if (4 * static_cast<Offset>(cell_of_.size()) < wider.vertices()) {
+      number_vertices(complex);
+    } else {
+      number_ = wider.names();
+      vertex_count_ = wider.vertices();
+    }
   }
 
-  Id number(Id vertex) const { return number_[vertex]; }
+  Id number(Id vertex) const { return number_(vertex); }
   Id cell_number(Id cell) const { return number_of_cell_[cells_[wider_.cell_name(cell)]]; }
 
   template <std::size_t N>
@@ -126,18 +128,19 @@ class PassedSimplices {
     }
     passed.number();
     vertex_count_ = passed.count();
-    some_numbers_.resize(wider_.vertices());
-    parallel_for("GALE::number_passed", HostExecutionSpace(), some_numbers_.size(), [&](Offset v) {
+    const auto numbers = allocate<Array<Id, HostMemory>>("GALE::number_passed", wider_.vertices());
+    parallel_for("GALE::number_passed", HostExecutionSpace(), wider_.vertices(), [&](Offset v) {
       const Id name = wider_.name(static_cast<Id>(v));
-      some_numbers_[v] = passed.has(name) ? passed[name] : no_id;
+      numbers(v) = passed.has(name) ? passed[name] : no_id;
     });
+    number_ = numbers;
   }
 
   /// Calls visit(vertex, number) for each that is in the excerpt.
   template <class Visit>
   void for_each_vertex(const Visit& visit) const {
     parallel_for("GALE::passed_vertices", HostExecutionSpace(), wider_.vertices(), [&](Offset v) {
-      if (number_[v] != no_id) visit(static_cast<Id>(v), number_[v]);
+      if (number_(v) != no_id) visit(static_cast<Id>(v), number_(v));
     });
   }
 
@@ -151,8 +154,7 @@ class PassedSimplices {
   const WiderGradient& wider_;
   NumberedSet cells_;  ///< by name
   Id vertex_count_ = 0;
-  const Id* number_;              ///< of each vertex; no_id of those that aren't in the excerpt
-  std::vector<Id> some_numbers_;  ///< these, where some aren't
+  Array<const Id, HostMemory> number_;  ///< of each vertex; no_id of those that aren't in the excerpt
   std::vector<Id> marked_cells_, cell_of_, number_of_cell_;
 };
 

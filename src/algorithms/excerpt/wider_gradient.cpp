@@ -114,24 +114,39 @@ void WiderGradient::number(const Reached& reached, const PathSimplices& cells) {
 
 /// Input ids ascend with global ones.
 void WiderGradient::name_vertices() {
-  names_.resize(own_vertices_ + beyond_.size());
-  Id next = 0, other = 0;
-  const Id others = static_cast<Id>(beyond_.size());
-  const OtherIds internal = mesh_.vertices_of_input();
-  for (Id input = 0; input < own_vertices_; ++input) {
-    for (; other < others && beyond_[other].id < mesh_.vertex_id(input); ++other)
-      names_[own_vertices_ + other] = next++;
-    names_[internal[input]] = next++;
+  const auto names = allocate<Array<Id, HostMemory>>("GALE::wider_names", own_vertices_ + beyond_.size());
+  std::vector<Id> own_before;  // how many own vertices come before each of the others
+  for (const ReachedVertex& other : beyond_) {
+    Id first = own_before.empty() ? 0 : own_before.back();
+    for (Id last = own_vertices_; first < last;) {
+      const Id middle = first + (last - first) / 2;
+      if (mesh_.vertex_id(middle) < other.id) {
+        first = middle + 1;
+      } else {
+        last = middle;
+      }
+    }
+    names(own_vertices_ + static_cast<Id>(own_before.size())) = first + static_cast<Id>(own_before.size());
+    own_before.push_back(first);
   }
-  for (; other < others; ++other) names_[own_vertices_ + other] = next++;
+  const OtherIds internal = mesh_.vertices_of_input();
+  for_parts("GALE::wider_names", own_vertices_, threads_for(own_vertices_), [&](int, Offset first, Offset last) {
+    std::size_t others = std::upper_bound(own_before.begin(), own_before.end(), first) - own_before.begin();
+    for (Offset input = first; input < last; ++input) {
+      while (others < own_before.size() && own_before[others] <= input) ++others;
+      names(internal[static_cast<Id>(input)]) = static_cast<Id>(input) + static_cast<Id>(others);
+    }
+  });
+  names_ = names;
 }
 
 void WiderGradient::fill_keys() {
   const VertexOrder& order = gradient_.order();
-  keys_.resize(names_.size());
+  const auto keys = allocate<Array<std::uint64_t, HostMemory>>("GALE::wider_keys", vertices());
+  keys_ = keys;
   if (order.has_short_values()) {
-    parallel_for("GALE::wider_keys", HostExecutionSpace(), keys_.size(),
-                 [&](Offset v) { keys_[v] = value(static_cast<Id>(v)) << 32 | static_cast<std::uint32_t>(names_[v]); });
+    parallel_for("GALE::wider_keys", HostExecutionSpace(), vertices(),
+                 [&](Offset v) { keys(v) = value(static_cast<Id>(v)) << 32 | static_cast<std::uint32_t>(names_(v)); });
     return;
   }
   // Keys are ranks: those of others come between.
@@ -140,12 +155,12 @@ void WiderGradient::fill_keys() {
   std::iota(others.begin(), others.end(), own_vertices_);
   const auto is_less = [&](Id a, Id b) {
     const std::uint64_t value_a = value(a), value_b = value(b);
-    return value_a != value_b ? value_a < value_b : names_[a] < names_[b];
+    return value_a != value_b ? value_a < value_b : names_(a) < names_(b);
   };
   std::sort(others.begin(), others.end(), is_less);
-  std::vector<Id> all(names_.size());
+  std::vector<Id> all(vertices());
   std::merge(by_rank.begin(), by_rank.end(), others.begin(), others.end(), all.begin(), is_less);
-  for (std::size_t i = 0; i < all.size(); ++i) keys_[all[i]] = i;
+  for (std::size_t i = 0; i < all.size(); ++i) keys(all[i]) = i;
 }
 
 void WiderGradient::fill_successors(const Reached& reached) {
@@ -226,7 +241,7 @@ void WiderGradient::add_critical(const Reached& reached) {
     for (const Id place : places) is_own_[dimension][place] = 1;
     return places;
   };
-  merge(0, &CriticalSimplices::vertices, [&](Id v) { return names_[v]; });
+  merge(0, &CriticalSimplices::vertices, [&](Id v) { return names_(v); });
   own_edges_ = merge(1, &CriticalSimplices::edges, [&](const auto& e) { return written(names, e); });
   is_own_[2].assign(own.triangles.size(), 1);
   merge(own.dimension, &CriticalSimplices::cells, [&](Id t) { return cell_id(t); });

@@ -32,12 +32,12 @@ class WiderGradient {
   /// The places there of the rank's own edges.
   const std::vector<Id>& own_edges() const { return own_edges_; }
 
-  Id vertices() const { return static_cast<Id>(names_.size()); }
+  Id vertices() const { return static_cast<Id>(names_.extent(0)); }
   Id cells() const { return own_cells_ + static_cast<Id>(cell_corners_.size()); }
 
   /// A number for each vertex, dense from 0: they compare as global ids do.
-  Id name(Id vertex) const { return names_[vertex]; }
-  const std::vector<Id>& names() const { return names_; }
+  Id name(Id vertex) const { return names_(vertex); }
+  const Array<const Id, HostMemory>& names() const { return names_; }
 
   /// A number for each cell, dense from 0. Own cells' numbers compare as global ids do; others' come after these.
   Id cell_name(Id cell) const { return is_own_cell(cell) ? cell_input_[cell] : cell; }
@@ -74,8 +74,8 @@ class WiderGradient {
   std::vector<ReachedVertex> beyond_;            ///< by global id
   std::vector<GlobalId> cell_ids_;               ///< of others' cells
   std::vector<std::array<Id, 4>> cell_corners_;  ///< of these
-  std::vector<Id> names_;
-  std::vector<std::uint64_t> keys_;
+  Array<const Id, HostMemory> names_;
+  Array<const std::uint64_t, HostMemory> keys_;
   Array<const Id, HostMemory> vertex_successors_;
   std::vector<std::pair<Id, Id>> steps_of_exits_;  ///< own cells whose successors the part lacks, and these; ascending
   std::vector<Id> steps_beyond_;                   ///< successors of others' cells

@@ -1,4 +1,5 @@
 #include <gale/algorithms/merge_tree/vertex_arcs.hpp>
+#include <gale/base/memory.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/base/transfer.hpp>
 
@@ -50,7 +51,11 @@ std::vector<std::vector<Id>> arcs_of_vertices(const Space& space, const Mesh& me
   FindArcs<Memory> find;
   find.input = mesh.vertices_in_input<Memory>();
   find.count = static_cast<int>(trees.size());
-  std::vector<std::vector<Id>> found(trees.size(), std::vector<Id>(mesh.vertices()));
+  std::vector<std::vector<Id>> found(trees.size());
+  for (std::vector<Id>& arcs : found) {
+    reserve(arcs, mesh.vertices());
+    arcs.resize(mesh.vertices());
+  }
   for (int tree = 0; tree < find.count; ++tree) {
     for (const Side side : {below, above}) {
       find.trees[tree].by_node[side] = in_memory<Memory>(trees[tree][side]);

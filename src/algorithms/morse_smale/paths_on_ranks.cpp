@@ -25,20 +25,6 @@ Array<const Id, HostMemory> ends_here(const Mirrored<Id>& successors, const std:
   });
 }
 
-/// Those whose successors another rank knows, ascending.
-std::vector<Id> simplices_elsewhere(const Array<const Id, HostMemory>& successors) {
-  const auto count = static_cast<Offset>(successors.extent(0));
-  std::vector<std::vector<Id>> of_parts(threads_for(count));
-  for_parts("GALE::find_elsewhere", count, of_parts.size(), [&](int part, Offset first, Offset last) {
-    for (Offset i = first; i < last; ++i) {
-      if (successors(i) == DiscreteGradient::elsewhere) of_parts[part].push_back(static_cast<Id>(i));
-    }
-  });
-  std::vector<Id> all;
-  for (const auto& some : of_parts) all.insert(all.end(), some.begin(), some.end());
-  return all;
-}
-
 }  // namespace
 
 PathSimplices::PathSimplices(const DiscreteGradient& gradient, Kind kind)
@@ -106,7 +92,10 @@ PathsOnRanks::PathsOnRanks(const PathSimplices& simplices, const std::vector<Id>
 }
 
 void PathsOnRanks::find_exits(const std::vector<Id>& others) {
-  exits_ = simplices_elsewhere(simplices_.successors().in<HostMemory>());
+  const auto& successors = simplices_.successors().in<HostMemory>();
+  exits_ = collected<Id>("GALE::find_exits", successors.extent(0), [&](Offset i, const auto& add) {
+    if (successors(i) == DiscreteGradient::elsewhere) add(static_cast<Id>(i));
+  });
   std::vector<Id> ends = simplices_.critical();
   ends.insert(ends.end(), exits_.begin(), exits_.end());
   ends_ = ends_here(simplices_.successors(), ends);

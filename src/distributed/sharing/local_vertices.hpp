@@ -57,6 +57,12 @@ class LocalVertices {
     return v < lower_ghosts_ ? Offset(v) : v - owned_count_;
   }
 
+  bool is_ghost(Id v) const {
+    if (!interval_.is_empty()) return v < lower_ghosts_ || v >= lower_ghosts_ + owned_count_;
+    const Offset number = ghost_number(v);
+    return number < ghost_count() && ghost_(number) == v;
+  }
+
  private:
   void merge(const GlobalIds& owned);
 
