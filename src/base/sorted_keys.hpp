@@ -20,6 +20,8 @@ class SortedKeys {
     for (std::size_t b = begin_.size() - 1; b-- > 0;) begin_[b] = std::min(begin_[b], begin_[b + 1]);
   }
 
+  std::uint64_t operator[](std::int64_t place) const { return keys_[place]; }
+
   struct Range {
     std::int64_t first, last;
   };

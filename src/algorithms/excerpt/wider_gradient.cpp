@@ -4,6 +4,7 @@
 #include <utility>
 
 #include <gale/algorithms/excerpt/wider_gradient.hpp>
+#include <gale/base/bisect.hpp>
 #include <gale/base/memory.hpp>
 #include <gale/base/parallel.hpp>
 
@@ -117,15 +118,7 @@ void WiderGradient::name_vertices() {
   const auto names = allocate<Array<Id, HostMemory>>("GALE::wider_names", own_vertices_ + beyond_.size());
   std::vector<Id> own_before;  // how many own vertices come before each of the others
   for (const ReachedVertex& other : beyond_) {
-    Id first = own_before.empty() ? 0 : own_before.back();
-    for (Id last = own_vertices_; first < last;) {
-      const Id middle = first + (last - first) / 2;
-      if (mesh_.vertex_id(middle) < other.id) {
-        first = middle + 1;
-      } else {
-        last = middle;
-      }
-    }
+    const Id first = first_from(own_vertices_, [&](Id input) { return mesh_.vertex_id(input) < other.id; });
     names(own_vertices_ + static_cast<Id>(own_before.size())) = first + static_cast<Id>(own_before.size());
     own_before.push_back(first);
   }

@@ -1,9 +1,13 @@
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
 #include <gale/algorithms/merge_tree/gathered_graph.hpp>
+#include <gale/algorithms/merge_tree/keys_here.hpp>
 #include <gale/algorithms/merge_tree/tree_maker.hpp>
 #include <gale/base/parallel.hpp>
-#include <gale/base/sorted_keys.hpp>
 #include <gale/mesh/exchange/exchange_plan.hpp>
 
 namespace gale::detail {
@@ -55,25 +59,19 @@ class VertexClimbs {
   /// isn't above, or of the first that isn't below.
   void find_keys(const VertexOrder& order, const GatheredGraph& gathered, Side side) {
     const Mesh& mesh = order.mesh();
-    const auto& all = gathered.vertices;
     const std::uint64_t* const small = gathered.order().keys();
     // Keys of an excerpt's order ascend with its vertices: those of places are what trees compare.
     std::vector<std::uint64_t> sorted(small, small + gathered.mesh().vertices());
     std::sort(sorted.begin(), sorted.end());
-    std::vector<std::uint64_t> values;
-    for (const TreeVertex& vertex : all) values.push_back(vertex.value);
-    const SortedKeys near(std::move(values));
-    const OtherIds input = mesh.vertices_in_input();
+    const KeysHere here(order, gathered.vertices);
+    const std::uint64_t* const keys = order.keys();
     keys_[side] = allocate<Array<std::uint64_t, HostMemory>>("GALE::keys_among_gathered", mesh.vertices());
     parallel_for("GALE::keys_among_gathered", HostExecutionSpace(), mesh.vertices(), [&](Offset v) {
-      const TreeVertex here{mesh.vertex_id(input[static_cast<Id>(v)]), order.value_key(static_cast<Id>(v)), {}};
-      const auto range = near.around(here.value);
-      const auto first = std::lower_bound(all.begin() + range.first, all.begin() + range.last, here) - all.begin();
-      const bool is_one = first < static_cast<std::ptrdiff_t>(all.size()) && all[first].id == here.id;
-      const std::ptrdiff_t place = is_one || side == above ? first : first - 1;
-      keys_[side](v) = place < 0                                         ? 0
-                       : place < static_cast<std::ptrdiff_t>(all.size()) ? sorted[place]
-                                                                         : ~std::uint64_t(0);
+      const auto [first, is_one] = here.place_of(keys[v]);
+      const std::int64_t place = is_one || side == above ? first : first - 1;
+      keys_[side](v) = place < 0                                          ? 0
+                       : place < static_cast<std::int64_t>(sorted.size()) ? sorted[place]
+                                                                          : ~std::uint64_t(0);
     });
   }
 

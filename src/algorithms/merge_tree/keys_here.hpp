@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <gale/algorithms/merge_tree/gathered_graph.hpp>
+#include <gale/base/bisect.hpp>
+#include <gale/base/parallel.hpp>
+#include <gale/base/sorted_keys.hpp>
+
+namespace gale::detail {
+
+/// Where some vertices are, of which this rank may have none, among those that it holds: by their keys.
+class KeysHere {
+ public:
+  /// `vertices` are in the order.
+  KeysHere(const VertexOrder& order, const std::vector<TreeVertex>& vertices)
+      : are_here_(vertices.size()), keys_(keys_of(order, vertices, are_here_)) {}
+
+  struct Place {
+    std::int64_t first;
+    bool is_one;
+  };
+
+  /// The first of the vertices that isn't below the one with this key, and whether it is that one.
+  Place place_of(std::uint64_t key) const {
+    const auto [first, last] = keys_.around(key);
+    const std::int64_t end =
+        first + first_from(static_cast<Id>(last - first), [&, first = first](Id i) { return keys_[first + i] <= key; });
+    const bool is_one = end > 0 && keys_[end - 1] == key && are_here_[end - 1] != 0;
+    return {is_one ? end - 1 : end, is_one};
+  }
+
+ private:
+  /// The key of each vertex; of one that isn't here, of the first here that is above it.
+  static std::vector<std::uint64_t> keys_of(const VertexOrder& order, const std::vector<TreeVertex>& vertices,
+                                            std::vector<char>& are_here) {
+    const Mesh& mesh = order.mesh();
+    const OtherIds input = mesh.vertices_in_input(), internal = mesh.vertices_of_input();
+    const std::uint64_t* const keys = order.keys();
+    // Short keys have the input id, which ascends with the global one; others are places in the order.
+    std::vector<Id> in_order(order.has_short_values() ? 0 : mesh.vertices());
+    parallel_for("GALE::vertices_in_order", HostExecutionSpace(), in_order.size(),
+                 [&](Offset v) { in_order[keys[v]] = static_cast<Id>(v); });
+    const auto id_of = [&](Id vertex) { return mesh.vertex_id(input[vertex]); };
+    std::vector<std::uint64_t> keys_here(vertices.size());
+    parallel_for("GALE::keys_here", HostExecutionSpace(), vertices.size(), [&](Offset i) {
+      const TreeVertex& one = vertices[i];
+      const Id here = mesh.vertex_of(one.id);
+      are_here[i] = here != no_id;
+      if (here != no_id) {
+        keys_here[i] = keys[internal[here]];
+      } else if (order.has_short_values()) {
+        const Id above = first_from(mesh.vertices(), [&](Id at) { return mesh.vertex_id(at) < one.id; });
+        keys_here[i] = one.value << 32 | static_cast<std::uint32_t>(above);
+      } else {
+        keys_here[i] = first_from(mesh.vertices(), [&](Id place) {
+          const Id vertex = in_order[place];
+          return TreeVertex{id_of(vertex), order.value_key(vertex), {}} < one;
+        });
+      }
+    });
+    return keys_here;
+  }
+
+  std::vector<char> are_here_;
+  SortedKeys keys_;
+};
+
+}  // namespace gale::detail
