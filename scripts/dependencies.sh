@@ -2,7 +2,7 @@
 # Installs what GALE is built from on Debian 12 with apt; does nothing when all is there.
 #   usage: scripts/dependencies.sh [--are-there] [library | command] [data] [drawing] [format] [rendering] [releases] [python] [docs] [mpi] [clang] [plots]
 #     --are-there: installs nothing, and says by its exit code whether all is there
-#     library: what this takes alone, instead of what all that GALE is takes    command: the command's, without VTK and Kokkos-Kernels
+#     library: what this takes alone, instead of what all that GALE is takes    command: what the command takes, without VTK and Kokkos-Kernels
 #     data: brain volumes    drawing: VTK for Python, without a screen    format: clang-format    rendering: without a screen
 #     releases: what scripts/test-releases.sh needs    python: to build the module    docs: the site    mpi: for several ranks
 #     clang: the other compiler    plots: pictures of measurements
@@ -17,9 +17,9 @@ packages=(cmake g++ ninja-build libtrilinos-kokkos-dev)
 kernels=libtrilinos-kokkos-kernels-dev
 rendering=(libgl1-mesa-dri xvfb xauth)
 case "${1-}" in
-  library) packages+=($kernels); shift ;;
+  library) packages+=("$kernels"); shift ;;
   command) packages+=(libcli11-dev nlohmann-json3-dev libdeflate-dev libexpat1-dev liblz4-dev liblzma-dev zlib1g-dev); shift ;;
-  *) packages+=($kernels libvtk9-dev libcli11-dev nlohmann-json3-dev libgtest-dev libdeflate-dev python3) ;;
+  *) packages+=("$kernels" libvtk9-dev libcli11-dev nlohmann-json3-dev libgtest-dev libdeflate-dev python3) ;;
 esac
 for more in "$@"; do
   case "$more" in

@@ -92,8 +92,9 @@ struct GALE_EXPORT MorseSmaleComplex {
   KeptBelow kept_below{};  ///< what `simplify` had to leave
 
   /// What `critical` and the separatrices are of: `gradient`, or on one rank of several an excerpt of it, which is of a
-  /// small mesh of its own. That one has the simplices that separatrices lead through, whose global ids its vertex_id()
-  /// and cell_id() say, the order of its vertices, and the critical simplices; pairs alone where walls were wanted.
+  /// mesh of its own. That one has the cells that separatrices lead through and the vertices, these or all of the
+  /// part's, whose global ids its vertex_id() and cell_id() say, the order of its vertices, and the critical simplices.
+  /// Pairs alone where walls were wanted: else it is one segment, which isn't made for relations.
   DiscreteGradient excerpt{gradient};
 
   /// Whether each of `critical`, by dimension, is this rank's: the others are another rank's, and separatrices

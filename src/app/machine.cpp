@@ -105,8 +105,8 @@ void watch_device_memory() {
 
 void keep_freed_memory() {
 #if defined(__GLIBC__)
-  constexpr int most = 1 << 30;
-  mallopt(M_MMAP_THRESHOLD, most);
+  constexpr int most = 1 << 30, most_of_older_ones = 1 << 25;  // these refuse more
+  if (mallopt(M_MMAP_THRESHOLD, most) == 0 && mallopt(M_MMAP_THRESHOLD, most_of_older_ones) == 0) return;
   mallopt(M_TRIM_THRESHOLD, most);
 #endif
 }

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include <gale/base/bits.hpp>
+#include <gale/base/types.hpp>
 
 namespace gale::detail {
 

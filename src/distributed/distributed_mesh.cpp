@@ -146,7 +146,8 @@ class DistributedMesh::Sharing final : public Exchange {
     return places_.are_counted() ? places_.counted(id) : cell_index_.get().find(id);
   }
   int owner(Id vertex) const override {
-    return held_.is_ghost(vertex) ? ghost_owners_(held_.ghost_number(vertex)) : ranks_.rank();
+    const Offset ghost = held_.ghost_if_any(vertex);
+    return ghost < 0 ? ranks_.rank() : ghost_owners_(ghost);
   }
   Array<int, HostMemory> owners_of(const Array<const GlobalId, HostMemory>& ids) const override;
   Offset given_vertices() const override { return given_vertices_; }

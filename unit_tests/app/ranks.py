@@ -50,12 +50,12 @@ class RanksTest(gale.CommandTest):
                 self.assertEqual(list(piece.types(kind).items()), list(types.items()))
         return pieces
 
-    def write_ties(self, grid, values=3, name="ties.vtk"):
+    def write_ties(self, grid, values=3, name="ties.vtk", type="float"):
         """The grid's mesh as ties.vtk, with a field of few values: most neighbours have equal ones. Or of so many, as `name`."""
         self.succeed("generate", grid, "-o", "whole.vtu")
         whole = gale.XmlFile(self.folder / "whole.vtu")
         chance = random.Random(3)
-        arrays = {"height": ("float", [chance.randrange(values) for _ in whole.points])}
+        arrays = {"height": (type, [chance.randrange(values) for _ in whole.points])}
         self.write(name, gale.vtk_mesh(whole.points, whole.cells("Cells"), arrays))
 
 

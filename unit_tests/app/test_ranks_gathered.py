@@ -51,6 +51,16 @@ class GatheredOnRanks(ranks.ComplexTest):
                     self.expect_file("Lines", "one_arcs.vtp", "all_arcs.vtp")
                     self.expect_segmentation(gale.XmlFile(self.folder / "one_segmentation.vtu"), self.pieces("all_segmentation.pvtu"))
 
+    def test_a_tree_of_64_bits_is_that_of_one_rank_also_where_some_have_nothing(self):
+        for grid, count in (("grid:9", 3), ("grid:2", 7)):
+            self.write_ties(grid, 20, "doubles.vtk", "double")
+            for type in ("join", "contour"):
+                with self.subTest(grid=grid, type=type):
+                    expected = self.report("merge-tree", "doubles.vtk", "--type", type, "-o", "one")["result"]
+                    self.assertEqual(self.report_of(count, "merge-tree", "doubles.vtk", "--type", type, "-o", "all")["result"], expected)
+                    self.expect_file("Lines", "one_arcs.vtp", "all_arcs.vtp")
+                    self.expect_segmentation(gale.XmlFile(self.folder / "one_segmentation.vtu"), self.pieces("all_segmentation.pvtu"))
+
     def test_a_simplified_field_is_that_of_one_rank(self):
         self.write_ties("grid:9", 40)
         for source, counts in (("grid:14", (3,)), ("ties.vtk", ranks.RANKS), ("plane:40", (2,))):

@@ -30,8 +30,8 @@ class ExcerptExchange final : public Exchange {
 };
 
 /// A mesh of vertices with these ids, ascending, and of cells of these, whose corners are places among the vertices.
-/// GALE's ids of vertices are these places, too. Segments have so many vertices: where nobody asks for relations, one
-/// for all is made soonest.
+/// GALE's ids of vertices are these places, too. Segments have `capacity` vertices, 1 or more, the last one the rest:
+/// where nobody asks for relations, one for all is made soonest.
 template <int corners>
 Mesh excerpt_mesh(const GlobalIds& vertex_ids, const GlobalIds& cell_ids,
                   const CellCorners<corners, Id, HostMemory>& cells, Id capacity = default_capacity) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <gale/base/counted_word.hpp>
+#include <gale/base/types.hpp>
 
 namespace gale::detail {
 

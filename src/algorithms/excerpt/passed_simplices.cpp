@@ -13,7 +13,8 @@ namespace gale::detail {
 namespace {
 
 /// The simplices of a wider gradient that are passed, and their numbers in the excerpt: both kinds by global id. Where
-/// cells have as many corners as there are vertices, or more, these are all taken: it isn't worth to leave some out.
+/// cells have as many corners (four each) as there are vertices, or more, all vertices are taken: to leave some out
+/// would cost more than it saves.
 class PassedSimplices {
  public:
   PassedSimplices(const WiderGradient& wider, const MorseSmaleComplex& complex) : wider_(wider), cells_(wider.cells()) {

@@ -4,8 +4,8 @@
 #include <utility>
 
 #include <gale/algorithms/excerpt/wider_gradient.hpp>
-#include <gale/base/bisect.hpp>
 #include <gale/base/memory.hpp>
+#include <gale/base/ordered.hpp>
 #include <gale/base/parallel.hpp>
 
 namespace gale::detail {
@@ -35,7 +35,6 @@ WiderGradient::WiderGradient(const DiscreteGradient& gradient, const PathSimplic
       mesh_(gradient.mesh()),
       corners_(mesh_.cell_reader()),
       cell_input_(mesh_.cells_in_input()),
-      rank_(mesh_.exchange().ranks().rank()),
       own_vertices_(mesh_.vertices()),
       own_cells_(mesh_.cells()) {
   number(reached, cells);
@@ -113,21 +112,22 @@ void WiderGradient::number(const Reached& reached, const PathSimplices& cells) {
   });
 }
 
-/// Input ids ascend with global ones.
+/// Names a vertex by how many have a lower global id, with which input ids ascend: an own one by its input id and the
+/// others before it, another by its place among these and the own ones before it.
 void WiderGradient::name_vertices() {
   const auto names = allocate<Array<Id, HostMemory>>("GALE::wider_names", own_vertices_ + beyond_.size());
-  std::vector<Id> own_before;  // how many own vertices come before each of the others
-  for (const ReachedVertex& other : beyond_) {
-    const Id first = first_from(own_vertices_, [&](Id input) { return mesh_.vertex_id(input) < other.id; });
-    names(own_vertices_ + static_cast<Id>(own_before.size())) = first + static_cast<Id>(own_before.size());
-    own_before.push_back(first);
+  std::vector<Id> own_before(beyond_.size());
+  for (Id other = 0; other < static_cast<Id>(beyond_.size()); ++other) {
+    own_before[other] =
+        bisect(Id(0), own_vertices_, [&](Id input) { return mesh_.vertex_id(input) < beyond_[other].id; });
+    names(own_vertices_ + other) = own_before[other] + other;
   }
   const OtherIds internal = mesh_.vertices_of_input();
-  for_parts("GALE::wider_names", own_vertices_, threads_for(own_vertices_), [&](int, Offset first, Offset last) {
-    std::size_t others = std::upper_bound(own_before.begin(), own_before.end(), first) - own_before.begin();
-    for (Offset input = first; input < last; ++input) {
-      while (others < own_before.size() && own_before[others] <= input) ++others;
-      names(internal[static_cast<Id>(input)]) = static_cast<Id>(input) + static_cast<Id>(others);
+  for_parts("GALE::wider_names", own_vertices_, threads_for(own_vertices_), [&](int, Offset begin, Offset end) {
+    auto others = static_cast<Id>(std::upper_bound(own_before.begin(), own_before.end(), begin) - own_before.begin());
+    for (Id input = static_cast<Id>(begin); input < end; ++input) {
+      while (others < static_cast<Id>(own_before.size()) && own_before[others] <= input) ++others;
+      names(internal[input]) = input + others;
     }
   });
   names_ = names;
@@ -236,7 +236,7 @@ void WiderGradient::add_critical(const Reached& reached) {
   };
   merge(0, &CriticalSimplices::vertices, [&](Id v) { return names_(v); });
   own_edges_ = merge(1, &CriticalSimplices::edges, [&](const auto& e) { return written(names, e); });
-  is_own_[2].assign(own.triangles.size(), 1);
+  if (own.dimension == 3) is_own_[2].assign(own.triangles.size(), 1);  // nobody tells of others'
   merge(own.dimension, &CriticalSimplices::cells, [&](Id t) { return cell_id(t); });
 }
 

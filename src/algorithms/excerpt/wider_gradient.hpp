@@ -1,14 +1,15 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
 #include <gale/algorithms/excerpt/reached.hpp>
 #include <gale/algorithms/gradient/gradient_store.hpp>
 #include <gale/algorithms/morse_smale/descending_wall.hpp>
-#include <gale/algorithms/morse_smale/parts.hpp>
 #include <gale/algorithms/morse_smale/paths_on_ranks.hpp>
+#include <gale/algorithms/morse_smale/wider_successors.hpp>
 
 namespace gale::detail {
 
@@ -26,7 +27,7 @@ class WiderGradient {
   /// The rank's critical simplices and those that were reached, in the order of CriticalSimplices by global ids.
   const CriticalSimplices& critical() const { return critical_; }
 
-  /// Whether each of them is the rank's own, by dimension.
+  /// Whether each of critical() is the rank's own, by dimension; of triangle meshes nothing for 3.
   const std::array<std::vector<char>, 4>& is_own() const { return is_own_; }
 
   /// The places there of the rank's own edges.
@@ -67,7 +68,6 @@ class WiderGradient {
   const Mesh mesh_;
   const CellReader corners_;
   const OtherIds cell_input_;
-  const int rank_;
   const Id own_vertices_, own_cells_;
   std::vector<Offset> vertex_begin_, cell_begin_;
   std::vector<Id> vertex_of_, cell_of_;          ///< of what was received

@@ -4,16 +4,16 @@
 #include <vector>
 
 #include <gale/algorithms/merge_tree/gathered_graph.hpp>
-#include <gale/base/bisect.hpp>
+#include <gale/base/ordered.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/base/sorted_keys.hpp>
 
 namespace gale::detail {
 
-/// Where some vertices are, of which this rank may have none, among those that it holds: by their keys.
+/// Finds where this rank's vertices stand among some others, which may be anywhere, by comparing keys alone.
 class KeysHere {
  public:
-  /// `vertices` are in the order.
+  /// `vertices` ascend in the order, none twice. A rank without vertices asks for no place.
   KeysHere(const VertexOrder& order, const std::vector<TreeVertex>& vertices)
       : are_here_(vertices.size()), keys_(keys_of(order, vertices, are_here_)) {}
 
@@ -25,8 +25,7 @@ class KeysHere {
   /// The first of the vertices that isn't below the one with this key, and whether it is that one.
   Place place_of(std::uint64_t key) const {
     const auto [first, last] = keys_.around(key);
-    const std::int64_t end =
-        first + first_from(static_cast<Id>(last - first), [&, first = first](Id i) { return keys_[first + i] <= key; });
+    const std::int64_t end = bisect(first, last, [&](std::int64_t at) { return keys_[at] <= key; });
     const bool is_one = end > 0 && keys_[end - 1] == key && are_here_[end - 1] != 0;
     return {is_one ? end - 1 : end, is_one};
   }
@@ -36,6 +35,7 @@ class KeysHere {
   static std::vector<std::uint64_t> keys_of(const VertexOrder& order, const std::vector<TreeVertex>& vertices,
                                             std::vector<char>& are_here) {
     const Mesh& mesh = order.mesh();
+    if (mesh.vertices() == 0) return {};
     const OtherIds input = mesh.vertices_in_input(), internal = mesh.vertices_of_input();
     const std::uint64_t* const keys = order.keys();
     // Short keys have the input id, which ascends with the global one; others are places in the order.
@@ -51,10 +51,10 @@ class KeysHere {
       if (here != no_id) {
         keys_here[i] = keys[internal[here]];
       } else if (order.has_short_values()) {
-        const Id above = first_from(mesh.vertices(), [&](Id at) { return mesh.vertex_id(at) < one.id; });
+        const Id above = bisect(Id(0), mesh.vertices(), [&](Id at) { return mesh.vertex_id(at) < one.id; });
         keys_here[i] = one.value << 32 | static_cast<std::uint32_t>(above);
       } else {
-        keys_here[i] = first_from(mesh.vertices(), [&](Id place) {
+        keys_here[i] = bisect(Id(0), mesh.vertices(), [&](Id place) {
           const Id vertex = in_order[place];
           return TreeVertex{id_of(vertex), order.value_key(vertex), {}} < one;
         });

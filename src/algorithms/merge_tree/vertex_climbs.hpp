@@ -1,12 +1,16 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
+#include <memory>
+#include <unordered_map>
 #include <vector>
 
 #include <gale/algorithms/merge_tree/gathered_graph.hpp>
 #include <gale/algorithms/merge_tree/keys_here.hpp>
 #include <gale/algorithms/merge_tree/tree_maker.hpp>
+#include <gale/base/memory.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/mesh/exchange/exchange_plan.hpp>
 
@@ -19,6 +23,8 @@ class VertexClimbs {
                const std::array<std::unique_ptr<SideOnRanks>, 2>& sides, const TreeMaker<HostExecutionSpace>& maker) {
     const Mesh& mesh = order.mesh();
     const Ranks& ranks = mesh.exchange().ranks();
+    std::unique_ptr<const KeysHere> here;
+    together(ranks, [&] { here = std::make_unique<const KeysHere>(order, gathered.vertices); });
     for (const Side side : {below, above}) {
       if (!maker.uses(side)) continue;
       together(ranks, [&] { find_ends(mesh, *sides[side], gathered.places_of_extrema(side)); });
@@ -30,7 +36,7 @@ class VertexClimbs {
                      [&](Offset v) { ends(v) = by_input_(input[static_cast<Id>(v)]); });
         climbs[side] = maker.climbs()[side];
         climbs[side].ends = ends;
-        find_keys(order, gathered, side);
+        find_keys(order, gathered, *here, side);
         climbs[side].keys = SideKeys(keys_[side].data(), side);
       });
     }
@@ -57,13 +63,12 @@ class VertexClimbs {
 
   /// Keys of all that this rank holds that compare with those of what was gathered: the place of the last of these that
   /// isn't above, or of the first that isn't below.
-  void find_keys(const VertexOrder& order, const GatheredGraph& gathered, Side side) {
+  void find_keys(const VertexOrder& order, const GatheredGraph& gathered, const KeysHere& here, Side side) {
     const Mesh& mesh = order.mesh();
     const std::uint64_t* const small = gathered.order().keys();
     // Keys of an excerpt's order ascend with its vertices: those of places are what trees compare.
     std::vector<std::uint64_t> sorted(small, small + gathered.mesh().vertices());
     std::sort(sorted.begin(), sorted.end());
-    const KeysHere here(order, gathered.vertices);
     const std::uint64_t* const keys = order.keys();
     keys_[side] = allocate<Array<std::uint64_t, HostMemory>>("GALE::keys_among_gathered", mesh.vertices());
     parallel_for("GALE::keys_among_gathered", HostExecutionSpace(), mesh.vertices(), [&](Offset v) {

@@ -104,7 +104,10 @@ void PathsOnRanks::find_exits(const std::vector<Id>& others) {
     const Id at = end(static_cast<Id>(i)) - criticals_;
     if (at >= 0 && exits_[at] != i) atomic_write(&is_reached[at], char(1));
   });
-  for (const Id exit : others) is_reached[end(exit) - criticals_] = 1;
+  for (const Id other : others) {
+    const Id at = end(other) - criticals_;
+    if (at >= 0) is_reached[at] = 1;
+  }
   for (std::size_t i = 0; i < exits_.size(); ++i) {
     if (is_reached[i] != 0) open_.push_back(static_cast<Id>(i));
   }
@@ -143,12 +146,12 @@ Array<const Id, HostMemory> PathsOnRanks::places_of_ends() const {
   Array<SimplexKey, HostMemory> keys;
   const auto is_critical = [&](Id end) { return final_stop(end).rank == PathStop::critical; };
   together(ranks(), [&] {
-    const auto all = by_rank(1, ends(), [&](Id end, const auto& visit) {
-                       if (is_critical(end)) visit(0);
-                     }).members;
-    const auto ids = allocate<GlobalIds>("GALE::ids_of_ends", all.extent(0));
+    const auto all = collected<Id>("GALE::critical_ends", ends(), [&](Offset end, const auto& add) {
+      if (is_critical(static_cast<Id>(end))) add(static_cast<Id>(end));
+    });
+    const auto ids = allocate<GlobalIds>("GALE::ids_of_ends", all.size());
     parallel_for("GALE::ids_of_ends", HostExecutionSpace(), ids.extent(0),
-                 [&](Offset i) { ids(i) = final_stop(all(i)).id; });
+                 [&](Offset i) { ids(i) = final_stop(all[i]).id; });
     different = GlobalIndex(distinct_ids(ids).ids);
     keys = allocate<decltype(keys)>("GALE::end_keys", different.count());
     for (Offset i = 0; i < different.count(); ++i) keys(i) = {different[i], 0, 0};

@@ -3,37 +3,31 @@
 #include <utility>
 
 #include <gale/algorithms/discrete_gradient.hpp>
+#include <gale/base/ordered.hpp>
 
 namespace gale::detail {
 
-/// The successors of a part's cells, and of others, whose numbers come after them. Those that the part lacks are said
-/// beside it. Owns nothing.
+/// The successors of simplices that a rank knows: of a part's own ones, and of others, whose numbers come after them.
+/// An own one that the part says is elsewhere is looked up among the exits. Owns nothing.
 struct WiderSuccessors {
   const Id* own;
-  Id count;
-  const Id* beyond = nullptr;                ///< of others
-  const std::pair<Id, Id>* exits = nullptr;  ///< own cells whose successors are elsewhere, ascending, and these
+  Id count;                                  ///< of own ones
+  const Id* beyond = nullptr;                ///< of the others
+  const std::pair<Id, Id>* exits = nullptr;  ///< own ones, ascending, and their successors
   Id exit_count = 0;
 
-  KOKKOS_FUNCTION Id operator[](Id cell) const {
-    if (cell >= count) return beyond[cell - count];
-    const Id next = own[cell];
-    return next == DiscreteGradient::elsewhere ? next_of_exit(cell) : next;
+  /// Elsewhere where nobody has told it.
+  KOKKOS_FUNCTION Id operator[](Id simplex) const {
+    if (simplex >= count) return beyond[simplex - count];
+    const Id next = own[simplex];
+    return next == DiscreteGradient::elsewhere ? next_of_exit(simplex) : next;
   }
 
  private:
-  KOKKOS_FUNCTION Id next_of_exit(Id cell) const {
-    Id low = 0, high = exit_count;
-    while (low < high) {
-      const Id middle = low + (high - low) / 2;
-      if (exits[middle].first == cell) return exits[middle].second;
-      if (exits[middle].first < cell) {
-        low = middle + 1;
-      } else {
-        high = middle;
-      }
-    }
-    return DiscreteGradient::elsewhere;
+  KOKKOS_FUNCTION Id next_of_exit(Id simplex) const {
+    const auto* const from = exits;
+    const Id at = bisect(Id(0), exit_count, [=](Id i) { return from[i].first < simplex; });
+    return at < exit_count && exits[at].first == simplex ? exits[at].second : DiscreteGradient::elsewhere;
   }
 };
 

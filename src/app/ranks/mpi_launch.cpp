@@ -38,7 +38,7 @@ Launch::Launch(int& argc, char**& argv) {
   int count = 1;
   MPI_Comm_size(MPI_COMM_WORLD, &count);
   if (count == 1) return;
-  keep_freed_memory();  // what ranks exchange comes and goes; their peaks stay within 2 %
+  keep_freed_memory();  // what ranks exchange comes and goes; peaks grow by 2 % at most
   communicator.emplace(MPI_COMM_WORLD);
   MPI_Comm machine;
   MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, communicator->rank(), MPI_INFO_NULL, &machine);

@@ -57,10 +57,11 @@ class LocalVertices {
     return v < lower_ghosts_ ? Offset(v) : v - owned_count_;
   }
 
-  bool is_ghost(Id v) const {
-    if (!interval_.is_empty()) return v < lower_ghosts_ || v >= lower_ghosts_ + owned_count_;
+  /// Which ghost that is; -1 if it is owned.
+  Offset ghost_if_any(Id v) const {
+    if (!interval_.is_empty()) return v >= lower_ghosts_ && v < lower_ghosts_ + owned_count_ ? -1 : ghost_number(v);
     const Offset number = ghost_number(v);
-    return number < ghost_count() && ghost_(number) == v;
+    return number < ghost_count() && ghost_(number) == v ? number : -1;
   }
 
  private:

@@ -65,13 +65,13 @@ void keep_distinct(std::vector<GlobalId>& ids) {
 }
 
 GlobalIndex::GlobalIndex(const Array<const GlobalId, HostMemory>& ascending) : ids_(ascending) {
-  constexpr std::uint64_t bits_an_id = 16 / sizeof(CountedWord) * 64;
+  constexpr std::uint64_t bytes_an_id = 16;
   const Offset count = ids_.extent(0);
   if (count == 0) return;
   const GlobalId least = ids_(0);
-  const std::uint64_t span = span_of(least, ids_(count - 1));
-  if (span > bits_an_id * static_cast<std::uint64_t>(count)) return;
-  words_ = allocate<Array<CountedWord, HostMemory>>("GALE::global_index", (span + 63) / 64);
+  const std::uint64_t words = (span_of(least, ids_(count - 1)) + 63) / 64;
+  if (words * sizeof(CountedWord) > bytes_an_id * static_cast<std::uint64_t>(count)) return;
+  words_ = allocate<Array<CountedWord, HostMemory>>("GALE::global_index", words);
   const Offset size = words_.extent(0);
   for_parts("GALE::global_index", size, threads_for(size), [&](int, Offset first, Offset last) {
     const GlobalId* const ids = ids_.data();

@@ -30,7 +30,7 @@ class GALE_EXPORT GlobalIndex {
  public:
   GlobalIndex() = default;
 
-  /// Takes ids that ascend, at most 2^31 - 1 of them.
+  /// Takes ids that ascend, none twice, at most 2^31 - 1 of them.
   explicit GlobalIndex(const Array<const GlobalId, HostMemory>& ascending);
 
   /// no_id if it isn't there. By any thread.
@@ -51,7 +51,7 @@ class GALE_EXPORT GlobalIndex {
   Id bisect(GlobalId id) const;
 
   Array<const GlobalId, HostMemory> ids_;
-  Array<CountedWord, HostMemory> words_;
+  Array<CountedWord, HostMemory> words_;  ///< bit id - ids_(0) is set where an id is there; none where it bisects
 };
 
 /// The ids that `index` lacks among those that visit(i, offer) offers for i in 0..n-1: ascending, none twice.
