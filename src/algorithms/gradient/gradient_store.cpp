@@ -115,8 +115,7 @@ void GradientStore::finish() {
   } else {
     for (const auto& [high, low] : critical.edges) add_star({high, low, no_id});
   }
-  const auto found = critical.counts();
-  std::copy(found.begin(), found.end(), counts.begin());
+  count_critical();
 }
 
 void GradientStore::finish_with(CriticalSimplices known) {
@@ -126,6 +125,10 @@ void GradientStore::finish_with(CriticalSimplices known) {
   for (const Id vertex : known.vertices) consumed_vertices_(vertex) = no_id;
   for (const Id cell : known.cells) consumed_cells_(cell) = no_id;
   critical = std::move(known);
+  count_critical();
+}
+
+void GradientStore::count_critical() {
   const auto found = critical.counts();
   std::copy(found.begin(), found.end(), counts.begin());
 }

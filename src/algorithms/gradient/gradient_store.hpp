@@ -181,6 +181,8 @@ class GALE_EXPORT GradientStore {
   std::vector<std::pair<Id, Id>> further_successors;
 
  private:
+  void count_critical();
+
   Array<Id, HostMemory> consumed_vertices_, consumed_cells_;  // successors, which consumers fill
   Mirrored<Id> vertex_successors_, cell_successors_;
   Mirrored<Id> pair_words_;
