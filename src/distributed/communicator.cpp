@@ -42,13 +42,16 @@ struct Communicator::Data {
 
   /// Waits for all. MPI's own functions would hold the core for as long as it takes: ranks that share a machine, and
   /// threads that compute, need it. So it looks again after an eighth of the time that it has waited, and `longest` at
-  /// most: messages in pieces go on only then.
+  /// most: messages in pieces go on only then. It looks some times in a row, as each look takes one step of what has
+  /// come: a sum is several.
   void wait(std::vector<MPI_Request>& requests, std::chrono::microseconds longest) {
     using Clock = std::chrono::steady_clock;
-    constexpr std::chrono::milliseconds patience(1);
+    constexpr std::chrono::microseconds patience(100);
+    constexpr int looks = 16;
     const auto begin = Clock::now();
     for (int done = 0;;) {
-      MPI_Testall(static_cast<int>(requests.size()), requests.data(), &done, MPI_STATUSES_IGNORE);
+      for (int i = 0; i < looks && !done; ++i)
+        MPI_Testall(static_cast<int>(requests.size()), requests.data(), &done, MPI_STATUSES_IGNORE);
       if (done) break;
       const auto waited = Clock::now() - begin;
       if (waited > patience) std::this_thread::sleep_for(std::min<Clock::duration>(waited / 8, longest));
