@@ -33,8 +33,7 @@ class EdgeChain {
   /// Adds an edge, whose ends may be in any order.
   void add(Id a, Id b) {
     const std::uint64_t key_a = keys_[a], key_b = keys_[b];
-    heap_.push_back(key_a > key_b ? Entry{key_a, {a, b}} : Entry{key_b, {b, a}});
-    std::push_heap(heap_.begin(), heap_.end());
+    put(key_a > key_b ? Entry{key_a, {a, b}} : Entry{key_b, {b, a}});
   }
 
   /// Adds another sum, which has fallen.
@@ -99,8 +98,11 @@ class EdgeChain {
     }
   };
 
-  void put(Id high, Id low) {
-    heap_.push_back({keys_[high], {high, low}});
+  void put(Id high, Id low) { put({keys_[high], {high, low}}); }
+
+  void put(const Entry& entry) {
+    pairs_.prefetch_place(entry.edge.high);
+    heap_.push_back(entry);
     std::push_heap(heap_.begin(), heap_.end());
   }
 
@@ -114,7 +116,13 @@ class EdgeChain {
       heap_.pop_back();
       toggle(lows_, low);
     }
+    if (!heap_.empty()) prefetch(heap_.front().edge.high);
     return high;
+  }
+
+  void prefetch(Id high) const {
+    pairs_.prefetch(high);
+    __builtin_prefetch(vertex_successor_ + high);
   }
 
   /// Replaces the edges from `high` to `lows_` by critical ones, `critical_`, and by edges of lower stars.
