@@ -3,47 +3,37 @@
 #include <unordered_map>
 #include <utility>
 
+#include <gale/algorithms/gradient/follow_paths.hpp>
 #include <gale/algorithms/gradient/gradient_store.hpp>
 #include <gale/algorithms/persistence/pairs.hpp>
-#include <gale/base/parallel.hpp>
 #include <gale/base/stop.hpp>
 
 namespace gale::detail {
 
-namespace {
-
-/// The critical simplex at which a path ends; less than no_id if it leaves through the surface.
-Id end_of(const Id* successors, Id at) {
-  for (Id next = successors[at]; next != no_id; next = successors[at]) {
-    if (DiscreteGradient::leaves(next)) return next;
-    at = next;
-  }
-  return at;
-}
-
-}  // namespace
-
 PathEnds ends_of_edges(const DiscreteGradient& gradient, const CriticalPlaces& places) {
   const auto& edges = gradient.critical().edges;
-  const Id* const successors = gradient.vertex_successors().data();
   PathEnds ends(edges.size());
-  parallel_for("GALE::ends_of_edges", HostExecutionSpace(), edges.size(), [&](Offset i) {
-    for (int k = 0; k < 2; ++k) ends[i][k] = places.of_vertex(end_of(successors, edges[i][k]));
-  });
+  follow_paths(
+      "GALE::ends_of_edges", gradient.vertex_successors().data(), 2 * static_cast<Offset>(edges.size()),
+      [&](Offset i) { return edges[i / 2][i % 2]; },
+      [&](Offset i, Id last, Id) { ends[i / 2][i % 2] = places.of_vertex(last); });
   return ends;
 }
 
 PathEnds ends_of_facets(const DiscreteGradient& gradient, const CriticalPlaces& places) {
   const CriticalSimplices& critical = gradient.critical();
-  const Id* const successors = gradient.cell_successors().data();
+  std::vector<Id> end_of_star(critical.star.size(), no_id);
+  follow_paths(
+      "GALE::ends_of_facets", gradient.cell_successors().data(), static_cast<Offset>(critical.star.size()),
+      [&](Offset i) { return critical.star[i]; },
+      [&](Offset i, Id last, Id next) {
+        if (next == no_id) end_of_star[i] = places.of_cell(last);
+      });
   PathEnds ends(critical.star_begin.size() - 1, {no_id, no_id});
-  parallel_for("GALE::ends_of_facets", HostExecutionSpace(), ends.size(), [&](Offset i) {
+  for (std::size_t i = 0; i < ends.size(); ++i) {
     const Id first = critical.star_begin[i], count = critical.star_begin[i + 1] - first;
-    for (Id k = 0; k < count && count <= 2; ++k) {
-      const Id end = end_of(successors, critical.star[first + k]);
-      ends[i][k] = end < no_id ? no_id : places.of_cell(end);
-    }
-  });
+    for (Id k = 0; k < count && count <= 2; ++k) ends[i][k] = end_of_star[first + k];
+  }
   return ends;
 }
 

@@ -6,6 +6,7 @@
 #include <gale/algorithms/excerpt/excerpt_mesh.hpp>
 #include <gale/algorithms/excerpt/gathering.hpp>
 #include <gale/algorithms/gathered_gradient.hpp>
+#include <gale/algorithms/gradient/follow_paths.hpp>
 #include <gale/algorithms/gradient/gradient_store.hpp>
 #include <gale/algorithms/morse_smale/paths_on_ranks.hpp>
 #include <gale/algorithms/persistence/columns_on_ranks.hpp>
@@ -83,8 +84,9 @@ class Followers {
     std::vector<Stop> stops(starts.size());
     std::vector<Id> open;
     together(ranks_, [&] {
-      parallel_for("GALE::follow_here", HostExecutionSpace(), starts.size(),
-                   [&](Offset i) { stops[i] = follow(starts[i]); });
+      follow_paths(
+          "GALE::follow_here", successors_, static_cast<Offset>(starts.size()), [&](Offset i) { return starts[i]; },
+          [&](Offset i, Id last, Id next) { stops[i] = stop_at(last, next); });
       for (std::size_t i = 0; i < stops.size(); ++i) {
         if (stops[i].next >= 0) open.push_back(static_cast<Id>(i));
       }
@@ -114,14 +116,15 @@ class Followers {
   };
 
   Stop follow(Id at) const {
-    for (;;) {
-      const Id next = successors_[at];
-      if (next == no_id)
-        return {ranks_.rank(), simplices_.are_vertices() ? places_.of_vertex(at) : places_.of_cell(at), -1};
-      if (next == DiscreteGradient::elsewhere) return {simplices_.owner(at), no_id, simplices_.global(at)};
-      if (next < no_id) return {};
-      at = next;
-    }
+    while (successors_[at] >= 0) at = successors_[at];
+    return stop_at(at, successors_[at]);
+  }
+
+  Stop stop_at(Id last, Id next) const {
+    if (next == no_id)
+      return {ranks_.rank(), simplices_.are_vertices() ? places_.of_vertex(last) : places_.of_cell(last), -1};
+    if (next == DiscreteGradient::elsewhere) return {simplices_.owner(last), no_id, simplices_.global(last)};
+    return {};
   }
 
   const PathSimplices& simplices_;
