@@ -71,11 +71,31 @@ Array<Id, MemoryOf<Space>> with_ends(const Space& space, const Mirrored<Id>& suc
   return next;
 }
 
-/// Pointer jumping: afterwards each entry is the end of its path: below 0. Entries that others jump over meanwhile only
-/// get closer to their ends.
+/// Follows each path to its end, and has all entries on the way lead there. Others may do that meanwhile: then they
+/// only get closer to their ends.
+inline void follow_to_ends(const Array<Id, HostMemory>& next) {
+  for_parts("GALE::follow_to_ends", next.extent(0), threads_for(next.extent(0)), [&](int, Offset begin, Offset end) {
+    std::vector<Id> passed;
+    for (Offset i = begin; i < end;) {
+      for (const Offset last = piece_end(i, end); i < last; ++i) {
+        Id at = static_cast<Id>(i), to = atomic_read(&next(at));
+        for (; to >= 0; at = to, to = atomic_read(&next(at))) passed.push_back(at);
+        for (const Id one : passed) atomic_write(&next(one), to);
+        passed.clear();
+      }
+    }
+  });
+}
+
+/// Afterwards each entry is the end of its path: below 0. A device jumps: each entry over the one that it leads to.
+/// Entries that others jump over meanwhile only get closer to their ends.
 template <class Space>
 void jump(const Space& space, const Array<Id, MemoryOf<Space>>& next) {
-  while (reduce_sum("GALE::jump", space, next.extent(0), JumpAhead<MemoryOf<Space>>{next}) != 0) {
+  if constexpr (is_device<Space>) {
+    while (reduce_sum("GALE::jump", space, next.extent(0), JumpAhead<MemoryOf<Space>>{next}) != 0) {
+    }
+  } else {
+    follow_to_ends(next);
   }
 }
 
