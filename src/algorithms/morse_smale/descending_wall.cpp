@@ -22,17 +22,17 @@ DescendingWall::DescendingWall(const WallGround& ground, const TurnedEdges* turn
 void DescendingWall::follow(const TriangleVertices& critical) {
   floor_ = 0;
   begin(critical);
+  std::size_t near = 0;
   for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
     stop_if_asked_at(i);
-    prefetch(i + 8);
+    for (; near < triangles_.size() && near < i + 17; ++near) prefetch(triangles_[near]);
     cross_sides(i);
   }
 }
 
 /// Has what the crossing of a triangle's sides will read brought near.
-void DescendingWall::prefetch(std::size_t triangle) const {
-  if (triangle >= triangles_.size()) return;
-  for (const Id vertex : triangles_[triangle]) ground_.pairs.prefetch(vertex);
+void DescendingWall::prefetch(const TriangleVertices& triangle) const {
+  for (const Id vertex : triangle) ground_.pairs.prefetch(vertex);
 }
 
 bool DescendingWall::follow_to(const TriangleVertices& critical, const Edge& edge, bool above_it) {

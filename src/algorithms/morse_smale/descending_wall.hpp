@@ -81,7 +81,7 @@ class DescendingWall {
   };
 
   void begin(const TriangleVertices& critical);
-  void prefetch(std::size_t triangle) const;
+  void prefetch(const TriangleVertices& triangle) const;
   void cross_sides(std::uint32_t triangle);
   void cross_in_order(Id a, Id b, std::uint32_t from);
   void cross(Id high, Id low, std::uint32_t from);
