@@ -1,11 +1,13 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include <gale/base/bits.hpp>
 #include <gale/base/parallel.hpp>
+#include <gale/base/stop.hpp>
 #include <gale/mesh/encode/cells.hpp>
 
 namespace gale::detail {
@@ -131,6 +133,41 @@ void deal(const Renumbered<corners, Index>& input, Offset count, GroupPlaces& pl
   });
 }
 
+/// Writes cells that are in order already as they are given, and says where each vertex's begin: whether they are.
+template <int corners, class Index>
+bool write_in_order(const Renumbered<corners, Index>& input, Offset count, const SortedCells<HostMemory>& sorted) {
+  const auto quads = sorted.of_lowest.entries;
+  const auto begin = sorted.of_lowest.offsets;
+  const Id vertices = static_cast<Id>(begin.extent(0)) - 1;
+  const auto is_before = [](const Quad& one, const Quad& other) {
+    return std::tie(one.a, one.b, one.c, one.d) <= std::tie(other.a, other.b, other.c, other.d);
+  };
+  std::vector<char> is_broken(threads_for(count), 0);
+  for_parts("GALE::cells_in_order", count, is_broken.size(), [&, input](int part, Offset first, Offset last) {
+    Quad before{0, 0, 0, 0};
+    Id reached = 0;
+    is_broken[part] = 1;
+    if (first > 0) {
+      if (input.lowest(first - 1) < 0) return;
+      before = input[first - 1];
+      reached = before.a + 1;
+    }
+    for (Offset t = first; t < last; ++t) {
+      stop_if_asked_at(t);
+      if (input.lowest(t) < 0) return;
+      const Quad quad = input[t];
+      if (!is_before(before, quad)) return;
+      for (; reached <= quad.a; ++reached) begin(reached) = static_cast<Id>(t);
+      quads(t) = before = quad;
+      sorted.input(t) = static_cast<Id>(t);
+    }
+    is_broken[part] = 0;
+  });
+  if (std::find(is_broken.begin(), is_broken.end(), 1) != is_broken.end()) return false;
+  for (Id v = count == 0 ? 0 : quads(count - 1).a + 1; v < vertices; ++v) begin(v) = static_cast<Id>(count);
+  return true;
+}
+
 }  // namespace
 
 /// T_ex, in two steps: each part of the sorted cells counts and then places its own, by segment and after those of
@@ -182,15 +219,21 @@ EncodedCells encode_by_groups(const CellCorners<corners, Index, HostMemory>& giv
   const Offset vertices = vertex_internal.extent(0), count = given.extent(0);
   const Offset groups = (vertices >> group_bits) + 1;
   const Renumbered<corners, Index> input(given, vertex_internal);
-  GroupPlaces places = places_of_groups(input, count, groups);
-  if (!places.are_all) refuse_cells<corners, HostExecutionSpace, Index>(space, given, {}, vertices);
   const SortedCells<HostMemory> sorted{{allocate<Array<Id, HostMemory>>("GALE::cells_of_lowest", vertices + 1),
                                         allocate<Array<Quad, HostMemory>>("GALE::cells", count)},
                                        allocate<Array<Id, HostMemory>>("GALE::cell_input", count)};
   sorted.of_lowest.offsets(vertices) = static_cast<Id>(count);
-  deal(input, count, places, sorted);
-  const int parts = static_cast<int>(places.of_parts.size());
-  const std::vector<Id>& begin = places.begin;
+  const int parts = threads_for(count);
+  const bool are_sorted = write_in_order(input, count, sorted);
+  std::vector<Id> begin(groups + 1, static_cast<Id>(count));
+  if (are_sorted) {
+    for (Offset group = 0; group < groups; ++group) begin[group] = sorted.of_lowest.offsets(group << group_bits);
+  } else {
+    GroupPlaces places = places_of_groups(input, count, groups);
+    if (!places.are_all) refuse_cells<corners, HostExecutionSpace, Index>(space, given, {}, vertices);
+    deal(input, count, places, sorted);
+    begin = std::move(places.begin);
+  }
   ExternalRows rows(sorted, vertex_begin, parts);
   std::vector<char> bad(parts);
   for_parts("GALE::sort_cells", groups, parts, [&](int part, Offset first, Offset last) {
@@ -199,7 +242,8 @@ EncodedCells encode_by_groups(const CellCorners<corners, Index, HostMemory>& giv
     bool some_bad = false;
     for (Offset group = first; group < last; ++group) {
       stop_if_asked();
-      some_bad |= !sorter.sort(static_cast<Id>(group), begin[group], begin[group + 1]);
+      some_bad |= are_sorted ? !are_good<corners>(sorted.of_lowest.entries.data(), begin[group], begin[group + 1])
+                             : !sorter.sort(static_cast<Id>(group), begin[group], begin[group + 1]);
       rows.count(part, begin[group], begin[group + 1]);
     }
     bad[part] = some_bad;
