@@ -48,6 +48,25 @@ struct CellReader {
   }
 };
 
+/// Reads cells one after the other: what those of one cube of a grid have in common is computed once.
+class CellsInTurn {
+ public:
+  explicit CellsInTurn(const CellReader& cells) : cells_(cells) {}
+
+  /// What CellReader says.
+  Quad operator()(Id cell) {
+    if (cells_.vertices != nullptr) return cells_(cell);
+    const Id cube = cell / cells_.grid.cells_per_cube();
+    if (cube != cube_) corners_ = cells_.grid.corners_of_cube(cube_ = cube);
+    return cells_.grid.cell_of_cube(corners_, static_cast<int>(cell % cells_.grid.cells_per_cube()));
+  }
+
+ private:
+  CellReader cells_;
+  Id cube_ = no_id;
+  Quad corners_{};
+};
+
 /// A mesh of tetrahedra, or of triangles, encoded once so that the relations of any segment can be computed from it
 /// alone (the paper's §4.3). These are its cells, and their dimension is its own.
 ///

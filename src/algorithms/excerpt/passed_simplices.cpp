@@ -45,10 +45,14 @@ class PassedSimplices {
     const auto rows = allocate<typename CellCorners<corners, Id, HostMemory>::non_const_type>("GALE::passed_corners",
                                                                                               cell_of_.size());
     for_each_vertex([&](Id vertex, Id number) { vertex_ids(number) = wider_.vertex_id(vertex); });
-    parallel_for("GALE::passed_cells", HostExecutionSpace(), cell_of_.size(), [&](Offset i) {
-      cell_ids(i) = wider_.cell_id(cell_of_[i]);
-      const std::array<Id, 4> of = wider_.corners(cell_of_[i]);
-      for (int k = 0; k < corners; ++k) rows(i, k) = number(of[k]);
+    const Offset cells = static_cast<Offset>(cell_of_.size());
+    for_parts("GALE::passed_cells", cells, threads_for(cells), [&](int, Offset begin, Offset end) {
+      auto corners_of = wider_.corners_in_turn();
+      for (Offset i = begin; i < end; ++i) {
+        cell_ids(i) = wider_.cell_id(cell_of_[i]);
+        const std::array<Id, 4> of = corners_of(cell_of_[i]);
+        for (int k = 0; k < corners; ++k) rows(i, k) = number(of[k]);
+      }
     });
     const Mesh mesh = excerpt_mesh<corners>(vertex_ids, cell_ids, rows, std::max(vertex_count_, 1));
     std::vector<Id> internal(mesh.cells());
@@ -124,8 +128,9 @@ class PassedSimplices {
     for (const Id vertex : critical.vertices) mark(vertex);
     mark_all_of(critical.edges);
     mark_all_of(critical.triangles);
+    auto corners_of = wider_.corners_in_turn();
     for (const Id cell : cell_of_) {
-      for (const Id vertex : wider_.corners(cell)) mark(vertex);
+      for (const Id vertex : corners_of(cell)) mark(vertex);
     }
     passed.number();
     vertex_count_ = passed.count();
@@ -180,9 +185,7 @@ void name_in_excerpt(const WiderGradient& wider, MorseSmaleComplex& complex) {
   rename_all(critical.triangles, simplex);
   rename_all(critical.cells, cell);
   rename_all(critical.star, cell);
-  const auto store = std::make_shared<GradientStore>(mesh, passed.order_of(mesh), 1);
-  store->finish_with(std::move(critical));
-  complex.excerpt = DiscreteGradient(store);
+  complex.excerpt = DiscreteGradient(std::make_shared<GradientStore>(passed.order_of(mesh), std::move(critical)));
   complex.critical = complex.excerpt.critical();
   rename_all(complex.descending.cells, vertex);
   rename_all(complex.connectors.cells, simplex);

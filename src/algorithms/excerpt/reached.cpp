@@ -62,6 +62,7 @@ class Reacher {
       : gradient_(gradient),
         ways_(ways),
         mesh_(gradient.mesh()),
+        owned_(mesh_.owned_vertices()),
         ranks_(mesh_.exchange().ranks()),
         cells_(gradient, PathSimplices::Kind::rising_cells),
         corners_(mesh_.cell_reader()),
@@ -97,8 +98,7 @@ class Reacher {
       for (int i = 0; i < 3; ++i) fall(asker, triangle[i], triangle[(i + 1) % 3]);
     }
     begin_stars(asker, found);
-    if (ways_.all_for_first &&
-        mesh_.owned_vertices().size() > 0)  // the highest one of all is where classes end that never do
+    if (ways_.all_for_first && owned_.size() > 0)  // the highest one of all is where classes end that never do
       vertex_place(found, highest_owned());
   }
 
@@ -180,10 +180,9 @@ class Reacher {
  private:
   FoundFor& found_of(int asker) { return found_[asker]; }
 
-  bool is_owned(Id vertex) const { return mesh_.owned_vertices().has(vertex); }
+  bool is_owned(Id vertex) const { return owned_.has(vertex); }
   Id highest_owned() const {
-    const Interval owned = mesh_.owned_vertices();
-    return static_cast<Id>(std::max_element(keys_ + owned.first, keys_ + owned.last) - keys_);
+    return static_cast<Id>(std::max_element(keys_ + owned_.first, keys_ + owned_.last) - keys_);
   }
   Id higher(Id a, Id b) const { return keys_[a] > keys_[b] ? a : b; }
 
@@ -328,7 +327,8 @@ class Reacher {
     }
     if (third == no_id) third = vertex_successor_[high] == low ? edge_has_vertex : edge_is_critical;
     if (is_beyond_ && third == edge_has_vertex) return third;
-    if (found.told_edges.insert(pair_key(high, low)).second) {
+    // Beyond, ways fall alone, and come to each edge once.
+    if (is_beyond_ || found.told_edges.insert(pair_key(high, low)).second) {
       found.edges.push_back(
           {vertex_place(found, high), vertex_place(found, low), third < 0 ? third : vertex_place(found, third)});
     }
@@ -365,6 +365,7 @@ class Reacher {
   const DiscreteGradient& gradient_;
   const WantedWays ways_;
   const Mesh mesh_;
+  const Interval owned_;
   const Ranks& ranks_;
   const PathSimplices cells_;
   const CellReader corners_;

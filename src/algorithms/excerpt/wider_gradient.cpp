@@ -66,12 +66,6 @@ std::uint64_t WiderGradient::value(Id vertex) const {
   return vertex < own_vertices_ ? gradient_.order().value_key(vertex) : beyond_[vertex - own_vertices_].value;
 }
 
-std::array<Id, 4> WiderGradient::corners(Id cell) const {
-  if (cell >= own_cells_) return cell_corners_[cell - own_cells_];
-  const Quad quad = corners_(cell);
-  return {quad[0], quad[1], quad[2], quad[3]};
-}
-
 template <class T, class Visit>
 void WiderGradient::for_each(const Dealt<T>& received, const Visit& visit) const {
   for (int rank = 0; rank + 1 < static_cast<int>(received.begin.size()); ++rank) {

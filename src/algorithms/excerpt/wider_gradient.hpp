@@ -48,7 +48,15 @@ class WiderGradient {
   GlobalId cell_id(Id cell) const;
   std::uint64_t value(Id vertex) const;
   bool has_short_values() const { return gradient_.order().has_short_values(); }
-  std::array<Id, 4> corners(Id cell) const;
+
+  /// Reads the corners of cells one after the other: a function of the cell, for one thread.
+  auto corners_in_turn() const {
+    return [this, own = CellsInTurn(corners_)](Id cell) mutable -> std::array<Id, 4> {
+      if (!is_own_cell(cell)) return cell_corners_[cell - own_cells_];
+      const Quad quad = own(cell);
+      return {quad.a, quad.b, quad.c, quad.d};
+    };
+  }
 
  private:
   void name_vertices();

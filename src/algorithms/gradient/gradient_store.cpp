@@ -68,6 +68,21 @@ GradientStore::GradientStore(const VertexOrder& order_, const DeviceGradient& fo
   finish();
 }
 
+GradientStore::GradientStore(const VertexOrder& order_, CriticalSimplices known)
+    : mesh(order_.mesh()),
+      order(order_),
+      critical(std::move(known)),
+      consumed_vertices_(allocate<Array<Id, HostMemory>>("GALE::vertex_successor", mesh.vertices())),
+      consumed_cells_(allocate<Array<Id, HostMemory>>("GALE::cell_successor", mesh.cells())),
+      vertex_successors_(consumed_vertices_),
+      cell_successors_(consumed_cells_) {
+  fill("GALE::no_successors", HostExecutionSpace(), consumed_vertices_, DiscreteGradient::elsewhere);
+  fill("GALE::no_successors", HostExecutionSpace(), consumed_cells_, DiscreteGradient::elsewhere);
+  for (const Id vertex : critical.vertices) consumed_vertices_(vertex) = no_id;
+  for (const Id cell : critical.cells) consumed_cells_(cell) = no_id;
+  count_critical();
+}
+
 std::shared_ptr<GradientStore> GradientStore::on_host(const VertexOrder& order, const DeviceGradient& found,
                                                       int consumers) {
   const auto store = std::make_shared<GradientStore>(order.mesh(), order, consumers);
@@ -82,7 +97,13 @@ std::shared_ptr<GradientStore> GradientStore::on_host(const VertexOrder& order, 
 }
 
 const EdgePairs& GradientStore::pairs() const {
-  pairs_are_here_([this] { pairs_ = EdgePairs(pair_words_.in<HostMemory>(), pairs_begin_.in<HostMemory>(), 0); });
+  pairs_are_here_([this] {
+    if (is_from_kernels()) {
+      pairs_ = EdgePairs(pair_words_.in<HostMemory>(), pairs_begin_.in<HostMemory>(), 0);
+    } else if (mesh.dimension() == 3) {
+      pairs_ = EdgePairs(EdgePairs(), {}, mesh.vertices());
+    }
+  });
   return pairs_;
 }
 
@@ -115,16 +136,6 @@ void GradientStore::finish() {
   } else {
     for (const auto& [high, low] : critical.edges) add_star({high, low, no_id});
   }
-  count_critical();
-}
-
-void GradientStore::finish_with(CriticalSimplices known) {
-  fill("GALE::no_successors", HostExecutionSpace(), consumed_vertices_, DiscreteGradient::elsewhere);
-  fill("GALE::no_successors", HostExecutionSpace(), consumed_cells_, DiscreteGradient::elsewhere);
-  if (mesh.dimension() == 3) pairs_ = EdgePairs(pairs_, {}, mesh.vertices());
-  for (const Id vertex : known.vertices) consumed_vertices_(vertex) = no_id;
-  for (const Id cell : known.cells) consumed_cells_(cell) = no_id;
-  critical = std::move(known);
   count_critical();
 }
 

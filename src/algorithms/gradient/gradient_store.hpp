@@ -137,6 +137,10 @@ class GALE_EXPORT GradientStore {
   /// What kernels found, complete.
   GradientStore(const VertexOrder& order, const DeviceGradient& found);
 
+  /// Nothing but which simplices are critical, in the order of input numbers; complete. The successors of all others
+  /// are elsewhere, and vertices have no edges in their rows.
+  GradientStore(const VertexOrder& order, CriticalSimplices known);
+
   /// Makes a store on the host from what kernels found, for consumers to add the vertices that kernels left out.
   static std::shared_ptr<GradientStore> on_host(const VertexOrder& order, const DeviceGradient& found, int consumers);
 
@@ -146,10 +150,6 @@ class GALE_EXPORT GradientStore {
 
   /// After the sweep: gathers what the consumers found, in the order of input numbers, and counts it.
   void finish();
-
-  /// Finishes it without a sweep, where nothing is known but which simplices are critical, in the order of input
-  /// numbers: the successors of all others are elsewhere, and vertices have no edges in their rows.
-  void finish_with(CriticalSimplices known);
 
   /// When it is finished on all ranks: the counts become those of all. Collective.
   void share_counts();
