@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <iterator>
 #include <memory>
 #include <utility>
 
@@ -22,11 +23,29 @@ DescendingWall::DescendingWall(const WallGround& ground, const TurnedEdges* turn
 void DescendingWall::follow(const TriangleVertices& critical) {
   floor_ = 0;
   begin(critical);
-  std::size_t near = 0;
-  for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
-    stop_if_asked_at(i);
+  cross(critical[0], critical[1], 0);
+  follow_from(0);
+}
+
+void DescendingWall::follow_on(Part part) {
+  floor_ = 0;
+  begin(part.triangles.front());
+  triangles_ = std::move(part.triangles);
+  critical_edges_ = std::move(part.critical_edges);
+  reach(triangles_[0][0], triangles_[0][1], 0);
+  const std::size_t known = triangles_.size();
+  for (std::uint32_t i = 0; i < known; ++i) for_each_side(i, [&](Id high, Id low) { reach(high, low, i); });
+  for (const Edge& exit : part.exits) go_on(exit.high, exit.low);
+  follow_from(known);
+}
+
+/// Crosses the sides of this triangle and of all that come after it.
+void DescendingWall::follow_from(std::size_t triangle) {
+  std::size_t near = triangle;
+  for (std::size_t i = triangle; i < triangles_.size(); ++i) {
+    stop_if_asked_at(static_cast<std::int64_t>(i));
     for (; near < triangles_.size() && near < i + 17; ++near) prefetch(triangles_[near]);
-    cross_sides(i);
+    cross_sides(static_cast<std::uint32_t>(i));
   }
 }
 
@@ -38,6 +57,7 @@ void DescendingWall::prefetch(const TriangleVertices& triangle) const {
 bool DescendingWall::follow_to(const TriangleVertices& critical, const Edge& edge, bool above_it) {
   floor_ = above_it ? ground_.keys[edge.high] : 0;
   begin(critical);
+  cross(critical[0], critical[1], 0);
   for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
     stop_if_asked_at(i);
     cross_sides(i);
@@ -57,35 +77,49 @@ void DescendingWall::begin(const TriangleVertices& critical) {
   exits_.clear();
   passed_.clear();
   above_.clear();
-  cross(critical[0], critical[1], 0);
 }
 
-/// Crosses the two edges of a triangle that it isn't paired with.
-void DescendingWall::cross_sides(std::uint32_t triangle) {
+/// Calls visit(high, low) with the two edges of a triangle that it isn't paired with.
+template <class Visit>
+void DescendingWall::for_each_side(std::uint32_t triangle, const Visit& visit) const {
   const auto [a, b, c] = triangles_[triangle];
+  const auto in_order = [&](Id one, Id other) {
+    const bool is_higher = ground_.keys[one] > ground_.keys[other];
+    visit(is_higher ? one : other, is_higher ? other : one);
+  };
   if (turned_ == nullptr) {
-    cross(a, c, triangle);
+    visit(a, c);
   } else {
-    cross_in_order(a, c, triangle);
+    in_order(a, c);
   }
-  cross_in_order(b, c, triangle);
+  in_order(b, c);
 }
 
-void DescendingWall::cross_in_order(Id a, Id b, std::uint32_t from) {
-  const bool in_order = ground_.keys[a] > ground_.keys[b];
-  cross(in_order ? a : b, in_order ? b : a, from);
+void DescendingWall::cross_sides(std::uint32_t triangle) {
+  for_each_side(triangle, [&](Id high, Id low) { cross(high, low, triangle); });
 }
 
 void DescendingWall::cross(Id high, Id low, std::uint32_t from) {
   if (floor_ != 0 && ground_.keys[high] < floor_) return;
-  const auto [above, is_new] = above_.insert(pair_key(high, low));
-  if (!is_new) {
-    above.are_several = true;
-    if (is_less(triangles_[from], triangles_[above.least])) above.least = from;
-    return;
-  }
-  above = {from, false};
+  if (!reach(high, low, from)) return;
   if (!ground_.owned.has(high)) return exits_.push_back({high, low});
+  go_on(high, low);
+}
+
+/// Notes that a triangle has an edge: false where another one has it, too.
+bool DescendingWall::reach(Id high, Id low, std::uint32_t from) {
+  const auto [above, is_new] = above_.insert(pair_key(high, low));
+  if (is_new) {
+    above = {from, false};
+    return true;
+  }
+  above.are_several = true;
+  if (is_less(triangles_[from], triangles_[above.least])) above.least = from;
+  return false;
+}
+
+/// Goes on across an edge.
+void DescendingWall::go_on(Id high, Id low) {
   const Id third = third_of(high, low);
   if (third >= 0) {
     triangles_.push_back({high, low, third});
@@ -172,7 +206,7 @@ class SurfaceTracer {
   }
 
   void add_exits(Id triangle) {
-    unfinished.push_back(triangle);
+    unfinished.push_back({triangle, wall.part()});
     for (const auto& edge : wall.exits()) {
       if (exit_keys_.insert(pair_key(edge.high, edge.low)).second) exits.push_back({edge.high, edge.low});
     }
@@ -180,8 +214,8 @@ class SurfaceTracer {
 
   DescendingWall wall;
   Separatrices<TriangleVertices> walls, connectors;
-  std::vector<Id> unfinished;            ///< critical triangles whose walls other ranks follow on
-  std::vector<std::array<Id, 2>> exits;  ///< from these edges
+  std::vector<std::pair<Id, DescendingWall::Part>> unfinished;  ///< critical triangles whose walls others follow on
+  std::vector<std::array<Id, 2>> exits;                         ///< from these edges
 
  private:
   struct Mark {};
@@ -245,19 +279,20 @@ ConnectorsHere::~ConnectorsHere() = default;
 
 Separatrices<TriangleVertices> ConnectorsHere::finish(const WallGround& wider, const CriticalPlaces& places,
                                                       const std::vector<Id>& edge_places) {
-  std::vector<Id> unfinished;
+  std::vector<std::pair<Id, DescendingWall::Part>> unfinished;
   for (const auto& tracer : found_->tracers) {
     if (!tracer) continue;
-    unfinished.insert(unfinished.end(), tracer->unfinished.begin(), tracer->unfinished.end());
+    std::move(tracer->unfinished.begin(), tracer->unfinished.end(), std::back_inserter(unfinished));
     for (Id& source : tracer->connectors.sources) source = edge_places[source];
   }
   std::vector<TriangleVertices> triangles;
-  for (const Id place : unfinished) triangles.push_back(triangles_[place]);
+  for (const auto& [place, part] : unfinished) triangles.push_back(triangles_[place]);
   auto tracers = traced(
       triangles, threads_, [&](int) { return std::make_unique<SurfaceTracer>(wider, nullptr, Paths::whole); },
       [&](SurfaceTracer& tracer, Id i) {
-        tracer.wall.follow(triangles[i]);
-        tracer.add_connectors(places, unfinished[i]);
+        auto& [place, part] = unfinished[i];
+        tracer.wall.follow_on(std::move(part));
+        tracer.add_connectors(places, place);
       });
   for (auto& tracer : tracers) found_->tracers.push_back(std::move(tracer));
   return gathered_connectors(found_->tracers, triangles_.size());

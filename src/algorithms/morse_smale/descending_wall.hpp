@@ -39,6 +39,17 @@ class DescendingWall {
   /// memory grow with the wall.
   void follow(const TriangleVertices& critical);
 
+  /// A wall as far as it was followed: triangles and the edges of its rim that are critical, or other ranks follow on.
+  struct Part {
+    std::vector<TriangleVertices> triangles;
+    std::vector<Edge> critical_edges, exits;
+  };
+  Part part() const { return {triangles_, critical_edges_, exits_}; }
+
+  /// Goes on with a wall from its exits, which this ground knows: all vertices as the one where it was followed. Its
+  /// triangles come in another order than `follow` has.
+  void follow_on(Part part);
+
   /// Finds as much of the wall as it takes to meet a critical edge, if it is in the wall: whether it is. Looks at no
   /// edge below that one if `above_it`.
   bool follow_to(const TriangleVertices& critical, const Edge& edge, bool above_it);
@@ -81,10 +92,14 @@ class DescendingWall {
   };
 
   void begin(const TriangleVertices& critical);
+  void follow_from(std::size_t triangle);
   void prefetch(const TriangleVertices& triangle) const;
   void cross_sides(std::uint32_t triangle);
-  void cross_in_order(Id a, Id b, std::uint32_t from);
+  template <class Visit>
+  void for_each_side(std::uint32_t triangle, const Visit& visit) const;
+  bool reach(Id high, Id low, std::uint32_t from);
   void cross(Id high, Id low, std::uint32_t from);
+  void go_on(Id high, Id low);
   Id third_of(Id high, Id low) const;
   bool is_less(const TriangleVertices& a, const TriangleVertices& b) const;
 

@@ -157,9 +157,10 @@ Mirrored<Id> manifolds_on_ranks(const PathSimplices& simplices, PathExits* exits
       exits->are_known = true;
     }
     const OtherIds input = mesh.vertices_in_input();
+    const Interval owned = mesh.owned_vertices();
     manifolds = allocate<Array<Id, HostMemory>>("GALE::manifolds", mesh.vertices());
     parallel_for("GALE::manifolds", HostExecutionSpace(), mesh.vertices(), [&](Offset v) {
-      const Id start = mesh.owned_vertices().has(static_cast<Id>(v)) ? start_of(static_cast<Id>(v)) : no_id;
+      const Id start = owned.has(static_cast<Id>(v)) ? start_of(static_cast<Id>(v)) : no_id;
       const Id end = start == no_id ? no_id : paths.end(start);
       manifolds(input[v]) = end == no_id ? no_id : places(end);
     });
