@@ -9,14 +9,9 @@ namespace gale::detail {
 
 namespace {
 
-/// An edge of a column, by its place among the critical ones of the rank that has it.
+/// An edge of a column, by its place among the critical ones of the rank that has it; an even number of times is none.
 struct FallenEdge {
   Id column, edge;
-
-  friend bool operator==(const FallenEdge& a, const FallenEdge& b) { return a.column == b.column && a.edge == b.edge; }
-  friend bool operator<(const FallenEdge& a, const FallenEdge& b) {
-    return a.column != b.column ? a.column < b.column : a.edge < b.edge;
-  }
 };
 
 /// An edge that another rank lets fall, by global ids, and the place of its column, in 64 bits to be packed without
@@ -29,19 +24,6 @@ struct SentEdge {
 struct Met {
   Id triangle, edge;
 };
-
-/// Leaves of sorted items those that are there an odd number of times, once.
-template <class T>
-void keep_odd(std::vector<T>& items) {
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < items.size();) {
-    std::size_t end = i;
-    while (end < items.size() && items[end] == items[i]) ++end;
-    if ((end - i) % 2 != 0) items[kept++] = items[i];
-    i = end;
-  }
-  items.resize(kept);
-}
 
 /// Sends entries to the first rank, and notes there how much it was. Collective.
 template <class T>
@@ -76,10 +58,6 @@ class FallOnRanks {
       fall_met();
     });
     while (ranks_.sum(static_cast<std::int64_t>(exits_.size())) != 0) hand_over();
-    together(ranks_, [&] {
-      std::sort(fallen_.begin(), fallen_.end());
-      keep_odd(fallen_);
-    });
     auto all = noted_to_first(ranks_, "GALE::fallen_edges", fallen_);
     fallen_.clear();
     return all;

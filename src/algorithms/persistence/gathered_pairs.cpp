@@ -103,6 +103,7 @@ class Followers {
       open.swap(still);
     }
     std::vector<SentEnd> ends;
+    reserve(ends, stops.size());
     for (const Stop& stop : stops) ends.push_back({stop.rank, stop.place});
     return ends;
   }
@@ -184,10 +185,12 @@ class PairsOnRanks {
 
   std::vector<SentEnds> edge_ends() {
     std::vector<Id> starts;
+    reserve(starts, 2 * critical_.edges.size());
     for (const auto& [high, low] : critical_.edges) starts.insert(starts.end(), {high, low});
     const auto simplices = PathSimplices::make(gradient_, PathSimplices::Kind::falling_vertices);
     const auto ends = Followers(*simplices, *places_)(starts);
     std::vector<SentEnds> by_edge;
+    reserve(by_edge, critical_.edges.size());
     for (std::size_t i = 0; i < ends.size(); i += 2) by_edge.push_back({ends[i], ends[i + 1]});
     return by_edge;
   }
@@ -196,6 +199,7 @@ class PairsOnRanks {
     const auto simplices = PathSimplices::make(gradient_, PathSimplices::Kind::rising_cells);
     const auto ends = Followers(*simplices, *places_)(critical_.star);
     std::vector<SentEnds> by_facet;
+    reserve(by_facet, critical_.star_begin.size());
     for (std::size_t i = 0; i + 1 < critical_.star_begin.size(); ++i) {
       const Id first = critical_.star_begin[i], count = critical_.star_begin[i + 1] - first;
       by_facet.push_back({});
@@ -225,6 +229,7 @@ class PairsOnRanks {
   std::array<std::vector<SentSimplex>, 4> own_simplices() const {
     std::array<std::vector<SentSimplex>, 4> own;
     const auto add = [&](int dimension, const auto& simplices, const auto& sent_as) {
+      reserve(own[dimension], simplices.size());
       for (std::size_t i = 0; i < simplices.size(); ++i)
         own[dimension].push_back(sent_as(simplices[i], own_.rank[dimension][i]));
     };
@@ -258,6 +263,7 @@ class PairsOnRanks {
       auto received = to_first(ranks_, "GALE::critical_of_all", own[d]);
       together(ranks_, [&] {
         all_[d].emplace(std::move(received));
+        reserve(filtration_.by_rank[d], all_[d]->from_rank.size());
         for (const Id entry : all_[d]->from_rank) filtration_.by_rank[d].push_back(all_[d]->place.entries(entry));
         filtration_.rank[d].resize(filtration_.by_rank[d].size());
         for (std::size_t i = 0; i < filtration_.rank[d].size(); ++i)
@@ -270,6 +276,8 @@ class PairsOnRanks {
   /// Makes a mesh of the vertices that are the highest of critical simplices.
   Mesh name_highest(HighestVertices& highest) const {
     std::vector<GlobalId> names;
+    reserve(names, std::accumulate(all_.begin(), all_.begin() + mesh_.dimension() + 1, Offset(1),
+                                   [](Offset sum, const All& all) { return sum + all->sent.count(); }));
     for (int d = 0; d <= mesh_.dimension(); ++d) {
       for (Offset i = 0; i < all_[d]->sent.count(); ++i) names.push_back(all_[d]->sent.entries(i).highest);
     }
