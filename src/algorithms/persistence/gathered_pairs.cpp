@@ -10,6 +10,7 @@
 #include <gale/algorithms/gradient/gradient_store.hpp>
 #include <gale/algorithms/morse_smale/paths_on_ranks.hpp>
 #include <gale/algorithms/persistence/columns_on_ranks.hpp>
+#include <gale/base/ordered.hpp>
 #include <gale/base/threads.hpp>
 
 namespace gale {
@@ -29,14 +30,7 @@ struct SentSimplex {
 /// Entries of all ranks, which ascend by `is_less` on each, in that order.
 template <class T, class IsLess>
 std::vector<Id> merged(const Dealt<T>& dealt, std::vector<Id> order, const IsLess& is_less) {
-  const auto by_entry = [&](Id a, Id b) { return is_less(dealt.entries(a), dealt.entries(b)); };
-  const int ranks = static_cast<int>(dealt.begin.size()) - 1;
-  for (int width = 1; width < ranks; width *= 2) {
-    for (int first = 0; first + width < ranks; first += 2 * width) {
-      const auto at = [&](int rank) { return order.begin() + dealt.begin[std::min(rank, ranks)]; };
-      std::inplace_merge(at(first), at(first + width), at(first + 2 * width), by_entry);
-    }
-  }
+  merge_runs(order, dealt.begin, [&](Id a, Id b) { return is_less(dealt.entries(a), dealt.entries(b)); });
   return order;
 }
 

@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <functional>
 #include <vector>
 
+#include <gale/base/ordered.hpp>
 #include <gale/base/sort.hpp>
 #include <gale/mesh/exchange/home_table.hpp>
 #include <gale/mesh/exchange/messages.hpp>
@@ -25,6 +27,36 @@ std::vector<IdCount> counts_of_each(const Array<const std::uint64_t, HostMemory>
   return counts;
 }
 
+/// The different keys that were received, ascending. Mostly each rank's ascend already.
+std::vector<SimplexKey> distinct_keys(const Dealt<SimplexKey>& received) {
+  const SimplexKey* const from = received.entries.data();
+  std::vector<SimplexKey> keys(from, from + received.count());
+  bool all_ascend = true;
+  for (std::size_t rank = 0; rank + 1 < received.begin.size() && all_ascend; ++rank)
+    all_ascend = std::is_sorted(from + received.begin[rank], from + received.begin[rank + 1]);
+  if (all_ascend) {
+    merge_runs(keys, received.begin, std::less<>());
+  } else {
+    parallel_sort("GALE::sort_keys", keys.begin(), keys.end());
+  }
+  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+  return keys;
+}
+
+/// Sets places(i) to the one of each of the keys among those `distinct`, from `first` on.
+void find_places(const Array<SimplexKey, HostMemory>& keys, const std::vector<SimplexKey>& distinct, GlobalId first,
+                 const Array<GlobalId, HostMemory>& places) {
+  const Offset count = keys.extent(0);
+  for_parts("GALE::told_places", count, threads_for(count), [&](int, Offset begin, Offset end) {
+    auto at = distinct.begin();
+    for (Offset i = begin; i < end; ++i) {
+      if (i == begin || keys(i) < keys(i - 1)) at = std::lower_bound(distinct.begin(), distinct.end(), keys(i));
+      while (*at < keys(i)) ++at;
+      places(i) = first + (at - distinct.begin());
+    }
+  });
+}
+
 }  // namespace
 
 KeyPlaces places_of_keys(const Ranks& ranks, const Array<const SimplexKey, HostMemory>& keys) {
@@ -38,11 +70,7 @@ KeyPlaces places_of_keys(const Ranks& ranks, const Array<const SimplexKey, HostM
       &members);
   const auto received = exchange_packed(ranks, "GALE::received_keys", sent);
   std::vector<SimplexKey> distinct;
-  together(ranks, [&] {
-    distinct.assign(received.entries.data(), received.entries.data() + received.count());
-    parallel_sort("GALE::sort_keys", distinct.begin(), distinct.end());
-    distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
-  });
+  together(ranks, [&] { distinct = distinct_keys(received); });
   const auto here = static_cast<GlobalId>(distinct.size());
   const GlobalId first = ranks.sum_before(here);
   KeyPlaces found;
@@ -50,10 +78,7 @@ KeyPlaces places_of_keys(const Ranks& ranks, const Array<const SimplexKey, HostM
   Dealt<GlobalId> told;
   together(ranks, [&] {
     told = dealt<GlobalId>("GALE::told_places", counts_of(received));
-    parallel_for("GALE::told_places", HostExecutionSpace(), told.count(), [&](Offset i) {
-      told.entries(i) =
-          first + (std::lower_bound(distinct.begin(), distinct.end(), received.entries(i)) - distinct.begin());
-    });
+    find_places(received.entries, distinct, first, told.entries);
     found.places = allocate<Array<GlobalId, HostMemory>>("GALE::key_places", count);
   });
   const auto answers = exchange_packed(ranks, "GALE::answered_places", told);
