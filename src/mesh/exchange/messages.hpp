@@ -68,19 +68,22 @@ Dealt<T> exchange(const Ranks& ranks, const char* label, const Dealt<T>& sent) {
 }
 
 /// Exchanges entries in as few bytes as pack_rows makes of them: ids, places and the like that ascend or lie near one
-/// another. Collective.
+/// another. A rank's own are copied. Collective.
 template <class T>
 Dealt<T> exchange_packed(const Ranks& ranks, const char* label, const Dealt<T>& sent) {
   static_assert(std::has_unique_object_representations_v<T> && sizeof(T) % sizeof(std::uint32_t) == 0,
                 "integers alone, without gaps between them");
   constexpr int width = sizeof(T) / sizeof(std::uint32_t);
-  const auto for_each_rank = [&](Offset entries, const auto& body) {
-    in_turns(threads_for(entries), ranks.size(), [&](int, std::int64_t rank) { body(static_cast<int>(rank)); });
+  const int here = ranks.rank();
+  const auto for_each_other = [&](Offset entries, const auto& body) {
+    in_turns(threads_for(entries), ranks.size(), [&](int, std::int64_t rank) {
+      if (rank != here) body(static_cast<int>(rank));
+    });
   };
   Dealt<char> packed;
   together(ranks, [&] {
     std::vector<std::vector<char>> bytes(ranks.size());
-    for_each_rank(sent.count(), [&](int rank) {
+    for_each_other(sent.count(), [&](int rank) {
       bytes[rank] = pack_rows(sent.entries.data() + sent.begin[rank], sent.count(rank), width);
     });
     std::vector<std::int64_t> counts;
@@ -94,11 +97,12 @@ Dealt<T> exchange_packed(const Ranks& ranks, const char* label, const Dealt<T>& 
   together(ranks, [&] {
     const auto from = [&](int rank) { return received.entries.data() + received.begin[rank]; };
     std::vector<std::int64_t> counts;
-    for (int rank = 0; rank < ranks.size(); ++rank) counts.push_back(packed_rows(from(rank), received.count(rank)));
+    for (int rank = 0; rank < ranks.size(); ++rank)
+      counts.push_back(rank == here ? sent.count(here) : packed_rows(from(rank), received.count(rank)));
     unpacked = dealt<T>(label, counts);
-    for_each_rank(unpacked.count(), [&](int rank) {
-      unpack_rows(from(rank), received.count(rank), width, unpacked.entries.data() + unpacked.begin[rank]);
-    });
+    const auto to = [&](int rank) { return unpacked.entries.data() + unpacked.begin[rank]; };
+    std::copy_n(sent.entries.data() + sent.begin[here], sent.count(here), to(here));
+    for_each_other(unpacked.count(), [&](int rank) { unpack_rows(from(rank), received.count(rank), width, to(rank)); });
   });
   return unpacked;
 }
@@ -155,10 +159,9 @@ Dealt<T> deal(const Ranks& ranks, const char* label, Offset items, const RankOf&
 /// What all ranks have, on the first one; nothing on the others. Collective.
 template <class T>
 Dealt<T> to_first(const Ranks& ranks, const char* label, const std::vector<T>& entries) {
-  return exchange_packed(
-      ranks, label,
-      deal<T>(
-          ranks, label, static_cast<Offset>(entries.size()), [](Id) { return 0; }, [&](Id i) { return entries[i]; }));
+  Dealt<T> sent{Array<T, HostMemory>(const_cast<T*>(entries.data()), entries.size()), {0}};  // nobody writes to it
+  sent.begin.resize(ranks.size() + 1, static_cast<Offset>(entries.size()));
+  return exchange_packed(ranks, label, sent);
 }
 
 /// What the ranks answer to a question about each of the items 0..items-1, by item: answer_of(question_of(i)), found by
