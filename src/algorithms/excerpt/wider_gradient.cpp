@@ -33,7 +33,9 @@ std::vector<T> merged(const std::vector<T>& own, std::vector<T> others, const Ke
 WiderGradient::WiderGradient(const DiscreteGradient& gradient, const PathSimplices& cells, Reached reached)
     : gradient_(gradient),
       mesh_(gradient.mesh()),
+      exchange_(mesh_.exchange()),
       corners_(mesh_.cell_reader()),
+      vertex_input_(mesh_.vertices_in_input()),
       cell_input_(mesh_.cells_in_input()),
       own_vertices_(mesh_.vertices()),
       own_cells_(mesh_.cells()) {
@@ -54,12 +56,11 @@ WiderSuccessors WiderGradient::cell_successors() const {
 }
 
 GlobalId WiderGradient::vertex_id(Id vertex) const {
-  return vertex < own_vertices_ ? mesh_.vertex_id(mesh_.vertices_in_input()[vertex])
-                                : beyond_[vertex - own_vertices_].id;
+  return vertex < own_vertices_ ? exchange_.vertex_id(vertex_input_[vertex]) : beyond_[vertex - own_vertices_].id;
 }
 
 GlobalId WiderGradient::cell_id(Id cell) const {
-  return is_own_cell(cell) ? mesh_.cell_id(cell_input_[cell]) : cell_ids_[cell - own_cells_];
+  return is_own_cell(cell) ? exchange_.cell_id(cell_input_[cell]) : cell_ids_[cell - own_cells_];
 }
 
 std::uint64_t WiderGradient::value(Id vertex) const {

@@ -74,8 +74,9 @@ class WiderGradient {
 
   const DiscreteGradient& gradient_;
   const Mesh mesh_;
+  const Exchange& exchange_;
   const CellReader corners_;
-  const OtherIds cell_input_;
+  const OtherIds vertex_input_, cell_input_;
   const Id own_vertices_, own_cells_;
   std::vector<Offset> vertex_begin_, cell_begin_;
   std::vector<Id> vertex_of_, cell_of_;          ///< of what was received

@@ -72,6 +72,22 @@ Id PathSimplices::local(GlobalId id) const {
   return mesh().grid() != nullptr ? cell : *shared_cells_.find(static_cast<std::uint64_t>(cell));
 }
 
+Interval PathSimplices::inner() const {
+  const Interval owned = mesh().owned_vertices();
+  if (are_vertices_) return owned;
+  if (mesh().grid() == nullptr || owned.size() == 0) return {0, 0};
+  // A cell lies in the layer of its lowest vertex and in the next.
+  const GridView grid = mesh().grid()->in<HostMemory>();
+  Id last = mesh().cells();
+  if (owned.last < mesh().vertices()) {
+    const GridPlace after = grid.place_of_vertex(owned.last);
+    last = grid.cells_per_cube() * (grid.dimension == 2 ? grid.cubes_before(0, std::max(after.y - 1, 0), 0)
+                                                        : grid.cubes_before(0, 0, std::max(after.z - 1, 0)));
+  }
+  const Id first = std::min(grid.first_cell(owned.first), last);
+  return {first, last};
+}
+
 int PathSimplices::owner(Id simplex) const {
   Id highest = simplex;
   if (!are_vertices_) {
@@ -93,8 +109,11 @@ PathsOnRanks::PathsOnRanks(const PathSimplices& simplices, const std::vector<Id>
 
 void PathsOnRanks::find_exits(const std::vector<Id>& others) {
   const auto& successors = simplices_.successors().in<HostMemory>();
-  exits_ = collected<Id>("GALE::find_exits", successors.extent(0), [&](Offset i, const auto& add) {
-    if (successors(i) == DiscreteGradient::elsewhere) add(static_cast<Id>(i));
+  const Interval inner = simplices_.inner();
+  const Offset all = successors.extent(0);
+  exits_ = collected<Id>("GALE::find_exits", all - inner.size(), [&](Offset i, const auto& add) {
+    const Offset simplex = i < inner.first ? i : i + inner.size();
+    if (successors(simplex) == DiscreteGradient::elsewhere) add(static_cast<Id>(simplex));
   });
   std::vector<Id> ends = simplices_.critical();
   ends.insert(ends.end(), exits_.begin(), exits_.end());

@@ -36,6 +36,9 @@ class PathSimplices {
   GlobalId global(Id simplex) const;
   Id local(GlobalId id) const;
 
+  /// Simplices whose successors this rank knows, all of them: between those at its borders with others.
+  Interval inner() const;
+
   /// The rank that knows the successor.
   int owner(Id simplex) const;
 
