@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <vector>
 
 #include <gale/base/kokkos.hpp>
 #include <gale/base/types.hpp>
@@ -38,18 +37,6 @@ std::array<T, N> ascending(std::array<T, N> few) {
     }
   }
   return few;
-}
-
-/// Merges runs that follow one another, each in order, in place: run i is at [begin[i], begin[i + 1]). Of equal entries
-/// those of earlier runs stay first.
-template <class T, class Begin, class IsLess>
-void merge_runs(std::vector<T>& entries, const std::vector<Begin>& begin, const IsLess& is_less) {
-  const std::size_t runs = begin.size() - 1;
-  const auto at = [&](std::size_t run) { return entries.begin() + begin[std::min(run, runs)]; };
-  for (std::size_t width = 1; width < runs; width *= 2) {
-    for (std::size_t first = 0; first + width < runs; first += 2 * width)
-      std::inplace_merge(at(first), at(first + width), at(first + 2 * width), is_less);
-  }
 }
 
 /// Sorts entries ascending, in place and in n log n time: load(i) is the i-th, store(i, entry) replaces it.

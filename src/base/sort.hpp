@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include <gale/base/csr.hpp>
 #include <gale/base/memory.hpp>
@@ -45,23 +46,33 @@ auto stoppable(const Less& less) {
 
 }  // namespace detail
 
+/// Merges runs that follow one another, each in order, two by two on the host's threads: run i is at begin[i] to
+/// begin[i + 1], from `first` on. Of equal entries those of earlier runs stay first.
+template <class Iterator, class Begin, class Less = std::less<>>
+void merge_runs(Iterator first, const std::vector<Begin>& begin, const Less& less = {}) {
+  const int runs = static_cast<int>(begin.size()) - 1;
+  const auto at = [&](int run) { return first + begin[std::min(run, runs)]; };
+  for (int merged = 1; merged < runs; merged *= 2) {
+    in_turns(host_threads(), (runs + 2 * merged - 1) / (2 * merged), [&](int, std::int64_t pair) {
+      const int one = 2 * merged * static_cast<int>(pair);
+      auto is_before = detail::stoppable(less);
+      std::inplace_merge(at(one), at(one + merged), at(one + 2 * merged), std::ref(is_before));
+    });
+  }
+}
+
 /// As std::sort, on the host's threads: each sorts a part, and then parts are merged two by two.
 template <class Iterator, class Less = std::less<>>
 void parallel_sort(const char* label, Iterator first, Iterator last, const Less& less = {}) {
   const Offset count = last - first;
   const int parts = detail::threads_for(count);
-  const auto begin_of = [&](int part) { return first + detail::part_begin(count, parts, std::min(part, parts)); };
+  std::vector<Offset> begin_of;
+  for (int part = 0; part <= parts; ++part) begin_of.push_back(detail::part_begin(count, parts, part));
   detail::for_parts(label, count, parts, [&](int, Offset begin, Offset end) {
     auto is_before = detail::stoppable(less);
     std::sort(first + begin, first + end, std::ref(is_before));
   });
-  for (int sorted = 1; sorted < parts; sorted *= 2) {
-    on_threads((parts + 2 * sorted - 1) / (2 * sorted), [&](int pair) {
-      const int begin = 2 * sorted * pair;
-      auto is_before = detail::stoppable(less);
-      std::inplace_merge(begin_of(begin), begin_of(begin + sorted), begin_of(begin + 2 * sorted), std::ref(is_before));
-    });
-  }
+  merge_runs(first, begin_of, less);
 }
 
 }  // namespace gale

@@ -42,8 +42,8 @@ struct Communicator::Data {
 
   /// Waits for all. MPI's own functions would hold the core for as long as it takes: ranks that share a machine, and
   /// threads that compute, need it. So it looks again after an eighth of the time that it has waited, and `longest` at
-  /// most: messages in pieces go on only then. It looks some times in a row, as each look takes one step of what has
-  /// come: a sum is several.
+  /// most: messages in pieces go on only then. Each time it looks more than once, as MPI takes one step at each look,
+  /// and a sum takes several.
   void wait(std::vector<MPI_Request>& requests, std::chrono::microseconds longest) {
     using Clock = std::chrono::steady_clock;
     constexpr std::chrono::microseconds patience(100);

@@ -48,12 +48,12 @@ struct CellReader {
   }
 };
 
-/// Reads cells one after the other: what those of one cube of a grid have in common is computed once.
+/// Reads cells one after the other, for one thread: what those of one cube of a grid have in common is computed once.
 class CellsInTurn {
  public:
   explicit CellsInTurn(const CellReader& cells) : cells_(cells) {}
 
-  /// What CellReader says.
+  /// The vertices of a cell, as CellReader has them.
   Quad operator()(Id cell) {
     if (cells_.vertices != nullptr) return cells_(cell);
     const Id cube = cell / cells_.grid.cells_per_cube();

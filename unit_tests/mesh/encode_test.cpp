@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include <gale/base/threads.hpp>
@@ -70,6 +72,51 @@ TEST(Encoding, of_cells_that_touch_more_segments_than_a_team_tells_apart) {
 TEST(Encoding, of_a_vertex_that_is_lowest_of_many) {
   const InputMesh mesh = cone_over_caps(120, 50);
   expect_both_ways<std::int32_t>(mesh, octree_of(mesh, 20));
+}
+
+/// A mesh whose cells come as `encode` numbers them, in one segment, so that vertices keep their ids.
+InputMesh in_order(InputMesh mesh) {
+  for (auto& cell : mesh.tetrahedra) std::sort(cell.begin(), cell.end());
+  std::sort(mesh.tetrahedra.begin(), mesh.tetrahedra.end());
+  return mesh;
+}
+
+Segmentation one_segment(const InputMesh& mesh) {
+  const Id vertices = static_cast<Id>(mesh.points.size());
+  Segmentation segmentation;
+  segmentation.vertex_input = iota("vertex_input", HostExecutionSpace(), vertices);
+  const Array<Id, HostMemory> begin("vertex_begin", 2);
+  begin(1) = vertices;
+  segmentation.vertex_begin = begin;
+  return segmentation;
+}
+
+TEST(Encoding, of_cells_that_come_in_order_and_nearly_so) {
+  InputMesh mesh = in_order(holed_grid(16));
+  ASSERT_GT(mesh.tetrahedra.size(), 3 * 4096u);  // some for each of three threads
+  mesh.points.resize(mesh.points.size() + 5);    // vertices without cells
+  expect_both_ways<std::int32_t>(mesh, one_segment(mesh));
+  const std::size_t third = mesh.tetrahedra.size() / 3;  // where the second thread's part begins
+  for (const std::size_t at : {third - 1, third, 2 * third, mesh.tetrahedra.size() - 2}) {
+    InputMesh swapped = mesh;
+    std::swap(swapped.tetrahedra[at], swapped.tetrahedra[at + 1]);
+    expect_both_ways<std::int64_t>(swapped, one_segment(swapped));
+  }
+  std::rotate(mesh.tetrahedra.begin(), mesh.tetrahedra.end() - 1, mesh.tetrahedra.end());
+  expect_both_ways<std::int32_t>(mesh, one_segment(mesh));
+}
+
+TEST(Encoding, of_cells_in_order_refuses_what_is_wrong_with_the_last_ones) {
+  const InputMesh good = in_order(holed_grid(16));
+  const int before = host_threads();
+  set_host_threads(3);
+  InputMesh twice = good;
+  twice.tetrahedra.push_back(twice.tetrahedra.back());
+  EXPECT_THROW(encode(twice, one_segment(twice)), Error);
+  InputMesh outside = good;
+  outside.tetrahedra.back()[3] = static_cast<Id>(outside.points.size());
+  EXPECT_THROW(encode(outside, one_segment(outside)), Error);
+  set_host_threads(before);
 }
 
 }  // namespace gale::test

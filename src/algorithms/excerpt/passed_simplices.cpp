@@ -7,6 +7,7 @@
 #include <gale/algorithms/excerpt/numbered_set.hpp>
 #include <gale/algorithms/excerpt/passed_simplices.hpp>
 #include <gale/algorithms/gradient/gradient_store.hpp>
+#include <gale/base/stop.hpp>
 
 namespace gale::detail {
 
@@ -49,6 +50,7 @@ class PassedSimplices {
     for_parts("GALE::passed_cells", cells, threads_for(cells), [&](int, Offset begin, Offset end) {
       auto corners_of = wider_.corners_in_turn();
       for (Offset i = begin; i < end; ++i) {
+        stop_if_asked_at(i);
         cell_ids(i) = wider_.cell_id(cell_of_[i]);
         const std::array<Id, 4> of = corners_of(cell_of_[i]);
         for (int k = 0; k < corners; ++k) rows(i, k) = number(of[k]);

@@ -327,7 +327,7 @@ class Reacher {
     }
     if (third == no_id) third = vertex_successor_[high] == low ? edge_has_vertex : edge_is_critical;
     if (is_beyond_ && third == edge_has_vertex) return third;
-    // Beyond, ways fall alone, and come to each edge once.
+    // Beyond, ways fall alone, and `fallen_edges` has them come to each edge once.
     if (is_beyond_ || found.told_edges.insert(pair_key(high, low)).second) {
       found.edges.push_back(
           {vertex_place(found, high), vertex_place(found, low), third < 0 ? third : vertex_place(found, third)});

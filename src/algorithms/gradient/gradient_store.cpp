@@ -50,6 +50,7 @@ GradientStore::GradientStore(const Mesh& mesh_, const VertexOrder& order_, int c
       consumed_cells_(allocate<Array<Id, HostMemory>>("GALE::cell_successor", mesh.cells())),
       vertex_successors_(consumed_vertices_),
       cell_successors_(consumed_cells_),
+      are_pairs_consumers_(true),
       pairs_(mesh.dimension() == 3 ? mesh.vertices() : 0, consumers),
       found_(consumers) {
   require_same_mesh("the vertex order", order.mesh(), mesh);
@@ -149,7 +150,7 @@ void GradientStore::share_counts() { mesh.exchange().ranks().sum(counts.data(), 
 std::size_t GradientStore::bytes() const {
   const std::size_t words =
       vertex_successors_.size() + cell_successors_.size() + pair_words_.size() + 2 * pairs_begin_.size();
-  return words * sizeof(Id) + (pair_words_.size() == 0 ? pairs_.bytes() : 0);
+  return words * sizeof(Id) + (are_pairs_consumers_ ? pairs_.bytes() : 0);
 }
 
 }  // namespace gale::detail

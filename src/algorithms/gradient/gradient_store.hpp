@@ -137,8 +137,8 @@ class GALE_EXPORT GradientStore {
   /// What kernels found, complete.
   GradientStore(const VertexOrder& order, const DeviceGradient& found);
 
-  /// Nothing but which simplices are critical, in the order of input numbers; complete. The successors of all others
-  /// are elsewhere, and vertices have no edges in their rows.
+  /// Knows only which simplices are critical, in the order of input numbers; complete. The successors of all others are
+  /// elsewhere, and vertices have no edges in their rows, which are made when somebody first asks for them.
   GradientStore(const VertexOrder& order, CriticalSimplices known);
 
   /// Makes a store on the host from what kernels found, for consumers to add the vertices that kernels left out.
@@ -187,6 +187,7 @@ class GALE_EXPORT GradientStore {
   Mirrored<Id> vertex_successors_, cell_successors_;
   Mirrored<Id> pair_words_;
   Mirrored<Offset> pairs_begin_;
+  bool are_pairs_consumers_ = false;  ///< whether consumers fill `pairs_`: else it is made when it is asked for
   mutable EdgePairs pairs_;
   mutable Once pairs_are_here_;
   std::vector<ConsumerFound> found_;  ///< by each consumer

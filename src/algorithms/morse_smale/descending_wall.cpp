@@ -34,7 +34,10 @@ void DescendingWall::follow_on(Part part) {
   critical_edges_ = std::move(part.critical_edges);
   reach(triangles_[0][0], triangles_[0][1], 0);
   const std::size_t known = triangles_.size();
-  for (std::uint32_t i = 0; i < known; ++i) for_each_side(i, [&](Id high, Id low) { reach(high, low, i); });
+  for (std::uint32_t i = 0; i < known; ++i) {
+    stop_if_asked_at(i);
+    for_each_side(i, [&](Id high, Id low) { reach(high, low, i); });
+  }
   for (const Edge& exit : part.exits) go_on(exit.high, exit.low);
   follow_from(known);
 }
@@ -179,8 +182,8 @@ bool DescendingWall::is_less(const TriangleVertices& a, const TriangleVertices& 
 /// One thread's part.
 class SurfaceTracer {
  public:
-  SurfaceTracer(const WallGround& ground, const TurnedEdges* turned, Paths told)
-      : wall(ground, turned), keys_(ground.keys), told_(told) {}
+  SurfaceTracer(const WallGround& ground, const TurnedEdges* turned, Paths told, std::size_t most_kept = 0)
+      : wall(ground, turned), keys_(ground.keys), told_(told), left_to_keep_(most_kept) {}
 
   void add_wall(Id triangle) {
     walls.sources.push_back(triangle);
@@ -206,7 +209,11 @@ class SurfaceTracer {
   }
 
   void add_exits(Id triangle) {
-    unfinished.push_back({triangle, wall.part()});
+    unfinished.push_back({triangle, {}});
+    if (wall.triangles().size() <= left_to_keep_) {
+      left_to_keep_ -= wall.triangles().size();
+      unfinished.back().second = wall.part();
+    }
     for (const auto& edge : wall.exits()) {
       if (exit_keys_.insert(pair_key(edge.high, edge.low)).second) exits.push_back({edge.high, edge.low});
     }
@@ -214,14 +221,16 @@ class SurfaceTracer {
 
   DescendingWall wall;
   Separatrices<TriangleVertices> walls, connectors;
-  std::vector<std::pair<Id, DescendingWall::Part>> unfinished;  ///< critical triangles whose walls others follow on
-  std::vector<std::array<Id, 2>> exits;                         ///< from these edges
+  /// Critical triangles whose walls others follow on, and these as far as they are here, or nothing of them.
+  std::vector<std::pair<Id, DescendingWall::Part>> unfinished;
+  std::vector<std::array<Id, 2>> exits;  ///< the edges from which others follow them on
 
  private:
   struct Mark {};
 
   const std::uint64_t* keys_;
   const Paths told_;
+  std::size_t left_to_keep_;  ///< triangles of unfinished walls that there still is room for
   std::vector<std::pair<Id, DescendingWall::Edge>> rim_;  ///< the wall's critical edges by their places
   HashTable<Mark> exit_keys_;
 };
@@ -263,8 +272,10 @@ struct ConnectorsHere::Found {
 ConnectorsHere::ConnectorsHere(const DiscreteGradient& gradient, const CriticalPlaces& places, int threads)
     : triangles_(gradient.critical().triangles), threads_(threads), found_(std::make_unique<Found>()) {
   const WallGround ground(gradient);
+  const auto most_kept = static_cast<std::size_t>(gradient.mesh().vertices());
   found_->tracers = traced(
-      triangles_, threads, [&](int) { return std::make_unique<SurfaceTracer>(ground, nullptr, Paths::whole); },
+      triangles_, threads,
+      [&](int) { return std::make_unique<SurfaceTracer>(ground, nullptr, Paths::whole, most_kept / threads); },
       [&](SurfaceTracer& tracer, Id place) {
         tracer.wall.follow(triangles_[place]);
         if (tracer.wall.exits().empty()) return tracer.add_connectors(places, place);
@@ -291,7 +302,7 @@ Separatrices<TriangleVertices> ConnectorsHere::finish(const WallGround& wider, c
       triangles, threads_, [&](int) { return std::make_unique<SurfaceTracer>(wider, nullptr, Paths::whole); },
       [&](SurfaceTracer& tracer, Id i) {
         auto& [place, part] = unfinished[i];
-        tracer.wall.follow_on(std::move(part));
+        part.triangles.empty() ? tracer.wall.follow(triangles[i]) : tracer.wall.follow_on(std::move(part));
         tracer.add_connectors(places, place);
       });
   for (auto& tracer : tracers) found_->tracers.push_back(std::move(tracer));

@@ -46,8 +46,8 @@ class DescendingWall {
   };
   Part part() const { return {triangles_, critical_edges_, exits_}; }
 
-  /// Goes on with a wall from its exits, which this ground knows: all vertices as the one where it was followed. Its
-  /// triangles come in another order than `follow` has.
+  /// Goes on with a wall from its exits, on a ground where vertices have the same ids as on the one where it was
+  /// followed. Its triangles come in another order than `follow` has, which `count_paths` relies on.
   void follow_on(Part part);
 
   /// Finds as much of the wall as it takes to meet a critical edge, if it is in the wall: whether it is. Looks at no

@@ -37,7 +37,7 @@ struct EndPath {
   KOKKOS_FUNCTION void operator()(Offset i) const { next(places(i)) = end_at(static_cast<Id>(i)); }
 };
 
-/// Some jumps on a path; 1 if it goes on.
+/// Some jumps on a path, as a device takes them; 1 if it goes on.
 template <class Memory>
 struct JumpAhead {
   static constexpr int jumps_a_pass = 4;
@@ -71,24 +71,19 @@ Array<Id, MemoryOf<Space>> with_ends(const Space& space, const Mirrored<Id>& suc
   return next;
 }
 
-/// Follows each path to its end, and has all entries on the way lead there. Others may do that meanwhile: then they
-/// only get closer to their ends.
+/// Follows each path to its end, and has all entries on the way lead there. Threads may do that to the same entries at
+/// the same time: these only get closer to their ends.
 inline void follow_to_ends(const Array<Id, HostMemory>& next) {
-  for_parts("GALE::follow_to_ends", next.extent(0), threads_for(next.extent(0)), [&](int, Offset begin, Offset end) {
-    std::vector<Id> passed;
-    for (Offset i = begin; i < end;) {
-      for (const Offset last = piece_end(i, end); i < last; ++i) {
-        Id at = static_cast<Id>(i), to = atomic_read(&next(at));
-        for (; to >= 0; at = to, to = atomic_read(&next(at))) passed.push_back(at);
-        for (const Id one : passed) atomic_write(&next(one), to);
-        passed.clear();
-      }
-    }
+  parallel_for("GALE::follow_to_ends", HostExecutionSpace(), next.extent(0), [&](Offset i) {
+    Id end = atomic_read(&next(i));
+    while (end >= 0) end = atomic_read(&next(end));
+    Id at = static_cast<Id>(i);
+    for (Id to = atomic_read(&next(at)); to >= 0; at = to, to = atomic_read(&next(at))) atomic_write(&next(at), end);
   });
 }
 
-/// Afterwards each entry is the end of its path: below 0. A device jumps: each entry over the one that it leads to.
-/// Entries that others jump over meanwhile only get closer to their ends.
+/// Afterwards each entry is the end of its path: below 0. On a device each jumps over the entry that it leads to, on
+/// the host it is followed.
 template <class Space>
 void jump(const Space& space, const Array<Id, MemoryOf<Space>>& next) {
   if constexpr (is_device<Space>) {

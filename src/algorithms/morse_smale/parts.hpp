@@ -54,7 +54,8 @@ DescendingSurfaces descending_surfaces(const DiscreteGradient& gradient, const C
 struct WallGround;
 
 /// The saddle connectors of one rank's 2-saddles: first those of walls inside its part, then the others, when what
-/// these reach elsewhere is known.
+/// these reach elsewhere is known. Until then it keeps these walls as far as they are in the part, up to a triangle a
+/// vertex; what is more is followed anew.
 class ConnectorsHere {
  public:
   /// `places` has those of the rank's critical simplices. Refers to the gradient.

@@ -76,7 +76,7 @@ Interval PathSimplices::inner() const {
   const Interval owned = mesh().owned_vertices();
   if (are_vertices_) return owned;
   if (mesh().grid() == nullptr || owned.size() == 0) return {0, 0};
-  // A cell lies in the layer of its lowest vertex and in the next.
+  // The vertices of a cell are in the layer of its lowest one and in the next; in rows, of a plane.
   const GridView grid = mesh().grid()->in<HostMemory>();
   Id last = mesh().cells();
   if (owned.last < mesh().vertices()) {

@@ -36,7 +36,8 @@ class PathSimplices {
   GlobalId global(Id simplex) const;
   Id local(GlobalId id) const;
 
-  /// Simplices whose successors this rank knows, all of them: between those at its borders with others.
+  /// An interval of simplices (GALE's ids) all of whose successors this rank knows; empty for cells that aren't a
+  /// grid's.
   Interval inner() const;
 
   /// The rank that knows the successor.

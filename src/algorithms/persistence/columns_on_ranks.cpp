@@ -3,13 +3,13 @@
 #include <utility>
 
 #include <gale/algorithms/persistence/columns_on_ranks.hpp>
-#include <gale/base/sort.hpp>
 
 namespace gale::detail {
 
 namespace {
 
-/// An edge of a column, by its place among the critical ones of the rank that has it; an even number of times is none.
+/// An edge of a column, by its place among the critical ones of the rank that has it. A column that comes back to a
+/// rank may bring an edge again: an even number of times is none.
 struct FallenEdge {
   Id column, edge;
 };

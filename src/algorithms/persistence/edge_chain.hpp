@@ -120,7 +120,9 @@ class EdgeChain {
     return high;
   }
 
+  /// Has what a star's crossing will read brought near.
   void prefetch(Id high) const {
+    if (!owned_.has(high)) return;
     pairs_.prefetch(high);
     __builtin_prefetch(vertex_successor_ + high);
   }

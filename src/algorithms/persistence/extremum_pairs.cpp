@@ -3,7 +3,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include <gale/algorithms/gradient/follow_paths.hpp>
+#include <gale/algorithms/gradient/follow_each_path.hpp>
 #include <gale/algorithms/gradient/gradient_store.hpp>
 #include <gale/algorithms/persistence/pairs.hpp>
 #include <gale/base/stop.hpp>
@@ -13,7 +13,7 @@ namespace gale::detail {
 PathEnds ends_of_edges(const DiscreteGradient& gradient, const CriticalPlaces& places) {
   const auto& edges = gradient.critical().edges;
   PathEnds ends(edges.size());
-  follow_paths(
+  follow_each_path(
       "GALE::ends_of_edges", gradient.vertex_successors().data(), 2 * static_cast<Offset>(edges.size()),
       [&](Offset i) { return edges[i / 2][i % 2]; },
       [&](Offset i, Id last, Id) { ends[i / 2][i % 2] = places.of_vertex(last); });
@@ -23,7 +23,7 @@ PathEnds ends_of_edges(const DiscreteGradient& gradient, const CriticalPlaces& p
 PathEnds ends_of_facets(const DiscreteGradient& gradient, const CriticalPlaces& places) {
   const CriticalSimplices& critical = gradient.critical();
   std::vector<Id> end_of_star(critical.star.size(), no_id);
-  follow_paths(
+  follow_each_path(
       "GALE::ends_of_facets", gradient.cell_successors().data(), static_cast<Offset>(critical.star.size()),
       [&](Offset i) { return critical.star[i]; },
       [&](Offset i, Id last, Id next) {

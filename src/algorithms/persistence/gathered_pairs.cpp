@@ -6,11 +6,11 @@
 #include <gale/algorithms/excerpt/excerpt_mesh.hpp>
 #include <gale/algorithms/excerpt/gathering.hpp>
 #include <gale/algorithms/gathered_gradient.hpp>
-#include <gale/algorithms/gradient/follow_paths.hpp>
+#include <gale/algorithms/gradient/follow_each_path.hpp>
 #include <gale/algorithms/gradient/gradient_store.hpp>
 #include <gale/algorithms/morse_smale/paths_on_ranks.hpp>
 #include <gale/algorithms/persistence/columns_on_ranks.hpp>
-#include <gale/base/ordered.hpp>
+#include <gale/base/sort.hpp>
 #include <gale/base/threads.hpp>
 
 namespace gale {
@@ -30,7 +30,7 @@ struct SentSimplex {
 /// Entries of all ranks, which ascend by `is_less` on each, in that order.
 template <class T, class IsLess>
 std::vector<Id> merged(const Dealt<T>& dealt, std::vector<Id> order, const IsLess& is_less) {
-  merge_runs(order, dealt.begin, [&](Id a, Id b) { return is_less(dealt.entries(a), dealt.entries(b)); });
+  merge_runs(order.begin(), dealt.begin, [&](Id a, Id b) { return is_less(dealt.entries(a), dealt.entries(b)); });
   return order;
 }
 
@@ -75,10 +75,11 @@ class Followers {
         successors_(simplices.successors().in<HostMemory>().data()) {}
 
   std::vector<SentEnd> operator()(const std::vector<Id>& starts) {
-    std::vector<Stop> stops(starts.size());
+    std::vector<Stop> stops;
     std::vector<Id> open;
     together(ranks_, [&] {
-      follow_paths(
+      stops.resize(starts.size());
+      follow_each_path(
           "GALE::follow_here", successors_, static_cast<Offset>(starts.size()), [&](Offset i) { return starts[i]; },
           [&](Offset i, Id last, Id next) { stops[i] = stop_at(last, next); });
       for (std::size_t i = 0; i < stops.size(); ++i) {
@@ -97,8 +98,10 @@ class Followers {
       open.swap(still);
     }
     std::vector<SentEnd> ends;
-    reserve(ends, stops.size());
-    for (const Stop& stop : stops) ends.push_back({stop.rank, stop.place});
+    together(ranks_, [&] {
+      reserve(ends, stops.size());
+      for (const Stop& stop : stops) ends.push_back({stop.rank, stop.place});
+    });
     return ends;
   }
 
@@ -179,13 +182,17 @@ class PairsOnRanks {
 
   std::vector<SentEnds> edge_ends() {
     std::vector<Id> starts;
-    reserve(starts, 2 * critical_.edges.size());
-    for (const auto& [high, low] : critical_.edges) starts.insert(starts.end(), {high, low});
+    together(ranks_, [&] {
+      reserve(starts, 2 * critical_.edges.size());
+      for (const auto& [high, low] : critical_.edges) starts.insert(starts.end(), {high, low});
+    });
     const auto simplices = PathSimplices::make(gradient_, PathSimplices::Kind::falling_vertices);
     const auto ends = Followers(*simplices, *places_)(starts);
     std::vector<SentEnds> by_edge;
-    reserve(by_edge, critical_.edges.size());
-    for (std::size_t i = 0; i < ends.size(); i += 2) by_edge.push_back({ends[i], ends[i + 1]});
+    together(ranks_, [&] {
+      reserve(by_edge, critical_.edges.size());
+      for (std::size_t i = 0; i < ends.size(); i += 2) by_edge.push_back({ends[i], ends[i + 1]});
+    });
     return by_edge;
   }
 
@@ -193,12 +200,14 @@ class PairsOnRanks {
     const auto simplices = PathSimplices::make(gradient_, PathSimplices::Kind::rising_cells);
     const auto ends = Followers(*simplices, *places_)(critical_.star);
     std::vector<SentEnds> by_facet;
-    reserve(by_facet, critical_.star_begin.size());
-    for (std::size_t i = 0; i + 1 < critical_.star_begin.size(); ++i) {
-      const Id first = critical_.star_begin[i], count = critical_.star_begin[i + 1] - first;
-      by_facet.push_back({});
-      for (Id k = 0; k < count; ++k) by_facet.back()[k] = ends[first + k];
-    }
+    together(ranks_, [&] {
+      reserve(by_facet, critical_.star_begin.size());
+      for (std::size_t i = 0; i + 1 < critical_.star_begin.size(); ++i) {
+        const Id first = critical_.star_begin[i], count = critical_.star_begin[i + 1] - first;
+        by_facet.push_back({});
+        for (Id k = 0; k < count; ++k) by_facet.back()[k] = ends[first + k];
+      }
+    });
     return by_facet;
   }
 

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include <gale/base/atomic.hpp>
 #include <gale/base/bits.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/base/stop.hpp>
@@ -133,7 +134,7 @@ void deal(const Renumbered<corners, Index>& input, Offset count, GroupPlaces& pl
   });
 }
 
-/// Writes cells that are in order already as they are given, and says where each vertex's begin: whether they are.
+/// Writes cells that are in order already as they are given, and where each vertex's begin. Returns whether they were.
 template <int corners, class Index>
 bool write_in_order(const Renumbered<corners, Index>& input, Offset count, const SortedCells<HostMemory>& sorted) {
   const auto quads = sorted.of_lowest.entries;
@@ -142,28 +143,27 @@ bool write_in_order(const Renumbered<corners, Index>& input, Offset count, const
   const auto is_before = [](const Quad& one, const Quad& other) {
     return std::tie(one.a, one.b, one.c, one.d) <= std::tie(other.a, other.b, other.c, other.d);
   };
-  std::vector<char> is_broken(threads_for(count), 0);
-  for_parts("GALE::cells_in_order", count, is_broken.size(), [&, input](int part, Offset first, Offset last) {
+  char is_broken = 0;
+  for_parts("GALE::cells_in_order", count, threads_for(count), [&, input](int, Offset first, Offset last) {
     Quad before{0, 0, 0, 0};
     Id reached = 0;
-    is_broken[part] = 1;
+    const auto stop = [&] { atomic_write(&is_broken, char(1)); };
     if (first > 0) {
-      if (input.lowest(first - 1) < 0) return;
+      if (input.lowest(first - 1) < 0) return stop();
       before = input[first - 1];
       reached = before.a + 1;
     }
-    for (Offset t = first; t < last; ++t) {
+    for (Offset t = first; t < last && atomic_read(&is_broken) == 0; ++t) {
       stop_if_asked_at(t);
-      if (input.lowest(t) < 0) return;
+      if (input.lowest(t) < 0) return stop();
       const Quad quad = input[t];
-      if (!is_before(before, quad)) return;
+      if (!is_before(before, quad)) return stop();
       for (; reached <= quad.a; ++reached) begin(reached) = static_cast<Id>(t);
       quads(t) = before = quad;
       sorted.input(t) = static_cast<Id>(t);
     }
-    is_broken[part] = 0;
   });
-  if (std::find(is_broken.begin(), is_broken.end(), 1) != is_broken.end()) return false;
+  if (is_broken != 0) return false;
   for (Id v = count == 0 ? 0 : quads(count - 1).a + 1; v < vertices; ++v) begin(v) = static_cast<Id>(count);
   return true;
 }

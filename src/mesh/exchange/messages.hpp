@@ -159,8 +159,12 @@ Dealt<T> deal(const Ranks& ranks, const char* label, Offset items, const RankOf&
 /// What all ranks have, on the first one; nothing on the others. Collective.
 template <class T>
 Dealt<T> to_first(const Ranks& ranks, const char* label, const std::vector<T>& entries) {
-  Dealt<T> sent{Array<T, HostMemory>(const_cast<T*>(entries.data()), entries.size()), {0}};  // nobody writes to it
-  sent.begin.resize(ranks.size() + 1, static_cast<Offset>(entries.size()));
+  Dealt<T> sent;
+  together(ranks, [&] {
+    sent.entries = Array<T, HostMemory>(const_cast<T*>(entries.data()), entries.size());  // nobody writes to it
+    sent.begin.assign(ranks.size() + 1, static_cast<Offset>(entries.size()));
+    sent.begin[0] = 0;
+  });
   return exchange_packed(ranks, label, sent);
 }
 

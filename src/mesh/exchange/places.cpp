@@ -1,8 +1,6 @@
 #include <algorithm>
-#include <functional>
 #include <vector>
 
-#include <gale/base/ordered.hpp>
 #include <gale/base/sort.hpp>
 #include <gale/mesh/exchange/home_table.hpp>
 #include <gale/mesh/exchange/messages.hpp>
@@ -35,7 +33,7 @@ std::vector<SimplexKey> distinct_keys(const Dealt<SimplexKey>& received) {
   for (std::size_t rank = 0; rank + 1 < received.begin.size() && all_ascend; ++rank)
     all_ascend = std::is_sorted(from + received.begin[rank], from + received.begin[rank + 1]);
   if (all_ascend) {
-    merge_runs(keys, received.begin, std::less<>());
+    merge_runs(keys.begin(), received.begin);
   } else {
     parallel_sort("GALE::sort_keys", keys.begin(), keys.end());
   }
@@ -50,8 +48,15 @@ void find_places(const Array<SimplexKey, HostMemory>& keys, const std::vector<Si
   for_parts("GALE::told_places", count, threads_for(count), [&](int, Offset begin, Offset end) {
     auto at = distinct.begin();
     for (Offset i = begin; i < end; ++i) {
-      if (i == begin || keys(i) < keys(i - 1)) at = std::lower_bound(distinct.begin(), distinct.end(), keys(i));
-      while (*at < keys(i)) ++at;
+      stop_if_asked_at(i);
+      const SimplexKey& key = keys(i);
+      if (i == begin || key < keys(i - 1)) at = distinct.begin();
+      auto last = at;  // the key is in ever longer steps from where the one before was
+      for (Offset step = 1; last != distinct.end() && *last < key; step *= 2) {
+        at = last;
+        last += std::min(step, distinct.end() - last);
+      }
+      at = std::lower_bound(at, last, key);
       places(i) = first + (at - distinct.begin());
     }
   });

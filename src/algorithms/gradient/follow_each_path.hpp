@@ -11,10 +11,10 @@ namespace gale::detail {
 
 /// Follows the paths along `successors` (of each simplex, below 0 where a path ends) from start(0), ...,
 /// start(count - 1), which aren't below 0. Calls ended(i, last, next) for each: the simplex that it ends at, and that
-/// one's successor. On all host threads; each has some paths under way at the same time, as a step is a wait for
-/// memory.
+/// one's successor. Does so on all host threads; each has some paths under way at the same time, as a step is a wait
+/// for memory.
 template <class Start, class Ended>
-void follow_paths(const char* label, const Id* successors, Offset count, const Start& start, const Ended& ended) {
+void follow_each_path(const char* label, const Id* successors, Offset count, const Start& start, const Ended& ended) {
   struct Path {
     Offset which;
     Id at;
@@ -23,10 +23,11 @@ void follow_paths(const char* label, const Id* successors, Offset count, const S
     std::array<Path, 16> paths;
     std::size_t under_way = 0;
     for (; under_way < paths.size() && begin < end; ++begin) paths[under_way++] = {begin, start(begin)};
-    for (Offset steps = 0; under_way > 0; stop_if_asked_at(++steps)) {
+    for (Offset steps = 0; under_way > 0;) {
       for (std::size_t k = 0; k < under_way;) {
         Path& path = paths[k];
         const Id next = successors[path.at];
+        stop_if_asked_at(++steps);
         if (next >= 0) {
           path.at = next;
           __builtin_prefetch(successors + next);
