@@ -48,6 +48,8 @@ struct CellReader {
   }
 };
 
+namespace detail {
+
 /// Reads cells one after the other, for one thread: what those of one cube of a grid have in common is computed once.
 class CellsInTurn {
  public:
@@ -66,6 +68,8 @@ class CellsInTurn {
   Id cube_ = no_id;
   Quad corners_{};
 };
+
+}  // namespace detail
 
 /// A mesh of tetrahedra, or of triangles, encoded once so that the relations of any segment can be computed from it
 /// alone (the paper's §4.3). These are its cells, and their dimension is its own.
