@@ -134,7 +134,8 @@ void deal(const Renumbered<corners, Index>& input, Offset count, GroupPlaces& pl
   });
 }
 
-/// Writes cells that are in order already as they are given, and where each vertex's begin. Returns whether they were.
+/// Writes cells that are in order already as they are given, and where each vertex's begin. Returns whether they were;
+/// where they weren't, two parts may have said where a vertex's begin, so that is written atomically.
 template <int corners, class Index>
 bool write_in_order(const Renumbered<corners, Index>& input, Offset count, const SortedCells<HostMemory>& sorted) {
   const auto quads = sorted.of_lowest.entries;
@@ -158,7 +159,7 @@ bool write_in_order(const Renumbered<corners, Index>& input, Offset count, const
       if (input.lowest(t) < 0) return stop();
       const Quad quad = input[t];
       if (!is_before(before, quad)) return stop();
-      for (; reached <= quad.a; ++reached) begin(reached) = static_cast<Id>(t);
+      for (; reached <= quad.a; ++reached) atomic_write(&begin(reached), static_cast<Id>(t));
       quads(t) = before = quad;
       sorted.input(t) = static_cast<Id>(t);
     }
