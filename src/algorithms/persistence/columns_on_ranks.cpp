@@ -48,9 +48,7 @@ class FallOnRanks {
   Dealt<FallenEdge> operator()(Id first_stopped, Id first_met) {
     together(ranks_, [&] {
       number_.assign(columns_.saddles(), no_id);
-      for (std::size_t i = 0; i < number_.size(); ++i) {
-        if (columns_.owner(static_cast<Id>(i)) != nullptr) number_[i] = first_met++;
-      }
+      columns_.for_each_met([&](Id edge, const Column&) { number_[edge] = first_met++; });
       for (const Column& column : columns_.stopped()) {
         chain_.add(column.rim);
         fall(first_stopped++);
@@ -227,10 +225,7 @@ std::vector<Id> finish_on_ranks(const DiscreteGradient& gradient, const Critical
   std::vector<Met> met;
   together(ranks, [&] {
     for (const Column& column : columns.stopped()) stopped.push_back(own.by_rank[2][column.rank]);
-    for (std::size_t i = 0; i < gradient.critical().edges.size(); ++i) {
-      const Column* const column = columns.owner(static_cast<Id>(i));
-      if (column != nullptr) met.push_back({own.by_rank[2][column->rank], static_cast<Id>(i)});
-    }
+    columns.for_each_met([&](Id edge, const Column& column) { met.push_back({own.by_rank[2][column.rank], edge}); });
   });
   const auto count = [](const auto& some) { return static_cast<std::int64_t>(some.size()); };
   const Id first_stopped = static_cast<Id>(ranks.sum_before(count(stopped)));

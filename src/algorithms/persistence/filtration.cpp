@@ -53,7 +53,13 @@ std::array<Id, count> from_highest(const DiscreteGradient& gradient, Id cell) {
 }  // namespace
 
 Id highest_corner(const DiscreteGradient& gradient, Id cell) {
-  return gradient.mesh().dimension() == 3 ? from_highest<4>(gradient, cell)[0] : from_highest<3>(gradient, cell)[0];
+  const Quad corners = gradient.mesh().cell_reader()(cell);
+  const std::uint64_t* const keys = gradient.order().keys();
+  Id highest = corners.a;
+  for (int i = 1; i <= gradient.mesh().dimension(); ++i) {
+    if (keys[corners[i]] > keys[highest]) highest = corners[i];
+  }
+  return highest;
 }
 
 Filtration filtration_of(const DiscreteGradient& gradient, int threads) {

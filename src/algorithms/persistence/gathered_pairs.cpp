@@ -23,8 +23,46 @@ namespace {
 struct SentSimplex {
   std::array<GlobalId, 3> name;  ///< what CriticalSimplices are sorted by: its vertices, ascending, or the cell
   std::uint64_t value;           ///< of its highest vertex, as VertexOrder::value_key
-  GlobalId highest;              ///< that vertex
-  GlobalId rank;                 ///< in its own rank's filtration; in 64 bits to be packed without gaps
+  Id rank;                       ///< in its own rank's filtration
+  Id place_of_highest;           ///< of that vertex in `name`, where a cell has it behind its own number
+
+  GlobalId highest() const { return name[place_of_highest]; }
+};
+
+/// Has a rank's simplices be written as they are sent.
+class Sender {
+ public:
+  explicit Sender(const DiscreteGradient& gradient)
+      : gradient_(gradient),
+        exchange_(gradient.mesh().exchange()),
+        vertex_input_(gradient.mesh().vertices_in_input()),
+        cell_input_(gradient.mesh().cells_in_input()) {}
+
+  /// A simplex with its vertices from the highest to the lowest.
+  template <std::size_t N>
+  SentSimplex operator()(const std::array<Id, N>& vertices, Id rank) const {
+    std::array<GlobalId, N> ids;
+    for (std::size_t i = 0; i < N; ++i) ids[i] = id(vertices[i]);
+    const std::array<GlobalId, N> name = ascending(ids);
+    SentSimplex sent{{}, gradient_.order().value_key(vertices[0]), rank, 0};
+    for (std::size_t i = 0; i < N; ++i) {
+      sent.name[i] = name[i];
+      if (name[i] == ids[0]) sent.place_of_highest = static_cast<Id>(i);
+    }
+    return sent;
+  }
+
+  SentSimplex of_cell(Id cell, Id rank) const {
+    const Id vertex = highest_corner(gradient_, cell);
+    return {{exchange_.cell_id(cell_input_[cell]), id(vertex), 0}, gradient_.order().value_key(vertex), rank, 1};
+  }
+
+ private:
+  GlobalId id(Id vertex) const { return exchange_.vertex_id(vertex_input_[vertex]); }
+
+  const DiscreteGradient& gradient_;
+  const Exchange& exchange_;
+  const OtherIds vertex_input_, cell_input_;
 };
 
 /// Entries of all ranks, which ascend by `is_less` on each, in that order.
@@ -51,7 +89,7 @@ struct AllOfDimension {
         order[sent.begin[r] + sent.entries(i).rank] = static_cast<Id>(i);
     }
     from_rank = merged(sent, std::move(order), [](const auto& a, const auto& b) {
-      return a.value != b.value ? a.value < b.value : a.highest < b.highest;
+      return a.value != b.value ? a.value < b.value : a.highest() < b.highest();
     });
   }
 };
@@ -211,36 +249,20 @@ class PairsOnRanks {
     return by_facet;
   }
 
-  /// A simplex with its vertices from the highest to the lowest, as it is sent.
-  template <std::size_t N>
-  SentSimplex sent(const std::array<Id, N>& vertices, Id rank) const {
-    SentSimplex simplex{{}, gradient_.order().value_key(vertices[0]), 0, rank};
-    const OtherIds input = mesh_.vertices_in_input();
-    simplex.highest = mesh_.vertex_id(input[vertices[0]]);
-    for (std::size_t i = 0; i < N; ++i) simplex.name[i] = mesh_.vertex_id(input[vertices[i]]);
-    std::sort(simplex.name.begin(), simplex.name.begin() + N);
-    return simplex;
-  }
-
-  SentSimplex sent_cell(Id cell, Id rank) const {
-    SentSimplex simplex = sent(std::array<Id, 1>{highest_corner(gradient_, cell)}, rank);
-    simplex.name[0] = mesh_.cell_id(mesh_.cells_in_input()[cell]);
-    return simplex;
-  }
-
   /// This rank's critical simplices.
   std::array<std::vector<SentSimplex>, 4> own_simplices() const {
+    const Sender sender(gradient_);
     std::array<std::vector<SentSimplex>, 4> own;
     const auto add = [&](int dimension, const auto& simplices, const auto& sent_as) {
-      reserve(own[dimension], simplices.size());
-      for (std::size_t i = 0; i < simplices.size(); ++i)
-        own[dimension].push_back(sent_as(simplices[i], own_.rank[dimension][i]));
+      const std::vector<Id>& rank = own_.rank[dimension];
+      own[dimension] = std::vector<SentSimplex>(simplices.size());
+      parallel_for("GALE::own_simplices", HostExecutionSpace(), simplices.size(),
+                   [&](Offset i) { own[dimension][i] = sent_as(simplices[i], rank[i]); });
     };
-    const auto by_vertices = [&](const auto& simplex, Id rank) { return sent(simplex, rank); };
-    add(0, critical_.vertices, [&](Id vertex, Id rank) { return sent(std::array<Id, 1>{vertex}, rank); });
-    add(1, critical_.edges, by_vertices);
-    add(2, critical_.triangles, by_vertices);
-    add(mesh_.dimension(), critical_.cells, [&](Id cell, Id rank) { return sent_cell(cell, rank); });
+    add(0, critical_.vertices, [&](Id vertex, Id rank) { return sender(std::array<Id, 1>{vertex}, rank); });
+    add(1, critical_.edges, sender);
+    add(2, critical_.triangles, sender);
+    add(mesh_.dimension(), critical_.cells, [&](Id cell, Id rank) { return sender.of_cell(cell, rank); });
     return own;
   }
 
@@ -255,7 +277,7 @@ class PairsOnRanks {
       const Interval owned = mesh_.owned_vertices();
       if (owned.size() > 0) {
         const auto at = std::max_element(keys + owned.first, keys + owned.last) - keys;
-        highest.push_back(sent(std::array<Id, 1>{static_cast<Id>(at)}, 0));
+        highest.push_back(Sender(gradient_)(std::array<Id, 1>{static_cast<Id>(at)}, 0));
       }
       for (const auto& some : own) bytes[0] += static_cast<std::int64_t>(some.size() * sizeof(SentSimplex));
       bytes[0] +=
@@ -282,23 +304,25 @@ class PairsOnRanks {
     reserve(names, std::accumulate(all_.begin(), all_.begin() + mesh_.dimension() + 1, Offset(1),
                                    [](Offset sum, const All& all) { return sum + all->sent.count(); }));
     for (int d = 0; d <= mesh_.dimension(); ++d) {
-      for (Offset i = 0; i < all_[d]->sent.count(); ++i) names.push_back(all_[d]->sent.entries(i).highest);
+      for (Offset i = 0; i < all_[d]->sent.count(); ++i) names.push_back(all_[d]->sent.entries(i).highest());
     }
     const SentSimplex* last = nullptr;
     for (Offset i = 0; i < highest_.count(); ++i) {
       const SentSimplex& one = highest_.entries(i);
-      if (last == nullptr || std::make_pair(last->value, last->highest) < std::make_pair(one.value, one.highest))
+      if (last == nullptr || std::make_pair(last->value, last->highest()) < std::make_pair(one.value, one.highest()))
         last = &one;
     }
-    if (last != nullptr) names.push_back(last->highest);
-    const GlobalIds ids = distinct_ids(Array<const GlobalId, HostMemory>(names.data(), names.size())).ids;
+    if (last != nullptr) names.push_back(last->highest());
+    keep_distinct(names);
+    const auto ids = allocate<GlobalIds>("GALE::highest_ids", names.size());
+    std::copy(names.begin(), names.end(), ids.data());
     const GlobalIndex index(ids);
     highest.dimension = mesh_.dimension();
-    if (last != nullptr) highest.of_all = index.find(last->highest);
+    if (last != nullptr) highest.of_all = index.find(last->highest());
     for (int d = 0; d <= mesh_.dimension(); ++d) {
       highest.of_critical[d].resize(all_[d]->sent.count());
       for (Offset i = 0; i < all_[d]->sent.count(); ++i)
-        highest.of_critical[d][all_[d]->place.entries(i)] = index.find(all_[d]->sent.entries(i).highest);
+        highest.of_critical[d][all_[d]->place.entries(i)] = index.find(all_[d]->sent.entries(i).highest());
     }
     const auto no_cells = allocate<GlobalIds>("GALE::no_cells", 0);
     return mesh_.dimension() == 3 ? excerpt_mesh<4>(ids, no_cells, CellCorners<4, Id, HostMemory>())

@@ -35,6 +35,17 @@ class SaddleColumns {
   /// The column that has met a 1-saddle, by its place; nullptr if none has.
   const Column* owner(Id saddle) const { return owners_[saddle].load(std::memory_order_relaxed); }
 
+  /// Calls visit(saddle, column) for each 1-saddle that a column has met.
+  template <class Visit>
+  void for_each_met(const Visit& visit) const {
+    constexpr std::size_t ahead = 16;
+    for (std::size_t i = 0; i < owners_.size(); ++i) {
+      if (i + ahead < owners_.size()) __builtin_prefetch(owner(static_cast<Id>(i + ahead)));
+      const Column* const column = owner(static_cast<Id>(i));
+      if (column != nullptr) visit(static_cast<Id>(i), *column);
+    }
+  }
+
   /// The columns that ended at an edge of another rank.
   const std::vector<Column>& stopped() const { return stopped_; }
 
