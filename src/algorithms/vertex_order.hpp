@@ -83,6 +83,9 @@ class GALE_EXPORT VertexOrder {
     return all_.values.extent(0) == 0 ? keys()[vertex] >> 32 : all_.values(vertex);
   }
 
+  /// The highest of some vertices, by GALE's ids; no_id if there are none. On all host threads.
+  Id highest(Interval some) const;
+
  private:
   VertexOrder(const Mesh& mesh, detail::OrderKeys keys) : mesh_(mesh), all_(std::move(keys)) {}
 

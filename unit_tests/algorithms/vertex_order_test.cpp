@@ -83,6 +83,22 @@ TYPED_TEST(FloatingVertexOrder, refuses_nan_and_names_the_first_vertex) {
   }
 }
 
+TEST(VertexOrder, finds_the_highest_of_some) {
+  const InputMesh grid = holed_grid(24);  // enough for several threads
+  const Mesh mesh = encode(grid, octree_of(grid, 64));
+  std::mt19937 random(5);
+  std::vector<float> values(mesh.vertices());
+  for (float& value : values) value = static_cast<float>(random() % 1000);
+  const VertexOrder order(mesh, values.data(), values.size());
+  const Id count = mesh.vertices();
+  for (const Interval some : {Interval{0, count}, {count / 3, count}, {7, 8}, {100, 9000}, {0, 4097}}) {
+    const Id found = order.highest(some);
+    ASSERT_TRUE(some.has(found));
+    for (Id v = some.first; v < some.last; ++v) ASSERT_GE(order.keys()[found], order.keys()[v]);
+  }
+  EXPECT_EQ(order.highest({5, 5}), no_id);
+}
+
 TEST(VertexOrder, refuses_another_number_of_values) {
   const std::vector<float> values(3);
   const Mesh mesh = mesh_of_input();

@@ -99,7 +99,7 @@ class Reacher {
     }
     begin_stars(asker, found);
     if (ways_.all_for_first && owned_.size() > 0)  // the highest one of all is where classes end that never do
-      vertex_place(found, highest_owned());
+      vertex_place(found, gradient_.order().highest(owned_));
   }
 
   /// From these, for this rank, which knows by itself what is in its part.
@@ -181,9 +181,6 @@ class Reacher {
   FoundFor& found_of(int asker) { return found_[asker]; }
 
   bool is_owned(Id vertex) const { return owned_.has(vertex); }
-  Id highest_owned() const {
-    return static_cast<Id>(std::max_element(keys_ + owned_.first, keys_ + owned_.last) - keys_);
-  }
   Id higher(Id a, Id b) const { return keys_[a] > keys_[b] ? a : b; }
 
   void begin_stars(int asker, FoundFor& found) {

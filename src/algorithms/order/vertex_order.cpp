@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <limits>
 #include <string>
 #include <type_traits>
@@ -204,3 +205,20 @@ GALE_INSTANTIATE(double);
 #undef GALE_INSTANTIATE_FOR
 
 }  // namespace gale::detail
+
+namespace gale {
+
+Id VertexOrder::highest(Interval some) const {
+  if (some.size() == 0) return no_id;
+  const std::uint64_t* const first = keys() + some.first;
+  std::vector<const std::uint64_t*> of_parts(detail::threads_for(some.size()), first);
+  detail::for_parts("GALE::highest_vertex", some.size(), static_cast<int>(of_parts.size()),
+                    [&](int part, Offset begin, Offset end) {
+                      if (begin < end) of_parts[part] = std::max_element(first + begin, first + end);
+                    });
+  const auto highest =
+      std::max_element(of_parts.begin(), of_parts.end(), [](const auto* a, const auto* b) { return *a < *b; });
+  return static_cast<Id>(some.first + (*highest - first));
+}
+
+}  // namespace gale

@@ -127,9 +127,8 @@ HighestVertices highest_vertices(const DiscreteGradient& gradient) {
   for (const auto& edge : critical.edges) of[1].push_back(input[edge[0]]);
   for (const auto& triangle : critical.triangles) of[2].push_back(input[triangle[0]]);
   for (const Id cell : critical.cells) of[critical.dimension].push_back(input[detail::highest_corner(gradient, cell)]);
-  const std::uint64_t* const keys = gradient.order().keys();
-  const Id count = gradient.mesh().vertices();
-  if (count > 0) highest.of_all = input[static_cast<Id>(std::max_element(keys, keys + count) - keys)];
+  const Id of_all = gradient.order().highest({0, gradient.mesh().vertices()});
+  if (of_all != no_id) highest.of_all = input[of_all];
   return highest;
 }
 

@@ -6,11 +6,10 @@
 #include <gale/algorithms/excerpt/excerpt_mesh.hpp>
 #include <gale/algorithms/excerpt/gathering.hpp>
 #include <gale/algorithms/gathered_gradient.hpp>
-#include <gale/algorithms/gradient/follow_each_path.hpp>
 #include <gale/algorithms/gradient/gradient_store.hpp>
-#include <gale/algorithms/morse_smale/paths_on_ranks.hpp>
 #include <gale/algorithms/persistence/columns_on_ranks.hpp>
-#include <gale/base/sort.hpp>
+#include <gale/algorithms/persistence/ends_on_ranks.hpp>
+#include <gale/algorithms/persistence/simplices_of_all.hpp>
 #include <gale/base/threads.hpp>
 
 namespace gale {
@@ -18,156 +17,6 @@ namespace gale {
 namespace detail {
 
 namespace {
-
-/// A critical simplex as the first rank gets it.
-struct SentSimplex {
-  std::array<GlobalId, 3> name;  ///< what CriticalSimplices are sorted by: its vertices, ascending, or the cell
-  std::uint64_t value;           ///< of its highest vertex, as VertexOrder::value_key
-  Id rank;                       ///< in its own rank's filtration
-  Id place_of_highest;           ///< of that vertex in `name`, where a cell has it behind its own number
-
-  GlobalId highest() const { return name[place_of_highest]; }
-};
-
-/// Has a rank's simplices be written as they are sent.
-class Sender {
- public:
-  explicit Sender(const DiscreteGradient& gradient)
-      : gradient_(gradient),
-        exchange_(gradient.mesh().exchange()),
-        vertex_input_(gradient.mesh().vertices_in_input()),
-        cell_input_(gradient.mesh().cells_in_input()) {}
-
-  /// A simplex with its vertices from the highest to the lowest.
-  template <std::size_t N>
-  SentSimplex operator()(const std::array<Id, N>& vertices, Id rank) const {
-    std::array<GlobalId, N> ids;
-    for (std::size_t i = 0; i < N; ++i) ids[i] = id(vertices[i]);
-    const std::array<GlobalId, N> name = ascending(ids);
-    SentSimplex sent{{}, gradient_.order().value_key(vertices[0]), rank, 0};
-    for (std::size_t i = 0; i < N; ++i) {
-      sent.name[i] = name[i];
-      if (name[i] == ids[0]) sent.place_of_highest = static_cast<Id>(i);
-    }
-    return sent;
-  }
-
-  SentSimplex of_cell(Id cell, Id rank) const {
-    const Id vertex = highest_corner(gradient_, cell);
-    return {{exchange_.cell_id(cell_input_[cell]), id(vertex), 0}, gradient_.order().value_key(vertex), rank, 1};
-  }
-
- private:
-  GlobalId id(Id vertex) const { return exchange_.vertex_id(vertex_input_[vertex]); }
-
-  const DiscreteGradient& gradient_;
-  const Exchange& exchange_;
-  const OtherIds vertex_input_, cell_input_;
-};
-
-/// Entries of all ranks, which ascend by `is_less` on each, in that order.
-template <class T, class IsLess>
-std::vector<Id> merged(const Dealt<T>& dealt, std::vector<Id> order, const IsLess& is_less) {
-  merge_runs(order.begin(), dealt.begin, [&](Id a, Id b) { return is_less(dealt.entries(a), dealt.entries(b)); });
-  return order;
-}
-
-/// Critical simplices of one dimension of all ranks, on the first one.
-struct AllOfDimension {
-  Dealt<SentSimplex> sent;
-  Dealt<Id> place;            ///< of each
-  std::vector<Id> from_rank;  ///< by rank in the filtration: the entry
-
-  explicit AllOfDimension(Dealt<SentSimplex> from) : sent(std::move(from)), place{{}, sent.begin} {
-    std::vector<Id> order(sent.count());
-    std::iota(order.begin(), order.end(), Id(0));
-    place.entries = allocate<Array<Id, HostMemory>>("GALE::places_of_all", sent.count());
-    const auto by_name = merged(sent, order, [](const auto& a, const auto& b) { return a.name < b.name; });
-    for (std::size_t i = 0; i < by_name.size(); ++i) place.entries(by_name[i]) = static_cast<Id>(i);
-    for (std::size_t r = 0; r + 1 < sent.begin.size(); ++r) {
-      for (Offset i = sent.begin[r]; i < sent.begin[r + 1]; ++i)
-        order[sent.begin[r] + sent.entries(i).rank] = static_cast<Id>(i);
-    }
-    from_rank = merged(sent, std::move(order), [](const auto& a, const auto& b) {
-      return a.value != b.value ? a.value < b.value : a.highest() < b.highest();
-    });
-  }
-};
-
-/// Where a path from a saddle ends: the rank that has the extremum, and its place there; outside.
-struct SentEnd {
-  static constexpr int outside = -1;
-  int rank = outside;
-  Id place = no_id;
-};
-using SentEnds = std::array<SentEnd, 2>;
-
-/// Follows the paths from some simplices (GALE's ids) to their ends, each rank in its part.
-class Followers {
- public:
-  /// Collective. `places` has those of this rank's critical simplices.
-  Followers(const PathSimplices& simplices, const CriticalPlaces& places)
-      : simplices_(simplices),
-        places_(places),
-        ranks_(simplices.mesh().exchange().ranks()),
-        successors_(simplices.successors().in<HostMemory>().data()) {}
-
-  std::vector<SentEnd> operator()(const std::vector<Id>& starts) {
-    std::vector<Stop> stops;
-    std::vector<Id> open;
-    together(ranks_, [&] {
-      stops.resize(starts.size());
-      follow_each_path(
-          "GALE::follow_here", successors_, static_cast<Offset>(starts.size()), [&](Offset i) { return starts[i]; },
-          [&](Offset i, Id last, Id next) { stops[i] = stop_at(last, next); });
-      for (std::size_t i = 0; i < stops.size(); ++i) {
-        if (stops[i].next >= 0) open.push_back(static_cast<Id>(i));
-      }
-    });
-    while (ranks_.sum(static_cast<std::int64_t>(open.size())) != 0) {
-      const auto answers = ask<Stop>(
-          ranks_, "GALE::ends_elsewhere", static_cast<Offset>(open.size()), [&](Id i) { return stops[open[i]].rank; },
-          [&](Id i) { return stops[open[i]].next; }, [&](GlobalId id) { return follow(simplices_.local(id)); });
-      std::vector<Id> still;
-      for (std::size_t i = 0; i < open.size(); ++i) {
-        stops[open[i]] = answers(i);
-        if (answers(i).next >= 0) still.push_back(open[i]);
-      }
-      open.swap(still);
-    }
-    std::vector<SentEnd> ends;
-    together(ranks_, [&] {
-      reserve(ends, stops.size());
-      for (const Stop& stop : stops) ends.push_back({stop.rank, stop.place});
-    });
-    return ends;
-  }
-
- private:
-  /// Where a path ends, or which rank follows it on from where.
-  struct Stop {
-    int rank = SentEnd::outside;
-    Id place = no_id;
-    GlobalId next = -1;
-  };
-
-  Stop follow(Id at) const {
-    while (successors_[at] >= 0) at = successors_[at];
-    return stop_at(at, successors_[at]);
-  }
-
-  Stop stop_at(Id last, Id next) const {
-    if (next == no_id)
-      return {ranks_.rank(), simplices_.are_vertices() ? places_.of_vertex(last) : places_.of_cell(last), -1};
-    if (next == DiscreteGradient::elsewhere) return {simplices_.owner(last), no_id, simplices_.global(last)};
-    return {};
-  }
-
-  const PathSimplices& simplices_;
-  const CriticalPlaces& places_;
-  const Ranks& ranks_;
-  const Id* const successors_;
-};
 
 class PairsOnRanks {
  public:
@@ -186,7 +35,8 @@ class PairsOnRanks {
   }
 
   GatheredPairs find() {
-    const auto of_edges = edge_ends(), of_facets = facet_ends();
+    const auto of_edges = ends_of_edges_on_ranks(gradient_, *places_);
+    const auto of_facets = ends_of_facets_on_ranks(gradient_, *places_);
     gather();
     const auto edge_ends_of_all = to_first(ranks_, "GALE::ends_of_edges", of_edges);
     const auto facet_ends_of_all = to_first(ranks_, "GALE::ends_of_facets", of_facets);
@@ -216,55 +66,7 @@ class PairsOnRanks {
   }
 
  private:
-  using All = std::optional<AllOfDimension>;
-
-  std::vector<SentEnds> edge_ends() {
-    std::vector<Id> starts;
-    together(ranks_, [&] {
-      reserve(starts, 2 * critical_.edges.size());
-      for (const auto& [high, low] : critical_.edges) starts.insert(starts.end(), {high, low});
-    });
-    const auto simplices = PathSimplices::make(gradient_, PathSimplices::Kind::falling_vertices);
-    const auto ends = Followers(*simplices, *places_)(starts);
-    std::vector<SentEnds> by_edge;
-    together(ranks_, [&] {
-      reserve(by_edge, critical_.edges.size());
-      for (std::size_t i = 0; i < ends.size(); i += 2) by_edge.push_back({ends[i], ends[i + 1]});
-    });
-    return by_edge;
-  }
-
-  std::vector<SentEnds> facet_ends() {
-    const auto simplices = PathSimplices::make(gradient_, PathSimplices::Kind::rising_cells);
-    const auto ends = Followers(*simplices, *places_)(critical_.star);
-    std::vector<SentEnds> by_facet;
-    together(ranks_, [&] {
-      reserve(by_facet, critical_.star_begin.size());
-      for (std::size_t i = 0; i + 1 < critical_.star_begin.size(); ++i) {
-        const Id first = critical_.star_begin[i], count = critical_.star_begin[i + 1] - first;
-        by_facet.push_back({});
-        for (Id k = 0; k < count; ++k) by_facet.back()[k] = ends[first + k];
-      }
-    });
-    return by_facet;
-  }
-
-  /// This rank's critical simplices.
-  std::array<std::vector<SentSimplex>, 4> own_simplices() const {
-    const Sender sender(gradient_);
-    std::array<std::vector<SentSimplex>, 4> own;
-    const auto add = [&](int dimension, const auto& simplices, const auto& sent_as) {
-      const std::vector<Id>& rank = own_.rank[dimension];
-      own[dimension] = std::vector<SentSimplex>(simplices.size());
-      parallel_for("GALE::own_simplices", HostExecutionSpace(), simplices.size(),
-                   [&](Offset i) { own[dimension][i] = sent_as(simplices[i], rank[i]); });
-    };
-    add(0, critical_.vertices, [&](Id vertex, Id rank) { return sender(std::array<Id, 1>{vertex}, rank); });
-    add(1, critical_.edges, sender);
-    add(2, critical_.triangles, sender);
-    add(mesh_.dimension(), critical_.cells, [&](Id cell, Id rank) { return sender.of_cell(cell, rank); });
-    return own;
-  }
+  using All = std::optional<SimplicesOfAll>;
 
   /// Brings the critical simplices of all ranks to the first, and its highest vertex from each.
   void gather() {
@@ -272,13 +74,8 @@ class PairsOnRanks {
     std::vector<SentSimplex> highest;
     std::vector<std::int64_t> bytes(ranks_.size(), 0);
     together(ranks_, [&] {
-      own = own_simplices();
-      const std::uint64_t* const keys = gradient_.order().keys();
-      const Interval owned = mesh_.owned_vertices();
-      if (owned.size() > 0) {
-        const auto at = std::max_element(keys + owned.first, keys + owned.last) - keys;
-        highest.push_back(Sender(gradient_)(std::array<Id, 1>{static_cast<Id>(at)}, 0));
-      }
+      own = simplices_to_send(gradient_, own_);
+      highest = highest_to_send(gradient_);
       for (const auto& some : own) bytes[0] += static_cast<std::int64_t>(some.size() * sizeof(SentSimplex));
       bytes[0] +=
           static_cast<std::int64_t>((critical_.edges.size() + critical_.star_begin.size() - 1) * sizeof(SentEnds));

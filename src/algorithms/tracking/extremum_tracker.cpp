@@ -71,9 +71,7 @@ std::vector<double> persistences(bool is_maximum, const std::vector<PersistenceP
 
 /// The field's greatest value.
 double greatest(const VertexOrder& order, const std::function<double(Id)>& value) {
-  const std::uint64_t* const keys = order.keys();
-  const auto highest = static_cast<Id>(std::max_element(keys, keys + order.mesh().vertices()) - keys);
-  return value(order.mesh().vertices_in_input()[highest]);
+  return value(order.mesh().vertices_in_input()[order.highest({0, order.mesh().vertices()})]);
 }
 
 /// Puts the extrema of a kind that are left behind `all`, by vertex. Returns for each place that of its heir there.

@@ -1,0 +1,113 @@
+#include <gale/algorithms/excerpt/gathering.hpp>
+#include <gale/algorithms/gradient/follow_each_path.hpp>
+#include <gale/algorithms/morse_smale/paths_on_ranks.hpp>
+#include <gale/algorithms/persistence/ends_on_ranks.hpp>
+
+namespace gale::detail {
+
+namespace {
+
+/// Follows the paths from some simplices (GALE's ids) to their ends, each rank in its part.
+class Followers {
+ public:
+  /// Collective. `places` has those of this rank's critical simplices.
+  Followers(const PathSimplices& simplices, const CriticalPlaces& places)
+      : simplices_(simplices),
+        places_(places),
+        ranks_(simplices.mesh().exchange().ranks()),
+        successors_(simplices.successors().in<HostMemory>().data()) {}
+
+  std::vector<SentEnd> operator()(const std::vector<Id>& starts) {
+    std::vector<Stop> stops;
+    std::vector<Id> open;
+    together(ranks_, [&] {
+      stops.resize(starts.size());
+      follow_each_path(
+          "GALE::follow_here", successors_, static_cast<Offset>(starts.size()), [&](Offset i) { return starts[i]; },
+          [&](Offset i, Id last, Id next) { stops[i] = stop_at(last, next); });
+      for (std::size_t i = 0; i < stops.size(); ++i) {
+        if (stops[i].next >= 0) open.push_back(static_cast<Id>(i));
+      }
+    });
+    while (ranks_.sum(static_cast<std::int64_t>(open.size())) != 0) {
+      const auto answers = ask<Stop>(
+          ranks_, "GALE::ends_elsewhere", static_cast<Offset>(open.size()), [&](Id i) { return stops[open[i]].rank; },
+          [&](Id i) { return stops[open[i]].next; }, [&](GlobalId id) { return follow(simplices_.local(id)); });
+      std::vector<Id> still;
+      for (std::size_t i = 0; i < open.size(); ++i) {
+        stops[open[i]] = answers(i);
+        if (answers(i).next >= 0) still.push_back(open[i]);
+      }
+      open.swap(still);
+    }
+    std::vector<SentEnd> ends;
+    together(ranks_, [&] {
+      reserve(ends, stops.size());
+      for (const Stop& stop : stops) ends.push_back({stop.rank, stop.place});
+    });
+    return ends;
+  }
+
+ private:
+  /// Where a path ends, or which rank follows it on from where.
+  struct Stop {
+    int rank = SentEnd::outside;
+    Id place = no_id;
+    GlobalId next = -1;
+  };
+
+  Stop follow(Id at) const {
+    while (successors_[at] >= 0) at = successors_[at];
+    return stop_at(at, successors_[at]);
+  }
+
+  Stop stop_at(Id last, Id next) const {
+    if (next == no_id)
+      return {ranks_.rank(), simplices_.are_vertices() ? places_.of_vertex(last) : places_.of_cell(last), -1};
+    if (next == DiscreteGradient::elsewhere) return {simplices_.owner(last), no_id, simplices_.global(last)};
+    return {};
+  }
+
+  const PathSimplices& simplices_;
+  const CriticalPlaces& places_;
+  const Ranks& ranks_;
+  const Id* const successors_;
+};
+
+}  // namespace
+
+std::vector<SentEnds> ends_of_edges_on_ranks(const DiscreteGradient& gradient, const CriticalPlaces& places) {
+  const auto& edges = gradient.critical().edges;
+  const Ranks& ranks = gradient.mesh().exchange().ranks();
+  std::vector<Id> starts;
+  together(ranks, [&] {
+    reserve(starts, 2 * edges.size());
+    for (const auto& [high, low] : edges) starts.insert(starts.end(), {high, low});
+  });
+  const auto simplices = PathSimplices::make(gradient, PathSimplices::Kind::falling_vertices);
+  const auto ends = Followers(*simplices, places)(starts);
+  std::vector<SentEnds> by_edge;
+  together(ranks, [&] {
+    reserve(by_edge, edges.size());
+    for (std::size_t i = 0; i < ends.size(); i += 2) by_edge.push_back({ends[i], ends[i + 1]});
+  });
+  return by_edge;
+}
+
+std::vector<SentEnds> ends_of_facets_on_ranks(const DiscreteGradient& gradient, const CriticalPlaces& places) {
+  const CriticalSimplices& critical = gradient.critical();
+  const auto simplices = PathSimplices::make(gradient, PathSimplices::Kind::rising_cells);
+  const auto ends = Followers(*simplices, places)(critical.star);
+  std::vector<SentEnds> by_facet;
+  together(gradient.mesh().exchange().ranks(), [&] {
+    reserve(by_facet, critical.star_begin.size());
+    for (std::size_t i = 0; i + 1 < critical.star_begin.size(); ++i) {
+      const Id first = critical.star_begin[i], count = critical.star_begin[i + 1] - first;
+      by_facet.push_back({});
+      for (Id k = 0; k < count; ++k) by_facet.back()[k] = ends[first + k];
+    }
+  });
+  return by_facet;
+}
+
+}  // namespace gale::detail
