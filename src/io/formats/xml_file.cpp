@@ -113,7 +113,21 @@ Blocks read_blocks(Binary& binary, const XmlFile& file) {
   return blocks;
 }
 
-/// Uncompresses blocks into values as they are read, some at a time, each by a thread: memory is taken as they arrive.
+/// Uncompresses some blocks from the first-th on, each by a thread: the k-th of them is from[k] bytes behind
+/// `compressed`. Returns whether all are good.
+bool uncompress_some(const Uncompress& to_bytes, const Blocks& blocks, std::size_t first, const char* compressed,
+                     const std::vector<std::size_t>& from, char* to) {
+  std::atomic<bool> are_good{true};
+  const int threads = static_cast<int>(std::min<std::size_t>(host_threads(), from.size()));
+  in_turns(threads, static_cast<std::int64_t>(from.size()), [&](int, std::int64_t k) {
+    const std::size_t block = first + static_cast<std::size_t>(k);
+    if (!to_bytes(compressed + from[k], blocks.compressed[block], to + k * blocks.block_bytes, blocks.bytes_of(block)))
+      are_good = false;
+  });
+  return are_good;
+}
+
+/// Uncompresses blocks into values as they are read, some at a time: memory is taken as they arrive.
 template <class T>
 std::vector<T> uncompressed_values(Binary& binary, const Blocks& blocks, const XmlFile& file, std::uint64_t count) {
   constexpr std::size_t bytes_at_once = 1 << 24;
@@ -139,15 +153,8 @@ std::vector<T> uncompressed_values(Binary& binary, const Blocks& blocks, const X
     // A very large block goes elsewhere first: what it doesn't stand for isn't touched there.
     const std::unique_ptr<char[]> apart(bytes > bytes_at_once ? new char[bytes] : nullptr);
     char* const to = apart ? apart.get() : make_room();
-    std::atomic<bool> whole{true};
-    const int threads = static_cast<int>(std::min<std::size_t>(host_threads(), last - first));
-    in_turns(threads, static_cast<std::int64_t>(last - first), [&](int, std::int64_t k) {
-      const std::size_t block = first + static_cast<std::size_t>(k);
-      if (!to_bytes(compressed.data() + from[k], blocks.compressed[block], to + k * blocks.block_bytes,
-                    blocks.bytes_of(block)))
-        whole = false;
-    });
-    if (!whole) damaged("an array's compressed block is wrong");
+    if (!uncompress_some(to_bytes, blocks, first, compressed.data(), from, to))
+      damaged("an array's compressed block is wrong");
     if (apart) std::memcpy(make_room(), apart.get(), bytes);
     done += bytes;
     first = last;
