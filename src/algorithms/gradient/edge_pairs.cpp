@@ -11,17 +11,19 @@ EdgePairs::EdgePairs(Id vertices, int consumers)
 
 EdgePairs::EdgePairs(const Array<const Id, HostMemory>& words, const Array<const Offset, HostMemory>& begin,
                      int consumers)
-    : EdgePairs(static_cast<Id>(begin.extent(0)), consumers) {
-  made_elsewhere_ = words;
-  Id* const first = const_cast<Id*>(words.data());  // rows are written once, and these are
+    : made_elsewhere_(words), begin_(begin), pools_(consumers) {
+  if (consumers == 0) return;
+  const auto rows = allocate<Array<EdgePairRow, HostMemory>>("GALE::edge_pair_rows", begin.extent(0));
   parallel_for("GALE::edge_pair_rows", HostExecutionSpace(), begin.extent(0),
-               [&](Offset v) { rows_(v) = EdgePairRow(first + begin(v)); });
+               [&](Offset v) { rows(v) = (*this)[static_cast<Id>(v)]; });
+  rows_ = rows;
 }
 
 EdgePairs::EdgePairs(const EdgePairs& some, Interval owned, Id vertices) : EdgePairs(vertices, 1) {
   static Id no_edges = 0;
-  parallel_for("GALE::edge_pair_rows", HostExecutionSpace(), vertices,
-               [&](Offset v) { rows_(v) = owned.has(static_cast<Id>(v)) ? some.rows_(v) : EdgePairRow(&no_edges); });
+  parallel_for("GALE::edge_pair_rows", HostExecutionSpace(), vertices, [&](Offset v) {
+    rows_(v) = owned.has(static_cast<Id>(v)) ? some[static_cast<Id>(v)] : EdgePairRow(&no_edges);
+  });
 }
 
 EdgePairRow EdgePairs::begin(int consumer, Id vertex, Id count) {

@@ -80,7 +80,8 @@ class GALE_EXPORT EdgePairs {
   EdgePairs() = default;
   EdgePairs(Id vertices, int consumers);
 
-  /// Takes rows that were made elsewhere: their words, and where among them each vertex's row begins.
+  /// Takes rows that were made elsewhere: their words, and where among them each vertex's row begins. Those of other
+  /// vertices are to be begun by consumers, if there are any.
   EdgePairs(const Array<const Id, HostMemory>& words, const Array<const Offset, HostMemory>& begin, int consumers);
 
   /// Rows for so many vertices: of those that are owned the rows of `some`, which must live as long. Those of others
@@ -90,11 +91,16 @@ class GALE_EXPORT EdgePairs {
   /// A row for a vertex, to be filled. A consumer may begin rows while others do; each vertex once.
   EdgePairRow begin(int consumer, Id vertex, Id count);
 
-  EdgePairRow operator[](Id vertex) const { return rows_(vertex); }
+  EdgePairRow operator[](Id vertex) const {
+    if (rows_.data() != nullptr) return rows_(vertex);
+    return EdgePairRow(const_cast<Id*>(made_elsewhere_.data()) + begin_(vertex));  // which are read only
+  }
 
   /// Has the row of a vertex that is soon to be read brought near: first where it is, some time later itself.
-  void prefetch_place(Id vertex) const { __builtin_prefetch(&rows_(vertex)); }
-  void prefetch(Id vertex) const { __builtin_prefetch(rows_(vertex).ids()); }
+  void prefetch_place(Id vertex) const {
+    __builtin_prefetch(rows_.data() != nullptr ? static_cast<const void*>(&rows_(vertex)) : &begin_(vertex));
+  }
+  void prefetch(Id vertex) const { __builtin_prefetch((*this)[vertex].ids()); }
 
   std::size_t bytes() const;
 
@@ -105,8 +111,9 @@ class GALE_EXPORT EdgePairs {
     Id* end = nullptr;
   };
 
-  Array<EdgePairRow, HostMemory> rows_;
+  Array<EdgePairRow, HostMemory> rows_;  ///< of each vertex; none where all were made elsewhere
   Array<const Id, HostMemory> made_elsewhere_;
+  Array<const Offset, HostMemory> begin_;  ///< of each vertex there
   std::vector<Pool> pools_;
 };
 

@@ -2,19 +2,46 @@
 
 #include <algorithm>
 #include <array>
+#include <type_traits>
 
+#include <gale/base/mirrored.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/base/stop.hpp>
+#include <gale/base/transfer.hpp>
 #include <gale/base/types.hpp>
 
 namespace gale::detail {
 
+/// Where paths end, on the host.
+struct PathStops {
+  Array<Id, HostMemory> last;  ///< the simplex that each ends at
+  Array<Id, HostMemory> next;  ///< that one's successor, below 0
+};
+
+/// Follows each of some paths to its end where `successors` lie, in the memory of `space`: a thread for each.
+template <class Space>
+PathStops follow_in(const Space& space, const char* label, const Array<const Id, MemoryOf<Space>>& successors,
+                    const Array<Id, HostMemory>& starts) {
+  const auto from = in_memory<MemoryOf<Space>>(starts);
+  const auto last = allocate<Array<Id, MemoryOf<Space>>>("GALE::path_ends", starts.extent(0));
+  const auto next = allocate<Array<Id, MemoryOf<Space>>>("GALE::behind_path_ends", starts.extent(0));
+  parallel_for(
+      label, space, starts.extent(0), KOKKOS_LAMBDA(Offset i) {
+        Id at = from(i), to = successors(at);
+        for (; to >= 0; to = successors(at)) at = to;
+        last(i) = at;
+        next(i) = to;
+      });
+  return {on_host(last), on_host(next)};
+}
+
 /// Follows the paths along `successors` (of each simplex, below 0 where a path ends) from start(0), ...,
-/// start(count - 1), which aren't below 0. Calls ended(i, last, next) for each: the simplex that it ends at, and that
-/// one's successor. Does so on all host threads; each has some paths under way at the same time, as a step is a wait
-/// for memory.
+/// start(count - 1), which aren't below 0, on all host threads. Calls ended(i, last, next) for each: the simplex that
+/// it ends at, and that one's successor. A thread has some paths under way at the same time, as a step is a wait for
+/// memory.
 template <class Start, class Ended>
-void follow_each_path(const char* label, const Id* successors, Offset count, const Start& start, const Ended& ended) {
+void follow_each_on_host(const char* label, const Id* successors, Offset count, const Start& start,
+                         const Ended& ended) {
   struct Path {
     Offset which;
     Id at;
@@ -42,6 +69,24 @@ void follow_each_path(const char* label, const Id* successors, Offset count, con
           path = paths[--under_way];
         }
       }
+    }
+  });
+}
+
+/// Does the same where the successors were made: on a device, unless that lacks the memory, or on the host. `ended` is
+/// called on host threads.
+template <class Start, class Ended>
+void follow_each_path(const char* label, const Mirrored<Id>& successors, Offset count, const Start& start,
+                      const Ended& ended) {
+  in_worker_or_host_space(successors.on_device(), [&](const auto& space) {
+    using Space = std::decay_t<decltype(space)>;
+    if constexpr (is_device<Space>) {
+      const auto starts = allocate<Array<Id, HostMemory>>("GALE::path_starts", count);
+      parallel_for(label, HostExecutionSpace(), count, [&](Offset i) { starts(i) = start(i); });
+      const PathStops stops = follow_in(space, label, successors.in<MemoryOf<Space>>(), starts);
+      parallel_for(label, HostExecutionSpace(), count, [&](Offset i) { ended(i, stops.last(i), stops.next(i)); });
+    } else {
+      follow_each_on_host(label, successors.in<HostMemory>().data(), count, start, ended);
     }
   });
 }

@@ -2,6 +2,7 @@
 #include <gale/algorithms/gradient/follow_each_path.hpp>
 #include <gale/algorithms/morse_smale/paths_on_ranks.hpp>
 #include <gale/algorithms/persistence/ends_on_ranks.hpp>
+#include <gale/mesh/exchange/messages.hpp>
 
 namespace gale::detail {
 
@@ -12,27 +13,27 @@ class Followers {
  public:
   /// Collective. `places` has those of this rank's critical simplices.
   Followers(const PathSimplices& simplices, const CriticalPlaces& places)
-      : simplices_(simplices),
-        places_(places),
-        ranks_(simplices.mesh().exchange().ranks()),
-        successors_(simplices.successors().in<HostMemory>().data()) {}
+      : simplices_(simplices), places_(places), ranks_(simplices.mesh().exchange().ranks()) {}
 
   std::vector<SentEnd> operator()(const std::vector<Id>& starts) {
     std::vector<Stop> stops;
     std::vector<Id> open;
     together(ranks_, [&] {
       stops.resize(starts.size());
-      follow_each_path(
-          "GALE::follow_here", successors_, static_cast<Offset>(starts.size()), [&](Offset i) { return starts[i]; },
-          [&](Offset i, Id last, Id next) { stops[i] = stop_at(last, next); });
+      follow(
+          static_cast<Offset>(starts.size()), [&](Offset i) { return starts[i]; }, stops.data());
       for (std::size_t i = 0; i < stops.size(); ++i) {
         if (stops[i].next >= 0) open.push_back(static_cast<Id>(i));
       }
     });
     while (ranks_.sum(static_cast<std::int64_t>(open.size())) != 0) {
-      const auto answers = ask<Stop>(
+      const auto answers = ask_for_all<Stop>(
           ranks_, "GALE::ends_elsewhere", static_cast<Offset>(open.size()), [&](Id i) { return stops[open[i]].rank; },
-          [&](Id i) { return stops[open[i]].next; }, [&](GlobalId id) { return follow(simplices_.local(id)); });
+          [&](Id i) { return stops[open[i]].next; },
+          [&](const auto& from, const auto& found) {
+            follow(
+                from.extent(0), [&](Offset i) { return simplices_.local(from(i)); }, found.data());
+          });
       std::vector<Id> still;
       for (std::size_t i = 0; i < open.size(); ++i) {
         stops[open[i]] = answers(i);
@@ -56,9 +57,11 @@ class Followers {
     GlobalId next = -1;
   };
 
-  Stop follow(Id at) const {
-    while (successors_[at] >= 0) at = successors_[at];
-    return stop_at(at, successors_[at]);
+  /// Follows paths in this rank's part, from start(i) for each i below `count`.
+  template <class Start>
+  void follow(Offset count, const Start& start, Stop* stops) const {
+    follow_each_path("GALE::follow_here", simplices_.successors(), count, start,
+                     [&](Offset i, Id last, Id next) { stops[i] = stop_at(last, next); });
   }
 
   Stop stop_at(Id last, Id next) const {
@@ -71,7 +74,6 @@ class Followers {
   const PathSimplices& simplices_;
   const CriticalPlaces& places_;
   const Ranks& ranks_;
-  const Id* const successors_;
 };
 
 }  // namespace

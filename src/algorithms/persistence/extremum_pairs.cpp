@@ -14,7 +14,7 @@ PathEnds ends_of_edges(const DiscreteGradient& gradient, const CriticalPlaces& p
   const auto& edges = gradient.critical().edges;
   PathEnds ends(edges.size());
   follow_each_path(
-      "GALE::ends_of_edges", gradient.vertex_successors().data(), 2 * static_cast<Offset>(edges.size()),
+      "GALE::ends_of_edges", gradient.store().vertex_successors(), 2 * static_cast<Offset>(edges.size()),
       [&](Offset i) { return edges[i / 2][i % 2]; },
       [&](Offset i, Id last, Id) { ends[i / 2][i % 2] = places.of_vertex(last); });
   return ends;
@@ -24,7 +24,7 @@ PathEnds ends_of_facets(const DiscreteGradient& gradient, const CriticalPlaces& 
   const CriticalSimplices& critical = gradient.critical();
   std::vector<Id> end_of_star(critical.star.size(), no_id);
   follow_each_path(
-      "GALE::ends_of_facets", gradient.cell_successors().data(), static_cast<Offset>(critical.star.size()),
+      "GALE::ends_of_facets", gradient.store().cell_successors(), static_cast<Offset>(critical.star.size()),
       [&](Offset i) { return critical.star[i]; },
       [&](Offset i, Id last, Id next) {
         if (next == no_id) end_of_star[i] = places.of_cell(last);

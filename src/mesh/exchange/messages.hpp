@@ -168,11 +168,11 @@ Dealt<T> to_first(const Ranks& ranks, const char* label, const std::vector<T>& e
   return exchange_packed(ranks, label, sent);
 }
 
-/// What the ranks answer to a question about each of the items 0..items-1, by item: answer_of(question_of(i)), found by
-/// the rank rank_of(i). Collective; no answer_of sends anything.
-template <class Answer, class RankOf, class QuestionOf, class AnswerOf>
-Array<Answer, HostMemory> ask(const Ranks& ranks, const char* label, Offset items, const RankOf& rank_of,
-                              const QuestionOf& question_of, const AnswerOf& answer_of) {
+/// What the ranks answer to a question about each of the items 0..items-1, by item: what answer_all(questions, answers)
+/// has the rank rank_of(i) write to the place of question_of(i). Collective; no answer_all sends anything.
+template <class Answer, class RankOf, class QuestionOf, class AnswerAll>
+Array<Answer, HostMemory> ask_for_all(const Ranks& ranks, const char* label, Offset items, const RankOf& rank_of,
+                                      const QuestionOf& question_of, const AnswerAll& answer_all) {
   using Question = std::decay_t<decltype(question_of(Id()))>;
   Array<Id, HostMemory> members;
   const Dealt<Question> asked = deal<Question>(ranks, "GALE::asked", items, rank_of, question_of, &members);
@@ -180,8 +180,7 @@ Array<Answer, HostMemory> ask(const Ranks& ranks, const char* label, Offset item
   Dealt<Answer> given;
   together(ranks, [&] {
     given = dealt<Answer>("GALE::answers", counts_of(questions));
-    parallel_for("GALE::answers", HostExecutionSpace(), questions.count(),
-                 [&](Offset i) { given.entries(i) = answer_of(questions.entries(i)); });
+    answer_all(questions.entries, given.entries);
   });
   const Dealt<Answer> received = exchange_packed(ranks, "GALE::answered", given);
   Array<Answer, HostMemory> answers;
@@ -190,6 +189,17 @@ Array<Answer, HostMemory> ask(const Ranks& ranks, const char* label, Offset item
     parallel_for(label, HostExecutionSpace(), items, [&](Offset k) { answers(members(k)) = received.entries(k); });
   });
   return answers;
+}
+
+/// What they answer one by one: answer_of(question_of(i)). Collective; no answer_of sends anything.
+template <class Answer, class RankOf, class QuestionOf, class AnswerOf>
+Array<Answer, HostMemory> ask(const Ranks& ranks, const char* label, Offset items, const RankOf& rank_of,
+                              const QuestionOf& question_of, const AnswerOf& answer_of) {
+  return ask_for_all<Answer>(ranks, label, items, rank_of, question_of,
+                             [&](const auto& questions, const auto& answers) {
+                               parallel_for("GALE::answers", HostExecutionSpace(), questions.extent(0),
+                                            [&](Offset i) { answers(i) = answer_of(questions(i)); });
+                             });
 }
 
 }  // namespace gale::detail

@@ -1,0 +1,64 @@
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <gale/algorithms/gradient/follow_each_path.hpp>
+
+namespace gale::test {
+
+namespace {
+
+/// Successors of `count` simplices, lower ones, and below 0 where a path ends: here and there, in all ways.
+Array<Id, HostMemory> falling_successors(Id count) {
+  const auto successors = allocate<Array<Id, HostMemory>>("successors", count);
+  std::mt19937 random(11);
+  for (Id i = 0; i < count; ++i)
+    successors(i) = i == 0 || random() % 50 == 0 ? -1 - static_cast<Id>(random() % 3) : static_cast<Id>(random() % i);
+  return successors;
+}
+
+void expect_end(const Array<Id, HostMemory>& successors, Id start, Id last, Id next) {
+  Id at = start;
+  while (successors(at) >= 0) at = successors(at);
+  ASSERT_EQ(last, at) << "from " << start;
+  ASSERT_EQ(next, successors(at)) << "from " << start;
+}
+
+}  // namespace
+
+TEST(FollowEachPath, comes_to_the_end_of_each_once) {
+  const Id count = 30000;
+  const auto successors = falling_successors(count);
+  for (const Id paths : {0, 1, 5, 16, 17, 20000}) {
+    std::vector<Id> last(paths, no_id), next(paths, 0), calls(paths, 0);
+    const auto start = [&](Offset i) { return static_cast<Id>(count - 1 - i); };
+    detail::follow_each_path("paths", Mirrored<Id>(successors), paths, start, [&](Offset i, Id at, Id behind) {
+      ++calls[i];
+      last[i] = at;
+      next[i] = behind;
+    });
+    for (Id i = 0; i < paths; ++i) {
+      ASSERT_EQ(calls[i], 1);
+      expect_end(successors, start(i), last[i], next[i]);
+    }
+  }
+}
+
+TEST(FollowEachPath, comes_there_in_each_memory) {
+  const Id count = 30000;
+  const auto successors = falling_successors(count);
+  const auto follow = [&](const auto& space, Id paths) {
+    const auto starts = iota("starts", HostExecutionSpace(), paths);
+    const auto there = in_memory<MemoryOf<std::decay_t<decltype(space)>>>(Array<const Id, HostMemory>(successors));
+    const detail::PathStops stops = detail::follow_in(space, "paths", there, starts);
+    ASSERT_EQ(stops.last.extent(0), static_cast<std::size_t>(paths));
+    for (Id i = 0; i < paths; ++i) expect_end(successors, starts(i), stops.last(i), stops.next(i));
+  };
+  for (const Id paths : {0, 1, 20000}) {
+    follow(HostExecutionSpace(), paths);
+    follow(WorkerSpace(), paths);
+  }
+}
+
+}  // namespace gale::test
