@@ -30,17 +30,20 @@ void expect_end(const Array<Id, HostMemory>& successors, Id start, Id last, Id n
 TEST(FollowEachPath, comes_to_the_end_of_each_once) {
   const Id count = 30000;
   const auto successors = falling_successors(count);
-  for (const Id paths : {0, 1, 5, 16, 17, 20000}) {
-    std::vector<Id> last(paths, no_id), next(paths, 0), calls(paths, 0);
-    const auto start = [&](Offset i) { return static_cast<Id>(count - 1 - i); };
-    detail::follow_each_path("paths", Mirrored<Id>(successors), paths, start, [&](Offset i, Id at, Id behind) {
-      ++calls[i];
-      last[i] = at;
-      next[i] = behind;
-    });
-    for (Id i = 0; i < paths; ++i) {
-      ASSERT_EQ(calls[i], 1);
-      expect_end(successors, start(i), last[i], next[i]);
+  const Array<const Id, HostMemory> made(successors);
+  for (const Mirrored<Id>& where : {Mirrored<Id>(made), Mirrored<Id>(on_worker(made))}) {
+    for (const Id paths : {0, 1, 5, 16, 17, 20000}) {
+      std::vector<Id> last(paths, no_id), next(paths, 0), calls(paths, 0);
+      const auto start = [&](Offset i) { return static_cast<Id>(count - 1 - i); };
+      detail::follow_each_path("paths", where, paths, start, [&](Offset i, Id at, Id behind) {
+        ++calls[i];
+        last[i] = at;
+        next[i] = behind;
+      });
+      for (Id i = 0; i < paths; ++i) {
+        ASSERT_EQ(calls[i], 1);
+        expect_end(successors, start(i), last[i], next[i]);
+      }
     }
   }
 }

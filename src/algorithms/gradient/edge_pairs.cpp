@@ -17,6 +17,7 @@ EdgePairs::EdgePairs(const Array<const Id, HostMemory>& words, const Array<const
   parallel_for("GALE::edge_pair_rows", HostExecutionSpace(), begin.extent(0),
                [&](Offset v) { rows(v) = (*this)[static_cast<Id>(v)]; });
   rows_ = rows;
+  begin_ = {};
 }
 
 EdgePairs::EdgePairs(const EdgePairs& some, Interval owned, Id vertices) : EdgePairs(vertices, 1) {

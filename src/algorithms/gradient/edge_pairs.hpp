@@ -80,8 +80,8 @@ class GALE_EXPORT EdgePairs {
   EdgePairs() = default;
   EdgePairs(Id vertices, int consumers);
 
-  /// Takes rows that were made elsewhere: their words, and where among them each vertex's row begins. Those of other
-  /// vertices are to be begun by consumers, if there are any.
+  /// Takes rows that were made elsewhere: their words, and where among them each vertex's row begins. Consumers may
+  /// begin rows anew; without any, rows are only read.
   EdgePairs(const Array<const Id, HostMemory>& words, const Array<const Offset, HostMemory>& begin, int consumers);
 
   /// Rows for so many vertices: of those that are owned the rows of `some`, which must live as long. Those of others
@@ -93,7 +93,7 @@ class GALE_EXPORT EdgePairs {
 
   EdgePairRow operator[](Id vertex) const {
     if (rows_.data() != nullptr) return rows_(vertex);
-    return EdgePairRow(const_cast<Id*>(made_elsewhere_.data()) + begin_(vertex));  // which are read only
+    return EdgePairRow(const_cast<Id*>(made_elsewhere_.data()) + begin_(vertex));  // nobody writes to these
   }
 
   /// Has the row of a vertex that is soon to be read brought near: first where it is, some time later itself.

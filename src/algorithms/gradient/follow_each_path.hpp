@@ -18,21 +18,30 @@ struct PathStops {
   Array<Id, HostMemory> next;  ///< that one's successor, below 0
 };
 
+/// Follows one path.
+template <class Memory>
+struct FollowPath {
+  Array<const Id, Memory> successors, starts;
+  Array<Id, Memory> last, next;
+
+  KOKKOS_FUNCTION void operator()(Offset i) const {
+    Id at = starts(i), to = successors(at);
+    for (; to >= 0; to = successors(at)) at = to;
+    last(i) = at;
+    next(i) = to;
+  }
+};
+
 /// Follows each of some paths to its end where `successors` lie, in the memory of `space`: a thread for each.
 template <class Space>
 PathStops follow_in(const Space& space, const char* label, const Array<const Id, MemoryOf<Space>>& successors,
                     const Array<Id, HostMemory>& starts) {
-  const auto from = in_memory<MemoryOf<Space>>(starts);
-  const auto last = allocate<Array<Id, MemoryOf<Space>>>("GALE::path_ends", starts.extent(0));
-  const auto next = allocate<Array<Id, MemoryOf<Space>>>("GALE::behind_path_ends", starts.extent(0));
-  parallel_for(
-      label, space, starts.extent(0), KOKKOS_LAMBDA(Offset i) {
-        Id at = from(i), to = successors(at);
-        for (; to >= 0; to = successors(at)) at = to;
-        last(i) = at;
-        next(i) = to;
-      });
-  return {on_host(last), on_host(next)};
+  using Memory = MemoryOf<Space>;
+  const FollowPath<Memory> follow{successors, in_memory<Memory>(starts),
+                                  allocate<Array<Id, Memory>>("GALE::path_ends", starts.extent(0)),
+                                  allocate<Array<Id, Memory>>("GALE::behind_path_ends", starts.extent(0))};
+  parallel_for(label, space, starts.extent(0), follow);
+  return {on_host(follow.last), on_host(follow.next)};
 }
 
 /// Follows the paths along `successors` (of each simplex, below 0 where a path ends) from start(0), ...,
@@ -73,8 +82,8 @@ void follow_each_on_host(const char* label, const Id* successors, Offset count, 
   });
 }
 
-/// Does the same where the successors were made: on a device, unless that lacks the memory, or on the host. `ended` is
-/// called on host threads.
+/// Follows paths as follow_each_on_host where the successors were made: on a device, unless that lacks the memory, or
+/// on the host. Calls `ended` on host threads.
 template <class Start, class Ended>
 void follow_each_path(const char* label, const Mirrored<Id>& successors, Offset count, const Start& start,
                       const Ended& ended) {

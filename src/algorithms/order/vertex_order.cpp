@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <type_traits>
+#include <vector>
 
 #include <gale/algorithms/order/ordered_bits.hpp>
 #include <gale/algorithms/vertex_order.hpp>

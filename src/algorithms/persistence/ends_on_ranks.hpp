@@ -8,7 +8,8 @@
 
 namespace gale::detail {
 
-/// Where a path from a saddle ends: the rank that has the extremum, and its place there; outside.
+/// Where a path from a saddle ends: the rank that has the extremum, and its place there; `outside` if it leaves the
+/// mesh.
 struct SentEnd {
   static constexpr int outside = -1;
   int rank = outside;
@@ -20,7 +21,7 @@ using SentEnds = std::array<SentEnd, 2>;
 /// rank's critical simplices. Collective.
 std::vector<SentEnds> ends_of_edges_on_ranks(const DiscreteGradient& gradient, const CriticalPlaces& places);
 
-/// What ends_of_facets finds, likewise. Collective.
+/// What ends_of_facets finds, for this rank's critical facets, where paths may end on others. Collective.
 std::vector<SentEnds> ends_of_facets_on_ranks(const DiscreteGradient& gradient, const CriticalPlaces& places);
 
 }  // namespace gale::detail

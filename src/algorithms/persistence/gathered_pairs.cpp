@@ -11,6 +11,7 @@
 #include <gale/algorithms/persistence/ends_on_ranks.hpp>
 #include <gale/algorithms/persistence/simplices_of_all.hpp>
 #include <gale/base/threads.hpp>
+#include <gale/mesh/exchange/global_index.hpp>
 
 namespace gale {
 

@@ -11,7 +11,7 @@ namespace gale::detail {
 
 namespace {
 
-/// Has a rank's simplices be written as they are sent.
+/// Writes a rank's critical simplices as they are sent.
 class Sender {
  public:
   explicit Sender(const DiscreteGradient& gradient)

@@ -31,14 +31,16 @@ std::string argument(const std::string& joined, std::size_t at) {
   return at < joined.size() ? "'" + std::string(joined.c_str() + at) + "'" : "nothing more";
 }
 
-/// Has OpenMPI send through memory at once where all ranks are on one machine: to look for networks takes it 0.2 s,
-/// more than all else of its start. By copies in shared memory, as some containers forbid to read another process's.
-/// What the user has chosen stays.
+/// Has OpenMPI send through memory at once where all ranks are on one machine: to try libraries for networks takes it
+/// 0.2 s, more than all else of its start. OpenMPI 4 copies through shared memory then, as some containers forbid to
+/// read another process's; 5 finds out by itself. Keeps what the environment or mpirun's arguments say of `pml`.
 void send_through_memory_on_one_machine() {
   const char* const all = std::getenv("OMPI_COMM_WORLD_SIZE");
   const char* const here = std::getenv("OMPI_COMM_WORLD_LOCAL_SIZE");
-  if (all == nullptr || here == nullptr || std::strcmp(all, here) != 0) return;
-  if (setenv("OMPI_MCA_pml", "ob1", 0) == 0) setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none", 0);
+  if (all == nullptr || here == nullptr || std::strcmp(all, here) != 0 || std::getenv("OMPI_MCA_pml") != nullptr)
+    return;
+  setenv("OMPI_MCA_pml", "ob1", 0);
+  setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none", 0);
 }
 
 }  // namespace

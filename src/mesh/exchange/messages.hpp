@@ -191,7 +191,8 @@ Array<Answer, HostMemory> ask_for_all(const Ranks& ranks, const char* label, Off
   return answers;
 }
 
-/// What they answer one by one: answer_of(question_of(i)). Collective; no answer_of sends anything.
+/// What the ranks answer to each question by itself: answer_of(question_of(i)). Collective; no answer_of sends
+/// anything.
 template <class Answer, class RankOf, class QuestionOf, class AnswerOf>
 Array<Answer, HostMemory> ask(const Ranks& ranks, const char* label, Offset items, const RankOf& rank_of,
                               const QuestionOf& question_of, const AnswerOf& answer_of) {
