@@ -172,7 +172,7 @@ bool write_in_order(const Renumbered<corners, Index>& input, Offset count, const
 }  // namespace
 
 /// T_ex, in two steps: each part of the sorted cells counts and then places its own, by segment and after those of
-/// the parts before, so that rows ascend.
+/// the parts before, so that rows ascend. One segment alone has none.
 class ExternalRows {
  public:
   ExternalRows(const SortedCells<HostMemory>& sorted, const Borrowed<Id, HostMemory>& vertex_begin, int parts)
@@ -184,6 +184,7 @@ class ExternalRows {
   void begin_part(int part) { next_[part].assign(segments_, 0); }
 
   void count(int part, Id begin, Id end) {
+    if (segments_ == 1) return;
     Offset* const next = next_[part].data();
     for (Id t = begin; t < end; ++t) external_(t, [next](Id segment) { ++next[segment]; });
   }
@@ -201,6 +202,7 @@ class ExternalRows {
   }
 
   void place(int part, Id begin, Id end, Id* to) {
+    if (segments_ == 1) return;
     Offset* const next = next_[part].data();
     for (Id t = begin; t < end; ++t) external_(t, [=](Id segment) { to[next[segment]++] = t; });
   }
