@@ -16,6 +16,10 @@ class SurfaceTracer {
   SurfaceTracer(const WallGround& ground, const TurnedEdges* turned, Paths told, std::size_t most_kept = 0)
       : wall(ground, turned), keys_(ground.keys), told_(told), left_to_keep_(most_kept) {}
 
+  /// Makes room for so many triangles of connectors: to make more of it again and again copies them all. What isn't
+  /// used takes no memory.
+  void expect_connectors(std::size_t triangles) { reserve(connectors.cells, triangles); }
+
   void add_wall(Id triangle) {
     walls.sources.push_back(triangle);
     walls.cells.insert(walls.cells.end(), wall.triangles().begin(), wall.triangles().end());
@@ -70,6 +74,12 @@ namespace {
 
 using Tracers = std::vector<std::unique_ptr<SurfaceTracer>>;
 
+/// Triangles of connectors that few meshes exceed; of a very large mesh enough for what is copied to matter little.
+std::size_t usual_connectors(const Mesh& mesh) {
+  constexpr std::size_t enough = std::size_t(1) << 26;
+  return std::min(3 * static_cast<std::size_t>(mesh.vertices()), enough);
+}
+
 Separatrices<TriangleVertices> gathered_connectors(const Tracers& tracers, std::size_t triangles) {
   return gathered(tracers, &SurfaceTracer::connectors, &Separatrices<TriangleVertices>::destinations,
                   static_cast<Id>(triangles));
@@ -83,7 +93,12 @@ DescendingSurfaces descending_surfaces(const DiscreteGradient& gradient, const C
   const auto& triangles = critical.triangles;
   const WallGround ground(gradient);
   const auto tracers = traced(
-      triangles, threads, [&](int) { return std::make_unique<SurfaceTracer>(ground, turned, told); },
+      triangles, threads,
+      [&](int) {
+        auto tracer = std::make_unique<SurfaceTracer>(ground, turned, told);
+        if (want_connectors) tracer->expect_connectors(usual_connectors(gradient.mesh()) / threads);
+        return tracer;
+      },
       [&](SurfaceTracer& tracer, Id place) {
         tracer.wall.follow(triangles[place]);
         if (want_walls) tracer.add_wall(place);
@@ -106,7 +121,11 @@ ConnectorsHere::ConnectorsHere(const DiscreteGradient& gradient, const CriticalP
   const auto most_kept = static_cast<std::size_t>(gradient.mesh().vertices());
   found_->tracers = traced(
       triangles_, threads,
-      [&](int) { return std::make_unique<SurfaceTracer>(ground, nullptr, Paths::whole, most_kept / threads); },
+      [&](int) {
+        auto tracer = std::make_unique<SurfaceTracer>(ground, nullptr, Paths::whole, most_kept / threads);
+        tracer->expect_connectors(usual_connectors(gradient.mesh()) / threads);
+        return tracer;
+      },
       [&](SurfaceTracer& tracer, Id place) {
         tracer.wall.follow(triangles_[place]);
         if (tracer.wall.exits().empty()) return tracer.add_connectors(places, place);
