@@ -79,8 +79,9 @@ all_but_algorithms() {
 
 # Of the runtime, a part of all but what takes minutes here to compare every mesh with brute force, or has one thread.
 thread() {
-  build sanitize-thread gale_base gale_runtime gale_ttk
-  together "run_tests sanitize-thread base" "run_tests sanitize-thread ttk TtkBlockStore.*:TtkTriangulationOnThreads.*" \
+  build sanitize-thread gale_base gale_mesh gale_runtime gale_ttk
+  together "run_tests sanitize-thread base" "run_tests sanitize-thread mesh Encoding.*" \
+    "run_tests sanitize-thread ttk TtkBlockStore.*:TtkTriangulationOnThreads.*" \
     "part 3 sanitize-thread runtime -MixedSweep.*:Tests/MixedSweepOf.*:Tests/DeviceSweepOf.*:*RelationOf*:DeviceSweep.goes_through_large*:$large"
 }
 
