@@ -7,6 +7,7 @@
 #include <gale/algorithms/morse_smale.hpp>
 #include <gale/algorithms/morse_smale/parts.hpp>
 #include <gale/algorithms/order/require_mesh.hpp>
+#include <gale/algorithms/persistence/pairs.hpp>
 #include <gale/base/error.hpp>
 #include <gale/runtime/ways.hpp>
 
@@ -70,8 +71,6 @@ void find_separatrices(int threads, const GetStructure& structure, MorseSmaleCom
 /// Which of an excerpt's critical simplices are this rank's: the highest vertices are.
 std::array<std::vector<char>, 4> own_simplices(const DiscreteGradient& excerpt, const Mesh& mesh) {
   const CriticalSimplices& critical = excerpt.critical();
-  const std::uint64_t* const keys = excerpt.order().keys();
-  const auto& corners = excerpt.mesh().encoded().cells;
   std::array<std::vector<char>, 4> own;
   const auto add = [&](int dimension, Id vertex) {
     const Id here = mesh.vertex_of(excerpt.mesh().vertex_id(excerpt.mesh().vertex_input()(vertex)));
@@ -80,10 +79,7 @@ std::array<std::vector<char>, 4> own_simplices(const DiscreteGradient& excerpt, 
   for (const Id vertex : critical.vertices) add(0, vertex);
   for (const auto& edge : critical.edges) add(1, edge[0]);
   for (const auto& triangle : critical.triangles) add(2, triangle[0]);
-  for (const Id cell : critical.cells) {
-    const Id* const all = &corners(cell, 0);
-    add(critical.dimension, *std::max_element(all, all + 4, [&](Id a, Id b) { return keys[a] < keys[b]; }));
-  }
+  for (const Id cell : critical.cells) add(critical.dimension, detail::highest_corner(excerpt, cell));
   return own;
 }
 

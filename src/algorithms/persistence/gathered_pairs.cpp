@@ -2,6 +2,7 @@
 #include <memory>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 #include <gale/algorithms/excerpt/excerpt_mesh.hpp>
 #include <gale/algorithms/excerpt/gathering.hpp>
@@ -111,9 +112,7 @@ class PairsOnRanks {
         last = &one;
     }
     if (last != nullptr) names.push_back(last->highest());
-    keep_distinct(names);
-    const auto ids = allocate<GlobalIds>("GALE::highest_ids", names.size());
-    std::copy(names.begin(), names.end(), ids.data());
+    const GlobalIds ids = distinct_of("GALE::highest_ids", std::move(names));
     const GlobalIndex index(ids);
     highest.dimension = mesh_.dimension();
     if (last != nullptr) highest.of_all = index.find(last->highest());

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
@@ -44,10 +43,7 @@ SimplifiedField given_back(const WholeMesh& whole, const Mesh& mesh, Computed* c
   value_ids = whole.given_back(value_ids);
   together(ranks, [&] {
     const auto count = static_cast<Offset>(value_ids.size());
-    std::vector<GlobalId> distinct = value_ids;
-    keep_distinct(distinct);
-    const auto ids = allocate<GlobalIds>("GALE::ids_of_values", distinct.size());
-    std::copy(distinct.begin(), distinct.end(), ids.data());
+    const GlobalIds ids = distinct_of("GALE::ids_of_values", value_ids);
     const GlobalIndex index(ids);
     here.value_of.resize(count);
     parallel_for("GALE::value_of", HostExecutionSpace(), count,

@@ -64,6 +64,13 @@ void keep_distinct(std::vector<GlobalId>& ids) {
   }
 }
 
+GlobalIds distinct_of(const std::string& label, std::vector<GlobalId> ids) {
+  keep_distinct(ids);
+  const auto distinct = allocate<GlobalIds>(label, ids.size());
+  std::copy(ids.begin(), ids.end(), distinct.data());
+  return distinct;
+}
+
 GlobalIndex::GlobalIndex(const Array<const GlobalId, HostMemory>& ascending) : ids_(ascending) {
   constexpr std::uint64_t bytes_an_id = 16;
   const Offset count = ids_.extent(0);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include <gale/base/counted_word.hpp>
@@ -23,6 +25,9 @@ GALE_EXPORT DistinctIds distinct_ids(const Array<const GlobalId, HostMemory>& id
 
 /// Sorts ids, and drops those that repeat others. O(n) where they lie densely.
 GALE_EXPORT void keep_distinct(std::vector<GlobalId>& ids);
+
+/// Those that keep_distinct leaves of some ids, in an array with that label.
+GALE_EXPORT GlobalIds distinct_of(const std::string& label, std::vector<GlobalId> ids);
 
 /// Finds the places of global ids among some that ascend: by bits, one for each id between the least and the greatest,
 /// where these take no more than 16 bytes an id, else by bisection.
@@ -69,10 +74,7 @@ GlobalIds missing_ids(const GlobalIndex& index, Offset n, const Visit& visit) {
   });
   std::vector<GlobalId> all;
   for (const auto& some : of_parts) all.insert(all.end(), some.begin(), some.end());
-  keep_distinct(all);
-  const auto missing = allocate<GlobalIds>("GALE::missing_ids", all.size());
-  std::copy(all.begin(), all.end(), missing.data());
-  return missing;
+  return distinct_of("GALE::missing_ids", std::move(all));
 }
 
 }  // namespace gale::detail
