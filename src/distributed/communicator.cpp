@@ -40,14 +40,16 @@ struct Communicator::Data {
     if (!finalized) MPI_Comm_free(&comm);
   }
 
-  /// Waits for all. MPI's own functions would hold the core for as long as it takes: ranks that share a machine, and
-  /// threads that compute, need it. So it looks again after an eighth of the time that it has waited, and `longest` at
-  /// most: messages in pieces go on only then. Each time it looks more than once, as MPI takes one step at each look,
-  /// and a sum takes several.
-  void wait(std::vector<MPI_Request>& requests, std::chrono::microseconds longest) {
+  /// Waits for all, `bytes` of messages among it. MPI's own functions would hold the core for as long as it takes:
+  /// ranks that share a machine, and threads that compute, need it. So it looks again after an eighth of the time that
+  /// it has waited, and at least every 2 ms, or 0.2 ms where messages are in pieces, as these go on only then. As long
+  /// as they may be on their way, at 1 GB/s, it doesn't sleep: each look moves a piece. Each time it looks more than
+  /// once, as MPI takes one step at each look, and a sum takes several.
+  void wait(std::vector<MPI_Request>& requests, std::int64_t bytes) {
     using Clock = std::chrono::steady_clock;
-    constexpr std::chrono::microseconds patience(100);
+    constexpr std::int64_t in_pieces = 1 << 20;
     constexpr int looks = 16;
+    const std::chrono::microseconds longest(bytes < in_pieces ? 2000 : 200), patience(100 + bytes / 1000);
     const auto begin = Clock::now();
     for (int done = 0;;) {
       for (int i = 0; i < looks && !done; ++i)
@@ -64,7 +66,7 @@ struct Communicator::Data {
   void complete(const Begin& begin) {
     std::vector<MPI_Request> one(1);
     begin(&one[0]);
-    wait(one, std::chrono::milliseconds(2));
+    wait(one, 0);
   }
 
   /// Calls act(first byte, bytes) for each message that the bytes [begin, end) are cut into.
@@ -163,8 +165,7 @@ void Communicator::exchange_bytes(const char* from, const std::vector<std::int64
   }
   const std::int64_t own = send_begin[rank() + 1] - send_begin[rank()];
   if (own > 0) std::memcpy(to + receive_begin[rank()], from + send_begin[rank()], static_cast<std::size_t>(own));
-  const std::int64_t bytes = send_begin.back() + receive_begin.back();
-  data_->wait(requests, std::chrono::microseconds(bytes < 1 << 20 ? 2000 : 200));
+  data_->wait(requests, send_begin.back() + receive_begin.back());
 }
 
 }  // namespace gale

@@ -165,7 +165,10 @@ class DistributedMesh::Sharing final : public Exchange {
   Mesh deal(MeshPart<Index> part, const PartitionOptions& options, const std::shared_ptr<const Exchange>& self);
   template <class Index>
   Mesh take(const MeshPart<Index>& part, const PartitionOptions& options, const std::shared_ptr<const Exchange>& self);
-  detail::ExchangePlan::Run share(const detail::VertexDirectory& directory);
+  detail::ExchangePlan::Run share(const detail::VertexDirectory& directory,
+                                  const Array<detail::VertexEntry, HostMemory>& of_owned);
+  Array<detail::VertexEntry, HostMemory> entries_of_all(const Array<detail::VertexEntry, HostMemory>& of_owned,
+                                                        const Array<detail::VertexEntry, HostMemory>& of_ghosts) const;
   detail::OwnAndGhosts share_points(const HostPoints& given, const detail::ExchangePlan::Run& run) const;
 
   Communicator ranks_;
@@ -217,22 +220,21 @@ Array<int, HostMemory> DistributedMesh::Sharing::owners_of(const Array<const Glo
 
 /// Plans how values come to this rank: each local vertex's from who handed it over, each ghost's from its owner. A rank
 /// that hands over what it owns, one after the other, wants the ghosts' alone: then the run isn't empty.
-detail::ExchangePlan::Run DistributedMesh::Sharing::share(const detail::VertexDirectory& directory) {
+detail::ExchangePlan::Run DistributedMesh::Sharing::share(const detail::VertexDirectory& directory,
+                                                          const Array<detail::VertexEntry, HostMemory>& of_owned) {
   const bool in_place = directory.given() && !held_.interval().is_empty();
   detail::ExchangePlan::Run run;
-  Array<Id, HostMemory> ghosts, slots;
-  detail::together(ranks_, [&] {
-    ghosts = detail::tabulated<Id>("GALE::ghosts", held_.ghost_count(), [&](Offset i) { return held_.ghost(i); });
-    slots = in_place ? ghosts : iota("GALE::all_vertices", HostExecutionSpace(), held_.count());
-    if (!in_place) vertex_ids.get();
-  });
   if (in_place)
     run = {held_.owned(0), held_.interval().begin - directory.given()->of(ranks_.rank()).begin, held_.owned_count()};
-  const auto entries = in_place ? directory.find(held_.ghosts()) : directory.find(vertex_ids.get());
-  const auto of_ghost = [&](Id i) { return entries(in_place ? i : ghosts(i)); };
+  const auto of_ghosts = directory.find(held_.ghosts());
+  Array<Id, HostMemory> ghosts, slots;
+  Array<detail::VertexEntry, HostMemory> entries;  // of slots
   detail::together(ranks_, [&] {
-    ghost_owners_ = detail::tabulated<int>("GALE::ghost_owners", held_.ghost_count(),
-                                           [&](Offset i) { return of_ghost(static_cast<Id>(i)).owner; });
+    ghosts = detail::tabulated<Id>("GALE::ghosts", held_.ghost_count(), [&](Offset i) { return held_.ghost(i); });
+    ghost_owners_ =
+        detail::tabulated<int>("GALE::ghost_owners", held_.ghost_count(), [&](Offset i) { return of_ghosts(i).owner; });
+    slots = in_place ? ghosts : iota("GALE::all_vertices", HostExecutionSpace(), held_.count());
+    entries = in_place ? of_ghosts : entries_of_all(of_owned, of_ghosts);
   });
   from_givers_ = detail::ExchangePlan(
       ranks_, run, slots, [&](Id i) { return entries(i).giver; }, [&](Id i) { return entries(i).place; },
@@ -241,6 +243,18 @@ detail::ExchangePlan::Run DistributedMesh::Sharing::share(const detail::VertexDi
       ranks_, {}, ghosts, [&](Id i) { return ghost_owners_(i); }, [&](Id i) { return held_.ghosts()(i); },
       [&](GlobalId id) { return held_.find(id); });
   return run;
+}
+
+/// By local input ids.
+Array<detail::VertexEntry, HostMemory> DistributedMesh::Sharing::entries_of_all(
+    const Array<detail::VertexEntry, HostMemory>& of_owned,
+    const Array<detail::VertexEntry, HostMemory>& of_ghosts) const {
+  const auto all = allocate<Array<detail::VertexEntry, HostMemory>>("GALE::entries_of_all", held_.count());
+  parallel_for("GALE::entries_of_all", HostExecutionSpace(), held_.owned_count(),
+               [&](Offset i) { all(held_.owned(i)) = of_owned(i); });
+  parallel_for("GALE::entries_of_all", HostExecutionSpace(), held_.ghost_count(),
+               [&](Offset i) { all(held_.ghost(i)) = of_ghosts(i); });
+  return all;
 }
 
 /// Brings points to those who hold them.
@@ -264,7 +278,8 @@ Mesh DistributedMesh::Sharing::deal(MeshPart<Index> part, const PartitionOptions
   const int corners_of_each = corners_of_all(ranks_, part);
   if (part.cells.extent(0) == 0) part.cells = CellRows<Index>(nullptr, 0, corners_of_each);
   const detail::VertexDirectory directory = directory_of(ranks_, part, options.repartition);
-  const detail::OwnedIds owned = directory.owned();
+  const detail::OwnedVertices all_owned = directory.owned();
+  const detail::OwnedIds& owned = all_owned.ids;
   // What a rank owns as it hands it over gets its segments on a device while cells travel.
   const bool in_place = directory.given() && !owned.interval.is_empty();
   std::future<Segmentation> segments;
@@ -278,7 +293,7 @@ Mesh DistributedMesh::Sharing::deal(MeshPart<Index> part, const PartitionOptions
   vertices_ = directory.vertices();
   cells_ = ranks_.sum(part.cells.extent(0));
   given_ = directory.given();
-  placed_ = share_points(part.points, share(directory));
+  placed_ = share_points(part.points, share(directory, all_owned.entries));
   std::optional<Mesh> mesh;
   detail::together(ranks_, [&] {
     places_ = held_cells.places();
@@ -339,7 +354,7 @@ Mesh DistributedMesh::Sharing::make(const GridLayers& part, const PartitionOptio
     held_ = detail::LocalVertices(detail::OwnedIds(local.owned_ids), local.ghosts);
     places_ = detail::CellPlaces({local.grid->cells(), {}, {}, local.first_cell}, {});
   });
-  const auto run = share(detail::VertexDirectory(ranks_, *given_));
+  const auto run = share(detail::VertexDirectory(ranks_, *given_), {});
   if (ranks_.size() == 1) from_givers_ = detail::ExchangePlan::of_one_rank(given_vertices_);
   const bool has_points = ranks_.least(std::int64_t(part.positions.count() == given_vertices_)) == 1;
   const bool has_none = ranks_.least(std::int64_t(part.positions.count() == 0)) == 1;

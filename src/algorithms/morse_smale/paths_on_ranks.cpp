@@ -118,11 +118,7 @@ void PathsOnRanks::find_exits(const std::vector<Id>& others) {
   std::vector<Id> ends = simplices_.critical();
   ends.insert(ends.end(), exits_.begin(), exits_.end());
   ends_ = ends_here(simplices_.successors(), ends);
-  std::vector<char> is_reached(exits_.size(), 0);
-  parallel_for("GALE::reached_exits", HostExecutionSpace(), ends_.extent(0), [&](Offset i) {
-    const Id at = end(static_cast<Id>(i)) - criticals_;
-    if (at >= 0 && exits_[at] != i) atomic_write(&is_reached[at], char(1));
-  });
+  std::vector<char> is_reached = reached_exits();
   for (const Id other : others) {
     const Id at = end(other) - criticals_;
     if (at >= 0) is_reached[at] = 1;
@@ -137,6 +133,25 @@ void PathsOnRanks::find_exits(const std::vector<Id>& others) {
   });
   parallel_sort("GALE::sort_exits", open_.begin(), open_.end(),
                 [&](Id a, Id b) { return stops_[a].id < stops_[b].id; });
+}
+
+/// Marks the exits that paths from other simplices come to; of many simplices at once none does, mostly.
+std::vector<char> PathsOnRanks::reached_exits() const {
+  constexpr Offset block = 64;
+  std::vector<char> is_reached(exits_.size(), 0);
+  const Id* const ends = ends_.data();
+  const Offset all = ends_.extent(0);
+  for_parts("GALE::reached_exits", all, threads_for(all), [&](int, Offset first, Offset last) {
+    for (Offset begin = first; begin < last; begin += block) {
+      const Offset end = std::min(begin + block, last);
+      if (*std::min_element(ends + begin, ends + end) > end_at(criticals_)) continue;
+      for (Offset i = begin; i < end; ++i) {
+        const Id at = place_of_end(ends[i]) - criticals_;
+        if (at >= 0 && exits_[at] != i) atomic_write(&is_reached[at], char(1));
+      }
+    }
+  });
+  return is_reached;
 }
 
 Id PathsOnRanks::end(Id simplex) const {

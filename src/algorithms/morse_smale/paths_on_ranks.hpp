@@ -99,6 +99,7 @@ class PathsOnRanks {
 
  private:
   void find_exits(const std::vector<Id>& others);
+  std::vector<char> reached_exits() const;
   bool jump();
 
   const PathSimplices& simplices_;

@@ -1,4 +1,3 @@
-#include <numeric>
 #include <string>
 
 #include <gale/base/error.hpp>
@@ -31,30 +30,39 @@ CellPlaces::CellPlaces(const KeptCells& kept, const GlobalIds& received) : kept_
 
 void CellPlaces::merge() {
   const Offset received = received_.extent(0);
-  received_by_id_.resize(received);
-  received_at_.resize(received);
-  std::iota(received_by_id_.begin(), received_by_id_.end(), Id(0));
-  const auto is_less = [&](Id a, Id b) { return received_(a) < received_(b); };
-  if (!std::is_sorted(received_by_id_.begin(), received_by_id_.end(), is_less))
-    parallel_sort("GALE::sort_received", received_by_id_.begin(), received_by_id_.end(), is_less);
-  Offset before = 0;
-  for (Offset r = 0; r < received; ++r) {
-    const GlobalId id = received_(received_by_id_[r]);
-    Offset end = before;  // the first kept one that isn't below it is mostly near
-    for (Offset step = 1; end < kept_.count && kept_.id(end) < id; step *= 2) {
-      before = end + 1;
-      end = std::min(before + step, kept_.count);
-    }
-    while (before < end) {
-      const Offset middle = before + (end - before) / 2;
-      const bool is_below = kept_.id(middle) < id;
-      before = is_below ? middle + 1 : before;
-      end = is_below ? end : middle;
-    }
-    const bool is_kept = before < kept_.count && kept_.id(before) == id;
-    if (is_kept || (r > 0 && received_(received_by_id_[r - 1]) == id)) refuse_repeated(id);
-    received_at_[r] = before + r;
+  const auto is_descent = [&](Offset r) { return Offset(r > 0 && received_(r) < received_(r - 1)); };
+  if (reduce_sum("GALE::count_descents", HostExecutionSpace(), received, is_descent) > 0) {
+    received_by_id_ = iota("GALE::received_by_id", HostExecutionSpace(), received);
+    parallel_sort("GALE::sort_received", received_by_id_.data(), received_by_id_.data() + received,
+                  [&](Id a, Id b) { return received_(a) < received_(b); });
   }
+  received_at_ = allocate<Array<Id, HostMemory>>("GALE::received_at", received);
+  const auto id = [&](Offset r) { return received_(received_by_id(r)); };
+  for_parts("GALE::merge_received", received, threads_for(received), [&](int, Offset first, Offset last) {
+    Offset before = 0;  // how many of those that are kept come before the one at hand
+    for (Offset r = first; r < last; ++r) {
+      before = kept_before(id(r), before);
+      const bool is_kept = before < kept_.count && kept_.id(before) == id(r);
+      if (is_kept || (r > 0 && id(r - 1) == id(r))) refuse_repeated(id(r));
+      received_at_(r) = static_cast<Id>(before + r);
+    }
+  });
+}
+
+/// How many of those that are kept have ids below one, at least `before` of them; it is mostly near that.
+Offset CellPlaces::kept_before(GlobalId id, Offset before) const {
+  Offset end = before;
+  for (Offset step = 1; end < kept_.count && kept_.id(end) < id; step *= 2) {
+    before = end + 1;
+    end = std::min(before + step, kept_.count);
+  }
+  while (before < end) {
+    const Offset middle = before + (end - before) / 2;
+    const bool is_below = kept_.id(middle) < id;
+    before = is_below ? middle + 1 : before;
+    end = is_below ? end : middle;
+  }
+  return before;
 }
 
 void CellPlaces::sort() {
@@ -68,9 +76,9 @@ void CellPlaces::sort() {
 
 GlobalId CellPlaces::id(Offset i) const {
   if (sources_.extent(0) != 0) return sorted_(i);
-  const auto next = std::lower_bound(received_at_.begin(), received_at_.end(), i);
-  const Offset before = next - received_at_.begin();
-  return next != received_at_.end() && *next == i ? received_(received_by_id_[before]) : kept_.id(i - before);
+  const Offset before = received_before(i);
+  const bool is_received = before < received_at_.extent(0) && received_at_(before) == i;
+  return is_received ? received_(received_by_id(before)) : kept_.id(i - before);
 }
 
 GlobalIds CellPlaces::ids() const {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <vector>
 
 #include <gale/mesh/exchange/global_index.hpp>
 
@@ -64,17 +63,16 @@ class CellPlaces {
                                   : received(i, sources_(i) - kept_.count);
       return;
     }
-    auto next = std::lower_bound(received_at_.begin(), received_at_.end(), first);
+    Offset before = received_before(first);
     for (Offset i = first; i < last;) {
-      const Offset before = next - received_at_.begin();
-      const Offset end = next == received_at_.end() ? last : std::min(*next, last);
+      const Offset end =
+          before == static_cast<Offset>(received_at_.extent(0)) ? last : std::min<Offset>(received_at_(before), last);
       if (i < end) {
         const Offset run = kept_.run(i - before, end - before);
         kept(i, kept_.place(i - before), run);
         i += run;
       } else {
-        received(i++, Offset(received_by_id_[before]));
-        ++next;
+        received(i++, received_by_id(before++));
       }
     }
   }
@@ -82,11 +80,20 @@ class CellPlaces {
  private:
   void merge();
   void sort();
+  Offset kept_before(GlobalId id, Offset before) const;
+
+  /// How many of those that were received come before the i-th of all.
+  Offset received_before(Offset i) const {
+    const Id* const begin = received_at_.data();
+    return std::lower_bound(begin, begin + received_at_.extent(0), i) - begin;
+  }
+
+  Offset received_by_id(Offset r) const { return received_by_id_.extent(0) == 0 ? r : Offset(received_by_id_(r)); }
 
   KeptCells kept_;
-  GlobalIds received_;  ///< in the order in which they came
-  std::vector<Id> received_by_id_;
-  std::vector<Offset> received_at_;  ///< their places among all, ascending
+  GlobalIds received_;                    ///< in the order in which they came
+  Array<Id, HostMemory> received_by_id_;  ///< empty where they came in that order
+  Array<Id, HostMemory> received_at_;     ///< their places among all, ascending
 
   // Where ids of those that are kept don't ascend.
   Array<Id, HostMemory> sources_;  ///< the i-th of all among the kept ones, then the received ones

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -10,47 +11,81 @@ namespace gale::detail {
 
 namespace {
 
-/// Throws for a cell that is none.
-template <class Index>
-void require_cell(const Index* cell, Offset corners) {
+/// Calls body(corners) with the number of a cell's vertices, 3 or 4, as a constant.
+template <class Body>
+void with_constant(Offset corners, const Body& body) {
+  if (corners == 4) {
+    body(std::integral_constant<int, 4>());
+  } else {
+    body(std::integral_constant<int, 3>());
+  }
+}
+
+/// Whether a cell's vertices are 0 or more, and different.
+template <int corners, class Index>
+bool is_cell(const Index* cell) {
   bool is_one = true;
-  for (const Index* corner = cell; corner != cell + corners; ++corner)
-    is_one &= *corner >= 0 && std::find(cell, corner, *corner) == corner;
-  if (is_one) return;
+  for (int k = 0; k < corners; ++k) {
+    is_one &= cell[k] >= 0;
+    for (int other = 0; other < k; ++other) is_one &= cell[other] != cell[k];
+  }
+  return is_one;
+}
+
+/// Throws for a cell that is none.
+template <int corners, class Index>
+void require_cell(const Index* cell) {
+  if (is_cell<corners>(cell)) return;
   std::string vertices;
-  for (Offset k = 0; k < corners; ++k) vertices += ' ' + std::to_string(cell[k]);
+  for (int k = 0; k < corners; ++k) vertices += ' ' + std::to_string(cell[k]);
   throw Error("the cell of vertices" + vertices + " is none: they must be different, and 0 or more");
 }
 
-/// The cells of a part with vertices outside `own`: their places in it, ascending. Throws gale::Error for one of
-/// these whose vertices are below 0 or not different.
+/// The cells of a part with vertices outside `own`, which are all where that is empty.
 template <class Index>
-std::vector<Id> cells_beyond(const MeshPart<Index>& part, const IdInterval& own) {
+SomeCells cells_beyond(const MeshPart<Index>& part, const IdInterval& own) {
   constexpr Offset block = 64;
   const Offset count = part.cells.extent(0), corners = part.cells.extent(1);
+  if (own.is_empty()) return {count, {}};
   const Index* const ids = part.cells.data();
   const IndexInterval<Index> inner(own);
-  const int parts = threads_for(count);
-  std::vector<std::vector<Id>> of_parts(parts);
-  for_parts("GALE::outer_cells", count, parts, [&](int some, Offset first, Offset last) {
+  std::vector<std::vector<Id>> of_parts(threads_for(count));
+  for_parts("GALE::outer_cells", count, static_cast<int>(of_parts.size()), [&](int some, Offset first, Offset last) {
     for (Offset begin = first; begin < last; begin += block) {
       const Offset end = std::min(begin + block, last);
       if (inner.contains(ids + corners * begin, corners * (end - begin))) continue;
       for (Offset t = begin; t < end; ++t) {
-        if (inner.contains(ids + corners * t, corners)) continue;
-        require_cell(ids + corners * t, corners);
-        of_parts[some].push_back(static_cast<Id>(t));
+        if (!inner.contains(ids + corners * t, corners)) of_parts[some].push_back(static_cast<Id>(t));
       }
     }
   });
   std::vector<Id> all;
   for (const auto& some : of_parts) all.insert(all.end(), some.begin(), some.end());
-  return all;
+  const Offset found = static_cast<Offset>(all.size());
+  return {found, tabulated<Id>("GALE::outer_cells", found, [&](Offset i) { return all[i]; })};
 }
 
-/// The places 0..count-1 but for those that are dropped, which ascend; none if none is.
+/// The vertices that some cells of a part have outside `own` and `handed`, ascending, none twice. Throws gale::Error
+/// for one of these cells whose vertices are below 0 or not different.
+template <class Index>
+GlobalIds vertices_outside(const MeshPart<Index>& part, const IdInterval& own, const GlobalIds& handed,
+                           const SomeCells& outer) {
+  const IndexInterval<Index> inner(own.is_empty() ? interval_of(handed) : own);  // spares most searches
+  GlobalIds others;
+  with_constant(part.cells.extent(1), [&](auto corners) {
+    others = missing_ids(GlobalIndex(handed), outer.count, [&](Offset i, const auto& offer) {
+      const Index* const cell = part.cells.data() + corners * Offset(outer[i]);
+      require_cell<corners>(cell);
+      for (int k = 0; k < corners; ++k) {
+        if (!inner.contains(cell[k])) offer(cell[k]);
+      }
+    });
+  });
+  return others;
+}
+
+/// The places 0..count-1 but for those that are dropped, which ascend.
 Array<Id, HostMemory> all_but(const std::vector<Id>& dropped, Offset count) {
-  if (dropped.empty()) return {};
   const auto kept = allocate<Array<Id, HostMemory>>("GALE::kept_cells", count - static_cast<Offset>(dropped.size()));
   for_parts("GALE::kept_cells", count, threads_for(count), [&](int, Offset first, Offset last) {
     auto next = std::lower_bound(dropped.begin(), dropped.end(), static_cast<Id>(first));
@@ -65,6 +100,19 @@ Array<Id, HostMemory> all_but(const std::vector<Id>& dropped, Offset count) {
   return kept;
 }
 
+/// The cells of a part that are kept: all but those of `outer` which `kept` lacks, whose places ascend.
+template <class Index>
+KeptCells kept_of(const MeshPart<Index>& part, const SomeCells& outer, const Array<Id, HostMemory>& kept,
+                  GlobalId first_id) {
+  const Offset count = part.cells.extent(0), kept_outer = kept.extent(0), all = count - (outer.count - kept_outer);
+  if (all == count) return {all, {}, part.cell_ids, first_id};
+  if (outer.count == count) return {all, kept, part.cell_ids, first_id};
+  std::vector<Id> dropped;
+  std::set_difference(outer.places.data(), outer.places.data() + outer.count, kept.data(), kept.data() + kept_outer,
+                      std::back_inserter(dropped));
+  return {all, all_but(dropped, count), part.cell_ids, first_id};
+}
+
 }  // namespace
 
 /// The ranks that own the vertices of some cells of a part.
@@ -74,62 +122,69 @@ class CornerOwners {
   /// Takes the `outer` ones: the others have vertices in `own` alone. Collective. Throws gale::Error on all ranks for a
   /// vertex that no rank hands over.
   CornerOwners(const Communicator& ranks, const MeshPart<Index>& part, const VertexDirectory& directory,
-               const IdInterval& own, const std::vector<Id>& outer);
+               const IdInterval& own, const SomeCells& outer);
 
-  /// Calls visit(rank) once for each rank that owns a vertex of a cell.
-  template <class Visit>
+  /// Calls visit(rank) once for each rank that owns a vertex of a cell, which has that many.
+  template <int corners, class Visit>
   void visit_ranks(Offset t, const Visit& visit) const {
-    int ranks[4];
-    for (std::size_t corner = 0; corner < part_.cells.extent(1); ++corner) {
-      ranks[corner] = owner(part_.cells(t, corner));
-      bool is_new = true;
-      for (std::size_t other = 0; other < corner; ++other) is_new &= ranks[other] != ranks[corner];
-      if (is_new) visit(ranks[corner]);
+    const Index* const cell = part_.cells.data() + corners * t;
+    int ranks[corners];
+    bool is_one = true;  // as mostly
+    for (int k = 0; k < corners; ++k) {
+      ranks[k] = own_.contains(cell[k]) ? rank_ : owners_(vertices_.find(cell[k]));
+      is_one &= ranks[k] == ranks[0];
+    }
+    visit(ranks[0]);
+    for (int k = 1; !is_one && k < corners; ++k) {
+      if (std::find(ranks, ranks + k, ranks[k]) == ranks + k) visit(ranks[k]);
     }
   }
 
  private:
-  int owner(GlobalId vertex) const {
-    if (own_.contains(vertex)) return rank_;
-    const Id place = given_.find(vertex);
-    return place != no_id ? of_given_(place).owner : of_others_(others_.find(vertex)).owner;
-  }
-  void refuse_unknown() const;
+  void fill(const DistinctIds& handed, const GlobalIds& others, const VertexDirectory& directory,
+            const Array<VertexEntry, HostMemory>& of_others);
 
   int rank_;
   const MeshPart<Index>& part_;
-  const IdInterval own_;
-  GlobalIndex given_;   ///< vertices that this rank hands over, where `own` is empty
-  GlobalIndex others_;  ///< vertices that the cells have beside these
-  Array<VertexEntry, HostMemory> of_given_, of_others_;
+  const IndexInterval<Index> own_;
+  GlobalIndex vertices_;           ///< those that the cells have outside `own`, and those that the part hands over
+  Array<int, HostMemory> owners_;  ///< theirs
 };
 
 template <class Index>
 CornerOwners<Index>::CornerOwners(const Communicator& ranks, const MeshPart<Index>& part,
-                                  const VertexDirectory& directory, const IdInterval& own, const std::vector<Id>& outer)
+                                  const VertexDirectory& directory, const IdInterval& own, const SomeCells& outer)
     : rank_(ranks.rank()), part_(part), own_(own) {
+  DistinctIds handed;
   GlobalIds others;
   together(ranks, [&] {
-    if (own.is_empty()) given_ = GlobalIndex(distinct_ids(part.vertex_ids).ids);
-    others = missing_ids(given_, static_cast<Offset>(outer.size()), [&](Offset i, const auto& offer) {
-      for (std::size_t corner = 0; corner < part.cells.extent(1); ++corner) {
-        const GlobalId vertex = part.cells(outer[i], corner);
-        if (!own.contains(vertex)) offer(vertex);
-      }
-    });
-    others_ = GlobalIndex(others);
+    if (own.is_empty()) handed = distinct_ids(part.vertex_ids);
+    others = vertices_outside(part, own, handed.ids, outer);
   });
-  of_given_ = directory.find(given_.ids());
-  of_others_ = directory.find(others);
-  together(ranks, [&] { refuse_unknown(); });
+  const auto of_others = directory.find(others);
+  together(ranks, [&] { fill(handed, others, directory, of_others); });
 }
 
+/// Merges the owners of what the part hands over, which are known, and of others.
 template <class Index>
-void CornerOwners<Index>::refuse_unknown() const {
-  for (Offset i = 0; i < others_.count(); ++i) {
-    if (of_others_(i).giver < 0)
-      throw Error("a cell has vertex " + std::to_string(others_[i]) + ", which no rank hands over");
+void CornerOwners<Index>::fill(const DistinctIds& handed, const GlobalIds& others, const VertexDirectory& directory,
+                               const Array<VertexEntry, HostMemory>& of_others) {
+  const Offset handed_count = handed.ids.extent(0), other_count = others.extent(0), count = handed_count + other_count;
+  const auto ids = allocate<GlobalIds>("GALE::outer_vertices", count);
+  owners_ = allocate<Array<int, HostMemory>>("GALE::owners_of_outer", count);
+  for (Offset i = 0, other = 0; i + other < count;) {
+    const Offset at = i + other;
+    if (other == other_count || (i < handed_count && handed.ids(i) < others(other))) {
+      ids(at) = handed.ids(i);
+      owners_(at) = directory.owner_of_handed(handed.places(i++));
+    } else {
+      if (of_others(other).giver < 0)
+        throw Error("a cell has vertex " + std::to_string(others(other)) + ", which no rank hands over");
+      ids(at) = others(other);
+      owners_(at) = of_others(other++).owner;
+    }
   }
+  vertices_ = GlobalIndex(ids, GlobalIndex::Lookups::many);
 }
 
 void require_local(const Communicator& ranks, const char* name, Offset count, Offset most) {
@@ -146,45 +201,43 @@ LocalCells<Index>::LocalCells(const Communicator& ranks, const MeshPart<Index>& 
                               const IdInterval& own, Offset most_local)
     : part_(part), own_(own) {
   const GlobalId first_id = ranks.sum_before(part.cells.extent(0));
-  std::vector<Id> outer;
+  SomeCells outer;
   together(ranks, [&] { outer = cells_beyond(part, own); });
-  Dealt<SentCell<Index>> sent;
+  SentCells<Index> sent;
   const KeptCells kept = choose(ranks, directory, outer, first_id, sent);
-  received_ = exchange(ranks, "GALE::received_cells", sent);
+  received_.ids = exchange(ranks, "GALE::received_ids", sent.ids);
+  received_.vertices = exchange(ranks, "GALE::received_vertices", sent.vertices);
   require_local(ranks, "cells", kept.count + received_.count(), most_local);
-  together(ranks, [&] {
-    places_ = CellPlaces(kept, tabulated<GlobalId>("GALE::received_ids", received_.count(),
-                                                   [&](Offset i) { return received_.entries(i).id; }));
-  });
+  together(ranks, [&] { places_ = CellPlaces(kept, received_.ids.entries); });
 }
 
 /// Says which cells with vertices outside `own` are kept, and which go to others.
 template <class Index>
-KeptCells LocalCells<Index>::choose(const Communicator& ranks, const VertexDirectory& directory,
-                                    const std::vector<Id>& outer, GlobalId first_id, Dealt<SentCell<Index>>& sent) {
+KeptCells LocalCells<Index>::choose(const Communicator& ranks, const VertexDirectory& directory, const SomeCells& outer,
+                                    GlobalId first_id, SentCells<Index>& sent) {
   const CornerOwners<Index> owners(ranks, part_, directory, own_, outer);
   KeptCells all_kept;
   together(ranks, [&] {
     const int here = ranks.rank();
-    const ByRank groups = by_rank(ranks.size(), static_cast<Offset>(outer.size()),
-                                  [&](Id i, const auto& visit) { owners.visit_ranks(outer[i], visit); });
+    ByRank groups;
+    with_constant(corners(), [&](auto corners) {
+      groups = by_rank(ranks.size(), outer.count,
+                       [&](Id i, const auto& visit) { owners.template visit_ranks<corners>(outer[i], visit); });
+    });
     std::vector<std::int64_t> counts(ranks.size());
     for (int rank = 0; rank < ranks.size(); ++rank) counts[rank] = groups.begin[rank + 1] - groups.begin[rank];
     const Offset kept = std::exchange(counts[here], 0), kept_from = groups.begin[here];
-    outer_.resize(kept);
-    parallel_for("GALE::outer_cells", HostExecutionSpace(), kept,
-                 [&](Offset i) { outer_[i] = outer[groups.members(kept_from + i)]; });
-    std::vector<Id> dropped;
-    std::set_difference(outer.begin(), outer.end(), outer_.begin(), outer_.end(), std::back_inserter(dropped));
-    const Offset count = part_.cells.extent(0);
-    all_kept = {count - static_cast<Offset>(dropped.size()), all_but(dropped, count), part_.cell_ids, first_id};
-    sent = dealt<SentCell<Index>>("GALE::sent_cells", counts);
-    parallel_for("GALE::sent_cells", HostExecutionSpace(), sent.count(), [&](Offset i) {
-      const Id t = outer[groups.members(i < kept_from ? i : i + kept)];
-      SentCell<Index>& cell = sent.entries(i);
-      cell.id = all_kept.id_at(t);
-      for (std::size_t corner = 0; corner < part_.cells.extent(1); ++corner)
-        cell.vertices[corner] = part_.cells(t, corner);
+    outer_ = tabulated<Id>("GALE::kept_outer", kept, [&](Offset i) { return outer[groups.members(kept_from + i)]; });
+    all_kept = kept_of(part_, outer, outer_, first_id);
+    sent.ids = dealt<GlobalId>("GALE::sent_ids", counts);
+    for (std::int64_t& count : counts) count *= corners();
+    sent.vertices = dealt<Index>("GALE::sent_vertices", counts);
+    with_constant(corners(), [&](auto corners) {
+      parallel_for("GALE::sent_cells", HostExecutionSpace(), sent.count(), [&](Offset i) {
+        const Offset t = outer[groups.members(i < kept_from ? i : i + kept)];
+        sent.ids.entries(i) = all_kept.id_at(t);
+        std::copy_n(part_.cells.data() + corners * t, int(corners), sent.vertices.entries.data() + corners * i);
+      });
     });
   });
   return all_kept;
@@ -192,21 +245,27 @@ KeptCells LocalCells<Index>::choose(const Communicator& ranks, const VertexDirec
 
 template <class Index>
 GlobalIds LocalCells<Index>::vertices_beside(const OwnedIds& owned) const {
-  const GlobalIndex index(owned.ids);
-  const auto outer = static_cast<Offset>(outer_.size());
-  return missing_ids(index, outer + received_.count(), [&](Offset i, const auto& offer) {
-    for (std::size_t corner = 0; corner < part_.cells.extent(1); ++corner) {
-      const GlobalId vertex =
-          i < outer ? part_.cells(outer_[i], corner) : received_.entries(i - outer).vertices[corner];
-      if (!own_.contains(vertex)) offer(vertex);
-    }
+  const GlobalIndex index(owned.ids, GlobalIndex::Lookups::many);
+  const IndexInterval<Index> own(own_);
+  const Offset outer = outer_.extent(0);
+  GlobalIds beside;
+  with_constant(corners(), [&](auto corners) {
+    beside = missing_ids(index, outer + received_.count(), [&](Offset i, const auto& offer) {
+      const Index* const cell =
+          i < outer ? part_.cells.data() + corners * Offset(outer_(i)) : received_vertices(i - outer);
+      for (int k = 0; k < corners; ++k) {
+        if (!own.contains(cell[k])) offer(cell[k]);
+      }
+    });
   });
+  return beside;
 }
 
 template <class Index>
 void LocalCells<Index>::require_cells() const {
-  const Offset corners = part_.cells.extent(1);
-  for (std::size_t t = 0; t < part_.cells.extent(0); ++t) require_cell(part_.cells.data() + corners * t, corners);
+  with_constant(corners(), [&](auto corners) {
+    for (std::size_t t = 0; t < part_.cells.extent(0); ++t) require_cell<corners>(part_.cells.data() + corners * t);
+  });
 }
 
 template class LocalCells<std::int32_t>;

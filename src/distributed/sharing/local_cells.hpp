@@ -8,11 +8,21 @@
 
 namespace gale::detail {
 
-/// A cell on its way to another rank.
+/// Cells on their way to other ranks, or from these.
 template <class Index>
-struct SentCell {
-  GlobalId id;
-  Index vertices[4];  ///< the first three of a triangle
+struct SentCells {
+  Dealt<GlobalId> ids;
+  Dealt<Index> vertices;  ///< as many of each as cells have
+
+  Offset count() const { return ids.entries.extent(0); }
+};
+
+/// Some cells of a part: the i-th is at a place, which ascend, or all where there are none.
+struct SomeCells {
+  Offset count = 0;
+  Array<Id, HostMemory> places;
+
+  Id operator[](Offset i) const { return places.extent(0) == 0 ? static_cast<Id>(i) : places(i); }
 };
 
 /// The cells that touch a vertex which this rank owns: those of its own part where they are, and those that it got.
@@ -40,7 +50,7 @@ class LocalCells {
     places_.visit(
         first, last,
         [&](Offset i, Offset place, Offset count) { visit(i, part_.cells.data() + corners() * place, count); },
-        [&](Offset i, Offset r) { visit(i, received_.entries(r).vertices, Offset(1)); });
+        [&](Offset i, Offset r) { visit(i, received_vertices(r), Offset(1)); });
   }
 
   /// Throws gale::Error for one of the part that is none.
@@ -50,13 +60,14 @@ class LocalCells {
   GlobalIds vertices_beside(const OwnedIds& owned) const;
 
  private:
-  KeptCells choose(const Communicator& ranks, const VertexDirectory& directory, const std::vector<Id>& outer,
-                   GlobalId first_id, Dealt<SentCell<Index>>& sent);
+  KeptCells choose(const Communicator& ranks, const VertexDirectory& directory, const SomeCells& outer,
+                   GlobalId first_id, SentCells<Index>& sent);
+  const Index* received_vertices(Offset i) const { return received_.vertices.entries.data() + corners() * i; }
 
   const MeshPart<Index>& part_;
   const IdInterval own_;
-  std::vector<Id> outer_;  ///< cells of the part that are kept and have vertices outside `own`
-  Dealt<SentCell<Index>> received_;
+  Array<Id, HostMemory> outer_;  ///< cells of the part that are kept and have vertices outside `own`
+  SentCells<Index> received_;
   CellPlaces places_;
 };
 

@@ -1,10 +1,13 @@
+#include <utility>
+#include <vector>
+
 #include <gale/distributed/sharing/vertex_directory.hpp>
 
 namespace gale::detail {
 
 namespace {
 
-/// What a rank says of a vertex that it hands over.
+/// What a rank says of a vertex that it hands over, or is told of it.
 struct HandedVertex {
   Id place;
   int owner;
@@ -42,16 +45,29 @@ VertexEntry entry_of(const GivenIntervals& given, GlobalId id) {
 
 VertexDirectory::VertexDirectory(const Communicator& ranks, const Array<const GlobalId, HostMemory>& ids,
                                  const Array<const int, HostMemory>& owners)
-    : ranks_(ranks),
-      table_(
-          ranks, ids,
-          [&](Id i) {
-            return HandedVertex{i, owners(i)};
-          },
-          [](int giver, const HandedVertex& handed) {
-            return VertexEntry{giver, handed.place, handed.owner};
-          }),
-      vertices_(ranks.sum(table_.count())) {}
+    : ranks_(ranks) {
+  std::vector<std::pair<int, HandedVertex>> others;  // for the rank that has said of them who owns them, and is wrong
+  table_ = HomeTable<VertexEntry>(
+      ranks, ids,
+      [&](Id i) {
+        return HandedVertex{i, owners(i)};
+      },
+      [](int giver, const HandedVertex& handed) {
+        return VertexEntry{giver, handed.place, handed.owner};
+      },
+      [&](int rank, const HandedVertex& handed, const VertexEntry& entry) {
+        if (handed.owner != entry.owner) others.push_back({rank, {handed.place, entry.owner}});
+      });
+  vertices_ = ranks.sum(table_.count());
+  const auto told = exchange(ranks, "GALE::corrected_owners",
+                             deal<HandedVertex>(
+                                 ranks, "GALE::corrected_owners", static_cast<Offset>(others.size()),
+                                 [&](Id i) { return others[i].first; }, [&](Id i) { return others[i].second; }));
+  together(ranks, [&] {
+    owners_of_handed_ = tabulated<int>("GALE::owners_of_handed", ids.extent(0), [&](Offset i) { return owners(i); });
+    for (Offset i = 0; i < told.count(); ++i) owners_of_handed_(told.entries(i).place) = told.entries(i).owner;
+  });
+}
 
 VertexDirectory::VertexDirectory(const Communicator& ranks, const GivenIntervals& given)
     : ranks_(ranks), given_(given), vertices_(ranks.sum(first_given(given, ranks.rank()))) {}
@@ -66,17 +82,31 @@ Array<VertexEntry, HostMemory> VertexDirectory::find(const Array<const GlobalId,
   return found;
 }
 
-OwnedIds VertexDirectory::owned() const {
-  OwnedIds owned;
+OwnedVertices VertexDirectory::owned() const {
+  struct OwnedVertex {
+    GlobalId id;
+    int giver;
+    Id place;
+  };
+  OwnedVertices owned;
   if (given_) {
-    together(ranks_, [&] { owned = owned_of(*given_, ranks_.rank()); });
+    together(ranks_, [&] { owned.ids = owned_of(*given_, ranks_.rank()); });
+    if (ranks_.sum(Offset(owned.ids.interval.is_empty())) > 0) owned.entries = find(owned.ids.ids);
     return owned;
   }
-  const auto told = deal<GlobalId>(
-      ranks_, "GALE::told_ids", table_.count(), [&](Id i) { return table_.entry(i).owner; },
-      [&](Id i) { return table_.id(i); });
-  const auto received = exchange(ranks_, "GALE::owned_ids", told);
-  together(ranks_, [&] { owned = OwnedIds(distinct_ids(received.entries).ids); });
+  const auto told = deal<OwnedVertex>(
+      ranks_, "GALE::told_vertices", table_.count(), [&](Id i) { return table_.entry(i).owner; },
+      [&](Id i) {
+        return OwnedVertex{table_.id(i), table_.entry(i).giver, table_.entry(i).place};
+      });
+  const auto received = exchange(ranks_, "GALE::owned_vertices", told);  // ascending: as homes do, and ids of each
+  together(ranks_, [&] {
+    owned.ids = OwnedIds(
+        tabulated<GlobalId>("GALE::owned_ids", received.count(), [&](Offset i) { return received.entries(i).id; }));
+    owned.entries = tabulated<VertexEntry>("GALE::owned_entries", received.count(), [&](Offset i) {
+      return VertexEntry{received.entries(i).giver, received.entries(i).place, ranks_.rank()};
+    });
+  });
   return owned;
 }
 

@@ -15,6 +15,12 @@ struct VertexEntry {
   int owner = -1;    ///< the rank that owns it, as the giver says
 };
 
+/// The vertices that a rank owns.
+struct OwnedVertices {
+  OwnedIds ids;
+  Array<VertexEntry, HostMemory> entries;  ///< of each, ascending; none where it hands over an interval of given ones
+};
+
 /// Who knows which vertex: spread over the ranks, or known to all. Made and asked by all ranks together.
 class VertexDirectory {
  public:
@@ -29,11 +35,16 @@ class VertexDirectory {
   /// How many different vertices there are on all ranks.
   Offset vertices() const { return vertices_; }
 
-  /// The entries of any vertices.
+  /// Who owns the vertex that this rank hands over at a place.
+  int owner_of_handed(Id place) const {
+    return given_ ? given_->giver(given_->of(ranks_.rank()).begin + place) : owners_of_handed_(place);
+  }
+
+  /// The entries of any vertices. Collective.
   Array<VertexEntry, HostMemory> find(const Array<const GlobalId, HostMemory>& ids) const;
 
-  /// The vertices that this rank owns.
-  OwnedIds owned() const;
+  /// The vertices that this rank owns. Collective.
+  OwnedVertices owned() const;
 
   /// What the ranks hand over, where these are intervals: then each vertex comes from the rank that owns it.
   const std::optional<GivenIntervals>& given() const { return given_; }
@@ -41,7 +52,11 @@ class VertexDirectory {
  private:
   Communicator ranks_;
   std::optional<GivenIntervals> given_;
-  HomeTable<VertexEntry> table_;  ///< empty where intervals are given
+
+  // Empty where intervals are given.
+  HomeTable<VertexEntry> table_;
+  Array<int, HostMemory> owners_of_handed_;
+
   Offset vertices_;
 };
 

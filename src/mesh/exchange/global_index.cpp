@@ -71,17 +71,28 @@ GlobalIds distinct_of(const std::string& label, std::vector<GlobalId> ids) {
   return distinct;
 }
 
-GlobalIndex::GlobalIndex(const Array<const GlobalId, HostMemory>& ascending) : ids_(ascending) {
-  constexpr std::uint64_t bytes_an_id = 16;
-  const Offset count = ids_.extent(0);
+GlobalIndex::GlobalIndex(const Array<const GlobalId, HostMemory>& ascending, Lookups lookups) : ids_(ascending) {
+  const std::uint64_t count = ids_.extent(0);
   if (count == 0) return;
-  const GlobalId least = ids_(0);
-  const std::uint64_t words = (span_of(least, ids_(count - 1)) + 63) / 64;
-  if (words * sizeof(CountedWord) > bytes_an_id * static_cast<std::uint64_t>(count)) return;
+  constexpr std::uint64_t bytes_an_id = 16;
+  const std::uint64_t span = span_of(ids_(0), ids_(count - 1)), words = (span + 63) / 64;
+  first_ = static_cast<std::uint64_t>(ids_(0));
+  if (lookups == Lookups::many && span <= bytes_an_id / sizeof(Id) * count) {
+    places_ = allocate<Array<Id, HostMemory>>("GALE::global_places", span);
+    gale::fill("GALE::global_places", HostExecutionSpace(), places_, no_id);
+    parallel_for("GALE::global_places", HostExecutionSpace(), count,
+                 [&](Offset i) { places_(static_cast<std::uint64_t>(ids_(i)) - first_) = static_cast<Id>(i); });
+  } else if (words * sizeof(CountedWord) <= bytes_an_id * count) {
+    mark_in_words(words);
+  }
+}
+
+void GlobalIndex::mark_in_words(std::uint64_t words) {
   words_ = allocate<Array<CountedWord, HostMemory>>("GALE::global_index", words);
-  const Offset size = words_.extent(0);
+  const Offset size = words_.extent(0), count = ids_.extent(0);
   for_parts("GALE::global_index", size, threads_for(size), [&](int, Offset first, Offset last) {
     const GlobalId* const ids = ids_.data();
+    const GlobalId least = ids[0];
     auto at = static_cast<Id>(std::lower_bound(ids, ids + count, least + 64 * first) - ids);
     for (Offset w = first; w < last; ++w) {
       CountedWord word{0, at};

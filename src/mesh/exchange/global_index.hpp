@@ -33,15 +33,20 @@ GALE_EXPORT GlobalIds distinct_of(const std::string& label, std::vector<GlobalId
 /// where these take no more than 16 bytes an id, else by bisection.
 class GALE_EXPORT GlobalIndex {
  public:
+  /// Whether so many are looked up that a table of places is worth its memory, 4 bytes for each id between the least
+  /// and the greatest. There is none where that is more than 16 bytes an id.
+  enum class Lookups { some, many };
+
   GlobalIndex() = default;
 
   /// Takes ids that ascend, none twice, at most 2^31 - 1 of them.
-  explicit GlobalIndex(const Array<const GlobalId, HostMemory>& ascending);
+  explicit GlobalIndex(const Array<const GlobalId, HostMemory>& ascending, Lookups lookups = Lookups::some);
 
   /// no_id if it isn't there. By any thread.
   Id find(GlobalId id) const {
+    const auto at = static_cast<std::uint64_t>(id) - first_;
+    if (places_.extent(0) != 0) return at < places_.extent(0) ? places_(at) : no_id;
     if (words_.extent(0) == 0) return bisect(id);
-    const auto at = static_cast<std::uint64_t>(id) - static_cast<std::uint64_t>(ids_(0));
     if (at >> 6 >= words_.extent(0)) return no_id;
     const CountedWord& word = words_(at >> 6);
     const int place = static_cast<int>(at & 63);
@@ -53,10 +58,13 @@ class GALE_EXPORT GlobalIndex {
   const Array<const GlobalId, HostMemory>& ids() const { return ids_; }
 
  private:
+  void mark_in_words(std::uint64_t words);
   Id bisect(GlobalId id) const;
 
   Array<const GlobalId, HostMemory> ids_;
-  Array<CountedWord, HostMemory> words_;  ///< bit id - ids_(0) is set where an id is there; none where it bisects
+  std::uint64_t first_ = 0;               ///< the least id
+  Array<CountedWord, HostMemory> words_;  ///< bit id - first is set where an id is there; none where it bisects
+  Array<Id, HostMemory> places_;          ///< of each id from the first on, no_id of those that aren't there; or none
 };
 
 /// The ids that `index` lacks among those that visit(i, offer) offers for i in 0..n-1: ascending, none twice.

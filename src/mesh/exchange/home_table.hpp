@@ -36,10 +36,11 @@ class HomeTable {
   HomeTable() = default;
 
   /// Takes ids that ranks have, with handed_of(i) for the i-th of this rank; entry_from(rank, handed) is what its home
-  /// keeps of one. Where several ranks have an id, or one several times, the lowest rank's first counts.
-  template <class HandedOf, class EntryFrom>
+  /// keeps of one. Where several ranks have an id, or one several times, the lowest rank's first counts, and
+  /// visit_other(rank, handed, entry) is called for each other one, on one thread of the home's.
+  template <class HandedOf, class EntryFrom, class VisitOther>
   HomeTable(const Ranks& ranks, const Array<const GlobalId, HostMemory>& ids, const HandedOf& handed_of,
-            const EntryFrom& entry_from)
+            const EntryFrom& entry_from, const VisitOther& visit_other)
       : homes_(ranks, ids) {
     struct Handed {
       GlobalId id;
@@ -58,13 +59,27 @@ class HomeTable {
       const DistinctIds distinct = distinct_ids(all);
       index_ = GlobalIndex(distinct.ids);
       entries_ = allocate<Array<Entry, HostMemory>>("GALE::home_entries", index_.count());
+      const auto rank_of = [&](Offset at) {
+        const auto next = std::upper_bound(received.begin.begin(), received.begin.end(), at);
+        return static_cast<int>(next - received.begin.begin()) - 1;
+      };
       parallel_for("GALE::home_entries", HostExecutionSpace(), index_.count(), [&](Offset i) {
         const Id at = distinct.places(i);
-        const auto next = std::upper_bound(received.begin.begin(), received.begin.end(), Offset(at));
-        entries_(i) = entry_from(static_cast<int>(next - received.begin.begin()) - 1, received.entries(at).what);
+        entries_(i) = entry_from(rank_of(at), received.entries(at).what);
       });
+      if (index_.count() == received.count()) return;
+      for (Offset at = 0; at < received.count(); ++at) {
+        const Id place = index_.find(received.entries(at).id);
+        if (distinct.places(place) != at) visit_other(rank_of(at), received.entries(at).what, entries_(place));
+      }
     });
   }
+
+  /// Likewise, where nobody asks for others.
+  template <class HandedOf, class EntryFrom>
+  HomeTable(const Ranks& ranks, const Array<const GlobalId, HostMemory>& ids, const HandedOf& handed_of,
+            const EntryFrom& entry_from)
+      : HomeTable(ranks, ids, handed_of, entry_from, [](int, const auto&, const Entry&) {}) {}
 
   /// The entries of any ids, `otherwise` for those that it lacks.
   Array<Entry, HostMemory> find(const Ranks& ranks, const Array<const GlobalId, HostMemory>& ids,

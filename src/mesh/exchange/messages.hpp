@@ -114,14 +114,25 @@ struct ByRank {
 };
 
 /// Groups the items 0..items-1: visit_ranks(item, visit) calls visit(rank) for each rank of an item, the same ones each
-/// time. Unlike group_by it is for few groups of many items: no two threads count in one place.
+/// time. Unlike group_by it is for few groups of many items: no two threads count in one place, and an item that has
+/// one rank, as most have, is asked once.
 template <class VisitRanks>
 ByRank by_rank(int ranks, Offset items, const VisitRanks& visit_ranks) {
+  constexpr std::uint8_t ask_again = 255;
+  const auto only_rank = allocate<Array<std::uint8_t, HostMemory>>("GALE::only_rank", items);
   const int parts = threads_for(items);
   std::vector<std::vector<Offset>> places(parts);
   for_parts("GALE::count_by_rank", items, parts, [&](int part, Offset first, Offset last) {
     std::vector<Offset> counts(ranks, 0);
-    for (Offset i = first; i < last; ++i) visit_ranks(static_cast<Id>(i), [&](int rank) { ++counts[rank]; });
+    for (Offset i = first; i < last; ++i) {
+      int ranks_of_item = 0, last_rank = 0;
+      visit_ranks(static_cast<Id>(i), [&](int rank) {
+        ++counts[rank];
+        ++ranks_of_item;
+        last_rank = rank;
+      });
+      only_rank(i) = ranks_of_item == 1 && last_rank < ask_again ? static_cast<std::uint8_t>(last_rank) : ask_again;
+    }
     places[part] = std::move(counts);
   });
   ByRank groups{{0}, {}};
@@ -133,8 +144,10 @@ ByRank by_rank(int ranks, Offset items, const VisitRanks& visit_ranks) {
   groups.members = allocate<Array<Id, HostMemory>>("GALE::items_by_rank", total);
   for_parts("GALE::fill_by_rank", items, parts, [&](int part, Offset first, Offset last) {
     std::vector<Offset>& next = places[part];
-    for (Offset i = first; i < last; ++i)
-      visit_ranks(static_cast<Id>(i), [&](int rank) { groups.members(next[rank]++) = static_cast<Id>(i); });
+    for (Offset i = first; i < last; ++i) {
+      const auto put = [&](int rank) { groups.members(next[rank]++) = static_cast<Id>(i); };
+      only_rank(i) == ask_again ? visit_ranks(static_cast<Id>(i), put) : put(only_rank(i));
+    }
   });
   return groups;
 }
