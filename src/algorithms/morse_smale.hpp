@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <functional>
+#include <memory>
 #include <vector>
 
 #include <gale/algorithms/discrete_gradient.hpp>
@@ -30,6 +32,30 @@ struct AscendingWalls {
   /// The tetrahedra of the i-th cell of `walls` are star[star_begin[i]] to star[star_begin[i + 1] - 1].
   std::vector<Offset> star_begin{0};
   std::vector<Id> star;  ///< GALE's ids, see star_begin
+};
+
+/// The gradient that a complex names its simplices in, on one rank of several perhaps one that is made when somebody
+/// first asks for it: by any thread, which has its errors then, as OutOfMemory. Copies share it.
+class GALE_EXPORT Excerpt {
+ public:
+  /// One that is there.
+  Excerpt(const DiscreteGradient& gradient);
+
+  /// One that `make` makes.
+  explicit Excerpt(std::function<DiscreteGradient()> make);
+
+  /// The gradient, which is made now unless it is there.
+  const DiscreteGradient& gradient() const;
+  operator const DiscreteGradient&() const { return gradient(); }  ///< the same
+
+  const Mesh& mesh() const { return gradient().mesh(); }                       ///< the gradient's mesh
+  const VertexOrder& order() const { return gradient().order(); }              ///< the gradient's order
+  const CriticalSimplices& critical() const { return gradient().critical(); }  ///< its critical simplices
+  const detail::GradientStore& store() const { return gradient().store(); }    ///< for GALE's own algorithms
+
+ private:
+  struct Made;
+  std::shared_ptr<Made> made_;
 };
 
 /// Pairs of saddles that `simplify` could not cancel, although their persistence is below the threshold.
@@ -94,8 +120,9 @@ struct GALE_EXPORT MorseSmaleComplex {
   /// What `critical` and the separatrices are of: `gradient`, or on one rank of several an excerpt of it, which is of a
   /// mesh of its own. That one has the cells that separatrices lead through and the vertices, these or all of the
   /// part's, whose global ids its vertex_id() and cell_id() say, the order of its vertices, and the critical simplices.
-  /// Pairs alone where walls were wanted: else it is one segment, which isn't made for relations.
-  DiscreteGradient excerpt{gradient};
+  /// Pairs alone where walls were wanted: else it is one segment, which isn't made for relations, and of a part of a
+  /// grid it is made when somebody first asks for it.
+  Excerpt excerpt{gradient};
 
   /// Whether each of `critical`, by dimension, is this rank's: the others are another rank's, and separatrices
   /// end there. Empty: all are.

@@ -10,6 +10,7 @@
 #include <gale/export.hpp>
 #include <gale/mesh/grid/grid_stars.hpp>
 #include <gale/mesh/grid/grid_view.hpp>
+#include <gale/mesh/intervals.hpp>
 
 namespace gale {
 
@@ -55,6 +56,9 @@ class GALE_EXPORT Grid {
       }
     }
   }
+
+  /// The cells all of whose vertices are among some that fill layers of points, or rows of a grid of triangles.
+  Interval cells_within(const Interval& some) const;
 
   /// For code that runs on `Memory`. Valid as long as the grid or a copy of it.
   template <class Memory>

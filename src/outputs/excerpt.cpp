@@ -38,6 +38,11 @@ io::PointArray brought(const gale::detail::ExchangePlan& plan, const Ranks& rank
 
 }  // namespace detail
 
+const Mesh& mesh_of_excerpt(const MorseSmaleComplex& complex) {
+  gale::detail::together(complex.gradient.mesh().exchange().ranks(), [&] { complex.excerpt.gradient(); });
+  return complex.excerpt.mesh();
+}
+
 io::Dataset dataset_of(const Mesh& excerpt, const Mesh& mesh, const io::Dataset& dataset) {
   const Ranks& ranks = mesh.exchange().ranks();
   const auto plan = gale::detail::plan_to(excerpt, mesh);

@@ -1,10 +1,14 @@
 #pragma once
 
+#include <gale/algorithms/morse_smale.hpp>
 #include <gale/export.hpp>
 #include <gale/io/dataset.hpp>
 #include <gale/mesh/mesh.hpp>
 
 namespace gale::outputs {
+
+/// The mesh of a complex' excerpt. Collective: made on all ranks where it isn't there, or an error on all.
+GALE_EXPORT const Mesh& mesh_of_excerpt(const MorseSmaleComplex& complex);
 
 /// The points of an excerpt's vertices (`MorseSmaleComplex::excerpt`), and their values of all arrays, by its input
 /// ids, from the datasets of the ranks that own them, which are by input ids of their parts `mesh`, and have the same

@@ -58,11 +58,11 @@ MorseSmaleOutputs morse_smale(const DiscreteGradient& gradient, const io::Datase
   MorseSmaleComplex complex = find_complex(gradient, field, request, options, computed);
   const auto connectors = ends_of(complex.connectors);  // of all, wanted or not: they bound walls
   leave_out_unwanted(request.parts, complex);
+  const Mesh& excerpt = mesh_of_excerpt(complex);
   const NamedPaths named = named_simplices(complex);
   const SimplexNumbers numbers = number_simplices(gradient.mesh(), named, options, computed);
   const KnownSimplices critical = known_simplices(complex.excerpt, complex.critical, numbers);
   MorseSmaleOutputs all;
-  const Mesh& excerpt = complex.excerpt.mesh();
   const AtExcerpt at(excerpt, gradient.mesh(), dataset, field);
   all.critical_points = to_point_set(at.dataset(), own_simplices(complex, critical), excerpt.exchange());
   all.critical_points.arrays.push_back(manifold_sizes(complex));

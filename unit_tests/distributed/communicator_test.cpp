@@ -87,19 +87,21 @@ TEST(Together, all_throw_what_the_lowest_rank_that_fails_says) {
 
 TEST(ByRank, has_each_item_with_each_of_its_ranks_ascending) {
   constexpr Offset items = 20000;
-  const auto groups = detail::by_rank(5, items, [](Id i, const auto& visit) {
-    if (i % 3 == 0) visit(i % 5);
-    if (i % 7 == 0) visit((i + 1) % 5);
-  });
-  for (int rank = 0; rank < 5; ++rank) {
-    Offset at = groups.begin[rank];
-    for (Id i = 0; i < items; ++i) {
-      if ((i % 3 == 0 && i % 5 == rank) || (i % 7 == 0 && (i + 1) % 5 == rank)) {
-        ASSERT_LT(at, groups.begin[rank + 1]);
-        EXPECT_EQ(groups.members(at++), i);
+  for (const int ranks : {5, 300}) {
+    const auto groups = detail::by_rank(ranks, items, [=](Id i, const auto& visit) {
+      if (i % 3 == 0) visit(i % ranks);
+      if (i % 7 == 0) visit((i + 1) % ranks);
+    });
+    for (int rank = 0; rank < ranks; ++rank) {
+      Offset at = groups.begin[rank];
+      for (Id i = 0; i < items; ++i) {
+        if ((i % 3 == 0 && i % ranks == rank) || (i % 7 == 0 && (i + 1) % ranks == rank)) {
+          ASSERT_LT(at, groups.begin[rank + 1]);
+          EXPECT_EQ(groups.members(at++), i);
+        }
       }
+      EXPECT_EQ(at, groups.begin[rank + 1]);
     }
-    EXPECT_EQ(at, groups.begin[rank + 1]);
   }
 }
 

@@ -1,4 +1,6 @@
+#include <map>
 #include <random>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -15,6 +17,16 @@ Ids to_ids(const std::vector<GlobalId>& values) {
   const Ids ids("ids", values.size());
   for (std::size_t i = 0; i < values.size(); ++i) ids(i) = values[i];
   return ids;
+}
+
+void expect_equal(const Array<detail::VertexEntry, HostMemory>& some,
+                  const Array<detail::VertexEntry, HostMemory>& others) {
+  ASSERT_EQ(some.extent(0), others.extent(0));
+  for (std::size_t i = 0; i < some.extent(0); ++i) {
+    EXPECT_EQ(some(i).giver, others(i).giver) << i;
+    EXPECT_EQ(some(i).place, others(i).place) << i;
+    EXPECT_EQ(some(i).owner, others(i).owner) << i;
+  }
 }
 
 }  // namespace
@@ -79,19 +91,49 @@ TEST(VertexDirectory, of_intervals_says_what_that_of_any_ids_says) {
     Kokkos::deep_copy(owners, ranks.rank());
     const detail::VertexDirectory by_intervals(ranks, *given), by_homes(ranks, to_ids(handed), owners);
     EXPECT_EQ(by_intervals.vertices(), by_homes.vertices());
-    const detail::OwnedIds owned = by_intervals.owned(), expected = by_homes.owned();
+    const detail::OwnedVertices all_owned = by_intervals.owned(), all_expected = by_homes.owned();
+    const detail::OwnedIds &owned = all_owned.ids, &expected = all_expected.ids;
     ASSERT_EQ(owned.count(), expected.count());
     EXPECT_EQ(owned.interval.begin, expected.interval.begin);
     EXPECT_EQ(owned.interval.end, expected.interval.end);
     ASSERT_EQ(owned.ids.extent(0), expected.ids.extent(0));
     for (std::size_t i = 0; i < owned.ids.extent(0); ++i) EXPECT_EQ(owned.ids(i), expected.ids(i));
-    const auto found = by_intervals.find(to_ids(asked)), said = by_homes.find(to_ids(asked));
-    for (std::size_t i = 0; i < asked.size(); ++i) {
-      EXPECT_EQ(found(i).giver, said(i).giver) << asked[i];
-      EXPECT_EQ(found(i).place, said(i).place) << asked[i];
-      EXPECT_EQ(found(i).owner, said(i).owner) << asked[i];
+    if (owned.interval.is_empty()) expect_equal(all_owned.entries, all_expected.entries);
+    expect_equal(by_intervals.find(to_ids(asked)), by_homes.find(to_ids(asked)));
+    for (Id i = 0; i < static_cast<Id>(handed.size()); ++i)
+      EXPECT_EQ(by_intervals.owner_of_handed(i), by_homes.owner_of_handed(i)) << handed[i];
+  }
+}
+
+/// The lowest rank that hands a vertex over says who owns it, and those who say otherwise are told; what a rank owns
+/// comes from there.
+TEST(VertexDirectory, tells_ranks_that_disagree_who_owns_what) {
+  const Communicator ranks(MPI_COMM_WORLD, 100);
+  std::mt19937 random(5);
+  std::vector<std::vector<GlobalId>> handed(ranks.size());
+  std::vector<std::vector<int>> owners(ranks.size());
+  std::map<GlobalId, detail::VertexEntry> expected;
+  for (int rank = 0; rank < ranks.size(); ++rank) {
+    for (Id i = 0; i < 200; ++i) {
+      handed[rank].push_back(random() % 300);  // some twice
+      owners[rank].push_back(static_cast<int>(random() % ranks.size()));
+      expected.try_emplace(handed[rank].back(), detail::VertexEntry{rank, i, owners[rank].back()});
     }
   }
+  const std::vector<GlobalId>& mine = handed[ranks.rank()];
+  const detail::VertexDirectory directory(ranks, to_ids(mine),
+                                          Array<const int, HostMemory>(owners[ranks.rank()].data(), mine.size()));
+  for (Id i = 0; i < 200; ++i) EXPECT_EQ(directory.owner_of_handed(i), expected[mine[i]].owner) << mine[i];
+  const detail::OwnedVertices owned = directory.owned();
+  Offset at = 0;
+  for (const auto& [id, entry] : expected) {
+    if (entry.owner != ranks.rank()) continue;
+    ASSERT_LT(at, owned.ids.count());
+    EXPECT_EQ(owned.ids.interval.is_empty() ? owned.ids.ids(at) : owned.ids.interval.begin + at, id);
+    EXPECT_EQ(owned.entries(at).giver, entry.giver) << id;
+    EXPECT_EQ(owned.entries(at++).place, entry.place) << id;
+  }
+  EXPECT_EQ(at, owned.ids.count());
 }
 
 TEST(VertexDirectory, knows_no_intervals_where_one_rank_has_gaps) {

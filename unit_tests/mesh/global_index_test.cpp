@@ -37,11 +37,13 @@ TEST(DistinctIds, of_none_and_of_ascending_ones) {
   }
 }
 
-TEST(GlobalIndex, finds_dense_and_sparse_ids_and_no_others) {
-  for (const GlobalId stride : {GlobalId(1), GlobalId(3), GlobalId(1) << 40}) {
+class GlobalIndexFor : public ::testing::TestWithParam<detail::GlobalIndex::Lookups> {};
+
+TEST_P(GlobalIndexFor, finds_dense_and_sparse_ids_and_no_others) {
+  for (const GlobalId stride : {GlobalId(1), GlobalId(3), GlobalId(9), GlobalId(1) << 40}) {
     std::vector<GlobalId> ids;
     for (GlobalId i = 0; i < 1000; ++i) ids.push_back(7 + i * stride);
-    const detail::GlobalIndex index(view_of(ids));
+    const detail::GlobalIndex index(view_of(ids), GetParam());
     for (Id i = 0; i < 1000; ++i) {
       EXPECT_EQ(index.find(ids[i]), i);
       if (stride > 1) EXPECT_EQ(index.find(ids[i] + 1), no_id);
@@ -50,8 +52,11 @@ TEST(GlobalIndex, finds_dense_and_sparse_ids_and_no_others) {
     EXPECT_EQ(index.find(ids.back() + 1), no_id);
     EXPECT_EQ(index.find(0), no_id);
   }
-  EXPECT_EQ(detail::GlobalIndex(view_of(std::vector<GlobalId>())).find(0), no_id);
+  EXPECT_EQ(detail::GlobalIndex(view_of(std::vector<GlobalId>()), GetParam()).find(0), no_id);
   EXPECT_EQ(detail::GlobalIndex().find(5), no_id);
 }
+
+INSTANTIATE_TEST_SUITE_P(Lookups, GlobalIndexFor,
+                         ::testing::Values(detail::GlobalIndex::Lookups::some, detail::GlobalIndex::Lookups::many));
 
 }  // namespace gale::test

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -7,6 +8,7 @@
 #include <gale/algorithms/excerpt/numbered_set.hpp>
 #include <gale/algorithms/excerpt/passed_simplices.hpp>
 #include <gale/algorithms/gradient/gradient_store.hpp>
+#include <gale/base/error.hpp>
 #include <gale/base/stop.hpp>
 
 namespace gale::detail {
@@ -15,22 +17,23 @@ namespace {
 
 /// The simplices of a wider gradient that are passed, and their numbers in the excerpt: both kinds by global id. Where
 /// cells have as many corners (four each) as there are vertices, or more, all vertices are taken: to leave some out
-/// would cost more than it saves.
+/// would cost more than it saves. Keeps what the excerpt is made of, as long as it is wanted.
 class PassedSimplices {
  public:
-  PassedSimplices(const WiderGradient& wider, const MorseSmaleComplex& complex) : wider_(wider), cells_(wider.cells()) {
-    mark_cells(complex);
+  PassedSimplices(const WiderGradient& wider, const MorseSmaleComplex& complex)
+      : wider_(wider.simplices()), cells_(wider_->cells()) {
+    mark_cells(wider.critical(), complex);
     number_cells();
-    if (4 * static_cast<Offset>(cell_of_.size()) < wider.vertices()) {
-      number_vertices(complex);
+    if (4 * static_cast<Offset>(cell_of_.size()) < wider_->vertices()) {
+      number_vertices(wider.critical(), complex);
     } else {
-      number_ = wider.names();
-      vertex_count_ = wider.vertices();
+      number_ = wider_->names();
+      vertex_count_ = wider_->vertices();
     }
   }
 
   Id number(Id vertex) const { return number_(vertex); }
-  Id cell_number(Id cell) const { return number_of_cell_[cells_[wider_.cell_name(cell)]]; }
+  Id cell_number(Id cell) const { return number_of_cell_[cells_[wider_->cell_name(cell)]]; }
 
   template <std::size_t N>
   std::array<Id, N> numbers(std::array<Id, N> simplex) const {
@@ -38,36 +41,28 @@ class PassedSimplices {
     return simplex;
   }
 
-  /// Makes the mesh; from then on cells have GALE's ids there as numbers.
-  template <int corners>
-  Mesh make_mesh() {
-    const auto vertex_ids = allocate<GlobalIds>("GALE::passed_vertices", vertex_count_);
-    const auto cell_ids = allocate<GlobalIds>("GALE::passed_cells", cell_of_.size());
-    const auto rows = allocate<typename CellCorners<corners, Id, HostMemory>::non_const_type>("GALE::passed_corners",
-                                                                                              cell_of_.size());
-    for_each_vertex([&](Id vertex, Id number) { vertex_ids(number) = wider_.vertex_id(vertex); });
-    const Offset cells = static_cast<Offset>(cell_of_.size());
-    for_parts("GALE::passed_cells", cells, threads_for(cells), [&](int, Offset begin, Offset end) {
-      auto corners_of = wider_.corners_in_turn();
-      for (Offset i = begin; i < end; ++i) {
-        stop_if_asked_at(i);
-        cell_ids(i) = wider_.cell_id(cell_of_[i]);
-        const std::array<Id, 4> of = corners_of(cell_of_[i]);
-        for (int k = 0; k < corners; ++k) rows(i, k) = number(of[k]);
-      }
-    });
-    const Mesh mesh = excerpt_mesh<corners>(vertex_ids, cell_ids, rows, std::max(vertex_count_, 1));
+  /// Makes the mesh.
+  Mesh make_mesh() const { return wider_->mesh().dimension() == 3 ? make_mesh_of<4>() : make_mesh_of<3>(); }
+
+  /// Whether GALE's ids of cells in the mesh that was made are their numbers.
+  bool numbers_cells_as(const Mesh& mesh) const {
+    const OtherIds input = mesh.cells_in_input();
+    return reduce_sum("GALE::cells_of_excerpt", HostExecutionSpace(), mesh.cells(),
+                      [&](Offset t) { return Offset(input[static_cast<Id>(t)] != t); }) == 0;
+  }
+
+  /// From now on cells have GALE's ids in the mesh that was made as numbers.
+  void call_cells_as(const Mesh& mesh) {
     std::vector<Id> internal(mesh.cells());
     const OtherIds input = mesh.cells_in_input();
     parallel_for("GALE::cells_of_excerpt", HostExecutionSpace(), mesh.cells(),
                  [&](Offset t) { internal[input[static_cast<Id>(t)]] = static_cast<Id>(t); });
     parallel_for("GALE::cells_of_excerpt", HostExecutionSpace(), number_of_cell_.size(),
                  [&](Offset i) { number_of_cell_[i] = internal[number_of_cell_[i]]; });
-    return mesh;
   }
 
   VertexOrder order_of(const Mesh& mesh) const {
-    if (wider_.has_short_values()) {
+    if (wider_->has_short_values()) {
       const std::vector<std::uint32_t> values = values_as<std::uint32_t>();
       return VertexOrder(mesh, values.data(), values.size());
     }
@@ -76,6 +71,26 @@ class PassedSimplices {
   }
 
  private:
+  template <int corners>
+  Mesh make_mesh_of() const {
+    const auto vertex_ids = allocate<GlobalIds>("GALE::passed_vertices", vertex_count_);
+    const auto cell_ids = allocate<GlobalIds>("GALE::passed_cells", cell_of_.size());
+    const auto rows = allocate<typename CellCorners<corners, Id, HostMemory>::non_const_type>("GALE::passed_corners",
+                                                                                              cell_of_.size());
+    for_each_vertex([&](Id vertex, Id number) { vertex_ids(number) = wider_->vertex_id(vertex); });
+    const Offset cells = static_cast<Offset>(cell_of_.size());
+    for_parts("GALE::passed_cells", cells, threads_for(cells), [&](int, Offset begin, Offset end) {
+      auto corners_of = wider_->corners_in_turn();
+      for (Offset i = begin; i < end; ++i) {
+        stop_if_asked_at(i);
+        cell_ids(i) = wider_->cell_id(cell_of_[i]);
+        const std::array<Id, 4> of = corners_of(cell_of_[i]);
+        for (int k = 0; k < corners; ++k) rows(i, k) = number(of[k]);
+      }
+    });
+    return excerpt_mesh<corners>(vertex_ids, cell_ids, rows, std::max(vertex_count_, 1));
+  }
+
   /// Marks what is on paths, before anything else is: where one comes to what is marked, so is the rest of it.
   template <class Mark>
   static void mark_paths(const Separatrices<Id>& paths, const Mark& mark) {
@@ -86,15 +101,15 @@ class PassedSimplices {
   }
 
   bool mark_cell(Id cell) {
-    if (!cells_.insert(wider_.cell_name(cell))) return false;
+    if (!cells_.insert(wider_->cell_name(cell))) return false;
     marked_cells_.push_back(cell);
     return true;
   }
 
-  void mark_cells(const MorseSmaleComplex& complex) {
+  void mark_cells(const CriticalSimplices& critical, const MorseSmaleComplex& complex) {
     mark_paths(complex.ascending, [&](Id cell) { return mark_cell(cell); });
-    for (const Id cell : wider_.critical().cells) mark_cell(cell);
-    for (const Id cell : wider_.critical().star) mark_cell(cell);
+    for (const Id cell : critical.cells) mark_cell(cell);
+    for (const Id cell : critical.star) mark_cell(cell);
   }
 
   /// Names of the rank's own cells ascend with global ids; others' come after all of these, and have to be put between
@@ -104,22 +119,21 @@ class PassedSimplices {
     const Id count = cells_.count();
     cell_of_.resize(count);
     parallel_for("GALE::cells_by_name", HostExecutionSpace(), count,
-                 [&](Offset i) { cell_of_[cells_[wider_.cell_name(marked_cells_[i])]] = marked_cells_[i]; });
-    const auto is_less = [&](Id a, Id b) { return wider_.cell_id(a) < wider_.cell_id(b); };
+                 [&](Offset i) { cell_of_[cells_[wider_->cell_name(marked_cells_[i])]] = marked_cells_[i]; });
+    const auto is_less = [&](Id a, Id b) { return wider_->cell_id(a) < wider_->cell_id(b); };
     const auto others =
-        std::find_if(cell_of_.begin(), cell_of_.end(), [&](Id cell) { return !wider_.is_own_cell(cell); });
+        std::find_if(cell_of_.begin(), cell_of_.end(), [&](Id cell) { return !wider_->is_own_cell(cell); });
     std::sort(others, cell_of_.end(), is_less);
     std::inplace_merge(cell_of_.begin(), others, cell_of_.end(), is_less);
     number_of_cell_.resize(count);
     parallel_for("GALE::number_cells", HostExecutionSpace(), count,
-                 [&](Offset i) { number_of_cell_[cells_[wider_.cell_name(cell_of_[i])]] = static_cast<Id>(i); });
+                 [&](Offset i) { number_of_cell_[cells_[wider_->cell_name(cell_of_[i])]] = static_cast<Id>(i); });
   }
 
   /// The vertices of what is passed alone.
-  void number_vertices(const MorseSmaleComplex& complex) {
-    const CriticalSimplices& critical = wider_.critical();
-    NumberedSet passed(wider_.vertices());
-    const auto mark = [&](Id vertex) { return passed.insert(wider_.name(vertex)); };
+  void number_vertices(const CriticalSimplices& critical, const MorseSmaleComplex& complex) {
+    NumberedSet passed(wider_->vertices());
+    const auto mark = [&](Id vertex) { return passed.insert(wider_->name(vertex)); };
     const auto mark_all_of = [&](const auto& simplices) {
       for (const auto& simplex : simplices) {
         for (const Id vertex : simplex) mark(vertex);
@@ -130,15 +144,15 @@ class PassedSimplices {
     for (const Id vertex : critical.vertices) mark(vertex);
     mark_all_of(critical.edges);
     mark_all_of(critical.triangles);
-    auto corners_of = wider_.corners_in_turn();
+    auto corners_of = wider_->corners_in_turn();
     for (const Id cell : cell_of_) {
       for (const Id vertex : corners_of(cell)) mark(vertex);
     }
     passed.number();
     vertex_count_ = passed.count();
-    const auto numbers = allocate<Array<Id, HostMemory>>("GALE::number_passed", wider_.vertices());
-    parallel_for("GALE::number_passed", HostExecutionSpace(), wider_.vertices(), [&](Offset v) {
-      const Id name = wider_.name(static_cast<Id>(v));
+    const auto numbers = allocate<Array<Id, HostMemory>>("GALE::number_passed", wider_->vertices());
+    parallel_for("GALE::number_passed", HostExecutionSpace(), wider_->vertices(), [&](Offset v) {
+      const Id name = wider_->name(static_cast<Id>(v));
       numbers(v) = passed.has(name) ? passed[name] : no_id;
     });
     number_ = numbers;
@@ -147,7 +161,7 @@ class PassedSimplices {
   /// Calls visit(vertex, number) for each that is in the excerpt.
   template <class Visit>
   void for_each_vertex(const Visit& visit) const {
-    parallel_for("GALE::passed_vertices", HostExecutionSpace(), wider_.vertices(), [&](Offset v) {
+    parallel_for("GALE::passed_vertices", HostExecutionSpace(), wider_->vertices(), [&](Offset v) {
       if (number_(v) != no_id) visit(static_cast<Id>(v), number_(v));
     });
   }
@@ -155,11 +169,11 @@ class PassedSimplices {
   template <class Value>
   std::vector<Value> values_as() const {
     std::vector<Value> values(vertex_count_);
-    for_each_vertex([&](Id vertex, Id number) { values[number] = static_cast<Value>(wider_.value(vertex)); });
+    for_each_vertex([&](Id vertex, Id number) { values[number] = static_cast<Value>(wider_->value(vertex)); });
     return values;
   }
 
-  const WiderGradient& wider_;
+  const std::shared_ptr<const WiderSimplices> wider_;
   NumberedSet cells_;  ///< by name
   Id vertex_count_ = 0;
   Array<const Id, HostMemory> number_;  ///< of each vertex; no_id of those that aren't in the excerpt
@@ -176,22 +190,32 @@ void rename_all(std::vector<T>& list, const Rename& rename) {
 }  // namespace
 
 void name_in_excerpt(const WiderGradient& wider, MorseSmaleComplex& complex) {
-  PassedSimplices passed(wider, complex);
-  const Mesh mesh = complex.critical.dimension == 3 ? passed.make_mesh<4>() : passed.make_mesh<3>();
-  const auto vertex = [&](Id one) { return passed.number(one); };
-  const auto cell = [&](Id one) { return passed.cell_number(one); };
-  const auto simplex = [&](const auto& one) { return passed.numbers(one); };
+  const auto passed = std::make_shared<PassedSimplices>(wider, complex);
+  // The cells of a grid keep their order, so that their numbers are known before there is a mesh.
+  std::optional<Mesh> mesh;
+  if (complex.gradient.mesh().grid() == nullptr) {
+    mesh = passed->make_mesh();
+    passed->call_cells_as(*mesh);
+  }
+  const auto vertex = [&](Id one) { return passed->number(one); };
+  const auto cell = [&](Id one) { return passed->cell_number(one); };
+  const auto simplex = [&](const auto& one) { return passed->numbers(one); };
   CriticalSimplices critical = wider.critical();
   rename_all(critical.vertices, vertex);
   rename_all(critical.edges, simplex);
   rename_all(critical.triangles, simplex);
   rename_all(critical.cells, cell);
   rename_all(critical.star, cell);
-  complex.excerpt = DiscreteGradient(std::make_shared<GradientStore>(passed.order_of(mesh), std::move(critical)));
-  complex.critical = complex.excerpt.critical();
   rename_all(complex.descending.cells, vertex);
   rename_all(complex.connectors.cells, simplex);
   rename_all(complex.ascending.cells, cell);
+  complex.critical = critical;
+  complex.excerpt = Excerpt([passed, mesh, critical = std::move(critical)] {
+    const Mesh made = mesh ? *mesh : passed->make_mesh();
+    if (!mesh && !passed->numbers_cells_as(made))
+      throw Error("the cells of an excerpt of a grid don't keep their order");
+    return DiscreteGradient(std::make_shared<GradientStore>(passed->order_of(made), critical));
+  });
 }
 
 }  // namespace gale::detail

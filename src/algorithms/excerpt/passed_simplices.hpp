@@ -7,8 +7,8 @@ namespace gale::detail {
 
 /// Makes the excerpt of a complex: of the simplices that its separatrices pass, which are those of a wider gradient,
 /// and of all critical ones there; of all vertices there, where most are passed. From then on the complex names them as
-/// the excerpt does. The excerpt knows which simplices are critical, and nothing else of the gradient. On this rank
-/// alone; throws what making a mesh does.
+/// the excerpt does. The excerpt knows which simplices are critical, and nothing else of the gradient; of a grid it is
+/// made when somebody first asks for it. On this rank alone; throws what making a mesh does.
 void name_in_excerpt(const WiderGradient& wider, MorseSmaleComplex& complex);
 
 }  // namespace gale::detail

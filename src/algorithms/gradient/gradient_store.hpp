@@ -21,13 +21,29 @@ Simplex written(const OtherIds& vertex_input, Simplex simplex) {
   return ascending(simplex);
 }
 
-/// Before a sweep of a rank's part of a mesh: has all successors be elsewhere, so that they are for what it leaves out.
+/// Has the successors outside an interval be elsewhere: those of the i-th of them.
+template <class Memory>
+struct MarkOutside {
+  Array<Id, Memory> successor;
+  Interval inner;
+
+  KOKKOS_FUNCTION void operator()(Offset i) const {
+    successor(i < inner.first ? i : i + inner.size()) = DiscreteGradient::elsewhere;
+  }
+};
+
+/// Before a sweep of a rank's part of a mesh: has the successors of what it leaves out be elsewhere, and of a mesh that
+/// is no grid those of all cells.
 template <class Space>
 void mark_ghosts(const Space& space, const Mesh& mesh, const Array<Id, MemoryOf<Space>>& vertex_successor,
                  const Array<Id, MemoryOf<Space>>& cell_successor) {
-  if (mesh.owned_vertices().size() == mesh.vertices()) return;
-  fill("GALE::mark_ghosts", space, vertex_successor, DiscreteGradient::elsewhere);
-  fill("GALE::mark_ghosts", space, cell_successor, DiscreteGradient::elsewhere);
+  using Memory = MemoryOf<Space>;
+  const Interval owned = mesh.owned_vertices();
+  if (owned.size() == mesh.vertices()) return;
+  const Interval inner = mesh.grid() == nullptr ? Interval{0, 0} : mesh.grid()->cells_within(owned);
+  parallel_for("GALE::mark_ghosts", space, mesh.vertices() - owned.size(),
+               MarkOutside<Memory>{vertex_successor, owned});
+  parallel_for("GALE::mark_ghosts", space, mesh.cells() - inner.size(), MarkOutside<Memory>{cell_successor, inner});
 }
 
 /// A cell of a critical simplex of one dimension less: of a triangle, or of an edge, whose third vertex is no_id.

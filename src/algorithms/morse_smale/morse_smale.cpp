@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -146,6 +147,26 @@ MorseSmaleComplex find_parts(const DiscreteGradient& gradient, const MorseSmaleP
 }
 
 }  // namespace
+
+struct Excerpt::Made {
+  detail::Once once;
+  std::function<DiscreteGradient()> make;
+  std::optional<DiscreteGradient> gradient;
+};
+
+Excerpt::Excerpt(const DiscreteGradient& gradient) : made_(std::make_shared<Made>()) { made_->gradient = gradient; }
+
+Excerpt::Excerpt(std::function<DiscreteGradient()> make) : made_(std::make_shared<Made>()) {
+  made_->make = std::move(make);
+}
+
+const DiscreteGradient& Excerpt::gradient() const {
+  made_->once([this] {
+    if (made_->make) made_->gradient = made_->make();
+    made_->make = nullptr;
+  });
+  return *made_->gradient;
+}
 
 std::array<Id, 4> MorseSmaleComplex::own_counts() const {
   std::array<Id, 4> counts = critical.counts();

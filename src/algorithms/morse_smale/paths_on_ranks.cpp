@@ -2,7 +2,6 @@
 #include <utility>
 
 #include <gale/algorithms/gradient/gradient_store.hpp>
-#include <gale/algorithms/morse_smale/jump.hpp>
 #include <gale/algorithms/morse_smale/paths_on_ranks.hpp>
 #include <gale/base/atomic.hpp>
 #include <gale/base/error.hpp>
@@ -75,17 +74,7 @@ Id PathSimplices::local(GlobalId id) const {
 Interval PathSimplices::inner() const {
   const Interval owned = mesh().owned_vertices();
   if (are_vertices_) return owned;
-  if (mesh().grid() == nullptr || owned.size() == 0) return {0, 0};
-  // The vertices of a cell are in the layer of its lowest one and in the next; in rows, of a plane.
-  const GridView grid = mesh().grid()->in<HostMemory>();
-  Id last = mesh().cells();
-  if (owned.last < mesh().vertices()) {
-    const GridPlace after = grid.place_of_vertex(owned.last);
-    last = grid.cells_per_cube() * (grid.dimension == 2 ? grid.cubes_before(0, std::max(after.y - 1, 0), 0)
-                                                        : grid.cubes_before(0, 0, std::max(after.z - 1, 0)));
-  }
-  const Id first = std::min(grid.first_cell(owned.first), last);
-  return {first, last};
+  return mesh().grid() == nullptr ? Interval{0, 0} : mesh().grid()->cells_within(owned);
 }
 
 int PathSimplices::owner(Id simplex) const {
@@ -152,11 +141,6 @@ std::vector<char> PathsOnRanks::reached_exits() const {
     }
   });
   return is_reached;
-}
-
-Id PathsOnRanks::end(Id simplex) const {
-  const Id end = ends_(simplex);
-  return end == path_outside ? no_id : place_of_end(end);
 }
 
 std::vector<Id> PathsOnRanks::exits_from(const std::vector<Id>& simplices) const {

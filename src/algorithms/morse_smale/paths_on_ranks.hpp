@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <gale/algorithms/discrete_gradient.hpp>
+#include <gale/algorithms/morse_smale/jump.hpp>
 #include <gale/base/hash_table.hpp>
 #include <gale/mesh/exchange/global_index.hpp>
 
@@ -74,7 +75,10 @@ class PathsOnRanks {
 
   /// How the path from a local simplex (GALE's id) ends on this rank: the number of that end, below; no_id if it leaves
   /// through the surface.
-  Id end(Id simplex) const;
+  Id end(Id simplex) const {
+    const Id end = ends_(simplex);
+    return end == path_outside ? no_id : place_of_end(end);
+  }
 
   /// The exits that paths from some simplices (GALE's ids) come to, once each. Not collective.
   std::vector<Id> exits_from(const std::vector<Id>& simplices) const;

@@ -46,12 +46,12 @@ void separatrices_on_ranks(int threads, PathExits down, PathExits up, MorseSmale
     connectors = std::make_unique<ConnectorsHere>(gradient, CriticalPlaces(own), threads);
     exits.edges = connectors->exits();
   });
-  Reached reached = reach_beyond(gradient, exits);
+  const Reached reached = reach_beyond(gradient, exits);
   together(ranks, [&] {
-    const WiderGradient wider(gradient, *cells, std::move(reached));
+    const WiderGradient wider(gradient, std::make_shared<const WiderSimplices>(gradient, *cells, reached), reached);
     const CriticalPlaces places(wider.critical());
     for (Id& source : down.starts.sources) source = wider.own_edges()[source];
-    complex.descending = paths_along({wider.vertex_successors().data(), wider.vertices()}, down.starts,
+    complex.descending = paths_along({wider.vertex_successors().data(), wider.simplices()->vertices()}, down.starts,
                                      [&](Id v) { return places.of_vertex(v); });
     complex.ascending = paths_along(wider.cell_successors(), up.starts, [&](Id t) { return places.of_cell(t); });
     if (connectors) complex.connectors = connectors->finish(wider.ground(), places, wider.own_edges());

@@ -169,7 +169,7 @@ class FindMorseSmale final : public AnalysisCommand {
           at(timed(seconds,
                    [&] {
                      outputs::leave_out_unwanted(wanted, complex);
-                     return OnExcerpt(complex.excerpt.mesh(), on);
+                     return OnExcerpt(outputs::mesh_of_excerpt(complex), on);
                    })),
           named(timed(seconds, [&] { return outputs::named_simplices(complex); })),
           numbers(number_simplices(on.mesh, named, options, &computed)) {

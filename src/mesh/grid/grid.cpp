@@ -181,6 +181,19 @@ Grid::Grid(const std::array<Id, 3>& points) : points_(points) {
   kinds_ = detail::make_kinds(dimension());
 }
 
+Interval Grid::cells_within(const Interval& some) const {
+  if (some.size() == 0) return {0, 0};
+  // The vertices of a cell are in the layer of its lowest one and in the next.
+  const GridView view = in<HostMemory>();
+  Id last = cells();
+  if (some.last < vertices()) {
+    const detail::GridPlace after = view.place_of_vertex(some.last);
+    const Id y = dimension() == 2 ? std::max(after.y - 1, 0) : 0, z = dimension() == 2 ? 0 : std::max(after.z - 1, 0);
+    last = view.cells_per_cube() * view.cubes_before(0, y, z);
+  }
+  return {std::min(view.first_cell(some.first), last), last};
+}
+
 bool Grid::operator==(const Grid& other) const {
   if (points_ != other.points_ || cubes_ != other.cubes_) return false;
   if (places_ == other.places_) return true;

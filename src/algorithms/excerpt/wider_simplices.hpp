@@ -1,0 +1,79 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <gale/algorithms/excerpt/reached.hpp>
+#include <gale/algorithms/morse_smale/paths_on_ranks.hpp>
+
+namespace gale::detail {
+
+/// Calls visit(rank, entry) for all that was received of one kind.
+template <class T, class Visit>
+void for_each_received(const Dealt<T>& received, const Visit& visit) {
+  for (int rank = 0; rank + 1 < static_cast<int>(received.begin.size()); ++rank) {
+    for (Offset i = received.begin[rank]; i < received.begin[rank + 1]; ++i) visit(rank, received.entries(i));
+  }
+}
+
+/// The vertices and cells of one rank's part, and those that ways from there reach on other ranks (`reach_beyond`),
+/// which come after GALE's own. 4 bytes a vertex beside what was reached.
+class WiderSimplices {
+ public:
+  WiderSimplices(const DiscreteGradient& gradient, const PathSimplices& cells, const Reached& reached);
+
+  const Mesh& mesh() const { return mesh_; }
+  Id own_vertices() const { return own_vertices_; }
+  Id own_cells() const { return own_cells_; }
+  Id vertices() const { return static_cast<Id>(names_.extent(0)); }
+  Id cells() const { return own_cells_ + static_cast<Id>(cell_corners_.size()); }
+  bool is_own_cell(Id cell) const { return cell < own_cells_; }
+
+  /// What a rank calls by a place in its list.
+  Id vertex(int rank, Id place) const { return vertex_of_[vertex_begin_[rank] + place]; }
+  Id cell(int rank, Id place) const { return cell_of_[cell_begin_[rank] + place]; }
+
+  /// A number for each vertex, dense from 0: they compare as global ids do.
+  Id name(Id vertex) const { return names_(vertex); }
+  const Array<const Id, HostMemory>& names() const { return names_; }
+
+  /// A number for each cell, dense from 0. Own cells' numbers compare as global ids do; others' come after these.
+  Id cell_name(Id cell) const { return is_own_cell(cell) ? cell_input_[cell] : cell; }
+
+  GlobalId vertex_id(Id vertex) const;
+  GlobalId cell_id(Id cell) const;
+
+  /// What VertexOrder::value_key says of a vertex.
+  std::uint64_t value(Id vertex) const;
+  bool has_short_values() const { return order_.has_short_values(); }
+
+  /// Reads the corners of cells one after the other: a function of the cell, for one thread.
+  auto corners_in_turn() const {
+    return [this, own = CellsInTurn(corners_)](Id cell) mutable -> std::array<Id, 4> {
+      if (!is_own_cell(cell)) return cell_corners_[cell - own_cells_];
+      const Quad quad = own(cell);
+      return {quad.a, quad.b, quad.c, quad.d};
+    };
+  }
+
+ private:
+  void number_vertices(const Reached& reached);
+  void number_cells(const Reached& reached, const PathSimplices& cells);
+  void name_vertices();
+
+  const Mesh mesh_;
+  const VertexOrder order_;
+  const Exchange& exchange_;
+  const CellReader corners_;
+  const OtherIds vertex_input_, cell_input_;
+  const Id own_vertices_, own_cells_;
+  std::vector<Offset> vertex_begin_, cell_begin_;
+  std::vector<Id> vertex_of_, cell_of_;          ///< of what was received
+  std::vector<ReachedVertex> beyond_;            ///< by global id
+  std::vector<GlobalId> cell_ids_;               ///< of others' cells
+  std::vector<std::array<Id, 4>> cell_corners_;  ///< of these
+  Array<const Id, HostMemory> names_;
+};
+
+}  // namespace gale::detail
