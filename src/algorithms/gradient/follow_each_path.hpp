@@ -44,21 +44,29 @@ PathStops follow_in(const Space& space, const char* label, const Array<const Id,
   return {on_host(follow.last), on_host(follow.next)};
 }
 
-/// Follows the paths along `successors` (of each simplex, below 0 where a path ends) from start(0), ...,
-/// start(count - 1), which aren't below 0, on all host threads. Calls ended(i, last, next) for each: the simplex that
-/// it ends at, and that one's successor. A thread has some paths under way at the same time, as a step is a wait for
-/// memory.
-template <class Start, class Ended>
-void follow_each_on_host(const char* label, const Id* successors, Offset count, const Start& start,
-                         const Ended& ended) {
+/// Brings a successor that is soon read near.
+inline void bring_near(const Id* successors, Id simplex) { __builtin_prefetch(successors + simplex); }
+
+/// Walks along the paths of `successors` (of each simplex, below 0 where a path ends) from start(0), ...,
+/// start(count - 1), which aren't below 0, on all host threads. Calls pass(i, k, simplex) for the k-th simplex of each,
+/// from 0 on, and ended(i, length, last, next) when it has passed the last one, whose successor is `next`. A thread has
+/// some paths under way at the same time, as a step is a wait for memory.
+template <class Successors, class Start, class Pass, class Ended>
+void walk_each_on_host(const char* label, const Successors& successors, Offset count, const Start& start,
+                       const Pass& pass, const Ended& ended) {
   struct Path {
-    Offset which;
+    Offset which, passed;
     Id at;
   };
   for_parts(label, count, threads_for(count), [&](int, Offset begin, Offset end) {
     std::array<Path, 16> paths;
     std::size_t under_way = 0;
-    for (; under_way < paths.size() && begin < end; ++begin) paths[under_way++] = {begin, start(begin)};
+    const auto set_out = [&](Path& path) {
+      path = {begin, 1, start(begin)};
+      bring_near(successors, path.at);
+      pass(begin++, Offset(0), path.at);
+    };
+    while (under_way < paths.size() && begin < end) set_out(paths[under_way++]);
     for (Offset steps = 0; under_way > 0;) {
       for (std::size_t k = 0; k < under_way;) {
         Path& path = paths[k];
@@ -66,20 +74,29 @@ void follow_each_on_host(const char* label, const Id* successors, Offset count, 
         stop_if_asked_at(++steps);
         if (next >= 0) {
           path.at = next;
-          __builtin_prefetch(successors + next);
+          bring_near(successors, next);
+          pass(path.which, path.passed++, next);
           ++k;
           continue;
         }
-        ended(path.which, path.at, next);
+        ended(path.which, path.passed, path.at, next);
         if (begin < end) {
-          path = {begin, start(begin)};
-          ++begin;
+          set_out(path);
         } else {
           path = paths[--under_way];
         }
       }
     }
   });
+}
+
+/// Follows paths to their ends likewise: calls ended(i, last, next) for each.
+template <class Start, class Ended>
+void follow_each_on_host(const char* label, const Id* successors, Offset count, const Start& start,
+                         const Ended& ended) {
+  walk_each_on_host(
+      label, successors, count, start, [](Offset, Offset, Id) {},
+      [&](Offset i, Offset, Id last, Id next) { ended(i, last, next); });
 }
 
 /// Follows paths as follow_each_on_host where the successors were made: on a device, unless that lacks the memory, or

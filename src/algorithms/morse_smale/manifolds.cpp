@@ -142,10 +142,11 @@ Mirrored<Id> manifolds_on_ranks(const PathSimplices& simplices, PathExits* exits
   std::vector<Id> elsewhere;
   together(mesh.exchange().ranks(), [&] {
     const auto& successors = simplices.successors().in<HostMemory>();
-    const Interval owned = mesh.owned_vertices();
+    const Interval owned = mesh.owned_vertices(), inner = simplices.inner();
     elsewhere = collected<Id>("GALE::starts_elsewhere", owned.size(), [&](Offset i, const auto& add) {
       const Id start = start_of(owned.first + static_cast<Id>(i));
-      if (start != no_id && successors(start) == DiscreteGradient::elsewhere) add(start);
+      if (start == no_id || inner.has(start)) return;
+      if (successors(start) == DiscreteGradient::elsewhere) add(start);
     });
   });
   const PathsOnRanks paths(simplices, elsewhere);

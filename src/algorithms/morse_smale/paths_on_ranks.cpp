@@ -133,7 +133,9 @@ std::vector<char> PathsOnRanks::reached_exits() const {
   for_parts("GALE::reached_exits", all, threads_for(all), [&](int, Offset first, Offset last) {
     for (Offset begin = first; begin < last; begin += block) {
       const Offset end = std::min(begin + block, last);
-      if (*std::min_element(ends + begin, ends + end) > end_at(criticals_)) continue;
+      Id least = 0;
+      for (Offset i = begin; i < end; ++i) least = std::min(least, ends[i]);
+      if (least > end_at(criticals_)) continue;
       for (Offset i = begin; i < end; ++i) {
         const Id at = place_of_end(ends[i]) - criticals_;
         if (at >= 0 && exits_[at] != i) atomic_write(&is_reached[at], char(1));

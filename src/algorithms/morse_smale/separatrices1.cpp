@@ -1,5 +1,9 @@
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <gale/algorithms/gradient/follow_each_path.hpp>
 #include <gale/algorithms/morse_smale/parts.hpp>
-#include <gale/base/csr.hpp>
 #include <gale/base/hash_table.hpp>
 #include <gale/base/memory.hpp>
 #include <gale/base/parallel.hpp>
@@ -9,28 +13,38 @@ namespace gale::detail {
 
 namespace {
 
-/// The cells of the path from each start, on the host; none if it leaves through the surface.
-using Followed = Csr<const Id, HostMemory>;
+/// The simplices of the path from each start, those of the i-th from begin(i) on; none if it leaves through the
+/// surface.
+struct Followed {
+  Array<const Offset, HostMemory> begin;
+  std::vector<Id> simplices;
+};
 
-/// How many simplices a path of successors has; 0 if it leaves through the surface.
-template <class Successors>
-KOKKOS_INLINE_FUNCTION Offset length_of(const Successors& successors, Id from) {
-  Offset length = 1;
-  for (Id next = successors[from]; next != no_id; next = successors[next], ++length) {
-    if (next < no_id) return 0;
+/// How many simplices a path has; 0 if it leaves through the surface.
+template <class Memory>
+struct PathLength {
+  Array<const Id, Memory> successors, starts;
+
+  KOKKOS_FUNCTION Offset operator()(Offset i) const {
+    Offset length = 1;
+    for (Id next = successors(starts(i)); next != no_id; next = successors(next), ++length) {
+      if (next < no_id) return 0;
+    }
+    return length;
   }
-  return length;
-}
+};
 
-template <class Space, class Successors>
-Followed follow_in(const Space& space, const Successors& successors, const std::vector<Id>& starts) {
+/// Follows paths where successors lie on a device: a thread for each.
+template <class Space>
+Followed follow_in(const Space& space, const Array<const Id, MemoryOf<Space>>& successors,
+                   const std::vector<Id>& starts) {
   using Memory = MemoryOf<Space>;
   const Offset count = static_cast<Offset>(starts.size());
-  const auto from =
-      in_memory<Memory>(Kokkos::View<const Id*, HostMemory, Kokkos::MemoryUnmanaged>(starts.data(), starts.size()));
+  const auto from = in_memory<Memory>(Array<const Id, HostMemory>(starts.data(), starts.size()));
+  const PathLength<Memory> length{successors, from};
   const auto begin = allocate<Array<Offset, Memory>>("GALE::path_begin", count + 1);
   parallel_for(
-      "GALE::path_lengths", space, count, KOKKOS_LAMBDA(Offset i) { begin(i) = length_of(successors, from(i)); });
+      "GALE::path_lengths", space, count, KOKKOS_LAMBDA(Offset i) { begin(i) = length(i); });
   const Offset total = exclusive_scan(
       "GALE::path_begins", space, count, begin, KOKKOS_LAMBDA(Offset i) { return begin(i); });
   const auto cells = allocate<Array<Id, Memory>>("GALE::path_cells", total);
@@ -38,38 +52,69 @@ Followed follow_in(const Space& space, const Successors& successors, const std::
       "GALE::follow_paths", space, count, KOKKOS_LAMBDA(Offset i) {
         if (begin(i + 1) == begin(i)) return;
         Id cell = from(i);
-        for (Offset at = begin(i); at < begin(i + 1); ++at, cell = successors[cell]) cells(at) = cell;
+        for (Offset at = begin(i); at < begin(i + 1); ++at, cell = successors(cell)) cells(at) = cell;
       });
   space.fence();
-  return {on_host(begin), on_host(cells)};
+  const auto here = on_host(cells);
+  Followed followed{on_host(begin), {}};
+  reserve(followed.simplices, total);
+  followed.simplices.assign(here.data(), here.data() + total);
+  return followed;
 }
 
-/// Where the successors are, if there is room.
+/// Follows paths on the host, of which those that leave through the surface are walked twice for nothing.
+template <class Successors>
+Followed follow_here(const Successors& successors, const std::vector<Id>& starts) {
+  const Offset count = static_cast<Offset>(starts.size());
+  const auto start = [&](Offset i) { return starts[i]; };
+  const auto begin = allocate<Array<Offset, HostMemory>>("GALE::path_begin", count + 1);
+  walk_each_on_host(
+      "GALE::path_lengths", successors, count, start, [](Offset, Offset, Id) {},
+      [&](Offset i, Offset length, Id, Id next) { begin(i) = next == no_id ? length : 0; });
+  const Offset total =
+      exclusive_scan("GALE::path_begins", HostExecutionSpace(), count, begin, [&](Offset i) { return begin(i); });
+  std::vector<Id> simplices;
+  reserve(simplices, total);
+  simplices.resize(total);
+  walk_each_on_host(
+      "GALE::follow_paths", successors, count, start,
+      [&](Offset i, Offset k, Id simplex) {
+        if (begin(i + 1) > begin(i)) simplices[begin(i) + k] = simplex;
+      },
+      [](Offset, Offset, Id, Id) {});
+  return {begin, std::move(simplices)};
+}
+
+/// Follows paths where the successors are, if there is room.
 Followed follow(const Mirrored<Id>& successors, const std::vector<Id>& starts) {
-  return in_worker_or_host_space(successors.on_device(), [&](const auto& space) {
-    return follow_in(space, successors.in<MemoryOf<std::decay_t<decltype(space)>>>().data(), starts);
+  return in_worker_or_host_space(successors.on_device(), [&](const auto& space) -> Followed {
+    using Space = std::decay_t<decltype(space)>;
+    if constexpr (is_device<Space>) {
+      return follow_in(space, successors.in<MemoryOf<Space>>(), starts);
+    } else {
+      return follow_here(successors.in<HostMemory>().data(), starts);
+    }
   });
 }
 
 /// The path from each of `starts`, whose source is the one of `sources` at the same place. Its destination is
 /// place(last) of its last simplex.
 template <class Place>
-Separatrices<Id> paths_of(const Followed& followed, const std::vector<Id>& sources, const Place& place) {
+Separatrices<Id> paths_of(Followed followed, const std::vector<Id>& sources, const Place& place) {
   const Offset count = static_cast<Offset>(sources.size());
   const auto rank = allocate<Array<Id, HostMemory>>("GALE::path_rank", count + 1);
-  const auto is_there = [&](Offset i) { return followed.offsets(i + 1) > followed.offsets(i); };
+  const auto is_there = [&](Offset i) { return followed.begin(i + 1) > followed.begin(i); };
   const Id paths_there = exclusive_scan("GALE::count_paths", HostExecutionSpace(), count, rank, is_there);
   Separatrices<Id> paths;
   paths.sources.resize(paths_there);
   paths.destinations.resize(paths_there);
   paths.begin.resize(paths_there + 1);
-  reserve(paths.cells, followed.entries.extent(0));
-  paths.cells.assign(followed.entries.data(), followed.entries.data() + followed.entries.extent(0));
+  paths.cells = std::move(followed.simplices);
   parallel_for("GALE::name_paths", HostExecutionSpace(), count, [&](Offset i) {
     if (!is_there(i)) return;
-    const Offset end = followed.offsets(i + 1);
+    const Offset end = followed.begin(i + 1);
     paths.sources[rank(i)] = sources[i];
-    paths.destinations[rank(i)] = place(followed.entries(end - 1));
+    paths.destinations[rank(i)] = place(paths.cells[end - 1]);
     paths.begin[rank(i) + 1] = end;
   });
   return paths;
@@ -144,7 +189,7 @@ PathStarts ascending_starts(const CriticalSimplices& critical) {
 
 Separatrices<Id> paths_along(const WiderSuccessors& successors, const PathStarts& starts,
                              const std::function<Id(Id)>& place) {
-  return paths_of(follow_in(HostExecutionSpace(), successors, starts.simplices), starts.sources, place);
+  return paths_of(follow_here(successors, starts.simplices), starts.sources, place);
 }
 
 Separatrices<Id> descending_separatrices(const Mesh& mesh, const Mirrored<Id>& successors,

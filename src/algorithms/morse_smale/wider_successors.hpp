@@ -31,4 +31,9 @@ struct WiderSuccessors {
   }
 };
 
+/// Brings a successor that is soon read near.
+inline void bring_near(const WiderSuccessors& successors, Id simplex) {
+  if (simplex < successors.count) __builtin_prefetch(successors.own + simplex);
+}
+
 }  // namespace gale::detail
