@@ -34,19 +34,20 @@ struct AscendingWalls {
   std::vector<Id> star;  ///< GALE's ids, see star_begin
 };
 
-/// The gradient that a complex names its simplices in, on one rank of several perhaps one that is made when somebody
-/// first asks for it: by any thread, which has its errors then, as OutOfMemory. Copies share it.
+/// The gradient that a complex names its simplices in. On one rank of several it may be made when somebody first asks
+/// for it, by any thread: then this takes long, and may throw gale::Error. Copies share it; what is returned lives as
+/// long as one of them.
 class GALE_EXPORT Excerpt {
  public:
-  /// One that is there.
+  /// Holds one that is there.
   Excerpt(const DiscreteGradient& gradient);
 
-  /// One that `make` makes.
+  /// Has `make` make it.
   explicit Excerpt(std::function<DiscreteGradient()> make);
 
   /// The gradient, which is made now unless it is there.
   const DiscreteGradient& gradient() const;
-  operator const DiscreteGradient&() const { return gradient(); }  ///< the same
+  operator const DiscreteGradient&() const { return gradient(); }  ///< what gradient() says
 
   const Mesh& mesh() const { return gradient().mesh(); }                       ///< the gradient's mesh
   const VertexOrder& order() const { return gradient().order(); }              ///< the gradient's order

@@ -40,11 +40,11 @@ struct Communicator::Data {
     if (!finalized) MPI_Comm_free(&comm);
   }
 
-  /// Waits for all, `bytes` of messages among it. MPI's own functions would hold the core for as long as it takes:
-  /// ranks that share a machine, and threads that compute, need it. So it looks again after an eighth of the time that
-  /// it has waited, and at least every 2 ms, or 0.2 ms where messages are in pieces, as these go on only then. As long
-  /// as they may be on their way, at 1 GB/s, it doesn't sleep: each look moves a piece. Each time it looks more than
-  /// once, as MPI takes one step at each look, and a sum takes several.
+  /// Waits for all, where `bytes` are sent or received. MPI's own functions would hold the core for as long as it
+  /// takes: ranks that share a machine, and threads that compute, need it. So it looks again after an eighth of the
+  /// time that it has waited, and at least every 2 ms, or 0.2 ms where messages are in pieces, as these go on only
+  /// then. As long as they may be on their way, at 1 GB/s, it doesn't sleep, but lets others run: each look moves a
+  /// piece. Each time it looks more than once, as MPI takes one step at each look, and a sum takes several.
   void wait(std::vector<MPI_Request>& requests, std::int64_t bytes) {
     using Clock = std::chrono::steady_clock;
     constexpr std::int64_t in_pieces = 1 << 20;
@@ -56,7 +56,11 @@ struct Communicator::Data {
         MPI_Testall(static_cast<int>(requests.size()), requests.data(), &done, MPI_STATUSES_IGNORE);
       if (done) break;
       const auto waited = Clock::now() - begin;
-      if (waited > patience) std::this_thread::sleep_for(std::min<Clock::duration>(waited / 8, longest));
+      if (waited > patience) {
+        std::this_thread::sleep_for(std::min<Clock::duration>(waited / 8, longest));
+      } else {
+        std::this_thread::yield();
+      }
     }
     sent.seconds_waiting += std::chrono::duration<double>(Clock::now() - begin).count();
   }
@@ -165,7 +169,7 @@ void Communicator::exchange_bytes(const char* from, const std::vector<std::int64
   }
   const std::int64_t own = send_begin[rank() + 1] - send_begin[rank()];
   if (own > 0) std::memcpy(to + receive_begin[rank()], from + send_begin[rank()], static_cast<std::size_t>(own));
-  data_->wait(requests, send_begin.back() + receive_begin.back());
+  data_->wait(requests, std::max(send_begin.back(), receive_begin.back()) - own);
 }
 
 }  // namespace gale

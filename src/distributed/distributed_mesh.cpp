@@ -166,7 +166,7 @@ class DistributedMesh::Sharing final : public Exchange {
   template <class Index>
   Mesh take(const MeshPart<Index>& part, const PartitionOptions& options, const std::shared_ptr<const Exchange>& self);
   detail::ExchangePlan::Run share(const detail::VertexDirectory& directory,
-                                  const Array<detail::VertexEntry, HostMemory>& of_owned);
+                                  Array<detail::VertexEntry, HostMemory> of_owned);
   Array<detail::VertexEntry, HostMemory> entries_of_all(const Array<detail::VertexEntry, HostMemory>& of_owned,
                                                         const Array<detail::VertexEntry, HostMemory>& of_ghosts) const;
   detail::OwnAndGhosts share_points(const HostPoints& given, const detail::ExchangePlan::Run& run) const;
@@ -221,7 +221,7 @@ Array<int, HostMemory> DistributedMesh::Sharing::owners_of(const Array<const Glo
 /// Plans how values come to this rank: each local vertex's from who handed it over, each ghost's from its owner. A rank
 /// that hands over what it owns, one after the other, wants the ghosts' alone: then the run isn't empty.
 detail::ExchangePlan::Run DistributedMesh::Sharing::share(const detail::VertexDirectory& directory,
-                                                          const Array<detail::VertexEntry, HostMemory>& of_owned) {
+                                                          Array<detail::VertexEntry, HostMemory> of_owned) {
   const bool in_place = directory.given() && !held_.interval().is_empty();
   detail::ExchangePlan::Run run;
   if (in_place)
@@ -235,6 +235,7 @@ detail::ExchangePlan::Run DistributedMesh::Sharing::share(const detail::VertexDi
         detail::tabulated<int>("GALE::ghost_owners", held_.ghost_count(), [&](Offset i) { return of_ghosts(i).owner; });
     slots = in_place ? ghosts : iota("GALE::all_vertices", HostExecutionSpace(), held_.count());
     entries = in_place ? of_ghosts : entries_of_all(of_owned, of_ghosts);
+    of_owned = {};
   });
   from_givers_ = detail::ExchangePlan(
       ranks_, run, slots, [&](Id i) { return entries(i).giver; }, [&](Id i) { return entries(i).place; },
@@ -245,7 +246,7 @@ detail::ExchangePlan::Run DistributedMesh::Sharing::share(const detail::VertexDi
   return run;
 }
 
-/// By local input ids.
+/// Puts entries in the order of local input ids.
 Array<detail::VertexEntry, HostMemory> DistributedMesh::Sharing::entries_of_all(
     const Array<detail::VertexEntry, HostMemory>& of_owned,
     const Array<detail::VertexEntry, HostMemory>& of_ghosts) const {
@@ -277,23 +278,24 @@ Mesh DistributedMesh::Sharing::deal(MeshPart<Index> part, const PartitionOptions
   detail::together(ranks_, [&] { validate(part); });
   const int corners_of_each = corners_of_all(ranks_, part);
   if (part.cells.extent(0) == 0) part.cells = CellRows<Index>(nullptr, 0, corners_of_each);
-  const detail::VertexDirectory directory = directory_of(ranks_, part, options.repartition);
-  const detail::OwnedVertices all_owned = directory.owned();
+  std::optional<detail::VertexDirectory> directory = directory_of(ranks_, part, options.repartition);
+  detail::OwnedVertices all_owned = directory->owned();
   const detail::OwnedIds& owned = all_owned.ids;
   // What a rank owns as it hands it over gets its segments on a device while cells travel.
-  const bool in_place = directory.given() && !owned.interval.is_empty();
+  const bool in_place = directory->given() && !owned.interval.is_empty();
   std::future<Segmentation> segments;
   if (have_device && in_place) {
-    const Offset place = owned.interval.begin - directory.given()->of(ranks_.rank()).begin;
+    const Offset place = owned.interval.begin - directory->given()->of(ranks_.rank()).begin;
     segments = octree_meanwhile(part.points.part(place, owned.count()), options.capacity);
   }
-  const detail::LocalCells<Index> held_cells(ranks_, part, directory, owned.interval, options.most_local);
+  const detail::LocalCells<Index> held_cells(ranks_, part, *directory, owned.interval, options.most_local);
   detail::together(ranks_, [&] { held_ = detail::LocalVertices(owned, held_cells.vertices_beside(owned)); });
   detail::require_local(ranks_, "vertices", held_.count(), options.most_local);
-  vertices_ = directory.vertices();
+  vertices_ = directory->vertices();
   cells_ = ranks_.sum(part.cells.extent(0));
-  given_ = directory.given();
-  placed_ = share_points(part.points, share(directory, all_owned.entries));
+  given_ = directory->given();
+  placed_ = share_points(part.points, share(*directory, std::exchange(all_owned.entries, {})));
+  directory.reset();
   std::optional<Mesh> mesh;
   detail::together(ranks_, [&] {
     places_ = held_cells.places();

@@ -57,7 +57,8 @@ class GALE_EXPORT Grid {
     }
   }
 
-  /// The cells all of whose vertices are among some that fill layers of points, or rows of a grid of triangles.
+  /// An interval of cells all of whose vertices are among some: all such cells where these fill layers of points, or
+  /// rows of a grid of triangles.
   Interval cells_within(const Interval& some) const;
 
   /// For code that runs on `Memory`. Valid as long as the grid or a copy of it.

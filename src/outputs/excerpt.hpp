@@ -7,7 +7,8 @@
 
 namespace gale::outputs {
 
-/// The mesh of a complex' excerpt. Collective: made on all ranks where it isn't there, or an error on all.
+/// The mesh of a complex's excerpt, which lives as long as the complex. Collective: it is made where it isn't there, or
+/// all ranks throw gale::Error.
 GALE_EXPORT const Mesh& mesh_of_excerpt(const MorseSmaleComplex& complex);
 
 /// The points of an excerpt's vertices (`MorseSmaleComplex::excerpt`), and their values of all arrays, by its input

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include <gale/mesh/exchange/places.hpp>
+#include <gale/outputs/excerpt.hpp>
 #include <gale/outputs/manifolds.hpp>
 #include <gale/outputs/values.hpp>
 
@@ -65,7 +66,7 @@ std::vector<Id> own_of(const MorseSmaleComplex& complex, int dimension, const st
 }
 
 std::vector<GlobalId> sizes_on_ranks(const MorseSmaleComplex& complex) {
-  const Mesh &mesh = complex.gradient.mesh(), &named_in = complex.excerpt.mesh();
+  const Mesh &mesh = complex.gradient.mesh(), &named_in = mesh_of_excerpt(complex);
   const Ranks& ranks = mesh.exchange().ranks();
   const int top = complex.critical.dimension;
   const auto counts = complex.own_counts();

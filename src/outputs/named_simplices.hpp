@@ -31,7 +31,8 @@ struct NamedPaths : NamedSimplices {
   SharedPaths connectors;  ///< what `connectors` have
 };
 
-/// Names what a complex's paths pass, in parallel. Throws gale::Error if there are more than 2^31 - 1 cells of a kind.
+/// Names what a complex's paths pass, in parallel. Throws gale::Error if there are more than 2^31 - 1 cells of a
+/// kind, and what making the complex's excerpt does.
 GALE_EXPORT NamedPaths named_simplices(const MorseSmaleComplex& complex);
 
 namespace detail {

@@ -7,6 +7,7 @@
 #include <gale/base/error.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/mesh/positions.hpp>
+#include <gale/outputs/excerpt.hpp>
 #include <gale/outputs/separatrices1.hpp>
 #include <gale/outputs/separatrix_arrays.hpp>
 #include <gale/outputs/separatrix_ends.hpp>
@@ -170,7 +171,7 @@ io::Surface separatrices1(const io::Dataset& dataset, const io::PointArray& fiel
                           const NamedPaths& named, const SimplexNumbers& numbers, const KnownSimplices& critical) {
   const auto &falling = complex.descending, &rising = complex.ascending;
   const auto& connectors = complex.connectors;
-  const Mesh& mesh = complex.excerpt.mesh();
+  const Mesh& mesh = mesh_of_excerpt(complex);
   const detail::NamedGroups groups(complex, named);
   Offset points = 0;
   for (const SharedPaths* const shared : {&named.descending, &named.ascending, &named.connectors})

@@ -1,3 +1,4 @@
+#include <atomic>
 #include <map>
 
 #include <gtest/gtest.h>
@@ -6,6 +7,7 @@
 #include <gale/algorithms/morse_smale.hpp>
 #include <gale/algorithms/morse_smale/parts.hpp>
 #include <gale/base/error.hpp>
+#include <gale/base/threads.hpp>
 #include <gale/baselines/discrete_gradient_from_cells.hpp>
 
 #include "algorithms/brute_force_complex.hpp"
@@ -55,6 +57,24 @@ void expect_the_one(const std::string& mesh_name, std::size_t field, const Named
 }
 
 }  // namespace
+
+/// Copies have one gradient, which the first thread makes; if that fails the next one tries.
+TEST(Excerpt, is_made_once_and_anew_after_an_error) {
+  const Mesh mesh(Grid({3, 4, 5}));
+  const std::vector<Id> values(mesh.vertices(), 1);
+  const DiscreteGradient gradient = find_discrete_gradient(VertexOrder(mesh, values.data(), values.size()));
+  std::atomic<int> calls = 0;
+  const Excerpt excerpt([&] {
+    if (++calls == 1) throw Error("not yet");
+    return gradient;
+  });
+  const Excerpt copy = excerpt;
+  EXPECT_EQ(message_of([&] { copy.gradient(); }), "not yet");
+  on_threads(4, [&](int) { EXPECT_EQ(&excerpt.gradient(), &copy.gradient()); });
+  EXPECT_EQ(calls, 2);
+  EXPECT_TRUE(excerpt.mesh() == mesh);
+  EXPECT_TRUE(Excerpt(gradient).mesh() == mesh);
+}
 
 class MorseSmaleComplexOf : public EveryMesh {};
 

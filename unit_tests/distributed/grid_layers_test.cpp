@@ -1,3 +1,4 @@
+#include <map>
 #include <random>
 #include <string>
 #include <vector>
@@ -6,6 +7,7 @@
 
 #include <gale/algorithms/critical_points.hpp>
 #include <gale/algorithms/discrete_gradient.hpp>
+#include <gale/algorithms/morse_smale.hpp>
 #include <gale/algorithms/vertex_order.hpp>
 #include <gale/distributed/distributed_mesh.hpp>
 
@@ -72,6 +74,28 @@ std::vector<float> ties(Id count) {
   return values;
 }
 
+/// The separatrices of a complex: a number for the kind, and the global ids of what they lead through.
+using Lines = std::map<std::vector<GlobalId>, std::int64_t>;
+
+Lines lines_of(const MorseSmaleComplex& found) {
+  const Mesh& mesh = found.excerpt.mesh();
+  const auto vertex = [&](Id v) { return mesh.vertex_id(mesh.vertices_in_input()[v]); };
+  Lines lines;
+  const auto add = [&](GlobalId kind, const auto& paths, const auto& put) {
+    for (Id i = 0; i < paths.count(); ++i) {
+      std::vector<GlobalId> line{kind};
+      for (const auto* at = paths.first(i); at != paths.last(i); ++at) put(line, *at);
+      ++lines[line];
+    }
+  };
+  add(0, found.descending, [&](auto& line, Id v) { line.push_back(vertex(v)); });
+  add(1, found.ascending, [&](auto& line, Id t) { line.push_back(mesh.cell_id(mesh.cells_in_input()[t])); });
+  add(2, found.connectors, [&](auto& line, const TriangleVertices& triangle) {
+    for (const Id v : triangle) line.push_back(vertex(v));
+  });
+  return lines;
+}
+
 }  // namespace
 
 TEST(GridLayersOfRanks, have_the_ids_of_the_whole_grid) {
@@ -131,6 +155,52 @@ TEST(GridLayersOfRanks, have_the_critical_simplices_of_the_whole_grid) {
       EXPECT_EQ(found.on_surface[i], expected.on_surface[at]);
     }
     EXPECT_EQ(find_discrete_gradient(order).counts(), find_discrete_gradient(order_of_all).counts());
+  }
+}
+
+/// Layers, or rows of a grid of triangles: what is owned. Other vertices may leave some cells out, but have none
+/// beside.
+TEST(GridLayersOfRanks, know_the_cells_all_of_whose_vertices_they_own) {
+  std::mt19937 random(11);
+  for (const Grid& grid : grids()) {
+    const GridView view = grid.in<HostMemory>();
+    const auto within = [&](Id t, const Interval& some) {
+      return some.has(view.cell(t).a) && some.has(view.cell(t).d);
+    };
+    for (Id first = 0; first < layers_of(grid); ++first) {
+      for (Id last = first; last <= layers_of(grid); ++last) {
+        const Interval some{first_vertex(grid, first), first_vertex(grid, last)}, cells = grid.cells_within(some);
+        int wrong = 0;
+        for (Id t = 0; t < grid.cells(); ++t) wrong += within(t, some) != cells.has(t);
+        EXPECT_EQ(wrong, 0) << first << " to " << last;
+      }
+      const Id vertex = static_cast<Id>(random() % grid.vertices());
+      const Interval some{vertex, static_cast<Id>(vertex + random() % (grid.vertices() - vertex))};
+      for (const Id t : grid.cells_within(some)) EXPECT_TRUE(within(t, some)) << t;
+    }
+  }
+}
+
+/// Their excerpts are made when they are asked for.
+TEST(GridLayersOfRanks, have_the_complex_of_the_whole_grid) {
+  const Communicator ranks(MPI_COMM_WORLD, 1000);
+  for (const Grid& grid : grids()) {
+    const std::vector<float> all = ties(grid.vertices());
+    const GridLayers part = layers_of_rank(grid, ranks);
+    const DistributedMesh mesh(ranks, part);
+    const VertexOrder order(mesh, all.data() + first_vertex(grid, part.layers.first), mesh.owned_vertices().size());
+    const VertexOrder order_of_all(Mesh(grid), all.data(), all.size());
+    const MorseSmaleComplex found = find_morse_smale_complex(find_discrete_gradient(order)),
+                            expected = find_morse_smale_complex(find_discrete_gradient(order_of_all));
+    const Lines here = lines_of(found), there = lines_of(expected);
+    for (const auto& [line, times] : here) EXPECT_EQ(there.count(line), 1u) << testing::PrintToString(line);
+    for (const auto& [line, times] : there)
+      EXPECT_EQ(ranks.sum(here.count(line) == 0 ? 0 : here.at(line)), times) << testing::PrintToString(line);
+    for (Id v = 0; v < mesh.vertices(); ++v) {
+      const auto id = static_cast<Id>(mesh.vertex_id(v));
+      EXPECT_EQ(found.descending_manifold.in<HostMemory>()(v), expected.descending_manifold.in<HostMemory>()(id));
+      EXPECT_EQ(found.ascending_manifold.in<HostMemory>()(v), expected.ascending_manifold.in<HostMemory>()(id));
+    }
   }
 }
 

@@ -122,7 +122,7 @@ TEST(VertexDirectory, tells_ranks_that_disagree_who_owns_what) {
   }
   const std::vector<GlobalId>& mine = handed[ranks.rank()];
   const detail::VertexDirectory directory(ranks, to_ids(mine),
-                                          Array<const int, HostMemory>(owners[ranks.rank()].data(), mine.size()));
+                                          Array<int, HostMemory>(owners[ranks.rank()].data(), mine.size()));
   for (Id i = 0; i < 200; ++i) EXPECT_EQ(directory.owner_of_handed(i), expected[mine[i]].owner) << mine[i];
   const detail::OwnedVertices owned = directory.owned();
   Offset at = 0;

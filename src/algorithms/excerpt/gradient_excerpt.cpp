@@ -36,14 +36,6 @@ class ExcerptMaker {
   }
 
  private:
-  /// Calls visit(rank, entry) for all that was received of one kind.
-  template <class T, class Visit>
-  static void for_each(const Dealt<T>& received, const Visit& visit) {
-    for (int rank = 0; rank + 1 < static_cast<int>(received.begin.size()); ++rank) {
-      for (Offset i = received.begin[rank]; i < received.begin[rank + 1]; ++i) visit(rank, received.entries(i));
-    }
-  }
-
   Mesh make_mesh() const {
     return dimension_ == 3 ? excerpt_mesh(vertices_.ids, cells_.ids, corners<4>())
                            : excerpt_mesh(vertices_.ids, cells_.ids, corners<3>());
@@ -70,20 +62,21 @@ class ExcerptMaker {
     for (Id v = 0; v < mesh.vertices(); ++v) sink.vertex_successor[v] = DiscreteGradient::elsewhere;
     for (Id t = 0; t < mesh.cells(); ++t) sink.cell_successor[t] = DiscreteGradient::elsewhere;
     if (dimension_ == 3) fill_rows(mesh, sink);
-    for_each(reached_.edges, [&](int rank, const auto& edge) {
+    for_each_received(reached_.edges, [&](int rank, const auto& edge) {
       const Id high = vertices_.of(rank, edge[0]), low = vertices_.of(rank, edge[1]);
       if (edge[2] == edge_is_critical) sink.add_critical_edge(high, low);
       if (edge[2] == edge_has_vertex) sink.vertex_successor[high] = low;
     });
-    for_each(reached_.vertex_steps, [&](int rank, const auto& step) {
+    for_each_received(reached_.vertex_steps, [&](int rank, const auto& step) {
       sink.set_vertex(vertices_.of(rank, step[0]), step[1] == no_id ? no_id : vertices_.of(rank, step[1]));
     });
-    for_each(reached_.cell_steps, [&](int rank, const auto& step) { fill_cell(mesh, sink, rank, step); });
-    for_each(reached_.cell_forks,
-             [&](int rank, const auto& fork) { sink.add_successor(cell(rank, fork[0]), cell(rank, fork[1])); });
-    for_each(reached_.critical_triangles,
-             [&](int rank, const auto& triangle) { sink.add_critical_triangle(simplex(rank, triangle)); });
-    for_each(reached_.critical_stars, [&](int rank, const auto& in_star) {
+    for_each_received(reached_.cell_steps, [&](int rank, const auto& step) { fill_cell(mesh, sink, rank, step); });
+    for_each_received(reached_.cell_forks, [&](int rank, const auto& fork) {
+      sink.add_successor(cell(rank, fork[0]), cell(rank, fork[1]));
+    });
+    for_each_received(reached_.critical_triangles,
+                      [&](int rank, const auto& triangle) { sink.add_critical_triangle(simplex(rank, triangle)); });
+    for_each_received(reached_.critical_stars, [&](int rank, const auto& in_star) {
       sink.add_to_star(simplex(rank, std::array<Id, 3>{in_star[0], in_star[1], in_star[2]}), cell(rank, in_star[3]));
     });
   }
@@ -112,7 +105,7 @@ class ExcerptMaker {
   void fill_rows(const Mesh& mesh, const ConsumerSink& sink) const {
     std::vector<std::uint64_t> in_rows;
     std::vector<std::pair<std::uint64_t, Id>> pairs;
-    for_each(reached_.edges, [&](int rank, const auto& edge) {
+    for_each_received(reached_.edges, [&](int rank, const auto& edge) {
       const Id high = vertices_.of(rank, edge[0]), low = vertices_.of(rank, edge[1]);
       in_rows.push_back(pair_key(high, low));
       if (edge[2] < 0) return;

@@ -45,14 +45,14 @@ class PassedSimplices {
   Mesh make_mesh() const { return wider_->mesh().dimension() == 3 ? make_mesh_of<4>() : make_mesh_of<3>(); }
 
   /// Whether GALE's ids of cells in the mesh that was made are their numbers.
-  bool numbers_cells_as(const Mesh& mesh) const {
+  bool keeps_order_of_cells(const Mesh& mesh) const {
     const OtherIds input = mesh.cells_in_input();
     return reduce_sum("GALE::cells_of_excerpt", HostExecutionSpace(), mesh.cells(),
                       [&](Offset t) { return Offset(input[static_cast<Id>(t)] != t); }) == 0;
   }
 
-  /// From now on cells have GALE's ids in the mesh that was made as numbers.
-  void call_cells_as(const Mesh& mesh) {
+  /// Has cells' numbers be GALE's ids in the mesh that was made.
+  void renumber_cells(const Mesh& mesh) {
     std::vector<Id> internal(mesh.cells());
     const OtherIds input = mesh.cells_in_input();
     parallel_for("GALE::cells_of_excerpt", HostExecutionSpace(), mesh.cells(),
@@ -125,6 +125,7 @@ class PassedSimplices {
         std::find_if(cell_of_.begin(), cell_of_.end(), [&](Id cell) { return !wider_->is_own_cell(cell); });
     std::sort(others, cell_of_.end(), is_less);
     std::inplace_merge(cell_of_.begin(), others, cell_of_.end(), is_less);
+    marked_cells_ = {};
     number_of_cell_.resize(count);
     parallel_for("GALE::number_cells", HostExecutionSpace(), count,
                  [&](Offset i) { number_of_cell_[cells_[wider_->cell_name(cell_of_[i])]] = static_cast<Id>(i); });
@@ -191,30 +192,34 @@ void rename_all(std::vector<T>& list, const Rename& rename) {
 
 void name_in_excerpt(const WiderGradient& wider, MorseSmaleComplex& complex) {
   const auto passed = std::make_shared<PassedSimplices>(wider, complex);
-  // The cells of a grid keep their order, so that their numbers are known before there is a mesh.
+  const bool is_grid = complex.gradient.mesh().grid() != nullptr;
   std::optional<Mesh> mesh;
-  if (complex.gradient.mesh().grid() == nullptr) {
-    mesh = passed->make_mesh();
-    passed->call_cells_as(*mesh);
-  }
+  if (!is_grid) mesh = passed->make_mesh();
+  if (!is_grid) passed->renumber_cells(*mesh);
   const auto vertex = [&](Id one) { return passed->number(one); };
   const auto cell = [&](Id one) { return passed->cell_number(one); };
   const auto simplex = [&](const auto& one) { return passed->numbers(one); };
-  CriticalSimplices critical = wider.critical();
-  rename_all(critical.vertices, vertex);
-  rename_all(critical.edges, simplex);
-  rename_all(critical.triangles, simplex);
-  rename_all(critical.cells, cell);
-  rename_all(critical.star, cell);
+  complex.critical = wider.critical();
+  rename_all(complex.critical.vertices, vertex);
+  rename_all(complex.critical.edges, simplex);
+  rename_all(complex.critical.triangles, simplex);
+  rename_all(complex.critical.cells, cell);
+  rename_all(complex.critical.star, cell);
   rename_all(complex.descending.cells, vertex);
   rename_all(complex.connectors.cells, simplex);
   rename_all(complex.ascending.cells, cell);
-  complex.critical = critical;
-  complex.excerpt = Excerpt([passed, mesh, critical = std::move(critical)] {
-    const Mesh made = mesh ? *mesh : passed->make_mesh();
-    if (!mesh && !passed->numbers_cells_as(made))
-      throw Error("the cells of an excerpt of a grid don't keep their order");
-    return DiscreteGradient(std::make_shared<GradientStore>(passed->order_of(made), critical));
+  const auto excerpt_of = [](const VertexOrder& order, const CriticalSimplices& critical) {
+    return DiscreteGradient(std::make_shared<GradientStore>(order, critical));
+  };
+  if (!is_grid) {
+    complex.excerpt = excerpt_of(passed->order_of(*mesh), complex.critical);
+    return;
+  }
+  // The cells of a grid keep their order, so that their numbers are known before there is a mesh.
+  complex.excerpt = Excerpt([passed, excerpt_of, critical = complex.critical] {
+    const Mesh made = passed->make_mesh();
+    if (!passed->keeps_order_of_cells(made)) throw Error("the cells of an excerpt of a grid don't keep their order");
+    return excerpt_of(passed->order_of(made), critical);
   });
 }
 

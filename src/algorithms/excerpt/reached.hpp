@@ -55,6 +55,14 @@ struct ReachedLists {
 /// What one rank has received, by the rank that found it: places are those among what that one sent.
 using Reached = ReachedLists<Dealt>;
 
+/// Calls visit(rank, entry) for all that was received of one kind.
+template <class T, class Visit>
+void for_each_received(const Dealt<T>& received, const Visit& visit) {
+  for (int rank = 0; rank + 1 < static_cast<int>(received.begin.size()); ++rank) {
+    for (Offset i = received.begin[rank]; i < received.begin[rank + 1]; ++i) visit(rank, received.entries(i));
+  }
+}
+
 /// Simplices (GALE's ids) at which ways leave a rank's part, once each: others know how they go on.
 struct WayExits {
   std::vector<Id> vertices, cells;

@@ -52,7 +52,7 @@ void WiderSimplices::number_vertices(const Reached& reached) {
   });
 }
 
-/// Does so with cells, whose vertices are numbered.
+/// Finds which of the cells this rank has, and numbers the rest; their vertices are numbered.
 void WiderSimplices::number_cells(const Reached& reached, const PathSimplices& cells) {
   cell_begin_ = reached.cells.begin;
   std::unordered_map<GlobalId, Id> others;

@@ -9,14 +9,6 @@
 
 namespace gale::detail {
 
-/// Calls visit(rank, entry) for all that was received of one kind.
-template <class T, class Visit>
-void for_each_received(const Dealt<T>& received, const Visit& visit) {
-  for (int rank = 0; rank + 1 < static_cast<int>(received.begin.size()); ++rank) {
-    for (Offset i = received.begin[rank]; i < received.begin[rank + 1]; ++i) visit(rank, received.entries(i));
-  }
-}
-
 /// The vertices and cells of one rank's part, and those that ways from there reach on other ranks (`reach_beyond`),
 /// which come after GALE's own. 4 bytes a vertex beside what was reached.
 class WiderSimplices {
@@ -24,6 +16,8 @@ class WiderSimplices {
   WiderSimplices(const DiscreteGradient& gradient, const PathSimplices& cells, const Reached& reached);
 
   const Mesh& mesh() const { return mesh_; }
+
+  /// How many there are, the part's and all.
   Id own_vertices() const { return own_vertices_; }
   Id own_cells() const { return own_cells_; }
   Id vertices() const { return static_cast<Id>(names_.extent(0)); }
@@ -41,6 +35,7 @@ class WiderSimplices {
   /// A number for each cell, dense from 0. Own cells' numbers compare as global ids do; others' come after these.
   Id cell_name(Id cell) const { return is_own_cell(cell) ? cell_input_[cell] : cell; }
 
+  /// Global ids.
   GlobalId vertex_id(Id vertex) const;
   GlobalId cell_id(Id cell) const;
 

@@ -82,6 +82,7 @@ void walk_each_on_host(const char* label, const Successors& successors, Offset c
         ended(path.which, path.passed, path.at, next);
         if (begin < end) {
           set_out(path);
+          ++k;
         } else {
           path = paths[--under_way];
         }
@@ -90,7 +91,7 @@ void walk_each_on_host(const char* label, const Successors& successors, Offset c
   });
 }
 
-/// Follows paths to their ends likewise: calls ended(i, last, next) for each.
+/// Follows paths to their ends, as walk_each_on_host does: calls ended(i, last, next) for each.
 template <class Start, class Ended>
 void follow_each_on_host(const char* label, const Id* successors, Offset count, const Start& start,
                          const Ended& ended) {

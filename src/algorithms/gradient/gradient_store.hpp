@@ -21,7 +21,7 @@ Simplex written(const OtherIds& vertex_input, Simplex simplex) {
   return ascending(simplex);
 }
 
-/// Has the successors outside an interval be elsewhere: those of the i-th of them.
+/// Sets the successor of the i-th simplex outside an interval to elsewhere.
 template <class Memory>
 struct MarkOutside {
   Array<Id, Memory> successor;
@@ -32,8 +32,8 @@ struct MarkOutside {
   }
 };
 
-/// Before a sweep of a rank's part of a mesh: has the successors of what it leaves out be elsewhere, and of a mesh that
-/// is no grid those of all cells.
+/// Sets the successors of what a sweep of a rank's part of a mesh leaves out to elsewhere, before it; of a mesh that is
+/// no grid those of all cells.
 template <class Space>
 void mark_ghosts(const Space& space, const Mesh& mesh, const Array<Id, MemoryOf<Space>>& vertex_successor,
                  const Array<Id, MemoryOf<Space>>& cell_successor) {

@@ -36,8 +36,8 @@ struct PathLength {
 
 /// Follows paths where successors lie on a device: a thread for each.
 template <class Space>
-Followed follow_in(const Space& space, const Array<const Id, MemoryOf<Space>>& successors,
-                   const std::vector<Id>& starts) {
+Followed paths_on_device(const Space& space, const Array<const Id, MemoryOf<Space>>& successors,
+                         const std::vector<Id>& starts) {
   using Memory = MemoryOf<Space>;
   const Offset count = static_cast<Offset>(starts.size());
   const auto from = in_memory<Memory>(Array<const Id, HostMemory>(starts.data(), starts.size()));
@@ -64,7 +64,7 @@ Followed follow_in(const Space& space, const Array<const Id, MemoryOf<Space>>& s
 
 /// Follows paths on the host, of which those that leave through the surface are walked twice for nothing.
 template <class Successors>
-Followed follow_here(const Successors& successors, const std::vector<Id>& starts) {
+Followed paths_on_host(const Successors& successors, const std::vector<Id>& starts) {
   const Offset count = static_cast<Offset>(starts.size());
   const auto start = [&](Offset i) { return starts[i]; };
   const auto begin = allocate<Array<Offset, HostMemory>>("GALE::path_begin", count + 1);
@@ -90,9 +90,9 @@ Followed follow(const Mirrored<Id>& successors, const std::vector<Id>& starts) {
   return in_worker_or_host_space(successors.on_device(), [&](const auto& space) -> Followed {
     using Space = std::decay_t<decltype(space)>;
     if constexpr (is_device<Space>) {
-      return follow_in(space, successors.in<MemoryOf<Space>>(), starts);
+      return paths_on_device(space, successors.in<MemoryOf<Space>>(), starts);
     } else {
-      return follow_here(successors.in<HostMemory>().data(), starts);
+      return paths_on_host(successors.in<HostMemory>().data(), starts);
     }
   });
 }
@@ -189,7 +189,7 @@ PathStarts ascending_starts(const CriticalSimplices& critical) {
 
 Separatrices<Id> paths_along(const WiderSuccessors& successors, const PathStarts& starts,
                              const std::function<Id(Id)>& place) {
-  return paths_of(follow_here(successors, starts.simplices), starts.sources, place);
+  return paths_of(paths_on_host(successors, starts.simplices), starts.sources, place);
 }
 
 Separatrices<Id> descending_separatrices(const Mesh& mesh, const Mirrored<Id>& successors,

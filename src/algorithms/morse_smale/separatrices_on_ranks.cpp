@@ -46,9 +46,10 @@ void separatrices_on_ranks(int threads, PathExits down, PathExits up, MorseSmale
     connectors = std::make_unique<ConnectorsHere>(gradient, CriticalPlaces(own), threads);
     exits.edges = connectors->exits();
   });
-  const Reached reached = reach_beyond(gradient, exits);
+  Reached reached = reach_beyond(gradient, exits);
   together(ranks, [&] {
     const WiderGradient wider(gradient, std::make_shared<const WiderSimplices>(gradient, *cells, reached), reached);
+    reached = {};
     const CriticalPlaces places(wider.critical());
     for (Id& source : down.starts.sources) source = wider.own_edges()[source];
     complex.descending = paths_along({wider.vertex_successors().data(), wider.simplices()->vertices()}, down.starts,

@@ -1,4 +1,5 @@
 #include <string>
+#include <vector>
 
 #include <gale/base/error.hpp>
 #include <gale/base/sort.hpp>
@@ -42,11 +43,16 @@ void CellPlaces::merge() {
     Offset before = 0;  // how many of those that are kept come before the one at hand
     for (Offset r = first; r < last; ++r) {
       before = kept_before(id(r), before);
-      const bool is_kept = before < kept_.count && kept_.id(before) == id(r);
-      if (is_kept || (r > 0 && id(r - 1) == id(r))) refuse_repeated(id(r));
       received_at_(r) = static_cast<Id>(before + r);
     }
   });
+  const auto is_repeated = [&](Offset r) {
+    const Offset before = received_at_(r) - r;
+    return (before < kept_.count && kept_.id(before) == id(r)) || (r > 0 && id(r - 1) == id(r));
+  };
+  const Offset bad = reduce_min("GALE::repeated_cell", HostExecutionSpace(), received, received,
+                                [&](Offset r) { return is_repeated(r) ? r : received; });
+  if (bad < received) refuse_repeated(id(bad));
 }
 
 /// How many of those that are kept have ids below one, at least `before` of them; it is mostly near that.

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <iterator>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -100,16 +101,16 @@ Array<Id, HostMemory> all_but(const std::vector<Id>& dropped, Offset count) {
   return kept;
 }
 
-/// The cells of a part that are kept: all but those of `outer` which `kept` lacks, whose places ascend.
+/// The cells of a part that are kept: all but those of `outer` which `kept_outer` lacks.
 template <class Index>
-KeptCells kept_of(const MeshPart<Index>& part, const SomeCells& outer, const Array<Id, HostMemory>& kept,
+KeptCells kept_of(const MeshPart<Index>& part, const SomeCells& outer, const Array<Id, HostMemory>& kept_outer,
                   GlobalId first_id) {
-  const Offset count = part.cells.extent(0), kept_outer = kept.extent(0), all = count - (outer.count - kept_outer);
+  const Offset count = part.cells.extent(0), all = count - outer.count + Offset(kept_outer.extent(0));
   if (all == count) return {all, {}, part.cell_ids, first_id};
-  if (outer.count == count) return {all, kept, part.cell_ids, first_id};
+  if (outer.count == count) return {all, kept_outer, part.cell_ids, first_id};
   std::vector<Id> dropped;
-  std::set_difference(outer.places.data(), outer.places.data() + outer.count, kept.data(), kept.data() + kept_outer,
-                      std::back_inserter(dropped));
+  std::set_difference(outer.places.data(), outer.places.data() + outer.count, kept_outer.data(),
+                      kept_outer.data() + kept_outer.extent(0), std::back_inserter(dropped));
   return {all, all_but(dropped, count), part.cell_ids, first_id};
 }
 
@@ -124,7 +125,7 @@ class CornerOwners {
   CornerOwners(const Communicator& ranks, const MeshPart<Index>& part, const VertexDirectory& directory,
                const IdInterval& own, const SomeCells& outer);
 
-  /// Calls visit(rank) once for each rank that owns a vertex of a cell, which has that many.
+  /// Calls visit(rank) once for each rank that owns a vertex of a cell of `corners` vertices.
   template <int corners, class Visit>
   void visit_ranks(Offset t, const Visit& visit) const {
     const Index* const cell = part_.cells.data() + corners * t;
@@ -148,7 +149,7 @@ class CornerOwners {
   const MeshPart<Index>& part_;
   const IndexInterval<Index> own_;
   GlobalIndex vertices_;           ///< those that the cells have outside `own`, and those that the part hands over
-  Array<int, HostMemory> owners_;  ///< theirs
+  Array<int, HostMemory> owners_;  ///< of these vertices
 };
 
 template <class Index>
@@ -206,7 +207,12 @@ LocalCells<Index>::LocalCells(const Communicator& ranks, const MeshPart<Index>& 
   SentCells<Index> sent;
   const KeptCells kept = choose(ranks, directory, outer, first_id, sent);
   received_.ids = exchange(ranks, "GALE::received_ids", sent.ids);
-  received_.vertices = exchange(ranks, "GALE::received_vertices", sent.vertices);
+  together(ranks, [&] {
+    auto counts = counts_of(received_.ids);
+    for (std::int64_t& count : counts) count *= corners();
+    received_.vertices = dealt<Index>("GALE::received_vertices", counts);
+  });
+  exchange(ranks, sent.vertices, received_.vertices);
   require_local(ranks, "cells", kept.count + received_.count(), most_local);
   together(ranks, [&] { places_ = CellPlaces(kept, received_.ids.entries); });
 }

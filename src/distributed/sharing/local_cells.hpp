@@ -17,7 +17,7 @@ struct SentCells {
   Offset count() const { return ids.entries.extent(0); }
 };
 
-/// Some cells of a part: the i-th is at a place, which ascend, or all where there are none.
+/// Cells of a part by ascending places; all of it where there are no places.
 struct SomeCells {
   Offset count = 0;
   Array<Id, HostMemory> places;

@@ -68,23 +68,18 @@ Mirrored<Id> joined(const Space& space, const LocalVertices& vertices, const Mir
   return all;
 }
 
-/// Writes the local input ids of the vertices of cells first..last-1 from `to` on. `places` finds those of vertices
-/// whose ids have gaps.
+/// Writes the local input ids of the vertices of cells first..last-1 from `to` on.
 template <class Index>
-void write_corners(const LocalCells<Index>& cells, const LocalVertices& vertices, const GlobalIndex& places,
-                   Offset first, Offset last, Id* to) {
+void write_corners(const LocalCells<Index>& cells, const LocalVertices& vertices, Offset first, Offset last, Id* to) {
   constexpr Offset block = 256;
   const IndexInterval<Index> owned(vertices.interval());
-  const bool have_gaps = vertices.interval().is_empty();
-  const GlobalId shift = have_gaps ? 0 : vertices.owned(0) - vertices.interval().begin;
+  const GlobalId shift = vertices.interval().is_empty() ? 0 : vertices.owned(0) - vertices.interval().begin;
   cells.visit(first, last, [&](Offset, const Index* corners, Offset count) {
     const Offset entries = cells.corners() * count;
     for (Offset begin = 0; begin < entries; begin += block) {
       const Offset size = std::min(block, entries - begin);
       if (owned.contains(corners + begin, size)) {
         for (Offset k = 0; k < size; ++k) to[k] = static_cast<Id>(corners[begin + k] + shift);
-      } else if (have_gaps) {
-        for (Offset k = 0; k < size; ++k) to[k] = places.find(corners[begin + k]);
       } else {
         for (Offset k = 0; k < size; ++k) to[k] = vertices.find(corners[begin + k]);
       }
@@ -97,16 +92,15 @@ template <class Index, class Space>
 CornersIn<MemoryOf<Space>> corners_in(const Space&, const LocalCells<Index>& cells, const LocalVertices& vertices) {
   const Offset count = cells.count(), corners = cells.corners();
   const auto all = allocate<CornersIn<MemoryOf<Space>>>("GALE::local_cells", count, corners);
-  const GlobalIndex places(vertices.ids_with_gaps(), GlobalIndex::Lookups::many);
   if constexpr (!is_device<Space>) {
     for_parts("GALE::local_cells", count, threads_for(count), [&](int, Offset first, Offset last) {
-      write_corners(cells, vertices, places, first, last, all.data() + corners * first);
+      write_corners(cells, vertices, first, last, all.data() + corners * first);
     });
   } else if (corners == 4) {
     constexpr std::size_t row = 4 * sizeof(Id);
     write_to_device(all.data(), static_cast<std::size_t>(count) * row,
                     [&](char* to, std::size_t begin, std::size_t size) {
-                      write_corners(cells, vertices, places, static_cast<Offset>(begin / row),
+                      write_corners(cells, vertices, static_cast<Offset>(begin / row),
                                     static_cast<Offset>((begin + size) / row), reinterpret_cast<Id*>(to));
                     });
   } else {  // chunks would end within rows

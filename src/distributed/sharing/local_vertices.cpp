@@ -47,7 +47,7 @@ void LocalVertices::merge(const GlobalIds& owned) {
   };
   owned_ = place(owned, ghosts_);
   ghost_ = place(ghosts_, owned);
-  index_ = GlobalIndex(all_);
+  index_ = GlobalIndex(all_, GlobalIndex::Lookups::many);
 }
 
 Points<double, HostMemory> OwnAndGhosts::by_id(const LocalVertices& vertices) const {

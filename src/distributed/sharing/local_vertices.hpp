@@ -27,9 +27,6 @@ class LocalVertices {
 
   const GlobalIds& ghosts() const { return ghosts_; }
 
-  /// The global ids of all, where those of owned ones have gaps; else none.
-  const GlobalIds& ids_with_gaps() const { return all_; }
-
   /// The local input ids of those that it owns; none where they are an interval, from owned(0) on.
   const Array<Id, HostMemory>& owned_ids() const { return owned_; }
 

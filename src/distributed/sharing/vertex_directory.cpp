@@ -7,8 +7,15 @@ namespace gale::detail {
 
 namespace {
 
-/// What a rank says of a vertex that it hands over, or is told of it.
+/// What a rank says of a vertex that it hands over.
 struct HandedVertex {
+  Id place;
+  int owner;
+};
+
+/// What a rank is told of one of which it has said another owner than the lowest one that hands it over.
+struct Correction {
+  int rank;
   Id place;
   int owner;
 };
@@ -44,9 +51,9 @@ VertexEntry entry_of(const GivenIntervals& given, GlobalId id) {
 }  // namespace
 
 VertexDirectory::VertexDirectory(const Communicator& ranks, const Array<const GlobalId, HostMemory>& ids,
-                                 const Array<const int, HostMemory>& owners)
-    : ranks_(ranks) {
-  std::vector<std::pair<int, HandedVertex>> others;  // for the rank that has said of them who owns them, and is wrong
+                                 const Array<int, HostMemory>& owners)
+    : ranks_(ranks), owners_of_handed_(owners) {
+  std::vector<Correction> corrections;
   table_ = HomeTable<VertexEntry>(
       ranks, ids,
       [&](Id i) {
@@ -56,17 +63,14 @@ VertexDirectory::VertexDirectory(const Communicator& ranks, const Array<const Gl
         return VertexEntry{giver, handed.place, handed.owner};
       },
       [&](int rank, const HandedVertex& handed, const VertexEntry& entry) {
-        if (handed.owner != entry.owner) others.push_back({rank, {handed.place, entry.owner}});
+        if (handed.owner != entry.owner) corrections.push_back({rank, handed.place, entry.owner});
       });
   vertices_ = ranks.sum(table_.count());
-  const auto told = exchange(ranks, "GALE::corrected_owners",
-                             deal<HandedVertex>(
-                                 ranks, "GALE::corrected_owners", static_cast<Offset>(others.size()),
-                                 [&](Id i) { return others[i].first; }, [&](Id i) { return others[i].second; }));
-  together(ranks, [&] {
-    owners_of_handed_ = tabulated<int>("GALE::owners_of_handed", ids.extent(0), [&](Offset i) { return owners(i); });
-    for (Offset i = 0; i < told.count(); ++i) owners_of_handed_(told.entries(i).place) = told.entries(i).owner;
-  });
+  const auto sent = deal<Correction>(
+      ranks, "GALE::corrections", static_cast<Offset>(corrections.size()), [&](Id i) { return corrections[i].rank; },
+      [&](Id i) { return corrections[i]; });
+  const auto told = exchange(ranks, "GALE::told_corrections", sent);
+  for (Offset i = 0; i < told.count(); ++i) owners_of_handed_(told.entries(i).place) = told.entries(i).owner;
 }
 
 VertexDirectory::VertexDirectory(const Communicator& ranks, const GivenIntervals& given)
@@ -90,8 +94,11 @@ OwnedVertices VertexDirectory::owned() const {
   };
   OwnedVertices owned;
   if (given_) {
-    together(ranks_, [&] { owned.ids = owned_of(*given_, ranks_.rank()); });
-    if (ranks_.sum(Offset(owned.ids.interval.is_empty())) > 0) owned.entries = find(owned.ids.ids);
+    together(ranks_, [&] {
+      owned.ids = owned_of(*given_, ranks_.rank());
+      owned.entries = tabulated<VertexEntry>("GALE::owned_entries", owned.ids.ids.extent(0),
+                                             [&](Offset i) { return entry_of(*given_, owned.ids.ids(i)); });
+    });
     return owned;
   }
   const auto told = deal<OwnedVertex>(

@@ -18,16 +18,17 @@ struct VertexEntry {
 /// The vertices that a rank owns.
 struct OwnedVertices {
   OwnedIds ids;
-  Array<VertexEntry, HostMemory> entries;  ///< of each, ascending; none where it hands over an interval of given ones
+  Array<VertexEntry, HostMemory>
+      entries;  ///< theirs, by ascending id; none where intervals are given and `ids` are one
 };
 
 /// Who knows which vertex: spread over the ranks, or known to all. Made and asked by all ranks together.
 class VertexDirectory {
  public:
   /// Takes the vertices that each rank hands over: their ids (a vertex may come from several ranks, and from one
-  /// several times), and who is to own each.
+  /// several times), and who is to own each, which it keeps and corrects where a lower rank says otherwise.
   VertexDirectory(const Communicator& ranks, const Array<const GlobalId, HostMemory>& ids,
-                  const Array<const int, HostMemory>& owners);
+                  const Array<int, HostMemory>& owners);
 
   /// Where each rank hands over an interval, and each vertex belongs to the lowest rank that hands it over.
   VertexDirectory(const Communicator& ranks, const GivenIntervals& given);
@@ -35,7 +36,7 @@ class VertexDirectory {
   /// How many different vertices there are on all ranks.
   Offset vertices() const { return vertices_; }
 
-  /// Who owns the vertex that this rank hands over at a place.
+  /// Says who owns the vertex that this rank hands over at a place.
   int owner_of_handed(Id place) const {
     return given_ ? given_->giver(given_->of(ranks_.rank()).begin + place) : owners_of_handed_(place);
   }

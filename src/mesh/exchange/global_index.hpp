@@ -30,7 +30,7 @@ GALE_EXPORT void keep_distinct(std::vector<GlobalId>& ids);
 GALE_EXPORT GlobalIds distinct_of(const std::string& label, std::vector<GlobalId> ids);
 
 /// Finds the places of global ids among some that ascend: by bits, one for each id between the least and the greatest,
-/// where these take no more than 16 bytes an id, else by bisection.
+/// where these take no more than 16 bytes an id, else by bisection; where there are many lookups, by a table.
 class GALE_EXPORT GlobalIndex {
  public:
   /// Whether so many are looked up that a table of places is worth its memory, 4 bytes for each id between the least
@@ -64,7 +64,7 @@ class GALE_EXPORT GlobalIndex {
   Array<const GlobalId, HostMemory> ids_;
   std::uint64_t first_ = 0;               ///< the least id
   Array<CountedWord, HostMemory> words_;  ///< bit id - first is set where an id is there; none where it bisects
-  Array<Id, HostMemory> places_;          ///< of each id from the first on, no_id of those that aren't there; or none
+  Array<Id, HostMemory> places_;          ///< the table, from the least id on: no_id where there is none
 };
 
 /// The ids that `index` lacks among those that visit(i, offer) offers for i in 0..n-1: ascending, none twice.

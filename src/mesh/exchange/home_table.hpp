@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <type_traits>
 #include <vector>
 
 #include <gale/mesh/exchange/global_index.hpp>
@@ -67,19 +68,20 @@ class HomeTable {
         const Id at = distinct.places(i);
         entries_(i) = entry_from(rank_of(at), received.entries(at).what);
       });
-      if (index_.count() == received.count()) return;
-      for (Offset at = 0; at < received.count(); ++at) {
-        const Id place = index_.find(received.entries(at).id);
-        if (distinct.places(place) != at) visit_other(rank_of(at), received.entries(at).what, entries_(place));
-      }
+      if (std::is_same_v<VisitOther, Nobody> || index_.count() == received.count()) return;
+      const auto place_of = [&](Offset at) { return index_.find(received.entries(at).id); };
+      const auto others = collected<Id>("GALE::other_entries", received.count(), [&](Offset at, const auto& add) {
+        if (distinct.places(place_of(at)) != at) add(static_cast<Id>(at));
+      });
+      for (const Id at : others) visit_other(rank_of(at), received.entries(at).what, entries_(place_of(at)));
     });
   }
 
-  /// Likewise, where nobody asks for others.
+  /// Does so where nobody asks for others.
   template <class HandedOf, class EntryFrom>
   HomeTable(const Ranks& ranks, const Array<const GlobalId, HostMemory>& ids, const HandedOf& handed_of,
             const EntryFrom& entry_from)
-      : HomeTable(ranks, ids, handed_of, entry_from, [](int, const auto&, const Entry&) {}) {}
+      : HomeTable(ranks, ids, handed_of, entry_from, Nobody()) {}
 
   /// The entries of any ids, `otherwise` for those that it lacks.
   Array<Entry, HostMemory> find(const Ranks& ranks, const Array<const GlobalId, HostMemory>& ids,
@@ -99,6 +101,11 @@ class HomeTable {
   const Entry& entry(Offset i) const { return entries_(i); }
 
  private:
+  struct Nobody {
+    template <class Handed>
+    void operator()(int, const Handed&, const Entry&) const {}
+  };
+
   Homes homes_;
   GlobalIndex index_;
   Array<Entry, HostMemory> entries_;
