@@ -83,7 +83,7 @@ void CellPlaces::sort() {
 GlobalId CellPlaces::id(Offset i) const {
   if (sources_.extent(0) != 0) return sorted_(i);
   const Offset before = received_before(i);
-  const bool is_received = before < received_at_.extent(0) && received_at_(before) == i;
+  const bool is_received = before < static_cast<Offset>(received_at_.extent(0)) && received_at_(before) == i;
   return is_received ? received_(received_by_id(before)) : kept_.id(i - before);
 }
 
