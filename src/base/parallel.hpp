@@ -203,4 +203,28 @@ std::vector<T> collected(const char* label, Offset n, const Visit& visit) {
   return all;
 }
 
+/// Those of 0..n-1 for which is_wanted(i), ascending. Waits for them.
+template <class Space, class IsWanted>
+Array<Id, MemoryOf<Space>> selected(const char* label, const Space& space, Offset n, const IsWanted& is_wanted) {
+  if constexpr (is_device<Space>) {
+    const auto all = allocate<Array<Id, MemoryOf<Space>>>(label, reduce_sum(label, space, n, is_wanted));
+    Kokkos::parallel_scan(
+        label, Kokkos::RangePolicy<Space, Kokkos::IndexType<Offset>>(space, 0, n),
+        KOKKOS_LAMBDA(Offset i, Offset & before, bool final) {
+          if (!is_wanted(i)) return;
+          if (final) all(before) = static_cast<Id>(i);
+          ++before;
+        });
+    space.fence();
+    return all;
+  } else {
+    const auto found = collected<Id>(label, n, [&](Offset i, const auto& add) {
+      if (is_wanted(i)) add(static_cast<Id>(i));
+    });
+    const auto all = allocate<Array<Id, MemoryOf<Space>>>(label, found.size());
+    std::copy(found.begin(), found.end(), all.data());
+    return all;
+  }
+}
+
 }  // namespace gale

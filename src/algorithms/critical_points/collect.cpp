@@ -95,7 +95,7 @@ void tell_of_ghosts(const Space& space, const VertexOrder& order, const Flags<Sp
     const StarKind* const kinds = mesh.grid()->kinds_in<Memory>();
     parallel_for(
         "GALE::tell_of_ghosts", space, mesh.vertices() - owned.size(), KOKKOS_LAMBDA(Offset i) {
-          const Id ghost = static_cast<Id>(i < owned.first ? i : i + owned.size());
+          const Id ghost = owned.outside(i);
           if (!on_surface(ghost)) return;
           GridCursor at(grid);
           at.go_to(ghost);

@@ -27,9 +27,7 @@ struct MarkOutside {
   Array<Id, Memory> successor;
   Interval inner;
 
-  KOKKOS_FUNCTION void operator()(Offset i) const {
-    successor(i < inner.first ? i : i + inner.size()) = DiscreteGradient::elsewhere;
-  }
+  KOKKOS_FUNCTION void operator()(Offset i) const { successor(inner.outside(i)) = DiscreteGradient::elsewhere; }
 };
 
 /// Sets the successors of what a sweep of a rank's part of a mesh leaves out to elsewhere, before it; of a mesh that is

@@ -27,20 +27,6 @@ void keep_meetings_of_several(std::vector<Meeting>& meetings) {
 }  // namespace
 
 template <class Space>
-std::vector<Id> extrema_of(const Space& space, const Array<Id, MemoryOf<Space>>& ends,
-                           const std::vector<Id>& vertices) {
-  using Ids = Array<Id, MemoryOf<Space>>;
-  const auto of = in_memory<MemoryOf<Space>>(vertices);
-  const auto found = allocate<Ids>("GALE::extrema_of", vertices.size());
-  parallel_for(
-      "GALE::extrema_of", space, static_cast<Offset>(vertices.size()),
-      KOKKOS_LAMBDA(Offset i) { found(i) = place_of_end(ends(of(i))); });
-  space.fence();
-  const auto there = on_host(found);
-  return {there.data(), there.data() + there.extent(0)};
-}
-
-template <class Space>
 FollowedPaths<MemoryOf<Space>> follow_paths(const Space& space, const SideKeys& keys,
                                             ExtremumGraphSide<MemoryOf<Space>> side) {
   FollowedPaths<MemoryOf<Space>> paths{std::move(side.extrema), std::move(side.meetings), side.next};
@@ -52,7 +38,7 @@ FollowedPaths<MemoryOf<Space>> follow_paths(const Space& space, const SideKeys& 
   std::vector<Id> others;
   others.reserve(paths.meetings.size());
   for (const Meeting& meeting : paths.meetings) others.push_back(meeting.other);
-  others = extrema_of(space, paths.ends, others);
+  others = ends_of(space, paths.ends, others);
   for (std::size_t i = 0; i < others.size(); ++i) paths.meetings[i].other = others[i];
   parallel_sort("GALE::sort_meetings", paths.meetings.begin(), paths.meetings.end(),
                 [&](const Meeting& a, const Meeting& b) {
@@ -62,9 +48,8 @@ FollowedPaths<MemoryOf<Space>> follow_paths(const Space& space, const SideKeys& 
   return paths;
 }
 
-#define GALE_INSTANTIATE(Space)                                                                                        \
-  template std::vector<Id> extrema_of<Space>(const Space&, const Array<Id, MemoryOf<Space>>&, const std::vector<Id>&); \
-  template FollowedPaths<MemoryOf<Space>> follow_paths<Space>(const Space&, const SideKeys&,                           \
+#define GALE_INSTANTIATE(Space)                                                              \
+  template FollowedPaths<MemoryOf<Space>> follow_paths<Space>(const Space&, const SideKeys&, \
                                                               ExtremumGraphSide<MemoryOf<Space>>)
 GALE_IN_EACH_SPACE(GALE_INSTANTIATE);
 #undef GALE_INSTANTIATE

@@ -21,8 +21,4 @@ template <class Space>
 FollowedPaths<MemoryOf<Space>> follow_paths(const Space& space, const SideKeys& keys,
                                             ExtremumGraphSide<MemoryOf<Space>> side);
 
-/// The places of the extrema at which the paths of some vertices end.
-template <class Space>
-std::vector<Id> extrema_of(const Space& space, const Array<Id, MemoryOf<Space>>& ends, const std::vector<Id>& vertices);
-
 }  // namespace gale::detail

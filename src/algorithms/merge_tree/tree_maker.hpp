@@ -70,7 +70,7 @@ class TreeMaker {
 
   void grow(Side side, ExtremumGraphSide<Memory> graph, const std::vector<Id>& others) {
     const auto paths = follow_paths(space_, keys(side), std::move(graph));
-    const std::vector<Id> ends = extrema_of(space_, paths.ends, others);
+    const std::vector<Id> ends = ends_of(space_, paths.ends, others);
     std::vector<Meeting> lasts;
     for (std::size_t i = 0; i < others.size(); ++i) lasts.push_back({others[i], ends[i]});
     forests_[side] = merge_forest(keys(side), paths.extrema, paths.meetings, std::move(lasts));

@@ -14,7 +14,7 @@ KOKKOS_FORCEINLINE_FUNCTION constexpr Id end_at(Id place) { return -2 - place; }
 KOKKOS_FORCEINLINE_FUNCTION constexpr Id place_of_end(Id end) { return -2 - end; }
 
 /// What stands for the end of a path that leaves through the surface: the place no_id.
-inline constexpr Id path_outside = -1;
+inline constexpr Id path_outside = end_at(no_id);
 
 /// Begins the paths of `with_ends`.
 template <class Memory>
@@ -51,6 +51,28 @@ struct JumpAhead {
     return at >= 0 ? 1 : 0;
   }
 };
+
+/// Reads where the paths of some simplices end.
+template <class Memory>
+struct ReadEnd {
+  Array<const Id, Memory> ends, simplices;
+  Array<Id, Memory> places;
+
+  KOKKOS_FUNCTION void operator()(Offset i) const { places(i) = place_of_end(ends(simplices(i))); }
+};
+
+/// The places at which the paths of some simplices end; no_id for those that leave through the surface.
+template <class Space>
+std::vector<Id> ends_of(const Space& space, const Array<const Id, MemoryOf<Space>>& ends,
+                        const std::vector<Id>& simplices) {
+  using Memory = MemoryOf<Space>;
+  const ReadEnd<Memory> read{ends, in_memory<Memory>(simplices),
+                             allocate<Array<Id, Memory>>("GALE::ends_of", simplices.size())};
+  parallel_for("GALE::ends_of", space, static_cast<Offset>(simplices.size()), read);
+  space.fence();
+  const auto places = on_host(read.places);
+  return {places.data(), places.data() + places.extent(0)};
+}
 
 /// A copy of successors in a space's memory in which those of `ends` lead to their places there, and those that leave
 /// through the surface to `path_outside`.

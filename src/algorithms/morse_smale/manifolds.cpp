@@ -1,3 +1,7 @@
+#include <functional>
+#include <utility>
+#include <vector>
+
 #include <gale/algorithms/gradient/gradient_store.hpp>
 #include <gale/algorithms/morse_smale/jump.hpp>
 #include <gale/algorithms/morse_smale/parts.hpp>
@@ -19,24 +23,9 @@ using Ids = Array<Id, MemoryOf<Space>>;
 template <class Space>
 using Keys = Array<std::uint64_t, MemoryOf<Space>>;
 
-template <class Space>
-Mirrored<Id> descending_in(const Space& space, const DiscreteGradient& gradient) {
-  const auto next = with_ends(space, gradient.store().vertex_successors(), gradient.critical().vertices);
-  jump(space, next);
-  const OtherIds input = gradient.mesh().vertices_in_input<MemoryOf<Space>>();
-  const auto manifolds = allocate<Ids<Space>>("GALE::descending_manifolds", next.extent(0));
-  parallel_for(
-      "GALE::descending_manifolds", space, next.extent(0),
-      KOKKOS_LAMBDA(Offset v) { manifolds(input[v]) = place_of_end(next(v)); });
-  space.fence();
-  return manifolds;
-}
-
-constexpr std::uint64_t no_first = ~std::uint64_t(0);
-
 /// What first_cells does of a grid, where each vertex knows its cells.
 template <class Space>
-void first_cells_of_grid(const Space& space, const Mesh& mesh, const Keys<Space>& first) {
+void first_cells_of_grid(const Space& space, const Mesh& mesh, const Ids<Space>& first) {
   const GridView grid = mesh.grid()->in<MemoryOf<Space>>();
   const StarKind* const kinds = mesh.grid()->kinds_in<MemoryOf<Space>>();
   const Id* const begin = mesh.interval_begin<MemoryOf<Space>>(0).data();
@@ -45,17 +34,15 @@ void first_cells_of_grid(const Space& space, const Mesh& mesh, const Keys<Space>
         GridCursor at(grid);
         for (Id v = begin[s]; v < begin[s + 1]; ++v) {
           at.go_to(v);
-          const Id cell = at.cell(kinds[at.kind()].cell[0]);
-          first(v) = pair_key(cell, cell);
+          first(v) = at.cell(kinds[at.kind()].cell[0]);
         }
       });
 }
 
-/// For each vertex (GALE's id) its cell of lowest input id, with that id in the upper half; `no_first` where it has no
-/// cell.
+/// For each vertex (GALE's id) its cell of lowest input id; no_id where it has no cell.
 template <class Space>
-Keys<Space> first_cells(const Space& space, const Mesh& mesh) {
-  const auto first = allocate<Keys<Space>>("GALE::first_cells", mesh.vertices());
+Ids<Space> first_cells(const Space& space, const Mesh& mesh) {
+  const auto first = allocate<Ids<Space>>("GALE::first_cells", mesh.vertices());
   if (mesh.grid() != nullptr) {
     first_cells_of_grid(space, mesh, first);
     return first;
@@ -66,40 +53,74 @@ Keys<Space> first_cells(const Space& space, const Mesh& mesh) {
       "GALE::first_cells", space, mesh.segments(), KOKKOS_LAMBDA(Offset s) {
         const Id begin = encoded.vertex_begin(s), end = encoded.vertex_begin(s + 1);
         const auto offer = [&](Id t) {
-          const std::uint64_t key = pair_key(input(t), t);
           for (int corner = 0; corner < 4; ++corner) {
             const Id v = encoded.cells(t, corner);
-            if (v >= begin && v < end && key < first(v)) first(v) = key;
+            if (v >= begin && v < end && (first(v) == no_id || input(t) < input(first(v)))) first(v) = t;
           }
         };
-        for (Id v = begin; v < end; ++v) first(v) = no_first;
+        for (Id v = begin; v < end; ++v) first(v) = no_id;
         for (Id t = encoded.internal_begin(s); t < encoded.internal_begin(s + 1); ++t) offer(t);
         for (Offset i = encoded.external_begin(s); i < encoded.external_begin(s + 1); ++i) offer(encoded.external(i));
       });
   return first;
 }
 
+/// Where the paths of vertices end, by input id.
+template <class Memory>
+struct EndOfVertex {
+  Array<const Id, Memory> starts;  ///< of each vertex (GALE's id) the simplex where its path starts; none: itself
+  Array<const Id, Memory> ends;    ///< of each simplex, see jump()
+  Array<const Id, Memory> names;   ///< of places of ends; none: the places
+  OtherIds input;
+  Array<Id, Memory> manifolds;
+
+  KOKKOS_FUNCTION void operator()(Id v) const {
+    const Id start = starts.extent(0) == 0 ? v : starts(v);
+    const Id place = start == no_id ? no_id : place_of_end(ends(start));
+    manifolds(input[v]) = place == no_id || names.extent(0) == 0 ? place : names(place);
+  }
+};
+
+/// The manifolds of some vertices, among those of all.
 template <class Space>
-Mirrored<Id> ascending_in(const Space& space, const DiscreteGradient& gradient) {
-  const auto next = with_ends(space, gradient.store().cell_successors(), gradient.critical().cells);
-  jump(space, next);
-  const auto first = first_cells(space, gradient.mesh());
-  const OtherIds input = gradient.mesh().vertices_in_input<MemoryOf<Space>>();
-  const auto manifolds = allocate<Ids<Space>>("GALE::ascending_manifolds", first.extent(0));
+Ids<Space> manifolds_of(const Space& space, const Mesh& mesh, Interval vertices, EndOfVertex<MemoryOf<Space>> end) {
+  end.input = mesh.vertices_in_input<MemoryOf<Space>>();
+  end.manifolds = allocate<Ids<Space>>("GALE::manifolds", mesh.vertices());
+  const EndOfVertex<MemoryOf<Space>> of = end;
   parallel_for(
-      "GALE::ascending_manifolds", space, first.extent(0), KOKKOS_LAMBDA(Offset v) {
-        const Id cell = pair_second(first(v));
-        manifolds(input[v]) = first(v) == no_first || next(cell) == path_outside ? no_id : place_of_end(next(cell));
-      });
+      "GALE::manifolds", space, vertices.size(), KOKKOS_LAMBDA(Offset i) { of(vertices.first + static_cast<Id>(i)); });
   space.fence();
-  return manifolds;
+  return end.manifolds;
+}
+
+/// The cells where paths of vertices start; none where these start at the vertices themselves.
+template <class Space>
+Ids<Space> starts_in(const Space& space, const Mesh& mesh, PathSimplices::Kind kind) {
+  return kind == PathSimplices::Kind::falling_vertices ? Ids<Space>() : first_cells(space, mesh);
+}
+
+template <class Space>
+Mirrored<Id> manifolds_in(const Space& space, const DiscreteGradient& gradient, PathSimplices::Kind kind) {
+  const bool of_vertices = kind == PathSimplices::Kind::falling_vertices;
+  const GradientStore& store = gradient.store();
+  const CriticalSimplices& critical = gradient.critical();
+  const auto next = with_ends(space, of_vertices ? store.vertex_successors() : store.cell_successors(),
+                              of_vertices ? critical.vertices : critical.cells);
+  jump(space, next);
+  const Mesh& mesh = gradient.mesh();
+  return manifolds_of(space, mesh, {0, mesh.vertices()}, {starts_in(space, mesh, kind), next, {}, {}, {}});
 }
 
 constexpr std::uint64_t no_pair = ~std::uint64_t(0);
 
+/// Pairs of manifolds, ascending: those that occur.
+struct ManifoldPairs {
+  Mirrored<Id> of_vertex;         ///< which, by input id; no_id: none
+  Mirrored<std::uint64_t> pairs;  ///< pair_key(ascending, descending) of each
+};
+
 template <class Space>
-std::pair<Mirrored<Id>, Id> pairs_in(const Space& space, const Mirrored<Id>& ascending,
-                                     const Mirrored<Id>& descending) {
+ManifoldPairs pairs_in(const Space& space, const Mirrored<Id>& ascending, const Mirrored<Id>& descending) {
   const Offset count = ascending.size();
   const auto up = ascending.in<MemoryOf<Space>>(), down = descending.in<MemoryOf<Space>>();
   const auto keys = allocate<Keys<Space>>("GALE::manifold_pairs", count);
@@ -114,12 +135,15 @@ std::pair<Mirrored<Id>, Id> pairs_in(const Space& space, const Mirrored<Id>& asc
   const Id distinct = exclusive_scan(
       "GALE::count_manifolds", space, count, before,
       KOKKOS_LAMBDA(Offset i) { return keys(i) != no_pair && (i == 0 || keys(i) != keys(i - 1)); });
+  const auto pairs = allocate<Keys<Space>>("GALE::manifold_pairs", distinct);
   const auto manifolds = allocate<Ids<Space>>("GALE::morse_smale_manifolds", count);
   parallel_for(
-      "GALE::morse_smale_manifolds", space, count,
-      KOKKOS_LAMBDA(Offset i) { manifolds(vertices(i)) = keys(i) == no_pair ? no_id : before(i + 1) - 1; });
+      "GALE::morse_smale_manifolds", space, count, KOKKOS_LAMBDA(Offset i) {
+        if (before(i + 1) > before(i)) pairs(before(i)) = keys(i);
+        manifolds(vertices(i)) = keys(i) == no_pair ? no_id : before(i + 1) - 1;
+      });
   space.fence();
-  return {manifolds, distinct};
+  return {manifolds, pairs};
 }
 
 template <class Space>
@@ -134,72 +158,97 @@ Mirrored<Id> renamed_in(const Space& space, const Mirrored<Id>& manifolds, const
   return to;
 }
 
-/// The places among those of all ranks where the paths from vertices end that start at start_of(vertex), which is a
-/// simplex or no_id, by GALE's ids. Collective.
-template <class StartOf>
-Mirrored<Id> manifolds_on_ranks(const PathSimplices& simplices, PathExits* exits, const StartOf& start_of) {
-  const Mesh& mesh = simplices.mesh();
+/// The simplices where paths of this rank's vertices start that another one follows on.
+template <class Space>
+std::vector<Id> starts_elsewhere(const Space& space, const PathSimplices& simplices, PathSimplices::Kind kind) {
+  if (kind == PathSimplices::Kind::falling_vertices) return {};
+  const Ids<Space> starts = starts_in(space, simplices.mesh(), kind);
+  const auto successors = simplices.successors().in<MemoryOf<Space>>();
+  const Interval owned = simplices.mesh().owned_vertices(), inner = simplices.inner();
+  const Ids<Space> found = selected(
+      "GALE::starts_elsewhere", space, owned.size(), KOKKOS_LAMBDA(Offset i) {
+        const Id start = starts(owned.first + i);
+        return start != no_id && !inner.has(start) && successors(start) == DiscreteGradient::elsewhere;
+      });
+  parallel_for(
+      "GALE::starts_elsewhere", space, found.extent(0),
+      KOKKOS_LAMBDA(Offset i) { found(i) = starts(owned.first + found(i)); });
+  space.fence();
+  const auto here = on_host(found);
+  return {here.data(), here.data() + here.extent(0)};
+}
+
+/// The manifolds of a rank's own vertices, and what is still to be done of its ghosts'.
+struct OwnManifolds {
+  Array<Id, HostMemory> given;  ///< of the vertices that others have as ghosts, as `from_owners` gives them
+  std::function<Mirrored<Id>(const Array<Id, HostMemory>& taken)> finish;  ///< once others have given theirs
+};
+
+template <class Space>
+OwnManifolds own_manifolds(const Space& space, const PathsOnRanks& paths, PathSimplices::Kind kind,
+                           const Array<const Id, HostMemory>& names) {
+  using Memory = MemoryOf<Space>;
+  const Mesh& mesh = paths.simplices().mesh();
+  const ExchangePlan& plan = mesh.exchange().from_owners();
+  const Ids<Space> manifolds =
+      manifolds_of(space, mesh, mesh.owned_vertices(),
+                   {starts_in(space, mesh, kind), paths.ends_here().in<Memory>(), in_memory<Memory>(names), {}, {}});
+  const Array<Id, Memory> places = in_memory<Memory>(plan.given_places());
+  const auto given = allocate<Ids<Space>>("GALE::given_manifolds", places.extent(0));
+  parallel_for(
+      "GALE::given_manifolds", space, places.extent(0), KOKKOS_LAMBDA(Offset i) { given(i) = manifolds(places(i)); });
+  space.fence();
+  return {on_host(given), [space, &plan, manifolds](const Array<Id, HostMemory>& taken) -> Mirrored<Id> {
+            plan.fill_slots(space, taken, manifolds.data());
+            return manifolds;
+          }};
+}
+
+/// The places among those of all ranks where the paths of vertices end. Collective.
+Mirrored<Id> manifolds_on_ranks(const DiscreteGradient& gradient, PathSimplices::Kind kind, PathExits* exits) {
+  const auto simplices = PathSimplices::make(gradient, kind);
+  const Ranks& ranks = gradient.mesh().exchange().ranks();
   std::vector<Id> elsewhere;
-  together(mesh.exchange().ranks(), [&] {
-    const auto& successors = simplices.successors().in<HostMemory>();
-    const Interval owned = mesh.owned_vertices(), inner = simplices.inner();
-    elsewhere = collected<Id>("GALE::starts_elsewhere", owned.size(), [&](Offset i, const auto& add) {
-      const Id start = start_of(owned.first + static_cast<Id>(i));
-      if (start == no_id || inner.has(start)) return;
-      if (successors(start) == DiscreteGradient::elsewhere) add(start);
-    });
+  together(ranks, [&] {
+    elsewhere = in_worker_or_host_space(simplices->successors().on_device(),
+                                        [&](const auto& space) { return starts_elsewhere(space, *simplices, kind); });
   });
-  const PathsOnRanks paths(simplices, elsewhere);
-  const auto places = paths.places_of_ends();
-  Array<Id, HostMemory> manifolds;
-  together(paths.ranks(), [&] {
+  const PathsOnRanks paths(*simplices, elsewhere);
+  const auto names = paths.places_of_ends();
+  OwnManifolds own;
+  together(ranks, [&] {
     if (exits != nullptr) {
       exits->exits = paths.exits_from(exits->starts.simplices);
       exits->are_known = true;
     }
-    const OtherIds input = mesh.vertices_in_input();
-    const Interval owned = mesh.owned_vertices();
-    manifolds = allocate<Array<Id, HostMemory>>("GALE::manifolds", mesh.vertices());
-    parallel_for("GALE::manifolds", HostExecutionSpace(), mesh.vertices(), [&](Offset v) {
-      const Id start = owned.has(static_cast<Id>(v)) ? start_of(static_cast<Id>(v)) : no_id;
-      const Id end = start == no_id ? no_id : paths.end(start);
-      manifolds(input[v]) = end == no_id ? no_id : places(end);
-    });
+    own = in_worker_or_host_space(paths.ends_here().on_device(),
+                                  [&](const auto& space) { return own_manifolds(space, paths, kind, names); });
   });
-  mesh.exchange().from_owners()(paths.ranks(), manifolds.data(), manifolds.data());
+  const auto taken = gradient.mesh().exchange().from_owners().fetch(ranks, own.given);
+  Mirrored<Id> manifolds;
+  together(ranks, [&] { manifolds = own.finish(taken.entries); });
   return manifolds;
 }
 
-Mirrored<Id> descending_on_ranks(const DiscreteGradient& gradient, PathExits* exits) {
-  const auto vertices = PathSimplices::make(gradient, PathSimplices::Kind::falling_vertices);
-  return manifolds_on_ranks(*vertices, exits, [](Id v) { return v; });
-}
-
-Mirrored<Id> ascending_on_ranks(const DiscreteGradient& gradient, PathExits* exits) {
-  const auto cells = PathSimplices::make(gradient, PathSimplices::Kind::rising_cells);
-  Array<std::uint64_t, HostMemory> first;
-  together(gradient.mesh().exchange().ranks(), [&] { first = first_cells(HostExecutionSpace(), gradient.mesh()); });
-  return manifolds_on_ranks(*cells, exits,
-                            [&](Id v) { return first(v) == no_first ? no_id : Id(pair_second(first(v))); });
+Mirrored<Id> manifolds(const DiscreteGradient& gradient, PathSimplices::Kind kind, PathExits* exits) {
+  if (gradient.mesh().exchange().ranks().size() > 1) return manifolds_on_ranks(gradient, kind, exits);
+  return in_worker_or_host_space(gradient.mesh(),
+                                 [&](const auto& space) { return manifolds_in(space, gradient, kind); });
 }
 
 /// The pairs that this rank has numbered among themselves get their places among those of all.
-std::pair<Mirrored<Id>, Id> pairs_on_ranks(const Ranks& ranks, const Mirrored<Id>& ascending,
-                                           const Mirrored<Id>& descending, const Mirrored<Id>& numbers, Id count) {
+std::pair<Mirrored<Id>, Id> pairs_on_ranks(const Ranks& ranks, const ManifoldPairs& here) {
   Array<SimplexKey, HostMemory> keys;
   together(ranks, [&] {
-    const auto &of_vertex = numbers.in<HostMemory>(), &up = ascending.in<HostMemory>(),
-               &down = descending.in<HostMemory>();
-    keys = allocate<decltype(keys)>("GALE::manifold_pairs", count);
-    for (std::size_t v = 0; v < of_vertex.extent(0); ++v) {
-      if (of_vertex(v) != no_id) keys(of_vertex(v)) = {up(v), down(v), 0};
-    }
+    const auto& pairs = here.pairs.in<HostMemory>();
+    keys = allocate<decltype(keys)>("GALE::manifold_pairs", pairs.extent(0));
+    for (std::size_t i = 0; i < pairs.extent(0); ++i) keys(i) = {pair_first(pairs(i)), pair_second(pairs(i)), 0};
   });
   const KeyPlaces found = places_of_keys(ranks, keys);
   Mirrored<Id> all;
   together(ranks, [&] {
     require_ids("Morse-Smale manifolds of all ranks", found.count);
-    all = renamed(numbers, std::vector<Id>(found.places.data(), found.places.data() + count));
+    all = renamed(here.of_vertex, std::vector<Id>(found.places.data(), found.places.data() + keys.extent(0)));
   });
   return {all, static_cast<Id>(found.count)};
 }
@@ -207,24 +256,23 @@ std::pair<Mirrored<Id>, Id> pairs_on_ranks(const Ranks& ranks, const Mirrored<Id
 }  // namespace
 
 Mirrored<Id> descending_manifolds(const DiscreteGradient& gradient, PathExits* exits) {
-  if (gradient.mesh().exchange().ranks().size() > 1) return descending_on_ranks(gradient, exits);
-  return in_worker_or_host_space(gradient.mesh(), [&](const auto& space) { return descending_in(space, gradient); });
+  return manifolds(gradient, PathSimplices::Kind::falling_vertices, exits);
 }
 
 Mirrored<Id> ascending_manifolds(const DiscreteGradient& gradient, PathExits* exits) {
-  if (gradient.mesh().exchange().ranks().size() > 1) return ascending_on_ranks(gradient, exits);
-  return in_worker_or_host_space(gradient.mesh(), [&](const auto& space) { return ascending_in(space, gradient); });
+  return manifolds(gradient, PathSimplices::Kind::rising_cells, exits);
 }
 
 std::pair<Mirrored<Id>, Id> morse_smale_manifolds(const Mesh& mesh, const Mirrored<Id>& ascending,
                                                   const Mirrored<Id>& descending) {
   const Ranks& ranks = mesh.exchange().ranks();
-  std::pair<Mirrored<Id>, Id> pairs;
+  ManifoldPairs here;
   together(ranks, [&] {
-    pairs = in_worker_or_host_space(ascending.on_device(),
-                                    [&](const auto& space) { return pairs_in(space, ascending, descending); });
+    here = in_worker_or_host_space(ascending.on_device(),
+                                   [&](const auto& space) { return pairs_in(space, ascending, descending); });
   });
-  return ranks.size() == 1 ? pairs : pairs_on_ranks(ranks, ascending, descending, pairs.first, pairs.second);
+  if (ranks.size() == 1) return {here.of_vertex, static_cast<Id>(here.pairs.size())};
+  return pairs_on_ranks(ranks, here);
 }
 
 Mirrored<Id> renamed(const Mirrored<Id>& manifolds, const std::vector<Id>& names) {

@@ -101,9 +101,9 @@ Separatrices<TriangleVertices> device_connectors(const DiscreteGradient& gradien
 AscendingWalls ascending_walls(Structure& structure, const DiscreteGradient& gradient, const std::vector<Id>& sources,
                                int threads);
 
-// Manifolds are where they were found: in the workers' memory, if there is room. Of a mesh on several ranks they are
-// on the host; finding them is collective. They are by input id, ghosts' too, and name extrema by their places among
-// those of all ranks. On the way there the exits of separatrices can be found, if there are several.
+// Manifolds are where they were found: in the workers' memory, if there is room. Of a mesh on several ranks finding
+// them is collective. They are by input id, ghosts' too, and name extrema by their places among those of all ranks. On
+// the way there the exits of separatrices can be found, if there are several.
 
 Mirrored<Id> descending_manifolds(const DiscreteGradient& gradient, PathExits* exits = nullptr);
 Mirrored<Id> ascending_manifolds(const DiscreteGradient& gradient, PathExits* exits = nullptr);

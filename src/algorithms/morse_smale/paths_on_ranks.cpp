@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <type_traits>
 #include <utility>
 
 #include <gale/algorithms/gradient/gradient_store.hpp>
@@ -14,14 +15,73 @@ namespace gale::detail {
 
 namespace {
 
-/// The ends of paths inside one rank: see jump().
-Array<const Id, HostMemory> ends_here(const Mirrored<Id>& successors, const std::vector<Id>& ends) {
-  return in_worker_or_host_space(successors.on_device(), [&](const auto& space) -> Array<const Id, HostMemory> {
-    const auto next = with_ends(space, successors, ends);
-    jump(space, next);
+/// What a rank finds of its paths by itself.
+struct PathsHere {
+  std::vector<Id> exits;         ///< ascending
+  Mirrored<Id> ends;             ///< of each simplex: the critical one's place, or after all of these the exit's
+  std::vector<char> is_reached;  ///< which exits paths from other simplices come to
+};
+
+/// Marks an exit that the path from another simplex comes to.
+template <class Memory>
+struct MarkReached {
+  Array<const Id, Memory> ends, exits;
+  Id criticals;
+  Array<char, Memory> is_reached;
+
+  KOKKOS_FUNCTION void operator()(Offset i) const {
+    const Id at = place_of_end(ends(i)) - criticals;
+    if (at >= 0 && exits(at) != i) atomic_write(&is_reached(at), char(1));
+  }
+};
+
+/// Marks the exits that paths from other simplices come to; of many simplices at once none does, mostly.
+template <class Space>
+void mark_reached(const Space& space, const MarkReached<MemoryOf<Space>>& mark) {
+  const Offset all = mark.ends.extent(0);
+  fill("GALE::reached_exits", space, mark.is_reached, char(0));
+  if constexpr (is_device<Space>) {
+    parallel_for("GALE::reached_exits", space, all, mark);
     space.fence();
-    return on_host(next);
-  });
+  } else {
+    constexpr Offset block = 64;
+    const Id* const ends = mark.ends.data();
+    for_parts("GALE::reached_exits", all, threads_for(all), [&](int, Offset first, Offset last) {
+      for (Offset begin = first; begin < last; begin += block) {
+        const Offset end = std::min(begin + block, last);
+        Id least = 0;
+        for (Offset i = begin; i < end; ++i) least = std::min(least, ends[i]);
+        if (least > end_at(mark.criticals)) continue;
+        for (Offset i = begin; i < end; ++i) mark(i);
+      }
+    });
+  }
+}
+
+template <class Space>
+PathsHere follow_here(const Space& space, const PathSimplices& simplices) {
+  using Memory = MemoryOf<Space>;
+  const auto successors = simplices.successors().in<Memory>();
+  const Interval inner = simplices.inner();
+  const Array<Id, Memory> exits = selected(
+      "GALE::find_exits", space, static_cast<Offset>(successors.extent(0)) - inner.size(),
+      KOKKOS_LAMBDA(Offset i) { return successors(inner.outside(i)) == DiscreteGradient::elsewhere; });
+  parallel_for(
+      "GALE::name_exits", space, exits.extent(0), KOKKOS_LAMBDA(Offset i) { exits(i) = inner.outside(exits(i)); });
+  space.fence();
+  const auto exits_on_host = on_host(exits);
+  PathsHere here{{exits_on_host.data(), exits_on_host.data() + exits_on_host.extent(0)}, {}, {}};
+  std::vector<Id> ends = simplices.critical();
+  ends.insert(ends.end(), here.exits.begin(), here.exits.end());
+  const Array<Id, Memory> next = with_ends(space, simplices.successors(), ends);
+  jump(space, next);
+  const auto is_reached = allocate<Array<char, Memory>>("GALE::reached_exits", exits.extent(0));
+  mark_reached(space, MarkReached<Memory>{next, exits, static_cast<Id>(simplices.critical().size()), is_reached});
+  space.fence();
+  here.ends = next;
+  const auto reached_on_host = on_host(is_reached);
+  here.is_reached.assign(reached_on_host.data(), reached_on_host.data() + reached_on_host.extent(0));
+  return here;
 }
 
 }  // namespace
@@ -97,21 +157,12 @@ PathsOnRanks::PathsOnRanks(const PathSimplices& simplices, const std::vector<Id>
 }
 
 void PathsOnRanks::find_exits(const std::vector<Id>& others) {
-  const auto& successors = simplices_.successors().in<HostMemory>();
-  const Interval inner = simplices_.inner();
-  const Offset all = successors.extent(0);
-  exits_ = collected<Id>("GALE::find_exits", all - inner.size(), [&](Offset i, const auto& add) {
-    const Offset simplex = i < inner.first ? i : i + inner.size();
-    if (successors(simplex) == DiscreteGradient::elsewhere) add(static_cast<Id>(simplex));
-  });
-  std::vector<Id> ends = simplices_.critical();
-  ends.insert(ends.end(), exits_.begin(), exits_.end());
-  ends_ = ends_here(simplices_.successors(), ends);
-  std::vector<char> is_reached = reached_exits();
-  for (const Id other : others) {
-    const Id at = end(other) - criticals_;
-    if (at >= 0) is_reached[at] = 1;
-  }
+  PathsHere here = in_worker_or_host_space(simplices_.successors().on_device(),
+                                           [&](const auto& space) { return follow_here(space, simplices_); });
+  exits_ = std::move(here.exits);
+  ends_ = here.ends;
+  std::vector<char> is_reached = std::move(here.is_reached);
+  for (const Id other : others) is_reached[std::lower_bound(exits_.begin(), exits_.end(), other) - exits_.begin()] = 1;
   for (std::size_t i = 0; i < exits_.size(); ++i) {
     if (is_reached[i] != 0) open_.push_back(static_cast<Id>(i));
   }
@@ -124,32 +175,16 @@ void PathsOnRanks::find_exits(const std::vector<Id>& others) {
                 [&](Id a, Id b) { return stops_[a].id < stops_[b].id; });
 }
 
-/// Marks the exits that paths from other simplices come to; of many simplices at once none does, mostly.
-std::vector<char> PathsOnRanks::reached_exits() const {
-  constexpr Offset block = 64;
-  std::vector<char> is_reached(exits_.size(), 0);
-  const Id* const ends = ends_.data();
-  const Offset all = ends_.extent(0);
-  for_parts("GALE::reached_exits", all, threads_for(all), [&](int, Offset first, Offset last) {
-    for (Offset begin = first; begin < last; begin += block) {
-      const Offset end = std::min(begin + block, last);
-      Id least = 0;
-      for (Offset i = begin; i < end; ++i) least = std::min(least, ends[i]);
-      if (least > end_at(criticals_)) continue;
-      for (Offset i = begin; i < end; ++i) {
-        const Id at = place_of_end(ends[i]) - criticals_;
-        if (at >= 0 && exits_[at] != i) atomic_write(&is_reached[at], char(1));
-      }
-    }
+std::vector<Id> PathsOnRanks::ends_of(const std::vector<Id>& simplices) const {
+  return in_worker_or_host_space(ends_.on_device(), [&](const auto& space) {
+    return detail::ends_of(space, ends_.in<MemoryOf<std::decay_t<decltype(space)>>>(), simplices);
   });
-  return is_reached;
 }
 
 std::vector<Id> PathsOnRanks::exits_from(const std::vector<Id>& simplices) const {
   std::vector<char> is_found(exits_.size(), 0);
   std::vector<Id> found;
-  for (const Id simplex : simplices) {
-    const Id at = end(simplex);
+  for (const Id at : ends_of(simplices)) {
     if (at >= criticals_ && std::exchange(is_found[at - criticals_], 1) == 0) found.push_back(exits_[at - criticals_]);
   }
   return found;
@@ -193,9 +228,17 @@ Array<const Id, HostMemory> PathsOnRanks::places_of_ends() const {
 /// nothing done, if all have ended on all ranks.
 bool PathsOnRanks::jump() {
   if (ranks().sum(static_cast<std::int64_t>(open_.size())) == 0) return false;
-  const auto next = ask<PathStop>(
+  const auto next = ask_for_all<PathStop>(
       ranks(), "GALE::next_stops", static_cast<Offset>(open_.size()), [&](Id i) { return stops_[open_[i]].rank; },
-      [&](Id i) { return stops_[open_[i]].id; }, [&](GlobalId id) { return final_stop(end(simplices_.local(id))); });
+      [&](Id i) { return stops_[open_[i]].id; },
+      [&](const auto& asked, const auto& answers) {
+        std::vector<Id> starts(asked.extent(0));
+        parallel_for("GALE::asked_starts", HostExecutionSpace(), asked.extent(0),
+                     [&](Offset i) { starts[i] = simplices_.local(asked(i)); });
+        const std::vector<Id> ends = ends_of(starts);
+        parallel_for("GALE::answered_stops", HostExecutionSpace(), asked.extent(0),
+                     [&](Offset i) { answers(i) = final_stop(ends[i]); });
+      });
   std::vector<Id> still;
   for (std::size_t i = 0; i < open_.size(); ++i) {
     stops_[open_[i]] = next(i);

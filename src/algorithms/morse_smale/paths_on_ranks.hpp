@@ -73,12 +73,12 @@ class PathsOnRanks {
   /// successors are elsewhere. Collective; throws gale::Error on all ranks. Refers to `simplices`.
   explicit PathsOnRanks(const PathSimplices& simplices, const std::vector<Id>& others = {});
 
-  /// How the path from a local simplex (GALE's id) ends on this rank: the number of that end, below; no_id if it leaves
-  /// through the surface.
-  Id end(Id simplex) const {
-    const Id end = ends_(simplex);
-    return end == path_outside ? no_id : place_of_end(end);
-  }
+  /// How the paths from local simplices (GALE's ids) end on this rank: `end_at` (jump.hpp) the number of that end,
+  /// below. Where the successors are, if there was room.
+  const Mirrored<Id>& ends_here() const { return ends_; }
+
+  /// The number of one of these ends, on the host; no_id if the path leaves through the surface.
+  Id end(Id simplex) const { return place_of_end(ends_.in<HostMemory>()(simplex)); }
 
   /// The exits that paths from some simplices (GALE's ids) come to, once each. Not collective.
   std::vector<Id> exits_from(const std::vector<Id>& simplices) const;
@@ -103,13 +103,13 @@ class PathsOnRanks {
 
  private:
   void find_exits(const std::vector<Id>& others);
-  std::vector<char> reached_exits() const;
+  std::vector<Id> ends_of(const std::vector<Id>& simplices) const;
   bool jump();
 
   const PathSimplices& simplices_;
   Id criticals_;
-  std::vector<Id> exits_;
-  Array<const Id, HostMemory> ends_;  ///< by simplex: end_at(number), or path_outside
+  std::vector<Id> exits_;  ///< ascending
+  Mirrored<Id> ends_;
   std::vector<PathStop> stops_;  ///< of each exit that paths come to: where these are after 2^rounds changes of ranks
   std::vector<Id> open_;         ///< the places of those that haven't ended yet, by global id at first
   int rounds_ = 0;

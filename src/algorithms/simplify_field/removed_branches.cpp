@@ -35,7 +35,7 @@ std::vector<Id> compared(const ExtremumGraph<Memory>& graph, Side side) {
 template <class Space>
 MergeForest forest_of(const Space& space, const SideKeys& keys, const FollowedPaths<MemoryOf<Space>>& paths,
                       const std::vector<Id>& others) {
-  const std::vector<Id> ends = extrema_of(space, paths.ends, others);
+  const std::vector<Id> ends = ends_of(space, paths.ends, others);
   std::vector<Meeting> lasts;
   for (std::size_t i = 0; i < others.size(); ++i) lasts.push_back({others[i], ends[i]});
   return merge_forest(keys, paths.extrema, paths.meetings, std::move(lasts));

@@ -86,7 +86,13 @@ class ExchangePlan {
       parallel_for("GALE::kept_values", space, kept_slots_.extent(0),
                    [&](Offset i) { to[kept_slots_(i)] = from[kept_places_(i)]; });
     }
-    scatter(space, slots_, fetched.entries, to);
+    fill_slots(space, fetched.entries, to);
+  }
+
+  /// Fills to[slot], in the memory of `space`, for each of slots() with what was fetched.
+  template <class Space, class T>
+  void fill_slots(const Space& space, const Array<T, HostMemory>& fetched, T* to) const {
+    scatter(space, slots_, fetched, to);
   }
 
   /// The slots of what is fetched, in that order.
