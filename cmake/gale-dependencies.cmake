@@ -67,9 +67,28 @@ macro(gale_find_base)
   endif()
 endmacro()
 
+# Where a KokkosKernels has headers of another Kokkos than ours, as Trilinos' has; empty if it has none.
+function(gale_own_kokkos result)
+  foreach(dir IN LISTS Kokkos_INCLUDE_DIRS)
+    file(REAL_PATH ${dir} dir)
+    list(APPEND ours ${dir})
+  endforeach()
+  set(${result} "" PARENT_SCOPE)
+  foreach(dir IN LISTS KokkosKernels_INCLUDE_DIRS)
+    file(REAL_PATH ${dir} dir)
+    if(EXISTS ${dir}/KokkosCore_config.h AND NOT dir IN_LIST ours)
+      set(${result} ${dir} PARENT_SCOPE)
+    endif()
+  endforeach()
+endfunction()
+
 # What the library's sources include. Gives gale::kokkoskernels.
 macro(gale_find_kokkos_kernels)
   gale_find(KokkosKernels "install it, or set GALE_ENABLE_KOKKOS_KERNELS=OFF (no explicit structure then)" CONFIG)
+  gale_own_kokkos(gale_other_kokkos)
+  if(gale_other_kokkos)
+    list(APPEND gale_missing "the KokkosKernels in ${KokkosKernels_DIR} brings a Kokkos of its own, in ${gale_other_kokkos}, and GALE takes the one in ${Kokkos_DIR}: set KokkosKernels_DIR to one that was built with that, or GALE_ENABLE_KOKKOS_KERNELS=OFF (no explicit structure then)")
+  endif()
   gale_adopt(kokkoskernels KokkosKernels Kokkos::kokkoskernels KokkosKernels::all_libs)
 endmacro()
 
