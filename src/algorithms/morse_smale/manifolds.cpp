@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <functional>
 #include <utility>
 #include <vector>
@@ -8,8 +9,10 @@
 #include <gale/algorithms/morse_smale/paths_on_ranks.hpp>
 #include <gale/base/bits.hpp>
 #include <gale/base/error.hpp>
+#include <gale/base/hash_table.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/base/sort.hpp>
+#include <gale/base/stop.hpp>
 #include <gale/base/transfer.hpp>
 #include <gale/mesh/exchange/exchange_plan.hpp>
 #include <gale/mesh/exchange/places.hpp>
@@ -72,7 +75,7 @@ struct EndOfVertex {
   Array<const Id, Memory> ends;    ///< of each simplex, see jump()
   Array<const Id, Memory> names;   ///< of places of ends; none: the places
   OtherIds input;
-  Array<Id, Memory> manifolds;
+  Array<Id, Memory> manifolds;     ///< which may be `ends` of a grid's vertices
 
   KOKKOS_FUNCTION void operator()(Id v) const {
     const Id start = starts.extent(0) == 0 ? v : starts(v);
@@ -81,11 +84,11 @@ struct EndOfVertex {
   }
 };
 
-/// The manifolds of some vertices, among those of all.
+/// The manifolds of some vertices, among those of all: in `end.manifolds`, if there is such an array.
 template <class Space>
 Ids<Space> manifolds_of(const Space& space, const Mesh& mesh, Interval vertices, EndOfVertex<MemoryOf<Space>> end) {
   end.input = mesh.vertices_in_input<MemoryOf<Space>>();
-  end.manifolds = allocate<Ids<Space>>("GALE::manifolds", mesh.vertices());
+  if (end.manifolds.extent(0) == 0) end.manifolds = allocate<Ids<Space>>("GALE::manifolds", mesh.vertices());
   const EndOfVertex<MemoryOf<Space>> of = end;
   parallel_for(
       "GALE::manifolds", space, vertices.size(), KOKKOS_LAMBDA(Offset i) { of(vertices.first + static_cast<Id>(i)); });
@@ -108,7 +111,9 @@ Mirrored<Id> manifolds_in(const Space& space, const DiscreteGradient& gradient, 
                               of_vertices ? critical.vertices : critical.cells);
   jump(space, next);
   const Mesh& mesh = gradient.mesh();
-  return manifolds_of(space, mesh, {0, mesh.vertices()}, {starts_in(space, mesh, kind), next, {}, {}, {}});
+  const bool in_place = of_vertices && mesh.grid() != nullptr;  // each takes the place of its end
+  return manifolds_of(space, mesh, {0, mesh.vertices()},
+                      {starts_in(space, mesh, kind), next, {}, {}, in_place ? next : Ids<Space>()});
 }
 
 constexpr std::uint64_t no_pair = ~std::uint64_t(0);
@@ -119,8 +124,9 @@ struct ManifoldPairs {
   Mirrored<std::uint64_t> pairs;  ///< pair_key(ascending, descending) of each
 };
 
+/// Finds the pairs by sorting all vertices, as a device does.
 template <class Space>
-ManifoldPairs pairs_in(const Space& space, const Mirrored<Id>& ascending, const Mirrored<Id>& descending) {
+ManifoldPairs sorted_pairs(const Space& space, const Mirrored<Id>& ascending, const Mirrored<Id>& descending) {
   const Offset count = ascending.size();
   const auto up = ascending.in<MemoryOf<Space>>(), down = descending.in<MemoryOf<Space>>();
   const auto keys = allocate<Keys<Space>>("GALE::manifold_pairs", count);
@@ -144,6 +150,63 @@ ManifoldPairs pairs_in(const Space& space, const Mirrored<Id>& ascending, const 
       });
   space.fence();
   return {manifolds, pairs};
+}
+
+/// Finds the pairs by what each of the host's threads comes to, which are few beside the vertices.
+ManifoldPairs counted_pairs(const Mirrored<Id>& ascending, const Mirrored<Id>& descending) {
+  const auto &up = ascending.in<HostMemory>(), &down = descending.in<HostMemory>();
+  const Offset count = up.extent(0);
+  const int parts = threads_for(count);
+  std::vector<std::vector<std::uint64_t>> found(parts);  // by part, in the order in which it comes to them
+  const auto manifolds = allocate<Array<Id, HostMemory>>("GALE::morse_smale_manifolds", count);
+  for_parts("GALE::manifold_pairs", count, parts, [&](int part, Offset first, Offset last) {
+    HashTable<Id> numbers;
+    std::vector<std::uint64_t> pairs;
+    std::uint64_t before = no_pair;  // of the vertex before: mostly this one's, too
+    Id number = no_id;
+    for (Offset v = first; v < last; ++v) {
+      stop_if_asked_at(v);
+      const std::uint64_t pair = up(v) == no_id ? no_pair : pair_key(up(v), down(v));
+      if (pair != before) {
+        before = pair;
+        number = no_id;
+        if (pair != no_pair) {
+          const auto [known, is_new] = numbers.insert(pair);
+          if (is_new) {
+            known = static_cast<Id>(pairs.size());
+            pairs.push_back(pair);
+          }
+          number = known;
+        }
+      }
+      manifolds(v) = number;
+    }
+    found[part] = std::move(pairs);
+  });
+  std::vector<std::uint64_t> all;
+  for (const auto& some : found) all.insert(all.end(), some.begin(), some.end());
+  parallel_sort("GALE::sort_manifold_pairs", all.begin(), all.end(), std::less<std::uint64_t>());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  const auto pairs = allocate<Array<std::uint64_t, HostMemory>>("GALE::manifold_pairs", all.size());
+  std::copy(all.begin(), all.end(), pairs.data());
+  for_parts("GALE::number_manifolds", count, parts, [&](int part, Offset first, Offset last) {
+    std::vector<Id> numbers;
+    for (const std::uint64_t pair : found[part])
+      numbers.push_back(static_cast<Id>(std::lower_bound(all.begin(), all.end(), pair) - all.begin()));
+    for (Offset v = first; v < last; ++v) {
+      if (manifolds(v) != no_id) manifolds(v) = numbers[manifolds(v)];
+    }
+  });
+  return {manifolds, pairs};
+}
+
+template <class Space>
+ManifoldPairs pairs_in(const Space& space, const Mirrored<Id>& ascending, const Mirrored<Id>& descending) {
+  if constexpr (is_device<Space>) {
+    return sorted_pairs(space, ascending, descending);
+  } else {
+    return counted_pairs(ascending, descending);
+  }
 }
 
 template <class Space>
