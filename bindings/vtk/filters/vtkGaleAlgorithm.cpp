@@ -87,7 +87,7 @@ class Run {
     const auto found = described.run({dataset_, values, order, next}, settings);
     for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port) {
       const auto outcome = found.find(described.results[port].name);
-      if (outcome == found.end()) continue;  // it wasn't asked for
+      if (outcome == found.end()) continue;  // nobody asked for it
       if (const auto* const points = std::get_if<gale::io::PointSet>(&outcome->second))
         gale::vtk::to_poly_data(*points, grid_->GetPointData(), vtkPolyData::GetData(outputs, port));
       if (const auto* const surface = std::get_if<gale::io::Surface>(&outcome->second))

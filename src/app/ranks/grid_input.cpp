@@ -15,8 +15,8 @@ namespace {
 struct DealtLayers {
   std::array<Id, 3> points;
   bool is_whole;
-  std::vector<Id> begin;
-  std::vector<Offset> vertices;  ///< likewise
+  std::vector<Id> begin;         ///< the first layer of each rank, and one past the last
+  std::vector<Offset> vertices;  ///< how many vertices come before that layer
 
   int axis() const { return points[2] == 1 ? 1 : 2; }
   Id rows_of_layer() const { return axis() == 2 ? points[1] : 1; }

@@ -148,7 +148,7 @@ class CornerOwners {
   int rank_;
   const MeshPart<Index>& part_;
   const IndexInterval<Index> own_;
-  GlobalIndex vertices_;           ///< those that the cells have outside `own`, and those that the part hands over
+  GlobalIndex vertices_;           ///< what the cells have outside `own`, and what the part hands over
   Array<int, HostMemory> owners_;  ///< of these vertices
 };
 

@@ -51,8 +51,7 @@ Ids to_ids(const PointArray::Values& values, const std::string& name, const std:
         constexpr std::int64_t greatest = (std::int64_t(1) << 62) - 1;
         Ids ids(all.size());
         for (std::size_t i = 0; i < all.size(); ++i) {
-          ids[i] =
-              static_cast<std::int64_t>(all[i]);  // those beyond, which have 64 bits without a sign, become negative
+          ids[i] = static_cast<std::int64_t>(all[i]);  // what lies beyond, in 64 bits without a sign, becomes negative
           if (ids[i] >= 0 && ids[i] <= greatest) continue;
           refuse("the array '", printable(name), "' gives ", of_what, " ", i, " the id ", all[i],
                  ", which is none: ids are 0 to ", greatest);
