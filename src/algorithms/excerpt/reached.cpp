@@ -127,7 +127,7 @@ class Reacher {
     if (ranks_.sum(static_cast<std::int64_t>(elsewhere_.size())) == 0) return false;
     const auto received =
         exchange_packed(ranks_, "GALE::steps",
-                        deal<SentStep>(
+                        collect_by_rank<SentStep>(
                             ranks_, "GALE::sent_steps", static_cast<Offset>(elsewhere_.size()),
                             [&](Id i) { return elsewhere_[i].first; }, [&](Id i) { return elsewhere_[i].second; }));
     elsewhere_.clear();
@@ -154,11 +154,11 @@ class Reacher {
     Reached reached;
     const auto send_list = [&](auto from, auto& to) {
       using T = typename std::decay_t<decltype(found_[0].*from)>::value_type;
-      Dealt<T> sent;
+      EntriesByRank<T> sent;
       together(ranks_, [&] {
         std::vector<std::int64_t> counts;
         for (const FoundFor& found : found_) counts.push_back(static_cast<std::int64_t>((found.*from).size()));
-        sent = dealt<T>("GALE::reached", counts);
+        sent = room_by_rank<T>("GALE::reached", counts);
         for (std::size_t r = 0; r < found_.size(); ++r) {
           std::copy((found_[r].*from).begin(), (found_[r].*from).end(), sent.entries.data() + sent.begin[r]);
           found_[r].*from = {};

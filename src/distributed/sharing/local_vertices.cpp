@@ -66,7 +66,7 @@ Points<double, HostMemory> OwnAndGhosts::by_id(const LocalVertices& vertices) co
 }
 
 OwnAndGhosts own_and_ghosts(const LocalVertices& vertices, const HostPoints& given, const ExchangePlan::Run& run,
-                            const ExchangePlan& plan, const Dealt<SentPoint>& fetched) {
+                            const ExchangePlan& plan, const EntriesByRank<SentPoint>& fetched) {
   if (run.count > 0) {
     const auto ghosts = allocate<Rows>("GALE::ghost_points", vertices.ghost_count());
     parallel_for("GALE::ghost_points", HostExecutionSpace(), fetched.count(), [&](Offset k) {
