@@ -32,6 +32,12 @@ refuse_beginnings() { # PATTERN FILE...
 mapfile -t sources < <(find src baselines bindings unit_tests perf_tests examples -name '*.cpp' -o -name '*.h' -o -name '*.hpp')
 refuse_beginnings '^ *///? ' "${sources[@]}"
 refuse_beginnings '///< ' "${headers[@]/#gale/src}"
+
+# Files that these pages name are there; x and X stand for a name.
+files=$(find ./src ./baselines ./bindings ./cmake ./docs ./unit_tests -type f)
+for name in $(grep -ohE '[A-Za-z0-9_/-]+\.(cpp|hpp|h|py|xml|cmake|txt|md)\b' docs/architecture.md docs/extending.md | grep -vE '(^|[/e])[xX][./]'); do
+  grep -q "/$name\$" <<<"$files" || { echo "docs name $name, which isn't there" >&2; exit 1; }
+done
 options=$(cat docs/Doxyfile && printf '%s\n' "INPUT = $PWD/docs/reference.dox ${headers[*]}" "OUTPUT_DIRECTORY = $site" "HTML_OUTPUT = cpp")
 cd build/docs-include # what \ref says of folders is relative to it
 doxygen - <<<"$options"
