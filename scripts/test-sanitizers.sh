@@ -77,7 +77,7 @@ all_but_algorithms() {
   for folder in runtime relations; do part 9 sanitize $folder "-$large:MixedConsumers.that_jump_at_random*"; done
 }
 
-# Of the runtime, a part of all but what takes minutes here to compare every mesh with brute force, or has one thread.
+# Runs, of the runtime, a part of all but what takes minutes here to compare every mesh with brute force, or has one thread.
 thread() {
   build sanitize-thread gale_base gale_mesh gale_runtime gale_ttk
   together "run_tests sanitize-thread base" "run_tests sanitize-thread mesh Encoding.*" \

@@ -100,7 +100,7 @@ class Machine:
 
 
 def processor_seconds():
-    """Of all programs that this one has run: what else the machine does counts less there."""
+    """Processor seconds of all programs that this one has run: what else the machine does counts less there."""
     used = resource.getrusage(resource.RUSAGE_CHILDREN)
     return used.ru_utime + used.ru_stime
 

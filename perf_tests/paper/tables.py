@@ -25,7 +25,7 @@ def flat(row, prefix=""):
 
 
 def with_spread(row):
-    """The same for readers: median (least to most) in one column."""
+    """A row for readers: median (least to most) in one column."""
     columns = {}
     for key, value in row.items():
         if key in HIDDEN:

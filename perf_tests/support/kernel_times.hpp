@@ -6,7 +6,7 @@
 namespace gale::perf {
 
 /// What Kokkos' kernels, copies and fences took, by label, while one of these lives: seconds by the host's clock, from
-/// begin to end, and of this process' processors meanwhile. Loops of GALE's own host threads are among them.
+/// begin to end, and of this process's processors meanwhile. Loops of GALE's own host threads are among them.
 class KernelTimes {
  public:
   struct Entry {

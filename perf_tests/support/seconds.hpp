@@ -15,7 +15,7 @@ double seconds_of(const Action& action) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-/// Seconds that this process' threads have computed so far, all together: what other programs take from it by the
+/// Seconds that this process's threads have computed so far, all together: what other programs take from it by the
 /// clock isn't in it.
 inline double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 

@@ -12,7 +12,7 @@ ModuleResult contour_tree(const Fields& fields, ::ttk::AbstractTriangulation& me
   prepare(module, fields.threads);
   ModuleResult result;
   result.precondition.time([&] { module.preconditionTriangulation(&mesh); });
-  auto values = fields.values;  // it isn't const to the module
+  auto values = fields.values;  // a copy: the module wants an array that isn't const
   module.setVertexScalars(values.data());
   module.setVertexSoSoffsets(fields.order.data());
   module.setTreeType(static_cast<int>(::ttk::ftm::TreeType::Contour));

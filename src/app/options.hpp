@@ -80,7 +80,7 @@ struct CommonOptions {
 struct SegmentationOptions {
   std::optional<int> capacity;               ///< most vertices of the octree's leaves; not given: a default
   std::string array;                         ///< the point array that has the segments, or empty
-  std::optional<std::int64_t> random_count;  ///< so many segments, by no rule
+  std::optional<std::int64_t> random_count;  ///< how many segments to make, by no rule
 
   void add_to(CLI::App& command);
 };

@@ -203,7 +203,7 @@ std::vector<T> collected(const char* label, Offset n, const Visit& visit) {
   return all;
 }
 
-/// Those of 0..n-1 for which is_wanted(i), ascending. Waits for them.
+/// The numbers i of 0..n-1 for which is_wanted(i), ascending. Waits for them.
 template <class Space, class IsWanted>
 Array<Id, MemoryOf<Space>> selected(const char* label, const Space& space, Offset n, const IsWanted& is_wanted) {
   if constexpr (is_device<Space>) {

@@ -141,7 +141,7 @@ KOKKOS_FORCEINLINE_FUNCTION void warp_barrier(const Team& team) {
 /// body(), after which the lanes that began it together go on together. Lanes that a loop has parted may stay apart for
 /// long without it.
 template <class Body>
-KOKKOS_FORCEINLINE_FUNCTION void together(const Body& body) {
+KOKKOS_FORCEINLINE_FUNCTION void reconverge_after(const Body& body) {
 #if defined(GALE_ON_DEVICE)
   const auto lanes = detail::lanes_here();
   body();

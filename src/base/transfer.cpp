@@ -57,59 +57,59 @@ void touch(void* memory, std::size_t size) {
 constexpr std::size_t chunk_bytes = std::size_t(2) << 20;
 
 /// Enough for some to fill or empty their chunks while those of others travel.
-constexpr int most_lanes = 16;
+constexpr int most_channels = 16;
 
 /// One thread's way to the device and back, and the pinned memory that it goes through.
-struct CopyLane {
+struct CopyChannel {
   detail::CopyStream stream;
   PinnedArray<char> chunk;
 };
 
-/// The lanes of the process, which live until Kokkos is finalized: pinning memory takes longer than most copies.
-class CopyLanes {
+/// The channels of the process, which live until Kokkos is finalized: pinning memory takes longer than most copies.
+class CopyChannels {
  public:
-  static CopyLanes& instance() {
-    static CopyLanes lanes;
-    return lanes;
+  static CopyChannels& instance() {
+    static CopyChannels channels;
+    return channels;
   }
 
   void prepare(int threads) {
     const std::lock_guard<std::mutex> lock(mutex_);
-    add_lanes(std::min(threads, most_lanes));
+    add_channels(std::min(threads, most_channels));
   }
 
-  /// Calls copy(lane, begin, size) for the pieces of `bytes` bytes, each of a chunk at most.
+  /// Calls copy(channel, begin, size) for the pieces of `bytes` bytes, each of a chunk at most.
   template <class Copy>
   void for_pieces(std::size_t bytes, const Copy& copy) {
     const std::size_t chunks = (bytes + chunk_bytes - 1) / chunk_bytes;
-    const int threads = static_cast<int>(std::min<std::size_t>(chunks, std::min(host_threads(), most_lanes)));
+    const int threads = static_cast<int>(std::min<std::size_t>(chunks, std::min(host_threads(), most_channels)));
     if (threads == 0) return;
     const std::lock_guard<std::mutex> lock(mutex_);
-    add_lanes(threads);
+    add_channels(threads);
     std::atomic<std::size_t> next{0};
     on_threads(threads, [&](int thread) {
       for (std::size_t chunk; (chunk = next++) < chunks;) {
         detail::stop_if_asked();
         const std::size_t begin = chunk * chunk_bytes;
-        copy(lanes_[thread], begin, std::min(chunk_bytes, bytes - begin));
+        copy(channels_[thread], begin, std::min(chunk_bytes, bytes - begin));
       }
     });
   }
 
  private:
-  /// New lanes take their chunks from one array: pinning costs more by the call than by the byte.
-  void add_lanes(int count) {
-    const int missing = count - static_cast<int>(lanes_.size());
+  /// New channels take their chunks from one array: pinning costs more by the call than by the byte.
+  void add_channels(int count) {
+    const int missing = count - static_cast<int>(channels_.size());
     if (missing <= 0) return;
     use_device();
-    if (lanes_.empty()) Kokkos::push_finalize_hook([this] { lanes_.clear(); });
+    if (channels_.empty()) Kokkos::push_finalize_hook([this] { channels_.clear(); });
     const PinnedArray<char> chunks(static_cast<std::size_t>(missing) * chunk_bytes);
     for (int i = 0; i < missing; ++i)
-      lanes_.push_back({detail::CopyStream(), chunks.slice(i * chunk_bytes, chunk_bytes)});
+      channels_.push_back({detail::CopyStream(), chunks.slice(i * chunk_bytes, chunk_bytes)});
   }
 
   std::mutex mutex_;
-  std::vector<CopyLane> lanes_;
+  std::vector<CopyChannel> channels_;
 };
 
 }  // namespace
@@ -126,14 +126,14 @@ std::shared_ptr<void> detail::allocate_pinned_bytes(std::size_t bytes) {
   }
 }
 
-void prepare_copies(int threads) { CopyLanes::instance().prepare(threads); }
+void prepare_copies(int threads) { CopyChannels::instance().prepare(threads); }
 
 void write_to_device(void* device, std::size_t bytes,
                      const std::function<void(char* to, std::size_t begin, std::size_t size)>& write) {
   detail::wait_for(WorkerSpace(), "GALE::copy");
-  CopyLanes::instance().for_pieces(bytes, [&](const CopyLane& lane, std::size_t begin, std::size_t size) {
-    write(lane.chunk.data(), begin, size);
-    lane.stream.copy(static_cast<char*>(device) + begin, lane.chunk.data(), size);
+  CopyChannels::instance().for_pieces(bytes, [&](const CopyChannel& channel, std::size_t begin, std::size_t size) {
+    write(channel.chunk.data(), begin, size);
+    channel.stream.copy(static_cast<char*>(device) + begin, channel.chunk.data(), size);
   });
 }
 
@@ -145,9 +145,9 @@ void copy_to_device(void* device, const void* host, std::size_t bytes) {
 
 void copy_from_device(void* host, const void* device, std::size_t bytes) {
   detail::wait_for(WorkerSpace(), "GALE::copy");
-  CopyLanes::instance().for_pieces(bytes, [&](const CopyLane& lane, std::size_t begin, std::size_t size) {
-    lane.stream.copy(lane.chunk.data(), static_cast<const char*>(device) + begin, size);
-    std::memcpy(static_cast<char*>(host) + begin, lane.chunk.data(), size);
+  CopyChannels::instance().for_pieces(bytes, [&](const CopyChannel& channel, std::size_t begin, std::size_t size) {
+    channel.stream.copy(channel.chunk.data(), static_cast<const char*>(device) + begin, size);
+    std::memcpy(static_cast<char*>(host) + begin, channel.chunk.data(), size);
   });
 }
 

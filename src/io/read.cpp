@@ -113,7 +113,7 @@ SomePieces read_pieces(const std::string& input, const PieceNames& some, const R
 void split_pieces(const std::string& input, SomePieces& some, const Array<const GlobalId, HostMemory>& ids,
                   const ReadOptions& options, int dimension) {
   naming(input, [&] {
-    detail::Cells cells{std::move(some.types), std::move(some.ends), std::move(some.connectivity)};
+    detail::FileCells cells{std::move(some.types), std::move(some.ends), std::move(some.connectivity)};
     detail::split_into(some.mesh, cells, ids, options, dimension);
   });
 }

@@ -26,7 +26,7 @@ using Host = Kokkos::DefaultHostExecutionSpace;
 
 /// The image as rows of voxels along x; row (y, z) is number z*ny + y. Of a plane the two axes along it are x and y,
 /// which doesn't change the order of its voxels, and cubes are squares.
-struct Rows {
+struct VoxelRows {
   int nx, ny, nz;
 
   bool is_plane() const { return nz == 1; }
@@ -37,7 +37,7 @@ struct Rows {
 
 /// A bit for each voxel for which `test` holds, as Grid takes them.
 template <class Values, class Test>
-Array<std::uint64_t, HostMemory> mark(const Rows& rows, const Values& values, const Test& test) {
+Array<std::uint64_t, HostMemory> mark(const VoxelRows& rows, const Values& values, const Test& test) {
   const std::size_t words = Grid::words_of_row(rows.nx);
   const auto bits = allocate<Array<std::uint64_t, HostMemory>>("GALE::inside", words * rows.count());
   parallel_for("GALE::mark_inside", Host(), rows.count(), [&](Offset row) {
@@ -55,7 +55,7 @@ Array<std::uint64_t, HostMemory> mark(const Rows& rows, const Values& values, co
 }
 
 /// The cubes of voxels whose values are above, or finite.
-Grid grid_of(const Rows& rows, const PointArray& scalars, const std::optional<double>& above) {
+Grid grid_of(const VoxelRows& rows, const PointArray& scalars, const std::optional<double>& above) {
   const std::array<Id, 3> points = {rows.nx, rows.ny, rows.nz};
   const auto decide = [&](const auto& values) {
     using Value = typename std::decay_t<decltype(values)>::value_type;
@@ -70,7 +70,7 @@ Grid grid_of(const Rows& rows, const PointArray& scalars, const std::optional<do
   return std::visit(decide, scalars.values);
 }
 
-void refuse_none(const Rows& rows, const PointArray& scalars, const std::optional<double>& above) {
+void refuse_none(const VoxelRows& rows, const PointArray& scalars, const std::optional<double>& above) {
   std::ostringstream message;
   message << "no " << (rows.is_plane() ? "four" : "eight") << " neighbouring voxels of '" << scalars.name
           << "' are all ";
@@ -161,8 +161,8 @@ Dataset split_voxels(Image image, std::optional<double> above, GridCells cells) 
   const std::vector<int> axes = axes_of(image);
   if (axes.size() < 2)
     refuse("the image has ", nx, " x ", ny, " x ", nz, " voxels: it needs at least 2 in two directions");
-  const Rows rows{image.dimensions[axes[0]], image.dimensions[axes[1]],
-                  axes.size() == 3 ? image.dimensions[axes[2]] : 1};
+  const VoxelRows rows{image.dimensions[axes[0]], image.dimensions[axes[1]],
+                       axes.size() == 3 ? image.dimensions[axes[2]] : 1};
   const double farthest = reach_of(image);
   Dataset dataset;
   dataset.grid = grid_of(rows, image.arrays.front(), above);

@@ -235,7 +235,7 @@ Dataset make_layers(const std::array<Id, 3>& of, const Interval& layers, bool ha
   const int n = of[0];
   if (of[2] == 1) {
     require_squares(n);
-    constexpr int most = 65535;  // likewise
+    constexpr int most = 65535;  // its 2^32 numbers make the field's noise
     if (n > most) refuse(name_of_plane(n), " is too large: N is at most ", most);
     return make_rows(n, layers, has_points);
   }

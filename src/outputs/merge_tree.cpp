@@ -174,7 +174,7 @@ std::vector<ArcVertex> gather_arc_vertices(const Mesh& mesh, const io::Dataset& 
   gale::detail::require_room(ranks, "what arcs are sampled at", bytes, 0);
   const auto received = gale::detail::exchange(
       ranks, "GALE::arc_vertices_of_all",
-      gale::detail::deal<ArcVertex>(
+      gale::detail::collect_by_rank<ArcVertex>(
           ranks, "GALE::arc_vertices", static_cast<Offset>(inner.size()), [](Id) { return 0; },
           [&](Id i) -> ArcVertex {
             const Id vertex = inner[i];

@@ -10,7 +10,7 @@ namespace {
 
 /// Which cells and vertices are in the piece: input ids, ascending.
 struct SimplicesOfPiece {
-  std::vector<Id> cells;     ///< those whose highest vertices this rank owns
+  std::vector<Id> cells;     ///< cells whose highest vertices this rank owns
   std::vector<Id> vertices;  ///< theirs, and all others that the rank owns
   std::vector<Id> place;     ///< among these, by input id; no_id for one that isn't there
 };

@@ -71,7 +71,7 @@ struct Positions {
 };
 
 /// The ends of the paths of one kind, and their numbers.
-struct PathEnds {
+struct NumberedEnds {
   const std::vector<End>&sources, &destinations;
   NumbersOfAll numbers;
 };
@@ -94,7 +94,7 @@ class Lines {
 
   /// The points of what precedes cells come first, then those of cells.
   template <class Cell, class Simplices>
-  void add(Type type, const Separatrices<Cell>& paths, const Simplices& along, const PathEnds& ends) {
+  void add(Type type, const Separatrices<Cell>& paths, const Simplices& along, const NumberedEnds& ends) {
     const SharedPaths& shared = along.shared;
     const Offset first_between = first_point_;
     const auto before = static_cast<Offset>(shared.first_between.extent(0));
@@ -202,9 +202,9 @@ io::Surface separatrices1(const io::Dataset& dataset, const io::PointArray& fiel
       ends[dimension] = detail::ends_of(critical[dimension], field, complex.excerpt.order());
   });
   const int top = complex.critical.dimension;
-  const PathEnds falling_ends{ends[1], ends[0], NumbersOfAll(ranks, falling.sources, ends[1])};
-  const PathEnds rising_ends{ends[top - 1], ends[top], NumbersOfAll(ranks, rising.sources, ends[top - 1])};
-  const PathEnds connector_ends{ends[1], ends[2], NumbersOfAll(ranks, connectors.destinations, ends[2])};
+  const NumberedEnds falling_ends{ends[1], ends[0], NumbersOfAll(ranks, falling.sources, ends[1])};
+  const NumberedEnds rising_ends{ends[top - 1], ends[top], NumbersOfAll(ranks, rising.sources, ends[top - 1])};
+  const NumberedEnds connector_ends{ends[1], ends[2], NumbersOfAll(ranks, connectors.destinations, ends[2])};
   return std::visit(
       [&](const auto& at) {
         using Coordinate = typename std::decay_t<decltype(at)>::non_const_value_type;

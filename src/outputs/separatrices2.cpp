@@ -79,7 +79,7 @@ struct Bounds {
     });
     const auto received = gale::detail::exchange(
         ranks, "GALE::met_triangles",
-        gale::detail::deal<MetTriangle>(
+        gale::detail::collect_by_rank<MetTriangle>(
             ranks, "GALE::told_triangles", count,
             [&](Id i) { return complex.owns(1, connectors.sources[i]) ? ranks.rank() : owners(i); },
             [&](Id i) {

@@ -104,7 +104,7 @@ class Connectors {
     NamedComplex::Path path{critical_edge, triangle_, {}, count_paths(critical_edge) == 1};
     Simplex edge = critical_edge;
     do {
-      path.cells.push_back(paths_.above(edge, wall_).front());  // they are in lexicographic order
+      path.cells.push_back(paths_.above(edge, wall_).front());  // the first in lexicographic order
       edge = paths_.partner(path.cells.back(), 2);
     } while (!edge.empty());
     return path;

@@ -33,7 +33,7 @@ struct BruteForceGradient {
   BruteForceGradient(const CellsOf& mesh, const std::vector<double>& field);
 
   std::map<Simplex, Simplex> partner;         ///< of each simplex that has one
-  std::array<std::set<Simplex>, 4> critical;  ///< those that have none, by dimension
+  std::array<std::set<Simplex>, 4> critical;  ///< simplices that have none, by dimension
 };
 
 /// The gradient of each of fields_on one of `mesh_names()`; found at the first call.

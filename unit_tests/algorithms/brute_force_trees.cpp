@@ -22,8 +22,8 @@ std::vector<Id> sorted_vertices(const std::vector<double>& values, bool from_hig
   return sorted;
 }
 
-/// Of each vertex the one that comes next in the growing component that it is in; -1 for the last. `ended(younger,
-/// older, vertex)`: a vertex joins two components, each known by its first vertex.
+/// For each vertex the one that comes next in the growing component that it is in; -1 for the last. Calls
+/// `ended(younger, older, vertex)` where a vertex joins two components, each known by its first vertex.
 std::vector<Id> next_of_all(
     const Table& neighbours, const std::vector<Id>& sorted,
     const std::function<void(Id, Id, Id)>& ended = [](Id, Id, Id) {}) {

@@ -16,7 +16,7 @@
 #include "support/voxel_shapes.hpp"
 
 // What a discrete gradient is, whatever algorithm found it: a pairing without closed paths, of which the critical
-// simplices know the mesh' topology. On meshes larger than those that it is compared on.
+// simplices know the mesh's topology. On meshes larger than those that it is compared on.
 
 namespace gale::test {
 
@@ -122,7 +122,7 @@ Simplex partner_of(Simplex simplex, const Pair& pair) {
   return simplex;
 }
 
-/// Says each simplex' pair that this simplex is its pair? Then each is in one pair at most.
+/// Says each simplex's pair that this simplex is its pair? Then each is in one pair at most.
 void expect_mutual(const PairTable& pairs, const BruteForce& brute_force) {
   for (int dimension = 0; dimension < 4; ++dimension) {
     for (const int other : {dimension - 1, dimension + 1}) {

@@ -26,7 +26,7 @@ struct WholeRows {
   Array<const std::uint64_t, Memory> keys;
 };
 
-/// What a vertex' lower star is paired to: how many words of bits it took (0: too many for bits), how many steps, and
+/// What a vertex's lower star is paired to: how many words of bits it took (0: too many for bits), how many steps, and
 /// for each the facet (-1: the cell is critical) and the cell. Cells are three places in the VV row, in a byte each.
 struct PairedStar {
   static constexpr int max_steps = 128;
@@ -141,7 +141,7 @@ std::vector<Id> paired_on_the_host(const HostRows& rows) {
   return to_vector(pair.result);
 }
 
-/// A cell of a vertex' star in input ids.
+/// A cell of a vertex's star in input ids.
 Simplex simplex_of(const Mesh& mesh, const HostRows& rows, Id vertex, Id places) {
   Simplex simplex = {mesh.vertex_input()(vertex)};
   for (int corner = 0; corner < 3; ++corner) {

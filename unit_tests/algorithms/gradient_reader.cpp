@@ -26,7 +26,7 @@ Id difference(const Simplex& a, const Simplex& b) {
   return in_one.size() == 1 ? in_one[0] : -99;
 }
 
-/// GALE's corner of a tetrahedron that is in none of the other simplex' vertices.
+/// GALE's corner of a tetrahedron that is in none of the other simplex's vertices.
 int corner_beside(const Mesh& mesh, Id tetrahedron, const std::vector<Id>& triangle) {
   for (int corner = 0; corner < 4; ++corner) {
     const Id vertex = mesh.encoded().cells(tetrahedron, corner);

@@ -28,7 +28,7 @@ struct Link {
   std::vector<std::uint64_t> keys;
   std::vector<Id> neighbours;
   std::vector<std::array<Id, 3>> triangles;                 // places, ascending
-  mutable std::vector<std::array<std::uint8_t, 3>> narrow;  // the same in bytes
+  mutable std::vector<std::array<std::uint8_t, 3>> narrow;  // places in bytes
 
   /// With no upper neighbours; the i-th has rank i.
   Link(Id count, std::vector<std::array<Id, 3>> all) : keys(count + 1), neighbours(count), triangles(std::move(all)) {

@@ -50,8 +50,8 @@ TEST(MorseSmaleComplex, of_one_hill_in_a_ball_has_its_top_and_the_valley_around)
 }
 
 TEST(MorseSmaleComplex, of_two_hills_has_two_maxima_and_a_pass) {
-  // Of heights 3 (at x = 3) and 2.5 (at x = 8). Between them the higher one falls to 1 at x = 5, the lower one to 0.5
-  // at x = 6: the pass.
+  // The hills' heights are 3 (at x = 3) and 2.5 (at x = 8). Between them the higher one falls to 1 at x = 5, the lower
+  // one to 0.5 at x = 6: the pass.
   const InputMesh input = voxels(12, 6, 6, [](Id, Id, Id) { return true; });
   const ComplexOf found(input, field_by(input, [](double x, double y, double z) {
                           return std::max(3 - distance({x, y, z}, {3, 3, 3}), 2.5 - distance({x, y, z}, {8, 3, 3}));

@@ -27,12 +27,12 @@ def to_float(value):
 
 
 def barycentre(points):
-    """Of points with three coordinates."""
+    """The barycentre of points with three coordinates."""
     return tuple(sum(coordinates) / len(points) for coordinates in zip(*points))
 
 
 def incentre(a, b, c):
-    """Of a triangle."""
+    """The centre of the circle inscribed in a triangle."""
     sides = [math.dist(b, c), math.dist(c, a), math.dist(a, b)]
     return tuple(sum(side * x for side, x in zip(sides, corners)) / sum(sides) for corners in zip(a, b, c))
 
@@ -212,7 +212,7 @@ class XmlFile:
         return {array.get("Name"): self.values(array) for array in self.piece.find(kind)}
 
     def types(self, kind):
-        """Of its arrays, as VTK names them."""
+        """The types of its arrays, as VTK names them."""
         return {array.get("Name"): array.get("type") for array in self.piece.find(kind)}
 
     def cells(self, kind):

@@ -59,7 +59,7 @@ class MeshWithIds:
                 xml_array("Float32", "height", [self.heights[v] for v in vertices]) + order)
 
     def pieces(self, count, seed, with_order=False):
-        """So many .vtu, in which cells are by chance, beside some that are ghosts of another piece's."""
+        """Makes `count` .vtu, in which cells are by chance, beside some that are ghosts of another piece's."""
         chance = random.Random(seed)
         owners = [chance.randrange(count) for _ in self.cells]
         for piece in range(count):

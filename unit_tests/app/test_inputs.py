@@ -19,7 +19,7 @@ class Volumes(gale.CommandTest):
     SLOPE = gale.Volume((10, 3, 4), lambda x, y, z: 1 + x + 20 * y + 100 * z)
 
     def write_slope(self):
-        """The same volume in every format."""
+        """Writes one volume in every format."""
         raw = self.SLOPE
         self.write("slope.raw", raw.data)
         return [self.write("slope.nrrd", raw.nrrd()), self.write("slope.mha", raw.mha()), self.write("slope.vti", raw.vti()),

@@ -1,4 +1,4 @@
-"""gale morse-smale: its lines, walls and labels against the mesh' simplices and the field."""
+"""gale morse-smale: its lines, walls and labels against the mesh's simplices and the field."""
 import math
 import unittest
 from collections import Counter, defaultdict

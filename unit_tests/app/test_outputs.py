@@ -98,7 +98,7 @@ class Outputs(gale.CommandTest):
         self.assertEqual((run.returncode, self.names()), (1, []))
 
     def expect_nothing_written(self, run, before):
-        """It failed in one line, since standard output took nothing more, and all files are as before."""
+        """The run failed in one line, since standard output took nothing more, and all files are as before."""
         error = run.communicate(timeout=300)[1]
         self.assertEqual(run.returncode, 1, error)
         self.assertRegex(error, r"\Agale: cannot write to standard output[^\n]*\n\Z")

@@ -9,15 +9,15 @@
 
 namespace gale::test {
 
-using detail::Dealt;
+using detail::EntriesByRank;
 
 namespace {
 
 /// From rank a to rank b go 7a + b numbers: 100a, 100a + 1, ...
-Dealt<int> numbers_from(const Communicator& ranks) {
+EntriesByRank<int> numbers_from(const Communicator& ranks) {
   std::vector<std::int64_t> counts(ranks.size());
   for (int to = 0; to < ranks.size(); ++to) counts[to] = 7 * ranks.rank() + to;
-  const auto numbers = detail::dealt<int>("test", counts);
+  const auto numbers = detail::room_by_rank<int>("test", counts);
   for (int to = 0; to < ranks.size(); ++to) {
     for (int i = 0; i < counts[to]; ++i) numbers.entries(numbers.begin[to] + i) = 100 * ranks.rank() + i;
   }
@@ -85,10 +85,10 @@ TEST(Together, all_throw_what_the_lowest_rank_that_fails_says) {
   EXPECT_EQ(message_of([&] { detail::together(ranks, [] {}); }), "no error");
 }
 
-TEST(ByRank, has_each_item_with_each_of_its_ranks_ascending) {
+TEST(ItemsByRank, has_each_item_with_each_of_its_ranks_ascending) {
   constexpr Offset items = 20000;
   for (const int ranks : {5, 300}) {
-    const auto groups = detail::by_rank(ranks, items, [=](Id i, const auto& visit) {
+    const auto groups = detail::group_by_rank(ranks, items, [=](Id i, const auto& visit) {
       if (i % 3 == 0) visit(i % ranks);
       if (i % 7 == 0) visit((i + 1) % ranks);
     });

@@ -43,7 +43,7 @@ struct GivenPart {
   void add_vertex(const InputMesh& input, Id vertex);
   void add_cell(const InputMesh& input, Id cell);
 
-  /// Of this, which must live as long.
+  /// Views of this part, which must live as long.
   MeshPart<GlobalId> views() const;
 
   /// A value for each vertex handed over, of one for each of the input.

@@ -36,7 +36,7 @@ class Sum {
   std::uint64_t sum_ = 0;
 };
 
-/// Of critical points, critical edges and triangles, manifolds, and separatrices of both kinds.
+/// The sums of critical points, of critical edges and triangles, of manifolds, and of separatrices of both kinds.
 using Sums = std::array<std::int64_t, 5>;
 
 using WholeField = Kokkos::View<const float*, HostMemory>;

@@ -46,7 +46,7 @@ void expect_kept(bool is_copied) {
 
 }  // namespace
 
-/// Those of a rank that has no cells have none of any dimension.
+/// Cells of a rank that has none may have any number of corners.
 TEST(MeshPart, has_cells_of_three_or_four_vertices) {
   const Tetrahedron<Kokkos::View<double**, HostMemory>> given;
   const auto cells_of = [&](std::size_t count, std::size_t corners) {

@@ -125,7 +125,7 @@ class Foreign(gale.CommandTest):
         self.assertIn("ramp", self.succeed("info", "image.vtkhdf"))
         self.assertEqual(self.counts("image.vtkhdf"), [1, 0, 0, 1, 0])
         report = self.report("info", "image.vtkhdf", "--above", "8")
-        # Of 125 points x + 2y + 3z is above 8 in these.
+        # The points of the 125 where x + 2y + 3z is above 8.
         above = sum(x + 2 * y + 3 * z > 8 for x in range(5) for y in range(5) for z in range(5))
         self.assertLessEqual(report["mesh"]["vertices"], above)
         self.assertGreater(report["mesh"]["vertices"], 60)

@@ -234,7 +234,7 @@ class GridsOfVtk : public testing::Test {
     return read(folder_ / name);
   }
 
-  /// It has the tetrahedra that hexahedra of these points are split into.
+  /// Expects the tetrahedra that hexahedra of these points are split into.
   void expect_hexahedra(const Dataset& mesh, const std::string& notice) {
     ASSERT_EQ(mesh.notices, std::vector<std::string>{notice});
     ASSERT_EQ(mesh.tetrahedra.extent(0), 6u * 27);

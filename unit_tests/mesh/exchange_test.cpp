@@ -38,7 +38,7 @@ TEST(ProcessAlone, has_what_it_says_to_others) {
   EXPECT_EQ(alone.sum_before(4), 0);
   EXPECT_EQ(alone.broadcast("what", 0), "what");
   EXPECT_EQ(alone.exchange_counts({5}), Ids{5});
-  const auto received = detail::exchange(alone, "test", detail::Dealt<GlobalId>{array_of({3, 1, 2}), {0, 3}});
+  const auto received = detail::exchange(alone, "test", detail::EntriesByRank<GlobalId>{array_of({3, 1, 2}), {0, 3}});
   EXPECT_EQ(vector_of(received.entries), (Ids{3, 1, 2}));
   EXPECT_EQ(alone.sent().messages, 0);
 }

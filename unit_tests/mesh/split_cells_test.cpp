@@ -175,7 +175,7 @@ TEST(SplitCells, have_the_orientation_of_vtk) {
 TEST(SplitCells, of_a_whole_mesh_do_not_depend_on_numbers_where_ids_are_given) {
   MixedMesh mesh = mixed_mesh(4, 2, 7);
   const Split expected = split(mesh);
-  // The same cells by other numbers, with the numbers from before as ids.
+  // Cells are numbered anew, with the numbers from before as ids.
   const MixedMesh before = mesh;
   std::mt19937 random(1);
   mesh.renumber(random);

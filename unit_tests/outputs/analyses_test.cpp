@@ -59,7 +59,7 @@ bool holds(const io::PointArray& array) {
 /// Field and points of the octahedron are of double.
 void expect_as_described(const std::vector<io::PointArray>& arrays, const std::vector<AnalysisArray>& described) {
   ASSERT_GE(arrays.size(), described.size());
-  const std::size_t before = arrays.size() - described.size();  // those of the input
+  const std::size_t before = arrays.size() - described.size();  // arrays of the input
   for (std::size_t i = 0; i < described.size(); ++i) {
     const io::PointArray& array = arrays[before + i];
     const std::string& type = described[i].type;

@@ -24,7 +24,7 @@ struct BruteForce : baselines::BruteForce {
 /// What touches what in one of `mesh_names()`; computed at the first call.
 const BruteForce& brute_force_of(const std::string& mesh_name);
 
-/// What the rows of a mesh must be, in GALE's ids. It trusts the mesh' permutations and vertex_begin(), which
+/// What the rows of a mesh must be, in GALE's ids. It trusts the mesh's permutations and vertex_begin(), which
 /// mesh_test.cpp checks, and nothing else of it.
 class ExpectedRows {
  public:

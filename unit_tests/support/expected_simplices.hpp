@@ -10,7 +10,7 @@ namespace gale::test {
 
 class BruteForce;
 
-/// All simplices of a mesh as GALE must number them: vertices and tetrahedra by the mesh' permutations, edges and
+/// All simplices of a mesh as GALE must number them: vertices and tetrahedra by the mesh's permutations, edges and
 /// triangles in lexicographic order of GALE's vertex ids.
 struct ExpectedSimplices {
   std::array<std::vector<std::vector<Id>>, 4> vertices;  ///< by dimension and GALE's id; GALE's ids, ascending

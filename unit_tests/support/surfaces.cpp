@@ -11,7 +11,7 @@ namespace {
 
 using Triangle = std::array<Id, 3>;
 
-/// The same surface, with ids, triangles and corners in any order.
+/// Puts a surface's ids, triangles and corners in any order.
 InputSurface shuffled(InputSurface surface, unsigned seed) {
   std::mt19937 random(seed);
   std::vector<Id> id(surface.points.size());

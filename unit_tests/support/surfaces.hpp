@@ -47,7 +47,7 @@ class SurfaceOracle {
   /// All simplices of a dimension 0 to 2.
   const Simplices& simplices(int dimension) const { return simplices_[dimension]; }
 
-  /// Those that the row of a simplex has.
+  /// The simplices that the row of a simplex has.
   Simplices row(Relation relation, const Simplex& simplex) const;
 
  private:

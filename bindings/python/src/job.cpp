@@ -20,15 +20,15 @@ namespace {
 
 /// A thread for one computation after the other, so that those that OpenMP begins for it stay. Waits for the last one
 /// when it is destroyed.
-class Worker {
+class JobThread {
  public:
-  Worker() : thread_(gale::detail::start_thread([this] { work(); })) {}
-  ~Worker() {
+  JobThread() : thread_(gale::detail::start_thread([this] { work(); })) {}
+  ~JobThread() {
     begin(nullptr);
     thread_.join();
   }
-  Worker(const Worker&) = delete;
-  Worker& operator=(const Worker&) = delete;
+  JobThread(const JobThread&) = delete;
+  JobThread& operator=(const JobThread&) = delete;
 
   /// To be called when the last one is done; null ends the thread.
   void begin(const std::function<void()>* compute) {
@@ -61,12 +61,12 @@ class Worker {
   std::thread thread_;
 };
 
-/// All jobs, and the workers without one. Never destroyed: in a process that was forked the threads aren't there.
+/// All jobs, and the threads without one. Never destroyed: in a process that was forked the threads aren't there.
 struct Shared {
   std::mutex mutex;
   bool are_stopped = false;
   std::set<Job*> jobs;
-  std::vector<std::unique_ptr<Worker>> idle;
+  std::vector<std::unique_ptr<JobThread>> idle;
 };
 
 Shared& shared() {
@@ -74,7 +74,7 @@ Shared& shared() {
   return *all;
 }
 
-/// A job under way, and its worker. None begins once all are stopped: threads that would begin one then wait for the
+/// A job under way, and its thread. None begins once all are stopped: threads that would begin one then wait for the
 /// end.
 class UnderWay {
  public:
@@ -86,9 +86,9 @@ class UnderWay {
     }
     shared().idle.reserve(shared().jobs.size() + shared().idle.size() + 1);
     if (shared().idle.empty()) {
-      worker = std::make_unique<Worker>();
+      thread = std::make_unique<JobThread>();
     } else {
-      worker = std::move(shared().idle.back());
+      thread = std::move(shared().idle.back());
       shared().idle.pop_back();
     }
     shared().jobs.insert(job);
@@ -96,12 +96,12 @@ class UnderWay {
   ~UnderWay() {
     const std::lock_guard<std::mutex> lock(shared().mutex);
     shared().jobs.erase(job_);
-    shared().idle.push_back(std::move(worker));
+    shared().idle.push_back(std::move(thread));
   }
   UnderWay(const UnderWay&) = delete;
   UnderWay& operator=(const UnderWay&) = delete;
 
-  std::unique_ptr<Worker> worker;
+  std::unique_ptr<JobThread> thread;
 
  private:
   Job* const job_;
@@ -194,7 +194,7 @@ void Job::compute_on_worker(const std::function<void()>& compute) {
     changed_.notify_all();
   };
   const UnderWay under_way(this);
-  under_way.worker->begin(&guarded);
+  under_way.thread->begin(&guarded);
   std::unique_lock<std::mutex> lock(mutex_);
   while (!is_done_) watch(lock);
 }

@@ -40,9 +40,9 @@ auto with_points(const Array1& points, const Use& use) {
 }
 
 /// Points on the host, of which a copy is made where they are a caller's: beside what the device does, if it is begun.
-class HostPoints {
+class CopiedPoints {
  public:
-  explicit HostPoints(std::function<io::Dataset::Positions()> copy) : copy_(std::move(copy)) {}
+  explicit CopiedPoints(std::function<io::Dataset::Positions()> copy) : copy_(std::move(copy)) {}
 
   void begin() {
     if (!points_.valid()) points_ = in_background(copy_);
@@ -58,7 +58,7 @@ class HostPoints {
 };
 
 struct SegmentedPoints {
-  HostPoints points;
+  CopiedPoints points;
   Segmentation segmentation;
 };
 
@@ -69,7 +69,7 @@ SegmentedPoints segmented(const Array1& points, int capacity) {
     if constexpr (have_device && !is_device_memory<typename View::memory_space>) {
       try {
         const Points<Coordinate, WorkerMemory> there = on_worker(view);
-        HostPoints here([view] { return io::Dataset::Points<Coordinate>(copy_of("GALE::points", view)); });
+        CopiedPoints here([view] { return io::Dataset::Points<Coordinate>(copy_of("GALE::points", view)); });
         return {std::move(here), octree_segmentation(there, capacity)};
       } catch (const OutOfMemory&) {  // the device has no room for them
       }
@@ -77,7 +77,7 @@ SegmentedPoints segmented(const Array1& points, int capacity) {
     const auto copy = copy_of("GALE::points", view);
     const Points<Coordinate, typename std::decay_t<decltype(copy)>::memory_space> there = copy;
     const io::Dataset::Points<Coordinate> here = on_host(copy);
-    return {HostPoints([here] { return here; }), octree_segmentation(there, capacity)};
+    return {CopiedPoints([here] { return here; }), octree_segmentation(there, capacity)};
   });
 }
 

@@ -15,7 +15,7 @@ namespace gale::ttk {
 namespace {
 
 /// What one consumer works with.
-struct alignas(64) Worker {
+struct alignas(64) SweepScratch {
   gale::detail::LargeLink large;
   BlockBuilder neighbours, cells;
   StarOrder star;
@@ -59,31 +59,31 @@ void Connectivity::sweep_cells(const Flags& on_surface, bool keep) const {
 
 void Connectivity::sweep_structure(const Flags& on_surface) {
   const SweepOptions options;
-  std::vector<Worker> workers(options.threads);
+  std::vector<SweepScratch> all_scratch(options.threads);
   const Id* const cell_input = mesh_->cell_input().data();
   const bool keeps_cells = wanted_rows_.has(Relation::VT);
   Structure& stars = structure(source_of(Relation::VV));
   const Relation vertex_cells = in_mesh(Relation::VT);
   stars.for_each_segment(star_relations_of(dimension()), options, [&](int consumer, const SegmentRows& rows) {
-    Worker& worker = workers[consumer];
+    SweepScratch& scratch = all_scratch[consumer];
     const Interval vertices = rows.interval(0);
     const bool keep = store_->bytes() < store_->budget();
-    worker.neighbours.begin(vertices.first, vertices.size());
-    worker.cells.begin(vertices.first, vertices.size());
+    scratch.neighbours.begin(vertices.first, vertices.size());
+    scratch.cells.begin(vertices.first, vertices.size());
     for (const Id v : vertices) {
       const Row neighbours = rows[Relation::VV][v];
       const LinkRow link = rows.links()[v];
-      if (keep) worker.star.sort(rows[vertex_cells][v], cell_input, cells_);
-      if (worker.is_on_surface(neighbours.size(), link)) set_flag(on_surface, vertex_input_[v]);
+      if (keep) scratch.star.sort(rows[vertex_cells][v], cell_input, cells_);
+      if (scratch.is_on_surface(neighbours.size(), link)) set_flag(on_surface, vertex_input_[v]);
       if (!keep) continue;
-      worker.star.add_neighbours(worker.neighbours, neighbours, link, cells_, vertex_input_);
-      worker.neighbours.end_row();
-      for (Id i = 0; keeps_cells && i < worker.star.size(); ++i) worker.cells.add(worker.star.cell(i));
-      worker.cells.end_row();
+      scratch.star.add_neighbours(scratch.neighbours, neighbours, link, cells_, vertex_input_);
+      scratch.neighbours.end_row();
+      for (Id i = 0; keeps_cells && i < scratch.star.size(); ++i) scratch.cells.add(scratch.star.cell(i));
+      scratch.cells.end_row();
     }
     if (!keep) return;
-    store_->put(Relation::VV, rows.segment(), worker.neighbours.take());
-    if (keeps_cells) store_->put(Relation::VT, rows.segment(), worker.cells.take());
+    store_->put(Relation::VV, rows.segment(), scratch.neighbours.take());
+    if (keeps_cells) store_->put(Relation::VT, rows.segment(), scratch.cells.take());
   });
 }
 

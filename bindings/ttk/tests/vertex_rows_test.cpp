@@ -131,7 +131,7 @@ TEST(TtkVertexRowsThen, a_cell_may_be_there_twice_until_more_is_needed) {
   ASSERT_EQ(mesh.printed.size(), 1u);
   EXPECT_EQ(mesh.printed[0],
             "tetrahedra 1 and " + std::to_string(callers.count() - 1) + " have the same four vertices");
-  if (!have_device) EXPECT_EQ(wrong_vertices(mesh, expected, 0, 1), 0);  // they stay
+  if (!have_device) EXPECT_EQ(wrong_vertices(mesh, expected, 0, 1), 0);  // what was found stays
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ using gale::io::PointArray;
 struct Aborted {};
 
 /// What a filter's properties say of its input.
-struct InputOptions {
+struct InputProperties {
   int threads;  ///< 0: as many as there are cores
   int capacity;
   std::optional<double> above;    ///< of voxels
@@ -51,7 +51,7 @@ class Run {
  public:
   /// `field` is an array of the input's points, or nullptr. Throws gale::Error for an input that is no mesh, and
   /// Aborted.
-  Run(vtkAlgorithm& filter, vtkDataSet* input, vtkDataArray* field, const InputOptions& options)
+  Run(vtkAlgorithm& filter, vtkDataSet* input, vtkDataArray* field, const InputProperties& options)
       : filter_(filter),
         threads_(options.threads > 0 ? options.threads : gale::host_threads()),
         limit_(threads_),
@@ -87,7 +87,7 @@ class Run {
     const auto found = described.run({dataset_, values, order, next}, settings);
     for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port) {
       const auto outcome = found.find(described.results[port].name);
-      if (outcome == found.end()) continue;  // it wasn't asked for
+      if (outcome == found.end()) continue;  // nobody asked for it
       if (const auto* const points = std::get_if<gale::io::PointSet>(&outcome->second))
         gale::vtk::to_poly_data(*points, grid_->GetPointData(), vtkPolyData::GetData(outputs, port));
       if (const auto* const surface = std::get_if<gale::io::Surface>(&outcome->second))
@@ -276,7 +276,7 @@ vtkDataArray* vtkGaleAlgorithm::SelectField(vtkInformationVector** inputs) {
 }
 
 int vtkGaleAlgorithm::RequestData(vtkInformationVector** inputs, vtkInformationVector* outputs) {
-  InputOptions options;
+  InputProperties options;
   options.threads = this->NumberOfThreads;
   options.capacity = this->Capacity;
   if (this->UseThreshold) options.above = this->Threshold;

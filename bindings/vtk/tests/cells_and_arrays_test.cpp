@@ -87,7 +87,7 @@ TEST_F(Inputs, ArraysOfEveryType) {
     const auto grid = grid_of(dataset_);
     for (vtkDataSet* const input : std::initializer_list<vtkDataSet*>{image, rectilinear, grid}) {
       input->GetPointData()->AddArray(array);
-      expect_line(input, "");  // it travels
+      expect_line(input, "");  // the array travels
       for (const auto& filter : all()) {
         const std::string said = line(*filter, input, "one");
         const bool is_number = array->IsNumeric() && type != VTK_BIT;

@@ -90,7 +90,7 @@ TEST_F(Inputs, OtherMeshesAreRefused) {
   vtkNew<vtkPolyData> surface;
   surface->SetPoints(grid_->GetPoints());
   surface->GetPointData()->ShallowCopy(grid_->GetPointData());
-  expect_line(surface, "");  // it has no polygons
+  expect_line(surface, "");  // a surface without polygons
   vtkNew<vtkTable> table;
   table->AddColumn(grid_->GetPointData()->GetScalars());
   expect_line(table, "the input is a vtkTable");

@@ -18,7 +18,7 @@ namespace {
 enum class StepKind : std::int32_t { falling_vertex, falling_edge, rising_cell, rising_edge, rising_triangle };
 
 /// A simplex (GALE's ids) from which a way goes on that a rank has asked for.
-struct Step {
+struct LocalStep {
   StepKind kind;
   int asker;
   std::array<Id, 3> simplex;
@@ -115,7 +115,7 @@ class Reacher {
   void follow() {
     for (std::int64_t i = 0; !here_.empty(); ++i) {
       stop_if_asked_at(i);
-      const Step step = here_.back();
+      const LocalStep step = here_.back();
       here_.pop_back();
       take(step);
     }
@@ -127,7 +127,7 @@ class Reacher {
     if (ranks_.sum(static_cast<std::int64_t>(elsewhere_.size())) == 0) return false;
     const auto received =
         exchange_packed(ranks_, "GALE::steps",
-                        deal<SentStep>(
+                        collect_by_rank<SentStep>(
                             ranks_, "GALE::sent_steps", static_cast<Offset>(elsewhere_.size()),
                             [&](Id i) { return elsewhere_[i].first; }, [&](Id i) { return elsewhere_[i].second; }));
     elsewhere_.clear();
@@ -154,11 +154,11 @@ class Reacher {
     Reached reached;
     const auto send_list = [&](auto from, auto& to) {
       using T = typename std::decay_t<decltype(found_[0].*from)>::value_type;
-      Dealt<T> sent;
+      EntriesByRank<T> sent;
       together(ranks_, [&] {
         std::vector<std::int64_t> counts;
         for (const FoundFor& found : found_) counts.push_back(static_cast<std::int64_t>((found.*from).size()));
-        sent = dealt<T>("GALE::reached", counts);
+        sent = room_by_rank<T>("GALE::reached", counts);
         for (std::size_t r = 0; r < found_.size(); ++r) {
           std::copy((found_[r].*from).begin(), (found_[r].*from).end(), sent.entries.data() + sent.begin[r]);
           found_[r].*from = {};
@@ -203,7 +203,7 @@ class Reacher {
   }
 
   /// Goes on from a simplex, unless that was done: here, or where the rank is that knows how.
-  void go(const Step& step) {
+  void go(const LocalStep& step) {
     FoundFor& found = found_of(step.asker);
     const auto [a, b, c] = step.simplex;
     Id highest = a;
@@ -241,21 +241,21 @@ class Reacher {
                                                : 2;
   }
 
-  SentStep global(const Step& step) const {
+  SentStep global(const LocalStep& step) const {
     SentStep sent{step.kind, step.asker, {}};
     for (int i = 0; i < vertices_of(step.kind); ++i) sent.simplex[i] = mesh_.vertex_id(input_[step.simplex[i]]);
     if (step.kind == StepKind::rising_cell) sent.simplex[0] = cells_.global(step.simplex[0]);
     return sent;
   }
 
-  Step here(const SentStep& sent) const {
-    Step step{sent.kind, sent.asker, {}};
+  LocalStep here(const SentStep& sent) const {
+    LocalStep step{sent.kind, sent.asker, {}};
     for (int i = 0; i < vertices_of(sent.kind); ++i) step.simplex[i] = internal_[mesh_.vertex_of(sent.simplex[i])];
     if (sent.kind == StepKind::rising_cell) step.simplex[0] = cells_.local(sent.simplex[0]);
     return step;
   }
 
-  void take(const Step& step) {
+  void take(const LocalStep& step) {
     FoundFor& found = found_of(step.asker);
     const auto [a, b, c] = step.simplex;
     switch (step.kind) {
@@ -374,7 +374,7 @@ class Reacher {
   std::optional<EdgeStar> star_;
   std::vector<FoundFor> found_;  // by the rank that asks
   bool is_beyond_ = false;
-  std::vector<Step> here_;
+  std::vector<LocalStep> here_;
   std::vector<std::pair<int, SentStep>> elsewhere_;
 };
 

@@ -53,11 +53,11 @@ struct ReachedLists {
 };
 
 /// What one rank has received, by the rank that found it: places are those among what that one sent.
-using Reached = ReachedLists<Dealt>;
+using Reached = ReachedLists<EntriesByRank>;
 
 /// Calls visit(rank, entry) for all that was received of one kind.
 template <class T, class Visit>
-void for_each_received(const Dealt<T>& received, const Visit& visit) {
+void for_each_received(const EntriesByRank<T>& received, const Visit& visit) {
   for (int rank = 0; rank + 1 < static_cast<int>(received.begin.size()); ++rank) {
     for (Offset i = received.begin[rank]; i < received.begin[rank + 1]; ++i) visit(rank, received.entries(i));
   }

@@ -12,7 +12,7 @@ namespace gale::detail {
 template <class T>
 class ReceivedNumbers {
  public:
-  explicit ReceivedNumbers(const Dealt<T>& received) : begin_(received.begin), number_(received.count()) {
+  explicit ReceivedNumbers(const EntriesByRank<T>& received) : begin_(received.begin), number_(received.count()) {
     const auto all = allocate<GlobalIds>("GALE::received_ids", received.count());
     parallel_for("GALE::received_ids", HostExecutionSpace(), received.count(),
                  [&](Offset i) { all(i) = received.entries(i).id; });

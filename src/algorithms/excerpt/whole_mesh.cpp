@@ -62,26 +62,26 @@ class WholeGathering {
     cells = exchange(ranks_, "GALE::cells_of_all", cells);
   }
 
-  Dealt<HeldVertex> vertices;
-  Dealt<Id> segments;
-  Dealt<OwnedCell> cells;
+  EntriesByRank<HeldVertex> vertices;
+  EntriesByRank<Id> segments;
+  EntriesByRank<OwnedCell> cells;
 
  private:
   template <class T, class EntryOf>
-  Dealt<T> to_first(Offset count, const EntryOf& entry_of) const {
+  EntriesByRank<T> to_first(Offset count, const EntryOf& entry_of) const {
     std::vector<std::int64_t> counts(ranks_.size(), 0);
     counts[0] = count;
-    Dealt<T> all = dealt<T>("GALE::told_to_first", counts);
+    EntriesByRank<T> all = room_by_rank<T>("GALE::told_to_first", counts);
     parallel_for("GALE::told_to_first", HostExecutionSpace(), count, [&](Offset i) { all.entries(i) = entry_of(i); });
     return all;
   }
 
   /// A cell is sent by the owner of its corner of the lowest global id, and so of the lowest input id.
-  Dealt<OwnedCell> owned_cells() const {
+  EntriesByRank<OwnedCell> owned_cells() const {
     const CellReader cell = mesh_.cell_reader();
     const OtherIds input = mesh_.vertices_in_input(), cell_input = mesh_.cells_in_input();
     const Interval owned = mesh_.owned_vertices();
-    const ByRank groups = by_rank(2, mesh_.cells(), [&](Id t, const auto& visit) {
+    const ItemsByRank groups = group_by_rank(2, mesh_.cells(), [&](Id t, const auto& visit) {
       const Quad corners = cell(t);
       Id lowest = corners.a;
       for (int k = 1; k < 4; ++k) {
@@ -101,7 +101,7 @@ class WholeGathering {
 };
 
 /// The ranks' segments, one after the other.
-Segmentation segmentation_of(const ReceivedNumbers<HeldVertex>& vertices, const Dealt<Id>& segments) {
+Segmentation segmentation_of(const ReceivedNumbers<HeldVertex>& vertices, const EntriesByRank<Id>& segments) {
   const auto input = allocate<Array<Id, HostMemory>>("GALE::whole_vertices", vertices.count());
   std::vector<Id> begin{0};
   for (std::size_t rank = 0; rank + 1 < segments.begin.size(); ++rank) {

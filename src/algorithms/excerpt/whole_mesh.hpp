@@ -35,13 +35,13 @@ class GALE_EXPORT WholeMesh {
   /// of its part. Collective.
   template <class T>
   std::vector<T> given_back(const std::vector<T>& of_all) const {
-    Dealt<T> sent, received;
+    EntriesByRank<T> sent, received;
     std::vector<T> here;
     together(ranks_, [&] {
       sent = {allocate<Array<T, HostMemory>>("GALE::given_back", numbers_->begin().back()), numbers_->begin()};
       parallel_for("GALE::given_back", HostExecutionSpace(), sent.count(),
                    [&](Offset i) { sent.entries(i) = of_all[(*numbers_)[i]]; });
-      received = dealt<T>("GALE::brought_back", to_first(part_.vertices()));
+      received = room_by_rank<T>("GALE::brought_back", to_first(part_.vertices()));
       here.resize(part_.vertices());
     });
     exchange(ranks_, sent, received);

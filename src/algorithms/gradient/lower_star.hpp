@@ -235,7 +235,7 @@ class LowerStar {
   Bytes triangle_[max_triangles];                   ///< ranks a and b, its cell
   Cofaces cofaces_[max_triangles + 1];
   Bytes tetrahedron_[max_star + 1];  ///< its triangles (a, b), (a, c), (b, c), its place in VT
-  Bytes wedge_[max_star + 1];  ///< those of the star with two lower vertices or more, see wedge_of; a may be `none`
+  Bytes wedge_[max_star + 1];  ///< cells of the star with two lower vertices or more, see wedge_of; a may be `none`
 };
 
 }  // namespace gale::detail

@@ -16,7 +16,7 @@ namespace gale::detail {
 struct LinkTopology {
   int lower = 0;            ///< connected components of the lower neighbours
   int upper = 0;            ///< connected components of the upper neighbours
-  bool on_surface = false;  ///< it belongs to a triangle with exactly one tetrahedron, or an edge with one triangle
+  bool on_surface = false;  ///< on a triangle with exactly one tetrahedron, or an edge with one triangle
 };
 
 /// The link of a vertex that has no more neighbours than a Word has bits: for each of them a word, with a bit for each

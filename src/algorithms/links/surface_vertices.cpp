@@ -12,12 +12,12 @@ namespace gale {
 
 namespace {
 
-/// What one thread works with.
-struct Worker {
+/// Finds, for one thread, which vertices are on the surface.
+struct SurfaceFinder {
   HostWorker worker;
   detail::LargeLink large;
 
-  explicit Worker(const Mesh& mesh) : worker(mesh, Relation::VV | link_form) {}
+  explicit SurfaceFinder(const Mesh& mesh) : worker(mesh, Relation::VV | link_form) {}
 
   bool is_on_surface(Id neighbours, const LinkRow& link) {
     if (neighbours <= detail::SmallLink::capacity) return detail::SmallLink(neighbours, link).is_open();
@@ -31,15 +31,15 @@ struct Worker {
 Array<std::uint8_t, HostMemory> surface_vertices(const Mesh& mesh) {
   const auto on_surface = allocate<Array<std::uint8_t, HostMemory>>("GALE::on_surface", mesh.vertices());
   const SweepOptions options;
-  std::vector<std::unique_ptr<Worker>> workers(options.threads);
+  std::vector<std::unique_ptr<SurfaceFinder>> finders(options.threads);
   if (mesh.owned_vertices().size() < mesh.vertices())
     fill("GALE::ghosts_on_surface", HostExecutionSpace(), on_surface, std::uint8_t(0));
   detail::sweep(mesh.owned_segments(), options, [&](int consumer, Id segment) {
-    auto& worker = workers[consumer];
-    if (!worker) worker = std::make_unique<Worker>(mesh);
-    const SegmentRows rows = worker->worker.compute(segment);
+    auto& finder = finders[consumer];
+    if (!finder) finder = std::make_unique<SurfaceFinder>(mesh);
+    const SegmentRows rows = finder->worker.compute(segment);
     for (const Id v : rows.interval(Relation::VV)) {
-      on_surface(v) = worker->is_on_surface(rows[Relation::VV][v].size(), rows.links()[v]);
+      on_surface(v) = finder->is_on_surface(rows[Relation::VV][v].size(), rows.links()[v]);
     }
   });
   return on_surface;

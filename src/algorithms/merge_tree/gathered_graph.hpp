@@ -36,14 +36,14 @@ struct TreeMeeting {
 /// What all ranks have, one after the other. Collective.
 template <class T>
 std::vector<T> of_all(const Ranks& ranks, const std::vector<T>& mine) {
-  Dealt<T> sent;
+  EntriesByRank<T> sent;
   together(ranks, [&] {
-    sent =
-        dealt<T>("GALE::told_to_all", std::vector<std::int64_t>(ranks.size(), static_cast<std::int64_t>(mine.size())));
+    sent = room_by_rank<T>("GALE::told_to_all",
+                           std::vector<std::int64_t>(ranks.size(), static_cast<std::int64_t>(mine.size())));
     for (int rank = 0; rank < ranks.size(); ++rank)
       std::copy(mine.begin(), mine.end(), sent.entries.data() + sent.begin[rank]);
   });
-  const Dealt<T> received = exchange_packed(ranks, "GALE::told_by_all", sent);
+  const EntriesByRank<T> received = exchange_packed(ranks, "GALE::told_by_all", sent);
   return {received.entries.data(), received.entries.data() + received.count()};
 }
 

@@ -27,8 +27,8 @@ MergeForest merge_forest(const SideKeys& keys, const std::vector<Id>& extrema, c
 
 /// A forest without some of its branches.
 struct PrunedForest {
-  std::vector<Id> nodes;   ///< those that are still nodes, ascending
-  std::vector<Id> parent;  ///< of each of these the place of its parent among them; no_id at roots
+  std::vector<Id> nodes;   ///< what is still a node, ascending
+  std::vector<Id> parent;  ///< for each of these the place of its parent among them; no_id at roots
   std::vector<Id> place;   ///< of each node of the forest the place of that whose arc its own arc has become a part of
 };
 

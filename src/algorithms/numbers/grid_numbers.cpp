@@ -74,7 +74,7 @@ class Directions {
   /// The direction that leads from one vertex to a later one; `later_directions` if none does.
   int between(Id from, Id to) const {
     const std::uint32_t step = grid_.is_whole() ? to - from : places_(to) - places_(from);
-    const Step& found = slots_[slot_of(step)];
+    const GridStep& found = slots_[slot_of(step)];
     return found.length == step ? found.direction : later_directions;
   }
 
@@ -82,7 +82,7 @@ class Directions {
   static constexpr int slot_bits = 4;
 
   /// How much further on the vertex in a direction is.
-  struct Step {
+  struct GridStep {
     std::uint32_t length = 0;
     int direction = later_directions;
   };
@@ -97,7 +97,7 @@ class Directions {
       slots_.fill({});
       are_apart = true;
       for (int direction = 0; direction < later_directions; ++direction) {
-        Step& slot = slots_[slot_of(steps[direction])];
+        GridStep& slot = slots_[slot_of(steps[direction])];
         const bool is_free = slot.direction == later_directions;
         are_apart = are_apart && (is_free || slot.length == steps[direction]);
         if (is_free) slot = {steps[direction], direction};
@@ -107,7 +107,7 @@ class Directions {
 
   const GridView grid_;
   std::uint32_t factor_ = 1;
-  std::array<Step, 1 << slot_bits> slots_;
+  std::array<GridStep, 1 << slot_bits> slots_;
   Array<std::uint32_t, HostMemory> places_;  ///< x fastest; of a whole grid they are the ids
 };
 

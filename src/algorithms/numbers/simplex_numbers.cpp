@@ -67,7 +67,7 @@ class AskedSimplices {
         if (owner(i) < 0) throw Error("no vertex " + std::to_string(first(i)) + " to number a simplex of");
       }
     });
-    sent_ = detail::deal<Simplex>(
+    sent_ = detail::collect_by_rank<Simplex>(
         ranks, "GALE::named_simplices", static_cast<Offset>(simplices.size()), [&](Id i) { return owner(i); },
         [&](Id i) { return simplices[i]; }, &members_);
     received_ = detail::exchange_packed(ranks, "GALE::simplices_to_number", sent_);
@@ -92,10 +92,10 @@ class AskedSimplices {
   /// Tells number_of(i) of the i-th of these to who asked, and returns what others tell. Collective.
   template <class NumberOf>
   std::vector<GlobalId> answers(const NumberOf& number_of) const {
-    detail::Dealt<GlobalId> told;
+    detail::EntriesByRank<GlobalId> told;
     std::vector<GlobalId> numbers;
     detail::together(mesh_.exchange().ranks(), [&] {
-      told = detail::dealt<GlobalId>("GALE::told_numbers", detail::counts_of(received_));
+      told = detail::room_by_rank<GlobalId>("GALE::told_numbers", detail::counts_of(received_));
       parallel_for("GALE::told_numbers", HostExecutionSpace(), told.count(),
                    [&](Offset i) { told.entries(i) = number_of(i); });
       numbers.resize(sent_.count());
@@ -109,7 +109,7 @@ class AskedSimplices {
 
  private:
   const Mesh& mesh_;
-  detail::Dealt<Simplex> sent_, received_;
+  detail::EntriesByRank<Simplex> sent_, received_;
   Array<Id, HostMemory> members_;
 };
 

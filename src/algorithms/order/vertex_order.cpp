@@ -118,7 +118,7 @@ OrderKeys keys_of_all(const Mesh& mesh, const RawValues<Raw, Memory>& values) {
 
 template <class Space, class Raw>
 FoundKeys part_keys_in(const Space& space, const Mesh& mesh, const RawValues<Raw, HostMemory>& given,
-                       const Dealt<Raw>& fetched) {
+                       const EntriesByRank<Raw>& fetched) {
   const auto values = allocate<Array<Raw, MemoryOf<Space>>>("GALE::local_values", mesh.vertices());
   mesh.exchange().from_givers().fill(space, given.bits.data(), fetched, values.data());
   const RawValues<Raw, MemoryOf<Space>> all{FieldValues<Raw, MemoryOf<Space>>(values.data(), values.extent(0)),

@@ -184,13 +184,13 @@ class Canceller {
 
   /// Where a 1-saddle is left, another one may take its place: one that was cancelled with a minimum, and lies on a
   /// cycle of paths to minima with it.
-  struct Exchange {
+  struct SaddleExchange {
     Id lower;
     TurnedForest::Crossing instead;
   };
 
-  std::vector<Exchange> possible_exchanges() const {
-    std::vector<Exchange> possible;
+  std::vector<SaddleExchange> possible_exchanges() const {
+    std::vector<SaddleExchange> possible;
     for (const Id lower : left(lower_)) {
       stop_if_asked();
       add_exchanges(lower, possible);
@@ -198,7 +198,7 @@ class Canceller {
     return possible;
   }
 
-  void add_exchanges(Id lower, std::vector<Exchange>& possible) const {
+  void add_exchanges(Id lower, std::vector<SaddleExchange>& possible) const {
     const auto& edge = critical_.edges[lower];
     for (const auto& crossing : minima_.cycle(edge[0], edge[1])) {
       if (doomed_.lower[lower] - minimum_below_[crossing.saddle] < doomed_.threshold)
@@ -207,18 +207,19 @@ class Canceller {
   }
 
   /// Whether a cycle still is as it was when an exchange was found: others change cycles.
-  bool is_possible(const Exchange& exchange) const {
-    std::vector<Exchange> possible;
+  bool is_possible(const SaddleExchange& exchange) const {
+    std::vector<SaddleExchange> possible;
     if (lower_[exchange.lower]) add_exchanges(exchange.lower, possible);
-    return std::any_of(possible.begin(), possible.end(), [&](const Exchange& other) {
+    return std::any_of(possible.begin(), possible.end(), [&](const SaddleExchange& other) {
       return other.instead.saddle == exchange.instead.saddle && other.instead.from == exchange.instead.from;
     });
   }
 
   /// The exchange with the highest other 1-saddle among those with one path to the 2-saddle that has this wall.
-  const Exchange* best_exchange(const std::vector<Exchange>& possible, Id upper, const DescendingWall& wall) const {
-    const Exchange* best = nullptr;
-    for (const Exchange& exchange : possible) {
+  const SaddleExchange* best_exchange(const std::vector<SaddleExchange>& possible, Id upper,
+                                      const DescendingWall& wall) const {
+    const SaddleExchange* best = nullptr;
+    for (const SaddleExchange& exchange : possible) {
       const Id saddle = exchange.instead.saddle;
       if (!lower_[exchange.lower] || !is_small(saddle, upper)) continue;
       if (best != nullptr && doomed_.lower[saddle] <= doomed_.lower[best->instead.saddle]) continue;
@@ -247,12 +248,12 @@ class Canceller {
       DescendingWall& wall = wall_of(0);
       wall.follow(critical_.triangles[upper]);
       wall.count_paths();
-      const Exchange* const best = best_exchange(possible, upper, wall);
+      const SaddleExchange* const best = best_exchange(possible, upper, wall);
       if (best != nullptr && is_possible(*best)) exchange(*best, upper);
     }
   }
 
-  void exchange(const Exchange& exchange, Id upper) {
+  void exchange(const SaddleExchange& exchange, Id upper) {
     const Id lower = exchange.lower, instead = exchange.instead.saddle;
     const auto &edge = critical_.edges[lower], &other = critical_.edges[instead];
     minima_.exchange(edge[0], edge[1], lower, exchange.instead);

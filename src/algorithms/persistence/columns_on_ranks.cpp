@@ -27,7 +27,7 @@ struct Met {
 
 /// Sends entries to the first rank, and notes there how much it was. Collective.
 template <class T>
-Dealt<T> noted_to_first(const Ranks& ranks, const char* label, const std::vector<T>& entries) {
+EntriesByRank<T> noted_to_first(const Ranks& ranks, const char* label, const std::vector<T>& entries) {
   auto received = to_first(ranks, label, entries);
   ranks.note_gathered(received.count() * static_cast<std::int64_t>(sizeof(T)));
   return received;
@@ -45,7 +45,7 @@ class FallOnRanks {
 
   /// The critical edges of the columns that have stopped, of all that have met one of these edges, and so on: on the
   /// first rank. This rank's are numbered from these two on, in the order of the edges that they have met. Collective.
-  Dealt<FallenEdge> operator()(Id first_stopped, Id first_met) {
+  EntriesByRank<FallenEdge> operator()(Id first_stopped, Id first_met) {
     together(ranks_, [&] {
       number_.assign(columns_.saddles(), no_id);
       columns_.for_each_met([&](Id edge, const Column&) { number_[edge] = first_met++; });
@@ -88,7 +88,7 @@ class FallOnRanks {
   }
 
   void hand_over() {
-    const auto sent = deal<SentEdge>(
+    const auto sent = collect_by_rank<SentEdge>(
         ranks_, "GALE::sent_edges", static_cast<Offset>(exits_.size()), [&](Id i) { return owners_[i]; },
         [&](Id i) { return exits_[i]; });
     const auto received = exchange_packed(ranks_, "GALE::received_edges", sent);
@@ -124,8 +124,8 @@ class FallOnRanks {
 /// the edges of the former, and of all of the latter that these come to.
 class ColumnsOfAll {
  public:
-  ColumnsOfAll(const GatheredSaddles& all, const Dealt<Id>& stopped, const Dealt<Met>& met,
-               const Dealt<FallenEdge>& fallen)
+  ColumnsOfAll(const GatheredSaddles& all, const EntriesByRank<Id>& stopped, const EntriesByRank<Met>& met,
+               const EntriesByRank<FallenEdge>& fallen)
       : filtration_(all.filtration),
         stopped_(static_cast<Id>(stopped.count())),
         columns_(stopped.count() + met.count()),
@@ -165,9 +165,9 @@ class ColumnsOfAll {
 
   /// Calls visit(rank, i) for each entry.
   template <class T, class Visit>
-  static void for_each(const Dealt<T>& dealt, const Visit& visit) {
-    for (int rank = 0; rank + 1 < static_cast<int>(dealt.begin.size()); ++rank) {
-      for (Offset i = dealt.begin[rank]; i < dealt.begin[rank + 1]; ++i) visit(rank, i);
+  static void for_each(const EntriesByRank<T>& received, const Visit& visit) {
+    for (int rank = 0; rank + 1 < static_cast<int>(received.begin.size()); ++rank) {
+      for (Offset i = received.begin[rank]; i < received.begin[rank + 1]; ++i) visit(rank, i);
     }
   }
 

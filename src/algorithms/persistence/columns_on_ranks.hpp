@@ -9,8 +9,8 @@ namespace gale::detail {
 
 /// What the first rank knows of the saddles of all ranks: places by rank and by places on that rank.
 struct GatheredSaddles {
-  Dealt<Id> edges, triangles;    ///< the place of each rank's critical edges and triangles among all
-  const Filtration& filtration;  ///< of all
+  EntriesByRank<Id> edges, triangles;  ///< the place of each rank's critical edges and triangles among all
+  const Filtration& filtration;        ///< of all
 };
 
 /// Goes on with columns that several ranks have begun, each with those of its own 2-saddles. Returns for each 1-saddle

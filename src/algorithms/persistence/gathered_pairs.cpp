@@ -127,7 +127,7 @@ class PairsOnRanks {
   }
 
   /// The ends of saddles' paths by places.
-  static PathEnds ends_in(const Dealt<SentEnds>& sent, const All& saddles, const All& extrema) {
+  static PathEnds ends_in(const EntriesByRank<SentEnds>& sent, const All& saddles, const All& extrema) {
     PathEnds ends(sent.count(), {no_id, no_id});
     for (Offset i = 0; i < sent.count(); ++i) {
       for (int k = 0; k < 2; ++k) {
@@ -142,12 +142,12 @@ class PairsOnRanks {
   /// Tells each rank which of its critical triangles are among the first rank's columns: in the order of the
   /// filtration.
   std::vector<Id> share_columns(const std::vector<Id>& columns) {
-    Dealt<char> marks;
+    EntriesByRank<char> marks;
     together(ranks_, [&] {
       std::vector<char> is_column(is_first_ ? filtration_.rank[2].size() : 0, 0);
       for (const Id column : columns) is_column[column] = 1;
       const auto& place = all_[2]->place;
-      marks = dealt<char>("GALE::columns", counts_of(place));
+      marks = room_by_rank<char>("GALE::columns", counts_of(place));
       for (Offset i = 0; i < place.count(); ++i) marks.entries(i) = is_column[place.entries(i)];
     });
     const auto received = exchange(ranks_, "GALE::own_columns", marks);
@@ -168,7 +168,7 @@ class PairsOnRanks {
   std::optional<CriticalPlaces> places_;
   Filtration own_, filtration_;  ///< of this rank's simplices, and on the first one of those of all
   std::array<All, 4> all_;
-  Dealt<SentSimplex> highest_;
+  EntriesByRank<SentSimplex> highest_;
 };
 
 }  // namespace

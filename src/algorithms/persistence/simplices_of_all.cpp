@@ -49,8 +49,8 @@ class Sender {
 
 /// Entries of all ranks, which ascend by `is_less` on each, in that order.
 template <class T, class IsLess>
-std::vector<Id> merged(const Dealt<T>& dealt, std::vector<Id> order, const IsLess& is_less) {
-  merge_runs(order.begin(), dealt.begin, [&](Id a, Id b) { return is_less(dealt.entries(a), dealt.entries(b)); });
+std::vector<Id> merged(const EntriesByRank<T>& all, std::vector<Id> order, const IsLess& is_less) {
+  merge_runs(order.begin(), all.begin, [&](Id a, Id b) { return is_less(all.entries(a), all.entries(b)); });
   return order;
 }
 
@@ -80,7 +80,7 @@ std::vector<SentSimplex> highest_to_send(const DiscreteGradient& gradient) {
   return {Sender(gradient)(std::array<Id, 1>{highest}, 0)};
 }
 
-SimplicesOfAll::SimplicesOfAll(Dealt<SentSimplex> from) : sent(std::move(from)), place{{}, sent.begin} {
+SimplicesOfAll::SimplicesOfAll(EntriesByRank<SentSimplex> from) : sent(std::move(from)), place{{}, sent.begin} {
   std::vector<Id> order(sent.count());
   std::iota(order.begin(), order.end(), Id(0));
   place.entries = allocate<Array<Id, HostMemory>>("GALE::places_of_all", sent.count());

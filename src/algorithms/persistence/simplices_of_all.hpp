@@ -28,11 +28,11 @@ std::vector<SentSimplex> highest_to_send(const DiscreteGradient& gradient);
 
 /// Critical simplices of one dimension of all ranks, on the first one.
 struct SimplicesOfAll {
-  Dealt<SentSimplex> sent;
-  Dealt<Id> place;            ///< of each
+  EntriesByRank<SentSimplex> sent;
+  EntriesByRank<Id> place;    ///< of each
   std::vector<Id> from_rank;  ///< by rank in the filtration: the entry
 
-  explicit SimplicesOfAll(Dealt<SentSimplex> from);
+  explicit SimplicesOfAll(EntriesByRank<SentSimplex> from);
 };
 
 }  // namespace gale::detail

@@ -56,11 +56,11 @@ SimplifiedField given_back(const WholeMesh& whole, const Mesh& mesh, Computed* c
 /// The places in the whole of vertices that ranks name by input ids of theirs; on the first rank. Collective.
 std::vector<Id> named_by_all(const WholeMesh& whole, const Mesh& mesh, const std::vector<Id>& vertices) {
   const Ranks& ranks = mesh.exchange().ranks();
-  Dealt<GlobalId> sent;
+  EntriesByRank<GlobalId> sent;
   together(ranks, [&] {
     std::vector<std::int64_t> counts(ranks.size(), 0);
     counts[0] = static_cast<std::int64_t>(vertices.size());
-    sent = dealt<GlobalId>("GALE::staying", counts);
+    sent = room_by_rank<GlobalId>("GALE::staying", counts);
     for (std::size_t i = 0; i < vertices.size(); ++i) {
       if (vertices[i] < 0 || vertices[i] >= mesh.vertices())
         throw Error("vertex " + std::to_string(vertices[i]) + ", which is to stay, is none of the part's " +
@@ -68,7 +68,7 @@ std::vector<Id> named_by_all(const WholeMesh& whole, const Mesh& mesh, const std
       sent.entries(i) = mesh.vertex_id(vertices[i]);
     }
   });
-  const Dealt<GlobalId> received = exchange(ranks, "GALE::staying_of_all", sent);
+  const EntriesByRank<GlobalId> received = exchange(ranks, "GALE::staying_of_all", sent);
   std::vector<Id> places;
   for (Offset i = 0; i < received.count(); ++i) places.push_back(whole.mesh().vertex_of(received.entries(i)));
   return places;

@@ -41,7 +41,7 @@ void Command::require_extension(const File& file) const {
   std::string list;
   for (std::string extension : file.extensions) {
     if (Launch::are_several() && file.extensions.front() == ".vtp") {
-      if (extension == ".vtkhdf") continue;  // it has no pieces
+      if (extension == ".vtkhdf") continue;  // that format has no pieces
       extension = ".pvtp";
     }
     if (io::detail::has_extension(file.name, extension)) return;

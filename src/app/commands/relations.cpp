@@ -14,7 +14,7 @@ namespace gale::app {
 namespace {
 
 /// How large a relation is.
-struct Sizes {
+struct RelationSize {
   std::int64_t rows = 0, entries = 0;
   Id longest = 0;
 
@@ -23,7 +23,7 @@ struct Sizes {
     entries += row.size();
     longest = std::max(longest, row.size());
   }
-  void add(const Sizes& other) {
+  void add(const RelationSize& other) {
     rows += other.rows;
     entries += other.entries;
     longest = std::max(longest, other.longest);
@@ -39,13 +39,13 @@ void for_each_row(Structure& structure, Relation relation, const SweepOptions& s
   });
 }
 
-Sizes measure(Structure& structure, Relation relation, const SweepOptions& sweep) {
+RelationSize measure(Structure& structure, Relation relation, const SweepOptions& sweep) {
   struct alignas(64) Slot {
-    Sizes sizes;
+    RelationSize sizes;
   };
   std::vector<Slot> slots(sweep.threads);
   for_each_row(structure, relation, sweep, [&](int consumer, Id, const Row& row) { slots[consumer].sizes.add(row); });
-  Sizes all;
+  RelationSize all;
   for (const Slot& slot : slots) all.add(slot.sizes);
   return all;
 }
@@ -78,7 +78,7 @@ void write_rows(std::ostream& out, const Mesh& mesh, Relation relation) {
   }
 }
 
-void tell(const Sizes& sizes, Relation relation, Session& session) {
+void tell(const RelationSize& sizes, Relation relation, Session& session) {
   const double run = session.report().seconds.run, entries = static_cast<double>(sizes.entries),
                rows = static_cast<double>(sizes.rows);
   session.tell("relation", "relation", name_of(relation));
@@ -93,7 +93,7 @@ void tell(const Sizes& sizes, Relation relation, Session& session) {
 }
 
 /// Compares all rows with an oracle that shares no code with the structure.
-void verify(Structure& structure, Relation relation, bool is_explicit, const Sizes& sizes, Session& session) {
+void verify(Structure& structure, Relation relation, bool is_explicit, const RelationSize& sizes, Session& session) {
   const SweepOptions sweep = session.sweep("verifying " + name_of(relation));
   const auto oracle = baselines::make_oracle(structure.mesh(), relation, sweep.threads, is_explicit);
   const std::int64_t differences = count_differences(structure, relation, *oracle, sweep);
@@ -130,7 +130,7 @@ class ComputeRelation final : public Command {
     io::Dataset dataset = session.read();
     const Mesh mesh = session.encode(dataset, segmentation_, Session::Keep::nothing);
     const auto structure = session.make_structure(structure_, mesh, relation);
-    const Sizes sizes = timed(session.report().seconds.run, [&] {
+    const RelationSize sizes = timed(session.report().seconds.run, [&] {
       return measure(*structure, relation, session.sweep("sweeping " + name_of(relation)));
     });
     tell(sizes, relation, session);

@@ -103,9 +103,9 @@ class Pruning {
 };
 
 /// Gives branches columns, and cuts them into arcs.
-class Layout {
+class TreeLayout {
  public:
-  Layout(const MergeTree& tree, const std::vector<double>& heights, Id most)
+  TreeLayout(const MergeTree& tree, const std::vector<double>& heights, Id most)
       : heights_(heights), pruning_(tree, heights), branches_(pruning_.branches) {
     const auto count = static_cast<Id>(branches_.size());
     first_ = std::max(Id(0), count - most);
@@ -239,7 +239,7 @@ class Layout {
 }  // namespace
 
 PlanarTree planar_tree(const MergeTree& tree, const std::vector<double>& heights, Id most) {
-  return Layout(tree, heights, most).take();
+  return TreeLayout(tree, heights, most).take();
 }
 
 }  // namespace gale::app

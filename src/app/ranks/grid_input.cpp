@@ -15,8 +15,8 @@ namespace {
 struct DealtLayers {
   std::array<Id, 3> points;
   bool is_whole;
-  std::vector<Id> begin;
-  std::vector<Offset> vertices;  ///< likewise
+  std::vector<Id> begin;         ///< the first layer of each rank, and one past the last
+  std::vector<Offset> vertices;  ///< how many vertices come before that layer
 
   int axis() const { return points[2] == 1 ? 1 : 2; }
   Id rows_of_layer() const { return axis() == 2 ? points[1] : 1; }
@@ -62,13 +62,13 @@ DealtLayers tell(const Ranks& ranks, const DealtLayers& said) {
 /// The bits of the vertices that this rank knows. Collective.
 Array<std::uint64_t, HostMemory> bits_of(const Ranks& ranks, const DealtLayers& dealt,
                                          const std::optional<Grid>& grid) {
-  detail::Dealt<std::uint64_t> sent;
+  detail::EntriesByRank<std::uint64_t> sent;
   detail::together(ranks, [&] {
     const Offset words = static_cast<Offset>(Grid::words_of_row(dealt.points[0])) * dealt.rows_of_layer();
     std::vector<std::int64_t> counts;
     for (int rank = 0; rank < ranks.size(); ++rank)
       counts.push_back(grid && !grid->is_whole() ? words * dealt.around(rank).size() : 0);
-    sent = detail::dealt<std::uint64_t>("GALE::dealt_bits", counts);
+    sent = detail::room_by_rank<std::uint64_t>("GALE::dealt_bits", counts);
     for (int rank = 0; rank < ranks.size(); ++rank) {
       if (counts[rank] == 0) continue;
       const std::uint64_t* const from = grid->in<HostMemory>().vertices.words + words * dealt.around(rank).first;
@@ -80,8 +80,8 @@ Array<std::uint64_t, HostMemory> bits_of(const Ranks& ranks, const DealtLayers& 
 
 /// What this rank gets of values of all vertices, `width` each, which the first rank has. Collective.
 template <class T>
-detail::Dealt<T> deal_values(const Ranks& ranks, const DealtLayers& dealt, T* all, int width) {
-  detail::Dealt<T> sent;
+detail::EntriesByRank<T> deal_values(const Ranks& ranks, const DealtLayers& dealt, T* all, int width) {
+  detail::EntriesByRank<T> sent;
   sent.begin.assign(ranks.size() + 1, 0);
   if (ranks.rank() == 0) {
     for (int rank = 0; rank <= ranks.size(); ++rank) sent.begin[rank] = dealt.vertices[rank] * width;

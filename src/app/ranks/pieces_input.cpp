@@ -60,7 +60,7 @@ GlobalIds merged_ids(const Ranks& ranks, const Array<detail::Point, HostMemory>&
     return static_cast<int>((hash >> 33) % static_cast<std::uint64_t>(ranks.size()));
   };
   Array<Id, HostMemory> members;
-  const auto sent = detail::deal<Question>(
+  const auto sent = detail::collect_by_rank<Question>(
       ranks, "GALE::asked_points", count, [&](Id i) { return home(bits_of(points(i))); },
       [&](Id i) {
         return Question{bits_of(points(i)), i};
@@ -72,10 +72,10 @@ GlobalIds merged_ids(const Ranks& ranks, const Array<detail::Point, HostMemory>&
     int rank;
     Id place;
   };
-  detail::Dealt<First> told, answers;
+  detail::EntriesByRank<First> told, answers;
   detail::together(ranks, [&] {
-    told = detail::dealt<First>("GALE::told_points", detail::counts_of(received));
-    answers = detail::dealt<First>("GALE::found_points", detail::counts_of(sent));
+    told = detail::room_by_rank<First>("GALE::told_points", detail::counts_of(received));
+    answers = detail::room_by_rank<First>("GALE::found_points", detail::counts_of(sent));
     std::vector<Id> sorted(received.count());
     for (std::size_t i = 0; i < sorted.size(); ++i) sorted[i] = static_cast<Id>(i);
     std::sort(sorted.begin(), sorted.end(), [&](Id a, Id b) {

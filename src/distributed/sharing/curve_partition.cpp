@@ -34,15 +34,16 @@ Box box_of_all(const Communicator& ranks, const HostPoints& points) {
 }
 
 /// Some of this rank's stops, as many of the samples as it has points among all; sent to every rank.
-Dealt<CurvePlace> sampled(const Communicator& ranks, const std::vector<std::int64_t>& points_by_rank,
-                          const std::vector<CurvePlace>& stops) {
+EntriesByRank<CurvePlace> sampled(const Communicator& ranks, const std::vector<std::int64_t>& points_by_rank,
+                                  const std::vector<CurvePlace>& stops) {
   double all = 0;
   for (const std::int64_t points : points_by_rank) all += static_cast<double>(points);
   const auto count = stops.empty() ? Offset(0)
                                    : static_cast<Offset>(static_cast<double>(samples_a_rank * ranks.size()) *
                                                          (static_cast<double>(stops.size()) / all)) +
                                          1;
-  const Dealt<CurvePlace> sent = dealt<CurvePlace>("GALE::samples", std::vector<std::int64_t>(ranks.size(), count));
+  const EntriesByRank<CurvePlace> sent =
+      room_by_rank<CurvePlace>("GALE::samples", std::vector<std::int64_t>(ranks.size(), count));
   std::mt19937_64 random(static_cast<std::uint64_t>(ranks.rank()));
   for (Offset i = 0; i < count; ++i) {
     const CurvePlace stop = stops[random() % stops.size()];
@@ -58,7 +59,7 @@ Array<int, HostMemory> curve_partition(const Communicator& ranks, const Array<co
   const Cube cube = cube_around(box_of_all(ranks, points));
   const auto points_by_rank = ranks.all(points.count());
   std::vector<CurvePlace> stops;
-  Dealt<CurvePlace> samples;
+  EntriesByRank<CurvePlace> samples;
   together(ranks, [&] {
     const auto codes = points.visit([&](const auto& rows) {
       return morton_codes<CoordinateOf<std::decay_t<decltype(rows)>>>(HostExecutionSpace(), rows, cube);
@@ -69,7 +70,7 @@ Array<int, HostMemory> curve_partition(const Communicator& ranks, const Array<co
     });
     samples = sampled(ranks, points_by_rank, stops);
   });
-  const Dealt<CurvePlace> all = exchange(ranks, "GALE::all_samples", samples);
+  const EntriesByRank<CurvePlace> all = exchange(ranks, "GALE::all_samples", samples);
   Array<int, HostMemory> owners;
   together(ranks, [&] {
     std::sort(all.entries.data(), all.entries.data() + all.count());

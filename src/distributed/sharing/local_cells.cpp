@@ -148,7 +148,7 @@ class CornerOwners {
   int rank_;
   const MeshPart<Index>& part_;
   const IndexInterval<Index> own_;
-  GlobalIndex vertices_;           ///< those that the cells have outside `own`, and those that the part hands over
+  GlobalIndex vertices_;           ///< what the cells have outside `own`, and what the part hands over
   Array<int, HostMemory> owners_;  ///< of these vertices
 };
 
@@ -210,7 +210,7 @@ LocalCells<Index>::LocalCells(const Communicator& ranks, const MeshPart<Index>& 
   together(ranks, [&] {
     auto counts = counts_of(received_.ids);
     for (std::int64_t& count : counts) count *= corners();
-    received_.vertices = dealt<Index>("GALE::received_vertices", counts);
+    received_.vertices = room_by_rank<Index>("GALE::received_vertices", counts);
   });
   exchange(ranks, sent.vertices, received_.vertices);
   require_local(ranks, "cells", kept.count + received_.count(), most_local);
@@ -225,19 +225,19 @@ KeptCells LocalCells<Index>::choose(const Communicator& ranks, const VertexDirec
   KeptCells all_kept;
   together(ranks, [&] {
     const int here = ranks.rank();
-    ByRank groups;
+    ItemsByRank groups;
     with_constant(corners(), [&](auto corners) {
-      groups = by_rank(ranks.size(), outer.count,
-                       [&](Id i, const auto& visit) { owners.template visit_ranks<corners>(outer[i], visit); });
+      groups = group_by_rank(ranks.size(), outer.count,
+                             [&](Id i, const auto& visit) { owners.template visit_ranks<corners>(outer[i], visit); });
     });
     std::vector<std::int64_t> counts(ranks.size());
     for (int rank = 0; rank < ranks.size(); ++rank) counts[rank] = groups.begin[rank + 1] - groups.begin[rank];
     const Offset kept = std::exchange(counts[here], 0), kept_from = groups.begin[here];
     outer_ = tabulated<Id>("GALE::kept_outer", kept, [&](Offset i) { return outer[groups.members(kept_from + i)]; });
     all_kept = kept_of(part_, outer, outer_, first_id);
-    sent.ids = dealt<GlobalId>("GALE::sent_ids", counts);
+    sent.ids = room_by_rank<GlobalId>("GALE::sent_ids", counts);
     for (std::int64_t& count : counts) count *= corners();
-    sent.vertices = dealt<Index>("GALE::sent_vertices", counts);
+    sent.vertices = room_by_rank<Index>("GALE::sent_vertices", counts);
     with_constant(corners(), [&](auto corners) {
       parallel_for("GALE::sent_cells", HostExecutionSpace(), sent.count(), [&](Offset i) {
         const Offset t = outer[groups.members(i < kept_from ? i : i + kept)];

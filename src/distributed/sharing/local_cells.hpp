@@ -11,8 +11,8 @@ namespace gale::detail {
 /// Cells on their way to other ranks, or from these.
 template <class Index>
 struct SentCells {
-  Dealt<GlobalId> ids;
-  Dealt<Index> vertices;  ///< as many of each as cells have
+  EntriesByRank<GlobalId> ids;
+  EntriesByRank<Index> vertices;  ///< as many of each as cells have
 
   Offset count() const { return ids.entries.extent(0); }
 };

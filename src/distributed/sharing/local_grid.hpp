@@ -14,7 +14,7 @@ namespace gale::detail {
 struct LocalGrid {
   std::optional<Grid> grid;  ///< one without vertices where the rank owns none
   Interval owned;            ///< the vertices that it owns, by local ids
-  IdInterval owned_ids;      ///< the same by global ones
+  IdInterval owned_ids;      ///< these vertices by global ids
   GlobalIds ghosts;          ///< the others, ascending
   GlobalId first_cell = 0;   ///< the global id of the first cell; the others follow
   GlobalId all_vertices = 0, all_cells = 0;

@@ -6,11 +6,11 @@ namespace gale::detail {
 
 namespace {
 
-using Rows = Kokkos::View<double* [3], Kokkos::LayoutRight, HostMemory>;
+using PointRows = Kokkos::View<double* [3], Kokkos::LayoutRight, HostMemory>;
 
 /// Some of the points.
 template <class Place>
-Points<double, HostMemory> gathered(const Rows& points, Offset count, const Place& place) {
+Points<double, HostMemory> gathered(const PointRows& points, Offset count, const Place& place) {
   return tabulated_rows<double, 3>("GALE::some_points", count,
                                    [&](Offset i, int axis) { return points(place(i), axis); });
 }
@@ -52,7 +52,7 @@ void LocalVertices::merge(const GlobalIds& owned) {
 
 Points<double, HostMemory> OwnAndGhosts::by_id(const LocalVertices& vertices) const {
   if (vertices.ghost_count() == 0) return owned.in_double();
-  const auto all = allocate<Rows>("GALE::local_points", vertices.count());
+  const auto all = allocate<PointRows>("GALE::local_points", vertices.count());
   const auto put = [&](const HostPoints& some, const auto& place) {
     some.visit([&](const auto& rows) {
       parallel_for("GALE::local_points", HostExecutionSpace(), some.count(), [&](Offset i) {
@@ -66,16 +66,16 @@ Points<double, HostMemory> OwnAndGhosts::by_id(const LocalVertices& vertices) co
 }
 
 OwnAndGhosts own_and_ghosts(const LocalVertices& vertices, const HostPoints& given, const ExchangePlan::Run& run,
-                            const ExchangePlan& plan, const Dealt<SentPoint>& fetched) {
+                            const ExchangePlan& plan, const EntriesByRank<SentPoint>& fetched) {
   if (run.count > 0) {
-    const auto ghosts = allocate<Rows>("GALE::ghost_points", vertices.ghost_count());
+    const auto ghosts = allocate<PointRows>("GALE::ghost_points", vertices.ghost_count());
     parallel_for("GALE::ghost_points", HostExecutionSpace(), fetched.count(), [&](Offset k) {
       const Offset ghost = vertices.ghost_number(plan.slots()(k));
       for (int axis = 0; axis < 3; ++axis) ghosts(ghost, axis) = fetched.entries(k).coordinates[axis];
     });
     return {given.part(run.place, run.count), Points<double, HostMemory>(ghosts)};
   }
-  const auto all = allocate<Rows>("GALE::local_points", vertices.count());
+  const auto all = allocate<PointRows>("GALE::local_points", vertices.count());
   const Points<double, HostMemory> mine = given.in_double();
   plan.fill(HostExecutionSpace(), reinterpret_cast<const SentPoint*>(mine.data()), fetched,
             reinterpret_cast<SentPoint*>(all.data()));

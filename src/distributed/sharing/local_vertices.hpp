@@ -91,6 +91,6 @@ struct OwnAndGhosts {
 /// From the points that a rank hands over, and those that it has fetched by `plan` from others. Where `run` has what it
 /// owns, only ghosts were fetched, and the others stay where they are.
 OwnAndGhosts own_and_ghosts(const LocalVertices& vertices, const HostPoints& given, const ExchangePlan::Run& run,
-                            const ExchangePlan& plan, const Dealt<SentPoint>& fetched);
+                            const ExchangePlan& plan, const EntriesByRank<SentPoint>& fetched);
 
 }  // namespace gale::detail

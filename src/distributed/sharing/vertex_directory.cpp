@@ -66,7 +66,7 @@ VertexDirectory::VertexDirectory(const Communicator& ranks, const Array<const Gl
         if (handed.owner != entry.owner) corrections.push_back({rank, handed.place, entry.owner});
       });
   vertices_ = ranks.sum(table_.count());
-  const auto sent = deal<Correction>(
+  const auto sent = collect_by_rank<Correction>(
       ranks, "GALE::corrections", static_cast<Offset>(corrections.size()), [&](Id i) { return corrections[i].rank; },
       [&](Id i) { return corrections[i]; });
   const auto told = exchange(ranks, "GALE::told_corrections", sent);
@@ -101,7 +101,7 @@ OwnedVertices VertexDirectory::owned() const {
     });
     return owned;
   }
-  const auto told = deal<OwnedVertex>(
+  const auto told = collect_by_rank<OwnedVertex>(
       ranks_, "GALE::told_vertices", table_.count(), [&](Id i) { return table_.entry(i).owner; },
       [&](Id i) {
         return OwnedVertex{table_.id(i), table_.entry(i).giver, table_.entry(i).place};

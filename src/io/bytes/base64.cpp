@@ -67,7 +67,7 @@ void Base64Bytes::begin_next() {
   ended_ = false;
 }
 
-std::vector<char> encoded(const void* bytes, std::size_t size, Encoding encoding) {
+std::vector<char> encode_bytes(const void* bytes, std::size_t size, Encoding encoding) {
   const auto* const from = static_cast<const unsigned char*>(bytes);
   if (encoding == Encoding::appended) return {from, from + size};
   std::vector<char> text;
@@ -92,7 +92,7 @@ void EncodedBytes::write(const void* bytes, std::size_t size) {
 }
 
 void EncodedBytes::write_first(std::size_t bytes) {
-  const std::vector<char> text = encoded(waiting_.data(), bytes, encoding_);
+  const std::vector<char> text = encode_bytes(waiting_.data(), bytes, encoding_);
   file_.write(text.data(), text.size());
   waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(bytes));
 }

@@ -34,7 +34,7 @@ class Base64Bytes : public ByteSource {
 };
 
 /// Encodes some bytes by themselves; as many characters for as many bytes, whatever these are.
-std::vector<char> encoded(const void* bytes, std::size_t size, Encoding encoding);
+std::vector<char> encode_bytes(const void* bytes, std::size_t size, Encoding encoding);
 
 /// Writes bytes to a file as they are, or as one piece of base64.
 class EncodedBytes {

@@ -48,7 +48,7 @@ struct CountedCells {
   std::vector<Offset> offsets;
 };
 
-CountedCells counted(Cells& cells) {
+CountedCells counted(FileCells& cells) {
   CountedCells counted{taken_as<std::uint8_t>(cells.types, "types"), taken_as<Offset>(cells.ends, "offsets")};
   if (counted.types.size() != counted.offsets.size())
     damaged("it has types of ", counted.types.size(), " cells and offsets of ", counted.offsets.size());
@@ -124,7 +124,7 @@ std::string note_cell_arrays(const std::vector<std::string>& names) {
   return "left out the cell arrays " + list;
 }
 
-std::vector<std::string> split_into(Dataset& to, Cells& cells, const Array<const GlobalId, HostMemory>& ids,
+std::vector<std::string> split_into(Dataset& to, FileCells& cells, const Array<const GlobalId, HostMemory>& ids,
                                     const ReadOptions& options, std::optional<int> dimension) {
   const CountedCells counted_cells = counted(cells);
   const bool is_flat = dimension.value_or(highest_dimension(view_of(counted_cells.types))) == 2;
@@ -170,7 +170,7 @@ namespace {
 
 /// Cells of a grid, each of so many `corners`: steps to these from the lowest one, which is at place(cell).
 template <class Place>
-Cells tabulated_cells(std::int64_t count, int type, const std::vector<std::int64_t>& steps, const Place& place) {
+FileCells tabulated_cells(std::int64_t count, int type, const std::vector<std::int64_t>& steps, const Place& place) {
   const auto corners = static_cast<std::int64_t>(steps.size());
   std::vector<std::int32_t> connectivity(steps.size() * static_cast<std::size_t>(count));
   std::vector<std::int64_t> ends(static_cast<std::size_t>(count));
@@ -186,7 +186,7 @@ Cells tabulated_cells(std::int64_t count, int type, const std::vector<std::int64
 
 }  // namespace
 
-Cells cells_of_grid(const std::array<std::int64_t, 3>& dimensions, int type) {
+FileCells cells_of_grid(const std::array<std::int64_t, 3>& dimensions, int type) {
   const bool are_hexahedra = type == cell_type::hexahedron;
   std::array<std::int64_t, 3> sizes = dimensions;
   std::stable_partition(sizes.begin(), sizes.end(), [](std::int64_t size) { return size != 1; });

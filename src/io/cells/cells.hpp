@@ -12,7 +12,7 @@
 namespace gale::io::detail {
 
 /// The cells of a file, as it has them: nothing in them is checked yet.
-struct Cells {
+struct FileCells {
   PointArray::Values types;         ///< of each, as `CellType::number`
   PointArray::Values ends;          ///< where each ends in `connectivity`; it begins where the one before ends
   PointArray::Values connectivity;  ///< the cells' points; of polyhedra their faces, as gale::Cells has them
@@ -21,7 +21,7 @@ struct Cells {
 /// The parts of a mesh as a file has them.
 struct MeshParts {
   PointArray::Values points = std::vector<float>();  ///< xyz of each
-  Cells cells{std::vector<std::uint8_t>(), std::vector<std::int64_t>(), std::vector<std::int64_t>()};
+  FileCells cells{std::vector<std::uint8_t>(), std::vector<std::int64_t>(), std::vector<std::int64_t>()};
   std::vector<PointArray> arrays;
   std::vector<std::string> notices;
 };
@@ -39,7 +39,7 @@ Dataset to_points_alone(MeshParts& parts);
 /// Splits cells into the tetrahedra of `to`, or its triangles, which may be none, by the ids of its points; of none, by
 /// their numbers. Cells of `dimension` count, 2 or 3, or of the highest that there is. Gives it cell_arrays, too, and
 /// returns notices. Takes the cells.
-std::vector<std::string> split_into(Dataset& to, Cells& cells, const Array<const GlobalId, HostMemory>& ids,
+std::vector<std::string> split_into(Dataset& to, FileCells& cells, const Array<const GlobalId, HostMemory>& ids,
                                     const ReadOptions& options, std::optional<int> dimension = std::nullopt);
 
 /// The notice about a point array that is left out, and why.
@@ -50,6 +50,6 @@ std::string note_cell_arrays(const std::vector<std::string>& names);
 
 /// The cells of a structured grid of so many points along each axis, hexahedra or voxels by their type; where one axis
 /// has a single point, quads or pixels, and none where two have. Precondition: 32 bits number its points.
-Cells cells_of_grid(const std::array<std::int64_t, 3>& dimensions, int type);
+FileCells cells_of_grid(const std::array<std::int64_t, 3>& dimensions, int type);
 
 }  // namespace gale::io::detail

@@ -109,7 +109,7 @@ void number_points(Numbers& ids, MeshParts& parts) {
                  [&](std::size_t, std::int64_t& point) { point = number[point]; });
 }
 
-void number_cells(Numbers& ids, Cells& cells) {
+void number_cells(Numbers& ids, FileCells& cells) {
   if (std::is_sorted(ids.begin(), ids.end())) return;
   const Numbers places = sort(ids), types = std::get<Numbers>(std::move(cells.types)),
                 ends = std::get<Numbers>(std::move(cells.ends)),

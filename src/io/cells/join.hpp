@@ -96,6 +96,6 @@ void number_points(std::vector<std::int64_t>& ids, MeshParts& parts);
 
 /// Puts cells in the order of their ids; where these are equal, cells stay in the order in which they are. Types, ends
 /// and connectivity are of type int64 and were checked.
-void number_cells(std::vector<std::int64_t>& ids, Cells& cells);
+void number_cells(std::vector<std::int64_t>& ids, FileCells& cells);
 
 }  // namespace gale::io::detail

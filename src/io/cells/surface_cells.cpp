@@ -63,7 +63,7 @@ void trim(CellsOfKind& cells, const char* kind) {
 
 }  // namespace
 
-Cells cells_of_surface(SurfaceCells from) {
+FileCells cells_of_surface(SurfaceCells from) {
   trim(from.polygons, "polygon");
   trim(from.strips, "strip");
   std::vector<std::uint8_t> types(from.below, poly_line);

@@ -23,6 +23,6 @@ struct SurfaceCells {
 /// The cells of a surface as one list: points and lines first, which have no connectivity, then polygons and strips.
 /// Polygons of three and four points are triangles and quads. A triangle that names a point twice counts as a line, as
 /// polygons lose such triangles. Takes what is in `from`.
-Cells cells_of_surface(SurfaceCells from);
+FileCells cells_of_surface(SurfaceCells from);
 
 }  // namespace gale::io::detail

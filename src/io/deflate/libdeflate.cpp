@@ -10,7 +10,7 @@
 namespace gale::io::detail {
 namespace {
 
-struct Free {
+struct FreeCodec {
   void operator()(libdeflate_compressor* one) const { libdeflate_free_compressor(one); }
   void operator()(libdeflate_decompressor* one) const { libdeflate_free_decompressor(one); }
 };
@@ -18,7 +18,7 @@ struct Free {
 /// What `make` makes, kept by each thread for its next block.
 template <class T, class Make>
 T* kept(const Make& make) {
-  thread_local std::unique_ptr<T, Free> one;
+  thread_local std::unique_ptr<T, FreeCodec> one;
   if (!one) one.reset(make());
   if (!one) throw std::bad_alloc();
   return one.get();

@@ -233,7 +233,7 @@ class Elements {
     std::visit([&](const auto& points) { add(points, element, connect); }, file_.read(connect));
   }
 
-  Cells take() { return {std::move(types_), std::move(ends_), std::move(points_)}; }
+  FileCells take() { return {std::move(types_), std::move(ends_), std::move(points_)}; }
 
  private:
   template <class Points>

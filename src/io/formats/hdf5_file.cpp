@@ -122,10 +122,10 @@ std::vector<char> decoded_chunk(std::vector<char> stored, const std::vector<std:
 
 }  // namespace
 
-Hdf5File::Dataset Hdf5File::receive_dataset() {
-  Dataset dataset;
-  dataset.at = program_.receive<reader::Dataset>();
-  const reader::Dataset& at = dataset.at;
+Hdf5File::StoredDataset Hdf5File::receive_dataset() {
+  StoredDataset dataset;
+  dataset.at = program_.receive<reader::DatasetHeader>();
+  const reader::DatasetHeader& at = dataset.at;
   if (at.dimensions > reader::most_dimensions || at.filters > reader::most_filters ||
       at.layout > reader::Layout::chunked)
     damaged("of a dataset HDF5 says what can't be");
@@ -143,11 +143,11 @@ Hdf5File::Dataset Hdf5File::receive_dataset() {
 }
 
 bool Hdf5File::open_group(const std::string& path, std::vector<std::string>* names) {
-  program_.ask(reader::Request::group, {path});
+  program_.ask(reader::RequestKind::group, {path});
   const bool is_there = program_.receive<std::uint8_t>() != 0;
   for (auto rest = program_.receive<std::uint64_t>(); rest > 0; --rest) {
     const std::string name = program_.receive_text(longest_name);
-    Dataset dataset = receive_dataset();
+    StoredDataset dataset = receive_dataset();
     dataset.name = joined(path, name);
     datasets_[dataset.name] = std::move(dataset);
     if (names != nullptr) names->push_back(name);
@@ -167,7 +167,7 @@ std::optional<std::uint64_t> Hdf5File::dimension(const std::string& name) const 
 }
 
 std::optional<FileAttribute> Hdf5File::attribute(const std::string& path, const std::string& name) {
-  program_.ask(reader::Request::attribute, {path, name});
+  program_.ask(reader::RequestKind::attribute, {path, name});
   FileAttribute result;
   switch (program_.receive<reader::AttributeKind>()) {
     case reader::AttributeKind::text:
@@ -187,7 +187,7 @@ std::optional<FileAttribute> Hdf5File::attribute(const std::string& path, const 
 }
 
 std::uint64_t Hdf5File::stored_bytes(const FileArray& array, Rows rows, std::uint64_t bytes) {
-  const Dataset& dataset = datasets_.at(array.name);
+  const StoredDataset& dataset = datasets_.at(array.name);
   const std::uint64_t all = product(dataset.count(dataset.rows()), size_of(*dataset.type));
   if (dataset.at.layout != reader::Layout::chunked) {
     if (dataset.at.layout == reader::Layout::contiguous && dataset.at.address == reader::no_address)
@@ -196,7 +196,7 @@ std::uint64_t Hdf5File::stored_bytes(const FileArray& array, Rows rows, std::uin
     return bytes;
   }
   require_known_filters(dataset.filters, array.name);
-  program_.ask(reader::Request::chunks,
+  program_.ask(reader::RequestKind::chunks,
                {array.name, std::to_string(rows.first), std::to_string(rows.first + rows.count)});
   const auto stored = program_.receive<std::uint64_t>();
   const std::uint64_t ratio = dataset.filters.empty() ? 1 : best_deflate_ratio;
@@ -206,17 +206,17 @@ std::uint64_t Hdf5File::stored_bytes(const FileArray& array, Rows rows, std::uin
 }
 
 void Hdf5File::copy(const FileArray& array, Rows rows, char* to, std::uint64_t bytes) {
-  const Dataset& dataset = datasets_.at(array.name);
+  const StoredDataset& dataset = datasets_.at(array.name);
   if (dataset.at.layout == reader::Layout::chunked) return copy_chunks(dataset, rows, to);
   const std::uint64_t before = bytes / rows.count * rows.first;
   if (dataset.at.layout == reader::Layout::contiguous) return file_.read(dataset.at.address + before, to, bytes);
-  program_.ask(reader::Request::bytes, {array.name});
+  program_.ask(reader::RequestKind::bytes, {array.name});
   std::vector<char> all(static_cast<std::size_t>(dataset.at.stored));
   program_.receive(all.data(), all.size());
   std::memcpy(to, all.data() + before, bytes);
 }
 
-void Hdf5File::copy_chunks(const Dataset& dataset, Rows rows, char* to) {
+void Hdf5File::copy_chunks(const StoredDataset& dataset, Rows rows, char* to) {
   const std::size_t rank = dataset.shape.size(), value_bytes = size_of(*dataset.type);
   std::vector<std::uint64_t> ends = dataset.shape, first(rank);
   ends[0] = rows.first + rows.count;

@@ -23,7 +23,7 @@ class Hdf5Program {
   Hdf5Program& operator=(const Hdf5Program&) = delete;
 
   /// Sends a request, whose texts have no zeros.
-  void ask(reader::Request request, const std::vector<std::string>& texts);
+  void ask(reader::RequestKind request, const std::vector<std::string>& texts);
 
   /// Waits for the next bytes of its answer. Throws gale::Error with what it says is wrong, or how it ended.
   void receive(void* to, std::size_t bytes);
@@ -67,17 +67,17 @@ class Hdf5File : public ArrayFile {
   void copy(const FileArray& array, Rows rows, char* to, std::uint64_t bytes) override;
 
  private:
-  struct Dataset : FileArray {
-    reader::Dataset at;
+  struct StoredDataset : FileArray {
+    reader::DatasetHeader at;
     std::vector<std::uint64_t> chunk;  ///< how much of each dimension a chunk has
     std::vector<std::uint32_t> filters;
   };
 
-  Dataset receive_dataset();
-  void copy_chunks(const Dataset& dataset, Rows rows, char* to);
+  StoredDataset receive_dataset();
+  void copy_chunks(const StoredDataset& dataset, Rows rows, char* to);
 
   Hdf5Program program_;
-  std::map<std::string, Dataset> datasets_;
+  std::map<std::string, StoredDataset> datasets_;
 };
 
 }  // namespace gale::io::detail

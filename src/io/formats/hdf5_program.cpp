@@ -123,7 +123,7 @@ void Hdf5Program::throw_end() {
   throw Error(message.empty() ? "gale-hdf5-reader ended without a word" : printable(message));
 }
 
-void Hdf5Program::ask(reader::Request request, const std::vector<std::string>& texts) {
+void Hdf5Program::ask(reader::RequestKind request, const std::vector<std::string>& texts) {
   std::string all(1, static_cast<char>(request));
   for (const std::string& text : texts) all += text + '\0';
   const auto length = static_cast<std::uint32_t>(all.size());

@@ -69,14 +69,14 @@ std::vector<double> vector_of(const std::string& text, const std::string& field)
 
 /// The axes of the file: components first, if any, then up to three of space, then others, of which the first
 /// place alone is read.
-struct Axes {
+struct FileAxes {
   std::vector<std::int64_t> sizes;
   std::size_t first_in_space = 0;
   std::uint64_t others = 1;
 };
 
-Axes axes_of(const TextHeader& header) {
-  Axes axes;
+FileAxes axes_of(const TextHeader& header) {
+  FileAxes axes;
   axes.sizes = numbers_of<std::int64_t>(header["sizes"], "sizes");
   const auto dimension = integer(header, "dimension", 0);
   if (dimension < 1 || dimension > 16 || axes.sizes.size() != static_cast<std::size_t>(dimension))
@@ -103,7 +103,7 @@ Axes axes_of(const TextHeader& header) {
   return axes;
 }
 
-void place(const TextHeader& header, const Axes& axes, Image& image) {
+void place(const TextHeader& header, const FileAxes& axes, Image& image) {
   const auto spacings = words_of(header["spacings"]);
   const auto directions = words_of(header["spacedirections"]);
   const auto origin =
@@ -179,7 +179,7 @@ PointArray::Values read_data(const InputFile& file, const TextHeader& header, co
 
 Content read_nrrd(const InputFile& file, const ReadOptions& options) {
   const TextHeader header = read_nrrd_header(file);
-  const Axes axes = axes_of(header);
+  const FileAxes axes = axes_of(header);
   Volume volume;
   const auto type = find_type(nrrd_types, lower_case(header["type"]));
   if (!type) damaged("its type is '", lower_case(header["type"]), "'");

@@ -51,8 +51,7 @@ Ids to_ids(const PointArray::Values& values, const std::string& name, const std:
         constexpr std::int64_t greatest = (std::int64_t(1) << 62) - 1;
         Ids ids(all.size());
         for (std::size_t i = 0; i < all.size(); ++i) {
-          ids[i] =
-              static_cast<std::int64_t>(all[i]);  // those beyond, which have 64 bits without a sign, become negative
+          ids[i] = static_cast<std::int64_t>(all[i]);  // what lies beyond, in 64 bits without a sign, becomes negative
           if (ids[i] >= 0 && ids[i] <= greatest) continue;
           refuse("the array '", printable(name), "' gives ", of_what, " ", i, " the id ", all[i],
                  ", which is none: ids are 0 to ", greatest);
@@ -157,7 +156,7 @@ class SharedPieces {
   }
 
   /// The cells that are no ghosts, with the joined points' numbers.
-  Cells numbered_cells(const Cells& cells, const Ids& places, const FilePiece& piece) {
+  FileCells numbered_cells(const FileCells& cells, const Ids& places, const FilePiece& piece) {
     Ids types, ends, connectivity, is_ghost;
     append(cells.types, std::int64_t(0), types);
     append(cells.ends, std::int64_t(0), ends);
@@ -273,7 +272,7 @@ Content read_pvtu(const InputFile& input, const ReadOptions& options) {
 SomePieces read_some_pieces(const InputFile& input, const PieceNames& some, const ReadOptions& options) {
   JoinedWithIds all = join(input, some, options);
   const auto taken = [](PointArray::Values& values) { return std::get<Ids>(std::move(values)); };
-  Cells& cells = all.parts.cells;
+  FileCells& cells = all.parts.cells;
   return {to_points_alone(all.parts), taken(cells.types),       taken(cells.ends),
           taken(cells.connectivity),  std::move(all.point_ids), std::move(all.cell_ids)};
 }

@@ -48,7 +48,7 @@ std::uint64_t count_of_kind(const XmlElement& piece, const char* of_what) {
 }
 
 /// Reads the cells of a piece of a surface. Of points and lines the file has to have as many as it says.
-Cells read_surface_cells(const XmlFile& file, const XmlElement& piece) {
+FileCells read_surface_cells(const XmlFile& file, const XmlElement& piece) {
   SurfaceCells cells;
   for (const auto& [section, of_what] : {std::pair("Verts", "NumberOfVerts"), std::pair("Lines", "NumberOfLines")}) {
     const std::uint64_t count = count_of_kind(piece, of_what);
@@ -60,18 +60,18 @@ Cells read_surface_cells(const XmlFile& file, const XmlElement& piece) {
 }
 
 /// The faces of polyhedra, and where those of each cell end.
-struct Faces {
+struct PolyhedronFaces {
   std::vector<std::int64_t> entries, ends;
 };
 
 /// Reads faces as VTK has them from 9.4 on: each by itself, and of each cell which ones it has.
-Faces read_numbered_faces(const XmlFile& file, const XmlElement& piece, std::size_t cells) {
+PolyhedronFaces read_numbered_faces(const XmlFile& file, const XmlElement& piece, std::size_t cells) {
   std::vector<std::int64_t> corners, corner_ends, members, member_ends;
   append(read_cells(file, piece, "face_connectivity", std::nullopt), std::int64_t(0), corners);
   append(read_cells(file, piece, "face_offsets", std::nullopt), std::int64_t(0), corner_ends);
   append(read_cells(file, piece, "polyhedron_to_faces", std::nullopt), std::int64_t(0), members);
   append(read_cells(file, piece, "polyhedron_offsets", cells), std::int64_t(0), member_ends);
-  Faces faces;
+  PolyhedronFaces faces;
   std::int64_t begin = 0;
   for (std::size_t c = 0; c < cells; ++c) {
     gale::detail::stop_if_asked_at(static_cast<std::int64_t>(c));
@@ -96,9 +96,9 @@ Faces read_numbered_faces(const XmlFile& file, const XmlElement& piece, std::siz
   return faces;
 }
 
-Faces read_faces(const XmlFile& file, const XmlElement& piece, std::size_t cells) {
+PolyhedronFaces read_faces(const XmlFile& file, const XmlElement& piece, std::size_t cells) {
   if (piece.array("Cells", "face_connectivity") != nullptr) return read_numbered_faces(file, piece, cells);
-  Faces faces;
+  PolyhedronFaces faces;
   append(read_cells(file, piece, "faces", std::nullopt), std::int64_t(0), faces.entries);
   append(read_cells(file, piece, "faceoffsets", cells), std::int64_t(0), faces.ends);
   return faces;
@@ -106,7 +106,7 @@ Faces read_faces(const XmlFile& file, const XmlElement& piece, std::size_t cells
 
 /// Gives polyhedra, whose points the connectivity has, the faces that the file has beside it: how many, and of each how
 /// many corners, and these.
-void take_faces(const XmlFile& file, const XmlElement& piece, Cells& cells) {
+void take_faces(const XmlFile& file, const XmlElement& piece, FileCells& cells) {
   const auto has_polyhedron = [](const auto& types) {
     return std::find(types.begin(), types.end(), cell_type::polyhedron) != types.end();
   };
@@ -115,7 +115,7 @@ void take_faces(const XmlFile& file, const XmlElement& piece, Cells& cells) {
   append(cells.types, std::int64_t(0), types);
   append(cells.ends, std::int64_t(0), ends);
   append(cells.connectivity, std::int64_t(0), connectivity);
-  const Faces faces = read_faces(file, piece, types.size());
+  const PolyhedronFaces faces = read_faces(file, piece, types.size());
   std::vector<std::int64_t> all;
   std::int64_t begin = 0, face_begin = 0;
   for (std::size_t c = 0; c < types.size(); ++c) {

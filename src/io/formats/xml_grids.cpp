@@ -14,8 +14,8 @@ namespace gale::io::detail {
 namespace {
 
 /// A grid's pieces, and where they are.
-struct Grid {
-  Grid(const InputFile& input, const char* type)
+struct GridFile {
+  GridFile(const InputFile& input, const char* type)
       : file(read_xml(input, type)),
         whole(extent_of(file.root.require(type), "WholeExtent")),
         pieces(grid_pieces_of(file.root.require(type), whole)) {
@@ -29,7 +29,7 @@ struct Grid {
 };
 
 /// The mesh of the grid's cells, but for its points.
-MeshParts parts_of(const Grid& grid, int type) {
+MeshParts parts_of(const GridFile& grid, int type) {
   MeshParts parts;
   XmlArrays arrays = join_pieces(grid.pieces, grid.whole, [&](const XmlElement& piece, std::uint64_t points) {
     return read_point_data(grid.file, piece, points);
@@ -46,7 +46,7 @@ MeshParts parts_of(const Grid& grid, int type) {
 }
 
 /// The coordinates along an axis, of all pieces. Takes memory for what these have.
-std::vector<double> axis_of(const Grid& grid, int axis, bool& is_float) {
+std::vector<double> axis_of(const GridFile& grid, int axis, bool& is_float) {
   std::vector<PointArray::Values> of_pieces;
   std::size_t count = 0;
   for (const GridPiece& piece : grid.pieces) {
@@ -94,7 +94,7 @@ std::vector<T> points_along(const std::array<std::vector<double>, 3>& axes) {
 }  // namespace
 
 Content read_vts(const InputFile& input, const ReadOptions& options) {
-  const Grid grid(input, "StructuredGrid");
+  const GridFile grid(input, "StructuredGrid");
   const auto read = [&](const XmlElement& piece, std::uint64_t points) {
     const XmlElement& array = piece.require("Points").require("DataArray");
     if (array.attribute("NumberOfComponents", "3") != "3")
@@ -108,7 +108,7 @@ Content read_vts(const InputFile& input, const ReadOptions& options) {
 }
 
 Content read_vtr(const InputFile& input, const ReadOptions& options) {
-  const Grid grid(input, "RectilinearGrid");
+  const GridFile grid(input, "RectilinearGrid");
   bool is_float = true;
   const std::array<std::vector<double>, 3> axes = {axis_of(grid, 0, is_float), axis_of(grid, 1, is_float),
                                                    axis_of(grid, 2, is_float)};

@@ -24,7 +24,7 @@ std::array<hid_t, 10> types_in(bool is_big_endian) {
 }
 
 /// Finds the type of numbers that lie in one of the usual ways.
-void put_number_type(hid_t type, Dataset& to) {
+void put_number_type(hid_t type, DatasetHeader& to) {
   for (const bool is_big_endian : {false, true}) {
     const auto types = types_in(is_big_endian);
     for (std::size_t k = 0; k < types.size(); ++k) {
@@ -236,7 +236,7 @@ File::Attribute File::attribute(const std::string& object, const std::string& na
     }
     return result;
   }
-  Dataset found;
+  DatasetHeader found;
   put_number_type(type, found);
   if (found.type == no_type || count < 0 || count > most) return result;
   result.kind = AttributeKind::numbers;

@@ -42,7 +42,7 @@ class File {
 
   struct Description {
     std::string name;
-    Dataset fixed;
+    DatasetHeader fixed;
     std::vector<std::uint64_t> shape, chunk;
     std::vector<std::uint32_t> filters;
   };

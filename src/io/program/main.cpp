@@ -28,11 +28,11 @@ using gale::io::detail::Descriptor;
 using gale::io::detail::move_all;
 
 /// The bytes of a file.
-struct Image {
+struct FileImage {
   const void* data = nullptr;
   std::size_t bytes = 0;
 
-  explicit Image(const char* path) {
+  explicit FileImage(const char* path) {
     const Descriptor descriptor(open(path, O_RDONLY | O_CLOEXEC));
     struct stat status = {};
     if (descriptor < 0 || fstat(descriptor, &status) != 0) throw std::runtime_error(std::strerror(errno));
@@ -177,21 +177,21 @@ void answer(const File& file, std::size_t file_bytes, const std::vector<char>& r
     begin += texts.back().size() + 1;
   }
   texts.resize(3);
-  switch (static_cast<Request>(request[0])) {
-    case Request::group:
+  switch (static_cast<RequestKind>(request[0])) {
+    case RequestKind::group:
       return answer_group(file, texts[0]);
-    case Request::attribute:
+    case RequestKind::attribute:
       return answer_attribute(file, texts[0], texts[1]);
-    case Request::bytes:
+    case RequestKind::bytes:
       return answer_bytes(file, texts[0]);
-    case Request::chunks:
+    case RequestKind::chunks:
       return answer_chunks(file, texts[0], std::stoull(texts[1]), std::stoull(texts[2]), file_bytes);
   }
 }
 
 void serve(const char* path) {
   close_inherited();
-  const Image image(path);
+  const FileImage image(path);
   limit_to(image.bytes);
   confine();
   const File file(image.data, image.bytes);

@@ -14,23 +14,23 @@ namespace {
 constexpr std::uint64_t undefined = ~std::uint64_t(0);
 
 /// Bytes of the file's structure: integers of some bytes each, the least significant first.
-class Bytes {
+class StructureBytes {
  public:
-  Bytes& put(std::uint64_t value, unsigned bytes) {
+  StructureBytes& put(std::uint64_t value, unsigned bytes) {
     for (unsigned k = 0; k < bytes; ++k) bytes_ += static_cast<char>(value >> 8 * k & 0xff);
     return *this;
   }
-  Bytes& put(std::initializer_list<unsigned> bytes) {
+  StructureBytes& put(std::initializer_list<unsigned> bytes) {
     for (const unsigned byte : bytes) put(byte, 1);
     return *this;
   }
-  Bytes& put(const std::string& bytes) {
+  StructureBytes& put(const std::string& bytes) {
     bytes_ += bytes;
     return *this;
   }
 
   /// Puts the checksum of all before, Bob Jenkins' lookup3.
-  Bytes& put_checksum();
+  StructureBytes& put_checksum();
 
   const std::string& all() const { return bytes_; }
 
@@ -38,7 +38,7 @@ class Bytes {
   std::string bytes_;
 };
 
-Bytes& Bytes::put_checksum() {
+StructureBytes& StructureBytes::put_checksum() {
   const auto turned = [](std::uint32_t x, unsigned bits) { return x << bits | x >> (32 - bits); };
   std::uint32_t a, b, c;
   a = b = c = 0xdeadbeef + static_cast<std::uint32_t>(bytes_.size());
@@ -70,7 +70,7 @@ Bytes& Bytes::put_checksum() {
 using Shape = std::vector<std::uint64_t>;
 
 std::string shape_message(const Shape& shape) {
-  Bytes bytes;
+  StructureBytes bytes;
   bytes.put({2, static_cast<unsigned>(shape.size()), 0, 1});
   for (const std::uint64_t n : shape) bytes.put(n, 8);
   return bytes.all();
@@ -80,7 +80,7 @@ std::string shape_message(const Shape& shape) {
 std::string type_message(ValueType type) {
   const auto size = static_cast<unsigned>(size_of(type)), bits = 8 * size;
   const unsigned order = byte_order_of_machine() == ByteOrder::big;
-  Bytes bytes;
+  StructureBytes bytes;
   const bool is_float = type == ValueType::float32 || type == ValueType::float64;
   if (!is_float) {
     const unsigned is_signed = with_type(type, [](auto value) { return std::is_signed_v<decltype(value)>; });
@@ -118,13 +118,13 @@ class Hdf5Writer {
     const std::uint64_t size = size_of(array.type);
     Messages messages{{of_shape, shape_message(shape)},
                       {of_type, type_message(array.type)},
-                      {of_fill_value, Bytes().put({3, 0xb}).all()}};
+                      {of_fill_value, StructureBytes().put({3, 0xb}).all()}};
     Shape chunk = shape;
     chunk[0] = std::clamp<std::uint64_t>(block_bytes / size / components, 1, std::max<std::uint64_t>(1, shape[0]));
     constexpr std::uint64_t worth_a_list = 4096;
     if (can_compress() && array.count * size >= worth_a_list) {
       messages.push_back({of_layout, chunks(array, chunk)});
-      messages.push_back({of_filters, Bytes().put({2, 1}).put(1, 2).put(0, 2).put(1, 2).put(6, 4).all()});
+      messages.push_back({of_filters, StructureBytes().put({2, 1}).put(1, 2).put(0, 2).put(1, 2).put(6, 4).all()});
     } else {
       messages.push_back({of_layout, one_piece(array)});
     }
@@ -135,7 +135,7 @@ class Hdf5Writer {
   using Links = std::vector<std::pair<std::string, Address>>;
 
   Address add_group(const Links& links, const std::vector<std::string>& attributes = {}) {
-    Messages messages{{of_links, Bytes().put({0, 0}).put(undefined, 8).put(undefined, 8).all()},
+    Messages messages{{of_links, StructureBytes().put({0, 0}).put(undefined, 8).put(undefined, 8).all()},
                       {of_group, std::string(2, '\0')}};
     for (const std::string& attribute : attributes) messages.push_back({of_attribute, attribute});
     for (const auto& [name, address] : links) {
@@ -143,7 +143,7 @@ class Hdf5Writer {
       if (name.find('/') != std::string::npos || name == "." || name.size() > most)
         refuse("HDF5 has no array that is called '", name.substr(0, 200), "'");
       constexpr unsigned long_name = 1, of_charset = 1 << 4, utf8 = 1;
-      Bytes bytes;
+      StructureBytes bytes;
       bytes.put({1, long_name | of_charset, utf8}).put(name.size(), 2).put(name).put(address, 8);
       messages.push_back({of_link, bytes.all()});
     }
@@ -152,14 +152,14 @@ class Hdf5Writer {
 
   static std::string attribute(const std::string& name, const std::string& type, const std::string& shape,
                                const std::string& values) {
-    Bytes bytes;
+    StructureBytes bytes;
     bytes.put({3, 0}).put(name.size() + 1, 2).put(type.size(), 2).put(shape.size(), 2).put({0}).put(name).put({0});
     return bytes.put(type).put(shape).put(values).all();
   }
 
   /// To be called at the end, with the group of all.
   void end(Address root) {
-    Bytes bytes;
+    StructureBytes bytes;
     bytes.put("\x89HDF\r\n\x1a\n").put({2, 8, 8, 0}).put(0, 8).put(undefined, 8).put(file_.size(), 8).put(root, 8);
     bytes.put_checksum();
     file_.rewrite(0, bytes.all().data(), bytes.all().size());
@@ -170,14 +170,14 @@ class Hdf5Writer {
   static constexpr std::size_t superblock_bytes = 48;
   using Messages = std::vector<std::pair<Message, std::string>>;
 
-  Address write(const Bytes& bytes) {
+  Address write(const StructureBytes& bytes) {
     const Address at = file_.size();
     file_.write(bytes.all());
     return at;
   }
 
   Address write_header(const Messages& messages) {
-    Bytes inside, header;
+    StructureBytes inside, header;
     for (const auto& [type, bytes] : messages) inside.put(type, 1).put(bytes.size(), 2).put({0}).put(bytes);
     constexpr unsigned size_of_four_bytes = 2;
     header.put("OHDR").put({2, size_of_four_bytes}).put(inside.all().size(), 4).put(inside.all());
@@ -193,7 +193,7 @@ class Hdf5Writer {
       array.copy(begin, end, plain.data());
       file_.write(plain.data(), (end - begin) * size);
     }
-    return Bytes().put({3, 1}).put(array.count == 0 ? undefined : at, 8).put(array.count * size, 8).all();
+    return StructureBytes().put({3, 1}).put(array.count == 0 ? undefined : at, 8).put(array.count * size, 8).all();
   }
 
   /// Writes chunks of that shape, compressed, and where each is; the layout.
@@ -204,7 +204,7 @@ class Hdf5Writer {
     unsigned log2 = 0, page_bits = 10;
     while (block * size >> log2 > 1) ++log2;
     const unsigned size_bytes = 1 + (log2 + 8) / 8;  // as the library has it
-    Bytes list;
+    StructureBytes list;
     std::uint64_t count = 0;
     compress_blocks(array, block, true, [&](std::int64_t, const std::vector<char>& compressed) {
       list.put(file_.size(), 8).put(compressed.size(), size_bytes).put(0, 4);
@@ -215,12 +215,12 @@ class Hdf5Writer {
     constexpr unsigned of_filtered = 1, header_bytes = 28;
     const unsigned entry_bytes = 8 + size_bytes + 4;
     const Address at = file_.size();
-    Bytes header, entries;
+    StructureBytes header, entries;
     header.put("FAHD").put({0, of_filtered, entry_bytes, page_bits}).put(count, 8).put(at + header_bytes, 8);
     write(header.put_checksum());
     write(entries.put("FADB").put({0, of_filtered}).put(at, 8).put(list.all()).put_checksum());
     constexpr unsigned chunked = 2, fixed_array = 3, number_bytes = 8;
-    Bytes layout;
+    StructureBytes layout;
     layout.put({4, chunked, 0, static_cast<unsigned>(chunk.size() + 1), number_bytes});
     for (const std::uint64_t n : chunk) layout.put(n, number_bytes);
     return layout.put(size, number_bytes).put({fixed_array, page_bits}).put(at, 8).all();
@@ -283,16 +283,16 @@ void write_vtkhdf(const AtomicFile& to, const XmlContent& content) {
       links.emplace_back(name->second, file.add_group(cells));
     }
   }
-  const std::string size_of_type = Bytes().put(content.type.size(), 4).all();
+  const std::string size_of_type = StructureBytes().put(content.type.size(), 4).all();
   constexpr unsigned text = 0x13, padded_by_zeros = 1;
   const std::uint64_t version[] = {is_surface ? 2u : 1u, 0};  // surfaces are of the second version
-  Bytes numbers;
+  StructureBytes numbers;
   for (const std::uint64_t n : version) numbers.put(n, 8);
-  const std::string little_int64 = Bytes().put({0x10, 8, 0, 0}).put(8, 4).put(0, 2).put(64, 2).all();
+  const std::string little_int64 = StructureBytes().put({0x10, 8, 0, 0}).put(8, 4).put(0, 2).put(64, 2).all();
   const auto all = file.add_group(
       links, {Hdf5Writer::attribute("Version", little_int64, shape_message({2}), numbers.all()),
-              Hdf5Writer::attribute("Type", Bytes().put({text, padded_by_zeros, 0, 0}).put(size_of_type).all(),
-                                    Bytes().put({2, 0, 0, 0}).all(), content.type)});
+              Hdf5Writer::attribute("Type", StructureBytes().put({text, padded_by_zeros, 0, 0}).put(size_of_type).all(),
+                                    StructureBytes().put({2, 0, 0, 0}).all(), content.type)});
   file.end(file.add_group({{"VTKHDF", all}}));
 }
 

@@ -73,7 +73,7 @@ class CompressedBlocks {
     const std::size_t sizes = header.size();
     header.resize(sizes + blocks_);
     const auto write_header = [&](const auto& write) {
-      const std::vector<char> bytes = encoded(header.data(), header.size() * sizeof(header[0]), encoding);
+      const std::vector<char> bytes = encode_bytes(header.data(), header.size() * sizeof(header[0]), encoding);
       write(bytes.data(), bytes.size());
     };
     const std::uint64_t at = file.size();

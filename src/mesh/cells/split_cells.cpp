@@ -49,7 +49,7 @@ struct CellSplitter {
   KOKKOS_FORCEINLINE_FUNCTION void split(Offset cell, const Emit& emit) const {
     const int type = cells.types(cell);
     const Index* const corners = cells.connectivity.data() + cells.offsets(cell);
-    const GlobalId* const given = ids.extent(0) == 0 ? nullptr : ids.data();  // of none it may not be null
+    const GlobalId* const given = ids.extent(0) == 0 ? nullptr : ids.data();  // data() of no ids may not be null
     const auto at = [corners](int k) { return static_cast<Id>(corners[k]); };
     const auto key = [given](Id vertex) { return given == nullptr ? GlobalId(vertex) : given[vertex]; };
     if constexpr (Corners == 4) {

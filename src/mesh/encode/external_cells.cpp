@@ -26,7 +26,7 @@ struct Runs {
   Array<std::uint64_t, Memory> keys;  ///< the pair_key of a segment and of its run's chunk or piece, by the first cell
   Array<Offset, Memory> begin;        ///< where its cells begin among `cells`
   Array<Id, Memory> count;            ///< how many they are
-  Array<Id, Memory> cells;            ///< those of a run ascend
+  Array<Id, Memory> cells;            ///< run by run, ascending in each
 
   Runs(Offset runs, Offset members)
       : keys(allocate<Array<std::uint64_t, Memory>>("GALE::run_keys", runs)),
@@ -40,7 +40,7 @@ struct Marks {
   std::uint32_t bits[words_of_chunk * most_marked];  ///< word by word, in each by place of the segment
   Id segment[most_marked];                           ///< by place; no_id where there is none
   int place[most_marked];                            ///< of each segment that is there, as they came
-  int begin[most_marked + 1];                        ///< of its cells among the team's, likewise
+  int begin[most_marked + 1];                        ///< where its cells begin among the team's
   int segments;
   bool are_too_many;
   Offset first_run, first_cell;  ///< the team's own among all

@@ -48,7 +48,7 @@ class ExchangePlan {
 
   /// The values that other ranks give: each of these has value_of(place) for what it gives. Collective.
   template <class T, class ValueOf>
-  Dealt<T> fetch(const Ranks& ranks, const ValueOf& value_of) const {
+  EntriesByRank<T> fetch(const Ranks& ranks, const ValueOf& value_of) const {
     Array<T, HostMemory> values;
     if (taken_counts_.empty()) return {{}, {0}};
     together(ranks, [&] {
@@ -61,11 +61,11 @@ class ExchangePlan {
 
   /// Fetches what the others have, from the values of given_places().
   template <class T>
-  Dealt<T> fetch(const Ranks& ranks, const Array<T, HostMemory>& values) const {
-    Dealt<T> taken;
+  EntriesByRank<T> fetch(const Ranks& ranks, const Array<T, HostMemory>& values) const {
+    EntriesByRank<T> taken;
     if (taken_counts_.empty()) return {{}, {0}};
-    together(ranks, [&] { taken = dealt<T>("GALE::taken_values", taken_counts_); });
-    exchange(ranks, Dealt<T>{values, given_.begin}, taken);
+    together(ranks, [&] { taken = room_by_rank<T>("GALE::taken_values", taken_counts_); });
+    exchange(ranks, EntriesByRank<T>{values, given_.begin}, taken);
     return taken;
   }
 
@@ -75,7 +75,7 @@ class ExchangePlan {
   /// Fills to[slot], in the memory of `space`, for each of the slots: with what was fetched, and this rank's own values
   /// from[place], on the host.
   template <class Space, class T>
-  void fill(const Space& space, const T* from, const Dealt<T>& fetched, T* to) const {
+  void fill(const Space& space, const T* from, const EntriesByRank<T>& fetched, T* to) const {
     copy_run(space, from + run_.place, to + run_.slot);
     if constexpr (is_device<Space>) {
       const auto kept = allocate<Array<T, HostMemory>>("GALE::kept_values", kept_places_.extent(0));
@@ -101,7 +101,7 @@ class ExchangePlan {
   /// Fills to[slot] for each of the slots with from[place], all on the host. Collective.
   template <class T>
   void operator()(const Ranks& ranks, const T* from, T* to) const {
-    const Dealt<T> fetched = fetch<T>(ranks, [&](Id place) { return from[place]; });
+    const EntriesByRank<T> fetched = fetch<T>(ranks, [&](Id place) { return from[place]; });
     fill(HostExecutionSpace(), from, fetched, to);
   }
 
@@ -128,7 +128,7 @@ class ExchangePlan {
 
   Run run_;
   Array<Id, HostMemory> kept_slots_, kept_places_;  ///< of other values that this rank has itself
-  Dealt<Id> given_;                                 ///< places, by the rank that takes them
+  EntriesByRank<Id> given_;                         ///< places, by the rank that takes them
   std::vector<std::int64_t> taken_counts_;          ///< by rank; empty where nothing is exchanged
   Array<Id, HostMemory> slots_;                     ///< in the order in which values come
 };
@@ -140,7 +140,8 @@ ExchangePlan::ExchangePlan(const Ranks& ranks, const Run& run, const Array<const
   Array<Id, HostMemory> others;
   together(ranks, [&] {
     const int here = ranks.rank();
-    const ByRank groups = by_rank(2, slots.extent(0), [&](Id i, const auto& visit) { visit(source(i) != here); });
+    const ItemsByRank groups =
+        group_by_rank(2, slots.extent(0), [&](Id i, const auto& visit) { visit(source(i) != here); });
     kept_slots_ = allocate<Array<Id, HostMemory>>("GALE::kept_slots", groups.begin[1]);
     kept_places_ = allocate<Array<Id, HostMemory>>("GALE::kept_places", groups.begin[1]);
     parallel_for("GALE::kept_slots", HostExecutionSpace(), groups.begin[1], [&](Offset k) {
@@ -152,7 +153,7 @@ ExchangePlan::ExchangePlan(const Ranks& ranks, const Run& run, const Array<const
     parallel_for("GALE::wanted_slots", HostExecutionSpace(), others.extent(0),
                  [&](Offset i) { others(i) = groups.members(groups.begin[1] + i); });
   });
-  const auto asked = deal<GlobalId>(
+  const auto asked = collect_by_rank<GlobalId>(
       ranks, "GALE::wanted_values", others.extent(0), [&](Id i) { return source(others(i)); },
       [&](Id i) { return GlobalId(key(others(i))); }, &slots_);
   parallel_for("GALE::wanted_slots", HostExecutionSpace(), slots_.extent(0),
@@ -160,7 +161,7 @@ ExchangePlan::ExchangePlan(const Ranks& ranks, const Run& run, const Array<const
   taken_counts_ = counts_of(asked);
   const auto keys = exchange_packed(ranks, "GALE::wanted_keys", asked);
   together(ranks, [&] {
-    given_ = dealt<Id>("GALE::given_places", counts_of(keys));
+    given_ = room_by_rank<Id>("GALE::given_places", counts_of(keys));
     parallel_for("GALE::given_places", HostExecutionSpace(), keys.count(),
                  [&](Offset i) { given_.entries(i) = place(keys.entries(i)); });
   });

@@ -26,7 +26,7 @@ GALE_EXPORT DistinctIds distinct_ids(const Array<const GlobalId, HostMemory>& id
 /// Sorts ids, and drops those that repeat others. O(n) where they lie densely.
 GALE_EXPORT void keep_distinct(std::vector<GlobalId>& ids);
 
-/// Those that keep_distinct leaves of some ids, in an array with that label.
+/// What keep_distinct leaves of some ids, in an array with that label.
 GALE_EXPORT GlobalIds distinct_of(const std::string& label, std::vector<GlobalId> ids);
 
 /// Finds the places of global ids among some that ascend: by bits, one for each id between the least and the greatest,

@@ -47,7 +47,7 @@ class HomeTable {
       GlobalId id;
       decltype(handed_of(Id())) what;
     };
-    const auto sent = deal<Handed>(
+    const auto sent = collect_by_rank<Handed>(
         ranks, "GALE::handed_entries", ids.extent(0), [&](Id i) { return homes_.of(ids(i)); },
         [&](Id i) {
           return Handed{ids(i), handed_of(i)};

@@ -21,7 +21,7 @@ namespace gale::detail {
 /// Entries by rank, to be sent to it or received from it: those of rank r are entries(begin[r]) to
 /// entries(begin[r + 1] - 1).
 template <class T>
-struct Dealt {
+struct EntriesByRank {
   Array<T, HostMemory> entries;
   std::vector<Offset> begin;
 
@@ -31,8 +31,8 @@ struct Dealt {
 
 /// Room for so many entries by rank.
 template <class T>
-Dealt<T> dealt(const char* label, const std::vector<std::int64_t>& counts) {
-  Dealt<T> all;
+EntriesByRank<T> room_by_rank(const char* label, const std::vector<std::int64_t>& counts) {
+  EntriesByRank<T> all;
   all.begin.assign(counts.size() + 1, 0);
   std::partial_sum(counts.begin(), counts.end(), all.begin.begin() + 1);
   all.entries = allocate<Array<T, HostMemory>>(label, all.count());
@@ -40,7 +40,7 @@ Dealt<T> dealt(const char* label, const std::vector<std::int64_t>& counts) {
 }
 
 template <class T>
-std::vector<std::int64_t> counts_of(const Dealt<T>& some) {
+std::vector<std::int64_t> counts_of(const EntriesByRank<T>& some) {
   std::vector<std::int64_t> counts(some.begin.size() - 1);
   std::adjacent_difference(some.begin.begin() + 1, some.begin.end(), counts.begin());
   return counts;
@@ -48,7 +48,7 @@ std::vector<std::int64_t> counts_of(const Dealt<T>& some) {
 
 /// Sends each rank its entries into the room that it has for them; both know how many there are. Collective.
 template <class T>
-void exchange(const Ranks& ranks, const Dealt<T>& sent, const Dealt<T>& received) {
+void exchange(const Ranks& ranks, const EntriesByRank<T>& sent, const EntriesByRank<T>& received) {
   const auto in_bytes = [](std::vector<Offset> begin) {
     for (Offset& at : begin) at *= static_cast<Offset>(sizeof(T));
     return begin;
@@ -59,10 +59,10 @@ void exchange(const Ranks& ranks, const Dealt<T>& sent, const Dealt<T>& received
 
 /// Sends each rank its entries, and returns what all have sent here. Collective.
 template <class T>
-Dealt<T> exchange(const Ranks& ranks, const char* label, const Dealt<T>& sent) {
+EntriesByRank<T> exchange(const Ranks& ranks, const char* label, const EntriesByRank<T>& sent) {
   const auto counts = ranks.exchange_counts(counts_of(sent));
-  Dealt<T> received;
-  together(ranks, [&] { received = dealt<T>(label, counts); });
+  EntriesByRank<T> received;
+  together(ranks, [&] { received = room_by_rank<T>(label, counts); });
   exchange(ranks, sent, received);
   return received;
 }
@@ -70,7 +70,7 @@ Dealt<T> exchange(const Ranks& ranks, const char* label, const Dealt<T>& sent) {
 /// Exchanges entries in as few bytes as pack_rows makes of them: ids, places and the like that ascend or lie near one
 /// another. A rank's own are copied. Collective.
 template <class T>
-Dealt<T> exchange_packed(const Ranks& ranks, const char* label, const Dealt<T>& sent) {
+EntriesByRank<T> exchange_packed(const Ranks& ranks, const char* label, const EntriesByRank<T>& sent) {
   static_assert(std::has_unique_object_representations_v<T> && sizeof(T) % sizeof(std::uint32_t) == 0,
                 "integers alone, without gaps between them");
   constexpr int width = sizeof(T) / sizeof(std::uint32_t);
@@ -80,7 +80,7 @@ Dealt<T> exchange_packed(const Ranks& ranks, const char* label, const Dealt<T>& 
       if (rank != here) body(static_cast<int>(rank));
     });
   };
-  Dealt<char> packed;
+  EntriesByRank<char> packed;
   together(ranks, [&] {
     std::vector<std::vector<char>> bytes(ranks.size());
     for_each_other(sent.count(), [&](int rank) {
@@ -88,18 +88,18 @@ Dealt<T> exchange_packed(const Ranks& ranks, const char* label, const Dealt<T>& 
     });
     std::vector<std::int64_t> counts;
     for (const auto& some : bytes) counts.push_back(static_cast<std::int64_t>(some.size()));
-    packed = dealt<char>(label, counts);
+    packed = room_by_rank<char>(label, counts);
     for (int rank = 0; rank < ranks.size(); ++rank)
       std::copy(bytes[rank].begin(), bytes[rank].end(), packed.entries.data() + packed.begin[rank]);
   });
-  const Dealt<char> received = exchange(ranks, label, packed);
-  Dealt<T> unpacked;
+  const EntriesByRank<char> received = exchange(ranks, label, packed);
+  EntriesByRank<T> unpacked;
   together(ranks, [&] {
     const auto from = [&](int rank) { return received.entries.data() + received.begin[rank]; };
     std::vector<std::int64_t> counts;
     for (int rank = 0; rank < ranks.size(); ++rank)
       counts.push_back(rank == here ? sent.count(here) : packed_rows(from(rank), received.count(rank)));
-    unpacked = dealt<T>(label, counts);
+    unpacked = room_by_rank<T>(label, counts);
     const auto to = [&](int rank) { return unpacked.entries.data() + unpacked.begin[rank]; };
     std::copy_n(sent.entries.data() + sent.begin[here], sent.count(here), to(here));
     for_each_other(unpacked.count(), [&](int rank) { unpack_rows(from(rank), received.count(rank), width, to(rank)); });
@@ -108,7 +108,7 @@ Dealt<T> exchange_packed(const Ranks& ranks, const char* label, const Dealt<T>& 
 }
 
 /// Items by rank: those of rank r are members(begin[r]) to members(begin[r + 1] - 1), ascending.
-struct ByRank {
+struct ItemsByRank {
   std::vector<Offset> begin;
   Array<Id, HostMemory> members;
 };
@@ -117,7 +117,7 @@ struct ByRank {
 /// time. Unlike group_by it is for few groups of many items: no two threads count in one place, and an item that has
 /// one rank, as most have, is asked once.
 template <class VisitRanks>
-ByRank by_rank(int ranks, Offset items, const VisitRanks& visit_ranks) {
+ItemsByRank group_by_rank(int ranks, Offset items, const VisitRanks& visit_ranks) {
   constexpr std::uint8_t ask_again = 255;
   const auto only_rank = allocate<Array<std::uint8_t, HostMemory>>("GALE::only_rank", items);
   const int parts = threads_for(items);
@@ -135,7 +135,7 @@ ByRank by_rank(int ranks, Offset items, const VisitRanks& visit_ranks) {
     }
     places[part] = std::move(counts);
   });
-  ByRank groups{{0}, {}};
+  ItemsByRank groups{{0}, {}};
   Offset total = 0;
   for (int rank = 0; rank < ranks; ++rank) {
     for (auto& of_part : places) total += std::exchange(of_part[rank], total);
@@ -152,17 +152,17 @@ ByRank by_rank(int ranks, Offset items, const VisitRanks& visit_ranks) {
   return groups;
 }
 
-/// For each rank the entries entry_of(i) of those items i in 0..items-1 whose rank_of(i) it is, ascending. `members`
-/// becomes the items in the order of the entries. Collective.
+/// Collects for each rank the entries entry_of(i) of those items i in 0..items-1 whose rank_of(i) it is, ascending.
+/// `members` becomes the items in the order of the entries. Collective.
 template <class T, class RankOf, class EntryOf>
-Dealt<T> deal(const Ranks& ranks, const char* label, Offset items, const RankOf& rank_of, const EntryOf& entry_of,
-              Array<Id, HostMemory>* members = nullptr) {
-  Dealt<T> sent;
+EntriesByRank<T> collect_by_rank(const Ranks& ranks, const char* label, Offset items, const RankOf& rank_of,
+                                 const EntryOf& entry_of, Array<Id, HostMemory>* members = nullptr) {
+  EntriesByRank<T> sent;
   together(ranks, [&] {
-    const ByRank groups =
-        by_rank(ranks.size(), items, [&](Id i, const auto& visit) { visit(static_cast<int>(rank_of(i))); });
+    const ItemsByRank groups =
+        group_by_rank(ranks.size(), items, [&](Id i, const auto& visit) { visit(static_cast<int>(rank_of(i))); });
     sent = {allocate<Array<T, HostMemory>>(label, items), groups.begin};
-    parallel_for("GALE::deal", HostExecutionSpace(), items,
+    parallel_for("GALE::collect_by_rank", HostExecutionSpace(), items,
                  [&](Offset k) { sent.entries(k) = entry_of(groups.members(k)); });
     if (members != nullptr) *members = groups.members;
   });
@@ -171,8 +171,8 @@ Dealt<T> deal(const Ranks& ranks, const char* label, Offset items, const RankOf&
 
 /// What all ranks have, on the first one; nothing on the others. Collective.
 template <class T>
-Dealt<T> to_first(const Ranks& ranks, const char* label, const std::vector<T>& entries) {
-  Dealt<T> sent;
+EntriesByRank<T> to_first(const Ranks& ranks, const char* label, const std::vector<T>& entries) {
+  EntriesByRank<T> sent;
   together(ranks, [&] {
     sent.entries = Array<T, HostMemory>(const_cast<T*>(entries.data()), entries.size());  // nobody writes to it
     sent.begin.assign(ranks.size() + 1, static_cast<Offset>(entries.size()));
@@ -188,14 +188,15 @@ Array<Answer, HostMemory> ask_for_all(const Ranks& ranks, const char* label, Off
                                       const QuestionOf& question_of, const AnswerAll& answer_all) {
   using Question = std::decay_t<decltype(question_of(Id()))>;
   Array<Id, HostMemory> members;
-  const Dealt<Question> asked = deal<Question>(ranks, "GALE::asked", items, rank_of, question_of, &members);
-  const Dealt<Question> questions = exchange_packed(ranks, "GALE::questions", asked);
-  Dealt<Answer> given;
+  const EntriesByRank<Question> asked =
+      collect_by_rank<Question>(ranks, "GALE::asked", items, rank_of, question_of, &members);
+  const EntriesByRank<Question> questions = exchange_packed(ranks, "GALE::questions", asked);
+  EntriesByRank<Answer> given;
   together(ranks, [&] {
-    given = dealt<Answer>("GALE::answers", counts_of(questions));
+    given = room_by_rank<Answer>("GALE::answers", counts_of(questions));
     answer_all(questions.entries, given.entries);
   });
-  const Dealt<Answer> received = exchange_packed(ranks, "GALE::answered", given);
+  const EntriesByRank<Answer> received = exchange_packed(ranks, "GALE::answered", given);
   Array<Answer, HostMemory> answers;
   together(ranks, [&] {
     answers = allocate<Array<Answer, HostMemory>>(label, items);

@@ -53,7 +53,7 @@ std::vector<char> pack_rows(const void* words, std::int64_t rows, int width) {
   for (int column = 0; column < width; ++column) {
     const char* at = static_cast<const char*>(words) + column * word_bytes;
     std::uint32_t last = 0, difference = 0;
-    std::int64_t more = -1;  // none yet
+    std::int64_t more = -1;  // no difference yet
     for (std::int64_t row = 0; row < rows;) {
       const auto used = static_cast<std::size_t>(to - bytes.data());
       const std::int64_t end = std::min(row + rows_at_once, rows);

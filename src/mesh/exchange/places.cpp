@@ -26,7 +26,7 @@ std::vector<IdCount> counts_of_each(const Array<const std::uint64_t, HostMemory>
 }
 
 /// The different keys that were received, ascending. Mostly each rank's ascend already.
-std::vector<SimplexKey> distinct_keys(const Dealt<SimplexKey>& received) {
+std::vector<SimplexKey> distinct_keys(const EntriesByRank<SimplexKey>& received) {
   const SimplexKey* const from = received.entries.data();
   std::vector<SimplexKey> keys(from, from + received.count());
   bool all_ascend = true;
@@ -70,7 +70,7 @@ KeyPlaces places_of_keys(const Ranks& ranks, const Array<const SimplexKey, HostM
                                                     [&](Offset i) { return -keys(i)[0]; }));
   const GlobalId keys_a_home = greatest / ranks.size() + 1;
   Array<Id, HostMemory> members;
-  const auto sent = deal<SimplexKey>(
+  const auto sent = collect_by_rank<SimplexKey>(
       ranks, "GALE::sent_keys", count, [&](Id i) { return keys(i)[0] / keys_a_home; }, [&](Id i) { return keys(i); },
       &members);
   const auto received = exchange_packed(ranks, "GALE::received_keys", sent);
@@ -80,9 +80,9 @@ KeyPlaces places_of_keys(const Ranks& ranks, const Array<const SimplexKey, HostM
   const GlobalId first = ranks.sum_before(here);
   KeyPlaces found;
   found.count = ranks.sum(here);
-  Dealt<GlobalId> told;
+  EntriesByRank<GlobalId> told;
   together(ranks, [&] {
-    told = dealt<GlobalId>("GALE::told_places", counts_of(received));
+    told = room_by_rank<GlobalId>("GALE::told_places", counts_of(received));
     find_places(received.entries, distinct, first, told.entries);
     found.places = allocate<Array<GlobalId, HostMemory>>("GALE::key_places", count);
   });
@@ -97,18 +97,18 @@ Array<GlobalId, HostMemory> sums_before(const Ranks& ranks, const Array<const Gl
   const Offset here = ids.extent(0);
   const Homes homes(ranks, ids);
   Array<Id, HostMemory> members;
-  const auto sent = deal<IdCount>(
+  const auto sent = collect_by_rank<IdCount>(
       ranks, "GALE::sent_counts", here, [&](Id i) { return homes.of(ids(i)); },
       [&](Id i) {
         return IdCount{ids(i), counts(i)};
       },
       &members);
   const auto received = exchange_packed(ranks, "GALE::received_counts", sent);
-  Dealt<GlobalId> told;
+  EntriesByRank<GlobalId> told;
   Array<GlobalId, HostMemory> sums;
   GlobalId sum = 0;
   together(ranks, [&] {
-    told = dealt<GlobalId>("GALE::told_sums", counts_of(received));
+    told = room_by_rank<GlobalId>("GALE::told_sums", counts_of(received));
     const auto all = allocate<GlobalIds>("GALE::received_ids", received.count());
     parallel_for("GALE::received_ids", HostExecutionSpace(), all.extent(0),
                  [&](Offset i) { all(i) = received.entries(i).id; });
@@ -142,7 +142,7 @@ Array<GlobalId, HostMemory> occurrences(const Ranks& ranks, const Array<const Gl
   });
   const auto received =
       exchange_packed(ranks, "GALE::received_occurrences",
-                      deal<IdCount>(
+                      collect_by_rank<IdCount>(
                           ranks, "GALE::sent_occurrences", static_cast<Offset>(counts.size()),
                           [&](Id i) { return homes.of(counts[i].id); }, [&](Id i) { return counts[i]; }));
   GlobalIndex index;

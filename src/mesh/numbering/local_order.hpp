@@ -43,7 +43,7 @@ class InputIdRanks {
     }
     for (Id first = 0; first < count; first += at_once) {
       Id* const here = ids.data() + first;
-      Lanes low, high, low_ranks = {}, high_ranks = {};
+      IdVector low, high, low_ranks = {}, high_ranks = {};
       std::memcpy(&low, here, sizeof low);
       std::memcpy(&high, here + at_once / 2, sizeof high);
       for (const Id *id = ids_.data(), *const end = id + count_; id < end; ++id) {
@@ -66,7 +66,7 @@ class InputIdRanks {
 
   /// Ids side by side; comparing them gives -1 where it holds. Left to itself the compiler puts neighbours side by
   /// side, and adds up across them: three times as slow.
-  using Lanes = Id __attribute__((vector_size(at_once / 2 * sizeof(Id))));
+  using IdVector = Id __attribute__((vector_size(at_once / 2 * sizeof(Id))));
 
   Id count_ = 0;
   std::vector<Id> ids_;

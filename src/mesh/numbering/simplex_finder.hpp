@@ -203,7 +203,7 @@ class SimplexFinder {
   Id count_ = 0;
   std::vector<Id> corners_, ends_;
   std::array<std::uint32_t, most_bits> joined_;  ///< of each edge, which of those behind it it makes a triangle with
-  std::vector<std::uint64_t> pairs_;             ///< of too many edges for bits: those that make triangles
+  std::vector<std::uint64_t> pairs_;  ///< pairs of edges that make triangles, where there are too many for bits
   LastSeen seen_;
   InputIdRanks ranks_;
 };

@@ -34,7 +34,7 @@ struct BitStarScratch {
   FourIds* list;           ///< there too: those vertices as they came
   std::uint16_t* slot_of;  ///< and their slots
 
-  Id* outside;                    ///< those vertices, ascending
+  Id* outside;                    ///< the vertices outside, ascending
   CornerNumbers* corners;         ///< of each tetrahedron
   std::uint32_t* neighbour_bits;  ///< column of a vertex: the numbers of its neighbours
   std::uint16_t* before;          ///< how many bits are set above each word of neighbour_bits

@@ -128,7 +128,7 @@ class BitStars {
         }
       }
       if (!gathers_) return;
-      team::together([&] {
+      team::reconverge_after([&] {
         vertices_.insert(team_, four, outside,
                          [&](int corner, Id slot) { numbers |= std::uint64_t(rows + slot) << (16 * corner); });
       });

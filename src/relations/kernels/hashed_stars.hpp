@@ -109,7 +109,8 @@ class HashedStars {
   template <class Visit>
   KOKKOS_FORCEINLINE_FUNCTION void for_each_other(Id t, Id vertex, const Visit& visit) const {
     const Id* const all = &request_.mesh.cells(t, 0);
-    for (int i = 0; i < others; ++i) visit(all[i + (all[i] >= vertex ? 1 : 0)], i);  // they ascend: no branch
+    for (int i = 0; i < others; ++i)
+      visit(all[i + (all[i] >= vertex ? 1 : 0)], i);  // cells' vertices ascend: no branch
   }
 
   KOKKOS_FORCEINLINE_FUNCTION void gather_neighbours(Id row, Id* star, Id cells) const {

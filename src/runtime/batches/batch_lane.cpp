@@ -11,48 +11,48 @@ namespace gale::detail {
 namespace {
 
 template <class Memory>
-LaneMemory<Memory> new_memory() {
-  LaneMemory<Memory> memory;
+BatchLaneMemory<Memory> new_memory() {
+  BatchLaneMemory<Memory> memory;
   if constexpr (is_device_memory<Memory>) memory.instance = make_instance();  // on the host there is one for all
   memory.header = allocate<Array<BatchHeader, Memory>>("GALE::batch_header", 1);
   memory.header_copy = PinnedArray<BatchHeader>(1);
   return memory;
 }
 
-/// The memory of lanes that are gone. Large ones aren't kept.
+/// The memory of BatchLanes that are gone, unless it is large.
 template <class Memory>
-class KeptLanes {
+class KeptMemory {
  public:
-  static KeptLanes& instance() {
-    static KeptLanes kept;
-    return kept;
+  static KeptMemory& instance() {
+    static KeptMemory all;
+    return all;
   }
 
-  LaneMemory<Memory> take() {
+  BatchLaneMemory<Memory> take() {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (lanes_.empty()) return new_memory<Memory>();
-    LaneMemory<Memory> memory = std::move(lanes_.back());
-    lanes_.pop_back();
+    if (kept_.empty()) return new_memory<Memory>();
+    BatchLaneMemory<Memory> memory = std::move(kept_.back());
+    kept_.pop_back();
     return memory;
   }
 
-  void give_back(LaneMemory<Memory> memory) {
-    constexpr std::size_t most_lanes = 3, most_bytes = std::size_t(48) << 20;
+  void give_back(BatchLaneMemory<Memory> memory) {
+    constexpr std::size_t most_kept = 3, most_bytes = std::size_t(48) << 20;
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (lanes_.size() >= most_lanes || memory.bytes() > most_bytes) return;
-    if (lanes_.empty() && !hooked_) {
+    if (kept_.size() >= most_kept || memory.bytes() > most_bytes) return;
+    if (kept_.empty() && !hooked_) {
       Kokkos::push_finalize_hook([] {
-        instance().lanes_.clear();
+        instance().kept_.clear();
         instance().hooked_ = false;
       });
       hooked_ = true;
     }
-    lanes_.push_back(std::move(memory));
+    kept_.push_back(std::move(memory));
   }
 
  private:
   std::mutex mutex_;
-  std::vector<LaneMemory<Memory>> lanes_;
+  std::vector<BatchLaneMemory<Memory>> kept_;
   bool hooked_ = false;  ///< to Kokkos' end
 };
 
@@ -62,7 +62,7 @@ template <class Memory>
 BatchLane<Memory>::BatchLane(const Mesh& mesh, std::shared_ptr<Kernels> kernels, Offset words, BatchReader reader)
     : kernels_(std::move(kernels)),
       reader_(reader),
-      memory_(reader == BatchReader::kernels ? KeptLanes<Memory>::instance().take() : new_memory<Memory>()),
+      memory_(reader == BatchReader::kernels ? KeptMemory<Memory>::instance().take() : new_memory<Memory>()),
       is_worth_keeping_(reader == BatchReader::kernels) {
   const auto intervals = interval_tables<Memory>(mesh);
   for (const auto& kernel : *kernels_) {
@@ -77,7 +77,7 @@ template <class Memory>
 BatchLane<Memory>::~BatchLane() {
   if (in_flight_) abandon();
   try {
-    if (is_worth_keeping_) KeptLanes<Memory>::instance().give_back(std::move(memory_));
+    if (is_worth_keeping_) KeptMemory<Memory>::instance().give_back(std::move(memory_));
   } catch (...) {  // there is no memory to note it
   }
 }

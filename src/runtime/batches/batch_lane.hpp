@@ -66,7 +66,7 @@ struct BatchHeader {
 
 /// What a lane makes batches in: an instance, and arrays that grow.
 template <class Memory>
-struct LaneMemory {
+struct BatchLaneMemory {
   typename BatchKernel<Memory>::Space instance;
   Array<BatchHeader, Memory> header;
   PinnedArray<BatchHeader> header_copy;
@@ -145,7 +145,7 @@ class BatchLane {
   const BatchReader reader_;
   Offset relations_ = 0;
   Offset room_ = 0;  ///< words
-  LaneMemory<Memory> memory_;
+  BatchLaneMemory<Memory> memory_;
   SegmentBatches<Memory> batches_;
   BatchPlan plan_;
   LaunchOrder order_;  ///< of the plan's segments; none if it is an interval of which none is large

@@ -14,7 +14,7 @@ namespace gale::detail {
 /// Relations of a whole mesh, on the host, as the explicit structure keeps them.
 struct ExplicitRelations {
   std::array<Csr<const Id, HostMemory, Id>, relation_count>
-      kept;  ///< those wanted; of VT or VF at least the offsets for links
+      kept;  ///< what is wanted; of VT or VF at least the offsets for links
 
   int dimension = 3;  ///< of the mesh
   Array<std::uint8_t, HostMemory> link_places;

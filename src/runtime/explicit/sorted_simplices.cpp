@@ -12,23 +12,23 @@ using SimplexIds = Array<Id, WorkerMemory>;
 using Keys = Array<std::uint64_t, WorkerMemory>;
 
 /// Which of a cell's vertices, or edges, bound its edges or triangles. A value, so that kernels take it along.
-struct Faces {
+struct CellFaces {
   Id per_cell;
   Id length;
   Id at[6][3];
 };
 
-constexpr Faces edge_vertices{6, 2, {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
-constexpr Faces edge_vertices_of_triangle{3, 2, {{0, 1}, {0, 2}, {1, 2}}};
-constexpr Faces triangle_vertices{4, 3, {{0, 1, 2}, {0, 1, 3}, {0, 2, 3}, {1, 2, 3}}};
-constexpr Faces triangle_edges{4, 3, {{0, 1, 3}, {0, 2, 4}, {1, 2, 5}, {3, 4, 5}}};
+constexpr CellFaces edge_vertices{6, 2, {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
+constexpr CellFaces edge_vertices_of_triangle{3, 2, {{0, 1}, {0, 2}, {1, 2}}};
+constexpr CellFaces triangle_vertices{4, 3, {{0, 1, 2}, {0, 1, 3}, {0, 2, 3}, {1, 2, 3}}};
+constexpr CellFaces triangle_edges{4, 3, {{0, 1, 3}, {0, 2, 4}, {1, 2, 5}, {3, 4, 5}}};
 
 /// The vertices of the edges of a cell of so many corners.
-const Faces& edge_vertices_of(Id corners) { return corners == 4 ? edge_vertices : edge_vertices_of_triangle; }
+const CellFaces& edge_vertices_of(Id corners) { return corners == 4 ? edge_vertices : edge_vertices_of_triangle; }
 
 /// A key per place: the first of what bounds its simplex by `high`, and the last by `low`.
-Keys keys_of(const EvenRows<WorkerMemory>& high_rows, const Faces& high, const EvenRows<WorkerMemory>& low_rows,
-             const Faces& low) {
+Keys keys_of(const EvenRows<WorkerMemory>& high_rows, const CellFaces& high, const EvenRows<WorkerMemory>& low_rows,
+             const CellFaces& low) {
   const Offset places = Offset(high.per_cell) * high_rows.rows();
   const auto keys = allocate<Keys>("GALE::simplex_keys", places);
   const auto high_ids = high_rows.entries, low_ids = low_rows.entries;
@@ -83,7 +83,7 @@ EvenRows<WorkerMemory> cell_vertices(const Mesh& mesh) {
 }
 
 SortedSimplices number_edges(const EvenRows<WorkerMemory>& cell_vertices) {
-  const Faces& edges = edge_vertices_of(cell_vertices.length);
+  const CellFaces& edges = edge_vertices_of(cell_vertices.length);
   require_countable(edges.per_cell == 6 ? Relation::TE : Relation::FE, Offset(edges.per_cell) * cell_vertices.rows());
   return number(keys_of(cell_vertices, edges, cell_vertices, edges), edges.per_cell);
 }
@@ -95,9 +95,9 @@ SortedSimplices number_triangles(const EvenRows<WorkerMemory>& tv, const EvenRow
 
 EvenRows<WorkerMemory> faces(Relation relation, const SortedSimplices& simplices,
                              const EvenRows<WorkerMemory>& of_cells) {
-  const Faces faces = relation == Relation::EV   ? edge_vertices_of(of_cells.length)
-                      : relation == Relation::FV ? triangle_vertices
-                                                 : triangle_edges;
+  const CellFaces faces = relation == Relation::EV   ? edge_vertices_of(of_cells.length)
+                          : relation == Relation::FV ? triangle_vertices
+                                                     : triangle_edges;
   const Offset entries = Offset(faces.length) * simplices.count();
   require_countable(relation, entries);
   const auto ids = allocate<SimplexIds>(label_of(relation), entries);
@@ -114,7 +114,7 @@ EvenRows<WorkerMemory> faces(Relation relation, const SortedSimplices& simplices
 }
 
 Array<const Id, HostMemory> segment_begin(const Mesh& mesh, int dimension, const SortedSimplices& simplices) {
-  const Faces faces = dimension == 1 ? edge_vertices_of(mesh.dimension() + 1) : triangle_vertices;
+  const CellFaces faces = dimension == 1 ? edge_vertices_of(mesh.dimension() + 1) : triangle_vertices;
   const auto begin = allocate<SimplexIds>("GALE::segment_begin", Offset(mesh.segments()) + 1);
   const auto any_place = simplices.any_place;
   const Id count = simplices.count();

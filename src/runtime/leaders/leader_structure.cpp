@@ -206,7 +206,7 @@ class LeaderStructure::LeaderSweep : public Sweep {
   }
 
   ~LeaderSweep() override {
-    readers_.clear();  // they tell the leaders what they have read
+    readers_.clear();  // readers tell the leaders what they have read
     if (!runs_ahead_) return;
     for (Leader* const leader : leaders_) leader->end_sweep();
     sweeping_ = false;

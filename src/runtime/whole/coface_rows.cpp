@@ -69,13 +69,13 @@ class FacePart {
   }
 
  private:
-  struct Free {
+  struct FreeIds {
     void operator()(Id* ids) const { std::free(ids); }
   };
 
   const EvenRows<HostMemory>& faces_;
   Offset first_, last_;
-  std::unique_ptr<Id, Free> counts_;
+  std::unique_ptr<Id, FreeIds> counts_;
   Id least_ = std::numeric_limits<Id>::max(), most_ = no_id;  ///< faces that are counted
 };
 

@@ -74,7 +74,7 @@ Relation to_faces(int dimension, int face_dimension) {
 Csr<const Id, HostMemory> relation_of(const Mesh& mesh, Relation relation, Ids ids, const SweepOptions& options) {
   if (options.threads < 1) throw Error("a relation takes at least 1 thread, not " + std::to_string(options.threads));
   require_relations(relation, mesh.dimension());
-  const detail::TrackedViews tracked;  // it lasts, also where a sweep's body asks for it
+  const detail::TrackedViews tracked;  // lasts, also where a sweep's body asks for it
   const ThreadLimit limit(options.threads);
   const int rows = row_dimension(relation), entries = entry_dimension(relation);
   std::array<Array<Id, HostMemory>, 4> own;  // GALE's ids, where these are wanted

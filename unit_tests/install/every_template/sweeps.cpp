@@ -46,7 +46,8 @@ struct UseTeam {
         team, words, [&](int i) { return shared[i]; }, [&](int i, std::uint32_t sum) { shared[i] = sum - i; });
     steps::barrier(team);
     steps::for_warps(team, words, [&](int i) {
-      steps::for_lanes(team, 1, [&](int) { steps::together([&] { steps::add(team, &shared[i], std::uint32_t(1)); }); });
+      steps::for_lanes(team, 1,
+                       [&](int) { steps::reconverge_after([&] { steps::add(team, &shared[i], std::uint32_t(1)); }); });
       steps::warp_barrier(team);
       steps::once_per_warp(team, [&] { steps::raise(team, &shared[i], std::uint32_t(2)); });
     });

@@ -10,8 +10,8 @@
 namespace gale::ttk {
 
 /// Which of its edges, or triangles, each cell is the first to have, when one goes through the cells: bits, eight for a
-/// cell. Their numbers are the places of the bits that are set, so that neither a simplex' number nor its first cell is
-/// stored: 1.5 bytes a cell, and a fourth of a byte a simplex.
+/// cell. Their numbers are the places of the bits that are set, so that neither a simplex's number nor its first cell
+/// is stored: 1.5 bytes a cell, and a fourth of a byte a simplex.
 class GALE_EXPORT FirstMet {
  public:
   /// Begins with so many cells, none of which has any yet.

@@ -79,7 +79,7 @@ struct Reader {
   Found<4> cell_triangles;
   Found<5> cell_neighbours;  ///< the last says how many
 
-  std::shared_ptr<StarRows> stars;  ///< likewise; shared, as users don't have its header
+  std::shared_ptr<StarRows> stars;  ///< made at the first use; shared, as users don't have its header
   BlockBuilder builder;
   StarOrder star;
 };
