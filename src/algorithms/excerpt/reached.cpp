@@ -319,7 +319,7 @@ class Reacher {
   Id tell_edge(FoundFor& found, Id high, Id low) {
     Id third = no_id;
     if (mesh_.dimension() == 3) {
-      const EdgePairRow row = gradient_.store().pairs()[high];
+      const PairedEdges row = gradient_.store().pairs()[high];
       third = row.third(row.find(low));
     }
     if (third == no_id) third = vertex_successor_[high] == low ? edge_has_vertex : edge_is_critical;

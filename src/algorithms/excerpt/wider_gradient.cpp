@@ -127,7 +127,7 @@ void WiderGradient::fill_rows(const Reached& reached, const Array<Id, HostMemory
     first = end;
   }
   for (const auto& [edge, third] : paired) {
-    EdgePairRow row = pairs_[pair_first(edge)];
+    EdgePairRow row = pairs_.row(pair_first(edge));
     row.pair(row.find(pair_second(edge)), row.find(third));
   }
 }

@@ -111,7 +111,7 @@ Id DiscreteGradient::triangle_of_lower_edge(Id high, Id low) const {
     });
     return third;
   }
-  const detail::EdgePairRow row = store_->pairs()[high];
+  const detail::PairedEdges row = store_->pairs()[high];
   const Id place = row.find(low);
   return place == no_id ? no_id : row.third(place);  // excerpts have rows without edges
 }
@@ -123,11 +123,7 @@ void DiscreteGradient::for_each_edge_pair(Id high, const std::function<void(Id l
       return false;
     });
   }
-  const detail::EdgePairRow row = store_->pairs()[high];
-  for (Id i = 0; i < row.size(); ++i) {
-    const Id third = row.third(i);
-    if (third != no_id) visit(row.ids()[i], third);
-  }
+  store_->pairs()[high].for_each_pair(visit);
 }
 
 Partner DiscreteGradient::pair_of_vertex(Id vertex) const {

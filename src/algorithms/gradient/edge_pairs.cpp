@@ -15,15 +15,18 @@ EdgePairs::EdgePairs(const Array<const Id, HostMemory>& words, const Array<const
   if (consumers == 0) return;
   const auto rows = allocate<Array<EdgePairRow, HostMemory>>("GALE::edge_pair_rows", begin.extent(0));
   parallel_for("GALE::edge_pair_rows", HostExecutionSpace(), begin.extent(0),
-               [&](Offset v) { rows(v) = (*this)[static_cast<Id>(v)]; });
+               [&](Offset v) { rows(v) = row(static_cast<Id>(v)); });
   rows_ = rows;
   begin_ = {};
 }
 
 EdgePairs::EdgePairs(const EdgePairs& some, Interval owned, Id vertices) : EdgePairs(vertices, 1) {
   static Id no_edges = 0;
+  codes_ = some.codes_;
+  coded_ = owned;
   parallel_for("GALE::edge_pair_rows", HostExecutionSpace(), vertices, [&](Offset v) {
-    rows_(v) = owned.has(static_cast<Id>(v)) ? some[static_cast<Id>(v)] : EdgePairRow(&no_edges);
+    if (is_coded(static_cast<Id>(v))) return;
+    rows_(v) = owned.has(static_cast<Id>(v)) ? some.row(static_cast<Id>(v)) : EdgePairRow(&no_edges);
   });
 }
 
@@ -50,7 +53,7 @@ std::size_t EdgePairs::bytes() const {
   for (const Pool& pool : pools_) {
     for (const auto& chunk : pool.chunks) words += chunk.extent(0);
   }
-  return words * sizeof(Id) + rows_.extent(0) * sizeof(EdgePairRow);
+  return words * sizeof(Id) + rows_.extent(0) * sizeof(EdgePairRow) + (codes_ == nullptr ? 0 : codes_->bytes());
 }
 
 }  // namespace gale::detail

@@ -2,8 +2,11 @@
 
 #include <cstdint>
 #include <deque>
+#include <memory>
+#include <utility>
 #include <vector>
 
+#include <gale/algorithms/gradient/grid_codes.hpp>
 #include <gale/base/memory.hpp>
 #include <gale/base/types.hpp>
 #include <gale/export.hpp>
@@ -40,9 +43,14 @@ class EdgePairRow {
     return no_id;
   }
 
-  /// Third vertex of the triangle that the i-th edge is paired with; no_id if it is with none.
+  /// Third vertex of the triangle that the i-th edge is paired with, by its place; no_id if it is with none.
+  KOKKOS_FUNCTION Id place_of_third(Id i) const {
+    return is_narrow(size()) ? narrow()[i] == narrow_none ? no_id : narrow()[i] : wide()[i];
+  }
+
+  /// That vertex itself.
   KOKKOS_FUNCTION Id third(Id i) const {
-    const Id place = is_narrow(size()) ? narrow()[i] == narrow_none ? no_id : narrow()[i] : wide()[i];
+    const Id place = place_of_third(i);
     return place == no_id ? no_id : ids()[place];
   }
 
@@ -73,6 +81,46 @@ class EdgePairRow {
   Id* words_ = nullptr;
 };
 
+/// What a row says, to be read: one of words, or a vertex's code in a grid.
+class PairedEdges {
+ public:
+  PairedEdges(EdgePairRow row) : row_(row) {}
+  PairedEdges(const GridCodes& codes, Id vertex) : codes_(&codes), code_(codes[vertex]), vertex_(vertex) {}
+
+  /// What third() knows a lower end by; no_id if it isn't one.
+  Id find(Id low) const {
+    if (codes_ == nullptr) return row_.find(low);
+    const int direction = codes_->direction(low - vertex_);
+    return direction < 0 || code_[direction] == PairCode::not_lower ? no_id : direction;
+  }
+
+  /// Third vertex of the triangle that the edge to it is paired with; no_id if it is with none.
+  Id third(Id place) const {
+    if (codes_ == nullptr) return row_.third(place);
+    const int direction = code_[place];
+    return direction >= PairCode::unpaired ? no_id : vertex_ + codes_->step(direction);
+  }
+
+  /// Calls visit(low, third) for each edge that is paired with a triangle, by ascending lower ends.
+  template <class Visit>
+  void for_each_pair(const Visit& visit) const {
+    const auto visit_paired = [&](Id place, Id low) {
+      if (third(place) != no_id) visit(low, third(place));
+    };
+    if (codes_ == nullptr) {
+      for (Id i = 0; i < row_.size(); ++i) visit_paired(i, row_.ids()[i]);
+    } else {
+      for (int d = 0; d < grid_directions; ++d) visit_paired(d, vertex_ + codes_->step(d));
+    }
+  }
+
+ private:
+  EdgePairRow row_;
+  const GridCodes* codes_ = nullptr;
+  PairCode code_{};
+  Id vertex_ = no_id;
+};
+
 /// The rows of all vertices. Each consumer of a sweep takes the memory of its rows from chunks of its own, so that
 /// nobody waits.
 class GALE_EXPORT EdgePairs {
@@ -84,6 +132,9 @@ class GALE_EXPORT EdgePairs {
   /// begin rows anew; without any, rows are only read.
   EdgePairs(const Array<const Id, HostMemory>& words, const Array<const Offset, HostMemory>& begin, int consumers);
 
+  /// Takes the codes of a grid, to be read.
+  EdgePairs(std::shared_ptr<const GridCodes> codes, Interval owned) : codes_(std::move(codes)), coded_(owned) {}
+
   /// Rows for so many vertices: of those that are owned the rows of `some`, which must live as long. Those of others
   /// are to be begun, by one consumer, and have no edges before that.
   EdgePairs(const EdgePairs& some, Interval owned, Id vertices);
@@ -91,16 +142,25 @@ class GALE_EXPORT EdgePairs {
   /// A row for a vertex, to be filled. A consumer may begin rows while others do; each vertex once.
   EdgePairRow begin(int consumer, Id vertex, Id count);
 
-  EdgePairRow operator[](Id vertex) const {
+  PairedEdges operator[](Id vertex) const {
+    if (is_coded(vertex)) return {*codes_, vertex};
+    return row(vertex);
+  }
+
+  /// The row of a vertex that has words.
+  EdgePairRow row(Id vertex) const {
     if (rows_.data() != nullptr) return rows_(vertex);
     return EdgePairRow(const_cast<Id*>(made_elsewhere_.data()) + begin_(vertex));  // nobody writes to these
   }
 
   /// Has the row of a vertex that is soon to be read brought near: first where it is, some time later itself.
   void prefetch_place(Id vertex) const {
+    if (is_coded(vertex)) return;
     __builtin_prefetch(rows_.data() != nullptr ? static_cast<const void*>(&rows_(vertex)) : &begin_(vertex));
   }
-  void prefetch(Id vertex) const { __builtin_prefetch((*this)[vertex].ids()); }
+  void prefetch(Id vertex) const {
+    __builtin_prefetch(is_coded(vertex) ? static_cast<const void*>(codes_->place(vertex)) : row(vertex).ids());
+  }
 
   std::size_t bytes() const;
 
@@ -111,10 +171,14 @@ class GALE_EXPORT EdgePairs {
     Id* end = nullptr;
   };
 
+  bool is_coded(Id vertex) const { return codes_ != nullptr && coded_.has(vertex); }
+
   Array<EdgePairRow, HostMemory> rows_;  ///< of each vertex; none where all were made elsewhere
   Array<const Id, HostMemory> made_elsewhere_;
   Array<const Offset, HostMemory> begin_;  ///< of each vertex there
   std::vector<Pool> pools_;
+  std::shared_ptr<const GridCodes> codes_;  ///< of a grid, where these stand for words
+  Interval coded_;                          ///< the vertices that have codes
 };
 
 }  // namespace gale::detail

@@ -41,6 +41,35 @@ std::array<Id, 3> written_facet(const OtherIds& vertex_input, const std::array<I
   return {edge[0], edge[1], no_id};
 }
 
+/// The row of each vertex that kernels found.
+template <class Memory>
+struct FoundRows {
+  Array<const Id, Memory> words;
+  Array<const Offset, Memory> begin;
+
+  KOKKOS_FUNCTION EdgePairRow operator()(Id vertex) const {
+    return EdgePairRow(const_cast<Id*>(words.data()) + begin(vertex));  // nobody writes to these
+  }
+};
+
+/// The codes of a grid's rows, which are a sixth of these to bring to the host.
+template <class Space>
+Array<const std::uint64_t, HostMemory> encoded_rows(const Space& space, const GradientStore& store) {
+  using Memory = MemoryOf<Space>;
+  const Mesh& mesh = store.mesh;
+  const Interval owned = mesh.owned_vertices();
+  const EncodeRows<Memory, FoundRows<Memory>> encode{
+      mesh.grid()->in<Memory>(),
+      mesh.grid()->kinds_in<Memory>(),
+      store.order.keys_in<Memory>().data(),
+      owned,
+      {store.pair_words().in<Memory>(), store.pairs_begin().in<Memory>()},
+      allocate<Array<std::uint64_t, Memory>>("GALE::pair_codes", mesh.vertices())};
+  parallel_for("GALE::encode_rows", space, owned.size(), encode);
+  space.fence();
+  return on_host(encode.codes);
+}
+
 }  // namespace
 
 GradientStore::GradientStore(const Mesh& mesh_, const VertexOrder& order_, int consumers)
@@ -99,7 +128,11 @@ std::shared_ptr<GradientStore> GradientStore::on_host(const VertexOrder& order, 
 
 const EdgePairs& GradientStore::pairs() const {
   pairs_are_here_([this] {
-    if (is_from_kernels()) {
+    if (is_from_kernels() && mesh.grid() != nullptr && mesh.grid()->is_whole()) {
+      const auto codes = in_worker_or_host_space(pair_words_.on_device(),
+                                                 [this](const auto& space) { return encoded_rows(space, *this); });
+      pairs_ = EdgePairs(std::make_shared<GridCodes>(mesh.grid()->in<HostMemory>(), codes), mesh.owned_vertices());
+    } else if (is_from_kernels()) {
       pairs_ = EdgePairs(pair_words_.in<HostMemory>(), pairs_begin_.in<HostMemory>(), 0);
     } else if (mesh.dimension() == 3) {
       pairs_ = EdgePairs(EdgePairs(), {}, mesh.vertices());

@@ -136,7 +136,7 @@ Id DescendingWall::third_of(Id high, Id low) const {
     const Id* const turned = turned_->find(high, low);
     if (turned != nullptr) return *turned;
   }
-  const EdgePairRow row = ground_.pairs[high];
+  const PairedEdges row = ground_.pairs[high];
   const Id place = row.find(low);
   if (place == no_id) return TurnedEdges::with_vertex;  // of an edge of another rank, which tells no such edges
   const Id third = row.third(place);

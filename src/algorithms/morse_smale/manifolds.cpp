@@ -75,7 +75,7 @@ struct EndOfVertex {
   Array<const Id, Memory> ends;    ///< of each simplex, see jump()
   Array<const Id, Memory> names;   ///< of places of ends; none: the places
   OtherIds input;
-  Array<Id, Memory> manifolds;     ///< which may be `ends` of a grid's vertices
+  Array<Id, Memory> manifolds;  ///< which may be `ends` of a grid's vertices
 
   KOKKOS_FUNCTION void operator()(Id v) const {
     const Id start = starts.extent(0) == 0 ? v : starts(v);

@@ -130,7 +130,7 @@ class EdgeChain {
   /// Replaces the edges from `high` to `lows_` by critical ones, `critical_`, and by edges of lower stars.
   void cross_star(Id high) {
     critical_.clear();
-    const EdgePairRow row = pairs_[high];
+    const PairedEdges row = pairs_[high];
     for (Id low : lows_) {
       Id third;
       while ((third = row.third(row.find(low))) != no_id) {
