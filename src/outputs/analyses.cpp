@@ -2,6 +2,7 @@
 #include <utility>
 
 #include <gale/base/error.hpp>
+#include <gale/io/bytes/text.hpp>
 #include <gale/outputs/analyses.hpp>
 #include <gale/outputs/arrows.hpp>
 #include <gale/outputs/critical_points.hpp>
@@ -303,9 +304,8 @@ std::map<std::string, Outcome> Analysis::run(const AnalysisInput& input, Setting
   for (const auto& [given, chosen] : settings.choices) {
     const auto& choices = require(given, Kind::choice).choices;
     if (std::find(choices.begin(), choices.end(), chosen) != choices.end()) continue;
-    std::string list;
-    for (const std::string& choice : choices) list += (list.empty() ? "" : ", ") + choice;
-    throw Error(name + "'s option '" + given + "' is one of " + list + ", not '" + chosen + "'");
+    throw Error(name + "'s option '" + given + "' is one of " + io::detail::joined(choices, ", ") + ", not '" + chosen +
+                "'");
   }
   for (const auto& [given, number] : settings.numbers) {
     require(given, Kind::number);
