@@ -86,24 +86,23 @@ class FindMorseSmale final : public AnalysisCommand {
       add_flag(part.option, parts_.*part.is_wanted);
     add_persistence(subcommand(), persistence_, analysis_.option("persistence").help);
     add_flag("extrema_only", extrema_only_);
-    add_file("--render", render_,
-             "Draw the complex to this .png: an octant cut out of the segmented mesh, and there the 1-separatrices",
-             {".png"})
-        ->type_name("FILE.png");
+    add_render(render_,
+               "Draw the complex to this {}: an octant cut out of the segmented mesh, and there the 1-separatrices");
   }
 
  private:
   /// Names the files for the parts that are wanted, none without -o.
   ComplexFiles files() const {
     if (output_.empty()) return {};
-    const auto name = [&](bool is_wanted, const char* what, const char* extension) {
-      return is_wanted ? with_extension(output_ + what, extension) : "";
+    const auto name = [&](bool is_wanted, const char* what, unsigned written) {
+      return is_wanted ? with_extension(output_ + what, written) : "";
     };
-    return {name(true, "_critical_points", "vtp"),
+    return {name(true, "_critical_points", io::written_points),
             name(parts_.descending_separatrices || parts_.ascending_separatrices || parts_.saddle_connectors,
-                 "_separatrices1", "vtp"),
-            name(parts_.separatrices2, "_separatrices2", "vtp"),
-            name(parts_.descending_manifolds || parts_.ascending_manifolds, "_segmentation", "vtu")};
+                 "_separatrices1", io::written_surfaces),
+            name(parts_.separatrices2, "_separatrices2", io::written_surfaces),
+            name(parts_.descending_manifolds || parts_.ascending_manifolds, "_segmentation",
+                 io::written_meshes | io::written_pieces)};
   }
 
   std::vector<std::string> more_files() const override {

@@ -52,9 +52,9 @@ void tell(const Tracks& tracks, Session& session) {
 class TrackExtrema final : public AnalysisCommand {
  public:
   explicit TrackExtrema(CLI::App& app) : AnalysisCommand(app, description()) {
-    add_file("-o,--output", output_, "Write a line through time for each track, merge and split: .vtp or .vtkhdf",
-             {".vtp", ".vtkhdf"});
-    add_file("--table", table_, "Write how each track begins and ends: .csv or .npz", {".csv", ".npz"});
+    add_file("-o,--output", output_, "Write a line through time for each track, merge and split: {}",
+             io::written_surfaces);
+    add_file("--table", table_, "Write how each track begins and ends: {}", io::written_tables);
     add_persistence(subcommand(), persistence_, description().option("persistence").help);
     subcommand()
         .add_option_function<std::string>(
