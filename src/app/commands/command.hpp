@@ -149,7 +149,7 @@ std::unique_ptr<Command> add_track(CLI::App& app);
 std::unique_ptr<Command> add_relations(CLI::App& app);
 std::unique_ptr<Command> add_generate(CLI::App& app);
 
-/// The analyses, their options and results (outputs/analyses.hpp), as JSON.
+/// The analyses and tracking, their options and results (outputs/analyses.hpp), as JSON.
 std::string analyses_as_json();
 
 /// The table of all subcommands, in the order of the help.
