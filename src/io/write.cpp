@@ -48,14 +48,9 @@ void check_cells(std::size_t points, const Surface::Cells& cells) {
 void require_format(const std::string& path, unsigned bits, const char* what) {
   const Format* const format = format_of(path);
   if (format != nullptr && format->takes(bits)) return;
-  std::string rule;
-  for (const Format& other : formats()) {
-    if (!other.takes(bits)) continue;
-    for (const std::string& extension : detail::words_of(other.extensions))
-      rule += (rule.empty() ? "" : " nor ") + extension;
-  }
-  const bool several = rule.find(' ') != std::string::npos;
-  refuse("cannot write ", what, " to '", path, "': its extension is ", several ? "neither " : "not ", rule);
+  const auto all = detail::words_of(extensions_of([bits](const Format& other) { return other.takes(bits); }));
+  refuse("cannot write ", what, " to '", path, "': its extension is ", all.size() > 1 ? "neither " : "not ",
+         detail::joined(all, " nor "));
 }
 
 /// Runs `write`; names `path` in whatever goes wrong.
