@@ -20,7 +20,7 @@ gale_public(runtime computation consumer device_sweep graph_of make_structure re
 gale_public(algorithms critical_points critical_simplices discrete_gradient gathered_gradient merge_tree morse_smale persistence separatrices
   simplex_numbers simplify simplify_field surface_vertices tracking vertex_order)
 gale_public(outputs analyses arrows critical_points critical_simplices excerpt field manifolds merge_tree mesh_piece morse_smale named_simplices persistence
-  segmentation separatrices1 separatrices2 simplified_field table tracks)
+  segmentation separatrices1 separatrices2 simplified_field tracks)
 gale_public(io atomic_file dataset formats image read synthetic write)
 if(GALE_ENABLE_MPI)
   gale_public(distributed communicator distributed_mesh grid_layers mesh_part)

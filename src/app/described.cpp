@@ -4,11 +4,14 @@
 #include <CLI/CLI.hpp>
 
 #include <gale/app/described.hpp>
+#include <gale/io/bytes/text.hpp>
 #include <gale/version.hpp>
 
 namespace gale::app {
 
 namespace {
+
+using io::detail::joined;
 
 /// An option or a positional argument, as it is typed.
 struct Described {
@@ -44,12 +47,6 @@ std::vector<Described> options_of(const CLI::App& app) {
 
 std::vector<const CLI::App*> commands_of(const CLI::App& app) {
   return app.get_subcommands([](const CLI::App*) { return true; });
-}
-
-std::string joined(const std::vector<std::string>& words, const char* separator) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : separator) + word;
-  return text;
 }
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {

@@ -24,11 +24,13 @@
 #include <gale/base/memory.hpp>
 #include <gale/base/threads.hpp>
 #include <gale/io/atomic_file.hpp>
+#include <gale/io/bytes/text.hpp>
 
 namespace {
 
 using gale::app::Command;
 using gale::app::UsageError;
+using gale::io::detail::joined;
 
 enum ExitCode { done = 0, failed = 1, wrong_usage = 2 };
 
@@ -107,13 +109,8 @@ void prepare_for_the_end() {
 /// The answer to --version.
 std::string what_this_is() {
   const gale::Configuration is = gale::configuration();
-  const auto list = [](const std::vector<std::string>& names) {
-    std::string text;
-    for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-    return text;
-  };
   return "gale " + is.version + "\ncommit " + (is.commit.empty() ? "unknown" : is.commit) + "\nKokkos " + is.kokkos +
-         ": " + list(is.backends) + "\nwith " + list(is.options) + "\nby " + is.compiler;
+         ": " + joined(is.backends, ", ") + "\nwith " + joined(is.options, ", ") + "\nby " + is.compiler;
 }
 
 std::string commands_of(const CLI::App& app) {

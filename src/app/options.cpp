@@ -190,7 +190,7 @@ void CommonOptions::add_encoding_to(CLI::App& command) {
 }
 
 void CommonOptions::add_format_to(CLI::App& command) {
-  add_choice(command, is_vtkhdf, "--format", {{"xml", false}, {"vtkhdf", true}},
+  add_choice(command, extension, "--format", {{"xml", ""}, {"vtkhdf", ".vtkhdf"}},
              "Write .vtp and .vtu (xml, default), or each as .vtkhdf, whose surfaces VTK 9.3 or later reads");
 }
 

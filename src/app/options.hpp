@@ -65,7 +65,7 @@ struct CommonOptions {
   std::string report;          ///< a file's name, or empty
   bool quiet = false;
   io::Encoding encoding = io::Encoding::appended;  ///< --encoding
-  bool is_vtkhdf = false;                          ///< --format
+  std::string extension;                           ///< --format: that of all its files, or empty
 
   void add_to(CLI::App& command);
 

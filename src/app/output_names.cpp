@@ -9,7 +9,6 @@
 #include <gale/app/options.hpp>
 #include <gale/app/output_names.hpp>
 #include <gale/app/ranks/ranks.hpp>
-#include <gale/io/bytes/text.hpp>
 #include <gale/io/formats.hpp>
 
 namespace gale::app {
@@ -30,9 +29,6 @@ std::pair<dev_t, ino_t> identity_of(const std::string& path) {
   struct stat status;
   return stat(path.c_str(), &status) == 0 ? std::pair(status.st_dev, status.st_ino) : std::pair(dev_t(0), ino_t(0));
 }
-
-/// Whether it is a .pvtu.
-bool is_mesh(const std::string& path) { return !path.empty() && (path.back() == 'u' || path.back() == 'U'); }
 
 }  // namespace
 
@@ -58,18 +54,17 @@ std::string name_of_step(const std::string& path, std::size_t step) {
 }
 
 std::string name_of_series(const std::string& path) {
-  if (io::detail::lower_case(fs::path(path).extension().string()) == ".vtkhdf") return path + ".series";
   const io::Format* const format = io::format_of(path);
-  return format != nullptr && format->takes(io::written_steps) ? fs::path(path).replace_extension(".pvd").string() : "";
+  return format != nullptr && format->series != nullptr ? format->series(path) : "";
 }
 
 bool has_pieces(const std::string& path) {
-  const std::string extension = io::detail::lower_case(fs::path(path).extension().string());
-  return Launch::are_several() && (extension == ".pvtp" || extension == ".pvtu");
+  const io::Format* const format = io::format_of(path);
+  return Launch::are_several() && format != nullptr && format->pieces != nullptr;
 }
 
 std::string piece_of(const std::string& path, int rank) {
-  return fs::path(path).replace_extension().string() + '_' + std::to_string(rank) + (is_mesh(path) ? ".vtu" : ".vtp");
+  return fs::path(path).replace_extension().string() + '_' + std::to_string(rank) + io::format_of(path)->pieces;
 }
 
 }  // namespace gale::app

@@ -14,14 +14,14 @@ void require_distinct(const std::vector<std::string>& files, const std::vector<s
 /// NAME_0012.vtp for the step 12 of NAME.vtp.
 std::string name_of_step(const std::string& path, std::size_t step);
 
-/// NAME.pvd for NAME.vtp and its like, NAME.vtkhdf.series for NAME.vtkhdf: the file that names those of all steps;
-/// empty for other formats.
+/// NAME.pvd for NAME.vtp and its like, NAME.vtkhdf.series for NAME.vtkhdf: the file that names those of all steps, as
+/// the format says; empty for others.
 std::string name_of_series(const std::string& path);
 
 /// Whether it is a file that names pieces, one of each rank; others the first rank writes.
 bool has_pieces(const std::string& path);
 
-/// NAME_RANK.vtp for NAME.pvtp, NAME_RANK.vtu for NAME.pvtu.
+/// NAME_RANK.vtp for NAME.pvtp, NAME_RANK.vtu for NAME.pvtu: for a file that `has_pieces`.
 std::string piece_of(const std::string& path, int rank);
 
 }  // namespace gale::app

@@ -7,8 +7,7 @@
 #include <gale/app/report.hpp>
 #include <gale/base/device.hpp>
 #include <gale/base/kokkos.hpp>
-#include <gale/io/bytes/text.hpp>
-#include <gale/outputs/table.hpp>
+#include <gale/io/formats.hpp>
 #include <gale/version.hpp>
 
 namespace gale::app {
@@ -149,9 +148,8 @@ void write_text(const io::AtomicFile& file, const std::function<void(std::ostrea
 }
 
 void write_table(const io::AtomicFile& file, const std::vector<io::PointArray>& columns) {
-  const bool is_binary = io::detail::has_extension(file.path(), ".npz");
-  write_text(file,
-             [&](std::ostream& out) { out << (is_binary ? outputs::to_npz(columns) : outputs::to_csv(columns)); });
+  const auto write = std::get<io::detail::TableWriter*>(io::format_of(file.path())->writer);
+  write_text(file, [&](std::ostream& out) { out << write(columns); });
 }
 
 void write_report(const io::AtomicFile& file, const Report& report) {

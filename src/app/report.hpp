@@ -69,7 +69,7 @@ void report_structure(const Structure& structure, Report& report);
 /// reason, as soon as something can't be written; whatever `write` throws, too.
 void write_text(const io::AtomicFile& file, const std::function<void(std::ostream&)>& write);
 
-/// Writes a table to the temporary of `file`, as .npz or .csv by its extension. Throws gale::Error, naming the file.
+/// Writes a table to the temporary of `file`, in the format of its extension. Throws gale::Error, naming the file.
 void write_table(const io::AtomicFile& file, const std::vector<io::PointArray>& columns);
 
 /// Writes the report to the temporary of `file`. Throws gale::Error, naming the file.

@@ -11,9 +11,13 @@
 #include <gale/io/read.hpp>
 
 namespace gale::io {
+
+class AtomicFile;
+
 namespace detail {
 
 class InputFile;
+struct XmlContent;
 
 /// A mesh, or an image whose `select_scalars` and `split_voxels` are still to come.
 using Content = std::variant<Dataset, Image>;
@@ -25,14 +29,26 @@ using Reader = Content(const InputFile& file, const ReadOptions& options);
 /// Finds the steps that a file is: one for each of its times, or each file that it names. Trusts and throws likewise.
 using StepsReader = std::vector<Step>(const InputFile& file, const ReadOptions& options);
 
+/// Writers of a format: of what VTK's XML says as of anything that has sections of arrays; of meshes alone; of the
+/// names of a series' files; of tables, whose bytes they return. They write to the temporary file of `to`, and throw
+/// gale::Error without the path.
+using ContentWriter = void(const AtomicFile& to, const XmlContent& content);
+using MeshWriter = void(const AtomicFile& to, const Dataset& mesh, const std::vector<PointArray>& more);
+using SeriesWriter = void(const AtomicFile& to, const std::vector<Step>& steps);
+using TableWriter = std::string(const std::vector<PointArray>& columns);
+using Writer = std::variant<ContentWriter*, MeshWriter*, SeriesWriter*, TableWriter*>;
+
+/// What a file is called that names, with their times, those that stand for `path`, one a step.
+using SeriesName = std::string(const std::string& path);
+
 }  // namespace detail
 
 /// The kinds of inputs that files of a format are read as.
 enum class Input { none, mesh, volume, series };
 
 /// The kinds of results that are written to files of a format, each a bit: points alone, lines and polygons, lines
-/// alone, meshes, pieces of meshes with their global ids, meshes of triangles alone, and results of several times, of
-/// which each may be such a file or not.
+/// alone, meshes, pieces of meshes with their global ids, meshes of triangles alone, arrows as points, the names of a
+/// series' files, columns of numbers, and what the command draws.
 enum Written : unsigned {
   written_points = 1,
   written_surfaces = 2,
@@ -40,24 +56,29 @@ enum Written : unsigned {
   written_meshes = 8,
   written_pieces = 16,
   written_triangles = 32,
-  written_series = 64,
-  written_steps = 128
+  written_arrows = 64,
+  written_series = 128,
+  written_tables = 256,
+  written_pictures = 512
 };
 
 /// A format of files that are read or written.
 struct Format {
   const char* name;        ///< e.g. "Exodus II"
-  const char* extensions;  ///< in lower case, separated by spaces; they count in either case
+  const char* extensions;  ///< in lower case, separated by spaces; they count in either case; results have the last
   Input input;             ///< what its files are read as
-  unsigned written;        ///< bits of `Written`; 0 if none are
-  bool of_pieces;          ///< its files name others, which have what is written
   const char* about;       ///< what of its files is read, or nothing, for the documentation
   detail::Reader* reader;  ///< nullptr where none are read
 
   detail::StepsReader* steps = nullptr;  ///< nullptr where a file is one step
 
+  unsigned written = 0;                  ///< bits of `Written`; 0 if none are
+  detail::Writer writer = {};            ///< holds nullptr where pieces have what is written, and of pictures
+  detail::SeriesName* series = nullptr;  ///< what names its files of several steps; nullptr: nothing
+  const char* pieces = nullptr;          ///< the extension of files that its own name, which have what is written
+
   /// Whether any of that, bits of `Written`, is written to its files, not to others that they name.
-  bool takes(unsigned what) const { return (written & what) != 0 && !of_pieces; }
+  bool takes(unsigned what) const { return (written & what) != 0 && pieces == nullptr; }
 };
 
 /// All formats: what is read and written by its extension, what help and documentation say of it.
@@ -71,6 +92,10 @@ GALE_EXPORT std::string extensions_of(const std::function<bool(const Format& for
 
 /// The extensions of files that are read as `input`, separated by spaces.
 GALE_EXPORT std::string extensions_of(Input input);
+
+/// The extensions that results of these kinds, bits of `Written`, may have: those of the lowest bit first, of each in
+/// the order of the formats. On ranks those of files that name their pieces, where there are such.
+GALE_EXPORT std::vector<std::string> extensions_written(unsigned written, bool on_ranks = false);
 
 namespace detail {
 

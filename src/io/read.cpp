@@ -98,7 +98,7 @@ std::vector<Step> steps_of(const std::vector<std::string>& inputs, const ReadOpt
 
 std::optional<PieceNames> piece_names(const std::string& input) {
   const Format* const format = format_of(input);
-  const bool names_pieces = format != nullptr && format->of_pieces && format->input == Input::mesh;
+  const bool names_pieces = format != nullptr && format->pieces != nullptr && format->input == Input::mesh;
   if (!detail::reads_files() || !names_pieces) return std::nullopt;
   return naming(input, [&] { return detail::names_of_pieces(detail::InputFile(input)); });
 }

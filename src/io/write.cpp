@@ -48,14 +48,9 @@ void check_cells(std::size_t points, const Surface::Cells& cells) {
 void require_format(const std::string& path, unsigned bits, const char* what) {
   const Format* const format = format_of(path);
   if (format != nullptr && format->takes(bits)) return;
-  std::string rule;
-  for (const Format& other : formats()) {
-    if (!other.takes(bits)) continue;
-    for (const std::string& extension : detail::words_of(other.extensions))
-      rule += (rule.empty() ? "" : " nor ") + extension;
-  }
-  const bool several = rule.find(' ') != std::string::npos;
-  refuse("cannot write ", what, " to '", path, "': its extension is ", several ? "neither " : "not ", rule);
+  const auto all = detail::words_of(extensions_of([bits](const Format& other) { return other.takes(bits); }));
+  refuse("cannot write ", what, " to '", path, "': its extension is ", all.size() > 1 ? "neither " : "not ",
+         detail::joined(all, " nor "));
 }
 
 /// Runs `write`; names `path` in whatever goes wrong.
@@ -85,7 +80,7 @@ void write_as(const Target& to, unsigned bits, const char* what, const Write& wr
 
 /// Writes it in the form that the file's extension says.
 void write_content(const AtomicFile& file, const detail::XmlContent& content) {
-  format_of(file.path())->takes(written_steps) ? detail::write_xml(file, content) : detail::write_vtkhdf(file, content);
+  std::get<detail::ContentWriter*>(format_of(file.path())->writer)(file, content);
 }
 
 void write_names(const AtomicFile& file, const std::vector<std::string>& pieces, const detail::XmlContent& like) {
@@ -130,13 +125,9 @@ void write_mesh(const Target& to, const Dataset& mesh, const std::vector<PointAr
     check_arrays(points_of(mesh.points), more);
     check_arrays(mesh.cells(), mesh.cell_arrays, cells_of(mesh));
     const Format& format = *format_of(file.path());
-    if (!format.takes(written_meshes)) {
-      write_content(file, detail::content_of_triangles(mesh, more, mesh.cell_arrays));
-    } else if (format.takes(written_lines)) {
-      write_content(file, detail::content_of(mesh, more, mesh.cell_arrays));
-    } else {
-      detail::write_legacy_vtk(file, mesh, more);
-    }
+    if (const auto* const write = std::get_if<detail::MeshWriter*>(&format.writer)) return (*write)(file, mesh, more);
+    write_content(file, format.takes(written_meshes) ? detail::content_of(mesh, more, mesh.cell_arrays)
+                                                     : detail::content_of_triangles(mesh, more, mesh.cell_arrays));
   });
 }
 
@@ -163,9 +154,9 @@ void write_pieces(const AtomicFile& file, const std::vector<std::string>& pieces
 void write_series(const AtomicFile& file, const std::vector<Step>& steps) {
   name_in_errors(file.path(), [&] {
     const Format* const format = format_of(file.path());
-    if (format == nullptr || (format->written & written_series) == 0) throw Error("a series ends with .pvd or .series");
-    format->extensions == std::string(".pvd") ? detail::write_xml_series(file, steps)
-                                              : detail::write_file_series(file, steps);
+    if (format == nullptr || !format->takes(written_series))
+      throw Error("a series ends with " + detail::joined(extensions_written(written_series), " or "));
+    std::get<detail::SeriesWriter*>(format->writer)(file, steps);
   });
 }
 

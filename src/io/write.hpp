@@ -104,4 +104,12 @@ GALE_EXPORT void write_pieces(const AtomicFile& file, const std::vector<std::str
 /// Throws gale::Error for other names.
 GALE_EXPORT void write_series(const AtomicFile& file, const std::vector<Step>& steps);
 
+/// Columns of one number a row as comma-separated values, behind a line of their names. Numbers are written such that
+/// they are read back as they are.
+GALE_EXPORT std::string to_csv(const std::vector<PointArray>& columns);
+
+/// The content of an .npz, which numpy.load reads: an array for each column, of its name and type. Throws Error where
+/// that is 4 GiB or more.
+GALE_EXPORT std::string to_npz(const std::vector<PointArray>& columns);
+
 }  // namespace gale::io

@@ -2,6 +2,7 @@
 #include <utility>
 
 #include <gale/base/error.hpp>
+#include <gale/io/bytes/text.hpp>
 #include <gale/outputs/analyses.hpp>
 #include <gale/outputs/arrows.hpp>
 #include <gale/outputs/critical_points.hpp>
@@ -284,6 +285,48 @@ const Analysis& analysis_named(const std::string& name) {
   throw Error("there is no analysis '" + name + "'");
 }
 
+const Analysis& tracking() {
+  static const Analysis analysis{
+      "track",
+      "Follows the minima and maxima of a scalar field through the steps of a series",
+      {{"persistence", Kind::threshold, false, "",
+        "Leave out extrema whose persistence in a step is less than this; with a % of that step's range"},
+       {"table", Kind::flag, false, "", "Write how each track begins and ends", true},
+       {"lift", Kind::axis, false, "", "Add the time, or SCALE times that, to a coordinate of the lines"}},
+      {{"lines",
+        Shape::lines,
+        "a line through time for each track, merge and split",
+        {{"TrackId", "int32"},
+         {"Step", "int32"},
+         {"Time", "double"},
+         {"CriticalType", "int8"},
+         vertex,
+         {"NAME", "field"},
+         {"Persistence", "field"}},
+        {{"TrackId", "int32"}, {"CriticalType", "int8"}, {"LinkType", "int8"}},
+        {}},
+       {"table",
+        Shape::table,
+        "how each track begins and ends",
+        {{"TrackId", "int32"},
+         {"CriticalType", "int8"},
+         {"FirstStep", "int32"},
+         {"LastStep", "int32"},
+         {"FirstTime", "double"},
+         {"LastTime", "double"},
+         {"Begin", "int8"},
+         {"BeginTrack", "int32"},
+         {"End", "int8"},
+         {"EndTrack", "int32"},
+         {"FirstVertex", "int32"},
+         {"LastVertex", "int32"},
+         {"Persistence", "double"}},
+        {},
+        {}}},
+      {}};
+  return analysis;
+}
+
 const AnalysisOption& Analysis::option(const std::string& option_name) const {
   for (const AnalysisOption& option : options) {
     if (option.name == option_name) return option;
@@ -303,9 +346,8 @@ std::map<std::string, Outcome> Analysis::run(const AnalysisInput& input, Setting
   for (const auto& [given, chosen] : settings.choices) {
     const auto& choices = require(given, Kind::choice).choices;
     if (std::find(choices.begin(), choices.end(), chosen) != choices.end()) continue;
-    std::string list;
-    for (const std::string& choice : choices) list += (list.empty() ? "" : ", ") + choice;
-    throw Error(name + "'s option '" + given + "' is one of " + list + ", not '" + chosen + "'");
+    throw Error(name + "'s option '" + given + "' is one of " + io::detail::joined(choices, ", ") + ", not '" + chosen +
+                "'");
   }
   for (const auto& [given, number] : settings.numbers) {
     require(given, Kind::number);

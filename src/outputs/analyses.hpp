@@ -19,8 +19,9 @@ namespace gale::outputs {
 /// What users may say of an analysis, beside what they may say of any: mesh, field, threads, where to compute.
 struct AnalysisOption {
   /// A switch; a persistence below which something happens, which isn't given by default; one of some words, the first
-  /// by default; or a whole number of at least 0, which is the default.
-  enum class Kind { flag, threshold, choice, number };
+  /// by default; a whole number of at least 0, which is the default; or a coordinate, alone or with a scale as z:0.5,
+  /// which isn't given by default.
+  enum class Kind { flag, threshold, choice, number, axis };
 
   std::string name;           ///< with underscores, as in Python; the command has --name, or --no-name to switch it off
   Kind kind = Kind::flag;     ///< what its values are
@@ -34,19 +35,19 @@ struct AnalysisOption {
 /// An array of a result, beside those of the input that travel along.
 struct AnalysisArray {
   std::string name;    ///< as users of TTK know it; NAME is the field's, also at the beginning
-  std::string type;    ///< "int8", "uint8" or "int32"; or "field", "points": float where those are, else double
+  std::string type;    ///< "int8", "uint8", "int32", "double"; or "field", "points": float where those are, else double
   int components = 1;  ///< numbers in each of its rows
 };
 
 /// Something that an analysis finds.
 struct AnalysisResult {
-  /// What a result is made of; `mesh`: arrays of the mesh's own points.
-  enum class Shape { points, lines, polygons, diagram, mesh, count };
+  /// What a result is made of; `mesh`: arrays of the mesh's own points; `table`: columns.
+  enum class Shape { points, lines, polygons, diagram, mesh, count, table };
 
   std::string name;                         ///< "separatrices1"
   Shape shape;                              ///< what it is
   std::string help;                         ///< what it has, without a full stop
-  std::vector<AnalysisArray> point_arrays;  ///< in their order
+  std::vector<AnalysisArray> point_arrays;  ///< in their order; of a table its columns
   std::vector<AnalysisArray> cell_arrays;   ///< arrays of the cells of lines and polygons, in their order
   std::string only_with;                    ///< the flag without which it isn't there; empty where it always is
 };
@@ -99,5 +100,9 @@ GALE_EXPORT const std::vector<Analysis>& analyses();
 
 /// The one of that name. Throws gale::Error for any other.
 GALE_EXPORT const Analysis& analysis_named(const std::string& name);
+
+/// Tracks of extrema (`ExtremumTracker`), described as the others are; but they are of several steps, so they are none
+/// of all analyses, nor is this to be run.
+GALE_EXPORT const Analysis& tracking();
 
 }  // namespace gale::outputs

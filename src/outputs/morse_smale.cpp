@@ -1,6 +1,6 @@
+#include <utility>
+
 #include <gale/algorithms/simplify.hpp>
-#include <gale/outputs/critical_simplices.hpp>
-#include <gale/outputs/excerpt.hpp>
 #include <gale/outputs/field.hpp>
 #include <gale/outputs/manifolds.hpp>
 #include <gale/outputs/morse_smale.hpp>
@@ -14,19 +14,6 @@ MorseSmaleParts MorseSmaleRequest::needed_parts() const {
   MorseSmaleParts needed = parts;
   if ((persistence && !extrema_only) || parts.separatrices2) needed.saddle_connectors = true;
   return needed;
-}
-
-Separatrices<TriangleVertices> ends_of(const Separatrices<TriangleVertices>& connectors) {
-  Separatrices<TriangleVertices> ends;
-  ends.sources = connectors.sources;
-  ends.destinations = connectors.destinations;
-  return ends;
-}
-
-void leave_out_unwanted(const MorseSmaleParts& wanted, MorseSmaleComplex& complex) {
-  if (!wanted.descending_separatrices) complex.descending = {};
-  if (!wanted.ascending_separatrices) complex.ascending = {};
-  if (!wanted.saddle_connectors) complex.connectors = {};
 }
 
 MorseSmaleComplex find_complex(const DiscreteGradient& gradient, const io::PointArray& field,
@@ -51,24 +38,41 @@ MorseSmaleComplex find_complex(const DiscreteGradient& gradient, const io::Point
   return simplify(complex, value, threshold_of(*request.persistence, field, ranks), how);
 }
 
+ShownComplex::ShownComplex(MorseSmaleComplex& found, const MorseSmaleParts& wanted, const io::Dataset& dataset,
+                           const io::PointArray& field, const ComputeOptions& options, Computed& computed,
+                           double& seconds)
+    : complex(found) {
+  connectors_.sources = found.connectors.sources;
+  connectors_.destinations = found.connectors.destinations;
+  std::optional<gale::detail::Stopwatch> watch(std::in_place, seconds);
+  if (!wanted.descending_separatrices) found.descending = {};
+  if (!wanted.ascending_separatrices) found.ascending = {};
+  if (!wanted.saddle_connectors) found.connectors = {};
+  const Mesh &mesh = found.gradient.mesh(), &excerpt = mesh_of_excerpt(found);
+  at_.emplace(excerpt, mesh, dataset, field);
+  const NamedPaths named = named_simplices(found);
+  watch.reset();
+  numbers = number_simplices(mesh, named, options, &computed);
+  watch.emplace(seconds);
+  critical_ = known_simplices(found.excerpt, found.critical, numbers);
+  critical_points = to_point_set(at_->dataset(), own_simplices(found, critical_), excerpt.exchange());
+  critical_points.arrays.push_back(manifold_sizes(found));
+  separatrices1 = outputs::separatrices1(at_->dataset(), at_->field(), found, named, numbers, critical_);
+}
+
+io::Surface ShownComplex::separatrices2() const {
+  return outputs::separatrices2(at_->dataset(), at_->field(), complex, connectors_, critical_);
+}
+
 MorseSmaleOutputs morse_smale(const DiscreteGradient& gradient, const io::Dataset& dataset, const io::PointArray& field,
                               const MorseSmaleRequest& request, const ComputeOptions& options, Computed* computed) {
   Computed own;
   if (computed == nullptr) computed = &own;
   MorseSmaleComplex complex = find_complex(gradient, field, request, options, computed);
-  const auto connectors = ends_of(complex.connectors);  // of all, wanted or not: they bound walls
-  leave_out_unwanted(request.parts, complex);
-  const Mesh& excerpt = mesh_of_excerpt(complex);
-  const NamedPaths named = named_simplices(complex);
-  const SimplexNumbers numbers = number_simplices(gradient.mesh(), named, options, computed);
-  const KnownSimplices critical = known_simplices(complex.excerpt, complex.critical, numbers);
-  MorseSmaleOutputs all;
-  const AtExcerpt at(excerpt, gradient.mesh(), dataset, field);
-  all.critical_points = to_point_set(at.dataset(), own_simplices(complex, critical), excerpt.exchange());
-  all.critical_points.arrays.push_back(manifold_sizes(complex));
-  all.separatrices1 = separatrices1(at.dataset(), at.field(), complex, named, numbers, critical);
-  if (request.parts.separatrices2)
-    all.separatrices2 = separatrices2(at.dataset(), at.field(), complex, connectors, critical);
+  double seconds = 0;
+  ShownComplex shown(complex, request.parts, dataset, field, options, *computed, seconds);
+  MorseSmaleOutputs all{std::move(shown.critical_points), std::move(shown.separatrices1), {}, {}, {}};
+  if (request.parts.separatrices2) all.separatrices2 = shown.separatrices2();
   all.manifolds = manifold_arrays(complex);
   all.kept_below = complex.kept_below;
   return all;

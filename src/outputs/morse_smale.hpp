@@ -7,6 +7,8 @@
 #include <gale/algorithms/simplex_numbers.hpp>
 #include <gale/export.hpp>
 #include <gale/io/write.hpp>
+#include <gale/outputs/critical_simplices.hpp>
+#include <gale/outputs/excerpt.hpp>
 #include <gale/outputs/persistence.hpp>
 
 // A Morse-Smale complex from the gradient to its outputs, for those who want all of them.
@@ -46,17 +48,34 @@ struct GALE_EXPORT MorseSmaleRequest {
   MorseSmaleParts needed_parts() const;
 };
 
-/// Which saddles connectors join, without the ways between them: what `separatrices2` takes.
-GALE_EXPORT Separatrices<TriangleVertices> ends_of(const Separatrices<TriangleVertices>& connectors);
-
-/// Empties the separatrices that aren't wanted, and were found because something else needed them.
-GALE_EXPORT void leave_out_unwanted(const MorseSmaleParts& wanted, MorseSmaleComplex& complex);
-
 /// The complex of a gradient with the needed parts, simplified if that is wanted. `field` is that of the gradient.
 /// Throws as find_morse_smale_complex, simplify and threshold_of do.
 GALE_EXPORT MorseSmaleComplex find_complex(const DiscreteGradient& gradient, const io::PointArray& field,
                                            const MorseSmaleRequest& request, const ComputeOptions& options = {},
                                            Computed* computed = nullptr);
+
+/// What files and pictures show of a complex, but for walls and manifolds, which are made when they are asked for.
+class GALE_EXPORT ShownComplex {
+ public:
+  /// Takes out of a complex the separatrices that aren't wanted, and were found because something else needed them.
+  /// Refers to complex, dataset and field. Adds the time that this takes to `seconds`, but for what numbers take.
+  /// Collective.
+  ShownComplex(MorseSmaleComplex& found, const MorseSmaleParts& wanted, const io::Dataset& dataset,
+               const io::PointArray& field, const ComputeOptions& options, Computed& computed, double& seconds);
+
+  /// The walls, if they were found. Collective.
+  io::Surface separatrices2() const;
+
+  const MorseSmaleComplex& complex;  ///< with what is wanted of it
+  SimplexNumbers numbers;            ///< numbers of what `named_simplices` names
+  io::PointSet critical_points;      ///< to_point_set, and manifold_sizes
+  io::Surface separatrices1;         ///< lines
+
+ private:
+  Separatrices<TriangleVertices> connectors_;  ///< the ends of all, wanted or not: they bound walls
+  std::optional<AtExcerpt> at_;
+  KnownSimplices critical_;
+};
 
 /// Everything that a complex is written as. What isn't wanted is empty.
 struct MorseSmaleOutputs {

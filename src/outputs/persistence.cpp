@@ -6,7 +6,6 @@
 #include <gale/base/error.hpp>
 #include <gale/outputs/field.hpp>
 #include <gale/outputs/persistence.hpp>
-#include <gale/outputs/table.hpp>
 #include <gale/outputs/values.hpp>
 
 namespace gale::outputs {
@@ -196,6 +195,6 @@ std::vector<io::PointArray> curve_table(const PersistenceCurve& curve) {
           {"All", 1, all}};
 }
 
-std::string to_csv(const PersistenceCurve& curve) { return to_csv(curve_table(curve)); }
+std::string to_csv(const PersistenceCurve& curve) { return io::to_csv(curve_table(curve)); }
 
 }  // namespace gale::outputs

@@ -16,14 +16,14 @@ THRESHOLD = {"Simplify": "0", "Persistence": "1", "PersistenceIsPercent": "1"}  
 
 
 def methods():
-    """The methods of gale.Mesh, by name."""
+    """The methods of gale.Mesh, and what else its module has, by name."""
     module = ast.parse((ROOT / "bindings" / "python" / "gale" / "_mesh.py").read_text())
     mesh = next(one for one in module.body if isinstance(one, ast.ClassDef) and one.name == "Mesh")
-    return {one.name: one for one in mesh.body if isinstance(one, ast.FunctionDef)}
+    return {one.name: one for one in module.body + mesh.body if isinstance(one, ast.FunctionDef)}
 
 
 def arguments(method):
-    """The arguments of a method without self, and their defaults."""
+    """The arguments of a method without what it is of, and their defaults."""
     names = [one.arg for one in method.args.args[1:]]
     defaults = [ast.literal_eval(one) for one in method.args.defaults]
     return dict(zip(names, [None] * (len(names) - len(defaults)) + defaults))
@@ -66,12 +66,22 @@ class Analyses(gale.CommandTest):
         for analysis in self.each():
             method = all_methods[analysis["name"].replace("-", "_")]
             given = arguments(method)
-            options = {one["name"]: one for one in analysis["options"] if not one["is_on"] and not one["has_own_file"]}
+            options = {one["name"]: one for one in analysis["options"]
+                       if not one["is_on"] and not one["has_own_file"] and one["kind"] != "axis"}  # users add that to points
             self.assertEqual(set(given) - OF_ALL, set(options))
             for name, option in options.items():
                 defaults = {"flag": [False], "threshold": [None, 0], "choice": option["choices"][:1], "number": [0]}
                 self.assertIn(given[name], defaults[option["kind"]])
                 self.assertIn(f"`{name}`", ast.get_docstring(method))
+
+    def test_python_has_the_results_of_tracking(self):
+        tracking = next(one for one in self.analyses if one["name"] == "track")
+        module = ast.parse((ROOT / "bindings" / "python" / "gale" / "results.py").read_text())
+        tracks = next(one for one in module.body if isinstance(one, ast.ClassDef) and one.name == "Tracks")
+        self.assertEqual([one.target.id for one in tracks.body if isinstance(one, ast.AnnAssign)],
+                         [result["name"] for result in tracking["results"]])
+        words = re.findall(r"\w+", " ".join(ast.get_docstring(tracks).split()).replace("the field", "NAME"))
+        self.assertEqual(set(arrays(tracking)) - set(words), set())
 
     def test_filters_have_their_options(self):
         proxies = {proxy.get("class"): proxy for proxy in

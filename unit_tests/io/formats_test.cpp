@@ -23,9 +23,10 @@ std::vector<std::string> words_of(const std::string& text) {
 
 std::string written_with(const Format& format) {
   static const char* const names[] = {
-      "points", "surfaces", "lines", "meshes", "pieces of meshes", "meshes of triangles", "series"};
+      "points", "surfaces", "lines",  "meshes",  "pieces of meshes", "meshes of triangles",
+      "arrows", "series",   "tables", "pictures"};
   std::string list;
-  for (unsigned bit = 0; bit < 7; ++bit) {
+  for (unsigned bit = 0; bit < 10; ++bit) {
     if ((format.written >> bit & 1) != 0) list += (list.empty() ? "" : ", ") + std::string(names[bit]);
   }
   return list;
@@ -58,6 +59,35 @@ TEST(Formats, AreReadOrWritten) {
     EXPECT_EQ(format.reader != nullptr, format.input != Input::none) << format.name;
     EXPECT_EQ(format.reader != nullptr, *format.about != '\0') << format.name;
   }
+}
+
+TEST(Formats, HaveWritersOfWhatIsWrittenToThem) {
+  for (const Format& format : formats()) {
+    const bool has_writer = std::visit([](auto* writer) { return writer != nullptr; }, format.writer);
+    EXPECT_EQ(has_writer, format.takes(~unsigned(written_pictures))) << format.name;
+    if (format.pieces != nullptr) {
+      EXPECT_TRUE(format_of(std::string("a") + format.pieces)->takes(format.written)) << format.name;
+    }
+  }
+}
+
+TEST(Formats, SayWhichExtensionsResultsMayHave) {
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(extensions_written(written_points), (Names{".vtp", ".vtkhdf"}));
+  EXPECT_EQ(extensions_written(written_meshes | written_triangles), (Names{".vtu", ".vtk", ".vtkhdf", ".vtp"}));
+  EXPECT_EQ(extensions_written(written_arrows), Names{".vtp"});
+  EXPECT_EQ(extensions_written(written_tables), (Names{".csv", ".npz"}));
+  EXPECT_EQ(extensions_written(written_points, true), Names{".pvtp"});
+  EXPECT_EQ(extensions_written(written_meshes | written_pieces, true), Names{".pvtu"});
+  EXPECT_EQ(extensions_written(written_lines, true), (Names{".vtu", ".vtkhdf"})) << "which has no pieces";
+  EXPECT_EQ(extensions_written(0), Names{});
+}
+
+TEST(Formats, SayWhatNamesTheirFilesOfSeveralSteps) {
+  EXPECT_EQ(format_of("a.vtu")->series("b/a.vtu"), "b/a.pvd");
+  EXPECT_EQ(format_of("a.PVTP")->series("a.PVTP"), "a.pvd");
+  EXPECT_EQ(format_of("a.VTKHDF")->series("a.VTKHDF"), "a.VTKHDF.series");
+  EXPECT_EQ(format_of("a.vtk")->series, nullptr);
 }
 
 TEST(Formats, AreFoundByTheirExtensionsInEitherCase) {

@@ -4,6 +4,7 @@
 
 #include <gale/outputs/analyses.hpp>
 #include <gale/outputs/field.hpp>
+#include <gale/outputs/tracks.hpp>
 
 #include "outputs/outputs_of.hpp"
 #include "support/message_of.hpp"
@@ -91,6 +92,7 @@ void expect_as_described(const outputs::Outcome& outcome, const AnalysisResult& 
       return expect_as_described(lines.cell_arrays, result.cell_arrays);
     }
     case Shape::mesh:
+    case Shape::table:
       return expect_as_described(std::get<std::vector<io::PointArray>>(outcome), result.point_arrays);
     case Shape::count:
       EXPECT_GE(std::get<Id>(outcome), 0);
@@ -124,6 +126,22 @@ TEST(Analyses, find_all_results_that_they_describe) {
       expect_as_described(found.at(result.name), result);
     }
   }
+}
+
+TEST(Analyses, of_steps_are_as_described) {
+  const OutputsOf of = of_octahedron();
+  ExtremumTracker tracker;
+  outputs::TrackLines lines;
+  for (const double time : {0.0, 1.0}) {
+    tracker.add(time, of.complex.gradient, [&](Id v) { return outputs::value_at(of.field, v); });
+    lines.add(of.dataset, of.field, tracker.tracks());
+  }
+  const Analysis& tracking = outputs::tracking();
+  ASSERT_EQ(tracking.results.size(), 2u);
+  expect_as_described(lines.lines(tracker.tracks()), tracking.results[0]);
+  const auto table = outputs::track_table(tracker.tracks());
+  EXPECT_EQ(table.size(), tracking.results[1].point_arrays.size());
+  expect_as_described(table, tracking.results[1]);
 }
 
 TEST(Analyses, find_by_default_what_no_flag_asks_for) {

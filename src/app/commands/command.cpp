@@ -11,16 +11,36 @@
 
 namespace gale::app {
 
+namespace {
+
+/// ".vtu, .vtk or .vtkhdf": the extensions that such results may have, and what is different on ranks.
+std::string names_of(unsigned written, bool works_on_ranks) {
+  const auto all = io::extensions_written(written), on_ranks = io::extensions_written(written, true);
+  std::string names = all.back();
+  if (all.size() > 1) names = io::detail::joined({all.begin(), all.end() - 1}, ", ") + " or " + names;
+  if (!works_on_ranks || on_ranks == all) return names;
+  const std::string& named = on_ranks.front();
+  return names + "; on several ranks " + named + ", with a " + io::format_of('P' + named)->pieces + " a rank";
+}
+
+}  // namespace
+
 Command::Command(CLI::App& app, const std::string& name, const std::string& what, Works works)
     : subcommand_(*app.add_subcommand(name, what)), works_(works) {
   input_.add_to(subcommand_);
   common_.add_to(subcommand_);
 }
 
-CLI::Option* Command::add_file(const std::string& option, std::string& file, const std::string& what,
-                               const std::vector<std::string>& extensions) {
-  files_.push_back({option.substr(option.find("--")), file, extensions});
+CLI::Option* Command::add_file(const std::string& option, std::string& file, std::string what, unsigned written) {
+  files_.push_back({option.substr(option.find("--")), file, written});
+  const auto place = what.find("{}");
+  if (place != std::string::npos) what.replace(place, 2, names_of(written, works_ == Works::on_many_ranks));
   return subcommand_.add_option(option, file, what)->type_name("FILE");
+}
+
+void Command::add_render(std::string& file, const std::string& what) {
+  add_file("--render", file, what, io::written_pictures)
+      ->type_name("FILE" + io::extensions_written(io::written_pictures).front());
 }
 
 bool Command::is_chosen() const { return subcommand_.parsed(); }
@@ -37,29 +57,23 @@ void Command::refuse_on_ranks(std::initializer_list<std::pair<const char*, bool>
 }
 
 void Command::require_extension(const File& file) const {
-  if (file.name.empty() || file.extensions.empty()) return;
-  std::string list;
-  for (std::string extension : file.extensions) {
-    if (Launch::are_several() && file.extensions.front() == ".vtp") {
-      if (extension == ".vtkhdf") continue;  // that format has no pieces
-      extension = ".pvtp";
-    }
-    if (io::detail::has_extension(file.name, extension)) return;
-    list += (list.empty() ? "" : " or ") + extension;
-  }
-  throw UsageError(file.option + ' ' + file.name + ": gale " + subcommand_.get_name() + " writes " + list);
+  const auto all = io::extensions_written(file.written, Launch::are_several());
+  const auto is_its = [&](const std::string& extension) { return io::detail::has_extension(file.name, extension); };
+  if (file.name.empty() || file.written == 0 || std::any_of(all.begin(), all.end(), is_its)) return;
+  throw UsageError(file.option + ' ' + file.name + ": gale " + subcommand_.get_name() + " writes " +
+                   io::detail::joined(all, " or "));
 }
 
-std::string Command::with_extension(const std::string& name, const char* extension, bool has_pieces) const {
-  if (common_.is_vtkhdf) return name + ".vtkhdf";
-  return name + (has_pieces && Launch::are_several() ? ".p" : ".") + extension;
+std::string Command::with_extension(const std::string& name, unsigned written, bool has_pieces) const {
+  if (!common_.extension.empty()) return name + common_.extension;
+  return name + io::extensions_written(written, has_pieces && Launch::are_several()).front();
 }
 
 Session Command::begin(const std::vector<std::string>& more, Session::Outputs outputs) const {
   std::vector<std::string> files = more;
   for (const File& file : files_) {
     require_extension(file);
-    if (!file.name.empty() && file.extensions == std::vector<std::string>{".png"}) {
+    if (!file.name.empty() && file.written == io::written_pictures) {
       detail::together(Launch::ranks(), [] {
         if (Launch::is_first()) require_drawing();  // which draws for all
       });

@@ -8,6 +8,7 @@
 
 #include <gale/app/options.hpp>
 #include <gale/app/session.hpp>
+#include <gale/io/formats.hpp>
 #include <gale/outputs/analyses.hpp>
 
 namespace gale::app {
@@ -37,10 +38,13 @@ class Command {
   /// Where it adds options of its own.
   CLI::App& subcommand() { return subcommand_; }
 
-  /// Adds an option that names a file to write, of any extension or one of these, in either case; on several ranks
-  /// .pvtp for .vtp. Empty where it isn't given. Returns the option.
-  CLI::Option* add_file(const std::string& option, std::string& file, const std::string& what,
-                        const std::vector<std::string>& extensions = {});
+  /// Adds an option that names a file to write results of these kinds to, bits of io::Written, of an extension that
+  /// they may have, or of any: 0. In `what` it is for the help, {} stands for these extensions. Empty where it isn't
+  /// given. Returns the option.
+  CLI::Option* add_file(const std::string& option, std::string& file, std::string what, unsigned written = 0);
+
+  /// Adds --render, which names a picture.
+  void add_render(std::string& file, const std::string& what);
 
   /// Adds --encoding, if it writes VTK's XML files.
   void add_encoding() { common_.add_encoding_to(subcommand_); }
@@ -48,12 +52,12 @@ class Command {
   /// Adds --format, if it gives its files their extensions itself.
   void add_format() { common_.add_format_to(subcommand_); }
 
-  /// What a file is called whose extension is "vtp" or "vtu", of pieces on several ranks if it `has_pieces`, unless
-  /// --format says otherwise.
-  std::string with_extension(const std::string& name, const char* extension, bool has_pieces = true) const;
+  /// What a file of such results is called, of pieces on several ranks if it `has_pieces`, unless --format says
+  /// otherwise.
+  std::string with_extension(const std::string& name, unsigned written, bool has_pieces = true) const;
 
   /// Throws UsageError for a --format that isn't written by several ranks.
-  void require_format() const { refuse_on_ranks({{"--format vtkhdf", common_.is_vtkhdf}}); }
+  void require_format() const { refuse_on_ranks({{"--format vtkhdf", !common_.extension.empty()}}); }
 
   /// Has it take a series, and --times, if it goes through its steps.
   void add_times() { input_.add_times_to(subcommand_); }
@@ -73,7 +77,7 @@ class Command {
   struct File {
     std::string option;
     const std::string& name;
-    std::vector<std::string> extensions;
+    unsigned written;
   };
   void require_extension(const File& file) const;
 
@@ -145,7 +149,7 @@ std::unique_ptr<Command> add_track(CLI::App& app);
 std::unique_ptr<Command> add_relations(CLI::App& app);
 std::unique_ptr<Command> add_generate(CLI::App& app);
 
-/// The analyses, their options and results (outputs/analyses.hpp), as JSON.
+/// The analyses and tracking, their options and results (outputs/analyses.hpp), as JSON.
 std::string analyses_as_json();
 
 /// The table of all subcommands, in the order of the help.

@@ -11,8 +11,7 @@ namespace {
 class FindCriticalPoints final : public AnalysisCommand {
  public:
   explicit FindCriticalPoints(CLI::App& app) : AnalysisCommand(app, "critical-points", Works::on_many_ranks) {
-    add_file("-o,--output", output_, "The critical points: .vtp or .vtkhdf; on several ranks .pvtp, with a .vtp a rank",
-             {".vtp", ".vtkhdf"});
+    add_file("-o,--output", output_, "The critical points: {}", io::written_points);
   }
 
  private:

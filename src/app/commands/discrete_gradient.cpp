@@ -12,15 +12,13 @@ namespace {
 class FindDiscreteGradient final : public AnalysisCommand {
  public:
   explicit FindDiscreteGradient(CLI::App& app) : AnalysisCommand(app, "discrete-gradient", Works::on_many_ranks) {
-    add_file("-o,--output", output_,
-             "The critical simplices: .vtp or .vtkhdf; on several ranks .pvtp, with a .vtp a rank",
-             {".vtp", ".vtkhdf"});
+    add_file("-o,--output", output_, "The critical simplices: {}", io::written_points);
     subcommand()
         .add_option("--formulation", formulation_,
                     "stars (from VV, VT and link) or cells (from VE, VF and VT, as other programs do; slower): the "
                     "same result")
         ->check(CLI::IsMember({"stars", "cells"}));
-    add_file("--arrows", arrows_, analysis_.option("arrows").help, {".vtp"});
+    add_file("--arrows", arrows_, analysis_.option("arrows").help, io::written_arrows);
   }
 
  private:

@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 
 #include <gale/app/commands/command.hpp>
+#include <gale/io/bytes/text.hpp>
 
 namespace gale::app {
 
@@ -9,7 +10,11 @@ namespace {
 class Generate final : public Command {
  public:
   explicit Generate(CLI::App& app) : Command(app, "generate", "Writes the mesh that an input stands for") {
-    add_file("-o,--output", output_, ".vtu, .vtk, .vtkhdf or, of triangles, .vtp", {".vtu", ".vtk", ".vtkhdf", ".vtp"})
+    constexpr unsigned all = io::written_meshes | io::written_triangles;
+    add_file("-o,--output", output_,
+             io::detail::joined(io::extensions_written(io::written_meshes), ", ") + " or, of triangles, " +
+                 io::extensions_written(all).back(),
+             all)
         ->required();
     add_encoding();
   }

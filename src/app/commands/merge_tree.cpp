@@ -37,15 +37,15 @@ class FindMergeTree final : public AnalysisCommand {
         .add_option("-o,--output", output_, "Write P_nodes.vtp, P_arcs.vtp and P_segmentation.vtu")
         ->type_name("P");
     add_format();
-    add_file("--render", render_, "Draw the tree, beside the mesh in the colours of its arcs, to this .png", {".png"})
-        ->type_name("FILE.png");
+    add_render(render_, "Draw the tree, beside the mesh in the colours of its arcs, to this {}");
   }
 
  private:
   std::vector<std::string> more_files() const override {
     if (output_.empty()) return {"", "", ""};
-    return {with_extension(output_ + "_nodes", "vtp", false), with_extension(output_ + "_arcs", "vtp", false),
-            with_extension(output_ + "_segmentation", "vtu")};
+    return {with_extension(output_ + "_nodes", io::written_points, false),
+            with_extension(output_ + "_arcs", io::written_surfaces, false),
+            with_extension(output_ + "_segmentation", io::written_meshes | io::written_pieces)};
   }
 
   void require_usage() const override { require_format(); }

@@ -5,12 +5,8 @@
 #include <gale/app/drawing/drawer.hpp>
 #include <gale/app/drawing/picture.hpp>
 #include <gale/app/ranks/ranks.hpp>
-#include <gale/outputs/critical_simplices.hpp>
 #include <gale/outputs/manifolds.hpp>
 #include <gale/outputs/morse_smale.hpp>
-#include <gale/outputs/named_simplices.hpp>
-#include <gale/outputs/separatrices1.hpp>
-#include <gale/outputs/separatrices2.hpp>
 
 namespace gale::app {
 
@@ -86,24 +82,23 @@ class FindMorseSmale final : public AnalysisCommand {
       add_flag(part.option, parts_.*part.is_wanted);
     add_persistence(subcommand(), persistence_, analysis_.option("persistence").help);
     add_flag("extrema_only", extrema_only_);
-    add_file("--render", render_,
-             "Draw the complex to this .png: an octant cut out of the segmented mesh, and there the 1-separatrices",
-             {".png"})
-        ->type_name("FILE.png");
+    add_render(render_,
+               "Draw the complex to this {}: an octant cut out of the segmented mesh, and there the 1-separatrices");
   }
 
  private:
   /// Names the files for the parts that are wanted, none without -o.
   ComplexFiles files() const {
     if (output_.empty()) return {};
-    const auto name = [&](bool is_wanted, const char* what, const char* extension) {
-      return is_wanted ? with_extension(output_ + what, extension) : "";
+    const auto name = [&](bool is_wanted, const char* what, unsigned written) {
+      return is_wanted ? with_extension(output_ + what, written) : "";
     };
-    return {name(true, "_critical_points", "vtp"),
+    return {name(true, "_critical_points", io::written_points),
             name(parts_.descending_separatrices || parts_.ascending_separatrices || parts_.saddle_connectors,
-                 "_separatrices1", "vtp"),
-            name(parts_.separatrices2, "_separatrices2", "vtp"),
-            name(parts_.descending_manifolds || parts_.ascending_manifolds, "_segmentation", "vtu")};
+                 "_separatrices1", io::written_surfaces),
+            name(parts_.separatrices2, "_separatrices2", io::written_surfaces),
+            name(parts_.descending_manifolds || parts_.ascending_manifolds, "_segmentation",
+                 io::written_meshes | io::written_pieces)};
   }
 
   std::vector<std::string> more_files() const override {
@@ -132,11 +127,11 @@ class FindMorseSmale final : public AnalysisCommand {
     tell(complex, parts_, session);
     if (persistence_) tell(complex.kept_below, session);
     if (output_.empty() && (render_.empty() || Launch::are_several())) return draw_whole(on, request, options, session);
-    double& seconds = session.report().seconds.write;
-    const Shown shown(on, complex, parts_, options, computed, seconds);
-    write(on, complex, shown, session);
+    const outputs::ShownComplex shown(complex, parts_, on.dataset, on.field, options, computed,
+                                      session.report().seconds.write);
+    write(on, shown, session);
     if (Launch::are_several()) return draw_whole(on, request, options, session);
-    session.write(render_, [&](const io::AtomicFile& file) { draw(file, shown.picture(on, complex)); });
+    session.write(render_, [&](const io::AtomicFile& file) { draw(file, picture(on, shown)); });
   }
 
   /// Draws on the first rank of several, where all is gathered and found again.
@@ -148,9 +143,13 @@ class FindMorseSmale final : public AnalysisCommand {
       Computed computed;
       double seconds = 0;
       MorseSmaleComplex complex = find(whole, request, options, computed);
-      const Shown shown(whole, complex, parts_, options, computed, seconds);
-      draw(file, shown.picture(whole, complex));
+      draw(file, picture(whole, outputs::ShownComplex(complex, parts_, whole.dataset, whole.field, options, computed,
+                                                      seconds)));
     });
+  }
+
+  static Scene picture(const FieldOnMesh& on, const outputs::ShownComplex& shown) {
+    return picture_of(on.dataset, on.field, shown.complex, shown.numbers, shown.critical_points, shown.separatrices1);
   }
 
   /// The complex, simplified if that is wanted, with the needed parts.
@@ -160,48 +159,12 @@ class FindMorseSmale final : public AnalysisCommand {
                                  &computed);
   }
 
-  /// What files and pictures show of a complex. It may have more than is wanted: the rest is taken out of it first.
-  /// Adds the time that this takes to `seconds`, but for what numbers take. Collective.
-  struct Shown {
-    Shown(const FieldOnMesh& on, MorseSmaleComplex& complex, const MorseSmaleParts& wanted,
-          const ComputeOptions& options, Computed& computed, double& seconds)
-        : connectors(outputs::ends_of(complex.connectors)),
-          at(timed(seconds,
-                   [&] {
-                     outputs::leave_out_unwanted(wanted, complex);
-                     return OnExcerpt(outputs::mesh_of_excerpt(complex), on);
-                   })),
-          named(timed(seconds, [&] { return outputs::named_simplices(complex); })),
-          numbers(number_simplices(on.mesh, named, options, &computed)) {
-      const Stopwatch watch(seconds);
-      critical = outputs::known_simplices(complex.excerpt, complex.critical, numbers);
-      points = outputs::to_point_set(at.dataset(), outputs::own_simplices(complex, critical),
-                                     complex.excerpt.mesh().exchange());
-      points.arrays.push_back(outputs::manifold_sizes(complex));
-      lines = outputs::separatrices1(at.dataset(), at.field(), complex, named, numbers, critical);
-    }
-
-    Scene picture(const FieldOnMesh& on, const MorseSmaleComplex& complex) const {
-      return picture_of(at.dataset(), on.field, complex, numbers, points, lines);
-    }
-
-    const Separatrices<TriangleVertices> connectors;  ///< all of them, wanted or not, bound walls
-    const OnExcerpt at;
-    const outputs::NamedPaths named;
-    const SimplexNumbers numbers;
-    outputs::KnownSimplices critical;
-    io::PointSet points;
-    io::Surface lines;
-  };
-
-  void write(const FieldOnMesh& on, const MorseSmaleComplex& complex, const Shown& shown, Session& session) const {
+  void write(const FieldOnMesh& on, const outputs::ShownComplex& shown, Session& session) const {
     const ComplexFiles to = files();
-    session.write_result(to.critical_points, [&]() -> const io::PointSet& { return shown.points; });
-    session.write_result(to.separatrices1, [&]() -> const io::Surface& { return shown.lines; });
-    session.write_result(to.separatrices2, [&] {
-      return outputs::separatrices2(shown.at.dataset(), shown.at.field(), complex, shown.connectors, shown.critical);
-    });
-    session.write_mesh(to.segmentation, on, [&] { return outputs::manifold_arrays(complex); });
+    session.write_result(to.critical_points, [&]() -> const io::PointSet& { return shown.critical_points; });
+    session.write_result(to.separatrices1, [&]() -> const io::Surface& { return shown.separatrices1; });
+    session.write_result(to.separatrices2, [&] { return shown.separatrices2(); });
+    session.write_mesh(to.segmentation, on, [&] { return outputs::manifold_arrays(shown.complex); });
   }
 
   MorseSmaleParts parts_;  ///< that are wanted

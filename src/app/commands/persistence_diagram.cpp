@@ -23,11 +23,11 @@ void tell(const outputs::DiagramCounts& counts, int dimension, Session& session)
 class FindPersistenceDiagram final : public AnalysisCommand {
  public:
   explicit FindPersistenceDiagram(CLI::App& app) : AnalysisCommand(app, "persistence-diagram", Works::on_many_ranks) {
-    add_file("-o,--output", output_, "The diagram, a line a pair: .vtu or .vtkhdf", {".vtu", ".vtkhdf"});
-    add_file("--curve", curve_, "How many pairs have at least a persistence, for each that occurs: .csv or .npz",
-             {".csv", ".npz"});
+    add_file("-o,--output", output_, "The diagram, a line a pair: {}", io::written_lines);
+    add_file("--curve", curve_, "How many pairs have at least a persistence, for each that occurs: {}",
+             io::written_tables);
     add_persistence(subcommand(), persistence_, analysis_.option("persistence").help);
-    add_file("--render", render_, "Draw diagram and curve to this .png", {".png"})->type_name("FILE.png");
+    add_render(render_, "Draw diagram and curve to this {}");
   }
 
  private:

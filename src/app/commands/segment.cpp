@@ -28,8 +28,7 @@ class Segment final : public Command {
  public:
   explicit Segment(CLI::App& app) : Command(app, "segment", "Divides a mesh into segments") {
     segmentation_.add_to(subcommand());
-    add_file("-o,--output", output_, "The mesh with its segments as a point array: .vtu, .vtk or .vtkhdf",
-             {".vtu", ".vtk", ".vtkhdf"});
+    add_file("-o,--output", output_, "The mesh with its segments as a point array: {}", io::written_meshes);
     add_encoding();
   }
 

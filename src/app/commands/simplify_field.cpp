@@ -1,7 +1,6 @@
 #include <CLI/CLI.hpp>
 
 #include <gale/app/commands/command.hpp>
-#include <gale/app/ranks/ranks.hpp>
 #include <gale/outputs/field.hpp>
 #include <gale/outputs/simplified_field.hpp>
 
@@ -30,12 +29,8 @@ class SimplifyField final : public AnalysisCommand {
  public:
   explicit SimplifyField(CLI::App& app) : AnalysisCommand(app, "simplify-field", Works::on_many_ranks) {
     add_persistence(subcommand(), persistence_, analysis_.option("persistence").help);
-    add_file("-o,--output", output_,
-             "The mesh with the simplified field and the order of its vertices, NAME_Order: .vtu, .vtk or .vtkhdf; on "
-             "several "
-             "ranks .pvtu, with a .vtu a rank",
-             Launch::are_several() ? std::vector<std::string>{".pvtu"}
-                                   : std::vector<std::string>{".vtu", ".vtk", ".vtkhdf"});
+    add_file("-o,--output", output_, "The mesh with the simplified field and the order of its vertices, NAME_Order: {}",
+             io::written_meshes | io::written_pieces);
   }
 
  private:

@@ -12,18 +12,6 @@ namespace gale::app {
 
 namespace {
 
-/// What the command is called and does. Analyses have one input, and this has several: so it is none of these.
-const outputs::Analysis& description() {
-  static const outputs::Analysis tracking{
-      "track",
-      "Follows the minima and maxima of a scalar field through the steps of a series",
-      {{"persistence", outputs::AnalysisOption::Kind::threshold, false, "",
-        "Leave out extrema whose persistence in a step is less than this; with a % of that step's range"}},
-      {},
-      {}};
-  return tracking;
-}
-
 /// "z" or "z:0.5".
 outputs::Lift parse_lift(const std::string& text) {
   const bool has_axis = !text.empty() && text[0] >= 'x' && text[0] <= 'z' && (text.size() == 1 || text[1] == ':');
@@ -51,15 +39,14 @@ void tell(const Tracks& tracks, Session& session) {
 
 class TrackExtrema final : public AnalysisCommand {
  public:
-  explicit TrackExtrema(CLI::App& app) : AnalysisCommand(app, description()) {
-    add_file("-o,--output", output_, "Write a line through time for each track, merge and split: .vtp or .vtkhdf",
-             {".vtp", ".vtkhdf"});
-    add_file("--table", table_, "Write how each track begins and ends: .csv or .npz", {".csv", ".npz"});
-    add_persistence(subcommand(), persistence_, description().option("persistence").help);
+  explicit TrackExtrema(CLI::App& app) : AnalysisCommand(app, outputs::tracking()) {
+    add_file("-o,--output", output_, "Write a line through time for each track, merge and split: {}",
+             io::written_surfaces);
+    add_file("--table", table_, analysis_.option("table").help + ": {}", io::written_tables);
+    add_persistence(subcommand(), persistence_, analysis_.option("persistence").help);
     subcommand()
         .add_option_function<std::string>(
-            "--lift", [this](const std::string& text) { lift_ = parse_lift(text); },
-            "Add the time, or SCALE times that, to a coordinate of the lines")
+            "--lift", [this](const std::string& text) { lift_ = parse_lift(text); }, analysis_.option("lift").help)
         ->type_name("AXIS[:SCALE]");
   }
 

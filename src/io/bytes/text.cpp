@@ -104,6 +104,12 @@ std::vector<std::string> words_of(const std::string& line) {
   return words;
 }
 
+std::string joined(const std::vector<std::string>& words, const std::string& between) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : between) + word;
+  return text;
+}
+
 std::string trimmed(const std::string& text) {
   const char* const space = " \t\r\n\v\f";
   const std::size_t first = text.find_first_not_of(space);

@@ -121,6 +121,9 @@ std::vector<T> numbers_of(const std::string& line, const std::string& what) {
   return result;
 }
 
+/// The words with `between` them.
+GALE_EXPORT std::string joined(const std::vector<std::string>& words, const std::string& between);
+
 /// The text without white space at its ends.
 std::string trimmed(const std::string& text);
 

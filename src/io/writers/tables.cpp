@@ -3,10 +3,9 @@
 
 #include <gale/base/error.hpp>
 #include <gale/io/bytes/values.hpp>
-#include <gale/outputs/field.hpp>
-#include <gale/outputs/table.hpp>
+#include <gale/io/write.hpp>
 
-namespace gale::outputs {
+namespace gale::io {
 
 namespace {
 
@@ -30,11 +29,11 @@ std::uint32_t checksum_of(const std::string& bytes) {
 }
 
 /// A column as an array of NumPy's: format 1.0.
-std::string to_npy(const io::PointArray& column) {
+std::string to_npy(const PointArray& column) {
   static const char* const types[] = {"i1", "u1", "i2", "u2", "i4", "u4", "i8", "u8", "f4", "f8"};
-  const bool is_little = io::detail::byte_order_of_machine() == io::detail::ByteOrder::little;
+  const bool is_little = detail::byte_order_of_machine() == detail::ByteOrder::little;
   std::string header = std::string("{'descr': '") + (is_little ? '<' : '>') + types[column.values.index()] +
-                       "', 'fortran_order': False, 'shape': (" + std::to_string(io::point_count(column)) + "," +
+                       "', 'fortran_order': False, 'shape': (" + std::to_string(point_count(column)) + "," +
                        (column.components > 1 ? std::to_string(column.components) : "") + ")}";
   constexpr std::size_t before = 10, aligned = 64;
   header.append(aligned - 1 - (before + header.size()) % aligned, ' ');
@@ -49,22 +48,23 @@ std::string to_npy(const io::PointArray& column) {
 
 }  // namespace
 
-std::string to_csv(const std::vector<io::PointArray>& columns) {
+std::string to_csv(const std::vector<PointArray>& columns) {
   std::string csv;
-  for (const io::PointArray& column : columns) csv += (csv.empty() ? "" : ",") + column.name;
-  for (std::size_t row = 0; !columns.empty() && row < io::point_count(columns[0]); ++row) {
-    for (const io::PointArray& column : columns) {
-      char number[32];
-      std::snprintf(number, sizeof(number), "%.17g", value_at(column, static_cast<Id>(row)));
-      csv += (&column == &columns[0] ? '\n' : ',') + std::string(number);
+  for (const PointArray& column : columns) csv += (csv.empty() ? "" : ",") + column.name;
+  for (std::size_t row = 0; !columns.empty() && row < point_count(columns[0]); ++row) {
+    for (const PointArray& column : columns) {
+      char text[32];
+      const auto number = [row](const auto& values) { return static_cast<double>(values[row]); };
+      std::snprintf(text, sizeof(text), "%.17g", std::visit(number, column.values));
+      csv += (&column == &columns[0] ? '\n' : ',') + std::string(text);
     }
   }
   return csv + '\n';
 }
 
-std::string to_npz(const std::vector<io::PointArray>& columns) {
+std::string to_npz(const std::vector<PointArray>& columns) {
   std::string all, directory;
-  for (const io::PointArray& column : columns) {
+  for (const PointArray& column : columns) {
     const std::string name = column.name + ".npy", array = to_npy(column);
     constexpr std::uint32_t version = 20, of_1980 = 0x21;  // as ZIP's dates begin
     const std::string alike = bytes_of(version, 2) + bytes_of(0, 6) + bytes_of(of_1980, 2) +
@@ -79,4 +79,4 @@ std::string to_npz(const std::vector<io::PointArray>& columns) {
   return all + directory + end;
 }
 
-}  // namespace gale::outputs
+}  // namespace gale::io
