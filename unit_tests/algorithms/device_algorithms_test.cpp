@@ -1,10 +1,15 @@
 #include <algorithm>
+#include <array>
+#include <random>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include <gale/algorithms/critical_points.hpp>
 #include <gale/algorithms/discrete_gradient.hpp>
 #include <gale/algorithms/merge_tree.hpp>
+#include <gale/algorithms/morse_smale.hpp>
+#include <gale/algorithms/persistence.hpp>
 #include <gale/runtime/make_structure.hpp>
 
 #include "algorithms/fields.hpp"
@@ -83,6 +88,42 @@ TEST(DeviceAlgorithms, make_room_for_noise) { expect_the_same_on_either_side(hol
 TEST(DeviceAlgorithms, hand_on_what_lanes_cannot_hold) {
   expect_the_same_on_either_side(copies_of(cone_over_caps(70, 2), 600), 2);
   expect_the_same_on_either_side(copies_of(cone_over_caps(90, 3), 400), 3);
+}
+
+/// Of grids that have all their cubes the host reads what edges are paired with by directions.
+TEST(DeviceAlgorithms, find_pairs_in_grids_that_walls_and_columns_follow) {
+  ComputeOptions by_threads;
+  by_threads.consumers = ConsumerPlace::host;
+  MorseSmaleParts with_walls;
+  with_walls.separatrices2 = true;
+  for (const std::array<Id, 3>& points : {std::array<Id, 3>{2, 2, 2}, {2, 5, 3}, {6, 2, 4}, {9, 8, 10}, {17, 12, 3}}) {
+    const Mesh mesh{Grid(points)};
+    for (const unsigned different : {3u, 1000000u}) {
+      std::mt19937 random(different);
+      std::vector<int> field(mesh.vertices());
+      for (int& value : field) value = static_cast<int>(random() % different);
+      const VertexOrder order(mesh, field.data(), field.size());
+      const DiscreteGradient found = find_discrete_gradient(WorkerSpace(), order),
+                             expected = find_discrete_gradient(order, by_threads);
+      expect_equal(found, expected);
+      for (Id a = 0; a < mesh.vertices(); ++a) {
+        const Id b = (a + 1) % mesh.vertices();  // an edge, but for the last in a row
+        ASSERT_EQ(found.triangle_of_edge(a, b), expected.triangle_of_edge(a, b)) << a;
+      }
+      const PersistencePairs pairs = find_persistence_pairs(found), expected_pairs = find_persistence_pairs(expected);
+      for (int d = 0; d < 3; ++d) {
+        ASSERT_EQ(pairs.pairs[d].size(), expected_pairs.pairs[d].size());
+        for (std::size_t i = 0; i < pairs.pairs[d].size(); ++i) {
+          EXPECT_EQ(pairs.pairs[d][i].lower, expected_pairs.pairs[d][i].lower);
+          EXPECT_EQ(pairs.pairs[d][i].upper, expected_pairs.pairs[d][i].upper);
+        }
+      }
+      const MorseSmaleComplex complex = find_morse_smale_complex(found, with_walls, by_threads),
+                              expected_complex = find_morse_smale_complex(expected, with_walls, by_threads);
+      EXPECT_EQ(complex.connectors.cells, expected_complex.connectors.cells);
+      EXPECT_EQ(complex.descending_walls.cells, expected_complex.descending_walls.cells);
+    }
+  }
 }
 
 TEST(DeviceAlgorithms, of_a_field_in_the_devices_memory) {

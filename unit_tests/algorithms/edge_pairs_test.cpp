@@ -91,7 +91,7 @@ TEST(EdgePairs, keep_the_rows_of_several_consumers_apart) {
     const Id vertex = (i * 7) % vertices;
     fill(pairs.begin(i % 3, vertex, count_of(vertex)), vertex, count_of(vertex));
   }
-  for (Id v = 0; v < vertices; ++v) expect_filled(pairs[v], v, count_of(v));
+  for (Id v = 0; v < vertices; ++v) expect_filled(pairs.row(v), v, count_of(v));
 }
 
 TEST(EdgePairs, hold_a_row_that_is_longer_than_a_chunk) {
@@ -99,8 +99,8 @@ TEST(EdgePairs, hold_a_row_that_is_longer_than_a_chunk) {
   EdgePairs pairs(2, 1);
   fill(pairs.begin(0, 0, 4), 0, 4);
   fill(pairs.begin(0, 1, longer), 1, longer);
-  expect_filled(pairs[0], 0, 4);
-  expect_filled(pairs[1], 1, longer);
+  expect_filled(pairs.row(0), 0, 4);
+  expect_filled(pairs.row(1), 1, longer);
 }
 
 }  // namespace gale::test

@@ -56,6 +56,63 @@ void for_each_list_of(Lists& lists, const Visit& visit) {
   visit(lists.critical_stars);
 }
 
+/// Some paths of cells, one after the other: each cell on them, and its successor.
+struct FollowedCells {
+  Array<const Id, HostMemory> cells, next;
+};
+
+/// Follows paths where the successors are: a thread for each.
+template <class Space>
+FollowedCells follow_cells(const Space& space, const Mirrored<Id>& all, const std::vector<Id>& starts) {
+  using Ids = Array<Id, MemoryOf<Space>>;
+  const Offset count = static_cast<Offset>(starts.size());
+  const auto successors = all.in<MemoryOf<Space>>();
+  const auto from = in_memory<MemoryOf<Space>>(starts);
+  const auto begin = allocate<Array<Offset, MemoryOf<Space>>>("GALE::path_begin", count + 1);
+  const Offset total = exclusive_scan(
+      "GALE::path_begins", space, count, begin, KOKKOS_LAMBDA(Offset i) {
+        Offset length = 0;
+        for (Id cell = from(i); cell >= 0; cell = successors(cell)) ++length;
+        return length;
+      });
+  const auto cells = allocate<Ids>("GALE::path_cells", total), next = allocate<Ids>("GALE::next_on_path", total);
+  parallel_for(
+      "GALE::follow_paths", space, count, KOKKOS_LAMBDA(Offset i) {
+        Offset at = begin(i);
+        for (Id cell = from(i); cell >= 0; cell = successors(cell), ++at) {
+          cells(at) = cell;
+          next(at) = successors(cell);
+        }
+      });
+  space.fence();
+  return {on_host(cells), on_host(next)};
+}
+
+/// The successors of cells: where they lie on a device, those on paths that were followed alone.
+class CellSteps {
+ public:
+  explicit CellSteps(const Mirrored<Id>& successors)
+      : successors_(successors), here_(successors.on_device() ? nullptr : successors.in<HostMemory>().data()) {}
+
+  /// Makes known those on the paths from some cells.
+  void follow(const std::vector<Id>& cells) {
+    if (here_ != nullptr || cells.empty()) return;
+    const FollowedCells paths =
+        in_worker_or_host_space(true, [&](const auto& space) { return follow_cells(space, successors_, cells); });
+    for (std::size_t i = 0; i < paths.cells.extent(0); ++i)
+      known_.insert(static_cast<std::uint64_t>(paths.cells(i))).first = paths.next(i);
+  }
+
+  Id operator[](Id cell) const {
+    return here_ != nullptr ? here_[cell] : *known_.find(static_cast<std::uint64_t>(cell));
+  }
+
+ private:
+  const Mirrored<Id>& successors_;
+  const Id* const here_;  ///< those of all cells
+  HashTable<Id> known_;
+};
+
 class Reacher {
  public:
   Reacher(const DiscreteGradient& gradient, const WantedWays& ways, Structure* rows)
@@ -70,7 +127,7 @@ class Reacher {
         internal_(mesh_.vertices_of_input()),
         keys_(gradient.order().keys()),
         vertex_successor_(gradient.vertex_successors().data()),
-        cell_successor_(gradient.cell_successors().data()),
+        cell_successors_(gradient.store().cell_successors()),
         further_(gradient.store().further_successors),
         found_(ranks_.size()) {
     if (!ways.rising_walls) return;
@@ -113,6 +170,11 @@ class Reacher {
 
   /// Takes all steps that this rank can.
   void follow() {
+    std::vector<Id> cells;
+    for (const LocalStep& step : here_) {
+      if (step.kind == StepKind::rising_cell) cells.push_back(step.simplex[0]);
+    }
+    cell_successors_.follow(cells);
     for (std::int64_t i = 0; !here_.empty(); ++i) {
       stop_if_asked_at(i);
       const LocalStep step = here_.back();
@@ -291,7 +353,7 @@ class Reacher {
   }
 
   void take_cell(int asker, FoundFor& found, Id cell) {
-    const Id next = cell_successor_[cell], place = cell_place(found, cell);
+    const Id next = cell_successors_[cell], place = cell_place(found, cell);
     if (next >= 0) {
       found.cell_steps.push_back({place, cell_place(found, next)});
       go({StepKind::rising_cell, asker, {next}});
@@ -368,7 +430,8 @@ class Reacher {
   const CellReader corners_;
   const OtherIds input_, internal_;
   const std::uint64_t* keys_;
-  const Id *vertex_successor_, *cell_successor_;
+  const Id* vertex_successor_;
+  CellSteps cell_successors_;
   const std::vector<std::pair<Id, Id>>& further_;
   std::unique_ptr<Consumer> consumer_;  // of rising walls
   std::optional<EdgeStar> star_;

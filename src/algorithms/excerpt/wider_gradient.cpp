@@ -45,11 +45,6 @@ WallGround WiderGradient::ground() const {
   return {pairs_, vertex_successors_.data(), keys_.data(), {simplices_->names().data()}, {0, vertices_}};
 }
 
-WiderSuccessors WiderGradient::cell_successors() const {
-  return {gradient_.cell_successors().data(), own_cells_, steps_beyond_.data(), steps_of_exits_.data(),
-          static_cast<Id>(steps_of_exits_.size())};
-}
-
 void WiderGradient::fill_keys() {
   const VertexOrder& order = gradient_.order();
   const auto keys = allocate<Array<std::uint64_t, HostMemory>>("GALE::wider_keys", vertices_);
@@ -80,19 +75,20 @@ void WiderGradient::fill_successors(const Reached& reached) {
   const auto of_vertices = allocate<Array<Id, HostMemory>>("GALE::wider_successors", vertices_);
   parallel_for("GALE::wider_successors", HostExecutionSpace(), vertices_,
                [&](Offset v) { of_vertices(v) = v < own_vertices_ ? own(v) : DiscreteGradient::elsewhere; });
-  steps_beyond_.assign(simplices_->cells() - own_cells_, DiscreteGradient::elsewhere);
+  cell_successors_.own = gradient_.store().cell_successors();
+  cell_successors_.beyond.assign(simplices_->cells() - own_cells_, DiscreteGradient::elsewhere);
   for_each_received(reached.vertex_steps, [&](int rank, const auto& step) {
     of_vertices(vertex(rank, step[0])) = step[1] == no_id ? no_id : vertex(rank, step[1]);
   });
   for_each_received(reached.cell_steps, [&](int rank, const auto& step) {
     const Id from = cell(rank, step[0]), to = step[1] < 0 ? step[1] : cell(rank, step[1]);
     if (simplices_->is_own_cell(from)) {
-      steps_of_exits_.emplace_back(from, to);
+      cell_successors_.exits.emplace_back(from, to);
     } else {
-      steps_beyond_[from - own_cells_] = to;
+      cell_successors_.beyond[from - own_cells_] = to;
     }
   });
-  std::sort(steps_of_exits_.begin(), steps_of_exits_.end());
+  std::sort(cell_successors_.exits.begin(), cell_successors_.exits.end());
   if (gradient_.mesh().dimension() == 3) fill_rows(reached, of_vertices);
   vertex_successors_ = of_vertices;
 }

@@ -23,7 +23,7 @@ class WiderGradient {
 
   WallGround ground() const;
   const Array<const Id, HostMemory>& vertex_successors() const { return vertex_successors_; }
-  WiderSuccessors cell_successors() const;
+  const MoreSuccessors& cell_successors() const { return cell_successors_; }
 
   /// The rank's critical simplices and those that were reached, in the order of CriticalSimplices by global ids.
   const CriticalSimplices& critical() const { return critical_; }
@@ -51,8 +51,7 @@ class WiderGradient {
   const Id own_vertices_, own_cells_, vertices_;
   Array<const std::uint64_t, HostMemory> keys_;
   Array<const Id, HostMemory> vertex_successors_;
-  std::vector<std::pair<Id, Id>> steps_of_exits_;  ///< own cells whose successors the part lacks, and these; ascending
-  std::vector<Id> steps_beyond_;                   ///< successors of others' cells
+  MoreSuccessors cell_successors_;
   EdgePairs pairs_;
   CriticalSimplices critical_;
   std::array<std::vector<char>, 4> is_own_;

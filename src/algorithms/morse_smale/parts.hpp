@@ -28,7 +28,7 @@ PathStarts ascending_starts(const CriticalSimplices& critical);
 
 /// Finds the paths from some simplices along these successors, but those that leave through the surface. Their
 /// destinations are place(last simplex).
-Separatrices<Id> paths_along(const WiderSuccessors& successors, const PathStarts& starts,
+Separatrices<Id> paths_along(const MoreSuccessors& successors, const PathStarts& starts,
                              const std::function<Id(Id)>& place);
 
 /// Finds the paths from each critical edge down to minima along these successors, where they are.

@@ -21,13 +21,14 @@ struct Followed {
 };
 
 /// How many simplices a path has; 0 if it leaves through the surface.
-template <class Memory>
+template <class Successors, class Memory>
 struct PathLength {
-  Array<const Id, Memory> successors, starts;
+  Successors successors;
+  Array<const Id, Memory> starts;
 
   KOKKOS_FUNCTION Offset operator()(Offset i) const {
     Offset length = 1;
-    for (Id next = successors(starts(i)); next != no_id; next = successors(next), ++length) {
+    for (Id next = successors[starts(i)]; next != no_id; next = successors[next], ++length) {
       if (next < no_id) return 0;
     }
     return length;
@@ -35,13 +36,12 @@ struct PathLength {
 };
 
 /// Follows paths where successors lie on a device: a thread for each.
-template <class Space>
-Followed paths_on_device(const Space& space, const Array<const Id, MemoryOf<Space>>& successors,
-                         const std::vector<Id>& starts) {
+template <class Space, class Successors>
+Followed paths_on_device(const Space& space, const Successors& successors, const std::vector<Id>& starts) {
   using Memory = MemoryOf<Space>;
   const Offset count = static_cast<Offset>(starts.size());
   const auto from = in_memory<Memory>(Array<const Id, HostMemory>(starts.data(), starts.size()));
-  const PathLength<Memory> length{successors, from};
+  const PathLength<Successors, Memory> length{successors, from};
   const auto begin = allocate<Array<Offset, Memory>>("GALE::path_begin", count + 1);
   parallel_for(
       "GALE::path_lengths", space, count, KOKKOS_LAMBDA(Offset i) { begin(i) = length(i); });
@@ -52,7 +52,7 @@ Followed paths_on_device(const Space& space, const Array<const Id, MemoryOf<Spac
       "GALE::follow_paths", space, count, KOKKOS_LAMBDA(Offset i) {
         if (begin(i + 1) == begin(i)) return;
         Id cell = from(i);
-        for (Offset at = begin(i); at < begin(i + 1); ++at, cell = successors(cell)) cells(at) = cell;
+        for (Offset at = begin(i); at < begin(i + 1); ++at, cell = successors[cell]) cells(at) = cell;
       });
   space.fence();
   const auto here = on_host(cells);
@@ -187,9 +187,18 @@ PathStarts ascending_starts(const CriticalSimplices& critical) {
   return starts;
 }
 
-Separatrices<Id> paths_along(const WiderSuccessors& successors, const PathStarts& starts,
+Separatrices<Id> paths_along(const MoreSuccessors& successors, const PathStarts& starts,
                              const std::function<Id(Id)>& place) {
-  return paths_of(paths_on_host(successors, starts.simplices), starts.sources, place);
+  auto followed = in_worker_or_host_space(successors.own.on_device(), [&](const auto& space) -> Followed {
+    using Space = std::decay_t<decltype(space)>;
+    const SuccessorsIn<MemoryOf<Space>> here(successors);
+    if constexpr (is_device<Space>) {
+      return paths_on_device(space, here.all(), starts.simplices);
+    } else {
+      return paths_on_host(here.all(), starts.simplices);
+    }
+  });
+  return paths_of(std::move(followed), starts.sources, place);
 }
 
 Separatrices<Id> descending_separatrices(const Mesh& mesh, const Mirrored<Id>& successors,

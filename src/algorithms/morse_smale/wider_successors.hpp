@@ -1,9 +1,12 @@
 #pragma once
 
 #include <utility>
+#include <vector>
 
 #include <gale/algorithms/discrete_gradient.hpp>
+#include <gale/base/mirrored.hpp>
 #include <gale/base/ordered.hpp>
+#include <gale/base/transfer.hpp>
 
 namespace gale::detail {
 
@@ -29,6 +32,32 @@ struct WiderSuccessors {
     const Id at = bisect(Id(0), exit_count, [=](Id i) { return from[i].first < simplex; });
     return at < exit_count && exits[at].first == simplex ? exits[at].second : DiscreteGradient::elsewhere;
   }
+};
+
+/// What WiderSuccessors are made of, wherever the part's are.
+struct MoreSuccessors {
+  Mirrored<Id> own;
+  std::vector<Id> beyond;
+  std::vector<std::pair<Id, Id>> exits;
+};
+
+/// These in a memory. Refers to them where they lie there already.
+template <class Memory>
+class SuccessorsIn {
+ public:
+  explicit SuccessorsIn(const MoreSuccessors& successors)
+      : own_(successors.own.in<Memory>()),
+        beyond_(in_memory<Memory>(successors.beyond)),
+        exits_(in_memory<Memory>(successors.exits)) {}
+
+  WiderSuccessors all() const {
+    return {own_.data(), static_cast<Id>(own_.extent(0)), beyond_.data(), exits_.data(),
+            static_cast<Id>(exits_.extent(0))};
+  }
+
+ private:
+  Array<const Id, Memory> own_, beyond_;
+  Array<const std::pair<Id, Id>, Memory> exits_;
 };
 
 /// Brings a successor that is soon read near.
