@@ -51,13 +51,6 @@ Table neighbours(const Table& there, const Table& back) {
 
 }  // namespace
 
-BruteForce::BruteForce(Id vertices, std::vector<std::array<Id, 4>> tetrahedra) : vertices_(vertices) {
-  for (auto& corners : tetrahedra) {
-    std::sort(corners.begin(), corners.end());
-    simplices_[3].emplace_back(corners.begin(), corners.end());
-  }
-}
-
 const Table& BruteForce::simplices(int dimension) const {
   Table& found = simplices_[dimension];
   if (found.empty()) found = find_simplices(dimension);
@@ -68,9 +61,9 @@ Table BruteForce::find_simplices(int dimension) const {
   Table found;
   if (dimension == 0) {
     for (Id v = 0; v < vertices_; ++v) found.push_back({v});
-  } else if (dimension < 3) {
-    for (const auto& tetrahedron : simplices_[3])
-      for_each_subset(tetrahedron, dimension + 1, [&](const std::vector<Id>& face) { found.push_back(face); });
+  } else if (dimension < dimension_) {
+    for (const auto& cell : simplices_[dimension_])
+      for_each_subset(cell, dimension + 1, [&](const std::vector<Id>& face) { found.push_back(face); });
     std::sort(found.begin(), found.end());
     found.erase(std::unique(found.begin(), found.end()), found.end());
   }

@@ -32,18 +32,23 @@ class ExplicitOracle : public Oracle {
 class BruteForceOracle : public Oracle {
  public:
   BruteForceOracle(const Mesh& mesh, Relation relation)
-      : all_(mesh.vertices(), tetrahedra_of(mesh)), rows_(all_.rows(relation)) {}
+      : all_(mesh.dimension() == 3 ? BruteForce(mesh.vertices(), cells_of<4>(mesh))
+                                   : BruteForce(mesh.vertices(), cells_of<3>(mesh))),
+        rows_(all_.rows(relation)) {}
 
   std::string name() const override { return "brute force"; }
   Id rows() const override { return static_cast<Id>(rows_.size()); }
   void read(Id simplex, int, std::vector<Id>& row) override { row = rows_[simplex]; }
 
  private:
-  static std::vector<std::array<Id, 4>> tetrahedra_of(const Mesh& mesh) {
-    const auto& corners = mesh.encoded().cells;
-    std::vector<std::array<Id, 4>> tetrahedra(mesh.cells());
-    for (Id t = 0; t < mesh.cells(); ++t) tetrahedra[t] = {corners(t, 0), corners(t, 1), corners(t, 2), corners(t, 3)};
-    return tetrahedra;
+  template <int corners>
+  static std::vector<std::array<Id, corners>> cells_of(const Mesh& mesh) {
+    const auto& encoded = mesh.encoded().cells;
+    std::vector<std::array<Id, corners>> cells(mesh.cells());
+    for (Id t = 0; t < mesh.cells(); ++t) {
+      for (int corner = 0; corner < corners; ++corner) cells[t][corner] = encoded(t, corner);
+    }
+    return cells;
   }
 
   BruteForce all_;
@@ -55,7 +60,7 @@ class BruteForceOracle : public Oracle {
 std::unique_ptr<Oracle> make_oracle(const Mesh& mesh, Relation relation, [[maybe_unused]] int threads,
                                     [[maybe_unused]] bool is_explicit) {
 #ifdef GALE_ENABLE_KOKKOS_KERNELS
-  if (!is_explicit) return std::make_unique<ExplicitOracle>(mesh, relation, threads);
+  if (!is_explicit && !face_relations.has(relation)) return std::make_unique<ExplicitOracle>(mesh, relation, threads);
 #endif
   return std::make_unique<BruteForceOracle>(mesh, relation);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <type_traits>
 
 #include <gale/base/kokkos.hpp>
@@ -19,6 +20,17 @@ namespace detail {
 template <class T>
 bool replaced(T* at, T& there, T value) {
   return __atomic_compare_exchange(at, &there, &value, true, __ATOMIC_RELAXED, __ATOMIC_RELAXED);
+}
+
+/// Sets bits of a byte. A device changes words: the four bytes at a multiple of 4 that it is one of must be there.
+KOKKOS_FORCEINLINE_FUNCTION std::uint8_t atomic_or(std::uint8_t* at, std::uint8_t bits) {
+#if defined(GALE_ON_DEVICE)
+  const auto byte = reinterpret_cast<std::uintptr_t>(at) % 4;
+  const unsigned word = atomicOr(reinterpret_cast<unsigned*>(at - byte), unsigned(bits) << (8 * byte));
+  return static_cast<std::uint8_t>(word >> (8 * byte));
+#else
+  return __atomic_fetch_or(at, bits, __ATOMIC_RELAXED);
+#endif
 }
 
 }  // namespace detail

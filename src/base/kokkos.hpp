@@ -159,6 +159,15 @@ class ToolsRegion {
 
 namespace detail {
 
+/// Whether this code is compiled for the device: a constant, by which the compiler drops what is for elsewhere.
+KOKKOS_FORCEINLINE_FUNCTION constexpr bool compiled_for_device() {
+#if defined(GALE_ON_DEVICE)
+  return true;
+#else
+  return false;
+#endif
+}
+
 /// Waits for what was enqueued on an execution space. Kokkos Tools are told the label.
 template <class Space>
 void wait_for(const Space& space, [[maybe_unused]] const char* label) {
@@ -202,6 +211,19 @@ KOKKOS_FORCEINLINE_FUNCTION void* in_shared_memory(void* address) {
   return __cvta_shared_to_generic(__cvta_generic_to_shared(address));
 #else
   return address;
+#endif
+}
+
+/// Four 32-bit integers in one load, on a device through its cache for what is only read. They are aligned to 16 bytes,
+/// and nothing writes them while a kernel runs.
+template <class Four>
+KOKKOS_FORCEINLINE_FUNCTION Four load_four(const Four* from) {
+  static_assert(sizeof(Four) == 16 && alignof(Four) == 16, "one load");
+#if defined(GALE_ON_DEVICE)
+  const int4 four = __ldg(reinterpret_cast<const int4*>(from));
+  return {four.x, four.y, four.z, four.w};
+#else
+  return *from;
 #endif
 }
 

@@ -36,12 +36,7 @@ KOKKOS_FORCEINLINE_FUNCTION bool operator<(const Quad& one, const Quad& other) {
 /// The t-th of four ids each, in one load. `vertices` is aligned to 16 bytes, as the memory of Views is, and nothing
 /// writes it while a kernel runs.
 KOKKOS_FORCEINLINE_FUNCTION Quad quad_at(const Id* vertices, Id t) {
-#if defined(GALE_ON_DEVICE)
-  const int4 four = __ldg(reinterpret_cast<const int4*>(vertices) + t);
-  return {four.x, four.y, four.z, four.w};
-#else
-  return reinterpret_cast<const Quad*>(vertices)[t];
-#endif
+  return detail::load_four(reinterpret_cast<const Quad*>(vertices) + t);
 }
 
 /// Four ids each, e.g. the vertices of tetrahedra, by row and column. Owns nothing.

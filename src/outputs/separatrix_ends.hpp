@@ -67,8 +67,8 @@ class NumbersOfAll {
         counts(s) = static_cast<GlobalId>(first[s + 1] - first[s]);
       }
     });
-    const Ids numbers = gale::detail::sums_before(ranks, cells, counts);
-    count_ = numbers(numbers.extent(0) - 1);
+    const auto [numbers, count] = gale::detail::sums_before(ranks, cells, counts);
+    count_ = count;
     for (std::size_t s = 0; s + 1 < first.size(); ++s) {
       for (std::size_t i = first[s]; i < first[s + 1]; ++i) numbers_.push_back(numbers(s) + GlobalId(i - first[s]));
     }

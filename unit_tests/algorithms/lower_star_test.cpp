@@ -245,6 +245,31 @@ TEST(LargeLowerStar, finds_the_tetrahedron_of_the_lowest_number_across_a_triangl
   EXPECT_EQ(star.across(triangle, 3), 2);
 }
 
+TEST(LargeLowerStar, of_triangles_has_the_pairs_and_the_triangles_of_edges_that_a_reader_finds) {
+  // Neighbours 0, 1 and 2 are lower, 3 is not. Key order: 0, 1, 10, 2, 20. Three triangles share the edge to 0.
+  const std::array<Id, 2> places[] = {{0, 3}, {0, 1}, {0, 2}};
+  const std::vector<Id> ranks = {0, 1, 2, no_id}, numbers = {30, 10, 20};
+  LargeLowerStar star;
+  star.build(ranks, 3, {places, 3, 4, 2}, [&](Id place) { return numbers[place]; });
+  std::vector<std::pair<int, int>> pairs;
+  detail::pair_cells(
+      star,
+      [&](int facet, int cell) {
+        pairs.push_back({facet, cell});
+      },
+      [](int cell) { FAIL() << cell; });
+  EXPECT_EQ(pairs, (std::vector<std::pair<int, int>>{{1, 2}, {3, 4}}));
+  EXPECT_EQ(corners_of(star, 4), (std::vector<int>{2, 0}));
+  EXPECT_EQ(star.place(2), 1);
+  EXPECT_EQ(star.place(4), 2);
+  std::vector<Id> of_edge;
+  star.for_each_place(0, [&](Id place) { of_edge.push_back(place); });
+  EXPECT_EQ(of_edge, (std::vector<Id>{0, 1, 2}));
+  EXPECT_EQ(star.across(0, 1), 2);
+  EXPECT_EQ(star.across(0, 2), 1);
+  EXPECT_EQ(star.across(1, 1), LargeLowerStar::no_place);
+}
+
 TEST(LargeLowerStar, serves_again_after_a_larger_star) {
   std::mt19937 random(4);
   ManyLowerNeighbours lower;

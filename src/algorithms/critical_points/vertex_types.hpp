@@ -4,6 +4,7 @@
 
 #include <gale/algorithms/critical_points.hpp>
 #include <gale/algorithms/links/small_link.hpp>
+#include <gale/base/atomic.hpp>
 #include <gale/base/memory.hpp>
 
 namespace gale::detail {
@@ -50,7 +51,7 @@ class VertexTypes {
   VertexTypes(Id vertices, int dimension)
       : dimension_(dimension),
         own_(allocate<Bytes>("GALE::vertex_types", vertices)),
-        told_("GALE::surface_neighbours", (vertices + 3) / 4 * 4) {}  // neighbours are told in words on a device
+        told_("GALE::surface_neighbours", (vertices + 3) / 4 * 4) {}  // whole words, as atomic_or takes
 
   /// Sets what a vertex is by its own link, and tells its neighbours if it is on the surface.
   KOKKOS_FORCEINLINE_FUNCTION void set(const std::uint64_t* keys, Id v, const Row& neighbours,
@@ -64,15 +65,7 @@ class VertexTypes {
   /// Tells a vertex that a neighbour of it is on the surface, and whether that is above it or below.
   KOKKOS_FORCEINLINE_FUNCTION void tell(const std::uint64_t* keys, Id v, Id neighbour) const {
     const std::uint8_t what = keys[neighbour] > keys[v] ? upper_on_surface : lower_on_surface;
-    std::uint8_t* const told = told_.data();
-#if defined(GALE_ON_DEVICE)
-    // A word at a time, as atomics are: of four neighbours.
-    auto* const words = reinterpret_cast<unsigned*>(told - reinterpret_cast<std::uintptr_t>(told) % 4);
-    const auto at = static_cast<std::size_t>(told + v - reinterpret_cast<std::uint8_t*>(words));
-    atomicOr(words + at / 4, unsigned(what) << (8 * (at % 4)));
-#else
-    __atomic_fetch_or(told + v, what, __ATOMIC_RELAXED);
-#endif
+    atomic_or(told_.data() + v, what);
   }
 
   /// Once all are set and told.

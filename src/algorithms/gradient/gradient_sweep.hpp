@@ -1,7 +1,6 @@
 #pragma once
 
 #include <gale/algorithms/gradient/gradient_store.hpp>
-#include <gale/algorithms/gradient/large_lower_fan.hpp>
 #include <gale/algorithms/gradient/large_lower_star.hpp>
 #include <gale/algorithms/gradient/lower_neighbours.hpp>
 #include <gale/algorithms/gradient/pair_fan.hpp>
@@ -44,22 +43,19 @@ class GradientSweep {
   void pair_tetrahedra(const VertexStar& star) {
     if (!lower_.find(keys_, star.vertex, star.neighbours) ||
         (!pair_star_of_words<1, false>(sink_, star, lower_) && !pair_star_of_words<2, false>(sink_, star, lower_)))
-      pair_star(sink_, star, many_lower_, built(large_star_, star), large_star_);
+      pair_star(sink_, star, many_lower_, built(star), large_);
   }
 
   void pair_triangles(const VertexStar& star) {
-    if (pair_small_fan(sink_, keys_, star)) return;
-    built(large_fan_, star);
-    pair_large_fan(sink_, star, many_lower_, large_fan_);
+    if (!pair_small_fan(sink_, keys_, star)) pair_large_fan(sink_, star, many_lower_, built(star));
   }
 
-  /// Makes it the star of a vertex that is too large for bits, whose lower neighbours `many_lower_` becomes.
-  template <class Large>
-  const Large& built(Large& large, const VertexStar& star) {
+  /// The star of a vertex that is too large for bits, whose lower neighbours `many_lower_` becomes.
+  LargeLowerStar& built(const VertexStar& star) {
     many_lower_.find(keys_, star.vertex, star.neighbours);
-    large.build(many_lower_.ranks(), many_lower_.count(), star.link,
-                [&](Id place) { return cell_input_[star.cells[place]]; });
-    return large;
+    large_.build(many_lower_.ranks(), many_lower_.count(), star.link,
+                 [&](Id place) { return cell_input_[star.cells[place]]; });
+    return large_;
   }
 
   const ConsumerSink sink_;
@@ -68,8 +64,7 @@ class GradientSweep {
   const int dimension_;
   LowerNeighbours lower_;
   ManyLowerNeighbours many_lower_;
-  LargeLowerStar large_star_;
-  LargeLowerFan large_fan_;
+  LargeLowerStar large_;
 };
 
 }  // namespace gale::detail

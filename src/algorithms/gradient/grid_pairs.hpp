@@ -153,7 +153,7 @@ class GridLowerStar {
     return around[2] + around[3] - place;
   }
   template <class Visit>
-  KOKKOS_FORCEINLINE_FUNCTION void for_each_tetrahedron(int triangle, const Visit& visit) const {
+  KOKKOS_FORCEINLINE_FUNCTION void for_each_place(int triangle, const Visit& visit) const {
     const Bytes around = whole_->around[cell_[triangle][3]];
     visit(around[2]);
     visit(around[3]);

@@ -1,58 +1,71 @@
 #include <algorithm>
+#include <functional>
 
 #include <gale/algorithms/gradient/large_lower_star.hpp>
 
 namespace gale::detail {
 
 void LargeLowerStar::build(const std::vector<Id>& ranks, int edges, const LinkRow& link) {
-  sides_.clear();
-  corners_.clear();
-  std::vector<std::pair<Corners, Id>> tetrahedra;
-  for (Id a = 0; a < edges; ++a) corners_.push_back({a, -1, -1});
-  for (Id t = 0; t < link.size(); ++t) {
-    Corners c = {ranks[link(t, 0)], ranks[link(t, 1)], ranks[link(t, 2)]};
-    std::sort(c.begin(), c.end(), std::greater<Id>());
-    if (c[1] >= 0) sides_.push_back({c[0], c[1], t});
-    if (c[2] < 0) continue;
-    sides_.push_back({c[0], c[2], t});
-    sides_.push_back({c[1], c[2], t});
-    tetrahedra.push_back({c, t});
-    corners_.push_back(c);
+  cells_.clear();
+  for (Id a = 0; a < edges; ++a) cells_.push_back({a, -1, -1, no_id});
+  find_sides(ranks, link);
+  std::sort(cells_.begin(), cells_.end());
+  const auto count = static_cast<int>(cells_.size());
+  const auto side_count = static_cast<Id>(sides_.size());
+  side_begin_.assign(count + 1, side_count);
+  facets_.assign(count, {-1, -1, -1});
+  edge_cell_.resize(edges);
+  Id side = 0;
+  for (int cell = 0; cell < count; ++cell) {
+    const auto& [a, b, c, place] = cells_[cell];
+    side_begin_[cell] = side;
+    while (side < side_count && sides_[side][0] == a && sides_[side][1] == b) ++side;
+    if (b < 0) {
+      edge_cell_[a] = cell;
+    } else if (c < 0) {
+      facets_[cell] = {edge_cell_[a], edge_cell_[b], -1};
+    } else {
+      facets_[cell] = {triangle(a, b), triangle(a, c), triangle(b, c)};
+    }
   }
-  std::sort(sides_.begin(), sides_.end());
-  for (const Corners& side : sides_) corners_.push_back({side[0], side[1], -1});
-  std::sort(corners_.begin(), corners_.end());
-  corners_.erase(std::unique(corners_.begin(), corners_.end()), corners_.end());
-  place_.assign(corners_.size(), no_id);
-  for (const auto& [corners, t] : tetrahedra) place_[cell_of(corners)] = t;
-  find_facets();
   connect();
 }
 
-int LargeLowerStar::cell_of(const Corners& corners) const {
-  return static_cast<int>(std::lower_bound(corners_.begin(), corners_.end(), corners) - corners_.begin());
-}
-
-void LargeLowerStar::find_facets() {
-  facets_.assign(corners_.size(), {-1, -1, -1});
-  for (std::size_t cell = 0; cell < corners_.size(); ++cell) {
-    const auto& [a, b, c] = corners_[cell];
-    if (b < 0) continue;
-    if (c < 0) {
-      facets_[cell] = {cell_of({a, -1, -1}), cell_of({b, -1, -1}), -1};
+/// Finds the sides of the mesh's cells, and adds these cells; and their triangles, if they are tetrahedra.
+void LargeLowerStar::find_sides(const std::vector<Id>& ranks, const LinkRow& link) {
+  sides_.clear();
+  for (Id t = 0; t < link.size(); ++t) {
+    Ranked cell = {-1, -1, -1, t};
+    for (int i = 0; i < link.others; ++i) cell[i] = ranks[link(t, i)];
+    std::sort(cell.begin(), cell.begin() + 3, std::greater<Id>());
+    const auto [a, b, c, place] = cell;
+    if (link.others == 2) {
+      if (a >= 0) sides_.push_back({a, -1, -1, t});
+      if (b < 0) continue;
+      sides_.push_back({b, -1, -1, t});
     } else {
-      facets_[cell] = {cell_of({a, b, -1}), cell_of({a, c, -1}), cell_of({b, c, -1})};
+      if (b >= 0) sides_.push_back({a, b, -1, t});
+      if (c < 0) continue;
+      sides_.push_back({a, c, -1, t});
+      sides_.push_back({b, c, -1, t});
     }
+    cells_.push_back(cell);
+  }
+  std::sort(sides_.begin(), sides_.end());
+  if (link.others == 2) return;
+  for (const auto& [a, b, none, place] : sides_) {
+    const Ranked& last = cells_.back();
+    if (last[0] != a || last[1] != b || last[2] >= 0) cells_.push_back({a, b, -1, no_id});
   }
 }
 
-std::vector<LargeLowerStar::Corners>::const_iterator LargeLowerStar::first_side(int triangle) const {
-  return std::lower_bound(sides_.begin(), sides_.end(), Corners{corners_[triangle][0], corners_[triangle][1], 0});
+int LargeLowerStar::triangle(Id a, Id b) const {
+  return static_cast<int>(std::lower_bound(cells_.begin(), cells_.end(), Ranked{a, b, -1, no_id}) - cells_.begin());
 }
 
-Id LargeLowerStar::across(int triangle, Id place) const {
+Id LargeLowerStar::across(int facet, Id place) const {
   Id best = no_id;
-  for_each_tetrahedron(triangle, [&](Id other) {
+  for_each_place(facet, [&](Id other) {
     if (other != place && (best == no_id || numbers_[other] < numbers_[best])) best = other;
   });
   return best;

@@ -8,15 +8,17 @@
 
 namespace gale::detail {
 
-/// A LowerStar with its queues, for stars of any size, and triangles with any number of tetrahedra. Time O(n log n).
-/// One serves one thread, and keeps its memory.
+/// A LowerStar with its queues, for stars of any size, among tetrahedra or triangles, and facets of these that any
+/// number of them share: a facet is a triangle or, on a triangle mesh, an edge. Time O(n log n). One serves one thread,
+/// and keeps its memory.
 class LargeLowerStar : public HeapQueues {
  public:
   static constexpr Id no_place = no_id;
-  static constexpr bool may_fork = true;   ///< whether a triangle may have more than two tetrahedra
+  static constexpr bool may_fork = true;   ///< whether a facet may have more than two of the mesh's cells
   static constexpr bool may_leave = true;  ///< or only one
 
-  /// `ranks`: of all neighbours, no_id for an upper one; `numbers(place)`: the number of each tetrahedron of the star.
+  /// `ranks`: of all neighbours, no_id for an upper one; `numbers(place)`: the number of each of the mesh's cells in
+  /// the star.
   template <class Numbers>
   void build(const std::vector<Id>& ranks, int edges, const LinkRow& link, const Numbers& numbers) {
     numbers_.resize(link.size());
@@ -24,39 +26,38 @@ class LargeLowerStar : public HeapQueues {
     build(ranks, edges, link);
   }
 
-  int dimension(int cell) const { return corners_[cell][1] < 0 ? 1 : corners_[cell][2] < 0 ? 2 : 3; }
+  int dimension(int cell) const { return corners(cell)[1] < 0 ? 1 : corners(cell)[2] < 0 ? 2 : 3; }
 
   /// Ranks of a cell's vertices, descending; as many as it has dimensions.
-  const std::array<Id, 3>& corners(int cell) const { return corners_[cell]; }
+  const std::array<Id, 4>& corners(int cell) const { return cells_[cell]; }
 
-  /// Place of a tetrahedron in the VT row.
-  Id place(int tetrahedron) const { return place_[tetrahedron]; }
+  /// Place of one of the mesh's cells in the VT, or VF, row.
+  Id place(int cell) const { return cells_[cell][3]; }
 
-  /// Place in the VT row of a triangle's tetrahedron that isn't the one at `place`, of several that of the lowest
-  /// number; `no_place` if there is no other.
-  Id across(int triangle, Id place) const;
+  /// Place of a facet's cell that isn't the one at `place`, of several that of the lowest number; `no_place` if there
+  /// is no other.
+  Id across(int facet, Id place) const;
 
-  /// Calls visit(place) for the places in the VT row of a triangle's tetrahedra.
+  /// Calls visit(place) for the places of a facet's cells.
   template <class Visit>
-  void for_each_tetrahedron(int triangle, const Visit& visit) const {
-    for (auto side = first_side(triangle); is_side(side, triangle); ++side) visit((*side)[2]);
+  void for_each_place(int facet, const Visit& visit) const {
+    for (Id i = side_begin_[facet]; i < side_begin_[facet + 1]; ++i) visit(sides_[i][3]);
   }
 
  private:
-  using Corners = std::array<Id, 3>;
+  /// The ranks of a cell, -1 where there are fewer than three, and its place if it is one of the mesh's, else no_id; or
+  /// those of a facet, and the place of a cell that has it.
+  using Ranked = std::array<Id, 4>;
 
   void build(const std::vector<Id>& ranks, int edges, const LinkRow& link);
-  int cell_of(const Corners& corners) const;
-  std::vector<Corners>::const_iterator first_side(int triangle) const;
-  bool is_side(std::vector<Corners>::const_iterator side, int triangle) const {
-    return side != sides_.end() && (*side)[0] == corners_[triangle][0] && (*side)[1] == corners_[triangle][1];
-  }
-  void find_facets();
+  void find_sides(const std::vector<Id>& ranks, const LinkRow& link);
+  int triangle(Id a, Id b) const;
 
-  std::vector<Id> numbers_;       ///< of the star's tetrahedra
-  std::vector<Corners> sides_;    ///< each triangle's two ranks and each of its tetrahedra's place, ascending
-  std::vector<Corners> corners_;  ///< of each cell, ascending in lexicographic order; -1 where it has no more
-  std::vector<Id> place_;
+  std::vector<Id> numbers_;     ///< of the mesh's cells
+  std::vector<Ranked> cells_;   ///< ascending
+  std::vector<Ranked> sides_;   ///< each facet with each of its cells, ascending
+  std::vector<Id> side_begin_;  ///< where those of each cell begin
+  std::vector<int> edge_cell_;  ///< by rank
 };
 
 }  // namespace gale::detail

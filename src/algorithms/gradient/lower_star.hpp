@@ -74,7 +74,7 @@ class LowerStar {
 
   /// Calls visit(place) for the places in the VT row of a triangle's tetrahedra.
   template <class Visit>
-  KOKKOS_FORCEINLINE_FUNCTION void for_each_tetrahedron(int triangle, const Visit& visit) const {
+  KOKKOS_FORCEINLINE_FUNCTION void for_each_place(int triangle, const Visit& visit) const {
     const Bytes corner = corners(triangle);
     const int high = corner[0], low = corner[1];
     for (int i = 0; i < wedges_; ++i) {

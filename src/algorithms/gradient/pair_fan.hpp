@@ -1,6 +1,6 @@
 #pragma once
 
-#include <gale/algorithms/gradient/large_lower_fan.hpp>
+#include <gale/algorithms/gradient/large_lower_star.hpp>
 #include <gale/algorithms/gradient/lower_fan.hpp>
 #include <gale/algorithms/gradient/lower_neighbours.hpp>
 #include <gale/algorithms/gradient/pair_star.hpp>
@@ -19,23 +19,23 @@ KOKKOS_INLINE_FUNCTION Id rim_successor(const VertexStar& star, Id place, Id low
 /// Pairs the lower star of any vertex of a triangle mesh and puts what it finds into `sink`. `lower` are its lower
 /// neighbours.
 template <class Sink>
-void pair_large_fan(const Sink& sink, const VertexStar& star, const ManyLowerNeighbours& lower, LargeLowerFan& cells) {
+void pair_large_fan(const Sink& sink, const VertexStar& star, const ManyLowerNeighbours& lower, LargeLowerStar& cells) {
   const auto id = [&](int rank) { return star.neighbours[lower.place(lower.with_rank(rank))]; };
   sink.set_vertex(star.vertex, lower.count() == 0 ? no_id : id(0));
   if (lower.count() == 0) return;
   const auto pair = [&](int edge, int cell) {
     const Id place = cells.place(cell), across = cells.across(edge, place);
     sink.set_cell(star.cells[place],
-                  across == no_id ? rim_successor(star, place, id(cells.high(edge))) : star.cells[across]);
-    cells.for_each_triangle(edge, [&](Id other) {
+                  across == no_id ? rim_successor(star, place, id(cells.corners(edge)[0])) : star.cells[across]);
+    cells.for_each_place(edge, [&](Id other) {
       if (other != place && other != across) sink.add_successor(star.cells[place], star.cells[other]);
     });
   };
   const auto critical = [&](int cell) {
-    if (!cells.is_edge(cell)) return sink.add_critical_cell(star.cells[cells.place(cell)]);
-    const Id low = id(cells.high(cell));
+    if (cells.dimension(cell) == 2) return sink.add_critical_cell(star.cells[cells.place(cell)]);
+    const Id low = id(cells.corners(cell)[0]);
     sink.add_critical_edge(star.vertex, low);
-    cells.for_each_triangle(cell, [&](Id place) { sink.add_to_star({star.vertex, low, no_id}, star.cells[place]); });
+    cells.for_each_place(cell, [&](Id place) { sink.add_to_star({star.vertex, low, no_id}, star.cells[place]); });
   };
   pair_cells(cells, pair, critical);
 }

@@ -132,7 +132,7 @@ KOKKOS_FORCEINLINE_FUNCTION void pair_star(const Sink& sink, const Star& star, c
         sink.set_cell(star.cells[place], star.cells[across]);
       }
       if constexpr (Cells::may_fork) {
-        cells.for_each_tetrahedron(facet, [&](Id other) {
+        cells.for_each_place(facet, [&](Id other) {
           if (other != place && other != across) sink.add_successor(star.cells[place], star.cells[other]);
         });
       }
@@ -148,7 +148,7 @@ KOKKOS_FORCEINLINE_FUNCTION void pair_star(const Sink& sink, const Star& star, c
     } else {
       const std::array<Id, 3> triangle = {star.vertex, id(corners[0]), id(corners[1])};
       sink.add_critical_triangle(triangle);
-      cells.for_each_tetrahedron(cell, [&](Id place) { sink.add_to_star(triangle, star.cells[place]); });
+      cells.for_each_place(cell, [&](Id place) { sink.add_to_star(triangle, star.cells[place]); });
     }
   };
   pair_cells(queues, pair, critical);

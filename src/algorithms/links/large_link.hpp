@@ -15,21 +15,22 @@ namespace gale::detail {
 class LargeLink {
  public:
   void build(const LinkRow& link) {
+    std::vector<Id>& ends = parent_;  // of the edges of a triangle mesh's link
     edges_.clear();
-    if (link.others == 2) return build_from_edges(link);
+    ends.clear();
     for (Id t = 0; t < link.size(); ++t) {
-      const Id a = link(t, 0), b = link(t, 1), c = link(t, 2);
-      edges_.insert(edges_.end(), {pair_key(a, b), pair_key(a, c), pair_key(b, c)});
+      const Id a = link(t, 0), b = link(t, 1);
+      edges_.push_back(pair_key(a, b));
+      if (link.others == 2) {
+        ends.insert(ends.end(), {a, b});
+      } else {
+        edges_.insert(edges_.end(), {pair_key(a, link(t, 2)), pair_key(b, link(t, 2))});
+      }
     }
     std::sort(edges_.begin(), edges_.end());
-    is_open_ = false;
-    std::size_t kept = 0;
-    for (std::size_t i = 0, next = 0; i < edges_.size(); i = next) {
-      for (next = i + 1; next < edges_.size() && edges_[next] == edges_[i];) ++next;
-      is_open_ |= next == i + 1;
-      edges_[kept++] = edges_[i];
-    }
-    edges_.resize(kept);
+    std::sort(ends.begin(), ends.end());
+    is_open_ = link.others == 2 ? has_single(ends) : has_single(edges_);
+    edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
   }
 
   /// Has the link an edge with one triangle only, or, of triangles, a vertex with one edge only?
@@ -64,21 +65,14 @@ class LargeLink {
   }
 
  private:
-  void build_from_edges(const LinkRow& link) {
-    std::vector<Id>& ends = parent_;  // of all edges
-    ends.clear();
-    for (Id t = 0; t < link.size(); ++t) {
-      const Id a = link(t, 0), b = link(t, 1);
-      edges_.push_back(pair_key(a, b));
-      ends.insert(ends.end(), {a, b});
+  /// Is there a value that comes once only? They ascend.
+  template <class T>
+  static bool has_single(const std::vector<T>& values) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const bool came_before = i > 0 && values[i] == values[i - 1];
+      if (!came_before && (i + 1 == values.size() || values[i] != values[i + 1])) return true;
     }
-    std::sort(edges_.begin(), edges_.end());
-    std::sort(ends.begin(), ends.end());
-    is_open_ = false;
-    for (std::size_t i = 0, next = 0; i < ends.size(); i = next) {
-      for (next = i + 1; next < ends.size() && ends[next] == ends[i];) ++next;
-      is_open_ |= next == i + 1;
-    }
+    return false;
   }
 
   Id root(Id i) {

@@ -307,7 +307,7 @@ std::pair<Mirrored<Id>, Id> pairs_on_ranks(const Ranks& ranks, const ManifoldPai
     keys = allocate<decltype(keys)>("GALE::manifold_pairs", pairs.extent(0));
     for (std::size_t i = 0; i < pairs.extent(0); ++i) keys(i) = {pair_first(pairs(i)), pair_second(pairs(i)), 0};
   });
-  const KeyPlaces found = places_of_keys(ranks, keys);
+  const PlacesOfAll found = places_of_keys(ranks, keys);
   Mirrored<Id> all;
   together(ranks, [&] {
     require_ids("Morse-Smale manifolds of all ranks", found.count);

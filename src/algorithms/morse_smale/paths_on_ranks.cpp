@@ -211,7 +211,7 @@ Array<const Id, HostMemory> PathsOnRanks::places_of_ends() const {
     keys = allocate<decltype(keys)>("GALE::end_keys", different.count());
     for (Offset i = 0; i < different.count(); ++i) keys(i) = {different[i], 0, 0};
   });
-  const KeyPlaces found = places_of_keys(ranks(), keys);
+  const PlacesOfAll found = places_of_keys(ranks(), keys);
   Array<Id, HostMemory> places;
   together(ranks(), [&] {
     require_ids("minima or maxima of all ranks", found.count);
@@ -232,11 +232,11 @@ bool PathsOnRanks::jump() {
       ranks(), "GALE::next_stops", static_cast<Offset>(open_.size()), [&](Id i) { return stops_[open_[i]].rank; },
       [&](Id i) { return stops_[open_[i]].id; },
       [&](const auto& asked, const auto& answers) {
-        std::vector<Id> starts(asked.extent(0));
-        parallel_for("GALE::asked_starts", HostExecutionSpace(), asked.extent(0),
-                     [&](Offset i) { starts[i] = simplices_.local(asked(i)); });
+        std::vector<Id> starts(asked.count());
+        parallel_for("GALE::asked_starts", HostExecutionSpace(), asked.count(),
+                     [&](Offset i) { starts[i] = simplices_.local(asked.entries(i)); });
         const std::vector<Id> ends = ends_of(starts);
-        parallel_for("GALE::answered_stops", HostExecutionSpace(), asked.extent(0),
+        parallel_for("GALE::answered_stops", HostExecutionSpace(), asked.count(),
                      [&](Offset i) { answers(i) = final_stop(ends[i]); });
       });
   std::vector<Id> still;

@@ -129,7 +129,7 @@ NumbersOfRanks first_numbers(const Mesh& mesh, const Array<Id, HostMemory>& coun
       of_owned(v) = counts(vertex);
     });
   });
-  return detail::sums_before(ranks, owned, of_owned);
+  return detail::sums_before(ranks, owned, of_owned).places;
 }
 
 /// What owners know of their vertices, by GALE's id, for the vertices of an excerpt. Collective.

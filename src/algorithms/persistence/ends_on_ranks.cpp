@@ -32,7 +32,7 @@ class Followers {
           [&](Id i) { return stops[open[i]].next; },
           [&](const auto& from, const auto& found) {
             follow(
-                from.extent(0), [&](Offset i) { return simplices_.local(from(i)); }, found.data());
+                from.count(), [&](Offset i) { return simplices_.local(from.entries(i)); }, found.data());
           });
       std::vector<Id> still;
       for (std::size_t i = 0; i < open.size(); ++i) {

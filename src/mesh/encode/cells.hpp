@@ -67,9 +67,7 @@ class Renumbered {
 
   /// A device loads 16 bytes at a time where it may: a caller's array can begin anywhere.
   KOKKOS_FORCEINLINE_FUNCTION Corners corners_of(Offset t) const {
-#if defined(GALE_ON_DEVICE)
-    if (are_aligned_) return reinterpret_cast<const Corners*>(input_)[t];
-#endif
+    if (compiled_for_device() && are_aligned_) return reinterpret_cast<const Corners*>(input_)[t];
     Corners of;
     for (int corner = 0; corner < corners; ++corner) of.vertices[corner] = input_[corners * t + corner];
     return of;

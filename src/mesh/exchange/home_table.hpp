@@ -14,10 +14,11 @@ class Homes {
  public:
   Homes() = default;
 
-  /// For these ids of all ranks. Collective.
-  Homes(const Ranks& ranks, const Array<const GlobalId, HostMemory>& ids) : ranks_(ranks.size()) {
-    const GlobalId greatest = -ranks.least(reduce_min("GALE::greatest_id", HostExecutionSpace(), ids.extent(0),
-                                                      GlobalId(0), [&](Offset i) { return -ids(i); }));
+  /// For the ids id_of(i) of the items 0..items-1 of each rank. Collective.
+  template <class IdOf>
+  Homes(const Ranks& ranks, Offset items, const IdOf& id_of) : ranks_(ranks.size()) {
+    const GlobalId greatest = -ranks.least(
+        reduce_min("GALE::greatest_id", HostExecutionSpace(), items, GlobalId(0), [&](Offset i) { return -id_of(i); }));
     ids_a_home_ = greatest / ranks.size() + 1;
   }
 
@@ -38,11 +39,12 @@ class HomeTable {
 
   /// Takes ids that ranks have, with handed_of(i) for the i-th of this rank; entry_from(rank, handed) is what its home
   /// keeps of one. Where several ranks have an id, or one several times, the lowest rank's first counts, and
-  /// visit_other(rank, handed, entry) is called for each other one, on one thread of the home's.
+  /// visit_other(rank, handed, entry), which may change the entry, is called for each other one, on one thread of the
+  /// home's.
   template <class HandedOf, class EntryFrom, class VisitOther>
   HomeTable(const Ranks& ranks, const Array<const GlobalId, HostMemory>& ids, const HandedOf& handed_of,
             const EntryFrom& entry_from, const VisitOther& visit_other)
-      : homes_(ranks, ids) {
+      : homes_(ranks, ids.extent(0), ids) {
     struct Handed {
       GlobalId id;
       decltype(handed_of(Id())) what;

@@ -182,7 +182,8 @@ EntriesByRank<T> to_first(const Ranks& ranks, const char* label, const std::vect
 }
 
 /// What the ranks answer to a question about each of the items 0..items-1, by item: what answer_all(questions, answers)
-/// has the rank rank_of(i) write to the place of question_of(i). Collective; no answer_all sends anything.
+/// has the rank rank_of(i) write to the place that question_of(i) has among the questions' entries. Collective; no
+/// answer_all sends anything.
 template <class Answer, class RankOf, class QuestionOf, class AnswerAll>
 Array<Answer, HostMemory> ask_for_all(const Ranks& ranks, const char* label, Offset items, const RankOf& rank_of,
                                       const QuestionOf& question_of, const AnswerAll& answer_all) {
@@ -194,7 +195,7 @@ Array<Answer, HostMemory> ask_for_all(const Ranks& ranks, const char* label, Off
   EntriesByRank<Answer> given;
   together(ranks, [&] {
     given = room_by_rank<Answer>("GALE::answers", counts_of(questions));
-    answer_all(questions.entries, given.entries);
+    answer_all(questions, given.entries);
   });
   const EntriesByRank<Answer> received = exchange_packed(ranks, "GALE::answered", given);
   Array<Answer, HostMemory> answers;
@@ -212,8 +213,8 @@ Array<Answer, HostMemory> ask(const Ranks& ranks, const char* label, Offset item
                               const QuestionOf& question_of, const AnswerOf& answer_of) {
   return ask_for_all<Answer>(ranks, label, items, rank_of, question_of,
                              [&](const auto& questions, const auto& answers) {
-                               parallel_for("GALE::answers", HostExecutionSpace(), questions.extent(0),
-                                            [&](Offset i) { answers(i) = answer_of(questions(i)); });
+                               parallel_for("GALE::answers", HostExecutionSpace(), questions.count(),
+                                            [&](Offset i) { answers(i) = answer_of(questions.entries(i)); });
                              });
 }
 
