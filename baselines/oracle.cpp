@@ -60,7 +60,7 @@ class BruteForceOracle : public Oracle {
 std::unique_ptr<Oracle> make_oracle(const Mesh& mesh, Relation relation, [[maybe_unused]] int threads,
                                     [[maybe_unused]] bool is_explicit) {
 #ifdef GALE_ENABLE_KOKKOS_KERNELS
-  if (!is_explicit && !face_relations.has(relation)) return std::make_unique<ExplicitOracle>(mesh, relation, threads);
+  if (!is_explicit) return std::make_unique<ExplicitOracle>(mesh, relation, threads);
 #endif
   return std::make_unique<BruteForceOracle>(mesh, relation);
 }

@@ -26,8 +26,7 @@ class GALE_EXPORT Oracle {
 };
 
 /// The explicit structure where GALE was built with Kokkos-Kernels, else brute force. Brute force too where it is the
-/// explicit structure that is to be verified (`is_explicit`), and for relations to faces, which all structures look up
-/// in the mesh's tables.
+/// explicit structure that is to be verified (`is_explicit`).
 GALE_EXPORT std::unique_ptr<Oracle> make_oracle(const Mesh& mesh, Relation relation, int threads, bool is_explicit);
 
 }  // namespace gale::baselines

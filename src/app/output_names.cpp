@@ -64,7 +64,10 @@ bool has_pieces(const std::string& path) {
 }
 
 std::string piece_of(const std::string& path, int rank) {
-  return fs::path(path).replace_extension().string() + '_' + std::to_string(rank) + io::format_of(path)->pieces;
+  const io::Format* const format = io::format_of(path);
+  const char* const extension = format == nullptr ? nullptr : format->pieces;
+  return fs::path(path).replace_extension().string() + '_' + std::to_string(rank) +
+         (extension == nullptr ? fs::path(path).extension().string() : extension);
 }
 
 }  // namespace gale::app

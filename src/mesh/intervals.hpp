@@ -18,7 +18,7 @@ struct Interval {
   /// Whether an id is one of them.
   KOKKOS_FUNCTION bool has(Id id) const { return id >= first && id < last; }
 
-  /// The i-th of the ids from 0 on that aren't.
+  /// The i-th id from 0 on that is outside the interval.
   KOKKOS_FUNCTION Id outside(Offset i) const { return static_cast<Id>(i < first ? i : i + size()); }
 
   /// Goes through the ids, for range-based loops.

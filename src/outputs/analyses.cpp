@@ -358,6 +358,7 @@ std::map<std::string, Outcome> Analysis::run(const AnalysisInput& input, Setting
     if (one.kind == Kind::choice) settings.choices.emplace(one.name, one.choices.front());
     if (one.kind == Kind::number) settings.numbers.emplace(one.name, 0);
   }
+  if (!find) throw Error(name + " has several fields, one after the other: ExtremumTracker takes them");
   Computed computed;
   return find(input, settings, computed);
 }

@@ -90,7 +90,7 @@ TEST(DeviceAlgorithms, hand_on_what_lanes_cannot_hold) {
   expect_the_same_on_either_side(copies_of(cone_over_caps(90, 3), 400), 3);
 }
 
-/// Of grids that have all their cubes the host reads what edges are paired with by directions.
+/// Compares what walls and columns find in grids that have all their cubes, where pairs are told by directions.
 TEST(DeviceAlgorithms, find_pairs_in_grids_that_walls_and_columns_follow) {
   ComputeOptions by_threads;
   by_threads.consumers = ConsumerPlace::host;

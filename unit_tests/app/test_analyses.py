@@ -23,7 +23,7 @@ def methods():
 
 
 def arguments(method):
-    """The arguments of a method without what it is of, and their defaults."""
+    """The arguments of a method but for the first, which is self or the steps, and their defaults."""
     names = [one.arg for one in method.args.args[1:]]
     defaults = [ast.literal_eval(one) for one in method.args.defaults]
     return dict(zip(names, [None] * (len(names) - len(defaults)) + defaults))

@@ -1,6 +1,7 @@
 #include <map>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -8,6 +9,7 @@
 #include <gale/algorithms/critical_points.hpp>
 #include <gale/algorithms/discrete_gradient.hpp>
 #include <gale/algorithms/morse_smale.hpp>
+#include <gale/algorithms/persistence.hpp>
 #include <gale/algorithms/vertex_order.hpp>
 #include <gale/distributed/distributed_mesh.hpp>
 
@@ -96,6 +98,13 @@ Lines lines_of(const MorseSmaleComplex& found) {
   return lines;
 }
 
+/// Pairs by the places of their simplices.
+std::vector<std::pair<Id, Id>> as_pairs(const std::vector<PersistencePair>& some) {
+  std::vector<std::pair<Id, Id>> pairs;
+  for (const auto& [lower, upper] : some) pairs.emplace_back(lower, upper);
+  return pairs;
+}
+
 }  // namespace
 
 TEST(GridLayersOfRanks, have_the_ids_of_the_whole_grid) {
@@ -181,8 +190,8 @@ TEST(GridLayersOfRanks, know_the_cells_all_of_whose_vertices_they_own) {
   }
 }
 
-/// Their excerpts are made when they are asked for.
-TEST(GridLayersOfRanks, have_the_complex_of_the_whole_grid) {
+/// Compares what consumers and kernels lead to. Excerpts are made when they are asked for.
+TEST(GridLayersOfRanks, have_the_complex_and_the_pairs_of_the_whole_grid) {
   const Communicator ranks(MPI_COMM_WORLD, 1000);
   for (const Grid& grid : grids()) {
     const std::vector<float> all = ties(grid.vertices());
@@ -190,16 +199,24 @@ TEST(GridLayersOfRanks, have_the_complex_of_the_whole_grid) {
     const DistributedMesh mesh(ranks, part);
     const VertexOrder order(mesh, all.data() + first_vertex(grid, part.layers.first), mesh.owned_vertices().size());
     const VertexOrder order_of_all(Mesh(grid), all.data(), all.size());
-    const MorseSmaleComplex found = find_morse_smale_complex(find_discrete_gradient(order)),
-                            expected = find_morse_smale_complex(find_discrete_gradient(order_of_all));
-    const Lines here = lines_of(found), there = lines_of(expected);
-    for (const auto& [line, times] : here) EXPECT_EQ(there.count(line), 1u) << testing::PrintToString(line);
-    for (const auto& [line, times] : there)
-      EXPECT_EQ(ranks.sum(here.count(line) == 0 ? 0 : here.at(line)), times) << testing::PrintToString(line);
-    for (Id v = 0; v < mesh.vertices(); ++v) {
-      const auto id = static_cast<Id>(mesh.vertex_id(v));
-      EXPECT_EQ(found.descending_manifold.in<HostMemory>()(v), expected.descending_manifold.in<HostMemory>()(id));
-      EXPECT_EQ(found.ascending_manifold.in<HostMemory>()(v), expected.ascending_manifold.in<HostMemory>()(id));
+    const DiscreteGradient gradient_of_all = find_discrete_gradient(order_of_all);
+    const MorseSmaleComplex expected = find_morse_smale_complex(gradient_of_all);
+    const PersistencePairs expected_pairs = find_persistence_pairs(gradient_of_all);
+    for (const DiscreteGradient& gradient :
+         {find_discrete_gradient(order), find_discrete_gradient(WorkerSpace(), order)}) {
+      const MorseSmaleComplex found = find_morse_smale_complex(gradient);
+      const Lines here = lines_of(found), there = lines_of(expected);
+      for (const auto& [line, times] : here) EXPECT_EQ(there.count(line), 1u) << testing::PrintToString(line);
+      for (const auto& [line, times] : there)
+        EXPECT_EQ(ranks.sum(here.count(line) == 0 ? 0 : here.at(line)), times) << testing::PrintToString(line);
+      for (Id v = 0; v < mesh.vertices(); ++v) {
+        const auto id = static_cast<Id>(mesh.vertex_id(v));
+        EXPECT_EQ(found.descending_manifold.in<HostMemory>()(v), expected.descending_manifold.in<HostMemory>()(id));
+        EXPECT_EQ(found.ascending_manifold.in<HostMemory>()(v), expected.ascending_manifold.in<HostMemory>()(id));
+      }
+      const GatheredPairs gathered = gather_persistence_pairs(gradient);
+      if (ranks.rank() != 0) continue;
+      for (int d = 0; d < 3; ++d) EXPECT_EQ(as_pairs(gathered.pairs.pairs[d]), as_pairs(expected_pairs.pairs[d])) << d;
     }
   }
 }

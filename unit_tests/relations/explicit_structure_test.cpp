@@ -175,15 +175,15 @@ TEST(ExplicitStructure, numbers_no_simplices_that_it_does_not_need) {
   }
 }
 
-TEST(ExplicitStructure, has_the_mesh_number_the_simplices_that_it_needs) {
-  const auto known = [](RelationSet wanted) {
-    const Mesh mesh = one_tetrahedron();
-    const ExplicitStructure structure(mesh, wanted);
-    return std::array<Id, 2>{mesh.known_edges(), mesh.known_triangles()};
-  };
-  EXPECT_EQ(known(star_relations), (std::array<Id, 2>{no_id, no_id}));
-  EXPECT_EQ(known(Relation::VE), (std::array<Id, 2>{6, no_id}));
-  EXPECT_EQ(known(all_relations | link_form), (std::array<Id, 2>{6, 4}));
+TEST(ExplicitStructure, does_not_have_the_mesh_number_its_simplices) {
+  const Mesh mesh = one_tetrahedron();
+  ExplicitStructure structure(mesh, (all_relations | link_form));
+  structure.for_each_segment((all_relations | link_form), {}, [](int, const SegmentRows&) {});
+  const auto consumer = structure.consumer();
+  EXPECT_EQ(consumer->row(Relation::EF, 5).size(), 2);
+  EXPECT_THROW(consumer->row(Relation::FE, 4), Error);
+  EXPECT_EQ(mesh.known_edges(), no_id);
+  EXPECT_EQ(mesh.known_triangles(), no_id);
 }
 
 TEST(ExplicitStructure, outlives_the_mesh_that_it_was_made_of) {

@@ -69,12 +69,14 @@ FollowedCells follow_cells(const Space& space, const Mirrored<Id>& all, const st
   const auto successors = all.in<MemoryOf<Space>>();
   const auto from = in_memory<MemoryOf<Space>>(starts);
   const auto begin = allocate<Array<Offset, MemoryOf<Space>>>("GALE::path_begin", count + 1);
-  const Offset total = exclusive_scan(
-      "GALE::path_begins", space, count, begin, KOKKOS_LAMBDA(Offset i) {
+  parallel_for(
+      "GALE::path_lengths", space, count, KOKKOS_LAMBDA(Offset i) {
         Offset length = 0;
         for (Id cell = from(i); cell >= 0; cell = successors(cell)) ++length;
-        return length;
+        begin(i) = length;
       });
+  const Offset total = exclusive_scan(
+      "GALE::path_begins", space, count, begin, KOKKOS_LAMBDA(Offset i) { return begin(i); });
   const auto cells = allocate<Ids>("GALE::path_cells", total), next = allocate<Ids>("GALE::next_on_path", total);
   parallel_for(
       "GALE::follow_paths", space, count, KOKKOS_LAMBDA(Offset i) {
@@ -91,16 +93,20 @@ FollowedCells follow_cells(const Space& space, const Mirrored<Id>& all, const st
 /// The successors of cells: where they lie on a device, those on paths that were followed alone.
 class CellSteps {
  public:
-  explicit CellSteps(const Mirrored<Id>& successors)
-      : successors_(successors), here_(successors.on_device() ? nullptr : successors.in<HostMemory>().data()) {}
+  /// Without `one_way` paths fork: then those of all cells are brought here.
+  CellSteps(const Mirrored<Id>& successors, bool one_way)
+      : successors_(successors),
+        here_(one_way && successors.on_device() ? nullptr : successors.in<HostMemory>().data()) {}
 
   /// Makes known those on the paths from some cells.
   void follow(const std::vector<Id>& cells) {
     if (here_ != nullptr || cells.empty()) return;
     const FollowedCells paths =
         in_worker_or_host_space(true, [&](const auto& space) { return follow_cells(space, successors_, cells); });
-    for (std::size_t i = 0; i < paths.cells.extent(0); ++i)
+    for (Offset i = 0; i < static_cast<Offset>(paths.cells.extent(0)); ++i) {
+      stop_if_asked_at(i);
       known_.insert(static_cast<std::uint64_t>(paths.cells(i))).first = paths.next(i);
+    }
   }
 
   Id operator[](Id cell) const {
@@ -127,7 +133,7 @@ class Reacher {
         internal_(mesh_.vertices_of_input()),
         keys_(gradient.order().keys()),
         vertex_successor_(gradient.vertex_successors().data()),
-        cell_successors_(gradient.store().cell_successors()),
+        cell_successors_(gradient.store().cell_successors(), gradient.store().further_successors.empty()),
         further_(gradient.store().further_successors),
         found_(ranks_.size()) {
     if (!ways.rising_walls) return;
@@ -174,6 +180,8 @@ class Reacher {
     for (const LocalStep& step : here_) {
       if (step.kind == StepKind::rising_cell) cells.push_back(step.simplex[0]);
     }
+    std::sort(cells.begin(), cells.end());
+    cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
     cell_successors_.follow(cells);
     for (std::int64_t i = 0; !here_.empty(); ++i) {
       stop_if_asked_at(i);

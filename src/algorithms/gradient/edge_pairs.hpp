@@ -97,6 +97,7 @@ class PairedEdges {
   /// Third vertex of the triangle that the edge to it is paired with; no_id if it is with none.
   Id third(Id place) const {
     if (codes_ == nullptr) return row_.third(place);
+    if (place == no_id) return no_id;
     const int direction = code_[place];
     return direction >= PairCode::unpaired ? no_id : vertex_ + codes_->step(direction);
   }
@@ -132,8 +133,8 @@ class GALE_EXPORT EdgePairs {
   /// begin rows anew; without any, rows are only read.
   EdgePairs(const Array<const Id, HostMemory>& words, const Array<const Offset, HostMemory>& begin, int consumers);
 
-  /// Takes the codes of a grid, to be read.
-  EdgePairs(std::shared_ptr<const GridCodes> codes, Interval owned) : codes_(std::move(codes)), coded_(owned) {}
+  /// Takes the codes of some vertices of a grid, to be read.
+  EdgePairs(std::shared_ptr<const GridCodes> codes, Interval coded) : codes_(std::move(codes)), coded_(coded) {}
 
   /// Rows for so many vertices: of those that are owned the rows of `some`, which must live as long. Those of others
   /// are to be begun, by one consumer, and have no edges before that.

@@ -52,9 +52,9 @@ struct FoundRows {
   }
 };
 
-/// The codes of a grid's rows, which are a sixth of these to bring to the host.
+/// The codes of a grid's rows, which are a sixth of these to bring to the host. Ghosts have no lower neighbours.
 template <class Space>
-Array<const std::uint64_t, HostMemory> encoded_rows(const Space& space, const GradientStore& store) {
+Array<const std::uint64_t, HostMemory> encoded_in(const Space& space, const GradientStore& store) {
   using Memory = MemoryOf<Space>;
   const Mesh& mesh = store.mesh;
   const Interval owned = mesh.owned_vertices();
@@ -65,9 +65,15 @@ Array<const std::uint64_t, HostMemory> encoded_rows(const Space& space, const Gr
       owned,
       {store.pair_words().in<Memory>(), store.pairs_begin().in<Memory>()},
       allocate<Array<std::uint64_t, Memory>>("GALE::pair_codes", mesh.vertices())};
+  if (owned.size() < mesh.vertices()) fill("GALE::pair_codes", space, encode.codes, PairCode().bits());
   parallel_for("GALE::encode_rows", space, owned.size(), encode);
   space.fence();
   return on_host(encode.codes);
+}
+
+Array<const std::uint64_t, HostMemory> encoded_rows(const GradientStore& store) {
+  return in_worker_or_host_space(store.pair_words().on_device(),
+                                 [&](const auto& space) { return encoded_in(space, store); });
 }
 
 }  // namespace
@@ -129,9 +135,8 @@ std::shared_ptr<GradientStore> GradientStore::on_host(const VertexOrder& order, 
 const EdgePairs& GradientStore::pairs() const {
   pairs_are_here_([this] {
     if (is_from_kernels() && mesh.grid() != nullptr && mesh.grid()->is_whole()) {
-      const auto codes = in_worker_or_host_space(pair_words_.on_device(),
-                                                 [this](const auto& space) { return encoded_rows(space, *this); });
-      pairs_ = EdgePairs(std::make_shared<GridCodes>(mesh.grid()->in<HostMemory>(), codes), mesh.owned_vertices());
+      pairs_ = EdgePairs(std::make_shared<GridCodes>(mesh.grid()->in<HostMemory>(), encoded_rows(*this)),
+                         {0, mesh.vertices()});
     } else if (is_from_kernels()) {
       pairs_ = EdgePairs(pair_words_.in<HostMemory>(), pairs_begin_.in<HostMemory>(), 0);
     } else if (mesh.dimension() == 3) {

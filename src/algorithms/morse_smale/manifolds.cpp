@@ -75,7 +75,7 @@ struct EndOfVertex {
   Array<const Id, Memory> ends;    ///< of each simplex, see jump()
   Array<const Id, Memory> names;   ///< of places of ends; none: the places
   OtherIds input;
-  Array<Id, Memory> manifolds;  ///< which may be `ends` of a grid's vertices
+  Array<Id, Memory> manifolds;  ///< which may be `ends`, where ids of the input are GALE's and paths start there
 
   KOKKOS_FUNCTION void operator()(Id v) const {
     const Id start = starts.extent(0) == 0 ? v : starts(v);
@@ -111,7 +111,8 @@ Mirrored<Id> manifolds_in(const Space& space, const DiscreteGradient& gradient, 
                               of_vertices ? critical.vertices : critical.cells);
   jump(space, next);
   const Mesh& mesh = gradient.mesh();
-  const bool in_place = of_vertices && mesh.grid() != nullptr;  // each takes the place of its end
+  // Each takes the place of its end where vertices keep their numbers.
+  const bool in_place = of_vertices && mesh.vertices_in_input<MemoryOf<Space>>().table == nullptr;
   return manifolds_of(space, mesh, {0, mesh.vertices()},
                       {starts_in(space, mesh, kind), next, {}, {}, in_place ? next : Ids<Space>()});
 }
@@ -152,7 +153,7 @@ ManifoldPairs sorted_pairs(const Space& space, const Mirrored<Id>& ascending, co
   return {manifolds, pairs};
 }
 
-/// Finds the pairs by what each of the host's threads comes to, which are few beside the vertices.
+/// Finds the pairs by a table of each host thread's: there are few pairs beside vertices.
 ManifoldPairs counted_pairs(const Mirrored<Id>& ascending, const Mirrored<Id>& descending) {
   const auto &up = ascending.in<HostMemory>(), &down = descending.in<HostMemory>();
   const Offset count = up.extent(0);
@@ -194,6 +195,7 @@ ManifoldPairs counted_pairs(const Mirrored<Id>& ascending, const Mirrored<Id>& d
     for (const std::uint64_t pair : found[part])
       numbers.push_back(static_cast<Id>(std::lower_bound(all.begin(), all.end(), pair) - all.begin()));
     for (Offset v = first; v < last; ++v) {
+      stop_if_asked_at(v);
       if (manifolds(v) != no_id) manifolds(v) = numbers[manifolds(v)];
     }
   });
@@ -223,9 +225,9 @@ Mirrored<Id> renamed_in(const Space& space, const Mirrored<Id>& manifolds, const
 
 /// The simplices where paths of this rank's vertices start that another one follows on.
 template <class Space>
-std::vector<Id> starts_elsewhere(const Space& space, const PathSimplices& simplices, PathSimplices::Kind kind) {
-  if (kind == PathSimplices::Kind::falling_vertices) return {};
-  const Ids<Space> starts = starts_in(space, simplices.mesh(), kind);
+std::vector<Id> starts_elsewhere(const Space& space, const PathSimplices& simplices, const Mirrored<Id>& of_vertices) {
+  if (of_vertices.size() == 0) return {};  // vertices' own are here
+  const auto starts = of_vertices.in<MemoryOf<Space>>();
   const auto successors = simplices.successors().in<MemoryOf<Space>>();
   const Interval owned = simplices.mesh().owned_vertices(), inner = simplices.inner();
   const Ids<Space> found = selected(
@@ -248,14 +250,14 @@ struct OwnManifolds {
 };
 
 template <class Space>
-OwnManifolds own_manifolds(const Space& space, const PathsOnRanks& paths, PathSimplices::Kind kind,
+OwnManifolds own_manifolds(const Space& space, const PathsOnRanks& paths, const Mirrored<Id>& starts,
                            const Array<const Id, HostMemory>& names) {
   using Memory = MemoryOf<Space>;
   const Mesh& mesh = paths.simplices().mesh();
   const ExchangePlan& plan = mesh.exchange().from_owners();
   const Ids<Space> manifolds =
       manifolds_of(space, mesh, mesh.owned_vertices(),
-                   {starts_in(space, mesh, kind), paths.ends_here().in<Memory>(), in_memory<Memory>(names), {}, {}});
+                   {starts.in<Memory>(), paths.ends_here().in<Memory>(), in_memory<Memory>(names), {}, {}});
   const Array<Id, Memory> places = in_memory<Memory>(plan.given_places());
   const auto given = allocate<Ids<Space>>("GALE::given_manifolds", places.extent(0));
   parallel_for(
@@ -271,10 +273,14 @@ OwnManifolds own_manifolds(const Space& space, const PathsOnRanks& paths, PathSi
 Mirrored<Id> manifolds_on_ranks(const DiscreteGradient& gradient, PathSimplices::Kind kind, PathExits* exits) {
   const auto simplices = PathSimplices::make(gradient, kind);
   const Ranks& ranks = gradient.mesh().exchange().ranks();
+  Mirrored<Id> starts;
   std::vector<Id> elsewhere;
   together(ranks, [&] {
-    elsewhere = in_worker_or_host_space(simplices->successors().on_device(),
-                                        [&](const auto& space) { return starts_elsewhere(space, *simplices, kind); });
+    const bool on_device = simplices->successors().on_device();
+    starts = in_worker_or_host_space(
+        on_device, [&](const auto& space) -> Mirrored<Id> { return starts_in(space, gradient.mesh(), kind); });
+    elsewhere = in_worker_or_host_space(on_device,
+                                        [&](const auto& space) { return starts_elsewhere(space, *simplices, starts); });
   });
   const PathsOnRanks paths(*simplices, elsewhere);
   const auto names = paths.places_of_ends();
@@ -285,7 +291,7 @@ Mirrored<Id> manifolds_on_ranks(const DiscreteGradient& gradient, PathSimplices:
       exits->are_known = true;
     }
     own = in_worker_or_host_space(paths.ends_here().on_device(),
-                                  [&](const auto& space) { return own_manifolds(space, paths, kind, names); });
+                                  [&](const auto& space) { return own_manifolds(space, paths, starts, names); });
   });
   const auto taken = gradient.mesh().exchange().from_owners().fetch(ranks, own.given);
   Mirrored<Id> manifolds;

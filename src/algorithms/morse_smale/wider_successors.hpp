@@ -34,14 +34,14 @@ struct WiderSuccessors {
   }
 };
 
-/// What WiderSuccessors are made of, wherever the part's are.
+/// Successors as WiderSuccessors has them, which own their arrays.
 struct MoreSuccessors {
-  Mirrored<Id> own;
-  std::vector<Id> beyond;
-  std::vector<std::pair<Id, Id>> exits;
+  Mirrored<Id> own;                      ///< of the part's simplices, where these were found
+  std::vector<Id> beyond;                ///< of others', whose numbers come after them
+  std::vector<std::pair<Id, Id>> exits;  ///< own ones, ascending, and their successors
 };
 
-/// These in a memory. Refers to them where they lie there already.
+/// Puts MoreSuccessors into a memory. Refers to them where they lie there already.
 template <class Memory>
 class SuccessorsIn {
  public:

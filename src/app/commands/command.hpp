@@ -39,7 +39,7 @@ class Command {
   CLI::App& subcommand() { return subcommand_; }
 
   /// Adds an option that names a file to write results of these kinds to, bits of io::Written, of an extension that
-  /// they may have, or of any: 0. In `what` it is for the help, {} stands for these extensions. Empty where it isn't
+  /// they may have, or of any: 0. `what` is the help's text, in which {} becomes these extensions. Empty where it isn't
   /// given. Returns the option.
   CLI::Option* add_file(const std::string& option, std::string& file, std::string what, unsigned written = 0);
 

@@ -119,8 +119,8 @@ class ComputeRelation final : public Command {
         ->required()
         ->check(CLI::IsMember(names));
     subcommand().add_flag("--verify", verify_,
-                          "Compare every row with the explicit structure (with brute force if it is that one, for "
-                          "relations to faces, or without Kokkos-Kernels)");
+                          "Compare every row with the explicit structure (with brute force if it is that one, or "
+                          "without Kokkos-Kernels)");
     add_file("--dump", dump_, "Write all rows to this text file");
   }
 

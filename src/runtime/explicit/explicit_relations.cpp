@@ -1,38 +1,79 @@
 #include <algorithm>
-#include <optional>
+#include <iterator>
 #include <utility>
-#include <vector>
 
 #include <gale/base/parallel.hpp>
 #include <gale/base/transfer.hpp>
-#include <gale/relations/preconditioning.hpp>
 #include <gale/runtime/explicit/explicit_relations.hpp>
 
 namespace gale::detail {
 
 namespace {
 
-/// A relation to faces and what is computed from it: the one the other way round and, as a product of the two, which
-/// simplices are adjacent: those that share such a face or, of vertices, a cell.
-struct RelationFamily {
-  Relation faces, cofaces;
-  std::optional<Relation> adjacency;
+/// A relation and what it is computed from.
+struct Recipe {
+  Relation relation;
+  RelationSet from;
 };
 
-/// Those of which something is wanted.
-std::vector<RelationFamily> families_of(RelationSet wanted, int dimension) {
+/// In an order in which each comes after what it is from, and little is held for later: vertices, then edges, then
+/// triangles.
+constexpr Recipe recipes[] = {
+    {Relation::TV, {}},
+    {Relation::VT, Relation::TV},
+    {Relation::VV, Relation::VT | Relation::TV},
+    {Relation::TE, Relation::TV},
+    {Relation::EV, Relation::TE | Relation::TV},
+    {Relation::VE, Relation::EV},
+    {Relation::EE, Relation::EV | Relation::VE},
+    {Relation::ET, Relation::TE},
+    {Relation::TF, Relation::TE | Relation::TV},
+    {Relation::FV, Relation::TF | Relation::TV},
+    {Relation::FE, Relation::TF | Relation::TE},
+    {Relation::VF, Relation::FV},
+    {Relation::EF, Relation::FE},
+    {Relation::FF, Relation::FE | Relation::EF},
+    {Relation::FT, Relation::TF},
+    {Relation::TT, Relation::TF | Relation::FT},
+};
+
+/// Recipes for triangle meshes.
+constexpr Recipe triangle_recipes[] = {
+    {Relation::FV, {}},
+    {Relation::VF, Relation::FV},
+    {Relation::VV, Relation::VF | Relation::FV},
+    {Relation::FE, Relation::FV},
+    {Relation::EV, Relation::FE | Relation::FV},
+    {Relation::VE, Relation::EV},
+    {Relation::EE, Relation::EV | Relation::VE},
+    {Relation::EF, Relation::FE},
+    {Relation::FF, Relation::FE | Relation::EF},
+};
+
+Span<const Recipe> recipes_for(int dimension) {
+  return dimension == 3 ? Span<const Recipe>{recipes, std::size(recipes)}
+                        : Span<const Recipe>{triangle_recipes, std::size(triangle_recipes)};
+}
+
+/// The relations wanted and all that they are computed from.
+RelationSet needed_for(RelationSet wanted, int dimension) {
   if (wanted.has_links()) wanted = wanted | vertex_cells(dimension) | Relation::VV;
-  std::vector<RelationFamily> families;
-  for (const Relation faces : members_of(face_relations & relations_of_dimension(dimension))) {
-    const int rows = row_dimension(faces), entries = entry_dimension(faces);
-    RelationFamily family{faces, relation_between(entries, rows), {}};
-    if (entries == rows - 1) family.adjacency = relation_between(rows, rows);
-    if (entries == 0 && rows == dimension) family.adjacency = Relation::VV;
-    RelationSet all = faces | family.cofaces;
-    if (family.adjacency) all = all | *family.adjacency;
-    if (!(all & wanted).empty()) families.push_back(family);
+  const auto all = recipes_for(dimension);
+  for (const Recipe* recipe = all.end(); recipe-- != all.begin();) {
+    if (wanted.has(recipe->relation)) wanted = wanted | recipe->from;
   }
-  return families;
+  return wanted;
+}
+
+/// Refuses those of whose entries a cell has so many.
+void refuse_too_many(RelationSet relations, const Mesh& mesh) {
+  constexpr Offset faces_of_tetrahedron[] = {4, 6, 4}, faces_of_triangle[] = {3, 3};
+  const int cell = mesh.dimension();
+  const Offset* const faces = cell == 3 ? faces_of_tetrahedron : faces_of_triangle;
+  for (const Relation relation : members_of(relations & (face_relations | coboundary_relations))) {
+    const int rows = row_dimension(relation), entries = entry_dimension(relation);
+    if (rows == cell || entries == cell) require_countable(relation, faces[std::min(rows, entries)] * mesh.cells());
+  }
 }
 
 using HostRows = Csr<const Id, HostMemory, Id>;
@@ -76,61 +117,76 @@ void look_up_links(const EncodedMesh<HostMemory>& mesh, const Rows& stars, const
 
 class ExplicitBuild {
  public:
-  ExplicitBuild(const Mesh& mesh, RelationSet wanted) : mesh_(mesh), wanted_(wanted) {
+  ExplicitBuild(const Mesh& mesh, RelationSet wanted)
+      : mesh_(mesh), wanted_(wanted), needed_(needed_for(wanted, mesh.dimension())) {
     result_.dimension = mesh.dimension();
+    result_.count[0] = mesh.vertices();
+    result_.count[mesh.dimension()] = mesh.cells();
+    for (const int dimension : {0, mesh.dimension()}) result_.segment_begin[dimension] = mesh.interval_begin(dimension);
   }
 
   ExplicitRelations run() {
-    const auto families = families_of(wanted_, mesh_.dimension());
-    RelationSet all_faces;
-    for (const RelationFamily& family : families) all_faces = all_faces | family.faces;
-    const SimplexNeeds needs = needs_of(all_faces, mesh_.dimension());
-    mesh_.simplices<WorkerMemory>(needs);  // all are numbered at once
-    for (int dimension = 0; dimension <= mesh_.dimension(); ++dimension) {
-      const bool is_numbered = dimension <= static_cast<int>(needs.upto);
-      if (!is_numbered && dimension < mesh_.dimension()) continue;
-      result_.count[dimension] = count_of(mesh_, dimension);
-      result_.segment_begin[dimension] = mesh_.interval_begin(dimension);
+    for (const Recipe& recipe : recipes_for(mesh_.dimension())) {
+      if (!needed_.has(recipe.relation)) continue;
+      make(recipe);
+      if (recipe.relation == Relation::VV && needed_.has_links()) make_links();
+      release_after(recipe);
     }
-    for (const RelationFamily& family : families) refuse_too_many(family);
-    for (const RelationFamily& family : families) make(family);
     return std::move(result_);
   }
 
  private:
   Relation stars() const { return vertex_cells(mesh_.dimension()); }
+  EvenRows<WorkerMemory>& even(Relation relation) { return even_[static_cast<int>(relation)]; }
+  WorkerRows& cofaces(Relation relation) { return cofaces_[static_cast<int>(relation)]; }
   HostRows& kept(Relation relation) { return result_.kept[static_cast<int>(relation)]; }
 
-  /// Names the one that the caller wants, if it is one of the two.
-  void refuse_too_many(const RelationFamily& family) const {
-    const bool names_faces = wanted_.has(family.faces) || !wanted_.has(family.cofaces);
-    require_countable(names_faces ? family.faces : family.cofaces,
-                      Offset(face_count(family.faces)) * result_.count[row_dimension(family.faces)]);
+  void make(const Recipe& recipe) {
+    const Relation relation = recipe.relation;
+    if (face_relations.has(relation)) {
+      keep(relation, even(relation) = faces_of(relation));
+    } else if (coboundary_relations.has(relation)) {
+      const Id rows = result_.count[row_dimension(relation)];
+      keep(relation, cofaces(relation) = transpose(relation, graph(members_of(recipe.from).front()), rows));
+    } else {
+      keep(relation, adjacency_of(recipe));
+    }
   }
 
-  void make(const RelationFamily& family) {
-    const bool for_links = wanted_.has_links() && family.cofaces == stars();
-    const auto keep = [&](Relation relation, const auto& rows) {
-      if (wanted_.has(relation) || (for_links && relation != family.faces)) kept(relation) = to_host(rows);
-    };
-    const EvenRows<WorkerMemory> even = faces_of(family.faces);
-    keep(family.faces, even);
-    const bool joins = family.adjacency && (wanted_.has(*family.adjacency) || for_links);
-    if (!joins && !wanted_.has(family.cofaces)) return;
-    const WorkerRows faces = with_offsets(WorkerSpace(), even);
-    const WorkerRows cofaces = transpose(family.cofaces, faces, result_.count[row_dimension(family.cofaces)]);
-    keep(family.cofaces, cofaces);
-    if (!joins) return;
-    const bool of_vertices = *family.adjacency == Relation::VV;
-    keep(*family.adjacency,
-         neighbours(*family.adjacency, of_vertices ? cofaces : faces, of_vertices ? faces : cofaces));
-    if (for_links) make_links();
+  template <class All>
+  void keep(Relation relation, const All& all) {
+    const bool for_links = needed_.has_links() && (Relation::VV | stars()).has(relation);
+    if (wanted_.has(relation) || for_links) kept(relation) = to_host(all);
   }
 
-  /// Those of tetrahedra are the mesh's own array.
-  EvenRows<WorkerMemory> faces_of(Relation relation) const {
-    if (relation != Relation::TV) return kernel_face_rows(WorkerSpace(), mesh_, relation, {});
-    return {4, Array<const Id, WorkerMemory>(mesh_.encoded<WorkerMemory>().cells.data(), 4 * Offset(mesh_.cells()))};
+  /// What a relation is computed from, with offsets.
+  WorkerRows graph(Relation relation) {
+    return face_relations.has(relation) ? with_offsets(WorkerSpace(), even(relation)) : cofaces(relation);
+  }
+
+  EvenRows<WorkerMemory> faces_of(Relation relation) {
+    const bool tetrahedra = mesh_.dimension() == 3;
+    const Relation vertices = tetrahedra ? Relation::TV : Relation::FV,
+                   edges = tetrahedra ? Relation::TE : Relation::FE;
+    if (relation == vertices) return cell_vertices(mesh_);
+    if (relation == edges) return of_cells(1, number_edges(even(vertices)));
+    if (relation == Relation::TF) return of_cells(2, number_triangles(even(vertices), even(edges)));
+    return faces(relation, simplices_[row_dimension(relation)],
+                 even(entry_dimension(relation) == 0 ? vertices : edges));
+  }
+
+  /// Keeps the simplices as long as others are from them.
+  EvenRows<WorkerMemory> of_cells(int dimension, const SortedSimplices& simplices) {
+    result_.count[dimension] = simplices.count();
+    result_.segment_begin[dimension] = segment_begin(mesh_, dimension, simplices);
+    simplices_[dimension] = simplices;
+    return simplices.of_cells;
+  }
+
+  WorkerRows adjacency_of(const Recipe& recipe) {
+    const auto factors = members_of(recipe.from);
+    const bool in_order = row_dimension(factors[0]) == row_dimension(recipe.relation);
+    return neighbours(recipe.relation, graph(factors[in_order ? 0 : 1]), graph(factors[in_order ? 1 : 0]));
   }
 
   void make_links() {
@@ -148,8 +204,29 @@ class ExplicitBuild {
     if (!wanted_.has(stars())) kept(stars()).entries = {};
   }
 
+  /// Lets go of what no later one is from.
+  void release_after(const Recipe& done) {
+    RelationSet sources;
+    std::array<bool, 4> numbered{};
+    for (const Recipe* later = &done + 1; later != recipes_for(mesh_.dimension()).end(); ++later) {
+      if (!needed_.has(later->relation)) continue;
+      sources = sources | later->from;
+      if (face_relations.has(later->relation)) numbered[row_dimension(later->relation)] = true;
+    }
+    for (const Relation relation : members_of(needed_ - sources)) {
+      even(relation) = {};
+      cofaces(relation) = {};
+    }
+    for (int dimension = 0; dimension < 4; ++dimension) {
+      if (!numbered[dimension]) simplices_[dimension] = {};
+    }
+  }
+
   const Mesh& mesh_;
-  const RelationSet wanted_;
+  const RelationSet wanted_, needed_;
+  std::array<EvenRows<WorkerMemory>, relation_count> even_;
+  std::array<WorkerRows, relation_count> cofaces_;
+  std::array<SortedSimplices, 4> simplices_;  // edges and triangles
   ExplicitRelations result_;
 };
 
@@ -157,6 +234,8 @@ class ExplicitBuild {
 
 ExplicitRelations explicit_relations(const Mesh& mesh, RelationSet wanted) {
   require_kokkos_kernels();
+  refuse_too_many(wanted, mesh);  // first, so that it names what the caller knows
+  refuse_too_many(needed_for(wanted, mesh.dimension()), mesh);
   return ExplicitBuild(mesh, wanted).run();
 }
 

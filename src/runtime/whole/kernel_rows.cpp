@@ -52,16 +52,10 @@ struct EvenKeys {
 }  // namespace
 
 template <class Space>
-EvenRows<MemoryOf<Space>> kernel_face_rows(const Space& space, const Mesh& mesh, Relation relation,
-                                           const RelationNames& names) {
-  return with_faces_of(relation, [&](auto known) { return faces_in<decltype(known)::value>(space, mesh, names); });
-}
-
-template <class Space>
 Csr<const Id, HostMemory> kernel_rows(const Space& space, const Mesh& mesh, Relation down, bool transposed,
                                       const RelationNames& names) {
   stop_if_asked();
-  auto faces = kernel_face_rows(space, mesh, down, names);
+  auto faces = with_faces_of(down, [&](auto known) { return faces_in<decltype(known)::value>(space, mesh, names); });
   if (!transposed)
     return with_offsets(HostExecutionSpace(), EvenRows<HostMemory>{faces.length, on_host(faces.entries)});
   const auto cofaces = group_by("GALE::coface_rows", space, faces.rows(), count_of(mesh, entry_dimension(down)),
@@ -71,8 +65,7 @@ Csr<const Id, HostMemory> kernel_rows(const Space& space, const Mesh& mesh, Rela
   return {on_host(cofaces.offsets), on_host(cofaces.entries)};
 }
 
-#define GALE_INSTANTIATE(Space)                                                                                   \
-  template EvenRows<MemoryOf<Space>> kernel_face_rows(const Space&, const Mesh&, Relation, const RelationNames&); \
+#define GALE_INSTANTIATE(Space) \
   template Csr<const Id, HostMemory> kernel_rows(const Space&, const Mesh&, Relation, bool, const RelationNames&)
 GALE_IN_EACH_SPACE(GALE_INSTANTIATE);
 #undef GALE_INSTANTIATE

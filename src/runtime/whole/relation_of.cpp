@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <mutex>
@@ -57,6 +58,14 @@ detail::RelationNames names_in_input(const Mesh& mesh, Relation relation) {
   return numbers.of<Memory>(mesh, relation);
 }
 
+/// The relation from simplices of a dimension to those of a lower one.
+Relation to_faces(int dimension, int face_dimension) {
+  const auto all = members_of(face_relations);
+  return *std::find_if(all.begin(), all.end(), [&](Relation one) {
+    return row_dimension(one) == dimension && entry_dimension(one) == face_dimension;
+  });
+}
+
 }  // namespace
 
 /// Where the mesh lies on a device, kernels make relations to faces and from them, and a sweep others. On the host a
@@ -86,9 +95,7 @@ Csr<const Id, HostMemory> relation_of(const Mesh& mesh, Relation relation, Ids i
   const bool is_adjacency = entries == rows, has_ghosts = mesh.owned_segments().size() < mesh.segments();
   if (has_ghosts || relation == Relation::VV || relation == Relation::TT || (mesh.on_device() && is_adjacency))
     return swept();
-  const Relation down = is_adjacency     ? detail::relation_between(rows, rows - 1)
-                        : entries < rows ? relation
-                                         : detail::relation_between(entries, rows);
+  const Relation down = is_adjacency ? to_faces(rows, rows - 1) : entries < rows ? relation : to_faces(entries, rows);
   if (mesh.on_device()) {
     return in_worker_or_host_space(mesh, [&](const auto& space) {
       using Space = std::decay_t<decltype(space)>;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <functional>
 #include <type_traits>
 
@@ -85,18 +84,6 @@ auto with_faces_of(Relation relation, const Use& use) {
       return use(std::integral_constant<Relation, Relation::TF>());
   }
 }
-
-/// The relation from simplices of one dimension to those of another: VT from 0 to 3.
-inline Relation relation_between(int rows, int entries) {
-  const auto all = members_of(all_relations);
-  return *std::find_if(all.begin(), all.end(),
-                       [&](Relation one) { return row_dimension(one) == rows && entry_dimension(one) == entries; });
-}
-
-/// A whole relation to faces, by kernels of `space`, in its memory; as kernel_rows makes it.
-template <class Space>
-EvenRows<MemoryOf<Space>> kernel_face_rows(const Space& space, const Mesh& mesh, Relation relation,
-                                           const RelationNames& names);
 
 /// A whole relation to faces, or the one the other way round, by kernels of `space`: what a device does. `names` are in
 /// its memory; null where GALE's ids stay. Beside the mesh's tables it takes 4 bytes an entry there, for the other way
