@@ -8,7 +8,7 @@
 
 namespace gale::test {
 
-class BruteForce;
+struct BruteForce;
 
 /// All simplices of a mesh as GALE must number them: vertices and tetrahedra by the mesh's permutations, edges and
 /// triangles in lexicographic order of GALE's vertex ids.
