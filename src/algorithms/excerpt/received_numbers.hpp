@@ -19,7 +19,7 @@ class ReceivedNumbers {
     const DistinctIds distinct = distinct_ids(all);
     ids = distinct.ids;
     first = distinct.places;
-    if (count() == received.count()) {  // none came twice: each has its place
+    if (count() == received.count()) {  // no id came twice: each has its place
       parallel_for("GALE::number_received", HostExecutionSpace(), count(),
                    [&](Offset i) { number_[first(i)] = static_cast<Id>(i); });
       return;

@@ -100,7 +100,7 @@ PathSimplices::PathSimplices(const DiscreteGradient& gradient, Kind kind)
   const Interval owned = mesh().owned_vertices();
   for (Id t = 0; t < cells; ++t) {
     const Quad corners = corners_(t);
-    if (!owned.has(corners.a) || !owned.has(corners.d))  // they ascend
+    if (!owned.has(corners.a) || !owned.has(corners.d))  // corners ascend
       shared_cells_.insert(static_cast<std::uint64_t>(input_[t])).first = t;
   }
 }

@@ -274,7 +274,7 @@ class Canceller {
   TurnedForest& minima_;
   TurnedEdges& turned_;
   FirstPaths first_paths_;
-  std::vector<char> lower_, upper_;    ///< those that are left to cancel
+  std::vector<char> lower_, upper_;    ///< whether a saddle is left to cancel
   std::vector<double> minimum_below_;  ///< of the minimum that a 1-saddle is cancelled with
   SaddleGraph graph_;
   std::vector<char> is_known_;      ///< of a 2-saddle: whether its paths were counted since they changed

@@ -35,7 +35,7 @@ class SaddleGraph {
 
  private:
   std::vector<Above> up_;
-  std::vector<std::vector<Id>> down_;  ///< those below each 2-saddle, ascending
+  std::vector<std::vector<Id>> down_;  ///< saddles below each 2-saddle, ascending
 };
 
 }  // namespace gale::detail
