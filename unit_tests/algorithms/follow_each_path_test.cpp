@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <gale/algorithms/excerpt/cell_steps.hpp>
 #include <gale/algorithms/gradient/follow_each_path.hpp>
 
 namespace gale::test {
@@ -57,6 +58,30 @@ TEST(FollowEachPath, comes_there_in_each_memory) {
     const detail::PathStops stops = detail::follow_in(space, "paths", there, starts);
     ASSERT_EQ(stops.last.extent(0), static_cast<std::size_t>(paths));
     for (Id i = 0; i < paths; ++i) expect_end(successors, starts(i), stops.last(i), stops.next(i));
+  };
+  for (const Id paths : {0, 1, 20000}) {
+    follow(HostExecutionSpace(), paths);
+    follow(WorkerSpace(), paths);
+  }
+}
+
+TEST(FollowCells, tells_each_cell_on_the_way_and_what_follows_in_each_memory) {
+  const Id count = 30000;
+  const auto successors = falling_successors(count);
+  const auto follow = [&](const auto& space, Id paths) {
+    std::vector<Id> starts;
+    for (Id i = 0; i < paths; ++i) starts.push_back(count - 1 - i);
+    const auto there = in_memory<MemoryOf<std::decay_t<decltype(space)>>>(Array<const Id, HostMemory>(successors));
+    const detail::FollowedCells found = detail::follow_cells(space, there, starts);
+    std::size_t at = 0;
+    for (const Id start : starts) {
+      for (Id cell = start; cell >= 0; cell = successors(cell), ++at) {
+        ASSERT_LT(at, found.cells.extent(0));
+        ASSERT_EQ(found.cells(at), cell);
+        ASSERT_EQ(found.next(at), successors(cell));
+      }
+    }
+    ASSERT_EQ(at, found.cells.extent(0));
   };
   for (const Id paths : {0, 1, 20000}) {
     follow(HostExecutionSpace(), paths);

@@ -2,6 +2,7 @@
 #include <optional>
 #include <utility>
 
+#include <gale/algorithms/excerpt/cell_steps.hpp>
 #include <gale/algorithms/excerpt/gathering.hpp>
 #include <gale/algorithms/excerpt/reached.hpp>
 #include <gale/algorithms/gradient/gradient_store.hpp>
@@ -55,69 +56,6 @@ void for_each_list_of(Lists& lists, const Visit& visit) {
   visit(lists.critical_triangles);
   visit(lists.critical_stars);
 }
-
-/// Some paths of cells, one after the other: each cell on them, and its successor.
-struct FollowedCells {
-  Array<const Id, HostMemory> cells, next;
-};
-
-/// Follows paths where the successors are: a thread for each.
-template <class Space>
-FollowedCells follow_cells(const Space& space, const Mirrored<Id>& all, const std::vector<Id>& starts) {
-  using Ids = Array<Id, MemoryOf<Space>>;
-  const Offset count = static_cast<Offset>(starts.size());
-  const auto successors = all.in<MemoryOf<Space>>();
-  const auto from = in_memory<MemoryOf<Space>>(starts);
-  const auto begin = allocate<Array<Offset, MemoryOf<Space>>>("GALE::path_begin", count + 1);
-  parallel_for(
-      "GALE::path_lengths", space, count, KOKKOS_LAMBDA(Offset i) {
-        Offset length = 0;
-        for (Id cell = from(i); cell >= 0; cell = successors(cell)) ++length;
-        begin(i) = length;
-      });
-  const Offset total = exclusive_scan(
-      "GALE::path_begins", space, count, begin, KOKKOS_LAMBDA(Offset i) { return begin(i); });
-  const auto cells = allocate<Ids>("GALE::path_cells", total), next = allocate<Ids>("GALE::next_on_path", total);
-  parallel_for(
-      "GALE::follow_paths", space, count, KOKKOS_LAMBDA(Offset i) {
-        Offset at = begin(i);
-        for (Id cell = from(i); cell >= 0; cell = successors(cell), ++at) {
-          cells(at) = cell;
-          next(at) = successors(cell);
-        }
-      });
-  space.fence();
-  return {on_host(cells), on_host(next)};
-}
-
-/// The successors of cells: where they lie on a device, those on paths that were followed alone.
-class CellSteps {
- public:
-  /// Without `one_way` paths fork: then those of all cells are brought here.
-  CellSteps(const Mirrored<Id>& successors, bool one_way)
-      : successors_(successors),
-        here_(one_way && successors.on_device() ? nullptr : successors.in<HostMemory>().data()) {}
-
-  /// Makes known those on the paths from some cells.
-  void follow(const std::vector<Id>& cells) {
-    if (here_ != nullptr || cells.empty()) return;
-    const FollowedCells paths =
-        in_worker_or_host_space(true, [&](const auto& space) { return follow_cells(space, successors_, cells); });
-    for (Offset i = 0; i < static_cast<Offset>(paths.cells.extent(0)); ++i) {
-      stop_if_asked_at(i);
-      known_.insert(static_cast<std::uint64_t>(paths.cells(i))).first = paths.next(i);
-    }
-  }
-
-  Id operator[](Id cell) const {
-    return here_ != nullptr ? here_[cell] : *known_.find(static_cast<std::uint64_t>(cell));
-  }
-
- private:
-  const Mirrored<Id>& successors_;
-  const Id* const here_;  ///< those of all cells
-  HashTable<Id> known_;
-};
 
 class Reacher {
  public:
@@ -180,9 +118,7 @@ class Reacher {
     for (const LocalStep& step : here_) {
       if (step.kind == StepKind::rising_cell) cells.push_back(step.simplex[0]);
     }
-    std::sort(cells.begin(), cells.end());
-    cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
-    cell_successors_.follow(cells);
+    cell_successors_.follow(std::move(cells));
     for (std::int64_t i = 0; !here_.empty(); ++i) {
       stop_if_asked_at(i);
       const LocalStep step = here_.back();
