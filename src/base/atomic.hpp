@@ -33,6 +33,15 @@ KOKKOS_FORCEINLINE_FUNCTION std::uint8_t atomic_or(std::uint8_t* at, std::uint8_
 #endif
 }
 
+/// Sets bits of a word.
+KOKKOS_FORCEINLINE_FUNCTION std::uint64_t atomic_or(std::uint64_t* at, std::uint64_t bits) {
+#if defined(GALE_ON_DEVICE)
+  return atomicOr(reinterpret_cast<unsigned long long*>(at), static_cast<unsigned long long>(bits));
+#else
+  return __atomic_fetch_or(at, bits, __ATOMIC_RELAXED);
+#endif
+}
+
 }  // namespace detail
 
 /// Reads, whole, what other threads may be writing.

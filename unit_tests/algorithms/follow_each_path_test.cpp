@@ -5,6 +5,7 @@
 
 #include <gale/algorithms/excerpt/cell_steps.hpp>
 #include <gale/algorithms/gradient/follow_each_path.hpp>
+#include <gale/algorithms/morse_smale/condensed_paths.hpp>
 
 namespace gale::test {
 
@@ -82,6 +83,44 @@ TEST(FollowCells, tells_each_cell_on_the_way_and_what_follows_in_each_memory) {
       }
     }
     ASSERT_EQ(at, found.cells.extent(0));
+  };
+  for (const Id paths : {0, 1, 20000}) {
+    follow(HostExecutionSpace(), paths);
+    follow(WorkerSpace(), paths);
+  }
+}
+
+TEST(CondensedPaths, end_where_paths_of_all_simplices_do_in_each_memory) {
+  const Id count = 30000;
+  const auto successors = falling_successors(count);
+  std::vector<Id> ends, place(count, no_id);
+  for (Id i = 0; i < count; ++i) {
+    if (successors(i) != no_id) continue;
+    place[i] = static_cast<Id>(ends.size());
+    ends.push_back(i);
+  }
+  const Mirrored<Id> given = Array<const Id, HostMemory>(successors);
+  const auto follow = [&](const auto& space, Id paths) {
+    std::mt19937 random(3);
+    const auto first = allocate<Array<Id, HostMemory>>("first", paths);  // some of them twice, some none
+    for (Id i = 0; i < paths; ++i) first(i) = i % 7 == 0 ? no_id : static_cast<Id>(random() % count);
+    using Memory = MemoryOf<std::decay_t<decltype(space)>>;
+    const Array<Id, Memory> starts = allocate<Array<Id, Memory>>("starts", paths);
+    Kokkos::deep_copy(starts, first);
+    const auto next = detail::condensed_paths(space, given, ends, starts);
+    ASSERT_LE(next.extent(0), paths + ends.size());
+    detail::jump(space, next);
+    space.fence();
+    const auto entries = on_host(Array<const Id, Memory>(starts)), last = on_host(Array<const Id, Memory>(next));
+    for (Id i = 0; i < paths; ++i) {
+      if (first(i) == no_id) {
+        ASSERT_EQ(entries(i), no_id);
+        continue;
+      }
+      Id at = first(i);
+      while (successors(at) >= 0) at = successors(at);
+      ASSERT_EQ(detail::place_of_end(last(entries(i))), place[at]) << "from " << first(i);
+    }
   };
   for (const Id paths : {0, 1, 20000}) {
     follow(HostExecutionSpace(), paths);

@@ -74,18 +74,19 @@ std::vector<Id> ends_of(const Space& space, const Array<const Id, MemoryOf<Space
   return {places.data(), places.data() + places.extent(0)};
 }
 
+/// Successors in some memory. A copy for the device alone goes with what this returns.
+template <class Memory>
+Array<const Id, Memory> successors_in(const Mirrored<Id>& successors) {
+  if (successors.on_device()) return successors.in<Memory>();
+  return in_memory<Memory>(successors.in<HostMemory>());
+}
+
 /// A copy of successors in a space's memory in which those of `ends` lead to their places there, and those that leave
 /// through the surface to `path_outside`.
 template <class Space>
 Array<Id, MemoryOf<Space>> with_ends(const Space& space, const Mirrored<Id>& successors, const std::vector<Id>& ends) {
   const auto next = allocate<Array<Id, MemoryOf<Space>>>("GALE::next_on_path", successors.size());
-  // A copy for the device alone goes when this is done.
-  Array<const Id, MemoryOf<Space>> from;
-  if (successors.on_device()) {
-    from = successors.in<MemoryOf<Space>>();
-  } else {
-    from = in_memory<MemoryOf<Space>>(successors.in<HostMemory>());
-  }
+  const auto from = successors_in<MemoryOf<Space>>(successors);
   parallel_for("GALE::begin_paths", space, from.extent(0), BeginPath<MemoryOf<Space>>{from, next});
   const auto places = in_memory<MemoryOf<Space>>(Array<const Id, HostMemory>(ends.data(), ends.size()));
   parallel_for("GALE::end_paths", space, places.extent(0),

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <gale/algorithms/gradient/gradient_store.hpp>
+#include <gale/algorithms/morse_smale/condensed_paths.hpp>
 #include <gale/algorithms/morse_smale/jump.hpp>
 #include <gale/algorithms/morse_smale/parts.hpp>
 #include <gale/algorithms/morse_smale/paths_on_ranks.hpp>
@@ -75,7 +76,7 @@ struct EndOfVertex {
   Array<const Id, Memory> ends;    ///< of each simplex, see jump()
   Array<const Id, Memory> names;   ///< of places of ends; none: the places
   OtherIds input;
-  Array<Id, Memory> manifolds;  ///< which may be `ends`, where ids of the input are GALE's and paths start there
+  Array<Id, Memory> manifolds;  ///< where ids of the input are GALE's, it may be `starts` or, of none, `ends`
 
   KOKKOS_FUNCTION void operator()(Id v) const {
     const Id start = starts.extent(0) == 0 ? v : starts(v);
@@ -104,17 +105,17 @@ Ids<Space> starts_in(const Space& space, const Mesh& mesh, PathSimplices::Kind k
 
 template <class Space>
 Mirrored<Id> manifolds_in(const Space& space, const DiscreteGradient& gradient, PathSimplices::Kind kind) {
-  const bool of_vertices = kind == PathSimplices::Kind::falling_vertices;
-  const GradientStore& store = gradient.store();
-  const CriticalSimplices& critical = gradient.critical();
-  const auto next = with_ends(space, of_vertices ? store.vertex_successors() : store.cell_successors(),
-                              of_vertices ? critical.vertices : critical.cells);
-  jump(space, next);
   const Mesh& mesh = gradient.mesh();
-  // Each takes the place of its end where vertices keep their numbers.
-  const bool in_place = of_vertices && mesh.vertices_in_input<MemoryOf<Space>>().table == nullptr;
-  return manifolds_of(space, mesh, {0, mesh.vertices()},
-                      {starts_in(space, mesh, kind), next, {}, {}, in_place ? next : Ids<Space>()});
+  const CriticalSimplices& critical = gradient.critical();
+  const Ids<Space> starts = starts_in(space, mesh, kind);
+  const auto next = kind == PathSimplices::Kind::falling_vertices
+                        ? with_ends(space, gradient.store().vertex_successors(), critical.vertices)
+                        : condensed_paths(space, gradient.store().cell_successors(), critical.cells, starts);
+  jump(space, next);
+  // Each takes the place of where its path starts, if vertices keep their numbers.
+  const bool in_place = mesh.vertices_in_input<MemoryOf<Space>>().table == nullptr;
+  const Ids<Space> manifolds = !in_place ? Ids<Space>() : starts.extent(0) == 0 ? next : starts;
+  return manifolds_of(space, mesh, {0, mesh.vertices()}, {starts, next, {}, {}, manifolds});
 }
 
 constexpr std::uint64_t no_pair = ~std::uint64_t(0);

@@ -109,12 +109,13 @@ struct ExternalSegments {
   template <class Visit>
   KOKKOS_FUNCTION void operator()(Id t, const Visit& visit) const {
     const Quad quad = cells[t];
-    Id previous = segment_of(quad.a);
-    if (quad.d < segment_of.vertex_begin[previous + 1]) return;
+    Id end = segment_of.vertex_begin[segment_of(quad.a) + 1];
+    if (quad.d < end) return;
     for (int corner = 1; corner < 4; ++corner) {
-      const Id here = segment_of(quad[corner]);
-      if (here != previous) visit(here);
-      previous = here;
+      if (quad[corner] < end) continue;
+      const Id segment = segment_of(quad[corner]);
+      visit(segment);
+      end = segment_of.vertex_begin[segment + 1];
     }
   }
 };
