@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <vector>
 
+#include <gale/base/atomic.hpp>
 #include <gale/base/counted_word.hpp>
 #include <gale/base/types.hpp>
 
@@ -14,12 +15,11 @@ class NumberedSet {
   /// Makes an empty set of the places 0 to places - 1.
   explicit NumberedSet(Id places) : words_((static_cast<std::size_t>(places) >> 6) + 1) {}
 
-  /// Adds a place; false where it was a member before.
+  /// Adds a place, while other threads may add some; false where it was a member before.
   bool insert(Id place) {
-    CountedWord& word = words_[static_cast<std::size_t>(place) >> 6];
-    if (word.has(place & 63)) return false;
-    word.insert(place & 63);
-    return true;
+    std::uint64_t& bits = words_[static_cast<std::size_t>(place) >> 6].bits;
+    const std::uint64_t bit = std::uint64_t(1) << (place & 63);
+    return (atomic_read(&bits) & bit) == 0 && (atomic_or(&bits, bit) & bit) == 0;
   }
 
   bool has(Id place) const { return words_[static_cast<std::size_t>(place) >> 6].has(place & 63); }

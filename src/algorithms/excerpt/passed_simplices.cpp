@@ -25,14 +25,14 @@ class PassedSimplices {
     mark_cells(wider.critical(), complex);
     number_cells();
     if (4 * static_cast<Offset>(cell_of_.size()) < wider_->vertices()) {
-      number_vertices(wider.critical(), complex);
+      mark_vertices(wider.critical(), complex);
+      vertex_count_ = vertices_->count();
     } else {
-      number_ = wider_->names();
       vertex_count_ = wider_->vertices();
     }
   }
 
-  Id number(Id vertex) const { return number_(vertex); }
+  Id number(Id vertex) const { return vertices_ ? (*vertices_)[wider_->names()[vertex]] : wider_->names()[vertex]; }
   Id cell_number(Id cell) const { return number_of_cell_[cells_[wider_->cell_name(cell)]]; }
 
   template <std::size_t N>
@@ -91,25 +91,30 @@ class PassedSimplices {
     return excerpt_mesh<corners>(vertex_ids, cell_ids, rows, std::max(vertex_count_, 1));
   }
 
-  /// Marks what is on paths, before anything else is: where one comes to what is marked, so is the rest of it.
+  /// Marks what is on paths, before anything else is: where one comes to what is marked, its rest is being marked by
+  /// whoever has marked that. mark(part, simplex) says whether it wasn't.
   template <class Mark>
-  static void mark_paths(const Separatrices<Id>& paths, const Mark& mark) {
-    for (Id i = 0; i < paths.count(); ++i) {
-      for (const Id* at = paths.first(i); at != paths.last(i) && mark(*at); ++at) {
+  static void mark_paths(const Separatrices<Id>& paths, int parts, const Mark& mark) {
+    for_parts("GALE::mark_paths", paths.count(), parts, [&](int part, Offset begin, Offset end) {
+      for (Id i = static_cast<Id>(begin); i < end; ++i) {
+        stop_if_asked_at(i);
+        for (const Id* at = paths.first(i); at != paths.last(i) && mark(part, *at); ++at) {
+        }
       }
-    }
-  }
-
-  bool mark_cell(Id cell) {
-    if (!cells_.insert(wider_->cell_name(cell))) return false;
-    marked_cells_.push_back(cell);
-    return true;
+    });
   }
 
   void mark_cells(const CriticalSimplices& critical, const MorseSmaleComplex& complex) {
-    mark_paths(complex.ascending, [&](Id cell) { return mark_cell(cell); });
-    for (const Id cell : critical.cells) mark_cell(cell);
-    for (const Id cell : critical.star) mark_cell(cell);
+    std::vector<std::vector<Id>> marked(threads_for(complex.ascending.count()));
+    const auto mark = [&](int part, Id cell) {
+      if (!cells_.insert(wider_->cell_name(cell))) return false;
+      marked[part].push_back(cell);
+      return true;
+    };
+    mark_paths(complex.ascending, static_cast<int>(marked.size()), mark);
+    for (const Id cell : critical.cells) mark(0, cell);
+    for (const Id cell : critical.star) mark(0, cell);
+    for (const auto& some : marked) marked_cells_.insert(marked_cells_.end(), some.begin(), some.end());
   }
 
   /// Names of the rank's own cells ascend with global ids; others' come after all of these, and have to be put between
@@ -132,38 +137,37 @@ class PassedSimplices {
   }
 
   /// The vertices of what is passed alone.
-  void number_vertices(const CriticalSimplices& critical, const MorseSmaleComplex& complex) {
-    NumberedSet passed(wider_->vertices());
-    const auto mark = [&](Id vertex) { return passed.insert(wider_->name(vertex)); };
+  void mark_vertices(const CriticalSimplices& critical, const MorseSmaleComplex& complex) {
+    NumberedSet& passed = vertices_.emplace(wider_->vertices());
+    const auto mark = [&](Id vertex) { return passed.insert(wider_->names()[vertex]); };
     const auto mark_all_of = [&](const auto& simplices) {
-      for (const auto& simplex : simplices) {
-        for (const Id vertex : simplex) mark(vertex);
-      }
+      parallel_for("GALE::mark_passed", HostExecutionSpace(), simplices.size(), [&](Offset i) {
+        for (const Id vertex : simplices[i]) mark(vertex);
+      });
     };
-    mark_paths(complex.descending, mark);
+    mark_paths(complex.descending, threads_for(complex.descending.count()),
+               [&](int, Id vertex) { return mark(vertex); });
     mark_all_of(complex.connectors.cells);
     for (const Id vertex : critical.vertices) mark(vertex);
     mark_all_of(critical.edges);
     mark_all_of(critical.triangles);
-    auto corners_of = wider_->corners_in_turn();
-    for (const Id cell : cell_of_) {
-      for (const Id vertex : corners_of(cell)) mark(vertex);
-    }
-    passed.number();
-    vertex_count_ = passed.count();
-    const auto numbers = allocate<Array<Id, HostMemory>>("GALE::number_passed", wider_->vertices());
-    parallel_for("GALE::number_passed", HostExecutionSpace(), wider_->vertices(), [&](Offset v) {
-      const Id name = wider_->name(static_cast<Id>(v));
-      numbers(v) = passed.has(name) ? passed[name] : no_id;
+    const Offset cells = static_cast<Offset>(cell_of_.size());
+    for_parts("GALE::mark_passed", cells, threads_for(cells), [&](int, Offset begin, Offset end) {
+      auto corners_of = wider_->corners_in_turn();
+      for (Offset i = begin; i < end; ++i) {
+        stop_if_asked_at(i);
+        for (const Id vertex : corners_of(cell_of_[i])) mark(vertex);
+      }
     });
-    number_ = numbers;
+    passed.number();
   }
 
   /// Calls visit(vertex, number) for each that is in the excerpt.
   template <class Visit>
   void for_each_vertex(const Visit& visit) const {
     parallel_for("GALE::passed_vertices", HostExecutionSpace(), wider_->vertices(), [&](Offset v) {
-      if (number_(v) != no_id) visit(static_cast<Id>(v), number_(v));
+      const Id vertex = static_cast<Id>(v);
+      if (!vertices_ || vertices_->has(wider_->names()[vertex])) visit(vertex, number(vertex));
     });
   }
 
@@ -175,9 +179,9 @@ class PassedSimplices {
   }
 
   const std::shared_ptr<const WiderSimplices> wider_;
-  NumberedSet cells_;  ///< by name
+  NumberedSet cells_;                    ///< by name
+  std::optional<NumberedSet> vertices_;  ///< by name; none where all are taken
   Id vertex_count_ = 0;
-  Array<const Id, HostMemory> number_;  ///< of each vertex; no_id of those that aren't in the excerpt
   std::vector<Id> marked_cells_, cell_of_, number_of_cell_;
 };
 

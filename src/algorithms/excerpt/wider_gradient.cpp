@@ -3,9 +3,8 @@
 #include <utility>
 
 #include <gale/algorithms/excerpt/wider_gradient.hpp>
-#include <gale/base/memory.hpp>
-#include <gale/base/ordered.hpp>
 #include <gale/base/parallel.hpp>
+#include <gale/base/sort.hpp>
 
 namespace gale::detail {
 
@@ -42,77 +41,77 @@ WiderGradient::WiderGradient(const DiscreteGradient& gradient, std::shared_ptr<c
 }
 
 WallGround WiderGradient::ground() const {
-  return {pairs_, vertex_successors_.data(), keys_.data(), {simplices_->names().data()}, {0, vertices_}};
+  return {pairs_, vertex_successors_.on_host(), keys_, simplices_->names(), {0, vertices_}};
 }
 
 void WiderGradient::fill_keys() {
   const VertexOrder& order = gradient_.order();
-  const auto keys = allocate<Array<std::uint64_t, HostMemory>>("GALE::wider_keys", vertices_);
-  keys_ = keys;
-  const auto& names = simplices_->names();
-  const auto value = [&](Id vertex) { return simplices_->value(vertex); };
-  if (order.has_short_values()) {
-    parallel_for("GALE::wider_keys", HostExecutionSpace(), vertices_,
-                 [&](Offset v) { keys(v) = value(static_cast<Id>(v)) << 32 | static_cast<std::uint32_t>(names(v)); });
-    return;
-  }
-  // Keys are ranks: those of others come between.
+  if (!order.has_short_values()) return rank_vertices();
+  others_keys_.resize(vertices_ - own_vertices_);
+  parallel_for("GALE::wider_keys", HostExecutionSpace(), others_keys_.size(), [&](Offset i) {
+    const Id vertex = own_vertices_ + static_cast<Id>(i);
+    others_keys_[i] = simplices_->value(vertex) << 32 | static_cast<std::uint32_t>(simplices_->names()[vertex]);
+  });
+  keys_ = {order.keys(), own_vertices_, others_keys_.data(), simplices_->names()};
+}
+
+/// Makes keys of all vertices' ranks: those of others come between.
+void WiderGradient::rank_vertices() {
   std::vector<Id> by_rank(own_vertices_), others(vertices_ - own_vertices_);
-  for (Id v = 0; v < own_vertices_; ++v) by_rank[order.keys()[v]] = v;
+  for (Id v = 0; v < own_vertices_; ++v) by_rank[gradient_.order().keys()[v]] = v;
   std::iota(others.begin(), others.end(), own_vertices_);
   const auto is_less = [&](Id a, Id b) {
-    const std::uint64_t value_a = value(a), value_b = value(b);
-    return value_a != value_b ? value_a < value_b : names(a) < names(b);
+    const std::uint64_t value_a = simplices_->value(a), value_b = simplices_->value(b);
+    return value_a != value_b ? value_a < value_b : simplices_->names()[a] < simplices_->names()[b];
   };
   std::sort(others.begin(), others.end(), is_less);
   std::vector<Id> all(vertices_);
   std::merge(by_rank.begin(), by_rank.end(), others.begin(), others.end(), all.begin(), is_less);
-  for (std::size_t i = 0; i < all.size(); ++i) keys(all[i]) = i;
+  own_keys_.resize(vertices_);
+  for (std::size_t i = 0; i < all.size(); ++i) own_keys_[all[i]] = i;
+  keys_ = {own_keys_.data(), vertices_};
 }
 
 void WiderGradient::fill_successors(const Reached& reached) {
-  const auto& own = gradient_.vertex_successors();
-  const auto of_vertices = allocate<Array<Id, HostMemory>>("GALE::wider_successors", vertices_);
-  parallel_for("GALE::wider_successors", HostExecutionSpace(), vertices_,
-               [&](Offset v) { of_vertices(v) = v < own_vertices_ ? own(v) : DiscreteGradient::elsewhere; });
-  cell_successors_.own = gradient_.store().cell_successors();
-  cell_successors_.beyond.assign(simplices_->cells() - own_cells_, DiscreteGradient::elsewhere);
+  const auto begin = [](MoreSuccessors& successors, const Mirrored<Id>& own, Id others) {
+    successors.own = own;
+    successors.beyond.assign(others, DiscreteGradient::elsewhere);
+  };
+  begin(vertex_successors_, gradient_.store().vertex_successors(), vertices_ - own_vertices_);
+  begin(cell_successors_, gradient_.store().cell_successors(), simplices_->cells() - own_cells_);
   for_each_received(reached.vertex_steps, [&](int rank, const auto& step) {
-    of_vertices(vertex(rank, step[0])) = step[1] == no_id ? no_id : vertex(rank, step[1]);
+    vertex_successors_.tell(vertex(rank, step[0]), step[1] == no_id ? no_id : vertex(rank, step[1]));
   });
   for_each_received(reached.cell_steps, [&](int rank, const auto& step) {
-    const Id from = cell(rank, step[0]), to = step[1] < 0 ? step[1] : cell(rank, step[1]);
-    if (simplices_->is_own_cell(from)) {
-      cell_successors_.exits.emplace_back(from, to);
-    } else {
-      cell_successors_.beyond[from - own_cells_] = to;
-    }
+    cell_successors_.tell(cell(rank, step[0]), step[1] < 0 ? step[1] : cell(rank, step[1]));
   });
-  std::sort(cell_successors_.exits.begin(), cell_successors_.exits.end());
-  if (gradient_.mesh().dimension() == 3) fill_rows(reached, of_vertices);
-  vertex_successors_ = of_vertices;
+  if (gradient_.mesh().dimension() == 3) fill_rows(reached);
+  vertex_successors_.sort();
+  cell_successors_.sort();
 }
 
 /// Others' vertices, ghosts among them, get rows of those edges that were reached. One that is neither critical nor
 /// paired with a triangle is paired with its higher end.
-void WiderGradient::fill_rows(const Reached& reached, const Array<Id, HostMemory>& vertex_successors) {
+void WiderGradient::fill_rows(const Reached& reached) {
   pairs_ = EdgePairs(gradient_.store().pairs(), gradient_.mesh().owned_vertices(), vertices_);
   std::vector<std::uint64_t> in_rows, told;
   std::vector<std::pair<std::uint64_t, Id>> paired;
   for_each_received(reached.edges, [&](int rank, const auto& edge) {
     const Id high = vertex(rank, edge[0]), low = vertex(rank, edge[1]);
-    in_rows.push_back(pair_key(high, low));
-    told.push_back(in_rows.back());
+    told.push_back(pair_key(high, low));
     if (edge[2] < 0) return;
     const Id third = vertex(rank, edge[2]);
     in_rows.push_back(pair_key(high, third));
     paired.push_back({pair_key(high, low), third});
   });
-  std::sort(in_rows.begin(), in_rows.end());
+  in_rows.insert(in_rows.end(), told.begin(), told.end());
+  parallel_sort("GALE::sort_reached", in_rows.begin(), in_rows.end());
+  parallel_sort("GALE::sort_reached", told.begin(), told.end());
   in_rows.erase(std::unique(in_rows.begin(), in_rows.end()), in_rows.end());
-  std::sort(told.begin(), told.end());
+  auto at = told.begin();
   for (const std::uint64_t edge : in_rows) {
-    if (!std::binary_search(told.begin(), told.end(), edge)) vertex_successors(pair_first(edge)) = pair_second(edge);
+    while (at != told.end() && *at < edge) ++at;
+    if (at == told.end() || *at != edge) vertex_successors_.tell(pair_first(edge), pair_second(edge));
   }
   for (std::size_t first = 0; first < in_rows.size();) {
     const Id high = pair_first(in_rows[first]);
@@ -141,7 +140,7 @@ void WiderGradient::add_critical(const Reached& reached) {
     if (edge[2] == edge_is_critical) others.edges.push_back({vertex(rank, edge[0]), vertex(rank, edge[1])});
   });
   critical_ = own;
-  const OtherIds names{simplices_->names().data()};
+  const VertexNames& names = simplices_->names();
   const auto merge = [&](int dimension, auto member, const auto& key) {
     std::vector<Id> places;
     critical_.*member = merged(own.*member, others.*member, key, places);

@@ -14,15 +14,15 @@
 namespace gale::detail {
 
 /// A gradient of one rank's part, and what ways from there reach on other ranks (`reach_beyond`): what follows them
-/// finds what it would find in the whole. Simplices are numbered as WiderSimplices has them. Some 24 bytes a vertex
-/// beside these and the part's. Refers to the gradient.
+/// finds what it would find in the whole. Simplices are numbered as WiderSimplices has them. Where values have more
+/// than 32 bits it takes 8 bytes a vertex, beside what was reached. Refers to the gradient.
 class WiderGradient {
  public:
   WiderGradient(const DiscreteGradient& gradient, std::shared_ptr<const WiderSimplices> simplices,
                 const Reached& reached);
 
   WallGround ground() const;
-  const Array<const Id, HostMemory>& vertex_successors() const { return vertex_successors_; }
+  const MoreSuccessors& vertex_successors() const { return vertex_successors_; }
   const MoreSuccessors& cell_successors() const { return cell_successors_; }
 
   /// The rank's critical simplices and those that were reached, in the order of CriticalSimplices by global ids.
@@ -39,8 +39,9 @@ class WiderGradient {
 
  private:
   void fill_keys();
+  void rank_vertices();
   void fill_successors(const Reached& reached);
-  void fill_rows(const Reached& reached, const Array<Id, HostMemory>& vertex_successors);
+  void fill_rows(const Reached& reached);
   void add_critical(const Reached& reached);
 
   Id vertex(int rank, Id place) const { return simplices_->vertex(rank, place); }
@@ -49,9 +50,9 @@ class WiderGradient {
   const DiscreteGradient& gradient_;
   const std::shared_ptr<const WiderSimplices> simplices_;
   const Id own_vertices_, own_cells_, vertices_;
-  Array<const std::uint64_t, HostMemory> keys_;
-  Array<const Id, HostMemory> vertex_successors_;
-  MoreSuccessors cell_successors_;
+  std::vector<std::uint64_t> own_keys_, others_keys_;  ///< own ones where the gradient's aren't enough
+  NamedKeys keys_;
+  MoreSuccessors vertex_successors_, cell_successors_;
   EdgePairs pairs_;
   CriticalSimplices critical_;
   std::array<std::vector<char>, 4> is_own_;

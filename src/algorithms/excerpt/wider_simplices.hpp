@@ -5,22 +5,25 @@
 #include <vector>
 
 #include <gale/algorithms/excerpt/reached.hpp>
+#include <gale/algorithms/excerpt/vertex_names.hpp>
 #include <gale/algorithms/morse_smale/paths_on_ranks.hpp>
 
 namespace gale::detail {
 
 /// The vertices and cells of one rank's part, and those that ways from there reach on other ranks (`reach_beyond`),
-/// which come after GALE's own. 4 bytes a vertex beside what was reached.
+/// which come after GALE's own.
 class WiderSimplices {
  public:
   WiderSimplices(const DiscreteGradient& gradient, const PathSimplices& cells, const Reached& reached);
+  WiderSimplices(const WiderSimplices&) = delete;
+  WiderSimplices& operator=(const WiderSimplices&) = delete;
 
   const Mesh& mesh() const { return mesh_; }
 
   /// How many there are, the part's and all.
   Id own_vertices() const { return own_vertices_; }
   Id own_cells() const { return own_cells_; }
-  Id vertices() const { return static_cast<Id>(names_.extent(0)); }
+  Id vertices() const { return own_vertices_ + static_cast<Id>(beyond_.size()); }
   Id cells() const { return own_cells_ + static_cast<Id>(cell_corners_.size()); }
   bool is_own_cell(Id cell) const { return cell < own_cells_; }
 
@@ -28,9 +31,8 @@ class WiderSimplices {
   Id vertex(int rank, Id place) const { return vertex_of_[vertex_begin_[rank] + place]; }
   Id cell(int rank, Id place) const { return cell_of_[cell_begin_[rank] + place]; }
 
-  /// A number for each vertex, dense from 0: they compare as global ids do.
-  Id name(Id vertex) const { return names_(vertex); }
-  const Array<const Id, HostMemory>& names() const { return names_; }
+  /// A number for each vertex, dense from 0.
+  const VertexNames& names() const { return names_; }
 
   /// A number for each cell, dense from 0. Own cells' numbers compare as global ids do; others' come after these.
   Id cell_name(Id cell) const { return is_own_cell(cell) ? cell_input_[cell] : cell; }
@@ -55,7 +57,7 @@ class WiderSimplices {
  private:
   void number_vertices(const Reached& reached);
   void number_cells(const Reached& reached, const PathSimplices& cells);
-  void name_vertices();
+  void name_others();
 
   const Mesh mesh_;
   const VertexOrder order_;
@@ -66,9 +68,10 @@ class WiderSimplices {
   std::vector<Offset> vertex_begin_, cell_begin_;
   std::vector<Id> vertex_of_, cell_of_;          ///< of what was received
   std::vector<ReachedVertex> beyond_;            ///< by global id
+  std::vector<Id> own_before_;                   ///< of these, see VertexNames
   std::vector<GlobalId> cell_ids_;               ///< of others' cells
   std::vector<std::array<Id, 4>> cell_corners_;  ///< of these
-  Array<const Id, HostMemory> names_;
+  VertexNames names_;
 };
 
 }  // namespace gale::detail

@@ -15,8 +15,8 @@
 namespace gale::detail {
 
 /// A simplex as users write it: its input vertices, ascending. From GALE's ids.
-template <class Simplex>
-Simplex written(const OtherIds& vertex_input, Simplex simplex) {
+template <class Names, class Simplex>
+Simplex written(const Names& vertex_input, Simplex simplex) {
   for (Id& vertex : simplex) vertex = vertex_input[vertex];
   return ascending(simplex);
 }

@@ -63,7 +63,7 @@ class SurfaceTracer {
  private:
   struct Mark {};
 
-  const std::uint64_t* keys_;
+  const NamedKeys keys_;
   const Paths told_;
   std::size_t left_to_keep_;  ///< triangles of unfinished walls that there still is room for
   std::vector<std::pair<Id, DescendingWall::Edge>> rim_;  ///< the wall's critical edges by their places
@@ -91,7 +91,7 @@ DescendingSurfaces descending_surfaces(const DiscreteGradient& gradient, const C
                                        const CriticalPlaces& places, bool want_walls, bool want_connectors, int threads,
                                        const TurnedEdges* turned, Paths told) {
   const auto& triangles = critical.triangles;
-  const WallGround ground(gradient);
+  const WallGround ground = ground_of(gradient);
   const auto tracers = traced(
       triangles, threads,
       [&](int) {
@@ -117,7 +117,7 @@ struct ConnectorsHere::Found {
 
 ConnectorsHere::ConnectorsHere(const DiscreteGradient& gradient, const CriticalPlaces& places, int threads)
     : triangles_(gradient.critical().triangles), threads_(threads), found_(std::make_unique<Found>()) {
-  const WallGround ground(gradient);
+  const WallGround ground = ground_of(gradient);
   const auto most_kept = static_cast<std::size_t>(gradient.mesh().vertices());
   found_->tracers = traced(
       triangles_, threads,

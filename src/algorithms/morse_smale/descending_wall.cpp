@@ -5,12 +5,15 @@
 
 namespace gale::detail {
 
-WallGround::WallGround(const DiscreteGradient& gradient)
-    : pairs(gradient.store().pairs()),
-      vertex_successor(gradient.vertex_successors().data()),
-      keys(gradient.order().keys()),
-      vertex_input(gradient.mesh().vertices_in_input()),
-      owned(gradient.mesh().owned_vertices()) {}
+WallGround ground_of(const DiscreteGradient& gradient) {
+  const Mesh& mesh = gradient.mesh();
+  const Id vertices = mesh.vertices();
+  return {gradient.store().pairs(),
+          {gradient.vertex_successors().data(), vertices},
+          {gradient.order().keys(), vertices},
+          {mesh.vertices_in_input(), vertices},
+          mesh.owned_vertices()};
+}
 
 DescendingWall::DescendingWall(const WallGround& ground, const TurnedEdges* turned)
     : ground_(ground), turned_(turned) {}
@@ -172,7 +175,7 @@ int DescendingWall::paths_from(const Edge& edge) const {
 }
 
 bool DescendingWall::is_less(const TriangleVertices& a, const TriangleVertices& b) const {
-  return written(ground_.vertex_input, a) < written(ground_.vertex_input, b);
+  return written(ground_.vertex_names, a) < written(ground_.vertex_names, b);
 }
 
 }  // namespace gale::detail

@@ -3,7 +3,9 @@
 #include <vector>
 
 #include <gale/algorithms/discrete_gradient.hpp>
+#include <gale/algorithms/excerpt/vertex_names.hpp>
 #include <gale/algorithms/gradient/gradient_store.hpp>
+#include <gale/algorithms/morse_smale/wider_successors.hpp>
 #include <gale/algorithms/persistence/turned_gradient.hpp>
 #include <gale/algorithms/separatrices.hpp>
 #include <gale/base/hash_table.hpp>
@@ -13,16 +15,14 @@ namespace gale::detail {
 /// What walls read of a gradient. Refers to it.
 struct WallGround {
   const EdgePairs& pairs;
-  const Id* vertex_successor;
-  const std::uint64_t* keys;
-  OtherIds vertex_input;  ///< numbers that compare as input ids do
-  Interval owned;         ///< edges whose higher end isn't one of these have no pairs here: they are where walls leave
-
-  explicit WallGround(const DiscreteGradient& gradient);
-  WallGround(const EdgePairs& all_pairs, const Id* successors, const std::uint64_t* all_keys, OtherIds input,
-             Interval vertices)
-      : pairs(all_pairs), vertex_successor(successors), keys(all_keys), vertex_input(input), owned(vertices) {}
+  WiderSuccessors vertex_successor;
+  NamedKeys keys;
+  VertexNames vertex_names;  ///< compare as input ids do
+  Interval owned;  ///< edges whose higher end isn't one of these have no pairs here: they are where walls leave
 };
+
+/// What walls read of a gradient by itself.
+WallGround ground_of(const DiscreteGradient& gradient);
 
 /// The surface that a critical triangle's falling paths sweep: from a triangle across each of its edges to the triangle
 /// that the edge is paired with. One serves one thread, for one wall after the other, and keeps its memory.

@@ -6,6 +6,7 @@
 #include <gale/algorithms/discrete_gradient.hpp>
 #include <gale/base/mirrored.hpp>
 #include <gale/base/ordered.hpp>
+#include <gale/base/sort.hpp>
 #include <gale/base/transfer.hpp>
 
 namespace gale::detail {
@@ -39,6 +40,23 @@ struct MoreSuccessors {
   Mirrored<Id> own;                      ///< of the part's simplices, where these were found
   std::vector<Id> beyond;                ///< of others', whose numbers come after them
   std::vector<std::pair<Id, Id>> exits;  ///< own ones, ascending, and their successors
+
+  /// Takes what somebody has told of one simplex; of own ones in any order, before `sort`.
+  void tell(Id simplex, Id next) {
+    const Id count = static_cast<Id>(own.size());
+    if (simplex < count) {
+      exits.emplace_back(simplex, next);
+    } else {
+      beyond[simplex - count] = next;
+    }
+  }
+  void sort() { parallel_sort("GALE::sort_exits", exits.begin(), exits.end()); }
+
+  /// All of them on the host.
+  WiderSuccessors on_host() const {
+    return {own.in<HostMemory>().data(), static_cast<Id>(own.size()), beyond.data(), exits.data(),
+            static_cast<Id>(exits.size())};
+  }
 };
 
 /// Puts MoreSuccessors into a memory. Refers to them where they lie there already.

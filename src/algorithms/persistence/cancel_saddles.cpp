@@ -143,7 +143,7 @@ class Canceller {
 
   DescendingWall& wall_of(int thread) {
     auto& wall = walls_[thread];
-    if (!wall) wall = std::make_unique<DescendingWall>(WallGround(complex_.gradient), &turned_);
+    if (!wall) wall = std::make_unique<DescendingWall>(ground_of(complex_.gradient), &turned_);
     return *wall;
   }
 
