@@ -7,6 +7,7 @@
 
 #include <gale/algorithms/critical_points.hpp>
 #include <gale/algorithms/discrete_gradient.hpp>
+#include <gale/algorithms/gradient/gradient_store.hpp>
 #include <gale/algorithms/merge_tree.hpp>
 #include <gale/algorithms/morse_smale.hpp>
 #include <gale/algorithms/persistence.hpp>
@@ -106,7 +107,10 @@ TEST(DeviceAlgorithms, find_pairs_in_grids_that_walls_and_columns_follow) {
       const DiscreteGradient found = find_discrete_gradient(WorkerSpace(), order),
                              expected = find_discrete_gradient(order, by_threads);
       expect_equal(found, expected);
+      const detail::VertexSteps steps = found.store().vertex_steps();
+      ASSERT_NE(steps.codes, nullptr);
       for (Id a = 0; a < mesh.vertices(); ++a) {
+        ASSERT_EQ(steps[a], expected.vertex_successor(a)) << a;
         const Id b = (a + 1) % mesh.vertices();  // an edge, but for the last in a row
         ASSERT_EQ(found.triangle_of_edge(a, b), expected.triangle_of_edge(a, b)) << a;
       }

@@ -70,7 +70,7 @@ class Reacher {
         input_(mesh_.vertices_in_input()),
         internal_(mesh_.vertices_of_input()),
         keys_(gradient.order().keys()),
-        vertex_successor_(gradient.vertex_successors().data()),
+        vertex_successor_(gradient.store().vertex_steps()),
         cell_successors_(gradient.store().cell_successors(), gradient.store().further_successors.empty()),
         further_(gradient.store().further_successors),
         found_(ranks_.size()) {
@@ -374,7 +374,7 @@ class Reacher {
   const CellReader corners_;
   const OtherIds input_, internal_;
   const std::uint64_t* keys_;
-  const Id* vertex_successor_;
+  const VertexSteps vertex_successor_;
   CellSteps cell_successors_;
   const std::vector<std::pair<Id, Id>>& further_;
   std::unique_ptr<Consumer> consumer_;  // of rising walls

@@ -41,7 +41,8 @@ WiderGradient::WiderGradient(const DiscreteGradient& gradient, std::shared_ptr<c
 }
 
 WallGround WiderGradient::ground() const {
-  return {pairs_, vertex_successors_.on_host(), keys_, simplices_->names(), {0, vertices_}};
+  return {
+      pairs_, vertex_successors_.beside(gradient_.store().vertex_steps()), keys_, simplices_->names(), {0, vertices_}};
 }
 
 void WiderGradient::fill_keys() {

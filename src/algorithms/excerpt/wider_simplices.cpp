@@ -52,8 +52,8 @@ void WiderSimplices::number_vertices(const Reached& reached) {
   const OtherIds internal = mesh_.vertices_of_input();
   parallel_for("GALE::reached_vertices", HostExecutionSpace(), count, [&](Offset i) {
     const auto at = std::lower_bound(beyond_.begin(), beyond_.end(), received(i), by_id);
-    vertex_of_[i] = vertex_of_[i] == no_id ? own_vertices_ + static_cast<Id>(at - beyond_.begin())
-                                           : internal[vertex_of_[i]];
+    vertex_of_[i] =
+        vertex_of_[i] == no_id ? own_vertices_ + static_cast<Id>(at - beyond_.begin()) : internal[vertex_of_[i]];
   });
 }
 
@@ -86,7 +86,9 @@ void WiderSimplices::name_others() {
   });
   const auto place = [&](auto at) { return static_cast<Id>(at - own_before_.begin()); };
   const auto first = std::upper_bound(own_before_.begin(), own_before_.end(), 0);
-  names_ = {vertex_input_, own_vertices_, own_before_.data(),
+  names_ = {vertex_input_,
+            own_vertices_,
+            own_before_.data(),
             {place(first), place(std::lower_bound(first, own_before_.end(), own_vertices_))}};
 }
 

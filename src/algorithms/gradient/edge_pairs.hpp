@@ -163,6 +163,9 @@ class GALE_EXPORT EdgePairs {
     __builtin_prefetch(is_coded(vertex) ? static_cast<const void*>(codes_->place(vertex)) : row(vertex).ids());
   }
 
+  /// A grid's codes, if there are any: of all vertices that have pairs.
+  const GridCodes* codes() const { return codes_.get(); }
+
   std::size_t bytes() const;
 
  private:

@@ -62,6 +62,7 @@ Array<const std::uint64_t, HostMemory> encoded_in(const Space& space, const Grad
       mesh.grid()->in<Memory>(),
       mesh.grid()->kinds_in<Memory>(),
       store.order.keys_in<Memory>().data(),
+      store.vertex_successors().in<Memory>().data(),
       owned,
       {store.pair_words().in<Memory>(), store.pairs_begin().in<Memory>()},
       allocate<Array<std::uint64_t, Memory>>("GALE::pair_codes", mesh.vertices())};
@@ -144,6 +145,11 @@ const EdgePairs& GradientStore::pairs() const {
     }
   });
   return pairs_;
+}
+
+VertexSteps GradientStore::vertex_steps() const {
+  const GridCodes* const codes = mesh.dimension() == 3 ? pairs().codes() : nullptr;
+  return codes != nullptr ? VertexSteps{nullptr, codes} : VertexSteps{vertex_successors().in<HostMemory>().data()};
 }
 
 void GradientStore::finish() {

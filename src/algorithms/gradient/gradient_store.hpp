@@ -140,6 +140,20 @@ struct DeviceGradient {
   ConsumerFound critical;
 };
 
+/// The successors of vertices as the host reads them: a grid's codes have them, too, so that they needn't come from a
+/// device. Owns nothing.
+struct VertexSteps {
+  const Id* all = nullptr;
+  const GridCodes* codes = nullptr;
+
+  Id operator[](Id vertex) const { return codes != nullptr ? codes->successor(vertex) : all[vertex]; }
+
+  /// Brings what is soon read near.
+  void prefetch(Id vertex) const {
+    if (codes == nullptr) __builtin_prefetch(all + vertex);
+  }
+};
+
 /// What a DiscreteGradient is made of, and how the consumers of a sweep fill it. One that kernels found stays on the
 /// device; each part comes to the host when somebody there first asks for it. Of a triangle mesh the successors are all
 /// of it: an edge is paired with a vertex or a triangle, which has it as its own.
@@ -178,6 +192,7 @@ class GALE_EXPORT GradientStore {
   const Mirrored<Id>& vertex_successors() const { return vertex_successors_; }
   const Mirrored<Id>& cell_successors() const { return cell_successors_; }
   const EdgePairs& pairs() const;
+  VertexSteps vertex_steps() const;
 
   /// Whether kernels found it, of a mesh of tetrahedra. Then these are the words of EdgePairRows, and where each
   /// vertex's row begins among them.

@@ -3,19 +3,21 @@
 #include <array>
 #include <cstdint>
 
+#include <gale/algorithms/discrete_gradient.hpp>
 #include <gale/base/memory.hpp>
 #include <gale/mesh/grid/grid_stars.hpp>
 #include <gale/mesh/intervals.hpp>
 
 namespace gale::detail {
 
-/// What the edges of a vertex to lower ones are paired with, in a grid that has all its cubes: four bits for each
-/// direction of neighbours. There is the direction of the third vertex of the triangle that the edge is paired with, or
-/// one of the two numbers behind directions.
+/// What a vertex and its edges to lower ones are paired with, in a grid that has all its cubes: four bits for each
+/// direction of neighbours, and for the vertex. There is the direction of the third vertex of the triangle that an edge
+/// is paired with, that of the edge that the vertex is paired with, or one of the two numbers behind directions.
 class PairCode {
  public:
-  static constexpr int unpaired = 14;   ///< an edge that is paired with no triangle
-  static constexpr int not_lower = 15;  ///< the neighbour is higher, or isn't there
+  static constexpr int unpaired = 14;   ///< an edge that is paired with no triangle, a vertex with no edge
+  static constexpr int not_lower = 15;  ///< the neighbour is higher, or isn't there; a vertex is another rank's
+  static constexpr int itself = 14;     ///< where the vertex has its bits, behind those of directions
 
   PairCode() = default;
   KOKKOS_FUNCTION explicit PairCode(std::uint64_t bits) : bits_(bits) {}
@@ -36,6 +38,7 @@ struct EncodeRows {
   GridView grid;
   const StarKind* kinds;
   const std::uint64_t* keys;
+  const Id* successors;  ///< of vertices
   Interval vertices;
   RowOf row_of;
   Array<std::uint64_t, Memory> codes;  ///< by vertex
@@ -45,13 +48,17 @@ struct EncodeRows {
     GridCursor at(grid);
     at.go_to(vertex);
     const StarKind& kind = kinds[at.kind()];
+    const Id successor = successors[vertex];
     int direction[grid_directions];
-    int lower = 0;
+    int lower = 0, to_successor = PairCode::unpaired;
     for (int k = 0; k < kind.neighbours; ++k) {
+      const Id neighbour = at.neighbour(kind.direction[k]);
+      if (neighbour == successor) to_successor = kind.direction[k];
       direction[lower] = kind.direction[k];
-      lower += keys[at.neighbour(kind.direction[k])] < keys[vertex];
+      lower += keys[neighbour] < keys[vertex];
     }
     PairCode code;
+    code.set(PairCode::itself, to_successor);
     const auto row = row_of(vertex);
     for (int k = 0; k < lower; ++k) {
       const Id third = row.place_of_third(k);
@@ -72,6 +79,13 @@ class GridCodes {
 
   PairCode operator[](Id vertex) const { return PairCode(codes_(vertex)); }
   const std::uint64_t* place(Id vertex) const { return &codes_(vertex); }
+
+  /// What DiscreteGradient::vertex_successor says of a vertex.
+  Id successor(Id vertex) const {
+    const int direction = (*this)[vertex][PairCode::itself];
+    if (direction < PairCode::unpaired) return vertex + step(direction);
+    return direction == PairCode::unpaired ? no_id : DiscreteGradient::elsewhere;
+  }
 
   /// From a vertex to its neighbour in a direction.
   Id step(int direction) const { return steps_[direction]; }

@@ -78,7 +78,8 @@ Array<Id, MemoryOf<Space>> condensed_paths(const Space& space, const Mirrored<Id
     parallel_for("GALE::mark_path_entries", space, mark.items(), mark);
   const auto before = allocate<Array<Id, Memory>>("GALE::path_entries_before", count + 1);
   const Id entries = exclusive_scan(
-      "GALE::path_entries_before", space, count, before, KOKKOS_LAMBDA(Offset word) { return count_bits(words(word)); });
+      "GALE::path_entries_before", space, count, before,
+      KOKKOS_LAMBDA(Offset word) { return count_bits(words(word)); });
   const RankedBits ranked{words.data(), before.data(), nullptr};
   const auto next = allocate<Array<Id, Memory>>("GALE::next_on_path", entries);
   parallel_for("GALE::condense_paths", space, starts.extent(0),

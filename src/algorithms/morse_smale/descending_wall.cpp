@@ -9,7 +9,7 @@ WallGround ground_of(const DiscreteGradient& gradient) {
   const Mesh& mesh = gradient.mesh();
   const Id vertices = mesh.vertices();
   return {gradient.store().pairs(),
-          {gradient.vertex_successors().data(), vertices},
+          {gradient.store().vertex_steps(), vertices},
           {gradient.order().keys(), vertices},
           {mesh.vertices_in_input(), vertices},
           mesh.owned_vertices()};

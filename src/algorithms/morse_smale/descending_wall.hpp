@@ -15,7 +15,7 @@ namespace gale::detail {
 /// What walls read of a gradient. Refers to it.
 struct WallGround {
   const EdgePairs& pairs;
-  WiderSuccessors vertex_successor;
+  WiderSuccessorsOf<VertexSteps> vertex_successor;
   NamedKeys keys;
   VertexNames vertex_names;  ///< compare as input ids do
   Interval owned;  ///< edges whose higher end isn't one of these have no pairs here: they are where walls leave

@@ -13,8 +13,9 @@ namespace gale::detail {
 
 /// The successors of simplices that a rank knows: of a part's own ones, and of others, whose numbers come after them.
 /// An own one that the part says is elsewhere is looked up among the exits. Owns nothing.
-struct WiderSuccessors {
-  const Id* own;
+template <class Own>
+struct WiderSuccessorsOf {
+  Own own;
   Id count;                                  ///< of own ones
   const Id* beyond = nullptr;                ///< of the others
   const std::pair<Id, Id>* exits = nullptr;  ///< own ones, ascending, and their successors
@@ -35,6 +36,8 @@ struct WiderSuccessors {
   }
 };
 
+using WiderSuccessors = WiderSuccessorsOf<const Id*>;
+
 /// Successors as WiderSuccessors has them, which own their arrays.
 struct MoreSuccessors {
   Mirrored<Id> own;                      ///< of the part's simplices, where these were found
@@ -52,10 +55,10 @@ struct MoreSuccessors {
   }
   void sort() { parallel_sort("GALE::sort_exits", exits.begin(), exits.end()); }
 
-  /// All of them on the host.
-  WiderSuccessors on_host() const {
-    return {own.in<HostMemory>().data(), static_cast<Id>(own.size()), beyond.data(), exits.data(),
-            static_cast<Id>(exits.size())};
+  /// All of them, of which the host reads own ones so.
+  template <class Own>
+  WiderSuccessorsOf<Own> beside(const Own& own_ones) const {
+    return {own_ones, static_cast<Id>(own.size()), beyond.data(), exits.data(), static_cast<Id>(exits.size())};
   }
 };
 

@@ -24,7 +24,7 @@ class EdgeChain {
  public:
   explicit EdgeChain(const DiscreteGradient& gradient)
       : pairs_(gradient.store().pairs()),
-        vertex_successor_(gradient.vertex_successors().data()),
+        vertex_successor_(gradient.store().vertex_steps()),
         keys_(gradient.order().keys()),
         owned_(gradient.mesh().owned_vertices()) {}
 
@@ -124,7 +124,7 @@ class EdgeChain {
   void prefetch(Id high) const {
     if (!owned_.has(high)) return;
     pairs_.prefetch(high);
-    __builtin_prefetch(vertex_successor_ + high);
+    vertex_successor_.prefetch(high);
   }
 
   /// Replaces the edges from `high` to `lows_` by critical ones, `critical_`, and by edges of lower stars.
@@ -152,7 +152,7 @@ class EdgeChain {
   }
 
   const EdgePairs& pairs_;
-  const Id* vertex_successor_;
+  const VertexSteps vertex_successor_;
   const std::uint64_t* keys_;
   const Interval owned_;
   std::vector<Entry> heap_;
