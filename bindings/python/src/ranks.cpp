@@ -13,7 +13,6 @@
 
 #include <gale/distributed/distributed_mesh.hpp>
 #include <gale/outputs/analyses.hpp>
-#include <gale/outputs/brought.hpp>
 #include <gale/outputs/excerpt.hpp>
 
 #include "analyses.hpp"

@@ -5,7 +5,7 @@
 
 #include <gale/base/stop.hpp>
 #include <gale/io/bytes/text.hpp>
-#include <gale/io/cells/polygon_list.hpp>
+#include <gale/io/cells/surface_cells.hpp>
 #include <gale/io/formats.hpp>
 
 // Wavefront OBJ: a line each for vertices (v x y z) and faces (f a b c ...). A corner is the number of a vertex,

@@ -6,7 +6,7 @@
 
 #include <gale/base/stop.hpp>
 #include <gale/io/bytes/text.hpp>
-#include <gale/io/cells/polygon_list.hpp>
+#include <gale/io/cells/surface_cells.hpp>
 #include <gale/io/formats.hpp>
 
 // OFF: how many vertices, faces and edges there are; a line for each vertex, x y z, and for each face: how many corners

@@ -11,7 +11,7 @@
 #include <gale/base/stop.hpp>
 #include <gale/io/bytes/text.hpp>
 #include <gale/io/bytes/values.hpp>
-#include <gale/io/cells/polygon_list.hpp>
+#include <gale/io/cells/surface_cells.hpp>
 #include <gale/io/formats.hpp>
 
 // STL: facets, each with a normal, which nobody reads, and three corners of three floats. Binary files have 80 bytes,
