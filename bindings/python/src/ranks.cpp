@@ -180,7 +180,6 @@ class PyDistributedMesh : public Kept {
       const outputs::AtExcerpt at(gathered.mesh, mesh(), held.dataset, field, true);
       std::vector<outputs::DiagramPoint> points;
       detail::together(*ranks_, [&] {
-        if (ranks_->rank() != 0) return;
         points = outputs::persistence_diagram(gathered.highest, gathered.pairs, at.field(), least);
         for (const outputs::DiagramPoint& point : points) {
           births.push_back(gathered.mesh.vertex_id(point.begin));
