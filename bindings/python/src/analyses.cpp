@@ -52,8 +52,8 @@ outputs::Settings settings_of(const GivenOptions& given) {
   return settings;
 }
 
-nb::dict PyMesh::analyse(const std::string& analysis, Array1 values, const std::string& name,
-                         const GivenOptions& given, int threads, const nb::object& progress) const {
+nb::dict PyMesh::analyse(const std::string& analysis, Array1 values, const std::string& name, const GivenOptions& given,
+                         int threads, const nb::object& progress) const {
   Job job(progress);
   const ComputeOptions options = job.sweep_options(threads);
   const outputs::Settings settings = settings_of(given);

@@ -62,8 +62,8 @@ class PyDistributedMesh : public Kept {
 
   /// Throws what `analyse` would for arguments that are wrong by themselves, on this rank alone: others wait for none
   /// that fails before it sends anything.
-  void check(const std::string& analysis, const Array1& values, const std::string& name,
-             const GivenOptions& given, int threads, const nb::object& progress) const {
+  void check(const std::string& analysis, const Array1& values, const std::string& name, const GivenOptions& given,
+             int threads, const nb::object& progress) const {
     mesh();
     outputs::analysis_named(analysis);
     field_of(values, name);

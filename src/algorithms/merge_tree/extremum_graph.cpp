@@ -116,9 +116,8 @@ ExtremumGraph<MemoryOf<WorkerSpace>> extremum_graph(const WorkerSpace& space, co
   ExtremumGraph<Memory> graph = unknown_graph(space, mesh);
   for (Offset room = mesh.vertices() / 16 + 1024;;) {
     const auto sweep = sweep_links(space, mesh, options, [&] {
-      return FindExtrema{order.keys_in<Memory>().data(),
-                         {graph[below].next.data(), graph[above].next.data()},
-                         ExtremaOfLanes(room)};
+      return FindExtrema{
+          order.keys_in<Memory>().data(), {graph[below].next.data(), graph[above].next.data()}, ExtremaOfLanes(room)};
     });
     if (!sweep.visit.found.give(graph, room)) continue;
     if (sweep.outgrown.count() > 0) add_outgrown(space, order, sweep.outgrown, graph);

@@ -37,7 +37,8 @@ ManifoldPairs sorted_pairs(const Space& space, const Mirrored<Id>& ascending, co
         vertices(v) = static_cast<Id>(v);
       });
   stable_sort_by_key(space, keys, vertices);
-  const auto before = allocate<Array<Id, MemoryOf<Space>>>("GALE::manifold_number", count + 1);  // how many pairs begin earlier
+  const auto before =
+      allocate<Array<Id, MemoryOf<Space>>>("GALE::manifold_number", count + 1);  // how many pairs begin earlier
   const Id distinct = exclusive_scan(
       "GALE::count_manifolds", space, count, before,
       KOKKOS_LAMBDA(Offset i) { return keys(i) != no_pair && (i == 0 || keys(i) != keys(i - 1)); });

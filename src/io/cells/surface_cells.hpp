@@ -18,6 +18,17 @@ struct CellsOfKind {
   PointArray::Values ends = std::vector<std::int64_t>();          ///< where each ends there
 };
 
+/// The cells of a surface by their kinds, in the order in which VTK counts them.
+struct SurfaceCells {
+  std::size_t below = 0;  ///< how many points and lines there are, whose connectivity nobody reads
+  CellsOfKind polygons, strips;
+};
+
+/// The cells of a surface as one list: points and lines first, which have no connectivity, then polygons and strips.
+/// Polygons of three and four points are triangles and quads. A triangle that names a point twice counts as a line, as
+/// polygons lose such triangles. Takes what is in `from`.
+FileCells cells_of_surface(SurfaceCells from);
+
 /// Polygons whose corners come one by one.
 class PolygonList {
  public:
@@ -34,8 +45,12 @@ class PolygonList {
   /// How many polygons have ended.
   std::size_t size() const { return ends_.size(); }
 
-  /// Takes them all.
-  CellsOfKind take() { return {std::move(corners_), std::move(ends_)}; }
+  /// Takes them all, as the cells of a surface that has nothing else.
+  FileCells take() {
+    SurfaceCells cells;
+    cells.polygons = {std::move(corners_), std::move(ends_)};
+    return cells_of_surface(std::move(cells));
+  }
 
  private:
   std::size_t last_end() const { return ends_.empty() ? 0 : static_cast<std::size_t>(ends_.back()); }
@@ -43,16 +58,5 @@ class PolygonList {
   std::vector<std::int32_t> corners_;
   std::vector<std::int64_t> ends_;
 };
-
-/// The cells of a surface by their kinds, in the order in which VTK counts them.
-struct SurfaceCells {
-  std::size_t below = 0;  ///< how many points and lines there are, whose connectivity nobody reads
-  CellsOfKind polygons, strips;
-};
-
-/// The cells of a surface as one list: points and lines first, which have no connectivity, then polygons and strips.
-/// Polygons of three and four points are triangles and quads. A triangle that names a point twice counts as a line, as
-/// polygons lose such triangles. Takes what is in `from`.
-FileCells cells_of_surface(SurfaceCells from);
 
 }  // namespace gale::io::detail

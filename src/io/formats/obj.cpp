@@ -90,9 +90,7 @@ Content read_obj(const InputFile& input, const ReadOptions& options) {
   }
   MeshParts parts;
   parts.points = std::move(obj.points);
-  SurfaceCells cells;
-  cells.polygons = obj.faces.take();
-  parts.cells = cells_of_surface(std::move(cells));
+  parts.cells = obj.faces.take();
   std::string names;
   for (const std::string& name : obj.others) names += (names.empty() ? "'" : ", '") + printable(name) + "'";
   if (!names.empty())

@@ -87,9 +87,7 @@ Content read_off(const InputFile& input, const ReadOptions& options) {
   }
   MeshParts parts;
   parts.points = std::move(coordinates);
-  SurfaceCells cells;
-  cells.polygons = polygons.take();
-  parts.cells = cells_of_surface(std::move(cells));
+  parts.cells = polygons.take();
   if (has_more) parts.notices.push_back("left out what follows coordinates and corners, such as colours");
   return to_mesh(parts, options);
 }

@@ -184,9 +184,7 @@ Content read_stl(const InputFile& input, const ReadOptions& options) {
       parts.notices.push_back(text_of("left out ", behind - *count * facet_bytes, " bytes behind its facets"));
   }
   parts.points = facets.points.take();
-  SurfaceCells cells;
-  cells.polygons = facets.polygons.take();
-  parts.cells = cells_of_surface(std::move(cells));
+  parts.cells = facets.polygons.take();
   return to_mesh(parts, options);
 }
 
