@@ -1,5 +1,6 @@
 #include <gale/base/parallel.hpp>
 #include <gale/outputs/named_simplices.hpp>
+#include <gale/outputs/shared_paths.hpp>
 #include <gale/outputs/values.hpp>
 
 namespace gale::outputs {

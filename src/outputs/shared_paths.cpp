@@ -6,7 +6,7 @@
 #include <gale/base/atomic.hpp>
 #include <gale/base/error.hpp>
 #include <gale/base/parallel.hpp>
-#include <gale/outputs/named_simplices.hpp>
+#include <gale/outputs/shared_paths.hpp>
 #include <gale/outputs/values.hpp>
 
 namespace gale::outputs::detail {
