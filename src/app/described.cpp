@@ -3,7 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include <gale/app/described.hpp>
+#include <gale/app/commands/command.hpp>
 #include <gale/io/bytes/text.hpp>
 #include <gale/version.hpp>
 

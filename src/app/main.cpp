@@ -17,7 +17,6 @@
 
 #include <gale/app/commands/command.hpp>
 #include <gale/app/console.hpp>
-#include <gale/app/described.hpp>
 #include <gale/app/machine.hpp>
 #include <gale/app/ranks/ranks.hpp>
 #include <gale/base/configuration.hpp>

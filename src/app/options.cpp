@@ -265,14 +265,4 @@ void add_persistence(CLI::App& app, std::optional<outputs::Persistence>& persist
   app.add_option_function<std::string>("--persistence", set, what)->type_name("X[%]");
 }
 
-double threshold_of_option(const outputs::Persistence& persistence, const io::PointArray& field, const Ranks& ranks) {
-  try {
-    return outputs::threshold_of(persistence, field, ranks);
-  } catch (const Error& error) {
-    const std::string what = std::string("--persistence: ") + error.what();
-    if (ranks.size() > 1) throw SharedError(what);  // all have the same range
-    throw Error(what);
-  }
-}
-
 }  // namespace gale::app

@@ -110,7 +110,4 @@ struct StructureOption {
 /// Adds --persistence X[%], which sets `persistence`.
 void add_persistence(CLI::App& app, std::optional<outputs::Persistence>& persistence, const std::string& what);
 
-/// The threshold of --persistence, for a field on all ranks; names the option in what goes wrong. Collective.
-double threshold_of_option(const outputs::Persistence& persistence, const io::PointArray& field, const Ranks& ranks);
-
 }  // namespace gale::app

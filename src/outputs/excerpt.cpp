@@ -2,7 +2,7 @@
 #include <utility>
 
 #include <gale/base/memory.hpp>
-#include <gale/outputs/brought.hpp>
+#include <gale/mesh/exchange/exchange_plan.hpp>
 #include <gale/outputs/excerpt.hpp>
 
 namespace gale::outputs {

@@ -41,4 +41,12 @@ class GALE_EXPORT AtExcerpt {
   io::PointArray own_field_;
 };
 
+namespace detail {
+
+/// An array for `count` points, as a plan brings its values to them. Collective.
+GALE_EXPORT io::PointArray brought(const gale::detail::ExchangePlan& plan, const Ranks& ranks,
+                                   const io::PointArray& array, std::size_t count);
+
+}  // namespace detail
+
 }  // namespace gale::outputs

@@ -423,8 +423,8 @@ class Mesh:
                  choices: Optional[Dict[str, str]] = None, numbers: Optional[Dict[str, int]] = None) -> Dict[str, Any]:
         """What an analysis finds, by the names of its results; with options that aren't given at their defaults."""
         with told(progress, analysis) as tell:
-            return self._mesh.analyse(analysis, _arrays.field(field), name, flags or {}, thresholds or {}, choices or {},
-                                      numbers or {}, threads, tell)
+            given = flags or {}, thresholds or {}, choices or {}, numbers or {}
+            return self._mesh.analyse(analysis, _arrays.field(field), name, given, threads, tell)
 
 
 @_documented()

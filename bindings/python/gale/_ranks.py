@@ -120,13 +120,13 @@ class DistributedMesh(Mesh):
     def _analyse(self, analysis: str, field: Any, name: str, threads: int, progress: Any,
                  flags: Optional[Dict[str, bool]] = None, thresholds: Optional[Dict[str, Tuple[float, bool]]] = None,
                  choices: Optional[Dict[str, str]] = None, numbers: Optional[Dict[str, int]] = None) -> Dict[str, Any]:
-        options = (name, flags or {}, thresholds or {}, choices or {}, numbers or {})
+        given = flags or {}, thresholds or {}, choices or {}, numbers or {}
         with told(progress, analysis) as tell:
             values = _arrays.field(field)
-            self._mesh.check(analysis, values, *options, threads, tell)
+            self._mesh.check(analysis, values, name, given, threads, tell)
             self._has_begun = True
-            _agree(self._comm, None, f"{analysis} of {options}")
-            return self._mesh.analyse(analysis, values, *options, threads, tell)
+            _agree(self._comm, None, f"{analysis} of {(name, *given)}")
+            return self._mesh.analyse(analysis, values, name, given, threads, tell)
 
     def to_pyvista(self) -> Any:
         self._refuse("grid of PyVista's")

@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "job.hpp"
-#include "mesh.hpp"
 
 namespace gale::python {
 
@@ -46,23 +45,18 @@ nb::dict results_of(std::map<std::string, outputs::Outcome> found) {
   return results;
 }
 
-outputs::Settings settings_of(const std::map<std::string, bool>& flags,
-                              const std::map<std::string, std::pair<double, bool>>& thresholds,
-                              const std::map<std::string, std::string>& choices,
-                              const std::map<std::string, int>& numbers) {
+outputs::Settings settings_of(const GivenOptions& given) {
+  const auto& [flags, thresholds, choices, numbers] = given;
   outputs::Settings settings{flags, {}, choices, numbers};
-  for (const auto& [option, given] : thresholds) settings.thresholds[option] = {given.first, given.second};
+  for (const auto& [option, value] : thresholds) settings.thresholds[option] = {value.first, value.second};
   return settings;
 }
 
-nb::dict PyMesh::analyse(const std::string& analysis, Array1 values, const std::string& name,
-                         const std::map<std::string, bool>& flags,
-                         const std::map<std::string, std::pair<double, bool>>& thresholds,
-                         const std::map<std::string, std::string>& choices, const std::map<std::string, int>& numbers,
+nb::dict PyMesh::analyse(const std::string& analysis, Array1 values, const std::string& name, const GivenOptions& given,
                          int threads, const nb::object& progress) const {
   Job job(progress);
   const ComputeOptions options = job.sweep_options(threads);
-  const outputs::Settings settings = settings_of(flags, thresholds, choices, numbers);
+  const outputs::Settings settings = settings_of(given);
   auto found = job.run([&] {
     const ThreadLimit limit(options.threads);
     auto copy = in_background([&] { return field_of(values, name); });

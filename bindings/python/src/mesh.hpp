@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include <gale/io/read.hpp>
@@ -14,6 +15,11 @@
 #include "process.hpp"
 
 namespace gale::python {
+
+/// What options of an analysis are given, by their names: flags, thresholds (values, and whether they are in percent of
+/// the field's range), choices and numbers.
+using GivenOptions = std::tuple<std::map<std::string, bool>, std::map<std::string, std::pair<double, bool>>,
+                                std::map<std::string, std::string>, std::map<std::string, int>>;
 
 /// A mesh and its points.
 class PyMesh : public Kept {
@@ -41,12 +47,8 @@ class PyMesh : public Kept {
   /// (where rows begin, their entries, how many simplices the entries are among)
   nb::tuple relation(const std::string& name, int threads, const nb::object& progress) const;
 
-  /// What an analysis of outputs/analyses.hpp finds, by the names of its results. `thresholds` are values, and whether
-  /// they are in percent of the field's range.
-  nb::dict analyse(const std::string& analysis, Array1 field, const std::string& name,
-                   const std::map<std::string, bool>& flags,
-                   const std::map<std::string, std::pair<double, bool>>& thresholds,
-                   const std::map<std::string, std::string>& choices, const std::map<std::string, int>& numbers,
+  /// What an analysis of outputs/analyses.hpp finds, by the names of its results.
+  nb::dict analyse(const std::string& analysis, Array1 field, const std::string& name, const GivenOptions& given,
                    int threads, const nb::object& progress) const;
 
   const Mesh& mesh() const;

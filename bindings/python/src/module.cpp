@@ -3,6 +3,7 @@
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
 #include <gale/base/configuration.hpp>
@@ -69,8 +70,7 @@ NB_MODULE(_gale, module) {
       .def_prop_ro("capacity", &PyMesh::capacity)
       .def("points", &PyMesh::points)
       .def("relation", &PyMesh::relation, "name"_a, "threads"_a, "progress"_a.none())
-      .def("analyse", &PyMesh::analyse, "analysis"_a, "field"_a, "name"_a, "flags"_a, "thresholds"_a, "choices"_a,
-           "numbers"_a, "threads"_a, "progress"_a.none());
+      .def("analyse", &PyMesh::analyse, "analysis"_a, "field"_a, "name"_a, "given"_a, "threads"_a, "progress"_a.none());
 
   nb::class_<PyTracker>(module, "Tracker")
       .def(nb::init<>())

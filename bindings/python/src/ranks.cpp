@@ -4,6 +4,7 @@
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
 
 #if defined(GALE_PYTHON_HAS_RANKS)
 
@@ -13,7 +14,6 @@
 
 #include <gale/distributed/distributed_mesh.hpp>
 #include <gale/outputs/analyses.hpp>
-#include <gale/outputs/brought.hpp>
 #include <gale/outputs/excerpt.hpp>
 
 #include "analyses.hpp"
@@ -62,25 +62,20 @@ class PyDistributedMesh : public Kept {
 
   /// Throws what `analyse` would for arguments that are wrong by themselves, on this rank alone: others wait for none
   /// that fails before it sends anything.
-  void check(const std::string& analysis, const Array1& values, const std::string& name,
-             const std::map<std::string, bool>& flags, const std::map<std::string, std::pair<double, bool>>& thresholds,
-             const std::map<std::string, std::string>& choices, const std::map<std::string, int>& numbers, int threads,
-             const nb::object& progress) const {
+  void check(const std::string& analysis, const Array1& values, const std::string& name, const GivenOptions& given,
+             int threads, const nb::object& progress) const {
     mesh();
     outputs::analysis_named(analysis);
     field_of(values, name);
-    settings_of(flags, thresholds, choices, numbers);
+    settings_of(given);
     Job(progress).sweep_options(threads);
   }
 
-  nb::dict analyse(const std::string& analysis, Array1 values, const std::string& name,
-                   const std::map<std::string, bool>& flags,
-                   const std::map<std::string, std::pair<double, bool>>& thresholds,
-                   const std::map<std::string, std::string>& choices, const std::map<std::string, int>& numbers,
+  nb::dict analyse(const std::string& analysis, Array1 values, const std::string& name, const GivenOptions& given,
                    int threads, const nb::object& progress) const {
     Job job(progress);
     const ComputeOptions options = job.sweep_options(threads);
-    const outputs::Settings settings = settings_of(flags, thresholds, choices, numbers);
+    const outputs::Settings settings = settings_of(given);
     if (analysis == "persistence-diagram") return diagram(job, values, name, settings, options);
     auto found = job.run([&] {
       const ThreadLimit limit(options.threads);
@@ -172,16 +167,15 @@ class PyDistributedMesh : public Kept {
       const ThreadLimit limit(options.threads);
       const Held held = bring(values, name);
       const io::PointArray& field = held.dataset.arrays.front();
-      const auto given = settings.thresholds.find("persistence");
+      const auto threshold = settings.thresholds.find("persistence");
       const double least =
-          given == settings.thresholds.end() ? 0 : outputs::threshold_of(given->second, field, *ranks_);
+          threshold == settings.thresholds.end() ? 0 : outputs::threshold_of(threshold->second, field, *ranks_);
       SweepOptions sweep;
       sweep.threads = options.threads;
       const GatheredPairs gathered = gather_persistence_pairs(find_discrete_gradient(*held.order, options), sweep);
       const outputs::AtExcerpt at(gathered.mesh, mesh(), held.dataset, field, true);
       std::vector<outputs::DiagramPoint> points;
       detail::together(*ranks_, [&] {
-        if (ranks_->rank() != 0) return;
         points = outputs::persistence_diagram(gathered.highest, gathered.pairs, at.field(), least);
         for (const outputs::DiagramPoint& point : points) {
           births.push_back(gathered.mesh.vertex_id(point.begin));
@@ -219,13 +213,13 @@ void add_ranks(nb::module_& module) {
       .def_prop_ro("vertex_ids", &PyDistributedMesh::vertex_ids)
       .def_prop_ro("owners", &PyDistributedMesh::owners)
       .def("points", &PyDistributedMesh::points)
-      .def("check", &PyDistributedMesh::check, "analysis"_a, "field"_a, "name"_a, "flags"_a, "thresholds"_a,
-           "choices"_a, "numbers"_a, "threads"_a, "progress"_a.none())
+      .def("check", &PyDistributedMesh::check, "analysis"_a, "field"_a, "name"_a, "given"_a, "threads"_a,
+           "progress"_a.none())
       .def_static(
           "check_part", [](const Array1&, const Array1&, const Array1&, const std::optional<Array1>&, bool, int) {},
           "ids"_a, "points"_a, "cells"_a, "cell_ids"_a.none(), "repartition"_a, "capacity"_a)
-      .def("analyse", &PyDistributedMesh::analyse, "analysis"_a, "field"_a, "name"_a, "flags"_a, "thresholds"_a,
-           "choices"_a, "numbers"_a, "threads"_a, "progress"_a.none());
+      .def("analyse", &PyDistributedMesh::analyse, "analysis"_a, "field"_a, "name"_a, "given"_a, "threads"_a,
+           "progress"_a.none());
 }
 
 }  // namespace gale::python

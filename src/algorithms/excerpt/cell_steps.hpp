@@ -5,6 +5,7 @@
 #include <type_traits>
 #include <vector>
 
+#include <gale/algorithms/gradient/follow_each_path.hpp>
 #include <gale/base/hash_table.hpp>
 #include <gale/base/mirrored.hpp>
 #include <gale/base/parallel.hpp>
@@ -13,41 +14,13 @@
 
 namespace gale::detail {
 
-/// Counts the cells of paths, to their ends.
+/// Reads the successors of some cells.
 template <class Memory>
-struct CountCells {
-  Array<const Id, Memory> successors, starts;
-  Array<Offset, Memory> begin;
-
-  KOKKOS_FUNCTION void operator()(Offset i) const {
-    Offset length = 0;
-    for (Id cell = starts(i); cell >= 0; cell = successors(cell)) ++length;
-    begin(i) = length;
-  }
-};
-
-/// Reads what is there.
-template <class Memory>
-struct ReadCount {
-  Array<Offset, Memory> begin;
-
-  KOKKOS_FUNCTION Offset operator()(Offset i) const { return begin(i); }
-};
-
-/// Writes the cells of paths, one path after the other, and their successors.
-template <class Memory>
-struct WriteCells {
-  Array<const Id, Memory> successors, starts;
-  Array<Offset, Memory> begin;
+struct ReadSuccessors {
+  Array<const Id, Memory> successors;
   Array<Id, Memory> cells, next;
 
-  KOKKOS_FUNCTION void operator()(Offset i) const {
-    Offset at = begin(i);
-    for (Id cell = starts(i); cell >= 0; cell = next(at++)) {
-      cells(at) = cell;
-      next(at) = successors(cell);
-    }
-  }
+  KOKKOS_FUNCTION void operator()(Offset i) const { next(i) = successors(cells(i)); }
 };
 
 /// Some paths of cells, one after the other: each cell on them, and its successor.
@@ -55,21 +28,16 @@ struct FollowedCells {
   Array<const Id, HostMemory> cells, next;
 };
 
-/// Follows paths where the successors are, in the memory of `space`: a thread for each.
+/// Follows paths to their ends where the successors are, in the memory of `space`.
 template <class Space>
 FollowedCells follow_cells(const Space& space, const Array<const Id, MemoryOf<Space>>& successors,
                            const std::vector<Id>& starts) {
   using Memory = MemoryOf<Space>;
-  const Offset count = static_cast<Offset>(starts.size());
-  const auto from = in_memory<Memory>(starts);
-  const auto begin = allocate<Array<Offset, Memory>>("GALE::path_begin", count + 1);
-  parallel_for("GALE::path_lengths", space, count, CountCells<Memory>{successors, from, begin});
-  const Offset total = exclusive_scan("GALE::path_begins", space, count, begin, ReadCount<Memory>{begin});
-  const WriteCells<Memory> write{successors, from, begin, allocate<Array<Id, Memory>>("GALE::path_cells", total),
-                                 allocate<Array<Id, Memory>>("GALE::next_on_path", total)};
-  parallel_for("GALE::follow_paths", space, count, write);
+  const auto cells = follow_whole(space, successors, starts, true).simplices;
+  const auto next = allocate<Array<Id, Memory>>("GALE::next_on_path", cells.extent(0));
+  parallel_for("GALE::next_on_path", space, cells.extent(0), ReadSuccessors<Memory>{successors, cells, next});
   space.fence();
-  return {on_host(write.cells), on_host(write.next)};
+  return {on_host(cells), on_host(next)};
 }
 
 /// The successors of cells: where they lie on a device, those on paths that were followed alone.

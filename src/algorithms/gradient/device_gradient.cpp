@@ -287,8 +287,7 @@ class Attempt {
   }
 
   void pair_fans(const WorkerSpace& space, const VertexOrder& order, const DeviceSweepOptions& options) {
-    const detail::PairFans pair{order.keys_in<Memory>().data(), vertex_successor_.data(), cell_successor_.data(),
-                                sink_.found, large_};
+    const detail::PairFans pair{order.keys_in<Memory>().data(), sink_, large_};
     for_each_segment(space, mesh_, discrete_gradient_relations_of(2), pair, options);
   }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <type_traits>
+#include <vector>
 
 #include <gale/base/mirrored.hpp>
 #include <gale/base/parallel.hpp>
@@ -42,6 +43,62 @@ PathStops follow_in(const Space& space, const char* label, const Array<const Id,
                                   allocate<Array<Id, Memory>>("GALE::behind_path_ends", starts.extent(0))};
   parallel_for(label, space, starts.extent(0), follow);
   return {on_host(follow.last), on_host(follow.next)};
+}
+
+/// Counts the simplices of paths. Those that leave through the surface may have none.
+template <class Successors, class Memory>
+struct CountOnPath {
+  Successors successors;
+  Array<const Id, Memory> starts;
+  bool with_leaving;
+  Array<Offset, Memory> begin;
+
+  KOKKOS_FUNCTION void operator()(Offset i) const {
+    Offset length = 1;
+    Id next = successors[starts(i)];
+    for (; next >= 0; next = successors[next]) ++length;
+    begin(i) = next == no_id || with_leaving ? length : 0;
+  }
+};
+
+/// Writes the simplices of paths, one path after the other.
+template <class Successors, class Memory>
+struct WritePath {
+  Successors successors;
+  Array<const Id, Memory> starts;
+  Array<Offset, Memory> begin;
+  Array<Id, Memory> simplices;
+
+  KOKKOS_FUNCTION void operator()(Offset i) const {
+    if (begin(i + 1) == begin(i)) return;
+    Id simplex = starts(i);
+    for (Offset at = begin(i); at < begin(i + 1); ++at, simplex = successors[simplex]) simplices(at) = simplex;
+  }
+};
+
+/// The simplices of paths, those of the i-th from begin(i) on.
+template <class Memory>
+struct PathsFromStarts {
+  Array<Offset, Memory> begin;
+  Array<Id, Memory> simplices;
+};
+
+/// Follows the paths of `successors` from some simplices, in the memory of `space`: a thread for each. Those that leave
+/// through the surface are empty, unless `with_leaving`.
+template <class Space, class Successors>
+PathsFromStarts<MemoryOf<Space>> follow_whole(const Space& space, const Successors& successors,
+                                              const std::vector<Id>& starts, bool with_leaving) {
+  using Memory = MemoryOf<Space>;
+  const Offset count = static_cast<Offset>(starts.size());
+  const auto from = in_memory<Memory>(starts);
+  const auto begin = allocate<Array<Offset, Memory>>("GALE::path_begin", count + 1);
+  parallel_for("GALE::path_lengths", space, count,
+               CountOnPath<Successors, Memory>{successors, from, with_leaving, begin});
+  const Offset total = exclusive_scan("GALE::path_begins", space, count, begin, begin);
+  const auto simplices = allocate<Array<Id, Memory>>("GALE::path_cells", total);
+  parallel_for("GALE::follow_paths", space, count, WritePath<Successors, Memory>{successors, from, begin, simplices});
+  space.fence();
+  return {begin, simplices};
 }
 
 /// Brings a successor that is soon read near.

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <gale/algorithms/gradient/lane_found.hpp>
+#include <gale/algorithms/gradient/lane_sink.hpp>
 #include <gale/algorithms/gradient/pair_fan.hpp>
 #include <gale/base/team.hpp>
 #include <gale/runtime/device_sweep.hpp>
@@ -10,8 +10,7 @@ namespace gale::detail {
 /// Pairs the lower stars of the vertices of a triangle mesh's segment, a lane a vertex.
 struct PairFans {
   const std::uint64_t* keys;
-  Id *vertex_successor, *cell_successor;
-  FoundSimplices<DeviceList> found;
+  LaneSink sink;
   HandedStars large;  ///< what lanes can't hold
 
   template <class Team>
@@ -21,8 +20,8 @@ struct PairFans {
     team::for_all(team, neighbours.count, [&](int i) {
       const Id v = neighbours.first + i;
       const VertexStar star{v, neighbours[v], triangles[v], links[v]};
-      const StarSink<LaneFound> sink{vertex_successor, cell_successor, &found};
-      if (!pair_small_fan(sink, keys, star)) large.add(star);
+      const StarSink<LaneFound> lane{sink.vertex_successor, sink.cell_successor, &sink.found};
+      if (!pair_small_fan(lane, keys, star)) large.add(star);
     });
   }
 };

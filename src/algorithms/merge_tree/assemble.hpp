@@ -1,14 +1,32 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <functional>
+#include <limits>
 #include <utility>
 #include <vector>
 
 #include <gale/algorithms/merge_tree.hpp>
+#include <gale/algorithms/merge_tree/side_keys.hpp>
 #include <gale/base/parallel.hpp>
 
 namespace gale::detail {
+
+/// The arcs of contour trees, in the order in which they are pruned from leaves.
+struct ContourArcs {
+  std::vector<std::pair<Id, Id>> ends;  ///< the lower node and the upper one
+
+  /// By side, of the arc from each node to its parent: the contour arc whose pruning took it away. A vertex lies on the
+  /// first one that took away its arc of either side.
+  std::array<std::vector<Id>, 2> taken_by;
+
+  static constexpr Id nobody = std::numeric_limits<Id>::max();
+};
+
+/// Combines join and split trees of the same nodes, numbered as they come in the order, given by the parents in each
+/// (Carr, Snoeyink and Axen 2003). O(n).
+ContourArcs contour_arcs(const std::array<std::vector<Id>, 2>& parents);
 
 /// A tree without the arcs of vertices, of nodes (GALE's vertices, as they come in the order) and of arcs between them,
 /// a lower and an upper one each. `place` is told where each of the arcs has gone.

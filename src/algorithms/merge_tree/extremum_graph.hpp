@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <utility>
 #include <vector>
 
 #include <gale/algorithms/discrete_gradient.hpp>
@@ -9,6 +11,7 @@
 #include <gale/algorithms/vertex_order.hpp>
 #include <gale/base/memory.hpp>
 #include <gale/base/parallel.hpp>
+#include <gale/runtime/device/handed_stars.hpp>
 #include <gale/runtime/device_sweep.hpp>
 #include <gale/runtime/structure.hpp>
 
@@ -125,6 +128,32 @@ void add_found(const std::vector<ExtremumFinder>& finders, ExtremumGraph<Memory>
   }
 }
 
+/// Extrema and meetings, by side, as lanes find them.
+struct ExtremaOfLanes {
+  DeviceList<Id> extrema[2];
+  DeviceList<Meeting> meetings[2];
+
+  explicit ExtremaOfLanes(Offset room)
+      : extrema{{"GALE::extrema", room}, {"GALE::extrema", room}},
+        meetings{{"GALE::meetings", room}, {"GALE::meetings", room}} {}
+
+  KOKKOS_FORCEINLINE_FUNCTION void add_extremum(Side side, Id vertex) const { extrema[side].add(vertex); }
+  KOKKOS_FORCEINLINE_FUNCTION void add_meeting(Side side, const Meeting& meeting) const { meetings[side].add(meeting); }
+
+  /// Gives them to a graph if there was room for all; if not, `room` becomes what there must be.
+  template <class Memory>
+  bool give(ExtremumGraph<Memory>& graph, Offset& room) const {
+    const Offset most =
+        std::max({extrema[below].count(), extrema[above].count(), meetings[below].count(), meetings[above].count()});
+    if (most > std::exchange(room, most)) return false;
+    for (const Side side : {below, above}) {
+      graph[side].extrema = extrema[side].to_host();
+      graph[side].meetings = meetings[side].to_host();
+    }
+    return true;
+  }
+};
+
 /// One of which nothing is known yet; the next vertices of those that a rank doesn't own are elsewhere.
 template <class Space>
 ExtremumGraph<MemoryOf<Space>> unknown_graph(const Space& space, const Mesh& mesh) {
@@ -148,5 +177,19 @@ ExtremumGraph<MemoryOf<WorkerSpace>> extremum_graph(const WorkerSpace& space, co
 template <class Space>
 ExtremumGraph<MemoryOf<Space>> extremum_graph_of_grid(const Space& space, const VertexOrder& order,
                                                       const SweepOptions& options);
+
+/// Where the paths of one side of an order end. Extrema are known by their places here.
+template <class Memory>
+struct FollowedPaths {
+  std::vector<Id> extrema;  ///< GALE's vertices, as the side comes to them
+  std::vector<Meeting>
+      meetings;            ///< vertices where paths of several extrema meet, with each of these; as it comes there
+  Array<Id, Memory> ends;  ///< of each vertex the extremum: `end_at` its place (jump.hpp)
+};
+
+/// Follows all paths of a side to their ends, by pointer jumping. `keys` are those of the host.
+template <class Space>
+FollowedPaths<MemoryOf<Space>> follow_paths(const Space& space, const SideKeys& keys,
+                                            ExtremumGraphSide<MemoryOf<Space>> side);
 
 }  // namespace gale::detail

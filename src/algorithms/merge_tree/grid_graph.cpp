@@ -1,10 +1,8 @@
 #include <algorithm>
-#include <utility>
 
 #include <gale/algorithms/merge_tree/extremum_graph.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/mesh/grid.hpp>
-#include <gale/runtime/device/handed_stars.hpp>
 #include <gale/runtime/sweep.hpp>
 
 namespace gale::detail {
@@ -70,32 +68,15 @@ struct ExtremaOnGrid {
 
 namespace {
 
-/// Where lanes add what they find.
-struct ListsOnGrid {
-  DeviceList<Id> extrema[2];
-  DeviceList<Meeting> meetings[2];
-
-  explicit ListsOnGrid(Offset room)
-      : extrema{{"GALE::extrema", room}, {"GALE::extrema", room}},
-        meetings{{"GALE::meetings", room}, {"GALE::meetings", room}} {}
-
-  KOKKOS_FORCEINLINE_FUNCTION void add_extremum(Side side, Id vertex) const { extrema[side].add(vertex); }
-  KOKKOS_FORCEINLINE_FUNCTION void add_meeting(Side side, const Meeting& meeting) const { meetings[side].add(meeting); }
-
-  Offset longest() const {
-    return std::max({extrema[below].count(), extrema[above].count(), meetings[below].count(), meetings[above].count()});
-  }
-};
-
 /// A lane's way to its vertex.
 struct FindOnGrid {
   ExtremaOnGrid find;
-  ListsOnGrid lists;
+  ExtremaOfLanes found;
   Id first;
 
   KOKKOS_FUNCTION void operator()(Offset i) const {
     GridCursor at(find.grid);
-    find(at, first + static_cast<Id>(i), lists);
+    find(at, first + static_cast<Id>(i), found);
   }
 };
 
@@ -115,16 +96,10 @@ ExtremumGraph<MemoryOf<Space>> extremum_graph_of_grid(const Space& space, const 
   if constexpr (is_device<Space>) {
     const Interval owned = mesh.owned_vertices();
     for (Offset room = owned.size() / 16 + 1024;;) {
-      const FindOnGrid all{find, ListsOnGrid(room), owned.first};
+      const FindOnGrid all{find, ExtremaOfLanes(room), owned.first};
       parallel_for("GALE::extrema_on_grid", space, owned.size(), all);
       space.fence();
-      const Offset most = all.lists.longest();
-      if (most > std::exchange(room, most)) continue;
-      for (const Side side : {below, above}) {
-        graph[side].extrema = all.lists.extrema[side].to_host();
-        graph[side].meetings = all.lists.meetings[side].to_host();
-      }
-      return graph;
+      if (all.found.give(graph, room)) return graph;
     }
   } else {
     std::vector<ExtremumFinder> finders(std::max(options.threads, 0), ExtremumFinder(find.keys));

@@ -7,8 +7,6 @@
 #include <vector>
 
 #include <gale/algorithms/merge_tree/assemble.hpp>
-#include <gale/algorithms/merge_tree/contour_arcs.hpp>
-#include <gale/algorithms/merge_tree/followed_paths.hpp>
 #include <gale/algorithms/merge_tree/merge_forest.hpp>
 #include <gale/algorithms/merge_tree/vertex_arcs.hpp>
 

@@ -68,8 +68,7 @@ void append_paths(const WorkerSpace& space, const CrossSides& walls, const std::
         begin(i) = length;
         is_only(i) = only;
       });
-  const Offset total = exclusive_scan(
-      "GALE::connector_begins", space, count, begin, KOKKOS_LAMBDA(Offset i) { return begin(i); });
+  const Offset total = exclusive_scan("GALE::connector_begins", space, count, begin, begin);
   const auto cells = allocate<InWorkers<TriangleVertices>>("GALE::connector_cells", total);
   parallel_for(
       "GALE::follow_connectors", space, count, KOKKOS_LAMBDA(Offset i) {

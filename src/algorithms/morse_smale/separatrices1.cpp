@@ -20,45 +20,14 @@ struct Followed {
   std::vector<Id> simplices;
 };
 
-/// How many simplices a path has; 0 if it leaves through the surface.
-template <class Successors, class Memory>
-struct PathLength {
-  Successors successors;
-  Array<const Id, Memory> starts;
-
-  KOKKOS_FUNCTION Offset operator()(Offset i) const {
-    Offset length = 1;
-    for (Id next = successors[starts(i)]; next != no_id; next = successors[next], ++length) {
-      if (next < no_id) return 0;
-    }
-    return length;
-  }
-};
-
-/// Follows paths where successors lie on a device: a thread for each.
+/// Follows paths where successors lie on a device.
 template <class Space, class Successors>
 Followed paths_on_device(const Space& space, const Successors& successors, const std::vector<Id>& starts) {
-  using Memory = MemoryOf<Space>;
-  const Offset count = static_cast<Offset>(starts.size());
-  const auto from = in_memory<Memory>(Array<const Id, HostMemory>(starts.data(), starts.size()));
-  const PathLength<Successors, Memory> length{successors, from};
-  const auto begin = allocate<Array<Offset, Memory>>("GALE::path_begin", count + 1);
-  parallel_for(
-      "GALE::path_lengths", space, count, KOKKOS_LAMBDA(Offset i) { begin(i) = length(i); });
-  const Offset total = exclusive_scan(
-      "GALE::path_begins", space, count, begin, KOKKOS_LAMBDA(Offset i) { return begin(i); });
-  const auto cells = allocate<Array<Id, Memory>>("GALE::path_cells", total);
-  parallel_for(
-      "GALE::follow_paths", space, count, KOKKOS_LAMBDA(Offset i) {
-        if (begin(i + 1) == begin(i)) return;
-        Id cell = from(i);
-        for (Offset at = begin(i); at < begin(i + 1); ++at, cell = successors[cell]) cells(at) = cell;
-      });
-  space.fence();
-  const auto here = on_host(cells);
-  Followed followed{on_host(begin), {}};
-  reserve(followed.simplices, total);
-  followed.simplices.assign(here.data(), here.data() + total);
+  const auto paths = follow_whole(space, successors, starts, false);
+  const auto here = on_host(paths.simplices);
+  Followed followed{on_host(paths.begin), {}};
+  reserve(followed.simplices, here.extent(0));
+  followed.simplices.assign(here.data(), here.data() + here.extent(0));
   return followed;
 }
 
@@ -71,8 +40,7 @@ Followed paths_on_host(const Successors& successors, const std::vector<Id>& star
   walk_each_on_host(
       "GALE::path_lengths", successors, count, start, [](Offset, Offset, Id) {},
       [&](Offset i, Offset length, Id, Id next) { begin(i) = next == no_id ? length : 0; });
-  const Offset total =
-      exclusive_scan("GALE::path_begins", HostExecutionSpace(), count, begin, [&](Offset i) { return begin(i); });
+  const Offset total = exclusive_scan("GALE::path_begins", HostExecutionSpace(), count, begin, begin);
   std::vector<Id> simplices;
   reserve(simplices, total);
   simplices.resize(total);

@@ -78,8 +78,7 @@ void put_filled(const Space& space, const TurnedPlaces& turned, const FilledVert
   parallel_for(
       "GALE::lengthen_places", space, static_cast<Offset>(all_saddles.extent(0)),
       KOKKOS_LAMBDA(Offset i) { new_place(turned(static_cast<Offset>(rank(all_saddles(i))))) = lengths(i); });
-  exclusive_scan(
-      "GALE::new_places", space, Offset(turned.count), new_place, KOKKOS_LAMBDA(Offset i) { return new_place(i); });
+  exclusive_scan("GALE::new_places", space, Offset(turned.count), new_place, new_place);
   parallel_for(
       "GALE::new_ranks", space, Offset(turned.count), KOKKOS_LAMBDA(Offset i) {
         if (new_place(i + 1) == new_place(i)) return;

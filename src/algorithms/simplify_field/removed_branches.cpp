@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include <gale/algorithms/merge_tree/followed_paths.hpp>
+#include <gale/algorithms/merge_tree/extremum_graph.hpp>
 #include <gale/algorithms/merge_tree/vertex_arcs.hpp>
 #include <gale/algorithms/simplify_field/removed_branches.hpp>
 #include <gale/base/parallel.hpp>

@@ -104,6 +104,17 @@ void AnalysisCommand::add_flag(const std::string& name, bool& is_on) {
   }
 }
 
+double AnalysisCommand::threshold_for(const io::PointArray& field) const {
+  if (!persistence_) return 0;
+  try {
+    return outputs::threshold_of(*persistence_, field, Launch::ranks());
+  } catch (const Error& error) {
+    const std::string what = std::string("--persistence: ") + error.what();
+    if (Launch::are_several()) throw SharedError(what);  // all have the same range
+    throw Error(what);
+  }
+}
+
 void AnalysisCommand::run() const {
   structure_.require_consumers();
   require_usage();

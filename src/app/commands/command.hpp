@@ -2,6 +2,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -103,6 +104,13 @@ class AnalysisCommand : public Command {
   /// Adds a switch of the analysis: --name; where it is on by default, --no-name, which sets `is_on` to false.
   void add_flag(const std::string& name, bool& is_on);
 
+  /// Adds the analysis's --persistence.
+  void add_persistence() { app::add_persistence(subcommand(), persistence_, analysis_.option("persistence").help); }
+
+  /// What --persistence says of a field on all ranks, as a difference of its values; 0 if it isn't given. Names the
+  /// option in what goes wrong. Collective.
+  double threshold_for(const io::PointArray& field) const;
+
   /// Throws UsageError or gale::Error for what the command line says together and can't; before anything is read.
   virtual void require_usage() const {}
 
@@ -127,6 +135,7 @@ class AnalysisCommand : public Command {
   const outputs::Analysis& analysis_;
   SegmentationOptions segmentation_;
   StructureOption structure_;
+  std::optional<outputs::Persistence> persistence_;
 };
 
 /// Says and reports how many critical points there are, by CriticalType but `regular`. Where cells are of dimension 2,
@@ -148,6 +157,16 @@ std::unique_ptr<Command> add_simplify_field(CLI::App& app);
 std::unique_ptr<Command> add_track(CLI::App& app);
 std::unique_ptr<Command> add_relations(CLI::App& app);
 std::unique_ptr<Command> add_generate(CLI::App& app);
+
+// What the command line takes, for readers and shells: made from the options themselves, so that nothing can be left
+// out.
+
+/// The manual page, section 1, as roff.
+std::string manual_page(const CLI::App& app);
+
+/// A script that completes the command's arguments in "bash" or "zsh": commands, options, the words of an option that
+/// takes one of some, and files.
+std::string completions(const CLI::App& app, const std::string& shell);
 
 /// The analyses and tracking, their options and results (outputs/analyses.hpp), as JSON.
 std::string analyses_as_json();

@@ -29,7 +29,7 @@ class FindMergeTree final : public AnalysisCommand {
     const outputs::AnalysisOption& type = analysis_.option("type");
     type_ = type.choices.front();
     subcommand().add_option("--type", type_, type.help)->check(CLI::IsMember(type.choices));
-    add_persistence(subcommand(), persistence_, analysis_.option("persistence").help);
+    add_persistence();
     subcommand()
         .add_option("--arc-samples", arc_samples_, analysis_.option("arc_samples").help)
         ->check(CLI::Range(0, 1000));
@@ -60,7 +60,7 @@ class FindMergeTree final : public AnalysisCommand {
   void analyse(const FieldOnMesh& on, Session& session, Computed& computed) const override {
     MergeTreeOptions options;
     static_cast<ComputeOptions&>(options) = session.compute(structure_, "merge tree");
-    if (persistence_) options.threshold = threshold_of_option(*persistence_, on.field, session.ranks());
+    options.threshold = threshold_for(on.field);
     const MergeTree tree = find(on, options, computed);
     tell(tree, on.mesh.dimension(), session);
     if (!output_.empty()) write(on, tree, session);
@@ -92,7 +92,6 @@ class FindMergeTree final : public AnalysisCommand {
   }
 
   std::string type_;
-  std::optional<outputs::Persistence> persistence_;
   int arc_samples_ = 0;
   std::string output_, render_;
 };

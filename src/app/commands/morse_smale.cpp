@@ -80,7 +80,7 @@ class FindMorseSmale final : public AnalysisCommand {
     add_format();
     for (const outputs::PartOfComplex& part : outputs::parts_of_complexes)
       add_flag(part.option, parts_.*part.is_wanted);
-    add_persistence(subcommand(), persistence_, analysis_.option("persistence").help);
+    add_persistence();
     add_flag("extrema_only", extrema_only_);
     add_render(render_,
                "Draw the complex to this {}: an octant cut out of the segmented mesh, and there the 1-separatrices");
@@ -121,8 +121,7 @@ class FindMorseSmale final : public AnalysisCommand {
   void analyse(const FieldOnMesh& on, Session& session, Computed& computed) const override {
     const ComputeOptions options = session.compute(structure_, "complex");
     outputs::MorseSmaleRequest request{parts_, persistence_, extrema_only_};
-    if (persistence_)
-      request.persistence = outputs::Persistence{threshold_of_option(*persistence_, on.field, session.ranks()), false};
+    if (persistence_) request.persistence = outputs::Persistence{threshold_for(on.field), false};
     MorseSmaleComplex complex = find(on, request, options, computed);
     tell(complex, parts_, session);
     if (persistence_) tell(complex.kept_below, session);
@@ -168,7 +167,6 @@ class FindMorseSmale final : public AnalysisCommand {
   }
 
   MorseSmaleParts parts_;  ///< that are wanted
-  std::optional<outputs::Persistence> persistence_;
   bool extrema_only_ = false;
   std::string output_, render_;
 };

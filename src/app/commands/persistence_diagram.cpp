@@ -4,7 +4,6 @@
 #include <gale/app/commands/command.hpp>
 #include <gale/app/drawing/drawer.hpp>
 #include <gale/app/drawing/picture.hpp>
-#include <gale/app/ranks/ranks.hpp>
 
 namespace gale::app {
 
@@ -26,7 +25,7 @@ class FindPersistenceDiagram final : public AnalysisCommand {
     add_file("-o,--output", output_, "The diagram, a line a pair: {}", io::written_lines);
     add_file("--curve", curve_, "How many pairs have at least a persistence, for each that occurs: {}",
              io::written_tables);
-    add_persistence(subcommand(), persistence_, analysis_.option("persistence").help);
+    add_persistence();
     add_render(render_, "Draw diagram and curve to this {}");
   }
 
@@ -34,7 +33,7 @@ class FindPersistenceDiagram final : public AnalysisCommand {
   Session::Keep keep() const override { return Session::Keep::values; }
 
   void analyse(const FieldOnMesh& on, Session& session, Computed& computed) const override {
-    const double least = persistence_ ? threshold_of_option(*persistence_, on.field, session.ranks()) : 0;
+    const double least = threshold_for(on.field);
     const DiscreteGradient found = find_discrete_gradient(on.order, session.compute(structure_, "gradient"), &computed);
     const SweepOptions sweep = session.sweep("pairs");
     const GatheredPairs gathered =
@@ -42,7 +41,6 @@ class FindPersistenceDiagram final : public AnalysisCommand {
     const OnExcerpt at(gathered.mesh, on, output_.empty());
     std::vector<outputs::DiagramPoint> diagram;
     detail::together(session.ranks(), [&] {
-      if (!Launch::is_first()) return;
       const Stopwatch watch(session.report().seconds.run);
       diagram = outputs::persistence_diagram(gathered.highest, gathered.pairs, at.field(), least);
     });
@@ -56,7 +54,6 @@ class FindPersistenceDiagram final : public AnalysisCommand {
     session.write(render_, [&](const io::AtomicFile& file) { draw(file, plot_of(diagram, on.field.name)); });
   }
 
-  std::optional<outputs::Persistence> persistence_;
   std::string output_, curve_, render_;
 };
 

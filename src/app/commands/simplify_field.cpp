@@ -28,7 +28,7 @@ void tell(const SimplifiedField& field, const Mesh& mesh, Session& session) {
 class SimplifyField final : public AnalysisCommand {
  public:
   explicit SimplifyField(CLI::App& app) : AnalysisCommand(app, "simplify-field", Works::on_many_ranks) {
-    add_persistence(subcommand(), persistence_, analysis_.option("persistence").help);
+    add_persistence();
     add_file("-o,--output", output_, "The mesh with the simplified field and the order of its vertices, NAME_Order: {}",
              io::written_meshes | io::written_pieces);
   }
@@ -42,7 +42,7 @@ class SimplifyField final : public AnalysisCommand {
   }
 
   void analyse(const FieldOnMesh& on, Session& session, Computed& computed) const override {
-    const double threshold = persistence_ ? threshold_of_option(*persistence_, on.field, session.ranks()) : 0;
+    const double threshold = threshold_for(on.field);
     const SimplifiedField field = simplify_field(
         on.order, [&](Id vertex) { return outputs::value_at(on.field, vertex); }, threshold,
         session.compute(structure_, "simplified field"), &computed);
@@ -52,7 +52,6 @@ class SimplifyField final : public AnalysisCommand {
     session.write_mesh(output_, on, [&] { return outputs::simplified_arrays(at.field(), field); });
   }
 
-  std::optional<outputs::Persistence> persistence_;
   std::string output_;
 };
 

@@ -43,7 +43,7 @@ class TrackExtrema final : public AnalysisCommand {
     add_file("-o,--output", output_, "Write a line through time for each track, merge and split: {}",
              io::written_surfaces);
     add_file("--table", table_, analysis_.option("table").help + ": {}", io::written_tables);
-    add_persistence(subcommand(), persistence_, analysis_.option("persistence").help);
+    add_persistence();
     subcommand()
         .add_option_function<std::string>(
             "--lift", [this](const std::string& text) { lift_ = parse_lift(text); }, analysis_.option("lift").help)
@@ -62,7 +62,7 @@ class TrackExtrema final : public AnalysisCommand {
     bool goes_on = true;
     while (goes_on) {
       const FieldOnMesh on = session.read_field(segmentation_, keep());
-      const double least = persistence_ ? threshold_of_option(*persistence_, on.field, session.ranks()) : 0;
+      const double least = threshold_for(on.field);
       const DiscreteGradient gradient =
           find_discrete_gradient(on.order, session.compute(structure_, "gradient"), &computed);
       const SweepOptions sweep = session.sweep("tracks");
@@ -90,7 +90,6 @@ class TrackExtrema final : public AnalysisCommand {
     session.tell("maxima", "maxima", counts[1]);
   }
 
-  std::optional<outputs::Persistence> persistence_;
   std::optional<outputs::Lift> lift_;
   std::string output_, table_;
 };

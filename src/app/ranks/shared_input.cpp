@@ -8,7 +8,7 @@
 #include <gale/io/write.hpp>
 #include <gale/mesh/exchange/exchange_plan.hpp>
 #include <gale/mesh/exchange/home_table.hpp>
-#include <gale/outputs/brought.hpp>
+#include <gale/outputs/excerpt.hpp>
 #include <gale/outputs/field.hpp>
 
 namespace gale::app {

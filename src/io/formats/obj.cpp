@@ -5,7 +5,7 @@
 
 #include <gale/base/stop.hpp>
 #include <gale/io/bytes/text.hpp>
-#include <gale/io/cells/polygon_list.hpp>
+#include <gale/io/cells/surface_cells.hpp>
 #include <gale/io/formats.hpp>
 
 // Wavefront OBJ: a line each for vertices (v x y z) and faces (f a b c ...). A corner is the number of a vertex,
@@ -90,9 +90,7 @@ Content read_obj(const InputFile& input, const ReadOptions& options) {
   }
   MeshParts parts;
   parts.points = std::move(obj.points);
-  SurfaceCells cells;
-  cells.polygons = obj.faces.take();
-  parts.cells = cells_of_surface(std::move(cells));
+  parts.cells = obj.faces.take();
   std::string names;
   for (const std::string& name : obj.others) names += (names.empty() ? "'" : ", '") + printable(name) + "'";
   if (!names.empty())

@@ -6,7 +6,7 @@
 
 #include <gale/base/stop.hpp>
 #include <gale/io/bytes/text.hpp>
-#include <gale/io/cells/polygon_list.hpp>
+#include <gale/io/cells/surface_cells.hpp>
 #include <gale/io/formats.hpp>
 
 // OFF: how many vertices, faces and edges there are; a line for each vertex, x y z, and for each face: how many corners
@@ -87,9 +87,7 @@ Content read_off(const InputFile& input, const ReadOptions& options) {
   }
   MeshParts parts;
   parts.points = std::move(coordinates);
-  SurfaceCells cells;
-  cells.polygons = polygons.take();
-  parts.cells = cells_of_surface(std::move(cells));
+  parts.cells = polygons.take();
   if (has_more) parts.notices.push_back("left out what follows coordinates and corners, such as colours");
   return to_mesh(parts, options);
 }

@@ -11,7 +11,7 @@
 #include <gale/base/stop.hpp>
 #include <gale/io/bytes/text.hpp>
 #include <gale/io/bytes/values.hpp>
-#include <gale/io/cells/polygon_list.hpp>
+#include <gale/io/cells/surface_cells.hpp>
 #include <gale/io/formats.hpp>
 
 // STL: facets, each with a normal, which nobody reads, and three corners of three floats. Binary files have 80 bytes,
@@ -184,9 +184,7 @@ Content read_stl(const InputFile& input, const ReadOptions& options) {
       parts.notices.push_back(text_of("left out ", behind - *count * facet_bytes, " bytes behind its facets"));
   }
   parts.points = facets.points.take();
-  SurfaceCells cells;
-  cells.polygons = facets.polygons.take();
-  parts.cells = cells_of_surface(std::move(cells));
+  parts.cells = facets.polygons.take();
   return to_mesh(parts, options);
 }
 

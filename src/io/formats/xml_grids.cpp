@@ -7,9 +7,10 @@
 #include <gale/io/bytes/values.hpp>
 #include <gale/io/cells/cells.hpp>
 #include <gale/io/formats.hpp>
+#include <gale/io/formats/volume.hpp>
 #include <gale/io/formats/xml_pieces.hpp>
 
-// `.vts` and `.vtr`: meshes of hexahedra and of voxels whose points have places along three axes.
+// `.vti`, `.vts` and `.vtr`: images, and meshes of hexahedra and of voxels whose points have places along three axes.
 namespace gale::io::detail {
 namespace {
 
@@ -17,13 +18,24 @@ namespace {
 struct GridFile {
   GridFile(const InputFile& input, const char* type)
       : file(read_xml(input, type)),
-        whole(extent_of(file.root.require(type), "WholeExtent")),
-        pieces(grid_pieces_of(file.root.require(type), whole)) {
+        element(file.root.require(type)),
+        whole(extent_of(element, "WholeExtent")),
+        pieces(grid_pieces_of(element, whole)) {}
+
+  /// Throws gale::Error if ids can't number its points.
+  void require_ids() const {
     if (whole.points() > std::uint64_t(std::numeric_limits<std::int32_t>::max()))
       refuse("it has ", whole.points(), " points, more than 32-bit ids can number");
   }
 
+  XmlArrays point_data() const {
+    return join_pieces(pieces, whole, [&](const XmlElement& piece, std::uint64_t points) {
+      return read_point_data(file, piece, points);
+    });
+  }
+
   XmlFile file;
+  const XmlElement& element;
   Extent whole;
   std::vector<GridPiece> pieces;
 };
@@ -31,9 +43,7 @@ struct GridFile {
 /// The mesh of the grid's cells, but for its points.
 MeshParts parts_of(const GridFile& grid, int type) {
   MeshParts parts;
-  XmlArrays arrays = join_pieces(grid.pieces, grid.whole, [&](const XmlElement& piece, std::uint64_t points) {
-    return read_point_data(grid.file, piece, points);
-  });
+  XmlArrays arrays = grid.point_data();
   parts.arrays = std::move(arrays.arrays);
   parts.notices = std::move(arrays.notices);
   const std::vector<std::string> cell_arrays = names_of_cell_data(*grid.pieces[0].element);
@@ -93,8 +103,23 @@ std::vector<T> points_along(const std::array<std::vector<double>, 3>& axes) {
 
 }  // namespace
 
+Content read_vti(const InputFile& input, const ReadOptions&) {
+  const GridFile grid(input, "ImageData");
+  const auto origin = numbers_in<double>(grid.element, "Origin", {0, 0, 0}, 3);
+  const auto spacing = numbers_in<double>(grid.element, "Spacing", {1, 1, 1}, 3);
+  const auto direction = numbers_in<double>(grid.element, "Direction", {1, 0, 0, 0, 1, 0, 0, 0, 1}, 9);
+  Image image = oriented_image(grid.whole.low, grid.whole.high, origin, spacing, direction);
+  XmlArrays arrays = grid.point_data();
+  if (arrays.arrays.empty() && arrays.notices.empty() && !names_of_cell_data(*grid.pieces[0].element).empty())
+    throw Error("the image has values in its cells, none at its points");
+  image.arrays = std::move(arrays.arrays);
+  image.notices = std::move(arrays.notices);
+  return image;
+}
+
 Content read_vts(const InputFile& input, const ReadOptions& options) {
   const GridFile grid(input, "StructuredGrid");
+  grid.require_ids();
   const auto read = [&](const XmlElement& piece, std::uint64_t points) {
     const XmlElement& array = piece.require("Points").require("DataArray");
     if (array.attribute("NumberOfComponents", "3") != "3")
@@ -109,6 +134,7 @@ Content read_vts(const InputFile& input, const ReadOptions& options) {
 
 Content read_vtr(const InputFile& input, const ReadOptions& options) {
   const GridFile grid(input, "RectilinearGrid");
+  grid.require_ids();
   bool is_float = true;
   const std::array<std::vector<double>, 3> axes = {axis_of(grid, 0, is_float), axis_of(grid, 1, is_float),
                                                    axis_of(grid, 2, is_float)};
