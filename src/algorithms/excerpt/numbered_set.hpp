@@ -5,6 +5,7 @@
 
 #include <gale/base/atomic.hpp>
 #include <gale/base/counted_word.hpp>
+#include <gale/base/parallel.hpp>
 #include <gale/base/types.hpp>
 
 namespace gale::detail {
@@ -30,6 +31,17 @@ class NumberedSet {
       word.before = count_;
       count_ += count_bits(word.bits);
     }
+  }
+
+  /// Calls visit(place, number) for each member, on all threads.
+  template <class Visit>
+  void for_each(const char* label, const Visit& visit) const {
+    parallel_for(label, HostExecutionSpace(), words_.size(), [&](Offset i) {
+      const CountedWord& word = words_[i];
+      Id number = word.before;
+      for (std::uint64_t bits = word.bits; bits != 0; bits &= bits - 1)
+        visit(static_cast<Id>(i << 6) + lowest_bit(bits), number++);
+    });
   }
 
   /// How many members were numbered.

@@ -1,9 +1,11 @@
 #include <algorithm>
+#include <mutex>
 #include <optional>
 #include <utility>
 
 #include <gale/algorithms/excerpt/cell_steps.hpp>
 #include <gale/algorithms/excerpt/gathering.hpp>
+#include <gale/algorithms/excerpt/numbered_set.hpp>
 #include <gale/algorithms/excerpt/reached.hpp>
 #include <gale/algorithms/gradient/gradient_store.hpp>
 #include <gale/algorithms/gradient/pair_star.hpp>
@@ -11,6 +13,8 @@
 #include <gale/algorithms/morse_smale/paths_on_ranks.hpp>
 #include <gale/base/error.hpp>
 #include <gale/base/hash_table.hpp>
+#include <gale/base/parallel.hpp>
+#include <gale/base/threads.hpp>
 
 namespace gale::detail {
 
@@ -35,13 +39,36 @@ struct SentStep {
 struct Mark {};
 using Seen = HashTable<Mark>;
 
+/// Keys that threads may add side by side.
+class SharedSeen {
+ public:
+  bool insert(std::uint64_t key) {
+    Part& part = parts_[spread(key) >> (64 - part_bits)];
+    const std::lock_guard<std::mutex> lock(part.mutex);
+    return part.keys.insert(key).second;
+  }
+
+ private:
+  static constexpr int part_bits = 6;
+
+  struct alignas(64) Part {
+    std::mutex mutex;
+    Seen keys{16};
+  };
+
+  std::array<Part, 1 << part_bits> parts_;
+};
+
 template <class T>
 using ByAsker = std::vector<T>;
 
-/// What this rank has found for one that asks, and where it has been for it.
+/// What this rank has found for one that asks, and where it has been for it. Vertices are called by GALE's ids, until
+/// all are known.
 struct FoundFor : ReachedLists<ByAsker> {
-  HashTable<Id> vertex_places, cell_places;
-  Seen fallen_vertices, fallen_edges, told_edges, risen_cells, risen_edges;
+  std::vector<Id> more_vertices;  ///< that no simplex has
+  HashTable<Id> cell_places;
+  Seen fallen_vertices, told_edges, risen_cells, risen_edges;
+  SharedSeen fallen_edges;
 };
 
 /// Calls visit(list) for each.
@@ -55,6 +82,25 @@ void for_each_list_of(Lists& lists, const Visit& visit) {
   visit(lists.cell_forks);
   visit(lists.critical_triangles);
   visit(lists.critical_stars);
+}
+
+/// Calls visit(vertex) for each vertex in lists that call them by ids, on all threads.
+template <class Visit>
+void for_each_vertex_of(FoundFor& found, const Visit& visit) {
+  const auto visit_all = [&](auto& list, int vertices, const auto& vertices_of) {
+    parallel_for("GALE::reached_vertices", HostExecutionSpace(), list.size(), [&](Offset i) {
+      Id* const of = vertices_of(list[i]);
+      for (int k = 0; k < vertices; ++k) {
+        if (of[k] >= 0) visit(of[k]);
+      }
+    });
+  };
+  const auto itself = [](auto& simplex) { return simplex.data(); };
+  visit_all(found.vertex_steps, 2, itself);
+  visit_all(found.edges, 3, itself);
+  visit_all(found.critical_triangles, 3, itself);
+  visit_all(found.critical_stars, 3, itself);
+  visit_all(found.cells, 4, [](ReachedCell& cell) { return cell.corners.data(); });
 }
 
 class Reacher {
@@ -94,13 +140,13 @@ class Reacher {
       if (ways_.rising_walls) go({StepKind::rising_edge, asker, {high, low}});
     }
     for (const auto& triangle : critical.triangles) {
-      found.critical_triangles.push_back(places(found, triangle));
+      found.critical_triangles.push_back(triangle);
       if (!ways_.falling_walls) continue;
       for (int i = 0; i < 3; ++i) fall(asker, triangle[i], triangle[(i + 1) % 3]);
     }
     begin_stars(asker, found);
     if (ways_.all_for_first && owned_.size() > 0)  // the highest one of all is where classes end that never do
-      vertex_place(found, gradient_.order().highest(owned_));
+      found.more_vertices.push_back(gradient_.order().highest(owned_));
   }
 
   /// From these, for this rank, which knows by itself what is in its part.
@@ -119,12 +165,18 @@ class Reacher {
       if (step.kind == StepKind::rising_cell) cells.push_back(step.simplex[0]);
     }
     cell_successors_.follow(std::move(cells));
+    std::vector<std::vector<std::array<Id, 2>>> falling(found_.size());  // edges from which alone edges fall, by asker
     for (std::int64_t i = 0; !here_.empty(); ++i) {
       stop_if_asked_at(i);
       const LocalStep step = here_.back();
       here_.pop_back();
-      take(step);
+      if (is_beyond_ && step.kind == StepKind::falling_edge) {
+        falling[step.asker].push_back({step.simplex[0], step.simplex[1]});
+      } else {
+        take(step);
+      }
     }
+    for (std::size_t asker = 0; asker < falling.size(); ++asker) fall_from(static_cast<int>(asker), falling[asker]);
   }
 
   /// Hands over what other ranks have to follow, and takes what they hand over. False if nobody had anything.
@@ -143,11 +195,20 @@ class Reacher {
     return true;
   }
 
-  /// How many bytes were found for each rank.
-  std::vector<std::int64_t> bytes() {
-    std::vector<std::int64_t> bytes;
+  /// Has all that was found call vertices by their places, before it is sent.
+  void number_vertices() {
     if (is_beyond_) for_each_list_of(found_[ranks_.rank()], [](auto& list) { list = {}; });
     for (FoundFor& found : found_) {
+      bool has_any = !found.more_vertices.empty();
+      for_each_list_of(found, [&](auto& list) { has_any = has_any || !list.empty(); });
+      if (has_any) number_vertices(found);
+    }
+  }
+
+  /// How many bytes were found for each rank.
+  std::vector<std::int64_t> bytes() const {
+    std::vector<std::int64_t> bytes;
+    for (const FoundFor& found : found_) {
       std::int64_t all = 0;
       for_each_list_of(found, [&](auto& list) { all += static_cast<std::int64_t>(list.size() * sizeof(list[0])); });
       bytes.push_back(all);
@@ -188,18 +249,16 @@ class Reacher {
 
   bool is_owned(Id vertex) const { return owned_.has(vertex); }
   Id higher(Id a, Id b) const { return keys_[a] > keys_[b] ? a : b; }
+  std::array<Id, 2> ordered(Id a, Id b) const {
+    return keys_[a] > keys_[b] ? std::array<Id, 2>{a, b} : std::array<Id, 2>{b, a};
+  }
 
   void begin_stars(int asker, FoundFor& found) {
     const CriticalSimplices& critical = gradient_.critical();
     for (std::size_t i = 0; i + 1 < critical.star_begin.size(); ++i) {
       std::array<Id, 4> in_star{0, 0, no_id, 0};
-      if (critical.dimension == 3) {
-        const auto facet = places(found, critical.triangles[i]);
-        std::copy(facet.begin(), facet.end(), in_star.begin());
-      } else {
-        const auto facet = places(found, critical.edges[i]);
-        std::copy(facet.begin(), facet.end(), in_star.begin());
-      }
+      const auto set_facet = [&](const auto& facet) { std::copy(facet.begin(), facet.end(), in_star.begin()); };
+      critical.dimension == 3 ? set_facet(critical.triangles[i]) : set_facet(critical.edges[i]);
       for (Id k = critical.star_begin[i]; k < critical.star_begin[i + 1]; ++k) {
         in_star[3] = cell_place(found, critical.star[k]);
         found.critical_stars.push_back(in_star);
@@ -218,7 +277,7 @@ class Reacher {
         if (!found.fallen_vertices.insert(static_cast<std::uint64_t>(a)).second) return;
         break;
       case StepKind::falling_edge:
-        if (!found.fallen_edges.insert(pair_key(a, b)).second) return;
+        if (!found.fallen_edges.insert(pair_key(a, b))) return;
         break;
       case StepKind::rising_cell:
         if (!found.risen_cells.insert(static_cast<std::uint64_t>(a)).second) return;
@@ -286,13 +345,49 @@ class Reacher {
   }
 
   void fall(int asker, Id a, Id b) {
-    const Id high = higher(a, b);
-    go({StepKind::falling_edge, asker, {high, high == a ? b : a}});
+    const auto [high, low] = ordered(a, b);
+    go({StepKind::falling_edge, asker, {high, low}});
+  }
+
+  /// Follows edges that fall, to others that do, on all threads: each goes on from one of them after the other.
+  void fall_from(int asker, const std::vector<std::array<Id, 2>>& edges) {
+    if (edges.empty()) return;
+    struct Part {
+      std::vector<std::array<Id, 3>> found;
+      std::vector<std::array<Id, 2>> open, elsewhere;
+    };
+    FoundFor& found = found_of(asker);
+    std::vector<Part> parts(host_threads());
+    in_turns(host_threads(), static_cast<std::int64_t>(edges.size()), [&](int thread, std::int64_t first) {
+      auto& [here, open, elsewhere] = parts[thread];
+      open.push_back(edges[first]);
+      for (std::int64_t i = 0; !open.empty(); ++i) {
+        stop_if_asked_at(i);
+        const auto [high, low] = open.back();
+        open.pop_back();
+        const Id third = third_of(high, low);
+        if (third == edge_has_vertex) continue;
+        here.push_back({high, low, third});
+        if (third < 0) continue;
+        for (const Id end : {high, low}) {
+          const auto next = ordered(end, third);
+          if (found.fallen_edges.insert(pair_key(next[0], next[1])))
+            (is_owned(next[0]) ? open : elsewhere).push_back(next);
+        }
+      }
+    });
+    for (const Part& part : parts) {
+      found.edges.insert(found.edges.end(), part.found.begin(), part.found.end());
+      for (const auto& [high, low] : part.elsewhere) {
+        elsewhere_.push_back(
+            {mesh_.exchange().owner(input_[high]), global({StepKind::falling_edge, asker, {high, low}})});
+      }
+    }
   }
 
   void take_vertex(int asker, FoundFor& found, Id vertex) {
     const Id next = vertex_successor_[vertex];
-    found.vertex_steps.push_back({vertex_place(found, vertex), next == no_id ? no_id : vertex_place(found, next)});
+    found.vertex_steps.push_back({vertex, next});
     if (next != no_id) go({StepKind::falling_vertex, asker, {next}});
   }
 
@@ -320,49 +415,46 @@ class Reacher {
     }
   }
 
-  /// Tells what an edge is paired with, whose higher end this rank owns: the third vertex of that triangle, or why
-  /// there is none.
-  Id tell_edge(FoundFor& found, Id high, Id low) {
+  /// What an edge is paired with, whose higher end this rank owns: the third vertex of that triangle, or why there is
+  /// none.
+  Id third_of(Id high, Id low) const {
     Id third = no_id;
     if (mesh_.dimension() == 3) {
       const PairedEdges row = gradient_.store().pairs()[high];
       third = row.third(row.find(low));
     }
-    if (third == no_id) third = vertex_successor_[high] == low ? edge_has_vertex : edge_is_critical;
-    if (is_beyond_ && third == edge_has_vertex) return third;
-    // Beyond, ways fall alone, and `fallen_edges` has them come to each edge once.
-    if (is_beyond_ || found.told_edges.insert(pair_key(high, low)).second) {
-      found.edges.push_back(
-          {vertex_place(found, high), vertex_place(found, low), third < 0 ? third : vertex_place(found, third)});
-    }
+    if (third != no_id) return third;
+    return vertex_successor_[high] == low ? edge_has_vertex : edge_is_critical;
+  }
+
+  /// Tells that.
+  Id tell_edge(FoundFor& found, Id high, Id low) {
+    const Id third = third_of(high, low);
+    if (found.told_edges.insert(pair_key(high, low)).second) found.edges.push_back({high, low, third});
     return third;
   }
 
-  Id vertex_place(FoundFor& found, Id vertex) const {
-    const auto [place, is_new] = found.vertex_places.insert(static_cast<std::uint64_t>(vertex));
-    if (is_new) {
-      place = static_cast<Id>(found.vertices.size());
-      found.vertices.push_back({mesh_.vertex_id(input_[vertex]), gradient_.order().value_key(vertex)});
-    }
-    return place;
+  /// Numbers the vertices of what was found for a rank, by ascending ids, and puts their places in their place.
+  void number_vertices(FoundFor& found) {
+    NumberedSet reached(mesh_.vertices());
+    for_each_vertex_of(found, [&](Id vertex) { reached.insert(vertex); });
+    for (const Id vertex : found.more_vertices) reached.insert(vertex);
+    reached.number();
+    found.vertices.resize(reached.count());
+    reached.for_each("GALE::reached_vertices", [&](Id vertex, Id place) {
+      found.vertices[place] = {mesh_.vertex_id(input_[vertex]), gradient_.order().value_key(vertex)};
+    });
+    for_each_vertex_of(found, [&](Id& vertex) { vertex = reached[vertex]; });
   }
 
   Id cell_place(FoundFor& found, Id cell) const {
     const auto [place, is_new] = found.cell_places.insert(static_cast<std::uint64_t>(cell));
     if (is_new) {
       place = static_cast<Id>(found.cells.size());
-      ReachedCell reached{cells_.global(cell), {}};
       const Quad corners = corners_(cell);
-      for (int k = 0; k < 4; ++k) reached.corners[k] = vertex_place(found, corners[k]);
-      found.cells.push_back(reached);
+      found.cells.push_back({cells_.global(cell), {corners.a, corners.b, corners.c, corners.d}});
     }
     return place;
-  }
-
-  template <std::size_t N>
-  std::array<Id, N> places(FoundFor& found, std::array<Id, N> simplex) const {
-    for (Id& vertex : simplex) vertex = vertex_place(found, vertex);
-    return simplex;
   }
 
   const DiscreteGradient& gradient_;
@@ -402,6 +494,7 @@ Reached followed(const DiscreteGradient& gradient, const WantedWays& ways, Struc
   do {
     together(ranks, [&] { reacher->follow(); });
   } while (reacher->hand_over());
+  together(ranks, [&] { reacher->number_vertices(); });
   require_room(ranks, "what critical simplices reach", reacher->bytes(), most_bytes);
   return reacher->send();
 }
