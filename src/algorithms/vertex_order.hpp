@@ -74,6 +74,9 @@ class GALE_EXPORT VertexOrder {
     return all_.keys.in<Memory>();
   }
 
+  /// The keys of some vertices, by GALE's ids, read where all were made.
+  std::vector<std::uint64_t> keys_of(const std::vector<Id>& vertices) const;
+
   /// Whether values have 32 bits at most, so that keys have them in their upper halves. For GALE's own algorithms.
   bool has_short_values() const { return all_.values.extent(0) == 0; }
 
@@ -82,6 +85,9 @@ class GALE_EXPORT VertexOrder {
   std::uint64_t value_key(Id vertex) const {
     return all_.values.extent(0) == 0 ? keys()[vertex] >> 32 : all_.values(vertex);
   }
+
+  /// What value_key() says of some vertices, read likewise.
+  std::vector<std::uint64_t> value_keys_of(const std::vector<Id>& vertices) const;
 
   /// The highest of some vertices, by GALE's ids; no_id if there are none. On all host threads.
   Id highest(Interval some) const;

@@ -3,9 +3,12 @@
 #include <atomic>
 #include <memory>
 #include <mutex>
+#include <type_traits>
+#include <vector>
 
 #include <gale/base/kokkos.hpp>
 #include <gale/base/memory.hpp>
+#include <gale/base/parallel.hpp>
 #include <gale/base/stop.hpp>
 #include <gale/base/transfer.hpp>
 
@@ -133,5 +136,33 @@ class Mirrored {
  private:
   Arrays arrays_;
 };
+
+namespace detail {
+
+/// Reads entries by their places.
+template <class T, class Memory>
+struct ReadEntries {
+  Array<const T, Memory> entries;
+  Array<const Id, Memory> places;
+  Array<T, Memory> found;
+
+  KOKKOS_FUNCTION void operator()(Offset i) const { found(i) = entries(places(i)); }
+};
+
+/// Some of the entries, read where all were made.
+template <class T>
+std::vector<T> entries_at(const Mirrored<T>& all, const std::vector<Id>& places) {
+  return in_worker_or_host_space(all.on_device(), [&](const auto& space) -> std::vector<T> {
+    using Memory = MemoryOf<std::decay_t<decltype(space)>>;
+    const ReadEntries<T, Memory> read{all.template in<Memory>(), in_memory<Memory>(places),
+                                      allocate<Array<T, Memory>>("GALE::entries_at", places.size())};
+    parallel_for("GALE::entries_at", space, static_cast<Offset>(places.size()), read);
+    space.fence();
+    const auto found = on_host(read.found);
+    return {found.data(), found.data() + found.extent(0)};
+  });
+}
+
+}  // namespace detail
 
 }  // namespace gale

@@ -174,8 +174,10 @@ TEST(PathsOnRanks, take_few_rounds_to_their_ends) {
   const detail::PathsOnRanks paths(vertices);
   EXPECT_LE(paths.rounds(), 6);  // 2^6 steps are more than any path has
   if (ranks.size() == 1) EXPECT_EQ(paths.rounds(), 0);
-  for (const Id v : mesh.owned_vertices()) {
-    const detail::PathStop stop = paths.final_stop(paths.end(v));
+  std::vector<Id> own;
+  for (const Id v : mesh.owned_vertices()) own.push_back(v);
+  for (const Id end : paths.ends_of(own)) {
+    const detail::PathStop stop = paths.final_stop(end);
     EXPECT_EQ(stop.rank, detail::PathStop::critical);
     EXPECT_EQ(stop.id, vertex_name(0));
   }

@@ -47,12 +47,21 @@ std::vector<T> of_all(const Ranks& ranks, const std::vector<T>& mine) {
   return {received.entries.data(), received.entries.data() + received.count()};
 }
 
+/// A vertex of this rank, with its key as a side sees it, and an extremum of which a path ends there.
+struct JoiningVertex {
+  std::uint64_t key;
+  Id vertex;
+  GlobalId extremum;
+
+  bool operator<(const JoiningVertex& other) const {
+    return key != other.key ? key < other.key : extremum < other.extremum;
+  }
+};
+
 /// Keeps the meetings that join paths to extrema which lower ones of this rank (as the side comes to them) don't: what
 /// joins extrema that are joined already makes no node, wherever the others are.
-inline void keep_joining(const SideKeys& keys, std::vector<std::pair<Id, GlobalId>>& meetings) {
-  std::sort(meetings.begin(), meetings.end(), [&](const auto& a, const auto& b) {
-    return a.first == b.first ? a.second < b.second : keys(a.first, b.first);
-  });
+inline void keep_joining(std::vector<JoiningVertex>& meetings) {
+  std::sort(meetings.begin(), meetings.end());
   std::unordered_map<GlobalId, GlobalId> joined;
   const auto find = [&](GlobalId extremum) {
     auto at = joined.try_emplace(extremum, extremum).first;
@@ -60,13 +69,13 @@ inline void keep_joining(const SideKeys& keys, std::vector<std::pair<Id, GlobalI
     joined[extremum] = at->first;
     return at->first;
   };
-  std::vector<std::pair<Id, GlobalId>> kept;
+  std::vector<JoiningVertex> kept;
   for (std::size_t i = 0, next = 0; i < meetings.size(); i = next) {
     const std::size_t before = kept.size();
     kept.push_back(meetings[i]);
-    const GlobalId first = find(meetings[i].second);
-    for (next = i + 1; next < meetings.size() && meetings[next].first == meetings[i].first; ++next) {
-      const GlobalId other = find(meetings[next].second), all = find(first);
+    const GlobalId first = find(meetings[i].extremum);
+    for (next = i + 1; next < meetings.size() && meetings[next].vertex == meetings[i].vertex; ++next) {
+      const GlobalId other = find(meetings[next].extremum), all = find(first);
       if (other == all) continue;
       joined[other] = all;
       kept.push_back(meetings[next]);
@@ -94,9 +103,31 @@ struct SideOnRanks {
     paths.emplace(simplices, others);
   }
 
-  GlobalId end_of(Id vertex) const {
-    if (paths) return paths->final_stop(paths->end(vertex)).id;
-    return next.in<HostMemory>()(vertex) == no_id ? simplices.global(vertex) : -1;
+  /// The extrema at which the paths of some vertices end; where paths aren't followed an extremum itself, -1 for others.
+  std::vector<GlobalId> ends_of(const std::vector<Id>& vertices) const {
+    std::vector<GlobalId> ends(vertices.size(), -1);
+    if (paths) {
+      const std::vector<Id> here = paths->ends_of(vertices);
+      for (std::size_t i = 0; i < ends.size(); ++i) ends[i] = paths->final_stop(here[i]).id;
+      return ends;
+    }
+    std::vector<Id> sorted = extrema;
+    std::sort(sorted.begin(), sorted.end());
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+      if (std::binary_search(sorted.begin(), sorted.end(), vertices[i])) ends[i] = simplices.global(vertices[i]);
+    }
+    return ends;
+  }
+
+  /// For each end that paths have on this rank the place of the extremum where they end finally; no_id where nobody has
+  /// asked for one: no path of this rank's comes there.
+  Array<const Id, HostMemory> places_of_ends(const std::unordered_map<GlobalId, Id>& places) const {
+    const auto of_ends = allocate<Array<Id, HostMemory>>("GALE::places_of_ends", paths->ends());
+    for (Id end = 0; end < paths->ends(); ++end) {
+      const PathStop stop = paths->final_stop(end);
+      of_ends(end) = stop.rank == PathStop::critical ? places.at(stop.id) : no_id;
+    }
+    return of_ends;
   }
 
   const Mirrored<Id> next;
@@ -168,21 +199,29 @@ class GatheredGraph {
     std::vector<Id> all;
     for (const Side side : {below, above}) {
       all.insert(all.end(), sides[side]->extrema.begin(), sides[side]->extrema.end());
-      std::vector<std::pair<Id, GlobalId>> meetings;
-      for (const Meeting& meeting : sides[side]->meetings)
-        meetings.emplace_back(meeting.vertex, sides[side]->end_of(meeting.other));
-      keep_joining(SideKeys(order.keys(), side), meetings);
-      for (const auto& [vertex, extremum] : meetings) {
-        told[side].push_back({id_of(vertex), extremum});
-        all.push_back(vertex);
+      std::vector<Id> at, others;
+      for (const Meeting& meeting : sides[side]->meetings) {
+        at.push_back(meeting.vertex);
+        others.push_back(meeting.other);
+      }
+      const std::vector<std::uint64_t> keys = order.keys_of(at);
+      const SideKeys of_side(keys.data(), side);
+      const std::vector<GlobalId> extrema = sides[side]->ends_of(others);
+      std::vector<JoiningVertex> meetings;
+      for (std::size_t i = 0; i < at.size(); ++i)
+        meetings.push_back({of_side[static_cast<Id>(i)], at[i], extrema[i]});
+      keep_joining(meetings);
+      for (const JoiningVertex& meeting : meetings) {
+        told[side].push_back({id_of(meeting.vertex), meeting.extremum});
+        all.push_back(meeting.vertex);
       }
     }
     std::sort(all.begin(), all.end());
     all.erase(std::unique(all.begin(), all.end()), all.end());
-    for (const Id vertex : all) {
-      own.push_back(
-          {id_of(vertex), order.value_key(vertex), {sides[below]->end_of(vertex), sides[above]->end_of(vertex)}});
-    }
+    const std::vector<std::uint64_t> values = order.value_keys_of(all);
+    const std::array<std::vector<GlobalId>, 2> ends{sides[below]->ends_of(all), sides[above]->ends_of(all)};
+    for (std::size_t i = 0; i < all.size(); ++i)
+      own.push_back({id_of(all[i]), values[i], {ends[below][i], ends[above][i]}});
   }
 
   void finish() {

@@ -1,11 +1,13 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include <gale/algorithms/merge_tree/assemble.hpp>
 #include <gale/algorithms/merge_tree/trees_on_ranks.hpp>
 #include <gale/algorithms/merge_tree/vertex_climbs.hpp>
+#include <gale/mesh/exchange/exchange_plan.hpp>
 
 namespace gale::detail {
 
@@ -69,9 +71,20 @@ std::vector<MergeTree> trees_on_ranks(const VertexOrder& order, MirroredGraph gr
     maker.emplace(HostExecutionSpace(), gathered.order(), gathered.graph(), trees);
     made = maker->make_nodes(options.threshold == 0 ? nullptr : &threshold, claims);
   });
-  const VertexClimbs climbs(order, gathered, sides, *maker);
+  std::array<Mirrored<Id>, 2> places;
+  for (const Side side : {below, above}) {
+    if (!maker->uses(side)) continue;
+    Array<const Id, HostMemory> of_ends;
+    together(ranks, [&] { of_ends = sides[side]->places_of_ends(gathered.places_of_extrema(side)); });
+    places[side] = ends_of_vertices(*sides[side]->paths, {}, of_ends);
+  }
   std::vector<std::vector<Id>> arcs;
-  together(ranks, [&] { arcs = arcs_of_vertices(HostExecutionSpace(), mesh, climbs.climbs, claims); });
+  together(ranks, [&] {
+    arcs = in_worker_or_host_space(places[below].on_device() || places[above].on_device(), [&](const auto& space) {
+      const VertexClimbs<std::decay_t<decltype(space)>> climbs(space, order, gathered, places, *maker);
+      return arcs_of_vertices(space, mesh, climbs.climbs, claims);
+    });
+  });
   for (std::size_t i = 0; i < made.size(); ++i) set_arcs_on_ranks(mesh, gathered.mesh(), made[i], std::move(arcs[i]));
   return made;
 }

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <memory>
-#include <unordered_map>
 #include <vector>
 
 #include <gale/algorithms/merge_tree/gathered_graph.hpp>
@@ -12,76 +10,68 @@
 #include <gale/algorithms/merge_tree/tree_maker.hpp>
 #include <gale/base/memory.hpp>
 #include <gale/base/parallel.hpp>
-#include <gale/mesh/exchange/exchange_plan.hpp>
 
 namespace gale::detail {
 
-/// The way of this rank's vertices to their nodes.
+/// Puts a vertex that a rank holds among what was gathered: its key compares with those as it does, and is that of the
+/// last of these that isn't above, or of the first that isn't below.
+template <class Memory>
+struct PutAmongGathered {
+  KeysHere<Memory> here;
+  Array<const std::uint64_t, Memory> keys;      ///< of vertices
+  Array<const std::uint64_t, Memory> gathered;  ///< those of what was gathered, ascending
+  Array<const Id, Memory> places;               ///< of the extrema at which paths end, by vertex's input id
+  OtherIds input;
+  Side side;
+  Array<std::uint64_t, Memory> keys_among;
+  Array<Id, Memory> ends;
+
+  KOKKOS_FUNCTION void operator()(Offset v) const {
+    const auto found = here.place_of(keys(v));
+    const std::int64_t place = found.is_one || side == above ? found.first : found.first - 1;
+    keys_among(v) = place < 0                                                  ? 0
+                    : place < static_cast<std::int64_t>(gathered.extent(0)) ? gathered(place)
+                                                                               : ~std::uint64_t(0);
+    ends(v) = end_at(places(input[static_cast<Id>(v)]));
+  }
+};
+
+/// The way of this rank's vertices to their nodes, where code that runs in a space follows it.
+template <class Space>
 class VertexClimbs {
+  using Memory = MemoryOf<Space>;
+
  public:
-  VertexClimbs(const VertexOrder& order, const GatheredGraph& gathered,
-               const std::array<std::unique_ptr<SideOnRanks>, 2>& sides, const TreeMaker<HostExecutionSpace>& maker) {
+  /// `places` has by side the places of the extrema at which paths of vertices end, by input id. Not collective.
+  VertexClimbs(const Space& space, const VertexOrder& order, const GatheredGraph& gathered,
+               const std::array<Mirrored<Id>, 2>& places, const TreeMaker<HostExecutionSpace>& maker) {
     const Mesh& mesh = order.mesh();
-    const Ranks& ranks = mesh.exchange().ranks();
-    std::unique_ptr<const KeysHere> here;
-    together(ranks, [&] { here = std::make_unique<const KeysHere>(order, gathered.vertices); });
-    for (const Side side : {below, above}) {
-      if (!maker.uses(side)) continue;
-      together(ranks, [&] { find_ends(mesh, *sides[side], gathered.places_of_extrema(side)); });
-      mesh.exchange().from_owners()(ranks, by_input_.data(), by_input_.data());
-      together(ranks, [&] {
-        const auto ends = allocate<Array<Id, HostMemory>>("GALE::ends_of_paths", mesh.vertices());
-        const OtherIds input = mesh.vertices_in_input();
-        parallel_for("GALE::ends_of_paths", HostExecutionSpace(), mesh.vertices(),
-                     [&](Offset v) { ends(v) = by_input_(input[static_cast<Id>(v)]); });
-        climbs[side] = maker.climbs()[side];
-        climbs[side].ends = ends;
-        find_keys(order, gathered, *here, side);
-        climbs[side].keys = SideKeys(keys_[side].data(), side);
-      });
-    }
-  }
-
-  std::array<SideClimb<HostMemory>, 2> climbs;
-
- private:
-  void find_ends(const Mesh& mesh, const SideOnRanks& side, const std::unordered_map<GlobalId, Id>& places) {
-    std::vector<Id> place_of_end;
-    const PathsOnRanks& paths = *side.paths;
-    for (Id end = 0; end < paths.ends(); ++end) {
-      const PathStop stop = paths.final_stop(end);  // nobody asks for some: no path of this rank's comes there
-      place_of_end.push_back(stop.rank == PathStop::critical ? places.at(stop.id) : no_id);
-    }
-    if (by_input_.extent(0) == 0) by_input_ = allocate<Array<Id, HostMemory>>("GALE::ends_by_input", mesh.vertices());
-    const OtherIds input = mesh.vertices_in_input();
-    const Interval owned = mesh.owned_vertices();
-    parallel_for("GALE::ends_by_input", HostExecutionSpace(), owned.size(), [&](Offset i) {
-      const Id v = owned.first + static_cast<Id>(i);
-      by_input_(input[v]) = end_at(place_of_end[paths.end(v)]);
-    });
-  }
-
-  /// Keys of all that this rank holds that compare with those of what was gathered: the place of the last of these that
-  /// isn't above, or of the first that isn't below.
-  void find_keys(const VertexOrder& order, const GatheredGraph& gathered, const KeysHere& here, Side side) {
-    const Mesh& mesh = order.mesh();
-    const std::uint64_t* const small = gathered.order().keys();
+    const KeysHere<Memory> here(order, gathered.vertices);
     // Keys of an excerpt's order ascend with its vertices: those of places are what trees compare.
+    const std::uint64_t* const small = gathered.order().keys();
     std::vector<std::uint64_t> sorted(small, small + gathered.mesh().vertices());
     std::sort(sorted.begin(), sorted.end());
-    const std::uint64_t* const keys = order.keys();
-    keys_[side] = allocate<Array<std::uint64_t, HostMemory>>("GALE::keys_among_gathered", mesh.vertices());
-    parallel_for("GALE::keys_among_gathered", HostExecutionSpace(), mesh.vertices(), [&](Offset v) {
-      const auto [first, is_one] = here.place_of(keys[v]);
-      const std::int64_t place = is_one || side == above ? first : first - 1;
-      keys_[side](v) = place < 0                                          ? 0
-                       : place < static_cast<std::int64_t>(sorted.size()) ? sorted[place]
-                                                                          : ~std::uint64_t(0);
-    });
+    const auto in_order = in_memory<Memory>(sorted);
+    for (const Side side : {below, above}) {
+      if (!maker.uses(side)) continue;
+      const SideClimb<HostMemory>& climb = maker.climbs()[side];
+      keys_[side] = allocate<Array<std::uint64_t, Memory>>("GALE::keys_among_gathered", mesh.vertices());
+      const auto ends = allocate<Array<Id, Memory>>("GALE::ends_of_paths", mesh.vertices());
+      parallel_for("GALE::put_among_gathered", space, mesh.vertices(),
+                   PutAmongGathered<Memory>{here, order.keys_in<Memory>(), in_order, places[side].in<Memory>(),
+                                            mesh.vertices_in_input<Memory>(), side, keys_[side], ends});
+      climbs[side] = {SideKeys(keys_[side].data(), side),
+                      ends,
+                      in_memory<Memory>(climb.leaf),
+                      {in_memory<Memory>(climb.tree.up), in_memory<Memory>(climb.tree.keys), climb.tree.levels}};
+    }
+    space.fence();
   }
 
-  Array<Id, HostMemory> by_input_;
-  std::array<Array<std::uint64_t, HostMemory>, 2> keys_;
+  std::array<SideClimb<Memory>, 2> climbs;
+
+ private:
+  std::array<Array<std::uint64_t, Memory>, 2> keys_;
 };
 
 }  // namespace gale::detail

@@ -180,20 +180,11 @@ Mirrored<Id> manifolds_on_ranks(const DiscreteGradient& gradient, PathSimplices:
                                         [&](const auto& space) { return starts_elsewhere(space, *simplices, starts); });
   });
   const PathsOnRanks paths(*simplices, elsewhere);
-  const auto names = paths.places_of_ends();
-  OwnManifolds own;
-  together(ranks, [&] {
-    if (exits != nullptr) {
-      exits->exits = paths.exits_from(exits->starts.simplices);
-      exits->are_known = true;
-    }
-    own = in_worker_or_host_space(paths.ends_here().on_device(),
-                                  [&](const auto& space) { return own_manifolds(space, paths, starts, names); });
-  });
-  const auto taken = gradient.mesh().exchange().from_owners().fetch(ranks, own.given);
-  Mirrored<Id> manifolds;
-  together(ranks, [&] { manifolds = own.finish(taken.entries); });
-  return manifolds;
+  if (exits != nullptr) {
+    together(ranks, [&] { exits->exits = paths.exits_from(exits->starts.simplices); });
+    exits->are_known = true;
+  }
+  return ends_of_vertices(paths, starts, paths.places_of_ends());
 }
 
 Mirrored<Id> manifolds(const DiscreteGradient& gradient, PathSimplices::Kind kind, PathExits* exits) {
@@ -203,6 +194,19 @@ Mirrored<Id> manifolds(const DiscreteGradient& gradient, PathSimplices::Kind kin
 }
 
 }  // namespace
+
+Mirrored<Id> ends_of_vertices(const PathsOnRanks& paths, const Mirrored<Id>& starts,
+                              const Array<const Id, HostMemory>& names) {
+  OwnManifolds own;
+  together(paths.ranks(), [&] {
+    own = in_worker_or_host_space(paths.ends_here().on_device(),
+                                  [&](const auto& space) { return own_manifolds(space, paths, starts, names); });
+  });
+  const auto taken = paths.simplices().mesh().exchange().from_owners().fetch(paths.ranks(), own.given);
+  Mirrored<Id> ends;
+  together(paths.ranks(), [&] { ends = own.finish(taken.entries); });
+  return ends;
+}
 
 Mirrored<Id> descending_manifolds(const DiscreteGradient& gradient, PathExits* exits) {
   return manifolds(gradient, PathSimplices::Kind::falling_vertices, exits);

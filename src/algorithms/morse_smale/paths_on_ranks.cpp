@@ -93,7 +93,7 @@ PathSimplices::PathSimplices(const DiscreteGradient& gradient, Kind kind)
       critical_(are_vertices_ ? gradient.critical().vertices : gradient.critical().cells),
       input_(are_vertices_ ? mesh().vertices_in_input() : mesh().cells_in_input()),
       vertex_input_(mesh().vertices_in_input()),
-      keys_(gradient.order().keys()),
+      keys_(are_vertices_ ? nullptr : gradient.order().keys()),
       corners_(mesh().cell_reader()) {
   if (are_vertices_ || mesh().grid() != nullptr) return;
   const Id cells = mesh().cells();
@@ -112,7 +112,7 @@ PathSimplices::PathSimplices(const VertexOrder& order, const Mirrored<Id>& succe
       critical_(ends),
       input_(mesh_.vertices_in_input()),
       vertex_input_(input_),
-      keys_(order.keys()),
+      keys_(nullptr),
       corners_(mesh_.cell_reader()) {}
 
 std::unique_ptr<const PathSimplices> PathSimplices::make(const DiscreteGradient& gradient, Kind kind) {

@@ -77,8 +77,8 @@ class PathsOnRanks {
   /// below. Where the successors are, if there was room.
   const Mirrored<Id>& ends_here() const { return ends_; }
 
-  /// The number of one of these ends, on the host; no_id if the path leaves through the surface.
-  Id end(Id simplex) const { return place_of_end(ends_.in<HostMemory>()(simplex)); }
+  /// The numbers of these ends for some simplices; no_id if a path leaves through the surface. Not collective.
+  std::vector<Id> ends_of(const std::vector<Id>& simplices) const;
 
   /// The exits that paths from some simplices (GALE's ids) come to, once each. Not collective.
   std::vector<Id> exits_from(const std::vector<Id>& simplices) const;
@@ -103,7 +103,6 @@ class PathsOnRanks {
 
  private:
   void find_exits(const std::vector<Id>& others);
-  std::vector<Id> ends_of(const std::vector<Id>& simplices) const;
   bool jump();
 
   const PathSimplices& simplices_;
@@ -114,5 +113,11 @@ class PathsOnRanks {
   std::vector<Id> open_;         ///< the places of those that haven't ended yet, by global id at first
   int rounds_ = 0;
 };
+
+/// For each vertex that this rank holds, its ghosts, too, by input id, names[end] of the end of its path here: from
+/// starts(vertex), by GALE's ids, or from itself where there are no starts; no_id where that is, or the path leaves
+/// through the surface. Collective.
+Mirrored<Id> ends_of_vertices(const PathsOnRanks& paths, const Mirrored<Id>& starts,
+                              const Array<const Id, HostMemory>& names);
 
 }  // namespace gale::detail

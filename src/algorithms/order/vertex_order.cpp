@@ -210,6 +210,17 @@ GALE_INSTANTIATE(double);
 
 namespace gale {
 
+std::vector<std::uint64_t> VertexOrder::keys_of(const std::vector<Id>& vertices) const {
+  return detail::entries_at(all_.keys, vertices);
+}
+
+std::vector<std::uint64_t> VertexOrder::value_keys_of(const std::vector<Id>& vertices) const {
+  std::vector<std::uint64_t> values = keys_of(vertices);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    values[i] = has_short_values() ? values[i] >> 32 : all_.values(vertices[i]);
+  return values;
+}
+
 Id VertexOrder::highest(Interval some) const {
   if (some.size() == 0) return no_id;
   const std::uint64_t* const first = keys() + some.first;
