@@ -50,20 +50,18 @@ SomeCells cells_beyond(const MeshPart<Index>& part, const IdInterval& own) {
   if (own.is_empty()) return {count, {}};
   const Index* const ids = part.cells.data();
   const IndexInterval<Index> inner(own);
-  std::vector<std::vector<Id>> of_parts(threads_for(count));
-  for_parts("GALE::outer_cells", count, static_cast<int>(of_parts.size()), [&](int some, Offset first, Offset last) {
+  const auto outer = concatenated(of_parts("GALE::outer_cells", count, [&](Offset first, Offset last) {
+    std::vector<Id> mine;
     for (Offset begin = first; begin < last; begin += block) {
       const Offset end = std::min(begin + block, last);
       if (inner.contains(ids + corners * begin, corners * (end - begin))) continue;
       for (Offset t = begin; t < end; ++t) {
-        if (!inner.contains(ids + corners * t, corners)) of_parts[some].push_back(static_cast<Id>(t));
+        if (!inner.contains(ids + corners * t, corners)) mine.push_back(static_cast<Id>(t));
       }
     }
-  });
-  std::vector<Id> all;
-  for (const auto& some : of_parts) all.insert(all.end(), some.begin(), some.end());
-  const Offset found = static_cast<Offset>(all.size());
-  return {found, tabulated<Id>("GALE::outer_cells", found, [&](Offset i) { return all[i]; })};
+    return mine;
+  }));
+  return {static_cast<Offset>(outer.size()), array_of("GALE::outer_cells", outer)};
 }
 
 /// The vertices that some cells of a part have outside `own` and `handed`, ascending, none twice. Throws gale::Error

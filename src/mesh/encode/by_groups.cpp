@@ -94,13 +94,11 @@ GroupPlaces places_of_groups(const Renumbered<corners, Index>& input, Offset cou
   for_parts("GALE::count_cells", count, bad.size(), [&, input](int part, Offset first, Offset last) {
     std::vector<Id> mine(groups, 0);
     bool some_bad = false;
-    for (Offset t = first; t < last;) {
-      for (const Offset end = piece_end(t, last); t < end; ++t) {
-        const Id lowest = input.lowest(t);
-        some_bad |= lowest < 0;
-        ++mine[std::max(lowest, 0) >> group_bits];
-      }
-    }
+    for_range(first, last, [&](Offset t) {
+      const Id lowest = input.lowest(t);
+      some_bad |= lowest < 0;
+      ++mine[std::max(lowest, 0) >> group_bits];
+    });
     bad[part] = some_bad;
     places.of_parts[part] = std::move(mine);
   });
@@ -123,14 +121,12 @@ void deal(const Renumbered<corners, Index>& input, Offset count, GroupPlaces& pl
   const int parts = static_cast<int>(places.of_parts.size());
   for_parts("GALE::deal_cells", count, parts, [&, input, quads, from](int part, Offset first, Offset last) {
     Id* const next = places.of_parts[part].data();
-    for (Offset t = first; t < last;) {
-      for (const Offset end = piece_end(t, last); t < end; ++t) {
-        const Quad quad = input[t];
-        const Id to = next[quad.a >> group_bits]++;
-        quads[to] = quad;
-        from[to] = static_cast<Id>(t);
-      }
-    }
+    for_range(first, last, [&](Offset t) {
+      const Quad quad = input[t];
+      const Id to = next[quad.a >> group_bits]++;
+      quads[to] = quad;
+      from[to] = static_cast<Id>(t);
+    });
   });
 }
 

@@ -57,6 +57,12 @@ void enumerate_triangles(const Space& space, const Simplices<MemoryOf<Space>>& s
 template <class Space>
 void find_triangles_of_edges(const Space& space, const Simplices<MemoryOf<Space>>& simplices, SimplexTables& tables);
 
+/// Makes of how many entries each row has where they begin, in the same memory, and room for the entries. `name` says
+/// what these are, e.g. "edges". The last place of `count` is for the end.
+template <class Space>
+Csr<Id, MemoryOf<Space>, Id> rows_with(const Space& space, const std::string& name,
+                                       const Array<Id, MemoryOf<Space>>& count);
+
 /// The row of each entry, where rows begin at `begin`: e.g. edge_low from edge_begin.
 template <class Space>
 Array<Id, MemoryOf<Space>> row_of_entries(const Space& space, const char* label,

@@ -111,12 +111,7 @@ void enumerate_triangles(const Space& space, const Simplices<MemoryOf<Space>>& s
                         ? SortedPairs<Space>(space, simplices.cells.extent(0), TrianglesOfMany<Memory>{simplices})
                         : SortedPairs<Space>();
   many.write_counts(begin);
-  const Offset total = reduce_sum(
-      "GALE::total_triangles", space, edges, KOKKOS_LAMBDA(Offset e) { return Offset(begin(e)); });
-  require_ids("triangles", total);
-  exclusive_scan(
-      "GALE::scan_triangles", space, edges, begin, KOKKOS_LAMBDA(Offset e) { return begin(e); });
-  const auto apex = allocate<Array<Id, Memory>>("GALE::triangle_apex", total);
+  const auto apex = rows_with(space, "triangles", begin).entries;
   parallel_for(
       "GALE::write_triangles", space, vertices, KOKKOS_LAMBDA(Offset v) {
         if (!UpperLink::is_for(simplices, v)) return;
