@@ -63,12 +63,25 @@ auto of_parts(const char* label, Offset n, const F& f) {
   return all;
 }
 
+/// Where each of `keys` keys begins, and the end of the last, of members that parts have counted: parts[i][key] of
+/// them, which becomes where the part's first goes. So each key's members stand in the order of the parts.
+template <class Index, class Counts>
+std::vector<Index> begins_of_parts(std::vector<Counts>& parts, Offset keys) {
+  std::vector<Index> begin(1, 0);
+  begin.reserve(keys + 1);
+  Index at = 0;
+  for (Offset key = 0; key < keys; ++key) {
+    for (Counts& counts : parts) at += std::exchange(counts[key], at);
+    begin.push_back(at);
+  }
+  return begin;
+}
+
 /// All entries of these, one after the other.
 template <class T>
 std::vector<T> concatenated(std::vector<std::vector<T>> parts) {
   std::vector<T> all = std::move(parts.front());
-  for (std::size_t part = 1; part < parts.size(); ++part)
-    all.insert(all.end(), parts[part].begin(), parts[part].end());
+  for (std::size_t part = 1; part < parts.size(); ++part) all.insert(all.end(), parts[part].begin(), parts[part].end());
   return all;
 }
 
@@ -240,9 +253,10 @@ Array<Id, MemoryOf<Space>> selected(const char* label, const Space& space, Offse
     space.fence();
     return all;
   } else {
-    return detail::array_of(label, collected<Id>(label, n, [&](Offset i, const auto& add) {
+    const auto found = collected<Id>(label, n, [&](Offset i, const auto& add) {
       if (is_wanted(i)) add(static_cast<Id>(i));
-    }));
+    });
+    return detail::array_of(label, found);
   }
 }
 

@@ -73,10 +73,7 @@ void place_digits(const Entries& from, Offset n, int digits, const DigitOf& digi
     mine.fill(0);
     detail::for_range(first, last, [&](Offset i) { ++mine[digit_of(from.key(i))]; });
   });
-  Offset sum = 0;
-  for (int digit = 0; digit < digits; ++digit) {
-    for (auto& mine : place) sum += std::exchange(mine[digit], sum);
-  }
+  detail::begins_of_parts<Offset>(place, digits);
 }
 
 /// Sorts by the bits [begin, end) of the keys, digit by digit, from one array to the other and back. Returns the one

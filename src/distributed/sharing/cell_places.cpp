@@ -2,6 +2,7 @@
 #include <vector>
 
 #include <gale/base/error.hpp>
+#include <gale/base/ordered.hpp>
 #include <gale/base/sort.hpp>
 #include <gale/distributed/mesh_part.hpp>
 #include <gale/distributed/sharing/cell_places.hpp>
@@ -62,13 +63,7 @@ Offset CellPlaces::kept_before(GlobalId id, Offset before) const {
     before = end + 1;
     end = std::min(before + step, kept_.count);
   }
-  while (before < end) {
-    const Offset middle = before + (end - before) / 2;
-    const bool is_below = kept_.id(middle) < id;
-    before = is_below ? middle + 1 : before;
-    end = is_below ? end : middle;
-  }
-  return before;
+  return bisect(before, end, [&](Offset k) { return kept_.id(k) < id; });
 }
 
 void CellPlaces::sort() {

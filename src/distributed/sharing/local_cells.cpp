@@ -223,22 +223,21 @@ KeptCells LocalCells<Index>::choose(const Communicator& ranks, const VertexDirec
   KeptCells all_kept;
   together(ranks, [&] {
     const int here = ranks.rank();
-    ItemsByRank groups;
+    EntriesByRank<Id> groups;
     with_constant(corners(), [&](auto corners) {
       groups = group_by_rank(ranks.size(), outer.count,
                              [&](Id i, const auto& visit) { owners.template visit_ranks<corners>(outer[i], visit); });
     });
-    std::vector<std::int64_t> counts(ranks.size());
-    for (int rank = 0; rank < ranks.size(); ++rank) counts[rank] = groups.begin[rank + 1] - groups.begin[rank];
+    auto counts = counts_of(groups);
     const Offset kept = std::exchange(counts[here], 0), kept_from = groups.begin[here];
-    outer_ = tabulated<Id>("GALE::kept_outer", kept, [&](Offset i) { return outer[groups.members(kept_from + i)]; });
+    outer_ = tabulated<Id>("GALE::kept_outer", kept, [&](Offset i) { return outer[groups.entries(kept_from + i)]; });
     all_kept = kept_of(part_, outer, outer_, first_id);
     sent.ids = room_by_rank<GlobalId>("GALE::sent_ids", counts);
     for (std::int64_t& count : counts) count *= corners();
     sent.vertices = room_by_rank<Index>("GALE::sent_vertices", counts);
     with_constant(corners(), [&](auto corners) {
       parallel_for("GALE::sent_cells", HostExecutionSpace(), sent.count(), [&](Offset i) {
-        const Offset t = outer[groups.members(i < kept_from ? i : i + kept)];
+        const Offset t = outer[groups.entries(i < kept_from ? i : i + kept)];
         sent.ids.entries(i) = all_kept.id_at(t);
         std::copy_n(part_.cells.data() + corners * t, int(corners), sent.vertices.entries.data() + corners * i);
       });

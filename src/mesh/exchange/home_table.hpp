@@ -56,10 +56,8 @@ class HomeTable {
         });
     const auto received = exchange(ranks, "GALE::known_entries", sent);
     together(ranks, [&] {
-      const auto all = allocate<GlobalIds>("GALE::known_ids", received.count());
-      parallel_for("GALE::known_ids", HostExecutionSpace(), all.extent(0),
-                   [&](Offset i) { all(i) = received.entries(i).id; });
-      const DistinctIds distinct = distinct_ids(all);
+      const DistinctIds distinct = distinct_ids(
+          tabulated<GlobalId>("GALE::known_ids", received.count(), [&](Offset i) { return received.entries(i).id; }));
       index_ = GlobalIndex(distinct.ids);
       entries_ = allocate<Array<Entry, HostMemory>>("GALE::home_entries", index_.count());
       const auto rank_of = [&](Offset at) {
