@@ -20,25 +20,18 @@ namespace gale {
 
 namespace detail {
 
-/// A value that the first caller of get() makes, on any thread. Other threads wait for it.
+/// A value that is made in a way that is told before anybody asks.
 template <class T>
 class OnDemand {
  public:
-  /// Before anybody asks.
   void made_by(std::function<T()> make) { make_ = std::move(make); }
-
   const T& get() const {
-    once_([this] {
-      if (make_) value_ = make_();
-      make_ = nullptr;
-    });
-    return value_;
+    return value_.get([this] { return make_ ? make_() : T(); });
   }
 
  private:
-  mutable Once once_;
-  mutable std::function<T()> make_;
-  mutable T value_{};
+  std::function<T()> make_;
+  OnceMade<T> value_;
 };
 
 }  // namespace detail

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <chrono>
 #include <vector>
 
 #include <gale/relations/face_reader.hpp>
@@ -9,9 +8,8 @@
 namespace gale::detail {
 
 SegmentRows compute_counted(HostWorker& worker, Id segment, ConsumerStatistics& statistics) {
-  const auto begin = std::chrono::steady_clock::now();
+  const Stopwatch computing(statistics.seconds_computing);
   const SegmentRows rows = worker.compute(segment);
-  statistics.seconds_computing += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   ++statistics.segments_computed;
   return rows;
 }
