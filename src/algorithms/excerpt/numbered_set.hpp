@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include <gale/base/counted_word.hpp>
+#include <gale/base/bits.hpp>
 #include <gale/base/types.hpp>
 
 namespace gale::detail {

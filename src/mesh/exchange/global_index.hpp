@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include <gale/base/counted_word.hpp>
+#include <gale/base/bits.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/export.hpp>
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <gale/base/error.hpp>
-#include <gale/base/fresh_memory.hpp>
+#include <gale/base/memory.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/base/threads.hpp>
 #include <gale/runtime/sweep.hpp>
