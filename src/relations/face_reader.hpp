@@ -10,15 +10,6 @@
 
 namespace gale::detail {
 
-/// Writes the row to `ids` if `relation` is the one wanted; its size then, else 0.
-template <Relation relation>
-Id write_face_row_if(Relation wanted, const Simplices<HostMemory>& simplices, Id simplex, Id* ids) {
-  if (wanted != relation) return 0;
-  const auto row = face_row<relation>(simplices, simplex);
-  std::copy(row.begin(), row.end(), ids);
-  return face_count(relation);
-}
-
 /// How a consumer looks up rows of face relations. Used by one thread at a time.
 class FaceReader {
  public:
@@ -42,12 +33,10 @@ class FaceReader {
 inline SegmentRows FaceReader::row(Relation relation, Id simplex) {
   Found& found = found_[static_cast<int>(relation)];
   Id* const ids = found.ids.data();
-  found.offsets[1] = write_face_row_if<Relation::EV>(relation, simplices_, simplex, ids) +
-                     write_face_row_if<Relation::FV>(relation, simplices_, simplex, ids) +
-                     write_face_row_if<Relation::FE>(relation, simplices_, simplex, ids) +
-                     write_face_row_if<Relation::TV>(relation, simplices_, simplex, ids) +
-                     write_face_row_if<Relation::TE>(relation, simplices_, simplex, ids) +
-                     write_face_row_if<Relation::TF>(relation, simplices_, simplex, ids);
+  found.offsets[1] = with_faces_of(relation, [&](auto known) {
+    const auto row = face_row<decltype(known)::value>(simplices_, simplex);
+    return static_cast<Id>(std::copy(row.begin(), row.end(), ids) - ids);
+  });
   Intervals one;
   one[row_dimension(relation)] = {simplex, simplex + 1};
   SegmentRows rows(no_id, one);
