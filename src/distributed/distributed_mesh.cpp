@@ -160,8 +160,6 @@ class DistributedMesh::Sharing final : public Exchange {
   Mesh take(const MeshPart<Index>& part, const PartitionOptions& options, const std::shared_ptr<const Exchange>& self);
   detail::ExchangePlan::Run share(const detail::VertexDirectory& directory,
                                   Array<detail::VertexEntry, HostMemory> of_owned);
-  Array<detail::VertexEntry, HostMemory> entries_of_all(const Array<detail::VertexEntry, HostMemory>& of_owned,
-                                                        const Array<detail::VertexEntry, HostMemory>& of_ghosts) const;
   detail::OwnAndGhosts share_points(const HostPoints& given, const detail::ExchangePlan::Run& run) const;
 
   Communicator ranks_;
@@ -185,10 +183,8 @@ DistributedMesh::Sharing::Sharing(const Communicator& all) : ranks_(all) {
   cell_index_.made_by([this] { return detail::GlobalIndex(cell_ids.get()); });
   points.made_by([this] { return placed_.by_id(held_); });
   owners.made_by([this] {
-    const auto known = detail::tabulated<int>("GALE::owners", held_.count(), [&](Offset) { return ranks_.rank(); });
-    parallel_for("GALE::owners", HostExecutionSpace(), held_.ghost_count(),
-                 [&](Offset i) { known(held_.ghost(i)) = ghost_owners_(i); });
-    return known;
+    return held_.tabulated<int>(
+        "GALE::owners", [this](Offset) { return ranks_.rank(); }, ghost_owners_);
   });
 }
 
@@ -227,7 +223,7 @@ detail::ExchangePlan::Run DistributedMesh::Sharing::share(const detail::VertexDi
     ghost_owners_ =
         detail::tabulated<int>("GALE::ghost_owners", held_.ghost_count(), [&](Offset i) { return of_ghosts(i).owner; });
     slots = in_place ? ghosts : iota("GALE::all_vertices", HostExecutionSpace(), held_.count());
-    entries = in_place ? of_ghosts : entries_of_all(of_owned, of_ghosts);
+    entries = in_place ? of_ghosts : held_.tabulated<detail::VertexEntry>("GALE::entries_of_all", of_owned, of_ghosts);
     of_owned = {};
   });
   from_givers_ = detail::ExchangePlan(
@@ -237,18 +233,6 @@ detail::ExchangePlan::Run DistributedMesh::Sharing::share(const detail::VertexDi
       ranks_, {}, ghosts, [&](Id i) { return ghost_owners_(i); }, [&](Id i) { return held_.ghosts()(i); },
       [&](GlobalId id) { return held_.find(id); });
   return run;
-}
-
-/// Puts entries in the order of local input ids.
-Array<detail::VertexEntry, HostMemory> DistributedMesh::Sharing::entries_of_all(
-    const Array<detail::VertexEntry, HostMemory>& of_owned,
-    const Array<detail::VertexEntry, HostMemory>& of_ghosts) const {
-  const auto all = allocate<Array<detail::VertexEntry, HostMemory>>("GALE::entries_of_all", held_.count());
-  parallel_for("GALE::entries_of_all", HostExecutionSpace(), held_.owned_count(),
-               [&](Offset i) { all(held_.owned(i)) = of_owned(i); });
-  parallel_for("GALE::entries_of_all", HostExecutionSpace(), held_.ghost_count(),
-               [&](Offset i) { all(held_.ghost(i)) = of_ghosts(i); });
-  return all;
 }
 
 /// Brings points to those who hold them.
